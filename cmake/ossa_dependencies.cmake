@@ -1,0 +1,22 @@
+# Every third-party package in one place; the rooms link the targets they need, PRIVATE.
+find_package(Eigen3 3.4 REQUIRED NO_MODULE)
+find_package(OpenCVLite REQUIRED)  # targets opencv_core, opencv_imgproc, opencv_imgcodecs
+find_package(embree 3.13 REQUIRED)
+find_package(Ceres 2.1 REQUIRED)
+find_package(TBB REQUIRED)
+
+find_package(CLI11 2.1 REQUIRED)
+find_package(nlohmann_json 3.11 REQUIRED)
+find_package(spdlog REQUIRED)
+find_package(fmt REQUIRED)
+find_package(Threads REQUIRED)
+find_package(PkgConfig REQUIRED)
+pkg_check_modules(openni2 REQUIRED IMPORTED_TARGET libopenni2)
+pkg_check_modules(ode REQUIRED IMPORTED_TARGET ode)
+pkg_check_modules(hwy REQUIRED IMPORTED_TARGET libhwy)
+pkg_check_modules(xxhash REQUIRED IMPORTED_TARGET libxxhash)
+pkg_check_modules(zstd REQUIRED IMPORTED_TARGET libzstd)
+pkg_check_modules(freenect QUIET IMPORTED_TARGET libfreenect)
+if(OSSA_MPI)
+  find_package(MPI QUIET COMPONENTS CXX)
+endif()

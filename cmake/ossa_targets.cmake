@@ -1,0 +1,49 @@
+# How a target of ours is made: warnings are errors for our code and only ours.
+add_library(ossa_warnings INTERFACE)
+target_compile_options(ossa_warnings INTERFACE -Wall -Wextra -Wconversion -Werror)
+
+function(ossa_common target)
+  target_link_libraries(${target} PRIVATE $<BUILD_INTERFACE:ossa_warnings>)
+  target_include_directories(${target} PRIVATE ${CMAKE_SOURCE_DIR})
+  if(OSSA_SANITIZE)
+    target_compile_options(${target} PRIVATE -fsanitize=${OSSA_SANITIZE} -fno-omit-frame-pointer
+                           -fno-sanitize-recover=all)
+    target_link_options(${target} PRIVATE -fsanitize=${OSSA_SANITIZE})
+  endif()
+endfunction()
+
+# ossa_library(NAME SOURCES ... HEADERS ... [PUBLIC targets...] [PRIVATE targets...])
+# makes ossa_NAME, known to users as ossa::NAME; HEADERS are the public ones and are installed.
+function(ossa_library name)
+  cmake_parse_arguments(ARG "" "" "SOURCES;HEADERS;PUBLIC;PRIVATE" ${ARGN})
+  set(target ossa_${name})
+  add_library(${target} ${ARG_SOURCES})
+  add_library(ossa::${name} ALIAS ${target})
+  ossa_common(${target})
+  set_target_properties(${target} PROPERTIES EXPORT_NAME ${name} VERSION ${PROJECT_VERSION}
+                        SOVERSION ${PROJECT_VERSION_MAJOR})
+  target_include_directories(${target} PUBLIC
+    $<BUILD_INTERFACE:${CMAKE_SOURCE_DIR}> $<INSTALL_INTERFACE:${CMAKE_INSTALL_INCLUDEDIR}/ossa>)
+  target_compile_features(${target} PUBLIC cxx_std_20)
+  target_link_libraries(${target} PUBLIC Eigen3::Eigen ${ARG_PUBLIC} PRIVATE ${ARG_PRIVATE})
+  install(TARGETS ${target} EXPORT ossaTargets)
+  foreach(header IN LISTS ARG_HEADERS)
+    cmake_path(RELATIVE_PATH CMAKE_CURRENT_SOURCE_DIR BASE_DIRECTORY ${CMAKE_SOURCE_DIR}
+               OUTPUT_VARIABLE room)
+    cmake_path(GET header PARENT_PATH folder)
+    install(FILES ${header} DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/ossa/${room}/${folder})
+  endforeach()
+endfunction()
+
+# ossa_test(NAME SOURCES ... LIBS ...): one GoogleTest program whose tests ctest lists one by one.
+# OSSA_SHARED_DIR (real recordings beside the checkout) may be absent: such tests skip visibly.
+function(ossa_test name)
+  cmake_parse_arguments(ARG "" "" "SOURCES;LIBS" ${ARGN})
+  add_executable(${name} ${ARG_SOURCES})
+  ossa_common(${name})
+  target_link_libraries(${name} PRIVATE ${ARG_LIBS} GTest::gtest GTest::gtest_main)
+  target_compile_definitions(${name} PRIVATE
+    OSSA_SOURCE_DIR="${CMAKE_SOURCE_DIR}" OSSA_BINARY_DIR="${CMAKE_BINARY_DIR}"
+    OSSA_SHARED_DIR="${CMAKE_SOURCE_DIR}/../shared")
+  gtest_discover_tests(${name} DISCOVERY_MODE PRE_TEST PROPERTIES TIMEOUT 300)
+endfunction()

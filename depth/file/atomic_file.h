@@ -1,0 +1,30 @@
+#pragma once
+#include <filesystem>
+#include <fstream>
+
+namespace ossa {
+
+/// A file that appears under its final name only when complete: written beside it under a temporary
+/// name, renamed by Commit(), removed when destroyed without it. Throws InputError when the place
+/// cannot be written (no such folder, disk full).
+class AtomicFile {
+ public:
+  explicit AtomicFile(std::filesystem::path final_path);
+  ~AtomicFile();
+  AtomicFile(const AtomicFile&) = delete;
+  AtomicFile& operator=(const AtomicFile&) = delete;
+
+  std::ostream& stream() { return stream_; }
+  const std::filesystem::path& temporary_path() const { return temporary_path_; }
+
+  /// Flushes, checks and renames. The object is finished afterwards.
+  void Commit();
+
+ private:
+  std::filesystem::path final_path_;
+  std::filesystem::path temporary_path_;
+  std::ofstream stream_;
+  bool committed_ = false;
+};
+
+}  // namespace ossa

@@ -1,0 +1,118 @@
+#include "depth/file/sealed_file.h"
+
+#include <xxhash.h>
+
+#include <fstream>
+
+#include "depth/error.h"
+#include "depth/file/atomic_file.h"
+
+namespace ossa {
+namespace {
+
+constexpr uint32_t kByteOrderMark = 0x01020304;
+
+struct Header {
+  std::array<char, 8> magic{};
+  uint32_t byte_order = kByteOrderMark;
+  uint32_t version = 0;
+  uint64_t payload_size = 0;
+  uint64_t checksum = 0;
+};
+static_assert(sizeof(Header) == 32);
+
+uint64_t Checksum(std::span<const std::byte> bytes) {
+  return XXH3_64bits(bytes.data(), bytes.size());
+}
+
+}  // namespace
+
+void WriteSealedFile(const std::filesystem::path& path, const SealedFormat& format,
+                     std::span<const std::byte> payload) {
+  const Header header{format.magic, kByteOrderMark, format.version, payload.size(),
+                      Checksum(payload)};
+  AtomicFile file(path);
+  file.stream().write(reinterpret_cast<const char*>(&header), sizeof(header));
+  file.stream().write(reinterpret_cast<const char*>(payload.data()),
+                      static_cast<std::streamsize>(payload.size()));
+  file.Commit();
+}
+
+std::vector<std::byte> OpenSealedBytes(std::span<const std::byte> bytes, const std::string& name,
+                                       const SealedFormat& format) {
+  const std::string what(format.what);
+  Header header;
+  if (bytes.size() < sizeof(header)) {
+    throw InputError(name + ": byte 0: expected the 32-byte header of a " + what + ", found " +
+                     std::to_string(bytes.size()) + " bytes");
+  }
+  std::memcpy(&header, bytes.data(), sizeof(header));
+  if (header.magic != format.magic) {
+    throw InputError(name + ": byte 0: magic: this is not a " + what);
+  }
+  if (header.byte_order != kByteOrderMark) {
+    throw InputError(name + ": byte 8: byte order: written on a machine of the other byte order");
+  }
+  if (header.version != format.version) {
+    throw InputError(name + ": byte 12: version: expected " + std::to_string(format.version) +
+                     ", found " + std::to_string(header.version));
+  }
+  const auto payload = bytes.subspan(sizeof(header));
+  if (header.payload_size != payload.size()) {
+    throw InputError(name + ": byte 16: length: expected " + std::to_string(header.payload_size) +
+                     " bytes of payload, found " + std::to_string(payload.size()));
+  }
+  if (header.checksum != Checksum(payload)) {
+    throw InputError(name + ": byte 24: checksum: the " + what + " is damaged");
+  }
+  return {payload.begin(), payload.end()};
+}
+
+std::vector<std::byte> ReadSealedFile(const std::filesystem::path& path,
+                                      const SealedFormat& format) {
+  std::ifstream file(path, std::ios::binary | std::ios::ate);
+  if (!file || !std::filesystem::is_regular_file(path)) {
+    throw InputError(path.string() + ": cannot be read: expected a " + std::string(format.what));
+  }
+  std::vector<std::byte> bytes(static_cast<size_t>(file.tellg()));
+  file.seekg(0);
+  file.read(reinterpret_cast<char*>(bytes.data()), static_cast<std::streamsize>(bytes.size()));
+  if (!file) throw InputError(path.string() + ": reading failed");
+  return OpenSealedBytes(bytes, path.string(), format);
+}
+
+std::string PayloadReader::GetString(std::string_view field) {
+  const std::vector<char> text = GetVector<char>(field);
+  return {text.begin(), text.end()};
+}
+
+void PayloadReader::ExpectEnd() const {
+  if (offset_ != payload_.size()) {
+    Fail("end", std::to_string(payload_.size() - offset_) + " bytes too many");
+  }
+}
+
+void PayloadReader::Fail(std::string_view field, const std::string& reason) const {
+  throw InputError(file_ + ": byte " + std::to_string(offset_ + sizeof(Header)) + ": " +
+                   std::string(field) + ": " + reason);
+}
+
+std::span<const std::byte> PayloadReader::Take(size_t size, std::string_view field) {
+  if (size > payload_.size() - offset_) {
+    Fail(field, "expected " + std::to_string(size) + " bytes, found " +
+                    std::to_string(payload_.size() - offset_));
+  }
+  const auto bytes = payload_.subspan(offset_, size);
+  offset_ += size;
+  return bytes;
+}
+
+size_t PayloadReader::TakeCount(size_t element_size, std::string_view field) {
+  const auto count = Get<uint64_t>(field);
+  if (count > (payload_.size() - offset_) / element_size) {
+    Fail(field, "count " + std::to_string(count) + " is more than the file holds");
+  }
+  return static_cast<size_t>(count);
+}
+
+}  // namespace ossa

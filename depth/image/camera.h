@@ -1,0 +1,43 @@
+#pragma once
+#include <Eigen/Core>
+#include <cmath>
+
+namespace ossa::depth {
+
+/// A pinhole depth camera without distortion. Pixel centres lie at integer (u, v); u grows to the
+/// image right, v down. Camera space: metres, right-handed, x to the sensor's left, y up, z
+/// forward.
+struct Camera {
+  int width = 640;    // pixels
+  int height = 480;   // pixels
+  double fx = 575.0;  // focal lengths, pixels
+  double fy = 575.0;
+  double cx = 320.0;  // principal point, pixels
+  double cy = 240.0;
+
+  bool operator==(const Camera&) const = default;
+};
+
+/// The Kinect v1 depth camera: f = 575 px at 640 pixels width, centre of the image, scaled with it.
+Camera KinectV1Camera(int width, int height);
+
+/// The same view sampled at another width and height.
+Camera Resized(const Camera& camera, int width, int height);
+
+/// The one conversion from sensor units to metres.
+inline double MetresFromMillimetres(double depth_mm) { return depth_mm * 1e-3; }
+
+/// Camera-space point, metres, of pixel (u, v) at depth_mm > 0 along the optical axis.
+inline Eigen::Vector3d BackProject(const Camera& camera, double u, double v, double depth_mm) {
+  const double z = MetresFromMillimetres(depth_mm);
+  return {(camera.cx - u) * z / camera.fx, (camera.cy - v) * z / camera.fy, z};
+}
+
+/// Pixel (u, v) of a camera-space point, metres; the exact inverse of BackProject. Precondition: z
+/// > 0.
+inline Eigen::Vector2d Project(const Camera& camera, const Eigen::Vector3d& position_m) {
+  return {camera.cx - camera.fx * position_m.x() / position_m.z(),
+          camera.cy - camera.fy * position_m.y() / position_m.z()};
+}
+
+}  // namespace ossa::depth

@@ -1,0 +1,54 @@
+#pragma once
+#include <chrono>
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <string>
+
+#include "depth/image/depth_frame.h"
+
+namespace ossa::depth {
+
+/// What one Read brought. Everything but kFrame leaves ReadResult::frame empty.
+enum class ReadStatus {
+  kFrame,
+  kTimeout,       // nothing within the time asked; ask again
+  kEnd,           // a recording's last frame has been given
+  kDisconnected,  // the device was unplugged; the source keeps looking for it while it is read
+};
+
+struct ReadResult {
+  ReadStatus status = ReadStatus::kTimeout;
+  DepthFrame frame;
+  int64_t dropped = 0;  // device frames lost between the last frame given and this one
+};
+
+/// Where depth images come from: an OpenNI2 device, an .oni file, a folder of PNGs, a data set.
+class FrameSource {
+ public:
+  virtual ~FrameSource() = default;
+
+  /// Waits at most `timeout` for the next frame. Throws InputError when the source is damaged.
+  virtual ReadResult Read(std::chrono::milliseconds timeout) = 0;
+
+  /// Intrinsics of the frames to come; a frame's own camera rules should they ever differ.
+  virtual const Camera& camera() const = 0;
+
+  /// True for devices: frames come in real time and are lost when not read.
+  virtual bool is_live() const = 0;
+
+  /// Number of frames of a recording; nullopt for devices and for files that do not know.
+  virtual std::optional<int64_t> frame_count() const = 0;
+};
+
+struct SourceOptions {
+  std::optional<Camera> camera;  // overrides whatever the source says (but for camera.json)
+  std::chrono::milliseconds device_wait{0};  // how long to wait for a device to appear
+};
+
+/// Opens SOURCE as DESIGN.md §4 names it: "openni:", "openni:URI", "FILE.oni", a folder of 16-bit
+/// PNGs in name order, or a DATASET folder. Throws InputError naming it and what was expected.
+std::unique_ptr<FrameSource> OpenSource(const std::string& source,
+                                        const SourceOptions& options = {});
+
+}  // namespace ossa::depth

@@ -1,0 +1,32 @@
+#pragma once
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "depth/image/depth_frame.h"
+
+namespace ossa::forest {
+
+class ForestModel;  // forest/forest.h
+
+/// Class probabilities of one object's (person's) pixels.
+struct Classification {
+  std::vector<int32_t> pixel;      // v * width + u, ascending
+  int class_count = 0;             // classes of the model; class 0 is background and never given
+  std::vector<float> probability;  // pixel.size() × class_count, row-major, rows sum to 1
+  std::vector<uint8_t> label;      // argmax of each row
+  std::vector<float> context;      // posterior over the model's contexts (e.g. facing sectors)
+};
+
+struct ClassifyOptions {
+  int threads = 1;
+};
+
+/// Classifies the given pixels (v * width + u, ascending) of one object. Depth outside of these
+/// pixels reads as background, so that a neighbour or a wall does not disturb the features.
+/// The same labels on every instruction set.
+Classification Classify(const ForestModel& model, const depth::DepthView& depth,
+                        const depth::Camera& camera, std::span<const int32_t> pixels,
+                        const ClassifyOptions& options = {});
+
+}  // namespace ossa::forest

@@ -1,0 +1,22 @@
+#pragma once
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "recon/body/rig.h"
+
+namespace ossa::recon {
+
+struct MocapOptions {
+  double frame_s = 1.0 / 30.0;  // clips are resampled to this step
+  uint64_t seed = 1;            // variation of the authored clips
+  std::string mapping_file;     // bone names of an unknown conversion; "" = the known ones only
+};
+
+/// Loads every clip of the sources: a folder of BVH, of AMC beside their ASF, of pybullet humanoid
+/// JSON texts, or the word "authored" (key postures with seeded variation, ossa's own). Clips come
+/// sorted by name, so the same input gives the same list. Throws InputError naming file and line.
+std::vector<MotionClip> LoadMocap(const std::vector<std::string>& sources,
+                                  const MocapOptions& options = {});
+
+}  // namespace ossa::recon

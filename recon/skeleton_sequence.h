@@ -1,0 +1,46 @@
+#pragma once
+#include <Eigen/Core>
+#include <array>
+#include <cstdint>
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "recon/posture.h"
+
+namespace ossa::recon {
+
+/// One joint of one body in a skeleton file. Fields a file does not have stay empty.
+struct JointRecord {
+  Eigen::Vector3d position_m = Eigen::Vector3d::Zero();  // camera space
+  std::optional<TrackingState> state;
+  std::optional<double> confidence;
+  std::optional<double> reliability;              // R_i, Shum 2013 eq. 8
+  std::optional<Eigen::Quaterniond> orientation;  // camera from bone
+  std::optional<bool> visible;                    // truth files only
+};
+
+struct BodyRecord {
+  int id = 0;
+  std::array<std::optional<JointRecord>, kJointCount> joints;  // absent joints are empty
+};
+
+struct SkeletonFrame {
+  int64_t frame = 0;
+  double time_s = 0.0;
+  std::optional<Eigen::Vector4d> floor;  // a b c d of ax + by + cz + d = 0, unit normal up, metres
+  std::vector<BodyRecord> bodies;
+};
+
+/// What any skeleton file holds, ours or an SDK's, brought to our joints, axes and units.
+struct SkeletonSequence {
+  std::string source;  // file it came from, for messages
+  std::vector<SkeletonFrame> frames;
+};
+
+/// A body record as the trackers' type: absent joints are not tracked; a joint without a state
+/// counts as tracked; a joint without confidence gets 1 (tracked), 0.5 (inferred) or 0.
+TrackedPosture TrackedPostureOf(const BodyRecord& body);
+
+}  // namespace ossa::recon

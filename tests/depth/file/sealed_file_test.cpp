@@ -1,0 +1,83 @@
+#include "depth/file/sealed_file.h"
+
+#include <gtest/gtest.h>
+#include <unistd.h>
+
+#include <fstream>
+
+#include "depth/error.h"
+#include "depth/file/atomic_file.h"
+
+namespace ossa {
+namespace {
+
+constexpr SealedFormat kFormat{{'o', 's', 's', 'a', 't', 'e', 's', 't'}, 7, "test file"};
+
+std::vector<std::byte> SealedExample() {
+  PayloadWriter writer;
+  writer.Put<int32_t>(42);
+  writer.PutString("bones");
+  const auto path =
+      std::filesystem::temp_directory_path() / ("ossa_sealed_" + std::to_string(getpid()) + ".bin");
+  WriteSealedFile(path, kFormat, writer.bytes());
+  std::ifstream file(path, std::ios::binary);
+  const std::string text((std::istreambuf_iterator<char>(file)), {});
+  std::filesystem::remove(path);
+  const auto bytes = std::as_bytes(std::span(text));
+  return {bytes.begin(), bytes.end()};
+}
+
+TEST(SealedFile, GivesBackWhatWasWritten) {
+  const auto payload = OpenSealedBytes(SealedExample(), "x", kFormat);
+  PayloadReader reader(payload, "x");
+  EXPECT_EQ(reader.Get<int32_t>("number"), 42);
+  EXPECT_EQ(reader.GetString("name"), "bones");
+  EXPECT_NO_THROW(reader.ExpectEnd());
+}
+
+struct Damage {
+  size_t byte;
+  const char* named;
+};
+
+class DamagedSealedFile : public testing::TestWithParam<Damage> {};
+
+TEST_P(DamagedSealedFile, IsRefusedByTheNameOfTheField) {
+  auto bytes = SealedExample();
+  bytes.at(GetParam().byte) ^= std::byte{0x10};
+  try {
+    OpenSealedBytes(bytes, "file.bin", kFormat);
+    FAIL() << "damage at byte " << GetParam().byte << " was not noticed";
+  } catch (const InputError& error) {
+    EXPECT_NE(std::string(error.what()).find(GetParam().named), std::string::npos) << error.what();
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(EveryField, DamagedSealedFile,
+                         testing::Values(Damage{0, "magic"}, Damage{8, "byte order"},
+                                         Damage{12, "version"}, Damage{16, "length"},
+                                         Damage{24, "checksum"}, Damage{33, "checksum"}));
+
+TEST(SealedFile, ACountLargerThanTheFileIsRefusedBeforeAllocating) {
+  PayloadWriter writer;
+  writer.Put<uint64_t>(uint64_t{1} << 60);
+  PayloadReader reader(writer.bytes(), "x");
+  EXPECT_THROW(reader.GetVector<double>("values"), InputError);
+}
+
+TEST(AtomicFile, LeavesNothingBehindWithoutCommit) {
+  const auto folder =
+      std::filesystem::temp_directory_path() / ("ossa_atomic_" + std::to_string(getpid()));
+  std::filesystem::create_directory(folder);
+  { AtomicFile(folder / "out.txt").stream() << "half"; }
+  EXPECT_TRUE(std::filesystem::is_empty(folder));
+  AtomicFile file(folder / "out.txt");
+  file.stream() << "whole";
+  EXPECT_FALSE(std::filesystem::exists(folder / "out.txt"));
+  file.Commit();
+  EXPECT_TRUE(std::filesystem::exists(folder / "out.txt"));
+  std::filesystem::remove_all(folder);
+}
+
+}  // namespace
+}  // namespace ossa

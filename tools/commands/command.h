@@ -1,0 +1,54 @@
+#pragma once
+#include <functional>
+#include <stdexcept>
+#include <string>
+#include <string_view>
+
+namespace CLI {
+class App;
+}
+
+namespace ossa::commands {
+
+/// One subcommand of `ossa`: argv[0] is its name. Returns the exit status; throws UsageError for
+/// wrong usage and InputError (or any std::exception) for failure: main turns them into one line.
+using CommandFunction = int (*)(int argc, char** argv);
+
+struct Command {
+  std::string_view name;
+  std::string_view summary;
+  CommandFunction run;
+};
+
+/// Wrong usage: exit status 2.
+struct UsageError : std::runtime_error {
+  using std::runtime_error::runtime_error;
+};
+
+/// Thrown after --help was printed: exit status 0.
+struct HelpShown {};
+
+/// Parses the arguments of a subcommand. Throws UsageError or HelpShown.
+void Parse(CLI::App& app, int argc, char** argv);
+
+/// True once Ctrl-C or SIGTERM came. Long loops ask it, stop, and leave no half-written file.
+bool Interrupted();
+void InstallInterruptHandler();
+
+/// Progress on stderr: one line rewritten in place on a terminal, a plain line about every five
+/// seconds otherwise, nothing when quiet.
+class Progress {
+ public:
+  Progress(std::string label, bool quiet);
+  ~Progress();
+  void Update(double done, double total, const std::string& note = {});
+
+ private:
+  std::string label_;
+  bool quiet_;
+  bool terminal_;
+  bool open_line_ = false;
+  double last_s_ = -1e9;
+};
+
+}  // namespace ossa::commands

@@ -1,0 +1,8 @@
+#pragma once
+
+namespace ossa::commands {
+
+// One function a subcommand, each in a file of its own name in this folder.
+int Info(int argc, char** argv);
+
+}  // namespace ossa::commands

@@ -1,0 +1,47 @@
+#include <fmt/format.h>
+
+#include <array>
+#include <exception>
+#include <string_view>
+
+#include "tools/commands/command.h"
+#include "tools/commands/commands.h"
+
+namespace {
+
+using ossa::commands::Command;
+
+constexpr std::array kCommands = {
+    Command{"info", "say what a file of ossa's holds", ossa::commands::Info},
+};
+
+int Help(std::FILE* out) {
+  fmt::print(out, "ossa: skeletons from depth images\n\nusage: ossa COMMAND ...\n\n");
+  for (const Command& command : kCommands) {
+    fmt::print(out, "  {:<12} {}\n", command.name, command.summary);
+  }
+  fmt::print(out, "\n'ossa COMMAND --help' says everything about one.\n");
+  return out == stdout ? 0 : 2;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) try {
+  const std::string_view name = argc > 1 ? argv[1] : "";
+  if (name == "--help" || name == "-h") return Help(stdout);
+  for (const Command& command : kCommands) {
+    if (command.name != name) continue;
+    ossa::commands::InstallInterruptHandler();
+    return command.run(argc - 1, argv + 1);
+  }
+  if (!name.empty()) fmt::print(stderr, "ossa: unknown command '{}'\n", name);
+  return Help(stderr);
+} catch (const ossa::commands::HelpShown&) {
+  return 0;
+} catch (const ossa::commands::UsageError& error) {
+  fmt::print(stderr, "ossa: {}\n", error.what());
+  return 2;
+} catch (const std::exception& error) {
+  fmt::print(stderr, "ossa: {}\n", error.what());
+  return 1;
+}
