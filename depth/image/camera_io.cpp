@@ -1,0 +1,147 @@
+#include "depth/image/camera_io.h"
+
+#include <charconv>
+#include <cmath>
+#include <fstream>
+#include <nlohmann/json.hpp>
+#include <vector>
+
+#include "depth/error.h"
+#include "depth/file/atomic_file.h"
+#include "depth/image/depth_png.h"
+
+namespace ossa::depth {
+namespace {
+
+using nlohmann::json;
+
+// A manifest is a few kilobytes; anything of this size is not one.
+constexpr std::streamoff kLargestJson = std::streamoff{16} << 20;
+
+std::string ReadText(const std::filesystem::path& path) {
+  std::ifstream file(path, std::ios::binary | std::ios::ate);
+  if (!file || std::filesystem::is_directory(path)) {
+    throw InputError(path.string() + ": cannot be read");
+  }
+  if (file.tellg() > kLargestJson) {
+    throw InputError(path.string() + ": expected a small JSON file, found " +
+                     std::to_string(file.tellg()) + " bytes");
+  }
+  std::string text(static_cast<size_t>(file.tellg()), '\0');
+  file.seekg(0);
+  file.read(text.data(), static_cast<std::streamsize>(text.size()));
+  return text;
+}
+
+json ParseJson(const std::string& text, const std::string& name) {
+  try {
+    return json::parse(text);
+  } catch (const json::parse_error& error) {
+    throw InputError(name + ": byte " + std::to_string(error.byte) + ": this is not JSON");
+  }
+}
+
+double Number(const json& object, const char* field, double least, double most,
+              const std::string& name) {
+  const auto found = object.find(field);
+  if (found == object.end() || !found->is_number()) {
+    throw InputError(name + ": camera: expected a number named \"" + field + "\"");
+  }
+  const double value = found->get<double>();
+  if (!(value >= least && value <= most)) {
+    throw InputError(name + ": camera: \"" + field + "\": expected " + json(least).dump() + " to " +
+                     json(most).dump() + ", found " + json(value).dump());
+  }
+  return value;
+}
+
+int WholeNumber(const json& object, const char* field, const std::string& name) {
+  const double value = Number(object, field, 1, kLargestImageSide, name);
+  if (value != std::floor(value)) {
+    throw InputError(name + ": camera: \"" + field + "\": expected a whole number of pixels");
+  }
+  return static_cast<int>(value);
+}
+
+// Focal lengths from a fisheye-like 1/10 pixel up and centres far off the image are legal, if odd.
+constexpr double kLeastFocal = 0.1;
+constexpr double kMost = 1e6;
+
+Camera FromObject(const json& object, const std::string& name) {
+  if (!object.is_object()) throw InputError(name + ": camera: expected a JSON object");
+  Camera camera;
+  camera.width = WholeNumber(object, "width", name);
+  camera.height = WholeNumber(object, "height", name);
+  camera.fx = Number(object, "fx", kLeastFocal, kMost, name);
+  camera.fy = Number(object, "fy", kLeastFocal, kMost, name);
+  camera.cx = Number(object, "cx", -kMost, kMost, name);
+  camera.cy = Number(object, "cy", -kMost, kMost, name);
+  return camera;
+}
+
+std::vector<double> SplitNumbers(const std::string& text) {
+  std::vector<double> values;
+  const char* at = text.data();
+  const char* const end = text.data() + text.size();
+  while (at < end) {
+    double value = 0.0;
+    const auto [next, error] = std::from_chars(at, end, value);
+    if (error != std::errc() || !std::isfinite(value)) return {};
+    values.push_back(value);
+    if (next == end) return values;
+    if (*next != ',' || next + 1 == end) return {};
+    at = next + 1;
+  }
+  return values;
+}
+
+}  // namespace
+
+Camera CameraFromJson(const std::string& text, const std::string& name) {
+  return FromObject(ParseJson(text, name), name);
+}
+
+std::string CameraToJson(const Camera& camera) {
+  const nlohmann::ordered_json object = {{"width", camera.width}, {"height", camera.height},
+                                         {"fx", camera.fx},       {"fy", camera.fy},
+                                         {"cx", camera.cx},       {"cy", camera.cy}};
+  return object.dump();
+}
+
+Camera ReadCameraJson(const std::filesystem::path& path) {
+  return CameraFromJson(ReadText(path), path.string());
+}
+
+void WriteCameraJson(const std::filesystem::path& path, const Camera& camera) {
+  AtomicFile file(path);
+  file.stream() << CameraToJson(camera) << '\n';
+  file.Commit();
+}
+
+Camera ReadManifestCamera(const std::filesystem::path& manifest_path) {
+  const std::string name = manifest_path.string();
+  const json manifest = ParseJson(ReadText(manifest_path), name);
+  if (!manifest.is_object() || !manifest.contains("camera")) {
+    throw InputError(name + ": expected an object named \"camera\"");
+  }
+  return FromObject(manifest["camera"], name);
+}
+
+Camera ParseCamera(const std::string& text) {
+  if (text == "kinect-v1") return KinectV1Camera(640, 480);
+  const std::vector<double> values = SplitNumbers(text);
+  if (values.size() != 4 || values[0] < kLeastFocal || values[1] < kLeastFocal) {
+    throw InputError("--camera: expected kinect-v1 or fx,fy,cx,cy in pixels, found '" + text + "'");
+  }
+  return {0, 0, values[0], values[1], values[2], values[3]};
+}
+
+Camera CameraForSize(const Camera& camera, int width, int height) {
+  if (camera.width == width && camera.height == height) return camera;
+  if (camera.width == 0) {
+    return {width, height, camera.fx, camera.fy, camera.cx, camera.cy};
+  }
+  return Resized(camera, width, height);
+}
+
+}  // namespace ossa::depth

@@ -1,0 +1,28 @@
+#pragma once
+#include <filesystem>
+#include <string>
+
+#include "depth/image/camera.h"
+
+namespace ossa::depth {
+
+/// `camera.json`: {"width": 640, "height": 480, "fx": 575.0, "fy": 575.0, "cx": 320.0, "cy": 240.0}
+/// Throws InputError naming the file and the field.
+Camera ReadCameraJson(const std::filesystem::path& path);
+void WriteCameraJson(const std::filesystem::path& path, const Camera& camera);
+
+/// The same object as text; `name` stands for the file in messages.
+Camera CameraFromJson(const std::string& text, const std::string& name);
+std::string CameraToJson(const Camera& camera);
+
+/// The "camera" object of a data set's manifest.json.
+Camera ReadManifestCamera(const std::filesystem::path& manifest_path);
+
+/// What `--camera kinect-v1|fx,fy,cx,cy` says. Four numbers are in pixels of whatever frames come,
+/// so their camera has width and height 0 until CameraForSize is told the size.
+Camera ParseCamera(const std::string& text);
+
+/// `camera` for frames of this size: one without a size takes it as it is, another is scaled.
+Camera CameraForSize(const Camera& camera, int width, int height);
+
+}  // namespace ossa::depth

@@ -1,0 +1,21 @@
+#pragma once
+#include <filesystem>
+#include <memory>
+
+#include "depth/sensor/frame_source.h"
+
+namespace ossa::depth {
+
+/// A folder of 16-bit PNGs in name order, 30 frames a second. Names that are all digits of one
+/// length are frame numbers: a number that is missing counts as a dropped frame, and time passes.
+/// A frame that cannot be read, or of another size than the first, throws InputError when its turn
+/// comes; reading again goes on with the one after it.
+std::unique_ptr<FrameSource> OpenFolder(const std::filesystem::path& folder,
+                                        const SourceOptions& options);
+
+/// A data set: manifest.json, depth/ and more (DESIGN.md §5).
+bool IsDataSet(const std::filesystem::path& folder);
+std::unique_ptr<FrameSource> OpenDataSet(const std::filesystem::path& folder,
+                                         const SourceOptions& options);
+
+}  // namespace ossa::depth

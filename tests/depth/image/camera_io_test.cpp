@@ -1,0 +1,68 @@
+#include "depth/image/camera_io.h"
+
+#include <gtest/gtest.h>
+
+#include <fstream>
+
+#include "depth/error.h"
+#include "tests/support/temporary_folder.h"
+
+namespace ossa::depth {
+namespace {
+
+using test::TemporaryFolder;
+
+TEST(CameraJson, GivesBackExactlyWhatWasWritten) {
+  const TemporaryFolder folder;
+  const Camera camera{320, 240, 285.1234567890123, 286.5, 1.0 / 3.0, 119.75};
+  WriteCameraJson(folder / "camera.json", camera);
+  EXPECT_EQ(ReadCameraJson(folder / "camera.json"), camera);
+}
+
+class BadCameraJson : public testing::TestWithParam<std::pair<const char*, const char*>> {};
+
+TEST_P(BadCameraJson, IsRefusedByTheNameOfTheField) {
+  try {
+    CameraFromJson(GetParam().first, "camera.json");
+    FAIL() << "not noticed";
+  } catch (const InputError& error) {
+    EXPECT_EQ(std::string(error.what()).rfind("camera.json: ", 0), 0u) << error.what();
+    EXPECT_NE(std::string(error.what()).find(GetParam().second), std::string::npos) << error.what();
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(
+    EachField, BadCameraJson,
+    testing::Values(
+        std::pair("", "not JSON"), std::pair("[1, 2]", "JSON object"), std::pair("{}", "\"width\""),
+        std::pair(R"({"width":640,"height":0,"fx":1,"fy":1,"cx":0,"cy":0})", "\"height\""),
+        std::pair(R"({"width":64.5,"height":48,"fx":1,"fy":1,"cx":0,"cy":0})", "whole number"),
+        std::pair(R"({"width":64,"height":48,"fx":-1,"fy":1,"cx":0,"cy":0})", "\"fx\""),
+        std::pair(R"({"width":64,"height":48,"fx":1,"fy":"1","cx":0,"cy":0})", "\"fy\""),
+        std::pair(R"({"width":64,"height":48,"fx":1,"fy":1,"cx":1e9,"cy":0})", "\"cx\""),
+        std::pair(R"({"width":64,"height":48,"fx":1,"fy":1,"cx":1})", "\"cy\"")));
+
+TEST(ManifestCamera, IsTheCameraObject) {
+  const TemporaryFolder folder;
+  const Camera camera = KinectV1Camera(320, 240);
+  std::ofstream(folder / "manifest.json") << R"({"camera":)" << CameraToJson(camera) << "}";
+  EXPECT_EQ(ReadManifestCamera(folder / "manifest.json"), camera);
+  std::ofstream(folder / "none.json") << "{}";
+  EXPECT_THROW(ReadManifestCamera(folder / "none.json"), InputError);
+}
+
+TEST(CameraOption, KinectScalesAndNumbersDoNot) {
+  EXPECT_EQ(CameraForSize(ParseCamera("kinect-v1"), 320, 240), KinectV1Camera(320, 240));
+  const Camera camera = CameraForSize(ParseCamera("525,526,319.5,239.5"), 320, 240);
+  EXPECT_EQ(camera, (Camera{320, 240, 525, 526, 319.5, 239.5}));
+}
+
+TEST(CameraOption, AnythingElseIsRefused) {
+  for (const char* text : {"", "kinect", "1,2,3", "1,2,3,4,5", "1,2,3,", ",1,2,3,4", "0,1,2,3",
+                           "525,-1,2,3", "nan,1,2,3", "1,inf,2,3", "5 2,1,2,3"}) {
+    EXPECT_THROW(ParseCamera(text), InputError) << text;
+  }
+}
+
+}  // namespace
+}  // namespace ossa::depth

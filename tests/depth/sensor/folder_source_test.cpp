@@ -1,0 +1,142 @@
+#include <gtest/gtest.h>
+
+#include <fstream>
+
+#include "depth/error.h"
+#include "depth/image/camera_io.h"
+#include "depth/image/depth_png.h"
+#include "depth/sensor/frame_source.h"
+#include "tests/support/temporary_folder.h"
+
+namespace ossa::depth {
+namespace {
+
+using std::chrono::milliseconds;
+using test::TemporaryFolder;
+
+void WriteFrame(const std::filesystem::path& path, uint16_t value, int width = 8, int height = 6) {
+  const Image<uint16_t> image(width, height, value);
+  WriteDepthPng(path, {image.data.data(), width, height, width});
+}
+
+ReadResult Next(FrameSource& source) { return source.Read(milliseconds(10)); }
+
+TEST(FolderSource, GivesFramesInNameOrderAt30HzAndThenTheEnd) {
+  const TemporaryFolder folder;
+  for (const char* name : {"b.png", "a.png", "c.png"}) {
+    WriteFrame(folder / name, static_cast<uint16_t>(name[0]));
+  }
+  const auto source = OpenSource(folder.path().string());
+  EXPECT_EQ(source->frame_count(), 3);
+  EXPECT_FALSE(source->is_live());
+  for (int i = 0; i < 3; ++i) {
+    const ReadResult result = Next(*source);
+    ASSERT_EQ(result.status, ReadStatus::kFrame);
+    EXPECT_EQ(result.frame.depth_mm[0], 'a' + i);
+    EXPECT_EQ(result.frame.index, i);
+    EXPECT_DOUBLE_EQ(result.frame.time_s, i / 30.0);
+    EXPECT_EQ(result.dropped, 0);
+  }
+  EXPECT_EQ(Next(*source).status, ReadStatus::kEnd);
+  EXPECT_EQ(Next(*source).status, ReadStatus::kEnd);
+}
+
+TEST(FolderSource, AMissingNumberIsADroppedFrameAndTimePasses) {
+  const TemporaryFolder folder;
+  for (const char* name : {"000003.png", "000004.png", "000007.png"}) WriteFrame(folder / name, 1);
+  const auto source = OpenSource(folder.path().string());
+  EXPECT_EQ(Next(*source).frame.index, 3);
+  EXPECT_EQ(Next(*source).dropped, 0);
+  const ReadResult third = Next(*source);
+  EXPECT_EQ(third.dropped, 2);
+  EXPECT_EQ(third.frame.index, 7);
+  EXPECT_DOUBLE_EQ(third.frame.time_s, 4 / 30.0);
+}
+
+TEST(FolderSource, NumbersThatAreTimeStampsAreNotCounted) {
+  const TemporaryFolder folder;
+  for (const char* name : {"d-1028.png", "d-1038.png"}) WriteFrame(folder / name, 1);
+  const auto source = OpenSource(folder.path().string());
+  Next(*source);
+  EXPECT_EQ(Next(*source).dropped, 0);
+}
+
+TEST(FolderSource, AnUnreadableFrameIsNamedAndReadingGoesOn) {
+  const TemporaryFolder folder;
+  WriteFrame(folder / "0.png", 1);
+  std::ofstream(folder / "1.png") << "not a PNG";
+  WriteFrame(folder / "2.png", 3);
+  const auto source = OpenSource(folder.path().string());
+  EXPECT_EQ(Next(*source).status, ReadStatus::kFrame);
+  EXPECT_THROW(Next(*source), InputError);
+  const ReadResult after = Next(*source);
+  EXPECT_EQ(after.frame.depth_mm[0], 3);
+  EXPECT_EQ(after.dropped, 1);
+}
+
+TEST(FolderSource, AFrameOfAnotherSizeIsRefusedByName) {
+  const TemporaryFolder folder;
+  WriteFrame(folder / "0.png", 1);
+  WriteFrame(folder / "1.png", 1, 16, 12);
+  const auto source = OpenSource(folder.path().string());
+  Next(*source);
+  try {
+    Next(*source);
+    FAIL();
+  } catch (const InputError& error) {
+    EXPECT_NE(std::string(error.what()).find("1.png: expected 8x6 like the first frame, found"),
+              std::string::npos);
+  }
+}
+
+TEST(FolderSource, CameraIsCameraJsonElseTheOptionElseKinect) {
+  const TemporaryFolder folder;
+  WriteFrame(folder / "0.png", 1);
+  EXPECT_EQ(OpenSource(folder.path().string())->camera(), KinectV1Camera(8, 6));
+  const SourceOptions options{.camera = ParseCamera("5,6,4,3"), .device_wait = {}};
+  const Camera chosen{8, 6, 5, 6, 4, 3};
+  EXPECT_EQ(OpenSource(folder.path().string(), options)->camera(), chosen);
+  const Camera stated{8, 6, 7, 7, 4, 3};
+  WriteCameraJson(folder / "camera.json", stated);
+  EXPECT_EQ(OpenSource(folder.path().string(), options)->camera(), stated);
+  WriteCameraJson(folder / "camera.json", KinectV1Camera(640, 480));
+  EXPECT_THROW(OpenSource(folder.path().string()), InputError);
+}
+
+TEST(DataSetSource, TakesTheManifestsCameraAndTheDepthFolder) {
+  const TemporaryFolder folder;
+  std::filesystem::create_directory(folder / "depth");
+  WriteFrame(folder / "depth/000000.png", 42);
+  const Camera camera{8, 6, 9, 9, 4, 3};
+  std::ofstream(folder / "manifest.json") << R"({"camera":)" << CameraToJson(camera) << "}";
+  const auto source = OpenSource(folder.path().string());
+  EXPECT_EQ(source->camera(), camera);
+  EXPECT_EQ(Next(*source).frame.depth_mm[0], 42);
+}
+
+TEST(OpenSource, WhatIsNotASourceIsOneLine) {
+  const TemporaryFolder folder;
+  for (const std::string& name : {std::string("/nowhere"), folder.path().string(), std::string()}) {
+    try {
+      OpenSource(name);
+      FAIL() << name;
+    } catch (const InputError& error) {
+      EXPECT_NE(std::string(error.what()).find("expected"), std::string::npos) << error.what();
+    }
+  }
+}
+
+TEST(RealFrames, SkeltrackIsEightFramesOf640x480) {
+  const std::string folder = std::string(OSSA_SHARED_DIR) + "/real/depth_frames/skeltrack_v1";
+  if (!std::filesystem::is_directory(folder)) GTEST_SKIP() << "not here: " << folder;
+  const auto source = OpenSource(folder);
+  int count = 0;
+  for (ReadResult result; (result = Next(*source)).status == ReadStatus::kFrame; ++count) {
+    EXPECT_EQ(result.frame.depth_mm.size(), 640u * 480u);
+    EXPECT_EQ(result.dropped, 0);
+  }
+  EXPECT_EQ(count, 8);
+}
+
+}  // namespace
+}  // namespace ossa::depth
