@@ -1,0 +1,57 @@
+#pragma once
+#include <filesystem>
+#include <iosfwd>
+#include <string>
+#include <vector>
+
+#include "recon/skeleton_sequence.h"
+
+namespace ossa::recon {
+
+struct SkeletonReadOptions {
+  /// Files that hold two skeletons side by side (UI-PRMD derived K_ and G_ columns, ITOP G_ and
+  /// P_): "truth" (also vicon) or "observed" (also kinect, estimate). Without it such a file is
+  /// refused. Also said after the path: `s01.tar.gz#truth`.
+  std::string columns;
+  /// One of SkeletonFormats(); "" finds it by content.
+  std::string format;
+  /// Time step of formats that carry no time, seconds; 0: the format's own usual rate.
+  double frame_s = 0.0;
+};
+
+/// The names of all formats that are read, e.g. "jsonl", "kinect-v2-csv".
+std::vector<std::string> SkeletonFormats();
+
+/// Reads one recording in any format that ossa knows, found by content: brought to our 20 joints,
+/// camera space (x to the sensor's left, y up, z forward), metres, the person's own left and right.
+/// `path` may carry `#truth` or `#observed` (see options) and, for an archive, `#MEMBER`. Throws
+/// InputError in one line; an archive or a folder with several recordings is refused here.
+SkeletonSequence ReadSkeletons(const std::filesystem::path& path,
+                               const SkeletonReadOptions& options = {});
+
+/// One recording of several.
+struct SkeletonClip {
+  std::string name;  // path inside the folder or archive without its extension; "" for one file
+  SkeletonSequence sequence;
+};
+
+/// All recordings of a file, a folder (searched through) or an archive (.tar .tar.gz .zip), sorted
+/// by name; the same names on both sides of a comparison belong together. Files in a folder that
+/// are no skeletons by their extension (.md, LICENSE, README...) are passed over.
+std::vector<SkeletonClip> ReadSkeletonClips(const std::filesystem::path& path,
+                                            const SkeletonReadOptions& options = {});
+
+/// As ReadSkeletons, from a stream; `name` stands for the file in messages and helps tell formats
+/// apart. Formats that need a second file (UI-PRMD positions) cannot be read this way.
+SkeletonSequence ReadSkeletonStream(std::istream& stream, const std::string& name,
+                                    const SkeletonReadOptions& options = {});
+
+/// Writes by extension: .jsonl, .csv, .trc, .bvh. TRC and BVH hold one person a file: of several,
+/// the first goes to `path` and each other to `path` with `_ID` before the extension. The file
+/// appears under its name only when complete.
+void WriteSkeletons(const std::filesystem::path& path, const SkeletonSequence& sequence);
+
+/// Throws InputError when WriteSkeletons would refuse the extension: ask before a long run.
+void CheckSkeletonExtension(const std::filesystem::path& path);
+
+}  // namespace ossa::recon

@@ -1,0 +1,64 @@
+#pragma once
+#include <cstddef>
+#include <istream>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace ossa::recon {
+
+/// Longest line a text reader accepts. The widest real format (NTU, six bodies a frame, one joint a
+/// line; KERAAL, 175 numbers a line) stays under 20 kB; a file of one endless line is refused after
+/// this many bytes instead of being held in memory.
+inline constexpr size_t kLongestLine = size_t{1} << 20;
+
+/// Lines of a text, one at a time, bounded, without their line ends (\n or \r\n) and without a
+/// leading byte-order mark. Knows where it is, so that every complaint names file and line.
+class TextLines {
+ public:
+  TextLines(std::istream& stream, std::string source)
+      : stream_(stream), source_(std::move(source)) {}
+
+  /// False at the end of the text. Throws InputError for a line longer than kLongestLine.
+  bool Next();
+  /// As Next(), but skips lines that hold only white space.
+  bool NextFilled();
+  /// As NextFilled(), but the end of the text is an error: `what` was expected.
+  void Expect(std::string_view what);
+
+  std::string_view line() const { return line_; }
+  size_t number() const { return number_; }
+  const std::string& source() const { return source_; }
+
+  /// Throws InputError "FILE: line N: expected EXPECTED, found FOUND"; FOUND is cut short and made
+  /// printable.
+  [[noreturn]] void Fail(std::string_view expected, std::string_view found) const;
+
+ private:
+  std::istream& stream_;
+  std::string source_;
+  std::string line_;
+  size_t number_ = 0;
+};
+
+/// A short, printable form of any bytes, in quotes, for messages.
+std::string Quoted(std::string_view bytes);
+
+/// The pieces of a line between separators; a separator at the very end opens no last piece.
+std::vector<std::string_view> Split(std::string_view line, char separator);
+/// The pieces of a line between white space.
+std::vector<std::string_view> Words(std::string_view line);
+std::string_view Trimmed(std::string_view text);
+
+/// A finite number that fills the whole field. Throws with file and line otherwise; `what` names
+/// the field.
+double NumberIn(const TextLines& lines, std::string_view field, std::string_view what);
+/// A whole number in [low, high].
+long WholeNumberIn(const TextLines& lines, std::string_view field, std::string_view what, long low,
+                   long high);
+/// All fields of a line as finite numbers, exactly `count` of them.
+std::vector<double> NumbersIn(const TextLines& lines, std::span<const std::string_view> fields,
+                              size_t count, std::string_view what);
+
+}  // namespace ossa::recon

@@ -1,0 +1,25 @@
+#include "recon/skeleton_sequence.h"
+
+namespace ossa::recon {
+namespace {
+
+double ConfidenceOf(TrackingState state) {
+  if (state == TrackingState::kTracked) return 1.0;
+  return state == TrackingState::kInferred ? 0.5 : 0.0;
+}
+
+}  // namespace
+
+TrackedPosture TrackedPostureOf(const BodyRecord& body) {
+  TrackedPosture tracked;
+  for (size_t j = 0; j < kJointCount; ++j) {
+    const auto& joint = body.joints[j];
+    if (!joint) continue;
+    tracked.posture.position_m[j] = joint->position_m;
+    tracked.state[j] = joint->state.value_or(TrackingState::kTracked);
+    tracked.confidence[j] = joint->confidence.value_or(ConfidenceOf(tracked.state[j]));
+  }
+  return tracked;
+}
+
+}  // namespace ossa::recon

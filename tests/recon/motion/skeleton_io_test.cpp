@@ -1,0 +1,162 @@
+#include "recon/motion/skeleton_io.h"
+
+#include <gtest/gtest.h>
+
+#include <fstream>
+#include <sstream>
+
+#include "depth/error.h"
+#include "recon/motion/skeleton_jsonl.h"
+#include "tests/recon/motion/skeleton_examples.h"
+#include "tests/support/temporary_folder.h"
+
+namespace ossa::recon {
+namespace {
+
+// A millimetre file with four decimals keeps 5e-8 m; our table seven significant digits.
+constexpr double kTolerance_m = 2e-6;
+
+void ExpectSamePositions(const SkeletonSequence& a, const SkeletonSequence& b) {
+  ASSERT_EQ(a.frames.size(), b.frames.size());
+  for (size_t f = 0; f < a.frames.size(); ++f) {
+    EXPECT_NEAR(a.frames[f].time_s, b.frames[f].time_s, kTolerance_m);
+    ASSERT_EQ(a.frames[f].bodies.size(), b.frames[f].bodies.size());
+    for (size_t j = 0; j < kJointCount; ++j) {
+      const auto& one = a.frames[f].bodies[0].joints[j];
+      const auto& other = b.frames[f].bodies[0].joints[j];
+      ASSERT_EQ(one.has_value(), other.has_value()) << kJointNames[j];
+      if (one) {
+        EXPECT_LT((one->position_m - other->position_m).norm(), kTolerance_m);
+      }
+    }
+  }
+}
+
+class EveryWrittenFormat : public testing::TestWithParam<const char*> {};
+
+TEST_P(EveryWrittenFormat, IsFoundByContentAndReadBack) {
+  const test::TemporaryFolder folder;
+  const auto written = ExampleSequence(6);
+  WriteSkeletons(folder / (std::string("walk") + GetParam()), written);
+  // Under a name that says nothing.
+  std::filesystem::rename(folder / (std::string("walk") + GetParam()), folder / "nameless");
+  ExpectSamePositions(ReadSkeletons(folder / "nameless"), written);
+}
+
+INSTANTIATE_TEST_SUITE_P(All, EveryWrittenFormat, testing::Values(".jsonl", ".csv", ".trc"));
+
+TEST(SkeletonFiles, OfAnUnknownExtensionAreRefusedBeforeAnythingIsWritten) {
+  const test::TemporaryFolder folder;
+  EXPECT_THROW(WriteSkeletons(folder / "walk.xyz", ExampleSequence(1)), InputError);
+  EXPECT_TRUE(std::filesystem::is_empty(folder.path()));
+}
+
+// An independent reading of TRC: cells by tab, nothing shared with the reader under test.
+std::vector<std::vector<std::string>> Cells(const std::filesystem::path& path) {
+  std::ifstream file(path);
+  std::vector<std::vector<std::string>> rows;
+  for (std::string line; std::getline(file, line);) {
+    rows.emplace_back(1);
+    for (const char c : line) {
+      if (c == '\t') {
+        rows.back().emplace_back();
+      } else {
+        rows.back().back().push_back(c);
+      }
+    }
+  }
+  return rows;
+}
+
+TEST(TrcFile, HasTheHeaderAndColumnsThatOpenSimExpects) {
+  const test::TemporaryFolder folder;
+  const auto sequence = ExampleSequence(4);
+  WriteSkeletons(folder / "walk.trc", sequence);
+  const auto rows = Cells(folder / "walk.trc");
+  ASSERT_EQ(rows.size(), 6u + 4u);
+  EXPECT_EQ(rows[0], (std::vector<std::string>{"PathFileType", "4", "(X/Y/Z)", "walk.trc"}));
+  EXPECT_EQ(rows[1][4], "Units");
+  EXPECT_EQ(rows[2][0], "30.000");
+  EXPECT_EQ(rows[2][2], "4");
+  EXPECT_EQ(rows[2][3], "20");
+  EXPECT_EQ(rows[2][4], "mm");
+  EXPECT_EQ(rows[3][2], "HipCenter");
+  EXPECT_EQ(rows[3][5], "Spine");
+  EXPECT_EQ(rows[4][2], "X1");
+  EXPECT_EQ(rows[4][61], "Z20");
+  EXPECT_EQ(rows[5], std::vector<std::string>{""});
+  EXPECT_EQ(rows[6].size(), 62u);
+  EXPECT_EQ(rows[6][0], "1");
+  EXPECT_NEAR(std::stod(rows[7][4]), 1000 * At(sequence, 1, Joint::kHipCenter).z(), 1e-3);
+  EXPECT_EQ(rows[6][2 + 3 * 7], "") << "a joint that is absent is a blank cell";
+}
+
+TEST(TrcFile, OfSeveralPeopleIsAFilePerPerson) {
+  const test::TemporaryFolder folder;
+  WriteSkeletons(folder / "two.trc", ExampleSequence(3, 2));
+  const double apart = At(ReadSkeletons(folder / "two_2.trc"), 0, Joint::kHead).x() -
+                       At(ReadSkeletons(folder / "two.trc"), 0, Joint::kHead).x();
+  EXPECT_NEAR(apart, 1.0, kTolerance_m);
+}
+
+TEST(SkeletonClips, OfAFolderAreSortedByNameAndSkipWhatIsNoRecording) {
+  const test::TemporaryFolder folder;
+  std::filesystem::create_directory(folder / "b");
+  WriteSkeletons(folder / "b/two.jsonl", ExampleSequence(2));
+  WriteSkeletons(folder / "a.csv", ExampleSequence(3));
+  std::ofstream(folder / "README.txt") << "words";
+  const auto clips = ReadSkeletonClips(folder.path());
+  ASSERT_EQ(clips.size(), 2u);
+  EXPECT_EQ(clips[0].name, "a");
+  EXPECT_EQ(clips[1].name, "b/two");
+  EXPECT_THROW(ReadSkeletons(folder.path()), InputError) << "which of the two?";
+  EXPECT_EQ(ReadSkeletons(folder.path().string() + "#two").frames.size(), 2u);
+}
+
+struct Wrong {
+  std::string text;
+  std::string named;
+};
+
+class WrongFile : public testing::TestWithParam<Wrong> {};
+
+TEST_P(WrongFile, IsRefusedInOneLine) {
+  const std::string complaint = ComplaintAbout(GetParam().text);
+  EXPECT_TRUE(complaint.starts_with("file: line ")) << complaint;
+  EXPECT_NE(complaint.find("expected"), std::string::npos) << complaint;
+  EXPECT_NE(complaint.find(GetParam().named), std::string::npos) << complaint;
+  EXPECT_EQ(complaint.find('\n'), std::string::npos);
+}
+
+std::string ExampleText(const char* extension) {
+  const test::TemporaryFolder folder;
+  const auto path = folder / (std::string("walk") + extension);
+  WriteSkeletons(path, ExampleSequence(3));
+  std::ifstream file(path);
+  return {std::istreambuf_iterator<char>(file), {}};
+}
+
+std::string Replaced(std::string text, const std::string& old, const std::string& fresh) {
+  const size_t place = text.find(old);
+  if (place == std::string::npos) throw std::logic_error("nothing to replace: " + old);
+  return text.replace(place, old.size(), fresh);
+}
+
+INSTANTIATE_TEST_SUITE_P(
+    Plain, WrongFile,
+    testing::Values(Wrong{"", "empty file"}, Wrong{" \n\n", "empty file"},
+                    Wrong{std::string("\x01\x02\xff\x00\x7f", 5), "ossa knows"},
+                    Wrong{"hello\n", "'hello'"}, Wrong{std::string(3 << 20, 'a'), "ossa knows"},
+                    Wrong{Replaced(ExampleText(".csv"), "0.5", "nan"), "line 2"},
+                    Wrong{Replaced(ExampleText(".csv"), "not_tracked", "seen"),
+                          "tracked, inferred"},
+                    Wrong{ExampleText(".csv") + "4,0.2,1,3\n", "123 columns"},
+                    Wrong{Replaced(ExampleText(".csv"), "HipCenter_x", "SpineBase_x"), "header"},
+                    Wrong{Replaced(ExampleText(".trc"), "\tmm\t", "\tinches\t"), "Units mm or m"},
+                    Wrong{Replaced(ExampleText(".trc"), "2000.0000", "inf"), "line 7"},
+                    Wrong{Replaced(ExampleText(".trc"), "\t20\tmm", "\t40\tmm"), "40 marker names"},
+                    Wrong{ExampleText(".trc").substr(0, 60), "expected"},
+                    Wrong{ExampleText(".trc") + std::string(2 << 20, '1'), "1 MiB"}));
+
+}  // namespace
+}  // namespace ossa::recon
