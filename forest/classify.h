@@ -16,10 +16,17 @@ struct Classification {
   std::vector<float> probability;  // pixel.size() × class_count, row-major, rows sum to 1
   std::vector<uint8_t> label;      // argmax of each row
   std::vector<float> context;      // posterior over the model's contexts (e.g. facing sectors)
+  std::vector<int32_t> leaf;       // pixel.size() × trees: where each pixel ended
 };
+
+enum class InstructionSet { kBest, kScalar };
 
 struct ClassifyOptions {
   int threads = 1;
+  /// What is known of the contexts beforehand (e.g. from the last frame), one value each, sum 1;
+  /// empty: the model's prior.
+  std::span<const float> context_prior;
+  InstructionSet instructions = InstructionSet::kBest;  // kScalar serves tests
 };
 
 /// Classifies the given pixels (v * width + u, ascending) of one object. Depth outside of these

@@ -1,0 +1,73 @@
+#pragma once
+#include <bit>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "depth/image/depth_frame.h"
+#include "forest/forest.h"
+
+namespace ossa::forest {
+
+/// One object cut out of a depth image: a box of (width + 2) × (height + 2) pixels whose outermost
+/// ring, and every pixel not of the object, reads as background. Offsets that leave the box are
+/// clamped to the ring.
+struct ObjectImage {
+  int width = 0;  // without the ring
+  int height = 0;
+  int u0 = 0;  // image position of the box's first pixel
+  int v0 = 0;
+  float scale_u = 0.0F;  // offset units · mm to pixels: (fx / 575) · 1000 / 16
+  float scale_v = 0.0F;
+  std::vector<uint16_t> depth_mm;  // row-major with the ring, + 2 elements so that a 32-bit read
+                                   // of the last one stays inside
+
+  int stride() const { return width + 2; }
+  size_t At(int x, int y) const {  // box coordinates
+    return static_cast<size_t>(y + 1) * static_cast<size_t>(stride()) + static_cast<size_t>(x + 1);
+  }
+};
+
+/// Factors from offset units to pixels · millimetres for a focal length.
+inline float OffsetScale(double focal_px) {
+  return static_cast<float>(focal_px / kReferenceFocal_px * 1000.0 / kOffsetUnitsPerPixelMetre);
+}
+
+/// Cuts the pixels (v * width + u) of one object out. Pixels without reading are background.
+ObjectImage CutOut(const depth::DepthView& depth, const depth::Camera& camera,
+                   std::span<const int32_t> pixels, uint16_t background_mm);
+
+/// Nearest integer, ties to even, as CVTPS2DQ does; for |x| < 2^22. Plain arithmetic, so that
+/// compilers vectorise it and every path gives the same value.
+inline int32_t RoundToEven(float x) {
+  constexpr float kMagic = 12582912.0F;  // 1.5 · 2^23
+  return std::bit_cast<int32_t>(x + kMagic) - std::bit_cast<int32_t>(kMagic);
+}
+
+/// Where a probe of a pixel (x, y of the box) lands in ObjectImage::depth_mm.
+/// Departure from eq. 1: pixels off the object, not only off the image, read as background.
+inline int32_t ProbeIndex(int x, int y, float offset_u, float offset_v, float pixels_u,
+                          float pixels_v, int width, int height, int stride) {
+  int px = x + RoundToEven(offset_u * pixels_u);
+  int py = y + RoundToEven(offset_v * pixels_v);
+  px = px < -1 ? -1 : (px > width ? width : px);
+  py = py < -1 ? -1 : (py > height ? height : py);
+  return (py + 1) * stride + px + 1;
+}
+
+/// Leaves reached by pixels of an object in one tree.
+struct WalkInput {
+  const Node* nodes = nullptr;
+  const ObjectImage* image = nullptr;
+  std::span<const int32_t> position;  // y << 16 | x, box coordinates
+};
+
+/// leaf[i * leaf_stride] = leaf of position[i].
+void WalkScalar(const WalkInput& input, int32_t* leaf, size_t leaf_stride);
+bool HasAvx2();
+/// The same leaves, 32 pixels in flight. Precondition: HasAvx2().
+void WalkAvx2(const WalkInput& input, int32_t* leaf, size_t leaf_stride);
+/// The fastest of this machine.
+void Walk(const WalkInput& input, int32_t* leaf, size_t leaf_stride);
+
+}  // namespace ossa::forest

@@ -1,0 +1,123 @@
+#include "forest/forest.h"
+
+#include <cmath>
+
+#include "depth/error.h"
+#include "forest/runtime_internal.h"
+
+namespace ossa::forest {
+namespace {
+
+constexpr size_t kMaxCells = 512;
+
+[[noreturn]] void Refuse(const std::string& name, const std::string& reason) {
+  throw InputError(name + ": forest model: " + reason);
+}
+
+void CheckNames(const ForestData& data, const std::string& name) {
+  const size_t classes = data.class_names.size();
+  const size_t contexts = data.context_names.size();
+  if (classes < 2 || contexts < 1 || classes > 255 || classes * contexts > kMaxCells) {
+    Refuse(name, "classes: expected 2 or more, and at most 512 pairs with contexts, found " +
+                     std::to_string(classes) + " classes and " + std::to_string(contexts) +
+                     " contexts");
+  }
+  if (data.context_prior.size() != contexts) Refuse(name, "context prior: wrong length");
+  for (const float p : data.context_prior) {
+    if (!(p >= 0.0F && p <= 1.0F)) Refuse(name, "context prior: expected values in [0, 1]");
+  }
+  if (!(data.evidence_scale >= 0.0F && data.evidence_scale < 1e4F)) {
+    Refuse(name, "evidence scale: expected a value in [0, 10000)");
+  }
+  if (data.background_mm > 32767) Refuse(name, "background depth: expected at most 32767 mm");
+}
+
+// Children come in pairs after their parent, each node has one parent, each leaf number occurs
+// once: then every walk from the root ends.
+void CheckTopology(const Tree& tree, const std::string& where) {
+  if (tree.nodes.empty()) Refuse(where, "no nodes");
+  std::vector<bool> leaf_used(tree.leaf_count(), false);
+  size_t next_child = 1;
+  for (size_t i = 0; i < tree.nodes.size(); ++i) {
+    const Node& node = tree.nodes[i];
+    if (node.is_leaf()) {
+      const auto leaf = static_cast<size_t>(node.leaf());
+      if (leaf >= leaf_used.size() || leaf_used[leaf]) {
+        Refuse(where, "node " + std::to_string(i) + ": leaf " + std::to_string(leaf) +
+                          " is unknown or used twice");
+      }
+      leaf_used[leaf] = true;
+    } else if (static_cast<size_t>(node.left) != next_child || next_child + 2 > tree.nodes.size()) {
+      Refuse(where, "node " + std::to_string(i) + ": child " + std::to_string(node.left) +
+                        " is not in breadth-first order (expected " + std::to_string(next_child) +
+                        " of " + std::to_string(tree.nodes.size()) + ")");
+    } else {
+      next_child += 2;
+    }
+  }
+  if (next_child != tree.nodes.size()) Refuse(where, "nodes without a parent");
+}
+
+void CheckLeaves(const Tree& tree, const ForestData& data, const std::string& where) {
+  const size_t cells = data.class_names.size() * data.context_names.size();
+  if (tree.entry_begin.front() != 0 || tree.entry_begin.back() != tree.entries.size()) {
+    Refuse(where, "leaf entries: bounds do not match their number");
+  }
+  for (size_t i = 0; i < tree.leaf_count(); ++i) {
+    if (tree.entry_begin[i] > tree.entry_begin[i + 1]) {
+      Refuse(where, "leaf " + std::to_string(i) + ": entries run backwards");
+    }
+  }
+  for (const uint16_t entry : tree.entries) {
+    const size_t code = entry & 511U;
+    if (code >= cells || entry >> 9U == 0) Refuse(where, "leaf entry: class or weight unknown");
+    if (code % data.class_names.size() == 0) Refuse(where, "leaf entry: background in a leaf");
+  }
+}
+
+void CheckTree(const ForestData& data, size_t t, const std::string& name) {
+  const Tree& tree = data.trees[t];
+  const std::string where = name + ": tree " + std::to_string(t);
+  if (tree.entry_begin.empty()) Refuse(where, "no leaves");
+  CheckTopology(tree, where);
+  CheckLeaves(tree, data, where);
+  size_t rows = 0;
+  VoteRows(tree, &rows);
+  if (!tree.votes.empty() && tree.votes.size() != rows * data.targets.size()) {
+    Refuse(where, "votes: expected " + std::to_string(rows * data.targets.size()) + ", found " +
+                      std::to_string(tree.votes.size()));
+  }
+}
+
+void CheckTarget(const ForestData& data, const ProposalTarget& target, const std::string& name) {
+  const std::string where = name + ": target '" + target.name + "'";
+  for (const uint8_t c : target.classes) {
+    if (c == 0 || c >= data.class_names.size()) Refuse(where, "class " + std::to_string(c));
+  }
+  for (const float value : {target.bandwidth_m, target.vote_sharpness_m}) {
+    if (!(value > 0.0F && value < 10.0F)) Refuse(where, "expected lengths in (0, 10) m");
+  }
+  for (const float value : {target.probability_threshold, target.push_back_m, target.class_weight,
+                            target.vote_radius_m, target.tracked_confidence,
+                            target.inferred_confidence, target.correct.bias, target.visible.bias}) {
+    if (!std::isfinite(value)) Refuse(where, "a parameter is not a number");
+  }
+  for (size_t i = 0; i < Confidence::kFeatures; ++i) {
+    if (!std::isfinite(target.correct.weight[i]) || !std::isfinite(target.visible.weight[i])) {
+      Refuse(where, "a confidence weight is not a number");
+    }
+  }
+}
+
+}  // namespace
+
+ForestModel::ForestModel(ForestData data, const std::string& name) {
+  CheckNames(data, name);
+  if (data.trees.empty() || data.trees.size() > 64) Refuse(name, "expected 1 to 64 trees");
+  for (size_t t = 0; t < data.trees.size(); ++t) CheckTree(data, t, name);
+  for (const ProposalTarget& target : data.targets) CheckTarget(data, target, name);
+  data_ = std::make_shared<const ForestData>(std::move(data));
+  tables_ = std::make_shared<const RuntimeTables>(MakeRuntimeTables(*data_));
+}
+
+}  // namespace ossa::forest

@@ -1,0 +1,122 @@
+#pragma once
+#include <array>
+#include <cstdint>
+#include <filesystem>
+#include <memory>
+#include <span>
+#include <string>
+#include <vector>
+
+namespace ossa::forest {
+
+/// Offsets of features are stored in 1/16 pixel·metre at the reference focal length of 575 pixels
+/// (a Kinect v1 at 640 pixels width) and scaled by the focal length of the camera at hand: a model
+/// serves every camera.
+inline constexpr double kReferenceFocal_px = 575.0;
+inline constexpr double kOffsetUnitsPerPixelMetre = 16.0;
+
+/// One node, 16 bytes. Inner node: f = d(x + u/d(x)) - d(x + v/d(x)) in millimetres (Shotton et al.
+/// 2011, eq. 1); the child is `left` when f <= threshold, `left + 1` otherwise. Leaf: left =
+/// ~(number of the leaf in its tree). Breadth-first order, the root first.
+struct Node {
+  std::array<int16_t, 2> u{};  // offset units
+  std::array<int16_t, 2> v{};
+  int16_t threshold_mm = 0;
+  int16_t unused = 0;
+  int32_t left = -1;
+
+  bool is_leaf() const { return left < 0; }
+  int32_t leaf() const { return ~left; }
+  bool operator==(const Node&) const = default;
+};
+static_assert(sizeof(Node) == 16);
+
+/// What the pixels of a row of votes say of one target: its mean position relative to the pixel's
+/// surface point, camera axes, centimetres, and their spread (root mean square distance to the
+/// mean). Girshick et al. 2011, sec. 3.2, with one vote a target.
+struct Vote {
+  static constexpr uint8_t kNone = 255;
+  std::array<int8_t, 3> offset_cm{};
+  uint8_t spread_cm = kNone;  // kNone: no vote
+
+  bool operator==(const Vote&) const = default;
+};
+
+/// A decision tree whose leaves hold the joint distribution of (context, class), and whose nodes at
+/// `vote_depth` (or leaves above it) hold a row of votes each.
+struct Tree {
+  std::vector<Node> nodes;
+  /// Entries of leaf i are entries[entry_begin[i]] ... entries[entry_begin[i + 1] - 1]; an entry is
+  /// weight << 9 | context * class_count + class, weight in 1..127 relative to its leaf.
+  std::vector<uint32_t> entry_begin;
+  std::vector<uint16_t> entries;
+  int32_t vote_depth = 0;
+  std::vector<Vote> votes;  // rows × targets; rows in breadth-first order of their nodes
+
+  size_t leaf_count() const { return entry_begin.empty() ? 0 : entry_begin.size() - 1; }
+};
+
+/// Confidence of a proposal: a logistic function of what mean shift saw there, fitted on held-out
+/// frames: 1 / (1 + exp(-(bias + Σ weight_i · feature_i))).
+struct Confidence {
+  static constexpr size_t kFeatures = 5;
+  std::array<float, kFeatures> weight{};
+  float bias = 0.0F;
+};
+
+/// How one 3D target (a joint) is found among classified pixels. Learned on held-out frames.
+struct ProposalTarget {
+  std::string name;                     // e.g. an SDK joint
+  std::vector<uint8_t> classes;         // classes whose surface lies around it; may be empty
+  float bandwidth_m = 0.06F;            // of the density estimate, > 0 (Shotton 2011, sec. 3.3)
+  float probability_threshold = 0.15F;  // pixels below do not vote by class
+  float push_back_m = 0.04F;            // from the surface into the body, along the ray
+  float class_weight = 1.0F;            // share of class votes against position votes, >= 0
+  float vote_radius_m = 1.3F;           // longest position vote that counts
+  float vote_sharpness_m = 0.06F;       // votes of wider spread count less
+  float tracked_confidence = 0.5F;      // at least: tracked
+  float inferred_confidence = 0.15F;    // at least: inferred; less: not tracked
+  Confidence correct;                   // P(within 10 cm of the truth)
+  Confidence visible;                   // P(its surface is seen)
+};
+
+/// Everything a model file holds.
+struct ForestData {
+  std::vector<std::string> class_names;    // class 0 is background and never given
+  std::vector<std::string> context_names;  // e.g. facing sectors; at least one
+  std::vector<float> context_prior;        // sums to 1
+  float evidence_scale = 20.0F;  // independent pixels an object's pixels count as, for the context
+  uint16_t background_mm = 10000;
+  std::vector<Tree> trees;
+  std::vector<ProposalTarget> targets;
+  std::string manifest;  // JSON text: the model's card
+};
+
+struct RuntimeTables;  // forest/runtime_internal.h
+
+/// A checked forest, ready to run. Immutable; copies share.
+class ForestModel {
+ public:
+  /// Throws InputError (naming `name`) when the data contradict themselves.
+  explicit ForestModel(ForestData data, const std::string& name = "model");
+
+  const ForestData& data() const { return *data_; }
+  int class_count() const { return static_cast<int>(data_->class_names.size()); }
+  int context_count() const { return static_cast<int>(data_->context_names.size()); }
+  std::span<const ProposalTarget> targets() const { return data_->targets; }
+  const std::string& manifest() const { return data_->manifest; }
+  const RuntimeTables& tables() const { return *tables_; }
+
+ private:
+  std::shared_ptr<const ForestData> data_;
+  std::shared_ptr<const RuntimeTables> tables_;
+};
+
+/// Throws InputError that names the file, the byte and the field.
+ForestModel ReadForestModel(const std::filesystem::path& path);
+ForestModel ReadForestModel(std::span<const std::byte> bytes, const std::string& name);
+/// True when the file starts as a forest model does.
+bool IsForestModel(const std::filesystem::path& path);
+void WriteForestModel(const std::filesystem::path& path, const ForestModel& model);
+
+}  // namespace ossa::forest

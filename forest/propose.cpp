@@ -1,0 +1,210 @@
+// Shotton et al. 2011, sec. 3.3 (weighted mean shift on classified surface, eqs. 7-8) joined with
+// the position votes of Girshick et al. 2011: a target's density is
+//   D(x) = class_weight · Σ_i P(c|i) · area_i · K(x - s_i) / A0  +  Σ_j w_j · K(x - v_j) / Σ_j w_j
+// over pushed-back surface points s_i and votes v_j. Surface speaks where the joint is seen; votes
+// speak for joints that are hidden.
+#include "forest/propose.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "forest/propose_internal.h"
+#include "forest/runtime_internal.h"
+
+namespace ossa::forest {
+namespace {
+
+constexpr size_t kSampledPixels = 640;  // more do not move the modes by a millimetre worth having
+constexpr float kReferenceArea_m2 = 0.004F;  // A0: about the seen surface of an elbow
+constexpr size_t kStarts = 12;
+constexpr size_t kClimbs = 3;
+constexpr int kMaxSteps = 20;
+constexpr float kStopStep_m = 5e-4F;
+
+struct TargetPoints {
+  WeightedPoints points;
+  WeightedPoints surface;  // the class part of them, weights in reference areas
+  float vote_total = 0.0F;
+};
+
+void AddSurface(const Evidence& evidence, const ProposalTarget& target, TargetPoints* out) {
+  const auto classes = static_cast<size_t>(evidence.class_count);
+  for (size_t i = 0; i < evidence.surface_m.size(); ++i) {
+    float p = 0.0F;
+    for (const uint8_t c : target.classes) p += evidence.probability[i * classes + c];
+    if (p < target.probability_threshold) continue;
+    const Eigen::Vector3f& s = evidence.surface_m[i];
+    const Eigen::Vector3f inside = s * (1.0F + target.push_back_m / s.norm());
+    const float weight = p * evidence.area_m2[i] / kReferenceArea_m2;
+    out->surface.Add(inside, weight);
+    if (target.class_weight > 0) out->points.Add(inside, weight * target.class_weight);
+  }
+}
+
+void AddVotes(const Evidence& evidence, const ProposalTarget& target, size_t index,
+              TargetPoints* out) {
+  const size_t first = out->points.size();
+  for (const PositionVote& vote : evidence.votes[index]) {
+    if (vote.distance_m > target.vote_radius_m) continue;
+    const float relative = vote.spread_m / target.vote_sharpness_m;
+    const float softness = 1.0F + relative * relative;
+    const float weight = vote.area_m2 / (softness * softness);
+    out->points.Add(vote.position_m, weight);
+    out->vote_total += weight;
+  }
+  if (out->vote_total <= 0) return;
+  for (size_t i = first; i < out->points.size(); ++i) out->points.weight[i] /= out->vote_total;
+}
+
+std::vector<Eigen::Vector3f> StartPoints(const WeightedPoints& points, float bandwidth_m) {
+  std::vector<std::pair<float, size_t>> by_density;
+  const size_t step = std::max<size_t>(1, points.size() / kStarts);
+  for (size_t i = 0; i < points.size(); i += step) {
+    by_density.emplace_back(-SumKernels(points, points.at(i), 1.5F * bandwidth_m).density, i);
+  }
+  const auto heaviest = static_cast<size_t>(
+      std::max_element(points.weight.begin(), points.weight.end()) - points.weight.begin());
+  by_density.emplace_back(-SumKernels(points, points.at(heaviest), 1.5F * bandwidth_m).density,
+                          heaviest);
+  std::sort(by_density.begin(), by_density.end());
+  std::vector<Eigen::Vector3f> starts;
+  for (const auto& [density, i] : by_density) {
+    const Eigen::Vector3f p = points.at(i);
+    const bool is_new = std::all_of(starts.begin(), starts.end(), [&](const auto& s) {
+      return (s - p).norm() > 2.0F * bandwidth_m;
+    });
+    if (is_new) starts.push_back(p);
+    if (starts.size() == kClimbs) break;
+  }
+  return starts;
+}
+
+Mode Climb(const WeightedPoints& points, Eigen::Vector3f at_m, float bandwidth_m) {
+  Mode mode;
+  for (int step = 0; step < kMaxSteps; ++step) {
+    const KernelSum sum = SumKernels(points, at_m, bandwidth_m);
+    mode.position_m = at_m;
+    mode.density = sum.density;
+    if (!(sum.density > 1e-12F)) break;
+    const Eigen::Vector3f next = sum.moment / sum.density;
+    const bool arrived = (next - at_m).norm() < kStopStep_m;
+    at_m = next;
+    if (arrived) break;
+  }
+  return mode;
+}
+
+void KeepDistinct(std::vector<Mode>* modes, float bandwidth_m) {
+  std::sort(modes->begin(), modes->end(),
+            [](const Mode& a, const Mode& b) { return a.density > b.density; });
+  std::vector<Mode> kept;
+  for (const Mode& mode : *modes) {
+    const bool is_new = std::all_of(kept.begin(), kept.end(), [&](const Mode& other) {
+      return (other.position_m - mode.position_m).norm() > bandwidth_m;
+    });
+    if (is_new && mode.density > 0.05F * modes->front().density) kept.push_back(mode);
+  }
+  *modes = std::move(kept);
+}
+
+void DescribeModes(const Evidence& evidence, const TargetPoints& points,
+                   const ProposalTarget& target, std::vector<Mode>* modes) {
+  float total = 0.0F;
+  for (const Mode& mode : *modes) total += mode.density;
+  for (Mode& mode : *modes) {
+    const float bandwidth_m = std::max(target.bandwidth_m, 0.06F);
+    const float surface = SumKernels(points.surface, mode.position_m, bandwidth_m).density;
+    const float votes = SumKernels(points.points, mode.position_m, bandwidth_m).density -
+                        target.class_weight * surface;
+    mode.feature = {std::log1p(10.0F * surface), std::sqrt(std::max(votes, 0.0F)),
+                    mode.density / total, std::log1p(points.vote_total * 1e3F),
+                    evidence.context_certainty};
+  }
+}
+
+}  // namespace
+
+std::vector<Mode> FindModes(const Evidence& evidence, const ProposalTarget& target,
+                            size_t target_index) {
+  TargetPoints points;
+  AddSurface(evidence, target, &points);
+  AddVotes(evidence, target, target_index, &points);
+  if (points.points.size() == 0) return {};
+  std::vector<Mode> modes;
+  for (const Eigen::Vector3f& start : StartPoints(points.points, target.bandwidth_m)) {
+    modes.push_back(Climb(points.points, start, target.bandwidth_m));
+  }
+  KeepDistinct(&modes, target.bandwidth_m);
+  DescribeModes(evidence, points, target, &modes);
+  return modes;
+}
+
+double Evaluate(const Confidence& confidence,
+                const std::array<float, Confidence::kFeatures>& feature) {
+  double sum = confidence.bias;
+  for (size_t i = 0; i < feature.size(); ++i) sum += confidence.weight[i] * feature[i];
+  return 1.0 / (1.0 + std::exp(-sum));
+}
+
+std::vector<std::vector<Proposal>> Propose(const ForestModel& model, const depth::DepthView& depth,
+                                           const depth::Camera& camera,
+                                           const Classification& classification) {
+  const Evidence evidence = GatherEvidence(model, depth, camera, classification);
+  std::vector<std::vector<Proposal>> proposals(model.targets().size());
+  for (size_t t = 0; t < proposals.size(); ++t) {
+    const ProposalTarget& target = model.targets()[t];
+    for (const Mode& mode : FindModes(evidence, target, t)) {
+      Proposal proposal;
+      proposal.position_m = mode.position_m.cast<double>();
+      proposal.confidence = Evaluate(target.correct, mode.feature);
+      proposal.seen = Evaluate(target.visible, mode.feature) >= 0.5;
+      proposals[t].push_back(proposal);
+    }
+  }
+  return proposals;
+}
+
+Evidence GatherEvidence(const ForestModel& model, const depth::DepthView& depth,
+                        const depth::Camera& camera, const Classification& classification) {
+  Evidence evidence;
+  evidence.class_count = classification.class_count;
+  evidence.votes.resize(model.targets().size());
+  if (!classification.context.empty()) {
+    evidence.context_certainty =
+        *std::max_element(classification.context.begin(), classification.context.end());
+  }
+  const size_t count = classification.pixel.size();
+  const auto classes = static_cast<size_t>(classification.class_count);
+  const size_t trees = model.data().trees.size();
+  const size_t targets = model.targets().size();
+  const size_t step = std::max<size_t>(1, count / kSampledPixels);
+  size_t tree = 0;
+  for (size_t i = step / 2; i < count; i += step, tree = (tree + 1) % trees) {
+    const int u = classification.pixel[i] % depth.width;
+    const int v = classification.pixel[i] / depth.width;
+    const Eigen::Vector3d p = depth::BackProject(camera, u, v, depth.at(u, v));
+    const auto area_m2 =
+        static_cast<float>(static_cast<double>(step) * p.z() * p.z() / (camera.fx * camera.fy));
+    evidence.surface_m.push_back(p.cast<float>());
+    evidence.area_m2.push_back(area_m2);
+    const float* row = classification.probability.data() + i * classes;
+    evidence.probability.insert(evidence.probability.end(), row, row + classes);
+    const auto leaf = static_cast<size_t>(classification.leaf[i * trees + tree]);
+    const int32_t vote_row = model.tables().leaves[tree].vote_row[leaf];
+    if (vote_row < 0) continue;
+    const Vote* votes =
+        model.data().trees[tree].votes.data() + static_cast<size_t>(vote_row) * targets;
+    for (size_t t = 0; t < targets; ++t) {
+      if (votes[t].spread_cm == Vote::kNone) continue;
+      const Eigen::Vector3f offset_m =
+          Eigen::Vector3f(votes[t].offset_cm[0], votes[t].offset_cm[1], votes[t].offset_cm[2]) *
+          0.01F;
+      evidence.votes[t].push_back({p.cast<float>() + offset_m,
+                                   0.01F * static_cast<float>(votes[t].spread_cm), offset_m.norm(),
+                                   area_m2});
+    }
+  }
+  return evidence;
+}
+
+}  // namespace ossa::forest

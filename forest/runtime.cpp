@@ -1,0 +1,114 @@
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "forest/runtime_internal.h"
+
+namespace ossa::forest {
+namespace {
+
+constexpr int kMaxCells = 512;      // context × class, 9 bits of an entry
+constexpr float kSmoothing = 3.0F;  // entry weights (of 127) by which a leaf's own mix of classes
+                                    // stands in where a context was hardly seen
+constexpr size_t kMaxShares = 8;    // classes kept a leaf and context; the rest is below 1 %
+
+struct LeafCells {
+  std::array<float, kMaxCells> weight{};
+  std::vector<float> class_weight;    // sum over contexts
+  std::vector<float> context_weight;  // sum over classes
+  float total = 0.0F;
+};
+
+LeafCells CellsOf(const Tree& tree, size_t leaf, size_t classes, size_t contexts) {
+  LeafCells cells;
+  cells.class_weight.assign(classes, 0.0F);
+  cells.context_weight.assign(contexts, 0.0F);
+  for (uint32_t i = tree.entry_begin[leaf]; i < tree.entry_begin[leaf + 1]; ++i) {
+    const size_t code = tree.entries[i] & 511U;
+    const auto weight = static_cast<float>(tree.entries[i] >> 9U);
+    cells.weight[code] += weight;
+    cells.class_weight[code % classes] += weight;
+    cells.context_weight[code / classes] += weight;
+    cells.total += weight;
+  }
+  return cells;
+}
+
+// log P(leaf | context) up to a constant of the leaf, centred, so that sums stay small.
+void AppendEvidence(const LeafCells& cells, const ForestData& data, std::vector<int16_t>* out) {
+  constexpr float kFloor = 0.5F;  // half an entry weight: what rounding may have hidden
+  const size_t contexts = cells.context_weight.size();
+  std::vector<float> log_ratio(contexts);
+  float mean = 0.0F;
+  for (size_t k = 0; k < contexts; ++k) {
+    const float prior = std::max(data.context_prior[k], 1e-3F);
+    log_ratio[k] = std::log((cells.context_weight[k] + kFloor * prior) / prior);
+    mean += log_ratio[k] / static_cast<float>(contexts);
+  }
+  for (const float value : log_ratio) {
+    out->push_back(static_cast<int16_t>(std::lround(256.0F * (value - mean))));
+  }
+}
+
+// P(class | leaf, context), smoothed by P(class | leaf), as the largest shares of 255.
+void AppendShares(const LeafCells& cells, size_t context, LeafTables* tables) {
+  const size_t classes = cells.class_weight.size();
+  std::vector<std::pair<float, uint8_t>> shares;
+  const float whole = cells.context_weight[context] + kSmoothing;
+  for (size_t c = 0; c < classes; ++c) {
+    const float prior = cells.total > 0 ? cells.class_weight[c] / cells.total : 0.0F;
+    const float p = (cells.weight[context * classes + c] + kSmoothing * prior) / whole;
+    if (p > 0.004F) shares.emplace_back(-p, static_cast<uint8_t>(c));
+  }
+  std::sort(shares.begin(), shares.end());
+  if (shares.size() > kMaxShares) shares.resize(kMaxShares);
+  for (const auto& [p, c] : shares) {
+    tables->shares.push_back({c, static_cast<uint8_t>(std::lround(-p * 255.0F))});
+  }
+  tables->share_begin.push_back(static_cast<uint32_t>(tables->shares.size()));
+}
+
+}  // namespace
+
+std::vector<int32_t> VoteRows(const Tree& tree, size_t* row_count) {
+  std::vector<int32_t> row_of_leaf(tree.leaf_count(), -1);
+  std::vector<int32_t> level(tree.nodes.size(), 0);
+  std::vector<int32_t> row(tree.nodes.size(), -1);
+  int32_t rows = 0;
+  for (size_t i = 0; i < tree.nodes.size(); ++i) {
+    const Node& node = tree.nodes[i];
+    if (row[i] < 0 && (node.is_leaf() || level[i] == tree.vote_depth)) row[i] = rows++;
+    if (node.is_leaf()) {
+      row_of_leaf[static_cast<size_t>(node.leaf())] = row[i];
+      continue;
+    }
+    for (size_t child = static_cast<size_t>(node.left), n = 0; n < 2; ++n, ++child) {
+      level[child] = level[i] + 1;
+      row[child] = row[i];
+    }
+  }
+  *row_count = static_cast<size_t>(rows);
+  return row_of_leaf;
+}
+
+RuntimeTables MakeRuntimeTables(const ForestData& data) {
+  RuntimeTables tables;
+  const size_t classes = data.class_names.size();
+  const size_t contexts = data.context_names.size();
+  for (const Tree& tree : data.trees) {
+    LeafTables leaves;
+    leaves.share_begin.push_back(0);
+    for (size_t leaf = 0; leaf < tree.leaf_count(); ++leaf) {
+      const LeafCells cells = CellsOf(tree, leaf, classes, contexts);
+      AppendEvidence(cells, data, &leaves.evidence);
+      for (size_t k = 0; k < contexts; ++k) AppendShares(cells, k, &leaves);
+    }
+    size_t rows = 0;
+    leaves.vote_row = VoteRows(tree, &rows);
+    if (tree.votes.empty()) std::fill(leaves.vote_row.begin(), leaves.vote_row.end(), -1);
+    tables.leaves.push_back(std::move(leaves));
+  }
+  return tables;
+}
+
+}  // namespace ossa::forest
