@@ -1,0 +1,169 @@
+#include "tools/synth/dataset.h"
+
+#include <cmath>
+#include <cstdio>
+#include <deque>
+#include <fstream>
+#include <mutex>
+
+#include "depth/error.h"
+#include "depth/image/depth_png.h"
+#include "recon/body/parts.h"
+#include "tools/synth/manifest_internal.h"
+#include "tools/synth/shard_internal.h"
+
+namespace ossa::tools {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr size_t kCachedShards = 6;  // readers of several threads walk through neighbours
+
+fs::path ImagePath(const fs::path& folder, const char* kind, int64_t index) {
+  char name[32];
+  std::snprintf(name, sizeof(name), "%06lld.png", static_cast<long long>(index));
+  return folder / kind / name;
+}
+
+std::vector<std::string> ReadTruthLines(const fs::path& path, int64_t expected) {
+  std::ifstream file(path);
+  if (!file) throw InputError(path.string() + ": cannot be read: expected the truth of a data set");
+  std::vector<std::string> lines;
+  for (std::string line; std::getline(file, line);) lines.push_back(std::move(line));
+  if (static_cast<int64_t>(lines.size()) != expected) {
+    throw InputError(path.string() + ": expected " + std::to_string(expected) + " lines, found " +
+                     std::to_string(lines.size()));
+  }
+  return lines;
+}
+
+depth::Image<uint8_t> ReadLabels(const fs::path& path, const depth::Camera& camera) {
+  auto labels = depth::ReadLabelPng(path);
+  if (labels.width != camera.width || labels.height != camera.height) {
+    throw InputError(path.string() + ": expected the size in manifest.json, " +
+                     std::to_string(camera.width) + "x" + std::to_string(camera.height));
+  }
+  return labels;
+}
+
+// Without users/ (a data set of other makers) every labelled pixel belongs to the one person.
+depth::Image<uint8_t> UsersFromParts(const LabelledFrame& frame, const std::string& place) {
+  if (frame.bodies.size() > 1) throw InputError(place + ": missing, with several people in it");
+  auto users = frame.parts;
+  const auto id = static_cast<uint8_t>(frame.bodies.empty() ? 1 : frame.bodies[0].id);
+  for (uint8_t& user : users.data) user = user > 0 && user <= recon::kPartCount ? id : 0;
+  return users;
+}
+
+void CheckLabels(const LabelledFrame& frame, const std::string& place) {
+  for (size_t i = 0; i < frame.parts.data.size(); ++i) {
+    if (frame.parts.data[i] < recon::kLabelCount) continue;
+    throw InputError(place + ": pixel " + std::to_string(i) + ": expected a part label below " +
+                     std::to_string(recon::kLabelCount) + ", found " +
+                     std::to_string(frame.parts.data[i]));
+  }
+}
+
+}  // namespace
+
+struct DatasetReader::State {
+  fs::path folder;
+  DatasetManifest manifest;
+  std::vector<std::string> truth;  // of the PNG form
+
+  std::mutex mutex;
+  std::deque<std::shared_ptr<const Shard>> cache;  // most recently read first
+
+  std::shared_ptr<const Shard> Get(int64_t number);
+  LabelledFrame ReadPngs(int64_t index) const;
+};
+
+std::shared_ptr<const Shard> DatasetReader::State::Get(int64_t number) {
+  const int64_t first = number * manifest.frames_per_shard;
+  {
+    const std::lock_guard lock(mutex);
+    for (const auto& shard : cache) {
+      if (shard->first_index == first) return shard;
+    }
+  }
+  const int64_t count = std::min(manifest.frames_per_shard, manifest.frames - first);
+  auto shard = std::make_shared<const Shard>(ReadShard(ShardPath(folder, number), first, count));
+  const std::lock_guard lock(mutex);
+  cache.push_front(shard);
+  if (cache.size() > kCachedShards) cache.pop_back();
+  return shard;
+}
+
+LabelledFrame DatasetReader::State::ReadPngs(int64_t index) const {
+  LabelledFrame frame;
+  const std::string place =
+      (folder / "truth.jsonl").string() + ": line " + std::to_string(index + 1);
+  ParseTruthLine(truth[static_cast<size_t>(index)], place, &frame);
+  if (frame.depth.index != index) {
+    throw InputError(place + ": expected frame " + std::to_string(index) + ", found " +
+                     std::to_string(frame.depth.index));
+  }
+  frame.depth.camera = manifest.camera;
+  const auto depth_path = ImagePath(folder, "depth", index);
+  auto depth = depth::ReadDepthPng(depth_path);
+  if (depth.width != manifest.camera.width || depth.height != manifest.camera.height) {
+    throw InputError(depth_path.string() + ": expected the size in manifest.json");
+  }
+  frame.depth.depth_mm = std::move(depth.data);
+  frame.parts = ReadLabels(ImagePath(folder, "parts", index), manifest.camera);
+  const auto users_path = ImagePath(folder, "users", index);
+  frame.users = fs::exists(users_path) ? ReadLabels(users_path, manifest.camera)
+                                       : UsersFromParts(frame, users_path.string());
+  CheckLabels(frame, ImagePath(folder, "parts", index).string());
+  return frame;
+}
+
+bool IsDataset(const fs::path& folder) {
+  std::error_code ignored;
+  return fs::is_regular_file(folder / "manifest.json", ignored);
+}
+
+DatasetReader::DatasetReader(const fs::path& folder) : state_(std::make_unique<State>()) {
+  if (!fs::is_directory(folder)) {
+    throw InputError(folder.string() + ": expected the folder of a data set, found none");
+  }
+  state_->folder = folder;
+  state_->manifest = ReadManifest(folder);
+  if (!state_->manifest.packed) {
+    state_->truth = ReadTruthLines(folder / "truth.jsonl", state_->manifest.frames);
+  }
+}
+
+DatasetReader::~DatasetReader() = default;
+DatasetReader::DatasetReader(DatasetReader&&) noexcept = default;
+DatasetReader& DatasetReader::operator=(DatasetReader&&) noexcept = default;
+
+const DatasetManifest& DatasetReader::manifest() const { return state_->manifest; }
+
+LabelledFrame DatasetReader::Read(int64_t index) const {
+  if (index < 0 || index >= frame_count()) {
+    throw InputError(state_->folder.string() + ": frame " + std::to_string(index) +
+                     ": expected one of " + std::to_string(frame_count()));
+  }
+  if (!state_->manifest.packed) return state_->ReadPngs(index);
+  const auto shard = state_->Get(index / state_->manifest.frames_per_shard);
+  LabelledFrame frame = UnpackFrame(*shard, index);
+  CheckLabels(frame, shard->file + ": frame " + std::to_string(index));
+  return frame;
+}
+
+double FacingAngle(const recon::Posture& joints_m) {
+  using recon::Joint;
+  const Eigen::Vector3d left_from_right = joints_m[Joint::kShoulderLeft] -
+                                          joints_m[Joint::kShoulderRight] +
+                                          joints_m[Joint::kHipLeft] - joints_m[Joint::kHipRight];
+  // y up: left x up = forward for a person (left = +x, up = +y, forward = +z). Camera space is
+  // right-handed too.
+  const Eigen::Vector3d forward = left_from_right.cross(Eigen::Vector3d::UnitY());
+  const Eigen::Vector3d centre =
+      0.5 * (joints_m[Joint::kHipCenter] + joints_m[Joint::kShoulderCenter]);
+  const double sight_rad = std::atan2(-centre.x(), -centre.z());  // towards the sensor
+  return std::remainder(std::atan2(forward.x(), forward.z()) - sight_rad, 2.0 * M_PI);
+}
+
+}  // namespace ossa::tools

@@ -1,0 +1,79 @@
+#pragma once
+#include <Eigen/Core>
+#include <array>
+#include <cstdint>
+#include <filesystem>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "depth/image/camera.h"
+#include "depth/image/depth_frame.h"
+#include "depth/image/image.h"
+#include "recon/posture.h"
+
+namespace ossa::tools {
+
+/// The true skeleton of one person of a labelled frame.
+struct TruthBody {
+  int id = 1;               // the person's value in LabelledFrame::users
+  recon::Posture joints_m;  // camera space, inside the body, all 20 known
+  /// True where surface of the joint's own body part, or near it, is seen by the sensor.
+  std::array<bool, recon::kJointCount> visible{};
+};
+
+/// A depth image with the label of each pixel. From packed shards it is cropped to the people with
+/// a border of background, and its camera is shifted accordingly: projections stay right.
+struct LabelledFrame {
+  depth::DepthFrame depth;      // index = number of the frame in the data set
+  depth::Image<uint8_t> parts;  // 0 background, 1..31 body part, 32 other (recon/body/parts.h)
+  depth::Image<uint8_t> users;  // 0 nobody, else TruthBody::id; objects held count to their holder
+  std::vector<TruthBody> bodies;
+  std::optional<Eigen::Vector4d> floor;  // a b c d of ax + by + cz + d = 0, camera space
+};
+
+/// What manifest.json says of a data set.
+struct DatasetManifest {
+  int64_t frames = 0;
+  depth::Camera camera;  // of the uncropped images
+  uint64_t seed = 0;
+  std::string command;               // made by
+  std::string split;                 // "train" or "test"
+  std::string view;                  // "front", "any" or "near"
+  std::vector<std::string> sources;  // motion
+  std::vector<std::string> terms;    // where motion and bodies come from and their licences
+  bool png = true;                   // depth/, parts/, users/ and truth.jsonl are there
+  bool packed = false;               // shards/ are there
+  int64_t frames_per_shard = 0;
+};
+
+/// True when the folder has the manifest of a finished data set.
+bool IsDataset(const std::filesystem::path& folder);
+
+/// Reads a DATASET (DESIGN.md §5), from its shards when it has them, else from its PNG files.
+/// Every damage throws an InputError that names the file. Read may be called from many threads;
+/// frames of one shard asked one after another are fast.
+class DatasetReader {
+ public:
+  explicit DatasetReader(const std::filesystem::path& folder);
+  ~DatasetReader();
+  DatasetReader(DatasetReader&&) noexcept;
+  DatasetReader& operator=(DatasetReader&&) noexcept;
+
+  const DatasetManifest& manifest() const;
+  int64_t frame_count() const { return manifest().frames; }
+
+  /// Frame 0 <= index < frame_count().
+  LabelledFrame Read(int64_t index) const;
+
+ private:
+  struct State;
+  std::unique_ptr<State> state_;
+};
+
+/// Yaw of a person relative to the line of sight, seen from above, radians in (-pi, pi]: 0 faces
+/// the sensor, +-pi shows it the back, +pi/2 looks towards camera -x (the image right).
+double FacingAngle(const recon::Posture& joints_m);
+
+}  // namespace ossa::tools
