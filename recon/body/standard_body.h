@@ -1,0 +1,48 @@
+#pragma once
+#include <Eigen/Core>
+#include <array>
+
+#include "recon/body/rig.h"
+#include "recon/posture.h"
+
+namespace ossa::recon {
+
+/// Rest positions of the rig's bones, metres, feet on y = 0, facing +z, left = +x.
+struct RigRest {
+  std::array<Eigen::Vector3d, kRigBoneCount> head_m;
+  std::array<Eigen::Vector3d, kRigBoneCount> tail_m;
+};
+
+/// Where a joint of the SDK sits: carried by a bone, at a place given in the rest pose.
+struct JointAnchor {
+  int bone = 0;
+  Eigen::Vector3d rest_m = Eigen::Vector3d::Zero();
+};
+
+/// The standard average body: MPFB's base mesh plus the mean of the six macro targets
+/// {african, asian, caucasian} x {female, male} at age "young", 1.66 m tall. Measured once, so that
+/// motion, databases and physics need no body files; a test compares it with the real ones.
+const RigRest& StandardRigRest();
+
+/// The 20 joints on the rig. HipCenter: halfway up bone Hips, 5 cm above the hip joints. Spine:
+/// head of bone Spine, mid-torso. ShoulderCenter: base of the neck. Head: halfway up bone Head.
+/// Hand: halfway from the wrist to the middle finger's knuckle. Foot: root of the middle toe.
+const std::array<JointAnchor, kJointCount>& StandardJointAnchors();
+
+/// World position of every bone's head on the standard body, parents composed before children.
+std::array<Eigen::Vector3d, kRigBoneCount> StandardBoneHeads(const RigPose& pose);
+
+/// The 20 joints of the standard body in the pose, in the pose's own world.
+Posture StandardPosture(const RigPose& pose);
+
+/// Number of the bone by its rig name; a name the rig does not have is a broken promise of ours.
+int RigBone(std::string_view name);
+
+/// Rotation about the vertical that turns a body facing +z to where the pelvis faces; upside-down
+/// and lying bodies take the nearest sensible one.
+Eigen::Quaterniond HeadingOf(const RigPose& pose);
+
+/// The pose turned to face +z with its root above the origin (height kept).
+RigPose WithoutHeading(const RigPose& pose);
+
+}  // namespace ossa::recon

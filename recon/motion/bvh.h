@@ -1,0 +1,63 @@
+#pragma once
+#include <Eigen/Core>
+#include <Eigen/Geometry>
+#include <cstddef>
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "recon/skeleton_sequence.h"
+
+namespace ossa::recon {
+
+/// One number of a BVH joint per frame. Rotations turn about the joint's own axes and compose in
+/// the order listed (first listed is outermost).
+enum class BvhChannel { kXposition, kYposition, kZposition, kXrotation, kYrotation, kZrotation };
+
+struct BvhJoint {
+  std::string name;
+  int parent = -1;                                   // -1 for the root; parents before children
+  Eigen::Vector3d offset = Eigen::Vector3d::Zero();  // from the parent, file units
+  std::vector<BvhChannel> channels;                  // each at most once, any order
+  std::vector<Eigen::Vector3d> end_sites;            // from this joint, file units
+};
+
+/// A BVH file in memory. Units are the file's own; angles are degrees.
+struct BvhFile {
+  std::vector<BvhJoint> joints;
+  double frame_s = 1.0 / 30.0;
+  std::vector<double> values;  // row-major, frame x channel, channels in file order
+
+  size_t ChannelCount() const;
+  size_t FrameCount() const;
+};
+
+/// World place and rotation of every joint in one frame, file units.
+struct BvhFramePose {
+  std::vector<Eigen::Vector3d> position;
+  std::vector<Eigen::Quaterniond> rotation;
+};
+BvhFramePose PoseOf(const BvhFile& bvh, size_t frame);
+
+/// Reads any legal file: channel order per joint, 0 to 6 channels, several roots refused. Throws
+/// InputError naming the line. `source` names the text in messages.
+BvhFile ParseBvh(std::string text, const std::string& source);
+BvhFile ReadBvh(const std::filesystem::path& path);
+
+/// Writes with the joint's own channel order; the file appears only when complete.
+std::string FormatBvh(const BvhFile& bvh);
+void WriteBvh(const BvhFile& bvh, const std::filesystem::path& path);
+
+struct BvhExportOptions {
+  int body_id = -1;  // which body of the sequence; -1: the one seen in most frames
+  /// BVH needs a fixed step; the sequence is resampled to it by time (rotations by slerp).
+  double frame_s = 1.0 / 30.0;
+};
+
+/// One body of a skeleton file as a BVH of the 20 SDK joints, centimetres, with constant bone
+/// lengths: the median length of each bone over the frames. The root carries the place, every bone
+/// its rotation; a bone's direction is kept exactly, its twist comes from the joints around it.
+/// Missing joints hold the bone's last direction. Throws InputError when no frame has the body.
+BvhFile BvhOfSkeleton(const SkeletonSequence& sequence, const BvhExportOptions& options = {});
+
+}  // namespace ossa::recon

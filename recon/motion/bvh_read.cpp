@@ -1,0 +1,210 @@
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <numbers>
+#include <string_view>
+
+#include "depth/error.h"
+#include "recon/motion/bvh.h"
+#include "recon/motion/text_scanner_internal.h"
+
+namespace ossa::recon {
+namespace {
+
+constexpr size_t kMaxJoints = 2000;  // a damaged file must not fill the memory
+constexpr std::array<std::string_view, 6> kChannelNames = {"xposition", "yposition", "zposition",
+                                                           "xrotation", "yrotation", "zrotation"};
+
+class Parser {
+ public:
+  Parser(std::string text, const std::string& source) : scan_(std::move(text), source) {}
+
+  BvhFile Run() {
+    scan_.Expect("HIERARCHY");
+    scan_.Expect("ROOT");
+    ReadJoints();
+    const std::string_view next = scan_.PeekWord();
+    if (Lower(next) == "root") {
+      scan_.Word();
+      scan_.Fail("one skeleton, then 'MOTION'", next);
+    }
+    scan_.Expect("MOTION");
+    ReadMotion();
+    return std::move(bvh_);
+  }
+
+ private:
+  /// The tree is walked with an own stack of open joints: a hostile file of a million nested joints
+  /// must not use up the machine's stack.
+  void ReadJoints() {
+    OpenJoint(-1);
+    while (!open_.empty()) {
+      const std::string_view word = scan_.Word();
+      const std::string key = Lower(word);
+      if (key == "offset") {
+        bvh_.joints[Top()].offset = Vector("OFFSET");
+      } else if (key == "channels") {
+        ReadChannels();
+      } else if (key == "joint") {
+        OpenJoint(open_.back());
+      } else if (key == "end") {
+        ReadEndSite();
+      } else if (key == "}") {
+        open_.pop_back();
+      } else {
+        scan_.Fail("OFFSET, CHANNELS, JOINT, End Site or '}' of joint " + bvh_.joints[Top()].name,
+                   word);
+      }
+    }
+  }
+
+  size_t Top() const { return static_cast<size_t>(open_.back()); }
+
+  void OpenJoint(int parent) {
+    BvhJoint joint;
+    joint.parent = parent;
+    for (const std::string_view word : scan_.RestOfLine()) {
+      if (!joint.name.empty()) joint.name += ' ';
+      joint.name += word;
+    }
+    if (joint.name.empty()) scan_.Fail("a joint's name", "nothing");
+    for (const BvhJoint& other : bvh_.joints) {
+      if (other.name == joint.name) scan_.Fail("every joint name once", joint.name);
+    }
+    scan_.Expect("{");
+    if (bvh_.joints.size() == kMaxJoints) {
+      scan_.Fail("at most " + std::to_string(kMaxJoints) + " joints", joint.name);
+    }
+    open_.push_back(static_cast<int>(bvh_.joints.size()));
+    bvh_.joints.push_back(std::move(joint));
+  }
+
+  Eigen::Vector3d Vector(const std::string& what) {
+    const double x = scan_.Number(what + " x"), y = scan_.Number(what + " y");
+    return {x, y, scan_.Number(what + " z")};
+  }
+
+  void ReadChannels() {
+    BvhJoint& joint = bvh_.joints[Top()];
+    if (!joint.channels.empty()) scan_.Fail("CHANNELS once in joint " + joint.name, "CHANNELS");
+    const double count = scan_.Number("the number of channels");
+    if (count < 0 || count > 6 || count != std::floor(count)) {
+      scan_.Fail("0 to 6 channels", std::to_string(count));
+    }
+    for (int i = 0; i < static_cast<int>(count); ++i) {
+      const std::string_view word = scan_.Word();
+      const auto name = std::find(kChannelNames.begin(), kChannelNames.end(), Lower(word));
+      if (name == kChannelNames.end()) {
+        scan_.Fail("a channel such as Xposition or Zrotation", word);
+      }
+      const auto channel = static_cast<BvhChannel>(name - kChannelNames.begin());
+      if (std::count(joint.channels.begin(), joint.channels.end(), channel) > 0) {
+        scan_.Fail("each channel once in joint " + joint.name, word);
+      }
+      joint.channels.push_back(channel);
+    }
+  }
+
+  void ReadEndSite() {
+    scan_.RestOfLine();  // "Site", or a name some exporters put there
+    scan_.Expect("{");
+    scan_.Expect("OFFSET");
+    bvh_.joints[Top()].end_sites.push_back(Vector("End Site OFFSET"));
+    scan_.Expect("}");
+  }
+
+  void ReadMotion() {
+    scan_.Expect("Frames:");
+    const double frames = scan_.Number("the number of frames");
+    if (frames < 1 || frames != std::floor(frames)) {
+      scan_.Fail("a number of frames of at least 1", std::to_string(frames));
+    }
+    scan_.Expect("Frame");
+    scan_.Expect("Time:");
+    bvh_.frame_s = scan_.Number("the frame time");
+    if (bvh_.frame_s < 1e-4 || bvh_.frame_s > 60.0) {
+      scan_.Fail("a frame time between 0.0001 and 60 s", std::to_string(bvh_.frame_s));
+    }
+    const size_t channels = bvh_.ChannelCount();
+    if (channels == 0) scan_.Fail("at least one channel in the file", "none");
+    for (size_t frame = 0; frame < static_cast<size_t>(frames); ++frame) {
+      ReadFrame(frame, static_cast<size_t>(frames), channels);
+    }
+    const auto more = scan_.LineOfWords();
+    if (!more.empty()) {
+      scan_.Fail("nothing after the " + std::to_string(static_cast<size_t>(frames)) + " frames",
+                 more.front());
+    }
+  }
+
+  void ReadFrame(size_t frame, size_t frames, size_t channels) {
+    const auto words = scan_.LineOfWords();
+    if (words.empty()) {
+      scan_.Fail("frame " + std::to_string(frame + 1) + " of " + std::to_string(frames), "");
+    }
+    if (words.size() != channels) {
+      scan_.Fail(std::to_string(channels) + " numbers in a frame",
+                 std::to_string(words.size()) + " numbers");
+    }
+    for (const std::string_view word : words) {
+      bvh_.values.push_back(scan_.ToNumber(word, "a channel's value"));
+    }
+  }
+
+  TextScanner scan_;
+  BvhFile bvh_;
+  std::vector<int> open_;
+};
+
+}  // namespace
+
+size_t BvhFile::ChannelCount() const {
+  size_t count = 0;
+  for (const BvhJoint& joint : joints) count += joint.channels.size();
+  return count;
+}
+
+size_t BvhFile::FrameCount() const {
+  const size_t channels = ChannelCount();
+  return channels == 0 ? 0 : values.size() / channels;
+}
+
+BvhFramePose PoseOf(const BvhFile& bvh, size_t frame) {
+  const double* value = bvh.values.data() + frame * bvh.ChannelCount();
+  BvhFramePose pose;
+  pose.position.reserve(bvh.joints.size());
+  pose.rotation.reserve(bvh.joints.size());
+  for (const BvhJoint& joint : bvh.joints) {
+    // A position channel replaces that component of OFFSET, for the root and for any other joint.
+    Eigen::Vector3d local = joint.offset;
+    Eigen::Quaterniond rotation = Eigen::Quaterniond::Identity();
+    for (const BvhChannel channel : joint.channels) {
+      const int axis = static_cast<int>(channel) % 3;
+      if (channel < BvhChannel::kXrotation) {
+        local[axis] = *value++;
+      } else {
+        const double angle_rad = *value++ * std::numbers::pi / 180.0;
+        rotation = rotation * Eigen::AngleAxisd(angle_rad, Eigen::Vector3d::Unit(axis));
+      }
+    }
+    if (joint.parent < 0) {
+      pose.position.push_back(local);
+      pose.rotation.push_back(rotation);
+    } else {
+      const auto parent = static_cast<size_t>(joint.parent);
+      pose.position.push_back(pose.position[parent] + pose.rotation[parent] * local);
+      pose.rotation.push_back((pose.rotation[parent] * rotation).normalized());
+    }
+  }
+  return pose;
+}
+
+BvhFile ParseBvh(std::string text, const std::string& source) {
+  return Parser(std::move(text), source).Run();
+}
+
+BvhFile ReadBvh(const std::filesystem::path& path) {
+  return ParseBvh(ReadTextFile(path), path.string());
+}
+
+}  // namespace ossa::recon

@@ -1,0 +1,137 @@
+#include <charconv>
+#include <cmath>
+#include <fstream>
+#include <iterator>
+
+#include "depth/error.h"
+#include "recon/motion/text_scanner_internal.h"
+
+namespace ossa::recon {
+namespace {
+
+constexpr uintmax_t kMaxFileBytes = uintmax_t{1} << 30;
+constexpr double kMaxMagnitude = 1e9;  // no length, angle or time of a motion file is larger
+constexpr size_t kQuotedCharacters = 40;
+
+bool IsBlank(char c) { return c == ' ' || c == '\t' || c == '\r' || c == '\f' || c == '\v'; }
+
+std::string Quoted(std::string_view found) {
+  if (found.empty()) return "the end of the file";
+  std::string shown;
+  for (const char c : found.substr(0, kQuotedCharacters)) shown += (c < 32 || c == 127) ? '?' : c;
+  return "'" + shown + (found.size() > kQuotedCharacters ? "...'" : "'");
+}
+
+}  // namespace
+
+TextScanner::TextScanner(std::string text, std::string source)
+    : text_(std::move(text)), source_(std::move(source)) {
+  // Some exporters begin with a UTF-8 byte order mark.
+  if (text_.starts_with("\xEF\xBB\xBF")) at_ = 3;
+}
+
+void TextScanner::Fail(const std::string& expected, std::string_view found) const {
+  throw InputError(source_ + ": line " + std::to_string(word_line_) + ": expected " + expected +
+                   ", found " + Quoted(found));
+}
+
+void TextScanner::SkipBlank() {
+  while (at_ < text_.size() && (IsBlank(text_[at_]) || text_[at_] == '\n')) {
+    if (text_[at_] == '\n') ++line_;
+    ++at_;
+  }
+}
+
+bool TextScanner::AtEndOfLine() const { return at_ >= text_.size() || text_[at_] == '\n'; }
+
+std::string_view TextScanner::CutWord() {
+  const size_t begin = at_;
+  if (at_ < text_.size() && (text_[at_] == '{' || text_[at_] == '}')) {
+    ++at_;
+  } else {
+    while (!AtEndOfLine() && !IsBlank(text_[at_]) && text_[at_] != '{' && text_[at_] != '}') ++at_;
+  }
+  return std::string_view(text_).substr(begin, at_ - begin);
+}
+
+std::string_view TextScanner::Word() {
+  SkipBlank();
+  word_line_ = line_;
+  return CutWord();
+}
+
+std::string_view TextScanner::PeekWord() {
+  SkipBlank();
+  const size_t at = at_;
+  const std::string_view word = CutWord();
+  at_ = at;
+  return word;
+}
+
+std::vector<std::string_view> TextScanner::RestOfLine() {
+  std::vector<std::string_view> words;
+  while (true) {
+    while (!AtEndOfLine() && IsBlank(text_[at_])) ++at_;
+    if (AtEndOfLine() || text_[at_] == '{') return words;
+    words.push_back(CutWord());
+  }
+}
+
+std::vector<std::string_view> TextScanner::LineOfWords() {
+  SkipBlank();
+  word_line_ = line_;
+  std::vector<std::string_view> words;
+  while (true) {
+    while (!AtEndOfLine() && IsBlank(text_[at_])) ++at_;
+    if (AtEndOfLine()) return words;
+    words.push_back(CutWord());
+  }
+}
+
+void TextScanner::Expect(std::string_view word) {
+  const std::string_view found = Word();
+  if (Lower(found) != Lower(word)) Fail("'" + std::string(word) + "'", found);
+}
+
+double TextScanner::Number(const std::string& what) { return ToNumber(Word(), what); }
+
+double TextScanner::ToNumber(std::string_view word, const std::string& what) const {
+  double value = 0.0;
+  const std::string_view digits = word.starts_with('+') ? word.substr(1) : word;
+  const auto [end, error] = std::from_chars(digits.data(), digits.data() + digits.size(), value);
+  const bool whole = end == digits.data() + digits.size();
+  if (error == std::errc::result_out_of_range && whole) value = 0.0;  // 1e-400; huge fails below
+  if ((error != std::errc() && error != std::errc::result_out_of_range) || !whole ||
+      digits.empty()) {
+    Fail(what + " (a number)", word);
+  }
+  if (!std::isfinite(value) || std::abs(value) > kMaxMagnitude) {
+    Fail(what + " (a number below 1e9)", word);
+  }
+  return value;
+}
+
+std::string ReadTextFile(const std::filesystem::path& path) {
+  std::error_code error;
+  const auto size = std::filesystem::file_size(path, error);
+  if (error) throw InputError(path.string() + ": cannot be read: " + error.message());
+  if (size > kMaxFileBytes) {
+    throw InputError(path.string() + ": expected a text of at most 1 GiB, found " +
+                     std::to_string(size) + " bytes");
+  }
+  std::ifstream file(path, std::ios::binary);
+  std::string text(size, '\0');
+  file.read(text.data(), static_cast<std::streamsize>(size));
+  if (!file) throw InputError(path.string() + ": cannot be read");
+  return text;
+}
+
+std::string Lower(std::string_view text) {
+  std::string lower(text);
+  for (char& c : lower) {
+    if (c >= 'A' && c <= 'Z') c = static_cast<char>(c - 'A' + 'a');
+  }
+  return lower;
+}
+
+}  // namespace ossa::recon
