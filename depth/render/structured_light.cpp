@@ -1,0 +1,162 @@
+#include "depth/render/structured_light.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <utility>
+
+namespace ossa::depth {
+namespace {
+
+// Neighbours that differ by more than this share of their depth lie on two surfaces.
+constexpr float kEdgeShare = 0.03F;
+
+/// SplitMix64 of a counter: noise that depends on the place, not on the order of evaluation.
+uint64_t Hash(uint64_t seed, uint64_t place) {
+  uint64_t x = seed + (place + 1) * 0x9E3779B97F4A7C15ULL;
+  x = (x ^ (x >> 30)) * 0xBF58476D1CE4E5B9ULL;
+  x = (x ^ (x >> 27)) * 0x94D049BB133111EBULL;
+  return x ^ (x >> 31);
+}
+
+/// 16 bits of a hash as a number in [0, 1).
+float Uniform(uint64_t hash, int lane) {
+  return static_cast<float>((hash >> (16 * lane)) & 0xFFFF) * (1.0F / 65536.0F);
+}
+
+/// Nearly standard normal: the sum of four uniforms (Irwin-Hall), variance 4 / 12.
+float Normal(uint64_t hash) {
+  const float sum = Uniform(hash, 0) + Uniform(hash, 1) + Uniform(hash, 2) + Uniform(hash, 3);
+  return (sum - 2.0F) * 1.7320508F;
+}
+
+enum Stream : uint64_t { kShiftU = 1, kShiftV = 2, kChance = 3, kWindowNoise = 4, kPixelNoise = 5 };
+
+class Sensor {
+ public:
+  Sensor(const RenderedImage& rendered, const Camera& camera, const StructuredLightOptions& options,
+         uint64_t seed)
+      : rendered_(rendered), options_(options), width_(camera.width), height_(camera.height) {
+    for (uint64_t stream = 0; stream < seeds_.size(); ++stream) seeds_[stream] = Hash(seed, stream);
+    scale_ = static_cast<float>(camera.width) / 640.0F;
+    // The pattern's windows are of the sensor: fewer pixels where the image is scaled down.
+    window_ =
+        std::max(1, static_cast<int>(std::lround(static_cast<float>(options.window_px) * scale_)));
+    disparity_times_depth_ =
+        static_cast<float>(camera.fx / scale_ * options.baseline_m);  // px of 640 × m
+  }
+
+  /// Reads pixel (u, v); returns 0 for no reading, and the rendered pixel it came from.
+  uint16_t Read(int u, int v, int32_t& source) const {
+    const uint64_t window = WindowOf(u, v);
+    const uint64_t chance = Hash(seeds_[kChance], window);
+    const int from_u = std::clamp(u + Shift(kShiftU, window), 0, width_ - 1);
+    const int from_v = std::clamp(v + Shift(kShiftV, window), 0, height_ - 1);
+    float depth_m = rendered_.depth_m.at(from_u, from_v);
+    if (depth_m <= 0.0F || rendered_.lit.at(from_u, from_v) == 0) return 0;
+    if (DropsOut(from_u, from_v, chance)) return 0;
+    const float other_m = AcrossTheEdge(from_u, from_v);
+    if (other_m > 0.0F) {
+      if (Uniform(chance, 0) < options_.edge_dropout) return 0;
+      if (Uniform(chance, 1) < options_.edge_mixed) {
+        depth_m += Uniform(chance, 2) * (other_m - depth_m);
+      }
+    }
+    source = from_v * width_ + from_u;
+    return Quantised_mm(depth_m, window,
+                        static_cast<uint64_t>(v) * 65536 + static_cast<uint64_t>(u));
+  }
+
+  /// Windows slide along the rows, so each row of windows starts somewhere else.
+  uint64_t WindowOf(int u, int v) const {
+    const int row = v / window_;
+    const int phase = static_cast<int>(Hash(seeds_[0], static_cast<uint64_t>(row)) % 8);
+    return static_cast<uint64_t>(row) * 65536 + static_cast<uint64_t>((u + phase) / window_);
+  }
+
+ private:
+  int Shift(Stream stream, uint64_t window) const {
+    const auto sigma_px = static_cast<float>(options_.lateral_noise_px) * scale_;
+    return static_cast<int>(std::lround(sigma_px * Normal(Hash(seeds_[stream], window))));
+  }
+
+  bool DropsOut(int u, int v, uint64_t chance) const {
+    const auto limit = static_cast<float>(options_.grazing_cos);
+    const float incidence = rendered_.incidence.at(u, v);
+    float share = static_cast<float>(options_.dropout);
+    if (incidence < limit) share += std::min(1.0F, 2.0F * (limit - incidence) / limit);
+    return Uniform(chance, 3) < share;
+  }
+
+  /// Depth of the neighbour on another surface, 0 where there is none.
+  float AcrossTheEdge(int u, int v) const {
+    const float here_m = rendered_.depth_m.at(u, v);
+    const int reach = window_ / 2 + 1;
+    for (const auto& [du, dv] : {std::pair{-reach, 0}, {reach, 0}, {0, -reach}, {0, reach}}) {
+      const int nu = u + du;
+      const int nv = v + dv;
+      if (nu < 0 || nv < 0 || nu >= width_ || nv >= height_) continue;
+      const float there_m = rendered_.depth_m.at(nu, nv);
+      if (there_m > 0.0F && std::abs(there_m - here_m) > kEdgeShare * here_m) return there_m;
+    }
+    return 0.0F;
+  }
+
+  uint16_t Quantised_mm(float depth_m, uint64_t window, uint64_t pixel) const {
+    // Half of the variance belongs to the window, half to the pixel: neighbours go together.
+    const float noise_px =
+        static_cast<float>(options_.disparity_noise_px) * 0.70710678F *
+        (Normal(Hash(seeds_[kWindowNoise], window)) + Normal(Hash(seeds_[kPixelNoise], pixel)));
+    const auto step_px = static_cast<float>(options_.disparity_step_px);
+    const float disparity_px =
+        step_px * std::round((disparity_times_depth_ / depth_m + noise_px) / step_px);
+    if (disparity_px <= 0.0F) return 0;
+    const float measured_m = disparity_times_depth_ / disparity_px;
+    if (measured_m < static_cast<float>(options_.nearest_m) ||
+        measured_m > static_cast<float>(options_.farthest_m)) {
+      return 0;
+    }
+    return static_cast<uint16_t>(std::lround(measured_m * 1000.0F));
+  }
+
+  const RenderedImage& rendered_;
+  const StructuredLightOptions& options_;
+  int width_;
+  int height_;
+  int window_ = 1;
+  float scale_ = 1.0F;
+  float disparity_times_depth_ = 0.0F;
+  std::array<uint64_t, 6> seeds_{};
+};
+
+}  // namespace
+
+SensorImage SimulateStructuredLight(const RenderedImage& rendered, const Camera& camera,
+                                    const StructuredLightOptions& options, uint64_t seed) {
+  const Sensor sensor(rendered, camera, options, seed);
+  SensorImage image{{camera.width, camera.height}, {camera.width, camera.height, -1}};
+  for (int v = 0; v < camera.height; ++v) {
+    for (int u = 0; u < camera.width; ++u) {
+      int32_t source = -1;
+      const uint16_t depth_mm = sensor.Read(u, v, source);
+      image.depth_mm.at(u, v) = depth_mm;
+      if (depth_mm > 0) image.source.at(u, v) = source;
+    }
+  }
+  return image;
+}
+
+SensorImage PerfectSensor(const RenderedImage& rendered) {
+  const int w = rendered.depth_m.width;
+  const int h = rendered.depth_m.height;
+  SensorImage image{{w, h}, {w, h, -1}};
+  for (size_t i = 0; i < rendered.depth_m.data.size(); ++i) {
+    const float depth_mm = rendered.depth_m.data[i] * 1000.0F;
+    if (depth_mm < 0.5F || depth_mm > 65534.0F) continue;
+    image.depth_mm.data[i] = static_cast<uint16_t>(std::lround(depth_mm));
+    image.source.data[i] = static_cast<int32_t>(i);
+  }
+  return image;
+}
+
+}  // namespace ossa::depth

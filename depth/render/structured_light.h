@@ -1,0 +1,51 @@
+#pragma once
+#include <cstdint>
+
+#include "depth/image/camera.h"
+#include "depth/image/image.h"
+#include "depth/render/renderer.h"
+
+namespace ossa::depth {
+
+/// How a structured-light sensor (Kinect v1, Xtion) falls short of a perfect one. It matches a
+/// projected pattern in small windows: what it measures is a disparity, in steps, with edges as
+/// ragged as its windows, and nothing where the pattern is not seen.
+struct StructuredLightOptions {
+  double baseline_m = 0.075;
+  /// Disparity step in pixels of a 640-pixel-wide image: 1/8 px gives depth steps of
+  /// z² / (8 f b) = 2.9e-6 z² mm, the 4-5 mm at 1.2 m and 46 mm at 4 m of the real frames
+  /// (FACTS.md).
+  double disparity_step_px = 0.125;
+  /// Standard deviation of the disparity, same pixels. Khoshelham & Elberink 2012, sec. 4: half a
+  /// step, which gives 1.4 mm at 1 m and 23 mm at 4 m.
+  double disparity_noise_px = 0.0625;
+  /// Noise of one matching window is shared by this many pixels each way (640 wide).
+  int window_px = 3;
+  /// Standard deviation of where a window's measure comes from, pixels; Nguyen 2012: 0.8 px.
+  double lateral_noise_px = 0.8;
+  /// Surfaces begin to drop out below this |cos| of incidence and are gone at half of it.
+  double grazing_cos = 0.2;
+  double dropout = 0.002;      // share of windows that fail anywhere
+  double edge_dropout = 0.25;  // ... whose neighbourhood has a depth edge
+  double edge_mixed = 0.04;    // ... that mix near and far instead of choosing
+  double nearest_m = 0.4;      // nothing is read nearer than this, nor
+  double farthest_m = 8.0;     // farther than this
+};
+
+struct SensorImage {
+  Image<uint16_t> depth_mm;  // 0 = no reading
+  /// v * width + u of the rendered pixel whose surface was measured, so that labels can follow it;
+  /// -1 where there is no reading.
+  Image<int32_t> source;
+};
+
+/// The rendered image as the sensor delivers it. `rendered` must have been made with
+/// RenderOptions::projector on: where nothing is lit, nothing is read. Every pixel's noise depends
+/// on (seed, pixel) only.
+SensorImage SimulateStructuredLight(const RenderedImage& rendered, const Camera& camera,
+                                    const StructuredLightOptions& options, uint64_t seed);
+
+/// The rendered image in whole millimetres, nothing lost.
+SensorImage PerfectSensor(const RenderedImage& rendered);
+
+}  // namespace ossa::depth
