@@ -47,11 +47,26 @@ RTCIntersectContext CoherentContext() {
   return context;
 }
 
-void SetCameraRays(const Camera& camera, const Tile& tile, RTCRayHit16& packet) {
+/// Direction of the ray through each column (x) and row (y) at z = 1; padded to whole tiles.
+struct RayGrid {
+  std::vector<float> x;
+  std::vector<float> y;
+
+  explicit RayGrid(const Camera& camera) {
+    for (int u = 0; u < camera.width + kTile; ++u) {
+      x.push_back(static_cast<float>((camera.cx - u) / camera.fx));
+    }
+    for (int v = 0; v < camera.height + kTile; ++v) {
+      y.push_back(static_cast<float>((camera.cy - v) / camera.fy));
+    }
+  }
+};
+
+void SetCameraRays(const RayGrid& grid, const Tile& tile, RTCRayHit16& packet) {
   for (int i = 0; i < kPacket; ++i) {
     packet.ray.org_x[i] = packet.ray.org_y[i] = packet.ray.org_z[i] = 0.0F;
-    packet.ray.dir_x[i] = static_cast<float>((camera.cx - (tile.u0 + i % kTile)) / camera.fx);
-    packet.ray.dir_y[i] = static_cast<float>((camera.cy - (tile.v0 + i / kTile)) / camera.fy);
+    packet.ray.dir_x[i] = grid.x[static_cast<size_t>(tile.u0 + i % kTile)];
+    packet.ray.dir_y[i] = grid.y[static_cast<size_t>(tile.v0 + i / kTile)];
     packet.ray.dir_z[i] = 1.0F;  // so that the ray's parameter is the depth itself
     packet.ray.tnear[i] = 0.0F;
     packet.ray.tfar[i] = std::numeric_limits<float>::infinity();
@@ -207,11 +222,12 @@ RenderedImage Renderer::Render(const Camera& camera, const RenderOptions& option
   const int w = camera.width;
   const int h = camera.height;
   RenderedImage image{{w, h}, {w, h, -1}, {w, h, -1}, {w, h}, {w, h}};
+  const RayGrid grid(camera);
   RTCRayHit16 packet;
   for (int v0 = 0; v0 < h; v0 += kTile) {
     for (int u0 = 0; u0 < w; u0 += kTile) {
       const Tile tile = TileAt(camera, u0, v0);
-      SetCameraRays(camera, tile, packet);
+      SetCameraRays(grid, tile, packet);
       RTCIntersectContext context = CoherentContext();
       rtcIntersect16(tile.valid, scene, &context, &packet);
       if (StoreHits(tile, packet, image) && options.projector) {

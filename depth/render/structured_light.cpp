@@ -30,54 +30,96 @@ float Normal(uint64_t hash) {
   return (sum - 2.0F) * 1.7320508F;
 }
 
-enum Stream : uint64_t { kShiftU = 1, kShiftV = 2, kChance = 3, kWindowNoise = 4, kPixelNoise = 5 };
+/// Two roughly normal numbers of one hash: sums of two uniforms each, variance 2 / 12.
+std::pair<float, float> NormalPair(uint64_t hash) {
+  return {(Uniform(hash, 0) + Uniform(hash, 1) - 1.0F) * 2.4494897F,
+          (Uniform(hash, 2) + Uniform(hash, 3) - 1.0F) * 2.4494897F};
+}
+
+int Rounded(float value) { return static_cast<int>(std::floor(value + 0.5F)); }
+
+enum Stream : uint64_t { kPhase, kShift, kChance, kWindowNoise, kPixelNoise, kStreamCount };
+
+/// What the pixels of one matching window have in common.
+struct Window {
+  int shift_u = 0;
+  int shift_v = 0;
+  uint64_t chance = 0;
+  float noise_px = 0.0F;
+};
 
 class Sensor {
  public:
   Sensor(const RenderedImage& rendered, const Camera& camera, const StructuredLightOptions& options,
          uint64_t seed)
       : rendered_(rendered), options_(options), width_(camera.width), height_(camera.height) {
-    for (uint64_t stream = 0; stream < seeds_.size(); ++stream) seeds_[stream] = Hash(seed, stream);
+    for (uint64_t stream = 0; stream < kStreamCount; ++stream) seeds_[stream] = Hash(seed, stream);
     scale_ = static_cast<float>(camera.width) / 640.0F;
     // The pattern's windows are of the sensor: fewer pixels where the image is scaled down.
-    window_ =
-        std::max(1, static_cast<int>(std::lround(static_cast<float>(options.window_px) * scale_)));
+    window_ = std::max(1, Rounded(static_cast<float>(options.window_px) * scale_));
     disparity_times_depth_ =
         static_cast<float>(camera.fx / scale_ * options.baseline_m);  // px of 640 × m
   }
 
-  /// Reads pixel (u, v); returns 0 for no reading, and the rendered pixel it came from.
-  uint16_t Read(int u, int v, int32_t& source) const {
-    const uint64_t window = WindowOf(u, v);
-    const uint64_t chance = Hash(seeds_[kChance], window);
-    const int from_u = std::clamp(u + Shift(kShiftU, window), 0, width_ - 1);
-    const int from_v = std::clamp(v + Shift(kShiftV, window), 0, height_ - 1);
-    float depth_m = rendered_.depth_m.at(from_u, from_v);
-    if (depth_m <= 0.0F || rendered_.lit.at(from_u, from_v) == 0) return 0;
-    if (DropsOut(from_u, from_v, chance)) return 0;
-    const float other_m = AcrossTheEdge(from_u, from_v);
-    if (other_m > 0.0F) {
-      if (Uniform(chance, 0) < options_.edge_dropout) return 0;
-      if (Uniform(chance, 1) < options_.edge_mixed) {
-        depth_m += Uniform(chance, 2) * (other_m - depth_m);
+  void ReadRowOfWindows(int row, SensorImage& image) const {
+    // Windows slide along the rows, so each row of windows starts somewhere else.
+    const int phase =
+        static_cast<int>(Hash(seeds_[kPhase], static_cast<uint64_t>(row)) % 8) % window_;
+    for (int u0 = -phase; u0 < width_; u0 += window_) {
+      if (!AnythingAround(u0, row * window_)) continue;
+      const Window window = WindowAt(u0 + phase, row);
+      for (int v = row * window_; v < std::min((row + 1) * window_, height_); ++v) {
+        for (int u = std::max(u0, 0); u < std::min(u0 + window_, width_); ++u) {
+          Read(u, v, window, image);
+        }
       }
     }
-    source = from_v * width_ + from_u;
-    return Quantised_mm(depth_m, window,
-                        static_cast<uint64_t>(v) * 65536 + static_cast<uint64_t>(u));
   }
 
-  /// Windows slide along the rows, so each row of windows starts somewhere else.
-  uint64_t WindowOf(int u, int v) const {
-    const int row = v / window_;
-    const int phase = static_cast<int>(Hash(seeds_[0], static_cast<uint64_t>(row)) % 8);
-    return static_cast<uint64_t>(row) * 65536 + static_cast<uint64_t>((u + phase) / window_);
-  }
+  int rows_of_windows() const { return (height_ + window_ - 1) / window_; }
 
  private:
-  int Shift(Stream stream, uint64_t window) const {
+  Window WindowAt(int u, int row) const {
+    const uint64_t place = static_cast<uint64_t>(row) * 65536 + static_cast<uint64_t>(u);
+    const auto [along_u, along_v] = NormalPair(Hash(seeds_[kShift], place));
     const auto sigma_px = static_cast<float>(options_.lateral_noise_px) * scale_;
-    return static_cast<int>(std::lround(sigma_px * Normal(Hash(seeds_[stream], window))));
+    return {Rounded(sigma_px * along_u), Rounded(sigma_px * along_v), Hash(seeds_[kChance], place),
+            Normal(Hash(seeds_[kWindowNoise], place))};
+  }
+
+  /// False where no surface is within reach of the window's shift: most of an empty image.
+  bool AnythingAround(int u0, int v0) const {
+    const int reach = window_ + 1;
+    for (const int v : {v0 - reach, v0, v0 + reach}) {
+      for (const int u : {u0 - reach, u0, u0 + reach}) {
+        const int cu = std::clamp(u, 0, width_ - 1);
+        const int cv = std::clamp(v, 0, height_ - 1);
+        if (rendered_.depth_m.at(cu, cv) > 0.0F) return true;
+      }
+    }
+    return false;
+  }
+
+  /// Reads pixel (u, v) and notes the rendered pixel it came from; leaves both alone when there is
+  /// no reading.
+  void Read(int u, int v, const Window& window, SensorImage& image) const {
+    const int from_u = std::clamp(u + window.shift_u, 0, width_ - 1);
+    const int from_v = std::clamp(v + window.shift_v, 0, height_ - 1);
+    float depth_m = rendered_.depth_m.at(from_u, from_v);
+    if (depth_m <= 0.0F || rendered_.lit.at(from_u, from_v) == 0) return;
+    if (DropsOut(from_u, from_v, window.chance)) return;
+    const float other_m = AcrossTheEdge(from_u, from_v);
+    if (other_m > 0.0F) {
+      if (Uniform(window.chance, 0) < static_cast<float>(options_.edge_dropout)) return;
+      if (Uniform(window.chance, 1) < static_cast<float>(options_.edge_mixed)) {
+        depth_m += Uniform(window.chance, 2) * (other_m - depth_m);
+      }
+    }
+    const uint64_t place = static_cast<uint64_t>(v) * 65536 + static_cast<uint64_t>(u);
+    const uint16_t depth_mm = Quantised_mm(depth_m, window.noise_px, place);
+    if (depth_mm == 0) return;
+    image.depth_mm.at(u, v) = depth_mm;
+    image.source.at(u, v) = from_v * width_ + from_u;
   }
 
   bool DropsOut(int u, int v, uint64_t chance) const {
@@ -102,21 +144,20 @@ class Sensor {
     return 0.0F;
   }
 
-  uint16_t Quantised_mm(float depth_m, uint64_t window, uint64_t pixel) const {
+  uint16_t Quantised_mm(float depth_m, float window_noise, uint64_t pixel) const {
     // Half of the variance belongs to the window, half to the pixel: neighbours go together.
-    const float noise_px =
-        static_cast<float>(options_.disparity_noise_px) * 0.70710678F *
-        (Normal(Hash(seeds_[kWindowNoise], window)) + Normal(Hash(seeds_[kPixelNoise], pixel)));
+    const float noise_px = static_cast<float>(options_.disparity_noise_px) * 0.70710678F *
+                           (window_noise + Normal(Hash(seeds_[kPixelNoise], pixel)));
     const auto step_px = static_cast<float>(options_.disparity_step_px);
     const float disparity_px =
-        step_px * std::round((disparity_times_depth_ / depth_m + noise_px) / step_px);
+        step_px * std::floor((disparity_times_depth_ / depth_m + noise_px) / step_px + 0.5F);
     if (disparity_px <= 0.0F) return 0;
     const float measured_m = disparity_times_depth_ / disparity_px;
     if (measured_m < static_cast<float>(options_.nearest_m) ||
         measured_m > static_cast<float>(options_.farthest_m)) {
       return 0;
     }
-    return static_cast<uint16_t>(std::lround(measured_m * 1000.0F));
+    return static_cast<uint16_t>(measured_m * 1000.0F + 0.5F);
   }
 
   const RenderedImage& rendered_;
@@ -126,7 +167,7 @@ class Sensor {
   int window_ = 1;
   float scale_ = 1.0F;
   float disparity_times_depth_ = 0.0F;
-  std::array<uint64_t, 6> seeds_{};
+  std::array<uint64_t, kStreamCount> seeds_{};
 };
 
 }  // namespace
@@ -135,14 +176,7 @@ SensorImage SimulateStructuredLight(const RenderedImage& rendered, const Camera&
                                     const StructuredLightOptions& options, uint64_t seed) {
   const Sensor sensor(rendered, camera, options, seed);
   SensorImage image{{camera.width, camera.height}, {camera.width, camera.height, -1}};
-  for (int v = 0; v < camera.height; ++v) {
-    for (int u = 0; u < camera.width; ++u) {
-      int32_t source = -1;
-      const uint16_t depth_mm = sensor.Read(u, v, source);
-      image.depth_mm.at(u, v) = depth_mm;
-      if (depth_mm > 0) image.source.at(u, v) = source;
-    }
-  }
+  for (int row = 0; row < sensor.rows_of_windows(); ++row) sensor.ReadRowOfWindows(row, image);
   return image;
 }
 
