@@ -54,10 +54,17 @@ struct BvhExportOptions {
   double frame_s = 1.0 / 30.0;
 };
 
-/// One body of a skeleton file as a BVH of the 20 SDK joints, centimetres, with constant bone
-/// lengths: the median length of each bone over the frames. The root carries the place, every bone
-/// its rotation; a bone's direction is kept exactly, its twist comes from the joints around it.
-/// Missing joints hold the bone's last direction. Throws InputError when no frame has the body.
+/// One body of a skeleton file as a BVH of the 20 SDK joints, centimetres in the sequence's own
+/// axes (camera space), with constant bone lengths: the median of each bone over the frames. The
+/// direction of every bone is kept exactly and the whole is moved to lie nearest to the observed
+/// joints (least squares). A missing joint holds its bone's last direction. Where bones branch,
+/// each has a joint of its own, without length, named after both ends ("HipCenter-Spine"), so that
+/// it can turn alone. Throws InputError when no frame has the body.
 BvhFile BvhOfSkeleton(const SkeletonSequence& sequence, const BvhExportOptions& options = {});
+
+/// The 20 joints of a BVH: by name and in centimetres when it has the SDK's joints (as
+/// BvhOfSkeleton makes them), else by retargeting to the standard body. Throws InputError for
+/// unknown names.
+SkeletonSequence SkeletonOfBvh(const BvhFile& bvh, const std::string& source);
 
 }  // namespace ossa::recon

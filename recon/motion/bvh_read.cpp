@@ -1,11 +1,13 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <memory>
 #include <numbers>
 #include <string_view>
 
 #include "depth/error.h"
 #include "recon/motion/bvh.h"
+#include "recon/motion/bvh_source_internal.h"
 #include "recon/motion/text_scanner_internal.h"
 
 namespace ossa::recon {
@@ -205,6 +207,22 @@ BvhFile ParseBvh(std::string text, const std::string& source) {
 
 BvhFile ReadBvh(const std::filesystem::path& path) {
   return ParseBvh(ReadTextFile(path), path.string());
+}
+
+SourceMotion SourceOf(BvhFile file, const std::string& source) {
+  const auto bvh = std::make_shared<const BvhFile>(std::move(file));
+  SourceMotion motion;
+  motion.source = source;
+  motion.frame_s = bvh->frame_s;
+  motion.frame_count = bvh->FrameCount();
+  for (const BvhJoint& joint : bvh->joints) {
+    motion.joints.push_back({joint.name, joint.parent, joint.offset, joint.end_sites});
+  }
+  motion.frame = [bvh](size_t frame) {
+    BvhFramePose pose = PoseOf(*bvh, frame);
+    return SourceFrame{std::move(pose.position), std::move(pose.rotation)};
+  };
+  return motion;
 }
 
 }  // namespace ossa::recon

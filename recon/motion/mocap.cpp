@@ -2,12 +2,12 @@
 
 #include <algorithm>
 #include <filesystem>
-#include <memory>
 #include <optional>
 
 #include "depth/error.h"
 #include "recon/motion/bone_names_internal.h"
 #include "recon/motion/bvh.h"
+#include "recon/motion/bvh_source_internal.h"
 #include "recon/motion/retarget_internal.h"
 #include "recon/motion/text_scanner_internal.h"
 
@@ -15,22 +15,6 @@ namespace ossa::recon {
 namespace {
 
 namespace fs = std::filesystem;
-
-SourceMotion SourceOf(BvhFile file, const std::string& source) {
-  const auto bvh = std::make_shared<const BvhFile>(std::move(file));
-  SourceMotion motion;
-  motion.source = source;
-  motion.frame_s = bvh->frame_s;
-  motion.frame_count = bvh->FrameCount();
-  for (const BvhJoint& joint : bvh->joints) {
-    motion.joints.push_back({joint.name, joint.parent, joint.offset, joint.end_sites});
-  }
-  motion.frame = [bvh](size_t frame) {
-    BvhFramePose pose = PoseOf(*bvh, frame);
-    return SourceFrame{std::move(pose.position), std::move(pose.rotation)};
-  };
-  return motion;
-}
 
 /// CMU and HDM05 file names begin with the performer: "05_03" is subject 5, "HDM_bk_01" is bk.
 std::string SubjectOf(const std::string& stem) {

@@ -1,0 +1,333 @@
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <map>
+#include <numbers>
+#include <optional>
+
+#include "depth/error.h"
+#include "recon/body/standard_body.h"
+#include "recon/motion/bone_names_internal.h"
+#include "recon/motion/bvh.h"
+#include "recon/motion/bvh_source_internal.h"
+#include "recon/motion/retarget_internal.h"
+
+namespace ossa::recon {
+namespace {
+
+using Eigen::Quaterniond;
+using Eigen::Vector3d;
+
+constexpr double kCentimetres = 100.0;  // of a metre; the unit most programs expect of BVH
+constexpr size_t kJoints = kJointCount;
+constexpr double kMaxFrames = 1e7;  // four days at 30 Hz: beyond it the times are damaged
+
+/// What was seen of the body at one time; empty joints were not.
+struct Sighting {
+  double time_s = 0.0;
+  std::array<std::optional<Vector3d>, kJoints> joint;
+};
+
+int MostSeenBody(const SkeletonSequence& sequence) {
+  std::map<int, int> seen;
+  for (const SkeletonFrame& frame : sequence.frames) {
+    for (const BodyRecord& body : frame.bodies) ++seen[body.id];
+  }
+  const auto most = std::max_element(
+      seen.begin(), seen.end(), [](const auto& a, const auto& b) { return a.second < b.second; });
+  if (most == seen.end()) throw InputError(sequence.source + ": expected a body, found none");
+  return most->first;
+}
+
+std::vector<Sighting> SightingsOf(const SkeletonSequence& sequence, int id) {
+  std::vector<Sighting> sightings;
+  for (const SkeletonFrame& frame : sequence.frames) {
+    for (const BodyRecord& body : frame.bodies) {
+      if (body.id != id) continue;
+      const TrackedPosture tracked = TrackedPostureOf(body);
+      Sighting sighting{frame.time_s, {}};
+      for (size_t j = 0; j < kJoints; ++j) {
+        const Vector3d& place = tracked.posture.position_m[j];
+        if (tracked.state[j] != TrackingState::kNotTracked && place.allFinite()) {
+          sighting.joint[j] = place;
+        }
+      }
+      // Times must go forward; a repeated frame brings nothing new.
+      if (sightings.empty() || frame.time_s > sightings.back().time_s)
+        sightings.push_back(sighting);
+    }
+  }
+  if (sightings.empty()) {
+    throw InputError(sequence.source + ": expected body " + std::to_string(id) +
+                     ", found no frame of it");
+  }
+  return sightings;
+}
+
+std::vector<Sighting> Resampled(const std::vector<Sighting>& sightings, double step_s,
+                                const std::string& source) {
+  const double begin_s = sightings.front().time_s;
+  const double length_s = sightings.back().time_s - begin_s;
+  if (!(length_s <= step_s * kMaxFrames)) {
+    throw InputError(source + ": time_s goes on for " + std::to_string(length_s) +
+                     " s, expected at most ten million frames");
+  }
+  std::vector<Sighting> even;
+  size_t after = 0;
+  for (size_t k = 0; static_cast<double>(k) * step_s <= length_s + 1e-6; ++k) {
+    const double time_s = begin_s + static_cast<double>(k) * step_s;
+    while (after + 1 < sightings.size() && sightings[after].time_s < time_s - 1e-6) ++after;
+    const Sighting& next = sightings[after];
+    const Sighting& last = sightings[after == 0 ? 0 : after - 1];
+    const double gap_s = next.time_s - last.time_s;
+    const double mix = gap_s > 0 ? std::clamp((time_s - last.time_s) / gap_s, 0.0, 1.0) : 1.0;
+    Sighting sighting{time_s, {}};
+    for (size_t j = 0; j < kJoints; ++j) {
+      if (last.joint[j] && next.joint[j]) {
+        sighting.joint[j] = *last.joint[j] + mix * (*next.joint[j] - *last.joint[j]);
+      } else {
+        sighting.joint[j] = mix < 0.5 ? last.joint[j] : next.joint[j];
+      }
+    }
+    even.push_back(sighting);
+  }
+  return even;
+}
+
+BoneLengths MedianLengths(const std::vector<Sighting>& sightings) {
+  const BoneLengths standard = BoneLengthsOf(StandardPosture(RigPose()));
+  BoneLengths lengths = standard;
+  for (size_t j = 1; j < kJoints; ++j) {
+    const auto parent = static_cast<size_t>(kJointParent[j]);
+    std::vector<double> seen;
+    for (const Sighting& s : sightings) {
+      if (s.joint[j] && s.joint[parent]) seen.push_back((*s.joint[j] - *s.joint[parent]).norm());
+    }
+    if (seen.empty()) continue;
+    const auto middle = seen.begin() + static_cast<std::ptrdiff_t>(seen.size() / 2);
+    std::nth_element(seen.begin(), middle, seen.end());
+    lengths[j] = std::max(*middle, 1e-3);
+  }
+  return lengths;
+}
+
+/// Bone directions of the file's rest pose: a T-pose facing +z.
+Vector3d RestDirection(size_t joint) {
+  switch (static_cast<Joint>(joint)) {
+    case Joint::kSpine:
+    case Joint::kShoulderCenter:
+    case Joint::kHead:
+      return Vector3d::UnitY();
+    case Joint::kShoulderLeft:
+    case Joint::kElbowLeft:
+    case Joint::kWristLeft:
+    case Joint::kHandLeft:
+    case Joint::kHipLeft:
+      return Vector3d::UnitX();
+    case Joint::kShoulderRight:
+    case Joint::kElbowRight:
+    case Joint::kWristRight:
+    case Joint::kHandRight:
+    case Joint::kHipRight:
+      return -Vector3d::UnitX();
+    case Joint::kFootLeft:
+    case Joint::kFootRight:
+      return Vector3d::UnitZ();
+    default:
+      return -Vector3d::UnitY();
+  }
+}
+
+bool Branches(size_t joint) {
+  return std::count(kJointParent.begin(), kJointParent.end(), static_cast<int>(joint)) > 1;
+}
+
+/// The joint of the file that turns each bone (bone j ends in joint j): the bone's parent joint, or
+/// its own helper where bones branch.
+struct Layout {
+  std::vector<BvhJoint> joints;
+  std::array<size_t, kJoints> place{};   // file joint at SDK joint j
+  std::array<size_t, kJoints> turner{};  // file joint that turns the bone ending in j
+};
+
+const std::vector<BvhChannel> kTurns = {BvhChannel::kZrotation, BvhChannel::kXrotation,
+                                        BvhChannel::kYrotation};
+
+Layout LayoutOf(const BoneLengths& lengths) {
+  Layout layout;
+  BvhJoint root;
+  root.name = NameOf(Joint::kHipCenter);
+  root.channels = {BvhChannel::kXposition, BvhChannel::kYposition, BvhChannel::kZposition};
+  root.channels.insert(root.channels.end(), kTurns.begin(), kTurns.end());
+  layout.joints.push_back(root);
+  for (size_t j = 1; j < kJoints; ++j) {
+    const auto parent = static_cast<size_t>(kJointParent[j]);
+    layout.turner[j] = layout.place[parent];
+    if (Branches(parent)) {
+      BvhJoint helper;
+      helper.name.append(kJointNames[parent]).append("-").append(kJointNames[j]);
+      helper.parent = static_cast<int>(layout.place[parent]);
+      helper.channels = kTurns;
+      layout.turner[j] = layout.joints.size();
+      layout.joints.push_back(helper);
+    }
+    BvhJoint joint;
+    joint.name = kJointNames[j];
+    joint.parent = static_cast<int>(layout.turner[j]);
+    joint.offset = kCentimetres * lengths[j] * RestDirection(j);
+    joint.channels = kTurns;
+    if (std::count(kJointParent.begin(), kJointParent.end(), static_cast<int>(j)) == 0) {
+      joint.end_sites.push_back(5.0 * RestDirection(j));
+    }
+    layout.place[j] = layout.joints.size();
+    layout.joints.push_back(joint);
+  }
+  return layout;
+}
+
+/// Pelvis (or whole-body) frame: x from right to left hip, y as near to up the spine as can be.
+Quaterniond BodyFrame(const std::array<Vector3d, kJoints>& direction) {
+  Vector3d left = direction[static_cast<size_t>(Index(Joint::kHipLeft))] -
+                  direction[static_cast<size_t>(Index(Joint::kHipRight))];
+  const Vector3d up = direction[static_cast<size_t>(Index(Joint::kSpine))];
+  if (left.cross(up).norm() < 1e-3) left = up.unitOrthogonal();
+  left.normalize();
+  const Vector3d front = left.cross(up).normalized();
+  Eigen::Matrix3d frame;
+  frame << left, front.cross(left), front;
+  return Quaterniond(frame);
+}
+
+/// Angles of R = Rz Rx Ry, degrees.
+Vector3d ZxyDegrees(const Quaterniond& rotation) {
+  const Eigen::Matrix3d r = rotation.toRotationMatrix();
+  const double x = std::asin(std::clamp(r(2, 1), -1.0, 1.0));
+  double z, y;
+  if (std::abs(r(2, 1)) > 1.0 - 1e-9) {  // gimbal lock: only z and y together are known
+    z = std::atan2(r(1, 0), r(0, 0));
+    y = 0.0;
+  } else {
+    z = std::atan2(-r(0, 1), r(1, 1));
+    y = std::atan2(-r(2, 0), r(2, 2));
+  }
+  return Vector3d(z, x, y) * (180.0 / std::numbers::pi);
+}
+
+/// Directions of the bones in a frame; what is missing stays as it was.
+void UpdateDirections(const Sighting& sighting, std::array<Vector3d, kJoints>& direction) {
+  for (size_t j = 1; j < kJoints; ++j) {
+    const auto& from = sighting.joint[static_cast<size_t>(kJointParent[j])];
+    const auto& to = sighting.joint[j];
+    if (from && to && (*to - *from).norm() > 1e-4) direction[j] = (*to - *from).normalized();
+  }
+}
+
+/// The root's place that puts the body of constant lengths nearest to the joints seen.
+std::optional<Vector3d> RootOf(const Sighting& sighting, const BoneLengths& lengths,
+                               const std::array<Vector3d, kJoints>& direction) {
+  std::array<Vector3d, kJoints> built;
+  built[0] = Vector3d::Zero();
+  Vector3d sum = Vector3d::Zero();
+  int seen = 0;
+  for (size_t j = 0; j < kJoints; ++j) {
+    if (j > 0) built[j] = built[static_cast<size_t>(kJointParent[j])] + lengths[j] * direction[j];
+    if (!sighting.joint[j]) continue;
+    sum += *sighting.joint[j] - built[j];
+    ++seen;
+  }
+  if (seen == 0) return std::nullopt;
+  return sum / seen;
+}
+
+void AppendFrame(const Layout& layout, const Vector3d& root_m,
+                 const std::array<Vector3d, kJoints>& direction, std::vector<double>& values) {
+  std::vector<Quaterniond> world(layout.joints.size(), Quaterniond::Identity());
+  world[0] = BodyFrame(direction);
+  for (size_t j = 1; j < kJoints; ++j) {
+    const size_t turner = layout.turner[j];
+    if (turner != 0) {
+      const Quaterniond& carried = world[static_cast<size_t>(layout.joints[turner].parent)];
+      world[turner] =
+          Quaterniond::FromTwoVectors(carried * RestDirection(j), direction[j]) * carried;
+    }
+    world[layout.place[j]] = world[turner];
+  }
+  for (const double place : root_m) values.push_back(kCentimetres * place);
+  for (size_t i = 0; i < layout.joints.size(); ++i) {
+    const Quaterniond local =
+        i == 0 ? world[0]
+               : world[static_cast<size_t>(layout.joints[i].parent)].conjugate() * world[i];
+    for (const double angle : ZxyDegrees(local)) values.push_back(angle);
+  }
+}
+
+bool HasSdkJoints(const BvhFile& bvh) {
+  return std::all_of(kJointNames.begin(), kJointNames.end(), [&](std::string_view name) {
+    return std::any_of(bvh.joints.begin(), bvh.joints.end(),
+                       [&](const BvhJoint& joint) { return joint.name == name; });
+  });
+}
+
+SkeletonFrame FrameOf(const Posture& posture, size_t frame, double frame_s) {
+  BodyRecord body;
+  for (size_t j = 0; j < kJoints; ++j) {
+    JointRecord record;
+    record.position_m = posture.position_m[j];
+    body.joints[j] = record;
+  }
+  SkeletonFrame out;
+  out.frame = static_cast<int64_t>(frame);
+  out.time_s = static_cast<double>(frame) * frame_s;
+  out.bodies.push_back(body);
+  return out;
+}
+
+}  // namespace
+
+BvhFile BvhOfSkeleton(const SkeletonSequence& sequence, const BvhExportOptions& options) {
+  const int id = options.body_id >= 0 ? options.body_id : MostSeenBody(sequence);
+  const auto sightings = Resampled(SightingsOf(sequence, id), options.frame_s, sequence.source);
+  const BoneLengths lengths = MedianLengths(sightings);
+  const Layout layout = LayoutOf(lengths);
+  BvhFile bvh;
+  bvh.joints = layout.joints;
+  bvh.frame_s = options.frame_s;
+  std::array<Vector3d, kJoints> direction;
+  for (size_t j = 0; j < kJoints; ++j) direction[j] = RestDirection(j);
+  // What the first frames lack stands from the beginning as it is first seen.
+  for (auto s = sightings.rbegin(); s != sightings.rend(); ++s) UpdateDirections(*s, direction);
+  Vector3d root_m = Vector3d::Zero();
+  for (const Sighting& sighting : sightings) {
+    UpdateDirections(sighting, direction);
+    root_m = RootOf(sighting, lengths, direction).value_or(root_m);
+    AppendFrame(layout, root_m, direction, bvh.values);
+  }
+  return bvh;
+}
+
+SkeletonSequence SkeletonOfBvh(const BvhFile& bvh, const std::string& source) {
+  SkeletonSequence sequence;
+  sequence.source = source;
+  if (!HasSdkJoints(bvh)) {
+    const SourceMotion motion = SourceOf(bvh, source);
+    const MotionClip clip = Retarget(motion, FindBones(motion, std::nullopt), bvh.frame_s);
+    for (size_t f = 0; f < clip.frames.size(); ++f) {
+      sequence.frames.push_back(FrameOf(StandardPosture(clip.frames[f]), f, bvh.frame_s));
+    }
+    return sequence;
+  }
+  std::array<size_t, kJoints> at{};
+  for (size_t j = 0; j < kJoints; ++j) {
+    while (bvh.joints[at[j]].name != kJointNames[j]) ++at[j];
+  }
+  for (size_t f = 0; f < bvh.FrameCount(); ++f) {
+    const BvhFramePose pose = PoseOf(bvh, f);
+    Posture posture;
+    for (size_t j = 0; j < kJoints; ++j)
+      posture.position_m[j] = pose.position[at[j]] / kCentimetres;
+    sequence.frames.push_back(FrameOf(posture, f, bvh.frame_s));
+  }
+  return sequence;
+}
+
+}  // namespace ossa::recon

@@ -1,0 +1,12 @@
+#pragma once
+#include <string>
+
+#include "recon/motion/bvh.h"
+#include "recon/motion/source_motion_internal.h"
+
+namespace ossa::recon {
+
+/// A BVH as a motion to be retargeted.
+SourceMotion SourceOf(BvhFile file, const std::string& source);
+
+}  // namespace ossa::recon
