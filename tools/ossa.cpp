@@ -13,6 +13,7 @@ using ossa::commands::Command;
 
 constexpr std::array kCommands = {
     Command{"info", "say what a file of ossa's holds", ossa::commands::Info},
+    Command{"record", "record a source to an .oni file", ossa::commands::Record},
 };
 
 int Help(std::FILE* out) {

@@ -1,16 +1,34 @@
+#include <algorithm>
+#include <cctype>
 #include <system_error>
 
 #include "depth/error.h"
 #include "depth/sensor/source_internal.h"
 
 namespace ossa::depth {
+namespace {
+
+constexpr std::string_view kDevicePrefix = "openni:";
+
+bool HasOniExtension(const std::filesystem::path& path) {
+  std::string extension = path.extension().string();
+  std::transform(extension.begin(), extension.end(), extension.begin(),
+                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+  return extension == ".oni";
+}
+
+}  // namespace
 
 std::unique_ptr<FrameSource> OpenSource(const std::string& source, const SourceOptions& options) {
+  if (source.starts_with(kDevicePrefix)) {
+    return OpenOpenNiDevice(source.substr(kDevicePrefix.size()), options);
+  }
   const std::filesystem::path path(source);
   std::error_code error;
   if (std::filesystem::is_directory(path, error)) {
     return IsDataSet(path) ? OpenDataSet(path, options) : OpenFolder(path, options);
   }
+  if (HasOniExtension(path)) return OpenOniFile(path, options);
   throw InputError(source +
                    ": expected openni:, openni:URI, FILE.oni, a folder of 16-bit PNGs or a data "
                    "set, found no such thing");

@@ -1,6 +1,7 @@
 #pragma once
 #include <filesystem>
 #include <memory>
+#include <string>
 
 #include "depth/sensor/frame_source.h"
 
@@ -17,5 +18,13 @@ std::unique_ptr<FrameSource> OpenFolder(const std::filesystem::path& folder,
 bool IsDataSet(const std::filesystem::path& folder);
 std::unique_ptr<FrameSource> OpenDataSet(const std::filesystem::path& folder,
                                          const SourceOptions& options);
+
+/// An .oni recording, played by OpenNI2 in a child process: a file that crashes or hangs the
+/// library is an InputError here, at opening or at the frame where it happens.
+std::unique_ptr<FrameSource> OpenOniFile(const std::filesystem::path& path,
+                                         const SourceOptions& options);
+
+/// A device; an empty URI means the first found.
+std::unique_ptr<FrameSource> OpenOpenNiDevice(const std::string& uri, const SourceOptions& options);
 
 }  // namespace ossa::depth

@@ -4,5 +4,6 @@ namespace ossa::commands {
 
 // One function a subcommand, each in a file of its own name in this folder.
 int Info(int argc, char** argv);
+int Record(int argc, char** argv);
 
 }  // namespace ossa::commands

@@ -1,0 +1,293 @@
+// libossa_virtual.so.0: an OpenNI2 driver module that plays any recording of ours as a live depth
+// camera, so that everything behind a camera runs without one, in ossa and in any OpenNI2 program.
+#include <algorithm>
+#include <condition_variable>
+#include <cstdlib>
+#include <map>
+#include <memory>
+#include <mutex>
+#include <optional>
+#include <thread>
+#include <utility>
+#include <vector>
+
+#include "depth/error.h"
+#include "depth/sensor/drivers/depth_stream_internal.h"
+#include "depth/sensor/drivers/virtual_uri.h"
+#include "depth/sensor/frame_source.h"
+
+namespace ossa::depth {
+namespace {
+
+using Clock = std::chrono::steady_clock;
+using Seconds = std::chrono::duration<double>;
+
+constexpr int kMaxValue = 65535;  // the depths of recordings are below it, or OniRecorder refuses
+
+// A camera outlives its opening: what it plays goes on while it is unplugged.
+class VirtualCamera {
+ public:
+  VirtualCamera(const std::string& uri, const VirtualDeviceOptions& options)
+      : options_(options), source_(OpenSource(options.path)) {
+    CopyName(uri, info_.uri);
+    CopyName("ossa", info_.vendor);
+    CopyName("virtual depth camera", info_.name);
+  }
+
+  const OniDeviceInfo& info() const { return info_; }
+  const VirtualDeviceOptions& options() const { return options_; }
+  const Camera& camera() const { return source_->camera(); }
+  int fps() const { return std::max(1, static_cast<int>(options_.fps.value_or(30.0))); }
+
+  struct Frame {
+    DepthFrame image;
+    int index = 0;
+    Seconds due{0};  // since the camera began to play
+  };
+
+  // The next frame, or none at the end. A frame that cannot be read is passed over: its number is
+  // missing, as with a camera.
+  std::optional<Frame> Next() {
+    for (bool restarted = false;;) {
+      try {
+        ReadResult result = source_->Read(std::chrono::milliseconds(1000));
+        if (result.status == ReadStatus::kFrame) return Timed(std::move(result.frame));
+        if (result.status == ReadStatus::kTimeout) continue;
+        if (!options_.loop || restarted) return std::nullopt;
+        restarted = true;
+        source_ = OpenSource(options_.path);
+        loop_began_ = next_due_;
+      } catch (const InputError&) {
+        ++index_;
+        if (!std::exchange(failed_, true)) continue;
+        return std::nullopt;  // two in a row: the rest is no better
+      }
+    }
+  }
+
+  // When the first frame is due; the clock runs on from the first start.
+  Clock::time_point Began() {
+    if (!began_) began_ = Clock::now();
+    return *began_;
+  }
+
+  // Guarded by the driver's mutex.
+  bool plugged = true;
+  int unplugs_left = 0;
+
+ private:
+  Frame Timed(DepthFrame image) {
+    failed_ = false;
+    const double period_s = 1.0 / options_.fps.value_or(30.0);
+    const Seconds at{options_.fps ? index_ * period_s : image.time_s};
+    const Seconds due = options_.fps ? at : loop_began_ + at;
+    next_due_ = due + Seconds(period_s);
+    return {std::move(image), index_++, due / options_.speed};
+  }
+
+  OniDeviceInfo info_{};
+  VirtualDeviceOptions options_;
+  std::unique_ptr<FrameSource> source_;
+  std::optional<Clock::time_point> began_;
+  int index_ = 0;
+  bool failed_ = false;
+  Seconds loop_began_{0};
+  Seconds next_due_{0};
+};
+
+// What a stream tells its driver.
+class UnplugHandler {
+ public:
+  virtual ~UnplugHandler() = default;
+  virtual void Unplug(VirtualCamera& camera, bool comes_back) = 0;
+};
+
+class VirtualStream final : public DepthStream {
+ public:
+  VirtualStream(VirtualCamera& camera, UnplugHandler& driver)
+      : DepthStream(camera.camera(), camera.fps(), kMaxValue, camera.options().mirror),
+        camera_(camera),
+        driver_(driver) {}
+  ~VirtualStream() override { stop(); }
+
+  OniStatus start() override {
+    stop();
+    stopping_ = false;
+    thread_ = std::thread([this] { Play(); });
+    return ONI_STATUS_OK;
+  }
+
+  void stop() override {
+    {
+      const std::lock_guard lock(mutex_);
+      stopping_ = true;
+    }
+    wake_.notify_all();
+    if (thread_.joinable()) thread_.join();
+  }
+
+ private:
+  bool WaitUntil(Clock::time_point when) {
+    std::unique_lock lock(mutex_);
+    return !wake_.wait_until(lock, when, [this] { return stopping_; });
+  }
+
+  void Play() {
+    const Clock::time_point began = camera_.Began();
+    const auto& options = camera_.options();
+    // A frame late by more than this is lost, as with a camera: after a replug, or a stopped
+    // reader's full second.
+    const Seconds lateness{2.0 / camera_.fps() / options.speed};
+    for (int delivered = 0;;) {
+      const auto frame = camera_.Next();
+      if (!frame) return driver_.Unplug(camera_, false);
+      const auto due = began + std::chrono::duration_cast<Clock::duration>(frame->due);
+      if (Clock::now() - due > lateness) {
+        if (!WaitUntil(Clock::now())) return;
+        continue;
+      }
+      if (!WaitUntil(due)) return;
+      const auto timestamp_us =
+          static_cast<uint64_t>(std::chrono::duration<double, std::micro>(frame->due).count());
+      Deliver(frame->image.depth_mm.data(), frame->index, timestamp_us);
+      ++delivered;
+      if (options.stall_after && delivered >= *options.stall_after) {
+        WaitUntil(Clock::now() + std::chrono::hours(24 * 365));
+        return;
+      }
+      if (options.unplug_after && delivered == *options.unplug_after && camera_.unplugs_left > 0) {
+        return driver_.Unplug(camera_, options.replug_after.count() > 0);
+      }
+    }
+  }
+
+  VirtualCamera& camera_;
+  UnplugHandler& driver_;
+  std::thread thread_;
+  std::mutex mutex_;
+  std::condition_variable wake_;
+  bool stopping_ = false;
+};
+
+class VirtualDevice final : public oni::driver::DeviceBase {
+ public:
+  VirtualDevice(VirtualCamera& camera, UnplugHandler& driver) : camera_(camera), driver_(driver) {
+    mode_ = {ONI_PIXEL_FORMAT_DEPTH_1_MM, camera.camera().width, camera.camera().height,
+             camera.fps()};
+    sensor_ = {ONI_SENSOR_DEPTH, 1, &mode_};
+  }
+
+  OniStatus getSensorInfoList(OniSensorInfo** sensors, int* count) override {
+    *sensors = &sensor_;
+    *count = 1;
+    return ONI_STATUS_OK;
+  }
+  oni::driver::StreamBase* createStream(OniSensorType type) override {
+    return type == ONI_SENSOR_DEPTH ? new VirtualStream(camera_, driver_) : nullptr;
+  }
+  void destroyStream(oni::driver::StreamBase* stream) override { delete stream; }
+
+  OniStatus getProperty(int id, void* data, int* size) override {
+    if (id != ONI_DEVICE_PROPERTY_DRIVER_VERSION) return ONI_STATUS_NOT_SUPPORTED;
+    return AnswerProperty(OniVersion{0, 1, 0, 0}, data, size);
+  }
+  OniBool isPropertySupported(int id) override {
+    return id == ONI_DEVICE_PROPERTY_DRIVER_VERSION ? TRUE : FALSE;
+  }
+
+ private:
+  VirtualCamera& camera_;
+  UnplugHandler& driver_;
+  OniVideoMode mode_{};
+  OniSensorInfo sensor_{};
+};
+
+class VirtualDriver final : public oni::driver::DriverBase, public UnplugHandler {
+ public:
+  explicit VirtualDriver(OniDriverServices* services) : DriverBase(services) {}
+
+  // OSSA_VIRTUAL_DEVICE=ossa://PATH is plugged in from the start: "any device" finds it.
+  OniStatus initialize(oni::driver::DeviceConnectedCallback connected,
+                       oni::driver::DeviceDisconnectedCallback disconnected,
+                       oni::driver::DeviceStateChangedCallback changed, void* cookie) override {
+    DriverBase::initialize(connected, disconnected, changed, cookie);
+    const char* uri = std::getenv("OSSA_VIRTUAL_DEVICE");
+    if (uri != nullptr && *uri != '\0') tryDevice(uri);
+    return ONI_STATUS_OK;
+  }
+
+  OniStatus tryDevice(const char* uri) override {
+    if (std::strncmp(uri, kVirtualScheme, std::strlen(kVirtualScheme)) != 0) {
+      return ONI_STATUS_ERROR;
+    }
+    try {
+      if (std::strlen(uri) >= ONI_MAX_STR) {
+        throw InputError(std::string(uri) + ": expected fewer than 256 characters");
+      }
+      const std::lock_guard lock(mutex_);
+      std::unique_ptr<VirtualCamera>& camera = cameras_[uri];
+      if (!camera) {
+        camera = std::make_unique<VirtualCamera>(uri, ParseVirtualUri(uri));
+        camera->unplugs_left = camera->options().unplugs;
+      }
+      if (!camera->plugged) return ONI_STATUS_ERROR;
+      deviceConnected(&camera->info());
+      return ONI_STATUS_OK;
+    } catch (const std::exception& error) {
+      getServices().errorLoggerAppend("%s", error.what());
+      return ONI_STATUS_ERROR;
+    }
+  }
+
+  oni::driver::DeviceBase* deviceOpen(const char* uri, const char*) override {
+    const std::lock_guard lock(mutex_);
+    const auto found = cameras_.find(uri);
+    if (found == cameras_.end() || !found->second) return nullptr;
+    return new VirtualDevice(*found->second, *this);
+  }
+  void deviceClose(oni::driver::DeviceBase* device) override { delete device; }
+
+  void shutdown() override {
+    {
+      const std::lock_guard lock(mutex_);
+      stopping_ = true;
+    }
+    wake_.notify_all();
+    for (std::thread& thread : replugs_) thread.join();
+    replugs_.clear();
+    cameras_.clear();
+  }
+
+  void Unplug(VirtualCamera& camera, bool comes_back) override {
+    {
+      const std::lock_guard lock(mutex_);
+      camera.plugged = false;
+      --camera.unplugs_left;
+      if (comes_back && !stopping_) {
+        replugs_.emplace_back([this, &camera] { Replug(camera); });
+      }
+    }
+    deviceDisconnected(&camera.info());
+  }
+
+ private:
+  void Replug(VirtualCamera& camera) {
+    {
+      std::unique_lock lock(mutex_);
+      if (wake_.wait_for(lock, camera.options().replug_after, [this] { return stopping_; })) return;
+      camera.plugged = true;
+    }
+    deviceConnected(&camera.info());
+  }
+
+  std::mutex mutex_;
+  std::condition_variable wake_;
+  bool stopping_ = false;
+  std::map<std::string, std::unique_ptr<VirtualCamera>, std::less<>> cameras_;
+  std::vector<std::thread> replugs_;
+};
+
+}  // namespace
+}  // namespace ossa::depth
+
+ONI_EXPORT_DRIVER(ossa::depth::VirtualDriver)

@@ -1,0 +1,141 @@
+#include <optional>
+#include <string>
+
+#include "depth/error.h"
+#include "depth/image/camera_io.h"
+#include "depth/image/depth_png.h"
+#include "depth/sensor/child_process_internal.h"
+#include "depth/sensor/oni_format_internal.h"
+#include "depth/sensor/oni_pipe_internal.h"
+#include "depth/sensor/openni2/openni_depth_internal.h"
+#include "depth/sensor/openni2/runtime_folder.h"
+#include "depth/sensor/source_internal.h"
+
+namespace ossa::depth {
+namespace {
+
+namespace fs = std::filesystem;
+using std::chrono::milliseconds;
+
+// The reader waits 3 s for a frame; one that is silent for longer hangs inside OpenNI2.
+constexpr milliseconds kPatience{10000};
+
+class OniFileSource final : public FrameSource {
+ public:
+  OniFileSource(const fs::path& path, const SourceOptions& options)
+      : name_(path.string()),
+        preamble_(CheckOniFile(path)),
+        child_(OpenNiRuntimeFolder() / "reader/ossa_oni_reader", {fs::absolute(path).string()}) {
+    OniPipeHello hello;
+    OniPipeMessage message;  // an error may come in place of the hello: read what both begin with
+    Take(&hello.magic, sizeof(hello.magic));
+    if (hello.magic != OniPipeHello::kMagic) {
+      message.kind = static_cast<OniPipeKind>(hello.magic);
+      Take(reinterpret_cast<char*>(&message) + sizeof(message.kind),
+           sizeof(message) - sizeof(message.kind));
+      Fail(message);
+    }
+    Take(reinterpret_cast<char*>(&hello) + sizeof(hello.magic),
+         sizeof(hello) - sizeof(hello.magic));
+    camera_ = CameraOf(hello, options);
+    if (hello.frame_count >= 0) frame_count_ = hello.frame_count;
+  }
+
+  ReadResult Read(milliseconds timeout) override {
+    if (ended_) return {.status = ReadStatus::kEnd, .frame = {}};
+    if (child_.WaitForOutput(timeout) == ChildProcess::Outcome::kTimeout) {
+      waited_ += timeout;
+      if (waited_ > kPatience) FailHung();
+      return {.status = ReadStatus::kTimeout, .frame = {}};
+    }
+    waited_ = milliseconds{0};
+    OniPipeMessage message;
+    Take(&message, sizeof(message));
+    if (message.kind == OniPipeKind::kEnd) {
+      ended_ = true;
+      return {.status = ReadStatus::kEnd, .frame = {}};
+    }
+    if (message.kind != OniPipeKind::kFrame) Fail(message);
+    return TakeFrame(message);
+  }
+  const Camera& camera() const override { return camera_; }
+  bool is_live() const override { return false; }
+  std::optional<int64_t> frame_count() const override { return frame_count_; }
+
+ private:
+  Camera CameraOf(const OniPipeHello& hello, const SourceOptions& options) const {
+    if (hello.width <= 0 || hello.height <= 0 || hello.width > kLargestImageSide ||
+        hello.height > kLargestImageSide) {
+      throw InputError(name_ + ": video mode: expected a size, found " +
+                       std::to_string(hello.width) + "x" + std::to_string(hello.height));
+    }
+    if (options.camera) return CameraForSize(*options.camera, hello.width, hello.height);
+    if (preamble_.camera) return CameraForSize(*preamble_.camera, hello.width, hello.height);
+    return CameraFromFieldOfView(hello.width, hello.height, hello.horizontal_fov_rad,
+                                 hello.vertical_fov_rad);
+  }
+
+  ReadResult TakeFrame(const OniPipeMessage& message) {
+    if (message.width <= 0 || message.height <= 0 || message.width > kLargestImageSide ||
+        message.height > kLargestImageSide) {
+      FailHung();
+    }
+    ReadResult result{.status = ReadStatus::kFrame, .frame = {}};
+    result.frame.camera = CameraForSize(camera_, message.width, message.height);
+    result.frame.depth_mm.resize(static_cast<size_t>(message.width) *
+                                 static_cast<size_t>(message.height));
+    Take(result.frame.depth_mm.data(), result.frame.depth_mm.size() * sizeof(uint16_t));
+    result.frame.index = message.index;
+    result.frame.time_s = static_cast<double>(message.timestamp_us) * 1e-6;
+    next_frame_ = message.index + 1;
+    return result;
+  }
+
+  void Take(void* to, size_t size) {
+    switch (child_.ReadExactly(to, size, kPatience)) {
+      case ChildProcess::Outcome::kRead:
+        return;
+      case ChildProcess::Outcome::kTimeout:
+        FailHung();
+      case ChildProcess::Outcome::kClosed:
+        ended_ = true;
+        throw InputError(Place() + "the OpenNI2 library crashed on it (" + child_.Ending() +
+                         "): the recording is damaged");
+    }
+  }
+
+  [[noreturn]] void FailHung() {
+    ended_ = true;
+    throw InputError(Place() + "the OpenNI2 library hangs on it: the recording is damaged");
+  }
+
+  [[noreturn]] void Fail(const OniPipeMessage& message) {
+    constexpr uint32_t kLongest = 1000;
+    std::string text(std::min(message.size, kLongest), ' ');
+    Take(text.data(), text.size());
+    ended_ = true;
+    throw InputError(name_ + ": " + text);
+  }
+
+  std::string Place() const {
+    return name_ + ": " +
+           (next_frame_ > 0 ? "after frame " + std::to_string(next_frame_ - 1) + ": " : "");
+  }
+
+  std::string name_;
+  OniPreamble preamble_;
+  ChildProcess child_;
+  Camera camera_;
+  std::optional<int64_t> frame_count_;
+  milliseconds waited_{0};
+  int64_t next_frame_ = 0;
+  bool ended_ = false;
+};
+
+}  // namespace
+
+std::unique_ptr<FrameSource> OpenOniFile(const fs::path& path, const SourceOptions& options) {
+  return std::make_unique<OniFileSource>(path, options);
+}
+
+}  // namespace ossa::depth

@@ -1,0 +1,135 @@
+#include <xxhash.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstring>
+#include <fstream>
+#include <memory>
+
+#include "depth/error.h"
+#include "depth/image/depth_png.h"
+#include "depth/sensor/oni_format_internal.h"
+
+namespace ossa::depth {
+namespace {
+
+struct Property {
+  std::string_view name;
+  size_t value_at = 0;
+  std::span<const uint8_t> value;
+};
+
+template <typename T>
+T Load(std::span<const uint8_t> bytes, size_t at) {
+  T value{};
+  std::memcpy(&value, bytes.data() + at, sizeof(T));
+  return value;
+}
+
+// A property's fields: name length with its final 0, name, value length, value.
+std::optional<Property> ParseProperty(std::span<const uint8_t> bytes, size_t at, size_t end) {
+  if (end - at < 4) return std::nullopt;
+  const size_t name_size = Load<uint32_t>(bytes, at);
+  if (name_size == 0 || name_size > end - at - 4 || end - at - 4 - name_size < 4) {
+    return std::nullopt;
+  }
+  const size_t value_size = Load<uint32_t>(bytes, at + 4 + name_size);
+  const size_t value_at = at + 8 + name_size;
+  if (value_size > end - value_at) return std::nullopt;
+  return Property{{reinterpret_cast<const char*>(bytes.data() + at + 4), name_size - 1},
+                  value_at,
+                  bytes.subspan(value_at, value_size)};
+}
+
+std::optional<Camera> CameraFrom(std::span<const uint8_t> value) {
+  std::array<double, 6> numbers{};
+  if (value.size() != sizeof(numbers)) return std::nullopt;
+  std::memcpy(numbers.data(), value.data(), sizeof(numbers));
+  const bool sane =
+      std::all_of(numbers.begin(), numbers.end(), [](double x) { return std::isfinite(x); }) &&
+      numbers[0] >= 1 && numbers[0] <= kLargestImageSide && numbers[1] >= 1 &&
+      numbers[1] <= kLargestImageSide && numbers[2] > 0 && numbers[3] > 0;
+  if (!sane) return std::nullopt;
+  return Camera{static_cast<int>(numbers[0]),
+                static_cast<int>(numbers[1]),
+                numbers[2],
+                numbers[3],
+                numbers[4],
+                numbers[5]};
+}
+
+void TakeProperty(const Property& property, OniPreamble* preamble) {
+  if (property.name == kOniCameraProperty) preamble->camera = CameraFrom(property.value);
+  if (property.name == kOniSealProperty && property.value.size() == sizeof(uint64_t)) {
+    preamble->seal = Load<uint64_t>(property.value, 0);
+    preamble->seal_at = property.value_at;
+  }
+}
+
+std::vector<uint8_t> ReadStart(std::ifstream& file, size_t at_most) {
+  std::vector<uint8_t> bytes(at_most);
+  file.read(reinterpret_cast<char*>(bytes.data()), static_cast<std::streamsize>(bytes.size()));
+  bytes.resize(static_cast<size_t>(file.gcount()));
+  return bytes;
+}
+
+uint64_t SealOf(std::ifstream& file, std::vector<uint8_t> start, const OniPreamble& preamble) {
+  const std::unique_ptr<XXH3_state_t, decltype(&XXH3_freeState)> state(XXH3_createState(),
+                                                                       XXH3_freeState);
+  XXH3_64bits_reset(state.get());
+  file.clear();
+  file.seekg(static_cast<std::streamoff>(preamble.size));
+  std::vector<char> buffer(1 << 20);
+  while (file.read(buffer.data(), static_cast<std::streamsize>(buffer.size())), file.gcount() > 0) {
+    XXH3_64bits_update(state.get(), buffer.data(), static_cast<size_t>(file.gcount()));
+  }
+  std::memset(start.data() + preamble.seal_at, 0, sizeof(uint64_t));
+  XXH3_64bits_update(state.get(), start.data(), preamble.size);
+  return XXH3_64bits_digest(state.get());
+}
+
+}  // namespace
+
+OniPreamble ParseOniPreamble(std::span<const uint8_t> bytes) {
+  OniPreamble preamble;
+  size_t at = sizeof(OniFileHeader);
+  while (at <= bytes.size() && bytes.size() - at >= sizeof(OniRecordHeader)) {
+    const auto header = Load<OniRecordHeader>(bytes, at);
+    const auto type = static_cast<OniRecord>(header.type);
+    if (header.magic != OniRecordHeader::kMagic || header.fields_size < sizeof(header) ||
+        header.fields_size > bytes.size() - at || type == OniRecord::kNewData) {
+      break;
+    }
+    const size_t end = at + header.fields_size;
+    if (type == OniRecord::kGeneralProperty) {
+      const auto property = ParseProperty(bytes, at + sizeof(header), end);
+      if (property) TakeProperty(*property, &preamble);
+    }
+    at = end;
+    preamble.size = at;
+    if (header.payload_size != 0 || type == OniRecord::kNodeDataBegin) break;
+  }
+  return preamble;
+}
+
+OniPreamble CheckOniFile(const std::filesystem::path& path) {
+  std::error_code error;
+  std::ifstream file(path, std::ios::binary);
+  if (!std::filesystem::is_regular_file(path, error) || !file) {
+    throw InputError(path.string() + ": expected an .oni recording, found no such file");
+  }
+  constexpr size_t kLongestPreamble = 1 << 16;  // ours is under 2 kB
+  const std::vector<uint8_t> start = ReadStart(file, kLongestPreamble);
+  if (start.size() < sizeof(OniFileHeader) || std::memcmp(start.data(), "NI10", 4) != 0) {
+    throw InputError(path.string() + ": byte 0: expected an .oni recording (NI10), found " +
+                     std::to_string(start.size()) + " bytes of something else");
+  }
+  const OniPreamble preamble = ParseOniPreamble(start);
+  if (preamble.seal && SealOf(file, start, preamble) != *preamble.seal) {
+    throw InputError(path.string() + ": byte " + std::to_string(preamble.seal_at) +
+                     ": checksum: the recording is damaged or cut short");
+  }
+  return preamble;
+}
+
+}  // namespace ossa::depth

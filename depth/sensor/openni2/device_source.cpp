@@ -1,0 +1,220 @@
+#include <algorithm>
+#include <array>
+#include <atomic>
+#include <cmath>
+#include <cstring>
+#include <string>
+#include <thread>
+
+#include "depth/error.h"
+#include "depth/image/camera_io.h"
+#include "depth/sensor/drivers/camera_property_internal.h"
+#include "depth/sensor/openni2/openni_depth_internal.h"
+#include "depth/sensor/source_internal.h"
+
+namespace ossa::depth {
+namespace {
+
+using Clock = std::chrono::steady_clock;
+using std::chrono::milliseconds;
+
+// How long one wait inside OpenNI2 lasts: a stream of an unplugged device just times out, so that
+// the unplugged flag must be looked at between short waits.
+constexpr milliseconds kSlice{100};
+
+// Sets a flag when the device goes; called on the driver's thread, where nothing else is allowed.
+class UnplugFlag final : public openni::OpenNI::DeviceDisconnectedListener {
+ public:
+  UnplugFlag() { openni::OpenNI::addDeviceDisconnectedListener(this); }
+  ~UnplugFlag() override { openni::OpenNI::removeDeviceDisconnectedListener(this); }
+
+  void Watch(const std::string& uri) {
+    uri_ = uri;
+    set_ = false;
+  }
+  bool IsSet() const { return set_; }
+
+ private:
+  void onDeviceDisconnected(const openni::DeviceInfo* info) override {
+    if (uri_ == info->getUri()) set_ = true;
+  }
+  std::string uri_;  // written only while no device is open
+  std::atomic<bool> set_ = false;
+};
+
+std::string FirstDevice() {
+  openni::Array<openni::DeviceInfo> devices;
+  openni::OpenNI::enumerateDevices(&devices);
+  return devices.getSize() > 0 ? devices[0].getUri() : "";
+}
+
+// Our own drivers know the exact camera, others at least the field of view.
+Camera CameraOf(const openni::VideoStream& stream, int width, int height) {
+  std::array<double, 6> exact{};
+  int size = sizeof(exact);
+  if (stream.isPropertySupported(kCameraProperty) &&
+      stream.getProperty(kCameraProperty, exact.data(), &size) == openni::STATUS_OK) {
+    return {width, height, exact[2], exact[3], exact[4], exact[5]};
+  }
+  return CameraFromFieldOfView(width, height, stream.getHorizontalFieldOfView(),
+                               stream.getVerticalFieldOfView());
+}
+
+// OpenNI2 itself keeps but the newest frame of a stream, so that a slow reader loses old frames and
+// never falls behind; the frame numbers tell how many.
+class DeviceSource final : public FrameSource {
+ public:
+  DeviceSource(std::string uri, const SourceOptions& options)
+      : wanted_uri_(std::move(uri)), options_(options) {
+    const auto deadline = Clock::now() + options.device_wait;
+    while (!TryOpen()) {
+      if (Clock::now() >= deadline) FailToOpen();
+      std::this_thread::sleep_for(kSlice);
+    }
+  }
+
+  ~DeviceSource() override { Close(); }
+
+  ReadResult Read(milliseconds timeout) override {
+    const auto deadline = Clock::now() + timeout;
+    if (!open_) return Reopen(deadline);
+    do {
+      openni::VideoStream* streams = &stream_;
+      int ready = -1;
+      const auto left = std::chrono::ceil<milliseconds>(deadline - Clock::now());
+      const milliseconds slice = std::clamp(left, milliseconds{0}, kSlice);
+      // A frame that is there is given even when the device has just gone.
+      if (openni::OpenNI::waitForAnyStream(&streams, 1, &ready, static_cast<int>(slice.count())) ==
+          openni::STATUS_OK) {
+        return TakeFrame();
+      }
+      if (unplugged_.IsSet()) {
+        Close();
+        return Result(ReadStatus::kDisconnected);
+      }
+    } while (Clock::now() < deadline);
+    return Result(ReadStatus::kTimeout);
+  }
+  const Camera& camera() const override { return camera_; }
+  bool is_live() const override { return true; }
+  std::optional<int64_t> frame_count() const override { return std::nullopt; }
+
+ private:
+  static ReadResult Result(ReadStatus status) { return {.status = status, .frame = {}}; }
+
+  [[noreturn]] void FailToOpen() const {
+    const std::string name = "openni:" + wanted_uri_;
+    if (wanted_uri_.empty() && FirstDevice().empty()) {
+      throw InputError(name + ": no OpenNI2 device found: plug one in, or name one as openni:URI");
+    }
+    throw InputError(name + ": cannot be opened: " + error_);
+  }
+
+  bool TryOpen() {
+    const std::string uri = wanted_uri_.empty() ? FirstDevice() : wanted_uri_;
+    if (uri.empty()) return false;
+    unplugged_.Watch(uri);
+    if (device_.open(uri.c_str()) != openni::STATUS_OK ||
+        stream_.create(device_, openni::SENSOR_DEPTH) != openni::STATUS_OK || !StartStream()) {
+      error_ = OpenNiError();
+      Close();
+      return false;
+    }
+    open_ = true;
+    return true;
+  }
+
+  bool StartStream() {
+    stream_.setMirroringEnabled(false);  // drivers mirror by default; those that cannot, say so
+    mirrored_ = stream_.getMirroringEnabled();
+    const openni::VideoMode mode = stream_.getVideoMode();
+    const int width = mode.getResolutionX();
+    const int height = mode.getResolutionY();
+    period_s_ = 1.0 / std::max(mode.getFps(), 1);
+    camera_ = options_.camera ? CameraForSize(*options_.camera, width, height)
+                              : CameraOf(stream_, width, height);
+    return stream_.start() == openni::STATUS_OK;
+  }
+
+  void Close() {
+    stream_.stop();
+    stream_.destroy();
+    device_.close();
+    open_ = false;
+    after_gap_ = true;
+  }
+
+  ReadResult Reopen(Clock::time_point deadline) {
+    do {
+      if (TryOpen()) return Result(ReadStatus::kTimeout);  // plugged in again: frames will come
+      std::this_thread::sleep_for(std::min<Clock::duration>(
+          kSlice, std::max<Clock::duration>(deadline - Clock::now(), milliseconds{1})));
+    } while (Clock::now() < deadline);
+    return Result(ReadStatus::kDisconnected);
+  }
+
+  ReadResult TakeFrame() {
+    openni::VideoFrameRef frame;
+    if (stream_.readFrame(&frame) != openni::STATUS_OK || !frame.isValid()) {
+      return Result(ReadStatus::kTimeout);
+    }
+    ReadResult result = Result(ReadStatus::kFrame);
+    try {
+      result.frame.depth_mm = MillimetresOf(frame, mirrored_);
+    } catch (const InputError& error) {
+      throw InputError("openni:" + wanted_uri_ + ": " + error.what());
+    }
+    result.frame.camera = CameraForSize(camera_, frame.getWidth(), frame.getHeight());
+    const double sensor_s = static_cast<double>(frame.getTimestamp()) * 1e-6;
+    if (last_index_ < 0) {
+      time_offset_s_ = -sensor_s;
+    } else if (after_gap_) {
+      result.dropped = CountGap(sensor_s);
+    } else {
+      result.dropped = std::max<int64_t>(frame.getFrameIndex() - last_device_index_ - 1, 0);
+    }
+    after_gap_ = false;
+    last_device_index_ = frame.getFrameIndex();
+    last_index_ += 1 + result.dropped;
+    result.frame.index = last_index_;
+    last_time_s_ = std::max(sensor_s + time_offset_s_, last_time_s_);
+    result.frame.time_s = last_time_s_;
+    last_frame_at_ = Clock::now();
+    return result;
+  }
+
+  // After a replug the device's clock and numbers may begin anew: time goes on by our own clock,
+  // and the frames of the gap count as dropped.
+  int64_t CountGap(double sensor_s) {
+    const double gap_s = std::chrono::duration<double>(Clock::now() - last_frame_at_).count();
+    time_offset_s_ = last_time_s_ + gap_s - sensor_s;
+    return std::max<int64_t>(std::llround(gap_s / period_s_) - 1, 0);
+  }
+
+  OpenNiSession session_;  // first: ends last
+  UnplugFlag unplugged_;
+  std::string wanted_uri_;
+  SourceOptions options_;
+  openni::Device device_;
+  openni::VideoStream stream_;
+  std::string error_ = "no reason given";
+  Camera camera_;
+  bool open_ = false;
+  bool mirrored_ = false;
+  bool after_gap_ = true;
+  double period_s_ = 1.0 / 30.0;
+  double time_offset_s_ = 0.0;  // our time minus the device's
+  double last_time_s_ = 0.0;
+  int64_t last_index_ = -1;
+  int64_t last_device_index_ = 0;
+  Clock::time_point last_frame_at_;
+};
+
+}  // namespace
+
+std::unique_ptr<FrameSource> OpenOpenNiDevice(const std::string& uri,
+                                              const SourceOptions& options) {
+  return std::make_unique<DeviceSource>(uri, options);
+}
+
+}  // namespace ossa::depth

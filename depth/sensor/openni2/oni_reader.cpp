@@ -1,0 +1,143 @@
+// ossa_oni_reader FILE.oni: plays a recording through OpenNI2 and writes its frames to standard
+// output. A program of its own so that a file that crashes, hangs or bloats the OpenNI2 library
+// ends this process and not the one that wants the frames.
+#include <sys/resource.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <chrono>
+#include <climits>
+#include <cstdlib>
+#include <string>
+#include <thread>
+
+#include "depth/error.h"
+#include "depth/sensor/oni_pipe_internal.h"
+#include "depth/sensor/openni2/openni_depth_internal.h"
+
+namespace ossa::depth {
+namespace {
+
+constexpr int kFrameTimeout_ms = 3000;
+
+void WriteAll(const void* data, size_t size) {
+  const char* at = static_cast<const char*>(data);
+  while (size > 0) {
+    const ssize_t written = write(STDOUT_FILENO, at, size);
+    if (written <= 0) _exit(0);  // nobody reads any more
+    at += written;
+    size -= static_cast<size_t>(written);
+  }
+}
+
+void SendError(const std::string& text) {
+  OniPipeMessage message;
+  message.kind = OniPipeKind::kError;
+  message.size = static_cast<uint32_t>(text.size());
+  WriteAll(&message, sizeof(message));
+  WriteAll(text.data(), text.size());
+}
+
+// The player spins when the file ends badly: no orphan may do so for ever.
+void EndWithTheParent(pid_t parent) {
+  std::thread([parent] {
+    while (getppid() == parent) std::this_thread::sleep_for(std::chrono::seconds(1));
+    _exit(0);
+  }).detach();
+}
+
+void LimitMemory() {
+  constexpr rlim_t kMost = rlim_t{2} << 30;
+  const rlimit limit{kMost, kMost};
+  setrlimit(RLIMIT_AS, &limit);
+  const rlimit no_core{0, 0};
+  setrlimit(RLIMIT_CORE, &no_core);
+}
+
+void SendFrame(const openni::VideoFrameRef& frame, bool mirrored, int64_t index) {
+  const auto depth_mm = MillimetresOf(frame, mirrored);
+  OniPipeMessage message;
+  message.kind = OniPipeKind::kFrame;
+  message.width = frame.getWidth();
+  message.height = frame.getHeight();
+  message.index = index;
+  message.timestamp_us = frame.getTimestamp();
+  WriteAll(&message, sizeof(message));
+  WriteAll(depth_mm.data(), depth_mm.size() * sizeof(uint16_t));
+}
+
+// As many frames as the file says, or until none comes when it does not say (a recorder was
+// killed). readFrame past the end never returns, so each is waited for first.
+void SendFrames(openni::VideoStream& stream, int frame_count) {
+  const bool known = frame_count >= 0;
+  const bool mirrored = stream.getMirroringEnabled();
+  for (int64_t i = 0; !known || i < frame_count; ++i) {
+    openni::VideoStream* streams = &stream;
+    int ready = -1;
+    if (openni::OpenNI::waitForAnyStream(&streams, 1, &ready, kFrameTimeout_ms) !=
+        openni::STATUS_OK) {
+      if (!known && i > 0) break;
+      throw InputError("frame " + std::to_string(i) + ": expected " +
+                       (known ? std::to_string(frame_count) : "some") +
+                       " frames, found none after it: the recording is cut short or damaged");
+    }
+    openni::VideoFrameRef frame;
+    if (stream.readFrame(&frame) != openni::STATUS_OK || !frame.isValid()) {
+      throw InputError("frame " + std::to_string(i) + ": cannot be read: " + OpenNiError());
+    }
+    try {
+      SendFrame(frame, mirrored, i);
+    } catch (const InputError& error) {
+      throw InputError("frame " + std::to_string(i) + ": " + error.what());
+    }
+  }
+  WriteAll(&static_cast<const OniPipeMessage&>(OniPipeMessage{}), sizeof(OniPipeMessage));
+}
+
+void Play(const char* path) {
+  const OpenNiSession session;
+  openni::Device device;
+  if (device.open(path) != openni::STATUS_OK) {
+    throw InputError("OpenNI2 cannot open it: damaged or cut short");
+  }
+  openni::VideoStream stream;
+  if (stream.create(device, openni::SENSOR_DEPTH) != openni::STATUS_OK) {
+    throw InputError("expected a depth stream, found none");
+  }
+  openni::PlaybackControl* playback = device.getPlaybackControl();
+  if (playback == nullptr) throw InputError("expected a recording, found a device");
+  playback->setRepeatEnabled(false);
+  playback->setSpeed(-1);  // lock step: any other speed drops frames
+  const openni::VideoMode mode = stream.getVideoMode();
+  // Kept in 32 bits, -1 (written as all ones) when the recorder was killed.
+  const int frame_count = playback->getNumberOfFrames(stream);
+  const OniPipeHello hello{OniPipeHello::kMagic,
+                           mode.getResolutionX(),
+                           mode.getResolutionY(),
+                           stream.getHorizontalFieldOfView(),
+                           stream.getVerticalFieldOfView(),
+                           frame_count};
+  WriteAll(&hello, sizeof(hello));
+  if (frame_count == 0) {
+    WriteAll(&static_cast<const OniPipeMessage&>(OniPipeMessage{}), sizeof(OniPipeMessage));
+    return;
+  }
+  if (stream.start() != openni::STATUS_OK) throw InputError("cannot be played: " + OpenNiError());
+  SendFrames(stream, frame_count);
+}
+
+}  // namespace
+}  // namespace ossa::depth
+
+int main(int argc, char** argv) {
+  if (argc != 2) return 2;
+  ossa::depth::LimitMemory();
+  ossa::depth::EndWithTheParent(getppid());
+  try {
+    ossa::depth::Play(argv[1]);
+  } catch (const std::exception& error) {
+    ossa::depth::SendError(error.what());
+  }
+  // No shutdown of a library that may be damaged: leave at once.
+  _exit(0);
+}

@@ -1,0 +1,87 @@
+#include "depth/sensor/openni2/openni_depth_internal.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstring>
+#include <mutex>
+#include <sstream>
+
+#include "depth/error.h"
+
+namespace ossa::depth {
+namespace {
+
+// OpenNI2 counts initialisations without a lock.
+std::mutex& SessionMutex() {
+  static std::mutex mutex;
+  return mutex;
+}
+
+}  // namespace
+
+OpenNiSession::OpenNiSession() {
+  const std::lock_guard lock(SessionMutex());
+  if (openni::OpenNI::initialize() != openni::STATUS_OK) {
+    throw InputError("OpenNI2: cannot be started: " + OpenNiError());
+  }
+}
+
+OpenNiSession::~OpenNiSession() {
+  const std::lock_guard lock(SessionMutex());
+  openni::OpenNI::shutdown();
+}
+
+std::string OpenNiError() {
+  // Lines of growing generality, each ended by tabs and newlines: the first says most.
+  std::istringstream words(openni::OpenNI::getExtendedError());
+  std::string text;
+  for (std::string word; words >> word;) {
+    if (word == "DeviceOpen:" && !text.empty()) break;
+    text += (text.empty() ? "" : " ") + word;
+  }
+  return text.empty() ? "no reason given" : text;
+}
+
+std::vector<uint16_t> MillimetresOf(const openni::VideoFrameRef& frame, bool mirrored) {
+  const auto format = frame.getVideoMode().getPixelFormat();
+  const bool tenths = format == openni::PIXEL_FORMAT_DEPTH_100_UM;
+  if (format != openni::PIXEL_FORMAT_DEPTH_1_MM && !tenths) {
+    throw InputError("expected depths in millimetres, found pixel format " +
+                     std::to_string(static_cast<int>(format)));
+  }
+  const int width = frame.getWidth();
+  const int height = frame.getHeight();
+  const int stride = frame.getStrideInBytes();
+  if (width <= 0 || height <= 0 || stride < 2 * width ||
+      int64_t{stride} * (height - 1) + 2 * width > frame.getDataSize()) {
+    throw InputError("expected " + std::to_string(width) + "x" + std::to_string(height) +
+                     " depths, found a frame of " + std::to_string(frame.getDataSize()) + " bytes");
+  }
+  std::vector<uint16_t> depth_mm(static_cast<size_t>(width) * static_cast<size_t>(height));
+  for (int v = 0; v < height; ++v) {
+    uint16_t* row = depth_mm.data() + static_cast<ptrdiff_t>(v) * width;
+    std::memcpy(row, static_cast<const char*>(frame.getData()) + ptrdiff_t{stride} * v,
+                2 * static_cast<size_t>(width));
+    if (tenths) {
+      std::transform(row, row + width, row,
+                     [](uint16_t d) { return static_cast<uint16_t>((d + 5) / 10); });
+    }
+    if (mirrored) std::reverse(row, row + width);
+  }
+  return depth_mm;
+}
+
+Camera CameraFromFieldOfView(int width, int height, double horizontal_rad, double vertical_rad) {
+  const auto focal = [](int pixels, double fov_rad) {
+    return pixels / (2 * std::tan(fov_rad / 2));
+  };
+  constexpr double kLeast_rad = 0.01;
+  constexpr double kMost_rad = 3.1;
+  const bool known = horizontal_rad > kLeast_rad && horizontal_rad < kMost_rad &&
+                     vertical_rad > kLeast_rad && vertical_rad < kMost_rad;
+  if (!known) return KinectV1Camera(width, height);
+  return {width,       height,      focal(width, horizontal_rad), focal(height, vertical_rad),
+          width / 2.0, height / 2.0};
+}
+
+}  // namespace ossa::depth

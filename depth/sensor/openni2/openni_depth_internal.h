@@ -1,0 +1,32 @@
+#pragma once
+// Helpers around OpenNI2's C++ interface, shared by the device source and the .oni reader.
+#include <OpenNI.h>
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "depth/image/camera.h"
+
+namespace ossa::depth {
+
+/// Between OpenNI::initialize and OpenNI::shutdown; OpenNI2 counts them itself.
+class OpenNiSession {
+ public:
+  OpenNiSession();  // throws InputError when OpenNI2 or its drivers cannot be loaded
+  ~OpenNiSession();
+  OpenNiSession(const OpenNiSession&) = delete;
+  OpenNiSession& operator=(const OpenNiSession&) = delete;
+};
+
+/// OpenNI2's account of its last error, as one line.
+std::string OpenNiError();
+
+/// Millimetres of a depth frame, whole images only: 100-µm depths are rounded, mirrored images
+/// turned back. Throws InputError for pixel formats without depths and for cropped frames.
+std::vector<uint16_t> MillimetresOf(const openni::VideoFrameRef& frame, bool mirrored);
+
+/// The pinhole camera of a field of view, centre of the image.
+Camera CameraFromFieldOfView(int width, int height, double horizontal_rad, double vertical_rad);
+
+}  // namespace ossa::depth

@@ -1,0 +1,135 @@
+#include <fmt/format.h>
+
+#include <CLI/CLI.hpp>
+#include <chrono>
+#include <optional>
+#include <string>
+
+#include "depth/error.h"
+#include "depth/image/camera_io.h"
+#include "depth/sensor/frame_source.h"
+#include "depth/sensor/oni_recorder.h"
+#include "tools/commands/command.h"
+#include "tools/commands/commands.h"
+
+namespace ossa::commands {
+namespace {
+
+using Clock = std::chrono::steady_clock;
+using std::chrono::milliseconds;
+
+constexpr double kPeriod_s = 1.0 / 30.0;
+
+struct RecordOptions {
+  std::string source;
+  std::string out;
+  std::string camera;
+  double seconds = 0.0;  // 0: to the end, or Ctrl-C
+  double wait_s = 0.0;
+  double patience_s = 5.0;
+  bool quiet = false;
+};
+
+enum class Ending { kComplete, kUnplugged, kSilent };
+
+struct Recorded {
+  int64_t frames = 0;
+  int64_t dropped = 0;
+  double seconds = 0.0;  // from the first frame's beginning to the last one's end
+  Ending ending = Ending::kComplete;
+};
+
+RecordOptions ParseOptions(int argc, char** argv) {
+  CLI::App app(
+      "Record any SOURCE to an .oni file that OpenNI2, NiViewer and ossa play bit for bit");
+  RecordOptions options;
+  app.add_option("SOURCE", options.source,
+                 "openni: (first device), openni:URI, FILE.oni, a folder of 16-bit PNGs or a "
+                 "DATASET; openni:ossa://PATH plays the last three as a live device")
+      ->required();
+  app.add_option("--out", options.out, "the recording, FILE.oni")->required();
+  app.add_option("--seconds", options.seconds,
+                 "stop after so long (default: at the end, or Ctrl-C)")
+      ->check(CLI::PositiveNumber);
+  app.add_option("--camera", options.camera, "kinect-v1 or fx,fy,cx,cy in pixels");
+  app.add_option("--wait", options.wait_s, "wait so many seconds for a device to be plugged in")
+      ->check(CLI::NonNegativeNumber);
+  app.add_option("--patience", options.patience_s,
+                 "give up on a device that is unplugged or silent for so many seconds (default 5)")
+      ->check(CLI::PositiveNumber);
+  app.add_flag("--quiet", options.quiet, "no progress");
+  Parse(app, argc, argv);
+  if (!options.out.ends_with(".oni")) {
+    throw UsageError("--out: expected a name that ends in .oni, found '" + options.out + "'");
+  }
+  return options;
+}
+
+milliseconds Milliseconds(double seconds) {
+  return milliseconds(static_cast<int64_t>(seconds * 1000.0));
+}
+
+// Takes frames until the source ends, the time is up, Ctrl-C comes or a device is given up.
+Recorded RecordFrames(depth::FrameSource& source, const RecordOptions& options,
+                      depth::OniRecorder& recorder) {
+  Recorded recorded;
+  Progress progress("recording", options.quiet);
+  auto last_frame_at = Clock::now();
+  std::optional<double> first_time_s;
+  const double known_s = static_cast<double>(source.frame_count().value_or(0)) * kPeriod_s;
+  const double total_s = options.seconds > 0 ? options.seconds : known_s;
+  while (!Interrupted()) {
+    const depth::ReadResult result = source.Read(milliseconds(100));
+    if (result.status == depth::ReadStatus::kEnd) break;
+    if (result.status == depth::ReadStatus::kFrame) {
+      last_frame_at = Clock::now();
+      if (!first_time_s) first_time_s = result.frame.time_s;
+      recorder.Write(result.frame);
+      ++recorded.frames;
+      recorded.dropped += result.dropped;
+      recorded.seconds = result.frame.time_s - *first_time_s + kPeriod_s;
+      if (total_s > 0) progress.Update(recorded.seconds, total_s);
+      if (options.seconds > 0 && recorded.seconds > options.seconds - kPeriod_s / 2) break;
+    } else if (source.is_live() &&
+               Clock::now() - last_frame_at > Milliseconds(options.patience_s)) {
+      recorded.ending =
+          result.status == depth::ReadStatus::kDisconnected ? Ending::kUnplugged : Ending::kSilent;
+      break;
+    }
+  }
+  return recorded;
+}
+
+// A device that goes for good ends a recording; only one that was to be longer has failed then.
+int Report(const RecordOptions& options, const Recorded& recorded) {
+  const std::string summary = fmt::format("{}: {} frames, {:.1f} s, {} dropped", options.out,
+                                          recorded.frames, recorded.seconds, recorded.dropped);
+  constexpr double kNearEnough_s = 0.1;
+  const bool complete =
+      recorded.ending == Ending::kComplete ||
+      (recorded.ending == Ending::kUnplugged && recorded.seconds > options.seconds - kNearEnough_s);
+  if (!complete) {
+    const char* what = recorded.ending == Ending::kUnplugged ? "unplugged" : "delivers no frames";
+    throw InputError(fmt::format("{}: the device {} for {:g} s: the recording ends early ({})",
+                                 options.source, what, options.patience_s, summary));
+  }
+  if (!options.quiet) fmt::print("{}\n", summary);
+  return 0;
+}
+
+}  // namespace
+
+int Record(int argc, char** argv) {
+  const RecordOptions options = ParseOptions(argc, argv);
+  depth::SourceOptions source_options;
+  source_options.device_wait = Milliseconds(options.wait_s);
+  if (!options.camera.empty()) source_options.camera = depth::ParseCamera(options.camera);
+  const auto source = depth::OpenSource(options.source, source_options);
+  depth::OniRecorder recorder(options.out, source->camera());
+  const Recorded recorded = RecordFrames(*source, options, recorder);
+  if (recorded.frames == 0) throw InputError(options.source + ": no frame came");
+  recorder.Finish();
+  return Report(options, recorded);
+}
+
+}  // namespace ossa::commands
