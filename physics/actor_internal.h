@@ -1,0 +1,99 @@
+#pragma once
+#include <map>
+#include <memory>
+#include <span>
+
+#include "physics/character_internal.h"
+#include "physics/world.h"
+
+namespace ossa::physics {
+
+/// A pin between the end of a bone and a point of the world: a ball joint with the compliance of a
+/// stiff spring, so that what contradicts it bends it instead of tearing the character apart.
+class Pin {
+ public:
+  Pin(OdeWorld& ode, Character& character, size_t joint, const Eigen::Vector3d& place_m,
+      double stiffness_n_m);
+  ~Pin();
+  Pin(const Pin&) = delete;
+  Pin& operator=(const Pin&) = delete;
+
+  /// Before each substep: the anchor is at most `kReach_m` from the joint, which bounds the force.
+  void Update(double h_s);
+  const Eigen::Vector3d& place_m() const { return place_m_; }
+  void MoveTo(const Eigen::Vector3d& place_m) { place_m_ = place_m; }
+
+ private:
+  Character& character_;
+  size_t joint_;
+  Eigen::Vector3d place_m_;
+  double stiffness_n_m_;
+  dJointID ball_;
+};
+
+/// Decides when a foot carries the body, from where its target goes (Shum & Ho 2012, sec. 6.1).
+class FootPin {
+ public:
+  explicit FootPin(size_t joint) : joint_(joint) {}
+  void Update(OdeWorld& ode, Character& character, const std::optional<Eigen::Vector4d>& floor,
+              const Eigen::Vector3d& target_m, double dt_s);
+  void Clear();
+  Pin* pin() { return pin_.get(); }
+  const Pin* pin() const { return pin_.get(); }
+  size_t joint() const { return joint_; }
+
+ private:
+  bool Stands(double height_m, double radius_m) const;
+
+  size_t joint_;
+  std::unique_ptr<Pin> pin_;
+  std::optional<Eigen::Vector3d> smooth_m_;  // the target, smoothed
+  double still_s_ = 0.0;                     // for how long the target has not moved
+  double away_s_ = 0.0;                      // for how long it has been away from the pin
+  double beside_s_ = 0.0;                    // for how long it has rested a little beside the pin
+};
+
+/// A character with what it wants and what holds it.
+struct Actor {
+  Actor(OdeWorld& ode, const recon::BoneLengths& lengths, const CharacterOptions& options, int tag);
+
+  void Place(const recon::Posture& posture);
+  void SetTarget(const recon::Posture& target, std::span<const double> weight);
+  /// Once per frame: floor, feet, constraints; fills `from`, `aim` and the stiffness.
+  void Prepare(OdeWorld& ode, const std::optional<Eigen::Vector4d>& floor, double dt_s);
+  /// Once per substep, `left_s` before the end of the frame.
+  void Drive(const Eigen::Vector3d& gravity_m_s2, double left_s, double h_s);
+
+  recon::BoneLengths lengths;
+  CharacterOptions options;
+  Character character;
+  bool controlled = true;
+  recon::Posture wanted;  // as SetTarget was told, made finite
+  std::array<double, recon::kJointCount> weight{};
+  recon::Posture aim, last_aim;  // with bone lengths, above the floor
+  std::array<Eigen::Vector3d, recon::kJointCount> aim_velocity_m_s;
+  ControlTarget control;
+  std::array<FootPin, 2> foot_pin = {FootPin(15), FootPin(19)};
+  std::map<size_t, Eigen::Vector3d> soft_constraint;
+  std::map<size_t, std::unique_ptr<Pin>> hard_constraint;
+  std::vector<std::pair<size_t, Eigen::Vector3d>> pushes;  // impulses for the next step
+  double dodge_left_s = 0.0;  // raised arms stay up for a moment after the threat has passed
+};
+
+/// Height of a point above the plane a b c d.
+inline double HeightAbove(const Eigen::Vector4d& floor, const Eigen::Vector3d& point) {
+  return floor.head<3>().dot(point) + floor[3];
+}
+
+/// Something that flies at a head: when and how near it will come.
+struct Threat {
+  double time_s;
+  double distance_m;
+};
+std::optional<Threat> ThreatTo(const Eigen::Vector3d& head_m, const Eigen::Vector3d& head_velocity,
+                               const ObjectState& object);
+
+/// Sec. 8.2: moves the targets of elbows, wrists and hands so that the forearms cover the head.
+void RaiseForearms(const recon::BoneLengths& lengths, recon::Posture& target);
+
+}  // namespace ossa::physics

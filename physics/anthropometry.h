@@ -1,0 +1,46 @@
+#pragma once
+#include <array>
+
+#include "recon/posture.h"
+
+namespace ossa::physics {
+
+/// Mechanics of one segment of the character: the bone that ends in a joint.
+struct Segment {
+  double length_m = 0.0;
+  double mass_kg = 0.0;
+  double radius_m = 0.0;                 // of its capsule
+  double transverse_inertia_kgm2 = 0.0;  // about any axis across the bone, through its middle
+  double axial_inertia_kgm2 = 0.0;       // about the bone
+  double capsule_from = 0.0;             // where along the bone the capsule's axis starts and ends,
+  double capsule_to = 1.0;               // as fractions of the length from the parent joint
+};
+
+/// Entry i is the bone that ends in joint i; entry 0 is unused.
+using Segments = std::array<Segment, recon::kJointCount>;
+
+/// Stature from bone lengths: legs, trunk and head bones plus what lies beyond them (the foot's
+/// height 0.039 H and half the head 0.065 H, Drillis & Contini 1966 as printed in Winter 2009).
+double StatureOf(const recon::BoneLengths& lengths);
+
+/// Masses and radii of gyration of P. de Leva, "Adjustments to Zatsiorsky-Seluyanov's segment
+/// inertia parameters", J. Biomechanics 29(9), 1996, table 4 (mean of men and women), on the
+/// character's own bone lengths. Limb radii follow from mass, length and the density of tissue;
+/// trunk, head, hands and feet from breadths as fractions of stature (Winter 2009, fig. 4.1).
+///
+/// Departure: de Leva has three trunk segments, the Kinect skeleton five trunk bones. The lower
+/// trunk is shared by the two hip bones, the middle trunk is the spine bone's, the upper trunk is
+/// shared by the bone to the shoulder centre and the two shoulder bones.
+/// Departure: centres of mass lie in the middle of the bones (de Leva: 40-58 % along), because then
+/// a bone's weight hangs in equal halves on its two joints, which gravity compensation and the
+/// control's derivation use.
+///
+/// `stature_m` and `mass_kg` of 0 are estimated: StatureOf, and a body mass index of 22.
+Segments SegmentsOf(const recon::BoneLengths& lengths, double stature_m = 0.0,
+                    double mass_kg = 0.0);
+
+/// Mass hanging on each joint when every bone gives half of its own to each end. Sums to the
+/// body's.
+std::array<double, recon::kJointCount> LumpedMasses(const Segments& segments);
+
+}  // namespace ossa::physics

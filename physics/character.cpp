@@ -1,0 +1,308 @@
+#include <algorithm>
+#include <cmath>
+
+#include "physics/character_internal.h"
+#include "physics/world.h"
+
+namespace ossa::physics {
+namespace {
+
+using Eigen::Quaterniond;
+using Eigen::Vector3d;
+using recon::kJointCount;
+using recon::kJointParent;
+
+Vector3d AxisOf(dBodyID body) {
+  const dReal* r = dBodyGetRotation(body);  // row-major 3 x 4
+  return {r[1], r[5], r[9]};
+}
+
+/// Rotation vector of `q`, the short way round.
+Vector3d RotationVector(Quaterniond q) {
+  if (q.w() < 0.0) q.coeffs() = -q.coeffs();
+  const double sine = q.vec().norm();
+  if (sine < 1e-12) return 2.0 * q.vec();
+  return q.vec() * (2.0 * std::atan2(sine, q.w()) / sine);
+}
+
+}  // namespace
+
+Character::Character(OdeWorld& ode, const Segments& segments, Control control, int tag)
+    : segments_(segments), lumped_kg_(LumpedMasses(segments)) {
+  for (size_t bone = 1; bone < kJointCount; ++bone) MakeBody(ode, bone, tag);
+  for (size_t bone = 2; bone < kJointCount; ++bone) MakeJoint(ode, bone, control);
+  if (control == Control::kMotor) {
+    root_motor_ = dJointCreateLMotor(ode.world, nullptr);
+    dJointAttach(root_motor_, body_[1], nullptr);
+    dJointSetLMotorNumAxes(root_motor_, 3);
+    motor_[1] = dJointCreateAMotor(ode.world, nullptr);
+    dJointAttach(motor_[1], body_[1], nullptr);
+    dJointSetAMotorMode(motor_[1], dAMotorUser);
+    dJointSetAMotorNumAxes(motor_[1], 3);
+    for (int axis = 0; axis < 3; ++axis) {
+      const Vector3d e = Vector3d::Unit(axis);
+      dJointSetLMotorAxis(root_motor_, axis, 0, e.x(), e.y(), e.z());
+      dJointSetAMotorAxis(motor_[1], axis, 0, e.x(), e.y(), e.z());
+    }
+  }
+}
+
+Character::~Character() {
+  for (const dGeomID geom : geom_) {
+    if (geom != nullptr) dGeomDestroy(geom);
+  }
+  for (const auto& joints : {ball_, motor_}) {
+    for (const dJointID joint : joints) {
+      if (joint != nullptr) dJointDestroy(joint);
+    }
+  }
+  if (root_motor_ != nullptr) dJointDestroy(root_motor_);
+  for (const dBodyID body : body_) {
+    if (body != nullptr) dBodyDestroy(body);
+  }
+}
+
+void Character::MakeBody(OdeWorld& ode, size_t bone, int tag) {
+  const Segment& segment = segments_[bone];
+  const dBodyID body = body_[bone] = dBodyCreate(ode.world);
+  dMass mass;
+  dMassSetParameters(&mass, segment.mass_kg, 0, 0, 0, segment.transverse_inertia_kgm2,
+                     segment.axial_inertia_kgm2, segment.transverse_inertia_kgm2, 0, 0, 0);
+  dBodySetMass(body, &mass);
+  // The explicit gyroscopic term gains energy in thin bodies; a limb's is far below control forces.
+  dBodySetGyroscopicMode(body, 0);
+  dBodySetAutoDisableFlag(body, 0);
+  dBodySetMaxAngularSpeed(body, 100.0);
+  total_mass_kg_ += segment.mass_kg;
+
+  const double from = segment.capsule_from * segment.length_m;
+  const double to = segment.capsule_to * segment.length_m;
+  const double cylinder = std::max(to - from - segment.radius_m, 0.01);
+  const dGeomID geom = geom_[bone] = dCreateCapsule(ode.space, segment.radius_m, cylinder);
+  dGeomSetBody(geom, body);
+  // ODE's capsules lie along z, our bones along y.
+  dMatrix3 z_to_y;
+  dRFromAxisAndAngle(z_to_y, 1, 0, 0, -0.5 * M_PI);
+  dGeomSetOffsetRotation(geom, z_to_y);
+  dGeomSetOffsetPosition(geom, 0, 0.5 * (from + to) - 0.5 * segment.length_m, 0);
+  // Feet and shanks reach to their ends: the caps are part of the bone there.
+  dGeomSetData(geom, reinterpret_cast<void*>(static_cast<intptr_t>(tag)));
+}
+
+void Character::MakeJoint(OdeWorld& ode, size_t bone, Control control) {
+  const dBodyID child = body_[bone], parent = body_[BodyParentOf(bone)];
+  ball_[bone] = dJointCreateBall(ode.world, nullptr);
+  dJointAttach(ball_[bone], child, parent);
+  if (control != Control::kMotor) return;
+  motor_[bone] = dJointCreateAMotor(ode.world, nullptr);
+  dJointAttach(motor_[bone], child, parent);
+  dJointSetAMotorMode(motor_[bone], dAMotorUser);
+  dJointSetAMotorNumAxes(motor_[bone], 3);
+  for (int axis = 0; axis < 3; ++axis) {
+    const Vector3d e = Vector3d::Unit(axis);
+    dJointSetAMotorAxis(motor_[bone], axis, 0, e.x(), e.y(), e.z());
+  }
+}
+
+double Character::OffsetOfJoint(size_t joint) const {
+  return joint == 0 ? -0.5 * segments_[1].length_m : 0.5 * segments_[joint].length_m;
+}
+
+void Character::Place(const recon::Posture& posture, const recon::JointOrientations& orientation) {
+  for (size_t bone = 1; bone < kJointCount; ++bone) {
+    const auto parent = static_cast<size_t>(kJointParent[bone]);
+    const Vector3d middle = 0.5 * (posture.position_m[bone] + posture.position_m[parent]);
+    dBodySetPosition(body_[bone], middle.x(), middle.y(), middle.z());
+    SetRotation(body_[bone], orientation[bone]);
+    dBodySetAngularVel(body_[bone], 0, 0, 0);
+    dBodySetForce(body_[bone], 0, 0, 0);
+    dBodySetTorque(body_[bone], 0, 0, 0);
+  }
+  SetVelocity(Vector3d::Zero());
+  // A ball joint remembers its place in both bodies from the moment the anchor is set.
+  for (size_t bone = 2; bone < kJointCount; ++bone) {
+    const Vector3d anchor = posture.position_m[static_cast<size_t>(kJointParent[bone])];
+    dJointSetBallAnchor(ball_[bone], anchor.x(), anchor.y(), anchor.z());
+  }
+}
+
+void Character::SetVelocity(const Vector3d& velocity_m_s) {
+  for (size_t bone = 1; bone < kJointCount; ++bone) {
+    dBodySetLinearVel(body_[bone], velocity_m_s.x(), velocity_m_s.y(), velocity_m_s.z());
+  }
+}
+
+bool Character::IsFinite() const {
+  for (size_t bone = 1; bone < kJointCount; ++bone) {
+    const dReal* q = dBodyGetQuaternion(body_[bone]);
+    const Vector3d p = ToEigen(dBodyGetPosition(body_[bone]));
+    const Vector3d v = ToEigen(dBodyGetLinearVel(body_[bone]));
+    const Vector3d w = ToEigen(dBodyGetAngularVel(body_[bone]));
+    if (!p.allFinite() || !v.allFinite() || !w.allFinite()) return false;
+    if (!std::isfinite(q[0] + q[1] + q[2] + q[3]) || p.norm() > 1e4) return false;
+  }
+  return true;
+}
+
+Vector3d Character::JointPosition(size_t joint) const {
+  const dBodyID body = body_[BodyOfJoint(joint)];
+  return ToEigen(dBodyGetPosition(body)) + OffsetOfJoint(joint) * AxisOf(body);
+}
+
+Vector3d Character::JointVelocity(size_t joint) const {
+  const dBodyID body = body_[BodyOfJoint(joint)];
+  return ToEigen(dBodyGetLinearVel(body)) +
+         ToEigen(dBodyGetAngularVel(body)).cross(OffsetOfJoint(joint) * AxisOf(body));
+}
+
+recon::Posture Character::posture() const {
+  recon::Posture posture;
+  Vector3d drift = Vector3d::Zero();  // mass-weighted, of the rebuilt bones from the bodies
+  posture.position_m[0] = JointPosition(0);
+  for (size_t bone = 1; bone < kJointCount; ++bone) {
+    const Vector3d& start = posture.position_m[static_cast<size_t>(kJointParent[bone])];
+    const Vector3d along = segments_[bone].length_m * AxisOf(body_[bone]).normalized();
+    posture.position_m[bone] = start + along;
+    drift +=
+        segments_[bone].mass_kg * (start + 0.5 * along - ToEigen(dBodyGetPosition(body_[bone])));
+  }
+  for (auto& p : posture.position_m) p -= drift / total_mass_kg_;
+  return posture;
+}
+
+recon::JointOrientations Character::orientation() const {
+  recon::JointOrientations orientation;
+  orientation[0] = Quaterniond::Identity();
+  for (size_t bone = 1; bone < kJointCount; ++bone) {
+    orientation[bone] = QuaternionToEigen(dBodyGetQuaternion(body_[bone])).normalized();
+  }
+  return orientation;
+}
+
+double Character::MaxAnchorGap() const {
+  double gap = 0.0;
+  for (size_t bone = 2; bone < kJointCount; ++bone) {
+    dVector3 a, b;
+    dJointGetBallAnchor(ball_[bone], a);
+    dJointGetBallAnchor2(ball_[bone], b);
+    gap = std::max(gap, (ToEigen(a) - ToEigen(b)).norm());
+  }
+  return gap;
+}
+
+Vector3d Character::Momentum() const {
+  Vector3d momentum = Vector3d::Zero();
+  for (size_t bone = 1; bone < kJointCount; ++bone) {
+    momentum += segments_[bone].mass_kg * ToEigen(dBodyGetLinearVel(body_[bone]));
+  }
+  return momentum;
+}
+
+void Character::AddForceAtJoint(size_t joint, const Vector3d& force_n) {
+  const Vector3d at = JointPosition(joint);
+  dBodyAddForceAtPos(body_[BodyOfJoint(joint)], force_n.x(), force_n.y(), force_n.z(), at.x(),
+                     at.y(), at.z());
+}
+
+void Character::Drive(const ControlTarget& target, const ControlGains& gains,
+                      const Vector3d& gravity_m_s2, double h_s) {
+  CarryWeight(target, gravity_m_s2);
+  if (root_motor_ != nullptr) {
+    DriveMotors(target, gains, h_s);
+  } else {
+    DrivePositions(target, gains);
+    DriveAxes(target, gains);
+  }
+}
+
+/// Departure: the weight of a controlled joint is carried by the controller, else the character
+/// would hang g / w^2 (5 mm) below its target. A joint let go of falls.
+void Character::CarryWeight(const ControlTarget& target, const Vector3d& gravity_m_s2) {
+  for (size_t joint = 0; joint < kJointCount; ++joint) {
+    if (target.stiffness[joint] > 0.0) AddForceAtJoint(joint, -lumped_kg_[joint] * gravity_m_s2);
+  }
+}
+
+void Character::DrivePositions(const ControlTarget& target, const ControlGains& gains) {
+  for (size_t joint = 0; joint < kJointCount; ++joint) {
+    if (target.stiffness[joint] <= 0.0) continue;
+    AddForceAtJoint(joint, ControlForce(gains, target.stiffness[joint], lumped_kg_[joint],
+                                        target.position_m[joint] - JointPosition(joint),
+                                        target.velocity_m_s[joint] - JointVelocity(joint)));
+  }
+}
+
+/// Eq. 2 / 17. The rotation about a bone's axis moves no joint, so each bone answers for itself.
+void Character::DriveAxes(const ControlTarget& target, const ControlGains& gains) {
+  for (size_t bone = 1; bone < kJointCount; ++bone) {
+    if (target.stiffness[bone] <= 0.0) continue;
+    const Quaterniond now = QuaternionToEigen(dBodyGetQuaternion(body_[bone]));
+    const Vector3d axis = AxisOf(body_[bone]);
+    // The target's frame swung onto the present axis leaves the difference about it.
+    const Quaterniond swing =
+        Quaterniond::FromTwoVectors(target.orientation[bone] * Vector3d::UnitY(), axis);
+    const Vector3d x_target = swing * (target.orientation[bone] * Vector3d::UnitX());
+    const Vector3d x_now = now * Vector3d::UnitX();
+    const double angle = std::atan2(axis.dot(x_now.cross(x_target)), x_now.dot(x_target));
+    const double rate = axis.dot(ToEigen(dBodyGetAngularVel(body_[bone])));
+    const double torque = ControlTorque(gains, target.stiffness[bone],
+                                        segments_[bone].axial_inertia_kgm2, angle, -rate);
+    const Vector3d t = torque * axis;
+    dBodyAddTorque(body_[bone], t.x(), t.y(), t.z());
+  }
+}
+
+/// The alternative: a servo per ball joint that turns each bone, relative to its parent, towards
+/// the target's orientation, and a linear one that carries the trunk. The servo's speed is gain x
+/// error; gain h = 0.15 stays far below the limit of 2 and makes the lag that of the positional
+/// control (2 / w). Solved with the joints, it needs no derivation to be stable.
+void Character::DriveMotors(const ControlTarget& target, const ControlGains& gains, double h_s) {
+  const double gain = std::min(0.5 * gains.rate_rad_s, 0.5 / h_s);
+  const auto set = [](dJointID motor, bool linear, const Vector3d& speed, double bound) {
+    constexpr std::array<int, 3> kVelocity = {dParamVel1, dParamVel2, dParamVel3};
+    constexpr std::array<int, 3> kBound = {dParamFMax1, dParamFMax2, dParamFMax3};
+    for (size_t axis = 0; axis < 3; ++axis) {
+      const double v = speed[static_cast<Eigen::Index>(axis)];
+      (linear ? dJointSetLMotorParam : dJointSetAMotorParam)(motor, kVelocity[axis], v);
+      (linear ? dJointSetLMotorParam : dJointSetAMotorParam)(motor, kBound[axis], bound);
+    }
+  };
+  for (size_t bone = 1; bone < kJointCount; ++bone) {
+    const size_t parent = BodyParentOf(bone);
+    const Quaterniond now = QuaternionToEigen(dBodyGetQuaternion(body_[bone]));
+    const Quaterniond parent_now = parent == 0
+                                       ? Quaterniond::Identity()
+                                       : QuaternionToEigen(dBodyGetQuaternion(body_[parent]));
+    const Quaterniond parent_target =
+        parent == 0 ? Quaterniond::Identity() : target.orientation[parent];
+    const Quaterniond wanted = parent_now * parent_target.conjugate() * target.orientation[bone];
+    const bool held = target.stiffness[bone] > 0.0;
+    // Torque bound: what the force bound at the bone's far end and all beyond it would give.
+    const double bound = gains.max_acceleration_m_s2 * 0.3 * segments_[bone].length_m *
+                         (bone == 1 ? total_mass_kg_ : 4.0 * segments_[bone].mass_kg);
+    set(motor_[bone], false,
+        gain * target.stiffness[bone] * RotationVector(wanted * now.conjugate()),
+        held ? bound : 0.0);
+  }
+  const Vector3d middle = 0.5 * (target.position_m[0] + target.position_m[1]);
+  const Vector3d error = middle - ToEigen(dBodyGetPosition(body_[1]));
+  set(root_motor_, true, gain * target.stiffness[0] * error + target.velocity_m_s[0],
+      target.stiffness[0] > 0.0 ? total_mass_kg_ * gains.max_acceleration_m_s2 : 0.0);
+}
+
+const std::vector<std::array<size_t, 2>>& SelfCollisionPairs() {
+  static const std::vector<std::array<size_t, 2>> pairs = [] {
+    std::vector<std::array<size_t, 2>> list;
+    for (const size_t arm : {6, 7, 10, 11}) {
+      for (const size_t trunk : {1, 2, 3}) list.push_back({arm, trunk});
+    }
+    for (const size_t left : {14, 15}) {
+      for (const size_t right : {18, 19}) list.push_back({left, right});
+    }
+    list.push_back({6, 10});
+    return list;
+  }();
+  return pairs;
+}
+
+}  // namespace ossa::physics

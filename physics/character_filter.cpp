@@ -1,0 +1,167 @@
+#include "physics/character_filter.h"
+
+#include <cmath>
+#include <stdexcept>
+#include <string>
+
+namespace ossa::physics {
+namespace {
+
+using recon::kJointCount;
+using recon::Posture;
+
+constexpr double kLongestStep_s = 0.25;
+
+bool Complete(const Posture& posture) {
+  for (const auto& p : posture.position_m) {
+    if (!p.allFinite() || p.cwiseAbs().maxCoeff() > 1000.0) return false;
+  }
+  return true;
+}
+
+/// Mean distance over the joints that are known in the target.
+double MeanDistance(const Posture& a, const Posture& target) {
+  double sum = 0.0;
+  int count = 0;
+  for (size_t i = 0; i < kJointCount; ++i) {
+    if (!target.position_m[i].allFinite()) continue;
+    sum += (a.position_m[i] - target.position_m[i]).norm();
+    ++count;
+  }
+  return count == 0 ? 0.0 : sum / count;
+}
+
+/// A T-pose at the origin: where a character waits whose first target is not complete.
+Posture TPose(const recon::BoneLengths& lengths);
+
+}  // namespace
+
+struct CharacterFilter::Impl {
+  Impl(const recon::BoneLengths& bone_lengths, const CharacterFilterOptions& filter_options);
+
+  bool MustPlace(const Posture& target, double dt_s);
+  void PlaceAt(const Posture& target);
+
+  CharacterFilterOptions options;
+  World world;
+  int character = 0;
+  bool alive = false;  // has been placed since the start or the last Reset
+  int far_frames = 0;
+};
+
+namespace {
+
+Posture TPose(const recon::BoneLengths& lengths) {
+  using Eigen::Vector3d;
+  const auto& direction = [](size_t joint) -> Vector3d {
+    if (joint <= 3) return Vector3d::UnitY();
+    if (joint <= 7 || joint == 12) return Vector3d::UnitX();
+    if (joint <= 11 || joint == 16) return -Vector3d::UnitX();
+    if (joint == 15 || joint == 19) return Vector3d::UnitZ();
+    return -Vector3d::UnitY();
+  };
+  Posture posture;
+  for (size_t i = 1; i < kJointCount; ++i) {
+    const auto parent = static_cast<size_t>(recon::kJointParent[i]);
+    posture.position_m[i] = posture.position_m[parent] + lengths[i] * direction(i);
+  }
+  return posture;
+}
+
+WorldOptions WorldOptionsOf(const CharacterFilterOptions& options) {
+  WorldOptions world;
+  world.substeps = options.substeps;
+  world.seed = options.seed;
+  return world;
+}
+
+CharacterOptions CharacterOptionsOf(const CharacterFilterOptions& options) {
+  CharacterOptions character;
+  character.control = options.control;
+  character.gains = options.gains;
+  character.lead = options.lead;
+  character.pin_feet = options.pin_feet;
+  character.self_collision = options.self_collision;
+  character.stature_m = options.stature_m;
+  character.mass_kg = options.mass_kg;
+  return character;
+}
+
+}  // namespace
+
+void CharacterFilterOptions::Check() const {
+  WorldOptionsOf(*this).Check();
+  CharacterOptionsOf(*this).Check(1.0 / 30.0 / substeps);
+  if (!(teleport_m > 0.0) || teleport_frames < 1) {
+    throw std::invalid_argument("teleport_m = " + std::to_string(teleport_m) +
+                                ", teleport_frames = " + std::to_string(teleport_frames) +
+                                ", must be positive");
+  }
+}
+
+CharacterFilter::Impl::Impl(const recon::BoneLengths& lengths,
+                            const CharacterFilterOptions& filter_options)
+    : options(filter_options), world(WorldOptionsOf(filter_options)) {
+  options.Check();
+  character = world.AddCharacter(lengths, TPose(lengths), CharacterOptionsOf(options));
+}
+
+bool CharacterFilter::Impl::MustPlace(const Posture& target, double dt_s) {
+  const bool gap = !(dt_s > 0.0 && dt_s <= kLongestStep_s);
+  if (!alive || gap) return true;
+  const bool far = MeanDistance(world.StateOf(character).posture, target) > options.teleport_m;
+  far_frames = far ? far_frames + 1 : 0;
+  return far_frames >= options.teleport_frames;
+}
+
+/// Puts the character on its target; joints that are unknown keep their bones' directions.
+void CharacterFilter::Impl::PlaceAt(const Posture& target) {
+  Posture start = target;
+  if (!Complete(target)) {
+    const Posture now = world.StateOf(character).posture;
+    for (size_t i = 0; i < kJointCount; ++i) {
+      if (start.position_m[i].allFinite() && start.position_m[i].cwiseAbs().maxCoeff() <= 1000.0) {
+        continue;
+      }
+      const auto parent = static_cast<size_t>(recon::kJointParent[i]);
+      start.position_m[i] =
+          i == 0 ? now.position_m[0]
+                 : start.position_m[parent] + now.position_m[i] - now.position_m[parent];
+    }
+  }
+  world.Place(character, start);
+  alive = true;
+  far_frames = 0;
+}
+
+CharacterFilter::CharacterFilter(const recon::BoneLengths& lengths,
+                                 const CharacterFilterOptions& options)
+    : impl_(std::make_unique<Impl>(lengths, options)) {}
+CharacterFilter::~CharacterFilter() = default;
+CharacterFilter::CharacterFilter(CharacterFilter&&) noexcept = default;
+CharacterFilter& CharacterFilter::operator=(CharacterFilter&&) noexcept = default;
+
+FilteredPosture CharacterFilter::Step(const Posture& target, std::span<const double> weight,
+                                      const std::optional<Eigen::Vector4d>& floor, double dt_s) {
+  Impl& f = *impl_;
+  f.world.SetFloor(f.options.floor ? floor : std::nullopt);
+  FilteredPosture result;
+  result.placed = f.MustPlace(target, dt_s);
+  if (result.placed) {
+    f.PlaceAt(target);
+    dt_s = 1.0 / 30.0;
+  }
+  f.world.SetTarget(f.character, target, weight);
+  f.world.Step(dt_s);
+  const CharacterState state = f.world.StateOf(f.character);
+  result.posture = state.posture;
+  result.orientation = state.orientation;
+  result.left_foot_pinned = state.left_foot_pinned;
+  result.right_foot_pinned = state.right_foot_pinned;
+  result.max_anchor_gap_m = state.max_anchor_gap_m;
+  return result;
+}
+
+void CharacterFilter::Reset() { impl_->alive = false; }
+
+}  // namespace ossa::physics

@@ -1,0 +1,90 @@
+#pragma once
+#include <array>
+#include <vector>
+
+#include "physics/anthropometry.h"
+#include "physics/control.h"
+#include "physics/ode_internal.h"
+#include "recon/posture.h"
+
+namespace ossa::physics {
+
+enum class Control;
+
+/// Where the controller pulls the character during one simulation step.
+struct ControlTarget {
+  std::array<Eigen::Vector3d, recon::kJointCount> position_m;
+  std::array<Eigen::Vector3d, recon::kJointCount> velocity_m_s;
+  recon::JointOrientations orientation;
+  /// Scales w per joint, [0, 1]; 0 lets go of the joint (and of its weight).
+  std::array<double, recon::kJointCount> stiffness{};
+};
+
+/// 19 capsules and 18 ball joints in an ODE world. Body i (1..19) is the bone that ends in joint i;
+/// its origin is the bone's middle, its y axis points to joint i, its z and x axes are those of
+/// recon/orientation.h, so that a body's rotation is the joint's orientation.
+class Character {
+ public:
+  Character(OdeWorld& ode, const Segments& segments, Control control, int tag);
+  ~Character();
+  Character(const Character&) = delete;
+  Character& operator=(const Character&) = delete;
+
+  /// Stands still in the posture, which must have the character's bone lengths.
+  void Place(const recon::Posture& posture, const recon::JointOrientations& orientation);
+  void SetVelocity(const Eigen::Vector3d& velocity_m_s);
+  bool IsFinite() const;
+
+  Eigen::Vector3d JointPosition(size_t joint) const;
+  Eigen::Vector3d JointVelocity(size_t joint) const;
+  /// Joint positions rebuilt bone by bone, so that lengths are exact although the solver leaves
+  /// the anchors of a ball joint a fraction of a millimetre apart.
+  recon::Posture posture() const;
+  recon::JointOrientations orientation() const;
+  double MaxAnchorGap() const;
+  double mass_kg() const { return total_mass_kg_; }
+  Eigen::Vector3d Momentum() const;
+
+  /// Adds this step's control forces and torques (kPaper) or sets the servos (kMotor).
+  void Drive(const ControlTarget& target, const ControlGains& gains,
+             const Eigen::Vector3d& gravity_m_s2, double h_s);
+  void AddForceAtJoint(size_t joint, const Eigen::Vector3d& force_n);
+
+  dBodyID body(size_t bone) const { return body_[bone]; }
+  dGeomID geom(size_t bone) const { return geom_[bone]; }
+  const Segments& segments() const { return segments_; }
+  /// Body whose end (or, for the hip centre, start) is the joint, and the joint's place in it.
+  size_t BodyOfJoint(size_t joint) const { return joint == 0 ? 1 : joint; }
+  double OffsetOfJoint(size_t joint) const;
+
+ private:
+  void MakeBody(OdeWorld& ode, size_t bone, int tag);
+  void MakeJoint(OdeWorld& ode, size_t bone, Control control);
+  void DrivePositions(const ControlTarget& target, const ControlGains& gains);
+  void DriveAxes(const ControlTarget& target, const ControlGains& gains);
+  void DriveMotors(const ControlTarget& target, const ControlGains& gains, double h_s);
+  void CarryWeight(const ControlTarget& target, const Eigen::Vector3d& gravity_m_s2);
+
+  Segments segments_;
+  std::array<double, recon::kJointCount> lumped_kg_;
+  double total_mass_kg_ = 0.0;
+  std::array<dBodyID, recon::kJointCount> body_{};
+  std::array<dGeomID, recon::kJointCount> geom_{};
+  std::array<dJointID, recon::kJointCount> ball_{};
+  std::array<dJointID, recon::kJointCount> motor_{};  // kMotor only
+  dJointID root_motor_ = nullptr;                     // linear, kMotor only
+};
+
+/// Which body is the other side of bone i's ball joint; 0 for the root bone. The spine bone stands
+/// for the pelvis too: the hip bones hang on its start.
+constexpr size_t BodyParentOf(size_t bone) {
+  if (bone == 1) return 0;
+  const int parent = recon::kJointParent[bone];
+  return parent == 0 ? 1 : static_cast<size_t>(parent);
+}
+
+/// Pairs of a character's own bones that may touch. Neighbours never do; nor do pairs that a
+/// healthy posture brings closer than the capsules are thick (hands together, arms along thighs).
+const std::vector<std::array<size_t, 2>>& SelfCollisionPairs();
+
+}  // namespace ossa::physics

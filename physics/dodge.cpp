@@ -1,0 +1,54 @@
+#include <algorithm>
+
+#include "physics/actor_internal.h"
+#include "recon/orientation.h"
+
+namespace ossa::physics {
+
+using Eigen::Vector3d;
+using recon::Joint;
+
+std::optional<Threat> ThreatTo(const Vector3d& head_m, const Vector3d& head_velocity,
+                               const ObjectState& object) {
+  constexpr double kSlow_m_s = 1.5;   // slower things are being carried or rolling
+  constexpr double kHorizon_s = 0.6;  // a person's warning time
+  constexpr double kNear_m = 0.45;    // passes this near the head's centre
+  const Vector3d velocity = object.velocity_m_s - head_velocity;
+  const double speed = velocity.norm();
+  if (speed < kSlow_m_s) return std::nullopt;
+  const Vector3d to_head = head_m - object.position_m;
+  const double time = to_head.dot(velocity) / (speed * speed);
+  if (time < 0.0 || time > kHorizon_s) return std::nullopt;
+  const double distance = (to_head - time * velocity).norm();
+  if (distance > kNear_m) return std::nullopt;
+  return Threat{time, distance};
+}
+
+void RaiseForearms(const recon::BoneLengths& lengths, recon::Posture& target) {
+  const auto orientation = recon::OrientationsOf(target);
+  const auto& chest = orientation[static_cast<size_t>(Joint::kShoulderCenter)];
+  const Vector3d left = chest * Vector3d::UnitX();
+  const Vector3d up = chest * Vector3d::UnitY();
+  const Vector3d front = chest * Vector3d::UnitZ();
+  const Vector3d head = target[Joint::kHead];
+  struct Arm {
+    Joint shoulder, elbow, wrist, hand;
+    double side;
+  };
+  constexpr std::array<Arm, 2> kArms = {
+      {{Joint::kShoulderLeft, Joint::kElbowLeft, Joint::kWristLeft, Joint::kHandLeft, 1.0},
+       {Joint::kShoulderRight, Joint::kElbowRight, Joint::kWristRight, Joint::kHandRight, -1.0}}};
+  for (const Arm& arm : kArms) {
+    // Upper arm forward and a little up; forearm upright before the side of the face, hands at the
+    // height of the brow.
+    const Vector3d along = (0.95 * front + 0.25 * up + 0.05 * arm.side * left).normalized();
+    target[arm.elbow] = target[arm.shoulder] + lengths[static_cast<size_t>(arm.elbow)] * along;
+    const Vector3d brow = head + 0.17 * front + 0.08 * up + 0.06 * arm.side * left;
+    const Vector3d forearm = (brow - target[arm.elbow]).normalized();
+    target[arm.wrist] = target[arm.elbow] + lengths[static_cast<size_t>(arm.wrist)] * forearm;
+    const Vector3d palm = (0.8 * up - 0.5 * arm.side * left - 0.3 * front).normalized();
+    target[arm.hand] = target[arm.wrist] + lengths[static_cast<size_t>(arm.hand)] * palm;
+  }
+}
+
+}  // namespace ossa::physics

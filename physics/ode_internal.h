@@ -1,0 +1,51 @@
+#pragma once
+#include <ode/ode.h>
+
+#include <Eigen/Core>
+#include <Eigen/Geometry>
+#include <cstdint>
+
+namespace ossa::physics {
+
+static_assert(sizeof(dReal) == sizeof(double), "Debian's ODE is built for double precision");
+
+inline Eigen::Vector3d ToEigen(const dReal* v) { return {v[0], v[1], v[2]}; }
+/// ODE's quaternions are w x y z, as ours in files; Eigen's constructor takes that order.
+inline Eigen::Quaterniond QuaternionToEigen(const dReal* q) { return {q[0], q[1], q[2], q[3]}; }
+inline void SetRotation(dBodyID body, const Eigen::Quaterniond& q) {
+  const dQuaternion quaternion = {q.w(), q.x(), q.y(), q.z()};
+  dBodySetQuaternion(body, quaternion);
+}
+
+/// Makes ODE ready for the calling thread: once per process, once per thread. ODE stays open for
+/// the life of the process.
+void PrepareOde();
+
+/// dWorldQuickStep with a row order that depends on `seed` only. ODE shuffles its rows with one
+/// process-wide generator, so steps of several threads take turns.
+void SeededQuickStep(dWorldID world, double h_s, uint64_t seed);
+
+/// An ODE world, its collision space and its contact joints.
+class OdeWorld {
+ public:
+  OdeWorld();
+  ~OdeWorld();
+  OdeWorld(const OdeWorld&) = delete;
+  OdeWorld& operator=(const OdeWorld&) = delete;
+
+  dWorldID world;
+  dSpaceID space;          // everything that any body may hit
+  dJointGroupID contacts;  // of the current step
+};
+
+/// Stiffness and damping as ODE's error reduction and constraint force mixing for a step of h
+/// (ODE manual, "How to use ERP and CFM"): an implicit, hence unconditionally stable, spring.
+struct SoftConstraint {
+  double erp, cfm;
+};
+inline SoftConstraint SpringDamper(double stiffness_n_m, double damping_ns_m, double h_s) {
+  const double hk = h_s * stiffness_n_m;
+  return {hk / (hk + damping_ns_m), 1.0 / (hk + damping_ns_m)};
+}
+
+}  // namespace ossa::physics

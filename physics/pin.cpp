@@ -1,0 +1,92 @@
+#include <algorithm>
+#include <cmath>
+
+#include "physics/actor_internal.h"
+
+namespace ossa::physics {
+
+using Eigen::Vector3d;
+using Eigen::Vector4d;
+
+namespace {
+
+constexpr double kReach_m = 0.03;  // a pin pulls with at most stiffness x reach
+constexpr double kFootStiffness_n_m = 6e4;
+/// What a pin moves: a leg's worth. Only sets the damping, 2 sqrt(k m).
+constexpr double kPinnedMass_kg = 8.0;
+
+// When a foot stands: near the floor and slower than a foot in swing ever is (2-4 m/s, at the
+// slowest 0.3 m/s just before it lands), for long enough that noise does not decide. Kinect foot
+// joints lie up to 5 cm above the sole.
+constexpr double kStandHeight_m = 0.05, kLiftHeight_m = 0.08;
+constexpr double kStillSpeed_m_s = 0.15, kStillTime_s = 0.12;
+constexpr double kSmoothing_s = 0.08;
+// When it has left: the target is this far from the pin, for a moment, or twice as far at once.
+constexpr double kAway_m = 0.04, kAwayTime_s = 0.06;
+// A foot that came to rest a little beside its pin is pinned again where it is.
+constexpr double kBeside_m = 0.012, kBesideTime_s = 0.25;
+
+}  // namespace
+
+Pin::Pin(OdeWorld& ode, Character& character, size_t joint, const Vector3d& place_m,
+         double stiffness_n_m)
+    : character_(character), joint_(joint), place_m_(place_m), stiffness_n_m_(stiffness_n_m) {
+  ball_ = dJointCreateBall(ode.world, nullptr);
+  dJointAttach(ball_, character.body(character.BodyOfJoint(joint)), nullptr);
+}
+
+Pin::~Pin() { dJointDestroy(ball_); }
+
+void Pin::Update(double h_s) {
+  const Vector3d now = character_.JointPosition(joint_);
+  dJointSetBallAnchor(ball_, now.x(), now.y(), now.z());
+  Vector3d pull = place_m_ - now;
+  if (pull.norm() > kReach_m) pull *= kReach_m / pull.norm();
+  const Vector3d anchor = now + pull;
+  dJointSetBallAnchor2(ball_, anchor.x(), anchor.y(), anchor.z());
+  const auto soft =
+      SpringDamper(stiffness_n_m_, 2.0 * std::sqrt(stiffness_n_m_ * kPinnedMass_kg), h_s);
+  dJointSetBallParam(ball_, dParamERP, soft.erp);
+  dJointSetBallParam(ball_, dParamCFM, soft.cfm);
+}
+
+void FootPin::Clear() {
+  pin_.reset();
+  smooth_m_.reset();
+  still_s_ = away_s_ = beside_s_ = 0.0;
+}
+
+void FootPin::Update(OdeWorld& ode, Character& character, const std::optional<Vector4d>& floor,
+                     const Vector3d& target_m, double dt_s) {
+  if (!floor) {
+    Clear();
+    return;
+  }
+  const Vector3d before = smooth_m_.value_or(target_m);
+  const double share = 1.0 - std::exp(-dt_s / kSmoothing_s);
+  smooth_m_ = before + share * (target_m - before);
+  const double speed = (*smooth_m_ - before).norm() / dt_s;
+  const double sole_m = character.segments()[joint_].radius_m;
+  const double height = HeightAbove(*floor, *smooth_m_) - sole_m;
+  if (pin_ == nullptr) {
+    const bool still = height < kStandHeight_m && speed < kStillSpeed_m_s;
+    still_s_ = still ? still_s_ + dt_s : 0.0;
+    if (still_s_ < kStillTime_s) return;
+    Vector3d place = character.JointPosition(joint_);
+    const double below = sole_m - HeightAbove(*floor, place);
+    if (below > 0.0) place += below * floor->head<3>();
+    pin_ = std::make_unique<Pin>(ode, character, joint_, place, kFootStiffness_n_m);
+    away_s_ = beside_s_ = 0.0;
+    return;
+  }
+  const double distance = (target_m - pin_->place_m()).norm();
+  away_s_ = distance > kAway_m ? away_s_ + dt_s : 0.0;
+  beside_s_ = (*smooth_m_ - pin_->place_m()).norm() > kBeside_m ? beside_s_ + dt_s : 0.0;
+  if (height > kLiftHeight_m || away_s_ > kAwayTime_s || distance > 2.0 * kAway_m ||
+      beside_s_ > kBesideTime_s) {
+    pin_.reset();
+    still_s_ = 0.0;
+  }
+}
+
+}  // namespace ossa::physics

@@ -1,0 +1,51 @@
+#include "physics/retarget.h"
+
+#include <algorithm>
+
+namespace ossa::physics {
+namespace {
+
+using Eigen::Vector3d;
+using recon::kJointCount;
+using recon::kJointParent;
+using recon::Posture;
+
+constexpr double kTinyLength_m = 1e-6;
+
+}  // namespace
+
+Posture RetargetByDirections(const Posture& posture, const recon::BoneLengths& lengths) {
+  Posture result = posture;
+  std::array<Vector3d, kJointCount> direction;
+  direction.fill(Vector3d::UnitY());
+  for (size_t i = 1; i < kJointCount; ++i) {
+    const auto parent = static_cast<size_t>(kJointParent[i]);
+    const Vector3d bone = posture.position_m[i] - posture.position_m[parent];
+    const double length = bone.norm();
+    const bool usable = bone.allFinite() && length > kTinyLength_m;
+    direction[i] = usable ? Vector3d(bone / length) : direction[parent];
+    result.position_m[i] = result.position_m[parent] + lengths[i] * direction[i];
+  }
+  return result;
+}
+
+Posture FitBoneLengths(const Posture& posture, const recon::BoneLengths& lengths,
+                       const std::array<double, kJointCount>& weight, int iterations) {
+  Posture fitted = posture;
+  for (int round = 0; round < iterations; ++round) {
+    for (size_t i = 1; i < kJointCount; ++i) {
+      const auto parent = static_cast<size_t>(kJointParent[i]);
+      const Vector3d bone = fitted.position_m[i] - fitted.position_m[parent];
+      const double length = bone.norm();
+      if (length < kTinyLength_m) continue;
+      // Each end moves in inverse proportion to its weight.
+      const double wi = std::max(weight[i], 1e-3), wp = std::max(weight[parent], 1e-3);
+      const Vector3d excess = bone * ((length - lengths[i]) / length);
+      fitted.position_m[i] -= excess * (wp / (wi + wp));
+      fitted.position_m[parent] += excess * (wi / (wi + wp));
+    }
+  }
+  return RetargetByDirections(fitted, lengths);
+}
+
+}  // namespace ossa::physics

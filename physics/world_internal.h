@@ -1,0 +1,45 @@
+#pragma once
+#include "physics/actor_internal.h"
+#include "physics/world.h"
+
+namespace ossa::physics {
+
+struct Thing {
+  ObjectOptions info;
+  dBodyID body = nullptr;
+  dGeomID geom = nullptr;
+  dJointID held = nullptr;  // virtual joint to a hand or to the world
+};
+
+/// Characters carry the tag index + 1 in their geoms, things -(index + 1), the floor 0.
+inline int TagOf(dGeomID geom) {
+  return static_cast<int>(reinterpret_cast<intptr_t>(dGeomGetData(geom)));
+}
+
+struct World::Impl {
+  explicit Impl(const WorldOptions& world_options);
+  ~Impl();
+
+  void Substep(double left_s, double h_s);
+  void WatchThreats(double dt_s);
+  // contact.cpp
+  void Collide(double h_s);
+  void CollidePair(dGeomID a, dGeomID b);
+  void CollideFloor();
+  void Note(dGeomID a, dGeomID b, double depth_m);
+  static void OnNearPair(void* self, dGeomID a, dGeomID b);
+
+  WorldOptions options;
+  OdeWorld ode;
+  dGeomID floor_geom = nullptr;
+  std::optional<Eigen::Vector4d> floor;
+  Eigen::Vector3d gravity_m_s2;
+  // Pointers: joints and bodies hold on to their actors' addresses.
+  std::vector<std::unique_ptr<Actor>> actors;
+  std::vector<Thing> things;
+  ContactSummary contacts;
+  double step_s = 0.0;  // of the present substep
+  uint64_t steps = 0;
+};
+
+}  // namespace ossa::physics

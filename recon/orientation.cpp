@@ -1,0 +1,162 @@
+#include "recon/orientation.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace ossa::recon {
+namespace {
+
+using Eigen::Matrix3d;
+using Eigen::Quaterniond;
+using Eigen::Vector3d;
+
+constexpr double kTinyLength_m = 1e-6;
+
+/// Frame whose y axis is `y` and whose x axis is as near to `x_hint` as that allows.
+Quaterniond FrameFrom(const Vector3d& y, const Vector3d& x_hint) {
+  const Vector3d axis = y.normalized();
+  Vector3d x = x_hint - axis * axis.dot(x_hint);
+  if (!(x.norm() > 1e-9)) x = axis.unitOrthogonal();
+  x.normalize();
+  Matrix3d frame;
+  frame << x, axis, x.cross(axis);
+  return Quaterniond(frame).normalized();
+}
+
+JointOrientations MakeRest() {
+  const Vector3d forward = Vector3d::UnitZ();
+  const auto facing_forward = [&](const Vector3d& y) { return FrameFrom(y, y.cross(forward)); };
+  const Quaterniond left = facing_forward(Vector3d::UnitX());
+  const Quaterniond right = facing_forward(-Vector3d::UnitX());
+  const Quaterniond down = facing_forward(-Vector3d::UnitY());
+  const Quaterniond foot = FrameFrom(forward, forward.cross(Vector3d::UnitY()));
+  JointOrientations rest;
+  rest.fill(Quaterniond::Identity());
+  for (const int bone : {4, 5, 6, 7, 12}) rest[static_cast<size_t>(bone)] = left;
+  for (const int bone : {8, 9, 10, 11, 16}) rest[static_cast<size_t>(bone)] = right;
+  for (const int bone : {13, 14, 17, 18}) rest[static_cast<size_t>(bone)] = down;
+  for (const int bone : {15, 19}) rest[static_cast<size_t>(bone)] = foot;
+  return rest;
+}
+
+/// Which bone bends an upper limb's hinge, and with which sign its axis is the bone's x.
+struct Hinge {
+  Joint upper, lower;
+  double sign;
+};
+constexpr std::array<Hinge, 4> kHinges = {{{Joint::kElbowLeft, Joint::kWristLeft, 1.0},
+                                           {Joint::kElbowRight, Joint::kWristRight, 1.0},
+                                           {Joint::kKneeLeft, Joint::kAnkleLeft, -1.0},
+                                           {Joint::kKneeRight, Joint::kAnkleRight, -1.0}}};
+
+class Solver {
+ public:
+  explicit Solver(const Posture& posture) : posture_(posture) { result_ = RestOrientations(); }
+
+  JointOrientations Run() {
+    SolvePlayer();
+    for (size_t bone = 1; bone < kJointCount; ++bone) SolveBone(bone);
+    return result_;
+  }
+
+ private:
+  Vector3d Bone(size_t bone) const {
+    const auto parent = static_cast<size_t>(kJointParent[bone]);
+    return posture_.position_m[bone] - posture_.position_m[parent];
+  }
+  Vector3d Across(Joint right, Joint left) const { return posture_[left] - posture_[right]; }
+  static bool Usable(const Vector3d& v) { return v.allFinite() && v.norm() > kTinyLength_m; }
+
+  void SolvePlayer() {
+    const Vector3d up = Bone(static_cast<size_t>(Joint::kSpine));
+    const Vector3d left = Across(Joint::kHipRight, Joint::kHipLeft);
+    if (Usable(up) && Usable(left)) {
+      // The hips' line is the firmer of the two: it keeps its direction and `up` gives way.
+      const Quaterniond by_up = FrameFrom(up, left);
+      const Vector3d x = left.normalized();
+      Vector3d y = up - x * x.dot(up);
+      if (y.norm() > kTinyLength_m) {
+        y.normalize();
+        Matrix3d frame;
+        frame << x, y, x.cross(y);
+        result_[0] = Quaterniond(frame).normalized();
+      } else {
+        result_[0] = by_up;
+      }
+    } else if (Usable(up)) {
+      result_[0] = FrameFrom(up, Vector3d::UnitX());
+    }
+  }
+
+  void SolveBone(size_t bone) {
+    const auto parent = static_cast<size_t>(kJointParent[bone]);
+    const JointOrientations& rest = RestOrientations();
+    const Quaterniond carried = result_[parent] * rest[parent].conjugate() * rest[bone];
+    const Vector3d y = Bone(bone);
+    if (!Usable(y)) {
+      result_[bone] = carried.normalized();
+      return;
+    }
+    const Vector3d direction = y.normalized();
+    const Quaterniond swing = Quaterniond::FromTwoVectors(carried * Vector3d::UnitY(), direction);
+    const Vector3d x_carried = swing * (carried * Vector3d::UnitX());
+    result_[bone] = FrameFrom(direction, XHint(bone, direction, x_carried));
+  }
+
+  Vector3d XHint(size_t bone, const Vector3d& direction, const Vector3d& x_carried) const {
+    const auto joint = static_cast<Joint>(bone);
+    if (joint == Joint::kSpine) {
+      const Vector3d hips = Across(Joint::kHipRight, Joint::kHipLeft);
+      return Usable(hips) ? hips : x_carried;
+    }
+    if (joint == Joint::kShoulderCenter) {
+      const Vector3d shoulders = Across(Joint::kShoulderRight, Joint::kShoulderLeft);
+      return Usable(shoulders) ? shoulders : x_carried;
+    }
+    for (const Hinge& hinge : kHinges) {
+      if (hinge.upper != joint) continue;
+      const Vector3d lower = Bone(static_cast<size_t>(hinge.lower));
+      if (!Usable(lower)) return x_carried;
+      const Vector3d axis = hinge.sign * direction.cross(lower.normalized());
+      const double sine = axis.norm();
+      constexpr double kSine10 = 0.1736, kSine30 = 0.5;
+      const double t = std::clamp((sine - kSine10) / (kSine30 - kSine10), 0.0, 1.0);
+      const double weight = t * t * (3.0 - 2.0 * t);
+      if (weight <= 0.0) return x_carried;
+      return (1.0 - weight) * x_carried + weight * axis.normalized();
+    }
+    return x_carried;
+  }
+
+  const Posture& posture_;
+  JointOrientations result_;
+};
+
+}  // namespace
+
+const JointOrientations& RestOrientations() {
+  static const JointOrientations rest = MakeRest();
+  return rest;
+}
+
+JointOrientations OrientationsOf(const Posture& posture) { return Solver(posture).Run(); }
+
+JointOrientations HierarchicalOf(const JointOrientations& absolute) {
+  JointOrientations relative = absolute;
+  for (size_t i = 1; i < kJointCount; ++i) {
+    const auto parent = static_cast<size_t>(kJointParent[i]);
+    relative[i] = (absolute[parent].conjugate() * absolute[i]).normalized();
+  }
+  return relative;
+}
+
+JointOrientations AbsoluteOf(const JointOrientations& hierarchical) {
+  JointOrientations absolute = hierarchical;
+  for (size_t i = 1; i < kJointCount; ++i) {
+    const auto parent = static_cast<size_t>(kJointParent[i]);
+    absolute[i] = (absolute[parent] * hierarchical[i]).normalized();
+  }
+  return absolute;
+}
+
+}  // namespace ossa::recon

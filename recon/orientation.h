@@ -1,0 +1,32 @@
+#pragma once
+#include "recon/posture.h"
+
+namespace ossa::recon {
+
+/// Orientations of the bones from joint positions alone, in the convention of the Kinect for
+/// Windows SDK 1.5-1.8 ("Joint Orientation"): entry i belongs to the bone that ends in joint i and
+/// rotates bone coordinates to the frame of the positions; the bone's y axis runs along the bone
+/// from parent to joint i. Entry 0 (HipCenter) is the player: x to the player's left, y up along
+/// the body, z out of the player's front.
+///
+/// What positions cannot tell, the rotation about the bone's own axis, follows from a rest pose: a
+/// T-pose that faces +z with its left at +x. There every bone's z axis points forward (+z), only
+/// the feet's points up (+y), so x = y cross z. Away from it
+///  - the pelvis and the shoulders turn the trunk bones (x from right to left hip or shoulder),
+///  - a bent elbow or knee turns the upper limb: x is the hinge's axis, so that a positive rotation
+///    about x flexes an elbow and a negative one a knee,
+///  - every other bone follows its parent by the smallest rotation; a nearly straight limb does so
+///    too, blended over 10-30 degrees of flexion so that nothing jumps.
+///
+/// Bones of zero length or with non-finite ends keep their parent's turn.
+JointOrientations OrientationsOf(const Posture& posture);
+
+/// The orientation of each bone at rest, as described above.
+const JointOrientations& RestOrientations();
+
+/// The SDK's second form: each bone relative to its parent bone; HipCenter stays absolute.
+JointOrientations HierarchicalOf(const JointOrientations& absolute);
+/// Inverse of HierarchicalOf.
+JointOrientations AbsoluteOf(const JointOrientations& hierarchical);
+
+}  // namespace ossa::recon
