@@ -1,0 +1,255 @@
+// What mean shift needs to know, learned on images never trained on: how many independent pixels a
+// figure's pixels count as, and for each target bandwidth, threshold, push-back and the shares of
+// the two kinds of votes (Shotton et al. 2011, sec. 3.3: "optimized on a hold-out validation set").
+#include <oneapi/tbb/global_control.h>
+#include <oneapi/tbb/parallel_for.h>
+
+#include <Eigen/Dense>
+#include <algorithm>
+#include <cmath>
+#include <thread>
+
+#include "depth/error.h"
+#include "forest/classify.h"
+#include "forest/propose_internal.h"
+#include "forest/train.h"
+
+namespace ossa::forest {
+namespace {
+
+constexpr float kHitRadius_m = 0.10F;  // the measure of Shotton 2011
+constexpr double kTrackedPrecision = 0.90;
+constexpr double kInferredPrecision = 0.50;
+
+struct ValidationImage {
+  Evidence evidence;
+  std::vector<Eigen::Vector3f> target_m;
+  std::vector<uint8_t> target_visible;
+};
+
+Classification ClassifyImage(const ForestModel& model, const TrainingImage& image) {
+  std::vector<int32_t> pixels;
+  for (size_t i = 0; i < image.label.size(); ++i) {
+    if (image.label[i] != 0) pixels.push_back(static_cast<int32_t>(i));
+  }
+  const int width = image.camera.width;
+  return Classify(model, {image.depth_mm.data(), width, image.camera.height, width}, image.camera,
+                  pixels);
+}
+
+std::vector<size_t> ChooseImages(const TrainingSource& source, size_t most) {
+  std::vector<size_t> chosen;
+  const size_t count = std::min(source.size(), most);
+  for (size_t i = 0; i < count; ++i) chosen.push_back(i * source.size() / count);
+  return chosen;
+}
+
+ForestModel WithScale(const ForestModel& model, float scale) {
+  ForestData data = model.data();
+  data.evidence_scale = scale;
+  return ForestModel(std::move(data));
+}
+
+// The scale under which the true contexts are likeliest.
+float LearnEvidenceScale(const ForestModel& model, const TrainingSource& source,
+                         const std::vector<size_t>& chosen) {
+  if (model.context_count() < 2) return model.data().evidence_scale;
+  // With scale 1 the posterior gives the mean evidence back: log posterior - log prior + constant.
+  const ForestModel unit = WithScale(model, 1.0F);
+  const auto& prior = model.data().context_prior;
+  std::vector<Eigen::VectorXd> evidence(chosen.size());
+  std::vector<uint8_t> truth(chosen.size());
+  oneapi::tbb::parallel_for(size_t{0}, chosen.size(), [&](size_t i) {
+    const TrainingImage image = source.Read(chosen[i]);
+    const Classification result = ClassifyImage(unit, image);
+    truth[i] = image.context;
+    if (result.pixel.empty()) return;
+    evidence[i].resize(model.context_count());
+    for (size_t k = 0; k < prior.size(); ++k) {
+      evidence[i][static_cast<Eigen::Index>(k)] =
+          std::log(std::max(result.context[k], 1e-30F)) - std::log(std::max(prior[k], 1e-4F));
+    }
+  });
+  float best_scale = model.data().evidence_scale;
+  double best = -1e300;
+  for (const float scale : {1.F, 2.F, 4.F, 6.F, 9.F, 13.F, 20.F, 30.F, 45.F, 65.F, 100.F, 150.F}) {
+    double log_likelihood = 0;
+    for (size_t i = 0; i < chosen.size(); ++i) {
+      if (evidence[i].size() == 0) continue;
+      Eigen::VectorXd score = evidence[i] * scale;
+      for (size_t k = 0; k < prior.size(); ++k) {
+        score[static_cast<Eigen::Index>(k)] += std::log(std::max(prior[k], 1e-4F));
+      }
+      const double top = score.maxCoeff();
+      log_likelihood += score[truth[i]] - top - std::log((score.array() - top).exp().sum());
+    }
+    if (log_likelihood > best) {
+      best = log_likelihood;
+      best_scale = scale;
+    }
+  }
+  return best_scale;
+}
+
+std::vector<ValidationImage> GatherAll(const ForestModel& model, const TrainingSource& source,
+                                       const std::vector<size_t>& chosen) {
+  std::vector<ValidationImage> images(chosen.size());
+  oneapi::tbb::parallel_for(size_t{0}, chosen.size(), [&](size_t i) {
+    const TrainingImage image = source.Read(chosen[i]);
+    const int width = image.camera.width;
+    const depth::DepthView view{image.depth_mm.data(), width, image.camera.height, width};
+    const Classification result = ClassifyImage(model, image);
+    images[i] = {GatherEvidence(model, view, image.camera, result), image.target_m,
+                 image.target_visible};
+  });
+  std::erase_if(images,
+                [](const ValidationImage& image) { return image.evidence.surface_m.empty(); });
+  return images;
+}
+
+// Hits within 10 cm, and a third as much for being within 5 cm as well.
+double Score(const std::vector<ValidationImage>& images, const ProposalTarget& target, size_t t) {
+  double score = 0;
+  for (const ValidationImage& image : images) {
+    if (!image.target_m[t].allFinite()) continue;
+    const std::vector<Mode> modes = FindModes(image.evidence, target, t);
+    if (modes.empty()) continue;
+    const float error_m = (modes.front().position_m - image.target_m[t]).norm();
+    score += (error_m < kHitRadius_m ? 1.0 : 0.0) + (error_m < kHitRadius_m / 2 ? 0.33 : 0.0);
+  }
+  return score;
+}
+
+struct Knob {
+  float ProposalTarget::*value;
+  std::vector<float> choices;
+};
+
+// Coordinate ascent over short lists: the score is flat near its top, a finer search buys nothing.
+void TuneTarget(const std::vector<ValidationImage>& images, size_t t, ProposalTarget* target) {
+  const std::vector<Knob> knobs = {
+      {&ProposalTarget::class_weight, {0.0F, 0.1F, 0.3F, 1.0F, 3.0F}},
+      {&ProposalTarget::bandwidth_m, {0.03F, 0.045F, 0.065F, 0.09F, 0.13F}},
+      {&ProposalTarget::vote_sharpness_m, {0.03F, 0.05F, 0.08F, 0.14F}},
+      {&ProposalTarget::push_back_m, {0.0F, 0.02F, 0.04F, 0.06F, 0.09F, 0.12F}},
+      {&ProposalTarget::vote_radius_m, {0.2F, 0.4F, 0.7F, 1.3F}},
+      {&ProposalTarget::probability_threshold, {0.05F, 0.15F, 0.3F}}};
+  double best = Score(images, *target, t);
+  for (int round = 0; round < 2; ++round) {
+    for (const Knob& knob : knobs) {
+      for (const float choice : knob.choices) {
+        ProposalTarget trial = *target;
+        trial.*knob.value = choice;
+        const double score = Score(images, trial, t);
+        if (score > best) {
+          best = score;
+          *target = trial;
+        }
+      }
+    }
+  }
+}
+
+using Features = std::array<float, Confidence::kFeatures>;
+
+struct Judged {
+  Features feature{};
+  bool is_near = false;
+  bool visible = false;
+};
+
+std::vector<Judged> JudgeModes(const std::vector<ValidationImage>& images,
+                               const ProposalTarget& target, size_t t) {
+  std::vector<Judged> judged;
+  for (const ValidationImage& image : images) {
+    if (!image.target_m[t].allFinite()) continue;
+    for (const Mode& mode : FindModes(image.evidence, target, t)) {
+      judged.push_back({mode.feature, (mode.position_m - image.target_m[t]).norm() < kHitRadius_m,
+                        image.target_visible[t] != 0});
+    }
+  }
+  return judged;
+}
+
+// Logistic regression by Newton's method with a small ridge.
+Confidence FitLogistic(const std::vector<Judged>& judged, bool Judged::*outcome) {
+  constexpr auto kSize = static_cast<Eigen::Index>(Confidence::kFeatures) + 1;
+  constexpr double kRidge = 0.5;  // half an example's worth: matters only where one outcome rules
+  Eigen::VectorXd w = Eigen::VectorXd::Zero(kSize);
+  for (int step = 0; step < 25; ++step) {
+    Eigen::MatrixXd hessian = kRidge * Eigen::MatrixXd::Identity(kSize, kSize);
+    Eigen::VectorXd gradient = -kRidge * w;
+    for (const Judged& mode : judged) {
+      Eigen::VectorXd x(kSize);
+      for (Eigen::Index i = 0; i + 1 < kSize; ++i) x[i] = mode.feature[static_cast<size_t>(i)];
+      x[kSize - 1] = 1.0;
+      const double p = 1.0 / (1.0 + std::exp(-std::clamp(w.dot(x), -30.0, 30.0)));
+      gradient += ((mode.*outcome ? 1.0 : 0.0) - p) * x;
+      hessian += std::max(p * (1.0 - p), 1e-6) * x * x.transpose();
+    }
+    Eigen::VectorXd move = hessian.ldlt().solve(gradient);
+    if (move.norm() > 4.0) move *= 4.0 / move.norm();  // Newton overshoots far from the optimum
+    w += move;
+    if (move.norm() < 1e-6) break;
+  }
+  Confidence fitted;
+  for (size_t i = 0; i < Confidence::kFeatures; ++i) {
+    fitted.weight[i] = static_cast<float>(w[static_cast<Eigen::Index>(i)]);
+  }
+  fitted.bias = static_cast<float>(w[kSize - 1]);
+  return fitted;
+}
+
+// The least confidence from which on (by all of at least as much) the wanted share is right.
+float ThresholdFor(std::vector<std::pair<double, bool>> rated, double precision) {
+  std::sort(rated.begin(), rated.end(),
+            [](const auto& a, const auto& b) { return a.first > b.first; });
+  double right = 0;
+  float threshold = 0.99F;
+  for (size_t i = 0; i < rated.size(); ++i) {
+    right += rated[i].second ? 1.0 : 0.0;
+    if (right >= precision * static_cast<double>(i + 1)) {
+      threshold = std::min(0.99F, static_cast<float>(rated[i].first));
+    }
+  }
+  return threshold;
+}
+
+void LearnConfidence(const std::vector<Judged>& judged, ProposalTarget* target) {
+  target->correct = FitLogistic(judged, &Judged::is_near);
+  target->visible = FitLogistic(judged, &Judged::visible);
+  std::vector<std::pair<double, bool>> all;
+  std::vector<std::pair<double, bool>> seen;
+  for (const Judged& mode : judged) {
+    const double confidence = Evaluate(target->correct, mode.feature);
+    all.emplace_back(confidence, mode.is_near);
+    if (Evaluate(target->visible, mode.feature) >= 0.5) {
+      seen.emplace_back(confidence, mode.is_near && mode.visible);
+    }
+  }
+  target->inferred_confidence = ThresholdFor(all, kInferredPrecision);
+  target->tracked_confidence =
+      std::max(target->inferred_confidence, ThresholdFor(seen, kTrackedPrecision));
+}
+
+}  // namespace
+
+ForestModel LearnProposals(const ForestModel& model, const TrainingSource& validation,
+                           size_t max_images, int threads) {
+  const unsigned all = std::max(1U, std::thread::hardware_concurrency());
+  oneapi::tbb::global_control control(oneapi::tbb::global_control::max_allowed_parallelism,
+                                      threads > 0 ? static_cast<size_t>(threads) : all);
+  const std::vector<size_t> chosen = ChooseImages(validation, max_images);
+  if (chosen.empty()) throw InputError("validation data: no images");
+  ForestData data = model.data();
+  data.evidence_scale = LearnEvidenceScale(model, validation, chosen);
+  const ForestModel scaled{ForestData(data)};
+  const std::vector<ValidationImage> images = GatherAll(scaled, validation, chosen);
+  oneapi::tbb::parallel_for(size_t{0}, data.targets.size(), [&](size_t t) {
+    TuneTarget(images, t, &data.targets[t]);
+    LearnConfidence(JudgeModes(images, data.targets[t], t), &data.targets[t]);
+  });
+  return ForestModel(std::move(data));
+}
+
+}  // namespace ossa::forest

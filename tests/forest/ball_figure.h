@@ -1,0 +1,45 @@
+#pragma once
+#include <vector>
+
+#include "depth/image/depth_frame.h"
+#include "forest/train.h"
+
+namespace ossa::forest::test {
+
+/// A figure of five balls that turns about the vertical: 1 belly, 2 head, 3 left hand, 4 right
+/// hand, and 5 a nose that alone tells front from back. Contexts: 0 faces the camera, 1 shows its
+/// back. Targets: the centres of the head and of the two hands.
+class BallFigures final : public TrainingSource {
+ public:
+  BallFigures(size_t count, uint64_t seed, int width = 128)
+      : count_(count), seed_(seed), width_(width) {}
+
+  size_t size() const override { return count_; }
+  TrainingImage Read(size_t index) const override;
+
+ private:
+  size_t count_;
+  uint64_t seed_;
+  int width_;
+};
+
+TrainingVocabulary BallVocabulary();
+
+/// Small and quick options.
+TrainOptions QuickOptions();
+
+/// The model of 800 figures, trained once a test program.
+const ForestModel& BallModel();
+
+/// Pixels of an image's object.
+std::vector<int32_t> ObjectPixels(const TrainingImage& image);
+
+/// Depth view of a training image.
+inline depth::DepthView ViewOf(const TrainingImage& image) {
+  return {image.depth_mm.data(), image.camera.width, image.camera.height, image.camera.width};
+}
+
+/// What a model file of this model holds, byte by byte.
+std::vector<char> BytesOf(const ForestModel& model);
+
+}  // namespace ossa::forest::test
