@@ -12,6 +12,8 @@ namespace {
 using ossa::commands::Command;
 
 constexpr std::array kCommands = {
+    Command{"experiment", "run a study: a paper's tables beside its own numbers",
+            ossa::commands::Experiment},
     Command{"info", "say what a file of ossa's holds", ossa::commands::Info},
     Command{"record", "record a source to an .oni file", ossa::commands::Record},
 };

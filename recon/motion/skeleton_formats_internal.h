@@ -47,7 +47,8 @@ std::span<const SkeletonFormat> AllSkeletonFormats();
 std::span<const SkeletonFormat> PlainFormats();     // skeleton_plain.cpp: jsonl, csv, trc, bvh
 std::span<const SkeletonFormat> KinectV1Formats();  // skeleton_kinect_v1.cpp
 std::span<const SkeletonFormat> KinectV2Formats();  // skeleton_kinect_v2.cpp
-std::span<const SkeletonFormat> UiPrmdFormats();    // skeleton_uiprmd.cpp
+std::span<const SkeletonFormat> PairedFormats();    // skeleton_paired.cpp: UI-PRMD, ITOP
+std::span<const SkeletonFormat> UiPrmdFormats();    // skeleton_uiprmd.cpp: its original files
 std::span<const SkeletonFormat> OtherFormats();     // skeleton_azure.cpp
 std::span<const SkeletonFormat> BinaryFormats();    // skeleton_binary.cpp
 

@@ -195,7 +195,7 @@ fs::path PathForBody(const fs::path& path, size_t index, int id) {
 std::span<const SkeletonFormat> AllSkeletonFormats() {
   static const std::vector<SkeletonFormat> kAll = [] {
     std::vector<SkeletonFormat> all;
-    for (const auto formats : {PlainFormats()}) {
+    for (const auto formats : {PlainFormats(), PairedFormats()}) {
       all.insert(all.end(), formats.begin(), formats.end());
     }
     return all;

@@ -23,7 +23,7 @@ using Archive = std::unique_ptr<archive, decltype(&archive_read_free)>;
 }
 
 // Raw opens anything; it is asked for only where the file is known to be a plain .gz.
-Archive Open(const std::filesystem::path& path, bool raw) {
+Archive TryOpen(const std::filesystem::path& path, bool raw, int& status) {
   Archive reader(archive_read_new(), archive_read_free);
   archive_read_support_filter_gzip(reader.get());
   if (raw) {
@@ -33,9 +33,14 @@ Archive Open(const std::filesystem::path& path, bool raw) {
     archive_read_support_format_zip(reader.get());
   }
   constexpr size_t kBlock = size_t{1} << 16;
-  if (archive_read_open_filename(reader.get(), path.c_str(), kBlock) != ARCHIVE_OK) {
-    Fail(path, reader.get());
-  }
+  status = archive_read_open_filename(reader.get(), path.c_str(), kBlock);
+  return reader;
+}
+
+Archive Open(const std::filesystem::path& path, bool raw) {
+  int status = ARCHIVE_OK;
+  Archive reader = TryOpen(path, raw, status);
+  if (status != ARCHIVE_OK) Fail(path, reader.get());
   return reader;
 }
 
@@ -98,9 +103,10 @@ bool IsArchive(const std::filesystem::path& path) {
   // A gzip holds an archive when a first tar header can be read from it.
   const std::string name = path.filename().string();
   if (name.ends_with(".tgz") || name.ends_with(".tar.gz")) return true;
-  Archive reader = Open(path, false);
+  int status = ARCHIVE_OK;
+  Archive reader = TryOpen(path, false, status);
   archive_entry* entry = nullptr;
-  return archive_read_next_header(reader.get(), &entry) == ARCHIVE_OK;
+  return status == ARCHIVE_OK && archive_read_next_header(reader.get(), &entry) == ARCHIVE_OK;
 }
 
 std::map<std::string, std::string> ReadArchive(const std::filesystem::path& path) {

@@ -3,6 +3,7 @@
 namespace ossa::commands {
 
 // One function a subcommand, each in a file of its own name in this folder.
+int Experiment(int argc, char** argv);
 int Info(int argc, char** argv);
 int Record(int argc, char** argv);
 

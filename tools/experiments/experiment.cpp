@@ -1,0 +1,124 @@
+#include "tools/experiments/experiment.h"
+
+#include <fmt/format.h>
+#include <xxhash.h>
+
+#include <algorithm>
+#include <fstream>
+#include <nlohmann/json.hpp>
+#include <sstream>
+
+#include "depth/error.h"
+#include "depth/file/atomic_file.h"
+
+namespace ossa::tools {
+namespace {
+
+std::string HashOf(const std::string& text) {
+  const XXH128_hash_t hash = XXH3_128bits(text.data(), text.size());
+  return fmt::format("{:016x}{:016x}", hash.high64, hash.low64);
+}
+
+std::string ReadAll(const std::filesystem::path& path) {
+  std::ifstream file(path, std::ios::binary);
+  if (!file) throw InputError(path.string() + ": cannot be opened for reading");
+  std::ostringstream text;
+  text << file.rdbuf();
+  return std::move(text).str();
+}
+
+void WriteAll(const std::filesystem::path& path, const std::string& text) {
+  AtomicFile file(path);
+  file.stream() << text;
+  file.Commit();
+}
+
+// Width on a terminal: bytes that continue a UTF-8 character take no place.
+size_t WidthOf(const std::string& text) {
+  return static_cast<size_t>(std::count_if(text.begin(), text.end(), [](char c) {
+    return (static_cast<unsigned char>(c) & 0xC0u) != 0x80u;
+  }));
+}
+
+std::string Padded(const std::string& text, size_t width) {
+  return text + std::string(width - std::min(width, WidthOf(text)), ' ');
+}
+
+}  // namespace
+
+std::string ToMarkdown(const Table& table) {
+  std::vector<size_t> widths;
+  for (const std::string& column : table.columns) {
+    widths.push_back(std::max<size_t>(3, WidthOf(column)));
+  }
+  for (const auto& row : table.rows) {
+    for (size_t c = 0; c < row.size() && c < widths.size(); ++c) {
+      widths[c] = std::max(widths[c], WidthOf(row[c]));
+    }
+  }
+  const auto line = [&](const std::vector<std::string>& cells) {
+    std::string text = "|";
+    for (size_t c = 0; c < widths.size(); ++c) {
+      text += fmt::format(" {} |", Padded(c < cells.size() ? cells[c] : "", widths[c]));
+    }
+    return text + "\n";
+  };
+  std::string text = "### " + table.title + "\n\n" + line(table.columns) + "|";
+  for (const size_t width : widths) text += std::string(width + 2, '-') + "|";
+  text += "\n";
+  for (const auto& row : table.rows) text += line(row);
+  if (!table.note.empty()) text += "\n" + table.note + "\n";
+  return text;
+}
+
+std::string ExperimentContext::Cached(const std::string& key,
+                                      const std::function<std::string()>& compute) const {
+  const auto folder = out / "cache";
+  const auto path = folder / (HashOf(key) + ".txt");
+  if (std::filesystem::exists(path)) {
+    // The key stands first, so that a stranger's file or a damaged one is computed anew.
+    const std::string text = ReadAll(path);
+    const std::string begin = fmt::format("{}\n{}\n", key.size(), key);
+    if (text.starts_with(begin)) return text.substr(begin.size());
+  }
+  if (interrupted && interrupted()) throw Interruption{};
+  const std::string result = compute();
+  std::filesystem::create_directories(folder);
+  WriteAll(path, fmt::format("{}\n{}\n{}", key.size(), key, result));
+  return result;
+}
+
+std::string KeyOfFile(const std::filesystem::path& path) {
+  return path.filename().string() + ":" + HashOf(ReadAll(path));
+}
+
+std::vector<Table> RunExperiment(const std::string& name, ExperimentContext& context) {
+  const auto all = Experiments();
+  const auto found =
+      std::find_if(all.begin(), all.end(), [&](const Experiment& e) { return e.name == name; });
+  if (found == all.end()) {
+    std::string known;
+    for (const Experiment& e : all) known.append(" ").append(e.name);
+    throw InputError("experiment '" + name + "': expected one of" + known);
+  }
+  std::filesystem::create_directories(context.out);
+  const std::vector<Table> tables = found->run(context);
+  context.parameters.ExpectAllUsed();
+  std::string markdown =
+      fmt::format("## ossa experiment {} (seed {})\n\n", found->name, context.seed);
+  nlohmann::json summary = {{"experiment", name}, {"seed", context.seed}};
+  for (const Table& table : tables) {
+    markdown += ToMarkdown(table) + "\n";
+    summary["tables"].push_back({{"title", table.title},
+                                 {"columns", table.columns},
+                                 {"rows", table.rows},
+                                 {"note", table.note}});
+  }
+  WriteAll(context.out / "TABLE.md", markdown);
+  WriteAll(context.out / "summary.json", summary.dump(2) + "\n");
+  WriteAll(context.out / "parameters.toml", fmt::format("# ossa experiment {} --seed {}\n{}", name,
+                                                        context.seed, context.parameters.Used()));
+  return tables;
+}
+
+}  // namespace ossa::tools

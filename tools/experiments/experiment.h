@@ -1,0 +1,97 @@
+#pragma once
+#include <cstdint>
+#include <filesystem>
+#include <functional>
+#include <map>
+#include <set>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace ossa::tools {
+
+/// One table of a study, beside the paper's own numbers where there are any.
+struct Table {
+  std::string title;
+  std::vector<std::string> columns;
+  std::vector<std::vector<std::string>> rows;  // as many cells a row as columns
+  std::string note;                            // what differs from the paper's data or setting
+};
+
+/// Markdown, columns padded so that it reads on a terminal as well.
+std::string ToMarkdown(const Table& table);
+
+/// The numbers and names a study may be given in a TOML file, flat `key = value` lines. Asking
+/// names the key and its default, so what a study can be told is what it asks for; keys nobody
+/// asked for are refused at the end, so that a misspelt one is not silently ignored.
+class Parameters {
+ public:
+  Parameters() = default;
+  /// Throws InputError with file, line and column for what is no TOML, or not flat.
+  static Parameters FromToml(const std::filesystem::path& path);
+
+  double Number(const std::string& key, double usual);
+  int Integer(const std::string& key, int usual);
+  std::string Text(const std::string& key, const std::string& usual);
+  std::vector<std::string> Texts(const std::string& key, const std::vector<std::string>& usual);
+  std::vector<double> Numbers(const std::string& key, const std::vector<double>& usual);
+
+  /// What was used, as TOML: written beside the results so that the study can be repeated.
+  std::string Used() const;
+  /// Throws InputError for a key of the file that was never asked for.
+  void ExpectAllUsed() const;
+
+ private:
+  struct Value {
+    std::vector<double> numbers;
+    std::vector<std::string> texts;
+    bool list = false;
+    int line = 0;
+  };
+  const Value* Find(const std::string& key, bool numbers, bool list);
+
+  std::string source_;
+  std::map<std::string, Value> values_;
+  std::map<std::string, std::string> used_;
+};
+
+/// What an experiment is given.
+struct ExperimentContext {
+  std::filesystem::path out;     // a folder that exists; figures and extra files go here
+  std::filesystem::path shared;  // the folder of real recordings; "" when the user gave none
+  std::filesystem::path model;   // --model, --database: "" = the shipped ones
+  std::filesystem::path database;
+  Parameters parameters;
+  uint64_t seed = 1;
+  int threads = 1;
+  std::function<void(double done, double total, const std::string& note)> progress;
+  std::function<bool()> interrupted;  // true: stop soon by throwing Interruption
+
+  /// The result of a costly step: kept under out/cache by the content of `key`, so that a study
+  /// that was stopped takes up where it was. The key must name everything the result depends on:
+  /// parameters, seed, version of the method, and KeyOfFile() of input files. `compute` returns
+  /// any text, usually JSON. Throws Interruption before computing when the user pressed Ctrl-C.
+  std::string Cached(const std::string& key, const std::function<std::string()>& compute) const;
+};
+
+/// "NAME:XXH3 of its content" for cache keys.
+std::string KeyOfFile(const std::filesystem::path& path);
+
+/// The user stopped the study; what is cached stays.
+struct Interruption {};
+
+struct Experiment {
+  std::string_view name;
+  std::string_view summary;
+  std::vector<Table> (*run)(ExperimentContext&);
+};
+
+/// Every experiment, in the order of `ossa experiment --help`. Add yours in registry.cpp.
+std::span<const Experiment> Experiments();
+
+/// Runs one: writes TABLE.md, parameters.toml and summary.json to context.out and returns the
+/// tables. Throws InputError for an unknown name or missing data.
+std::vector<Table> RunExperiment(const std::string& name, ExperimentContext& context);
+
+}  // namespace ossa::tools

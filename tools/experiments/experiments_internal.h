@@ -1,0 +1,11 @@
+#pragma once
+#include "tools/experiments/experiment.h"
+
+namespace ossa::tools {
+
+// One function an experiment, each in a file of its own.
+
+/// Every method on every real recording, the SDK's own skeletons as the baseline.
+std::vector<Table> RunSdk(ExperimentContext& context);
+
+}  // namespace ossa::tools

@@ -1,0 +1,67 @@
+#pragma once
+#include <Eigen/Core>
+#include <array>
+#include <string>
+#include <vector>
+
+#include "recon/skeleton_sequence.h"
+
+namespace ossa::tools {
+
+/// Joints of one person at one time; those that are absent or not tracked are not there.
+struct SparsePosture {
+  std::array<Eigen::Vector3d, recon::kJointCount> position_m;
+  std::array<bool, recon::kJointCount> present{};
+  std::array<double, recon::kJointCount> confidence{};
+
+  SparsePosture() { position_m.fill(Eigen::Vector3d::Zero()); }
+};
+
+/// One person over time. Times increase.
+struct JointTrack {
+  std::vector<double> time_s;
+  std::vector<SparsePosture> postures;  // as many
+};
+
+SparsePosture SparsePostureOf(const recon::BodyRecord& body);
+
+/// Truth and result of the same person at the same times, frame by frame.
+struct PairedTracks {
+  std::string name;
+  std::vector<double> time_s;
+  std::vector<SparsePosture> truth;
+  std::vector<SparsePosture> result;
+  double offset_s = 0.0;   // added to the result's times
+  bool same_clock = true;  // the offset was not looked for: the frame times agree
+};
+
+enum class TimeAlignment {
+  kAuto,       // none where the frame times of both agree, else as kCorrelate
+  kNone,       // times are taken as they are
+  kCorrelate,  // the offset with the best cross-correlation of joint speeds
+  kFixed,      // a given offset
+};
+
+struct PairOptions {
+  TimeAlignment time = TimeAlignment::kAuto;
+  double offset_s = 0.0;      // for kFixed: added to the result's times
+  double max_offset_s = 2.0;  // correlation looks this far either way
+  bool rigid = false;         // Procrustes without scale over the whole clip, before anything else
+};
+
+/// Brings a result onto the truth: people matched, clocks aligned, truth interpolated linearly at
+/// the result's times (never across a gap of more than 0.2 s), optionally one rigid transform a
+/// clip. Several people in the truth give several pairs.
+std::vector<PairedTracks> PairUp(const recon::SkeletonSequence& truth,
+                                 const recon::SkeletonSequence& result,
+                                 const PairOptions& options = {});
+
+/// The rigid transform (no scale) that brings points `from` onto `to` with the least squared error
+/// (Kabsch 1976, Umeyama 1991). Columns are points; at least one.
+Eigen::Matrix4d RigidTransform(const Eigen::Matrix3Xd& from, const Eigen::Matrix3Xd& to);
+
+/// The offset to add to the times of `result` so that its joint speeds match those of `truth` best:
+/// the peak of their normalised cross-correlation on a 10 ms grid, refined by a parabola.
+double TimeOffset_s(const JointTrack& truth, const JointTrack& result, double max_offset_s);
+
+}  // namespace ossa::tools
