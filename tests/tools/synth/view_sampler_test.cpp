@@ -1,0 +1,95 @@
+#include "tools/synth/view_sampler.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <numbers>
+
+#include "tools/synth/props.h"
+
+namespace ossa::tools {
+namespace {
+
+constexpr double kPi = std::numbers::pi;
+
+TEST(ViewSampler, FrontViewsFaceTheCameraAndHaveThePersonInTheImage) {
+  Random random(1);
+  int whole = 0;
+  for (int i = 0; i < 500; ++i) {
+    const ViewSample sample = SampleView({.view = View::kFront}, random);
+    EXPECT_LE(std::abs(sample.facing_rad), kPi / 3);
+    const Eigen::Vector2d chest =
+        Project(sample.camera, sample.camera_from_world * Eigen::Vector3d(0, 1.1, 0));
+    EXPECT_TRUE(chest.x() > 0 && chest.x() < 640 && chest.y() > 0 && chest.y() < 480)
+        << chest.transpose();
+    const Eigen::Vector2d top =
+        Project(sample.camera, sample.camera_from_world * Eigen::Vector3d(0, 1.7, 0));
+    const Eigen::Vector2d bottom =
+        Project(sample.camera, sample.camera_from_world * Eigen::Vector3d(0, 0, 0));
+    whole += top.y() > 0 && bottom.y() < 480 ? 1 : 0;
+  }
+  EXPECT_GT(whole, 250) << "whole bodies must be the rule";
+}
+
+TEST(ViewSampler, TheWorldsUpIsUpInTheImageAndThePersonsLeftIsImageRightWhenFacing) {
+  Random random(2);
+  const ViewSample sample = SampleView({.view = View::kFront}, random);
+  const auto pixel = [&](double x, double y) {
+    return Project(sample.camera, sample.camera_from_world * Eigen::Vector3d(x, y, 0));
+  };
+  EXPECT_LT(pixel(0, 1.5).y(), pixel(0, 0.5).y());
+  // A person with heading 0 faces the camera: the person's left (+x) is at the image's right.
+  EXPECT_GT(pixel(0.3, 1.0).x(), pixel(-0.3, 1.0).x());
+  EXPECT_NEAR(sample.camera_from_world.linear().determinant(), 1.0, 1e-12);
+}
+
+TEST(ViewSampler, AnyCoversEverySideAndDistance) {
+  Random random(3);
+  int backs = 0;
+  int far = 0;
+  for (int i = 0; i < 400; ++i) {
+    const ViewSample sample = SampleView({.view = View::kAny}, random);
+    backs += std::abs(sample.facing_rad) > kPi / 2 ? 1 : 0;
+    far += (sample.camera_from_world * Eigen::Vector3d(0, 1, 0)).norm() > 2.5 ? 1 : 0;
+  }
+  // Half of the headings show the back; three standard deviations of a binomial of 400 are 30.
+  EXPECT_NEAR(backs, 200, 30);
+  EXPECT_GT(far, 60);
+}
+
+TEST(ViewSampler, TrainAndTestNeverShareAPlacement) {
+  // The same draws under both splits: where train accepts, test must not.
+  for (uint64_t seed = 0; seed < 200; ++seed) {
+    Random a(seed);
+    Random b(seed);
+    const ViewSample train = SampleView({.view = View::kAny, .split = Split::kTrain}, a);
+    const ViewSample test = SampleView({.view = View::kAny, .split = Split::kTest}, b);
+    EXPECT_FALSE(train.camera_from_world.isApprox(test.camera_from_world, 1e-9));
+  }
+}
+
+TEST(Props, HeldThingsAreAtAHandAndRoomsAreBackground) {
+  Random random(4);
+  recon::Posture joints;
+  for (auto& joint_m : joints.position_m) joint_m = {0.0, 1.0, 0.0};
+  joints[recon::Joint::kHandLeft] = {0.9, 1.0, 0.0};
+  joints[recon::Joint::kHandRight] = {-0.9, 1.0, 0.0};
+  for (int i = 0; i < 50; ++i) {
+    const auto props = SampleProps(Occluders::kHeld, joints, Eigen::Isometry3d::Identity(), random);
+    ASSERT_FALSE(props.empty());
+    float nearest_m = 1e9F;
+    for (const auto& vertex_m : props[0].mesh_in_cam.vertices_m) {
+      nearest_m = std::min({nearest_m, (vertex_m - Eigen::Vector3f(0.9F, 1.0F, 0.0F)).norm(),
+                            (vertex_m - Eigen::Vector3f(-0.9F, 1.0F, 0.0F)).norm()});
+    }
+    EXPECT_LT(nearest_m, 0.4F);  // no thing is wider than 0.8 m
+    EXPECT_TRUE(props[0].counts_as_other);
+  }
+  for (const Prop& prop : SampleRoom(Eigen::Isometry3d::Identity(), random)) {
+    EXPECT_FALSE(prop.counts_as_other);
+  }
+  EXPECT_TRUE(SampleProps(Occluders::kNone, joints, Eigen::Isometry3d::Identity(), random).empty());
+}
+
+}  // namespace
+}  // namespace ossa::tools

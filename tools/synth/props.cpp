@@ -1,0 +1,191 @@
+#include "tools/synth/props.h"
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <numbers>
+
+#include "depth/render/shapes.h"
+
+namespace ossa::tools {
+namespace {
+
+using Eigen::Affine3f;
+using Eigen::Vector3f;
+using recon::Joint;
+
+float Draw(Random& random, double low, double high) {
+  return static_cast<float>(random.Uniform(low, high));
+}
+
+Eigen::Quaternionf AnyRotation(Random& random) {
+  return Eigen::Quaternionf(
+             static_cast<float>(random.Normal(0, 1)), static_cast<float>(random.Normal(0, 1)),
+             static_cast<float>(random.Normal(0, 1)), static_cast<float>(random.Normal(0, 1)))
+      .normalized();
+}
+
+/// A thing that fits a hand, centred near where it is held.
+depth::TriangleMesh SmallThing(Random& random) {
+  switch (random.Index(4)) {
+    case 0:
+      return depth::MakeBall(Draw(random, 0.04, 0.13));
+    case 1:
+      return depth::MakeBox(
+          {Draw(random, 0.05, 0.25), Draw(random, 0.05, 0.35), Draw(random, 0.02, 0.2)});
+    case 2: {  // a stick, bat or racket handle, held near its end
+      const float length_m = Draw(random, 0.3, 1.1);
+      return depth::Moved(depth::MakeCapsule(Draw(random, 0.012, 0.035), length_m),
+                          Affine3f(Eigen::Translation3f(0, Draw(random, 0.2, 0.5) * length_m, 0)));
+    }
+    default:  // a bag or bottle, hanging below the hand
+      return depth::Moved(depth::MakeBox({Draw(random, 0.08, 0.4), Draw(random, 0.15, 0.45),
+                                          Draw(random, 0.06, 0.2)}),
+                          Affine3f(Eigen::Translation3f(0, Draw(random, -0.35, -0.1), 0)));
+  }
+}
+
+/// A bulky thing carried between both hands.
+depth::TriangleMesh LargeThing(float span_m, Random& random) {
+  const float width_m = std::clamp(span_m, 0.12F, 0.7F);
+  if (random.Chance(0.3)) return depth::MakeBall(width_m / 2);
+  return depth::MakeBox({width_m, Draw(random, 0.1, 0.6), Draw(random, 0.02, 0.4)});
+}
+
+Prop HeldInOneHand(const recon::Posture& joints, Random& random) {
+  const bool left = random.Chance(0.5);
+  const Vector3f hand_m = joints[left ? Joint::kHandLeft : Joint::kHandRight].cast<float>();
+  return {depth::Moved(SmallThing(random),
+                       Eigen::Translation3f(hand_m) * AnyRotation(random) * Affine3f::Identity())};
+}
+
+/// Between the hands, turned as the line between them lies.
+Prop HeldInBothHands(const recon::Posture& joints, Random& random) {
+  const Vector3f left_m = joints[Joint::kHandLeft].cast<float>();
+  const Vector3f right_m = joints[Joint::kHandRight].cast<float>();
+  const Vector3f across = left_m - right_m;
+  const Eigen::Quaternionf turn = Eigen::Quaternionf::FromTwoVectors(Vector3f::UnitX(), across) *
+                                  Eigen::AngleAxisf(Draw(random, -3.1, 3.1), Vector3f::UnitX());
+  return {depth::Moved(LargeThing(across.norm(), random),
+                       Eigen::Translation3f((left_m + right_m) / 2) * turn * Affine3f::Identity())};
+}
+
+Prop Held(const recon::Posture& joints, Random& random) {
+  const double span_m = (joints[Joint::kHandLeft] - joints[Joint::kHandRight]).norm();
+  return span_m < 0.8 && random.Chance(0.5) ? HeldInBothHands(joints, random)
+                                            : HeldInOneHand(joints, random);
+}
+
+/// A thing on the floor, or at some height, between the person and the camera.
+Prop StandingBefore(const recon::Posture& joints, const Eigen::Isometry3d& camera_from_world,
+                    Random& random) {
+  const Eigen::Vector3d camera_m = camera_from_world.inverse().translation();
+  const Eigen::Vector3d person_m = joints[Joint::kHipCenter];
+  Eigen::Vector3d way = camera_m - person_m;
+  way.y() = 0.0;
+  const double distance_m = way.norm();
+  const double before_m = std::min(random.Uniform(0.3, 1.0), 0.6 * distance_m);
+  const Eigen::Vector3d side = Eigen::Vector3d::UnitY().cross(way.normalized());
+  const Eigen::Vector3d place_m =
+      person_m + way.normalized() * before_m + side * random.Uniform(-0.5, 0.5);
+  Vector3f foot_m(static_cast<float>(place_m.x()), 0.0F, static_cast<float>(place_m.z()));
+  depth::TriangleMesh mesh;
+  switch (random.Index(4)) {
+    case 0:
+      mesh = depth::MakeTable(
+          {Draw(random, 0.5, 1.4), Draw(random, 0.4, 0.95), Draw(random, 0.4, 0.8)});
+      break;
+    case 1:
+      mesh = depth::MakeChair(Draw(random, 0.38, 0.5), Draw(random, 0.38, 0.55),
+                              Draw(random, 0.3, 0.6));
+      break;
+    case 2:  // a board, or a pillar, upright
+      mesh = depth::MakeBox({Draw(random, 0.08, 0.7), Draw(random, 0.3, 1.5), 0.03F});
+      foot_m.y() = Draw(random, 0.2, 1.2);
+      break;
+    default:
+      mesh =
+          depth::MakeBox({Draw(random, 0.2, 0.7), Draw(random, 0.2, 1.0), Draw(random, 0.2, 0.6)});
+      foot_m.y() = Draw(random, 0.2, 0.5);
+  }
+  const auto turn = Eigen::AngleAxisf(Draw(random, -3.1, 3.1), Vector3f::UnitY());
+  return {
+      depth::Moved(std::move(mesh), Eigen::Translation3f(foot_m) * turn * Affine3f::Identity())};
+}
+
+void MoveToCamera(const Eigen::Isometry3d& camera_from_world, std::vector<Prop>& props) {
+  const Affine3f move(camera_from_world.cast<float>().matrix());
+  for (Prop& prop : props) prop.mesh_in_cam = depth::Moved(std::move(prop.mesh_in_cam), move);
+}
+
+depth::TriangleMesh Furniture(Random& random) {
+  switch (random.Index(4)) {
+    case 0:
+      return depth::MakeSofa(Draw(random, 0.8, 2.2), Draw(random, 0.5, 0.8),
+                             Draw(random, 0.35, 0.45));
+    case 1:
+      return depth::MakeTable(
+          {Draw(random, 0.5, 1.8), Draw(random, 0.4, 0.9), Draw(random, 0.4, 0.9)});
+    case 2:
+      return depth::MakeChair(Draw(random, 0.4, 0.5), Draw(random, 0.4, 0.55),
+                              Draw(random, 0.4, 0.6));
+    default: {  // a cupboard or a shelf
+      const Vector3f size_m(Draw(random, 0.4, 1.4), Draw(random, 0.6, 2.1), Draw(random, 0.3, 0.6));
+      return depth::Moved(depth::MakeBox(size_m),
+                          Affine3f(Eigen::Translation3f(0, size_m.y() / 2, 0)));
+    }
+  }
+}
+
+}  // namespace
+
+std::optional<Occluders> OccludersFromName(std::string_view name) {
+  if (name == "none") return Occluders::kNone;
+  if (name == "held") return Occluders::kHeld;
+  if (name == "scene") return Occluders::kScene;
+  if (name == "any") return Occluders::kAny;
+  return std::nullopt;
+}
+
+std::vector<Prop> SampleProps(Occluders kind, const recon::Posture& joints_in_world,
+                              const Eigen::Isometry3d& camera_from_world, Random& random) {
+  std::vector<Prop> props;
+  // With `any` most frames are free: a model must not expect a box in every hand.
+  const bool held = kind == Occluders::kHeld || (kind == Occluders::kAny && random.Chance(0.2));
+  const bool scene = kind == Occluders::kScene || (kind == Occluders::kAny && random.Chance(0.2));
+  if (held) props.push_back(Held(joints_in_world, random));
+  if (held && random.Chance(0.25)) props.push_back(HeldInOneHand(joints_in_world, random));
+  if (scene) props.push_back(StandingBefore(joints_in_world, camera_from_world, random));
+  MoveToCamera(camera_from_world, props);
+  return props;
+}
+
+std::vector<Prop> SampleRoom(const Eigen::Isometry3d& camera_from_world, Random& random) {
+  const Eigen::Vector3d camera_m = camera_from_world.inverse().translation();
+  // The person stands over the origin and the camera looks along -z: the wall behind the person is
+  // at -behind, the camera is inside the room too.
+  const float behind_m = Draw(random, 0.5, 3.0);
+  const auto before_m = static_cast<float>(camera_m.z()) + Draw(random, 0.3, 1.0);
+  const float width_m = Draw(random, 2.5, 6.0);
+  const float shift_m = Draw(random, -0.3, 0.3) * width_m;
+  std::vector<Prop> props;
+  props.push_back(
+      {depth::Moved(depth::MakeRoom({width_m, Draw(random, 2.3, 3.0), behind_m + before_m}),
+                    Affine3f(Eigen::Translation3f(shift_m, 0, (before_m - behind_m) / 2))),
+       false});
+  const size_t count = random.Index(4);
+  for (size_t i = 0; i < count; ++i) {
+    // Along the wall behind, and at either side of the person, never on the person's place.
+    const float side = random.Chance(0.5) ? 1.0F : -1.0F;
+    const Vector3f place_m(shift_m * 0.5F + side * Draw(random, 0.7, std::max(0.8, 0.45 * width_m)),
+                           0.0F, -Draw(random, 0.0, behind_m));
+    const auto turn =
+        Eigen::AngleAxisf(static_cast<float>(random.Normal(0, 0.3)), Vector3f::UnitY());
+    props.push_back({depth::Moved(Furniture(random),
+                                  Eigen::Translation3f(place_m) * turn * Affine3f::Identity()),
+                     false});
+  }
+  MoveToCamera(camera_from_world, props);
+  return props;
+}
+
+}  // namespace ossa::tools

@@ -1,0 +1,126 @@
+#include "tools/synth/view_sampler.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+namespace ossa::tools {
+namespace {
+
+constexpr double kDegree = std::numbers::pi / 180.0;
+
+/// Where the camera stands and what it looks at.
+struct Placement {
+  double distance_m = 2.5;    // on the floor, from the person's vertical axis
+  double height_m = 1.0;      // of the camera
+  double aim_height_m = 0.9;  // height on the person's axis that the optical axis meets
+  double aside_rad = 0.0;     // turns the person off the centre of the image
+  double roll_rad = 0.0;
+  double facing_rad = 0.0;
+};
+
+/// Test placements are one in five cells of a grid over height, distance and heading; training
+/// draws from the other four.
+bool IsTestPlacement(const Placement& place) {
+  const auto cell = [](double value, double size) {
+    return static_cast<uint64_t>(static_cast<int64_t>(std::floor(value / size)) + 1000);
+  };
+  const uint64_t key = (cell(place.height_m, 0.1) * 4096 + cell(place.distance_m, 0.1)) * 4096 +
+                       cell(place.facing_rad, 10 * kDegree);
+  return Random(key).Index(5) == 0;
+}
+
+Placement DrawFront(double person_m, Random& random) {
+  Placement place;
+  place.distance_m = random.Uniform(1.6, 4.0);
+  place.height_m = random.Uniform(0.4, 2.0);
+  // Near people fill the image, so the aim is at their middle; far ones stand anywhere in it.
+  const double slack = std::clamp((place.distance_m - 2.0) / 2.0, 0.0, 1.0);
+  place.aim_height_m = person_m * (0.52 + random.Uniform(-0.2, 0.2) * (0.3 + slack));
+  place.aside_rad = random.Uniform(-14, 14) * kDegree * (0.4 + 0.6 * slack);
+  place.facing_rad = random.Uniform(-60, 60) * kDegree;
+  return place;
+}
+
+Placement DrawNear(double person_m, Random& random) {
+  Placement place;
+  place.distance_m = random.Uniform(0.75, 1.75);
+  place.height_m = person_m * random.Uniform(0.45, 1.15);
+  place.aim_height_m = person_m * random.Uniform(0.55, 0.95);
+  place.aside_rad = random.Uniform(-16, 16) * kDegree;
+  place.facing_rad =
+      random.Chance(0.8) ? random.Uniform(-60, 60) * kDegree : random.Uniform(-180, 180) * kDegree;
+  return place;
+}
+
+Placement DrawAny(double person_m, Random& random) {
+  Placement place;
+  // Even in the logarithm: as many near views as far ones.
+  place.distance_m = 0.8 * std::pow(5.0 / 0.8, random.Uniform(0.0, 1.0));
+  place.height_m = random.Uniform(0.3, 2.4);
+  place.aim_height_m = person_m * random.Uniform(0.2, 0.9);
+  place.aside_rad = random.Uniform(-24, 24) * kDegree;
+  place.facing_rad = random.Uniform(-180, 180) * kDegree;
+  return place;
+}
+
+Placement Draw(View view, double person_m, Random& random) {
+  Placement place = view == View::kFront  ? DrawFront(person_m, random)
+                    : view == View::kNear ? DrawNear(person_m, random)
+                                          : DrawAny(person_m, random);
+  place.roll_rad = random.Normal(0.0, 2.0 * kDegree);
+  return place;
+}
+
+depth::Camera DrawCamera(const ViewRequest& request, Random& random) {
+  depth::Camera camera = depth::KinectV1Camera(request.width, request.height);
+  if (!request.generic_cameras || random.Chance(0.5)) return camera;
+  const double zoom = random.Uniform(0.85, 1.15);
+  camera.fx *= zoom;
+  camera.fy *= zoom * random.Uniform(0.99, 1.01);
+  camera.cx += random.Normal(0.0, 0.01) * request.width;
+  camera.cy += random.Normal(0.0, 0.01) * request.height;
+  return camera;
+}
+
+/// The camera stands on the person's +z side and looks at the aim, turned aside and rolled.
+Eigen::Isometry3d CameraFromWorld(const Placement& place) {
+  const Eigen::Vector3d position_m(0.0, place.height_m, place.distance_m);
+  const Eigen::Vector3d aim_m(0.0, place.aim_height_m, 0.0);
+  const Eigen::Vector3d forward = (aim_m - position_m).normalized();
+  const Eigen::Vector3d left = Eigen::Vector3d::UnitY().cross(forward).normalized();
+  Eigen::Matrix3d world_from_camera;
+  world_from_camera << left, forward.cross(left), forward;
+  world_from_camera = world_from_camera *
+                      Eigen::AngleAxisd(place.aside_rad, Eigen::Vector3d::UnitY()) *
+                      Eigen::AngleAxisd(place.roll_rad, Eigen::Vector3d::UnitZ());
+  Eigen::Isometry3d pose = Eigen::Isometry3d::Identity();
+  pose.linear() = world_from_camera;
+  pose.translation() = position_m;
+  return pose.inverse();
+}
+
+}  // namespace
+
+std::optional<View> ViewFromName(std::string_view name) {
+  if (name == "front") return View::kFront;
+  if (name == "near") return View::kNear;
+  if (name == "any") return View::kAny;
+  return std::nullopt;
+}
+
+std::optional<Split> SplitFromName(std::string_view name) {
+  if (name == "train") return Split::kTrain;
+  if (name == "test") return Split::kTest;
+  return std::nullopt;
+}
+
+ViewSample SampleView(const ViewRequest& request, Random& random) {
+  Placement place = Draw(request.view, request.person_height_m, random);
+  while (IsTestPlacement(place) != (request.split == Split::kTest)) {
+    place = Draw(request.view, request.person_height_m, random);
+  }
+  return {DrawCamera(request, random), CameraFromWorld(place), place.facing_rad};
+}
+
+}  // namespace ossa::tools
