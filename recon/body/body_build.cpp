@@ -29,20 +29,28 @@ struct GroupShare {
   float share;
 };
 
-// The SDK's joints, midline and left side, from joint cubes; the right side has -r- for -l-. The
-// SDK puts the hip centre a hand's breadth above the hips' line and the spine close above it, the
-// head joint in the middle of the head, the hand in the palm, the foot at the ball.
+// The joints of standard_body.h, from joint cubes: midline, left side, right side.
 const std::array<std::vector<GroupShare>, kJointCount> kJointRules = {{
-    {{"joint-spine-4", 1}},     {{"joint-spine-3", 1}},
-    {{"joint-neck", 1}},        {{"joint-head", 0.55f}, {"joint-head-2", 0.45f}},
-    {{"joint-l-shoulder", 1}},  {{"joint-l-elbow", 1}},
-    {{"joint-l-hand", 1}},      {{"joint-l-hand", 0.25f}, {"joint-l-finger-3-1", 0.75f}},
-    {{"joint-r-shoulder", 1}},  {{"joint-r-elbow", 1}},
-    {{"joint-r-hand", 1}},      {{"joint-r-hand", 0.25f}, {"joint-r-finger-3-1", 0.75f}},
-    {{"joint-l-upper-leg", 1}}, {{"joint-l-knee", 1}},
-    {{"joint-l-ankle", 1}},     {{"joint-l-toe-3-1", 1}},
-    {{"joint-r-upper-leg", 1}}, {{"joint-r-knee", 1}},
-    {{"joint-r-ankle", 1}},     {{"joint-r-toe-3-1", 1}},
+    {{"joint-pelvis", 0.5f}, {"joint-spine-4", 0.5f}},
+    {{"joint-spine-2", 1}},
+    {{"joint-neck", 1}},
+    {{"joint-head", 0.5f}, {"joint-head-2", 0.5f}},
+    {{"joint-l-shoulder", 1}},
+    {{"joint-l-elbow", 1}},
+    {{"joint-l-hand", 1}},
+    {{"joint-l-hand", 0.5f}, {"joint-l-finger-3-1", 0.5f}},
+    {{"joint-r-shoulder", 1}},
+    {{"joint-r-elbow", 1}},
+    {{"joint-r-hand", 1}},
+    {{"joint-r-hand", 0.5f}, {"joint-r-finger-3-1", 0.5f}},
+    {{"joint-l-upper-leg", 1}},
+    {{"joint-l-knee", 1}},
+    {{"joint-l-ankle", 1}},
+    {{"joint-l-toe-3-1", 1}},
+    {{"joint-r-upper-leg", 1}},
+    {{"joint-r-knee", 1}},
+    {{"joint-r-ankle", 1}},
+    {{"joint-r-toe-3-1", 1}},
 }};
 
 constexpr std::array<const char*, 12> kKnuckles = {

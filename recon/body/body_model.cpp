@@ -7,6 +7,7 @@
 
 #include "depth/error.h"
 #include "recon/body/body_build_internal.h"
+#include "recon/body/standard_body.h"
 
 namespace ossa::recon {
 namespace {
@@ -15,7 +16,6 @@ namespace fs = std::filesystem;
 
 constexpr double kMetresPerDecimetre = 0.1;
 constexpr float kDeltaUnit_dm = 1e-3f;
-constexpr double kAverageHipsHeight_m = 0.8737;  // of the neutral body: joint-pelvis above the soles
 
 /// A factor of a target's weight: the word in its name and how much of it the shape has.
 struct Term {
@@ -75,10 +75,6 @@ std::vector<Eigen::Vector3f> VertexNormals(const std::vector<Eigen::Vector3f>& v
   }
   return normals;
 }
-
-// The bone that carries each of the SDK's joints.
-constexpr std::array<size_t, kJointCount> kJointBone = {0,  11, 13, 16, 18, 19, 20, 20, 25, 26,
-                                                        27, 27, 2,  3,  4,  4,  7,  8,  9,  9};
 
 }  // namespace
 
@@ -166,7 +162,7 @@ ShapedBody BodyModel::Shape(const BodyShape& shape) const {
     body.flexion_axis[k] =
         (point[1] - point[0]).cross(point[2] - point[1]).normalized().cast<double>();
   }
-  body.root_scale = body.bone_head_m[0].y() / kAverageHipsHeight_m;
+  body.root_scale = body.bone_head_m[0].y() / StandardRigRest().head_m[0].y();
   return body;
 }
 
@@ -224,9 +220,10 @@ std::array<Eigen::Vector3d, kRigBoneCount> PosedBoneHeads(const ShapedBody& body
 
 Posture JointsOf(const ShapedBody& body, const RigPose& pose) {
   const auto heads = PosedBoneHeads(body, pose);
+  const auto& anchors = StandardJointAnchors();  // the same bones carry them on every body
   Posture posture;
   for (size_t j = 0; j < kJointCount; ++j) {
-    const size_t bone = kJointBone[j];
+    const auto bone = static_cast<size_t>(anchors[j].bone);
     posture.position_m[j] =
         heads[bone] + pose.world_from_rest[bone] * (body.joint_m[j] - body.bone_head_m[bone]);
   }
