@@ -44,6 +44,9 @@ class FrameSource {
 struct SourceOptions {
   std::optional<Camera> camera;  // overrides whatever the source says (but for camera.json)
   std::chrono::milliseconds device_wait{0};  // how long to wait for a device to appear
+  // A recording's player that is silent for longer hangs inside OpenNI2: the file is damaged. The
+  // player itself waits 3 s for a frame of a file that is merely cut short.
+  std::chrono::milliseconds player_patience{10000};
 };
 
 /// Opens SOURCE as DESIGN.md §4 names it: "openni:", "openni:URI", "FILE.oni", a folder of 16-bit

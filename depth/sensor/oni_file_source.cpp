@@ -17,13 +17,11 @@ namespace {
 namespace fs = std::filesystem;
 using std::chrono::milliseconds;
 
-// The reader waits 3 s for a frame; one that is silent for longer hangs inside OpenNI2.
-constexpr milliseconds kPatience{10000};
-
 class OniFileSource final : public FrameSource {
  public:
   OniFileSource(const fs::path& path, const SourceOptions& options)
       : name_(path.string()),
+        patience_(options.player_patience),
         preamble_(CheckOniFile(path)),
         child_(OpenNiRuntimeFolder() / "reader/ossa_oni_reader", {fs::absolute(path).string()}) {
     OniPipeHello hello;
@@ -45,7 +43,7 @@ class OniFileSource final : public FrameSource {
     if (ended_) return {.status = ReadStatus::kEnd, .frame = {}};
     if (child_.WaitForOutput(timeout) == ChildProcess::Outcome::kTimeout) {
       waited_ += timeout;
-      if (waited_ > kPatience) FailHung();
+      if (waited_ > patience_) FailHung();
       return {.status = ReadStatus::kTimeout, .frame = {}};
     }
     waited_ = milliseconds{0};
@@ -92,7 +90,7 @@ class OniFileSource final : public FrameSource {
   }
 
   void Take(void* to, size_t size) {
-    switch (child_.ReadExactly(to, size, kPatience)) {
+    switch (child_.ReadExactly(to, size, patience_)) {
       case ChildProcess::Outcome::kRead:
         return;
       case ChildProcess::Outcome::kTimeout:
@@ -123,6 +121,7 @@ class OniFileSource final : public FrameSource {
   }
 
   std::string name_;
+  milliseconds patience_;
   OniPreamble preamble_;
   ChildProcess child_;
   Camera camera_;

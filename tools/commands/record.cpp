@@ -76,8 +76,8 @@ Recorded RecordFrames(depth::FrameSource& source, const RecordOptions& options,
   Progress progress("recording", options.quiet);
   auto last_frame_at = Clock::now();
   std::optional<double> first_time_s;
-  const double known_s = static_cast<double>(source.frame_count().value_or(0)) * kPeriod_s;
-  const double total_s = options.seconds > 0 ? options.seconds : known_s;
+  const auto known = static_cast<double>(source.frame_count().value_or(0));
+  const double total = options.seconds > 0 ? options.seconds / kPeriod_s : known;
   while (!Interrupted()) {
     const depth::ReadResult result = source.Read(milliseconds(100));
     if (result.status == depth::ReadStatus::kEnd) break;
@@ -88,7 +88,7 @@ Recorded RecordFrames(depth::FrameSource& source, const RecordOptions& options,
       ++recorded.frames;
       recorded.dropped += result.dropped;
       recorded.seconds = result.frame.time_s - *first_time_s + kPeriod_s;
-      if (total_s > 0) progress.Update(recorded.seconds, total_s);
+      if (total > 0) progress.Update(static_cast<double>(recorded.frames), total, "frames");
       if (options.seconds > 0 && recorded.seconds > options.seconds - kPeriod_s / 2) break;
     } else if (source.is_live() &&
                Clock::now() - last_frame_at > Milliseconds(options.patience_s)) {

@@ -65,9 +65,11 @@ class VirtualCamera {
     }
   }
 
-  // When the first frame is due; the clock runs on from the first start.
+  // When the first frame is due; the clock runs on from the first start. Not at once: OpenNI2
+  // throws away what comes before start() has returned.
   Clock::time_point Began() {
-    if (!began_) began_ = Clock::now();
+    constexpr std::chrono::milliseconds kStartUp{40};
+    if (!began_) began_ = Clock::now() + kStartUp;
     return *began_;
   }
 

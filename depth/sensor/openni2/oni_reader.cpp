@@ -18,7 +18,10 @@
 namespace ossa::depth {
 namespace {
 
+// A frame that is in the file comes at once; these bound the wait for one that is not. A file of
+// unknown length has its end where the player falls silent.
 constexpr int kFrameTimeout_ms = 3000;
+constexpr int kEndTimeout_ms = 1500;
 
 void WriteAll(const void* data, size_t size) {
   const char* at = static_cast<const char*>(data);
@@ -74,8 +77,8 @@ void SendFrames(openni::VideoStream& stream, int frame_count) {
   for (int64_t i = 0; !known || i < frame_count; ++i) {
     openni::VideoStream* streams = &stream;
     int ready = -1;
-    if (openni::OpenNI::waitForAnyStream(&streams, 1, &ready, kFrameTimeout_ms) !=
-        openni::STATUS_OK) {
+    const int timeout_ms = known || i == 0 ? kFrameTimeout_ms : kEndTimeout_ms;
+    if (openni::OpenNI::waitForAnyStream(&streams, 1, &ready, timeout_ms) != openni::STATUS_OK) {
       if (!known && i > 0) break;
       throw InputError("frame " + std::to_string(i) + ": expected " +
                        (known ? std::to_string(frame_count) : "some") +

@@ -1,0 +1,193 @@
+// OpenNI2 devices, through the virtual one: what a live camera does and can do to its reader.
+#include <gtest/gtest.h>
+
+#include <array>
+#include <chrono>
+#include <fstream>
+#include <thread>
+
+#include "depth/error.h"
+#include "depth/image/camera_io.h"
+#include "depth/sensor/frame_source.h"
+#include "tests/support/depth_examples.h"
+#include "tests/support/temporary_folder.h"
+
+namespace ossa::depth {
+namespace {
+
+using Clock = std::chrono::steady_clock;
+using std::chrono::milliseconds;
+using test::ExampleFrame;
+using test::TemporaryFolder;
+using test::WriteExampleFolder;
+
+std::string Uri(const TemporaryFolder& folder, const std::string& options = "") {
+  return "openni:ossa://" + folder.path().string() + options;
+}
+
+ReadResult NextFrame(FrameSource& source) {
+  for (;;) {
+    ReadResult result = source.Read(milliseconds(2000));
+    if (result.status == ReadStatus::kFrame || result.status == ReadStatus::kTimeout) return result;
+  }
+}
+
+// The frame of the folder that this is; -1 if of none.
+int NumberOf(const DepthFrame& frame, int count) {
+  for (int i = 0; i < count; ++i) {
+    if (frame.depth_mm == ExampleFrame(i).depth_mm) return i;
+  }
+  return -1;
+}
+
+TEST(Device, DeliversTheFramesBitForBitAt30Hz) {
+  const TemporaryFolder folder;
+  WriteExampleFolder(folder.path(), 10);
+  const auto source = OpenSource(Uri(folder));
+  EXPECT_TRUE(source->is_live());
+  EXPECT_EQ(source->frame_count(), std::nullopt);
+  int last = -1;
+  for (int i = 0; i < 5; ++i) {
+    const ReadResult result = NextFrame(*source);
+    ASSERT_EQ(result.status, ReadStatus::kFrame);
+    const int number = NumberOf(result.frame, 10);
+    ASSERT_GT(number, last) << "frames in order, none twice";
+    if (last >= 0) {
+      EXPECT_EQ(result.dropped, number - last - 1);
+      EXPECT_EQ(result.frame.index, i + result.dropped);
+    }
+    last = number;
+  }
+}
+
+TEST(Device, TellsItsExactCamera) {
+  const TemporaryFolder folder;
+  WriteExampleFolder(folder.path(), 3);
+  const Camera camera{32, 24, 30.5, 31.25, 15.5, 11.5};
+  WriteCameraJson(folder / "camera.json", camera);
+  EXPECT_EQ(OpenSource(Uri(folder))->camera(), camera);
+  const SourceOptions options{.camera = ParseCamera("1,2,3,4"), .device_wait = {}};
+  EXPECT_EQ(OpenSource(Uri(folder), options)->camera(), (Camera{32, 24, 1, 2, 3, 4}));
+}
+
+TEST(Device, ThatMirrorsByDefaultIsToldNotTo) {
+  const TemporaryFolder folder;
+  WriteExampleFolder(folder.path(), 10);
+  const auto source = OpenSource(Uri(folder, "?mirror=1"));
+  EXPECT_GE(NumberOf(NextFrame(*source).frame, 10), 0);
+}
+
+TEST(Device, ASlowReaderGetsTheNewestFrameAndTheNumberLost) {
+  const TemporaryFolder folder;
+  WriteExampleFolder(folder.path(), 60);
+  const auto source = OpenSource(Uri(folder, "?fps=100"));
+  const int first = NumberOf(NextFrame(*source).frame, 60);
+  std::this_thread::sleep_for(milliseconds(200));
+  const ReadResult late = NextFrame(*source);
+  ASSERT_EQ(late.status, ReadStatus::kFrame);
+  const int number = NumberOf(late.frame, 60);
+  EXPECT_EQ(late.dropped, number - first - 1);
+  // 200 ms are 20 frames; half of them allows for a loaded machine. A queue would give the second.
+  EXPECT_GT(late.dropped, 10);
+}
+
+TEST(Device, IsUnpluggedAndPluggedInAgainWithoutTheReaderNoticingMoreThanAGap) {
+  const TemporaryFolder folder;
+  WriteExampleFolder(folder.path(), 8);
+  const auto source =
+      OpenSource(Uri(folder, "?loop=1&fps=60&unplug_after=6&replug_after_ms=150&unplugs=3"));
+  int disconnections = 0;
+  bool connected = true;
+  int64_t index = -1;
+  double time_s = -1.0;
+  int64_t dropped = 0;
+  const auto deadline = Clock::now() + std::chrono::seconds(20);
+  int frames_after = 0;
+  while (frames_after < 6 && Clock::now() < deadline) {
+    const ReadResult result = source->Read(milliseconds(50));
+    if (result.status == ReadStatus::kDisconnected) {
+      disconnections += connected ? 1 : 0;
+      connected = false;
+    }
+    if (result.status != ReadStatus::kFrame) continue;
+    connected = true;
+    EXPECT_EQ(result.frame.index, index + 1 + result.dropped);
+    EXPECT_GT(result.frame.time_s, time_s);
+    index = result.frame.index;
+    time_s = result.frame.time_s;
+    dropped += result.dropped;
+    if (disconnections == 3) ++frames_after;
+  }
+  EXPECT_EQ(disconnections, 3);
+  EXPECT_EQ(frames_after, 6);
+  EXPECT_GE(dropped, 3 * 8) << "each gap of 150 ms is 9 frames";
+}
+
+TEST(Device, ThatStopsDeliveringTimesOut) {
+  const TemporaryFolder folder;
+  WriteExampleFolder(folder.path(), 10);
+  const auto source = OpenSource(Uri(folder, "?stall_after=1"));
+  EXPECT_EQ(source->Read(milliseconds(2000)).status, ReadStatus::kFrame);
+  const auto began = Clock::now();
+  EXPECT_EQ(source->Read(milliseconds(250)).status, ReadStatus::kTimeout);
+  EXPECT_GE(Clock::now() - began, milliseconds(250));
+}
+
+TEST(Device, AtItsEndIsUnpluggedForGood) {
+  const TemporaryFolder folder;
+  WriteExampleFolder(folder.path(), 3);
+  const auto source = OpenSource(Uri(folder));
+  ReadStatus status = ReadStatus::kFrame;
+  for (int i = 0; i < 20 && status != ReadStatus::kDisconnected; ++i) {
+    status = source->Read(milliseconds(200)).status;
+  }
+  EXPECT_EQ(status, ReadStatus::kDisconnected);
+  EXPECT_EQ(source->Read(milliseconds(50)).status, ReadStatus::kDisconnected);
+}
+
+TEST(Device, AFrameItCannotReadIsADroppedFrame) {
+  const TemporaryFolder folder;
+  WriteExampleFolder(folder.path(), 6);
+  std::ofstream(folder / "000002.png") << "no PNG";
+  const auto source = OpenSource(Uri(folder, "?fps=20"));
+  int last = -1;
+  while (last < 5) {
+    const ReadResult result = NextFrame(*source);
+    ASSERT_EQ(result.status, ReadStatus::kFrame);
+    const int number = NumberOf(result.frame, 6);
+    if (last >= 0) {
+      EXPECT_EQ(result.dropped, number - last - 1);
+    }
+    last = number;
+  }
+}
+
+TEST(Device, TwoAtOnceDoNotDisturbEachOther) {
+  const TemporaryFolder a;
+  const TemporaryFolder b;
+  WriteExampleFolder(a.path(), 10);
+  WriteExampleFolder(b.path(), 10, 16, 12);
+  const auto first = OpenSource(Uri(a));
+  const auto second = OpenSource(Uri(b));
+  EXPECT_EQ(NextFrame(*first).frame.camera.width, 32);
+  EXPECT_EQ(NextFrame(*second).frame.camera.width, 16);
+}
+
+TEST(Device, ThatIsNotThereIsOneLineAfterTheWaitAsked) {
+  for (const char* name :
+       {"openni:", "openni:ossa:///nowhere", "openni:ossa://x?bad=1", "openni:1d27/0601@1/2"}) {
+    const auto began = Clock::now();
+    try {
+      OpenSource(name, {.camera = {}, .device_wait = milliseconds(250)});
+      ADD_FAILURE() << name;
+    } catch (const InputError& error) {
+      const std::string message = error.what();
+      EXPECT_EQ(message.rfind(std::string(name) + ": ", 0), 0u) << message;
+      EXPECT_EQ(message.find('\n'), std::string::npos) << message;
+    }
+    EXPECT_GE(Clock::now() - began, milliseconds(250));
+  }
+}
+
+}  // namespace
+}  // namespace ossa::depth

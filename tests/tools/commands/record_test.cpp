@@ -1,0 +1,142 @@
+#include <gtest/gtest.h>
+#include <signal.h>
+
+#include <fstream>
+
+#include "depth/sensor/frame_source.h"
+#include "tests/support/depth_examples.h"
+#include "tests/support/run_command.h"
+#include "tests/support/temporary_folder.h"
+
+namespace ossa::commands {
+namespace {
+
+using std::chrono::milliseconds;
+using test::CommandResult;
+using test::ExampleFrame;
+using test::RunOssa;
+using test::TemporaryFolder;
+using test::WriteExampleFolder;
+
+std::string Bytes(const std::filesystem::path& path) {
+  std::ifstream file(path, std::ios::binary);
+  return {std::istreambuf_iterator<char>(file), {}};
+}
+
+int FramesIn(const std::filesystem::path& path) {
+  const auto source = depth::OpenSource(path.string());
+  int count = 0;
+  while (source->Read(milliseconds(5000)).status == depth::ReadStatus::kFrame) ++count;
+  return count;
+}
+
+TEST(RecordCommand, RecordsAFolderAndARecordingOfItIsTheSame) {
+  const TemporaryFolder folder;
+  WriteExampleFolder(folder.path(), 5);
+  const std::string first = (folder / "a.oni").string();
+  const std::string second = (folder / "b.oni").string();
+  const CommandResult result = RunOssa({"record", folder.path().string(), "--out", first});
+  EXPECT_EQ(result.exit_status, 0) << result.err;
+  EXPECT_EQ(result.out, first + ": 5 frames, 0.2 s, 0 dropped\n");
+  EXPECT_EQ(RunOssa({"record", first, "--out", second, "--quiet"}).exit_status, 0);
+  EXPECT_EQ(Bytes(first), Bytes(second));
+  const auto source = depth::OpenSource(second);
+  EXPECT_EQ(source->Read(milliseconds(5000)).frame.depth_mm, ExampleFrame(0).depth_mm);
+}
+
+TEST(RecordCommand, StopsAfterSoManySeconds) {
+  const TemporaryFolder folder;
+  WriteExampleFolder(folder.path(), 40);
+  const std::string out = (folder / "x.oni").string();
+  EXPECT_EQ(RunOssa({"record", folder.path().string(), "--out", out, "--seconds", "1"}).exit_status,
+            0);
+  EXPECT_EQ(FramesIn(out), 30);
+}
+
+TEST(RecordCommand, RecordsALiveDeviceToItsEnd) {
+  const TemporaryFolder folder;
+  WriteExampleFolder(folder.path(), 10);
+  const std::string out = (folder / "x.oni").string();
+  const CommandResult result = RunOssa(
+      {"record", "openni:ossa://" + folder.path().string(), "--out", out, "--patience", "0.3"});
+  EXPECT_EQ(result.exit_status, 0) << result.err;
+  EXPECT_GE(FramesIn(out), 5) << "all ten, unless the machine is busy";
+}
+
+TEST(RecordCommand, CtrlCEndsCleanlyWithAWholeFile) {
+  const TemporaryFolder folder;
+  WriteExampleFolder(folder.path(), 10);
+  const std::string out = (folder / "x.oni").string();
+  auto running = test::StartOssa({"record", "openni:ossa://" + folder.path().string() + "?loop=1",
+                                  "--out", out, "--seconds", "1000"});
+  // Progress speaks with the first frame.
+  ASSERT_TRUE(running.WaitForError("recording", milliseconds(10000)));
+  running.Signal(SIGINT);
+  const CommandResult result = running.Wait(milliseconds(10000));
+  EXPECT_EQ(result.exit_status, 0) << result.err;
+  EXPECT_GE(FramesIn(out), 1);
+}
+
+TEST(RecordCommand, KilledItLeavesNothingUnderTheFinalName) {
+  const TemporaryFolder folder;
+  WriteExampleFolder(folder.path(), 10);
+  const std::string out = (folder / "x.oni").string();
+  auto running = test::StartOssa({"record", "openni:ossa://" + folder.path().string() + "?loop=1",
+                                  "--out", out, "--seconds", "1000"});
+  ASSERT_TRUE(running.WaitForError("recording", milliseconds(10000)));
+  running.Signal(SIGKILL);
+  EXPECT_EQ(running.Wait(milliseconds(10000)).exit_status, 128 + SIGKILL);
+  EXPECT_FALSE(std::filesystem::exists(out));
+}
+
+TEST(RecordCommand, ADeviceThatFallsSilentIsAFailureWithAWholeFile) {
+  const TemporaryFolder folder;
+  WriteExampleFolder(folder.path(), 10);
+  const std::string out = (folder / "x.oni").string();
+  const CommandResult result =
+      RunOssa({"record", "openni:ossa://" + folder.path().string() + "?stall_after=3", "--out", out,
+               "--patience", "0.3", "--quiet"});
+  EXPECT_EQ(result.exit_status, 1);
+  EXPECT_NE(result.err.find("delivers no frames"), std::string::npos) << result.err;
+  EXPECT_EQ(test::LineCount(result.err), 1);
+  EXPECT_GE(FramesIn(out), 1);
+}
+
+TEST(RecordCommand, SaysWhatIsWrongInOneLine) {
+  const TemporaryFolder folder;
+  WriteExampleFolder(folder.path(), 3);
+  std::ofstream(folder / "000001.png") << "no PNG";
+  const std::string out = (folder / "x.oni").string();
+  struct Case {
+    std::vector<std::string> arguments;
+    int exit_status;
+    const char* message;
+  };
+  for (const Case& bad : std::vector<Case>{
+           {{"record"}, 2, "SOURCE is required"},
+           {{"record", "x"}, 2, "--out is required"},
+           {{"record", "x", "--out", "x.png"}, 2, "ends in .oni"},
+           {{"record", "x", "--out", out, "--seconds", "-1"}, 2, "--seconds"},
+           {{"record", "/nowhere", "--out", out}, 1, "/nowhere: expected"},
+           {{"record", "openni:", "--out", out}, 1, "no OpenNI2 device found"},
+           {{"record", "openni:", "--out", out, "--camera", "1,2"}, 1, "--camera: expected"},
+           {{"record", folder.path().string(), "--out", out, "--quiet"}, 1, "000001.png: byte 0"},
+           {{"record", folder.path().string(), "--out", "/nowhere/x.oni"},
+            1,
+            "cannot be written"}}) {
+    const CommandResult result = RunOssa(bad.arguments);
+    EXPECT_EQ(result.exit_status, bad.exit_status) << result.err;
+    EXPECT_NE(result.err.find(bad.message), std::string::npos) << result.err;
+    EXPECT_EQ(test::LineCount(result.err), 1) << result.err;
+    EXPECT_FALSE(std::filesystem::exists(out));
+  }
+}
+
+TEST(RecordCommand, HelpIsNoFailure) {
+  const CommandResult result = RunOssa({"record", "--help"});
+  EXPECT_EQ(result.exit_status, 0);
+  EXPECT_NE(result.out.find("--seconds"), std::string::npos);
+}
+
+}  // namespace
+}  // namespace ossa::commands
