@@ -14,6 +14,10 @@ using ossa::commands::Command;
 constexpr std::array kCommands = {
     Command{"experiment", "run a study: a paper's tables beside its own numbers",
             ossa::commands::Experiment},
+    Command{"database", "build a posture database from motion capture",
+            ossa::commands::Database},
+    Command{"reconstruct", "make recorded skeletons complete and plausible",
+            ossa::commands::Reconstruct},
     Command{"info", "say what a file of ossa's holds", ossa::commands::Info},
     Command{"record", "record a source to an .oni file", ossa::commands::Record},
 };

@@ -37,11 +37,37 @@ class Reconstructor {
 
 class PostureDatabase;  // recon/database/posture_database.h
 
+/// Settings of the natural posture space and its energy: shum-2013, plantard-2016.
+struct LocalPcaOptions {
+  int neighbours = 30;                // K, Shum 2013 table V
+  int dimensions = 20;                // of the natural posture space, table V
+  int steps = 20;                     // of the local stochastic search, table V
+  int samples = 100;                  // per step, table V
+  double control = 1.0;               // w_c, eq. 15
+  double style = 0.5;                 // w_s
+  double kinematics = 1.5;            // w_k
+  double continuity = 0.25;           // w_m
+  std::string solver = "stochastic";  // or "ceres": the same energy by Levenberg-Marquardt
+  bool use_reliability = true;        // false: the paper's method B, every joint seen counts fully
+  bool extend_database = false;       // sec. IX: reliable postures join a private copy at run time
+};
+
+/// Settings of the Gaussian-process energy: liu-2016, full-gp.
+struct GaussianProcessOptions {
+  int nearby_models = 9;     // L, Liu 2016 sec. 4.2.2
+  double spatial = 0.6;      // w_S, eq. 22
+  double temporal = 0.2;     // w_T
+  double reliability = 0.2;  // w_R
+  bool incremental = true;   // algorithm 2: reliable samples of low variance join the local models
+};
+
 struct ReconstructorOptions {
   std::string method = "best";                      // one of ReconstructionMethods()
   std::shared_ptr<const PostureDatabase> database;  // needed by the methods that look things up
-  std::string learned_file;  // .ossagp of `ossa learn`: liu-2016, full-gp, best
+  std::string learned_file;  // .ossagp of `ossa learn`: liu-2016, full-gp, exemplar, best
   uint64_t seed = 1;
+  LocalPcaOptions local_pca;
+  GaussianProcessOptions gaussian_process;
 };
 
 /// Names of all methods, in the order of `ossa track --help`.

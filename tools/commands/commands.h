@@ -4,6 +4,8 @@ namespace ossa::commands {
 
 // One function a subcommand, each in a file of its own name in this folder.
 int Experiment(int argc, char** argv);
+int Database(int argc, char** argv);
+int Reconstruct(int argc, char** argv);
 int Info(int argc, char** argv);
 int Record(int argc, char** argv);
 

@@ -1,0 +1,106 @@
+// The .ossadb file: writing, and reading that believes nothing.
+#include <algorithm>
+#include <cmath>
+
+#include "depth/error.h"
+#include "depth/file/sealed_file.h"
+#include "recon/database/posture_database.h"
+
+namespace ossa::recon {
+namespace {
+
+constexpr SealedFormat kFormat = {{'O', 'S', 'S', 'A', 'D', 'B', '0', '0'}, 1, "posture database"};
+
+void ExpectFinite(const PayloadReader& reader, std::span<const float> values, float limit,
+                  std::string_view field) {
+  for (const float v : values) {
+    if (!(std::abs(v) <= limit)) reader.Fail(field, "expected finite numbers of human size");
+  }
+}
+
+}  // namespace
+
+void PostureDatabase::Save(const std::filesystem::path& path) const {
+  PayloadWriter out;
+  out.Put<uint32_t>(kJointCount);
+  for (size_t i = 0; i < kJointCount; ++i) out.Put<int32_t>(kJointParent[i]);
+  out.Put(bone_lengths_m_);
+  out.Put<uint32_t>(static_cast<uint32_t>(options_.filter));
+  out.Put(options_.threshold_m);
+  out.Put<int32_t>(options_.most_edges);
+  out.Put(edge_threshold_m_);
+  out.Put(source_postures_);
+  out.Put<uint64_t>(clip_names_.size());
+  for (const std::string& name : clip_names_) out.PutString(name);
+  out.PutVector(clip_of_);
+  out.PutArray(std::span<const float>(postures_.data(), static_cast<size_t>(postures_.size())));
+  out.PutVector(quaternions_);
+  out.PutVector(edge_begin_);
+  out.PutVector(edges_);
+  WriteSealedFile(path, kFormat, out.bytes());
+}
+
+PostureDatabase PostureDatabase::Load(const std::filesystem::path& path) {
+  const auto payload = ReadSealedFile(path, kFormat);
+  return FromBytes(payload, path.string());
+}
+
+PostureDatabase PostureDatabase::FromBytes(std::span<const std::byte> bytes,
+                                           const std::string& name) {
+  PayloadReader in(bytes, name);
+  PostureDatabase db;
+  if (in.Get<uint32_t>("joint count") != kJointCount) in.Fail("joint count", "expected 20");
+  for (size_t i = 0; i < kJointCount; ++i) {
+    if (in.Get<int32_t>("parent") != kJointParent[i]) in.Fail("parent", "not the SDK's skeleton");
+  }
+  db.bone_lengths_m_ = in.Get<BoneLengths>("bone lengths");
+  for (const double length : db.bone_lengths_m_) {
+    if (!(length >= 0.0 && length < 5.0)) in.Fail("bone lengths", "expected 0 to 5 metres");
+  }
+  const auto filter = in.Get<uint32_t>("filter");
+  if (filter > 1) in.Fail("filter", "expected 0 (sum-squared) or 1 (max-joint)");
+  db.options_.filter = static_cast<DatabaseFilter>(filter);
+  db.options_.threshold_m = in.Get<double>("threshold");
+  db.options_.most_edges = in.Get<int32_t>("most edges");
+  db.edge_threshold_m_ = in.Get<double>("edge threshold");
+  if (!(db.options_.threshold_m > 0.0) || !(db.edge_threshold_m_ >= 0.0) ||
+      !(db.edge_threshold_m_ < 1e3) || !(db.options_.threshold_m < 1e3) ||
+      db.options_.most_edges < 0) {
+    in.Fail("settings", "expected positive thresholds in metres");
+  }
+  db.source_postures_ = in.Get<int64_t>("source postures");
+  const auto clips = in.Get<uint64_t>("clip count");
+  if (clips > bytes.size()) in.Fail("clip count", "more clips than bytes");
+  for (uint64_t c = 0; c < clips; ++c) db.clip_names_.push_back(in.GetString("clip name"));
+  db.clip_of_ = in.GetVector<uint32_t>("clip of each posture");
+  const size_t n = db.clip_of_.size();
+  if (n == 0) in.Fail("clip of each posture", "expected at least one posture");
+  for (const uint32_t clip : db.clip_of_) {
+    if (clip >= clips) in.Fail("clip of each posture", "names a clip that is not listed");
+  }
+  const auto postures = in.GetVector<float>("postures");
+  if (postures.size() != n * kPostureDims) in.Fail("postures", "expected 60 numbers a posture");
+  ExpectFinite(in, postures, 10.0F, "postures");
+  db.postures_ = Eigen::Map<const Eigen::Matrix<float, kPostureDims, Eigen::Dynamic>>(
+      postures.data(), kPostureDims, static_cast<Eigen::Index>(n));
+  db.quaternions_ = in.GetVector<float>("rotations");
+  if (db.quaternions_.size() != n * 4 * kJointCount) {
+    in.Fail("rotations", "expected 80 numbers a posture");
+  }
+  ExpectFinite(in, db.quaternions_, 1.01F, "rotations");
+  db.edge_begin_ = in.GetVector<int64_t>("edge offsets");
+  db.edges_ = in.GetVector<int32_t>("edges");
+  if (db.edge_begin_.size() != n + 1 || db.edge_begin_.front() != 0 ||
+      db.edge_begin_.back() != static_cast<int64_t>(db.edges_.size()) ||
+      !std::is_sorted(db.edge_begin_.begin(), db.edge_begin_.end())) {
+    in.Fail("edge offsets", "expected one rising offset a posture");
+  }
+  for (const int32_t e : db.edges_) {
+    if (e < 0 || static_cast<size_t>(e) >= n) in.Fail("edges", "names a posture that is not there");
+  }
+  in.ExpectEnd();
+  db.Summarise();
+  return db;
+}
+
+}  // namespace ossa::recon

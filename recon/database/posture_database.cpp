@@ -1,0 +1,176 @@
+// L. Plantard, H. P. H. Shum, F. Multon, Filtered pose graph for efficient Kinect pose
+// reconstruction, 2016, section 4; Shum et al. 2013 section V-A.
+#include "recon/database/posture_database.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "depth/error.h"
+#include "recon/database/posture_grid_internal.h"
+
+namespace ossa::recon {
+namespace {
+
+bool IsFinite(const Posture& posture) {
+  return std::all_of(posture.position_m.begin(), posture.position_m.end(),
+                     [](const Eigen::Vector3d& p) { return p.allFinite() && p.norm() < 1e4; });
+}
+
+struct ClipPosture {
+  PostureVector vector;
+  std::array<float, 4 * kJointCount> quaternions;
+};
+
+std::array<float, 4 * kJointCount> QuaternionsOf(const PostureClip& clip, size_t frame,
+                                                 double yaw_rad) {
+  const Eigen::Quaterniond unturn(Eigen::AngleAxisd(-yaw_rad, Eigen::Vector3d::UnitY()));
+  std::array<float, 4 * kJointCount> out;
+  for (size_t i = 0; i < kJointCount; ++i) {
+    Eigen::Quaterniond q = Eigen::Quaterniond::Identity();
+    if (frame < clip.orientations.size()) q = (unturn * clip.orientations[frame][i]).normalized();
+    out[4 * i] = static_cast<float>(q.w());
+    out[4 * i + 1] = static_cast<float>(q.x());
+    out[4 * i + 2] = static_cast<float>(q.y());
+    out[4 * i + 3] = static_cast<float>(q.z());
+  }
+  return out;
+}
+
+/// Algorithm 1: what is kept of one clip, and the distances of successive kept postures.
+std::vector<ClipPosture> FilterIntraPoses(const PostureClip& clip, const DatabaseOptions& options,
+                                          std::vector<double>& connections) {
+  JointWeights all;
+  all.fill(1.0);
+  const auto threshold = static_cast<float>(options.threshold_m);
+  std::vector<ClipPosture> kept;
+  PostureGrid grid(threshold, options.filter);
+  double yaw_rad = 0.0;
+  for (size_t frame = 0; frame < clip.postures.size(); ++frame) {
+    if (!IsFinite(clip.postures[frame])) continue;
+    const Placement placement = PlacementOf(clip.postures[frame], all, yaw_rad);
+    yaw_rad = placement.yaw_rad;
+    const PostureVector vector =
+        VectorOf(Retargeted(Normalised(clip.postures[frame], placement), StandardBoneLengths()));
+    if (grid.AnyWithin(vector)) continue;
+    grid.Insert(vector);
+    if (!kept.empty()) {
+      connections.push_back(FilterDistance(kept.back().vector.data(), vector.data(),
+                                           DatabaseFilter::kMaxJoint, 100.0F));
+    }
+    kept.push_back({vector, QuaternionsOf(clip, frame, yaw_rad)});
+  }
+  return kept;
+}
+
+}  // namespace
+
+PostureVector VectorOf(const Posture& posture) {
+  PostureVector vector;
+  for (int i = 0; i < kJointCount; ++i) {
+    vector.segment<3>(3 * i) = posture.position_m[static_cast<size_t>(i)].cast<float>();
+  }
+  return vector;
+}
+
+Posture PostureOf(const PostureVector& vector) {
+  Posture posture;
+  for (int i = 0; i < kJointCount; ++i) {
+    posture.position_m[static_cast<size_t>(i)] = vector.segment<3>(3 * i).cast<double>();
+  }
+  return posture;
+}
+
+PostureDatabase PostureDatabase::Build(const std::vector<PostureClip>& clips,
+                                       const DatabaseOptions& options) {
+  if (!(options.threshold_m > 0.0) || !std::isfinite(options.threshold_m)) {
+    throw InputError("posture database: threshold must be a positive number of metres");
+  }
+  PostureDatabase db;
+  db.options_ = options;
+  db.bone_lengths_m_ = StandardBoneLengths();
+  PostureGrid grid(static_cast<float>(options.threshold_m), options.filter);
+  std::vector<double> connections;
+  for (const PostureClip& clip : clips) {
+    const auto clip_index = static_cast<uint32_t>(db.clip_names_.size());
+    db.clip_names_.push_back(clip.name);
+    db.source_postures_ += static_cast<int64_t>(clip.postures.size());
+    for (const ClipPosture& p : FilterIntraPoses(clip, options, connections)) {  // algorithm 1
+      if (grid.AnyWithin(p.vector)) continue;                                    // algorithm 2
+      grid.Insert(p.vector);
+      db.clip_of_.push_back(clip_index);
+      db.quaternions_.insert(db.quaternions_.end(), p.quaternions.begin(), p.quaternions.end());
+    }
+  }
+  if (grid.size() == 0) throw InputError("posture database: the clips hold no finite posture");
+  db.postures_.resize(kPostureDims, grid.size());
+  for (int i = 0; i < grid.size(); ++i) db.postures_.col(i) = grid.posture(i);
+
+  double mean = options.threshold_m, variance = 0.0;  // eq. 2
+  if (!connections.empty()) {
+    const auto n = static_cast<double>(connections.size());
+    mean = 0.0;
+    for (const double c : connections) mean += c / n;
+    for (const double c : connections) variance += (c - mean) * (c - mean) / n;
+  }
+  db.edge_threshold_m_ = mean + 2.0 * std::sqrt(variance);
+  db.Connect();
+  db.Summarise();
+  return db;
+}
+
+// Algorithm 3. Every edge is kept both ways; the nearest come first.
+void PostureDatabase::Connect() {
+  PostureGrid grid(static_cast<float>(edge_threshold_m_), DatabaseFilter::kMaxJoint);
+  for (int i = 0; i < size(); ++i) grid.Insert(postures_.col(i));
+  edge_begin_.assign(1, 0);
+  edges_.clear();
+  for (int i = 0; i < size(); ++i) {
+    auto near = grid.Within(postures_.col(i));
+    std::erase_if(near, [i](const auto& entry) { return entry.second == i; });
+    const size_t keep = std::min(near.size(), static_cast<size_t>(options_.most_edges));
+    std::partial_sort(near.begin(), near.begin() + static_cast<ptrdiff_t>(keep), near.end());
+    for (size_t k = 0; k < keep; ++k) edges_.push_back(near[k].second);
+    edge_begin_.push_back(static_cast<int64_t>(edges_.size()));
+  }
+}
+
+void PostureDatabase::Summarise() { mean_ = postures_.rowwise().mean(); }
+
+JointOrientations PostureDatabase::orientations(int i) const {
+  JointOrientations out;
+  const float* q = quaternions_.data() + static_cast<size_t>(i) * 4 * kJointCount;
+  for (size_t j = 0; j < kJointCount; ++j, q += 4) out[j] = {q[0], q[1], q[2], q[3]};
+  return out;
+}
+
+std::span<const int32_t> PostureDatabase::neighbours(int i) const {
+  const auto n = static_cast<size_t>(i);
+  const auto begin = static_cast<size_t>(edge_begin_[n]);
+  return std::span(edges_).subspan(begin, static_cast<size_t>(edge_begin_[n + 1]) - begin);
+}
+
+PostureDatabase PostureDatabase::With(const PostureVector& posture, const std::string& clip) const {
+  PostureDatabase db = *this;
+  db.postures_.conservativeResize(Eigen::NoChange, postures_.cols() + 1);
+  db.postures_.col(postures_.cols()) = posture;
+  for (int j = 0; j < kJointCount; ++j) {
+    db.quaternions_.insert(db.quaternions_.end(), {1.0F, 0.0F, 0.0F, 0.0F});
+  }
+  if (db.clip_names_.empty() || db.clip_names_.back() != clip) db.clip_names_.push_back(clip);
+  db.clip_of_.push_back(static_cast<uint32_t>(db.clip_names_.size() - 1));
+  db.edge_begin_.push_back(db.edge_begin_.back());
+  return db;
+}
+
+PostureDatabase PostureDatabase::Truncated(int count) const {
+  PostureDatabase db = *this;
+  count = std::clamp(count, 1, size());
+  db.postures_ = postures_.leftCols(count).eval();
+  db.quaternions_.resize(static_cast<size_t>(count) * 4 * kJointCount);
+  db.clip_of_.resize(static_cast<size_t>(count));
+  db.Connect();
+  db.Summarise();
+  return db;
+}
+
+}  // namespace ossa::recon

@@ -1,0 +1,146 @@
+#include <algorithm>
+#include <cmath>
+
+#include "recon/methods/person_internal.h"
+
+namespace ossa::recon {
+namespace {
+
+constexpr double kLongestGap_s = 0.5;
+
+size_t At(Joint joint) { return static_cast<size_t>(Index(joint)); }
+
+/// The standard stance, facing the camera, two metres away: what is said of a person of whom
+/// nothing was ever seen.
+Posture StanceInCamera(const BoneLengths& lengths) {
+  Placement placement{{0.0, 0.0, 2.0}, M_PI};
+  Posture stance = StandardStance();
+  const Eigen::Vector3d root = stance[Joint::kHipCenter];
+  for (auto& p : stance.position_m) p -= root;
+  return Placed(Retargeted(stance, lengths), placement);
+}
+
+/// Translation that brings the model onto the present joints: the median per coordinate.
+Eigen::Vector3d OffsetTo(const Posture& model, const Posture& seen, const JointWeights& present) {
+  Eigen::Vector3d offset = Eigen::Vector3d::Zero();
+  for (int axis = 0; axis < 3; ++axis) {
+    std::vector<double> d;
+    for (size_t i = 0; i < kJointCount; ++i) {
+      if (present[i] > 0.0) d.push_back(seen.position_m[i][axis] - model.position_m[i][axis]);
+    }
+    if (d.empty()) return Eigen::Vector3d::Zero();
+    std::nth_element(d.begin(), d.begin() + static_cast<ptrdiff_t>(d.size() / 2), d.end());
+    offset[axis] = d[d.size() / 2];
+  }
+  return offset;
+}
+
+void PutBetween(Posture& p, JointWeights& present, Joint joint, Joint a, Joint b, double share) {
+  if (present[At(joint)] > 0.0 || present[At(a)] == 0.0 || present[At(b)] == 0.0) return;
+  p[joint] = (1.0 - share) * p[a] + share * p[b];
+  present[At(joint)] = 1.0;
+}
+
+}  // namespace
+
+Posture Completed(const Posture& in_camera, const JointWeights& present_in, const Posture& model) {
+  Posture out = in_camera;
+  JointWeights present = present_in;
+  const Eigen::Vector3d offset = OffsetTo(model, in_camera, present);
+  // Shares measured on the standard body.
+  PutBetween(out, present, Joint::kShoulderCenter, Joint::kShoulderLeft, Joint::kShoulderRight,
+             0.5);
+  PutBetween(out, present, Joint::kHipCenter, Joint::kHipLeft, Joint::kHipRight, 0.5);
+  PutBetween(out, present, Joint::kSpine, Joint::kHipCenter, Joint::kShoulderCenter, 0.36);
+  PutBetween(out, present, Joint::kWristLeft, Joint::kElbowLeft, Joint::kHandLeft, 0.83);
+  PutBetween(out, present, Joint::kWristRight, Joint::kElbowRight, Joint::kHandRight, 0.83);
+  PutBetween(out, present, Joint::kAnkleLeft, Joint::kKneeLeft, Joint::kFootLeft, 0.93);
+  PutBetween(out, present, Joint::kAnkleRight, Joint::kKneeRight, Joint::kFootRight, 0.93);
+  if (present[0] == 0.0) out.position_m[0] = model.position_m[0] + offset;
+  for (size_t i = 1; i < kJointCount; ++i) {
+    if (present[i] > 0.0) continue;
+    const auto parent = static_cast<size_t>(kJointParent[i]);
+    out.position_m[i] = out.position_m[parent] + model.position_m[i] - model.position_m[parent];
+  }
+  return out;
+}
+
+void BodySize::Observe(const Posture& in_camera, const JointWeights& trust) {
+  const auto good = std::count_if(trust.begin(), trust.end(), [](double t) { return t > 0.5; });
+  const BoneLengths measured = BoneLengthsOf(in_camera);
+  const double scale = BodyScaleOf(measured, trust);
+  if (locked_) {
+    const double own = BodyScaleOf(
+        lengths_m_, JointWeights{1, 1, 1, 1, 1, 1, 1, 1, 1, 1, 1, 1, 1, 1, 1, 1, 1, 1, 1, 1});
+    const bool other = good >= 12 && std::abs(scale / own - 1.0) > 0.25;
+    other_size_frames_ = other ? other_size_frames_ + 1 : 0;
+    if (other_size_frames_ < 30) return;
+  }
+  lengths_m_ = ScaledBoneLengths(good >= 4 ? scale : 1.0);
+  BoneLengths mean{};
+  for (size_t i = 1; i < kJointCount; ++i) {
+    const auto mirror = static_cast<size_t>(kMirroredJoint[i]);
+    double sum = 0.0, weight = 0.0;
+    for (const size_t side : {i, mirror}) {
+      const double w = std::min(trust[side], trust[static_cast<size_t>(kJointParent[side])]);
+      if (!std::isfinite(measured[side]) || w <= 0.5) continue;
+      sum += w * measured[side];
+      weight += w;
+    }
+    mean[i] = weight > 0.0 ? sum / weight : lengths_m_[i];
+  }
+  for (size_t i = 1; i < kJointCount; ++i) {
+    lengths_m_[i] = std::clamp(mean[i], 0.75 * lengths_m_[i], 1.25 * lengths_m_[i]);
+  }
+  locked_ = good >= 12;
+  other_size_frames_ = 0;
+}
+
+PreparedPosture Person::Prepare(const ReconstructionInput& input) {
+  PreparedPosture out;
+  const double step_s = input.time_s - last_time_s_;
+  out.restarted = !started_ || !(step_s > 0.0 && step_s <= kLongestGap_s);
+  out.dt_s = out.restarted ? 1.0 / 30.0 : std::clamp(step_s, 0.005, kLongestGap_s);
+  if (out.restarted) {
+    estimator_.Reset();  // displacements across a gap are no vibration
+    if (!started_) size_ = BodySize();
+  }
+  const Reliability r = estimator_.Step(input.observed, input.depth);
+  out.reliability = r.rate;
+  for (size_t i = 0; i < kJointCount; ++i) {
+    const Eigen::Vector3d& p = input.observed.posture.position_m[i];
+    const bool there = input.observed.state[i] != TrackingState::kNotTracked && p.allFinite() &&
+                       p.cwiseAbs().maxCoeff() < 100.0;  // no person is 100 m away
+    out.present[i] = there ? 1.0 : 0.0;
+    if (!there) out.reliability[i] = 0.0;
+  }
+  if (!size_.locked() || started_) size_.Observe(input.observed.posture, out.reliability);
+  const Posture model = last_in_camera_ ? *last_in_camera_ : StanceInCamera(size_.lengths_m());
+  out.in_camera = Completed(input.observed.posture, out.present, model);
+  JointWeights heading = out.reliability;
+  for (size_t i = 0; i < kJointCount; ++i) heading[i] += 0.1 * out.present[i];
+  out.placement = PlacementOf(out.in_camera, heading, last_yaw_rad_);
+  out.normalised = Retargeted(Normalised(out.in_camera, out.placement), StandardBoneLengths());
+  last_time_s_ = input.time_s;
+  started_ = true;
+  return out;
+}
+
+Posture Person::InCamera(const Posture& normalised, const PreparedPosture& prepared) const {
+  return Placed(Retargeted(normalised, size_.lengths_m()), prepared.placement);
+}
+
+void Person::Remember(const Posture& in_camera, const PreparedPosture& prepared) {
+  last_in_camera_ = in_camera;
+  last_yaw_rad_ = prepared.placement.yaw_rad;
+}
+
+void Person::Reset() {
+  estimator_.Reset();
+  size_ = BodySize();
+  last_in_camera_.reset();
+  last_yaw_rad_ = M_PI;
+  started_ = false;
+}
+
+}  // namespace ossa::recon

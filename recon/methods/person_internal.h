@@ -1,0 +1,64 @@
+#pragma once
+#include <optional>
+
+#include "recon/methods/reconstructor.h"
+#include "recon/normalise.h"
+#include "recon/reliability.h"
+
+namespace ossa::recon {
+
+/// The person's bone lengths, kept constant from the first good frame on: the standing or T-posed
+/// person that tracking starts with (Shum 2013 fig. 2), left and right averaged, each bone within a
+/// quarter of a body of that size. Measured anew only when the body has another size for a second:
+/// that is another person.
+class BodySize {
+ public:
+  void Observe(const Posture& in_camera, const JointWeights& trust);
+  const BoneLengths& lengths_m() const { return lengths_m_; }
+  bool locked() const { return locked_; }
+
+ private:
+  BoneLengths lengths_m_ = StandardBoneLengths();
+  bool locked_ = false;
+  int other_size_frames_ = 0;
+};
+
+/// One observation made ready for the methods: complete, finite, normalised.
+struct PreparedPosture {
+  Posture in_camera;           // 20 finite joints; absent ones filled in from the body's structure
+  Placement placement;         // camera from normalised
+  Posture normalised;          // of the standard size
+  JointWeights reliability{};  // R_i; 0 for joints that were not observed
+  JointWeights present{};      // 1 for a finite joint that is tracked or inferred
+  double dt_s = 1.0 / 30.0;    // since the frame before, clamped to [5 ms, 0.5 s]
+  bool restarted = true;  // first frame, or a gap, or time ran backwards: history means nothing
+};
+
+/// What every method needs to remember of one person.
+class Person {
+ public:
+  explicit Person(const ReliabilityOptions& options = {}) : estimator_(options) {}
+  PreparedPosture Prepare(const ReconstructionInput& input);
+  /// A normalised posture of the standard size back in the camera, with this person's bones.
+  Posture InCamera(const Posture& normalised, const PreparedPosture& prepared) const;
+  /// Tells the person what was made of the frame: the next frame's absent joints start from it.
+  void Remember(const Posture& in_camera, const PreparedPosture& prepared);
+  void Reset();
+  const BodySize& size() const { return size_; }
+  const std::optional<Posture>& last_in_camera() const { return last_in_camera_; }
+
+ private:
+  ReliabilityEstimator estimator_;
+  BodySize size_;
+  std::optional<Posture> last_in_camera_;
+  double last_yaw_rad_ = 3.14159265358979323846;  // a person faces the camera until seen otherwise
+  double last_time_s_ = 0.0;
+  bool started_ = false;
+};
+
+/// Absent joints from present ones: midpoints of hips and shoulders, the spine between, wrists
+/// from elbow and hand, the others by the last posture (or the standard stance) hung on the nearest
+/// present ancestor. `present` says which are believed; every joint comes back finite.
+Posture Completed(const Posture& in_camera, const JointWeights& present, const Posture& model);
+
+}  // namespace ossa::recon

@@ -1,0 +1,157 @@
+// Shum et al. 2013, sections V-B and VI.
+#include <Eigen/Eigenvalues>
+#include <algorithm>
+#include <cmath>
+#include <random>
+
+#include "recon/methods/posture_space_internal.h"
+
+namespace ossa::recon {
+
+PostureVector CoordinateWeights(const JointWeights& weights) {
+  PostureVector out;
+  for (int i = 0; i < kJointCount; ++i) {
+    out.segment<3>(3 * i).setConstant(static_cast<float>(weights[static_cast<size_t>(i)]));
+  }
+  return out;
+}
+
+// Lazy products: small sizes, and GCC 12 takes the blocked kernel's loop for endless.
+PostureVector PostureSpace::Posture(const Eigen::VectorXf& q) const {
+  return mean + basis.lazyProduct(q);
+}
+
+Eigen::VectorXf PostureSpace::Project(const PostureVector& x) const {
+  const PostureVector d = x - mean;
+  return basis.transpose().lazyProduct(d);
+}
+
+// K postures span at most K - 1 directions: the eigenvectors of the small K x K matrix D'D give
+// those of the covariance.
+PostureSpace MakePostureSpace(const PostureDatabase& database, std::span<const int> neighbours,
+                              int dimensions) {
+  const auto k = static_cast<Eigen::Index>(neighbours.size());
+  PostureSpace space;
+  Eigen::Matrix<float, kPostureDims, Eigen::Dynamic> d(kPostureDims, k);
+  for (Eigen::Index n = 0; n < k; ++n) {
+    d.col(n) = database.postures().col(neighbours[static_cast<size_t>(n)]);
+  }
+  space.mean = d.rowwise().mean();
+  d.colwise() -= space.mean;
+  const Eigen::MatrixXf gram = d.transpose() * d;
+  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXf> eigen(gram);
+  const Eigen::VectorXf values = eigen.eigenvalues();  // rising
+  Eigen::Index dims = 0;
+  const float smallest = std::max(1e-8F, 1e-5F * std::max(values[k - 1], 0.0F));
+  while (dims < std::min<Eigen::Index>(dimensions, k) && values[k - 1 - dims] > smallest) ++dims;
+  space.basis.resize(kPostureDims, dims);
+  space.deviation.resize(dims);
+  for (Eigen::Index c = 0; c < dims; ++c) {
+    const float value = values[k - 1 - c];
+    space.basis.col(c) = d * eigen.eigenvectors().col(k - 1 - c) / std::sqrt(value);
+    space.deviation[c] = std::sqrt(value / static_cast<float>(k));
+  }
+  space.neighbours = space.basis.transpose() * d;
+  space.outside = (d.colwise().squaredNorm() - space.neighbours.colwise().squaredNorm())
+                      .cwiseMax(0.0F)
+                      .transpose();
+  return space;
+}
+
+namespace {
+
+/// Squared norm of three columns (x y z over the samples).
+Eigen::ArrayXf SquaredNorm(const Eigen::Ref<const Eigen::ArrayXXf>& xyz) {
+  return xyz.col(0).square() + xyz.col(1).square() + xyz.col(2).square();
+}
+
+}  // namespace
+
+Eigen::ArrayXf Energies(const PostureSpace& space, const EnergyInputs& inputs,
+                        const LocalPcaOptions& options, EnergyForm form, const Eigen::MatrixXf& q) {
+  const Eigen::Index samples = q.rows();
+  const bool squares = form == EnergyForm::kSumOfSquares;
+  Eigen::MatrixXf x = q * space.basis.transpose();  // samples x 60: a column is contiguous
+  x.rowwise() += space.mean.transpose();
+  Eigen::ArrayXf control = Eigen::ArrayXf::Zero(samples);
+  Eigen::ArrayXf continuity = Eigen::ArrayXf::Zero(samples);
+  Eigen::ArrayXf kinematics = Eigen::ArrayXf::Zero(samples);
+  const bool history = inputs.last.has_value() && inputs.before_last.has_value();
+  PostureVector expected = PostureVector::Zero();
+  if (history) expected = 2.0F * *inputs.last - *inputs.before_last;
+  Eigen::ArrayXXf d(samples, 3);
+  for (int i = 0; i < kJointCount; ++i) {
+    const auto xi = x.middleCols<3>(3 * i);
+    const auto weight = static_cast<float>(inputs.reliability[static_cast<size_t>(i)]);
+    d = (xi.rowwise() - inputs.observed.segment<3>(3 * i).transpose()).array();
+    if (squares) {
+      control += weight * SquaredNorm(d);  // eqs. 9-10
+    } else {
+      control += weight * SquaredNorm(d).sqrt() / float(kJointCount);  // Plantard eq. 8
+    }
+    if (history) {
+      d = (xi.rowwise() - expected.segment<3>(3 * i).transpose()).array();
+      continuity += SquaredNorm(d);  // eq. 14
+    }
+    if (i == 0) continue;
+    d = (xi - x.middleCols<3>(3 * kJointParent[static_cast<size_t>(i)])).array();
+    const auto length = static_cast<float>(inputs.lengths_m[static_cast<size_t>(i)]);
+    kinematics += (SquaredNorm(d).sqrt() - length).square();  // eq. 12
+  }
+  // Eq. 11 in the space: |x - p_n|^2 = |q - q_n|^2 + what of p_n lies outside the space.
+  Eigen::ArrayXXf style = (-2.0F * q * space.neighbours).array();
+  style.colwise() += q.rowwise().squaredNorm().array();
+  style.rowwise() += (space.neighbours.colwise().squaredNorm() + space.outside.transpose()).array();
+  Eigen::ArrayXf nearest = style.rowwise().minCoeff().max(0.0F);
+  nearest = squares ? Eigen::ArrayXf(nearest / float(kJointCount))
+                    : Eigen::ArrayXf((nearest / float(kJointCount)).sqrt());
+  return static_cast<float>(options.control) * control +
+         static_cast<float>(options.style) * nearest +
+         static_cast<float>(options.kinematics) * kinematics / float(kJointCount - 1) +
+         static_cast<float>(options.continuity) * continuity / float(kJointCount);  // eq. 15
+}
+
+SearchResult SearchStochastic(const PostureSpace& space, const EnergyInputs& inputs,
+                              const LocalPcaOptions& options, EnergyForm form,
+                              const Eigen::VectorXf& start, uint64_t seed) {
+  SearchResult best{start, 0.0, 0};
+  best.energy = Energies(space, inputs, options, form, start.transpose())[0];
+  if (space.dimensions() == 0) return best;
+  // splitmix64 and the sum of four uniforms (Irwin-Hall): normal enough to explore, and the same
+  // on every standard library.
+  uint64_t state = seed;
+  const auto uniform = [&state] {
+    uint64_t z = (state += 0x9E3779B97F4A7C15ULL);
+    z = (z ^ (z >> 30)) * 0xBF58476D1CE4E5B9ULL;
+    z = (z ^ (z >> 27)) * 0x94D049BB133111EBULL;
+    return z ^ (z >> 31);
+  };
+  const auto normal = [&uniform] {
+    const uint64_t bits = uniform();
+    int64_t sum = 0;
+    for (int k = 0; k < 4; ++k) sum += static_cast<int64_t>((bits >> (16 * k)) & 0xFFFF);
+    return static_cast<float>(static_cast<double>(sum - 2 * 65535) / 37836.8);  // unit variance
+  };
+  Eigen::MatrixXf q(options.samples, space.dimensions());
+  // The paper gives no radius: begin at half the neighbours' own spread, narrow on failure.
+  float radius = 0.5F;
+  for (; best.steps < options.steps && radius > 0.02F; ++best.steps) {
+    for (Eigen::Index c = 0; c < q.cols(); ++c) {
+      const float spread = radius * space.deviation[c];
+      for (Eigen::Index s = 0; s < q.rows(); ++s) q(s, c) = best.q[c] + spread * normal();
+    }
+    const Eigen::ArrayXf energies = Energies(space, inputs, options, form, q);
+    Eigen::Index winner = 0;
+    const double lowest = energies.minCoeff(&winner);
+    if (lowest < best.energy) {
+      best.energy = lowest;
+      best.q = q.row(winner).transpose();
+      radius *= 0.9F;
+    } else {
+      radius *= 0.5F;
+    }
+  }
+  return best;
+}
+
+}  // namespace ossa::recon

@@ -1,0 +1,63 @@
+#include "recon/methods/reconstructor.h"
+
+#include <algorithm>
+#include <array>
+
+#include "depth/error.h"
+#include "recon/database/posture_database.h"
+#include "recon/methods/methods_internal.h"
+
+namespace ossa::recon {
+namespace {
+
+struct Method {
+  const char* name;
+  bool needs_database;
+  std::unique_ptr<Reconstructor> (*make)(const ReconstructorOptions&);
+};
+
+constexpr std::array kMethods = {
+    Method{"none", false, MakeNone},         Method{"holt", false, MakeHolt},
+    Method{"one-euro", false, MakeOneEuro},  Method{"kalman", false, MakeKalman},
+    Method{"shum-2013", true, MakeShum2013},
+};
+
+void CheckLocalPca(const LocalPcaOptions& o) {
+  if (o.neighbours < 2 || o.dimensions < 1 || o.steps < 1 || o.samples < 1) {
+    throw InputError(
+        "reconstruction: neighbours (>= 2), dimensions, steps and samples must be positive");
+  }
+  if (o.solver != "stochastic" && o.solver != "ceres") {
+    throw InputError("reconstruction: unknown solver '" + o.solver +
+                     "', expected stochastic or ceres");
+  }
+}
+
+}  // namespace
+
+const std::vector<std::string>& ReconstructionMethods() {
+  static const std::vector<std::string> names = [] {
+    std::vector<std::string> list;
+    for (const Method& method : kMethods) list.emplace_back(method.name);
+    return list;
+  }();
+  return names;
+}
+
+std::unique_ptr<Reconstructor> MakeReconstructor(const ReconstructorOptions& options) {
+  CheckLocalPca(options.local_pca);
+  for (const Method& method : kMethods) {
+    if (options.method != method.name) continue;
+    if (method.needs_database && (!options.database || options.database->size() < 1)) {
+      throw InputError("reconstruction: method " + options.method + " needs a posture database");
+    }
+    return method.make(options);
+  }
+  std::string known;
+  for (const std::string& name : ReconstructionMethods())
+    known += (known.empty() ? "" : ", ") + name;
+  throw InputError("reconstruction: unknown method '" + options.method + "', expected one of " +
+                   known);
+}
+
+}  // namespace ossa::recon

@@ -1,0 +1,22 @@
+#pragma once
+#include <functional>
+#include <memory>
+
+#include "recon/methods/reconstructor.h"
+#include "recon/skeleton_sequence.h"
+
+namespace ossa::recon {
+
+/// Runs one Reconstructor a person (by body id) over a recording, frame by frame in its order.
+/// Frames without bodies stay empty. Each joint comes out with a position, its reliability and a
+/// state: tracked stays, everything that was made up is inferred. `progress` (may be empty) is
+/// called with the number of frames done and returns false to stop.
+SkeletonSequence ReconstructSequence(const SkeletonSequence& sequence,
+                                     const ReconstructorOptions& options,
+                                     const std::function<bool(size_t)>& progress = {});
+
+/// Offline, for comparison only: second-order Butterworth low pass run forwards and backwards over
+/// every joint (zero phase). Absent joints stay absent.
+SkeletonSequence ButterworthSequence(const SkeletonSequence& sequence, double cutoff_hz = 6.0);
+
+}  // namespace ossa::recon

@@ -1,0 +1,199 @@
+// H. P. H. Shum, E. S. L. Ho, Y. Jiang, S. Takagi, Real-Time Posture Reconstruction for Microsoft
+// Kinect, IEEE Trans. Cybernetics 2013, section IV.
+#include "recon/reliability.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "depth/image/camera.h"
+
+namespace ossa::recon {
+namespace {
+
+double AngleBetween(const Eigen::Vector3d& a, const Eigen::Vector3d& b) {
+  return std::atan2(a.cross(b).norm(), a.dot(b));
+}
+
+/// Angle in degrees between a bone and the vertical, pointing up.
+double TiltFromUp(const Posture& posture, Joint from, Joint to) {
+  return AngleBetween(posture[to] - posture[from], Eigen::Vector3d::UnitY()) * 180.0 / M_PI;
+}
+
+bool Finite(const Posture& posture) {
+  return std::all_of(posture.position_m.begin(), posture.position_m.end(),
+                     [](const Eigen::Vector3d& p) { return p.allFinite(); });
+}
+
+}  // namespace
+
+bool IsReferencePosture(const Posture& p) {
+  constexpr double kUpright_deg = 20.0;  // of trunk and legs
+  if (!Finite(p) || TiltFromUp(p, Joint::kHipCenter, Joint::kShoulderCenter) > kUpright_deg) {
+    return false;
+  }
+  for (const auto& [hip, shoulder] : {std::pair{Joint::kHipLeft, Joint::kShoulderLeft},
+                                      std::pair{Joint::kHipRight, Joint::kShoulderRight}}) {
+    const auto next = [](Joint j, int n) { return static_cast<Joint>(Index(j) + n); };
+    if (TiltFromUp(p, next(hip, 1), hip) > kUpright_deg) return false;
+    if (TiltFromUp(p, next(hip, 2), next(hip, 1)) > kUpright_deg) return false;
+    const double upper = TiltFromUp(p, shoulder, next(shoulder, 1));
+    const double lower = TiltFromUp(p, next(shoulder, 1), next(shoulder, 2));
+    const bool level = std::abs(upper - 90.0) < 25.0 && std::abs(lower - 90.0) < 25.0;
+    const bool hanging = upper > 145.0 && lower > 130.0;
+    if (!level && !hanging) return false;
+  }
+  return true;
+}
+
+void ReferenceLengths::Observe(const Posture& in_camera, const JointWeights& trust) {
+  const BoneLengths lengths = BoneLengthsOf(in_camera);
+  const bool all = std::all_of(trust.begin(), trust.end(), [](double t) { return t >= 0.99; });
+  if (all && IsReferencePosture(in_camera)) {
+    // A length that no body of this size has is an error of the frame, not a feature of the person;
+    // so is one far from what an earlier reference posture showed, while the size stayed the same.
+    const double scale = BodyScaleOf(lengths, trust);
+    const bool same_size = from_posture_ && std::abs(scale / scale_ - 1.0) < 0.2;
+    for (size_t i = 1; i < kJointCount; ++i) {
+      const double expected = same_size ? lengths_m_[i] : scale * StandardBoneLengths()[i];
+      const double far = same_size ? 0.15 : 0.5;
+      if (same_size && std::abs(lengths[i] / expected - 1.0) > far) continue;
+      const double seen = std::clamp(lengths[i], (1.0 - far) * expected, (1.0 + far) * expected);
+      lengths_m_[i] = same_size ? 0.9 * lengths_m_[i] + 0.1 * seen : seen;
+    }
+    scale_ = scale;
+    known_ = from_posture_ = true;
+  } else if (!known_) {
+    const auto seen = std::count_if(trust.begin(), trust.end(), [](double t) { return t > 0.5; });
+    lengths_m_ = ScaledBoneLengths(BodyScaleOf(lengths, trust));
+    known_ = seen >= 8;  // fewer joints do not fix a size
+  }
+}
+
+Reliability ReliabilityEstimator::Step(const TrackedPosture& observed,
+                                       const depth::DepthFrame* depth) {
+  Reliability r;
+  JointWeights seen{};
+  for (size_t i = 0; i < kJointCount; ++i) {
+    const bool finite = observed.posture.position_m[i].allFinite();
+    const bool tracked = observed.state[i] == TrackingState::kTracked;
+    const bool present = observed.state[i] != TrackingState::kNotTracked;
+    seen[i] = finite && present ? 1.0 : 0.0;
+    r.state[i] = finite && (tracked || (!options_.use_state && present)) ? 1.0 : 0.0;  // eq. 7
+  }
+  postures_.push_back(observed.posture);
+  seen_.push_back(seen);
+  const auto keep = static_cast<size_t>(options_.behaviour_frames) + 2;
+  if (postures_.size() > keep) postures_.pop_front();
+  if (seen_.size() > keep) seen_.pop_front();
+
+  r.surface.fill(1.0);
+  if (options_.use_depth && depth != nullptr) {
+    r.surface = SurfaceReliability(observed.posture, *depth, options_);
+  }
+  reference_.Observe(observed.posture, r.state);
+  r.behaviour = Behaviour();
+  r.kinematics = Kinematics(observed.posture, seen);
+  for (size_t i = 0; i < kJointCount; ++i) {
+    r.instant[i] = std::min({r.behaviour[i], r.kinematics[i], r.state[i], r.surface[i]});
+  }
+  instant_.push_back(r.instant);
+  if (instant_.size() > static_cast<size_t>(options_.window_frames)) instant_.pop_front();
+  r.rate = Smoothed();
+  return r;
+}
+
+void ReliabilityEstimator::Reset() { *this = ReliabilityEstimator(options_); }
+
+// Eqs. 1-4. Departure: eq. 3 prints the cosine where the text and the limits in degrees of eq. 4
+// mean the angle itself; the angle it is.
+JointWeights ReliabilityEstimator::Behaviour() const {
+  JointWeights rb;
+  rb.fill(1.0);
+  const int angles = static_cast<int>(postures_.size()) - 2;
+  if (!options_.use_behaviour || angles < 1) return rb;
+  for (size_t i = 0; i < kJointCount; ++i) {
+    double sum = 0.0;
+    for (int f = 0; f < angles; ++f) {
+      const auto k = static_cast<size_t>(f);
+      if (seen_[k][i] * seen_[k + 1][i] * seen_[k + 2][i] == 0.0) continue;
+      const Eigen::Vector3d d0 = postures_[k + 1].position_m[i] - postures_[k].position_m[i];
+      const Eigen::Vector3d d1 = postures_[k + 2].position_m[i] - postures_[k + 1].position_m[i];
+      if (d0.norm() > options_.d_min_m && d1.norm() > options_.d_min_m) sum += AngleBetween(d0, d1);
+    }
+    const double mean = sum / options_.behaviour_frames;
+    const double over = std::max(std::min(mean, options_.roof_rad) - options_.floor_rad, 0.0);
+    rb[i] = 1.0 - over / (options_.roof_rad - options_.floor_rad);  // eq. 4
+  }
+  return rb;
+}
+
+// Eqs. 5-6, over the bones whose both ends are there.
+JointWeights ReliabilityEstimator::Kinematics(const Posture& posture,
+                                              const JointWeights& seen) const {
+  JointWeights rk;
+  rk.fill(1.0);
+  if (!options_.use_kinematics || !reference_.known()) return rk;
+  JointWeights sum{}, count{};
+  const BoneLengths lengths = BoneLengthsOf(posture);
+  for (size_t i = 1; i < kJointCount; ++i) {
+    const auto parent = static_cast<size_t>(kJointParent[i]);
+    if (seen[i] * seen[parent] == 0.0) continue;
+    const double reference = std::max(reference_.lengths_m()[i], 1e-3);
+    const double d = std::min(std::abs(lengths[i] - reference) / reference, 1.0);  // eq. 5
+    for (const size_t end : {i, parent}) {
+      sum[end] += d;
+      count[end] += 1.0;
+    }
+  }
+  for (size_t i = 0; i < kJointCount; ++i) {
+    if (count[i] > 0.0) rk[i] = 1.0 - sum[i] / count[i];  // eq. 6
+  }
+  return rk;
+}
+
+// Eq. 8. Departure: the Gaussian weights are divided by their sum, so that R stays in [0, 1].
+JointWeights ReliabilityEstimator::Smoothed() const {
+  JointWeights rate{};
+  double total = 0.0;
+  for (size_t f = 0; f < instant_.size(); ++f) {
+    const double age = static_cast<double>(instant_.size() - 1 - f);
+    const double w = std::exp(-0.5 * std::pow(age / options_.window_sigma_frames, 2.0));
+    total += w;
+    for (size_t i = 0; i < kJointCount; ++i) rate[i] += w * instant_[f][i];
+  }
+  for (double& r : rate) r = std::clamp(r / total, 0.0, 1.0);
+  return rate;
+}
+
+JointWeights SurfaceReliability(const Posture& in_camera, const depth::DepthFrame& depth,
+                                const ReliabilityOptions& options) {
+  JointWeights surface;
+  surface.fill(1.0);
+  const depth::DepthView view = depth.view();
+  for (size_t i = 0; i < kJointCount; ++i) {
+    const Eigen::Vector3d& p = in_camera.position_m[i];
+    if (!p.allFinite() || p.z() < 0.1) continue;
+    const Eigen::Vector2d at = depth::Project(depth.camera, p);
+    // The joint's own breadth in the image: a hand may lie a few pixels beside its blob.
+    const double radius = std::clamp(0.04 * depth.camera.fx / p.z(), 1.0, 12.0);
+    if (!(std::abs(at.x()) < 1e5 && std::abs(at.y()) < 1e5)) continue;
+    double nearest_gap_m = 1e9;  // surface minus joint along z, the one that fits the joint best
+    bool read = false;
+    for (const auto& [du, dv] : {std::pair{0.0, 0.0}, std::pair{-1.0, 0.0}, std::pair{1.0, 0.0},
+                                 std::pair{0.0, -1.0}, std::pair{0.0, 1.0}}) {
+      const int u = static_cast<int>(std::lround(at.x() + du * radius));
+      const int v = static_cast<int>(std::lround(at.y() + dv * radius));
+      if (!view.Contains(u, v) || view.at(u, v) == 0) continue;
+      read = true;
+      const double gap = depth::MetresFromMillimetres(view.at(u, v)) - p.z();
+      if (std::abs(gap) < std::abs(nearest_gap_m)) nearest_gap_m = gap;
+    }
+    if (!read) continue;
+    if (nearest_gap_m < -options.surface_behind_m || nearest_gap_m > options.surface_before_m) {
+      surface[i] = 0.0;
+    }
+  }
+  return surface;
+}
+
+}  // namespace ossa::recon

@@ -1,0 +1,82 @@
+#pragma once
+#include <array>
+#include <deque>
+#include <optional>
+
+#include "depth/image/depth_frame.h"
+#include "recon/normalise.h"
+#include "recon/posture.h"
+
+namespace ossa::recon {
+
+/// Shum et al. 2013, section IV: how far each joint of an observed posture may be believed.
+struct ReliabilityOptions {
+  bool use_behaviour = true;              // Rb, eqs. 1-4: vibration
+  bool use_kinematics = true;             // Rk, eqs. 5-6: bone lengths against the reference
+  bool use_state = true;                  // Rt, eq. 7: what the tracker itself says
+  bool use_depth = true;                  // ours: is there a surface where the joint is said to be?
+  double d_min_m = 0.03;                  // d_min of eq. 3, metres
+  double floor_rad = 1.5707963267948966;  // theta_floor of eq. 4: 90 degrees
+  double roof_rad = 2.356194490192345;    // theta_roof of eq. 4: 135 degrees
+  int behaviour_frames = 3;               // f_b of eq. 4
+  int window_frames = 6;                  // f_total of eq. 8
+  double window_sigma_frames = 2.0;       // of w(f), eq. 8; the paper gives none
+  double surface_behind_m = 0.25;         // a joint lies at most this far behind the skin it is in
+  double surface_before_m = 0.08;         // a joint in free space: the surface is this much farther
+};
+
+/// The three terms of one frame and the smoothed rate.
+struct Reliability {
+  JointWeights behaviour{};   // Rb
+  JointWeights kinematics{};  // Rk
+  JointWeights state{};       // Rt
+  JointWeights surface{};     // ours; 1 where the image cannot tell
+  JointWeights instant{};     // min of the above, this frame only
+  JointWeights rate{};        // R_i of eq. 8
+};
+
+/// Reference bone lengths of eq. 5: taken whenever a T-pose or a standing posture is seen with
+/// every joint tracked; until then the standard body at the size of the first frames.
+class ReferenceLengths {
+ public:
+  void Observe(const Posture& in_camera, const JointWeights& trust);
+  const BoneLengths& lengths_m() const { return lengths_m_; }
+  bool known() const { return known_; }
+
+ private:
+  BoneLengths lengths_m_{};
+  double scale_ = 1.0;         // of the last reference posture
+  bool known_ = false;         // some frame was good enough to measure at least the size
+  bool from_posture_ = false;  // a reference posture was seen
+};
+
+/// True for the two reference postures of fig. 2: upright trunk and legs, arms level or hanging.
+bool IsReferencePosture(const Posture& in_camera);
+
+/// One person's reliability, frame by frame. Joints that are not finite count as not tracked.
+class ReliabilityEstimator {
+ public:
+  explicit ReliabilityEstimator(const ReliabilityOptions& options = {}) : options_(options) {}
+  Reliability Step(const TrackedPosture& observed, const depth::DepthFrame* depth);
+  void Reset();
+  const ReferenceLengths& reference() const { return reference_; }
+
+ private:
+  JointWeights Behaviour() const;
+  JointWeights Kinematics(const Posture& posture, const JointWeights& seen) const;
+  JointWeights Smoothed() const;
+
+  ReliabilityOptions options_;
+  ReferenceLengths reference_;
+  std::deque<Posture> postures_;      // newest last
+  std::deque<JointWeights> seen_;     // 1 where the joint of that frame is a finite observation
+  std::deque<JointWeights> instant_;  // newest last
+};
+
+/// Ours: what the depth image says of joints at these positions. A surface close in front of the
+/// joint: 1. A surface much nearer: the joint is hidden, 0. Surface farther, or none: the joint is
+/// said to float in the air, 0. Outside the image or without a reading: 1, it cannot tell.
+JointWeights SurfaceReliability(const Posture& in_camera, const depth::DepthFrame& depth,
+                                const ReliabilityOptions& options = {});
+
+}  // namespace ossa::recon

@@ -1,0 +1,140 @@
+#include "recon/database/posture_database.h"
+
+#include <gtest/gtest.h>
+
+#include <fstream>
+
+#include "depth/error.h"
+#include "recon/database/nearest.h"
+#include "tests/recon/synthetic_motion.h"
+#include "tests/support/run_command.h"
+#include "tests/support/temporary_folder.h"
+
+namespace ossa::recon {
+namespace {
+
+double Distance(const PostureDatabase& db, int a, int b) {
+  double largest = 0.0, sum = 0.0;
+  for (size_t i = 0; i < kJointCount; ++i) {
+    const double d2 = (db.posture(a).position_m[i] - db.posture(b).position_m[i]).squaredNorm();
+    largest = std::max(largest, d2);
+    sum += d2;
+  }
+  return std::sqrt(db.options().filter == DatabaseFilter::kMaxJoint ? largest : sum);
+}
+
+TEST(PostureDatabase, KeepsNoTwoPosturesNearerThanTheThreshold) {
+  for (const auto filter : {DatabaseFilter::kMaxJoint, DatabaseFilter::kSumSquared}) {
+    const auto db = PostureDatabase::Build(test::GestureClips(), {.filter = filter});
+    ASSERT_GT(db.size(), 50);
+    EXPECT_LT(db.size(), db.source_postures());
+    for (int a = 0; a < db.size(); ++a) {
+      for (int b = 0; b < a; ++b) EXPECT_GT(Distance(db, a, b), 0.2 - 1e-5);
+    }
+  }
+}
+
+TEST(PostureDatabase, KeepsAPostureWithinTheThresholdOfEveryGivenOne) {
+  const auto clips = test::GestureClips();
+  const auto db = PostureDatabase::Build(clips, {});
+  for (const PostureClip& clip : clips) {
+    for (size_t f = 0; f < clip.postures.size(); f += 7) {
+      double nearest = 1e9;
+      for (int i = 0; i < db.size(); ++i) {
+        double largest = 0.0;
+        for (size_t j = 0; j < kJointCount; ++j) {
+          const auto& p = clip.postures[f].position_m[j];
+          largest = std::max(largest, (p - db.posture(i).position_m[j]).norm());
+        }
+        nearest = std::min(nearest, largest);
+      }
+      // The intra filter may drop a posture for one that the inter filter drops in turn: 2 x 0.2.
+      EXPECT_LT(nearest, 0.4);
+    }
+  }
+}
+
+TEST(PostureDatabase, EdgesJoinWhatIsNearBothWays) {
+  const auto db = PostureDatabase::Build(test::GestureClips(), {.most_edges = 10000});
+  for (int i = 0; i < db.size(); ++i) {
+    int near = 0;
+    for (int j = 0; j < db.size(); ++j) {
+      near += i != j && Distance(db, i, j) <= db.edge_threshold_m() ? 1 : 0;
+    }
+    EXPECT_NEAR(static_cast<double>(db.neighbours(i).size()), near, 1.0);  // ties by rounding
+    for (const int j : db.neighbours(i)) {
+      const auto back = db.neighbours(j);
+      EXPECT_NE(std::find(back.begin(), back.end(), i), back.end());
+    }
+  }
+}
+
+TEST(PostureDatabase, ComesBackFromItsFileWithTheSameBytes) {
+  const ossa::test::TemporaryFolder folder;
+  const auto db = PostureDatabase::Build(test::GestureClips(), {});
+  db.Save(folder / "a.ossadb");
+  const auto again = PostureDatabase::Load(folder / "a.ossadb");
+  EXPECT_EQ(again.size(), db.size());
+  EXPECT_EQ(again.postures(), db.postures());
+  EXPECT_EQ(again.clip_of(3), db.clip_of(3));
+  again.Save(folder / "b.ossadb");
+  std::ifstream a(folder / "a.ossadb", std::ios::binary), b(folder / "b.ossadb", std::ios::binary);
+  const std::string bytes_a((std::istreambuf_iterator<char>(a)), {});
+  const std::string bytes_b((std::istreambuf_iterator<char>(b)), {});
+  EXPECT_EQ(bytes_a, bytes_b);
+}
+
+TEST(PostureDatabase, RefusesATruncatedAndADamagedFileByName) {
+  const ossa::test::TemporaryFolder folder;
+  PostureDatabase::Build(test::GestureClips(), {}).Save(folder / "a.ossadb");
+  std::ifstream in(folder / "a.ossadb", std::ios::binary);
+  const std::string whole((std::istreambuf_iterator<char>(in)), {});
+  for (const size_t keep : {size_t{0}, size_t{7}, size_t{40}, whole.size() - 1}) {
+    std::ofstream(folder / "bad.ossadb", std::ios::binary) << whole.substr(0, keep);
+    try {
+      PostureDatabase::Load(folder / "bad.ossadb");
+      FAIL() << keep;
+    } catch (const InputError& error) {
+      EXPECT_NE(std::string(error.what()).find("bad.ossadb"), std::string::npos);
+    }
+  }
+  std::string damaged = whole;
+  damaged[whole.size() / 2] = static_cast<char>(damaged[whole.size() / 2] ^ 0x10);
+  std::ofstream(folder / "bad.ossadb", std::ios::binary) << damaged;
+  EXPECT_THROW(PostureDatabase::Load(folder / "bad.ossadb"), InputError);
+}
+
+TEST(NearestPostures, AreThoseOfBruteForceWithAndWithoutHints) {
+  const auto db = PostureDatabase::Build(test::GestureClips(), {});
+  JointWeights weights{};
+  for (size_t i = 0; i < kJointCount; ++i) weights[i] = static_cast<double>(i % 3) / 2.0;
+  std::vector<int> hints;
+  for (double t = 0.0; t < 3.0; t += 0.1) {
+    const PostureVector query = VectorOf(test::Motion(t));
+    std::vector<double> all;
+    for (int i = 0; i < db.size(); ++i) {
+      all.push_back(WeightedDistance(db.postures().col(i), query, weights));
+    }
+    std::sort(all.begin(), all.end());
+    const auto nearest = NearestPostures(db, query, weights, 30, hints);
+    ASSERT_EQ(nearest.size(), 30U);
+    hints.clear();
+    for (size_t k = 0; k < nearest.size(); ++k) {
+      EXPECT_NEAR(nearest[k].distance, all[k], 1e-5);  // single precision sums of square metres
+      hints.push_back(nearest[k].index);
+    }
+  }
+}
+
+TEST(DatabaseCommand, SaysWhatIsWrongInOneLine) {
+  const auto none = ossa::test::RunOssa({"database", "--out", "x.ossadb"});
+  EXPECT_EQ(none.exit_status, 2);
+  const auto folder = ossa::test::RunOssa(
+      {"database", "--mocap", "/nonexistent", "--out", "/tmp/never.ossadb", "--quiet"});
+  EXPECT_EQ(folder.exit_status, 1);
+  EXPECT_NE(folder.err.find("/nonexistent"), std::string::npos);
+  EXPECT_EQ(std::count(folder.err.begin(), folder.err.end(), '\n'), 1);
+}
+
+}  // namespace
+}  // namespace ossa::recon

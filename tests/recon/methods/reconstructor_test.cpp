@@ -1,0 +1,145 @@
+#include "recon/methods/reconstructor.h"
+
+#include <gtest/gtest.h>
+
+#include <limits>
+
+#include "depth/error.h"
+#include "tests/recon/synthetic_motion.h"
+
+namespace ossa::recon {
+namespace {
+
+std::shared_ptr<const PostureDatabase> Database() {
+  static const auto db =
+      std::make_shared<PostureDatabase>(PostureDatabase::Build(test::GestureClips(), {}));
+  return db;
+}
+
+/// Methods that need nothing learned.
+std::vector<std::string> PlainMethods() {
+  std::vector<std::string> names;
+  for (const std::string& name : ReconstructionMethods()) {
+    if (name != "liu-2016" && name != "full-gp" && name != "exemplar") names.push_back(name);
+  }
+  return names;
+}
+
+class EveryMethod : public testing::TestWithParam<std::string> {
+ protected:
+  std::unique_ptr<Reconstructor> Make() const {
+    ReconstructorOptions options;
+    options.method = GetParam();
+    options.database = Database();
+    return MakeReconstructor(options);
+  }
+  bool HoldsBones() const {
+    return GetParam() != "none" && GetParam() != "holt" && GetParam() != "one-euro" &&
+           GetParam() != "kalman";
+  }
+};
+
+void ExpectFinite(const ReconstructedPosture& made) {
+  for (const auto& p : made.posture.position_m) ASSERT_TRUE(p.allFinite());
+  for (const double r : made.reliability) {
+    ASSERT_GE(r, 0.0);
+    ASSERT_LE(r, 1.0);
+  }
+}
+
+TEST_P(EveryMethod, FollowsAPersonSeenWell) {
+  for (const double scale : {0.9 / 1.66, 1.0, 2.2 / 1.66}) {  // people of 0.9 m, 1.66 m and 2.2 m
+    const auto method = Make();
+    double error = 0.0;
+    for (int f = 0; f < 90; ++f) {
+      const double t = f / 30.0;
+      const Posture truth = test::InFrontOfCamera(test::Motion(t), scale);
+      const auto made = method->Step({test::AllTracked(truth), t, nullptr});
+      error += test::MeanDistance_m(made.posture, truth) / 90;
+    }
+    // The database's spacing is 20 cm at the fastest joint; a tracker must stay well inside it.
+    EXPECT_LT(error, 0.06 * std::max(1.0, scale)) << scale;
+  }
+}
+
+TEST_P(EveryMethod, GivesTheSamePosturesForTheSameSeed) {
+  const auto a = Make(), b = Make();
+  for (int f = 0; f < 10; ++f) {
+    const auto observed = test::AllTracked(test::InFrontOfCamera(test::Motion(f / 30.0)));
+    const auto one = a->Step({observed, f / 30.0, nullptr});
+    const auto two = b->Step({observed, f / 30.0, nullptr});
+    for (size_t i = 0; i < kJointCount; ++i) {
+      ASSERT_EQ(one.posture.position_m[i], two.posture.position_m[i]);
+    }
+  }
+}
+
+TEST_P(EveryMethod, SurvivesWhatNoSensorShouldSay) {
+  const auto method = Make();
+  const double nan = std::numeric_limits<double>::quiet_NaN();
+  TrackedPosture good = test::AllTracked(test::InFrontOfCamera(test::Motion(0.0)));
+  TrackedPosture nothing, nans = good, point = good, huge = good, swapped = good;
+  for (auto& p : nans.posture.position_m) p.setConstant(nan);
+  for (auto& p : point.posture.position_m) p = {0.0, 0.0, 2.0};
+  for (auto& p : huge.posture.position_m) p *= 1e30;
+  for (size_t i = 0; i < kJointCount; ++i) {
+    swapped.posture.position_m[i] = good.posture.position_m[static_cast<size_t>(kMirroredJoint[i])];
+  }
+  double t = 0.0;
+  for (const TrackedPosture* observed :
+       {&nothing, &nans, &point, &huge, &good, &swapped, &nans, &nothing, &good, &point, &huge}) {
+    for (const double step : {1.0 / 30, 0.0, -5.0, 30.0, 1e-9, nan}) {
+      if (std::isfinite(step)) t += step;
+      const auto made = method->Step({*observed, std::isfinite(step) ? t : step, nullptr});
+      ExpectFinite(made);
+    }
+  }
+}
+
+TEST_P(EveryMethod, SaysThatUnseenJointsAreUnreliable) {
+  const auto method = Make();
+  TrackedPosture observed = test::AllTracked(test::InFrontOfCamera(test::Motion(0.0)));
+  for (int f = 0; f < 8; ++f) method->Step({observed, f / 30.0, nullptr});
+  observed.state[7] = TrackingState::kNotTracked;
+  observed.posture.position_m[7].setZero();
+  const auto made = method->Step({observed, 8 / 30.0, nullptr});
+  EXPECT_EQ(made.reliability[7], 0.0);
+  EXPECT_GT(made.reliability[0], 0.9);
+  // The hand stays on its arm, no farther from the elbow than a forearm and a hand reach.
+  EXPECT_LT((made.posture.position_m[7] - made.posture.position_m[5]).norm(), 0.4);
+}
+
+TEST_P(EveryMethod, KeepsBoneLengthsConstant) {
+  if (!HoldsBones()) GTEST_SKIP() << "a filter of joints";
+  const auto method = Make();
+  std::mt19937_64 rng(5);
+  BoneLengths first{};
+  for (int f = 0; f < 60; ++f) {
+    Posture seen = test::InFrontOfCamera(test::Motion(f / 30.0), 1.1);
+    test::AddNoise(seen, 0.01, rng);
+    const auto lengths =
+        BoneLengthsOf(method->Step({test::AllTracked(seen), f / 30.0, nullptr}).posture);
+    if (f == 0) first = lengths;
+    for (size_t i = 1; i < kJointCount; ++i) {
+      EXPECT_NEAR(lengths[i], first[i], 0.001 * first[i]) << f << " " << i;
+    }
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(Methods, EveryMethod, testing::ValuesIn(PlainMethods()),
+                         [](const auto& info) {
+                           std::string name = info.param;
+                           std::erase(name, '-');
+                           return name;
+                         });
+
+TEST(MakeReconstructor, NamesTheUnknownMethodAndTheMissingDatabase) {
+  ReconstructorOptions options;
+  options.method = "magic";
+  EXPECT_THROW(MakeReconstructor(options), InputError);
+  options.method = "shum-2013";
+  EXPECT_THROW(MakeReconstructor(options), InputError);
+}
+
+}  // namespace
+}  // namespace ossa::recon

@@ -1,0 +1,98 @@
+#include <gtest/gtest.h>
+
+#include "recon/database/nearest.h"
+#include "recon/methods/posture_space_internal.h"
+#include "tests/recon/synthetic_motion.h"
+
+namespace ossa::recon {
+namespace {
+
+struct Problem {
+  PostureSpace space;
+  EnergyInputs inputs;
+};
+
+Problem MakeProblem(double t_s, bool history) {
+  static const auto db = PostureDatabase::Build(test::GestureClips(), {});
+  Problem p;
+  p.inputs.observed = VectorOf(test::Motion(t_s));
+  p.inputs.reliability.fill(1.0);
+  p.inputs.reliability[7] = 0.0;
+  p.inputs.reliability[9] = 0.4;
+  p.inputs.lengths_m = db.bone_lengths_m();
+  if (history) {
+    p.inputs.last = VectorOf(test::Motion(t_s - 1.0 / 30));
+    p.inputs.before_last = VectorOf(test::Motion(t_s - 2.0 / 30));
+  }
+  std::vector<int> neighbours;
+  for (const auto& n : NearestPostures(db, p.inputs.observed, p.inputs.reliability, 30)) {
+    neighbours.push_back(n.index);
+  }
+  p.space = MakePostureSpace(db, neighbours, 20);
+  return p;
+}
+
+TEST(PostureSpace, ReproducesItsNeighboursUpToWhatItSaysLiesOutside) {
+  const Problem p = MakeProblem(1.0, false);
+  EXPECT_LE(p.space.dimensions(), 20);
+  const Eigen::MatrixXf gram = p.space.basis.transpose().lazyProduct(p.space.basis);
+  EXPECT_LT((gram - Eigen::MatrixXf::Identity(gram.rows(), gram.cols())).norm(), 1e-3F);
+  EXPECT_LT(p.space.outside.maxCoeff(), 0.05F);
+}
+
+TEST(EnergyResiduals, HaveTheirJacobian) {
+  for (const bool history : {false, true}) {
+    const Problem p = MakeProblem(1.0, history);
+    const EnergyResiduals residuals(p.space, p.inputs, {}, 3);
+    const Eigen::VectorXd q = 0.5 * p.space.neighbours.col(5).cast<double>();
+    Eigen::VectorXd r, plus, minus;
+    Eigen::MatrixXd jacobian;
+    residuals.Evaluate(q, r, &jacobian);
+    constexpr double kStep = 1e-6;  // central differences: error of order 1e-10
+    for (Eigen::Index c = 0; c < q.size(); ++c) {
+      Eigen::VectorXd moved = q;
+      moved[c] += kStep;
+      residuals.Evaluate(moved, plus, nullptr);
+      moved[c] -= 2 * kStep;
+      residuals.Evaluate(moved, minus, nullptr);
+      const Eigen::VectorXd numeric = (plus - minus) / (2 * kStep);
+      EXPECT_LT((numeric - jacobian.col(c)).cwiseAbs().maxCoeff(), 1e-6) << "column " << c;
+    }
+  }
+}
+
+TEST(EnergyResiduals, SquaredAreTheEnergyOfEquation15) {
+  const Problem p = MakeProblem(0.4, true);
+  const Eigen::VectorXf q = p.space.neighbours.col(4);  // its own nearest neighbour
+  const EnergyResiduals residuals(p.space, p.inputs, {}, 4);
+  Eigen::VectorXd r;
+  residuals.Evaluate(q.cast<double>(), r, nullptr);
+  const double outside = 0.5 * p.space.outside[4] / kJointCount;  // constant, not a residual
+  const float energy = Energies(p.space, p.inputs, {}, EnergyForm::kSumOfSquares, q.transpose())[0];
+  EXPECT_NEAR(r.squaredNorm() + outside, energy, 1e-4 * energy);  // single precision
+}
+
+TEST(SearchStochastic, IsTheSameForTheSeedAndNeverWorseThanItsStart) {
+  const Problem p = MakeProblem(1.7, true);
+  const Eigen::VectorXf start = p.space.neighbours.col(0);
+  const double before =
+      Energies(p.space, p.inputs, {}, EnergyForm::kSumOfSquares, start.transpose())[0];
+  const auto a = SearchStochastic(p.space, p.inputs, {}, EnergyForm::kSumOfSquares, start, 3);
+  const auto b = SearchStochastic(p.space, p.inputs, {}, EnergyForm::kSumOfSquares, start, 3);
+  EXPECT_EQ(a.q, b.q);
+  EXPECT_LE(a.energy, before);
+}
+
+TEST(SearchCeres, FindsNoHigherEnergyThanTheStochasticSearch) {
+  for (const double t : {0.3, 1.1, 2.4}) {
+    const Problem p = MakeProblem(t, true);
+    const Eigen::VectorXf start = p.space.neighbours.col(0);
+    const auto random =
+        SearchStochastic(p.space, p.inputs, {}, EnergyForm::kSumOfSquares, start, 1);
+    const auto exact = SearchCeres(p.space, p.inputs, {}, start);
+    EXPECT_LE(exact.energy, 1.05 * random.energy);  // style's nearest neighbour may differ
+  }
+}
+
+}  // namespace
+}  // namespace ossa::recon

@@ -1,0 +1,68 @@
+#include "recon/normalise.h"
+
+#include <gtest/gtest.h>
+
+#include <limits>
+
+#include "tests/recon/synthetic_motion.h"
+
+namespace ossa::recon {
+namespace {
+
+JointWeights Ones() {
+  JointWeights w;
+  w.fill(1.0);
+  return w;
+}
+
+TEST(Normalise, UndoesPlacementAndTurn) {
+  const Posture person = test::Gesture(0.4, 1.2, 0.5);
+  for (const double yaw : {-3.0, -1.0, 0.0, 0.7, 3.1}) {
+    const Posture seen = Placed(person, {{0.3, -0.2, 2.2}, yaw});
+    const Placement placement = PlacementOf(seen, Ones(), 0.0);
+    // The gesture's own hips and shoulders lie exactly across: rounding only.
+    EXPECT_LT(test::MeanDistance_m(Normalised(seen, placement), person), 1e-12) << yaw;
+  }
+}
+
+TEST(Normalise, APersonFacingTheCameraHasTheLeftHandAtNegativeX) {
+  const Posture seen = test::InFrontOfCamera(test::Gesture(1.5, 1.5, 0.0));
+  EXPECT_LT(seen[Joint::kHandLeft].x(), seen[Joint::kHandRight].x());
+  EXPECT_NEAR(std::abs(PlacementOf(seen, Ones(), 0.0).yaw_rad), 3.1, 1e-9);
+}
+
+TEST(Normalise, KeepsTheLastHeadingWhenNothingTells) {
+  Posture seen;  // all joints at one point
+  EXPECT_DOUBLE_EQ(PlacementOf(seen, Ones(), 1.25).yaw_rad, 1.25);
+}
+
+TEST(Retarget, KeepsDirectionsAndGivesEveryBoneItsLength) {
+  const Posture person = test::Gesture(0.4, 1.2, 0.5, 0.3);
+  for (const double scale : {0.9 / 1.66, 1.0, 2.2 / 1.66}) {
+    const Posture other = Retargeted(person, ScaledBoneLengths(scale));
+    const BoneLengths lengths = BoneLengthsOf(other);
+    for (size_t i = 1; i < kJointCount; ++i) {
+      EXPECT_NEAR(lengths[i], scale * StandardBoneLengths()[i], 1e-12);
+    }
+    EXPECT_LT(test::MeanDistance_m(Retargeted(other, BoneLengthsOf(person)), person), 1e-12);
+  }
+}
+
+TEST(Retarget, GivesBonesWithoutDirectionThatOfTheStance) {
+  Posture collapsed;
+  collapsed[Joint::kHead] = Eigen::Vector3d::Constant(std::numeric_limits<double>::quiet_NaN());
+  const Posture made = Retargeted(collapsed, StandardBoneLengths());
+  for (const auto& p : made.position_m) EXPECT_TRUE(p.allFinite());
+  EXPECT_GT(made[Joint::kHead].y(), made[Joint::kShoulderCenter].y());
+}
+
+TEST(BodyScale, IsThatOfThePersonDespiteAWrongBone) {
+  for (const double scale : {0.6, 1.0, 1.3}) {
+    Posture person = Retargeted(test::Gesture(0.2, 0.3, 0.1), ScaledBoneLengths(scale));
+    person[Joint::kHandLeft] += Eigen::Vector3d(0.8, 0.0, 0.0);
+    EXPECT_NEAR(BodyScaleOf(BoneLengthsOf(person), Ones()), scale, 1e-9);
+  }
+}
+
+}  // namespace
+}  // namespace ossa::recon

@@ -1,0 +1,104 @@
+#include "recon/reliability.h"
+
+#include <gtest/gtest.h>
+
+#include <limits>
+
+#include "tests/recon/synthetic_motion.h"
+
+namespace ossa::recon {
+namespace {
+
+constexpr size_t kHandLeft = 7;
+
+TEST(Reliability, OfASteadyCompletePostureIsOne) {
+  ReliabilityEstimator estimator;
+  const Posture seen = test::InFrontOfCamera(test::Gesture(0.1, 0.1, 0.1));
+  Reliability r;
+  for (int f = 0; f < 10; ++f) r = estimator.Step(test::AllTracked(seen), nullptr);
+  for (const double rate : r.rate) EXPECT_NEAR(rate, 1.0, 1e-9);
+}
+
+TEST(Reliability, OfAJointThatVibratesFalls) {  // eqs. 1-4: 180 degree turns exceed the roof
+  ReliabilityEstimator estimator;
+  Reliability r;
+  for (int f = 0; f < 10; ++f) {
+    Posture seen = test::InFrontOfCamera(test::Gesture(0.1, 0.1, 0.1));
+    seen.position_m[kHandLeft].z() += f % 2 == 0 ? 0.03 : -0.03;
+    r = estimator.Step(test::AllTracked(seen), nullptr);
+  }
+  EXPECT_EQ(r.behaviour[kHandLeft], 0.0);
+  EXPECT_LT(r.rate[kHandLeft], 0.1);
+  EXPECT_NEAR(r.behaviour[11], 1.0, 1e-12);
+}
+
+TEST(Reliability, IgnoresVibrationBelowThreeCentimetres) {
+  ReliabilityEstimator estimator;
+  Reliability r;
+  for (int f = 0; f < 10; ++f) {
+    Posture seen = test::InFrontOfCamera(test::Gesture(0.1, 0.1, 0.1));
+    seen.position_m[kHandLeft].z() += f % 2 == 0 ? 0.014 : -0.014;
+    r = estimator.Step(test::AllTracked(seen), nullptr);
+  }
+  EXPECT_EQ(r.behaviour[kHandLeft], 1.0);
+}
+
+TEST(Reliability, FallsWithAWrongBoneLength) {  // eqs. 5-6: the hand has one bone
+  ReliabilityEstimator estimator;
+  const Posture standing = test::InFrontOfCamera(test::Gesture(0.1, 0.1, 0.1));
+  ASSERT_TRUE(IsReferencePosture(standing));
+  estimator.Step(test::AllTracked(standing), nullptr);
+  Posture wrong = standing;
+  const Eigen::Vector3d bone = wrong.position_m[kHandLeft] - wrong.position_m[kHandLeft - 1];
+  wrong.position_m[kHandLeft] += 0.6 * bone;
+  const Reliability r = estimator.Step(test::AllTracked(wrong), nullptr);
+  EXPECT_NEAR(r.kinematics[kHandLeft], 0.4, 1e-9);
+  EXPECT_NEAR(r.kinematics[kHandLeft - 1], 0.7, 1e-9);  // mean over its two bones
+  EXPECT_NEAR(r.kinematics[kHandLeft - 3], 1.0, 1e-9);
+}
+
+TEST(Reliability, OfInferredAndMissingJointsIsZero) {  // eq. 7
+  ReliabilityEstimator estimator;
+  TrackedPosture seen = test::AllTracked(test::InFrontOfCamera(test::Gesture(0.1, 0.1, 0.1)));
+  seen.state[3] = TrackingState::kInferred;
+  seen.state[5] = TrackingState::kNotTracked;
+  seen.posture.position_m[9].setConstant(std::numeric_limits<double>::quiet_NaN());
+  const Reliability r = estimator.Step(seen, nullptr);
+  for (const size_t i : {3, 5, 9}) EXPECT_EQ(r.rate[i], 0.0) << i;
+  EXPECT_NEAR(r.rate[0], 1.0, 1e-12);
+}
+
+TEST(Reliability, RecoversWithinTheGaussianWindow) {  // eq. 8: six frames
+  ReliabilityEstimator estimator;
+  TrackedPosture seen = test::AllTracked(test::InFrontOfCamera(test::Gesture(0.1, 0.1, 0.1)));
+  seen.state[3] = TrackingState::kInferred;
+  estimator.Step(seen, nullptr);
+  seen.state[3] = TrackingState::kTracked;
+  double last = 0.0;
+  for (int f = 0; f < 5; ++f) {
+    const double rate = estimator.Step(seen, nullptr).rate[3];
+    EXPECT_GT(rate, last);
+    EXPECT_LT(rate, 1.0);
+    last = rate;
+  }
+  EXPECT_NEAR(estimator.Step(seen, nullptr).rate[3], 1.0, 1e-12);
+}
+
+TEST(SurfaceReliability, TellsHiddenAndFloatingJointsFromSeenOnes) {
+  depth::DepthFrame frame;
+  frame.camera = depth::KinectV1Camera(160, 120);
+  frame.depth_mm.assign(160 * 120, 2400);
+  Posture posture;
+  for (auto& p : posture.position_m) p = {0.0, 0.0, 2.45};  // 5 cm behind the surface
+  posture.position_m[1] = {0.1, 0.1, 3.0};                  // 60 cm behind: hidden
+  posture.position_m[2] = {0.1, 0.1, 2.0};                  // 40 cm before: in the air
+  posture.position_m[3] = {9.0, 0.1, 2.0};                  // outside the image
+  const JointWeights s = SurfaceReliability(posture, frame);
+  EXPECT_EQ(s[0], 1.0);
+  EXPECT_EQ(s[1], 0.0);
+  EXPECT_EQ(s[2], 0.0);
+  EXPECT_EQ(s[3], 1.0);
+}
+
+}  // namespace
+}  // namespace ossa::recon

@@ -1,0 +1,86 @@
+#include <fmt/format.h>
+
+#include <CLI/CLI.hpp>
+#include <string>
+#include <vector>
+
+#include "recon/body/standard_body.h"
+#include "recon/database/posture_database.h"
+#include "recon/motion/mocap.h"
+#include "tools/commands/command.h"
+#include "tools/commands/commands.h"
+
+namespace ossa::commands {
+namespace {
+
+/// The bone of the SDK's joint j turns with the rig bone that carries its parent joint; its y axis
+/// lies along the bone (recon/posture.h).
+recon::JointOrientations OrientationsOf(const recon::RigPose& pose) {
+  const auto& anchors = recon::StandardJointAnchors();
+  static const recon::Posture rest = recon::StandardPosture(recon::RigPose{});
+  recon::JointOrientations out;
+  out.fill(Eigen::Quaterniond::Identity());
+  out[0] = pose.world_from_rest[static_cast<size_t>(anchors[0].bone)];
+  for (size_t j = 1; j < recon::kJointCount; ++j) {
+    const auto parent = static_cast<size_t>(recon::kJointParent[j]);
+    const Eigen::Vector3d along = rest.position_m[j] - rest.position_m[parent];
+    const auto rest_from_bone = Eigen::Quaterniond::FromTwoVectors(Eigen::Vector3d::UnitY(), along);
+    const auto bone = static_cast<size_t>(anchors[parent].bone);
+    out[j] = (pose.world_from_rest[bone] * rest_from_bone).normalized();
+  }
+  return out;
+}
+
+std::vector<recon::PostureClip> PosturesOf(const std::vector<recon::MotionClip>& clips,
+                                           bool quiet) {
+  Progress progress("postures", quiet);
+  std::vector<recon::PostureClip> out;
+  for (const recon::MotionClip& clip : clips) {
+    recon::PostureClip& made = out.emplace_back();
+    made.name = clip.name;
+    for (const recon::RigPose& pose : clip.frames) {
+      made.postures.push_back(recon::StandardPosture(pose));
+      made.orientations.push_back(OrientationsOf(pose));
+    }
+    progress.Update(static_cast<double>(out.size()), static_cast<double>(clips.size()));
+  }
+  return out;
+}
+
+}  // namespace
+
+int Database(int argc, char** argv) {
+  CLI::App app("Build a posture database and its filtered pose graph from motion capture");
+  std::vector<std::string> mocap;
+  std::string out, filter = "max-joint";
+  recon::DatabaseOptions options;
+  recon::MocapOptions mocap_options;
+  bool quiet = false;
+  app.add_option("--mocap", mocap, "folders of BVH or AMC files, or the word authored")->required();
+  app.add_option("--out", out, "the .ossadb file to write")->required();
+  app.add_option("--threshold", options.threshold_m,
+                 "postures nearer than this to a kept one are dropped, metres")
+      ->capture_default_str()
+      ->check(CLI::PositiveNumber);
+  app.add_option("--filter", filter, "distance of the filter")
+      ->capture_default_str()
+      ->check(CLI::IsMember({"sum-squared", "max-joint"}));
+  app.add_option("--seed", mocap_options.seed, "variation of the authored clips")
+      ->capture_default_str();
+  app.add_option("--mapping", mocap_options.mapping_file, "bone names of an unknown conversion");
+  app.add_flag("--quiet", quiet, "no progress");
+  Parse(app, argc, argv);
+
+  options.filter =
+      filter == "max-joint" ? recon::DatabaseFilter::kMaxJoint : recon::DatabaseFilter::kSumSquared;
+  const auto clips = PosturesOf(recon::LoadMocap(mocap, mocap_options), quiet);
+  const auto database = recon::PostureDatabase::Build(clips, options);
+  if (Interrupted()) return 1;
+  database.Save(out);
+  fmt::print("{}: {} postures of {} in {} clips, {:.1f} edges a posture\n", out, database.size(),
+             database.source_postures(), database.clip_count(),
+             static_cast<double>(database.edge_count()) / database.size());
+  return 0;
+}
+
+}  // namespace ossa::commands

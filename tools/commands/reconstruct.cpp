@@ -1,0 +1,103 @@
+#include <fmt/format.h>
+
+#include <CLI/CLI.hpp>
+#include <filesystem>
+#include <memory>
+#include <string>
+
+#include "depth/error.h"
+#include "recon/database/posture_database.h"
+#include "recon/methods/sequence.h"
+#include "recon/motion/skeleton_io.h"
+#include "tools/commands/command.h"
+#include "tools/commands/commands.h"
+#include "tools/commands/shipped.h"
+
+namespace ossa::commands {
+namespace {
+
+constexpr const char* kButterworth = "butterworth";
+
+struct ReconstructArguments {
+  std::string skeletons, out, database_file;
+  recon::ReconstructorOptions options;
+  recon::SkeletonReadOptions read;
+  double cutoff_hz = 6.0;
+  bool quiet = false;
+  bool no_reliability = false;
+};
+
+void AddMethodOptions(CLI::App& app, ReconstructArguments& a) {
+  auto methods = recon::ReconstructionMethods();
+  methods.emplace_back(kButterworth);
+  app.add_option("--method", a.options.method, "how the postures are made whole")
+      ->capture_default_str()
+      ->check(CLI::IsMember(methods));
+  app.add_option("--database", a.database_file, "posture database; without it the shipped one");
+  app.add_option("--learned", a.options.learned_file, "what `ossa learn` wrote, .ossagp");
+  app.add_option("--seed", a.options.seed, "of the stochastic search")->capture_default_str();
+  app.add_option("--cutoff", a.cutoff_hz, "of the Butterworth filter, Hz")->capture_default_str();
+  recon::LocalPcaOptions& pca = a.options.local_pca;
+  app.add_option("--solver", pca.solver, "of shum-2013: stochastic or ceres")
+      ->capture_default_str()
+      ->check(CLI::IsMember({"stochastic", "ceres"}));
+  app.add_option("--neighbours", pca.neighbours, "K of the local PCA")->capture_default_str();
+  app.add_option("--dimensions", pca.dimensions, "of the local PCA")->capture_default_str();
+  app.add_option("--steps", pca.steps, "of the stochastic search")->capture_default_str();
+  app.add_option("--samples", pca.samples, "a step")->capture_default_str();
+  app.add_option("--weights", "control, style, kinematics, continuity (Shum 2013 eq. 15)")
+      ->expected(4)
+      ->delimiter(',')
+      ->each([&pca, n = 0](const std::string& text) mutable {
+        double* const weights[] = {&pca.control, &pca.style, &pca.kinematics, &pca.continuity};
+        *weights[n++ % 4] = std::stod(text);
+      });
+  app.add_flag("--no-reliability", a.no_reliability, "method B of Shum 2013");
+  app.add_flag("--extend", pca.extend_database, "reliable postures join the database (sec. IX)");
+}
+
+}  // namespace
+
+int Reconstruct(int argc, char** argv) {
+  CLI::App app("Make recorded skeletons complete and plausible");
+  ReconstructArguments a;
+  app.add_option("SKELETONS", a.skeletons, "skeleton JSONL or a recording of an SDK")->required();
+  app.add_option("--out", a.out, "result: .jsonl .bvh .trc .csv, or a folder for many recordings")
+      ->required();
+  AddMethodOptions(app, a);
+  app.add_flag("--quiet", a.quiet, "no progress");
+  Parse(app, argc, argv);
+  a.options.local_pca.use_reliability = !a.no_reliability;
+
+  const auto clips = recon::ReadSkeletonClips(a.skeletons, a.read);
+  const bool many = clips.size() > 1;
+  if (many) {
+    std::filesystem::create_directories(a.out);
+  } else {
+    recon::CheckSkeletonExtension(a.out);
+  }
+  if (a.options.method != kButterworth) a.options.database = LoadDatabase(a.database_file);
+  Progress progress("reconstruct", a.quiet);
+  double done = 0.0, total = 0.0;
+  for (const auto& clip : clips) total += static_cast<double>(clip.sequence.frames.size());
+  for (const auto& clip : clips) {
+    const auto update = [&](size_t frames) {
+      progress.Update(done + static_cast<double>(frames), total);
+      return !Interrupted();
+    };
+    const auto made = a.options.method == kButterworth
+                          ? recon::ButterworthSequence(clip.sequence, a.cutoff_hz)
+                          : recon::ReconstructSequence(clip.sequence, a.options, update);
+    if (Interrupted()) throw InputError("reconstruct: interrupted; nothing half-written is left");
+    std::filesystem::path to = a.out;
+    if (many) {
+      to = to / (clip.name + ".jsonl");
+      std::filesystem::create_directories(to.parent_path());
+    }
+    recon::WriteSkeletons(to, made);
+    done += static_cast<double>(clip.sequence.frames.size());
+  }
+  return 0;
+}
+
+}  // namespace ossa::commands
