@@ -1,0 +1,64 @@
+#include "depth/scene/background.h"
+
+#include <cmath>
+
+namespace ossa::depth {
+namespace {
+
+constexpr uint8_t kSaturated = 250;
+
+bool SameSurface(float a_m, float b_m) { return std::abs(a_m - b_m) < DepthTolerance(b_m); }
+
+bool SensorMoved(const PointGrid& grid, const BackgroundState& state,
+                 const BackgroundOptions& options) {
+  int known = 0, moved = 0;
+  for (int i = 0; i < grid.cells(); ++i) {
+    const auto n = static_cast<size_t>(i);
+    if (state.steady[n] < options.steady_frames || !grid.valid(i)) continue;
+    ++known;
+    // Nearer things are people passing; a surface that is suddenly farther away is not.
+    moved += grid.z(i) > state.surface_m[n] && !SameSurface(grid.z(i), state.surface_m[n]) ? 1 : 0;
+  }
+  return known > 500 && moved > options.moved_share * known;
+}
+
+}  // namespace
+
+void LearnBackground(const PointGrid& grid, const std::vector<uint8_t>& claimed,
+                     BackgroundState& state, const BackgroundOptions& options) {
+  const auto cells = static_cast<size_t>(grid.cells());
+  if (state.width != grid.width || state.height != grid.height ||
+      SensorMoved(grid, state, options)) {
+    state = {grid.width, grid.height, std::vector<float>(cells, 0.0F),
+             std::vector<uint8_t>(cells, 0)};
+  }
+  for (int i = 0; i < grid.cells(); ++i) {
+    const auto n = static_cast<size_t>(i);
+    const float z = grid.z(i);
+    if (z <= 0) continue;
+    if (state.steady[n] > 0 && SameSurface(z, state.surface_m[n])) {
+      if (claimed[n]) continue;
+      state.surface_m[n] += 0.1F * (z - state.surface_m[n]);
+      if (state.steady[n] < kSaturated) ++state.steady[n];
+    } else if (!claimed[n] && (z > state.surface_m[n] || state.steady[n] == 0)) {
+      state.surface_m[n] = z;  // something farther away came into view
+      state.steady[n] = 1;
+    } else if (!claimed[n]) {
+      --state.steady[n];  // something unclaimed stands before it: moved furniture, in time
+    }
+  }
+}
+
+std::vector<uint8_t> SeenBackground(const PointGrid& grid, const BackgroundState& state,
+                                    const BackgroundOptions& options) {
+  std::vector<uint8_t> seen(static_cast<size_t>(grid.cells()), 0);
+  if (state.width != grid.width || state.height != grid.height) return seen;
+  for (int i = 0; i < grid.cells(); ++i) {
+    const auto n = static_cast<size_t>(i);
+    seen[n] = grid.valid(i) && state.steady[n] >= options.steady_frames &&
+              SameSurface(grid.z(i), state.surface_m[n]);
+  }
+  return seen;
+}
+
+}  // namespace ossa::depth

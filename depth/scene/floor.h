@@ -1,0 +1,42 @@
+#pragma once
+#include <Eigen/Core>
+#include <optional>
+
+#include "depth/scene/point_grid.h"
+
+namespace ossa::depth {
+
+/// The Kinect SDK's floor clip plane: a x + b y + c z + d = 0 with unit normal pointing up; d is
+/// the sensor's height over the floor, metres.
+struct FloorPlane {
+  Eigen::Vector4d coefficients{0, 1, 0, 0};
+
+  double HeightOf(const Eigen::Vector3d& position_m) const {
+    return coefficients.head<3>().dot(position_m) + coefficients[3];
+  }
+  /// How far the sensor looks down, radians (negative: up).
+  double TiltDown_rad() const;
+};
+
+struct FloorOptions {
+  double max_tilt_rad = 0.79;    // the sensor's tilt and roll stay below 45 degrees
+  double min_height_m = 0.25;    // of the sensor over the floor
+  double max_height_m = 3.5;
+  double min_area_m2 = 0.5;      // visible floor, counted in squares of 10 cm
+  double max_share_below = 0.03; // of all points: nothing lies under a floor (but mirrors)
+  double smoothing = 0.25;       // share of a new frame's plane in the reported one
+  uint64_t seed = 1;
+};
+
+/// What is remembered between frames.
+struct FloorState {
+  std::optional<FloorPlane> plane;
+  int missed = 0;  // frames since the plane was last confirmed
+};
+
+/// The floor of this frame, or nothing when it is not seen with confidence. Random sample consensus
+/// with the prior that gravity points down the image; the plane before is tried first.
+std::optional<FloorPlane> FindFloor(const PointGrid& grid, FloorState& state,
+                                    const FloorOptions& options = {});
+
+}  // namespace ossa::depth

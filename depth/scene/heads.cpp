@@ -1,0 +1,148 @@
+#include "depth/scene/heads.h"
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+#include <limits>
+#include <queue>
+
+namespace ossa::depth {
+namespace {
+
+constexpr float kHeadRadius_m = 0.085F;  // well inside any head
+constexpr float kRing_m = 0.19F;         // well outside any head, above the shoulders
+constexpr float kPi = 3.14159265F;
+
+class HeadFinder {
+ public:
+  HeadFinder(const PointGrid& grid, const Region& region)
+      : grid_(grid), member_(static_cast<size_t>(grid.cells()), 0) {
+    for (const int cell : region.cells) member_[static_cast<size_t>(cell)] = 1;
+  }
+
+  // Share of the disc that is filled times share of the upper ring that is free, times whether
+  // shoulders follow below.
+  float Score(int cell) const {
+    const int x = cell % grid_.width, y = cell / grid_.width;
+    const float z = grid_.z(cell);
+    const float filled = Share(x, y, z, kHeadRadius_m, 0, 2 * kPi, 12);
+    if (filled < 0.9F) return 0;
+    const float taken = Share(x, y, z, kRing_m, -0.15F * kPi, 1.15F * kPi, 14);
+    if (taken > 0.25F) return 0;
+    const float below = ShoulderShare(x, y, z);
+    return filled * (1 - taken) * below;
+  }
+
+ private:
+  bool Filled(float x, float y, float z) const {
+    const int cx = static_cast<int>(std::lround(x)), cy = static_cast<int>(std::lround(y));
+    if (!grid_.Contains(cx, cy)) return false;
+    const int cell = grid_.cell(cx, cy);
+    return member_[static_cast<size_t>(cell)] && std::abs(grid_.z(cell) - z) < 0.15F;
+  }
+
+  float Share(int x, int y, float z, float radius_m, float from, float to, int samples) const {
+    const float radius = grid_.CellsOf(radius_m, z);
+    int filled = 0;
+    for (int i = 0; i < samples; ++i) {
+      const float angle = from + (to - from) * static_cast<float>(i) / static_cast<float>(samples - 1);
+      filled += Filled(static_cast<float>(x) + radius * std::cos(angle),
+                       static_cast<float>(y) - radius * std::sin(angle), z)
+                    ? 1 : 0;
+    }
+    return static_cast<float>(filled) / static_cast<float>(samples);
+  }
+
+  // Surface on a row 32 cm below the head's centre, from 17 cm left to 17 cm right; rows under the
+  // image's edge count half, for heads at the bottom.
+  float ShoulderShare(int x, int y, float z) const {
+    const float row = static_cast<float>(y) + grid_.CellsOf(0.32F, z);
+    if (row >= static_cast<float>(grid_.height)) return 0.5F;
+    int filled = 0;
+    constexpr int kSamples = 7;
+    for (int i = 0; i < kSamples; ++i) {
+      const float side_m = 0.17F * (static_cast<float>(i) / 3.0F - 1.0F);
+      const int cx = static_cast<int>(std::lround(static_cast<float>(x) + grid_.CellsOf(side_m, z)));
+      const int cy = static_cast<int>(row);
+      if (!grid_.Contains(cx, cy)) continue;
+      const int cell = grid_.cell(cx, cy);
+      filled += member_[static_cast<size_t>(cell)] && std::abs(grid_.z(cell) - z) < 0.3F ? 1 : 0;
+    }
+    return static_cast<float>(filled) / static_cast<float>(kSamples);
+  }
+
+  const PointGrid& grid_;
+  std::vector<uint8_t> member_;
+};
+
+}  // namespace
+
+std::vector<HeadBlob> FindHeads(const PointGrid& grid, const Region& region) {
+  constexpr float kMinScore = 0.4F, kApart_m = 0.25F;
+  const HeadFinder finder(grid, region);
+  std::vector<HeadBlob> all;
+  for (const int cell : region.cells) {
+    const float score = finder.Score(cell);
+    if (score >= kMinScore) all.push_back({cell, grid.at(cell), score});
+  }
+  std::stable_sort(all.begin(), all.end(),
+                   [](const HeadBlob& a, const HeadBlob& b) { return a.score > b.score; });
+  std::vector<HeadBlob> heads;
+  for (const HeadBlob& blob : all) {
+    const bool near = std::any_of(heads.begin(), heads.end(), [&](const HeadBlob& head) {
+      return (head.position_m - blob.position_m).norm() < kApart_m;
+    });
+    if (!near) heads.push_back(blob);
+  }
+  return heads;
+}
+
+std::vector<Region> SplitBySeeds(const PointGrid& grid, const Region& region,
+                                 const std::vector<std::vector<int>>& seeds, float reach_m) {
+  const auto cells = static_cast<size_t>(grid.cells());
+  std::vector<uint8_t> member(cells, 0);
+  for (const int cell : region.cells) member[static_cast<size_t>(cell)] = 1;
+  std::vector<float> distance(cells, std::numeric_limits<float>::infinity());
+  std::vector<int> owner(cells, -1);
+  using Item = std::pair<float, int>;
+  std::priority_queue<Item, std::vector<Item>, std::greater<>> queue;
+  for (size_t i = 0; i < seeds.size(); ++i) {
+    for (const int cell : seeds[i]) {
+      if (!member[static_cast<size_t>(cell)]) continue;
+      distance[static_cast<size_t>(cell)] = 0;
+      owner[static_cast<size_t>(cell)] = static_cast<int>(i);
+      queue.push({0.0F, cell});
+    }
+  }
+  while (!queue.empty()) {
+    const auto [d, cell] = queue.top();
+    queue.pop();
+    if (d > distance[static_cast<size_t>(cell)]) continue;
+    const int x = cell % grid.width, y = cell / grid.width;
+    constexpr int kSteps[8][2] = {{1, 0}, {-1, 0}, {0, 1}, {0, -1}, {2, 0}, {-2, 0}, {0, 2}, {0, -2}};
+    for (const auto& step : kSteps) {
+      if (!grid.Contains(x + step[0], y + step[1])) continue;
+      const int next = grid.cell(x + step[0], y + step[1]);
+      const auto n = static_cast<size_t>(next);
+      if (!member[n]) continue;
+      Eigen::Vector3f way = grid.at(next) - grid.at(cell);
+      way.x() *= 1.5F;  // bodies are tall: sideways costs more than down
+      const float jump = Continuous(grid, cell, next) ? 0.0F : 0.3F;
+      const float reached = d + way.norm() + jump;
+      if (reached >= distance[n] || reached > reach_m) continue;
+      distance[n] = reached;
+      owner[n] = owner[static_cast<size_t>(cell)];
+      queue.push({reached, next});
+    }
+  }
+  std::vector<std::vector<int>> pieces(seeds.size());
+  for (const int cell : region.cells) {
+    const int i = owner[static_cast<size_t>(cell)];
+    if (i >= 0) pieces[static_cast<size_t>(i)].push_back(cell);
+  }
+  std::vector<Region> result;
+  for (auto& piece : pieces) result.push_back(MakeRegion(grid, std::move(piece)));
+  return result;
+}
+
+}  // namespace ossa::depth

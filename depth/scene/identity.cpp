@@ -1,0 +1,115 @@
+// Who is who from one frame to the next.
+#include <algorithm>
+#include <cmath>
+#include <tuple>
+
+#include "depth/scene/scene.h"
+
+namespace ossa::depth {
+namespace {
+
+using Eigen::Vector3f;
+
+struct Match {
+  double cost;
+  size_t track, person;
+};
+
+Vector3f Predicted(const UserTrack& user, double time_s) {
+  // A person does not keep walking straight for long: predict for at most half a second.
+  const auto dt = static_cast<float>(std::clamp(time_s - user.seen_s, 0.0, 0.5));
+  return user.mean_m + dt * user.velocity_m_s;
+}
+
+// Cells both hold, as a share of the smaller.
+double Overlap(const PointGrid& grid, const UserTrack& user, const Candidate& person) {
+  if (user.cells.empty()) return 0;
+  size_t common = 0, i = 0;
+  for (const int cell : person.region.cells) {
+    while (i < user.cells.size() && user.cells[i] < cell) ++i;
+    if (i < user.cells.size() && user.cells[i] == cell && std::abs(user.z_m[i] - grid.z(cell)) < 0.15F) {
+      ++common;
+    }
+  }
+  return static_cast<double>(common) /
+         static_cast<double>(std::min(user.cells.size(), person.region.cells.size()));
+}
+
+// Smallest cost first: at most a handful of people, so greedy choice over (overlap, distance).
+std::vector<Match> PossibleMatches(const Scene& scene, const std::vector<Candidate>& people,
+                                   double time_s, const SceneState& state,
+                                   const SceneOptions& options) {
+  std::vector<Match> matches;
+  for (size_t t = 0; t < state.users.size(); ++t) {
+    const UserTrack& user = state.users[t];
+    const double gone_s = std::max(0.0, time_s - user.seen_s);
+    const double gate = options.return_gate_m + options.return_speed_m_s * gone_s;
+    for (size_t p = 0; p < people.size(); ++p) {
+      const double off = (Predicted(user, time_s) - people[p].region.mean_m).norm();
+      const double overlap = gone_s < 0.5 ? Overlap(scene.grid, user, people[p]) : 0.0;
+      if (off > gate && overlap < 0.3) continue;
+      matches.push_back({off / gate - 2 * overlap, t, p});
+    }
+  }
+  std::sort(matches.begin(), matches.end(), [](const Match& a, const Match& b) {
+    return std::tie(a.cost, a.track, a.person) < std::tie(b.cost, b.track, b.person);
+  });
+  return matches;
+}
+
+void Renew(UserTrack& user, const PointGrid& grid, const Region& region, double time_s) {
+  const auto dt = static_cast<float>(time_s - user.seen_s);
+  if (!user.cells.empty() && dt > 1e-3F && dt < 0.5F) {
+    const Vector3f velocity = (region.mean_m - user.mean_m) / dt;
+    // Half of a new velocity each frame; nobody runs faster than 4 m/s in view of a Kinect.
+    user.velocity_m_s = 0.5F * (user.velocity_m_s + velocity);
+    if (user.velocity_m_s.norm() > 4) user.velocity_m_s *= 4 / user.velocity_m_s.norm();
+  } else {
+    user.velocity_m_s.setZero();
+  }
+  user.mean_m = region.mean_m;
+  user.cells = region.cells;
+  user.z_m.clear();
+  for (const int cell : user.cells) user.z_m.push_back(grid.z(cell));
+  user.seen_s = time_s;
+}
+
+}  // namespace
+
+std::vector<int> ConfirmUsers(const Scene& scene, const std::vector<Candidate>& people,
+                              double time_s, SceneState& state, const SceneOptions& options) {
+  for (UserTrack& user : state.users) {
+    if (time_s < user.seen_s) user.seen_s = time_s;  // the clock went back: a new recording
+  }
+  std::vector<int> track_of(people.size(), -1);
+  std::vector<uint8_t> taken(state.users.size(), 0);
+  for (const Match& match : PossibleMatches(scene, people, time_s, state, options)) {
+    if (taken[match.track] || track_of[match.person] >= 0) continue;
+    taken[match.track] = 1;
+    track_of[match.person] = static_cast<int>(match.track);
+  }
+  std::vector<int> ids;
+  std::vector<uint8_t> claimed(static_cast<size_t>(scene.grid.cells()), 0);
+  for (size_t p = 0; p < people.size(); ++p) {
+    if (track_of[p] < 0) {
+      track_of[p] = static_cast<int>(state.users.size());
+      state.users.push_back({});
+      state.users.back().id = state.next_id;
+      state.next_id = state.next_id % 255 + 1;  // ids fit the user image's byte
+    }
+    UserTrack& user = state.users[static_cast<size_t>(track_of[p])];
+    Renew(user, scene.grid, people[p].region, time_s);
+    ids.push_back(user.id);
+    for (const int cell : people[p].region.cells) claimed[static_cast<size_t>(cell)] = 1;
+  }
+  std::erase_if(state.users, [&](const UserTrack& user) {
+    return time_s - user.seen_s > options.forget_s;
+  });
+  for (UserTrack& user : state.users) {
+    if (user.seen_s < time_s - 0.2) user.cells.clear(), user.z_m.clear();
+  }
+  LearnBackground(scene.grid, claimed, state.background, options.background);
+  return ids;
+}
+
+}  // namespace ossa::depth

@@ -1,0 +1,46 @@
+#include "depth/scene/point_grid.h"
+
+#include <algorithm>
+
+namespace ossa::depth {
+namespace {
+
+// The cell's reading: the first of a few fixed pixels that has one. Averages would invent points
+// between a person and the wall behind.
+uint16_t ReadingOf(const DepthView& depth, int u0, int v0, int step, uint16_t max_mm) {
+  const int middle = step / 2;
+  const int places[5][2] = {
+      {middle, middle}, {0, 0}, {step - 1, step - 1}, {step - 1, 0}, {0, step - 1}};
+  for (const auto& place : places) {
+    const int u = std::min(u0 + place[0], depth.width - 1);
+    const int v = std::min(v0 + place[1], depth.height - 1);
+    const uint16_t mm = depth.at(u, v);
+    if (mm > 0 && mm <= max_mm) return mm;
+  }
+  return 0;
+}
+
+}  // namespace
+
+PointGrid MakePointGrid(const DepthView& depth, const Camera& camera, float max_depth_m) {
+  PointGrid grid;
+  grid.step = std::max(1, depth.width / 160);
+  grid.width = (depth.width + grid.step - 1) / grid.step;
+  grid.height = (depth.height + grid.step - 1) / grid.step;
+  grid.camera = camera;
+  grid.point_m.assign(static_cast<size_t>(grid.cells()), Eigen::Vector3f::Zero());
+  const auto max_mm = static_cast<uint16_t>(std::clamp(max_depth_m * 1000.0F, 1.0F, 65535.0F));
+  for (int y = 0; y < grid.height; ++y) {
+    for (int x = 0; x < grid.width; ++x) {
+      const int u = x * grid.step, v = y * grid.step;
+      const uint16_t mm = ReadingOf(depth, u, v, grid.step, max_mm);
+      if (mm == 0) continue;
+      const double half = 0.5 * (grid.step - 1);
+      grid.point_m[static_cast<size_t>(grid.cell(x, y))] =
+          BackProject(camera, u + half, v + half, mm).cast<float>();
+    }
+  }
+  return grid;
+}
+
+}  // namespace ossa::depth

@@ -1,0 +1,34 @@
+#pragma once
+#include <Eigen/Core>
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "depth/scene/floor.h"
+#include "depth/scene/point_grid.h"
+
+namespace ossa::depth {
+
+/// Marks (1 per cell) what belongs to the room by its shape alone: the floor, and planes too large
+/// to be a person's side: walls, ceilings, doors, big table tops.
+std::vector<uint8_t> RoomSurfaces(const PointGrid& grid, const std::optional<FloorPlane>& floor);
+
+/// A connected piece of surface: cells in ascending order.
+struct Region {
+  std::vector<int> cells;
+  Eigen::Vector3f low_m, high_m;  // bounds
+  Eigen::Vector3f mean_m;
+  float area_m2 = 0;  // as seen frontally
+};
+
+Region MakeRegion(const PointGrid& grid, std::vector<int> cells);
+
+/// Connected pieces of the cells with ignore = 0, cut where depth jumps; largest first.
+std::vector<Region> ConnectedRegions(const PointGrid& grid, std::span<const uint8_t> ignore,
+                                     float min_area_m2);
+
+/// True when neighbouring cells may lie on one body.
+bool Continuous(const PointGrid& grid, int cell_a, int cell_b);
+
+}  // namespace ossa::depth

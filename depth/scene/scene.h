@@ -1,0 +1,81 @@
+#pragma once
+#include <Eigen/Core>
+#include <cstdint>
+#include <optional>
+#include <vector>
+
+#include "depth/image/depth_frame.h"
+#include "depth/image/image.h"
+#include "depth/scene/background.h"
+#include "depth/scene/floor.h"
+#include "depth/scene/regions.h"
+
+namespace ossa::depth {
+
+/// People of the frames before, as far as places go.
+struct UserTrack {
+  int id = 0;
+  std::vector<int> cells;  // of the last frame it was seen in
+  std::vector<float> z_m;  // depth of those cells
+  Eigen::Vector3f mean_m = Eigen::Vector3f::Zero();
+  Eigen::Vector3f velocity_m_s = Eigen::Vector3f::Zero();
+  double seen_s = 0;
+};
+
+/// All that the scene remembers between frames.
+struct SceneState {
+  FloorState floor;
+  BackgroundState background;
+  std::vector<UserTrack> users;  // in view, or lost for less than `forget_s`
+  int next_id = 1;
+  int frame_width = 0, frame_height = 0;
+};
+
+struct SceneOptions {
+  FloorOptions floor;
+  BackgroundOptions background;
+  float max_depth_m = 6.0F;       // nobody is looked for beyond
+  float min_area_m2 = 0.07F;      // of a person in view: head and shoulders
+  float min_height_m = 0.28F;
+  float max_reach_m = 1.75F;      // over the surface from the head to the farthest toe or finger
+  double forget_s = 2.5;          // after so long out of view a person is new
+  float return_gate_m = 0.6F;     // how far off the predicted place a lost person may reappear,
+  float return_speed_m_s = 0.7F;  // growing with time
+};
+
+/// A piece of the scene that may be a person.
+struct Candidate {
+  std::vector<int32_t> pixels;  // v * width + u of the full image, ascending
+  Region region;                // on the grid
+  int track = -1;               // index into SceneState::users it seems to continue, or -1
+  bool has_head = false;        // something like head and shoulders is seen
+};
+
+struct Scene {
+  PointGrid grid;
+  std::optional<FloorPlane> floor;
+  std::vector<Candidate> candidates;  // largest first
+};
+
+/// What of this frame may be people. Works from a single frame; what is remembered makes it
+/// better. Nothing is claimed to be a person: the caller looks at the candidates and says which are
+/// (ConfirmUsers).
+Scene FindCandidates(const DepthFrame& frame, const SceneState& state, SceneState& next,
+                     const SceneOptions& options = {});
+
+/// Cuts a candidate into one for each of several heads found otherwise (camera space, metres).
+std::vector<Candidate> SplitCandidate(const Scene& scene, const DepthFrame& frame,
+                                      const Candidate& candidate,
+                                      const std::vector<Eigen::Vector3d>& heads_m,
+                                      const SceneOptions& options = {});
+
+/// Gives the confirmed candidates their identities (same order) and learns the background from
+/// everything else.
+std::vector<int> ConfirmUsers(const Scene& scene, const std::vector<Candidate>& people,
+                              double time_s, SceneState& state, const SceneOptions& options = {});
+
+/// The SDK's player index: user id per pixel (0 nobody), as an image of the frame's size.
+Image<uint8_t> UserImage(const DepthFrame& frame, const std::vector<const Candidate*>& people,
+                         const std::vector<int>& ids);
+
+}  // namespace ossa::depth
