@@ -15,8 +15,8 @@ struct BackgroundState {
 };
 
 struct BackgroundOptions {
-  int steady_frames = 20;     // until a surface counts as background
-  double moved_share = 0.5;   // of known cells that disagree at once: the sensor was moved
+  int steady_frames = 20;    // until a surface counts as background
+  double moved_share = 0.5;  // of known cells that disagree at once: the sensor was moved
 };
 
 /// Learns from one frame. `claimed` (one entry a cell) marks the cells of people: never learned.

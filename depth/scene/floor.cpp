@@ -60,7 +60,8 @@ Vector4f Refine(const std::vector<Vector3f>& points, const Vector4f& plane) {
   mean /= static_cast<double>(inliers.size());
   Eigen::Matrix3d scatter = Eigen::Matrix3d::Zero();
   for (const auto& p : inliers) scatter += (p - mean) * (p - mean).transpose();
-  Eigen::Vector3d normal = Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>(scatter).eigenvectors().col(0);
+  Eigen::Vector3d normal =
+      Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>(scatter).eigenvectors().col(0);
   if (normal.y() < 0) normal = -normal;
   return Eigen::Vector4d(normal.x(), normal.y(), normal.z(), -normal.dot(mean)).cast<float>();
 }
@@ -70,7 +71,8 @@ double VisibleArea_m2(const std::vector<Vector3f>& points, const Vector4f& plane
   std::set<std::pair<int, int>> squares;
   for (const Vector3f& p : points) {
     if (std::abs(Height(plane, p)) >= DepthTolerance(p.z())) continue;
-    squares.insert({static_cast<int>(std::floor(10 * p.x())), static_cast<int>(std::floor(10 * p.z()))});
+    squares.insert(
+        {static_cast<int>(std::floor(10 * p.x())), static_cast<int>(std::floor(10 * p.z()))});
   }
   return 0.01 * static_cast<double>(squares.size());
 }
@@ -86,7 +88,8 @@ Fit Search(const std::vector<Vector3f>& low, const std::vector<Vector3f>& sample
     const auto plane = PlaneThrough(pick(), pick(), pick());
     if (!plane || !Allowed(*plane, options)) continue;
     const Fit fit = Score(sample, *plane);
-    if (fit.below > static_cast<int>(options.max_share_below * static_cast<double>(sample.size()))) continue;
+    if (fit.below > static_cast<int>(options.max_share_below * static_cast<double>(sample.size())))
+      continue;
     if (fit.inliers > best.inliers) best = fit;
   }
   return best;
@@ -104,9 +107,7 @@ std::optional<FloorPlane> Confirmed(const std::vector<Vector3f>& points, Vector4
 
 }  // namespace
 
-double FloorPlane::TiltDown_rad() const {
-  return std::atan2(-coefficients[2], coefficients[1]);
-}
+double FloorPlane::TiltDown_rad() const { return std::atan2(-coefficients[2], coefficients[1]); }
 
 std::optional<FloorPlane> FindFloor(const PointGrid& grid, FloorState& state,
                                     const FloorOptions& options) {

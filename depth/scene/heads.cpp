@@ -45,10 +45,12 @@ class HeadFinder {
     const float radius = grid_.CellsOf(radius_m, z);
     int filled = 0;
     for (int i = 0; i < samples; ++i) {
-      const float angle = from + (to - from) * static_cast<float>(i) / static_cast<float>(samples - 1);
+      const float angle =
+          from + (to - from) * static_cast<float>(i) / static_cast<float>(samples - 1);
       filled += Filled(static_cast<float>(x) + radius * std::cos(angle),
                        static_cast<float>(y) - radius * std::sin(angle), z)
-                    ? 1 : 0;
+                    ? 1
+                    : 0;
     }
     return static_cast<float>(filled) / static_cast<float>(samples);
   }
@@ -62,7 +64,8 @@ class HeadFinder {
     constexpr int kSamples = 7;
     for (int i = 0; i < kSamples; ++i) {
       const float side_m = 0.17F * (static_cast<float>(i) / 3.0F - 1.0F);
-      const int cx = static_cast<int>(std::lround(static_cast<float>(x) + grid_.CellsOf(side_m, z)));
+      const int cx =
+          static_cast<int>(std::lround(static_cast<float>(x) + grid_.CellsOf(side_m, z)));
       const int cy = static_cast<int>(row);
       if (!grid_.Contains(cx, cy)) continue;
       const int cell = grid_.cell(cx, cy);
@@ -119,7 +122,8 @@ std::vector<Region> SplitBySeeds(const PointGrid& grid, const Region& region,
     queue.pop();
     if (d > distance[static_cast<size_t>(cell)]) continue;
     const int x = cell % grid.width, y = cell / grid.width;
-    constexpr int kSteps[8][2] = {{1, 0}, {-1, 0}, {0, 1}, {0, -1}, {2, 0}, {-2, 0}, {0, 2}, {0, -2}};
+    constexpr int kSteps[8][2] = {{1, 0}, {-1, 0}, {0, 1}, {0, -1},
+                                  {2, 0}, {-2, 0}, {0, 2}, {0, -2}};
     for (const auto& step : kSteps) {
       if (!grid.Contains(x + step[0], y + step[1])) continue;
       const int next = grid.cell(x + step[0], y + step[1]);

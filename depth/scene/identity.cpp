@@ -27,7 +27,8 @@ double Overlap(const PointGrid& grid, const UserTrack& user, const Candidate& pe
   size_t common = 0, i = 0;
   for (const int cell : person.region.cells) {
     while (i < user.cells.size() && user.cells[i] < cell) ++i;
-    if (i < user.cells.size() && user.cells[i] == cell && std::abs(user.z_m[i] - grid.z(cell)) < 0.15F) {
+    if (i < user.cells.size() && user.cells[i] == cell &&
+        std::abs(user.z_m[i] - grid.z(cell)) < 0.15F) {
       ++common;
     }
   }
@@ -102,9 +103,8 @@ std::vector<int> ConfirmUsers(const Scene& scene, const std::vector<Candidate>& 
     ids.push_back(user.id);
     for (const int cell : people[p].region.cells) claimed[static_cast<size_t>(cell)] = 1;
   }
-  std::erase_if(state.users, [&](const UserTrack& user) {
-    return time_s - user.seen_s > options.forget_s;
-  });
+  std::erase_if(state.users,
+                [&](const UserTrack& user) { return time_s - user.seen_s > options.forget_s; });
   for (UserTrack& user : state.users) {
     if (user.seen_s < time_s - 0.2) user.cells.clear(), user.z_m.clear();
   }

@@ -10,10 +10,10 @@ namespace ossa::depth {
 /// A depth image thinned to about 160 × 120 camera-space points: enough to tell people from rooms,
 /// and sixteen times cheaper than the image itself.
 struct PointGrid {
-  int width = 0;   // cells
-  int height = 0;  // cells
-  int step = 1;    // pixels a cell, both ways
-  Camera camera;   // of the full image
+  int width = 0;                         // cells
+  int height = 0;                        // cells
+  int step = 1;                          // pixels a cell, both ways
+  Camera camera;                         // of the full image
   std::vector<Eigen::Vector3f> point_m;  // row-major; z = 0 where nothing was measured
 
   int cells() const { return width * height; }

@@ -23,7 +23,8 @@ float SurfaceArea(const PointGrid& grid, int cell, const Vector4f& plane) {
 }
 
 std::optional<Vector4f> LocalPlane(const PointGrid& grid, int x, int y, int reach) {
-  if (!grid.Contains(x + reach, y + reach) || !grid.Contains(x - reach, y - reach)) return std::nullopt;
+  if (!grid.Contains(x + reach, y + reach) || !grid.Contains(x - reach, y - reach))
+    return std::nullopt;
   const int a = grid.cell(x - reach, y - reach), b = grid.cell(x + reach, y - reach);
   const int c = grid.cell(x, y + reach);
   if (!grid.valid(a) || !grid.valid(b) || !grid.valid(c)) return std::nullopt;
@@ -139,7 +140,8 @@ std::vector<Region> ConnectedRegions(const PointGrid& grid, std::span<const uint
     done[static_cast<size_t>(start)] = 1;
     for (size_t i = 0; i < front.size(); ++i) {
       const int cell = front[i], x = cell % grid.width, y = cell / grid.width;
-      constexpr int kSteps[8][2] = {{1, 0}, {-1, 0}, {0, 1}, {0, -1}, {2, 0}, {-2, 0}, {0, 2}, {0, -2}};
+      constexpr int kSteps[8][2] = {{1, 0}, {-1, 0}, {0, 1}, {0, -1},
+                                    {2, 0}, {-2, 0}, {0, 2}, {0, -2}};
       for (const auto& step : kSteps) {
         if (!grid.Contains(x + step[0], y + step[1])) continue;
         const int next = grid.cell(x + step[0], y + step[1]);

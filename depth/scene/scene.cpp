@@ -122,8 +122,10 @@ std::vector<Region> JoinByHistory(const PointGrid& grid, std::vector<Region> reg
     int join = -1;
     for (size_t u = 0; u < users; ++u) {
       if (overlap[u].size() * 2 < region.cells.size()) continue;
-      if (home[u] >= 0) join = home[u];
-      else home[u] = static_cast<int>(result.size());
+      if (home[u] >= 0)
+        join = home[u];
+      else
+        home[u] = static_cast<int>(result.size());
     }
     if (join >= 0) {
       result[static_cast<size_t>(join)] = Joined(grid, result[static_cast<size_t>(join)], region);
@@ -146,16 +148,16 @@ std::vector<std::vector<int>> SeedsOf(const PointGrid& grid, const Region& regio
   }
   for (const HeadBlob& head : FindHeads(grid, region)) {
     std::vector<int> seed = HeadSeed(grid, region, head.position_m);
-    const auto taken = std::count_if(seed.begin(), seed.end(), [&](int cell) {
-      return owned[static_cast<size_t>(cell)] != 0;
-    });
+    const auto taken = std::count_if(
+        seed.begin(), seed.end(), [&](int cell) { return owned[static_cast<size_t>(cell)] != 0; });
     if (2 * taken < static_cast<long>(seed.size())) seeds.push_back(std::move(seed));
   }
   return seeds;
 }
 
 // Full-resolution pixels of a region: each pixel follows the nearest cell around it of its depth.
-std::vector<int32_t> PixelsOf(const DepthFrame& frame, const PointGrid& grid, const Region& region) {
+std::vector<int32_t> PixelsOf(const DepthFrame& frame, const PointGrid& grid,
+                              const Region& region) {
   const DepthView depth = frame.view();
   std::vector<uint8_t> member(static_cast<size_t>(grid.cells()), 0);
   std::vector<uint8_t> touched(member.size(), 0);
@@ -163,10 +165,12 @@ std::vector<int32_t> PixelsOf(const DepthFrame& frame, const PointGrid& grid, co
   for (const int cell : region.cells) {
     member[static_cast<size_t>(cell)] = 1;
     const int x = cell % grid.width, y = cell / grid.width;
-    low = std::min(low, std::max(0, y - 1)), high = std::max(high, std::min(grid.height - 1, y + 1));
+    low = std::min(low, std::max(0, y - 1)),
+    high = std::max(high, std::min(grid.height - 1, y + 1));
     for (int dy = -1; dy <= 1; ++dy) {
       for (int dx = -1; dx <= 1; ++dx) {
-        if (grid.Contains(x + dx, y + dy)) touched[static_cast<size_t>(grid.cell(x + dx, y + dy))] = 1;
+        if (grid.Contains(x + dx, y + dy))
+          touched[static_cast<size_t>(grid.cell(x + dx, y + dy))] = 1;
       }
     }
   }
@@ -180,7 +184,8 @@ std::vector<int32_t> PixelsOf(const DepthFrame& frame, const PointGrid& grid, co
         const int cell = grid.cell(x + dx, y + dy);
         // The own cell wins ties against its neighbours.
         const float off = std::abs(grid.z(cell) - z) + (dx != 0 || dy != 0 ? 0.02F : 0.0F);
-        if (grid.valid(cell) && off < best) best = off, mine = member[static_cast<size_t>(cell)] != 0;
+        if (grid.valid(cell) && off < best)
+          best = off, mine = member[static_cast<size_t>(cell)] != 0;
       }
     }
     return mine;
@@ -247,10 +252,9 @@ Scene FindCandidates(const DepthFrame& frame, const SceneState& state, SceneStat
       if (overlap[u].size() > best) best = overlap[u].size(), candidate.track = static_cast<int>(u);
     }
   }
-  std::stable_sort(scene.candidates.begin(), scene.candidates.end(),
-                   [](const Candidate& a, const Candidate& b) {
-                     return a.region.area_m2 > b.region.area_m2;
-                   });
+  std::stable_sort(
+      scene.candidates.begin(), scene.candidates.end(),
+      [](const Candidate& a, const Candidate& b) { return a.region.area_m2 > b.region.area_m2; });
   return scene;
 }
 

@@ -34,8 +34,8 @@ struct SceneState {
 struct SceneOptions {
   FloorOptions floor;
   BackgroundOptions background;
-  float max_depth_m = 6.0F;       // nobody is looked for beyond
-  float min_area_m2 = 0.07F;      // of a person in view: head and shoulders
+  float max_depth_m = 6.0F;   // nobody is looked for beyond
+  float min_area_m2 = 0.07F;  // of a person in view: head and shoulders
   float min_height_m = 0.28F;
   float max_reach_m = 1.75F;      // over the surface from the head to the farthest toe or finger
   double forget_s = 2.5;          // after so long out of view a person is new

@@ -129,7 +129,8 @@ void DrawCapsule(Canvas& canvas, const depth::Camera& camera, const Capsule& cap
       std::max(0.1, std::min(capsule.a_m.z(), capsule.b_m.z()) - capsule.radius_m);
   int low[2] = {camera.width, camera.height}, high[2] = {0, 0};
   for (const Vector3d& end : {capsule.a_m, capsule.b_m}) {
-    const Eigen::Vector2d pixel = depth::Project(camera, {end.x(), end.y(), std::max(0.1, end.z())});
+    const Eigen::Vector2d pixel =
+        depth::Project(camera, {end.x(), end.y(), std::max(0.1, end.z())});
     const double reach = 1.5 * camera.fx * capsule.radius_m / z_near + 2;
     for (int i = 0; i < 2; ++i) {
       low[i] = std::min(low[i], static_cast<int>(std::clamp(pixel[i] - reach, 0.0, 1e5)));
@@ -223,8 +224,6 @@ CapsuleRender Render(const CapsuleScene& scene, const depth::Camera& camera) {
   return canvas.render;
 }
 
-std::vector<Plane> EmptyRoom() {
-  return {{Vector3d::UnitY(), 1.0}, {Vector3d(0, 0, -1), 4.5}};
-}
+std::vector<Plane> EmptyRoom() { return {{Vector3d::UnitY(), 1.0}, {Vector3d(0, 0, -1), 4.5}}; }
 
 }  // namespace ossa::tests
