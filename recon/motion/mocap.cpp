@@ -5,6 +5,7 @@
 #include <optional>
 
 #include "depth/error.h"
+#include "recon/motion/authored.h"
 #include "recon/motion/bone_names_internal.h"
 #include "recon/motion/bvh.h"
 #include "recon/motion/bvh_source_internal.h"
@@ -55,6 +56,13 @@ std::vector<MotionClip> LoadMocap(const std::vector<std::string>& sources,
   if (!options.mapping_file.empty()) mapping = ReadBoneMapping(options.mapping_file);
   std::vector<MotionClip> clips;
   for (const std::string& source : sources) {
+    if (source == "authored") {
+      AuthoredOptions authored;
+      authored.seed = options.seed;
+      authored.frame_s = options.frame_s;
+      for (MotionClip& clip : AuthoredClips(authored)) clips.push_back(std::move(clip));
+      continue;
+    }
     if (!fs::exists(source)) {
       throw InputError(source + ": no such folder or file; expected mocap or the word 'authored'");
     }

@@ -1,0 +1,52 @@
+#include "recon/motion/authored.h"
+
+#include "recon/motion/authored_moves_internal.h"
+
+namespace ossa::recon {
+namespace {
+
+std::vector<Action> AllActions() {
+  std::vector<Action> all;
+  for (const auto& group :
+       {StandingActions(), WalkingActions(), HandActions(), SportActions(), SeatedActions()}) {
+    all.insert(all.end(), group.begin(), group.end());
+  }
+  return all;
+}
+
+/// One well-mixed seed per clip (SplitMix64), so that clips do not depend on one another.
+uint64_t ClipSeed(uint64_t seed, uint64_t action, uint64_t variation) {
+  uint64_t z = seed + 0x9E3779B97F4A7C15u * (1 + action * 1000003u + variation);
+  z = (z ^ (z >> 30)) * 0xBF58476D1CE4E5B9u;
+  z = (z ^ (z >> 27)) * 0x94D049BB133111EBu;
+  return z ^ (z >> 31);
+}
+
+}  // namespace
+
+std::vector<std::string> AuthoredActions() {
+  std::vector<std::string> names;
+  for (const Action& action : AllActions()) names.emplace_back(action.name);
+  return names;
+}
+
+std::vector<MotionClip> AuthoredClips(const AuthoredOptions& options) {
+  std::vector<MotionClip> clips;
+  const auto actions = AllActions();
+  for (size_t a = 0; a < actions.size(); ++a) {
+    for (int v = 0; v < options.variations; ++v) {
+      Moves moves(ClipSeed(options.seed, a, static_cast<uint64_t>(v)));
+      actions[a].perform(moves);
+      MotionClip clip;
+      clip.name.append("authored/").append(actions[a].name).append("/");
+      clip.name.append(v < 10 ? "0" : "").append(std::to_string(v));
+      clip.subject = "authored";
+      clip.frame_s = options.frame_s;
+      clip.frames = moves.Play(options.frame_s);
+      clips.push_back(std::move(clip));
+    }
+  }
+  return clips;
+}
+
+}  // namespace ossa::recon

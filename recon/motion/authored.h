@@ -1,0 +1,24 @@
+#pragma once
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "recon/body/rig.h"
+
+namespace ossa::recon {
+
+struct AuthoredOptions {
+  uint64_t seed = 1;
+  double frame_s = 1.0 / 30.0;
+  int variations = 12;  // clips per action, each another mover
+};
+
+/// ossa's own clips: key postures put down by hand, not taken from any recording, played with
+/// balance, foot contact and inverse kinematics in movers of differing style. Named
+/// "authored/ACTION/N". Same options: same bytes.
+std::vector<MotionClip> AuthoredClips(const AuthoredOptions& options = {});
+
+/// Names of the actions, in the order of the clips.
+std::vector<std::string> AuthoredActions();
+
+}  // namespace ossa::recon
