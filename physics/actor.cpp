@@ -31,6 +31,24 @@ constexpr double kLeastStiffness = 0.3;
 constexpr double kFarthest_m = 1000.0;      // beyond is no place in a room
 constexpr double kLargestSpeed_m_s = 15.0;  // of a target; a fast punch has 10
 
+double SmoothStep(double x, double from, double to) {
+  const double t = std::clamp((x - from) / (to - from), 0.0, 1.0);
+  return t * t * (3.0 - 2.0 * t);
+}
+
+/// Nobody stands in the floor: what the sensor puts there is wanted on it. True if anything moved.
+bool LiftOntoFloor(const std::optional<Vector4d>& floor, double height_m, Posture& posture) {
+  bool lifted = false;
+  if (!floor) return false;
+  for (auto& p : posture.position_m) {
+    const double below = height_m - HeightAbove(*floor, p);
+    if (below <= 0.0) continue;
+    p += below * floor->head<3>();
+    lifted = true;
+  }
+  return lifted;
+}
+
 }  // namespace
 
 Actor::Actor(OdeWorld& ode, const recon::BoneLengths& bone_lengths,
@@ -41,13 +59,30 @@ Actor::Actor(OdeWorld& ode, const recon::BoneLengths& bone_lengths,
                 tag) {
   weight.fill(1.0);
   aim_velocity_m_s.fill(Vector3d::Zero());
+  mean_velocity_m_s.fill(Vector3d::Zero());
+  mean_speed_m_s.fill(0.0);
 }
 
-void Actor::Place(const Posture& posture) {
+double Actor::SoleHeight() const {
+  return character.segments()[static_cast<size_t>(recon::Joint::kFootLeft)].radius_m;
+}
+
+void Actor::Place(const Posture& posture, const std::optional<Vector4d>& floor) {
   std::array<double, kJointCount> even;
   even.fill(1.0);
-  aim = wanted = last_aim = FitBoneLengths(posture, lengths, even);
+  aim = FitBoneLengths(posture, lengths, even);
+  if (floor) {
+    // As a whole, until nothing is in the floor.
+    double below = 0.0;
+    for (const auto& p : aim.position_m) {
+      below = std::max(below, SoleHeight() - HeightAbove(*floor, p));
+    }
+    for (auto& p : aim.position_m) p += below * floor->head<3>();
+  }
+  wanted = last_aim = aim;
   aim_velocity_m_s.fill(Vector3d::Zero());
+  mean_velocity_m_s.fill(Vector3d::Zero());
+  mean_speed_m_s.fill(0.0);
   character.Place(aim, recon::OrientationsOf(aim));
   for (FootPin& pin : foot_pin) pin.Clear();
   hard_constraint.clear();
@@ -72,23 +107,26 @@ void Actor::SetTarget(const Posture& target, std::span<const double> joint_weigh
   }
 }
 
-void Actor::Prepare(OdeWorld& ode, const std::optional<Vector4d>& floor, double dt_s) {
+/// Where to go this frame: what was asked for, what the user insists on, what the floor allows.
+Posture Actor::Goal(std::array<double, kJointCount>& trust) const {
   Posture goal = wanted;
-  std::array<double, kJointCount> trust = weight;
   for (const auto& [joint, place] : soft_constraint) {
     goal.position_m[joint] = place;
     trust[joint] = 1.0;
   }
-  for (const auto& [joint, pin] : hard_constraint) goal.position_m[joint] = pin->place_m();
-  if (dodge_left_s > 0.0) RaiseForearms(lengths, goal);
-  const double sole_m = character.segments()[15].radius_m;
-  if (floor) {
-    // Nobody stands in the floor: what the sensor puts there is wanted on it.
-    for (auto& p : goal.position_m) {
-      const double below = sole_m - HeightAbove(*floor, p);
-      if (below > 0.0) p += below * floor->head<3>();
-    }
+  for (const auto& [joint, pin] : hard_constraint) {
+    goal.position_m[joint] = pin->place_m();
+    trust[joint] = 1.0;
   }
+  if (dodge_left_s > 0.0) RaiseForearms(lengths, goal);
+  return goal;
+}
+
+void Actor::Prepare(OdeWorld& ode, const std::optional<Vector4d>& floor, double dt_s) {
+  const double sole_m = SoleHeight();
+  std::array<double, kJointCount> trust = weight;
+  Posture goal = Goal(trust);
+  LiftOntoFloor(floor, sole_m, goal);
   if (options.pin_feet) {
     for (FootPin& foot : foot_pin) {
       foot.Update(ode, character, floor, goal.position_m[foot.joint()], dt_s);
@@ -97,14 +135,50 @@ void Actor::Prepare(OdeWorld& ode, const std::optional<Vector4d>& floor, double 
   }
   last_aim = aim;
   aim = FitBoneLengths(goal, lengths, trust);
+  if (LiftOntoFloor(floor, sole_m, aim)) aim = FitBoneLengths(aim, lengths, trust);
   control.orientation = recon::OrientationsOf(aim);
   for (size_t i = 0; i < kJointCount; ++i) {
-    Vector3d velocity = (aim.position_m[i] - last_aim.position_m[i]) / dt_s;
-    const double speed = velocity.norm();
-    if (speed > kLargestSpeed_m_s) velocity *= kLargestSpeed_m_s / speed;
-    aim_velocity_m_s[i] = options.lead * velocity;
+    SetLead(i, floor, sole_m, dt_s);
     control.stiffness[i] = controlled ? kLeastStiffness + (1.0 - kLeastStiffness) * trust[i] : 0.0;
   }
+}
+
+void Actor::SetLead(size_t joint, const std::optional<Vector4d>& floor, double sole_m,
+                    double dt_s) {
+  const Vector3d& p = aim.position_m[joint];
+  Vector3d velocity = (p - last_aim.position_m[joint]) / dt_s;
+  const double speed = velocity.norm();
+  if (speed > kLargestSpeed_m_s) velocity *= kLargestSpeed_m_s / speed;
+  velocity = Lead(joint, velocity, dt_s);
+  if (floor) {
+    // A foot that comes down stops at the floor, whatever its speed was.
+    const double below = sole_m - HeightAbove(*floor, p + dt_s * velocity);
+    const double down = -floor->head<3>().dot(velocity);
+    if (below > 0.0 && down > 0.0) velocity += std::min(down, below / dt_s) * floor->head<3>();
+  }
+  aim_velocity_m_s[joint] = velocity;
+}
+
+/// The share of a joint's velocity that the controller is told. A spring alone lags 2 / w behind
+/// steady motion. Noise moves a joint to and fro, motion moves it on: the ratio of the mean
+/// velocity to the mean speed tells them apart, without a noise level to be set. Only the mean
+/// velocity is told. Departure from eq. 1, which differentiates the target; that hands the sensor's
+/// jitter on. The thresholds: sweep on UI-PRMD and on noisy mocap, CHANGES.md.
+Vector3d Actor::Lead(size_t joint, const Vector3d& velocity_m_s, double dt_s) {
+  constexpr double kMemory_s = 0.077;
+  constexpr double kNoiseRatio = 0.4, kMotionRatio = 0.8;
+  constexpr double kSlow_m_s = 0.2, kFast_m_s = 0.6;
+  const double share = 1.0 - std::exp(-dt_s / kMemory_s);
+  Vector3d& mean = mean_velocity_m_s[joint];
+  double& mean_speed = mean_speed_m_s[joint];
+  mean += share * (velocity_m_s - mean);
+  mean_speed += share * (velocity_m_s.norm() - mean_speed);
+  const double speed = mean.norm();
+  // Who has stopped is not moving on: a jump must not echo.
+  const double going_on =
+      std::clamp(velocity_m_s.dot(mean) / std::max(speed * speed, 1e-12), 0.0, 1.0);
+  return options.lead * SmoothStep(speed / (mean_speed + 1e-9), kNoiseRatio, kMotionRatio) *
+         SmoothStep(speed, kSlow_m_s, kFast_m_s) * going_on * mean;
 }
 
 void Actor::Drive(const Vector3d& gravity_m_s2, double left_s, double h_s) {

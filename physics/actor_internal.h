@@ -57,7 +57,7 @@ class FootPin {
 struct Actor {
   Actor(OdeWorld& ode, const recon::BoneLengths& lengths, const CharacterOptions& options, int tag);
 
-  void Place(const recon::Posture& posture);
+  void Place(const recon::Posture& posture, const std::optional<Eigen::Vector4d>& floor);
   void SetTarget(const recon::Posture& target, std::span<const double> weight);
   /// Once per frame: floor, feet, constraints; fills `from`, `aim` and the stiffness.
   void Prepare(OdeWorld& ode, const std::optional<Eigen::Vector4d>& floor, double dt_s);
@@ -71,13 +71,23 @@ struct Actor {
   recon::Posture wanted;  // as SetTarget was told, made finite
   std::array<double, recon::kJointCount> weight{};
   recon::Posture aim, last_aim;  // with bone lengths, above the floor
+  std::array<Eigen::Vector3d, recon::kJointCount> mean_velocity_m_s;  // of the aim, see Lead
+  std::array<double, recon::kJointCount> mean_speed_m_s{};
   std::array<Eigen::Vector3d, recon::kJointCount> aim_velocity_m_s;
   ControlTarget control;
   std::array<FootPin, 2> foot_pin = {FootPin(15), FootPin(19)};
   std::map<size_t, Eigen::Vector3d> soft_constraint;
   std::map<size_t, std::unique_ptr<Pin>> hard_constraint;
   std::vector<std::pair<size_t, Eigen::Vector3d>> pushes;  // impulses for the next step
+  double max_gap_m = 0.0;     // between anchors, before Reconnect, since the frame began
   double dodge_left_s = 0.0;  // raised arms stay up for a moment after the threat has passed
+
+ private:
+  double SoleHeight() const;
+  recon::Posture Goal(std::array<double, recon::kJointCount>& trust) const;
+  void SetLead(size_t joint, const std::optional<Eigen::Vector4d>& floor, double sole_m,
+               double dt_s);
+  Eigen::Vector3d Lead(size_t joint, const Eigen::Vector3d& velocity_m_s, double dt_s);
 };
 
 /// Height of a point above the plane a b c d.

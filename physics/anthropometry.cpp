@@ -31,7 +31,7 @@ constexpr Row kHandRow = {0.0059, 0.29, 0.0, 0.020, 0.2, 1.0};
 constexpr Row kHipRow = {0.0591, 0.29, 0.0, 0.055, 0.0, 0.8};
 constexpr Row kThighRow = {0.1447, 0.347, 0.156, 0.0, 0.15, 0.9};
 constexpr Row kShankRow = {0.0457, 0.262, 0.098, 0.0, 0.1, 0.9};
-constexpr Row kFootRow = {0.0133, 0.27, 0.132, 0.017, 0.1, 1.0};
+constexpr Row kFootRow = {0.0133, 0.27, 0.132, 0.017, 0.0, 1.0};
 
 const Row& RowOf(size_t joint) {
   switch (static_cast<Joint>(joint)) {

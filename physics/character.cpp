@@ -77,7 +77,10 @@ void Character::MakeBody(OdeWorld& ode, size_t bone, int tag) {
 
   const double from = segment.capsule_from * segment.length_m;
   const double to = segment.capsule_to * segment.length_m;
-  const double cylinder = std::max(to - from - segment.radius_m, 0.01);
+  // A foot's caps lie round its joints, whose height above the floor is the sole's; other bones
+  // share theirs with their neighbours.
+  const bool foot = bone == 15 || bone == 19;
+  const double cylinder = std::max(to - from - (foot ? 0.0 : segment.radius_m), 0.01);
   const dGeomID geom = geom_[bone] = dCreateCapsule(ode.space, segment.radius_m, cylinder);
   dGeomSetBody(geom, body);
   // ODE's capsules lie along z, our bones along y.
@@ -85,7 +88,6 @@ void Character::MakeBody(OdeWorld& ode, size_t bone, int tag) {
   dRFromAxisAndAngle(z_to_y, 1, 0, 0, -0.5 * M_PI);
   dGeomSetOffsetRotation(geom, z_to_y);
   dGeomSetOffsetPosition(geom, 0, 0.5 * (from + to) - 0.5 * segment.length_m, 0);
-  // Feet and shanks reach to their ends: the caps are part of the bone there.
   dGeomSetData(geom, reinterpret_cast<void*>(static_cast<intptr_t>(tag)));
 }
 
@@ -188,6 +190,15 @@ double Character::MaxAnchorGap() const {
     gap = std::max(gap, (ToEigen(a) - ToEigen(b)).norm());
   }
   return gap;
+}
+
+void Character::Reconnect() {
+  const recon::Posture whole = posture();
+  for (size_t bone = 1; bone < kJointCount; ++bone) {
+    const auto parent = static_cast<size_t>(kJointParent[bone]);
+    const Vector3d middle = 0.5 * (whole.position_m[bone] + whole.position_m[parent]);
+    dBodySetPosition(body_[bone], middle.x(), middle.y(), middle.z());
+  }
 }
 
 Vector3d Character::Momentum() const {

@@ -159,6 +159,8 @@ FilteredPosture CharacterFilter::Step(const Posture& target, std::span<const dou
   result.left_foot_pinned = state.left_foot_pinned;
   result.right_foot_pinned = state.right_foot_pinned;
   result.max_anchor_gap_m = state.max_anchor_gap_m;
+  result.max_solver_gap_m = state.max_solver_gap_m;
+  result.floor_depth_m = f.world.Contacts().floor_depth_m;
   return result;
 }
 

@@ -14,7 +14,7 @@ struct CharacterFilterOptions {
   int substeps = 10;                  // per 1/30 s, [5, 100]
   Control control = Control::kPaper;  // world.h
   ControlGains gains;                 // control.h
-  double lead = 0.0;                  // CharacterOptions::lead
+  double lead = 1.0;                  // CharacterOptions::lead
   bool floor = true;                  // use the floor when one is given
   bool pin_feet = true;
   bool self_collision = true;
@@ -33,7 +33,10 @@ struct FilteredPosture {
   recon::JointOrientations orientation;  // absolute, recon/orientation.h
   bool left_foot_pinned = false, right_foot_pinned = false;
   bool placed = false;            // the character was put there: first frame, gap or teleport
-  double max_anchor_gap_m = 0.0;  // between the two sides of a ball joint
+  double max_anchor_gap_m = 0.0;  // between the two sides of a ball joint, now
+  double max_solver_gap_m =
+      0.0;                     // the same before the bodies were reconnected, largest of the step
+  double floor_depth_m = 0.0;  // how deep the lowest capsule lies in the floor
 };
 
 /// The physical character as a filter (Shum et al. 2013, sec. VII): postures in, postures out that

@@ -42,6 +42,9 @@ class Character {
   recon::Posture posture() const;
   recon::JointOrientations orientation() const;
   double MaxAnchorGap() const;
+  /// Closes the gaps that the iterative solver leaves at the joints by moving the bodies' centres,
+  /// not their velocities; the centre of mass stays. Called after every substep.
+  void Reconnect();
   double mass_kg() const { return total_mass_kg_; }
   Eigen::Vector3d Momentum() const;
 

@@ -105,7 +105,7 @@ int World::AddCharacter(const recon::BoneLengths& lengths, const recon::Posture&
   auto& actors = impl_->actors;
   actors.push_back(
       std::make_unique<Actor>(impl_->ode, lengths, options, static_cast<int>(actors.size()) + 1));
-  actors.back()->Place(start);
+  actors.back()->Place(start, impl_->floor);
   return static_cast<int>(actors.size()) - 1;
 }
 
@@ -122,7 +122,7 @@ void World::LetGo(int character) {
 }
 
 void World::Place(int character, const recon::Posture& posture) {
-  impl_->actors.at(static_cast<size_t>(character))->Place(posture);
+  impl_->actors.at(static_cast<size_t>(character))->Place(posture, impl_->floor);
 }
 
 void World::SetVelocity(int character, const Vector3d& velocity_m_s) {
@@ -178,6 +178,10 @@ void World::Impl::Substep(double left_s, double h_s) {
   Collide(h_s);
   SeededQuickStep(ode.world, h_s, options.seed + 0x9e3779b9U * ++steps);
   dJointGroupEmpty(ode.contacts);
+  for (const auto& actor : actors) {
+    actor->max_gap_m = std::max(actor->max_gap_m, actor->character.MaxAnchorGap());
+    actor->character.Reconnect();
+  }
 }
 
 void World::Step(double dt_s) {
@@ -185,7 +189,10 @@ void World::Step(double dt_s) {
   PrepareOde();
   Impl& w = *impl_;
   w.WatchThreats(dt_s);
-  for (const auto& actor : w.actors) actor->Prepare(w.ode, w.floor, dt_s);
+  for (const auto& actor : w.actors) {
+    actor->max_gap_m = 0.0;
+    actor->Prepare(w.ode, w.floor, dt_s);
+  }
   const int count =
       std::max(1, static_cast<int>(std::ceil(dt_s / kFrame_s * w.options.substeps - 1e-6)));
   const double h = dt_s / count;
@@ -193,7 +200,7 @@ void World::Step(double dt_s) {
   for (int k = 0; k < count; ++k) w.Substep(dt_s - (k + 1) * h, h);
   for (const auto& actor : w.actors) {
     // Bounded forces keep this from happening; should it, the character stands up at its target.
-    if (!actor->character.IsFinite()) actor->Place(actor->aim);
+    if (!actor->character.IsFinite()) actor->Place(actor->aim, w.floor);
   }
 }
 
@@ -207,6 +214,7 @@ CharacterState World::StateOf(int character) const {
   state.right_foot_pinned = actor.foot_pin[1].pin() != nullptr;
   state.dodging = actor.dodge_left_s > 0.0;
   state.max_anchor_gap_m = actor.character.MaxAnchorGap();
+  state.max_solver_gap_m = actor.max_gap_m;
   state.momentum_kg_m_s = actor.character.Momentum();
   return state;
 }

@@ -48,7 +48,8 @@ struct CharacterState {
   recon::JointOrientations orientation;  // recon/orientation.h
   bool left_foot_pinned = false, right_foot_pinned = false;
   bool dodging = false;
-  double max_anchor_gap_m = 0.0;  // between the two sides of a ball joint
+  double max_anchor_gap_m = 0.0;  // between the two sides of a ball joint, now
+  double max_solver_gap_m = 0.0;  // the same as the solver left it, largest of the last Step
   Eigen::Vector3d momentum_kg_m_s = Eigen::Vector3d::Zero();
 };
 

@@ -70,6 +70,7 @@ TEST(Mechanics, AStepOfTheTargetIsAnsweredAsDerived) {
   World world(fine);
   CharacterOptions options = Free();
   options.gains.rate_rad_s = 30.0;
+  options.lead = 0.0;
   const int person =
       world.AddCharacter(recon::BoneLengthsOf(StandingPerson()), StandingPerson(), options);
   const double jump = 0.1;  // w^2 jump stays below the bound on accelerations
