@@ -1,5 +1,7 @@
 #include "depth/scene/regions.h"
 
+#include <Eigen/Geometry>
+
 #include <algorithm>
 #include <cmath>
 #include <random>
