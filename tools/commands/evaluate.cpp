@@ -1,0 +1,59 @@
+#include <fmt/format.h>
+
+#include <CLI/CLI.hpp>
+#include <filesystem>
+
+#include "depth/error.h"
+#include "depth/file/atomic_file.h"
+#include "forest/forest.h"
+#include "tools/commands/command.h"
+#include "tools/commands/commands.h"
+#include "tools/learning/evaluate.h"
+
+namespace ossa::commands {
+namespace {
+
+void WriteText(const std::string& path, const std::string& text) {
+  if (path.empty()) return;
+  AtomicFile file(path);
+  file.stream() << text;
+  file.Commit();
+}
+
+}  // namespace
+
+int Evaluate(int argc, char** argv) {
+  CLI::App app("Measure a body-part model on a labelled data set it was not trained on");
+  std::string model_path;
+  std::string dataset_path;
+  std::string json_path;
+  std::string report_path;
+  int64_t step = 1;
+  bool quiet = false;
+  app.add_option("MODEL", model_path, "a .ossa file")->required();
+  app.add_option("DATASET", dataset_path, "a folder made by ossa render")->required();
+  app.add_option("--json", json_path, "write the numbers here");
+  app.add_option("--report", report_path, "write a page with tables here");
+  app.add_option("--every", step, "look at every N-th frame")
+      ->capture_default_str()
+      ->check(CLI::PositiveNumber);
+  app.add_flag("--quiet", quiet, "no progress");
+  Parse(app, argc, argv);
+  const forest::ForestModel model = forest::ReadForestModel(model_path);
+  const tools::DatasetReader dataset{std::filesystem::path(dataset_path)};
+  Progress bar("evaluate", quiet);
+  const tools::Evaluation evaluation =
+      tools::Evaluate(model, dataset, step, [&](int64_t done, int64_t total) {
+        bar.Update(static_cast<double>(done), static_cast<double>(total));
+        return !Interrupted();
+      });
+  if (Interrupted()) throw InputError("evaluate: interrupted");
+  const std::string json = tools::EvaluationJson(evaluation);
+  fmt::print("{}", json);
+  WriteText(json_path, json);
+  WriteText(report_path, tools::EvaluationHtml(
+                             evaluation, model_path + " on " + dataset_path));
+  return 0;
+}
+
+}  // namespace ossa::commands

@@ -1,0 +1,190 @@
+#include <fmt/format.h>
+
+#include <CLI/CLI.hpp>
+#include <array>
+#include <filesystem>
+#include <nlohmann/json.hpp>
+
+#include "depth/error.h"
+#include "forest/import_pcl.h"
+#include "forest/train.h"
+#include "forest/train_mpi.h"
+#include "tools/commands/command.h"
+#include "tools/commands/commands.h"
+#include "tools/learning/person_source.h"
+
+namespace ossa::commands {
+namespace {
+
+namespace fs = std::filesystem;
+
+struct TrainArguments {
+  std::vector<fs::path> datasets;
+  std::vector<fs::path> validation;
+  std::vector<fs::path> import_pcl;
+  fs::path out;
+  std::string memory = "8G";
+  std::string command;
+  bool quiet = false;
+  size_t validation_images = 800;
+  forest::TrainOptions options;
+};
+
+uint64_t ParseMemory(const std::string& text) {
+  size_t used = 0;
+  double number = 0;
+  try {
+    number = std::stod(text, &used);
+  } catch (const std::exception&) {
+    used = 0;
+  }
+  const std::string unit = text.substr(used);
+  const double scale = unit == "G" ? 0x1p30 : unit == "M" ? 0x1p20 : unit == "K" ? 0x1p10 : 0;
+  if (used == 0 || scale == 0 || !(number > 0) || number * scale > 0x1p50) {
+    throw UsageError("--memory " + text + ": expected a number with K, M or G, e.g. 8G");
+  }
+  return static_cast<uint64_t>(number * scale);
+}
+
+void AddOptions(CLI::App* app, TrainArguments* a) {
+  forest::TrainOptions& o = a->options;
+  app->add_option("DATASET", a->datasets, "labelled data sets (folders made by ossa render)");
+  app->add_option("--out", a->out, "the model file to write")->required();
+  app->add_option("--trees", o.trees, "trees of the forest")->capture_default_str();
+  app->add_option("--depth", o.depth, "levels of splits")->capture_default_str();
+  app->add_option("--candidates", o.candidates, "offset pairs tried a node")
+      ->capture_default_str();
+  app->add_option("--thresholds", o.thresholds, "thresholds a candidate")->capture_default_str();
+  app->add_option("--pixels", o.pixels, "pixels an image and tree, balanced over its classes")
+      ->capture_default_str();
+  app->add_option("--refill-pixels", o.refill_pixels,
+                  "pixels an image that fill leaves and votes (0: as --pixels)")
+      ->capture_default_str();
+  app->add_option("--box", o.box_pixel_m, "longest offset, pixel metres at f = 575")
+      ->capture_default_str();
+  app->add_option("--offsets", o.offsets, "distinct offsets a node, candidates are pairs of them")
+      ->capture_default_str();
+  app->add_option("--node-pixels", o.node_pixels, "pixels looked at in a node, at most")
+      ->capture_default_str();
+  app->add_option("--min-node-pixels", o.min_node_pixels, "smaller nodes are leaves")
+      ->capture_default_str();
+  app->add_option("--min-gain", o.min_gain_bits, "splits that gain fewer bits a pixel are not made")
+      ->capture_default_str();
+  app->add_option("--context-share", o.context_share,
+                  "share of the upper nodes that split for the facing sector")
+      ->capture_default_str();
+  app->add_option("--vote-depth", o.vote_depth, "depth of the nodes that keep position votes")
+      ->capture_default_str();
+  app->add_option("--validation", a->validation,
+                  "data sets for proposal parameters (default: 4 of each 100 frames, held out)");
+  app->add_option("--validation-images", a->validation_images, "images of them to use")
+      ->capture_default_str();
+  app->add_option("--memory", a->memory, "for images; larger data stream in parts")
+      ->capture_default_str();
+  app->add_option("--seed", o.seed, "of every random choice")->capture_default_str();
+  app->add_option("--threads", o.threads, "0: all cores")->capture_default_str();
+  app->add_flag("--resume", o.resume, "go on from OUT.checkpoint where a run was cut off");
+  app->add_flag("--quiet", a->quiet, "no progress");
+  app->add_option("--import-pcl", a->import_pcl,
+                  "make a model of PCL people trees (text, up to 4) instead of training");
+}
+
+void ShowProgress(Progress* bar, const forest::TrainProgress& p) {
+  const double total = p.trees * p.levels;
+  if (p.level < 0) return bar->Update(0, total, "reading");
+  if (p.level >= p.levels) return bar->Update(total - 1, total, "filling leaves and votes");
+  bar->Update(p.tree * p.levels + p.level + 1, total,
+              fmt::format("tree {} level {} nodes {} gain {:.3f} bits {:.0f} M evaluations/s {:.0f} "
+                          "s left",
+                          p.tree + 1, p.level + 1, p.nodes, p.mean_gain,
+                          p.evaluations_per_s * 1e-6, p.seconds_left));
+}
+
+nlohmann::ordered_json Card(const TrainArguments& a, const tools::PersonSource& source,
+                            const forest::TrainSummary& summary) {
+  nlohmann::ordered_json card;
+  card["command"] = a.command;
+  card["data"] = nlohmann::ordered_json::array();
+  for (const tools::DatasetManifest& m : source.manifests()) {
+    card["data"].push_back({{"command", m.command},
+                            {"frames", m.frames},
+                            {"seed", m.seed},
+                            {"split", m.split},
+                            {"view", m.view},
+                            {"sources", m.sources},
+                            {"terms", m.terms}});
+  }
+  card["fingerprint"] = source.fingerprint();
+  card["images"] = summary.images;
+  card["pixels"] = summary.pixels;
+  card["evaluations"] = summary.evaluations;
+  card["evaluations_per_s"] =
+      summary.split_seconds > 0 ? static_cast<double>(summary.evaluations) / summary.split_seconds
+                                : 0.0;
+  card["class_balance"] = "equal shares of the classes present in each image";
+  return card;
+}
+
+int ImportPcl(const TrainArguments& a) {
+  forest::WriteForestModel(a.out, forest::ImportPclTrees(a.import_pcl));
+  return 0;
+}
+
+int TrainOnData(TrainArguments* a, const forest::Reducer& reducer) {
+  forest::TrainOptions& o = a->options;
+  o.memory_bytes = ParseMemory(a->memory);
+  constexpr int kHeldOut = 4;  // of each 100 frames
+  const bool own_validation = a->validation.empty();
+  const tools::PersonSource source(a->datasets, {own_validation ? kHeldOut : 0, 100});
+  const tools::PersonSource held_out(own_validation ? a->datasets : a->validation,
+                                     {0, own_validation ? kHeldOut : 100});
+  o.fingerprint = source.fingerprint();
+  o.checkpoint = a->out.string() + ".checkpoint";
+  o.stop = Interrupted;
+  Progress bar("train", a->quiet || reducer.rank() != 0);
+  o.progress = [&](const forest::TrainProgress& p) { ShowProgress(&bar, p); };
+  forest::TrainSummary summary;
+  forest::ForestModel model =
+      forest::Train(source, tools::BodyVocabulary(), o, reducer, &summary);
+  if (reducer.rank() != 0) return 0;
+  if (held_out.size() > 0) {
+    model = forest::LearnProposals(model, held_out, a->validation_images, o.threads);
+  }
+  forest::ForestData data = model.data();
+  data.manifest = Card(*a, source, summary).dump(2);
+  forest::WriteForestModel(a->out, forest::ForestModel(std::move(data)));
+  fs::remove(o.checkpoint);
+  return 0;
+}
+
+std::string CommandLine(int argc, char** argv) {
+  std::string line = "ossa";
+  for (int i = 0; i < argc; ++i) {
+    // Only names of files, not where they lay: a card travels.
+    const std::string word = argv[i];
+    const bool is_path = word.find('/') != std::string::npos;
+    line.append(1, ' ').append(is_path ? fs::path(word).filename().string() : word);
+  }
+  return line;
+}
+
+}  // namespace
+
+int Train(int argc, char** argv) {
+  const auto reducer = forest::MakeMpiReducer(&argc, &argv);
+  CLI::App app("Train a body-part forest on labelled data sets");
+  TrainArguments arguments;
+  arguments.command = CommandLine(argc, argv);
+  AddOptions(&app, &arguments);
+  Parse(app, argc, argv);
+  if (!arguments.import_pcl.empty()) return ImportPcl(arguments);
+  if (arguments.datasets.empty()) throw UsageError("DATASET is required");
+  try {
+    arguments.options.Check();
+  } catch (const std::invalid_argument& error) {
+    throw UsageError(error.what());
+  }
+  return TrainOnData(&arguments, *reducer);
+}
+
+}  // namespace ossa::commands

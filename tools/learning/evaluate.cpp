@@ -1,0 +1,198 @@
+#include "tools/learning/evaluate.h"
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <limits>
+#include <numbers>
+
+#include "depth/error.h"
+#include "forest/classify.h"
+#include "recon/body/parts.h"
+#include "tools/learning/person_source.h"
+
+namespace ossa::tools {
+namespace {
+
+constexpr double kHit_m = 0.1;
+constexpr double kTurned_rad = std::numbers::pi / 3;
+
+double Now_ms() {
+  return std::chrono::duration<double, std::milli>(
+             std::chrono::steady_clock::now().time_since_epoch())
+      .count();
+}
+
+double Share(int64_t part, int64_t whole) {
+  return whole > 0 ? static_cast<double>(part) / static_cast<double>(whole)
+                   : std::numeric_limits<double>::quiet_NaN();
+}
+
+// Sums over a data set.
+struct Totals {
+  std::array<int64_t, recon::kLabelCount> pixels{};
+  std::array<int64_t, recon::kLabelCount> right{};
+  std::array<std::vector<RatedProposal>, recon::kJointCount> rated;
+  std::array<std::vector<RatedProposal>, recon::kJointCount> rated_visible;
+  std::array<int64_t, recon::kJointCount> joints{};
+  std::array<int64_t, recon::kJointCount> joints_visible{};
+  int64_t people = 0, swapped = 0, turned = 0, turned_swapped = 0, classified = 0;
+  double classify_ms = 0, propose_ms = 0;
+};
+
+void CountPixels(const forest::TrainingImage& image, const forest::Classification& result,
+                 bool is_turned, Totals* totals) {
+  int64_t same_side = 0;
+  int64_t other_side = 0;
+  for (size_t i = 0; i < result.pixel.size(); ++i) {
+    const uint8_t truth = image.label[static_cast<size_t>(result.pixel[i])];
+    const uint8_t label = result.label[i];
+    ++totals->pixels[truth];
+    totals->right[truth] += truth == label ? 1 : 0;
+    if (recon::kMirroredPart[truth] == truth) continue;
+    same_side += truth == label ? 1 : 0;
+    other_side += recon::kMirroredPart[truth] == label ? 1 : 0;
+  }
+  const int64_t swapped = other_side > same_side ? 1 : 0;
+  ++totals->people;
+  totals->swapped += swapped;
+  totals->turned += is_turned ? 1 : 0;
+  totals->turned_swapped += is_turned ? swapped : 0;
+  totals->classified += static_cast<int64_t>(result.pixel.size());
+}
+
+// Shotton et al. 2011, sec. 4.2: the first proposal within 0.1 m is the true positive, all others
+// are false positives; a joint without any lowers the recall.
+void RateJoints(const forest::TrainingImage& image,
+                const std::vector<std::vector<forest::Proposal>>& proposals, Totals* totals) {
+  for (size_t j = 0; j < recon::kJointCount; ++j) {
+    const bool visible = image.target_visible[j] != 0;
+    ++totals->joints[j];
+    totals->joints_visible[j] += visible ? 1 : 0;
+    bool found = false;
+    for (const forest::Proposal& proposal : proposals[j]) {
+      const bool is_near = (proposal.position_m - image.target_m[j].cast<double>()).norm() < kHit_m;
+      const RatedProposal rated{proposal.confidence, is_near && !found};
+      found = found || is_near;
+      totals->rated[j].push_back(rated);
+      if (visible) totals->rated_visible[j].push_back(rated);
+    }
+  }
+}
+
+void AddPerson(const forest::ForestModel& model, const LabelledFrame& frame, const TruthBody& body,
+               const std::vector<size_t>& target_of_joint, Totals* totals) {
+  const forest::TrainingImage image = PersonImage(frame, body);
+  std::vector<int32_t> pixels;
+  for (size_t i = 0; i < image.label.size(); ++i) {
+    if (image.label[i] != 0) pixels.push_back(static_cast<int32_t>(i));
+  }
+  if (pixels.empty()) return;
+  const int width = image.camera.width;
+  const depth::DepthView view{image.depth_mm.data(), width, image.camera.height, width};
+  const double start_ms = Now_ms();
+  const forest::Classification result = forest::Classify(model, view, image.camera, pixels);
+  const double classified_ms = Now_ms();
+  const auto by_target = forest::Propose(model, view, image.camera, result);
+  totals->propose_ms += Now_ms() - classified_ms;
+  totals->classify_ms += classified_ms - start_ms;
+  std::vector<std::vector<forest::Proposal>> by_joint;
+  for (const size_t target : target_of_joint) by_joint.push_back(by_target[target]);
+  CountPixels(image, result, std::abs(YawAgainstSight(body.joints_m)) > kTurned_rad, totals);
+  RateJoints(image, by_joint, totals);
+}
+
+std::vector<size_t> TargetOfJoint(const forest::ForestModel& model) {
+  std::vector<size_t> target_of_joint;
+  for (const auto name : recon::kJointNames) {
+    const auto targets = model.targets();
+    const auto found = std::find_if(targets.begin(), targets.end(),
+                                    [&](const auto& target) { return target.name == name; });
+    if (found == targets.end()) {
+      throw InputError("the model has no target '" + std::string(name) +
+                       "': only models of the 31 parts and 20 joints can be evaluated");
+    }
+    target_of_joint.push_back(static_cast<size_t>(found - targets.begin()));
+  }
+  if (model.class_count() != recon::kLabelCount) {
+    throw InputError("the model has " + std::to_string(model.class_count()) +
+                     " classes, expected " + std::to_string(recon::kLabelCount));
+  }
+  return target_of_joint;
+}
+
+Evaluation Summarise(Totals totals, int64_t frames) {
+  Evaluation e;
+  e.frames = frames;
+  e.people = totals.people;
+  int64_t pixels = 0;
+  int64_t right = 0;
+  double class_sum = 0;
+  int classes = 0;
+  for (size_t c = 0; c < recon::kLabelCount; ++c) {
+    pixels += totals.pixels[c];
+    right += totals.right[c];
+    e.class_accuracy.push_back(Share(totals.right[c], totals.pixels[c]));
+    if (c < 1 || c > recon::kPartCount || totals.pixels[c] == 0) continue;
+    class_sum += e.class_accuracy.back();
+    ++classes;
+  }
+  e.pixel_accuracy = Share(right, pixels);
+  e.mean_class_accuracy = classes > 0 ? class_sum / classes : 0.0;
+  for (size_t j = 0; j < recon::kJointCount; ++j) {
+    e.ap_10cm.push_back(AveragePrecision(std::move(totals.rated[j]), totals.joints[j]));
+    e.ap_10cm_visible.push_back(
+        AveragePrecision(std::move(totals.rated_visible[j]), totals.joints_visible[j]));
+    e.map_10cm += e.ap_10cm.back() / recon::kJointCount;
+    e.map_10cm_visible += e.ap_10cm_visible.back() / recon::kJointCount;
+  }
+  e.swapped_left_right = Share(totals.swapped, totals.people);
+  e.swapped_left_right_turned = Share(totals.turned_swapped, totals.turned);
+  const auto people = static_cast<double>(std::max<int64_t>(totals.people, 1));
+  e.ns_per_pixel =
+      totals.classify_ms * 1e6 / static_cast<double>(std::max<int64_t>(totals.classified, 1));
+  e.classify_ms = totals.classify_ms / people;
+  e.propose_ms = totals.propose_ms / people;
+  return e;
+}
+
+}  // namespace
+
+double AveragePrecision(std::vector<RatedProposal> proposals, int64_t positives) {
+  if (positives == 0) return 0.0;
+  std::stable_sort(proposals.begin(), proposals.end(),
+                   [](const auto& a, const auto& b) { return a.confidence > b.confidence; });
+  std::vector<double> precision;
+  std::vector<bool> hit;
+  int64_t hits = 0;
+  for (size_t i = 0; i < proposals.size(); ++i) {
+    hits += proposals[i].is_hit ? 1 : 0;
+    precision.push_back(static_cast<double>(hits) / static_cast<double>(i + 1));
+    hit.push_back(proposals[i].is_hit);
+  }
+  double area = 0;
+  double best = 0;
+  for (size_t i = proposals.size(); i-- > 0;) {
+    best = std::max(best, precision[i]);
+    if (hit[i]) area += best / static_cast<double>(positives);
+  }
+  return area;
+}
+
+Evaluation Evaluate(const forest::ForestModel& model, const DatasetReader& dataset, int64_t step,
+                    const std::function<bool(int64_t, int64_t)>& progress) {
+  const std::vector<size_t> target_of_joint = TargetOfJoint(model);
+  Totals totals;
+  int64_t frames = 0;
+  for (int64_t i = 0; i < dataset.frame_count(); i += step) {
+    if (progress && !progress(i, dataset.frame_count())) break;
+    const LabelledFrame frame = dataset.Read(i);
+    for (const TruthBody& body : frame.bodies) {
+      AddPerson(model, frame, body, target_of_joint, &totals);
+    }
+    ++frames;
+  }
+  return Summarise(std::move(totals), frames);
+}
+
+}  // namespace ossa::tools

@@ -1,0 +1,49 @@
+#pragma once
+#include <cstdint>
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "forest/forest.h"
+#include "forest/propose.h"
+#include "tools/synth/dataset.h"
+
+namespace ossa::tools {
+
+/// A proposal of one joint somewhere in a data set, for average precision.
+struct RatedProposal {
+  double confidence = 0.0;
+  bool is_hit = false;  // the first within 10 cm of its true joint
+};
+
+/// Area under the precision-recall curve, with precision made monotone (as PASCAL VOC 2010 does).
+/// `positives` true joints exist.
+double AveragePrecision(std::vector<RatedProposal> proposals, int64_t positives);
+
+/// What `ossa evaluate` reports (DESIGN.md, section 4).
+struct Evaluation {
+  int64_t frames = 0;
+  int64_t people = 0;
+  double pixel_accuracy = 0.0;         // over person pixels
+  double mean_class_accuracy = 0.0;    // of the 31 parts that occur
+  std::vector<double> class_accuracy;  // by label; NaN where a class does not occur
+  std::vector<double> ap_10cm;         // by joint
+  std::vector<double> ap_10cm_visible;
+  double map_10cm = 0.0;
+  double map_10cm_visible = 0.0;
+  double swapped_left_right = 0.0;  // share of people most of whose paired parts are mirrored
+  double swapped_left_right_turned = 0.0;  // of those turned by more than 60°
+  double ns_per_pixel = 0.0;               // person pixel, all trees, one thread
+  double classify_ms = 0.0;                // a person
+  double propose_ms = 0.0;
+};
+
+/// `step` > 1 looks at every step-th frame. `progress(done, total)` returns false to stop early.
+Evaluation Evaluate(const forest::ForestModel& model, const DatasetReader& dataset, int64_t step,
+                    const std::function<bool(int64_t, int64_t)>& progress);
+
+std::string EvaluationJson(const Evaluation& evaluation);
+/// One page that stands by itself: the table and bars of accuracy by class and joint.
+std::string EvaluationHtml(const Evaluation& evaluation, const std::string& title);
+
+}  // namespace ossa::tools

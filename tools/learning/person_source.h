@@ -1,0 +1,56 @@
+#pragma once
+#include <filesystem>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "forest/train.h"
+#include "tools/synth/dataset.h"
+
+namespace ossa::tools {
+
+/// Facing sectors: the yaw of a person against the line of sight, in steps of 45°; sector 0 faces
+/// the camera, 4 shows its back. They are the contexts of a body model.
+inline constexpr int kFacingSectors = 8;
+
+/// Yaw against the line of sight to the person, radians; 0 faces the camera, positive when the
+/// person's left side comes nearer.
+double YawAgainstSight(const recon::Posture& joints_m);
+uint8_t FacingSector(const recon::Posture& joints_m);
+
+/// What a forest for people is trained to tell: 31 parts and `other`, facing sectors, SDK joints.
+forest::TrainingVocabulary BodyVocabulary();
+
+/// One person of a labelled frame, cut out. An image of no pixels when the body has none.
+forest::TrainingImage PersonImage(const LabelledFrame& frame, const TruthBody& body);
+
+/// Frames of data sets as training images: one person of each frame, in turn where there are
+/// several. `keep` chooses among each hundred frames: those whose number modulo 100 lies in
+/// [begin, end).
+class PersonSource final : public forest::TrainingSource {
+ public:
+  struct Range {
+    int begin = 0;
+    int end = 100;
+  };
+
+  PersonSource(const std::vector<std::filesystem::path>& datasets, Range keep);
+
+  size_t size() const override { return places_.size(); }
+  forest::TrainingImage Read(size_t index) const override;
+  const std::vector<DatasetManifest>& manifests() const { return manifests_; }
+  /// Names the data: folders' manifests, counts and choice.
+  std::string fingerprint() const { return fingerprint_; }
+
+ private:
+  struct Place {
+    uint32_t dataset = 0;
+    int64_t frame = 0;
+  };
+  std::vector<DatasetReader> readers_;
+  std::vector<DatasetManifest> manifests_;
+  std::vector<Place> places_;
+  std::string fingerprint_;
+};
+
+}  // namespace ossa::tools
