@@ -13,14 +13,13 @@ namespace {
 
 // Labels as PCL's people module numbers them. Class = label + 1: 0 is background here.
 constexpr std::array kPclNames = {
-    "Lfoot",  "Lleg",   "Lknee",    "Lthigh", "Rfoot",  "Rleg",   "Rknee",    "Rthigh", "Rhips",
-    "Lhips",  "Neck",   "Rarm",     "Relbow", "Rforearm", "Rhand", "Larm",    "Lelbow",
-    "Lforearm", "Lhand", "FaceLB",  "FaceRB", "FaceLT", "FaceRT", "Rchest",   "Lchest"};
+    "Lfoot", "Lleg",   "Lknee",  "Lthigh", "Rfoot",    "Rleg",   "Rknee", "Rthigh", "Rhips",
+    "Lhips", "Neck",   "Rarm",   "Relbow", "Rforearm", "Rhand",  "Larm",  "Lelbow", "Lforearm",
+    "Lhand", "FaceLB", "FaceRB", "FaceLT", "FaceRT",   "Rchest", "Lchest"};
 constexpr uint16_t kPclBackground_mm = 32767;
 // PCL: offset in pixels = du · f / depth_mm, so du is in millimetres at any f; ours is in 1/16
 // pixel·metre at f = 575.
-constexpr double kUnitsPerPclOffset =
-    kReferenceFocal_px * kOffsetUnitsPerPixelMetre * 1e-3;
+constexpr double kUnitsPerPclOffset = kReferenceFocal_px * kOffsetUnitsPerPixelMetre * 1e-3;
 
 struct PclNode {
   std::array<int, 4> offset{};
@@ -85,8 +84,7 @@ int16_t Clamped(double value) {
 std::vector<int> CommonLabels(const PclTree& tree) {
   const size_t inner = tree.nodes.size();
   std::vector<int> common(inner + tree.labels.size());
-  std::copy(tree.labels.begin(), tree.labels.end(),
-            common.begin() + static_cast<ptrdiff_t>(inner));
+  std::copy(tree.labels.begin(), tree.labels.end(), common.begin() + static_cast<ptrdiff_t>(inner));
   for (size_t i = inner; i-- > 0;) {
     common[i] = common[2 * i + 1] == common[2 * i + 2] ? common[2 * i + 1] : -1;
   }

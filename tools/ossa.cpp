@@ -12,6 +12,7 @@ namespace {
 using ossa::commands::Command;
 
 constexpr std::array kCommands = {
+    Command{"evaluate", "measure a model on labelled data", ossa::commands::Evaluate},
     Command{"experiment", "run a study: a paper's tables beside its own numbers",
             ossa::commands::Experiment},
     Command{"database", "build a posture database from motion capture",
@@ -20,6 +21,7 @@ constexpr std::array kCommands = {
             ossa::commands::Reconstruct},
     Command{"info", "say what a file of ossa's holds", ossa::commands::Info},
     Command{"record", "record a source to an .oni file", ossa::commands::Record},
+    Command{"train", "train a body-part forest on labelled data", ossa::commands::Train},
 };
 
 int Help(std::FILE* out) {

@@ -3,10 +3,12 @@
 namespace ossa::commands {
 
 // One function a subcommand, each in a file of its own name in this folder.
+int Evaluate(int argc, char** argv);
 int Experiment(int argc, char** argv);
 int Database(int argc, char** argv);
 int Reconstruct(int argc, char** argv);
 int Info(int argc, char** argv);
 int Record(int argc, char** argv);
+int Train(int argc, char** argv);
 
 }  // namespace ossa::commands

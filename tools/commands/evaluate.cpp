@@ -51,8 +51,7 @@ int Evaluate(int argc, char** argv) {
   const std::string json = tools::EvaluationJson(evaluation);
   fmt::print("{}", json);
   WriteText(json_path, json);
-  WriteText(report_path, tools::EvaluationHtml(
-                             evaluation, model_path + " on " + dataset_path));
+  WriteText(report_path, tools::EvaluationHtml(evaluation, model_path + " on " + dataset_path));
   return 0;
 }
 

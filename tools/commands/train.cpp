@@ -52,8 +52,7 @@ void AddOptions(CLI::App* app, TrainArguments* a) {
   app->add_option("--out", a->out, "the model file to write")->required();
   app->add_option("--trees", o.trees, "trees of the forest")->capture_default_str();
   app->add_option("--depth", o.depth, "levels of splits")->capture_default_str();
-  app->add_option("--candidates", o.candidates, "offset pairs tried a node")
-      ->capture_default_str();
+  app->add_option("--candidates", o.candidates, "offset pairs tried a node")->capture_default_str();
   app->add_option("--thresholds", o.thresholds, "thresholds a candidate")->capture_default_str();
   app->add_option("--pixels", o.pixels, "pixels an image and tree, balanced over its classes")
       ->capture_default_str();
@@ -93,11 +92,12 @@ void ShowProgress(Progress* bar, const forest::TrainProgress& p) {
   const double total = p.trees * p.levels;
   if (p.level < 0) return bar->Update(0, total, "reading");
   if (p.level >= p.levels) return bar->Update(total - 1, total, "filling leaves and votes");
-  bar->Update(p.tree * p.levels + p.level + 1, total,
-              fmt::format("tree {} level {} nodes {} gain {:.3f} bits {:.0f} M evaluations/s {:.0f} "
-                          "s left",
-                          p.tree + 1, p.level + 1, p.nodes, p.mean_gain,
-                          p.evaluations_per_s * 1e-6, p.seconds_left));
+  bar->Update(
+      p.tree * p.levels + p.level + 1, total,
+      fmt::format("tree {} level {} nodes {} gain {:.3f} bits {:.0f} M evaluations/s {:.0f} "
+                  "s left",
+                  p.tree + 1, p.level + 1, p.nodes, p.mean_gain, p.evaluations_per_s * 1e-6,
+                  p.seconds_left));
 }
 
 nlohmann::ordered_json Card(const TrainArguments& a, const tools::PersonSource& source,
@@ -118,9 +118,9 @@ nlohmann::ordered_json Card(const TrainArguments& a, const tools::PersonSource& 
   card["images"] = summary.images;
   card["pixels"] = summary.pixels;
   card["evaluations"] = summary.evaluations;
-  card["evaluations_per_s"] =
-      summary.split_seconds > 0 ? static_cast<double>(summary.evaluations) / summary.split_seconds
-                                : 0.0;
+  card["evaluations_per_s"] = summary.split_seconds > 0
+                                  ? static_cast<double>(summary.evaluations) / summary.split_seconds
+                                  : 0.0;
   card["class_balance"] = "equal shares of the classes present in each image";
   return card;
 }
@@ -144,8 +144,7 @@ int TrainOnData(TrainArguments* a, const forest::Reducer& reducer) {
   Progress bar("train", a->quiet || reducer.rank() != 0);
   o.progress = [&](const forest::TrainProgress& p) { ShowProgress(&bar, p); };
   forest::TrainSummary summary;
-  forest::ForestModel model =
-      forest::Train(source, tools::BodyVocabulary(), o, reducer, &summary);
+  forest::ForestModel model = forest::Train(source, tools::BodyVocabulary(), o, reducer, &summary);
   if (reducer.rank() != 0) return 0;
   if (held_out.size() > 0) {
     model = forest::LearnProposals(model, held_out, a->validation_images, o.threads);
