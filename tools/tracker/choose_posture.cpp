@@ -1,0 +1,192 @@
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "depth/error.h"
+#include "recon/body/standard_body.h"
+#include "tools/tracker/choose_posture_internal.h"
+
+namespace ossa::tracker {
+namespace {
+
+using forest::Proposal;
+using recon::kJointCount;
+
+constexpr int kModes = 4;  // modes beyond the fourth were never the right one on rendered frames
+
+// Costs are negative log-likelihoods.
+constexpr double kMissing = 2.3;       // -log 0.1: a mode must be more likely than that
+constexpr double kWorstBone = 6.0;     // a bone of any length may be a wrong expectation
+constexpr double kWorstJump = 1.0;     // fast moves and unrelated frames are legal
+constexpr double kJumpScale_m = 0.15;  // 4.5 m/s at 30 Hz
+
+double BoneCost(double length_m, double expected_m) {
+  // Modes lie a few centimetres off; short bones (hands, neck) feel that most.
+  const double sigma_m = 0.04 + 0.2 * expected_m;
+  const double off = (length_m - expected_m) / sigma_m;
+  return std::min(0.5 * off * off, kWorstBone);
+}
+
+struct Option {
+  const Proposal* proposal = nullptr;  // null: missing
+  double cost = 0;                     // own, and of the best choice of all children
+  std::array<int, kJointCount> child_choice{};
+};
+
+// Exact minimum over the tree of joints: children before parents (Viterbi).
+class Chooser {
+ public:
+  Chooser(const std::vector<std::vector<Proposal>>& proposals,
+          const std::array<int, kJointCount>& targets, const ChoiceContext& context)
+      : context_(context) {
+    for (int j = 0; j < kJointCount; ++j) {
+      AddOptions(j, proposals[static_cast<size_t>(targets[static_cast<size_t>(j)])]);
+    }
+    for (int j = kJointCount - 1; j > 0; --j) PassToParent(j);
+  }
+
+  std::array<const Proposal*, kJointCount> Best() const {
+    std::array<const Proposal*, kJointCount> chosen{};
+    std::array<int, kJointCount> index{};
+    const auto& roots = options_[0];
+    index[0] = static_cast<int>(
+        std::min_element(roots.begin(), roots.end(),
+                         [](const Option& a, const Option& b) { return a.cost < b.cost; }) -
+        roots.begin());
+    for (size_t j = 0; j < kJointCount; ++j) {
+      const int parent = recon::kJointParent[j];
+      if (parent >= 0) {
+        const auto p = static_cast<size_t>(parent);
+        index[j] = options_[p][static_cast<size_t>(index[p])].child_choice[j];
+      }
+      chosen[j] = options_[j][static_cast<size_t>(index[j])].proposal;
+    }
+    return chosen;
+  }
+
+ private:
+  void AddOptions(int joint, const std::vector<Proposal>& modes) {
+    auto& options = options_[static_cast<size_t>(joint)];
+    options.push_back({nullptr, kMissing, {}});
+    for (const Proposal& mode : modes) {
+      if (options.size() > kModes || !mode.position_m.allFinite()) break;
+      double cost = -std::log(std::max(mode.confidence, 1e-3));
+      if (context_.before != nullptr &&
+          context_.before->state[static_cast<size_t>(joint)] == recon::TrackingState::kTracked) {
+        const double jump =
+            (mode.position_m - context_.before->posture.position_m[static_cast<size_t>(joint)])
+                .norm();
+        cost += std::min(0.5 * std::pow(jump / kJumpScale_m, 2), kWorstJump);
+      }
+      options.push_back({&mode, cost, {}});
+    }
+  }
+
+  void PassToParent(int joint) {
+    const auto j = static_cast<size_t>(joint);
+    for (Option& parent : options_[static_cast<size_t>(recon::kJointParent[j])]) {
+      double best = std::numeric_limits<double>::infinity();
+      for (size_t i = 0; i < options_[j].size(); ++i) {
+        const Option& child = options_[j][i];
+        double cost = child.cost;
+        if (child.proposal != nullptr && parent.proposal != nullptr) {
+          cost += BoneCost((child.proposal->position_m - parent.proposal->position_m).norm(),
+                           context_.expected_m[j]);
+        }
+        if (cost < best) best = cost, parent.child_choice[j] = static_cast<int>(i);
+      }
+      parent.cost += best;
+    }
+  }
+
+  const ChoiceContext& context_;
+  std::array<std::vector<Option>, kJointCount> options_;
+};
+
+bool InImage(const depth::Camera& camera, const Eigen::Vector3d& p) {
+  if (p.z() <= 0.05) return false;
+  const Eigen::Vector2d pixel = depth::Project(camera, p);
+  return pixel.x() >= 0 && pixel.y() >= 0 && pixel.x() < camera.width && pixel.y() < camera.height;
+}
+
+recon::TrackingState StateOf(const Proposal& proposal, const forest::ProposalTarget& target,
+                             const depth::Camera& camera) {
+  if (proposal.confidence < static_cast<double>(target.inferred_confidence)) {
+    return recon::TrackingState::kNotTracked;
+  }
+  const bool tracked = proposal.seen && InImage(camera, proposal.position_m) &&
+                       proposal.confidence >= static_cast<double>(target.tracked_confidence);
+  return tracked ? recon::TrackingState::kTracked : recon::TrackingState::kInferred;
+}
+
+// One surface cannot be both hands, or both knees: of two of a pair at one place the weaker goes.
+void DropDoubles(recon::TrackedPosture& posture) {
+  for (size_t j = 0; j < kJointCount; ++j) {
+    const auto m = static_cast<size_t>(recon::kMirroredJoint[j]);
+    if (m <= j || posture.state[j] == recon::TrackingState::kNotTracked ||
+        posture.state[m] == recon::TrackingState::kNotTracked) {
+      continue;
+    }
+    constexpr double kOnePlace_m = 0.045;  // clasped hands have centres 6 cm apart and more
+    if ((posture.posture.position_m[j] - posture.posture.position_m[m]).norm() > kOnePlace_m)
+      continue;
+    const size_t weaker = posture.confidence[j] < posture.confidence[m] ? j : m;
+    posture.state[weaker] = recon::TrackingState::kInferred;
+  }
+}
+
+}  // namespace
+
+std::array<int, kJointCount> JointTargets(const forest::ForestModel& model,
+                                          const std::string& model_name) {
+  std::array<int, kJointCount> targets{};
+  for (size_t j = 0; j < kJointCount; ++j) {
+    const auto found = std::find_if(
+        model.targets().begin(), model.targets().end(),
+        [&](const forest::ProposalTarget& target) { return target.name == recon::kJointNames[j]; });
+    if (found == model.targets().end()) {
+      throw InputError(model_name + ": targets: expected one named '" +
+                       std::string(recon::kJointNames[j]) + "', found none");
+    }
+    targets[j] = static_cast<int>(found - model.targets().begin());
+  }
+  return targets;
+}
+
+recon::TrackedPosture ChoosePosture(const forest::ForestModel& model,
+                                    const std::array<int, kJointCount>& targets,
+                                    const std::vector<std::vector<Proposal>>& proposals,
+                                    const ChoiceContext& context) {
+  const auto chosen = Chooser(proposals, targets, context).Best();
+  recon::TrackedPosture result;
+  for (size_t j = 0; j < kJointCount; ++j) {
+    if (chosen[j] == nullptr) continue;
+    const auto& target = model.targets()[static_cast<size_t>(targets[j])];
+    result.posture.position_m[j] = chosen[j]->position_m;
+    result.confidence[j] = chosen[j]->confidence;
+    result.state[j] = StateOf(*chosen[j], target, *context.camera);
+  }
+  DropDoubles(result);
+  return result;
+}
+
+recon::BoneLengths AverageBoneLengths() {
+  return recon::BoneLengthsOf(recon::StandardPosture(recon::RigPose{}));
+}
+
+void LearnBoneLengths(const recon::TrackedPosture& observed, recon::BoneLengths& lengths_m) {
+  const recon::BoneLengths average = AverageBoneLengths();
+  const recon::BoneLengths seen = recon::BoneLengthsOf(observed.posture);
+  for (size_t j = 1; j < kJointCount; ++j) {
+    const auto parent = static_cast<size_t>(recon::kJointParent[j]);
+    if (observed.state[j] != recon::TrackingState::kTracked ||
+        observed.state[parent] != recon::TrackingState::kTracked) {
+      continue;
+    }
+    // A thirtieth a frame: a second of frames decides; no adult or child is outside half to 1.5.
+    const double next = lengths_m[j] + (seen[j] - lengths_m[j]) / 30.0;
+    lengths_m[j] = std::clamp(next, 0.5 * average[j], 1.5 * average[j]);
+  }
+}
+
+}  // namespace ossa::tracker

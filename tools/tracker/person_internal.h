@@ -1,0 +1,36 @@
+#pragma once
+#include <memory>
+#include <optional>
+
+#include "physics/character_filter.h"
+#include "recon/methods/reconstructor.h"
+#include "tools/tracker/choose_posture_internal.h"
+#include "tools/tracker/tracker.h"
+
+namespace ossa::tracker {
+
+/// What the tracker remembers of one person.
+struct Person {
+  int id = 0;
+  double seen_s = 0.0;
+  recon::BoneLengths lengths_m = AverageBoneLengths();
+  std::optional<recon::TrackedPosture> before;  // of the last frame
+  std::vector<float> context;                   // facing, as the forest saw it
+  std::unique_ptr<recon::Reconstructor> reconstructor;
+  std::unique_ptr<physics::CharacterFilter> character;
+  double character_s = 0.0;  // time of the character's last step
+  SmoothingState smoothing;
+};
+
+struct CompleteOptions {
+  bool physics = false;
+  TrackingMode mode = TrackingMode::kStanding;
+  SmoothingOptions smoothing;
+  recon::ReconstructorOptions reconstructor;
+};
+
+/// From the raw posture in `body` to its reconstructed and smoothed ones and its orientations.
+void CompleteBody(const depth::DepthFrame& frame, const std::optional<Eigen::Vector4d>& floor,
+                  const CompleteOptions& options, Person& person, Body& body, StageTimes& ms);
+
+}  // namespace ossa::tracker

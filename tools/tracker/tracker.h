@@ -1,0 +1,122 @@
+#pragma once
+#include <Eigen/Core>
+#include <array>
+#include <cstdint>
+#include <functional>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "depth/image/depth_frame.h"
+#include "depth/image/image.h"
+#include "recon/posture.h"
+#include "tools/tracker/smoothing.h"
+
+namespace ossa::depth {
+class FrameSource;
+}
+
+/// The run-time tracker: depth frames in, bodies out. Everything the Kinect SDK's skeleton stream
+/// gave, for any depth camera. No global state; several trackers may run in one process, each used
+/// from one thread at a time.
+namespace ossa::tracker {
+
+/// The SDK's FrameEdges: which image borders cut the body off. Combined by |.
+enum ClippedEdge : unsigned {
+  kClippedRight = 1,
+  kClippedLeft = 2,
+  kClippedTop = 4,
+  kClippedBottom = 8
+};
+
+enum class BodyState {
+  kPositionOnly,  // known to be there; joints are not looked for
+  kTracked,       // fully tracked
+};
+
+/// Raw, reconstructed and smoothed positions stand side by side; states and confidences belong to
+/// the raw observation. Camera space, metres.
+struct Body {
+  int id = 0;
+  BodyState state = BodyState::kTracked;
+  Eigen::Vector3d position_m = Eigen::Vector3d::Zero();  // middle of the seen surface
+  recon::TrackedPosture raw;                             // what the image says, joint by joint
+  recon::Posture reconstructed;  // made complete and bone-consistent by the method
+  recon::Posture smoothed;       // after physics and smoothing, seen joints held to the image
+  std::array<double, recon::kJointCount> reliability{};  // R_i of the raw joints
+  recon::JointOrientations absolute_orientation;         // as the SDK defines them
+  recon::JointOrientations hierarchical_orientation;
+  unsigned clipped_edges = 0;  // of ClippedEdge
+  double person_score = 0.0;   // how sure the forest is that this is a person, [0, 1]
+};
+
+/// Milliseconds spent on one frame.
+struct StageTimes {
+  double segment = 0, classify = 0, propose = 0, reconstruct = 0, physics = 0, total = 0;
+};
+
+struct BodyFrame {
+  int64_t index = 0;
+  double time_s = 0.0;
+  std::optional<Eigen::Vector4d> floor;  // a b c d, unit normal up: the SDK's floor clip plane
+  std::vector<Body> bodies;              // by id
+  depth::Image<uint8_t> users;           // id of the body each pixel belongs to, 0 nobody
+  depth::Image<uint8_t> parts;           // body part per pixel; empty unless asked for
+  StageTimes ms;
+};
+
+enum class TrackingMode {
+  kStanding,  // all 20 joints
+  kSeated,    // the ten upper joints of the SDK's seated mode; the rest are not tracked
+};
+
+struct TrackerOptions {
+  std::string model;                 // .ossa; "" = the shipped one
+  std::string database;              // .ossadb; "" = the shipped one
+  std::string learned;               // .ossagp, for the methods that learn
+  std::string method = "shum-2013";  // one of recon::ReconstructionMethods()
+  bool physics = false;              // let the mechanical character follow the posture
+  SmoothingOptions smoothing = SmoothingPreset("default");
+  TrackingMode mode = TrackingMode::kStanding;
+  bool near_range = false;  // the SDK's near mode: people from 0.4 to 3 m only
+  int max_users = 6;
+  bool keep_parts = false;  // fill BodyFrame::parts
+  int threads = 1;
+  uint64_t seed = 1;
+  void Check() const;  // throws std::invalid_argument with name, value and range
+};
+
+class Tracker {
+ public:
+  /// Loads model and database. Throws InputError naming the file that is missing or damaged.
+  explicit Tracker(const TrackerOptions& options = {});
+  ~Tracker();
+  Tracker(Tracker&&) noexcept;
+  Tracker& operator=(Tracker&&) noexcept;
+
+  /// One frame in, its bodies out: polling. Frames of any size, in order of time. Throws InputError
+  /// when pixels and camera do not agree in number.
+  BodyFrame Push(const depth::DepthFrame& frame);
+
+  /// Reads a source to its end, or until the callback returns false. `idle` is asked about ten
+  /// times a second while no frame comes: false ends the run. Returns frames lost by the device.
+  int64_t Run(depth::FrameSource& source, const std::function<bool(const BodyFrame&)>& on_bodies,
+              const std::function<bool()>& idle = {});
+
+  /// Track only these users fully, the others by position; empty: as many as fit, oldest first.
+  void ChooseUsers(std::vector<int> ids);
+  void SetMode(TrackingMode mode);
+  void SetSmoothing(const SmoothingOptions& smoothing);
+  /// Forgets everybody.
+  void Reset();
+
+ private:
+  struct Impl;
+  std::unique_ptr<Impl> impl_;
+};
+
+/// The SDK's seated joints: shoulders and up, arms and hands.
+bool IsSeatedJoint(recon::Joint joint);
+
+}  // namespace ossa::tracker
