@@ -22,6 +22,7 @@ constexpr std::array kCommands = {
     Command{"info", "say what a file of ossa's holds", ossa::commands::Info},
     Command{"record", "record a source to an .oni file", ossa::commands::Record},
     Command{"train", "train a body-part forest on labelled data", ossa::commands::Train},
+    Command{"render", "make labelled depth images of people in motion", ossa::commands::Render},
 };
 
 int Help(std::FILE* out) {

@@ -54,7 +54,8 @@ class Sensor {
          uint64_t seed)
       : rendered_(rendered), options_(options), width_(camera.width), height_(camera.height) {
     for (uint64_t stream = 0; stream < kStreamCount; ++stream) seeds_[stream] = Hash(seed, stream);
-    scale_ = static_cast<float>(camera.width) / 640.0F;
+    const int whole_px = options.whole_width_px > 0 ? options.whole_width_px : camera.width;
+    scale_ = static_cast<float>(whole_px) / 640.0F;
     // The pattern's windows are of the sensor: fewer pixels where the image is scaled down.
     window_ = std::max(1, Rounded(static_cast<float>(options.window_px) * scale_));
     disparity_times_depth_ =

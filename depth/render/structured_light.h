@@ -30,6 +30,8 @@ struct StructuredLightOptions {
   double edge_mixed = 0.04;    // ... that mix near and far instead of choosing
   double nearest_m = 0.4;      // nothing is read nearer than this, nor
   double farthest_m = 8.0;     // farther than this
+  /// Width of the whole image, pixels, when the camera is a crop of it; 0: it is not.
+  int whole_width_px = 0;
 };
 
 struct SensorImage {

@@ -12,7 +12,7 @@
 namespace ossa::recon {
 namespace {
 
-constexpr SealedFormat kCacheFormat{{'O', 'S', 'S', 'A', 'B', 'O', 'D', 'Y'}, 1, "body cache"};
+constexpr SealedFormat kCacheFormat{{'O', 'S', 'S', 'A', 'B', 'O', 'D', 'Y'}, 2, "body cache"};
 constexpr float kDeltaUnit_dm = 1e-3f;
 
 /// A point that is a weighted sum of vertices of base.obj.

@@ -47,7 +47,7 @@ enum Bone : size_t {
   kFinger = 22,
   kThumb = 23,
 };
-constexpr size_t kRightLegOffset = 4;  // from a left leg bone to the right one
+constexpr size_t kRightLegOffset = 5;  // from a left leg bone to the right one
 constexpr size_t kRightArmOffset = 7;
 
 // Half widths of the bands around the joints and other borders, decimetres on the neutral body
@@ -109,7 +109,9 @@ uint8_t LeftPartOf(const PartLabelInput& place, const PartLandmarks& marks, bool
   const float arm =
       SumOf(place, {kArm, kForeArm, kHandBone, kFingerBase, kFinger, kThumb}, arm_side);
   const float collar = place.bone_weight[kCollar + arm_side];
-  const float leg = SumOf(place, {kUpLeg, kLeg, kFootBone, kToe}, leg_side);
+  // A skirt hangs between both legs.
+  const float leg = SumOf(place, {kUpLeg, kLeg, kFootBone, kToe}, 0) +
+                    SumOf(place, {kUpLeg, kLeg, kFootBone, kToe}, kRightLegOffset);
   const float head = place.bone_weight[kHeadBone];
   const float neck = place.bone_weight[kNeckBone] + place.bone_weight[kNeck1];
   const float torso = 1.0f - arm - collar - leg - head - neck;

@@ -10,5 +10,6 @@ int Reconstruct(int argc, char** argv);
 int Info(int argc, char** argv);
 int Record(int argc, char** argv);
 int Train(int argc, char** argv);
+int Render(int argc, char** argv);
 
 }  // namespace ossa::commands

@@ -28,7 +28,7 @@ struct TruthBody {
 struct LabelledFrame {
   depth::DepthFrame depth;      // index = number of the frame in the data set
   depth::Image<uint8_t> parts;  // 0 background, 1..31 body part, 32 other (recon/body/parts.h)
-  depth::Image<uint8_t> users;  // 0 nobody, else TruthBody::id; objects held count to their holder
+  depth::Image<uint8_t> users;  // 0 nobody, else TruthBody::id; an `other` pixel has its person's
   std::vector<TruthBody> bodies;
   std::optional<Eigen::Vector4d> floor;  // a b c d of ax + by + cz + d = 0, camera space
 };

@@ -1,0 +1,175 @@
+#include "recon/body/clothing.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <numbers>
+
+#include "recon/body/parts.h"
+#include "recon/body/standard_body.h"
+
+namespace ossa::recon {
+namespace {
+
+// Parts by label (parts.h), the left side's; a right label is one more.
+bool IsPart(uint8_t part, int left_label) { return part == left_label || part == left_label + 1; }
+
+float ShareAlong(const Eigen::Vector3f& p, const Eigen::Vector3d& from_m,
+                 const Eigen::Vector3d& to_m) {
+  const Eigen::Vector3d way = to_m - from_m;
+  return static_cast<float>((p.cast<double>() - from_m).dot(way) / way.squaredNorm());
+}
+
+// 0 at the first joint, 1 at the second, 2 at the third.
+float AlongLimb(const Eigen::Vector3f& p, size_t first_bone) {
+  const auto& head = StandardRigRest().head_m;
+  const float lower = ShareAlong(p, head[first_bone + 1], head[first_bone + 2]);
+  return lower > 0 ? 1.0f + lower : ShareAlong(p, head[first_bone], head[first_bone + 1]);
+}
+
+/// Smooth waves over the body, in [-1, 1]: folds of cloth, locks of hair.
+class Waves {
+ public:
+  explicit Waves(uint64_t seed) {
+    uint64_t state = seed;
+    const auto uniform = [&state] {  // SplitMix64
+      state += 0x9E3779B97F4A7C15u;
+      uint64_t x = state;
+      x = (x ^ (x >> 30)) * 0xBF58476D1CE4E5B9u;
+      x = (x ^ (x >> 27)) * 0x94D049BB133111EBu;
+      return static_cast<float>((x ^ (x >> 31)) >> 40) * (1.0f / 16777216.0f);
+    };
+    for (auto& wave : waves_) {
+      Eigen::Vector3f direction(uniform() - 0.5f, uniform() - 0.5f, uniform() - 0.5f);
+      const float length_m = 0.08f + 0.17f * uniform();
+      wave.vector = direction.normalized() * (2.0f * std::numbers::pi_v<float> / length_m);
+      wave.phase = 2.0f * std::numbers::pi_v<float> * uniform();
+    }
+  }
+  float At(const Eigen::Vector3f& p) const {
+    float sum = 0;
+    for (const auto& wave : waves_) sum += std::sin(wave.vector.dot(p) + wave.phase);
+    return sum / static_cast<float>(waves_.size());
+  }
+
+ private:
+  struct Wave {
+    Eigen::Vector3f vector;
+    float phase = 0;
+  };
+  std::array<Wave, 4> waves_;
+};
+
+// The neutral body's heights, metres over the soles.
+constexpr float kSkullFrom_m = 1.50f;  // hair grows above, on the back of the head
+constexpr float kForehead_m = 1.60f;   // and above this also in front
+constexpr float kWaist_m = 1.00f, kCrotch_m = 0.80f;
+constexpr float kKnee_m = 0.475f;
+
+}  // namespace
+
+Wardrobe::Wardrobe(const BodyModel& model) : model_(&model) {
+  constexpr float kBaseFloor_m = -0.8168f;  // of base.obj
+  constexpr size_t kLeftArm = 18, kRightArm = 25, kLeftUpLeg = 2, kRightUpLeg = 7;
+  for (size_t i = 0; i < model.vertex_count(); ++i) {
+    const Eigen::Vector3f p = model.base_m()[i] - Eigen::Vector3f(0, kBaseFloor_m, 0);
+    const uint8_t part = model.vertex_part()[i];
+    const bool left = p.x() >= 0;
+    Place place;
+    if (model.vertex_layer()[i] != BodyLayer::kSkin) {
+      place.region =
+          model.vertex_layer()[i] == BodyLayer::kSkirt ? Region::kSkirt : Region::kLongHair;
+      place.along = p.y();
+    } else if (part <= 4) {
+      const bool skull = p.y() > kForehead_m || (p.y() > kSkullFrom_m && p.z() < 0.05f);
+      place.region = skull ? Region::kSkull : Region::kNone;
+      place.along = std::min(1.0f, (p.y() - kSkullFrom_m) / 0.05f);  // thins out at the edge
+    } else if (IsPart(part, 18) || IsPart(part, 20)) {
+      place.region = Region::kTorso;
+      place.along = (kWaist_m - p.y()) / (kWaist_m - kCrotch_m);
+    } else if (IsPart(part, 6) || IsPart(part, 8) || IsPart(part, 10) || IsPart(part, 12) ||
+               IsPart(part, 14)) {
+      place.region = Region::kArm;
+      place.along = AlongLimb(p, left ? kLeftArm : kRightArm);
+    } else if (IsPart(part, 22) || IsPart(part, 24) || IsPart(part, 26) || IsPart(part, 28)) {
+      place.region = Region::kLeg;
+      place.along = AlongLimb(p, left ? kLeftUpLeg : kRightUpLeg);
+    } else if (IsPart(part, 30)) {
+      place.region = Region::kFoot;
+    }
+    place_.push_back(place);
+  }
+}
+
+std::vector<Eigen::Vector3f> Wardrobe::Dress(const ShapedBody& body,
+                                             const Clothing& clothing) const {
+  const Waves waves(clothing.pattern);
+  const auto wrinkle = static_cast<float>(clothing.wrinkle);
+  // Lengths of skirt and hair are measured on the neutral body and scale with this one.
+  const auto scale = static_cast<float>(body.height_m / 1.66);
+  const float hem_m =
+      scale * (kCrotch_m - (kCrotch_m - kKnee_m) * static_cast<float>(clothing.skirt_end));
+  const float hair_end_m = scale * (1.50f - 0.45f * static_cast<float>(clothing.long_hair_end));
+  std::vector<Eigen::Vector3f> dressed = body.rest_m;
+  for (size_t i = 0; i < dressed.size(); ++i) {
+    const Place& place = place_[i];
+    Eigen::Vector3f& p = dressed[i];
+    double thickness_m = 0;
+    switch (place.region) {
+      case Region::kTorso:
+        // Shirt above the waist, trousers below, the thicker of both in between.
+        thickness_m = place.along < 0   ? clothing.shirt_m
+                      : place.along > 1 ? clothing.trouser_m
+                                        : std::max(clothing.shirt_m, clothing.trouser_m);
+        break;
+      case Region::kArm:
+        thickness_m = place.along < clothing.sleeve_end ? clothing.sleeve_m : 0.0;
+        if (place.along < 0.25f) thickness_m = std::max(thickness_m, clothing.shirt_m);
+        break;
+      case Region::kLeg:
+        thickness_m = place.along < clothing.trouser_end ? clothing.trouser_m : 0.0;
+        break;
+      case Region::kFoot:
+        thickness_m = clothing.shoe_m;
+        break;
+      case Region::kSkull:
+        thickness_m = clothing.hair_m * std::max(0.0f, place.along);
+        break;
+      case Region::kSkirt:
+        if (clothing.skirt_end > 0) {
+          p.y() = std::max(p.y(), hem_m);
+          const float down = std::max(0.0f, scale * kWaist_m - p.y()) / (scale * 0.5f);
+          const float widen =
+              1.0f + static_cast<float>(clothing.skirt_flare) * down * (1.0f + 0.3f * waves.At(p));
+          p.x() *= widen;
+          p.z() *= widen;
+        }
+        continue;
+      case Region::kLongHair:
+        if (clothing.long_hair_end > 0) {
+          p.y() = std::max(p.y(), hair_end_m);
+          p += 0.012f * waves.At(p) * body.normals[i];
+        }
+        continue;
+      case Region::kNone:
+        break;
+    }
+    if (thickness_m <= 0) continue;
+    const float share = std::max(0.2f, 1.0f + wrinkle * waves.At(body.rest_m[i]));
+    p += static_cast<float>(thickness_m) * share * body.normals[i];
+  }
+  return dressed;
+}
+
+void Wardrobe::HideUnworn(const Clothing& clothing, const Eigen::Vector3f& inside_m,
+                          std::span<Eigen::Vector3f> posed_m) const {
+  for (size_t i = 0; i < posed_m.size(); ++i) {
+    const Region region = place_[i].region;
+    if ((region == Region::kSkirt && clothing.skirt_end <= 0) ||
+        (region == Region::kLongHair && clothing.long_hair_end <= 0)) {
+      posed_m[i] = inside_m;
+    }
+  }
+}
+
+}  // namespace ossa::recon

@@ -1,0 +1,289 @@
+#include "tools/synth/frame_maker.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "depth/render/renderer.h"
+#include "depth/render/structured_light.h"
+#include "recon/body/parts.h"
+#include "tools/synth/person.h"
+#include "tools/synth/visibility_internal.h"
+
+namespace ossa::tools {
+namespace {
+
+constexpr int64_t kFramesPerBody = 8;   // shaping and dressing cost as much as the rest of a frame
+constexpr int kMostTries = 24;          // to find a view with enough of the person in it
+constexpr int kBorder_px = 12;          // rendered around the people, for edges and shadows
+constexpr double kRoomShare = 0.8;      // of frames: edges against a wall, else against nothing
+constexpr double kTrustedGap_m = 0.25;  // feet farther off the floor than this are a jump
+
+// Streams of random numbers: what is drawn for one purpose must not shift what follows.
+enum Stream : uint64_t { kBodyStream = 1, kSceneStream = 2, kNoiseStream = 3 };
+
+Random StreamOf(uint64_t seed, Stream purpose, int64_t index, int extra) {
+  return Random(seed * 8 + purpose,
+                static_cast<uint64_t>(index) * 64 + static_cast<uint64_t>(extra));
+}
+
+struct Box {
+  int u0 = std::numeric_limits<int>::max(), v0 = u0, u1 = -1, v1 = -1;  // inclusive
+};
+
+// Pixels that a mesh may cover.
+Box Cover(const std::vector<Eigen::Vector3f>& vertices_m, const depth::Camera& camera) {
+  constexpr float kTooNear_m = 0.1f;  // projects anywhere
+  Box box;
+  float u0 = 1e9f, u1 = -1e9f, v0 = 1e9f, v1 = -1e9f;
+  for (const auto& p : vertices_m) {
+    if (p.z() < kTooNear_m) return {0, 0, camera.width - 1, camera.height - 1};
+    const float u = static_cast<float>(camera.cx) - static_cast<float>(camera.fx) * p.x() / p.z();
+    const float v = static_cast<float>(camera.cy) - static_cast<float>(camera.fy) * p.y() / p.z();
+    u0 = std::min(u0, u), u1 = std::max(u1, u);
+    v0 = std::min(v0, v), v1 = std::max(v1, v);
+  }
+  const auto pixel = [](float at, int limit) {
+    return static_cast<int>(std::clamp(at, -1.0f, static_cast<float>(limit)));
+  };
+  box.u0 = std::max(0, pixel(u0, camera.width) - kBorder_px);
+  box.v0 = std::max(0, pixel(v0, camera.height) - kBorder_px);
+  box.u1 = std::min(camera.width - 1, pixel(u1, camera.width) + kBorder_px);
+  box.v1 = std::min(camera.height - 1, pixel(v1, camera.height) + kBorder_px);
+  return box;
+}
+
+Box Union(const Box& a, const Box& b) {
+  return {std::min(a.u0, b.u0), std::min(a.v0, b.v0), std::max(a.u1, b.u1), std::max(a.v1, b.v1)};
+}
+
+// The first person stands over the origin; the others around, not inside of each other.
+std::vector<Eigen::Vector3d> SamplePlaces(int people, Random& random) {
+  constexpr double kApart_m = 0.55;
+  std::vector<Eigen::Vector3d> places{Eigen::Vector3d::Zero()};
+  while (static_cast<int>(places.size()) < people) {
+    const Eigen::Vector3d place(random.Uniform(-1.6, 1.6), 0, random.Uniform(-1.8, 0.5));
+    const bool free = std::all_of(places.begin(), places.end(), [&](const auto& other) {
+      return (place - other).norm() > kApart_m;
+    });
+    if (free) places.push_back(place);
+  }
+  return places;
+}
+
+struct Dressed {
+  int64_t key = -1;
+  recon::ShapedBody body;
+  recon::Clothing clothing;
+  std::vector<Eigen::Vector3f> rest_m;
+};
+
+}  // namespace
+
+struct FrameMaker::State {
+  const FrameStudio& studio;
+  const FrameOptions& options;
+  depth::Renderer renderer;
+  std::vector<Dressed> wearers;  // one a person
+  std::vector<std::vector<Eigen::Vector3f>> posed_m;
+  std::vector<int> mesh_of_person;
+
+  explicit State(const FrameStudio& shared) : studio(shared), options(shared.options) {
+    const auto people = static_cast<size_t>(options.people);
+    wearers.resize(people);
+    posed_m.assign(people, std::vector<Eigen::Vector3f>(studio.model.vertex_count()));
+    for (size_t person = 0; person < people; ++person) {
+      // The tree of the renderer is built of the rest pose and only refitted afterwards.
+      Dress(0, static_cast<int>(person));
+      mesh_of_person.push_back(
+          renderer.AddMesh({wearers[person].rest_m, studio.model.triangles()}, true));
+    }
+  }
+
+  void Dress(int64_t index, int person);
+  recon::Posture Pose(const recon::RigPose& pose, size_t person,
+                      const Eigen::Isometry3d& camera_from_world);
+  recon::RigPose DrawPose(int64_t index, Random& random) const;
+  std::optional<LabelledFrame> Try(int64_t index, int attempt);
+  LabelledFrame Shoot(const ViewSample& view, const std::vector<Prop>& props, const Box& box,
+                      uint64_t noise_seed);
+};
+
+void FrameMaker::State::Dress(int64_t index, int person) {
+  const int64_t key = options.sequence ? 0 : index / kFramesPerBody;
+  Dressed& wearer = wearers[static_cast<size_t>(person)];
+  if (wearer.key == key) return;
+  Random random = StreamOf(options.seed, kBodyStream, key, person);
+  if (options.random_bodies) {
+    wearer.body = studio.model.Shape(SampleShape(options.split, random));
+    wearer.clothing = SampleClothing(random);
+  } else {
+    wearer.body = studio.model.Shape({});
+    wearer.clothing = {};
+  }
+  wearer.rest_m = studio.wardrobe.Dress(wearer.body, wearer.clothing);
+  wearer.key = key;
+}
+
+// Skins the person into camera space, feet on the floor; returns its joints there.
+recon::Posture FrameMaker::State::Pose(const recon::RigPose& pose, size_t person,
+                                       const Eigen::Isometry3d& camera_from_world) {
+  const Dressed& wearer = wearers[person];
+  auto& posed = posed_m[person];
+  studio.model.Skin(wearer.body, wearer.rest_m, pose, camera_from_world, posed);
+  recon::Posture joints = recon::JointsOf(wearer.body, pose);
+  for (auto& joint_m : joints.position_m) joint_m = camera_from_world * joint_m;
+  const Eigen::Vector3f inside_m = joints[recon::Joint::kHipCenter].cast<float>();
+  studio.wardrobe.HideUnworn(wearer.clothing, inside_m, posed);
+  const Eigen::Isometry3d world_from_camera = camera_from_world.inverse();
+  const Eigen::Vector3f up = world_from_camera.linear().row(1).transpose().cast<float>();
+  float lowest_m = 1e9f;
+  for (const auto& p : posed) lowest_m = std::min(lowest_m, up.dot(p));
+  lowest_m += static_cast<float>(world_from_camera.translation().y());
+  const bool jump = options.sequence ? lowest_m > 0 : lowest_m > kTrustedGap_m;
+  const Eigen::Vector3f lift = jump ? Eigen::Vector3f::Zero() : Eigen::Vector3f(-lowest_m * up);
+  for (auto& p : posed) p += lift;
+  for (auto& joint_m : joints.position_m) joint_m += lift.cast<double>();
+  return joints;
+}
+
+recon::RigPose FrameMaker::State::DrawPose(int64_t index, Random& random) const {
+  const auto& poses = studio.poses;
+  if (options.sequence) {
+    // A clip shorter than the sequence is played to and fro.
+    const auto period = std::max<int64_t>(1, 2 * static_cast<int64_t>(poses.size()) - 2);
+    const int64_t at = index % period;
+    return poses[static_cast<size_t>(std::min(at, period - at))];
+  }
+  return Varied(poses[random.Index(poses.size())], options.variation, random);
+}
+
+// Renders, senses, labels. The image is the crop `box` of the view.
+LabelledFrame FrameMaker::State::Shoot(const ViewSample& view, const std::vector<Prop>& props,
+                                       const Box& box, uint64_t noise_seed) {
+  std::vector<int> prop_mesh;
+  for (const Prop& prop : props) prop_mesh.push_back(renderer.AddMesh(prop.mesh_in_cam, false));
+  depth::Camera crop = view.camera;
+  crop.width = box.u1 - box.u0 + 1;
+  crop.height = box.v1 - box.v0 + 1;
+  crop.cx -= box.u0;
+  crop.cy -= box.v0;
+  const bool noisy = options.sensor == SensorKind::kKinectV1;
+  const depth::RenderedImage seen = renderer.Render(crop, {.projector = noisy});
+  for (const int mesh : prop_mesh) renderer.RemoveMesh(mesh);
+  depth::StructuredLightOptions sensor;
+  sensor.whole_width_px = view.camera.width;
+  depth::SensorImage sensed = noisy ? depth::SimulateStructuredLight(seen, crop, sensor, noise_seed)
+                                    : depth::PerfectSensor(seen);
+
+  LabelledFrame frame;
+  frame.depth.camera = crop;
+  frame.parts = depth::Image<uint8_t>(crop.width, crop.height);
+  frame.users = depth::Image<uint8_t>(crop.width, crop.height);
+  for (size_t i = 0; i < sensed.source.data.size(); ++i) {
+    if (sensed.source.data[i] < 0) continue;
+    const auto source = static_cast<size_t>(sensed.source.data[i]);
+    const int mesh = seen.mesh.data[source];
+    const auto person = std::find(mesh_of_person.begin(), mesh_of_person.end(), mesh);
+    if (person != mesh_of_person.end()) {
+      frame.parts.data[i] =
+          studio.model.triangle_part()[static_cast<size_t>(seen.triangle.data[source])];
+      frame.users.data[i] = static_cast<uint8_t>(person - mesh_of_person.begin() + 1);
+      continue;
+    }
+    const auto prop = std::find(prop_mesh.begin(), prop_mesh.end(), mesh);
+    if (prop != prop_mesh.end() &&
+        props[static_cast<size_t>(prop - prop_mesh.begin())].counts_as_other) {
+      frame.parts.data[i] = recon::kOtherPart;
+      frame.users.data[i] = 1;
+    } else if (options.background == Background::kNone) {
+      sensed.depth_mm.data[i] = 0;
+    }
+  }
+  frame.depth.depth_mm = std::move(sensed.depth_mm.data);
+  return frame;
+}
+
+std::optional<LabelledFrame> FrameMaker::State::Try(int64_t index, int attempt) {
+  Random random = options.sequence ? StreamOf(options.seed, kSceneStream, 0, attempt)
+                                   : StreamOf(options.seed, kSceneStream, index, attempt);
+  for (int person = 0; person < options.people; ++person) Dress(index, person);
+  const ViewSample view = SampleView({.view = options.view,
+                                      .split = options.split,
+                                      .width = options.width,
+                                      .height = options.height,
+                                      .person_height_m = wearers[0].body.height_m,
+                                      .generic_cameras = options.generic_cameras},
+                                     random);
+  const auto places = SamplePlaces(options.people, random);
+  std::vector<TruthBody> bodies;
+  Box box;
+  for (size_t person = 0; person < places.size(); ++person) {
+    const double heading_rad =
+        person == 0 ? view.facing_rad : view.facing_rad + random.Uniform(-1.5, 1.5);
+    recon::RigPose pose = Turned(DrawPose(index, random), heading_rad);
+    if (!options.sequence) {
+      recon::CloseHands(wearers[person].body, random.Uniform(0, 1), random.Uniform(0, 1), &pose);
+    }
+    pose.root_m += places[person] / wearers[person].body.root_scale;
+    bodies.push_back(
+        {static_cast<int>(person) + 1, Pose(pose, person, view.camera_from_world), {}});
+    renderer.UpdateVertices(mesh_of_person[person], posed_m[person]);
+    box = Union(box, Cover(posed_m[person], view.camera));
+  }
+  if (options.background == Background::kRoom) {
+    box = {0, 0, view.camera.width - 1, view.camera.height - 1};
+  }
+  if (box.u1 - box.u0 < 2 || box.v1 - box.v0 < 2) return std::nullopt;
+
+  recon::Posture joints_in_world = bodies[0].joints_m;
+  for (auto& joint_m : joints_in_world.position_m) {
+    joint_m = view.camera_from_world.inverse() * joint_m;
+  }
+  auto props = SampleProps(options.occluders, joints_in_world, view.camera_from_world, random);
+  if (options.background == Background::kRoom || random.Chance(kRoomShare)) {
+    for (Prop& prop : SampleRoom(view.camera_from_world, random)) props.push_back(std::move(prop));
+  }
+  Random noise = StreamOf(options.seed, kNoiseStream, index, attempt);
+  LabelledFrame frame = Shoot(view, props, box, noise.Bits());
+  frame.bodies = std::move(bodies);
+  frame.depth.index = index;
+  frame.depth.time_s = static_cast<double>(index) / 30.0;
+  const Eigen::Vector3d up = view.camera_from_world.linear().col(1);
+  frame.floor =
+      Eigen::Vector4d(up.x(), up.y(), up.z(), -up.dot(view.camera_from_world.translation()));
+  MarkVisibleJoints(&frame);
+  return frame;
+}
+
+namespace {
+
+bool ShowsEnough(const LabelledFrame& frame, int width) {
+  constexpr double kLeastPixels = 900;  // of a 640-pixel-wide image: half a head at 2 m
+  constexpr int kLeastJoints = 4;
+  const auto pixels = static_cast<double>(
+      std::count_if(frame.parts.data.begin(), frame.parts.data.end(),
+                    [](uint8_t part) { return part > 0 && part <= recon::kPartCount; }));
+  const auto& visible = frame.bodies[0].visible;
+  return pixels >= kLeastPixels * (width / 640.0) * (width / 640.0) &&
+         std::count(visible.begin(), visible.end(), true) >= kLeastJoints;
+}
+
+}  // namespace
+
+FrameMaker::FrameMaker(const FrameStudio& studio) : state_(std::make_unique<State>(studio)) {}
+FrameMaker::~FrameMaker() = default;
+
+LabelledFrame FrameMaker::Make(int64_t index) {
+  std::optional<LabelledFrame> frame;
+  for (int attempt = 0; attempt < kMostTries; ++attempt) {
+    auto next = state_->Try(index, attempt);
+    if (!next) continue;
+    frame = std::move(next);
+    if (state_->options.sequence || ShowsEnough(*frame, state_->options.width)) break;
+  }
+  if (!frame) throw std::runtime_error("no view of frame " + std::to_string(index));
+  return std::move(*frame);
+}
+
+}  // namespace ossa::tools

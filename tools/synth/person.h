@@ -1,0 +1,18 @@
+#pragma once
+#include <Eigen/Core>
+#include <vector>
+
+#include "recon/body/body_model.h"
+#include "recon/body/clothing.h"
+#include "tools/synth/random.h"
+#include "tools/synth/view_sampler.h"
+
+namespace ossa::tools {
+
+/// Shapes as they are among people: men and women, one in six a child, thin and stout, 1.2-2.0 m.
+/// Train and test shapes come from disjoint cells of muscle, weight and height.
+recon::BodyShape SampleShape(Split split, Random& random);
+
+recon::Clothing SampleClothing(Random& random);
+
+}  // namespace ossa::tools

@@ -1,0 +1,222 @@
+#include "tools/synth/render_dataset.h"
+
+#include <atomic>
+#include <cstdio>
+#include <exception>
+#include <fstream>
+#include <mutex>
+#include <sstream>
+#include <thread>
+
+#include "depth/error.h"
+#include "depth/file/atomic_file.h"
+#include "depth/image/depth_png.h"
+#include "tools/synth/manifest_internal.h"
+#include "tools/synth/shard_internal.h"
+
+namespace ossa::tools {
+namespace {
+
+namespace fs = std::filesystem;
+
+// The unit of work, of resuming and of a shard file. Small enough that two threads end together.
+constexpr int64_t kFramesPerChunk = 64;
+
+int64_t ChunkCount(const RenderJob& job) {
+  return (job.frames + kFramesPerChunk - 1) / kFramesPerChunk;
+}
+
+std::string Numbered(int64_t number, const char* extension) {
+  char name[40];
+  std::snprintf(name, sizeof(name), "%06lld%s", static_cast<long long>(number), extension);
+  return name;
+}
+
+fs::path WorkFolder(const RenderJob& job) { return job.out / ".work"; }
+fs::path TruthChunk(const RenderJob& job, int64_t chunk) {
+  return WorkFolder(job) / Numbered(chunk, ".jsonl");
+}
+
+void WriteText(const fs::path& path, const std::string& text) {
+  AtomicFile file(path);
+  file.stream() << text;
+  file.Commit();
+}
+
+std::string ReadText(const fs::path& path) {
+  std::ifstream file(path, std::ios::binary);
+  std::ostringstream text;
+  text << file.rdbuf();
+  return text.str();
+}
+
+DatasetManifest ManifestOf(const FrameStudio& studio, const RenderJob& job) {
+  DatasetManifest manifest;
+  manifest.frames = job.frames;
+  manifest.camera = depth::KinectV1Camera(studio.options.width, studio.options.height);
+  manifest.seed = studio.options.seed;
+  manifest.command = job.command;
+  manifest.split = studio.options.split == Split::kTest ? "test" : "train";
+  manifest.view = studio.options.view == View::kFront  ? "front"
+                  : studio.options.view == View::kNear ? "near"
+                                                       : "any";
+  manifest.sources = job.sources;
+  manifest.terms = job.terms;
+  manifest.png = job.png;
+  manifest.packed = job.packed;
+  manifest.frames_per_shard = kFramesPerChunk;
+  return manifest;
+}
+
+void MakeFolder(const fs::path& folder) {
+  std::error_code error;
+  fs::create_directories(folder, error);
+  if (error) throw InputError(folder.string() + ": cannot be made: " + error.message());
+}
+
+// Claims the folder for this job, or finds that it was claimed for the same.
+void PrepareFolder(const RenderJob& job, const std::string& plan) {
+  const fs::path manifest = job.out / "manifest.json";
+  const fs::path started = WorkFolder(job) / "plan.json";
+  for (const fs::path& path : {manifest, started}) {
+    if (fs::exists(path) && ReadText(path) != plan) {
+      throw InputError(path.string() + ": another data set is there: expected " + job.command +
+                       " or an empty folder");
+    }
+  }
+  if (fs::exists(manifest)) return;
+  if (!fs::exists(started) && fs::exists(job.out) && !fs::is_empty(job.out)) {
+    // Ranks of one job may arrive while others have begun: only foreign things matter.
+    for (const auto& entry : fs::directory_iterator(job.out)) {
+      if (entry.path().filename() == ".work") continue;
+      throw InputError(job.out.string() + ": expected an empty folder, found " +
+                       entry.path().filename().string());
+    }
+  }
+  MakeFolder(WorkFolder(job));
+  WriteText(started, plan);
+  if (job.packed) MakeFolder(job.out / "shards");
+  if (!job.png) return;
+  for (const char* kind : {"depth", "parts", "users"}) MakeFolder(job.out / kind);
+}
+
+// A crop put back into an image of the camera's size.
+template <typename T>
+std::vector<T> Uncropped(const std::vector<T>& crop, const depth::Camera& from,
+                         const depth::Camera& whole) {
+  const int u0 = static_cast<int>(std::lround(whole.cx - from.cx));
+  const int v0 = static_cast<int>(std::lround(whole.cy - from.cy));
+  std::vector<T> image(static_cast<size_t>(whole.width) * static_cast<size_t>(whole.height), T{0});
+  for (int v = 0; v < from.height; ++v) {
+    std::copy_n(crop.begin() + static_cast<ptrdiff_t>(v) * from.width, from.width,
+                image.begin() + static_cast<ptrdiff_t>(v + v0) * whole.width + u0);
+  }
+  return image;
+}
+
+void WritePngs(const RenderJob& job, const depth::Camera& whole, const LabelledFrame& frame) {
+  const auto& crop = frame.depth.camera;
+  const std::string name = Numbered(frame.depth.index, ".png");
+  const auto depth_mm = Uncropped(frame.depth.depth_mm, crop, whole);
+  depth::WriteDepthPng(job.out / "depth" / name,
+                       {depth_mm.data(), whole.width, whole.height, whole.width});
+  depth::Image<uint8_t> labels(whole.width, whole.height);
+  labels.data = Uncropped(frame.parts.data, crop, whole);
+  depth::WriteLabelPng(job.out / "parts" / name, labels);
+  labels.data = Uncropped(frame.users.data, crop, whole);
+  depth::WriteLabelPng(job.out / "users" / name, labels);
+}
+
+bool ChunkIsThere(const RenderJob& job, int64_t chunk) {
+  return (!job.png || fs::exists(TruthChunk(job, chunk))) &&
+         (!job.packed || fs::exists(ShardPath(job.out, chunk)));
+}
+
+// Returns false when interrupted: then nothing of the chunk counts as made.
+bool RenderChunk(const RenderJob& job, const depth::Camera& whole, int64_t chunk, FrameMaker* maker,
+                 std::atomic<int64_t>* done) {
+  const int64_t first = chunk * kFramesPerChunk;
+  const int64_t end = std::min(first + kFramesPerChunk, job.frames);
+  std::vector<std::vector<uint8_t>> blobs;
+  std::string truth;
+  for (int64_t index = first; index < end; ++index) {
+    if (job.interrupted()) return false;
+    const LabelledFrame frame = maker->Make(index);
+    if (job.packed) blobs.push_back(PackFrame(frame));
+    if (job.png) {
+      WritePngs(job, whole, frame);
+      truth += TruthLine(frame) + "\n";
+    }
+    ++*done;
+  }
+  if (job.packed) WriteShard(ShardPath(job.out, chunk), first, blobs);
+  if (job.png) WriteText(TruthChunk(job, chunk), truth);
+  return true;
+}
+
+}  // namespace
+
+RenderEnd RenderShare(const FrameStudio& studio, const RenderJob& job) {
+  const DatasetManifest manifest = ManifestOf(studio, job);
+  PrepareFolder(job, ManifestToJson(manifest));
+  if (fs::exists(job.out / "manifest.json")) return RenderEnd::kDone;
+  std::vector<int64_t> chunks;
+  std::atomic<int64_t> done = 0;
+  for (int64_t chunk = job.rank; chunk < ChunkCount(job); chunk += job.ranks) {
+    if (ChunkIsThere(job, chunk)) {
+      done += std::min(kFramesPerChunk, job.frames - chunk * kFramesPerChunk);
+    } else {
+      chunks.push_back(chunk);
+    }
+  }
+  std::atomic<size_t> next = 0;
+  std::atomic<int> running = 0;
+  std::atomic<bool> stopped = false;
+  std::exception_ptr failure;
+  std::mutex failure_mutex;
+  const auto work = [&] {
+    try {
+      FrameMaker maker(studio);
+      for (size_t k = next++; k < chunks.size() && !stopped; k = next++) {
+        if (!RenderChunk(job, manifest.camera, chunks[k], &maker, &done)) stopped = true;
+      }
+    } catch (...) {
+      const std::lock_guard lock(failure_mutex);
+      if (!failure) failure = std::current_exception();
+      stopped = true;
+    }
+    --running;
+  };
+  const auto thread_count =
+      std::min(static_cast<size_t>(std::max(1, job.threads)), std::max<size_t>(1, chunks.size()));
+  std::vector<std::jthread> threads;
+  running = static_cast<int>(thread_count);
+  for (size_t t = 0; t < thread_count; ++t) threads.emplace_back(work);
+  while (running > 0) {
+    job.progress(done);
+    std::this_thread::sleep_for(std::chrono::milliseconds(50));
+  }
+  threads.clear();
+  if (failure) std::rethrow_exception(failure);
+  if (stopped) return RenderEnd::kInterrupted;
+  job.progress(done);
+  return RenderEnd::kDone;
+}
+
+void FinishDataset(const FrameStudio& studio, const RenderJob& job) {
+  if (fs::exists(job.out / "manifest.json")) return;
+  if (job.png) {
+    AtomicFile truth(job.out / "truth.jsonl");
+    for (int64_t chunk = 0; chunk < ChunkCount(job); ++chunk) {
+      const std::string text = ReadText(TruthChunk(job, chunk));
+      if (text.empty()) throw InputError(TruthChunk(job, chunk).string() + ": is missing or empty");
+      truth.stream() << text;
+    }
+    truth.Commit();
+  }
+  WriteText(job.out / "manifest.json", ManifestToJson(ManifestOf(studio, job)));
+  std::error_code ignored;
+  fs::remove_all(WorkFolder(job), ignored);
+}
+
+}  // namespace ossa::tools
