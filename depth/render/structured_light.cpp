@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 #include <utility>
+#include <vector>
 
 namespace ossa::depth {
 namespace {
@@ -30,20 +31,51 @@ float Normal(uint64_t hash) {
   return (sum - 2.0F) * 1.7320508F;
 }
 
-/// Two roughly normal numbers of one hash: sums of two uniforms each, variance 2 / 12.
-std::pair<float, float> NormalPair(uint64_t hash) {
-  return {(Uniform(hash, 0) + Uniform(hash, 1) - 1.0F) * 2.4494897F,
-          (Uniform(hash, 2) + Uniform(hash, 3) - 1.0F) * 2.4494897F};
-}
-
 int Rounded(float value) { return static_cast<int>(std::floor(value + 0.5F)); }
 
-enum Stream : uint64_t { kPhase, kShift, kChance, kWindowNoise, kPixelNoise, kStreamCount };
+/// Normal noise that neighbours share: a coarse grid, interpolated between its nodes.
+class WavyNoise {
+ public:
+  WavyNoise(int width, int height, float cell_px, uint64_t seed)
+      : columns_(static_cast<int>(static_cast<float>(width) / cell_px) + 2),
+        scale_(1.0F / cell_px) {
+    const int rows = static_cast<int>(static_cast<float>(height) / cell_px) + 2;
+    for (int i = 0; i < columns_ * rows; ++i) {
+      nodes_.push_back(Normal(Hash(seed, static_cast<uint64_t>(i))));
+    }
+  }
+  float At(int u, int v) const {
+    constexpr float kRestore = 1.5F;  // between nodes the variance is 4/9 of theirs on average
+    const float x = static_cast<float>(u) * scale_;
+    const float y = static_cast<float>(v) * scale_;
+    const int column = static_cast<int>(x);
+    const int row = static_cast<int>(y);
+    const float fx = x - static_cast<float>(column);
+    const float fy = y - static_cast<float>(row);
+    const float* node = nodes_.data() + static_cast<ptrdiff_t>(row) * columns_ + column;
+    const float top = node[0] + fx * (node[1] - node[0]);
+    const float bottom = node[columns_] + fx * (node[columns_ + 1] - node[columns_]);
+    return kRestore * (top + fy * (bottom - top));
+  }
+
+ private:
+  int columns_;
+  float scale_;
+  std::vector<float> nodes_;
+};
+
+enum Stream : uint64_t {
+  kPhase,
+  kShiftU,
+  kShiftV,
+  kChance,
+  kWindowNoise,
+  kPixelNoise,
+  kStreamCount
+};
 
 /// What the pixels of one matching window have in common.
 struct Window {
-  int shift_u = 0;
-  int shift_v = 0;
   uint64_t chance = 0;
   float noise_px = 0.0F;
 };
@@ -52,10 +84,17 @@ class Sensor {
  public:
   Sensor(const RenderedImage& rendered, const Camera& camera, const StructuredLightOptions& options,
          uint64_t seed)
-      : rendered_(rendered), options_(options), width_(camera.width), height_(camera.height) {
+      : rendered_(rendered),
+        options_(options),
+        width_(camera.width),
+        height_(camera.height),
+        scale_(
+            static_cast<float>(options.whole_width_px > 0 ? options.whole_width_px : camera.width) /
+            640.0F),
+        lateral_px_(static_cast<float>(options.lateral_noise_px) * scale_),
+        shift_u_(width_, height_, CellOf(options, scale_), Hash(seed, kShiftU)),
+        shift_v_(width_, height_, CellOf(options, scale_), Hash(seed, kShiftV)) {
     for (uint64_t stream = 0; stream < kStreamCount; ++stream) seeds_[stream] = Hash(seed, stream);
-    const int whole_px = options.whole_width_px > 0 ? options.whole_width_px : camera.width;
-    scale_ = static_cast<float>(whole_px) / 640.0F;
     // The pattern's windows are of the sensor: fewer pixels where the image is scaled down.
     window_ = std::max(1, Rounded(static_cast<float>(options.window_px) * scale_));
     disparity_times_depth_ =
@@ -80,12 +119,13 @@ class Sensor {
   int rows_of_windows() const { return (height_ + window_ - 1) / window_; }
 
  private:
+  static float CellOf(const StructuredLightOptions& options, float scale) {
+    return std::max(1.0F, static_cast<float>(options.lateral_cell_px) * scale);
+  }
+
   Window WindowAt(int u, int row) const {
     const uint64_t place = static_cast<uint64_t>(row) * 65536 + static_cast<uint64_t>(u);
-    const auto [along_u, along_v] = NormalPair(Hash(seeds_[kShift], place));
-    const auto sigma_px = static_cast<float>(options_.lateral_noise_px) * scale_;
-    return {Rounded(sigma_px * along_u), Rounded(sigma_px * along_v), Hash(seeds_[kChance], place),
-            Normal(Hash(seeds_[kWindowNoise], place))};
+    return {Hash(seeds_[kChance], place), Normal(Hash(seeds_[kWindowNoise], place))};
   }
 
   /// False where no surface is within reach of the window's shift: most of an empty image.
@@ -104,8 +144,8 @@ class Sensor {
   /// Reads pixel (u, v) and notes the rendered pixel it came from; leaves both alone when there is
   /// no reading.
   void Read(int u, int v, const Window& window, SensorImage& image) const {
-    const int from_u = std::clamp(u + window.shift_u, 0, width_ - 1);
-    const int from_v = std::clamp(v + window.shift_v, 0, height_ - 1);
+    const int from_u = std::clamp(u + Rounded(lateral_px_ * shift_u_.At(u, v)), 0, width_ - 1);
+    const int from_v = std::clamp(v + Rounded(lateral_px_ * shift_v_.At(u, v)), 0, height_ - 1);
     float depth_m = rendered_.depth_m.at(from_u, from_v);
     if (depth_m <= 0.0F || rendered_.lit.at(from_u, from_v) == 0) return;
     if (DropsOut(from_u, from_v, window.chance)) return;
@@ -165,8 +205,10 @@ class Sensor {
   const StructuredLightOptions& options_;
   int width_;
   int height_;
+  float scale_;
+  float lateral_px_;
+  WavyNoise shift_u_, shift_v_;
   int window_ = 1;
-  float scale_ = 1.0F;
   float disparity_times_depth_ = 0.0F;
   std::array<uint64_t, kStreamCount> seeds_{};
 };

@@ -16,18 +16,21 @@ struct StructuredLightOptions {
   /// z² / (8 f b) = 2.9e-6 z² mm, the 4-5 mm at 1.2 m and 46 mm at 4 m of the real frames
   /// (FACTS.md).
   double disparity_step_px = 0.125;
-  /// Standard deviation of the disparity, same pixels. Khoshelham & Elberink 2012, sec. 4: half a
-  /// step, which gives 1.4 mm at 1 m and 23 mm at 4 m.
-  double disparity_noise_px = 0.0625;
+  /// Standard deviation of the disparity, same pixels: a quarter step. Departure: Khoshelham &
+  /// Elberink 2012, sec. 4, have half a step; in the real frames a plane through 5 × 5 pixels
+  /// leaves 1.25 mm at 1.1 m and 2.7 mm at 1.9 m, little more than the steps alone.
+  double disparity_noise_px = 0.025;
   /// Noise of one matching window is shared by this many pixels each way (640 wide).
   int window_px = 3;
-  /// Standard deviation of where a window's measure comes from, pixels; Nguyen 2012: 0.8 px.
-  double lateral_noise_px = 0.8;
+  /// Standard deviation of where a window's measure comes from, pixels, and how far neighbours go
+  /// together: outlines waver by a pixel or two in waves of ten, as in the real frames.
+  double lateral_noise_px = 0.9;
+  int lateral_cell_px = 6;
   /// Surfaces begin to drop out below this |cos| of incidence and are gone at half of it.
   double grazing_cos = 0.2;
-  double dropout = 0.002;      // share of windows that fail anywhere
-  double edge_dropout = 0.25;  // ... whose neighbourhood has a depth edge
-  double edge_mixed = 0.04;    // ... that mix near and far instead of choosing
+  double dropout = 0.0002;     // share of windows that fail anywhere
+  double edge_dropout = 0.08;  // ... whose neighbourhood has a depth edge
+  double edge_mixed = 0.03;    // ... that mix near and far instead of choosing
   double nearest_m = 0.4;      // nothing is read nearer than this, nor
   double farthest_m = 8.0;     // farther than this
   /// Width of the whole image, pixels, when the camera is a crop of it; 0: it is not.

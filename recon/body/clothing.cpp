@@ -62,7 +62,8 @@ class Waves {
 
 // The neutral body's heights, metres over the soles.
 constexpr float kSkullFrom_m = 1.50f;  // hair grows above, on the back of the head
-constexpr float kForehead_m = 1.60f;   // and above this also in front
+constexpr float kFringe_m = 1.60f, kEars_m = 0.06f;
+constexpr float kForehead_m = 1.60f;  // and above this also in front
 constexpr float kWaist_m = 1.00f, kCrotch_m = 0.80f;
 constexpr float kKnee_m = 0.475f;
 
@@ -79,7 +80,7 @@ Wardrobe::Wardrobe(const BodyModel& model) : model_(&model) {
     if (model.vertex_layer()[i] != BodyLayer::kSkin) {
       place.region =
           model.vertex_layer()[i] == BodyLayer::kSkirt ? Region::kSkirt : Region::kLongHair;
-      place.along = p.y();
+      place.before_face = p.z() > kEars_m;
     } else if (part <= 4) {
       const bool skull = p.y() > kForehead_m || (p.y() > kSkullFrom_m && p.z() < 0.05f);
       place.region = skull ? Region::kSkull : Region::kNone;
@@ -147,7 +148,8 @@ std::vector<Eigen::Vector3f> Wardrobe::Dress(const ShapedBody& body,
         continue;
       case Region::kLongHair:
         if (clothing.long_hair_end > 0) {
-          p.y() = std::max(p.y(), hair_end_m);
+          // Strands before the face are cut to a fringe.
+          p.y() = std::max(p.y(), place.before_face ? scale * kFringe_m : hair_end_m);
           p += 0.012f * waves.At(p) * body.normals[i];
         }
         continue;

@@ -260,7 +260,7 @@ namespace {
 
 bool ShowsEnough(const LabelledFrame& frame, int width) {
   constexpr double kLeastPixels = 900;  // of a 640-pixel-wide image: half a head at 2 m
-  constexpr int kLeastJoints = 4;
+  constexpr int kLeastJoints = 5;
   const auto pixels = static_cast<double>(
       std::count_if(frame.parts.data.begin(), frame.parts.data.end(),
                     [](uint8_t part) { return part > 0 && part <= recon::kPartCount; }));

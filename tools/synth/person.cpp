@@ -70,7 +70,7 @@ recon::Clothing SampleClothing(Random& random) {
   wear.hair_m = random.Chance(0.15)  ? 0.0
                 : random.Chance(0.8) ? random.Uniform(0.004, 0.03)
                                      : random.Uniform(0.03, 0.06);
-  if (random.Chance(0.22)) wear.long_hair_end = random.Uniform(0.15, 1.0);
+  if (random.Chance(0.18)) wear.long_hair_end = random.Uniform(0.15, 1.0);
   if (random.Chance(0.1)) {
     wear.skirt_end = random.Uniform(0.4, 1.4);
     wear.skirt_flare = random.Uniform(0.0, 0.35);
