@@ -2,13 +2,17 @@
 
 #include <algorithm>
 #include <filesystem>
+#include <map>
+#include <memory>
 #include <optional>
 
 #include "depth/error.h"
+#include "recon/motion/acclaim_internal.h"
 #include "recon/motion/authored.h"
 #include "recon/motion/bone_names_internal.h"
 #include "recon/motion/bvh.h"
 #include "recon/motion/bvh_source_internal.h"
+#include "recon/motion/humanoid3d_internal.h"
 #include "recon/motion/retarget_internal.h"
 #include "recon/motion/text_scanner_internal.h"
 
@@ -22,7 +26,18 @@ std::string SubjectOf(const std::string& stem) {
   const size_t first = stem.find('_');
   if (first == std::string::npos) return "";
   if (stem.starts_with("HDM_")) return stem.substr(4, stem.find('_', 4) - 4);
-  return stem.substr(0, first);
+  return stem.starts_with("humanoid3d_") ? "humanoid3d" : stem.substr(0, first);
+}
+
+enum class Kind { kOther, kBvh, kAmc, kHumanoid3d };
+
+Kind KindOf(const fs::path& path) {
+  const std::string extension = Lower(path.extension().string());
+  if (extension == ".bvh") return Kind::kBvh;
+  if (extension == ".amc") return Kind::kAmc;
+  const bool humanoid = Lower(path.filename().string()).starts_with("humanoid3d_");
+  return humanoid && (extension == ".txt" || extension == ".json") ? Kind::kHumanoid3d
+                                                                   : Kind::kOther;
 }
 
 std::vector<fs::path> MotionFilesIn(const fs::path& folder) {
@@ -30,30 +45,71 @@ std::vector<fs::path> MotionFilesIn(const fs::path& folder) {
   std::error_code error;
   for (auto it = fs::recursive_directory_iterator(folder, error);
        !error && it != fs::recursive_directory_iterator(); it.increment(error)) {
-    if (it->is_regular_file(error) && Lower(it->path().extension().string()) == ".bvh") {
+    if (it->is_regular_file(error) && KindOf(it->path()) != Kind::kOther) {
       files.push_back(it->path());
     }
   }
   if (error) throw InputError(folder.string() + ": cannot be listed: " + error.message());
+  if (files.empty()) {
+    throw InputError(folder.string() +
+                     ": expected .bvh, .amc or humanoid3d_*.txt files in the folder, found none");
+  }
   std::sort(files.begin(), files.end());
   return files;
 }
 
-MotionClip LoadFile(const fs::path& path, const std::optional<BoneMapping>& mapping,
-                    double frame_s) {
-  const SourceMotion motion = SourceOf(ReadBvh(path), path.string());
-  MotionClip clip = Retarget(motion, FindBones(motion, mapping), frame_s);
-  clip.name = path.stem().string();
-  clip.subject = SubjectOf(clip.name);
-  return clip;
-}
+/// Loads files one after another; each ASF is read once.
+class Loader {
+ public:
+  explicit Loader(const MocapOptions& options) : options_(options) {
+    if (!options.mapping_file.empty()) mapping_ = ReadBoneMapping(options.mapping_file);
+  }
+
+  MotionClip Load(const fs::path& path) {
+    const SourceMotion motion = Read(path);
+    const bool known = KindOf(path) == Kind::kHumanoid3d;  // its joints are ours
+    MotionClip clip =
+        Retarget(motion, FindBones(motion, known ? std::nullopt : mapping_), options_.frame_s);
+    clip.name = path.stem().string();
+    clip.subject = SubjectOf(clip.name);
+    return clip;
+  }
+
+ private:
+  SourceMotion Read(const fs::path& path) {
+    const std::string name = path.string();
+    switch (KindOf(path)) {
+      case Kind::kBvh:
+        return SourceOf(ReadBvh(path), name);
+      case Kind::kAmc:
+        return ParseAmc(ReadTextFile(path), name, SkeletonOf(path), 1.0 / options_.amc_hz);
+      case Kind::kHumanoid3d:
+        return ParseHumanoid3d(ReadTextFile(path), name);
+      case Kind::kOther:
+        break;
+    }
+    throw InputError(name + ": expected a .bvh, .amc or humanoid3d_*.txt file");
+  }
+
+  std::shared_ptr<const AcclaimSkeleton> SkeletonOf(const fs::path& amc) {
+    const std::string asf = AsfBeside(amc).string();
+    auto& skeleton = skeletons_[asf];
+    if (!skeleton) {
+      skeleton = std::make_shared<const AcclaimSkeleton>(ParseAsf(ReadTextFile(asf), asf));
+    }
+    return skeleton;
+  }
+
+  const MocapOptions& options_;
+  std::optional<BoneMapping> mapping_;
+  std::map<std::string, std::shared_ptr<const AcclaimSkeleton>> skeletons_;
+};
 
 }  // namespace
 
 std::vector<MotionClip> LoadMocap(const std::vector<std::string>& sources,
                                   const MocapOptions& options) {
-  std::optional<BoneMapping> mapping;
-  if (!options.mapping_file.empty()) mapping = ReadBoneMapping(options.mapping_file);
+  Loader loader(options);
   std::vector<MotionClip> clips;
   for (const std::string& source : sources) {
     if (source == "authored") {
@@ -68,8 +124,7 @@ std::vector<MotionClip> LoadMocap(const std::vector<std::string>& sources,
     }
     const auto files =
         fs::is_directory(source) ? MotionFilesIn(source) : std::vector<fs::path>{source};
-    if (files.empty()) throw InputError(source + ": expected .bvh files in the folder, found none");
-    for (const fs::path& file : files) clips.push_back(LoadFile(file, mapping, options.frame_s));
+    for (const fs::path& file : files) clips.push_back(loader.Load(file));
   }
   std::stable_sort(clips.begin(), clips.end(),
                    [](const MotionClip& a, const MotionClip& b) { return a.name < b.name; });

@@ -10,6 +10,7 @@ namespace ossa::recon {
 struct MocapOptions {
   double frame_s = 1.0 / 30.0;  // clips are resampled to this step
   uint64_t seed = 1;            // variation of the authored clips
+  double amc_hz = 120.0;        // AMC files do not say; CMU and HDM05 publish at 120
   std::string mapping_file;     // bone names of an unknown conversion; "" = the known ones only
 };
 

@@ -1,0 +1,14 @@
+#pragma once
+#include <string>
+
+#include "recon/motion/source_motion_internal.h"
+
+namespace ossa::recon {
+
+/// A motion of pybullet's DeepMimic humanoid (humanoid3d_*.txt): JSON {Loop, Frames}, each frame 44
+/// numbers: seconds to the next frame, root place (metres, y up), root quaternion w x y z, then the
+/// joints' turns against their parents: chest 4, neck 4, right hip 4, knee 1, ankle 4, shoulder 4,
+/// elbow 1, the same of the left. At rest it stands with hanging arms and faces +x.
+SourceMotion ParseHumanoid3d(const std::string& text, const std::string& source);
+
+}  // namespace ossa::recon
