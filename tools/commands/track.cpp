@@ -72,14 +72,17 @@ TrackOptions ParseOptions(int argc, char** argv) {
       ->check(CLI::IsMember({"final", "reconstructed", "raw"}));
   AddTrackerOptions(app, options);
   app.add_option("--camera", options.camera, "kinect-v1 or fx,fy,cx,cy in pixels");
-  app.add_option("--frames", options.frames, "stop after so many frames")->check(CLI::PositiveNumber);
+  app.add_option("--frames", options.frames, "stop after so many frames")
+      ->check(CLI::PositiveNumber);
   app.add_option("--wait", options.wait_s, "wait so many seconds for a device to be plugged in")
       ->check(CLI::NonNegativeNumber);
   app.add_option("--patience", options.patience_s,
                  "give up on a device that is unplugged or silent for so many seconds (default 5)")
       ->check(CLI::PositiveNumber);
-  app.add_option("--json-stats", options.json_stats, "milliseconds a stage, frames a second, memory");
-  app.add_option("--picture", options.picture, "FILE.png of one frame: depth, parts, joints, skeleton");
+  app.add_option("--json-stats", options.json_stats,
+                 "milliseconds a stage, frames a second, memory");
+  app.add_option("--picture", options.picture,
+                 "FILE.png of one frame: depth, parts, joints, skeleton");
   app.add_option("--pictures", options.pictures, "folder for such a picture of every frame");
   app.add_flag("--view", options.view, "show it in a browser while it runs (127.0.0.1)");
   app.add_option("--port", options.port, "of --view (default 8080)")->check(CLI::Range(0, 65535));
@@ -87,7 +90,8 @@ TrackOptions ParseOptions(int argc, char** argv) {
   Parse(app, argc, argv);
   if (options.out.empty() && options.picture.empty() && options.pictures.empty() && !options.view &&
       options.json_stats.empty()) {
-    throw UsageError("track: nothing to do: name --out, --picture, --pictures, --json-stats or --view");
+    throw UsageError(
+        "track: nothing to do: name --out, --picture, --pictures, --json-stats or --view");
   }
   options.tracker.physics = options.physics == "on";
   options.tracker.smoothing = tracker::SmoothingPreset(options.smoothing);
@@ -148,7 +152,8 @@ size_t TrackedJoints(const tracker::BodyFrame& bodies) {
 // The one picture shows the frame in which most is tracked (the latest of equals).
 class Pictures {
  public:
-  explicit Pictures(const TrackOptions& options) : one_(options.picture), folder_(options.pictures) {
+  explicit Pictures(const TrackOptions& options)
+      : one_(options.picture), folder_(options.pictures) {
     if (!folder_.empty()) std::filesystem::create_directories(folder_);
   }
   void Take(const depth::DepthFrame& frame, const tracker::BodyFrame& bodies) {
@@ -228,7 +233,8 @@ void Report(const TrackOptions& options, const Run& run) {
                options.source, what, options.patience_s, run.stats.frames());
   }
   if (!options.quiet) {
-    fmt::print("{} frames, {} dropped, {} reconnections\n", run.stats.frames(), run.dropped, run.lost_gaps);
+    fmt::print("{} frames, {} dropped, {} reconnections\n", run.stats.frames(), run.dropped,
+               run.lost_gaps);
   }
 }
 

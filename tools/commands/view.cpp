@@ -48,7 +48,8 @@ class Clockwork {
 void ShowSkeletons(const ViewOptions& options, viewer::Viewer& viewer) {
   const recon::SkeletonSequence sequence = recon::ReadSkeletons(options.what);
   depth::DepthFrame blank;
-  blank.depth_mm.assign(static_cast<size_t>(blank.camera.width) * static_cast<size_t>(blank.camera.height), 0);
+  blank.depth_mm.assign(
+      static_cast<size_t>(blank.camera.width) * static_cast<size_t>(blank.camera.height), 0);
   Clockwork clockwork;
   do {
     for (const recon::SkeletonFrame& frame : sequence.frames) {
@@ -81,11 +82,13 @@ void ShowSource(const ViewOptions& options, viewer::Viewer& viewer) {
 int View(int argc, char** argv) {
   CLI::App app("Show a SOURCE being tracked, or a skeleton FILE, in a browser on this machine");
   ViewOptions options;
-  app.add_option("SOURCE", options.what, "any SOURCE of 'ossa track', or a skeleton file")->required();
+  app.add_option("SOURCE", options.what, "any SOURCE of 'ossa track', or a skeleton file")
+      ->required();
   app.add_option("--port", options.port, "on 127.0.0.1 (default 8080, 0: any free one)")
       ->check(CLI::Range(0, 65535));
   app.add_option("--camera", options.camera, "kinect-v1 or fx,fy,cx,cy in pixels");
-  app.add_option("--model", options.tracker.model, "forest model, .ossa (default: the shipped one)");
+  app.add_option("--model", options.tracker.model,
+                 "forest model, .ossa (default: the shipped one)");
   app.add_option("--database", options.tracker.database, "posture database, .ossadb");
   app.add_option("--method", options.tracker.method, "how postures are completed");
   app.add_flag("--once", options.once, "end with the recording instead of starting over");

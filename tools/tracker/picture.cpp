@@ -25,7 +25,8 @@ cv::Mat DepthPanel(const depth::DepthFrame& frame) {
   std::sort(sorted.begin(), sorted.end());
   const auto rank = [&](double share) {
     if (sorted.empty()) return 0.0;
-    return static_cast<double>(sorted[static_cast<size_t>(share * static_cast<double>(sorted.size() - 1))]);
+    return static_cast<double>(
+        sorted[static_cast<size_t>(share * static_cast<double>(sorted.size() - 1))]);
   };
   const double near = rank(0.01), far = std::max(rank(0.97), near + 1);
   cv::Mat panel(frame.camera.height, frame.camera.width, CV_8UC3, cv::Scalar::all(0));
@@ -42,7 +43,7 @@ cv::Mat DepthPanel(const depth::DepthFrame& frame) {
 }
 
 cv::Scalar BodyColour(int id) {
-  static const cv::Scalar colours[] = {{80, 200, 255}, {120, 255, 120}, {255, 160, 90},
+  static const cv::Scalar colours[] = {{80, 200, 255},  {120, 255, 120}, {255, 160, 90},
                                        {200, 120, 255}, {255, 255, 110}, {110, 130, 255}};
   return colours[static_cast<size_t>(std::max(0, id - 1)) % std::size(colours)];
 }
@@ -73,13 +74,15 @@ void DrawJoints(cv::Mat& panel, const depth::Camera& camera, const recon::Postur
                 const Body& body, bool bones, bool all) {
   const int thick = std::max(1, camera.width / 200);
   const auto shown = [&](size_t j) {
-    return Drawable(posture.position_m[j]) && (all || body.raw.state[j] != TrackingState::kNotTracked);
+    return Drawable(posture.position_m[j]) &&
+           (all || body.raw.state[j] != TrackingState::kNotTracked);
   };
   for (size_t j = 1; bones && j < kJointCount; ++j) {
     const auto parent = static_cast<size_t>(recon::kJointParent[j]);
     if (!shown(j) || !shown(parent)) continue;
     const bool seen = body.raw.state[j] == TrackingState::kTracked;
-    cv::line(panel, PixelOf(camera, posture.position_m[parent]), PixelOf(camera, posture.position_m[j]),
+    cv::line(panel, PixelOf(camera, posture.position_m[parent]),
+             PixelOf(camera, posture.position_m[j]),
              seen ? BodyColour(body.id) : cv::Scalar(110, 110, 110), seen ? thick : 1, cv::LINE_AA);
   }
   for (size_t j = 0; j < kJointCount; ++j) {
@@ -90,8 +93,8 @@ void DrawJoints(cv::Mat& panel, const depth::Camera& camera, const recon::Postur
     const bool left = recon::kMirroredJoint[j] > static_cast<int>(j);
     const cv::Scalar colour = middle ? cv::Scalar(255, 255, 255)
                                      : (left ? cv::Scalar(60, 60, 255) : cv::Scalar(255, 140, 40));
-    cv::circle(panel, PixelOf(camera, posture.position_m[j]), 2 * thick, colour, seen ? cv::FILLED : 1,
-               cv::LINE_AA);
+    cv::circle(panel, PixelOf(camera, posture.position_m[j]), 2 * thick, colour,
+               seen ? cv::FILLED : 1, cv::LINE_AA);
   }
 }
 
@@ -118,9 +121,11 @@ void WritePicture(const std::filesystem::path& path, const depth::DepthFrame& fr
   cv::Mat row;
   cv::hconcat(panels, row);
   std::vector<uint8_t> png;
-  if (!cv::imencode(".png", row, png)) throw InputError(path.string() + ": cannot encode the picture");
+  if (!cv::imencode(".png", row, png))
+    throw InputError(path.string() + ": cannot encode the picture");
   AtomicFile file(path);
-  file.stream().write(reinterpret_cast<const char*>(png.data()), static_cast<std::streamsize>(png.size()));
+  file.stream().write(reinterpret_cast<const char*>(png.data()),
+                      static_cast<std::streamsize>(png.size()));
   file.Commit();
 }
 

@@ -29,19 +29,18 @@ std::string RunStats::Json(int64_t dropped) const {
   double sum_ms = 0;
   for (const StageTimes& ms : times_) sum_ms += ms.total;
   const double fps = sum_ms > 0 ? 1000.0 * static_cast<double>(times_.size()) / sum_ms : 0.0;
-  const nlohmann::ordered_json json = {
-      {"frames", frames()},
-      {"dropped", dropped},
-      {"fps", std::round(100 * fps) / 100},
-      {"ms",
-       {{"segment", quantile(&StageTimes::segment, 0.5)},
-        {"classify", quantile(&StageTimes::classify, 0.5)},
-        {"propose", quantile(&StageTimes::propose, 0.5)},
-        {"reconstruct", quantile(&StageTimes::reconstruct, 0.5)},
-        {"physics", quantile(&StageTimes::physics, 0.5)},
-        {"total", quantile(&StageTimes::total, 0.5)},
-        {"total_p99", quantile(&StageTimes::total, 0.99)}}},
-      {"peak_rss_mb", std::round(10 * PeakRss_mb()) / 10}};
+  const nlohmann::ordered_json json = {{"frames", frames()},
+                                       {"dropped", dropped},
+                                       {"fps", std::round(100 * fps) / 100},
+                                       {"ms",
+                                        {{"segment", quantile(&StageTimes::segment, 0.5)},
+                                         {"classify", quantile(&StageTimes::classify, 0.5)},
+                                         {"propose", quantile(&StageTimes::propose, 0.5)},
+                                         {"reconstruct", quantile(&StageTimes::reconstruct, 0.5)},
+                                         {"physics", quantile(&StageTimes::physics, 0.5)},
+                                         {"total", quantile(&StageTimes::total, 0.5)},
+                                         {"total_p99", quantile(&StageTimes::total, 0.99)}}},
+                                       {"peak_rss_mb", std::round(10 * PeakRss_mb()) / 10}};
   return json.dump(2) + "\n";
 }
 

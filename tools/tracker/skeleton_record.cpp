@@ -13,7 +13,8 @@ recon::BodyRecord RecordOf(const Body& body, PostureKind kind) {
   record.id = body.id;
   const recon::Posture& posture = PostureOf(body, kind);
   for (size_t j = 0; j < recon::kJointCount; ++j) {
-    const bool absent = kind == PostureKind::kRaw && body.raw.state[j] == recon::TrackingState::kNotTracked;
+    const bool absent =
+        kind == PostureKind::kRaw && body.raw.state[j] == recon::TrackingState::kNotTracked;
     if (absent || !posture.position_m[j].allFinite()) continue;
     recon::JointRecord joint;
     joint.position_m = posture.position_m[j];

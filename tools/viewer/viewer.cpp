@@ -26,7 +26,8 @@ std::string GreyImage(const depth::DepthFrame& frame) {
     for (int u = 0; u < frame.camera.width; u += kThinning) {
       const int mm = frame.view().at(u, v);
       const int share = 255 * (std::clamp(mm, kNear_mm, kFar_mm) - kNear_mm) / (kFar_mm - kNear_mm);
-      grey.push_back(mm == 0 ? '\0' : static_cast<char>(static_cast<uint8_t>(240 - share * 200 / 255)));
+      grey.push_back(mm == 0 ? '\0'
+                             : static_cast<char>(static_cast<uint8_t>(240 - share * 200 / 255)));
     }
   }
   return grey;
@@ -70,7 +71,8 @@ Viewer::Viewer(int port) : impl_(std::make_unique<Impl>()) {
   const int bound = any ? impl_->server.bind_to_any_port("127.0.0.1")
                         : (impl_->server.bind_to_port("127.0.0.1", port) ? port : -1);
   if (bound < 0) {
-    throw InputError("port " + std::to_string(port) + ": expected a free port on 127.0.0.1, it is taken");
+    throw InputError("port " + std::to_string(port) +
+                     ": expected a free port on 127.0.0.1, it is taken");
   }
   impl_->port = bound;
   impl_->Serve();
@@ -89,8 +91,12 @@ void Viewer::Show(const depth::DepthFrame& frame, const recon::SkeletonFrame& sk
   nlohmann::json json = {{"width", (camera.width + kThinning - 1) / kThinning},
                          {"height", (camera.height + kThinning - 1) / kThinning},
                          {"camera",
-                          {{"width", camera.width}, {"height", camera.height}, {"fx", camera.fx},
-                           {"fy", camera.fy}, {"cx", camera.cx}, {"cy", camera.cy}}}};
+                          {{"width", camera.width},
+                           {"height", camera.height},
+                           {"fx", camera.fx},
+                           {"fy", camera.fy},
+                           {"cx", camera.cx},
+                           {"cy", camera.cy}}}};
   json["skeletons"] = nlohmann::json::parse(recon::SkeletonJsonLine(skeletons));
   std::string grey = GreyImage(frame);
   const std::lock_guard lock(impl_->mutex);
