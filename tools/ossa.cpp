@@ -21,6 +21,8 @@ constexpr std::array kCommands = {
             ossa::commands::Reconstruct},
     Command{"info", "say what a file of ossa's holds", ossa::commands::Info},
     Command{"record", "record a source to an .oni file", ossa::commands::Record},
+    Command{"track", "follow people and write their skeletons", ossa::commands::Track},
+    Command{"view", "show a source or a skeleton file in a browser", ossa::commands::View},
     Command{"train", "train a body-part forest on labelled data", ossa::commands::Train},
     Command{"render", "make labelled depth images of people in motion", ossa::commands::Render},
 };

@@ -9,6 +9,8 @@ int Database(int argc, char** argv);
 int Reconstruct(int argc, char** argv);
 int Info(int argc, char** argv);
 int Record(int argc, char** argv);
+int Track(int argc, char** argv);
+int View(int argc, char** argv);
 int Train(int argc, char** argv);
 int Render(int argc, char** argv);
 

@@ -1,0 +1,265 @@
+#include <fmt/format.h>
+
+#include <CLI/CLI.hpp>
+#include <algorithm>
+#include <chrono>
+#include <filesystem>
+#include <memory>
+#include <optional>
+#include <string>
+
+#include "depth/error.h"
+#include "depth/file/atomic_file.h"
+#include "depth/image/camera_io.h"
+#include "depth/sensor/frame_source.h"
+#include "recon/methods/reconstructor.h"
+#include "recon/motion/skeleton_io.h"
+#include "recon/motion/skeleton_jsonl.h"
+#include "tools/commands/command.h"
+#include "tools/commands/commands.h"
+#include "tools/tracker/picture.h"
+#include "tools/tracker/run_stats.h"
+#include "tools/tracker/skeleton_record.h"
+#include "tools/viewer/viewer.h"
+
+namespace ossa::commands {
+namespace {
+
+using Clock = std::chrono::steady_clock;
+using std::chrono::milliseconds;
+
+struct TrackOptions {
+  std::string source, out, camera, json_stats, picture, pictures;
+  std::string smoothing = "default", physics = "off", posture = "final", mode = "standing";
+  tracker::TrackerOptions tracker;
+  double wait_s = 0.0;
+  double patience_s = 5.0;
+  int64_t frames = 0;
+  int port = 8080;
+  bool view = false;
+  bool quiet = false;
+};
+
+void AddTrackerOptions(CLI::App& app, TrackOptions& options) {
+  tracker::TrackerOptions& t = options.tracker;
+  app.add_option("--model", t.model, "forest model, .ossa (default: the shipped one)");
+  app.add_option("--database", t.database, "posture database, .ossadb (default: the shipped one)");
+  app.add_option("--learned", t.learned, ".ossagp of 'ossa learn', for the methods that learn");
+  app.add_option("--method", t.method, "how postures are completed (default shum-2013)")
+      ->check(CLI::IsMember(recon::ReconstructionMethods()));
+  app.add_option("--physics", options.physics, "let a mechanical character follow (default off)")
+      ->check(CLI::IsMember({"on", "off"}));
+  app.add_option("--smoothing", options.smoothing, "preset of the filter (default: default)")
+      ->check(CLI::IsMember(tracker::SmoothingPresets()));
+  app.add_option("--mode", options.mode, "standing (20 joints) or seated (the upper ten)")
+      ->check(CLI::IsMember({"standing", "seated"}));
+  app.add_flag("--near", t.near_range, "near range: people within 3 m only");
+  app.add_option("--users", t.max_users, "most people at a time, 1 to 6 (default 6)")
+      ->check(CLI::Range(1, 6));
+  app.add_option("--threads", t.threads, "threads for several people (default 1)")
+      ->check(CLI::Range(1, 256));
+  app.add_option("--seed", t.seed, "of the methods that draw samples (default 1)");
+}
+
+TrackOptions ParseOptions(int argc, char** argv) {
+  CLI::App app("Follow the people in any SOURCE and write their skeletons");
+  TrackOptions options;
+  app.add_option("SOURCE", options.source,
+                 "openni: (first device), openni:URI, FILE.oni, a folder of 16-bit PNGs, a DATASET")
+      ->required();
+  app.add_option("--out", options.out, "skeletons: FILE.jsonl, .bvh, .trc or .csv");
+  app.add_option("--posture", options.posture, "what --out gets: final, reconstructed or raw")
+      ->check(CLI::IsMember({"final", "reconstructed", "raw"}));
+  AddTrackerOptions(app, options);
+  app.add_option("--camera", options.camera, "kinect-v1 or fx,fy,cx,cy in pixels");
+  app.add_option("--frames", options.frames, "stop after so many frames")
+      ->check(CLI::PositiveNumber);
+  app.add_option("--wait", options.wait_s, "wait so many seconds for a device to be plugged in")
+      ->check(CLI::NonNegativeNumber);
+  app.add_option("--patience", options.patience_s,
+                 "give up on a device that is unplugged or silent for so many seconds (default 5)")
+      ->check(CLI::PositiveNumber);
+  app.add_option("--json-stats", options.json_stats,
+                 "milliseconds a stage, frames a second, memory");
+  app.add_option("--picture", options.picture,
+                 "FILE.png of one frame: depth, parts, joints, skeleton");
+  app.add_option("--pictures", options.pictures, "folder for such a picture of every frame");
+  app.add_flag("--view", options.view, "show it in a browser while it runs (127.0.0.1)");
+  app.add_option("--port", options.port, "of --view (default 8080)")->check(CLI::Range(0, 65535));
+  app.add_flag("--quiet", options.quiet, "no progress");
+  Parse(app, argc, argv);
+  if (options.out.empty() && options.picture.empty() && options.pictures.empty() && !options.view &&
+      options.json_stats.empty()) {
+    throw UsageError(
+        "track: nothing to do: name --out, --picture, --pictures, --json-stats or --view");
+  }
+  options.tracker.physics = options.physics == "on";
+  options.tracker.smoothing = tracker::SmoothingPreset(options.smoothing);
+  if (options.mode == "seated") options.tracker.mode = tracker::TrackingMode::kSeated;
+  options.tracker.keep_parts = !options.picture.empty() || !options.pictures.empty();
+  return options;
+}
+
+// Skeletons on their way to the file: JSON lines stream out as they come, the other formats need
+// the whole recording. Either way the file appears only when complete.
+class SkeletonOutput {
+ public:
+  SkeletonOutput(const std::string& path, const std::string& posture) : path_(path) {
+    if (posture == "raw") kind_ = tracker::PostureKind::kRaw;
+    if (posture == "reconstructed") kind_ = tracker::PostureKind::kReconstructed;
+    if (path_.empty()) return;
+    recon::CheckSkeletonExtension(path_);
+    if (path_.ends_with(".jsonl")) {
+      file_.emplace(path_);
+      writer_.emplace(file_->stream());
+    }
+  }
+  void Write(const tracker::BodyFrame& bodies) {
+    if (path_.empty()) return;
+    recon::SkeletonFrame record = tracker::RecordOf(bodies, kind_);
+    if (writer_) {
+      writer_->Write(record);
+    } else {
+      sequence_.frames.push_back(std::move(record));
+    }
+  }
+  void Finish() {
+    if (path_.empty()) return;
+    if (file_) {
+      file_->Commit();
+    } else {
+      recon::WriteSkeletons(path_, sequence_);
+    }
+  }
+
+ private:
+  std::string path_;
+  tracker::PostureKind kind_ = tracker::PostureKind::kFinal;
+  std::optional<AtomicFile> file_;
+  std::optional<recon::SkeletonJsonlWriter> writer_;
+  recon::SkeletonSequence sequence_;
+};
+
+size_t TrackedJoints(const tracker::BodyFrame& bodies) {
+  size_t count = 0;
+  for (const tracker::Body& body : bodies.bodies) {
+    count += static_cast<size_t>(
+        std::count(body.raw.state.begin(), body.raw.state.end(), recon::TrackingState::kTracked));
+  }
+  return count;
+}
+
+// The one picture shows the frame in which most is tracked (the latest of equals).
+class Pictures {
+ public:
+  explicit Pictures(const TrackOptions& options)
+      : one_(options.picture), folder_(options.pictures) {
+    if (!folder_.empty()) std::filesystem::create_directories(folder_);
+  }
+  void Take(const depth::DepthFrame& frame, const tracker::BodyFrame& bodies) {
+    if (!folder_.empty()) {
+      const auto name = fmt::format("{:06d}.png", bodies.index);
+      tracker::WritePicture(std::filesystem::path(folder_) / name, frame, bodies);
+    }
+    if (one_.empty() || (has_best_ && TrackedJoints(bodies) < TrackedJoints(best_))) return;
+    has_best_ = true;
+    best_frame_ = frame;
+    best_ = bodies;
+  }
+  void Finish() const {
+    if (!one_.empty() && has_best_) tracker::WritePicture(one_, best_frame_, best_);
+  }
+
+ private:
+  std::string one_, folder_;
+  bool has_best_ = false;
+  depth::DepthFrame best_frame_;
+  tracker::BodyFrame best_;
+};
+
+enum class Ending { kComplete, kUnplugged, kSilent };
+
+struct Run {
+  tracker::RunStats stats;
+  int64_t dropped = 0;
+  int64_t lost_gaps = 0;  // times the device went away and came back
+  Ending ending = Ending::kComplete;
+};
+
+Run TrackAll(depth::FrameSource& source, tracker::Tracker& tracker, const TrackOptions& options,
+             SkeletonOutput& output, Pictures& pictures, viewer::Viewer* viewer) {
+  Run run;
+  Progress progress("tracking", options.quiet);
+  const auto known = static_cast<double>(source.frame_count().value_or(0));
+  auto last_frame_at = Clock::now();
+  bool gone = false;
+  while (!Interrupted()) {
+    const depth::ReadResult read = source.Read(milliseconds(100));
+    if (read.status == depth::ReadStatus::kEnd) break;
+    if (read.status != depth::ReadStatus::kFrame) {
+      gone = gone || read.status == depth::ReadStatus::kDisconnected;
+      const std::chrono::duration<double> silence = Clock::now() - last_frame_at;
+      if (source.is_live() && silence.count() > options.patience_s) {
+        run.ending = gone ? Ending::kUnplugged : Ending::kSilent;
+        break;
+      }
+      continue;
+    }
+    last_frame_at = Clock::now();
+    run.lost_gaps += gone ? 1 : 0;
+    gone = false;
+    run.dropped += read.dropped;
+    const tracker::BodyFrame bodies = tracker.Push(read.frame);
+    run.stats.Add(bodies.ms);
+    output.Write(bodies);
+    pictures.Take(read.frame, bodies);
+    if (viewer != nullptr) viewer->Show(read.frame, tracker::RecordOf(bodies));
+    const auto frames = static_cast<double>(run.stats.frames());
+    if (known > 0) progress.Update(frames, known, fmt::format("{} people", bodies.bodies.size()));
+    if (options.frames > 0 && run.stats.frames() >= options.frames) break;
+  }
+  return run;
+}
+
+void Report(const TrackOptions& options, const Run& run) {
+  if (!options.json_stats.empty()) {
+    AtomicFile file(options.json_stats);
+    file.stream() << run.stats.Json(run.dropped);
+    file.Commit();
+  }
+  if (run.ending != Ending::kComplete) {
+    const char* what = run.ending == Ending::kUnplugged ? "unplugged" : "delivers no frames";
+    fmt::print(stderr, "ossa track: {}: the device {} for {:g} s: ending after {} frames\n",
+               options.source, what, options.patience_s, run.stats.frames());
+  }
+  if (!options.quiet) {
+    fmt::print("{} frames, {} dropped, {} reconnections\n", run.stats.frames(), run.dropped,
+               run.lost_gaps);
+  }
+}
+
+}  // namespace
+
+int Track(int argc, char** argv) {
+  const TrackOptions options = ParseOptions(argc, argv);
+  depth::SourceOptions source_options;
+  source_options.device_wait = milliseconds(static_cast<int64_t>(options.wait_s * 1000));
+  if (!options.camera.empty()) source_options.camera = depth::ParseCamera(options.camera);
+  const auto source = depth::OpenSource(options.source, source_options);
+  tracker::Tracker tracker(options.tracker);
+  SkeletonOutput output(options.out, options.posture);
+  Pictures pictures(options);
+  std::unique_ptr<viewer::Viewer> viewer;
+  if (options.view) {
+    viewer = std::make_unique<viewer::Viewer>(options.port);
+    fmt::print(stderr, "watch at http://127.0.0.1:{}/\n", viewer->port());
+  }
+  const Run run = TrackAll(*source, tracker, options, output, pictures, viewer.get());
+  if (run.stats.frames() == 0) throw InputError(options.source + ": no frame came");
+  output.Finish();
+  pictures.Finish();
+  Report(options, run);
+  return 0;
+}
+
+}  // namespace ossa::commands

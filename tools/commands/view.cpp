@@ -1,0 +1,108 @@
+#include <fmt/format.h>
+
+#include <CLI/CLI.hpp>
+#include <chrono>
+#include <filesystem>
+#include <memory>
+#include <string>
+#include <thread>
+
+#include "depth/image/camera_io.h"
+#include "depth/sensor/frame_source.h"
+#include "recon/motion/skeleton_io.h"
+#include "tools/commands/command.h"
+#include "tools/commands/commands.h"
+#include "tools/tracker/skeleton_record.h"
+#include "tools/tracker/tracker.h"
+#include "tools/viewer/viewer.h"
+
+namespace ossa::commands {
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+struct ViewOptions {
+  std::string what, camera;
+  tracker::TrackerOptions tracker;
+  int port = 8080;
+  bool once = false;
+};
+
+// Shows a recording at its own speed: waits until the time of the frame has come.
+class Clockwork {
+ public:
+  void WaitFor(double time_s) {
+    if (time_s < last_s_ || time_s - last_s_ > 1.0) start_ = Clock::now() - Seconds(time_s);
+    last_s_ = time_s;
+    std::this_thread::sleep_until(start_ + Seconds(time_s));
+  }
+
+ private:
+  static Clock::duration Seconds(double s) {
+    return std::chrono::duration_cast<Clock::duration>(std::chrono::duration<double>(s));
+  }
+  Clock::time_point start_ = Clock::now();
+  double last_s_ = -1e9;
+};
+
+void ShowSkeletons(const ViewOptions& options, viewer::Viewer& viewer) {
+  const recon::SkeletonSequence sequence = recon::ReadSkeletons(options.what);
+  depth::DepthFrame blank;
+  blank.depth_mm.assign(
+      static_cast<size_t>(blank.camera.width) * static_cast<size_t>(blank.camera.height), 0);
+  Clockwork clockwork;
+  do {
+    for (const recon::SkeletonFrame& frame : sequence.frames) {
+      if (Interrupted()) return;
+      clockwork.WaitFor(frame.time_s);
+      viewer.Show(blank, frame);
+    }
+  } while (!options.once && !Interrupted());
+}
+
+void ShowSource(const ViewOptions& options, viewer::Viewer& viewer) {
+  depth::SourceOptions source_options;
+  if (!options.camera.empty()) source_options.camera = depth::ParseCamera(options.camera);
+  tracker::Tracker tracker(options.tracker);
+  do {
+    const auto source = depth::OpenSource(options.what, source_options);
+    Clockwork clockwork;
+    while (!Interrupted()) {
+      const depth::ReadResult read = source->Read(std::chrono::milliseconds(100));
+      if (read.status == depth::ReadStatus::kEnd) break;
+      if (read.status != depth::ReadStatus::kFrame) continue;
+      if (!source->is_live()) clockwork.WaitFor(read.frame.time_s);
+      viewer.Show(read.frame, tracker::RecordOf(tracker.Push(read.frame)));
+    }
+  } while (!options.once && !Interrupted());
+}
+
+}  // namespace
+
+int View(int argc, char** argv) {
+  CLI::App app("Show a SOURCE being tracked, or a skeleton FILE, in a browser on this machine");
+  ViewOptions options;
+  app.add_option("SOURCE", options.what, "any SOURCE of 'ossa track', or a skeleton file")
+      ->required();
+  app.add_option("--port", options.port, "on 127.0.0.1 (default 8080, 0: any free one)")
+      ->check(CLI::Range(0, 65535));
+  app.add_option("--camera", options.camera, "kinect-v1 or fx,fy,cx,cy in pixels");
+  app.add_option("--model", options.tracker.model,
+                 "forest model, .ossa (default: the shipped one)");
+  app.add_option("--database", options.tracker.database, "posture database, .ossadb");
+  app.add_option("--method", options.tracker.method, "how postures are completed");
+  app.add_flag("--once", options.once, "end with the recording instead of starting over");
+  Parse(app, argc, argv);
+  const bool source = options.what.starts_with("openni:") || options.what.ends_with(".oni") ||
+                      std::filesystem::is_directory(options.what);
+  viewer::Viewer viewer(options.port);
+  fmt::print(stderr, "watch at http://127.0.0.1:{}/ (Ctrl-C ends)\n", viewer.port());
+  if (source) {
+    ShowSource(options, viewer);
+  } else {
+    ShowSkeletons(options, viewer);
+  }
+  return 0;
+}
+
+}  // namespace ossa::commands

@@ -1,0 +1,43 @@
+#include "tools/tracker/skeleton_record.h"
+
+namespace ossa::tracker {
+namespace {
+
+const recon::Posture& PostureOf(const Body& body, PostureKind kind) {
+  if (kind == PostureKind::kRaw) return body.raw.posture;
+  return kind == PostureKind::kReconstructed ? body.reconstructed : body.smoothed;
+}
+
+recon::BodyRecord RecordOf(const Body& body, PostureKind kind) {
+  recon::BodyRecord record;
+  record.id = body.id;
+  const recon::Posture& posture = PostureOf(body, kind);
+  for (size_t j = 0; j < recon::kJointCount; ++j) {
+    const bool absent =
+        kind == PostureKind::kRaw && body.raw.state[j] == recon::TrackingState::kNotTracked;
+    if (absent || !posture.position_m[j].allFinite()) continue;
+    recon::JointRecord joint;
+    joint.position_m = posture.position_m[j];
+    joint.state = body.raw.state[j];
+    joint.confidence = body.raw.confidence[j];
+    joint.reliability = body.reliability[j];
+    if (kind == PostureKind::kFinal) joint.orientation = body.absolute_orientation[j];
+    record.joints[j] = joint;
+  }
+  return record;
+}
+
+}  // namespace
+
+recon::SkeletonFrame RecordOf(const BodyFrame& frame, PostureKind kind) {
+  recon::SkeletonFrame record;
+  record.frame = frame.index;
+  record.time_s = frame.time_s;
+  record.floor = frame.floor;
+  for (const Body& body : frame.bodies) {
+    if (body.state == BodyState::kTracked) record.bodies.push_back(RecordOf(body, kind));
+  }
+  return record;
+}
+
+}  // namespace ossa::tracker

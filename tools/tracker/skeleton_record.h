@@ -1,0 +1,15 @@
+#pragma once
+#include "recon/skeleton_sequence.h"
+#include "tools/tracker/tracker.h"
+
+namespace ossa::tracker {
+
+/// Which of a body's postures a file gets.
+enum class PostureKind { kFinal, kReconstructed, kRaw };
+
+/// The bodies of a frame as skeleton files hold them. Not-tracked joints keep the reconstruction's
+/// position and say not_tracked; in raw records they are absent. Bodies known by position only are
+/// left out.
+recon::SkeletonFrame RecordOf(const BodyFrame& frame, PostureKind kind = PostureKind::kFinal);
+
+}  // namespace ossa::tracker
