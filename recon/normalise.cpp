@@ -90,6 +90,12 @@ Posture Placed(const Posture& normalised, const Placement& camera_from_normalise
   return out;
 }
 
+Posture Scaled(const Posture& posture, double factor) {
+  Posture out = posture;
+  for (auto& p : out.position_m) p *= factor;
+  return out;
+}
+
 Posture Retargeted(const Posture& posture, const BoneLengths& lengths_m) {
   const Posture& stance = StandardStance();
   Posture out;

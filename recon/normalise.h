@@ -32,6 +32,9 @@ Posture Normalised(const Posture& in_camera, const Placement& camera_from_normal
 /// The way back.
 Posture Placed(const Posture& normalised, const Placement& camera_from_normalised);
 
+/// Every position multiplied by one factor.
+Posture Scaled(const Posture& posture, double factor);
+
 /// Shum & Ho 2012 eqs. 3-4: keeps every bone's direction, gives it the length asked for; the root
 /// stays. A bone without direction (zero length, not finite) takes that of the standard stance.
 Posture Retargeted(const Posture& posture, const BoneLengths& lengths_m);

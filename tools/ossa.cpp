@@ -17,6 +17,8 @@ constexpr std::array kCommands = {
             ossa::commands::Experiment},
     Command{"database", "build a posture database from motion capture",
             ossa::commands::Database},
+    Command{"learn", "learn a sensor's errors from observed and true skeletons",
+            ossa::commands::Learn},
     Command{"reconstruct", "make recorded skeletons complete and plausible",
             ossa::commands::Reconstruct},
     Command{"info", "say what a file of ossa's holds", ossa::commands::Info},

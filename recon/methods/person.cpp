@@ -70,13 +70,12 @@ void BodySize::Observe(const Posture& in_camera, const JointWeights& trust) {
   const BoneLengths measured = BoneLengthsOf(in_camera);
   const double scale = BodyScaleOf(measured, trust);
   if (locked_) {
-    const double own = BodyScaleOf(
-        lengths_m_, JointWeights{1, 1, 1, 1, 1, 1, 1, 1, 1, 1, 1, 1, 1, 1, 1, 1, 1, 1, 1, 1});
-    const bool other = good >= 12 && std::abs(scale / own - 1.0) > 0.25;
+    const bool other = good >= 12 && std::abs(scale / scale_ - 1.0) > 0.25;
     other_size_frames_ = other ? other_size_frames_ + 1 : 0;
     if (other_size_frames_ < 30) return;
   }
-  lengths_m_ = ScaledBoneLengths(good >= 4 ? scale : 1.0);
+  scale_ = good >= 4 ? scale : 1.0;
+  lengths_m_ = ScaledBoneLengths(scale_);
   BoneLengths mean{};
   for (size_t i = 1; i < kJointCount; ++i) {
     const auto mirror = static_cast<size_t>(kMirroredJoint[i]);
@@ -107,6 +106,7 @@ PreparedPosture Person::Prepare(const ReconstructionInput& input) {
   }
   const Reliability r = estimator_.Step(input.observed, input.depth);
   out.reliability = r.rate;
+  out.terms = r;
   for (size_t i = 0; i < kJointCount; ++i) {
     const Eigen::Vector3d& p = input.observed.posture.position_m[i];
     const bool there = input.observed.state[i] != TrackingState::kNotTracked && p.allFinite() &&
@@ -121,6 +121,8 @@ PreparedPosture Person::Prepare(const ReconstructionInput& input) {
   for (size_t i = 0; i < kJointCount; ++i) heading[i] += 0.1 * out.present[i];
   out.placement = PlacementOf(out.in_camera, heading, last_yaw_rad_);
   out.normalised = Retargeted(Normalised(out.in_camera, out.placement), StandardBoneLengths());
+  out.scale = size_.scale();
+  out.scaled = Scaled(Normalised(out.in_camera, out.placement), 1.0 / out.scale);
   last_time_s_ = input.time_s;
   started_ = true;
   return out;

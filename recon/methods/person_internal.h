@@ -16,9 +16,12 @@ class BodySize {
   void Observe(const Posture& in_camera, const JointWeights& trust);
   const BoneLengths& lengths_m() const { return lengths_m_; }
   bool locked() const { return locked_; }
+  /// Over the standard body, as a whole.
+  double scale() const { return scale_; }
 
  private:
   BoneLengths lengths_m_ = StandardBoneLengths();
+  double scale_ = 1.0;
   bool locked_ = false;
   int other_size_frames_ = 0;
 };
@@ -28,7 +31,10 @@ struct PreparedPosture {
   Posture in_camera;           // 20 finite joints; absent ones filled in from the body's structure
   Placement placement;         // camera from normalised
   Posture normalised;          // of the standard size
+  Posture scaled;              // normalised, all bones as observed, divided by `scale`
+  double scale = 1.0;          // of this person over the standard body
   JointWeights reliability{};  // R_i; 0 for joints that were not observed
+  Reliability terms;           // what R_i was made of, this frame
   JointWeights present{};      // 1 for a finite joint that is tracked or inferred
   double dt_s = 1.0 / 30.0;    // since the frame before, clamped to [5 ms, 0.5 s]
   bool restarted = true;  // first frame, or a gap, or time ran backwards: history means nothing

@@ -17,9 +17,17 @@ struct Method {
 };
 
 constexpr std::array kMethods = {
-    Method{"none", false, MakeNone},         Method{"holt", false, MakeHolt},
-    Method{"one-euro", false, MakeOneEuro},  Method{"kalman", false, MakeKalman},
+    Method{"none", false, MakeNone},
+    Method{"holt", false, MakeHolt},
+    Method{"one-euro", false, MakeOneEuro},
+    Method{"kalman", false, MakeKalman},
+    Method{"shum-ho-2012", true, MakeShumHo2012},
     Method{"shum-2013", true, MakeShum2013},
+    Method{"plantard-2016", true, MakePlantard2016},
+    Method{"liu-2016", false, MakeLiu2016},
+    Method{"full-gp", false, MakeFullGp},
+    Method{"exemplar", false, MakeExemplar},
+    Method{"best", false, MakeBest},
 };
 
 void CheckLocalPca(const LocalPcaOptions& o) {

@@ -23,6 +23,8 @@ struct ReconstructionInput {
 struct ReconstructedPosture {
   Posture posture;                                // camera space, all 20 joints finite
   std::array<double, kJointCount> reliability{};  // R_i in [0, 1] of the observed joint, eq. 8
+  /// Camera from bone, for methods that take axial rotations from a database; else empty.
+  std::optional<JointOrientations> orientation = std::nullopt;
 };
 
 /// One person's posture made complete and plausible, frame by frame. One object per person.
@@ -61,6 +63,16 @@ struct GaussianProcessOptions {
   bool incremental = true;   // algorithm 2: reliable samples of low variance join the local models
 };
 
+/// Settings of `best`; the switches are for ablations.
+struct BestOptions {
+  bool complete = true;  // joints in doubt come from the posture space
+  bool filter = true;    // adaptive Kalman filters
+  int neighbours = 30;   // K
+  int dimensions = 20;
+  double continuity = 0.1;      // weight of the prediction where nothing is trusted
+  double space_noise_m = 0.05;  // by how much trusted joints may miss the space
+};
+
 struct ReconstructorOptions {
   std::string method = "best";                      // one of ReconstructionMethods()
   std::shared_ptr<const PostureDatabase> database;  // needed by the methods that look things up
@@ -68,6 +80,7 @@ struct ReconstructorOptions {
   uint64_t seed = 1;
   LocalPcaOptions local_pca;
   GaussianProcessOptions gaussian_process;
+  BestOptions best;
 };
 
 /// Names of all methods, in the order of `ossa track --help`.

@@ -18,6 +18,7 @@ BodyRecord Reconstructed(const BodyRecord& body, const TrackedPosture& observed,
     joint.state = tracked ? TrackingState::kTracked : TrackingState::kInferred;
     joint.confidence = observed.confidence[i];
     joint.reliability = made.reliability[i];
+    if (made.orientation) joint.orientation = (*made.orientation)[i];
     out.joints[i] = joint;
   }
   return out;

@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "recon/database/nearest.h"
+#include "recon/methods/bone_turns_internal.h"
 #include "recon/methods/methods_internal.h"
 #include "recon/methods/person_internal.h"
 #include "recon/methods/posture_space_internal.h"
@@ -34,6 +35,9 @@ class Shum2013 : public Reconstructor {
     before_last_ = last_;
     last_ = space.Posture(found.q);
     ReconstructedPosture out{person_.InCamera(PostureOf(*last_), prepared), prepared.reliability};
+    const auto weights = InverseDistances(*database_, hints_, *last_);
+    out.orientation =
+        TurnedOntoBones(*database_, hints_, weights, out.posture, prepared.placement.yaw_rad);
     person_.Remember(out.posture, prepared);
     return out;
   }

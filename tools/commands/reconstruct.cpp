@@ -11,7 +11,7 @@
 #include "recon/motion/skeleton_io.h"
 #include "tools/commands/command.h"
 #include "tools/commands/commands.h"
-#include "tools/commands/shipped.h"
+#include "tools/tracker/shipped.h"
 
 namespace ossa::commands {
 namespace {
@@ -26,6 +26,17 @@ struct ReconstructArguments {
   bool quiet = false;
   bool no_reliability = false;
 };
+
+/// The database the method looks things up in: the one named, else the shipped one.
+std::shared_ptr<const recon::PostureDatabase> DatabaseFor(const ReconstructArguments& a) {
+  const bool looks_up = a.options.method == "best" || a.options.method.starts_with("shum") ||
+                        a.options.method.starts_with("plantard");
+  if (!looks_up) return nullptr;
+  const std::filesystem::path file = a.database_file.empty()
+                                         ? tracker::ShippedFile("authored.ossadb")
+                                         : std::filesystem::path(a.database_file);
+  return std::make_shared<recon::PostureDatabase>(recon::PostureDatabase::Load(file));
+}
 
 void AddMethodOptions(CLI::App& app, ReconstructArguments& a) {
   auto methods = recon::ReconstructionMethods();
@@ -76,7 +87,7 @@ int Reconstruct(int argc, char** argv) {
   } else {
     recon::CheckSkeletonExtension(a.out);
   }
-  if (a.options.method != kButterworth) a.options.database = LoadDatabase(a.database_file);
+  a.options.database = DatabaseFor(a);
   Progress progress("reconstruct", a.quiet);
   double done = 0.0, total = 0.0;
   for (const auto& clip : clips) total += static_cast<double>(clip.sequence.frames.size());

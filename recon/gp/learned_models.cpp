@@ -1,0 +1,183 @@
+#include "recon/gp/learned_models.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "depth/error.h"
+#include "depth/file/sealed_file.h"
+#include "recon/database/posture_database.h"
+
+namespace ossa::recon {
+namespace {
+
+constexpr SealedFormat kFormat = {
+    {'O', 'S', 'S', 'A', 'G', 'P', '0', '0'}, 1, "learned reconstruction"};
+
+// More than any honest file holds; a damaged count is refused before it costs memory or time.
+constexpr uint64_t kMostModels = 1000, kMostRows = 5000;
+
+void PutMatrix(PayloadWriter& out, const Eigen::MatrixXf& m) {
+  out.Put<uint32_t>(static_cast<uint32_t>(m.rows()));
+  out.Put<uint32_t>(static_cast<uint32_t>(m.cols()));
+  out.PutArray(std::span<const float>(m.data(), static_cast<size_t>(m.size())));
+}
+
+Eigen::MatrixXf GetMatrix(PayloadReader& in, std::string_view field) {
+  const auto rows = in.Get<uint32_t>(field), cols = in.Get<uint32_t>(field);
+  const auto values = in.GetVector<float>(field);
+  if (uint64_t{rows} * cols != values.size()) in.Fail(field, "expected rows times columns numbers");
+  for (const float v : values) {
+    if (!(std::abs(v) < 1e6F)) in.Fail(field, "expected finite numbers");
+  }
+  return Eigen::Map<const Eigen::MatrixXf>(values.data(), rows, cols);
+}
+
+void PutProcess(PayloadWriter& out, const GaussianProcess& model) {
+  out.Put(model.parameters());
+  PutMatrix(out, model.inputs().cast<float>());
+  PutMatrix(out, model.outputs().cast<float>());
+}
+
+/// The factor is not in the file: it follows from the samples.
+GaussianProcess GetProcess(PayloadReader& in, Eigen::Index features) {
+  const auto p = in.Get<GaussianProcessParameters>("kernel");
+  for (const double v : {p.theta0, p.theta1, p.w, p.beta}) {
+    if (!(v > 1e-9 && v < 1e9)) in.Fail("kernel", "expected positive parameters");
+  }
+  const Eigen::MatrixXf x = GetMatrix(in, "inputs"), y = GetMatrix(in, "outputs");
+  if (x.rows() < 1 || x.rows() > static_cast<Eigen::Index>(kMostRows) || x.cols() != features ||
+      y.rows() != x.rows() || y.cols() != 3) {
+    in.Fail("inputs", "expected samples of this joint's feature with three outputs each");
+  }
+  GaussianProcess model(p, x.cast<double>(), y.cast<double>());
+  if (!model.factor().allFinite()) in.Fail("kernel", "the covariance is not positive definite");
+  return model;
+}
+
+Eigen::Index FeatureSize(size_t joint) { return JointFeature(Posture(), joint).size(); }
+
+struct JointSamples {
+  Eigen::MatrixXd inputs, outputs;
+};
+
+JointSamples SamplesOf(const std::vector<PosturePair>& pairs, size_t joint) {
+  JointSamples s;
+  const auto known = std::count_if(pairs.begin(), pairs.end(),
+                                   [joint](const PosturePair& p) { return p.known[joint] > 0.0; });
+  s.inputs.resize(known, FeatureSize(joint));
+  s.outputs.resize(known, 3);
+  Eigen::Index row = 0;
+  for (const PosturePair& pair : pairs) {
+    if (pair.known[joint] == 0.0) continue;
+    s.inputs.row(row) = JointFeature(pair.observed, joint).transpose();
+    s.outputs.row(row++) = pair.residual.position_m[joint].transpose();
+  }
+  return s;
+}
+
+Eigen::MatrixXd EveryNthRow(const Eigen::MatrixXd& m, Eigen::Index most) {
+  if (m.rows() <= most) return m;
+  Eigen::MatrixXd out(most, m.cols());
+  for (Eigen::Index i = 0; i < most; ++i) out.row(i) = m.row(i * m.rows() / most);
+  return out;
+}
+
+}  // namespace
+
+LearnedModels LearnedModels::Learn(const std::vector<PosturePair>& pairs,
+                                   const LearnOptions& options,
+                                   const std::function<bool(int)>& progress) {
+  LearnedModels out;
+  out.pair_count = pairs.size();
+  out.exemplars = Thinned(pairs, options.most_pairs);
+  out.correction = PoseCorrection::Learn(pairs, options.correction);
+  constexpr int kFewest = 10;  // fewer pairs of a joint teach nothing
+  for (size_t joint = 0; joint < kJointCount; ++joint) {
+    if (progress && !progress(static_cast<int>(joint))) return out;
+    const JointSamples s = SamplesOf(out.exemplars, joint);
+    if (s.inputs.rows() < kFewest) continue;
+    out.mixtures[joint] = LocalMixture::Learn(s.inputs, s.outputs, options.mixture);
+    constexpr Eigen::Index kForParameters = 200;
+    const auto parameters = LearnParameters(EveryNthRow(s.inputs, kForParameters),
+                                            EveryNthRow(s.outputs, kForParameters), {});
+    out.full[joint] = GaussianProcess(parameters, EveryNthRow(s.inputs, options.full_samples),
+                                      EveryNthRow(s.outputs, options.full_samples));
+  }
+  return out;
+}
+
+void LearnedModels::Save(const std::filesystem::path& path) const {
+  PayloadWriter out;
+  out.Put(pair_count);
+  for (size_t joint = 0; joint < kJointCount; ++joint) {
+    out.Put<uint64_t>(mixtures[joint].models().size());
+    for (const GaussianProcess& model : mixtures[joint].models()) PutProcess(out, model);
+    out.Put<uint8_t>(full[joint].size() > 0 ? 1 : 0);
+    if (full[joint].size() > 0) PutProcess(out, full[joint]);
+  }
+  const auto n = static_cast<Eigen::Index>(exemplars.size());
+  Eigen::MatrixXf observed(kPostureDims, n), residual(kPostureDims, n), known(kJointCount, n);
+  for (Eigen::Index i = 0; i < n; ++i) {
+    const PosturePair& pair = exemplars[static_cast<size_t>(i)];
+    observed.col(i) = VectorOf(pair.observed);
+    residual.col(i) = VectorOf(pair.residual);
+    for (int j = 0; j < kJointCount; ++j) {
+      known(j, i) = static_cast<float>(pair.known[static_cast<size_t>(j)]);
+    }
+  }
+  for (const Eigen::MatrixXf* m : {&observed, &residual, &known}) PutMatrix(out, *m);
+  PutMatrix(out, correction.centres_);
+  PutMatrix(out, correction.weights_);
+  PutMatrix(out, correction.mean_);
+  out.Put(correction.width_);
+  WriteSealedFile(path, kFormat, out.bytes());
+}
+
+LearnedModels LearnedModels::Load(const std::filesystem::path& path) {
+  const auto payload = ReadSealedFile(path, kFormat);
+  return FromBytes(payload, path.string());
+}
+
+LearnedModels LearnedModels::FromBytes(std::span<const std::byte> bytes, const std::string& name) {
+  PayloadReader in(bytes, name);
+  LearnedModels out;
+  out.pair_count = in.Get<uint64_t>("pair count");
+  for (size_t joint = 0; joint < kJointCount; ++joint) {
+    const auto count = in.Get<uint64_t>("local models");
+    if (count > kMostModels) in.Fail("local models", "expected at most 1000");
+    std::vector<GaussianProcess> models;
+    for (uint64_t q = 0; q < count; ++q) models.push_back(GetProcess(in, FeatureSize(joint)));
+    out.mixtures[joint] = LocalMixture(std::move(models));
+    if (in.Get<uint8_t>("full process") != 0) out.full[joint] = GetProcess(in, FeatureSize(joint));
+  }
+  const Eigen::MatrixXf observed = GetMatrix(in, "exemplars"), residual = GetMatrix(in, "offsets");
+  const Eigen::MatrixXf known = GetMatrix(in, "known joints");
+  if (observed.rows() != kPostureDims || residual.rows() != kPostureDims ||
+      known.rows() != kJointCount || residual.cols() != observed.cols() ||
+      known.cols() != observed.cols()) {
+    in.Fail("exemplars", "expected 60 numbers, 60 offsets and 20 flags a pair");
+  }
+  for (Eigen::Index i = 0; i < observed.cols(); ++i) {
+    PosturePair& pair = out.exemplars.emplace_back();
+    pair.observed = PostureOf(observed.col(i));
+    pair.residual = PostureOf(residual.col(i));
+    for (int j = 0; j < kJointCount; ++j) pair.known[static_cast<size_t>(j)] = known(j, i);
+  }
+  PoseCorrection& c = out.correction;
+  c.centres_ = GetMatrix(in, "centres");
+  c.weights_ = GetMatrix(in, "weights");
+  const Eigen::MatrixXf mean = GetMatrix(in, "mean offsets");
+  c.width_ = in.Get<double>("width");
+  const Eigen::Index features = CorrectionFeature(Posture()).size();
+  const bool fits = c.weights_.size() == 0 ||
+                    (c.centres_.rows() == features && c.weights_.rows() == c.centres_.cols() &&
+                     c.weights_.cols() == kPostureDims && mean.size() == kPostureDims);
+  if (!fits || !(c.width_ > 1e-3 && c.width_ < 1e3)) {
+    in.Fail("centres", "expected a correction of whole postures");
+  }
+  c.mean_ = Eigen::Map<const Eigen::VectorXf>(mean.data(), mean.size());
+  in.ExpectEnd();
+  return out;
+}
+
+}  // namespace ossa::recon

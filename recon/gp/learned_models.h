@@ -1,0 +1,37 @@
+#pragma once
+#include <array>
+#include <filesystem>
+#include <functional>
+#include <span>
+
+#include "recon/gp/local_mixture.h"
+#include "recon/gp/pose_correction.h"
+
+namespace ossa::recon {
+
+struct LearnOptions {
+  LocalMixtureOptions mixture;
+  PoseCorrectionOptions correction;
+  size_t most_pairs = 2500;  // for the mixtures, the full processes and the exemplars
+  int full_samples = 800;    // of each joint's full Gaussian process: its cost is cubic
+};
+
+/// What `ossa learn` makes of pairs and the .ossagp file holds: for each joint with known truth the
+/// local mixture (liu-2016) and the full process (full-gp), the pairs themselves (exemplar) and the
+/// correction of the whole posture (best).
+struct LearnedModels {
+  std::array<LocalMixture, kJointCount> mixtures;
+  std::array<GaussianProcess, kJointCount> full;
+  std::vector<PosturePair> exemplars;
+  PoseCorrection correction;
+  uint64_t pair_count = 0;  // learned from
+
+  /// `progress` (may be empty) is told the number of joints done; returns false to stop.
+  static LearnedModels Learn(const std::vector<PosturePair>& pairs, const LearnOptions& options,
+                             const std::function<bool(int)>& progress = {});
+  void Save(const std::filesystem::path& path) const;
+  static LearnedModels Load(const std::filesystem::path& path);
+  static LearnedModels FromBytes(std::span<const std::byte> bytes, const std::string& name);
+};
+
+}  // namespace ossa::recon

@@ -1,0 +1,52 @@
+#pragma once
+#include <cstdint>
+#include <vector>
+
+#include "recon/gp/gaussian_process.h"
+
+namespace ossa::recon {
+
+/// Liu 2016 sec. 4.2.
+struct LocalMixtureOptions {
+  int regions = 30;        // Q, by K-means
+  int samples = 50;        // S of each local model, chosen by posture budgeting
+  uint64_t seed = 1;       // of K-means
+  double w_similar = 0.1;  // algorithm 2: below it a new local model is made
+  int most_samples = 100;  // a local model stops growing here, to stay within the frame's time
+  int most_models = 60;
+};
+
+/// One joint's mixture of local Gaussian processes.
+class LocalMixture {
+ public:
+  LocalMixture() = default;
+  /// Algorithm 1, offline part.
+  static LocalMixture Learn(const Eigen::MatrixXd& inputs, const Eigen::MatrixXd& outputs,
+                            const LocalMixtureOptions& options);
+  /// From models already learned (files).
+  explicit LocalMixture(std::vector<GaussianProcess> models);
+
+  /// Algorithm 1, online part: eq. 13 over the `nearby` most similar models (eq. 10).
+  GaussianPrediction Predict(const Eigen::VectorXd& input, int nearby) const;
+  /// Algorithm 2.
+  void Update(const Eigen::VectorXd& input, const Eigen::Vector3d& output,
+              const LocalMixtureOptions& options);
+
+  bool empty() const { return models_.empty(); }
+  const std::vector<GaussianProcess>& models() const { return models_; }
+  /// Mean noise variance of the local models, square metres.
+  double noise() const;
+
+ private:
+  /// Logarithm of eq. 10.
+  double LogSimilarity(size_t model, const Eigen::VectorXd& input) const;
+
+  std::vector<GaussianProcess> models_;
+  std::vector<Eigen::VectorXd> centres_;  // C_q
+};
+
+/// Lloyd's K-means with seeded k-means++ starts; returns the region of each row.
+std::vector<int> KMeans(const Eigen::MatrixXd& rows, int regions, uint64_t seed,
+                        int iterations = 15);
+
+}  // namespace ossa::recon

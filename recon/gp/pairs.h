@@ -1,0 +1,36 @@
+#pragma once
+#include <array>
+#include <string>
+#include <vector>
+
+#include "recon/normalise.h"
+#include "recon/skeleton_sequence.h"
+
+namespace ossa::recon {
+
+/// What was observed and what was true at one moment, in the person's own frame: normalised, and
+/// divided by the body's size so that everyone is a standard adult. Departure from Liu 2016
+/// sec. 3.1: one factor instead of a bone-by-bone retargeting, because the truth often lacks joints
+/// (13 from Vicon) and because a bone observed too short is itself an error to learn.
+struct PosturePair {
+  Posture observed;      // complete
+  Posture residual;      // truth minus observed; eq. after sec. 4.1: y = m - x
+  JointWeights known{};  // 1 where the truth has the joint and the observation saw it
+};
+
+/// Adds the pairs of two recordings of the same performance: frames with the same number (or, where
+/// none is shared, the nearest time within 20 ms), bodies with the same id (or the first of each).
+/// Returns how many were added.
+size_t AddPairs(const SkeletonSequence& observed, const SkeletonSequence& truth,
+                std::vector<PosturePair>& pairs);
+
+/// At most so many, evenly spread.
+std::vector<PosturePair> Thinned(const std::vector<PosturePair>& pairs, size_t most);
+
+/// Left and right exchanged: people's errors do not know sides, and pairs are dear.
+PosturePair Mirrored(const PosturePair& pair);
+
+/// Liu 2016 sec. 4.1: the joint and its neighbours (those a bone away), positions in order.
+Eigen::VectorXd JointFeature(const Posture& scaled, size_t joint);
+
+}  // namespace ossa::recon

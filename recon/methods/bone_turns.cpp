@@ -1,0 +1,44 @@
+#include "recon/methods/bone_turns_internal.h"
+
+namespace ossa::recon {
+
+JointOrientations TurnedOntoBones(const PostureDatabase& database, std::span<const int> postures,
+                                  std::span<const double> weights, const Posture& in_camera,
+                                  double yaw_rad) {
+  std::array<Eigen::Vector4d, kJointCount> sum;
+  sum.fill(Eigen::Vector4d::Zero());
+  for (size_t k = 0; k < postures.size(); ++k) {
+    const JointOrientations turns = database.orientations(postures[k]);
+    for (size_t i = 0; i < kJointCount; ++i) {
+      // q and -q are one rotation: add on the side of the sum so far.
+      const Eigen::Vector4d q = turns[i].coeffs();
+      sum[i] += (q.dot(sum[i]) < 0.0 ? -weights[k] : weights[k]) * q;
+    }
+  }
+  const Eigen::Quaterniond turn(Eigen::AngleAxisd(yaw_rad, Eigen::Vector3d::UnitY()));
+  JointOrientations out;
+  for (size_t i = 0; i < kJointCount; ++i) {
+    Eigen::Quaterniond mean = Eigen::Quaterniond::Identity();
+    if (sum[i].norm() > 1e-9) mean.coeffs() = sum[i].normalized();
+    out[i] = turn * mean;
+    if (i == 0) continue;
+    const auto parent = static_cast<size_t>(kJointParent[i]);
+    const Eigen::Vector3d bone = in_camera.position_m[i] - in_camera.position_m[parent];
+    if (!(bone.norm() > 1e-6)) continue;
+    const Eigen::Vector3d now = out[i] * Eigen::Vector3d::UnitY();
+    out[i] = (Eigen::Quaterniond::FromTwoVectors(now, bone) * out[i]).normalized();
+  }
+  return out;
+}
+
+std::vector<double> InverseDistances(const PostureDatabase& database,
+                                     std::span<const int> neighbours, const PostureVector& made) {
+  std::vector<double> weights;
+  for (const int n : neighbours) {
+    const double d = (database.postures().col(n) - made).squaredNorm();
+    weights.push_back(1.0 / (1e-4 + d));  // 1 cm: a neighbour hit exactly does not silence the rest
+  }
+  return weights;
+}
+
+}  // namespace ossa::recon

@@ -1,0 +1,191 @@
+// Z. Liu, L. Zhou, H. Leung, H. P. H. Shum, Kinect posture reconstruction based on a local mixture
+// of Gaussian process models, IEEE TVCG 2016, sections 4.3-4.5; its baselines: one full Gaussian
+// process a joint (Zhou et al. 2014), and the offsets of the nearest pairs (after Shen et al.
+// 2012).
+#include <algorithm>
+#include <cmath>
+
+#include "depth/error.h"
+#include "recon/database/posture_database.h"
+#include "recon/gp/learned_models.h"
+#include "recon/methods/methods_internal.h"
+#include "recon/methods/person_internal.h"
+
+namespace ossa::recon {
+namespace {
+
+/// Offset of one joint, with the variance of each coordinate over that of the noise: 0 sure, large
+/// unsure.
+struct OffsetPrediction {
+  Eigen::Vector3d offset = Eigen::Vector3d::Zero();
+  double unsureness = 1e9;
+};
+
+/// Sec. 4.5 over any predictor of offsets.
+class OffsetReconstructor : public Reconstructor {
+ public:
+  OffsetReconstructor(const ReconstructorOptions& options, const char* method)
+      : options_(options.gaussian_process) {
+    if (options.learned_file.empty()) {
+      throw InputError(std::string("reconstruction: method ") + method +
+                       " needs a learned file (.ossagp of `ossa learn`)");
+    }
+    models_ = LearnedModels::Load(options.learned_file);
+  }
+
+  ReconstructedPosture Step(const ReconstructionInput& input) override {
+    const PreparedPosture prepared = person_.Prepare(input);
+    if (prepared.restarted) last_.reset(), before_last_.reset();
+    Posture made = prepared.scaled;
+    BeginFrame(prepared);
+    for (size_t i = 0; i < kJointCount; ++i) {
+      const OffsetPrediction p = Predict(prepared, i);
+      made.position_m[i] += MinimisingOffset(p, prepared, i);
+      Learn(prepared, i, p);
+    }
+    // Positions in the person's frame, about the same root: the velocity of eq. 20 is the limbs'.
+    before_last_ = last_;
+    last_ = made;
+    ReconstructedPosture out{Placed(Scaled(made, prepared.scale), prepared.placement),
+                             prepared.reliability};
+    person_.Remember(out.posture, prepared);
+    return out;
+  }
+
+  void Reset() override {
+    person_.Reset();
+    last_.reset();
+    before_last_.reset();
+  }
+
+ protected:
+  virtual void BeginFrame(const PreparedPosture&) {}
+  virtual OffsetPrediction Predict(const PreparedPosture& prepared, size_t joint) = 0;
+  virtual void Learn(const PreparedPosture&, size_t, const OffsetPrediction&) {}
+
+  GaussianProcessOptions options_;
+  LearnedModels models_;
+
+ private:
+  /// argmin over y of eq. 22. Departure: the three terms are quadratic in y, so the minimum is
+  /// taken in closed form instead of by sampling; and the spatial term's precision is counted in
+  /// units of the noise, which makes the weights 0.6 / 0.2 / 0.2 comparable: without units the
+  /// paper's sum of a log likelihood and square metres has no meaning.
+  Eigen::Vector3d MinimisingOffset(const OffsetPrediction& p, const PreparedPosture& prepared,
+                                   size_t i) const {
+    const double spatial = options_.spatial / (1.0 + p.unsureness);  // eq. 7
+    const double r = prepared.reliability[i];
+    const double reliability = options_.reliability * r * r;  // eq. 21
+    Eigen::Vector3d sum = spatial * p.offset;
+    double total = spatial + reliability;
+    if (last_ && before_last_) {
+      const Eigen::Vector3d target =
+          2.0 * last_->position_m[i] - before_last_->position_m[i] - prepared.scaled.position_m[i];
+      sum += options_.temporal * target;  // eq. 20
+      total += options_.temporal;
+    }
+    return total > 1e-9 ? Eigen::Vector3d(sum / total) : Eigen::Vector3d::Zero();
+  }
+
+  Person person_;
+  std::optional<Posture> last_, before_last_;
+};
+
+class Liu2016 : public OffsetReconstructor {
+ public:
+  explicit Liu2016(const ReconstructorOptions& options)
+      : OffsetReconstructor(options, "liu-2016") {}
+
+ protected:
+  OffsetPrediction Predict(const PreparedPosture& prepared, size_t joint) override {
+    const LocalMixture& mixture = models_.mixtures[joint];
+    if (mixture.empty()) return {};
+    const auto p = mixture.Predict(JointFeature(prepared.scaled, joint), options_.nearby_models);
+    return {p.mean, p.variance / std::max(mixture.noise(), 1e-12)};
+  }
+
+  /// Algorithm 2: samples of reliable joints whose prediction is sure.
+  void Learn(const PreparedPosture& prepared, size_t joint, const OffsetPrediction& p) override {
+    constexpr double kReliable = 0.9, kSure = 0.5;
+    if (!options_.incremental || models_.mixtures[joint].empty()) return;
+    if (prepared.reliability[joint] < kReliable || p.unsureness > kSure) return;
+    // One joint a frame in turn: postures 30 times a second bring nothing new.
+    if (frame_++ % 67 != 0) return;
+    models_.mixtures[joint].Update(JointFeature(prepared.scaled, joint), p.offset, {});
+  }
+
+ private:
+  uint64_t frame_ = 0;
+};
+
+class FullGp : public OffsetReconstructor {
+ public:
+  explicit FullGp(const ReconstructorOptions& options) : OffsetReconstructor(options, "full-gp") {}
+
+ protected:
+  OffsetPrediction Predict(const PreparedPosture& prepared, size_t joint) override {
+    const GaussianProcess& model = models_.full[joint];
+    if (model.size() == 0) return {};
+    const auto p = model.Predict(JointFeature(prepared.scaled, joint));
+    return {p.mean, p.variance * model.parameters().beta};
+  }
+};
+
+/// Mean offset of the nearest training pairs, weighed by their distance.
+class Exemplar : public OffsetReconstructor {
+ public:
+  explicit Exemplar(const ReconstructorOptions& options)
+      : OffsetReconstructor(options, "exemplar") {
+    postures_.resize(kPostureDims, static_cast<Eigen::Index>(models_.exemplars.size()));
+    for (Eigen::Index i = 0; i < postures_.cols(); ++i) {
+      postures_.col(i) = VectorOf(models_.exemplars[static_cast<size_t>(i)].observed);
+    }
+  }
+
+ protected:
+  void BeginFrame(const PreparedPosture& prepared) override {
+    constexpr size_t kNearest = 10;
+    const PostureVector query = VectorOf(prepared.scaled);
+    const Eigen::VectorXf d = (postures_.colwise() - query).colwise().squaredNorm().transpose();
+    nearest_.clear();
+    for (Eigen::Index i = 0; i < d.size(); ++i) nearest_.emplace_back(d[i], i);
+    const size_t keep = std::min(kNearest, nearest_.size());
+    std::partial_sort(nearest_.begin(), nearest_.begin() + static_cast<ptrdiff_t>(keep),
+                      nearest_.end());
+    nearest_.resize(keep);
+  }
+
+  OffsetPrediction Predict(const PreparedPosture&, size_t joint) override {
+    Eigen::Vector3d sum = Eigen::Vector3d::Zero();
+    double total = 0.0;
+    for (const auto& [d2, i] : nearest_) {
+      const PosturePair& pair = models_.exemplars[static_cast<size_t>(i)];
+      if (pair.known[joint] == 0.0) continue;
+      const double weight = 1.0 / (0.01 + static_cast<double>(d2));
+      sum += weight * pair.residual.position_m[joint];
+      total += weight;
+    }
+    if (total == 0.0) return {};
+    return {sum / total, 0.0};
+  }
+
+ private:
+  Eigen::Matrix<float, kPostureDims, Eigen::Dynamic> postures_;
+  std::vector<std::pair<float, Eigen::Index>> nearest_;
+};
+
+}  // namespace
+
+std::unique_ptr<Reconstructor> MakeLiu2016(const ReconstructorOptions& options) {
+  return std::make_unique<Liu2016>(options);
+}
+
+std::unique_ptr<Reconstructor> MakeFullGp(const ReconstructorOptions& options) {
+  return std::make_unique<FullGp>(options);
+}
+
+std::unique_ptr<Reconstructor> MakeExemplar(const ReconstructorOptions& options) {
+  return std::make_unique<Exemplar>(options);
+}
+
+}  // namespace ossa::recon

@@ -1,0 +1,114 @@
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
+#include "recon/methods/plausibility_internal.h"
+
+namespace ossa::recon {
+namespace {
+
+constexpr double kPatience_s = 0.3;    // a jump that stays as long is believed after all
+constexpr double kLongestGap_s = 0.5;  // afterwards the past says nothing
+constexpr double kBodySpeed = 5.0;     // m/s of a whole body
+constexpr double kLimbSpeed = 8.0;     // m/s of a hand
+constexpr double kSlack_m = 0.12;      // sensors are off by as much without failing
+constexpr double kJumpTrust = 0.05;
+
+bool Seen(const TrackedPosture& observed, size_t i) {
+  return observed.state[i] != TrackingState::kNotTracked &&
+         observed.posture.position_m[i].allFinite();
+}
+
+TrackedPosture SidesExchanged(const TrackedPosture& observed) {
+  TrackedPosture out = observed;
+  for (size_t i = 0; i < kJointCount; ++i) {
+    const auto m = static_cast<size_t>(kMirroredJoint[i]);
+    out.posture.position_m[i] = observed.posture.position_m[m];
+    out.state[i] = observed.state[m];
+    out.confidence[i] = observed.confidence[m];
+  }
+  return out;
+}
+
+/// Median distance between what is seen and what is expected; nothing when little is seen.
+std::optional<double> MedianDistance(const TrackedPosture& observed, const Posture& expected) {
+  std::vector<double> d;
+  for (size_t i = 0; i < kJointCount; ++i) {
+    if (Seen(observed, i)) {
+      d.push_back((observed.posture.position_m[i] - expected.position_m[i]).norm());
+    }
+  }
+  if (d.size() < 4) return std::nullopt;
+  std::nth_element(d.begin(), d.begin() + static_cast<ptrdiff_t>(d.size() / 2), d.end());
+  return d[d.size() / 2];
+}
+
+}  // namespace
+
+double Plausibility::Repair(ReconstructionInput& input) {
+  joint_trust_.fill(1.0);
+  const double step_s = input.time_s - last_time_s_;
+  last_time_s_ = input.time_s;
+  if (!last_ || !(step_s > 0.0 && step_s < kLongestGap_s)) {
+    last_.reset();
+    before_last_.reset();
+    jumped_s_.fill(0.0);
+    body_jumped_s_ = 0.0;
+    return 1.0;
+  }
+  Posture predicted = *last_;
+  if (before_last_) {
+    // Half the velocity: a full step would make every change of direction a jump.
+    const double share = 0.5 * step_s / last_dt_s_;
+    for (size_t i = 0; i < kJointCount; ++i) {
+      predicted.position_m[i] += share * (last_->position_m[i] - before_last_->position_m[i]);
+    }
+  }
+  double doubt = 1.0;
+  const auto straight = MedianDistance(input.observed, predicted);
+  const TrackedPosture exchanged = SidesExchanged(input.observed);
+  const auto mirrored = MedianDistance(exchanged, predicted);
+  if (straight && mirrored && *straight > kSlack_m && *mirrored < 0.4 * *straight) {
+    input.observed = exchanged;
+    doubt = 0.5;
+  } else if (straight && *straight > kSlack_m + 0.1 + kBodySpeed * step_s) {
+    body_jumped_s_ += step_s;
+    if (body_jumped_s_ < kPatience_s) return 0.0;
+    last_.reset();  // it stays there: believe it
+    before_last_.reset();
+    body_jumped_s_ = 0.0;
+    return 0.5;
+  }
+  body_jumped_s_ = 0.0;
+  JudgeJoints(input.observed, predicted, step_s);
+  return doubt;
+}
+
+void Plausibility::JudgeJoints(const TrackedPosture& observed, const Posture& predicted,
+                               double dt_s) {
+  for (size_t i = 0; i < kJointCount; ++i) {
+    if (!Seen(observed, i)) {
+      jumped_s_[i] = 0.0;
+      continue;
+    }
+    const Eigen::Vector3d& p = observed.posture.position_m[i];
+    const double allowed = kSlack_m + kLimbSpeed * std::min(dt_s, 0.1) * 0.5;
+    if ((p - predicted.position_m[i]).norm() <= allowed) {
+      jumped_s_[i] = 0.0;
+      continue;
+    }
+    // Jumping on, from one wrong place to another, is no staying.
+    const bool stays = jumped_s_[i] > 0.0 && (p - suspect_.position_m[i]).norm() < allowed;
+    jumped_s_[i] = stays ? jumped_s_[i] + dt_s : dt_s;
+    suspect_.position_m[i] = p;
+    if (jumped_s_[i] < kPatience_s) joint_trust_[i] = kJumpTrust;
+  }
+}
+
+void Plausibility::Remember(const Posture& made, double dt_s) {
+  before_last_ = last_;
+  last_ = made;
+  last_dt_s_ = dt_s;
+}
+
+}  // namespace ossa::recon

@@ -1,0 +1,32 @@
+#pragma once
+#include <optional>
+
+#include "recon/methods/reconstructor.h"
+#include "recon/normalise.h"
+
+namespace ossa::recon {
+
+/// Gross failures, told from motion: what no body does between two frames.
+class Plausibility {
+ public:
+  /// Exchanges left and right back where the sensor exchanged them. Returns the doubt about the
+  /// whole person as a factor of trust: 1 none, 0.5 sides exchanged, 0 another body or a jump.
+  /// Also judges single joints: see joint_trust.
+  double Repair(ReconstructionInput& input);
+  /// 1, or little for a joint that just jumped and has not yet stayed where it is.
+  const JointWeights& joint_trust() const { return joint_trust_; }
+  void Remember(const Posture& made, double dt_s);
+
+ private:
+  void JudgeJoints(const TrackedPosture& observed, const Posture& predicted, double dt_s);
+
+  std::optional<Posture> last_, before_last_;
+  Posture suspect_;                             // where each jumped joint was last said to be
+  std::array<double, kJointCount> jumped_s_{};  // for how long; 0: it did not
+  JointWeights joint_trust_{};
+  double body_jumped_s_ = 0.0;
+  double last_time_s_ = 0.0;
+  double last_dt_s_ = 1.0 / 30.0;
+};
+
+}  // namespace ossa::recon

@@ -1,0 +1,88 @@
+// H. P. H. Shum, E. S. L. Ho, Real-time physical modelling of character movements with Microsoft
+// Kinect, VRST 2012: sections 5 and 6 (positions and axial rotations of the matched posture).
+#include <Eigen/Eigenvalues>
+
+#include "recon/methods/bone_turns_internal.h"
+#include "recon/methods/methods_internal.h"
+#include "recon/methods/person_internal.h"
+
+namespace ossa::recon {
+namespace {
+
+constexpr int kReducedDims = 7;  // sec. 5.2: 60 dimensions reduced to 7
+
+using Reduced = Eigen::VectorXf;
+
+/// P_dr: the database through its global PCA.
+struct ReducedDatabase {
+  Eigen::MatrixXf projection;  // 60 x 7
+  Eigen::MatrixXf postures;    // 7 x N
+};
+
+ReducedDatabase Reduce(const PostureDatabase& database) {
+  Eigen::MatrixXf centred = database.postures();
+  centred.colwise() -= database.mean();
+  const Eigen::MatrixXf covariance =
+      centred * centred.transpose() / static_cast<float>(database.size());
+  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXf> eigen(covariance);
+  ReducedDatabase reduced;
+  reduced.projection = eigen.eigenvectors().rightCols(kReducedDims);
+  reduced.postures = reduced.projection.transpose() * centred;
+  return reduced;
+}
+
+class ShumHo2012 : public Reconstructor {
+ public:
+  explicit ShumHo2012(const ReconstructorOptions& options)
+      : database_(options.database), reduced_(Reduce(*database_)) {}
+
+  ReconstructedPosture Step(const ReconstructionInput& input) override {
+    const PreparedPosture prepared = person_.Prepare(input);
+    const int match = BestMatch(prepared);
+    // Sec. 6.1: what Kinect sees stays, what it misses comes from the matched posture. A joint that
+    // is missing hangs on its parent as it does there; positions stay the person's own size.
+    Posture merged = prepared.normalised;
+    const Posture matched = database_->posture(match);
+    for (size_t i = 1; i < kJointCount; ++i) {
+      if (prepared.reliability[i] > 0.0) continue;
+      const auto parent = static_cast<size_t>(kJointParent[i]);
+      merged.position_m[i] =
+          merged.position_m[parent] + matched.position_m[i] - matched.position_m[parent];
+    }
+    ReconstructedPosture out{person_.InCamera(merged, prepared), prepared.reliability};
+    const int matches[] = {match};
+    const double weights[] = {1.0};
+    out.orientation =
+        TurnedOntoBones(*database_, matches, weights, out.posture, prepared.placement.yaw_rad);
+    person_.Remember(out.posture, prepared);
+    return out;
+  }
+
+  void Reset() override { person_.Reset(); }
+
+ private:
+  /// Sec. 5.2: the posture nearest in the reduced space; a missing joint counts as the mean.
+  int BestMatch(const PreparedPosture& prepared) const {
+    PostureVector difference = VectorOf(prepared.normalised) - database_->mean();
+    for (int i = 0; i < kJointCount; ++i) {
+      if (prepared.reliability[static_cast<size_t>(i)] == 0.0)
+        difference.segment<3>(3 * i).setZero();
+    }
+    const Reduced query = reduced_.projection.transpose().lazyProduct(difference);
+    Eigen::Index best = 0;
+    (reduced_.postures.colwise() - query).colwise().squaredNorm().minCoeff(&best);
+    return static_cast<int>(best);
+  }
+
+  std::shared_ptr<const PostureDatabase> database_;
+  ReducedDatabase reduced_;
+  Person person_;
+};
+
+}  // namespace
+
+std::unique_ptr<Reconstructor> MakeShumHo2012(const ReconstructorOptions& options) {
+  return std::make_unique<ShumHo2012>(options);
+}
+
+}  // namespace ossa::recon

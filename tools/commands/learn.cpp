@@ -1,0 +1,82 @@
+#include <fmt/format.h>
+
+#include <CLI/CLI.hpp>
+#include <map>
+#include <string>
+#include <vector>
+
+#include "depth/error.h"
+#include "recon/gp/learned_models.h"
+#include "recon/motion/skeleton_io.h"
+#include "tools/commands/command.h"
+#include "tools/commands/commands.h"
+
+namespace ossa::commands {
+namespace {
+
+/// Clips of both sides by name; a single file on each side belongs together whatever its name.
+void AddClips(const std::string& observed_path, const std::string& truth_path,
+              std::vector<recon::PosturePair>& pairs) {
+  const auto observed = recon::ReadSkeletonClips(observed_path);
+  const auto truth = recon::ReadSkeletonClips(truth_path);
+  const size_t before = pairs.size();
+  if (observed.size() == 1 && truth.size() == 1) {
+    recon::AddPairs(observed[0].sequence, truth[0].sequence, pairs);
+  }
+  std::map<std::string, const recon::SkeletonClip*> by_name;
+  for (const auto& clip : truth) by_name[clip.name] = &clip;
+  for (const auto& clip : observed) {
+    const auto it = by_name.find(clip.name);
+    if (it == by_name.end() || (observed.size() == 1 && truth.size() == 1)) continue;
+    recon::AddPairs(clip.sequence, it->second->sequence, pairs);
+  }
+  if (pairs.size() == before) {
+    throw InputError(observed_path + ": no frame matches one of " + truth_path +
+                     "; expected recordings of the same names, the same frame numbers or times, "
+                     "and at least 4 common joints");
+  }
+}
+
+}  // namespace
+
+int Learn(int argc, char** argv) {
+  CLI::App app("Learn a sensor's errors from pairs of observed and true skeletons");
+  std::vector<std::string> observed, truth;
+  std::string out;
+  recon::LearnOptions options;
+  bool quiet = false;
+  app.add_option("--observed", observed, "what the sensor said: files, folders or archives")
+      ->required();
+  app.add_option("--truth", truth, "what was true, in the same order; joints may be missing")
+      ->required();
+  app.add_option("--out", out, "the .ossagp file to write")->required();
+  app.add_option("--seed", options.mixture.seed, "of the clustering")->capture_default_str();
+  app.add_option("--regions", options.mixture.regions, "Q of liu-2016")->capture_default_str();
+  app.add_option("--samples", options.mixture.samples, "S of liu-2016")->capture_default_str();
+  app.add_option("--pairs", options.most_pairs, "at most, for liu-2016, full-gp and exemplar")
+      ->capture_default_str();
+  app.add_flag("--quiet", quiet, "no progress");
+  Parse(app, argc, argv);
+  if (observed.size() != truth.size()) {
+    throw UsageError(fmt::format("learn: {} --observed but {} --truth; expected as many",
+                                 observed.size(), truth.size()));
+  }
+  if (options.mixture.regions < 1 || options.mixture.samples < 2 || options.most_pairs < 10) {
+    throw UsageError("learn: --regions, --samples (>= 2) and --pairs (>= 10) must be positive");
+  }
+  options.correction.seed = options.mixture.seed;
+
+  std::vector<recon::PosturePair> pairs;
+  for (size_t i = 0; i < observed.size(); ++i) AddClips(observed[i], truth[i], pairs);
+  Progress progress("learn", quiet);
+  const auto models = recon::LearnedModels::Learn(pairs, options, [&](int joint) {
+    progress.Update(joint, recon::kJointCount, fmt::format("{} pairs", pairs.size()));
+    return !Interrupted();
+  });
+  if (Interrupted()) throw InputError("learn: interrupted; nothing was written");
+  models.Save(out);
+  fmt::print("{}: learned from {} pairs\n", out, pairs.size());
+  return 0;
+}
+
+}  // namespace ossa::commands
