@@ -12,6 +12,7 @@ namespace {
 using ossa::commands::Command;
 
 constexpr std::array kCommands = {
+    Command{"compare", "judge skeletons against the truth", ossa::commands::Compare},
     Command{"experiment", "run a study: a paper's tables beside its own numbers",
             ossa::commands::Experiment},
     Command{"database", "build a posture database from motion capture",

@@ -3,6 +3,7 @@
 namespace ossa::commands {
 
 // One function a subcommand, each in a file of its own name in this folder.
+int Compare(int argc, char** argv);
 int Experiment(int argc, char** argv);
 int Database(int argc, char** argv);
 int Reconstruct(int argc, char** argv);
