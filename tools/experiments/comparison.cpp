@@ -118,7 +118,7 @@ void TestQuantity(const std::vector<ComparedResult>& results, const std::string&
   const size_t units = values[0].size();
   if (units < kFewestUnits) return;
   for (size_t r = 0; r < results.size(); ++r) {
-    AddTest(tests, "Kolmogorov-Smirnov normality", quantity, results[r].name, units,
+    AddTest(tests, "Kolmogorov-Smirnov normality", quantity, results[r].label, units,
             NormalKs(values[r]), 1);
   }
   AddTest(tests, "repeated-measures Anova", quantity, "all", units, RepeatedAnova(values), 1);
@@ -126,11 +126,23 @@ void TestQuantity(const std::vector<ComparedResult>& results, const std::string&
   const auto pairs = static_cast<double>(results.size() * (results.size() - 1) / 2);
   for (size_t a = 0; a < results.size(); ++a) {
     for (size_t b = a + 1; b < results.size(); ++b) {
-      const std::string between = results[a].name + " / " + results[b].name;
+      const std::string between = results[a].label + " / " + results[b].label;
       AddTest(tests, "paired t", quantity, between, units, PairedT(values[a], values[b]), pairs);
       AddTest(tests, "Wilcoxon signed rank", quantity, between, units,
               Wilcoxon(values[a], values[b]), pairs);
     }
+  }
+}
+
+void Label(std::vector<ComparedResult>& results) {
+  std::map<std::string, int> uses;
+  const auto last_part = [](const std::string& name) {
+    return name.substr(name.find_last_of('/') + 1);
+  };
+  for (const ComparedResult& result : results) ++uses[last_part(result.name)];
+  for (ComparedResult& result : results) {
+    const std::string part = last_part(result.name);
+    result.label = part.empty() || uses[part] > 1 ? result.name : part;
   }
 }
 
@@ -145,6 +157,7 @@ Comparison Compare(const std::string& truth, const std::vector<std::string>& res
   for (const std::string& result : results) {
     comparison.results.push_back(CompareOne(truth, clips, result, options));
   }
+  Label(comparison.results);
   if (results.size() > 1) {
     TestQuantity(comparison.results, "mean joint error", &ClipMetrics::mean_joint_error_cm,
                  comparison.tests);

@@ -19,8 +19,9 @@ struct CompareOptions {
 
 /// One result against the truth, over all clips that both have.
 struct ComparedResult {
-  std::string name;
-  ClipMetrics mean;                                   // over the clips
+  std::string name;   // as given
+  std::string label;  // for tables: the last part of the name where that tells results apart
+  ClipMetrics mean;   // over the clips
   std::vector<ClipMetrics> clips;                     // by name
   std::vector<PairedTracks> pairs;                    // of the same clips, for plots
   std::vector<std::string> missing_clips;             // that the truth has and the result does not

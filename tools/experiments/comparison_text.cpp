@@ -78,7 +78,7 @@ Table SummaryTable(const Comparison& comparison) {
   for (const ComparedResult& r : comparison.results) {
     const ClipMetrics& m = r.mean;
     table.rows.push_back(
-        {r.name, std::to_string(r.clips.size()), std::to_string(m.frames),
+        {r.label, std::to_string(r.clips.size()), std::to_string(m.frames),
          WithInterval(m.mean_joint_error_cm, r.mean_joint_error_interval),
          WithInterval(m.parent_relative_error_cm, r.parent_relative_error_interval),
          Number(m.fraction_frames_over_20cm, 1, 100), Number(m.fraction_joints_within_10cm, 1, 100),
@@ -87,7 +87,7 @@ Table SummaryTable(const Comparison& comparison) {
          Number(m.p99_cm, 1),
          m.same_clock ? "0 (times agree)" : fmt::format("{:+.3f}", m.offset_s)});
     if (!r.missing_clips.empty()) {
-      table.note += fmt::format("{} lacks {} of the truth's clips, e.g. {}. ", r.name,
+      table.note += fmt::format("{} lacks {} of the truth's clips, e.g. {}. ", r.label,
                                 r.missing_clips.size(), r.missing_clips[0]);
     }
   }
@@ -101,7 +101,7 @@ Table JointTable(const Comparison& comparison) {
   Table table;
   table.title = "Mean error by joint, cm";
   table.columns = {"joint"};
-  for (const ComparedResult& result : comparison.results) table.columns.push_back(result.name);
+  for (const ComparedResult& result : comparison.results) table.columns.push_back(result.label);
   for (size_t j = 0; j < recon::kJointCount; ++j) {
     std::vector<std::string> row = {std::string(recon::kJointNames[j])};
     bool any = false;

@@ -49,7 +49,7 @@ std::string Summary(const Comparison& comparison) {
   for (const ComparedResult& r : comparison.results) {
     const ClipMetrics& m = r.mean;
     html += Cells(
-        {r.name, std::to_string(r.clips.size()), std::to_string(m.frames),
+        {r.label, std::to_string(r.clips.size()), std::to_string(m.frames),
          Number(m.mean_joint_error_cm) + Range(r.mean_joint_error_interval),
          Number(m.parent_relative_error_cm) + Range(r.parent_relative_error_interval),
          Number(m.fraction_frames_over_20cm, 1, 100), Number(m.fraction_joints_within_10cm, 1, 100),
@@ -123,7 +123,7 @@ std::string ErrorOverTime(const Comparison& comparison) {
   for (const ComparedResult& result : comparison.results) {
     const PairedTracks* pair = PairNamed(result, clip);
     if (pair == nullptr) continue;
-    series.push_back(Thinned({result.name, pair->time_s, ErrorsByFrame(*pair).mean_joint_cm}));
+    series.push_back(Thinned({result.label, pair->time_s, ErrorsByFrame(*pair).mean_joint_cm}));
   }
   const std::string which = comparison.results[0].clips.size() > 1
                                 ? " (the first result's worst clip: " + clip + ")"
@@ -142,7 +142,7 @@ std::string CumulativeCurves(const Comparison& comparison) {
       errors.insert(errors.end(), some.begin(), some.end());
     }
     std::sort(errors.begin(), errors.end());
-    Series line{result.name, {}, {}};
+    Series line{result.label, {}, {}};
     for (int step = 0; step <= 120; ++step) {
       const double error_cm = kFarthest_cm * step / 120;
       const auto below = std::upper_bound(errors.begin(), errors.end(), error_cm) - errors.begin();
@@ -161,7 +161,7 @@ std::string JointBars(const Comparison& comparison) {
   std::vector<std::string> joints;
   std::vector<std::vector<std::optional<double>>> values(comparison.results.size());
   std::vector<std::string> names;
-  for (const ComparedResult& result : comparison.results) names.push_back(result.name);
+  for (const ComparedResult& result : comparison.results) names.push_back(result.label);
   for (size_t j = 0; j < kJoints; ++j) {
     const bool any =
         std::any_of(comparison.results.begin(), comparison.results.end(),
@@ -264,7 +264,7 @@ std::string WorstFrames(const Comparison& comparison) {
       "<h2>Worst frames</h2><p class=\"note\">Front (as the camera sees it) and side; grey is the "
       "truth.</p>";
   for (size_t r = 0; r < comparison.results.size(); ++r) {
-    html += fmt::format("<h3>{}</h3><div class=\"frames\">", Escaped(comparison.results[r].name));
+    html += fmt::format("<h3>{}</h3><div class=\"frames\">", Escaped(comparison.results[r].label));
     for (const WorstFrame& worst : WorstOf(comparison.results[r])) {
       html += DrawnFrame(*worst.pair, worst.frame, r, worst.error_cm);
     }
@@ -282,7 +282,7 @@ std::string ClipTable(const Comparison& comparison) {
             "th");
   for (const ComparedResult& result : comparison.results) {
     for (const ClipMetrics& clip : result.clips) {
-      html += Cells({clip.name, result.name, std::to_string(clip.frames),
+      html += Cells({clip.name, result.label, std::to_string(clip.frames),
                      Number(clip.mean_joint_error_cm), Number(clip.parent_relative_error_cm),
                      Number(clip.offset_removed_error_cm), fmt::format("{:.3f}", clip.offset_s)},
                     "td");

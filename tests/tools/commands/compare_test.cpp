@@ -81,8 +81,10 @@ TEST_F(CompareCommand, ComparesFoldersClipByClipWithIntervalsAndTests) {
   for (int clip = 0; clip < 6; ++clip) {
     const std::string name = "/c" + std::to_string(clip) + ".csv";
     recon::WriteSkeletons((folder_ / "t").string() + name, ExampleSequence(5));
-    recon::WriteSkeletons((folder_ / "a").string() + name, Moved(ExampleSequence(5), 0.01 + 0.001 * clip));
-    recon::WriteSkeletons((folder_ / "b").string() + name, Moved(ExampleSequence(5), 0.03 + 0.002 * clip));
+    recon::WriteSkeletons((folder_ / "a").string() + name,
+                          Moved(ExampleSequence(5), 0.01 + 0.001 * clip));
+    recon::WriteSkeletons((folder_ / "b").string() + name,
+                          Moved(ExampleSequence(5), 0.03 + 0.002 * clip));
   }
   const auto run = RunOssa({"compare", folder_ / "t", folder_ / "a", folder_ / "b", "--json"});
   ASSERT_EQ(run.exit_status, 0) << run.err;

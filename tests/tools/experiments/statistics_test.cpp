@@ -110,8 +110,8 @@ TEST(RigidTransform, AgreesWithScipysKabsch) {
   const Eigen::Matrix4d transform = RigidTransform(from, to);
   for (int row = 0; row < 3; ++row) {
     for (int column = 0; column < 3; ++column) {
-      EXPECT_NEAR(transform(row, column),
-                  G("rotation")[static_cast<size_t>(3 * row + column)], kTolerance);
+      EXPECT_NEAR(transform(row, column), G("rotation")[static_cast<size_t>(3 * row + column)],
+                  kTolerance);
     }
     EXPECT_NEAR(transform(row, 3), G("translation")[static_cast<size_t>(row)], kTolerance);
   }
