@@ -13,6 +13,7 @@ using ossa::commands::Command;
 
 constexpr std::array kCommands = {
     Command{"evaluate", "measure a model on labelled data", ossa::commands::Evaluate},
+    Command{"compare", "judge skeletons against the truth", ossa::commands::Compare},
     Command{"experiment", "run a study: a paper's tables beside its own numbers",
             ossa::commands::Experiment},
     Command{"database", "build a posture database from motion capture",

@@ -49,7 +49,7 @@ std::span<const SkeletonFormat> KinectV1Formats();  // skeleton_kinect_v1.cpp
 std::span<const SkeletonFormat> KinectV2Formats();  // skeleton_kinect_v2.cpp
 std::span<const SkeletonFormat> PairedFormats();    // skeleton_paired.cpp: UI-PRMD, ITOP
 std::span<const SkeletonFormat> UiPrmdFormats();    // skeleton_uiprmd.cpp: its original files
-std::span<const SkeletonFormat> OtherFormats();     // skeleton_azure.cpp
+std::span<const SkeletonFormat> AzureFormats();     // skeleton_azure.cpp
 std::span<const SkeletonFormat> BinaryFormats();    // skeleton_binary.cpp
 
 /// Puts a joint into a body unless the position is the "no reading" of its format.

@@ -8,6 +8,7 @@
 
 #include "depth/error.h"
 #include "depth/file/atomic_file.h"
+#include "recon/motion/bvh.h"
 #include "recon/motion/skeleton_formats_internal.h"
 #include "recon/motion/skeleton_jsonl.h"
 #include "recon/motion/skeleton_source_internal.h"
@@ -195,7 +196,8 @@ fs::path PathForBody(const fs::path& path, size_t index, int id) {
 std::span<const SkeletonFormat> AllSkeletonFormats() {
   static const std::vector<SkeletonFormat> kAll = [] {
     std::vector<SkeletonFormat> all;
-    for (const auto formats : {PlainFormats(), PairedFormats()}) {
+    for (const auto formats : {PlainFormats(), PairedFormats(), AzureFormats(), UiPrmdFormats(),
+                               KinectV2Formats(), KinectV1Formats(), BinaryFormats()}) {
       all.insert(all.end(), formats.begin(), formats.end());
     }
     return all;
@@ -247,9 +249,9 @@ SkeletonSequence ReadSkeletons(const fs::path& path, const SkeletonReadOptions& 
 }
 
 void CheckSkeletonExtension(const fs::path& path) {
-  static constexpr std::array kKnown = {".jsonl", ".csv", ".trc"};
+  static constexpr std::array kKnown = {".jsonl", ".csv", ".trc", ".bvh"};
   if (std::find(kKnown.begin(), kKnown.end(), path.extension()) != kKnown.end()) return;
-  throw InputError(path.string() + ": expected a name in .jsonl, .csv or .trc, found " +
+  throw InputError(path.string() + ": expected a name in .jsonl, .csv, .trc or .bvh, found " +
                    Quoted(path.extension().string()));
 }
 
@@ -269,6 +271,12 @@ void WriteSkeletons(const fs::path& path, const SkeletonSequence& sequence) {
   const std::vector<int> ids = BodyIds(sequence);
   for (size_t i = 0; i < ids.size(); ++i) {
     const fs::path own = PathForBody(path, i, ids[i]);
+    if (path.extension() == ".bvh") {
+      BvhExportOptions options;
+      options.body_id = ids[i];
+      WriteBvh(BvhOfSkeleton(sequence, options), own);
+      continue;
+    }
     AtomicFile file(own);
     WriteTrc(file.stream(), sequence, ids[i], own.filename().string());
     file.Commit();

@@ -1,4 +1,8 @@
 // The formats that are not an SDK's: our own JSONL and table, OpenSim's TRC.
+#include <array>
+
+#include "depth/error.h"
+#include "recon/motion/bvh.h"
 #include "recon/motion/skeleton_formats_internal.h"
 #include "recon/motion/skeleton_jsonl.h"
 
@@ -24,9 +28,29 @@ bool IsTrc(const SkeletonSample& sample) {
   return !sample.lines.empty() && sample.lines[0].starts_with("PathFileType");
 }
 
+bool IsBvh(const SkeletonSample& sample) {
+  return !sample.lines.empty() && sample.lines[0].starts_with("HIERARCHY");
+}
+
+// The BVH reader wants the whole text; half a gigabyte is days of motion.
+SkeletonSequence ReadBvhSkeleton(SkeletonInput& input) {
+  constexpr size_t kMostBytes = size_t{1} << 29;
+  std::string text;
+  std::array<char, 1 << 16> block{};
+  while (input.stream.read(block.data(), block.size()) || input.stream.gcount() > 0) {
+    text.append(block.data(), static_cast<size_t>(input.stream.gcount()));
+    if (text.size() > kMostBytes)
+      throw InputError(input.name + ": expected at most 512 MiB of BVH");
+  }
+  SkeletonSequence sequence = SkeletonOfBvh(ParseBvh(std::move(text), input.name), input.name);
+  RequireFrames(sequence);
+  return sequence;
+}
+
 constexpr SkeletonFormat kFormats[] = {
     {"trc", IsTrc, ReadTrc},
     {"csv", IsCsv, ReadSkeletonCsv},
+    {"bvh", IsBvh, ReadBvhSkeleton},
     {"jsonl", IsJsonl, ReadJsonl},
 };
 

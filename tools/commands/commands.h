@@ -4,6 +4,7 @@ namespace ossa::commands {
 
 // One function a subcommand, each in a file of its own name in this folder.
 int Evaluate(int argc, char** argv);
+int Compare(int argc, char** argv);
 int Experiment(int argc, char** argv);
 int Database(int argc, char** argv);
 int Learn(int argc, char** argv);

@@ -94,26 +94,55 @@ bool FrameTimesAgree(const JointTrack& truth, const JointTrack& result) {
   return 10 * near >= 9 * result.time_s.size();
 }
 
-// Mean speed of the joints at evenly spaced times; zero where it is not known.
-std::vector<double> Speeds(const JointTrack& track, double start_s, double step_s, size_t count) {
-  std::vector<double> speeds(count, 0.0);
-  double sum = 0;
-  int known = 0;
+// Speed of every joint at evenly spaced times, without its mean; zero where it is not known.
+// speeds[joint][time]. Joints are kept apart: their sum over a whole body is nearly constant in
+// many motions and would say little about time.
+using Speeds = std::array<std::vector<double>, kJoints>;
+
+Speeds SpeedsOf(const JointTrack& track, double start_s, double step_s, size_t count) {
+  constexpr double kHalf_s = 0.05;  // speeds over a tenth of a second: above the sensor's jitter
+  Speeds speeds;
+  std::array<std::vector<bool>, kJoints> known;
+  for (size_t j = 0; j < kJoints; ++j) {
+    speeds[j].assign(count, 0.0);
+    known[j].assign(count, false);
+  }
   for (size_t i = 0; i < count; ++i) {
     const double time_s = start_s + static_cast<double>(i) * step_s;
-    constexpr double kHalf_s = 0.05;  // speeds over a tenth of a second: above the sensor's jitter
     const auto before = At(track, time_s - kHalf_s);
     const auto after = At(track, time_s + kHalf_s);
-    if (!before || !after) continue;
-    const double moved_m = MeanDistance(*before, *after);
-    if (!std::isfinite(moved_m)) continue;
-    speeds[i] = moved_m;
-    sum += moved_m;
-    ++known;
+    for (size_t j = 0; before && after && j < kJoints; ++j) {
+      if (!before->present[j] || !after->present[j]) continue;
+      known[j][i] = true;
+      speeds[j][i] = (after->position_m[j] - before->position_m[j]).norm();
+    }
   }
-  const double mean = known > 0 ? sum / known : 0.0;
-  for (double& speed : speeds) speed = speed > 0 ? speed - mean : 0.0;
+  for (size_t j = 0; j < kJoints; ++j) {
+    const auto there = static_cast<double>(std::count(known[j].begin(), known[j].end(), true));
+    double mean = 0;
+    for (const double speed : speeds[j]) mean += there > 0 ? speed / there : 0;
+    for (size_t i = 0; i < count; ++i) speeds[j][i] -= known[j][i] ? mean : 0;
+  }
   return speeds;
+}
+
+// Normalised correlation of a(t) with b(t - shift) over all joints.
+double Correlation(const Speeds& a, const Speeds& b, long shift) {
+  const auto count = static_cast<long>(a[0].size());
+  double product = 0;
+  double energy_a = 0;
+  double energy_b = 0;
+  for (size_t j = 0; j < kJoints; ++j) {
+    for (long i = std::max(0L, shift); i < count + std::min(0L, shift); ++i) {
+      const double x = a[j][static_cast<size_t>(i)];
+      const double y = b[j][static_cast<size_t>(i - shift)];
+      product += x * y;
+      energy_a += x * x;
+      energy_b += y * y;
+    }
+  }
+  const double energy = std::sqrt(energy_a * energy_b);
+  return energy > 0 ? product / energy : 0.0;
 }
 
 void AlignRigidly(PairedTracks& pair) {
@@ -265,24 +294,11 @@ double TimeOffset_s(const JointTrack& truth, const JointTrack& result, double ma
   const double start_s = std::min(truth.time_s.front(), result.time_s.front());
   const double end_s = std::max(truth.time_s.back(), result.time_s.back());
   const auto count = static_cast<size_t>(std::min((end_s - start_s) / kStep_s + 1, 2e5));
-  const auto a = Speeds(truth, start_s, kStep_s, count);
-  const auto b = Speeds(result, start_s, kStep_s, count);
+  const Speeds a = SpeedsOf(truth, start_s, kStep_s, count);
+  const Speeds b = SpeedsOf(result, start_s, kStep_s, count);
   const long reach = std::lround(max_offset_s / kStep_s);
   std::vector<double> score;
-  for (long shift = -reach; shift <= reach; ++shift) {
-    double product = 0;
-    double energy_a = 0;
-    double energy_b = 0;
-    for (long i = std::max(0L, shift); i < static_cast<long>(count) + std::min(0L, shift); ++i) {
-      const double x = a[static_cast<size_t>(i)];
-      const double y = b[static_cast<size_t>(i - shift)];
-      product += x * y;
-      energy_a += x * x;
-      energy_b += y * y;
-    }
-    const double energy = std::sqrt(energy_a * energy_b);
-    score.push_back(energy > 0 ? product / energy : 0.0);
-  }
+  for (long shift = -reach; shift <= reach; ++shift) score.push_back(Correlation(a, b, shift));
   // Of equal peaks the smallest offset: someone who stands still gives no reason to move the clock.
   size_t best = static_cast<size_t>(reach);
   for (size_t i = 0; i < score.size(); ++i) {

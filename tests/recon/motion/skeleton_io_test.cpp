@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <fstream>
 #include <sstream>
 
@@ -44,6 +45,26 @@ TEST_P(EveryWrittenFormat, IsFoundByContentAndReadBack) {
 }
 
 INSTANTIATE_TEST_SUITE_P(All, EveryWrittenFormat, testing::Values(".jsonl", ".csv", ".trc"));
+
+TEST(BvhFile, HoldsTheSamePostureWithConstantBones) {
+  const test::TemporaryFolder folder;
+  // A stiff figure that moves as a whole has constant bones already: nothing is lost.
+  SkeletonSequence stiff = ExampleSequence(8);
+  for (auto& frame : stiff.frames) {
+    for (size_t j = 0; j < kJointCount; ++j) {
+      auto& joint = frame.bodies[0].joints[j];
+      if (!joint) joint = JointRecord{};
+      const auto i = static_cast<double>(j);
+      joint->position_m = {0.02 * i, 0.1 * std::sin(i),
+                           2 + 0.01 * static_cast<double>(frame.frame)};
+    }
+  }
+  WriteSkeletons(folder / "walk.bvh", stiff);
+  const auto read = ReadSkeletons(folder / "walk.bvh");
+  ASSERT_EQ(read.frames.size(), stiff.frames.size());
+  // BVH angles carry six decimals of a degree over chains of a metre.
+  EXPECT_LT((At(read, 7, Joint::kHandLeft) - At(stiff, 7, Joint::kHandLeft)).norm(), 1e-4);
+}
 
 TEST(SkeletonFiles, OfAnUnknownExtensionAreRefusedBeforeAnythingIsWritten) {
   const test::TemporaryFolder folder;

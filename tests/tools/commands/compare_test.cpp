@@ -1,0 +1,175 @@
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <fstream>
+#include <nlohmann/json.hpp>
+
+#include "recon/motion/skeleton_io.h"
+#include "tests/recon/motion/skeleton_examples.h"
+#include "tests/support/run_command.h"
+#include "tests/support/temporary_folder.h"
+
+namespace ossa {
+namespace {
+
+using recon::ExampleSequence;
+using test::RunOssa;
+
+recon::SkeletonSequence Moved(recon::SkeletonSequence sequence, double by_m) {
+  for (auto& frame : sequence.frames) {
+    for (auto& body : frame.bodies) {
+      for (auto& joint : body.joints) {
+        if (joint) joint->position_m.y() += by_m;
+      }
+    }
+  }
+  return sequence;
+}
+
+std::string Content(const std::filesystem::path& path) {
+  std::ifstream file(path);
+  return {std::istreambuf_iterator<char>(file), {}};
+}
+
+class CompareCommand : public testing::Test {
+ protected:
+  CompareCommand() {
+    recon::WriteSkeletons(truth_, ExampleSequence(20));
+    recon::WriteSkeletons(near_, Moved(ExampleSequence(20), 0.02));
+    recon::WriteSkeletons(far_, Moved(ExampleSequence(20), 0.25));
+  }
+  test::TemporaryFolder folder_;
+  std::string truth_ = folder_ / "truth.jsonl";
+  std::string near_ = folder_ / "near.trc";
+  std::string far_ = folder_ / "far.csv";
+};
+
+TEST_F(CompareCommand, PrintsTablesAndWritesTheDocumentedJson) {
+  const std::string json_path = folder_ / "out.json";
+  const auto run = RunOssa({"compare", truth_, near_, far_, "--json", json_path});
+  ASSERT_EQ(run.exit_status, 0) << run.err;
+  EXPECT_NE(run.out.find("near.trc"), std::string::npos);
+  const auto json = nlohmann::json::parse(Content(json_path));
+  ASSERT_EQ(json["results"].size(), 2u);
+  const auto& far = json["results"][1];
+  EXPECT_EQ(far["frames"], 20);
+  EXPECT_NEAR(far["mean_joint_error_cm"], 25.0, 1e-3);
+  EXPECT_NEAR(far["parent_relative_error_cm"], 0.0, 1e-3);
+  EXPECT_EQ(far["fraction_frames_over_20cm"], 0.0);
+  EXPECT_EQ(far["fraction_joints_within_10cm"], 0.0);
+  EXPECT_NEAR(far["acceleration_error_cm_per_frame2"], 0.0, 1e-3);
+  EXPECT_NEAR(far["per_joint_cm"]["Head"], 25.0, 1e-3);
+}
+
+TEST_F(CompareCommand, WritesAReportThatNeedsNothingElse) {
+  const std::string report = folder_ / "r.html";
+  ASSERT_EQ(RunOssa({"compare", truth_, near_, "--report", report}).exit_status, 0);
+  const std::string html = Content(report);
+  EXPECT_NE(html.find("<svg"), std::string::npos);
+  EXPECT_NE(html.find("Worst frames"), std::string::npos);
+  EXPECT_TRUE(html.ends_with("</html>\n"));
+  for (const char* outside : {"http://", "https://", "<script", "src="}) {
+    EXPECT_EQ(html.find(outside), std::string::npos) << outside;
+  }
+  EXPECT_EQ(html.find("nan"), std::string::npos);
+}
+
+TEST_F(CompareCommand, ComparesFoldersClipByClipWithIntervalsAndTests) {
+  std::filesystem::create_directories(folder_ / "t");
+  std::filesystem::create_directories(folder_ / "a");
+  std::filesystem::create_directories(folder_ / "b");
+  for (int clip = 0; clip < 6; ++clip) {
+    const std::string name = "/c" + std::to_string(clip) + ".csv";
+    recon::WriteSkeletons((folder_ / "t").string() + name, ExampleSequence(5));
+    recon::WriteSkeletons((folder_ / "a").string() + name,
+                          Moved(ExampleSequence(5), 0.01 + 0.001 * clip));
+    recon::WriteSkeletons((folder_ / "b").string() + name,
+                          Moved(ExampleSequence(5), 0.03 + 0.002 * clip));
+  }
+  const auto run = RunOssa({"compare", folder_ / "t", folder_ / "a", folder_ / "b", "--json"});
+  ASSERT_EQ(run.exit_status, 0) << run.err;
+  const auto json = nlohmann::json::parse(run.out);
+  EXPECT_EQ(json["results"][0]["clips"].size(), 6u);
+  // Clips are 1.0, 1.1, ... 1.5 cm off: their mean is 1.25, and the interval lies around it.
+  EXPECT_NEAR(json["results"][0]["mean_joint_error_cm"], 1.25, 1e-3);
+  EXPECT_LT(json["results"][0]["confidence_95"]["mean_joint_error_cm"][0], 1.25);
+  bool found = false;
+  for (const auto& test : json["tests"]) {
+    if (test["test"] != "Wilcoxon signed rank" || test["quantity"] != "mean joint error") continue;
+    found = true;
+    // Six pairs, all in one direction: two of 2^6 sign patterns are as extreme.
+    EXPECT_NEAR(test["p"], 2.0 / 64, 1e-12);
+  }
+  EXPECT_TRUE(found);
+}
+
+struct BadUse {
+  std::vector<std::string> arguments;
+  int status;
+  std::string named;
+};
+
+class BadCompare : public testing::TestWithParam<BadUse> {};
+
+TEST_P(BadCompare, IsOneLineAndTheRightStatus) {
+  const test::TemporaryFolder folder;
+  recon::WriteSkeletons(folder / "good.jsonl", ExampleSequence(3));
+  std::ofstream(folder / "empty.jsonl");
+  std::ofstream(folder / "junk.jsonl") << "{\"frame\":";
+  std::vector<std::string> arguments = {"compare"};
+  for (const std::string& argument : GetParam().arguments) {
+    arguments.push_back(argument.starts_with("@") ? (folder / argument.substr(1)).string()
+                                                  : argument);
+  }
+  const auto run = RunOssa(arguments);
+  EXPECT_EQ(run.exit_status, GetParam().status) << run.err;
+  EXPECT_EQ(test::LineCount(run.err), 1) << run.err;
+  EXPECT_NE(run.err.find(GetParam().named), std::string::npos) << run.err;
+}
+
+INSTANTIATE_TEST_SUITE_P(
+    All, BadCompare,
+    testing::Values(BadUse{{"@good.jsonl"}, 2, "RESULT"},
+                    BadUse{{"@good.jsonl", "@good.jsonl", "--align", "scale"}, 2, "--align"},
+                    BadUse{{"@good.jsonl", "@good.jsonl", "--time", "soon"}, 2, "--time"},
+                    BadUse{{"@good.jsonl", "@none.jsonl"}, 1, "none.jsonl"},
+                    BadUse{{"@good.jsonl", "@empty.jsonl"}, 1, "empty.jsonl: line 1"},
+                    BadUse{{"@good.jsonl", "@junk.jsonl"}, 1, "junk.jsonl: line 1"},
+                    BadUse{{"@good.jsonl", "@good.jsonl", "--json", "@no/x.json"}, 1, "x.json"}));
+
+constexpr const char* kReal = OSSA_SHARED_DIR "/real";
+
+struct RealFigure {
+  const char* path;
+  const char* skip;
+  double mean_cm;
+  double relative_cm;
+  double offset_removed_cm;
+};
+
+class RealRecordings : public testing::TestWithParam<RealFigure> {};
+
+// The figures of the data's own READMEs, to the 0.1 cm to which they are promised.
+TEST_P(RealRecordings, GiveTheirPublishedFigures) {
+  const RealFigure& figure = GetParam();
+  const std::string path = std::string(kReal) + figure.path;
+  if (!std::filesystem::exists(path)) GTEST_SKIP() << path << " is not here";
+  std::vector<std::string> arguments = {"compare", path + "#truth", path + "#observed", "--json"};
+  if (*figure.skip != 0) arguments.insert(arguments.end(), {"--skip", figure.skip});
+  const auto run = RunOssa(arguments);
+  ASSERT_EQ(run.exit_status, 0) << run.err;
+  const auto result = nlohmann::json::parse(run.out)["results"][0];
+  EXPECT_NEAR(result["mean_joint_error_cm"], figure.mean_cm, 0.1);
+  if (figure.relative_cm > 0) {
+    EXPECT_NEAR(result["parent_relative_error_cm"], figure.relative_cm, 0.1);
+    EXPECT_NEAR(result["offset_removed_error_cm"], figure.offset_removed_cm, 0.1);
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(
+    All, RealRecordings,
+    testing::Values(RealFigure{"/uiprmd_kinect_vicon/derived", "_inc", 5.67, 6.73, 1.96},
+                    RealFigure{"/itop_a2j/itop_side_truth_and_a2j.csv.gz", "", 6.28, 0, 0}));
+
+}  // namespace
+}  // namespace ossa

@@ -1,0 +1,96 @@
+#include <gtest/gtest.h>
+
+#include <fstream>
+
+#include "depth/error.h"
+#include "tests/support/run_command.h"
+#include "tests/support/temporary_folder.h"
+#include "tools/experiments/experiment.h"
+
+namespace ossa::tools {
+namespace {
+
+class StudyParameters : public testing::Test {
+ protected:
+  Parameters From(const std::string& text) {
+    std::ofstream(folder_ / "p.toml") << text;
+    return Parameters::FromToml(folder_ / "p.toml");
+  }
+  std::string Complaint(const std::string& text) {
+    try {
+      Parameters parameters = From(text);
+      parameters.Number("samples", 100);
+      parameters.Texts("methods", {"none"});
+      parameters.ExpectAllUsed();
+    } catch (const InputError& error) {
+      return error.what();
+    }
+    return {};
+  }
+  test::TemporaryFolder folder_;
+};
+
+TEST_F(StudyParameters, AreReadOrTakeTheirUsualValueAndCanBeReadAgain) {
+  Parameters p = From("samples = 7\nmethods = [\"none\", \"best\"]\nsizes = [1, 2.5]\n");
+  EXPECT_EQ(p.Integer("samples", 100), 7);
+  EXPECT_EQ(p.Texts("methods", {}).size(), 2u);
+  EXPECT_EQ(p.Numbers("sizes", {})[1], 2.5);
+  EXPECT_EQ(p.Text("kind", "usual"), "usual");
+  EXPECT_NO_THROW(p.ExpectAllUsed());
+  Parameters again = From(p.Used());
+  EXPECT_EQ(again.Text("kind", "other"), "usual");
+  EXPECT_EQ(again.Integer("samples", 0), 7);
+}
+
+TEST_F(StudyParameters, ThatAreWrongAreRefusedByLine) {
+  EXPECT_EQ(Complaint("samples = 3\n"), "");
+  EXPECT_NE(Complaint("samples = \"many\"\n").find("line 1: expected samples as a number"),
+            std::string::npos);
+  EXPECT_NE(Complaint("\nsampels = 3\n").find("line 2"), std::string::npos);
+  EXPECT_NE(Complaint("samples = \n").find("p.toml: line 1"), std::string::npos);
+  EXPECT_NE(Complaint("[samples]\nx = 1\n").find("samples"), std::string::npos);
+  EXPECT_NE(Complaint("samples = nan\n").find("finite"), std::string::npos);
+  EXPECT_EQ(Complaint("samples = \n").find('\n'), std::string::npos);
+}
+
+TEST(CachedResults, AreComputedOnceAndSurviveOnlyTheirOwnKey) {
+  const test::TemporaryFolder folder;
+  ExperimentContext context;
+  context.out = folder.path();
+  int computed = 0;
+  const auto compute = [&] { return "result " + std::to_string(++computed); };
+  EXPECT_EQ(context.Cached("a", compute), "result 1");
+  EXPECT_EQ(context.Cached("a", compute), "result 1");
+  EXPECT_EQ(context.Cached("b", compute), "result 2");
+  // A cache file that is damaged is computed anew.
+  for (const auto& entry : std::filesystem::directory_iterator(folder / "cache")) {
+    std::ofstream(entry.path()) << "junk";
+  }
+  EXPECT_EQ(context.Cached("a", compute), "result 3");
+}
+
+TEST(CachedResults, StopBeforeTheNextStepWhenInterrupted) {
+  const test::TemporaryFolder folder;
+  ExperimentContext context;
+  context.out = folder.path();
+  context.Cached("done", [] { return "kept"; });
+  context.interrupted = [] { return true; };
+  EXPECT_EQ(context.Cached("done", [] { return "again"; }), "kept");
+  EXPECT_THROW(context.Cached("next", [] { return "never"; }), Interruption);
+}
+
+TEST(ExperimentCommand, RefusesUnknownStudiesAndMissingData) {
+  const test::TemporaryFolder folder;
+  const std::string out = folder / "out";
+  auto run = test::RunOssa({"experiment", "nonsense", "--out", out});
+  EXPECT_EQ(run.exit_status, 1);
+  EXPECT_NE(run.err.find("expected one of sdk"), std::string::npos) << run.err;
+  run = test::RunOssa({"experiment", "sdk", "--out", out});
+  EXPECT_EQ(run.exit_status, 1);
+  EXPECT_NE(run.err.find("--shared"), std::string::npos) << run.err;
+  run = test::RunOssa({"experiment", "sdk"});
+  EXPECT_EQ(run.exit_status, 2);
+}
+
+}  // namespace
+}  // namespace ossa::tools

@@ -1,0 +1,96 @@
+#include <fmt/format.h>
+
+#include <CLI/CLI.hpp>
+
+#include "depth/error.h"
+#include "depth/file/atomic_file.h"
+#include "tools/commands/command.h"
+#include "tools/commands/commands.h"
+#include "tools/experiments/comparison.h"
+
+namespace ossa::commands {
+namespace {
+
+void WriteText(const std::string& path, const std::string& text) {
+  AtomicFile file(path);
+  file.stream() << text;
+  file.Commit();
+}
+
+void ReadTimeAlignment(const std::string& word, tools::PairOptions& options) {
+  if (word == "auto") {
+    options.time = tools::TimeAlignment::kAuto;
+  } else if (word == "none") {
+    options.time = tools::TimeAlignment::kNone;
+  } else if (word == "correlate") {
+    options.time = tools::TimeAlignment::kCorrelate;
+  } else if (CLI::detail::lexical_cast(word, options.offset_s)) {
+    options.time = tools::TimeAlignment::kFixed;
+  } else {
+    throw UsageError("--time: expected auto, none, correlate or seconds, found '" + word + "'");
+  }
+}
+
+std::string Formats() {
+  std::string text =
+      "TRUTH and RESULT are files, folders or archives (.tar.gz, .zip) of recordings; clips in "
+      "them are matched by name. FILE#truth and FILE#observed choose one of two skeletons in a "
+      "file. Formats, found by content:";
+  for (const std::string& format : recon::SkeletonFormats()) text += " " + format;
+  return text;
+}
+
+}  // namespace
+
+int Compare(int argc, char** argv) {
+  CLI::App app("Judge skeletons against the truth, or against each other");
+  std::string truth;
+  std::vector<std::string> results;
+  std::string align = "none";
+  std::string time = "auto";
+  std::string json;
+  std::string report;
+  tools::CompareOptions options;
+  bool quiet = false;
+  app.add_option("TRUTH", truth, "the skeletons to compare with")->required();
+  app.add_option("RESULT", results, "one or more results")->required();
+  app.add_option("--align", align, "rigid: one rotation and translation a clip (Procrustes)")
+      ->check(CLI::IsMember({"none", "rigid"}))
+      ->capture_default_str();
+  app.add_option("--time", time,
+                 "auto: cross-correlation where the frame times disagree; none; correlate: always; "
+                 "or seconds to add to the results' times")
+      ->capture_default_str();
+  app.add_option("--max-offset", options.pairing.max_offset_s, "how far correlation looks, seconds")
+      ->check(CLI::Range(0.0, 60.0))
+      ->capture_default_str();
+  auto* json_option =
+      app.add_option("--json", json, "write all numbers as JSON to FILE ('-' or none: stdout)")
+          ->expected(0, 1);
+  app.add_option("--report", report, "write one self-contained HTML page with plots");
+  app.add_option("--columns", options.reading.columns, "truth or observed, for files of both");
+  app.add_option("--format", options.reading.format, "read every file in this format");
+  app.add_option("--only", options.only, "clips whose name holds TEXT (repeat for several)")
+      ->allow_extra_args(false);
+  app.add_option("--skip", options.skip, "no clips whose name holds TEXT (repeat for several)")
+      ->allow_extra_args(false);
+  app.add_option("--seed", options.seed, "of the bootstrap")->capture_default_str();
+  app.add_flag("--quiet", quiet, "no tables on stdout");
+  app.footer(Formats());
+  Parse(app, argc, argv);
+  ReadTimeAlignment(time, options.pairing);
+  options.pairing.rigid = align == "rigid";
+
+  const tools::Comparison comparison = tools::Compare(truth, results, options);
+  const bool json_to_stdout = json_option->count() > 0 && (json.empty() || json == "-");
+  if (json_to_stdout) {
+    fmt::print("{}", tools::ToJson(comparison));
+  } else {
+    if (!json.empty()) WriteText(json, tools::ToJson(comparison));
+    if (!quiet) fmt::print("{}", tools::ToText(comparison));
+  }
+  if (!report.empty()) WriteText(report, tools::ToHtml(comparison));
+  return 0;
+}
+
+}  // namespace ossa::commands

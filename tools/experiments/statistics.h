@@ -1,0 +1,49 @@
+#pragma once
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <vector>
+
+namespace ossa::tools {
+
+struct Interval {
+  double low = 0;
+  double high = 0;
+};
+
+/// Percentile bootstrap of the mean (Efron 1979): values drawn with replacement `resamples` times.
+/// One value per independent unit (a clip, a subject), never per frame: frames of a clip resemble
+/// each other and would make the interval far too small. Empty for fewer than two values.
+std::optional<Interval> BootstrapMean(std::span<const double> values, uint64_t seed,
+                                      int resamples = 2000, double level = 0.95);
+
+struct TestResult {
+  double statistic = 0;
+  double p = 1;
+};
+
+/// Two-sided paired tests of a against b, unit by unit; sizes are equal. Empty where the units are
+/// too few to say anything.
+
+/// Wilcoxon's signed rank test; statistic = the smaller rank sum. Exact up to 50 pairs without ties
+/// or zeros, else the normal approximation with the correction for ties (zeros left out).
+std::optional<TestResult> Wilcoxon(std::span<const double> a, std::span<const double> b);
+/// Student's t on the differences.
+std::optional<TestResult> PairedT(std::span<const double> a, std::span<const double> b);
+
+/// Friedman's test of k >= 3 methods on n units, values[method][unit]; chi-square approximation
+/// with the correction for ties.
+std::optional<TestResult> Friedman(const std::vector<std::vector<double>>& values);
+/// One-way repeated-measures analysis of variance; statistic = F(k - 1, (k - 1)(n - 1)).
+std::optional<TestResult> RepeatedAnova(const std::vector<std::vector<double>>& values);
+/// Kolmogorov-Smirnov against the normal law with the values' own mean and deviation; p by
+/// Stephens' approximation. Plantard 2016 uses it to choose between the tests above.
+std::optional<TestResult> NormalKs(std::span<const double> values);
+
+/// Upper tails, for the tests and for checking them.
+double ChiSquareTail(double x, double degrees);
+double FTail(double f, double degrees_1, double degrees_2);
+double StudentTail(double t, double degrees);  // two-sided
+double NormalTail(double z);                   // two-sided
+
+}  // namespace ossa::tools
