@@ -132,14 +132,13 @@ Picture Strip(const std::vector<Picture>& frames, int count) {
   const int w = frames[0].width, h = frames[0].height;
   Picture strip(w * count, h);
   for (int k = 0; k < count; ++k) {
-    const size_t pick = count == 1 ? 0
-                                   : static_cast<size_t>(k) * (frames.size() - 1) /
-                                         static_cast<size_t>(count - 1);
+    const size_t pick =
+        count == 1 ? 0
+                   : static_cast<size_t>(k) * (frames.size() - 1) / static_cast<size_t>(count - 1);
     for (int y = 0; y < h; ++y) {
       const auto row = static_cast<size_t>(3 * w);
       const uint8_t* from = frames[pick].rgb.data() + static_cast<size_t>(y) * row;
-      std::copy(from, from + row,
-                strip.rgb.data() + (static_cast<size_t>(y * count + k)) * row);
+      std::copy(from, from + row, strip.rgb.data() + (static_cast<size_t>(y * count + k)) * row);
     }
   }
   return strip;

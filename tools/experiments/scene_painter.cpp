@@ -19,9 +19,9 @@ using Eigen::Vector3d;
 const cv::Scalar kSky(250, 251, 253), kGrid(222, 226, 232), kShadow(200, 204, 212);
 const std::array<cv::Scalar, 2> kPeople = {cv::Scalar(88, 130, 193), cv::Scalar(196, 110, 92)};
 const cv::Scalar kTarget(226, 174, 0);
-const std::array<cv::Scalar, 6> kThings = {
-    cv::Scalar(214, 169, 108), cv::Scalar(146, 184, 134), cv::Scalar(203, 140, 124),
-    cv::Scalar(163, 152, 196), cv::Scalar(128, 181, 187), cv::Scalar(221, 196, 124)};
+const std::array<cv::Scalar, 6> kThings = {cv::Scalar(214, 169, 108), cv::Scalar(146, 184, 134),
+                                           cv::Scalar(203, 140, 124), cv::Scalar(163, 152, 196),
+                                           cv::Scalar(128, 181, 187), cv::Scalar(221, 196, 124)};
 
 class Painter {
  public:
@@ -85,7 +85,8 @@ void PaintFloor(Painter& painter) {
 void AddLimb(Painter& painter, std::vector<Piece>& pieces, const Vector3d& from, const Vector3d& to,
              double radius_m, const cv::Scalar& colour) {
   const Vector3d middle = 0.5 * (from + to);
-  painter.Line(OnFloor(from), OnFloor(to), kShadow, painter.Pixels(1.6 * radius_m, OnFloor(middle)));
+  painter.Line(OnFloor(from), OnFloor(to), kShadow,
+               painter.Pixels(1.6 * radius_m, OnFloor(middle)));
   pieces.push_back({painter.Depth(middle), [&painter, from, to, radius_m, middle, colour] {
                       const double width = painter.Pixels(2.0 * radius_m, middle);
                       painter.Line(from, to, Shade(colour, 0.72), width + 1.5);
@@ -108,21 +109,22 @@ void AddBox(Painter& painter, std::vector<Piece>& pieces, const physics::ObjectS
             const Vector3d& size, const cv::Scalar& colour) {
   painter.Disc(OnFloor(state.position_m), painter.Pixels(0.5 * size.x(), OnFloor(state.position_m)),
                kShadow);
-  pieces.push_back({painter.Depth(state.position_m), [&painter, state, size, colour] {
-    for (int axis = 0; axis < 3; ++axis) {
-      for (const double sign : {1.0, -1.0}) {
-        const Vector3d normal = state.orientation * Vector3d(sign * Vector3d::Unit(axis));
-        const Vector3d centre = state.position_m + 0.5 * size[axis] * normal;
-        if (normal.dot(centre - painter.view().eye_m) >= 0.0) continue;  // faces away
-        const int b = (axis + 1) % 3, c = (axis + 2) % 3;
-        const Vector3d eb = state.orientation * Vector3d(0.5 * size[b] * Vector3d::Unit(b));
-        const Vector3d ec = state.orientation * Vector3d(0.5 * size[c] * Vector3d::Unit(c));
-        const double light = 0.75 + 0.25 * normal.dot(Vector3d(0.3, 0.85, 0.4));
-        painter.Face({centre + eb + ec, centre + eb - ec, centre - eb - ec, centre - eb + ec},
-                     Shade(colour, light));
-      }
-    }
-  }});
+  pieces.push_back(
+      {painter.Depth(state.position_m), [&painter, state, size, colour] {
+         for (int axis = 0; axis < 3; ++axis) {
+           for (const double sign : {1.0, -1.0}) {
+             const Vector3d normal = state.orientation * Vector3d(sign * Vector3d::Unit(axis));
+             const Vector3d centre = state.position_m + 0.5 * size[axis] * normal;
+             if (normal.dot(centre - painter.view().eye_m) >= 0.0) continue;  // faces away
+             const int b = (axis + 1) % 3, c = (axis + 2) % 3;
+             const Vector3d eb = state.orientation * Vector3d(0.5 * size[b] * Vector3d::Unit(b));
+             const Vector3d ec = state.orientation * Vector3d(0.5 * size[c] * Vector3d::Unit(c));
+             const double light = 0.75 + 0.25 * normal.dot(Vector3d(0.3, 0.85, 0.4));
+             painter.Face({centre + eb + ec, centre + eb - ec, centre - eb - ec, centre - eb + ec},
+                          Shade(colour, light));
+           }
+         }
+       }});
 }
 
 void AddObject(Painter& painter, std::vector<Piece>& pieces, const physics::ObjectState& state,

@@ -38,8 +38,7 @@ SceneResult MeetBalls(const Actors& actors, uint64_t seed) {
   options.seed = seed;
   Stage stage(options, view);
   const std::vector<Posture>& motion = actors.Play("tai_chi");
-  const int person =
-      stage.world.AddCharacter(recon::BoneLengthsOf(motion[0]), motion[0], {});
+  const int person = stage.world.AddCharacter(recon::BoneLengthsOf(motion[0]), motion[0], {});
   // The same without balls, to see what the impacts do.
   Stage calm(options, view);
   const int twin = calm.world.AddCharacter(recon::BoneLengthsOf(motion[0]), motion[0], {});
@@ -53,8 +52,8 @@ SceneResult MeetBalls(const Actors& actors, uint64_t seed) {
       ObjectOptions ball = Ball(0.14 + 0.06 * uniform(random), 150.0);
       ball.position_m = {1.5 * uniform(random), 1.2 + 0.3 * uniform(random), 3.0};
       const Posture now = stage.world.StateOf(person).posture;
-      const Vector3d goal = now[Joint::kSpine] +
-                            Vector3d(0.25 * uniform(random), 0.1 + 0.4 * uniform(random), 0.0);
+      const Vector3d goal =
+          now[Joint::kSpine] + Vector3d(0.25 * uniform(random), 0.1 + 0.4 * uniform(random), 0.0);
       ball.velocity_m_s = Aim(ball.position_m, goal, 0.5);
       stage.world.AddObject(ball);
     }
@@ -92,8 +91,7 @@ SceneResult Dodge(const Actors& actors, uint64_t seed) {
     Stage stage(options, view);
     physics::CharacterOptions character;
     character.dodge = dodging;
-    const int person =
-        stage.world.AddCharacter(recon::BoneLengthsOf(pose), pose, character);
+    const int person = stage.world.AddCharacter(recon::BoneLengthsOf(pose), pose, character);
     std::mt19937_64 random(seed);
     std::uniform_real_distribution<double> uniform(-1.0, 1.0);
     for (int f = 0; f < 240; ++f) {
@@ -115,14 +113,13 @@ SceneResult Dodge(const Actors& actors, uint64_t seed) {
     }
     if (dodging) AddCommonNumbers(stage, result);
   }
-  result.numbers.insert(
-      result.numbers.begin(),
-      {{"frames with the head hit, dodging off", std::to_string(head_hits[0]), "> 0",
-        head_hits[0] > 0},
-       {"frames with the head hit, dodging on", std::to_string(head_hits[1]), "0",
-        head_hits[1] == 0},
-       {"frames with a forearm hit, dodging on", std::to_string(forearm_hits[1]), "> 0",
-        forearm_hits[1] > 0}});
+  result.numbers.insert(result.numbers.begin(),
+                        {{"frames with the head hit, dodging off", std::to_string(head_hits[0]),
+                          "> 0", head_hits[0] > 0},
+                         {"frames with the head hit, dodging on", std::to_string(head_hits[1]), "0",
+                          head_hits[1] == 0},
+                         {"frames with a forearm hit, dodging on", std::to_string(forearm_hits[1]),
+                          "> 0", forearm_hits[1] > 0}});
   return result;
 }
 

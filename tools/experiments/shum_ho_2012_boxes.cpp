@@ -81,13 +81,14 @@ SceneResult CarryABox(const Actors& actors, uint64_t seed) {
     highest = std::max(highest, lifted);
     if (lifted > 0.05) ++off_floor;
   }
-  const double carried =
-      (stage.world.ObjectOf(box).position_m - bulky.position_m).cwiseProduct(Vector3d(1, 0, 1)).norm();
+  const double carried = (stage.world.ObjectOf(box).position_m - bulky.position_m)
+                             .cwiseProduct(Vector3d(1, 0, 1))
+                             .norm();
   SceneResult result;
-  result.numbers = {{"frames with the box in the air", std::to_string(off_floor), ">= 60",
-                     off_floor >= 60},
-                    {"lifted", Text(highest, 2, "m"), ">= 0.15 m", highest >= 0.15},
-                    {"carried sideways", Text(carried, 2, "m"), ">= 0.3 m", carried >= 0.3}};
+  result.numbers = {
+      {"frames with the box in the air", std::to_string(off_floor), ">= 60", off_floor >= 60},
+      {"lifted", Text(highest, 2, "m"), ">= 0.15 m", highest >= 0.15},
+      {"carried sideways", Text(carried, 2, "m"), ">= 0.3 m", carried >= 0.3}};
   AddCommonNumbers(stage, result);
   return result;
 }

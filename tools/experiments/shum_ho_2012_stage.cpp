@@ -77,9 +77,8 @@ void AddCommonNumbers(const Stage& stage, SceneResult& result) {
   result.numbers.push_back({"deepest overlap of a limb and an object",
                             Text(1e3 * stage.deepest_m(), 1, "mm"), "<= 5 mm",
                             stage.deepest_m() <= 0.005});
-  result.numbers.push_back(
-      {"simulation per 30 Hz frame", Text(stage.ms_per_frame(), 2, "ms"), "real time: < 33 ms",
-       stage.ms_per_frame() < 33.0});
+  result.numbers.push_back({"simulation per 30 Hz frame", Text(stage.ms_per_frame(), 2, "ms"),
+                            "real time: < 33 ms", stage.ms_per_frame() < 33.0});
   bool finite = true;
   for (int c = 0; c < stage.world.CharacterCount(); ++c) finite &= stage.world.IsFinite(c);
   result.numbers.push_back({"characters whole at the end", finite ? "yes" : "no", "yes", finite});
