@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "recon/normalise.h"
+
 namespace ossa::physics {
 namespace {
 
@@ -13,21 +15,6 @@ using recon::Posture;
 constexpr double kTinyLength_m = 1e-6;
 
 }  // namespace
-
-Posture RetargetByDirections(const Posture& posture, const recon::BoneLengths& lengths) {
-  Posture result = posture;
-  std::array<Vector3d, kJointCount> direction;
-  direction.fill(Vector3d::UnitY());
-  for (size_t i = 1; i < kJointCount; ++i) {
-    const auto parent = static_cast<size_t>(kJointParent[i]);
-    const Vector3d bone = posture.position_m[i] - posture.position_m[parent];
-    const double length = bone.norm();
-    const bool usable = bone.allFinite() && length > kTinyLength_m;
-    direction[i] = usable ? Vector3d(bone / length) : direction[parent];
-    result.position_m[i] = result.position_m[parent] + lengths[i] * direction[i];
-  }
-  return result;
-}
 
 Posture FitBoneLengths(const Posture& posture, const recon::BoneLengths& lengths,
                        const std::array<double, kJointCount>& weight, int iterations) {
@@ -45,7 +32,7 @@ Posture FitBoneLengths(const Posture& posture, const recon::BoneLengths& lengths
       fitted.position_m[parent] += excess * (wi / (wi + wp));
     }
   }
-  return RetargetByDirections(fitted, lengths);
+  return recon::Retargeted(fitted, lengths);
 }
 
 }  // namespace ossa::physics

@@ -7,5 +7,7 @@ namespace ossa::tools {
 
 /// Every method on every real recording, the SDK's own skeletons as the baseline.
 std::vector<Table> RunSdk(ExperimentContext& context);
+/// Shum & Ho 2012: scenes with objects, the character as a filter, dimensions of a posture search.
+std::vector<Table> RunShumHo2012(ExperimentContext& context);
 
 }  // namespace ossa::tools

@@ -5,6 +5,8 @@ namespace {
 
 constexpr Experiment kExperiments[] = {
     {"sdk", "every method on every real recording; the SDK's skeletons as the baseline", RunSdk},
+    {"shum-ho-2012", "the physical character: the paper's scenes, the filter, fig. 5",
+     RunShumHo2012},
 };
 
 }  // namespace

@@ -1,0 +1,147 @@
+#include "tools/experiments/animated_png.h"
+
+#include <algorithm>
+#include <array>
+#include <opencv2/core.hpp>
+#include <opencv2/imgcodecs.hpp>
+#include <opencv2/imgproc.hpp>
+#include <stdexcept>
+#include <string>
+
+#include "depth/file/atomic_file.h"
+
+namespace ossa::tools {
+namespace {
+
+using Bytes = std::vector<uint8_t>;
+
+Bytes EncodePng(const Picture& picture) {
+  const cv::Mat rgb(picture.height, picture.width, CV_8UC3,
+                    const_cast<uint8_t*>(picture.rgb.data()));
+  cv::Mat bgr;
+  cv::cvtColor(rgb, bgr, cv::COLOR_RGB2BGR);
+  Bytes bytes;
+  cv::imencode(".png", bgr, bytes, {cv::IMWRITE_PNG_COMPRESSION, 9});
+  return bytes;
+}
+
+void Append(Bytes& to, uint32_t value, int bytes = 4) {
+  for (int i = bytes - 1; i >= 0; --i) to.push_back(static_cast<uint8_t>(value >> (8 * i)));
+}
+
+uint32_t Get32(const Bytes& from, size_t at) {
+  return static_cast<uint32_t>(from[at]) << 24 | static_cast<uint32_t>(from[at + 1]) << 16 |
+         static_cast<uint32_t>(from[at + 2]) << 8 | from[at + 3];
+}
+
+/// CRC-32 of PNG, ISO 3309.
+uint32_t Crc(const uint8_t* data, size_t size) {
+  uint32_t crc = 0xffffffffU;
+  for (size_t i = 0; i < size; ++i) {
+    crc ^= data[i];
+    for (int bit = 0; bit < 8; ++bit) crc = (crc >> 1) ^ ((crc & 1U) != 0 ? 0xedb88320U : 0U);
+  }
+  return ~crc;
+}
+
+void AppendChunk(Bytes& file, const char* type, const Bytes& payload) {
+  Append(file, static_cast<uint32_t>(payload.size()));
+  const size_t start = file.size();
+  file.insert(file.end(), type, type + 4);
+  file.insert(file.end(), payload.begin(), payload.end());
+  Append(file, Crc(file.data() + start, file.size() - start));
+}
+
+constexpr size_t kSignatureBytes = 8, kHeaderChunkBytes = 25;
+
+/// The compressed pixels of a PNG, its IDAT chunks joined.
+Bytes PixelData(const Bytes& png) {
+  Bytes data;
+  for (size_t at = kSignatureBytes; at + 12 <= png.size();) {
+    const size_t size = Get32(png, at);
+    if (std::string(png.begin() + static_cast<std::ptrdiff_t>(at) + 4,
+                    png.begin() + static_cast<std::ptrdiff_t>(at) + 8) == "IDAT") {
+      const auto begin = png.begin() + static_cast<std::ptrdiff_t>(at) + 8;
+      data.insert(data.end(), begin, begin + static_cast<std::ptrdiff_t>(size));
+    }
+    at += 12 + size;
+  }
+  return data;
+}
+
+Bytes FrameControl(uint32_t sequence, const Picture& frame, int frame_ms) {
+  Bytes control;
+  Append(control, sequence);
+  Append(control, static_cast<uint32_t>(frame.width));
+  Append(control, static_cast<uint32_t>(frame.height));
+  Append(control, 0);  // x and y of the frame in the image
+  Append(control, 0);
+  Append(control, static_cast<uint32_t>(frame_ms), 2);
+  Append(control, 1000, 2);  // the delay is frame_ms / 1000 s
+  control.push_back(0);      // leave the frame there
+  control.push_back(0);      // overwrite, do not blend
+  return control;
+}
+
+void WriteBytes(const std::filesystem::path& path, const Bytes& bytes) {
+  AtomicFile file(path);
+  file.stream().write(reinterpret_cast<const char*>(bytes.data()),
+                      static_cast<std::streamsize>(bytes.size()));
+  file.Commit();
+}
+
+}  // namespace
+
+void WritePicture(const std::filesystem::path& path, const Picture& picture) {
+  WriteBytes(path, EncodePng(picture));
+}
+
+void WriteAnimation(const std::filesystem::path& path, const std::vector<Picture>& frames,
+                    int frame_ms) {
+  if (frames.empty()) throw std::invalid_argument("WriteAnimation: no frames");
+  const Bytes first = EncodePng(frames[0]);
+  Bytes file(first.begin(),
+             first.begin() + static_cast<std::ptrdiff_t>(kSignatureBytes + kHeaderChunkBytes));
+  Bytes animation;
+  Append(animation, static_cast<uint32_t>(frames.size()));
+  Append(animation, 0);  // for ever
+  AppendChunk(file, "acTL", animation);
+  uint32_t sequence = 0;
+  for (size_t i = 0; i < frames.size(); ++i) {
+    if (frames[i].width != frames[0].width || frames[i].height != frames[0].height) {
+      throw std::invalid_argument("WriteAnimation: frames differ in size");
+    }
+    AppendChunk(file, "fcTL", FrameControl(sequence++, frames[i], frame_ms));
+    const Bytes pixels = PixelData(i == 0 ? first : EncodePng(frames[i]));
+    if (i == 0) {
+      AppendChunk(file, "IDAT", pixels);
+      continue;
+    }
+    Bytes numbered;
+    Append(numbered, sequence++);
+    numbered.insert(numbered.end(), pixels.begin(), pixels.end());
+    AppendChunk(file, "fdAT", numbered);
+  }
+  AppendChunk(file, "IEND", {});
+  WriteBytes(path, file);
+}
+
+Picture Strip(const std::vector<Picture>& frames, int count) {
+  if (frames.empty()) return {};
+  count = std::min(count, static_cast<int>(frames.size()));
+  const int w = frames[0].width, h = frames[0].height;
+  Picture strip(w * count, h);
+  for (int k = 0; k < count; ++k) {
+    const size_t pick =
+        count == 1 ? 0
+                   : static_cast<size_t>(k) * (frames.size() - 1) / static_cast<size_t>(count - 1);
+    for (int y = 0; y < h; ++y) {
+      const auto row = static_cast<size_t>(3 * w);
+      const uint8_t* from = frames[pick].rgb.data() + static_cast<size_t>(y) * row;
+      std::copy(from, from + row, strip.rgb.data() + (static_cast<size_t>(y * count + k)) * row);
+    }
+  }
+  return strip;
+}
+
+}  // namespace ossa::tools
