@@ -7,6 +7,7 @@
 
 #include "depth/error.h"
 #include "depth/image/camera_io.h"
+#include "depth/sensor/fakenect_dump.h"
 #include "depth/sensor/frame_source.h"
 #include "depth/sensor/oni_recorder.h"
 #include "tools/commands/command.h"
@@ -27,6 +28,7 @@ struct RecordOptions {
   double seconds = 0.0;  // 0: to the end, or Ctrl-C
   double wait_s = 0.0;
   double patience_s = 5.0;
+  bool fakenect = false;
   bool quiet = false;
 };
 
@@ -47,7 +49,8 @@ RecordOptions ParseOptions(int argc, char** argv) {
                  "openni: (first device), openni:URI, FILE.oni, a folder of 16-bit PNGs or a "
                  "DATASET; openni:ossa://PATH plays the last three as a live device")
       ->required();
-  app.add_option("--out", options.out, "the recording, FILE.oni")->required();
+  app.add_option("--out", options.out, "the recording, FILE.oni, or a folder with --fakenect")
+      ->required();
   app.add_option("--seconds", options.seconds,
                  "stop after so long (default: at the end, or Ctrl-C)")
       ->check(CLI::PositiveNumber);
@@ -57,9 +60,12 @@ RecordOptions ParseOptions(int argc, char** argv) {
   app.add_option("--patience", options.patience_s,
                  "give up on a device that is unplugged or silent for so many seconds (default 5)")
       ->check(CLI::PositiveNumber);
+  app.add_flag(
+      "--fakenect", options.fakenect,
+      "write a dump that libfreenect's fakenect plays as a Kinect v1; --out is its folder");
   app.add_flag("--quiet", options.quiet, "no progress");
   Parse(app, argc, argv);
-  if (!options.out.ends_with(".oni")) {
+  if (!options.fakenect && !options.out.ends_with(".oni")) {
     throw UsageError("--out: expected a name that ends in .oni, found '" + options.out + "'");
   }
   return options;
@@ -70,8 +76,9 @@ milliseconds Milliseconds(double seconds) {
 }
 
 // Takes frames until the source ends, the time is up, Ctrl-C comes or a device is given up.
+template <typename Recorder>
 Recorded RecordFrames(depth::FrameSource& source, const RecordOptions& options,
-                      depth::OniRecorder& recorder) {
+                      Recorder& recorder) {
   Recorded recorded;
   Progress progress("recording", options.quiet);
   auto last_frame_at = Clock::now();
@@ -117,6 +124,14 @@ int Report(const RecordOptions& options, const Recorded& recorded) {
   return 0;
 }
 
+template <typename Recorder>
+int RecordTo(Recorder recorder, depth::FrameSource& source, const RecordOptions& options) {
+  const Recorded recorded = RecordFrames(source, options, recorder);
+  if (recorded.frames == 0) throw InputError(options.source + ": no frame came");
+  recorder.Finish();
+  return Report(options, recorded);
+}
+
 }  // namespace
 
 int Record(int argc, char** argv) {
@@ -125,11 +140,9 @@ int Record(int argc, char** argv) {
   source_options.device_wait = Milliseconds(options.wait_s);
   if (!options.camera.empty()) source_options.camera = depth::ParseCamera(options.camera);
   const auto source = depth::OpenSource(options.source, source_options);
-  depth::OniRecorder recorder(options.out, source->camera());
-  const Recorded recorded = RecordFrames(*source, options, recorder);
-  if (recorded.frames == 0) throw InputError(options.source + ": no frame came");
-  recorder.Finish();
-  return Report(options, recorded);
+  const depth::Camera& camera = source->camera();
+  return options.fakenect ? RecordTo(depth::FakenectDump(options.out, camera), *source, options)
+                          : RecordTo(depth::OniRecorder(options.out, camera), *source, options);
 }
 
 }  // namespace ossa::commands

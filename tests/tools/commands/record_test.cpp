@@ -132,6 +132,34 @@ TEST(RecordCommand, SaysWhatIsWrongInOneLine) {
   }
 }
 
+// Debian puts fakenect's libfreenect beside the real one.
+const char* const kFakenect = "/usr/lib/x86_64-linux-gnu/fakenect";
+
+TEST(RecordCommand, WritesDumpsThatTheKinectDriverPlaysBitForBit) {
+  if (!std::filesystem::is_directory(kFakenect)) GTEST_SKIP() << "no fakenect: " << kFakenect;
+  const TemporaryFolder folder;
+  const std::string dump = (folder / "dump").string();
+  const std::string out = (folder / "x.oni").string();
+  constexpr int kFrames = 6;
+  WriteExampleFolder(folder.path(), kFrames, 640, 480);
+  EXPECT_EQ(RunOssa({"record", folder.path().string(), "--out", dump, "--fakenect"}).exit_status,
+            0);
+  const CommandResult result = test::RunProgram(
+      {"/usr/bin/env", std::string("LD_LIBRARY_PATH=") + kFakenect, "FAKENECT_PATH=" + dump,
+       test::OssaPath(), "record", "openni:freenect://0", "--out", out, "--patience", "0.5"});
+  ASSERT_EQ(result.exit_status, 0) << result.err;
+  const auto source = depth::OpenSource(out);
+  int frames = 0;
+  for (int k = 0; k < kFrames; ++k) {  // in order, but that a busy machine may drop one
+    const depth::ReadResult read = source->Read(milliseconds(5000));
+    if (read.status != depth::ReadStatus::kFrame) break;
+    while (k < kFrames && read.frame.depth_mm != ExampleFrame(k, 640, 480).depth_mm) ++k;
+    EXPECT_LT(k, kFrames) << "frame " << frames << " is none of the dump's";
+    ++frames;
+  }
+  EXPECT_GE(frames, 3);
+}
+
 TEST(RecordCommand, HelpIsNoFailure) {
   const CommandResult result = RunOssa({"record", "--help"});
   EXPECT_EQ(result.exit_status, 0);

@@ -1,0 +1,82 @@
+#include "depth/sensor/fakenect_dump.h"
+
+#include <array>
+#include <cmath>
+#include <cstdio>
+
+#include "depth/error.h"
+#include "depth/file/atomic_file.h"
+
+namespace ossa::depth {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr int kWidth = 640;  // the one size fakenect knows
+constexpr int kHeight = 480;
+constexpr double kTicksPerSecond = 60e6;  // the Kinect's clock, 32 bits of it
+
+// libfreenect's freenect_raw_tilt_state of a Kinect that stands level: 819 counts are 1 g.
+struct RawTiltState {
+  std::array<int16_t, 3> accelerometer = {0, 819, 0};
+  int8_t tilt_angle = 0;
+  int32_t tilt_status = 0;
+};
+static_assert(sizeof(RawTiltState) == 12);
+
+// fakenect's names: kind, seconds on the host's clock, ticks on the Kinect's.
+std::string FileName(char kind, double time_s, const char* extension) {
+  std::array<char, 80> name{};
+  const auto ticks = static_cast<uint64_t>(std::llround(time_s * kTicksPerSecond));
+  std::snprintf(name.data(), name.size(), "%c-%.6f-%u.%s", kind, time_s,
+                static_cast<uint32_t>(ticks), extension);
+  return name.data();
+}
+
+void CheckSize(const Camera& camera, const fs::path& folder) {
+  if (camera.width == kWidth && camera.height == kHeight) return;
+  throw InputError(folder.string() + ": expected frames of 640x480 for fakenect, found " +
+                   std::to_string(camera.width) + "x" + std::to_string(camera.height));
+}
+
+}  // namespace
+
+FakenectDump::FakenectDump(const fs::path& folder, const Camera& camera) : folder_(folder) {
+  CheckSize(camera, folder);
+  std::error_code error;
+  fs::create_directories(folder, error);
+  if (error) throw InputError(folder.string() + ": cannot be made: " + error.message());
+  if (fs::exists(folder / "INDEX.txt")) {
+    throw InputError((folder / "INDEX.txt").string() + ": a dump is here already");
+  }
+}
+
+void FakenectDump::Write(const DepthFrame& frame) {
+  CheckSize(frame.camera, folder_);
+  constexpr double kStart_s = 1.0;  // fakenect takes the time 0 for none
+  const double time_s = kStart_s + frame.time_s;
+  if (frames_ == 0) {
+    const std::string name = FileName('a', time_s, "dump");
+    const RawTiltState level;
+    AtomicFile file(folder_ / name);
+    file.stream().write(reinterpret_cast<const char*>(&level), sizeof(level));
+    file.Commit();
+    index_ += name + "\n";
+  }
+  const std::string name = FileName('d', time_s, "pgm");
+  AtomicFile file(folder_ / name);
+  file.stream() << "P5 640 480 65535\n";
+  file.stream().write(reinterpret_cast<const char*>(frame.depth_mm.data()),
+                      static_cast<std::streamsize>(frame.depth_mm.size() * sizeof(uint16_t)));
+  file.Commit();
+  index_ += name + "\n";
+  ++frames_;
+}
+
+void FakenectDump::Finish() {
+  AtomicFile file(folder_ / "INDEX.txt");
+  file.stream() << index_;
+  file.Commit();
+}
+
+}  // namespace ossa::depth

@@ -1,0 +1,29 @@
+#pragma once
+#include <cstdint>
+#include <filesystem>
+#include <string>
+
+#include "depth/image/depth_frame.h"
+
+namespace ossa::depth {
+
+/// Writes depth frames as a dump that libfreenect's fakenect plays as if a Kinect v1 were there:
+/// a folder of PGM files, one of the accelerometer (level), and INDEX.txt, which comes last and
+/// makes the dump complete. The depths are millimetres, for programs that ask libfreenect for
+/// millimetres, as our driver does; Debian's fakenect hands them on as they are.
+class FakenectDump {
+ public:
+  /// Makes the folder. Throws InputError when it cannot, when a dump is there already, or when the
+  /// camera is not 640 × 480.
+  FakenectDump(const std::filesystem::path& folder, const Camera& camera);
+  void Write(const DepthFrame& frame);
+  void Finish();
+  int64_t frame_count() const { return frames_; }
+
+ private:
+  std::filesystem::path folder_;
+  std::string index_;
+  int64_t frames_ = 0;
+};
+
+}  // namespace ossa::depth

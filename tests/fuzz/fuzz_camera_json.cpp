@@ -1,0 +1,28 @@
+// camera.json and --camera: any text is a camera or an InputError of one line.
+#include <cmath>
+#include <cstdint>
+#include <cstdlib>
+#include <string>
+
+#include "depth/error.h"
+#include "depth/image/camera_io.h"
+
+namespace {
+
+template <typename Parse>
+void ExpectCameraOrInputError(const Parse& parse) {
+  try {
+    const ossa::depth::Camera camera = parse();
+    if (!(camera.fx > 0) || !(camera.fy > 0) || !std::isfinite(camera.cx + camera.cy)) abort();
+  } catch (const ossa::InputError&) {
+  }
+}
+
+}  // namespace
+
+extern "C" int LLVMFuzzerTestOneInput(const uint8_t* data, size_t size) {
+  const std::string text(reinterpret_cast<const char*>(data), size);
+  ExpectCameraOrInputError([&] { return ossa::depth::CameraFromJson(text, "camera.json"); });
+  ExpectCameraOrInputError([&] { return ossa::depth::ParseCamera(text); });
+  return 0;
+}

@@ -1,0 +1,33 @@
+// Depth and label images: any bytes are an image or an InputError of one line.
+#include <cstdint>
+#include <cstdlib>
+#include <string>
+#include <vector>
+
+#include "depth/error.h"
+#include "depth/image/png_codec_internal.h"
+
+extern "C" int LLVMFuzzerTestOneInput(const uint8_t* data, size_t size) {
+  // A random file is hardly ever a PNG of the right kind: also try what follows a good header.
+  static const std::vector<uint8_t> whole = [] {
+    const std::vector<uint8_t> samples(2 * 8 * 6, 7);
+    return ossa::depth::EncodeGreyPng(samples.data(), {8, 6}, 16, 16);
+  }();
+  constexpr size_t kHeaderAndItsChecksum = 33;
+  std::vector<uint8_t> with_header(whole.begin(), whole.begin() + kHeaderAndItsChecksum);
+  with_header.insert(with_header.end(), data, data + size);
+  for (const std::span<const uint8_t> bytes :
+       {std::span(data, size), std::span<const uint8_t>(with_header)}) {
+    for (const int depth : {8, 16}) {
+      try {
+        std::vector<uint8_t> samples;
+        const auto image = ossa::depth::DecodeGreyPng(bytes, depth, "x.png", &samples);
+        const auto pixels = static_cast<size_t>(image.width) * static_cast<size_t>(image.height);
+        if (samples.size() != pixels * static_cast<size_t>(depth / 8)) abort();
+      } catch (const ossa::InputError& error) {
+        if (std::string(error.what()).find('\n') != std::string::npos) abort();
+      }
+    }
+  }
+  return 0;
+}
