@@ -66,6 +66,7 @@ constexpr float kFringe_m = 1.60f, kEars_m = 0.06f;
 constexpr float kForehead_m = 1.60f;  // and above this also in front
 constexpr float kWaist_m = 1.00f, kCrotch_m = 0.80f;
 constexpr float kKnee_m = 0.475f;
+constexpr float kHiddenScale = 0.01f;  // of what is not worn
 
 }  // namespace
 
@@ -169,7 +170,8 @@ void Wardrobe::HideUnworn(const Clothing& clothing, const Eigen::Vector3f& insid
     const Region region = place_[i].region;
     if ((region == Region::kSkirt && clothing.skirt_end <= 0) ||
         (region == Region::kLongHair && clothing.long_hair_end <= 0)) {
-      posed_m[i] = inside_m;
+      // Not quite one point: a mesh without any extent aborts Embree's two-level builder.
+      posed_m[i] = inside_m + kHiddenScale * (posed_m[i] - inside_m);
     }
   }
 }

@@ -1,10 +1,8 @@
 #pragma once
 #include <array>
-#include <string>
 #include <vector>
 
 #include "recon/normalise.h"
-#include "recon/skeleton_sequence.h"
 
 namespace ossa::recon {
 
@@ -17,12 +15,6 @@ struct PosturePair {
   Posture residual;      // truth minus observed; eq. after sec. 4.1: y = m - x
   JointWeights known{};  // 1 where the truth has the joint and the observation saw it
 };
-
-/// Adds the pairs of two recordings of the same performance: frames with the same number (or, where
-/// none is shared, the nearest time within 20 ms), bodies with the same id (or the first of each).
-/// Returns how many were added.
-size_t AddPairs(const SkeletonSequence& observed, const SkeletonSequence& truth,
-                std::vector<PosturePair>& pairs);
 
 /// At most so many, evenly spread.
 std::vector<PosturePair> Thinned(const std::vector<PosturePair>& pairs, size_t most);

@@ -227,16 +227,14 @@ SceneResult ThrowBoxes(const Actors& actors, uint64_t seed) {
   };
   const int boxes[2] = {hold(0), hold(1)};
   double flown[2] = {0.0, 0.0};
-  int hits = 0;
+  int64_t hits = 0;
   for (size_t f = 0; f < motion.size() + delay + 20; ++f) {
     const auto at = [&](size_t frame) { return std::min(frame, motion.size() - 1); };
     stage.Advance({motion[at(f)], opposite(motion[at(f < delay ? 0 : f - delay)])},
                   "two characters throw boxes at each other");
     if (f == release + 1) stage.world.Release(boxes[0]);
     if (f == release + 1 + delay) stage.world.Release(boxes[1]);
-    for (const auto& [person, bone] : stage.world.Contacts().struck) {
-      if (f > release + 5) ++hits;
-    }
+    if (f > release + 5) hits += std::ssize(stage.world.Contacts().struck);
     flown[0] = std::max(flown[0], stage.world.ObjectOf(boxes[0]).position_m.z());
     flown[1] = std::max(flown[1], kApart_m - stage.world.ObjectOf(boxes[1]).position_m.z());
   }

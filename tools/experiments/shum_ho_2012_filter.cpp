@@ -170,14 +170,12 @@ class SlideMeter {
 
  private:
   void Foot(size_t side, bool pinned, const Vector3d& at) {
-    if (!pinned) {
-      start_[side].reset();
-      return;
-    }
-    if (!start_[side]) start_[side] = at;
-    largest_m_ = std::max(largest_m_, (at - *start_[side]).norm());
+    if (pinned && !pinned_[side]) start_[side] = at;
+    pinned_[side] = pinned;
+    if (pinned) largest_m_ = std::max(largest_m_, (at - start_[side]).norm());
   }
-  std::array<std::optional<Vector3d>, 2> start_;
+  std::array<bool, 2> pinned_{};
+  std::array<Vector3d, 2> start_{Vector3d::Zero(), Vector3d::Zero()};
   double largest_m_ = 0.0;
 };
 
