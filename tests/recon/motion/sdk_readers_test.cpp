@@ -82,7 +82,7 @@ std::string UtText() {
   std::string text;
   for (const size_t f : {5, 6, 6, 9}) {
     text += std::to_string(f);
-    for (size_t j = 0; j < 20; ++j) text += " " + Triple(j, f, " ");
+    for (size_t j = 0; j < 20; ++j) text.append(" ").append(Triple(j, f, " "));
     text += "\n";
   }
   return text;
