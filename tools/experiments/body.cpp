@@ -1,0 +1,142 @@
+// Pictures of the body and of motions put on it: what the labels are, and whether retargeting
+// holds.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <numbers>
+
+#include "depth/render/renderer.h"
+#include "recon/body/body_model.h"
+#include "recon/body/parts.h"
+#include "recon/body/standard_body.h"
+#include "recon/motion/mocap.h"
+#include "tools/experiments/animated_png.h"
+#include "tools/experiments/experiments_internal.h"
+
+namespace ossa::tools {
+namespace {
+
+constexpr int kWidth_px = 290;
+constexpr int kHeight_px = 360;
+constexpr double kDistance_m = 6.0;  // far away, so that the perspective is mild
+constexpr double kViewHeight_m = 2.1;
+
+// Camera before the body at the height of its middle, looking along -z of the body's world.
+Eigen::Isometry3d CameraFromWorld(double yaw_rad, double middle_m) {
+  // Seen from the front, the body's left (+x) is at the image's right: camera x is to the left.
+  Eigen::Isometry3d cam_from_world = Eigen::Isometry3d::Identity();
+  cam_from_world.linear() =
+      Eigen::AngleAxisd(std::numbers::pi + yaw_rad, Eigen::Vector3d::UnitY()).toRotationMatrix();
+  cam_from_world.translation() = Eigen::Vector3d(0.0, -middle_m, kDistance_m);
+  return cam_from_world;
+}
+
+depth::Camera PictureCamera() {
+  depth::Camera camera;
+  camera.width = kWidth_px;
+  camera.height = kHeight_px;
+  camera.fx = camera.fy = kHeight_px * kDistance_m / kViewHeight_m;
+  camera.cx = (kWidth_px - 1) / 2.0;
+  camera.cy = (kHeight_px - 1) / 2.0;
+  return camera;
+}
+
+/// The average body, undressed, in its part colours.
+class BodyPainter {
+ public:
+  BodyPainter() : model_(recon::BodyModel::Load(recon::BodyFolder())), body_(model_.Shape({})) {
+    for (size_t i = 0; i < model_.triangles().size(); ++i) {
+      const auto& triangle = model_.triangles()[i];
+      if (model_.vertex_layer()[triangle[0]] != recon::BodyLayer::kSkin) continue;
+      part_.push_back(model_.triangle_part()[i]);
+      mesh_.triangles.push_back(triangle);
+    }
+  }
+
+  Picture Paint(const recon::RigPose& pose, double yaw_rad) {
+    recon::RigPose upright = pose;
+    upright.root_m.x() = upright.root_m.z() = 0.0;
+    mesh_.vertices_m.resize(model_.vertex_count());
+    model_.Skin(body_, body_.rest_m, upright, CameraFromWorld(yaw_rad, kViewHeight_m / 2 - 0.1),
+                mesh_.vertices_m);
+    depth::Renderer renderer;
+    renderer.AddMesh(mesh_, false);
+    const depth::RenderedImage seen = renderer.Render(PictureCamera());
+    Picture picture(kWidth_px, kHeight_px);
+    for (size_t i = 0; i < seen.triangle.data.size(); ++i) {
+      const int32_t triangle = seen.triangle.data[i];
+      if (triangle < 0) continue;
+      const uint8_t part = part_[static_cast<size_t>(triangle)];
+      ++pixels_[part];
+      const recon::Rgb colour = recon::PartColour(part);
+      const double light = 0.45 + 0.55 * static_cast<double>(seen.incidence.data[i]);
+      const std::array<uint8_t, 3> rgb = {colour.r, colour.g, colour.b};
+      for (size_t c = 0; c < 3; ++c) {
+        picture.rgb[3 * i + c] = static_cast<uint8_t>(std::lround(light * rgb[c]));
+      }
+    }
+    return picture;
+  }
+
+  const std::map<int, int64_t>& pixels() const { return pixels_; }
+
+ private:
+  recon::BodyModel model_;
+  recon::ShapedBody body_;
+  depth::TriangleMesh mesh_;
+  std::vector<uint8_t> part_;  // of each triangle of mesh_
+  std::map<int, int64_t> pixels_;
+};
+
+/// Some of the clips, spread over the list, each halfway through.
+std::vector<const recon::MotionClip*> Chosen(const std::vector<recon::MotionClip>& clips,
+                                             size_t count) {
+  std::vector<const recon::MotionClip*> chosen;
+  for (size_t i = 0; i < std::min(count, clips.size()); ++i) {
+    chosen.push_back(&clips[i * clips.size() / std::min(count, clips.size())]);
+  }
+  return chosen;
+}
+
+}  // namespace
+
+std::vector<Table> RunBody(ExperimentContext& context) {
+  const auto sources = context.parameters.Texts("mocap", {"authored"});
+  const int count = std::clamp(context.parameters.Integer("clips", 8), 1, 40);
+  BodyPainter painter;
+  recon::RigPose rest;
+  rest.root_m = recon::StandardRigRest().head_m[0];
+  std::vector<Picture> views;
+  for (const double yaw_rad : {0.0, std::numbers::pi / 2, std::numbers::pi}) {
+    views.push_back(painter.Paint(rest, yaw_rad));
+  }
+  WritePicture(context.out / "parts.png", Strip(views, 3));
+  const auto pixels = painter.pixels();
+
+  recon::MocapOptions options;
+  options.seed = context.seed;
+  const auto clips = recon::LoadMocap(sources, options);
+  std::vector<Picture> poses;
+  Table motions{
+      "Motions on the body (motions.png, from the left)", {"clip", "frame", "of"}, {}, ""};
+  for (const recon::MotionClip* clip : Chosen(clips, static_cast<size_t>(count))) {
+    if (clip->frames.empty()) continue;
+    const size_t frame = clip->frames.size() / 2;
+    poses.push_back(painter.Paint(clip->frames[frame], 0.0));
+    motions.rows.push_back(
+        {clip->name, std::to_string(frame), std::to_string(clip->frames.size())});
+  }
+  WritePicture(context.out / "motions.png", Strip(poses, static_cast<int>(poses.size())));
+
+  Table parts{"Pixels of each part, front, side and back (parts.png)", {"part", "pixels"}, {}, ""};
+  for (int label = 1; label <= recon::kPartCount; ++label) {
+    const auto it = pixels.find(label);
+    parts.rows.push_back({std::string(recon::kPartNames[static_cast<size_t>(label)]),
+                          std::to_string(it == pixels.end() ? 0 : it->second)});
+  }
+  return {parts, motions};
+}
+
+}  // namespace ossa::tools
