@@ -196,7 +196,8 @@ fs::path PathForBody(const fs::path& path, size_t index, int id) {
 std::span<const SkeletonFormat> AllSkeletonFormats() {
   static const std::vector<SkeletonFormat> kAll = [] {
     std::vector<SkeletonFormat> all;
-    for (const auto formats : {PlainFormats(), PairedFormats(), AzureFormats(), UiPrmdFormats(),
+    // Azure before ours: both are JSON with "bodies", and only its marks are unmistakable.
+    for (const auto formats : {AzureFormats(), PlainFormats(), PairedFormats(), UiPrmdFormats(),
                                KinectV2Formats(), KinectV1Formats(), BinaryFormats()}) {
       all.insert(all.end(), formats.begin(), formats.end());
     }

@@ -94,18 +94,20 @@ bool FrameTimesAgree(const JointTrack& truth, const JointTrack& result) {
   return 10 * near >= 9 * result.time_s.size();
 }
 
-// Speed of every joint at evenly spaced times, without its mean; zero where it is not known.
-// speeds[joint][time]. Joints are kept apart: their sum over a whole body is nearly constant in
-// many motions and would say little about time.
-using Speeds = std::array<std::vector<double>, kJoints>;
+// Speed of every joint at evenly spaced times, and where it is known. speed[joint][time]. Joints
+// are kept apart: their sum over a whole body is nearly constant in many motions and would say
+// little about time.
+struct Speeds {
+  std::array<std::vector<double>, kJoints> speed;
+  std::array<std::vector<bool>, kJoints> known;
+};
 
 Speeds SpeedsOf(const JointTrack& track, double start_s, double step_s, size_t count) {
   constexpr double kHalf_s = 0.05;  // speeds over a tenth of a second: above the sensor's jitter
   Speeds speeds;
-  std::array<std::vector<bool>, kJoints> known;
   for (size_t j = 0; j < kJoints; ++j) {
-    speeds[j].assign(count, 0.0);
-    known[j].assign(count, false);
+    speeds.speed[j].assign(count, 0.0);
+    speeds.known[j].assign(count, false);
   }
   for (size_t i = 0; i < count; ++i) {
     const double time_s = start_s + static_cast<double>(i) * step_s;
@@ -113,36 +115,57 @@ Speeds SpeedsOf(const JointTrack& track, double start_s, double step_s, size_t c
     const auto after = At(track, time_s + kHalf_s);
     for (size_t j = 0; before && after && j < kJoints; ++j) {
       if (!before->present[j] || !after->present[j]) continue;
-      known[j][i] = true;
-      speeds[j][i] = (after->position_m[j] - before->position_m[j]).norm();
+      speeds.known[j][i] = true;
+      speeds.speed[j][i] = (after->position_m[j] - before->position_m[j]).norm();
     }
-  }
-  for (size_t j = 0; j < kJoints; ++j) {
-    const auto there = static_cast<double>(std::count(known[j].begin(), known[j].end(), true));
-    double mean = 0;
-    for (const double speed : speeds[j]) mean += there > 0 ? speed / there : 0;
-    for (size_t i = 0; i < count; ++i) speeds[j][i] -= known[j][i] ? mean : 0;
   }
   return speeds;
 }
 
-// Normalised correlation of a(t) with b(t - shift) over all joints.
-double Correlation(const Speeds& a, const Speeds& b, long shift) {
-  const auto count = static_cast<long>(a[0].size());
-  double product = 0;
-  double energy_a = 0;
-  double energy_b = 0;
+// Pearson's correlation of a(t) with b(t - shift), covariances and variances summed over the
+// joints. Only times that both know count, else the ends of a clip would pull the peak to zero.
+// Fewer shared times than `fewest` give no correlation: short overlaps fit anything.
+double Correlation(const Speeds& a, const Speeds& b, long shift, long fewest) {
+  const auto count = static_cast<long>(a.speed[0].size());
+  double covariance = 0;
+  double variance_a = 0;
+  double variance_b = 0;
+  long shared = 0;
   for (size_t j = 0; j < kJoints; ++j) {
+    double n = 0, x = 0, y = 0, xx = 0, yy = 0, xy = 0;
     for (long i = std::max(0L, shift); i < count + std::min(0L, shift); ++i) {
-      const double x = a[j][static_cast<size_t>(i)];
-      const double y = b[j][static_cast<size_t>(i - shift)];
-      product += x * y;
-      energy_a += x * x;
-      energy_b += y * y;
+      const auto at_a = static_cast<size_t>(i);
+      const auto at_b = static_cast<size_t>(i - shift);
+      if (!a.known[j][at_a] || !b.known[j][at_b]) continue;
+      const double u = a.speed[j][at_a];
+      const double v = b.speed[j][at_b];
+      ++n;
+      x += u;
+      y += v;
+      xx += u * u;
+      yy += v * v;
+      xy += u * v;
     }
+    if (n < 2) continue;
+    covariance += xy - x * y / n;
+    variance_a += xx - x * x / n;
+    variance_b += yy - y * y / n;
+    shared = std::max(shared, static_cast<long>(n));
   }
-  const double energy = std::sqrt(energy_a * energy_b);
-  return energy > 0 ? product / energy : 0.0;
+  const double variance = std::sqrt(variance_a * variance_b);
+  return shared >= fewest && variance > 0 ? covariance / variance : 0.0;
+}
+
+// Half of the shorter recording must overlap.
+long FewestShared(const Speeds& a, const Speeds& b) {
+  const auto longest = [](const Speeds& speeds) {
+    long most = 0;
+    for (const auto& known : speeds.known) {
+      most = std::max(most, static_cast<long>(std::count(known.begin(), known.end(), true)));
+    }
+    return most;
+  };
+  return std::max(2L, std::min(longest(a), longest(b)) / 2);
 }
 
 void AlignRigidly(PairedTracks& pair) {
@@ -298,7 +321,10 @@ double TimeOffset_s(const JointTrack& truth, const JointTrack& result, double ma
   const Speeds b = SpeedsOf(result, start_s, kStep_s, count);
   const long reach = std::lround(max_offset_s / kStep_s);
   std::vector<double> score;
-  for (long shift = -reach; shift <= reach; ++shift) score.push_back(Correlation(a, b, shift));
+  const long fewest = FewestShared(a, b);
+  for (long shift = -reach; shift <= reach; ++shift) {
+    score.push_back(Correlation(a, b, shift, fewest));
+  }
   // Of equal peaks the smallest offset: someone who stands still gives no reason to move the clock.
   size_t best = static_cast<size_t>(reach);
   for (size_t i = 0; i < score.size(); ++i) {

@@ -322,9 +322,14 @@ TEST(C3d, ReadsLabelledPointsWithZUp) {
 }
 
 struct Wrong {
+  const char* name;
   std::string text;
   std::string named;
 };
+
+void PrintTo(const Wrong& value, std::ostream* out) { *out << value.name; }
+
+std::string NameOfCase(const testing::TestParamInfo<Wrong>& info) { return info.param.name; }
 
 class WrongSdkFile : public testing::TestWithParam<Wrong> {};
 
@@ -350,42 +355,56 @@ std::string With(std::string text, const std::string& old, const std::string& fr
 
 INSTANTIATE_TEST_SUITE_P(
     Truncated, WrongSdkFile,
-    testing::Values(Wrong{Cut(GaitText(2), 40), "before the next frame"},
-                    Wrong{Cut(MsrText(2), 20), "of the frame's 20"},
-                    Wrong{Cut(LabanText(2), 60), "line 2: expected 101 numbers"},
-                    Wrong{Cut(NtuText(), 60), "line 29"}, Wrong{Cut(AzureText(), 30), "JSON"},
-                    Wrong{Cut(SaverBytes(2), 7), "whole frames"},
-                    Wrong{Cut(C3dBytes(), 500), "all frames up to byte"}));
+    testing::Values(Wrong{"KinectGait", Cut(GaitText(2), 40), "line 39: expected Name;x;y;z"},
+                    Wrong{"KinectGaitLine", With(GaitText(2), "Foot-Left;0.19;0.1;2\r\n", ""),
+                          "FootLeft before the next frame"},
+                    Wrong{"MsrAction3dLine", With(MsrText(2), "0.19 0.1 2 0.9\n", ""),
+                          "line 20 of the frame's 20"},
+                    Wrong{"MsrAction3d", Cut(MsrText(2), 20), "line 39: expected 4 numbers"},
+                    Wrong{"Labanotation", Cut(LabanText(2), 60), "line 2: expected 101 numbers"},
+                    Wrong{"Ntu", Cut(NtuText(), 60), "line 29"},
+                    Wrong{"Azure", Cut(AzureText(), 30), "JSON"},
+                    Wrong{"StreamSaver", Cut(SaverBytes(2), 7), "whole frames"},
+                    Wrong{"C3d", Cut(C3dBytes(), 500), "all frames up to byte"}),
+    NameOfCase);
 
 INSTANTIATE_TEST_SUITE_P(
     WrongColumns, WrongSdkFile,
-    testing::Values(Wrong{LabanText(1) + "1,2,3\n", "line 2: expected 101 numbers"},
-                    Wrong{KeraalText(175) + KeraalText(119), "line 2: expected 175 numbers"},
-                    Wrong{UtText() + "7 1 2 3\n", "line 5: expected 61 numbers"},
-                    Wrong{MsrText(1) + "1 2 3\n", "line 21: expected 4 numbers"},
-                    Wrong{GaitText(1) + "Head;1;2\n", "line 21: expected Name;x;y;z"},
-                    Wrong{With(NtuText(), "25\n", "20\n"), "count of joints"}));
+    testing::Values(Wrong{"Labanotation", LabanText(1) + "1,2,3\n", "line 2: expected 101 numbers"},
+                    Wrong{"Keraal", KeraalText(175) + KeraalText(119),
+                          "line 2: expected 175 numbers"},
+                    Wrong{"UtKinect", UtText() + "7 1 2 3\n", "line 5: expected 61 numbers"},
+                    Wrong{"MsrAction3d", MsrText(1) + "1 2 3\n", "line 21: expected 4 numbers"},
+                    Wrong{"KinectGait", GaitText(1) + "Head;1;2\n", "line 21: expected Name;x;y;z"},
+                    Wrong{"Ntu", With(NtuText(), "25\n", "20\n"), "count of joints"}),
+    NameOfCase);
 
 INSTANTIATE_TEST_SUITE_P(
     MixedJointSets, WrongSdkFile,
-    testing::Values(Wrong{With(GaitText(2), "Foot-Left", "HandTip-Left", 600), "20 SDK joints"},
-                    Wrong{With(GaitText(2), "Foot-Left", "Foot-Right"), "each joint once"},
-                    Wrong{With(AzureText(), ",[10,-600,2400]", ""), "3 joint_positions"}));
+    testing::Values(
+        Wrong{"UnknownJoint", With(GaitText(2), "Foot-Left", "HandTip-Left", 600), "20 SDK joints"},
+        Wrong{"JointTwice", With(GaitText(2), "Foot-Left", "Foot-Right"), "each joint once"},
+        Wrong{"Azure", With(AzureText(), ",[10,-600,2400]", ""), "3 joint_positions"}),
+    NameOfCase);
 
 INSTANTIATE_TEST_SUITE_P(
     NotNumbers, WrongSdkFile,
-    testing::Values(Wrong{With(GaitText(2), ";0.1;2", ";nan;2"), "finite number for y"},
-                    Wrong{With(LabanText(2), "0.24", "inf", 400), "line 2"},
-                    Wrong{With(LabanText(2), ",2,2,", ",2,7,"), "state 0, 1 or 2"},
-                    Wrong{With(KeraalText(175) + KeraalText(175), "0.8", "x", 500), "line 2"},
-                    Wrong{With(NtuText(), "0.3 2 277", "NaN 2 277"), "finite number"},
-                    Wrong{With(AzureText(), "-600", "\"-600\""), "three finite numbers"},
-                    Wrong{With(MsrText(1), "0.9", "9"), "confidence"}));
+    testing::Values(
+        Wrong{"KinectGait", With(GaitText(2), ";0.1;2", ";nan;2"), "finite number for y"},
+        Wrong{"Labanotation", With(LabanText(2), "0.24", "inf", 400), "line 2"},
+        Wrong{"LabanotationState", With(LabanText(2), ",2,2,", ",2,7,"), "state 0, 1 or 2"},
+        Wrong{"Keraal", With(KeraalText(175) + KeraalText(175), "0.8", "x", 700), "line 2"},
+        Wrong{"Ntu", With(NtuText(), "0.3 2 277", "NaN 2 277"), "finite number"},
+        Wrong{"Azure", With(AzureText(), "-600", "\"-600\""), "three finite numbers"},
+        Wrong{"MsrConfidence", With(MsrText(1), "0.9", "9"), "confidence"}),
+    NameOfCase);
 
-INSTANTIATE_TEST_SUITE_P(HugeLine, WrongSdkFile,
-                         testing::Values(Wrong{GaitText(1) + std::string(2 << 20, '1'), "1 MiB"},
-                                         Wrong{LabanText(1) + std::string(2 << 20, '1'), "1 MiB"},
-                                         Wrong{NtuText() + std::string(2 << 20, '1'), "1 MiB"}));
+INSTANTIATE_TEST_SUITE_P(
+    HugeLine, WrongSdkFile,
+    testing::Values(Wrong{"KinectGait", GaitText(1) + std::string(2 << 20, '1'), "1 MiB"},
+                    Wrong{"Labanotation", LabanText(1) + std::string(2 << 20, '1'), "1 MiB"},
+                    Wrong{"Ntu", NtuText() + std::string(2 << 20, '1'), "1 MiB"}),
+    NameOfCase);
 
 TEST(C3d, OfAnotherProcessorIsRefusedByName) {
   std::string bytes = C3dBytes();
@@ -404,9 +423,12 @@ TEST(C3d, SurvivesDamageAnywhere) {
 }
 
 struct RealFile {
+  const char* name;
   const char* path;
   size_t frames;
 };
+
+void PrintTo(const RealFile& value, std::ostream* out) { *out << value.name; }
 
 class RealSamples : public testing::TestWithParam<RealFile> {};
 
@@ -419,8 +441,10 @@ TEST_P(RealSamples, GiveBodiesOfHumanSize) {
   const auto sequence = ReadSkeletons(path);
   EXPECT_GE(sequence.frames.size(), GetParam().frames);
   const size_t middle = sequence.frames.size() / 2;
-  const double shin_m =
-      (At(sequence, middle, Joint::kKneeLeft) - At(sequence, middle, Joint::kAnkleLeft)).norm();
+  // ITOP has feet and no ankles.
+  const bool ankles = sequence.frames[middle].bodies.at(0).joints[14].has_value();
+  const Joint end = ankles ? Joint::kAnkleLeft : Joint::kFootLeft;
+  const double shin_m = (At(sequence, middle, Joint::kKneeLeft) - At(sequence, middle, end)).norm();
   EXPECT_GT(shin_m, 0.2);
   EXPECT_LT(shin_m, 0.6);
   EXPECT_GT(At(sequence, middle, Joint::kHead).y(), At(sequence, middle, Joint::kKneeLeft).y());
@@ -429,14 +453,19 @@ TEST_P(RealSamples, GiveBodiesOfHumanSize) {
 INSTANTIATE_TEST_SUITE_P(
     All, RealSamples,
     testing::Values(
-        RealFile{"sdk_skeletons/kinectgait_v1_txt/Person001/1.txt", 100},
-        RealFile{"sdk_skeletons/labanotation_v2_csv/Ges01_wavehand.csv", 100},
-        RealFile{"keraal_kinect_vicon/pairs/G3-Kinect-CTK-P1T1-Unknown-C-0.txt", 100},
-        RealFile{"keraal_kinect_vicon/pairs/G3-Vicon-CTK-P1T1-Unknown-C-0.txt", 100},
-        RealFile{"keraal_kinect_vicon/kinect_only/Assis1Maxime/SkeletonSequence1.txt", 50},
-        RealFile{"itop_a2j/itop_side_truth_and_a2j.csv.gz#truth", 2431},
-        RealFile{"uiprmd_kinect_vicon/raw_e05.tar.gz#Kinect_Positions/m01_s10_e05", 40},
-        RealFile{"uiprmd_kinect_vicon/raw_e05.tar.gz#Vicon_Positions/m01_s10_e05", 100}));
+        RealFile{"KinectGait", "sdk_skeletons/kinectgait_v1_txt/Person001/1.txt", 100},
+        RealFile{"Labanotation", "sdk_skeletons/labanotation_v2_csv/Ges01_wavehand.csv", 100},
+        RealFile{"KeraalKinect", "keraal_kinect_vicon/pairs/G3-Kinect-CTK-P1T1-Unknown-C-0.txt",
+                 100},
+        RealFile{"KeraalVicon", "keraal_kinect_vicon/pairs/G3-Vicon-CTK-P1T1-Unknown-C-0.txt", 100},
+        RealFile{"KeraalSeated",
+                 "keraal_kinect_vicon/kinect_only/Assis1Maxime/SkeletonSequence1.txt", 50},
+        RealFile{"Itop", "itop_a2j/itop_side_truth_and_a2j.csv.gz#truth", 2431},
+        RealFile{"UiPrmdKinect", "uiprmd_kinect_vicon/raw_e05.tar.gz#Kinect_Positions/m01_s10_e05",
+                 40},
+        RealFile{"UiPrmdVicon", "uiprmd_kinect_vicon/raw_e05.tar.gz#Vicon_Positions/m01_s10_e05",
+                 100}),
+    [](const testing::TestParamInfo<RealFile>& info) { return info.param.name; });
 
 }  // namespace
 }  // namespace ossa::recon

@@ -44,7 +44,8 @@ TEST_P(EveryWrittenFormat, IsFoundByContentAndReadBack) {
   ExpectSamePositions(ReadSkeletons(folder / "nameless"), written);
 }
 
-INSTANTIATE_TEST_SUITE_P(All, EveryWrittenFormat, testing::Values(".jsonl", ".csv", ".trc"));
+INSTANTIATE_TEST_SUITE_P(All, EveryWrittenFormat, testing::Values(".jsonl", ".csv", ".trc"),
+                         [](const auto& info) { return std::string(info.param + 1); });
 
 TEST(BvhFile, HoldsTheSamePostureWithConstantBones) {
   const test::TemporaryFolder folder;
@@ -53,7 +54,7 @@ TEST(BvhFile, HoldsTheSamePostureWithConstantBones) {
   for (auto& frame : stiff.frames) {
     for (size_t j = 0; j < kJointCount; ++j) {
       auto& joint = frame.bodies[0].joints[j];
-      if (!joint) joint = JointRecord{};
+      joint = JointRecord{};  // without a state: a joint that is not tracked has no place in BVH
       const auto i = static_cast<double>(j);
       joint->position_m = {0.02 * i, 0.1 * std::sin(i),
                            2 + 0.01 * static_cast<double>(frame.frame)};
@@ -135,9 +136,12 @@ TEST(SkeletonClips, OfAFolderAreSortedByNameAndSkipWhatIsNoRecording) {
 }
 
 struct Wrong {
+  const char* name;
   std::string text;
   std::string named;
 };
+
+void PrintTo(const Wrong& value, std::ostream* out) { *out << value.name; }
 
 class WrongFile : public testing::TestWithParam<Wrong> {};
 
@@ -165,19 +169,23 @@ std::string Replaced(std::string text, const std::string& old, const std::string
 
 INSTANTIATE_TEST_SUITE_P(
     Plain, WrongFile,
-    testing::Values(Wrong{"", "empty file"}, Wrong{" \n\n", "empty file"},
-                    Wrong{std::string("\x01\x02\xff\x00\x7f", 5), "ossa knows"},
-                    Wrong{"hello\n", "'hello'"}, Wrong{std::string(3 << 20, 'a'), "ossa knows"},
-                    Wrong{Replaced(ExampleText(".csv"), "0.5", "nan"), "line 2"},
-                    Wrong{Replaced(ExampleText(".csv"), "not_tracked", "seen"),
-                          "tracked, inferred"},
-                    Wrong{ExampleText(".csv") + "4,0.2,1,3\n", "123 columns"},
-                    Wrong{Replaced(ExampleText(".csv"), "HipCenter_x", "SpineBase_x"), "header"},
-                    Wrong{Replaced(ExampleText(".trc"), "\tmm\t", "\tinches\t"), "Units mm or m"},
-                    Wrong{Replaced(ExampleText(".trc"), "2000.0000", "inf"), "line 7"},
-                    Wrong{Replaced(ExampleText(".trc"), "\t20\tmm", "\t40\tmm"), "40 marker names"},
-                    Wrong{ExampleText(".trc").substr(0, 60), "expected"},
-                    Wrong{ExampleText(".trc") + std::string(2 << 20, '1'), "1 MiB"}));
+    testing::Values(
+        Wrong{"Empty", "", "empty file"}, Wrong{"Blank", " \n\n", "empty file"},
+        Wrong{"BinaryJunk", std::string("\x01\x02\xff\x00\x7f", 5), "ossa knows"},
+        Wrong{"Words", "hello\n", "'hello'"},
+        Wrong{"OneEndlessLine", std::string(3 << 20, 'a'), "ossa knows"},
+        Wrong{"CsvNan", Replaced(ExampleText(".csv"), "0.5", "nan"), "line 2"},
+        Wrong{"CsvState", Replaced(ExampleText(".csv"), "not_tracked", "seen"),
+              "tracked, inferred"},
+        Wrong{"CsvColumns", ExampleText(".csv") + "4,0.2,1,3\n", "123 columns"},
+        Wrong{"CsvHeader", Replaced(ExampleText(".csv"), "HipCenter_x", "SpineBase_x"), "header"},
+        Wrong{"TrcUnits", Replaced(ExampleText(".trc"), "\tmm\t", "\tinches\t"), "Units mm or m"},
+        Wrong{"TrcInfinite", Replaced(ExampleText(".trc"), "2000.0000", "inf"), "line 7"},
+        Wrong{"TrcMarkers", Replaced(ExampleText(".trc"), "\t20\tmm", "\t40\tmm"),
+              "40 marker names"},
+        Wrong{"TrcCut", ExampleText(".trc").substr(0, 60), "expected"},
+        Wrong{"TrcEndlessLine", ExampleText(".trc") + std::string(2 << 20, '1'), "1 MiB"}),
+    [](const testing::TestParamInfo<Wrong>& info) { return info.param.name; });
 
 }  // namespace
 }  // namespace ossa::recon

@@ -52,13 +52,13 @@ TEST_F(CompareCommand, PrintsTablesAndWritesTheDocumentedJson) {
   const auto json = nlohmann::json::parse(Content(json_path));
   ASSERT_EQ(json["results"].size(), 2u);
   const auto& far = json["results"][1];
-  EXPECT_EQ(far["frames"], 20);
-  EXPECT_NEAR(far["mean_joint_error_cm"], 25.0, 1e-3);
-  EXPECT_NEAR(far["parent_relative_error_cm"], 0.0, 1e-3);
-  EXPECT_EQ(far["fraction_frames_over_20cm"], 0.0);
-  EXPECT_EQ(far["fraction_joints_within_10cm"], 0.0);
-  EXPECT_NEAR(far["acceleration_error_cm_per_frame2"], 0.0, 1e-3);
-  EXPECT_NEAR(far["per_joint_cm"]["Head"], 25.0, 1e-3);
+  EXPECT_EQ(far.at("frames"), 20);
+  EXPECT_NEAR(far.at("mean_joint_error_cm"), 25.0, 1e-3);
+  EXPECT_NEAR(far.at("parent_relative_error_cm"), 0.0, 1e-3);
+  EXPECT_EQ(far.at("fraction_frames_over_20cm"), 0.0);
+  EXPECT_EQ(far.at("fraction_joints_within_10cm"), 0.0);
+  EXPECT_NEAR(far.at("acceleration_error_cm_per_frame2"), 0.0, 1e-3);
+  EXPECT_NEAR(far.at("per_joint_cm").at("HandRight"), 25.0, 1e-3);
 }
 
 TEST_F(CompareCommand, WritesAReportThatNeedsNothingElse) {
@@ -104,10 +104,13 @@ TEST_F(CompareCommand, ComparesFoldersClipByClipWithIntervalsAndTests) {
 }
 
 struct BadUse {
+  const char* name;
   std::vector<std::string> arguments;
   int status;
   std::string named;
 };
+
+void PrintTo(const BadUse& value, std::ostream* out) { *out << value.name; }
 
 class BadCompare : public testing::TestWithParam<BadUse> {};
 
@@ -129,23 +132,29 @@ TEST_P(BadCompare, IsOneLineAndTheRightStatus) {
 
 INSTANTIATE_TEST_SUITE_P(
     All, BadCompare,
-    testing::Values(BadUse{{"@good.jsonl"}, 2, "RESULT"},
-                    BadUse{{"@good.jsonl", "@good.jsonl", "--align", "scale"}, 2, "--align"},
-                    BadUse{{"@good.jsonl", "@good.jsonl", "--time", "soon"}, 2, "--time"},
-                    BadUse{{"@good.jsonl", "@none.jsonl"}, 1, "none.jsonl"},
-                    BadUse{{"@good.jsonl", "@empty.jsonl"}, 1, "empty.jsonl: line 1"},
-                    BadUse{{"@good.jsonl", "@junk.jsonl"}, 1, "junk.jsonl: line 1"},
-                    BadUse{{"@good.jsonl", "@good.jsonl", "--json", "@no/x.json"}, 1, "x.json"}));
+    testing::Values(
+        BadUse{"NoResult", {"@good.jsonl"}, 2, "RESULT"},
+        BadUse{"Align", {"@good.jsonl", "@good.jsonl", "--align", "scale"}, 2, "--align"},
+        BadUse{"Time", {"@good.jsonl", "@good.jsonl", "--time", "soon"}, 2, "--time"},
+        BadUse{"AbsentFile", {"@good.jsonl", "@none.jsonl"}, 1, "none.jsonl"},
+        BadUse{"EmptyFile", {"@good.jsonl", "@empty.jsonl"}, 1, "empty.jsonl: line 1"},
+        BadUse{"Junk", {"@good.jsonl", "@junk.jsonl"}, 1, "junk.jsonl: line 1"},
+        BadUse{
+            "AbsentFolder", {"@good.jsonl", "@good.jsonl", "--json", "@no/x.json"}, 1, "x.json"}),
+    [](const testing::TestParamInfo<BadUse>& info) { return info.param.name; });
 
 constexpr const char* kReal = OSSA_SHARED_DIR "/real";
 
 struct RealFigure {
+  const char* name;
   const char* path;
   const char* skip;
   double mean_cm;
   double relative_cm;
   double offset_removed_cm;
 };
+
+void PrintTo(const RealFigure& value, std::ostream* out) { *out << value.name; }
 
 class RealRecordings : public testing::TestWithParam<RealFigure> {};
 
@@ -168,8 +177,11 @@ TEST_P(RealRecordings, GiveTheirPublishedFigures) {
 
 INSTANTIATE_TEST_SUITE_P(
     All, RealRecordings,
-    testing::Values(RealFigure{"/uiprmd_kinect_vicon/derived", "_inc", 5.67, 6.73, 1.96},
-                    RealFigure{"/itop_a2j/itop_side_truth_and_a2j.csv.gz", "", 6.28, 0, 0}));
+    testing::Values(RealFigure{"UiPrmdDevelopmentSubjects", "/uiprmd_kinect_vicon/derived", "_inc",
+                               5.67, 6.73, 1.96},
+                    RealFigure{"ItopA2jDevelopmentHalf", "/itop_a2j/itop_side_truth_and_a2j.csv.gz",
+                               "", 6.28, 0, 0}),
+    [](const testing::TestParamInfo<RealFigure>& info) { return info.param.name; });
 
 }  // namespace
 }  // namespace ossa
