@@ -1,10 +1,14 @@
-// What an application that links an installed ossa looks like.
+// What an application that links an installed ossa looks like: an empty room in, nobody out.
 #include <tools/tracker/tracker.h>
 
 #include <cstdio>
 
 int main() {
-  const ossa::depth::Camera camera = ossa::depth::KinectV1Camera(640, 480);
-  std::printf("ossa is installed: %.0f px\n", camera.fx);
-  return 0;
+  ossa::tracker::Tracker tracker;  // with the installed model and database
+  ossa::depth::DepthFrame frame;
+  frame.camera = ossa::depth::KinectV1Camera(640, 480);
+  frame.depth_mm.assign(640 * 480, 3000);
+  const auto seen = tracker.Push(frame);
+  std::printf("ossa is installed and sees %zu people before a wall\n", seen.bodies.size());
+  return seen.bodies.empty() ? 0 : 1;
 }

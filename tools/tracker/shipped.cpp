@@ -1,5 +1,7 @@
 #include "tools/tracker/shipped.h"
 
+#include <dlfcn.h>
+
 #include <cstdlib>
 #include <string>
 #include <system_error>
@@ -8,6 +10,18 @@
 #include "depth/error.h"
 
 namespace ossa::tracker {
+namespace {
+
+// The library or program that this code is in: an installed one stands beside its share folder,
+// wherever the application is.
+std::filesystem::path OwnBinary() {
+  Dl_info info{};
+  return dladdr(reinterpret_cast<const void*>(&ShippedFile), &info) != 0 && info.dli_fname
+             ? std::filesystem::path(info.dli_fname)
+             : std::filesystem::path();
+}
+
+}  // namespace
 
 std::filesystem::path ShippedFile(std::string_view name) {
   std::vector<std::filesystem::path> folders;
@@ -15,8 +29,10 @@ std::filesystem::path ShippedFile(std::string_view name) {
     folders.emplace_back(share);
   }
   std::error_code error;
-  const auto program = std::filesystem::read_symlink("/proc/self/exe", error);
-  if (!error) folders.push_back(program.parent_path().parent_path() / "share" / "ossa");
+  for (const auto& binary : {OwnBinary(), std::filesystem::path("/proc/self/exe")}) {
+    const auto real = std::filesystem::canonical(binary, error);
+    if (!error) folders.push_back(real.parent_path().parent_path() / OSSA_DATA_DIR / "ossa");
+  }
   folders.emplace_back(OSSA_SHIPPED_DIR);
   std::string places;
   for (const auto& folder : folders) {
