@@ -81,7 +81,8 @@ void Character::MakeBody(OdeWorld& ode, size_t bone, int tag) {
   // share theirs with their neighbours.
   const bool foot = bone == 15 || bone == 19;
   const double cylinder = std::max(to - from - (foot ? 0.0 : segment.radius_m), 0.01);
-  const dGeomID geom = geom_[bone] = dCreateCapsule(ode.space, segment.radius_m, cylinder);
+  const dGeomID geom = geom_[bone] =
+      dCreateCapsule(ode.space, segment.radius_m + kContactMargin_m, cylinder);
   dGeomSetBody(geom, body);
   // ODE's capsules lie along z, our bones along y.
   dMatrix3 z_to_y;

@@ -4,19 +4,35 @@
 #include "physics/world_internal.h"
 
 namespace ossa::physics {
+
+using Eigen::Vector3d;
+
 namespace {
 
-// Contacts are implicit springs, stable at any stiffness. Between a body and the floor: a leg
-// pressed down with the largest control force (2 kg x 250 m/s^2) sinks 2.5 mm. Damping is critical
-// for 2 kg.
-constexpr double kFloorStiffness_n_m = 1e6;
-constexpr double kFloorDamping_ns_m = 3000.0;
-// With and among things, for about one kilogram.
-constexpr double kContactStiffness_n_m = 4e4;
-constexpr double kContactDamping_ns_m = 400.0;
+// Contacts are implicit springs, stable at any stiffness: a leg pressed down with the largest
+// control force (2 kg x 250 m/s^2) sinks 0.5 mm. Damping is critical for 2 kg.
+constexpr double kStiffness_n_m = 1e6;
+constexpr double kDamping_ns_m = 3000.0;
 /// Own limbs are softer: the target rules, the capsules only keep it from the absurd.
 constexpr double kSelfStiffness_n_m = 3e3;
 constexpr double kSelfDamping_ns_m = 60.0;
+/// Gaps below this are contacts at once: control can close them within a substep (250 m/s^2 x h^2).
+constexpr double kSlop_m = 0.003;
+constexpr double kTouching_m = 0.0005;
+
+Vector3d VelocityAt(dBodyID body, const dReal* point) {
+  if (body == nullptr) return Vector3d::Zero();
+  dVector3 v;
+  dBodyGetPointVel(body, point[0], point[1], point[2], v);
+  return ToEigen(v);
+}
+
+/// Speed at which the two come together, m/s; 0 if they do not. ODE's normal points into `a`.
+double Approach(dGeomID a, dGeomID b, const dContact& c) {
+  const Vector3d relative =
+      VelocityAt(dGeomGetBody(a), c.geom.pos) - VelocityAt(dGeomGetBody(b), c.geom.pos);
+  return std::max(0.0, -relative.dot(ToEigen(c.geom.normal)));
+}
 
 }  // namespace
 
@@ -37,40 +53,73 @@ void World::Impl::Note(dGeomID a, dGeomID b, double depth_m) {
   const dGeomID limb = ta > 0 ? a : b;
   const Actor& actor = *actors[static_cast<size_t>(character - 1)];
   for (size_t bone = 1; bone < recon::kJointCount; ++bone) {
-    if (actor.character.geom(bone) == limb) contacts.struck.emplace_back(character - 1, bone);
+    if (actor.character.geom(bone) == limb)
+      contacts.struck.push_back({character - 1, bone, -std::min(ta, tb) - 1});
   }
+}
+
+/// ODE finds one point between a capsule and a box, about which the box turns freely. A hand that
+/// grips and a forearm that carries lie along the box: the ends of the capsule count too.
+int World::Impl::CapsuleEndsOnBox(dGeomID a, dGeomID b, dContact* contact) {
+  const bool first = dGeomGetClass(a) == dCapsuleClass;
+  const dGeomID capsule = first ? a : b, box = first ? b : a;
+  if (dGeomGetClass(capsule) != dCapsuleClass || dGeomGetClass(box) != dBoxClass) return 0;
+  dReal radius = 0.0, length = 0.0;
+  dGeomCapsuleGetParams(capsule, &radius, &length);
+  dGeomSphereSetRadius(probe, radius);
+  const dReal* rotation = dGeomGetRotation(capsule);
+  const Vector3d axis(rotation[2], rotation[6], rotation[10]);
+  int found = 0;
+  for (const double end : {-0.5, 0.5}) {
+    const Vector3d at = ToEigen(dGeomGetPosition(capsule)) + end * length * axis;
+    dGeomSetPosition(probe, at.x(), at.y(), at.z());
+    found += dCollide(first ? probe : box, first ? box : probe, 1, &contact[found].geom,
+                      sizeof(dContact));
+  }
+  return found;
+}
+
+World::Impl::Surface World::Impl::SurfaceOf(int ta, int tb) const {
+  Surface surface;
+  surface.self = ta == tb && ta > 0;
+  surface.margin_m = ((ta > 0 ? 1 : 0) + (tb > 0 ? 1 : 0)) * kContactMargin_m;
+  surface.soft = surface.self ? SpringDamper(kSelfStiffness_n_m, kSelfDamping_ns_m, step_s)
+                              : SpringDamper(kStiffness_n_m, kDamping_ns_m, step_s);
+  surface.friction = surface.self ? 0.0 : options.floor_friction;
+  for (const int tag : {ta, tb}) {
+    if (tag >= 0) continue;
+    const ObjectOptions& info = things[static_cast<size_t>(-tag - 1)].info;
+    surface.friction = info.friction;
+    surface.bounce = std::max(surface.bounce, info.bounce);
+  }
+  return surface;
 }
 
 void World::Impl::CollidePair(dGeomID a, dGeomID b) {
   constexpr int kMaxContacts = 6;
   std::array<dContact, kMaxContacts> contact{};
-  const int count = dCollide(a, b, kMaxContacts, &contact[0].geom, sizeof(dContact));
+  int count = dCollide(a, b, kMaxContacts, &contact[0].geom, sizeof(dContact));
   if (count == 0) return;
-  const int ta = TagOf(a), tb = TagOf(b);
-  const bool self = ta == tb && ta > 0;
-  const bool on_floor = (ta == 0 && tb > 0) || (tb == 0 && ta > 0);
-  const auto soft = self       ? SpringDamper(kSelfStiffness_n_m, kSelfDamping_ns_m, step_s)
-                    : on_floor ? SpringDamper(kFloorStiffness_n_m, kFloorDamping_ns_m, step_s)
-                               : SpringDamper(kContactStiffness_n_m, kContactDamping_ns_m, step_s);
-  const auto info = [&](int tag) -> const ObjectOptions* {
-    return tag < 0 ? &things[static_cast<size_t>(-tag - 1)].info : nullptr;
-  };
-  double friction = options.floor_friction, bounce = 0.0;
-  for (const int tag : {ta, tb}) {
-    if (info(tag) == nullptr) continue;
-    friction = info(tag)->friction;
-    bounce = std::max(bounce, info(tag)->bounce);
-  }
+  if (count == 1) count += CapsuleEndsOnBox(a, b, &contact[1]);
+  const Surface surface = SurfaceOf(TagOf(a), TagOf(b));
   for (int i = 0; i < count; ++i) {
     dContact& c = contact[static_cast<size_t>(i)];
-    Note(a, b, c.geom.depth);
-    c.surface.mode = dContactApprox1 | dContactSoftERP | dContactSoftCFM;
-    c.surface.mu = self ? 0.0 : friction;
-    c.surface.soft_erp = soft.erp;
-    c.surface.soft_cfm = soft.cfm;
-    if (bounce > 0.0) {
+    // Limbs' geoms are larger than the limbs by the margin. Within it a contact lets them approach
+    // as far as the gap allows in this substep and no further, so that a fast ball does not end up
+    // inside the limb before anything resists.
+    const double depth = c.geom.depth - surface.margin_m;
+    const double closing = Approach(a, b, c) * step_s;
+    if (depth < 0.0 && (surface.self || depth + closing + kSlop_m < 0.0)) continue;
+    if (depth + closing > -kTouching_m) Note(a, b, std::max(depth, 0.0));
+    c.geom.depth = std::max(depth, 0.0);
+    c.surface.mode = dContactApprox1 | dContactSoftERP | dContactSoftCFM | dContactMotionN;
+    c.surface.motionN = std::min(depth, 0.0) / step_s;
+    c.surface.mu = surface.friction;
+    c.surface.soft_erp = surface.soft.erp;
+    c.surface.soft_cfm = surface.soft.cfm;
+    if (surface.bounce > 0.0) {
       c.surface.mode |= dContactBounce;
-      c.surface.bounce = bounce;
+      c.surface.bounce = surface.bounce;
       c.surface.bounce_vel = 0.2;
     }
     dJointAttach(dJointCreateContact(ode.world, ode.contacts, &c), dGeomGetBody(a),
@@ -83,7 +132,11 @@ void World::Impl::OnNearPair(void* self, dGeomID a, dGeomID b) {
   if (ta == tb) return;  // a character's own pairs are listed, not found
   const dBodyID body_a = dGeomGetBody(a), body_b = dGeomGetBody(b);
   if (dAreConnectedExcluding(body_a, body_b, dJointTypeContact) != 0) return;
-  static_cast<World::Impl*>(self)->CollidePair(a, b);
+  World::Impl& world = *static_cast<World::Impl*>(self);
+  for (const auto& [thing, limb] : {std::pair(ta, body_b), std::pair(tb, body_a)}) {
+    if (thing < 0 && world.things[static_cast<size_t>(-thing - 1)].beside == limb) return;
+  }
+  world.CollidePair(a, b);
 }
 
 void World::Impl::CollideFloor() {
@@ -93,7 +146,7 @@ void World::Impl::CollideFloor() {
       const Segment& segment = actor->character.segments()[bone];
       const double height =
           HeightAbove(*floor, ToEigen(dBodyGetPosition(actor->character.body(bone))));
-      if (height < segment.length_m + segment.radius_m) {
+      if (height < segment.length_m + segment.radius_m + kContactMargin_m) {
         CollidePair(actor->character.geom(bone), floor_geom);
       }
     }
@@ -103,8 +156,6 @@ void World::Impl::CollideFloor() {
 
 void World::Impl::Collide(double h_s) {
   step_s = h_s;
-  contacts.character_object_depth_m = contacts.object_depth_m = contacts.floor_depth_m = 0.0;
-  contacts.character_object_contacts = 0;
   CollideFloor();
   for (const auto& actor : actors) {
     if (!actor->options.self_collision) continue;

@@ -70,6 +70,7 @@ World::Impl::~Impl() {
     dBodyDestroy(thing.body);
   }
   if (floor_geom != nullptr) dGeomDestroy(floor_geom);
+  dGeomDestroy(probe);
 }
 
 World::World(const WorldOptions& options) {
@@ -196,7 +197,7 @@ void World::Step(double dt_s) {
   const int count =
       std::max(1, static_cast<int>(std::ceil(dt_s / kFrame_s * w.options.substeps - 1e-6)));
   const double h = dt_s / count;
-  w.contacts.struck.clear();
+  w.contacts = {};
   for (int k = 0; k < count; ++k) w.Substep(dt_s - (k + 1) * h, h);
   for (const auto& actor : w.actors) {
     // Bounded forces keep this from happening; should it, the character stands up at its target.

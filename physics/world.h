@@ -75,13 +75,20 @@ struct ObjectState {
   Eigen::Vector3d velocity_m_s;
 };
 
-/// What touched what in the last Step. Depths are the deepest overlap seen in its last substep.
+/// A limb and an object that touched.
+struct Strike {
+  int character;
+  size_t bone;  // the joint at its end
+  int object;
+};
+
+/// What touched what in the last Step. Depths are the deepest overlap of any of its substeps.
 struct ContactSummary {
   double character_object_depth_m = 0.0;
-  double object_depth_m = 0.0;  // objects among themselves and with the floor
-  double floor_depth_m = 0.0;   // characters in the floor
-  int character_object_contacts = 0;
-  std::vector<std::pair<int, size_t>> struck;  // (character, bone's end joint) hit by an object
+  double object_depth_m = 0.0;        // objects among themselves and with the floor
+  double floor_depth_m = 0.0;         // characters in the floor
+  int character_object_contacts = 0;  // summed over the substeps
+  std::vector<Strike> struck;
 };
 
 /// A floor, characters and things that obey mechanics (Shum & Ho 2012, secs. 4 and 6). Metres,
@@ -117,7 +124,7 @@ class World {
 
   int AddObject(const ObjectOptions& options);
   /// A virtual joint between the end of a joint's bone and the object: `rigid` or free to turn
-  /// about the joint. They do not collide with each other while it lasts.
+  /// about the joint. Neither that bone nor the one before it collides with the object meanwhile.
   void Hold(int character, recon::Joint joint, int object, bool rigid);
   void Release(int object);
   /// Hangs the object on a point of the world.

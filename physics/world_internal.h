@@ -8,7 +8,8 @@ struct Thing {
   ObjectOptions info;
   dBodyID body = nullptr;
   dGeomID geom = nullptr;
-  dJointID held = nullptr;  // virtual joint to a hand or to the world
+  dJointID held = nullptr;   // virtual joint to a hand or to the world
+  dBodyID beside = nullptr;  // the bone before the hand that holds it
 };
 
 /// Characters carry the tag index + 1 in their geoms, things -(index + 1), the floor 0.
@@ -20,18 +21,29 @@ struct World::Impl {
   explicit Impl(const WorldOptions& world_options);
   ~Impl();
 
+  /// How two things meet.
+  struct Surface {
+    SoftConstraint soft{};
+    double friction = 0.0, bounce = 0.0;
+    double margin_m = 0.0;  // by how much their geoms are larger than they
+    bool self = false;      // limbs of one character
+  };
+
   void Substep(double left_s, double h_s);
   void WatchThreats(double dt_s);
   // contact.cpp
   void Collide(double h_s);
   void CollidePair(dGeomID a, dGeomID b);
   void CollideFloor();
+  int CapsuleEndsOnBox(dGeomID a, dGeomID b, dContact* contact);
+  Surface SurfaceOf(int tag_a, int tag_b) const;
   void Note(dGeomID a, dGeomID b, double depth_m);
   static void OnNearPair(void* self, dGeomID a, dGeomID b);
 
   WorldOptions options;
   OdeWorld ode;
   dGeomID floor_geom = nullptr;
+  dGeomID probe = dCreateSphere(nullptr, 0.1);  // the end of a capsule
   std::optional<Eigen::Vector4d> floor;
   Eigen::Vector3d gravity_m_s2;
   // Pointers: joints and bodies hold on to their actors' addresses.

@@ -15,14 +15,59 @@ namespace {
 
 using Bytes = std::vector<uint8_t>;
 
+/// A part of a frame; alpha 0 where the frame before it stays.
+struct Patch {
+  int x = 0, y = 0, width = 0, height = 0;
+  std::vector<uint8_t> rgba;
+};
+
+Bytes Encode(const cv::Mat& image) {
+  Bytes bytes;
+  cv::imencode(".png", image, bytes, {cv::IMWRITE_PNG_COMPRESSION, 9});
+  return bytes;
+}
+
 Bytes EncodePng(const Picture& picture) {
   const cv::Mat rgb(picture.height, picture.width, CV_8UC3,
                     const_cast<uint8_t*>(picture.rgb.data()));
   cv::Mat bgr;
   cv::cvtColor(rgb, bgr, cv::COLOR_RGB2BGR);
-  Bytes bytes;
-  cv::imencode(".png", bgr, bytes, {cv::IMWRITE_PNG_COMPRESSION, 9});
-  return bytes;
+  return Encode(bgr);
+}
+
+Bytes EncodePng(const Patch& patch) {
+  const cv::Mat rgba(patch.height, patch.width, CV_8UC4, const_cast<uint8_t*>(patch.rgba.data()));
+  cv::Mat bgra;
+  cv::cvtColor(rgba, bgra, cv::COLOR_RGBA2BGRA);
+  return Encode(bgra);
+}
+
+/// What must be drawn over `before` (null: nothing is there yet) to get `frame`: the smallest
+/// rectangle around all that changed, at least a pixel.
+Patch PatchOf(const Picture& frame, const Picture* before) {
+  const auto changed = [&](int x, int y) {
+    const size_t at = 3 * static_cast<size_t>(y * frame.width + x);
+    return before == nullptr || !std::equal(&frame.rgb[at], &frame.rgb[at] + 3, &before->rgb[at]);
+  };
+  int left = frame.width - 1, right = 0, top = frame.height - 1, bottom = 0;
+  for (int y = 0; y < frame.height; ++y) {
+    for (int x = 0; x < frame.width; ++x) {
+      if (!changed(x, y)) continue;
+      left = std::min(left, x), right = std::max(right, x);
+      top = std::min(top, y), bottom = std::max(bottom, y);
+    }
+  }
+  if (right < left) left = right = top = bottom = 0;
+  Patch patch{left, top, right - left + 1, bottom - top + 1, {}};
+  for (int y = top; y <= bottom; ++y) {
+    for (int x = left; x <= right; ++x) {
+      const size_t at = 3 * static_cast<size_t>(y * frame.width + x);
+      const bool drawn = changed(x, y);
+      for (size_t c = 0; c < 3; ++c) patch.rgba.push_back(drawn ? frame.rgb[at + c] : 0);
+      patch.rgba.push_back(drawn ? 255 : 0);
+    }
+  }
+  return patch;
 }
 
 void Append(Bytes& to, uint32_t value, int bytes = 4) {
@@ -69,17 +114,17 @@ Bytes PixelData(const Bytes& png) {
   return data;
 }
 
-Bytes FrameControl(uint32_t sequence, const Picture& frame, int frame_ms) {
+Bytes FrameControl(uint32_t sequence, const Patch& frame, int frame_ms) {
   Bytes control;
   Append(control, sequence);
   Append(control, static_cast<uint32_t>(frame.width));
   Append(control, static_cast<uint32_t>(frame.height));
-  Append(control, 0);  // x and y of the frame in the image
-  Append(control, 0);
+  Append(control, static_cast<uint32_t>(frame.x));
+  Append(control, static_cast<uint32_t>(frame.y));
   Append(control, static_cast<uint32_t>(frame_ms), 2);
   Append(control, 1000, 2);  // the delay is frame_ms / 1000 s
   control.push_back(0);      // leave the frame there
-  control.push_back(0);      // overwrite, do not blend
+  control.push_back(1);      // draw over what is there
   return control;
 }
 
@@ -99,7 +144,7 @@ void WritePicture(const std::filesystem::path& path, const Picture& picture) {
 void WriteAnimation(const std::filesystem::path& path, const std::vector<Picture>& frames,
                     int frame_ms) {
   if (frames.empty()) throw std::invalid_argument("WriteAnimation: no frames");
-  const Bytes first = EncodePng(frames[0]);
+  const Bytes first = EncodePng(PatchOf(frames[0], nullptr));
   Bytes file(first.begin(),
              first.begin() + static_cast<std::ptrdiff_t>(kSignatureBytes + kHeaderChunkBytes));
   Bytes animation;
@@ -111,8 +156,9 @@ void WriteAnimation(const std::filesystem::path& path, const std::vector<Picture
     if (frames[i].width != frames[0].width || frames[i].height != frames[0].height) {
       throw std::invalid_argument("WriteAnimation: frames differ in size");
     }
-    AppendChunk(file, "fcTL", FrameControl(sequence++, frames[i], frame_ms));
-    const Bytes pixels = PixelData(i == 0 ? first : EncodePng(frames[i]));
+    const Patch patch = PatchOf(frames[i], i == 0 ? nullptr : &frames[i - 1]);
+    AppendChunk(file, "fcTL", FrameControl(sequence++, patch, frame_ms));
+    const Bytes pixels = PixelData(i == 0 ? first : EncodePng(patch));
     if (i == 0) {
       AppendChunk(file, "IDAT", pixels);
       continue;

@@ -16,6 +16,7 @@ class Actors {
   explicit Actors(uint64_t seed);
   /// The first clip of an action, e.g. "walk".
   const std::vector<recon::Posture>& Play(const std::string& action) const;
+  std::vector<std::string> Actions() const;
   /// Actions one after the other, each starting where the last ended, joined over a third of a
   /// second.
   std::vector<recon::Posture> Sequence(const std::vector<std::string>& actions) const;
@@ -27,11 +28,17 @@ class Actors {
 /// A scene while it is played: the world, its pictures and what was seen of it.
 class Stage {
  public:
-  Stage(const physics::WorldOptions& options, const SceneView& view);
+  /// `filmed`: false for rehearsals, which nobody looks at.
+  Stage(uint64_t seed, const SceneView& view, bool filmed = true);
 
   physics::World world;
+  int AddPerson(const recon::Posture& start, const physics::CharacterOptions& options = {});
   /// One 1/30 s frame: targets to the characters, a step, every second frame a picture.
   void Advance(const std::vector<recon::Posture>& targets, const std::string& caption);
+
+  /// Did an object touch one of the person's bones (by their end joints; all if none are named) in
+  /// the last frame? `object` of -1: any.
+  bool Struck(int person, const std::vector<size_t>& bones, int object = -1) const;
 
   int frames() const { return frames_; }
   double deepest_m() const { return deepest_m_; }  // characters in objects
@@ -40,6 +47,7 @@ class Stage {
 
  private:
   SceneView view_;
+  bool filmed_;
   std::vector<Picture> pictures_;
   int frames_ = 0;
   double deepest_m_ = 0.0;
@@ -72,6 +80,8 @@ std::string Text(double value, int digits, const std::string& unit);
 
 /// The character as a filter on noisy authored motion and, when there, on real recordings.
 Table FilterStudy(ExperimentContext& context, const Actors& actors);
+/// What a frame costs: one person, six, one among many boxes.
+Table CostStudy(ExperimentContext& context, const Actors& actors);
 /// Fig. 5: error of the matched posture and time of a query against the dimensions kept by PCA.
 Table DimensionStudy(ExperimentContext& context);
 

@@ -31,6 +31,12 @@ const std::vector<Posture>& Actors::Play(const std::string& action) const {
   return found->second;
 }
 
+std::vector<std::string> Actors::Actions() const {
+  std::vector<std::string> names;
+  for (const auto& [name, clip] : clips_) names.push_back(name);
+  return names;
+}
+
 std::vector<Posture> Actors::Sequence(const std::vector<std::string>& actions) const {
   constexpr size_t kJoin = 10;
   std::vector<Posture> result;
@@ -55,9 +61,31 @@ std::vector<Posture> Actors::Sequence(const std::vector<std::string>& actions) c
   return result;
 }
 
-Stage::Stage(const physics::WorldOptions& options, const SceneView& view)
-    : world(options), view_(view) {
+namespace {
+
+physics::WorldOptions Seeded(uint64_t seed) {
+  physics::WorldOptions options;
+  options.seed = seed;
+  return options;
+}
+
+}  // namespace
+
+Stage::Stage(uint64_t seed, const SceneView& view, bool filmed)
+    : world(Seeded(seed)), view_(view), filmed_(filmed) {
   world.SetFloor(Eigen::Vector4d(0.0, 1.0, 0.0, 0.0));
+}
+
+int Stage::AddPerson(const Posture& start, const physics::CharacterOptions& options) {
+  return world.AddCharacter(recon::BoneLengthsOf(start), start, options);
+}
+
+bool Stage::Struck(int person, const std::vector<size_t>& bones, int object) const {
+  const auto& struck = world.Contacts().struck;
+  return std::any_of(struck.begin(), struck.end(), [&](const physics::Strike& s) {
+    const bool bone = bones.empty() || std::find(bones.begin(), bones.end(), s.bone) != bones.end();
+    return s.character == person && bone && (object < 0 || s.object == object);
+  });
 }
 
 void Stage::Advance(const std::vector<Posture>& targets, const std::string& caption) {
@@ -66,7 +94,9 @@ void Stage::Advance(const std::vector<Posture>& targets, const std::string& capt
   world.Step(1.0 / 30.0);
   simulated_s_ += std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   deepest_m_ = std::max(deepest_m_, world.Contacts().character_object_depth_m);
-  if (frames_++ % 2 == 0) pictures_.push_back(Paint(world, view_, {targets, caption}));
+  const bool picture = filmed_ && frames_ % 2 == 0;
+  ++frames_;
+  if (picture) pictures_.push_back(Paint(world, view_, {targets, caption}));
 }
 
 std::string Text(double value, int digits, const std::string& unit) {

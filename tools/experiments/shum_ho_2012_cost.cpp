@@ -1,0 +1,165 @@
+// What the character costs (Shum & Ho 2012, sec. 8.4: 0.55 ms a frame on an i7-2600K), and ten
+// hours of it: random clips, pushes and dropped frames.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <chrono>
+#include <limits>
+#include <random>
+
+#include "physics/character_filter.h"
+#include "tools/experiments/shum_ho_2012_internal.h"
+
+namespace ossa::tools {
+namespace {
+
+using Eigen::Vector3d;
+using recon::Posture;
+using Clock = std::chrono::steady_clock;
+
+constexpr double kFrame_s = 1.0 / 30.0;
+
+double MillisecondsSince(Clock::time_point start) {
+  return 1e3 * std::chrono::duration<double>(Clock::now() - start).count();
+}
+
+/// Milliseconds a frame: the median over the frames, which another process on the machine does not
+/// move, and the mean.
+struct Cost {
+  double median_ms, mean_ms;
+};
+
+Cost CostOf(const std::vector<Posture>& motion, int people, physics::Control control) {
+  std::vector<physics::CharacterFilter> filters;
+  physics::CharacterFilterOptions options;
+  options.control = control;
+  for (int k = 0; k < people; ++k) {
+    filters.emplace_back(recon::BoneLengthsOf(motion[0]), options);
+  }
+  const Eigen::Vector4d floor(0.0, 1.0, 0.0, 0.0);
+  std::vector<double> ms;
+  for (size_t f = 0; f < motion.size(); ++f) {
+    const auto start = Clock::now();
+    for (size_t k = 0; k < filters.size(); ++k) {
+      filters[k].Step(motion[(f + 37 * k) % motion.size()], {}, floor, kFrame_s);
+    }
+    ms.push_back(MillisecondsSince(start));
+  }
+  Cost cost{0.0, 0.0};
+  for (const double m : ms) cost.mean_ms += m / static_cast<double>(ms.size());
+  std::nth_element(ms.begin(), ms.begin() + std::ssize(ms) / 2, ms.end());
+  cost.median_ms = ms[ms.size() / 2];
+  return cost;
+}
+
+/// What a long run found.
+struct Endurance {
+  int64_t frames = 0, placed = 0, lost = 0;
+  double farthest_m = 0.0, fastest_m_s = 0.0, deepest_m = 0.0, gap_m = 0.0;
+};
+
+/// Random clips at random places, pushes of up to 100 Ns, joints and whole frames that are missing
+/// or absurd. `lost` counts the frames after a second of good targets in which the character is not
+/// within 25 cm of them.
+Endurance Endure(const Actors& actors, double hours, uint64_t seed,
+                 const ExperimentContext& context) {
+  std::mt19937_64 random(seed);
+  std::uniform_real_distribution<double> uniform(-1.0, 1.0);
+  const std::vector<std::string> actions = actors.Actions();
+  physics::World world;
+  world.SetFloor(Eigen::Vector4d(0.0, 1.0, 0.0, 0.0));
+  const Posture first = actors.Play(actions[0])[0];
+  const int person = world.AddCharacter(recon::BoneLengthsOf(first), first);
+  const auto wanted = static_cast<int64_t>(hours * 3600.0 / kFrame_s);
+  Endurance e;
+  int good = 0;  // frames in a row with complete targets and no push
+  Posture before = first;
+  Vector3d place = Vector3d::Zero();
+  while (e.frames < wanted) {
+    if (context.interrupted && context.interrupted()) throw Interruption();
+    const auto& clip = actors.Play(actions[random() % actions.size()]);
+    place += Vector3d(uniform(random), 0.0, uniform(random));
+    place *= 0.9;
+    for (size_t f = 0; f < clip.size() && e.frames < wanted; ++f, ++e.frames) {
+      Posture target = clip[f];
+      for (auto& p : target.position_m) p += place;
+      const double luck = uniform(random);
+      ++good;
+      if (luck > 0.98) {
+        const auto joint = static_cast<recon::Joint>(random() % recon::kJointCount);
+        world.Push(person, joint,
+                   50.0 * Vector3d(uniform(random), uniform(random), uniform(random)));
+        good = 0;
+      } else if (luck < -0.96) {
+        for (auto& p : target.position_m) {
+          if (uniform(random) > 0.0) p.setConstant(std::numeric_limits<double>::quiet_NaN());
+        }
+        good = 0;
+      } else if (luck < -0.94) {
+        for (auto& p : target.position_m) p = 1e3 * Vector3d(uniform(random), 1.0, 1.0);
+        good = 0;
+      }
+      const bool dropped = luck > 0.9 && luck < 0.94;  // no frame came: twice the time passes
+      world.SetTarget(person, target);
+      world.Step(dropped ? 2 * kFrame_s : kFrame_s);
+      const auto state = world.StateOf(person);
+      if (!world.IsFinite(person)) ++e.placed;
+      double far = 0.0;
+      for (size_t j = 0; j < recon::kJointCount; ++j) {
+        far += (state.posture.position_m[j] - target.position_m[j]).norm() / recon::kJointCount;
+        e.fastest_m_s =
+            std::max(e.fastest_m_s, (state.posture.position_m[j] - before.position_m[j]).norm() /
+                                        (dropped ? 2 * kFrame_s : kFrame_s));
+      }
+      before = state.posture;
+      if (f == 0) good = 0;  // a new clip starts elsewhere
+      if (good > 30) {
+        e.farthest_m = std::max(e.farthest_m, far);
+        if (!(far < 0.25)) ++e.lost;
+      }
+      e.deepest_m = std::max(e.deepest_m, world.Contacts().floor_depth_m);
+      e.gap_m = std::max(e.gap_m, state.max_solver_gap_m);
+    }
+  }
+  return e;
+}
+
+}  // namespace
+
+Table CostStudy(ExperimentContext& context, const Actors& actors) {
+  Table table;
+  table.title = "What the character costs and stands";
+  table.columns = {"what", "measured", "wanted", "holds"};
+  const auto& motion = actors.Play("tai_chi");
+  const auto row = [&](const std::string& what, const std::string& value, const std::string& wanted,
+                       bool good) {
+    table.rows.push_back({what, value, wanted, good ? "yes" : "NO"});
+  };
+  for (const auto& [name, control] :
+       {std::pair("pd", physics::Control::kPaper), {"motor", physics::Control::kMotor}}) {
+    const Cost one = CostOf(motion, 1, control), six = CostOf(motion, 6, control);
+    const auto text = [](const Cost& c) {
+      return fmt::format("{:.2f} ms median, {:.2f} mean", c.median_ms, c.mean_ms);
+    };
+    row(fmt::format("one person, 30 Hz frame of 10 substeps, {}", name), text(one), "<= 0.6 ms",
+        one.median_ms <= 0.6);
+    row(fmt::format("six people, {}", name), text(six), "<= 4 ms", six.median_ms <= 4.0);
+  }
+  const double hours = context.parameters.Number("endurance_hours", 0.1);
+  const auto start = Clock::now();
+  const Endurance e = Endure(actors, hours, context.seed, context);
+  row(fmt::format("{:g} hours of clips, pushes, bad and dropped frames: not finite", hours),
+      fmt::format("{} of {} frames, in {:.0f} s", e.placed, e.frames,
+                  1e-3 * MillisecondsSince(start)),
+      "0", e.placed == 0);
+  row("character lost: > 25 cm off after a second of good targets", std::to_string(e.lost), "0",
+      e.lost == 0);
+  row("farthest off then, joints' mean", fmt::format("{:.1f} cm", 100 * e.farthest_m), "< 25 cm",
+      e.farthest_m < 0.25);
+  row("fastest joint", fmt::format("{:.1f} m/s", e.fastest_m_s), "< 40 m/s", e.fastest_m_s < 40.0);
+  row("deepest in the floor", fmt::format("{:.1f} mm", 1e3 * e.deepest_m), "<= 5 mm",
+      e.deepest_m <= 0.005);
+  return table;
+}
+
+}  // namespace ossa::tools
