@@ -11,6 +11,7 @@
 #include <cstdlib>
 #include <utility>
 
+#include "depth/sensor/drivers/announcer_internal.h"
 #include "depth/sensor/drivers/depth_stream_internal.h"
 #include "depth/sensor/drivers/freenect_camera_internal.h"
 #include "depth/sensor/drivers/kinect_properties.h"
@@ -172,7 +173,11 @@ class FreenectDriver final : public oni::driver::DriverBase {
     freenect_set_log_level(context_, FREENECT_LOG_FATAL);
     freenect_select_subdevices(context_, static_cast<freenect_device_flags>(
                                              FREENECT_DEVICE_MOTOR | FREENECT_DEVICE_CAMERA));
-    FindDevices();
+    for (const std::string& serial : known_ = SerialNumbers(context_)) {
+      const OniDeviceInfo info = InfoOf(serial);
+      deviceConnected(&info);
+    }
+    announcer_ = std::make_unique<Announcer>();
     thread_ = std::thread([this] { Run(); });
     return ONI_STATUS_OK;
   }
@@ -203,6 +208,7 @@ class FreenectDriver final : public oni::driver::DriverBase {
   void shutdown() override {
     stopping_ = true;
     if (thread_.joinable()) thread_.join();
+    announcer_.reset();
     if (context_ != nullptr) freenect_shutdown(context_);
     context_ = nullptr;
   }
@@ -245,10 +251,11 @@ class FreenectDriver final : public oni::driver::DriverBase {
   // libfreenect says that some Kinect died but not which: all are lost, and those that are still
   // there are found again at the next look. The end of fakenect's dump is such a death, too.
   void LoseDevices() {
-    for (const std::string& serial : std::exchange(known_, {})) {
-      const OniDeviceInfo info = InfoOf(serial);
-      deviceDisconnected(&info);
-    }
+    for (const std::string& serial : std::exchange(known_, {})) AnnounceLost(serial);
+  }
+
+  void AnnounceLost(const std::string& serial) {
+    announcer_->Now([this, info = InfoOf(serial)] { deviceDisconnected(&info); });
   }
 
   void FindDevices() {
@@ -262,12 +269,11 @@ class FreenectDriver final : public oni::driver::DriverBase {
     };
     const std::vector<std::string> before = std::exchange(known_, now);
     for (const std::string& serial : before) {
-      const OniDeviceInfo info = InfoOf(serial);
-      if (!has(now, serial)) deviceDisconnected(&info);
+      if (!has(now, serial)) AnnounceLost(serial);
     }
     for (const std::string& serial : now) {
-      const OniDeviceInfo info = InfoOf(serial);
-      if (!has(before, serial)) deviceConnected(&info);
+      if (has(before, serial)) continue;
+      announcer_->Now([this, info = InfoOf(serial)] { deviceConnected(&info); });
     }
   }
 
@@ -276,6 +282,7 @@ class FreenectDriver final : public oni::driver::DriverBase {
   std::vector<std::string> known_;
   std::atomic<int> open_ = 0;
   std::atomic<bool> stopping_ = false;
+  std::unique_ptr<Announcer> announcer_;
   std::thread thread_;
 };
 

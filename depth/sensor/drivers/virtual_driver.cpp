@@ -9,9 +9,9 @@
 #include <optional>
 #include <thread>
 #include <utility>
-#include <vector>
 
 #include "depth/error.h"
+#include "depth/sensor/drivers/announcer_internal.h"
 #include "depth/sensor/drivers/depth_stream_internal.h"
 #include "depth/sensor/drivers/virtual_uri.h"
 #include "depth/sensor/frame_source.h"
@@ -213,6 +213,7 @@ class VirtualDriver final : public oni::driver::DriverBase, public UnplugHandler
                        oni::driver::DeviceDisconnectedCallback disconnected,
                        oni::driver::DeviceStateChangedCallback changed, void* cookie) override {
     DriverBase::initialize(connected, disconnected, changed, cookie);
+    announcer_ = std::make_unique<Announcer>();
     const char* uri = std::getenv("OSSA_VIRTUAL_DEVICE");
     if (uri != nullptr && *uri != '\0') tryDevice(uri);
     return ONI_STATUS_OK;
@@ -226,14 +227,9 @@ class VirtualDriver final : public oni::driver::DriverBase, public UnplugHandler
       if (std::strlen(uri) >= ONI_MAX_STR) {
         throw InputError(std::string(uri) + ": expected fewer than 256 characters");
       }
-      const std::lock_guard lock(mutex_);
-      std::unique_ptr<VirtualCamera>& camera = cameras_[uri];
-      if (!camera) {
-        camera = std::make_unique<VirtualCamera>(uri, ParseVirtualUri(uri));
-        camera->unplugs_left = camera->options().unplugs;
-      }
-      if (!camera->plugged) return ONI_STATUS_ERROR;
-      deviceConnected(&camera->info());
+      const VirtualCamera* camera = PluggedCamera(uri);
+      if (camera == nullptr) return ONI_STATUS_ERROR;
+      deviceConnected(&camera->info());  // not under our lock: OpenNI2 takes its own
       return ONI_STATUS_OK;
     } catch (const std::exception& error) {
       getServices().errorLoggerAppend("%s", error.what());
@@ -250,13 +246,7 @@ class VirtualDriver final : public oni::driver::DriverBase, public UnplugHandler
   void deviceClose(oni::driver::DeviceBase* device) override { delete device; }
 
   void shutdown() override {
-    {
-      const std::lock_guard lock(mutex_);
-      stopping_ = true;
-    }
-    wake_.notify_all();
-    for (std::thread& thread : replugs_) thread.join();
-    replugs_.clear();
+    announcer_.reset();
     cameras_.clear();
   }
 
@@ -265,28 +255,33 @@ class VirtualDriver final : public oni::driver::DriverBase, public UnplugHandler
       const std::lock_guard lock(mutex_);
       camera.plugged = false;
       --camera.unplugs_left;
-      if (comes_back && !stopping_) {
-        replugs_.emplace_back([this, &camera] { Replug(camera); });
-      }
     }
-    deviceDisconnected(&camera.info());
+    announcer_->Now([this, &camera] { deviceDisconnected(&camera.info()); });
+    if (!comes_back) return;
+    announcer_->At(Clock::now() + camera.options().replug_after, [this, &camera] {
+      {
+        const std::lock_guard lock(mutex_);
+        camera.plugged = true;
+      }
+      deviceConnected(&camera.info());
+    });
   }
 
  private:
-  void Replug(VirtualCamera& camera) {
-    {
-      std::unique_lock lock(mutex_);
-      if (wake_.wait_for(lock, camera.options().replug_after, [this] { return stopping_; })) return;
-      camera.plugged = true;
+  // Made at its first mention; none while it is unplugged.
+  const VirtualCamera* PluggedCamera(const char* uri) {
+    const std::lock_guard lock(mutex_);
+    std::unique_ptr<VirtualCamera>& camera = cameras_[uri];
+    if (!camera) {
+      camera = std::make_unique<VirtualCamera>(uri, ParseVirtualUri(uri));
+      camera->unplugs_left = camera->options().unplugs;
     }
-    deviceConnected(&camera.info());
+    return camera->plugged ? camera.get() : nullptr;
   }
 
   std::mutex mutex_;
-  std::condition_variable wake_;
-  bool stopping_ = false;
   std::map<std::string, std::unique_ptr<VirtualCamera>, std::less<>> cameras_;
-  std::vector<std::thread> replugs_;
+  std::unique_ptr<Announcer> announcer_;
 };
 
 }  // namespace

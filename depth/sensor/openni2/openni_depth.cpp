@@ -7,6 +7,7 @@
 #include <sstream>
 
 #include "depth/error.h"
+#include "depth/sensor/openni2/shutdown_gate.h"
 
 namespace ossa::depth {
 namespace {
@@ -28,6 +29,7 @@ OpenNiSession::OpenNiSession() {
 
 OpenNiSession::~OpenNiSession() {
   const std::lock_guard lock(SessionMutex());
+  const ShutdownGateClosed closed;
   openni::OpenNI::shutdown();
 }
 

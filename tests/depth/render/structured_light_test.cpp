@@ -14,21 +14,34 @@ RenderedImage WallAt(const Camera& camera, float z_m) {
   return {{w, h, z_m}, {w, h, 0}, {w, h, 0}, {w, h, 1.0F}, {w, h, 1}};
 }
 
+// Farther away from left to right, by a tenth of its mean distance in all.
+RenderedImage RampAround(const Camera& camera, double z_m) {
+  RenderedImage ramp = WallAt(camera, 0.0F);
+  for (int v = 0; v < camera.height; ++v) {
+    for (int u = 0; u < camera.width; ++u) {
+      ramp.depth_m.at(u, v) = static_cast<float>(z_m * (0.95 + 0.1 * u / camera.width));
+    }
+  }
+  return ramp;
+}
+
 class SensorSteps : public testing::TestWithParam<double> {};
 
-// The steps measured in real frames: 2.9e-6 z² mm.
+// Disparities are f b / z pixels in steps of 1/8 pixel: 2.9e-6 z² mm, as in real frames.
 TEST_P(SensorSteps, GrowWithTheSquareOfTheDepth) {
   const Camera camera = KinectV1Camera(640, 480);
-  const double z_mm = GetParam();
+  const StructuredLightOptions options;
   const auto image =
-      SimulateStructuredLight(WallAt(camera, static_cast<float>(z_mm / 1000)), camera, {}, 3);
+      SimulateStructuredLight(RampAround(camera, GetParam() / 1000), camera, options, 3);
   std::set<uint16_t> values(image.depth_mm.data.begin(), image.depth_mm.data.end());
   values.erase(0);
-  ASSERT_GE(values.size(), 3U);
-  const double step_mm =
-      (*values.rbegin() - *values.begin()) / static_cast<double>(values.size() - 1);
-  // Steps differ along the noise's range of some steps, and values are whole millimetres.
-  EXPECT_NEAR(step_mm, 2.9e-6 * z_mm * z_mm, 0.1 * 2.9e-6 * z_mm * z_mm + 0.5);
+  const double nearest_m = *values.begin() / 1000.0;
+  const double farthest_m = *values.rbegin() / 1000.0;
+  const double steps = camera.fx * options.baseline_m * (1 / nearest_m - 1 / farthest_m) / 0.125;
+  // Every step between the two is met on a ramp as fine as this. Their depths are rounded to whole
+  // millimetres: half of one at either end is a quarter of the finest step, of 4 mm.
+  EXPECT_NEAR(static_cast<double>(values.size() - 1), steps, 0.5);
+  EXPECT_GE(steps, 6.0);
 }
 
 INSTANTIATE_TEST_SUITE_P(Depths, SensorSteps, testing::Values(1200.0, 2000.0, 4000.0));
