@@ -1,5 +1,5 @@
 #include "depth/sensor/drivers/announcer_internal.h"
-#include "depth/sensor/openni2/shutdown_gate.h"
+#include "depth/sensor/shutdown_gate_internal.h"
 
 namespace ossa::depth {
 

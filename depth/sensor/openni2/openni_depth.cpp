@@ -7,7 +7,7 @@
 #include <sstream>
 
 #include "depth/error.h"
-#include "depth/sensor/openni2/shutdown_gate.h"
+#include "depth/sensor/shutdown_gate_internal.h"
 
 namespace ossa::depth {
 namespace {

@@ -1,4 +1,4 @@
-#include "depth/sensor/openni2/shutdown_gate.h"
+#include "depth/sensor/shutdown_gate_internal.h"
 
 #include <mutex>
 
