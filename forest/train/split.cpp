@@ -42,11 +42,11 @@ OSSA_CLONES void BinResponses(const int16_t* first, const int16_t* second, size_
   }
 }
 
-int EffectiveCandidates(int candidates, uint64_t node_pixels) {
-  // Departure: small nodes look at fewer candidates: their few pixels cannot tell thousands of
-  // splits apart. All of them from 2000 pixels on, a quarter at 500 and below.
+// Departure: small nodes look at fewer candidates and offsets: their few pixels cannot tell
+// thousands of splits apart. All of them from 2000 pixels on, a quarter at 500 and below.
+int Effective(int most, int least, uint64_t node_pixels) {
   const double share = std::clamp(static_cast<double>(node_pixels) / 2000.0, 0.25, 1.0);
-  return std::max(1, static_cast<int>(candidates * share));
+  return std::clamp(static_cast<int>(most * share), std::min(least, most), most);
 }
 
 }  // namespace
@@ -61,15 +61,16 @@ CandidateSet DrawCandidates(const TrainOptions& options, uint64_t seed, uint64_t
   // Lengths evenly spread on a log scale: near probes see the shape, far ones the pose.
   constexpr double kShortest_pixel_m = 4.0;
   const double ratio = std::log(std::max(options.box_pixel_m / kShortest_pixel_m, 1.0));
-  for (int i = 0; i < options.offsets; ++i) {
+  const int probes = Effective(options.offsets, 40, node_pixels);
+  for (int i = 0; i < probes; ++i) {
     const double length = kShortest_pixel_m * std::exp(ratio * random.Unit());
     const double angle = 2.0 * 3.14159265358979323846 * random.Unit();
     const double scale = length * kOffsetUnitsPerPixelMetre;
     set.offset_u.push_back(static_cast<float>(std::lround(scale * std::cos(angle))));
     set.offset_v.push_back(static_cast<float>(std::lround(scale * std::sin(angle))));
   }
-  const int count = EffectiveCandidates(options.candidates, node_pixels);
-  const auto offsets = static_cast<uint32_t>(options.offsets);
+  const int count = Effective(options.candidates, 1, node_pixels);
+  const auto offsets = static_cast<uint32_t>(probes);
   for (int i = 0; i < count; ++i) {
     Candidate candidate;
     candidate.first = static_cast<uint16_t>(random.Below(offsets));
