@@ -28,6 +28,8 @@ recon::BoneLengths Checked(recon::BoneLengths lengths) {
 
 /// A trust of 0 still follows, slowly: its place was filled in by someone who knew better.
 constexpr double kLeastStiffness = 0.3;
+/// What the user insists on pulls the joints before it along (sec. 6.1), not they it.
+constexpr double kConstrainedWeight = 50.0;
 constexpr double kFarthest_m = 1000.0;      // beyond is no place in a room
 constexpr double kLargestSpeed_m_s = 15.0;  // of a target; a fast punch has 10
 
@@ -55,8 +57,9 @@ Actor::Actor(OdeWorld& ode, const recon::BoneLengths& bone_lengths,
              const CharacterOptions& character_options, int tag)
     : lengths(Checked(bone_lengths)),
       options(character_options),
-      character(ode, SegmentsOf(lengths, options.stature_m, options.mass_kg), options.control,
-                tag) {
+      character(ode, SegmentsOf(lengths, options.stature_m, options.mass_kg),
+                {options.control, options.hinges, tag}) {
+  if (options.joint_limits) limits = std::make_unique<JointLimits>(ode, character);
   weight.fill(1.0);
   aim_velocity_m_s.fill(Vector3d::Zero());
   mean_velocity_m_s.fill(Vector3d::Zero());
@@ -112,11 +115,11 @@ Posture Actor::Goal(std::array<double, kJointCount>& trust) const {
   Posture goal = wanted;
   for (const auto& [joint, place] : soft_constraint) {
     goal.position_m[joint] = place;
-    trust[joint] = 1.0;
+    trust[joint] = kConstrainedWeight;
   }
   for (const auto& [joint, pin] : hard_constraint) {
     goal.position_m[joint] = pin->place_m();
-    trust[joint] = 1.0;
+    trust[joint] = kConstrainedWeight;
   }
   if (dodge_left_s > 0.0) RaiseForearms(lengths, goal);
   return goal;
@@ -139,7 +142,8 @@ void Actor::Prepare(OdeWorld& ode, const std::optional<Vector4d>& floor, double 
   control.orientation = recon::OrientationsOf(aim);
   for (size_t i = 0; i < kJointCount; ++i) {
     SetLead(i, floor, sole_m, dt_s);
-    control.stiffness[i] = controlled ? kLeastStiffness + (1.0 - kLeastStiffness) * trust[i] : 0.0;
+    control.stiffness[i] =
+        controlled ? kLeastStiffness + (1.0 - kLeastStiffness) * std::min(trust[i], 1.0) : 0.0;
   }
 }
 
@@ -187,6 +191,7 @@ void Actor::Drive(const Vector3d& gravity_m_s2, double left_s, double h_s) {
     control.velocity_m_s[i] = aim_velocity_m_s[i];
   }
   character.Drive(control, options.gains, gravity_m_s2, h_s);
+  if (limits != nullptr) limits->Update(h_s);
   for (const auto& [joint, impulse] : pushes) character.AddForceAtJoint(joint, impulse / h_s);
   pushes.clear();
   for (FootPin& foot : foot_pin) {

@@ -4,6 +4,7 @@
 #include <span>
 
 #include "physics/character_internal.h"
+#include "physics/joint_limits_internal.h"
 #include "physics/world.h"
 
 namespace ossa::physics {
@@ -67,6 +68,7 @@ struct Actor {
   recon::BoneLengths lengths;
   CharacterOptions options;
   Character character;
+  std::unique_ptr<JointLimits> limits;  // with CharacterOptions::joint_limits
   bool controlled = true;
   recon::Posture wanted;  // as SetTarget was told, made finite
   std::array<double, recon::kJointCount> weight{};

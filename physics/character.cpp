@@ -17,6 +17,8 @@ Vector3d AxisOf(dBodyID body) {
   return {r[1], r[5], r[9]};
 }
 
+bool IsHinge(dJointID joint) { return dJointGetType(joint) == dJointTypeHinge; }
+
 /// Rotation vector of `q`, the short way round.
 Vector3d RotationVector(Quaterniond q) {
   if (q.w() < 0.0) q.coeffs() = -q.coeffs();
@@ -27,23 +29,18 @@ Vector3d RotationVector(Quaterniond q) {
 
 }  // namespace
 
-Character::Character(OdeWorld& ode, const Segments& segments, Control control, int tag)
+Character::Character(OdeWorld& ode, const Segments& segments, const CharacterBuild& build)
     : segments_(segments), lumped_kg_(LumpedMasses(segments)) {
-  for (size_t bone = 1; bone < kJointCount; ++bone) MakeBody(ode, bone, tag);
-  for (size_t bone = 2; bone < kJointCount; ++bone) MakeJoint(ode, bone, control);
-  if (control == Control::kMotor) {
-    root_motor_ = dJointCreateLMotor(ode.world, nullptr);
-    dJointAttach(root_motor_, body_[1], nullptr);
-    dJointSetLMotorNumAxes(root_motor_, 3);
-    motor_[1] = dJointCreateAMotor(ode.world, nullptr);
-    dJointAttach(motor_[1], body_[1], nullptr);
-    dJointSetAMotorMode(motor_[1], dAMotorUser);
-    dJointSetAMotorNumAxes(motor_[1], 3);
-    for (int axis = 0; axis < 3; ++axis) {
-      const Vector3d e = Vector3d::Unit(axis);
-      dJointSetLMotorAxis(root_motor_, axis, 0, e.x(), e.y(), e.z());
-      dJointSetAMotorAxis(motor_[1], axis, 0, e.x(), e.y(), e.z());
-    }
+  for (size_t bone = 1; bone < kJointCount; ++bone) MakeBody(ode, bone, build.tag);
+  for (size_t bone = 2; bone < kJointCount; ++bone) MakeJoint(ode, bone, build);
+  if (build.control != Control::kMotor) return;
+  for (size_t bone = 1; bone < kJointCount; ++bone) MakeMotor(ode, bone);
+  root_motor_ = dJointCreateLMotor(ode.world, nullptr);
+  dJointAttach(root_motor_, body_[1], nullptr);
+  dJointSetLMotorNumAxes(root_motor_, 3);
+  for (int axis = 0; axis < 3; ++axis) {
+    const Vector3d e = Vector3d::Unit(axis);
+    dJointSetLMotorAxis(root_motor_, axis, 0, e.x(), e.y(), e.z());
   }
 }
 
@@ -92,13 +89,16 @@ void Character::MakeBody(OdeWorld& ode, size_t bone, int tag) {
   dGeomSetData(geom, reinterpret_cast<void*>(static_cast<intptr_t>(tag)));
 }
 
-void Character::MakeJoint(OdeWorld& ode, size_t bone, Control control) {
-  const dBodyID child = body_[bone], parent = body_[BodyParentOf(bone)];
-  ball_[bone] = dJointCreateBall(ode.world, nullptr);
-  dJointAttach(ball_[bone], child, parent);
-  if (control != Control::kMotor) return;
+void Character::MakeJoint(OdeWorld& ode, size_t bone, const CharacterBuild& build) {
+  const bool hinge = build.hinges && (bone == 6 || bone == 10 || bone == 14 || bone == 18);
+  ball_[bone] =
+      hinge ? dJointCreateHinge(ode.world, nullptr) : dJointCreateBall(ode.world, nullptr);
+  dJointAttach(ball_[bone], body_[bone], body_[BodyParentOf(bone)]);
+}
+
+void Character::MakeMotor(OdeWorld& ode, size_t bone) {
   motor_[bone] = dJointCreateAMotor(ode.world, nullptr);
-  dJointAttach(motor_[bone], child, parent);
+  dJointAttach(motor_[bone], body_[bone], bone == 1 ? nullptr : body_[BodyParentOf(bone)]);
   dJointSetAMotorMode(motor_[bone], dAMotorUser);
   dJointSetAMotorNumAxes(motor_[bone], 3);
   for (int axis = 0; axis < 3; ++axis) {
@@ -125,7 +125,13 @@ void Character::Place(const recon::Posture& posture, const recon::JointOrientati
   // A ball joint remembers its place in both bodies from the moment the anchor is set.
   for (size_t bone = 2; bone < kJointCount; ++bone) {
     const Vector3d anchor = posture.position_m[static_cast<size_t>(kJointParent[bone])];
-    dJointSetBallAnchor(ball_[bone], anchor.x(), anchor.y(), anchor.z());
+    if (IsHinge(ball_[bone])) {
+      const Vector3d axis = orientation[bone] * Vector3d::UnitX();  // recon/orientation.h
+      dJointSetHingeAnchor(ball_[bone], anchor.x(), anchor.y(), anchor.z());
+      dJointSetHingeAxis(ball_[bone], axis.x(), axis.y(), axis.z());
+    } else {
+      dJointSetBallAnchor(ball_[bone], anchor.x(), anchor.y(), anchor.z());
+    }
   }
 }
 
@@ -186,8 +192,9 @@ double Character::MaxAnchorGap() const {
   double gap = 0.0;
   for (size_t bone = 2; bone < kJointCount; ++bone) {
     dVector3 a, b;
-    dJointGetBallAnchor(ball_[bone], a);
-    dJointGetBallAnchor2(ball_[bone], b);
+    const bool hinge = IsHinge(ball_[bone]);
+    (hinge ? dJointGetHingeAnchor : dJointGetBallAnchor)(ball_[bone], a);
+    (hinge ? dJointGetHingeAnchor2 : dJointGetBallAnchor2)(ball_[bone], b);
     gap = std::max(gap, (ToEigen(a) - ToEigen(b)).norm());
   }
   return gap;

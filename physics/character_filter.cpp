@@ -82,6 +82,8 @@ CharacterOptions CharacterOptionsOf(const CharacterFilterOptions& options) {
   character.lead = options.lead;
   character.pin_feet = options.pin_feet;
   character.self_collision = options.self_collision;
+  character.hinges = options.hinges;
+  character.joint_limits = options.joint_limits;
   character.stature_m = options.stature_m;
   character.mass_kg = options.mass_kg;
   return character;

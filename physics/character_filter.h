@@ -18,8 +18,10 @@ struct CharacterFilterOptions {
   bool floor = true;                  // use the floor when one is given
   bool pin_feet = true;
   bool self_collision = true;
-  double stature_m = 0.0;  // 0: from the bones
-  double mass_kg = 0.0;    // 0: from the stature
+  bool hinges = false;        // elbows and knees are hinges instead of ball joints
+  bool joint_limits = false;  // joints keep to the ranges that people's have
+  double stature_m = 0.0;     // 0: from the bones
+  double mass_kg = 0.0;       // 0: from the stature
   /// A target this far from the character, joints' mean, for `teleport_frames` frames in a row is a
   /// new place, not noise: the character is put there. Until then it moves there by bounded forces.
   double teleport_m = 1.0;

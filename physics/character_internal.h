@@ -11,6 +11,13 @@ namespace ossa::physics {
 
 enum class Control;
 
+/// How a character is built.
+struct CharacterBuild {
+  Control control;
+  bool hinges = false;  // at elbows and knees
+  int tag = 1;          // in its geoms' data
+};
+
 /// Geoms are thicker than limbs by this much, so that contacts are seen coming: at 10 substeps up
 /// to 7.5 m/s. contact.cpp takes it off again.
 constexpr double kContactMargin_m = 0.025;
@@ -24,12 +31,12 @@ struct ControlTarget {
   std::array<double, recon::kJointCount> stiffness{};
 };
 
-/// 19 capsules and 18 ball joints in an ODE world. Body i (1..19) is the bone that ends in joint i;
-/// its origin is the bone's middle, its y axis points to joint i, its z and x axes are those of
-/// recon/orientation.h, so that a body's rotation is the joint's orientation.
+/// 19 capsules and 18 ball joints, or 14 and 4 hinges, in an ODE world. Body i (1..19) is the bone
+/// that ends in joint i; its origin is the bone's middle, its y axis points to joint i, its z and x
+/// axes are those of recon/orientation.h, so that a body's rotation is the joint's orientation.
 class Character {
  public:
-  Character(OdeWorld& ode, const Segments& segments, Control control, int tag);
+  Character(OdeWorld& ode, const Segments& segments, const CharacterBuild& build);
   ~Character();
   Character(const Character&) = delete;
   Character& operator=(const Character&) = delete;
@@ -66,7 +73,8 @@ class Character {
 
  private:
   void MakeBody(OdeWorld& ode, size_t bone, int tag);
-  void MakeJoint(OdeWorld& ode, size_t bone, Control control);
+  void MakeJoint(OdeWorld& ode, size_t bone, const CharacterBuild& build);
+  void MakeMotor(OdeWorld& ode, size_t bone);
   void DrivePositions(const ControlTarget& target, const ControlGains& gains);
   void DriveAxes(const ControlTarget& target, const ControlGains& gains);
   void DriveMotors(const ControlTarget& target, const ControlGains& gains, double h_s);
@@ -77,7 +85,7 @@ class Character {
   double total_mass_kg_ = 0.0;
   std::array<dBodyID, recon::kJointCount> body_{};
   std::array<dGeomID, recon::kJointCount> geom_{};
-  std::array<dJointID, recon::kJointCount> ball_{};
+  std::array<dJointID, recon::kJointCount> ball_{};   // or hinge
   std::array<dJointID, recon::kJointCount> motor_{};  // kMotor only
   dJointID root_motor_ = nullptr;                     // linear, kMotor only
 };

@@ -10,8 +10,8 @@ using Eigen::Vector4d;
 
 namespace {
 
-constexpr double kReach_m = 0.03;  // a pin pulls with at most stiffness x reach
-constexpr double kFootStiffness_n_m = 6e4;
+constexpr double kReach_m = 0.02;  // a pin pulls with at most stiffness x reach
+constexpr double kFootStiffness_n_m = 2e5;
 /// What a pin moves: a leg's worth. Only sets the damping, 2 sqrt(k m).
 constexpr double kPinnedMass_kg = 8.0;
 

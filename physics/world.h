@@ -37,6 +37,8 @@ struct CharacterOptions {
   double lead = 0.0;
   bool pin_feet = true;
   bool self_collision = true;
+  bool hinges = false;        // elbows and knees are hinges instead of ball joints (sec. 4)
+  bool joint_limits = false;  // joints keep to the ranges that people's have
   bool dodge = false;  // raise the forearms around the head when something flies at it (sec. 8.2)
   double stature_m = 0.0;  // 0: from the bones
   double mass_kg = 0.0;    // 0: from the stature

@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <chrono>
 #include <limits>
 #include <random>
 
@@ -15,16 +14,10 @@ namespace {
 
 using Eigen::Vector3d;
 using recon::Posture;
-using Clock = std::chrono::steady_clock;
 
 constexpr double kFrame_s = 1.0 / 30.0;
 
-double MillisecondsSince(Clock::time_point start) {
-  return 1e3 * std::chrono::duration<double>(Clock::now() - start).count();
-}
-
-/// Milliseconds a frame: the median over the frames, which another process on the machine does not
-/// move, and the mean.
+/// Milliseconds of processor time a frame: median and mean over the frames.
 struct Cost {
   double median_ms, mean_ms;
 };
@@ -39,11 +32,11 @@ Cost CostOf(const std::vector<Posture>& motion, int people, physics::Control con
   const Eigen::Vector4d floor(0.0, 1.0, 0.0, 0.0);
   std::vector<double> ms;
   for (size_t f = 0; f < motion.size(); ++f) {
-    const auto start = Clock::now();
+    const double start_ms = ProcessorMs();
     for (size_t k = 0; k < filters.size(); ++k) {
       filters[k].Step(motion[(f + 37 * k) % motion.size()], {}, floor, kFrame_s);
     }
-    ms.push_back(MillisecondsSince(start));
+    ms.push_back(ProcessorMs() - start_ms);
   }
   Cost cost{0.0, 0.0};
   for (const double m : ms) cost.mean_ms += m / static_cast<double>(ms.size());
@@ -146,11 +139,11 @@ Table CostStudy(ExperimentContext& context, const Actors& actors) {
     row(fmt::format("six people, {}", name), text(six), "<= 4 ms", six.median_ms <= 4.0);
   }
   const double hours = context.parameters.Number("endurance_hours", 0.1);
-  const auto start = Clock::now();
+  const double start_ms = ProcessorMs();
   const Endurance e = Endure(actors, hours, context.seed, context);
   row(fmt::format("{:g} hours of clips, pushes, bad and dropped frames: not finite", hours),
       fmt::format("{} of {} frames, in {:.0f} s", e.placed, e.frames,
-                  1e-3 * MillisecondsSince(start)),
+                  1e-3 * (ProcessorMs() - start_ms)),
       "0", e.placed == 0);
   row("character lost: > 25 cm off after a second of good targets", std::to_string(e.lost), "0",
       e.lost == 0);

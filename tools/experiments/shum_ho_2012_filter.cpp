@@ -2,7 +2,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <chrono>
 #include <cmath>
 #include <random>
 
@@ -184,7 +183,7 @@ void Run(const Case& c, const physics::CharacterFilterOptions& options, Measured
   physics::CharacterFilter filter(lengths, options);
   SlideMeter slide;
   std::vector<Posture> result;
-  const auto start = std::chrono::steady_clock::now();
+  const double start_ms = ProcessorMs();
   for (const Posture& target : c.observed) {
     const auto out = filter.Step(target, {}, c.floor, 1.0 / 30.0);
     result.push_back(out.posture);
@@ -196,7 +195,7 @@ void Run(const Case& c, const physics::CharacterFilterOptions& options, Measured
       m.length_error = std::max(m.length_error, std::abs(now[i] / lengths[i] - 1.0));
     }
   }
-  m.ms += 1e3 * std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+  m.ms += ProcessorMs() - start_ms;
   m.slide_m = std::max(m.slide_m, slide.largest_m());
   m.frames += std::ssize(result);
   m.delay += Delay(c.observed, result) * static_cast<double>(result.size());

@@ -42,7 +42,7 @@ class Stage {
 
   int frames() const { return frames_; }
   double deepest_m() const { return deepest_m_; }  // characters in objects
-  double ms_per_frame() const { return frames_ == 0 ? 0.0 : 1e3 * simulated_s_ / frames_; }
+  double ms_per_frame() const { return frames_ == 0 ? 0.0 : simulated_ms_ / frames_; }
   const std::vector<Picture>& pictures() const { return pictures_; }
 
  private:
@@ -51,7 +51,7 @@ class Stage {
   std::vector<Picture> pictures_;
   int frames_ = 0;
   double deepest_m_ = 0.0;
-  double simulated_s_ = 0.0;
+  double simulated_ms_ = 0.0;
 };
 
 struct SceneNumber {
@@ -76,6 +76,9 @@ SceneResult ThrowBoxes(const Actors& actors, uint64_t seed);
 
 /// Contact depth, cost: the numbers that every scene shares.
 void AddCommonNumbers(const Stage& stage, SceneResult& result);
+/// Processor time of this thread so far: unlike the clock on the wall, no neighbour's work is in
+/// it.
+double ProcessorMs();
 std::string Text(double value, int digits, const std::string& unit);
 
 /// The character as a filter on noisy authored motion and, when there, on real recordings.
