@@ -82,6 +82,7 @@ struct Actor {
   std::map<size_t, std::unique_ptr<Pin>> hard_constraint;
   std::vector<std::pair<size_t, Eigen::Vector3d>> pushes;  // impulses for the next step
   double max_gap_m = 0.0;     // between anchors, before Reconnect, since the frame began
+  int rescued = 0;            // how often it was not finite
   double dodge_left_s = 0.0;  // raised arms stay up for a moment after the threat has passed
 
  private:

@@ -84,6 +84,7 @@ World::Impl::Surface World::Impl::SurfaceOf(int ta, int tb) const {
   Surface surface;
   surface.self = ta == tb && ta > 0;
   surface.margin_m = ((ta > 0 ? 1 : 0) + (tb > 0 ? 1 : 0)) * kContactMargin_m;
+  if (std::min(ta, tb) == 0) surface.margin_m += kFloorLook_m;
   surface.soft = surface.self ? SpringDamper(kSelfStiffness_n_m, kSelfDamping_ns_m, step_s)
                               : SpringDamper(kStiffness_n_m, kDamping_ns_m, step_s);
   surface.friction = surface.self ? 0.0 : options.floor_friction;
@@ -141,14 +142,15 @@ void World::Impl::OnNearPair(void* self, dGeomID a, dGeomID b) {
 }
 
 void World::Impl::CollideFloor() {
-  if (floor_geom == nullptr) return;
+  if (!floor) return;
   for (const auto& actor : actors) {
     for (size_t bone = 1; bone < recon::kJointCount; ++bone) {
       const Segment& segment = actor->character.segments()[bone];
       const double height =
           HeightAbove(*floor, ToEigen(dBodyGetPosition(actor->character.body(bone))));
-      if (height < segment.length_m + segment.radius_m + kContactMargin_m) {
-        CollidePair(actor->character.geom(bone), floor_geom);
+      const double reach = 0.6 * segment.length_m + segment.radius_m + kContactMargin_m;
+      if (height < reach + kFloorLook_m) {
+        CollidePair(actor->character.geom(bone), limb_floor_geom);
       }
     }
   }

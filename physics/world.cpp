@@ -57,7 +57,7 @@ World::Impl::Impl(const WorldOptions& world_options)
     : options(world_options), gravity_m_s2(0.0, -world_options.gravity_m_s2, 0.0) {
   dWorldSetERP(ode.world, 0.4);
   dWorldSetCFM(ode.world, 1e-9);
-  dWorldSetQuickStepNumIterations(ode.world, 20);
+  dWorldSetQuickStepNumIterations(ode.world, 30);
   dWorldSetContactMaxCorrectingVel(ode.world, 2.0);
   dWorldSetContactSurfaceLayer(ode.world, 0.0005);
   dWorldSetGravity(ode.world, gravity_m_s2.x(), gravity_m_s2.y(), gravity_m_s2.z());
@@ -69,8 +69,7 @@ World::Impl::~Impl() {
     dGeomDestroy(thing.geom);
     dBodyDestroy(thing.body);
   }
-  if (floor_geom != nullptr) dGeomDestroy(floor_geom);
-  dGeomDestroy(probe);
+  for (const dGeomID geom : {floor_geom, limb_floor_geom, probe}) dGeomDestroy(geom);
 }
 
 World::World(const WorldOptions& options) {
@@ -90,11 +89,8 @@ void World::SetFloor(const std::optional<Vector4d>& floor) {
     w.floor = *floor / floor->head<3>().norm();
     up = w.floor->head<3>();
     const Vector4d& p = *w.floor;
-    if (w.floor_geom == nullptr) w.floor_geom = dCreatePlane(nullptr, 0, 1, 0, 0);
     dGeomPlaneSetParams(w.floor_geom, p[0], p[1], p[2], -p[3]);
-  } else if (w.floor_geom != nullptr) {
-    dGeomDestroy(w.floor_geom);
-    w.floor_geom = nullptr;
+    dGeomPlaneSetParams(w.limb_floor_geom, p[0], p[1], p[2], kFloorLook_m - p[3]);
   }
   w.gravity_m_s2 = -w.options.gravity_m_s2 * up;
   dWorldSetGravity(w.ode.world, w.gravity_m_s2.x(), w.gravity_m_s2.y(), w.gravity_m_s2.z());
@@ -201,7 +197,9 @@ void World::Step(double dt_s) {
   for (int k = 0; k < count; ++k) w.Substep(dt_s - (k + 1) * h, h);
   for (const auto& actor : w.actors) {
     // Bounded forces keep this from happening; should it, the character stands up at its target.
-    if (!actor->character.IsFinite()) actor->Place(actor->aim, w.floor);
+    if (actor->character.IsFinite()) continue;
+    ++actor->rescued;
+    actor->Place(actor->aim, w.floor);
   }
 }
 
@@ -216,6 +214,7 @@ CharacterState World::StateOf(int character) const {
   state.dodging = actor.dodge_left_s > 0.0;
   state.max_anchor_gap_m = actor.character.MaxAnchorGap();
   state.max_solver_gap_m = actor.max_gap_m;
+  state.rescued = actor.rescued;
   state.momentum_kg_m_s = actor.character.Momentum();
   return state;
 }

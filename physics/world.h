@@ -53,6 +53,7 @@ struct CharacterState {
   double max_anchor_gap_m = 0.0;  // between the two sides of a ball joint, now
   double max_solver_gap_m = 0.0;  // the same as the solver left it, largest of the last Step
   Eigen::Vector3d momentum_kg_m_s = Eigen::Vector3d::Zero();
+  int rescued = 0;  // how often it was put back because its motion was not finite; 0 is wanted
 };
 
 enum class Shape { kBox, kBall, kCapsule };

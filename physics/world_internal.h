@@ -17,6 +17,10 @@ inline int TagOf(dGeomID geom) {
   return static_cast<int>(reinterpret_cast<intptr_t>(dGeomGetData(geom)));
 }
 
+/// Limbs see the floor coming from this much further away than other things: a plane costs nothing,
+/// and a foot that jumps to a new target comes down at 15 m/s.
+constexpr double kFloorLook_m = 0.1;
+
 struct World::Impl {
   explicit Impl(const WorldOptions& world_options);
   ~Impl();
@@ -42,8 +46,9 @@ struct World::Impl {
 
   WorldOptions options;
   OdeWorld ode;
-  dGeomID floor_geom = nullptr;
-  dGeomID probe = dCreateSphere(nullptr, 0.1);  // the end of a capsule
+  dGeomID floor_geom = dCreatePlane(nullptr, 0, 1, 0, 0);
+  dGeomID limb_floor_geom = dCreatePlane(nullptr, 0, 1, 0, 0);  // kFloorLook_m higher
+  dGeomID probe = dCreateSphere(nullptr, 0.1);                  // the end of a capsule
   std::optional<Eigen::Vector4d> floor;
   Eigen::Vector3d gravity_m_s2;
   // Pointers: joints and bodies hold on to their actors' addresses.
