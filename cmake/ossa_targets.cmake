@@ -37,13 +37,16 @@ endfunction()
 
 # ossa_test(NAME SOURCES ... LIBS ...): one GoogleTest program whose tests ctest lists one by one.
 # OSSA_SHARED_DIR (real recordings beside the checkout) may be absent: such tests skip visibly.
+# LABELS: `slow` for tests of many seconds, `unsanitized` for those that cannot run under sanitizers
+# (say why beside it); tests/run leaves both out of its sanitized run.
 function(ossa_test name)
-  cmake_parse_arguments(ARG "" "" "SOURCES;LIBS" ${ARGN})
+  cmake_parse_arguments(ARG "" "" "SOURCES;LIBS;LABELS" ${ARGN})
   add_executable(${name} ${ARG_SOURCES})
   ossa_common(${name})
   target_link_libraries(${name} PRIVATE ${ARG_LIBS} GTest::gtest GTest::gtest_main)
   target_compile_definitions(${name} PRIVATE
     OSSA_SOURCE_DIR="${CMAKE_SOURCE_DIR}" OSSA_BINARY_DIR="${CMAKE_BINARY_DIR}"
     OSSA_SHARED_DIR="${CMAKE_SOURCE_DIR}/../shared")
-  gtest_discover_tests(${name} DISCOVERY_MODE PRE_TEST PROPERTIES TIMEOUT 300)
+  gtest_discover_tests(${name} DISCOVERY_MODE PRE_TEST
+                       PROPERTIES TIMEOUT 300 LABELS "${ARG_LABELS}")
 endfunction()

@@ -1,6 +1,7 @@
 #pragma once
 #include <chrono>
 #include <cstdint>
+#include <functional>
 #include <memory>
 #include <optional>
 #include <string>
@@ -44,6 +45,7 @@ class FrameSource {
 struct SourceOptions {
   std::optional<Camera> camera;  // overrides whatever the source says (but for camera.json)
   std::chrono::milliseconds device_wait{0};  // how long to wait for a device to appear
+  std::function<bool()> keep_waiting = {};   // asked ten times a second meanwhile; empty: yes
   // A recording's player that is silent for longer hangs inside OpenNI2: the file is damaged. The
   // player itself waits 3 s for a frame of a file that is merely cut short.
   std::chrono::milliseconds player_patience{10000};

@@ -156,8 +156,9 @@ std::string Missing(const SourceBones& bones) {
 SourceBones MappedBones(const SourceMotion& motion, const BoneMapping& mapping) {
   std::map<std::string, int, std::less<>> joints;
   for (const auto& [bone, joint] : mapping.names) {
-    const auto found = std::find_if(motion.joints.begin(), motion.joints.end(),
-                                    [&](const SourceJoint& j) { return j.name == joint; });
+    const auto found =
+        std::find_if(motion.joints.begin(), motion.joints.end(),
+                     [&name = joint](const SourceJoint& j) { return j.name == name; });
     if (found == motion.joints.end()) {
       throw InputError(motion.source + ": the mapping gives " + bone + " the joint '" + joint +
                        "', expected a joint of this file");

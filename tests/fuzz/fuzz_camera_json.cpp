@@ -6,6 +6,7 @@
 
 #include "depth/error.h"
 #include "depth/image/camera_io.h"
+#include "tests/fuzz/seeds.h"
 
 namespace {
 
@@ -19,6 +20,10 @@ void ExpectCameraOrInputError(const Parse& parse) {
 }
 
 }  // namespace
+
+std::vector<std::string> ossa::fuzz::Seeds() {
+  return {depth::CameraToJson(depth::KinectV1Camera(640, 480)), "kinect-v1", "575,575,320,240"};
+}
 
 extern "C" int LLVMFuzzerTestOneInput(const uint8_t* data, size_t size) {
   const std::string text(reinterpret_cast<const char*>(data), size);

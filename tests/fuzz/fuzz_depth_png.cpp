@@ -6,6 +6,18 @@
 
 #include "depth/error.h"
 #include "depth/image/png_codec_internal.h"
+#include "tests/fuzz/seeds.h"
+
+std::vector<std::string> ossa::fuzz::Seeds() {
+  std::vector<std::string> seeds;
+  for (const int bits : {8, 16}) {
+    std::vector<uint8_t> samples(static_cast<size_t>(bits) / 8 * 5 * 3);
+    for (size_t i = 0; i < samples.size(); ++i) samples[i] = static_cast<uint8_t>(37 * i);
+    const auto png = depth::EncodeGreyPng(samples.data(), {5, 3}, bits, bits);
+    seeds.emplace_back(png.begin(), png.end());
+  }
+  return seeds;
+}
 
 extern "C" int LLVMFuzzerTestOneInput(const uint8_t* data, size_t size) {
   // A random file is hardly ever a PNG of the right kind: also try what follows a good header.

@@ -12,6 +12,7 @@
 #include "depth/sensor/oni_recorder.h"
 #include "tools/commands/command.h"
 #include "tools/commands/commands.h"
+#include "tools/commands/waiting.h"
 
 namespace ossa::commands {
 namespace {
@@ -138,6 +139,9 @@ int Record(int argc, char** argv) {
   const RecordOptions options = ParseOptions(argc, argv);
   depth::SourceOptions source_options;
   source_options.device_wait = Milliseconds(options.wait_s);
+  if (options.wait_s > 0) {
+    source_options.keep_waiting = KeepWaitingFor(options.source, options.quiet);
+  }
   if (!options.camera.empty()) source_options.camera = depth::ParseCamera(options.camera);
   const auto source = depth::OpenSource(options.source, source_options);
   const depth::Camera& camera = source->camera();

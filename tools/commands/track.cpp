@@ -17,6 +17,7 @@
 #include "recon/motion/skeleton_jsonl.h"
 #include "tools/commands/command.h"
 #include "tools/commands/commands.h"
+#include "tools/commands/waiting.h"
 #include "tools/tracker/picture.h"
 #include "tools/tracker/run_stats.h"
 #include "tools/tracker/skeleton_record.h"
@@ -244,6 +245,9 @@ int Track(int argc, char** argv) {
   const TrackOptions options = ParseOptions(argc, argv);
   depth::SourceOptions source_options;
   source_options.device_wait = milliseconds(static_cast<int64_t>(options.wait_s * 1000));
+  if (options.wait_s > 0) {
+    source_options.keep_waiting = KeepWaitingFor(options.source, options.quiet);
+  }
   if (!options.camera.empty()) source_options.camera = depth::ParseCamera(options.camera);
   const auto source = depth::OpenSource(options.source, source_options);
   tracker::Tracker tracker(options.tracker);

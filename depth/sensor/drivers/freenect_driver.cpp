@@ -228,8 +228,11 @@ class FreenectDriver final : public oni::driver::DriverBase {
   // look at which are plugged in.
   void Run() {
     using Clock = std::chrono::steady_clock;
-    constexpr std::chrono::seconds kLookEvery{1};
-    auto next_look = Clock::now() + kLookEvery;
+    // Soon when none is known, to be back within a second of a replug; each look asks the Kinects
+    // for their serial numbers, so seldom while they stream.
+    constexpr std::chrono::milliseconds kLookEvery{1000};
+    constexpr std::chrono::milliseconds kLookWhenNone{250};
+    auto last_look = Clock::now();
     while (!stopping_) {
       bool lost = false;
       if (open_ > 0 && !known_.empty()) {
@@ -242,9 +245,9 @@ class FreenectDriver final : public oni::driver::DriverBase {
       // A lock taken again at once would starve whoever waits to open, start or tilt.
       std::this_thread::sleep_for(std::chrono::milliseconds(1));
       if (lost) LoseDevices();
-      if (Clock::now() < next_look) continue;
+      if (Clock::now() - last_look < (known_.empty() ? kLookWhenNone : kLookEvery)) continue;
       FindDevices();
-      next_look = Clock::now() + kLookEvery;
+      last_look = Clock::now();
     }
   }
 

@@ -68,7 +68,8 @@ class DeviceSource final : public FrameSource {
       : wanted_uri_(std::move(uri)), options_(options) {
     const auto deadline = Clock::now() + options.device_wait;
     while (!TryOpen()) {
-      if (Clock::now() >= deadline) FailToOpen();
+      const bool go_on = !options.keep_waiting || options.keep_waiting();
+      if (Clock::now() >= deadline || !go_on) FailToOpen();
       std::this_thread::sleep_for(kSlice);
     }
   }

@@ -8,6 +8,7 @@
 #include "depth/sensor/drivers/kinect_depth.h"
 #include "depth/sensor/fakenect_dump.h"
 #include "tests/support/depth_examples.h"
+#include "tests/support/run_command.h"
 #include "tests/support/temporary_folder.h"
 
 namespace ossa::depth {
@@ -48,6 +49,34 @@ TEST(FakenectDump, IsIndexedOnlyWhenFinished) {
 TEST(FakenectDump, IsOfAKinectsSize) {
   const TemporaryFolder folder;
   EXPECT_THROW(FakenectDump(folder.path(), KinectV1Camera(320, 240)), InputError);
+}
+
+// Debian puts fakenect's libfreenect beside the real one.
+const std::string kFakenect = "/usr/lib/x86_64-linux-gnu/fakenect";
+
+TEST(KinectDriver, TellsAnyOpenNi2ProgramSerialTiltAndAccelerometer) {
+  const std::string probe = std::string(OSSA_BINARY_DIR) + "/bin/kinect_probe";
+  if (!std::filesystem::is_directory(kFakenect) || !std::filesystem::exists(probe)) {
+    GTEST_SKIP() << "no fakenect or no libfreenect: " << kFakenect;
+  }
+  const TemporaryFolder folder;
+  FakenectDump dump(folder.path(), KinectV1Camera(640, 480));
+  for (int i = 0; i < 30; ++i) dump.Write(ExampleFrame(i, 640, 480));
+  dump.Finish();
+  const test::CommandResult result = test::RunProgram(
+      {"/usr/bin/env",
+       "LD_LIBRARY_PATH=" + kFakenect + ":" + std::string(OSSA_BINARY_DIR) + "/lib/openni2",
+       "FAKENECT_PATH=" + folder.path().string(), probe, "freenect://0"});
+  EXPECT_EQ(result.exit_status, 0) << result.out;
+  const auto says = [&](const std::string& words) {
+    EXPECT_NE(result.out.find(words + "\n"), std::string::npos) << result.out;
+  };
+  says("serial 0");  // fakenect has none: the index
+  says("tilt 0.0");
+  says("accelerometer 0.00 9.81 0.00");  // the dump's: it stands level
+  says("tilts to 10: 1, to 60: 0");      // the motor's range ends at 27 degrees
+  says("registered 1");
+  says("stream 640x480, 30 Hz, millimetres 1, below 10001");
 }
 
 }  // namespace

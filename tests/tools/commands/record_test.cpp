@@ -89,6 +89,32 @@ TEST(RecordCommand, KilledItLeavesNothingUnderTheFinalName) {
   EXPECT_FALSE(std::filesystem::exists(out));
 }
 
+TEST(RecordCommand, WaitsForADeviceThatComesLater) {
+  const TemporaryFolder folder;
+  std::filesystem::create_directory(folder / "soon");
+  WriteExampleFolder(folder / "soon", 10);
+  const std::string out = (folder / "x.oni").string();
+  auto running = test::StartOssa({"record", "openni:ossa://" + (folder / "late").string(), "--out",
+                                  out, "--wait", "60", "--patience", "0.5"});
+  ASSERT_TRUE(running.WaitForError("waiting for openni:ossa://", milliseconds(10000)));
+  std::filesystem::rename(folder / "soon", folder / "late");
+  const CommandResult result = running.Wait(milliseconds(30000));
+  EXPECT_EQ(result.exit_status, 0) << result.err;
+  EXPECT_GE(FramesIn(out), 1);
+}
+
+TEST(RecordCommand, CtrlCEndsTheWaitForADevice) {
+  const TemporaryFolder folder;
+  const std::string out = (folder / "x.oni").string();
+  auto running = test::StartOssa({"record", "openni:", "--out", out, "--wait", "1000"});
+  ASSERT_TRUE(running.WaitForError("waiting for openni:", milliseconds(10000)));
+  running.Signal(SIGINT);
+  const CommandResult result = running.Wait(milliseconds(10000));
+  EXPECT_EQ(result.exit_status, 1);
+  EXPECT_NE(result.err.find("no OpenNI2 device found"), std::string::npos) << result.err;
+  EXPECT_FALSE(std::filesystem::exists(out));
+}
+
 TEST(RecordCommand, ADeviceThatFallsSilentIsAFailureWithAWholeFile) {
   const TemporaryFolder folder;
   WriteExampleFolder(folder.path(), 10);

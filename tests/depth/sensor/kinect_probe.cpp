@@ -1,0 +1,75 @@
+// kinect_probe URI: opens a Kinect through OpenNI2 alone, as a program that knows nothing of ossa
+// but the numbers of the driver's properties would, and prints what it is told. A program of its
+// own because the tests run it with fakenect's libfreenect in place of the real one.
+#include <OpenNI.h>
+
+#include <array>
+#include <cstdio>
+
+#include "depth/sensor/drivers/kinect_properties.h"
+
+namespace {
+
+bool PrintProperties(openni::Device& device) {
+  std::array<char, 256> serial{};
+  int size = static_cast<int>(serial.size());
+  if (device.getProperty(openni::DEVICE_PROPERTY_SERIAL_NUMBER, serial.data(), &size) !=
+      openni::STATUS_OK) {
+    return false;
+  }
+  double tilt_deg = -1.0;
+  std::array<double, 3> xyz_mps2{};
+  if (device.getProperty(ossa::depth::kKinectTiltProperty, &tilt_deg) != openni::STATUS_OK ||
+      device.getProperty(ossa::depth::kKinectAccelProperty, &xyz_mps2) != openni::STATUS_OK) {
+    return false;
+  }
+  const bool tilts =
+      device.setProperty(ossa::depth::kKinectTiltProperty, 10.0) == openni::STATUS_OK;
+  const bool too_far =
+      device.setProperty(ossa::depth::kKinectTiltProperty, 60.0) == openni::STATUS_OK;
+  std::printf("serial %s\ntilt %.1f\naccelerometer %.2f %.2f %.2f\n", serial.data(), tilt_deg,
+              xyz_mps2[0], xyz_mps2[1], xyz_mps2[2]);
+  std::printf("tilts to 10: %d, to 60: %d\n", tilts ? 1 : 0, too_far ? 1 : 0);
+  std::printf(
+      "registered %d\n",
+      device.getImageRegistrationMode() == openni::IMAGE_REGISTRATION_DEPTH_TO_COLOR ? 1 : 0);
+  return true;
+}
+
+// Returns when a frame has come: fakenect knows the accelerometer only as it plays.
+bool PrintStream(openni::Device& device, openni::VideoStream& stream) {
+  openni::VideoStream* streams = &stream;
+  int ready = -1;
+  if (stream.create(device, openni::SENSOR_DEPTH) != openni::STATUS_OK ||
+      stream.start() != openni::STATUS_OK ||
+      openni::OpenNI::waitForAnyStream(&streams, 1, &ready, 5000) != openni::STATUS_OK) {
+    return false;
+  }
+  const openni::VideoMode mode = stream.getVideoMode();
+  std::printf("stream %dx%d, %d Hz, millimetres %d, below %d\n", mode.getResolutionX(),
+              mode.getResolutionY(), mode.getFps(),
+              mode.getPixelFormat() == openni::PIXEL_FORMAT_DEPTH_1_MM ? 1 : 0,
+              stream.getMaxPixelValue());
+  return true;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  if (argc != 2) return 2;
+  openni::OpenNI::initialize();
+  int status = 1;
+  {
+    openni::Device device;
+    openni::VideoStream stream;
+    if (device.open(argv[1]) == openni::STATUS_OK && PrintStream(device, stream) &&
+        PrintProperties(device)) {
+      status = 0;
+    } else {
+      std::printf("%s\n", openni::OpenNI::getExtendedError());
+    }
+    stream.destroy();
+  }
+  openni::OpenNI::shutdown();
+  return status;
+}

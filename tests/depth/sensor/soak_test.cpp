@@ -1,0 +1,111 @@
+// A camera whose plug is pulled again and again, for some seconds: nothing may be lost but the
+// frames of the gaps, and nothing may grow. The long form is tests/bench/soak.
+#include <gtest/gtest.h>
+#include <malloc.h>
+
+#include <algorithm>
+#include <chrono>
+
+#include "depth/sensor/frame_source.h"
+#include "tests/support/depth_examples.h"
+#include "tests/support/temporary_folder.h"
+
+namespace ossa::depth {
+namespace {
+
+using Clock = std::chrono::steady_clock;
+using std::chrono::milliseconds;
+using test::ExampleFrame;
+using test::TemporaryFolder;
+using test::WriteExampleFolder;
+
+constexpr int kPictures = 8;
+constexpr int kWidth = 160;
+constexpr int kHeight = 120;
+constexpr int kFramesAPlug = 15;
+constexpr milliseconds kUnplugged{60};
+
+size_t HeapInUse() { return mallinfo2().uordblks; }
+
+struct Soak {
+  int64_t frames = 0;
+  int64_t dropped = 0;
+  int64_t last_index = -1;
+  int gaps = 0;
+  int64_t foreign = 0;  // frames that are none of the folder's
+  milliseconds longest_gap{0};
+  size_t heap_early = 0;
+  size_t heap_late = 0;
+};
+
+// Times between the frames before and after a gap, by our own clock.
+class GapWatch {
+ public:
+  explicit GapWatch(Soak* soak) : soak_(soak) {}
+  void Gone() { gone_ = true; }
+  void Frame() {
+    const auto now = Clock::now();
+    if (gone_) {
+      ++soak_->gaps;
+      soak_->longest_gap =
+          std::max(soak_->longest_gap, std::chrono::duration_cast<milliseconds>(now - last_));
+    }
+    gone_ = false;
+    last_ = now;
+  }
+
+ private:
+  Soak* soak_;
+  bool gone_ = false;
+  Clock::time_point last_ = Clock::now();
+};
+
+Soak ReadThroughGaps(FrameSource& source, int early_gaps, int gaps) {
+  std::vector<DepthFrame> pictures;
+  for (int i = 0; i < kPictures; ++i) pictures.push_back(ExampleFrame(i, kWidth, kHeight));
+  Soak soak;
+  GapWatch watch(&soak);
+  const auto give_up = Clock::now() + std::chrono::seconds(60);
+  while (soak.gaps < gaps && Clock::now() < give_up) {
+    const ReadResult read = source.Read(milliseconds(50));
+    if (read.status == ReadStatus::kDisconnected) watch.Gone();
+    if (read.status != ReadStatus::kFrame) continue;
+    const int before = soak.gaps;
+    watch.Frame();
+    ++soak.frames;
+    soak.dropped += read.dropped;
+    soak.last_index = read.frame.index;
+    soak.foreign += std::none_of(pictures.begin(), pictures.end(), [&](const DepthFrame& picture) {
+      return picture.depth_mm == read.frame.depth_mm;
+    });
+    if (soak.gaps != before && soak.gaps == early_gaps) soak.heap_early = HeapInUse();
+    if (soak.gaps != before && soak.gaps == gaps) soak.heap_late = HeapInUse();
+  }
+  return soak;
+}
+
+TEST(Soak, TwentyUnplugsLoseOnlyTheirGapsAndNoMemory) {
+  const TemporaryFolder folder;
+  WriteExampleFolder(folder.path(), kPictures, kWidth, kHeight);
+  const auto source =
+      OpenSource("openni:ossa://" + folder.path().string() +
+                 "?loop=1&fps=60&unplug_after=" + std::to_string(kFramesAPlug) +
+                 "&replug_after_ms=" + std::to_string(kUnplugged.count()) + "&unplugs=1000");
+  constexpr int kEarly = 5;
+  constexpr int kGaps = 20;
+  const Soak soak = ReadThroughGaps(*source, kEarly, kGaps);
+  ASSERT_EQ(soak.gaps, kGaps);
+  EXPECT_EQ(soak.foreign, 0);
+  EXPECT_EQ(soak.last_index, soak.frames + soak.dropped - 1) << "each frame is given or counted";
+  // A busy machine loses frames between the gaps as well; half must come through.
+  EXPECT_GE(soak.frames, kGaps * kFramesAPlug / 2);
+  // The requirement: back within a second of being plugged in.
+  EXPECT_LE(soak.longest_gap, kUnplugged + milliseconds(1000));
+  // OpenNI2 keeps some 1.3 kB of every device that went away. A leak of ours would be of a frame,
+  // 38 kB, or of a thread, at least as much.
+  const double grown = static_cast<double>(soak.heap_late) - static_cast<double>(soak.heap_early);
+  EXPECT_LT(grown, (kGaps - kEarly) * 4e3);
+}
+
+}  // namespace
+}  // namespace ossa::depth
