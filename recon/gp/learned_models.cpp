@@ -11,7 +11,7 @@ namespace ossa::recon {
 namespace {
 
 constexpr SealedFormat kFormat = {
-    {'O', 'S', 'S', 'A', 'G', 'P', '0', '0'}, 1, "learned reconstruction"};
+    {'O', 'S', 'S', 'A', 'G', 'P', '0', '0'}, 2, "learned reconstruction"};
 
 // More than any honest file holds; a damaged count is refused before it costs memory or time.
 constexpr uint64_t kMostModels = 1000, kMostRows = 5000;
@@ -89,8 +89,9 @@ LearnedModels LearnedModels::Learn(const std::vector<PosturePair>& pairs,
                                    const std::function<bool(int)>& progress) {
   LearnedModels out;
   out.pair_count = pairs.size();
-  out.exemplars = Thinned(pairs, options.most_pairs);
   out.correction = PoseCorrection::Learn(pairs, options.correction);
+  if (!options.processes) return out;
+  out.exemplars = Thinned(pairs, options.most_pairs);
   constexpr int kFewest = 10;  // fewer pairs of a joint teach nothing
   for (size_t joint = 0; joint < kJointCount; ++joint) {
     if (progress && !progress(static_cast<int>(joint))) return out;
@@ -130,6 +131,7 @@ void LearnedModels::Save(const std::filesystem::path& path) const {
   PutMatrix(out, correction.weights_);
   PutMatrix(out, correction.mean_);
   out.Put(correction.width_);
+  out.Put(correction.proportion_);
   WriteSealedFile(path, kFormat, out.bytes());
 }
 
@@ -168,10 +170,15 @@ LearnedModels LearnedModels::FromBytes(std::span<const std::byte> bytes, const s
   c.weights_ = GetMatrix(in, "weights");
   const Eigen::MatrixXf mean = GetMatrix(in, "mean offsets");
   c.width_ = in.Get<double>("width");
+  c.proportion_ = in.Get<BoneLengths>("proportions");
+  for (const double p : c.proportion_) {
+    if (!(p >= 0.0 && p < 5.0)) in.Fail("proportions", "expected 0 to 5");
+  }
   const Eigen::Index features = CorrectionFeature(Posture()).size();
-  const bool fits = c.weights_.size() == 0 ||
-                    (c.centres_.rows() == features && c.weights_.rows() == c.centres_.cols() &&
-                     c.weights_.cols() == kPostureDims && mean.size() == kPostureDims);
+  const bool fits =
+      c.weights_.size() == 0 ||
+      (c.centres_.rows() == features && c.weights_.rows() == c.centres_.cols() + features &&
+       c.weights_.cols() == kPostureDims && mean.size() == kPostureDims);
   if (!fits || !(c.width_ > 1e-3 && c.width_ < 1e3)) {
     in.Fail("centres", "expected a correction of whole postures");
   }

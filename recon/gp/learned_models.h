@@ -10,6 +10,7 @@
 namespace ossa::recon {
 
 struct LearnOptions {
+  bool processes = true;  // false: the correction alone, for `best`
   LocalMixtureOptions mixture;
   PoseCorrectionOptions correction;
   size_t most_pairs = 2500;  // for the mixtures, the full processes and the exemplars

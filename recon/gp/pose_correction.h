@@ -11,13 +11,16 @@ struct PoseCorrectionOptions {
   double width = 0.7;  // of the kernel, in the feature's unit (a bone turned by 90 degrees: 0.42)
   double noise_ratio = 5.0;   // ridge: variance of a pair's noise over that of the signal
   size_t most_pairs = 15000;  // used, evenly spread; each also mirrored
+  int folds = 4;              // runs of pairs held out in turn to find each joint's gain
   uint64_t seed = 1;
 };
 
 /// Ours, of `best`: the systematic part of a sensor's error as a function of the whole posture. A
 /// Gaussian process over all pairs, sparse (subset of regressors with inducing postures): Liu 2016
 /// eq. 8 with one kernel for all joints, on bone directions and lengths instead of positions, so
-/// that it carries over between people. Far from all pairs it gives the mean offset.
+/// that it carries over between people; a linear term beside it carries on where pairs end. Each
+/// joint's offset is taken only as far as it held on pairs left out: a sensor whose errors have no
+/// system is left alone.
 class PoseCorrection {
  public:
   PoseCorrection() = default;
@@ -28,14 +31,24 @@ class PoseCorrection {
   /// Offsets to add to a complete scaled posture; zero for joints no truth was known of.
   Posture Offsets(const Posture& scaled) const;
 
-  // Public for the file: centres (features x m), weights (m x 60), mean (60), which joints.
+  // Public for the file: centres (features x m), weights ((m + features) x 60), mean (60).
   Eigen::MatrixXf centres_;
   Eigen::MatrixXf weights_;
   Eigen::VectorXf mean_;
   double width_ = 1.0;
+  /// Mean true length of each bone over the standard one, of scaled people; 0 where no truth was
+  /// known of both ends.
+  BoneLengths proportion_{};
+
+ private:
+  static PoseCorrection Fit(const std::vector<PosturePair>& pairs,
+                            const PoseCorrectionOptions& options);
+  static JointWeights HeldOutGains(const std::vector<PosturePair>& pairs,
+                                   const PoseCorrectionOptions& options);
 };
 
-/// Directions (times 0.3 m) and lengths of the 15 bones and lines whose turn tells the posture.
+/// Directions (times 0.3 m) and lengths (times 3) of the 15 bones and lines whose turn tells the
+/// posture.
 Eigen::VectorXf CorrectionFeature(const Posture& scaled);
 
 }  // namespace ossa::recon

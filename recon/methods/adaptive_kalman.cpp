@@ -7,10 +7,10 @@ namespace ossa::recon {
 namespace {
 
 // Tuned on UI-PRMD by the trade of acceleration error against lag (tools/experiments): noise 2 cm
-// covers what SDK joints jitter; 0.3 m/s^2 at rest, 0.7 m/s^2 more for every centimetre of lag.
+// covers what SDK joints jitter; 0.3 m/s^2 at rest, 2 m/s^2 more for every centimetre of lag.
 constexpr double kNoise_m = 0.02;
 constexpr double kRestAcceleration = 0.3;
-constexpr double kAccelerationPerLag = 70.0;  // (m/s^2) / m
+constexpr double kAccelerationPerLag = 200.0;  // (m/s^2) / m
 constexpr double kMostAcceleration = 30.0;
 constexpr double kLagMemory_s = 0.15;
 

@@ -29,21 +29,20 @@ class Best : public Reconstructor {
  public:
   explicit Best(const ReconstructorOptions& options)
       : options_(options.best), database_(options.database) {
-    if (!options.learned_file.empty()) {
-      correction_ = LearnedModels::Load(options.learned_file).correction;
-    }
+    if (const auto learned = LearnedOf(options)) correction_ = learned->correction;
+    size_.Expect(correction_.proportion_);
     ResetFilters();
   }
 
   ReconstructedPosture Step(const ReconstructionInput& raw) override {
     ReconstructionInput input = raw;
-    const double doubt = plausibility_.Repair(input);  // 1.
+    const double doubt = options_.repair ? plausibility_.Repair(input) : 1.0;  // 1.
     const PreparedPosture prepared = person_.Prepare(input);
     if (prepared.restarted) ResetFilters();
     JointWeights trust = Trust(prepared, input, doubt);  // 2.
     Posture target = prepared.in_camera;
-    if (options_.complete) Complete(prepared, trust, target);  // 3.
-    if (!correction_.empty()) Correct(prepared, target);       // 4.
+    if (options_.complete) Complete(prepared, trust, target);                 // 3.
+    if (options_.correct && !correction_.empty()) Correct(prepared, target);  // 4.
     Posture made = target;
     if (options_.filter) {
       for (size_t i = 0; i < kJointCount; ++i) {  // 5.
@@ -51,8 +50,8 @@ class Best : public Reconstructor {
             filters_[i].Step(target.position_m[i], prepared.dt_s, std::max(trust[i], kLeastTrust));
       }
     }
-    size_.Observe(made, trust);
-    made = WithBoneLengths(made, size_.lengths_m(), trust);  // 6.
+    size_.Observe(made, trust, prepared.scale);
+    if (options_.bones) made = WithBoneLengths(made, size_.lengths_m(), trust);  // 6.
     ReconstructedPosture out{made, prepared.reliability};
     for (size_t i = 0; i < kJointCount; ++i) {
       out.reliability[i] = std::min(out.reliability[i], trust[i]);
@@ -66,6 +65,7 @@ class Best : public Reconstructor {
     person_.Reset();
     plausibility_ = Plausibility();
     size_ = BodySize();
+    size_.Expect(correction_.proportion_);
     hints_.clear();
     ResetFilters();
   }
@@ -87,10 +87,11 @@ class Best : public Reconstructor {
       // Inferred joints of an SDK are guesses, but guesses near the truth.
       constexpr double kInferred = 0.3;
       const double state = input.observed.state[i] == TrackingState::kTracked ? 1.0 : kInferred;
-      // Bones of real sensors are off by up to a fifth all the time; by two fifths they are wrong.
-      const double bones = std::clamp((r.kinematics[i] - 0.6) / 0.2, 0.0, 1.0);
+      // Bones of real sensors are off by up to a third in the course of a move; by half they are
+      // wrong.
+      const double bones = std::clamp((r.kinematics[i] - 0.5) / 0.2, 0.0, 1.0);
       trust[i] = prepared.present[i] * state * bones * r.behaviour[i] * r.surface[i] *
-                 plausibility_.joint_trust()[i] * doubt;
+                 (options_.repair ? plausibility_.joint_trust()[i] : 1.0) * doubt;
     }
     return trust;
   }

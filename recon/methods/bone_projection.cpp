@@ -6,7 +6,7 @@ namespace ossa::recon {
 
 Posture WithBoneLengths(const Posture& posture, const BoneLengths& lengths_m,
                         const JointWeights& trust) {
-  constexpr int kSweeps = 8;
+  constexpr int kSweeps = 20;
   Posture p = posture;
   for (int sweep = 0; sweep < kSweeps; ++sweep) {
     for (size_t i = 1; i < kJointCount; ++i) {
@@ -14,9 +14,8 @@ Posture WithBoneLengths(const Posture& posture, const BoneLengths& lengths_m,
       const Eigen::Vector3d bone = p.position_m[i] - p.position_m[parent];
       const double length = bone.norm();
       if (length < 1e-6) continue;
-      // Trunk joints carry more bones and are moved less.
       const double child = 1.0 / (0.2 + trust[i]);
-      const double root = 0.5 / (0.2 + trust[parent]);
+      const double root = 1.0 / (0.2 + trust[parent]);
       const Eigen::Vector3d error = bone * ((length - lengths_m[i]) / length);
       p.position_m[i] -= error * (child / (child + root));
       p.position_m[parent] += error * (root / (child + root));

@@ -26,11 +26,11 @@ class OffsetReconstructor : public Reconstructor {
  public:
   OffsetReconstructor(const ReconstructorOptions& options, const char* method)
       : options_(options.gaussian_process) {
-    if (options.learned_file.empty()) {
+    models_ = LearnedOf(options);
+    if (!models_) {
       throw InputError(std::string("reconstruction: method ") + method +
                        " needs a learned file (.ossagp of `ossa learn`)");
     }
-    models_ = LearnedModels::Load(options.learned_file);
   }
 
   ReconstructedPosture Step(const ReconstructionInput& input) override {
@@ -64,7 +64,7 @@ class OffsetReconstructor : public Reconstructor {
   virtual void Learn(const PreparedPosture&, size_t, const OffsetPrediction&) {}
 
   GaussianProcessOptions options_;
-  LearnedModels models_;
+  std::shared_ptr<const LearnedModels> models_;
 
  private:
   /// argmin over y of eq. 22. Departure: the three terms are quadratic in y, so the minimum is
@@ -94,11 +94,11 @@ class OffsetReconstructor : public Reconstructor {
 class Liu2016 : public OffsetReconstructor {
  public:
   explicit Liu2016(const ReconstructorOptions& options)
-      : OffsetReconstructor(options, "liu-2016") {}
+      : OffsetReconstructor(options, "liu-2016"), mixtures_(models_->mixtures) {}
 
  protected:
   OffsetPrediction Predict(const PreparedPosture& prepared, size_t joint) override {
-    const LocalMixture& mixture = models_.mixtures[joint];
+    const LocalMixture& mixture = mixtures_[joint];
     if (mixture.empty()) return {};
     const auto p = mixture.Predict(JointFeature(prepared.scaled, joint), options_.nearby_models);
     return {p.mean, p.variance / std::max(mixture.noise(), 1e-12)};
@@ -107,14 +107,15 @@ class Liu2016 : public OffsetReconstructor {
   /// Algorithm 2: samples of reliable joints whose prediction is sure.
   void Learn(const PreparedPosture& prepared, size_t joint, const OffsetPrediction& p) override {
     constexpr double kReliable = 0.9, kSure = 0.5;
-    if (!options_.incremental || models_.mixtures[joint].empty()) return;
+    if (!options_.incremental || mixtures_[joint].empty()) return;
     if (prepared.reliability[joint] < kReliable || p.unsureness > kSure) return;
     // One joint a frame in turn: postures 30 times a second bring nothing new.
     if (frame_++ % 67 != 0) return;
-    models_.mixtures[joint].Update(JointFeature(prepared.scaled, joint), p.offset, {});
+    mixtures_[joint].Update(JointFeature(prepared.scaled, joint), p.offset, {});
   }
 
  private:
+  std::array<LocalMixture, kJointCount> mixtures_;  // this person's own: they learn on
   uint64_t frame_ = 0;
 };
 
@@ -124,7 +125,7 @@ class FullGp : public OffsetReconstructor {
 
  protected:
   OffsetPrediction Predict(const PreparedPosture& prepared, size_t joint) override {
-    const GaussianProcess& model = models_.full[joint];
+    const GaussianProcess& model = models_->full[joint];
     if (model.size() == 0) return {};
     const auto p = model.Predict(JointFeature(prepared.scaled, joint));
     return {p.mean, p.variance * model.parameters().beta};
@@ -136,9 +137,9 @@ class Exemplar : public OffsetReconstructor {
  public:
   explicit Exemplar(const ReconstructorOptions& options)
       : OffsetReconstructor(options, "exemplar") {
-    postures_.resize(kPostureDims, static_cast<Eigen::Index>(models_.exemplars.size()));
+    postures_.resize(kPostureDims, static_cast<Eigen::Index>(models_->exemplars.size()));
     for (Eigen::Index i = 0; i < postures_.cols(); ++i) {
-      postures_.col(i) = VectorOf(models_.exemplars[static_cast<size_t>(i)].observed);
+      postures_.col(i) = VectorOf(models_->exemplars[static_cast<size_t>(i)].observed);
     }
   }
 
@@ -159,7 +160,7 @@ class Exemplar : public OffsetReconstructor {
     Eigen::Vector3d sum = Eigen::Vector3d::Zero();
     double total = 0.0;
     for (const auto& [d2, i] : nearest_) {
-      const PosturePair& pair = models_.exemplars[static_cast<size_t>(i)];
+      const PosturePair& pair = models_->exemplars[static_cast<size_t>(i)];
       if (pair.known[joint] == 0.0) continue;
       const double weight = 1.0 / (0.01 + static_cast<double>(d2));
       sum += weight * pair.residual.position_m[joint];

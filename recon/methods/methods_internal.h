@@ -5,6 +5,9 @@
 
 namespace ossa::recon {
 
+/// What options.learned or options.learned_file hold; null when neither is given.
+std::shared_ptr<const LearnedModels> LearnedOf(const ReconstructorOptions& options);
+
 // One maker a method; each lives in the file of its name.
 std::unique_ptr<Reconstructor> MakeNone(const ReconstructorOptions& options);
 std::unique_ptr<Reconstructor> MakeHolt(const ReconstructorOptions& options);

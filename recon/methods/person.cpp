@@ -65,12 +65,29 @@ Posture Completed(const Posture& in_camera, const JointWeights& present_in, cons
   return out;
 }
 
-void BodySize::Observe(const Posture& in_camera, const JointWeights& trust) {
+/// Whether, over the last second, the median bone is off by 6 %: more than the mean of one person's
+/// observed bones wanders.
+bool BodySize::HasOtherBones(const BoneLengths& measured, const JointWeights& trust) {
+  constexpr double kMemory = 1.0 / 30.0, kOther = 0.06;
+  std::vector<double> off;
+  for (size_t i = 1; i < kJointCount; ++i) {
+    const double w = std::min(trust[i], trust[static_cast<size_t>(kJointParent[i])]);
+    if (w > 0.5 && std::isfinite(measured[i])) {
+      mean_m_[i] += kMemory * (measured[i] - mean_m_[i]);
+    }
+    off.push_back(std::abs(mean_m_[i] / lengths_m_[i] - 1.0));
+  }
+  std::nth_element(off.begin(), off.begin() + static_cast<ptrdiff_t>(off.size() / 2), off.end());
+  return off[off.size() / 2] > kOther;
+}
+
+void BodySize::Observe(const Posture& in_camera, const JointWeights& trust, double expected_scale) {
   const auto good = std::count_if(trust.begin(), trust.end(), [](double t) { return t > 0.5; });
   const BoneLengths measured = BoneLengthsOf(in_camera);
   const double scale = BodyScaleOf(measured, trust);
   if (locked_) {
-    const bool other = good >= 12 && std::abs(scale / scale_ - 1.0) > 0.25;
+    const bool other =
+        good >= 12 && (std::abs(scale / scale_ - 1.0) > 0.25 || HasOtherBones(measured, trust));
     other_size_frames_ = other ? other_size_frames_ + 1 : 0;
     if (other_size_frames_ < 30) return;
   }
@@ -89,8 +106,14 @@ void BodySize::Observe(const Posture& in_camera, const JointWeights& trust) {
     mean[i] = weight > 0.0 ? sum / weight : lengths_m_[i];
   }
   for (size_t i = 1; i < kJointCount; ++i) {
+    if (expects_) {
+      const double as_expected = proportions_[i] > 0.0 ? proportions_[i] : 1.0;
+      const double size = expected_scale > 0.0 ? expected_scale : scale_;
+      mean[i] = 0.5 * (mean[i] + size * as_expected * StandardBoneLengths()[i]);
+    }
     lengths_m_[i] = std::clamp(mean[i], 0.75 * lengths_m_[i], 1.25 * lengths_m_[i]);
   }
+  mean_m_ = lengths_m_;
   locked_ = good >= 12;
   other_size_frames_ = 0;
 }

@@ -9,18 +9,28 @@ namespace ossa::recon {
 
 /// The person's bone lengths, kept constant from the first good frame on: the standing or T-posed
 /// person that tracking starts with (Shum 2013 fig. 2), left and right averaged, each bone within a
-/// quarter of a body of that size. Measured anew only when the body has another size for a second:
-/// that is another person.
+/// quarter of a body of that size. Measured anew only when the body has another size or other bones
+/// for a second: that is another person.
 class BodySize {
  public:
-  void Observe(const Posture& in_camera, const JointWeights& trust);
+  /// Bones are expected in these proportions to the standard ones (0: as the standard body's) and
+  /// taken half way between what is expected and what is measured: one frame measures a bone about
+  /// as well as the body's size tells it.
+  void Expect(const BoneLengths& proportions) { proportions_ = proportions, expects_ = true; }
+  /// `expected_scale`: what the proportions are multiplied with; 0: the measured size.
+  void Observe(const Posture& in_camera, const JointWeights& trust, double expected_scale = 0.0);
   const BoneLengths& lengths_m() const { return lengths_m_; }
   bool locked() const { return locked_; }
   /// Over the standard body, as a whole.
   double scale() const { return scale_; }
 
  private:
+  bool HasOtherBones(const BoneLengths& measured, const JointWeights& trust);
+
   BoneLengths lengths_m_ = StandardBoneLengths();
+  BoneLengths mean_m_{};  // of what was measured in the last second or so
+  BoneLengths proportions_{};
+  bool expects_ = false;
   double scale_ = 1.0;
   bool locked_ = false;
   int other_size_frames_ = 0;

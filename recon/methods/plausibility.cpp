@@ -7,12 +7,14 @@
 namespace ossa::recon {
 namespace {
 
-constexpr double kPatience_s = 0.3;    // a jump that stays as long is believed after all
+constexpr double kPatience_s = 0.1;    // a jump that stays as long is believed after all
 constexpr double kLongestGap_s = 0.5;  // afterwards the past says nothing
 constexpr double kBodySpeed = 5.0;     // m/s of a whole body
 constexpr double kLimbSpeed = 8.0;     // m/s of a hand
 constexpr double kSlack_m = 0.12;      // sensors are off by as much without failing
 constexpr double kJumpTrust = 0.05;
+constexpr double kWrongBone = 0.35;   // a bone off by a third
+constexpr double kSamePlace_m = 0.1;  // a hand within this of the other one has snapped to it
 
 bool Seen(const TrackedPosture& observed, size_t i) {
   return observed.state[i] != TrackingState::kNotTracked &&
@@ -101,8 +103,27 @@ void Plausibility::JudgeJoints(const TrackedPosture& observed, const Posture& pr
     const bool stays = jumped_s_[i] > 0.0 && (p - suspect_.position_m[i]).norm() < allowed;
     jumped_s_[i] = stays ? jumped_s_[i] + dt_s : dt_s;
     suspect_.position_m[i] = p;
-    if (jumped_s_[i] < kPatience_s) joint_trust_[i] = kJumpTrust;
+    // A jump without any other sign of an error is a fast move or a lost frame.
+    if (jumped_s_[i] < kPatience_s && LooksWrong(observed, i)) joint_trust_[i] = kJumpTrust;
   }
+}
+
+/// What else speaks against a joint that jumped: its bone has not the length it had, or it lies on
+/// its counterpart of the other side, where it did not lie before.
+bool Plausibility::LooksWrong(const TrackedPosture& observed, size_t i) const {
+  const auto m = static_cast<size_t>(kMirroredJoint[i]);
+  const auto distance = [](const Posture& p, size_t a, size_t b) {
+    return (p.position_m[a] - p.position_m[b]).norm();
+  };
+  if (m != i && Seen(observed, m) && distance(observed.posture, i, m) < kSamePlace_m &&
+      distance(*last_, i, m) > 2.0 * kSamePlace_m) {
+    return true;
+  }
+  if (kJointParent[i] < 0) return false;
+  const auto parent = static_cast<size_t>(kJointParent[i]);
+  if (!Seen(observed, parent)) return false;
+  const double before = distance(*last_, i, parent);
+  return std::abs(distance(observed.posture, i, parent) - before) > kWrongBone * before;
 }
 
 void Plausibility::Remember(const Posture& made, double dt_s) {

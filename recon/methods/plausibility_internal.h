@@ -19,6 +19,7 @@ class Plausibility {
 
  private:
   void JudgeJoints(const TrackedPosture& observed, const Posture& predicted, double dt_s);
+  bool LooksWrong(const TrackedPosture& observed, size_t joint) const;
 
   std::optional<Posture> last_, before_last_;
   Posture suspect_;                             // where each jumped joint was last said to be

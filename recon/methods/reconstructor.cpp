@@ -5,6 +5,7 @@
 
 #include "depth/error.h"
 #include "recon/database/posture_database.h"
+#include "recon/gp/learned_models.h"
 #include "recon/methods/methods_internal.h"
 
 namespace ossa::recon {
@@ -42,6 +43,11 @@ void CheckLocalPca(const LocalPcaOptions& o) {
 }
 
 }  // namespace
+
+std::shared_ptr<const LearnedModels> LearnedOf(const ReconstructorOptions& options) {
+  if (options.learned || options.learned_file.empty()) return options.learned;
+  return std::make_shared<const LearnedModels>(LearnedModels::Load(options.learned_file));
+}
 
 const std::vector<std::string>& ReconstructionMethods() {
   static const std::vector<std::string> names = [] {

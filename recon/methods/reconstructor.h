@@ -38,6 +38,7 @@ class Reconstructor {
 };
 
 class PostureDatabase;  // recon/database/posture_database.h
+struct LearnedModels;   // recon/gp/learned_models.h
 
 /// Settings of the natural posture space and its energy: shum-2013, plantard-2016.
 struct LocalPcaOptions {
@@ -65,8 +66,11 @@ struct GaussianProcessOptions {
 
 /// Settings of `best`; the switches are for ablations.
 struct BestOptions {
+  bool repair = true;    // gross failures are told from motion
   bool complete = true;  // joints in doubt come from the posture space
+  bool correct = true;   // learned systematic errors are taken off
   bool filter = true;    // adaptive Kalman filters
+  bool bones = true;     // constant bone lengths
   int neighbours = 30;   // K
   int dimensions = 20;
   double continuity = 0.1;      // weight of the prediction where nothing is trusted
@@ -77,6 +81,7 @@ struct ReconstructorOptions {
   std::string method = "best";                      // one of ReconstructionMethods()
   std::shared_ptr<const PostureDatabase> database;  // needed by the methods that look things up
   std::string learned_file;  // .ossagp of `ossa learn`: liu-2016, full-gp, exemplar, best
+  std::shared_ptr<const LearnedModels> learned;  // the same, already in memory; goes first
   uint64_t seed = 1;
   LocalPcaOptions local_pca;
   GaussianProcessOptions gaussian_process;
