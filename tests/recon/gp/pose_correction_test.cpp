@@ -1,0 +1,69 @@
+#include "recon/gp/pose_correction.h"
+
+#include <gtest/gtest.h>
+
+#include <filesystem>
+
+#include "depth/error.h"
+#include "recon/gp/learned_models.h"
+#include "tests/recon/synthetic_motion.h"
+
+namespace ossa::recon {
+namespace {
+
+/// A sensor that sees the left hand too low when it is raised, or errs at random.
+std::vector<PosturePair> Pairs(bool systematic) {
+  std::mt19937_64 rng(11);
+  std::normal_distribution<double> normal(0.0, 0.03);
+  std::vector<PosturePair> pairs;
+  for (int f = 0; f < 400; ++f) {
+    PosturePair& pair = pairs.emplace_back();
+    pair.observed = test::Motion(f / 10.0);
+    pair.known.fill(1.0);
+    for (const size_t hand : {size_t{7}, size_t{11}}) {
+      const double height_m = pair.observed.position_m[hand].y();
+      const Eigen::Vector3d random(normal(rng), normal(rng), normal(rng));
+      pair.residual.position_m[hand] =
+          systematic ? Eigen::Vector3d(0.0, 0.04 + 0.1 * height_m, 0.0) : random;
+    }
+  }
+  return pairs;
+}
+
+TEST(PoseCorrection, FindsASystematicErrorOfPosturesItHasNotSeen) {
+  const PoseCorrection correction = PoseCorrection::Learn(Pairs(true));
+  double before = 0.0, after = 0.0;
+  for (int f = 0; f < 100; ++f) {
+    const Posture seen = test::Motion(0.05 + f / 7.0);
+    const Eigen::Vector3d truth(0.0, 0.04 + 0.1 * seen.position_m[7].y(), 0.0);
+    before += truth.norm();
+    after += (correction.Offsets(seen).position_m[7] - truth).norm();
+  }
+  EXPECT_LT(after, 0.1 * before);  // a noiseless linear law
+}
+
+TEST(PoseCorrection, LeavesASensorAloneWhoseErrorsHaveNoSystem) {
+  const PoseCorrection correction = PoseCorrection::Learn(Pairs(false));
+  for (int f = 0; f < 20; ++f) {
+    // The held-out gain lets through less than a tenth of errors of 5 cm.
+    EXPECT_LT(correction.Offsets(test::Motion(f / 3.0)).position_m[7].norm(), 0.005);
+  }
+}
+
+TEST(LearnedModels, AreTheSameAfterTheFileAndRefusedWhenCutShort) {
+  LearnOptions options;
+  options.processes = false;
+  const LearnedModels made = LearnedModels::Learn(Pairs(true), options);
+  const auto path = std::filesystem::temp_directory_path() / "ossa_learned_models_test.ossagp";
+  made.Save(path);
+  const LearnedModels read = LearnedModels::Load(path);
+  const Posture at = test::Motion(0.7);
+  EXPECT_EQ(made.correction.Offsets(at).position_m[7], read.correction.Offsets(at).position_m[7]);
+  EXPECT_EQ(made.correction.proportion_, read.correction.proportion_);
+  std::filesystem::resize_file(path, std::filesystem::file_size(path) - 1);
+  EXPECT_THROW(LearnedModels::Load(path), InputError);
+  std::filesystem::remove(path);
+}
+
+}  // namespace
+}  // namespace ossa::recon
