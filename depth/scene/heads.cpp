@@ -28,7 +28,7 @@ class HeadFinder {
     const float filled = Share(x, y, z, kHeadRadius_m, 0, 2 * kPi, 12);
     if (filled < 0.9F) return 0;
     const float taken = Share(x, y, z, kRing_m, -0.15F * kPi, 1.15F * kPi, 14);
-    if (taken > 0.25F) return 0;
+    if (taken > 0.25F || GoesOnAbove(x, y, z)) return 0;
     const float below = ShoulderShare(x, y, z);
     return filled * (1 - taken) * below;
   }
@@ -53,6 +53,23 @@ class HeadFinder {
                     : 0;
     }
     return static_cast<float>(filled) / static_cast<float>(samples);
+  }
+
+  // A chest or a hip is as free at its sides as a head, but the body goes on above it.
+  bool GoesOnAbove(int x, int y, float z) const {
+    int filled = 0;
+    for (const float above_m : {0.20F, 0.26F, 0.33F, 0.40F, 0.48F}) {
+      const float row = static_cast<float>(y) - grid_.CellsOf(above_m, z);
+      for (const float side_m : {-0.06F, 0.0F, 0.06F}) {
+        const int cx =
+            static_cast<int>(std::lround(static_cast<float>(x) + grid_.CellsOf(side_m, z)));
+        const int cy = static_cast<int>(std::lround(row));
+        if (!grid_.Contains(cx, cy)) continue;
+        const int cell = grid_.cell(cx, cy);
+        filled += member_[static_cast<size_t>(cell)] && std::abs(grid_.z(cell) - z) < 0.35F ? 1 : 0;
+      }
+    }
+    return filled > 5;  // a lifted arm covers one column of three
   }
 
   // Surface on a row 32 cm below the head's centre, from 17 cm left to 17 cm right; rows under the

@@ -1,96 +1,43 @@
 #include "depth/scene/regions.h"
 
-#include <Eigen/Geometry>
-
 #include <algorithm>
 #include <cmath>
-#include <random>
+
+#include "depth/scene/planes.h"
 
 namespace ossa::depth {
 namespace {
 
 using Eigen::Vector3f;
-using Eigen::Vector4f;
 
-// A wall must be larger than any side of a person: no torso has a square metre in one plane, and
-// two people side by side do not connect over as much within the tolerance.
-constexpr float kWallArea_m2 = 1.1F;
-constexpr float kWallPieceArea_m2 = 0.45F;
-
-// Area of the surface itself, not of its frontal view: a patch seen at a slant is larger.
-float SurfaceArea(const PointGrid& grid, int cell, const Vector4f& plane) {
-  const Vector3f& p = grid.at(cell);
-  const float cosine = std::abs(plane.head<3>().dot(p)) / p.norm();
-  return grid.Area(cell) / std::max(cosine, 0.15F);
+// How large a flat piece must be to be furniture or a wall: larger than the flattest part of a body
+// looks at this distance. At 1 m the sensor tells 1 cm of curvature, and a flat back has 0.15 m2;
+// from 3 m on a whole person is as flat as a board.
+double RoomArea_m2(double z_m) {
+  const double far_m = std::max(0.0, z_m - 1.0);
+  return 0.2 + 0.12 * far_m + 0.05 * far_m * far_m;
 }
 
-std::optional<Vector4f> LocalPlane(const PointGrid& grid, int x, int y, int reach) {
-  if (!grid.Contains(x + reach, y + reach) || !grid.Contains(x - reach, y - reach))
-    return std::nullopt;
-  const int a = grid.cell(x - reach, y - reach), b = grid.cell(x + reach, y - reach);
-  const int c = grid.cell(x, y + reach);
-  if (!grid.valid(a) || !grid.valid(b) || !grid.valid(c)) return std::nullopt;
-  Vector3f normal = (grid.at(b) - grid.at(a)).cross(grid.at(c) - grid.at(a));
-  if (normal.norm() < 1e-6F) return std::nullopt;
-  normal.normalize();
-  return Vector4f(normal.x(), normal.y(), normal.z(), -normal.dot(grid.at(a)));
-}
+// Nobody's side looks up: tables, seats and shelves do.
+constexpr double kTop = 0.9;  // of the normal's share that points up
+constexpr double kTopArea_m2 = 0.12;
 
-bool OnPlane(const Vector3f& p, const Vector4f& plane) {
-  return std::abs(plane.head<3>().dot(p) + plane[3]) < DepthTolerance(p.z());
-}
-
-float PlaneArea(const PointGrid& grid, const std::vector<int>& sample, const Vector4f& plane,
-                int thinning) {
-  float area = 0;
-  for (const int cell : sample) {
-    if (OnPlane(grid.at(cell), plane)) area += SurfaceArea(grid, cell, plane);
-  }
-  return area * static_cast<float>(thinning);
-}
-
-// Marks the connected pieces of the plane that are large themselves; people who stand in the same
-// plane as a wall's end are pieces of their own and stay.
-bool MarkPlane(const PointGrid& grid, const Vector4f& plane, std::vector<uint8_t>& room) {
-  std::vector<uint8_t> ignore(room.size(), 1);
-  for (int i = 0; i < grid.cells(); ++i) {
-    const auto n = static_cast<size_t>(i);
-    if (!room[n] && grid.valid(i) && OnPlane(grid.at(i), plane)) ignore[n] = 0;
-  }
-  bool marked = false;
-  for (const Region& piece : ConnectedRegions(grid, ignore, 0.02F)) {
-    float area = 0;
-    for (const int cell : piece.cells) area += SurfaceArea(grid, cell, plane);
-    if (area < kWallPieceArea_m2) continue;
-    marked = true;
+void MarkFlatPieces(const PointGrid& grid, const Eigen::Vector3d& up, std::vector<uint8_t>& room) {
+  for (const FlatPiece& piece : FlatPieces(grid, room)) {
+    double z_m = 0;
+    for (const int cell : piece.cells) z_m += static_cast<double>(grid.z(cell));
+    z_m /= static_cast<double>(piece.cells.size());
+    const bool top = piece.normal.dot(up) > kTop;
+    if (piece.area_m2 < (top ? kTopArea_m2 : RoomArea_m2(z_m))) continue;
     for (const int cell : piece.cells) room[static_cast<size_t>(cell)] = 1;
   }
-  return marked;
 }
 
-void MarkWalls(const PointGrid& grid, std::vector<uint8_t>& room) {
-  constexpr int kThinning = 9, kTrials = 40, kMaxWalls = 5;
-  std::mt19937_64 random(7);
-  for (int wall = 0; wall < kMaxWalls; ++wall) {
-    std::vector<int> sample;
-    for (int y = 1; y < grid.height; y += 3) {
-      for (int x = 1; x < grid.width; x += 3) {
-        const int cell = grid.cell(x, y);
-        if (grid.valid(cell) && !room[static_cast<size_t>(cell)]) sample.push_back(cell);
-      }
-    }
-    if (sample.size() < 40) return;
-    float best_area = 0;
-    Vector4f best = Vector4f::Zero();
-    for (int trial = 0; trial < kTrials; ++trial) {
-      const int cell = sample[random() % sample.size()];
-      const auto plane = LocalPlane(grid, cell % grid.width, cell / grid.width, trial % 2 ? 4 : 9);
-      if (!plane) continue;
-      const float area = PlaneArea(grid, sample, *plane, kThinning);
-      if (area > best_area) best_area = area, best = *plane;
-    }
-    if (best_area < kWallArea_m2 || !MarkPlane(grid, best, room)) return;
-  }
+// Height error of a measurement: depth errors run along the line of sight.
+double HeightTolerance(const FloorPlane& floor, const Vector3f& p) {
+  const double along =
+      std::abs(floor.coefficients.head<3>().dot(p.cast<double>())) / static_cast<double>(p.norm());
+  return 0.025 + along * static_cast<double>(DepthTolerance(p.z()));
 }
 
 }  // namespace
@@ -101,10 +48,12 @@ std::vector<uint8_t> RoomSurfaces(const PointGrid& grid, const std::optional<Flo
     for (int i = 0; i < grid.cells(); ++i) {
       if (!grid.valid(i)) continue;
       const double height = floor->HeightOf(grid.at(i).cast<double>());
-      room[static_cast<size_t>(i)] = height < 0.02 + DepthTolerance(grid.z(i));
+      room[static_cast<size_t>(i)] = height < HeightTolerance(*floor, grid.at(i));
     }
   }
-  MarkWalls(grid, room);
+  const Eigen::Vector3d up =
+      floor ? floor->coefficients.head<3>().eval() : Eigen::Vector3d::UnitY();
+  MarkFlatPieces(grid, up, room);
   return room;
 }
 

@@ -211,6 +211,24 @@ bool PersonSized(const Region& region, const SceneOptions& options) {
          region.cells.size() >= 30;
 }
 
+// One piece per person. A seed whose piece could not be a person was no head: its piece goes back
+// to the others.
+std::vector<Region> CutBySeeds(const PointGrid& grid, const Region& region,
+                               std::vector<std::vector<int>> seeds, const SceneOptions& options) {
+  while (true) {
+    // One person alone needs no cut, unless much more hangs on than a person has.
+    if (seeds.empty() || (seeds.size() == 1 && region.area_m2 <= 1.0F)) return {region};
+    std::vector<Region> pieces = SplitBySeeds(grid, region, seeds, options.max_reach_m);
+    if (seeds.size() == 1) return pieces;
+    size_t least = 0;
+    for (size_t i = 1; i < pieces.size(); ++i) {
+      if (pieces[i].area_m2 < pieces[least].area_m2) least = i;
+    }
+    if (PersonSized(pieces[least], options)) return pieces;
+    seeds.erase(seeds.begin() + static_cast<std::ptrdiff_t>(least));
+  }
+}
+
 }  // namespace
 
 Scene FindCandidates(const DepthFrame& frame, const SceneState& state, SceneState& next,
@@ -233,10 +251,7 @@ Scene FindCandidates(const DepthFrame& frame, const SceneState& state, SceneStat
   for (const Region& region : regions) {
     if (!PersonSized(region, options)) continue;
     const auto seeds = SeedsOf(scene.grid, region, owner, next.users.size());
-    // One person alone needs no cut, unless much more hangs on than a person has.
-    const bool cut = seeds.size() > 1 || (seeds.size() == 1 && region.area_m2 > 1.0F);
-    for (Region& piece : cut ? SplitBySeeds(scene.grid, region, seeds, options.max_reach_m)
-                             : std::vector<Region>{region}) {
+    for (Region& piece : CutBySeeds(scene.grid, region, seeds, options)) {
       if (!PersonSized(piece, options)) continue;
       Candidate candidate;
       candidate.pixels = PixelsOf(frame, scene.grid, piece);

@@ -1,0 +1,193 @@
+#include "depth/scene/planes.h"
+
+#include <Eigen/LU>
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+
+namespace ossa::depth {
+namespace {
+
+using Eigen::Matrix3d;
+using Eigen::Vector3d;
+
+constexpr int kBlock = 4;             // cells a side
+constexpr int kFewest = 11;           // measured cells of a block's 16
+constexpr double kStep_1_m = 2.9e-3;  // quantisation of the Kinect v1 in inverse depth (FACTS)
+// A flat block shows the quantisation (0.29 steps) and jitter of about one step.
+constexpr double kFlatRms = 1.1 * kStep_1_m;
+constexpr double kJoinRms = 1.3 * kStep_1_m;  // of a block against the plane it is to join
+constexpr double kCellOff = 2.6 * kStep_1_m;  // of a cell on the plane
+
+// Sums for the least-squares plane d = a x + b y + c of inverse depth over cells.
+struct Sums {
+  Matrix3d aa = Matrix3d::Zero();
+  Vector3d ad = Vector3d::Zero();
+  double dd = 0;
+  double n = 0;
+
+  void Add(double x, double y, double d) {
+    const Vector3d row(x, y, 1.0);
+    aa += row * row.transpose();
+    ad += row * d;
+    dd += d * d;
+    n += 1;
+  }
+  void Add(const Sums& other) {
+    aa += other.aa;
+    ad += other.ad;
+    dd += other.dd;
+    n += other.n;
+  }
+  Vector3d Fit() const { return aa.inverse() * ad; }
+  double Rms(const Vector3d& plane) const {
+    const double square = dd - 2 * plane.dot(ad) + plane.dot(aa * plane);
+    return std::sqrt(std::max(0.0, square / n));
+  }
+};
+
+class PieceGrower {
+ public:
+  PieceGrower(const PointGrid& grid, const std::vector<uint8_t>& ignore)
+      : grid_(grid),
+        ignore_(ignore),
+        width_(grid.width / kBlock),
+        height_(grid.height / kBlock),
+        sums_(static_cast<size_t>(width_ * height_)),
+        rms_(sums_.size(), 1e9),
+        block_taken_(sums_.size(), 0),
+        cell_taken_(ignore) {
+    for (int by = 0; by < height_; ++by) {
+      for (int bx = 0; bx < width_; ++bx) Measure(bx, by);
+    }
+  }
+
+  std::vector<FlatPiece> Run() {
+    std::vector<size_t> order(sums_.size());
+    std::iota(order.begin(), order.end(), size_t{0});
+    std::stable_sort(order.begin(), order.end(),
+                     [&](size_t a, size_t b) { return rms_[a] < rms_[b]; });
+    std::vector<FlatPiece> pieces;
+    for (const size_t seed : order) {
+      if (rms_[seed] > kFlatRms) break;
+      if (block_taken_[seed]) continue;
+      Sums sums;
+      const int blocks = Grow(seed, sums);
+      constexpr int kFewBlocks = 4;  // less is not worth calling flat
+      if (blocks < kFewBlocks) continue;
+      FlatPiece piece = PieceOf(sums.Fit(), seed);
+      if (!piece.cells.empty()) pieces.push_back(std::move(piece));
+    }
+    std::stable_sort(pieces.begin(), pieces.end(),
+                     [](const FlatPiece& a, const FlatPiece& b) { return a.area_m2 > b.area_m2; });
+    return pieces;
+  }
+
+ private:
+  void Measure(int bx, int by) {
+    const auto block = static_cast<size_t>(by * width_ + bx);
+    for (int y = by * kBlock; y < (by + 1) * kBlock; ++y) {
+      for (int x = bx * kBlock; x < (bx + 1) * kBlock; ++x) {
+        const int cell = grid_.cell(x, y);
+        if (ignore_[static_cast<size_t>(cell)] || !grid_.valid(cell)) continue;
+        sums_[block].Add(x, y, 1.0 / static_cast<double>(grid_.z(cell)));
+      }
+    }
+    if (sums_[block].n < kFewest) return;
+    rms_[block] = sums_[block].Rms(sums_[block].Fit());
+  }
+
+  // Blocks join while they lie on the plane of those before; it is refitted whenever they doubled.
+  int Grow(size_t seed, Sums& sums) {
+    std::vector<size_t> front = {seed};
+    block_taken_[seed] = 1;
+    sums = sums_[seed];
+    Vector3d plane = sums.Fit();
+    size_t refit_at = 2;
+    for (size_t i = 0; i < front.size(); ++i) {
+      const int bx = static_cast<int>(front[i]) % width_, by = static_cast<int>(front[i]) / width_;
+      constexpr int kSteps[4][2] = {{1, 0}, {-1, 0}, {0, 1}, {0, -1}};
+      for (const auto& step : kSteps) {
+        const int x = bx + step[0], y = by + step[1];
+        if (x < 0 || y < 0 || x >= width_ || y >= height_) continue;
+        const auto next = static_cast<size_t>(y * width_ + x);
+        if (block_taken_[next] || rms_[next] > kFlatRms || sums_[next].Rms(plane) > kJoinRms)
+          continue;
+        block_taken_[next] = 1;
+        sums.Add(sums_[next]);
+        front.push_back(next);
+        if (front.size() < refit_at) continue;
+        plane = sums.Fit();
+        refit_at = front.size() * 3 / 2 + 1;
+      }
+    }
+    return static_cast<int>(front.size());
+  }
+
+  // The cells on the plane that hang together with the seed block, whole blocks or not.
+  FlatPiece PieceOf(const Vector3d& plane, size_t seed) {
+    FlatPiece piece;
+    piece.slope_x = plane.x(), piece.slope_y = plane.y(), piece.at_zero = plane.z();
+    SetNormal(plane, piece);
+    const auto on_plane = [&](int cell) {
+      const double expected = plane.dot(Vector3d(cell % grid_.width, cell / grid_.width, 1.0));
+      return grid_.valid(cell) && !cell_taken_[static_cast<size_t>(cell)] &&
+             std::abs(1.0 / static_cast<double>(grid_.z(cell)) - expected) < kCellOff;
+    };
+    const int x0 = static_cast<int>(seed) % width_ * kBlock;
+    const int y0 = static_cast<int>(seed) / width_ * kBlock;
+    for (int i = 0; i < kBlock * kBlock; ++i) {
+      const int cell = grid_.cell(x0 + i % kBlock, y0 + i / kBlock);
+      if (!on_plane(cell)) continue;
+      cell_taken_[static_cast<size_t>(cell)] = 1;
+      piece.cells.push_back(cell);
+    }
+    for (size_t i = 0; i < piece.cells.size(); ++i) {
+      const int cell = piece.cells[i], x = cell % grid_.width, y = cell / grid_.width;
+      constexpr int kSteps[8][2] = {{1, 0}, {-1, 0}, {0, 1}, {0, -1},
+                                    {3, 0}, {-3, 0}, {0, 3}, {0, -3}};
+      for (const auto& step : kSteps) {
+        if (!grid_.Contains(x + step[0], y + step[1])) continue;
+        const int next = grid_.cell(x + step[0], y + step[1]);
+        if (!on_plane(next)) continue;
+        cell_taken_[static_cast<size_t>(next)] = 1;
+        piece.cells.push_back(next);
+      }
+    }
+    std::sort(piece.cells.begin(), piece.cells.end());
+    for (const int cell : piece.cells) piece.area_m2 += Area(cell, piece.normal);
+    return piece;
+  }
+
+  // 1 = n.p with d = 1/z, u = cx - fx x/z and v = cy - fy y/z put into the plane's equation.
+  void SetNormal(const Vector3d& plane, FlatPiece& piece) const {
+    const depth::Camera& camera = grid_.camera;
+    const double step = grid_.step, middle = 0.5 * (step - 1);
+    const double a = plane.x() / step, b = plane.y() / step;
+    const double c = plane.z() - (a + b) * middle;
+    const Vector3d n(-a * camera.fx, -b * camera.fy, a * camera.cx + b * camera.cy + c);
+    if (n.norm() > 1e-9) piece.normal = -n.normalized();
+  }
+
+  double Area(int cell, const Vector3d& normal) const {
+    const Vector3d p = grid_.at(cell).cast<double>();
+    constexpr double kMostSlanted = 0.1;  // beyond, the area is anybody's guess
+    return static_cast<double>(grid_.Area(cell)) /
+           std::max(kMostSlanted, std::abs(normal.dot(p)) / p.norm());
+  }
+
+  const PointGrid& grid_;
+  const std::vector<uint8_t>& ignore_;
+  int width_, height_;  // blocks
+  std::vector<Sums> sums_;
+  std::vector<double> rms_;
+  std::vector<uint8_t> block_taken_, cell_taken_;
+};
+
+}  // namespace
+
+std::vector<FlatPiece> FlatPieces(const PointGrid& grid, const std::vector<uint8_t>& ignore) {
+  return PieceGrower(grid, ignore).Run();
+}
+
+}  // namespace ossa::depth
