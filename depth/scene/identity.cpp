@@ -37,7 +37,7 @@ double Overlap(const PointGrid& grid, const UserTrack& user, const Candidate& pe
 }
 
 // Smallest cost first: at most a handful of people, so greedy choice over (overlap, distance).
-std::vector<Match> PossibleMatches(const Scene& scene, const std::vector<Candidate>& people,
+std::vector<Match> PossibleMatches(const Scene& scene, const std::vector<const Candidate*>& people,
                                    double time_s, const SceneState& state,
                                    const SceneOptions& options) {
   std::vector<Match> matches;
@@ -46,8 +46,8 @@ std::vector<Match> PossibleMatches(const Scene& scene, const std::vector<Candida
     const double gone_s = std::max(0.0, time_s - user.seen_s);
     const double gate = options.return_gate_m + options.return_speed_m_s * gone_s;
     for (size_t p = 0; p < people.size(); ++p) {
-      const double off = (Predicted(user, time_s) - people[p].region.mean_m).norm();
-      const double overlap = gone_s < 0.5 ? Overlap(scene.grid, user, people[p]) : 0.0;
+      const double off = (Predicted(user, time_s) - people[p]->region.mean_m).norm();
+      const double overlap = gone_s < 0.5 ? Overlap(scene.grid, user, *people[p]) : 0.0;
       if (off > gate && overlap < 0.3) continue;
       matches.push_back({off / gate - 2 * overlap, t, p});
     }
@@ -77,7 +77,7 @@ void Renew(UserTrack& user, const PointGrid& grid, const Region& region, double 
 
 }  // namespace
 
-std::vector<int> ConfirmUsers(const Scene& scene, const std::vector<Candidate>& people,
+std::vector<int> ConfirmUsers(const Scene& scene, const std::vector<const Candidate*>& people,
                               double time_s, SceneState& state, const SceneOptions& options) {
   for (UserTrack& user : state.users) {
     if (time_s < user.seen_s) user.seen_s = time_s;  // the clock went back: a new recording
@@ -99,9 +99,9 @@ std::vector<int> ConfirmUsers(const Scene& scene, const std::vector<Candidate>& 
       state.next_id = state.next_id % 255 + 1;  // ids fit the user image's byte
     }
     UserTrack& user = state.users[static_cast<size_t>(track_of[p])];
-    Renew(user, scene.grid, people[p].region, time_s);
+    Renew(user, scene.grid, people[p]->region, time_s);
     ids.push_back(user.id);
-    for (const int cell : people[p].region.cells) claimed[static_cast<size_t>(cell)] = 1;
+    for (const int cell : people[p]->region.cells) claimed[static_cast<size_t>(cell)] = 1;
   }
   std::erase_if(state.users,
                 [&](const UserTrack& user) { return time_s - user.seen_s > options.forget_s; });

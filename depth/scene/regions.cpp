@@ -13,23 +13,26 @@ using Eigen::Vector3f;
 // How large a flat piece must be to be furniture or a wall: larger than the flattest part of a body
 // looks at this distance. At 1 m the sensor tells 1 cm of curvature, and a flat back has 0.15 m2;
 // from 3 m on a whole person is as flat as a board.
+constexpr double kPerson_m2 = 0.85;  // of a big person seen from the front
+
 double RoomArea_m2(double z_m) {
   const double far_m = std::max(0.0, z_m - 1.0);
-  return 0.2 + 0.12 * far_m + 0.05 * far_m * far_m;
+  return std::min(0.2 + 0.12 * far_m + 0.05 * far_m * far_m, kPerson_m2);
 }
 
 // Nobody's side looks up: tables, seats and shelves do.
 constexpr double kTop = 0.9;  // of the normal's share that points up
 constexpr double kTopArea_m2 = 0.12;
 
-void MarkFlatPieces(const PointGrid& grid, const Eigen::Vector3d& up, std::vector<uint8_t>& room) {
-  for (const FlatPiece& piece : FlatPieces(grid, room)) {
+void MarkFlatPieces(const PointGrid& grid, const Eigen::Vector3d& up, RoomShape& shape) {
+  for (const FlatPiece& piece : FlatPieces(grid, shape.room)) {
+    for (const int cell : piece.cells) shape.flat[static_cast<size_t>(cell)] = 1;
     double z_m = 0;
     for (const int cell : piece.cells) z_m += static_cast<double>(grid.z(cell));
     z_m /= static_cast<double>(piece.cells.size());
     const bool top = piece.normal.dot(up) > kTop;
     if (piece.area_m2 < (top ? kTopArea_m2 : RoomArea_m2(z_m))) continue;
-    for (const int cell : piece.cells) room[static_cast<size_t>(cell)] = 1;
+    for (const int cell : piece.cells) shape.room[static_cast<size_t>(cell)] = 1;
   }
 }
 
@@ -42,19 +45,20 @@ double HeightTolerance(const FloorPlane& floor, const Vector3f& p) {
 
 }  // namespace
 
-std::vector<uint8_t> RoomSurfaces(const PointGrid& grid, const std::optional<FloorPlane>& floor) {
-  std::vector<uint8_t> room(static_cast<size_t>(grid.cells()), 0);
+RoomShape RoomSurfaces(const PointGrid& grid, const std::optional<FloorPlane>& floor) {
+  const auto cells = static_cast<size_t>(grid.cells());
+  RoomShape shape{std::vector<uint8_t>(cells, 0), std::vector<uint8_t>(cells, 0)};
   if (floor) {
     for (int i = 0; i < grid.cells(); ++i) {
       if (!grid.valid(i)) continue;
       const double height = floor->HeightOf(grid.at(i).cast<double>());
-      room[static_cast<size_t>(i)] = height < HeightTolerance(*floor, grid.at(i));
+      shape.room[static_cast<size_t>(i)] = height < HeightTolerance(*floor, grid.at(i));
     }
   }
   const Eigen::Vector3d up =
       floor ? floor->coefficients.head<3>().eval() : Eigen::Vector3d::UnitY();
-  MarkFlatPieces(grid, up, room);
-  return room;
+  MarkFlatPieces(grid, up, shape);
+  return shape;
 }
 
 Region MakeRegion(const PointGrid& grid, std::vector<int> cells) {

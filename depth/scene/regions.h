@@ -10,9 +10,13 @@
 
 namespace ossa::depth {
 
-/// Marks (1 per cell) what belongs to the room by its shape alone: the floor, and planes too large
-/// to be a person's side: walls, ceilings, doors, big table tops.
-std::vector<uint8_t> RoomSurfaces(const PointGrid& grid, const std::optional<FloorPlane>& floor);
+/// What shape alone says of each cell (1 = yes).
+struct RoomShape {
+  std::vector<uint8_t> room;  // the floor, and planes too large to be a person's side: walls,
+                              // ceilings, doors, table tops
+  std::vector<uint8_t> flat;  // on a flat piece of any size
+};
+RoomShape RoomSurfaces(const PointGrid& grid, const std::optional<FloorPlane>& floor);
 
 /// A connected piece of surface: cells in ascending order.
 struct Region {

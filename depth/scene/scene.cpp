@@ -211,6 +211,13 @@ bool PersonSized(const Region& region, const SceneOptions& options) {
          region.cells.size() >= 30;
 }
 
+double FlatShare(const Region& region, const RoomShape& shape) {
+  const auto flat = std::count_if(region.cells.begin(), region.cells.end(), [&](int cell) {
+    return shape.flat[static_cast<size_t>(cell)] != 0;
+  });
+  return static_cast<double>(flat) / static_cast<double>(std::max<size_t>(1, region.cells.size()));
+}
+
 // One piece per person. A seed whose piece could not be a person was no head: its piece goes back
 // to the others.
 std::vector<Region> CutBySeeds(const PointGrid& grid, const Region& region,
@@ -238,7 +245,8 @@ Scene FindCandidates(const DepthFrame& frame, const SceneState& state, SceneStat
   Scene scene;
   scene.grid = MakePointGrid(frame.view(), frame.camera, options.max_depth_m);
   scene.floor = FindFloor(scene.grid, next.floor, options.floor);
-  std::vector<uint8_t> ignore = RoomSurfaces(scene.grid, scene.floor);
+  const RoomShape shape = RoomSurfaces(scene.grid, scene.floor);
+  std::vector<uint8_t> ignore = shape.room;
   const std::vector<uint8_t> background =
       SeenBackground(scene.grid, next.background, options.background);
   const std::vector<int> owner = PreviousOwners(scene.grid, next);
@@ -256,6 +264,7 @@ Scene FindCandidates(const DepthFrame& frame, const SceneState& state, SceneStat
       Candidate candidate;
       candidate.pixels = PixelsOf(frame, scene.grid, piece);
       candidate.has_head = !seeds.empty();
+      candidate.flat_share = FlatShare(piece, shape);
       candidate.region = std::move(piece);
       scene.candidates.push_back(std::move(candidate));
     }
@@ -290,6 +299,7 @@ std::vector<Candidate> SplitCandidate(const Scene& scene, const DepthFrame& fram
     part.pixels = PixelsOf(frame, scene.grid, piece);
     part.track = pieces.empty() ? candidate.track : -1;
     part.has_head = true;
+    part.flat_share = candidate.flat_share;
     part.region = std::move(piece);
     pieces.push_back(std::move(part));
   }

@@ -49,6 +49,7 @@ struct Candidate {
   Region region;                // on the grid
   int track = -1;               // index into SceneState::users it seems to continue, or -1
   bool has_head = false;        // something like head and shoulders is seen
+  double flat_share = 0;        // of the cells that lie on flat pieces
 };
 
 struct Scene {
@@ -71,7 +72,7 @@ std::vector<Candidate> SplitCandidate(const Scene& scene, const DepthFrame& fram
 
 /// Gives the confirmed candidates their identities (same order) and learns the background from
 /// everything else.
-std::vector<int> ConfirmUsers(const Scene& scene, const std::vector<Candidate>& people,
+std::vector<int> ConfirmUsers(const Scene& scene, const std::vector<const Candidate*>& people,
                               double time_s, SceneState& state, const SceneOptions& options = {});
 
 /// The SDK's player index: user id per pixel (0 nobody), as an image of the frame's size.

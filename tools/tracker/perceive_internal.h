@@ -1,13 +1,11 @@
 #pragma once
-#include <Eigen/Core>
-#include <array>
 #include <vector>
 
 #include "depth/scene/scene.h"
 #include "forest/classify.h"
 #include "forest/forest.h"
 #include "forest/propose.h"
-#include "recon/skeleton.h"
+#include "tools/tracker/signs_internal.h"
 
 namespace ossa::tracker {
 
@@ -16,13 +14,17 @@ struct Perception {
   forest::Classification classification;
   int scale = 1;  // classified on every scale-th pixel of the frame both ways
   std::vector<std::vector<forest::Proposal>> proposals;
-  std::vector<Eigen::Vector3d> heads_m;  // clusters of head pixels, strongest first
-  double person_score = 0.0;             // [0, 1]
+  std::vector<Eigen::Vector3d> heads_m;  // clusters of head pixels, largest first
+  Signs sign{};
+  double person_score = 0.0;  // [0, 1]
   double classify_ms = 0.0, propose_ms = 0.0;
 };
 
 struct PerceiveOptions {
-  size_t max_pixels = 16000;  // more are thinned: a near person is as well seen at half resolution
+  double sample_m = 0.012;       // pixels are thinned until one stands for so much of the surface
+  size_t max_pixels = 6000;      // and further, to at most so many
+  bool keep_resolution = false;  // for pictures of the parts
+  double least_score = 0.1;      // by the surface alone; below, no proposals are made
   std::vector<float> context_prior;
   int threads = 1;
 };

@@ -13,8 +13,10 @@ namespace ossa::tracker {
 struct Person {
   int id = 0;
   double seen_s = 0.0;
+  double before_s = -1e9;  // time of `before` and `context`
+  std::optional<double> score;
   recon::BoneLengths lengths_m = AverageBoneLengths();
-  std::optional<recon::TrackedPosture> before;  // of the last frame
+  std::optional<recon::TrackedPosture> before;  // of the last frame it was tracked in
   std::vector<float> context;                   // facing, as the forest saw it
   std::unique_ptr<recon::Reconstructor> reconstructor;
   std::unique_ptr<physics::CharacterFilter> character;

@@ -11,6 +11,7 @@
 #include "depth/sensor/frame_source.h"
 #include "forest/forest.h"
 #include "recon/database/posture_database.h"
+#include "tools/tracker/find_people_internal.h"
 #include "tools/tracker/parallel_internal.h"
 #include "tools/tracker/perceive_internal.h"
 #include "tools/tracker/person_internal.h"
@@ -21,11 +22,7 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
-// Of a newcomer, and of somebody tracked a moment ago: hysteresis keeps a person who turns away.
-constexpr double kNewPerson = 0.35;
-constexpr double kKnownPerson = 0.18;
-constexpr size_t kMostCandidates = 12;  // looked at per frame, the largest first
-constexpr double kRecent_s = 0.2;       // what was seen longer ago says nothing about now
+constexpr double kRecent_s = 0.2;  // what was seen longer ago says nothing about now
 
 double MillisecondsSince(Clock::time_point start) {
   return std::chrono::duration<double, std::milli>(Clock::now() - start).count();
@@ -59,10 +56,19 @@ unsigned ClippedEdges(const depth::DepthFrame& frame, const std::vector<int32_t>
   return edges;
 }
 
-struct Seen {
-  depth::Candidate candidate;
-  Perception perception;
-};
+// Part labels of one person, at the resolution they were found, into the frame's image.
+void PaintParts(const depth::DepthFrame& frame, const depth::Candidate& candidate,
+                const Perception& perception, depth::Image<uint8_t>& parts) {
+  const forest::Classification& seen = perception.classification;
+  const int scale = perception.scale, width = frame.camera.width;
+  depth::Image<uint8_t> small((width + scale - 1) / scale,
+                              (frame.camera.height + scale - 1) / scale);
+  for (size_t i = 0; i < seen.pixel.size(); ++i)
+    small.data[static_cast<size_t>(seen.pixel[i])] = seen.label[i];
+  for (const int32_t pixel : candidate.pixels) {
+    parts.data[static_cast<size_t>(pixel)] = small.at(pixel % width / scale, pixel / width / scale);
+  }
+}
 
 }  // namespace
 
@@ -73,8 +79,9 @@ struct Tracker::Impl {
   CompleteOptions complete;
   depth::SceneOptions scene_options;
   depth::SceneState scene_state;
+  FinderState finder_state;
   std::map<int, Person> people;
-  std::vector<int> chosen_ids;
+  std::optional<std::vector<int>> chosen_ids;
 
   explicit Impl(const TrackerOptions& o)
       : options(o),
@@ -92,110 +99,112 @@ struct Tracker::Impl {
   }
 
   BodyFrame Push(const depth::DepthFrame& frame);
-  std::vector<Seen> FindPeople(const depth::DepthFrame& frame, const depth::Scene& scene);
-  std::vector<Seen> Look(const depth::DepthFrame& frame,
-                         const std::vector<depth::Candidate>& candidates) const;
-  double Threshold(const depth::Candidate& candidate) const;
-  std::vector<float> ContextPrior(const depth::Candidate& candidate, double time_s) const;
-  std::vector<bool> FullyTracked(const std::vector<int>& ids) const;
-  void FillBody(const depth::DepthFrame& frame, const std::optional<Eigen::Vector4d>& floor,
-                Seen& seen, Person& person, Body& body, StageTimes& ms) const;
+  std::vector<Found> Segment(const depth::DepthFrame& frame, BodyFrame& result);
+  std::vector<Person*> PersonsOf(const std::vector<int>& ids, double time_s);
+  std::vector<float> ContextPrior(const Person& person, double time_s) const;
+  void TrackBody(const depth::DepthFrame& frame, const std::optional<Eigen::Vector4d>& floor,
+                 const Perception& perception, Person& person, Body& body, StageTimes& ms) const;
 };
 
-double Tracker::Impl::Threshold(const depth::Candidate& candidate) const {
-  return candidate.track >= 0 ? kKnownPerson : kNewPerson;
+// Who is where: fills floor, user image and the bodies' outer facts.
+std::vector<Found> Tracker::Impl::Segment(const depth::DepthFrame& frame, BodyFrame& result) {
+  const auto start = Clock::now();
+  depth::SceneState next;
+  const depth::Scene scene = depth::FindCandidates(frame, scene_state, next, scene_options);
+  scene_state = std::move(next);
+  if (scene.floor) {
+    result.floor = scene.floor->coefficients;
+    result.tilt_down_rad = scene.floor->TiltDown_rad();
+  }
+  FindOptions find;
+  find.max_users = options.max_users;
+  find.threads = options.threads;
+  find.keep_resolution = options.keep_parts;
+  const Eyes eyes{model, targets, [&](const depth::Candidate& candidate) -> Known {
+                    if (candidate.track < 0) return {};
+                    const int id = scene_state.users[static_cast<size_t>(candidate.track)].id;
+                    const auto person = people.find(id);
+                    if (person == people.end()) return {};
+                    return {ContextPrior(person->second, frame.time_s), person->second.score};
+                  }};
+  const auto look_start = Clock::now();
+  std::vector<Found> found = FindPeople(eyes, frame, scene, scene_options, find, finder_state);
+  const double look_ms = MillisecondsSince(look_start);
+  std::vector<const depth::Candidate*> users;
+  for (const Found& one : found) users.push_back(&one.candidate);
+  const std::vector<int> ids =
+      depth::ConfirmUsers(scene, users, frame.time_s, scene_state, scene_options);
+  result.users = depth::UserImage(frame, users, ids);
+  result.bodies.resize(ids.size());
+  for (size_t i = 0; i < ids.size(); ++i) {
+    Body& body = result.bodies[i];
+    body.id = ids[i];
+    body.position_m = users[i]->region.mean_m.cast<double>();
+    body.clipped_edges = ClippedEdges(frame, users[i]->pixels);
+    body.person_score = found[i].perception.person_score;
+    const bool chosen = !chosen_ids || std::find(chosen_ids->begin(), chosen_ids->end(), ids[i]) !=
+                                           chosen_ids->end();
+    body.state = chosen ? BodyState::kTracked : BodyState::kPositionOnly;
+  }
+  // The time of the looks, wasted ones too, shared out as the people's own stages stand.
+  double classify_ms = 1e-6, propose_ms = 0;
+  for (const Found& one : found) {
+    classify_ms += one.perception.classify_ms;
+    propose_ms += one.perception.propose_ms;
+  }
+  result.ms.classify = look_ms * classify_ms / (classify_ms + propose_ms);
+  result.ms.propose = look_ms - result.ms.classify;
+  result.ms.segment = MillisecondsSince(start) - look_ms;
+  return found;
+}
+
+std::vector<Person*> Tracker::Impl::PersonsOf(const std::vector<int>& ids, double time_s) {
+  std::erase_if(people, [&](const auto& entry) {
+    return time_s - entry.second.seen_s > scene_options.forget_s;
+  });
+  std::vector<Person*> persons;
+  for (const int id : ids) {
+    Person& person = people[id];
+    person.id = id;
+    if (person.seen_s == 0.0 || person.seen_s > time_s) person.seen_s = time_s;
+    persons.push_back(&person);
+  }
+  return persons;
 }
 
 // Which way a person faced a moment ago says much of the way now.
-std::vector<float> Tracker::Impl::ContextPrior(const depth::Candidate& candidate,
-                                               double time_s) const {
-  if (candidate.track < 0) return {};
-  const auto found = people.find(scene_state.users[static_cast<size_t>(candidate.track)].id);
-  if (found == people.end() || found->second.context.empty() ||
-      time_s - found->second.seen_s > kRecent_s) {
-    return {};
-  }
+std::vector<float> Tracker::Impl::ContextPrior(const Person& person, double time_s) const {
+  if (person.context.empty() || time_s - person.before_s > kRecent_s) return {};
   // A twentieth starts anew, so that an error does not keep itself alive.
   constexpr float kFresh = 0.05F;
-  std::vector<float> prior = found->second.context;
+  std::vector<float> prior = person.context;
   for (float& share : prior)
     share = (1 - kFresh) * share + kFresh / static_cast<float>(prior.size());
   return prior;
 }
 
-std::vector<Seen> Tracker::Impl::Look(const depth::DepthFrame& frame,
-                                      const std::vector<depth::Candidate>& candidates) const {
-  std::vector<Seen> seen(candidates.size());
-  ParallelFor(candidates.size(), options.threads, [&](size_t i) {
-    PerceiveOptions perceive;
-    perceive.context_prior = ContextPrior(candidates[i], frame.time_s);
-    seen[i] = {candidates[i], Perceive(model, targets, frame, candidates[i], perceive)};
-  });
-  return seen;
-}
-
-// Candidates that the forest takes for people; those with two heads are cut and looked at again.
-std::vector<Seen> Tracker::Impl::FindPeople(const depth::DepthFrame& frame,
-                                            const depth::Scene& scene) {
-  std::vector<depth::Candidate> candidates = scene.candidates;
-  if (candidates.size() > kMostCandidates) candidates.resize(kMostCandidates);
-  std::vector<Seen> found;
-  std::vector<depth::Candidate> pieces;
-  for (Seen& seen : Look(frame, candidates)) {
-    if (seen.perception.heads_m.size() > 1) {
-      auto cut = depth::SplitCandidate(scene, frame, seen.candidate, seen.perception.heads_m,
-                                       scene_options);
-      if (cut.size() > 1) {
-        pieces.insert(pieces.end(), cut.begin(), cut.end());
-        continue;
-      }
-    }
-    if (seen.perception.person_score >= Threshold(seen.candidate)) found.push_back(std::move(seen));
-  }
-  for (Seen& seen : Look(frame, pieces)) {
-    if (seen.perception.person_score >= Threshold(seen.candidate)) found.push_back(std::move(seen));
-  }
-  std::stable_sort(found.begin(), found.end(), [](const Seen& a, const Seen& b) {
-    const bool known_a = a.candidate.track >= 0, known_b = b.candidate.track >= 0;
-    if (known_a != known_b) return known_a;
-    return a.perception.person_score > b.perception.person_score;
-  });
-  if (found.size() > static_cast<size_t>(options.max_users))
-    found.resize(static_cast<size_t>(options.max_users));
-  return found;
-}
-
-std::vector<bool> Tracker::Impl::FullyTracked(const std::vector<int>& ids) const {
-  std::vector<bool> full(ids.size(), true);
-  if (chosen_ids.empty()) return full;
-  for (size_t i = 0; i < ids.size(); ++i) {
-    full[i] = std::find(chosen_ids.begin(), chosen_ids.end(), ids[i]) != chosen_ids.end();
-  }
-  return full;
-}
-
-void Tracker::Impl::FillBody(const depth::DepthFrame& frame,
-                             const std::optional<Eigen::Vector4d>& floor, Seen& seen,
-                             Person& person, Body& body, StageTimes& ms) const {
+// From pixels to all three postures of one person.
+void Tracker::Impl::TrackBody(const depth::DepthFrame& frame,
+                              const std::optional<Eigen::Vector4d>& floor,
+                              const Perception& perception, Person& person, Body& body,
+                              StageTimes& ms) const {
   ChoiceContext context;
   context.camera = &frame.camera;
   context.expected_m = person.lengths_m;
-  const bool recent = person.before && frame.time_s - person.seen_s <= kRecent_s;
+  const bool recent = person.before && frame.time_s - person.before_s <= kRecent_s;
   context.before = recent ? &*person.before : nullptr;
-  body.raw = ChoosePosture(model, targets, seen.perception.proposals, context);
-  if (options.mode == TrackingMode::kSeated) {
-    for (size_t j = 0; j < recon::kJointCount; ++j) {
-      if (!IsSeatedJoint(static_cast<recon::Joint>(j))) {
-        body.raw.state[j] = recon::TrackingState::kNotTracked;
-        body.raw.confidence[j] = 0;
-      }
-    }
+  body.raw = ChoosePosture(model, targets, perception.proposals, context);
+  for (size_t j = 0; j < recon::kJointCount; ++j) {
+    if (options.mode == TrackingMode::kStanding || IsSeatedJoint(static_cast<recon::Joint>(j)))
+      continue;
+    body.raw.state[j] = recon::TrackingState::kNotTracked;
+    body.raw.confidence[j] = 0;
   }
   LearnBoneLengths(body.raw, person.lengths_m);
   CompleteBody(frame, floor, complete, person, body, ms);
   person.before = body.raw;
-  person.context = seen.perception.classification.context;
-  person.seen_s = frame.time_s;
+  person.context = perception.classification.context;
+  person.before_s = frame.time_s;
 }
 
 BodyFrame Tracker::Impl::Push(const depth::DepthFrame& frame) {
@@ -203,75 +212,25 @@ BodyFrame Tracker::Impl::Push(const depth::DepthFrame& frame) {
   BodyFrame result;
   result.index = frame.index;
   result.time_s = frame.time_s;
-  depth::SceneState next;
-  const depth::Scene scene = depth::FindCandidates(frame, scene_state, next, scene_options);
-  scene_state = std::move(next);
-  if (scene.floor) result.floor = scene.floor->coefficients;
-  result.ms.segment = MillisecondsSince(start);
-
-  const auto forest_start = Clock::now();
-  std::vector<Seen> seen = FindPeople(frame, scene);
-  const double forest_ms = MillisecondsSince(forest_start);
-  double classify_ms = 0, propose_ms = 0;
-  for (const Seen& one : seen) {
-    classify_ms += one.perception.classify_ms;
-    propose_ms += one.perception.propose_ms;
-  }
-  // Wall time, shared out as the stages' own times stand to each other.
-  const double share = classify_ms + propose_ms > 0 ? classify_ms / (classify_ms + propose_ms) : 1;
-  result.ms.classify = forest_ms * share;
-  result.ms.propose = forest_ms * (1 - share);
-
-  const auto identity_start = Clock::now();
-  std::vector<depth::Candidate> candidates;
-  for (const Seen& one : seen) candidates.push_back(one.candidate);
-  const std::vector<int> ids =
-      depth::ConfirmUsers(scene, candidates, frame.time_s, scene_state, scene_options);
-  std::vector<const depth::Candidate*> users;
-  for (const auto& candidate : candidates) users.push_back(&candidate);
-  result.users = depth::UserImage(frame, users, ids);
-  result.ms.segment += MillisecondsSince(identity_start);
-
-  std::erase_if(people, [&](const auto& entry) {
-    return frame.time_s - entry.second.seen_s > scene_options.forget_s;
-  });
-  const std::vector<bool> full = FullyTracked(ids);
-  std::vector<Person*> persons;
-  for (const int id : ids) {
-    Person& person = people[id];
-    person.id = id;
-    if (person.seen_s == 0.0 || person.seen_s > frame.time_s) person.seen_s = frame.time_s;
-    persons.push_back(&person);
-  }
-  result.bodies.resize(ids.size());
+  const std::vector<Found> found = Segment(frame, result);
+  std::vector<int> ids;
+  for (const Body& body : result.bodies) ids.push_back(body.id);
+  const std::vector<Person*> persons = PersonsOf(ids, frame.time_s);
+  if (options.keep_parts)
+    result.parts = depth::Image<uint8_t>(frame.camera.width, frame.camera.height);
   std::vector<StageTimes> times(ids.size());
   ParallelFor(ids.size(), options.threads, [&](size_t i) {
     Body& body = result.bodies[i];
-    body.id = ids[i];
-    body.position_m = seen[i].candidate.region.mean_m.cast<double>();
-    body.clipped_edges = ClippedEdges(frame, seen[i].candidate.pixels);
-    body.person_score = seen[i].perception.person_score;
-    body.state = full[i] ? BodyState::kTracked : BodyState::kPositionOnly;
-    if (full[i]) FillBody(frame, result.floor, seen[i], *persons[i], body, times[i]);
+    persons[i]->score = body.person_score;
+    persons[i]->seen_s = frame.time_s;
+    if (body.state == BodyState::kPositionOnly) return;
+    TrackBody(frame, result.floor, found[i].perception, *persons[i], body, times[i]);
+    if (options.keep_parts)
+      PaintParts(frame, found[i].candidate, found[i].perception, result.parts);
   });
   for (const StageTimes& t : times) {
     result.ms.reconstruct += t.reconstruct;
     result.ms.physics += t.physics;
-  }
-  if (options.keep_parts) {
-    result.parts = depth::Image<uint8_t>(frame.camera.width, frame.camera.height);
-    for (const Seen& one : seen) {
-      const auto& c = one.perception.classification;
-      const int scale = one.perception.scale;
-      const int width = (frame.camera.width + scale - 1) / scale;
-      depth::Image<uint8_t> small(width, (frame.camera.height + scale - 1) / scale);
-      for (size_t i = 0; i < c.pixel.size(); ++i)
-        small.data[static_cast<size_t>(c.pixel[i])] = c.label[i];
-      for (const int32_t pixel : one.candidate.pixels) {
-        result.parts.data[static_cast<size_t>(pixel)] =
-            small.at(pixel % frame.camera.width / scale, pixel / frame.camera.width / scale);
-      }
-    }
   }
   std::sort(result.bodies.begin(), result.bodies.end(),
             [](const Body& a, const Body& b) { return a.id < b.id; });
@@ -326,6 +285,7 @@ int64_t Tracker::Run(depth::FrameSource& source,
 }
 
 void Tracker::ChooseUsers(std::vector<int> ids) { impl_->chosen_ids = std::move(ids); }
+void Tracker::ChooseAllUsers() { impl_->chosen_ids.reset(); }
 void Tracker::SetMode(TrackingMode mode) { impl_->options.mode = mode; }
 void Tracker::SetSmoothing(const SmoothingOptions& smoothing) {
   smoothing.Check();
@@ -334,6 +294,7 @@ void Tracker::SetSmoothing(const SmoothingOptions& smoothing) {
 void Tracker::Reset() {
   impl_->people.clear();
   impl_->scene_state = {};
+  impl_->finder_state = {};
 }
 
 }  // namespace ossa::tracker

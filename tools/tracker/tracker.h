@@ -51,7 +51,8 @@ struct Body {
   double person_score = 0.0;   // how sure the forest is that this is a person, [0, 1]
 };
 
-/// Milliseconds spent on one frame.
+/// Milliseconds spent on one frame, several people's added up; on several threads `total` is less
+/// than the sum. Looks at furniture count with the stages.
 struct StageTimes {
   double segment = 0, classify = 0, propose = 0, reconstruct = 0, physics = 0, total = 0;
 };
@@ -60,6 +61,7 @@ struct BodyFrame {
   int64_t index = 0;
   double time_s = 0.0;
   std::optional<Eigen::Vector4d> floor;  // a b c d, unit normal up: the SDK's floor clip plane
+  std::optional<double> tilt_down_rad;   // of the sensor, from the floor; negative: it looks up
   std::vector<Body> bodies;              // by id
   depth::Image<uint8_t> users;           // id of the body each pixel belongs to, 0 nobody
   depth::Image<uint8_t> parts;           // body part per pixel; empty unless asked for
@@ -104,8 +106,9 @@ class Tracker {
   int64_t Run(depth::FrameSource& source, const std::function<bool(const BodyFrame&)>& on_bodies,
               const std::function<bool()>& idle = {});
 
-  /// Track only these users fully, the others by position; empty: as many as fit, oldest first.
+  /// Track only these users fully, the others by position (the SDK's AppChoosesSkeletons).
   void ChooseUsers(std::vector<int> ids);
+  void ChooseAllUsers();  // as at the start
   void SetMode(TrackingMode mode);
   void SetSmoothing(const SmoothingOptions& smoothing);
   /// Forgets everybody.

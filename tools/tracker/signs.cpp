@@ -1,0 +1,193 @@
+#include "tools/tracker/signs_internal.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "recon/body/parts.h"
+#include "tools/tracker/choose_posture_internal.h"
+
+namespace ossa::tracker {
+namespace {
+
+using Eigen::Vector3d;
+using forest::Classification;
+
+constexpr int kLastHeadLabel = 4;
+constexpr int kFirstTorsoLabel = 18, kLastTorsoLabel = 21;
+
+// Logistic regressions of "more than 60 % of the candidate's pixels are one person's" against "less
+// than 20 %", on 2 000 candidates in 600 rendered rooms (ossa render --background room --mocap
+// cmu30, seeds 101-103, front with occluders, any, near), signs taken with the shipped model.
+constexpr Signs kSurfaceWeight = {-0.97, 19.30, 5.50, 1.89, -0.69, -4.62,
+                                  -2.14, -5.74, 0.65, 0.53, 1.44};
+constexpr double kSurfaceBias = -15.48;
+constexpr Signs kWeight = {0.21,  11.68, 4.93, 2.06, -0.97, -5.08, -3.21,
+                           -4.38, 0.86,  0.63, 1.66, -3.59, 10.99, 1.80};
+constexpr double kBias = -14.19;
+
+struct HeadCluster {
+  Vector3d sum = Vector3d::Zero();
+  double area_m2 = 0;
+  int count = 0;
+  Vector3d mean() const { return sum / count; }
+};
+
+struct Sample {
+  Vector3d position_m;
+  double area_m2 = 0;
+};
+
+Sample SampleAt(const depth::DepthFrame& frame, int32_t pixel) {
+  const depth::Camera& camera = frame.camera;
+  const Vector3d p = depth::BackProject(camera, pixel % camera.width, pixel / camera.width,
+                                        frame.depth_mm[static_cast<size_t>(pixel)]);
+  return {p, p.z() * p.z() / (camera.fx * camera.fy)};
+}
+
+std::vector<HeadCluster> HeadClusters(const depth::DepthFrame& frame, const Classification& seen) {
+  constexpr double kHeadSize_m = 0.17;
+  std::vector<HeadCluster> clusters;
+  for (size_t i = 0; i < seen.pixel.size(); ++i) {
+    if (seen.label[i] < 1 || seen.label[i] > kLastHeadLabel) continue;
+    const Sample at = SampleAt(frame, seen.pixel[i]);
+    auto near = std::find_if(clusters.begin(), clusters.end(), [&](const HeadCluster& cluster) {
+      return (cluster.mean() - at.position_m).norm() < kHeadSize_m;
+    });
+    if (near == clusters.end()) near = clusters.insert(clusters.end(), HeadCluster{});
+    near->sum += at.position_m;
+    near->area_m2 += at.area_m2;
+    ++near->count;
+  }
+  std::stable_sort(
+      clusters.begin(), clusters.end(),
+      [](const HeadCluster& a, const HeadCluster& b) { return a.area_m2 > b.area_m2; });
+  return clusters;
+}
+
+// Backs are easily painted as fronts, left for right: for being a person it is the same.
+uint8_t Folded(uint8_t label) { return std::min(label, recon::kMirroredPart[label]); }
+
+// Of all pairs of neighbouring samples, the share with one label.
+double Coherence(const Classification& seen, int width) {
+  size_t pairs = 0, same = 0, above = 0;
+  for (size_t i = 0; i < seen.pixel.size(); ++i) {
+    if (i > 0 && seen.pixel[i] == seen.pixel[i - 1] + 1) {
+      ++pairs;
+      same += Folded(seen.label[i]) == Folded(seen.label[i - 1]) ? 1 : 0;
+    }
+    while (seen.pixel[above] < seen.pixel[i] - width) ++above;
+    if (seen.pixel[above] == seen.pixel[i] - width) {
+      ++pairs;
+      same += Folded(seen.label[i]) == Folded(seen.label[above]) ? 1 : 0;
+    }
+  }
+  return pairs == 0 ? 0.0 : static_cast<double>(same) / static_cast<double>(pairs);
+}
+
+void SignsOfProbability(const Classification& seen, Signs& sign) {
+  const auto classes = static_cast<size_t>(seen.class_count);
+  double certainty = 0, other = 0;
+  for (size_t i = 0; i < seen.pixel.size(); ++i) {
+    const uint8_t label = seen.label[i], mirrored = recon::kMirroredPart[label];
+    certainty += static_cast<double>(seen.probability[i * classes + label]);
+    if (mirrored != label)
+      certainty += static_cast<double>(seen.probability[i * classes + mirrored]);
+    if (classes > recon::kOtherPart) {
+      other += static_cast<double>(seen.probability[i * classes + recon::kOtherPart]);
+    }
+  }
+  const auto n = static_cast<double>(seen.pixel.size());
+  sign[static_cast<size_t>(Sign::kCertainty)] = certainty / n;
+  sign[static_cast<size_t>(Sign::kBody)] = 1 - other / n;
+}
+
+void SignsOfShape(const depth::DepthFrame& frame, const Classification& seen,
+                  const std::vector<Head>& heads, Signs& sign) {
+  double area_m2 = 0, head_m2 = 0, above_m2 = 0;
+  Vector3d torso = Vector3d::Zero();
+  int torso_samples = 0;
+  for (const Head& head : heads) head_m2 += head.area_m2;
+  for (size_t i = 0; i < seen.pixel.size(); ++i) {
+    const Sample at = SampleAt(frame, seen.pixel[i]);
+    area_m2 += at.area_m2;
+    if (!heads.empty() && at.position_m.y() > heads.front().mean_m.y() + 0.2)
+      above_m2 += at.area_m2;
+    if (seen.label[i] < kFirstTorsoLabel || seen.label[i] > kLastTorsoLabel) continue;
+    torso += at.position_m;
+    ++torso_samples;
+  }
+  sign[static_cast<size_t>(Sign::kSmall)] = std::min(1.0, area_m2 / 0.25);
+  sign[static_cast<size_t>(Sign::kLarge)] = std::clamp((area_m2 - 0.65) / 0.5, 0.0, 1.0);
+  if (heads.empty()) return;
+  sign[static_cast<size_t>(Sign::kHead)] = std::min(1.0, heads.front().area_m2 / 0.02);
+  sign[static_cast<size_t>(Sign::kOneHead)] = heads.front().area_m2 / head_m2;
+  sign[static_cast<size_t>(Sign::kAbove)] = above_m2 / area_m2;
+  if (torso_samples == 0) return;
+  const double apart_m = (torso / torso_samples - heads.front().mean_m).norm();
+  sign[static_cast<size_t>(Sign::kTorsoBelow)] = std::exp(-std::pow((apart_m - 0.45) / 0.15, 2));
+}
+
+double Logistic(const Signs& sign, const Signs& weight, double bias, size_t count) {
+  double sum = bias;
+  for (size_t i = 0; i < count; ++i) sum += weight[i] * sign[i];
+  return 1.0 / (1.0 + std::exp(-sum));
+}
+
+double Confidence(const std::vector<forest::Proposal>& modes) {
+  return modes.empty() ? 0.0 : modes.front().confidence;
+}
+
+}  // namespace
+
+std::vector<Head> FindHeadClusters(const depth::DepthFrame& frame, const Classification& seen) {
+  std::vector<Head> heads;
+  for (const HeadCluster& cluster : HeadClusters(frame, seen))
+    heads.push_back({cluster.mean(), cluster.area_m2});
+  return heads;
+}
+
+void LookAtSurface(const depth::DepthFrame& frame, const depth::Candidate& candidate,
+                   const Classification& seen, const std::vector<Head>& heads, Signs& sign) {
+  const double z_m = static_cast<double>(candidate.region.mean_m.z());
+  sign[static_cast<size_t>(Sign::kCoherence)] = Coherence(seen, frame.camera.width);
+  sign[static_cast<size_t>(Sign::kHeadShape)] = candidate.has_head ? 1 : 0;
+  sign[static_cast<size_t>(Sign::kFlat)] =
+      candidate.flat_share * std::clamp((4.0 - z_m) / 2.0, 0.0, 1.0);
+  SignsOfProbability(seen, sign);
+  SignsOfShape(frame, seen, heads, sign);
+}
+
+void LookAtProposals(const std::vector<std::vector<forest::Proposal>>& proposals,
+                     const std::array<int, recon::kJointCount>& targets, Signs& sign) {
+  using recon::Joint;
+  constexpr std::array kCore = {Joint::kShoulderCenter, Joint::kHead, Joint::kShoulderLeft,
+                                Joint::kShoulderRight, Joint::kSpine};
+  const recon::BoneLengths average_m = AverageBoneLengths();
+  double core = 0, all = 0, bones = 0;
+  const auto modes_of = [&](size_t j) -> const std::vector<forest::Proposal>& {
+    return proposals[static_cast<size_t>(targets[j])];
+  };
+  for (size_t j = 0; j < recon::kJointCount; ++j) all += Confidence(modes_of(j));
+  const auto& centre = modes_of(recon::Index(Joint::kShoulderCenter));
+  for (const Joint joint : kCore) {
+    const auto& modes = modes_of(static_cast<size_t>(recon::Index(joint)));
+    core += Confidence(modes);
+    if (joint == Joint::kShoulderCenter || modes.empty() || centre.empty()) continue;
+    // The bone from spine to shoulder centre is the centre's, the others' are their own.
+    const auto bone =
+        static_cast<size_t>(recon::Index(joint == Joint::kSpine ? Joint::kShoulderCenter : joint));
+    const double length_m = (modes.front().position_m - centre.front().position_m).norm();
+    bones += std::exp(-std::pow((length_m - average_m[bone]) / 0.07, 2));
+  }
+  sign[static_cast<size_t>(Sign::kTrust)] = core / kCore.size();
+  sign[static_cast<size_t>(Sign::kAllTrust)] = all / recon::kJointCount;
+  sign[static_cast<size_t>(Sign::kBones)] = bones / (kCore.size() - 1);
+}
+
+double SurfaceScore(const Signs& sign) {
+  return Logistic(sign, kSurfaceWeight, kSurfaceBias, static_cast<size_t>(Sign::kTrust));
+}
+
+double PersonScore(const Signs& sign) { return Logistic(sign, kWeight, kBias, kSignCount); }
+
+}  // namespace ossa::tracker
