@@ -52,6 +52,7 @@ Perception Perceive(const forest::ForestModel& model,
   LookAtSurface(seen, candidate, perception.classification, heads, perception.sign);
   perception.person_score = SurfaceScore(perception.sign);
   perception.classify_ms = MillisecondsSince(start);
+  perception.proposals.resize(model.targets().size());
   if (perception.person_score < options.least_score) return perception;
   const auto propose_start = Clock::now();
   perception.proposals =

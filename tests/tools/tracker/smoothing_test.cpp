@@ -1,0 +1,106 @@
+#include "tools/tracker/smoothing.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <random>
+
+#include "depth/error.h"
+
+namespace ossa::tracker {
+namespace {
+
+using recon::Joint;
+using recon::Posture;
+
+Posture HeadAt(double x_m) {
+  Posture posture;
+  posture[Joint::kHead] = {x_m, 0, 2};
+  return posture;
+}
+
+struct Preset {
+  const char* name;
+  double smoothing, correction, prediction, jitter_m, deviation_m;
+};
+void PrintTo(const Preset& preset, std::ostream* out) { *out << preset.name; }
+
+class SdkPresets : public testing::TestWithParam<Preset> {};
+
+// Values as published with NUI_TRANSFORM_SMOOTH_PARAMETERS in the SDK's documentation.
+TEST_P(SdkPresets, HaveThePublishedValues) {
+  const SmoothingOptions o = SmoothingPreset(GetParam().name);
+  EXPECT_EQ(o.kind, SmoothingKind::kHolt);
+  EXPECT_EQ(o.smoothing, GetParam().smoothing);
+  EXPECT_EQ(o.correction, GetParam().correction);
+  EXPECT_EQ(o.prediction, GetParam().prediction);
+  EXPECT_EQ(o.jitter_radius_m, GetParam().jitter_m);
+  EXPECT_EQ(o.max_deviation_radius_m, GetParam().deviation_m);
+}
+
+INSTANTIATE_TEST_SUITE_P(SdkConformance, SdkPresets,
+                         testing::Values(Preset{"default", 0.5, 0.5, 0.5, 0.05, 0.04},
+                                         Preset{"smooth", 0.5, 0.1, 0.5, 0.1, 0.1},
+                                         Preset{"verysmooth", 0.7, 0.3, 1.0, 1.0, 1.0}),
+                         [](const auto& info) { return info.param.name; });
+
+TEST(SdkConformance, HoltSmoothingTakesTheSdksFiveParameters) {
+  // By hand: level and trend of the double exponential without jitter damping or clamping.
+  SmoothingOptions o;
+  o.smoothing = 0.5, o.correction = 0.25, o.prediction = 2.0;
+  o.jitter_radius_m = 1e-9, o.max_deviation_radius_m = 100;
+  SmoothingState state;
+  EXPECT_DOUBLE_EQ(Smooth(HeadAt(0), 0.0, o, state)[Joint::kHead].x(), 0.0);
+  // Second frame: level 0.5 (0 + 1), trend 0.25 * 0.5.
+  EXPECT_DOUBLE_EQ(Smooth(HeadAt(1), 0.1, o, state)[Joint::kHead].x(), 0.5 + 2 * 0.125);
+  // Third: level 0.5 * 2 + 0.5 (0.5 + 0.125), trend 0.25 (level - 0.5) + 0.75 * 0.125.
+  const double level = 0.5 * 2 + 0.5 * 0.625, trend = 0.25 * (level - 0.5) + 0.75 * 0.125;
+  EXPECT_DOUBLE_EQ(Smooth(HeadAt(2), 0.2, o, state)[Joint::kHead].x(), level + 2 * trend);
+}
+
+TEST(SdkConformance, FilteredJointsStayWithinTheDeviationRadius) {
+  const SmoothingOptions o = SmoothingPreset("default");
+  SmoothingState state;
+  std::mt19937_64 random(3);
+  for (int i = 0; i < 200; ++i) {
+    const double x_m = static_cast<double>(random() % 1000) / 500.0;
+    const double off = Smooth(HeadAt(x_m), i / 30.0, o, state)[Joint::kHead].x() - x_m;
+    EXPECT_LE(std::abs(off), o.max_deviation_radius_m + 1e-12);
+  }
+}
+
+TEST(Smoothing, QuietsAStandingPerson) {
+  // 1 cm of noise, a forest's jitter at 3 m: the default leaves less than 5 mm.
+  std::mt19937_64 random(1);
+  std::normal_distribution<double> noise(0.0, 0.01);
+  const SmoothingOptions o = SmoothingPreset("default");
+  SmoothingState state;
+  double square = 0;
+  for (int i = 0; i < 330; ++i) {
+    const double x_m = Smooth(HeadAt(noise(random)), i / 30.0, o, state)[Joint::kHead].x();
+    if (i >= 30) square += x_m * x_m / 300;
+  }
+  EXPECT_LT(std::sqrt(square), 0.005);
+}
+
+TEST(Smoothing, StartsAnewAfterAGap) {
+  SmoothingState state;
+  const SmoothingOptions o = SmoothingPreset("default");
+  for (int i = 0; i < 10; ++i) Smooth(HeadAt(0), i / 30.0, o, state);
+  EXPECT_DOUBLE_EQ(Smooth(HeadAt(3), 5.0, o, state)[Joint::kHead].x(), 3.0);
+}
+
+TEST(Smoothing, NamesWhatIsOutOfRange) {
+  SmoothingOptions o;
+  o.smoothing = 1.0;
+  try {
+    o.Check();
+    FAIL() << "accepted";
+  } catch (const std::invalid_argument& error) {
+    EXPECT_STREQ(error.what(), "SmoothingOptions.smoothing = 1.000000, must be in [0, 1)");
+  }
+  EXPECT_THROW(SmoothingPreset("silky"), InputError);
+}
+
+}  // namespace
+}  // namespace ossa::tracker

@@ -1,0 +1,54 @@
+#pragma once
+#include <gtest/gtest.h>
+
+#include <string>
+
+#include "depth/error.h"
+#include "tests/support/capsule_person.h"
+#include "tools/tracker/shipped.h"
+#include "tools/tracker/tracker.h"
+
+namespace ossa::tracker {
+
+/// The shipped model's path, or "" when this checkout has none: such tests skip and say so.
+inline std::string ModelOrNothing() {
+  try {
+    return ShippedFile("body.ossa").string();
+  } catch (const InputError&) {
+    return {};
+  }
+}
+
+#define OSSA_NEEDS_MODEL()                                          \
+  if (ModelOrNothing().empty()) GTEST_SKIP() << "no shipped model " \
+                                                "(tools/tracker/shipped/body.ossa)"
+
+/// Options that need the model only.
+inline TrackerOptions PlainOptions() {
+  TrackerOptions options;
+  options.method = "none";
+  return options;
+}
+
+inline tests::CapsulePose PersonAt(double x_m, double z_m) {
+  tests::CapsulePose pose;
+  pose.feet_m = {x_m, -1.0, z_m};
+  pose.left_lift_rad = 0.5;
+  pose.right_lift_rad = 0.5;
+  return pose;
+}
+
+inline tests::CapsuleRender Rendered(const std::vector<tests::CapsulePose>& people, int frame = 0,
+                                     double noise_m = 0.0) {
+  tests::CapsuleScene scene;
+  scene.people = people;
+  scene.planes = tests::EmptyRoom();
+  scene.noise_m = noise_m;
+  scene.seed = static_cast<uint64_t>(frame) + 1;
+  auto render = tests::Render(scene, depth::KinectV1Camera(320, 240));
+  render.frame.index = frame;
+  render.frame.time_s = frame / 30.0;
+  return render;
+}
+
+}  // namespace ossa::tracker
