@@ -135,6 +135,18 @@ void DropDoubles(recon::TrackedPosture& posture) {
   }
 }
 
+// A hip is seen where a thigh begins. Of a body cut off at the waist, by the image or by a table,
+// the forest knows well where the hips must be; but nobody sees them.
+void DoubtHipsWithoutLegs(double leg_area_m2, recon::TrackedPosture& posture) {
+  constexpr double kThigh_m2 = 0.04;  // 12 cm x 35 cm
+  if (leg_area_m2 >= kThigh_m2) return;
+  for (size_t j = 0; j < kJointCount; ++j) {
+    const bool lower = j == 0 || j >= static_cast<size_t>(recon::Index(recon::Joint::kHipLeft));
+    if (lower && posture.state[j] == recon::TrackingState::kTracked)
+      posture.state[j] = recon::TrackingState::kInferred;
+  }
+}
+
 }  // namespace
 
 std::array<int, kJointCount> JointTargets(const forest::ForestModel& model,
@@ -167,6 +179,7 @@ recon::TrackedPosture ChoosePosture(const forest::ForestModel& model,
     result.state[j] = StateOf(*chosen[j], target, *context.camera);
   }
   DropDoubles(result);
+  DoubtHipsWithoutLegs(context.leg_area_m2, result);
   return result;
 }
 

@@ -21,6 +21,7 @@ std::array<int, recon::kJointCount> JointTargets(const forest::ForestModel& mode
 struct ChoiceContext {
   const depth::Camera* camera = nullptr;
   recon::BoneLengths expected_m{};                // of this person
+  double leg_area_m2 = 1.0;                       // of surface that looks like legs
   const recon::TrackedPosture* before = nullptr;  // chosen in the last frame, if it is recent
 };
 

@@ -49,6 +49,7 @@ Perception Perceive(const forest::ForestModel& model,
   for (const Head& head : heads) {
     if (head.area_m2 >= kMinHead_m2) perception.heads_m.push_back(head.mean_m);
   }
+  perception.leg_area_m2 = LegArea(seen, perception.classification);
   LookAtSurface(seen, candidate, perception.classification, heads, perception.sign);
   perception.person_score = SurfaceScore(perception.sign);
   perception.classify_ms = MillisecondsSince(start);

@@ -15,6 +15,7 @@ struct Perception {
   int scale = 1;  // classified on every scale-th pixel of the frame both ways
   std::vector<std::vector<forest::Proposal>> proposals;
   std::vector<Eigen::Vector3d> heads_m;  // clusters of head pixels, largest first
+  double leg_area_m2 = 0.0;              // of samples that look like legs
   Signs sign{};
   double person_score = 0.0;  // [0, 1]
   double classify_ms = 0.0, propose_ms = 0.0;

@@ -18,12 +18,12 @@ constexpr int kFirstTorsoLabel = 18, kLastTorsoLabel = 21;
 // Logistic regressions of "more than 60 % of the candidate's pixels are one person's" against "less
 // than 20 %", on 2 000 candidates in 600 rendered rooms (ossa render --background room --mocap
 // cmu30, seeds 101-103, front with occluders, any, near), signs taken with the shipped model.
-constexpr Signs kSurfaceWeight = {-0.97, 19.30, 5.50, 1.89, -0.69, -4.62,
-                                  -2.14, -5.74, 0.65, 0.53, 1.44};
-constexpr double kSurfaceBias = -15.48;
-constexpr Signs kWeight = {0.21,  11.68, 4.93, 2.06, -0.97, -5.08, -3.21,
-                           -4.38, 0.86,  0.63, 1.66, -3.59, 10.99, 1.80};
-constexpr double kBias = -14.19;
+constexpr Signs kSurfaceWeight = {2.06,  13.58, 3.57, 1.92, 0.14, -1.71,
+                                  -1.44, -5.42, 0.53, 0.44, 0.86};
+constexpr double kSurfaceBias = -12.11;
+constexpr Signs kWeight = {2.61,  7.01, 3.67, 2.01, -0.23, -2.55, -2.80,
+                           -3.76, 0.73, 0.57, 1.27, -3.84, 12.66, 1.61};
+constexpr double kBias = -12.44;
 
 struct HeadCluster {
   Vector3d sum = Vector3d::Zero();
@@ -144,6 +144,16 @@ std::vector<Head> FindHeadClusters(const depth::DepthFrame& frame, const Classif
   for (const HeadCluster& cluster : HeadClusters(frame, seen))
     heads.push_back({cluster.mean(), cluster.area_m2});
   return heads;
+}
+
+double LegArea(const depth::DepthFrame& frame, const Classification& seen) {
+  constexpr int kFirstLegLabel = 22;
+  double area_m2 = 0;
+  for (size_t i = 0; i < seen.pixel.size(); ++i) {
+    if (seen.label[i] >= kFirstLegLabel && seen.label[i] < recon::kOtherPart)
+      area_m2 += SampleAt(frame, seen.pixel[i]).area_m2;
+  }
+  return area_m2;
 }
 
 void LookAtSurface(const depth::DepthFrame& frame, const depth::Candidate& candidate,

@@ -45,6 +45,9 @@ struct Head {
 std::vector<Head> FindHeadClusters(const depth::DepthFrame& frame,
                                    const forest::Classification& seen);
 
+/// Surface that looks like legs and feet, square metres.
+double LegArea(const depth::DepthFrame& frame, const forest::Classification& seen);
+
 /// Signs that need no proposals.
 void LookAtSurface(const depth::DepthFrame& frame, const depth::Candidate& candidate,
                    const forest::Classification& seen, const std::vector<Head>& heads, Signs& sign);

@@ -191,6 +191,7 @@ void Tracker::Impl::TrackBody(const depth::DepthFrame& frame,
   ChoiceContext context;
   context.camera = &frame.camera;
   context.expected_m = person.lengths_m;
+  context.leg_area_m2 = perception.leg_area_m2;
   const bool recent = person.before && frame.time_s - person.before_s <= kRecent_s;
   context.before = recent ? &*person.before : nullptr;
   body.raw = ChoosePosture(model, targets, perception.proposals, context);

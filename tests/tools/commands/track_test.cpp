@@ -1,0 +1,245 @@
+#include <gtest/gtest.h>
+#include <signal.h>
+
+#include <filesystem>
+#include <fstream>
+#include <nlohmann/json.hpp>
+#include <thread>
+
+#include "depth/image/depth_png.h"
+#include "depth/sensor/oni_recorder.h"
+#include "recon/motion/skeleton_io.h"
+#include "tests/support/depth_examples.h"
+#include "tests/support/run_command.h"
+#include "tests/support/temporary_folder.h"
+#include "tests/tools/tracker/tracked_scenes.h"
+
+namespace ossa::commands {
+namespace {
+
+using std::chrono::milliseconds;
+using test::CommandResult;
+using test::LineCount;
+using test::RunningCommand;
+using test::RunOssa;
+using test::StartOssa;
+using test::TemporaryFolder;
+using test::WriteExampleFolder;
+using tracker::ModelOrNothing;
+using tracker::PersonAt;
+using tracker::Rendered;
+
+// A person who walks sideways, as a PNG folder.
+void WriteWalk(const std::filesystem::path& folder, int frames) {
+  std::filesystem::create_directories(folder);
+  for (int i = 0; i < frames; ++i) {
+    const auto render = Rendered({PersonAt(-0.3 + 0.03 * i, 2.6)}, i);
+    std::string name = std::to_string(1000000 + i).substr(1);
+    name.append(".png");
+    depth::WriteDepthPng(folder / name, render.frame.view());
+  }
+}
+
+void WriteFlat(const std::filesystem::path& folder, uint16_t depth_mm, int frames) {
+  for (int i = 0; i < frames; ++i) {
+    depth::DepthFrame frame;
+    frame.camera = depth::KinectV1Camera(160, 120);
+    frame.depth_mm.assign(160 * 120, depth_mm);
+    std::string name = std::to_string(100 + i);
+    name.append(".png");
+    depth::WriteDepthPng(folder / name, frame.view());
+  }
+}
+
+CommandResult TrackTo(const std::filesystem::path& source, const std::filesystem::path& out,
+                      const std::vector<std::string>& more = {},
+                      const std::string& method = "none") {
+  std::vector<std::string> arguments = {"track",      source.string(), "--out",
+                                        out.string(), "--method",      method};
+  arguments.insert(arguments.end(), more.begin(), more.end());
+  return RunOssa(arguments);
+}
+
+class OutputFormats : public testing::TestWithParam<const char*> {};
+
+TEST_P(OutputFormats, AreReadBackByTheReadersOfCompare) {
+  OSSA_NEEDS_MODEL();
+  const TemporaryFolder folder;
+  WriteWalk(folder / "in", 6);
+  const auto out = (folder / "x").replace_extension(GetParam());
+  const CommandResult result = TrackTo(folder / "in", out, {}, "shum-2013");
+  ASSERT_EQ(result.exit_status, 0) << result.err;
+  const recon::SkeletonSequence back = recon::ReadSkeletons(out.string());
+  ASSERT_EQ(back.frames.size(), 6U);
+  for (const auto& frame : back.frames) EXPECT_EQ(frame.bodies.size(), 1U);
+}
+
+INSTANTIATE_TEST_SUITE_P(TrackCommand, OutputFormats, testing::Values("jsonl", "trc", "csv", "bvh"),
+                         [](const auto& info) { return std::string(info.param); });
+
+TEST(TrackCommand, SaysHowManyFramesAndWritesEveryStagesMilliseconds) {
+  OSSA_NEEDS_MODEL();
+  const TemporaryFolder folder;
+  WriteWalk(folder / "in", 4);
+  const auto stats = folder / "stats.json";
+  const CommandResult result =
+      TrackTo(folder / "in", folder / "x.jsonl", {"--json-stats", stats.string()});
+  EXPECT_EQ(result.exit_status, 0) << result.err;
+  EXPECT_EQ(result.out, "4 frames, 0 dropped, 0 reconnections\n");
+  const auto json = nlohmann::json::parse(std::ifstream(stats));
+  EXPECT_EQ(json.at("frames"), 4);
+  for (const char* stage :
+       {"segment", "classify", "propose", "reconstruct", "physics", "total", "total_p99"}) {
+    EXPECT_TRUE(json.at("ms").at(stage).is_number()) << stage;
+  }
+  EXPECT_GT(json.at("fps"), 0.0);
+  EXPECT_GT(json.at("peak_rss_mb"), 1.0);
+}
+
+TEST(TrackCommand, SameFramesSameSeedSameBytesWhateverTheThreads) {
+  OSSA_NEEDS_MODEL();
+  const TemporaryFolder folder;
+  WriteWalk(folder / "in", 5);
+  const auto bytes = [&](const std::string& name, const std::string& threads) {
+    const auto out = folder / name;
+    const CommandResult result =
+        TrackTo(folder / "in", out, {"--physics", "on", "--threads", threads}, "shum-2013");
+    EXPECT_EQ(result.exit_status, 0) << result.err;
+    std::ifstream file(out, std::ios::binary);
+    return std::string(std::istreambuf_iterator<char>(file), {});
+  };
+  EXPECT_EQ(bytes("a.jsonl", "1"), bytes("b.jsonl", "2"));
+}
+
+TEST(TrackCommand, WritesOnePictureOfFourPanels) {
+  OSSA_NEEDS_MODEL();
+  const TemporaryFolder folder;
+  WriteWalk(folder / "in", 2);
+  const auto picture = folder / "p.png";
+  EXPECT_EQ(RunOssa({"track", (folder / "in").string(), "--method", "none", "--picture",
+                     picture.string()})
+                .exit_status,
+            0);
+  EXPECT_GT(std::filesystem::file_size(picture), 1000U);
+}
+
+struct FlatScene {
+  const char* name;
+  uint16_t depth_mm;
+};
+void PrintTo(const FlatScene& scene, std::ostream* out) { *out << scene.name; }
+
+class FramesWithNobody : public testing::TestWithParam<FlatScene> {};
+
+TEST_P(FramesWithNobody, GiveEmptyFramesNotPeople) {
+  OSSA_NEEDS_MODEL();
+  const TemporaryFolder folder;
+  WriteFlat(folder.path(), GetParam().depth_mm, 3);
+  const auto out = folder / "x.jsonl";
+  const CommandResult result = TrackTo(folder.path(), out);
+  EXPECT_EQ(result.exit_status, 0) << result.err;
+  const auto back = recon::ReadSkeletons(out.string());
+  ASSERT_EQ(back.frames.size(), 3U);
+  for (const auto& frame : back.frames) EXPECT_TRUE(frame.bodies.empty());
+}
+
+INSTANTIATE_TEST_SUITE_P(TrackCommand, FramesWithNobody,
+                         testing::Values(FlatScene{"allZero", 0}, FlatScene{"allFar", 9000},
+                                         FlatScene{"allNear", 500}, FlatScene{"allMost", 65535}),
+                         [](const auto& info) { return info.param.name; });
+
+TEST(TrackCommand, AFolderWithGapsInItsNumbersIsTrackedInNameOrder) {
+  OSSA_NEEDS_MODEL();
+  const TemporaryFolder folder;
+  WriteWalk(folder / "in", 6);
+  std::filesystem::remove(folder / "in/000002.png");
+  std::filesystem::remove(folder / "in/000003.png");
+  const auto out = folder / "x.jsonl";
+  EXPECT_EQ(TrackTo(folder / "in", out).exit_status, 0);
+  EXPECT_EQ(recon::ReadSkeletons(out.string()).frames.size(), 4U);
+}
+
+TEST(TrackCommand, FramesOfChangingSizeEndWithOneLineThatNamesTheFile) {
+  OSSA_NEEDS_MODEL();
+  const TemporaryFolder folder;
+  depth::WriteDepthPng(folder / "a.png", test::ExampleFrame(0, 64, 48).view());
+  depth::WriteDepthPng(folder / "b.png", test::ExampleFrame(1, 32, 24).view());
+  const auto out = folder / "x.jsonl";
+  const CommandResult result = TrackTo(folder.path(), out, {"--quiet"});
+  EXPECT_EQ(result.exit_status, 1);
+  EXPECT_EQ(LineCount(result.err), 1) << result.err;
+  EXPECT_NE(result.err.find("b.png"), std::string::npos) << result.err;
+  EXPECT_FALSE(std::filesystem::exists(out));
+}
+
+TEST(TrackCommand, ADamagedRecordingEndsWithOneLineThatNamesIt) {
+  OSSA_NEEDS_MODEL();
+  const TemporaryFolder folder;
+  const auto oni = folder / "x.oni";
+  std::ofstream(oni, std::ios::binary) << std::string(5000, 'x');
+  const CommandResult result = TrackTo(oni, folder / "x.jsonl");
+  EXPECT_EQ(result.exit_status, 1);
+  EXPECT_EQ(LineCount(result.err), 1) << result.err;
+  EXPECT_NE(result.err.find("x.oni"), std::string::npos) << result.err;
+}
+
+TEST(TrackCommand, AMissingModelIsNamed) {
+  const TemporaryFolder folder;
+  WriteExampleFolder(folder.path(), 1);
+  const CommandResult result =
+      TrackTo(folder.path(), folder / "x.jsonl", {"--model", "/nowhere/m.ossa"});
+  EXPECT_EQ(result.exit_status, 1);
+  EXPECT_EQ(LineCount(result.err), 1) << result.err;
+  EXPECT_NE(result.err.find("/nowhere/m.ossa"), std::string::npos) << result.err;
+}
+
+TEST(TrackCommand, AnUnknownExtensionIsRefusedBeforeAnythingIsTracked) {
+  OSSA_NEEDS_MODEL();
+  const TemporaryFolder folder;
+  WriteExampleFolder(folder.path(), 1);
+  const CommandResult result = TrackTo(folder.path(), folder / "x.doc");
+  EXPECT_EQ(result.exit_status, 1);
+  EXPECT_NE(result.err.find("x.doc"), std::string::npos) << result.err;
+}
+
+TEST(TrackCommand, WrongUsageExitsWithTwo) {
+  EXPECT_EQ(RunOssa({"track"}).exit_status, 2);
+  EXPECT_EQ(RunOssa({"track", "."}).exit_status, 2);
+  EXPECT_EQ(RunOssa({"track", ".", "--out", "x.jsonl", "--users", "7"}).exit_status, 2);
+  EXPECT_EQ(RunOssa({"track", ".", "--out", "x.jsonl", "--method", "magic"}).exit_status, 2);
+}
+
+TEST(TrackCommand, ADeviceThatDeliversNothingEndsTheRunAndTheFileIsWhole) {
+  OSSA_NEEDS_MODEL();
+  const TemporaryFolder folder;
+  WriteWalk(folder / "in", 5);
+  const auto out = folder / "x.jsonl";
+  // The virtual device plays five frames once and is silent then.
+  const CommandResult result =
+      TrackTo("openni:ossa://" + (folder / "in").string(), out, {"--patience", "1"});
+  EXPECT_EQ(result.exit_status, 0) << result.err;
+  EXPECT_GE(recon::ReadSkeletons(out.string()).frames.size(), 1U);
+}
+
+TEST(TrackCommand, CtrlCEndsCleanlyAndTheFileIsWhole) {
+  OSSA_NEEDS_MODEL();
+  const TemporaryFolder folder;
+  WriteWalk(folder / "in", 20);
+  const auto out = folder / "x.jsonl";
+  RunningCommand command =
+      StartOssa({"track", "openni:ossa://" + (folder / "in").string() + "?loop=1", "--out",
+                 out.string(), "--method", "none", "--view", "--port", "0"});
+  ASSERT_TRUE(command.WaitForError("watch at", milliseconds(20000)));
+  std::this_thread::sleep_for(milliseconds(1500));
+  command.Signal(SIGINT);
+  const CommandResult result = command.Wait(milliseconds(20000));
+  EXPECT_FALSE(result.timed_out);
+  if (std::filesystem::exists(out)) {
+    EXPECT_GE(recon::ReadSkeletons(out.string()).frames.size(), 1U);
+  } else {
+    EXPECT_NE(result.exit_status, 0) << "no frame came, and nobody said so";
+  }
+}
+
+}  // namespace
+}  // namespace ossa::commands

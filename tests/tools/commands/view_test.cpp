@@ -1,0 +1,70 @@
+#include <gtest/gtest.h>
+#include <signal.h>
+
+#include <filesystem>
+#include <fstream>
+#include <thread>
+
+#include "tests/support/run_command.h"
+#include "tests/support/temporary_folder.h"
+#include "tools/viewer/viewer.h"
+
+namespace ossa::commands {
+namespace {
+
+using std::chrono::milliseconds;
+using test::CommandResult;
+using test::LineCount;
+using test::RunOssa;
+using test::TemporaryFolder;
+
+void WriteSkeletons(const std::filesystem::path& path) {
+  std::ofstream file(path);
+  for (int i = 0; i < 3; ++i) {
+    file << R"({"frame":)" << i << R"(,"time_s":)" << i / 30.0
+         << R"(,"bodies":[{"id":1,"joints":{"Head":{"p":[0,0.5,2],"state":"tracked"}}}]})"
+         << "\n";
+  }
+}
+
+TEST(ViewCommand, ShowsASkeletonFileOnceAndEnds) {
+  const TemporaryFolder folder;
+  WriteSkeletons(folder / "x.jsonl");
+  const CommandResult result =
+      RunOssa({"view", (folder / "x.jsonl").string(), "--port", "0", "--once"});
+  EXPECT_EQ(result.exit_status, 0) << result.err;
+  EXPECT_NE(result.err.find("watch at http://127.0.0.1:"), std::string::npos) << result.err;
+}
+
+TEST(ViewCommand, CtrlCEndsIt) {
+  const TemporaryFolder folder;
+  WriteSkeletons(folder / "x.jsonl");
+  auto command = test::StartOssa({"view", (folder / "x.jsonl").string(), "--port", "0"});
+  ASSERT_TRUE(command.WaitForError("watch at", milliseconds(20000)));
+  command.Signal(SIGINT);
+  EXPECT_FALSE(command.Wait(milliseconds(20000)).timed_out);
+}
+
+TEST(ViewCommand, APortThatIsTakenIsOneLine) {
+  const TemporaryFolder folder;
+  WriteSkeletons(folder / "x.jsonl");
+  const viewer::Viewer taken(0);
+  const CommandResult result = RunOssa(
+      {"view", (folder / "x.jsonl").string(), "--once", "--port", std::to_string(taken.port())});
+  EXPECT_EQ(result.exit_status, 1);
+  EXPECT_EQ(LineCount(result.err), 1) << result.err;
+  EXPECT_NE(result.err.find(std::to_string(taken.port())), std::string::npos);
+}
+
+TEST(ViewCommand, WhatIsNoSkeletonFileIsNamed) {
+  const TemporaryFolder folder;
+  std::ofstream(folder / "x.jsonl") << "not json\n";
+  const CommandResult result =
+      RunOssa({"view", (folder / "x.jsonl").string(), "--port", "0", "--once"});
+  EXPECT_EQ(result.exit_status, 1);
+  EXPECT_NE(result.err.find("x.jsonl"), std::string::npos) << result.err;
+  EXPECT_EQ(RunOssa({"view"}).exit_status, 2);
+}
+
+}  // namespace
+}  // namespace ossa::commands
