@@ -19,9 +19,10 @@ inline std::string ModelOrNothing() {
   }
 }
 
-#define OSSA_NEEDS_MODEL()                                          \
-  if (ModelOrNothing().empty()) GTEST_SKIP() << "no shipped model " \
-                                                "(tools/tracker/shipped/body.ossa)"
+#define OSSA_NEEDS_MODEL()            \
+  if (ModelOrNothing().empty())       \
+  GTEST_SKIP() << "no shipped model " \
+                  "(tools/tracker/shipped/body.ossa)"
 
 /// Options that need the model only.
 inline TrackerOptions PlainOptions() {
