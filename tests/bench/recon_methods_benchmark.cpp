@@ -1,0 +1,118 @@
+// Time a frame of every method of reconstruction, one person, one core; the query of plantard-2016
+// against the number of postures; building the pose graph; learning from pairs.
+#include <benchmark/benchmark.h>
+
+#include <cmath>
+#include <map>
+
+#include "recon/gp/learned_models.h"
+#include "recon/methods/reconstructor.h"
+#include "tests/recon/synthetic_motion.h"
+
+namespace ossa::recon {
+namespace {
+
+/// As many random gestures; trunk lean makes them fill more than the four angles of a gesture.
+std::vector<PostureClip> RandomClips(int count) {
+  std::mt19937_64 rng(7);
+  std::uniform_real_distribution<double> unit(0.0, 1.0);
+  std::vector<PostureClip> clips(1);
+  clips[0].name = "random";
+  for (int i = 0; i < count; ++i) {
+    Posture p = test::Gesture(2.5 * unit(rng), 2.5 * unit(rng), 1.8 * unit(rng), unit(rng));
+    const Eigen::AngleAxisd lean(0.6 * unit(rng), Eigen::Vector3d::UnitX());
+    for (size_t j = 1; j < 12; ++j) p.position_m[j] = lean * p.position_m[j];
+    clips[0].postures.push_back(p);
+  }
+  return clips;
+}
+
+/// A database of about so many postures: what the filter leaves is not known before.
+std::shared_ptr<const PostureDatabase> Database(int size) {
+  static std::map<int, std::shared_ptr<const PostureDatabase>> made;
+  auto& db = made[size];
+  if (!db) {
+    DatabaseOptions options;
+    options.threshold_m = 0.002;
+    options.most_edges = 16;
+    db = std::make_shared<PostureDatabase>(PostureDatabase::Build(RandomClips(size), options));
+  }
+  return db;
+}
+
+std::vector<PosturePair> Pairs(int count) {
+  std::vector<PosturePair> pairs;
+  for (int f = 0; f < count; ++f) {
+    PosturePair& pair = pairs.emplace_back();
+    pair.observed = test::Motion(f / 10.0);
+    pair.known.fill(1.0);
+    for (auto& r : pair.residual.position_m) r = {0.02 * std::sin(f / 17.0), 0.01, 0.0};
+  }
+  return pairs;
+}
+
+void Follow(benchmark::State& state, const ReconstructorOptions& options) {
+  const auto method = MakeReconstructor(options);
+  int64_t frame = 0;
+  for (auto _ : state) {
+    const double t_s = static_cast<double>(frame++) / 30.0;
+    TrackedPosture seen = test::AllTracked(test::InFrontOfCamera(test::Motion(t_s)));
+    for (size_t i = 5; i < 8; ++i) {  // an arm is hidden half of the time
+      if (frame / 30 % 2 == 0) seen.state[i] = TrackingState::kNotTracked;
+    }
+    benchmark::DoNotOptimize(method->Step({seen, t_s, nullptr}));
+  }
+  if (options.database) state.counters["postures"] = options.database->size();
+}
+
+void MethodPerFrame(benchmark::State& state, const std::string& name) {
+  static const auto learned =
+      std::make_shared<const LearnedModels>(LearnedModels::Learn(Pairs(2500), {}));
+  ReconstructorOptions options;
+  options.method = name;
+  options.database = Database(20000);
+  options.learned = learned;
+  Follow(state, options);
+}
+
+void Plantard2016PerFrame(benchmark::State& state) {
+  ReconstructorOptions options;
+  options.method = "plantard-2016";
+  options.database = Database(static_cast<int>(state.range(0)));
+  Follow(state, options);
+}
+BENCHMARK(Plantard2016PerFrame)
+    ->Arg(10000)
+    ->Arg(100000)
+    ->Arg(1000000)
+    ->Iterations(300)
+    ->Unit(benchmark::kMillisecond);
+
+void BuildGraph(benchmark::State& state) {
+  const auto clips = RandomClips(static_cast<int>(state.range(0)));
+  DatabaseOptions options;
+  options.threshold_m = 0.002;
+  options.most_edges = 16;
+  int size = 0;
+  for (auto _ : state) size = PostureDatabase::Build(clips, options).size();
+  state.counters["postures"] = size;
+}
+BENCHMARK(BuildGraph)->Arg(500000)->Iterations(1)->Unit(benchmark::kSecond);
+
+void LearnPairs(benchmark::State& state) {
+  const auto pairs = Pairs(2500);
+  for (auto _ : state) benchmark::DoNotOptimize(LearnedModels::Learn(pairs, {}));
+}
+BENCHMARK(LearnPairs)->Iterations(1)->Unit(benchmark::kSecond);
+
+const int kRegistered = [] {
+  for (const std::string& name : ReconstructionMethods()) {
+    benchmark::RegisterBenchmark(("MethodPerFrame/" + name).c_str(), MethodPerFrame, name)
+        ->Iterations(300)
+        ->Unit(benchmark::kMillisecond);
+  }
+  return 0;
+}();
+
+}  // namespace
+}  // namespace ossa::recon
