@@ -83,8 +83,9 @@ void CheckTree(const ForestData& data, size_t t, const std::string& name) {
   CheckLeaves(tree, data, where);
   size_t rows = 0;
   VoteRows(tree, &rows);
-  if (!tree.votes.empty() && tree.votes.size() != rows * data.targets.size()) {
-    Refuse(where, "votes: expected " + std::to_string(rows * data.targets.size()) + ", found " +
+  const size_t wanted = rows * data.context_names.size() * data.targets.size();
+  if (!tree.votes.empty() && tree.votes.size() != wanted) {
+    Refuse(where, "votes: expected " + std::to_string(wanted) + ", found " +
                       std::to_string(tree.votes.size()));
   }
 }

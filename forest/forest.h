@@ -43,7 +43,8 @@ struct Vote {
 };
 
 /// A decision tree whose leaves hold the joint distribution of (context, class), and whose nodes at
-/// `vote_depth` (or leaves above it) hold a row of votes each.
+/// `vote_depth` (or leaves above it) hold a row of votes for each context: a patch of chest seen
+/// from the front and one of back seen from behind look alike, and the hips lie elsewhere.
 struct Tree {
   std::vector<Node> nodes;
   /// Entries of leaf i are entries[entry_begin[i]] ... entries[entry_begin[i + 1] - 1]; an entry is
@@ -51,7 +52,7 @@ struct Tree {
   std::vector<uint32_t> entry_begin;
   std::vector<uint16_t> entries;
   int32_t vote_depth = 0;
-  std::vector<Vote> votes;  // rows × targets; rows in breadth-first order of their nodes
+  std::vector<Vote> votes;  // row × context × target, rows breadth-first; or empty
 
   size_t leaf_count() const { return entry_begin.empty() ? 0 : entry_begin.size() - 1; }
 };

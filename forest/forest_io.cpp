@@ -4,6 +4,7 @@
 
 #include "depth/error.h"
 #include "depth/file/sealed_file.h"
+#include "forest/compact.h"
 #include "forest/forest.h"
 
 namespace ossa::forest {
@@ -11,6 +12,7 @@ namespace {
 
 constexpr SealedFormat kFormat{{'o', 's', 's', 'a', 'f', 'r', 's', 't'}, 1, "forest model"};
 constexpr int kCompressionLevel = 19;
+constexpr int kQuickLevel = 3;
 constexpr uint64_t kMaxUnpacked = uint64_t{1} << 31U;
 
 void PutNames(PayloadWriter* writer, const std::vector<std::string>& names) {
@@ -116,10 +118,9 @@ Tree GetTree(PayloadReader* reader) {
   return tree;
 }
 
-std::vector<std::byte> Compressed(const std::vector<std::byte>& bytes) {
+std::vector<std::byte> Compressed(const std::vector<std::byte>& bytes, int level) {
   std::vector<std::byte> out(ZSTD_compressBound(bytes.size()));
-  const size_t size =
-      ZSTD_compress(out.data(), out.size(), bytes.data(), bytes.size(), kCompressionLevel);
+  const size_t size = ZSTD_compress(out.data(), out.size(), bytes.data(), bytes.size(), level);
   out.resize(size);
   return out;
 }
@@ -161,6 +162,25 @@ ForestModel Parse(const std::vector<std::byte>& sealed, const std::string& name)
   return ForestModel(std::move(data), name);
 }
 
+std::vector<std::byte> Packed(const ForestModel& model, int level) {
+  const ForestData& data = model.data();
+  PayloadWriter writer;
+  writer.PutString(data.manifest);
+  PutNames(&writer, data.class_names);
+  PutNames(&writer, data.context_names);
+  writer.PutVector(data.context_prior);
+  writer.Put(data.evidence_scale);
+  writer.Put(data.background_mm);
+  writer.Put<uint32_t>(static_cast<uint32_t>(data.targets.size()));
+  for (const ProposalTarget& target : data.targets) PutTarget(&writer, target);
+  writer.Put<uint32_t>(static_cast<uint32_t>(data.trees.size()));
+  for (const Tree& tree : data.trees) PutTree(&writer, tree);
+  PayloadWriter outer;
+  outer.Put<uint64_t>(writer.bytes().size());
+  outer.PutVector(Compressed(writer.bytes(), level));
+  return outer.bytes();
+}
+
 }  // namespace
 
 ForestModel ReadForestModel(const std::filesystem::path& path) {
@@ -179,22 +199,13 @@ bool IsForestModel(const std::filesystem::path& path) {
 }
 
 void WriteForestModel(const std::filesystem::path& path, const ForestModel& model) {
-  const ForestData& data = model.data();
-  PayloadWriter writer;
-  writer.PutString(data.manifest);
-  PutNames(&writer, data.class_names);
-  PutNames(&writer, data.context_names);
-  writer.PutVector(data.context_prior);
-  writer.Put(data.evidence_scale);
-  writer.Put(data.background_mm);
-  writer.Put<uint32_t>(static_cast<uint32_t>(data.targets.size()));
-  for (const ProposalTarget& target : data.targets) PutTarget(&writer, target);
-  writer.Put<uint32_t>(static_cast<uint32_t>(data.trees.size()));
-  for (const Tree& tree : data.trees) PutTree(&writer, tree);
-  PayloadWriter outer;
-  outer.Put<uint64_t>(writer.bytes().size());
-  outer.PutVector(Compressed(writer.bytes()));
-  WriteSealedFile(path, kFormat, outer.bytes());
+  WriteSealedFile(path, kFormat, Packed(model, kCompressionLevel));
+}
+
+uint64_t FileSize(const ForestModel& model, Packing packing) {
+  constexpr uint64_t kSeal = 40;  // of a sealed file: magic, version, checksum, length
+  const bool tight = packing == Packing::kFile;
+  return Packed(model, tight ? kCompressionLevel : kQuickLevel).size() + kSeal;
 }
 
 }  // namespace ossa::forest

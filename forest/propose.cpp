@@ -122,6 +122,17 @@ void DescribeModes(const Evidence& evidence, const TargetPoints& points,
   }
 }
 
+// Pixel i's context: over many pixels each is drawn as often as it is likely, without chance.
+size_t DrawContext(const std::vector<float>& posterior, size_t i) {
+  constexpr double kGolden = 0.6180339887498949;  // multiples spread evenly over the unit interval
+  double left = std::fmod(static_cast<double>(i) * kGolden, 1.0);
+  for (size_t k = 0; k < posterior.size(); ++k) {
+    left -= static_cast<double>(posterior[k]);
+    if (left < 0) return k;
+  }
+  return posterior.empty() ? 0 : posterior.size() - 1;
+}
+
 }  // namespace
 
 std::vector<Mode> FindModes(const Evidence& evidence, const ProposalTarget& target,
@@ -177,6 +188,8 @@ Evidence GatherEvidence(const ForestModel& model, const depth::DepthView& depth,
   const auto classes = static_cast<size_t>(classification.class_count);
   const size_t trees = model.data().trees.size();
   const size_t targets = model.targets().size();
+  const size_t contexts = model.data().context_names.size();
+  const auto drawn = [&](size_t i) { return DrawContext(classification.context, i); };
   const size_t step = std::max<size_t>(1, count / kSampledPixels);
   size_t tree = 0;
   for (size_t i = step / 2; i < count; i += step, tree = (tree + 1) % trees) {
@@ -192,8 +205,9 @@ Evidence GatherEvidence(const ForestModel& model, const depth::DepthView& depth,
     const auto leaf = static_cast<size_t>(classification.leaf[i * trees + tree]);
     const int32_t vote_row = model.tables().leaves[tree].vote_row[leaf];
     if (vote_row < 0) continue;
-    const Vote* votes =
-        model.data().trees[tree].votes.data() + static_cast<size_t>(vote_row) * targets;
+    const size_t context = drawn(evidence.surface_m.size());
+    const Vote* votes = model.data().trees[tree].votes.data() +
+                        (static_cast<size_t>(vote_row) * contexts + context) * targets;
     for (size_t t = 0; t < targets; ++t) {
       if (votes[t].spread_cm == Vote::kNone) continue;
       const Eigen::Vector3f offset_m =

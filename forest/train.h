@@ -67,7 +67,7 @@ struct TrainOptions {
   int min_node_pixels = 100;    // smaller nodes are leaves
   double min_gain_bits = 0.01;  // splits that gain less are not made
   double context_share = 0.15;  // of nodes that split for the context instead of the class
-  int vote_depth = 14;          // votes are kept by nodes of this depth
+  int vote_depth = 13;          // votes are kept by nodes of this depth, one row a context
   uint64_t seed = 1;
   int threads = 0;                             // 0: all
   uint64_t memory_bytes = uint64_t{8} << 30U;  // for images; larger data stream in parts

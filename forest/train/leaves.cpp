@@ -81,6 +81,7 @@ void PackEntries(const std::vector<uint32_t>& counts, size_t cells, Tree* tree) 
 struct VotePass {
   const std::vector<VoteSum>* before = nullptr;  // of the pass before; null in the first
   std::vector<VoteSum>* sums = nullptr;
+  size_t contexts = 1;
 };
 
 void AddVote(const Eigen::Vector3i& offset_mm, const VoteSum* before, VoteSum* sum) {
@@ -108,13 +109,15 @@ void SumVotes(const Tree& tree, const std::vector<int32_t>& row_of_leaf, const I
     oneapi::tbb::parallel_for(size_t{0}, images.size(), [&](size_t i) {
       const StoredImage& image = images[i];
       const std::vector<int32_t> leaf = LeavesOf(tree, image, kVoteEvery);
+      const size_t contexts = pass.contexts;
       for (size_t s = 0; s < leaf.size(); ++s) {
         const PixelSample& pixel = image.samples[s * kVoteEvery];
         const Eigen::Vector3f at_m =
             depth::BackProject(image.camera, pixel.x, pixel.y,
                                image.image.depth_mm[image.image.At(pixel.x, pixel.y)])
                 .cast<float>();
-        const size_t row = static_cast<size_t>(row_of_leaf[static_cast<size_t>(leaf[s])]) * targets;
+        const auto node = static_cast<size_t>(row_of_leaf[static_cast<size_t>(leaf[s])]);
+        const size_t row = (node * contexts + image.context) * targets;
         for (size_t t = 0; t < targets; ++t) {
           if (!image.target_m[t].allFinite()) continue;
           const Eigen::Vector3i offset_mm =
@@ -144,15 +147,17 @@ Vote PackVote(const VoteSum& place, const VoteSum& last) {
   return vote;
 }
 
-void FillVotes(const ImageParts& parts, const Reducer& reducer, size_t targets, Tree* tree) {
+void FillVotes(const ImageParts& parts, const Reducer& reducer, size_t contexts, size_t targets,
+               Tree* tree) {
   size_t rows = 0;
   const std::vector<int32_t> row_of_leaf = VoteRows(*tree, &rows);
+  rows *= contexts;
   std::vector<VoteSum> before;
   std::vector<VoteSum> sums;
   for (int pass = 0; pass <= kTrimPasses; ++pass) {
     before = std::move(sums);
     sums.assign(rows * targets, VoteSum{});
-    SumVotes(*tree, row_of_leaf, parts, targets, {pass == 0 ? nullptr : &before, &sums});
+    SumVotes(*tree, row_of_leaf, parts, targets, {pass == 0 ? nullptr : &before, &sums, contexts});
     reducer.Sum(std::span<int64_t>(reinterpret_cast<int64_t*>(sums.data()), sums.size() * kFields));
   }
   tree->votes.resize(rows * targets);
@@ -183,7 +188,7 @@ void FillLeaves(const ImageParts& parts, const Reducer& reducer, size_t class_co
     CountCells(tree, parts, class_count, cells, &counts);
     reducer.Sum(std::span<uint32_t>(counts));
     PackEntries(counts, cells, &tree);
-    if (target_count > 0) FillVotes(parts, reducer, target_count, &tree);
+    if (target_count > 0) FillVotes(parts, reducer, context_count, target_count, &tree);
   }
 }
 

@@ -177,7 +177,7 @@ void TrainOptions::Check() const {
   Require(min_node_pixels >= 2, "min_node_pixels", min_node_pixels, "[2, ...)");
   Require(min_gain_bits >= 0, "min_gain_bits", min_gain_bits, "[0, ...)");
   Require(context_share >= 0 && context_share <= 1, "context_share", context_share, "[0, 1]");
-  Require(vote_depth >= 0 && vote_depth <= 24, "vote_depth", vote_depth, "[0, 24]");
+  Require(vote_depth >= 0 && vote_depth <= 18, "vote_depth", vote_depth, "[0, 18]");
   Require(threads >= 0 && threads <= 1024, "threads", threads, "[0, 1024]");
   Require(memory_bytes >= (uint64_t{1} << 20U), "memory_bytes", static_cast<double>(memory_bytes),
           "[1 MiB, ...)");

@@ -2,6 +2,7 @@
 
 #include <CLI/CLI.hpp>
 #include <filesystem>
+#include <nlohmann/json.hpp>
 
 #include "depth/error.h"
 #include "depth/file/atomic_file.h"
@@ -20,6 +21,17 @@ void WriteText(const std::string& path, const std::string& text) {
   file.Commit();
 }
 
+void NoteInCard(const std::string& path, const forest::ForestModel& model, const std::string& name,
+                const std::string& evaluation) {
+  auto card = nlohmann::ordered_json::parse(model.manifest());
+  auto numbers = nlohmann::ordered_json::parse(evaluation);
+  numbers.erase("ap_10cm_visible");
+  card["accuracy"][name] = numbers;
+  forest::ForestData data = model.data();
+  data.manifest = card.dump(2);
+  forest::WriteForestModel(path, forest::ForestModel(std::move(data)));
+}
+
 }  // namespace
 
 int Evaluate(int argc, char** argv) {
@@ -28,12 +40,15 @@ int Evaluate(int argc, char** argv) {
   std::string dataset_path;
   std::string json_path;
   std::string report_path;
+  std::string card_name;
   int64_t step = 1;
   bool quiet = false;
   app.add_option("MODEL", model_path, "a .ossa file")->required();
   app.add_option("DATASET", dataset_path, "a folder made by ossa render")->required();
   app.add_option("--json", json_path, "write the numbers here");
   app.add_option("--report", report_path, "write a page with tables here");
+  app.add_option("--card", card_name,
+                 "note the numbers in the model's card under this name (rewrites MODEL)");
   app.add_option("--every", step, "look at every N-th frame")
       ->capture_default_str()
       ->check(CLI::PositiveNumber);
@@ -52,6 +67,7 @@ int Evaluate(int argc, char** argv) {
   fmt::print("{}", json);
   WriteText(json_path, json);
   WriteText(report_path, tools::EvaluationHtml(evaluation, model_path + " on " + dataset_path));
+  if (!card_name.empty()) NoteInCard(model_path, model, card_name, json);
   return 0;
 }
 

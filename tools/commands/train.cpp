@@ -1,11 +1,13 @@
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
-#include <array>
+#include <algorithm>
 #include <filesystem>
 #include <nlohmann/json.hpp>
+#include <sstream>
 
 #include "depth/error.h"
+#include "forest/compact.h"
 #include "forest/import_pcl.h"
 #include "forest/train.h"
 #include "forest/train_mpi.h"
@@ -26,6 +28,8 @@ struct TrainArguments {
   std::string memory = "8G";
   std::string command;
   bool quiet = false;
+  double max_megabytes = 0;
+  std::vector<std::string> terms;
   size_t validation_images = 800;
   forest::TrainOptions options;
 };
@@ -80,6 +84,11 @@ void AddOptions(CLI::App* app, TrainArguments* a) {
       ->capture_default_str();
   app->add_option("--memory", a->memory, "for images; larger data stream in parts")
       ->capture_default_str();
+  app->add_option("--max-megabytes", a->max_megabytes,
+                  "leave the rarest leaf entries out until the file fits (0: keep all)")
+      ->check(CLI::NonNegativeNumber);
+  app->add_option("--terms", a->terms, "terms of the data, for the model's card; repeat for more")
+      ->allow_extra_args(false);
   app->add_option("--seed", o.seed, "of every random choice")->capture_default_str();
   app->add_option("--threads", o.threads, "0: all cores")->capture_default_str();
   app->add_flag("--resume", o.resume, "go on from OUT.checkpoint where a run was cut off");
@@ -100,21 +109,48 @@ void ShowProgress(Progress* bar, const forest::TrainProgress& p) {
                   p.seconds_left));
 }
 
+// Only names of files, not where they lay: a card travels.
+std::string WithoutFolders(const std::string& line) {
+  std::istringstream words(line);
+  std::string out;
+  std::string word;
+  while (words >> word) {
+    if (!out.empty()) out += ' ';
+    const bool is_path = word.find('/') != std::string::npos;
+    out += is_path ? fs::path(word).filename().string() : word;
+  }
+  return out;
+}
+
+// FNV-1a, 64 bits: names the data, guards nothing.
+uint64_t Fnv1a(const std::string& text) {
+  uint64_t hash = 0xcbf29ce484222325ULL;
+  for (const char c : text) hash = (hash ^ static_cast<uint8_t>(c)) * 0x100000001b3ULL;
+  return hash;
+}
+
+// What the data sets say of their terms, each once, and what --terms adds.
+std::vector<std::string> AllTerms(const TrainArguments& a, const tools::PersonSource& source) {
+  std::vector<std::string> all = a.terms;
+  for (const tools::DatasetManifest& m : source.manifests()) {
+    for (const std::string& terms : m.terms) {
+      const bool known = std::find(all.begin(), all.end(), terms) != all.end();
+      if (!known && terms.find('/') == std::string::npos) all.push_back(terms);
+    }
+  }
+  return all;
+}
+
 nlohmann::ordered_json Card(const TrainArguments& a, const tools::PersonSource& source,
                             const forest::TrainSummary& summary) {
   nlohmann::ordered_json card;
   card["command"] = a.command;
   card["data"] = nlohmann::ordered_json::array();
   for (const tools::DatasetManifest& m : source.manifests()) {
-    card["data"].push_back({{"command", m.command},
-                            {"frames", m.frames},
-                            {"seed", m.seed},
-                            {"split", m.split},
-                            {"view", m.view},
-                            {"sources", m.sources},
-                            {"terms", m.terms}});
+    card["data"].push_back({{"command", WithoutFolders(m.command)}, {"frames", m.frames}});
   }
-  card["fingerprint"] = source.fingerprint();
+  card["terms"] = AllTerms(a, source);
+  card["data_hash"] = fmt::format("{:016x}", Fnv1a(source.fingerprint()));
   card["images"] = summary.images;
   card["pixels"] = summary.pixels;
   card["evaluations"] = summary.evaluations;
@@ -146,6 +182,9 @@ int TrainOnData(TrainArguments* a, const forest::Reducer& reducer) {
   forest::TrainSummary summary;
   forest::ForestModel model = forest::Train(source, tools::BodyVocabulary(), o, reducer, &summary);
   if (reducer.rank() != 0) return 0;
+  if (a->max_megabytes > 0) {
+    model = forest::FitInto(model, static_cast<uint64_t>(a->max_megabytes * 1e6));
+  }
   if (held_out.size() > 0) {
     model = forest::LearnProposals(model, held_out, a->validation_images, o.threads);
   }
@@ -158,13 +197,8 @@ int TrainOnData(TrainArguments* a, const forest::Reducer& reducer) {
 
 std::string CommandLine(int argc, char** argv) {
   std::string line = "ossa";
-  for (int i = 0; i < argc; ++i) {
-    // Only names of files, not where they lay: a card travels.
-    const std::string word = argv[i];
-    const bool is_path = word.find('/') != std::string::npos;
-    line.append(1, ' ').append(is_path ? fs::path(word).filename().string() : word);
-  }
-  return line;
+  for (int i = 0; i < argc; ++i) line.append(1, ' ').append(argv[i]);
+  return WithoutFolders(line);
 }
 
 }  // namespace
