@@ -33,6 +33,7 @@ class Parameters {
 
   double Number(const std::string& key, double usual);
   int Integer(const std::string& key, int usual);
+  bool Flag(const std::string& key, bool usual);
   std::string Text(const std::string& key, const std::string& usual);
   std::vector<std::string> Texts(const std::string& key, const std::vector<std::string>& usual);
   std::vector<double> Numbers(const std::string& key, const std::vector<double>& usual);
@@ -47,6 +48,7 @@ class Parameters {
     std::vector<double> numbers;
     std::vector<std::string> texts;
     bool list = false;
+    bool flag = false;  // true or false, as the number 1 or 0
     int line = 0;
   };
   const Value* Find(const std::string& key, bool numbers, bool list);
@@ -65,6 +67,7 @@ struct ExperimentContext {
   Parameters parameters;
   uint64_t seed = 1;
   int threads = 1;
+  bool full = false;  // the study's long form; the short one takes a minute or two
   std::function<void(double done, double total, const std::string& note)> progress;
   std::function<bool()> interrupted;  // true: stop soon by throwing Interruption
 
@@ -75,7 +78,8 @@ struct ExperimentContext {
   std::string Cached(const std::string& key, const std::function<std::string()>& compute) const;
 };
 
-/// "NAME:XXH3 of its content" for cache keys.
+/// XXH3 of a text, 32 hexadecimal digits, and "NAME:XXH3 of its content", for cache keys.
+std::string ContentHash(const std::string& text);
 std::string KeyOfFile(const std::filesystem::path& path);
 
 /// The user stopped the study; what is cached stays.
