@@ -38,6 +38,8 @@ int Experiment(int argc, char** argv) {
   app.add_option("--threads", context.threads, "cores to use")
       ->check(CLI::Range(1, 1024))
       ->capture_default_str();
+  app.add_flag("--full", context.full,
+               "the long form: more clips, frames and settings (the short one takes minutes)");
   app.add_flag("--quiet", quiet, "no progress");
   app.footer(ListOfExperiments());
   Parse(app, argc, argv);

@@ -14,11 +14,6 @@
 namespace ossa::tools {
 namespace {
 
-std::string HashOf(const std::string& text) {
-  const XXH128_hash_t hash = XXH3_128bits(text.data(), text.size());
-  return fmt::format("{:016x}{:016x}", hash.high64, hash.low64);
-}
-
 std::string ReadAll(const std::filesystem::path& path) {
   std::ifstream file(path, std::ios::binary);
   if (!file) throw InputError(path.string() + ": cannot be opened for reading");
@@ -74,7 +69,7 @@ std::string ToMarkdown(const Table& table) {
 std::string ExperimentContext::Cached(const std::string& key,
                                       const std::function<std::string()>& compute) const {
   const auto folder = out / "cache";
-  const auto path = folder / (HashOf(key) + ".txt");
+  const auto path = folder / (ContentHash(key) + ".txt");
   if (std::filesystem::exists(path)) {
     // The key stands first, so that a stranger's file or a damaged one is computed anew.
     const std::string text = ReadAll(path);
@@ -88,8 +83,13 @@ std::string ExperimentContext::Cached(const std::string& key,
   return result;
 }
 
+std::string ContentHash(const std::string& text) {
+  const XXH128_hash_t hash = XXH3_128bits(text.data(), text.size());
+  return fmt::format("{:016x}{:016x}", hash.high64, hash.low64);
+}
+
 std::string KeyOfFile(const std::filesystem::path& path) {
-  return path.filename().string() + ":" + HashOf(ReadAll(path));
+  return path.filename().string() + ":" + ContentHash(ReadAll(path));
 }
 
 std::vector<Table> RunExperiment(const std::string& name, ExperimentContext& context) {

@@ -65,6 +65,7 @@ struct ExperimentContext {
   Parameters parameters;
   uint64_t seed = 1;
   int threads = 1;
+  bool full = false;  // the study's long form; the short one takes a minute or two
   std::function<void(double done, double total, const std::string& note)> progress;
   std::function<bool()> interrupted;  // true: stop soon by throwing Interruption
 
@@ -75,7 +76,8 @@ struct ExperimentContext {
   std::string Cached(const std::string& key, const std::function<std::string()>& compute) const;
 };
 
-/// "NAME:XXH3 of its content" for cache keys.
+/// XXH3 of a text, 32 hexadecimal digits, and "NAME:XXH3 of its content", for cache keys.
+std::string ContentHash(const std::string& text);
 std::string KeyOfFile(const std::filesystem::path& path);
 
 /// The user stopped the study; what is cached stays.
