@@ -16,6 +16,7 @@ constexpr std::array kCommands = {
     Command{"compare", "judge skeletons against the truth", ossa::commands::Compare},
     Command{"experiment", "run a study: a paper's tables beside its own numbers",
             ossa::commands::Experiment},
+    Command{"study", "run an experiment as a TOML file describes it", ossa::commands::Study},
     Command{"database", "build a posture database from motion capture", ossa::commands::Database},
     Command{"learn", "learn a sensor's errors from observed and true skeletons",
             ossa::commands::Learn},

@@ -18,6 +18,30 @@ std::string ListOfExperiments() {
   return list;
 }
 
+// Runs it with a progress bar and prints its tables and what it was run with.
+int RunAndPrint(const std::string& name, tools::ExperimentContext& context, bool quiet) {
+  Progress progress(name, quiet);
+  context.progress = [&](double done, double total, const std::string& note) {
+    progress.Update(done, total, note);
+  };
+  context.interrupted = Interrupted;
+  try {
+    const auto tables = tools::RunExperiment(name, context);
+    fmt::print("ossa experiment {}, seed {}\n\n", name, context.seed);
+    for (const tools::Table& table : tables) fmt::print("{}\n", tools::ToMarkdown(table));
+    fmt::print("Parameters (also in {}):\n{}", (context.out / "parameters.toml").string(),
+               context.parameters.Used());
+  } catch (const tools::Interruption&) {
+    throw InputError(name + ": stopped; the same command goes on where it was");
+  }
+  return 0;
+}
+
+int Threads(int threads) {
+  if (threads >= 1 && threads <= 1024) return threads;
+  throw InputError(fmt::format("threads = {}: expected 1 to 1024", threads));
+}
+
 }  // namespace
 
 int Experiment(int argc, char** argv) {
@@ -45,19 +69,37 @@ int Experiment(int argc, char** argv) {
   Parse(app, argc, argv);
 
   if (!parameters.empty()) context.parameters = tools::Parameters::FromToml(parameters);
-  Progress progress(name, quiet);
-  context.progress = [&](double done, double total, const std::string& note) {
-    progress.Update(done, total, note);
-  };
-  context.interrupted = Interrupted;
-  try {
-    const auto tables = tools::RunExperiment(name, context);
-    fmt::print("ossa experiment {}, seed {}\n\n", name, context.seed);
-    for (const tools::Table& table : tables) fmt::print("{}\n", tools::ToMarkdown(table));
-  } catch (const tools::Interruption&) {
-    throw InputError(name + ": stopped; the same command goes on where it was");
+  return RunAndPrint(name, context, quiet);
+}
+
+int Study(int argc, char** argv) {
+  CLI::App app("Run a study that a TOML file describes; the same command resumes it");
+  std::string file;
+  bool quiet = false;
+  app.add_option("FILE", file,
+                 "experiment = \"NAME\", out = \"FOLDER\"; shared, model, database, seed, threads, "
+                 "full as the options of `ossa experiment`; every other key is a parameter of the "
+                 "experiment")
+      ->required();
+  app.add_flag("--quiet", quiet, "no progress");
+  app.footer(ListOfExperiments());
+  Parse(app, argc, argv);
+
+  tools::ExperimentContext context;
+  context.parameters = tools::Parameters::FromToml(file);
+  tools::Parameters& given = context.parameters;
+  const std::string name = given.Text("experiment", "");
+  context.out = given.Text("out", "");
+  if (name.empty() || context.out.empty()) {
+    throw InputError(file + ": expected experiment = \"NAME\" and out = \"FOLDER\"");
   }
-  return 0;
+  context.shared = given.Text("shared", "");
+  context.model = given.Text("model", "");
+  context.database = given.Text("database", "");
+  context.full = given.Flag("full", false);
+  context.threads = Threads(given.Integer("threads", 1));
+  context.seed = static_cast<uint64_t>(std::max(0, given.Integer("seed", 1)));
+  return RunAndPrint(name, context, quiet);
 }
 
 }  // namespace ossa::commands

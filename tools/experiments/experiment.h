@@ -33,6 +33,7 @@ class Parameters {
 
   double Number(const std::string& key, double usual);
   int Integer(const std::string& key, int usual);
+  bool Flag(const std::string& key, bool usual);
   std::string Text(const std::string& key, const std::string& usual);
   std::vector<std::string> Texts(const std::string& key, const std::vector<std::string>& usual);
   std::vector<double> Numbers(const std::string& key, const std::vector<double>& usual);
@@ -47,6 +48,7 @@ class Parameters {
     std::vector<double> numbers;
     std::vector<std::string> texts;
     bool list = false;
+    bool flag = false;  // true or false, as the number 1 or 0
     int line = 0;
   };
   const Value* Find(const std::string& key, bool numbers, bool list);

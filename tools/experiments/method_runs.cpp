@@ -4,6 +4,8 @@
 
 #include <algorithm>
 #include <chrono>
+#include <map>
+#include <sstream>
 
 #include "depth/error.h"
 #include "recon/database/posture_database.h"
@@ -100,6 +102,61 @@ std::vector<PairedTracks> RunOverClips(const ExperimentContext& context, const M
 std::vector<ClipMetrics> MeasureAll(const std::vector<PairedTracks>& pairs) {
   std::vector<ClipMetrics> metrics;
   for (const PairedTracks& pair : pairs) metrics.push_back(Measure(pair));
+  return metrics;
+}
+
+namespace {
+
+constexpr std::optional<double> ClipMetrics::*kCachedMetrics[] = {
+    &ClipMetrics::mean_joint_error_cm,
+    &ClipMetrics::parent_relative_error_cm,
+    &ClipMetrics::fraction_frames_over_20cm,
+    &ClipMetrics::fraction_joints_within_10cm,
+    &ClipMetrics::map_10cm,
+    &ClipMetrics::acceleration_error_cm_per_frame2,
+    &ClipMetrics::offset_removed_error_cm,
+    &ClipMetrics::bone_length_variation_percent,
+    &ClipMetrics::p95_cm,
+    &ClipMetrics::p99_cm,
+    &ClipMetrics::fraction_joints_missing};
+
+std::string TextOf(const ClipMetrics& metrics) {
+  std::string text = fmt::format("{}", metrics.frames);
+  for (const auto member : kCachedMetrics) {
+    text += metrics.*member ? fmt::format(" {:.17g}", *(metrics.*member)) : " -";
+  }
+  return text;
+}
+
+ClipMetrics MetricsOf(const std::string& text) {
+  std::istringstream words(text);
+  ClipMetrics metrics;
+  words >> metrics.frames;
+  for (const auto member : kCachedMetrics) {
+    std::string word;
+    words >> word;
+    if (word != "-") metrics.*member = std::stod(word);
+  }
+  return metrics;
+}
+
+}  // namespace
+
+ClipMetrics MeasureRun(const ExperimentContext& context, const MethodRun& run,
+                       const RecordedPair& clip, bool align_clocks) {
+  const std::string key =
+      fmt::format("metrics 1 {} {} on {} {}", align_clocks, KeyOf(context, run),
+                  ContentHash(TextOf(clip.observed)), ContentHash(TextOf(clip.truth)));
+  ClipMetrics metrics = MetricsOf(context.Cached(key, [&] {
+    const auto made = run.options.method == "butterworth"
+                          ? recon::ButterworthSequence(clip.observed)
+                          : recon::ReconstructSequence(clip.observed, run.options);
+    PairOptions pairing;
+    pairing.time = align_clocks ? TimeAlignment::kAuto : TimeAlignment::kNone;
+    const auto pairs = PairUp(clip.truth, made, pairing);
+    return TextOf(pairs.empty() ? ClipMetrics{} : Measure(pairs[0]));
+  }));
+  metrics.name = clip.clip;
   return metrics;
 }
 

@@ -42,6 +42,11 @@ std::vector<PairedTracks> RunOverClips(const ExperimentContext& context, const M
                                        const std::vector<RecordedPair>& clips);
 std::vector<ClipMetrics> MeasureAll(const std::vector<PairedTracks>& pairs);
 
+/// The numbers of one clip without per-joint ones; only they are cached, for studies of thousands
+/// of clips. `align_clocks`: look for the time offset where the frame times disagree.
+ClipMetrics MeasureRun(const ExperimentContext& context, const MethodRun& run,
+                       const RecordedPair& clip, bool align_clocks = false);
+
 /// Milliseconds a frame of the method, median over the frames of the recording. Not cached: a time
 /// is of this machine and now.
 double MedianStep_ms(const MethodRun& run, const recon::SkeletonSequence& observed);

@@ -48,7 +48,10 @@ Parameters Parameters::FromToml(const std::filesystem::path& path) {
     Value value;
     value.line = static_cast<int>(node.source().begin.line);
     const auto add = [&](const toml::node& item) {
-      if (const auto number = item.value<double>(); number && !item.is_boolean()) {
+      if (item.is_boolean()) {
+        value.numbers.push_back(*item.value<bool>() ? 1.0 : 0.0);
+        value.flag = true;
+      } else if (const auto number = item.value<double>()) {
         if (!std::isfinite(*number)) Fail(parameters.source_, value.line, name + " to be finite");
         value.numbers.push_back(*number);
       } else if (const auto text = item.value<std::string>()) {
@@ -80,8 +83,17 @@ const Parameters::Value* Parameters::Find(const std::string& key, bool numbers, 
   return &value;
 }
 
+bool Parameters::Flag(const std::string& key, bool usual) {
+  const Value* value = Find(key, true, false);
+  if (value != nullptr && !value->flag) Fail(source_, value->line, key + " as true or false");
+  const bool flag = value != nullptr ? value->numbers.at(0) != 0 : usual;
+  used_[key] = flag ? "true" : "false";
+  return flag;
+}
+
 double Parameters::Number(const std::string& key, double usual) {
   const Value* value = Find(key, true, false);
+  if (value != nullptr && value->flag) Fail(source_, value->line, key + " as a number");
   const double number = value != nullptr ? value->numbers.at(0) : usual;
   used_[key] = fmt::format("{}", number);
   return number;

@@ -11,15 +11,16 @@ Eigen::Vector3d SimulatedSdk::Noise(double deviation_m) {
 Eigen::Vector3d SimulatedSdk::Hidden(const StagedFrame& frame, const Eigen::Vector3d& true_m,
                                      const Eigen::Vector3d& hips_m, JointMemory& memory) {
   constexpr double kGrabbedShare = 0.5;
-  constexpr double kWander_m = 0.015;   // a frame: 15 cm after a hundred frames
-  constexpr double kFlesh_m = 0.05;     // how deep the SDK puts a joint behind the surface it sees
+  constexpr double kWander_m = 0.02;  // a frame
+  constexpr double kHome = 0.97;      // and back towards where it was: 8 cm an axis in the long run
+  constexpr double kFlesh_m = 0.05;   // how deep the SDK puts a joint behind the surface it sees
   constexpr double kSameDepth_m = 0.1;  // nearer than this the surface is the joint's own
   if (!memory.hidden) {
     memory.hidden = true;
     memory.grabbed = random_.Chance(kGrabbedShare);
     memory.wander_m.setZero();
   }
-  memory.wander_m += Noise(kWander_m);
+  memory.wander_m = kHome * memory.wander_m + Noise(kWander_m);
   if (memory.grabbed && true_m.z() > 0) {
     const depth::DepthView view = frame.depth.view();
     const Eigen::Vector2d pixel = depth::Project(frame.depth.camera, true_m);
@@ -33,7 +34,7 @@ Eigen::Vector3d SimulatedSdk::Hidden(const StagedFrame& frame, const Eigen::Vect
     }
   }
   return memory.seen_once ? Eigen::Vector3d(hips_m + memory.from_hips_m + memory.wander_m)
-                          : Eigen::Vector3d(true_m + 4 * memory.wander_m);
+                          : Eigen::Vector3d(true_m + memory.wander_m);
 }
 
 recon::SkeletonFrame SimulatedSdk::Observe(const StagedFrame& frame) {

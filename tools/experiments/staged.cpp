@@ -27,7 +27,7 @@
 namespace ossa::tools {
 namespace {
 
-constexpr const char* kVersion = "staged 1";  // part of every cache key; raise when frames change
+constexpr const char* kVersion = "staged 2";  // part of every cache key; raise when frames change
 constexpr double kSensorHeight_m = 1.0;
 
 // Camera space has x to the sensor's left, y up, z forward.

@@ -50,7 +50,16 @@ TEST_F(StudyParameters, ThatAreWrongAreRefusedByLine) {
   EXPECT_NE(Complaint("samples = \n").find("p.toml: line 1"), std::string::npos);
   EXPECT_NE(Complaint("[samples]\nx = 1\n").find("samples"), std::string::npos);
   EXPECT_NE(Complaint("samples = nan\n").find("finite"), std::string::npos);
+  EXPECT_NE(Complaint("samples = true\n").find("samples as a number"), std::string::npos);
   EXPECT_EQ(Complaint("samples = \n").find('\n'), std::string::npos);
+}
+
+TEST_F(StudyParameters, MayBeFlags) {
+  Parameters p = From("full = true\nsamples = 2\n");
+  EXPECT_TRUE(p.Flag("full", false));
+  EXPECT_FALSE(p.Flag("other", false));
+  EXPECT_THROW(p.Flag("samples", false), InputError);
+  EXPECT_NE(p.Used().find("full = true"), std::string::npos);
 }
 
 TEST(CachedResults, AreComputedOnceAndSurviveOnlyTheirOwnKey) {
@@ -90,6 +99,23 @@ TEST(ExperimentCommand, RefusesUnknownStudiesAndMissingData) {
   EXPECT_NE(run.err.find("--shared"), std::string::npos) << run.err;
   run = test::RunOssa({"experiment", "sdk"});
   EXPECT_EQ(run.exit_status, 2);
+}
+
+TEST(StudyCommand, RefusesAFileThatSaysTooLittleOrTooMuch) {
+  const test::TemporaryFolder folder;
+  const auto complaint = [&](const std::string& text) {
+    std::ofstream(folder / "s.toml") << text;
+    const auto run = test::RunOssa({"study", folder / "s.toml"});
+    EXPECT_EQ(run.exit_status, 1);
+    EXPECT_EQ(test::LineCount(run.err), 1) << run.err;
+    return run.err;
+  };
+  EXPECT_NE(complaint("seed = 1\n").find("expected experiment"), std::string::npos);
+  const std::string out = "out = \"" + (folder / "o").string() + "\"\n";
+  EXPECT_NE(complaint("experiment = \"nonsense\"\n" + out).find("expected one of"),
+            std::string::npos);
+  EXPECT_NE(complaint("experiment = \"sdk\"\nthreads = 0\n" + out).find("threads = 0"),
+            std::string::npos);
 }
 
 }  // namespace
