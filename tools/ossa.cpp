@@ -6,6 +6,7 @@
 
 #include "tools/commands/command.h"
 #include "tools/commands/commands.h"
+#include "tools/commands/study.h"
 
 namespace {
 

@@ -6,7 +6,6 @@ namespace ossa::commands {
 int Evaluate(int argc, char** argv);
 int Compare(int argc, char** argv);
 int Experiment(int argc, char** argv);
-int Study(int argc, char** argv);
 int Database(int argc, char** argv);
 int Learn(int argc, char** argv);
 int Reconstruct(int argc, char** argv);

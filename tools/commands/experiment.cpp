@@ -5,6 +5,7 @@
 #include "depth/error.h"
 #include "tools/commands/command.h"
 #include "tools/commands/commands.h"
+#include "tools/commands/study.h"
 #include "tools/experiments/experiment.h"
 
 namespace ossa::commands {

@@ -18,5 +18,7 @@ std::vector<Table> RunShum2013(ExperimentContext& context);
 std::vector<Table> RunPlantard2016(ExperimentContext& context);
 /// Liu et al. 2016: tables 3 to 5, figures 3, 7 and 8.
 std::vector<Table> RunLiu2016(ExperimentContext& context);
+/// Shotton et al. 2011: accuracy against images and depth, precision by joint.
+std::vector<Table> RunShotton2011(ExperimentContext& context);
 
 }  // namespace ossa::tools

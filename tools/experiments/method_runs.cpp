@@ -143,16 +143,14 @@ ClipMetrics MetricsOf(const std::string& text) {
 }  // namespace
 
 ClipMetrics MeasureRun(const ExperimentContext& context, const MethodRun& run,
-                       const RecordedPair& clip, bool align_clocks) {
-  const std::string key =
-      fmt::format("metrics 1 {} {} on {} {}", align_clocks, KeyOf(context, run),
-                  ContentHash(TextOf(clip.observed)), ContentHash(TextOf(clip.truth)));
+                       const RecordedPair& clip, const PairOptions& pairing) {
+  const std::string key = fmt::format(
+      "metrics 2 {} {} {} on {} {}", static_cast<int>(pairing.time), pairing.rigid,
+      KeyOf(context, run), ContentHash(TextOf(clip.observed)), ContentHash(TextOf(clip.truth)));
   ClipMetrics metrics = MetricsOf(context.Cached(key, [&] {
     const auto made = run.options.method == "butterworth"
                           ? recon::ButterworthSequence(clip.observed)
                           : recon::ReconstructSequence(clip.observed, run.options);
-    PairOptions pairing;
-    pairing.time = align_clocks ? TimeAlignment::kAuto : TimeAlignment::kNone;
     const auto pairs = PairUp(clip.truth, made, pairing);
     return TextOf(pairs.empty() ? ClipMetrics{} : Measure(pairs[0]));
   }));

@@ -43,9 +43,10 @@ std::vector<PairedTracks> RunOverClips(const ExperimentContext& context, const M
 std::vector<ClipMetrics> MeasureAll(const std::vector<PairedTracks>& pairs);
 
 /// The numbers of one clip without per-joint ones; only they are cached, for studies of thousands
-/// of clips. `align_clocks`: look for the time offset where the frame times disagree.
+/// of clips.
 ClipMetrics MeasureRun(const ExperimentContext& context, const MethodRun& run,
-                       const RecordedPair& clip, bool align_clocks = false);
+                       const RecordedPair& clip,
+                       const PairOptions& pairing = {.time = TimeAlignment::kNone});
 
 /// Milliseconds a frame of the method, median over the frames of the recording. Not cached: a time
 /// is of this machine and now.

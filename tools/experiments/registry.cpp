@@ -8,6 +8,8 @@ constexpr Experiment kExperiments[] = {
     {"sdk", "every method on every real recording; the SDK's skeletons as the baseline", RunSdk},
     {"shum-ho-2012", "the physical character: the paper's scenes, the filter, fig. 5",
      RunShumHo2012},
+    {"shotton-2011", "body parts: accuracy against images and depth, precision by joint",
+     RunShotton2011},
     {"shum-2013", "posture reconstruction: tables III and IV, figs. 8 and 9", RunShum2013},
     {"plantard-2016", "filtered pose graph: ten occluded scenarios, figs. 5-7 and 9, tests",
      RunPlantard2016},
