@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <chrono>
 #include <map>
-#include <sstream>
 
 #include "depth/error.h"
 #include "recon/database/posture_database.h"
@@ -18,7 +17,7 @@ namespace ossa::tools {
 namespace {
 
 // Raise when a method changes what it gives for the same options.
-constexpr const char* kVersion = "methods 1";
+constexpr const char* kVersion = "methods 2";
 
 std::string KeyOf(const ExperimentContext& context, const MethodRun& run) {
   const recon::ReconstructorOptions& o = run.options;
@@ -26,12 +25,13 @@ std::string KeyOf(const ExperimentContext& context, const MethodRun& run) {
   const auto& gp = o.gaussian_process;
   const auto& best = o.best;
   std::string key = fmt::format(
-      "{} {} seed {} pca {} {} {} {} {} {} {} {} {} {} {} gp {} {} {} {} {} best {} {} {} {} {} {}",
+      "{} {} seed {} pca {} {} {} {} {} {} {} {} {} {} {} gp {} {} {} {} {} best {} {} {} {} {} {} "
+      "{} {} {}",
       kVersion, o.method, o.seed, pca.neighbours, pca.dimensions, pca.steps, pca.samples,
       pca.control, pca.style, pca.kinematics, pca.continuity, pca.solver, pca.use_reliability,
       pca.extend_database, gp.nearby_models, gp.spatial, gp.temporal, gp.reliability,
-      gp.incremental, best.complete, best.filter, best.neighbours, best.dimensions, best.continuity,
-      best.space_noise_m);
+      gp.incremental, best.repair, best.correct, best.bones, best.complete, best.filter,
+      best.neighbours, best.dimensions, best.continuity, best.space_noise_m);
   if (o.database) {
     key.append(" ").append(run.database_key.empty() ? KeyOfFile(DatabaseOf(context).path)
                                                     : run.database_key);
@@ -47,8 +47,8 @@ void StopWhenInterrupted(const ExperimentContext& context) {
 
 }  // namespace
 
-StudyDatabase DatabaseOf(const ExperimentContext& context) {
-  StudyDatabase database;
+OpenDatabase DatabaseOf(const ExperimentContext& context) {
+  OpenDatabase database;
   database.path =
       context.database.empty() ? tracker::ShippedFile("authored.ossadb") : context.database;
   static std::map<std::filesystem::path, std::shared_ptr<const recon::PostureDatabase>> kOpen;
@@ -102,59 +102,6 @@ std::vector<PairedTracks> RunOverClips(const ExperimentContext& context, const M
 std::vector<ClipMetrics> MeasureAll(const std::vector<PairedTracks>& pairs) {
   std::vector<ClipMetrics> metrics;
   for (const PairedTracks& pair : pairs) metrics.push_back(Measure(pair));
-  return metrics;
-}
-
-namespace {
-
-constexpr std::optional<double> ClipMetrics::*kCachedMetrics[] = {
-    &ClipMetrics::mean_joint_error_cm,
-    &ClipMetrics::parent_relative_error_cm,
-    &ClipMetrics::fraction_frames_over_20cm,
-    &ClipMetrics::fraction_joints_within_10cm,
-    &ClipMetrics::map_10cm,
-    &ClipMetrics::acceleration_error_cm_per_frame2,
-    &ClipMetrics::offset_removed_error_cm,
-    &ClipMetrics::bone_length_variation_percent,
-    &ClipMetrics::p95_cm,
-    &ClipMetrics::p99_cm,
-    &ClipMetrics::fraction_joints_missing};
-
-std::string TextOf(const ClipMetrics& metrics) {
-  std::string text = fmt::format("{}", metrics.frames);
-  for (const auto member : kCachedMetrics) {
-    text += metrics.*member ? fmt::format(" {:.17g}", *(metrics.*member)) : " -";
-  }
-  return text;
-}
-
-ClipMetrics MetricsOf(const std::string& text) {
-  std::istringstream words(text);
-  ClipMetrics metrics;
-  words >> metrics.frames;
-  for (const auto member : kCachedMetrics) {
-    std::string word;
-    words >> word;
-    if (word != "-") metrics.*member = std::stod(word);
-  }
-  return metrics;
-}
-
-}  // namespace
-
-ClipMetrics MeasureRun(const ExperimentContext& context, const MethodRun& run,
-                       const RecordedPair& clip, const PairOptions& pairing) {
-  const std::string key = fmt::format(
-      "metrics 2 {} {} {} on {} {}", static_cast<int>(pairing.time), pairing.rigid,
-      KeyOf(context, run), ContentHash(TextOf(clip.observed)), ContentHash(TextOf(clip.truth)));
-  ClipMetrics metrics = MetricsOf(context.Cached(key, [&] {
-    const auto made = run.options.method == "butterworth"
-                          ? recon::ButterworthSequence(clip.observed)
-                          : recon::ReconstructSequence(clip.observed, run.options);
-    const auto pairs = PairUp(clip.truth, made, pairing);
-    return TextOf(pairs.empty() ? ClipMetrics{} : Measure(pairs[0]));
-  }));
-  metrics.name = clip.clip;
   return metrics;
 }
 

@@ -13,12 +13,12 @@
 namespace ossa::tools {
 
 /// A posture database and where it came from.
-struct StudyDatabase {
+struct OpenDatabase {
   std::filesystem::path path;
   std::shared_ptr<const recon::PostureDatabase> postures;
 };
 /// --database of the study, else the shipped one.
-StudyDatabase DatabaseOf(const ExperimentContext& context);
+OpenDatabase DatabaseOf(const ExperimentContext& context);
 
 /// A method with its settings, as a study compares it.
 struct MethodRun {
@@ -41,12 +41,6 @@ PairedTracks PairClip(const std::string& name, const recon::SkeletonSequence& tr
 std::vector<PairedTracks> RunOverClips(const ExperimentContext& context, const MethodRun& run,
                                        const std::vector<RecordedPair>& clips);
 std::vector<ClipMetrics> MeasureAll(const std::vector<PairedTracks>& pairs);
-
-/// The numbers of one clip without per-joint ones; only they are cached, for studies of thousands
-/// of clips.
-ClipMetrics MeasureRun(const ExperimentContext& context, const MethodRun& run,
-                       const RecordedPair& clip,
-                       const PairOptions& pairing = {.time = TimeAlignment::kNone});
 
 /// Milliseconds a frame of the method, median over the frames of the recording. Not cached: a time
 /// is of this machine and now.
