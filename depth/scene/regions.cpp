@@ -24,14 +24,38 @@ double RoomArea_m2(double z_m) {
 constexpr double kTop = 0.9;  // of the normal's share that points up
 constexpr double kTopArea_m2 = 0.12;
 
+double MeanDepth_m(const PointGrid& grid, const FlatPiece& piece) {
+  double z_m = 0;
+  for (const int cell : piece.cells) z_m += static_cast<double>(grid.z(cell));
+  return z_m / static_cast<double>(piece.cells.size());
+}
+
+// A piece of a wall that people in front have cut off lies in the wall's plane to a step of the
+// sensor.
+bool InPlaneOf(const PointGrid& grid, const FlatPiece& piece, const FlatPiece& wall) {
+  constexpr double kSameNormal = 0.97;  // 14 degrees
+  constexpr double kSameDepth_1_m = 2.9e-3;
+  if (piece.normal.dot(wall.normal) < kSameNormal) return false;
+  double off = 0;
+  for (const int cell : piece.cells) {
+    off += 1.0 / static_cast<double>(grid.z(cell)) - wall.slope_x * (cell % grid.width) -
+           wall.slope_y * (cell / grid.width) - wall.at_zero;
+  }
+  return std::abs(off) / static_cast<double>(piece.cells.size()) < kSameDepth_1_m;
+}
+
 void MarkFlatPieces(const PointGrid& grid, const Eigen::Vector3d& up, RoomShape& shape) {
-  for (const FlatPiece& piece : FlatPieces(grid, shape.room)) {
+  const std::vector<FlatPiece> pieces = FlatPieces(grid, shape.room);  // largest first
+  std::vector<const FlatPiece*> walls;
+  for (const FlatPiece& piece : pieces) {
     for (const int cell : piece.cells) shape.flat[static_cast<size_t>(cell)] = 1;
-    double z_m = 0;
-    for (const int cell : piece.cells) z_m += static_cast<double>(grid.z(cell));
-    z_m /= static_cast<double>(piece.cells.size());
     const bool top = piece.normal.dot(up) > kTop;
-    if (piece.area_m2 < (top ? kTopArea_m2 : RoomArea_m2(z_m))) continue;
+    const bool large = piece.area_m2 >= (top ? kTopArea_m2 : RoomArea_m2(MeanDepth_m(grid, piece)));
+    const bool of_wall = !large && std::any_of(walls.begin(), walls.end(), [&](const FlatPiece* w) {
+      return InPlaneOf(grid, piece, *w);
+    });
+    if (large) walls.push_back(&piece);
+    if (!large && !of_wall) continue;
     for (const int cell : piece.cells) shape.room[static_cast<size_t>(cell)] = 1;
   }
 }

@@ -30,7 +30,7 @@ using Bytes = std::vector<uint8_t>;
 void AppendBytes(const void* bytes, size_t size, Bytes* out) {
   const size_t at = out->size();
   out->resize(at + size);
-  std::memcpy(out->data() + at, bytes, size);
+  if (size > 0) std::memcpy(out->data() + at, bytes, size);
 }
 
 template <typename T>

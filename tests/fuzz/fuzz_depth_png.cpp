@@ -11,9 +11,10 @@
 std::vector<std::string> ossa::fuzz::Seeds() {
   std::vector<std::string> seeds;
   for (const int bits : {8, 16}) {
-    std::vector<uint8_t> samples(static_cast<size_t>(bits) / 8 * 5 * 3);
+    const size_t stride = 5 * static_cast<size_t>(bits / 8);
+    std::vector<uint8_t> samples(stride * 3);
     for (size_t i = 0; i < samples.size(); ++i) samples[i] = static_cast<uint8_t>(37 * i);
-    const auto png = depth::EncodeGreyPng(samples.data(), {5, 3}, bits, bits);
+    const auto png = depth::EncodeGreyPng(samples.data(), {5, 3}, stride, bits);
     seeds.emplace_back(png.begin(), png.end());
   }
   return seeds;

@@ -31,7 +31,8 @@ using std::chrono::milliseconds;
 
 struct TrackOptions {
   std::string source, out, camera, json_stats, picture, pictures;
-  std::string smoothing = "default", physics = "off", posture = "final", mode = "standing";
+  std::string smoothing = "default", physics = "off", control = "pd", posture = "final",
+              mode = "standing";
   tracker::TrackerOptions tracker;
   double wait_s = 0.0;
   double patience_s = 5.0;
@@ -50,6 +51,8 @@ void AddTrackerOptions(CLI::App& app, TrackOptions& options) {
       ->check(CLI::IsMember(recon::ReconstructionMethods()));
   app.add_option("--physics", options.physics, "let a mechanical character follow (default off)")
       ->check(CLI::IsMember({"on", "off"}));
+  app.add_option("--control", options.control, "of that character: pd or motor (default pd)")
+      ->check(CLI::IsMember({"pd", "motor"}));
   app.add_option("--smoothing", options.smoothing, "preset of the filter (default: default)")
       ->check(CLI::IsMember(tracker::SmoothingPresets()));
   app.add_option("--mode", options.mode, "standing (20 joints) or seated (the upper ten)")
@@ -95,6 +98,7 @@ TrackOptions ParseOptions(int argc, char** argv) {
         "track: nothing to do: name --out, --picture, --pictures, --json-stats or --view");
   }
   options.tracker.physics = options.physics == "on";
+  options.tracker.physics_motors = options.control == "motor";
   options.tracker.smoothing = tracker::SmoothingPreset(options.smoothing);
   if (options.mode == "seated") options.tracker.mode = tracker::TrackingMode::kSeated;
   options.tracker.keep_parts = !options.picture.empty() || !options.pictures.empty();

@@ -173,21 +173,31 @@ void WriteAnimation(const std::filesystem::path& path, const std::vector<Picture
 }
 
 Picture Strip(const std::vector<Picture>& frames, int count) {
-  if (frames.empty()) return {};
   count = std::min(count, static_cast<int>(frames.size()));
-  const int w = frames[0].width, h = frames[0].height;
-  Picture strip(w * count, h);
+  std::vector<Picture> picked;
   for (int k = 0; k < count; ++k) {
-    const size_t pick =
-        count == 1 ? 0
-                   : static_cast<size_t>(k) * (frames.size() - 1) / static_cast<size_t>(count - 1);
+    const size_t last = frames.size() - 1;
+    picked.push_back(
+        frames[count == 1 ? 0 : static_cast<size_t>(k) * last / static_cast<size_t>(count - 1)]);
+  }
+  return Sheet(picked, count);
+}
+
+Picture Sheet(const std::vector<Picture>& pictures, int columns) {
+  if (pictures.empty()) return {};
+  const int w = pictures[0].width, h = pictures[0].height;
+  const int rows = (static_cast<int>(pictures.size()) + columns - 1) / columns;
+  Picture sheet(w * columns, h * rows);
+  const auto row_bytes = static_cast<size_t>(3 * w);
+  for (size_t k = 0; k < pictures.size(); ++k) {
+    const int column = static_cast<int>(k) % columns, row = static_cast<int>(k) / columns;
     for (int y = 0; y < h; ++y) {
-      const auto row = static_cast<size_t>(3 * w);
-      const uint8_t* from = frames[pick].rgb.data() + static_cast<size_t>(y) * row;
-      std::copy(from, from + row, strip.rgb.data() + (static_cast<size_t>(y * count + k)) * row);
+      const uint8_t* from = pictures[k].rgb.data() + static_cast<size_t>(y) * row_bytes;
+      const auto to = static_cast<size_t>((row * h + y) * columns + column) * row_bytes;
+      std::copy(from, from + row_bytes, sheet.rgb.data() + to);
     }
   }
-  return strip;
+  return sheet;
 }
 
 }  // namespace ossa::tools

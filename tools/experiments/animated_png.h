@@ -27,4 +27,7 @@ void WriteAnimation(const std::filesystem::path& path, const std::vector<Picture
 /// `count` frames of the animation, evenly spaced, side by side.
 Picture Strip(const std::vector<Picture>& frames, int count);
 
+/// Pictures of one size in rows of `columns`.
+Picture Sheet(const std::vector<Picture>& pictures, int columns);
+
 }  // namespace ossa::tools

@@ -17,16 +17,17 @@ namespace {
 struct Scene {
   const char* file;
   const char* title;
+  double still;  // the moment, as a share of the scene, that shows best what it is
   SceneResult (*play)(const Actors& actors, uint64_t seed);
 };
 
 constexpr std::array<Scene, 6> kScenes = {{
-    {"carry", "lifting and carrying a bulky box (fig. 3a)", CarryABox},
-    {"boxes", "walking through, punching and kicking boxes (fig. 3b)", WalkThroughBoxes},
-    {"mace", "a mace on a hand (fig. 3c)", SwingAMace},
-    {"balls", "balls of random sizes (fig. 3d)", MeetBalls},
-    {"dodge", "dodging (figs. 3e, 4)", Dodge},
-    {"throw", "two characters throwing boxes (fig. 3f)", ThrowBoxes},
+    {"carry", "lifting and carrying a bulky box (fig. 3a)", 0.85, CarryABox},
+    {"boxes", "walking through, punching and kicking boxes (fig. 3b)", 0.88, WalkThroughBoxes},
+    {"mace", "a mace on a hand (fig. 3c)", 0.18, SwingAMace},
+    {"balls", "balls of random sizes (fig. 3d)", 0.5, MeetBalls},
+    {"dodge", "dodging (figs. 3e, 4)", 0.7, Dodge},
+    {"throw", "two characters throwing boxes (fig. 3f)", 0.45, ThrowBoxes},
 }};
 
 constexpr int kPictureMs = 67;  // every second 30 Hz frame
@@ -49,7 +50,7 @@ std::set<std::string> Parts(Parameters& parameters) {
 }
 
 void PlayScene(const Scene& scene, const ExperimentContext& context, const Actors& actors,
-               Table& table) {
+               Table& table, std::vector<Picture>& stills) {
   const SceneResult result = scene.play(actors, context.seed);
   for (const SceneNumber& n : result.numbers) {
     table.rows.push_back({scene.title, n.what, n.value, n.wanted, n.good ? "yes" : "NO"});
@@ -58,6 +59,8 @@ void PlayScene(const Scene& scene, const ExperimentContext& context, const Actor
                Strip(result.pictures, kStripPictures));
   WriteAnimation(context.out / (std::string(scene.file) + "_animated.png"), result.pictures,
                  kPictureMs);
+  const double last = static_cast<double>(result.pictures.size()) - 1.0;
+  stills.push_back(result.pictures[static_cast<size_t>(scene.still * last)]);
 }
 
 Table SceneTable() {
@@ -84,9 +87,11 @@ std::vector<Table> RunShumHo2012(ExperimentContext& context) {
   };
   std::vector<Table> tables;
   Table scenes = SceneTable();
+  std::vector<Picture> stills;
   for (const Scene& scene : kScenes) {
-    if (begin(scene.file)) PlayScene(scene, context, actors, scenes);
+    if (begin(scene.file)) PlayScene(scene, context, actors, scenes, stills);
   }
+  if (!stills.empty()) WritePicture(context.out / "scenes.png", Sheet(stills, 3));
   if (!scenes.rows.empty()) tables.push_back(scenes);
   if (begin("filter")) tables.push_back(FilterStudy(context, actors));
   if (begin("cost")) tables.push_back(CostStudy(context, actors));

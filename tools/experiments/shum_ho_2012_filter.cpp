@@ -188,7 +188,7 @@ void Run(const Case& c, const physics::CharacterFilterOptions& options, Measured
     const auto out = filter.Step(target, {}, c.floor, 1.0 / 30.0);
     result.push_back(out.posture);
     m.depth_m = std::max(m.depth_m, out.floor_depth_m);
-    m.gap_m = std::max(m.gap_m, out.max_anchor_gap_m);
+    m.gap_m = std::max(m.gap_m, out.max_solver_gap_m);
     slide.See(out);
     const auto now = recon::BoneLengthsOf(out.posture);
     for (size_t i = 1; i < kJointCount; ++i) {

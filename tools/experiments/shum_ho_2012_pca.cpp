@@ -3,15 +3,16 @@
 
 #include <Eigen/Eigenvalues>
 #include <algorithm>
-#include <chrono>
 #include <random>
 
+#include "depth/file/atomic_file.h"
 #include "recon/body/standard_body.h"
 #include "recon/database/posture_database.h"
 #include "recon/motion/mocap.h"
 #include "recon/normalise.h"
 #include "tools/experiments/recordings.h"
 #include "tools/experiments/shum_ho_2012_internal.h"
+#include "tools/experiments/svg_plot.h"
 
 namespace ossa::tools {
 namespace {
@@ -84,27 +85,22 @@ struct Matched {
   double us = 0.0;     // per query, projection included
 };
 
+/// Brute force, as in the paper; the fastest of three rounds is timed.
 Matched MatchAll(const Eigen::MatrixXf& postures, const Eigen::MatrixXf& reduced,
                  const Eigen::MatrixXf& basis, const Eigen::VectorXf& mean,
                  const std::vector<PostureVector>& queries) {
   Matched m;
-  std::vector<Eigen::Index> found;
-  const auto start = std::chrono::steady_clock::now();
-  for (const PostureVector& query : queries) {
-    const Eigen::VectorXf q = basis.transpose() * (query - mean);
-    Eigen::Index best = 0;
-    float least = std::numeric_limits<float>::max();
-    for (Eigen::Index i = 0; i < reduced.cols(); ++i) {  // brute force, as in the paper
-      const float d = (reduced.col(i) - q).squaredNorm();
-      if (d < least) {
-        least = d;
-        best = i;
-      }
+  m.us = 1e300;
+  std::vector<Eigen::Index> found(queries.size());
+  for (int round = 0; round < 3; ++round) {
+    const double start_ms = ProcessorMs();
+    for (size_t k = 0; k < queries.size(); ++k) {
+      const Eigen::VectorXf q = basis.transpose() * (queries[k] - mean);
+      (reduced.colwise() - q).colwise().squaredNorm().minCoeff(&found[k]);
     }
-    found.push_back(best);
+    m.us = std::min(m.us, 1e3 * (ProcessorMs() - start_ms) /
+                              static_cast<double>(std::max<size_t>(queries.size(), 1)));
   }
-  m.us = 1e6 * std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count() /
-         static_cast<double>(std::max<size_t>(queries.size(), 1));
   for (size_t k = 0; k < queries.size(); ++k) {
     m.error += static_cast<double>((postures.col(found[k]) - queries[k]).squaredNorm());
   }
@@ -130,12 +126,20 @@ Table DimensionStudy(ExperimentContext& context) {
   Table table;
   table.title = "Fig. 5: posture search in r dimensions";
   table.columns = {"r", "error above 60 dimensions % (eq. 6)", "us per query"};
-  for (const int r : {1, 2, 3, 4, 5, 6, 7, 8, 10, 12, 15, 20, 25, 30, 40, 50, 60}) {
+  Series error{"error above 60 dimensions, %", {}, {}}, time{"us per query", {}, {}};
+  for (int r = 1; r <= kPostureDims; ++r) {
     const Matched m = match(r);
-    table.rows.push_back({std::to_string(r),
-                          fmt::format("{:.2f}", 100 * (m.error - whole.error) / whole.error),
-                          fmt::format("{:.1f}", m.us)});
+    const double percent = 100 * (m.error - whole.error) / whole.error;
+    table.rows.push_back(
+        {std::to_string(r), fmt::format("{:.2f}", percent), fmt::format("{:.1f}", m.us)});
+    error.x.push_back(r);
+    error.y.emplace_back(percent);
+    time.x.push_back(r);
+    time.y.emplace_back(m.us);
   }
+  AtomicFile figure(context.out / "fig5.svg");
+  figure.stream() << LinePlot({error, time}, {"dimensions", "% and us", {}, 60.0});
+  figure.Commit();
   table.note = fmt::format(
       "{} database postures (paper: about 300), {} query frames from {}. Paper: below 3 % at 7 "
       "dimensions; 0.10 ms a search.",

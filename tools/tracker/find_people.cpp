@@ -1,6 +1,7 @@
 #include "tools/tracker/find_people_internal.h"
 
 #include <algorithm>
+#include <iterator>
 
 #include "tools/tracker/parallel_internal.h"
 
@@ -66,6 +67,22 @@ bool Accepted(Found& looked, double time_s, const FindOptions& options, FinderSt
   return false;
 }
 
+// A candidate with two heads, cut; empty unless at least two of the pieces are people themselves.
+std::vector<Found> CutByHeads(const Eyes& eyes, const depth::DepthFrame& frame,
+                              const depth::Scene& scene, const depth::SceneOptions& scene_options,
+                              const FindOptions& options, const Found& whole) {
+  if (whole.perception.heads_m.size() < 2) return {};
+  auto cut =
+      depth::SplitCandidate(scene, frame, whole.candidate, whole.perception.heads_m, scene_options);
+  if (cut.size() < 2) return {};
+  std::vector<Found> pieces = LookAt(eyes, frame, std::move(cut), options);
+  std::erase_if(pieces, [&](const Found& piece) {
+    return piece.perception.person_score < options.new_person;
+  });
+  if (pieces.size() < 2) pieces.clear();
+  return pieces;
+}
+
 std::vector<Candidate> WorthLooking(const depth::Scene& scene, double time_s,
                                     const FindOptions& options, FinderState& state) {
   std::erase_if(state.rejections, [&](const Rejection& r) {
@@ -87,23 +104,18 @@ std::vector<Found> FindPeople(const Eyes& eyes, const depth::DepthFrame& frame,
                               const depth::Scene& scene, const depth::SceneOptions& scene_options,
                               const FindOptions& options, FinderState& state) {
   std::vector<Found> found;
-  std::vector<Candidate> pieces;
   const auto judge = [&](Found& looked) {
     if (Accepted(looked, frame.time_s, options, state)) found.push_back(std::move(looked));
   };
   auto candidates = WorthLooking(scene, frame.time_s, options, state);
   for (Found& looked : LookAt(eyes, frame, std::move(candidates), options)) {
-    if (looked.perception.heads_m.size() > 1) {
-      auto cut = depth::SplitCandidate(scene, frame, looked.candidate, looked.perception.heads_m,
-                                       scene_options);
-      if (cut.size() > 1) {
-        pieces.insert(pieces.end(), cut.begin(), cut.end());
-        continue;
-      }
+    std::vector<Found> people = CutByHeads(eyes, frame, scene, scene_options, options, looked);
+    if (people.empty()) {
+      judge(looked);
+    } else {
+      std::move(people.begin(), people.end(), std::back_inserter(found));
     }
-    judge(looked);
   }
-  for (Found& looked : LookAt(eyes, frame, std::move(pieces), options)) judge(looked);
   std::stable_sort(found.begin(), found.end(), [](const Found& a, const Found& b) {
     const bool known_a = a.candidate.track >= 0, known_b = b.candidate.track >= 0;
     if (known_a != known_b) return known_a;

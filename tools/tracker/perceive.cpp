@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <chrono>
+#include <cmath>
 
 #include "tools/tracker/thin_internal.h"
 
@@ -26,6 +27,21 @@ int ScaleFor(const depth::DepthFrame& frame, const depth::Candidate& candidate,
   return scale;
 }
 
+// Half of a face (a disc of 15 cm) must be there to be somebody's head; and nobody stands on
+// another one's shoulders: heads of two people are side by side, and not of very different size.
+std::vector<Eigen::Vector3d> HeadsOfPeople(const std::vector<Head>& heads) {
+  constexpr double kMinHead_m2 = 0.009, kMinShare = 0.4, kApart_m = 0.3;
+  std::vector<Eigen::Vector3d> kept;
+  for (const Head& head : heads) {
+    if (head.area_m2 < std::max(kMinHead_m2, kMinShare * heads.front().area_m2)) continue;
+    const bool apart = std::all_of(kept.begin(), kept.end(), [&](const Eigen::Vector3d& other) {
+      return std::hypot(head.mean_m.x() - other.x(), head.mean_m.z() - other.z()) > kApart_m;
+    });
+    if (apart) kept.push_back(head.mean_m);
+  }
+  return kept;
+}
+
 }  // namespace
 
 Perception Perceive(const forest::ForestModel& model,
@@ -44,11 +60,7 @@ Perception Perceive(const forest::ForestModel& model,
   perception.classification = forest::Classify(model, seen.view(), seen.camera,
                                                thin ? thinned.pixels : candidate.pixels, classify);
   const std::vector<Head> heads = FindHeadClusters(seen, perception.classification);
-  // Half of a face (a disc of 15 cm) must be there to be somebody's head.
-  constexpr double kMinHead_m2 = 0.009;
-  for (const Head& head : heads) {
-    if (head.area_m2 >= kMinHead_m2) perception.heads_m.push_back(head.mean_m);
-  }
+  perception.heads_m = HeadsOfPeople(heads);
   perception.leg_area_m2 = LegArea(seen, perception.classification);
   LookAtSurface(seen, candidate, perception.classification, heads, perception.sign);
   perception.person_score = SurfaceScore(perception.sign);

@@ -48,13 +48,15 @@ bool AllFinite(const recon::Posture& posture) {
 
 recon::Posture WithMechanics(const recon::Posture& target, const Body& body,
                              const std::optional<Eigen::Vector4d>& floor, double time_s,
-                             Person& person) {
+                             bool motors, Person& person) {
   if (!person.character) {
     const recon::BoneLengths lengths_m = recon::BoneLengthsOf(target);
     const bool sane = std::all_of(lengths_m.begin() + 1, lengths_m.end(),
                                   [](double l) { return l > 0.01 && l < 2.0; });
     if (!sane) return target;
-    person.character = std::make_unique<physics::CharacterFilter>(lengths_m);
+    physics::CharacterFilterOptions filter;
+    if (motors) filter.control = physics::Control::kMotor;
+    person.character = std::make_unique<physics::CharacterFilter>(lengths_m, filter);
     person.character_s = time_s - 1.0 / 30.0;
   }
   const double dt_s = time_s - person.character_s;
@@ -82,7 +84,7 @@ void CompleteBody(const depth::DepthFrame& frame, const std::optional<Eigen::Vec
   recon::Posture posture = body.reconstructed;
   if (options.physics) {
     const auto physics_start = Clock::now();
-    posture = WithMechanics(posture, body, floor, frame.time_s, person);
+    posture = WithMechanics(posture, body, floor, frame.time_s, options.physics_motors, person);
     ms.physics += MillisecondsSince(physics_start);
   }
   body.smoothed =

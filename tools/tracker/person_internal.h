@@ -25,7 +25,7 @@ struct Person {
 };
 
 struct CompleteOptions {
-  bool physics = false;
+  bool physics = false, physics_motors = false;
   TrackingMode mode = TrackingMode::kStanding;
   SmoothingOptions smoothing;
   recon::ReconstructorOptions reconstructor;

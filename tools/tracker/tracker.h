@@ -79,6 +79,7 @@ struct TrackerOptions {
   std::string learned;               // .ossagp, for the methods that learn
   std::string method = "shum-2013";  // one of recon::ReconstructionMethods()
   bool physics = false;              // let the mechanical character follow the posture
+  bool physics_motors = false;       // ... by servo motors instead of the papers' bounded forces
   SmoothingOptions smoothing = SmoothingPreset("default");
   TrackingMode mode = TrackingMode::kStanding;
   bool near_range = false;  // the SDK's near mode: people from 0.4 to 3 m only

@@ -50,9 +50,11 @@ void EndWithTheParent(pid_t parent) {
 }
 
 void LimitMemory() {
+#ifndef __SANITIZE_ADDRESS__  // whose shadow of the address space alone is larger
   constexpr rlim_t kMost = rlim_t{2} << 30;
   const rlimit limit{kMost, kMost};
   setrlimit(RLIMIT_AS, &limit);
+#endif
   const rlimit no_core{0, 0};
   setrlimit(RLIMIT_CORE, &no_core);
 }

@@ -135,6 +135,30 @@ INSTANTIATE_TEST_SUITE_P(Methods, MethodWithBones,
                          testing::Values("shum-ho-2012", "shum-2013", "plantard-2016", "best"),
                          NameOfCase);
 
+/// A wall at one depth, seen by a Kinect.
+depth::DepthFrame Wall(double depth_m) {
+  depth::DepthFrame frame;
+  frame.camera = {640, 480, 575.0, 575.0, 320.0, 240.0};
+  frame.depth_mm.assign(640 * 480, static_cast<uint16_t>(1000.0 * depth_m));
+  return frame;
+}
+
+TEST(Best, DoubtsAndRepairsAHandThatTheDepthImageDoesNotShow) {
+  ReconstructorOptions options;
+  options.database = Database();
+  const auto method = MakeReconstructor(options);
+  const Posture truth = test::InFrontOfCamera(test::Gesture(0.5, 0.5, 0.0));  // flat, at 2.5 m
+  const depth::DepthFrame skin = Wall(2.45);
+  for (int f = 0; f < 10; ++f) method->Step({test::AllTracked(truth), f / 30.0, &skin});
+  // The hand and wrist are said to be half a metre in front of the surface, in free air.
+  Posture wrong = truth;
+  for (const size_t j : {size_t{6}, size_t{7}}) wrong.position_m[j].z() -= 0.5;
+  const auto made = method->Step({test::AllTracked(wrong), 10 / 30.0, &skin});
+  EXPECT_EQ(made.reliability[7], 0.0);
+  EXPECT_GT(made.reliability[11], 0.9);
+  EXPECT_LT((made.posture.position_m[7] - truth.position_m[7]).norm(), 0.1);  // of 0.5
+}
+
 TEST(MakeReconstructor, NamesTheUnknownMethodAndTheMissingDatabase) {
   ReconstructorOptions options;
   options.method = "magic";
