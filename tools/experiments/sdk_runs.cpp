@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <atomic>
 #include <chrono>
+#include <fstream>
+#include <map>
 #include <mutex>
 #include <nlohmann/json.hpp>
 #include <thread>
@@ -60,6 +62,18 @@ std::string DescriptionOf(const recon::ReconstructorOptions& o) {
       o.local_pca.use_reliability, o.gaussian_process.incremental, o.gaussian_process.nearby_models,
       o.best.repair, o.best.complete, o.best.correct, o.best.filter, o.best.bones,
       o.best.neighbours, o.database ? o.database->size() : 0);
+}
+
+/// The code that made a number: this program and, where it is linked dynamically, recon beside it.
+std::string KeyOfCode() {
+  std::string key = KeyOfFile("/proc/self/exe");
+  std::ifstream maps("/proc/self/maps");
+  for (std::string line; std::getline(maps, line);) {
+    const size_t path = line.find('/');
+    if (path == std::string::npos || line.find("libossa_recon") == std::string::npos) continue;
+    return key + " " + KeyOfFile(line.substr(path));
+  }
+  return key;
 }
 
 struct FoldScore {
@@ -179,12 +193,12 @@ MethodScore RunFolds(ExperimentContext& context, const std::string& data,
   MethodScore score;
   score.method = method;
   double seconds = 0.0, frames = 0.0;
+  const std::string code = KeyOfCode();
   for (const Fold& fold : folds) {
     size_t observed = 0;
     for (const RecordedPair* pair : fold.test) observed += pair->observed.frames.size();
-    const std::string key =
-        fmt::format("{} {} {} {} {} {} {}", KeyOfFile("/proc/self/exe"), data, fold.name, method,
-                    observed, context.seed, DescriptionOf(options));
+    const std::string key = fmt::format("{} {} {} {} {} {} {}", code, data, fold.name, method,
+                                        observed, context.seed, DescriptionOf(options));
     const auto text = context.Cached(key, [&] {
       if (context.progress) context.progress(0, 0, data + " " + method + " " + fold.name);
       const FoldScore made = RunFold(fold, method, options, context.threads);
