@@ -11,11 +11,11 @@ namespace ossa::tools {
 namespace {
 
 constexpr double kWidth = 860;
-constexpr double kHeight = 300;
+constexpr double kHeight = 320;
 constexpr double kLeft = 56;
 constexpr double kRight = 12;
 constexpr double kTop = 12;
-constexpr double kBottom = 46;
+constexpr double kBottom = 66;  // room for the slanted names under bars
 
 // The round number (1, 2 or 5 times a power of ten) that divides a range in about five.
 double RoundStep(double range) {
