@@ -1,0 +1,171 @@
+#include <gtest/gtest.h>
+
+#include <fstream>
+#include <limits>
+
+#include "depth/error.h"
+#include "forest/classify.h"
+#include "forest/compact.h"
+#include "forest/forest.h"
+#include "tests/forest/ball_figure.h"
+#include "tests/support/temporary_folder.h"
+
+namespace ossa::forest {
+namespace {
+
+using test::BallFigures;
+using test::BallModel;
+
+// The message of the InputError that `act` throws: one line, or the test fails.
+template <typename Act>
+std::string Refusal(const Act& act) {
+  try {
+    act();
+  } catch (const InputError& error) {
+    EXPECT_EQ(std::string(error.what()).find('\n'), std::string::npos);
+    return error.what();
+  }
+  ADD_FAILURE() << "expected an InputError";
+  return {};
+}
+
+std::string RefusalOfBytes(const std::vector<char>& bytes) {
+  return Refusal([&] { ReadForestModel(std::as_bytes(std::span(bytes)), "body.ossa"); });
+}
+
+std::string RefusalOfData(ForestData data) {
+  return Refusal([&] { ForestModel(std::move(data), "body.ossa"); });
+}
+
+TEST(ForestModelFile, ComesBackAsItWas) {
+  const std::vector<char> bytes = test::BytesOf(BallModel());
+  const ForestModel read = ReadForestModel(std::as_bytes(std::span(bytes)), "body.ossa");
+  EXPECT_EQ(test::BytesOf(read), bytes);
+}
+
+TEST(ForestModelFile, EveryTruncationIsRefusedByName) {
+  const std::vector<char> whole = test::BytesOf(BallModel());
+  for (const size_t size : {size_t{0}, size_t{5}, size_t{30}, whole.size() / 2, whole.size() - 1}) {
+    const std::vector<char> part(whole.begin(), whole.begin() + static_cast<ptrdiff_t>(size));
+    EXPECT_NE(RefusalOfBytes(part).find("body.ossa"), std::string::npos) << size << " bytes";
+  }
+}
+
+TEST(ForestModelFile, AFlippedBitAnywhereIsRefused) {
+  const std::vector<char> whole = test::BytesOf(BallModel());
+  for (size_t at = 0; at < whole.size(); at += whole.size() / 40) {
+    std::vector<char> damaged = whole;
+    damaged[at] = static_cast<char>(damaged[at] ^ 4);
+    EXPECT_NE(RefusalOfBytes(damaged).find("body.ossa"), std::string::npos) << "byte " << at;
+  }
+}
+
+TEST(ForestModelFile, AnotherVersionIsRefusedAsSuch) {
+  std::vector<char> other = test::BytesOf(BallModel());
+  constexpr size_t kVersionAt = 12;  // after magic and byte-order mark
+  other[kVersionAt] = 77;
+  EXPECT_NE(RefusalOfBytes(other).find("version"), std::string::npos);
+}
+
+TEST(ForestModelFile, AFileOfAnotherKindIsRefused) {
+  const std::string text = "this is a letter, not a forest; it is long enough to hold a header";
+  EXPECT_NE(RefusalOfBytes({text.begin(), text.end()}).find("forest model"), std::string::npos);
+}
+
+TEST(ForestModel, RefusesNumbersThatAreNone) {
+  ForestData data = BallModel().data();
+  data.targets[1].push_back_m = std::numeric_limits<float>::quiet_NaN();
+  EXPECT_NE(RefusalOfData(data).find("not a number"), std::string::npos);
+  data = BallModel().data();
+  data.targets[0].correct.weight[2] = std::numeric_limits<float>::infinity();
+  EXPECT_NE(RefusalOfData(data).find("not a number"), std::string::npos);
+}
+
+TEST(ForestModel, RefusesVotesThatDoNotFitItsContexts) {
+  ForestData data = BallModel().data();
+  data.trees[0].votes.resize(data.trees[0].votes.size() / 2);
+  EXPECT_NE(RefusalOfData(data).find("votes: expected"), std::string::npos);
+}
+
+TEST(ForestModel, RefusesBackgroundInALeaf) {
+  ForestData data = BallModel().data();
+  data.trees[0].entries[0] = 5U << 9U;  // class 0
+  EXPECT_NE(RefusalOfData(data).find("background"), std::string::npos);
+}
+
+TEST(FitInto, LeavesAModelThatFitsAlone) {
+  const ForestModel fitted = FitInto(BallModel(), FileSize(BallModel()));
+  EXPECT_EQ(test::BytesOf(fitted), test::BytesOf(BallModel()));
+}
+
+TEST(FitInto, LeavesRareEntriesOutUntilTheFileFits) {
+  const uint64_t limit = FileSize(BallModel()) * 9 / 10;
+  const ForestModel fitted = FitInto(BallModel(), limit);
+  EXPECT_LE(test::BytesOf(fitted).size(), limit);
+  for (const Tree& tree : fitted.data().trees) {
+    for (size_t leaf = 0; leaf < tree.leaf_count(); ++leaf) {
+      EXPECT_LT(tree.entry_begin[leaf], tree.entry_begin[leaf + 1]) << "an empty leaf";
+    }
+  }
+}
+
+TEST(FitInto, SaysWhenNothingHelps) {
+  EXPECT_NE(Refusal([] { FitInto(BallModel(), 200); }).find("does not fit"), std::string::npos);
+}
+
+TEST(Classify, GivesTheSameBitsOnEveryPathAndThreadCount) {
+  const BallFigures figures(6, 123, 320);
+  for (size_t i = 0; i < figures.size(); ++i) {
+    const TrainingImage image = figures.Read(i);
+    const auto classify = [&](InstructionSet instructions, int threads) {
+      ClassifyOptions options;
+      options.instructions = instructions;
+      options.threads = threads;
+      return Classify(BallModel(), test::ViewOf(image), image.camera, test::ObjectPixels(image),
+                      options);
+    };
+    const Classification best = classify(InstructionSet::kBest, 1);
+    EXPECT_EQ(best.label, classify(InstructionSet::kScalar, 1).label);
+    EXPECT_EQ(best.probability, classify(InstructionSet::kBest, 3).probability);
+  }
+}
+
+TEST(Classify, ProbabilitiesOfAPixelSumToOne) {
+  const TrainingImage image = BallFigures(1, 9).Read(0);
+  const Classification result =
+      Classify(BallModel(), test::ViewOf(image), image.camera, test::ObjectPixels(image));
+  const auto classes = static_cast<size_t>(result.class_count);
+  for (size_t i = 0; i < result.pixel.size(); ++i) {
+    float sum = 0;
+    for (size_t c = 0; c < classes; ++c) sum += result.probability[i * classes + c];
+    EXPECT_NEAR(sum, 1.0F, 1e-5F);  // rounding of some ten floats
+  }
+}
+
+TEST(Classify, SmoothingTakesScatteredErrorsOut) {
+  const BallFigures unseen(30, 31);
+  const auto errors = [&](double smoothing_m) {
+    int64_t wrong = 0;
+    for (size_t i = 0; i < unseen.size(); ++i) {
+      const TrainingImage image = unseen.Read(i);
+      ClassifyOptions options;
+      options.smoothing_m = smoothing_m;
+      const Classification result = Classify(BallModel(), test::ViewOf(image), image.camera,
+                                             test::ObjectPixels(image), options);
+      for (size_t p = 0; p < result.pixel.size(); ++p) {
+        wrong += result.label[p] != image.label[static_cast<size_t>(result.pixel[p])] ? 1 : 0;
+      }
+    }
+    return wrong;
+  };
+  // At 128 pixels' width and 2 m a patch of 2.5 cm is three pixels wide.
+  EXPECT_LT(errors(0.025), errors(0.0) * 11 / 10);
+}
+
+TEST(Classify, NoPixelsGiveNoLabels) {
+  const TrainingImage image = BallFigures(1, 9).Read(0);
+  EXPECT_TRUE(Classify(BallModel(), test::ViewOf(image), image.camera, {}).label.empty());
+}
+
+}  // namespace
+}  // namespace ossa::forest

@@ -1,0 +1,82 @@
+// Data sets and models that are not what they should be: one clear line each.
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <fstream>
+
+#include "recon/body/body_model.h"
+#include "tests/support/run_command.h"
+#include "tests/support/temporary_folder.h"
+
+namespace ossa::tests {
+namespace {
+
+namespace fs = std::filesystem;
+using test::CommandResult;
+using test::RunOssa;
+
+class BadDataSet : public ::testing::Test {
+ protected:
+  void SetUp() override {
+    if (!fs::exists(recon::BodyFolder())) GTEST_SKIP() << "no body: run tools/fetch_body";
+    const CommandResult made = RunOssa({"render", "--mocap", "authored", "--out", data(),
+                                        "--frames", "4", "--size", "96x72", "--quiet"});
+    ASSERT_EQ(made.exit_status, 0) << made.err;
+  }
+  std::string data() const { return (folder_.path() / "data").string(); }
+  std::string model() const { return (folder_.path() / "model.ossa").string(); }
+
+  // One line that names `culprit`, and no model.
+  void ExpectRefused(const std::string& culprit) const {
+    const CommandResult result =
+        RunOssa({"train", data(), "--out", model(), "--trees", "1", "--depth", "3", "--pixels",
+                 "50", "--validation", data(), "--quiet"});
+    EXPECT_EQ(result.exit_status, 1);
+    EXPECT_EQ(test::LineCount(result.err), 1) << result.err;
+    EXPECT_NE(result.err.find(culprit), std::string::npos) << result.err;
+    EXPECT_FALSE(fs::exists(model()));
+  }
+
+  test::TemporaryFolder folder_;
+};
+
+TEST_F(BadDataSet, AMissingImageIsNamed) {
+  fs::remove(fs::path(data()) / "depth" / "000002.png");
+  ExpectRefused("000002.png");
+}
+
+TEST_F(BadDataSet, ATruncatedImageIsNamed) {
+  const fs::path image = fs::path(data()) / "parts" / "000001.png";
+  fs::resize_file(image, fs::file_size(image) / 2);
+  ExpectRefused("000001.png");
+}
+
+TEST_F(BadDataSet, AnImageOfAnotherKindIsNamed) {
+  fs::copy_file(fs::path(data()) / "depth" / "000001.png",
+                fs::path(data()) / "parts" / "000001.png", fs::copy_options::overwrite_existing);
+  ExpectRefused("000001.png");
+}
+
+TEST_F(BadDataSet, ALostManifestIsNamed) {
+  fs::remove(fs::path(data()) / "manifest.json");
+  ExpectRefused("data");
+}
+
+TEST(EvaluateCommand, ADamagedModelIsOneLine) {
+  const test::TemporaryFolder folder;
+  const fs::path model = folder.path() / "broken.ossa";
+  std::ofstream(model) << "ossafrst and then nothing of use";
+  const CommandResult result = RunOssa({"evaluate", model.string(), folder.path().string()});
+  EXPECT_EQ(result.exit_status, 1);
+  EXPECT_EQ(test::LineCount(result.err), 1) << result.err;
+  EXPECT_NE(result.err.find("broken.ossa"), std::string::npos) << result.err;
+}
+
+TEST(TrainCommand, WrongUsageIsStatusTwo) {
+  EXPECT_EQ(RunOssa({"train", "--out", "x.ossa"}).exit_status, 2);
+  EXPECT_EQ(RunOssa({"train", "d", "--out", "x.ossa", "--depth", "99"}).exit_status, 2);
+  EXPECT_EQ(RunOssa({"train", "d", "--out", "x.ossa", "--memory", "many"}).exit_status, 2);
+}
+
+}  // namespace
+}  // namespace ossa::tests
