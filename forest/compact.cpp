@@ -23,30 +23,29 @@ Tree Thinned(const Tree& tree, unsigned least_weight) {
   return thin;
 }
 
-ForestModel Thinned(const ForestModel& model, unsigned least_weight) {
-  ForestData data = model.data();
+ForestData Thinned(ForestData data, unsigned least_weight) {
   for (Tree& tree : data.trees) tree = Thinned(tree, least_weight);
-  return ForestModel(std::move(data));
+  return data;
 }
 
 }  // namespace
 
 ForestModel FitInto(const ForestModel& model, uint64_t bytes) {
-  const uint64_t whole = FileSize(model);
+  const uint64_t whole = FileSize(model.data());
   if (whole <= bytes) return model;
   // Searched by the quick packing, in proportion; then the file itself has the last word.
   const double ratio =
-      static_cast<double>(whole) / static_cast<double>(FileSize(model, Packing::kQuick));
+      static_cast<double>(whole) / static_cast<double>(FileSize(model.data(), Packing::kQuick));
   unsigned low = 1;  // too large
   unsigned high = kTopWeight;
   while (high - low > 1) {
     const unsigned middle = (low + high) / 2;
-    const uint64_t quick = FileSize(Thinned(model, middle), Packing::kQuick);
+    const uint64_t quick = FileSize(Thinned(model.data(), middle), Packing::kQuick);
     (static_cast<double>(quick) * ratio <= static_cast<double>(bytes) ? high : low) = middle;
   }
   for (unsigned least = high; least <= kTopWeight; ++least) {
-    ForestModel thin = Thinned(model, least);
-    if (FileSize(thin) <= bytes) return thin;
+    ForestData thin = Thinned(model.data(), least);
+    if (FileSize(thin) <= bytes) return ForestModel(std::move(thin));
   }
   throw InputError("the model does not fit " + std::to_string(bytes) +
                    " bytes: its nodes and votes alone are more; train fewer or lower trees");

@@ -7,8 +7,8 @@ namespace ossa::forest {
 
 enum class Packing { kFile, kQuick };
 
-/// The size of the model's file; kQuick: packed less tightly, in a tenth of the time.
-uint64_t FileSize(const ForestModel& model, Packing packing = Packing::kFile);
+/// The size of the file of such a model; kQuick: packed less tightly, in a tenth of the time.
+uint64_t FileSize(const ForestData& data, Packing packing = Packing::kFile);
 
 /// The model with the rarest entries of its leaves left out until its file fits: entries of less
 /// than a bound of their leaf's largest, the same bound in every leaf, no higher than needed.

@@ -150,8 +150,7 @@ ForestModel Parse(const std::vector<std::byte>& sealed, const std::string& name)
   return ParseForest(payload, name + " (unpacked)");
 }
 
-std::vector<std::byte> Packed(const ForestModel& model, int level) {
-  const ForestData& data = model.data();
+std::vector<std::byte> Packed(const ForestData& data, int level) {
   PayloadWriter writer;
   writer.PutString(data.manifest);
   PutNames(&writer, data.class_names);
@@ -204,13 +203,13 @@ bool IsForestModel(const std::filesystem::path& path) {
 }
 
 void WriteForestModel(const std::filesystem::path& path, const ForestModel& model) {
-  WriteSealedFile(path, kFormat, Packed(model, kCompressionLevel));
+  WriteSealedFile(path, kFormat, Packed(model.data(), kCompressionLevel));
 }
 
-uint64_t FileSize(const ForestModel& model, Packing packing) {
+uint64_t FileSize(const ForestData& data, Packing packing) {
   constexpr uint64_t kSeal = 40;  // of a sealed file: magic, version, checksum, length
   const bool tight = packing == Packing::kFile;
-  return Packed(model, tight ? kCompressionLevel : kQuickLevel).size() + kSeal;
+  return Packed(data, tight ? kCompressionLevel : kQuickLevel).size() + kSeal;
 }
 
 }  // namespace ossa::forest

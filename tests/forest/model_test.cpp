@@ -94,12 +94,12 @@ TEST(ForestModel, RefusesBackgroundInALeaf) {
 }
 
 TEST(FitInto, LeavesAModelThatFitsAlone) {
-  const ForestModel fitted = FitInto(BallModel(), FileSize(BallModel()));
+  const ForestModel fitted = FitInto(BallModel(), FileSize(BallModel().data()));
   EXPECT_EQ(test::BytesOf(fitted), test::BytesOf(BallModel()));
 }
 
 TEST(FitInto, LeavesRareEntriesOutUntilTheFileFits) {
-  const uint64_t limit = FileSize(BallModel()) * 9 / 10;
+  const uint64_t limit = FileSize(BallModel().data()) * 9 / 10;
   const ForestModel fitted = FitInto(BallModel(), limit);
   EXPECT_LE(test::BytesOf(fitted).size(), limit);
   for (const Tree& tree : fitted.data().trees) {
