@@ -6,7 +6,6 @@
 #include "depth/file/sealed_file.h"
 #include "forest/compact.h"
 #include "forest/forest.h"
-#include "forest/forest_io_internal.h"
 
 namespace ossa::forest {
 namespace {
@@ -141,6 +140,23 @@ std::vector<std::byte> Decompressed(const std::vector<std::byte>& bytes, uint64_
   return out;
 }
 
+ForestModel ParseForest(std::span<const std::byte> payload, const std::string& name) {
+  PayloadReader reader(payload, name);
+  ForestData data;
+  data.manifest = reader.GetString("manifest");
+  data.class_names = GetNames(&reader, "class names");
+  data.context_names = GetNames(&reader, "context names");
+  data.context_prior = reader.GetVector<float>("context prior");
+  data.evidence_scale = reader.Get<float>("evidence scale");
+  data.background_mm = reader.Get<uint16_t>("background depth");
+  const auto targets = reader.Get<uint32_t>("number of targets");
+  for (uint32_t i = 0; i < targets; ++i) data.targets.push_back(GetTarget(&reader));
+  const auto trees = reader.Get<uint32_t>("number of trees");
+  for (uint32_t i = 0; i < trees; ++i) data.trees.push_back(GetTree(&reader));
+  reader.ExpectEnd();
+  return ForestModel(std::move(data), name);
+}
+
 ForestModel Parse(const std::vector<std::byte>& sealed, const std::string& name) {
   PayloadReader outer(sealed, name);
   const auto size = outer.Get<uint64_t>("unpacked length");
@@ -169,23 +185,6 @@ std::vector<std::byte> Packed(const ForestData& data, int level) {
 }
 
 }  // namespace
-
-ForestModel ParseForest(std::span<const std::byte> payload, const std::string& name) {
-  PayloadReader reader(payload, name);
-  ForestData data;
-  data.manifest = reader.GetString("manifest");
-  data.class_names = GetNames(&reader, "class names");
-  data.context_names = GetNames(&reader, "context names");
-  data.context_prior = reader.GetVector<float>("context prior");
-  data.evidence_scale = reader.Get<float>("evidence scale");
-  data.background_mm = reader.Get<uint16_t>("background depth");
-  const auto targets = reader.Get<uint32_t>("number of targets");
-  for (uint32_t i = 0; i < targets; ++i) data.targets.push_back(GetTarget(&reader));
-  const auto trees = reader.Get<uint32_t>("number of trees");
-  for (uint32_t i = 0; i < trees; ++i) data.trees.push_back(GetTree(&reader));
-  reader.ExpectEnd();
-  return ForestModel(std::move(data), name);
-}
 
 ForestModel ReadForestModel(const std::filesystem::path& path) {
   return Parse(ReadSealedFile(path, kFormat), path.string());

@@ -72,29 +72,5 @@ extern "C" int LLVMFuzzerTestOneInput(const uint8_t* data, size_t size) {
         ossa::forest::ReadForestModel(std::as_bytes(std::span(file.data(), file.size())), "x.ossa");
     if (model.data().trees.empty() || model.class_count() < 2) abort();
   });
-// Models: any payload is a forest or an InputError of one line. The seal and the packing around it
-// are made right, or no random bytes would come past the checksum.
-#include <cstdint>
-#include <cstdlib>
-#include <span>
-#include <string>
-#include <vector>
-
-#include "depth/error.h"
-#include "forest/forest_io_internal.h"
-
-extern "C" int LLVMFuzzerTestOneInput(const uint8_t* data, size_t size) {
-  const auto bytes = std::as_bytes(std::span(data, size));
-  try {
-    const ossa::forest::ForestModel model = ossa::forest::ParseForest(bytes, "x.ossa");
-    if (model.data().trees.size() > size) abort();
-  } catch (const ossa::InputError& error) {
-    if (std::string(error.what()).find('\n') != std::string::npos) abort();
-  }
-  try {
-    ossa::forest::ReadForestModel(bytes, "x.ossa");
-  } catch (const ossa::InputError& error) {
-    if (std::string(error.what()).find('\n') != std::string::npos) abort();
-  }
   return 0;
 }
