@@ -137,15 +137,19 @@ class VirtualStream final : public DepthStream {
   void Play() {
     const Clock::time_point began = camera_.Began();
     const auto& options = camera_.options();
-    // A frame late by more than this is lost, as with a camera: after a replug, or a stopped
-    // reader's full second.
+    // A frame late by more than this is lost, as with a camera: after a replug, or on a machine
+    // that stood still. But one a second comes through: a machine too slow to catch up by decoding
+    // would get none.
+    constexpr std::chrono::seconds kLongestSilence{1};
+    auto silent_since = Clock::now();
     const Seconds lateness{2.0 / camera_.fps() / options.speed};
     for (int delivered = 0;;) {
       const auto frame = camera_.Next();
       if (!frame) return driver_.Unplug(camera_, false);
       const auto due = began + std::chrono::duration_cast<Clock::duration>(frame->due);
-      if (Clock::now() - due > lateness) {
-        if (!WaitUntil(Clock::now())) return;
+      const auto now = Clock::now();
+      if (now - due > lateness && now - silent_since < kLongestSilence) {
+        if (!WaitUntil(now)) return;
         continue;
       }
       if (!WaitUntil(due)) return;
@@ -153,6 +157,7 @@ class VirtualStream final : public DepthStream {
           static_cast<uint64_t>(std::chrono::duration<double, std::micro>(frame->due).count());
       Deliver(frame->image.depth_mm.data(), frame->index, timestamp_us);
       ++delivered;
+      silent_since = Clock::now();
       if (options.stall_after && delivered >= *options.stall_after) {
         WaitUntil(Clock::now() + std::chrono::hours(24 * 365));
         return;
