@@ -209,6 +209,25 @@ void Character::Reconnect() {
   }
 }
 
+void Character::LiftOutOf(const Eigen::Vector4d& floor, double most_m) {
+  double deepest = 0.0;
+  for (size_t bone = 1; bone < kJointCount; ++bone) {
+    dReal radius = 0.0, cylinder = 0.0;
+    dGeomCapsuleGetParams(geom_[bone], &radius, &cylinder);
+    const Vector3d middle = ToEigen(dGeomGetPosition(geom_[bone]));
+    const double tilt = std::abs(floor.head<3>().dot(AxisOf(body_[bone])));
+    const double lowest =
+        floor.head<3>().dot(middle) + floor[3] - 0.5 * cylinder * tilt - segments_[bone].radius_m;
+    deepest = std::max(deepest, -lowest);
+  }
+  if (deepest <= most_m) return;
+  const Vector3d by = (deepest - most_m) * floor.head<3>();
+  for (size_t bone = 1; bone < kJointCount; ++bone) {
+    const Vector3d at = ToEigen(dBodyGetPosition(body_[bone])) + by;
+    dBodySetPosition(body_[bone], at.x(), at.y(), at.z());
+  }
+}
+
 Vector3d Character::Momentum() const {
   Vector3d momentum = Vector3d::Zero();
   for (size_t bone = 1; bone < kJointCount; ++bone) {

@@ -56,6 +56,9 @@ class Character {
   /// Closes the gaps that the iterative solver leaves at the joints by moving the bodies' centres,
   /// not their velocities; the centre of mass stays. Called after every substep.
   void Reconnect();
+  /// Raises the bodies, not their velocities, until no capsule is deeper than `most_m` in the
+  /// plane: a frame of absurd targets leaves the iterative solver with up to 2 cm.
+  void LiftOutOf(const Eigen::Vector4d& floor, double most_m);
   double mass_kg() const { return total_mass_kg_; }
   Eigen::Vector3d Momentum() const;
 

@@ -22,6 +22,7 @@ void Require(bool good, const std::string& name, double value, const std::string
 
 constexpr double kFrame_s = 1.0 / 30.0;
 constexpr double kDodgeHold_s = 0.3;
+constexpr double kDeepest_m = 0.004;  // nobody stands deeper in the floor
 
 }  // namespace
 
@@ -178,6 +179,7 @@ void World::Impl::Substep(double left_s, double h_s) {
   for (const auto& actor : actors) {
     actor->max_gap_m = std::max(actor->max_gap_m, actor->character.MaxAnchorGap());
     actor->character.Reconnect();
+    if (floor) actor->character.LiftOutOf(*floor, kDeepest_m);
   }
 }
 

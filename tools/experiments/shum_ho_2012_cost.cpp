@@ -49,75 +49,105 @@ Cost CostOf(const std::vector<Posture>& motion, int people, physics::Control con
 struct Endurance {
   int64_t frames = 0, lost = 0;
   int rescued = 0;  // how often the world had to put it back because it was not finite
-  double farthest_m = 0.0, fastest_m_s = 0.0, deepest_m = 0.0, gap_m = 0.0;
+  double farthest_m = 0.0, fastest_m_s = 0.0, deepest_m = 0.0;
 };
 
 /// Random clips at random places, pushes of up to 100 Ns on the trunk, joints and whole frames that
 /// are missing or absurd. `lost` counts the frames after a second of good targets in which the
 /// character is not within 25 cm of them.
-Endurance Endure(const Actors& actors, double hours, uint64_t seed,
-                 const ExperimentContext& context) {
-  std::mt19937_64 random(seed);
-  std::uniform_real_distribution<double> uniform(-1.0, 1.0);
-  const std::vector<std::string> actions = actors.Actions();
-  physics::World world;
-  world.SetFloor(Eigen::Vector4d(0.0, 1.0, 0.0, 0.0));
-  const Posture first = actors.Play(actions[0])[0];
-  const int person = world.AddCharacter(recon::BoneLengthsOf(first), first);
-  const auto wanted = static_cast<int64_t>(hours * 3600.0 / kFrame_s);
-  Endurance e;
-  int good = 0;  // frames in a row with complete targets and no push
-  Posture before = first;
-  Vector3d place = Vector3d::Zero();
-  while (e.frames < wanted) {
-    if (context.interrupted && context.interrupted()) throw Interruption();
-    const auto& clip = actors.Play(actions[random() % actions.size()]);
-    place += Vector3d(uniform(random), 0.0, uniform(random));
-    place *= 0.9;
-    for (size_t f = 0; f < clip.size() && e.frames < wanted; ++f, ++e.frames) {
+class EnduranceRun {
+ public:
+  EnduranceRun(const Posture& first, uint64_t seed) : random_(seed), before_(first) {
+    world_.SetFloor(Eigen::Vector4d(0.0, 1.0, 0.0, 0.0));
+    person_ = world_.AddCharacter(recon::BoneLengthsOf(first), first);
+  }
+
+  void Play(const std::vector<Posture>& clip, int64_t most_frames) {
+    place_ = 0.9 * (place_ + Vector3d(Draw(), 0.0, 0.0));
+    place_ += Vector3d(0.0, 0.0, 0.9 * Draw());
+    good_ = 0;  // a new clip starts elsewhere
+    for (size_t f = 0; f < clip.size() && found_.frames < most_frames; ++f) {
       Posture target = clip[f];
-      for (auto& p : target.position_m) p += place;
-      const double luck = uniform(random);
-      ++good;
-      if (luck > 0.98) {
-        const size_t joint = random() % recon::kJointCount;
-        // What a shove has, on the trunk; a limb of a kilogram gets what a ball has.
-        const double most_ns = joint <= 4 || joint % 4 == 0 ? 60.0 : 6.0;
-        world.Push(person, static_cast<recon::Joint>(joint),
-                   most_ns * Vector3d(uniform(random), uniform(random), uniform(random)));
-        good = 0;
-      } else if (luck < -0.96) {
-        for (auto& p : target.position_m) {
-          if (uniform(random) > 0.0) p.setConstant(std::numeric_limits<double>::quiet_NaN());
-        }
-        good = 0;
-      } else if (luck < -0.94) {
-        for (auto& p : target.position_m) p = 1e3 * Vector3d(uniform(random), 1.0, 1.0);
-        good = 0;
-      }
-      const bool dropped = luck > 0.9 && luck < 0.94;  // no frame came: twice the time passes
-      world.SetTarget(person, target);
-      world.Step(dropped ? 2 * kFrame_s : kFrame_s);
-      const auto state = world.StateOf(person);
-      e.rescued = state.rescued;
-      double far = 0.0;
-      for (size_t j = 0; j < recon::kJointCount; ++j) {
-        far += (state.posture.position_m[j] - target.position_m[j]).norm() / recon::kJointCount;
-        e.fastest_m_s =
-            std::max(e.fastest_m_s, (state.posture.position_m[j] - before.position_m[j]).norm() /
-                                        (dropped ? 2 * kFrame_s : kFrame_s));
-      }
-      before = state.posture;
-      if (f == 0) good = 0;  // a new clip starts elsewhere
-      if (good > 30) {
-        e.farthest_m = std::max(e.farthest_m, far);
-        if (!(far < 0.25)) ++e.lost;
-      }
-      e.deepest_m = std::max(e.deepest_m, world.Contacts().floor_depth_m);
-      e.gap_m = std::max(e.gap_m, state.max_solver_gap_m);
+      for (auto& p : target.position_m) p += place_;
+      Frame(target);
     }
   }
-  return e;
+  size_t Pick(size_t count) { return random_() % count; }
+  const Endurance& found() const { return found_; }
+
+ private:
+  double Draw() { return uniform_(random_); }
+
+  void Frame(Posture target) {
+    const double luck = Draw();
+    ++good_;
+    if (luck > 0.98) Push();
+    if (luck < -0.94) Spoil(target, luck > -0.96);
+    const bool dropped = luck > 0.9 && luck < 0.94;  // no frame came: twice the time passes
+    const double dt_s = dropped ? 2 * kFrame_s : kFrame_s;
+    world_.SetTarget(person_, target);
+    world_.Step(dt_s);
+    See(target, dt_s);
+  }
+
+  void Push() {
+    const size_t joint = Pick(recon::kJointCount);
+    // What a shove has, on the trunk; a limb of a kilogram gets what a ball has.
+    const double most_ns = joint <= 4 || joint % 4 == 0 ? 60.0 : 6.0;
+    Vector3d impulse_ns;
+    for (double& v : impulse_ns) v = most_ns * Draw();
+    world_.Push(person_, static_cast<recon::Joint>(joint), impulse_ns);
+    good_ = 0;
+  }
+
+  void Spoil(Posture& target, bool absurd) {
+    for (auto& p : target.position_m) {
+      if (absurd) {
+        p = Vector3d(1e3 * Draw(), 1e3, 1e3);
+      } else if (Draw() > 0.0) {
+        p.setConstant(std::numeric_limits<double>::quiet_NaN());
+      }
+    }
+    good_ = 0;
+  }
+
+  void See(const Posture& target, double dt_s) {
+    const auto state = world_.StateOf(person_);
+    ++found_.frames;
+    found_.rescued = state.rescued;
+    double far = 0.0;
+    for (size_t j = 0; j < recon::kJointCount; ++j) {
+      const Vector3d& at = state.posture.position_m[j];
+      far += (at - target.position_m[j]).norm() / recon::kJointCount;
+      found_.fastest_m_s = std::max(found_.fastest_m_s, (at - before_.position_m[j]).norm() / dt_s);
+    }
+    before_ = state.posture;
+    if (good_ > 30) {
+      found_.farthest_m = std::max(found_.farthest_m, far);
+      if (!(far < 0.25)) ++found_.lost;
+    }
+    found_.deepest_m = std::max(found_.deepest_m, world_.Contacts().floor_depth_m);
+  }
+
+  std::mt19937_64 random_;
+  std::uniform_real_distribution<double> uniform_{-1.0, 1.0};
+  physics::World world_;
+  int person_ = 0;
+  int good_ = 0;  // frames in a row with complete targets and no push
+  Posture before_;
+  Vector3d place_ = Vector3d::Zero();
+  Endurance found_;
+};
+
+Endurance Endure(const Actors& actors, double hours, const ExperimentContext& context) {
+  const std::vector<std::string> actions = actors.Actions();
+  EnduranceRun run(actors.Play(actions[0])[0], context.seed);
+  const auto wanted = static_cast<int64_t>(hours * 3600.0 / kFrame_s);
+  while (run.found().frames < wanted) {
+    if (context.interrupted && context.interrupted()) throw Interruption();
+    run.Play(actors.Play(actions[run.Pick(actions.size())]), wanted);
+  }
+  return run.found();
 }
 
 }  // namespace
@@ -143,7 +173,7 @@ Table CostStudy(ExperimentContext& context, const Actors& actors) {
   }
   const double hours = context.parameters.Number("endurance_hours", 0.1);
   const double start_ms = ProcessorMs();
-  const Endurance e = Endure(actors, hours, context.seed, context);
+  const Endurance e = Endure(actors, hours, context);
   row(fmt::format("{:g} hours of clips, pushes, bad and dropped frames: not finite", hours),
       fmt::format("{} of {} frames, in {:.0f} s", e.rescued, e.frames,
                   1e-3 * (ProcessorMs() - start_ms)),
