@@ -152,13 +152,16 @@ nlohmann::ordered_json Card(const TrainArguments& a, const tools::PersonSource& 
   card["terms"] = AllTerms(a, source);
   card["data_hash"] = fmt::format("{:016x}", Fnv1a(source.fingerprint()));
   card["images"] = summary.images;
-  card["pixels"] = summary.pixels;
-  card["evaluations"] = summary.evaluations;
-  card["evaluations_per_s"] = summary.split_seconds > 0
-                                  ? static_cast<double>(summary.evaluations) / summary.split_seconds
-                                  : 0.0;
   card["class_balance"] = "equal shares of the classes present in each image";
   return card;
+}
+
+// Of the levels this run grew; a time, so that it has no place in a card.
+void SayRate(const forest::TrainSummary& summary) {
+  if (summary.split_seconds <= 0) return;
+  const auto evaluations = static_cast<double>(summary.evaluations);
+  fmt::print(stderr, "train: {} images, {:.3g} evaluations, {:.0f} M a second\n", summary.images,
+             evaluations, 1e-6 * evaluations / summary.split_seconds);
 }
 
 int ImportPcl(const TrainArguments& a) {
@@ -182,6 +185,7 @@ int TrainOnData(TrainArguments* a, const forest::Reducer& reducer) {
   forest::TrainSummary summary;
   forest::ForestModel model = forest::Train(source, tools::BodyVocabulary(), o, reducer, &summary);
   if (reducer.rank() != 0) return 0;
+  if (!a->quiet) SayRate(summary);
   if (a->max_megabytes > 0) {
     model = forest::FitInto(model, static_cast<uint64_t>(a->max_megabytes * 1e6));
   }
@@ -196,8 +200,17 @@ int TrainOnData(TrainArguments* a, const forest::Reducer& reducer) {
 }
 
 std::string CommandLine(int argc, char** argv) {
+  // Without what leaves the model as it is: the same bytes however it was trained.
   std::string line = "ossa";
-  for (int i = 0; i < argc; ++i) line.append(1, ' ').append(argv[i]);
+  for (int i = 0; i < argc; ++i) {
+    const std::string word = argv[i];
+    if (word == "--resume" || word == "--quiet") continue;
+    if (word == "--threads" || word == "--memory" || word == "--out") {
+      ++i;
+      continue;
+    }
+    line.append(1, ' ').append(word);
+  }
   return WithoutFolders(line);
 }
 

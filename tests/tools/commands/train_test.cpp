@@ -1,8 +1,11 @@
 // Data sets and models that are not what they should be: one clear line each.
 #include <gtest/gtest.h>
 
+#include <csignal>
+
 #include <filesystem>
 #include <fstream>
+#include <thread>
 
 #include "recon/body/body_model.h"
 #include "tests/support/run_command.h"
@@ -60,6 +63,52 @@ TEST_F(BadDataSet, AnImageOfAnotherKindIsNamed) {
 TEST_F(BadDataSet, ALostManifestIsNamed) {
   fs::remove(fs::path(data()) / "manifest.json");
   ExpectRefused("data");
+}
+
+std::string BytesOf(const std::string& path) {
+  std::ifstream file(path, std::ios::binary);
+  return {std::istreambuf_iterator<char>(file), {}};
+}
+
+class TrainingRuns : public BadDataSet {
+ protected:
+  std::vector<std::string> Arguments(const std::string& name) const {
+    return {"train",     data(), "--validation", data(),    "--out",    (folder_ / name).string(),
+            "--trees",   "2",    "--depth",      "8",       "--pixels", "200",
+            "--threads", "1",    "--quiet",      "--resume"};
+  }
+  std::string Unbroken() const {
+    const CommandResult result = RunOssa(Arguments("whole.ossa"));
+    EXPECT_EQ(result.exit_status, 0) << result.err;
+    return BytesOf(folder_ / "whole.ossa");
+  }
+};
+
+TEST_F(TrainingRuns, AnyNumberOfRanksWritesTheSameBytes) {
+  if (!fs::exists("/usr/bin/mpirun")) GTEST_SKIP() << "no mpirun";
+  const std::string whole = Unbroken();
+  for (const char* ranks : {"2", "4"}) {
+    const std::string name = std::string("ranks") + ranks + ".ossa";
+    std::vector<std::string> argv = {
+        "/usr/bin/mpirun", "--allow-run-as-root", "--oversubscribe", "-np", ranks,
+        test::OssaPath()};
+    for (const std::string& argument : Arguments(name)) argv.push_back(argument);
+    const CommandResult result = test::RunProgram(argv);
+    ASSERT_EQ(result.exit_status, 0) << result.err;
+    EXPECT_EQ(BytesOf(folder_ / name), whole) << ranks << " ranks";
+  }
+}
+
+TEST_F(TrainingRuns, KilledAndResumedWritesTheSameBytes) {
+  const std::string whole = Unbroken();
+  for (const int after_ms : {60, 120, 200}) {
+    test::RunningCommand run = test::StartOssa(Arguments("killed.ossa"));
+    std::this_thread::sleep_for(std::chrono::milliseconds(after_ms));
+    run.Signal(SIGKILL);
+    run.Wait(test::kCommandTimeout);
+  }
+  EXPECT_EQ(RunOssa(Arguments("killed.ossa")).exit_status, 0);
+  EXPECT_EQ(BytesOf(folder_ / "killed.ossa"), whole);
 }
 
 TEST(EvaluateCommand, ADamagedModelIsOneLine) {
