@@ -43,7 +43,7 @@ inline std::string MsrText(size_t frames) {
 
 inline std::string UtText() {
   std::string text;
-  for (const size_t f : {5, 6, 6, 9}) {
+  for (const size_t f : {size_t{5}, size_t{6}, size_t{6}, size_t{9}}) {
     text += std::to_string(f);
     for (size_t j = 0; j < 20; ++j) text.append(" ").append(Triple(j, f, " "));
     text += "\n";
