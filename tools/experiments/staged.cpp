@@ -247,6 +247,26 @@ recon::SkeletonFrame PersonOf(const recon::SkeletonFrame& tracked,
   return person;
 }
 
+// Until the person is found there is nothing to reconstruct, and methods answer with a posture in
+// no place: a recording begins with the first frame that has half of the joints.
+void BeginWhenFound(RecordedPair& pair) {
+  constexpr auto kEnough = recon::kJointCount / 2;
+  size_t first = 0;
+  while (first + 1 < pair.observed.frames.size()) {
+    const auto& joints = pair.observed.frames[first].bodies.at(0).joints;
+    const auto seen = std::count_if(joints.begin(), joints.end(),
+                                    [](const auto& joint) { return joint.has_value(); });
+    if (seen >= kEnough) break;
+    ++first;
+  }
+  const auto drop = [first](recon::SkeletonSequence& sequence) {
+    sequence.frames.erase(sequence.frames.begin(),
+                          sequence.frames.begin() + static_cast<std::ptrdiff_t>(first));
+  };
+  drop(pair.observed);
+  drop(pair.truth);
+}
+
 std::string KeyOf(const StageOptions& o) {
   return fmt::format("{} {} {:.4f} {:.3f} {}x{} {} seed {}", o.name, static_cast<int>(o.clutter),
                      o.azimuth_rad, o.distance_m, o.width, o.height, o.frames, o.seed);
@@ -315,6 +335,7 @@ RecordedPair Studio::Record(const recon::MotionClip& clip, const StageOptions& o
   pair.subject = clip.subject.empty() ? clip.name : clip.subject;
   pair.observed = SequenceOf(text.substr(0, end), options.name);
   pair.truth = SequenceOf(text.substr(end + kSequenceEnd.size()), options.name);
+  BeginWhenFound(pair);
   return pair;
 }
 

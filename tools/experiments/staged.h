@@ -49,7 +49,7 @@ class Studio {
   Studio(const ExperimentContext& context, std::string observer);
   ~Studio();
 
-  /// Cached by content.
+  /// Cached by content. Begins with the first frame in which half of the joints are found.
   RecordedPair Record(const recon::MotionClip& clip, const StageOptions& options);
   /// The frames themselves, uncached: for pictures and tests.
   std::vector<StagedFrame> Film(const recon::MotionClip& clip, const StageOptions& options);
