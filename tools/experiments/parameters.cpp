@@ -3,6 +3,9 @@
 #include <toml++/toml.h>
 #include <algorithm>
 #include <cmath>
+#include <fstream>
+#include <iterator>
+#include <string_view>
 
 #include "depth/error.h"
 #include "tools/experiments/experiment.h"
@@ -30,11 +33,41 @@ std::string InToml(const Values& values, Format format) {
   return text + "]";
 }
 
+// toml++ 3 runs into what it declares unreachable when a letter beyond ASCII stands where a space
+// might: outside of texts and comments none is legal here anyway.
+void RefuseBareLetters(const std::filesystem::path& path) {
+  std::ifstream file(path, std::ios::binary);
+  const std::string text((std::istreambuf_iterator<char>(file)), {});
+  int line = 1;
+  char quote = 0;  // that ends the text or comment (a newline) we are in; 0: in neither
+  const size_t begin = text.starts_with("\xEF\xBB\xBF") ? 3 : 0;  // a byte-order mark
+  for (size_t i = begin; i < text.size(); ++i) {
+    const char c = text[i];
+    line += c == '\n' ? 1 : 0;
+    if (quote == '"' && c == '\\') {
+      ++i;
+    } else if (quote != 0) {
+      if (c == quote) quote = 0;
+    } else if (c == '"' || c == '\'') {
+      // Within a bare word toml++ does not take it for the beginning of a text.
+      if (i > begin && std::string_view(" \t\r\n=,[{\"'").find(text[i - 1]) == std::string::npos) {
+        Fail(path.string(), line, "a quote at the beginning of a text");
+      }
+      quote = c;
+    } else if (c == '#') {
+      quote = '\n';
+    } else if (static_cast<unsigned char>(c) >= 0x80) {
+      Fail(path.string(), line, "letters beyond ASCII only in quotes");
+    }
+  }
+}
+
 }  // namespace
 
 Parameters Parameters::FromToml(const std::filesystem::path& path) {
   Parameters parameters;
   parameters.source_ = path.string();
+  RefuseBareLetters(path);
   toml::table table;
   try {
     table = toml::parse_file(path.string());

@@ -54,6 +54,13 @@ TEST_F(StudyParameters, ThatAreWrongAreRefusedByLine) {
   EXPECT_EQ(Complaint("samples = \n").find('\n'), std::string::npos);
 }
 
+TEST_F(StudyParameters, KeepLettersBeyondAsciiInQuotes) {
+  EXPECT_EQ(From("kind = \"J\xC3\xBCrgen\"  # \xC3\xBC\n").Text("kind", ""), "J\xC3\xBCrgen");
+  // Found by fuzzing: toml++ runs into what it declares unreachable.
+  EXPECT_NE(Complaint("\nnoise_.\xCB\x96 = 1\n").find("line 2: expected letters beyond ASCII"),
+            std::string::npos);
+}
+
 TEST_F(StudyParameters, MayBeFlags) {
   Parameters p = From("full = true\nsamples = 2\n");
   EXPECT_TRUE(p.Flag("full", false));
