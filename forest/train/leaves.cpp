@@ -7,6 +7,7 @@
 #include <cmath>
 
 #include "forest/runtime_internal.h"
+#include "forest/train/random_internal.h"
 
 namespace ossa::forest {
 namespace {
@@ -42,12 +43,35 @@ std::vector<int32_t> LeavesOf(const Tree& tree, const StoredImage& image, size_t
   return leaf;
 }
 
-void CountCells(const Tree& tree, const ImageParts& parts, size_t class_count, size_t cells,
-                std::vector<uint32_t>* counts) {
+// Leaves are to know every context alike: of contexts with more images than the rarest, each image
+// counts with this probability, of 2^32. Rare contexts would else vanish in leaves' small numbers.
+std::vector<uint64_t> BalancedShares(const ImageParts& parts, const Reducer& reducer,
+                                     size_t context_count) {
+  std::vector<int64_t> images(context_count);
+  for (size_t k = 0; k < context_count; ++k) {
+    images[k] = static_cast<int64_t>(parts.context_count(k));
+  }
+  reducer.Sum(std::span<int64_t>(images));
+  int64_t rarest = 0;
+  for (const int64_t n : images) {
+    if (n > 0 && (rarest == 0 || n < rarest)) rarest = n;
+  }
+  std::vector<uint64_t> shares;
+  for (const int64_t n : images) {
+    shares.push_back(n > 0 ? (static_cast<uint64_t>(rarest) << 32U) / static_cast<uint64_t>(n) : 0);
+  }
+  return shares;
+}
+
+void CountCells(const Tree& tree, const ImageParts& parts, size_t class_count,
+                const std::vector<uint64_t>& shares, std::vector<uint32_t>* counts) {
+  constexpr uint64_t kSeed = 0xba1a;
+  const size_t cells = class_count * shares.size();
   counts->assign(tree.leaf_count() * cells, 0);
   parts.Visit([&](size_t, const std::vector<StoredImage>& images) {
     oneapi::tbb::parallel_for(size_t{0}, images.size(), [&](size_t i) {
       const StoredImage& image = images[i];
+      if (Random(MixSeed(kSeed, image.index)).Next() >> 32U >= shares[image.context]) return;
       const std::vector<int32_t> leaf = LeavesOf(tree, image, 1);
       for (size_t s = 0; s < leaf.size(); ++s) {
         const size_t cell = static_cast<size_t>(leaf[s]) * cells + image.context * class_count +
@@ -183,9 +207,10 @@ Tree NumberLeaves(const std::vector<Node>& nodes, int vote_depth) {
 void FillLeaves(const ImageParts& parts, const Reducer& reducer, size_t class_count,
                 size_t context_count, size_t target_count, std::vector<Tree>* trees) {
   const size_t cells = class_count * context_count;
+  const std::vector<uint64_t> shares = BalancedShares(parts, reducer, context_count);
   std::vector<uint32_t> counts;
   for (Tree& tree : *trees) {
-    CountCells(tree, parts, class_count, cells, &counts);
+    CountCells(tree, parts, class_count, shares, &counts);
     reducer.Sum(std::span<uint32_t>(counts));
     PackEntries(counts, cells, &tree);
     if (target_count > 0) FillVotes(parts, reducer, context_count, target_count, &tree);

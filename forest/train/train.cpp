@@ -69,6 +69,7 @@ class Run {
     return trees;
   }
 
+  // Leaves are filled with contexts balanced.
   std::vector<float> ContextPrior() const {
     std::vector<int64_t> counts;
     for (size_t k = 0; k < vocabulary_.context_names.size(); ++k) {
@@ -76,8 +77,10 @@ class Run {
     }
     reducer_.Sum(std::span<int64_t>(counts));
     std::vector<float> prior;
+    const auto present =
+        std::count_if(counts.begin(), counts.end(), [](int64_t n) { return n > 0; });
     for (const int64_t n : counts) {
-      prior.push_back(static_cast<float>(static_cast<double>(n) / static_cast<double>(images_[0])));
+      prior.push_back(n > 0 ? 1.0F / static_cast<float>(present) : 0.0F);
     }
     return prior;
   }
