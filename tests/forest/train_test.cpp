@@ -119,8 +119,9 @@ TEST(Train, ResumesToTheSameBytes) {
   const auto unbroken = BytesOf(Train(figures, BallVocabulary(), options));
   options.checkpoint = folder / "checkpoint";
   options.resume = true;
+  int levels = 0;  // outlives the last training, whose progress still counts
   for (const int stop_after : {3, 4, 5}) {
-    int levels = 0;
+    levels = 0;
     options.progress = [&](const TrainProgress& p) { levels += p.nodes > 0 ? 1 : 0; };
     options.stop = [&] { return levels >= stop_after; };
     EXPECT_THROW(Train(figures, BallVocabulary(), options), TrainInterrupted);
