@@ -38,6 +38,8 @@ json ParseJson(const std::string& text, const std::string& name) {
     return json::parse(text);
   } catch (const json::parse_error& error) {
     throw InputError(name + ": byte " + std::to_string(error.byte) + ": this is not JSON");
+  } catch (const json::out_of_range&) {  // found by fuzzing: 640e521
+    throw InputError(name + ": expected JSON numbers that a double holds");
   }
 }
 

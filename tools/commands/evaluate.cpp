@@ -23,7 +23,8 @@ void WriteText(const std::string& path, const std::string& text) {
 
 void NoteInCard(const std::string& path, const forest::ForestModel& model, const std::string& name,
                 const std::string& evaluation) {
-  auto card = nlohmann::ordered_json::parse(model.manifest());
+  auto card = nlohmann::ordered_json::parse(model.manifest(), nullptr, false);
+  if (!card.is_object()) throw InputError(path + ": expected a card that is a JSON object");
   auto numbers = nlohmann::ordered_json::parse(evaluation);
   numbers.erase("ap_10cm_visible");
   card["accuracy"][name] = numbers;

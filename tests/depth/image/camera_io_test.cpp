@@ -34,7 +34,8 @@ TEST_P(BadCameraJson, IsRefusedByTheNameOfTheField) {
 INSTANTIATE_TEST_SUITE_P(
     EachField, BadCameraJson,
     testing::Values(
-        std::pair("", "not JSON"), std::pair("[1, 2]", "JSON object"), std::pair("{}", "\"width\""),
+        std::pair("", "not JSON"), std::pair(R"({"width":640e521})", "numbers"),
+        std::pair("[1, 2]", "JSON object"), std::pair("{}", "\"width\""),
         std::pair(R"({"width":640,"height":0,"fx":1,"fy":1,"cx":0,"cy":0})", "\"height\""),
         std::pair(R"({"width":64.5,"height":48,"fx":1,"fy":1,"cx":0,"cy":0})", "whole number"),
         std::pair(R"({"width":64,"height":48,"fx":-1,"fy":1,"cx":0,"cy":0})", "\"fx\""),
