@@ -11,6 +11,8 @@
 #include "recon/motion/skeleton_io.h"
 #include "tools/commands/command.h"
 #include "tools/commands/commands.h"
+#include "tools/commands/mechanics_options.h"
+#include "tools/tracker/mechanics.h"
 #include "tools/tracker/shipped.h"
 
 namespace ossa::commands {
@@ -22,6 +24,7 @@ struct ReconstructArguments {
   std::string skeletons, out, database_file;
   recon::ReconstructorOptions options;
   recon::SkeletonReadOptions read;
+  MechanicsOptions mechanics;
   double cutoff_hz = 6.0;
   bool quiet = false;
   bool no_reliability = false;
@@ -76,6 +79,7 @@ int Reconstruct(int argc, char** argv) {
   app.add_option("--out", a.out, "result: .jsonl .bvh .trc .csv, or a folder for many recordings")
       ->required();
   AddMethodOptions(app, a);
+  AddMechanicsOptions(app, a.mechanics);
   app.add_flag("--quiet", a.quiet, "no progress");
   Parse(app, argc, argv);
   a.options.local_pca.use_reliability = !a.no_reliability;
@@ -96,10 +100,11 @@ int Reconstruct(int argc, char** argv) {
       progress.Update(done + static_cast<double>(frames), total);
       return !Interrupted();
     };
-    const auto made = a.options.method == kButterworth
-                          ? recon::ButterworthSequence(clip.sequence, a.cutoff_hz)
-                          : recon::ReconstructSequence(clip.sequence, a.options, update);
+    auto made = a.options.method == kButterworth
+                    ? recon::ButterworthSequence(clip.sequence, a.cutoff_hz)
+                    : recon::ReconstructSequence(clip.sequence, a.options, update);
     if (Interrupted()) throw InputError("reconstruct: interrupted; nothing half-written is left");
+    if (a.mechanics.on()) tracker::FollowMechanically(made, a.mechanics.motors());
     std::filesystem::path to = a.out;
     if (many) {
       to = to / (clip.name + ".jsonl");

@@ -17,6 +17,7 @@
 #include "recon/motion/skeleton_jsonl.h"
 #include "tools/commands/command.h"
 #include "tools/commands/commands.h"
+#include "tools/commands/mechanics_options.h"
 #include "tools/commands/waiting.h"
 #include "tools/tracker/picture.h"
 #include "tools/tracker/run_stats.h"
@@ -31,8 +32,8 @@ using std::chrono::milliseconds;
 
 struct TrackOptions {
   std::string source, out, camera, json_stats, picture, pictures;
-  std::string smoothing = "default", physics = "off", control = "pd", posture = "final",
-              mode = "standing";
+  std::string smoothing = "default", posture = "final", mode = "standing";
+  MechanicsOptions mechanics;
   tracker::TrackerOptions tracker;
   double wait_s = 0.0;
   double patience_s = 5.0;
@@ -49,10 +50,7 @@ void AddTrackerOptions(CLI::App& app, TrackOptions& options) {
   app.add_option("--learned", t.learned, ".ossagp of 'ossa learn', for the methods that learn");
   app.add_option("--method", t.method, "how postures are completed (default shum-2013)")
       ->check(CLI::IsMember(recon::ReconstructionMethods()));
-  app.add_option("--physics", options.physics, "let a mechanical character follow (default off)")
-      ->check(CLI::IsMember({"on", "off"}));
-  app.add_option("--control", options.control, "of that character: pd or motor (default pd)")
-      ->check(CLI::IsMember({"pd", "motor"}));
+  AddMechanicsOptions(app, options.mechanics);
   app.add_option("--smoothing", options.smoothing, "preset of the filter (default: default)")
       ->check(CLI::IsMember(tracker::SmoothingPresets()));
   app.add_option("--mode", options.mode, "standing (20 joints) or seated (the upper ten)")
@@ -97,8 +95,8 @@ TrackOptions ParseOptions(int argc, char** argv) {
     throw UsageError(
         "track: nothing to do: name --out, --picture, --pictures, --json-stats or --view");
   }
-  options.tracker.physics = options.physics == "on";
-  options.tracker.physics_motors = options.control == "motor";
+  options.tracker.physics = options.mechanics.on();
+  options.tracker.physics_motors = options.mechanics.motors();
   options.tracker.smoothing = tracker::SmoothingPreset(options.smoothing);
   if (options.mode == "seated") options.tracker.mode = tracker::TrackingMode::kSeated;
   options.tracker.keep_parts = !options.picture.empty() || !options.pictures.empty();

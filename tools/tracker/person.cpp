@@ -41,31 +41,6 @@ recon::Posture HeldToImage(const recon::Posture& posture, const Body& body) {
   return held;
 }
 
-bool AllFinite(const recon::Posture& posture) {
-  return std::all_of(posture.position_m.begin(), posture.position_m.end(),
-                     [](const Eigen::Vector3d& p) { return p.allFinite(); });
-}
-
-recon::Posture WithMechanics(const recon::Posture& target, const Body& body,
-                             const std::optional<Eigen::Vector4d>& floor, double time_s,
-                             bool motors, Person& person) {
-  if (!person.character) {
-    const recon::BoneLengths lengths_m = recon::BoneLengthsOf(target);
-    const bool sane = std::all_of(lengths_m.begin() + 1, lengths_m.end(),
-                                  [](double l) { return l > 0.01 && l < 2.0; });
-    if (!sane) return target;
-    physics::CharacterFilterOptions filter;
-    if (motors) filter.control = physics::Control::kMotor;
-    person.character = std::make_unique<physics::CharacterFilter>(lengths_m, filter);
-    person.character_s = time_s - 1.0 / 30.0;
-  }
-  const double dt_s = time_s - person.character_s;
-  person.character_s = time_s;
-  if (dt_s <= 0) return target;
-  const auto filtered = person.character->Step(target, body.reliability, floor, dt_s);
-  return AllFinite(filtered.posture) ? filtered.posture : target;
-}
-
 }  // namespace
 
 bool IsSeatedJoint(recon::Joint joint) {
@@ -84,7 +59,9 @@ void CompleteBody(const depth::DepthFrame& frame, const std::optional<Eigen::Vec
   recon::Posture posture = body.reconstructed;
   if (options.physics) {
     const auto physics_start = Clock::now();
-    posture = WithMechanics(posture, body, floor, frame.time_s, options.physics_motors, person);
+    if (!person.mechanics) person.mechanics = std::make_unique<Mechanics>(options.physics_motors);
+    const auto made = person.mechanics->Follow(posture, body.reliability, floor, frame.time_s);
+    if (made) posture = made->posture;
     ms.physics += MillisecondsSince(physics_start);
   }
   body.smoothed =

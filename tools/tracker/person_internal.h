@@ -2,9 +2,9 @@
 #include <memory>
 #include <optional>
 
-#include "physics/character_filter.h"
 #include "recon/methods/reconstructor.h"
 #include "tools/tracker/choose_posture_internal.h"
+#include "tools/tracker/mechanics_internal.h"
 #include "tools/tracker/tracker.h"
 
 namespace ossa::tracker {
@@ -19,8 +19,7 @@ struct Person {
   std::optional<recon::TrackedPosture> before;  // of the last frame it was tracked in
   std::vector<float> context;                   // facing, as the forest saw it
   std::unique_ptr<recon::Reconstructor> reconstructor;
-  std::unique_ptr<physics::CharacterFilter> character;
-  double character_s = 0.0;  // time of the character's last step
+  std::unique_ptr<Mechanics> mechanics;
   SmoothingState smoothing;
 };
 

@@ -1,0 +1,155 @@
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <filesystem>
+
+#include "recon/motion/skeleton_io.h"
+#include "tests/recon/synthetic_motion.h"
+#include "tests/support/run_command.h"
+#include "tests/support/temporary_folder.h"
+
+namespace ossa {
+namespace {
+
+using recon::kJointCount;
+using test::RunOssa;
+
+/// Two seconds of a moving person on a floor, every joint tracked.
+recon::SkeletonSequence Recording() {
+  recon::SkeletonSequence sequence;
+  for (int f = 0; f < 60; ++f) {
+    recon::SkeletonFrame frame;
+    frame.frame = f;
+    frame.time_s = f / 30.0;
+    frame.floor = Eigen::Vector4d(0.0, 1.0, 0.0, 0.9);
+    const auto posture = recon::test::InFrontOfCamera(recon::test::Motion(frame.time_s));
+    recon::BodyRecord body;
+    body.id = 3;
+    for (size_t i = 0; i < kJointCount; ++i) {
+      body.joints[i].emplace().position_m = posture.position_m[i];
+    }
+    frame.bodies.push_back(body);
+    sequence.frames.push_back(frame);
+  }
+  return sequence;
+}
+
+class ReconstructCommand : public testing::Test {
+ protected:
+  ReconstructCommand() { recon::WriteSkeletons(in_, Recording()); }
+  recon::SkeletonSequence Made(std::vector<std::string> options, const char* name = "out.jsonl") {
+    const std::string out = folder_ / name;
+    std::vector<std::string> arguments = {"reconstruct", in_, "--out", out, "--quiet"};
+    arguments.insert(arguments.end(), options.begin(), options.end());
+    const auto run = RunOssa(arguments);
+    EXPECT_EQ(run.exit_status, 0) << run.err;
+    return recon::ReadSkeletons(out);
+  }
+  test::TemporaryFolder folder_;
+  std::string in_ = folder_ / "in.jsonl";
+};
+
+double BoneDrift(const recon::SkeletonSequence& sequence) {
+  double worst = 0.0;
+  recon::BoneLengths first{};
+  for (const auto& frame : sequence.frames) {
+    const auto lengths = recon::BoneLengthsOf(recon::TrackedPostureOf(frame.bodies.at(0)).posture);
+    if (&frame == &sequence.frames.front()) first = lengths;
+    for (size_t i = 1; i < kJointCount; ++i) {
+      worst = std::max(worst, std::abs(lengths[i] / first[i] - 1.0));
+    }
+  }
+  return worst;
+}
+
+double MeanDistance(const recon::SkeletonSequence& a, const recon::SkeletonSequence& b) {
+  double sum = 0.0;
+  for (size_t f = 0; f < a.frames.size(); ++f) {
+    for (size_t i = 0; i < kJointCount; ++i) {
+      sum += (a.frames[f].bodies.at(0).joints[i]->position_m -
+              b.frames[f].bodies.at(0).joints[i]->position_m)
+                 .norm();
+    }
+  }
+  return sum / static_cast<double>(a.frames.size() * kJointCount);
+}
+
+TEST_F(ReconstructCommand, CompletesEveryFrame) {
+  const auto made = Made({});
+  ASSERT_EQ(made.frames.size(), 60u);
+  EXPECT_EQ(made.frames.back().bodies.at(0).id, 3);
+  // Without error nor noise there is nothing to mend: smoothing lags by a centimetre or so.
+  EXPECT_LT(MeanDistance(made, Recording()), 0.03);
+}
+
+TEST_F(ReconstructCommand, LetsACharacterFollowWithConstantBonesAndOrientations) {
+  for (const char* control : {"pd", "motor"}) {
+    const auto made = Made({"--method", "none", "--physics", "on", "--control", control});
+    ASSERT_EQ(made.frames.size(), 60u);
+    // The files carry a tenth of a micrometre, the shortest bone is 7 cm.
+    EXPECT_LT(BoneDrift(made), 1e-4) << control;
+    // A character moves as masses do, a few centimetres behind its target, and is nowhere else.
+    const double off_m = MeanDistance(made, Recording());
+    EXPECT_GT(off_m, 1e-4) << control;
+    EXPECT_LT(off_m, 0.1) << control;
+    EXPECT_TRUE(made.frames.back().bodies.at(0).joints[5]->orientation.has_value());
+  }
+}
+
+TEST_F(ReconstructCommand, PhysicsOffIsTheDefault) {
+  EXPECT_EQ(MeanDistance(Made({}, "a.jsonl"), Made({"--physics", "off"}, "b.jsonl")), 0.0);
+}
+
+TEST_F(ReconstructCommand, ACharacterStandsInForJointsThatAFileLacks) {
+  auto recording = Recording();
+  for (auto& frame : recording.frames) frame.bodies[0].joints[11].reset();
+  recon::WriteSkeletons(in_, recording);
+  const auto made = Made({"--method", "butterworth", "--physics", "on"});
+  const auto& hand = made.frames.back().bodies.at(0).joints[11];
+  ASSERT_TRUE(hand.has_value());
+  EXPECT_TRUE(hand->position_m.allFinite());
+  EXPECT_EQ(hand->state, recon::TrackingState::kInferred);
+}
+
+struct BadReconstruct {
+  const char* name;
+  std::vector<std::string> arguments;
+  int status;
+  std::string named;
+};
+
+void PrintTo(const BadReconstruct& value, std::ostream* out) { *out << value.name; }
+
+class BadReconstructUse : public testing::TestWithParam<BadReconstruct> {};
+
+TEST_P(BadReconstructUse, IsOneLineThatNamesIt) {
+  test::TemporaryFolder folder;
+  const std::string in = folder / "in.jsonl";
+  recon::WriteSkeletons(in, Recording());
+  std::vector<std::string> arguments = {"reconstruct"};
+  for (std::string argument : GetParam().arguments) {
+    if (argument == "IN") argument = in;
+    if (argument == "OUT") argument = folder / "out.jsonl";
+    arguments.push_back(argument);
+  }
+  const auto run = RunOssa(arguments);
+  EXPECT_EQ(run.exit_status, GetParam().status);
+  EXPECT_EQ(test::LineCount(run.err), 1) << run.err;
+  EXPECT_NE(run.err.find(GetParam().named), std::string::npos) << run.err;
+  EXPECT_FALSE(std::filesystem::exists(folder / "out.jsonl"));
+}
+
+INSTANTIATE_TEST_SUITE_P(
+    All, BadReconstructUse,
+    testing::Values(
+        BadReconstruct{"no_out", {"IN"}, 2, "--out"},
+        BadReconstruct{"physics", {"IN", "--out", "OUT", "--physics", "maybe"}, 2, "--physics"},
+        BadReconstruct{"physics_alone", {"IN", "--out", "OUT", "--physics"}, 2, "--physics"},
+        BadReconstruct{"control", {"IN", "--out", "OUT", "--control", "magic"}, 2, "--control"},
+        BadReconstruct{"method", {"IN", "--out", "OUT", "--method", "guess"}, 2, "--method"},
+        BadReconstruct{"no_such_file", {"/no/such.jsonl", "--out", "OUT"}, 1, "/no/such.jsonl"},
+        BadReconstruct{"learned", {"IN", "--out", "OUT", "--learned", "/no.gp"}, 1, "/no.gp"}),
+    [](const auto& info) { return std::string(info.param.name); });
+
+}  // namespace
+}  // namespace ossa

@@ -1,0 +1,90 @@
+#include "tools/tracker/mechanics.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <map>
+
+#include "recon/normalise.h"
+#include "tools/tracker/mechanics_internal.h"
+
+namespace ossa::tracker {
+namespace {
+
+using recon::kJointCount;
+
+/// The posture's bones; the standard ones, at the size of the others, where they cannot be had.
+recon::BoneLengths BonesOf(const recon::Posture& posture) {
+  recon::BoneLengths lengths_m = recon::BoneLengthsOf(posture);
+  recon::JointWeights sane{};
+  for (size_t i = 1; i < kJointCount; ++i) {
+    sane[i] = lengths_m[i] > 0.01 && lengths_m[i] < 2.0 ? 1.0 : 0.0;
+    if (sane[i] == 0.0) lengths_m[i] = recon::StandardBoneLengths()[i];
+  }
+  sane[0] = 1.0;
+  const double scale = recon::BodyScaleOf(lengths_m, sane);
+  for (size_t i = 1; i < kJointCount; ++i) {
+    if (sane[i] == 0.0) lengths_m[i] *= scale;
+  }
+  return lengths_m;
+}
+
+bool AllFinite(const recon::Posture& posture) {
+  return std::all_of(posture.position_m.begin(), posture.position_m.end(),
+                     [](const Eigen::Vector3d& p) { return p.allFinite(); });
+}
+
+void FollowBody(const recon::SkeletonFrame& frame, Mechanics& mechanics, recon::BodyRecord& body) {
+  recon::Posture target;
+  recon::JointWeights trust{};
+  for (size_t i = 0; i < kJointCount; ++i) {
+    const auto& joint = body.joints[i];
+    target.position_m[i] =
+        joint ? joint->position_m
+              : Eigen::Vector3d::Constant(std::numeric_limits<double>::quiet_NaN());
+    trust[i] = joint ? joint->reliability.value_or(1.0) : 0.0;
+  }
+  const auto made = mechanics.Follow(target, trust, frame.floor, frame.time_s);
+  if (!made) return;
+  for (size_t i = 0; i < kJointCount; ++i) {
+    auto& joint = body.joints[i];
+    if (!joint) {
+      joint.emplace();
+      joint->state = recon::TrackingState::kInferred;
+      joint->reliability = 0.0;
+    }
+    joint->position_m = made->posture.position_m[i];
+    joint->orientation = made->orientation[i];
+  }
+}
+
+}  // namespace
+
+std::optional<physics::FilteredPosture> Mechanics::Follow(
+    const recon::Posture& target, std::span<const double> trust,
+    const std::optional<Eigen::Vector4d>& floor, double time_s) {
+  if (!character_) {
+    physics::CharacterFilterOptions options;
+    if (motors_) options.control = physics::Control::kMotor;
+    character_ = std::make_unique<physics::CharacterFilter>(BonesOf(target), options);
+    last_s_ = time_s - 1.0 / 30.0;
+  }
+  const double dt_s = time_s - last_s_;
+  last_s_ = time_s;
+  if (!(dt_s > 0.0)) return std::nullopt;
+  const auto filtered = character_->Step(target, trust, floor, dt_s);
+  if (!AllFinite(filtered.posture)) return std::nullopt;
+  return filtered;
+}
+
+void FollowMechanically(recon::SkeletonSequence& sequence, bool motors) {
+  std::map<int, Mechanics> people;
+  for (recon::SkeletonFrame& frame : sequence.frames) {
+    for (recon::BodyRecord& body : frame.bodies) {
+      const auto person = people.try_emplace(body.id, motors).first;
+      FollowBody(frame, person->second, body);
+    }
+  }
+}
+
+}  // namespace ossa::tracker

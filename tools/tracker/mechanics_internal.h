@@ -1,0 +1,30 @@
+#pragma once
+#include <Eigen/Core>
+#include <memory>
+#include <optional>
+#include <span>
+
+#include "physics/character_filter.h"
+#include "recon/posture.h"
+
+namespace ossa::tracker {
+
+/// The mechanical character of one person: made at the first posture, with its bones, and led by
+/// the postures that follow.
+class Mechanics {
+ public:
+  explicit Mechanics(bool motors) : motors_(motors) {}
+  /// What the character makes of `target`; nothing where it cannot say: time that stands still or
+  /// runs backwards, a character that came to grief. Joints that are not finite lead it nowhere.
+  std::optional<physics::FilteredPosture> Follow(const recon::Posture& target,
+                                                 std::span<const double> trust,
+                                                 const std::optional<Eigen::Vector4d>& floor,
+                                                 double time_s);
+
+ private:
+  bool motors_;
+  std::unique_ptr<physics::CharacterFilter> character_;
+  double last_s_ = 0.0;
+};
+
+}  // namespace ossa::tracker
