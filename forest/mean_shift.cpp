@@ -1,16 +1,10 @@
 #include <bit>
 
+#include "forest/clones_internal.h"
 #include "forest/propose_internal.h"
 
-// Clones for wider vector units, chosen at load time. Every clone adds in the same eight lanes, and
-// none may contract a product and a sum, so that each machine gives the same bits.
-#if defined(__x86_64__) && defined(__GNUC__) && !defined(__clang__) && \
-    !defined(__SANITIZE_ADDRESS__)
-#define OSSA_CLONES __attribute__((target_clones("avx2", "default")))
-#else
-#define OSSA_CLONES
-#endif
-
+// Every clone adds in the same eight lanes, and none may contract a product and a sum, so that each
+// machine gives the same bits.
 namespace ossa::forest {
 namespace {
 

@@ -4,12 +4,7 @@
 #include <array>
 #include <cmath>
 
-#if defined(__x86_64__) && defined(__GNUC__) && !defined(__clang__) && \
-    !defined(__SANITIZE_ADDRESS__)
-#define OSSA_CLONES __attribute__((target_clones("avx2", "default")))
-#else
-#define OSSA_CLONES
-#endif
+#include "forest/clones_internal.h"
 
 namespace ossa::forest {
 namespace {

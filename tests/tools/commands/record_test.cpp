@@ -63,13 +63,17 @@ TEST(RecordCommand, RecordsALiveDeviceToItsEnd) {
   EXPECT_GE(FramesIn(out), 5) << "all ten, unless the machine is busy";
 }
 
+// It says "recording" on stderr with its first frame.
+auto StartEndlessRecording(const TemporaryFolder& folder, const std::string& out) {
+  return test::StartOssa({"record", "openni:ossa://" + folder.path().string() + "?loop=1", "--out",
+                          out, "--seconds", "1000"});
+}
+
 TEST(RecordCommand, CtrlCEndsCleanlyWithAWholeFile) {
   const TemporaryFolder folder;
   WriteExampleFolder(folder.path(), 10);
   const std::string out = (folder / "x.oni").string();
-  auto running = test::StartOssa({"record", "openni:ossa://" + folder.path().string() + "?loop=1",
-                                  "--out", out, "--seconds", "1000"});
-  // Progress speaks with the first frame.
+  auto running = StartEndlessRecording(folder, out);
   ASSERT_TRUE(running.WaitForError("recording", milliseconds(10000)));
   running.Signal(SIGINT);
   const CommandResult result = running.Wait(milliseconds(10000));
@@ -81,8 +85,7 @@ TEST(RecordCommand, KilledItLeavesNothingUnderTheFinalName) {
   const TemporaryFolder folder;
   WriteExampleFolder(folder.path(), 10);
   const std::string out = (folder / "x.oni").string();
-  auto running = test::StartOssa({"record", "openni:ossa://" + folder.path().string() + "?loop=1",
-                                  "--out", out, "--seconds", "1000"});
+  auto running = StartEndlessRecording(folder, out);
   ASSERT_TRUE(running.WaitForError("recording", milliseconds(10000)));
   running.Signal(SIGKILL);
   EXPECT_EQ(running.Wait(milliseconds(10000)).exit_status, 128 + SIGKILL);
