@@ -1,7 +1,5 @@
 #include <zstd.h>
 
-#include <fstream>
-
 #include "depth/error.h"
 #include "depth/file/sealed_file.h"
 #include "forest/compact.h"
@@ -194,12 +192,7 @@ ForestModel ReadForestModel(std::span<const std::byte> bytes, const std::string&
   return Parse(OpenSealedBytes(bytes, name, kFormat), name);
 }
 
-bool IsForestModel(const std::filesystem::path& path) {
-  std::ifstream file(path, std::ios::binary);
-  std::array<char, 8> magic{};
-  file.read(magic.data(), magic.size());
-  return file && magic == kFormat.magic;
-}
+bool IsForestModel(const std::filesystem::path& path) { return IsSealedFile(path, kFormat); }
 
 void WriteForestModel(const std::filesystem::path& path, const ForestModel& model) {
   WriteSealedFile(path, kFormat, Packed(model.data(), kCompressionLevel));

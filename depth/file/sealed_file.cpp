@@ -68,6 +68,13 @@ std::vector<std::byte> OpenSealedBytes(std::span<const std::byte> bytes, const s
   return {payload.begin(), payload.end()};
 }
 
+bool IsSealedFile(const std::filesystem::path& path, const SealedFormat& format) {
+  std::ifstream file(path, std::ios::binary);
+  std::array<char, 8> magic{};
+  file.read(magic.data(), magic.size());
+  return file && magic == format.magic;
+}
+
 std::vector<std::byte> ReadSealedFile(const std::filesystem::path& path,
                                       const SealedFormat& format) {
   std::ifstream file(path, std::ios::binary | std::ios::ate);

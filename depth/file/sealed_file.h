@@ -23,6 +23,9 @@ struct SealedFormat {
 void WriteSealedFile(const std::filesystem::path& path, const SealedFormat& format,
                      std::span<const std::byte> payload);
 
+/// True when the file begins with the format's magic; its version and the rest may still be wrong.
+bool IsSealedFile(const std::filesystem::path& path, const SealedFormat& format);
+
 /// Reads and verifies the frame; returns the payload. Throws InputError that names the file and the
 /// field when magic, byte order, version, length or checksum are not as expected.
 std::vector<std::byte> ReadSealedFile(const std::filesystem::path& path,

@@ -40,6 +40,10 @@ void PostureDatabase::Save(const std::filesystem::path& path) const {
   WriteSealedFile(path, kFormat, out.bytes());
 }
 
+bool PostureDatabase::IsOne(const std::filesystem::path& path) {
+  return IsSealedFile(path, kFormat);
+}
+
 PostureDatabase PostureDatabase::Load(const std::filesystem::path& path) {
   const auto payload = ReadSealedFile(path, kFormat);
   return FromBytes(payload, path.string());

@@ -52,6 +52,8 @@ class PostureDatabase {
   static PostureDatabase Load(const std::filesystem::path& path);
   static PostureDatabase FromBytes(std::span<const std::byte> bytes, const std::string& name);
   void Save(const std::filesystem::path& path) const;
+  /// True when the file says that it is one; it may still be damaged.
+  static bool IsOne(const std::filesystem::path& path);
 
   int size() const { return static_cast<int>(postures_.cols()); }
   /// Column i is posture i.

@@ -135,6 +135,8 @@ void LearnedModels::Save(const std::filesystem::path& path) const {
   WriteSealedFile(path, kFormat, out.bytes());
 }
 
+bool LearnedModels::IsOne(const std::filesystem::path& path) { return IsSealedFile(path, kFormat); }
+
 LearnedModels LearnedModels::Load(const std::filesystem::path& path) {
   const auto payload = ReadSealedFile(path, kFormat);
   return FromBytes(payload, path.string());

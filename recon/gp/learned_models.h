@@ -31,6 +31,8 @@ struct LearnedModels {
   static LearnedModels Learn(const std::vector<PosturePair>& pairs, const LearnOptions& options,
                              const std::function<bool(int)>& progress = {});
   void Save(const std::filesystem::path& path) const;
+  /// True when the file says that it is one; it may still be damaged.
+  static bool IsOne(const std::filesystem::path& path);
   static LearnedModels Load(const std::filesystem::path& path);
   static LearnedModels FromBytes(std::span<const std::byte> bytes, const std::string& name);
 };

@@ -1,12 +1,17 @@
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
+#include <algorithm>
 #include <array>
 #include <filesystem>
 #include <string>
 
 #include "depth/error.h"
+#include "depth/sensor/frame_source.h"
 #include "forest/forest.h"
+#include "recon/database/posture_database.h"
+#include "recon/gp/learned_models.h"
+#include "recon/motion/skeleton_io.h"
 #include "tools/commands/command.h"
 #include "tools/commands/commands.h"
 #include "tools/synth/dataset.h"
@@ -52,18 +57,84 @@ void ShowDataset(const fs::path& path) {
   for (const std::string& terms : m.terms) fmt::print("terms: {}\n", terms);
 }
 
+void ShowDatabase(const fs::path& path) {
+  const auto database = recon::PostureDatabase::Load(path);
+  const recon::DatabaseOptions& options = database.options();
+  const int size = database.size();
+  fmt::print("posture database, {} postures of {} in {} clips, {:.1f} edges a posture, {:.1f} MB\n",
+             size, database.source_postures(), database.clip_count(),
+             static_cast<double>(database.edge_count()) / size,
+             static_cast<double>(fs::file_size(path)) * 1e-6);
+  fmt::print("filter {}, threshold {} m; postures nearer than {:.3f} m are connected\n",
+             options.filter == recon::DatabaseFilter::kMaxJoint ? "max-joint" : "sum-squared",
+             options.threshold_m, database.edge_threshold_m());
+  for (int i = 0; i < size; ++i) {
+    if (i == 0 || database.clip_of(i) != database.clip_of(i - 1)) {
+      fmt::print("clip: {}\n", database.clip_of(i));
+    }
+  }
+}
+
+void ShowLearned(const fs::path& path) {
+  const auto learned = recon::LearnedModels::Load(path);
+  fmt::print("learned reconstruction, from {} pairs, {:.1f} MB\n", learned.pair_count,
+             static_cast<double>(fs::file_size(path)) * 1e-6);
+  fmt::print("best: a correction of {} centres\n", learned.correction.centres_.cols());
+  fmt::print("exemplar: {} pairs\n", learned.exemplars.size());
+  for (size_t j = 0; j < recon::kJointCount; ++j) {
+    fmt::print("  {:<14} liu-2016: {} local models  full-gp: {} samples\n", recon::kJointNames[j],
+               learned.mixtures[j].models().size(), learned.full[j].size());
+  }
+}
+
+bool IsDepthRecording(const fs::path& path) {
+  if (path.extension() == ".oni") return true;
+  if (!fs::is_directory(path)) return false;
+  return std::ranges::any_of(fs::directory_iterator(path), [](const fs::directory_entry& entry) {
+    return entry.path().extension() == ".png";
+  });
+}
+
+void ShowDepthRecording(const fs::path& path) {
+  const auto source = depth::OpenSource(path.string());
+  const depth::Camera& camera = source->camera();
+  const auto count = source->frame_count();
+  fmt::print("depth images, {} of {} x {}, fx {:.2f} fy {:.2f} cx {:.2f} cy {:.2f}\n",
+             count ? std::to_string(*count) + " frames" : "frames", camera.width, camera.height,
+             camera.fx, camera.fy, camera.cx, camera.cy);
+}
+
+bool IsRegularFile(const fs::path& path) { return fs::is_regular_file(path); }
+
+// Whatever else it is: a skeleton file of some SDK's, or the readers say why not.
+void ShowSkeletons(const fs::path& path) {
+  for (const recon::SkeletonClip& clip : recon::ReadSkeletonClips(path)) {
+    const auto& frames = clip.sequence.frames;
+    size_t bodies = 0;
+    for (const recon::SkeletonFrame& frame : frames) bodies += frame.bodies.size();
+    const double seconds = frames.empty() ? 0.0 : frames.back().time_s - frames.front().time_s;
+    fmt::print("skeletons{}{}, {} frames, {:.2f} s, {} bodies\n", clip.name.empty() ? "" : " ",
+               clip.name, frames.size(), seconds, bodies);
+  }
+}
+
+// The first kind that knows the file by its content shows it.
 constexpr std::array kKinds = {
     FileKind{forest::IsForestModel, ShowModel},
+    FileKind{recon::PostureDatabase::IsOne, ShowDatabase},
+    FileKind{recon::LearnedModels::IsOne, ShowLearned},
     FileKind{tools::IsDataset, ShowDataset},
+    FileKind{IsDepthRecording, ShowDepthRecording},
+    FileKind{IsRegularFile, ShowSkeletons},
 };
 
 }  // namespace
 
 int Info(int argc, char** argv) {
-  CLI::App app(
-      "Say what a file of ossa's holds: a model's card, a database's size, a data set's origin");
+  CLI::App app("Say what a file holds: a model's card, a database's clips, a data set's origin");
   std::string file;
-  app.add_option("FILE", file, "a .ossa, .ossadb, .ossagp or .oni file, or a DATASET folder")
+  app.add_option("FILE", file,
+                 "a .ossa, .ossadb, .ossagp, .oni or skeleton file, a DATASET or PNG folder")
       ->required();
   Parse(app, argc, argv);
   if (!fs::exists(file)) throw InputError(file + ": no such file or folder");
@@ -72,7 +143,7 @@ int Info(int argc, char** argv) {
     kind.show(file);
     return 0;
   }
-  throw InputError(file + ": not a file that ossa knows");
+  throw InputError(file + ": expected a DATASET or a folder of PNGs");
 }
 
 }  // namespace ossa::commands

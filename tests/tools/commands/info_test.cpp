@@ -1,0 +1,83 @@
+// `ossa info` knows every kind of file by its content and refuses the rest in one line.
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <fstream>
+#include <string>
+
+#include "recon/database/posture_database.h"
+#include "tests/support/depth_examples.h"
+#include "tests/support/run_command.h"
+#include "tests/support/temporary_folder.h"
+
+namespace ossa::commands {
+namespace {
+
+using test::CommandResult;
+using test::LineCount;
+using test::RunOssa;
+using test::TemporaryFolder;
+
+void ExpectShown(const std::filesystem::path& path, const std::string& what) {
+  const CommandResult result = RunOssa({"info", path.string()});
+  EXPECT_EQ(result.exit_status, 0) << result.err;
+  EXPECT_NE(result.out.find(what), std::string::npos) << result.out;
+}
+
+void ExpectRefused(const std::filesystem::path& path, const std::string& why) {
+  const CommandResult result = RunOssa({"info", path.string()});
+  EXPECT_EQ(result.exit_status, 1);
+  EXPECT_EQ(LineCount(result.err), 1) << result.err;
+  EXPECT_NE(result.err.find(path.string()), std::string::npos) << result.err;
+  EXPECT_NE(result.err.find(why), std::string::npos) << result.err;
+}
+
+// Two postures that differ by far more than the filter's threshold.
+recon::PostureDatabase TwoPostures() {
+  recon::PostureClip clip{"two.bvh", {}, {}};
+  for (const double bend_m : {0.0, 0.5}) {
+    recon::Posture posture;
+    for (size_t j = 1; j < recon::kJointCount; ++j) {
+      const double up_m = 0.1 * static_cast<double>(j);
+      posture.position_m[j] = {0.01 * static_cast<double>(j % 3) + bend_m * up_m, up_m, 0.0};
+    }
+    clip.postures.push_back(posture);
+  }
+  return recon::PostureDatabase::Build({clip}, {});
+}
+
+TEST(InfoCommand, ShowsWhatAPostureDatabaseHolds) {
+  const TemporaryFolder folder;
+  TwoPostures().Save(folder / "x.ossadb");
+  ExpectShown(folder / "x.ossadb", "postures of 2 in 1 clips");
+  ExpectShown(folder / "x.ossadb", "clip: two.bvh");
+}
+
+TEST(InfoCommand, ShowsWhatAFolderOfDepthImagesHolds) {
+  const TemporaryFolder folder;
+  test::WriteExampleFolder(folder.path(), 3);
+  ExpectShown(folder.path(), "depth images, 3 frames of ");
+}
+
+TEST(InfoCommand, ShowsWhatASkeletonFileHolds) {
+  const TemporaryFolder folder;
+  std::ofstream(folder / "x.jsonl")
+      << R"({"frame":0,"time_s":0,"bodies":[{"id":1,"joints":{"Head":{"p":[0,0,2]}}}]})"
+      << "\n";
+  ExpectShown(folder / "x.jsonl", "skeletons, 1 frames, 0.00 s, 1 bodies");
+}
+
+TEST(InfoCommand, RefusesWhatIsDamagedUnknownOrNotThere) {
+  const TemporaryFolder folder;
+  TwoPostures().Save(folder / "cut.ossadb");
+  std::filesystem::resize_file(folder / "cut.ossadb", 100);
+  ExpectRefused(folder / "cut.ossadb", "expected");
+  std::ofstream(folder / "letter.txt") << "Dear Sir or Madam,\n";
+  ExpectRefused(folder / "letter.txt", "expected");
+  ExpectRefused(folder / "none.ossa", "no such file");
+  std::filesystem::create_directory(folder / "empty");
+  ExpectRefused(folder / "empty", "expected a DATASET or a folder of PNGs");
+}
+
+}  // namespace
+}  // namespace ossa::commands
