@@ -62,6 +62,7 @@ Actor::Actor(OdeWorld& ode, const recon::BoneLengths& bone_lengths,
   if (options.joint_limits) limits = std::make_unique<JointLimits>(ode, character);
   weight.fill(1.0);
   aim_velocity_m_s.fill(Vector3d::Zero());
+  control.turning_rad_s.fill(Vector3d::Zero());
   mean_velocity_m_s.fill(Vector3d::Zero());
   mean_speed_m_s.fill(0.0);
 }
@@ -133,17 +134,26 @@ void Actor::Prepare(OdeWorld& ode, const std::optional<Vector4d>& floor, double 
   if (options.pin_feet) {
     for (FootPin& foot : foot_pin) {
       foot.Update(ode, character, floor, goal.position_m[foot.joint()], dt_s);
-      if (foot.pin() != nullptr) goal.position_m[foot.joint()] = foot.pin()->place_m();
+      if (foot.pin() == nullptr) continue;
+      goal.position_m[foot.joint()] = foot.pin()->place_m();
+      trust[foot.joint()] = kConstrainedWeight;
     }
   }
   last_aim = aim;
   aim = FitBoneLengths(goal, lengths, trust);
   if (LiftOntoFloor(floor, sole_m, aim)) aim = FitBoneLengths(aim, lengths, trust);
-  control.orientation = recon::OrientationsOf(aim);
+  aim_orientation = recon::OrientationsOf(aim);
   for (size_t i = 0; i < kJointCount; ++i) {
     SetLead(i, floor, sole_m, dt_s);
     control.stiffness[i] =
         controlled ? kLeastStiffness + (1.0 - kLeastStiffness) * std::min(trust[i], 1.0) : 0.0;
+  }
+  for (size_t i = 1; i < kJointCount; ++i) {
+    // A bone turns by what its ends' velocities differ across it.
+    const auto parent = static_cast<size_t>(kJointParent[i]);
+    const Vector3d bone = aim.position_m[i] - aim.position_m[parent];
+    control.turning_rad_s[i] =
+        bone.cross(aim_velocity_m_s[i] - aim_velocity_m_s[parent]) / bone.squaredNorm();
   }
 }
 
@@ -171,7 +181,7 @@ void Actor::SetLead(size_t joint, const std::optional<Vector4d>& floor, double s
 Vector3d Actor::Lead(size_t joint, const Vector3d& velocity_m_s, double dt_s) {
   constexpr double kMemory_s = 0.077;
   constexpr double kNoiseRatio = 0.4, kMotionRatio = 0.8;
-  constexpr double kSlow_m_s = 0.2, kFast_m_s = 0.6;
+  constexpr double kSlow_m_s = 0.05, kFast_m_s = 0.3;
   const double share = 1.0 - std::exp(-dt_s / kMemory_s);
   Vector3d& mean = mean_velocity_m_s[joint];
   double& mean_speed = mean_speed_m_s[joint];
@@ -189,6 +199,9 @@ void Actor::Drive(const Vector3d& gravity_m_s2, double left_s, double h_s) {
   for (size_t i = 0; i < kJointCount; ++i) {
     control.position_m[i] = aim.position_m[i] - left_s * aim_velocity_m_s[i];
     control.velocity_m_s[i] = aim_velocity_m_s[i];
+    const Vector3d ahead = left_s * control.turning_rad_s[i];
+    control.orientation[i] =
+        Eigen::AngleAxisd(-ahead.norm(), ahead.stableNormalized()) * aim_orientation[i];
   }
   character.Drive(control, options.gains, gravity_m_s2, h_s);
   if (limits != nullptr) limits->Update(h_s);

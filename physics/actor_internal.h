@@ -44,11 +44,13 @@ class FootPin {
   size_t joint() const { return joint_; }
 
  private:
-  bool Stands(double height_m, double radius_m) const;
+  void HearNoise(const Eigen::Vector3d& target_m, double dt_s);
 
   size_t joint_;
   std::unique_ptr<Pin> pin_;
   std::optional<Eigen::Vector3d> smooth_m_;  // the target, smoothed
+  std::vector<Eigen::Vector3d> last_m_;      // the last two targets
+  double noise_m_ = 0.0;                     // standard deviation of the target, per axis
   double still_s_ = 0.0;                     // for how long the target has not moved
   double away_s_ = 0.0;                      // for how long it has been away from the pin
   double beside_s_ = 0.0;                    // for how long it has rested a little beside the pin
@@ -76,6 +78,7 @@ struct Actor {
   std::array<Eigen::Vector3d, recon::kJointCount> mean_velocity_m_s;  // of the aim, see Lead
   std::array<double, recon::kJointCount> mean_speed_m_s{};
   std::array<Eigen::Vector3d, recon::kJointCount> aim_velocity_m_s;
+  recon::JointOrientations aim_orientation;
   ControlTarget control;
   std::array<FootPin, 2> foot_pin = {FootPin(15), FootPin(19)};
   std::map<size_t, Eigen::Vector3d> soft_constraint;

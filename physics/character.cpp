@@ -318,13 +318,16 @@ void Character::DriveMotors(const ControlTarget& target, const ControlGains& gai
     // Torque bound: what the force bound at the bone's far end and all beyond it would give.
     const double bound = gains.max_acceleration_m_s2 * 0.3 * segments_[bone].length_m *
                          (bone == 1 ? total_mass_kg_ : 4.0 * segments_[bone].mass_kg);
+    Vector3d turning = target.turning_rad_s[bone];
+    if (parent != 0) turning -= target.turning_rad_s[parent];
     set(motor_[bone], false,
-        gain * target.stiffness[bone] * RotationVector(wanted * now.conjugate()),
+        gain * target.stiffness[bone] * RotationVector(wanted * now.conjugate()) + turning,
         held ? bound : 0.0);
   }
   const Vector3d middle = 0.5 * (target.position_m[0] + target.position_m[1]);
+  const Vector3d velocity = 0.5 * (target.velocity_m_s[0] + target.velocity_m_s[1]);
   const Vector3d error = middle - ToEigen(dBodyGetPosition(body_[1]));
-  set(root_motor_, true, gain * target.stiffness[0] * error + target.velocity_m_s[0],
+  set(root_motor_, true, gain * target.stiffness[0] * error + velocity,
       target.stiffness[0] > 0.0 ? total_mass_kg_ * gains.max_acceleration_m_s2 : 0.0);
 }
 

@@ -143,9 +143,14 @@ CharacterFilter::~CharacterFilter() = default;
 CharacterFilter::CharacterFilter(CharacterFilter&&) noexcept = default;
 CharacterFilter& CharacterFilter::operator=(CharacterFilter&&) noexcept = default;
 
-FilteredPosture CharacterFilter::Step(const Posture& target, std::span<const double> weight,
+FilteredPosture CharacterFilter::Step(const Posture& seen, std::span<const double> weight,
                                       const std::optional<Eigen::Vector4d>& floor, double dt_s) {
   Impl& f = *impl_;
+  Posture target = seen;
+  // What nobody trusts may not say where the person is either.
+  for (size_t i = 0; i < weight.size() && i < kJointCount; ++i) {
+    if (!(weight[i] > 0.0)) target.position_m[i].setConstant(std::nan(""));
+  }
   f.world.SetFloor(f.options.floor ? floor : std::nullopt);
   FilteredPosture result;
   result.placed = f.MustPlace(target, dt_s);

@@ -27,6 +27,8 @@ struct ControlTarget {
   std::array<Eigen::Vector3d, recon::kJointCount> position_m;
   std::array<Eigen::Vector3d, recon::kJointCount> velocity_m_s;
   recon::JointOrientations orientation;
+  /// World, of the bone that ends in the joint, without its turn about itself.
+  std::array<Eigen::Vector3d, recon::kJointCount> turning_rad_s;
   /// Scales w per joint, [0, 1]; 0 lets go of the joint (and of its weight).
   std::array<double, recon::kJointCount> stiffness{};
 };

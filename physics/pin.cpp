@@ -11,7 +11,7 @@ using Eigen::Vector4d;
 namespace {
 
 constexpr double kReach_m = 0.02;  // a pin pulls with at most stiffness x reach
-constexpr double kFootStiffness_n_m = 2e5;
+constexpr double kFootStiffness_n_m = 1e6;
 /// What a pin moves: a leg's worth. Only sets the damping, 2 sqrt(k m).
 constexpr double kPinnedMass_kg = 8.0;
 
@@ -25,6 +25,22 @@ constexpr double kSmoothing_s = 0.08;
 constexpr double kAway_m = 0.04, kAwayTime_s = 0.06;
 // A foot that came to rest a little beside its pin is pinned again where it is.
 constexpr double kBeside_m = 0.012, kBesideTime_s = 0.25;
+
+/// The thresholds above at the noise that the target shows. A noisy target is averaged for longer
+/// and may stray further before it says anything; factors by a sweep on noisy mocap (CHANGES.md).
+struct Thresholds {
+  explicit Thresholds(double noise_m) {
+    constexpr double kClean_m = 0.004;
+    const double excess_m = std::max(0.0, noise_m - kClean_m);
+    smoothing_s = kSmoothing_s + 10.0 * excess_m;
+    still_m_s = kStillSpeed_m_s + 5.0 * excess_m;
+    stand_m = kStandHeight_m + 1.0 * excess_m;
+    lift_m = kLiftHeight_m + 2.0 * excess_m;
+    away_m = kAway_m + 4.0 * excess_m;
+    beside_m = kBeside_m + 2.0 * excess_m;
+  }
+  double smoothing_s, still_m_s, stand_m, lift_m, away_m, beside_m;
+};
 
 }  // namespace
 
@@ -53,7 +69,21 @@ void Pin::Update(double h_s) {
 void FootPin::Clear() {
   pin_.reset();
   smooth_m_.reset();
-  still_s_ = away_s_ = beside_s_ = 0.0;
+  last_m_.clear();
+  noise_m_ = still_s_ = away_s_ = beside_s_ = 0.0;
+}
+
+/// Standard deviation of the target's noise along an axis, from its second differences: for white
+/// noise their mean square is 6 x 3 sigma^2; a standing foot's own motion is not in them.
+void FootPin::HearNoise(const Vector3d& target_m, double dt_s) {
+  constexpr double kMemory_s = 0.5, kMost_m = 0.05;
+  if (last_m_.size() == 2) {
+    const double second_m = (target_m - 2.0 * last_m_[1] + last_m_[0]).norm();
+    const double share = 1.0 - std::exp(-dt_s / kMemory_s);
+    noise_m_ += share * (std::min(second_m / std::sqrt(18.0), kMost_m) - noise_m_);
+    last_m_.erase(last_m_.begin());
+  }
+  last_m_.push_back(target_m);
 }
 
 void FootPin::Update(OdeWorld& ode, Character& character, const std::optional<Vector4d>& floor,
@@ -62,14 +92,16 @@ void FootPin::Update(OdeWorld& ode, Character& character, const std::optional<Ve
     Clear();
     return;
   }
+  HearNoise(target_m, dt_s);
+  const Thresholds limit(noise_m_);
   const Vector3d before = smooth_m_.value_or(target_m);
-  const double share = 1.0 - std::exp(-dt_s / kSmoothing_s);
+  const double share = 1.0 - std::exp(-dt_s / limit.smoothing_s);
   smooth_m_ = before + share * (target_m - before);
   const double speed = (*smooth_m_ - before).norm() / dt_s;
   const double sole_m = character.segments()[joint_].radius_m;
   const double height = HeightAbove(*floor, *smooth_m_) - sole_m;
   if (pin_ == nullptr) {
-    const bool still = height < kStandHeight_m && speed < kStillSpeed_m_s;
+    const bool still = height < limit.stand_m && speed < limit.still_m_s;
     still_s_ = still ? still_s_ + dt_s : 0.0;
     if (still_s_ < kStillTime_s) return;
     Vector3d place = character.JointPosition(joint_);
@@ -80,9 +112,10 @@ void FootPin::Update(OdeWorld& ode, Character& character, const std::optional<Ve
     return;
   }
   const double distance = (target_m - pin_->place_m()).norm();
-  away_s_ = distance > kAway_m ? away_s_ + dt_s : 0.0;
-  beside_s_ = (*smooth_m_ - pin_->place_m()).norm() > kBeside_m ? beside_s_ + dt_s : 0.0;
-  if (height > kLiftHeight_m || away_s_ > kAwayTime_s || distance > 2.0 * kAway_m ||
+  away_s_ = distance > limit.away_m ? away_s_ + dt_s : 0.0;
+  const bool beside = (*smooth_m_ - pin_->place_m()).norm() > limit.beside_m;
+  beside_s_ = beside ? beside_s_ + dt_s : 0.0;
+  if (height > limit.lift_m || away_s_ > kAwayTime_s || distance > 2.0 * limit.away_m ||
       beside_s_ > kBesideTime_s) {
     pin_.reset();
     still_s_ = 0.0;

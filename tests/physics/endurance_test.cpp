@@ -17,15 +17,16 @@ using Eigen::Vector3d;
 using recon::Posture;
 using test::DancingPerson;
 using test::Ground;
+using test::kFrame_s;
+using test::Lengths;
 using test::Moved;
 using test::StandingPerson;
 
-constexpr double kFrame_s = 1.0 / 30.0;
+class Latency : public testing::TestWithParam<Control> {};
 
-recon::BoneLengths Lengths() { return recon::BoneLengthsOf(StandingPerson()); }
-
-TEST(Latency, OfTheFilterIsAtMostAFrame) {
+TEST_P(Latency, OfTheFilterIsAtMostAFrame) {
   CharacterFilterOptions options;
+  options.control = GetParam();
   options.pin_feet = false;
   CharacterFilter filter(Lengths(), options);
   // To and fro at 0.5 Hz and 1.3 m/s: a pure delay d shows as a phase of 2 pi 0.5 d.
@@ -43,6 +44,8 @@ TEST(Latency, OfTheFilterIsAtMostAFrame) {
   EXPECT_LT(delay_frames, 1.0);   // the bound
   EXPECT_GT(delay_frames, -0.2);  // it does not run ahead
 }
+
+INSTANTIATE_TEST_SUITE_P(BothControls, Latency, testing::Values(Control::kPaper, Control::kMotor));
 
 std::vector<double> Dance() {
   CharacterFilter filter(Lengths());

@@ -16,12 +16,11 @@ using recon::Joint;
 using recon::Posture;
 using test::DancingPerson;
 using test::Ground;
+using test::kFrame_s;
+using test::Lengths;
 using test::StandingPerson;
 
-constexpr double kFrame_s = 1.0 / 30.0;
 constexpr double kDegree = std::numbers::pi / 180.0;
-
-recon::BoneLengths Lengths() { return recon::BoneLengthsOf(StandingPerson()); }
 
 Vector3d Axis(const FilteredPosture& out, size_t bone, const Vector3d& axis) {
   return out.orientation[bone] * axis;

@@ -11,10 +11,10 @@ namespace ossa::physics {
 namespace {
 
 using Eigen::Vector3d;
+using test::kFrame_s;
+using test::Lengths;
 using test::Moved;
 using test::StandingPerson;
-
-constexpr double kFrame_s = 1.0 / 30.0;
 
 CharacterOptions Free() {
   CharacterOptions options;
@@ -25,8 +25,7 @@ CharacterOptions Free() {
 
 TEST(Mechanics, ACharacterLetGoFallsFreely) {
   World world;
-  const int person =
-      world.AddCharacter(recon::BoneLengthsOf(StandingPerson()), StandingPerson(), Free());
+  const int person = world.AddCharacter(Lengths(), StandingPerson(), Free());
   world.LetGo(person);
   for (int i = 0; i < 15; ++i) world.Step(kFrame_s);
   const double t = 0.5, h = kFrame_s / 10;
@@ -71,8 +70,7 @@ TEST(Mechanics, AStepOfTheTargetIsAnsweredAsDerived) {
   CharacterOptions options = Free();
   options.gains.rate_rad_s = 30.0;
   options.lead = 0.0;
-  const int person =
-      world.AddCharacter(recon::BoneLengthsOf(StandingPerson()), StandingPerson(), options);
+  const int person = world.AddCharacter(Lengths(), StandingPerson(), options);
   const double jump = 0.1;  // w^2 jump stays below the bound on accelerations
   const double x0 = world.StateOf(person).posture.position_m[0].x();
   world.SetTarget(person, Moved(StandingPerson(), {jump, 0.0, 0.0}));
@@ -94,8 +92,7 @@ TEST(Mechanics, APushAddsItsImpulseToTheMomentum) {
   WorldOptions weightless;
   weightless.gravity_m_s2 = 0.0;
   World world(weightless);
-  const int person =
-      world.AddCharacter(recon::BoneLengthsOf(StandingPerson()), StandingPerson(), Free());
+  const int person = world.AddCharacter(Lengths(), StandingPerson(), Free());
   world.LetGo(person);
   const Vector3d impulse(10.0, -3.0, 5.0);
   world.Push(person, recon::Joint::kShoulderLeft, impulse);
@@ -107,7 +104,7 @@ TEST(Mechanics, APushAddsItsImpulseToTheMomentum) {
 TEST(Mechanics, APushedCharacterReturns) {
   World world;
   world.SetFloor(test::Ground());
-  const int person = world.AddCharacter(recon::BoneLengthsOf(StandingPerson()), StandingPerson());
+  const int person = world.AddCharacter(Lengths(), StandingPerson());
   world.SetTarget(person, StandingPerson());
   for (int i = 0; i < 20; ++i) world.Step(kFrame_s);
   world.Push(person, recon::Joint::kShoulderCenter, {0.0, 0.0, -80.0});
@@ -121,7 +118,7 @@ TEST(Mechanics, APushedCharacterReturns) {
 }
 
 TEST(Anthropometry, MassesSumToTheBodyAndHangOnTheJoints) {
-  const auto segments = SegmentsOf(recon::BoneLengthsOf(StandingPerson()), 1.75, 70.0);
+  const auto segments = SegmentsOf(Lengths(), 1.75, 70.0);
   double sum = 0.0, lumped = 0.0;
   for (const auto& segment : segments) sum += segment.mass_kg;
   for (const double m : LumpedMasses(segments)) lumped += m;
@@ -131,7 +128,7 @@ TEST(Anthropometry, MassesSumToTheBodyAndHangOnTheJoints) {
 
 TEST(Anthropometry, NoBoneTurnsHarderThanTwoMassesAtItsEnds) {
   // The premise of the damping derivation in control.h: rho >= 1, and <= 3.65.
-  const auto segments = SegmentsOf(recon::BoneLengthsOf(StandingPerson()));
+  const auto segments = SegmentsOf(Lengths());
   for (size_t i = 1; i < recon::kJointCount; ++i) {
     const auto& s = segments[i];
     const double rho = 0.25 * s.mass_kg * s.length_m * s.length_m / s.transverse_inertia_kgm2;
@@ -140,9 +137,7 @@ TEST(Anthropometry, NoBoneTurnsHarderThanTwoMassesAtItsEnds) {
   }
 }
 
-TEST(Anthropometry, StatureComesOutOfTheBones) {
-  EXPECT_NEAR(StatureOf(recon::BoneLengthsOf(StandingPerson())), 1.75, 0.1);
-}
+TEST(Anthropometry, StatureComesOutOfTheBones) { EXPECT_NEAR(StatureOf(Lengths()), 1.75, 0.1); }
 
 }  // namespace
 }  // namespace ossa::physics

@@ -55,6 +55,30 @@ inline recon::Posture DancingPerson(double time_s) {
   return p;
 }
 
+constexpr double kFrame_s = 1.0 / 30.0;
+
+/// Of the standing person.
+inline recon::BoneLengths Lengths() { return recon::BoneLengthsOf(StandingPerson()); }
+
+/// Largest relative error of a bone's length against the standing person's.
+inline double LargestLengthError(const recon::Posture& posture) {
+  const auto now = recon::BoneLengthsOf(posture), wanted = Lengths();
+  double largest = 0.0;
+  for (size_t i = 1; i < recon::kJointCount; ++i) {
+    largest = std::max(largest, std::abs(now[i] / wanted[i] - 1.0));
+  }
+  return largest;
+}
+
+/// White noise on every joint, of so many metres along each axis.
+inline recon::Posture Shaken(recon::Posture posture, double sigma_m, std::mt19937_64& random) {
+  std::normal_distribution<double> normal(0.0, sigma_m);
+  for (auto& p : posture.position_m) {
+    for (double& v : p) v += normal(random);
+  }
+  return posture;
+}
+
 inline double LargestDistance(const recon::Posture& a, const recon::Posture& b) {
   double largest = 0.0;
   for (size_t i = 0; i < recon::kJointCount; ++i) {
