@@ -7,6 +7,8 @@ namespace ossa::tools {
 
 /// The body's parts and motions on it, as pictures.
 std::vector<Table> RunBody(ExperimentContext& context);
+/// The simulated sensor beside real frames: depth steps, noise, shadows, holes.
+std::vector<Table> RunSensor(ExperimentContext& context);
 /// Every method on every real recording, the SDK's own skeletons as the baseline.
 std::vector<Table> RunSdk(ExperimentContext& context);
 /// Shum & Ho 2012: scenes with objects, the character as a filter, dimensions of a posture search.
