@@ -19,23 +19,22 @@ double TiltFromUp(const Posture& posture, Joint from, Joint to) {
   return AngleBetween(posture[to] - posture[from], Eigen::Vector3d::UnitY()) * 180.0 / M_PI;
 }
 
-bool Finite(const Posture& posture) {
-  return std::all_of(posture.position_m.begin(), posture.position_m.end(),
-                     [](const Eigen::Vector3d& p) { return p.allFinite(); });
-}
+// Over the standard body's bones at the person's size: joints are defined differently by every
+// sensor, but not by more.
+constexpr double kShortest = 0.5, kLongest = 2.0;
+constexpr int kFewestJoints = 8;
 
 }  // namespace
 
 bool IsReferencePosture(const Posture& p) {
   constexpr double kUpright_deg = 20.0;  // of trunk and legs
-  if (!Finite(p) || TiltFromUp(p, Joint::kHipCenter, Joint::kShoulderCenter) > kUpright_deg) {
-    return false;
-  }
+  // Comparisons this way round: what is not finite is not upright.
+  if (!(TiltFromUp(p, Joint::kHipCenter, Joint::kShoulderCenter) <= kUpright_deg)) return false;
   for (const auto& [hip, shoulder] : {std::pair{Joint::kHipLeft, Joint::kShoulderLeft},
                                       std::pair{Joint::kHipRight, Joint::kShoulderRight}}) {
     const auto next = [](Joint j, int n) { return static_cast<Joint>(Index(j) + n); };
-    if (TiltFromUp(p, next(hip, 1), hip) > kUpright_deg) return false;
-    if (TiltFromUp(p, next(hip, 2), next(hip, 1)) > kUpright_deg) return false;
+    if (!(TiltFromUp(p, next(hip, 1), hip) <= kUpright_deg)) return false;
+    if (!(TiltFromUp(p, next(hip, 2), next(hip, 1)) <= kUpright_deg)) return false;
     const double upper = TiltFromUp(p, shoulder, next(shoulder, 1));
     const double lower = TiltFromUp(p, next(shoulder, 1), next(shoulder, 2));
     const bool level = std::abs(upper - 90.0) < 25.0 && std::abs(lower - 90.0) < 25.0;
@@ -47,25 +46,62 @@ bool IsReferencePosture(const Posture& p) {
 
 void ReferenceLengths::Observe(const Posture& in_camera, const JointWeights& trust) {
   const BoneLengths lengths = BoneLengthsOf(in_camera);
-  const bool all = std::all_of(trust.begin(), trust.end(), [](double t) { return t >= 0.99; });
-  if (all && IsReferencePosture(in_camera)) {
-    // A length that no body of this size has is an error of the frame, not a feature of the person;
-    // so is one far from what an earlier reference posture showed, while the size stayed the same.
-    const double scale = BodyScaleOf(lengths, trust);
-    const bool same_size = from_posture_ && std::abs(scale / scale_ - 1.0) < 0.2;
-    for (size_t i = 1; i < kJointCount; ++i) {
-      const double expected = same_size ? lengths_m_[i] : scale * StandardBoneLengths()[i];
-      const double far = same_size ? 0.15 : 0.5;
-      if (same_size && std::abs(lengths[i] / expected - 1.0) > far) continue;
-      const double seen = std::clamp(lengths[i], (1.0 - far) * expected, (1.0 + far) * expected);
-      lengths_m_[i] = same_size ? 0.9 * lengths_m_[i] + 0.1 * seen : seen;
+  // "All body parts tracked" are all those that this sensor has: UI-PRMD's Kinect has no hands.
+  int known_joints = 0;
+  bool all = true;
+  for (size_t i = 0; i < kJointCount; ++i) {
+    had_[i] = had_[i] || trust[i] >= 0.99;
+    known_joints += had_[i] ? 1 : 0;
+    all = all && (!had_[i] || trust[i] >= 0.99);
+  }
+  if (all && known_joints >= kFewestJoints && IsReferencePosture(in_camera)) {
+    FromReferencePosture(lengths, trust);
+  } else if (!from_posture_) {
+    FromAnyPosture(lengths, trust);
+  }
+}
+
+void ReferenceLengths::FromReferencePosture(const BoneLengths& lengths, const JointWeights& trust) {
+  // A length that no body of this size has is an error of the frame, not a feature of the person;
+  // so is one far from what an earlier reference posture showed, while the size stayed the same.
+  const double scale = BodyScaleOf(lengths, trust);
+  const bool same_size = from_posture_ && std::abs(scale / scale_ - 1.0) < 0.2;
+  for (size_t i = 1; i < kJointCount; ++i) {
+    const double standard = scale * StandardBoneLengths()[i];
+    if (std::min(trust[i], trust[static_cast<size_t>(kJointParent[i])]) < 0.99) {
+      if (!same_size) lengths_m_[i] = standard;
+    } else if (!same_size) {
+      lengths_m_[i] = std::clamp(lengths[i], kShortest * standard, kLongest * standard);
+    } else if (std::abs(lengths[i] / lengths_m_[i] - 1.0) < 0.15) {
+      lengths_m_[i] = 0.9 * lengths_m_[i] + 0.1 * lengths[i];
     }
-    scale_ = scale;
-    known_ = from_posture_ = true;
-  } else if (!known_) {
-    const auto seen = std::count_if(trust.begin(), trust.end(), [](double t) { return t > 0.5; });
-    lengths_m_ = ScaledBoneLengths(BodyScaleOf(lengths, trust));
-    known_ = seen >= 8;  // fewer joints do not fix a size
+  }
+  scale_ = scale;
+  known_ = from_posture_ = true;
+}
+
+/// Before any reference posture: the standard body at the person's size, but the midline as the
+/// mean of what was seen so far. Sensors place the spine differently (a Kinect v2's lies 10 cm
+/// higher, which would make the hips' centre half unreliable for ever) but seldom wrongly; the
+/// other joints the other way round.
+void ReferenceLengths::FromAnyPosture(const BoneLengths& lengths, const JointWeights& trust) {
+  constexpr int kMemory = 30;  // frames
+  const auto seen = std::count_if(trust.begin(), trust.end(), [](double t) { return t > 0.5; });
+  if (seen < kFewestJoints) {  // fewer joints do not fix a size
+    if (!known_) lengths_m_ = ScaledBoneLengths(BodyScaleOf(lengths, trust));
+    return;
+  }
+  if (!known_) scale_ = BodyScaleOf(lengths, trust);
+  known_ = true;
+  for (size_t i = 1; i < kJointCount; ++i) {
+    const double standard = scale_ * StandardBoneLengths()[i];
+    if (measured_[i] == 0) lengths_m_[i] = standard;
+    if (i > 3) continue;  // spine, shoulders' centre, head
+    const double both = std::min(trust[i], trust[static_cast<size_t>(kJointParent[i])]);
+    if (both <= 0.5 || !std::isfinite(lengths[i])) continue;
+    const double length = std::clamp(lengths[i], kShortest * standard, kLongest * standard);
+    measured_[i] = std::min(measured_[i] + 1, kMemory);
+    lengths_m_[i] += (length - lengths_m_[i]) / measured_[i];
   }
 }
 

@@ -36,7 +36,7 @@ struct Reliability {
 };
 
 /// Reference bone lengths of eq. 5: taken whenever a T-pose or a standing posture is seen with
-/// every joint tracked; until then the standard body at the size of the first frames.
+/// every joint tracked that the sensor has; until then the mean of what was seen.
 class ReferenceLengths {
  public:
   void Observe(const Posture& in_camera, const JointWeights& trust);
@@ -44,8 +44,13 @@ class ReferenceLengths {
   bool known() const { return known_; }
 
  private:
+  void FromReferencePosture(const BoneLengths& lengths, const JointWeights& trust);
+  void FromAnyPosture(const BoneLengths& lengths, const JointWeights& trust);
+
   BoneLengths lengths_m_{};
-  double scale_ = 1.0;         // of the last reference posture
+  std::array<bool, kJointCount> had_{};      // joints that were ever tracked
+  std::array<int, kJointCount> measured_{};  // frames in the mean of a bone without posture
+  double scale_ = 1.0;                       // of the last reference posture, or of the first frame
   bool known_ = false;         // some frame was good enough to measure at least the size
   bool from_posture_ = false;  // a reference posture was seen
 };

@@ -37,17 +37,18 @@ class OffsetReconstructor : public Reconstructor {
     const PreparedPosture prepared = person_.Prepare(input);
     if (prepared.restarted) last_.reset(), before_last_.reset();
     Posture made = prepared.scaled;
+    expected_ = Expected(prepared);
     BeginFrame(prepared);
     for (size_t i = 0; i < kJointCount; ++i) {
       const OffsetPrediction p = Predict(prepared, i);
       made.position_m[i] += MinimisingOffset(p, prepared, i);
       Learn(prepared, i, p);
     }
-    // Positions in the person's frame, about the same root: the velocity of eq. 20 is the limbs'.
-    before_last_ = last_;
-    last_ = made;
     ReconstructedPosture out{Placed(Scaled(made, prepared.scale), prepared.placement),
                              prepared.reliability};
+    before_last_ = last_;
+    last_ = out.posture;
+    last_dt_s_ = prepared.dt_s;
     person_.Remember(out.posture, prepared);
     return out;
   }
@@ -67,20 +68,41 @@ class OffsetReconstructor : public Reconstructor {
   std::shared_ptr<const LearnedModels> models_;
 
  private:
+  /// 2 M_{t-1} - M_{t-2} of eq. 20 in this frame's normalised space. Departure: the two postures
+  /// are kept in the camera's space: normalised ones would turn and jump with every error of the
+  /// hips that the frame is made of, and the temporal term would carry that on.
+  std::optional<Posture> Expected(const PreparedPosture& prepared) const {
+    if (!last_ || !before_last_) return std::nullopt;
+    const double share = prepared.dt_s / last_dt_s_;  // frames need not be evenly spaced
+    Posture expected;
+    for (size_t i = 0; i < kJointCount; ++i) {
+      expected.position_m[i] =
+          last_->position_m[i] + share * (last_->position_m[i] - before_last_->position_m[i]);
+    }
+    return Scaled(Normalised(expected, prepared.placement), 1.0 / prepared.scale);
+  }
+
   /// argmin over y of eq. 22. Departure: the three terms are quadratic in y, so the minimum is
   /// taken in closed form instead of by sampling; and the spatial term's precision is counted in
   /// units of the noise, which makes the weights 0.6 / 0.2 / 0.2 comparable: without units the
   /// paper's sum of a log likelihood and square metres has no meaning.
+  ///
+  /// A posture made is (1 - b) (X + y) + b (2 M' - M''), b the temporal share of all weights. Its
+  /// answer to a jump has poles of modulus sqrt(b): near b = 1, which is where a joint is neither
+  /// sure nor reliable, what was once seen goes on as motion at constant speed and what is seen now
+  /// has no say. The spatial weight therefore never falls below the temporal one ("should be set
+  /// the largest", sec. 4.5): b <= 1/2 halves an error every two frames. Far from all samples the
+  /// predicted offset is none, so that this keeps the joint near where it is seen.
   Eigen::Vector3d MinimisingOffset(const OffsetPrediction& p, const PreparedPosture& prepared,
                                    size_t i) const {
-    const double spatial = options_.spatial / (1.0 + p.unsureness);  // eq. 7
+    const double spatial =
+        std::max(options_.spatial / (1.0 + p.unsureness), options_.temporal);  // eq. 7
     const double r = prepared.reliability[i];
     const double reliability = options_.reliability * r * r;  // eq. 21
     Eigen::Vector3d sum = spatial * p.offset;
     double total = spatial + reliability;
-    if (last_ && before_last_) {
-      const Eigen::Vector3d target =
-          2.0 * last_->position_m[i] - before_last_->position_m[i] - prepared.scaled.position_m[i];
+    if (expected_) {
+      const Eigen::Vector3d target = expected_->position_m[i] - prepared.scaled.position_m[i];
       sum += options_.temporal * target;  // eq. 20
       total += options_.temporal;
     }
@@ -88,7 +110,9 @@ class OffsetReconstructor : public Reconstructor {
   }
 
   Person person_;
-  std::optional<Posture> last_, before_last_;
+  std::optional<Posture> last_, before_last_;  // M_{t-1}, M_{t-2}: as made, camera space
+  std::optional<Posture> expected_;
+  double last_dt_s_ = 1.0 / 30.0;
 };
 
 class Liu2016 : public OffsetReconstructor {

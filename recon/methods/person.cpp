@@ -35,6 +35,36 @@ Eigen::Vector3d OffsetTo(const Posture& model, const Posture& seen, const JointW
   return offset;
 }
 
+/// Shum & Ho 2012 eqs. 3-4 where some joints were not seen: a joint whose parent is missing hangs
+/// on its nearest ancestor that is there, at the distance it was seen, in proportion to the bones
+/// between. Departure: the paper goes from joint to joint, which keeps of a hand whose arm is
+/// hidden no more than the direction of its last bone from a guessed wrist.
+Posture RetargetedAsSeen(const Posture& own, const JointWeights& present,
+                         const BoneLengths& own_lengths) {
+  const BoneLengths& standard = StandardBoneLengths();
+  Posture out = Retargeted(own, standard);
+  for (size_t i = 1; i < kJointCount; ++i) {
+    const auto parent = static_cast<size_t>(kJointParent[i]);
+    size_t ancestor = parent;
+    double chain_m = own_lengths[i], standard_chain_m = standard[i];
+    while (ancestor != 0 && present[ancestor] == 0.0) {
+      chain_m += own_lengths[ancestor];
+      standard_chain_m += standard[ancestor];
+      ancestor = static_cast<size_t>(kJointParent[ancestor]);
+    }
+    if (present[i] == 0.0 || ancestor == parent || !(chain_m > 0.0)) {
+      Eigen::Vector3d bone = own.position_m[i] - own.position_m[parent];
+      if (bone.norm() < 1e-6)
+        bone = StandardStance().position_m[i] - StandardStance().position_m[parent];
+      out.position_m[i] = out.position_m[parent] + bone.normalized() * standard[i];
+      continue;
+    }
+    const Eigen::Vector3d reach = own.position_m[i] - own.position_m[ancestor];
+    out.position_m[i] = out.position_m[ancestor] + standard_chain_m / chain_m * reach;
+  }
+  return out;
+}
+
 void PutBetween(Posture& p, JointWeights& present, Joint joint, Joint a, Joint b, double share) {
   if (present[At(joint)] > 0.0 || present[At(a)] == 0.0 || present[At(b)] == 0.0) return;
   p[joint] = (1.0 - share) * p[a] + share * p[b];
@@ -111,7 +141,10 @@ void BodySize::Observe(const Posture& in_camera, const JointWeights& trust, doub
       const double size = expected_scale > 0.0 ? expected_scale : scale_;
       mean[i] = 0.5 * (mean[i] + size * as_expected * StandardBoneLengths()[i]);
     }
-    lengths_m_[i] = std::clamp(mean[i], 0.75 * lengths_m_[i], 1.25 * lengths_m_[i]);
+    // Where trunk joints lie is each sensor's own definition; limbs differ between people only.
+    const bool trunk = i <= 4 || i == 8 || i == 12 || i == 16;
+    const double shortest = trunk ? 0.5 : 0.75, longest = trunk ? 2.0 : 1.25;
+    lengths_m_[i] = std::clamp(mean[i], shortest * lengths_m_[i], longest * lengths_m_[i]);
   }
   mean_m_ = lengths_m_;
   locked_ = good >= 12;
@@ -143,7 +176,8 @@ PreparedPosture Person::Prepare(const ReconstructionInput& input) {
   JointWeights heading = out.reliability;
   for (size_t i = 0; i < kJointCount; ++i) heading[i] += 0.1 * out.present[i];
   out.placement = PlacementOf(out.in_camera, heading, last_yaw_rad_);
-  out.normalised = Retargeted(Normalised(out.in_camera, out.placement), StandardBoneLengths());
+  out.normalised =
+      RetargetedAsSeen(Normalised(out.in_camera, out.placement), out.present, size_.lengths_m());
   out.scale = size_.scale();
   out.scaled = Scaled(Normalised(out.in_camera, out.placement), 1.0 / out.scale);
   last_time_s_ = input.time_s;

@@ -87,7 +87,7 @@ Eigen::ArrayXf Energies(const PostureSpace& space, const EnergyInputs& inputs,
     if (squares) {
       control += weight * SquaredNorm(d);  // eqs. 9-10
     } else {
-      control += weight * SquaredNorm(d).sqrt() / float(kJointCount);  // Plantard eq. 8
+      control += weight * SquaredNorm(d) / float(kJointCount);  // Plantard eq. 8
     }
     if (history) {
       d = (xi.rowwise() - expected.segment<3>(3 * i).transpose()).array();
@@ -102,9 +102,7 @@ Eigen::ArrayXf Energies(const PostureSpace& space, const EnergyInputs& inputs,
   Eigen::ArrayXXf style = (-2.0F * q * space.neighbours).array();
   style.colwise() += q.rowwise().squaredNorm().array();
   style.rowwise() += (space.neighbours.colwise().squaredNorm() + space.outside.transpose()).array();
-  Eigen::ArrayXf nearest = style.rowwise().minCoeff().max(0.0F);
-  nearest = squares ? Eigen::ArrayXf(nearest / float(kJointCount))
-                    : Eigen::ArrayXf((nearest / float(kJointCount)).sqrt());
+  const Eigen::ArrayXf nearest = style.rowwise().minCoeff().max(0.0F) / float(kJointCount);
   return static_cast<float>(options.control) * control +
          static_cast<float>(options.style) * nearest +
          static_cast<float>(options.kinematics) * kinematics / float(kJointCount - 1) +

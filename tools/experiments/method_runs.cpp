@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <chrono>
+#include <fstream>
 #include <map>
 
 #include "depth/error.h"
@@ -16,9 +17,6 @@
 namespace ossa::tools {
 namespace {
 
-// Raise when a method changes what it gives for the same options.
-constexpr const char* kVersion = "methods 2";
-
 std::string KeyOf(const ExperimentContext& context, const MethodRun& run) {
   const recon::ReconstructorOptions& o = run.options;
   const auto& pca = o.local_pca;
@@ -27,7 +25,7 @@ std::string KeyOf(const ExperimentContext& context, const MethodRun& run) {
   std::string key = fmt::format(
       "{} {} seed {} pca {} {} {} {} {} {} {} {} {} {} {} gp {} {} {} {} {} best {} {} {} {} {} {} "
       "{} {} {}",
-      kVersion, o.method, o.seed, pca.neighbours, pca.dimensions, pca.steps, pca.samples,
+      KeyOfCode(), o.method, o.seed, pca.neighbours, pca.dimensions, pca.steps, pca.samples,
       pca.control, pca.style, pca.kinematics, pca.continuity, pca.solver, pca.use_reliability,
       pca.extend_database, gp.nearby_models, gp.spatial, gp.temporal, gp.reliability,
       gp.incremental, best.repair, best.correct, best.bones, best.complete, best.filter,
@@ -46,6 +44,20 @@ void StopWhenInterrupted(const ExperimentContext& context) {
 }
 
 }  // namespace
+
+std::string KeyOfCode() {
+  static const std::string key = [] {
+    std::string made = KeyOfFile("/proc/self/exe");
+    std::ifstream maps("/proc/self/maps");
+    for (std::string line; std::getline(maps, line);) {
+      const size_t path = line.find('/');
+      if (path == std::string::npos || line.find("libossa_recon") == std::string::npos) continue;
+      return made + " " + KeyOfFile(line.substr(path));
+    }
+    return made;
+  }();
+  return key;
+}
 
 OpenDatabase DatabaseOf(const ExperimentContext& context) {
   OpenDatabase database;
@@ -128,7 +140,7 @@ std::filesystem::path LearnWithout(const ExperimentContext& context,
                                    const std::string& left_out,
                                    const recon::LearnOptions& options) {
   std::string key =
-      fmt::format("learn {} {} {} {} {} {} {} {}", kVersion, options.mixture.regions,
+      fmt::format("learn {} {} {} {} {} {} {} {}", KeyOfCode(), options.mixture.regions,
                   options.mixture.samples, options.mixture.seed, options.most_pairs,
                   options.full_samples, options.correction.centres, options.correction.most_pairs);
   std::vector<recon::PosturePair> pairs;

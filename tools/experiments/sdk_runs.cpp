@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <atomic>
 #include <chrono>
-#include <fstream>
 #include <map>
 #include <mutex>
 #include <nlohmann/json.hpp>
@@ -13,6 +12,7 @@
 #include "recon/database/posture_database.h"
 #include "recon/methods/recorded_pairs.h"
 #include "recon/methods/sequence.h"
+#include "tools/experiments/method_runs.h"
 #include "tools/experiments/sdk_internal.h"
 #include "tools/tracker/shipped.h"
 
@@ -62,18 +62,6 @@ std::string DescriptionOf(const recon::ReconstructorOptions& o) {
       o.local_pca.use_reliability, o.gaussian_process.incremental, o.gaussian_process.nearby_models,
       o.best.repair, o.best.complete, o.best.correct, o.best.filter, o.best.bones,
       o.best.neighbours, o.database ? o.database->size() : 0);
-}
-
-/// The code that made a number: this program and, where it is linked dynamically, recon beside it.
-std::string KeyOfCode() {
-  std::string key = KeyOfFile("/proc/self/exe");
-  std::ifstream maps("/proc/self/maps");
-  for (std::string line; std::getline(maps, line);) {
-    const size_t path = line.find('/');
-    if (path == std::string::npos || line.find("libossa_recon") == std::string::npos) continue;
-    return key + " " + KeyOfFile(line.substr(path));
-  }
-  return key;
 }
 
 struct FoldScore {
