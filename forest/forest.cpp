@@ -1,5 +1,6 @@
 #include "forest/forest.h"
 
+#include <algorithm>
 #include <cmath>
 
 #include "depth/error.h"
@@ -9,6 +10,7 @@ namespace ossa::forest {
 namespace {
 
 constexpr size_t kMaxCells = 512;
+constexpr size_t kMaxFactors = 64;
 
 [[noreturn]] void Refuse(const std::string& name, const std::string& reason) {
   throw InputError(name + ": forest model: " + reason);
@@ -90,6 +92,13 @@ void CheckTree(const ForestData& data, size_t t, const std::string& name) {
   }
 }
 
+template <size_t N>
+void CheckLogistic(const Logistic<N>& logistic, const std::string& where) {
+  bool finite = std::isfinite(logistic.bias);
+  for (const float weight : logistic.weight) finite = finite && std::isfinite(weight);
+  if (!finite) Refuse(where, "a confidence weight is not a number");
+}
+
 void CheckTarget(const ForestData& data, const ProposalTarget& target, const std::string& name) {
   const std::string where = name + ": target '" + target.name + "'";
   for (const uint8_t c : target.classes) {
@@ -98,14 +107,43 @@ void CheckTarget(const ForestData& data, const ProposalTarget& target, const std
   for (const float value : {target.bandwidth_m, target.vote_sharpness_m}) {
     if (!(value > 0.0F && value < 10.0F)) Refuse(where, "expected lengths in (0, 10) m");
   }
-  for (const float value : {target.probability_threshold, target.push_back_m, target.class_weight,
-                            target.vote_radius_m, target.tracked_confidence,
-                            target.inferred_confidence, target.correct.bias, target.visible.bias}) {
+  for (const float value :
+       {target.probability_threshold, target.push_back_m, target.class_weight, target.vote_radius_m,
+        target.tracked_confidence, target.inferred_confidence}) {
     if (!std::isfinite(value)) Refuse(where, "a parameter is not a number");
   }
-  for (size_t i = 0; i < Confidence::kFeatures; ++i) {
-    if (!std::isfinite(target.correct.weight[i]) || !std::isfinite(target.visible.weight[i])) {
-      Refuse(where, "a confidence weight is not a number");
+  if (!(target.mode_noise_m > 0.0F && target.mode_noise_m < 10.0F)) {
+    Refuse(where, "noise of modes: expected a length in (0, 10) m");
+  }
+  CheckLogistic(target.correct, where);
+  CheckLogistic(target.visible, where);
+  CheckLogistic(target.fused, where);
+  CheckLogistic(target.apart, where);
+}
+
+bool AllWithin(const std::vector<float>& values, float low, float high) {
+  return std::all_of(values.begin(), values.end(),
+                     [&](float value) { return value >= low && value <= high; });
+}
+
+void CheckArrangements(const ForestData& data, const std::string& name) {
+  if (data.arrangements.empty()) return;
+  if (data.arrangements.size() != data.context_names.size()) {
+    Refuse(name, "arrangements: expected " + std::to_string(data.context_names.size()) +
+                     ", one a context, found " + std::to_string(data.arrangements.size()));
+  }
+  constexpr float kFar_m = 100.0F;
+  const size_t rows = 3 * data.targets.size();
+  const size_t size = data.arrangements.front().loading_m.size();
+  for (const Arrangement& a : data.arrangements) {
+    if (a.mean_m.size() != rows || a.noise_m.size() != data.targets.size() ||
+        a.loading_m.size() != size || size % std::max<size_t>(rows, 1) != 0 ||
+        size > kMaxFactors * rows) {
+      Refuse(name, "arrangements: sizes do not match the number of targets");
+    }
+    if (!AllWithin(a.mean_m, -kFar_m, kFar_m) || !AllWithin(a.loading_m, -kFar_m, kFar_m) ||
+        !AllWithin(a.noise_m, 1e-3F, kFar_m)) {
+      Refuse(name, "arrangements: expected lengths within 100 m, noise of at least 1 mm");
     }
   }
 }
@@ -117,6 +155,7 @@ ForestModel::ForestModel(ForestData data, const std::string& name) {
   if (data.trees.empty() || data.trees.size() > 64) Refuse(name, "expected 1 to 64 trees");
   for (size_t t = 0; t < data.trees.size(); ++t) CheckTree(data, t, name);
   for (const ProposalTarget& target : data.targets) CheckTarget(data, target, name);
+  CheckArrangements(data, name);
   data_ = std::make_shared<const ForestData>(std::move(data));
   tables_ = std::make_shared<const RuntimeTables>(MakeRuntimeTables(*data_));
 }

@@ -57,13 +57,16 @@ struct Tree {
   size_t leaf_count() const { return entry_begin.empty() ? 0 : entry_begin.size() - 1; }
 };
 
-/// Confidence of a proposal: a logistic function of what mean shift saw there, fitted on held-out
-/// frames: 1 / (1 + exp(-(bias + Σ weight_i · feature_i))).
-struct Confidence {
-  static constexpr size_t kFeatures = 5;
-  std::array<float, kFeatures> weight{};
+/// A probability as a logistic function of features, fitted on held-out frames:
+/// 1 / (1 + exp(-(bias + Σ weight_i · feature_i))).
+template <size_t N>
+struct Logistic {
+  static constexpr size_t kFeatures = N;
+  std::array<float, N> weight{};
   float bias = 0.0F;
 };
+using Confidence = Logistic<5>;  // of a mode, from what mean shift saw there
+using Agreement = Logistic<8>;   // of a place, from how it fits those of the other targets
 
 /// How one 3D target (a joint) is found among classified pixels. Learned on held-out frames.
 struct ProposalTarget {
@@ -79,6 +82,17 @@ struct ProposalTarget {
   float inferred_confidence = 0.15F;    // at least: inferred; less: not tracked
   Confidence correct;                   // P(within 10 cm of the truth)
   Confidence visible;                   // P(its surface is seen)
+  float mode_noise_m = 0.03F;           // of modes against what the other targets predict
+  Agreement fused;                      // P(within 10 cm), where modes and other targets meet
+  Agreement apart;                      // the same, of a mode that does not fit the others
+};
+
+/// How the targets of an object seen in one context lie to each other: factors of a normal
+/// distribution around a common place, x = place + mean + loading · z + noise, z ~ N(0, I).
+struct Arrangement {
+  std::vector<float> mean_m;     // target × 3, camera axes
+  std::vector<float> loading_m;  // target × 3 × factor, row-major
+  std::vector<float> noise_m;    // a target: what the factors leave, each axis
 };
 
 /// Everything a model file holds.
@@ -90,7 +104,8 @@ struct ForestData {
   uint16_t background_mm = 10000;
   std::vector<Tree> trees;
   std::vector<ProposalTarget> targets;
-  std::string manifest;  // JSON text: the model's card
+  std::vector<Arrangement> arrangements;  // one a context; or empty: targets are found singly
+  std::string manifest;                   // JSON text: the model's card
 };
 
 struct RuntimeTables;  // forest/runtime_internal.h

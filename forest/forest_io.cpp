@@ -8,7 +8,9 @@
 namespace ossa::forest {
 namespace {
 
-constexpr SealedFormat kFormat{{'o', 's', 's', 'a', 'f', 'r', 's', 't'}, 1, "forest model"};
+// Version 2 added arrangements and what agreement with them says; models of version 1 lack them.
+constexpr SealedFormat kFormat{{'o', 's', 's', 'a', 'f', 'r', 's', 't'}, 2, "forest model"};
+constexpr size_t kVersionAt = 12;  // of a sealed file
 constexpr int kCompressionLevel = 19;
 constexpr int kQuickLevel = 3;
 constexpr uint64_t kMaxUnpacked = uint64_t{1} << 31U;
@@ -34,6 +36,37 @@ void PutTarget(PayloadWriter* writer, const ProposalTarget& target) {
                          target.tracked_confidence, target.inferred_confidence});
   writer->Put(target.correct);
   writer->Put(target.visible);
+}
+
+void PutAgreement(PayloadWriter* writer, const ForestData& data) {
+  for (const ProposalTarget& target : data.targets) {
+    writer->Put(target.mode_noise_m);
+    writer->Put(target.fused);
+    writer->Put(target.apart);
+  }
+  writer->Put<uint32_t>(static_cast<uint32_t>(data.arrangements.size()));
+  for (const Arrangement& arrangement : data.arrangements) {
+    writer->PutVector(arrangement.mean_m);
+    writer->PutVector(arrangement.loading_m);
+    writer->PutVector(arrangement.noise_m);
+  }
+}
+
+void GetAgreement(PayloadReader* reader, ForestData* data) {
+  for (ProposalTarget& target : data->targets) {
+    target.mode_noise_m = reader->Get<float>("target mode noise");
+    target.fused = reader->Get<Agreement>("target agreement");
+    target.apart = reader->Get<Agreement>("target agreement of modes apart");
+  }
+  const auto count = reader->Get<uint32_t>("number of arrangements");
+  if (count > data->context_names.size()) reader->Fail("number of arrangements", "too many");
+  for (uint32_t i = 0; i < count; ++i) {
+    Arrangement arrangement;
+    arrangement.mean_m = reader->GetVector<float>("arrangement means");
+    arrangement.loading_m = reader->GetVector<float>("arrangement loadings");
+    arrangement.noise_m = reader->GetVector<float>("arrangement noise");
+    data->arrangements.push_back(std::move(arrangement));
+  }
 }
 
 ProposalTarget GetTarget(PayloadReader* reader) {
@@ -138,7 +171,8 @@ std::vector<std::byte> Decompressed(const std::vector<std::byte>& bytes, uint64_
   return out;
 }
 
-ForestModel ParseForest(std::span<const std::byte> payload, const std::string& name) {
+ForestModel ParseForest(std::span<const std::byte> payload, const std::string& name,
+                        uint32_t version) {
   PayloadReader reader(payload, name);
   ForestData data;
   data.manifest = reader.GetString("manifest");
@@ -151,17 +185,28 @@ ForestModel ParseForest(std::span<const std::byte> payload, const std::string& n
   for (uint32_t i = 0; i < targets; ++i) data.targets.push_back(GetTarget(&reader));
   const auto trees = reader.Get<uint32_t>("number of trees");
   for (uint32_t i = 0; i < trees; ++i) data.trees.push_back(GetTree(&reader));
+  if (version >= 2) GetAgreement(&reader, &data);
   reader.ExpectEnd();
   return ForestModel(std::move(data), name);
 }
 
-ForestModel Parse(const std::vector<std::byte>& sealed, const std::string& name) {
+// The format to expect of a file that starts so: version 1 is still read.
+SealedFormat FormatOf(std::span<const std::byte> head) {
+  SealedFormat format = kFormat;
+  uint32_t version = 0;
+  if (head.size() < kVersionAt + sizeof(version)) return format;
+  std::memcpy(&version, head.data() + kVersionAt, sizeof(version));
+  if (version == 1) format.version = version;
+  return format;
+}
+
+ForestModel Parse(const std::vector<std::byte>& sealed, const std::string& name, uint32_t version) {
   PayloadReader outer(sealed, name);
   const auto size = outer.Get<uint64_t>("unpacked length");
   const auto packed = outer.GetVector<std::byte>("compressed payload");
   outer.ExpectEnd();
   const std::vector<std::byte> payload = Decompressed(packed, size, name);
-  return ParseForest(payload, name + " (unpacked)");
+  return ParseForest(payload, name + " (unpacked)", version);
 }
 
 std::vector<std::byte> Packed(const ForestData& data, int level) {
@@ -176,6 +221,7 @@ std::vector<std::byte> Packed(const ForestData& data, int level) {
   for (const ProposalTarget& target : data.targets) PutTarget(&writer, target);
   writer.Put<uint32_t>(static_cast<uint32_t>(data.trees.size()));
   for (const Tree& tree : data.trees) PutTree(&writer, tree);
+  PutAgreement(&writer, data);
   PayloadWriter outer;
   outer.Put<uint64_t>(writer.bytes().size());
   outer.PutVector(Compressed(writer.bytes(), level));
@@ -185,11 +231,15 @@ std::vector<std::byte> Packed(const ForestData& data, int level) {
 }  // namespace
 
 ForestModel ReadForestModel(const std::filesystem::path& path) {
-  return Parse(ReadSealedFile(path, kFormat), path.string());
+  std::array<char, kVersionAt + sizeof(uint32_t)> head{};
+  std::ifstream(path, std::ios::binary).read(head.data(), head.size());
+  const SealedFormat format = FormatOf(std::as_bytes(std::span(head)));
+  return Parse(ReadSealedFile(path, format), path.string(), format.version);
 }
 
 ForestModel ReadForestModel(std::span<const std::byte> bytes, const std::string& name) {
-  return Parse(OpenSealedBytes(bytes, name, kFormat), name);
+  const SealedFormat format = FormatOf(bytes);
+  return Parse(OpenSealedBytes(bytes, name, format), name, format.version);
 }
 
 bool IsForestModel(const std::filesystem::path& path) { return IsSealedFile(path, kFormat); }

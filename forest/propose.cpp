@@ -8,6 +8,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "forest/agree_internal.h"
 #include "forest/propose_internal.h"
 #include "forest/runtime_internal.h"
 
@@ -133,6 +134,50 @@ size_t DrawContext(const std::vector<float>& posterior, size_t i) {
   return posterior.empty() ? 0 : posterior.size() - 1;
 }
 
+Proposal ProposalAt(const ProposalTarget& target, const Mode& mode) {
+  Proposal proposal;
+  proposal.position_m = mode.position_m.cast<double>();
+  proposal.confidence = Evaluate(target.correct, mode.feature);
+  proposal.seen = Evaluate(target.visible, mode.feature) >= 0.5;
+  return proposal;
+}
+
+std::vector<std::vector<Proposal>> ProposeSingly(const ForestModel& model,
+                                                 const ModesOfTargets& modes) {
+  std::vector<std::vector<Proposal>> proposals(modes.size());
+  for (size_t t = 0; t < modes.size(); ++t) {
+    for (const Mode& mode : modes[t]) {
+      proposals[t].push_back(ProposalAt(model.targets()[t], mode));
+    }
+  }
+  return proposals;
+}
+
+// What modes and other targets agree on, and modes that stand apart from it.
+std::vector<std::vector<Proposal>> ProposeTogether(const ForestModel& model, const Beliefs& beliefs,
+                                                   const ModesOfTargets& modes) {
+  std::vector<std::vector<Proposal>> proposals(modes.size());
+  for (size_t t = 0; t < modes.size(); ++t) {
+    const ProposalTarget& target = model.targets()[t];
+    for (const Candidate& candidate : Candidates(target, beliefs, t, modes[t])) {
+      Proposal proposal;
+      if (candidate.mode >= 0) {
+        proposal = ProposalAt(target, modes[t][static_cast<size_t>(candidate.mode)]);
+      } else {
+        proposal.seen = false;  // the other targets alone speak
+      }
+      proposal.position_m = candidate.position_m;
+      proposal.confidence =
+          Evaluate(candidate.is_fused ? target.fused : target.apart, candidate.feature);
+      proposals[t].push_back(proposal);
+    }
+    std::stable_sort(
+        proposals[t].begin(), proposals[t].end(),
+        [](const Proposal& a, const Proposal& b) { return a.confidence > b.confidence; });
+  }
+  return proposals;
+}
+
 }  // namespace
 
 std::vector<Mode> FindModes(const Evidence& evidence, const ProposalTarget& target,
@@ -150,29 +195,18 @@ std::vector<Mode> FindModes(const Evidence& evidence, const ProposalTarget& targ
   return modes;
 }
 
-double Evaluate(const Confidence& confidence,
-                const std::array<float, Confidence::kFeatures>& feature) {
-  double sum = confidence.bias;
-  for (size_t i = 0; i < feature.size(); ++i) sum += confidence.weight[i] * feature[i];
-  return 1.0 / (1.0 + std::exp(-sum));
-}
-
 std::vector<std::vector<Proposal>> Propose(const ForestModel& model, const depth::DepthView& depth,
                                            const depth::Camera& camera,
                                            const Classification& classification) {
   const Evidence evidence = GatherEvidence(model, depth, camera, classification);
-  std::vector<std::vector<Proposal>> proposals(model.targets().size());
-  for (size_t t = 0; t < proposals.size(); ++t) {
-    const ProposalTarget& target = model.targets()[t];
-    for (const Mode& mode : FindModes(evidence, target, t)) {
-      Proposal proposal;
-      proposal.position_m = mode.position_m.cast<double>();
-      proposal.confidence = Evaluate(target.correct, mode.feature);
-      proposal.seen = Evaluate(target.visible, mode.feature) >= 0.5;
-      proposals[t].push_back(proposal);
-    }
+  ModesOfTargets modes;
+  for (size_t t = 0; t < model.targets().size(); ++t) {
+    modes.push_back(FindModes(evidence, model.targets()[t], t));
   }
-  return proposals;
+  const bool is_blank = std::all_of(modes.begin(), modes.end(),
+                                    [](const std::vector<Mode>& list) { return list.empty(); });
+  if (is_blank || model.data().arrangements.empty()) return ProposeSingly(model, modes);
+  return ProposeTogether(model, Agree(model, classification.context, modes), modes);
 }
 
 Evidence GatherEvidence(const ForestModel& model, const depth::DepthView& depth,

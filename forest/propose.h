@@ -14,8 +14,10 @@ struct Proposal {
   bool seen = true;  // false: no surface of its own voted; inferred from other parts
 };
 
-/// Proposals for every target of the model (index = target), each list best first; a target with
-/// no evidence has an empty list. Shotton et al. 2011, sec. 3.3.
+/// Proposals for every target of the model (index = target), each list best first. With
+/// arrangements in the model a target without evidence of its own is proposed where the others say,
+/// not `seen`; without them its list is empty, as all lists are of an object without evidence.
+/// Shotton et al. 2011, sec. 3.3.
 std::vector<std::vector<Proposal>> Propose(const ForestModel& model, const depth::DepthView& depth,
                                            const depth::Camera& camera,
                                            const Classification& classification);

@@ -1,6 +1,7 @@
 #pragma once
 #include <Eigen/Core>
 #include <array>
+#include <cmath>
 #include <vector>
 
 #include "forest/forest.h"
@@ -60,7 +61,11 @@ std::vector<Mode> FindModes(const Evidence& evidence, const ProposalTarget& targ
                             size_t target_index);
 
 /// P by the logistic function.
-double Evaluate(const Confidence& confidence,
-                const std::array<float, Confidence::kFeatures>& feature);
+template <size_t N>
+double Evaluate(const Logistic<N>& logistic, const std::array<float, N>& feature) {
+  double sum = logistic.bias;
+  for (size_t i = 0; i < N; ++i) sum += logistic.weight[i] * feature[i];
+  return 1.0 / (1.0 + std::exp(-sum));
+}
 
 }  // namespace ossa::forest

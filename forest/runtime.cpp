@@ -68,6 +68,40 @@ void AppendShares(const LeafCells& cells, size_t context, LeafTables* tables) {
   tables->share_begin.push_back(static_cast<uint32_t>(tables->shares.size()));
 }
 
+// Variance of the difference of two targets' positions, summed over contexts and axes.
+float LooseJoint(const ForestData& data, size_t a, size_t b) {
+  float sum = 0.0F;
+  for (const Arrangement& arrangement : data.arrangements) {
+    const size_t factors = arrangement.loading_m.size() / (3 * data.targets.size());
+    for (size_t i = 0; i < 3 * factors; ++i) {
+      const float difference =
+          arrangement.loading_m[a * 3 * factors + i] - arrangement.loading_m[b * 3 * factors + i];
+      sum += difference * difference;
+    }
+    sum += 3.0F * arrangement.noise_m[a] * arrangement.noise_m[a];
+    sum += 3.0F * arrangement.noise_m[b] * arrangement.noise_m[b];
+  }
+  return sum;
+}
+
+std::vector<std::vector<uint32_t>> Neighbours(const ForestData& data) {
+  constexpr size_t kMost = 2;
+  if (data.arrangements.empty()) return {};
+  std::vector<std::vector<uint32_t>> neighbours(data.targets.size());
+  for (size_t t = 0; t < data.targets.size(); ++t) {
+    std::vector<std::pair<float, uint32_t>> others;
+    for (size_t other = 0; other < data.targets.size(); ++other) {
+      if (other == t) continue;
+      others.emplace_back(LooseJoint(data, t, other), static_cast<uint32_t>(other));
+    }
+    std::sort(others.begin(), others.end());
+    for (size_t i = 0; i < std::min(kMost, others.size()); ++i) {
+      neighbours[t].push_back(others[i].second);
+    }
+  }
+  return neighbours;
+}
+
 }  // namespace
 
 std::vector<int32_t> VoteRows(const Tree& tree, size_t* row_count) {
@@ -108,6 +142,7 @@ RuntimeTables MakeRuntimeTables(const ForestData& data) {
     if (tree.votes.empty()) std::fill(leaves.vote_row.begin(), leaves.vote_row.end(), -1);
     tables.leaves.push_back(std::move(leaves));
   }
+  tables.neighbours = Neighbours(data);
   return tables;
 }
 

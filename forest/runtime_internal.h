@@ -23,6 +23,8 @@ struct LeafTables {
 /// Derived from ForestData when a model is made.
 struct RuntimeTables {
   std::vector<LeafTables> leaves;  // one a tree
+  /// Of each target, the two others that move with it most; empty without arrangements.
+  std::vector<std::vector<uint32_t>> neighbours;
 };
 
 RuntimeTables MakeRuntimeTables(const ForestData& data);

@@ -103,6 +103,12 @@ ForestModel Train(const TrainingSource& source, const TrainingVocabulary& vocabu
                   const TrainOptions& options, const Reducer& reducer = Reducer(),
                   TrainSummary* summary = nullptr);
 
+/// Learns how the targets lie to each other in each context, on training truth: the model with
+/// arrangements, and with the parameters of agreement as they were. As it was when the images of
+/// known targets are too few.
+ForestModel LearnArrangements(const ForestModel& model, const TrainingSource& source,
+                              size_t max_images, int threads);
+
 /// Learns evidence scale, proposal parameters and confidences on images never trained on.
 ForestModel LearnProposals(const ForestModel& model, const TrainingSource& validation,
                            size_t max_images, int threads);

@@ -11,21 +11,11 @@
 
 #include "depth/error.h"
 #include "forest/classify.h"
-#include "forest/propose_internal.h"
 #include "forest/train.h"
+#include "forest/train/learn_internal.h"
 
 namespace ossa::forest {
 namespace {
-
-constexpr float kHitRadius_m = 0.10F;  // the measure of Shotton 2011
-constexpr double kTrackedPrecision = 0.90;
-constexpr double kInferredPrecision = 0.50;
-
-struct ValidationImage {
-  Evidence evidence;
-  std::vector<Eigen::Vector3f> target_m;
-  std::vector<uint8_t> target_visible;
-};
 
 Classification ClassifyImage(const ForestModel& model, const TrainingImage& image) {
   std::vector<int32_t> pixels;
@@ -99,7 +89,7 @@ std::vector<ValidationImage> GatherAll(const ForestModel& model, const TrainingS
     const int width = image.camera.width;
     const depth::DepthView view{image.depth_mm.data(), width, image.camera.height, width};
     const Classification result = ClassifyImage(model, image);
-    images[i] = {GatherEvidence(model, view, image.camera, result), image.target_m,
+    images[i] = {GatherEvidence(model, view, image.camera, result), result.context, image.target_m,
                  image.target_visible};
   });
   std::erase_if(images,
@@ -150,17 +140,9 @@ void TuneTarget(const std::vector<ValidationImage>& images, size_t t, ProposalTa
   }
 }
 
-using Features = std::array<float, Confidence::kFeatures>;
-
-struct Judged {
-  Features feature{};
-  bool is_near = false;
-  bool visible = false;
-};
-
-std::vector<Judged> JudgeModes(const std::vector<ValidationImage>& images,
-                               const ProposalTarget& target, size_t t) {
-  std::vector<Judged> judged;
+std::vector<JudgedMode> JudgeModes(const std::vector<ValidationImage>& images,
+                                   const ProposalTarget& target, size_t t) {
+  std::vector<JudgedMode> judged;
   for (const ValidationImage& image : images) {
     if (!image.target_m[t].allFinite()) continue;
     for (const Mode& mode : FindModes(image.evidence, target, t)) {
@@ -171,65 +153,15 @@ std::vector<Judged> JudgeModes(const std::vector<ValidationImage>& images,
   return judged;
 }
 
-// Logistic regression by Newton's method with a small ridge.
-Confidence FitLogistic(const std::vector<Judged>& judged, bool Judged::*outcome) {
-  constexpr auto kSize = static_cast<Eigen::Index>(Confidence::kFeatures) + 1;
-  constexpr double kRidge = 0.5;  // half an example's worth: matters only where one outcome rules
-  Eigen::VectorXd w = Eigen::VectorXd::Zero(kSize);
-  for (int step = 0; step < 25; ++step) {
-    Eigen::MatrixXd hessian = kRidge * Eigen::MatrixXd::Identity(kSize, kSize);
-    Eigen::VectorXd gradient = -kRidge * w;
-    for (const Judged& mode : judged) {
-      Eigen::VectorXd x(kSize);
-      for (Eigen::Index i = 0; i + 1 < kSize; ++i) x[i] = mode.feature[static_cast<size_t>(i)];
-      x[kSize - 1] = 1.0;
-      const double p = 1.0 / (1.0 + std::exp(-std::clamp(w.dot(x), -30.0, 30.0)));
-      gradient += ((mode.*outcome ? 1.0 : 0.0) - p) * x;
-      hessian += std::max(p * (1.0 - p), 1e-6) * x * x.transpose();
-    }
-    Eigen::VectorXd move = hessian.ldlt().solve(gradient);
-    if (move.norm() > 4.0) move *= 4.0 / move.norm();  // Newton overshoots far from the optimum
-    w += move;
-    if (move.norm() < 1e-6) break;
+void LearnConfidence(const std::vector<JudgedMode>& judged, ProposalTarget* target) {
+  target->correct = FitLogistic(judged, &JudgedMode::is_near);
+  target->visible = FitLogistic(judged, &JudgedMode::visible);
+  std::vector<RatedPlace> rated;
+  for (const JudgedMode& mode : judged) {
+    rated.push_back({Evaluate(target->correct, mode.feature), mode.is_near, mode.visible,
+                     Evaluate(target->visible, mode.feature) >= 0.5});
   }
-  Confidence fitted;
-  for (size_t i = 0; i < Confidence::kFeatures; ++i) {
-    fitted.weight[i] = static_cast<float>(w[static_cast<Eigen::Index>(i)]);
-  }
-  fitted.bias = static_cast<float>(w[kSize - 1]);
-  return fitted;
-}
-
-// The least confidence from which on (by all of at least as much) the wanted share is right.
-float ThresholdFor(std::vector<std::pair<double, bool>> rated, double precision) {
-  std::sort(rated.begin(), rated.end(),
-            [](const auto& a, const auto& b) { return a.first > b.first; });
-  double right = 0;
-  float threshold = 0.99F;
-  for (size_t i = 0; i < rated.size(); ++i) {
-    right += rated[i].second ? 1.0 : 0.0;
-    if (right >= precision * static_cast<double>(i + 1)) {
-      threshold = std::min(0.99F, static_cast<float>(rated[i].first));
-    }
-  }
-  return threshold;
-}
-
-void LearnConfidence(const std::vector<Judged>& judged, ProposalTarget* target) {
-  target->correct = FitLogistic(judged, &Judged::is_near);
-  target->visible = FitLogistic(judged, &Judged::visible);
-  std::vector<std::pair<double, bool>> all;
-  std::vector<std::pair<double, bool>> seen;
-  for (const Judged& mode : judged) {
-    const double confidence = Evaluate(target->correct, mode.feature);
-    all.emplace_back(confidence, mode.is_near);
-    if (Evaluate(target->visible, mode.feature) >= 0.5) {
-      seen.emplace_back(confidence, mode.is_near && mode.visible);
-    }
-  }
-  target->inferred_confidence = ThresholdFor(all, kInferredPrecision);
-  target->tracked_confidence =
-      std::max(target->inferred_confidence, ThresholdFor(seen, kTrackedPrecision));
+  SetThresholds(rated, target);
 }
 
 }  // namespace
@@ -249,7 +181,8 @@ ForestModel LearnProposals(const ForestModel& model, const TrainingSource& valid
     TuneTarget(images, t, &data.targets[t]);
     LearnConfidence(JudgeModes(images, data.targets[t], t), &data.targets[t]);
   });
-  return ForestModel(std::move(data));
+  const ForestModel single{std::move(data)};
+  return single.data().arrangements.empty() ? single : LearnAgreement(single, images);
 }
 
 }  // namespace ossa::forest

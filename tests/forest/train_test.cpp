@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <memory>
 
 #include "depth/error.h"
 #include "forest/classify.h"
@@ -112,6 +113,14 @@ TEST(Train, GivesTheSameBytesWhenImagesStreamInParts) {
   EXPECT_EQ(whole, BytesOf(Train(figures, BallVocabulary(), options)));
 }
 
+// Options under which training ends after a number of levels; they own their counter.
+TrainOptions StoppingAfter(int levels, TrainOptions options) {
+  const auto seen = std::make_shared<int>(0);
+  options.progress = [seen](const TrainProgress& p) { *seen += p.nodes > 0 ? 1 : 0; };
+  options.stop = [seen, levels] { return *seen >= levels; };
+  return options;
+}
+
 TEST(Train, ResumesToTheSameBytes) {
   const ossa::test::TemporaryFolder folder;
   const BallFigures figures(60, 3);
@@ -119,14 +128,10 @@ TEST(Train, ResumesToTheSameBytes) {
   const auto unbroken = BytesOf(Train(figures, BallVocabulary(), options));
   options.checkpoint = folder / "checkpoint";
   options.resume = true;
-  int levels = 0;  // outlives the last training, whose progress still counts
-  for (const int stop_after : {3, 4, 5}) {
-    levels = 0;
-    options.progress = [&](const TrainProgress& p) { levels += p.nodes > 0 ? 1 : 0; };
-    options.stop = [&] { return levels >= stop_after; };
-    EXPECT_THROW(Train(figures, BallVocabulary(), options), TrainInterrupted);
+  for (int levels = 3; levels <= 5; ++levels) {
+    const TrainOptions broken_off = StoppingAfter(levels, options);
+    EXPECT_THROW(Train(figures, BallVocabulary(), broken_off), TrainInterrupted);
   }
-  options.stop = nullptr;
   EXPECT_EQ(unbroken, BytesOf(Train(figures, BallVocabulary(), options)));
 }
 

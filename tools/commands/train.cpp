@@ -24,6 +24,7 @@ struct TrainArguments {
   std::vector<fs::path> datasets;
   std::vector<fs::path> validation;
   std::vector<fs::path> import_pcl;
+  fs::path trees_of;
   fs::path out;
   std::string memory = "8G";
   std::string command;
@@ -93,6 +94,9 @@ void AddOptions(CLI::App* app, TrainArguments* a) {
   app->add_option("--threads", o.threads, "0: all cores")->capture_default_str();
   app->add_flag("--resume", o.resume, "go on from OUT.checkpoint where a run was cut off");
   app->add_flag("--quiet", a->quiet, "no progress");
+  app->add_option("--trees-of", a->trees_of,
+                  "keep the trees of this model; learn only how joints lie to each other (on "
+                  "DATASET) and the proposals (on --validation)");
   app->add_option("--import-pcl", a->import_pcl,
                   "make a model of PCL people trees (text, up to 4) instead of training");
 }
@@ -169,14 +173,50 @@ int ImportPcl(const TrainArguments& a) {
   return 0;
 }
 
+constexpr size_t kArrangedImages = 40000;  // 60 numbers in 8 contexts ask for no more
+
+forest::ForestModel LearnJoints(const TrainArguments& a, const forest::ForestModel& model,
+                                const tools::PersonSource& source,
+                                const tools::PersonSource& held_out) {
+  const int threads = a.options.threads;
+  const forest::ForestModel arranged =
+      forest::LearnArrangements(model, source, kArrangedImages, threads);
+  if (held_out.size() == 0) return arranged;
+  return forest::LearnProposals(arranged, held_out, a.validation_images, threads);
+}
+
+// Training images and those held out for proposals.
+struct Sources {
+  tools::PersonSource training;
+  tools::PersonSource held_out;
+
+  explicit Sources(const TrainArguments& a)
+      : training(a.datasets, {a.validation.empty() ? kHeldOut : 0, 100}),
+        held_out(a.validation.empty() ? a.datasets : a.validation,
+                 {0, a.validation.empty() ? kHeldOut : 100}) {}
+
+  static constexpr int kHeldOut = 4;  // of each 100 frames
+};
+
+int LearnAgain(const TrainArguments& a) {
+  const forest::ForestModel old = forest::ReadForestModel(a.trees_of);
+  const Sources sources(a);
+  forest::ForestData data = LearnJoints(a, old, sources.training, sources.held_out).data();
+  auto card = nlohmann::ordered_json::parse(old.manifest(), nullptr, false);
+  if (card.is_object()) {
+    card["proposals_command"] = a.command;
+    card.erase("accuracy");  // of the proposals as they were
+    data.manifest = card.dump(2);
+  }
+  forest::WriteForestModel(a.out, forest::ForestModel(std::move(data)));
+  return 0;
+}
+
 int TrainOnData(TrainArguments* a, const forest::Reducer& reducer) {
   forest::TrainOptions& o = a->options;
   o.memory_bytes = ParseMemory(a->memory);
-  constexpr int kHeldOut = 4;  // of each 100 frames
-  const bool own_validation = a->validation.empty();
-  const tools::PersonSource source(a->datasets, {own_validation ? kHeldOut : 0, 100});
-  const tools::PersonSource held_out(own_validation ? a->datasets : a->validation,
-                                     {0, own_validation ? kHeldOut : 100});
+  const Sources sources(*a);
+  const tools::PersonSource& source = sources.training;
   o.fingerprint = source.fingerprint();
   o.checkpoint = a->out.string() + ".checkpoint";
   o.stop = Interrupted;
@@ -189,10 +229,7 @@ int TrainOnData(TrainArguments* a, const forest::Reducer& reducer) {
   if (a->max_megabytes > 0) {
     model = forest::FitInto(model, static_cast<uint64_t>(a->max_megabytes * 1e6));
   }
-  if (held_out.size() > 0) {
-    model = forest::LearnProposals(model, held_out, a->validation_images, o.threads);
-  }
-  forest::ForestData data = model.data();
+  forest::ForestData data = LearnJoints(*a, model, source, sources.held_out).data();
   data.manifest = Card(*a, source, summary).dump(2);
   forest::WriteForestModel(a->out, forest::ForestModel(std::move(data)));
   fs::remove(o.checkpoint);
@@ -225,6 +262,7 @@ int Train(int argc, char** argv) {
   Parse(app, argc, argv);
   if (!arguments.import_pcl.empty()) return ImportPcl(arguments);
   if (arguments.datasets.empty()) throw UsageError("DATASET is required");
+  if (!arguments.trees_of.empty()) return LearnAgain(arguments);
   try {
     arguments.options.Check();
   } catch (const std::invalid_argument& error) {

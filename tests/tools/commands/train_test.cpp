@@ -111,6 +111,22 @@ TEST_F(TrainingRuns, KilledAndResumedWritesTheSameBytes) {
   EXPECT_EQ(BytesOf(folder_ / "killed.ossa"), whole);
 }
 
+TEST_F(TrainingRuns, ProposalsLearnedAgainForTheSameTreesAreTheSame) {
+  const std::string whole = Unbroken();
+  const auto again = [&](const std::string& trees_of, const std::string& out) {
+    const CommandResult result =
+        RunOssa({"train", data(), "--validation", data(), "--trees-of",
+                 (folder_ / trees_of).string(), "--out", (folder_ / out).string()});
+    EXPECT_EQ(result.exit_status, 0) << result.err;
+    return BytesOf(folder_ / out);
+  };
+  const std::string once = again("whole.ossa", "once.ossa");
+  EXPECT_FALSE(once.empty());
+  EXPECT_NE(RunOssa({"info", (folder_ / "once.ossa").string()}).out.find("proposals_command"),
+            std::string::npos);
+  EXPECT_EQ(again("whole.ossa", "twice.ossa"), once);
+}
+
 TEST(EvaluateCommand, ADamagedModelIsOneLine) {
   const test::TemporaryFolder folder;
   const fs::path model = folder.path() / "broken.ossa";

@@ -1,0 +1,51 @@
+#pragma once
+#include <Eigen/Core>
+#include <array>
+#include <span>
+#include <vector>
+
+#include "forest/forest.h"
+#include "forest/propose_internal.h"
+
+namespace ossa::forest {
+
+using ModesOfTargets = std::vector<std::vector<Mode>>;  // a list a target
+
+/// What is believed of one target, in metres of camera space.
+struct Belief {
+  Eigen::Vector3d predicted_m = Eigen::Vector3d::Zero();        // by all the other targets
+  Eigen::Matrix3d covariance_m2 = Eigen::Matrix3d::Identity();  // of that prediction
+  std::vector<double> weight;      // of each mode: P(it is the target's), other targets heard
+  std::vector<double> confidence;  // of each mode by itself
+  double support() const;          // P(one of the modes is the target's)
+};
+
+/// Beliefs of all targets of one object under its likeliest arrangement.
+struct Beliefs {
+  std::vector<Belief> target;
+  double margin = 0.0;           // of that arrangement against the next, nats
+  double mean_confidence = 0.0;  // of the densest modes by themselves
+  double mean_support = 0.0;
+  std::vector<double> neighbour_support;  // a target: of those that move with it most
+};
+
+/// Which modes belong together: every target is predicted from all others by the model's
+/// arrangements, its modes are weighed by that prediction, and so on. Precondition: the model has
+/// arrangements.
+Beliefs Agree(const ForestModel& model, std::span<const float> context_posterior,
+              const ModesOfTargets& modes);
+
+/// A place where a target may be, with what its confidence is computed from.
+struct Candidate {
+  Eigen::Vector3d position_m = Eigen::Vector3d::Zero();
+  std::array<float, Agreement::kFeatures> feature{};
+  bool is_fused = false;  // modes and other targets joined; else a mode that stands apart
+  int mode = -1;          // that it rests on most; -1: none
+};
+std::vector<Candidate> Candidates(const ProposalTarget& target, const Beliefs& beliefs,
+                                  size_t target_index, const std::vector<Mode>& modes);
+
+/// Where the prediction and the likeliest mode meet when modes have this noise.
+Eigen::Vector3d Fuse(const Belief& belief, const std::vector<Mode>& modes, double mode_noise_m);
+
+}  // namespace ossa::forest
