@@ -18,27 +18,52 @@ double Blend(double t, double from, double to) {
   return x * x * (3.0 - 2.0 * x);
 }
 
+/// Where the elbow is when the wrist is at `wrist`, bent towards `pole`.
+Vector3d ElbowOf(const Vector3d& shoulder, const Vector3d& wrist, double upper_m, double fore_m,
+                 const Vector3d& pole) {
+  const double reach = std::min((wrist - shoulder).norm(), 0.999 * (upper_m + fore_m));
+  const Vector3d along = (wrist - shoulder).normalized();
+  const double before = (upper_m * upper_m - fore_m * fore_m + reach * reach) / (2.0 * reach);
+  const double beside = std::sqrt(std::max(0.0, upper_m * upper_m - before * before));
+  return shoulder + before * along + beside * (pole - pole.dot(along) * along).normalized();
+}
+
 /// Both hands, wrists too, at the sides of something `half_m` wide: user constraints of sec. 6.1.
-void PutHands(physics::World& world, int person, const Vector3d& middle, double half_m) {
+/// The clip's own elbows know nothing of the box: theirs go where the wrists want them.
+void PutHands(Stage& stage, int person, const Vector3d& middle, double half_m, Posture& body) {
+  const recon::BoneLengths lengths = recon::BoneLengthsOf(body);
   for (const double side : {1.0, -1.0}) {
-    const Joint hand = side > 0 ? Joint::kHandLeft : Joint::kHandRight;
-    const Joint wrist = side > 0 ? Joint::kWristLeft : Joint::kWristRight;
+    const size_t hand = static_cast<size_t>(side > 0 ? Joint::kHandLeft : Joint::kHandRight);
     // A little above the middle: the box hangs.
     const Vector3d at = middle + Vector3d(side * half_m, 0.06, 0.0);
-    world.Constrain(person, hand, at + Vector3d(0.0, 0.0, 0.04), false);
-    world.Constrain(person, wrist, at + Vector3d(side * 0.01, 0.0, -0.04), false);
+    const Vector3d wrist = at + Vector3d(side * 0.01, 0.03, -0.04);
+    stage.world.Constrain(person, static_cast<Joint>(hand), at + Vector3d(0.0, 0.0, 0.04), false);
+    stage.world.Constrain(person, static_cast<Joint>(hand - 1), wrist, false);
+    body.position_m[hand - 2] = ElbowOf(body.position_m[hand - 3], wrist, lengths[hand - 2],
+                                        lengths[hand - 1], Vector3d(0.8 * side, -0.5, -0.4));
   }
 }
 
-/// Bending down, coming up, and steps to the left as far as they go.
+/// Bending down, coming up, and steps to a side as far as they go.
 std::vector<Posture> LiftingMotion(const Actors& actors) {
   std::vector<Posture> motion = actors.Sequence({"pick_up", "side_steps"});
-  const auto farthest = std::max_element(
-      motion.begin(), motion.end(),
-      [](const Posture& a, const Posture& b) { return a.position_m[0].x() < b.position_m[0].x(); });
+  const auto aside = [start_m = motion[0].position_m[0].x()](const Posture& posture) {
+    return std::abs(posture.position_m[0].x() - start_m);
+  };
+  const auto farthest =
+      std::max_element(motion.begin(), motion.end(),
+                       [&](const Posture& a, const Posture& b) { return aside(a) < aside(b); });
   motion.erase(farthest + 1, motion.end());
   motion.insert(motion.end(), 20, motion.back());
   return motion;
+}
+
+int LowestFrame(const std::vector<Posture>& motion) {
+  const auto lowest =
+      std::min_element(motion.begin(), motion.end(), [](const Posture& a, const Posture& b) {
+        return a[Joint::kShoulderCenter].y() < b[Joint::kShoulderCenter].y();
+      });
+  return static_cast<int>(lowest - motion.begin());
 }
 
 struct Grip {
@@ -49,10 +74,7 @@ struct Grip {
 /// A box on a stool, where the hands of the bent person can reach it.
 Grip PlaceBox(const std::vector<Posture>& motion) {
   Grip grip;
-  for (size_t f = 0; f < motion.size(); ++f) {
-    const auto height = [&](size_t k) { return motion[k][Joint::kShoulderCenter].y(); };
-    if (height(f) < height(static_cast<size_t>(grip.lowest))) grip.lowest = static_cast<int>(f);
-  }
+  grip.lowest = LowestFrame(motion);
   const Vector3d chest = motion[static_cast<size_t>(grip.lowest)][Joint::kShoulderCenter];
   const double feet_z = motion[0][Joint::kFootLeft].z();
   grip.stool.size_m = {0.3, std::max(chest.y() - 0.68, 0.1), 0.28};
@@ -127,7 +149,11 @@ SceneResult CarryABox(const Actors& actors, uint64_t seed) {
   view.eye_m = {2.2, 1.5, 2.4};
   view.look_at_m = {0.35, 0.75, 0.25};
   Stage stage(seed, view);
-  const std::vector<Posture> motion = LiftingMotion(actors);
+  std::vector<Posture> motion = LiftingMotion(actors);
+  // Nobody lifts before both hands have a grip.
+  constexpr int kPause = 15;
+  const auto lowest = motion.begin() + LowestFrame(motion);
+  motion.insert(lowest, kPause, *lowest);
   const int person = stage.AddPerson(motion[0]);
   const Grip grip = PlaceBox(motion);
   stage.world.AddObject(grip.stool);
@@ -140,16 +166,16 @@ SceneResult CarryABox(const Actors& actors, uint64_t seed) {
   int in_the_air = 0;
   double highest = 0.0, tilt = 0.0;
   for (int f = 0; f < static_cast<int>(motion.size()); ++f) {
-    const Posture& body = motion[static_cast<size_t>(f)];
+    Posture body = motion[static_cast<size_t>(f)];
     // Open hands beside the box, then 8 cm into it: friction carries what the overlap presses.
-    const double half = half_width + 0.10 - 0.04 * Blend(f, grip.lowest - 20, grip.lowest - 4) -
-                        0.14 * Blend(f, grip.lowest - 4, grip.lowest + 4);
+    const double half = half_width + 0.18 - 0.12 * Blend(f, grip.lowest - 20, grip.lowest - 4) -
+                        0.12 * Blend(f, grip.lowest - 4, grip.lowest + 4);
     // Where the box is wanted from the chest: where it stands, then before the belly.
-    const double up = Blend(f, grip.lowest + 5, grip.lowest + 40);
+    const double up = Blend(f, grip.lowest + kPause, grip.lowest + kPause + 40);
     const Vector3d from_chest = (1.0 - up) * (grip.box.position_m - chest_low) + up * kCarried_m;
     const Vector3d chest = f < grip.lowest ? chest_low : body[Joint::kShoulderCenter];
     const Vector3d middle = chest + from_chest;
-    if (f > grip.lowest - 20) PutHands(stage.world, person, middle, half);
+    if (f > grip.lowest - 40) PutHands(stage, person, middle, half, body);
     stage.Advance({body}, "lift and carry a bulky box");
     const auto state = stage.world.ObjectOf(box);
     const double lifted = state.position_m.y() - grip.box.position_m.y();
