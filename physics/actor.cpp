@@ -141,6 +141,7 @@ void Actor::Prepare(OdeWorld& ode, const std::optional<Vector4d>& floor, double 
   }
   last_aim = aim;
   aim = FitBoneLengths(goal, lengths, trust);
+  if (limits != nullptr) aim = WithinRanges(aim);
   if (LiftOntoFloor(floor, sole_m, aim)) aim = FitBoneLengths(aim, lengths, trust);
   aim_orientation = recon::OrientationsOf(aim);
   for (size_t i = 0; i < kJointCount; ++i) {

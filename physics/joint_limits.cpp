@@ -84,6 +84,54 @@ Excess TwistExcess(const JointRange& range, const recon::JointOrientations& orie
   return {std::abs(twist) - range.twist_rad, twist > 0.0 ? Vector3d(-along) : along};
 }
 
+namespace {
+
+/// Turns the bone that ends in `bone` about its start, and all that hangs on it.
+void Turn(recon::Posture& posture, size_t bone, const Eigen::Quaterniond& by) {
+  std::array<bool, recon::kJointCount> moves{};
+  const Vector3d pivot = posture.position_m[static_cast<size_t>(recon::kJointParent[bone])];
+  for (size_t j = bone; j < recon::kJointCount; ++j) {
+    moves[j] = j == bone || moves[static_cast<size_t>(std::max(0, recon::kJointParent[j]))];
+    if (moves[j]) posture.position_m[j] = pivot + by * (posture.position_m[j] - pivot);
+  }
+}
+
+/// The turn of an upper limb is told by where its elbow or knee bends to. Beyond the range the
+/// lower limb goes to the nearest direction that the end of the range allows, or is stretched when
+/// none is near: the projection of its direction onto the half-plane in which the hinge may bend.
+Vector3d NearestBend(const Eigen::Quaterniond& upper, const Excess& excess, double sign,
+                     const Vector3d& lower) {
+  const Vector3d along = upper * Vector3d::UnitY();
+  const Vector3d bends_to =
+      sign * (Eigen::AngleAxisd(excess.angle_rad, excess.axis) * (upper * Vector3d::UnitZ()));
+  const double bent = lower.dot(bends_to);
+  if (bent <= 0.0) return along;
+  return (lower.dot(along) * along + bent * bends_to).normalized();
+}
+
+}  // namespace
+
+recon::Posture WithinRanges(recon::Posture posture) {
+  recon::JointOrientations orientation = recon::OrientationsOf(posture);
+  for (const JointRange& range : JointRanges()) {  // parents before children
+    const Excess swing = SwingExcess(range, orientation);
+    if (swing.angle_rad > 0.0) {
+      Turn(posture, range.bone, Eigen::Quaterniond(Eigen::AngleAxisd(swing.angle_rad, swing.axis)));
+      orientation = recon::OrientationsOf(posture);
+    }
+    const bool arm = range.bone == 5 || range.bone == 9;
+    if (!arm && range.bone != 13 && range.bone != 17) continue;  // no hinge tells their turn
+    const Excess twist = TwistExcess(range, orientation);
+    if (twist.angle_rad <= 0.0) continue;
+    const Vector3d lower = posture.position_m[range.bone + 1] - posture.position_m[range.bone];
+    const Vector3d to =
+        NearestBend(orientation[range.bone], twist, arm ? 1.0 : -1.0, lower.normalized());
+    Turn(posture, range.bone + 1, Eigen::Quaterniond::FromTwoVectors(lower, to));
+    orientation = recon::OrientationsOf(posture);
+  }
+  return posture;
+}
+
 JointLimits::JointLimits(OdeWorld& ode, const Character& character) : character_(character) {
   for (const JointRange& range : JointRanges()) {
     const dJointID motor = dJointCreateAMotor(ode.world, nullptr);

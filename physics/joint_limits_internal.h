@@ -26,6 +26,11 @@ struct Excess {
 Excess SwingExcess(const JointRange& range, const recon::JointOrientations& orientation);
 Excess TwistExcess(const JointRange& range, const recon::JointOrientations& orientation);
 
+/// The posture with every bone turned into its range, what hangs on it going along; lengths stay. A
+/// knee that is to bend forwards is stretched: to turn the thigh instead until it bends backwards,
+/// as the frames of OrientationsOf suggest, would contort the hip for the knee's sake.
+recon::Posture WithinRanges(recon::Posture posture);
+
 /// Keeps a character's joints within their ranges: a motor per range, about whatever axes lead
 /// back, without torque inside. Its torque is bounded and it is solved with the joints, so a target
 /// that asks for the impossible bends it a little and breaks nothing.

@@ -80,6 +80,28 @@ INSTANTIATE_TEST_SUITE_P(
                     Contortion{"ForearmInTheUpperArm", 6, 5, {-0.3, 1.0, 0.25}, 150.0}),
     [](const auto& info) { return std::string(info.param.name); });
 
+TEST(JointLimits, StretchAKneeThatIsToBendForwardsAndLeaveTheHipAlone) {
+  Posture target = StandingPerson();
+  const Vector3d thigh = (target[Joint::kKneeLeft] - target[Joint::kHipLeft]).normalized();
+  const Vector3d forwards = (0.77 * thigh + 0.64 * Vector3d::UnitZ()).normalized();
+  const Vector3d ankle = target[Joint::kKneeLeft] + 0.41 * forwards;
+  target[Joint::kFootLeft] += ankle - target[Joint::kAnkleLeft];
+  target[Joint::kAnkleLeft] = ankle;
+  CharacterFilterOptions options;
+  options.pin_feet = false;
+  const auto turn = [&](const FilteredPosture& out) {
+    return out.orientation[13].angularDistance(Settled(StandingPerson(), options).orientation[13]) /
+           kDegree;
+  };
+  options.joint_limits = true;
+  const auto out = Settled(target, options);
+  const double bend =
+      AngleBetween(Axis(out, 14, Vector3d::UnitY()), Axis(out, 13, Vector3d::UnitY()));
+  EXPECT_LT(bend, 15.0);       // people's knees overstretch by 12 degrees in the table
+  EXPECT_LT(turn(out), 20.0);  // the thigh: half a turn without limits, 70 degrees with motors only
+  EXPECT_LT((out.posture[Joint::kKneeLeft] - target[Joint::kKneeLeft]).norm(), 0.04);
+}
+
 TEST(JointLimits, LetThePossibleBe) {
   CharacterFilterOptions options;
   CharacterFilter free(Lengths(), options);

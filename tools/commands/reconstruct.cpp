@@ -104,7 +104,7 @@ int Reconstruct(int argc, char** argv) {
                     ? recon::ButterworthSequence(clip.sequence, a.cutoff_hz)
                     : recon::ReconstructSequence(clip.sequence, a.options, update);
     if (Interrupted()) throw InputError("reconstruct: interrupted; nothing half-written is left");
-    if (a.mechanics.on()) tracker::FollowMechanically(made, a.mechanics.motors());
+    if (a.mechanics.on()) tracker::FollowMechanically(made, a.mechanics.build);
     std::filesystem::path to = a.out;
     if (many) {
       to = to / (clip.name + ".jsonl");

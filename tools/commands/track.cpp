@@ -96,7 +96,7 @@ TrackOptions ParseOptions(int argc, char** argv) {
         "track: nothing to do: name --out, --picture, --pictures, --json-stats or --view");
   }
   options.tracker.physics = options.mechanics.on();
-  options.tracker.physics_motors = options.mechanics.motors();
+  options.tracker.mechanics = options.mechanics.build;
   options.tracker.smoothing = tracker::SmoothingPreset(options.smoothing);
   if (options.mode == "seated") options.tracker.mode = tracker::TrackingMode::kSeated;
   options.tracker.keep_parts = !options.picture.empty() || !options.pictures.empty();

@@ -65,7 +65,9 @@ std::optional<physics::FilteredPosture> Mechanics::Follow(
     const std::optional<Eigen::Vector4d>& floor, double time_s) {
   if (!character_) {
     physics::CharacterFilterOptions options;
-    if (motors_) options.control = physics::Control::kMotor;
+    if (build_.motors) options.control = physics::Control::kMotor;
+    options.hinges = build_.hinges;
+    options.joint_limits = build_.joint_limits;
     character_ = std::make_unique<physics::CharacterFilter>(BonesOf(target), options);
     last_s_ = time_s - 1.0 / 30.0;
   }
@@ -77,11 +79,11 @@ std::optional<physics::FilteredPosture> Mechanics::Follow(
   return filtered;
 }
 
-void FollowMechanically(recon::SkeletonSequence& sequence, bool motors) {
+void FollowMechanically(recon::SkeletonSequence& sequence, const MechanicsBuild& build) {
   std::map<int, Mechanics> people;
   for (recon::SkeletonFrame& frame : sequence.frames) {
     for (recon::BodyRecord& body : frame.bodies) {
-      const auto person = people.try_emplace(body.id, motors).first;
+      const auto person = people.try_emplace(body.id, build).first;
       FollowBody(frame, person->second, body);
     }
   }

@@ -3,10 +3,17 @@
 
 namespace ossa::tracker {
 
-/// Lets one mechanical character a body id follow a recording (Shum 2013 sec. VII), by the papers'
-/// bounded forces or by servo motors: all 20 joints come out with orientations, bones of constant
-/// length, above each frame's floor where it has one. Joints' reliabilities say how far the
-/// character is led by them; joints that were absent come out inferred.
-void FollowMechanically(recon::SkeletonSequence& sequence, bool motors);
+/// How a person's mechanical character is built (physics/character_filter.h).
+struct MechanicsBuild {
+  bool motors = false;        // servo motors instead of the papers' bounded forces
+  bool hinges = false;        // elbows and knees are hinges instead of ball joints
+  bool joint_limits = false;  // joints keep to the ranges that people's have
+};
+
+/// Lets one mechanical character a body id follow a recording (Shum 2013 sec. VII): all 20 joints
+/// come out with orientations, bones of constant length, above each frame's floor where it has one.
+/// Joints' reliabilities say how far the character is led by them; joints that were absent come out
+/// inferred.
+void FollowMechanically(recon::SkeletonSequence& sequence, const MechanicsBuild& build);
 
 }  // namespace ossa::tracker

@@ -6,6 +6,7 @@
 
 #include "physics/character_filter.h"
 #include "recon/posture.h"
+#include "tools/tracker/mechanics.h"
 
 namespace ossa::tracker {
 
@@ -13,7 +14,7 @@ namespace ossa::tracker {
 /// the postures that follow.
 class Mechanics {
  public:
-  explicit Mechanics(bool motors) : motors_(motors) {}
+  explicit Mechanics(const MechanicsBuild& build) : build_(build) {}
   /// What the character makes of `target`; nothing where it cannot say: time that stands still or
   /// runs backwards, a character that came to grief. Joints that are not finite lead it nowhere.
   std::optional<physics::FilteredPosture> Follow(const recon::Posture& target,
@@ -22,7 +23,7 @@ class Mechanics {
                                                  double time_s);
 
  private:
-  bool motors_;
+  MechanicsBuild build_;
   std::unique_ptr<physics::CharacterFilter> character_;
   double last_s_ = 0.0;
 };

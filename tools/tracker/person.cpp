@@ -59,7 +59,7 @@ void CompleteBody(const depth::DepthFrame& frame, const std::optional<Eigen::Vec
   recon::Posture posture = body.reconstructed;
   if (options.physics) {
     const auto physics_start = Clock::now();
-    if (!person.mechanics) person.mechanics = std::make_unique<Mechanics>(options.physics_motors);
+    if (!person.mechanics) person.mechanics = std::make_unique<Mechanics>(options.mechanics);
     const auto made = person.mechanics->Follow(posture, body.reliability, floor, frame.time_s);
     if (made) posture = made->posture;
     ms.physics += MillisecondsSince(physics_start);

@@ -24,7 +24,8 @@ struct Person {
 };
 
 struct CompleteOptions {
-  bool physics = false, physics_motors = false;
+  bool physics = false;
+  MechanicsBuild mechanics;
   TrackingMode mode = TrackingMode::kStanding;
   SmoothingOptions smoothing;
   recon::ReconstructorOptions reconstructor;

@@ -88,7 +88,7 @@ struct Tracker::Impl {
         model(forest::ReadForestModel(ModelPath(o))),
         targets(JointTargets(model, o.model.empty() ? "body.ossa" : o.model)) {
     complete.physics = o.physics;
-    complete.physics_motors = o.physics_motors;
+    complete.mechanics = o.mechanics;
     complete.mode = o.mode;
     complete.smoothing = o.smoothing;
     complete.reconstructor.method = o.method;

@@ -11,6 +11,7 @@
 #include "depth/image/depth_frame.h"
 #include "depth/image/image.h"
 #include "recon/posture.h"
+#include "tools/tracker/mechanics.h"
 #include "tools/tracker/smoothing.h"
 
 namespace ossa::depth {
@@ -79,7 +80,7 @@ struct TrackerOptions {
   std::string learned;               // .ossagp, for the methods that learn
   std::string method = "shum-2013";  // one of recon::ReconstructionMethods()
   bool physics = false;              // let the mechanical character follow the posture
-  bool physics_motors = false;       // ... by servo motors instead of the papers' bounded forces
+  MechanicsBuild mechanics;          // how that is built
   SmoothingOptions smoothing = SmoothingPreset("default");
   TrackingMode mode = TrackingMode::kStanding;
   bool near_range = false;  // the SDK's near mode: people from 0.4 to 3 m only

@@ -1,7 +1,9 @@
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <filesystem>
+#include <optional>
 
 #include "recon/motion/skeleton_io.h"
 #include "tests/recon/synthetic_motion.h"
@@ -74,6 +76,20 @@ double MeanDistance(const recon::SkeletonSequence& a, const recon::SkeletonSeque
   return sum / static_cast<double>(a.frames.size() * kJointCount);
 }
 
+/// How far the forearm's x axis, the hinge's, strays in the upper arm from where it was, radians.
+double ElbowAxisWander(const recon::SkeletonSequence& sequence) {
+  double worst = 0.0;
+  std::optional<Eigen::Vector3d> first;
+  for (const auto& frame : sequence.frames) {
+    const auto& joints = frame.bodies.at(0).joints;
+    const Eigen::Vector3d axis =
+        joints[5]->orientation->conjugate() * (*joints[6]->orientation * Eigen::Vector3d::UnitX());
+    if (!first) first = axis;
+    worst = std::max(worst, std::acos(std::clamp(axis.dot(*first), -1.0, 1.0)));
+  }
+  return worst;
+}
+
 TEST_F(ReconstructCommand, CompletesEveryFrame) {
   const auto made = Made({});
   ASSERT_EQ(made.frames.size(), 60u);
@@ -94,6 +110,26 @@ TEST_F(ReconstructCommand, LetsACharacterFollowWithConstantBonesAndOrientations)
     EXPECT_LT(off_m, 0.1) << control;
     EXPECT_TRUE(made.frames.back().bodies.at(0).joints[5]->orientation.has_value());
   }
+}
+
+TEST_F(ReconstructCommand, HingesAndJointLimitsChangeWhatTheCharacterDoes) {
+  // A head that hangs down the back, as no head hangs.
+  auto recording = Recording();
+  for (auto& frame : recording.frames) {
+    auto& joints = frame.bodies[0].joints;
+    const Eigen::Vector3d neck = joints[2]->position_m - joints[1]->position_m;
+    joints[3]->position_m = joints[2]->position_m - 0.15 * neck.normalized() +
+                            0.12 * neck.cross(Eigen::Vector3d::UnitX()).normalized();
+  }
+  recon::WriteSkeletons(in_, recording);
+  const auto plain = Made({"--method", "none", "--physics", "on"}, "plain.jsonl");
+  const auto limited = Made({"--method", "none", "--physics", "on", "--joint-limits"});
+  EXPECT_GT(MeanDistance(limited, plain), 1e-3);
+  EXPECT_LT(BoneDrift(limited), 1e-4);
+  const auto hinged = Made({"--method", "none", "--physics", "on", "--hinges"}, "hinged.jsonl");
+  EXPECT_LT(ElbowAxisWander(hinged), 0.05);  // 3 degrees: what the iterative solver leaves
+  EXPECT_LT(ElbowAxisWander(hinged), 0.5 * ElbowAxisWander(plain));
+  EXPECT_LT(BoneDrift(hinged), 1e-4);
 }
 
 TEST_F(ReconstructCommand, PhysicsOffIsTheDefault) {
@@ -146,6 +182,8 @@ INSTANTIATE_TEST_SUITE_P(
         BadReconstruct{"physics", {"IN", "--out", "OUT", "--physics", "maybe"}, 2, "--physics"},
         BadReconstruct{"physics_alone", {"IN", "--out", "OUT", "--physics"}, 2, "--physics"},
         BadReconstruct{"control", {"IN", "--out", "OUT", "--control", "magic"}, 2, "--control"},
+        BadReconstruct{"hinges", {"IN", "--out", "OUT", "--hinges"}, 2, "--physics"},
+        BadReconstruct{"limits", {"IN", "--out", "OUT", "--joint-limits"}, 2, "--physics"},
         BadReconstruct{"method", {"IN", "--out", "OUT", "--method", "guess"}, 2, "--method"},
         BadReconstruct{"no_such_file", {"/no/such.jsonl", "--out", "OUT"}, 1, "/no/such.jsonl"},
         BadReconstruct{"learned", {"IN", "--out", "OUT", "--learned", "/no.gp"}, 1, "/no.gp"}),

@@ -102,8 +102,9 @@ TEST(TrackCommand, SameFramesSameSeedSameBytesWhateverTheThreads) {
   WriteWalk(folder / "in", 5);
   const auto bytes = [&](const std::string& name, const std::string& threads) {
     const auto out = folder / name;
-    const CommandResult result =
-        TrackTo(folder / "in", out, {"--physics", "on", "--threads", threads}, "shum-2013");
+    const CommandResult result = TrackTo(
+        folder / "in", out, {"--physics", "on", "--hinges", "--joint-limits", "--threads", threads},
+        "shum-2013");
     EXPECT_EQ(result.exit_status, 0) << result.err;
     std::ifstream file(out, std::ios::binary);
     return std::string(std::istreambuf_iterator<char>(file), {});
