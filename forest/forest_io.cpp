@@ -1,4 +1,7 @@
 #include <zstd.h>
+#include <array>
+#include <cstring>
+#include <fstream>
 
 #include "depth/error.h"
 #include "depth/file/sealed_file.h"
