@@ -16,6 +16,13 @@ using Eigen::Vector4f;
 
 float Height(const Vector4f& plane, const Vector3f& p) { return plane.head<3>().dot(p) + plane[3]; }
 
+// How far a measurement of the plane may lie off it: depth errors run along the line of sight, and
+// a floor is seen at a grazing angle.
+float Tolerance(const Vector4f& plane, const Vector3f& p) {
+  const float along = std::abs(plane.head<3>().dot(p)) / p.norm();
+  return 0.015F + along * DepthTolerance(p.z());
+}
+
 struct Fit {
   Vector4f plane = Vector4f::Zero();
   int inliers = 0;
@@ -26,7 +33,7 @@ Fit Score(const std::vector<Vector3f>& points, const Vector4f& plane) {
   Fit fit{plane, 0, 0};
   for (const Vector3f& p : points) {
     const float height = Height(plane, p);
-    const float tolerance = DepthTolerance(p.z());
+    const float tolerance = Tolerance(plane, p);
     fit.inliers += std::abs(height) < tolerance ? 1 : 0;
     fit.below += height < -2 * tolerance ? 1 : 0;
   }
@@ -52,7 +59,7 @@ Vector4f Refine(const std::vector<Vector3f>& points, const Vector4f& plane) {
   Eigen::Vector3d mean = Eigen::Vector3d::Zero();
   std::vector<Eigen::Vector3d> inliers;
   for (const Vector3f& p : points) {
-    if (std::abs(Height(plane, p)) >= DepthTolerance(p.z())) continue;
+    if (std::abs(Height(plane, p)) >= Tolerance(plane, p)) continue;
     inliers.push_back(p.cast<double>());
     mean += inliers.back();
   }
@@ -70,7 +77,7 @@ Vector4f Refine(const std::vector<Vector3f>& points, const Vector4f& plane) {
 double VisibleArea_m2(const std::vector<Vector3f>& points, const Vector4f& plane) {
   std::set<std::pair<int, int>> squares;
   for (const Vector3f& p : points) {
-    if (std::abs(Height(plane, p)) >= DepthTolerance(p.z())) continue;
+    if (std::abs(Height(plane, p)) >= Tolerance(plane, p)) continue;
     squares.insert(
         {static_cast<int>(std::floor(10 * p.x())), static_cast<int>(std::floor(10 * p.z()))});
   }

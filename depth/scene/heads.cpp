@@ -118,7 +118,7 @@ std::vector<HeadBlob> FindHeads(const PointGrid& grid, const Region& region) {
 }
 
 std::vector<Region> SplitBySeeds(const PointGrid& grid, const Region& region,
-                                 const std::vector<std::vector<int>>& seeds, float reach_m) {
+                                 const std::vector<Seed>& seeds) {
   const auto cells = static_cast<size_t>(grid.cells());
   std::vector<uint8_t> member(cells, 0);
   for (const int cell : region.cells) member[static_cast<size_t>(cell)] = 1;
@@ -127,7 +127,7 @@ std::vector<Region> SplitBySeeds(const PointGrid& grid, const Region& region,
   using Item = std::pair<float, int>;
   std::priority_queue<Item, std::vector<Item>, std::greater<>> queue;
   for (size_t i = 0; i < seeds.size(); ++i) {
-    for (const int cell : seeds[i]) {
+    for (const int cell : seeds[i].cells) {
       if (!member[static_cast<size_t>(cell)]) continue;
       distance[static_cast<size_t>(cell)] = 0;
       owner[static_cast<size_t>(cell)] = static_cast<int>(i);
@@ -150,9 +150,10 @@ std::vector<Region> SplitBySeeds(const PointGrid& grid, const Region& region,
       way.x() *= 1.5F;  // bodies are tall: sideways costs more than down
       const float jump = Continuous(grid, cell, next) ? 0.0F : 0.3F;
       const float reached = d + way.norm() + jump;
-      if (reached >= distance[n] || reached > reach_m) continue;
+      const int mine = owner[static_cast<size_t>(cell)];
+      if (reached >= distance[n] || reached > seeds[static_cast<size_t>(mine)].reach_m) continue;
       distance[n] = reached;
-      owner[n] = owner[static_cast<size_t>(cell)];
+      owner[n] = mine;
       queue.push({reached, next});
     }
   }

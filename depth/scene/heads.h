@@ -17,10 +17,16 @@ struct HeadBlob {
 /// Heads of a region, best first, at least 25 cm apart.
 std::vector<HeadBlob> FindHeads(const PointGrid& grid, const Region& region);
 
-/// Cuts a region into one piece per seed set: each cell goes to the seeds it is joined to by the
-/// shortest way over the surface. Cells beyond `reach_m` go to nobody: a person ends somewhere, a
-/// sofa does not. seeds[i] are cells of piece i.
+/// Where a piece begins, and how far it may go from there over the surface.
+struct Seed {
+  std::vector<int> cells;
+  float reach_m = 0;
+};
+
+/// Cuts a region into one piece per seed: each cell goes to the seed it is joined to by the
+/// shortest way over the surface. Cells beyond reach go to nobody: a person ends somewhere, a sofa
+/// does not.
 std::vector<Region> SplitBySeeds(const PointGrid& grid, const Region& region,
-                                 const std::vector<std::vector<int>>& seeds, float reach_m);
+                                 const std::vector<Seed>& seeds);
 
 }  // namespace ossa::depth

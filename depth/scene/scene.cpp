@@ -5,154 +5,42 @@
 #include <cmath>
 
 #include "depth/scene/heads.h"
+#include "depth/scene/pieces.h"
 
 namespace ossa::depth {
 namespace {
 
 using Eigen::Vector3f;
 
-// A frame of another size or a clock that jumped back starts over.
-void ForgetIfStrange(const DepthFrame& frame, SceneState& state) {
-  if (state.frame_width == frame.camera.width && state.frame_height == frame.camera.height) return;
-  const int next_id = state.next_id;
-  state = {};
-  state.next_id = next_id;
-  state.frame_width = frame.camera.width;
-  state.frame_height = frame.camera.height;
+// True when this frame shows another scene than the one before: most of what was measured in both
+// is elsewhere now. Nothing that moves in a room covers so much of it between two frames.
+bool SceneChanged(const PointGrid& grid, const SceneState& state) {
+  constexpr float kElsewhere_m = 0.15F;
+  constexpr int kFewest = 500;
+  if (state.last_z_m.size() != static_cast<size_t>(grid.cells())) return false;
+  int both = 0, elsewhere = 0;
+  for (int i = 0; i < grid.cells(); ++i) {
+    const float before = state.last_z_m[static_cast<size_t>(i)];
+    if (!grid.valid(i) || before <= 0) continue;
+    ++both;
+    elsewhere += std::abs(grid.z(i) - before) > kElsewhere_m + 3 * DepthTolerance(before) ? 1 : 0;
+  }
+  return both > kFewest && 2 * elsewhere > both;
 }
 
-// Which user of the frame before each cell belongs to: same cell, similar depth. -1 for none.
-std::vector<int> PreviousOwners(const PointGrid& grid, const SceneState& state) {
-  std::vector<int> owner(static_cast<size_t>(grid.cells()), -1);
-  for (size_t u = 0; u < state.users.size(); ++u) {
-    const UserTrack& user = state.users[u];
-    for (size_t i = 0; i < user.cells.size(); ++i) {
-      const int cell = user.cells[i];
-      if (cell < grid.cells() && grid.valid(cell) && std::abs(grid.z(cell) - user.z_m[i]) < 0.12F) {
-        owner[static_cast<size_t>(cell)] = static_cast<int>(u);
-      }
-    }
+// A frame of another size or of another scene starts over.
+void ForgetIfStrange(const DepthFrame& frame, const PointGrid& grid, SceneState& state) {
+  const bool same_size =
+      state.frame_width == frame.camera.width && state.frame_height == frame.camera.height;
+  if (!same_size || SceneChanged(grid, state)) {
+    const int next_id = state.next_id;
+    state = {};
+    state.next_id = next_id;
+    state.frame_width = frame.camera.width;
+    state.frame_height = frame.camera.height;
   }
-  return owner;
-}
-
-// Cells of the region per user of before.
-std::vector<std::vector<int>> Overlaps(const Region& region, const std::vector<int>& owner,
-                                       size_t users) {
-  std::vector<std::vector<int>> overlap(users);
-  for (const int cell : region.cells) {
-    const int u = owner[static_cast<size_t>(cell)];
-    if (u >= 0) overlap[static_cast<size_t>(u)].push_back(cell);
-  }
-  return overlap;
-}
-
-// A disc around a head belongs to it before anything is measured over the surface.
-std::vector<int> HeadSeed(const PointGrid& grid, const Region& region, const Vector3f& head) {
-  std::vector<int> seed;
-  for (const int cell : region.cells) {
-    if ((grid.at(cell) - head).norm() < 0.12F) seed.push_back(cell);
-  }
-  return seed;
-}
-
-Region Joined(const PointGrid& grid, const Region& a, const Region& b) {
-  std::vector<int> cells = a.cells;
-  cells.insert(cells.end(), b.cells.begin(), b.cells.end());
-  return MakeRegion(grid, std::move(cells));
-}
-
-// The shortest way between the cells of a small piece and a big one, metres; only nearby cells of
-// the image are compared, and a piece behind the other does not reach around it.
-float Gap(const PointGrid& grid, const Region& small, const std::vector<int>& label, int big) {
-  float best = 1e9F;
-  for (const int cell : small.cells) {
-    const int x = cell % grid.width, y = cell / grid.width;
-    const int reach = std::clamp(static_cast<int>(grid.CellsOf(0.12F, grid.z(cell))), 3, 16);
-    for (int dy = -reach; dy <= reach; dy += 2) {
-      for (int dx = -reach; dx <= reach; dx += 2) {
-        if (!grid.Contains(x + dx, y + dy)) continue;
-        const int other = grid.cell(x + dx, y + dy);
-        if (label[static_cast<size_t>(other)] != big) continue;
-        best = std::min(best, (grid.at(other) - grid.at(cell)).norm());
-      }
-    }
-  }
-  return best;
-}
-
-// Hands held out, forearms cut off by the projector's shadow, legs below a table: small pieces join
-// the big piece they are nearest to, if an arm could bridge the way. Pieces far behind do not.
-std::vector<Region> JoinPieces(const PointGrid& grid, std::vector<Region> regions) {
-  constexpr float kPieceArea_m2 = 0.12F, kReach_m = 0.42F;
-  std::vector<int> label(static_cast<size_t>(grid.cells()), -1);
-  std::vector<Region> big, small;
-  for (Region& region : regions) {
-    const bool whole = region.area_m2 >= kPieceArea_m2;
-    (whole ? big : small).push_back(std::move(region));
-    if (!whole) continue;
-    for (const int cell : big.back().cells) {
-      label[static_cast<size_t>(cell)] = static_cast<int>(big.size()) - 1;
-    }
-  }
-  for (const Region& piece : small) {
-    int best = -1;
-    float best_gap = kReach_m;
-    for (size_t i = 0; i < big.size(); ++i) {
-      const float gap = Gap(grid, piece, label, static_cast<int>(i));
-      if (gap < best_gap) best_gap = gap, best = static_cast<int>(i);
-    }
-    if (best >= 0) {
-      big[static_cast<size_t>(best)] = Joined(grid, big[static_cast<size_t>(best)], piece);
-    } else {
-      big.push_back(piece);
-    }
-  }
-  return big;
-}
-
-// Pieces that mostly cover where one user was belong together: an arm of somebody in front may cut
-// a body in two.
-std::vector<Region> JoinByHistory(const PointGrid& grid, std::vector<Region> regions,
-                                  const std::vector<int>& owner, size_t users) {
-  std::vector<int> home(users, -1);
-  std::vector<Region> result;
-  for (Region& region : regions) {
-    const auto overlap = Overlaps(region, owner, users);
-    int join = -1;
-    for (size_t u = 0; u < users; ++u) {
-      if (overlap[u].size() * 2 < region.cells.size()) continue;
-      if (home[u] >= 0)
-        join = home[u];
-      else
-        home[u] = static_cast<int>(result.size());
-    }
-    if (join >= 0) {
-      result[static_cast<size_t>(join)] = Joined(grid, result[static_cast<size_t>(join)], region);
-    } else {
-      result.push_back(std::move(region));
-    }
-  }
-  return result;
-}
-
-// Who is in one region: users of before by the cells they held, newcomers by their heads.
-std::vector<std::vector<int>> SeedsOf(const PointGrid& grid, const Region& region,
-                                      const std::vector<int>& owner, size_t users) {
-  std::vector<std::vector<int>> seeds;
-  std::vector<uint8_t> owned(static_cast<size_t>(grid.cells()), 0);
-  for (auto& cells : Overlaps(region, owner, users)) {
-    if (cells.size() < 40) continue;
-    for (const int cell : cells) owned[static_cast<size_t>(cell)] = 1;
-    seeds.push_back(std::move(cells));
-  }
-  for (const HeadBlob& head : FindHeads(grid, region)) {
-    std::vector<int> seed = HeadSeed(grid, region, head.position_m);
-    const auto taken = std::count_if(
-        seed.begin(), seed.end(), [&](int cell) { return owned[static_cast<size_t>(cell)] != 0; });
-    if (2 * taken < static_cast<long>(seed.size())) seeds.push_back(std::move(seed));
-  }
-  return seeds;
+  state.last_z_m.resize(static_cast<size_t>(grid.cells()));
+  for (int i = 0; i < grid.cells(); ++i) state.last_z_m[static_cast<size_t>(i)] = grid.z(i);
 }
 
 // Full-resolution pixels of a region: each pixel follows the nearest cell around it of its depth.
@@ -204,13 +92,6 @@ std::vector<int32_t> PixelsOf(const DepthFrame& frame, const PointGrid& grid,
   return pixels;
 }
 
-bool PersonSized(const Region& region, const SceneOptions& options) {
-  const Vector3f size = region.high_m - region.low_m;
-  const float length = std::max(size.y(), std::max(size.x(), size.z()));
-  return region.area_m2 >= options.min_area_m2 && length >= options.min_height_m &&
-         region.cells.size() >= 30;
-}
-
 double FlatShare(const Region& region, const RoomShape& shape) {
   const auto flat = std::count_if(region.cells.begin(), region.cells.end(), [&](int cell) {
     return shape.flat[static_cast<size_t>(cell)] != 0;
@@ -218,21 +99,32 @@ double FlatShare(const Region& region, const RoomShape& shape) {
   return static_cast<double>(flat) / static_cast<double>(std::max<size_t>(1, region.cells.size()));
 }
 
-// One piece per person. A seed whose piece could not be a person was no head: its piece goes back
-// to the others.
-std::vector<Region> CutBySeeds(const PointGrid& grid, const Region& region,
-                               std::vector<std::vector<int>> seeds, const SceneOptions& options) {
-  while (true) {
-    // One person alone needs no cut, unless much more hangs on than a person has.
-    if (seeds.empty() || (seeds.size() == 1 && region.area_m2 <= 1.0F)) return {region};
-    std::vector<Region> pieces = SplitBySeeds(grid, region, seeds, options.max_reach_m);
-    if (seeds.size() == 1) return pieces;
-    size_t least = 0;
-    for (size_t i = 1; i < pieces.size(); ++i) {
-      if (pieces[i].area_m2 < pieces[least].area_m2) least = i;
+// Each user of before goes on in the one candidate that holds most of their cells, if that is a
+// good part of either: what merely touches a person is not that person.
+void ContinueTracks(const std::vector<int>& owner, const std::vector<UserTrack>& users,
+                    std::vector<Candidate>& candidates) {
+  constexpr size_t kPart = 4;  // a quarter
+  std::vector<size_t> best(users.size(), 0);
+  std::vector<int> heir(users.size(), -1);
+  for (size_t c = 0; c < candidates.size(); ++c) {
+    const Region& region = candidates[c].region;
+    const auto overlap = Overlaps(region, owner, users.size());
+    for (size_t u = 0; u < users.size(); ++u) {
+      const size_t common = overlap[u].size();
+      const size_t least = std::min(region.cells.size(), users[u].cells.size()) / kPart;
+      if (common <= std::max(best[u], least)) continue;
+      best[u] = common;
+      heir[u] = static_cast<int>(c);
     }
-    if (PersonSized(pieces[least], options)) return pieces;
-    seeds.erase(seeds.begin() + static_cast<std::ptrdiff_t>(least));
+  }
+  // Two users in one candidate: the one who fills more of it goes on.
+  std::vector<size_t> filled(candidates.size(), 0);
+  for (size_t u = 0; u < users.size(); ++u) {
+    if (heir[u] < 0) continue;
+    const auto c = static_cast<size_t>(heir[u]);
+    if (best[u] <= filled[c]) continue;
+    filled[c] = best[u];
+    candidates[c].track = static_cast<int>(u);
   }
 }
 
@@ -241,41 +133,39 @@ std::vector<Region> CutBySeeds(const PointGrid& grid, const Region& region,
 Scene FindCandidates(const DepthFrame& frame, const SceneState& state, SceneState& next,
                      const SceneOptions& options) {
   next = state;
-  ForgetIfStrange(frame, next);
   Scene scene;
   scene.grid = MakePointGrid(frame.view(), frame.camera, options.max_depth_m);
+  ForgetIfStrange(frame, scene.grid, next);
+  const double since_s = frame.time_s - next.last_s;
+  scene.fresh = since_s < 0 || since_s > options.fresh_s;
+  next.last_s = frame.time_s;
   scene.floor = FindFloor(scene.grid, next.floor, options.floor);
   const RoomShape shape = RoomSurfaces(scene.grid, scene.floor);
   std::vector<uint8_t> ignore = shape.room;
   const std::vector<uint8_t> background =
       SeenBackground(scene.grid, next.background, options.background);
-  const std::vector<int> owner = PreviousOwners(scene.grid, next);
+  const std::vector<int> owner = PreviousOwners(scene.grid, next, frame.time_s);
   for (size_t i = 0; i < ignore.size(); ++i) ignore[i] |= background[i] && owner[i] < 0;
 
   constexpr float kSpeck_m2 = 0.004F;  // a fist has 0.006
   std::vector<Region> regions = ConnectedRegions(scene.grid, ignore, kSpeck_m2);
-  regions = JoinPieces(scene.grid, std::move(regions));
+  regions = JoinPieces(scene.grid, std::move(regions), owner, next.users.size());
   regions = JoinByHistory(scene.grid, std::move(regions), owner, next.users.size());
-  for (const Region& region : regions) {
-    if (!PersonSized(region, options)) continue;
-    const auto seeds = SeedsOf(scene.grid, region, owner, next.users.size());
-    for (Region& piece : CutBySeeds(scene.grid, region, seeds, options)) {
+  for (size_t r = 0; r < regions.size(); ++r) {
+    if (!PersonSized(regions[r], options)) continue;
+    const auto seeds = SeedsOf(scene.grid, regions[r], owner, next.users.size(), options);
+    for (Region& piece : CutBySeeds(scene.grid, regions[r], seeds, options)) {
       if (!PersonSized(piece, options)) continue;
       Candidate candidate;
       candidate.pixels = PixelsOf(frame, scene.grid, piece);
       candidate.has_head = !seeds.empty();
       candidate.flat_share = FlatShare(piece, shape);
       candidate.region = std::move(piece);
+      candidate.origin = static_cast<int>(r);
       scene.candidates.push_back(std::move(candidate));
     }
   }
-  for (Candidate& candidate : scene.candidates) {
-    const auto overlap = Overlaps(candidate.region, owner, next.users.size());
-    size_t best = 0;
-    for (size_t u = 0; u < overlap.size(); ++u) {
-      if (overlap[u].size() > best) best = overlap[u].size(), candidate.track = static_cast<int>(u);
-    }
-  }
+  ContinueTracks(owner, next.users, scene.candidates);
   std::stable_sort(
       scene.candidates.begin(), scene.candidates.end(),
       [](const Candidate& a, const Candidate& b) { return a.region.area_m2 > b.region.area_m2; });
@@ -286,24 +176,60 @@ std::vector<Candidate> SplitCandidate(const Scene& scene, const DepthFrame& fram
                                       const Candidate& candidate,
                                       const std::vector<Eigen::Vector3d>& heads_m,
                                       const SceneOptions& options) {
-  std::vector<std::vector<int>> seeds;
+  std::vector<Seed> seeds;
   for (const auto& head : heads_m) {
     auto seed = HeadSeed(scene.grid, candidate.region, head.cast<float>());
-    if (!seed.empty()) seeds.push_back(std::move(seed));
+    if (!seed.empty()) seeds.push_back({std::move(seed), options.max_reach_m});
   }
   if (seeds.size() < 2) return {candidate};
   std::vector<Candidate> pieces;
-  for (Region& piece : SplitBySeeds(scene.grid, candidate.region, seeds, options.max_reach_m)) {
+  for (Region& piece : SplitBySeeds(scene.grid, candidate.region, seeds)) {
     if (!PersonSized(piece, options)) continue;
     Candidate part;
     part.pixels = PixelsOf(frame, scene.grid, piece);
     part.track = pieces.empty() ? candidate.track : -1;
     part.has_head = true;
+    part.origin = candidate.origin;
     part.flat_share = candidate.flat_share;
     part.region = std::move(piece);
     pieces.push_back(std::move(part));
   }
   return pieces;
+}
+
+Candidate JoinCandidates(const Scene& scene, const DepthFrame& frame, const Candidate& a,
+                         const Candidate& b) {
+  const auto flat_cells = [](const Candidate& c) {
+    return c.flat_share * static_cast<double>(c.region.cells.size());
+  };
+  Candidate whole;
+  whole.region = Joined(scene.grid, a.region, b.region);
+  whole.pixels = PixelsOf(frame, scene.grid, whole.region);
+  whole.track = a.track >= 0 ? a.track : b.track;
+  whole.has_head = a.has_head || b.has_head;
+  whole.flat_share = (flat_cells(a) + flat_cells(b)) /
+                     static_cast<double>(std::max<size_t>(1, whole.region.cells.size()));
+  whole.origin = a.origin;
+  return whole;
+}
+
+void KeepNear(const Scene& scene, const DepthFrame& frame, std::span<const Bone> bones,
+              float reach_m, Candidate& candidate) {
+  std::vector<int> kept;
+  for (const int cell : candidate.region.cells) {
+    const Vector3f& p = scene.grid.at(cell);
+    const bool near = std::any_of(bones.begin(), bones.end(), [&](const Bone& bone) {
+      const Vector3f along = bone.to_m - bone.from_m;
+      const float share = (p - bone.from_m).dot(along) / std::max(1e-6F, along.squaredNorm());
+      const Vector3f nearest = bone.from_m + std::clamp(share, 0.0F, 1.0F) * along;
+      return (p - nearest).squaredNorm() < reach_m * reach_m;
+    });
+    if (near) kept.push_back(cell);
+  }
+  constexpr size_t kFew = 40;  // cells: taken off for less, edges would flicker
+  if (kept.size() + kFew > candidate.region.cells.size() || kept.size() < kFew) return;
+  candidate.region = MakeRegion(scene.grid, std::move(kept));
+  candidate.pixels = PixelsOf(frame, scene.grid, candidate.region);
 }
 
 Image<uint8_t> UserImage(const DepthFrame& frame, const std::vector<const Candidate*>& people,

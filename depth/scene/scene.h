@@ -2,6 +2,7 @@
 #include <Eigen/Core>
 #include <cstdint>
 #include <optional>
+#include <span>
 #include <vector>
 
 #include "depth/image/depth_frame.h"
@@ -29,6 +30,8 @@ struct SceneState {
   std::vector<UserTrack> users;  // in view, or lost for less than `forget_s`
   int next_id = 1;
   int frame_width = 0, frame_height = 0;
+  std::vector<float> last_z_m;  // of the grid's cells in the last frame
+  double last_s = -1e9;         // and its time
 };
 
 struct SceneOptions {
@@ -38,6 +41,8 @@ struct SceneOptions {
   float min_area_m2 = 0.07F;  // of a person in view: head and shoulders
   float min_height_m = 0.28F;
   float max_reach_m = 1.75F;      // over the surface from the head to the farthest toe or finger
+  float growth_m = 0.5F;          // ... and beyond where a known person was a frame ago
+  double fresh_s = 0.3;           // without frames for so long, the scene is fresh
   double forget_s = 2.5;          // after so long out of view a person is new
   float return_gate_m = 0.6F;     // how far off the predicted place a lost person may reappear,
   float return_speed_m_s = 0.7F;  // growing with time
@@ -50,12 +55,14 @@ struct Candidate {
   int track = -1;               // index into SceneState::users it seems to continue, or -1
   bool has_head = false;        // something like head and shoulders is seen
   double flat_share = 0;        // of the cells that lie on flat pieces
+  int origin = -1;              // candidates of one connected region have the same
 };
 
 struct Scene {
   PointGrid grid;
   std::optional<FloorPlane> floor;
   std::vector<Candidate> candidates;  // largest first
+  bool fresh = true;                  // no frame of this scene was seen a moment ago
 };
 
 /// What of this frame may be people. Works from a single frame; what is remembered makes it
@@ -69,6 +76,18 @@ std::vector<Candidate> SplitCandidate(const Scene& scene, const DepthFrame& fram
                                       const Candidate& candidate,
                                       const std::vector<Eigen::Vector3d>& heads_m,
                                       const SceneOptions& options = {});
+
+/// Two candidates of one origin as one; it goes on as `a`, if that was anybody.
+Candidate JoinCandidates(const Scene& scene, const DepthFrame& frame, const Candidate& a,
+                         const Candidate& b);
+
+struct Bone {
+  Eigen::Vector3f from_m, to_m;
+};
+/// Takes off a candidate what is farther than `reach_m` from every bone of the person in it: the
+/// sofa that the person touches.
+void KeepNear(const Scene& scene, const DepthFrame& frame, std::span<const Bone> bones,
+              float reach_m, Candidate& candidate);
 
 /// Gives the confirmed candidates their identities (same order) and learns the background from
 /// everything else.

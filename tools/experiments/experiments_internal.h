@@ -11,6 +11,10 @@ std::vector<Table> RunBody(ExperimentContext& context);
 std::vector<Table> RunSensor(ExperimentContext& context);
 /// Every method on every real recording, the SDK's own skeletons as the baseline.
 std::vector<Table> RunSdk(ExperimentContext& context);
+/// Fits the weights in tools/tracker/person_signs.inc.
+std::vector<Table> RunPersonSigns(ExperimentContext& context);
+/// One to six people in rendered rooms: who is found, cut in two, invented, mixed up.
+std::vector<Table> RunRooms(ExperimentContext& context);
 /// Shum & Ho 2012: scenes with objects, the character as a filter, dimensions of a posture search.
 std::vector<Table> RunShumHo2012(ExperimentContext& context);
 

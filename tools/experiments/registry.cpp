@@ -6,6 +6,9 @@ namespace {
 constexpr Experiment kExperiments[] = {
     {"body", "pictures of the 31 parts and of motions on the body", RunBody},
     {"sensor", "the simulated depth sensor beside a Kinect's frames", RunSensor},
+    {"person-signs", "fits what the tracker tells people from furniture by", RunPersonSigns},
+    {"rooms", "the tracker in rendered rooms: people found, cut, invented, mixed up; joints",
+     RunRooms},
     {"sdk", "every method on every real recording; the SDK's skeletons as the baseline", RunSdk},
     {"shum-ho-2012", "the physical character: the paper's scenes, the filter, fig. 5",
      RunShumHo2012},

@@ -4,21 +4,19 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <optional>
 
 #include "depth/error.h"
 #include "depth/render/shapes.h"
-#include "depth/render/structured_light.h"
 #include "recon/body/body_model.h"
 #include "recon/body/clothing.h"
-#include "recon/body/parts.h"
 #include "tools/experiments/sequence_text.h"
 #include "tools/experiments/staged_internal.h"
 #include "tools/synth/dataset.h"
 #include "tools/synth/person.h"
 #include "tools/synth/props.h"
 #include "tools/synth/sequence.h"
+#include "tools/synth/stage.h"
 #include "tools/synth/visibility_internal.h"
 #include "tools/tracker/shipped.h"
 #include "tools/tracker/skeleton_record.h"
@@ -29,18 +27,6 @@ namespace {
 
 constexpr const char* kVersion = "staged 2";  // part of every cache key; raise when frames change
 constexpr double kSensorHeight_m = 1.0;
-
-// Camera space has x to the sensor's left, y up, z forward.
-Eigen::Isometry3d LookAt(const Eigen::Vector3d& eye, const Eigen::Vector3d& target) {
-  const Eigen::Vector3d forward = (target - eye).normalized();
-  const Eigen::Vector3d left = Eigen::Vector3d::UnitY().cross(forward).normalized();
-  Eigen::Matrix3d rotation;
-  rotation << left.transpose(), forward.cross(left).transpose(), forward.transpose();
-  Eigen::Isometry3d camera_from_world = Eigen::Isometry3d::Identity();
-  camera_from_world.linear() = rotation;
-  camera_from_world.translation() = -(rotation * eye);
-  return camera_from_world;
-}
 
 Eigen::Isometry3d CameraPlace(const StageOptions& options) {
   const Eigen::Vector3d eye(options.distance_m * std::sin(options.azimuth_rad), kSensorHeight_m,
@@ -80,11 +66,7 @@ struct Studio::State {
 
   void NeedBody() {
     if (model) return;
-    if (!recon::BodyIsFetched(recon::BodyFolder())) {
-      throw InputError(recon::BodyFolder().string() +
-                       ": expected the body model: run tools/fetch_body");
-    }
-    model = std::make_unique<recon::BodyModel>(recon::BodyModel::Load(recon::BodyFolder()));
+    model = std::make_unique<recon::BodyModel>(LoadFetchedBody());
     wardrobe = std::make_unique<recon::Wardrobe>(*model);
   }
 };
@@ -97,24 +79,22 @@ class Set {
   Set(const recon::BodyModel& model, const recon::Wardrobe& wardrobe, const recon::MotionClip& clip,
       const StageOptions& options)
       : model_(model),
-        wardrobe_(wardrobe),
         options_(options),
         camera_(depth::KinectV1Camera(options.width, options.height)),
         camera_from_world_(CameraPlace(options)),
-        poses_(SequencePoses({clip}, options.frames, options.seed)),
-        posed_m_(model.vertex_count()) {
+        poses_(SequencePoses({clip}, options.frames, options.seed)) {
     Random random(options.seed, 1);
-    body_ = model.Shape(SampleShape(Split::kTest, random));
-    clothing_ = SampleClothing(random);
-    rest_m_ = wardrobe.Dress(body_, clothing_);
-    person_ = renderer_.AddMesh({rest_m_, model.triangles()}, true);
+    const recon::BodyShape shape = SampleShape(Split::kTest, random);
+    actors_.emplace_back(model, wardrobe, shape, SampleClothing(random));
+    actors_[0].Enter(renderer_);
     const Eigen::Affine3f to_camera(camera_from_world_.matrix().cast<float>());
     renderer_.AddMesh(depth::Moved(RoomAround(), to_camera), false);
     if (options.clutter == Clutter::kCarSeat) {
       renderer_.AddMesh(depth::Moved(CarSeat(), to_camera), false);
     }
     if (options.clutter == Clutter::kFurniture && !poses_.empty()) {
-      for (const Prop& prop : Props(Occluders::kScene, Pose(0))) {
+      const recon::Posture first = actors_[0].Take(poses_[0], camera_from_world_);
+      for (const Prop& prop : Props(Occluders::kScene, first)) {
         renderer_.AddMesh(prop.mesh_in_cam, false);
       }
     }
@@ -124,42 +104,17 @@ class Set {
   StagedFrame Shoot(size_t index);
 
  private:
-  recon::Posture Pose(size_t index);
   std::vector<Prop> Props(Occluders kind, const recon::Posture& joints_in_cam) const;
   LabelledFrame Sense(size_t index, const recon::Posture& joints);
 
   const recon::BodyModel& model_;
-  const recon::Wardrobe& wardrobe_;
   StageOptions options_;
   depth::Camera camera_;
   Eigen::Isometry3d camera_from_world_;
   std::vector<recon::RigPose> poses_;
-  recon::ShapedBody body_;
-  recon::Clothing clothing_;
-  std::vector<Eigen::Vector3f> rest_m_;
-  std::vector<Eigen::Vector3f> posed_m_;
+  std::vector<Actor> actors_;  // one
   depth::Renderer renderer_;
-  int person_ = 0;
 };
-
-// Skins into camera space, feet not below the floor; returns the joints there.
-recon::Posture Set::Pose(size_t index) {
-  const recon::RigPose& pose = poses_[index];
-  model_.Skin(body_, rest_m_, pose, camera_from_world_, posed_m_);
-  recon::Posture joints = recon::JointsOf(body_, pose);
-  for (auto& joint_m : joints.position_m) joint_m = camera_from_world_ * joint_m;
-  wardrobe_.HideUnworn(clothing_, joints[recon::Joint::kHipCenter].cast<float>(), posed_m_);
-  const Eigen::Isometry3d world_from_camera = camera_from_world_.inverse();
-  const Eigen::Vector3f up = world_from_camera.linear().row(1).transpose().cast<float>();
-  float lowest_m = std::numeric_limits<float>::max();
-  for (const auto& p : posed_m_) lowest_m = std::min(lowest_m, up.dot(p));
-  lowest_m += static_cast<float>(world_from_camera.translation().y());
-  if (lowest_m < 0) {
-    for (auto& p : posed_m_) p -= lowest_m * up;
-    for (auto& joint_m : joints.position_m) joint_m -= (lowest_m * up).cast<double>();
-  }
-  return joints;
-}
 
 // The same draws every frame: the thing keeps its size, and a held one goes with the hands.
 std::vector<Prop> Set::Props(Occluders kind, const recon::Posture& joints_in_cam) const {
@@ -177,32 +132,19 @@ LabelledFrame Set::Sense(size_t index, const recon::Posture& joints) {
       held.push_back(renderer_.AddMesh(prop.mesh_in_cam, false));
     }
   }
-  const depth::RenderedImage seen = renderer_.Render(camera_, {.projector = true});
+  LabelledFrame frame =
+      SenseActors(renderer_, camera_, model_, actors_, options_.seed * 1000003 + index);
   for (const int mesh : held) renderer_.RemoveMesh(mesh);
-  depth::SensorImage sensed =
-      depth::SimulateStructuredLight(seen, camera_, {}, options_.seed * 1000003 + index);
-  LabelledFrame frame;
-  frame.depth.camera = camera_;
   frame.depth.index = static_cast<int64_t>(index);
   frame.depth.time_s = static_cast<double>(index) / 30.0;
-  frame.parts = depth::Image<uint8_t>(camera_.width, camera_.height);
-  frame.users = depth::Image<uint8_t>(camera_.width, camera_.height);
-  for (size_t i = 0; i < sensed.source.data.size(); ++i) {
-    if (sensed.source.data[i] < 0) continue;
-    const auto source = static_cast<size_t>(sensed.source.data[i]);
-    if (seen.mesh.data[source] != person_) continue;
-    frame.parts.data[i] = model_.triangle_part()[static_cast<size_t>(seen.triangle.data[source])];
-    frame.users.data[i] = 1;
-  }
-  frame.depth.depth_mm = std::move(sensed.depth_mm.data);
   frame.bodies.push_back({1, joints, {}});
   MarkVisibleJoints(&frame);
   return frame;
 }
 
 StagedFrame Set::Shoot(size_t index) {
-  const recon::Posture joints = Pose(index);
-  renderer_.UpdateVertices(person_, posed_m_);
+  const recon::Posture joints = actors_[0].Take(poses_[index], camera_from_world_);
+  actors_[0].Show(renderer_);
   LabelledFrame labelled = Sense(index, joints);
   StagedFrame staged;
   staged.truth.frame = labelled.depth.index;

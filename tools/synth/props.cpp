@@ -117,25 +117,6 @@ void MoveToCamera(const Eigen::Isometry3d& camera_from_world, std::vector<Prop>&
   for (Prop& prop : props) prop.mesh_in_cam = depth::Moved(std::move(prop.mesh_in_cam), move);
 }
 
-depth::TriangleMesh Furniture(Random& random) {
-  switch (random.Index(4)) {
-    case 0:
-      return depth::MakeSofa(Draw(random, 0.8, 2.2), Draw(random, 0.5, 0.8),
-                             Draw(random, 0.35, 0.45));
-    case 1:
-      return depth::MakeTable(
-          {Draw(random, 0.5, 1.8), Draw(random, 0.4, 0.9), Draw(random, 0.4, 0.9)});
-    case 2:
-      return depth::MakeChair(Draw(random, 0.4, 0.5), Draw(random, 0.4, 0.55),
-                              Draw(random, 0.4, 0.6));
-    default: {  // a cupboard or a shelf
-      const Vector3f size_m(Draw(random, 0.4, 1.4), Draw(random, 0.6, 2.1), Draw(random, 0.3, 0.6));
-      return depth::Moved(depth::MakeBox(size_m),
-                          Affine3f(Eigen::Translation3f(0, size_m.y() / 2, 0)));
-    }
-  }
-}
-
 }  // namespace
 
 std::optional<Occluders> OccludersFromName(std::string_view name) {
@@ -159,6 +140,25 @@ std::vector<Prop> SampleProps(Occluders kind, const recon::Posture& joints_in_wo
   return props;
 }
 
+depth::TriangleMesh SampleFurniture(Random& random) {
+  switch (random.Index(4)) {
+    case 0:
+      return depth::MakeSofa(Draw(random, 0.8, 2.2), Draw(random, 0.5, 0.8),
+                             Draw(random, 0.35, 0.45));
+    case 1:
+      return depth::MakeTable(
+          {Draw(random, 0.5, 1.8), Draw(random, 0.4, 0.9), Draw(random, 0.4, 0.9)});
+    case 2:
+      return depth::MakeChair(Draw(random, 0.4, 0.5), Draw(random, 0.4, 0.55),
+                              Draw(random, 0.4, 0.6));
+    default: {  // a cupboard or a shelf
+      const Vector3f size_m(Draw(random, 0.4, 1.4), Draw(random, 0.6, 2.1), Draw(random, 0.3, 0.6));
+      return depth::Moved(depth::MakeBox(size_m),
+                          Affine3f(Eigen::Translation3f(0, size_m.y() / 2, 0)));
+    }
+  }
+}
+
 std::vector<Prop> SampleRoom(const Eigen::Isometry3d& camera_from_world, Random& random) {
   const Eigen::Vector3d camera_m = camera_from_world.inverse().translation();
   // The person stands over the origin and the camera looks along -z: the wall behind the person is
@@ -180,7 +180,7 @@ std::vector<Prop> SampleRoom(const Eigen::Isometry3d& camera_from_world, Random&
                            0.0F, -Draw(random, 0.0, behind_m));
     const auto turn =
         Eigen::AngleAxisf(static_cast<float>(random.Normal(0, 0.3)), Vector3f::UnitY());
-    props.push_back({depth::Moved(Furniture(random),
+    props.push_back({depth::Moved(SampleFurniture(random),
                                   Eigen::Translation3f(place_m) * turn * Affine3f::Identity()),
                      false});
   }

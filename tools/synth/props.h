@@ -28,6 +28,9 @@ struct Prop {
 std::vector<Prop> SampleProps(Occluders kind, const recon::Posture& joints_in_world,
                               const Eigen::Isometry3d& camera_from_world, Random& random);
 
+/// A sofa, table, chair or cupboard that stands on y = 0 and faces +z.
+depth::TriangleMesh SampleFurniture(Random& random);
+
 /// A furnished room around the person and the camera: floor, walls at random distances, things
 /// along them. All background.
 std::vector<Prop> SampleRoom(const Eigen::Isometry3d& camera_from_world, Random& random);

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <iterator>
 
+#include "tools/tracker/choose_posture_internal.h"
 #include "tools/tracker/parallel_internal.h"
 
 namespace ossa::tracker {
@@ -19,19 +20,14 @@ size_t Common(const std::vector<int>& a, const std::vector<int>& b) {
   return common;
 }
 
-// The same thing at the same place found to be no person before; null if there was none.
-Rejection* RejectionOf(const Candidate& candidate, FinderState& state) {
+// The same thing at the same place looked at before; null if there was none.
+Doubt* DoubtOf(const Candidate& candidate, FinderState& state) {
   const auto& cells = candidate.region.cells;
-  const auto same = std::find_if(
-      state.rejections.begin(), state.rejections.end(), [&](const Rejection& rejection) {
-        const size_t larger = std::max(cells.size(), rejection.cells.size());
-        return 4 * Common(cells, rejection.cells) > 3 * larger;
-      });
-  return same == state.rejections.end() ? nullptr : &*same;
-}
-
-double Threshold(const Candidate& candidate, const FindOptions& options) {
-  return candidate.track >= 0 ? options.known_person : options.new_person;
+  const auto same = std::find_if(state.doubts.begin(), state.doubts.end(), [&](const Doubt& doubt) {
+    const size_t larger = std::max(cells.size(), doubt.cells.size());
+    return 5 * Common(cells, doubt.cells) > 3 * larger;
+  });
+  return same == state.doubts.end() ? nullptr : &*same;
 }
 
 std::vector<Found> LookAt(const Eyes& eyes, const depth::DepthFrame& frame,
@@ -45,26 +41,39 @@ std::vector<Found> LookAt(const Eyes& eyes, const depth::DepthFrame& frame,
     if (candidates[i].track >= 0) perceive.least_score = 0.0;
     looked[i].perception = Perceive(eyes.model, eyes.targets, frame, candidates[i], perceive);
     double& score = looked[i].perception.person_score;
-    if (known.person_score)
-      score = options.memory * *known.person_score + (1 - options.memory) * score;
+    looked[i].single_score = score;
+    looked[i].looks = known.looks + 1;
+    if (known.person_score) {
+      const double weight = std::max(1.0 / looked[i].looks, 1 - options.memory);
+      score = *known.person_score + weight * (score - *known.person_score);
+    }
     looked[i].candidate = std::move(candidates[i]);
   });
   return looked;
 }
 
-bool Accepted(Found& looked, double time_s, const FindOptions& options, FinderState& state) {
+// Known people by their mean score; newcomers at once in a fresh scene or when there is no doubt,
+// else after a few looks.
+bool Accepted(Found& looked, const depth::Scene& scene, double time_s, const FindOptions& options,
+              FinderState& state) {
   double& score = looked.perception.person_score;
-  Rejection* before = RejectionOf(looked.candidate, state);
-  if (before != nullptr) {
-    constexpr int kMostLooks = 8;
-    before->looks = std::min(before->looks + 1, kMostLooks);
-    before->mean_score += (score - before->mean_score) / before->looks;
-    before->time_s = time_s;
-    score = before->mean_score;
+  if (looked.looks > 1) return score >= options.known_person;
+  Doubt* before = DoubtOf(looked.candidate, state);
+  if (before == nullptr) {
+    if (score >= (scene.fresh ? options.new_person : options.sure_person)) return true;
+    state.doubts.push_back({looked.candidate.region.cells, time_s, score});
+    return false;
   }
-  if (score >= Threshold(looked.candidate, options)) return true;
-  if (before == nullptr) state.rejections.push_back({looked.candidate.region.cells, time_s, score});
-  return false;
+  constexpr int kMostLooks = 8;
+  before->looks = std::min(before->looks + 1, kMostLooks);
+  before->mean_score += (score - before->mean_score) / before->looks;
+  before->time_s = time_s;
+  before->cells = looked.candidate.region.cells;
+  if (before->looks < options.probation_looks || before->mean_score < options.new_person)
+    return false;
+  score = before->mean_score;
+  state.doubts.erase(state.doubts.begin() + (before - state.doubts.data()));
+  return true;
 }
 
 // A candidate with two heads, cut; empty unless at least two of the pieces are people themselves.
@@ -85,17 +94,98 @@ std::vector<Found> CutByHeads(const Eyes& eyes, const depth::DepthFrame& frame,
 
 std::vector<Candidate> WorthLooking(const depth::Scene& scene, double time_s,
                                     const FindOptions& options, FinderState& state) {
-  std::erase_if(state.rejections, [&](const Rejection& r) {
-    return time_s < r.time_s || time_s - r.time_s >= options.forget_s;
+  std::erase_if(state.doubts, [&](const Doubt& doubt) {
+    return scene.fresh || time_s < doubt.time_s || time_s - doubt.time_s >= options.forget_s;
   });
   std::vector<Candidate> candidates;
   for (const Candidate& candidate : scene.candidates) {
-    const Rejection* before = candidate.track < 0 ? RejectionOf(candidate, state) : nullptr;
-    if (before != nullptr && time_s - before->time_s < options.look_again_s) continue;
+    const Doubt* before = candidate.track < 0 ? DoubtOf(candidate, state) : nullptr;
+    const bool hopeless = before != nullptr && before->mean_score < options.hopeful;
+    if (hopeless && time_s - before->time_s < options.look_again_s) continue;
     candidates.push_back(candidate);
     if (candidates.size() == options.max_candidates) break;
   }
   return candidates;
+}
+
+// Two pieces of one region were one person when the whole looks more like a person than either, and
+// has one head. People tracked for long are left as they are. Returns the whole, or nothing.
+std::optional<Found> Together(const Eyes& eyes, const depth::DepthFrame& frame,
+                              const depth::Scene& scene, const FindOptions& options, const Found& a,
+                              const Found& b) {
+  constexpr float kTwoPeople_m2 = 1.1F;
+  if (a.candidate.origin != b.candidate.origin) return {};
+  if (std::min(a.looks, b.looks) > options.grown_up_looks) return {};
+  if (a.candidate.region.area_m2 + b.candidate.region.area_m2 > kTwoPeople_m2) return {};
+  const bool a_first = a.looks != b.looks ? a.looks > b.looks : a.single_score >= b.single_score;
+  const Candidate& first = a_first ? a.candidate : b.candidate;
+  const Candidate& second = a_first ? b.candidate : a.candidate;
+  auto whole =
+      LookAt(eyes, frame, {depth::JoinCandidates(scene, frame, first, second)}, options).at(0);
+  const double best = std::max(a.single_score, b.single_score);
+  if (whole.single_score < best || whole.perception.heads_m.size() > 1) return {};
+  return whole;
+}
+
+// Joins what belongs together until nothing does. What is no person alone may be part of one.
+void JoinParts(const Eyes& eyes, const depth::DepthFrame& frame, const depth::Scene& scene,
+               const FindOptions& options, std::vector<Found>& looked) {
+  for (size_t i = 0; i < looked.size(); ++i) {
+    for (size_t k = i + 1; k < looked.size(); ++k) {
+      auto whole = Together(eyes, frame, scene, options, looked[i], looked[k]);
+      if (!whole) continue;
+      looked[i] = std::move(*whole);
+      looked.erase(looked.begin() + static_cast<std::ptrdiff_t>(k));
+      k = i;
+    }
+  }
+}
+
+// Bones between the best proposals of neighbouring joints, as far as they hang together from the
+// trunk outwards and have about a body's lengths.
+std::vector<depth::Bone> BonesOf(const Eyes& eyes, const Perception& perception) {
+  using recon::Joint;
+  const recon::BoneLengths average_m = AverageBoneLengths();
+  std::array<const forest::Proposal*, recon::kJointCount> best{};
+  for (size_t j = 0; j < recon::kJointCount; ++j) {
+    const auto& modes = perception.proposals.at(static_cast<size_t>(eyes.targets[j]));
+    best[j] = modes.empty() ? nullptr : &modes.front();
+  }
+  std::array<bool, recon::kJointCount> reached{};
+  std::vector<depth::Bone> bones;
+  const auto reach = [&](size_t from, size_t to, size_t bone) {
+    if (best[from] == nullptr || best[to] == nullptr) return;
+    constexpr double kMost = 1.4;  // of an average body's bone
+    if ((best[from]->position_m - best[to]->position_m).norm() > kMost * average_m[bone]) return;
+    reached[to] = true;
+    bones.push_back({best[from]->position_m.cast<float>(), best[to]->position_m.cast<float>()});
+  };
+  // The shoulders' middle is the surest; from there down to the hips, and parents before children.
+  constexpr auto kCentre = static_cast<size_t>(recon::Index(Joint::kShoulderCenter));
+  constexpr auto kSpine = static_cast<size_t>(recon::Index(Joint::kSpine));
+  reached[kCentre] = best[kCentre] != nullptr;
+  if (reached[kCentre]) reach(kCentre, kSpine, kCentre);
+  if (reached[kSpine]) reach(kSpine, 0, kSpine);
+  for (size_t j = kCentre + 1; j < recon::kJointCount; ++j) {
+    const auto parent = static_cast<size_t>(recon::kJointParent[j]);
+    if (reached[parent]) reach(parent, j, j);
+  }
+  return bones;
+}
+
+// What hangs on to a person and is not near any of their bones is furniture.
+void TrimToBody(const Eyes& eyes, const depth::DepthFrame& frame, const depth::Scene& scene,
+                Found& found) {
+  constexpr float kReach_m = 0.3F;     // half a stout trunk, and what proposals may be off
+  constexpr size_t kEnoughBones = 6;   // else the forest saw too little of the body to say
+  constexpr float kPerson_m2 = 0.85F;  // nobody free of furniture shows more,
+  constexpr double kFlatShare = 0.25;  // nor is so flat
+  const bool furnished =
+      found.candidate.region.area_m2 > kPerson_m2 || found.candidate.flat_share > kFlatShare;
+  if (!furnished) return;
+  const auto bones = BonesOf(eyes, found.perception);
+  if (bones.size() < kEnoughBones) return;
+  depth::KeepNear(scene, frame, bones, kReach_m, found.candidate);
 }
 
 }  // namespace
@@ -104,16 +194,15 @@ std::vector<Found> FindPeople(const Eyes& eyes, const depth::DepthFrame& frame,
                               const depth::Scene& scene, const depth::SceneOptions& scene_options,
                               const FindOptions& options, FinderState& state) {
   std::vector<Found> found;
-  const auto judge = [&](Found& looked) {
-    if (Accepted(looked, frame.time_s, options, state)) found.push_back(std::move(looked));
-  };
   auto candidates = WorthLooking(scene, frame.time_s, options, state);
-  for (Found& looked : LookAt(eyes, frame, std::move(candidates), options)) {
-    std::vector<Found> people = CutByHeads(eyes, frame, scene, scene_options, options, looked);
-    if (people.empty()) {
-      judge(looked);
-    } else {
+  std::vector<Found> looked = LookAt(eyes, frame, std::move(candidates), options);
+  JoinParts(eyes, frame, scene, options, looked);
+  for (Found& one : looked) {
+    std::vector<Found> people = CutByHeads(eyes, frame, scene, scene_options, options, one);
+    if (!people.empty()) {
       std::move(people.begin(), people.end(), std::back_inserter(found));
+    } else if (Accepted(one, scene, frame.time_s, options, state)) {
+      found.push_back(std::move(one));
     }
   }
   std::stable_sort(found.begin(), found.end(), [](const Found& a, const Found& b) {
@@ -123,6 +212,7 @@ std::vector<Found> FindPeople(const Eyes& eyes, const depth::DepthFrame& frame,
   });
   if (found.size() > static_cast<size_t>(options.max_users))
     found.resize(static_cast<size_t>(options.max_users));
+  for (Found& one : found) TrimToBody(eyes, frame, scene, one);
   return found;
 }
 

@@ -13,25 +13,28 @@ namespace ossa::tracker {
 /// A candidate the forest takes for a person.
 struct Found {
   depth::Candidate candidate;
-  Perception perception;
+  Perception perception;      // its person_score is the mean over the looks
+  double single_score = 0.0;  // of this look
+  int looks = 1;
 };
 
-/// What was looked at and found to be no person: it is not looked at again in every frame, and
-/// then judged by all looks together, for noise makes single ones vary.
-struct Rejection {
-  std::vector<int> cells;  // ascending
+/// What was looked at and not taken for a person, so far: judged by all looks together, for noise
+/// makes single ones vary; what is hopeless is not looked at again in every frame.
+struct Doubt {
+  std::vector<int> cells;  // of the last look, ascending
   double time_s = 0.0;     // of the last look
   double mean_score = 0.0;
   int looks = 1;
 };
 
 struct FinderState {
-  std::vector<Rejection> rejections;
+  std::vector<Doubt> doubts;
 };
 
 struct Known {
   std::vector<float> context_prior;    // of its facing (ClassifyOptions)
   std::optional<double> person_score;  // mean of the last seconds
+  int looks = 0;                       // that mean is of
 };
 
 /// What candidates are looked at with.
@@ -45,18 +48,24 @@ struct Eyes {
 struct FindOptions {
   int max_users = 6;
   int threads = 1;
-  // Of a newcomer, and of somebody tracked a moment ago: hysteresis keeps a person who turns away.
+  // Of a newcomer in a fresh scene, where there is one look only; of a newcomer elsewhere at the
+  // first look, or else as the mean of a few; and of somebody tracked a moment ago: hysteresis
+  // keeps a person who turns away.
   double new_person = 0.6;
+  double sure_person = 0.93;
+  int probation_looks = 4;
   double known_person = 0.25;
   bool keep_resolution = false;  // see PerceiveOptions
   size_t max_candidates = 16;    // looked at per frame, the largest first
-  double look_again_s = 0.25;    // a quarter of a second late nobody notices
-  double forget_s = 2.0;         // a rejection that is not renewed
+  double hopeful = 0.35;         // what scores less is looked at again only ...
+  double look_again_s = 0.25;    // ... so much later
+  double forget_s = 2.0;         // a doubt that is not renewed
   double memory = 0.85;          // share of a known person's mean score in the new one
+  int grown_up_looks = 30;       // after so many a person is not taken for part of another
 };
 
-/// The people among the scene's candidates, known ones first; candidates with two heads are cut and
-/// looked at again.
+/// The people among the scene's candidates, known ones first. Candidates with two heads are cut;
+/// pieces of one region that are more of a person together than alone are joined.
 std::vector<Found> FindPeople(const Eyes& eyes, const depth::DepthFrame& frame,
                               const depth::Scene& scene, const depth::SceneOptions& scene_options,
                               const FindOptions& options, FinderState& state);

@@ -13,8 +13,9 @@ namespace ossa::tracker {
 struct Person {
   int id = 0;
   double seen_s = 0.0;
-  double before_s = -1e9;  // time of `before` and `context`
-  std::optional<double> score;
+  double before_s = -1e9;       // time of `before` and `context`
+  std::optional<double> score;  // mean of the last looks
+  int looks = 0;
   recon::BoneLengths lengths_m = AverageBoneLengths();
   std::optional<recon::TrackedPosture> before;  // of the last frame it was tracked in
   std::vector<float> context;                   // facing, as the forest saw it

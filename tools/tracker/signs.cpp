@@ -1,6 +1,7 @@
 #include "tools/tracker/signs_internal.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include "recon/body/parts.h"
@@ -15,15 +16,9 @@ using forest::Classification;
 constexpr int kLastHeadLabel = 4;
 constexpr int kFirstTorsoLabel = 18, kLastTorsoLabel = 21;
 
-// Logistic regressions of "more than 60 % of the candidate's pixels are one person's" against "less
-// than 20 %", on 2 000 candidates in 600 rendered rooms (ossa render --background room --mocap
-// cmu30, seeds 101-103, front with occluders, any, near), signs taken with the shipped model.
-constexpr Signs kSurfaceWeight = {2.06,  13.58, 3.57, 1.92, 0.14, -1.71,
-                                  -1.44, -5.42, 0.53, 0.44, 0.86};
-constexpr double kSurfaceBias = -12.11;
-constexpr Signs kWeight = {2.61,  7.01, 3.67, 2.01, -0.23, -2.55, -2.80,
-                           -3.76, 0.73, 0.57, 1.27, -3.84, 12.66, 1.61};
-constexpr double kBias = -12.44;
+// Logistic regressions of "is a person" over the signs and their products, written by
+// `ossa experiment person-signs`: kSurfaceWeights, kPersonWeights.
+#include "tools/tracker/person_signs.inc"
 
 struct HeadCluster {
   Vector3d sum = Vector3d::Zero();
@@ -84,6 +79,50 @@ double Coherence(const Classification& seen, int width) {
   return pairs == 0 ? 0.0 : static_cast<double>(same) / static_cast<double>(pairs);
 }
 
+// Parts hang together on a body and are strewn about on what is none: mean over the samples of
+// exp(-(d / 15 cm)^2), d the distance from the middle of all samples with the same label.
+double Compactness(const depth::DepthFrame& frame, const Classification& seen) {
+  std::array<HeadCluster, recon::kLabelCount> parts;
+  for (size_t i = 0; i < seen.pixel.size(); ++i) {
+    HeadCluster& part = parts[seen.label[i]];
+    part.sum += SampleAt(frame, seen.pixel[i]).position_m;
+    ++part.count;
+  }
+  double near = 0;
+  for (size_t i = 0; i < seen.pixel.size(); ++i) {
+    const Vector3d middle = parts[seen.label[i]].mean();
+    near += std::exp(-(SampleAt(frame, seen.pixel[i]).position_m - middle).squaredNorm() / 0.0225);
+  }
+  return seen.pixel.empty() ? 0.0 : near / static_cast<double>(seen.pixel.size());
+}
+
+// Which parts meet, left ones standing for both sides (labels of parts.h).
+bool Meet(uint8_t a, uint8_t b) {
+  constexpr std::array<std::array<uint8_t, 2>, 20> kPairs = {
+      {{1, 3},   {1, 5},   {3, 5},   {3, 6},   {5, 6},   {5, 18},  {6, 8},
+       {6, 18},  {8, 18},  {8, 12},  {10, 12}, {10, 14}, {14, 16}, {18, 20},
+       {20, 22}, {22, 26}, {24, 26}, {24, 28}, {28, 30}, {8, 20}}};
+  const std::array<uint8_t, 2> pair = {std::min(a, b), std::max(a, b)};
+  return std::find(kPairs.begin(), kPairs.end(), pair) != kPairs.end();
+}
+
+// Only borders on one surface count: a hand before the chest borders on anything.
+double NeighbourShare(const depth::DepthFrame& frame, const Classification& seen) {
+  constexpr int kOneSurface_mm = 60;
+  double borders = 0, meeting = 0;
+  for (size_t i = 1; i < seen.pixel.size(); ++i) {
+    const uint8_t a = Folded(seen.label[i]), b = Folded(seen.label[i - 1]);
+    if (seen.pixel[i] != seen.pixel[i - 1] + 1 || a == b) continue;
+    const int jump_mm = static_cast<int>(frame.depth_mm[static_cast<size_t>(seen.pixel[i])]) -
+                        static_cast<int>(frame.depth_mm[static_cast<size_t>(seen.pixel[i - 1])]);
+    if (std::abs(jump_mm) > kOneSurface_mm) continue;
+    borders += 1;
+    meeting += Meet(a, b) ? 1 : 0;
+  }
+  // One border more of each kind: little evidence stays in the middle.
+  return (meeting + 1) / (borders + 2);
+}
+
 void SignsOfProbability(const Classification& seen, Signs& sign) {
   const auto classes = static_cast<size_t>(seen.class_count);
   double certainty = 0, other = 0;
@@ -127,9 +166,15 @@ void SignsOfShape(const depth::DepthFrame& frame, const Classification& seen,
   sign[static_cast<size_t>(Sign::kTorsoBelow)] = std::exp(-std::pow((apart_m - 0.45) / 0.15, 2));
 }
 
-double Logistic(const Signs& sign, const Signs& weight, double bias, size_t count) {
-  double sum = bias;
-  for (size_t i = 0; i < count; ++i) sum += weight[i] * sign[i];
+// Of the first `count` signs: bias, signs, and products of two (squares too), in this order.
+template <size_t kCount>
+double Logistic(const Signs& sign, const std::array<double, kCount>& weight, size_t count) {
+  double sum = weight[0];
+  size_t next = 1;
+  for (size_t i = 0; i < count; ++i) sum += weight[next++] * sign[i];
+  for (size_t i = 0; i < count; ++i) {
+    for (size_t j = i; j < count; ++j) sum += weight[next++] * sign[i] * sign[j];
+  }
   return 1.0 / (1.0 + std::exp(-sum));
 }
 
@@ -161,8 +206,10 @@ void LookAtSurface(const depth::DepthFrame& frame, const depth::Candidate& candi
   const double z_m = static_cast<double>(candidate.region.mean_m.z());
   sign[static_cast<size_t>(Sign::kCoherence)] = Coherence(seen, frame.camera.width);
   sign[static_cast<size_t>(Sign::kHeadShape)] = candidate.has_head ? 1 : 0;
-  sign[static_cast<size_t>(Sign::kFlat)] =
-      candidate.flat_share * std::clamp((4.0 - z_m) / 2.0, 0.0, 1.0);
+  sign[static_cast<size_t>(Sign::kFlat)] = candidate.flat_share;
+  sign[static_cast<size_t>(Sign::kFar)] = z_m / 6;
+  sign[static_cast<size_t>(Sign::kCompact)] = Compactness(frame, seen);
+  sign[static_cast<size_t>(Sign::kNeighbours)] = NeighbourShare(frame, seen);
   SignsOfProbability(seen, sign);
   SignsOfShape(frame, seen, heads, sign);
 }
@@ -195,9 +242,14 @@ void LookAtProposals(const std::vector<std::vector<forest::Proposal>>& proposals
 }
 
 double SurfaceScore(const Signs& sign) {
-  return Logistic(sign, kSurfaceWeight, kSurfaceBias, static_cast<size_t>(Sign::kTrust));
+  constexpr auto kCount = static_cast<size_t>(Sign::kTrust);
+  static_assert(std::size(kSurfaceWeights) == TermsOf(kCount), "person_signs.inc is another's");
+  return Logistic(sign, kSurfaceWeights, kCount);
 }
 
-double PersonScore(const Signs& sign) { return Logistic(sign, kWeight, kBias, kSignCount); }
+double PersonScore(const Signs& sign) {
+  static_assert(std::size(kPersonWeights) == TermsOf(kSignCount), "person_signs.inc is another's");
+  return Logistic(sign, kPersonWeights, kSignCount);
+}
 
 }  // namespace ossa::tracker

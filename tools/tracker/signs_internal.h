@@ -23,7 +23,10 @@ enum class Sign {
   kLarge,       // surface beyond what one person has, 0.65 m2, of 0.5 m2
   kHeadShape,   // 1 when the scene sees something like a head on shoulders
   kTorsoBelow,  // how well the torso's middle lies 45 cm off the head
-  kFlat,        // share of it that is flat, where the sensor can tell
+  kFlat,        // share of it that is flat; far away the sensor cannot tell, hence ...
+  kFar,         // ... its distance, of 6 m
+  kCompact,     // how near samples lie to the middle of their part: 1 = within centimetres
+  kNeighbours,  // of the borders between parts, the share between parts that meet on a body
   kTrust,       // mean confidence of the best proposals of head, neck and trunk
   kAllTrust,    // of all 20 joints
   kBones,       // how well the bones between the former have a body's lengths
@@ -31,8 +34,12 @@ enum class Sign {
 };
 inline constexpr size_t kSignCount = static_cast<size_t>(Sign::kCount);
 inline constexpr std::array<std::string_view, kSignCount> kSignNames = {
-    "coherence", "certainty",  "body",        "head", "one_head", "above",     "small",
-    "large",     "head_shape", "torso_below", "flat", "trust",    "all_trust", "bones"};
+    "coherence", "certainty",  "body",       "head",        "one_head", "above",
+    "small",     "large",      "head_shape", "torso_below", "flat",     "far",
+    "compact",   "neighbours", "trust",      "all_trust",   "bones"};
+
+/// Terms of a quadratic form of so many signs: constant, linear, products.
+constexpr size_t TermsOf(size_t signs) { return 1 + signs + signs * (signs + 1) / 2; }
 
 using Signs = std::array<double, kSignCount>;
 

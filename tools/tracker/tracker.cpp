@@ -126,7 +126,8 @@ std::vector<Found> Tracker::Impl::Segment(const depth::DepthFrame& frame, BodyFr
                     const int id = scene_state.users[static_cast<size_t>(candidate.track)].id;
                     const auto person = people.find(id);
                     if (person == people.end()) return {};
-                    return {ContextPrior(person->second, frame.time_s), person->second.score};
+                    return {ContextPrior(person->second, frame.time_s), person->second.score,
+                            person->second.looks};
                   }};
   const auto look_start = Clock::now();
   std::vector<Found> found = FindPeople(eyes, frame, scene, scene_options, find, finder_state);
@@ -224,6 +225,7 @@ BodyFrame Tracker::Impl::Push(const depth::DepthFrame& frame) {
   ParallelFor(ids.size(), options.threads, [&](size_t i) {
     Body& body = result.bodies[i];
     persons[i]->score = body.person_score;
+    ++persons[i]->looks;
     persons[i]->seen_s = frame.time_s;
     if (body.state == BodyState::kPositionOnly) return;
     TrackBody(frame, result.floor, found[i].perception, *persons[i], body, times[i]);

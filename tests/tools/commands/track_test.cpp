@@ -74,6 +74,22 @@ TEST_P(OutputFormats, AreReadBackByTheReadersOfCompare) {
   for (const auto& frame : back.frames) EXPECT_EQ(frame.bodies.size(), 1U);
 }
 
+TEST(TrackCommand, AllFormatsSayTheSameToAReaderThatIsNotOurs) {
+  OSSA_NEEDS_MODEL();
+  const TemporaryFolder folder;
+  WriteWalk(folder / "in", 6);
+  for (const char* format : {".jsonl", ".csv", ".trc", ".bvh"}) {
+    const auto out = (folder / "x").replace_extension(format);
+    const CommandResult result = TrackTo(folder / "in", out, {}, "shum-2013");
+    ASSERT_EQ(result.exit_status, 0) << result.err;
+  }
+  const std::string script = OSSA_SOURCE_DIR "/tests/tools/commands/read_outputs.py";
+  const CommandResult read =
+      test::RunProgram({"/usr/bin/python3", script, (folder / "x").string()});
+  EXPECT_EQ(read.exit_status, 0) << read.err;
+  EXPECT_EQ(read.out, "agree 6 frames\n");
+}
+
 INSTANTIATE_TEST_SUITE_P(TrackCommand, OutputFormats, testing::Values("jsonl", "trc", "csv", "bvh"),
                          [](const auto& info) { return std::string(info.param); });
 

@@ -1,0 +1,45 @@
+#pragma once
+#include <vector>
+
+#include "depth/scene/heads.h"
+#include "depth/scene/scene.h"
+
+// How connected regions become pieces that may be one person each.
+namespace ossa::depth {
+
+/// Which user of the frame before each cell belongs to: near where the user's cells went, at a
+/// similar depth. -1 for none.
+std::vector<int> PreviousOwners(const PointGrid& grid, const SceneState& state, double time_s);
+
+/// Cells of the region per user of before.
+std::vector<std::vector<int>> Overlaps(const Region& region, const std::vector<int>& owner,
+                                       size_t users);
+
+/// A disc around a head belongs to it before anything is measured over the surface.
+std::vector<int> HeadSeed(const PointGrid& grid, const Region& region, const Eigen::Vector3f& head);
+
+Region Joined(const PointGrid& grid, const Region& a, const Region& b);
+
+bool PersonSized(const Region& region, const SceneOptions& options);
+
+/// Hands held out, forearms cut off by the projector's shadow, legs below a table: small pieces
+/// join the big piece they are nearest to, if an arm could bridge the way. Pieces far behind do
+/// not, nor those of another user of before.
+std::vector<Region> JoinPieces(const PointGrid& grid, std::vector<Region> regions,
+                               const std::vector<int>& owner, size_t users);
+
+/// Pieces that mostly cover where one user was belong together: an arm of somebody in front may cut
+/// a body in two.
+std::vector<Region> JoinByHistory(const PointGrid& grid, std::vector<Region> regions,
+                                  const std::vector<int>& owner, size_t users);
+
+/// Who is in one region: users of before by the cells they held, newcomers by their heads.
+std::vector<Seed> SeedsOf(const PointGrid& grid, const Region& region,
+                          const std::vector<int>& owner, size_t users, const SceneOptions& options);
+
+/// One piece per person. A seed whose piece could not be a person was no head: its piece goes back
+/// to the others.
+std::vector<Region> CutBySeeds(const PointGrid& grid, const Region& region, std::vector<Seed> seeds,
+                               const SceneOptions& options);
+
+}  // namespace ossa::depth

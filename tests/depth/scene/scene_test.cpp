@@ -1,0 +1,229 @@
+// Who may be people in a frame, from shape alone: floor, flat pieces, heads, cuts, identities.
+#include "depth/scene/scene.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "depth/scene/heads.h"
+#include "depth/scene/planes.h"
+#include "tests/support/capsule_person.h"
+
+namespace ossa::depth {
+namespace {
+
+using tests::CapsulePose;
+using tests::CapsuleRender;
+using tests::CapsuleScene;
+
+CapsulePose PersonAt(double x_m, double z_m) {
+  CapsulePose pose;
+  pose.feet_m = {x_m, -1.0, z_m};
+  pose.left_lift_rad = pose.right_lift_rad = 0.5;
+  return pose;
+}
+
+CapsuleRender Shot(const std::vector<CapsulePose>& people, int frame = 0,
+                   const std::vector<tests::Box>& boxes = {}) {
+  CapsuleScene scene;
+  scene.people = people;
+  scene.boxes = boxes;
+  scene.planes = tests::EmptyRoom();
+  CapsuleRender render = tests::Render(scene, KinectV1Camera(320, 240));
+  render.frame.index = frame;
+  render.frame.time_s = frame / 30.0;
+  return render;
+}
+
+Scene Candidates(const CapsuleRender& render) {
+  SceneState next;
+  return FindCandidates(render.frame, {}, next);
+}
+
+PointGrid GridOf(const CapsuleRender& render) {
+  return MakePointGrid(render.frame.view(), render.frame.camera, 6.0F);
+}
+
+// Share of a person's pixels that a candidate has, and of the candidate that is the person's.
+std::pair<double, double> Covered(const CapsuleRender& render, const Candidate& candidate,
+                                  int person) {
+  double whole = 0, common = 0;
+  for (const uint8_t p : render.person.data) whole += p == person ? 1 : 0;
+  for (const int32_t pixel : candidate.pixels)
+    common += render.person.data[static_cast<size_t>(pixel)] == person ? 1 : 0;
+  return {common / whole, common / static_cast<double>(candidate.pixels.size())};
+}
+
+TEST(FindFloor, IsTheEmptyRoomsFloor) {
+  FloorState state;
+  const auto floor = FindFloor(GridOf(Shot({PersonAt(0, 2.5)})), state);
+  ASSERT_TRUE(floor.has_value());
+  // The lowest strip of the wall is within a Kinect's error of the floor and tilts it a little.
+  EXPECT_NEAR(floor->coefficients[3], 1.0, 0.03);
+  EXPECT_GT(floor->coefficients[1], std::cos(0.02));
+}
+
+TEST(FindFloor, IsNotInventedFromAWallAlone) {
+  CapsuleScene scene;
+  scene.planes = {{{0, 0, -1}, 2.0}};
+  FloorState state;
+  EXPECT_FALSE(FindFloor(GridOf(tests::Render(scene, KinectV1Camera(320, 240))), state));
+}
+
+TEST(FlatPieces, FindTheWallWithItsNormalAndArea) {
+  CapsuleScene scene;
+  scene.planes = {{{0, 0, -1}, 3.0}};
+  const PointGrid grid = GridOf(tests::Render(scene, KinectV1Camera(320, 240)));
+  const auto pieces = FlatPieces(grid, std::vector<uint8_t>(static_cast<size_t>(grid.cells()), 0));
+  ASSERT_FALSE(pieces.empty());
+  EXPECT_LT(pieces[0].normal.z(), -0.999);
+  // The image shows 320 / 287.5 x 240 / 287.5 of the distance: 8.36 m2 at 3 m. Cells towards the
+  // corners are counted a little larger than they are: they lie slanted to their line of sight.
+  EXPECT_NEAR(pieces[0].area_m2, 8.36, 0.08 * 8.36);
+}
+
+TEST(RoomSurfaces, TakesTheRoomAndLeavesThePerson) {
+  const CapsuleRender render = Shot({PersonAt(0, 1.8)});
+  const PointGrid grid = GridOf(render);
+  FloorState state;
+  const RoomShape shape = RoomSurfaces(grid, FindFloor(grid, state));
+  int person = 0, taken = 0, room = 0, left = 0;
+  for (int cell = 0; cell < grid.cells(); ++cell) {
+    if (!grid.valid(cell)) continue;
+    const bool mine =
+        render.person.at(cell % grid.width * grid.step, cell / grid.width * grid.step) > 0;
+    const bool gone = shape.room[static_cast<size_t>(cell)] != 0;
+    (mine ? person : room) += 1;
+    taken += mine && gone ? 1 : 0;
+    left += !mine && !gone ? 1 : 0;
+  }
+  EXPECT_LT(taken, 0.05 * person);  // soles
+  EXPECT_LT(left, 0.05 * room);     // edges, where nothing is flat
+}
+
+TEST(FindHeads, IsWhereTheHeadIs) {
+  const CapsuleRender render = Shot({PersonAt(0.2, 2.5)});
+  const Scene scene = Candidates(render);
+  ASSERT_EQ(scene.candidates.size(), 1U);
+  const auto heads = FindHeads(scene.grid, scene.candidates[0].region);
+  ASSERT_EQ(heads.size(), 1U);
+  const Eigen::Vector3d head = render.joints[0][recon::Joint::kHead];
+  // On the surface of a head of about 10 cm radius.
+  EXPECT_LT((heads[0].position_m.cast<double>() - head).norm(), 0.16);
+}
+
+TEST(FindCandidates, APersonIsOnePieceWithoutTheRoom) {
+  const CapsuleRender render = Shot({PersonAt(0, 2.5)});
+  const Scene scene = Candidates(render);
+  ASSERT_EQ(scene.candidates.size(), 1U);
+  const auto [person, candidate] = Covered(render, scene.candidates[0], 1);
+  EXPECT_GT(person, 0.9);  // the soles are within the floor's tolerance
+  EXPECT_GT(candidate, 0.97);
+}
+
+TEST(FindCandidates, NobodyIsThereInAnEmptyRoom) {
+  EXPECT_TRUE(Candidates(Shot({})).candidates.empty());
+}
+
+TEST(FindCandidates, ATableTopIsNotPartOfWhoStandsAtIt) {
+  const tests::Box top{{-0.7, -0.30, 2.0}, {0.7, -0.25, 2.45}};
+  const CapsuleRender render = Shot({PersonAt(0, 2.6)}, 0, {top});
+  double best = 0;
+  for (const Candidate& candidate : Candidates(render).candidates)
+    best = std::max(best, Covered(render, candidate, 1).second);
+  EXPECT_GT(best, 0.85);  // an edge of the top may stay
+}
+
+TEST(FindCandidates, TwoWhoTouchAreCutBetweenTheirHeads) {
+  const CapsuleRender render = Shot({PersonAt(-0.3, 2.5), PersonAt(0.3, 2.5)});
+  const Scene scene = Candidates(render);
+  ASSERT_EQ(scene.candidates.size(), 2U);
+  EXPECT_EQ(scene.candidates[0].origin, scene.candidates[1].origin);
+  for (const Candidate& candidate : scene.candidates) {
+    const double best =
+        std::max(Covered(render, candidate, 1).second, Covered(render, candidate, 2).second);
+    EXPECT_GT(best, 0.85);  // the touching hands may go either way
+  }
+}
+
+TEST(JoinCandidates, GivesBackWhatWasCut) {
+  const CapsuleRender render = Shot({PersonAt(-0.3, 2.5), PersonAt(0.3, 2.5)});
+  const Scene scene = Candidates(render);
+  ASSERT_EQ(scene.candidates.size(), 2U);
+  const Candidate& a = scene.candidates[0];
+  const Candidate& b = scene.candidates[1];
+  const Candidate whole = JoinCandidates(scene, render.frame, a, b);
+  EXPECT_EQ(whole.region.cells.size(), a.region.cells.size() + b.region.cells.size());
+  // At the seam a pixel may have belonged to both or to neither.
+  EXPECT_NEAR(static_cast<double>(whole.pixels.size()),
+              static_cast<double>(a.pixels.size() + b.pixels.size()), 60.0);
+}
+
+class Identity : public testing::Test {
+ protected:
+  // All candidates are people; ids from left to right of the sensor (falling x).
+  std::vector<int> See(const CapsuleRender& render) {
+    SceneState next;
+    const Scene scene = FindCandidates(render.frame, state_, next);
+    fresh_ = scene.fresh;
+    std::vector<const Candidate*> people;
+    for (const Candidate& candidate : scene.candidates) people.push_back(&candidate);
+    std::sort(people.begin(), people.end(), [](const Candidate* a, const Candidate* b) {
+      return a->region.mean_m.x() > b->region.mean_m.x();
+    });
+    state_ = std::move(next);
+    return ConfirmUsers(scene, people, render.frame.time_s, state_);
+  }
+  SceneState state_;
+  bool fresh_ = false;
+};
+
+TEST_F(Identity, StaysWhileAPersonWalks) {
+  for (int i = 0; i < 20; ++i)
+    EXPECT_EQ(See(Shot({PersonAt(-0.5 + 0.05 * i, 2.5)}, i)), std::vector<int>{1}) << i;
+}
+
+TEST_F(Identity, OfTwoWhoPassEachOtherStaysWithEach) {
+  // Two metres a second, a metre apart: for a moment the farther one is hidden.
+  std::vector<int> ids, first;
+  for (int i = 0; i <= 30; ++i) {
+    const double x_m = -1.0 + i / 15.0;
+    ids = See(Shot({PersonAt(x_m, 2.4), PersonAt(-x_m, 3.6)}, i));
+    if (i > 0) continue;
+    ASSERT_EQ(ids.size(), 2U);
+    first = ids;
+  }
+  ASSERT_EQ(ids.size(), 2U);
+  EXPECT_EQ(ids[0], first[1]);
+  EXPECT_EQ(ids[1], first[0]);
+}
+
+TEST_F(Identity, SurvivesASecondOutOfView) {
+  EXPECT_EQ(See(Shot({PersonAt(0.2, 2.5)}, 0)), std::vector<int>{1});
+  for (int i = 1; i < 30; ++i) See(Shot({}, i));
+  EXPECT_EQ(See(Shot({PersonAt(0.3, 2.5)}, 30)), std::vector<int>{1});
+}
+
+TEST_F(Identity, ASceneIsFreshAtFirstAndAfterAGap) {
+  See(Shot({PersonAt(0, 2.5)}, 0));
+  EXPECT_TRUE(fresh_);
+  See(Shot({PersonAt(0, 2.5)}, 1));
+  EXPECT_FALSE(fresh_);
+  See(Shot({PersonAt(0, 2.5)}, 40));
+  EXPECT_TRUE(fresh_);
+}
+
+TEST_F(Identity, AnotherRoomIsAnotherScene) {
+  EXPECT_EQ(See(Shot({PersonAt(0, 2.5)}, 0)), std::vector<int>{1});
+  CapsuleScene other;
+  other.people = {PersonAt(0.1, 2.5)};
+  other.planes = {{{0, 1, 0}, 1.0}, {{0, 0, -1}, 3.4}};  // the wall is a metre nearer
+  CapsuleRender render = tests::Render(other, KinectV1Camera(320, 240));
+  render.frame.time_s = 1 / 30.0;
+  EXPECT_EQ(See(render), std::vector<int>{2});
+  EXPECT_TRUE(fresh_);
+}
+
+}  // namespace
+}  // namespace ossa::depth
