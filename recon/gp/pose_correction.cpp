@@ -143,6 +143,46 @@ BoneLengths TrueProportions(const std::vector<PosturePair>& pairs) {
   return sum;
 }
 
+struct LinearFit {
+  Eigen::RowVectorXf mean;
+  Eigen::MatrixXf weights;  // regressors x outputs
+};
+
+/// Least squares with a prior, then again with every sample weighed by the inverse of its error.
+LinearFit RobustFit(const Eigen::MatrixXf& k, const Eigen::MatrixXf& targets,
+                    const Eigen::MatrixXd& prior, const PoseCorrectionOptions& options) {
+  constexpr float kPrecise_m = 0.03F;  // below it errors are noise, all the same
+  Eigen::VectorXf sample = Eigen::VectorXf::Ones(k.rows());
+  LinearFit fit;
+  for (int round = 0; round <= options.reweighings; ++round) {
+    fit.mean = sample.transpose() * targets / sample.sum();
+    const Eigen::MatrixXf centred = targets.rowwise() - fit.mean;
+    const Eigen::MatrixXf weighed = k.array().colwise() * sample.array();
+    Eigen::MatrixXd a = (k.transpose() * weighed).cast<double>() + options.noise_ratio * prior;
+    a.diagonal().array() += 1e-4 * a.diagonal().mean();
+    const Eigen::MatrixXd b = (weighed.transpose() * centred).cast<double>();
+    fit.weights = a.llt().solve(b).cast<float>();
+    if (round == options.reweighings) break;
+    const Eigen::MatrixXf left = centred - k * fit.weights;
+    Eigen::VectorXf error_m = Eigen::VectorXf::Zero(k.rows());
+    for (Eigen::Index j = 0; j < left.cols(); j += 3) {
+      error_m += left.middleCols<3>(j).rowwise().norm() * (3.0F / static_cast<float>(left.cols()));
+    }
+    sample = (error_m.array() + kPrecise_m).inverse();
+    sample *= static_cast<float>(k.rows()) / sample.sum();
+  }
+  return fit;
+}
+
+/// Pairs without a gross error; all of them where hardly any is left.
+std::vector<PosturePair> Sound(const std::vector<PosturePair>& pairs, double gross_m) {
+  std::vector<PosturePair> sound;
+  for (const PosturePair& pair : pairs) {
+    if (pair.worst_m < gross_m) sound.push_back(pair);
+  }
+  return sound.size() >= 10 ? sound : pairs;
+}
+
 }  // namespace
 
 // Subset of regressors (Rasmussen & Williams 2006, eq. 8.13) beside a linear model: the prior of
@@ -167,12 +207,7 @@ PoseCorrection PoseCorrection::Fit(const std::vector<PosturePair>& pairs,
       targets.middleCols<3>(3 * static_cast<Eigen::Index>(j)) =
           residual.middleCols<3>(3 * static_cast<Eigen::Index>(joints[j]));
     }
-    const Eigen::RowVectorXf mean = targets.colwise().mean();
-    targets.rowwise() -= mean;
-    Eigen::MatrixXd a = (k.transpose() * k).cast<double>() + options.noise_ratio * prior;
-    a.diagonal().array() += 1e-4 * a.diagonal().mean();
-    const Eigen::MatrixXd b = (k.transpose() * targets).cast<double>();
-    const Eigen::MatrixXf solved = a.llt().solve(b).cast<float>();
+    const auto [mean, solved] = RobustFit(k, targets, prior, options);
     for (size_t j = 0; j < joints.size(); ++j) {
       const auto to = 3 * static_cast<Eigen::Index>(joints[j]);
       const auto from = 3 * static_cast<Eigen::Index>(j);
@@ -214,7 +249,8 @@ JointWeights PoseCorrection::HeldOutGains(const std::vector<PosturePair>& pairs,
 
 PoseCorrection PoseCorrection::Learn(const std::vector<PosturePair>& all_pairs,
                                      const PoseCorrectionOptions& options) {
-  const std::vector<PosturePair> pairs = Thinned(all_pairs, options.most_pairs);
+  const std::vector<PosturePair> pairs =
+      Thinned(Sound(all_pairs, options.gross_m), options.most_pairs);
   PoseCorrection out = Fit(pairs, options);
   out.proportion_ = TrueProportions(pairs);
   if (options.folds < 2 || out.empty()) return out;

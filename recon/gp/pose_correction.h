@@ -7,9 +7,11 @@
 namespace ossa::recon {
 
 struct PoseCorrectionOptions {
-  int centres = 500;   // inducing postures
-  double width = 0.7;  // of the kernel, in the feature's unit (a bone turned by 90 degrees: 0.42)
-  double noise_ratio = 5.0;   // ridge: variance of a pair's noise over that of the signal
+  int centres = 300;   // inducing postures
+  double width = 0.8;  // of the kernel, in the feature's unit (a bone turned by 90 degrees: 0.42)
+  double noise_ratio = 20.0;  // ridge: variance of a pair's noise over that of the signal
+  int reweighings = 2;        // of the pairs, by their error in the fit before
+  double gross_m = 0.3;       // a frame with a joint this far off shows another limb: left out
   size_t most_pairs = 15000;  // used, evenly spread; each also mirrored
   int folds = 4;              // runs of pairs held out in turn to find each joint's gain
   uint64_t seed = 1;
@@ -19,7 +21,9 @@ struct PoseCorrectionOptions {
 /// Gaussian process over all pairs, sparse (subset of regressors with inducing postures): Liu 2016
 /// eq. 8 with one kernel for all joints, on bone directions and lengths instead of positions, so
 /// that it carries over between people; a linear term beside it carries on where pairs end. Each
-/// joint's offset is taken only as far as it held on pairs left out: a sensor whose errors have no
+/// fit is robust: whole frames with a gross error are left out, the others weighed by the inverse
+/// of their error (iteratively reweighed least squares: nearly least absolute errors). Each joint's
+/// offset is taken only as far as it held on pairs left out: a sensor whose errors have no
 /// system is left alone.
 class PoseCorrection {
  public:

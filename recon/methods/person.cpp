@@ -73,7 +73,8 @@ void PutBetween(Posture& p, JointWeights& present, Joint joint, Joint a, Joint b
 
 }  // namespace
 
-Posture Completed(const Posture& in_camera, const JointWeights& present_in, const Posture& model) {
+Posture Completed(const Posture& in_camera, const JointWeights& present_in, const Posture& model,
+                  JointWeights* between) {
   Posture out = in_camera;
   JointWeights present = present_in;
   const Eigen::Vector3d offset = OffsetTo(model, in_camera, present);
@@ -86,6 +87,9 @@ Posture Completed(const Posture& in_camera, const JointWeights& present_in, cons
   PutBetween(out, present, Joint::kWristRight, Joint::kElbowRight, Joint::kHandRight, 0.83);
   PutBetween(out, present, Joint::kAnkleLeft, Joint::kKneeLeft, Joint::kFootLeft, 0.93);
   PutBetween(out, present, Joint::kAnkleRight, Joint::kKneeRight, Joint::kFootRight, 0.93);
+  for (size_t i = 0; between != nullptr && i < kJointCount; ++i) {
+    (*between)[i] = present[i] - present_in[i];
+  }
   if (present[0] == 0.0) out.position_m[0] = model.position_m[0] + offset;
   for (size_t i = 1; i < kJointCount; ++i) {
     if (present[i] > 0.0) continue;
@@ -136,14 +140,14 @@ void BodySize::Observe(const Posture& in_camera, const JointWeights& trust, doub
     mean[i] = weight > 0.0 ? sum / weight : lengths_m_[i];
   }
   for (size_t i = 1; i < kJointCount; ++i) {
-    if (expects_) {
-      const double as_expected = proportions_[i] > 0.0 ? proportions_[i] : 1.0;
+    if (proportions_[i] > 0.0) {
       const double size = expected_scale > 0.0 ? expected_scale : scale_;
-      mean[i] = 0.5 * (mean[i] + size * as_expected * StandardBoneLengths()[i]);
+      mean[i] = 0.5 * (mean[i] + size * proportions_[i] * StandardBoneLengths()[i]);
     }
     // Where trunk joints lie is each sensor's own definition; limbs differ between people only.
     const bool trunk = i <= 4 || i == 8 || i == 12 || i == 16;
-    const double shortest = trunk ? 0.5 : 0.75, longest = trunk ? 2.0 : 1.25;
+    const double shortest = as_measured_ ? 0.1 : trunk ? 0.5 : 0.75;
+    const double longest = as_measured_ || trunk ? 2.0 : 1.25;
     lengths_m_[i] = std::clamp(mean[i], shortest * lengths_m_[i], longest * lengths_m_[i]);
   }
   mean_m_ = lengths_m_;
@@ -172,7 +176,7 @@ PreparedPosture Person::Prepare(const ReconstructionInput& input) {
   }
   if (!size_.locked() || started_) size_.Observe(input.observed.posture, out.reliability);
   const Posture model = last_in_camera_ ? *last_in_camera_ : StanceInCamera(size_.lengths_m());
-  out.in_camera = Completed(input.observed.posture, out.present, model);
+  out.in_camera = Completed(input.observed.posture, out.present, model, &out.between);
   JointWeights heading = out.reliability;
   for (size_t i = 0; i < kJointCount; ++i) heading[i] += 0.1 * out.present[i];
   out.placement = PlacementOf(out.in_camera, heading, last_yaw_rad_);

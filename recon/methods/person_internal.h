@@ -13,10 +13,14 @@ namespace ossa::recon {
 /// for a second: that is another person.
 class BodySize {
  public:
-  /// Bones are expected in these proportions to the standard ones (0: as the standard body's) and
+  BodySize() = default;
+  /// `as_measured`: bones may be as far from the standard ones as they like; a foot may end in the
+  /// ankle where a sensor has only one of the two.
+  explicit BodySize(bool as_measured) : as_measured_(as_measured) {}
+  /// Bones are expected in these proportions to the standard ones (0: nothing is expected) and
   /// taken half way between what is expected and what is measured: one frame measures a bone about
   /// as well as the body's size tells it.
-  void Expect(const BoneLengths& proportions) { proportions_ = proportions, expects_ = true; }
+  void Expect(const BoneLengths& proportions) { proportions_ = proportions; }
   /// `expected_scale`: what the proportions are multiplied with; 0: the measured size.
   void Observe(const Posture& in_camera, const JointWeights& trust, double expected_scale = 0.0);
   const BoneLengths& lengths_m() const { return lengths_m_; }
@@ -27,10 +31,10 @@ class BodySize {
  private:
   bool HasOtherBones(const BoneLengths& measured, const JointWeights& trust);
 
+  bool as_measured_ = false;
   BoneLengths lengths_m_ = StandardBoneLengths();
   BoneLengths mean_m_{};  // of what was measured in the last second or so
   BoneLengths proportions_{};
-  bool expects_ = false;
   double scale_ = 1.0;
   bool locked_ = false;
   int other_size_frames_ = 0;
@@ -46,6 +50,7 @@ struct PreparedPosture {
   JointWeights reliability{};  // R_i; 0 for joints that were not observed
   Reliability terms;           // what R_i was made of, this frame
   JointWeights present{};      // 1 for a finite joint that is tracked or inferred
+  JointWeights between{};      // 1 for an absent joint that lies between two present ones
   double dt_s = 1.0 / 30.0;    // since the frame before, clamped to [5 ms, 0.5 s]
   bool restarted = true;  // first frame, or a gap, or time ran backwards: history means nothing
 };
@@ -75,6 +80,8 @@ class Person {
 /// Absent joints from present ones: midpoints of hips and shoulders, the spine between, wrists
 /// from elbow and hand, the others by the last posture (or the standard stance) hung on the nearest
 /// present ancestor. `present` says which are believed; every joint comes back finite.
-Posture Completed(const Posture& in_camera, const JointWeights& present, const Posture& model);
+/// `between`, where asked for, tells which lie on the line of two present ones.
+Posture Completed(const Posture& in_camera, const JointWeights& present, const Posture& model,
+                  JointWeights* between = nullptr);
 
 }  // namespace ossa::recon

@@ -7,11 +7,13 @@
 namespace ossa::recon {
 namespace {
 
-constexpr double kPatience_s = 0.1;    // a jump that stays as long is believed after all
-constexpr double kLongestGap_s = 0.5;  // afterwards the past says nothing
-constexpr double kBodySpeed = 5.0;     // m/s of a whole body
-constexpr double kLimbSpeed = 8.0;     // m/s of a hand
-constexpr double kSlack_m = 0.12;      // sensors are off by as much without failing
+constexpr double kPatience_s = 0.1;      // a jump that stays as long is believed after all
+constexpr double kOwnPatience_s = 0.04;  // ... of a body with the person's own bones
+constexpr double kLongestGap_s = 0.5;    // afterwards the past says nothing
+constexpr double kBodySpeed = 5.0;       // m/s of a whole body
+constexpr double kCutSpeed = 4.5;        // m/s of half of all joints: rather a cut than a move
+constexpr double kLimbSpeed = 8.0;       // m/s of a hand
+constexpr double kSlack_m = 0.12;        // sensors are off by as much without failing
 constexpr double kJumpTrust = 0.05;
 constexpr double kWrongBone = 0.35;   // a bone off by a third
 constexpr double kSamePlace_m = 0.1;  // a hand within this of the other one has snapped to it
@@ -49,6 +51,7 @@ std::optional<double> MedianDistance(const TrackedPosture& observed, const Postu
 
 double Plausibility::Repair(ReconstructionInput& input) {
   joint_trust_.fill(1.0);
+  elsewhere_ = false;
   const double step_s = input.time_s - last_time_s_;
   last_time_s_ = input.time_s;
   if (!last_ || !(step_s > 0.0 && step_s < kLongestGap_s)) {
@@ -75,13 +78,16 @@ double Plausibility::Repair(ReconstructionInput& input) {
     doubt = 0.5;
   } else if (straight && *straight > kSlack_m + 0.1 + kBodySpeed * step_s) {
     body_jumped_s_ += step_s;
-    if (body_jumped_s_ < kPatience_s) return 0.0;
+    if (body_jumped_s_ < (SameBones(input.observed) ? kOwnPatience_s : kPatience_s)) return 0.0;
+    elsewhere_ = true;
     last_.reset();  // it stays there: believe it
     before_last_.reset();
     body_jumped_s_ = 0.0;
     return 0.5;
   }
   body_jumped_s_ = 0.0;
+  const auto moved = MedianDistance(input.observed, *last_);
+  elsewhere_ = moved && *moved > kCutSpeed * std::max(step_s, 1.0 / 30.0);
   JudgeJoints(input.observed, predicted, step_s);
   return doubt;
 }
@@ -106,6 +112,19 @@ void Plausibility::JudgeJoints(const TrackedPosture& observed, const Posture& pr
     // A jump without any other sign of an error is a fast move or a lost frame.
     if (jumped_s_[i] < kPatience_s && LooksWrong(observed, i)) joint_trust_[i] = kJumpTrust;
   }
+}
+
+/// Whether what is seen has the bones of the person seen until now: half of them within a tenth.
+bool Plausibility::SameBones(const TrackedPosture& observed) const {
+  const BoneLengths now = BoneLengthsOf(observed.posture), before = BoneLengthsOf(*last_);
+  std::vector<double> off;
+  for (size_t i = 1; i < kJointCount; ++i) {
+    if (!Seen(observed, i) || !Seen(observed, static_cast<size_t>(kJointParent[i]))) continue;
+    off.push_back(std::abs(now[i] / before[i] - 1.0));
+  }
+  if (off.size() < 6) return false;
+  std::nth_element(off.begin(), off.begin() + static_cast<ptrdiff_t>(off.size() / 2), off.end());
+  return off[off.size() / 2] < 0.1;
 }
 
 /// What else speaks against a joint that jumped: its bone has not the length it had, or it lies on

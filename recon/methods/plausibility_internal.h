@@ -15,10 +15,14 @@ class Plausibility {
   double Repair(ReconstructionInput& input);
   /// 1, or little for a joint that just jumped and has not yet stayed where it is.
   const JointWeights& joint_trust() const { return joint_trust_; }
+  /// The person is, from this frame on, somewhere else than the last posture: a cut, a lost
+  /// stretch, a jump that was waited out. What was filtered until now is past.
+  bool elsewhere() const { return elsewhere_; }
   void Remember(const Posture& made, double dt_s);
 
  private:
   void JudgeJoints(const TrackedPosture& observed, const Posture& predicted, double dt_s);
+  bool SameBones(const TrackedPosture& observed) const;
   bool LooksWrong(const TrackedPosture& observed, size_t joint) const;
 
   std::optional<Posture> last_, before_last_;
@@ -26,6 +30,7 @@ class Plausibility {
   std::array<double, kJointCount> jumped_s_{};  // for how long; 0: it did not
   JointWeights joint_trust_{};
   double body_jumped_s_ = 0.0;
+  bool elsewhere_ = false;
   double last_time_s_ = 0.0;
   double last_dt_s_ = 1.0 / 30.0;
 };

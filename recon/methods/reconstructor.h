@@ -33,6 +33,9 @@ class Reconstructor {
   virtual ~Reconstructor() = default;
   /// Never throws on odd observations: all joints missing, NaN, jumps in time.
   virtual ReconstructedPosture Step(const ReconstructionInput& input) = 0;
+  /// What the last Step made the method think of the frame before it, for callers that can wait one
+  /// frame (files). Empty for methods that do not look back, and after a gap.
+  virtual std::optional<ReconstructedPosture> Revised() const { return std::nullopt; }
   /// Forgets the person.
   virtual void Reset() = 0;
 };
@@ -69,7 +72,7 @@ struct BestOptions {
   bool repair = true;    // gross failures are told from motion
   bool complete = true;  // joints in doubt come from the posture space
   bool correct = true;   // learned systematic errors are taken off
-  bool filter = true;    // adaptive Kalman filters
+  bool filter = true;    // of each joint, revised a frame later
   bool bones = true;     // constant bone lengths
   int neighbours = 30;   // K
   int dimensions = 20;

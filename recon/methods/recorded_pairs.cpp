@@ -1,5 +1,6 @@
 #include "recon/methods/recorded_pairs.h"
 
+#include <algorithm>
 #include <cmath>
 #include <map>
 
@@ -65,7 +66,9 @@ size_t AddPairs(const SkeletonSequence& observed, const SkeletonSequence& truth,
       for (size_t i = 0; i < kJointCount; ++i) {
         if (!true_body->joints[i] || prepared.present[i] == 0.0) continue;
         const Eigen::Vector3d& p = true_body->joints[i]->position_m;
-        if (!((p - prepared.in_camera.position_m[i]).norm() < kFarthestResidual_m)) continue;
+        const double off_m = (p - prepared.in_camera.position_m[i]).norm();
+        pair.worst_m = std::max(pair.worst_m, off_m);
+        if (!(off_m < kFarthestResidual_m)) continue;
         truth_in_camera.position_m[i] = p;
         pair.known[i] = 1.0;
         known += 1.0;

@@ -39,6 +39,13 @@ std::vector<Eigen::Vector3d> LowPass(const std::vector<Eigen::Vector3d>& x, doub
   return y;
 }
 
+/// A person, and where the posture of the last frame was written: it may be revised.
+struct Follower {
+  std::unique_ptr<Reconstructor> method;
+  TrackedPosture observed;
+  size_t frame = 0, body = 0;
+};
+
 struct Track {
   std::vector<JointRecord*> joints;  // present ones, in time order
   std::vector<double> time_s;
@@ -50,18 +57,25 @@ SkeletonSequence ReconstructSequence(const SkeletonSequence& sequence,
                                      const ReconstructorOptions& options,
                                      const std::function<bool(size_t)>& progress) {
   MakeReconstructor(options);  // complain before any work
-  std::map<int, std::unique_ptr<Reconstructor>> people;
+  std::map<int, Follower> people;
   SkeletonSequence out;
   out.source = sequence.source;
   for (const SkeletonFrame& frame : sequence.frames) {
     SkeletonFrame made = frame;
     made.bodies.clear();
     for (const BodyRecord& body : frame.bodies) {
-      auto& person = people[body.id];
-      if (!person) person = MakeReconstructor(options);
+      Follower& person = people[body.id];
+      if (!person.method) person.method = MakeReconstructor(options);
       const TrackedPosture observed = TrackedPostureOf(body);
-      made.bodies.push_back(
-          Reconstructed(body, observed, person->Step({observed, frame.time_s, nullptr})));
+      const auto now = person.method->Step({observed, frame.time_s, nullptr});
+      if (const auto revised = person.method->Revised()) {
+        BodyRecord& written = out.frames[person.frame].bodies[person.body];
+        written = Reconstructed(written, person.observed, *revised);
+      }
+      person.observed = observed;
+      person.frame = out.frames.size();
+      person.body = made.bodies.size();
+      made.bodies.push_back(Reconstructed(body, observed, now));
     }
     out.frames.push_back(std::move(made));
     if (progress && !progress(out.frames.size())) break;

@@ -7,7 +7,8 @@
 
 namespace ossa::recon {
 
-/// Runs one Reconstructor a person (by body id) over a recording, frame by frame in its order.
+/// Runs one Reconstructor a person (by body id) over a recording, frame by frame in its order. A
+/// frame holds what the method thinks of it a frame later, where the method revises.
 /// Frames without bodies stay empty. Each joint comes out with a position, its reliability and a
 /// state: tracked stays, everything that was made up is inferred. `progress` (may be empty) is
 /// called with the number of frames done and returns false to stop.
