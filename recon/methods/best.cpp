@@ -41,7 +41,11 @@ class Best : public Reconstructor {
     if (prepared.restarted) StartFilters();
     JointWeights trust = Trust(prepared, input, doubt);  // 2.
     Posture target = prepared.in_camera;
-    if (options_.complete) Complete(prepared, trust, target);  // 3.
+    if (doubt == 0.0 && person_.last_in_camera()) {
+      target = *person_.last_in_camera();  // somebody else, perhaps: the person stays
+    } else if (options_.complete) {
+      Complete(prepared, trust, target);  // 3.
+    }
     if (plausibility_.elsewhere()) StartFilters();
     Posture now = target, before = target;
     for (size_t i = 0; options_.filter && i < kJointCount; ++i) {  // 4.
@@ -75,7 +79,7 @@ class Best : public Reconstructor {
   void Reset() override {
     person_.Reset();
     plausibility_ = Plausibility();
-    size_ = BodySize();
+    size_ = BodySize(true);
     size_.Expect(correction_.proportion_);
     hints_.clear();
     mean_offset_ = Posture();
@@ -108,8 +112,8 @@ class Best : public Reconstructor {
       constexpr double kInferred = 0.3;
       const double state = input.observed.state[i] == TrackingState::kTracked ? 1.0 : kInferred;
       // Bones of real sensors are off by up to a third in the course of a move; by half they are
-      // wrong.
-      const double bones = std::clamp((r.kinematics[i] - 0.5) / 0.2, 0.0, 1.0);
+      // wrong. Where the trunk's own joints lie, sensors only define, and each differently.
+      const double bones = InTrunk(i) ? 1.0 : std::clamp((r.kinematics[i] - 0.5) / 0.2, 0.0, 1.0);
       trust[i] = prepared.present[i] * state * bones * r.behaviour[i] * r.surface[i] *
                  (options_.repair ? plausibility_.joint_trust()[i] : 1.0) * doubt;
       constexpr double kBetween = 0.6;  // as good as the line between two joints that are seen
@@ -191,6 +195,10 @@ class Best : public Reconstructor {
     return PostureOf(space.Posture(a.llt().solve(b)));
   }
 
+  static bool InTrunk(size_t joint) {
+    return joint <= static_cast<size_t>(Index(Joint::kShoulderCenter));
+  }
+
   bool corrects() const { return options_.correct && !correction_.empty(); }
 
   Posture OffsetsAt(const Posture& in_camera, const Moment& moment) const {
@@ -235,7 +243,7 @@ class Best : public Reconstructor {
     constexpr double kTrunk = 0.1;
     JointWeights weights;
     for (size_t i = 0; i < kJointCount; ++i) {
-      weights[i] = (i <= Index(Joint::kShoulderCenter) ? kTrunk : 1.0) * (0.2 + moment.trust[i]);
+      weights[i] = (InTrunk(i) ? kTrunk : 1.0) * (0.2 + moment.trust[i]);
     }
     return {WithBoneLengths(posture, size_.lengths_m(), weights), moment.reliability};
   }
@@ -245,7 +253,7 @@ class Best : public Reconstructor {
   PoseCorrection correction_;
   Person person_;
   Plausibility plausibility_;
-  BodySize size_;  // of what comes out: the correction may change bones
+  BodySize size_{true};  // of what comes out: the correction may change bones
   std::array<LagFilter, kJointCount> filters_;
   Posture mean_offset_;     // of this person, normalised and scaled
   double offsets_s_ = 0.0;  // for how long it was averaged

@@ -1,0 +1,252 @@
+// The method `best`: its parts, and the bad inputs it must come through, each by name.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <random>
+
+#include "recon/methods/bone_projection_internal.h"
+#include "recon/methods/lag_filter_internal.h"
+#include "recon/methods/reconstructor.h"
+#include "recon/methods/sequence.h"
+#include "tests/recon/synthetic_motion.h"
+
+namespace ossa::recon {
+namespace {
+
+constexpr double kStep_s = 1.0 / 30.0;
+
+std::unique_ptr<Reconstructor> MakeBestOne() {
+  static const auto db =
+      std::make_shared<PostureDatabase>(PostureDatabase::Build(test::GestureClips(), {}));
+  ReconstructorOptions options;
+  options.database = db;
+  return MakeReconstructor(options);
+}
+
+ReconstructedPosture StepOn(Reconstructor& method, const TrackedPosture& observed, double time_s) {
+  const auto made = method.Step({observed, time_s, nullptr});
+  for (const auto& p : made.posture.position_m) EXPECT_TRUE(p.allFinite());
+  return made;
+}
+
+Posture At(double time_s, double scale = 1.0) {
+  return test::InFrontOfCamera(test::Motion(time_s), scale);
+}
+
+/// A second and a half of a person seen well; the time of the next frame.
+double SeenWell(Reconstructor& method, double scale = 1.0) {
+  for (int f = 0; f < 45; ++f) {
+    StepOn(method, test::AllTracked(At(f * kStep_s, scale)), f * kStep_s);
+  }
+  return 45 * kStep_s;
+}
+
+double LargestReliability(const ReconstructedPosture& made) {
+  return *std::max_element(made.reliability.begin(), made.reliability.end());
+}
+
+TEST(Best, KeepsThePostureWhileAllJointsAreMissing) {
+  const auto method = MakeBestOne();
+  const double t = SeenWell(*method);
+  const Posture last = At(t - kStep_s);
+  for (int f = 0; f < 6; ++f) {
+    const auto made = StepOn(*method, TrackedPosture(), t + f * kStep_s);
+    EXPECT_EQ(LargestReliability(made), 0.0);
+    // Nothing is known: the person stays, and comes to rest within a hand's width.
+    EXPECT_LT(test::MeanDistance_m(made.posture, last), 0.1) << f;
+  }
+}
+
+TEST(Best, TakesNanForMissing) {
+  const auto method = MakeBestOne();
+  const double t = SeenWell(*method);
+  TrackedPosture observed = test::AllTracked(At(t));
+  for (const size_t i : {size_t{6}, size_t{7}, size_t{18}}) {
+    observed.posture.position_m[i].setConstant(std::numeric_limits<double>::quiet_NaN());
+  }
+  const auto made = StepOn(*method, observed, t);
+  EXPECT_EQ(made.reliability[7], 0.0);
+  EXPECT_LT(test::MeanDistance_m(made.posture, At(t)), 0.05);
+}
+
+TEST(Best, DoesNotCollapseWithBonesOfNoLength) {
+  const auto method = MakeBestOne();
+  const double t = SeenWell(*method);
+  TrackedPosture observed = test::AllTracked(At(t));
+  for (auto& p : observed.posture.position_m) p = observed.posture.position_m[0];
+  const BoneLengths lengths = BoneLengthsOf(StepOn(*method, observed, t).posture);
+  for (size_t i = 1; i < kJointCount; ++i) EXPECT_GT(lengths[i], 0.02) << i;
+}
+
+TEST(Best, FollowsChildrenAndTallPeople) {
+  for (const double stature_m : {0.9, 2.2}) {
+    const double scale = stature_m / 1.66;
+    const auto method = MakeBestOne();
+    const double t = SeenWell(*method, scale);
+    const auto made = StepOn(*method, test::AllTracked(At(t, scale)), t);
+    EXPECT_LT(test::MeanDistance_m(made.posture, At(t, scale)), 0.03) << stature_m;
+  }
+}
+
+TEST(Best, FollowsThroughJumpsOfTheFrameRate) {
+  const auto method = MakeBestOne();
+  double t = SeenWell(*method);
+  for (const double step_s : {0.1, 0.005, 0.2, 1.0 / 60, 1.0 / 15, 1.0 / 120, 0.1}) {
+    t += step_s;
+    const auto made = StepOn(*method, test::AllTracked(At(t)), t);
+    // Joints move by up to 1 m/s here: half of what the longest step leaves unseen.
+    EXPECT_LT(test::MeanDistance_m(made.posture, At(t)), 0.1) << step_s;
+  }
+}
+
+TEST(Best, StartsAnewAfterAGapOfSeconds) {
+  const auto method = MakeBestOne();
+  const double t = SeenWell(*method) + 7.0;
+  const auto made = StepOn(*method, test::AllTracked(At(t)), t);
+  EXPECT_LT(test::MeanDistance_m(made.posture, At(t)), 0.02);
+  EXPECT_FALSE(method->Revised().has_value());  // nothing is known between
+}
+
+TEST(Best, UndoesSidesThatAreExchanged) {
+  const auto method = MakeBestOne();
+  const double t = SeenWell(*method);
+  TrackedPosture observed = test::AllTracked(At(t));
+  for (size_t i = 0; i < kJointCount; ++i) {
+    observed.posture.position_m[i] = At(t).position_m[static_cast<size_t>(kMirroredJoint[i])];
+  }
+  const auto made = StepOn(*method, observed, t);
+  EXPECT_LT(test::MeanDistance_m(made.posture, At(t)), 0.05);
+  EXPECT_LE(LargestReliability(made), 0.5);
+}
+
+TEST(Best, DoesNotJumpToAnotherBodyAndBack) {
+  const auto method = MakeBestOne();
+  const double t = SeenWell(*method);
+  TrackedPosture other = test::AllTracked(At(t, 0.6));
+  for (auto& p : other.posture.position_m) p.x() += 1.0;
+  for (int f = 0; f < 2; ++f) {
+    const double now_s = t + f * kStep_s;
+    EXPECT_LT(test::MeanDistance_m(StepOn(*method, other, now_s).posture, At(now_s)), 0.15);
+  }
+  const double back_s = t + 2 * kStep_s;
+  const auto made = StepOn(*method, test::AllTracked(At(back_s)), back_s);
+  EXPECT_LT(test::MeanDistance_m(made.posture, At(back_s)), 0.1);
+}
+
+TEST(Best, HoldsAHandThatSnapsToTheOther) {
+  const auto method = MakeBestOne();
+  const double t = SeenWell(*method);
+  TrackedPosture observed = test::AllTracked(At(t));
+  for (const size_t i : {size_t{6}, size_t{7}}) {
+    observed.posture.position_m[i] = At(t).position_m[static_cast<size_t>(kMirroredJoint[i])];
+  }
+  const auto made = StepOn(*method, observed, t);
+  const double off_m = (made.posture.position_m[7] - At(t).position_m[7]).norm();
+  EXPECT_LT(off_m, 0.3 * (observed.posture.position_m[7] - At(t).position_m[7]).norm());
+}
+
+TEST(Best, ThinksBetterOfAFrameWhenItHasSeenTheNext) {
+  const auto method = MakeBestOne();
+  std::mt19937_64 rng(3);
+  double now_m = 0.0, revised_m = 0.0;
+  for (int f = 0; f < 120; ++f) {
+    Posture seen = At(f * kStep_s);
+    test::AddNoise(seen, 0.005, rng);
+    const auto made = StepOn(*method, test::AllTracked(seen), f * kStep_s);
+    if (f >= 30) now_m += test::MeanDistance_m(made.posture, At(f * kStep_s));
+    if (f >= 31) {
+      ASSERT_TRUE(method->Revised().has_value());
+      revised_m += test::MeanDistance_m(method->Revised()->posture, At((f - 1) * kStep_s));
+    }
+  }
+  EXPECT_LT(revised_m, 0.9 * now_m);
+}
+
+TEST(ReconstructSequence, WritesTheRevisedPosturesAndTheLastOneAsItIs) {
+  SkeletonSequence sequence;
+  for (int f = 0; f < 10; ++f) {
+    SkeletonFrame frame;
+    frame.frame = f;
+    frame.time_s = f * kStep_s;
+    frame.bodies.resize(1);
+    for (size_t i = 0; i < kJointCount; ++i) {
+      frame.bodies[0].joints[i].emplace().position_m = At(frame.time_s).position_m[i];
+    }
+    sequence.frames.push_back(frame);
+  }
+  const auto made = ReconstructSequence(sequence, {});
+  const auto method = MakeReconstructor({});
+  ReconstructedPosture last;
+  for (size_t f = 0; f < 10; ++f) {
+    last = method->Step(
+        {TrackedPostureOf(sequence.frames[f].bodies[0]), sequence.frames[f].time_s, nullptr});
+    if (f == 0) continue;
+    const auto& written = made.frames[f - 1].bodies.at(0).joints[7]->position_m;
+    EXPECT_EQ(written, method->Revised()->posture.position_m[7]) << f;
+  }
+  EXPECT_EQ(made.frames[9].bodies.at(0).joints[7]->position_m, last.posture.position_m[7]);
+}
+
+TEST(WithBoneLengths, GivesExactLengthsAndMovesLessThanRetargeting) {
+  const BoneLengths wanted = StandardBoneLengths();
+  JointWeights weights;
+  weights.fill(1.0);
+  std::mt19937_64 rng(9);
+  for (int trial = 0; trial < 20; ++trial) {
+    Posture noisy = test::Motion(0.3 * trial);
+    test::AddNoise(noisy, 0.03, rng);
+    const Posture moved = WithBoneLengths(noisy, wanted, weights);
+    const BoneLengths lengths = BoneLengthsOf(moved);
+    for (size_t i = 1; i < kJointCount; ++i) EXPECT_NEAR(lengths[i], wanted[i], 1e-8);
+    EXPECT_LT(test::MeanDistance_m(moved, noisy),
+              0.8 * test::MeanDistance_m(Retargeted(noisy, wanted), noisy));
+  }
+}
+
+TEST(WithBoneLengths, HeavyJointsStayWhereTheyAre) {
+  Posture posture = test::Motion(0.0);
+  BoneLengths wanted = StandardBoneLengths();
+  wanted[5] *= 1.1;
+  JointWeights weights;
+  weights.fill(1.0);
+  weights[5] = 1e6;
+  const Posture moved = WithBoneLengths(posture, wanted, weights);
+  // A millionth of the 3 cm that are to be made up for.
+  EXPECT_LT((moved.position_m[5] - posture.position_m[5]).norm(), 1e-6);
+}
+
+/// Mean distance from a swinging joint seen with noise: what goes in, what comes out a frame later.
+std::pair<double, double> ErrorsOf(double noise_m) {
+  std::mt19937_64 rng(17);
+  std::normal_distribution<double> normal(0.0, noise_m);
+  LagFilter filter;
+  const auto truth = [](int f) {
+    return Eigen::Vector3d(0.3 * std::sin(3.0 * f * kStep_s), 0.2 * std::cos(2.0 * f * kStep_s), 2);
+  };
+  double before = 0.0, after = 0.0;
+  for (int f = 0; f < 600; ++f) {
+    const Eigen::Vector3d seen = truth(f) + Eigen::Vector3d(normal(rng), normal(rng), normal(rng));
+    filter.Step(seen, kStep_s, 1.0);
+    if (f < 60) continue;
+    before += (seen - truth(f)).norm();
+    after += (filter.before_m() - truth(f - 1)).norm();
+  }
+  return {before, after};
+}
+
+TEST(LagFilter, TakesNoiseAwayFromSteadyAndFromJumpySensors) {
+  for (const double noise_m : {0.003, 0.05}) {
+    const auto [before, after] = ErrorsOf(noise_m);
+    EXPECT_LT(after, 0.8 * before) << noise_m;
+  }
+}
+
+TEST(LagFilter, LeavesASmoothMoveAlone) {
+  // 90 cm/s at most: less than a millimetre of a frame's 3 cm is lost.
+  EXPECT_LT(ErrorsOf(0.0).second / 540, 0.001);
+}
+
+}  // namespace
+}  // namespace ossa::recon
