@@ -2,6 +2,7 @@
 // against the number of postures; building the pose graph; learning from pairs.
 #include <benchmark/benchmark.h>
 
+#include <array>
 #include <cmath>
 #include <map>
 
@@ -12,17 +13,26 @@
 namespace ossa::recon {
 namespace {
 
-/// As many random gestures; trunk lean makes them fill more than the four angles of a gesture.
-std::vector<PostureClip> RandomClips(int count) {
+/// As many postures in clips of 1000 frames at 30 Hz: limbs and trunk swing, every clip with speeds
+/// and phases of its own, so that successive postures are near each other as in mocap.
+std::vector<PostureClip> SwingingClips(int count) {
   std::mt19937_64 rng(7);
   std::uniform_real_distribution<double> unit(0.0, 1.0);
-  std::vector<PostureClip> clips(1);
-  clips[0].name = "random";
+  std::vector<PostureClip> clips;
+  std::array<double, 5> speed{}, phase{};
   for (int i = 0; i < count; ++i) {
-    Posture p = test::Gesture(2.5 * unit(rng), 2.5 * unit(rng), 1.8 * unit(rng), unit(rng));
-    const Eigen::AngleAxisd lean(0.6 * unit(rng), Eigen::Vector3d::UnitX());
+    if (i % 1000 == 0) {
+      clips.emplace_back().name = "swing " + std::to_string(i);
+      for (double& s : speed) s = 0.3 + unit(rng);
+      for (double& p : phase) p = 6.3 * unit(rng);
+    }
+    const auto swing = [&](size_t k) {
+      return 0.5 + 0.5 * std::sin(phase[k] + speed[k] * (i % 1000) / 30.0);
+    };
+    Posture p = test::Gesture(2.5 * swing(0), 2.5 * swing(1), 1.8 * swing(2), swing(3));
+    const Eigen::AngleAxisd lean(0.6 * swing(4), Eigen::Vector3d::UnitX());
     for (size_t j = 1; j < 12; ++j) p.position_m[j] = lean * p.position_m[j];
-    clips[0].postures.push_back(p);
+    clips.back().postures.push_back(p);
   }
   return clips;
 }
@@ -35,7 +45,7 @@ std::shared_ptr<const PostureDatabase> Database(int size) {
     DatabaseOptions options;
     options.threshold_m = 0.002;
     options.most_edges = 16;
-    db = std::make_shared<PostureDatabase>(PostureDatabase::Build(RandomClips(size), options));
+    db = std::make_shared<PostureDatabase>(PostureDatabase::Build(SwingingClips(size), options));
   }
   return db;
 }
@@ -89,7 +99,7 @@ BENCHMARK(Plantard2016PerFrame)
     ->Unit(benchmark::kMillisecond);
 
 void BuildGraph(benchmark::State& state) {
-  const auto clips = RandomClips(static_cast<int>(state.range(0)));
+  const auto clips = SwingingClips(static_cast<int>(state.range(0)));
   DatabaseOptions options;
   options.threshold_m = 0.002;
   options.most_edges = 16;

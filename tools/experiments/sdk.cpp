@@ -53,7 +53,7 @@ Table EmptyTable() {
 std::vector<Table> RunSdk(ExperimentContext& context) {
   Table table = EmptyTable();
   const auto methods = context.parameters.Texts("methods", AllMethods());
-  const auto sets = context.parameters.Texts("data", {"correct", "incorrect", "itop"});
+  const auto sets = context.parameters.Texts("data", {"correct", "incorrect", "itop", "failures"});
   const auto wanted = [&](const char* name) {
     return std::find(sets.begin(), sets.end(), name) != sets.end();
   };
@@ -93,7 +93,10 @@ std::vector<Table> RunSdk(ExperimentContext& context) {
         Part(whole, half, whole.observed.frames.size(), "second half")};
     run("ITOP A2J", LeaveOneSubjectOut(halves, [](const RecordedPair&) { return true; }));
   }
-  return {table};
+  std::vector<Table> tables;
+  if (!table.rows.empty()) tables.push_back(std::move(table));
+  if (wanted("failures")) tables.push_back(GrossFailureTable(context, methods, options));
+  return tables;
 }
 
 }  // namespace ossa::tools

@@ -59,4 +59,11 @@ std::optional<double> Median(const std::vector<ClipMetrics>& clips,
                              std::optional<double> ClipMetrics::*member);
 std::string Number(const std::optional<double>& value, int digits = 2);
 
+/// Methods that need pairs to learn from.
+bool Learns(const std::string& method);
+
+/// KERAAL, Microsoft's CSV files, KinectGait: jumps, hand snaps, wrong bones before and after.
+Table GrossFailureTable(const ExperimentContext& context, const std::vector<std::string>& methods,
+                        const recon::ReconstructorOptions& options);
+
 }  // namespace ossa::tools

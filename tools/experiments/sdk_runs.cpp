@@ -50,10 +50,6 @@ ClipMetrics FromJson(const nlohmann::json& numbers) {
   return clip;
 }
 
-bool Learns(const std::string& method) {
-  return method == "liu-2016" || method == "full-gp" || method == "exemplar" || method == "best";
-}
-
 std::string DescriptionOf(const recon::ReconstructorOptions& o) {
   return fmt::format(
       "{} {} {} {} {} {} {} {} {} {} {} {} {} {} {} {} {} {} {}", o.local_pca.neighbours,
@@ -99,6 +95,10 @@ FoldScore RunFold(const Fold& fold, const std::string& method,
 }
 
 }  // namespace
+
+bool Learns(const std::string& method) {
+  return method == "liu-2016" || method == "full-gp" || method == "exemplar" || method == "best";
+}
 
 void InParallel(size_t count, int threads, const std::function<void(size_t)>& body) {
   std::atomic<size_t> next{0};

@@ -1,0 +1,27 @@
+#pragma once
+#include <cstdint>
+
+#include "recon/skeleton_sequence.h"
+
+namespace ossa::tools {
+
+/// What no body does, counted in recordings without truth. One count is one joint (or bone, or pair
+/// of hands) in one frame.
+struct GrossFailures {
+  int64_t frames = 0;
+  int64_t jumps = 0;        // a joint left its parent's side by 25 cm since the frame before
+  int64_t snaps = 0;        // a hand fell onto the other: 25 cm apart before, 10 cm now
+  int64_t wrong_bones = 0;  // a bone 40 % off its median over the recording
+  int64_t distrusted = 0;   // jumps and snaps whose joint has a reliability below one half
+  double jitter_cm = 0.0;   // mean length of second differences, over all joints and frames
+
+  GrossFailures& operator+=(const GrossFailures& other);
+};
+
+/// Failures of `sequence`. Whether they were noticed is read from `judged`, the same frames with
+/// reliabilities (a method's output); joints that are absent or not tracked do not count. Frames
+/// more than a tenth of a second apart are not compared.
+GrossFailures CountGrossFailures(const recon::SkeletonSequence& sequence,
+                                 const recon::SkeletonSequence& judged);
+
+}  // namespace ossa::tools
