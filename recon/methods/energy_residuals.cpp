@@ -126,8 +126,7 @@ SearchResult SearchCeres(const PostureSpace& space, const EnergyInputs& inputs,
     result.q = q.cast<float>();
     result.steps += static_cast<int>(summary.iterations.size());
   }
-  result.energy =
-      Energies(space, inputs, options, EnergyForm::kSumOfSquares, result.q.transpose())[0];
+  result.energy = Energies(space, inputs, options, result.q.transpose())[0];
   return result;
 }
 

@@ -3,100 +3,69 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numeric>
 
-#include "recon/methods/bone_turns_internal.h"
 #include "recon/methods/methods_internal.h"
-#include "recon/methods/person_internal.h"
-#include "recon/methods/posture_space_internal.h"
+#include "recon/methods/natural_posture_internal.h"
 
 namespace ossa::recon {
 namespace {
 
-class Plantard2016 : public Reconstructor {
+// Eqs. 6, 8 and 9 print differences of positions where a norm or a square was meant: signs would
+// cancel. The energies are read as the squares of [37] (Shum 2013), which the paper says it takes
+// them from; eq. 8 is a mean where Shum's eq. 10 is a sum. Read as distances, eq. 8 lets a whole
+// leg go where that keeps the other joints in place, and eq. 9 holds the posture to one neighbour.
+LocalPcaOptions WithMeanControl(LocalPcaOptions options) {
+  options.control /= kJointCount;
+  return options;
+}
+
+class Plantard2016 : public NaturalPostureMethod {
  public:
-  explicit Plantard2016(const ReconstructorOptions& options)
-      : options_(options.local_pca), seed_(options.seed), database_(options.database) {}
-
-  ReconstructedPosture Step(const ReconstructionInput& input) override {
-    const PreparedPosture prepared = person_.Prepare(input);
-    if (prepared.restarted) Forget();
-    EnergyInputs energy;
-    energy.observed = VectorOf(prepared.normalised);
-    energy.reliability = options_.use_reliability ? prepared.reliability : prepared.present;
-    energy.lengths_m = database_->bone_lengths_m();
-    energy.last = last_;
-    energy.before_last = before_last_;
-    Select(energy, prepared.dt_s);
-
-    const PostureSpace space = MakePostureSpace(*database_, selected_, options_.dimensions);
-    const Eigen::VectorXf start =
-        last_ ? space.Project(*last_) : Eigen::VectorXf(space.neighbours.col(0));
-    const SearchResult found =
-        SearchStochastic(space, energy, options_, EnergyForm::kMeanDistance, start, seed_ + frame_);
-    ++frame_;
-    before_last_ = last_;
-    last_ = space.Posture(found.q);
-    last_dt_s_ = prepared.dt_s;
-    ReconstructedPosture out{person_.InCamera(PostureOf(*last_), prepared), prepared.reliability};
-    const auto weights = InverseDistances(*database_, selected_, *last_);
-    out.orientation =
-        TurnedOntoBones(*database_, selected_, weights, out.posture, prepared.placement.yaw_rad);
-    person_.Remember(out.posture, prepared);
-    return out;
-  }
-
-  void Reset() override {
-    person_.Reset();
-    Forget();
-    frame_ = 0;
+  explicit Plantard2016(const ReconstructorOptions& options) : NaturalPostureMethod(options) {
+    options_ = WithMeanControl(options_);
   }
 
  private:
-  void Forget() {
-    last_.reset();
-    before_last_.reset();
-    selected_.clear();
-  }
-
   /// Sec. 6.2: the K best of the nodes connected to those used last; all nodes when there is no
   /// last frame, or when the best of those no longer resembles what is seen.
-  void Select(const EnergyInputs& energy, double dt_s) {
-    PostureVector predicted = PostureVector::Zero();
-    if (last_) predicted = *last_;
-    if (last_ && before_last_) {
-      predicted += (*last_ - *before_last_) * static_cast<float>(dt_s / last_dt_s_);
+  std::vector<int> Select(const EnergyInputs& energy, const PreparedPosture& prepared,
+                          const ReconstructionInput&, std::vector<int> before) override {
+    std::optional<PostureVector> predicted = energy.last;
+    if (energy.last && energy.before_last) {
+      const auto share = static_cast<float>(prepared.dt_s / last_dt_s_);
+      *predicted += (*energy.last - *energy.before_last) * share;
     }
-    std::vector<int> candidates;
-    if (!selected_.empty()) {
-      candidates = selected_;
-      for (const int node : selected_) {
+    last_dt_s_ = prepared.dt_s;
+    std::vector<int> candidates = before;
+    if (!before.empty()) {
+      for (const int node : before) {
         const auto near = database_->neighbours(node);
         candidates.insert(candidates.end(), near.begin(), near.end());
       }
       std::sort(candidates.begin(), candidates.end());
       candidates.erase(std::unique(candidates.begin(), candidates.end()), candidates.end());
-      double best = KeepBest(candidates, energy, predicted);
       // Lost: the graph's neighbourhood is a whole edge farther off than a node of the graph can
       // be from any posture it covers. Departure: the paper searches fully on the first frame only.
       const double lost_m = 0.5 * database_->edge_threshold_m() + 0.1;
-      if (best < lost_m) return;
+      if (KeepBest(candidates, energy, predicted) < lost_m) return candidates;
     }
     candidates.resize(static_cast<size_t>(database_->size()));
-    for (size_t i = 0; i < candidates.size(); ++i) candidates[i] = static_cast<int>(i);
+    std::iota(candidates.begin(), candidates.end(), 0);
     KeepBest(candidates, energy, predicted);
+    return candidates;
   }
 
   /// Keeps the K of lowest score S = Ss + Sc (eqs. 6-7); returns the similarity Ss of the best in
   /// metres per unit of reliability. Eqs. 6 and Sc are read as mean weighted distances.
   double KeepBest(std::vector<int>& candidates, const EnergyInputs& energy,
-                  const PostureVector& predicted) {
+                  const std::optional<PostureVector>& predicted) const {
     std::array<float, kJointCount> r;
     float trust = 1e-6F;
     for (size_t i = 0; i < kJointCount; ++i) {
       r[i] = static_cast<float>(energy.reliability[i]);
       trust += r[i];
     }
-    const bool continuity = last_.has_value();
     std::vector<std::pair<float, int>> scored;
     scored.reserve(candidates.size());
     float best_similarity = std::numeric_limits<float>::max();
@@ -107,8 +76,8 @@ class Plantard2016 : public Reconstructor {
         const Eigen::Map<const Eigen::Vector3f> joint(p + 3 * i);
         const auto at = static_cast<Eigen::Index>(3 * i);
         if (r[i] > 0.0F) similar += r[i] * (energy.observed.segment<3>(at) - joint).norm();
-        if (continuity && r[i] < 1.0F) {
-          continuous += (1.0F - r[i]) * (predicted.segment<3>(at) - joint).norm();
+        if (predicted && r[i] < 1.0F) {
+          continuous += (1.0F - r[i]) * (predicted->segment<3>(at) - joint).norm();
         }
       }
       best_similarity = std::min(best_similarity, similar / trust);
@@ -116,19 +85,12 @@ class Plantard2016 : public Reconstructor {
     }
     const size_t keep = std::min(scored.size(), static_cast<size_t>(options_.neighbours));
     std::partial_sort(scored.begin(), scored.begin() + static_cast<ptrdiff_t>(keep), scored.end());
-    selected_.clear();
-    for (size_t k = 0; k < keep; ++k) selected_.push_back(scored[k].second);
+    candidates.clear();
+    for (size_t k = 0; k < keep; ++k) candidates.push_back(scored[k].second);
     return static_cast<double>(best_similarity);
   }
 
-  LocalPcaOptions options_;
-  uint64_t seed_;
-  std::shared_ptr<const PostureDatabase> database_;
-  Person person_;
-  std::optional<PostureVector> last_, before_last_;
   double last_dt_s_ = 1.0 / 30.0;
-  std::vector<int> selected_;  // the nodes used in the last frame
-  uint64_t frame_ = 0;
 };
 
 }  // namespace

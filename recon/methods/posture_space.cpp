@@ -68,9 +68,8 @@ Eigen::ArrayXf SquaredNorm(const Eigen::Ref<const Eigen::ArrayXXf>& xyz) {
 }  // namespace
 
 Eigen::ArrayXf Energies(const PostureSpace& space, const EnergyInputs& inputs,
-                        const LocalPcaOptions& options, EnergyForm form, const Eigen::MatrixXf& q) {
+                        const LocalPcaOptions& options, const Eigen::MatrixXf& q) {
   const Eigen::Index samples = q.rows();
-  const bool squares = form == EnergyForm::kSumOfSquares;
   Eigen::MatrixXf x = q * space.basis.transpose();  // samples x 60: a column is contiguous
   x.rowwise() += space.mean.transpose();
   Eigen::ArrayXf control = Eigen::ArrayXf::Zero(samples);
@@ -84,11 +83,7 @@ Eigen::ArrayXf Energies(const PostureSpace& space, const EnergyInputs& inputs,
     const auto xi = x.middleCols<3>(3 * i);
     const auto weight = static_cast<float>(inputs.reliability[static_cast<size_t>(i)]);
     d = (xi.rowwise() - inputs.observed.segment<3>(3 * i).transpose()).array();
-    if (squares) {
-      control += weight * SquaredNorm(d);  // eqs. 9-10
-    } else {
-      control += weight * SquaredNorm(d) / float(kJointCount);  // Plantard eq. 8
-    }
+    control += weight * SquaredNorm(d);  // eqs. 9-10
     if (history) {
       d = (xi.rowwise() - expected.segment<3>(3 * i).transpose()).array();
       continuity += SquaredNorm(d);  // eq. 14
@@ -110,10 +105,10 @@ Eigen::ArrayXf Energies(const PostureSpace& space, const EnergyInputs& inputs,
 }
 
 SearchResult SearchStochastic(const PostureSpace& space, const EnergyInputs& inputs,
-                              const LocalPcaOptions& options, EnergyForm form,
-                              const Eigen::VectorXf& start, uint64_t seed) {
+                              const LocalPcaOptions& options, const Eigen::VectorXf& start,
+                              uint64_t seed) {
   SearchResult best{start, 0.0, 0};
-  best.energy = Energies(space, inputs, options, form, start.transpose())[0];
+  best.energy = Energies(space, inputs, options, start.transpose())[0];
   if (space.dimensions() == 0) return best;
   // splitmix64 and the sum of four uniforms (Irwin-Hall): normal enough to explore, and the same
   // on every standard library.
@@ -138,7 +133,7 @@ SearchResult SearchStochastic(const PostureSpace& space, const EnergyInputs& inp
       const float spread = radius * space.deviation[c];
       for (Eigen::Index s = 0; s < q.rows(); ++s) q(s, c) = best.q[c] + spread * normal();
     }
-    const Eigen::ArrayXf energies = Energies(space, inputs, options, form, q);
+    const Eigen::ArrayXf energies = Energies(space, inputs, options, q);
     Eigen::Index winner = 0;
     const double lowest = energies.minCoeff(&winner);
     if (lowest < best.energy) {

@@ -25,12 +25,6 @@ struct PostureSpace {
 PostureSpace MakePostureSpace(const PostureDatabase& database, std::span<const int> neighbours,
                               int dimensions);
 
-/// How the control and style terms measure distance.
-enum class EnergyForm {
-  kSumOfSquares,  // Shum 2013: eq. 10 a sum, eqs. 11, 12, 14 means of squares
-  kMeanDistance,  // Plantard 2016: eqs. 8, 9 means of distances; eqs. 10, 11 means of squares
-};
-
 /// What the energy of eq. 15 compares a posture of the space with. All in the normalised frame.
 struct EnergyInputs {
   PostureVector observed = PostureVector::Zero();  // p_k
@@ -42,7 +36,7 @@ struct EnergyInputs {
 
 /// E of eq. 15 for each row of q (samples x dimensions).
 Eigen::ArrayXf Energies(const PostureSpace& space, const EnergyInputs& inputs,
-                        const LocalPcaOptions& options, EnergyForm form, const Eigen::MatrixXf& q);
+                        const LocalPcaOptions& options, const Eigen::MatrixXf& q);
 
 /// E of eq. 15 as least squares: E = |r(q)|^2. Rows: control 60, kinematics 19, continuity 60
 /// (zero without history), style one a dimension (against neighbour `nearest`; the part outside the
@@ -71,10 +65,10 @@ struct SearchResult {
 
 /// Sec. VI-E, local stochastic search from `start`; the same seed gives the same result.
 SearchResult SearchStochastic(const PostureSpace& space, const EnergyInputs& inputs,
-                              const LocalPcaOptions& options, EnergyForm form,
-                              const Eigen::VectorXf& start, uint64_t seed);
+                              const LocalPcaOptions& options, const Eigen::VectorXf& start,
+                              uint64_t seed);
 
-/// Ours: the same energy (sum of squares form) minimised by Levenberg-Marquardt (Ceres), the style
+/// Ours: the same energy minimised by Levenberg-Marquardt (Ceres), the style
 /// term's nearest neighbour chosen anew between runs.
 SearchResult SearchCeres(const PostureSpace& space, const EnergyInputs& inputs,
                          const LocalPcaOptions& options, const Eigen::VectorXf& start);

@@ -3,70 +3,27 @@
 #include <algorithm>
 
 #include "recon/database/nearest.h"
-#include "recon/methods/bone_turns_internal.h"
 #include "recon/methods/methods_internal.h"
-#include "recon/methods/person_internal.h"
-#include "recon/methods/posture_space_internal.h"
+#include "recon/methods/natural_posture_internal.h"
 
 namespace ossa::recon {
 namespace {
 
-class Shum2013 : public Reconstructor {
+class Shum2013 : public NaturalPostureMethod {
  public:
-  explicit Shum2013(const ReconstructorOptions& options)
-      : options_(options.local_pca), seed_(options.seed), database_(options.database) {}
-
-  ReconstructedPosture Step(const ReconstructionInput& input) override {
-    const PreparedPosture prepared = person_.Prepare(input);
-    if (prepared.restarted) last_.reset(), before_last_.reset();
-    EnergyInputs energy = Inputs(prepared);
-    if (options_.extend_database) Extend(energy, input);
-    FindNeighbours(energy);
-    const PostureSpace space = MakePostureSpace(*database_, hints_, options_.dimensions);
-    // Sec. VI-E: start from the posture made last, so that postures like it are always explored.
-    const Eigen::VectorXf start =
-        last_ ? space.Project(*last_) : Eigen::VectorXf(space.neighbours.col(0));
-    const SearchResult found =
-        options_.solver == "ceres"
-            ? SearchCeres(space, energy, options_, start)
-            : SearchStochastic(space, energy, options_, EnergyForm::kSumOfSquares, start,
-                               seed_ + frame_);
-    ++frame_;
-    before_last_ = last_;
-    last_ = space.Posture(found.q);
-    ReconstructedPosture out{person_.InCamera(PostureOf(*last_), prepared), prepared.reliability};
-    const auto weights = InverseDistances(*database_, hints_, *last_);
-    out.orientation =
-        TurnedOntoBones(*database_, hints_, weights, out.posture, prepared.placement.yaw_rad);
-    person_.Remember(out.posture, prepared);
-    return out;
-  }
-
-  void Reset() override {
-    person_.Reset();
-    last_.reset();
-    before_last_.reset();
-    hints_.clear();
-    frame_ = 0;
-  }
+  using NaturalPostureMethod::NaturalPostureMethod;
 
  private:
-  EnergyInputs Inputs(const PreparedPosture& prepared) const {
-    EnergyInputs energy;
-    energy.observed = VectorOf(prepared.normalised);
-    // Method B of the paper: all joints seen count alike.
-    energy.reliability = options_.use_reliability ? prepared.reliability : prepared.present;
-    energy.lengths_m = database_->bone_lengths_m();
-    energy.last = last_;
-    energy.before_last = before_last_;
-    return energy;
-  }
-
-  void FindNeighbours(const EnergyInputs& energy) {
-    const auto nearest = NearestPostures(*database_, energy.observed, energy.reliability,
-                                         options_.neighbours, hints_);
-    hints_.clear();
-    for (const Neighbour& n : nearest) hints_.push_back(n.index);
+  /// Sec. V-B: the K nearest of all postures under eq. 9.
+  std::vector<int> Select(const EnergyInputs& energy, const PreparedPosture&,
+                          const ReconstructionInput& input, std::vector<int> hints) override {
+    if (options_.extend_database) Extend(energy, input);
+    std::vector<int> selected;
+    for (const Neighbour& n : NearestPostures(*database_, energy.observed, energy.reliability,
+                                              options_.neighbours, hints)) {
+      selected.push_back(n.index);
+    }
+    return selected;
   }
 
   /// Sec. IX: a posture of which every joint is reliable and tracked, and which the database does
@@ -86,13 +43,6 @@ class Shum2013 : public Reconstructor {
     ++added_;
   }
 
-  LocalPcaOptions options_;
-  uint64_t seed_;
-  std::shared_ptr<const PostureDatabase> database_;
-  Person person_;
-  std::optional<PostureVector> last_, before_last_;
-  std::vector<int> hints_;  // the last frame's neighbours
-  uint64_t frame_ = 0;
   int added_ = 0;
 };
 

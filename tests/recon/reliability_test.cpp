@@ -57,6 +57,28 @@ TEST(Reliability, FallsWithAWrongBoneLength) {  // eqs. 5-6: the hand has one bo
   EXPECT_NEAR(r.kinematics[kHandLeft - 3], 1.0, 1e-9);
 }
 
+// A Kinect v2 puts its spine 10 cm higher than the standard body has it, and files of it may have
+// no hands: neither makes its joints unreliable.
+TEST(Reliability, LearnsTheBonesOfASensorWithAnotherSpineAndNoHands) {
+  for (const double arms_rad : {0.1, 0.9}) {  // a reference posture, and none
+    ReliabilityEstimator estimator;
+    Posture posture = test::Gesture(arms_rad, arms_rad, 0.1);
+    posture[Joint::kSpine].y() += 0.1;
+    TrackedPosture seen = test::AllTracked(test::InFrontOfCamera(posture));
+    const Eigen::Vector3d up = seen.posture[Joint::kSpine] - seen.posture[Joint::kHipCenter];
+    seen.posture[Joint::kSpine] += 0.1 * up.normalized();  // retargeting took the height away
+    for (const size_t hand : {size_t{7}, size_t{11}}) {
+      seen.state[hand] = TrackingState::kNotTracked;
+      seen.posture.position_m[hand].setConstant(std::numeric_limits<double>::quiet_NaN());
+    }
+    Reliability r;
+    for (int f = 0; f < 8; ++f) r = estimator.Step(seen, nullptr);
+    for (size_t i = 0; i < kJointCount; ++i) {
+      if (i != 7 && i != 11) EXPECT_NEAR(r.rate[i], 1.0, 1e-9) << kJointNames[i] << arms_rad;
+    }
+  }
+}
+
 TEST(Reliability, OfInferredAndMissingJointsIsZero) {  // eq. 7
   ReliabilityEstimator estimator;
   TrackedPosture seen = test::AllTracked(test::InFrontOfCamera(test::Gesture(0.1, 0.1, 0.1)));

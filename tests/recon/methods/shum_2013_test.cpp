@@ -68,7 +68,7 @@ TEST(EnergyResiduals, SquaredAreTheEnergyOfEquation15) {
   Eigen::VectorXd r;
   residuals.Evaluate(q.cast<double>(), r, nullptr);
   const double outside = 0.5 * p.space.outside[4] / kJointCount;  // constant, not a residual
-  const float energy = Energies(p.space, p.inputs, {}, EnergyForm::kSumOfSquares, q.transpose())[0];
+  const float energy = Energies(p.space, p.inputs, {}, q.transpose())[0];
   EXPECT_NEAR(r.squaredNorm() + outside, energy, 1e-4 * energy);  // single precision
 }
 
@@ -76,9 +76,9 @@ TEST(SearchStochastic, IsTheSameForTheSeedAndNeverWorseThanItsStart) {
   const Problem p = MakeProblem(1.7, true);
   const Eigen::VectorXf start = p.space.neighbours.col(0);
   const double before =
-      Energies(p.space, p.inputs, {}, EnergyForm::kSumOfSquares, start.transpose())[0];
-  const auto a = SearchStochastic(p.space, p.inputs, {}, EnergyForm::kSumOfSquares, start, 3);
-  const auto b = SearchStochastic(p.space, p.inputs, {}, EnergyForm::kSumOfSquares, start, 3);
+      Energies(p.space, p.inputs, {}, start.transpose())[0];
+  const auto a = SearchStochastic(p.space, p.inputs, {}, start, 3);
+  const auto b = SearchStochastic(p.space, p.inputs, {}, start, 3);
   EXPECT_EQ(a.q, b.q);
   EXPECT_LE(a.energy, before);
 }
@@ -88,7 +88,7 @@ TEST(SearchCeres, FindsNoHigherEnergyThanTheStochasticSearch) {
     const Problem p = MakeProblem(t, true);
     const Eigen::VectorXf start = p.space.neighbours.col(0);
     const auto random =
-        SearchStochastic(p.space, p.inputs, {}, EnergyForm::kSumOfSquares, start, 1);
+        SearchStochastic(p.space, p.inputs, {}, start, 1);
     const auto exact = SearchCeres(p.space, p.inputs, {}, start);
     EXPECT_LE(exact.energy, 1.05 * random.energy);  // style's nearest neighbour may differ
   }

@@ -1,0 +1,57 @@
+#include "recon/methods/natural_posture_internal.h"
+
+#include "recon/methods/bone_turns_internal.h"
+
+namespace ossa::recon {
+
+ReconstructedPosture NaturalPostureMethod::Step(const ReconstructionInput& input) {
+  const PreparedPosture prepared = person_.Prepare(input);
+  if (prepared.restarted) {
+    last_.reset();
+    before_last_.reset();
+    selected_.clear();
+  }
+  const EnergyInputs energy = Inputs(prepared);
+  selected_ = Select(energy, prepared, input, std::move(selected_));
+  const PostureSpace space = MakePostureSpace(*database_, selected_, options_.dimensions);
+  const SearchResult found = Search(space, energy);
+  ++frame_;
+  before_last_ = last_;
+  last_ = space.Posture(found.q);
+  ReconstructedPosture out{person_.InCamera(PostureOf(*last_), prepared), prepared.reliability};
+  const auto weights = InverseDistances(*database_, selected_, *last_);
+  out.orientation =
+      TurnedOntoBones(*database_, selected_, weights, out.posture, prepared.placement.yaw_rad);
+  person_.Remember(out.posture, prepared);
+  return out;
+}
+
+void NaturalPostureMethod::Reset() {
+  person_.Reset();
+  last_.reset();
+  before_last_.reset();
+  selected_.clear();
+  frame_ = 0;
+}
+
+EnergyInputs NaturalPostureMethod::Inputs(const PreparedPosture& prepared) const {
+  EnergyInputs energy;
+  energy.observed = VectorOf(prepared.normalised);
+  // Method B of Shum 2013: all joints seen count alike.
+  energy.reliability = options_.use_reliability ? prepared.reliability : prepared.present;
+  energy.lengths_m = database_->bone_lengths_m();
+  energy.last = last_;
+  energy.before_last = before_last_;
+  return energy;
+}
+
+SearchResult NaturalPostureMethod::Search(const PostureSpace& space,
+                                          const EnergyInputs& energy) const {
+  // Sec. VI-E: start from the posture made last, so that postures like it are always explored.
+  const Eigen::VectorXf start =
+      last_ ? space.Project(*last_) : Eigen::VectorXf(space.neighbours.col(0));
+  if (options_.solver == "ceres") return SearchCeres(space, energy, options_, start);
+  return SearchStochastic(space, energy, options_, start, seed_ + frame_);
+}
+
+}  // namespace ossa::recon

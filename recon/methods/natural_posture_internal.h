@@ -1,0 +1,37 @@
+#pragma once
+#include "recon/methods/person_internal.h"
+#include "recon/methods/posture_space_internal.h"
+
+namespace ossa::recon {
+
+/// What shum-2013 and plantard-2016 have in common: a posture made in the natural posture space of
+/// selected database postures (Shum 2013 secs. V-B, VI, VII-B). They differ in how they select.
+class NaturalPostureMethod : public Reconstructor {
+ public:
+  explicit NaturalPostureMethod(const ReconstructorOptions& options)
+      : options_(options.local_pca), database_(options.database), seed_(options.seed) {}
+
+  ReconstructedPosture Step(const ReconstructionInput& input) override;
+  void Reset() override;
+
+ protected:
+  /// The postures that span the space, most similar first, from those of the frame before.
+  virtual std::vector<int> Select(const EnergyInputs& energy, const PreparedPosture& prepared,
+                                  const ReconstructionInput& input,
+                                  std::vector<int> selected_before) = 0;
+
+  LocalPcaOptions options_;
+  std::shared_ptr<const PostureDatabase> database_;
+
+ private:
+  EnergyInputs Inputs(const PreparedPosture& prepared) const;
+  SearchResult Search(const PostureSpace& space, const EnergyInputs& energy) const;
+
+  uint64_t seed_;
+  Person person_;
+  std::optional<PostureVector> last_, before_last_;  // p_{x-1}, p_{x-2}
+  std::vector<int> selected_;
+  uint64_t frame_ = 0;
+};
+
+}  // namespace ossa::recon
