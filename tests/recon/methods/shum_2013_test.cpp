@@ -75,8 +75,7 @@ TEST(EnergyResiduals, SquaredAreTheEnergyOfEquation15) {
 TEST(SearchStochastic, IsTheSameForTheSeedAndNeverWorseThanItsStart) {
   const Problem p = MakeProblem(1.7, true);
   const Eigen::VectorXf start = p.space.neighbours.col(0);
-  const double before =
-      Energies(p.space, p.inputs, {}, start.transpose())[0];
+  const double before = Energies(p.space, p.inputs, {}, start.transpose())[0];
   const auto a = SearchStochastic(p.space, p.inputs, {}, start, 3);
   const auto b = SearchStochastic(p.space, p.inputs, {}, start, 3);
   EXPECT_EQ(a.q, b.q);
@@ -87,8 +86,7 @@ TEST(SearchCeres, FindsNoHigherEnergyThanTheStochasticSearch) {
   for (const double t : {0.3, 1.1, 2.4}) {
     const Problem p = MakeProblem(t, true);
     const Eigen::VectorXf start = p.space.neighbours.col(0);
-    const auto random =
-        SearchStochastic(p.space, p.inputs, {}, start, 1);
+    const auto random = SearchStochastic(p.space, p.inputs, {}, start, 1);
     const auto exact = SearchCeres(p.space, p.inputs, {}, start);
     EXPECT_LE(exact.energy, 1.05 * random.energy);  // style's nearest neighbour may differ
   }
