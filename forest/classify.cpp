@@ -11,12 +11,14 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numeric>
+#include <memory>
 
+#include "forest/clones_internal.h"
 #include "forest/feature_internal.h"
 #include "forest/forest.h"
 #include "forest/runtime_internal.h"
 #include "forest/smooth_internal.h"
+#include "forest/sparse_internal.h"
 
 namespace ossa::forest {
 namespace {
@@ -25,9 +27,12 @@ constexpr float kEvidenceUnit = 1.0F / 256.0F;  // of LeafTables::evidence
 constexpr uint32_t kContextUnits = 64;          // the posterior in integer shares, exact sums
 constexpr size_t kPixelsPerTask = 2048;
 
-struct MassRows {
-  size_t stride = 0;  // of a pixel
-  std::vector<uint8_t> mass;
+// What those pixels say that walk.
+struct Walked {
+  std::vector<int32_t> leaf;  // pixel × tree
+  size_t stride = 0;          // of a row of masses
+  std::unique_ptr<uint8_t[]>
+      mass;  // of 255; class c stands in column c - 1: class 0 is never given
 };
 
 struct ActiveContext {
@@ -38,26 +43,35 @@ struct ActiveContext {
 std::vector<int32_t> BoxPositions(const ObjectImage& image, int width,
                                   std::span<const int32_t> pixels) {
   std::vector<int32_t> position(pixels.size());
+  int32_t y = 0;
+  int32_t row_begin = image.v0 * width;  // pixels ascend: no division
   for (size_t i = 0; i < pixels.size(); ++i) {
-    position[i] = ((pixels[i] / width - image.v0) << 16) | (pixels[i] % width - image.u0);
+    for (; pixels[i] >= row_begin + width; row_begin += width) ++y;
+    position[i] = (y << 16) | (pixels[i] - row_begin - image.u0);
   }
   return position;
 }
 
 // Posterior ∝ prior · exp(evidence_scale · mean evidence): the pixels of one object are far from
 // independent, so that their mean counts as evidence_scale of them (learned on held-out frames).
-std::vector<float> ContextPosterior(const ForestModel& model, const Classification& result,
+std::vector<float> ContextPosterior(const ForestModel& model, const Walked& walked,
                                     std::span<const float> prior) {
+  constexpr size_t kPixels = 1500;  // their mean is the mean of all to a hundredth
   const auto contexts = static_cast<size_t>(model.context_count());
   const size_t trees = model.data().trees.size();
+  const size_t pixels = walked.leaf.size() / trees;
+  const size_t step = std::max<size_t>(1, pixels / kPixels);
   std::vector<int64_t> sum(contexts, 0);
-  for (size_t i = 0; i < result.leaf.size(); ++i) {
-    const int16_t* evidence = model.tables().leaves[i % trees].evidence.data() +
-                              static_cast<size_t>(result.leaf[i]) * contexts;
-    for (size_t k = 0; k < contexts; ++k) sum[k] += evidence[k];
+  size_t heard = 0;
+  for (size_t i = 0; i < pixels; i += step) {
+    for (size_t t = 0; t < trees; ++t, ++heard) {
+      const int16_t* evidence = model.tables().leaves[t].evidence.data() +
+                                static_cast<size_t>(walked.leaf[i * trees + t]) * contexts;
+      for (size_t k = 0; k < contexts; ++k) sum[k] += evidence[k];
+    }
   }
   std::vector<float> log_posterior(contexts);
-  const auto count = static_cast<float>(std::max<size_t>(result.leaf.size(), 1));
+  const auto count = static_cast<float>(std::max<size_t>(heard, 1));
   for (size_t k = 0; k < contexts; ++k) {
     const float mean = static_cast<float>(sum[k]) * kEvidenceUnit / count;
     log_posterior[k] = model.data().evidence_scale * mean + std::log(std::max(prior[k], 1e-4F));
@@ -79,62 +93,109 @@ std::vector<ActiveContext> ActiveContexts(std::span<const float> posterior) {
   return active;
 }
 
-// Masses of pixels [first, last), of 255, in rows of `stride`; class c stands in column c - 1,
-// since class 0 is never given. Integers and one rounding: the same on every path and in every
-// order.
+// The rows of a pixel's leaves: asked for some pixels ahead, since each is a cache miss.
+void FetchRows(const ForestModel& model, size_t context, const int32_t* leaf) {
+  for (const LeafTables& tables : model.tables().leaves) {
+    __builtin_prefetch(&tables.shares[context * tables.leaf_count() + static_cast<size_t>(*leaf)]);
+    ++leaf;
+  }
+}
+
+// out = sum · 255 / total, rounded; the same on every path.
+OSSA_CLONES void ToMasses(const uint32_t* sum, float scale, size_t count, uint8_t* out) {
+  for (size_t c = 0; c < count; ++c) {
+    out[c] = static_cast<uint8_t>(static_cast<int32_t>(static_cast<float>(sum[c]) * scale + 0.5F));
+  }
+}
+
+// Masses of walked pixels [first, last). Integers and one rounding: the same in every order.
 void MixLeaves(const ForestModel& model, std::span<const ActiveContext> active,
-               const Classification& result, std::array<size_t, 2> range, MassRows* rows) {
-  const auto contexts = static_cast<size_t>(model.context_count());
+               std::array<size_t, 2> range, Walked* walked) {
+  constexpr size_t kAhead = 12;
   const size_t trees = model.data().trees.size();
   std::array<uint32_t, 256> sum{};
   for (size_t i = range[0]; i < range[1]; ++i) {
-    std::fill_n(sum.begin(), rows->stride + 1, 0U);
+    const size_t next = std::min(i + kAhead, range[1] - 1);
+    for (const ActiveContext& context : active) {
+      FetchRows(model, context.index, &walked->leaf[next * trees]);
+    }
+    std::fill_n(sum.begin(), walked->stride, 0U);
     uint32_t total = 0;
     for (size_t t = 0; t < trees; ++t) {
       const LeafTables& tables = model.tables().leaves[t];
-      const size_t row = static_cast<size_t>(result.leaf[i * trees + t]) * contexts;
+      const auto leaf = static_cast<size_t>(walked->leaf[i * trees + t]);
       for (const ActiveContext& context : active) {
-        const uint32_t begin = tables.share_begin[row + context.index];
-        const uint32_t end = tables.share_begin[row + context.index + 1];
-        for (uint32_t s = begin; s < end; ++s) {
-          const uint32_t mass = context.share * tables.shares[s].share;
-          sum[tables.shares[s].class_index] += mass;
+        const ShareRow& row = tables.shares[context.index * tables.leaf_count() + leaf];
+        for (size_t s = 0; s < kMostShares; ++s) {
+          const uint32_t mass = context.share * row.share[s];
+          sum[row.column[s]] += mass;
           total += mass;
         }
       }
     }
     const float scale = total > 0 ? 255.0F / static_cast<float>(total) : 0.0F;
-    uint8_t* out = rows->mass.data() + i * rows->stride;
-    for (size_t c = 0; c < rows->stride; ++c) {
-      out[c] =
-          static_cast<uint8_t>(static_cast<int32_t>(static_cast<float>(sum[c + 1]) * scale + 0.5F));
-    }
+    ToMasses(sum.data(), scale, walked->stride, walked->mass.get() + i * walked->stride);
   }
 }
 
+// Every pixel's leaves and masses from those of the pixel that walked for it.
+void Expand(const SparsePixels& sparse, size_t trees, Walked* walked, Classification* result) {
+  if (sparse.from.empty()) {
+    result->leaf = walked->leaf;
+    return;
+  }
+  const size_t stride = walked->stride;
+  auto mass = std::make_unique_for_overwrite<uint8_t[]>(sparse.from.size() * stride);
+  result->leaf.resize(sparse.from.size() * trees);
+  for (size_t i = 0; i < sparse.from.size(); ++i) {
+    const auto from = static_cast<size_t>(sparse.from[i]);
+    std::copy_n(walked->mass.get() + from * stride, stride, mass.get() + i * stride);
+    std::copy_n(walked->leaf.data() + from * trees, trees, result->leaf.data() + i * trees);
+  }
+  walked->mass = std::move(mass);
+}
+
+OSSA_CLONES uint32_t SumOf(const uint16_t* mass, size_t count) {
+  uint32_t total = 0;
+  for (size_t c = 0; c < count; ++c) total += mass[c];
+  return total;
+}
+
+OSSA_CLONES uint16_t LargestOf(const uint16_t* mass, size_t count) {
+  uint16_t largest = 0;
+  for (size_t c = 0; c < count; ++c) largest = mass[c] > largest ? mass[c] : largest;
+  return largest;
+}
+
+OSSA_CLONES void Scale(const uint16_t* mass, float scale, size_t count, float* out) {
+  for (size_t c = 0; c < count; ++c) out[c] = static_cast<float>(mass[c]) * scale;
+}
+
 // Probabilities and labels of pixels [first, last) from smoothed masses.
-void Conclude(const std::vector<uint16_t>& smooth, size_t stride, std::array<size_t, 2> range,
+void Conclude(const uint16_t* smooth, size_t stride, std::array<size_t, 2> range,
               Classification* result) {
   const auto classes = static_cast<size_t>(result->class_count);
   for (size_t i = range[0]; i < range[1]; ++i) {
-    const uint16_t* mass = smooth.data() + i * stride;
-    uint32_t total = 0;
-    for (size_t c = 0; c < stride; ++c) total += mass[c];
+    const uint16_t* mass = smooth + i * stride;
+    const uint32_t total = SumOf(mass, stride);
     const float scale = total > 0 ? 1.0F / static_cast<float>(total) : 0.0F;
-    float* out = result->probability.data() + i * classes;
-    for (size_t c = 1; c < classes; ++c) out[c] = static_cast<float>(mass[c - 1]) * scale;
-    const auto best = std::max_element(mass, mass + classes - 1);
+    Scale(mass, scale, classes - 1, result->probability.data() + i * classes + 1);
+    const auto best = std::find(mass, mass + classes - 1, LargestOf(mass, stride));
     result->label[i] = static_cast<uint8_t>(total > 0 ? best - mass + 1 : 0);
   }
 }
 
-int SmoothRadius_px(const ObjectImage& image, const depth::Camera& camera,
-                    std::span<const int32_t> position, double radius_m) {
+// Metres of surface between neighbouring pixels, at the object's mean depth; 0 without pixels.
+double Pitch_m(const ObjectImage& image, const depth::Camera& camera,
+               std::span<const int32_t> position) {
   int64_t sum_mm = 0;
   for (const int32_t p : position) sum_mm += image.depth_mm[image.At(p & 0xffff, p >> 16)];
-  if (sum_mm == 0) return 0;
-  const double mean_m = 1e-3 * static_cast<double>(sum_mm) / static_cast<double>(position.size());
-  return static_cast<int>(std::lround(std::min(radius_m * camera.fx / mean_m, 1e6)));
+  if (sum_mm == 0) return 0.0;
+  return 1e-3 * static_cast<double>(sum_mm) / static_cast<double>(position.size()) / camera.fx;
+}
+
+int InPixels(double length_m, double pitch_m) {
+  return pitch_m > 0 ? static_cast<int>(std::min(length_m / pitch_m, 1e6)) : 0;
 }
 
 template <typename Function>
@@ -162,32 +223,37 @@ Classification Classify(const ForestModel& model, const depth::DepthView& depth,
   const size_t count = result.pixel.size();
   const ObjectImage image = CutOut(depth, camera, result.pixel, model.data().background_mm);
   const std::vector<int32_t> position = BoxPositions(image, depth.width, result.pixel);
-  result.leaf.resize(count * trees);
+  const double pitch_m = Pitch_m(image, camera, position);
+  const SparsePixels sparse =
+      ChooseSparse(image, position, std::clamp(InPixels(options.fine_m, pitch_m), 1, kMostSparse));
+  Walked walked;
+  walked.stride = (static_cast<size_t>(result.class_count) + 14) / 16 * 16;
+  const size_t walkers = sparse.position.size();
+  walked.leaf.resize(walkers * trees);
   const auto walk = options.instructions == InstructionSet::kScalar ? WalkScalar : Walk;
-  ForRanges(count, options.threads, [&](size_t first, size_t last) {
+  ForRanges(walkers, options.threads, [&](size_t first, size_t last) {
     for (size_t t = 0; t < trees; ++t) {
       walk({model.data().trees[t].nodes.data(), &image,
-            std::span(position).subspan(first, last - first)},
-           result.leaf.data() + first * trees + t, trees);
+            std::span(sparse.position).subspan(first, last - first)},
+           walked.leaf.data() + first * trees + t, trees);
     }
   });
   const bool known = options.context_prior.size() == static_cast<size_t>(model.context_count());
   result.context = ContextPosterior(
-      model, result, known ? options.context_prior : std::span(model.data().context_prior));
+      model, walked, known ? options.context_prior : std::span(model.data().context_prior));
   const std::vector<ActiveContext> active = ActiveContexts(result.context);
-  MassRows rows;
-  rows.stride = (static_cast<size_t>(result.class_count) + 14) / 16 * 16;
-  rows.mass.resize(count * rows.stride);
-  ForRanges(count, options.threads, [&](size_t first, size_t last) {
-    MixLeaves(model, active, result, {first, last}, &rows);
+  walked.mass = std::make_unique_for_overwrite<uint8_t[]>(walkers * walked.stride);
+  ForRanges(walkers, options.threads, [&](size_t first, size_t last) {
+    MixLeaves(model, active, {first, last}, &walked);
   });
-  const std::vector<uint16_t> smooth =
-      SmoothMasses({&image, position, rows.mass.data(), rows.stride},
-                   SmoothRadius_px(image, camera, position, options.smoothing_m));
+  Expand(sparse, trees, &walked, &result);
+  const std::unique_ptr<uint16_t[]> smooth =
+      SmoothMasses({&image, position, walked.mass.get(), walked.stride},
+                   InPixels(options.smoothing_m + pitch_m / 2, pitch_m));
   result.probability.resize(count * static_cast<size_t>(result.class_count));
   result.label.resize(count);
   ForRanges(count, options.threads, [&](size_t first, size_t last) {
-    Conclude(smooth, rows.stride, {first, last}, &result);
+    Conclude(smooth.get(), walked.stride, {first, last}, &result);
   });
   return result;
 }

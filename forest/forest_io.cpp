@@ -1,4 +1,5 @@
 #include <zstd.h>
+
 #include <array>
 #include <cstring>
 #include <fstream>

@@ -1,4 +1,5 @@
 #include <bit>
+#include <cstring>
 
 #include "forest/clones_internal.h"
 #include "forest/propose_internal.h"
@@ -10,37 +11,43 @@ namespace {
 
 constexpr size_t kLanes = 8;
 
+using Lanes = float __attribute__((vector_size(kLanes * sizeof(float))));
+
 struct LaneSums {
-  float density[kLanes] = {};
-  float x[kLanes] = {};
-  float y[kLanes] = {};
-  float z[kLanes] = {};
+  Lanes density = {};
+  Lanes x = {};
+  Lanes y = {};
+  Lanes z = {};
 };
 
 // Departure: the Gaussian exp(-r²/2b²) is taken as (1 - r²/(16 b²))^8, which is within 0.03 of it,
 // is zero beyond 4 b, and needs no exponential.
 OSSA_CLONES void Accumulate(const float* x, const float* y, const float* z, const float* w,
-                            size_t blocks, const float* at, float inverse, LaneSums* sums) {
-  for (size_t b = 0; b < blocks; ++b) {
-    for (size_t l = 0; l < kLanes; ++l) {
-      const size_t i = b * kLanes + l;
-      const float dx = x[i] - at[0];
-      const float dy = y[i] - at[1];
-      const float dz = z[i] - at[2];
-      float k = 1.0F - (dx * dx + dy * dy + dz * dz) * inverse;
-      k = k > 0.0F ? k : 0.0F;
-      k *= k;
-      k *= k;
-      k *= k * w[i];
-      sums->density[l] += k;
-      sums->x[l] += k * x[i];
-      sums->y[l] += k * y[i];
-      sums->z[l] += k * z[i];
-    }
+                            size_t blocks, const float* at, float inverse, LaneSums* out) {
+  LaneSums sums = *out;
+  for (size_t i = 0; i < blocks * kLanes; i += kLanes) {
+    Lanes px, py, pz, weight;
+    std::memcpy(&px, x + i, sizeof(Lanes));
+    std::memcpy(&py, y + i, sizeof(Lanes));
+    std::memcpy(&pz, z + i, sizeof(Lanes));
+    std::memcpy(&weight, w + i, sizeof(Lanes));
+    const Lanes dx = px - at[0];
+    const Lanes dy = py - at[1];
+    const Lanes dz = pz - at[2];
+    Lanes k = 1.0F - (dx * dx + dy * dy + dz * dz) * inverse;
+    k = k > 0.0F ? k : Lanes{};
+    k *= k;
+    k *= k;
+    k *= k * weight;
+    sums.density += k;
+    sums.x += k * px;
+    sums.y += k * py;
+    sums.z += k * pz;
   }
+  *out = sums;
 }
 
-float Sum(const float* lane) {
+float Sum(const Lanes& lane) {
   float total = 0.0F;
   for (size_t l = 0; l < kLanes; ++l) total += lane[l];
   return total;

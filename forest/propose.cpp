@@ -20,7 +20,7 @@ constexpr float kReferenceArea_m2 = 0.004F;  // A0: about the seen surface of an
 constexpr size_t kStarts = 12;
 constexpr size_t kClimbs = 3;
 constexpr int kMaxSteps = 20;
-constexpr float kStopStep_m = 5e-4F;
+constexpr float kStopStep_m = 2e-3F;  // the mode is then within a centimetre at most
 
 struct TargetPoints {
   WeightedPoints points;
@@ -54,6 +54,9 @@ void AddVotes(const Evidence& evidence, const ProposalTarget& target, size_t ind
     out->vote_total += weight;
   }
   if (out->vote_total <= 0) return;
+  // Most votes are vague and weigh next to nothing: those of a fifth of the mean are left out.
+  const float mean = out->vote_total / static_cast<float>(out->points.size() - first);
+  out->points.KeepHeavier(first, 0.2F * mean);
   for (size_t i = first; i < out->points.size(); ++i) out->points.weight[i] /= out->vote_total;
 }
 

@@ -19,6 +19,18 @@ struct WeightedPoints {
     z.push_back(p_m.z());
     weight.push_back(w);
   }
+  /// Drops the points from number `first` on that weigh less.
+  void KeepHeavier(size_t first, float least) {
+    size_t kept = first;
+    for (size_t i = first; i < size(); ++i) {
+      if (weight[i] < least) continue;
+      x[kept] = x[i];
+      y[kept] = y[i];
+      z[kept] = z[i];
+      weight[kept++] = weight[i];
+    }
+    for (auto* values : {&x, &y, &z, &weight}) values->resize(kept);
+  }
   size_t size() const { return x.size(); }
   Eigen::Vector3f at(size_t i) const { return {x[i], y[i], z[i]}; }
 };

@@ -1,3 +1,5 @@
+#include <sys/mman.h>
+
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -10,7 +12,6 @@ namespace {
 constexpr int kMaxCells = 512;      // context × class, 9 bits of an entry
 constexpr float kSmoothing = 3.0F;  // entry weights (of 127) by which a leaf's own mix of classes
                                     // stands in where a context was hardly seen
-constexpr size_t kMaxShares = 8;    // classes kept a leaf and context; the rest is below 1 %
 
 struct LeafCells {
   std::array<float, kMaxCells> weight{};
@@ -51,21 +52,40 @@ void AppendEvidence(const LeafCells& cells, const ForestData& data, std::vector<
 }
 
 // P(class | leaf, context), smoothed by P(class | leaf), as the largest shares of 255.
-void AppendShares(const LeafCells& cells, size_t context, LeafTables* tables) {
+ShareRow SharesOf(const LeafCells& cells, size_t context) {
   const size_t classes = cells.class_weight.size();
   std::vector<std::pair<float, uint8_t>> shares;
   const float whole = cells.context_weight[context] + kSmoothing;
-  for (size_t c = 0; c < classes; ++c) {
+  for (size_t c = 1; c < classes; ++c) {
     const float prior = cells.total > 0 ? cells.class_weight[c] / cells.total : 0.0F;
     const float p = (cells.weight[context * classes + c] + kSmoothing * prior) / whole;
-    if (p > 0.004F) shares.emplace_back(-p, static_cast<uint8_t>(c));
+    if (p > 0.004F) shares.emplace_back(-p, static_cast<uint8_t>(c - 1));
   }
   std::sort(shares.begin(), shares.end());
-  if (shares.size() > kMaxShares) shares.resize(kMaxShares);
-  for (const auto& [p, c] : shares) {
-    tables->shares.push_back({c, static_cast<uint8_t>(std::lround(-p * 255.0F))});
+  ShareRow row;
+  for (size_t i = 0; i < std::min(kMostShares, shares.size()); ++i) {
+    row.column[i] = shares[i].second;
+    row.share[i] = static_cast<uint8_t>(std::lround(-shares[i].first * 255.0F));
   }
-  tables->share_begin.push_back(static_cast<uint32_t>(tables->shares.size()));
+  return row;
+}
+
+// Trees and tables are read at random places; with pages of 4 kB most reads would miss the
+// translation cache first. A wish: where the system refuses, all is as good but slower.
+template <typename T>
+void PreferLargePages(const std::vector<T>& table) {
+#if defined(__linux__)
+  constexpr int kCollapse = 25;  // MADV_COLLAPSE of Linux 6.1, missing in older headers
+  constexpr uintptr_t kPage = uintptr_t{2} << 20U;
+  const auto begin = (reinterpret_cast<uintptr_t>(table.data()) + kPage - 1) / kPage * kPage;
+  const auto end = reinterpret_cast<uintptr_t>(table.data() + table.size()) / kPage * kPage;
+  if (begin >= end) return;
+  auto* memory = reinterpret_cast<void*>(begin);
+  madvise(memory, end - begin, MADV_HUGEPAGE);
+  madvise(memory, end - begin, kCollapse);
+#else
+  static_cast<void>(table);
+#endif
 }
 
 // Variance of the difference of two targets' positions, summed over contexts and axes.
@@ -131,15 +151,20 @@ RuntimeTables MakeRuntimeTables(const ForestData& data) {
   const size_t contexts = data.context_names.size();
   for (const Tree& tree : data.trees) {
     LeafTables leaves;
-    leaves.share_begin.push_back(0);
+    leaves.shares.resize(contexts * tree.leaf_count());
     for (size_t leaf = 0; leaf < tree.leaf_count(); ++leaf) {
       const LeafCells cells = CellsOf(tree, leaf, classes, contexts);
       AppendEvidence(cells, data, &leaves.evidence);
-      for (size_t k = 0; k < contexts; ++k) AppendShares(cells, k, &leaves);
+      for (size_t k = 0; k < contexts; ++k) {
+        leaves.shares[k * tree.leaf_count() + leaf] = SharesOf(cells, k);
+      }
     }
     size_t rows = 0;
     leaves.vote_row = VoteRows(tree, &rows);
     if (tree.votes.empty()) std::fill(leaves.vote_row.begin(), leaves.vote_row.end(), -1);
+    PreferLargePages(tree.nodes);
+    PreferLargePages(leaves.shares);
+    PreferLargePages(leaves.evidence);
     tables.leaves.push_back(std::move(leaves));
   }
   tables.neighbours = Neighbours(data);

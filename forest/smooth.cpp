@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <array>
 #include <cstdlib>
+#include <memory>
 
 #include "forest/clones_internal.h"
 
@@ -53,9 +54,11 @@ OSSA_CLONES void SubtractRows(const uint16_t* high, const uint16_t* low, size_t 
   for (size_t c = 0; c < stride; ++c) out[c] = static_cast<uint16_t>(high[c] - low[c]);
 }
 
-std::vector<uint16_t> AverageRows(const MassImage& masses, int radius_px) {
+using Masses = std::unique_ptr<uint16_t[]>;
+
+Masses AverageRows(const MassImage& masses, int radius_px) {
   const size_t count = masses.position.size();
-  std::vector<uint16_t> averaged(count * masses.stride);
+  auto averaged = std::make_unique_for_overwrite<uint16_t[]>(count * masses.stride);
   std::vector<uint16_t> sum(static_cast<size_t>(masses.image->width + 1) * masses.stride);
   for (size_t begin = 0; begin < count;) {
     size_t end = begin + 1;
@@ -67,7 +70,7 @@ std::vector<uint16_t> AverageRows(const MassImage& masses, int radius_px) {
     }
     PrefixRun(masses.mass + begin * masses.stride, end - begin, masses.stride, sum.data());
     AverageRun(sum.data(), static_cast<int>(end - begin), masses.stride, radius_px,
-               averaged.data() + begin * masses.stride);
+               averaged.get() + begin * masses.stride);
     begin = end;
   }
   return averaged;
@@ -112,10 +115,10 @@ Columns LinkColumns(const MassImage& masses) {
 
 }  // namespace
 
-std::vector<uint16_t> SmoothMasses(const MassImage& masses, int radius_px) {
+std::unique_ptr<uint16_t[]> SmoothMasses(const MassImage& masses, int radius_px) {
   const int radius = std::clamp(radius_px, 0, kMaxSmoothRadius_px);
   const size_t stride = masses.stride;
-  std::vector<uint16_t> sum = AverageRows(masses, radius);
+  const Masses sum = AverageRows(masses, radius);
   const Columns columns = LinkColumns(masses);
   const int width = masses.image->width;
   const auto row = [&](int32_t x, int32_t y) {
@@ -124,17 +127,17 @@ std::vector<uint16_t> SmoothMasses(const MassImage& masses, int radius_px) {
   for (size_t i = 0; i < masses.position.size(); ++i) {  // prefix sums, modulo 2^16
     if (columns.above[i] == 0) continue;
     const int32_t p = masses.position[i];
-    AddRow(sum.data() + i * stride, sum.data() + row(p & 0xffff, (p >> 16) - 1), stride);
+    AddRow(sum.get() + i * stride, sum.get() + row(p & 0xffff, (p >> 16) - 1), stride);
   }
   const std::vector<uint16_t> zeros(stride, 0);
-  std::vector<uint16_t> out(sum.size());
+  auto out = std::make_unique_for_overwrite<uint16_t[]>(masses.position.size() * stride);
   for (size_t i = 0; i < masses.position.size(); ++i) {
     const int32_t x = masses.position[i] & 0xffff;
     const int32_t y = masses.position[i] >> 16;
-    const uint16_t* high = sum.data() + row(x, y + std::min<int>(radius, columns.below[i]));
+    const uint16_t* high = sum.get() + row(x, y + std::min<int>(radius, columns.below[i]));
     const uint16_t* low =
-        columns.above[i] > radius ? sum.data() + row(x, y - radius - 1) : zeros.data();
-    SubtractRows(high, low, stride, out.data() + i * stride);
+        columns.above[i] > radius ? sum.get() + row(x, y - radius - 1) : zeros.data();
+    SubtractRows(high, low, stride, out.get() + i * stride);
   }
   return out;
 }

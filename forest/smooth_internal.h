@@ -1,7 +1,7 @@
 #pragma once
 #include <cstdint>
+#include <memory>
 #include <span>
-#include <vector>
 
 #include "forest/feature_internal.h"
 
@@ -19,7 +19,7 @@ struct MassImage {
 
 /// Every pixel's masses averaged over the rows of a square window around it, rows added up (× 4).
 /// A window ends where the object does and where the depth jumps. Integers: the same bits on every
-/// machine.
-std::vector<uint16_t> SmoothMasses(const MassImage& masses, int radius_px);
+/// machine. Pixel × stride.
+std::unique_ptr<uint16_t[]> SmoothMasses(const MassImage& masses, int radius_px);
 
 }  // namespace ossa::forest

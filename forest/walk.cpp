@@ -17,19 +17,22 @@ ObjectImage CutOut(const depth::DepthView& depth, const depth::Camera& camera,
   image.u0 = depth.width;
   image.v0 = pixels.empty() ? 0 : pixels.front() / depth.width;
   const int v1 = pixels.empty() ? -1 : pixels.back() / depth.width;
+  int32_t row_begin = image.v0 * depth.width;  // pixels ascend: no division
   for (const int32_t pixel : pixels) {
-    const int u = pixel % depth.width;
-    image.u0 = std::min(image.u0, u);
-    u1 = std::max(u1, u);
+    while (pixel >= row_begin + depth.width) row_begin += depth.width;
+    image.u0 = std::min(image.u0, pixel - row_begin);
+    u1 = std::max(u1, pixel - row_begin);
   }
   image.width = std::max(0, u1 - image.u0 + 1);
   image.height = v1 - image.v0 + 1;
   image.depth_mm.assign(
       static_cast<size_t>(image.stride()) * static_cast<size_t>(image.height + 2) + 2,
       background_mm);
+  int v = image.v0;
+  row_begin = image.v0 * depth.width;
   for (const int32_t pixel : pixels) {
-    const int u = pixel % depth.width;
-    const int v = pixel / depth.width;
+    for (; pixel >= row_begin + depth.width; row_begin += depth.width) ++v;
+    const int u = pixel - row_begin;
     const uint16_t mm = depth.at(u, v);
     if (mm != 0) image.depth_mm[image.At(u - image.u0, v - image.v0)] = std::min(mm, background_mm);
   }
@@ -120,6 +123,12 @@ __attribute__((target("avx2"), always_inline)) inline int StepDown(const Node* n
   const __m256i offset_v = _mm256_unpackhi_epi64(t0, t1);
   const __m256i packed_threshold = _mm256_unpacklo_epi64(t2, t3);
   const __m256i left = _mm256_unpackhi_epi64(t2, t3);
+  // Both children stand together: they are on their way before it is known which of them is next.
+  alignas(32) int child_index[8];
+  _mm256_store_si256(reinterpret_cast<__m256i*>(child_index), left);
+  for (const int i : child_index) {
+    _mm_prefetch(reinterpret_cast<const char*>(nodes + std::max(i, 0)), _MM_HINT_T0);
+  }
   const __m256i response =
       _mm256_sub_epi32(ReadProbe(box, *lanes, offset_u), ReadProbe(box, *lanes, offset_v));
   const __m256i threshold = _mm256_srai_epi32(_mm256_slli_epi32(packed_threshold, 16), 16);

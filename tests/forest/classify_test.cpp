@@ -1,0 +1,106 @@
+#include "forest/classify.h"
+
+#include <gtest/gtest.h>
+
+#include "forest/sparse_internal.h"
+#include "tests/forest/ball_figure.h"
+
+namespace ossa::forest {
+namespace {
+
+using test::BallFigures;
+using test::BallModel;
+
+Classification ClassifyFigure(const TrainingImage& image, const ClassifyOptions& options) {
+  return Classify(BallModel(), test::ViewOf(image), image.camera, test::ObjectPixels(image),
+                  options);
+}
+
+TEST(Classify, GivesTheSameBitsOnEveryPath) {
+  const BallFigures figures(20, 31);
+  for (const double fine_m : {0.0, 0.03}) {
+    for (size_t i = 0; i < figures.size(); ++i) {
+      const TrainingImage image = figures.Read(i);
+      ClassifyOptions options;
+      options.fine_m = fine_m;
+      const Classification best = ClassifyFigure(image, options);
+      options.instructions = InstructionSet::kScalar;
+      options.threads = 3;
+      const Classification scalar = ClassifyFigure(image, options);
+      EXPECT_EQ(best.label, scalar.label);
+      EXPECT_EQ(best.probability, scalar.probability);
+      EXPECT_EQ(best.context, scalar.context);
+      EXPECT_EQ(best.leaf, scalar.leaf);
+    }
+  }
+}
+
+TEST(Classify, RowsOfProbabilitiesSumToOne) {
+  const TrainingImage image = BallFigures(1, 8).Read(0);
+  const Classification result = ClassifyFigure(image, {});
+  for (size_t i = 0; i < result.pixel.size(); ++i) {
+    float sum = 0;
+    for (int c = 0; c < result.class_count; ++c) {
+      sum +=
+          result.probability[i * static_cast<size_t>(result.class_count) + static_cast<size_t>(c)];
+    }
+    EXPECT_NEAR(sum, 1.0F, 1e-5F);  // of five floats
+  }
+}
+
+TEST(Classify, LetsFewPixelsSpeakForTheirNeighbours) {
+  const BallFigures figures(20, 12, 256);  // a pixel is about 8 mm
+  int64_t same = 0;
+  int64_t all = 0;
+  for (size_t i = 0; i < figures.size(); ++i) {
+    const TrainingImage image = figures.Read(i);
+    ClassifyOptions options;
+    options.fine_m = 0.0;
+    const Classification each = ClassifyFigure(image, options);
+    options.fine_m = 0.02;
+    const Classification few = ClassifyFigure(image, options);
+    for (size_t p = 0; p < each.label.size(); ++p) same += each.label[p] == few.label[p] ? 1 : 0;
+    all += static_cast<int64_t>(each.label.size());
+  }
+  // What changes lies at the edges of the balls, a pixel wide: 3 % of a ball 60 pixels across.
+  EXPECT_GT(static_cast<double>(same) / static_cast<double>(all), 0.97);
+}
+
+// A flat board of 6 × 4 pixels, the right half 20 cm behind the left.
+ObjectImage SteppedBoard(std::vector<int32_t>* position) {
+  ObjectImage image;
+  image.width = 6;
+  image.height = 4;
+  image.depth_mm.assign(8 * 6 + 2, 10000);
+  for (int y = 0; y < 4; ++y) {
+    for (int x = 0; x < 6; ++x) {
+      image.depth_mm[image.At(x, y)] = x < 3 ? 2000 : 2200;
+      position->push_back(y << 16 | x);
+    }
+  }
+  return image;
+}
+
+TEST(ChooseSparse, OnePixelOfFourWalksAndNoneSpeaksAcrossAnEdge) {
+  std::vector<int32_t> position;
+  const ObjectImage image = SteppedBoard(&position);
+  const SparsePixels sparse = ChooseSparse(image, position, 2);
+  // Of 3 × 2 squares one walks each; in the middle squares both pixels of column 3 walk too.
+  EXPECT_EQ(sparse.position.size(), 6U + 4U);
+  ASSERT_EQ(sparse.from.size(), position.size());
+  for (size_t i = 0; i < position.size(); ++i) {
+    const int32_t walker = sparse.position[static_cast<size_t>(sparse.from[i])];
+    const int32_t p = position[i];
+    EXPECT_EQ(image.depth_mm[image.At(p & 0xffff, p >> 16)],
+              image.depth_mm[image.At(walker & 0xffff, walker >> 16)]);
+  }
+}
+
+TEST(ChooseSparse, EveryPixelWalksAtStepOne) {
+  std::vector<int32_t> position;
+  const ObjectImage image = SteppedBoard(&position);
+  EXPECT_EQ(ChooseSparse(image, position, 1).position, position);
+}
+
+}  // namespace
+}  // namespace ossa::forest
