@@ -3,6 +3,7 @@
 #include <cmath>
 #include <tuple>
 
+#include "depth/scene/pieces.h"
 #include "depth/scene/scene.h"
 
 namespace ossa::depth {
@@ -15,10 +16,18 @@ struct Match {
   size_t track, person;
 };
 
-Vector3f Predicted(const UserTrack& user, double time_s) {
-  // A person does not keep walking straight for long: predict for at most half a second.
-  const auto dt = static_cast<float>(std::clamp(time_s - user.seen_s, 0.0, 0.5));
-  return user.mean_m + dt * user.velocity_m_s;
+// How far a person is from where a user is expected. Of somebody half hidden the middle of what is
+// seen lies too high or too low: height says little.
+double OffPredicted_m(const UserTrack& user, const Region& region, double time_s) {
+  Vector3f off = PredictedMean_m(user, time_s) - region.mean_m;
+  off.y() *= 0.3F;
+  return static_cast<double>(off.norm());
+}
+
+double Gate_m(const UserTrack& user, double time_s, const SceneOptions& options) {
+  const double gone_s = std::max(0.0, time_s - user.seen_s);
+  return static_cast<double>(options.return_gate_m) +
+         static_cast<double>(options.return_speed_m_s) * gone_s;
 }
 
 // Cells both hold, as a share of the smaller.
@@ -44,9 +53,9 @@ std::vector<Match> PossibleMatches(const Scene& scene, const std::vector<const C
   for (size_t t = 0; t < state.users.size(); ++t) {
     const UserTrack& user = state.users[t];
     const double gone_s = std::max(0.0, time_s - user.seen_s);
-    const double gate = options.return_gate_m + options.return_speed_m_s * gone_s;
+    const double gate = Gate_m(user, time_s, options);
     for (size_t p = 0; p < people.size(); ++p) {
-      const double off = (Predicted(user, time_s) - people[p]->region.mean_m).norm();
+      const double off = OffPredicted_m(user, people[p]->region, time_s);
       const double overlap = gone_s < 0.5 ? Overlap(scene.grid, user, *people[p]) : 0.0;
       if (off > gate && overlap < 0.3) continue;
       matches.push_back({off / gate - 2 * overlap, t, p});
@@ -58,17 +67,35 @@ std::vector<Match> PossibleMatches(const Scene& scene, const std::vector<const C
   return matches;
 }
 
+// While a good part of a person is hidden, the middle of the rest moves as the hiding thing does:
+// the person is taken to go on as before, near what is seen of them.
+void MoveHidden(UserTrack& user, const Region& region, double time_s) {
+  constexpr float kFarthest_m = 0.35F;
+  const Vector3f expected = PredictedMean_m(user, time_s) - region.mean_m;
+  const float far_m = expected.norm();
+  user.mean_m = region.mean_m + (far_m > kFarthest_m ? kFarthest_m / far_m : 1.0F) * expected;
+}
+
 void Renew(UserTrack& user, const PointGrid& grid, const Region& region, double time_s) {
+  constexpr float kHidden = 0.8F;  // of the surface seen lately
+  const bool hidden = region.area_m2 < kHidden * user.full_m2;
   const auto dt = static_cast<float>(time_s - user.seen_s);
-  if (!user.cells.empty() && dt > 1e-3F && dt < 0.5F) {
-    const Vector3f velocity = (region.mean_m - user.mean_m) / dt;
+  if (user.cells.empty() || dt <= 1e-3F || dt >= 0.5F) {
+    user.velocity_m_s.setZero();
+  } else if (!hidden) {
+    Vector3f velocity = (region.mean_m - user.mean_m) / dt;
+    velocity.y() = 0;  // nobody flies
     // Half of a new velocity each frame; nobody runs faster than 4 m/s in view of a Kinect.
     user.velocity_m_s = 0.5F * (user.velocity_m_s + velocity);
     if (user.velocity_m_s.norm() > 4) user.velocity_m_s *= 4 / user.velocity_m_s.norm();
-  } else {
-    user.velocity_m_s.setZero();
   }
-  user.mean_m = region.mean_m;
+  if (hidden && !user.cells.empty()) {
+    MoveHidden(user, region, time_s);
+  } else {
+    user.mean_m = region.mean_m;
+  }
+  constexpr float kForget = 0.99F;  // who turns sideways shows less for long
+  user.full_m2 = std::max(region.area_m2, kForget * user.full_m2);
   user.cells = region.cells;
   user.z_m.clear();
   for (const int cell : user.cells) user.z_m.push_back(grid.z(cell));
@@ -76,6 +103,17 @@ void Renew(UserTrack& user, const PointGrid& grid, const Region& region, double 
 }
 
 }  // namespace
+
+Vector3f PredictedMean_m(const UserTrack& user, double time_s) {
+  // A person does not keep walking straight for long: predict for at most half a second.
+  const auto dt = static_cast<float>(std::clamp(time_s - user.seen_s, 0.0, 0.5));
+  return user.mean_m + dt * user.velocity_m_s;
+}
+
+bool MayReturnAs(const UserTrack& user, const Region& region, double time_s,
+                 const SceneOptions& options) {
+  return OffPredicted_m(user, region, time_s) < Gate_m(user, time_s, options);
+}
 
 std::vector<int> ConfirmUsers(const Scene& scene, const std::vector<const Candidate*>& people,
                               double time_s, SceneState& state, const SceneOptions& options) {

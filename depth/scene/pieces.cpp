@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <span>
 
 #include "depth/scene/heads.h"
@@ -35,6 +36,23 @@ int MostlyOf(const Region& region, const std::vector<int>& owner, size_t users) 
     if (2 * overlap[u].size() >= region.cells.size()) return static_cast<int>(u);
   }
   return -1;
+}
+
+// Somebody comes out from behind somebody else in pieces: a piece that was nobody's is the user's
+// of whom a good part is still hidden, if it is where the user is expected and not more than the
+// user lacks. users.size() for none.
+size_t ComesOutAs(const Region& piece, const std::vector<Region>& owned,
+                  const std::vector<int>& home, const std::vector<UserTrack>& users,
+                  double time_s) {
+  constexpr float kHidden = 0.75F, kAside_m = 0.35F, kBehind_m = 0.25F;
+  for (size_t u = 0; u < users.size(); ++u) {
+    if (home[u] < 0) continue;
+    const float seen_m2 = owned[static_cast<size_t>(home[u])].area_m2, full_m2 = users[u].full_m2;
+    if (seen_m2 > kHidden * full_m2 || seen_m2 + piece.area_m2 > 1.1F * full_m2) continue;
+    const Eigen::Vector3f off = PredictedMean_m(users[u], time_s) - piece.mean_m;
+    if (std::abs(off.x()) < kAside_m && std::abs(off.z()) < kBehind_m) return u;
+  }
+  return users.size();
 }
 
 // The seeds a head is nearest to, if it could be theirs: a running person's head moves 15 cm from
@@ -145,25 +163,37 @@ std::vector<Region> JoinPieces(const PointGrid& grid, std::vector<Region> region
 }
 
 std::vector<Region> JoinByHistory(const PointGrid& grid, std::vector<Region> regions,
-                                  const std::vector<int>& owner, size_t users) {
-  std::vector<int> home(users, -1);
-  std::vector<Region> result;
+                                  const std::vector<int>& owner,
+                                  const std::vector<UserTrack>& users, double time_s) {
+  std::vector<int> home(users.size(), -1);
+  std::vector<Region> owned, others;
   for (Region& region : regions) {
-    const auto overlap = Overlaps(region, owner, users);
-    int join = -1;
-    for (size_t u = 0; u < users; ++u) {
-      if (overlap[u].size() * 2 < region.cells.size()) continue;
-      if (home[u] >= 0)
-        join = home[u];
-      else
-        home[u] = static_cast<int>(result.size());
-    }
-    if (join >= 0) {
-      result[static_cast<size_t>(join)] = Joined(grid, result[static_cast<size_t>(join)], region);
+    const int user = MostlyOf(region, owner, users.size());
+    int* place = user < 0 ? nullptr : &home[static_cast<size_t>(user)];
+    if (place == nullptr) {
+      others.push_back(std::move(region));
+    } else if (*place < 0) {
+      *place = static_cast<int>(owned.size());
+      owned.push_back(std::move(region));
     } else {
-      result.push_back(std::move(region));
+      Region& whole = owned[static_cast<size_t>(*place)];
+      whole = Joined(grid, whole, region);
     }
   }
+  std::vector<Region> result;
+  for (Region& region : others) {
+    const size_t u = ComesOutAs(region, owned, home, users, time_s);
+    if (u == users.size()) {
+      result.push_back(std::move(region));
+    } else {
+      Region& whole = owned[static_cast<size_t>(home[u])];
+      whole = Joined(grid, whole, region);
+    }
+  }
+  result.insert(result.end(), std::make_move_iterator(owned.begin()),
+                std::make_move_iterator(owned.end()));
+  std::stable_sort(result.begin(), result.end(),
+                   [](const Region& a, const Region& b) { return a.area_m2 > b.area_m2; });
   return result;
 }
 

@@ -29,9 +29,17 @@ std::vector<Region> JoinPieces(const PointGrid& grid, std::vector<Region> region
                                const std::vector<int>& owner, size_t users);
 
 /// Pieces that mostly cover where one user was belong together: an arm of somebody in front may cut
-/// a body in two.
+/// a body in two. So do pieces that come out where somebody half hidden is. Largest first.
 std::vector<Region> JoinByHistory(const PointGrid& grid, std::vector<Region> regions,
-                                  const std::vector<int>& owner, size_t users);
+                                  const std::vector<int>& owner,
+                                  const std::vector<UserTrack>& users, double time_s);
+
+/// Where a user's middle is expected.
+Eigen::Vector3f PredictedMean_m(const UserTrack& user, double time_s);
+
+/// True where a user who is out of view is expected about now.
+bool MayReturnAs(const UserTrack& user, const Region& region, double time_s,
+                 const SceneOptions& options);
 
 /// Who is in one region: users of before by the cells they held, newcomers by their heads.
 std::vector<Seed> SeedsOf(const PointGrid& grid, const Region& region,

@@ -128,6 +128,18 @@ void ContinueTracks(const std::vector<int>& owner, const std::vector<UserTrack>&
   }
 }
 
+void MarkReturning(const std::vector<UserTrack>& users, double time_s, const SceneOptions& options,
+                   std::vector<Candidate>& candidates) {
+  for (size_t u = 0; u < users.size(); ++u) {
+    const auto goes_on = [u](const Candidate& c) { return c.track == static_cast<int>(u); };
+    if (std::any_of(candidates.begin(), candidates.end(), goes_on)) continue;
+    for (Candidate& candidate : candidates) {
+      if (candidate.track < 0 && MayReturnAs(users[u], candidate.region, time_s, options))
+        candidate.returning = true;
+    }
+  }
+}
+
 }  // namespace
 
 Scene FindCandidates(const DepthFrame& frame, const SceneState& state, SceneState& next,
@@ -150,7 +162,7 @@ Scene FindCandidates(const DepthFrame& frame, const SceneState& state, SceneStat
   constexpr float kSpeck_m2 = 0.004F;  // a fist has 0.006
   std::vector<Region> regions = ConnectedRegions(scene.grid, ignore, kSpeck_m2);
   regions = JoinPieces(scene.grid, std::move(regions), owner, next.users.size());
-  regions = JoinByHistory(scene.grid, std::move(regions), owner, next.users.size());
+  regions = JoinByHistory(scene.grid, std::move(regions), owner, next.users, frame.time_s);
   for (size_t r = 0; r < regions.size(); ++r) {
     if (!PersonSized(regions[r], options)) continue;
     const auto seeds = SeedsOf(scene.grid, regions[r], owner, next.users.size(), options);
@@ -166,6 +178,7 @@ Scene FindCandidates(const DepthFrame& frame, const SceneState& state, SceneStat
     }
   }
   ContinueTracks(owner, next.users, scene.candidates);
+  MarkReturning(next.users, frame.time_s, options, scene.candidates);
   std::stable_sort(
       scene.candidates.begin(), scene.candidates.end(),
       [](const Candidate& a, const Candidate& b) { return a.region.area_m2 > b.region.area_m2; });

@@ -20,6 +20,7 @@ struct UserTrack {
   std::vector<float> z_m;  // depth of those cells
   Eigen::Vector3f mean_m = Eigen::Vector3f::Zero();
   Eigen::Vector3f velocity_m_s = Eigen::Vector3f::Zero();
+  float full_m2 = 0;  // the most surface seen of it lately
   double seen_s = 0;
 };
 
@@ -53,6 +54,7 @@ struct Candidate {
   std::vector<int32_t> pixels;  // v * width + u of the full image, ascending
   Region region;                // on the grid
   int track = -1;               // index into SceneState::users it seems to continue, or -1
+  bool returning = false;       // somebody who went out of view is expected about here
   bool has_head = false;        // something like head and shoulders is seen
   double flat_share = 0;        // of the cells that lie on flat pieces
   int origin = -1;              // candidates of one connected region have the same

@@ -116,7 +116,7 @@ class Gatherer {
 // Kept in the study's cache, one line an example: fitting again with another prior takes seconds.
 std::vector<Example> Examples(ExperimentContext& context, Split split, const std::string& mocap,
                               int performances, uint64_t seed) {
-  constexpr const char* kVersion = "person signs 1";  // raise when scene or signs change
+  constexpr const char* kVersion = "person signs 2";  // raise when scene or signs change
   const auto compute = [&] {
     std::ostringstream text;
     text.precision(9);

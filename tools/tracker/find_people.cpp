@@ -59,8 +59,11 @@ bool Accepted(Found& looked, const depth::Scene& scene, double time_s, const Fin
   double& score = looked.perception.person_score;
   if (looked.looks > 1) return score >= options.known_person;
   Doubt* before = DoubtOf(looked.candidate, state);
+  const bool expected = scene.fresh || looked.candidate.returning;
+  if (before == nullptr || looked.candidate.returning) {
+    if (score >= (expected ? options.new_person : options.sure_person)) return true;
+  }
   if (before == nullptr) {
-    if (score >= (scene.fresh ? options.new_person : options.sure_person)) return true;
     state.doubts.push_back({looked.candidate.region.cells, time_s, score});
     return false;
   }
@@ -176,13 +179,10 @@ std::vector<depth::Bone> BonesOf(const Eyes& eyes, const Perception& perception)
 // What hangs on to a person and is not near any of their bones is furniture.
 void TrimToBody(const Eyes& eyes, const depth::DepthFrame& frame, const depth::Scene& scene,
                 Found& found) {
-  constexpr float kReach_m = 0.3F;     // half a stout trunk, and what proposals may be off
-  constexpr size_t kEnoughBones = 6;   // else the forest saw too little of the body to say
-  constexpr float kPerson_m2 = 0.85F;  // nobody free of furniture shows more,
-  constexpr double kFlatShare = 0.25;  // nor is so flat
-  const bool furnished =
-      found.candidate.region.area_m2 > kPerson_m2 || found.candidate.flat_share > kFlatShare;
-  if (!furnished) return;
+  constexpr float kReach_m = 0.3F;    // half a stout trunk, and what proposals may be off
+  constexpr size_t kEnoughBones = 6;  // else the forest saw too little of the body to say
+  constexpr float kPerson_m2 = 0.9F;  // nobody free of furniture shows more
+  if (found.candidate.region.area_m2 < kPerson_m2) return;
   const auto bones = BonesOf(eyes, found.perception);
   if (bones.size() < kEnoughBones) return;
   depth::KeepNear(scene, frame, bones, kReach_m, found.candidate);
