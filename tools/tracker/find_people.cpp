@@ -1,6 +1,7 @@
 #include "tools/tracker/find_people_internal.h"
 
 #include <algorithm>
+#include <cmath>
 #include <iterator>
 
 #include "tools/tracker/choose_posture_internal.h"
@@ -111,13 +112,18 @@ std::vector<Candidate> WorthLooking(const depth::Scene& scene, double time_s,
   return candidates;
 }
 
-// Two pieces of one region were one person when the whole looks more like a person than either, and
-// has one head. People tracked for long are left as they are. Returns the whole, or nothing.
+// Two pieces were one person when the whole looks more like a person than either, or
+// as much when one is above the other, and has one head. People tracked for long are left as they
+// are. Returns the whole, or nothing.
 std::optional<Found> Together(const Eyes& eyes, const depth::DepthFrame& frame,
                               const depth::Scene& scene, const FindOptions& options, const Found& a,
                               const Found& b) {
-  constexpr float kTwoPeople_m2 = 1.1F;
-  if (a.candidate.origin != b.candidate.origin) return {};
+  constexpr float kTwoPeople_m2 = 1.1F, kStacked_m = 0.3F;
+  const Eigen::Vector3f apart = a.candidate.region.mean_m - b.candidate.region.mean_m;
+  const bool stacked = std::hypot(apart.x(), apart.z()) < kStacked_m;
+  // Pieces that do not touch are tried only where they would be two people, one above the other.
+  const bool both = std::min(a.single_score, b.single_score) >= options.new_person;
+  if (a.candidate.origin != b.candidate.origin && !(stacked && both)) return {};
   if (std::min(a.looks, b.looks) > options.grown_up_looks) return {};
   if (a.candidate.region.area_m2 + b.candidate.region.area_m2 > kTwoPeople_m2) return {};
   const bool a_first = a.looks != b.looks ? a.looks > b.looks : a.single_score >= b.single_score;
@@ -125,7 +131,9 @@ std::optional<Found> Together(const Eyes& eyes, const depth::DepthFrame& frame,
   const Candidate& second = a_first ? b.candidate : a.candidate;
   auto whole =
       LookAt(eyes, frame, {depth::JoinCandidates(scene, frame, first, second)}, options).at(0);
-  const double best = std::max(a.single_score, b.single_score);
+  // Nobody stands on another: of one above the other the whole need not look better.
+  constexpr double kStackedLoss = 0.2;
+  const double best = std::max(a.single_score, b.single_score) - (stacked ? kStackedLoss : 0.0);
   if (whole.single_score < best || whole.perception.heads_m.size() > 1) return {};
   return whole;
 }

@@ -200,19 +200,36 @@ int IdAt(const BodyFrame& bodies, double x_m, double z_m) {
   return 0;
 }
 
-TEST(SdkConformance, WhoPassesInFrontKeepsTheirIdentity) {
+TEST(SdkConformance, TwoWhoPassEachOtherKeepTheirIdentities) {
   OSSA_NEEDS_MODEL();
   Tracker tracker(PlainOptions());
-  int near_id = 0;
+  int near_id = 0, far_id = 0;
   for (int i = 0; i <= 60; ++i) {  // two seconds, a metre a second, one passes 1.2 m behind
     const double way_m = -1.0 + i / 30.0;
     const BodyFrame bodies =
         tracker.Push(Rendered({PersonAt(way_m, 2.4), PersonAt(-way_m, 3.6)}, i).frame);
+    EXPECT_LE(bodies.bodies.size(), 2U) << "frame " << i << ": nobody is cut in two";
     if (i != 0 && i != 60) continue;
-    if (i == 0) near_id = IdAt(bodies, way_m, 2.4);
+    ASSERT_EQ(bodies.bodies.size(), 2U);
+    if (i == 0) near_id = IdAt(bodies, way_m, 2.4), far_id = IdAt(bodies, -way_m, 3.6);
     ASSERT_NE(near_id, 0);
+    ASSERT_NE(far_id, 0);
     EXPECT_EQ(IdAt(bodies, way_m, 2.4), near_id);
+    EXPECT_EQ(IdAt(bodies, -way_m, 3.6), far_id);
   }
+}
+
+TEST(SdkConformance, APersonIsThereFromTheFirstFrameAndComesBackAsWhoTheyWere) {
+  OSSA_NEEDS_MODEL();
+  Tracker tracker(PlainOptions());
+  const BodyFrame first = tracker.Push(Rendered({PersonAt(0, 2.5)}, 0).frame);
+  ASSERT_EQ(first.bodies.size(), 1U);
+  for (int i = 1; i < 20; ++i) EXPECT_TRUE(tracker.Push(Rendered({}, i).frame).bodies.empty());
+  // A single look may leave doubts; four frames do not.
+  BodyFrame back;
+  for (int i = 20; i < 25; ++i) back = tracker.Push(Rendered({PersonAt(0.2, 2.5)}, i).frame);
+  ASSERT_EQ(back.bodies.size(), 1U);
+  EXPECT_EQ(back.bodies[0].id, first.bodies[0].id);
 }
 
 TEST(SdkConformance, FloorClipPlaneAndCameraTiltComeWithTheFrame) {
