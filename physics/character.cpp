@@ -295,6 +295,9 @@ void Character::DriveAxes(const ControlTarget& target, const ControlGains& gains
 /// error; gain h = 0.15 stays far below the limit of 2 and makes the lag that of the positional
 /// control (2 / w). Solved with the joints, it needs no derivation to be stable.
 void Character::DriveMotors(const ControlTarget& target, const ControlGains& gains, double h_s) {
+  // The share of a bone's turning that its servo is told. 1: 0.37 frames late on UI-PRMD and 48 %
+  // less shaken than the sensor; 0.7: 0.50 frames and 53 %; 0.4: 0.66 frames and 56 %.
+  constexpr double kTold = 0.7;
   const double gain = std::min(0.5 * gains.rate_rad_s, 0.5 / h_s);
   const auto set = [](dJointID motor, bool linear, const Vector3d& speed, double bound) {
     constexpr std::array<int, 3> kVelocity = {dParamVel1, dParamVel2, dParamVel3};
@@ -318,8 +321,8 @@ void Character::DriveMotors(const ControlTarget& target, const ControlGains& gai
     // Torque bound: what the force bound at the bone's far end and all beyond it would give.
     const double bound = gains.max_acceleration_m_s2 * 0.3 * segments_[bone].length_m *
                          (bone == 1 ? total_mass_kg_ : 4.0 * segments_[bone].mass_kg);
-    Vector3d turning = target.turning_rad_s[bone];
-    if (parent != 0) turning -= target.turning_rad_s[parent];
+    Vector3d turning = kTold * target.turning_rad_s[bone];
+    if (parent != 0) turning -= kTold * target.turning_rad_s[parent];
     set(motor_[bone], false,
         gain * target.stiffness[bone] * RotationVector(wanted * now.conjugate()) + turning,
         held ? bound : 0.0);
@@ -329,21 +332,6 @@ void Character::DriveMotors(const ControlTarget& target, const ControlGains& gai
   const Vector3d error = middle - ToEigen(dBodyGetPosition(body_[1]));
   set(root_motor_, true, gain * target.stiffness[0] * error + velocity,
       target.stiffness[0] > 0.0 ? total_mass_kg_ * gains.max_acceleration_m_s2 : 0.0);
-}
-
-const std::vector<std::array<size_t, 2>>& SelfCollisionPairs() {
-  static const std::vector<std::array<size_t, 2>> pairs = [] {
-    std::vector<std::array<size_t, 2>> list;
-    for (const size_t arm : {6, 7, 10, 11}) {
-      for (const size_t trunk : {1, 2, 3}) list.push_back({arm, trunk});
-    }
-    for (const size_t left : {14, 15}) {
-      for (const size_t right : {18, 19}) list.push_back({left, right});
-    }
-    list.push_back({6, 10});
-    return list;
-  }();
-  return pairs;
 }
 
 }  // namespace ossa::physics

@@ -37,6 +37,21 @@ double Approach(dGeomID a, dGeomID b, const dContact& c) {
 
 }  // namespace
 
+const std::vector<std::array<size_t, 2>>& SelfCollisionPairs() {
+  static const std::vector<std::array<size_t, 2>> pairs = [] {
+    std::vector<std::array<size_t, 2>> list;
+    for (const size_t arm : {6, 7, 10, 11}) {
+      for (const size_t trunk : {1, 2, 3}) list.push_back({arm, trunk});
+    }
+    for (const size_t left : {14, 15}) {
+      for (const size_t right : {18, 19}) list.push_back({left, right});
+    }
+    list.push_back({6, 10});
+    return list;
+  }();
+  return pairs;
+}
+
 void World::Impl::Note(dGeomID a, dGeomID b, double depth_m) {
   const int ta = TagOf(a), tb = TagOf(b);
   if (ta > 0 && tb > 0) return;
