@@ -5,6 +5,7 @@
 #include <cstring>
 #include <limits>
 #include <stdexcept>
+#include <tuple>
 
 #include "depth/error.h"
 #include "tests/physics/person.h"
@@ -169,11 +170,12 @@ TEST(CharacterFilter, JointsOfNoWeightAreAsGoodAsMissing) {
   EXPECT_LT(LargestDistance(out.posture, StandingPerson()), 0.03);  // the arm hangs as it hung
 }
 
-class FrameRates : public testing::TestWithParam<double> {};
+class FrameRates : public testing::TestWithParam<std::tuple<double, Control>> {};
 
 TEST_P(FrameRates, FollowAJumpWithoutOvershoot) {
-  const double dt = 1.0 / GetParam();
+  const double dt = 1.0 / std::get<double>(GetParam());
   CharacterFilterOptions options;
+  options.control = std::get<Control>(GetParam());
   options.pin_feet = false;
   CharacterFilter filter(Lengths(), options);
   filter.Step(StandingPerson(), {}, std::nullopt, dt);
@@ -184,11 +186,15 @@ TEST_P(FrameRates, FollowAJumpWithoutOvershoot) {
     out = filter.Step(goal, {}, std::nullopt, dt);
     overshoot = std::max(overshoot, out.posture.position_m[0].x() - goal.position_m[0].x());
   }
-  EXPECT_LT(LargestDistance(out.posture, goal), 0.001);
+  // Servos in a chain are solved iteratively: a leg that hangs free is left 1-2 cm off.
+  const bool motors = options.control == Control::kMotor;
+  EXPECT_LT(LargestDistance(out.posture, goal), motors ? 0.03 : 0.001);
   EXPECT_LT(overshoot, 0.005);  // critically damped; the bound on forces costs a little
 }
 
-INSTANTIATE_TEST_SUITE_P(Hertz, FrameRates, testing::Values(15.0, 24.0, 30.0, 60.0, 120.0));
+INSTANTIATE_TEST_SUITE_P(Hertz, FrameRates,
+                         testing::Combine(testing::Values(15.0, 24.0, 30.0, 60.0, 120.0),
+                                          testing::Values(Control::kPaper, Control::kMotor)));
 
 TEST(CharacterFilter, StartsAnewAfterAGap) {
   CharacterFilter filter(Lengths());
