@@ -34,8 +34,8 @@ void ReadTimeAlignment(const std::string& word, tools::PairOptions& options) {
 std::string Formats() {
   std::string text =
       "TRUTH and RESULT are files, folders or archives (.tar.gz, .zip) of recordings; clips in "
-      "them are matched by name. FILE#truth and FILE#observed choose one of two skeletons in a "
-      "file. Formats, found by content:";
+      "them are matched by name. Of a file that holds truth and estimate side by side each takes "
+      "its own; FILE#truth and FILE#observed say which. Formats, found by content:";
   for (const std::string& format : recon::SkeletonFormats()) text += " " + format;
   return text;
 }
@@ -89,7 +89,9 @@ int Compare(int argc, char** argv) {
     if (!json.empty()) WriteText(json, tools::ToJson(comparison));
     if (!quiet) fmt::print("{}", tools::ToText(comparison));
   }
-  if (!report.empty()) WriteText(report, tools::ToHtml(comparison));
+  if (report.empty()) return 0;
+  WriteText(report, tools::ToHtml(comparison));
+  if (!quiet && !json_to_stdout) fmt::print("\nReport: {}\n", report);
   return 0;
 }
 

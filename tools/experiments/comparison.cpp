@@ -18,8 +18,12 @@ bool HoldsAny(const std::string& name, const std::vector<std::string>& parts) {
                      [&](const std::string& part) { return name.find(part) != std::string::npos; });
 }
 
-std::vector<SkeletonClip> Chosen(const std::string& path, const CompareOptions& options) {
-  auto clips = recon::ReadSkeletonClips(path, options.reading);
+/// `columns`: of files that hold truth and estimate side by side, what is wanted unless said.
+std::vector<SkeletonClip> Chosen(const std::string& path, const CompareOptions& options,
+                                 const char* columns) {
+  auto reading = options.reading;
+  if (reading.columns.empty()) reading.columns = columns;
+  auto clips = recon::ReadSkeletonClips(path, reading);
   std::erase_if(clips, [&](const SkeletonClip& clip) {
     return HoldsAny(clip.name, options.skip) ||
            (!options.only.empty() && !HoldsAny(clip.name, options.only));
@@ -58,7 +62,7 @@ ComparedResult CompareOne(const std::string& truth_name, const std::vector<Skele
                           const std::string& name, const CompareOptions& options) {
   ComparedResult compared;
   compared.name = name;
-  const auto results = Chosen(name, options);
+  const auto results = Chosen(name, options, "observed");
   std::map<std::string, const SkeletonClip*> by_name;
   for (const SkeletonClip& clip : results) by_name[clip.name] = &clip;
   const bool single = truth.size() == 1 && results.size() == 1;
@@ -153,7 +157,7 @@ Comparison Compare(const std::string& truth, const std::vector<std::string>& res
   Comparison comparison;
   comparison.truth = truth;
   comparison.rigid = options.pairing.rigid;
-  const auto clips = Chosen(truth, options);
+  const auto clips = Chosen(truth, options, "truth");
   for (const std::string& result : results) {
     comparison.results.push_back(CompareOne(truth, clips, result, options));
   }

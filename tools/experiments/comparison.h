@@ -47,11 +47,14 @@ struct Comparison {
 };
 
 /// Reads and compares. Clips are matched by name; a single clip on both sides needs no equal name.
+/// Of files that hold truth and estimate side by side, each side takes its own unless said.
 Comparison Compare(const std::string& truth, const std::vector<std::string>& results,
                    const CompareOptions& options);
 
 /// DESIGN section 4's object, with more keys beside: confidence intervals, clips, tests.
 std::string ToJson(const Comparison& comparison);
+/// What to try where the numbers say that the skeletons do not share a space; "" where they do.
+std::string Advice(const Comparison& comparison);
 /// Tables for a terminal.
 std::string ToText(const Comparison& comparison);
 /// One HTML file that needs nothing else: tables, error over time, cumulative curves, bars per

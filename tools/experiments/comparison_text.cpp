@@ -71,21 +71,30 @@ Table SummaryTable(const Comparison& comparison) {
   Table table;
   table.title = fmt::format("Against {} ({})", comparison.truth,
                             comparison.rigid ? "one rigid transform a clip" : "no alignment");
-  table.columns = {"result",       "clips",          "frames",         "mean error cm",
-                   "eq. 18 cm",    "frames >20cm %", "joints <10cm %", "mAP 10cm %",
-                   "accel cm/f2",  "offset-free cm", "bones var %",    "p99 cm",
-                   "time offset s"};
+  table.columns = {""};
+  table.rows = {{"clips"},          {"frames"},
+                {"mean error cm"},  {"eq. 18 cm"},
+                {"frames >20cm %"}, {"joints <10cm %"},
+                {"mAP 10cm %"},     {"acceleration error cm/frame^2"},
+                {"offset-free cm"}, {"bone length variation %"},
+                {"p99 cm"},         {"time offset s"}};
   for (const ComparedResult& r : comparison.results) {
     const ClipMetrics& m = r.mean;
-    table.rows.push_back(
-        {r.label, std::to_string(r.clips.size()), std::to_string(m.frames),
-         WithInterval(m.mean_joint_error_cm, r.mean_joint_error_interval),
-         WithInterval(m.parent_relative_error_cm, r.parent_relative_error_interval),
-         Number(m.fraction_frames_over_20cm, 1, 100), Number(m.fraction_joints_within_10cm, 1, 100),
-         Number(m.map_10cm, 1, 100), Number(m.acceleration_error_cm_per_frame2),
-         Number(m.offset_removed_error_cm), Number(m.bone_length_variation_percent),
-         Number(m.p99_cm, 1),
-         m.same_clock ? "0 (times agree)" : fmt::format("{:+.3f}", m.offset_s)});
+    table.columns.push_back(r.label);
+    const std::vector<std::string> numbers = {
+        std::to_string(r.clips.size()),
+        std::to_string(m.frames),
+        WithInterval(m.mean_joint_error_cm, r.mean_joint_error_interval),
+        WithInterval(m.parent_relative_error_cm, r.parent_relative_error_interval),
+        Number(m.fraction_frames_over_20cm, 1, 100),
+        Number(m.fraction_joints_within_10cm, 1, 100),
+        Number(m.map_10cm, 1, 100),
+        Number(m.acceleration_error_cm_per_frame2),
+        Number(m.offset_removed_error_cm),
+        Number(m.bone_length_variation_percent),
+        Number(m.p99_cm, 1),
+        m.same_clock ? "0 (times agree)" : fmt::format("{:+.3f}", m.offset_s)};
+    for (size_t n = 0; n < numbers.size(); ++n) table.rows[n].push_back(numbers[n]);
     if (!r.missing_clips.empty()) {
       table.note += fmt::format("{} lacks {} of the truth's clips, e.g. {}. ", r.label,
                                 r.missing_clips.size(), r.missing_clips[0]);
@@ -93,7 +102,8 @@ Table SummaryTable(const Comparison& comparison) {
   }
   table.note +=
       "Over several clips: the mean of the clips' numbers, with its 95 % bootstrap interval. "
-      "eq. 18: joints relative to their parents (Shum 2013).";
+      "eq. 18: joints relative to their parents (Shum 2013). Offset-free: each joint's constant "
+      "offset taken away.";
   return table;
 }
 
@@ -149,10 +159,24 @@ std::string ToJson(const Comparison& comparison) {
   return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
 }
 
+std::string Advice(const Comparison& comparison) {
+  constexpr double kApart_cm = 50.0;  // no sensor is off by as much on the whole
+  if (comparison.rigid) return "";
+  for (const ComparedResult& result : comparison.results) {
+    const auto error_cm = result.mean.mean_joint_error_cm;
+    if (!error_cm || *error_cm < kApart_cm) continue;
+    return fmt::format(
+        "{} lies {:.1f} m away from the truth: if their origins or axes differ, add --align rigid.",
+        result.label, *error_cm / 100.0);
+  }
+  return "";
+}
+
 std::string ToText(const Comparison& comparison) {
   std::string text = ToMarkdown(SummaryTable(comparison)) + "\n";
   text += ToMarkdown(JointTable(comparison));
   if (!comparison.tests.empty()) text += "\n" + ToMarkdown(TestTable(comparison));
+  if (const std::string advice = Advice(comparison); !advice.empty()) text += "\n" + advice + "\n";
   return text;
 }
 

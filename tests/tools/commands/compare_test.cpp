@@ -74,6 +74,34 @@ TEST_F(CompareCommand, WritesAReportThatNeedsNothingElse) {
   EXPECT_EQ(html.find("nan"), std::string::npos);
 }
 
+TEST_F(CompareCommand, SaysWhereTheReportIsAndWhatToTryWhenOriginsDiffer) {
+  const std::string report = folder_ / "r.html";
+  const std::string moved = folder_ / "moved.jsonl";
+  recon::WriteSkeletons(moved, Moved(ExampleSequence(20), 3.0));
+  auto run = RunOssa({"compare", truth_, moved, "--report", report});
+  EXPECT_NE(run.out.find("3.0 m away from the truth"), std::string::npos) << run.out;
+  EXPECT_NE(run.out.find("--align rigid"), std::string::npos);
+  EXPECT_NE(run.out.find("Report: " + report), std::string::npos);
+  run = RunOssa({"compare", truth_, near_});
+  EXPECT_EQ(run.out.find("--align rigid"), std::string::npos) << run.out;
+}
+
+TEST_F(CompareCommand, TakesTruthAndEstimateOfOneFileThatHoldsBoth) {
+  const std::string both = folder_ / "both.csv";
+  // UI-PRMD's columns: Kinect and Vicon, centimetres; the wrists are 5 cm apart.
+  std::ofstream file(both);
+  file << "t_s,K_Waist_SpineBase_x,K_Waist_SpineBase_y,K_Waist_SpineBase_z,"
+          "K_LHand_LWrist_x,K_LHand_LWrist_y,K_LHand_LWrist_z,G_head_x,G_head_y,G_head_z,"
+          "G_Lwri_x,G_Lwri_y,G_Lwri_z\n";
+  for (int f = 0; f < 3; ++f) {
+    file << 0.033 * f << ",0,80,-240,0," << 100 + f << ",-240,,,,3," << 104 + f << ",-240\n";
+  }
+  file.close();
+  const auto run = RunOssa({"compare", both, both, "--json"});
+  ASSERT_EQ(run.exit_status, 0) << run.err;
+  EXPECT_NEAR(nlohmann::json::parse(run.out)["results"][0]["mean_joint_error_cm"], 5.0, 1e-3);
+}
+
 TEST_F(CompareCommand, ComparesFoldersClipByClipWithIntervalsAndTests) {
   std::filesystem::create_directories(folder_ / "t");
   std::filesystem::create_directories(folder_ / "a");
