@@ -6,6 +6,7 @@
 #include <iterator>
 
 #include "tools/experiments/experiments_internal.h"
+#include "tools/experiments/method_runs.h"
 #include "tools/experiments/sdk_internal.h"
 
 namespace ossa::tools {
@@ -59,7 +60,7 @@ std::vector<Table> RunSdk(ExperimentContext& context) {
   };
   recon::ReconstructorOptions options;
   options.seed = context.seed;
-  options.database = StudyDatabase(context);
+  options.database = DatabaseOf(context).postures;
   options.best.repair = context.parameters.Integer("best_repair", 1) != 0;
   options.best.complete = context.parameters.Integer("best_complete", 1) != 0;
   options.best.correct = context.parameters.Integer("best_correct", 1) != 0;

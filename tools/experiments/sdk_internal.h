@@ -46,9 +46,6 @@ recon::SkeletonSequence RunMethod(const recon::SkeletonSequence& observed,
                                   const std::string& method,
                                   const recon::ReconstructorOptions& options);
 
-/// The database the study looks postures up in: context.database, else the shipped one.
-std::shared_ptr<const recon::PostureDatabase> StudyDatabase(const ExperimentContext& context);
-
 /// Calls body(i) for 0 <= i < count on so many threads; the first exception comes back.
 void InParallel(size_t count, int threads, const std::function<void(size_t)>& body);
 

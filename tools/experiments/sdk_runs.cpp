@@ -14,7 +14,6 @@
 #include "recon/methods/sequence.h"
 #include "tools/experiments/method_runs.h"
 #include "tools/experiments/sdk_internal.h"
-#include "tools/tracker/shipped.h"
 
 namespace ossa::tools {
 namespace {
@@ -157,12 +156,6 @@ std::vector<recon::PosturePair> PairsOf(const std::vector<const RecordedPair*>& 
     recon::AddPairs(recorded->observed, recorded->truth, pairs);
   }
   return pairs;
-}
-
-std::shared_ptr<const recon::PostureDatabase> StudyDatabase(const ExperimentContext& context) {
-  const auto file =
-      context.database.empty() ? tracker::ShippedFile("authored.ossadb") : context.database;
-  return std::make_shared<const recon::PostureDatabase>(recon::PostureDatabase::Load(file));
 }
 
 recon::SkeletonSequence RunMethod(const recon::SkeletonSequence& observed,
