@@ -89,7 +89,9 @@ LearnedModels LearnedModels::Learn(const std::vector<PosturePair>& pairs,
                                    const std::function<bool(int)>& progress) {
   LearnedModels out;
   out.pair_count = pairs.size();
-  out.correction = PoseCorrection::Learn(pairs, options.correction);
+  if (options.correction.centres > 0) {
+    out.correction = PoseCorrection::Learn(pairs, options.correction);
+  }
   if (!options.processes) return out;
   out.exemplars = Thinned(pairs, options.most_pairs);
   constexpr int kFewest = 10;  // fewer pairs of a joint teach nothing

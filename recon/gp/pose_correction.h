@@ -7,7 +7,7 @@
 namespace ossa::recon {
 
 struct PoseCorrectionOptions {
-  int centres = 300;   // inducing postures
+  int centres = 300;   // inducing postures; 0: no correction is learned
   double width = 0.8;  // of the kernel, in the feature's unit (a bone turned by 90 degrees: 0.42)
   double noise_ratio = 20.0;  // ridge: variance of a pair's noise over that of the signal
   int reweighings = 2;        // of the pairs, by their error in the fit before

@@ -91,8 +91,7 @@ Table FigureSeven(const ExperimentContext& context, const Liu2016Study& study) {
     recon::LearnOptions options;
     options.mixture.samples = size;
     options.full_samples = 20;  // the full processes and the correction are not used here
-    options.correction.centres = 10;
-    options.correction.most_pairs = 200;
+    options.correction.centres = 0;
     std::vector<std::string> row = {std::to_string(size)};
     for (const int l : models) {
       row.push_back(Cell(ErrorOf(context, study, "cross_arms", "none", [&](MethodRun& run) {

@@ -70,6 +70,7 @@ FoldScore RunFold(const Fold& fold, const std::string& method,
   if (Learns(method)) {
     recon::LearnOptions learn;
     learn.processes = method != "best";
+    if (learn.processes) learn.correction.centres = 0;
     learn.mixture.seed = learn.correction.seed = options.seed;
     with.learned = std::make_shared<const recon::LearnedModels>(
         recon::LearnedModels::Learn(PairsOf(fold.train), learn));
