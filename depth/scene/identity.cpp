@@ -76,6 +76,17 @@ void MoveHidden(UserTrack& user, const Region& region, double time_s) {
   user.mean_m = region.mean_m + (far_m > kFarthest_m ? kFarthest_m / far_m : 1.0F) * expected;
 }
 
+// Furniture stays where it is and shows the same surface; people shift, breathe and turn.
+void NoteMovement(UserTrack& user, const Region& region) {
+  constexpr float kStep_m = 0.05F, kChange = 0.15F;
+  if (user.first_m2 == 0) {
+    user.first_mean_m = region.mean_m;
+    user.first_m2 = region.area_m2;
+  }
+  user.moved = user.moved || (region.mean_m - user.first_mean_m).norm() > kStep_m ||
+               std::abs(region.area_m2 - user.first_m2) > kChange * user.first_m2;
+}
+
 void Renew(UserTrack& user, const PointGrid& grid, const Region& region, double time_s) {
   constexpr float kHidden = 0.8F;  // of the surface seen lately
   const bool hidden = region.area_m2 < kHidden * user.full_m2;
@@ -94,6 +105,7 @@ void Renew(UserTrack& user, const PointGrid& grid, const Region& region, double 
   } else {
     user.mean_m = region.mean_m;
   }
+  NoteMovement(user, region);
   constexpr float kForget = 0.99F;  // who turns sideways shows less for long
   user.full_m2 = std::max(region.area_m2, kForget * user.full_m2);
   user.cells = region.cells;

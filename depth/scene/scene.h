@@ -20,7 +20,10 @@ struct UserTrack {
   std::vector<float> z_m;  // depth of those cells
   Eigen::Vector3f mean_m = Eigen::Vector3f::Zero();
   Eigen::Vector3f velocity_m_s = Eigen::Vector3f::Zero();
-  float full_m2 = 0;  // the most surface seen of it lately
+  float full_m2 = 0;                                       // the most surface seen of it lately
+  Eigen::Vector3f first_mean_m = Eigen::Vector3f::Zero();  // and surface, when it was new
+  float first_m2 = 0;
+  bool moved = false;  // since then
   double seen_s = 0;
 };
 

@@ -44,6 +44,7 @@ std::vector<Found> LookAt(const Eyes& eyes, const depth::DepthFrame& frame,
     double& score = looked[i].perception.person_score;
     looked[i].single_score = score;
     looked[i].looks = known.looks + 1;
+    looked[i].moved = known.moved;
     if (known.person_score) {
       const double weight = std::max(1.0 / looked[i].looks, 1 - options.memory);
       score = *known.person_score + weight * (score - *known.person_score);
@@ -58,14 +59,20 @@ std::vector<Found> LookAt(const Eyes& eyes, const depth::DepthFrame& frame,
 bool Accepted(Found& looked, const depth::Scene& scene, double time_s, const FindOptions& options,
               FinderState& state) {
   double& score = looked.perception.person_score;
-  if (looked.looks > 1) return score >= options.known_person;
+  if (looked.looks > 1) {
+    const bool still = looked.looks > options.still_looks && !looked.moved;
+    if (score >= (still ? options.still_person : options.known_person)) return true;
+    if (still) state.doubts.push_back({looked.candidate.region.cells, time_s, score, 1, true});
+    return false;
+  }
   Doubt* before = DoubtOf(looked.candidate, state);
+  const bool doubted = before != nullptr && before->still;
   const bool expected = scene.fresh || looked.candidate.returning;
-  if (before == nullptr || looked.candidate.returning) {
+  if (before == nullptr || (looked.candidate.returning && !doubted)) {
     if (score >= (expected ? options.new_person : options.sure_person)) return true;
   }
   if (before == nullptr) {
-    state.doubts.push_back({looked.candidate.region.cells, time_s, score});
+    state.doubts.push_back({looked.candidate.region.cells, time_s, score, 1, false});
     return false;
   }
   constexpr int kMostLooks = 8;
@@ -73,8 +80,8 @@ bool Accepted(Found& looked, const depth::Scene& scene, double time_s, const Fin
   before->mean_score += (score - before->mean_score) / before->looks;
   before->time_s = time_s;
   before->cells = looked.candidate.region.cells;
-  if (before->looks < options.probation_looks || before->mean_score < options.new_person)
-    return false;
+  const double needed = doubted ? options.still_person : options.new_person;
+  if (before->looks < options.probation_looks || before->mean_score < needed) return false;
   score = before->mean_score;
   state.doubts.erase(state.doubts.begin() + (before - state.doubts.data()));
   return true;

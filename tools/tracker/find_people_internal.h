@@ -16,6 +16,7 @@ struct Found {
   Perception perception;      // its person_score is the mean over the looks
   double single_score = 0.0;  // of this look
   int looks = 1;
+  bool moved = false;  // of somebody known
 };
 
 /// What was looked at and not taken for a person, so far: judged by all looks together, for noise
@@ -25,6 +26,7 @@ struct Doubt {
   double time_s = 0.0;     // of the last look
   double mean_score = 0.0;
   int looks = 1;
+  bool still = false;  // it was taken for a person, but never moved
 };
 
 struct FinderState {
@@ -35,6 +37,7 @@ struct Known {
   std::vector<float> context_prior;    // of its facing (ClassifyOptions)
   std::optional<double> person_score;  // mean of the last seconds
   int looks = 0;                       // that mean is of
+  bool moved = false;                  // since it was first seen
 };
 
 /// What candidates are looked at with.
@@ -55,6 +58,9 @@ struct FindOptions {
   double sure_person = 0.93;
   int probation_looks = 4;
   double known_person = 0.25;
+  // Of what has not moved at all after so many looks: most likely furniture.
+  double still_person = 0.85;
+  int still_looks = 10;
   bool keep_resolution = false;  // see PerceiveOptions
   size_t max_candidates = 16;    // looked at per frame, the largest first
   double hopeful = 0.35;         // what scores less is looked at again only ...

@@ -121,14 +121,15 @@ std::vector<Found> Tracker::Impl::Segment(const depth::DepthFrame& frame, BodyFr
   find.max_users = options.max_users;
   find.threads = options.threads;
   find.keep_resolution = options.keep_parts;
-  const Eyes eyes{model, targets, [&](const depth::Candidate& candidate) -> Known {
-                    if (candidate.track < 0) return {};
-                    const int id = scene_state.users[static_cast<size_t>(candidate.track)].id;
-                    const auto person = people.find(id);
-                    if (person == people.end()) return {};
-                    return {ContextPrior(person->second, frame.time_s), person->second.score,
-                            person->second.looks};
-                  }};
+  const Eyes eyes{
+      model, targets, [&](const depth::Candidate& candidate) -> Known {
+        if (candidate.track < 0) return {};
+        const auto& user = scene_state.users[static_cast<size_t>(candidate.track)];
+        const auto found = people.find(user.id);
+        if (found == people.end()) return {};
+        const Person& person = found->second;
+        return {ContextPrior(person, frame.time_s), person.score, person.looks, user.moved};
+      }};
   const auto look_start = Clock::now();
   std::vector<Found> found = FindPeople(eyes, frame, scene, scene_options, find, finder_state);
   const double look_ms = MillisecondsSince(look_start);
@@ -176,6 +177,9 @@ std::vector<Person*> Tracker::Impl::PersonsOf(const std::vector<int>& ids, doubl
 
 // Which way a person faced a moment ago says much of the way now.
 std::vector<float> Tracker::Impl::ContextPrior(const Person& person, double time_s) const {
+  // ... but first it must be clear that it is a person: on furniture the belief feeds itself.
+  constexpr int kFewLooks = 12;
+  if (person.looks < kFewLooks) return {};
   if (person.context.empty() || time_s - person.before_s > kRecent_s) return {};
   // A twentieth starts anew, so that an error does not keep itself alive.
   constexpr float kFresh = 0.05F;
