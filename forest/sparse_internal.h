@@ -13,7 +13,7 @@ struct SparsePixels {
   std::vector<int32_t> from;      // a pixel: index into `position`; empty: each walks itself
 };
 
-inline constexpr int kMostSparse = 4;
+inline constexpr int kMostSparse = 3;
 
 /// The first of every step × step pixels walks for the others on the same surface.
 SparsePixels ChooseSparse(const ObjectImage& image, std::span<const int32_t> position, int step);
