@@ -32,7 +32,7 @@ using std::chrono::milliseconds;
 
 struct TrackOptions {
   std::string source, out, camera, json_stats, picture, pictures;
-  std::string smoothing = "default", posture = "final", mode = "standing";
+  std::string smoothing, posture = "final", mode = "standing";
   MechanicsOptions mechanics;
   tracker::TrackerOptions tracker;
   double wait_s = 0.0;
@@ -48,10 +48,11 @@ void AddTrackerOptions(CLI::App& app, TrackOptions& options) {
   app.add_option("--model", t.model, "forest model, .ossa (default: the shipped one)");
   app.add_option("--database", t.database, "posture database, .ossadb (default: the shipped one)");
   app.add_option("--learned", t.learned, ".ossagp of 'ossa learn', for the methods that learn");
-  app.add_option("--method", t.method, "how postures are completed (default shum-2013)")
+  app.add_option("--method", t.method, "how postures are completed (default best)")
       ->check(CLI::IsMember(recon::ReconstructionMethods()));
   AddMechanicsOptions(app, options.mechanics);
-  app.add_option("--smoothing", options.smoothing, "preset of the filter (default: default)")
+  app.add_option("--smoothing", options.smoothing,
+                 "preset of the filter (default: none with best, else default)")
       ->check(CLI::IsMember(tracker::SmoothingPresets()));
   app.add_option("--mode", options.mode, "standing (20 joints) or seated (the upper ten)")
       ->check(CLI::IsMember({"standing", "seated"}));
@@ -97,7 +98,9 @@ TrackOptions ParseOptions(int argc, char** argv) {
   }
   options.tracker.physics = options.mechanics.on();
   options.tracker.mechanics = options.mechanics.build;
-  options.tracker.smoothing = tracker::SmoothingPreset(options.smoothing);
+  options.tracker.smoothing = tracker::SmoothingPreset(
+      options.smoothing.empty() ? tracker::UsualSmoothing(options.tracker.method)
+                                : std::string_view(options.smoothing));
   if (options.mode == "seated") options.tracker.mode = tracker::TrackingMode::kSeated;
   options.tracker.keep_parts = !options.picture.empty() || !options.pictures.empty();
   return options;

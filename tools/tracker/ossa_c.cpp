@@ -41,8 +41,9 @@ ossa::tracker::TrackerOptions OptionsOf(const ossa_options* c) {
   if (c == nullptr) return options;
   options.model = TextOr(c->model, "");
   options.database = TextOr(c->database, "");
-  options.method = TextOr(c->method, "shum-2013");
-  options.smoothing = ossa::tracker::SmoothingPreset(TextOr(c->smoothing, "default"));
+  options.method = TextOr(c->method, "best");
+  options.smoothing = ossa::tracker::SmoothingPreset(
+      c->smoothing != nullptr ? c->smoothing : ossa::tracker::UsualSmoothing(options.method));
   options.physics = c->physics != 0;
   options.near_range = c->near_range != 0;
   if (c->seated != 0) options.mode = ossa::tracker::TrackingMode::kSeated;

@@ -41,8 +41,8 @@ typedef struct {
 typedef struct {
   const char* model;     /* .ossa file; NULL: the shipped one */
   const char* database;  /* .ossadb file; NULL: the shipped one */
-  const char* method;    /* as `ossa track --method`; NULL: shum-2013 */
-  const char* smoothing; /* as `ossa track --smoothing`; NULL: default */
+  const char* method;    /* as `ossa track --method`; NULL: best */
+  const char* smoothing; /* as `ossa track --smoothing`; NULL: none with best, else default */
   int32_t physics, seated, near_range;
   int32_t max_users; /* 1 to 6; 0: 6 */
   int32_t threads;   /* 0: 1 */

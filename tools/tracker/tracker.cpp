@@ -11,6 +11,7 @@
 #include "depth/sensor/frame_source.h"
 #include "forest/forest.h"
 #include "recon/database/posture_database.h"
+#include "recon/gp/learned_models.h"
 #include "tools/tracker/find_people_internal.h"
 #include "tools/tracker/parallel_internal.h"
 #include "tools/tracker/perceive_internal.h"
@@ -40,6 +41,14 @@ std::shared_ptr<const recon::PostureDatabase> LoadDatabase(const TrackerOptions&
   const std::string path =
       options.database.empty() ? ShippedFile("authored.ossadb").string() : options.database;
   return std::make_shared<recon::PostureDatabase>(recon::PostureDatabase::Load(path));
+}
+
+// The forest was shown our own bodies: where nothing better was learned, bones are expected in the
+// proportions of the standard body. No offsets.
+std::shared_ptr<const recon::LearnedModels> StandardBones() {
+  auto models = std::make_shared<recon::LearnedModels>();
+  models->correction.proportion_.fill(1.0);
+  return models;
 }
 
 unsigned ClippedEdges(const depth::DepthFrame& frame, const std::vector<int32_t>& pixels) {
@@ -94,6 +103,7 @@ struct Tracker::Impl {
     complete.reconstructor.method = o.method;
     complete.reconstructor.database = LoadDatabase(o);
     complete.reconstructor.learned_file = o.learned;
+    if (o.learned.empty() && o.method == "best") complete.reconstructor.learned = StandardBones();
     complete.reconstructor.seed = o.seed;
     recon::MakeReconstructor(complete.reconstructor);  // says now what is wrong with the options
     scene_options.max_depth_m = o.near_range ? 3.0F : 6.0F;

@@ -75,13 +75,13 @@ enum class TrackingMode {
 };
 
 struct TrackerOptions {
-  std::string model;                 // .ossa; "" = the shipped one
-  std::string database;              // .ossadb; "" = the shipped one
-  std::string learned;               // .ossagp, for the methods that learn
-  std::string method = "shum-2013";  // one of recon::ReconstructionMethods()
-  bool physics = false;              // let the mechanical character follow the posture
-  MechanicsBuild mechanics;          // how that is built
-  SmoothingOptions smoothing = SmoothingPreset("default");
+  std::string model;            // .ossa; "" = the shipped one
+  std::string database;         // .ossadb; "" = the shipped one
+  std::string learned;          // .ossagp, for the methods that learn; "" = none but for best
+  std::string method = "best";  // one of recon::ReconstructionMethods()
+  bool physics = false;         // let the mechanical character follow the posture
+  MechanicsBuild mechanics;     // how that is built
+  SmoothingOptions smoothing = SmoothingPreset(UsualSmoothing("best"));
   TrackingMode mode = TrackingMode::kStanding;
   bool near_range = false;  // the SDK's near mode: people from 0.4 to 3 m only
   int max_users = 6;

@@ -73,6 +73,7 @@ TEST(SdkConformance, TwentyJointsHaveStatesAndSeenOnesLieOnTheBody) {
 TEST(SdkConformance, RawReconstructedAndSmoothedStandSideBySide) {
   OSSA_NEEDS_MODEL();
   TrackerOptions options;
+  options.smoothing = SmoothingPreset("default");
   Tracker tracker(options);
   BodyFrame bodies;
   for (int i = 0; i < 5; ++i) bodies = tracker.Push(Rendered({PersonAt(0.02 * i, 2.5)}, i).frame);
