@@ -43,9 +43,14 @@ std::shared_ptr<const recon::PostureDatabase> LoadDatabase(const TrackerOptions&
   return std::make_shared<recon::PostureDatabase>(recon::PostureDatabase::Load(path));
 }
 
-// The forest was shown our own bodies: where nothing better was learned, bones are expected in the
-// proportions of the standard body. No offsets.
-std::shared_ptr<const recon::LearnedModels> StandardBones() {
+// What best knows of the forest's errors: the shipped forest's are shipped with it
+// (tools/train_correction). Of another forest it is known that it was shown our own bodies: bones
+// are expected in the proportions of the standard body.
+std::shared_ptr<const recon::LearnedModels> LearnedOf(const TrackerOptions& options) {
+  if (options.model.empty()) {
+    return std::make_shared<recon::LearnedModels>(
+        recon::LearnedModels::Load(ShippedFile("body.ossagp")));
+  }
   auto models = std::make_shared<recon::LearnedModels>();
   models->correction.proportion_.fill(1.0);
   return models;
@@ -103,7 +108,7 @@ struct Tracker::Impl {
     complete.reconstructor.method = o.method;
     complete.reconstructor.database = LoadDatabase(o);
     complete.reconstructor.learned_file = o.learned;
-    if (o.learned.empty() && o.method == "best") complete.reconstructor.learned = StandardBones();
+    if (o.learned.empty() && o.method == "best") complete.reconstructor.learned = LearnedOf(o);
     complete.reconstructor.seed = o.seed;
     recon::MakeReconstructor(complete.reconstructor);  // says now what is wrong with the options
     scene_options.max_depth_m = o.near_range ? 3.0F : 6.0F;
