@@ -19,7 +19,7 @@ constexpr int kFrames = 30;  // of different noise and posture, made before the 
 
 tests::CapsulePose PersonAt(double x_m, double z_m, double phase) {
   tests::CapsulePose pose;
-  pose.feet_m = {x_m, -1.0, z_m};
+  pose.feet_m = {x_m + 0.1 * phase, -1.0, z_m};  // who never moves may be furniture
   pose.left_lift_rad = 0.6 + 0.4 * phase;
   pose.right_lift_rad = 0.6 - 0.4 * phase;
   return pose;

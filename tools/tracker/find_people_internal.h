@@ -59,7 +59,7 @@ struct FindOptions {
   int probation_looks = 4;
   double known_person = 0.25;
   // Of what has not moved at all after so many looks: most likely furniture.
-  double still_person = 0.85;
+  double still_person = 0.75;
   int still_looks = 10;
   bool keep_resolution = false;  // see PerceiveOptions
   size_t max_candidates = 16;    // looked at per frame, the largest first
