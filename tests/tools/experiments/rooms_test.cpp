@@ -1,0 +1,57 @@
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <atomic>
+#include <fstream>
+#include <stdexcept>
+
+#include "recon/motion/authored.h"
+#include "tests/support/run_command.h"
+#include "tests/support/temporary_folder.h"
+#include "tools/experiments/jobs.h"
+#include "tools/experiments/rooms_internal.h"
+
+namespace ossa::tools {
+namespace {
+
+TEST(RunJobs, DoesEachJobOnce) {
+  std::vector<std::atomic<int>> done(40);
+  RunJobs(done.size(), 3, [&](size_t i) { ++done[i]; });
+  for (const auto& count : done) EXPECT_EQ(count, 1);
+}
+
+TEST(RunJobs, ThrowsWhatAJobThrew) {
+  const auto fail = [](size_t i) {
+    if (i == 5) throw std::runtime_error("five");
+  };
+  EXPECT_THROW(RunJobs(40, 2, fail), std::runtime_error);
+}
+
+TEST(RoomStage, SameSeedSameFramesWithEverybodyInThem) {
+  if (!recon::BodyIsFetched(recon::BodyFolder())) GTEST_SKIP() << "no body: tools/fetch_body";
+  recon::AuthoredOptions options;
+  options.variations = 1;
+  const auto clips = recon::AuthoredClips(options);
+  const recon::BodyModel model = LoadFetchedBody();
+  const recon::Wardrobe wardrobe(model);
+  const RoomCast cast{model, wardrobe, clips, Split::kTest, 160, 120, 4};
+  const RoomScenario scenario{"two", 2, Furnishing::kFurnished};
+  const LabelledFrame first = RoomStage(scenario, cast, 3).Shoot(1);
+  const LabelledFrame again = RoomStage(scenario, cast, 3).Shoot(1);
+  EXPECT_EQ(first.depth.depth_mm, again.depth.depth_mm);
+  for (const int user : {1, 2})
+    EXPECT_GT(std::count(first.users.data.begin(), first.users.data.end(), user), 200);
+}
+
+TEST(RoomsCommand, AbsurdParametersAreOneLine) {
+  const test::TemporaryFolder folder;
+  std::ofstream(folder / "p.toml") << "performances = 0\n";
+  const auto result = test::RunOssa({"experiment", "rooms", "--out", (folder / "out").string(),
+                                     "--parameters", (folder / "p.toml").string()});
+  EXPECT_EQ(result.exit_status, 1);
+  EXPECT_EQ(test::LineCount(result.err), 1) << result.err;
+  EXPECT_NE(result.err.find("performances >= 1"), std::string::npos) << result.err;
+}
+
+}  // namespace
+}  // namespace ossa::tools
