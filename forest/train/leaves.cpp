@@ -12,10 +12,11 @@
 namespace ossa::forest {
 namespace {
 
-constexpr size_t kMaxEntries = 24;    // a leaf; the rest is noise of a few pixels
-constexpr uint32_t kTopWeight = 127;  // 7 bits
-constexpr size_t kVoteEvery = 4;      // of the drawn pixels, this one votes for positions
-constexpr int kTrimPasses = 2;        // mean shift steps from the mean towards the mode
+constexpr size_t kMaxEntries = 24;                    // a leaf; the rest is noise of a few pixels
+constexpr uint32_t kTopWeight = 127;                  // 7 bits
+constexpr uint64_t kLeastShare = uint64_t{1} << 30U;  // a quarter
+constexpr size_t kVoteEvery = 4;  // of the drawn pixels, this one votes for positions
+constexpr int kTrimPasses = 2;    // mean shift steps from the mean towards the mode
 constexpr int64_t kTrimRadius_mm = 150;
 constexpr int64_t kSpreadCap_mm = 300;  // a far outlier says "elsewhere", not how far
 
@@ -45,6 +46,7 @@ std::vector<int32_t> LeavesOf(const Tree& tree, const StoredImage& image, size_t
 
 // Leaves are to know every context alike: of contexts with more images than the rarest, each image
 // counts with this probability, of 2^32. Rare contexts would else vanish in leaves' small numbers.
+// At least one in four counts: a context of a single image must not empty the leaves of all others.
 std::vector<uint64_t> BalancedShares(const ImageParts& parts, const Reducer& reducer,
                                      size_t context_count) {
   std::vector<int64_t> images(context_count);
@@ -58,7 +60,8 @@ std::vector<uint64_t> BalancedShares(const ImageParts& parts, const Reducer& red
   }
   std::vector<uint64_t> shares;
   for (const int64_t n : images) {
-    shares.push_back(n > 0 ? (static_cast<uint64_t>(rarest) << 32U) / static_cast<uint64_t>(n) : 0);
+    const auto most = static_cast<uint64_t>(std::max<int64_t>(n, 1));
+    shares.push_back(std::max((static_cast<uint64_t>(rarest) << 32U) / most, kLeastShare));
   }
   return shares;
 }
