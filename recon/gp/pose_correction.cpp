@@ -242,7 +242,10 @@ JointWeights PoseCorrection::HeldOutGains(const std::vector<PosturePair>& pairs,
   for (size_t j = 0; j < kJointCount; ++j) {
     const auto m = static_cast<size_t>(kMirroredJoint[j]);
     const double total = square[j] + square[m];
-    gains[j] = total > 0.0 ? std::clamp((agree[j] + agree[m]) / total, 0.0, 1.0) : 0.0;
+    const double held = total > 0.0 ? (agree[j] + agree[m]) / total : 0.0;
+    // What holds by less than half differs between people more than it is theirs in common.
+    constexpr double kLeastGain = 0.5;
+    gains[j] = held < kLeastGain ? 0.0 : std::min(held, 1.0);
   }
   return gains;
 }
