@@ -175,8 +175,8 @@ std::vector<std::byte> Decompressed(const std::vector<std::byte>& bytes, uint64_
   return out;
 }
 
-ForestModel ParseForest(std::span<const std::byte> payload, const std::string& name,
-                        uint32_t version) {
+ForestData ParseForest(std::span<const std::byte> payload, const std::string& name,
+                       uint32_t version) {
   PayloadReader reader(payload, name);
   ForestData data;
   data.manifest = reader.GetString("manifest");
@@ -191,7 +191,7 @@ ForestModel ParseForest(std::span<const std::byte> payload, const std::string& n
   for (uint32_t i = 0; i < trees; ++i) data.trees.push_back(GetTree(&reader));
   if (version >= 2) GetAgreement(&reader, &data);
   reader.ExpectEnd();
-  return ForestModel(std::move(data), name);
+  return data;
 }
 
 // The format to expect of a file that starts so: version 1 is still read.
@@ -204,13 +204,22 @@ SealedFormat FormatOf(std::span<const std::byte> head) {
   return format;
 }
 
-ForestModel Parse(const std::vector<std::byte>& sealed, const std::string& name, uint32_t version) {
+std::vector<std::byte> Unpacked(const std::vector<std::byte>& sealed, const std::string& name) {
   PayloadReader outer(sealed, name);
   const auto size = outer.Get<uint64_t>("unpacked length");
   const auto packed = outer.GetVector<std::byte>("compressed payload");
   outer.ExpectEnd();
-  const std::vector<std::byte> payload = Decompressed(packed, size, name);
-  return ParseForest(payload, name + " (unpacked)", version);
+  return Decompressed(packed, size, name);
+}
+
+// Each form is let go before the next but one is made: a model is some 60 MB in each of them.
+ForestModel Parse(std::vector<std::byte> sealed, const std::string& name, uint32_t version) {
+  std::vector<std::byte> payload = Unpacked(sealed, name);
+  std::vector<std::byte>().swap(sealed);
+  const std::string where = name + " (unpacked)";
+  ForestData data = ParseForest(payload, where, version);
+  std::vector<std::byte>().swap(payload);
+  return ForestModel(std::move(data), where);
 }
 
 std::vector<std::byte> Packed(const ForestData& data, int level) {
