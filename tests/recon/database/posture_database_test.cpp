@@ -7,7 +7,6 @@
 #include "depth/error.h"
 #include "recon/database/nearest.h"
 #include "tests/recon/synthetic_motion.h"
-#include "tests/support/run_command.h"
 #include "tests/support/temporary_folder.h"
 
 namespace ossa::recon {
@@ -124,16 +123,6 @@ TEST(NearestPostures, AreThoseOfBruteForceWithAndWithoutHints) {
       hints.push_back(nearest[k].index);
     }
   }
-}
-
-TEST(DatabaseCommand, SaysWhatIsWrongInOneLine) {
-  const auto none = ossa::test::RunOssa({"database", "--out", "x.ossadb"});
-  EXPECT_EQ(none.exit_status, 2);
-  const auto folder = ossa::test::RunOssa(
-      {"database", "--mocap", "/nonexistent", "--out", "/tmp/never.ossadb", "--quiet"});
-  EXPECT_EQ(folder.exit_status, 1);
-  EXPECT_NE(folder.err.find("/nonexistent"), std::string::npos);
-  EXPECT_EQ(std::count(folder.err.begin(), folder.err.end(), '\n'), 1);
 }
 
 }  // namespace
