@@ -3,7 +3,7 @@
 // truth). Each target's modes are alternatives, or all wrong: y ~ Σ_m w_m N(x, s²) + w_0 ·
 // constant. Expectation propagation (Minka 2001): a target's prediction by all others (its
 // "cavity") weighs its modes; the weighed modes speak in the predictions of the others; three
-// rounds are enough.
+// rounds after the first are enough.
 #include "forest/agree_internal.h"
 
 #include <Eigen/Dense>
