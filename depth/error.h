@@ -9,7 +9,9 @@ namespace ossa {
 /// Every reader of every room throws this and nothing else for bad input.
 class InputError : public std::runtime_error {
  public:
-  using std::runtime_error::runtime_error;
+  /// Control characters in `message`, which may quote a hostile file, are written as \xNN: it stays
+  /// one line and changes no terminal.
+  explicit InputError(const std::string& message);
 };
 
 }  // namespace ossa

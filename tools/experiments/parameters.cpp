@@ -34,7 +34,8 @@ std::string InToml(const Values& values, Format format) {
 }
 
 // toml++ 3 runs into what it declares unreachable when a letter beyond ASCII stands where a space
-// might: outside of texts and comments none is legal here anyway.
+// might: outside of texts and comments none is legal here anyway, and texts of several lines, where
+// one may follow a backslash, are not needed.
 void RefuseBareLetters(const std::filesystem::path& path) {
   std::ifstream file(path, std::ios::binary);
   const std::string text((std::istreambuf_iterator<char>(file)), {});
@@ -49,6 +50,8 @@ void RefuseBareLetters(const std::filesystem::path& path) {
     } else if (quote != 0) {
       if (c == quote) quote = 0;
     } else if (c == '"' || c == '\'') {
+      if (text.compare(i, 3, std::string(3, c)) == 0)
+        Fail(path.string(), line, "texts of one line, in one quote");
       // Within a bare word toml++ does not take it for the beginning of a text.
       if (i > begin && std::string_view(" \t\r\n=,[{\"'").find(text[i - 1]) == std::string::npos) {
         Fail(path.string(), line, "a quote at the beginning of a text");

@@ -59,6 +59,10 @@ TEST_F(StudyParameters, KeepLettersBeyondAsciiInQuotes) {
   // Found by fuzzing: toml++ runs into what it declares unreachable.
   EXPECT_NE(Complaint("\nnoise_.\xCB\x96 = 1\n").find("line 2: expected letters beyond ASCII"),
             std::string::npos);
+  EXPECT_NE(
+      Complaint("a = \"\"\"b \\\n\xEF\xBB\xBD\"\"\"\n").find("line 1: expected texts of one line"),
+      std::string::npos);
+  EXPECT_EQ(From("kind = \"\"\n").Text("kind", "x"), "");
 }
 
 TEST_F(StudyParameters, MayBeFlags) {
