@@ -40,7 +40,7 @@ class RunningCommand {
   CommandResult result_;
 };
 
-inline constexpr std::chrono::milliseconds kCommandTimeout{60000};
+inline constexpr std::chrono::milliseconds kCommandTimeout{120000};
 
 /// The `ossa` of this build with these arguments.
 std::string OssaPath();

@@ -46,7 +46,7 @@ Outcome Play(const std::filesystem::path& path, const std::string& bytes) {
     SourceOptions options;
     options.player_patience = milliseconds(5000);
     const auto source = OpenSource(path.string(), options);
-    while (source->Read(milliseconds(20000)).status == ReadStatus::kFrame) ++outcome.frames;
+    while (source->Read(milliseconds(60000)).status == ReadStatus::kFrame) ++outcome.frames;
   } catch (const InputError& error) {
     outcome.error = error.what();
   }
@@ -126,7 +126,7 @@ TEST(ForeignOni, OfAKilledRecorderPlaysAsFarAsItGoes) {
 }
 
 // A player in place of ours that ends as the script says.
-Outcome PlayWith(const std::string& script) {
+Outcome PlayWith(const std::string& script, milliseconds patience) {
   const TemporaryFolder folder;
   std::filesystem::create_directory(folder / "reader");
   const auto reader = folder / "reader/ossa_oni_reader";
@@ -135,7 +135,7 @@ Outcome PlayWith(const std::string& script) {
   const std::string bytes = Recording(folder / "x.oni");
   setenv("OSSA_OPENNI2", folder.path().c_str(), 1);
   SourceOptions options;
-  options.player_patience = milliseconds(200);
+  options.player_patience = patience;
   Outcome outcome;
   try {
     OpenSource((folder / "x.oni").string(), options);
@@ -147,11 +147,13 @@ Outcome PlayWith(const std::string& script) {
 }
 
 TEST(OniPlayer, ThatCrashesIsOneLine) {
-  EXPECT_NE(PlayWith("kill -SEGV $$").error.find("crashed on it (signal 11)"), std::string::npos);
+  EXPECT_NE(PlayWith("kill -SEGV $$", milliseconds(60000)).error.find("crashed on it (signal 11)"),
+            std::string::npos);
 }
 
 TEST(OniPlayer, ThatHangsIsOneLine) {
-  EXPECT_NE(PlayWith("exec sleep 100").error.find("hangs on it"), std::string::npos);
+  EXPECT_NE(PlayWith("exec sleep 100", milliseconds(200)).error.find("hangs on it"),
+            std::string::npos);
 }
 
 TEST(OniPreamble, OfAnyPrefixIsParsedWithinItsBytes) {

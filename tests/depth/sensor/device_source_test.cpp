@@ -25,11 +25,14 @@ std::string Uri(const TemporaryFolder& folder, const std::string& options = "") 
   return "openni:ossa://" + folder.path().string() + options;
 }
 
+// A busy machine may keep a frame waiting for seconds; a minute without one is a failure.
 ReadResult NextFrame(FrameSource& source) {
-  for (;;) {
-    ReadResult result = source.Read(milliseconds(2000));
-    if (result.status == ReadStatus::kFrame || result.status == ReadStatus::kTimeout) return result;
-  }
+  const auto deadline = Clock::now() + std::chrono::minutes(1);
+  ReadResult result;
+  do {
+    result = source.Read(milliseconds(500));
+  } while (result.status != ReadStatus::kFrame && Clock::now() < deadline);
+  return result;
 }
 
 // The frame of the folder that this is; -1 if of none.
@@ -42,7 +45,8 @@ int NumberOf(const DepthFrame& frame, int count) {
 
 TEST(Device, DeliversTheFramesBitForBitAt30Hz) {
   const TemporaryFolder folder;
-  WriteExampleFolder(folder.path(), 10);
+  constexpr int kFrames = 60;  // two seconds: a busy machine loses some of them
+  WriteExampleFolder(folder.path(), kFrames);
   const auto source = OpenSource(Uri(folder));
   EXPECT_TRUE(source->is_live());
   EXPECT_EQ(source->frame_count(), std::nullopt);
@@ -50,7 +54,7 @@ TEST(Device, DeliversTheFramesBitForBitAt30Hz) {
   for (int i = 0; i < 5; ++i) {
     const ReadResult result = NextFrame(*source);
     ASSERT_EQ(result.status, ReadStatus::kFrame);
-    const int number = NumberOf(result.frame, 10);
+    const int number = NumberOf(result.frame, kFrames);
     ASSERT_GT(number, last) << "frames in order, none twice";
     if (last >= 0) {
       EXPECT_EQ(result.dropped, number - last - 1);
@@ -73,37 +77,44 @@ TEST(Device, TellsItsExactCamera) {
 TEST(Device, ThatMirrorsByDefaultIsToldNotTo) {
   const TemporaryFolder folder;
   WriteExampleFolder(folder.path(), 10);
-  const auto source = OpenSource(Uri(folder, "?mirror=1"));
+  const auto source = OpenSource(Uri(folder, "?mirror=1&loop=1"));
   EXPECT_GE(NumberOf(NextFrame(*source).frame, 10), 0);
 }
 
 TEST(Device, ASlowReaderGetsTheNewestFrameAndTheNumberLost) {
   const TemporaryFolder folder;
-  WriteExampleFolder(folder.path(), 60);
-  const auto source = OpenSource(Uri(folder, "?fps=100"));
-  const int first = NumberOf(NextFrame(*source).frame, 60);
-  std::this_thread::sleep_for(milliseconds(200));
-  const ReadResult late = NextFrame(*source);
-  ASSERT_EQ(late.status, ReadStatus::kFrame);
-  const int number = NumberOf(late.frame, 60);
-  EXPECT_EQ(late.dropped, number - first - 1);
-  // 200 ms are 20 frames; half of them allows for a loaded machine. A queue would give the second.
-  EXPECT_GT(late.dropped, 10);
+  constexpr int kFrames = 60;
+  WriteExampleFolder(folder.path(), kFrames);
+  const auto source = OpenSource(Uri(folder, "?loop=1&fps=100"));
+  int before = NumberOf(NextFrame(*source).frame, kFrames);
+  // 200 ms are 20 frames, and a queue would never lose one. On a busy machine the camera itself may
+  // stand still for so long: then once more.
+  int64_t dropped = 0;
+  for (int attempt = 0; attempt < 20 && dropped <= 10; ++attempt) {
+    std::this_thread::sleep_for(milliseconds(200));
+    const ReadResult late = NextFrame(*source);
+    ASSERT_EQ(late.status, ReadStatus::kFrame);
+    dropped = late.dropped;
+    const int number = NumberOf(late.frame, kFrames);
+    EXPECT_EQ((before + 1 + dropped) % kFrames, number);
+    before = number;
+  }
+  EXPECT_GT(dropped, 10);
 }
 
 TEST(Device, IsUnpluggedAndPluggedInAgainWithoutTheReaderNoticingMoreThanAGap) {
   const TemporaryFolder folder;
   WriteExampleFolder(folder.path(), 8);
   const auto source =
-      OpenSource(Uri(folder, "?loop=1&fps=60&unplug_after=6&replug_after_ms=150&unplugs=3"));
+      OpenSource(Uri(folder, "?loop=1&fps=60&unplug_after=6&replug_after_ms=150&unplugs=1000"));
   int disconnections = 0;
   bool connected = true;
   int64_t index = -1;
   double time_s = -1.0;
   int64_t dropped = 0;
-  const auto deadline = Clock::now() + std::chrono::seconds(20);
+  const auto deadline = Clock::now() + std::chrono::minutes(1);
   int frames_after = 0;
-  while (frames_after < 6 && Clock::now() < deadline) {
+  while (frames_after < 3 && Clock::now() < deadline) {
     const ReadResult result = source->Read(milliseconds(50));
     if (result.status == ReadStatus::kDisconnected) {
       disconnections += connected ? 1 : 0;
@@ -116,10 +127,10 @@ TEST(Device, IsUnpluggedAndPluggedInAgainWithoutTheReaderNoticingMoreThanAGap) {
     index = result.frame.index;
     time_s = result.frame.time_s;
     dropped += result.dropped;
-    if (disconnections == 3) ++frames_after;
+    if (disconnections >= 3) ++frames_after;
   }
-  EXPECT_EQ(disconnections, 3);
-  EXPECT_EQ(frames_after, 6);
+  EXPECT_GE(disconnections, 3);
+  EXPECT_EQ(frames_after, 3);
   EXPECT_GE(dropped, 3 * 8) << "each gap of 150 ms is 9 frames";
 }
 
@@ -127,7 +138,7 @@ TEST(Device, ThatStopsDeliveringTimesOut) {
   const TemporaryFolder folder;
   WriteExampleFolder(folder.path(), 10);
   const auto source = OpenSource(Uri(folder, "?stall_after=1"));
-  EXPECT_EQ(source->Read(milliseconds(2000)).status, ReadStatus::kFrame);
+  EXPECT_EQ(NextFrame(*source).status, ReadStatus::kFrame);
   const auto began = Clock::now();
   EXPECT_EQ(source->Read(milliseconds(250)).status, ReadStatus::kTimeout);
   EXPECT_GE(Clock::now() - began, milliseconds(250));
@@ -138,7 +149,7 @@ TEST(Device, AtItsEndIsUnpluggedForGood) {
   WriteExampleFolder(folder.path(), 3);
   const auto source = OpenSource(Uri(folder));
   ReadStatus status = ReadStatus::kFrame;
-  for (int i = 0; i < 20 && status != ReadStatus::kDisconnected; ++i) {
+  for (int i = 0; i < 100 && status != ReadStatus::kDisconnected; ++i) {
     status = source->Read(milliseconds(200)).status;
   }
   EXPECT_EQ(status, ReadStatus::kDisconnected);
@@ -147,16 +158,18 @@ TEST(Device, AtItsEndIsUnpluggedForGood) {
 
 TEST(Device, AFrameItCannotReadIsADroppedFrame) {
   const TemporaryFolder folder;
-  WriteExampleFolder(folder.path(), 6);
+  constexpr int kFrames = 6;
+  WriteExampleFolder(folder.path(), kFrames);
   std::ofstream(folder / "000002.png") << "no PNG";
-  const auto source = OpenSource(Uri(folder, "?fps=20"));
+  const auto source = OpenSource(Uri(folder, "?loop=1&fps=20"));
   int last = -1;
-  while (last < 5) {
+  for (int64_t index = 0; index < 2 * kFrames;) {
     const ReadResult result = NextFrame(*source);
     ASSERT_EQ(result.status, ReadStatus::kFrame);
-    const int number = NumberOf(result.frame, 6);
+    index = result.frame.index;
+    const int number = NumberOf(result.frame, kFrames);
     if (last >= 0) {
-      EXPECT_EQ(result.dropped, number - last - 1);
+      EXPECT_EQ((last + 1 + result.dropped) % kFrames, number);
     }
     last = number;
   }
@@ -167,8 +180,8 @@ TEST(Device, TwoAtOnceDoNotDisturbEachOther) {
   const TemporaryFolder b;
   WriteExampleFolder(a.path(), 10);
   WriteExampleFolder(b.path(), 10, 16, 12);
-  const auto first = OpenSource(Uri(a));
-  const auto second = OpenSource(Uri(b));
+  const auto first = OpenSource(Uri(a, "?loop=1"));
+  const auto second = OpenSource(Uri(b, "?loop=1"));
   EXPECT_EQ(NextFrame(*first).frame.camera.width, 32);
   EXPECT_EQ(NextFrame(*second).frame.camera.width, 16);
 }

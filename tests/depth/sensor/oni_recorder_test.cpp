@@ -20,7 +20,7 @@ using test::TemporaryFolder;
 std::vector<DepthFrame> ReadAll(FrameSource& source) {
   std::vector<DepthFrame> frames;
   for (;;) {
-    ReadResult result = source.Read(milliseconds(5000));
+    ReadResult result = source.Read(milliseconds(60000));
     if (result.status != ReadStatus::kFrame) break;
     frames.push_back(std::move(result.frame));
   }

@@ -246,10 +246,10 @@ TEST(TrackCommand, CtrlCEndsCleanlyAndTheFileIsWhole) {
   RunningCommand command =
       StartOssa({"track", "openni:ossa://" + (folder / "in").string() + "?loop=1", "--out",
                  out.string(), "--method", "none", "--view", "--port", "0"});
-  ASSERT_TRUE(command.WaitForError("watch at", milliseconds(20000)));
+  ASSERT_TRUE(command.WaitForError("watch at", test::kCommandTimeout));
   std::this_thread::sleep_for(milliseconds(1500));
   command.Signal(SIGINT);
-  const CommandResult result = command.Wait(milliseconds(20000));
+  const CommandResult result = command.Wait(test::kCommandTimeout);
   EXPECT_FALSE(result.timed_out);
   if (std::filesystem::exists(out)) {
     EXPECT_GE(recon::ReadSkeletons(out.string()).frames.size(), 1U);

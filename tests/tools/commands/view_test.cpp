@@ -40,9 +40,9 @@ TEST(ViewCommand, CtrlCEndsIt) {
   const TemporaryFolder folder;
   WriteSkeletons(folder / "x.jsonl");
   auto command = test::StartOssa({"view", (folder / "x.jsonl").string(), "--port", "0"});
-  ASSERT_TRUE(command.WaitForError("watch at", milliseconds(20000)));
+  ASSERT_TRUE(command.WaitForError("watch at", test::kCommandTimeout));
   command.Signal(SIGINT);
-  EXPECT_FALSE(command.Wait(milliseconds(20000)).timed_out);
+  EXPECT_FALSE(command.Wait(test::kCommandTimeout).timed_out);
 }
 
 TEST(ViewCommand, APortThatIsTakenIsOneLine) {
