@@ -20,16 +20,17 @@ double MillisecondsSince(Clock::time_point start) {
 // keep within 2 cm of the image, 6 cm when their reliability is nil. Inferred ones are off by 3 to
 // 12 cm where the forest trusts them by 0.9 to 0 (rendered rooms), and may move by twice that.
 // Joints below them on the limb that are not seen move along, so that the limb keeps its shape.
-recon::Posture HeldToImage(const recon::Posture& posture, const Body& body) {
+recon::Posture HeldToImage(const recon::Posture& posture, const recon::TrackedPosture& observed,
+                           const std::array<double, kJointCount>& reliability) {
   recon::Posture held = posture;
   for (size_t j = 0; j < kJointCount; ++j) {
     const int parent = recon::kJointParent[j];
-    if (body.raw.state[j] != TrackingState::kNotTracked) {
-      const Eigen::Vector3d& seen = body.raw.posture.position_m[j];
-      const bool tracked = body.raw.state[j] == TrackingState::kTracked;
+    if (observed.state[j] != TrackingState::kNotTracked) {
+      const Eigen::Vector3d& seen = observed.posture.position_m[j];
+      const bool tracked = observed.state[j] == TrackingState::kTracked;
       const double radius_m =
-          tracked ? 0.02 + 0.04 * (1.0 - std::clamp(body.reliability[j], 0.0, 1.0))
-                  : 0.06 + 0.18 * (1.0 - std::clamp(body.raw.confidence[j], 0.0, 1.0));
+          tracked ? 0.02 + 0.04 * (1.0 - std::clamp(reliability[j], 0.0, 1.0))
+                  : 0.06 + 0.18 * (1.0 - std::clamp(observed.confidence[j], 0.0, 1.0));
       const Eigen::Vector3d off = posture.position_m[j] - seen;
       const double share = off.norm() > radius_m ? radius_m / off.norm() : 1.0;
       held.position_m[j] = seen + off * share;
@@ -52,7 +53,8 @@ void CompleteBody(const depth::DepthFrame& frame, const std::optional<Eigen::Vec
                   const CompleteOptions& options, Person& person, Body& body, StageTimes& ms) {
   const auto start = Clock::now();
   if (!person.reconstructor) person.reconstructor = recon::MakeReconstructor(options.reconstructor);
-  const auto result = person.reconstructor->Step({body.raw, frame.time_s, &frame});
+  const recon::TrackedPosture steady = person.steady.Step(body.raw, frame.time_s);
+  const auto result = person.reconstructor->Step({steady, frame.time_s, &frame});
   body.reconstructed = result.posture;
   body.reliability = result.reliability;
   ms.reconstruct += MillisecondsSince(start);
@@ -64,8 +66,8 @@ void CompleteBody(const depth::DepthFrame& frame, const std::optional<Eigen::Vec
     if (made) posture = made->posture;
     ms.physics += MillisecondsSince(physics_start);
   }
-  body.smoothed =
-      Smooth(HeldToImage(posture, body), frame.time_s, options.smoothing, person.smoothing);
+  body.smoothed = Smooth(HeldToImage(posture, steady, body.reliability), frame.time_s,
+                         options.smoothing, person.smoothing);
   body.absolute_orientation = recon::OrientationsOf(body.smoothed);
   body.hierarchical_orientation = recon::HierarchicalOf(body.absolute_orientation);
 }

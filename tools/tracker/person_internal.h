@@ -5,6 +5,7 @@
 #include "recon/methods/reconstructor.h"
 #include "tools/tracker/choose_posture_internal.h"
 #include "tools/tracker/mechanics_internal.h"
+#include "tools/tracker/steady_internal.h"
 #include "tools/tracker/tracker.h"
 
 namespace ossa::tracker {
@@ -19,6 +20,7 @@ struct Person {
   recon::BoneLengths lengths_m = AverageBoneLengths();
   std::optional<recon::TrackedPosture> before;  // of the last frame it was tracked in
   std::vector<float> context;                   // facing, as the forest saw it
+  SteadyBody steady;
   std::unique_ptr<recon::Reconstructor> reconstructor;
   std::unique_ptr<Mechanics> mechanics;
   SmoothingState smoothing;
