@@ -3,7 +3,7 @@
 #include <filesystem>
 #include <sstream>
 
-#include "recon/motion/skeleton_io.h"
+#include "recon/motion/skeletons/skeleton_io.h"
 #include "tests/fuzz/outcome.h"
 #include "tests/fuzz/seeds.h"
 #include "tests/recon/motion/skeleton_texts.h"

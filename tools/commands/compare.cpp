@@ -6,7 +6,7 @@
 #include "depth/file/atomic_file.h"
 #include "tools/commands/command.h"
 #include "tools/commands/commands.h"
-#include "tools/experiments/comparison.h"
+#include "tools/experiments/compare/comparison.h"
 
 namespace ossa::commands {
 namespace {

@@ -11,7 +11,7 @@
 #include "forest/forest.h"
 #include "recon/database/posture_database.h"
 #include "recon/gp/learned_models.h"
-#include "recon/motion/skeleton_io.h"
+#include "recon/motion/skeletons/skeleton_io.h"
 #include "tools/commands/command.h"
 #include "tools/commands/commands.h"
 #include "tools/synth/dataset.h"

@@ -8,7 +8,7 @@
 #include "depth/error.h"
 #include "recon/gp/learned_models.h"
 #include "recon/methods/recorded_pairs.h"
-#include "recon/motion/skeleton_io.h"
+#include "recon/motion/skeletons/skeleton_io.h"
 #include "tools/commands/command.h"
 #include "tools/commands/commands.h"
 

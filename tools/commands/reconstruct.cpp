@@ -8,7 +8,7 @@
 #include "depth/error.h"
 #include "recon/database/posture_database.h"
 #include "recon/methods/sequence.h"
-#include "recon/motion/skeleton_io.h"
+#include "recon/motion/skeletons/skeleton_io.h"
 #include "tools/commands/command.h"
 #include "tools/commands/commands.h"
 #include "tools/commands/mechanics_options.h"

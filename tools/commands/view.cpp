@@ -9,7 +9,7 @@
 
 #include "depth/image/camera_io.h"
 #include "depth/sensor/frame_source.h"
-#include "recon/motion/skeleton_io.h"
+#include "recon/motion/skeletons/skeleton_io.h"
 #include "tools/commands/command.h"
 #include "tools/commands/commands.h"
 #include "tools/tracker/skeleton_record.h"

@@ -9,7 +9,7 @@
 #include <thread>
 
 #include "depth/error.h"
-#include "recon/motion/skeleton_jsonl.h"
+#include "recon/motion/skeletons/skeleton_jsonl.h"
 #include "tools/viewer/page_internal.h"
 
 namespace ossa::viewer {

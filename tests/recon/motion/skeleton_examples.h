@@ -4,7 +4,7 @@
 #include <string>
 
 #include "depth/error.h"
-#include "recon/motion/skeleton_io.h"
+#include "recon/motion/skeletons/skeleton_io.h"
 
 namespace ossa::recon {
 

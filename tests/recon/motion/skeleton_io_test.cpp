@@ -1,4 +1,4 @@
-#include "recon/motion/skeleton_io.h"
+#include "recon/motion/skeletons/skeleton_io.h"
 
 #include <gtest/gtest.h>
 
@@ -7,7 +7,7 @@
 #include <sstream>
 
 #include "depth/error.h"
-#include "recon/motion/skeleton_jsonl.h"
+#include "recon/motion/skeletons/skeleton_jsonl.h"
 #include "tests/recon/motion/skeleton_examples.h"
 #include "tests/support/temporary_folder.h"
 

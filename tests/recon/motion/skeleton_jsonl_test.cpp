@@ -1,4 +1,4 @@
-#include "recon/motion/skeleton_jsonl.h"
+#include "recon/motion/skeletons/skeleton_jsonl.h"
 
 #include <gtest/gtest.h>
 

@@ -4,7 +4,7 @@
 #include <fstream>
 #include <nlohmann/json.hpp>
 
-#include "recon/motion/skeleton_io.h"
+#include "recon/motion/skeletons/skeleton_io.h"
 #include "tests/recon/motion/skeleton_examples.h"
 #include "tests/support/run_command.h"
 #include "tests/support/temporary_folder.h"

@@ -5,7 +5,7 @@
 #include <filesystem>
 #include <optional>
 
-#include "recon/motion/skeleton_io.h"
+#include "recon/motion/skeletons/skeleton_io.h"
 #include "tests/recon/synthetic_motion.h"
 #include "tests/support/run_command.h"
 #include "tests/support/temporary_folder.h"

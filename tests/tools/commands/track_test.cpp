@@ -8,7 +8,7 @@
 
 #include "depth/image/depth_png.h"
 #include "depth/sensor/oni_recorder.h"
-#include "recon/motion/skeleton_io.h"
+#include "recon/motion/skeletons/skeleton_io.h"
 #include "tests/support/depth_examples.h"
 #include "tests/support/run_command.h"
 #include "tests/support/temporary_folder.h"

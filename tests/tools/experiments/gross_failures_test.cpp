@@ -1,4 +1,4 @@
-#include "tools/experiments/gross_failures.h"
+#include "tools/experiments/sdk/gross_failures.h"
 
 #include <gtest/gtest.h>
 

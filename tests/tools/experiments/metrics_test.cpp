@@ -1,10 +1,10 @@
-#include "tools/experiments/metrics.h"
+#include "tools/experiments/compare/metrics.h"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 
-#include "recon/motion/skeleton_io.h"
+#include "recon/motion/skeletons/skeleton_io.h"
 
 namespace ossa::tools {
 namespace {

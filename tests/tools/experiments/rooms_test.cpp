@@ -8,8 +8,8 @@
 #include "recon/motion/authored.h"
 #include "tests/support/run_command.h"
 #include "tests/support/temporary_folder.h"
-#include "tools/experiments/jobs.h"
-#include "tools/experiments/rooms_internal.h"
+#include "tools/experiments/rooms/rooms_internal.h"
+#include "tools/experiments/stage/jobs.h"
 
 namespace ossa::tools {
 namespace {

@@ -1,4 +1,4 @@
-#include "tools/experiments/staged.h"
+#include "tools/experiments/stage/staged.h"
 
 #include <gtest/gtest.h>
 
@@ -9,8 +9,8 @@
 #include "recon/body/body_model.h"
 #include "tests/support/run_command.h"
 #include "tests/support/temporary_folder.h"
-#include "tools/experiments/metrics.h"
-#include "tools/experiments/motions.h"
+#include "tools/experiments/compare/metrics.h"
+#include "tools/experiments/stage/motions.h"
 
 namespace ossa::tools {
 namespace {

@@ -1,4 +1,4 @@
-#include "tools/experiments/statistics.h"
+#include "tools/experiments/compare/statistics.h"
 
 #include <gtest/gtest.h>
 
@@ -8,7 +8,7 @@
 #include <map>
 #include <sstream>
 
-#include "tools/experiments/joint_track.h"
+#include "tools/experiments/compare/joint_track.h"
 
 namespace ossa::tools {
 namespace {

@@ -1,0 +1,287 @@
+#include "recon/motion/skeletons/skeleton_io.h"
+
+#include <algorithm>
+#include <array>
+#include <fstream>
+#include <set>
+#include <sstream>
+
+#include "depth/error.h"
+#include "depth/file/atomic_file.h"
+#include "recon/motion/bvh.h"
+#include "recon/motion/skeletons/skeleton_formats_internal.h"
+#include "recon/motion/skeletons/skeleton_jsonl.h"
+#include "recon/motion/skeletons/skeleton_source_internal.h"
+
+namespace ossa::recon {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr size_t kSampleBytes = size_t{1} << 16;
+constexpr size_t kSampleLines = 64;
+
+std::string ReadSample(std::istream& stream) {
+  std::string head(kSampleBytes, '\0');
+  stream.read(head.data(), static_cast<std::streamsize>(head.size()));
+  head.resize(static_cast<size_t>(stream.gcount()));
+  stream.clear();
+  stream.seekg(0);
+  return head;
+}
+
+SkeletonSample SampleOf(std::string_view head, std::string_view name) {
+  SkeletonSample sample{name, head, {}};
+  if (head.starts_with("\xEF\xBB\xBF")) head.remove_prefix(3);
+  const bool may_be_cut = head.size() >= kSampleBytes - 3;
+  while (!head.empty() && sample.lines.size() < kSampleLines) {
+    const size_t end = head.find('\n');
+    if (end == std::string_view::npos && may_be_cut && !sample.lines.empty()) break;
+    const std::string_view line = Trimmed(head.substr(0, end));
+    if (!line.empty()) sample.lines.push_back(line);
+    if (end == std::string_view::npos) break;
+    head.remove_prefix(end + 1);
+  }
+  return sample;
+}
+
+const SkeletonFormat& FormatNamed(const std::string& format) {
+  const auto formats = AllSkeletonFormats();
+  const auto found = std::find_if(formats.begin(), formats.end(),
+                                  [&](const SkeletonFormat& f) { return f.name == format; });
+  if (found != formats.end()) return *found;
+  std::string known;
+  for (const SkeletonFormat& f : formats) known.append(" ").append(f.name);
+  throw InputError("format " + Quoted(format) + ": expected one of" + known);
+}
+
+const SkeletonFormat& FormatOf(std::istream& stream, const std::string& name) {
+  const std::string head = ReadSample(stream);
+  if (head.find_first_not_of(" \t\r\n") == std::string::npos) {
+    throw InputError(name + ": line 1: expected a skeleton recording, found an empty file");
+  }
+  const SkeletonSample sample = SampleOf(head, name);
+  for (const SkeletonFormat& format : AllSkeletonFormats()) {
+    if (format.recognises(sample)) return format;
+  }
+  throw InputError(name + ": line 1: expected a skeleton recording that ossa knows, found " +
+                   Quoted(sample.lines.empty() ? sample.head : sample.lines[0]));
+}
+
+SkeletonSequence Read(SkeletonInput input, const SkeletonReadOptions& options) {
+  const SkeletonFormat& format =
+      options.format.empty() ? FormatOf(input.stream, input.name) : FormatNamed(options.format);
+  return format.read(input);
+}
+
+std::optional<std::string> TextOfFile(const std::string& name) {
+  std::ifstream file(name, std::ios::binary);
+  if (!file) return std::nullopt;
+  std::ostringstream text;
+  text << file.rdbuf();
+  return std::move(text).str();
+}
+
+std::string Columns(const SkeletonReadOptions& options, const SkeletonPath& parts) {
+  if (!parts.columns.empty()) return parts.columns;
+  if (options.columns.empty()) return {};
+  const std::string columns = ColumnsNamed(options.columns);
+  if (columns.empty()) {
+    throw InputError("columns " + Quoted(options.columns) + ": expected truth or observed");
+  }
+  return columns;
+}
+
+SkeletonSequence ReadText(const std::string& text, const std::string& name,
+                          const std::string& columns, const SkeletonReadOptions& options,
+                          std::function<std::optional<std::string>(const std::string&)> sibling) {
+  std::istringstream stream(text);
+  return Read({stream, name, columns, options.frame_s, std::move(sibling)}, options);
+}
+
+SkeletonSequence ReadFile(const fs::path& path, const std::string& columns,
+                          const SkeletonReadOptions& options) {
+  if (IsGzip(path)) return ReadText(ReadGzip(path), path.string(), columns, options, {});
+  std::ifstream file(path, std::ios::binary);
+  if (!file) throw InputError(path.string() + ": cannot be opened for reading");
+  return Read({file, path.string(), columns, options.frame_s, TextOfFile}, options);
+}
+
+// Extensions that never hold a skeleton, and what lies beside recordings in the data sets we know.
+bool IsPassedOver(const fs::path& path) {
+  static const std::set<std::string> kOther = {".md", ".png", ".jpg", ".mp4", ".avi", ".html",
+                                               ".py", ".m",   ".pdf", ".yml", ".toml"};
+  const std::string name = path.filename().string();
+  for (const char* word : {"README", "LICENSE", "ORIGINAL_", "INDEX.", "PROVENANCE", "manifest.",
+                           "camera.json", "SHA256"}) {
+    if (name.starts_with(word)) return true;
+  }
+  // Angles are read together with the positions they belong to.
+  return name.starts_with('.') || kOther.contains(path.extension().string()) ||
+         name.ends_with("_angles.txt");
+}
+
+std::string WithoutExtension(std::string name) {
+  const size_t slash = name.rfind('/');
+  for (const char* extension : {".gz", ".tar", ".tgz", ".zip"}) {
+    if (name.ends_with(extension)) name.resize(name.size() - std::string_view(extension).size());
+  }
+  const size_t dot = name.rfind('.');
+  if (dot != std::string::npos && (slash == std::string::npos || dot > slash)) name.resize(dot);
+  return name;
+}
+
+std::vector<SkeletonClip> ReadArchiveClips(const SkeletonPath& parts, const std::string& columns,
+                                           const SkeletonReadOptions& options) {
+  const auto members = ReadArchive(parts.path);
+  const auto sibling = [&](const std::string& name) -> std::optional<std::string> {
+    const std::string prefix = parts.path.string() + "#";
+    const auto found = members.find(name.starts_with(prefix) ? name.substr(prefix.size()) : name);
+    if (found == members.end()) return std::nullopt;
+    return found->second;
+  };
+  std::vector<SkeletonClip> clips;
+  for (const auto& [name, text] : members) {
+    if (IsPassedOver(name) || name.find(parts.member) == std::string::npos) continue;
+    clips.push_back({WithoutExtension(name),
+                     ReadText(text, parts.path.string() + "#" + name, columns, options, sibling)});
+  }
+  return clips;
+}
+
+std::vector<SkeletonClip> ReadFolderClips(const SkeletonPath& parts, const std::string& columns,
+                                          const SkeletonReadOptions& options) {
+  std::set<fs::path> files;
+  for (const auto& entry : fs::recursive_directory_iterator(parts.path)) {
+    if (entry.is_regular_file() && !IsPassedOver(entry.path())) files.insert(entry.path());
+  }
+  std::vector<SkeletonClip> clips;
+  for (const fs::path& file : files) {
+    if (file.string().find(parts.member) == std::string::npos) continue;
+    const std::string name = WithoutExtension(fs::relative(file, parts.path).string());
+    if (!IsArchive(file)) {
+      clips.push_back({name, ReadFile(file, columns, options)});
+      continue;
+    }
+    for (SkeletonClip& clip : ReadArchiveClips({file, {}, {}}, columns, options)) {
+      // Archives usually hold a folder of their own name: "s01/s01/x" says no more than "s01/x".
+      if (!clip.name.starts_with(name + "/")) clip.name = name + "/" + clip.name;
+      clips.push_back(std::move(clip));
+    }
+  }
+  return clips;
+}
+
+std::vector<int> BodyIds(const SkeletonSequence& sequence) {
+  std::vector<int> ids;
+  for (const SkeletonFrame& frame : sequence.frames) {
+    for (const BodyRecord& body : frame.bodies) {
+      if (std::find(ids.begin(), ids.end(), body.id) == ids.end()) ids.push_back(body.id);
+    }
+  }
+  if (ids.empty()) ids.push_back(1);
+  return ids;
+}
+
+fs::path PathForBody(const fs::path& path, size_t index, int id) {
+  if (index == 0) return path;
+  fs::path other = path;
+  other.replace_filename(path.stem().string() + "_" + std::to_string(id) +
+                         path.extension().string());
+  return other;
+}
+
+}  // namespace
+
+std::span<const SkeletonFormat> AllSkeletonFormats() {
+  static const std::vector<SkeletonFormat> kAll = [] {
+    std::vector<SkeletonFormat> all;
+    // Azure before ours: both are JSON with "bodies", and only its marks are unmistakable.
+    for (const auto formats : {AzureFormats(), PlainFormats(), PairedFormats(), UiPrmdFormats(),
+                               KinectV2Formats(), KinectV1Formats(), BinaryFormats()}) {
+      all.insert(all.end(), formats.begin(), formats.end());
+    }
+    return all;
+  }();
+  return kAll;
+}
+
+void RequireFrames(const SkeletonSequence& sequence) {
+  if (!sequence.frames.empty()) return;
+  throw InputError(sequence.source + ": expected at least one frame, found none");
+}
+
+std::vector<std::string> SkeletonFormats() {
+  std::vector<std::string> names;
+  for (const SkeletonFormat& format : AllSkeletonFormats()) names.emplace_back(format.name);
+  return names;
+}
+
+SkeletonSequence ReadSkeletonStream(std::istream& stream, const std::string& name,
+                                    const SkeletonReadOptions& options) {
+  return Read({stream, name, Columns(options, {}), options.frame_s, {}}, options);
+}
+
+std::vector<SkeletonClip> ReadSkeletonClips(const fs::path& path,
+                                            const SkeletonReadOptions& options) {
+  const SkeletonPath parts = TakeApart(path);
+  const std::string columns = Columns(options, parts);
+  if (!fs::exists(parts.path)) throw InputError(parts.path.string() + ": no such file or folder");
+  std::vector<SkeletonClip> clips;
+  if (fs::is_directory(parts.path)) {
+    clips = ReadFolderClips(parts, columns, options);
+  } else if (IsArchive(parts.path)) {
+    clips = ReadArchiveClips(parts, columns, options);
+  } else {
+    clips.push_back({"", ReadFile(parts.path, columns, options)});
+  }
+  if (clips.empty()) throw InputError(path.string() + ": holds no skeleton recording");
+  return clips;
+}
+
+SkeletonSequence ReadSkeletons(const fs::path& path, const SkeletonReadOptions& options) {
+  auto clips = ReadSkeletonClips(path, options);
+  if (clips.size() > 1) {
+    throw InputError(path.string() + ": expected one recording, found " +
+                     std::to_string(clips.size()) + ": name one, as " + path.string() + "#" +
+                     clips[0].name);
+  }
+  return std::move(clips[0].sequence);
+}
+
+void CheckSkeletonExtension(const fs::path& path) {
+  static constexpr std::array kKnown = {".jsonl", ".csv", ".trc", ".bvh"};
+  if (std::find(kKnown.begin(), kKnown.end(), path.extension()) != kKnown.end()) return;
+  throw InputError(path.string() + ": expected a name in .jsonl, .csv, .trc or .bvh, found " +
+                   Quoted(path.extension().string()));
+}
+
+void WriteSkeletons(const fs::path& path, const SkeletonSequence& sequence) {
+  CheckSkeletonExtension(path);
+  if (path.extension() == ".jsonl" || path.extension() == ".csv") {
+    AtomicFile file(path);
+    if (path.extension() == ".csv") {
+      WriteSkeletonCsv(file.stream(), sequence);
+    } else {
+      SkeletonJsonlWriter writer(file.stream());
+      for (const SkeletonFrame& frame : sequence.frames) writer.Write(frame);
+    }
+    file.Commit();
+    return;
+  }
+  const std::vector<int> ids = BodyIds(sequence);
+  for (size_t i = 0; i < ids.size(); ++i) {
+    const fs::path own = PathForBody(path, i, ids[i]);
+    if (path.extension() == ".bvh") {
+      BvhExportOptions options;
+      options.body_id = ids[i];
+      WriteBvh(BvhOfSkeleton(sequence, options), own);
+      continue;
+    }
+    AtomicFile file(own);
+    WriteTrc(file.stream(), sequence, ids[i], own.filename().string());
+    file.Commit();
+  }
+}
+
+}  // namespace ossa::recon

@@ -1,0 +1,176 @@
+#include "tools/experiments/compare/comparison.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <map>
+#include <set>
+
+#include "depth/error.h"
+
+namespace ossa::tools {
+namespace {
+
+using recon::SkeletonClip;
+
+bool HoldsAny(const std::string& name, const std::vector<std::string>& parts) {
+  return std::any_of(parts.begin(), parts.end(),
+                     [&](const std::string& part) { return name.find(part) != std::string::npos; });
+}
+
+/// `columns`: of files that hold truth and estimate side by side, what is wanted unless said.
+std::vector<SkeletonClip> Chosen(const std::string& path, const CompareOptions& options,
+                                 const char* columns) {
+  auto reading = options.reading;
+  if (reading.columns.empty()) reading.columns = columns;
+  auto clips = recon::ReadSkeletonClips(path, reading);
+  std::erase_if(clips, [&](const SkeletonClip& clip) {
+    return HoldsAny(clip.name, options.skip) ||
+           (!options.only.empty() && !HoldsAny(clip.name, options.only));
+  });
+  if (clips.empty()) throw InputError(path + ": no clip is left by --only and --skip");
+  return clips;
+}
+
+// Nothing to compare is an error that says what was there, not a table of blanks.
+[[noreturn]] void RefuseEmpty(const std::string& truth, const std::string& result,
+                              const std::string& what) {
+  throw InputError(fmt::format("{}: expected {} of {}, found none", result, what, truth));
+}
+
+void AddClip(ComparedResult& compared, const std::string& name, const SkeletonClip& truth,
+             const SkeletonClip& result, const PairOptions& options) {
+  for (PairedTracks& pair : PairUp(truth.sequence, result.sequence, options)) {
+    pair.name = name.empty() || pair.name.empty() ? name + pair.name : name + " " + pair.name;
+    ClipMetrics metrics = Measure(pair);
+    if (metrics.frames == 0 && !metrics.fraction_joints_missing) continue;
+    compared.clips.push_back(std::move(metrics));
+    compared.pairs.push_back(std::move(pair));
+  }
+}
+
+std::vector<double> Values(const std::vector<ClipMetrics>& clips,
+                           std::optional<double> ClipMetrics::*member) {
+  std::vector<double> values;
+  for (const ClipMetrics& clip : clips) {
+    if (clip.*member) values.push_back(*(clip.*member));
+  }
+  return values;
+}
+
+ComparedResult CompareOne(const std::string& truth_name, const std::vector<SkeletonClip>& truth,
+                          const std::string& name, const CompareOptions& options) {
+  ComparedResult compared;
+  compared.name = name;
+  const auto results = Chosen(name, options, "observed");
+  std::map<std::string, const SkeletonClip*> by_name;
+  for (const SkeletonClip& clip : results) by_name[clip.name] = &clip;
+  const bool single = truth.size() == 1 && results.size() == 1;
+  for (const SkeletonClip& clip : truth) {
+    const auto found = by_name.find(clip.name);
+    if (!single && found == by_name.end()) {
+      compared.missing_clips.push_back(clip.name);
+      continue;
+    }
+    AddClip(compared, clip.name, clip, single ? results[0] : *found->second, options.pairing);
+  }
+  if (compared.missing_clips.size() == truth.size()) {
+    RefuseEmpty(truth_name, name, "clips with the names of those");
+  }
+  compared.mean = MeanOverClips(name, compared.clips);
+  if (compared.mean.frames == 0) {
+    RefuseEmpty(truth_name, name, "frames with joints at the times");
+  }
+  compared.mean_joint_error_interval =
+      BootstrapMean(Values(compared.clips, &ClipMetrics::mean_joint_error_cm), options.seed);
+  compared.parent_relative_error_interval =
+      BootstrapMean(Values(compared.clips, &ClipMetrics::parent_relative_error_cm), options.seed);
+  return compared;
+}
+
+// values[result][clip] over the clips that every result has.
+std::vector<std::vector<double>> Shared(const std::vector<ComparedResult>& results,
+                                        std::optional<double> ClipMetrics::*member) {
+  std::map<std::string, size_t> seen;
+  for (const ComparedResult& result : results) {
+    for (const ClipMetrics& clip : result.clips) seen[clip.name] += clip.*member ? 1u : 0u;
+  }
+  std::vector<std::vector<double>> values(results.size());
+  for (size_t r = 0; r < results.size(); ++r) {
+    for (const ClipMetrics& clip : results[r].clips) {
+      if (seen[clip.name] == results.size()) values[r].push_back(*(clip.*member));
+    }
+  }
+  return values;
+}
+
+void AddTest(std::vector<ComparedTest>& tests, const std::string& test, const std::string& quantity,
+             const std::string& between, size_t units, const std::optional<TestResult>& result,
+             double corrections) {
+  if (!result) return;
+  tests.push_back(
+      {test, quantity, between, units, *result, std::min(1.0, corrections * result->p)});
+}
+
+// Plantard 2016, 8.2: normal errors by repeated-measures Anova and Bonferroni, the others by
+// Friedman and Wilcoxon signed rank with Bonferroni. Both families are reported for both
+// quantities; the normality test says which to believe.
+void TestQuantity(const std::vector<ComparedResult>& results, const std::string& quantity,
+                  std::optional<double> ClipMetrics::*member, std::vector<ComparedTest>& tests) {
+  const auto values = Shared(results, member);
+  constexpr size_t kFewestUnits = 5;  // below, no signed-rank test can reach p = 0.05
+  const size_t units = values[0].size();
+  if (units < kFewestUnits) return;
+  for (size_t r = 0; r < results.size(); ++r) {
+    AddTest(tests, "Kolmogorov-Smirnov normality", quantity, results[r].label, units,
+            NormalKs(values[r]), 1);
+  }
+  AddTest(tests, "repeated-measures Anova", quantity, "all", units, RepeatedAnova(values), 1);
+  AddTest(tests, "Friedman", quantity, "all", units, Friedman(values), 1);
+  const auto pairs = static_cast<double>(results.size() * (results.size() - 1) / 2);
+  for (size_t a = 0; a < results.size(); ++a) {
+    for (size_t b = a + 1; b < results.size(); ++b) {
+      const std::string between = results[a].label + " / " + results[b].label;
+      AddTest(tests, "paired t", quantity, between, units, PairedT(values[a], values[b]), pairs);
+      AddTest(tests, "Wilcoxon signed rank", quantity, between, units,
+              Wilcoxon(values[a], values[b]), pairs);
+    }
+  }
+}
+
+void Label(std::vector<ComparedResult>& results) {
+  std::map<std::string, int> uses;
+  const auto last_part = [](const std::string& name) {
+    return name.substr(name.find_last_of('/') + 1);
+  };
+  for (const ComparedResult& result : results) ++uses[last_part(result.name)];
+  for (ComparedResult& result : results) {
+    const std::string part = last_part(result.name);
+    result.label = part.empty() || uses[part] > 1 ? result.name : part;
+  }
+}
+
+}  // namespace
+
+Comparison Compare(const std::string& truth, const std::vector<std::string>& results,
+                   const CompareOptions& options) {
+  Comparison comparison;
+  comparison.truth = truth;
+  comparison.rigid = options.pairing.rigid;
+  const auto clips = Chosen(truth, options, "truth");
+  for (const std::string& result : results) {
+    comparison.results.push_back(CompareOne(truth, clips, result, options));
+  }
+  Label(comparison.results);
+  if (results.size() > 1) {
+    TestQuantity(comparison.results, "mean joint error", &ClipMetrics::mean_joint_error_cm,
+                 comparison.tests);
+    TestQuantity(comparison.results, "parent-relative error",
+                 &ClipMetrics::parent_relative_error_cm, comparison.tests);
+    TestQuantity(comparison.results, "share of frames over 20 cm",
+                 &ClipMetrics::fraction_frames_over_20cm, comparison.tests);
+  }
+  return comparison;
+}
+
+}  // namespace ossa::tools

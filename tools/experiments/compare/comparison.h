@@ -1,0 +1,64 @@
+#pragma once
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "recon/motion/skeletons/skeleton_io.h"
+#include "tools/experiments/compare/metrics.h"
+#include "tools/experiments/compare/statistics.h"
+
+namespace ossa::tools {
+
+struct CompareOptions {
+  PairOptions pairing;
+  recon::SkeletonReadOptions reading;
+  std::vector<std::string> only;  // clips whose name holds one of these; empty: all
+  std::vector<std::string> skip;  // but none whose name holds one of these
+  uint64_t seed = 1;              // of the bootstrap
+};
+
+/// One result against the truth, over all clips that both have.
+struct ComparedResult {
+  std::string name;   // as given
+  std::string label;  // for tables: the last part of the name where that tells results apart
+  ClipMetrics mean;   // over the clips
+  std::vector<ClipMetrics> clips;                     // by name
+  std::vector<PairedTracks> pairs;                    // of the same clips, for plots
+  std::vector<std::string> missing_clips;             // that the truth has and the result does not
+  std::optional<Interval> mean_joint_error_interval;  // 95 %, bootstrap over clips
+  std::optional<Interval> parent_relative_error_interval;
+};
+
+/// A significance test between results over the clips they share, as in Plantard 2016, 8.2.
+struct ComparedTest {
+  std::string test;      // e.g. "Wilcoxon signed rank"
+  std::string quantity;  // e.g. "share of frames over 20 cm"
+  std::string between;   // names of the results
+  size_t units = 0;      // clips
+  TestResult result;
+  double corrected_p = 1;  // after Bonferroni
+};
+
+struct Comparison {
+  std::string truth;
+  bool rigid = false;
+  std::vector<ComparedResult> results;
+  std::vector<ComparedTest> tests;
+};
+
+/// Reads and compares. Clips are matched by name; a single clip on both sides needs no equal name.
+/// Of files that hold truth and estimate side by side, each side takes its own unless said.
+Comparison Compare(const std::string& truth, const std::vector<std::string>& results,
+                   const CompareOptions& options);
+
+/// DESIGN section 4's object, with more keys beside: confidence intervals, clips, tests.
+std::string ToJson(const Comparison& comparison);
+/// What to try where the numbers say that the skeletons do not share a space; "" where they do.
+std::string Advice(const Comparison& comparison);
+/// Tables for a terminal.
+std::string ToText(const Comparison& comparison);
+/// One HTML file that needs nothing else: tables, error over time, cumulative curves, bars per
+/// joint, the worst frames drawn side by side.
+std::string ToHtml(const Comparison& comparison);
+
+}  // namespace ossa::tools

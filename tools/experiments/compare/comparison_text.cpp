@@ -1,0 +1,183 @@
+// A comparison as JSON and as tables for a terminal.
+#include <fmt/format.h>
+
+#include <nlohmann/json.hpp>
+
+#include "tools/experiments/compare/comparison.h"
+#include "tools/experiments/experiment.h"
+
+namespace ossa::tools {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+Json OrNull(const std::optional<double>& value) { return value ? Json(*value) : Json(nullptr); }
+
+Json ByJoint(const std::array<std::optional<double>, recon::kJointCount>& values) {
+  Json json = Json::object();
+  for (size_t j = 0; j < values.size(); ++j) {
+    if (values[j]) json[std::string(recon::kJointNames[j])] = *values[j];
+  }
+  return json;
+}
+
+Json JsonOf(const ClipMetrics& m) {
+  return {{"name", m.name},
+          {"frames", m.frames},
+          {"mean_joint_error_cm", OrNull(m.mean_joint_error_cm)},
+          {"parent_relative_error_cm", OrNull(m.parent_relative_error_cm)},
+          {"fraction_frames_over_20cm", OrNull(m.fraction_frames_over_20cm)},
+          {"fraction_joints_within_10cm", OrNull(m.fraction_joints_within_10cm)},
+          {"acceleration_error_cm_per_frame2", OrNull(m.acceleration_error_cm_per_frame2)},
+          {"per_joint_cm", ByJoint(m.per_joint_cm)},
+          {"map_10cm", OrNull(m.map_10cm)},
+          {"ap_10cm", ByJoint(m.ap_10cm)},
+          {"offset_removed_error_cm", OrNull(m.offset_removed_error_cm)},
+          {"bone_length_variation_percent", OrNull(m.bone_length_variation_percent)},
+          {"p95_cm", OrNull(m.p95_cm)},
+          {"p99_cm", OrNull(m.p99_cm)},
+          {"fraction_joints_missing", OrNull(m.fraction_joints_missing)},
+          {"time_offset_s", m.offset_s},
+          {"frame_times_agree", m.same_clock}};
+}
+
+Json JsonOf(const std::optional<Interval>& interval) {
+  if (!interval) return nullptr;
+  return {interval->low, interval->high};
+}
+
+Json JsonOf(const ComparedResult& result) {
+  Json json = JsonOf(result.mean);
+  json["confidence_95"] = {
+      {"mean_joint_error_cm", JsonOf(result.mean_joint_error_interval)},
+      {"parent_relative_error_cm", JsonOf(result.parent_relative_error_interval)}};
+  json["missing_clips"] = result.missing_clips;
+  json["clips"] = Json::array();
+  for (const ClipMetrics& clip : result.clips) json["clips"].push_back(JsonOf(clip));
+  return json;
+}
+
+std::string Number(const std::optional<double>& value, int digits = 2, double scale = 1) {
+  return value ? fmt::format("{:.{}f}", scale * *value, digits) : "-";
+}
+
+std::string WithInterval(const std::optional<double>& value,
+                         const std::optional<Interval>& interval) {
+  if (!interval) return Number(value);
+  return fmt::format("{} [{:.2f}, {:.2f}]", Number(value), interval->low, interval->high);
+}
+
+Table SummaryTable(const Comparison& comparison) {
+  Table table;
+  table.title = fmt::format("Against {} ({})", comparison.truth,
+                            comparison.rigid ? "one rigid transform a clip" : "no alignment");
+  table.columns = {""};
+  table.rows = {{"clips"},          {"frames"},
+                {"mean error cm"},  {"eq. 18 cm"},
+                {"frames >20cm %"}, {"joints <10cm %"},
+                {"mAP 10cm %"},     {"acceleration error cm/frame^2"},
+                {"offset-free cm"}, {"bone length variation %"},
+                {"p99 cm"},         {"time offset s"}};
+  for (const ComparedResult& r : comparison.results) {
+    const ClipMetrics& m = r.mean;
+    table.columns.push_back(r.label);
+    const std::vector<std::string> numbers = {
+        std::to_string(r.clips.size()),
+        std::to_string(m.frames),
+        WithInterval(m.mean_joint_error_cm, r.mean_joint_error_interval),
+        WithInterval(m.parent_relative_error_cm, r.parent_relative_error_interval),
+        Number(m.fraction_frames_over_20cm, 1, 100),
+        Number(m.fraction_joints_within_10cm, 1, 100),
+        Number(m.map_10cm, 1, 100),
+        Number(m.acceleration_error_cm_per_frame2),
+        Number(m.offset_removed_error_cm),
+        Number(m.bone_length_variation_percent),
+        Number(m.p99_cm, 1),
+        m.same_clock ? "0 (times agree)" : fmt::format("{:+.3f}", m.offset_s)};
+    for (size_t n = 0; n < numbers.size(); ++n) table.rows[n].push_back(numbers[n]);
+    if (!r.missing_clips.empty()) {
+      table.note += fmt::format("{} lacks {} of the truth's clips, e.g. {}. ", r.label,
+                                r.missing_clips.size(), r.missing_clips[0]);
+    }
+  }
+  table.note +=
+      "Over several clips: the mean of the clips' numbers, with its 95 % bootstrap interval. "
+      "eq. 18: joints relative to their parents (Shum 2013). Offset-free: each joint's constant "
+      "offset taken away.";
+  return table;
+}
+
+Table JointTable(const Comparison& comparison) {
+  Table table;
+  table.title = "Mean error by joint, cm";
+  table.columns = {"joint"};
+  for (const ComparedResult& result : comparison.results) table.columns.push_back(result.label);
+  for (size_t j = 0; j < recon::kJointCount; ++j) {
+    std::vector<std::string> row = {std::string(recon::kJointNames[j])};
+    bool any = false;
+    for (const ComparedResult& result : comparison.results) {
+      row.push_back(Number(result.mean.per_joint_cm[j]));
+      any = any || result.mean.per_joint_cm[j];
+    }
+    if (any) table.rows.push_back(std::move(row));
+  }
+  return table;
+}
+
+Table TestTable(const Comparison& comparison) {
+  Table table;
+  table.title = "Paired tests over clips (Plantard 2016, section 8.2)";
+  table.columns = {"quantity", "test", "between", "clips", "statistic", "p", "p (Bonferroni)"};
+  for (const ComparedTest& test : comparison.tests) {
+    table.rows.push_back({test.quantity, test.test, test.between, std::to_string(test.units),
+                          fmt::format("{:.4g}", test.result.statistic),
+                          fmt::format("{:.3g}", test.result.p),
+                          fmt::format("{:.3g}", test.corrected_p)});
+  }
+  return table;
+}
+
+}  // namespace
+
+std::string ToJson(const Comparison& comparison) {
+  Json json = {{"truth", comparison.truth},
+               {"align", comparison.rigid ? "rigid" : "none"},
+               {"results", Json::array()},
+               {"tests", Json::array()}};
+  for (const ComparedResult& result : comparison.results) {
+    json["results"].push_back(JsonOf(result));
+  }
+  for (const ComparedTest& test : comparison.tests) {
+    json["tests"].push_back({{"test", test.test},
+                             {"quantity", test.quantity},
+                             {"between", test.between},
+                             {"clips", test.units},
+                             {"statistic", test.result.statistic},
+                             {"p", test.result.p},
+                             {"p_bonferroni", test.corrected_p}});
+  }
+  return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
+}
+
+std::string Advice(const Comparison& comparison) {
+  constexpr double kApart_cm = 50.0;  // no sensor is off by as much on the whole
+  if (comparison.rigid) return "";
+  for (const ComparedResult& result : comparison.results) {
+    const auto error_cm = result.mean.mean_joint_error_cm;
+    if (!error_cm || *error_cm < kApart_cm) continue;
+    return fmt::format(
+        "{} lies {:.1f} m away from the truth: if their origins or axes differ, add --align rigid.",
+        result.label, *error_cm / 100.0);
+  }
+  return "";
+}
+
+std::string ToText(const Comparison& comparison) {
+  std::string text = ToMarkdown(SummaryTable(comparison)) + "\n";
+  text += ToMarkdown(JointTable(comparison));
+  if (!comparison.tests.empty()) text += "\n" + ToMarkdown(TestTable(comparison));
+  if (const std::string advice = Advice(comparison); !advice.empty()) text += "\n" + advice + "\n";
+  return text;
+}
+
+}  // namespace ossa::tools

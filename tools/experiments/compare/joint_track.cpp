@@ -1,0 +1,362 @@
+#include "tools/experiments/compare/joint_track.h"
+
+#include <Eigen/SVD>
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <map>
+#include <optional>
+
+namespace ossa::tools {
+namespace {
+
+using recon::BodyRecord;
+using recon::SkeletonFrame;
+using recon::SkeletonSequence;
+
+constexpr double kLongestGap_s = 0.2;  // truth is not interpolated across more
+constexpr double kSameTime_s = 2e-3;   // nearer than this, a time is the same time
+constexpr size_t kJoints = recon::kJointCount;
+
+double MedianStep_s(const std::vector<double>& time_s) {
+  std::vector<double> steps;
+  for (size_t i = 1; i < time_s.size(); ++i) steps.push_back(time_s[i] - time_s[i - 1]);
+  if (steps.empty()) return 1.0 / 30.0;
+  const auto middle = steps.begin() + static_cast<std::ptrdiff_t>(steps.size() / 2);
+  std::nth_element(steps.begin(), middle, steps.end());
+  return *middle;
+}
+
+// Every person of a sequence as a track. Frames out of order are put in order; of frames with the
+// same time the first counts.
+std::map<int, JointTrack> TracksOf(const SkeletonSequence& sequence) {
+  std::vector<const SkeletonFrame*> frames;
+  for (const SkeletonFrame& frame : sequence.frames) frames.push_back(&frame);
+  std::stable_sort(
+      frames.begin(), frames.end(),
+      [](const SkeletonFrame* a, const SkeletonFrame* b) { return a->time_s < b->time_s; });
+  std::map<int, JointTrack> tracks;
+  for (const SkeletonFrame* frame : frames) {
+    for (const BodyRecord& body : frame->bodies) {
+      JointTrack& track = tracks[body.id];
+      if (!track.time_s.empty() && track.time_s.back() == frame->time_s) continue;
+      track.time_s.push_back(frame->time_s);
+      track.postures.push_back(SparsePostureOf(body));
+    }
+  }
+  return tracks;
+}
+
+SparsePosture Between(const SparsePosture& a, const SparsePosture& b, double share) {
+  SparsePosture between;
+  for (size_t j = 0; j < kJoints; ++j) {
+    between.present[j] = a.present[j] && b.present[j];
+    between.position_m[j] = (1 - share) * a.position_m[j] + share * b.position_m[j];
+    between.confidence[j] = std::min(a.confidence[j], b.confidence[j]);
+  }
+  return between;
+}
+
+std::optional<SparsePosture> At(const JointTrack& track, double time_s) {
+  const auto& times = track.time_s;
+  const auto next = static_cast<size_t>(
+      std::lower_bound(times.begin(), times.end(), time_s - kSameTime_s) - times.begin());
+  if (next == times.size()) return std::nullopt;
+  if (std::abs(times[next] - time_s) <= kSameTime_s) return track.postures[next];
+  if (next == 0) return std::nullopt;
+  const double step_s = times[next] - times[next - 1];
+  if (step_s > kLongestGap_s) return std::nullopt;
+  return Between(track.postures[next - 1], track.postures[next],
+                 (time_s - times[next - 1]) / step_s);
+}
+
+double MeanDistance(const SparsePosture& a, const SparsePosture& b) {
+  double sum = 0;
+  int count = 0;
+  for (size_t j = 0; j < kJoints; ++j) {
+    if (!a.present[j] || !b.present[j]) continue;
+    sum += (a.position_m[j] - b.position_m[j]).norm();
+    ++count;
+  }
+  return count > 0 ? sum / count : std::numeric_limits<double>::infinity();
+}
+
+bool FrameTimesAgree(const JointTrack& truth, const JointTrack& result) {
+  const double tolerance_s = 0.25 * MedianStep_s(truth.time_s);
+  size_t near = 0;
+  for (const double time_s : result.time_s) {
+    const auto next = std::lower_bound(truth.time_s.begin(), truth.time_s.end(), time_s);
+    const bool after = next != truth.time_s.end() && *next - time_s <= tolerance_s;
+    const bool before = next != truth.time_s.begin() && time_s - *(next - 1) <= tolerance_s;
+    near += after || before ? 1 : 0;
+  }
+  // A recording may run on a little longer than the truth; one in ten frames without a twin.
+  return 10 * near >= 9 * result.time_s.size();
+}
+
+// Speed of every joint at evenly spaced times, and where it is known. speed[joint][time]. Joints
+// are kept apart: their sum over a whole body is nearly constant in many motions and would say
+// little about time.
+struct Speeds {
+  std::array<std::vector<double>, kJoints> speed;
+  std::array<std::vector<bool>, kJoints> known;
+};
+
+Speeds SpeedsOf(const JointTrack& track, double start_s, double step_s, size_t count) {
+  constexpr double kHalf_s = 0.05;  // speeds over a tenth of a second: above the sensor's jitter
+  Speeds speeds;
+  for (size_t j = 0; j < kJoints; ++j) {
+    speeds.speed[j].assign(count, 0.0);
+    speeds.known[j].assign(count, false);
+  }
+  for (size_t i = 0; i < count; ++i) {
+    const double time_s = start_s + static_cast<double>(i) * step_s;
+    const auto before = At(track, time_s - kHalf_s);
+    const auto after = At(track, time_s + kHalf_s);
+    for (size_t j = 0; before && after && j < kJoints; ++j) {
+      if (!before->present[j] || !after->present[j]) continue;
+      speeds.known[j][i] = true;
+      speeds.speed[j][i] = (after->position_m[j] - before->position_m[j]).norm();
+    }
+  }
+  return speeds;
+}
+
+// Pearson's correlation of a(t) with b(t - shift), covariances and variances summed over the
+// joints. Only times that both know count, else the ends of a clip would pull the peak to zero.
+// Fewer shared times than `fewest` give no correlation: short overlaps fit anything.
+double Correlation(const Speeds& a, const Speeds& b, long shift, long fewest) {
+  const auto count = static_cast<long>(a.speed[0].size());
+  double covariance = 0;
+  double variance_a = 0;
+  double variance_b = 0;
+  long shared = 0;
+  for (size_t j = 0; j < kJoints; ++j) {
+    double n = 0, x = 0, y = 0, xx = 0, yy = 0, xy = 0;
+    for (long i = std::max(0L, shift); i < count + std::min(0L, shift); ++i) {
+      const auto at_a = static_cast<size_t>(i);
+      const auto at_b = static_cast<size_t>(i - shift);
+      if (!a.known[j][at_a] || !b.known[j][at_b]) continue;
+      const double u = a.speed[j][at_a];
+      const double v = b.speed[j][at_b];
+      ++n;
+      x += u;
+      y += v;
+      xx += u * u;
+      yy += v * v;
+      xy += u * v;
+    }
+    if (n < 2) continue;
+    covariance += xy - x * y / n;
+    variance_a += xx - x * x / n;
+    variance_b += yy - y * y / n;
+    shared = std::max(shared, static_cast<long>(n));
+  }
+  const double variance = std::sqrt(variance_a * variance_b);
+  return shared >= fewest && variance > 0 ? covariance / variance : 0.0;
+}
+
+// Half of the shorter recording must overlap.
+long FewestShared(const Speeds& a, const Speeds& b) {
+  const auto longest = [](const Speeds& speeds) {
+    long most = 0;
+    for (const auto& known : speeds.known) {
+      most = std::max(most, static_cast<long>(std::count(known.begin(), known.end(), true)));
+    }
+    return most;
+  };
+  return std::max(2L, std::min(longest(a), longest(b)) / 2);
+}
+
+void AlignRigidly(PairedTracks& pair) {
+  std::vector<Eigen::Vector3d> from;
+  std::vector<Eigen::Vector3d> to;
+  for (size_t f = 0; f < pair.truth.size(); ++f) {
+    for (size_t j = 0; j < kJoints; ++j) {
+      if (!pair.truth[f].present[j] || !pair.result[f].present[j]) continue;
+      from.push_back(pair.result[f].position_m[j]);
+      to.push_back(pair.truth[f].position_m[j]);
+    }
+  }
+  if (from.size() < 3) return;
+  const auto points = static_cast<Eigen::Index>(from.size());
+  const Eigen::Matrix4d transform =
+      RigidTransform(Eigen::Map<const Eigen::Matrix3Xd>(from[0].data(), 3, points),
+                     Eigen::Map<const Eigen::Matrix3Xd>(to[0].data(), 3, points));
+  for (SparsePosture& posture : pair.result) {
+    for (Eigen::Vector3d& position : posture.position_m) {
+      position = (transform * position.homogeneous()).head<3>();
+    }
+  }
+}
+
+void FindOffset(const JointTrack& truth, const JointTrack& result, const PairOptions& options,
+                PairedTracks& pair) {
+  pair.same_clock = options.time == TimeAlignment::kNone ||
+                    (options.time == TimeAlignment::kAuto && FrameTimesAgree(truth, result));
+  if (options.time == TimeAlignment::kFixed) {
+    pair.offset_s = options.offset_s;
+  } else if (!pair.same_clock) {
+    // Different clocks may differ by anything: the beginnings are laid together first.
+    const double start_s = truth.time_s.front() - result.time_s.front();
+    JointTrack moved = result;
+    for (double& time_s : moved.time_s) time_s += start_s;
+    pair.offset_s = start_s + TimeOffset_s(truth, moved, options.max_offset_s);
+  }
+}
+
+PairedTracks PairTracks(const JointTrack& truth, const JointTrack& result,
+                        const PairOptions& options) {
+  PairedTracks pair;
+  FindOffset(truth, result, options, pair);
+  for (size_t i = 0; i < result.time_s.size(); ++i) {
+    const double time_s = result.time_s[i] + pair.offset_s;
+    const auto posture = At(truth, time_s);
+    if (!posture) continue;
+    pair.time_s.push_back(time_s);
+    pair.truth.push_back(*posture);
+    pair.result.push_back(result.postures[i]);
+  }
+  if (options.rigid) AlignRigidly(pair);
+  return pair;
+}
+
+// Several people: in every frame each true person takes the nearest result nobody nearer took, so
+// that identities do not matter here (identity switches are the tracker's own table).
+std::vector<PairedTracks> PairCrowd(const std::map<int, JointTrack>& truths,
+                                    const SkeletonSequence& result, const PairOptions& options) {
+  std::map<int, JointTrack> taken;
+  for (const SkeletonFrame& frame : result.frames) {
+    struct Candidate {
+      double distance_m;
+      int truth;
+      size_t body;
+    };
+    std::vector<Candidate> candidates;
+    std::map<int, bool> there;
+    for (const auto& [id, track] : truths) {
+      const auto posture = At(track, frame.time_s);
+      there[id] = posture.has_value();
+      for (size_t b = 0; posture && b < frame.bodies.size(); ++b) {
+        candidates.push_back({MeanDistance(*posture, SparsePostureOf(frame.bodies[b])), id, b});
+      }
+    }
+    std::sort(candidates.begin(), candidates.end(), [](const Candidate& a, const Candidate& b) {
+      return std::tie(a.distance_m, a.truth, a.body) < std::tie(b.distance_m, b.truth, b.body);
+    });
+    std::map<int, size_t> match;
+    std::vector<bool> used(frame.bodies.size(), false);
+    for (const Candidate& c : candidates) {
+      if (match.contains(c.truth) || used[c.body]) continue;
+      match[c.truth] = c.body;
+      used[c.body] = true;
+    }
+    for (const auto& [id, is_there] : there) {
+      if (!is_there) continue;
+      JointTrack& track = taken[id];
+      if (!track.time_s.empty() && track.time_s.back() >= frame.time_s) continue;
+      track.time_s.push_back(frame.time_s);
+      const auto found = match.find(id);
+      track.postures.push_back(found == match.end() ? SparsePosture{}
+                                                    : SparsePostureOf(frame.bodies[found->second]));
+    }
+  }
+  PairOptions each = options;
+  each.time = TimeAlignment::kNone;
+  std::vector<PairedTracks> pairs;
+  for (const auto& [id, track] : truths) {
+    pairs.push_back(PairTracks(track, taken[id], each));
+    pairs.back().name = "body " + std::to_string(id);
+  }
+  return pairs;
+}
+
+// The person a file is about when it should be one: the one with the most frames.
+const JointTrack* MainTrack(const std::map<int, JointTrack>& tracks) {
+  const JointTrack* main = nullptr;
+  for (const auto& [id, track] : tracks) {
+    if (main == nullptr || track.time_s.size() > main->time_s.size()) main = &track;
+  }
+  return main;
+}
+
+}  // namespace
+
+SparsePosture SparsePostureOf(const BodyRecord& body) {
+  SparsePosture sparse;
+  const recon::TrackedPosture tracked = recon::TrackedPostureOf(body);
+  for (size_t j = 0; j < kJoints; ++j) {
+    sparse.present[j] = tracked.state[j] != recon::TrackingState::kNotTracked &&
+                        tracked.posture.position_m[j].allFinite();
+    sparse.position_m[j] = tracked.posture.position_m[j];
+    sparse.confidence[j] = tracked.confidence[j];
+  }
+  return sparse;
+}
+
+Eigen::Matrix4d RigidTransform(const Eigen::Matrix3Xd& from, const Eigen::Matrix3Xd& to) {
+  const Eigen::Vector3d from_mean = from.rowwise().mean();
+  const Eigen::Vector3d to_mean = to.rowwise().mean();
+  const Eigen::Matrix3d covariance =
+      (to.colwise() - to_mean) * (from.colwise() - from_mean).transpose();
+  const Eigen::JacobiSVD<Eigen::Matrix3d> svd(covariance,
+                                              Eigen::ComputeFullU | Eigen::ComputeFullV);
+  Eigen::Vector3d signs = Eigen::Vector3d::Ones();
+  // A mirror image fits better than any rotation for some data; a body is never mirrored.
+  if ((svd.matrixU() * svd.matrixV().transpose()).determinant() < 0) signs.z() = -1;
+  const Eigen::Matrix3d rotation = svd.matrixU() * signs.asDiagonal() * svd.matrixV().transpose();
+  Eigen::Matrix4d transform = Eigen::Matrix4d::Identity();
+  transform.topLeftCorner<3, 3>() = rotation;
+  transform.topRightCorner<3, 1>() = to_mean - rotation * from_mean;
+  return transform;
+}
+
+double TimeOffset_s(const JointTrack& truth, const JointTrack& result, double max_offset_s) {
+  if (truth.time_s.size() < 3 || result.time_s.size() < 3) return 0.0;
+  constexpr double kStep_s = 0.01;
+  const double start_s = std::min(truth.time_s.front(), result.time_s.front());
+  const double end_s = std::max(truth.time_s.back(), result.time_s.back());
+  const auto count = static_cast<size_t>(std::min((end_s - start_s) / kStep_s + 1, 2e5));
+  const Speeds a = SpeedsOf(truth, start_s, kStep_s, count);
+  const Speeds b = SpeedsOf(result, start_s, kStep_s, count);
+  const long reach = std::lround(max_offset_s / kStep_s);
+  std::vector<double> score;
+  const long fewest = FewestShared(a, b);
+  for (long shift = -reach; shift <= reach; ++shift) {
+    score.push_back(Correlation(a, b, shift, fewest));
+  }
+  // Of equal peaks the smallest offset: someone who stands still gives no reason to move the clock.
+  size_t best = static_cast<size_t>(reach);
+  for (size_t i = 0; i < score.size(); ++i) {
+    if (score[i] > score[best] + 1e-9) best = i;
+  }
+  double shift = static_cast<double>(best) - static_cast<double>(reach);
+  if (best > 0 && best + 1 < score.size()) {
+    const double curvature = score[best - 1] - 2 * score[best] + score[best + 1];
+    if (curvature < -1e-12) shift += 0.5 * (score[best - 1] - score[best + 1]) / curvature;
+  }
+  return shift * kStep_s;
+}
+
+std::vector<PairedTracks> PairUp(const SkeletonSequence& truth, const SkeletonSequence& result,
+                                 const PairOptions& options) {
+  const auto truths = TracksOf(truth);
+  const auto results = TracksOf(result);
+  if (truths.empty()) return {};
+  if (truths.size() > 1) return PairCrowd(truths, result, options);
+  const JointTrack& true_track = *MainTrack(truths);
+  bool crowded = false;
+  for (const SkeletonFrame& frame : result.frames) crowded = crowded || frame.bodies.size() > 1;
+  if (crowded || results.empty()) return PairCrowd(truths, result, options);
+  // One person in every frame: a changed id is still the same person.
+  JointTrack whole;
+  for (const SkeletonFrame& frame : result.frames) {
+    if (!whole.time_s.empty() && frame.time_s <= whole.time_s.back()) continue;
+    whole.time_s.push_back(frame.time_s);
+    whole.postures.push_back(frame.bodies.empty() ? SparsePosture{}
+                                                  : SparsePostureOf(frame.bodies[0]));
+  }
+  return {PairTracks(true_track, whole, options)};
+}
+
+}  // namespace ossa::tools

@@ -1,0 +1,98 @@
+#include "tools/experiments/compare/recordings.h"
+
+#include <fmt/format.h>
+
+#include <map>
+
+#include "depth/error.h"
+#include "recon/motion/skeletons/skeleton_io.h"
+
+namespace ossa::tools {
+namespace {
+
+namespace fs = std::filesystem;
+
+fs::path Need(const fs::path& shared, const char* inside) {
+  if (shared.empty()) {
+    throw InputError("--shared: expected the folder of real recordings, found none given");
+  }
+  const fs::path path = shared / inside;
+  if (!fs::exists(path)) {
+    throw InputError(path.string() + ": no such recordings: is --shared the right folder?");
+  }
+  return path;
+}
+
+std::vector<RecordedPair> PairsIn(const fs::path& path) {
+  recon::SkeletonReadOptions options;
+  options.columns = "observed";
+  auto observed = recon::ReadSkeletonClips(path, options);
+  options.columns = "truth";
+  auto truth = recon::ReadSkeletonClips(path, options);
+  std::vector<RecordedPair> pairs;
+  for (size_t i = 0; i < observed.size(); ++i) {
+    RecordedPair pair;
+    pair.clip = observed[i].name;
+    pair.subject = pair.clip.substr(0, pair.clip.find('/'));
+    pair.observed = std::move(observed[i].sequence);
+    pair.truth = std::move(truth[i].sequence);
+    pairs.push_back(std::move(pair));
+  }
+  return pairs;
+}
+
+}  // namespace
+
+std::vector<RecordedPair> LoadUiPrmd(const fs::path& shared, bool incorrect) {
+  auto pairs = PairsIn(Need(shared, "real/uiprmd_kinect_vicon/derived"));
+  std::erase_if(pairs,
+                [&](const RecordedPair& pair) { return pair.clip.ends_with("_inc") != incorrect; });
+  return pairs;
+}
+
+std::vector<RecordedPair> LoadItop(const fs::path& shared) {
+  auto pairs = PairsIn(Need(shared, "real/itop_a2j/itop_side_truth_and_a2j.csv.gz"));
+  for (RecordedPair& pair : pairs) pair.clip = pair.subject = "itop_side";
+  return pairs;
+}
+
+std::vector<RecordedPair> LoadKeraal(const fs::path& shared) {
+  std::map<std::string, RecordedPair> pairs;
+  for (auto& clip : recon::ReadSkeletonClips(Need(shared, "real/keraal_kinect_vicon/pairs"))) {
+    const bool vicon = clip.name.find("-Vicon-") != std::string::npos;
+    std::string name = clip.name;
+    const std::string mark = vicon ? "-Vicon-" : "-Kinect-";
+    if (const size_t place = name.find(mark); place != std::string::npos) {
+      name.erase(place, mark.size() - 1);
+    }
+    RecordedPair& pair = pairs[name];
+    pair.clip = pair.subject = name;
+    (vicon ? pair.truth : pair.observed) = std::move(clip.sequence);
+  }
+  std::vector<RecordedPair> list;
+  for (auto& [name, pair] : pairs) {
+    if (!pair.truth.frames.empty() && !pair.observed.frames.empty()) {
+      list.push_back(std::move(pair));
+    }
+  }
+  return list;
+}
+
+std::vector<RecordedPair> LoadWithoutTruth(const fs::path& shared) {
+  std::vector<RecordedPair> all;
+  for (const char* inside :
+       {"real/keraal_kinect_vicon/kinect_only", "real/sdk_skeletons/labanotation_v2_csv",
+        "real/sdk_skeletons/kinectgait_v1_txt"}) {
+    const fs::path folder = Need(shared, inside);
+    for (auto& clip : recon::ReadSkeletonClips(folder)) {
+      RecordedPair recorded;
+      recorded.clip = fmt::format("{}/{}", folder.filename().string(), clip.name);
+      recorded.subject = clip.name;
+      recorded.observed = std::move(clip.sequence);
+      all.push_back(std::move(recorded));
+    }
+  }
+  return all;
+}
+
+}  // namespace ossa::tools

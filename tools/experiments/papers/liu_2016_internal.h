@@ -1,0 +1,30 @@
+#pragma once
+#include "tools/experiments/sdk/method_runs.h"
+
+namespace ossa::tools {
+
+/// The recordings of `ossa experiment liu-2016`: clips are named "ACTION/MOVER", the subject is the
+/// mover, folds leave one mover out.
+struct Liu2016Study {
+  explicit Liu2016Study(ExperimentContext& context);
+
+  std::vector<RecordedPair> recordings;
+  std::vector<std::string> folds;  // movers left out in turn
+  std::string note;
+
+  /// Recordings of an action ("" = all) by the mover left out.
+  std::vector<RecordedPair> TestClips(const std::string& action, const std::string& mover) const;
+  /// A learning method for the fold.
+  MethodRun Run(const ExperimentContext& context, const std::string& label,
+                const std::string& method, const std::string& mover) const;
+};
+
+/// Mean over folds and clips of an action; `prepare` may change the settings.
+std::optional<double> ErrorOf(const ExperimentContext& context, const Liu2016Study& study,
+                              const std::string& action, const std::string& method,
+                              const std::function<void(MethodRun&)>& prepare = {});
+
+/// Figures 3, 7 and 8.
+std::vector<Table> FiguresOfLiu2016(ExperimentContext& context, const Liu2016Study& study);
+
+}  // namespace ossa::tools

@@ -1,0 +1,19 @@
+#pragma once
+#include "tools/experiments/sdk/method_runs.h"
+#include "tools/experiments/stage/staged.h"
+
+namespace ossa::tools {
+
+/// The recordings and methods of `ossa experiment shum-2013`.
+struct Shum2013Study {
+  explicit Shum2013Study(ExperimentContext& context);
+
+  std::vector<RecordedPair> clean, furniture, held;  // classes (a), (b), (c) of table IV
+  MethodRun raw, method_a, method_b, shum, best;
+  std::string note;
+};
+
+/// Figures 8 and 9.
+std::vector<Table> SweepsOfShum2013(ExperimentContext& context, const Shum2013Study& study);
+
+}  // namespace ossa::tools

@@ -1,0 +1,246 @@
+// `ossa experiment person-signs`: fits what tells people from furniture
+// (tools/tracker/person_signs.inc).
+#include <fmt/format.h>
+
+#include <Eigen/Cholesky>
+#include <algorithm>
+#include <cmath>
+#include <iterator>
+#include <mutex>
+#include <sstream>
+
+#include "depth/error.h"
+#include "depth/file/atomic_file.h"
+#include "recon/motion/mocap.h"
+#include "tools/experiments/experiments_internal.h"
+#include "tools/experiments/rooms/rooms_internal.h"
+#include "tools/experiments/stage/jobs.h"
+#include "tools/synth/frame_maker.h"
+#include "tools/tracker/person_signs.h"
+#include "tools/tracker/shipped.h"
+
+namespace ossa::tools {
+namespace {
+
+using Eigen::MatrixXd;
+using Eigen::VectorXd;
+
+struct Example {
+  bool person = false;
+  std::vector<double> signs;
+};
+
+// A person: mostly one person's pixels and most of that person's. No person: furniture, or a
+// fraction of somebody. In between nobody can say.
+std::optional<bool> IsPerson(const std::vector<int32_t>& pixels, const LabelledFrame& truth) {
+  std::array<double, 256> common{}, whole{};
+  for (const uint8_t user : truth.users.data) whole[user] += 1;
+  for (const int32_t pixel : pixels) common[truth.users.data[static_cast<size_t>(pixel)]] += 1;
+  const auto best = std::max_element(common.begin() + 1, common.end());
+  const double of_piece = *best / static_cast<double>(pixels.size());
+  const double of_person = *best / std::max(1.0, whole[static_cast<size_t>(best - common.begin())]);
+  if (of_piece > 0.6 && of_person > 0.5) return true;
+  if (of_piece < 0.2 || (of_piece > 0.6 && of_person < 0.25)) return false;
+  return std::nullopt;
+}
+
+class Gatherer {
+ public:
+  Gatherer(ExperimentContext& context, Split split, const std::string& mocap)
+      : context_(context),
+        split_(split),
+        collector_(context.model),
+        clips_(recon::LoadMocap({mocap})),
+        poses_(MakePoseBank(clips_)) {}
+
+  // Some frames of every scenario, and single frames of other rooms and views.
+  std::vector<Example> Gather(int performances, uint64_t seed) {
+    const recon::BodyModel model = LoadFetchedBody();
+    const recon::Wardrobe wardrobe(model);
+    std::vector<std::vector<Example>> examples(static_cast<size_t>(performances));
+    std::mutex mutex;
+    int done = 0;
+    RunJobs(examples.size(), context_.threads, [&](size_t k) {
+      const int width = k % 2 ? 640 : 320;
+      const RoomCast cast{model, wardrobe, clips_, split_, width, width * 3 / 4, 90};
+      Rooms(cast, seed + 100 * k, examples[k]);
+      for (const View view : {View::kFront, View::kAny, View::kNear})
+        Singles(view, seed + k, examples[k]);
+      const std::lock_guard lock(mutex);
+      if (context_.progress) context_.progress(++done, performances, "rooms");
+    });
+    std::vector<Example> all;
+    for (auto& some : examples) std::move(some.begin(), some.end(), std::back_inserter(all));
+    return all;
+  }
+
+ private:
+  void Rooms(const RoomCast& cast, uint64_t seed, std::vector<Example>& examples) {
+    for (const RoomScenario& scenario : RoomScenarios()) {
+      RoomStage stage(scenario, cast, ++seed);
+      for (int64_t f = 5; f < stage.size(); f += 20) Look(stage.Shoot(f), examples);
+    }
+  }
+
+  void Singles(View view, uint64_t seed, std::vector<Example>& examples) {
+    constexpr int kFrames = 12;
+    FrameOptions options;
+    options.width = 320;
+    options.height = 240;
+    options.view = view;
+    options.split = split_;
+    options.occluders = Occluders::kAny;
+    options.background = Background::kRoom;
+    options.people = view == View::kNear ? 1 : 2;
+    options.seed = seed;
+    const FrameStudio studio(LoadFetchedBody(), poses_, options);
+    FrameMaker maker(studio);
+    for (int f = 0; f < kFrames; ++f) Look(maker.Make(8 * f), examples);
+  }
+
+  void Look(const LabelledFrame& frame, std::vector<Example>& examples) {
+    if (context_.interrupted && context_.interrupted()) throw Interruption{};
+    for (auto& seen : collector_.Look(frame.depth)) {
+      const auto person = IsPerson(seen.pixels, frame);
+      if (person) examples.push_back({*person, std::move(seen.signs)});
+    }
+  }
+
+  ExperimentContext& context_;
+  Split split_;
+  tracker::SignCollector collector_;
+  std::vector<recon::MotionClip> clips_;
+  std::vector<recon::RigPose> poses_;
+};
+
+// Kept in the study's cache, one line an example: fitting again with another prior takes seconds.
+std::vector<Example> Examples(ExperimentContext& context, Split split, const std::string& mocap,
+                              int performances, uint64_t seed) {
+  constexpr const char* kVersion = "person signs 2";  // raise when scene or signs change
+  const auto compute = [&] {
+    std::ostringstream text;
+    text.precision(9);
+    for (const Example& e : Gatherer(context, split, mocap).Gather(performances, seed)) {
+      text << e.person;
+      for (const double sign : e.signs) text << ' ' << sign;
+      text << '\n';
+    }
+    return text.str();
+  };
+  const auto model = context.model.empty() ? tracker::ShippedFile("body.ossa") : context.model;
+  std::istringstream lines(
+      context.Cached(fmt::format("{} {} {} {} {} {}", kVersion, static_cast<int>(split), mocap,
+                                 performances, seed, KeyOfFile(model)),
+                     compute));
+  std::vector<Example> examples;
+  for (std::string line; std::getline(lines, line);) {
+    std::istringstream words(line);
+    Example example;
+    words >> example.person;
+    for (double sign = 0; words >> sign;) example.signs.push_back(sign);
+    if (example.signs.size() == tracker::PersonSignNames().size())
+      examples.push_back(std::move(example));
+  }
+  return examples;
+}
+
+// Constant, signs, products of two: the order of tools/tracker/signs.cpp.
+VectorXd Terms(const std::vector<double>& signs, size_t count) {
+  const auto n = static_cast<Eigen::Index>(count);
+  VectorXd terms(1 + n + n * (n + 1) / 2);
+  Eigen::Index next = 0;
+  terms[next++] = 1;
+  for (size_t i = 0; i < count; ++i) terms[next++] = signs[i];
+  for (size_t i = 0; i < count; ++i) {
+    for (size_t j = i; j < count; ++j) terms[next++] = signs[i] * signs[j];
+  }
+  return terms;
+}
+
+double Score(const VectorXd& weights, const Example& example, size_t count) {
+  return 1 / (1 + std::exp(-weights.dot(Terms(example.signs, count))));
+}
+
+// Maximum likelihood with a normal prior, by Newton's method (iteratively reweighted least
+// squares). Both kinds weigh the same however many there are.
+VectorXd Fit(const std::vector<Example>& examples, size_t count, double prior) {
+  const VectorXd first = Terms(examples.at(0).signs, count);
+  const Eigen::Index n = first.size();
+  const auto people = static_cast<double>(
+      std::count_if(examples.begin(), examples.end(), [](const Example& e) { return e.person; }));
+  const double half = 0.5 * static_cast<double>(examples.size());
+  const double others = std::max(1.0, 2 * half - people);
+  VectorXd w = VectorXd::Zero(n);
+  for (int step = 0; step < 30; ++step) {
+    VectorXd gradient = prior * w;
+    MatrixXd hessian = MatrixXd::Identity(n, n) * prior;
+    gradient[0] = 0, hessian(0, 0) = 1e-9;  // the constant is free
+    for (const Example& e : examples) {
+      const VectorXd x = Terms(e.signs, count);
+      const double p = 1 / (1 + std::exp(-w.dot(x)));
+      const double weight = half / (e.person ? people : others);
+      gradient += weight * (p - (e.person ? 1.0 : 0.0)) * x;
+      hessian.selfadjointView<Eigen::Lower>().rankUpdate(x, weight * p * (1 - p));
+    }
+    const VectorXd change =
+        MatrixXd(hessian.selfadjointView<Eigen::Lower>()).ldlt().solve(gradient);
+    w -= change;
+    if (change.norm() < 1e-6 * (1 + w.norm())) break;
+  }
+  return w;
+}
+
+std::string ArrayText(const std::string& name, const VectorXd& weights) {
+  std::string text = fmt::format("constexpr std::array<double, {}> {} = {{", weights.size(), name);
+  for (Eigen::Index i = 0; i < weights.size(); ++i)
+    text += fmt::format("{}{:.3f},", i % 10 == 0 ? "\n    " : " ", weights[i]);
+  return text + "\n};\n";
+}
+
+void AddRows(const std::string& what, const VectorXd& weights, size_t count,
+             const std::vector<Example>& examples, Table& table) {
+  for (const double threshold : {0.1, 0.25, 0.5, 0.6, 0.8, 0.9, 0.95}) {
+    int people = 0, passed = 0, others = 0, wrong = 0;
+    for (const Example& e : examples) {
+      const bool passes = Score(weights, e, count) >= threshold;
+      (e.person ? people : others) += 1;
+      (e.person ? passed : wrong) += passes ? 1 : 0;
+    }
+    table.rows.push_back(
+        {what, fmt::format("{}", threshold),
+         fmt::format("{:.1f}", 100.0 * passed / std::max(1, people)),
+         fmt::format("{} of {} ({:.1f} %)", wrong, others, 100.0 * wrong / std::max(1, others))});
+  }
+}
+
+}  // namespace
+
+std::vector<Table> RunPersonSigns(ExperimentContext& context) {
+  const std::string train = context.parameters.Text("mocap", "authored");
+  const std::string check = context.parameters.Text("check_mocap", "authored");
+  const int performances = context.parameters.Integer("performances", context.full ? 60 : 8);
+  const double prior = context.parameters.Number("prior", 1.0);
+  if (performances < 2) throw InputError("person-signs: expected performances >= 2");
+  const uint64_t seed = context.seed * 1000000;
+  const auto fitted = Examples(context, Split::kTrain, train, performances, seed);
+  const auto checked =
+      Examples(context, Split::kTest, check, std::max(1, performances / 4), seed + 500000);
+  const size_t all = tracker::PersonSignNames().size(), surface = tracker::SurfaceSignCount();
+  const VectorXd surface_weights = Fit(fitted, surface, prior), weights = Fit(fitted, all, prior);
+  AtomicFile file(context.out / "person_signs.inc");
+  file.stream() << "// Written by `ossa experiment person-signs`.\n"
+                << ArrayText("kSurfaceWeights", surface_weights)
+                << ArrayText("kPersonWeights", weights);
+  file.Commit();
+  Table table;
+  table.title = "People and other things, single looks";
+  table.columns = {"what", "threshold", "people passed, %", "others passed"};
+  AddRows("fitted on, surface", surface_weights, surface, fitted, table);
+  AddRows("fitted on", weights, all, fitted, table);
+  AddRows("others, surface", surface_weights, surface, checked, table);
+  AddRows("others", weights, all, checked, table);
+  table.note = "Weights: person_signs.inc, to be put into tools/tracker.";
+  return {table};
+}
+
+}  // namespace ossa::tools

@@ -1,0 +1,186 @@
+// `ossa experiment rooms`: one to six people in rendered rooms, standing, crossing, among
+// furniture.
+#include <fmt/format.h>
+
+#include <cmath>
+#include <mutex>
+
+#include "depth/error.h"
+#include "recon/motion/mocap.h"
+#include "tools/experiments/compare/metrics.h"
+#include "tools/experiments/experiments_internal.h"
+#include "tools/experiments/rooms/rooms_internal.h"
+#include "tools/experiments/stage/jobs.h"
+#include "tools/tracker/picture.h"
+
+namespace ossa::tools {
+namespace {
+
+struct Job {
+  size_t scenario;
+  uint64_t seed;
+  int pictures_every;  // frames; 0: none
+};
+
+RoomScore Play(const RoomScenario& scenario, const RoomCast& cast, const Job& job,
+               const tracker::TrackerOptions& how, const ExperimentContext& context) {
+  RoomStage stage(scenario, cast, job.seed);
+  tracker::Tracker tracker(how);
+  RoomJudge judge;
+  for (int64_t f = 0; f < stage.size(); ++f) {
+    if (context.interrupted && context.interrupted()) throw Interruption{};
+    const LabelledFrame frame = stage.Shoot(f);
+    const tracker::BodyFrame answer = tracker.Push(frame.depth);
+    judge.See(frame, answer);
+    if (job.pictures_every == 0 || f % job.pictures_every != 0) continue;
+    const auto name = fmt::format("{} {} {:03}.png", scenario.name, job.seed, f);
+    tracker::WritePicture(context.out / name, frame.depth, answer);
+  }
+  return std::move(judge.score);
+}
+
+std::vector<RoomScore> PlayAll(const std::vector<Job>& jobs,
+                               const std::vector<RoomScenario>& scenarios, const RoomCast& cast,
+                               const tracker::TrackerOptions& how, ExperimentContext& context) {
+  std::vector<RoomScore> scores(jobs.size());
+  std::mutex mutex;
+  size_t done = 0;
+  RunJobs(jobs.size(), context.threads, [&](size_t i) {
+    const RoomScenario& scenario = scenarios[jobs[i].scenario];
+    scores[i] = Play(scenario, cast, jobs[i], how, context);
+    const std::lock_guard lock(mutex);
+    ++done;
+    if (!context.progress) return;
+    context.progress(static_cast<double>(done), static_cast<double>(jobs.size()), scenario.name);
+  });
+  return scores;
+}
+
+std::string Share(int64_t part, int64_t whole) {
+  if (whole == 0) return "-";
+  return fmt::format("{:.1f}", 100.0 * static_cast<double>(part) / static_cast<double>(whole));
+}
+
+std::string Cell(const std::optional<double>& value, double scale, int digits) {
+  return value ? fmt::format("{:.{}f}", scale * *value, digits) : "-";
+}
+
+void AddRow(const std::string& name, const RoomScore& s, Table& where, Table& joints) {
+  where.rows.push_back(
+      {name, std::to_string(s.frames), std::to_string(s.in_view), Share(s.found, s.in_view),
+       Share(s.cut, s.frames), Share(s.invented, s.frames), std::to_string(s.switches),
+       s.found == 0 ? "-" : fmt::format("{:.3f}", s.iou / static_cast<double>(s.found))});
+  if (s.in_view == 0) return;
+  const ClipMetrics raw = Measure(s.raw), last = Measure(s.final);
+  joints.rows.push_back({name, Cell(raw.map_10cm, 100, 1), Cell(last.map_10cm, 100, 1),
+                         Cell(raw.mean_joint_error_cm, 1, 2),
+                         Cell(last.mean_joint_error_cm, 1, 2)});
+}
+
+// Root of the mean squared distance of a still person's joints from their means, millimetres: of
+// the joints that are there in nearly every frame. The first second is the filter's.
+std::optional<double> Jitter_mm(const PairedTracks& track) {
+  constexpr size_t kSettled = 30;
+  double square = 0, count = 0;
+  for (size_t j = 0; j < recon::kJointCount; ++j) {
+    std::vector<Eigen::Vector3d> places;
+    for (size_t f = kSettled; f < track.result.size(); ++f) {
+      if (track.result[f].present[j]) places.push_back(track.result[f].position_m[j]);
+    }
+    if (places.empty() || 10 * places.size() < 9 * (track.result.size() - kSettled)) continue;
+    Eigen::Vector3d mean = Eigen::Vector3d::Zero();
+    for (const auto& p : places) mean += p / static_cast<double>(places.size());
+    for (const auto& p : places) square += (p - mean).squaredNorm();
+    count += static_cast<double>(places.size());
+  }
+  if (count == 0) return std::nullopt;
+  return 1000 * std::sqrt(square / count);
+}
+
+void AddJitterRows(const RoomScore& s, Table& jitter) {
+  jitter.rows.push_back({"raw, tracked joints", Cell(Jitter_mm(s.raw), 1, 1), "-"});
+  jitter.rows.push_back({"final, default smoothing", Cell(Jitter_mm(s.final), 1, 1), "5"});
+}
+
+Split SplitOf(ExperimentContext& context) {
+  const std::string name = context.parameters.Text("split", "test");
+  const auto split = SplitFromName(name);
+  if (!split) throw InputError("split = " + name + ": expected train or test");
+  return *split;
+}
+
+tracker::TrackerOptions TrackerOf(ExperimentContext& context) {
+  tracker::TrackerOptions how;
+  how.model = context.model.string();
+  how.database = context.database.string();
+  how.method = context.parameters.Text("method", how.method);
+  how.physics = context.parameters.Flag("physics", true);
+  return how;
+}
+
+}  // namespace
+
+std::vector<Table> RunRooms(ExperimentContext& context) {
+  const auto sources = context.parameters.Texts("mocap", {"authored"});
+  const int performances = context.parameters.Integer("performances", context.full ? 6 : 2);
+  const int frames = context.parameters.Integer("frames", context.full ? 150 : 90);
+  const int width = context.parameters.Integer("width", 640);
+  const int pictures_every = context.parameters.Integer("pictures_every", 0);
+  const std::string only = context.parameters.Text("only", "");
+  if (performances < 1 || frames < 2 || width < 160 || pictures_every < 0)
+    throw InputError(
+        "rooms: expected performances >= 1, frames >= 2, width >= 160, "
+        "pictures_every >= 0");
+  tracker::TrackerOptions how = TrackerOf(context);
+  how.keep_parts = pictures_every > 0;
+  const Split split = SplitOf(context);
+  const auto clips = recon::LoadMocap(sources);
+  const auto model = LoadFetchedBody();
+  const recon::Wardrobe wardrobe(model);
+  const RoomCast cast{model, wardrobe, clips, split, width, width * 3 / 4, frames};
+
+  const auto scenarios = RoomScenarios();
+  std::vector<Job> jobs;
+  for (size_t s = 0; s < scenarios.size(); ++s) {
+    if (scenarios[s].name.find(only) == std::string::npos) continue;
+    for (int k = 0; k < performances; ++k)
+      jobs.push_back({s, context.seed * 1000 + s * 50 + static_cast<uint64_t>(k), pictures_every});
+  }
+  const auto scores = PlayAll(jobs, scenarios, cast, how, context);
+
+  Table where, joints;
+  where.title = "Who is where";
+  where.columns = {"scenario",
+                   "frames",
+                   "people in view",
+                   "found, %",
+                   "cut, per 100 frames",
+                   "invented, per 100 frames",
+                   "identity switches",
+                   "IoU of pixels"};
+  where.note =
+      "In view: 0.1 m2 and six joints seen, each person in each frame. Cut: a second body on "
+      "somebody who has one. Invented: a body that is nobody's.";
+  joints.title = "Joints of the people in view";
+  joints.columns = {"scenario", "raw: mAP 10 cm, %", "final: mAP 10 cm, %", "raw: mean error, cm",
+                    "final: mean error, cm"};
+  joints.note = "All 20 joints, hidden ones too; who is not found has no joint right.";
+  Table jitter;
+  jitter.title = "A still person, 3 m away";
+  jitter.columns = {"positions", "RMS about their means, mm", "wanted"};
+  jitter.note = "After the first second; the last performance.";
+  RoomScore all;
+  for (size_t i = 0; i < jobs.size();) {
+    const size_t scenario = jobs[i].scenario;
+    RoomScore sum;
+    for (; i < jobs.size() && jobs[i].scenario == scenario; ++i) sum.Add(scores[i]);
+    if (scenarios[scenario].still) AddJitterRows(scores[i - 1], jitter);
+    AddRow(scenarios[scenario].name, sum, where, joints);
+    all.Add(sum);
+  }
+  AddRow("all", all, where, joints);
+  if (jitter.rows.empty()) return {where, joints};
+  return {where, joints, jitter};
+}
+
+}  // namespace ossa::tools

@@ -1,0 +1,105 @@
+#pragma once
+#include <Eigen/Geometry>
+#include <array>
+#include <map>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "recon/body/rig.h"
+#include "tools/experiments/compare/joint_track.h"
+#include "tools/experiments/experiment.h"
+#include "tools/synth/stage.h"
+#include "tools/synth/view_sampler.h"
+#include "tools/tracker/tracker.h"
+
+namespace ossa::tools {
+
+// Rooms: people in rendered rooms, and how well the tracker tells who is where.
+
+enum class Furnishing {
+  kEmpty,      // floor, walls, ceiling
+  kFurnished,  // things along the walls and between the people
+  kSofa,       // a sofa at everybody's calves
+  kTable,      // a table that touches everybody from the sensor's side
+  kWall,       // a wall at everybody's back
+};
+
+struct RoomScenario {
+  std::string name;
+  int people = 1;
+  Furnishing furnishing = Furnishing::kFurnished;
+  bool crossing = false;  // everybody walks past everybody, each on a lane of their own
+  bool close = false;     // a sensor at head's height near the people, that sees no floor
+  bool still = false;     // 3 m away without moving
+};
+
+std::vector<RoomScenario> RoomScenarios();
+
+/// What a room is made of, besides the scenario.
+struct RoomCast {
+  const recon::BodyModel& model;
+  const recon::Wardrobe& wardrobe;
+  const std::vector<recon::MotionClip>& clips;
+  Split split = Split::kTest;  // of bodies
+  int width = 640, height = 480;
+  int64_t frames = 90;
+};
+
+/// One performance of a scenario: same scenario, cast and seed, same frames.
+class RoomStage {
+ public:
+  RoomStage(const RoomScenario& scenario, const RoomCast& cast, uint64_t seed);
+  LabelledFrame Shoot(int64_t index);
+  int64_t size() const { return cast_.frames; }
+
+ private:
+  struct Way {  // of one person
+    std::vector<recon::RigPose> poses;
+    Eigen::Vector3d from_m, to_m;  // of the hips on the floor, at the first and last frame
+    double heading_rad = 0;
+  };
+
+  void PlaceSensor(Random& random);
+  void PlacePeople(Random& random);
+  void Furnish(Random& random);
+  Way Staying(int person, Random& random) const;
+  Way Crossing(int person, Random& random) const;
+  recon::RigPose PoseAt(const Way& way, double root_scale, int64_t index) const;
+  void Stand(const depth::TriangleMesh& mesh, const Eigen::Vector3d& place_m, double turn_rad);
+
+  RoomScenario scenario_;
+  RoomCast cast_;
+  uint64_t seed_;
+  depth::Camera camera_;
+  Eigen::Isometry3d camera_from_world_;
+  double distance_m_ = 3;  // of the people's middle, which is the world's origin
+  std::vector<Way> ways_;
+  std::vector<Actor> actors_;
+  depth::Renderer renderer_;
+};
+
+/// Everything counted over the frames of one scenario.
+struct RoomScore {
+  int64_t frames = 0, in_view = 0, found = 0;  // people, frame by frame
+  int64_t cut = 0;                             // bodies too many on people who have one already
+  int64_t invented = 0;                        // bodies that are no people
+  int64_t switches = 0;                        // a person's id is another than when last found
+  double iou = 0;                              // summed over found
+  PairedTracks raw, final;
+
+  void Add(const RoomScore& other);
+};
+
+/// Judges a tracker's answers, frame by frame.
+class RoomJudge {
+ public:
+  void See(const LabelledFrame& truth, const tracker::BodyFrame& answer);
+  RoomScore score;
+
+ private:
+  void SeePerson(const TruthBody& truth, const tracker::BodyFrame& answer, int body, double time_s);
+  std::map<int, int> id_of_person_;  // when last found
+};
+
+}  // namespace ossa::tools

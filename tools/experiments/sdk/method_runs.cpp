@@ -1,0 +1,173 @@
+#include "tools/experiments/sdk/method_runs.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <chrono>
+#include <fstream>
+#include <map>
+
+#include "depth/error.h"
+#include "recon/database/posture_database.h"
+#include "recon/methods/recorded_pairs.h"
+#include "recon/methods/sequence.h"
+#include "tools/experiments/compare/sequence_text.h"
+#include "tools/tracker/shipped.h"
+
+namespace ossa::tools {
+namespace {
+
+std::string KeyOf(const ExperimentContext& context, const MethodRun& run) {
+  const recon::ReconstructorOptions& o = run.options;
+  const auto& pca = o.local_pca;
+  const auto& gp = o.gaussian_process;
+  const auto& best = o.best;
+  std::string key = fmt::format(
+      "{} {} seed {} pca {} {} {} {} {} {} {} {} {} {} {} gp {} {} {} {} {} best {} {} {} {} {} {} "
+      "{} {} {}",
+      KeyOfCode(), o.method, o.seed, pca.neighbours, pca.dimensions, pca.steps, pca.samples,
+      pca.control, pca.style, pca.kinematics, pca.continuity, pca.solver, pca.use_reliability,
+      pca.extend_database, gp.nearby_models, gp.spatial, gp.temporal, gp.reliability,
+      gp.incremental, best.repair, best.correct, best.bones, best.complete, best.filter,
+      best.neighbours, best.dimensions, best.continuity, best.space_noise_m);
+  if (o.database) {
+    key.append(" ").append(run.database_key.empty() ? KeyOfFile(DatabaseOf(context).path)
+                                                    : run.database_key);
+  }
+  // The name of a learned file in the cache is the hash of what it was learned from.
+  key.append(" ").append(std::filesystem::path(o.learned_file).filename().string());
+  return key;
+}
+
+void StopWhenInterrupted(const ExperimentContext& context) {
+  if (context.interrupted && context.interrupted()) throw Interruption{};
+}
+
+}  // namespace
+
+std::string KeyOfCode() {
+  static const std::string key = [] {
+    std::string made = KeyOfFile("/proc/self/exe");
+    std::ifstream maps("/proc/self/maps");
+    for (std::string line; std::getline(maps, line);) {
+      const size_t path = line.find('/');
+      if (path == std::string::npos || line.find("libossa_recon") == std::string::npos) continue;
+      return made + " " + KeyOfFile(line.substr(path));
+    }
+    return made;
+  }();
+  return key;
+}
+
+OpenDatabase DatabaseOf(const ExperimentContext& context) {
+  OpenDatabase database;
+  database.path =
+      context.database.empty() ? tracker::ShippedFile("authored.ossadb") : context.database;
+  static std::map<std::filesystem::path, std::shared_ptr<const recon::PostureDatabase>> kOpen;
+  auto& open = kOpen[database.path];
+  if (!open) {
+    open = std::make_shared<recon::PostureDatabase>(recon::PostureDatabase::Load(database.path));
+  }
+  database.postures = open;
+  return database;
+}
+
+recon::SkeletonSequence RunMethod(const ExperimentContext& context, const MethodRun& run,
+                                  const recon::SkeletonSequence& observed) {
+  const std::string key = KeyOf(context, run) + " on " + ContentHash(TextOf(observed));
+  const std::string text = context.Cached(key, [&] {
+    return TextOf(recon::ReconstructSequence(observed, run.options, [&](size_t) {
+      StopWhenInterrupted(context);
+      return true;
+    }));
+  });
+  return SequenceOf(text, observed.source);
+}
+
+PairedTracks PairClip(const std::string& name, const recon::SkeletonSequence& truth,
+                      const recon::SkeletonSequence& result) {
+  auto pairs = PairUp(truth, result, {.time = TimeAlignment::kNone});
+  if (pairs.empty()) return {name, {}, {}, {}};
+  pairs[0].name = name;
+  return std::move(pairs[0]);
+}
+
+ClipMetrics MeasureClip(const std::string& name, const recon::SkeletonSequence& truth,
+                        const recon::SkeletonSequence& result) {
+  return Measure(PairClip(name, truth, result));
+}
+
+std::vector<PairedTracks> RunOverClips(const ExperimentContext& context, const MethodRun& run,
+                                       const std::vector<RecordedPair>& clips) {
+  std::vector<PairedTracks> pairs;
+  for (const RecordedPair& clip : clips) {
+    StopWhenInterrupted(context);
+    pairs.push_back(PairClip(clip.clip, clip.truth, RunMethod(context, run, clip.observed)));
+    if (context.progress) {
+      context.progress(static_cast<double>(pairs.size()), static_cast<double>(clips.size()),
+                       run.label + " " + clip.clip);
+    }
+  }
+  return pairs;
+}
+
+std::vector<ClipMetrics> MeasureAll(const std::vector<PairedTracks>& pairs) {
+  std::vector<ClipMetrics> metrics;
+  for (const PairedTracks& pair : pairs) metrics.push_back(Measure(pair));
+  return metrics;
+}
+
+double MedianStep_ms(const MethodRun& run, const recon::SkeletonSequence& observed) {
+  const auto method = recon::MakeReconstructor(run.options);
+  std::vector<double> times_ms;
+  for (const recon::SkeletonFrame& frame : observed.frames) {
+    if (frame.bodies.empty()) continue;
+    const recon::TrackedPosture posture = recon::TrackedPostureOf(frame.bodies[0]);
+    const auto start = std::chrono::steady_clock::now();
+    method->Step({posture, frame.time_s, nullptr});
+    const std::chrono::duration<double, std::milli> taken =
+        std::chrono::steady_clock::now() - start;
+    times_ms.push_back(taken.count());
+  }
+  if (times_ms.empty()) return 0.0;
+  const auto middle = times_ms.begin() + static_cast<std::ptrdiff_t>(times_ms.size() / 2);
+  std::nth_element(times_ms.begin(), middle, times_ms.end());
+  return *middle;
+}
+
+std::filesystem::path LearnWithout(const ExperimentContext& context,
+                                   const std::vector<RecordedPair>& clips,
+                                   const std::string& left_out,
+                                   const recon::LearnOptions& options) {
+  std::string key =
+      fmt::format("learn {} {} {} {} {} {} {} {}", KeyOfCode(), options.mixture.regions,
+                  options.mixture.samples, options.mixture.seed, options.most_pairs,
+                  options.full_samples, options.correction.centres, options.correction.most_pairs);
+  std::vector<recon::PosturePair> pairs;
+  for (const RecordedPair& clip : clips) {
+    if (clip.subject == left_out && !left_out.empty()) continue;
+    key.append(" ").append(ContentHash(TextOf(clip.observed) + TextOf(clip.truth)));
+    recon::AddPairs(clip.observed, clip.truth, pairs);
+  }
+  if (pairs.empty()) throw InputError("learning: expected pairs of postures, found none");
+  const auto path = context.out / "cache" / (ContentHash(key) + ".ossagp");
+  if (std::filesystem::exists(path)) return path;
+  StopWhenInterrupted(context);
+  if (context.progress) {
+    context.progress(0, 1,
+                     fmt::format("learning from {} pairs without {}", pairs.size(), left_out));
+  }
+  const auto models = recon::LearnedModels::Learn(pairs, options, [&](int) {
+    StopWhenInterrupted(context);
+    return true;
+  });
+  std::filesystem::create_directories(path.parent_path());
+  models.Save(path);
+  return path;
+}
+
+std::string Cell(const std::optional<double>& value, int digits, double scale) {
+  return value ? fmt::format("{:.{}f}", scale * *value, digits) : "-";
+}
+
+}  // namespace ossa::tools

@@ -1,0 +1,63 @@
+#pragma once
+#include <filesystem>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "recon/gp/learned_models.h"
+#include "recon/methods/reconstructor.h"
+#include "tools/experiments/compare/metrics.h"
+#include "tools/experiments/compare/recordings.h"
+#include "tools/experiments/experiment.h"
+
+namespace ossa::tools {
+
+/// The code that made a number, for cache keys: this program and, where it is linked dynamically,
+/// recon beside it.
+std::string KeyOfCode();
+
+/// A posture database and where it came from.
+struct OpenDatabase {
+  std::filesystem::path path;
+  std::shared_ptr<const recon::PostureDatabase> postures;
+};
+/// --database of the study, else the shipped one.
+OpenDatabase DatabaseOf(const ExperimentContext& context);
+
+/// A method with its settings, as a study compares it.
+struct MethodRun {
+  std::string label;  // in tables
+  recon::ReconstructorOptions options;
+  std::string database_key;  // of a database that is not DatabaseOf(context): for the cache
+};
+
+/// The method over one recording; cached by content.
+recon::SkeletonSequence RunMethod(const ExperimentContext& context, const MethodRun& run,
+                                  const recon::SkeletonSequence& observed);
+
+/// Metrics of one clip: people matched, the clocks taken to be the same.
+ClipMetrics MeasureClip(const std::string& name, const recon::SkeletonSequence& truth,
+                        const recon::SkeletonSequence& result);
+PairedTracks PairClip(const std::string& name, const recon::SkeletonSequence& truth,
+                      const recon::SkeletonSequence& result);
+
+/// The method over every recording: one entry a clip.
+std::vector<PairedTracks> RunOverClips(const ExperimentContext& context, const MethodRun& run,
+                                       const std::vector<RecordedPair>& clips);
+std::vector<ClipMetrics> MeasureAll(const std::vector<PairedTracks>& pairs);
+
+/// Milliseconds a frame of the method, median over the frames of the recording. Not cached: a time
+/// is of this machine and now.
+double MedianStep_ms(const MethodRun& run, const recon::SkeletonSequence& observed);
+
+/// Learns from the recordings, all but those of `left_out` (a subject; "" leaves nobody out), and
+/// keeps the .ossagp in the study's cache. Throws InputError when nothing is left.
+std::filesystem::path LearnWithout(const ExperimentContext& context,
+                                   const std::vector<RecordedPair>& clips,
+                                   const std::string& left_out,
+                                   const recon::LearnOptions& options = {});
+
+/// "1.23", "-" when there is none.
+std::string Cell(const std::optional<double>& value, int digits = 2, double scale = 1.0);
+
+}  // namespace ossa::tools

@@ -1,0 +1,103 @@
+// Every method on every real recording; the SDK's own skeletons are the baseline. Whatever learns
+// has never seen the people it is tested on.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <iterator>
+
+#include "tools/experiments/experiments_internal.h"
+#include "tools/experiments/sdk/method_runs.h"
+#include "tools/experiments/sdk/sdk_internal.h"
+
+namespace ossa::tools {
+namespace {
+
+std::vector<std::string> AllMethods() {
+  std::vector<std::string> methods = {"raw", "butterworth"};
+  for (const std::string& name : recon::ReconstructionMethods()) methods.push_back(name);
+  return methods;
+}
+
+std::vector<std::string> Row(const std::string& data, const MethodScore& score) {
+  const auto both = [&](std::optional<double> ClipMetrics::*member) {
+    return score.clips.size() < 3 ? Number(Average(score.clips, member))
+                                  : fmt::format("{} ({})", Number(Average(score.clips, member)),
+                                                Number(Median(score.clips, member)));
+  };
+  int64_t frames = 0;
+  for (const ClipMetrics& clip : score.clips) frames += clip.frames;
+  return {data,
+          score.method,
+          std::to_string(score.clips.size()),
+          std::to_string(frames),
+          both(&ClipMetrics::mean_joint_error_cm),
+          both(&ClipMetrics::parent_relative_error_cm),
+          both(&ClipMetrics::offset_removed_error_cm),
+          both(&ClipMetrics::acceleration_error_cm_per_frame2),
+          Number(Average(score.clips, &ClipMetrics::p99_cm), 1),
+          fmt::format("{:.2f}", score.ms_per_frame)};
+}
+
+Table EmptyTable() {
+  Table table;
+  table.title = "Methods on real recordings (cm: mean over clips, median in brackets)";
+  table.columns = {"data",   "method",         "clips",        "frames", "mean error",
+                   "eq. 18", "offset removed", "acceleration", "p99",    "ms/frame"};
+  table.note =
+      "UI-PRMD: leave one subject out; ITOP: learned on one half, tested on the other, both ways. "
+      "butterworth looks into the future and is here for comparison only.";
+  return table;
+}
+
+}  // namespace
+
+std::vector<Table> RunSdk(ExperimentContext& context) {
+  Table table = EmptyTable();
+  const auto methods = context.parameters.Texts("methods", AllMethods());
+  const auto sets = context.parameters.Texts("data", {"correct", "incorrect", "itop", "failures"});
+  const auto wanted = [&](const char* name) {
+    return std::find(sets.begin(), sets.end(), name) != sets.end();
+  };
+  recon::ReconstructorOptions options;
+  options.seed = context.seed;
+  options.database = DatabaseOf(context).postures;
+  options.best.repair = context.parameters.Integer("best_repair", 1) != 0;
+  options.best.complete = context.parameters.Integer("best_complete", 1) != 0;
+  options.best.correct = context.parameters.Integer("best_correct", 1) != 0;
+  options.best.filter = context.parameters.Integer("best_filter", 1) != 0;
+  options.best.bones = context.parameters.Integer("best_bones", 1) != 0;
+  const int every = context.parameters.Integer("every_nth_clip", 1);
+  const auto run = [&](const std::string& data, const std::vector<Fold>& folds) {
+    for (const std::string& method : methods) {
+      table.rows.push_back(Row(data, RunFolds(context, data, folds, method, options)));
+    }
+  };
+  if (wanted("correct") || wanted("incorrect")) {
+    auto pairs = LoadUiPrmd(context.shared, false);
+    auto wrong = LoadUiPrmd(context.shared, true);
+    std::move(wrong.begin(), wrong.end(), std::back_inserter(pairs));
+    for (const bool incorrect : {false, true}) {
+      if (!wanted(incorrect ? "incorrect" : "correct")) continue;
+      size_t n = 0;
+      run(incorrect ? "UI-PRMD incorrect" : "UI-PRMD correct",
+          LeaveOneSubjectOut(pairs, [&](const RecordedPair& pair) {
+            return pair.clip.ends_with("_inc") == incorrect &&
+                   n++ % static_cast<size_t>(every) == 0;
+          }));
+    }
+  }
+  if (wanted("itop")) {
+    const auto whole = LoadItop(context.shared).at(0);
+    const size_t half = whole.observed.frames.size() / 2;
+    const std::vector<RecordedPair> halves = {
+        Part(whole, 0, half, "first half"),
+        Part(whole, half, whole.observed.frames.size(), "second half")};
+    run("ITOP A2J", LeaveOneSubjectOut(halves, [](const RecordedPair&) { return true; }));
+  }
+  std::vector<Table> tables;
+  if (!table.rows.empty()) tables.push_back(std::move(table));
+  if (wanted("failures")) tables.push_back(GrossFailureTable(context, methods, options));
+  return tables;
+}
+
+}  // namespace ossa::tools

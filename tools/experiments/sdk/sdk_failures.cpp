@@ -1,0 +1,85 @@
+// Gross failures of SDKs in recordings without truth: how many there are, how many the reliability
+// of Shum 2013 notices without any tracking state, and how many are left in what a method makes.
+#include <fmt/format.h>
+
+#include "recon/reliability.h"
+#include "tools/experiments/sdk/gross_failures.h"
+#include "tools/experiments/sdk/method_runs.h"
+#include "tools/experiments/sdk/sdk_internal.h"
+
+namespace ossa::tools {
+namespace {
+
+/// The recordings of one source, without tracking states: what is noticed is noticed from motion.
+std::map<std::string, std::vector<recon::SkeletonSequence>> Recordings(
+    const ExperimentContext& context) {
+  std::map<std::string, std::vector<recon::SkeletonSequence>> sources;
+  const auto take = [&](const std::string& source, recon::SkeletonSequence sequence) {
+    for (auto& frame : sequence.frames) {
+      for (auto& body : frame.bodies) {
+        for (auto& joint : body.joints) {
+          if (joint) joint->state.reset();
+        }
+      }
+    }
+    sources[source].push_back(std::move(sequence));
+  };
+  for (auto& clip : LoadWithoutTruth(context.shared)) {
+    const bool keraal = clip.clip.starts_with("kinect_only");
+    take(keraal ? "KERAAL, Kinect v2" : clip.clip.substr(0, clip.clip.find('/')),
+         std::move(clip.observed));
+  }
+  for (auto& clip : LoadKeraal(context.shared)) take("KERAAL, Kinect v2", std::move(clip.observed));
+  return sources;
+}
+
+std::vector<std::string> Row(const std::string& source, const std::string& method,
+                             const GrossFailures& raw, const GrossFailures& made) {
+  const int64_t failures = raw.jumps + raw.snaps;
+  const bool judged = method != "raw" && failures > 0;
+  return {source,
+          method,
+          std::to_string(raw.frames),
+          std::to_string(made.jumps),
+          std::to_string(made.snaps),
+          std::to_string(made.wrong_bones),
+          judged ? fmt::format("{:.0f}", 100.0 * static_cast<double>(raw.distrusted) /
+                                             static_cast<double>(failures))
+                 : "-",
+          fmt::format("{:.2f}", made.jitter_cm)};
+}
+
+}  // namespace
+
+Table GrossFailureTable(const ExperimentContext& context, const std::vector<std::string>& methods,
+                        const recon::ReconstructorOptions& options) {
+  Table table;
+  table.title = "Gross failures in recordings without truth";
+  table.columns = {"data",       "method",      "frames",     "jumps",
+                   "hand snaps", "wrong bones", "noticed, %", "jitter, cm"};
+  for (const auto& [source, clips] : Recordings(context)) {
+    for (const std::string& method : methods) {
+      if (Learns(method) && method != "best") continue;  // nothing to learn from
+      GrossFailures raw, made;
+      for (const recon::SkeletonSequence& clip : clips) {
+        MethodRun run{method, options, {}};
+        run.options.method = method;
+        const auto result = method == "raw" || method == "butterworth"
+                                ? RunMethod(clip, method, options)
+                                : RunMethod(context, run, clip);
+        raw += CountGrossFailures(clip, result);
+        made += CountGrossFailures(result, result);
+      }
+      table.rows.push_back(Row(source, method, raw, made));
+    }
+  }
+  table.note =
+      "Jumps: a joint leaves its parent's side by 25 cm between two frames. Hand snaps: hands 25 "
+      "cm "
+      "apart are within 10 cm in the next frame. Wrong bones: 40 % off the recording's median. "
+      "Noticed: share of the sensor's jumps and snaps whose joint the method gives a reliability "
+      "below one half, tracking states taken away. Jitter: mean second difference.";
+  return table;
+}
+
+}  // namespace ossa::tools

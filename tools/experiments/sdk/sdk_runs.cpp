@@ -1,0 +1,226 @@
+// Methods over folds of recordings: learn from some people, test on others.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <atomic>
+#include <chrono>
+#include <map>
+#include <mutex>
+#include <nlohmann/json.hpp>
+#include <thread>
+
+#include "recon/database/posture_database.h"
+#include "recon/methods/recorded_pairs.h"
+#include "recon/methods/sequence.h"
+#include "tools/experiments/sdk/method_runs.h"
+#include "tools/experiments/sdk/sdk_internal.h"
+
+namespace ossa::tools {
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+// What a study keeps of a clip.
+constexpr std::array kKept = {&ClipMetrics::mean_joint_error_cm,
+                              &ClipMetrics::parent_relative_error_cm,
+                              &ClipMetrics::offset_removed_error_cm,
+                              &ClipMetrics::acceleration_error_cm_per_frame2,
+                              &ClipMetrics::p99_cm,
+                              &ClipMetrics::bone_length_variation_percent,
+                              &ClipMetrics::fraction_frames_over_20cm};
+
+nlohmann::json ToJson(const ClipMetrics& clip) {
+  nlohmann::json numbers = {clip.name, clip.frames};
+  for (const auto member : kKept) {
+    const auto& value = clip.*member;
+    numbers.push_back(value ? nlohmann::json(*value) : nlohmann::json());
+  }
+  return numbers;
+}
+
+ClipMetrics FromJson(const nlohmann::json& numbers) {
+  ClipMetrics clip;
+  clip.name = numbers.at(0).get<std::string>();
+  clip.frames = numbers.at(1).get<int64_t>();
+  for (size_t k = 0; k < kKept.size(); ++k) {
+    const auto& value = numbers.at(k + 2);
+    if (!value.is_null()) clip.*kKept[k] = value.get<double>();
+  }
+  return clip;
+}
+
+std::string DescriptionOf(const recon::ReconstructorOptions& o) {
+  return fmt::format(
+      "{} {} {} {} {} {} {} {} {} {} {} {} {} {} {} {} {} {} {}", o.local_pca.neighbours,
+      o.local_pca.dimensions, o.local_pca.steps, o.local_pca.samples, o.local_pca.control,
+      o.local_pca.style, o.local_pca.kinematics, o.local_pca.continuity, o.local_pca.solver,
+      o.local_pca.use_reliability, o.gaussian_process.incremental, o.gaussian_process.nearby_models,
+      o.best.repair, o.best.complete, o.best.correct, o.best.filter, o.best.bones,
+      o.best.neighbours, o.database ? o.database->size() : 0);
+}
+
+struct FoldScore {
+  std::vector<ClipMetrics> clips;
+  double seconds = 0.0;  // of reconstruction, summed over threads
+};
+
+FoldScore RunFold(const Fold& fold, const std::string& method,
+                  const recon::ReconstructorOptions& options, int threads) {
+  recon::ReconstructorOptions with = options;
+  if (Learns(method)) {
+    recon::LearnOptions learn;
+    learn.processes = method != "best";
+    if (learn.processes) learn.correction.centres = 0;
+    learn.mixture.seed = learn.correction.seed = options.seed;
+    with.learned = std::make_shared<const recon::LearnedModels>(
+        recon::LearnedModels::Learn(PairsOf(fold.train), learn));
+  }
+  std::vector<std::vector<ClipMetrics>> clips(fold.test.size());
+  std::vector<double> seconds(fold.test.size());
+  InParallel(fold.test.size(), threads, [&](size_t i) {
+    const auto start = Clock::now();
+    const auto made = RunMethod(fold.test[i]->observed, method, with);
+    seconds[i] = std::chrono::duration<double>(Clock::now() - start).count();
+    for (const PairedTracks& pair : PairUp(fold.test[i]->truth, made)) {
+      clips[i].push_back(Measure(pair));
+      clips[i].back().name = fold.test[i]->clip;
+    }
+  });
+  FoldScore score;
+  for (size_t i = 0; i < clips.size(); ++i) {
+    score.clips.insert(score.clips.end(), clips[i].begin(), clips[i].end());
+    score.seconds += seconds[i];
+  }
+  return score;
+}
+
+}  // namespace
+
+bool Learns(const std::string& method) {
+  return method == "liu-2016" || method == "full-gp" || method == "exemplar" || method == "best";
+}
+
+void InParallel(size_t count, int threads, const std::function<void(size_t)>& body) {
+  std::atomic<size_t> next{0};
+  std::exception_ptr failure;
+  std::mutex failed;
+  const auto work = [&] {
+    for (size_t i = next++; i < count; i = next++) {
+      try {
+        body(i);
+      } catch (...) {
+        const std::lock_guard lock(failed);
+        if (!failure) failure = std::current_exception();
+        next = count;
+      }
+    }
+  };
+  std::vector<std::thread> pool;
+  for (int t = 1; t < threads; ++t) pool.emplace_back(work);
+  work();
+  for (std::thread& thread : pool) thread.join();
+  if (failure) std::rethrow_exception(failure);
+}
+
+std::vector<Fold> LeaveOneSubjectOut(const std::vector<RecordedPair>& pairs,
+                                     const std::function<bool(const RecordedPair&)>& tested) {
+  std::map<std::string, Fold> folds;
+  for (const RecordedPair& pair : pairs) folds[pair.subject].name = pair.subject;
+  for (auto& [subject, fold] : folds) {
+    for (const RecordedPair& pair : pairs) {
+      if (pair.subject != subject) {
+        fold.train.push_back(&pair);
+      } else if (tested(pair)) {
+        fold.test.push_back(&pair);
+      }
+    }
+  }
+  std::vector<Fold> list;
+  for (auto& [subject, fold] : folds) list.push_back(std::move(fold));
+  return list;
+}
+
+RecordedPair Part(const RecordedPair& pair, size_t begin, size_t end, const std::string& subject) {
+  RecordedPair part{pair.clip, subject, {pair.observed.source, {}}, {pair.truth.source, {}}};
+  const auto cut = [&](const recon::SkeletonSequence& from, recon::SkeletonSequence& to) {
+    const size_t last = std::min(end, from.frames.size());
+    for (size_t f = begin; f < last; ++f) to.frames.push_back(from.frames[f]);
+  };
+  cut(pair.observed, part.observed);
+  cut(pair.truth, part.truth);
+  return part;
+}
+
+std::vector<recon::PosturePair> PairsOf(const std::vector<const RecordedPair*>& recordings) {
+  std::vector<recon::PosturePair> pairs;
+  for (const RecordedPair* recorded : recordings) {
+    recon::AddPairs(recorded->observed, recorded->truth, pairs);
+  }
+  return pairs;
+}
+
+recon::SkeletonSequence RunMethod(const recon::SkeletonSequence& observed,
+                                  const std::string& method,
+                                  const recon::ReconstructorOptions& options) {
+  if (method == "raw") return observed;
+  if (method == "butterworth") return recon::ButterworthSequence(observed);
+  recon::ReconstructorOptions with = options;
+  with.method = method;
+  return recon::ReconstructSequence(observed, with);
+}
+
+MethodScore RunFolds(ExperimentContext& context, const std::string& data,
+                     const std::vector<Fold>& folds, const std::string& method,
+                     const recon::ReconstructorOptions& options) {
+  MethodScore score;
+  score.method = method;
+  double seconds = 0.0, frames = 0.0;
+  const std::string code = KeyOfCode();
+  for (const Fold& fold : folds) {
+    size_t observed = 0;
+    for (const RecordedPair* pair : fold.test) observed += pair->observed.frames.size();
+    const std::string key = fmt::format("{} {} {} {} {} {} {}", code, data, fold.name, method,
+                                        observed, context.seed, DescriptionOf(options));
+    const auto text = context.Cached(key, [&] {
+      if (context.progress) context.progress(0, 0, data + " " + method + " " + fold.name);
+      const FoldScore made = RunFold(fold, method, options, context.threads);
+      nlohmann::json json = {{"seconds", made.seconds}, {"clips", nlohmann::json::array()}};
+      for (const ClipMetrics& clip : made.clips) json["clips"].push_back(ToJson(clip));
+      return json.dump();
+    });
+    const auto json = nlohmann::json::parse(text);
+    seconds += json.at("seconds").get<double>();
+    frames += static_cast<double>(observed);
+    for (const auto& clip : json.at("clips")) score.clips.push_back(FromJson(clip));
+  }
+  score.ms_per_frame = frames > 0 ? 1e3 * seconds / frames : 0.0;
+  return score;
+}
+
+std::optional<double> Average(const std::vector<ClipMetrics>& clips,
+                              std::optional<double> ClipMetrics::*member) {
+  double sum = 0.0, count = 0.0;
+  for (const ClipMetrics& clip : clips) {
+    if (clip.*member) sum += *(clip.*member), count += 1.0;
+  }
+  if (count == 0.0) return std::nullopt;
+  return sum / count;
+}
+
+std::optional<double> Median(const std::vector<ClipMetrics>& clips,
+                             std::optional<double> ClipMetrics::*member) {
+  std::vector<double> values;
+  for (const ClipMetrics& clip : clips) {
+    if (clip.*member) values.push_back(*(clip.*member));
+  }
+  if (values.empty()) return std::nullopt;
+  std::sort(values.begin(), values.end());
+  const size_t half = values.size() / 2;
+  return values.size() % 2 == 1 ? values[half] : 0.5 * (values[half - 1] + values[half]);
+}
+
+std::string Number(const std::optional<double>& value, int digits) {
+  return value ? fmt::format("{:.{}f}", *value, digits) : "-";
+}
+
+}  // namespace ossa::tools

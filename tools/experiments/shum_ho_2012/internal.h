@@ -1,0 +1,91 @@
+#pragma once
+#include <map>
+#include <string>
+#include <vector>
+
+#include "physics/world.h"
+#include "recon/body/rig.h"
+#include "tools/experiments/experiment.h"
+#include "tools/experiments/shum_ho_2012/scene_painter.h"
+
+namespace ossa::tools {
+
+/// Authored clips by action; postures of the standard body, feet on y = 0, facing +z.
+class Actors {
+ public:
+  explicit Actors(uint64_t seed);
+  /// The first clip of an action, e.g. "walk".
+  const std::vector<recon::Posture>& Play(const std::string& action) const;
+  std::vector<std::string> Actions() const;
+  /// Actions one after the other, each starting where the last ended, joined over a third of a
+  /// second.
+  std::vector<recon::Posture> Sequence(const std::vector<std::string>& actions) const;
+
+ private:
+  std::map<std::string, std::vector<recon::Posture>> clips_;
+};
+
+/// A scene while it is played: the world, its pictures and what was seen of it.
+class Stage {
+ public:
+  /// `filmed`: false for rehearsals, which nobody looks at.
+  Stage(uint64_t seed, const SceneView& view, bool filmed = true);
+
+  physics::World world;
+  int AddPerson(const recon::Posture& start, const physics::CharacterOptions& options = {});
+  /// One 1/30 s frame: targets to the characters, a step, every second frame a picture.
+  void Advance(const std::vector<recon::Posture>& targets, const std::string& caption);
+
+  /// Did an object touch one of the person's bones (by their end joints; all if none are named) in
+  /// the last frame? `object` of -1: any.
+  bool Struck(int person, const std::vector<size_t>& bones, int object = -1) const;
+
+  int frames() const { return frames_; }
+  double deepest_m() const { return deepest_m_; }  // characters in objects
+  double ms_per_frame() const { return frames_ == 0 ? 0.0 : simulated_ms_ / frames_; }
+  const std::vector<Picture>& pictures() const { return pictures_; }
+
+ private:
+  SceneView view_;
+  bool filmed_;
+  std::vector<Picture> pictures_;
+  int frames_ = 0;
+  double deepest_m_ = 0.0;
+  double simulated_ms_ = 0.0;
+};
+
+struct SceneNumber {
+  std::string what;
+  std::string value;
+  std::string wanted;
+  bool good = true;
+};
+
+struct SceneResult {
+  std::vector<SceneNumber> numbers;
+  std::vector<Picture> pictures;
+};
+
+/// The paper's scenes (sec. 8.1-8.3, figs. 3 and 4).
+SceneResult CarryABox(const Actors& actors, uint64_t seed);
+SceneResult WalkThroughBoxes(const Actors& actors, uint64_t seed);
+SceneResult SwingAMace(const Actors& actors, uint64_t seed);
+SceneResult MeetBalls(const Actors& actors, uint64_t seed);
+SceneResult Dodge(const Actors& actors, uint64_t seed);
+SceneResult ThrowBoxes(const Actors& actors, uint64_t seed);
+
+/// Contact depth, cost: the numbers that every scene shares.
+void AddCommonNumbers(const Stage& stage, SceneResult& result);
+/// Processor time of this thread so far: unlike the clock on the wall, no neighbour's work is in
+/// it.
+double ProcessorMs();
+std::string Text(double value, int digits, const std::string& unit);
+
+/// The character as a filter on noisy authored motion and, when there, on real recordings.
+Table FilterStudy(ExperimentContext& context, const Actors& actors);
+/// What a frame costs: one person, six, one among many boxes.
+Table CostStudy(ExperimentContext& context, const Actors& actors);
+/// Fig. 5: error of the matched posture and time of a query against the dimensions kept by PCA.
+Table DimensionStudy(ExperimentContext& context);
+
+}  // namespace ossa::tools

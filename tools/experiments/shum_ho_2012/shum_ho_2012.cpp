@@ -1,0 +1,102 @@
+// K. S. H. Shum & E. S. L. Ho, "Real-time physical modelling of character movements with Microsoft
+// Kinect", VRST 2012: the scenes of sec. 8, the filter it becomes in Shum 2013, and fig. 5.
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <array>
+#include <set>
+
+#include "depth/error.h"
+#include "tools/experiments/experiments_internal.h"
+#include "tools/experiments/shum_ho_2012/internal.h"
+
+namespace ossa::tools {
+namespace {
+
+struct Scene {
+  const char* file;
+  const char* title;
+  double still;  // the moment, as a share of the scene, that shows best what it is
+  SceneResult (*play)(const Actors& actors, uint64_t seed);
+};
+
+constexpr std::array<Scene, 6> kScenes = {{
+    {"carry", "lifting and carrying a bulky box (fig. 3a)", 0.85, CarryABox},
+    {"boxes", "walking through, punching and kicking boxes (fig. 3b)", 0.88, WalkThroughBoxes},
+    {"mace", "a mace on a hand (fig. 3c)", 0.18, SwingAMace},
+    {"balls", "balls of random sizes (fig. 3d)", 0.5, MeetBalls},
+    {"dodge", "dodging (figs. 3e, 4)", 0.7, Dodge},
+    {"throw", "two characters throwing boxes (fig. 3f)", 0.45, ThrowBoxes},
+}};
+
+constexpr int kPictureMs = 67;  // every second 30 Hz frame
+constexpr int kStripPictures = 6;
+
+/// What the parameter `parts` asks for; all of it by default.
+std::set<std::string> Parts(Parameters& parameters) {
+  std::vector<std::string> known;
+  for (const Scene& scene : kScenes) known.emplace_back(scene.file);
+  known.insert(known.end(), {"filter", "cost", "dimensions"});
+  std::set<std::string> parts;
+  for (const std::string& part : parameters.Texts("parts", known)) {
+    if (std::find(known.begin(), known.end(), part) == known.end()) {
+      throw InputError(fmt::format("shum-ho-2012: parameter parts: expected some of {}; found '{}'",
+                                   fmt::join(known, ", "), part));
+    }
+    parts.insert(part);
+  }
+  return parts;
+}
+
+void PlayScene(const Scene& scene, const ExperimentContext& context, const Actors& actors,
+               Table& table, std::vector<Picture>& stills) {
+  const SceneResult result = scene.play(actors, context.seed);
+  for (const SceneNumber& n : result.numbers) {
+    table.rows.push_back({scene.title, n.what, n.value, n.wanted, n.good ? "yes" : "NO"});
+  }
+  WritePicture(context.out / (std::string(scene.file) + ".png"),
+               Strip(result.pictures, kStripPictures));
+  WriteAnimation(context.out / (std::string(scene.file) + "_animated.png"), result.pictures,
+                 kPictureMs);
+  const double last = static_cast<double>(result.pictures.size()) - 1.0;
+  stills.push_back(result.pictures[static_cast<size_t>(scene.still * last)]);
+}
+
+Table SceneTable() {
+  Table scenes;
+  scenes.title = "Scenes of Shum & Ho 2012, sec. 8";
+  scenes.columns = {"scene", "what", "measured", "wanted", "holds"};
+  scenes.note =
+      "Postures from ossa's authored clips instead of a user before a Kinect. Pictures: NAME.png "
+      "(strip), NAME_animated.png (animated PNG); yellow lines are the postures asked for.";
+  return scenes;
+}
+
+}  // namespace
+
+std::vector<Table> RunShumHo2012(ExperimentContext& context) {
+  const std::set<std::string> parts = Parts(context.parameters);
+  const Actors actors(context.seed);
+  double done = 0.0;
+  const auto begin = [&](const std::string& part) {
+    if (!parts.contains(part)) return false;
+    if (context.interrupted && context.interrupted()) throw Interruption();
+    if (context.progress) context.progress(done++, static_cast<double>(parts.size()), part);
+    return true;
+  };
+  std::vector<Table> tables;
+  Table scenes = SceneTable();
+  std::vector<Picture> stills;
+  for (const Scene& scene : kScenes) {
+    if (begin(scene.file)) PlayScene(scene, context, actors, scenes, stills);
+  }
+  if (!stills.empty()) WritePicture(context.out / "scenes.png", Sheet(stills, 3));
+  if (!scenes.rows.empty()) tables.push_back(scenes);
+  if (begin("filter")) tables.push_back(FilterStudy(context, actors));
+  if (begin("cost")) tables.push_back(CostStudy(context, actors));
+  if (begin("dimensions")) tables.push_back(DimensionStudy(context));
+  return tables;
+}
+
+}  // namespace ossa::tools

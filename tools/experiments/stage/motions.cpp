@@ -1,0 +1,90 @@
+#include "tools/experiments/stage/motions.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "depth/error.h"
+#include "recon/motion/authored.h"
+#include "recon/motion/mocap.h"
+
+namespace ossa::tools {
+namespace {
+
+// Clips of CMU subjects that the shipped model was not trained on: striking, bending and lifting,
+// swordplay, washing, turning dances.
+const std::vector<std::string> kHeldOutClips = {"02_05", "02_06", "02_07", "02_08", "02_09",
+                                                "02_10", "60_01", "60_05", "60_10", "60_14"};
+constexpr uint64_t kOtherMovers = 7919;  // added to the seed: not the shipped database's movers
+
+bool StaysInView(const recon::MotionClip& clip, size_t frames) {
+  constexpr double kRoom_m = 1.4;
+  Eigen::Vector3d low = clip.frames[0].root_m;
+  Eigen::Vector3d high = low;
+  for (size_t f = 0; f < std::min(frames, clip.frames.size()); ++f) {
+    low = low.cwiseMin(clip.frames[f].root_m);
+    high = high.cwiseMax(clip.frames[f].root_m);
+  }
+  return std::max(high.x() - low.x(), high.z() - low.z()) < kRoom_m;
+}
+
+std::vector<recon::MotionClip> Spread(std::vector<recon::MotionClip> clips, size_t count) {
+  if (clips.size() <= count) return clips;
+  std::vector<recon::MotionClip> chosen;
+  for (size_t i = 0; i < count; ++i) {
+    chosen.push_back(std::move(clips[i * clips.size() / count]));
+  }
+  return chosen;
+}
+
+}  // namespace
+
+StudyMotion StudyMotions(ExperimentContext& context, size_t count, int frames) {
+  const auto mocap = context.shared / "mocap" / "cmu30";
+  const bool shared = !context.shared.empty() && std::filesystem::exists(mocap);
+  const std::string source =
+      context.parameters.Text("motion", shared ? mocap.string() : "authored");
+  const auto only = context.parameters.Texts(
+      "only", shared && source == mocap ? kHeldOutClips : std::vector<std::string>{});
+  recon::MocapOptions options;
+  options.seed = context.seed + kOtherMovers;
+  StudyMotion motion;
+  for (recon::MotionClip& clip : recon::LoadMocap({source}, options)) {
+    const bool wanted =
+        only.empty() || std::any_of(only.begin(), only.end(), [&](const std::string& part) {
+          return clip.name.find(part) != std::string::npos;
+        });
+    const auto least = static_cast<size_t>(frames) / 2;
+    if (!wanted || clip.frames.size() < least) continue;
+    if (StaysInView(clip, static_cast<size_t>(frames))) motion.clips.push_back(std::move(clip));
+  }
+  if (motion.clips.empty()) {
+    throw InputError(
+        fmt::format("{}: expected clips of at least {} frames, found none", source, frames / 2));
+  }
+  motion.clips = Spread(std::move(motion.clips), count);
+  motion.note =
+      source == "authored"
+          ? "Motions: ossa's authored clips by other movers than the shipped database's. "
+          : fmt::format("Motions: {} clips of mocap, none of them in the shipped database. ",
+                        motion.clips.size());
+  return motion;
+}
+
+std::vector<recon::MotionClip> AuthoredMotions(const ExperimentContext& context,
+                                               const std::vector<std::string>& actions,
+                                               int variations) {
+  recon::AuthoredOptions options;
+  options.seed = context.seed + kOtherMovers;
+  options.variations = variations;
+  std::vector<recon::MotionClip> clips;
+  for (recon::MotionClip& clip : recon::AuthoredClips(options)) {
+    const bool wanted = std::any_of(actions.begin(), actions.end(), [&](const std::string& action) {
+      return clip.name.find("/" + action + "/") != std::string::npos;
+    });
+    if (wanted) clips.push_back(std::move(clip));
+  }
+  return clips;
+}
+
+}  // namespace ossa::tools

@@ -1,0 +1,292 @@
+#include "tools/experiments/stage/staged.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+
+#include "depth/error.h"
+#include "depth/render/shapes.h"
+#include "recon/body/body_model.h"
+#include "recon/body/clothing.h"
+#include "tools/experiments/compare/sequence_text.h"
+#include "tools/experiments/stage/staged_internal.h"
+#include "tools/synth/dataset.h"
+#include "tools/synth/person.h"
+#include "tools/synth/props.h"
+#include "tools/synth/sequence.h"
+#include "tools/synth/stage.h"
+#include "tools/synth/visibility_internal.h"
+#include "tools/tracker/shipped.h"
+#include "tools/tracker/skeleton_record.h"
+#include "tools/tracker/tracker.h"
+
+namespace ossa::tools {
+namespace {
+
+constexpr const char* kVersion = "staged 2";  // part of every cache key; raise when frames change
+constexpr double kSensorHeight_m = 1.0;
+
+Eigen::Isometry3d CameraPlace(const StageOptions& options) {
+  const Eigen::Vector3d eye(options.distance_m * std::sin(options.azimuth_rad), kSensorHeight_m,
+                            options.distance_m * std::cos(options.azimuth_rad));
+  return LookAt(eye, {0, 0.9, 0});
+}
+
+// A seat with its back rest towards the sensor's side, half a metre before the person: it hides
+// the legs and, seen from the side, an arm.
+depth::TriangleMesh CarSeat() {
+  depth::TriangleMesh seat = depth::MakeSofa(0.62f, 0.60f, 0.45f);
+  Eigen::Affine3f place = Eigen::Affine3f::Identity();
+  place.translate(Eigen::Vector3f(0.05f, 0.35f, 0.62f));
+  depth::TriangleMesh raised = depth::Moved(seat, place);
+  Eigen::Affine3f under = Eigen::Affine3f::Identity();
+  under.translate(Eigen::Vector3f(0.05f, 0.175f, 0.62f));
+  depth::Append(raised, depth::Moved(depth::MakeBox({0.5f, 0.35f, 0.5f}), under));
+  return raised;
+}
+
+depth::TriangleMesh RoomAround() {
+  depth::TriangleMesh room = depth::MakeRoom({7.0f, 3.0f, 8.0f});
+  return depth::Moved(room, Eigen::Affine3f::Identity());
+}
+
+}  // namespace
+
+struct Studio::State {
+  explicit State(const ExperimentContext& given, std::string how)
+      : context(given), observer(std::move(how)) {}
+
+  const ExperimentContext& context;
+  std::string observer;
+  std::filesystem::path model_path;
+  std::unique_ptr<recon::BodyModel> model;
+  std::unique_ptr<recon::Wardrobe> wardrobe;
+
+  void NeedBody() {
+    if (model) return;
+    model = std::make_unique<recon::BodyModel>(LoadFetchedBody());
+    wardrobe = std::make_unique<recon::Wardrobe>(*model);
+  }
+};
+
+namespace {
+
+// One performance being filmed.
+class Set {
+ public:
+  Set(const recon::BodyModel& model, const recon::Wardrobe& wardrobe, const recon::MotionClip& clip,
+      const StageOptions& options)
+      : model_(model),
+        options_(options),
+        camera_(depth::KinectV1Camera(options.width, options.height)),
+        camera_from_world_(CameraPlace(options)),
+        poses_(SequencePoses({clip}, options.frames, options.seed)) {
+    Random random(options.seed, 1);
+    const recon::BodyShape shape = SampleShape(Split::kTest, random);
+    actors_.emplace_back(model, wardrobe, shape, SampleClothing(random));
+    actors_[0].Enter(renderer_);
+    const Eigen::Affine3f to_camera(camera_from_world_.matrix().cast<float>());
+    renderer_.AddMesh(depth::Moved(RoomAround(), to_camera), false);
+    if (options.clutter == Clutter::kCarSeat) {
+      renderer_.AddMesh(depth::Moved(CarSeat(), to_camera), false);
+    }
+    if (options.clutter == Clutter::kFurniture && !poses_.empty()) {
+      const recon::Posture first = actors_[0].Take(poses_[0], camera_from_world_);
+      for (const Prop& prop : Props(Occluders::kScene, first)) {
+        renderer_.AddMesh(prop.mesh_in_cam, false);
+      }
+    }
+  }
+
+  size_t size() const { return poses_.size(); }
+  StagedFrame Shoot(size_t index);
+
+ private:
+  std::vector<Prop> Props(Occluders kind, const recon::Posture& joints_in_cam) const;
+  LabelledFrame Sense(size_t index, const recon::Posture& joints);
+
+  const recon::BodyModel& model_;
+  StageOptions options_;
+  depth::Camera camera_;
+  Eigen::Isometry3d camera_from_world_;
+  std::vector<recon::RigPose> poses_;
+  std::vector<Actor> actors_;  // one
+  depth::Renderer renderer_;
+};
+
+// The same draws every frame: the thing keeps its size, and a held one goes with the hands.
+std::vector<Prop> Set::Props(Occluders kind, const recon::Posture& joints_in_cam) const {
+  recon::Posture in_world = joints_in_cam;
+  const Eigen::Isometry3d world_from_camera = camera_from_world_.inverse();
+  for (auto& joint_m : in_world.position_m) joint_m = world_from_camera * joint_m;
+  Random random(options_.seed, 2);
+  return SampleProps(kind, in_world, camera_from_world_, random);
+}
+
+LabelledFrame Set::Sense(size_t index, const recon::Posture& joints) {
+  std::vector<int> held;
+  if (options_.clutter == Clutter::kHeld) {
+    for (const Prop& prop : Props(Occluders::kHeld, joints)) {
+      held.push_back(renderer_.AddMesh(prop.mesh_in_cam, false));
+    }
+  }
+  LabelledFrame frame =
+      SenseActors(renderer_, camera_, model_, actors_, options_.seed * 1000003 + index);
+  for (const int mesh : held) renderer_.RemoveMesh(mesh);
+  frame.depth.index = static_cast<int64_t>(index);
+  frame.depth.time_s = static_cast<double>(index) / 30.0;
+  frame.bodies.push_back({1, joints, {}});
+  MarkVisibleJoints(&frame);
+  return frame;
+}
+
+StagedFrame Set::Shoot(size_t index) {
+  const recon::Posture joints = actors_[0].Take(poses_[index], camera_from_world_);
+  actors_[0].Show(renderer_);
+  LabelledFrame labelled = Sense(index, joints);
+  StagedFrame staged;
+  staged.truth.frame = labelled.depth.index;
+  staged.truth.time_s = labelled.depth.time_s;
+  const Eigen::Vector3d up = camera_from_world_.linear().col(1);
+  staged.truth.floor =
+      Eigen::Vector4d(up.x(), up.y(), up.z(), -up.dot(camera_from_world_.translation()));
+  recon::BodyRecord body;
+  body.id = 1;
+  for (size_t j = 0; j < recon::kJointCount; ++j) {
+    recon::JointRecord joint;
+    joint.position_m = joints.position_m[j];
+    joint.visible = labelled.bodies[0].visible[j];
+    body.joints[j] = joint;
+  }
+  staged.truth.bodies.push_back(body);
+  staged.depth = std::move(labelled.depth);
+  return staged;
+}
+
+// Of the tracker's bodies the one that is the person: nearest to the true one. Nobody found gives
+// a body without joints, so that methods must bridge the frame.
+recon::SkeletonFrame PersonOf(const recon::SkeletonFrame& tracked,
+                              const recon::SkeletonFrame& truth) {
+  constexpr double kReach_m = 0.6;
+  recon::SkeletonFrame person = truth;
+  person.bodies.assign(1, {});
+  double nearest_m = kReach_m;
+  for (const recon::BodyRecord& body : tracked.bodies) {
+    double sum_m = 0;
+    double count = 0;
+    for (size_t j = 0; j < recon::kJointCount; ++j) {
+      if (!body.joints[j]) continue;
+      sum_m += (body.joints[j]->position_m - truth.bodies[0].joints[j]->position_m).norm();
+      ++count;
+    }
+    if (count == 0 || sum_m / count >= nearest_m) continue;
+    nearest_m = sum_m / count;
+    person.bodies[0] = body;
+  }
+  person.bodies[0].id = 1;
+  return person;
+}
+
+// Until the person is found there is nothing to reconstruct, and methods answer with a posture in
+// no place: a recording begins with the first frame that has half of the joints.
+void BeginWhenFound(RecordedPair& pair) {
+  constexpr auto kEnough = recon::kJointCount / 2;
+  size_t first = 0;
+  while (first + 1 < pair.observed.frames.size()) {
+    const auto& joints = pair.observed.frames[first].bodies.at(0).joints;
+    const auto seen = std::count_if(joints.begin(), joints.end(),
+                                    [](const auto& joint) { return joint.has_value(); });
+    if (seen >= kEnough) break;
+    ++first;
+  }
+  const auto drop = [first](recon::SkeletonSequence& sequence) {
+    sequence.frames.erase(sequence.frames.begin(),
+                          sequence.frames.begin() + static_cast<std::ptrdiff_t>(first));
+  };
+  drop(pair.observed);
+  drop(pair.truth);
+}
+
+std::string KeyOf(const StageOptions& o) {
+  return fmt::format("{} {} {:.4f} {:.3f} {}x{} {} seed {}", o.name, static_cast<int>(o.clutter),
+                     o.azimuth_rad, o.distance_m, o.width, o.height, o.frames, o.seed);
+}
+
+std::string KeyOf(const recon::MotionClip& clip) {
+  double sum = 0;
+  for (const auto& pose : clip.frames) sum += pose.root_m.sum() + pose.world_from_rest[19].x();
+  return fmt::format("{} {} {:.9g}", clip.name, clip.frames.size(), sum);
+}
+
+}  // namespace
+
+Studio::Studio(const ExperimentContext& context, std::string observer)
+    : state_(std::make_unique<State>(context, std::move(observer))) {
+  if (state_->observer == "forest") {
+    state_->model_path = context.model.empty() ? tracker::ShippedFile("body.ossa") : context.model;
+  } else if (state_->observer != "simulated") {
+    throw InputError("observer '" + state_->observer + "': expected forest or simulated");
+  }
+}
+Studio::~Studio() = default;
+
+std::vector<StagedFrame> Studio::Film(const recon::MotionClip& clip, const StageOptions& options) {
+  state_->NeedBody();
+  Set set(*state_->model, *state_->wardrobe, clip, options);
+  std::vector<StagedFrame> frames;
+  for (size_t f = 0; f < set.size(); ++f) frames.push_back(set.Shoot(f));
+  return frames;
+}
+
+RecordedPair Studio::Record(const recon::MotionClip& clip, const StageOptions& options) {
+  const auto compute = [&] {
+    state_->NeedBody();
+    Set set(*state_->model, *state_->wardrobe, clip, options);
+    std::optional<tracker::Tracker> tracker;
+    if (state_->observer == "forest") {
+      tracker::TrackerOptions how;
+      how.model = state_->model_path.string();
+      how.method = "none";
+      how.smoothing = tracker::SmoothingPreset("none");
+      how.threads = state_->context.threads;
+      tracker.emplace(how);
+    }
+    SimulatedSdk sdk(options.seed);
+    recon::SkeletonSequence observed;
+    recon::SkeletonSequence truth;
+    for (size_t f = 0; f < set.size(); ++f) {
+      if (state_->context.interrupted && state_->context.interrupted()) throw Interruption{};
+      const StagedFrame frame = set.Shoot(f);
+      observed.frames.push_back(tracker ? PersonOf(tracker::RecordOf(tracker->Push(frame.depth),
+                                                                     tracker::PostureKind::kRaw),
+                                                   frame.truth)
+                                        : sdk.Observe(frame));
+      truth.frames.push_back(frame.truth);
+    }
+    return TextOf(observed).append(kSequenceEnd).append(TextOf(truth));
+  };
+  std::string key =
+      fmt::format("{} {} {} {}", kVersion, state_->observer, KeyOf(options), KeyOf(clip));
+  if (!state_->model_path.empty()) key.append(" ").append(KeyOfFile(state_->model_path));
+  const std::string text = state_->context.Cached(key, compute);
+  const size_t end = text.find(kSequenceEnd);
+  RecordedPair pair;
+  pair.clip = options.name;
+  pair.subject = clip.subject.empty() ? clip.name : clip.subject;
+  pair.observed = SequenceOf(text.substr(0, end), options.name);
+  pair.truth = SequenceOf(text.substr(end + kSequenceEnd.size()), options.name);
+  BeginWhenFound(pair);
+  return pair;
+}
+
+std::string ObserverNote(const std::string& observer) {
+  return observer == "forest"
+             ? "Observed by ossa's own forest on rendered depth images (MPFB bodies of test "
+               "shapes, Embree, structured-light noise), not by the Kinect SDK. "
+             : "Observed by a simulation of the Kinect SDK's failures on rendered depth images "
+               "(MPFB bodies of test shapes, Embree), not by the SDK. ";
+}
+
+}  // namespace ossa::tools

@@ -1,0 +1,36 @@
+#pragma once
+#include <array>
+
+#include "tools/experiments/stage/staged.h"
+#include "tools/synth/random.h"
+
+namespace ossa::tools {
+
+/// The Kinect SDK as it was seen to fail (Shum 2013 sec. IV; Obdrzalek 2012): joints that are seen
+/// are a centimetre or two off, slowly drifting; hidden ones are half the time guessed (inferred,
+/// wandering from where they were last seen relative to the body), half the time put on what hides
+/// them and called tracked.
+class SimulatedSdk {
+ public:
+  explicit SimulatedSdk(uint64_t seed) : random_(seed, 4711) {}
+  recon::SkeletonFrame Observe(const StagedFrame& frame);
+
+ private:
+  struct JointMemory {
+    Eigen::Vector3d drift_m = Eigen::Vector3d::Zero();
+    Eigen::Vector3d wander_m = Eigen::Vector3d::Zero();
+    Eigen::Vector3d from_hips_m = Eigen::Vector3d::Zero();  // where it was last seen
+    bool seen_once = false;
+    bool hidden = false;
+    bool grabbed = false;  // by the thing that hides it
+  };
+
+  Eigen::Vector3d Noise(double deviation_m);
+  Eigen::Vector3d Hidden(const StagedFrame& frame, const Eigen::Vector3d& true_m,
+                         const Eigen::Vector3d& hips_m, JointMemory& memory);
+
+  Random random_;
+  std::array<JointMemory, recon::kJointCount> memory_;
+};
+
+}  // namespace ossa::tools
