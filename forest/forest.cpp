@@ -34,21 +34,21 @@ void CheckNames(const ForestData& data, const std::string& name) {
   if (data.background_mm > 32767) Refuse(name, "background depth: expected at most 32767 mm");
 }
 
-// Children come in pairs after their parent, each node has one parent, each leaf number occurs
-// once: then every walk from the root ends.
+// Children come in pairs after their parent, each node has one parent, leaves are numbered in
+// order: then every walk from the root ends.
 void CheckTopology(const Tree& tree, const std::string& where) {
   if (tree.nodes.empty()) Refuse(where, "no nodes");
-  std::vector<bool> leaf_used(tree.leaf_count(), false);
+  size_t next_leaf = 0;
   size_t next_child = 1;
   for (size_t i = 0; i < tree.nodes.size(); ++i) {
     const Node& node = tree.nodes[i];
     if (node.is_leaf()) {
-      const auto leaf = static_cast<size_t>(node.leaf());
-      if (leaf >= leaf_used.size() || leaf_used[leaf]) {
-        Refuse(where, "node " + std::to_string(i) + ": leaf " + std::to_string(leaf) +
-                          " is unknown or used twice");
+      if (static_cast<size_t>(node.leaf()) != next_leaf || next_leaf >= tree.leaf_count()) {
+        Refuse(where, "node " + std::to_string(i) + ": leaf " + std::to_string(node.leaf()) +
+                          " is not in breadth-first order (expected " + std::to_string(next_leaf) +
+                          " of " + std::to_string(tree.leaf_count()) + ")");
       }
-      leaf_used[leaf] = true;
+      ++next_leaf;
     } else if (static_cast<size_t>(node.left) != next_child || next_child + 2 > tree.nodes.size()) {
       Refuse(where, "node " + std::to_string(i) + ": child " + std::to_string(node.left) +
                         " is not in breadth-first order (expected " + std::to_string(next_child) +

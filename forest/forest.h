@@ -17,7 +17,7 @@ inline constexpr double kOffsetUnitsPerPixelMetre = 16.0;
 
 /// One node, 16 bytes. Inner node: f = d(x + u/d(x)) - d(x + v/d(x)) in millimetres (Shotton et al.
 /// 2011, eq. 1); the child is `left` when f <= threshold, `left + 1` otherwise. Leaf: left =
-/// ~(number of the leaf in its tree). Breadth-first order, the root first.
+/// ~(number of the leaf in its tree). Breadth-first order, the root first; leaves count likewise.
 struct Node {
   std::array<int16_t, 2> u{};  // offset units
   std::array<int16_t, 2> v{};

@@ -8,12 +8,14 @@
 #include "depth/file/sealed_file.h"
 #include "forest/compact.h"
 #include "forest/forest.h"
+#include "forest/pack_internal.h"
 
 namespace ossa::forest {
 namespace {
 
 // Version 2 added arrangements and what agreement with them says; models of version 1 lack them.
-constexpr SealedFormat kFormat{{'o', 's', 's', 'a', 'f', 'r', 's', 't'}, 2, "forest model"};
+// Version 3 packs trees more tightly.
+constexpr SealedFormat kFormat{{'o', 's', 's', 'a', 'f', 'r', 's', 't'}, 3, "forest model"};
 constexpr size_t kVersionAt = 12;  // of a sealed file
 constexpr int kCompressionLevel = 19;
 constexpr int kQuickLevel = 3;
@@ -91,68 +93,6 @@ ProposalTarget GetTarget(PayloadReader* reader) {
   return target;
 }
 
-// Arrays of one kind side by side compress better than nodes one after another.
-void PutTree(PayloadWriter* writer, const Tree& tree) {
-  std::vector<int16_t> columns[5];
-  std::vector<uint8_t> is_leaf;
-  std::vector<int32_t> leaf_number;
-  for (const Node& node : tree.nodes) {
-    is_leaf.push_back(node.is_leaf() ? 1 : 0);
-    if (node.is_leaf()) {
-      leaf_number.push_back(node.leaf());
-      continue;
-    }
-    const int16_t fields[5] = {node.u[0], node.u[1], node.v[0], node.v[1], node.threshold_mm};
-    for (size_t i = 0; i < 5; ++i) columns[i].push_back(fields[i]);
-  }
-  writer->PutVector(is_leaf);
-  writer->PutVector(leaf_number);
-  for (const auto& column : columns) writer->PutVector(column);
-  std::vector<uint16_t> entry_count;
-  for (size_t i = 0; i < tree.leaf_count(); ++i) {
-    entry_count.push_back(static_cast<uint16_t>(tree.entry_begin[i + 1] - tree.entry_begin[i]));
-  }
-  writer->PutVector(entry_count);
-  writer->PutVector(tree.entries);
-  writer->Put(tree.vote_depth);
-  writer->PutVector(tree.votes);
-}
-
-Tree GetTree(PayloadReader* reader) {
-  const auto is_leaf = reader->GetVector<uint8_t>("nodes");
-  const auto leaf_number = reader->GetVector<int32_t>("leaf numbers");
-  std::vector<int16_t> columns[5];
-  for (auto& column : columns) column = reader->GetVector<int16_t>("node parameters");
-  Tree tree;
-  size_t inner = 0;
-  size_t leaf = 0;
-  for (const uint8_t kind : is_leaf) {
-    Node node;
-    if (kind != 0) {
-      if (leaf >= leaf_number.size()) reader->Fail("leaf numbers", "fewer than leaves");
-      if (leaf_number[leaf] < 0) reader->Fail("leaf numbers", "a negative number");
-      node.left = ~leaf_number[leaf++];
-    } else {
-      for (const auto& column : columns) {
-        if (inner >= column.size()) reader->Fail("node parameters", "fewer than nodes");
-      }
-      node.u = {columns[0][inner], columns[1][inner]};
-      node.v = {columns[2][inner], columns[3][inner]};
-      node.threshold_mm = columns[4][inner];
-      node.left = static_cast<int32_t>(1 + 2 * inner++);
-    }
-    tree.nodes.push_back(node);
-  }
-  tree.entry_begin.push_back(0);
-  for (const uint16_t count : reader->GetVector<uint16_t>("leaf entry counts")) {
-    tree.entry_begin.push_back(tree.entry_begin.back() + count);
-  }
-  tree.entries = reader->GetVector<uint16_t>("leaf entries");
-  tree.vote_depth = reader->Get<int32_t>("vote depth");
-  tree.votes = reader->GetVector<Vote>("votes");
-  return tree;
-}
-
 std::vector<std::byte> Compressed(const std::vector<std::byte>& bytes, int level) {
   std::vector<std::byte> out(ZSTD_compressBound(bytes.size()));
   const size_t size = ZSTD_compress(out.data(), out.size(), bytes.data(), bytes.size(), level);
@@ -188,19 +128,21 @@ ForestData ParseForest(std::span<const std::byte> payload, const std::string& na
   const auto targets = reader.Get<uint32_t>("number of targets");
   for (uint32_t i = 0; i < targets; ++i) data.targets.push_back(GetTarget(&reader));
   const auto trees = reader.Get<uint32_t>("number of trees");
-  for (uint32_t i = 0; i < trees; ++i) data.trees.push_back(GetTree(&reader));
+  for (uint32_t i = 0; i < trees; ++i) {
+    data.trees.push_back(version >= 3 ? GetTree(&reader) : GetTreeOfVersion2(&reader));
+  }
   if (version >= 2) GetAgreement(&reader, &data);
   reader.ExpectEnd();
   return data;
 }
 
-// The format to expect of a file that starts so: version 1 is still read.
+// The format to expect of a file that starts so: older versions are still read.
 SealedFormat FormatOf(std::span<const std::byte> head) {
   SealedFormat format = kFormat;
   uint32_t version = 0;
   if (head.size() < kVersionAt + sizeof(version)) return format;
   std::memcpy(&version, head.data() + kVersionAt, sizeof(version));
-  if (version == 1) format.version = version;
+  if (version >= 1 && version < kFormat.version) format.version = version;
   return format;
 }
 

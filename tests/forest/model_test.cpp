@@ -1,9 +1,11 @@
 #include <gtest/gtest.h>
+#include <zstd.h>
 
 #include <fstream>
 #include <limits>
 
 #include "depth/error.h"
+#include "depth/file/sealed_file.h"
 #include "forest/classify.h"
 #include "forest/compact.h"
 #include "forest/forest.h"
@@ -67,6 +69,48 @@ TEST(ForestModelFile, AnotherVersionIsRefusedAsSuch) {
   EXPECT_NE(RefusalOfBytes(other).find("version"), std::string::npos);
 }
 
+// The payload of a version-1 file, unpacked: one split on the depth itself, two leaves.
+PayloadWriter OldPayload() {
+  PayloadWriter payload;
+  payload.PutString("{}");
+  for (const auto& names : {std::vector<std::string>{"background", "near", "far"}, {"any"}}) {
+    payload.Put<uint32_t>(static_cast<uint32_t>(names.size()));
+    for (const std::string& name : names) payload.PutString(name);
+  }
+  payload.PutVector(std::vector<float>{1.0F});  // context prior
+  payload.Put(20.0F);                           // evidence scale
+  payload.Put<uint16_t>(10000);                 // background, mm
+  payload.Put<uint32_t>(0);                     // targets
+  payload.Put<uint32_t>(1);                     // trees
+  payload.PutVector(std::vector<uint8_t>{0, 1, 1});
+  payload.PutVector(std::vector<int32_t>{0, 1});
+  for (const auto& value : std::vector<std::vector<int16_t>>{{48}, {0}, {0}, {0}, {25}}) {
+    payload.PutVector(value);
+  }
+  payload.PutVector(std::vector<uint16_t>{2, 1});  // entries a leaf
+  payload.PutVector(std::vector<uint16_t>{127 << 9 | 2, 30 << 9 | 1, 127 << 9 | 1});
+  payload.Put<int32_t>(0);  // vote depth
+  payload.PutVector(std::vector<Vote>{});
+  return payload;
+}
+
+TEST(ForestModelFile, TreesOfOlderVersionsAreRead) {
+  const std::vector<std::byte> payload = OldPayload().bytes();
+  std::vector<std::byte> packed(ZSTD_compressBound(payload.size()));
+  packed.resize(ZSTD_compress(packed.data(), packed.size(), payload.data(), payload.size(), 3));
+  PayloadWriter outer;
+  outer.Put<uint64_t>(payload.size());
+  outer.PutVector(packed);
+  const ossa::test::TemporaryFolder folder;
+  const auto path = folder.path() / "old.ossa";
+  WriteSealedFile(path, {{'o', 's', 's', 'a', 'f', 'r', 's', 't'}, 1, "forest model"},
+                  outer.bytes());
+  const Tree tree = ReadForestModel(path).data().trees.at(0);
+  EXPECT_EQ(tree.nodes, (std::vector<Node>{
+                            {{48, 0}, {0, 0}, 25, 0, 1}, {{}, {}, 0, 0, ~0}, {{}, {}, 0, 0, ~1}}));
+  EXPECT_EQ(tree.entry_begin, (std::vector<uint32_t>{0, 2, 3}));
+}
+
 TEST(ForestModelFile, AFileOfAnotherKindIsRefused) {
   const std::string text = "this is a letter, not a forest; it is long enough to hold a header";
   EXPECT_NE(RefusalOfBytes({text.begin(), text.end()}).find("forest model"), std::string::npos);
@@ -99,12 +143,14 @@ TEST(FitInto, LeavesAModelThatFitsAlone) {
 }
 
 TEST(FitInto, LeavesRareEntriesOutUntilTheFileFits) {
-  const uint64_t limit = FileSize(BallModel().data()) * 9 / 10;
+  const uint64_t limit = FileSize(BallModel().data()) * 97 / 100;
   const ForestModel fitted = FitInto(BallModel(), limit);
   EXPECT_LE(test::BytesOf(fitted).size(), limit);
-  for (const Tree& tree : fitted.data().trees) {
-    for (size_t leaf = 0; leaf < tree.leaf_count(); ++leaf) {
-      EXPECT_LT(tree.entry_begin[leaf], tree.entry_begin[leaf + 1]) << "an empty leaf";
+  for (size_t t = 0; t < fitted.data().trees.size(); ++t) {
+    const std::vector<uint32_t>& kept = fitted.data().trees[t].entry_begin;
+    const std::vector<uint32_t>& whole = BallModel().data().trees[t].entry_begin;
+    for (size_t leaf = 0; leaf + 1 < whole.size(); ++leaf) {
+      EXPECT_EQ(kept[leaf] < kept[leaf + 1], whole[leaf] < whole[leaf + 1]) << "a leaf emptied";
     }
   }
 }

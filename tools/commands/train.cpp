@@ -13,6 +13,7 @@
 #include "forest/train_mpi.h"
 #include "tools/commands/command.h"
 #include "tools/commands/commands.h"
+#include "tools/learning/common_parts.h"
 #include "tools/learning/person_source.h"
 
 namespace ossa::commands {
@@ -97,8 +98,10 @@ void AddOptions(CLI::App* app, TrainArguments* a) {
   app->add_option("--trees-of", a->trees_of,
                   "keep the trees of this model; learn only how joints lie to each other (on "
                   "DATASET) and the proposals (on --validation)");
-  app->add_option("--import-pcl", a->import_pcl,
-                  "make a model of PCL people trees (text, up to 4) instead of training");
+  app->add_option(
+      "--import-pcl", a->import_pcl,
+      "make a model of PCL people trees (text, up to 4) instead of training; proposals of "
+      "joints are learned on --validation");
 }
 
 void ShowProgress(Progress* bar, const forest::TrainProgress& p) {
@@ -168,8 +171,17 @@ void SayRate(const forest::TrainSummary& summary) {
              evaluations, 1e-6 * evaluations / summary.split_seconds);
 }
 
+// With validation frames the trees also get proposals, to be evaluated like a model of ours.
 int ImportPcl(const TrainArguments& a) {
-  forest::WriteForestModel(a.out, forest::ImportPclTrees(a.import_pcl));
+  forest::ForestModel model = forest::ImportPclTrees(a.import_pcl);
+  if (!a.validation.empty()) {
+    forest::ForestData data = model.data();
+    data.targets = tools::PclTargets(data.class_names);
+    model = forest::LearnProposals(forest::ForestModel(std::move(data)),
+                                   tools::PersonSource(a.validation, {0, 100}), a.validation_images,
+                                   a.options.threads);
+  }
+  forest::WriteForestModel(a.out, model);
   return 0;
 }
 

@@ -10,6 +10,7 @@
 #include "depth/error.h"
 #include "forest/classify.h"
 #include "recon/body/parts.h"
+#include "tools/learning/common_parts.h"
 #include "tools/learning/person_source.h"
 
 namespace ossa::tools {
@@ -30,6 +31,13 @@ double Share(int64_t part, int64_t whole) {
                    : std::numeric_limits<double>::quiet_NaN();
 }
 
+// What a model's classes and targets are to us.
+struct Meaning {
+  bool has_our_parts = false;        // else only common parts can be compared
+  std::vector<uint8_t> common_part;  // of each class
+  std::vector<size_t> target_of_joint;
+};
+
 // Sums over a data set.
 struct Totals {
   std::array<int64_t, recon::kLabelCount> pixels{};
@@ -38,6 +46,8 @@ struct Totals {
   std::array<std::vector<RatedProposal>, recon::kJointCount> rated_visible;
   std::array<int64_t, recon::kJointCount> joints{};
   std::array<int64_t, recon::kJointCount> joints_visible{};
+  std::array<int64_t, kCommonPartCount> common_pixels{};
+  std::array<int64_t, kCommonPartCount> common_right{};
   int64_t people = 0, swapped = 0, turned = 0, turned_swapped = 0, classified = 0;
   double classify_ms = 0, propose_ms = 0;
 };
@@ -56,11 +66,19 @@ void CountPixels(const forest::TrainingImage& image, const forest::Classificatio
     other_side += recon::kMirroredPart[truth] == label ? 1 : 0;
   }
   const int64_t swapped = other_side > same_side ? 1 : 0;
-  ++totals->people;
   totals->swapped += swapped;
   totals->turned += is_turned ? 1 : 0;
   totals->turned_swapped += is_turned ? swapped : 0;
-  totals->classified += static_cast<int64_t>(result.pixel.size());
+}
+
+void CountCommonParts(const forest::TrainingImage& image, const forest::Classification& result,
+                      const std::vector<uint8_t>& common_part, Totals* totals) {
+  for (size_t i = 0; i < result.pixel.size(); ++i) {
+    const uint8_t truth = CommonPartOfTruth(image.label[static_cast<size_t>(result.pixel[i])]);
+    if (truth == kNoCommonPart) continue;
+    ++totals->common_pixels[truth];
+    totals->common_right[truth] += common_part[result.label[i]] == truth ? 1 : 0;
+  }
 }
 
 // Shotton et al. 2011, sec. 4.2: the first proposal within 0.1 m is the true positive, all others
@@ -83,7 +101,7 @@ void RateJoints(const forest::TrainingImage& image,
 }
 
 void AddPerson(const forest::ForestModel& model, const LabelledFrame& frame, const TruthBody& body,
-               const std::vector<size_t>& target_of_joint, Totals* totals) {
+               const Meaning& meaning, Totals* totals) {
   const forest::TrainingImage image = PersonImage(frame, body);
   std::vector<int32_t> pixels;
   for (size_t i = 0; i < image.label.size(); ++i) {
@@ -99,8 +117,12 @@ void AddPerson(const forest::ForestModel& model, const LabelledFrame& frame, con
   totals->propose_ms += Now_ms() - classified_ms;
   totals->classify_ms += classified_ms - start_ms;
   std::vector<std::vector<forest::Proposal>> by_joint;
-  for (const size_t target : target_of_joint) by_joint.push_back(by_target[target]);
-  CountPixels(image, result, std::abs(YawAgainstSight(body.joints_m)) > kTurned_rad, totals);
+  for (const size_t target : meaning.target_of_joint) by_joint.push_back(by_target[target]);
+  const bool is_turned = std::abs(YawAgainstSight(body.joints_m)) > kTurned_rad;
+  if (meaning.has_our_parts) CountPixels(image, result, is_turned, totals);
+  CountCommonParts(image, result, meaning.common_part, totals);
+  ++totals->people;
+  totals->classified += static_cast<int64_t>(result.pixel.size());
   RateJoints(image, by_joint, totals);
 }
 
@@ -112,15 +134,46 @@ std::vector<size_t> TargetOfJoint(const forest::ForestModel& model) {
                                     [&](const auto& target) { return target.name == name; });
     if (found == targets.end()) {
       throw InputError("the model has no target '" + std::string(name) +
-                       "': only models of the 31 parts and 20 joints can be evaluated");
+                       "': only models of the 20 joints can be evaluated");
     }
     target_of_joint.push_back(static_cast<size_t>(found - targets.begin()));
   }
-  if (model.class_count() != recon::kLabelCount) {
-    throw InputError("the model has " + std::to_string(model.class_count()) +
-                     " classes, expected " + std::to_string(recon::kLabelCount));
-  }
   return target_of_joint;
+}
+
+Meaning MeaningOf(const forest::ForestModel& model) {
+  const std::vector<std::string>& names = model.data().class_names;
+  Meaning meaning;
+  meaning.target_of_joint = TargetOfJoint(model);
+  meaning.has_our_parts =
+      std::equal(names.begin(), names.end(), recon::kPartNames.begin(), recon::kPartNames.end());
+  const auto common = CommonPartsOfModel(names);
+  if (!common) {
+    throw InputError("the model's " + std::to_string(names.size()) +
+                     " classes are neither our 31 parts nor those of PCL's people trees");
+  }
+  meaning.common_part = *common;
+  return meaning;
+}
+
+void SummariseCommon(const Totals& totals, Evaluation* e) {
+  double class_sum = 0;
+  int classes = 0;
+  for (size_t c = 0; c < kCommonPartCount; ++c) {
+    e->common_accuracy.push_back(Share(totals.common_right[c], totals.common_pixels[c]));
+    if (totals.common_pixels[c] == 0) continue;
+    class_sum += e->common_accuracy.back();
+    ++classes;
+  }
+  e->mean_common_accuracy = classes > 0 ? class_sum / classes : 0.0;
+  int joints = 0;
+  double ap_sum = 0;
+  for (size_t j = 0; j < recon::kJointCount; ++j) {
+    if (!IsCommonJoint(static_cast<recon::Joint>(j))) continue;
+    ap_sum += e->ap_10cm[j];
+    ++joints;
+  }
+  e->map_10cm_common = ap_sum / joints;
 }
 
 Evaluation Summarise(Totals totals, int64_t frames) {
@@ -140,7 +193,8 @@ Evaluation Summarise(Totals totals, int64_t frames) {
     ++classes;
   }
   e.pixel_accuracy = Share(right, pixels);
-  e.mean_class_accuracy = classes > 0 ? class_sum / classes : 0.0;
+  e.mean_class_accuracy =
+      classes > 0 ? class_sum / classes : std::numeric_limits<double>::quiet_NaN();
   for (size_t j = 0; j < recon::kJointCount; ++j) {
     e.ap_10cm.push_back(AveragePrecision(std::move(totals.rated[j]), totals.joints[j]));
     e.ap_10cm_visible.push_back(
@@ -148,7 +202,8 @@ Evaluation Summarise(Totals totals, int64_t frames) {
     e.map_10cm += e.ap_10cm.back() / recon::kJointCount;
     e.map_10cm_visible += e.ap_10cm_visible.back() / recon::kJointCount;
   }
-  e.swapped_left_right = Share(totals.swapped, totals.people);
+  SummariseCommon(totals, &e);
+  e.swapped_left_right = Share(totals.swapped, pixels > 0 ? totals.people : 0);
   e.swapped_left_right_turned = Share(totals.turned_swapped, totals.turned);
   const auto people = static_cast<double>(std::max<int64_t>(totals.people, 1));
   e.ns_per_pixel =
@@ -183,14 +238,14 @@ double AveragePrecision(std::vector<RatedProposal> proposals, int64_t positives)
 
 Evaluation Evaluate(const forest::ForestModel& model, const DatasetReader& dataset, int64_t step,
                     const std::function<bool(int64_t, int64_t)>& progress) {
-  const std::vector<size_t> target_of_joint = TargetOfJoint(model);
+  const Meaning meaning = MeaningOf(model);
   Totals totals;
   int64_t frames = 0;
   for (int64_t i = 0; i < dataset.frame_count(); i += step) {
     if (progress && !progress(i, dataset.frame_count())) break;
     const LabelledFrame frame = dataset.Read(i);
     for (const TruthBody& body : frame.bodies) {
-      AddPerson(model, frame, body, target_of_joint, &totals);
+      AddPerson(model, frame, body, meaning, &totals);
     }
     ++frames;
   }

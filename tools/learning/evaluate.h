@@ -24,13 +24,16 @@ double AveragePrecision(std::vector<RatedProposal> proposals, int64_t positives)
 struct Evaluation {
   int64_t frames = 0;
   int64_t people = 0;
-  double pixel_accuracy = 0.0;         // over person pixels
+  double pixel_accuracy = 0.0;         // over person pixels; NaN for a model of PCL's classes
   double mean_class_accuracy = 0.0;    // of the 31 parts that occur
   std::vector<double> class_accuracy;  // by label; NaN where a class does not occur
   std::vector<double> ap_10cm;         // by joint
   std::vector<double> ap_10cm_visible;
   double map_10cm = 0.0;
   double map_10cm_visible = 0.0;
+  std::vector<double> common_accuracy;  // of parts told by PCL's people trees too; NaN as above
+  double mean_common_accuracy = 0.0;
+  double map_10cm_common = 0.0;     // over joints that lie within one class of either
   double swapped_left_right = 0.0;  // share of people most of whose paired parts are mirrored
   double swapped_left_right_turned = 0.0;  // of those turned by more than 60°
   double ns_per_pixel = 0.0;               // person pixel, all trees, one thread

@@ -5,6 +5,7 @@
 
 #include "recon/body/parts.h"
 #include "recon/skeleton.h"
+#include "tools/learning/common_parts.h"
 #include "tools/learning/evaluate.h"
 
 namespace ossa::tools {
@@ -51,6 +52,9 @@ std::string EvaluationJson(const Evaluation& e) {
   json["ap_10cm"] = ByName(e.ap_10cm, recon::kJointNames, 0);
   json["map_10cm_visible"] = Number(e.map_10cm_visible);
   json["ap_10cm_visible"] = ByName(e.ap_10cm_visible, recon::kJointNames, 0);
+  json["mean_common_accuracy"] = Number(e.mean_common_accuracy);
+  json["per_common_part_accuracy"] = ByName(e.common_accuracy, CommonPartNames(), 0);
+  json["map_10cm_common"] = Number(e.map_10cm_common);
   json["swapped_left_right"] = Number(e.swapped_left_right);
   json["swapped_left_right_turned"] = Number(e.swapped_left_right_turned);
   json["ns_per_pixel"] = e.ns_per_pixel;
