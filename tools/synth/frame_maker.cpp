@@ -8,6 +8,7 @@
 #include "depth/render/structured_light.h"
 #include "recon/body/parts.h"
 #include "tools/synth/person.h"
+#include "tools/synth/stage.h"
 #include "tools/synth/visibility_internal.h"
 
 namespace ossa::tools {
@@ -178,19 +179,10 @@ LabelledFrame FrameMaker::State::Shoot(const ViewSample& view, const std::vector
 
   LabelledFrame frame;
   frame.depth.camera = crop;
-  frame.parts = depth::Image<uint8_t>(crop.width, crop.height);
-  frame.users = depth::Image<uint8_t>(crop.width, crop.height);
+  LabelPeople(seen, sensed, studio.model, mesh_of_person, &frame);
   for (size_t i = 0; i < sensed.source.data.size(); ++i) {
-    if (sensed.source.data[i] < 0) continue;
-    const auto source = static_cast<size_t>(sensed.source.data[i]);
-    const int mesh = seen.mesh.data[source];
-    const auto person = std::find(mesh_of_person.begin(), mesh_of_person.end(), mesh);
-    if (person != mesh_of_person.end()) {
-      frame.parts.data[i] =
-          studio.model.triangle_part()[static_cast<size_t>(seen.triangle.data[source])];
-      frame.users.data[i] = static_cast<uint8_t>(person - mesh_of_person.begin() + 1);
-      continue;
-    }
+    if (sensed.source.data[i] < 0 || frame.users.data[i] != 0) continue;
+    const int mesh = seen.mesh.data[static_cast<size_t>(sensed.source.data[i])];
     const auto prop = std::find(prop_mesh.begin(), prop_mesh.end(), mesh);
     if (prop != prop_mesh.end() &&
         props[static_cast<size_t>(prop - prop_mesh.begin())].counts_as_other) {

@@ -4,7 +4,6 @@
 #include <limits>
 
 #include "depth/error.h"
-#include "depth/render/structured_light.h"
 
 namespace ossa::tools {
 
@@ -58,25 +57,31 @@ recon::Posture Actor::Take(const recon::RigPose& pose, const Eigen::Isometry3d& 
 
 void Actor::Show(depth::Renderer& renderer) const { renderer.UpdateVertices(mesh_, posed_m_); }
 
+void LabelPeople(const depth::RenderedImage& seen, const depth::SensorImage& sensed,
+                 const recon::BodyModel& model, std::span<const int> meshes, LabelledFrame* frame) {
+  const depth::Camera& camera = frame->depth.camera;
+  frame->parts = depth::Image<uint8_t>(camera.width, camera.height);
+  frame->users = depth::Image<uint8_t>(camera.width, camera.height);
+  for (size_t i = 0; i < sensed.source.data.size(); ++i) {
+    if (sensed.source.data[i] < 0) continue;
+    const auto source = static_cast<size_t>(sensed.source.data[i]);
+    const auto person = std::find(meshes.begin(), meshes.end(), seen.mesh.data[source]);
+    if (person == meshes.end()) continue;
+    frame->parts.data[i] = model.triangle_part()[static_cast<size_t>(seen.triangle.data[source])];
+    frame->users.data[i] = static_cast<uint8_t>(person - meshes.begin() + 1);
+  }
+}
+
 LabelledFrame SenseActors(depth::Renderer& renderer, const depth::Camera& camera,
                           const recon::BodyModel& model, std::span<const Actor> actors,
                           uint64_t noise_seed) {
   const depth::RenderedImage seen = renderer.Render(camera, {.projector = true});
   depth::SensorImage sensed = depth::SimulateStructuredLight(seen, camera, {}, noise_seed);
+  std::vector<int> meshes;
+  for (const Actor& actor : actors) meshes.push_back(actor.mesh());
   LabelledFrame frame;
   frame.depth.camera = camera;
-  frame.parts = depth::Image<uint8_t>(camera.width, camera.height);
-  frame.users = depth::Image<uint8_t>(camera.width, camera.height);
-  for (size_t i = 0; i < sensed.source.data.size(); ++i) {
-    if (sensed.source.data[i] < 0) continue;
-    const auto source = static_cast<size_t>(sensed.source.data[i]);
-    const int mesh = seen.mesh.data[source];
-    const auto actor = std::find_if(actors.begin(), actors.end(),
-                                    [mesh](const Actor& a) { return a.mesh() == mesh; });
-    if (actor == actors.end()) continue;
-    frame.parts.data[i] = model.triangle_part()[static_cast<size_t>(seen.triangle.data[source])];
-    frame.users.data[i] = static_cast<uint8_t>(actor - actors.begin() + 1);
-  }
+  LabelPeople(seen, sensed, model, meshes, &frame);
   frame.depth.depth_mm = std::move(sensed.depth_mm.data);
   return frame;
 }

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "depth/render/renderer.h"
+#include "depth/render/structured_light.h"
 #include "recon/body/body_model.h"
 #include "recon/body/clothing.h"
 #include "tools/synth/dataset.h"
@@ -42,6 +43,11 @@ class Actor {
   std::vector<Eigen::Vector3f> rest_m_, posed_m_;
   int mesh_ = -1;
 };
+
+/// Fills in parts and users of a frame of this camera: pixels that sense meshes[i], a body of the
+/// model, carry the user i + 1 and their part, all others 0.
+void LabelPeople(const depth::RenderedImage& seen, const depth::SensorImage& sensed,
+                 const recon::BodyModel& model, std::span<const int> meshes, LabelledFrame* frame);
 
 /// What a structured-light sensor measures of the renderer's scene, labelled: pixels of actor i
 /// carry the user i + 1 and their part. Bodies are left to the caller.

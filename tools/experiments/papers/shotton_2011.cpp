@@ -132,7 +132,7 @@ Evaluation Laboratory::Measured(const std::string& key,
 
 Evaluation Laboratory::Judge(const Setting& setting, int64_t test_frames) {
   const std::string key =
-      fmt::format("shotton 3 {} {} {} {} {} {} {} seed {}", motion_, setting.images, setting.depth,
+      fmt::format("shotton 4 {} {} {} {} {} {} {} seed {}", motion_, setting.images, setting.depth,
                   setting.trees, pixels_, candidates_, validation_images_, context_.seed);
   return Measured(
       key,
