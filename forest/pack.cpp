@@ -39,6 +39,9 @@ std::vector<Node> NodesOf(const NodeColumns& columns, const PayloadReader& reade
   for (const auto& column : columns.inner) {
     if (column.size() != columns.inner[0].size()) reader.Fail("node parameters", "uneven columns");
   }
+  if (columns.is_leaf.size() != 2 * columns.inner[0].size() + 1) {
+    reader.Fail("node parameters", "expected one set for two nodes but the root");
+  }
   for (const uint8_t kind : columns.is_leaf) {
     Node node;
     if (kind != 0) {
