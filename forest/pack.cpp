@@ -118,7 +118,7 @@ void GetLeaves(PayloadReader* reader, Tree* tree) {
       const size_t at = tree->entries.size();
       code += steps[at];
       if (code >= kCodes || weights[at] > 127) reader->Fail("leaf entry", "code or weight unknown");
-      tree->entries.push_back(static_cast<uint16_t>(weights[at] << kCodeBits | code));
+      tree->entries.push_back(static_cast<uint16_t>(unsigned{weights[at]} << kCodeBits | code));
     }
     tree->entry_begin.push_back(static_cast<uint32_t>(tree->entries.size()));
   }
