@@ -4,6 +4,16 @@
 
 namespace ossa::recon {
 
+namespace {
+
+/// The posture with each joint moved to where it was observed, as far as that is reliable.
+PostureVector WithReliableJoints(const PostureVector& posture, const EnergyInputs& energy) {
+  const PostureVector r = CoordinateWeights(energy.reliability);
+  return posture + r.cwiseProduct(energy.observed - posture);
+}
+
+}  // namespace
+
 ReconstructedPosture NaturalPostureMethod::Step(const ReconstructionInput& input) {
   const PreparedPosture prepared = person_.Prepare(input);
   if (prepared.restarted) {
@@ -18,7 +28,8 @@ ReconstructedPosture NaturalPostureMethod::Step(const ReconstructionInput& input
   ++frame_;
   before_last_ = last_;
   last_ = space.Posture(found.q);
-  ReconstructedPosture out{person_.InCamera(PostureOf(*last_), prepared), prepared.reliability};
+  const PostureVector shown = options_.keep_reliable ? WithReliableJoints(*last_, energy) : *last_;
+  ReconstructedPosture out{person_.InCamera(PostureOf(shown), prepared), prepared.reliability};
   const auto weights = InverseDistances(*database_, selected_, *last_);
   out.orientation =
       TurnedOntoBones(*database_, selected_, weights, out.posture, prepared.placement.yaw_rad);

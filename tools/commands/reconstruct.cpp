@@ -67,6 +67,9 @@ void AddMethodOptions(CLI::App& app, ReconstructArguments& a) {
         *weights[n++ % 4] = std::stod(text);
       });
   app.add_flag("--no-reliability", a.no_reliability, "method B of Shum 2013");
+  app.add_flag("--keep-reliable", pca.keep_reliable,
+               "shum-2013, plantard-2016: joints stay where they were seen, as far as that is "
+               "reliable (not in the papers)");
   app.add_flag("--extend", pca.extend_database, "reliable postures join the database (sec. IX)");
 }
 

@@ -9,7 +9,7 @@ struct Shum2013Study {
   explicit Shum2013Study(ExperimentContext& context);
 
   std::vector<RecordedPair> clean, furniture, held;  // classes (a), (b), (c) of table IV
-  MethodRun raw, method_a, method_b, shum, best;
+  MethodRun raw, method_a, method_b, shum, kept, best;
   std::string note;
 };
 
