@@ -6,9 +6,10 @@ namespace ossa::recon {
 namespace {
 
 std::vector<Action> AllActions() {
+  // New groups at the end: a clip's seed is its place, and clips once made stay as they are.
   std::vector<Action> all;
-  for (const auto& group :
-       {StandingActions(), WalkingActions(), HandActions(), SportActions(), SeatedActions()}) {
+  for (const auto& group : {StandingActions(), WalkingActions(), HandActions(), SportActions(),
+                            SeatedActions(), ExerciseActions()}) {
     all.insert(all.end(), group.begin(), group.end());
   }
   return all;

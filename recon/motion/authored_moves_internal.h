@@ -77,5 +77,6 @@ std::span<const Action> WalkingActions();
 std::span<const Action> SportActions();
 std::span<const Action> HandActions();
 std::span<const Action> SeatedActions();
+std::span<const Action> ExerciseActions();
 
 }  // namespace ossa::recon

@@ -90,14 +90,33 @@ class BodyPainter {
   std::map<int, int64_t> pixels_;
 };
 
-/// Some of the clips, spread over the list, each halfway through.
-std::vector<const recon::MotionClip*> Chosen(const std::vector<recon::MotionClip>& clips,
-                                             size_t count) {
-  std::vector<const recon::MotionClip*> chosen;
+struct Moment {
+  const recon::MotionClip* clip;
+  size_t frame;
+};
+
+/// Some of the clips, spread over the list, each at `times` times spread over it.
+std::vector<Moment> Chosen(const std::vector<recon::MotionClip>& clips, size_t count,
+                           size_t times) {
+  std::vector<Moment> chosen;
   for (size_t i = 0; i < std::min(count, clips.size()); ++i) {
-    chosen.push_back(&clips[i * clips.size() / std::min(count, clips.size())]);
+    const recon::MotionClip& clip = clips[i * clips.size() / std::min(count, clips.size())];
+    for (size_t k = 1; k <= times && !clip.frames.empty(); ++k) {
+      chosen.push_back({&clip, k * clip.frames.size() / (times + 1)});
+    }
   }
   return chosen;
+}
+
+/// Clips whose name holds one of the words; all of them without any.
+std::vector<recon::MotionClip> Named(std::vector<recon::MotionClip> clips,
+                                     const std::vector<std::string>& words) {
+  std::erase_if(clips, [&words](const recon::MotionClip& clip) {
+    return !words.empty() && std::none_of(words.begin(), words.end(), [&](const std::string& word) {
+      return clip.name.find(word) != std::string::npos;
+    });
+  });
+  return clips;
 }
 
 }  // namespace
@@ -117,18 +136,19 @@ std::vector<Table> RunBody(ExperimentContext& context) {
 
   recon::MocapOptions options;
   options.seed = context.seed;
-  const auto clips = recon::LoadMocap(sources, options);
+  const auto clips =
+      Named(recon::LoadMocap(sources, options), context.parameters.Texts("only", {}));
+  const int times = std::clamp(context.parameters.Integer("times", 1), 1, 20);
   std::vector<Picture> poses;
   Table motions{
       "Motions on the body (motions.png, from the left)", {"clip", "frame", "of"}, {}, ""};
-  for (const recon::MotionClip* clip : Chosen(clips, static_cast<size_t>(count))) {
-    if (clip->frames.empty()) continue;
-    const size_t frame = clip->frames.size() / 2;
-    poses.push_back(painter.Paint(clip->frames[frame], 0.0));
+  for (const Moment& at : Chosen(clips, static_cast<size_t>(count), static_cast<size_t>(times))) {
+    poses.push_back(painter.Paint(at.clip->frames[at.frame], 0.0));
     motions.rows.push_back(
-        {clip->name, std::to_string(frame), std::to_string(clip->frames.size())});
+        {at.clip->name, std::to_string(at.frame), std::to_string(at.clip->frames.size())});
   }
-  WritePicture(context.out / "motions.png", Strip(poses, static_cast<int>(poses.size())));
+  WritePicture(context.out / "motions.png",
+               Sheet(poses, times > 1 ? times : static_cast<int>(poses.size())));
 
   Table parts{"Pixels of each part, front, side and back (parts.png)", {"part", "pixels"}, {}, ""};
   for (int label = 1; label <= recon::kPartCount; ++label) {

@@ -2,6 +2,7 @@
 
 #include "recon/database/nearest.h"
 #include "recon/methods/posture_space_internal.h"
+#include "recon/methods/reconstructor.h"
 #include "tests/recon/synthetic_motion.h"
 
 namespace ossa::recon {
@@ -90,6 +91,31 @@ TEST(SearchCeres, FindsNoHigherEnergyThanTheStochasticSearch) {
     const auto exact = SearchCeres(p.space, p.inputs, {}, start);
     EXPECT_LE(exact.energy, 1.05 * random.energy);  // style's nearest neighbour may differ
   }
+}
+
+/// How far the head ends from where it was seen: bowed as nowhere in the database.
+double ErrorOfABowedHead_m(bool keep_reliable) {
+  ReconstructorOptions options;
+  options.method = "shum-2013";
+  options.database =
+      std::make_shared<PostureDatabase>(PostureDatabase::Build(test::GestureClips(), {}));
+  options.local_pca.keep_reliable = keep_reliable;
+  const auto method = MakeReconstructor(options);
+  Posture truth;
+  ReconstructedPosture made;
+  for (int f = 0; f < 10; ++f) {
+    truth = test::Gesture(0.3, 0.3, 0.2);
+    truth[Joint::kHead] += Eigen::Vector3d(0.0, -0.06, 0.15);
+    truth = test::InFrontOfCamera(truth);
+    made = method->Step({test::AllTracked(truth), f / 30.0, nullptr});
+  }
+  return (made.posture[Joint::kHead] - truth[Joint::kHead]).norm();
+}
+
+TEST(Shum2013, ReliableJointsCanStayWhereTheDatabaseHasNoSuchPosture) {
+  // The space of upright heads cannot bow one; a reliable head nearly stays.
+  EXPECT_GT(ErrorOfABowedHead_m(false), 0.1);
+  EXPECT_LT(ErrorOfABowedHead_m(true), 0.02);
 }
 
 }  // namespace

@@ -67,7 +67,20 @@ TEST(AuthoredClips, HaveManyMinutesOfEveryActionOfTheDesign) {
                              "hands_to_head",
                              "squat",
                              "lunge",
-                             "sit_crossing_legs"}) {
+                             "sit_crossing_legs",
+                             "deep_squat",
+                             "hurdle_step",
+                             "inline_lunge",
+                             "side_lunge",
+                             "sit_to_stand",
+                             "leg_raise",
+                             "shoulder_abduction",
+                             "shoulder_scaption",
+                             "shoulder_flexion",
+                             "shoulder_extension",
+                             "shoulder_rotation",
+                             "trunk_rotation",
+                             "flank_stretch"}) {
     EXPECT_TRUE(actions.contains(action)) << action;
   }
 }

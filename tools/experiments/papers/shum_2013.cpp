@@ -8,7 +8,9 @@
 
 #include "recon/normalise.h"
 #include "tools/experiments/experiments_internal.h"
+#include "tools/experiments/papers/database_coverage.h"
 #include "tools/experiments/papers/shum_2013_internal.h"
+#include "tools/experiments/papers/visibility_errors.h"
 #include "tools/experiments/stage/motions.h"
 
 namespace ossa::tools {
@@ -152,7 +154,8 @@ Table TableFour(const ExperimentContext& context, const Shum2013Study& study) {
 
 Table ByVisibility(const ExperimentContext& context, const Shum2013Study& study) {
   Table table;
-  table.title = "Table IV by what the sensor saw: eq. 18 of bones seen at both ends / of the others";
+  table.title =
+      "Table IV by what the sensor saw: eq. 18 of bones seen at both ends / of the others";
   table.columns = {"class", "hidden bones, %"};
   const std::array<const MethodRun*, 6> runs = {&study.raw,  &study.method_a, &study.method_b,
                                                 &study.shum, &study.kept,     &study.best};
@@ -166,8 +169,19 @@ Table ByVisibility(const ExperimentContext& context, const Shum2013Study& study)
     }
     table.rows.push_back(row);
   }
-  table.note = "The paper does not tell the two apart. Visible: the joint's surface is in the image.";
+  table.note =
+      "The paper does not tell the two apart. Visible: the joint's surface is in the image.";
   return table;
+}
+
+/// Of the exercises of UI-PRMD; no table without the recordings.
+void AddCoverage(const ExperimentContext& context, std::vector<Table>& tables) {
+  constexpr size_t kEveryNthClip = 13;
+  if (!std::filesystem::exists(context.shared / "real" / "uiprmd_kinect_vicon")) return;
+  std::vector<RecordedPair> some;
+  auto all = LoadUiPrmd(context.shared, false);
+  for (size_t i = 0; i < all.size(); i += kEveryNthClip) some.push_back(std::move(all[i]));
+  tables.push_back(CoverageTable(*DatabaseOf(context).postures, some));
 }
 
 }  // namespace
@@ -177,6 +191,7 @@ std::vector<Table> RunShum2013(ExperimentContext& context) {
   std::vector<Table> tables = {TableThree(context, study), TableFour(context, study),
                                ByVisibility(context, study)};
   for (Table& table : SweepsOfShum2013(context, study)) tables.push_back(std::move(table));
+  AddCoverage(context, tables);
   return tables;
 }
 

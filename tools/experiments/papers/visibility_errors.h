@@ -2,8 +2,8 @@
 #include <optional>
 #include <vector>
 
-#include "tools/experiments/metrics.h"
-#include "tools/experiments/recordings.h"
+#include "tools/experiments/compare/metrics.h"
+#include "tools/experiments/compare/recordings.h"
 
 namespace ossa::tools {
 

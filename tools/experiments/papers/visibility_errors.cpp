@@ -1,4 +1,4 @@
-#include "tools/experiments/visibility_errors.h"
+#include "tools/experiments/papers/visibility_errors.h"
 
 #include <algorithm>
 #include <cmath>
@@ -9,9 +9,9 @@ namespace {
 /// The true body of that time; null where there is none.
 const recon::BodyRecord* BodyAt(const recon::SkeletonSequence& truth, double time_s) {
   constexpr double kSameTime_s = 1e-3;
-  const auto frame = std::lower_bound(
-      truth.frames.begin(), truth.frames.end(), time_s - kSameTime_s,
-      [](const recon::SkeletonFrame& f, double time) { return f.time_s < time; });
+  const auto frame =
+      std::lower_bound(truth.frames.begin(), truth.frames.end(), time_s - kSameTime_s,
+                       [](const recon::SkeletonFrame& f, double time) { return f.time_s < time; });
   const bool found = frame != truth.frames.end() && !frame->bodies.empty() &&
                      std::abs(frame->time_s - time_s) <= kSameTime_s;
   return found ? &frame->bodies.front() : nullptr;
