@@ -56,9 +56,9 @@ struct LocalPcaOptions {
   std::string solver = "stochastic";  // or "ceres": the same energy by Levenberg-Marquardt
   bool use_reliability = true;        // false: the paper's method B, every joint seen counts fully
   bool extend_database = false;       // sec. IX: reliable postures join a private copy at run time
-  /// Departure, off by default: each joint ends between the posture found and where it was observed,
-  /// by R_i. The papers show the posture found alone, so that what the database lacks moves joints
-  /// that were seen well.
+  /// Departure, off by default: each joint ends between the posture found and where it was seen,
+  /// by R_i. The papers show the posture found alone, so that what the database lacks moves even
+  /// joints that were seen well.
   bool keep_reliable = false;
 };
 
