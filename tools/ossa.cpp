@@ -2,6 +2,7 @@
 
 #include <array>
 #include <exception>
+#include <filesystem>
 #include <string_view>
 
 #include "tools/commands/command.h"
@@ -57,6 +58,9 @@ int main(int argc, char** argv) try {
 } catch (const ossa::commands::UsageError& error) {
   fmt::print(stderr, "ossa: {}\n", error.what());
   return 2;
+} catch (const std::filesystem::filesystem_error& error) {
+  fmt::print(stderr, "ossa: {}: {}\n", error.path1().string(), error.code().message());
+  return 1;
 } catch (const std::exception& error) {
   fmt::print(stderr, "ossa: {}\n", error.what());
   return 1;

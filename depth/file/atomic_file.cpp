@@ -22,6 +22,13 @@ std::filesystem::path TemporaryPathFor(const std::filesystem::path& final_path) 
 
 AtomicFile::AtomicFile(std::filesystem::path final_path)
     : final_path_(std::move(final_path)), temporary_path_(TemporaryPathFor(final_path_)) {
+  std::error_code unknown;
+  const auto there = std::filesystem::status(final_path_, unknown);
+  if (std::filesystem::exists(there) && !std::filesystem::is_regular_file(there)) {
+    throw InputError(final_path_.string() +
+                     ": cannot be written: expected a file or nothing, found " +
+                     (std::filesystem::is_directory(there) ? "a folder" : "a device"));
+  }
   errno = 0;
   stream_.open(temporary_path_, std::ios::binary | std::ios::trunc);
   if (!stream_) {
@@ -34,6 +41,10 @@ AtomicFile::~AtomicFile() {
   stream_.close();
   std::error_code ignored;
   std::filesystem::remove(temporary_path_, ignored);
+}
+
+void AtomicFile::CheckWritable(const std::filesystem::path& final_path) {
+  const AtomicFile probe(final_path);
 }
 
 void AtomicFile::Commit() {

@@ -6,10 +6,13 @@ namespace ossa {
 
 /// A file that appears under its final name only when complete: written beside it under a temporary
 /// name, renamed by Commit(), removed when destroyed without it. Throws InputError when the place
-/// cannot be written (no such folder, disk full).
+/// cannot be written (no such folder, disk full), or a folder or a device has that name: a rename
+/// would put a file in a device's place.
 class AtomicFile {
  public:
   explicit AtomicFile(std::filesystem::path final_path);
+  /// Throws the constructor's InputError; writes nothing. For what is written after hours of work.
+  static void CheckWritable(const std::filesystem::path& final_path);
   ~AtomicFile();
   AtomicFile(const AtomicFile&) = delete;
   AtomicFile& operator=(const AtomicFile&) = delete;

@@ -4,9 +4,13 @@
 #include <unistd.h>
 
 #include <CLI/CLI.hpp>
+#include <charconv>
 #include <chrono>
+#include <cmath>
 #include <csignal>
 #include <cstdio>
+#include <cstdlib>
+#include <string>
 
 namespace ossa::commands {
 namespace {
@@ -19,11 +23,41 @@ double Now_s() {
   return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
 }
 
+template <typename T>
+bool IsWhole(const std::string& text) {
+  T number{};
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), number);
+  return error == std::errc() && end == text.data() + text.size();
+}
+
+// CLI11 makes -1 the largest unsigned number, cuts whole numbers that are too large down to the
+// largest, and takes nan and inf, which pass by every range.
+void CheckNumbers(const CLI::App& app) {
+  for (const CLI::Option* option : app.get_options()) {
+    const std::string type = option->get_type_name();
+    for (const std::string& text : option->results()) {
+      const bool good = type.starts_with("UINT")  ? IsWhole<uint64_t>(text)
+                        : type.starts_with("INT") ? IsWhole<int64_t>(text)
+                        : type.starts_with("FLOAT")
+                            ? std::isfinite(std::strtod(text.c_str(), nullptr))
+                            : true;
+      if (good) continue;
+      const char* expected = type.starts_with("UINT")  ? "a whole number from 0 up"
+                             : type.starts_with("INT") ? "a whole number"
+                                                       : "a finite number";
+      throw UsageError(
+          fmt::format("{}: expected {}, found '{}'", option->get_name(), expected, text));
+    }
+  }
+}
+
 }  // namespace
 
 void Parse(CLI::App& app, int argc, char** argv) {
+  app.name(fmt::format("ossa {}", argv[0]));
   try {
     app.parse(argc, argv);
+    CheckNumbers(app);
   } catch (const CLI::CallForHelp&) {
     fmt::print("{}", app.help());
     throw HelpShown{};

@@ -81,8 +81,10 @@ int Compare(int argc, char** argv) {
   ReadTimeAlignment(time, options.pairing);
   options.pairing.rigid = align == "rigid";
 
-  const tools::Comparison comparison = tools::Compare(truth, results, options);
   const bool json_to_stdout = json_option->count() > 0 && (json.empty() || json == "-");
+  if (!json.empty() && !json_to_stdout) AtomicFile::CheckWritable(json);
+  if (!report.empty()) AtomicFile::CheckWritable(report);
+  const tools::Comparison comparison = tools::Compare(truth, results, options);
   if (json_to_stdout) {
     fmt::print("{}", tools::ToJson(comparison));
   } else {

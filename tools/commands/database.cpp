@@ -4,9 +4,12 @@
 #include <string>
 #include <vector>
 
+#include "depth/error.h"
+#include "depth/file/atomic_file.h"
 #include "recon/body/standard_body.h"
 #include "recon/database/posture_database.h"
 #include "recon/motion/mocap.h"
+#include "tools/commands/checks.h"
 #include "tools/commands/command.h"
 #include "tools/commands/commands.h"
 
@@ -61,7 +64,7 @@ int Database(int argc, char** argv) {
   app.add_option("--threshold", options.threshold_m,
                  "postures nearer than this to a kept one are dropped, metres")
       ->capture_default_str()
-      ->check(CLI::PositiveNumber);
+      ->check(Positive());
   app.add_option("--filter", filter, "distance of the filter")
       ->capture_default_str()
       ->check(CLI::IsMember({"sum-squared", "max-joint"}));
@@ -70,12 +73,13 @@ int Database(int argc, char** argv) {
   app.add_option("--mapping", mocap_options.mapping_file, "bone names of an unknown conversion");
   app.add_flag("--quiet", quiet, "no progress");
   Parse(app, argc, argv);
+  AtomicFile::CheckWritable(out);
 
   options.filter =
       filter == "max-joint" ? recon::DatabaseFilter::kMaxJoint : recon::DatabaseFilter::kSumSquared;
   const auto clips = PosturesOf(recon::LoadMocap(mocap, mocap_options), quiet);
   const auto database = recon::PostureDatabase::Build(clips, options);
-  if (Interrupted()) return 1;
+  if (Interrupted()) throw InputError("database: interrupted; nothing was written");
   database.Save(out);
   fmt::print("{}: {} postures of {} in {} clips, {:.1f} edges a posture\n", out, database.size(),
              database.source_postures(), database.clip_count(),

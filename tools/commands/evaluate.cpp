@@ -7,12 +7,17 @@
 #include "depth/error.h"
 #include "depth/file/atomic_file.h"
 #include "forest/forest.h"
+#include "tools/commands/checks.h"
 #include "tools/commands/command.h"
 #include "tools/commands/commands.h"
 #include "tools/learning/evaluate.h"
 
 namespace ossa::commands {
 namespace {
+
+void CheckWritable(const std::string& path) {
+  if (!path.empty()) AtomicFile::CheckWritable(path);
+}
 
 void WriteText(const std::string& path, const std::string& text) {
   if (path.empty()) return;
@@ -52,9 +57,11 @@ int Evaluate(int argc, char** argv) {
                  "note the numbers in the model's card under this name (rewrites MODEL)");
   app.add_option("--every", step, "look at every N-th frame")
       ->capture_default_str()
-      ->check(CLI::PositiveNumber);
+      ->check(Positive());
   app.add_flag("--quiet", quiet, "no progress");
   Parse(app, argc, argv);
+  CheckWritable(json_path);
+  CheckWritable(report_path);
   const forest::ForestModel model = forest::ReadForestModel(model_path);
   const tools::DatasetReader dataset{std::filesystem::path(dataset_path)};
   Progress bar("evaluate", quiet);

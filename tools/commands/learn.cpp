@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "depth/error.h"
+#include "depth/file/atomic_file.h"
 #include "recon/gp/learned_models.h"
 #include "recon/methods/recorded_pairs.h"
 #include "recon/motion/skeletons/skeleton_io.h"
@@ -70,6 +71,7 @@ int Learn(int argc, char** argv) {
   options.correction.seed = options.mixture.seed;
   options.processes = !correction_only;
 
+  AtomicFile::CheckWritable(out);
   std::vector<recon::PosturePair> pairs;
   for (size_t i = 0; i < observed.size(); ++i) AddClips(observed[i], truth[i], pairs);
   Progress progress("learn", quiet);

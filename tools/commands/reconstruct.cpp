@@ -4,11 +4,15 @@
 #include <filesystem>
 #include <memory>
 #include <string>
+#include <tuple>
+#include <vector>
 
 #include "depth/error.h"
+#include "depth/file/atomic_file.h"
 #include "recon/database/posture_database.h"
 #include "recon/methods/sequence.h"
 #include "recon/motion/skeletons/skeleton_io.h"
+#include "tools/commands/checks.h"
 #include "tools/commands/command.h"
 #include "tools/commands/commands.h"
 #include "tools/commands/mechanics_options.h"
@@ -25,6 +29,7 @@ struct ReconstructArguments {
   recon::ReconstructorOptions options;
   recon::SkeletonReadOptions read;
   MechanicsOptions mechanics;
+  std::vector<double> weights;
   double cutoff_hz = 6.0;
   bool quiet = false;
   bool no_reliability = false;
@@ -50,22 +55,27 @@ void AddMethodOptions(CLI::App& app, ReconstructArguments& a) {
   app.add_option("--database", a.database_file, "posture database; without it the shipped one");
   app.add_option("--learned", a.options.learned_file, "what `ossa learn` wrote, .ossagp");
   app.add_option("--seed", a.options.seed, "of the stochastic search")->capture_default_str();
-  app.add_option("--cutoff", a.cutoff_hz, "of the Butterworth filter, Hz")->capture_default_str();
+  app.add_option("--cutoff", a.cutoff_hz, "of the Butterworth filter, Hz")
+      ->capture_default_str()
+      ->check(Positive());
   recon::LocalPcaOptions& pca = a.options.local_pca;
   app.add_option("--solver", pca.solver, "of shum-2013: stochastic or ceres")
       ->capture_default_str()
       ->check(CLI::IsMember({"stochastic", "ceres"}));
-  app.add_option("--neighbours", pca.neighbours, "K of the local PCA")->capture_default_str();
-  app.add_option("--dimensions", pca.dimensions, "of the local PCA")->capture_default_str();
-  app.add_option("--steps", pca.steps, "of the stochastic search")->capture_default_str();
-  app.add_option("--samples", pca.samples, "a step")->capture_default_str();
-  app.add_option("--weights", "control, style, kinematics, continuity (Shum 2013 eq. 15)")
+  app.add_option("--neighbours", pca.neighbours, "K of the local PCA")
+      ->capture_default_str()
+      ->check(CLI::Range(2, 100000));
+  const std::tuple<const char*, int*, const char*> counts[] = {
+      {"--dimensions", &pca.dimensions, "of the local PCA"},
+      {"--steps", &pca.steps, "of the stochastic search"},
+      {"--samples", &pca.samples, "a step"}};
+  for (const auto& [name, value, meaning] : counts) {
+    app.add_option(name, *value, meaning)->capture_default_str()->check(CLI::Range(1, 100000));
+  }
+  app.add_option("--weights", a.weights,
+                 "control, style, kinematics, continuity (Shum 2013 eq. 15)")
       ->expected(4)
-      ->delimiter(',')
-      ->each([&pca, n = 0](const std::string& text) mutable {
-        double* const weights[] = {&pca.control, &pca.style, &pca.kinematics, &pca.continuity};
-        *weights[n++ % 4] = std::stod(text);
-      });
+      ->delimiter(',');
   app.add_flag("--no-reliability", a.no_reliability, "method B of Shum 2013");
   app.add_flag("--keep-reliable", pca.keep_reliable,
                "shum-2013, plantard-2016: joints stay where they were seen, as far as that is "
@@ -85,7 +95,10 @@ int Reconstruct(int argc, char** argv) {
   AddMechanicsOptions(app, a.mechanics);
   app.add_flag("--quiet", a.quiet, "no progress");
   Parse(app, argc, argv);
-  a.options.local_pca.use_reliability = !a.no_reliability;
+  recon::LocalPcaOptions& pca = a.options.local_pca;
+  pca.use_reliability = !a.no_reliability;
+  double* const weights[] = {&pca.control, &pca.style, &pca.kinematics, &pca.continuity};
+  for (size_t i = 0; i < a.weights.size(); ++i) *weights[i] = a.weights[i];
 
   const auto clips = recon::ReadSkeletonClips(a.skeletons, a.read);
   const bool many = clips.size() > 1;
@@ -93,6 +106,7 @@ int Reconstruct(int argc, char** argv) {
     std::filesystem::create_directories(a.out);
   } else {
     recon::CheckSkeletonExtension(a.out);
+    AtomicFile::CheckWritable(a.out);
   }
   a.options.database = DatabaseFor(a);
   Progress progress("reconstruct", a.quiet);

@@ -6,13 +6,13 @@
 #include <string>
 
 #include "depth/error.h"
-#include "depth/image/camera_io.h"
 #include "depth/sensor/fakenect_dump.h"
 #include "depth/sensor/frame_source.h"
 #include "depth/sensor/oni_recorder.h"
+#include "tools/commands/checks.h"
 #include "tools/commands/command.h"
 #include "tools/commands/commands.h"
-#include "tools/commands/waiting.h"
+#include "tools/commands/source_options.h"
 
 namespace ossa::commands {
 namespace {
@@ -23,12 +23,9 @@ using std::chrono::milliseconds;
 constexpr double kPeriod_s = 1.0 / 30.0;
 
 struct RecordOptions {
-  std::string source;
+  SourceArguments source;
   std::string out;
-  std::string camera;
   double seconds = 0.0;  // 0: to the end, or Ctrl-C
-  double wait_s = 0.0;
-  double patience_s = 5.0;
   bool fakenect = false;
   bool quiet = false;
 };
@@ -46,21 +43,13 @@ RecordOptions ParseOptions(int argc, char** argv) {
   CLI::App app(
       "Record any SOURCE to an .oni file that OpenNI2, NiViewer and ossa play bit for bit");
   RecordOptions options;
-  app.add_option("SOURCE", options.source,
-                 "openni: (first device), openni:URI, FILE.oni, a folder of 16-bit PNGs or a "
-                 "DATASET; openni:ossa://PATH plays the last three as a live device")
-      ->required();
+  AddSourceOptions(app, options.source);
   app.add_option("--out", options.out, "the recording, FILE.oni, or a folder with --fakenect")
       ->required();
   app.add_option("--seconds", options.seconds,
                  "stop after so long (default: at the end, or Ctrl-C)")
-      ->check(CLI::PositiveNumber);
-  app.add_option("--camera", options.camera, "kinect-v1 or fx,fy,cx,cy in pixels");
-  app.add_option("--wait", options.wait_s, "wait so many seconds for a device to be plugged in")
-      ->check(CLI::NonNegativeNumber);
-  app.add_option("--patience", options.patience_s,
-                 "give up on a device that is unplugged or silent for so many seconds (default 5)")
-      ->check(CLI::PositiveNumber);
+      ->check(Positive());
+  AddDeviceOptions(app, options.source);
   app.add_flag(
       "--fakenect", options.fakenect,
       "write a dump that libfreenect's fakenect plays as a Kinect v1; --out is its folder");
@@ -70,10 +59,6 @@ RecordOptions ParseOptions(int argc, char** argv) {
     throw UsageError("--out: expected a name that ends in .oni, found '" + options.out + "'");
   }
   return options;
-}
-
-milliseconds Milliseconds(double seconds) {
-  return milliseconds(static_cast<int64_t>(seconds * 1000.0));
 }
 
 // Takes frames until the source ends, the time is up, Ctrl-C comes or a device is given up.
@@ -99,7 +84,7 @@ Recorded RecordFrames(depth::FrameSource& source, const RecordOptions& options,
       if (total > 0) progress.Update(static_cast<double>(recorded.frames), total, "frames");
       if (options.seconds > 0 && recorded.seconds > options.seconds - kPeriod_s / 2) break;
     } else if (source.is_live() &&
-               Clock::now() - last_frame_at > Milliseconds(options.patience_s)) {
+               Clock::now() - last_frame_at > Milliseconds(options.source.patience_s)) {
       recorded.ending =
           result.status == depth::ReadStatus::kDisconnected ? Ending::kUnplugged : Ending::kSilent;
       break;
@@ -119,7 +104,7 @@ int Report(const RecordOptions& options, const Recorded& recorded) {
   if (!complete) {
     const char* what = recorded.ending == Ending::kUnplugged ? "unplugged" : "delivers no frames";
     throw InputError(fmt::format("{}: the device {} for {:g} s: the recording ends early ({})",
-                                 options.source, what, options.patience_s, summary));
+                                 options.source.name, what, options.source.patience_s, summary));
   }
   if (!options.quiet) fmt::print("{}\n", summary);
   return 0;
@@ -128,7 +113,7 @@ int Report(const RecordOptions& options, const Recorded& recorded) {
 template <typename Recorder>
 int RecordTo(Recorder recorder, depth::FrameSource& source, const RecordOptions& options) {
   const Recorded recorded = RecordFrames(source, options, recorder);
-  if (recorded.frames == 0) throw InputError(options.source + ": no frame came");
+  if (recorded.frames == 0) throw InputError(options.source.name + ": no frame came");
   recorder.Finish();
   return Report(options, recorded);
 }
@@ -137,13 +122,7 @@ int RecordTo(Recorder recorder, depth::FrameSource& source, const RecordOptions&
 
 int Record(int argc, char** argv) {
   const RecordOptions options = ParseOptions(argc, argv);
-  depth::SourceOptions source_options;
-  source_options.device_wait = Milliseconds(options.wait_s);
-  if (options.wait_s > 0) {
-    source_options.keep_waiting = KeepWaitingFor(options.source, options.quiet);
-  }
-  if (!options.camera.empty()) source_options.camera = depth::ParseCamera(options.camera);
-  const auto source = depth::OpenSource(options.source, source_options);
+  const auto source = OpenSource(options.source, options.quiet);
   const depth::Camera& camera = source->camera();
   return options.fakenect ? RecordTo(depth::FakenectDump(options.out, camera), *source, options)
                           : RecordTo(depth::OniRecorder(options.out, camera), *source, options);

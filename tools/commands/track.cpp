@@ -10,15 +10,15 @@
 
 #include "depth/error.h"
 #include "depth/file/atomic_file.h"
-#include "depth/image/camera_io.h"
 #include "depth/sensor/frame_source.h"
 #include "recon/methods/reconstructor.h"
 #include "recon/motion/skeletons/skeleton_io.h"
 #include "recon/motion/skeletons/skeleton_jsonl.h"
+#include "tools/commands/checks.h"
 #include "tools/commands/command.h"
 #include "tools/commands/commands.h"
 #include "tools/commands/mechanics_options.h"
-#include "tools/commands/waiting.h"
+#include "tools/commands/source_options.h"
 #include "tools/tracker/picture.h"
 #include "tools/tracker/run_stats.h"
 #include "tools/tracker/skeleton_record.h"
@@ -31,12 +31,11 @@ using Clock = std::chrono::steady_clock;
 using std::chrono::milliseconds;
 
 struct TrackOptions {
-  std::string source, out, camera, json_stats, picture, pictures;
+  SourceArguments source;
+  std::string out, json_stats, picture, pictures;
   std::string smoothing, posture = "final", mode = "standing";
   MechanicsOptions mechanics;
   tracker::TrackerOptions tracker;
-  double wait_s = 0.0;
-  double patience_s = 5.0;
   int64_t frames = 0;
   int port = 8080;
   bool view = false;
@@ -67,21 +66,13 @@ void AddTrackerOptions(CLI::App& app, TrackOptions& options) {
 TrackOptions ParseOptions(int argc, char** argv) {
   CLI::App app("Follow the people in any SOURCE and write their skeletons");
   TrackOptions options;
-  app.add_option("SOURCE", options.source,
-                 "openni: (first device), openni:URI, FILE.oni, a folder of 16-bit PNGs, a DATASET")
-      ->required();
+  AddSourceOptions(app, options.source);
   app.add_option("--out", options.out, "skeletons: FILE.jsonl, .bvh, .trc or .csv");
   app.add_option("--posture", options.posture, "what --out gets: final, reconstructed or raw")
       ->check(CLI::IsMember({"final", "reconstructed", "raw"}));
   AddTrackerOptions(app, options);
-  app.add_option("--camera", options.camera, "kinect-v1 or fx,fy,cx,cy in pixels");
-  app.add_option("--frames", options.frames, "stop after so many frames")
-      ->check(CLI::PositiveNumber);
-  app.add_option("--wait", options.wait_s, "wait so many seconds for a device to be plugged in")
-      ->check(CLI::NonNegativeNumber);
-  app.add_option("--patience", options.patience_s,
-                 "give up on a device that is unplugged or silent for so many seconds (default 5)")
-      ->check(CLI::PositiveNumber);
+  app.add_option("--frames", options.frames, "stop after so many frames")->check(Positive());
+  AddDeviceOptions(app, options.source);
   app.add_option("--json-stats", options.json_stats,
                  "milliseconds a stage, frames a second, memory");
   app.add_option("--picture", options.picture,
@@ -115,6 +106,7 @@ class SkeletonOutput {
     if (posture == "reconstructed") kind_ = tracker::PostureKind::kReconstructed;
     if (path_.empty()) return;
     recon::CheckSkeletonExtension(path_);
+    AtomicFile::CheckWritable(path_);
     if (path_.ends_with(".jsonl")) {
       file_.emplace(path_);
       writer_.emplace(file_->stream());
@@ -161,6 +153,7 @@ class Pictures {
   explicit Pictures(const TrackOptions& options)
       : one_(options.picture), folder_(options.pictures) {
     if (!folder_.empty()) std::filesystem::create_directories(folder_);
+    if (!one_.empty()) AtomicFile::CheckWritable(one_);
   }
   void Take(const depth::DepthFrame& frame, const tracker::BodyFrame& bodies) {
     if (!folder_.empty()) {
@@ -205,7 +198,7 @@ Run TrackAll(depth::FrameSource& source, tracker::Tracker& tracker, const TrackO
     if (read.status != depth::ReadStatus::kFrame) {
       gone = gone || read.status == depth::ReadStatus::kDisconnected;
       const std::chrono::duration<double> silence = Clock::now() - last_frame_at;
-      if (source.is_live() && silence.count() > options.patience_s) {
+      if (source.is_live() && silence.count() > options.source.patience_s) {
         run.ending = gone ? Ending::kUnplugged : Ending::kSilent;
         break;
       }
@@ -236,7 +229,7 @@ void Report(const TrackOptions& options, const Run& run) {
   if (run.ending != Ending::kComplete) {
     const char* what = run.ending == Ending::kUnplugged ? "unplugged" : "delivers no frames";
     fmt::print(stderr, "ossa track: {}: the device {} for {:g} s: ending after {} frames\n",
-               options.source, what, options.patience_s, run.stats.frames());
+               options.source.name, what, options.source.patience_s, run.stats.frames());
   }
   if (!options.quiet) {
     fmt::print("{} frames, {} dropped, {} reconnections\n", run.stats.frames(), run.dropped,
@@ -248,23 +241,18 @@ void Report(const TrackOptions& options, const Run& run) {
 
 int Track(int argc, char** argv) {
   const TrackOptions options = ParseOptions(argc, argv);
-  depth::SourceOptions source_options;
-  source_options.device_wait = milliseconds(static_cast<int64_t>(options.wait_s * 1000));
-  if (options.wait_s > 0) {
-    source_options.keep_waiting = KeepWaitingFor(options.source, options.quiet);
-  }
-  if (!options.camera.empty()) source_options.camera = depth::ParseCamera(options.camera);
-  const auto source = depth::OpenSource(options.source, source_options);
+  const auto source = OpenSource(options.source, options.quiet);
   tracker::Tracker tracker(options.tracker);
   SkeletonOutput output(options.out, options.posture);
   Pictures pictures(options);
+  if (!options.json_stats.empty()) AtomicFile::CheckWritable(options.json_stats);
   std::unique_ptr<viewer::Viewer> viewer;
   if (options.view) {
     viewer = std::make_unique<viewer::Viewer>(options.port);
     fmt::print(stderr, "watch at http://127.0.0.1:{}/\n", viewer->port());
   }
   const Run run = TrackAll(*source, tracker, options, output, pictures, viewer.get());
-  if (run.stats.frames() == 0) throw InputError(options.source + ": no frame came");
+  if (run.stats.frames() == 0) throw InputError(options.source.name + ": no frame came");
   output.Finish();
   pictures.Finish();
   Report(options, run);

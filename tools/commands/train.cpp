@@ -7,10 +7,12 @@
 #include <sstream>
 
 #include "depth/error.h"
+#include "depth/file/atomic_file.h"
 #include "forest/compact.h"
 #include "forest/import_pcl.h"
 #include "forest/train.h"
 #include "forest/train_mpi.h"
+#include "tools/commands/checks.h"
 #include "tools/commands/command.h"
 #include "tools/commands/commands.h"
 #include "tools/learning/common_parts.h"
@@ -83,12 +85,13 @@ void AddOptions(CLI::App* app, TrainArguments* a) {
   app->add_option("--validation", a->validation,
                   "data sets for proposal parameters (default: 4 of each 100 frames, held out)");
   app->add_option("--validation-images", a->validation_images, "images of them to use")
-      ->capture_default_str();
+      ->capture_default_str()
+      ->check(Positive());
   app->add_option("--memory", a->memory, "for images; larger data stream in parts")
       ->capture_default_str();
   app->add_option("--max-megabytes", a->max_megabytes,
                   "leave the rarest leaf entries out until the file fits (0: keep all)")
-      ->check(CLI::NonNegativeNumber);
+      ->check(NotNegative());
   app->add_option("--terms", a->terms, "terms of the data, for the model's card; repeat for more")
       ->allow_extra_args(false);
   app->add_option("--seed", o.seed, "of every random choice")->capture_default_str();
@@ -272,6 +275,7 @@ int Train(int argc, char** argv) {
   arguments.command = CommandLine(argc, argv);
   AddOptions(&app, &arguments);
   Parse(app, argc, argv);
+  AtomicFile::CheckWritable(arguments.out);
   if (!arguments.import_pcl.empty()) return ImportPcl(arguments);
   if (arguments.datasets.empty()) throw UsageError("DATASET is required");
   if (!arguments.trees_of.empty()) return LearnAgain(arguments);

@@ -7,11 +7,12 @@
 #include <string>
 #include <thread>
 
-#include "depth/image/camera_io.h"
 #include "depth/sensor/frame_source.h"
+#include "recon/methods/reconstructor.h"
 #include "recon/motion/skeletons/skeleton_io.h"
 #include "tools/commands/command.h"
 #include "tools/commands/commands.h"
+#include "tools/commands/source_options.h"
 #include "tools/tracker/skeleton_record.h"
 #include "tools/tracker/tracker.h"
 #include "tools/viewer/viewer.h"
@@ -22,7 +23,7 @@ namespace {
 using Clock = std::chrono::steady_clock;
 
 struct ViewOptions {
-  std::string what, camera;
+  SourceArguments source;
   tracker::TrackerOptions tracker;
   int port = 8080;
   bool once = false;
@@ -45,8 +46,14 @@ class Clockwork {
   double last_s_ = -1e9;
 };
 
-void ShowSkeletons(const ViewOptions& options, viewer::Viewer& viewer) {
-  const recon::SkeletonSequence sequence = recon::ReadSkeletons(options.what);
+void SayWhere(const viewer::Viewer& viewer) {
+  fmt::print(stderr, "watch at http://127.0.0.1:{}/ (Ctrl-C ends)\n", viewer.port());
+}
+
+void ShowSkeletons(const ViewOptions& options) {
+  const recon::SkeletonSequence sequence = recon::ReadSkeletons(options.source.name);
+  viewer::Viewer viewer(options.port);
+  SayWhere(viewer);
   depth::DepthFrame blank;
   blank.depth_mm.assign(
       static_cast<size_t>(blank.camera.width) * static_cast<size_t>(blank.camera.height), 0);
@@ -60,12 +67,12 @@ void ShowSkeletons(const ViewOptions& options, viewer::Viewer& viewer) {
   } while (!options.once && !Interrupted());
 }
 
-void ShowSource(const ViewOptions& options, viewer::Viewer& viewer) {
-  depth::SourceOptions source_options;
-  if (!options.camera.empty()) source_options.camera = depth::ParseCamera(options.camera);
+void ShowSource(const ViewOptions& options) {
+  auto source = OpenSource(options.source, true);
   tracker::Tracker tracker(options.tracker);
-  do {
-    const auto source = depth::OpenSource(options.what, source_options);
+  viewer::Viewer viewer(options.port);
+  SayWhere(viewer);
+  for (;;) {
     Clockwork clockwork;
     while (!Interrupted()) {
       const depth::ReadResult read = source->Read(std::chrono::milliseconds(100));
@@ -74,33 +81,34 @@ void ShowSource(const ViewOptions& options, viewer::Viewer& viewer) {
       if (!source->is_live()) clockwork.WaitFor(read.frame.time_s);
       viewer.Show(read.frame, tracker::RecordOf(tracker.Push(read.frame)));
     }
-  } while (!options.once && !Interrupted());
+    if (options.once || Interrupted()) return;
+    source = OpenSource(options.source, true);
+  }
 }
 
 }  // namespace
 
 int View(int argc, char** argv) {
-  CLI::App app("Show a SOURCE being tracked, or a skeleton FILE, in a browser on this machine");
+  CLI::App app(
+      "Show a SOURCE being tracked, or a skeleton file given as SOURCE, in a browser on this "
+      "machine");
   ViewOptions options;
-  app.add_option("SOURCE", options.what, "any SOURCE of 'ossa track', or a skeleton file")
-      ->required();
+  AddSourceOptions(app, options.source);
   app.add_option("--port", options.port, "on 127.0.0.1 (default 8080, 0: any free one)")
       ->check(CLI::Range(0, 65535));
-  app.add_option("--camera", options.camera, "kinect-v1 or fx,fy,cx,cy in pixels");
   app.add_option("--model", options.tracker.model,
                  "forest model, .ossa (default: the shipped one)");
   app.add_option("--database", options.tracker.database, "posture database, .ossadb");
-  app.add_option("--method", options.tracker.method, "how postures are completed");
+  app.add_option("--method", options.tracker.method, "how postures are completed (default best)")
+      ->check(CLI::IsMember(recon::ReconstructionMethods()));
   app.add_flag("--once", options.once, "end with the recording instead of starting over");
   Parse(app, argc, argv);
-  const bool source = options.what.starts_with("openni:") || options.what.ends_with(".oni") ||
-                      std::filesystem::is_directory(options.what);
-  viewer::Viewer viewer(options.port);
-  fmt::print(stderr, "watch at http://127.0.0.1:{}/ (Ctrl-C ends)\n", viewer.port());
-  if (source) {
-    ShowSource(options, viewer);
+  const std::string& what = options.source.name;
+  if (what.starts_with("openni:") || what.ends_with(".oni") ||
+      std::filesystem::is_directory(what)) {
+    ShowSource(options);
   } else {
-    ShowSkeletons(options, viewer);
+    ShowSkeletons(options);
   }
   return 0;
 }

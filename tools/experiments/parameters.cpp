@@ -38,6 +38,9 @@ std::string InToml(const Values& values, Format format) {
 // one may follow a backslash, are not needed.
 void RefuseBareLetters(const std::filesystem::path& path) {
   std::ifstream file(path, std::ios::binary);
+  if (!file || std::filesystem::is_directory(path)) {
+    throw InputError(path.string() + ": cannot be read: expected a TOML file");
+  }
   const std::string text((std::istreambuf_iterator<char>(file)), {});
   int line = 1;
   char quote = 0;  // that ends the text or comment (a newline) we are in; 0: in neither

@@ -1,12 +1,14 @@
 #include "depth/file/sealed_file.h"
 
 #include <gtest/gtest.h>
+#include <sys/stat.h>
 #include <unistd.h>
 
 #include <fstream>
 
 #include "depth/error.h"
 #include "depth/file/atomic_file.h"
+#include "tests/support/temporary_folder.h"
 
 namespace ossa {
 namespace {
@@ -77,6 +79,18 @@ TEST(AtomicFile, LeavesNothingBehindWithoutCommit) {
   file.Commit();
   EXPECT_TRUE(std::filesystem::exists(folder / "out.txt"));
   std::filesystem::remove_all(folder);
+}
+
+// A rename would put a file in the place of /dev/null.
+TEST(AtomicFile, TakesThePlaceOfAFileOnly) {
+  const test::TemporaryFolder folder;
+  std::filesystem::create_directory(folder / "folder");
+  ASSERT_EQ(mkfifo((folder / "pipe").c_str(), 0600), 0);
+  for (const char* name : {"folder", "pipe", "nowhere/file"}) {
+    EXPECT_THROW(AtomicFile::CheckWritable(folder / name), InputError) << name;
+  }
+  EXPECT_NO_THROW(AtomicFile::CheckWritable(folder / "new"));
+  EXPECT_FALSE(std::filesystem::exists(folder / "new"));
 }
 
 }  // namespace

@@ -223,6 +223,10 @@ TEST(TrackCommand, WrongUsageExitsWithTwo) {
   EXPECT_EQ(RunOssa({"track"}).exit_status, 2);
   EXPECT_EQ(RunOssa({"track", "."}).exit_status, 2);
   EXPECT_EQ(RunOssa({"track", ".", "--out", "x.jsonl", "--users", "7"}).exit_status, 2);
+  EXPECT_EQ(RunOssa({"track", ".", "--out", "x.jsonl", "--seed", "-1"}).exit_status, 2);
+  EXPECT_EQ(
+      RunOssa({"track", ".", "--out", "x.jsonl", "--frames", "99999999999999999999"}).exit_status,
+      2);
   EXPECT_EQ(RunOssa({"track", ".", "--out", "x.jsonl", "--method", "magic"}).exit_status, 2);
 }
 

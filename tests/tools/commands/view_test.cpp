@@ -63,7 +63,10 @@ TEST(ViewCommand, WhatIsNoSkeletonFileIsNamed) {
       RunOssa({"view", (folder / "x.jsonl").string(), "--port", "0", "--once"});
   EXPECT_EQ(result.exit_status, 1);
   EXPECT_NE(result.err.find("x.jsonl"), std::string::npos) << result.err;
+  EXPECT_EQ(LineCount(result.err), 1) << "nobody is told where to watch what cannot be shown";
   EXPECT_EQ(RunOssa({"view"}).exit_status, 2);
+  EXPECT_EQ(RunOssa({"view", "x", "--camera", "wide"}).exit_status, 1) << "x comes first";
+  EXPECT_EQ(RunOssa({"view", folder.path().string(), "--camera", "wide"}).exit_status, 2);
 }
 
 }  // namespace
