@@ -22,6 +22,17 @@ bool SensorMoved(const PointGrid& grid, const BackgroundState& state,
   return known > 500 && moved > options.moved_share * known;
 }
 
+std::vector<uint8_t> SeenFor(int frames, const PointGrid& grid, const BackgroundState& state) {
+  std::vector<uint8_t> seen(static_cast<size_t>(grid.cells()), 0);
+  if (state.width != grid.width || state.height != grid.height) return seen;
+  for (int i = 0; i < grid.cells(); ++i) {
+    const auto n = static_cast<size_t>(i);
+    seen[n] =
+        grid.valid(i) && state.steady[n] >= frames && SameSurface(grid.z(i), state.surface_m[n]);
+  }
+  return seen;
+}
+
 }  // namespace
 
 void LearnBackground(const PointGrid& grid, const std::vector<uint8_t>& claimed,
@@ -49,16 +60,13 @@ void LearnBackground(const PointGrid& grid, const std::vector<uint8_t>& claimed,
   }
 }
 
+std::vector<uint8_t> SeenBefore(const PointGrid& grid, const BackgroundState& state) {
+  return SeenFor(1, grid, state);
+}
+
 std::vector<uint8_t> SeenBackground(const PointGrid& grid, const BackgroundState& state,
                                     const BackgroundOptions& options) {
-  std::vector<uint8_t> seen(static_cast<size_t>(grid.cells()), 0);
-  if (state.width != grid.width || state.height != grid.height) return seen;
-  for (int i = 0; i < grid.cells(); ++i) {
-    const auto n = static_cast<size_t>(i);
-    seen[n] = grid.valid(i) && state.steady[n] >= options.steady_frames &&
-              SameSurface(grid.z(i), state.surface_m[n]);
-  }
-  return seen;
+  return SeenFor(options.steady_frames, grid, state);
 }
 
 }  // namespace ossa::depth

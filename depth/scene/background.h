@@ -23,6 +23,10 @@ struct BackgroundOptions {
 void LearnBackground(const PointGrid& grid, const std::vector<uint8_t>& claimed,
                      BackgroundState& state, const BackgroundOptions& options = {});
 
+/// True per cell where the surface is seen that was there in the frame before, nobody's: it is no
+/// part of anybody who comes near.
+std::vector<uint8_t> SeenBefore(const PointGrid& grid, const BackgroundState& state);
+
 /// True per cell where the known background itself is seen.
 std::vector<uint8_t> SeenBackground(const PointGrid& grid, const BackgroundState& state,
                                     const BackgroundOptions& options = {});

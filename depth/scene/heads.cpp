@@ -119,6 +119,8 @@ std::vector<HeadBlob> FindHeads(const PointGrid& grid, const Region& region) {
 
 std::vector<Region> SplitBySeeds(const PointGrid& grid, const Region& region,
                                  const std::vector<Seed>& seeds) {
+  // Outlines flicker by so much; and a limb that was missed comes back by so much a frame.
+  constexpr float kEdge_m = 0.06F;
   const auto cells = static_cast<size_t>(grid.cells());
   std::vector<uint8_t> member(cells, 0);
   for (const int cell : region.cells) member[static_cast<size_t>(cell)] = 1;
@@ -151,7 +153,9 @@ std::vector<Region> SplitBySeeds(const PointGrid& grid, const Region& region,
       const float jump = Continuous(grid, cell, next) ? 0.0F : 0.3F;
       const float reached = d + way.norm() + jump;
       const int mine = owner[static_cast<size_t>(cell)];
-      if (reached >= distance[n] || reached > seeds[static_cast<size_t>(mine)].reach_m) continue;
+      const Seed& seed = seeds[static_cast<size_t>(mine)];
+      if (reached >= distance[n] || reached > seed.reach_m) continue;
+      if (seed.barred != nullptr && (*seed.barred)[n] && reached > kEdge_m) continue;
       distance[n] = reached;
       owner[n] = mine;
       queue.push({reached, next});

@@ -21,6 +21,7 @@ std::vector<HeadBlob> FindHeads(const PointGrid& grid, const Region& region);
 struct Seed {
   std::vector<int> cells;
   float reach_m = 0;
+  const std::vector<uint8_t>* barred = nullptr;  // 1: a cell it enters by a rim only
 };
 
 /// Cuts a region into one piece per seed: each cell goes to the seed it is joined to by the

@@ -70,6 +70,18 @@ int OwnerOfHead(const PointGrid& grid, const HeadBlob& head, std::span<const See
   return mine;
 }
 
+// One person alone needs no cut, unless much more hangs on than a person has, or than this one had
+// a frame ago.
+bool IsOnePerson(const Region& region, const Seed& seed) {
+  constexpr float kMost_m2 = 1.0F;
+  constexpr int kMuch = 40;  // cells
+  if (region.area_m2 > kMost_m2) return false;
+  if (seed.barred == nullptr) return true;
+  return std::count_if(region.cells.begin(), region.cells.end(), [&](int cell) {
+           return (*seed.barred)[static_cast<size_t>(cell)] != 0;
+         }) < kMuch;
+}
+
 }  // namespace
 
 std::vector<int> PreviousOwners(const PointGrid& grid, const SceneState& state, double time_s) {
@@ -199,10 +211,10 @@ std::vector<Region> JoinByHistory(const PointGrid& grid, std::vector<Region> reg
 
 std::vector<Seed> SeedsOf(const PointGrid& grid, const Region& region,
                           const std::vector<int>& owner, size_t users,
-                          const SceneOptions& options) {
+                          const std::vector<uint8_t>& barred, const SceneOptions& options) {
   std::vector<Seed> seeds;
   for (auto& cells : Overlaps(region, owner, users)) {
-    if (cells.size() >= 40) seeds.push_back({std::move(cells), options.growth_m});
+    if (cells.size() >= 40) seeds.push_back({std::move(cells), options.growth_m, &barred});
   }
   const size_t known = seeds.size();
   std::vector<uint8_t> has_head(known, 0);
@@ -218,7 +230,7 @@ std::vector<Seed> SeedsOf(const PointGrid& grid, const Region& region,
     const auto taken = std::count_if(
         seed.begin(), seed.end(), [&](int cell) { return owner[static_cast<size_t>(cell)] >= 0; });
     if (2 * taken < static_cast<long>(seed.size()))
-      seeds.push_back({std::move(seed), options.max_reach_m});
+      seeds.push_back({std::move(seed), options.max_reach_m, nullptr});
   }
   return seeds;
 }
@@ -226,8 +238,7 @@ std::vector<Seed> SeedsOf(const PointGrid& grid, const Region& region,
 std::vector<Region> CutBySeeds(const PointGrid& grid, const Region& region, std::vector<Seed> seeds,
                                const SceneOptions& options) {
   while (true) {
-    // One person alone needs no cut, unless much more hangs on than a person has.
-    if (seeds.empty() || (seeds.size() == 1 && region.area_m2 <= 1.0F)) return {region};
+    if (seeds.empty() || (seeds.size() == 1 && IsOnePerson(region, seeds[0]))) return {region};
     std::vector<Region> pieces = SplitBySeeds(grid, region, seeds);
     if (seeds.size() == 1) return pieces;
     size_t least = 0;

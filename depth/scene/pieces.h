@@ -41,9 +41,11 @@ Eigen::Vector3f PredictedMean_m(const UserTrack& user, double time_s);
 bool MayReturnAs(const UserTrack& user, const Region& region, double time_s,
                  const SceneOptions& options);
 
-/// Who is in one region: users of before by the cells they held, newcomers by their heads.
+/// Who is in one region: users of before by the cells they held, newcomers by their heads. Users of
+/// before do not grow into `barred` cells (1 = barred), which the result refers to.
 std::vector<Seed> SeedsOf(const PointGrid& grid, const Region& region,
-                          const std::vector<int>& owner, size_t users, const SceneOptions& options);
+                          const std::vector<int>& owner, size_t users,
+                          const std::vector<uint8_t>& barred, const SceneOptions& options);
 
 /// One piece per person. A seed whose piece could not be a person was no head: its piece goes back
 /// to the others.

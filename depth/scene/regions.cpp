@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "depth/scene/furniture_internal.h"
 #include "depth/scene/planes.h"
 
 namespace ossa::depth {
@@ -30,21 +31,10 @@ double MeanDepth_m(const PointGrid& grid, const FlatPiece& piece) {
   return z_m / static_cast<double>(piece.cells.size());
 }
 
-// A piece of a wall that people in front have cut off lies in the wall's plane to a step of the
-// sensor.
-bool InPlaneOf(const PointGrid& grid, const FlatPiece& piece, const FlatPiece& wall) {
-  constexpr double kSameNormal = 0.97;  // 14 degrees
-  constexpr double kSameDepth_1_m = 2.9e-3;
-  if (piece.normal.dot(wall.normal) < kSameNormal) return false;
-  double off = 0;
-  for (const int cell : piece.cells) {
-    off += 1.0 / static_cast<double>(grid.z(cell)) - wall.slope_x * (cell % grid.width) -
-           wall.slope_y * (cell / grid.width) - wall.at_zero;
-  }
-  return std::abs(off) / static_cast<double>(piece.cells.size()) < kSameDepth_1_m;
-}
-
-void MarkFlatPieces(const PointGrid& grid, const Eigen::Vector3d& up, RoomShape& shape) {
+void MarkFlatPieces(const PointGrid& grid, const std::optional<FloorPlane>& floor,
+                    RoomShape& shape) {
+  const Eigen::Vector3d up =
+      floor ? floor->coefficients.head<3>().eval() : Eigen::Vector3d::UnitY();
   const std::vector<FlatPiece> pieces = FlatPieces(grid, shape.room);  // largest first
   std::vector<const FlatPiece*> walls;
   for (const FlatPiece& piece : pieces) {
@@ -55,16 +45,13 @@ void MarkFlatPieces(const PointGrid& grid, const Eigen::Vector3d& up, RoomShape&
       return InPlaneOf(grid, piece, *w);
     });
     if (large) walls.push_back(&piece);
-    if (!large && !of_wall) continue;
-    for (const int cell : piece.cells) shape.room[static_cast<size_t>(cell)] = 1;
+    if (large || of_wall) {
+      for (const int cell : piece.cells) shape.room[static_cast<size_t>(cell)] = 1;
+    } else if (floor) {
+      for (const int cell : LowFront(grid, *floor, pieces, piece))
+        shape.room[static_cast<size_t>(cell)] = 1;
+    }
   }
-}
-
-// Height error of a measurement: depth errors run along the line of sight.
-double HeightTolerance(const FloorPlane& floor, const Vector3f& p) {
-  const double along =
-      std::abs(floor.coefficients.head<3>().dot(p.cast<double>())) / static_cast<double>(p.norm());
-  return 0.025 + along * static_cast<double>(DepthTolerance(p.z()));
 }
 
 }  // namespace
@@ -79,9 +66,8 @@ RoomShape RoomSurfaces(const PointGrid& grid, const std::optional<FloorPlane>& f
       shape.room[static_cast<size_t>(i)] = height < HeightTolerance(*floor, grid.at(i));
     }
   }
-  const Eigen::Vector3d up =
-      floor ? floor->coefficients.head<3>().eval() : Eigen::Vector3d::UnitY();
-  MarkFlatPieces(grid, up, shape);
+  if (floor) MarkTops(grid, *floor, shape.room);
+  MarkFlatPieces(grid, floor, shape);
   return shape;
 }
 

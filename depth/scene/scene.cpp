@@ -158,6 +158,8 @@ Scene FindCandidates(const DepthFrame& frame, const SceneState& state, SceneStat
       SeenBackground(scene.grid, next.background, options.background);
   const std::vector<int> owner = PreviousOwners(scene.grid, next, frame.time_s);
   for (size_t i = 0; i < ignore.size(); ++i) ignore[i] |= background[i] && owner[i] < 0;
+  std::vector<uint8_t> barred = SeenBefore(scene.grid, next.background);
+  for (size_t i = 0; i < barred.size(); ++i) barred[i] &= owner[i] < 0;
 
   constexpr float kSpeck_m2 = 0.004F;  // a fist has 0.006
   std::vector<Region> regions = ConnectedRegions(scene.grid, ignore, kSpeck_m2);
@@ -165,7 +167,7 @@ Scene FindCandidates(const DepthFrame& frame, const SceneState& state, SceneStat
   regions = JoinByHistory(scene.grid, std::move(regions), owner, next.users, frame.time_s);
   for (size_t r = 0; r < regions.size(); ++r) {
     if (!PersonSized(regions[r], options)) continue;
-    const auto seeds = SeedsOf(scene.grid, regions[r], owner, next.users.size(), options);
+    const auto seeds = SeedsOf(scene.grid, regions[r], owner, next.users.size(), barred, options);
     for (Region& piece : CutBySeeds(scene.grid, regions[r], seeds, options)) {
       if (!PersonSized(piece, options)) continue;
       Candidate candidate;
@@ -192,7 +194,7 @@ std::vector<Candidate> SplitCandidate(const Scene& scene, const DepthFrame& fram
   std::vector<Seed> seeds;
   for (const auto& head : heads_m) {
     auto seed = HeadSeed(scene.grid, candidate.region, head.cast<float>());
-    if (!seed.empty()) seeds.push_back({std::move(seed), options.max_reach_m});
+    if (!seed.empty()) seeds.push_back({std::move(seed), options.max_reach_m, nullptr});
   }
   if (seeds.size() < 2) return {candidate};
   std::vector<Candidate> pieces;

@@ -54,19 +54,25 @@ std::vector<Found> LookAt(const Eyes& eyes, const depth::DepthFrame& frame,
   return looked;
 }
 
-// Known people by their mean score; newcomers at once in a fresh scene or when there is no doubt,
-// else after a few looks.
+// Known people by their mean score, of whom was accepted only just more is asked, for a lucky look
+// may have been furniture; newcomers at once in a fresh scene or when there is no doubt, else after
+// a few looks.
 bool Accepted(Found& looked, const depth::Scene& scene, double time_s, const FindOptions& options,
               FinderState& state) {
   double& score = looked.perception.person_score;
   if (looked.looks > 1) {
+    const bool young = looked.looks <= options.young_looks;
     const bool still = looked.looks > options.still_looks && !looked.moved;
-    if (score >= (still ? options.still_person : options.known_person)) return true;
-    if (still) state.doubts.push_back({looked.candidate.region.cells, time_s, score, 1, true});
+    const double needed = still   ? options.still_person
+                          : young ? options.young_person
+                                  : options.known_person;
+    if (score >= needed) return true;
+    if (still || young)
+      state.doubts.push_back({looked.candidate.region.cells, time_s, score, 1, true});
     return false;
   }
   Doubt* before = DoubtOf(looked.candidate, state);
-  const bool doubted = before != nullptr && before->still;
+  const bool doubted = before != nullptr && before->fallen;
   const bool expected = scene.fresh || looked.candidate.returning;
   if (before == nullptr || (looked.candidate.returning && !doubted)) {
     if (score >= (expected ? options.new_person : options.sure_person)) return true;

@@ -26,7 +26,7 @@ struct Doubt {
   double time_s = 0.0;     // of the last look
   double mean_score = 0.0;
   int looks = 1;
-  bool still = false;  // it was taken for a person, but never moved
+  bool fallen = false;  // it was taken for a person, but did not stay one or never moved
 };
 
 struct FinderState {
@@ -58,6 +58,9 @@ struct FindOptions {
   double sure_person = 0.93;
   int probation_looks = 4;
   double known_person = 0.25;
+  // Of somebody accepted a few looks ago: what was a person by luck is none on average.
+  double young_person = 0.4;
+  int young_looks = 12;
   // Of what has not moved at all after so many looks: most likely furniture.
   double still_person = 0.75;
   int still_looks = 10;

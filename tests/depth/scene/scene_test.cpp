@@ -102,6 +102,77 @@ TEST(RoomSurfaces, TakesTheRoomAndLeavesThePerson) {
   EXPECT_LT(left, 0.05 * room);     // edges, where nothing is flat
 }
 
+// Share of a box's pixels that are taken for the room.
+double RoomShare(const CapsuleRender& with, const CapsuleRender& without) {
+  const PointGrid grid = GridOf(with), before = GridOf(without);
+  FloorState state;
+  const RoomShape shape = RoomSurfaces(grid, FindFloor(grid, state));
+  double box = 0, room = 0;
+  for (int i = 0; i < grid.cells(); ++i) {
+    if (!grid.valid(i) || std::abs(grid.z(i) - before.z(i)) < 0.05F) continue;
+    box += 1;
+    room += shape.room[static_cast<size_t>(i)] != 0 ? 1 : 0;
+  }
+  return room / box;
+}
+
+TEST(RoomSurfaces, KnowTheFrontOfASofaThatLegsCutInTwo) {
+  // 1.6 m wide and 0.42 m high, 30 cm behind the feet: each half has the area of a person's side.
+  const std::vector<CapsulePose> people = {PersonAt(0, 2.4)};
+  const std::vector<tests::Box> sofa = {{{-0.8, -1.0, 2.7}, {0.8, -0.58, 3.3}}};
+  // Cells at edges see half the box and half what is behind.
+  EXPECT_GT(RoomShare(Shot(people, 0, sofa), Shot(people)), 0.8);
+}
+
+TEST(RoomSurfaces, KnowATableSeenAlmostFromItsOwnHeight) {
+  // 12 cm below the sensor its top is a few rows of cells, and depth noise moves them by
+  // centimetres: no plane fits. Their height it moves by some 3 mm.
+  constexpr double kTop_m = -0.12;
+  CapsuleScene scene;
+  scene.people = {PersonAt(0.9, 3.2)};
+  scene.planes = tests::EmptyRoom();
+  scene.boxes = {{{-0.6, kTop_m - 0.04, 1.4}, {0.6, kTop_m, 2.8}}};
+  scene.noise_m = 0.005;
+  const PointGrid grid = GridOf(tests::Render(scene, KinectV1Camera(320, 240)));
+  FloorState state;
+  const RoomShape shape = RoomSurfaces(grid, FindFloor(grid, state));
+  double top = 0, room = 0;
+  for (int i = 0; i < grid.cells(); ++i) {
+    const Eigen::Vector3f p = grid.at(i);
+    if (p.z() < 1.5F || p.z() > 2.7F || std::abs(p.x()) > 0.55F) continue;
+    if (std::abs(p.y() - static_cast<float>(kTop_m)) > 0.01F) continue;
+    top += 1;
+    room += shape.room[static_cast<size_t>(i)] != 0 ? 1 : 0;
+  }
+  ASSERT_GT(top, 200);
+  EXPECT_GT(room, 0.95 * top);
+}
+
+TEST(SplitBySeeds, EntersWhatStoodThereBeforeByARimOnly) {
+  const std::vector<tests::Box> stool = {{{0.1, -1.0, 2.45}, {0.45, -0.4, 2.8}}};
+  const CapsuleRender render = Shot({PersonAt(0, 2.5)}, 0, stool);
+  const PointGrid grid = GridOf(render), empty = GridOf(Shot({}));
+  std::vector<int> all;
+  Seed person{{}, 0.5F, nullptr};
+  std::vector<uint8_t> stood(static_cast<size_t>(grid.cells()), 0);
+  for (int i = 0; i < grid.cells(); ++i) {
+    if (!grid.valid(i) || std::abs(grid.z(i) - empty.z(i)) < 0.1F) continue;
+    all.push_back(i);
+    const bool mine = render.person.at(i % grid.width * grid.step, i / grid.width * grid.step) > 0;
+    if (mine) person.cells.push_back(i);
+    stood[static_cast<size_t>(i)] = !mine;
+  }
+  const Region region = MakeRegion(grid, all);
+  const double stool_cells = static_cast<double>(all.size() - person.cells.size());
+  const auto grown = [&](const Seed& seed) {
+    const Region piece = SplitBySeeds(grid, region, {seed}).at(0);
+    return static_cast<double>(piece.cells.size() - seed.cells.size()) / stool_cells;
+  };
+  EXPECT_GT(grown(person), 0.8);  // half a metre over the surface is nearly all of it
+  person.barred = &stood;
+  EXPECT_LT(grown(person), 0.4);  // a rim of 6 cm of 35
+}
+
 TEST(FindHeads, IsWhereTheHeadIs) {
   const CapsuleRender render = Shot({PersonAt(0.2, 2.5)});
   const Scene scene = Candidates(render);

@@ -1,0 +1,159 @@
+#include "depth/scene/furniture_internal.h"
+
+#include <Eigen/Eigenvalues>
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <cmath>
+
+namespace ossa::depth {
+namespace {
+
+using Eigen::Vector3d;
+
+// How far a surface reaches over the floor, from sums over its cells.
+struct Spread {
+  double area_m2 = 0;
+  Vector3d sum = Vector3d::Zero();
+  Eigen::Matrix3d squares = Eigen::Matrix3d::Zero();
+
+  void Add(const Vector3d& p, double m2) {
+    area_m2 += m2;
+    sum += m2 * p;
+    squares += m2 * p * p.transpose();
+  }
+  // Of a rectangle's shorter side: its variance is a twelfth of the side's square. The smallest
+  // eigenvalue is the height's, which is the same everywhere.
+  double Width_m() const {
+    const Vector3d mean = sum / area_m2;
+    const Eigen::Matrix3d covariance = squares / area_m2 - mean * mean.transpose();
+    const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> solver(covariance, Eigen::EigenvaluesOnly);
+    return std::sqrt(12 * std::max(0.0, solver.eigenvalues()[1]));
+  }
+};
+
+// Area of a cell's patch of a horizontal surface.
+double HorizontalArea_m2(const PointGrid& grid, const Vector3d& up, int cell) {
+  constexpr double kMostSlanted = 0.05;  // beyond, the area is anybody's guess
+  const Vector3d p = grid.at(cell).cast<double>();
+  return static_cast<double>(grid.Area(cell)) /
+         std::max(kMostSlanted, std::abs(up.dot(p)) / p.norm());
+}
+
+// Heights of the cells that lie level, 0 for the others: of an upright surface the cell above is
+// higher by the cells' distance, of a level one it is as high.
+std::vector<float> LevelHeights(const PointGrid& grid, const FloorPlane& floor,
+                                const std::vector<uint8_t>& room) {
+  constexpr float kLowest_m = 0.3F, kHighest_m = 1.3F;  // who lies on the floor is lower
+  constexpr float kLevel = 0.4F;
+  std::vector<float> height_m(static_cast<size_t>(grid.cells()), 0.0F), level_m = height_m;
+  for (int i = 0; i < grid.cells(); ++i) {
+    const auto n = static_cast<size_t>(i);
+    if (!grid.valid(i) || room[n]) continue;
+    height_m[n] = static_cast<float>(floor.HeightOf(grid.at(i).cast<double>()));
+  }
+  const auto level = [&](int a, int b) {
+    const float pitch_m = 1.0F / grid.CellsOf(1.0F, grid.z(a));
+    return height_m[static_cast<size_t>(b)] != 0 &&
+           std::abs(height_m[static_cast<size_t>(a)] - height_m[static_cast<size_t>(b)]) <
+               kLevel * pitch_m;
+  };
+  for (int i = 0; i < grid.cells(); ++i) {
+    const float h = height_m[static_cast<size_t>(i)];
+    if (h < kLowest_m || h > kHighest_m) continue;
+    const bool above = i >= grid.width && level(i, i - grid.width);
+    const bool below = i + grid.width < grid.cells() && level(i, i + grid.width);
+    if (above || below) level_m[static_cast<size_t>(i)] = h;
+  }
+  return level_m;
+}
+
+// The cells around `start` at one height; they are taken out of `level_m`.
+std::vector<int> TakeTop(const PointGrid& grid, const FloorPlane& floor, int start,
+                         std::vector<float>& level_m, Spread& spread) {
+  std::vector<int> top(1, start);
+  double mean_m = static_cast<double>(level_m[static_cast<size_t>(start)]);
+  level_m[static_cast<size_t>(start)] = 0;
+  for (size_t i = 0; i < top.size(); ++i) {
+    const int cell = top[i], x = cell % grid.width, y = cell / grid.width;
+    const Vector3d p = grid.at(cell).cast<double>();
+    spread.Add(p, HorizontalArea_m2(grid, floor.coefficients.head<3>(), cell));
+    mean_m += (floor.HeightOf(p) - mean_m) / static_cast<double>(i + 1);
+    constexpr int kSteps[8][2] = {{1, 0}, {-1, 0}, {0, 1}, {0, -1},
+                                  {2, 0}, {-2, 0}, {0, 2}, {0, -2}};
+    for (const auto& step : kSteps) {
+      if (!grid.Contains(x + step[0], y + step[1])) continue;
+      const int next = grid.cell(x + step[0], y + step[1]);
+      float& height_m = level_m[static_cast<size_t>(next)];
+      if (height_m == 0) continue;
+      const double off_m = std::abs(static_cast<double>(height_m) - mean_m);
+      // Unlike the floor's, a top's height is the mean of what is seen of it: half the tolerance.
+      if (off_m > 0.5 * HeightTolerance(floor, grid.at(next))) continue;
+      height_m = 0;
+      top.push_back(next);
+    }
+  }
+  return top;
+}
+
+}  // namespace
+
+double HeightTolerance(const FloorPlane& floor, const Eigen::Vector3f& p) {
+  const double along =
+      std::abs(floor.coefficients.head<3>().dot(p.cast<double>())) / static_cast<double>(p.norm());
+  return 0.025 + along * static_cast<double>(DepthTolerance(p.z()));
+}
+
+bool InPlaneOf(const PointGrid& grid, const FlatPiece& piece, const FlatPiece& wall) {
+  constexpr double kSameNormal = 0.97;  // 14 degrees
+  constexpr double kSameDepth_1_m = 2.9e-3;
+  if (piece.normal.dot(wall.normal) < kSameNormal) return false;
+  double off = 0;
+  for (const int cell : piece.cells) {
+    off += 1.0 / static_cast<double>(grid.z(cell)) - wall.slope_x * (cell % grid.width) -
+           wall.slope_y * (cell / grid.width) - wall.at_zero;
+  }
+  return std::abs(off) / static_cast<double>(piece.cells.size()) < kSameDepth_1_m;
+}
+
+// The front of a sofa, a chest or a box is often cut in two by the legs of who stands before it,
+// and each half may be as small as the flat side of a person. But together they are one plane that
+// stands on the floor, ends below the hips, where people are two thin legs, and is wider than a
+// person. Returns the cells of such a front around `piece`, or nothing.
+std::vector<int> LowFront(const PointGrid& grid, const FloorPlane& floor,
+                          const std::vector<FlatPiece>& pieces, const FlatPiece& piece) {
+  constexpr double kUpright = 0.35;  // at most so much of the normal points up
+  constexpr double kFoot_m = 0.2, kTop_m = 0.65, kWide_m = 0.9, kFilled = 0.55;
+  const Eigen::Vector3d up = floor.coefficients.head<3>();
+  if (std::abs(piece.normal.dot(up)) > kUpright) return {};
+  const Eigen::Vector3d along = up.cross(piece.normal).normalized();
+  std::vector<int> cells;
+  double area_m2 = 0, low_m = 1e9, high_m = -1e9, left_m = 1e9, right_m = -1e9;
+  for (const FlatPiece& other : pieces) {
+    if (&other != &piece && !InPlaneOf(grid, other, piece)) continue;
+    cells.insert(cells.end(), other.cells.begin(), other.cells.end());
+    area_m2 += other.area_m2;
+    for (const int cell : other.cells) {
+      const Eigen::Vector3d p = grid.at(cell).cast<double>();
+      low_m = std::min(low_m, floor.HeightOf(p)), high_m = std::max(high_m, floor.HeightOf(p));
+      left_m = std::min(left_m, along.dot(p)), right_m = std::max(right_m, along.dot(p));
+    }
+  }
+  const double wide_m = right_m - left_m, tall_m = high_m - low_m;
+  const bool front =
+      low_m < kFoot_m && high_m < kTop_m && wide_m > kWide_m && area_m2 > kFilled * wide_m * tall_m;
+  return front ? cells : std::vector<int>{};
+}
+
+void MarkTops(const PointGrid& grid, const FloorPlane& floor, std::vector<uint8_t>& room) {
+  constexpr double kLeast_m2 = 0.25, kLeastWidth_m = 0.25;
+  std::vector<float> level_m = LevelHeights(grid, floor, room);
+  for (int start = 0; start < grid.cells(); ++start) {
+    if (level_m[static_cast<size_t>(start)] == 0) continue;
+    Spread spread;
+    const std::vector<int> top = TakeTop(grid, floor, start, level_m, spread);
+    if (spread.area_m2 < kLeast_m2 || spread.Width_m() < kLeastWidth_m) continue;
+    for (const int cell : top) room[static_cast<size_t>(cell)] = 1;
+  }
+}
+
+}  // namespace ossa::depth
