@@ -29,6 +29,10 @@ recon::BoneLengths BonesOf(const recon::Posture& posture) {
   return lengths_m;
 }
 
+// What nobody sees was completed by the reconstruction. Left to itself by the character, an unseen
+// foot hangs off the ankle, 14 cm wrong instead of 5 (rendered rooms).
+constexpr double kCompleted = 0.5;
+
 bool AllFinite(const recon::Posture& posture) {
   return std::all_of(posture.position_m.begin(), posture.position_m.end(),
                      [](const Eigen::Vector3d& p) { return p.allFinite(); });
@@ -74,7 +78,11 @@ std::optional<physics::FilteredPosture> Mechanics::Follow(
   const double dt_s = time_s - last_s_;
   last_s_ = time_s;
   if (!(dt_s > 0.0)) return std::nullopt;
-  const auto filtered = character_->Step(target, trust, floor, dt_s);
+  std::vector<double> held(trust.begin(), trust.end());
+  for (size_t i = 0; i < held.size(); ++i) {
+    if (target.position_m[i].allFinite()) held[i] = std::max(held[i], kCompleted);
+  }
+  const auto filtered = character_->Step(target, held, floor, dt_s);
   if (!AllFinite(filtered.posture)) return std::nullopt;
   return filtered;
 }
