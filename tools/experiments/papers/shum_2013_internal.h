@@ -13,7 +13,7 @@ struct Shum2013Study {
   std::string note;
 };
 
-/// Figures 8 and 9.
+/// What each term brings; figures 8 and 9.
 std::vector<Table> SweepsOfShum2013(ExperimentContext& context, const Shum2013Study& study);
 
 }  // namespace ossa::tools

@@ -1,6 +1,8 @@
-// Shum 2013, figures 8 and 9: what the parameters and the steps of the method cost and bring.
+// Shum 2013, figures 8 and 9, and the terms of eq. 15: what the parameters and the steps of the
+// method cost and bring.
 #include <fmt/format.h>
 
+#include <array>
 #include <chrono>
 
 #include "depth/file/atomic_file.h"
@@ -9,6 +11,7 @@
 #include "recon/reliability.h"
 #include "tools/experiments/compare/svg_plot.h"
 #include "tools/experiments/papers/shum_2013_internal.h"
+#include "tools/experiments/papers/visibility_errors.h"
 
 namespace ossa::tools {
 namespace {
@@ -20,18 +23,31 @@ struct Sweep {
   void (*set)(MethodRun& run, double value);  // run.options.database is the study's own before
 };
 
+/// The database filtered once more: what is left of it when fewer postures are wanted.
+recon::PostureDatabase Thinned(const recon::PostureDatabase& database, double threshold_m) {
+  std::vector<recon::PostureClip> clips;
+  for (int i = 0; i < database.size(); ++i) {
+    if (clips.empty() || clips.back().name != database.clip_of(i)) {
+      clips.push_back({database.clip_of(i), {}, {}});
+    }
+    clips.back().postures.push_back(database.posture(i));
+  }
+  recon::DatabaseOptions options = database.options();
+  options.threshold_m = threshold_m;
+  return recon::PostureDatabase::Build(clips, options);
+}
+
 std::vector<Sweep> Sweeps(bool full) {
   const auto some = [full](std::vector<double> few, std::vector<double> many) {
     return full ? many : few;
   };
   return {
-      {"postures in the database", "2574",
-       some({100, 400, 1600}, {50, 100, 200, 400, 800, 1600, 2400}),
+      {"filter threshold of the database, m", "2574 postures",
+       some({0.4, 0.2, 0.1}, {0.6, 0.4, 0.3, 0.2, 0.15, 0.1}),
        [](MethodRun& run, double value) {
-         const int count = std::min(static_cast<int>(value), run.options.database->size());
          run.options.database =
-             std::make_shared<recon::PostureDatabase>(run.options.database->Truncated(count));
-         run.database_key += fmt::format(" first {}", count);
+             std::make_shared<recon::PostureDatabase>(Thinned(*run.options.database, value));
+         run.database_key += fmt::format(" filtered {}", value);
        }},
       {"neighbours K", "30", some({10, 30, 90}, {5, 10, 20, 30, 50, 90, 150}),
        [](MethodRun& run, double value) {
@@ -52,7 +68,7 @@ std::vector<Sweep> Sweeps(bool full) {
 Table FigureEight(ExperimentContext& context, const Shum2013Study& study) {
   Table table;
   table.title = "Figure 8: error and time by parameter (shum-2013, furniture)";
-  table.columns = {"parameter", "paper's choice", "value", "eq. 18, cm", "ms a frame"};
+  table.columns = {"parameter", "paper's choice", "value", "postures", "eq. 18, cm", "ms a frame"};
   std::string plots;
   for (const Sweep& sweep : Sweeps(context.full)) {
     Series line{"eq. 18, cm", {}, {}};
@@ -65,6 +81,7 @@ Table FigureEight(ExperimentContext& context, const Shum2013Study& study) {
           MeanOverClips(run.label, MeasureAll(RunOverClips(context, run, study.furniture)));
       const double ms = MedianStep_ms(run, study.furniture.at(0).observed);
       table.rows.push_back({sweep.name, sweep.paper, fmt::format("{}", value),
+                            std::to_string(run.options.database->size()),
                             Cell(mean.parent_relative_error_cm), Cell(ms)});
       line.x.push_back(value);
       line.y.push_back(mean.parent_relative_error_cm);
@@ -130,10 +147,44 @@ Table FigureNine(const Shum2013Study& study) {
   return table;
 }
 
+/// What each term of eq. 15, the reliability and the search bring. The paper has method B only.
+Table WithoutEachTerm(const ExperimentContext& context, const Shum2013Study& study) {
+  struct Variant {
+    const char* name;
+    void (*set)(recon::LocalPcaOptions& options);
+  };
+  constexpr std::array<Variant, 7> kVariants = {
+      {{"as in the paper", [](recon::LocalPcaOptions&) {}},
+       {"no reliability (method B)", [](auto& o) { o.use_reliability = false; }},
+       {"no style term", [](auto& o) { o.style = 0.0; }},
+       {"no kinematics term", [](auto& o) { o.kinematics = 0.0; }},
+       {"no continuity term", [](auto& o) { o.continuity = 0.0; }},
+       {"least squares (Ceres) for the stochastic search", [](auto& o) { o.solver = "ceres"; }},
+       {"reliable joints kept", [](auto& o) { o.keep_reliable = true; }}}};
+  Table table;
+  table.title = "Without each term: eq. 18, and of bones seen at both ends / of the others";
+  table.columns = {"shum-2013", "furniture, cm", "furniture by visibility, cm", "held thing, cm",
+                   "held thing by visibility, cm"};
+  for (const Variant& variant : kVariants) {
+    MethodRun run = study.shum;
+    run.label = variant.name;
+    variant.set(run.options.local_pca);
+    std::vector<std::string> row = {variant.name};
+    for (const auto* clips : {&study.furniture, &study.held}) {
+      const auto made = RunOverClips(context, run, *clips);
+      const auto errors = ErrorsByVisibility(*clips, made);
+      row.push_back(Cell(MeanOverClips(run.label, MeasureAll(made)).parent_relative_error_cm));
+      row.push_back(Cell(errors.visible_cm) + " / " + Cell(errors.hidden_cm));
+    }
+    table.rows.push_back(row);
+  }
+  return table;
+}
+
 }  // namespace
 
 std::vector<Table> SweepsOfShum2013(ExperimentContext& context, const Shum2013Study& study) {
-  return {FigureEight(context, study), FigureNine(study)};
+  return {WithoutEachTerm(context, study), FigureEight(context, study), FigureNine(study)};
 }
 
 }  // namespace ossa::tools
