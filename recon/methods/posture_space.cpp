@@ -126,11 +126,16 @@ SearchResult SearchStochastic(const PostureSpace& space, const EnergyInputs& inp
     return static_cast<float>(static_cast<double>(sum - 2 * 65535) / 37836.8);  // unit variance
   };
   Eigen::MatrixXf q(options.samples, space.dimensions());
-  // The paper gives no radius: begin at half the neighbours' own spread, narrow on failure.
-  float radius = 0.5F;
-  for (; best.steps < options.steps && radius > 0.02F; ++best.steps) {
+  // The paper gives no radius. Of many samples in n dimensions the best step is about as long as
+  // the way to go over sqrt(n) (evolution strategies, Beyer 2001): begin with the neighbours' own
+  // spread over the square root, widen on success, narrow on failure. Directions in which they
+  // hardly differ are searched as well, or the user could not differ from them either.
+  const float root_n = std::sqrt(static_cast<float>(q.cols()));
+  const float narrowest = 0.5F * space.deviation.norm() / root_n;
+  float radius = 1.0F / root_n;
+  for (; best.steps < options.steps && radius > 0.005F; ++best.steps) {
     for (Eigen::Index c = 0; c < q.cols(); ++c) {
-      const float spread = radius * space.deviation[c];
+      const float spread = radius * std::max(space.deviation[c], narrowest);
       for (Eigen::Index s = 0; s < q.rows(); ++s) q(s, c) = best.q[c] + spread * normal();
     }
     const Eigen::ArrayXf energies = Energies(space, inputs, options, q);
@@ -139,9 +144,9 @@ SearchResult SearchStochastic(const PostureSpace& space, const EnergyInputs& inp
     if (lowest < best.energy) {
       best.energy = lowest;
       best.q = q.row(winner).transpose();
-      radius *= 0.9F;
+      radius *= 1.1F;
     } else {
-      radius *= 0.5F;
+      radius *= 0.6F;
     }
   }
   return best;
