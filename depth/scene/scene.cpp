@@ -148,6 +148,10 @@ Scene FindCandidates(const DepthFrame& frame, const SceneState& state, SceneStat
   Scene scene;
   scene.grid = MakePointGrid(frame.view(), frame.camera, options.max_depth_m);
   ForgetIfStrange(frame, scene.grid, next);
+  // Also after a gap, in which nobody was asked for.
+  std::erase_if(next.users, [&](const UserTrack& user) {
+    return frame.time_s - user.seen_s > options.forget_s;
+  });
   const double since_s = frame.time_s - next.last_s;
   scene.fresh = since_s < 0 || since_s > options.fresh_s;
   next.last_s = frame.time_s;
