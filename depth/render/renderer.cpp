@@ -189,6 +189,10 @@ int Renderer::AddMesh(const TriangleMesh& mesh, bool deforming) {
   const int id = static_cast<int>(rtcAttachGeometry(scene_->scene.get(), geometry));
   rtcReleaseGeometry(geometry);
   scene_->meshes[id] = {geometry, mesh.vertices_m.size()};
+  // A deforming mesh's tree is built now, of these vertices, and refitted afterwards: built at the
+  // first Render it would be of whatever vertices came first, and which of two triangles a ray
+  // through their common edge hits would depend on it.
+  if (deforming) rtcCommitScene(scene_->scene.get());
   scene_->changed = true;
   return id;
 }

@@ -2,7 +2,9 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <stdexcept>
+#include <vector>
 
 namespace ossa::depth {
 namespace {
@@ -53,6 +55,40 @@ TEST(Renderer, FollowsADeformingMesh) {
   }
   renderer.RemoveMesh(id);
   EXPECT_EQ(renderer.Render(kCamera).depth_m.at(32, 24), 0.0F);
+}
+
+// A wall of squares whose corners lie on pixel rays: most rays hit edges, each of two triangles.
+TriangleMesh WallOfSquares() {
+  constexpr uint32_t kSide = 24;
+  constexpr float kSquare_m = 2.0F / 50.0F;  // a pixel of kCamera at 2 m
+  TriangleMesh mesh;
+  for (uint32_t row = 0; row <= kSide; ++row) {
+    for (uint32_t column = 0; column <= kSide; ++column) {
+      mesh.vertices_m.emplace_back(kSquare_m * (static_cast<float>(column) - kSide / 2),
+                                   kSquare_m * (static_cast<float>(row) - kSide / 2), 2.0F);
+      if (row == kSide || column == kSide) continue;
+      const uint32_t corner = row * (kSide + 1) + column;
+      mesh.triangles.push_back({corner, corner + 1, corner + kSide + 1});
+      mesh.triangles.push_back({corner + 1, corner + kSide + 2, corner + kSide + 1});
+    }
+  }
+  return mesh;
+}
+
+// Threads share a data set's frames: none may show in its images which frames they made before.
+TEST(Renderer, WhatItRenderedBeforeDecidesNoTie) {
+  const TriangleMesh wall = WallOfSquares();
+  std::vector<Eigen::Vector3f> rolled = wall.vertices_m;
+  for (Eigen::Vector3f& p : rolled)
+    p = {std::sin(7 * p.x()), p.y() * p.x(), 2 + std::cos(9 * p.x())};
+  Renderer fresh;
+  fresh.AddMesh(wall, true);
+  Renderer used;
+  const int id = used.AddMesh(wall, true);
+  used.UpdateVertices(id, rolled);
+  used.Render(kCamera);
+  used.UpdateVertices(id, wall.vertices_m);
+  EXPECT_EQ(used.Render(kCamera).triangle.data, fresh.Render(kCamera).triangle.data);
 }
 
 TEST(Renderer, ShadowsFallToTheImageLeftAsWideAsTheBaselineSays) {
