@@ -10,6 +10,37 @@ namespace {
 
 using Eigen::Vector3d;
 
+// Bounds of upright pieces of one plane.
+class Outline {
+ public:
+  Outline(const FloorPlane& floor, const Vector3d& along) : floor_(floor), along_(along) {}
+
+  void Add(const PointGrid& grid, const FlatPiece& piece) {
+    area_m2_ += piece.area_m2;
+    for (const int cell : piece.cells) {
+      const Vector3d p = grid.at(cell).cast<double>();
+      const double height_m = floor_.HeightOf(p), beside_m = along_.dot(p);
+      low_m_ = std::min(low_m_, height_m), high_m_ = std::max(high_m_, height_m);
+      left_m_ = std::min(left_m_, beside_m), right_m_ = std::max(right_m_, beside_m);
+    }
+  }
+  bool IsLow() const {
+    constexpr double kTop_m = 0.65;
+    return high_m_ < kTop_m;
+  }
+  bool IsFurniture() const {
+    constexpr double kFoot_m = 0.2, kWide_m = 0.9, kFilled = 0.55;
+    const double wide_m = right_m_ - left_m_;
+    return IsLow() && low_m_ < kFoot_m && wide_m > kWide_m &&
+           area_m2_ > kFilled * wide_m * (high_m_ - low_m_);
+  }
+
+ private:
+  const FloorPlane& floor_;
+  Vector3d along_;
+  double area_m2_ = 0, low_m_ = 1e9, high_m_ = -1e9, left_m_ = 1e9, right_m_ = -1e9;
+};
+
 // How far a surface reaches over the floor, from sums over its cells.
 struct Spread {
   double area_m2 = 0;
@@ -122,26 +153,18 @@ bool InPlaneOf(const PointGrid& grid, const FlatPiece& piece, const FlatPiece& w
 std::vector<int> LowFront(const PointGrid& grid, const FloorPlane& floor,
                           const std::vector<FlatPiece>& pieces, const FlatPiece& piece) {
   constexpr double kUpright = 0.35;  // at most so much of the normal points up
-  constexpr double kFoot_m = 0.2, kTop_m = 0.65, kWide_m = 0.9, kFilled = 0.55;
-  const Eigen::Vector3d up = floor.coefficients.head<3>();
+  const Vector3d up = floor.coefficients.head<3>();
   if (std::abs(piece.normal.dot(up)) > kUpright) return {};
-  const Eigen::Vector3d along = up.cross(piece.normal).normalized();
-  std::vector<int> cells;
-  double area_m2 = 0, low_m = 1e9, high_m = -1e9, left_m = 1e9, right_m = -1e9;
+  Outline outline(floor, up.cross(piece.normal).normalized());
+  outline.Add(grid, piece);
+  if (!outline.IsLow()) return {};
+  std::vector<int> cells = piece.cells;
   for (const FlatPiece& other : pieces) {
-    if (&other != &piece && !InPlaneOf(grid, other, piece)) continue;
+    if (&other == &piece || !InPlaneOf(grid, other, piece)) continue;
+    outline.Add(grid, other);
     cells.insert(cells.end(), other.cells.begin(), other.cells.end());
-    area_m2 += other.area_m2;
-    for (const int cell : other.cells) {
-      const Eigen::Vector3d p = grid.at(cell).cast<double>();
-      low_m = std::min(low_m, floor.HeightOf(p)), high_m = std::max(high_m, floor.HeightOf(p));
-      left_m = std::min(left_m, along.dot(p)), right_m = std::max(right_m, along.dot(p));
-    }
   }
-  const double wide_m = right_m - left_m, tall_m = high_m - low_m;
-  const bool front =
-      low_m < kFoot_m && high_m < kTop_m && wide_m > kWide_m && area_m2 > kFilled * wide_m * tall_m;
-  return front ? cells : std::vector<int>{};
+  return outline.IsFurniture() ? cells : std::vector<int>{};
 }
 
 void MarkTops(const PointGrid& grid, const FloorPlane& floor, std::vector<uint8_t>& room) {
