@@ -10,28 +10,25 @@
 //   (lag_filter_internal.h);
 //   5. the learned systematic error of the whole posture is taken off (recon/gp/pose_correction.h);
 //   6. the person's constant bone lengths are imposed, moving the joints least.
-#include <Eigen/Cholesky>
 #include <algorithm>
 #include <cmath>
 
-#include "recon/database/nearest.h"
 #include "recon/gp/learned_models.h"
 #include "recon/methods/bone_projection_internal.h"
 #include "recon/methods/lag_filter_internal.h"
 #include "recon/methods/methods_internal.h"
 #include "recon/methods/person_internal.h"
 #include "recon/methods/plausibility_internal.h"
-#include "recon/methods/posture_space_internal.h"
 
 namespace ossa::recon {
 namespace {
 
 class Best : public Reconstructor {
  public:
-  explicit Best(const ReconstructorOptions& options)
-      : options_(options.best), database_(options.database) {
+  explicit Best(const ReconstructorOptions& options) : options_(options.best) {
     if (const auto learned = LearnedOf(options)) correction_ = learned->correction;
-    size_.Expect(correction_.proportion_);
+    size_.Expect(Proportions());
+    if (options.database) natural_ = MakePlantard2016(options);
   }
 
   ReconstructedPosture Step(const ReconstructionInput& raw) override {
@@ -44,7 +41,7 @@ class Best : public Reconstructor {
     if (doubt == 0.0 && person_.last_in_camera()) {
       target = *person_.last_in_camera();  // somebody else, perhaps: the person stays
     } else if (options_.complete) {
-      Complete(prepared, trust, target);  // 3.
+      Complete(prepared, input, trust, target);  // 3.
     }
     if (plausibility_.elsewhere()) StartFilters();
     Posture now = target, before = target;
@@ -80,8 +77,9 @@ class Best : public Reconstructor {
     person_.Reset();
     plausibility_ = Plausibility();
     size_ = BodySize(true);
-    size_.Expect(correction_.proportion_);
-    hints_.clear();
+    size_.Expect(Proportions());
+    if (natural_) natural_->Reset();
+    had_.fill(false);
     mean_offset_ = Posture();
     offsets_s_ = 0.0;
     last_.reset();
@@ -98,8 +96,24 @@ class Best : public Reconstructor {
     JointWeights trust{}, reliability{};
   };
 
-  // A completed joint still enters its filter, as a weak measurement.
-  static constexpr double kLeastTrust = 0.05;
+  // A completed joint enters its filter as a measurement of twice the variance: the natural posture
+  // follows the joints that are seen.
+  static constexpr double kLeastTrust = 0.5;
+  // As good as the ends is what lies on their line, but for this.
+  static constexpr double kBetween = 0.6;
+
+  /// Expected bones over the standard ones: those learned; else limbs are people's, while where the
+  /// trunk's joints, hands and feet lie is the sensor's own definition.
+  BoneLengths Proportions() const {
+    if (!correction_.empty()) return correction_.proportion_;
+    BoneLengths limbs{};
+    for (const Joint joint :
+         {Joint::kElbowLeft, Joint::kWristLeft, Joint::kKneeLeft, Joint::kAnkleLeft}) {
+      const auto i = static_cast<size_t>(Index(joint));
+      limbs[i] = limbs[static_cast<size_t>(kMirroredJoint[i])] = 1.0;
+    }
+    return limbs;
+  }
 
   void StartFilters() { filters_.fill(LagFilter()); }
 
@@ -116,8 +130,12 @@ class Best : public Reconstructor {
       const double bones = InTrunk(i) ? 1.0 : std::clamp((r.kinematics[i] - 0.5) / 0.2, 0.0, 1.0);
       trust[i] = prepared.present[i] * state * bones * r.behaviour[i] * r.surface[i] *
                  (options_.repair ? plausibility_.joint_trust()[i] : 1.0) * doubt;
-      constexpr double kBetween = 0.6;  // as good as the line between two joints that are seen
-      if (prepared.between[i] > 0.0) trust[i] = kBetween * doubt;
+    }
+    for (const BetweenTwo& line : kBetweenTwo) {
+      const auto at = [](Joint joint) { return static_cast<size_t>(Index(joint)); };
+      if (prepared.between[at(line.joint)] == 0.0) continue;
+      const double ends = std::min({trust[at(line.a)], trust[at(line.b)], 1.0});
+      trust[at(line.joint)] = kBetween * ends;
     }
     return trust;
   }
@@ -136,63 +154,40 @@ class Best : public Reconstructor {
     return out;
   }
 
-  /// Posture of the space nearest to the trusted joints, to the prediction elsewhere, and to the
-  /// neighbours' spread: least squares in q.
-  void Complete(const PreparedPosture& prepared, const JointWeights& trust, Posture& target) {
-    if (*std::min_element(trust.begin(), trust.end()) > 0.5) return;
-    Posture model = person_.last_in_camera() ? *person_.last_in_camera() : prepared.in_camera;
-    if (database_) model = person_.InCamera(FromSpace(prepared, trust), prepared);
-    // Doubtful joints hang on their parents as the model says; joints in fair trust stay: the
-    // filter weighs them.
+  /// Whether a joint that this sensor has is in doubt. What it never has (a Kinect's recording
+  /// without hands) says nothing of the frame.
+  bool InDoubt(const PreparedPosture& prepared, const JointWeights& trust) {
     constexpr double kSound = 0.5;
+    bool doubt = false;
     for (size_t i = 0; i < kJointCount; ++i) {
-      const double t = std::min(1.0, trust[i] / kSound);
-      if (t >= 1.0 || prepared.between[i] > 0.0) continue;
+      had_[i] = had_[i] || prepared.present[i] > 0.0;
+      doubt = doubt || (had_[i] && trust[i] <= kSound);
+    }
+    return doubt;
+  }
+
+  /// Joints in doubt hang on their parents as the natural posture has them, the more the less they
+  /// are trusted; joints seen well stay.
+  void Complete(const PreparedPosture& prepared, const ReconstructionInput& input,
+                const JointWeights& trust, Posture& target) {
+    if (!InDoubt(prepared, trust)) return;
+    Posture model = person_.last_in_camera() ? *person_.last_in_camera() : prepared.in_camera;
+    constexpr int kFewest = 4;  // fewer joints tell no posture from another
+    const auto seen = std::count(prepared.present.begin(), prepared.present.end(), 1.0);
+    const bool natural = natural_ && seen >= kFewest;
+    if (natural) model = natural_->Step(input).posture;
+    for (size_t i = 0; i < kJointCount; ++i) {
+      const bool between = prepared.between[i] > 0.0;
+      const double held = between ? trust[i] / kBetween : trust[i] * prepared.reliability[i];
       Eigen::Vector3d hung = model.position_m[i];
       if (i > 0) {
         const auto parent = static_cast<size_t>(kJointParent[i]);
         hung += target.position_m[parent] - model.position_m[parent];
-      } else if (person_.last_in_camera()) {
+      } else if (!natural) {
         hung = prepared.in_camera.position_m[0];
       }
-      target.position_m[i] = t * target.position_m[i] + (1.0 - t) * hung;
+      target.position_m[i] = held * target.position_m[i] + (1.0 - held) * hung;
     }
-  }
-
-  Posture FromSpace(const PreparedPosture& prepared, const JointWeights& trust) {
-    // Prediction: the last posture made, seen from the person's present place.
-    PostureVector predicted = VectorOf(prepared.normalised);
-    if (person_.last_in_camera()) {
-      predicted = VectorOf(Retargeted(Normalised(*person_.last_in_camera(), prepared.placement),
-                                      StandardBoneLengths()));
-      const Eigen::Vector3f root = predicted.head<3>();
-      for (int i = 0; i < kJointCount; ++i) predicted.segment<3>(3 * i) -= root;
-    }
-    // One search for both: where a joint is trusted it is compared with what is seen, where not,
-    // more weakly, with the prediction (eq. 7's two terms).
-    const PostureVector observed = VectorOf(prepared.normalised);
-    JointWeights weights;
-    PostureVector query;
-    for (size_t i = 0; i < kJointCount; ++i) {
-      const auto t = static_cast<float>(trust[i]);
-      const float c = static_cast<float>(options_.continuity) * (1.0F - t);
-      const auto at = static_cast<Eigen::Index>(3 * i);
-      weights[i] = t + c;
-      query.segment<3>(at) =
-          (t * observed.segment<3>(at) + c * predicted.segment<3>(at)) / std::max(t + c, 1e-6F);
-    }
-    const auto nearest = NearestPostures(*database_, query, weights, options_.neighbours, hints_);
-    hints_.clear();
-    for (const Neighbour& n : nearest) hints_.push_back(n.index);
-    const PostureSpace space = MakePostureSpace(*database_, hints_, options_.dimensions);
-    if (space.dimensions() == 0) return PostureOf(space.mean);
-    const PostureVector w = CoordinateWeights(weights);
-    const PostureVector d = query - space.mean;
-    Eigen::MatrixXf a = space.basis.transpose().lazyProduct(w.asDiagonal() * space.basis);
-    a.diagonal().array() += static_cast<float>(options_.space_noise_m * options_.space_noise_m) /
-                            space.deviation.array().square();
-    const Eigen::VectorXf b = space.basis.transpose().lazyProduct(PostureVector(w.cwiseProduct(d)));
-    return PostureOf(space.Posture(a.llt().solve(b)));
   }
 
   static bool InTrunk(size_t joint) {
@@ -249,7 +244,7 @@ class Best : public Reconstructor {
   }
 
   BestOptions options_;
-  std::shared_ptr<const PostureDatabase> database_;
+  std::unique_ptr<Reconstructor> natural_;  // plantard-2016, where there is a database
   PoseCorrection correction_;
   Person person_;
   Plausibility plausibility_;
@@ -259,7 +254,7 @@ class Best : public Reconstructor {
   double offsets_s_ = 0.0;  // for how long it was averaged
   std::optional<Moment> last_;
   std::optional<ReconstructedPosture> revised_;
-  std::vector<int> hints_;
+  std::array<bool, kJointCount> had_{};  // joints that were ever seen
 };
 
 }  // namespace

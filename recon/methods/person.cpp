@@ -65,10 +65,10 @@ Posture RetargetedAsSeen(const Posture& own, const JointWeights& present,
   return out;
 }
 
-void PutBetween(Posture& p, JointWeights& present, Joint joint, Joint a, Joint b, double share) {
-  if (present[At(joint)] > 0.0 || present[At(a)] == 0.0 || present[At(b)] == 0.0) return;
-  p[joint] = (1.0 - share) * p[a] + share * p[b];
-  present[At(joint)] = 1.0;
+void PutBetween(Posture& p, JointWeights& present, const BetweenTwo& line) {
+  if (present[At(line.joint)] > 0.0 || present[At(line.a)] * present[At(line.b)] == 0.0) return;
+  p[line.joint] = (1.0 - line.share) * p[line.a] + line.share * p[line.b];
+  present[At(line.joint)] = 1.0;
 }
 
 }  // namespace
@@ -78,15 +78,7 @@ Posture Completed(const Posture& in_camera, const JointWeights& present_in, cons
   Posture out = in_camera;
   JointWeights present = present_in;
   const Eigen::Vector3d offset = OffsetTo(model, in_camera, present);
-  // Shares measured on the standard body.
-  PutBetween(out, present, Joint::kShoulderCenter, Joint::kShoulderLeft, Joint::kShoulderRight,
-             0.5);
-  PutBetween(out, present, Joint::kHipCenter, Joint::kHipLeft, Joint::kHipRight, 0.5);
-  PutBetween(out, present, Joint::kSpine, Joint::kHipCenter, Joint::kShoulderCenter, 0.36);
-  PutBetween(out, present, Joint::kWristLeft, Joint::kElbowLeft, Joint::kHandLeft, 0.83);
-  PutBetween(out, present, Joint::kWristRight, Joint::kElbowRight, Joint::kHandRight, 0.83);
-  PutBetween(out, present, Joint::kAnkleLeft, Joint::kKneeLeft, Joint::kFootLeft, 0.93);
-  PutBetween(out, present, Joint::kAnkleRight, Joint::kKneeRight, Joint::kFootRight, 0.93);
+  for (const BetweenTwo& line : kBetweenTwo) PutBetween(out, present, line);
   for (size_t i = 0; between != nullptr && i < kJointCount; ++i) {
     (*between)[i] = present[i] - present_in[i];
   }

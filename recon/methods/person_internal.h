@@ -77,6 +77,22 @@ class Person {
   bool started_ = false;
 };
 
+/// A joint that lies nearly on the line of two others: p = (1 - share) a + share b.
+struct BetweenTwo {
+  Joint joint, a, b;
+  double share;
+};
+
+/// Shares measured on the standard body; the spine after the ends it depends on.
+constexpr std::array<BetweenTwo, 7> kBetweenTwo = {
+    {{Joint::kShoulderCenter, Joint::kShoulderLeft, Joint::kShoulderRight, 0.5},
+     {Joint::kHipCenter, Joint::kHipLeft, Joint::kHipRight, 0.5},
+     {Joint::kSpine, Joint::kHipCenter, Joint::kShoulderCenter, 0.36},
+     {Joint::kWristLeft, Joint::kElbowLeft, Joint::kHandLeft, 0.83},
+     {Joint::kWristRight, Joint::kElbowRight, Joint::kHandRight, 0.83},
+     {Joint::kAnkleLeft, Joint::kKneeLeft, Joint::kFootLeft, 0.93},
+     {Joint::kAnkleRight, Joint::kKneeRight, Joint::kFootRight, 0.93}}};
+
 /// Absent joints from present ones: midpoints of hips and shoulders, the spine between, wrists
 /// from elbow and hand, the others by the last posture (or the standard stance) hung on the nearest
 /// present ancestor. `present` says which are believed; every joint comes back finite.

@@ -7,13 +7,14 @@
 namespace ossa::recon {
 namespace {
 
-constexpr double kPatience_s = 0.1;      // a jump that stays as long is believed after all
-constexpr double kOwnPatience_s = 0.04;  // ... of a body with the person's own bones
-constexpr double kLongestGap_s = 0.5;    // afterwards the past says nothing
-constexpr double kBodySpeed = 5.0;       // m/s of a whole body
-constexpr double kCutSpeed = 4.5;        // m/s of half of all joints: rather a cut than a move
-constexpr double kLimbSpeed = 8.0;       // m/s of a hand
-constexpr double kSlack_m = 0.12;        // sensors are off by as much without failing
+constexpr double kPatience_s = 0.1;       // a jump that stays as long is believed after all
+constexpr double kOwnPatience_s = 0.04;   // ... of a body with the person's own bones
+constexpr double kSidesPatience_s = 0.6;  // sides exchanged for longer: the person turned, unseen
+constexpr double kLongestGap_s = 0.5;     // afterwards the past says nothing
+constexpr double kBodySpeed = 5.0;        // m/s of a whole body
+constexpr double kCutSpeed = 4.5;         // m/s of half of all joints: rather a cut than a move
+constexpr double kLimbSpeed = 8.0;        // m/s of a hand
+constexpr double kSlack_m = 0.12;         // sensors are off by as much without failing
 constexpr double kJumpTrust = 0.05;
 constexpr double kWrongBone = 0.35;   // a bone off by a third
 constexpr double kSamePlace_m = 0.1;  // a hand within this of the other one has snapped to it
@@ -58,7 +59,7 @@ double Plausibility::Repair(ReconstructionInput& input) {
     last_.reset();
     before_last_.reset();
     jumped_s_.fill(0.0);
-    body_jumped_s_ = 0.0;
+    body_jumped_s_ = exchanged_s_ = 0.0;
     return 1.0;
   }
   Posture predicted = *last_;
@@ -73,23 +74,31 @@ double Plausibility::Repair(ReconstructionInput& input) {
   const auto straight = MedianDistance(input.observed, predicted);
   const TrackedPosture exchanged = SidesExchanged(input.observed);
   const auto mirrored = MedianDistance(exchanged, predicted);
-  if (straight && mirrored && *straight > kSlack_m && *mirrored < 0.4 * *straight) {
+  const bool sides = straight && mirrored && *straight > kSlack_m && *mirrored < 0.4 * *straight;
+  exchanged_s_ = sides ? exchanged_s_ + step_s : 0.0;
+  if (sides) {
+    if (exchanged_s_ > kSidesPatience_s) return BelieveAfterAll();
     input.observed = exchanged;
     doubt = 0.5;
   } else if (straight && *straight > kSlack_m + 0.1 + kBodySpeed * step_s) {
     body_jumped_s_ += step_s;
     if (body_jumped_s_ < (SameBones(input.observed) ? kOwnPatience_s : kPatience_s)) return 0.0;
-    elsewhere_ = true;
-    last_.reset();  // it stays there: believe it
-    before_last_.reset();
-    body_jumped_s_ = 0.0;
-    return 0.5;
+    return BelieveAfterAll();
   }
   body_jumped_s_ = 0.0;
   const auto moved = MedianDistance(input.observed, *last_);
   elsewhere_ = moved && *moved > kCutSpeed * std::max(step_s, 1.0 / 30.0);
   JudgeJoints(input.observed, predicted, step_s);
   return doubt;
+}
+
+/// It stays so: the past was wrong, or is over.
+double Plausibility::BelieveAfterAll() {
+  elsewhere_ = true;
+  last_.reset();
+  before_last_.reset();
+  body_jumped_s_ = exchanged_s_ = 0.0;
+  return 0.5;
 }
 
 void Plausibility::JudgeJoints(const TrackedPosture& observed, const Posture& predicted,

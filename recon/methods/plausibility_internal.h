@@ -21,6 +21,7 @@ class Plausibility {
   void Remember(const Posture& made, double dt_s);
 
  private:
+  double BelieveAfterAll();
   void JudgeJoints(const TrackedPosture& observed, const Posture& predicted, double dt_s);
   bool SameBones(const TrackedPosture& observed) const;
   bool LooksWrong(const TrackedPosture& observed, size_t joint) const;
@@ -29,7 +30,7 @@ class Plausibility {
   Posture suspect_;                             // where each jumped joint was last said to be
   std::array<double, kJointCount> jumped_s_{};  // for how long; 0: it did not
   JointWeights joint_trust_{};
-  double body_jumped_s_ = 0.0;
+  double body_jumped_s_ = 0.0, exchanged_s_ = 0.0;
   bool elsewhere_ = false;
   double last_time_s_ = 0.0;
   double last_dt_s_ = 1.0 / 30.0;

@@ -78,10 +78,6 @@ struct BestOptions {
   bool correct = true;   // learned systematic errors are taken off
   bool filter = true;    // of each joint, revised a frame later
   bool bones = true;     // constant bone lengths
-  int neighbours = 30;   // K
-  int dimensions = 20;
-  double continuity = 0.1;      // weight of the prediction where nothing is trusted
-  double space_noise_m = 0.05;  // by how much trusted joints may miss the space
 };
 
 struct ReconstructorOptions {

@@ -23,14 +23,12 @@ std::string KeyOf(const ExperimentContext& context, const MethodRun& run) {
   const auto& gp = o.gaussian_process;
   const auto& best = o.best;
   std::string key = fmt::format(
-      "{} {} seed {} pca {} {} {} {} {} {} {} {} {} {} {} {} gp {} {} {} {} {} best {} {} {} {} {} "
-      "{} "
-      "{} {} {}",
+      "{} {} seed {} pca {} {} {} {} {} {} {} {} {} {} {} {} gp {} {} {} {} {} best {} {} {} {} {}",
       KeyOfCode(), o.method, o.seed, pca.neighbours, pca.dimensions, pca.steps, pca.samples,
       pca.control, pca.style, pca.kinematics, pca.continuity, pca.solver, pca.use_reliability,
       pca.extend_database, pca.keep_reliable, gp.nearby_models, gp.spatial, gp.temporal,
       gp.reliability, gp.incremental, best.repair, best.correct, best.bones, best.complete,
-      best.filter, best.neighbours, best.dimensions, best.continuity, best.space_noise_m);
+      best.filter);
   if (o.database) {
     key.append(" ").append(run.database_key.empty() ? KeyOfFile(DatabaseOf(context).path)
                                                     : run.database_key);

@@ -51,12 +51,12 @@ ClipMetrics FromJson(const nlohmann::json& numbers) {
 
 std::string DescriptionOf(const recon::ReconstructorOptions& o) {
   return fmt::format(
-      "{} {} {} {} {} {} {} {} {} {} {} {} {} {} {} {} {} {} {}", o.local_pca.neighbours,
+      "{} {} {} {} {} {} {} {} {} {} {} {} {} {} {} {} {} {}", o.local_pca.neighbours,
       o.local_pca.dimensions, o.local_pca.steps, o.local_pca.samples, o.local_pca.control,
       o.local_pca.style, o.local_pca.kinematics, o.local_pca.continuity, o.local_pca.solver,
       o.local_pca.use_reliability, o.gaussian_process.incremental, o.gaussian_process.nearby_models,
       o.best.repair, o.best.complete, o.best.correct, o.best.filter, o.best.bones,
-      o.best.neighbours, o.database ? o.database->size() : 0);
+      o.database ? o.database->size() : 0);
 }
 
 struct FoldScore {
