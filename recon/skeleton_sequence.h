@@ -37,7 +37,11 @@ struct SkeletonFrame {
 struct SkeletonSequence {
   std::string source;  // file it came from, for messages
   std::vector<SkeletonFrame> frames;
+  std::string sensor{};  // kKinectV2 where the file's format tells; else empty
 };
+
+/// The Kinect SDK 2's skeleton, of Kinect v2 (Xbox One).
+constexpr const char* kKinectV2 = "Kinect v2";
 
 /// A body record as the trackers' type: absent joints are not tracked; a joint without a state
 /// counts as tracked; a joint without confidence gets 1 (tracked), 0.5 (inferred) or 0.

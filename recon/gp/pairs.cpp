@@ -16,6 +16,7 @@ std::vector<PosturePair> Thinned(const std::vector<PosturePair>& pairs, size_t m
 
 PosturePair Mirrored(const PosturePair& pair) {
   PosturePair out;
+  out.group = pair.group;
   out.worst_m = pair.worst_m;
   for (size_t i = 0; i < kJointCount; ++i) {
     const auto m = static_cast<size_t>(kMirroredJoint[i]);

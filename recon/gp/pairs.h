@@ -14,6 +14,7 @@ struct PosturePair {
   Posture observed;      // complete
   Posture residual;      // truth minus observed; eq. after sec. 4.1: y = m - x
   JointWeights known{};  // 1 where the truth has the joint and the observation saw it
+  int group = 0;         // the person it is of: what is learned must hold for other groups
   double worst_m = 0.0;  // largest residual of the frame, those too large to be learned from too
 };
 

@@ -4,10 +4,10 @@
 #include <array>
 #include <cmath>
 #include <map>
-#include <numeric>
-#include <random>
+#include <optional>
 
 #include "recon/database/posture_database.h"
+#include "recon/gp/local_mixture.h"
 
 namespace ossa::recon {
 namespace {
@@ -102,17 +102,33 @@ Samples SamplesOf(std::vector<PosturePair> pairs) {
   return s;
 }
 
+/// Means of K-means regions with ten members or more: postures that nobody held.
 Eigen::MatrixXf Centres(const Eigen::MatrixXf& features, int count, uint64_t seed) {
-  std::vector<Eigen::Index> order(static_cast<size_t>(features.cols()));
-  std::iota(order.begin(), order.end(), 0);
-  std::mt19937_64 random(seed);
-  for (size_t i = order.size() - 1; i > 0; --i) std::swap(order[i], order[random() % (i + 1)]);
-  const Eigen::Index m = std::min<Eigen::Index>(count, features.cols());
-  Eigen::MatrixXf centres(features.rows(), m);
-  for (Eigen::Index c = 0; c < m; ++c) {
-    centres.col(c) = features.col(order[static_cast<size_t>(c)]);
+  constexpr Eigen::Index kFewestMembers = 10, kMostRows = 12000;
+  constexpr int kRounds = 8;
+  const Eigen::Index rows = std::min(features.cols(), kMostRows);
+  Eigen::MatrixXd x(rows, features.rows());
+  for (Eigen::Index i = 0; i < rows; ++i) {
+    x.row(i) = features.col(i * features.cols() / rows).transpose().cast<double>();
   }
-  return centres;
+  const auto regions = static_cast<int>(std::min<Eigen::Index>(count, rows / (2 * kFewestMembers)));
+  if (regions < 1) return Eigen::MatrixXf(features.rows(), 0);
+  const std::vector<int> region = KMeans(x, regions, seed, kRounds);
+  Eigen::MatrixXd sums = Eigen::MatrixXd::Zero(features.rows(), regions);
+  std::vector<Eigen::Index> members(static_cast<size_t>(regions), 0);
+  for (Eigen::Index i = 0; i < rows; ++i) {
+    const int r = region[static_cast<size_t>(i)];
+    sums.col(r) += x.row(i).transpose();
+    ++members[static_cast<size_t>(r)];
+  }
+  Eigen::MatrixXf centres(features.rows(), regions);
+  Eigen::Index kept = 0;
+  for (int r = 0; r < regions; ++r) {
+    const Eigen::Index n = members[static_cast<size_t>(r)];
+    if (n < kFewestMembers) continue;
+    centres.col(kept++) = (sums.col(r) / static_cast<double>(n)).cast<float>();
+  }
+  return centres.leftCols(kept);
 }
 
 /// Rows of a matrix for which the mask is set.
@@ -149,20 +165,21 @@ struct LinearFit {
 };
 
 /// Least squares with a prior, then again with every sample weighed by the inverse of its error.
+/// `prior`: of the weights, times the ratio of noise to signal.
 LinearFit RobustFit(const Eigen::MatrixXf& k, const Eigen::MatrixXf& targets,
-                    const Eigen::MatrixXd& prior, const PoseCorrectionOptions& options) {
+                    const Eigen::MatrixXd& prior, int reweighings) {
   constexpr float kPrecise_m = 0.03F;  // below it errors are noise, all the same
   Eigen::VectorXf sample = Eigen::VectorXf::Ones(k.rows());
   LinearFit fit;
-  for (int round = 0; round <= options.reweighings; ++round) {
+  for (int round = 0; round <= reweighings; ++round) {
     fit.mean = sample.transpose() * targets / sample.sum();
     const Eigen::MatrixXf centred = targets.rowwise() - fit.mean;
     const Eigen::MatrixXf weighed = k.array().colwise() * sample.array();
-    Eigen::MatrixXd a = (k.transpose() * weighed).cast<double>() + options.noise_ratio * prior;
+    Eigen::MatrixXd a = (k.transpose() * weighed).cast<double>() + prior;
     a.diagonal().array() += 1e-4 * a.diagonal().mean();
     const Eigen::MatrixXd b = (weighed.transpose() * centred).cast<double>();
     fit.weights = a.llt().solve(b).cast<float>();
-    if (round == options.reweighings) break;
+    if (round == reweighings) break;
     const Eigen::MatrixXf left = centred - k * fit.weights;
     Eigen::VectorXf error_m = Eigen::VectorXf::Zero(k.rows());
     for (Eigen::Index j = 0; j < left.cols(); j += 3) {
@@ -183,60 +200,27 @@ std::vector<PosturePair> Sound(const std::vector<PosturePair>& pairs, double gro
   return sound.size() >= 10 ? sound : pairs;
 }
 
-}  // namespace
-
-// Subset of regressors (Rasmussen & Williams 2006, eq. 8.13) beside a linear model: the prior of
-// the kernel's weights is the centres' own kernel matrix, that of the linear ones is unit.
-PoseCorrection PoseCorrection::Fit(const std::vector<PosturePair>& pairs,
-                                   const PoseCorrectionOptions& options) {
-  const Samples samples = SamplesOf(pairs);
-  PoseCorrection out;
-  out.width_ = options.width;
-  out.centres_ = Centres(samples.features, options.centres, options.seed);
-  const Eigen::Index m = out.centres_.cols(), all = m + samples.features.rows();
-  out.weights_ = Eigen::MatrixXf::Zero(all, kPostureDims);
-  out.mean_ = Eigen::VectorXf::Zero(kPostureDims);
-  Eigen::MatrixXd prior = Eigen::MatrixXd::Identity(all, all);
-  prior.topLeftCorner(m, m) = Kernel(out.centres_, out.centres_, options.width).cast<double>();
-  const Eigen::MatrixXf regressors = Regressors(out.centres_, samples.features, options.width);
-  for (const auto& [mask, joints] : JointsByMask(samples.pairs)) {
-    const Eigen::MatrixXf k = MaskedRows(regressors, mask);
-    const Eigen::MatrixXf residual = MaskedRows(samples.residual, mask);
-    Eigen::MatrixXf targets(k.rows(), 3 * static_cast<Eigen::Index>(joints.size()));
-    for (size_t j = 0; j < joints.size(); ++j) {
-      targets.middleCols<3>(3 * static_cast<Eigen::Index>(j)) =
-          residual.middleCols<3>(3 * static_cast<Eigen::Index>(joints[j]));
-    }
-    const auto [mean, solved] = RobustFit(k, targets, prior, options);
-    for (size_t j = 0; j < joints.size(); ++j) {
-      const auto to = 3 * static_cast<Eigen::Index>(joints[j]);
-      const auto from = 3 * static_cast<Eigen::Index>(j);
-      out.weights_.middleCols<3>(to) = solved.middleCols<3>(from);
-      out.mean_.segment<3>(to) = mean.segment<3>(from).transpose();
-    }
+/// People by turns; of one person runs of pairs: neighbours in time are nearly the same.
+std::vector<int> FoldsOf(const std::vector<PosturePair>& pairs, int folds) {
+  std::map<int, int> people;
+  for (const PosturePair& pair : pairs) people.try_emplace(pair.group, people.size());
+  std::vector<int> fold;
+  for (size_t i = 0; i < pairs.size(); ++i) {
+    const auto run = static_cast<int>(i * static_cast<size_t>(folds) / pairs.size());
+    fold.push_back(people.size() > 1 ? people[pairs[i].group] % folds : run);
   }
-  return out;
+  return fold;
 }
 
-JointWeights PoseCorrection::HeldOutGains(const std::vector<PosturePair>& pairs,
-                                          const PoseCorrectionOptions& options) {
-  // The gain that minimises the squared error on pairs left out, g = sum(y o) / sum(o o). Runs, not
-  // single pairs, are left out: neighbours in time are nearly the same.
+/// The gain of each joint that minimises the squared error, g = sum(y o) / sum(o o).
+JointWeights GainsOf(const std::vector<PosturePair>& pairs, const std::vector<Posture>& offsets) {
   JointWeights agree{}, square{}, gains{};
-  const auto folds = static_cast<size_t>(options.folds);
-  for (size_t fold = 0; fold < folds; ++fold) {
-    const size_t begin = fold * pairs.size() / folds, end = (fold + 1) * pairs.size() / folds;
-    std::vector<PosturePair> rest(pairs.begin(), pairs.begin() + static_cast<ptrdiff_t>(begin));
-    rest.insert(rest.end(), pairs.begin() + static_cast<ptrdiff_t>(end), pairs.end());
-    if (rest.empty() || begin == end) continue;
-    const PoseCorrection fit = Fit(rest, options);
-    for (size_t i = begin; i < end; ++i) {
-      const Posture offsets = fit.Offsets(pairs[i].observed);
-      for (size_t j = 0; j < kJointCount; ++j) {
-        if (pairs[i].known[j] == 0.0) continue;
-        agree[j] += offsets.position_m[j].dot(pairs[i].residual.position_m[j]);
-        square[j] += offsets.position_m[j].squaredNorm();
-      }
+  for (size_t i = 0; i < pairs.size(); ++i) {
+    for (size_t j = 0; j < kJointCount; ++j) {
+      if (pairs[i].known[j] == 0.0) continue;
+      const Eigen::Vector3d& offset = offsets[i].position_m[j];
+      agree[j] += offset.dot(pairs[i].residual.position_m[j]);
+      square[j] += offset.squaredNorm();
     }
   }
   for (size_t j = 0; j < kJointCount; ++j) {
@@ -250,19 +234,101 @@ JointWeights PoseCorrection::HeldOutGains(const std::vector<PosturePair>& pairs,
   return gains;
 }
 
+/// Mean distance of the known joints from the truth, after offsets times gains.
+double ErrorLeft(const std::vector<PosturePair>& pairs, const std::vector<Posture>& offsets,
+                 const JointWeights& gains) {
+  double sum_m = 0.0, count = 0.0;
+  for (size_t i = 0; i < pairs.size(); ++i) {
+    for (size_t j = 0; j < kJointCount; ++j) {
+      if (pairs[i].known[j] == 0.0) continue;
+      sum_m += (pairs[i].residual.position_m[j] - gains[j] * offsets[i].position_m[j]).norm();
+      count += 1.0;
+    }
+  }
+  return sum_m / std::max(count, 1.0);
+}
+
+}  // namespace
+
+// Subset of regressors (Rasmussen & Williams 2006, eq. 8.13) beside a linear model: the prior of
+// the kernel's weights is the centres' own kernel matrix, that of the linear ones is unit.
+PoseCorrection PoseCorrection::Fit(const std::vector<PosturePair>& pairs, double width,
+                                   double noise_ratio, const PoseCorrectionOptions& options) {
+  const Samples samples = SamplesOf(pairs);
+  PoseCorrection out;
+  out.width_ = width;
+  out.centres_ = Centres(samples.features, options.centres, options.seed);
+  const Eigen::Index m = out.centres_.cols(), all = m + samples.features.rows();
+  out.weights_ = Eigen::MatrixXf::Zero(all, kPostureDims);
+  out.mean_ = Eigen::VectorXf::Zero(kPostureDims);
+  Eigen::MatrixXd prior = Eigen::MatrixXd::Identity(all, all);
+  prior.topLeftCorner(m, m) = Kernel(out.centres_, out.centres_, width).cast<double>();
+  prior *= noise_ratio;
+  const Eigen::MatrixXf regressors = Regressors(out.centres_, samples.features, width);
+  for (const auto& [mask, joints] : JointsByMask(samples.pairs)) {
+    const Eigen::MatrixXf k = MaskedRows(regressors, mask);
+    const Eigen::MatrixXf residual = MaskedRows(samples.residual, mask);
+    Eigen::MatrixXf targets(k.rows(), 3 * static_cast<Eigen::Index>(joints.size()));
+    for (size_t j = 0; j < joints.size(); ++j) {
+      targets.middleCols<3>(3 * static_cast<Eigen::Index>(j)) =
+          residual.middleCols<3>(3 * static_cast<Eigen::Index>(joints[j]));
+    }
+    const auto [mean, solved] = RobustFit(k, targets, prior, options.reweighings);
+    for (size_t j = 0; j < joints.size(); ++j) {
+      const auto to = 3 * static_cast<Eigen::Index>(joints[j]);
+      const auto from = 3 * static_cast<Eigen::Index>(j);
+      out.weights_.middleCols<3>(to) = solved.middleCols<3>(from);
+      out.mean_.segment<3>(to) = mean.segment<3>(from).transpose();
+    }
+  }
+  return out;
+}
+
+PoseCorrection::HeldOut PoseCorrection::LeaveOut(const std::vector<PosturePair>& pairs,
+                                                 double width, double noise_ratio,
+                                                 const PoseCorrectionOptions& options) {
+  const std::vector<int> fold = FoldsOf(pairs, options.folds);
+  std::vector<Posture> offsets(pairs.size());
+  for (int held = 0; held < options.folds; ++held) {
+    std::vector<PosturePair> rest;
+    for (size_t i = 0; i < pairs.size(); ++i) {
+      if (fold[i] != held) rest.push_back(pairs[i]);
+    }
+    if (rest.empty() || rest.size() == pairs.size()) continue;
+    const PoseCorrection fit = Fit(rest, width, noise_ratio, options);
+    for (size_t i = 0; i < pairs.size(); ++i) {
+      if (fold[i] == held) offsets[i] = fit.Offsets(pairs[i].observed);
+    }
+  }
+  HeldOut out;
+  out.gains = GainsOf(pairs, offsets);
+  out.error_m = ErrorLeft(pairs, offsets, out.gains);
+  return out;
+}
+
 PoseCorrection PoseCorrection::Learn(const std::vector<PosturePair>& all_pairs,
                                      const PoseCorrectionOptions& options) {
   const std::vector<PosturePair> pairs =
       Thinned(Sound(all_pairs, options.gross_m), options.most_pairs);
-  PoseCorrection out = Fit(pairs, options);
-  out.proportion_ = TrueProportions(pairs);
-  if (options.folds < 2 || out.empty()) return out;
-  constexpr size_t kForGains = 4000;  // a gain is one number: a few thousand pairs fix it
+  constexpr size_t kForChoice = 2000;  // a few numbers: that many pairs fix them
+  const std::vector<PosturePair> some = Thinned(pairs, kForChoice);
   PoseCorrectionOptions quick = options;
-  quick.centres = std::min(options.centres, 200);
-  const JointWeights gains = HeldOutGains(Thinned(pairs, kForGains), quick);
+  quick.centres = std::min(options.centres, 100);
+  double width = options.widths.front(), noise_ratio = options.noise_ratios.front();
+  std::optional<HeldOut> best;
+  for (const double w : options.widths) {
+    for (const double n : options.noise_ratios) {
+      const HeldOut held = LeaveOut(some, w, n, quick);
+      if (best && held.error_m >= best->error_m) continue;
+      best = held;
+      width = w;
+      noise_ratio = n;
+    }
+  }
+  PoseCorrection out = Fit(pairs, width, noise_ratio, options);
+  out.proportion_ = TrueProportions(pairs);
   for (size_t j = 0; j < kJointCount; ++j) {
-    const auto gain = static_cast<float>(gains[j]);
+    const auto gain = static_cast<float>(best->gains[j]);
     out.weights_.middleCols<3>(3 * static_cast<Eigen::Index>(j)) *= gain;
     out.mean_.segment<3>(3 * static_cast<Eigen::Index>(j)) *= gain;
   }

@@ -7,24 +7,28 @@
 namespace ossa::recon {
 
 struct PoseCorrectionOptions {
-  int centres = 300;   // inducing postures; 0: no correction is learned
-  double width = 0.8;  // of the kernel, in the feature's unit (a bone turned by 90 degrees: 0.42)
-  double noise_ratio = 20.0;  // ridge: variance of a pair's noise over that of the signal
-  int reweighings = 2;        // of the pairs, by their error in the fit before
+  int centres = 300;  // inducing points, at most; 0: no correction is learned
+  // Tried in turn; those that hold best for people left out are taken.
+  std::vector<double> widths = {0.6, 0.8, 1.2};  // of the kernel, in the feature's unit (a bone
+                                                 // turned by 90 degrees: 0.42)
+  std::vector<double> noise_ratios = {20.0,
+                                      80.0};  // ridge: a pair's noise over the signal, variances
+  int reweighings = 2;                        // of the pairs, by their error in the fit before
   double gross_m = 0.3;       // a frame with a joint this far off shows another limb: left out
   size_t most_pairs = 15000;  // used, evenly spread; each also mirrored
-  int folds = 4;              // runs of pairs held out in turn to find each joint's gain
+  int folds = 7;              // at most, of people held out in turn (of one person: runs of pairs)
   uint64_t seed = 1;
 };
 
 /// Ours, of `best`: the systematic part of a sensor's error as a function of the whole posture. A
-/// Gaussian process over all pairs, sparse (subset of regressors with inducing postures): Liu 2016
+/// Gaussian process over all pairs, sparse (subset of regressors): Liu 2016
 /// eq. 8 with one kernel for all joints, on bone directions and lengths instead of positions, so
-/// that it carries over between people; a linear term beside it carries on where pairs end. Each
-/// fit is robust: whole frames with a gross error are left out, the others weighed by the inverse
-/// of their error (iteratively reweighed least squares: nearly least absolute errors). Each joint's
-/// offset is taken only as far as it held on pairs left out: a sensor whose errors have no
-/// system is left alone.
+/// that it carries over between people. Its inducing points are means of ten and more observations
+/// (K-means), so that no one's posture is in the file; a linear term beside it carries on where
+/// pairs end. Each fit is robust: whole frames with a gross error are left out, the others weighed
+/// by the inverse of their error (iteratively reweighed least squares: nearly least absolute
+/// errors). Each joint's offset is taken only as far as it held on pairs left out: a sensor whose
+/// errors have no system is left alone.
 class PoseCorrection {
  public:
   PoseCorrection() = default;
@@ -45,10 +49,16 @@ class PoseCorrection {
   BoneLengths proportion_{};
 
  private:
-  static PoseCorrection Fit(const std::vector<PosturePair>& pairs,
+  /// How one choice of width and noise does on people left out.
+  struct HeldOut {
+    JointWeights gains{};  // of each joint
+    double error_m = 0.0;  // mean, with those gains
+  };
+
+  static PoseCorrection Fit(const std::vector<PosturePair>& pairs, double width, double noise_ratio,
                             const PoseCorrectionOptions& options);
-  static JointWeights HeldOutGains(const std::vector<PosturePair>& pairs,
-                                   const PoseCorrectionOptions& options);
+  static HeldOut LeaveOut(const std::vector<PosturePair>& pairs, double width, double noise_ratio,
+                          const PoseCorrectionOptions& options);
 };
 
 /// Directions (times 0.3 m) and lengths (times 3) of the 15 bones and lines whose turn tells the

@@ -50,7 +50,7 @@ const BodyRecord* BodyOf(const SkeletonFrame& frame, int id) {
 }  // namespace
 
 size_t AddPairs(const SkeletonSequence& observed, const SkeletonSequence& truth,
-                std::vector<PosturePair>& pairs) {
+                std::vector<PosturePair>& pairs, int group) {
   const auto matched = Matched(observed, truth);
   const size_t before = pairs.size();
   std::map<int, Person> people;
@@ -62,6 +62,7 @@ size_t AddPairs(const SkeletonSequence& observed, const SkeletonSequence& truth,
       if (true_body == nullptr) continue;
       Posture truth_in_camera = prepared.in_camera;
       PosturePair pair;
+      pair.group = group;
       double known = 0.0;
       for (size_t i = 0; i < kJointCount; ++i) {
         if (!true_body->joints[i] || prepared.present[i] == 0.0) continue;

@@ -16,21 +16,35 @@
 namespace ossa::commands {
 namespace {
 
+/// Numbers people: recordings of one --observed whose names begin with the same folder (or archive)
+/// are of one person.
+class People {
+ public:
+  int Of(const std::string& observed_path, const std::string& clip) {
+    const std::string name = observed_path + "\n" + clip.substr(0, clip.find('/'));
+    return numbers_.try_emplace(name, static_cast<int>(numbers_.size())).first->second;
+  }
+
+ private:
+  std::map<std::string, int> numbers_;
+};
+
 /// Clips of both sides by name; a single file on each side belongs together whatever its name.
-void AddClips(const std::string& observed_path, const std::string& truth_path,
+void AddClips(const std::string& observed_path, const std::string& truth_path, People& people,
               std::vector<recon::PosturePair>& pairs) {
   const auto observed = recon::ReadSkeletonClips(observed_path);
   const auto truth = recon::ReadSkeletonClips(truth_path);
   const size_t before = pairs.size();
   if (observed.size() == 1 && truth.size() == 1) {
-    recon::AddPairs(observed[0].sequence, truth[0].sequence, pairs);
+    recon::AddPairs(observed[0].sequence, truth[0].sequence, pairs, people.Of(observed_path, ""));
   }
   std::map<std::string, const recon::SkeletonClip*> by_name;
   for (const auto& clip : truth) by_name[clip.name] = &clip;
   for (const auto& clip : observed) {
     const auto it = by_name.find(clip.name);
     if (it == by_name.end() || (observed.size() == 1 && truth.size() == 1)) continue;
-    recon::AddPairs(clip.sequence, it->second->sequence, pairs);
+    recon::AddPairs(clip.sequence, it->second->sequence, pairs,
+                    people.Of(observed_path, clip.name));
   }
   if (pairs.size() == before) {
     throw InputError(observed_path + ": no frame matches one of " + truth_path +
@@ -73,7 +87,8 @@ int Learn(int argc, char** argv) {
 
   AtomicFile::CheckWritable(out);
   std::vector<recon::PosturePair> pairs;
-  for (size_t i = 0; i < observed.size(); ++i) AddClips(observed[i], truth[i], pairs);
+  People people;
+  for (size_t i = 0; i < observed.size(); ++i) AddClips(observed[i], truth[i], people, pairs);
   Progress progress("learn", quiet);
   const auto models = recon::LearnedModels::Learn(pairs, options, [&](int joint) {
     progress.Update(joint, recon::kJointCount, fmt::format("{} pairs", pairs.size()));

@@ -1,6 +1,8 @@
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
+#include <algorithm>
+#include <cstdio>
 #include <filesystem>
 #include <memory>
 #include <string>
@@ -25,7 +27,7 @@ namespace {
 constexpr const char* kButterworth = "butterworth";
 
 struct ReconstructArguments {
-  std::string skeletons, out, database_file;
+  std::string skeletons, out, database_file, learned;
   recon::ReconstructorOptions options;
   recon::SkeletonReadOptions read;
   MechanicsOptions mechanics;
@@ -46,6 +48,23 @@ std::shared_ptr<const recon::PostureDatabase> DatabaseFor(const ReconstructArgum
   return std::make_shared<recon::PostureDatabase>(recon::PostureDatabase::Load(file));
 }
 
+/// What is learned of the recordings' sensor: the file that was named; else, for best and Kinect
+/// v2, the shipped one.
+std::string LearnedFor(const ReconstructArguments& a,
+                       const std::vector<recon::SkeletonClip>& clips) {
+  if (a.learned == "none") return {};
+  const bool kinect = std::all_of(clips.begin(), clips.end(), [](const auto& clip) {
+    return clip.sequence.sensor == recon::kKinectV2;
+  });
+  if (!a.learned.empty() || a.options.method != "best" || !kinect) return a.learned;
+  if (!a.quiet) {
+    fmt::print(stderr,
+               "reconstruct: a Kinect v2's skeletons: its known errors are taken off "
+               "(kinect_v2.ossagp; --learned none leaves them)\n");
+  }
+  return tracker::ShippedFile("kinect_v2.ossagp").string();
+}
+
 void AddMethodOptions(CLI::App& app, ReconstructArguments& a) {
   auto methods = recon::ReconstructionMethods();
   methods.emplace_back(kButterworth);
@@ -53,7 +72,9 @@ void AddMethodOptions(CLI::App& app, ReconstructArguments& a) {
       ->capture_default_str()
       ->check(CLI::IsMember(methods));
   app.add_option("--database", a.database_file, "posture database; without it the shipped one");
-  app.add_option("--learned", a.options.learned_file, "what `ossa learn` wrote, .ossagp");
+  app.add_option("--learned", a.learned,
+                 "what `ossa learn` wrote, .ossagp, or none; without it best takes off what is "
+                 "known of a Kinect v2's errors where the recording is one's");
   app.add_option("--seed", a.options.seed, "of the stochastic search")->capture_default_str();
   app.add_option("--cutoff", a.cutoff_hz, "of the Butterworth filter, Hz")
       ->capture_default_str()
@@ -109,6 +130,7 @@ int Reconstruct(int argc, char** argv) {
     AtomicFile::CheckWritable(a.out);
   }
   a.options.database = DatabaseFor(a);
+  a.options.learned_file = LearnedFor(a, clips);
   Progress progress("reconstruct", a.quiet);
   double done = 0.0, total = 0.0;
   for (const auto& clip : clips) total += static_cast<double>(clip.sequence.frames.size());

@@ -68,10 +68,20 @@ const SkeletonFormat& FormatOf(std::istream& stream, const std::string& name) {
                    Quoted(sample.lines.empty() ? sample.head : sample.lines[0]));
 }
 
+/// Formats that only recordings of the Kinect SDK 2 are in; UI-PRMD's tables hold Vicon's beside
+/// it.
+bool IsKinectV2(std::string_view format, std::string_view columns) {
+  if (format == "ui-prmd-csv") return columns != "truth";
+  return format == "labanotation-csv" || format == "keraal-kinect" || format == "ntu" ||
+         format == "ui-prmd-kinect";
+}
+
 SkeletonSequence Read(SkeletonInput input, const SkeletonReadOptions& options) {
   const SkeletonFormat& format =
       options.format.empty() ? FormatOf(input.stream, input.name) : FormatNamed(options.format);
-  return format.read(input);
+  SkeletonSequence sequence = format.read(input);
+  if (IsKinectV2(format.name, input.columns)) sequence.sensor = kKinectV2;
+  return sequence;
 }
 
 std::optional<std::string> TextOfFile(const std::string& name) {

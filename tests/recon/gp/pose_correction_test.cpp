@@ -50,6 +50,34 @@ TEST(PoseCorrection, LeavesASensorAloneWhoseErrorsHaveNoSystem) {
   }
 }
 
+TEST(PoseCorrection, HasNobodysPostureInItsCentres) {
+  const auto pairs = Pairs(true);
+  const PoseCorrection correction = PoseCorrection::Learn(pairs);
+  // Each is a mean of ten observations or more, and each observation is in one mean at most; every
+  // pair is there twice, mirrored.
+  ASSERT_GT(correction.centres_.cols(), 0);
+  EXPECT_LE(correction.centres_.cols() * 10, static_cast<Eigen::Index>(2 * pairs.size()));
+  for (const PosturePair& pair : pairs) {
+    const Eigen::VectorXf feature = CorrectionFeature(pair.observed);
+    for (Eigen::Index c = 0; c < correction.centres_.cols(); ++c) {
+      // Directions count 0.3 m a radian: no centre is a posture to within a third of a degree.
+      EXPECT_GT((correction.centres_.col(c) - feature).norm(), 0.002F);
+    }
+  }
+}
+
+TEST(PoseCorrection, LeavesAloneWhatIsOnePersonsOwn) {
+  auto pairs = Pairs(true);
+  for (size_t i = 0; i < pairs.size(); ++i) {
+    PosturePair& pair = pairs[i];
+    pair.group = static_cast<int>(4 * i / pairs.size());  // four people, two of them the other way
+    for (auto& p : pair.residual.position_m) p *= pair.group % 2 == 0 ? 1.0 : -1.0;
+  }
+  const PoseCorrection correction = PoseCorrection::Learn(pairs);
+  // Of the other three two err the other way: nothing holds for the person left out.
+  EXPECT_LT(correction.Offsets(test::Motion(1.0)).position_m[7].norm(), 0.005);
+}
+
 TEST(LearnedModels, AreTheSameAfterTheFileAndRefusedWhenCutShort) {
   LearnOptions options;
   options.processes = false;

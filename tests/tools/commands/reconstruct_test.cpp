@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
+#include <fstream>
 #include <optional>
 
 #include "recon/motion/skeletons/skeleton_io.h"
@@ -88,6 +89,42 @@ double ElbowAxisWander(const recon::SkeletonSequence& sequence) {
     worst = std::max(worst, std::acos(std::clamp(axis.dot(*first), -1.0, 1.0)));
   }
   return worst;
+}
+
+/// The recording as a Kinect v2's: LabanotationSuite's table of ticks and x y z state of 25 joints.
+void WriteKinectV2(const std::string& path, const recon::SkeletonSequence& sequence) {
+  std::ofstream file(path);
+  for (const auto& frame : sequence.frames) {
+    file << static_cast<int64_t>(frame.time_s * 1e7) << ',';
+    for (size_t j = 0; j < 25; ++j) {
+      // Its first twenty are ours but for the neck; then the shoulders' centre, hand tips, thumbs.
+      const size_t ours = j < kJointCount ? j : j == 20 ? 2 : j < 23 ? 7 : 11;
+      const auto& p = frame.bodies.at(0).joints[ours]->position_m;
+      file << p.x() << ',' << p.y() << ',' << p.z() << ",2,";
+    }
+    file << '\n';
+  }
+}
+
+TEST_F(ReconstructCommand, TakesOffAKinectsKnownErrorsAndSaysSo) {
+  const std::string in = folder_ / "kinect.csv", out = folder_ / "out.jsonl";
+  WriteKinectV2(in, Recording());
+  const auto corrected = RunOssa({"reconstruct", in, "--out", out});
+  ASSERT_EQ(corrected.exit_status, 0) << corrected.err;
+  EXPECT_NE(corrected.err.find("kinect_v2.ossagp"), std::string::npos) << corrected.err;
+  const auto with = recon::ReadSkeletons(out);
+  const auto left = RunOssa({"reconstruct", in, "--out", out, "--learned", "none"});
+  ASSERT_EQ(left.exit_status, 0) << left.err;
+  EXPECT_EQ(left.err.find("kinect_v2.ossagp"), std::string::npos) << left.err;
+  const double moved_m = MeanDistance(with, recon::ReadSkeletons(out));
+  EXPECT_GT(moved_m, 0.005);  // a Kinect's joints are 2 to 4 cm off, by definition already
+  EXPECT_LT(moved_m, 0.1);
+  EXPECT_LT(BoneDrift(with), 0.001);
+}
+
+TEST_F(ReconstructCommand, KnowsNothingOfAnUnknownSensor) {
+  const auto run = RunOssa({"reconstruct", in_, "--out", folder_ / "out.jsonl"});
+  EXPECT_EQ(run.err.find("ossagp"), std::string::npos) << run.err;
 }
 
 TEST_F(ReconstructCommand, CompletesEveryFrame) {

@@ -153,8 +153,10 @@ RecordedPair Part(const RecordedPair& pair, size_t begin, size_t end, const std:
 
 std::vector<recon::PosturePair> PairsOf(const std::vector<const RecordedPair*>& recordings) {
   std::vector<recon::PosturePair> pairs;
+  std::map<std::string, int> groups;
   for (const RecordedPair* recorded : recordings) {
-    recon::AddPairs(recorded->observed, recorded->truth, pairs);
+    const int group = groups.try_emplace(recorded->subject, groups.size()).first->second;
+    recon::AddPairs(recorded->observed, recorded->truth, pairs, group);
   }
   return pairs;
 }
