@@ -8,12 +8,11 @@ namespace ossa::recon {
 
 struct PoseCorrectionOptions {
   int centres = 300;  // inducing points, at most; 0: no correction is learned
-  // Tried in turn; those that hold best for people left out are taken.
-  std::vector<double> widths = {0.6, 0.8, 1.2};  // of the kernel, in the feature's unit (a bone
-                                                 // turned by 90 degrees: 0.42)
-  std::vector<double> noise_ratios = {20.0,
-                                      80.0};  // ridge: a pair's noise over the signal, variances
-  int reweighings = 2;                        // of the pairs, by their error in the fit before
+  // Tried in turn; those that hold best for people left out are taken. Widths of the kernel in the
+  // feature's unit (a bone turned by 90 degrees: 0.42); ridge: a pair's noise over the signal.
+  std::vector<double> widths = {0.6, 0.8, 1.2};
+  std::vector<double> noise_ratios = {20.0, 80.0};
+  int reweighings = 2;        // of the pairs, by their error in the fit before
   double gross_m = 0.3;       // a frame with a joint this far off shows another limb: left out
   size_t most_pairs = 15000;  // used, evenly spread; each also mirrored
   int folds = 7;              // at most, of people held out in turn (of one person: runs of pairs)

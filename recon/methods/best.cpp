@@ -4,8 +4,8 @@
 //      out; single joints that jump are doubted until they stay (gross failures, snapped hands);
 //   2. trust of each joint: reliability without the window of eq. 8, which would punish a joint for
 //      six frames; softened where good sensors are imprecise anyway (bone lengths);
-//   3. joints in doubt are completed from the natural posture space (Shum 2013 sec. V) around the
-//      trusted ones and the prediction (Plantard 2016 eq. 7), solved in closed form;
+//   3. joints in doubt are completed: hung on what is seen as plantard-2016 has them in a natural
+//      posture;
 //   4. a filter a joint weighs by trust; a frame later it says better what it thought
 //   (lag_filter_internal.h);
 //   5. the learned systematic error of the whole posture is taken off (recon/gp/pose_correction.h);
@@ -99,7 +99,7 @@ class Best : public Reconstructor {
   // A completed joint enters its filter as a measurement of twice the variance: the natural posture
   // follows the joints that are seen.
   static constexpr double kLeastTrust = 0.5;
-  // As good as the ends is what lies on their line, but for this.
+  // What lies on the line of two joints is trusted as they are, but for this.
   static constexpr double kBetween = 0.6;
 
   /// Expected bones over the standard ones: those learned; else limbs are people's, while where the

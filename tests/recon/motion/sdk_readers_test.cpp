@@ -33,6 +33,7 @@ void ExpectAt(const SkeletonSequence& sequence, size_t frame, Joint joint, doubl
 TEST(KinectGait, BeginsAFrameAtEachHead) {
   const auto read = Read(GaitText(3));
   ASSERT_EQ(read.frames.size(), 3u);
+  EXPECT_EQ(read.sensor, "");  // a Kinect v1: no systematic errors are known of it
   ExpectAt(read, 2, Joint::kHead, 0.0, 0.2, 2);
   ExpectAt(read, 1, Joint::kHipCenter, 0.11, 0.1, 2);
   ExpectAt(read, 0, Joint::kFootLeft, 0.19, 0.0, 2);
@@ -57,6 +58,7 @@ TEST(UtKinect, TakesTimesFromFrameNumbersAndDoubledFramesOnce) {
 TEST(Labanotation, TakesTwentyOfTwentyFiveJointsWithTicksAndStates) {
   const auto read = Read(LabanText(2));
   ASSERT_EQ(read.frames.size(), 2u);
+  EXPECT_EQ(read.sensor, kKinectV2);
   EXPECT_NEAR(read.frames[1].time_s, 0.033, 1e-7);
   ExpectAt(read, 1, Joint::kShoulderCenter, 0.20, 0.1, 2);  // SpineShoulder, index 20
   ExpectAt(read, 1, Joint::kHead, 0.03, 0.1, 2);
