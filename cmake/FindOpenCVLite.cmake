@@ -1,8 +1,8 @@
-# The three OpenCV libraries ossa uses. Debian keeps OpenCVConfig.cmake in libopencv-dev, which pulls
-# in 700 MB; the small packages of core, imgproc and imgcodecs come without it, so they are found here.
+# The two OpenCV libraries ossa uses. Debian keeps OpenCVConfig.cmake in libopencv-dev, which pulls
+# in 700 MB; the small packages of core and imgproc come without it, so they are found here.
 find_path(OpenCV_INCLUDE opencv2/core.hpp PATH_SUFFIXES opencv4)
 set(OpenCV_FOUND_ALL TRUE)
-foreach(module core imgproc imgcodecs)
+foreach(module core imgproc)
   find_library(OpenCV_${module}_LIBRARY opencv_${module})
   if(NOT OpenCV_${module}_LIBRARY OR NOT OpenCV_INCLUDE)
     set(OpenCV_FOUND_ALL FALSE)

@@ -1,6 +1,6 @@
 # Every third-party package in one place; the rooms link the targets they need, PRIVATE.
 find_package(Eigen3 3.4 REQUIRED NO_MODULE)
-find_package(OpenCVLite REQUIRED)  # targets opencv_core, opencv_imgproc, opencv_imgcodecs
+find_package(OpenCVLite REQUIRED)  # targets opencv_core, opencv_imgproc
 find_package(PNG REQUIRED)
 find_package(embree 3.13 REQUIRED)
 find_package(Ceres 2.1 REQUIRED)

@@ -152,6 +152,7 @@ RuntimeTables MakeRuntimeTables(const ForestData& data) {
   for (const Tree& tree : data.trees) {
     LeafTables leaves;
     leaves.shares.resize(contexts * tree.leaf_count());
+    leaves.evidence.reserve(contexts * tree.leaf_count());
     for (size_t leaf = 0; leaf < tree.leaf_count(); ++leaf) {
       const LeafCells cells = CellsOf(tree, leaf, classes, contexts);
       AppendEvidence(cells, data, &leaves.evidence);

@@ -1,7 +1,7 @@
-// Grey PNGs through libpng, whose errors become InputErrors.
+// PNGs through libpng, whose errors become InputErrors.
 // Departure: libpng rather than OpenCV's imgcodecs, which prints damage to stderr instead of
 // reporting it, and which in Debian loads GDAL and 140 other libraries (50 MB of the tracker's
-// memory) into every program that reads one image.
+// memory) into every program that touches one image.
 #include <png.h>
 
 #include <algorithm>
@@ -13,6 +13,7 @@
 #include <new>
 
 #include "depth/error.h"
+#include "depth/image/colour_png.h"
 #include "depth/image/png_codec_internal.h"
 
 namespace ossa::depth {
@@ -90,15 +91,24 @@ bool ReadPixels(png_structp png, png_infop info, Session* session, png_bytepp ro
   return true;
 }
 
-bool WritePixels(png_structp png, png_infop info, Session* session, ImageSize size, int bit_depth,
+// What the pixels of a PNG to be written are, and how hard it is squeezed.
+struct PngForm {
+  ImageSize size;
+  int bit_depth = 8;
+  int colour_type = PNG_COLOR_TYPE_GRAY;
+  int level = 3;
+  int filters = PNG_FILTER_UP;
+};
+
+bool WritePixels(png_structp png, png_infop info, Session* session, const PngForm& form,
                  png_bytepp rows) {
   if (setjmp(png_jmpbuf(png)) != 0) return false;
   png_set_write_fn(png, session, GiveBytes, NoFlush);
-  png_set_IHDR(png, info, static_cast<png_uint_32>(size.width),
-               static_cast<png_uint_32>(size.height), bit_depth, PNG_COLOR_TYPE_GRAY,
+  png_set_IHDR(png, info, static_cast<png_uint_32>(form.size.width),
+               static_cast<png_uint_32>(form.size.height), form.bit_depth, form.colour_type,
                PNG_INTERLACE_NONE, PNG_COMPRESSION_TYPE_DEFAULT, PNG_FILTER_TYPE_DEFAULT);
-  png_set_compression_level(png, 3);  // rendering writes thousands: speed over the last 5 %
-  png_set_filter(png, PNG_FILTER_TYPE_BASE, PNG_FILTER_UP);
+  png_set_compression_level(png, form.level);
+  png_set_filter(png, PNG_FILTER_TYPE_BASE, form.filters);
   png_write_info(png, info);
   if constexpr (std::endian::native == std::endian::little) png_set_swap(png);
   png_write_image(png, rows);
@@ -110,6 +120,20 @@ std::vector<png_bytep> RowsOf(uint8_t* samples, int height, size_t stride) {
   std::vector<png_bytep> rows(static_cast<size_t>(height));
   for (size_t v = 0; v < rows.size(); ++v) rows[v] = samples + v * stride;
   return rows;
+}
+
+std::vector<uint8_t> Encode(const uint8_t* samples, size_t stride, const PngForm& form) {
+  // libpng takes writable rows but only reads them.
+  auto rows = RowsOf(const_cast<uint8_t*>(samples), form.size.height, stride);
+  Session session;
+  png_structp png =
+      png_create_write_struct(PNG_LIBPNG_VER_STRING, &session, NoteError, IgnoreWarning);
+  if (png == nullptr) throw std::bad_alloc();
+  png_infop info = png_create_info_struct(png);
+  const bool written = info != nullptr && WritePixels(png, info, &session, form, rows.data());
+  png_destroy_write_struct(&png, &info);
+  if (!written) throw std::invalid_argument("PNG: " + session.error);
+  return std::move(session.output);
 }
 
 }  // namespace
@@ -167,18 +191,22 @@ ImageSize DecodeGreyPng(std::span<const uint8_t> bytes, int bit_depth, const std
 
 std::vector<uint8_t> EncodeGreyPng(const uint8_t* samples, ImageSize size, size_t stride,
                                    int bit_depth) {
-  // libpng takes writable rows but only reads them.
-  auto rows = RowsOf(const_cast<uint8_t*>(samples), size.height, stride);
-  Session session;
-  png_structp png =
-      png_create_write_struct(PNG_LIBPNG_VER_STRING, &session, NoteError, IgnoreWarning);
-  if (png == nullptr) throw std::bad_alloc();
-  png_infop info = png_create_info_struct(png);
-  const bool written =
-      info != nullptr && WritePixels(png, info, &session, size, bit_depth, rows.data());
-  png_destroy_write_struct(&png, &info);
-  if (!written) throw std::invalid_argument("EncodeGreyPng: " + session.error);
-  return std::move(session.output);
+  // Rendering writes thousands: speed over the last 5 %.
+  return Encode(samples, stride, {.size = size, .bit_depth = bit_depth});
+}
+
+std::vector<uint8_t> EncodeColourPng(std::span<const uint8_t> samples, ImageSize size,
+                                     int channels) {
+  const auto stride = static_cast<size_t>(size.width) * static_cast<size_t>(channels);
+  if ((channels != 3 && channels != 4) ||
+      samples.size() != stride * static_cast<size_t>(size.height)) {
+    throw std::invalid_argument("EncodeColourPng: samples do not match size and channels");
+  }
+  PngForm form{.size = size};
+  form.colour_type = channels == 3 ? PNG_COLOR_TYPE_RGB : PNG_COLOR_TYPE_RGB_ALPHA;
+  form.level = 9;
+  form.filters = PNG_ALL_FILTERS;
+  return Encode(samples.data(), stride, form);
 }
 
 }  // namespace ossa::depth

@@ -2,13 +2,11 @@
 
 #include <algorithm>
 #include <array>
-#include <opencv2/core.hpp>
-#include <opencv2/imgcodecs.hpp>
-#include <opencv2/imgproc.hpp>
 #include <stdexcept>
 #include <string>
 
 #include "depth/file/atomic_file.h"
+#include "depth/image/colour_png.h"
 
 namespace ossa::tools {
 namespace {
@@ -21,25 +19,12 @@ struct Patch {
   std::vector<uint8_t> rgba;
 };
 
-Bytes Encode(const cv::Mat& image) {
-  Bytes bytes;
-  cv::imencode(".png", image, bytes, {cv::IMWRITE_PNG_COMPRESSION, 9});
-  return bytes;
-}
-
 Bytes EncodePng(const Picture& picture) {
-  const cv::Mat rgb(picture.height, picture.width, CV_8UC3,
-                    const_cast<uint8_t*>(picture.rgb.data()));
-  cv::Mat bgr;
-  cv::cvtColor(rgb, bgr, cv::COLOR_RGB2BGR);
-  return Encode(bgr);
+  return depth::EncodeColourPng(picture.rgb, {picture.width, picture.height}, 3);
 }
 
 Bytes EncodePng(const Patch& patch) {
-  const cv::Mat rgba(patch.height, patch.width, CV_8UC4, const_cast<uint8_t*>(patch.rgba.data()));
-  cv::Mat bgra;
-  cv::cvtColor(rgba, bgra, cv::COLOR_RGBA2BGRA);
-  return Encode(bgra);
+  return depth::EncodeColourPng(patch.rgba, {patch.width, patch.height}, 4);
 }
 
 /// What must be drawn over `before` (null: nothing is there yet) to get `frame`: the smallest

@@ -1,12 +1,11 @@
 #include "tools/tracker/picture.h"
 
 #include <algorithm>
-#include <opencv2/imgcodecs.hpp>
 #include <opencv2/imgproc.hpp>
 #include <vector>
 
-#include "depth/error.h"
 #include "depth/file/atomic_file.h"
+#include "depth/image/colour_png.h"
 #include "recon/body/parts.h"
 
 namespace ossa::tracker {
@@ -120,9 +119,9 @@ void WritePicture(const std::filesystem::path& path, const depth::DepthFrame& fr
   }
   cv::Mat row;
   cv::hconcat(panels, row);
-  std::vector<uint8_t> png;
-  if (!cv::imencode(".png", row, png))
-    throw InputError(path.string() + ": cannot encode the picture");
+  cv::cvtColor(row, row, cv::COLOR_BGR2RGB);
+  const std::vector<uint8_t> png =
+      depth::EncodeColourPng({row.data, row.total() * row.elemSize()}, {row.cols, row.rows}, 3);
   AtomicFile file(path);
   file.stream().write(reinterpret_cast<const char*>(png.data()),
                       static_cast<std::streamsize>(png.size()));
