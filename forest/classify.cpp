@@ -40,6 +40,8 @@ struct ActiveContext {
   uint32_t share = 0;  // of kContextUnits
 };
 
+constexpr size_t kAhead = 12;  // pixels whose rows are fetched before they are used
+
 std::vector<int32_t> BoxPositions(const ObjectImage& image, int width,
                                   std::span<const int32_t> pixels) {
   std::vector<int32_t> position(pixels.size());
@@ -63,10 +65,15 @@ std::vector<float> ContextPosterior(const ForestModel& model, const Walked& walk
   const size_t step = std::max<size_t>(1, pixels / kPixels);
   std::vector<int64_t> sum(contexts, 0);
   size_t heard = 0;
+  const auto evidence_of = [&](size_t i, size_t t) {
+    return model.tables().leaves[t].evidence.data() +
+           static_cast<size_t>(walked.leaf[i * trees + t]) * contexts;
+  };
   for (size_t i = 0; i < pixels; i += step) {
+    const size_t next = std::min(i + kAhead * step, pixels - 1);
     for (size_t t = 0; t < trees; ++t, ++heard) {
-      const int16_t* evidence = model.tables().leaves[t].evidence.data() +
-                                static_cast<size_t>(walked.leaf[i * trees + t]) * contexts;
+      __builtin_prefetch(evidence_of(next, t));
+      const int16_t* evidence = evidence_of(i, t);
       for (size_t k = 0; k < contexts; ++k) sum[k] += evidence[k];
     }
   }
@@ -111,7 +118,6 @@ OSSA_CLONES void ToMasses(const uint32_t* sum, float scale, size_t count, uint8_
 // Masses of walked pixels [first, last). Integers and one rounding: the same in every order.
 void MixLeaves(const ForestModel& model, std::span<const ActiveContext> active,
                std::array<size_t, 2> range, Walked* walked) {
-  constexpr size_t kAhead = 12;
   const size_t trees = model.data().trees.size();
   std::array<uint32_t, 256> sum{};
   for (size_t i = range[0]; i < range[1]; ++i) {
