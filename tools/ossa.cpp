@@ -46,6 +46,10 @@ int Help(std::FILE* out) {
 int main(int argc, char** argv) try {
   const std::string_view name = argc > 1 ? argv[1] : "";
   if (name == "--help" || name == "-h") return Help(stdout);
+  if (name == "--version") {
+    fmt::print("ossa {}\n", OSSA_VERSION);
+    return 0;
+  }
   for (const Command& command : kCommands) {
     if (command.name != name) continue;
     ossa::commands::InstallInterruptHandler();

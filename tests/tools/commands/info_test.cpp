@@ -46,6 +46,15 @@ recon::PostureDatabase TwoPostures() {
   return recon::PostureDatabase::Build({clip}, {});
 }
 
+TEST(Ossa, SaysItsVersionAndRefusesUnknownCommands) {
+  const CommandResult version = RunOssa({"--version"});
+  EXPECT_EQ(version.exit_status, 0);
+  EXPECT_TRUE(version.out.starts_with("ossa ")) << version.out;
+  const CommandResult unknown = RunOssa({"jump"});
+  EXPECT_EQ(unknown.exit_status, 2);
+  EXPECT_NE(unknown.err.find("unknown command 'jump'"), std::string::npos) << unknown.err;
+}
+
 TEST(InfoCommand, ShowsWhatAPostureDatabaseHolds) {
   const TemporaryFolder folder;
   TwoPostures().Save(folder / "x.ossadb");
