@@ -146,10 +146,6 @@ bool InPlaneOf(const PointGrid& grid, const FlatPiece& piece, const FlatPiece& w
   return std::abs(off) / static_cast<double>(piece.cells.size()) < kSameDepth_1_m;
 }
 
-// The front of a sofa, a chest or a box is often cut in two by the legs of who stands before it,
-// and each half may be as small as the flat side of a person. But together they are one plane that
-// stands on the floor, ends below the hips, where people are two thin legs, and is wider than a
-// person. Returns the cells of such a front around `piece`, or nothing.
 std::vector<int> LowFront(const PointGrid& grid, const FloorPlane& floor,
                           const std::vector<FlatPiece>& pieces, const FlatPiece& piece) {
   constexpr double kUpright = 0.35;  // at most so much of the normal points up

@@ -164,8 +164,8 @@ class Best : public Reconstructor {
 
   /// Joints in doubt hang on their parents, joints seen well stay. What a doubtful joint hangs like
   /// is a matter of the sensor's own confidence in its guess: of fair guesses the mean, which
-  /// hanging as a frame before amounts to, is nearer the truth than any database (rooms of
-  /// validation subjects: 2.3 against 4.5 cm); of poor ones the natural posture is.
+  /// hanging as a frame before amounts to, is nearer the truth than any database; of
+  /// poor ones the natural posture is.
   void Complete(const PreparedPosture& prepared, const ReconstructionInput& input,
                 const JointWeights& trust, Posture& target) {
     if (!InDoubt(prepared, trust)) return;
