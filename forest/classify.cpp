@@ -146,10 +146,6 @@ void MixLeaves(const ForestModel& model, std::span<const ActiveContext> active,
 
 // Every pixel's leaves and masses from those of the pixel that walked for it.
 void Expand(const SparsePixels& sparse, size_t trees, Walked* walked, Classification* result) {
-  if (sparse.from.empty()) {
-    result->leaf = walked->leaf;
-    return;
-  }
   const size_t stride = walked->stride;
   auto mass = std::make_unique_for_overwrite<uint8_t[]>(sparse.from.size() * stride);
   result->leaf.resize(sparse.from.size() * trees);

@@ -4,20 +4,45 @@
 
 #include <algorithm>
 #include <cstdlib>
+#include <numeric>
 
 namespace ossa::forest {
 namespace {
 
 constexpr int kGap_mm = 50;  // between neighbours: an arm before the trunk
 
-}  // namespace
+// Tiles of 16 × 8 squares, as many pixels as walk at once.
+constexpr int kTileColumns = 16;
+constexpr int kTileRows = 8;
 
-SparsePixels ChooseSparse(const ObjectImage& image, std::span<const int32_t> position, int step) {
-  SparsePixels sparse;
-  if (step <= 1) {
-    sparse.position.assign(position.begin(), position.end());
-    return sparse;
+// Sorts those that walk by tile (counting sort: within a tile they keep their order).
+void SortIntoTiles(const ObjectImage& image, int step, SparsePixels* sparse) {
+  const int width = kTileColumns * step;
+  const int height = kTileRows * step;
+  const int columns = image.width / width + 1;
+  const auto tile_of = [&](int32_t p) {
+    return (p >> 16) / height * columns + (p & 0xffff) / width;
+  };
+  std::vector<int32_t> next(static_cast<size_t>(columns * (image.height / height + 1)) + 1, 0);
+  std::vector<int32_t> rank(sparse->position.size());
+  for (size_t i = 0; i < rank.size(); ++i) {
+    rank[i] = tile_of(sparse->position[i]);
+    ++next[static_cast<size_t>(rank[i]) + 1];
   }
+  std::partial_sum(next.begin(), next.end(), next.begin());
+  std::vector<int32_t> sorted(rank.size());
+  for (size_t i = 0; i < rank.size(); ++i) {
+    rank[i] = next[static_cast<size_t>(rank[i])]++;
+    sorted[static_cast<size_t>(rank[i])] = sparse->position[i];
+  }
+  sparse->position = std::move(sorted);
+  for (int32_t& from : sparse->from) from = rank[static_cast<size_t>(from)];
+}
+
+// The first pixel of each square walks, and every one on another surface than that.
+SparsePixels OneOfEachSquare(const ObjectImage& image, std::span<const int32_t> position,
+                             int step) {
+  SparsePixels sparse;
   const int columns = image.width / step + 1;
   const int rows = image.height / step + 1;
   std::vector<int32_t> walker(static_cast<size_t>(columns) * static_cast<size_t>(rows), -1);
@@ -39,6 +64,22 @@ SparsePixels ChooseSparse(const ObjectImage& image, std::span<const int32_t> pos
     if (first < 0) first = sparse.from.back();
     sparse.position.push_back(p);
   }
+  return sparse;
+}
+
+SparsePixels Everyone(std::span<const int32_t> position) {
+  SparsePixels all;
+  all.position.assign(position.begin(), position.end());
+  all.from.resize(position.size());
+  std::iota(all.from.begin(), all.from.end(), 0);
+  return all;
+}
+
+}  // namespace
+
+SparsePixels ChooseSparse(const ObjectImage& image, std::span<const int32_t> position, int step) {
+  SparsePixels sparse = step <= 1 ? Everyone(position) : OneOfEachSquare(image, position, step);
+  SortIntoTiles(image, step, &sparse);
   return sparse;
 }
 

@@ -99,7 +99,11 @@ TEST(ChooseSparse, OnePixelOfFourWalksAndNoneSpeaksAcrossAnEdge) {
 TEST(ChooseSparse, EveryPixelWalksAtStepOne) {
   std::vector<int32_t> position;
   const ObjectImage image = SteppedBoard(&position);
-  EXPECT_EQ(ChooseSparse(image, position, 1).position, position);
+  const SparsePixels sparse = ChooseSparse(image, position, 1);
+  ASSERT_EQ(sparse.from.size(), position.size());
+  for (size_t i = 0; i < position.size(); ++i) {
+    EXPECT_EQ(sparse.position[static_cast<size_t>(sparse.from[i])], position[i]);
+  }
 }
 
 }  // namespace
