@@ -17,9 +17,8 @@ class BodySize {
   /// `as_measured`: bones may be as far from the standard ones as they like; a foot may end in the
   /// ankle where a sensor has only one of the two.
   explicit BodySize(bool as_measured) : as_measured_(as_measured) {}
-  /// Bones are expected in these proportions to the standard ones (0: nothing is expected) and
-  /// taken half way between what is expected and what is measured: one frame measures a bone about
-  /// as well as the body's size tells it.
+  /// Bones are expected in these proportions to the standard ones (0: nothing is expected): the
+  /// lengths taken lie between what is measured, in one frame, and what the body's size tells.
   void Expect(const BoneLengths& proportions) { proportions_ = proportions; }
   /// `expected_scale`: what the proportions are multiplied with; 0: the measured size.
   void Observe(const Posture& in_camera, const JointWeights& trust, double expected_scale = 0.0);

@@ -178,6 +178,22 @@ TEST(Best, HoldsAHandThatSnapsToTheOther) {
   EXPECT_LT(off_m, 0.3 * (observed.posture.position_m[7] - At(t).position_m[7]).norm());
 }
 
+TEST(Best, AnElbowIsNotPulledAlongByAForearmSeenTooLong) {
+  const auto method = MakeBestOne();
+  const double t = SeenWell(*method);
+  const auto elbow = static_cast<size_t>(Index(Joint::kElbowLeft));
+  const auto wrist = static_cast<size_t>(Index(Joint::kWristLeft));
+  const auto hand = static_cast<size_t>(Index(Joint::kHandLeft));
+  Posture seen = At(t);
+  const Eigen::Vector3d forearm = seen.position_m[wrist] - seen.position_m[elbow];
+  constexpr double kTooLong_m = 0.05;
+  for (const size_t i : {wrist, hand}) seen.position_m[i] += kTooLong_m * forearm.normalized();
+  const auto made = StepOn(*method, test::AllTracked(seen), t);
+  // With equal weights the elbow takes 0.4 of it; the far end takes most here, 0.25 are left.
+  const double elbow_m = (made.posture.position_m[elbow] - At(t).position_m[elbow]).norm();
+  EXPECT_LT(elbow_m, 0.3 * kTooLong_m);
+}
+
 TEST(Best, ThinksBetterOfAFrameWhenItHasSeenTheNext) {
   const auto method = MakeBestOne();
   std::mt19937_64 rng(3);
