@@ -91,10 +91,10 @@ Posture Completed(const Posture& in_camera, const JointWeights& present_in, cons
   return out;
 }
 
-/// Whether, over the last second, the median bone is off by 6 %: more than the mean of one person's
+/// Whether, over the last second, the median bone is off by 7 %: more than the mean of one person's
 /// observed bones wanders.
 bool BodySize::HasOtherBones(const BoneLengths& measured, const JointWeights& trust) {
-  constexpr double kMemory = 1.0 / 30.0, kOther = 0.06;
+  constexpr double kMemory = 1.0 / 30.0, kOther = 0.07;
   std::vector<double> off;
   for (size_t i = 1; i < kJointCount; ++i) {
     const double w = std::min(trust[i], trust[static_cast<size_t>(kJointParent[i])]);
