@@ -1,22 +1,38 @@
 #pragma once
+#include <array>
 #include <cstdint>
 #include <string>
-#include <vector>
 
 #include "tools/tracker/tracker.h"
 
 namespace ossa::tracker {
+
+/// Durations counted in bins of 1 % from a microsecond to some minutes: quantiles to half a per
+/// cent in constant memory, however long a run lasts.
+class TimeHistogram {
+ public:
+  void Add(double ms);
+  int64_t count() const { return count_; }
+  double sum_ms() const { return sum_ms_; }
+  /// The duration that a share (0 to 1) of those added do not exceed, ms; 0 without any.
+  double Quantile(double share) const;
+
+ private:
+  std::array<int64_t, 2048> bins_{};
+  int64_t count_ = 0;
+  double sum_ms_ = 0;
+};
 
 /// What `ossa track --json-stats` says, in DESIGN's keys: medians of the stages' milliseconds,
 /// median and 99th percentile of the total, frames a second of processing.
 class RunStats {
  public:
   void Add(const StageTimes& ms);
-  int64_t frames() const { return static_cast<int64_t>(times_.size()); }
+  int64_t frames() const { return total_.count(); }
   std::string Json(int64_t dropped) const;
 
  private:
-  std::vector<StageTimes> times_;
+  TimeHistogram segment_, classify_, propose_, reconstruct_, physics_, total_;
 };
 
 /// Largest resident set of this process so far, megabytes.
