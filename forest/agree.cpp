@@ -268,11 +268,16 @@ Eigen::Vector3d Fuse(const Belief& belief, const std::vector<Mode>& modes, doubl
 }
 
 std::vector<Candidate> Candidates(const ProposalTarget& target, const Beliefs& beliefs,
-                                  size_t target_index, const std::vector<Mode>& modes) {
+                                  size_t target_index, const std::vector<Mode>& modes,
+                                  const RefinedPlace* refined) {
   const Belief& belief = beliefs.target[target_index];
   std::vector<Candidate> candidates(1);
   candidates[0].is_fused = true;
   candidates[0].position_m = Fuse(belief, modes, target.mode_noise_m);
+  if (refined != nullptr) {
+    candidates[0].position_m = refined->position_m;
+    candidates[0].refined_confidence = refined->confidence;
+  }
   std::vector<std::array<double, 2>> own = {{0.0, belief.support()}};  // confidence, weight
   double heaviest = 0.05;  // below, no mode has a say worth naming
   for (size_t m = 0; m < modes.size(); ++m) {
@@ -283,7 +288,7 @@ std::vector<Candidate> Candidates(const ProposalTarget& target, const Beliefs& b
     }
     const Eigen::Vector3d position_m = modes[m].position_m.cast<double>();
     if ((position_m - candidates[0].position_m).norm() <= kApart_m) continue;
-    candidates.push_back({position_m, {}, false, static_cast<int>(m)});
+    candidates.push_back({position_m, {}, false, static_cast<int>(m), {}});
     own.push_back({belief.confidence[m], belief.weight[m]});
   }
   const Eigen::Matrix3d inverse =
@@ -302,6 +307,11 @@ std::vector<Candidate> Candidates(const ProposalTarget& target, const Beliefs& b
                              static_cast<float>(beliefs.neighbour_support[target_index])};
   }
   return candidates;
+}
+
+double ConfidenceOf(const ProposalTarget& target, const Candidate& candidate) {
+  if (candidate.refined_confidence) return *candidate.refined_confidence;
+  return Evaluate(candidate.is_fused ? target.fused : target.apart, candidate.feature);
 }
 
 }  // namespace ossa::forest

@@ -1,6 +1,7 @@
 #pragma once
 #include <Eigen/Core>
 #include <array>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -35,15 +36,26 @@ struct Beliefs {
 Beliefs Agree(const ForestModel& model, std::span<const float> context_posterior,
               const ModesOfTargets& modes);
 
+/// Where the refinement puts a target, and how likely that is right to 10 cm.
+struct RefinedPlace {
+  Eigen::Vector3d position_m = Eigen::Vector3d::Zero();
+  double confidence = 0.0;
+};
+
 /// A place where a target may be, with what its confidence is computed from.
 struct Candidate {
   Eigen::Vector3d position_m = Eigen::Vector3d::Zero();
   std::array<float, Agreement::kFeatures> feature{};
   bool is_fused = false;  // modes and other targets joined; else a mode that stands apart
   int mode = -1;          // that it rests on most; -1: none
+  std::optional<double> refined_confidence;  // of a fused place that the refinement moved
 };
+/// `refined` may be null: the fused place then stays where it is.
 std::vector<Candidate> Candidates(const ProposalTarget& target, const Beliefs& beliefs,
-                                  size_t target_index, const std::vector<Mode>& modes);
+                                  size_t target_index, const std::vector<Mode>& modes,
+                                  const RefinedPlace* refined = nullptr);
+/// P(within 10 cm of the target).
+double ConfidenceOf(const ProposalTarget& target, const Candidate& candidate);
 
 /// Where the prediction and the likeliest mode meet when modes have this noise.
 Eigen::Vector3d Fuse(const Belief& belief, const std::vector<Mode>& modes, double mode_noise_m);

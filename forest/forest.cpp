@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "depth/error.h"
+#include "forest/refine_internal.h"
 #include "forest/runtime_internal.h"
 
 namespace ossa::forest {
@@ -11,6 +12,8 @@ namespace {
 
 constexpr size_t kMaxCells = 512;
 constexpr size_t kMaxFactors = 64;
+constexpr size_t kMaxLayers = 4;
+constexpr size_t kMaxLayerWidth = 4096;
 
 [[noreturn]] void Refuse(const std::string& name, const std::string& reason) {
   throw InputError(name + ": forest model: " + reason);
@@ -148,6 +151,33 @@ void CheckArrangements(const ForestData& data, const std::string& name) {
   }
 }
 
+void CheckRefinement(const ForestData& data, const std::string& name) {
+  const Refinement& refinement = data.refinement;
+  if (refinement.layers.empty()) return;
+  if (data.arrangements.empty()) Refuse(name, "refinement: expected arrangements beside it");
+  if (refinement.layers.size() > kMaxLayers) Refuse(name, "refinement: more than 4 layers");
+  size_t inputs =
+      DescriptionSize(data.targets.size(), data.class_names.size(), data.context_names.size());
+  if (refinement.input_mean.size() != inputs || refinement.input_scale.size() != inputs) {
+    Refuse(name, "refinement: expected " + std::to_string(inputs) + " inputs, found " +
+                     std::to_string(refinement.input_mean.size()) + " and " +
+                     std::to_string(refinement.input_scale.size()));
+  }
+  constexpr float kMost = 1e6F;
+  bool sane = AllWithin(refinement.input_mean, -kMost, kMost) &&
+              AllWithin(refinement.input_scale, 0.0F, kMost);
+  for (const RefinementLayer& layer : refinement.layers) {
+    const size_t outputs = layer.bias.size();
+    if (outputs > kMaxLayerWidth || layer.weight.size() != inputs * outputs) {
+      Refuse(name, "refinement: a layer's weights do not match its inputs and outputs");
+    }
+    sane = sane && AllWithin(layer.weight, -kMost, kMost) && AllWithin(layer.bias, -kMost, kMost);
+    inputs = outputs;
+  }
+  if (inputs != 4 * data.targets.size()) Refuse(name, "refinement: expected 4 outputs a target");
+  if (!sane) Refuse(name, "refinement: expected numbers of at most a million");
+}
+
 }  // namespace
 
 ForestModel::ForestModel(ForestData data, const std::string& name) {
@@ -156,6 +186,7 @@ ForestModel::ForestModel(ForestData data, const std::string& name) {
   for (size_t t = 0; t < data.trees.size(); ++t) CheckTree(data, t, name);
   for (const ProposalTarget& target : data.targets) CheckTarget(data, target, name);
   CheckArrangements(data, name);
+  CheckRefinement(data, name);
   data_ = std::make_shared<const ForestData>(std::move(data));
   tables_ = std::make_shared<const RuntimeTables>(MakeRuntimeTables(*data_));
 }

@@ -95,6 +95,21 @@ struct Arrangement {
   std::vector<float> noise_m;    // a target: what the factors leave, each axis
 };
 
+/// A layer of a network: outputs = inputs · weight + bias.
+struct RefinementLayer {
+  std::vector<float> weight;  // input × output, row-major
+  std::vector<float> bias;    // one an output
+};
+
+/// The second stage: a network that corrects the places of all targets of an object at once, from
+/// what the first stage found of all of them (forest/refine_internal.h says what goes in and out).
+/// Learned on images that the trees have not seen.
+struct Refinement {
+  std::vector<float> input_mean;
+  std::vector<float> input_scale;       // 1 / standard deviation
+  std::vector<RefinementLayer> layers;  // rectified between; empty: places stay as they are
+};
+
 /// Everything a model file holds.
 struct ForestData {
   std::vector<std::string> class_names;    // class 0 is background and never given
@@ -105,6 +120,7 @@ struct ForestData {
   std::vector<Tree> trees;
   std::vector<ProposalTarget> targets;
   std::vector<Arrangement> arrangements;  // one a context; or empty: targets are found singly
+  Refinement refinement;                  // of the targets; or without layers
   std::string manifest;                   // JSON text: the model's card
 };
 

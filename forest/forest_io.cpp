@@ -14,8 +14,8 @@ namespace ossa::forest {
 namespace {
 
 // Version 2 added arrangements and what agreement with them says; models of version 1 lack them.
-// Version 3 packs trees more tightly.
-constexpr SealedFormat kFormat{{'o', 's', 's', 'a', 'f', 'r', 's', 't'}, 3, "forest model"};
+// Version 3 packs trees more tightly. Version 4 added the refinement.
+constexpr SealedFormat kFormat{{'o', 's', 's', 'a', 'f', 'r', 's', 't'}, 4, "forest model"};
 constexpr size_t kVersionAt = 12;  // of a sealed file
 constexpr int kCompressionLevel = 19;
 constexpr int kQuickLevel = 3;
@@ -75,6 +75,32 @@ void GetAgreement(PayloadReader* reader, ForestData* data) {
   }
 }
 
+void PutRefinement(PayloadWriter* writer, const Refinement& refinement) {
+  writer->PutVector(refinement.input_mean);
+  writer->PutVector(refinement.input_scale);
+  writer->Put<uint32_t>(static_cast<uint32_t>(refinement.layers.size()));
+  for (const RefinementLayer& layer : refinement.layers) {
+    PutPlanes(writer, layer.weight);
+    writer->PutVector(layer.bias);
+  }
+}
+
+Refinement GetRefinement(PayloadReader* reader) {
+  Refinement refinement;
+  refinement.input_mean = reader->GetVector<float>("refinement input means");
+  refinement.input_scale = reader->GetVector<float>("refinement input scales");
+  const auto layers = reader->Get<uint32_t>("refinement layers");
+  constexpr uint32_t kMost = 64;  // the model itself allows fewer
+  if (layers > kMost) reader->Fail("refinement layers", "more than 64");
+  for (uint32_t i = 0; i < layers; ++i) {
+    RefinementLayer layer;
+    layer.weight = GetPlanes<float>(reader, "refinement weights");
+    layer.bias = reader->GetVector<float>("refinement biases");
+    refinement.layers.push_back(std::move(layer));
+  }
+  return refinement;
+}
+
 ProposalTarget GetTarget(PayloadReader* reader) {
   ProposalTarget target;
   target.name = reader->GetString("target name");
@@ -132,6 +158,7 @@ ForestData ParseForest(std::span<const std::byte> payload, const std::string& na
     data.trees.push_back(version >= 3 ? GetTree(&reader) : GetTreeOfVersion2(&reader));
   }
   if (version >= 2) GetAgreement(&reader, &data);
+  if (version >= 4) data.refinement = GetRefinement(&reader);
   reader.ExpectEnd();
   return data;
 }
@@ -177,6 +204,7 @@ std::vector<std::byte> Packed(const ForestData& data, int level) {
   writer.Put<uint32_t>(static_cast<uint32_t>(data.trees.size()));
   for (const Tree& tree : data.trees) PutTree(&writer, tree);
   PutAgreement(&writer, data);
+  PutRefinement(&writer, data.refinement);
   PayloadWriter outer;
   outer.Put<uint64_t>(writer.bytes().size());
   outer.PutVector(Compressed(writer.bytes(), level));

@@ -58,30 +58,6 @@ std::vector<Node> NodesOf(const NodeColumns& columns, const PayloadReader& reade
   return nodes;
 }
 
-// All first bytes, then all second bytes, and so on.
-template <typename T>
-void PutPlanes(PayloadWriter* writer, const std::vector<T>& values) {
-  std::vector<uint8_t> plane(values.size());
-  const auto* bytes = reinterpret_cast<const uint8_t*>(values.data());
-  for (size_t b = 0; b < sizeof(T); ++b) {
-    for (size_t i = 0; i < plane.size(); ++i) plane[i] = bytes[i * sizeof(T) + b];
-    writer->PutVector(plane);
-  }
-}
-
-template <typename T>
-std::vector<T> GetPlanes(PayloadReader* reader, std::string_view field) {
-  std::vector<T> values;
-  for (size_t b = 0; b < sizeof(T); ++b) {
-    const auto plane = reader->GetVector<uint8_t>(field);
-    if (b == 0) values.resize(plane.size());
-    if (plane.size() != values.size()) reader->Fail(field, "uneven planes of bytes");
-    auto* bytes = reinterpret_cast<uint8_t*>(values.data());
-    for (size_t i = 0; i < plane.size(); ++i) bytes[i * sizeof(T) + b] = plane[i];
-  }
-  return values;
-}
-
 // Entries of a leaf in the order of their codes, each code as its distance to the one before.
 void PutLeaves(PayloadWriter* writer, const Tree& tree) {
   std::vector<uint16_t> counts;

@@ -10,6 +10,7 @@
 
 #include "forest/agree_internal.h"
 #include "forest/propose_internal.h"
+#include "forest/refine_internal.h"
 #include "forest/runtime_internal.h"
 
 namespace ossa::forest {
@@ -158,11 +159,13 @@ std::vector<std::vector<Proposal>> ProposeSingly(const ForestModel& model,
 
 // What modes and other targets agree on, and modes that stand apart from it.
 std::vector<std::vector<Proposal>> ProposeTogether(const ForestModel& model, const Beliefs& beliefs,
-                                                   const ModesOfTargets& modes) {
+                                                   const ModesOfTargets& modes,
+                                                   const std::vector<RefinedPlace>& refined) {
   std::vector<std::vector<Proposal>> proposals(modes.size());
   for (size_t t = 0; t < modes.size(); ++t) {
     const ProposalTarget& target = model.targets()[t];
-    for (const Candidate& candidate : Candidates(target, beliefs, t, modes[t])) {
+    const RefinedPlace* place = refined.empty() ? nullptr : &refined[t];
+    for (const Candidate& candidate : Candidates(target, beliefs, t, modes[t], place)) {
       Proposal proposal;
       if (candidate.mode >= 0) {
         proposal = ProposalAt(target, modes[t][static_cast<size_t>(candidate.mode)]);
@@ -170,8 +173,7 @@ std::vector<std::vector<Proposal>> ProposeTogether(const ForestModel& model, con
         proposal.seen = false;  // the other targets alone speak
       }
       proposal.position_m = candidate.position_m;
-      proposal.confidence =
-          Evaluate(candidate.is_fused ? target.fused : target.apart, candidate.feature);
+      proposal.confidence = ConfidenceOf(target, candidate);
       proposals[t].push_back(proposal);
     }
     std::stable_sort(
@@ -209,7 +211,13 @@ std::vector<std::vector<Proposal>> Propose(const ForestModel& model, const depth
   const bool is_blank = std::all_of(modes.begin(), modes.end(),
                                     [](const std::vector<Mode>& list) { return list.empty(); });
   if (is_blank || model.data().arrangements.empty()) return ProposeSingly(model, modes);
-  return ProposeTogether(model, Agree(model, classification.context, modes), modes);
+  const Beliefs beliefs = Agree(model, classification.context, modes);
+  std::vector<RefinedPlace> refined;
+  if (!model.data().refinement.layers.empty()) {
+    refined = Refine(model.data().refinement,
+                     Describe(model, camera, evidence, classification.context, modes, beliefs));
+  }
+  return ProposeTogether(model, beliefs, modes, refined);
 }
 
 Evidence GatherEvidence(const ForestModel& model, const depth::DepthView& depth,

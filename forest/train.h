@@ -113,4 +113,24 @@ ForestModel LearnArrangements(const ForestModel& model, const TrainingSource& so
 ForestModel LearnProposals(const ForestModel& model, const TrainingSource& validation,
                            size_t max_images, int threads);
 
+struct RefinementOptions {
+  int hidden = 256;  // units of the hidden layer, 1..1024
+  int epochs = 12;   // times that each image is looked at
+  uint64_t seed = 1;
+  int threads = 0;                                 // 0: all; they do not change the model
+  std::function<void(int64_t, int64_t)> progress;  // steps done, steps in all
+  std::function<bool()> stop;                      // true: end with TrainInterrupted
+};
+
+/// Learns the second stage on images of training subjects that no tree has seen: the model with a
+/// refinement. Its thresholds are those of the model before; LearnConfidences sets them again.
+/// Throws InputError when the model has no arrangements, or the images are too few.
+ForestModel LearnRefinement(const ForestModel& model, const TrainingSource& source,
+                            const RefinementOptions& options);
+
+/// Learns again, on images never trained on, from which confidence on targets are tracked and
+/// inferred, and how likely modes are right that stand apart from where a refinement puts them.
+ForestModel LearnConfidences(const ForestModel& model, const TrainingSource& validation,
+                             size_t max_images, int threads);
+
 }  // namespace ossa::forest

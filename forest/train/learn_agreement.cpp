@@ -2,7 +2,7 @@
 // where both meet is right: fitted on images never trained on.
 #include <oneapi/tbb/parallel_for.h>
 
-#include "forest/agree_internal.h"
+#include "forest/refine_internal.h"
 #include "forest/train/learn_internal.h"
 
 namespace ossa::forest {
@@ -11,25 +11,31 @@ namespace {
 constexpr double kTrackedPrecision = 0.90;
 constexpr double kInferredPrecision = 0.50;
 
-struct Heard {
-  ModesOfTargets modes;
-  Beliefs beliefs;
+// What was heard of an image, and where the refinement, if there is one, puts the targets.
+struct HeardImage : Heard {
+  std::vector<RefinedPlace> refined;
+
+  const RefinedPlace* RefinedOf(size_t t) const { return refined.empty() ? nullptr : &refined[t]; }
 };
 
-std::vector<Heard> HearAll(const ForestModel& model, const std::vector<ValidationImage>& images) {
-  std::vector<Heard> heard(images.size());
+std::vector<HeardImage> HearAll(const ForestModel& model,
+                                const std::vector<ValidationImage>& images) {
+  std::vector<HeardImage> heard(images.size());
+  const Refinement& refinement = model.data().refinement;
   oneapi::tbb::parallel_for(size_t{0}, images.size(), [&](size_t i) {
-    for (size_t t = 0; t < model.targets().size(); ++t) {
-      heard[i].modes.push_back(FindModes(images[i].evidence, model.targets()[t], t));
-    }
-    heard[i].beliefs = Agree(model, images[i].context, heard[i].modes);
+    const ValidationImage& image = images[i];
+    HeardImage& one = heard[i];
+    static_cast<Heard&>(one) = Hear(model, image);
+    if (refinement.layers.empty()) return;
+    one.refined = Refine(refinement, Describe(model, image.camera, image.evidence, image.context,
+                                              one.modes, one.beliefs));
   });
   return heard;
 }
 
 // Hits within 10 cm, and half as much for being within 5 cm as well.
-double Score(const std::vector<ValidationImage>& images, const std::vector<Heard>& heard, size_t t,
-             double noise_m) {
+double Score(const std::vector<ValidationImage>& images, const std::vector<HeardImage>& heard,
+             size_t t, double noise_m) {
   double score = 0;
   for (size_t i = 0; i < images.size(); ++i) {
     if (!images[i].target_m[t].allFinite()) continue;
@@ -40,7 +46,7 @@ double Score(const std::vector<ValidationImage>& images, const std::vector<Heard
   return score;
 }
 
-void TuneNoise(const std::vector<ValidationImage>& images, const std::vector<Heard>& heard,
+void TuneNoise(const std::vector<ValidationImage>& images, const std::vector<HeardImage>& heard,
                size_t t, ProposalTarget* target) {
   double best = -1;
   for (const float noise_m : {0.003F, 0.01F, 0.02F, 0.03F, 0.045F, 0.065F, 0.09F}) {
@@ -51,39 +57,43 @@ void TuneNoise(const std::vector<ValidationImage>& images, const std::vector<Hea
   }
 }
 
-using JudgedPlace = Judged<Agreement::kFeatures>;
-
-struct JudgedPlaces {
-  std::vector<JudgedPlace> fused, apart;
-  std::vector<bool> fused_seen, apart_seen;  // by what mean shift saw
+// A candidate and what is true of it.
+struct JudgedCandidate {
+  Candidate candidate;
+  bool is_near = false;  // to the target's true position
+  bool visible = false;  // the target
+  bool seen = false;     // by what mean shift saw
 };
 
-JudgedPlaces JudgePlaces(const std::vector<ValidationImage>& images,
-                         const std::vector<Heard>& heard, const ProposalTarget& target, size_t t) {
-  JudgedPlaces judged;
+std::vector<JudgedCandidate> JudgeCandidates(const std::vector<ValidationImage>& images,
+                                             const std::vector<HeardImage>& heard,
+                                             const ProposalTarget& target, size_t t) {
+  std::vector<JudgedCandidate> judged;
   for (size_t i = 0; i < images.size(); ++i) {
     if (!images[i].target_m[t].allFinite()) continue;
     const Eigen::Vector3d truth_m = images[i].target_m[t].cast<double>();
     const std::vector<Mode>& modes = heard[i].modes[t];
-    for (const Candidate& candidate : Candidates(target, heard[i].beliefs, t, modes)) {
+    for (const Candidate& candidate :
+         Candidates(target, heard[i].beliefs, t, modes, heard[i].RefinedOf(t))) {
       const bool seen =
           candidate.mode >= 0 &&
           Evaluate(target.visible, modes[static_cast<size_t>(candidate.mode)].feature) >= 0.5;
-      (candidate.is_fused ? judged.fused : judged.apart)
-          .push_back({candidate.feature, (candidate.position_m - truth_m).norm() < kHitRadius_m,
-                      images[i].target_visible[t] != 0});
-      (candidate.is_fused ? judged.fused_seen : judged.apart_seen).push_back(seen);
+      judged.push_back({candidate, (candidate.position_m - truth_m).norm() < kHitRadius_m,
+                        images[i].target_visible[t] != 0, seen});
     }
   }
   return judged;
 }
 
-void AppendRated(const std::vector<JudgedPlace>& judged, const std::vector<bool>& seen,
-                 const Agreement& agreement, std::vector<RatedPlace>* rated) {
-  for (size_t i = 0; i < judged.size(); ++i) {
-    rated->push_back(
-        {Evaluate(agreement, judged[i].feature), judged[i].is_near, judged[i].visible, seen[i]});
+// P(within 10 cm) of the candidates that are fused, or of those that stand apart.
+Agreement FitAgreement(const std::vector<JudgedCandidate>& judged, bool is_fused) {
+  using Example = Judged<Agreement::kFeatures>;
+  std::vector<Example> examples;
+  for (const JudgedCandidate& one : judged) {
+    if (one.candidate.is_fused != is_fused) continue;
+    examples.push_back({one.candidate.feature, one.is_near, one.visible});
   }
+  return FitLogistic(examples, &Example::is_near);
 }
 
 // The least confidence from which on (by all of at least as much) the wanted share is right.
@@ -103,6 +113,15 @@ float ThresholdFor(std::vector<std::pair<double, bool>> rated, double precision)
 
 }  // namespace
 
+Heard Hear(const ForestModel& model, const ValidationImage& image) {
+  Heard heard;
+  for (size_t t = 0; t < model.targets().size(); ++t) {
+    heard.modes.push_back(FindModes(image.evidence, model.targets()[t], t));
+  }
+  heard.beliefs = Agree(model, image.context, heard.modes);
+  return heard;
+}
+
 void SetThresholds(const std::vector<RatedPlace>& rated, ProposalTarget* target) {
   std::vector<std::pair<double, bool>> all;
   std::vector<std::pair<double, bool>> seen;
@@ -116,17 +135,21 @@ void SetThresholds(const std::vector<RatedPlace>& rated, ProposalTarget* target)
 }
 
 ForestModel LearnAgreement(const ForestModel& model, const std::vector<ValidationImage>& images) {
-  const std::vector<Heard> heard = HearAll(model, images);
+  const std::vector<HeardImage> heard = HearAll(model, images);
   ForestData data = model.data();
   oneapi::tbb::parallel_for(size_t{0}, data.targets.size(), [&](size_t t) {
     ProposalTarget& target = data.targets[t];
-    TuneNoise(images, heard, t, &target);
-    const JudgedPlaces judged = JudgePlaces(images, heard, target, t);
-    target.fused = FitLogistic(judged.fused, &JudgedPlace::is_near);
-    target.apart = FitLogistic(judged.apart, &JudgedPlace::is_near);
+    // The refinement was learned with the noise as it is, and tells fused places' confidence
+    // itself.
+    const bool is_refined = !data.refinement.layers.empty();
+    if (!is_refined) TuneNoise(images, heard, t, &target);
+    const std::vector<JudgedCandidate> judged = JudgeCandidates(images, heard, target, t);
+    if (!is_refined) target.fused = FitAgreement(judged, true);
+    target.apart = FitAgreement(judged, false);
     std::vector<RatedPlace> rated;
-    AppendRated(judged.fused, judged.fused_seen, target.fused, &rated);
-    AppendRated(judged.apart, judged.apart_seen, target.apart, &rated);
+    for (const JudgedCandidate& one : judged) {
+      rated.push_back({ConfidenceOf(target, one.candidate), one.is_near, one.visible, one.seen});
+    }
     SetThresholds(rated, &target);
   });
   return ForestModel(std::move(data));

@@ -1,16 +1,15 @@
 // Factor analysis of the targets' positions (Harman 1976, principal factors, iterated): what moves
 // together becomes a factor, what a target does by itself its noise.
-#include <oneapi/tbb/global_control.h>
 #include <oneapi/tbb/parallel_for.h>
 
 #include <Eigen/Dense>
 #include <algorithm>
 #include <cmath>
 #include <optional>
-#include <thread>
 
 #include "depth/error.h"
 #include "forest/train.h"
+#include "forest/train/thread_limit_internal.h"
 
 namespace ossa::forest {
 namespace {
@@ -107,9 +106,7 @@ Arrangement Analyse(const Moments& moments) {
 
 ForestModel LearnArrangements(const ForestModel& model, const TrainingSource& source,
                               size_t max_images, int threads) {
-  const unsigned all = std::max(1U, std::thread::hardware_concurrency());
-  oneapi::tbb::global_control control(oneapi::tbb::global_control::max_allowed_parallelism,
-                                      threads > 0 ? static_cast<size_t>(threads) : all);
+  const ThreadLimit limit(threads);
   const size_t targets = model.targets().size();
   const auto contexts = static_cast<size_t>(model.context_count());
   const auto examples = ReadExamples(source, targets, max_images);
@@ -124,6 +121,7 @@ ForestModel LearnArrangements(const ForestModel& model, const TrainingSource& so
   }
   ForestData data = model.data();
   data.arrangements.clear();
+  data.refinement = Refinement();  // was learned on the old ones
   for (Moments& moments : of_context) {
     moments.Borrow(whole, kBorrowed);
     data.arrangements.push_back(Analyse(moments));

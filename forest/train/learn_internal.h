@@ -5,20 +5,34 @@
 #include <cmath>
 #include <vector>
 
+#include "forest/agree_internal.h"
+#include "forest/classify.h"
 #include "forest/forest.h"
 #include "forest/propose_internal.h"
+#include "forest/train.h"
 
 namespace ossa::forest {
 
 inline constexpr float kHitRadius_m = 0.10F;  // the measure of Shotton 2011
 
-/// What a validation image's pixels say, and the truth.
+/// What an image's pixels say, and the truth.
 struct ValidationImage {
+  depth::Camera camera;
   Evidence evidence;
   std::vector<float> context;  // posterior
   std::vector<Eigen::Vector3f> target_m;
   std::vector<uint8_t> target_visible;
 };
+
+Classification ClassifyImage(const ForestModel& model, const TrainingImage& image);
+ValidationImage GatherImage(const ForestModel& model, const TrainingImage& image);
+
+/// What the stages before the refinement make of an image.
+struct Heard {
+  ModesOfTargets modes;
+  Beliefs beliefs;
+};
+Heard Hear(const ForestModel& model, const ValidationImage& image);
 
 /// A mode or a place with its features and what is true of it.
 template <size_t N>

@@ -1,33 +1,28 @@
 // What mean shift needs to know, learned on images never trained on: how many independent pixels a
 // figure's pixels count as, and for each target bandwidth, threshold, push-back and the shares of
 // the two kinds of votes (Shotton et al. 2011, sec. 3.3: "optimized on a hold-out validation set").
-#include <oneapi/tbb/global_control.h>
 #include <oneapi/tbb/parallel_for.h>
 
 #include <Eigen/Dense>
 #include <algorithm>
 #include <cmath>
-#include <thread>
 
 #include "depth/error.h"
 #include "forest/classify.h"
 #include "forest/train.h"
 #include "forest/train/learn_internal.h"
+#include "forest/train/thread_limit_internal.h"
 
 namespace ossa::forest {
 namespace {
 
-Classification ClassifyImage(const ForestModel& model, const TrainingImage& image) {
-  std::vector<int32_t> pixels;
-  for (size_t i = 0; i < image.label.size(); ++i) {
-    if (image.label[i] != 0) pixels.push_back(static_cast<int32_t>(i));
-  }
+depth::DepthView ViewOf(const TrainingImage& image) {
   const int width = image.camera.width;
-  return Classify(model, {image.depth_mm.data(), width, image.camera.height, width}, image.camera,
-                  pixels);
+  return {image.depth_mm.data(), width, image.camera.height, width};
 }
 
 std::vector<size_t> ChooseImages(const TrainingSource& source, size_t most) {
+  if (source.size() == 0) throw InputError("validation data: no images");
   std::vector<size_t> chosen;
   const size_t count = std::min(source.size(), most);
   for (size_t i = 0; i < count; ++i) chosen.push_back(i * source.size() / count);
@@ -85,12 +80,7 @@ std::vector<ValidationImage> GatherAll(const ForestModel& model, const TrainingS
                                        const std::vector<size_t>& chosen) {
   std::vector<ValidationImage> images(chosen.size());
   oneapi::tbb::parallel_for(size_t{0}, chosen.size(), [&](size_t i) {
-    const TrainingImage image = source.Read(chosen[i]);
-    const int width = image.camera.width;
-    const depth::DepthView view{image.depth_mm.data(), width, image.camera.height, width};
-    const Classification result = ClassifyImage(model, image);
-    images[i] = {GatherEvidence(model, view, image.camera, result), result.context, image.target_m,
-                 image.target_visible};
+    images[i] = GatherImage(model, source.Read(chosen[i]));
   });
   std::erase_if(images,
                 [](const ValidationImage& image) { return image.evidence.surface_m.empty(); });
@@ -166,13 +156,24 @@ void LearnConfidence(const std::vector<JudgedMode>& judged, ProposalTarget* targ
 
 }  // namespace
 
+Classification ClassifyImage(const ForestModel& model, const TrainingImage& image) {
+  std::vector<int32_t> pixels;
+  for (size_t i = 0; i < image.label.size(); ++i) {
+    if (image.label[i] != 0) pixels.push_back(static_cast<int32_t>(i));
+  }
+  return Classify(model, ViewOf(image), image.camera, pixels);
+}
+
+ValidationImage GatherImage(const ForestModel& model, const TrainingImage& image) {
+  const Classification result = ClassifyImage(model, image);
+  return {image.camera, GatherEvidence(model, ViewOf(image), image.camera, result), result.context,
+          image.target_m, image.target_visible};
+}
+
 ForestModel LearnProposals(const ForestModel& model, const TrainingSource& validation,
                            size_t max_images, int threads) {
-  const unsigned all = std::max(1U, std::thread::hardware_concurrency());
-  oneapi::tbb::global_control control(oneapi::tbb::global_control::max_allowed_parallelism,
-                                      threads > 0 ? static_cast<size_t>(threads) : all);
+  const ThreadLimit limit(threads);
   const std::vector<size_t> chosen = ChooseImages(validation, max_images);
-  if (chosen.empty()) throw InputError("validation data: no images");
   ForestData data = model.data();
   data.evidence_scale = LearnEvidenceScale(model, validation, chosen);
   const ForestModel scaled{ForestData(data)};
@@ -183,6 +184,12 @@ ForestModel LearnProposals(const ForestModel& model, const TrainingSource& valid
   });
   const ForestModel single{std::move(data)};
   return single.data().arrangements.empty() ? single : LearnAgreement(single, images);
+}
+
+ForestModel LearnConfidences(const ForestModel& model, const TrainingSource& validation,
+                             size_t max_images, int threads) {
+  const ThreadLimit limit(threads);
+  return LearnAgreement(model, GatherAll(model, validation, ChooseImages(validation, max_images)));
 }
 
 }  // namespace ossa::forest

@@ -1,16 +1,14 @@
 #include "forest/train.h"
 
-#include <oneapi/tbb/global_control.h>
-
 #include <algorithm>
 #include <chrono>
 #include <optional>
-#include <thread>
 
 #include "depth/error.h"
 #include "forest/train/checkpoint_internal.h"
 #include "forest/train/grow_internal.h"
 #include "forest/train/leaves_internal.h"
+#include "forest/train/thread_limit_internal.h"
 
 namespace ossa::forest {
 namespace {
@@ -190,10 +188,7 @@ ForestModel Train(const TrainingSource& source, const TrainingVocabulary& vocabu
                   const TrainOptions& options, const Reducer& reducer, TrainSummary* summary) {
   options.Check();
   const double start_s = Now_s();
-  const unsigned all = std::max(1U, std::thread::hardware_concurrency());
-  oneapi::tbb::global_control threads(
-      oneapi::tbb::global_control::max_allowed_parallelism,
-      options.threads > 0 ? static_cast<size_t>(options.threads) : all);
+  const ThreadLimit limit(options.threads);
   Run run(source, vocabulary, options, reducer, summary);
   ForestData data;
   data.trees = run.Grow();

@@ -111,6 +111,30 @@ TEST(ForestModelFile, TreesOfOlderVersionsAreRead) {
   EXPECT_EQ(tree.entry_begin, (std::vector<uint32_t>{0, 2, 3}));
 }
 
+// A file of version 3 is one of version 4 whose payload ends before the refinement: two empty
+// arrays (their counts, 8 bytes each) and the number of layers.
+TEST(ForestModelFile, FilesOfVersion3AreReadWithoutARefinement) {
+  constexpr size_t kEmptyRefinement = 20;
+  const ossa::test::TemporaryFolder folder;
+  const auto path = folder.path() / "model.ossa";
+  const std::array<char, 8> magic = {'o', 's', 's', 'a', 'f', 'r', 's', 't'};
+  WriteForestModel(path, BallModel());
+  const auto sealed = ReadSealedFile(path, {magic, 4, "forest model"});
+  PayloadReader reader(sealed, "model");
+  std::vector<std::byte> payload(reader.Get<uint64_t>("unpacked length"));
+  const auto packed = reader.GetVector<std::byte>("payload");
+  ASSERT_EQ(ZSTD_decompress(payload.data(), payload.size(), packed.data(), packed.size()),
+            payload.size());
+  payload.resize(payload.size() - kEmptyRefinement);
+  std::vector<std::byte> again(ZSTD_compressBound(payload.size()));
+  again.resize(ZSTD_compress(again.data(), again.size(), payload.data(), payload.size(), 3));
+  PayloadWriter outer;
+  outer.Put<uint64_t>(payload.size());
+  outer.PutVector(again);
+  WriteSealedFile(path, {magic, 3, "forest model"}, outer.bytes());
+  EXPECT_EQ(test::BytesOf(ReadForestModel(path)), test::BytesOf(BallModel()));
+}
+
 TEST(ForestModelFile, AFileOfAnotherKindIsRefused) {
   const std::string text = "this is a letter, not a forest; it is long enough to hold a header";
   EXPECT_NE(RefusalOfBytes({text.begin(), text.end()}).find("forest model"), std::string::npos);

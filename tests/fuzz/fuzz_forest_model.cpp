@@ -34,6 +34,11 @@ ForestModel SmallModel() {
   data.trees = {tree};
   data.targets = {{.name = "Head", .classes = {1, 2}, .correct = {}, .visible = {}}};
   data.manifest = "{}";
+  data.arrangements = {{{0, 0, 0}, {0.1F, 0, 0}, {0.02F}}};
+  constexpr size_t kInputs = 64;  // that describe an object of one target, three classes
+  data.refinement = {std::vector<float>(kInputs, 0.0F),
+                     std::vector<float>(kInputs, 1.0F),
+                     {{std::vector<float>(kInputs * 4, 0.0F), std::vector<float>(4, 0.5F)}}};
   return ForestModel(data);
 }
 

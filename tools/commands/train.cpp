@@ -26,6 +26,7 @@ namespace fs = std::filesystem;
 struct TrainArguments {
   std::vector<fs::path> datasets;
   std::vector<fs::path> validation;
+  std::vector<fs::path> refinement;
   std::vector<fs::path> import_pcl;
   fs::path trees_of;
   fs::path out;
@@ -87,6 +88,9 @@ void AddOptions(CLI::App* app, TrainArguments* a) {
   app->add_option("--validation-images", a->validation_images, "images of them to use")
       ->capture_default_str()
       ->check(Positive());
+  app->add_option("--refinement", a->refinement,
+                  "data sets of training subjects that no tree has seen: the second stage, which "
+                  "moves joints to where they belong, is learned on them");
   app->add_option("--memory", a->memory, "for images; larger data stream in parts")
       ->capture_default_str();
   app->add_option("--max-megabytes", a->max_megabytes,
@@ -151,14 +155,25 @@ std::vector<std::string> AllTerms(const TrainArguments& a, const tools::PersonSo
   return all;
 }
 
+nlohmann::ordered_json DataOf(const std::vector<tools::DatasetManifest>& manifests) {
+  auto data = nlohmann::ordered_json::array();
+  for (const tools::DatasetManifest& m : manifests) {
+    data.push_back({{"command", WithoutFolders(m.command)}, {"frames", m.frames}});
+  }
+  return data;
+}
+
+void NoteRefinement(const TrainArguments& a, nlohmann::ordered_json* card) {
+  if (a.refinement.empty()) return;
+  (*card)["refinement_data"] = DataOf(tools::PersonSource(a.refinement, {0, 100}).manifests());
+}
+
 nlohmann::ordered_json Card(const TrainArguments& a, const tools::PersonSource& source,
                             const forest::TrainSummary& summary) {
   nlohmann::ordered_json card;
   card["command"] = a.command;
-  card["data"] = nlohmann::ordered_json::array();
-  for (const tools::DatasetManifest& m : source.manifests()) {
-    card["data"].push_back({{"command", WithoutFolders(m.command)}, {"frames", m.frames}});
-  }
+  card["data"] = DataOf(source.manifests());
+  NoteRefinement(a, &card);
   card["terms"] = AllTerms(a, source);
   card["data_hash"] = fmt::format("{:016x}", Fnv1a(source.fingerprint()));
   card["images"] = summary.images;
@@ -190,6 +205,23 @@ int ImportPcl(const TrainArguments& a) {
 
 constexpr size_t kArrangedImages = 40000;  // 60 numbers in 8 contexts ask for no more
 
+// The second stage, on images and their mirror images; then how far it is to be trusted.
+forest::ForestModel Refined(const TrainArguments& a, const forest::ForestModel& model,
+                            const tools::PersonSource& held_out) {
+  const tools::PersonSource fresh(a.refinement, {0, 100});
+  Progress bar("refinement", a.quiet);
+  forest::RefinementOptions options;
+  options.seed = a.options.seed;
+  options.threads = a.options.threads;
+  options.stop = Interrupted;
+  options.progress = [&](int64_t done, int64_t total) {
+    bar.Update(static_cast<double>(done), static_cast<double>(total));
+  };
+  const forest::ForestModel refined =
+      forest::LearnRefinement(model, tools::MirroredSource(fresh), options);
+  return forest::LearnConfidences(refined, held_out, a.validation_images, a.options.threads);
+}
+
 forest::ForestModel LearnJoints(const TrainArguments& a, const forest::ForestModel& model,
                                 const tools::PersonSource& source,
                                 const tools::PersonSource& held_out) {
@@ -197,7 +229,9 @@ forest::ForestModel LearnJoints(const TrainArguments& a, const forest::ForestMod
   const forest::ForestModel arranged =
       forest::LearnArrangements(model, source, kArrangedImages, threads);
   if (held_out.size() == 0) return arranged;
-  return forest::LearnProposals(arranged, held_out, a.validation_images, threads);
+  const forest::ForestModel proposing =
+      forest::LearnProposals(arranged, held_out, a.validation_images, threads);
+  return a.refinement.empty() ? proposing : Refined(a, proposing, held_out);
 }
 
 // Training images and those held out for proposals.
@@ -221,6 +255,8 @@ int LearnAgain(const TrainArguments& a) {
   if (card.is_object()) {
     card["proposals_command"] = a.command;
     card.erase("accuracy");  // of the proposals as they were
+    card.erase("refinement_data");
+    NoteRefinement(a, &card);
     data.manifest = card.dump(2);
   }
   forest::WriteForestModel(a.out, forest::ForestModel(std::move(data)));

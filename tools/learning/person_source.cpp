@@ -101,6 +101,27 @@ forest::TrainingImage PersonImage(const LabelledFrame& frame, const TruthBody& b
   return image;
 }
 
+forest::TrainingImage Mirrored(const forest::TrainingImage& image) {
+  forest::TrainingImage mirrored = image;
+  const int width = image.camera.width;
+  mirrored.camera.cx = width - 1 - image.camera.cx;
+  for (int v = 0; v < image.camera.height; ++v) {
+    for (int u = 0; u < width; ++u) {
+      const auto from = static_cast<size_t>(v * width + u);
+      const auto to = static_cast<size_t>(v * width + width - 1 - u);
+      mirrored.depth_mm[to] = image.depth_mm[from];
+      mirrored.label[to] = recon::kMirroredPart[image.label[from]];
+    }
+  }
+  mirrored.context = static_cast<uint8_t>((kFacingSectors - image.context) % kFacingSectors);
+  for (size_t j = 0; j < recon::kJointCount; ++j) {
+    const auto other = static_cast<size_t>(recon::kMirroredJoint[j]);
+    mirrored.target_m[j] = image.target_m[other].cwiseProduct(Eigen::Vector3f(-1, 1, 1));
+    mirrored.target_visible[j] = image.target_visible[other];
+  }
+  return mirrored;
+}
+
 PersonSource::PersonSource(const std::vector<std::filesystem::path>& datasets, Range keep) {
   for (const auto& folder : datasets) {
     readers_.emplace_back(folder);

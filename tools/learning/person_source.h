@@ -53,4 +53,22 @@ class PersonSource final : public forest::TrainingSource {
   std::string fingerprint_;
 };
 
+/// The image of the person's mirror image: left and right change places.
+forest::TrainingImage Mirrored(const forest::TrainingImage& image);
+
+/// Each image of another source, and after them each mirrored.
+class MirroredSource final : public forest::TrainingSource {
+ public:
+  explicit MirroredSource(const forest::TrainingSource& source) : source_(source) {}
+
+  size_t size() const override { return 2 * source_.size(); }
+  forest::TrainingImage Read(size_t index) const override {
+    const size_t half = source_.size();
+    return index < half ? source_.Read(index) : Mirrored(source_.Read(index - half));
+  }
+
+ private:
+  const forest::TrainingSource& source_;
+};
+
 }  // namespace ossa::tools

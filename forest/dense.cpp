@@ -1,0 +1,73 @@
+#include "forest/dense_internal.h"
+
+#include <cstring>
+
+#include "forest/clones_internal.h"
+
+namespace ossa::forest {
+namespace {
+
+constexpr Eigen::Index kLanes = 8;
+constexpr Eigen::Index kTileColumns = 2 * kLanes;
+
+using Lanes = float __attribute__((vector_size(kLanes * sizeof(float))));
+
+struct Factors {
+  const float* a = nullptr;  // rows × inner
+  const float* b = nullptr;  // inner × columns
+  float* out = nullptr;      // rows × columns
+  Eigen::Index inner = 0;
+  Eigen::Index columns = 0;
+};
+
+// kRows rows of the product by kTileColumns columns, held in registers while the inner index runs.
+template <int kRows>
+[[gnu::always_inline]] inline void Tile(const Factors& f, Eigen::Index row, Eigen::Index column) {
+  Lanes sum[kRows][2] = {};
+  for (Eigen::Index k = 0; k < f.inner; ++k) {
+    Lanes b[2];
+    std::memcpy(b, f.b + k * f.columns + column, sizeof(b));
+    for (int r = 0; r < kRows; ++r) {
+      const float a = f.a[(row + r) * f.inner + k];
+      sum[r][0] += a * b[0];
+      sum[r][1] += a * b[1];
+    }
+  }
+  for (int r = 0; r < kRows; ++r) {
+    std::memcpy(f.out + (row + r) * f.columns + column, sum[r], sizeof(sum[r]));
+  }
+}
+
+OSSA_CLONES void MultiplyTiles(const Factors& f, Eigen::Index rows) {
+  constexpr int kTileRows = 4;
+  for (Eigen::Index column = 0; column + kTileColumns <= f.columns; column += kTileColumns) {
+    Eigen::Index row = 0;
+    for (; row + kTileRows <= rows; row += kTileRows) Tile<kTileRows>(f, row, column);
+    for (; row < rows; ++row) Tile<1>(f, row, column);
+  }
+}
+
+// The columns that fill no tile.
+void MultiplyRest(const Factors& f, Eigen::Index rows) {
+  for (Eigen::Index row = 0; row < rows; ++row) {
+    for (Eigen::Index c = f.columns - f.columns % kTileColumns; c < f.columns; ++c) {
+      float sum = 0.0F;
+      for (Eigen::Index k = 0; k < f.inner; ++k) {
+        sum += f.a[row * f.inner + k] * f.b[k * f.columns + c];
+      }
+      f.out[row * f.columns + c] = sum;
+    }
+  }
+}
+
+}  // namespace
+
+RowMatrix Product(const RowMatrix& a, const RowMatrix& b) {
+  RowMatrix out(a.rows(), b.cols());
+  const Factors factors{a.data(), b.data(), out.data(), a.cols(), b.cols()};
+  MultiplyTiles(factors, a.rows());
+  MultiplyRest(factors, a.rows());
+  return out;
+}
+
+}  // namespace ossa::forest

@@ -1,0 +1,205 @@
+// An object in numbers, for the refinement. Positions are told about the object's own root, in axes
+// of which z runs along the ray to it: wherever in the image somebody stands, the numbers are the
+// same. Lengths are metres; what is far says no more than "far" and is cut off.
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <cmath>
+
+#include "forest/refine_internal.h"
+
+namespace ossa::forest {
+namespace {
+
+constexpr size_t kModes = 3;             // told of a target
+constexpr size_t kNumbersOfMode = 8;     // AddModes
+constexpr size_t kNumbersOfTarget = 15;  // AddTarget, without the modes
+constexpr size_t kNumbersOfClass = 7;    // AddClasses
+constexpr size_t kNumbersOfObject = 10;  // AddObject, without the contexts
+constexpr float kFar_m = 1.0F;           // of modes and predictions from the place
+constexpr double kBorderReach_m = 0.5;   // farther borders of the image do not matter
+constexpr float kSurfaceReach_m = 0.6F;  // nor surface
+
+// Evidence's surface in the frame.
+struct Surface {
+  std::vector<Eigen::Vector3f> point_m;
+  Eigen::Vector3f centre_m = Eigen::Vector3f::Zero();
+  float area_m2 = 0.0F;
+};
+
+class Describer {
+ public:
+  Describer(const depth::Camera& camera, const Evidence& evidence, Description* out)
+      : camera_(camera), evidence_(evidence), out_(*out) {
+    for (size_t i = 0; i < evidence.surface_m.size(); ++i) {
+      surface_.point_m.push_back(InFrame(evidence.surface_m[i].cast<double>()));
+      surface_.centre_m += evidence.area_m2[i] * surface_.point_m.back();
+      surface_.area_m2 += evidence.area_m2[i];
+    }
+    if (surface_.area_m2 > 0) surface_.centre_m /= surface_.area_m2;
+  }
+
+  void AddObject(std::span<const float> context_posterior, const Beliefs& beliefs) {
+    out_.value.insert(out_.value.end(), context_posterior.begin(), context_posterior.end());
+    Add(surface_.area_m2);
+    Add(surface_.centre_m);
+    Add(static_cast<float>(beliefs.margin));
+    Add(static_cast<float>(beliefs.mean_confidence));
+    Add(static_cast<float>(beliefs.mean_support));
+    Add(static_cast<float>(out_.root_m.norm()));
+    Add(static_cast<float>(out_.root_m.x() / out_.root_m.z()));
+    Add(static_cast<float>(out_.root_m.y() / out_.root_m.z()));
+  }
+
+  void AddTarget(size_t t, const Beliefs& beliefs) {
+    const Belief& belief = beliefs.target[t];
+    Add(InFrame(out_.place_m[t]));
+    Add(FromPlace(t, belief.predicted_m));
+    Add(static_cast<float>(0.5 * std::log(belief.covariance_m2.trace() / 3.0)));
+    Add(static_cast<float>(belief.support()));
+    Add(static_cast<float>(beliefs.neighbour_support[t]));
+    AddBorders(out_.place_m[t]);
+    AddNearestSurface(InFrame(out_.place_m[t]));
+  }
+
+  void AddModes(size_t t, const ProposalTarget& target, const std::vector<Mode>& modes,
+                const Belief& belief) {
+    for (size_t m = 0; m < kModes; ++m) {
+      if (m >= modes.size()) {
+        out_.value.insert(out_.value.end(), kNumbersOfMode, 0.0F);
+        continue;
+      }
+      Add(FromPlace(t, modes[m].position_m.cast<double>()));
+      Add(static_cast<float>(belief.confidence[m]));
+      Add(static_cast<float>(belief.weight[m]));
+      Add(static_cast<float>(Evaluate(target.visible, modes[m].feature)));
+      Add(modes[m].feature[0]);  // surface of the target's classes
+      Add(modes[m].feature[1]);  // votes
+    }
+  }
+
+  // How much surface each class has, where, and how far spread.
+  void AddClasses() {
+    const auto classes = static_cast<size_t>(evidence_.class_count);
+    constexpr float kLeastProbability = 0.01F;
+    std::vector<float> area(classes, 0.0F);
+    std::vector<Eigen::Array3f> sum(classes, Eigen::Array3f::Zero());
+    std::vector<Eigen::Array3f> square(classes, Eigen::Array3f::Zero());
+    for (size_t i = 0; i < surface_.point_m.size(); ++i) {
+      const Eigen::Array3f x = surface_.point_m[i].array();
+      for (size_t c = 1; c < classes; ++c) {
+        const float p = evidence_.probability[i * classes + c];
+        if (p < kLeastProbability) continue;
+        const float weight = p * evidence_.area_m2[i];
+        area[c] += weight;
+        sum[c] += weight * x;
+        square[c] += weight * x * x;
+      }
+    }
+    for (size_t c = 1; c < classes; ++c) {
+      constexpr float kLeastArea_m2 = 1e-4F;
+      const float whole = std::max(area[c], kLeastArea_m2);
+      const Eigen::Array3f mean = sum[c] / whole;
+      Add(std::sqrt(area[c]));
+      Add(Eigen::Vector3f(mean));
+      Add(Eigen::Vector3f((square[c] / whole - mean * mean).max(0.0F).sqrt()));
+    }
+  }
+
+ private:
+  Eigen::Vector3f InFrame(const Eigen::Vector3d& p_m) const {
+    return (out_.frame_from_camera * (p_m - out_.root_m)).cast<float>();
+  }
+  Eigen::Vector3f FromPlace(size_t t, const Eigen::Vector3d& p_m) const {
+    const Eigen::Vector3d offset = out_.frame_from_camera * (p_m - out_.place_m[t]);
+    return offset.cast<float>().cwiseMax(-kFar_m).cwiseMin(kFar_m);
+  }
+  void Add(float value) { out_.value.push_back(value); }
+  void Add(const Eigen::Vector3f& v) {
+    out_.value.insert(out_.value.end(), v.data(), v.data() + 3);
+  }
+
+  // How far inside the image a place is seen: of the nearer side, the upper and the lower border.
+  void AddBorders(const Eigen::Vector3d& place_m) {
+    const double z_m = std::max(place_m.z(), 0.1);
+    const double u = camera_.cx - camera_.fx * place_m.x() / z_m;
+    const double v = camera_.cy - camera_.fy * place_m.y() / z_m;
+    const double metres = z_m / camera_.fx;
+    for (const double pixels : {std::min(u, camera_.width - 1 - u), v, camera_.height - 1 - v}) {
+      Add(static_cast<float>(std::clamp(pixels * metres, -kBorderReach_m, kBorderReach_m)));
+    }
+  }
+
+  // How near surface is at all; how near across the line of sight, and how far it lies behind the
+  // place there: before it, something hides the place, far behind, nothing can be there.
+  void AddNearestSurface(const Eigen::Vector3f& place_m) {
+    const Eigen::Vector3f ray = (place_m + RootFromCamera()).normalized();
+    float nearest_m = kSurfaceReach_m;
+    float nearest_aside_m = kSurfaceReach_m;
+    float behind_m = 0.0F;
+    for (const Eigen::Vector3f& point : surface_.point_m) {
+      const Eigen::Vector3f off = point - place_m;
+      const float along = off.dot(ray);
+      const float aside = std::sqrt(std::max(off.squaredNorm() - along * along, 0.0F));
+      nearest_m = std::min(nearest_m, off.norm());
+      if (aside >= nearest_aside_m) continue;
+      nearest_aside_m = aside;
+      behind_m = along;
+    }
+    Add(nearest_m);
+    Add(nearest_aside_m);
+    Add(std::clamp(behind_m, -kSurfaceReach_m, kSurfaceReach_m));
+  }
+
+  // In the frame's axes.
+  Eigen::Vector3f RootFromCamera() const {
+    return {0.0F, 0.0F, static_cast<float>(out_.root_m.norm())};
+  }
+
+  const depth::Camera& camera_;
+  const Evidence& evidence_;
+  Description& out_;
+  Surface surface_;
+};
+
+// The root is the mean of the places, those of little support less.
+void PlaceFrame(const Beliefs& beliefs, Description* out) {
+  constexpr double kLeastSupport = 0.05;
+  double whole = 0;
+  for (size_t t = 0; t < out->place_m.size(); ++t) {
+    const double weight = std::max(beliefs.target[t].support(), kLeastSupport);
+    out->root_m += weight * out->place_m[t];
+    whole += weight;
+  }
+  out->root_m /= whole;
+  const Eigen::Vector3d z = out->root_m.normalized();
+  const Eigen::Vector3d x = Eigen::Vector3d::UnitY().cross(z).normalized();
+  out->frame_from_camera << x.transpose(), z.cross(x).transpose(), z.transpose();
+}
+
+}  // namespace
+
+size_t DescriptionSize(size_t targets, size_t classes, size_t contexts) {
+  return contexts + kNumbersOfObject + targets * (kNumbersOfTarget + kModes * kNumbersOfMode) +
+         (classes - 1) * kNumbersOfClass;
+}
+
+Description Describe(const ForestModel& model, const depth::Camera& camera,
+                     const Evidence& evidence, std::span<const float> context_posterior,
+                     const ModesOfTargets& modes, const Beliefs& beliefs) {
+  Description description;
+  for (size_t t = 0; t < modes.size(); ++t) {
+    description.place_m.push_back(
+        Fuse(beliefs.target[t], modes[t], model.targets()[t].mode_noise_m));
+  }
+  PlaceFrame(beliefs, &description);
+  Describer describer(camera, evidence, &description);
+  describer.AddObject(context_posterior, beliefs);
+  for (size_t t = 0; t < modes.size(); ++t) {
+    describer.AddTarget(t, beliefs);
+    describer.AddModes(t, model.targets()[t], modes[t], beliefs.target[t]);
+  }
+  describer.AddClasses();
+  return description;
+}
+
+}  // namespace ossa::forest

@@ -1,0 +1,57 @@
+#include "tools/learning/person_source.h"
+
+#include <gtest/gtest.h>
+
+#include "recon/body/parts.h"
+#include "recon/skeleton.h"
+
+namespace ossa::tools {
+namespace {
+
+// Four by two pixels, two of them somebody's left hand and foot; joints in a row.
+forest::TrainingImage SmallImage() {
+  forest::TrainingImage image;
+  image.camera = depth::KinectV1Camera(4, 2);
+  image.depth_mm = {0, 1500, 0, 0, 1600, 0, 0, 0};
+  image.label = {0, 16, 0, 0, 30, 0, 0, 0};
+  image.context = 2;
+  for (int j = 0; j < recon::kJointCount; ++j) {
+    image.target_m.emplace_back(0.1F * static_cast<float>(j), 1.0F, 2.0F);
+    image.target_visible.push_back(j % 3 == 0 ? 1 : 0);
+  }
+  return image;
+}
+
+TEST(Mirrored, SwapsLeftAndRight) {
+  const forest::TrainingImage image = SmallImage();
+  const forest::TrainingImage mirrored = Mirrored(image);
+  EXPECT_EQ(mirrored.depth_mm, (std::vector<uint16_t>{0, 0, 1500, 0, 0, 0, 0, 1600}));
+  EXPECT_EQ(mirrored.label, (std::vector<uint8_t>{0, 0, 17, 0, 0, 0, 0, 31}));
+  EXPECT_EQ(mirrored.context, kFacingSectors - 2);
+  const auto left = static_cast<size_t>(recon::Index(recon::Joint::kHandLeft));
+  const auto right = static_cast<size_t>(recon::Index(recon::Joint::kHandRight));
+  EXPECT_EQ(mirrored.target_m[left].x(), -image.target_m[right].x());
+  EXPECT_EQ(mirrored.target_visible[left], image.target_visible[right]);
+}
+
+TEST(Mirrored, PointsOfTheSurfaceAreMirroredToo) {
+  const forest::TrainingImage image = SmallImage();
+  const forest::TrainingImage mirrored = Mirrored(image);
+  const Eigen::Vector3d before = depth::BackProject(image.camera, 1, 0, 1500);
+  const Eigen::Vector3d after = depth::BackProject(mirrored.camera, 2, 0, 1500);
+  EXPECT_NEAR((after - Eigen::Vector3d(-before.x(), before.y(), before.z())).norm(), 0.0, 1e-12);
+}
+
+TEST(Mirrored, TwiceIsTheImageItself) {
+  const forest::TrainingImage image = SmallImage();
+  const forest::TrainingImage twice = Mirrored(Mirrored(image));
+  EXPECT_EQ(twice.depth_mm, image.depth_mm);
+  EXPECT_EQ(twice.label, image.label);
+  EXPECT_EQ(twice.context, image.context);
+  EXPECT_EQ(twice.target_m, image.target_m);
+  EXPECT_EQ(twice.target_visible, image.target_visible);
+  EXPECT_NEAR(twice.camera.cx, image.camera.cx, 1e-12);
+}
+
+}  // namespace
+}  // namespace ossa::tools
