@@ -83,13 +83,19 @@ LocalMixture LocalMixture::Learn(const Eigen::MatrixXd& inputs, const Eigen::Mat
 }
 
 LocalMixture::LocalMixture(std::vector<GaussianProcess> models) : models_(std::move(models)) {
+  std::vector<double> widths;
   for (const GaussianProcess& model : models_) {
     centres_.emplace_back(model.inputs().colwise().mean().transpose());
+    widths.push_back(model.parameters().w);
   }
+  if (widths.empty()) return;
+  const auto middle = widths.begin() + static_cast<ptrdiff_t>(widths.size() / 2);
+  std::nth_element(widths.begin(), middle, widths.end());
+  w_ = *middle;
 }
 
 double LocalMixture::LogSimilarity(size_t model, const Eigen::VectorXd& input) const {
-  return -0.5 * models_[model].parameters().w * (input - centres_[model]).squaredNorm();
+  return -0.5 * w_ * (input - centres_[model]).squaredNorm();
 }
 
 GaussianPrediction LocalMixture::Predict(const Eigen::VectorXd& input, int nearby) const {

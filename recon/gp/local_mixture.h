@@ -38,11 +38,14 @@ class LocalMixture {
   double noise() const;
 
  private:
-  /// Logarithm of eq. 10.
+  /// Logarithm of eq. 10. Its W has no index of a model, as in the local processes of
+  /// Nguyen-Tuong 2008 that the paper follows: one width for all. With each model's own, the model
+  /// of the widest kernel is similar to everything and speaks everywhere.
   double LogSimilarity(size_t model, const Eigen::VectorXd& input) const;
 
   std::vector<GaussianProcess> models_;
   std::vector<Eigen::VectorXd> centres_;  // C_q
+  double w_ = 0.0;                        // W of eq. 10: the median of those learned in the regions
 };
 
 /// Lloyd's K-means with seeded k-means++ starts; returns the region of each row.

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <Eigen/LU>
+#include <array>
 #include <cmath>
 #include <random>
 
@@ -110,6 +111,35 @@ TEST(BudgetedSamples, FirstDropsTheSampleWhoseLossTheKlDivergenceFeelsLeast) {
   const auto kept = BudgetedSamples(p, s.x, s.y, 11);
   ASSERT_EQ(kept.size(), 11u);
   EXPECT_EQ(std::count(kept.begin(), kept.end(), static_cast<int>(least)), 0);
+}
+
+// Eqs. 10, 12 and 13 written out, over the L nearest centres. The kernels' own widths differ a
+// thousandfold: the widest must not speak for places that are far from its samples.
+TEST(LocalMixture, WeighsTheNearestModelsByOneKernelForAll) {
+  const Samples s = MakeSamples(30);
+  std::vector<GaussianProcess> models;
+  const std::array<double, 3> widths = {0.1, 10.0, 100.0};
+  for (int q = 0; q < 3; ++q) {
+    GaussianProcessParameters p;
+    p.w = widths[static_cast<size_t>(q)];
+    Eigen::MatrixXd x = s.x.middleRows(10 * q, 10);
+    x.col(0).array() += q;  // regions a metre apart
+    models.emplace_back(p, x, s.y.middleRows(10 * q, 10));
+  }
+  const Eigen::VectorXd at = Eigen::Vector2d(1.6, 0.1);
+  Eigen::Vector3d sum = Eigen::Vector3d::Zero();
+  double variance = 0.0, total = 0.0;
+  for (const size_t q : {1, 2}) {  // L = 2: the centres at about 1 and 2
+    const Eigen::VectorXd centre = models[q].inputs().colwise().mean().transpose();
+    const double similarity = std::exp(-0.5 * 10.0 * (at - centre).squaredNorm());
+    const GaussianPrediction local = models[q].Predict(at);
+    sum += similarity * local.mean;
+    variance += similarity * local.variance;
+    total += similarity;
+  }
+  const GaussianPrediction made = LocalMixture(models).Predict(at, 2);
+  EXPECT_LT((made.mean - sum / total).norm(), 1e-12);  // rounding
+  EXPECT_NEAR(made.variance, variance / total, 1e-12);
 }
 
 TEST(LocalMixture, FollowsTheFunctionAndOpensAModelWhereNothingIsSimilar) {
