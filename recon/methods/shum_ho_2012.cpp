@@ -39,17 +39,21 @@ class ShumHo2012 : public Reconstructor {
   ReconstructedPosture Step(const ReconstructionInput& input) override {
     const PreparedPosture prepared = person_.Prepare(input);
     const int match = BestMatch(prepared);
-    // Sec. 6.1: what Kinect sees stays, what it misses comes from the matched posture. A joint that
-    // is missing hangs on its parent as it does there; positions stay the person's own size.
+    // Sec. 6.1: what the sensor has stays, what it misses comes from the matched posture.
+    // Departure: a missing joint hangs on its parent as it does there. The paper takes its
+    // position, which keeps no segment's length, and leaves that to the physical character; without
+    // one, eqs. 3-4 would shorten what the two positions disagree about.
     Posture merged = prepared.normalised;
     const Posture matched = database_->posture(match);
     for (size_t i = 1; i < kJointCount; ++i) {
-      if (prepared.reliability[i] > 0.0) continue;
+      if (prepared.present[i] > 0.0) continue;
       const auto parent = static_cast<size_t>(kJointParent[i]);
       merged.position_m[i] =
           merged.position_m[parent] + matched.position_m[i] - matched.position_m[parent];
     }
     ReconstructedPosture out{person_.InCamera(merged, prepared), prepared.reliability};
+    // Sec. 6.2. Departure: all turns about the bones are the matched posture's; of positions alone,
+    // without the SDK's orientations, none is known.
     const int matches[] = {match};
     const double weights[] = {1.0};
     out.orientation =
@@ -61,12 +65,12 @@ class ShumHo2012 : public Reconstructor {
   void Reset() override { person_.Reset(); }
 
  private:
-  /// Sec. 5.2: the posture nearest in the reduced space; a missing joint counts as the mean.
+  /// Sec. 5.2: the posture nearest in the reduced space; a joint that the sensor does not have in
+  /// this frame counts as the mean. The paper knows no reliability: inferred joints are there.
   int BestMatch(const PreparedPosture& prepared) const {
     PostureVector difference = VectorOf(prepared.normalised) - database_->mean();
     for (int i = 0; i < kJointCount; ++i) {
-      if (prepared.reliability[static_cast<size_t>(i)] == 0.0)
-        difference.segment<3>(3 * i).setZero();
+      if (prepared.present[static_cast<size_t>(i)] == 0.0) difference.segment<3>(3 * i).setZero();
     }
     const Reduced query = reduced_.projection.transpose().lazyProduct(difference);
     Eigen::Index best = 0;

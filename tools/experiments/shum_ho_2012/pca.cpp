@@ -33,6 +33,7 @@ recon::PostureDatabase AuthoredDatabase(uint64_t seed, double threshold_m) {
     clips.push_back(std::move(postures));
   }
   recon::DatabaseOptions database;
+  database.filter = recon::DatabaseFilter::kSumSquared;  // sec. 5.1
   database.threshold_m = threshold_m;
   return recon::PostureDatabase::Build(clips, database);
 }
@@ -110,7 +111,7 @@ Matched MatchAll(const Eigen::MatrixXf& postures, const Eigen::MatrixXf& reduced
 }  // namespace
 
 Table DimensionStudy(ExperimentContext& context) {
-  const double threshold_m = context.parameters.Number("database_threshold_m", 0.2);
+  const double threshold_m = context.parameters.Number("database_threshold_m", 0.5);
   const recon::PostureDatabase database = AuthoredDatabase(context.seed, threshold_m);
   const Eigen::MatrixXf postures = database.postures();
   const Eigen::VectorXf mean = postures.rowwise().mean();
