@@ -36,14 +36,17 @@ std::array<float, 4 * kJointCount> QuaternionsOf(const PostureClip& clip, size_t
   return out;
 }
 
-/// Algorithm 1: what is kept of one clip, and the distances of successive kept postures.
+/// Algorithm 1: what is kept of one clip, and the distances of successive kept postures. Each
+/// posture is compared with the one kept last: connections are then steps that people make without
+/// a discontinuity, and their spread is small, as in the paper (0.21 +- 0.02 m for thres_1 = 0.2
+/// m). Compared with all that was kept, a move back through kept postures would make one connection
+/// a metre long. What comes twice, algorithm 2 removes.
 std::vector<ClipPosture> FilterIntraPoses(const PostureClip& clip, const DatabaseOptions& options,
                                           std::vector<double>& connections) {
   JointWeights all;
   all.fill(1.0);
   const auto threshold = static_cast<float>(options.threshold_m);
   std::vector<ClipPosture> kept;
-  PostureGrid grid(threshold, options.filter);
   double yaw_rad = 0.0;
   for (size_t frame = 0; frame < clip.postures.size(); ++frame) {
     if (!IsFinite(clip.postures[frame])) continue;
@@ -51,11 +54,13 @@ std::vector<ClipPosture> FilterIntraPoses(const PostureClip& clip, const Databas
     yaw_rad = placement.yaw_rad;
     const PostureVector vector =
         VectorOf(Retargeted(Normalised(clip.postures[frame], placement), StandardBoneLengths()));
-    if (grid.AnyWithin(vector)) continue;
-    grid.Insert(vector);
+    const auto distance_from_last = [&](DatabaseFilter filter) {
+      constexpr float kFar_m = 100.0F;
+      return FilterDistance(kept.back().vector.data(), vector.data(), filter, kFar_m);
+    };
     if (!kept.empty()) {
-      connections.push_back(FilterDistance(kept.back().vector.data(), vector.data(),
-                                           DatabaseFilter::kMaxJoint, 100.0F));
+      if (distance_from_last(options.filter) <= threshold) continue;
+      connections.push_back(distance_from_last(DatabaseFilter::kMaxJoint));
     }
     kept.push_back({vector, QuaternionsOf(clip, frame, yaw_rad)});
   }
@@ -162,14 +167,22 @@ PostureDatabase PostureDatabase::With(const PostureVector& posture, const std::s
   return db;
 }
 
-PostureDatabase PostureDatabase::Truncated(int count) const {
+PostureDatabase PostureDatabase::Filtered(double threshold_m) const {
+  std::vector<PostureClip> clips;
+  for (int i = 0; i < size(); ++i) {
+    if (clips.empty() || clips.back().name != clip_of(i)) clips.push_back({clip_of(i), {}, {}});
+    clips.back().postures.push_back(posture(i));
+    clips.back().orientations.push_back(orientations(i));
+  }
+  DatabaseOptions options = options_;
+  options.threshold_m = threshold_m;
+  return Build(clips, options);
+}
+
+PostureDatabase PostureDatabase::WithEdges(int most_edges) const {
   PostureDatabase db = *this;
-  count = std::clamp(count, 1, size());
-  db.postures_ = postures_.leftCols(count).eval();
-  db.quaternions_.resize(static_cast<size_t>(count) * 4 * kJointCount);
-  db.clip_of_.resize(static_cast<size_t>(count));
+  db.options_.most_edges = most_edges;
   db.Connect();
-  db.Summarise();
   return db;
 }
 

@@ -27,7 +27,8 @@ struct PostureClip {
 };
 
 enum class DatabaseFilter : uint32_t {
-  kSumSquared = 0,  // root of the summed squared joint distances (Shum 2013 sec. V-A)
+  kSumSquared = 0,  // root of the summed squared joint distances (Shum & Ho 2012 sec. 5.1, Shum
+                    // 2013 sec. V-A; they put the threshold on the sum itself)
   kMaxJoint = 1,    // largest joint distance (Plantard 2016 eq. 1)
 };
 
@@ -43,8 +44,9 @@ struct DatabaseOptions {
 class PostureDatabase {
  public:
   /// Normalises, retargets, filters within clips then between clips (Plantard 2016 algs. 1-4; with
-  /// kSumSquared the same screening under Shum's distance) and connects. Throws InputError when no
-  /// finite posture is given.
+  /// kSumSquared the same screening under Shum's distance) and connects. Departure: algorithm 2 as
+  /// printed keeps a posture that is far from any one other; the text's "same process" is meant,
+  /// far from all kept ones. Throws InputError when no finite posture is given.
   static PostureDatabase Build(const std::vector<PostureClip>& clips,
                                const DatabaseOptions& options);
 
@@ -75,8 +77,9 @@ class PostureDatabase {
   /// A copy with one more normalised posture of the standard size, unconnected to the graph.
   PostureDatabase With(const PostureVector& posture, const std::string& clip) const;
 
-  /// The same database with its first `count` postures and the edges between them (ablations).
-  PostureDatabase Truncated(int count) const;
+  /// For ablations: filtered once more with a larger thres_1, and with fewer edges a node.
+  PostureDatabase Filtered(double threshold_m) const;
+  PostureDatabase WithEdges(int most_edges) const;
 
  private:
   void Connect();

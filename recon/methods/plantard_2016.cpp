@@ -1,5 +1,8 @@
 // P. Plantard, H. P. H. Shum, F. Multon, Filtered pose graph for efficient Kinect pose
-// reconstruction, Multimedia Tools and Applications 2016, section 6.
+// reconstruction, Multimedia Tools and Applications 2016, section 6. The graph of section 4 is in
+// recon/database. Reliability is that of Shum 2013, which section 5 reviews. Departure: eq. 3 as
+// printed, one minus the mean cosine, calls a joint that moves straight on unreliable; the angle of
+// the text is taken.
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -11,10 +14,11 @@
 namespace ossa::recon {
 namespace {
 
-// Eqs. 6, 8 and 9 print differences of positions where a norm or a square was meant: signs would
-// cancel. The energies are read as the squares of [37] (Shum 2013), which the paper says it takes
-// them from; eq. 8 is a mean where Shum's eq. 10 is a sum. Read as distances, eq. 8 lets a whole
-// leg go where that keeps the other joints in place, and eq. 9 holds the posture to one neighbour.
+// Departure: eqs. 6, 8 and 9 print differences of positions where a norm or a square was meant:
+// signs would cancel. The energies are read as the squares of [37] (Shum 2013), which the paper
+// says it takes them from; eq. 8 is a mean where Shum's eq. 10 is a sum. Read as distances, eq. 8
+// lets a whole leg go where that keeps the other joints in place, and eq. 9 holds the posture to
+// one neighbour.
 LocalPcaOptions WithMeanControl(LocalPcaOptions options) {
   options.control /= kJointCount;
   return options;
@@ -27,8 +31,9 @@ class Plantard2016 : public NaturalPostureMethod {
   }
 
  private:
-  /// Sec. 6.2: the K best of the nodes connected to those used last; all nodes when there is no
-  /// last frame, or when the best of those no longer resembles what is seen.
+  /// Sec. 6.2: the K best of the nodes connected to those used last (each is connected to itself,
+  /// algorithm 3); all nodes when there is no last frame, or when the best of those no longer
+  /// resembles what is seen.
   std::vector<int> Select(const EnergyInputs& energy, const PreparedPosture& prepared,
                           const ReconstructionInput&, std::vector<int> before) override {
     std::optional<PostureVector> predicted = energy.last;

@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <fstream>
 
 #include "depth/error.h"
@@ -65,6 +66,52 @@ TEST(PostureDatabase, EdgesJoinWhatIsNearBothWays) {
       const auto back = db.neighbours(j);
       EXPECT_NE(std::find(back.begin(), back.end(), i), back.end());
     }
+  }
+}
+
+// Plantard 2016 algorithm 1 and eq. 2 written out. One arm goes up and down again, then the other:
+// the way down brings nothing new, but is no gap between what was kept before and after it.
+TEST(PostureDatabase, ConnectsWithinTheStepsThatAClipMakes) {
+  PostureClip clip;
+  for (double lift = 0.0; lift < 1.5; lift += 0.04)
+    clip.postures.push_back(test::Gesture(lift, 0.0, 0.1));
+  for (double lift = 1.5; lift > 0.0; lift -= 0.04)
+    clip.postures.push_back(test::Gesture(lift, 0.0, 0.1));
+  for (double lift = 0.0; lift < 1.5; lift += 0.04)
+    clip.postures.push_back(test::Gesture(0.0, lift, 0.1));
+  Posture kept = clip.postures[0];
+  std::vector<double> steps;
+  for (const Posture& p : clip.postures) {
+    double farthest = 0.0;  // eq. 1
+    for (size_t j = 0; j < kJointCount; ++j) {
+      farthest = std::max(farthest, (p.position_m[j] - kept.position_m[j]).norm());
+    }
+    if (farthest <= 0.2) continue;
+    steps.push_back(farthest);
+    kept = p;
+  }
+  double mean = 0.0, variance = 0.0;
+  for (const double step : steps) mean += step / static_cast<double>(steps.size());
+  for (const double step : steps)
+    variance += std::pow(step - mean, 2) / static_cast<double>(steps.size());
+  const auto db = PostureDatabase::Build({clip}, {});
+  EXPECT_NEAR(db.edge_threshold_m(), mean + 2.0 * std::sqrt(variance), 1e-5);  // single precision
+  EXPECT_LT(db.edge_threshold_m(), 0.3);  // the paper's is 0.25 m
+}
+
+TEST(PostureDatabase, IsFilteredOnceMoreAndKeepsItsNearestEdges) {
+  const auto db = PostureDatabase::Build(test::GestureClips(), {});
+  const auto sparse = db.Filtered(0.4);
+  EXPECT_LT(sparse.size(), db.size());
+  for (int a = 0; a < sparse.size(); ++a) {
+    for (int b = 0; b < a; ++b) EXPECT_GT(Distance(sparse, a, b), 0.4 - 1e-5);
+  }
+  const auto few = db.WithEdges(2);
+  EXPECT_EQ(few.postures(), db.postures());
+  for (int i = 0; i < db.size(); ++i) {
+    const auto all = db.neighbours(i), two = few.neighbours(i);
+    ASSERT_EQ(two.size(), std::min<size_t>(2, all.size()));
+    for (size_t k = 0; k < two.size(); ++k) EXPECT_EQ(two[k], all[k]);
   }
 }
 

@@ -23,20 +23,6 @@ struct Sweep {
   void (*set)(MethodRun& run, double value);  // run.options.database is the study's own before
 };
 
-/// The database filtered once more: what is left of it when fewer postures are wanted.
-recon::PostureDatabase Thinned(const recon::PostureDatabase& database, double threshold_m) {
-  std::vector<recon::PostureClip> clips;
-  for (int i = 0; i < database.size(); ++i) {
-    if (clips.empty() || clips.back().name != database.clip_of(i)) {
-      clips.push_back({database.clip_of(i), {}, {}});
-    }
-    clips.back().postures.push_back(database.posture(i));
-  }
-  recon::DatabaseOptions options = database.options();
-  options.threshold_m = threshold_m;
-  return recon::PostureDatabase::Build(clips, options);
-}
-
 std::vector<Sweep> Sweeps(bool full) {
   const auto some = [full](std::vector<double> few, std::vector<double> many) {
     return full ? many : few;
@@ -46,7 +32,7 @@ std::vector<Sweep> Sweeps(bool full) {
        some({0.4, 0.2, 0.1}, {0.6, 0.4, 0.3, 0.2, 0.15, 0.1}),
        [](MethodRun& run, double value) {
          run.options.database =
-             std::make_shared<recon::PostureDatabase>(Thinned(*run.options.database, value));
+             std::make_shared<recon::PostureDatabase>(run.options.database->Filtered(value));
          run.database_key += fmt::format(" filtered {}", value);
        }},
       {"neighbours K", "30", some({10, 30, 90}, {5, 10, 20, 30, 50, 90, 150}),
