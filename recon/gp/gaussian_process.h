@@ -65,7 +65,8 @@ GaussianProcessParameters LearnParameters(const Eigen::MatrixXd& inputs,
                                           const GaussianProcessParameters& start);
 
 /// Liu 2016 sec. 3.2, posture budgeting: drops, one after the other, the sample whose removal
-/// changes the prediction at its own place least (KL divergence of eqs. 1-2) until `keep` are left.
+/// changes the prediction at its own place least (KL divergence of eqs. 1-2) until `keep` are left
+/// (the paper gives no limit of the divergence, but the size S of a local model).
 /// Returns the rows kept, rising.
 std::vector<int> BudgetedSamples(const GaussianProcessParameters& parameters,
                                  const Eigen::MatrixXd& inputs, const Eigen::MatrixXd& outputs,

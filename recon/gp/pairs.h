@@ -12,7 +12,7 @@ namespace ossa::recon {
 /// (13 from Vicon) and because a bone observed too short is itself an error to learn.
 struct PosturePair {
   Posture observed;      // complete
-  Posture residual;      // truth minus observed; eq. after sec. 4.1: y = m - x
+  Posture residual;      // truth minus observed; eq. 19: m = y + x
   JointWeights known{};  // 1 where the truth has the joint and the observation saw it
   int group = 0;         // the person it is of: what is learned must hold for other groups
   double worst_m = 0.0;  // largest residual of the frame, those too large to be learned from too

@@ -128,19 +128,20 @@ class Liu2016 : public OffsetReconstructor {
     return {p.mean, p.variance / std::max(mixture.noise(), 1e-12)};
   }
 
-  /// Algorithm 2: samples of reliable joints whose prediction is sure.
+  /// Algorithm 2: samples of reliable joints whose prediction is sure. Departure: every 67th of
+  /// them, and models stop growing (LocalMixtureOptions): postures 30 times a second bring nothing
+  /// new, and a frame has a millisecond.
   void Learn(const PreparedPosture& prepared, size_t joint, const OffsetPrediction& p) override {
     constexpr double kReliable = 0.9, kSure = 0.5;
     if (!options_.incremental || mixtures_[joint].empty()) return;
     if (prepared.reliability[joint] < kReliable || p.unsureness > kSure) return;
-    // One joint a frame in turn: postures 30 times a second bring nothing new.
-    if (frame_++ % 67 != 0) return;
+    if (sample_++ % 67 != 0) return;
     mixtures_[joint].Update(JointFeature(prepared.scaled, joint), p.offset, {});
   }
 
  private:
   std::array<LocalMixture, kJointCount> mixtures_;  // this person's own: they learn on
-  uint64_t frame_ = 0;
+  uint64_t sample_ = 0;
 };
 
 class FullGp : public OffsetReconstructor {

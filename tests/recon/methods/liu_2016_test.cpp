@@ -98,6 +98,29 @@ TEST_P(LearnedMethod, SettlesAfterAJumpWithoutOvershootingFar) {
   }
 }
 
+// Eq. 22 with its derivative set to zero by hand: of one joint that is fully reliable and stands
+// still, y = (a mu + w_T y') / (a + w_R + w_T), with y' the offset before and a = w_S over the
+// spread of eq. 9 counted in noise; no temporal term before two postures were made.
+TEST(Liu2016, MinimisesTheWeightedSumOfItsThreeTerms) {
+  ReconstructorOptions options;
+  options.method = "liu-2016";
+  options.learned = LowHand();
+  options.gaussian_process.incremental = false;
+  const auto method = MakeReconstructor(options);
+  const Posture still = test::Motion(1.0);
+  const Posture seen = test::InFrontOfCamera(still);
+  const LocalMixture& mixture = options.learned->mixtures[kHand];
+  const GaussianPrediction p = mixture.Predict(JointFeature(still, kHand), 9);
+  const double a = std::max(0.6 / (1.0 + p.variance / mixture.noise()), 0.2);
+  double y = 0.0;
+  for (int f = 0; f < 5; ++f) {
+    const double temporal = f < 2 ? 0.0 : 0.2;
+    y = (a * p.mean.y() + temporal * y) / (a + 0.2 + temporal);
+    const Posture made = method->Step({test::AllTracked(seen), f / 30.0, nullptr}).posture;
+    EXPECT_NEAR((made.position_m[kHand] - seen.position_m[kHand]).y(), y, 1e-6) << f;
+  }
+}
+
 std::string NameOfCase(const testing::TestParamInfo<std::string>& info) {
   std::string name = info.param;
   std::erase(name, '-');
