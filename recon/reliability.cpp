@@ -80,10 +80,10 @@ void ReferenceLengths::FromReferencePosture(const BoneLengths& lengths, const Jo
   known_ = from_posture_ = true;
 }
 
-/// Before any reference posture: the standard body at the person's size, but the midline as the
-/// mean of what was seen so far. Sensors place the spine differently (a Kinect v2's lies 10 cm
-/// higher, which would make the hips' centre half unreliable for ever) but seldom wrongly; the
-/// other joints the other way round.
+/// Departure: before any reference posture, of which the paper says nothing: the standard body at
+/// the person's size, but the midline as the mean of what was seen so far. Sensors place the spine
+/// differently (a Kinect v2's lies 10 cm higher, which would make the hips' centre half unreliable
+/// for ever) but seldom wrongly; the other joints the other way round.
 void ReferenceLengths::FromAnyPosture(const BoneLengths& lengths, const JointWeights& trust) {
   constexpr int kMemory = 30;  // frames
   const auto seen = std::count_if(trust.begin(), trust.end(), [](double t) { return t > 0.5; });

@@ -11,10 +11,12 @@ namespace ossa::recon {
 
 /// Shum et al. 2013, section IV: how far each joint of an observed posture may be believed.
 struct ReliabilityOptions {
-  bool use_behaviour = true;              // Rb, eqs. 1-4: vibration
-  bool use_kinematics = true;             // Rk, eqs. 5-6: bone lengths against the reference
-  bool use_state = true;                  // Rt, eq. 7: what the tracker itself says
-  bool use_depth = true;                  // ours: is there a surface where the joint is said to be?
+  bool use_behaviour = true;   // Rb, eqs. 1-4: vibration
+  bool use_kinematics = true;  // Rk, eqs. 5-6: bone lengths against the reference
+  bool use_state = true;       // Rt, eq. 7: what the tracker itself says
+  // Departure, ours: is there a surface where the joint is said to be? Without a depth image
+  // (files, the studies of the papers) the terms are the papers' three.
+  bool use_depth = true;
   double d_min_m = 0.03;                  // d_min of eq. 3, metres
   double floor_rad = 1.5707963267948966;  // theta_floor of eq. 4: 90 degrees
   double roof_rad = 2.356194490192345;    // theta_roof of eq. 4: 135 degrees

@@ -12,7 +12,8 @@ JointOrientations TurnedOntoBones(const PostureDatabase& database, std::span<con
                                   std::span<const double> weights, const Posture& in_camera,
                                   double yaw_rad);
 
-/// Weights of sec. VII-B: the inverse of eq. 9 between the posture made and each neighbour.
+/// Weights of sec. VII-B: the inverse of eq. 9 between the posture made and each neighbour, all R_i
+/// one: of the posture made every joint is known.
 std::vector<double> InverseDistances(const PostureDatabase& database,
                                      std::span<const int> neighbours, const PostureVector& made);
 
