@@ -42,6 +42,20 @@ struct ActiveContext {
 
 constexpr size_t kAhead = 12;  // pixels whose rows are fetched before they are used
 
+// A pixel without reading has no feature.
+std::vector<int32_t> PixelsWithReading(const depth::DepthView& depth,
+                                       std::span<const int32_t> pixels) {
+  std::vector<int32_t> kept;
+  kept.reserve(pixels.size());
+  int v = 0;
+  int32_t row_begin = 0;  // pixels ascend: no division
+  for (const int32_t pixel : pixels) {
+    for (; pixel >= row_begin + depth.width; row_begin += depth.width) ++v;
+    if (depth.at(pixel - row_begin, v) != 0) kept.push_back(pixel);
+  }
+  return kept;
+}
+
 std::vector<int32_t> BoxPositions(const ObjectImage& image, int width,
                                   std::span<const int32_t> pixels) {
   std::vector<int32_t> position(pixels.size());
@@ -144,47 +158,19 @@ void MixLeaves(const ForestModel& model, std::span<const ActiveContext> active,
   }
 }
 
-// Every pixel's leaves and masses from those of the pixel that walked for it.
-void Expand(const SparsePixels& sparse, size_t trees, Walked* walked, Classification* result) {
-  const size_t stride = walked->stride;
-  auto mass = std::make_unique_for_overwrite<uint8_t[]>(sparse.from.size() * stride);
-  result->leaf.resize(sparse.from.size() * trees);
-  for (size_t i = 0; i < sparse.from.size(); ++i) {
-    const auto from = static_cast<size_t>(sparse.from[i]);
-    std::copy_n(walked->mass.get() + from * stride, stride, mass.get() + i * stride);
-    std::copy_n(walked->leaf.data() + from * trees, trees, result->leaf.data() + i * trees);
-  }
-  walked->mass = std::move(mass);
-}
-
 OSSA_CLONES uint32_t SumOf(const uint16_t* mass, size_t count) {
   uint32_t total = 0;
   for (size_t c = 0; c < count; ++c) total += mass[c];
   return total;
 }
 
-OSSA_CLONES uint16_t LargestOf(const uint16_t* mass, size_t count) {
-  uint16_t largest = 0;
-  for (size_t c = 0; c < count; ++c) largest = mass[c] > largest ? mass[c] : largest;
-  return largest;
-}
-
-OSSA_CLONES void Scale(const uint16_t* mass, float scale, size_t count, float* out) {
-  for (size_t c = 0; c < count; ++c) out[c] = static_cast<float>(mass[c]) * scale;
-}
-
-// Probabilities and labels of pixels [first, last) from smoothed masses.
-void Conclude(const uint16_t* smooth, size_t stride, std::array<size_t, 2> range,
-              Classification* result) {
-  const auto classes = static_cast<size_t>(result->class_count);
-  for (size_t i = range[0]; i < range[1]; ++i) {
-    const uint16_t* mass = smooth + i * stride;
-    const uint32_t total = SumOf(mass, stride);
-    const float scale = total > 0 ? 1.0F / static_cast<float>(total) : 0.0F;
-    Scale(mass, scale, classes - 1, result->probability.data() + i * classes + 1);
-    const auto best = std::find(mass, mass + classes - 1, LargestOf(mass, stride));
-    result->label[i] = static_cast<uint8_t>(total > 0 ? best - mass + 1 : 0);
+std::vector<float> ScalesOf(const std::vector<uint16_t>& mass, size_t stride) {
+  std::vector<float> scale(mass.size() / stride);
+  for (size_t s = 0; s < scale.size(); ++s) {
+    const uint32_t total = SumOf(mass.data() + s * stride, stride);
+    scale[s] = total > 0 ? 1.0F / static_cast<float>(total) : 0.0F;
   }
+  return scale;
 }
 
 // Metres of surface between neighbouring pixels, at the object's mean depth; 0 without pixels.
@@ -217,16 +203,12 @@ Classification Classify(const ForestModel& model, const depth::DepthView& depth,
                         const ClassifyOptions& options) {
   Classification result;
   result.class_count = model.class_count();
-  result.pixel.reserve(pixels.size());
-  for (const int32_t pixel : pixels) {  // a pixel without reading has no feature
-    if (depth.at(pixel % depth.width, pixel / depth.width) != 0) result.pixel.push_back(pixel);
-  }
+  result.pixel = PixelsWithReading(depth, pixels);
   const size_t trees = model.data().trees.size();
-  const size_t count = result.pixel.size();
   const ObjectImage image = CutOut(depth, camera, result.pixel, model.data().background_mm);
   const std::vector<int32_t> position = BoxPositions(image, depth.width, result.pixel);
   const double pitch_m = Pitch_m(image, camera, position);
-  const SparsePixels sparse =
+  SparsePixels sparse =
       ChooseSparse(image, position, std::clamp(InPixels(options.fine_m, pitch_m), 1, kMostSparse));
   Walked walked;
   walked.stride = (static_cast<size_t>(result.class_count) + 14) / 16 * 16;
@@ -248,15 +230,14 @@ Classification Classify(const ForestModel& model, const depth::DepthView& depth,
   ForRanges(walkers, options.threads, [&](size_t first, size_t last) {
     MixLeaves(model, active, {first, last}, &walked);
   });
-  Expand(sparse, trees, &walked, &result);
-  const std::unique_ptr<uint16_t[]> smooth =
-      SmoothMasses({&image, position, walked.mass.get(), walked.stride},
-                   InPixels(options.smoothing_m + pitch_m / 2, pitch_m));
-  result.probability.resize(count * static_cast<size_t>(result.class_count));
-  result.label.resize(count);
-  ForRanges(count, options.threads, [&](size_t first, size_t last) {
-    Conclude(smooth.get(), walked.stride, {first, last}, &result);
-  });
+  SmoothMasses smooth = Smooth({&image, position, &sparse, walked.mass.get(), walked.stride},
+                               InPixels(options.smoothing_m + pitch_m / 2, pitch_m));
+  result.label = std::move(smooth.label);
+  result.mass = std::move(smooth.mass);
+  result.mass_stride = walked.stride;
+  result.mass_scale = ScalesOf(result.mass, walked.stride);
+  result.leaf = std::move(walked.leaf);
+  result.sample = std::move(sparse.from);
   return result;
 }
 

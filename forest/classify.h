@@ -9,14 +9,25 @@ namespace ossa::forest {
 
 class ForestModel;  // forest/forest.h
 
-/// Class probabilities of one object's (person's) pixels.
+/// Classes of one object's (person's) pixels. Neighbouring pixels may share a sample: one of them
+/// walked the trees for all.
 struct Classification {
-  std::vector<int32_t> pixel;      // v * width + u, ascending
-  int class_count = 0;             // classes of the model; class 0 is background and never given
-  std::vector<float> probability;  // pixel.size() × class_count, row-major, rows sum to 1
-  std::vector<uint8_t> label;      // argmax of each row
-  std::vector<float> context;      // posterior over the model's contexts (e.g. facing sectors)
-  std::vector<int32_t> leaf;       // pixel.size() × trees: where each pixel ended
+  std::vector<int32_t> pixel;     // v * width + u, ascending
+  std::vector<uint8_t> label;     // of each pixel: its likeliest class; 0 where nothing is known
+  std::vector<int32_t> sample;    // of each pixel: its row in what follows
+  std::vector<int32_t> leaf;      // sample × tree: where it ended
+  std::vector<uint16_t> mass;     // sample × mass_stride; class c in column c - 1
+  std::vector<float> mass_scale;  // of each sample: masses to probabilities, which sum to 1
+  size_t mass_stride = 0;
+  int class_count = 0;         // classes of the model; class 0 is background and never given
+  std::vector<float> context;  // posterior over the model's contexts (e.g. facing sectors)
+
+  /// P(class c | the sample of pixel number i).
+  float Probability(size_t i, size_t c) const {
+    if (c == 0) return 0.0F;
+    const auto s = static_cast<size_t>(sample[i]);
+    return mass_scale[s] * static_cast<float>(mass[s * mass_stride + c - 1]);
+  }
 };
 
 enum class InstructionSet { kBest, kScalar };

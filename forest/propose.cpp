@@ -245,9 +245,11 @@ Evidence GatherEvidence(const ForestModel& model, const depth::DepthView& depth,
         static_cast<float>(static_cast<double>(step) * p.z() * p.z() / (camera.fx * camera.fy));
     evidence.surface_m.push_back(p.cast<float>());
     evidence.area_m2.push_back(area_m2);
-    const float* row = classification.probability.data() + i * classes;
-    evidence.probability.insert(evidence.probability.end(), row, row + classes);
-    const auto leaf = static_cast<size_t>(classification.leaf[i * trees + tree]);
+    for (size_t c = 0; c < classes; ++c) {
+      evidence.probability.push_back(classification.Probability(i, c));
+    }
+    const auto sample = static_cast<size_t>(classification.sample[i]);
+    const auto leaf = static_cast<size_t>(classification.leaf[sample * trees + tree]);
     const int32_t vote_row = model.tables().leaves[tree].vote_row[leaf];
     if (vote_row < 0) continue;
     const size_t context = drawn(evidence.surface_m.size());

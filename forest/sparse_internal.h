@@ -13,7 +13,7 @@ struct SparsePixels {
   std::vector<int32_t> from;      // a pixel: index into `position`
 };
 
-inline constexpr int kMostSparse = 3;
+inline constexpr int kMostSparse = 4;
 
 /// The first of every step × step pixels walks for the others on the same surface. Those that walk
 /// stand tile by tile: neighbours meet the same nodes, and go together.

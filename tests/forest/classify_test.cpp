@@ -28,7 +28,8 @@ TEST(Classify, GivesTheSameBitsOnEveryPath) {
       options.threads = 3;
       const Classification scalar = ClassifyFigure(image, options);
       EXPECT_EQ(best.label, scalar.label);
-      EXPECT_EQ(best.probability, scalar.probability);
+      EXPECT_EQ(best.mass, scalar.mass);
+      EXPECT_EQ(best.mass_scale, scalar.mass_scale);
       EXPECT_EQ(best.context, scalar.context);
       EXPECT_EQ(best.leaf, scalar.leaf);
     }
@@ -41,8 +42,7 @@ TEST(Classify, RowsOfProbabilitiesSumToOne) {
   for (size_t i = 0; i < result.pixel.size(); ++i) {
     float sum = 0;
     for (int c = 0; c < result.class_count; ++c) {
-      sum +=
-          result.probability[i * static_cast<size_t>(result.class_count) + static_cast<size_t>(c)];
+      sum += result.Probability(i, static_cast<size_t>(c));
     }
     EXPECT_NEAR(sum, 1.0F, 1e-5F);  // of five floats
   }

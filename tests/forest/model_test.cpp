@@ -196,7 +196,7 @@ TEST(Classify, GivesTheSameBitsOnEveryPathAndThreadCount) {
     };
     const Classification best = classify(InstructionSet::kBest, 1);
     EXPECT_EQ(best.label, classify(InstructionSet::kScalar, 1).label);
-    EXPECT_EQ(best.probability, classify(InstructionSet::kBest, 3).probability);
+    EXPECT_EQ(best.mass, classify(InstructionSet::kBest, 3).mass);
   }
 }
 
@@ -207,7 +207,7 @@ TEST(Classify, ProbabilitiesOfAPixelSumToOne) {
   const auto classes = static_cast<size_t>(result.class_count);
   for (size_t i = 0; i < result.pixel.size(); ++i) {
     float sum = 0;
-    for (size_t c = 0; c < classes; ++c) sum += result.probability[i * classes + c];
+    for (size_t c = 0; c < classes; ++c) sum += result.Probability(i, c);
     EXPECT_NEAR(sum, 1.0F, 1e-5F);  // rounding of some ten floats
   }
 }

@@ -128,11 +128,10 @@ void SignsOfProbability(const Classification& seen, Signs& sign) {
   double certainty = 0, other = 0;
   for (size_t i = 0; i < seen.pixel.size(); ++i) {
     const uint8_t label = seen.label[i], mirrored = recon::kMirroredPart[label];
-    certainty += static_cast<double>(seen.probability[i * classes + label]);
-    if (mirrored != label)
-      certainty += static_cast<double>(seen.probability[i * classes + mirrored]);
+    certainty += static_cast<double>(seen.Probability(i, label));
+    if (mirrored != label) certainty += static_cast<double>(seen.Probability(i, mirrored));
     if (classes > recon::kOtherPart) {
-      other += static_cast<double>(seen.probability[i * classes + recon::kOtherPart]);
+      other += static_cast<double>(seen.Probability(i, recon::kOtherPart));
     }
   }
   const auto n = static_cast<double>(seen.pixel.size());
