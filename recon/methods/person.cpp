@@ -91,10 +91,11 @@ Posture Completed(const Posture& in_camera, const JointWeights& present_in, cons
   return out;
 }
 
-/// Whether, over the last second, the median bone is off by 7 %: more than the mean of one person's
-/// observed bones wanders.
+/// Whether, over the last second, the median bone is off by more than the mean of one person's
+/// bones wanders: those that are observed, or, as measured, what a learned correction made of them.
 bool BodySize::HasOtherBones(const BoneLengths& measured, const JointWeights& trust) {
-  constexpr double kMemory = 1.0 / 30.0, kOther = 0.07;
+  constexpr double kMemory = 1.0 / 30.0;
+  const double other = as_measured_ ? 0.07 : 0.06;
   std::vector<double> off;
   for (size_t i = 1; i < kJointCount; ++i) {
     const double w = std::min(trust[i], trust[static_cast<size_t>(kJointParent[i])]);
@@ -104,7 +105,7 @@ bool BodySize::HasOtherBones(const BoneLengths& measured, const JointWeights& tr
     off.push_back(std::abs(mean_m_[i] / lengths_m_[i] - 1.0));
   }
   std::nth_element(off.begin(), off.begin() + static_cast<ptrdiff_t>(off.size() / 2), off.end());
-  return off[off.size() / 2] > kOther;
+  return off[off.size() / 2] > other;
 }
 
 void BodySize::Observe(const Posture& in_camera, const JointWeights& trust, double expected_scale) {
