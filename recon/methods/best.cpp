@@ -249,7 +249,7 @@ class Best : public Reconstructor {
     // definition. They give way first.
     constexpr double kTrunk = 0.1;
     // Of a limb the far joints give way: sensors see them worst, and a hand that is off must not
-    // pull its elbow along. Of 0.3, 0.5, 0.7 and 1 the best on clips that no table reports.
+    // pull its elbow along. Of 0.3, 0.5 and 1 the best trade on clips that no table reports.
     constexpr double kOutwards = 0.5;
     JointWeights firm, weights;
     for (size_t i = 0; i < kJointCount; ++i) {
