@@ -45,7 +45,7 @@ void LearnBackground(const PointGrid& grid, const std::vector<uint8_t>& claimed,
   }
   for (int i = 0; i < grid.cells(); ++i) {
     const auto n = static_cast<size_t>(i);
-    const float z = grid.z(i);
+    const float z = grid.farther(i) ? grid.max_depth_m : grid.z(i);
     if (z <= 0) continue;
     if (state.steady[n] > 0 && SameSurface(z, state.surface_m[n])) {
       if (claimed[n]) continue;
@@ -62,6 +62,19 @@ void LearnBackground(const PointGrid& grid, const std::vector<uint8_t>& claimed,
 
 std::vector<uint8_t> SeenBefore(const PointGrid& grid, const BackgroundState& state) {
   return SeenFor(1, grid, state);
+}
+
+std::vector<uint8_t> ArrivedSince(const PointGrid& grid, const BackgroundState& state) {
+  constexpr float kClearly_m = 0.1F;  // beyond noise
+  std::vector<uint8_t> arrived(static_cast<size_t>(grid.cells()), 0);
+  if (state.width != grid.width || state.height != grid.height) return arrived;
+  for (int i = 0; i < grid.cells(); ++i) {
+    const auto n = static_cast<size_t>(i);
+    const float before_m = state.surface_m[n];
+    arrived[n] = grid.valid(i) && state.steady[n] > 0 &&
+                 grid.z(i) < before_m - kClearly_m - DepthTolerance(before_m);
+  }
+  return arrived;
 }
 
 std::vector<uint8_t> SeenBackground(const PointGrid& grid, const BackgroundState& state,

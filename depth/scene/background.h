@@ -27,6 +27,9 @@ void LearnBackground(const PointGrid& grid, const std::vector<uint8_t>& claimed,
 /// part of anybody who comes near.
 std::vector<uint8_t> SeenBefore(const PointGrid& grid, const BackgroundState& state);
 
+/// True per cell that stands clearly before a surface that was seen there: it came here.
+std::vector<uint8_t> ArrivedSince(const PointGrid& grid, const BackgroundState& state);
+
 /// True per cell where the known background itself is seen.
 std::vector<uint8_t> SeenBackground(const PointGrid& grid, const BackgroundState& state,
                                     const BackgroundOptions& options = {});

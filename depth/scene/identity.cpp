@@ -76,15 +76,12 @@ void MoveHidden(UserTrack& user, const Region& region, double time_s) {
   user.mean_m = region.mean_m + (far_m > kFarthest_m ? kFarthest_m / far_m : 1.0F) * expected;
 }
 
-// Furniture stays where it is and shows the same surface; people shift, breathe and turn.
 void NoteMovement(UserTrack& user, const Region& region) {
-  constexpr float kStep_m = 0.05F, kChange = 0.15F;
   if (user.first_m2 == 0) {
     user.first_mean_m = region.mean_m;
     user.first_m2 = region.area_m2;
   }
-  user.moved = user.moved || (region.mean_m - user.first_mean_m).norm() > kStep_m ||
-               std::abs(region.area_m2 - user.first_m2) > kChange * user.first_m2;
+  user.moved = user.moved || HasMoved(user.first_mean_m, user.first_m2, region);
 }
 
 void Renew(UserTrack& user, const PointGrid& grid, const Region& region, double time_s) {
@@ -115,6 +112,12 @@ void Renew(UserTrack& user, const PointGrid& grid, const Region& region, double 
 }
 
 }  // namespace
+
+bool HasMoved(const Vector3f& first_mean_m, float first_m2, const Region& now) {
+  constexpr float kStep_m = 0.05F, kChange = 0.15F;
+  return (now.mean_m - first_mean_m).norm() > kStep_m ||
+         std::abs(now.area_m2 - first_m2) > kChange * first_m2;
+}
 
 Vector3f PredictedMean_m(const UserTrack& user, double time_s) {
   // A person does not keep walking straight for long: predict for at most half a second.

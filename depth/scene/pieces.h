@@ -21,12 +21,22 @@ std::vector<int> HeadSeed(const PointGrid& grid, const Region& region, const Eig
 Region Joined(const PointGrid& grid, const Region& a, const Region& b);
 
 bool PersonSized(const Region& region, const SceneOptions& options);
+/// What came here needs to show less.
+bool ArrivedPersonSized(const Region& region, const std::vector<uint8_t>& arrived,
+                        const SceneOptions& options);
 
 /// Hands held out, forearms cut off by the projector's shadow, legs below a table: small pieces
 /// join the big piece they are nearest to, if an arm could bridge the way. Pieces far behind do
 /// not, nor those of another user of before.
 std::vector<Region> JoinPieces(const PointGrid& grid, std::vector<Region> regions,
                                const std::vector<int>& owner, size_t users);
+
+/// What shows of somebody at either side of somebody nearer, and above: pieces that came here and
+/// were nobody's, one as far away as the other, with nothing but nearer surface on the way between
+/// them.
+std::vector<Region> JoinBehind(const PointGrid& grid, std::vector<Region> regions,
+                               const std::vector<uint8_t>& arrived, const std::vector<int>& owner,
+                               size_t users);
 
 /// Pieces that mostly cover where one user was belong together: an arm of somebody in front may cut
 /// a body in two. So do pieces that come out where somebody half hidden is. Largest first.

@@ -29,12 +29,20 @@ PointGrid MakePointGrid(const DepthView& depth, const Camera& camera, float max_
   grid.height = (depth.height + grid.step - 1) / grid.step;
   grid.camera = camera;
   grid.point_m.assign(static_cast<size_t>(grid.cells()), Eigen::Vector3f::Zero());
+  grid.beyond.assign(grid.point_m.size(), 0);
+  grid.max_depth_m = max_depth_m;
   const auto max_mm = static_cast<uint16_t>(std::clamp(max_depth_m * 1000.0F, 1.0F, 65535.0F));
   for (int y = 0; y < grid.height; ++y) {
     for (int x = 0; x < grid.width; ++x) {
       const int u = x * grid.step, v = y * grid.step;
       const uint16_t mm = ReadingOf(depth, u, v, grid.step, max_mm);
-      if (mm == 0) continue;
+      if (mm == 0) {
+        const int middle = grid.step / 2;
+        grid.beyond[static_cast<size_t>(grid.cell(x, y))] =
+            depth.at(std::min(u + middle, depth.width - 1),
+                     std::min(v + middle, depth.height - 1)) > max_mm;
+        continue;
+      }
       const double half = 0.5 * (grid.step - 1);
       grid.point_m[static_cast<size_t>(grid.cell(x, y))] =
           BackProject(camera, u + half, v + half, mm).cast<float>();

@@ -15,6 +15,8 @@ struct PointGrid {
   int step = 1;                          // pixels a cell, both ways
   Camera camera;                         // of the full image
   std::vector<Eigen::Vector3f> point_m;  // row-major; z = 0 where nothing was measured
+  float max_depth_m = 0;                 // what is farther counts as not measured,
+  std::vector<uint8_t> beyond;           // ... and is marked here
 
   int cells() const { return width * height; }
   int cell(int x, int y) const { return y * width + x; }
@@ -22,6 +24,7 @@ struct PointGrid {
   const Eigen::Vector3f& at(int cell) const { return point_m[static_cast<size_t>(cell)]; }
   float z(int cell) const { return point_m[static_cast<size_t>(cell)].z(); }
   bool valid(int cell) const { return z(cell) > 0; }
+  bool farther(int cell) const { return beyond[static_cast<size_t>(cell)] != 0; }
   /// Cells that a length across the line of sight spans at depth z.
   float CellsOf(float length_m, float z_m) const {
     return length_m * static_cast<float>(camera.fx) / (z_m * static_cast<float>(step));

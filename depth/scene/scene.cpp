@@ -92,11 +92,43 @@ std::vector<int32_t> PixelsOf(const DepthFrame& frame, const PointGrid& grid,
   return pixels;
 }
 
-double FlatShare(const Region& region, const RoomShape& shape) {
-  const auto flat = std::count_if(region.cells.begin(), region.cells.end(), [&](int cell) {
-    return shape.flat[static_cast<size_t>(cell)] != 0;
+// Of the region's cells that are marked.
+double ShareOf(const Region& region, const std::vector<uint8_t>& marked) {
+  const auto count = std::count_if(region.cells.begin(), region.cells.end(), [&](int cell) {
+    return marked[static_cast<size_t>(cell)] != 0;
   });
-  return static_cast<double>(flat) / static_cast<double>(std::max<size_t>(1, region.cells.size()));
+  return static_cast<double>(count) / static_cast<double>(std::max<size_t>(1, region.cells.size()));
+}
+
+// What is known of each cell.
+struct CellFacts {
+  const std::vector<int>& owner;       // user of the frame before
+  const std::vector<uint8_t>& barred;  // it was nobody's, and is as it was
+  const std::vector<uint8_t>& arrived;
+  const std::vector<uint8_t>& flat;
+};
+
+// A connected region as pieces that may be one person each.
+std::vector<Candidate> CandidatesIn(const DepthFrame& frame, const PointGrid& grid,
+                                    const Region& region, const CellFacts& facts,
+                                    const SceneState& state, const SceneOptions& options) {
+  const auto large_enough = [&](const Region& r) {
+    return PersonSized(r, options) || ArrivedPersonSized(r, facts.arrived, options);
+  };
+  std::vector<Candidate> candidates;
+  if (!large_enough(region)) return candidates;
+  const auto seeds = SeedsOf(grid, region, facts.owner, state.users.size(), facts.barred, options);
+  for (Region& piece : CutBySeeds(grid, region, seeds, options)) {
+    if (!large_enough(piece)) continue;
+    Candidate candidate;
+    candidate.pixels = PixelsOf(frame, grid, piece);
+    candidate.has_head = !seeds.empty();
+    candidate.flat_share = ShareOf(piece, facts.flat);
+    candidate.arrived_share = ShareOf(piece, facts.arrived);
+    candidate.region = std::move(piece);
+    candidates.push_back(std::move(candidate));
+  }
+  return candidates;
 }
 
 // Each user of before goes on in the one candidate that holds most of their cells, if that is a
@@ -165,20 +197,16 @@ Scene FindCandidates(const DepthFrame& frame, const SceneState& state, SceneStat
   std::vector<uint8_t> barred = SeenBefore(scene.grid, next.background);
   for (size_t i = 0; i < barred.size(); ++i) barred[i] &= owner[i] < 0;
 
+  const std::vector<uint8_t> arrived = ArrivedSince(scene.grid, next.background);
+
   constexpr float kSpeck_m2 = 0.004F;  // a fist has 0.006
   std::vector<Region> regions = ConnectedRegions(scene.grid, ignore, kSpeck_m2);
   regions = JoinPieces(scene.grid, std::move(regions), owner, next.users.size());
+  regions = JoinBehind(scene.grid, std::move(regions), arrived, owner, next.users.size());
   regions = JoinByHistory(scene.grid, std::move(regions), owner, next.users, frame.time_s);
+  const CellFacts facts{owner, barred, arrived, shape.flat};
   for (size_t r = 0; r < regions.size(); ++r) {
-    if (!PersonSized(regions[r], options)) continue;
-    const auto seeds = SeedsOf(scene.grid, regions[r], owner, next.users.size(), barred, options);
-    for (Region& piece : CutBySeeds(scene.grid, regions[r], seeds, options)) {
-      if (!PersonSized(piece, options)) continue;
-      Candidate candidate;
-      candidate.pixels = PixelsOf(frame, scene.grid, piece);
-      candidate.has_head = !seeds.empty();
-      candidate.flat_share = FlatShare(piece, shape);
-      candidate.region = std::move(piece);
+    for (Candidate& candidate : CandidatesIn(frame, scene.grid, regions[r], facts, next, options)) {
       candidate.origin = static_cast<int>(r);
       scene.candidates.push_back(std::move(candidate));
     }
@@ -210,6 +238,7 @@ std::vector<Candidate> SplitCandidate(const Scene& scene, const DepthFrame& fram
     part.has_head = true;
     part.origin = candidate.origin;
     part.flat_share = candidate.flat_share;
+    part.arrived_share = candidate.arrived_share;
     part.region = std::move(piece);
     pieces.push_back(std::move(part));
   }
@@ -218,16 +247,15 @@ std::vector<Candidate> SplitCandidate(const Scene& scene, const DepthFrame& fram
 
 Candidate JoinCandidates(const Scene& scene, const DepthFrame& frame, const Candidate& a,
                          const Candidate& b) {
-  const auto flat_cells = [](const Candidate& c) {
-    return c.flat_share * static_cast<double>(c.region.cells.size());
-  };
+  const auto cells = [](const Candidate& c) { return static_cast<double>(c.region.cells.size()); };
   Candidate whole;
   whole.region = Joined(scene.grid, a.region, b.region);
   whole.pixels = PixelsOf(frame, scene.grid, whole.region);
   whole.track = a.track >= 0 ? a.track : b.track;
   whole.has_head = a.has_head || b.has_head;
-  whole.flat_share = (flat_cells(a) + flat_cells(b)) /
-                     static_cast<double>(std::max<size_t>(1, whole.region.cells.size()));
+  const double of_a = cells(a) / std::max(1.0, cells(a) + cells(b));
+  whole.flat_share = of_a * a.flat_share + (1 - of_a) * b.flat_share;
+  whole.arrived_share = of_a * a.arrived_share + (1 - of_a) * b.arrived_share;
   whole.origin = a.origin;
   return whole;
 }

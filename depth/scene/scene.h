@@ -44,6 +44,8 @@ struct SceneOptions {
   float max_depth_m = 6.0F;   // nobody is looked for beyond
   float min_area_m2 = 0.07F;  // of a person in view: head and shoulders
   float min_height_m = 0.28F;
+  float min_arrived_m2 = 0.045F;      // of what came into view where the room was seen before: a
+  float min_arrived_height_m = 0.2F;  // head over somebody nearer
   float max_reach_m = 1.75F;      // over the surface from the head to the farthest toe or finger
   float growth_m = 0.5F;          // ... and beyond where a known person was a frame ago
   double fresh_s = 0.3;           // without frames for so long, the scene is fresh
@@ -60,6 +62,7 @@ struct Candidate {
   bool returning = false;       // somebody who went out of view is expected about here
   bool has_head = false;        // something like head and shoulders is seen
   double flat_share = 0;        // of the cells that lie on flat pieces
+  double arrived_share = 0;     // of the cells that stand where something behind them was seen
   int origin = -1;              // candidates of one connected region have the same
 };
 
@@ -98,6 +101,9 @@ void KeepNear(const Scene& scene, const DepthFrame& frame, std::span<const Bone>
 /// everything else.
 std::vector<int> ConfirmUsers(const Scene& scene, const std::vector<const Candidate*>& people,
                               double time_s, SceneState& state, const SceneOptions& options = {});
+
+/// Furniture stays where it is and shows the same surface; people shift, breathe and turn.
+bool HasMoved(const Eigen::Vector3f& first_mean_m, float first_m2, const Region& now);
 
 /// The SDK's player index: user id per pixel (0 nobody), as an image of the frame's size.
 Image<uint8_t> UserImage(const DepthFrame& frame, const std::vector<const Candidate*>& people,

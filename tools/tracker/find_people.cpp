@@ -12,25 +12,6 @@ namespace {
 
 using depth::Candidate;
 
-size_t Common(const std::vector<int>& a, const std::vector<int>& b) {
-  size_t common = 0, i = 0;
-  for (const int cell : a) {
-    while (i < b.size() && b[i] < cell) ++i;
-    common += i < b.size() && b[i] == cell ? 1 : 0;
-  }
-  return common;
-}
-
-// The same thing at the same place looked at before; null if there was none.
-Doubt* DoubtOf(const Candidate& candidate, FinderState& state) {
-  const auto& cells = candidate.region.cells;
-  const auto same = std::find_if(state.doubts.begin(), state.doubts.end(), [&](const Doubt& doubt) {
-    const size_t larger = std::max(cells.size(), doubt.cells.size());
-    return 5 * Common(cells, doubt.cells) > 3 * larger;
-  });
-  return same == state.doubts.end() ? nullptr : &*same;
-}
-
 std::vector<Found> LookAt(const Eyes& eyes, const depth::DepthFrame& frame,
                           std::vector<Candidate> candidates, const FindOptions& options) {
   std::vector<Found> looked(candidates.size());
@@ -52,45 +33,6 @@ std::vector<Found> LookAt(const Eyes& eyes, const depth::DepthFrame& frame,
     looked[i].candidate = std::move(candidates[i]);
   });
   return looked;
-}
-
-// Known people by their mean score, of whom was accepted only just more is asked, for a lucky look
-// may have been furniture; newcomers at once in a fresh scene or when there is no doubt, else after
-// a few looks.
-bool Accepted(Found& looked, const depth::Scene& scene, double time_s, const FindOptions& options,
-              FinderState& state) {
-  double& score = looked.perception.person_score;
-  if (looked.looks > 1) {
-    const bool young = looked.looks <= options.young_looks;
-    const bool still = looked.looks > options.still_looks && !looked.moved;
-    const double needed = still   ? options.still_person
-                          : young ? options.young_person
-                                  : options.known_person;
-    if (score >= needed) return true;
-    if (still || young)
-      state.doubts.push_back({looked.candidate.region.cells, time_s, score, 1, true});
-    return false;
-  }
-  Doubt* before = DoubtOf(looked.candidate, state);
-  const bool doubted = before != nullptr && before->fallen;
-  const bool expected = scene.fresh || looked.candidate.returning;
-  if (before == nullptr || (looked.candidate.returning && !doubted)) {
-    if (score >= (expected ? options.new_person : options.sure_person)) return true;
-  }
-  if (before == nullptr) {
-    state.doubts.push_back({looked.candidate.region.cells, time_s, score, 1, false});
-    return false;
-  }
-  constexpr int kMostLooks = 8;
-  before->looks = std::min(before->looks + 1, kMostLooks);
-  before->mean_score += (score - before->mean_score) / before->looks;
-  before->time_s = time_s;
-  before->cells = looked.candidate.region.cells;
-  const double needed = doubted ? options.still_person : options.new_person;
-  if (before->looks < options.probation_looks || before->mean_score < needed) return false;
-  score = before->mean_score;
-  state.doubts.erase(state.doubts.begin() + (before - state.doubts.data()));
-  return true;
 }
 
 // A candidate with two heads, cut; empty unless at least two of the pieces are people themselves.
@@ -116,8 +58,9 @@ std::vector<Candidate> WorthLooking(const depth::Scene& scene, double time_s,
   });
   std::vector<Candidate> candidates;
   for (const Candidate& candidate : scene.candidates) {
-    const Doubt* before = candidate.track < 0 ? DoubtOf(candidate, state) : nullptr;
-    const bool hopeless = before != nullptr && before->mean_score < options.hopeful;
+    const Doubt* before = candidate.track < 0 ? DoubtOf(candidate, time_s, state) : nullptr;
+    const bool hopeless =
+        before != nullptr && before->mean_score < options.hopeful && !Arrived(candidate);
     if (hopeless && time_s - before->time_s < options.look_again_s) continue;
     candidates.push_back(candidate);
     if (candidates.size() == options.max_candidates) break;

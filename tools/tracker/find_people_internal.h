@@ -23,10 +23,15 @@ struct Found {
 /// makes single ones vary; what is hopeless is not looked at again in every frame.
 struct Doubt {
   std::vector<int> cells;  // of the last look, ascending
-  double time_s = 0.0;     // of the last look
+  Eigen::Vector3f mean_m = Eigen::Vector3f::Zero();
+  Eigen::Vector3f first_mean_m = Eigen::Vector3f::Zero();
+  float first_m2 = 0;   // surface at the first look
+  bool moved = false;   // since then
+  double time_s = 0.0;  // of the last look
   double mean_score = 0.0;
   int looks = 1;
-  bool fallen = false;  // it was taken for a person, but did not stay one or never moved
+  bool fallen = false;   // it was taken for a person, but did not stay one or never moved
+  bool arrived = false;  // it came here, and goes on moving
 };
 
 struct FinderState {
@@ -58,6 +63,11 @@ struct FindOptions {
   double sure_person = 0.93;
   int probation_looks = 4;
   double known_person = 0.25;
+  // Of what came into view where the room was seen before: furniture does not, but of people behind
+  // others little is seen. At the first look, and as the mean of a few.
+  double sure_arrived = 0.6;
+  double arrived_person = 0.15;
+  double arrived_known = 0.05;  // ... and once it was accepted
   // Of somebody accepted a few looks ago: what was a person by luck is none on average.
   double young_person = 0.4;
   int young_looks = 12;
@@ -72,6 +82,16 @@ struct FindOptions {
   double memory = 0.85;          // share of a known person's mean score in the new one
   int grown_up_looks = 30;       // after so many a person is not taken for part of another
 };
+
+/// The same thing looked at before, at the same place unless it moves; null if there was none.
+Doubt* DoubtOf(const depth::Candidate& candidate, double time_s, FinderState& state);
+
+/// Most of it stands where the room behind it was seen before.
+bool Arrived(const depth::Candidate& candidate);
+
+/// Whether what was looked at is somebody; what is not is remembered.
+bool Accepted(Found& looked, const depth::Scene& scene, double time_s, const FindOptions& options,
+              FinderState& state);
 
 /// The people among the scene's candidates, known ones first. Candidates with two heads are cut;
 /// pieces of one region that are more of a person together than alone are joined.

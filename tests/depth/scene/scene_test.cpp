@@ -8,41 +8,14 @@
 
 #include "depth/scene/heads.h"
 #include "depth/scene/planes.h"
-#include "tests/support/capsule_person.h"
+#include "tests/depth/scene/shots.h"
 
 namespace ossa::depth {
 namespace {
 
-using tests::CapsulePose;
-using tests::CapsuleRender;
-using tests::CapsuleScene;
-
-CapsulePose PersonAt(double x_m, double z_m) {
-  CapsulePose pose;
-  pose.feet_m = {x_m, -1.0, z_m};
-  pose.left_lift_rad = pose.right_lift_rad = 0.5;
-  return pose;
-}
-
-CapsuleRender Shot(const std::vector<CapsulePose>& people, int frame = 0,
-                   const std::vector<tests::Box>& boxes = {}) {
-  CapsuleScene scene;
-  scene.people = people;
-  scene.boxes = boxes;
-  scene.planes = tests::EmptyRoom();
-  CapsuleRender render = tests::Render(scene, KinectV1Camera(320, 240));
-  render.frame.index = frame;
-  render.frame.time_s = frame / 30.0;
-  return render;
-}
-
 Scene Candidates(const CapsuleRender& render) {
   SceneState next;
   return FindCandidates(render.frame, {}, next);
-}
-
-PointGrid GridOf(const CapsuleRender& render) {
-  return MakePointGrid(render.frame.view(), render.frame.camera, 6.0F);
 }
 
 // Share of a person's pixels that a candidate has, and of the candidate that is the person's.

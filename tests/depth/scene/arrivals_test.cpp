@@ -1,0 +1,118 @@
+// What came into the room, and what shows of it around somebody nearer.
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "depth/scene/background.h"
+#include "depth/scene/pieces.h"
+#include "tests/depth/scene/shots.h"
+
+namespace ossa::depth {
+namespace {
+
+// Cells of the frame that are a person's.
+std::vector<int> CellsOfPerson(const CapsuleRender& render, const PointGrid& grid) {
+  std::vector<int> cells;
+  for (int i = 0; i < grid.cells(); ++i) {
+    const int u = i % grid.width * grid.step, v = i / grid.width * grid.step;
+    if (grid.valid(i) && render.person.at(u, v) > 0) cells.push_back(i);
+  }
+  return cells;
+}
+
+double ShareOf(const std::vector<int>& cells, const std::vector<uint8_t>& marked) {
+  double count = 0;
+  for (const int cell : cells) count += marked[static_cast<size_t>(cell)] != 0 ? 1 : 0;
+  return count / static_cast<double>(cells.size());
+}
+
+TEST(ArrivedSince, KnowsWhoCameFromWhatAlwaysStoodThere) {
+  const std::vector<tests::Box> stool = {{{0.6, -1.0, 2.45}, {0.95, -0.4, 2.8}}};
+  const PointGrid before = GridOf(Shot({}, 0, stool));
+  BackgroundState state;
+  LearnBackground(before, std::vector<uint8_t>(static_cast<size_t>(before.cells()), 0), state);
+  const CapsuleRender render = Shot({PersonAt(-0.2, 2.5)}, 1, stool);
+  const PointGrid now = GridOf(render);
+  const auto arrived = ArrivedSince(now, state);
+  // Feet stand on the floor that was seen there, at its own depth.
+  EXPECT_GT(ShareOf(CellsOfPerson(render, now), arrived), 0.85);
+  const PointGrid empty = GridOf(Shot({}));
+  std::vector<int> of_stool;
+  for (int i = 0; i < now.cells(); ++i) {
+    if (before.z(i) < empty.z(i) - 0.1F && now.z(i) > before.z(i) - 0.05F) of_stool.push_back(i);
+  }
+  ASSERT_GT(of_stool.size(), 100U);
+  EXPECT_EQ(ShareOf(of_stool, arrived), 0.0);  // without noise
+}
+
+TEST(ArrivedSince, SeesSomebodyBeforeWhatIsTooFarToMatter) {
+  CapsuleScene scene;
+  scene.planes = {{{0, 1, 0}, 1.0}, {{0, 0, -1}, 7.5}};  // the wall is beyond the 6 m looked at
+  const PointGrid before = GridOf(tests::Render(scene, KinectV1Camera(320, 240)));
+  BackgroundState state;
+  LearnBackground(before, std::vector<uint8_t>(static_cast<size_t>(before.cells()), 0), state);
+  scene.people = {PersonAt(0, 4.0)};
+  const CapsuleRender render = tests::Render(scene, KinectV1Camera(320, 240));
+  const PointGrid now = GridOf(render);
+  const auto arrived = ArrivedSince(now, state);
+  EXPECT_GT(ShareOf(CellsOfPerson(render, now), arrived), 0.85);
+}
+
+// What shows of a person beside a screen and above it.
+class Behind : public testing::Test {
+ protected:
+  void SetUp() override {
+    // Of who stands 3.2 m away it hides 32 cm to either side of the middle, up to the shoulders.
+    constexpr double kScreen_m = 2.0, kWide = 0.1, kLow = -0.2, kHigh = 0.19;
+    CapsulePose pose = PersonAt(0, 3.2);
+    pose.left_lift_rad = 0.6;
+    pose.right_lift_rad = 0.1;  // hidden
+    const tests::Box screen{{-kWide * kScreen_m, kLow * kScreen_m, kScreen_m},
+                            {kWide * kScreen_m, kHigh * kScreen_m, kScreen_m + 0.02}};
+    const CapsuleRender render = Shot({pose}, 0, {screen});
+    grid_ = GridOf(render);
+    std::vector<uint8_t> ignore(static_cast<size_t>(grid_.cells()), 1);
+    for (const int cell : CellsOfPerson(render, grid_)) {
+      constexpr int kKneeRow = 72;  // below, legs show under the screen
+      if (cell / grid_.width < kKneeRow) ignore[static_cast<size_t>(cell)] = 0;
+    }
+    pieces_ = ConnectedRegions(grid_, ignore, 0.004F);
+    all_.assign(static_cast<size_t>(grid_.cells()), 1);
+    nobody_.assign(all_.size(), -1);
+  }
+  PointGrid grid_;
+  std::vector<Region> pieces_;
+  std::vector<uint8_t> all_;
+  std::vector<int> nobody_;
+};
+
+TEST_F(Behind, HeadAndArmAroundSomethingNearerAreOnePerson) {
+  ASSERT_EQ(pieces_.size(), 2U);
+  EXPECT_EQ(JoinBehind(grid_, pieces_, all_, nobody_, 0).size(), 1U);
+}
+
+TEST_F(Behind, WhatDidNotComeOrIsSomebodysStaysApart) {
+  const std::vector<uint8_t> none(all_.size(), 0);
+  EXPECT_EQ(JoinBehind(grid_, pieces_, none, nobody_, 0).size(), pieces_.size());
+  for (const int cell : pieces_[0].cells) nobody_[static_cast<size_t>(cell)] = 0;
+  EXPECT_GT(JoinBehind(grid_, pieces_, all_, nobody_, 1).size(), 1U);
+}
+
+TEST(JoinBehind, ThingsSideBySideWithTheWallBetweenThemStayApart) {
+  const CapsuleRender render =
+      Shot({}, 0, {{{-0.3, -0.6, 3.0}, {-0.1, 0.2, 3.2}}, {{0.1, -0.6, 3.0}, {0.3, 0.2, 3.2}}});
+  const PointGrid grid = GridOf(render), empty = GridOf(Shot({}));
+  std::vector<uint8_t> ignore(static_cast<size_t>(grid.cells()), 0);
+  for (int i = 0; i < grid.cells(); ++i)
+    ignore[static_cast<size_t>(i)] = std::abs(grid.z(i) - empty.z(i)) < 0.1F;
+  auto regions = ConnectedRegions(grid, ignore, 0.02F);
+  ASSERT_EQ(regions.size(), 2U);
+  const auto cells = static_cast<size_t>(grid.cells());
+  EXPECT_EQ(JoinBehind(grid, std::move(regions), std::vector<uint8_t>(cells, 1),
+                       std::vector<int>(cells, -1), 0)
+                .size(),
+            2U);
+}
+
+}  // namespace
+}  // namespace ossa::depth

@@ -1,0 +1,82 @@
+// Who is taken for a person at once, who after a few looks: looks are made up, no forest is needed.
+#include <gtest/gtest.h>
+#include <cmath>
+
+#include "tools/tracker/find_people_internal.h"
+
+namespace ossa::tracker {
+namespace {
+
+struct Look {
+  double score = 0;
+  float x_m = 0;             // of the thing's middle
+  double arrived_share = 0;  // of what stands where the room behind was seen
+  float area_m2 = 0.1F;
+};
+
+class Newcomer : public testing::Test {
+ protected:
+  // A thing of 100 cells that a step of 4 cm moves by one column of 160.
+  Found Seen(const Look& look) {
+    Found found;
+    found.perception.person_score = found.single_score = look.score;
+    depth::Candidate& candidate = found.candidate;
+    candidate.arrived_share = look.arrived_share;
+    candidate.region.mean_m = {look.x_m, 0, 3};
+    candidate.region.area_m2 = look.area_m2;
+    const int column = 80 + static_cast<int>(std::lround(look.x_m / 0.04F));
+    for (int row = 20; row < 120; ++row) candidate.region.cells.push_back(160 * row + column);
+    return found;
+  }
+
+  // The frame in which it is accepted, of `frames` at 30 Hz; -1 for none.
+  template <class LookAt>
+  int AcceptedIn(int frames, bool fresh, const LookAt& look_at) {
+    depth::Scene scene;
+    FinderState state;
+    for (int f = 0; f < frames; ++f) {
+      scene.fresh = fresh && f == 0;
+      Found found = Seen(look_at(f));
+      if (Accepted(found, scene, f / 30.0, options_, state)) return f;
+    }
+    return -1;
+  }
+  FindOptions options_;
+};
+
+TEST_F(Newcomer, IsBelievedAtOnceInAFreshSceneAndElsewhereWhenItIsSure) {
+  EXPECT_EQ(AcceptedIn(1, true, [](int) { return Look{0.65}; }), 0);
+  EXPECT_EQ(AcceptedIn(1, false, [](int) { return Look{0.65}; }), -1);
+  EXPECT_EQ(AcceptedIn(1, false, [](int) { return Look{0.95}; }), 0);
+}
+
+TEST_F(Newcomer, ThatStandsLikeFurnitureIsNobodyHoweverOftenItIsLookedAt) {
+  EXPECT_EQ(AcceptedIn(60, false, [](int) { return Look{0.85}; }), -1);
+  // As good a look of something that turns, and shows a quarter more, is somebody.
+  const auto turns = [](int f) { return Look{0.85, 0, 0, f < 10 ? 0.1F : 0.125F}; };
+  EXPECT_EQ(AcceptedIn(60, false, turns), 10);
+}
+
+TEST_F(Newcomer, WhoCameInBehindOthersIsFollowedThroughLooksThatShowLittle) {
+  // A head above somebody's shoulder, at 1.2 m/s: no cell is the same from one frame to the next.
+  const auto walks = [](int f) { return Look{0.3, 0.04F * static_cast<float>(f), 1.0}; };
+  EXPECT_EQ(AcceptedIn(30, false, walks), options_.probation_looks - 1);
+  // The edge of furniture that somebody uncovers seems to move too, but it did not come.
+  const auto uncovered = [](int f) { return Look{0.3, 0.04F * static_cast<float>(f), 0.0}; };
+  EXPECT_EQ(AcceptedIn(30, false, uncovered), -1);
+}
+
+TEST_F(Newcomer, OnceAcceptedWhoCameHereIsKeptOnLessThanOneWhoWasAlwaysThere) {
+  depth::Scene scene;
+  scene.fresh = false;
+  FinderState state;
+  Found found = Seen({0.1, 0, 1.0});
+  found.looks = 5;
+  EXPECT_TRUE(Accepted(found, scene, 1.0, options_, state));
+  found = Seen({0.1, 0, 0.0});
+  found.looks = 5;
+  EXPECT_FALSE(Accepted(found, scene, 1.0, options_, state));
+}
+
+}  // namespace
+}  // namespace ossa::tracker
