@@ -76,10 +76,15 @@ void MoveHidden(UserTrack& user, const Region& region, double time_s) {
   user.mean_m = region.mean_m + (far_m > kFarthest_m ? kFarthest_m / far_m : 1.0F) * expected;
 }
 
-void NoteMovement(UserTrack& user, const Region& region) {
+void NoteMovement(UserTrack& user, const Region& region, double time_s) {
   if (user.first_m2 == 0) {
     user.first_mean_m = region.mean_m;
     user.first_m2 = region.area_m2;
+  }
+  if (user.rest_m2 == 0 || HasMoved(user.rest_mean_m, user.rest_m2, region)) {
+    user.rest_mean_m = region.mean_m;
+    user.rest_m2 = region.area_m2;
+    user.moved_s = time_s;
   }
   user.moved = user.moved || HasMoved(user.first_mean_m, user.first_m2, region);
 }
@@ -102,7 +107,7 @@ void Renew(UserTrack& user, const PointGrid& grid, const Region& region, double 
   } else {
     user.mean_m = region.mean_m;
   }
-  NoteMovement(user, region);
+  NoteMovement(user, region, time_s);
   constexpr float kForget = 0.99F;  // who turns sideways shows less for long
   user.full_m2 = std::max(region.area_m2, kForget * user.full_m2);
   user.cells = region.cells;

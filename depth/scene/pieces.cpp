@@ -78,22 +78,22 @@ bool MostlyArrived(const Region& region, const std::vector<uint8_t>& arrived) {
 }
 
 // On the straight way in the image from one cell to the other is mostly what is nearer than both,
-// and hardly the room behind them.
+// and nowhere the room behind them.
 bool Covered(const PointGrid& grid, int from, int to) {
   constexpr float kNearer_m = 0.1F, kRoom_m = 0.15F;
   const float near_m = std::min(grid.z(from), grid.z(to)) - kNearer_m;
   const float far_m = std::max(grid.z(from), grid.z(to)) + kRoom_m;
   const int dx = to % grid.width - from % grid.width, dy = to / grid.width - from / grid.width;
   const int steps = std::max(std::abs(dx), std::abs(dy));
-  int nearer = 0, room = 0;
+  int nearer = 0;
   for (int i = 1; i < steps; ++i) {
     const int cell =
         grid.cell(from % grid.width + dx * i / steps, from / grid.width + dy * i / steps);
     if (!grid.valid(cell)) continue;  // the shadow that the nearer thing casts
+    if (grid.z(cell) > far_m) return false;
     nearer += grid.z(cell) < near_m ? 1 : 0;
-    room += grid.z(cell) > far_m ? 1 : 0;
   }
-  return 3 * nearer > steps && 6 * room < steps;
+  return 3 * nearer > steps;
 }
 
 // Two pieces of one person, of whom somebody nearer hides the middle.

@@ -160,6 +160,25 @@ void ContinueTracks(const std::vector<int>& owner, const std::vector<UserTrack>&
   }
 }
 
+// What comes into view close to somebody who is seen may be the rest of them: of it nothing is
+// taken for granted.
+void DoubtRests(const std::vector<UserTrack>& users, double time_s,
+                std::vector<Candidate>& candidates) {
+  constexpr float kClose_m = 0.45F;
+  const auto close = [&](const Candidate& candidate, const Candidate& other) {
+    if (other.track < 0) return false;
+    const Vector3f off =
+        PredictedMean_m(users[static_cast<size_t>(other.track)], time_s) - candidate.region.mean_m;
+    return std::hypot(off.x(), off.z()) < kClose_m;
+  };
+  for (Candidate& candidate : candidates) {
+    if (candidate.track < 0 &&
+        std::any_of(candidates.begin(), candidates.end(),
+                    [&](const Candidate& other) { return close(candidate, other); }))
+      candidate.arrived_share = 0;
+  }
+}
+
 void MarkReturning(const std::vector<UserTrack>& users, double time_s, const SceneOptions& options,
                    std::vector<Candidate>& candidates) {
   for (size_t u = 0; u < users.size(); ++u) {
@@ -213,6 +232,7 @@ Scene FindCandidates(const DepthFrame& frame, const SceneState& state, SceneStat
   }
   ContinueTracks(owner, next.users, scene.candidates);
   MarkReturning(next.users, frame.time_s, options, scene.candidates);
+  DoubtRests(next.users, frame.time_s, scene.candidates);
   std::stable_sort(
       scene.candidates.begin(), scene.candidates.end(),
       [](const Candidate& a, const Candidate& b) { return a.region.area_m2 > b.region.area_m2; });

@@ -24,6 +24,9 @@ struct UserTrack {
   Eigen::Vector3f first_mean_m = Eigen::Vector3f::Zero();  // and surface, when it was new
   float first_m2 = 0;
   bool moved = false;  // since then
+  double moved_s = 0;  // when it was new or last elsewhere, or showed another surface than before
+  Eigen::Vector3f rest_mean_m = Eigen::Vector3f::Zero();  // where it was then, and its surface
+  float rest_m2 = 0;
   double seen_s = 0;
 };
 
@@ -62,7 +65,8 @@ struct Candidate {
   bool returning = false;       // somebody who went out of view is expected about here
   bool has_head = false;        // something like head and shoulders is seen
   double flat_share = 0;        // of the cells that lie on flat pieces
-  double arrived_share = 0;     // of the cells that stand where something behind them was seen
+  double arrived_share = 0;     // of the cells that stand where something behind them was seen; 0
+                                // for what may be the rest of somebody who is seen
   int origin = -1;              // candidates of one connected region have the same
 };
 

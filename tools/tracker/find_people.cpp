@@ -26,6 +26,7 @@ std::vector<Found> LookAt(const Eyes& eyes, const depth::DepthFrame& frame,
     looked[i].single_score = score;
     looked[i].looks = known.looks + 1;
     looked[i].moved = known.moved;
+    looked[i].moving = known.moving;
     if (known.person_score) {
       const double weight = std::max(1.0 / looked[i].looks, 1 - options.memory);
       score = *known.person_score + weight * (score - *known.person_score);

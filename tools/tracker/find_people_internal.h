@@ -16,7 +16,8 @@ struct Found {
   Perception perception;      // its person_score is the mean over the looks
   double single_score = 0.0;  // of this look
   int looks = 1;
-  bool moved = false;  // of somebody known
+  bool moved = false;   // of somebody known: since it was first seen,
+  bool moving = false;  // ... and lately
 };
 
 /// What was looked at and not taken for a person, so far: judged by all looks together, for noise
@@ -43,6 +44,7 @@ struct Known {
   std::optional<double> person_score;  // mean of the last seconds
   int looks = 0;                       // that mean is of
   bool moved = false;                  // since it was first seen
+  bool moving = false;                 // lately
 };
 
 /// What candidates are looked at with.
@@ -67,7 +69,7 @@ struct FindOptions {
   // others little is seen. At the first look, and as the mean of a few.
   double sure_arrived = 0.6;
   double arrived_person = 0.15;
-  double arrived_known = 0.05;  // ... and once it was accepted
+  double arrived_known = 0.05;  // ... and once it was accepted, while it moves
   // Of somebody accepted a few looks ago: what was a person by luck is none on average.
   double young_person = 0.4;
   int young_looks = 12;

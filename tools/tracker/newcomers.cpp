@@ -62,7 +62,8 @@ void Renew(Doubt& doubt, const Found& looked, double time_s) {
 bool AcceptedAgain(const Found& looked, double time_s, const FindOptions& options,
                    FinderState& state) {
   const double score = looked.perception.person_score;
-  const bool arrived = Arrived(looked.candidate);
+  const bool arrived =
+      looked.moving && Arrived(looked.candidate);  // a chair that was put there rests
   const bool young = looked.looks <= options.young_looks;
   const bool still = looked.looks > options.still_looks && !looked.moved;
   const double needed = arrived ? options.arrived_known
@@ -87,7 +88,7 @@ double FirstScore(const Candidate& candidate, const depth::Scene& scene,
 
 // What a newcomer needs as the mean of several looks.
 double ProbationScore(const Doubt& doubt, const FindOptions& options) {
-  if (doubt.arrived) return options.arrived_person;
+  if (doubt.arrived && doubt.moved) return options.arrived_person;
   if (!doubt.moved) return options.sure_person;
   return doubt.fallen ? options.still_person : options.new_person;
 }

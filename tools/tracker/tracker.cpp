@@ -23,6 +23,7 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
+constexpr double kMoving_s = 1.0;  // since the last shift; who is new may not have shifted yet
 constexpr double kRecent_s = 0.2;  // what was seen longer ago says nothing about now
 
 double MillisecondsSince(Clock::time_point start) {
@@ -143,7 +144,8 @@ std::vector<Found> Tracker::Impl::Segment(const depth::DepthFrame& frame, BodyFr
         const auto found = people.find(user.id);
         if (found == people.end()) return {};
         const Person& person = found->second;
-        return {ContextPrior(person, frame.time_s), person.score, person.looks, user.moved};
+        const bool moving = frame.time_s - user.moved_s < kMoving_s;
+        return {ContextPrior(person, frame.time_s), person.score, person.looks, user.moved, moving};
       }};
   const auto look_start = Clock::now();
   std::vector<Found> found = FindPeople(eyes, frame, scene, scene_options, find, finder_state);

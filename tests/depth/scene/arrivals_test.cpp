@@ -58,25 +58,22 @@ TEST(ArrivedSince, SeesSomebodyBeforeWhatIsTooFarToMatter) {
   EXPECT_GT(ShareOf(CellsOfPerson(render, now), arrived), 0.85);
 }
 
-// What shows of a person beside a screen and above it.
+// Cells in which two pictures differ in depth, as connected pieces.
+std::vector<Region> Changed(const PointGrid& before, const PointGrid& now) {
+  std::vector<uint8_t> ignore(static_cast<size_t>(now.cells()), 0);
+  for (int i = 0; i < now.cells(); ++i)
+    ignore[static_cast<size_t>(i)] = std::abs(now.z(i) - before.z(i)) < 0.1F;
+  return ConnectedRegions(now, ignore, 0.02F);
+}
+
+// What shows of something tall above a board and below it.
 class Behind : public testing::Test {
  protected:
   void SetUp() override {
-    // Of who stands 3.2 m away it hides 32 cm to either side of the middle, up to the shoulders.
-    constexpr double kScreen_m = 2.0, kWide = 0.1, kLow = -0.2, kHigh = 0.19;
-    CapsulePose pose = PersonAt(0, 3.2);
-    pose.left_lift_rad = 0.6;
-    pose.right_lift_rad = 0.1;  // hidden
-    const tests::Box screen{{-kWide * kScreen_m, kLow * kScreen_m, kScreen_m},
-                            {kWide * kScreen_m, kHigh * kScreen_m, kScreen_m + 0.02}};
-    const CapsuleRender render = Shot({pose}, 0, {screen});
-    grid_ = GridOf(render);
-    std::vector<uint8_t> ignore(static_cast<size_t>(grid_.cells()), 1);
-    for (const int cell : CellsOfPerson(render, grid_)) {
-      constexpr int kKneeRow = 72;  // below, legs show under the screen
-      if (cell / grid_.width < kKneeRow) ignore[static_cast<size_t>(cell)] = 0;
-    }
-    pieces_ = ConnectedRegions(grid_, ignore, 0.004F);
+    const tests::Box board{{-0.5, -0.1, 2.0}, {0.5, 0.1, 2.05}};
+    const tests::Box tall{{-0.12, -0.5, 3.2}, {0.12, 0.6, 3.4}};
+    grid_ = GridOf(Shot({}, 0, {board, tall}));
+    pieces_ = Changed(GridOf(Shot({}, 0, {board})), grid_);
     all_.assign(static_cast<size_t>(grid_.cells()), 1);
     nobody_.assign(all_.size(), -1);
   }
@@ -86,7 +83,7 @@ class Behind : public testing::Test {
   std::vector<int> nobody_;
 };
 
-TEST_F(Behind, HeadAndArmAroundSomethingNearerAreOnePerson) {
+TEST_F(Behind, PiecesAtBothSidesOfSomethingNearerAreOne) {
   ASSERT_EQ(pieces_.size(), 2U);
   EXPECT_EQ(JoinBehind(grid_, pieces_, all_, nobody_, 0).size(), 1U);
 }
@@ -101,11 +98,8 @@ TEST_F(Behind, WhatDidNotComeOrIsSomebodysStaysApart) {
 TEST(JoinBehind, ThingsSideBySideWithTheWallBetweenThemStayApart) {
   const CapsuleRender render =
       Shot({}, 0, {{{-0.3, -0.6, 3.0}, {-0.1, 0.2, 3.2}}, {{0.1, -0.6, 3.0}, {0.3, 0.2, 3.2}}});
-  const PointGrid grid = GridOf(render), empty = GridOf(Shot({}));
-  std::vector<uint8_t> ignore(static_cast<size_t>(grid.cells()), 0);
-  for (int i = 0; i < grid.cells(); ++i)
-    ignore[static_cast<size_t>(i)] = std::abs(grid.z(i) - empty.z(i)) < 0.1F;
-  auto regions = ConnectedRegions(grid, ignore, 0.02F);
+  const PointGrid grid = GridOf(render);
+  auto regions = Changed(GridOf(Shot({})), grid);
   ASSERT_EQ(regions.size(), 2U);
   const auto cells = static_cast<size_t>(grid.cells());
   EXPECT_EQ(JoinBehind(grid, std::move(regions), std::vector<uint8_t>(cells, 1),

@@ -66,16 +66,20 @@ TEST_F(Newcomer, WhoCameInBehindOthersIsFollowedThroughLooksThatShowLittle) {
   EXPECT_EQ(AcceptedIn(30, false, uncovered), -1);
 }
 
-TEST_F(Newcomer, OnceAcceptedWhoCameHereIsKeptOnLessThanOneWhoWasAlwaysThere) {
+TEST_F(Newcomer, OnceAcceptedWhoCameHereAndMovesIsKeptOnLess) {
   depth::Scene scene;
   scene.fresh = false;
   FinderState state;
-  Found found = Seen({0.1, 0, 1.0});
-  found.looks = 5;
-  EXPECT_TRUE(Accepted(found, scene, 1.0, options_, state));
-  found = Seen({0.1, 0, 0.0});
-  found.looks = 5;
-  EXPECT_FALSE(Accepted(found, scene, 1.0, options_, state));
+  const auto goes_on = [&](double arrived_share, bool moving) {
+    Found found = Seen({0.1, 0, arrived_share});
+    found.looks = 5;
+    found.moved = true;
+    found.moving = moving;
+    return Accepted(found, scene, 1.0, options_, state);
+  };
+  EXPECT_TRUE(goes_on(1.0, true));
+  EXPECT_FALSE(goes_on(0.0, true));
+  EXPECT_FALSE(goes_on(1.0, false));  // a chair that somebody put there
 }
 
 }  // namespace
