@@ -1,5 +1,5 @@
 // Neighbouring pixels of a surface carry the same part, but a tree answers each by itself, and its
-// errors scatter like salt and pepper: averaging P(c | I, x) over a patch of about 6 cm takes them
+// errors scatter like salt and pepper: averaging P(c | I, x) over a patch of about 5 cm takes them
 // out. Departure from Shotton et al. 2011, whose per-pixel answers go to mean shift directly.
 // Prefix sums along rows and columns make the cost independent of the patch's size. Only as many
 // rows are held as a window is high: they stay in the cache.

@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include "forest/feature_internal.h"
 #include "forest/sparse_internal.h"
 #include "tests/forest/ball_figure.h"
 
@@ -64,6 +65,26 @@ TEST(Classify, LetsFewPixelsSpeakForTheirNeighbours) {
   }
   // What changes lies at the edges of the balls, a pixel wide: 3 % of a ball 60 pixels across.
   EXPECT_GT(static_cast<double>(same) / static_cast<double>(all), 0.97);
+}
+
+// The vector path takes 128 pixels at a time, eight to a vector: any rest of them must do.
+TEST(Walk, AnyNumberOfPixelsEndsInTheLeavesOfTheScalarPath) {
+  const TrainingImage image = BallFigures(1, 8).Read(0);
+  const ObjectImage cut = CutOut(test::ViewOf(image), image.camera, test::ObjectPixels(image),
+                                 BallModel().data().background_mm);
+  std::vector<int32_t> position;  // the whole box: its border and pixels off the object as well
+  for (int i = 0; i < cut.width * cut.height; ++i) {
+    position.push_back(i / cut.width << 16 | i % cut.width);
+  }
+  const Tree& tree = BallModel().data().trees.front();
+  for (const size_t count : {size_t{1}, size_t{7}, size_t{8}, size_t{9}, size_t{127}, size_t{128},
+                             size_t{137}, position.size()}) {
+    const WalkInput input{tree.nodes.data(), &cut, std::span(position).last(count)};
+    std::vector<int32_t> scalar(count), best(count);
+    WalkScalar(input, scalar.data(), 1);
+    Walk(input, best.data(), 1);
+    EXPECT_EQ(best, scalar) << count << " pixels";
+  }
 }
 
 // A flat board of 6 × 4 pixels, the right half 20 cm behind the left.
