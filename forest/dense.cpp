@@ -13,9 +13,11 @@ constexpr Eigen::Index kTileColumns = 2 * kLanes;
 using Lanes = float __attribute__((vector_size(kLanes * sizeof(float))));
 
 struct Factors {
-  const float* a = nullptr;  // rows × inner
-  const float* b = nullptr;  // inner × columns
-  float* out = nullptr;      // rows × columns
+  const float* a = nullptr;   // rows × inner
+  Eigen::Index a_stride = 0;  // from row to row
+  const float* b = nullptr;   // inner × columns
+  Eigen::Index b_stride = 0;
+  float* out = nullptr;  // rows × columns
   Eigen::Index inner = 0;
   Eigen::Index columns = 0;
 };
@@ -26,9 +28,9 @@ template <int kRows>
   Lanes sum[kRows][2] = {};
   for (Eigen::Index k = 0; k < f.inner; ++k) {
     Lanes b[2];
-    std::memcpy(b, f.b + k * f.columns + column, sizeof(b));
+    std::memcpy(b, f.b + k * f.b_stride + column, sizeof(b));
     for (int r = 0; r < kRows; ++r) {
-      const float a = f.a[(row + r) * f.inner + k];
+      const float a = f.a[(row + r) * f.a_stride + k];
       sum[r][0] += a * b[0];
       sum[r][1] += a * b[1];
     }
@@ -53,7 +55,7 @@ void MultiplyRest(const Factors& f, Eigen::Index rows) {
     for (Eigen::Index c = f.columns - f.columns % kTileColumns; c < f.columns; ++c) {
       float sum = 0.0F;
       for (Eigen::Index k = 0; k < f.inner; ++k) {
-        sum += f.a[row * f.inner + k] * f.b[k * f.columns + c];
+        sum += f.a[row * f.a_stride + k] * f.b[k * f.b_stride + c];
       }
       f.out[row * f.columns + c] = sum;
     }
@@ -62,9 +64,10 @@ void MultiplyRest(const Factors& f, Eigen::Index rows) {
 
 }  // namespace
 
-RowMatrix Product(const RowMatrix& a, const RowMatrix& b) {
+RowMatrix Product(const Eigen::Ref<const RowMatrix>& a, const Eigen::Ref<const RowMatrix>& b) {
   RowMatrix out(a.rows(), b.cols());
-  const Factors factors{a.data(), b.data(), out.data(), a.cols(), b.cols()};
+  const Factors factors{a.data(),   a.outerStride(), b.data(), b.outerStride(),
+                        out.data(), a.cols(),        b.cols()};
   MultiplyTiles(factors, a.rows());
   MultiplyRest(factors, a.rows());
   return out;

@@ -7,6 +7,6 @@ using RowMatrix = Eigen::Matrix<float, Eigen::Dynamic, Eigen::Dynamic, Eigen::Ro
 
 /// a · b. Every sum runs over the inner index from its start to its end, one product after another:
 /// the same bits on every machine, which Eigen's own products do not promise.
-RowMatrix Product(const RowMatrix& a, const RowMatrix& b);
+RowMatrix Product(const Eigen::Ref<const RowMatrix>& a, const Eigen::Ref<const RowMatrix>& b);
 
 }  // namespace ossa::forest

@@ -133,20 +133,21 @@ class Describer {
   // place there: before it, something hides the place, far behind, nothing can be there.
   void AddNearestSurface(const Eigen::Vector3f& place_m) {
     const Eigen::Vector3f ray = (place_m + RootFromCamera()).normalized();
-    float nearest_m = kSurfaceReach_m;
-    float nearest_aside_m = kSurfaceReach_m;
+    float nearest_m2 = kSurfaceReach_m * kSurfaceReach_m;
+    float nearest_aside_m2 = nearest_m2;
     float behind_m = 0.0F;
     for (const Eigen::Vector3f& point : surface_.point_m) {
       const Eigen::Vector3f off = point - place_m;
       const float along = off.dot(ray);
-      const float aside = std::sqrt(std::max(off.squaredNorm() - along * along, 0.0F));
-      nearest_m = std::min(nearest_m, off.norm());
-      if (aside >= nearest_aside_m) continue;
-      nearest_aside_m = aside;
+      const float square = off.squaredNorm();
+      const float aside_m2 = std::max(square - along * along, 0.0F);
+      nearest_m2 = std::min(nearest_m2, square);
+      if (aside_m2 >= nearest_aside_m2) continue;
+      nearest_aside_m2 = aside_m2;
       behind_m = along;
     }
-    Add(nearest_m);
-    Add(nearest_aside_m);
+    Add(std::sqrt(nearest_m2));
+    Add(std::sqrt(nearest_aside_m2));
     Add(std::clamp(behind_m, -kSurfaceReach_m, kSurfaceReach_m));
   }
 
