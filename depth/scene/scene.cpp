@@ -6,6 +6,7 @@
 
 #include "depth/scene/heads.h"
 #include "depth/scene/pieces.h"
+#include "depth/scene/region_pixels_internal.h"
 
 namespace ossa::depth {
 namespace {
@@ -41,55 +42,6 @@ void ForgetIfStrange(const DepthFrame& frame, const PointGrid& grid, SceneState&
   }
   state.last_z_m.resize(static_cast<size_t>(grid.cells()));
   for (int i = 0; i < grid.cells(); ++i) state.last_z_m[static_cast<size_t>(i)] = grid.z(i);
-}
-
-// Full-resolution pixels of a region: each pixel follows the nearest cell around it of its depth.
-std::vector<int32_t> PixelsOf(const DepthFrame& frame, const PointGrid& grid,
-                              const Region& region) {
-  const DepthView depth = frame.view();
-  std::vector<uint8_t> member(static_cast<size_t>(grid.cells()), 0);
-  std::vector<uint8_t> touched(member.size(), 0);
-  int low = grid.height, high = 0;
-  for (const int cell : region.cells) {
-    member[static_cast<size_t>(cell)] = 1;
-    const int x = cell % grid.width, y = cell / grid.width;
-    low = std::min(low, std::max(0, y - 1)),
-    high = std::max(high, std::min(grid.height - 1, y + 1));
-    for (int dy = -1; dy <= 1; ++dy) {
-      for (int dx = -1; dx <= 1; ++dx) {
-        if (grid.Contains(x + dx, y + dy))
-          touched[static_cast<size_t>(grid.cell(x + dx, y + dy))] = 1;
-      }
-    }
-  }
-  const auto belongs = [&](int x, int y, uint16_t mm) {
-    const auto z = static_cast<float>(MetresFromMillimetres(mm));
-    float best = 0.06F + DepthTolerance(z);
-    bool mine = false;
-    for (int dy = -1; dy <= 1; ++dy) {
-      for (int dx = -1; dx <= 1; ++dx) {
-        if (!grid.Contains(x + dx, y + dy)) continue;
-        const int cell = grid.cell(x + dx, y + dy);
-        // The own cell wins ties against its neighbours.
-        const float off = std::abs(grid.z(cell) - z) + (dx != 0 || dy != 0 ? 0.02F : 0.0F);
-        if (grid.valid(cell) && off < best)
-          best = off, mine = member[static_cast<size_t>(cell)] != 0;
-      }
-    }
-    return mine;
-  };
-  std::vector<int32_t> pixels;
-  pixels.reserve(region.cells.size() * static_cast<size_t>(grid.step * grid.step));
-  for (int v = low * grid.step; v < std::min(depth.height, (high + 1) * grid.step); ++v) {
-    for (int x = 0; x < grid.width; ++x) {
-      if (!touched[static_cast<size_t>(grid.cell(x, v / grid.step))]) continue;
-      for (int u = x * grid.step; u < std::min(depth.width, (x + 1) * grid.step); ++u) {
-        const uint16_t mm = depth.at(u, v);
-        if (mm > 0 && belongs(x, v / grid.step, mm)) pixels.push_back(v * depth.width + u);
-      }
-    }
-  }
-  return pixels;
 }
 
 // Of the region's cells that are marked.

@@ -1,0 +1,15 @@
+#pragma once
+#include <cstdint>
+#include <vector>
+
+#include "depth/image/depth_frame.h"
+#include "depth/scene/point_grid.h"
+#include "depth/scene/regions.h"
+
+namespace ossa::depth {
+
+/// Full-resolution pixels (v * width + u, ascending) of a region of cells: each pixel follows the
+/// nearest cell around it of its depth.
+std::vector<int32_t> PixelsOf(const DepthFrame& frame, const PointGrid& grid, const Region& region);
+
+}  // namespace ossa::depth
