@@ -56,7 +56,12 @@ class PieceGrower {
         sums_(static_cast<size_t>(width_ * height_)),
         rms_(sums_.size(), 1e9),
         block_taken_(sums_.size(), 0),
-        cell_taken_(ignore) {
+        cell_taken_(ignore),
+        inverse_depth_(ignore.size(), 0.0) {
+    for (int i = 0; i < grid.cells(); ++i) {
+      if (grid.valid(i))
+        inverse_depth_[static_cast<size_t>(i)] = 1.0 / static_cast<double>(grid.z(i));
+    }
     for (int by = 0; by < height_; ++by) {
       for (int bx = 0; bx < width_; ++bx) Measure(bx, by);
     }
@@ -90,7 +95,7 @@ class PieceGrower {
       for (int x = bx * kBlock; x < (bx + 1) * kBlock; ++x) {
         const int cell = grid_.cell(x, y);
         if (ignore_[static_cast<size_t>(cell)] || !grid_.valid(cell)) continue;
-        sums_[block].Add(x, y, 1.0 / static_cast<double>(grid_.z(cell)));
+        sums_[block].Add(x, y, inverse_depth_[static_cast<size_t>(cell)]);
       }
     }
     if (sums_[block].n < kFewest) return;
@@ -129,18 +134,18 @@ class PieceGrower {
     FlatPiece piece;
     piece.slope_x = plane.x(), piece.slope_y = plane.y(), piece.at_zero = plane.z();
     SetNormal(plane, piece);
-    const auto on_plane = [&](int cell) {
-      const double expected = plane.dot(Vector3d(cell % grid_.width, cell / grid_.width, 1.0));
-      return grid_.valid(cell) && !cell_taken_[static_cast<size_t>(cell)] &&
-             std::abs(1.0 / static_cast<double>(grid_.z(cell)) - expected) < kCellOff;
+    const auto take_if_on_plane = [&](int x, int y) {
+      const int cell = grid_.cell(x, y);
+      const auto i = static_cast<size_t>(cell);
+      if (cell_taken_[i] || !grid_.valid(cell)) return;
+      if (std::abs(inverse_depth_[i] - plane.dot(Vector3d(x, y, 1.0))) >= kCellOff) return;
+      cell_taken_[i] = 1;
+      piece.cells.push_back(cell);
     };
     const int x0 = static_cast<int>(seed) % width_ * kBlock;
     const int y0 = static_cast<int>(seed) / width_ * kBlock;
     for (int i = 0; i < kBlock * kBlock; ++i) {
-      const int cell = grid_.cell(x0 + i % kBlock, y0 + i / kBlock);
-      if (!on_plane(cell)) continue;
-      cell_taken_[static_cast<size_t>(cell)] = 1;
-      piece.cells.push_back(cell);
+      take_if_on_plane(x0 + i % kBlock, y0 + i / kBlock);
     }
     for (size_t i = 0; i < piece.cells.size(); ++i) {
       const int cell = piece.cells[i], x = cell % grid_.width, y = cell / grid_.width;
@@ -148,10 +153,7 @@ class PieceGrower {
                                     {3, 0}, {-3, 0}, {0, 3}, {0, -3}};
       for (const auto& step : kSteps) {
         if (!grid_.Contains(x + step[0], y + step[1])) continue;
-        const int next = grid_.cell(x + step[0], y + step[1]);
-        if (!on_plane(next)) continue;
-        cell_taken_[static_cast<size_t>(next)] = 1;
-        piece.cells.push_back(next);
+        take_if_on_plane(x + step[0], y + step[1]);
       }
     }
     std::sort(piece.cells.begin(), piece.cells.end());
@@ -182,6 +184,7 @@ class PieceGrower {
   std::vector<Sums> sums_;
   std::vector<double> rms_;
   std::vector<uint8_t> block_taken_, cell_taken_;
+  std::vector<double> inverse_depth_;  // 1/m, 0 without reading
 };
 
 }  // namespace
