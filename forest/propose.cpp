@@ -11,12 +11,10 @@
 #include "forest/agree_internal.h"
 #include "forest/propose_internal.h"
 #include "forest/refine_internal.h"
-#include "forest/runtime_internal.h"
 
 namespace ossa::forest {
 namespace {
 
-constexpr size_t kSampledPixels = 640;  // more do not move the modes by a millimetre worth having
 constexpr float kReferenceArea_m2 = 0.004F;  // A0: about the seen surface of an elbow
 constexpr size_t kStarts = 12;
 constexpr size_t kClimbs = 3;
@@ -127,17 +125,6 @@ void DescribeModes(const Evidence& evidence, const TargetPoints& points,
   }
 }
 
-// Pixel i's context: over many pixels each is drawn as often as it is likely, without chance.
-size_t DrawContext(const std::vector<float>& posterior, size_t i) {
-  constexpr double kGolden = 0.6180339887498949;  // multiples spread evenly over the unit interval
-  double left = std::fmod(static_cast<double>(i) * kGolden, 1.0);
-  for (size_t k = 0; k < posterior.size(); ++k) {
-    left -= static_cast<double>(posterior[k]);
-    if (left < 0) return k;
-  }
-  return posterior.empty() ? 0 : posterior.size() - 1;
-}
-
 Proposal ProposalAt(const ProposalTarget& target, const Mode& mode) {
   Proposal proposal;
   proposal.position_m = mode.position_m.cast<double>();
@@ -218,54 +205,6 @@ std::vector<std::vector<Proposal>> Propose(const ForestModel& model, const depth
                      Describe(model, camera, evidence, classification.context, modes, beliefs));
   }
   return ProposeTogether(model, beliefs, modes, refined);
-}
-
-Evidence GatherEvidence(const ForestModel& model, const depth::DepthView& depth,
-                        const depth::Camera& camera, const Classification& classification) {
-  Evidence evidence;
-  evidence.class_count = classification.class_count;
-  evidence.votes.resize(model.targets().size());
-  if (!classification.context.empty()) {
-    evidence.context_certainty =
-        *std::max_element(classification.context.begin(), classification.context.end());
-  }
-  const size_t count = classification.pixel.size();
-  const auto classes = static_cast<size_t>(classification.class_count);
-  const size_t trees = model.data().trees.size();
-  const size_t targets = model.targets().size();
-  const size_t contexts = model.data().context_names.size();
-  const auto drawn = [&](size_t i) { return DrawContext(classification.context, i); };
-  const size_t step = std::max<size_t>(1, count / kSampledPixels);
-  size_t tree = 0;
-  for (size_t i = step / 2; i < count; i += step, tree = (tree + 1) % trees) {
-    const int u = classification.pixel[i] % depth.width;
-    const int v = classification.pixel[i] / depth.width;
-    const Eigen::Vector3d p = depth::BackProject(camera, u, v, depth.at(u, v));
-    const auto area_m2 =
-        static_cast<float>(static_cast<double>(step) * p.z() * p.z() / (camera.fx * camera.fy));
-    evidence.surface_m.push_back(p.cast<float>());
-    evidence.area_m2.push_back(area_m2);
-    for (size_t c = 0; c < classes; ++c) {
-      evidence.probability.push_back(classification.Probability(i, c));
-    }
-    const auto sample = static_cast<size_t>(classification.sample[i]);
-    const auto leaf = static_cast<size_t>(classification.leaf[sample * trees + tree]);
-    const int32_t vote_row = model.tables().leaves[tree].vote_row[leaf];
-    if (vote_row < 0) continue;
-    const size_t context = drawn(evidence.surface_m.size());
-    const Vote* votes = model.data().trees[tree].votes.data() +
-                        (static_cast<size_t>(vote_row) * contexts + context) * targets;
-    for (size_t t = 0; t < targets; ++t) {
-      if (votes[t].spread_cm == Vote::kNone) continue;
-      const Eigen::Vector3f offset_m =
-          Eigen::Vector3f(votes[t].offset_cm[0], votes[t].offset_cm[1], votes[t].offset_cm[2]) *
-          0.01F;
-      evidence.votes[t].push_back({p.cast<float>() + offset_m,
-                                   0.01F * static_cast<float>(votes[t].spread_cm), offset_m.norm(),
-                                   area_m2});
-    }
-  }
-  return evidence;
 }
 
 }  // namespace ossa::forest
