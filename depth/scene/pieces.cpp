@@ -71,10 +71,7 @@ int OwnerOfHead(const PointGrid& grid, const HeadBlob& head, std::span<const See
 }
 
 bool MostlyArrived(const Region& region, const std::vector<uint8_t>& arrived) {
-  const auto count = std::count_if(region.cells.begin(), region.cells.end(), [&](int cell) {
-    return arrived[static_cast<size_t>(cell)] != 0;
-  });
-  return 2 * count > std::ssize(region.cells);
+  return ShareOf(region, arrived) > 0.5;
 }
 
 // On the straight way in the image from one cell to the other is mostly what is nearer than both,

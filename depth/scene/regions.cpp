@@ -124,4 +124,11 @@ std::vector<Region> ConnectedRegions(const PointGrid& grid, std::span<const uint
   return regions;
 }
 
+double ShareOf(const Region& region, const std::vector<uint8_t>& marked) {
+  const auto count = std::count_if(region.cells.begin(), region.cells.end(), [&](int cell) {
+    return marked[static_cast<size_t>(cell)] != 0;
+  });
+  return static_cast<double>(count) / static_cast<double>(std::max<size_t>(1, region.cells.size()));
+}
+
 }  // namespace ossa::depth

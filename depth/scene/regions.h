@@ -35,4 +35,7 @@ std::vector<Region> ConnectedRegions(const PointGrid& grid, std::span<const uint
 /// True when neighbouring cells may lie on one body.
 bool Continuous(const PointGrid& grid, int cell_a, int cell_b);
 
+/// Share of the region's cells that are marked.
+double ShareOf(const Region& region, const std::vector<uint8_t>& marked);
+
 }  // namespace ossa::depth

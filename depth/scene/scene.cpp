@@ -44,14 +44,6 @@ void ForgetIfStrange(const DepthFrame& frame, const PointGrid& grid, SceneState&
   for (int i = 0; i < grid.cells(); ++i) state.last_z_m[static_cast<size_t>(i)] = grid.z(i);
 }
 
-// Of the region's cells that are marked.
-double ShareOf(const Region& region, const std::vector<uint8_t>& marked) {
-  const auto count = std::count_if(region.cells.begin(), region.cells.end(), [&](int cell) {
-    return marked[static_cast<size_t>(cell)] != 0;
-  });
-  return static_cast<double>(count) / static_cast<double>(std::max<size_t>(1, region.cells.size()));
-}
-
 // What is known of each cell.
 struct CellFacts {
   const std::vector<int>& owner;       // user of the frame before
