@@ -129,11 +129,11 @@ void LearnedModels::Save(const std::filesystem::path& path) const {
     }
   }
   for (const Eigen::MatrixXf* m : {&observed, &residual, &known}) PutMatrix(out, *m);
-  PutMatrix(out, correction.centres_);
-  PutMatrix(out, correction.weights_);
-  PutMatrix(out, correction.mean_);
-  out.Put(correction.width_);
-  out.Put(correction.proportion_);
+  PutMatrix(out, correction.centres);
+  PutMatrix(out, correction.weights);
+  PutMatrix(out, correction.mean);
+  out.Put(correction.width);
+  out.Put(correction.proportions);
   WriteSealedFile(path, kFormat, out.bytes());
 }
 
@@ -170,23 +170,23 @@ LearnedModels LearnedModels::FromBytes(std::span<const std::byte> bytes, const s
     for (int j = 0; j < kJointCount; ++j) pair.known[static_cast<size_t>(j)] = known(j, i);
   }
   PoseCorrection& c = out.correction;
-  c.centres_ = GetMatrix(in, "centres");
-  c.weights_ = GetMatrix(in, "weights");
+  c.centres = GetMatrix(in, "centres");
+  c.weights = GetMatrix(in, "weights");
   const Eigen::MatrixXf mean = GetMatrix(in, "mean offsets");
-  c.width_ = in.Get<double>("width");
-  c.proportion_ = in.Get<BoneLengths>("proportions");
-  for (const double p : c.proportion_) {
+  c.width = in.Get<double>("width");
+  c.proportions = in.Get<BoneLengths>("proportions");
+  for (const double p : c.proportions) {
     if (!(p >= 0.0 && p < 5.0)) in.Fail("proportions", "expected 0 to 5");
   }
   const Eigen::Index features = CorrectionFeature(Posture()).size();
   const bool fits =
-      c.weights_.size() == 0 ||
-      (c.centres_.rows() == features && c.weights_.rows() == c.centres_.cols() + features &&
-       c.weights_.cols() == kPostureDims && mean.size() == kPostureDims);
-  if (!fits || !(c.width_ > 1e-3 && c.width_ < 1e3)) {
+      c.weights.size() == 0 ||
+      (c.centres.rows() == features && c.weights.rows() == c.centres.cols() + features &&
+       c.weights.cols() == kPostureDims && mean.size() == kPostureDims);
+  if (!fits || !(c.width > 1e-3 && c.width < 1e3)) {
     in.Fail("centres", "expected a correction of whole postures");
   }
-  c.mean_ = Eigen::Map<const Eigen::VectorXf>(mean.data(), mean.size());
+  c.mean = Eigen::Map<const Eigen::VectorXf>(mean.data(), mean.size());
   in.ExpectEnd();
   return out;
 }

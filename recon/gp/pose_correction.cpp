@@ -256,15 +256,15 @@ PoseCorrection PoseCorrection::Fit(const std::vector<PosturePair>& pairs, double
                                    double noise_ratio, const PoseCorrectionOptions& options) {
   const Samples samples = SamplesOf(pairs);
   PoseCorrection out;
-  out.width_ = width;
-  out.centres_ = Centres(samples.features, options.centres, options.seed);
-  const Eigen::Index m = out.centres_.cols(), all = m + samples.features.rows();
-  out.weights_ = Eigen::MatrixXf::Zero(all, kPostureDims);
-  out.mean_ = Eigen::VectorXf::Zero(kPostureDims);
+  out.width = width;
+  out.centres = Centres(samples.features, options.centres, options.seed);
+  const Eigen::Index m = out.centres.cols(), all = m + samples.features.rows();
+  out.weights = Eigen::MatrixXf::Zero(all, kPostureDims);
+  out.mean = Eigen::VectorXf::Zero(kPostureDims);
   Eigen::MatrixXd prior = Eigen::MatrixXd::Identity(all, all);
-  prior.topLeftCorner(m, m) = Kernel(out.centres_, out.centres_, width).cast<double>();
+  prior.topLeftCorner(m, m) = Kernel(out.centres, out.centres, width).cast<double>();
   prior *= noise_ratio;
-  const Eigen::MatrixXf regressors = Regressors(out.centres_, samples.features, width);
+  const Eigen::MatrixXf regressors = Regressors(out.centres, samples.features, width);
   for (const auto& [mask, joints] : JointsByMask(samples.pairs)) {
     const Eigen::MatrixXf k = MaskedRows(regressors, mask);
     const Eigen::MatrixXf residual = MaskedRows(samples.residual, mask);
@@ -277,8 +277,8 @@ PoseCorrection PoseCorrection::Fit(const std::vector<PosturePair>& pairs, double
     for (size_t j = 0; j < joints.size(); ++j) {
       const auto to = 3 * static_cast<Eigen::Index>(joints[j]);
       const auto from = 3 * static_cast<Eigen::Index>(j);
-      out.weights_.middleCols<3>(to) = solved.middleCols<3>(from);
-      out.mean_.segment<3>(to) = mean.segment<3>(from).transpose();
+      out.weights.middleCols<3>(to) = solved.middleCols<3>(from);
+      out.mean.segment<3>(to) = mean.segment<3>(from).transpose();
     }
   }
   return out;
@@ -326,11 +326,11 @@ PoseCorrection PoseCorrection::Learn(const std::vector<PosturePair>& all_pairs,
     }
   }
   PoseCorrection out = Fit(pairs, width, noise_ratio, options);
-  out.proportion_ = TrueProportions(pairs);
+  out.proportions = TrueProportions(pairs);
   for (size_t j = 0; j < kJointCount; ++j) {
     const auto gain = static_cast<float>(best->gains[j]);
-    out.weights_.middleCols<3>(3 * static_cast<Eigen::Index>(j)) *= gain;
-    out.mean_.segment<3>(3 * static_cast<Eigen::Index>(j)) *= gain;
+    out.weights.middleCols<3>(3 * static_cast<Eigen::Index>(j)) *= gain;
+    out.mean.segment<3>(3 * static_cast<Eigen::Index>(j)) *= gain;
   }
   return out;
 }
@@ -338,8 +338,8 @@ PoseCorrection PoseCorrection::Learn(const std::vector<PosturePair>& all_pairs,
 Posture PoseCorrection::Offsets(const Posture& scaled) const {
   if (empty()) return {};
   const Eigen::VectorXf feature = CorrectionFeature(scaled);
-  const Eigen::RowVectorXf k = Regressors(centres_, feature, width_);
-  const PostureVector offsets = mean_ + weights_.transpose() * k.transpose();
+  const Eigen::RowVectorXf k = Regressors(centres, feature, width);
+  const PostureVector offsets = mean + weights.transpose() * k.transpose();
   return PostureOf(offsets);
 }
 

@@ -34,18 +34,18 @@ class PoseCorrection {
   static PoseCorrection Learn(const std::vector<PosturePair>& pairs,
                               const PoseCorrectionOptions& options = {});
 
-  bool empty() const { return weights_.size() == 0; }
+  bool empty() const { return weights.size() == 0; }
   /// Offsets to add to a complete scaled posture; zero for joints no truth was known of.
   Posture Offsets(const Posture& scaled) const;
 
   // Public for the file: centres (features x m), weights ((m + features) x 60), mean (60).
-  Eigen::MatrixXf centres_;
-  Eigen::MatrixXf weights_;
-  Eigen::VectorXf mean_;
-  double width_ = 1.0;
+  Eigen::MatrixXf centres;
+  Eigen::MatrixXf weights;
+  Eigen::VectorXf mean;
+  double width = 1.0;
   /// Mean true length of each bone over the standard one, of scaled people; 0 where no truth was
   /// known of both ends.
-  BoneLengths proportion_{};
+  BoneLengths proportions{};
 
  private:
   /// How one choice of width and noise does on people left out.

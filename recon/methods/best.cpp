@@ -27,7 +27,7 @@ class Best : public Reconstructor {
  public:
   explicit Best(const ReconstructorOptions& options) : options_(options.best) {
     if (const auto learned = LearnedOf(options)) correction_ = learned->correction;
-    size_.Expect(correction_.proportion_);
+    size_.Expect(correction_.proportions);
     if (options.database) natural_ = MakePlantard2016(ForCompletion(options));
   }
 
@@ -77,7 +77,7 @@ class Best : public Reconstructor {
     person_.Reset();
     plausibility_ = Plausibility();
     size_ = BodySize(true);
-    size_.Expect(correction_.proportion_);
+    size_.Expect(correction_.proportions);
     if (natural_) natural_->Reset();
     had_.fill(false);
     mean_offset_ = Posture();

@@ -31,11 +31,15 @@ bool IsWhole(const std::string& text) {
 }
 
 // CLI11 makes -1 the largest unsigned number, cuts whole numbers that are too large down to the
-// largest, and takes nan and inf, which pass by every range.
-void CheckNumbers(const CLI::App& app) {
+// largest, takes nan and inf, which pass by every range, and an empty word (a shell's unset
+// variable) as a file's name.
+void CheckValues(const CLI::App& app) {
   for (const CLI::Option* option : app.get_options()) {
     const std::string type = option->get_type_name();
     for (const std::string& text : option->results()) {
+      if (text.empty()) {
+        throw UsageError(fmt::format("{}: expected a value, found ''", option->get_name()));
+      }
       const bool good = type.starts_with("UINT")  ? IsWhole<uint64_t>(text)
                         : type.starts_with("INT") ? IsWhole<int64_t>(text)
                         : type.starts_with("FLOAT")
@@ -57,7 +61,7 @@ void Parse(CLI::App& app, int argc, char** argv) {
   app.name(fmt::format("ossa {}", argv[0]));
   try {
     app.parse(argc, argv);
-    CheckNumbers(app);
+    CheckValues(app);
   } catch (const CLI::CallForHelp&) {
     fmt::print("{}", app.help());
     throw HelpShown{};

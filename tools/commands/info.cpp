@@ -79,7 +79,7 @@ void ShowLearned(const fs::path& path) {
   const auto learned = recon::LearnedModels::Load(path);
   fmt::print("learned reconstruction, from {} pairs, {:.1f} MB\n", learned.pair_count,
              static_cast<double>(fs::file_size(path)) * 1e-6);
-  fmt::print("best: a correction of {} centres\n", learned.correction.centres_.cols());
+  fmt::print("best: a correction of {} centres\n", learned.correction.centres.cols());
   fmt::print("exemplar: {} pairs\n", learned.exemplars.size());
   for (size_t j = 0; j < recon::kJointCount; ++j) {
     fmt::print("  {:<14} liu-2016: {} local models  full-gp: {} samples\n", recon::kJointNames[j],

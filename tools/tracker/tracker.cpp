@@ -53,7 +53,7 @@ std::shared_ptr<const recon::LearnedModels> LearnedOf(const TrackerOptions& opti
         recon::LearnedModels::Load(ShippedFile("body.ossagp")));
   }
   auto models = std::make_shared<recon::LearnedModels>();
-  models->correction.proportion_.fill(1.0);
+  models->correction.proportions.fill(1.0);
   return models;
 }
 

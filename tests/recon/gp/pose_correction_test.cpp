@@ -55,13 +55,13 @@ TEST(PoseCorrection, HasNobodysPostureInItsCentres) {
   const PoseCorrection correction = PoseCorrection::Learn(pairs);
   // Each is a mean of ten observations or more, and each observation is in one mean at most; every
   // pair is there twice, mirrored.
-  ASSERT_GT(correction.centres_.cols(), 0);
-  EXPECT_LE(correction.centres_.cols() * 10, static_cast<Eigen::Index>(2 * pairs.size()));
+  ASSERT_GT(correction.centres.cols(), 0);
+  EXPECT_LE(correction.centres.cols() * 10, static_cast<Eigen::Index>(2 * pairs.size()));
   for (const PosturePair& pair : pairs) {
     const Eigen::VectorXf feature = CorrectionFeature(pair.observed);
-    for (Eigen::Index c = 0; c < correction.centres_.cols(); ++c) {
+    for (Eigen::Index c = 0; c < correction.centres.cols(); ++c) {
       // Directions count 0.3 m a radian: no centre is a posture to within a third of a degree.
-      EXPECT_GT((correction.centres_.col(c) - feature).norm(), 0.002F);
+      EXPECT_GT((correction.centres.col(c) - feature).norm(), 0.002F);
     }
   }
 }
@@ -87,7 +87,7 @@ TEST(LearnedModels, AreTheSameAfterTheFileAndRefusedWhenCutShort) {
   const LearnedModels read = LearnedModels::Load(path);
   const Posture at = test::Motion(0.7);
   EXPECT_EQ(made.correction.Offsets(at).position_m[7], read.correction.Offsets(at).position_m[7]);
-  EXPECT_EQ(made.correction.proportion_, read.correction.proportion_);
+  EXPECT_EQ(made.correction.proportions, read.correction.proportions);
   std::filesystem::resize_file(path, std::filesystem::file_size(path) - 1);
   EXPECT_THROW(LearnedModels::Load(path), InputError);
   std::filesystem::remove(path);

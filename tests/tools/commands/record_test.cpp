@@ -144,6 +144,8 @@ TEST(RecordCommand, SaysWhatIsWrongInOneLine) {
   for (const Case& bad : std::vector<Case>{
            {{"record"}, 2, "SOURCE is required"},
            {{"record", "x"}, 2, "--out is required"},
+           {{"record", "", "--out", out}, 2, "SOURCE: expected a value, found ''"},
+           {{"record", "x", "--out", ""}, 2, "--out: expected a value, found ''"},
            {{"record", "x", "--out", "x.png"}, 2, "ends in .oni"},
            {{"record", "x", "--out", out, "--seconds", "-1"}, 2, "--seconds"},
            {{"record", "/nowhere", "--out", out}, 1, "/nowhere: expected"},
