@@ -37,7 +37,7 @@ void CheckValues(const CLI::App& app) {
   for (const CLI::Option* option : app.get_options()) {
     const std::string type = option->get_type_name();
     for (const std::string& text : option->results()) {
-      if (text.empty()) {
+      if (text.empty() && option->get_expected_min() > 0) {
         throw UsageError(fmt::format("{}: expected a value, found ''", option->get_name()));
       }
       const bool good = type.starts_with("UINT")  ? IsWhole<uint64_t>(text)
