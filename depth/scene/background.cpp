@@ -14,10 +14,13 @@ bool SensorMoved(const PointGrid& grid, const BackgroundState& state,
   int known = 0, moved = 0;
   for (int i = 0; i < grid.cells(); ++i) {
     const auto n = static_cast<size_t>(i);
-    if (state.steady[n] < options.steady_frames || !grid.valid(i)) continue;
-    ++known;
+    // Single ands: half the readings are a little farther away, which no processor foresees.
+    const bool is_known = (state.steady[n] >= options.steady_frames) & grid.valid(i);
     // Nearer things are people passing; a surface that is suddenly farther away is not.
-    moved += grid.z(i) > state.surface_m[n] && !SameSurface(grid.z(i), state.surface_m[n]) ? 1 : 0;
+    const bool is_farther =
+        (grid.z(i) > state.surface_m[n]) & !SameSurface(grid.z(i), state.surface_m[n]);
+    known += is_known ? 1 : 0;
+    moved += is_known & is_farther ? 1 : 0;
   }
   return known > 500 && moved > options.moved_share * known;
 }
@@ -28,7 +31,7 @@ std::vector<uint8_t> SeenFor(int frames, const PointGrid& grid, const Background
   for (int i = 0; i < grid.cells(); ++i) {
     const auto n = static_cast<size_t>(i);
     seen[n] =
-        grid.valid(i) && state.steady[n] >= frames && SameSurface(grid.z(i), state.surface_m[n]);
+        grid.valid(i) & (state.steady[n] >= frames) & SameSurface(grid.z(i), state.surface_m[n]);
   }
   return seen;
 }
@@ -71,8 +74,8 @@ std::vector<uint8_t> ArrivedSince(const PointGrid& grid, const BackgroundState& 
   for (int i = 0; i < grid.cells(); ++i) {
     const auto n = static_cast<size_t>(i);
     const float before_m = state.surface_m[n];
-    arrived[n] = grid.valid(i) && state.steady[n] > 0 &&
-                 grid.z(i) < before_m - kClearly_m - DepthTolerance(before_m);
+    arrived[n] = grid.valid(i) & (state.steady[n] > 0) &
+                 (grid.z(i) < before_m - kClearly_m - DepthTolerance(before_m));
   }
   return arrived;
 }

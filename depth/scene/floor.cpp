@@ -16,11 +16,25 @@ using Eigen::Vector4f;
 
 float Height(const Vector4f& plane, const Vector3f& p) { return plane.head<3>().dot(p) + plane[3]; }
 
+constexpr float kLeastTolerance_m = 0.015F;
+
 // How far a measurement of the plane may lie off it: depth errors run along the line of sight, and
 // a floor is seen at a grazing angle.
 float Tolerance(const Vector4f& plane, const Vector3f& p) {
   const float along = std::abs(plane.head<3>().dot(p)) / p.norm();
-  return 0.015F + along * DepthTolerance(p.z());
+  return kLeastTolerance_m + along * DepthTolerance(p.z());
+}
+
+// No tolerance there is larger, whatever the plane: that of looking straight at it. It spares most
+// points the root above.
+float MostTolerance(const Vector3f& p) {
+  constexpr float kMostAlong = 1.001F;  // 1, and what rounding may add
+  return kLeastTolerance_m + kMostAlong * DepthTolerance(p.z());
+}
+
+bool OnPlane(const Vector4f& plane, const Vector3f& p) {
+  const float off_m = std::abs(Height(plane, p));
+  return off_m < MostTolerance(p) && off_m < Tolerance(plane, p);
 }
 
 struct Fit {
@@ -33,6 +47,7 @@ Fit Score(const std::vector<Vector3f>& points, const Vector4f& plane) {
   Fit fit{plane, 0, 0};
   for (const Vector3f& p : points) {
     const float height = Height(plane, p);
+    if (height > MostTolerance(p)) continue;
     const float tolerance = Tolerance(plane, p);
     fit.inliers += std::abs(height) < tolerance ? 1 : 0;
     fit.below += height < -2 * tolerance ? 1 : 0;
@@ -59,7 +74,7 @@ Vector4f Refine(const std::vector<Vector3f>& points, const Vector4f& plane) {
   Eigen::Vector3d mean = Eigen::Vector3d::Zero();
   std::vector<Eigen::Vector3d> inliers;
   for (const Vector3f& p : points) {
-    if (std::abs(Height(plane, p)) >= Tolerance(plane, p)) continue;
+    if (!OnPlane(plane, p)) continue;
     inliers.push_back(p.cast<double>());
     mean += inliers.back();
   }
@@ -73,15 +88,16 @@ Vector4f Refine(const std::vector<Vector3f>& points, const Vector4f& plane) {
   return Eigen::Vector4d(normal.x(), normal.y(), normal.z(), -normal.dot(mean)).cast<float>();
 }
 
-// Squares of 10 cm of the plane in which something was measured.
-double VisibleArea_m2(const std::vector<Vector3f>& points, const Vector4f& plane) {
+// Whether something was measured in enough squares of 10 cm of the plane.
+bool IsVisible(const std::vector<Vector3f>& points, const Vector4f& plane, double min_area_m2) {
   std::set<std::pair<int, int>> squares;
   for (const Vector3f& p : points) {
-    if (std::abs(Height(plane, p)) >= Tolerance(plane, p)) continue;
+    if (!OnPlane(plane, p)) continue;
     squares.insert(
         {static_cast<int>(std::floor(10 * p.x())), static_cast<int>(std::floor(10 * p.z()))});
+    if (0.01 * static_cast<double>(squares.size()) >= min_area_m2) return true;
   }
-  return 0.01 * static_cast<double>(squares.size());
+  return min_area_m2 <= 0;
 }
 
 Fit Search(const std::vector<Vector3f>& low, const std::vector<Vector3f>& sample,
@@ -108,7 +124,7 @@ std::optional<FloorPlane> Confirmed(const std::vector<Vector3f>& points, Vector4
   if (!Allowed(plane, options)) return std::nullopt;
   const Fit fit = Score(points, plane);
   if (fit.below > options.max_share_below * static_cast<double>(points.size())) return std::nullopt;
-  if (VisibleArea_m2(points, plane) < options.min_area_m2) return std::nullopt;
+  if (!IsVisible(points, plane, options.min_area_m2)) return std::nullopt;
   return FloorPlane{plane.cast<double>()};
 }
 

@@ -10,6 +10,8 @@ namespace {
 
 using Eigen::Vector3d;
 
+constexpr double kLeastTolerance_m = 0.025;
+
 // Bounds of upright pieces of one plane.
 class Outline {
  public:
@@ -118,7 +120,9 @@ std::vector<int> TakeTop(const PointGrid& grid, const FloorPlane& floor, int sta
       if (height_m == 0) continue;
       const double off_m = std::abs(static_cast<double>(height_m) - mean_m);
       // Unlike the floor's, a top's height is the mean of what is seen of it: half the tolerance.
-      if (off_m > 0.5 * HeightTolerance(floor, grid.at(next))) continue;
+      if (off_m > 0.5 * MostHeightTolerance(grid.at(next)) ||
+          off_m > 0.5 * HeightTolerance(floor, grid.at(next)))
+        continue;
       height_m = 0;
       top.push_back(next);
     }
@@ -131,7 +135,12 @@ std::vector<int> TakeTop(const PointGrid& grid, const FloorPlane& floor, int sta
 double HeightTolerance(const FloorPlane& floor, const Eigen::Vector3f& p) {
   const double along =
       std::abs(floor.coefficients.head<3>().dot(p.cast<double>())) / static_cast<double>(p.norm());
-  return 0.025 + along * static_cast<double>(DepthTolerance(p.z()));
+  return kLeastTolerance_m + along * static_cast<double>(DepthTolerance(p.z()));
+}
+
+double MostHeightTolerance(const Eigen::Vector3f& p) {
+  constexpr double kMostAlong = 1.001;  // 1, and what rounding may add
+  return kLeastTolerance_m + kMostAlong * static_cast<double>(DepthTolerance(p.z()));
 }
 
 bool InPlaneOf(const PointGrid& grid, const FlatPiece& piece, const FlatPiece& wall) {

@@ -10,6 +10,8 @@ namespace ossa::depth {
 
 /// Height error of a measurement: depth errors run along the line of sight.
 double HeightTolerance(const FloorPlane& floor, const Eigen::Vector3f& p);
+/// No HeightTolerance there is larger, whatever the floor: that of looking straight down. Cheap.
+double MostHeightTolerance(const Eigen::Vector3f& p);
 
 /// A piece of a wall that people in front have cut off lies in the wall's plane to a step of the
 /// sensor.

@@ -1,10 +1,12 @@
 #include "depth/scene/heads.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <functional>
 #include <limits>
 #include <queue>
+#include <span>
 
 namespace ossa::depth {
 namespace {
@@ -25,34 +27,64 @@ class HeadFinder {
   float Score(int cell) const {
     const int x = cell % grid_.width, y = cell / grid_.width;
     const float z = grid_.z(cell);
-    const float filled = Share(x, y, z, kHeadRadius_m, 0, 2 * kPi, 12);
-    if (filled < 0.9F) return 0;
-    const float taken = Share(x, y, z, kRing_m, -0.15F * kPi, 1.15F * kPi, 14);
-    if (taken > 0.25F || GoesOnAbove(x, y, z)) return 0;
+    // All but one point of the disc, and at most three of the ring.
+    const int filled = CountFilled(x, y, z, kHeadRadius_m, disc_, disc_.size(), 1);
+    if (filled + 1 < static_cast<int>(disc_.size())) return 0;
+    const int taken = CountFilled(x, y, z, kRing_m, ring_, 3, ring_.size());
+    if (taken > 3 || GoesOnAbove(x, y, z)) return 0;
     const float below = ShoulderShare(x, y, z);
-    return filled * (1 - taken) * below;
+    return ShareOf(filled, disc_) * (1 - ShareOf(taken, ring_)) * below;
   }
 
  private:
+  struct Direction {
+    float cos = 0, sin = 0;
+  };
+  template <size_t kCount>
+  using Directions = std::array<Direction, kCount>;
+
+  template <size_t kCount>
+  static Directions<kCount> DirectionsBetween(float from, float to) {
+    Directions<kCount> directions;
+    for (size_t i = 0; i < kCount; ++i) {
+      const float angle =
+          from + (to - from) * static_cast<float>(i) / static_cast<float>(kCount - 1);
+      directions[i] = {std::cos(angle), std::sin(angle)};
+    }
+    return directions;
+  }
+
+  static float ShareOf(int count, std::span<const Direction> around) {
+    return static_cast<float>(count) / static_cast<float>(around.size());
+  }
+
+  // As lround: halves away from zero. That one is a call to a library.
+  static int Round(float x) {
+    const int whole = static_cast<int>(x);
+    const float rest = x - static_cast<float>(whole);
+    return whole + (rest >= 0.5F ? 1 : 0) - (rest <= -0.5F ? 1 : 0);
+  }
+
   bool Filled(float x, float y, float z) const {
-    const int cx = static_cast<int>(std::lround(x)), cy = static_cast<int>(std::lround(y));
+    const int cx = Round(x), cy = Round(y);
     if (!grid_.Contains(cx, cy)) return false;
     const int cell = grid_.cell(cx, cy);
     return member_[static_cast<size_t>(cell)] && std::abs(grid_.z(cell) - z) < 0.15F;
   }
 
-  float Share(int x, int y, float z, float radius_m, float from, float to, int samples) const {
+  // How many points around (x, y) are filled; counting ends when more than `most_filled` are, or
+  // more than `most_free` are not.
+  int CountFilled(int x, int y, float z, float radius_m, std::span<const Direction> around,
+                  size_t most_filled, size_t most_free) const {
     const float radius = grid_.CellsOf(radius_m, z);
-    int filled = 0;
-    for (int i = 0; i < samples; ++i) {
-      const float angle =
-          from + (to - from) * static_cast<float>(i) / static_cast<float>(samples - 1);
-      filled += Filled(static_cast<float>(x) + radius * std::cos(angle),
-                       static_cast<float>(y) - radius * std::sin(angle), z)
-                    ? 1
-                    : 0;
+    size_t filled = 0, free = 0;
+    for (const Direction& direction : around) {
+      const bool is_filled = Filled(static_cast<float>(x) + radius * direction.cos,
+                                    static_cast<float>(y) - radius * direction.sin, z);
+      ++(is_filled ? filled : free);
+      if (filled > most_filled || free > most_free) break;
     }
-    return static_cast<float>(filled) / static_cast<float>(samples);
+    return static_cast<int>(filled);
   }
 
   // A chest or a hip is as free at its sides as a head, but the body goes on above it.
@@ -61,9 +93,8 @@ class HeadFinder {
     for (const float above_m : {0.20F, 0.26F, 0.33F, 0.40F, 0.48F}) {
       const float row = static_cast<float>(y) - grid_.CellsOf(above_m, z);
       for (const float side_m : {-0.06F, 0.0F, 0.06F}) {
-        const int cx =
-            static_cast<int>(std::lround(static_cast<float>(x) + grid_.CellsOf(side_m, z)));
-        const int cy = static_cast<int>(std::lround(row));
+        const int cx = Round(static_cast<float>(x) + grid_.CellsOf(side_m, z));
+        const int cy = Round(row);
         if (!grid_.Contains(cx, cy)) continue;
         const int cell = grid_.cell(cx, cy);
         filled += member_[static_cast<size_t>(cell)] && std::abs(grid_.z(cell) - z) < 0.35F ? 1 : 0;
@@ -81,8 +112,7 @@ class HeadFinder {
     constexpr int kSamples = 7;
     for (int i = 0; i < kSamples; ++i) {
       const float side_m = 0.17F * (static_cast<float>(i) / 3.0F - 1.0F);
-      const int cx =
-          static_cast<int>(std::lround(static_cast<float>(x) + grid_.CellsOf(side_m, z)));
+      const int cx = Round(static_cast<float>(x) + grid_.CellsOf(side_m, z));
       const int cy = static_cast<int>(row);
       if (!grid_.Contains(cx, cy)) continue;
       const int cell = grid_.cell(cx, cy);
@@ -93,6 +123,8 @@ class HeadFinder {
 
   const PointGrid& grid_;
   std::vector<uint8_t> member_;
+  const Directions<12> disc_ = DirectionsBetween<12>(0, 2 * kPi);
+  const Directions<14> ring_ = DirectionsBetween<14>(-0.15F * kPi, 1.15F * kPi);
 };
 
 }  // namespace

@@ -2,8 +2,8 @@
 
 #include <Eigen/LU>
 #include <algorithm>
+#include <array>
 #include <cmath>
-#include <numeric>
 
 namespace ossa::depth {
 namespace {
@@ -50,17 +50,21 @@ class PieceGrower {
  public:
   PieceGrower(const PointGrid& grid, const std::vector<uint8_t>& ignore)
       : grid_(grid),
-        ignore_(ignore),
         width_(grid.width / kBlock),
         height_(grid.height / kBlock),
         sums_(static_cast<size_t>(width_ * height_)),
         rms_(sums_.size(), 1e9),
         block_taken_(sums_.size(), 0),
-        cell_taken_(ignore),
-        inverse_depth_(ignore.size(), 0.0) {
-    for (int i = 0; i < grid.cells(); ++i) {
-      if (grid.valid(i))
-        inverse_depth_[static_cast<size_t>(i)] = 1.0 / static_cast<double>(grid.z(i));
+        stride_(grid.width + 2 * kRim),
+        piece_of_(static_cast<size_t>(stride_ * (grid.height + 2 * kRim)), kTaken),
+        inverse_depth_(piece_of_.size(), 0.0) {
+    for (int y = 0; y < grid.height; ++y) {
+      for (int x = 0; x < grid.width; ++x) {
+        const int cell = grid.cell(x, y);
+        if (ignore[static_cast<size_t>(cell)] || !grid.valid(cell)) continue;
+        piece_of_[PlaceOf(x, y)] = kFree;
+        inverse_depth_[PlaceOf(x, y)] = 1.0 / static_cast<double>(grid.z(cell));
+      }
     }
     for (int by = 0; by < height_; ++by) {
       for (int bx = 0; bx < width_; ++bx) Measure(bx, by);
@@ -68,21 +72,23 @@ class PieceGrower {
   }
 
   std::vector<FlatPiece> Run() {
-    std::vector<size_t> order(sums_.size());
-    std::iota(order.begin(), order.end(), size_t{0});
+    std::vector<size_t> order;
+    for (size_t block = 0; block < rms_.size(); ++block) {
+      if (rms_[block] <= kFlatRms) order.push_back(block);
+    }
     std::stable_sort(order.begin(), order.end(),
                      [&](size_t a, size_t b) { return rms_[a] < rms_[b]; });
     std::vector<FlatPiece> pieces;
     for (const size_t seed : order) {
-      if (rms_[seed] > kFlatRms) break;
       if (block_taken_[seed]) continue;
       Sums sums;
       const int blocks = Grow(seed, sums);
       constexpr int kFewBlocks = 4;  // less is not worth calling flat
       if (blocks < kFewBlocks) continue;
-      FlatPiece piece = PieceOf(sums.Fit(), seed);
-      if (!piece.cells.empty()) pieces.push_back(std::move(piece));
+      const Vector3d plane = sums.Fit();
+      if (Claim(plane, seed, static_cast<int>(pieces.size()))) pieces.push_back(PieceOf(plane));
     }
+    HandOutCells(pieces);
     std::stable_sort(pieces.begin(), pieces.end(),
                      [](const FlatPiece& a, const FlatPiece& b) { return a.area_m2 > b.area_m2; });
     return pieces;
@@ -91,15 +97,15 @@ class PieceGrower {
  private:
   void Measure(int bx, int by) {
     const auto block = static_cast<size_t>(by * width_ + bx);
+    Sums sums;
     for (int y = by * kBlock; y < (by + 1) * kBlock; ++y) {
       for (int x = bx * kBlock; x < (bx + 1) * kBlock; ++x) {
-        const int cell = grid_.cell(x, y);
-        if (ignore_[static_cast<size_t>(cell)] || !grid_.valid(cell)) continue;
-        sums_[block].Add(x, y, inverse_depth_[static_cast<size_t>(cell)]);
+        const size_t place = PlaceOf(x, y);
+        if (piece_of_[place] != kTaken) sums.Add(x, y, inverse_depth_[place]);
       }
     }
-    if (sums_[block].n < kFewest) return;
-    rms_[block] = sums_[block].Rms(sums_[block].Fit());
+    sums_[block] = sums;
+    if (sums.n >= kFewest) rms_[block] = sums.Rms(sums.Fit());
   }
 
   // Blocks join while they lie on the plane of those before; it is refitted whenever they doubled.
@@ -129,36 +135,54 @@ class PieceGrower {
     return static_cast<int>(front.size());
   }
 
-  // The cells on the plane that hang together with the seed block, whole blocks or not.
-  FlatPiece PieceOf(const Vector3d& plane, size_t seed) {
-    FlatPiece piece;
-    piece.slope_x = plane.x(), piece.slope_y = plane.y(), piece.at_zero = plane.z();
-    SetNormal(plane, piece);
-    const auto take_if_on_plane = [&](int x, int y) {
-      const int cell = grid_.cell(x, y);
-      const auto i = static_cast<size_t>(cell);
-      if (cell_taken_[i] || !grid_.valid(cell)) return;
-      if (std::abs(inverse_depth_[i] - plane.dot(Vector3d(x, y, 1.0))) >= kCellOff) return;
-      cell_taken_[i] = 1;
-      piece.cells.push_back(cell);
+  // Marks the cells on the plane that hang together with the seed block, whole blocks or not, as
+  // the piece's. False when there are none.
+  bool Claim(const Vector3d& plane, size_t seed, int piece) {
+    front_.clear();
+    const auto claim_if_on_plane = [&](size_t place, int x, int y) {
+      if (piece_of_[place] != kFree) return;
+      if (std::abs(inverse_depth_[place] - plane.dot(Vector3d(x, y, 1.0))) >= kCellOff) return;
+      piece_of_[place] = piece;
+      front_.push_back({x, y});
     };
     const int x0 = static_cast<int>(seed) % width_ * kBlock;
     const int y0 = static_cast<int>(seed) / width_ * kBlock;
     for (int i = 0; i < kBlock * kBlock; ++i) {
-      take_if_on_plane(x0 + i % kBlock, y0 + i / kBlock);
+      const int x = x0 + i % kBlock, y = y0 + i / kBlock;
+      claim_if_on_plane(PlaceOf(x, y), x, y);
     }
-    for (size_t i = 0; i < piece.cells.size(); ++i) {
-      const int cell = piece.cells[i], x = cell % grid_.width, y = cell / grid_.width;
-      constexpr int kSteps[8][2] = {{1, 0}, {-1, 0}, {0, 1}, {0, -1},
-                                    {3, 0}, {-3, 0}, {0, 3}, {0, -3}};
-      for (const auto& step : kSteps) {
-        if (!grid_.Contains(x + step[0], y + step[1])) continue;
-        take_if_on_plane(x + step[0], y + step[1]);
+    for (size_t i = 0; i < front_.size(); ++i) {
+      const auto [x, y] = front_[i];
+      const size_t place = PlaceOf(x, y), row = static_cast<size_t>(stride_);
+      for (const int step : {1, kRim}) {  // beyond the grid's edge nothing is free
+        const auto columns = static_cast<size_t>(step), rows = columns * row;
+        claim_if_on_plane(place + columns, x + step, y);
+        claim_if_on_plane(place - columns, x - step, y);
+        claim_if_on_plane(place + rows, x, y + step);
+        claim_if_on_plane(place - rows, x, y - step);
       }
     }
-    std::sort(piece.cells.begin(), piece.cells.end());
-    for (const int cell : piece.cells) piece.area_m2 += Area(cell, piece.normal);
+    return !front_.empty();
+  }
+
+  FlatPiece PieceOf(const Vector3d& plane) const {
+    FlatPiece piece;
+    piece.slope_x = plane.x(), piece.slope_y = plane.y(), piece.at_zero = plane.z();
+    SetNormal(plane, piece);
     return piece;
+  }
+
+  // One walk over the grid gives every piece its cells in ascending order.
+  void HandOutCells(std::vector<FlatPiece>& pieces) const {
+    for (int y = 0; y < grid_.height; ++y) {
+      for (int x = 0; x < grid_.width; ++x) {
+        const int mine = piece_of_[PlaceOf(x, y)];
+        if (mine < 0) continue;
+        FlatPiece& piece = pieces[static_cast<size_t>(mine)];
+        piece.cells.push_back(grid_.cell(x, y));
+        piece.area_m2 += Area(piece.cells.back(), piece.normal);
+      }
+    }
   }
 
   // 1 = n.p with d = 1/z, u = cx - fx x/z and v = cy - fy y/z put into the plane's equation.
@@ -178,13 +202,22 @@ class PieceGrower {
            std::max(kMostSlanted, std::abs(normal.dot(p)) / p.norm());
   }
 
+  static constexpr int kFree = -1, kTaken = -2;  // no piece's yet; never any piece's
+  static constexpr int kRim = 3;  // around the grid, never any piece's: as far as Claim reaches
+
+  size_t PlaceOf(int x, int y) const {
+    return static_cast<size_t>((y + kRim) * stride_ + x + kRim);
+  }
+
   const PointGrid& grid_;
-  const std::vector<uint8_t>& ignore_;
   int width_, height_;  // blocks
   std::vector<Sums> sums_;
   std::vector<double> rms_;
-  std::vector<uint8_t> block_taken_, cell_taken_;
-  std::vector<double> inverse_depth_;  // 1/m, 0 without reading
+  std::vector<uint8_t> block_taken_;
+  int stride_;                             // of the two arrays that have a rim
+  std::vector<int> piece_of_;              // the number of a cell's piece, kFree or kTaken
+  std::vector<double> inverse_depth_;      // 1/m, 0 where nothing is free
+  std::vector<std::array<int, 2>> front_;  // cells that Claim has taken, (x, y)
 };
 
 }  // namespace

@@ -54,6 +54,12 @@ void MarkFlatPieces(const PointGrid& grid, const std::optional<FloorPlane>& floo
   }
 }
 
+// Lower than the floor's tolerance. Most points are clearly higher or lower than any tolerance.
+bool OnOrUnder(const FloorPlane& floor, const Vector3f& p) {
+  const double height_m = floor.HeightOf(p.cast<double>());
+  return height_m < MostHeightTolerance(p) && height_m < HeightTolerance(floor, p);
+}
+
 }  // namespace
 
 RoomShape RoomSurfaces(const PointGrid& grid, const std::optional<FloorPlane>& floor) {
@@ -62,8 +68,7 @@ RoomShape RoomSurfaces(const PointGrid& grid, const std::optional<FloorPlane>& f
   if (floor) {
     for (int i = 0; i < grid.cells(); ++i) {
       if (!grid.valid(i)) continue;
-      const double height = floor->HeightOf(grid.at(i).cast<double>());
-      shape.room[static_cast<size_t>(i)] = height < HeightTolerance(*floor, grid.at(i));
+      shape.room[static_cast<size_t>(i)] = OnOrUnder(*floor, grid.at(i));
     }
   }
   if (floor) MarkTops(grid, *floor, shape.room);
@@ -73,7 +78,7 @@ RoomShape RoomSurfaces(const PointGrid& grid, const std::optional<FloorPlane>& f
 
 Region MakeRegion(const PointGrid& grid, std::vector<int> cells) {
   Region region;
-  std::sort(cells.begin(), cells.end());
+  if (!std::is_sorted(cells.begin(), cells.end())) std::sort(cells.begin(), cells.end());
   region.cells = std::move(cells);
   region.low_m = Vector3f::Constant(1e9F);
   region.high_m = Vector3f::Constant(-1e9F);
