@@ -49,6 +49,8 @@ double Overlap(const PointGrid& grid, const UserTrack& user, const Candidate& pe
 std::vector<Match> PossibleMatches(const Scene& scene, const std::vector<const Candidate*>& people,
                                    double time_s, const SceneState& state,
                                    const SceneOptions& options) {
+  // More than anything else: who a candidate is said to go on as was found by the most cells.
+  constexpr double kGoesOn = 10;
   std::vector<Match> matches;
   for (size_t t = 0; t < state.users.size(); ++t) {
     const UserTrack& user = state.users[t];
@@ -57,8 +59,9 @@ std::vector<Match> PossibleMatches(const Scene& scene, const std::vector<const C
     for (size_t p = 0; p < people.size(); ++p) {
       const double off = OffPredicted_m(user, people[p]->region, time_s);
       const double overlap = gone_s < 0.5 ? Overlap(scene.grid, user, *people[p]) : 0.0;
-      if (off > gate && overlap < 0.3) continue;
-      matches.push_back({off / gate - 2 * overlap, t, p});
+      const bool goes_on = people[p]->track == static_cast<int>(t);
+      if (off > gate && overlap < 0.3 && !goes_on) continue;
+      matches.push_back({off / gate - 2 * overlap - (goes_on ? kGoesOn : 0.0), t, p});
     }
   }
   std::sort(matches.begin(), matches.end(), [](const Match& a, const Match& b) {
@@ -116,6 +119,22 @@ void Renew(UserTrack& user, const PointGrid& grid, const Region& region, double 
   user.seen_s = time_s;
 }
 
+// Who turned out to be part of somebody else is nobody, and may not claim cells again.
+void ForgetAbsorbed(const std::vector<const Candidate*>& people, const std::vector<int>& ids,
+                    SceneState& state) {
+  std::vector<int> absorbed;
+  for (const Candidate* person : people) {
+    for (const int track : person->absorbed)
+      absorbed.push_back(state.users[static_cast<size_t>(track)].id);
+  }
+  const auto among = [](const std::vector<int>& all, int id) {
+    return std::find(all.begin(), all.end(), id) != all.end();
+  };
+  std::erase_if(state.users, [&](const UserTrack& user) {
+    return among(absorbed, user.id) && !among(ids, user.id);
+  });
+}
+
 }  // namespace
 
 bool HasMoved(const Vector3f& first_mean_m, float first_m2, const Region& now) {
@@ -161,6 +180,7 @@ std::vector<int> ConfirmUsers(const Scene& scene, const std::vector<const Candid
     ids.push_back(user.id);
     for (const int cell : people[p]->region.cells) claimed[static_cast<size_t>(cell)] = 1;
   }
+  ForgetAbsorbed(people, ids, state);
   std::erase_if(state.users,
                 [&](const UserTrack& user) { return time_s - user.seen_s > options.forget_s; });
   for (UserTrack& user : state.users) {

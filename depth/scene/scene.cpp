@@ -209,6 +209,30 @@ std::vector<Candidate> SplitCandidate(const Scene& scene, const DepthFrame& fram
   return pieces;
 }
 
+bool Adjoining(const Scene& scene, const Candidate& a, const Candidate& b) {
+  constexpr int kReach = 2;         // cells, over the shadow that an edge casts
+  constexpr float kJump_m = 0.15F;  // from a shirt's hem to the trousers
+  constexpr float kRim_m = 0.1F;    // narrower, something else may just touch
+  const PointGrid& grid = scene.grid;
+  std::vector<uint8_t> of_b(static_cast<size_t>(grid.cells()), 0);
+  for (const int cell : b.region.cells) of_b[static_cast<size_t>(cell)] = 1;
+  const auto meets = [&](int cell) {
+    const int x = cell % grid.width, y = cell / grid.width;
+    for (int dy = -kReach; dy <= kReach; ++dy) {
+      for (int dx = -kReach; dx <= kReach; ++dx) {
+        if (!grid.Contains(x + dx, y + dy)) continue;
+        const int other = grid.cell(x + dx, y + dy);
+        if (of_b[static_cast<size_t>(other)] && std::abs(grid.z(other) - grid.z(cell)) < kJump_m)
+          return true;
+      }
+    }
+    return false;
+  };
+  // Each step along the rim is met by up to `kReach` cells, one above the other.
+  const auto rim = std::count_if(a.region.cells.begin(), a.region.cells.end(), meets);
+  return static_cast<float>(rim) > kReach * grid.CellsOf(kRim_m, a.region.mean_m.z());
+}
+
 Candidate JoinCandidates(const Scene& scene, const DepthFrame& frame, const Candidate& a,
                          const Candidate& b) {
   const auto cells = [](const Candidate& c) { return static_cast<double>(c.region.cells.size()); };
@@ -216,6 +240,9 @@ Candidate JoinCandidates(const Scene& scene, const DepthFrame& frame, const Cand
   whole.region = Joined(scene.grid, a.region, b.region);
   whole.pixels = PixelsOf(frame, scene.grid, whole.region);
   whole.track = a.track >= 0 ? a.track : b.track;
+  whole.absorbed = a.absorbed;
+  whole.absorbed.insert(whole.absorbed.end(), b.absorbed.begin(), b.absorbed.end());
+  if (a.track >= 0 && b.track >= 0) whole.absorbed.push_back(b.track);
   whole.has_head = a.has_head || b.has_head;
   const double of_a = cells(a) / std::max(1.0, cells(a) + cells(b));
   whole.flat_share = of_a * a.flat_share + (1 - of_a) * b.flat_share;

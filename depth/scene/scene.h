@@ -62,6 +62,7 @@ struct Candidate {
   std::vector<int32_t> pixels;  // v * width + u of the full image, ascending
   Region region;                // on the grid
   int track = -1;               // index into SceneState::users it seems to continue, or -1
+  std::vector<int> absorbed;    // others there who turned out to be parts of the same person
   bool returning = false;       // somebody who went out of view is expected about here
   bool has_head = false;        // something like head and shoulders is seen
   double flat_share = 0;        // of the cells that lie on flat pieces
@@ -89,7 +90,11 @@ std::vector<Candidate> SplitCandidate(const Scene& scene, const DepthFrame& fram
                                       const std::vector<Eigen::Vector3d>& heads_m,
                                       const SceneOptions& options = {});
 
-/// Two candidates of one origin as one; it goes on as `a`, if that was anybody.
+/// True where two candidates meet along a rim: at a shirt's hem or a belt the surface may jump by
+/// more than connected surface does.
+bool Adjoining(const Scene& scene, const Candidate& a, const Candidate& b);
+
+/// Two candidates as one; it goes on as `a`, if that was anybody, and `b` is nobody any more.
 Candidate JoinCandidates(const Scene& scene, const DepthFrame& frame, const Candidate& a,
                          const Candidate& b);
 

@@ -69,6 +69,16 @@ std::vector<Candidate> WorthLooking(const depth::Scene& scene, double time_s,
   return candidates;
 }
 
+// Pieces of two regions are tried where they would be two people, one above the other; and at
+// first, when nobody knows how many there are, where they meet and either looks like a person.
+bool MayBeParts(const depth::Scene& scene, const FindOptions& options, const Found& a,
+                const Found& b, bool stacked) {
+  const auto [less, more] = std::minmax(a.single_score, b.single_score);
+  if (stacked && less >= options.new_person) return true;
+  return std::max(a.looks, b.looks) <= options.young_looks && more >= options.new_person &&
+         depth::Adjoining(scene, a.candidate, b.candidate);
+}
+
 // Two pieces were one person when the whole looks more like a person than either, or
 // as much when one is above the other, and has one head. People tracked for long are left as they
 // are. Returns the whole, or nothing.
@@ -78,9 +88,8 @@ std::optional<Found> Together(const Eyes& eyes, const depth::DepthFrame& frame,
   constexpr float kTwoPeople_m2 = 1.1F, kStacked_m = 0.3F;
   const Eigen::Vector3f apart = a.candidate.region.mean_m - b.candidate.region.mean_m;
   const bool stacked = std::hypot(apart.x(), apart.z()) < kStacked_m;
-  // Pieces that do not touch are tried only where they would be two people, one above the other.
-  const bool both = std::min(a.single_score, b.single_score) >= options.new_person;
-  if (a.candidate.origin != b.candidate.origin && !(stacked && both)) return {};
+  const bool one_region = a.candidate.origin == b.candidate.origin;
+  if (!one_region && !MayBeParts(scene, options, a, b, stacked)) return {};
   if (std::min(a.looks, b.looks) > options.grown_up_looks) return {};
   if (a.candidate.region.area_m2 + b.candidate.region.area_m2 > kTwoPeople_m2) return {};
   const bool a_first = a.looks != b.looks ? a.looks > b.looks : a.single_score >= b.single_score;

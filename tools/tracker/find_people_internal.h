@@ -58,9 +58,9 @@ struct Eyes {
 struct FindOptions {
   int max_users = 6;
   int threads = 1;
-  // Of a newcomer in a fresh scene, where there is one look only; of a newcomer elsewhere at the
-  // first look, or else as the mean of a few; and of somebody tracked a moment ago: hysteresis
-  // keeps a person who turns away.
+  // Of a newcomer with a head's shape in a fresh scene, where there is one look only; of other
+  // newcomers at the first look, or else as the mean of a few; and of somebody tracked a moment
+  // ago: hysteresis keeps a person who turns away.
   double new_person = 0.6;
   double sure_person = 0.93;
   int probation_looks = 4;

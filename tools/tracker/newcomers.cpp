@@ -79,10 +79,12 @@ bool AcceptedAgain(const Found& looked, double time_s, const FindOptions& option
   return false;
 }
 
-// What a newcomer needs at the first look.
+// What a newcomer needs at the first look. A corner of furniture may look like a person once, but
+// seldom has the shape of a head, too.
 double FirstScore(const Candidate& candidate, const depth::Scene& scene,
                   const FindOptions& options) {
-  if (scene.fresh || candidate.returning) return options.new_person;
+  if (candidate.returning) return options.new_person;
+  if (scene.fresh) return candidate.has_head ? options.new_person : options.sure_person;
   return Arrived(candidate) ? options.sure_arrived : options.sure_person;
 }
 

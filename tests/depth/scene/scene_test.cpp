@@ -204,6 +204,20 @@ TEST(JoinCandidates, GivesBackWhatWasCut) {
               static_cast<double>(a.pixels.size() + b.pixels.size()), 60.0);
 }
 
+TEST(Adjoining, AreHalvesOfAPersonAndNotPeopleApart) {
+  const Scene scene = Candidates(Shot({PersonAt(-0.6, 2.5), PersonAt(0.6, 2.5)}));
+  ASSERT_EQ(scene.candidates.size(), 2U);
+  const Candidate& person = scene.candidates[0];
+  std::vector<int> upper, lower;
+  for (const int cell : person.region.cells)
+    (scene.grid.at(cell).y() > 0 ? upper : lower).push_back(cell);
+  Candidate above, below;
+  above.region = MakeRegion(scene.grid, upper);
+  below.region = MakeRegion(scene.grid, lower);
+  EXPECT_TRUE(Adjoining(scene, above, below));
+  EXPECT_FALSE(Adjoining(scene, person, scene.candidates[1]));
+}
+
 class Identity : public testing::Test {
  protected:
   // All candidates are people; ids from left to right of the sensor (falling x).
@@ -247,6 +261,22 @@ TEST_F(Identity, SurvivesASecondOutOfView) {
   EXPECT_EQ(See(Shot({PersonAt(0.2, 2.5)}, 0)), std::vector<int>{1});
   for (int i = 1; i < 30; ++i) See(Shot({}, i));
   EXPECT_EQ(See(Shot({PersonAt(0.3, 2.5)}, 30)), std::vector<int>{1});
+}
+
+TEST_F(Identity, WhoTurnsOutToBePartOfAnotherIsForgotten) {
+  // Remembered, the part would claim its cells again in the next frame.
+  const CapsuleRender render = Shot({PersonAt(-0.3, 2.5), PersonAt(0.3, 2.5)}, 0);
+  const std::vector<int> ids = See(render);
+  ASSERT_EQ(ids.size(), 2U);
+  SceneState next;
+  const CapsuleRender second = Shot({PersonAt(-0.3, 2.5), PersonAt(0.3, 2.5)}, 1);
+  const Scene scene = FindCandidates(second.frame, state_, next);
+  ASSERT_EQ(scene.candidates.size(), 2U);
+  const Candidate whole =
+      JoinCandidates(scene, second.frame, scene.candidates[1], scene.candidates[0]);
+  const int goes_on_as = next.users[static_cast<size_t>(scene.candidates[1].track)].id;
+  EXPECT_EQ(ConfirmUsers(scene, {&whole}, second.frame.time_s, next), std::vector<int>{goes_on_as});
+  EXPECT_EQ(next.users.size(), 1U);
 }
 
 TEST_F(Identity, ASceneIsFreshAtFirstAndAfterAGap) {

@@ -12,6 +12,7 @@ struct Look {
   float x_m = 0;             // of the thing's middle
   double arrived_share = 0;  // of what stands where the room behind was seen
   float area_m2 = 0.1F;
+  bool has_head = true;
 };
 
 class Newcomer : public testing::Test {
@@ -22,6 +23,7 @@ class Newcomer : public testing::Test {
     found.perception.person_score = found.single_score = look.score;
     depth::Candidate& candidate = found.candidate;
     candidate.arrived_share = look.arrived_share;
+    candidate.has_head = look.has_head;
     candidate.region.mean_m = {look.x_m, 0, 3};
     candidate.region.area_m2 = look.area_m2;
     const int column = 80 + static_cast<int>(std::lround(look.x_m / 0.04F));
@@ -44,8 +46,10 @@ class Newcomer : public testing::Test {
   FindOptions options_;
 };
 
-TEST_F(Newcomer, IsBelievedAtOnceInAFreshSceneAndElsewhereWhenItIsSure) {
+TEST_F(Newcomer, IsBelievedAtOnceInAFreshSceneAndElsewhereOrWithoutAHeadWhenItIsSure) {
   EXPECT_EQ(AcceptedIn(1, true, [](int) { return Look{0.65}; }), 0);
+  EXPECT_EQ(AcceptedIn(1, true, [](int) { return Look{0.85, 0, 0, 0.1F, false}; }), -1);
+  EXPECT_EQ(AcceptedIn(1, true, [](int) { return Look{0.95, 0, 0, 0.1F, false}; }), 0);
   EXPECT_EQ(AcceptedIn(1, false, [](int) { return Look{0.65}; }), -1);
   EXPECT_EQ(AcceptedIn(1, false, [](int) { return Look{0.95}; }), 0);
 }
