@@ -178,6 +178,23 @@ void CheckRefinement(const ForestData& data, const std::string& name) {
   if (!sane) Refuse(name, "refinement: expected numbers of at most a million");
 }
 
+void CheckPartPrior(const ForestData& data, const std::string& name) {
+  const PartPrior& prior = data.part_prior;
+  if (prior.bias.empty() && prior.weight.empty()) return;
+  const size_t classes = data.class_names.size() - 1;
+  const size_t weights = 2 * kNearnessScales * data.targets.size() * classes;
+  if (prior.bias.size() != classes || prior.weight.size() != weights) {
+    Refuse(name, "part prior: expected " + std::to_string(weights) + " weights and " +
+                     std::to_string(classes) + " biases, found " +
+                     std::to_string(prior.weight.size()) + " and " +
+                     std::to_string(prior.bias.size()));
+  }
+  constexpr float kMost = 1e4F;
+  if (!AllWithin(prior.weight, -kMost, kMost) || !AllWithin(prior.bias, -kMost, kMost)) {
+    Refuse(name, "part prior: expected numbers of at most ten thousand");
+  }
+}
+
 }  // namespace
 
 ForestModel::ForestModel(ForestData data, const std::string& name) {
@@ -187,6 +204,7 @@ ForestModel::ForestModel(ForestData data, const std::string& name) {
   for (const ProposalTarget& target : data.targets) CheckTarget(data, target, name);
   CheckArrangements(data, name);
   CheckRefinement(data, name);
+  CheckPartPrior(data, name);
   data_ = std::make_shared<const ForestData>(std::move(data));
   tables_ = std::make_shared<const RuntimeTables>(MakeRuntimeTables(*data_));
 }

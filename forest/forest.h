@@ -110,6 +110,14 @@ struct Refinement {
   std::vector<RefinementLayer> layers;  // rectified between; empty: places stay as they are
 };
 
+/// How classes lie to the targets (forest/relabel.cpp): the second look at labels.
+struct PartPrior {
+  std::vector<float> weight;  // 2 × scale × target × class from 1 on; the second half of them is
+                              // multiplied with the targets' confidences
+  std::vector<float> bias;    // of each class from 1 on; empty: labels stay as the trees give them
+};
+inline constexpr size_t kNearnessScales = 3;
+
 /// Everything a model file holds.
 struct ForestData {
   std::vector<std::string> class_names;    // class 0 is background and never given
@@ -121,6 +129,7 @@ struct ForestData {
   std::vector<ProposalTarget> targets;
   std::vector<Arrangement> arrangements;  // one a context; or empty: targets are found singly
   Refinement refinement;                  // of the targets; or without layers
+  PartPrior part_prior;                   // of the labels; or without biases
   std::string manifest;                   // JSON text: the model's card
 };
 

@@ -14,8 +14,8 @@ namespace ossa::forest {
 namespace {
 
 // Version 2 added arrangements and what agreement with them says; models of version 1 lack them.
-// Version 3 packs trees more tightly. Version 4 added the refinement.
-constexpr SealedFormat kFormat{{'o', 's', 's', 'a', 'f', 'r', 's', 't'}, 4, "forest model"};
+// Version 3 packs trees more tightly. Version 4 added the refinement, version 5 the part prior.
+constexpr SealedFormat kFormat{{'o', 's', 's', 'a', 'f', 'r', 's', 't'}, 5, "forest model"};
 constexpr size_t kVersionAt = 12;  // of a sealed file
 constexpr int kCompressionLevel = 19;
 constexpr int kQuickLevel = 3;
@@ -159,6 +159,10 @@ ForestData ParseForest(std::span<const std::byte> payload, const std::string& na
   }
   if (version >= 2) GetAgreement(&reader, &data);
   if (version >= 4) data.refinement = GetRefinement(&reader);
+  if (version >= 5) {
+    data.part_prior.weight = GetPlanes<float>(&reader, "part prior weights");
+    data.part_prior.bias = reader.GetVector<float>("part prior biases");
+  }
   reader.ExpectEnd();
   return data;
 }
@@ -205,6 +209,8 @@ std::vector<std::byte> Packed(const ForestData& data, int level) {
   for (const Tree& tree : data.trees) PutTree(&writer, tree);
   PutAgreement(&writer, data);
   PutRefinement(&writer, data.refinement);
+  PutPlanes(&writer, data.part_prior.weight);
+  writer.PutVector(data.part_prior.bias);
   PayloadWriter outer;
   outer.Put<uint64_t>(writer.bytes().size());
   outer.PutVector(Compressed(writer.bytes(), level));

@@ -114,8 +114,8 @@ ForestModel LearnProposals(const ForestModel& model, const TrainingSource& valid
                            size_t max_images, int threads);
 
 struct RefinementOptions {
-  int hidden = 256;  // units of the hidden layer, 1..1024
-  int epochs = 12;   // times that each image is looked at
+  int hidden = 512;  // units of the hidden layer, 1..1024
+  int epochs = 5;    // times that each image is looked at
   uint64_t seed = 1;
   int threads = 0;                                 // 0: all; they do not change the model
   std::function<void(int64_t, int64_t)> progress;  // steps done, steps in all
@@ -127,6 +127,11 @@ struct RefinementOptions {
 /// Throws InputError when the model has no arrangements, or the images are too few.
 ForestModel LearnRefinement(const ForestModel& model, const TrainingSource& source,
                             const RefinementOptions& options);
+
+/// Learns the second look at labels (Relabel) on images that neither trees nor refinement have
+/// seen. Throws InputError when they show nothing.
+ForestModel LearnPartPrior(const ForestModel& model, const TrainingSource& source, uint64_t seed,
+                           int threads);
 
 /// Learns again, on images never trained on, from which confidence on targets are tracked and
 /// inferred, and how likely modes are right that stand apart from where a refinement puts them.

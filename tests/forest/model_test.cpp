@@ -111,29 +111,34 @@ TEST(ForestModelFile, TreesOfOlderVersionsAreRead) {
   EXPECT_EQ(tree.entry_begin, (std::vector<uint32_t>{0, 2, 3}));
 }
 
-// A file of version 3 is one of version 4 whose payload ends before the refinement: two empty
-// arrays (their counts, 8 bytes each) and the number of layers.
-TEST(ForestModelFile, FilesOfVersion3AreReadWithoutARefinement) {
-  constexpr size_t kEmptyRefinement = 20;
+// Older files end sooner: the payload of version 4 before the part prior (five empty arrays, their
+// counts of 8 bytes each), that of version 3 before the refinement as well (two empty arrays and
+// the number of layers).
+class OlderFile : public testing::TestWithParam<std::pair<uint32_t, size_t>> {};
+
+TEST_P(OlderFile, IsReadWithoutWhatItLacks) {
+  const auto [version, missing_bytes] = GetParam();
   const ossa::test::TemporaryFolder folder;
   const auto path = folder.path() / "model.ossa";
   const std::array<char, 8> magic = {'o', 's', 's', 'a', 'f', 'r', 's', 't'};
   WriteForestModel(path, BallModel());
-  const auto sealed = ReadSealedFile(path, {magic, 4, "forest model"});
+  const auto sealed = ReadSealedFile(path, {magic, 5, "forest model"});
   PayloadReader reader(sealed, "model");
   std::vector<std::byte> payload(reader.Get<uint64_t>("unpacked length"));
   const auto packed = reader.GetVector<std::byte>("payload");
   ASSERT_EQ(ZSTD_decompress(payload.data(), payload.size(), packed.data(), packed.size()),
             payload.size());
-  payload.resize(payload.size() - kEmptyRefinement);
+  payload.resize(payload.size() - missing_bytes);
   std::vector<std::byte> again(ZSTD_compressBound(payload.size()));
   again.resize(ZSTD_compress(again.data(), again.size(), payload.data(), payload.size(), 3));
   PayloadWriter outer;
   outer.Put<uint64_t>(payload.size());
   outer.PutVector(again);
-  WriteSealedFile(path, {magic, 3, "forest model"}, outer.bytes());
+  WriteSealedFile(path, {magic, version, "forest model"}, outer.bytes());
   EXPECT_EQ(test::BytesOf(ReadForestModel(path)), test::BytesOf(BallModel()));
 }
+INSTANTIATE_TEST_SUITE_P(ForestModelFile, OlderFile,
+                         testing::Values(std::pair(4U, size_t{40}), std::pair(3U, size_t{60})));
 
 TEST(ForestModelFile, AFileOfAnotherKindIsRefused) {
   const std::string text = "this is a letter, not a forest; it is long enough to hold a header";

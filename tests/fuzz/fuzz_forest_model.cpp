@@ -39,6 +39,8 @@ ForestModel SmallModel() {
   data.refinement = {std::vector<float>(kInputs, 0.0F),
                      std::vector<float>(kInputs, 1.0F),
                      {{std::vector<float>(kInputs * 4, 0.0F), std::vector<float>(4, 0.5F)}}};
+  data.part_prior = {std::vector<float>(2 * ossa::forest::kNearnessScales * 2, 0.25F),
+                     {0.0F, 1.0F}};
   return ForestModel(data);
 }
 

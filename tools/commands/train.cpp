@@ -205,10 +205,13 @@ int ImportPcl(const TrainArguments& a) {
 
 constexpr size_t kArrangedImages = 40000;  // 60 numbers in 8 contexts ask for no more
 
-// The second stage, on images and their mirror images; then how far it is to be trusted.
+constexpr int kForLabels = 10;  // of each 100 fresh frames; the refinement has the others
+
+// The second stage; how far it is to be trusted; and what its joints say of the labels.
 forest::ForestModel Refined(const TrainArguments& a, const forest::ForestModel& model,
                             const tools::PersonSource& held_out) {
-  const tools::PersonSource fresh(a.refinement, {0, 100});
+  const tools::PersonSource fresh(a.refinement, {kForLabels, 100}, tools::Extent::kWholeImage);
+  const tools::PersonSource fresher(a.refinement, {0, kForLabels}, tools::Extent::kWholeImage);
   Progress bar("refinement", a.quiet);
   forest::RefinementOptions options;
   options.seed = a.options.seed;
@@ -219,7 +222,9 @@ forest::ForestModel Refined(const TrainArguments& a, const forest::ForestModel& 
   };
   const forest::ForestModel refined =
       forest::LearnRefinement(model, tools::MirroredSource(fresh), options);
-  return forest::LearnConfidences(refined, held_out, a.validation_images, a.options.threads);
+  const forest::ForestModel sure =
+      forest::LearnConfidences(refined, held_out, a.validation_images, a.options.threads);
+  return forest::LearnPartPrior(sure, fresher, a.options.seed, a.options.threads);
 }
 
 forest::ForestModel LearnJoints(const TrainArguments& a, const forest::ForestModel& model,
@@ -242,7 +247,7 @@ struct Sources {
   explicit Sources(const TrainArguments& a)
       : training(a.datasets, {a.validation.empty() ? kHeldOut : 0, 100}),
         held_out(a.validation.empty() ? a.datasets : a.validation,
-                 {0, a.validation.empty() ? kHeldOut : 100}) {}
+                 {0, a.validation.empty() ? kHeldOut : 100}, tools::Extent::kWholeImage) {}
 
   static constexpr int kHeldOut = 4;  // of each 100 frames
 };

@@ -9,6 +9,7 @@
 
 #include "depth/error.h"
 #include "forest/classify.h"
+#include "forest/relabel.h"
 #include "recon/body/parts.h"
 #include "tools/learning/common_parts.h"
 #include "tools/learning/person_source.h"
@@ -42,6 +43,7 @@ struct Meaning {
 struct Totals {
   std::array<int64_t, recon::kLabelCount> pixels{};
   std::array<int64_t, recon::kLabelCount> right{};
+  std::array<int64_t, recon::kLabelCount> right_first{};  // before Relabel
   std::array<std::vector<RatedProposal>, recon::kJointCount> rated;
   std::array<std::vector<RatedProposal>, recon::kJointCount> rated_visible;
   std::array<int64_t, recon::kJointCount> joints{};
@@ -49,18 +51,19 @@ struct Totals {
   std::array<int64_t, kCommonPartCount> common_pixels{};
   std::array<int64_t, kCommonPartCount> common_right{};
   int64_t people = 0, swapped = 0, turned = 0, turned_swapped = 0, classified = 0;
-  double classify_ms = 0, propose_ms = 0;
+  double classify_ms = 0, propose_ms = 0, relabel_ms = 0;
 };
 
 void CountPixels(const forest::TrainingImage& image, const forest::Classification& result,
-                 bool is_turned, Totals* totals) {
+                 const std::vector<uint8_t>& labels, bool is_turned, Totals* totals) {
   int64_t same_side = 0;
   int64_t other_side = 0;
   for (size_t i = 0; i < result.pixel.size(); ++i) {
     const uint8_t truth = image.label[static_cast<size_t>(result.pixel[i])];
-    const uint8_t label = result.label[i];
+    const uint8_t label = labels[i];
     ++totals->pixels[truth];
     totals->right[truth] += truth == label ? 1 : 0;
+    totals->right_first[truth] += truth == result.label[i] ? 1 : 0;
     if (recon::kMirroredPart[truth] == truth) continue;
     same_side += truth == label ? 1 : 0;
     other_side += recon::kMirroredPart[truth] == label ? 1 : 0;
@@ -72,12 +75,13 @@ void CountPixels(const forest::TrainingImage& image, const forest::Classificatio
 }
 
 void CountCommonParts(const forest::TrainingImage& image, const forest::Classification& result,
-                      const std::vector<uint8_t>& common_part, Totals* totals) {
+                      const std::vector<uint8_t>& labels, const std::vector<uint8_t>& common_part,
+                      Totals* totals) {
   for (size_t i = 0; i < result.pixel.size(); ++i) {
     const uint8_t truth = CommonPartOfTruth(image.label[static_cast<size_t>(result.pixel[i])]);
     if (truth == kNoCommonPart) continue;
     ++totals->common_pixels[truth];
-    totals->common_right[truth] += common_part[result.label[i]] == truth ? 1 : 0;
+    totals->common_right[truth] += common_part[labels[i]] == truth ? 1 : 0;
   }
 }
 
@@ -114,13 +118,16 @@ void AddPerson(const forest::ForestModel& model, const LabelledFrame& frame, con
   const forest::Classification result = forest::Classify(model, view, image.camera, pixels);
   const double classified_ms = Now_ms();
   const auto by_target = forest::Propose(model, view, image.camera, result);
-  totals->propose_ms += Now_ms() - classified_ms;
+  const double proposed_ms = Now_ms();
+  const std::vector<uint8_t> labels = forest::Relabel(model, view, image.camera, result, by_target);
+  totals->relabel_ms += Now_ms() - proposed_ms;
+  totals->propose_ms += proposed_ms - classified_ms;
   totals->classify_ms += classified_ms - start_ms;
   std::vector<std::vector<forest::Proposal>> by_joint;
   for (const size_t target : meaning.target_of_joint) by_joint.push_back(by_target[target]);
   const bool is_turned = std::abs(YawAgainstSight(body.joints_m)) > kTurned_rad;
-  if (meaning.has_our_parts) CountPixels(image, result, is_turned, totals);
-  CountCommonParts(image, result, meaning.common_part, totals);
+  if (meaning.has_our_parts) CountPixels(image, result, labels, is_turned, totals);
+  CountCommonParts(image, result, labels, meaning.common_part, totals);
   ++totals->people;
   totals->classified += static_cast<int64_t>(result.pixel.size());
   RateJoints(image, by_joint, totals);
@@ -183,6 +190,7 @@ Evaluation Summarise(Totals totals, int64_t frames) {
   int64_t pixels = 0;
   int64_t right = 0;
   double class_sum = 0;
+  double first_sum = 0;
   int classes = 0;
   for (size_t c = 0; c < recon::kLabelCount; ++c) {
     pixels += totals.pixels[c];
@@ -190,11 +198,14 @@ Evaluation Summarise(Totals totals, int64_t frames) {
     e.class_accuracy.push_back(Share(totals.right[c], totals.pixels[c]));
     if (c < 1 || c > recon::kPartCount || totals.pixels[c] == 0) continue;
     class_sum += e.class_accuracy.back();
+    first_sum += Share(totals.right_first[c], totals.pixels[c]);
     ++classes;
   }
   e.pixel_accuracy = Share(right, pixels);
   e.mean_class_accuracy =
       classes > 0 ? class_sum / classes : std::numeric_limits<double>::quiet_NaN();
+  e.mean_class_accuracy_first_stage =
+      classes > 0 ? first_sum / classes : std::numeric_limits<double>::quiet_NaN();
   for (size_t j = 0; j < recon::kJointCount; ++j) {
     e.ap_10cm.push_back(AveragePrecision(std::move(totals.rated[j]), totals.joints[j]));
     e.ap_10cm_visible.push_back(
@@ -206,8 +217,9 @@ Evaluation Summarise(Totals totals, int64_t frames) {
   e.swapped_left_right = Share(totals.swapped, pixels > 0 ? totals.people : 0);
   e.swapped_left_right_turned = Share(totals.turned_swapped, totals.turned);
   const auto people = static_cast<double>(std::max<int64_t>(totals.people, 1));
-  e.ns_per_pixel =
-      totals.classify_ms * 1e6 / static_cast<double>(std::max<int64_t>(totals.classified, 1));
+  const auto classified = static_cast<double>(std::max<int64_t>(totals.classified, 1));
+  e.ns_per_pixel = totals.classify_ms * 1e6 / classified;
+  e.relabel_ns_per_pixel = totals.relabel_ms * 1e6 / classified;
   e.classify_ms = totals.classify_ms / people;
   e.propose_ms = totals.propose_ms / people;
   return e;
@@ -243,7 +255,7 @@ Evaluation Evaluate(const forest::ForestModel& model, const DatasetReader& datas
   int64_t frames = 0;
   for (int64_t i = 0; i < dataset.frame_count(); i += step) {
     if (progress && !progress(i, dataset.frame_count())) break;
-    const LabelledFrame frame = dataset.Read(i);
+    const LabelledFrame frame = Uncropped(dataset.Read(i), dataset.manifest().camera);
     for (const TruthBody& body : frame.bodies) {
       AddPerson(model, frame, body, meaning, &totals);
     }

@@ -24,10 +24,11 @@ double AveragePrecision(std::vector<RatedProposal> proposals, int64_t positives)
 struct Evaluation {
   int64_t frames = 0;
   int64_t people = 0;
-  double pixel_accuracy = 0.0;         // over person pixels; NaN for a model of PCL's classes
-  double mean_class_accuracy = 0.0;    // of the 31 parts that occur
-  std::vector<double> class_accuracy;  // by label; NaN where a class does not occur
-  std::vector<double> ap_10cm;         // by joint
+  double pixel_accuracy = 0.0;       // over person pixels; NaN for a model of PCL's classes
+  double mean_class_accuracy = 0.0;  // of the 31 parts that occur
+  double mean_class_accuracy_first_stage = 0.0;  // of labels before joints speak back to them
+  std::vector<double> class_accuracy;            // by label; NaN where a class does not occur
+  std::vector<double> ap_10cm;                   // by joint
   std::vector<double> ap_10cm_visible;
   double map_10cm = 0.0;
   double map_10cm_visible = 0.0;
@@ -39,6 +40,7 @@ struct Evaluation {
   double ns_per_pixel = 0.0;               // person pixel, all trees, one thread
   double classify_ms = 0.0;                // a person
   double propose_ms = 0.0;
+  double relabel_ns_per_pixel = 0.0;
 };
 
 /// `step` > 1 looks at every step-th frame. `progress(done, total)` returns false to stop early.

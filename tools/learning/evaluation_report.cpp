@@ -47,6 +47,7 @@ std::string EvaluationJson(const Evaluation& e) {
   json["people"] = e.people;
   json["pixel_accuracy"] = Number(e.pixel_accuracy);
   json["mean_class_accuracy"] = Number(e.mean_class_accuracy);
+  json["mean_class_accuracy_first_stage"] = Number(e.mean_class_accuracy_first_stage);
   json["per_class_accuracy"] = ByName(e.class_accuracy, recon::kPartNames, 1);
   json["map_10cm"] = Number(e.map_10cm);
   json["ap_10cm"] = ByName(e.ap_10cm, recon::kJointNames, 0);
@@ -60,6 +61,7 @@ std::string EvaluationJson(const Evaluation& e) {
   json["ns_per_pixel"] = e.ns_per_pixel;
   json["classify_ms"] = e.classify_ms;
   json["propose_ms"] = e.propose_ms;
+  json["relabel_ns_per_pixel"] = e.relabel_ns_per_pixel;
   return json.dump(2) + "\n";
 }
 

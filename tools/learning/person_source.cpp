@@ -122,7 +122,9 @@ forest::TrainingImage Mirrored(const forest::TrainingImage& image) {
   return mirrored;
 }
 
-PersonSource::PersonSource(const std::vector<std::filesystem::path>& datasets, Range keep) {
+PersonSource::PersonSource(const std::vector<std::filesystem::path>& datasets, Range keep,
+                           Extent extent)
+    : extent_(extent) {
   for (const auto& folder : datasets) {
     readers_.emplace_back(folder);
     manifests_.push_back(readers_.back().manifest());
@@ -140,7 +142,10 @@ PersonSource::PersonSource(const std::vector<std::filesystem::path>& datasets, R
 
 forest::TrainingImage PersonSource::Read(size_t index) const {
   const Place& place = places_.at(index);
-  const LabelledFrame frame = readers_[place.dataset].Read(place.frame);
+  const DatasetReader& reader = readers_[place.dataset];
+  const LabelledFrame crop = reader.Read(place.frame);
+  const LabelledFrame frame =
+      extent_ == Extent::kWholeImage ? Uncropped(crop, reader.manifest().camera) : crop;
   if (frame.bodies.empty()) {
     forest::TrainingImage none;
     none.camera = frame.depth.camera;

@@ -24,6 +24,10 @@ forest::TrainingVocabulary BodyVocabulary();
 /// One person of a labelled frame, cut out. An image of no pixels when the body has none.
 forest::TrainingImage PersonImage(const LabelledFrame& frame, const TruthBody& body);
 
+/// How much of a frame a training image holds: trees ask for no more than the people, and many of
+/// them fit into memory; the refinement also looks at where the image ends.
+enum class Extent { kPeople, kWholeImage };
+
 /// Frames of data sets as training images: one person of each frame, in turn where there are
 /// several. `keep` chooses among each hundred frames: those whose number modulo 100 lies in
 /// [begin, end).
@@ -34,7 +38,8 @@ class PersonSource final : public forest::TrainingSource {
     int end = 100;
   };
 
-  PersonSource(const std::vector<std::filesystem::path>& datasets, Range keep);
+  PersonSource(const std::vector<std::filesystem::path>& datasets, Range keep,
+               Extent extent = Extent::kPeople);
 
   size_t size() const override { return places_.size(); }
   forest::TrainingImage Read(size_t index) const override;
@@ -50,6 +55,7 @@ class PersonSource final : public forest::TrainingSource {
   std::vector<DatasetReader> readers_;
   std::vector<DatasetManifest> manifests_;
   std::vector<Place> places_;
+  Extent extent_;
   std::string fingerprint_;
 };
 

@@ -1,5 +1,6 @@
 #include "tools/synth/dataset.h"
 
+#include <algorithm>
 #include <cmath>
 #include <cstdio>
 #include <deque>
@@ -150,6 +151,41 @@ LabelledFrame DatasetReader::Read(int64_t index) const {
   LabelledFrame frame = UnpackFrame(*shard, index);
   CheckLabels(frame, shard->file + ": frame " + std::to_string(index));
   return frame;
+}
+
+LabelledFrame Uncropped(const LabelledFrame& frame, const depth::Camera& whole) {
+  const depth::Camera& crop = frame.depth.camera;
+  if (crop.width > whole.width || crop.height > whole.height) return frame;
+  const auto offset = [](double whole_centre, double crop_centre, int slack) {
+    return std::clamp(static_cast<int>(std::lround(whole_centre - crop_centre)), 0, slack);
+  };
+  const int u0 = offset(whole.cx, crop.cx, whole.width - crop.width);
+  const int v0 = offset(whole.cy, crop.cy, whole.height - crop.height);
+  LabelledFrame out;
+  out.depth.camera = crop;
+  out.depth.camera.width = whole.width;
+  out.depth.camera.height = whole.height;
+  out.depth.camera.cx += u0;
+  out.depth.camera.cy += v0;
+  out.depth.time_s = frame.depth.time_s;
+  out.depth.index = frame.depth.index;
+  const auto pasted = [&](const auto& from, auto into) {
+    into.resize(static_cast<size_t>(whole.width) * static_cast<size_t>(whole.height));
+    for (int v = 0; v < crop.height; ++v) {
+      std::copy_n(from.begin() + static_cast<ptrdiff_t>(v) * crop.width, crop.width,
+                  into.begin() + static_cast<ptrdiff_t>(v + v0) * whole.width + u0);
+    }
+    return into;
+  };
+  out.depth.depth_mm = pasted(frame.depth.depth_mm, std::vector<uint16_t>());
+  for (const auto& [from, into] :
+       {std::pair(&frame.parts, &out.parts), {&frame.users, &out.users}}) {
+    *into = depth::Image<uint8_t>(whole.width, whole.height);
+    into->data = pasted(from->data, std::vector<uint8_t>());
+  }
+  out.bodies = frame.bodies;
+  out.floor = frame.floor;
+  return out;
 }
 
 double FacingAngle(const recon::Posture& joints_m) {

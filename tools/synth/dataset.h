@@ -72,6 +72,11 @@ class DatasetReader {
   std::unique_ptr<State> state_;
 };
 
+/// The frame in an image of its data set's size, with nothing where the crop was cut off: where an
+/// image ends says much about what is not seen. (Where a camera was drawn anew for each frame, its
+/// optical centre is taken for the data set's: a few pixels off.)
+LabelledFrame Uncropped(const LabelledFrame& frame, const depth::Camera& whole);
+
 /// Yaw of a person relative to the line of sight, seen from above, radians in (-pi, pi]: 0 faces
 /// the sensor, +-pi shows it the back, +pi/2 looks towards camera -x (the image right).
 double FacingAngle(const recon::Posture& joints_m);

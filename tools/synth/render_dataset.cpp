@@ -100,31 +100,12 @@ void PrepareFolder(const RenderJob& job, const std::string& plan) {
   for (const char* kind : {"depth", "parts", "users"}) MakeFolder(job.out / kind);
 }
 
-// A crop put back into an image of the camera's size.
-template <typename T>
-std::vector<T> Uncropped(const std::vector<T>& crop, const depth::Camera& from,
-                         const depth::Camera& whole) {
-  const int u0 = static_cast<int>(std::lround(whole.cx - from.cx));
-  const int v0 = static_cast<int>(std::lround(whole.cy - from.cy));
-  std::vector<T> image(static_cast<size_t>(whole.width) * static_cast<size_t>(whole.height), T{0});
-  for (int v = 0; v < from.height; ++v) {
-    std::copy_n(crop.begin() + static_cast<ptrdiff_t>(v) * from.width, from.width,
-                image.begin() + static_cast<ptrdiff_t>(v + v0) * whole.width + u0);
-  }
-  return image;
-}
-
-void WritePngs(const RenderJob& job, const depth::Camera& whole, const LabelledFrame& frame) {
-  const auto& crop = frame.depth.camera;
+void WritePngs(const RenderJob& job, const depth::Camera& whole, const LabelledFrame& crop) {
+  const LabelledFrame frame = Uncropped(crop, whole);
   const std::string name = Numbered(frame.depth.index, ".png");
-  const auto depth_mm = Uncropped(frame.depth.depth_mm, crop, whole);
-  depth::WriteDepthPng(job.out / "depth" / name,
-                       {depth_mm.data(), whole.width, whole.height, whole.width});
-  depth::Image<uint8_t> labels(whole.width, whole.height);
-  labels.data = Uncropped(frame.parts.data, crop, whole);
-  depth::WriteLabelPng(job.out / "parts" / name, labels);
-  labels.data = Uncropped(frame.users.data, crop, whole);
-  depth::WriteLabelPng(job.out / "users" / name, labels);
+  depth::WriteDepthPng(job.out / "depth" / name, frame.depth.view());
+  depth::WriteLabelPng(job.out / "parts" / name, frame.parts);
+  depth::WriteLabelPng(job.out / "users" / name, frame.users);
 }
 
 bool ChunkIsThere(const RenderJob& job, int64_t chunk) {

@@ -53,5 +53,43 @@ TEST(Mirrored, TwiceIsTheImageItself) {
   EXPECT_NEAR(twice.camera.cx, image.camera.cx, 1e-12);
 }
 
+// A crop of two by one pixels out of the middle of an image of five by three.
+LabelledFrame Crop(const depth::Camera& whole) {
+  LabelledFrame frame;
+  frame.depth.camera = whole;
+  frame.depth.camera.width = 2;
+  frame.depth.camera.height = 1;
+  frame.depth.camera.cx -= 2;
+  frame.depth.camera.cy -= 1;
+  frame.depth.depth_mm = {1500, 1600};
+  frame.parts = depth::Image<uint8_t>(2, 1);
+  frame.parts.data = {16, 30};
+  frame.users = depth::Image<uint8_t>(2, 1);
+  frame.users.data = {1, 1};
+  return frame;
+}
+
+TEST(Uncropped, PutsPixelsBackWhereTheSensorSawThem) {
+  const depth::Camera whole = depth::KinectV1Camera(5, 3);
+  const LabelledFrame frame = Uncropped(Crop(whole), whole);
+  EXPECT_EQ(frame.depth.camera.cx, whole.cx);
+  EXPECT_EQ(frame.depth.camera.cy, whole.cy);
+  EXPECT_EQ(frame.depth.depth_mm,
+            (std::vector<uint16_t>{0, 0, 0, 0, 0, 0, 0, 1500, 1600, 0, 0, 0, 0, 0, 0}));
+  EXPECT_EQ(frame.parts.at(2, 1), 16);
+  EXPECT_EQ(frame.users.at(3, 1), 1);
+}
+
+TEST(Uncropped, KeepsProjectionsWhereTheCameraIsAnother) {
+  const depth::Camera whole = depth::KinectV1Camera(5, 3);
+  LabelledFrame crop = Crop(whole);
+  crop.depth.camera.cx -= 40.25;  // would lie outside
+  const LabelledFrame frame = Uncropped(crop, whole);
+  const Eigen::Vector3d before = depth::BackProject(crop.depth.camera, 0, 0, 1500);
+  EXPECT_EQ(frame.depth.view().at(3, 1), 1500);
+  const Eigen::Vector3d after = depth::BackProject(frame.depth.camera, 3, 1, 1500);
+  EXPECT_NEAR((before - after).norm(), 0.0, 1e-12);
+}
+
 }  // namespace
 }  // namespace ossa::tools
