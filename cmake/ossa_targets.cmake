@@ -41,8 +41,7 @@ endfunction()
 
 # ossa_test(NAME SOURCES ... LIBS ...): one GoogleTest program whose tests ctest lists one by one.
 # OSSA_SHARED_DIR (real recordings beside the checkout) may be absent: such tests skip visibly.
-# LABELS: `slow` for tests of many seconds, `unsanitized` for those that cannot run under sanitizers
-# (say why beside it); tests/run leaves both out of its sanitized run.
+# LABELS: `slow` for tests of many seconds.
 function(ossa_test name)
   cmake_parse_arguments(ARG "" "" "SOURCES;LIBS;LABELS" ${ARGN})
   add_executable(${name} ${ARG_SOURCES})
