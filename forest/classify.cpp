@@ -68,6 +68,10 @@ std::vector<int32_t> BoxPositions(const ObjectImage& image, int width,
   return position;
 }
 
+OSSA_CLONES void AddTo(const int16_t* __restrict values, size_t count, int32_t* __restrict sum) {
+  for (size_t k = 0; k < count; ++k) sum[k] += values[k];
+}
+
 // Posterior ∝ prior · exp(evidence_scale · mean evidence): the pixels of one object are far from
 // independent, so that their mean counts as evidence_scale of them (learned on held-out frames).
 std::vector<float> ContextPosterior(const ForestModel& model, const Walked& walked,
@@ -77,7 +81,7 @@ std::vector<float> ContextPosterior(const ForestModel& model, const Walked& walk
   const size_t trees = model.data().trees.size();
   const size_t pixels = walked.leaf.size() / trees;
   const size_t step = std::max<size_t>(1, pixels / kPixels);
-  std::vector<int64_t> sum(contexts, 0);
+  std::vector<int32_t> sum(contexts, 0);
   size_t heard = 0;
   const auto evidence_of = [&](size_t i, size_t t) {
     return model.tables().leaves[t].evidence.data() +
@@ -87,8 +91,7 @@ std::vector<float> ContextPosterior(const ForestModel& model, const Walked& walk
     const size_t next = std::min(i + kAhead * step, pixels - 1);
     for (size_t t = 0; t < trees; ++t, ++heard) {
       __builtin_prefetch(evidence_of(next, t));
-      const int16_t* evidence = evidence_of(i, t);
-      for (size_t k = 0; k < contexts; ++k) sum[k] += evidence[k];
+      AddTo(evidence_of(i, t), contexts, sum.data());
     }
   }
   std::vector<float> log_posterior(contexts);
@@ -104,12 +107,17 @@ std::vector<float> ContextPosterior(const ForestModel& model, const Walked& walk
   return log_posterior;
 }
 
+// The contexts that are mixed: rare ones change no label, and each costs a row of every leaf.
 std::vector<ActiveContext> ActiveContexts(std::span<const float> posterior) {
+  constexpr uint32_t kLeastShare = 3;
+  std::vector<uint32_t> share;
+  for (const float p : posterior) {
+    share.push_back(static_cast<uint32_t>(std::lround(p * static_cast<float>(kContextUnits))));
+  }
+  const uint32_t least = std::min(kLeastShare, *std::max_element(share.begin(), share.end()));
   std::vector<ActiveContext> active;
-  for (uint32_t k = 0; k < posterior.size(); ++k) {
-    const auto share =
-        static_cast<uint32_t>(std::lround(posterior[k] * static_cast<float>(kContextUnits)));
-    if (share > 0) active.push_back({k, share});
+  for (uint32_t k = 0; k < share.size(); ++k) {
+    if (share[k] >= least) active.push_back({k, share[k]});
   }
   return active;
 }
@@ -182,8 +190,13 @@ double Pitch_m(const ObjectImage& image, const depth::Camera& camera,
   return 1e-3 * static_cast<double>(sum_mm) / static_cast<double>(position.size()) / camera.fx;
 }
 
-int InPixels(double length_m, double pitch_m) {
-  return pitch_m > 0 ? static_cast<int>(std::min(length_m / pitch_m, 1e6)) : 0;
+std::span<const float> PriorOf(const ForestModel& model, const ClassifyOptions& options) {
+  const bool known = options.context_prior.size() == static_cast<size_t>(model.context_count());
+  return known ? options.context_prior : std::span(model.data().context_prior);
+}
+
+int InSteps(double length_m, double step_m) {
+  return step_m > 0 ? static_cast<int>(std::min(length_m / step_m, 1e6)) : 0;
 }
 
 template <typename Function>
@@ -208,8 +221,8 @@ Classification Classify(const ForestModel& model, const depth::DepthView& depth,
   const ObjectImage image = CutOut(depth, camera, result.pixel, model.data().background_mm);
   const std::vector<int32_t> position = BoxPositions(image, depth.width, result.pixel);
   const double pitch_m = Pitch_m(image, camera, position);
-  SparsePixels sparse =
-      ChooseSparse(image, position, std::clamp(InPixels(options.fine_m, pitch_m), 1, kMostSparse));
+  const double spacing = pitch_m > 0 ? std::clamp(options.fine_m / pitch_m, 1.0, kMostSparse) : 1.0;
+  SparsePixels sparse = ChooseSparse(image, position, spacing);
   Walked walked;
   walked.stride = (static_cast<size_t>(result.class_count) + 14) / 16 * 16;
   const size_t walkers = sparse.position.size();
@@ -222,17 +235,16 @@ Classification Classify(const ForestModel& model, const depth::DepthView& depth,
            walked.leaf.data() + first * trees + t, trees);
     }
   });
-  const bool known = options.context_prior.size() == static_cast<size_t>(model.context_count());
-  result.context = ContextPosterior(
-      model, walked, known ? options.context_prior : std::span(model.data().context_prior));
+  result.context = ContextPosterior(model, walked, PriorOf(model, options));
   const std::vector<ActiveContext> active = ActiveContexts(result.context);
   walked.mass = std::make_unique_for_overwrite<uint8_t[]>(walkers * walked.stride);
   ForRanges(walkers, options.threads, [&](size_t first, size_t last) {
     MixLeaves(model, active, {first, last}, &walked);
   });
-  SmoothMasses smooth = Smooth({&image, position, &sparse, walked.mass.get(), walked.stride},
-                               InPixels(options.smoothing_m + pitch_m / 2, pitch_m));
-  result.label = std::move(smooth.label);
+  const double spacing_m = spacing * pitch_m;
+  SmoothMasses smooth = Smooth({&sparse, walked.mass.get(), walked.stride},
+                               InSteps(options.smoothing_m + spacing_m / 2, spacing_m));
+  result.label = LabelPixels(image, position, sparse, smooth);
   result.mass = std::move(smooth.mass);
   result.mass_stride = walked.stride;
   result.mass_scale = ScalesOf(result.mass, walked.stride);

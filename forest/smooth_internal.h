@@ -8,25 +8,29 @@
 
 namespace ossa::forest {
 
-inline constexpr int kMaxSmoothRadius_px = 31;  // windows of 63: their sums fit 16 bits
+inline constexpr int kMaxSmoothRadius = 31;  // windows of 63: their sums fit 16 bits
 
-/// Class masses of one object's pixels, as its samples (the pixels that walked) gave them.
+/// Class masses of one object's samples, as the trees gave them.
 struct MassImage {
-  const ObjectImage* image = nullptr;
-  std::span<const int32_t> position;     // y << 16 | x, box coordinates, ascending
-  const SparsePixels* sparse = nullptr;  // which sample speaks for each pixel
+  const SparsePixels* sparse = nullptr;  // the grid they stand on
   const uint8_t* mass = nullptr;         // sample × stride, each at most 255
   size_t stride = 0;                     // a multiple of 16
 };
 
 struct SmoothMasses {
-  std::vector<uint16_t> mass;  // sample × stride: masses around the sample itself, × 4
-  std::vector<uint8_t> label;  // of each pixel: its largest column + 1; 0: there is no mass
+  size_t stride = 0;
+  std::vector<uint16_t> mass;  // sample × stride: masses around it, × 4
+  std::vector<uint8_t> label;  // of each sample: its largest column + 1; 0: there is no mass
 };
 
-/// Every pixel's masses averaged over the rows of a square window around it, rows added up (× 4).
-/// A window ends where the object does and where the depth jumps. Integers: the same bits on every
-/// machine.
-SmoothMasses Smooth(const MassImage& masses, int radius_px);
+/// Every sample's masses averaged over the rows of a square window of the grid around it, rows
+/// added up (× 4). A window ends where the object does and where the depth jumps; samples off the
+/// grid stand alone. Integers: the same bits on every machine.
+SmoothMasses Smooth(const MassImage& masses, int radius);
+
+/// The label of each pixel, from the smooth masses of the four samples around it that lie on its
+/// surface, weighted bilinearly.
+std::vector<uint8_t> LabelPixels(const ObjectImage& image, std::span<const int32_t> position,
+                                 const SparsePixels& sparse, const SmoothMasses& smooth);
 
 }  // namespace ossa::forest

@@ -3,83 +3,108 @@
 #include "forest/sparse_internal.h"
 
 #include <algorithm>
-#include <cstdlib>
+#include <cmath>
 #include <numeric>
 
 namespace ossa::forest {
 namespace {
 
-constexpr int kGap_mm = 50;  // between neighbours: an arm before the trunk
-
-// Tiles of 16 × 8 squares, as many pixels as walk at once.
+// Tiles of 16 × 8 cells, as many samples as walk at once.
 constexpr int kTileColumns = 16;
 constexpr int kTileRows = 8;
 
-// Sorts those that walk by tile (counting sort: within a tile they keep their order).
-void SortIntoTiles(const ObjectImage& image, int step, SparsePixels* sparse) {
-  const int width = kTileColumns * step;
-  const int height = kTileRows * step;
-  const int columns = image.width / width + 1;
-  const auto tile_of = [&](int32_t p) {
-    return (p >> 16) / height * columns + (p & 0xffff) / width;
-  };
-  std::vector<int32_t> next(static_cast<size_t>(columns * (image.height / height + 1)) + 1, 0);
-  std::vector<int32_t> rank(sparse->position.size());
-  for (size_t i = 0; i < rank.size(); ++i) {
-    rank[i] = tile_of(sparse->position[i]);
-    ++next[static_cast<size_t>(rank[i]) + 1];
+std::vector<Between> PlacesOnGrid(int pixels, double spacing) {
+  std::vector<Between> places(static_cast<size_t>(pixels));
+  for (int i = 0; i < pixels; ++i) {
+    Between& place = places[static_cast<size_t>(i)];
+    const double at = (i + 0.5) / spacing;
+    place.cell = static_cast<int32_t>(at);
+    const double low = std::floor(at - 0.5);
+    place.low = static_cast<int32_t>(low);
+    place.eighths = static_cast<int32_t>(std::lround(8 * (at - 0.5 - low)));
+    place.is_centre = i == static_cast<int>((place.cell + 0.5) * spacing);
   }
-  std::partial_sum(next.begin(), next.end(), next.begin());
-  std::vector<int32_t> sorted(rank.size());
-  for (size_t i = 0; i < rank.size(); ++i) {
-    rank[i] = next[static_cast<size_t>(rank[i])]++;
-    sorted[static_cast<size_t>(rank[i])] = sparse->position[i];
-  }
-  sparse->position = std::move(sorted);
-  for (int32_t& from : sparse->from) from = rank[static_cast<size_t>(from)];
+  return places;
 }
 
-// The first pixel of each square walks, and every one on another surface than that.
-SparsePixels OneOfEachSquare(const ObjectImage& image, std::span<const int32_t> position,
-                             int step) {
-  SparsePixels sparse;
-  const int columns = image.width / step + 1;
-  const int rows = image.height / step + 1;
-  std::vector<int32_t> walker(static_cast<size_t>(columns) * static_cast<size_t>(rows), -1);
-  sparse.from.reserve(position.size());
-  for (const int32_t p : position) {
-    const int x = p & 0xffff;
-    const int y = p >> 16;
-    int32_t& first = walker[static_cast<size_t>(y / step * columns + x / step)];
-    if (first >= 0) {
-      const int32_t q = sparse.position[static_cast<size_t>(first)];
-      const int here_mm = image.depth_mm[image.At(x, y)];
-      const int there_mm = image.depth_mm[image.At(q & 0xffff, q >> 16)];
-      if (std::abs(here_mm - there_mm) <= kGap_mm) {
-        sparse.from.push_back(first);
-        continue;
+// The pixel of each cell that is to be its sample: the one in its middle, else the first.
+void ChooseOfEachCell(std::span<const int32_t> position, SparsePixels* sparse) {
+  const auto columns = static_cast<size_t>(sparse->grid.width);
+  for (size_t i = 0; i < position.size(); ++i) {
+    const Between& x = sparse->column[static_cast<size_t>(position[i] & 0xffff)];
+    const Between& y = sparse->row[static_cast<size_t>(position[i] >> 16)];
+    int32_t& chosen =
+        sparse->sample[static_cast<size_t>(y.cell) * columns + static_cast<size_t>(x.cell)];
+    if (chosen == SparsePixels::kNone || (x.is_centre && y.is_centre)) {
+      chosen = static_cast<int32_t>(i);
+    }
+  }
+}
+
+// Numbers the chosen pixels tile by tile.
+void NumberByTile(const ObjectImage& image, std::span<const int32_t> position,
+                  SparsePixels* sparse) {
+  ObjectImage& grid = sparse->grid;
+  for (int y0 = 0; y0 < grid.height; y0 += kTileRows) {
+    for (int x0 = 0; x0 < grid.width; x0 += kTileColumns) {
+      for (int y = y0; y < std::min(grid.height, y0 + kTileRows); ++y) {
+        int32_t* row = &sparse->sample[static_cast<size_t>(y) * static_cast<size_t>(grid.width)];
+        for (int x = x0; x < std::min(grid.width, x0 + kTileColumns); ++x) {
+          if (row[x] == SparsePixels::kNone) continue;
+          const int32_t p = position[static_cast<size_t>(row[x])];
+          row[x] = static_cast<int32_t>(sparse->position.size());
+          grid.depth_mm[grid.At(x, y)] = static_cast<uint16_t>(DepthAt(image, p));
+          sparse->position.push_back(p);
+        }
       }
     }
-    sparse.from.push_back(static_cast<int32_t>(sparse.position.size()));
-    if (first < 0) first = sparse.from.back();
-    sparse.position.push_back(p);
   }
-  return sparse;
+  sparse->on_grid = sparse->position.size();
 }
 
-SparsePixels Everyone(std::span<const int32_t> position) {
-  SparsePixels all;
-  all.position.assign(position.begin(), position.end());
-  all.from.resize(position.size());
-  std::iota(all.from.begin(), all.from.end(), 0);
-  return all;
+// The sample of the pixel's cell, or another of the four around it; kNone when all of them lie on
+// other surfaces.
+int32_t SampleFor(const SparsePixels& sparse, int32_t position, int depth_mm) {
+  const Between& x = sparse.column[static_cast<size_t>(position & 0xffff)];
+  const Between& y = sparse.row[static_cast<size_t>(position >> 16)];
+  const ObjectImage& grid = sparse.grid;
+  if (SameSurface(grid.depth_mm[grid.At(x.cell, y.cell)], depth_mm)) {
+    return sparse.SampleAt(x.cell, y.cell);
+  }
+  for (int corner = 0; corner < 4; ++corner) {
+    const int cell_x = x.low + corner % 2;
+    const int cell_y = y.low + corner / 2;
+    const int32_t sample = sparse.SampleAt(cell_x, cell_y);
+    if (sample == SparsePixels::kNone) continue;
+    if (SameSurface(grid.depth_mm[grid.At(cell_x, cell_y)], depth_mm)) return sample;
+  }
+  return SparsePixels::kNone;
 }
 
 }  // namespace
 
-SparsePixels ChooseSparse(const ObjectImage& image, std::span<const int32_t> position, int step) {
-  SparsePixels sparse = step <= 1 ? Everyone(position) : OneOfEachSquare(image, position, step);
-  SortIntoTiles(image, step, &sparse);
+SparsePixels ChooseSparse(const ObjectImage& image, std::span<const int32_t> position,
+                          double spacing) {
+  SparsePixels sparse;
+  sparse.column = PlacesOnGrid(image.width, spacing);
+  sparse.row = PlacesOnGrid(image.height, spacing);
+  ObjectImage& grid = sparse.grid;
+  grid.width = sparse.column.empty() ? 0 : sparse.column.back().cell + 1;
+  grid.height = sparse.row.empty() ? 0 : sparse.row.back().cell + 1;
+  grid.depth_mm.assign(static_cast<size_t>(grid.stride()) * static_cast<size_t>(grid.height + 2),
+                       0);
+  sparse.sample.assign(static_cast<size_t>(grid.width) * static_cast<size_t>(grid.height),
+                       SparsePixels::kNone);
+  ChooseOfEachCell(position, &sparse);
+  NumberByTile(image, position, &sparse);
+  sparse.from.resize(position.size());
+  for (size_t i = 0; i < position.size(); ++i) {
+    int32_t& sample = sparse.from[i];
+    sample = SampleFor(sparse, position[i], DepthAt(image, position[i]));
+    if (sample != SparsePixels::kNone) continue;
+    sample = static_cast<int32_t>(sparse.position.size());
+    sparse.position.push_back(position[i]);
+  }
   return sparse;
 }
 

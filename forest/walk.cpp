@@ -42,15 +42,15 @@ void WalkScalar(const WalkInput& input, int32_t* leaf, size_t leaf_stride) {
     const int x = input.position[i] & 0xffff;
     const int y = input.position[i] >> 16;
     const auto d_mm = static_cast<float>(depth_mm[image.At(x, y)]);
-    const float pixels_u = image.scale_u / d_mm;
-    const float pixels_v = image.scale_v / d_mm;
+    const int scale_u = FixedScale(image.scale_u, d_mm);
+    const int scale_v = FixedScale(image.scale_v, d_mm);
+    const auto read = [&](const std::array<int16_t, 2>& offset) {
+      const int probe_x = std::clamp(x + ScaleOffset(offset[0], scale_u), -1, image.width);
+      const int probe_y = std::clamp(y + ScaleOffset(offset[1], scale_v), -1, image.height);
+      return static_cast<int>(depth_mm[image.At(probe_x, probe_y)]);
+    };
     const Node* node = input.nodes;
     while (!node->is_leaf()) {
-      const auto read = [&](const std::array<int16_t, 2>& offset) {
-        return static_cast<int>(
-            depth_mm[static_cast<size_t>(ProbeIndex(x, y, offset[0], offset[1], pixels_u, pixels_v,
-                                                    image.width, image.height, image.stride()))]);
-      };
       const int response_mm = read(node->u) - read(node->v);
       node = input.nodes + node->left + (response_mm > node->threshold_mm ? 1 : 0);
     }

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "forest/feature_internal.h"
+#include "forest/smooth_internal.h"
 #include "forest/sparse_internal.h"
 #include "tests/forest/ball_figure.h"
 
@@ -105,9 +106,8 @@ ObjectImage SteppedBoard(std::vector<int32_t>* position) {
 TEST(ChooseSparse, OnePixelOfFourWalksAndNoneSpeaksAcrossAnEdge) {
   std::vector<int32_t> position;
   const ObjectImage image = SteppedBoard(&position);
-  const SparsePixels sparse = ChooseSparse(image, position, 2);
-  // Of 3 × 2 squares one walks each; in the middle squares both pixels of column 3 walk too.
-  EXPECT_EQ(sparse.position.size(), 6U + 4U);
+  const SparsePixels sparse = ChooseSparse(image, position, 2.0);
+  EXPECT_EQ(sparse.on_grid, 6U);  // one of each of 3 × 2 squares
   ASSERT_EQ(sparse.from.size(), position.size());
   for (size_t i = 0; i < position.size(); ++i) {
     const int32_t walker = sparse.position[static_cast<size_t>(sparse.from[i])];
@@ -117,14 +117,43 @@ TEST(ChooseSparse, OnePixelOfFourWalksAndNoneSpeaksAcrossAnEdge) {
   }
 }
 
+TEST(ChooseSparse, APixelAloneOnItsSurfaceIsASampleOffTheGrid) {
+  std::vector<int32_t> position;
+  ObjectImage image = SteppedBoard(&position);
+  image.depth_mm[image.At(0, 0)] = 900;  // the square's sample is another pixel
+  const SparsePixels sparse = ChooseSparse(image, position, 2.0);
+  const auto sample = static_cast<size_t>(sparse.from[0]);
+  EXPECT_GE(sample, sparse.on_grid);
+  EXPECT_EQ(sparse.position[sample], position[0]);
+}
+
 TEST(ChooseSparse, EveryPixelWalksAtStepOne) {
   std::vector<int32_t> position;
   const ObjectImage image = SteppedBoard(&position);
-  const SparsePixels sparse = ChooseSparse(image, position, 1);
+  const SparsePixels sparse = ChooseSparse(image, position, 1.0);
+  EXPECT_EQ(sparse.on_grid, position.size());
   ASSERT_EQ(sparse.from.size(), position.size());
   for (size_t i = 0; i < position.size(); ++i) {
     EXPECT_EQ(sparse.position[static_cast<size_t>(sparse.from[i])], position[i]);
   }
+}
+
+// Two samples of a row, three pixels apart, the left one of class 1 and the right one of class 2:
+// the border lies in the middle between them.
+TEST(LabelPixels, TheBorderOfTwoLabelsLiesBetweenTheirSamples) {
+  ObjectImage image;
+  image.width = 6;
+  image.height = 1;
+  image.depth_mm.assign(static_cast<size_t>(image.stride()) * 3 + 2, 2000);
+  const std::vector<int32_t> position = {0, 1, 2, 3, 4, 5};
+  const SparsePixels sparse = ChooseSparse(image, position, 3.0);
+  ASSERT_EQ(sparse.on_grid, 2U);
+  SmoothMasses smooth;
+  smooth.stride = 16;
+  smooth.mass.assign(2 * smooth.stride, 0);
+  smooth.mass[0] = smooth.mass[smooth.stride + 1] = 1000;
+  smooth.label = {1, 2};
+  EXPECT_EQ(LabelPixels(image, position, sparse, smooth), (std::vector<uint8_t>{1, 1, 1, 2, 2, 2}));
 }
 
 }  // namespace
