@@ -1,20 +1,15 @@
 // Who is who from one frame to the next.
 #include <algorithm>
 #include <cmath>
-#include <tuple>
 
 #include "depth/scene/pieces.h"
+#include "depth/scene/reidentify_internal.h"
 #include "depth/scene/scene.h"
 
 namespace ossa::depth {
 namespace {
 
 using Eigen::Vector3f;
-
-struct Match {
-  double cost;
-  size_t track, person;
-};
 
 // How far a person is from where a user is expected. Of somebody half hidden the middle of what is
 // seen lies too high or too low: height says little.
@@ -28,6 +23,13 @@ double Gate_m(const UserTrack& user, double time_s, const SceneOptions& options)
   const double gone_s = std::max(0.0, time_s - user.seen_s);
   return static_cast<double>(options.return_gate_m) +
          static_cast<double>(options.return_speed_m_s) * gone_s;
+}
+
+std::vector<float> DepthsOf(const PointGrid& grid, const Region& region) {
+  std::vector<float> z_m;
+  z_m.reserve(region.cells.size());
+  for (const int cell : region.cells) z_m.push_back(grid.z(cell));
+  return z_m;
 }
 
 // Cells both hold, as a share of the smaller.
@@ -45,29 +47,68 @@ double Overlap(const PointGrid& grid, const UserTrack& user, const Candidate& pe
          static_cast<double>(std::min(user.cells.size(), person.region.cells.size()));
 }
 
-// Smallest cost first: at most a handful of people, so greedy choice over (overlap, distance).
-std::vector<Match> PossibleMatches(const Scene& scene, const std::vector<const Candidate*>& people,
-                                   double time_s, const SceneState& state,
-                                   const SceneOptions& options) {
-  // More than anything else: who a candidate is said to go on as was found by the most cells.
-  constexpr double kGoesOn = 10;
-  std::vector<Match> matches;
+// Whose each cell is, as an index into `people`; -1 for nobody's.
+std::vector<int> PersonOfCells(const PointGrid& grid, const std::vector<const Candidate*>& people) {
+  std::vector<int> person_of(static_cast<size_t>(grid.cells()), -1);
+  for (size_t p = 0; p < people.size(); ++p) {
+    for (const int cell : people[p]->region.cells)
+      person_of[static_cast<size_t>(cell)] = static_cast<int>(p);
+  }
+  return person_of;
+}
+
+// Which user each person is: who goes on from the frame before as said, and all the others at once
+// as those of the lost users they most likely are. -1 for somebody new.
+std::vector<int> TracksOf(const Scene& scene, const std::vector<const Candidate*>& people,
+                          const std::vector<int>& person_of, double time_s, const SceneState& state,
+                          const SceneOptions& options) {
+  std::vector<int> track_of(people.size(), -1);
+  std::vector<uint8_t> taken(state.users.size(), 0);
+  std::vector<size_t> newcomers, lost;
+  for (size_t p = 0; p < people.size(); ++p) {
+    track_of[p] = people[p]->track;
+    for (const int track : people[p]->absorbed) taken[static_cast<size_t>(track)] = 1;
+    if (track_of[p] >= 0) taken[static_cast<size_t>(track_of[p])] = 1;
+    if (track_of[p] < 0) newcomers.push_back(p);
+  }
   for (size_t t = 0; t < state.users.size(); ++t) {
-    const UserTrack& user = state.users[t];
-    const double gone_s = std::max(0.0, time_s - user.seen_s);
-    const double gate = Gate_m(user, time_s, options);
-    for (size_t p = 0; p < people.size(); ++p) {
-      const double off = OffPredicted_m(user, people[p]->region, time_s);
-      const double overlap = gone_s < 0.5 ? Overlap(scene.grid, user, *people[p]) : 0.0;
-      const bool goes_on = people[p]->track == static_cast<int>(t);
-      if (off > gate && overlap < 0.3 && !goes_on) continue;
-      matches.push_back({off / gate - 2 * overlap - (goes_on ? kGoesOn : 0.0), t, p});
+    if (!taken[t]) lost.push_back(t);
+  }
+  if (newcomers.empty() || lost.empty()) return track_of;
+  std::vector<std::vector<double>> weight;
+  for (const size_t p : newcomers) {
+    const Region& region = people[p]->region;
+    const Way way = WayOf(scene.grid, region.cells, DepthsOf(scene.grid, region), person_of,
+                          static_cast<int>(p));
+    weight.emplace_back();
+    for (const size_t t : lost) {
+      const UserTrack& user = state.users[t];
+      constexpr double kSameCells = 8;  // e^8 : 1 that what is where a user just was is that user
+      const double overlap =
+          time_s - user.seen_s < 0.5 ? Overlap(scene.grid, user, *people[p]) : 0.0;
+      weight.back().push_back(
+          LogLikelihoodRatio(user, *people[p], way, time_s, options.reidentify) +
+          (overlap > 0.3 ? kSameCells * overlap : 0.0));
     }
   }
-  std::sort(matches.begin(), matches.end(), [](const Match& a, const Match& b) {
-    return std::tie(a.cost, a.track, a.person) < std::tie(b.cost, b.track, b.person);
-  });
-  return matches;
+  const std::vector<int> assigned = BestAssignment(weight, lost.size());
+  for (size_t i = 0; i < newcomers.size(); ++i) {
+    if (assigned[i] >= 0)
+      track_of[newcomers[i]] = static_cast<int>(lost[static_cast<size_t>(assigned[i])]);
+  }
+  return track_of;
+}
+
+// Of those who were in view a moment ago.
+void NoteWhereLost(const Scene& scene, const std::vector<int>& person_of, double time_s,
+                   SceneState& state) {
+  constexpr double kMoment_s = 0.2;  // then the last cells say nothing any more
+  for (UserTrack& user : state.users) {
+    if (user.seen_s == time_s || user.cells.empty()) continue;
+    user.lost_behind =
+        user.lost_behind || WayOf(scene.grid, user.cells, user.z_m, person_of, -1) == Way::kBehind;
+    if (user.seen_s < time_s - kMoment_s) user.cells.clear(), user.z_m.clear();
+  }
 }
 
 // While a good part of a person is hidden, the middle of the rest moves as the hiding thing does:
@@ -114,9 +155,9 @@ void Renew(UserTrack& user, const PointGrid& grid, const Region& region, double 
   constexpr float kForget = 0.99F;  // who turns sideways shows less for long
   user.full_m2 = std::max(region.area_m2, kForget * user.full_m2);
   user.cells = region.cells;
-  user.z_m.clear();
-  for (const int cell : user.cells) user.z_m.push_back(grid.z(cell));
+  user.z_m = DepthsOf(grid, region);
   user.seen_s = time_s;
+  user.lost_behind = false;
 }
 
 // Who turned out to be part of somebody else is nobody, and may not claim cells again.
@@ -149,9 +190,15 @@ Vector3f PredictedMean_m(const UserTrack& user, double time_s) {
   return user.mean_m + dt * user.velocity_m_s;
 }
 
+bool IsForgotten(const UserTrack& user, double time_s, const ReidentifyOptions& options) {
+  const double forget_s = user.lost_behind ? options.forget_behind_s : options.forget_s;
+  return time_s - user.seen_s > forget_s;
+}
+
 bool MayReturnAs(const UserTrack& user, const Region& region, double time_s,
                  const SceneOptions& options) {
-  return OffPredicted_m(user, region, time_s) < Gate_m(user, time_s, options);
+  return time_s - user.seen_s < options.reidentify.forget_s &&
+         OffPredicted_m(user, region, time_s) < Gate_m(user, time_s, options);
 }
 
 std::vector<int> ConfirmUsers(const Scene& scene, const std::vector<const Candidate*>& people,
@@ -159,13 +206,8 @@ std::vector<int> ConfirmUsers(const Scene& scene, const std::vector<const Candid
   for (UserTrack& user : state.users) {
     if (time_s < user.seen_s) user.seen_s = time_s;  // the clock went back: a new recording
   }
-  std::vector<int> track_of(people.size(), -1);
-  std::vector<uint8_t> taken(state.users.size(), 0);
-  for (const Match& match : PossibleMatches(scene, people, time_s, state, options)) {
-    if (taken[match.track] || track_of[match.person] >= 0) continue;
-    taken[match.track] = 1;
-    track_of[match.person] = static_cast<int>(match.track);
-  }
+  const std::vector<int> person_of = PersonOfCells(scene.grid, people);
+  std::vector<int> track_of = TracksOf(scene, people, person_of, time_s, state, options);
   std::vector<int> ids;
   std::vector<uint8_t> claimed(static_cast<size_t>(scene.grid.cells()), 0);
   for (size_t p = 0; p < people.size(); ++p) {
@@ -177,15 +219,15 @@ std::vector<int> ConfirmUsers(const Scene& scene, const std::vector<const Candid
     }
     UserTrack& user = state.users[static_cast<size_t>(track_of[p])];
     Renew(user, scene.grid, people[p]->region, time_s);
+    user.body.Add(people[p]->body);
     ids.push_back(user.id);
     for (const int cell : people[p]->region.cells) claimed[static_cast<size_t>(cell)] = 1;
   }
   ForgetAbsorbed(people, ids, state);
-  std::erase_if(state.users,
-                [&](const UserTrack& user) { return time_s - user.seen_s > options.forget_s; });
-  for (UserTrack& user : state.users) {
-    if (user.seen_s < time_s - 0.2) user.cells.clear(), user.z_m.clear();
-  }
+  std::erase_if(state.users, [&](const UserTrack& user) {
+    return IsForgotten(user, time_s, options.reidentify);
+  });
+  NoteWhereLost(scene, person_of, time_s, state);
   LearnBackground(scene.grid, claimed, state.background, options.background);
   return ids;
 }

@@ -29,15 +29,6 @@ float Gap(const PointGrid& grid, const Region& small, const std::vector<int>& la
   return best;
 }
 
-// The user of before who had most of the region's cells, at least half; -1 for none.
-int MostlyOf(const Region& region, const std::vector<int>& owner, size_t users) {
-  const auto overlap = Overlaps(region, owner, users);
-  for (size_t u = 0; u < users; ++u) {
-    if (2 * overlap[u].size() >= region.cells.size()) return static_cast<int>(u);
-  }
-  return -1;
-}
-
 // Somebody comes out from behind somebody else in pieces: a piece that was nobody's is the user's
 // of whom a good part is still hidden, if it is where the user is expected and not more than the
 // user lacks. users.size() for none.
@@ -68,45 +59,6 @@ int OwnerOfHead(const PointGrid& grid, const HeadBlob& head, std::span<const See
     }
   }
   return mine;
-}
-
-bool MostlyArrived(const Region& region, const std::vector<uint8_t>& arrived) {
-  return ShareOf(region, arrived) > 0.5;
-}
-
-// On the straight way in the image from one cell to the other is mostly what is nearer than both,
-// and nowhere the room behind them.
-bool Covered(const PointGrid& grid, int from, int to) {
-  constexpr float kNearer_m = 0.1F, kRoom_m = 0.15F;
-  const float near_m = std::min(grid.z(from), grid.z(to)) - kNearer_m;
-  const float far_m = std::max(grid.z(from), grid.z(to)) + kRoom_m;
-  const int dx = to % grid.width - from % grid.width, dy = to / grid.width - from / grid.width;
-  const int steps = std::max(std::abs(dx), std::abs(dy));
-  int nearer = 0;
-  for (int i = 1; i < steps; ++i) {
-    const int cell =
-        grid.cell(from % grid.width + dx * i / steps, from / grid.width + dy * i / steps);
-    if (!grid.valid(cell)) continue;  // the shadow that the nearer thing casts
-    if (grid.z(cell) > far_m) return false;
-    nearer += grid.z(cell) < near_m ? 1 : 0;
-  }
-  return 3 * nearer > steps;
-}
-
-// Two pieces of one person, of whom somebody nearer hides the middle.
-bool OneBehind(const PointGrid& grid, const Region& a, const Region& b) {
-  constexpr float kAside_m = 0.45F, kDeep_m = 0.5F, kPerson_m2 = 0.5F;
-  const Eigen::Vector3f apart_m = a.mean_m - b.mean_m;
-  if (std::abs(apart_m.x()) > kAside_m || std::abs(apart_m.z()) > kDeep_m) return false;
-  if (a.area_m2 + b.area_m2 > kPerson_m2) return false;
-  // From the cell of each that is nearest to the other's middle.
-  const auto nearest = [&](const Region& region, const Eigen::Vector3f& to_m) {
-    return *std::min_element(region.cells.begin(), region.cells.end(), [&](int p, int q) {
-      return (grid.at(p) - to_m).squaredNorm() < (grid.at(q) - to_m).squaredNorm();
-    });
-  };
-  const int from = nearest(a, b.mean_m);
-  return Covered(grid, from, nearest(b, grid.at(from)));
 }
 
 // One person alone needs no cut, unless much more hangs on than a person has, or than this one had
@@ -156,6 +108,18 @@ std::vector<std::vector<int>> Overlaps(const Region& region, const std::vector<i
     if (u >= 0) overlap[static_cast<size_t>(u)].push_back(cell);
   }
   return overlap;
+}
+
+int MostlyOf(const Region& region, const std::vector<int>& owner, size_t users) {
+  const auto overlap = Overlaps(region, owner, users);
+  for (size_t u = 0; u < users; ++u) {
+    if (2 * overlap[u].size() >= region.cells.size()) return static_cast<int>(u);
+  }
+  return -1;
+}
+
+bool MostlyArrived(const Region& region, const std::vector<uint8_t>& arrived) {
+  return ShareOf(region, arrived) > 0.5;
 }
 
 std::vector<int> HeadSeed(const PointGrid& grid, const Region& region,
@@ -219,27 +183,6 @@ std::vector<Region> JoinPieces(const PointGrid& grid, std::vector<Region> region
     }
   }
   return big;
-}
-
-std::vector<Region> JoinBehind(const PointGrid& grid, std::vector<Region> regions,
-                               const std::vector<uint8_t>& arrived, const std::vector<int>& owner,
-                               size_t users) {
-  std::vector<Region> others, pieces;
-  for (Region& region : regions) {
-    const bool newcomer = MostlyArrived(region, arrived) && MostlyOf(region, owner, users) < 0;
-    (newcomer ? pieces : others).push_back(std::move(region));
-  }
-  for (size_t i = 0; i < pieces.size(); ++i) {
-    for (size_t k = i + 1; k < pieces.size(); ++k) {
-      if (!OneBehind(grid, pieces[i], pieces[k])) continue;
-      pieces[i] = Joined(grid, pieces[i], pieces[k]);
-      pieces.erase(pieces.begin() + static_cast<std::ptrdiff_t>(k));
-      k = i;
-    }
-  }
-  others.insert(others.end(), std::make_move_iterator(pieces.begin()),
-                std::make_move_iterator(pieces.end()));
-  return others;
 }
 
 std::vector<Region> JoinByHistory(const PointGrid& grid, std::vector<Region> regions,

@@ -15,6 +15,10 @@ std::vector<int> PreviousOwners(const PointGrid& grid, const SceneState& state, 
 std::vector<std::vector<int>> Overlaps(const Region& region, const std::vector<int>& owner,
                                        size_t users);
 
+/// The user of before who had most of the region's cells, at least half; -1 for none.
+int MostlyOf(const Region& region, const std::vector<int>& owner, size_t users);
+bool MostlyArrived(const Region& region, const std::vector<uint8_t>& arrived);
+
 /// A disc around a head belongs to it before anything is measured over the surface.
 std::vector<int> HeadSeed(const PointGrid& grid, const Region& region, const Eigen::Vector3f& head);
 
@@ -37,6 +41,11 @@ std::vector<Region> JoinPieces(const PointGrid& grid, std::vector<Region> region
 std::vector<Region> JoinBehind(const PointGrid& grid, std::vector<Region> regions,
                                const std::vector<uint8_t>& arrived, const std::vector<int>& owner,
                                size_t users);
+
+/// What shows of somebody above a table and below its top: nothing but nearer surface on the way
+/// between them. Legs that are found below a user of before become that user's.
+std::vector<Region> JoinBelow(const PointGrid& grid, std::vector<Region> regions, size_t users,
+                              std::vector<int>& owner);
 
 /// Pieces that mostly cover where one user was belong together: an arm of somebody in front may cut
 /// a body in two. So do pieces that come out where somebody half hidden is. Largest first.

@@ -145,7 +145,7 @@ Scene FindCandidates(const DepthFrame& frame, const SceneState& state, SceneStat
   ForgetIfStrange(frame, scene.grid, next);
   // Also after a gap, in which nobody was asked for.
   std::erase_if(next.users, [&](const UserTrack& user) {
-    return frame.time_s - user.seen_s > options.forget_s;
+    return IsForgotten(user, frame.time_s, options.reidentify);
   });
   const double since_s = frame.time_s - next.last_s;
   scene.fresh = since_s < 0 || since_s > options.fresh_s;
@@ -155,18 +155,18 @@ Scene FindCandidates(const DepthFrame& frame, const SceneState& state, SceneStat
   std::vector<uint8_t> ignore = shape.room;
   const std::vector<uint8_t> background =
       SeenBackground(scene.grid, next.background, options.background);
-  const std::vector<int> owner = PreviousOwners(scene.grid, next, frame.time_s);
+  std::vector<int> owner = PreviousOwners(scene.grid, next, frame.time_s);
   for (size_t i = 0; i < ignore.size(); ++i) ignore[i] |= background[i] && owner[i] < 0;
-  std::vector<uint8_t> barred = SeenBefore(scene.grid, next.background);
-  for (size_t i = 0; i < barred.size(); ++i) barred[i] &= owner[i] < 0;
-
   const std::vector<uint8_t> arrived = ArrivedSince(scene.grid, next.background);
 
   constexpr float kSpeck_m2 = 0.004F;  // a fist has 0.006
   std::vector<Region> regions = ConnectedRegions(scene.grid, ignore, kSpeck_m2);
   regions = JoinPieces(scene.grid, std::move(regions), owner, next.users.size());
+  regions = JoinBelow(scene.grid, std::move(regions), next.users.size(), owner);
   regions = JoinBehind(scene.grid, std::move(regions), arrived, owner, next.users.size());
   regions = JoinByHistory(scene.grid, std::move(regions), owner, next.users, frame.time_s);
+  std::vector<uint8_t> barred = SeenBefore(scene.grid, next.background);
+  for (size_t i = 0; i < barred.size(); ++i) barred[i] &= owner[i] < 0;
   const CellFacts facts{owner, barred, arrived, shape.flat};
   for (size_t r = 0; r < regions.size(); ++r) {
     for (Candidate& candidate : CandidatesIn(frame, scene.grid, regions[r], facts, next, options)) {

@@ -8,6 +8,7 @@
 #include "depth/image/depth_frame.h"
 #include "depth/image/image.h"
 #include "depth/scene/background.h"
+#include "depth/scene/body_measures.h"
 #include "depth/scene/floor.h"
 #include "depth/scene/regions.h"
 
@@ -28,17 +29,34 @@ struct UserTrack {
   Eigen::Vector3f rest_mean_m = Eigen::Vector3f::Zero();  // where it was then, and its surface
   float rest_m2 = 0;
   double seen_s = 0;
+  bool lost_behind = false;  // out of view, it was last seen at the outline of somebody nearer
+  BodyMeasures body;
 };
 
 /// All that the scene remembers between frames.
 struct SceneState {
   FloorState floor;
   BackgroundState background;
-  std::vector<UserTrack> users;  // in view, or lost for less than `forget_s`
+  std::vector<UserTrack> users;  // in view, or lost a moment ago
   int next_id = 1;
   int frame_width = 0, frame_height = 0;
   std::vector<float> last_z_m;  // of the grid's cells in the last frame
   double last_s = -1e9;         // and its time
+};
+
+/// When somebody who comes into view is one of those who went out of it, and not somebody new.
+struct ReidentifyOptions {
+  double forget_s = 2.5;         // after so long out of view a person is new,
+  double forget_behind_s = 5.0;  // ... after so long behind somebody
+  double walk_s = 2.0;           // how long who is out of view walks on as before
+  double walk_share = 0.6;       // of those out of view who walk on,
+  double stay_share = 0.3;       // ... and who stay about there; the others may be anywhere
+  // New people for each of those who come back, a square metre of floor: few appear in the middle
+  // of a room, and hardly anybody out of nothing behind somebody nearer.
+  double new_border_1_m2 = 0.1;
+  double new_open_1_m2 = 0.02;
+  double new_behind_1_m2 = 0.004;
+  double other_way = 0.3;  // likelihood of who went behind somebody to come back elsewhere, or v.v.
 };
 
 struct SceneOptions {
@@ -49,10 +67,10 @@ struct SceneOptions {
   float min_height_m = 0.28F;
   float min_arrived_m2 = 0.045F;      // of what came into view where the room was seen before: a
   float min_arrived_height_m = 0.2F;  // head over somebody nearer
-  float max_reach_m = 1.75F;      // over the surface from the head to the farthest toe or finger
-  float growth_m = 0.5F;          // ... and beyond where a known person was a frame ago
-  double fresh_s = 0.3;           // without frames for so long, the scene is fresh
-  double forget_s = 2.5;          // after so long out of view a person is new
+  float max_reach_m = 1.75F;  // over the surface from the head to the farthest toe or finger
+  float growth_m = 0.5F;      // ... and beyond where a known person was a frame ago
+  double fresh_s = 0.3;       // without frames for so long, the scene is fresh
+  ReidentifyOptions reidentify;
   float return_gate_m = 0.6F;     // how far off the predicted place a lost person may reappear,
   float return_speed_m_s = 0.7F;  // growing with time
 };
@@ -69,6 +87,7 @@ struct Candidate {
   double arrived_share = 0;     // of the cells that stand where something behind them was seen; 0
                                 // for what may be the rest of somebody who is seen
   int origin = -1;              // candidates of one connected region have the same
+  MeasuredBody body{};          // by the caller, of those it confirms
 };
 
 struct Scene {
@@ -110,6 +129,9 @@ void KeepNear(const Scene& scene, const DepthFrame& frame, std::span<const Bone>
 /// everything else.
 std::vector<int> ConfirmUsers(const Scene& scene, const std::vector<const Candidate*>& people,
                               double time_s, SceneState& state, const SceneOptions& options = {});
+
+/// True of a user out of view for too long.
+bool IsForgotten(const UserTrack& user, double time_s, const ReidentifyOptions& options);
 
 /// Furniture stays where it is and shows the same surface; people shift, breathe and turn.
 bool HasMoved(const Eigen::Vector3f& first_mean_m, float first_m2, const Region& now);

@@ -150,16 +150,32 @@ std::vector<depth::Bone> BonesOf(const Eyes& eyes, const Perception& perception)
   return bones;
 }
 
-// What hangs on to a person and is not near any of their bones is furniture.
+// Whether any of it lies so far outside the box around the bones.
+bool ReachesBeyond(const std::vector<depth::Bone>& bones, const depth::Region& region,
+                   float reach_m) {
+  Eigen::Vector3f low_m = region.high_m, high_m = region.low_m;
+  for (const depth::Bone& bone : bones) {
+    low_m = low_m.cwiseMin(bone.from_m).cwiseMin(bone.to_m);
+    high_m = high_m.cwiseMax(bone.from_m).cwiseMax(bone.to_m);
+  }
+  return ((low_m - region.low_m).array() > reach_m).any() ||
+         ((region.high_m - high_m).array() > reach_m).any();
+}
+
+// What hangs on to a person and is not near any of their bones is furniture: where more is held
+// than a person has, or where all bones are known and something reaches far beyond them.
 void TrimToBody(const Eyes& eyes, const depth::DepthFrame& frame, const depth::Scene& scene,
                 Found& found) {
   constexpr float kReach_m = 0.3F;    // half a stout trunk, and what proposals may be off
   constexpr size_t kEnoughBones = 6;  // else the forest saw too little of the body to say
+  constexpr size_t kAllBones = recon::kJointCount - 1;
   constexpr float kPerson_m2 = 0.9F;  // nobody free of furniture shows more
-  if (found.candidate.region.area_m2 < kPerson_m2) return;
   const auto bones = BonesOf(eyes, found.perception);
   if (bones.size() < kEnoughBones) return;
-  depth::KeepNear(scene, frame, bones, kReach_m, found.candidate);
+  const bool large = found.candidate.region.area_m2 >= kPerson_m2;
+  const bool whole =
+      bones.size() == kAllBones && ReachesBeyond(bones, found.candidate.region, kReach_m);
+  if (large || whole) depth::KeepNear(scene, frame, bones, kReach_m, found.candidate);
 }
 
 }  // namespace

@@ -13,6 +13,7 @@
 #include "recon/database/posture_database.h"
 #include "recon/gp/learned_models.h"
 #include "tools/tracker/find_people_internal.h"
+#include "tools/tracker/measure_body_internal.h"
 #include "tools/tracker/parallel_internal.h"
 #include "tools/tracker/perceive_internal.h"
 #include "tools/tracker/person_internal.h"
@@ -151,7 +152,10 @@ std::vector<Found> Tracker::Impl::Segment(const depth::DepthFrame& frame, BodyFr
   std::vector<Found> found = FindPeople(eyes, frame, scene, scene_options, find, finder_state);
   const double look_ms = MillisecondsSince(look_start);
   std::vector<const depth::Candidate*> users;
-  for (const Found& one : found) users.push_back(&one.candidate);
+  for (Found& one : found) {
+    one.candidate.body = MeasureBody(one.perception, targets, scene.floor);
+    users.push_back(&one.candidate);
+  }
   const std::vector<int> ids =
       depth::ConfirmUsers(scene, users, frame.time_s, scene_state, scene_options);
   result.users = depth::UserImage(frame, users, ids);
@@ -180,7 +184,7 @@ std::vector<Found> Tracker::Impl::Segment(const depth::DepthFrame& frame, BodyFr
 
 std::vector<Person*> Tracker::Impl::PersonsOf(const std::vector<int>& ids, double time_s) {
   std::erase_if(people, [&](const auto& entry) {
-    return time_s - entry.second.seen_s > scene_options.forget_s;
+    return time_s - entry.second.seen_s > scene_options.reidentify.forget_behind_s;
   });
   std::vector<Person*> persons;
   for (const int id : ids) {

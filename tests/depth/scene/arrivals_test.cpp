@@ -71,7 +71,7 @@ class Behind : public testing::Test {
  protected:
   void SetUp() override {
     const tests::Box board{{-0.5, -0.1, 2.0}, {0.5, 0.1, 2.05}};
-    const tests::Box tall{{-0.12, -0.5, 3.2}, {0.12, 0.6, 3.4}};
+    const tests::Box tall{{-0.15, -0.5, 3.2}, {0.15, 0.6, 3.4}};
     grid_ = GridOf(Shot({}, 0, {board, tall}));
     pieces_ = Changed(GridOf(Shot({}, 0, {board})), grid_);
     all_.assign(static_cast<size_t>(grid_.cells()), 1);
@@ -93,6 +93,57 @@ TEST_F(Behind, WhatDidNotComeOrIsSomebodysStaysApart) {
   EXPECT_EQ(JoinBehind(grid_, pieces_, none, nobody_, 0).size(), pieces_.size());
   for (const int cell : pieces_[0].cells) nobody_[static_cast<size_t>(cell)] = 0;
   EXPECT_GT(JoinBehind(grid_, pieces_, all_, nobody_, 1).size(), 1U);
+}
+
+TEST_F(Behind, LegsBelowATableBecomeTheirsWhoStandsAtIt) {
+  ASSERT_EQ(pieces_.size(), 2U);
+  const size_t body = pieces_[0].mean_m.y() > pieces_[1].mean_m.y() ? 0 : 1;
+  for (const int cell : pieces_[body].cells) nobody_[static_cast<size_t>(cell)] = 0;
+  EXPECT_EQ(JoinBelow(grid_, pieces_, 1, nobody_).size(), 1U);
+  for (const int cell : pieces_[1 - body].cells) EXPECT_EQ(nobody_[static_cast<size_t>(cell)], 0);
+}
+
+TEST_F(Behind, ATablesOwnLegsAreTooThin) {
+  const Region& legs = pieces_[pieces_[0].mean_m.y() < pieces_[1].mean_m.y() ? 0 : 1];
+  const int middle = legs.cells[legs.cells.size() / 2] % grid_.width;
+  std::vector<int> thin;
+  for (const int cell : legs.cells) {
+    if (std::abs(cell % grid_.width - middle) < 2) thin.push_back(cell);  // 6 cm
+  }
+  auto regions = pieces_;
+  regions[&legs == &pieces_[0] ? 0 : 1] = MakeRegion(grid_, thin);
+  EXPECT_EQ(JoinBelow(grid_, regions, 0, nobody_).size(), 2U);
+}
+
+// What comes into view beside somebody seen, and how much of it counts as having come: its
+// candidate's arrived_share.
+double ArrivedBeside(float apart_m) {
+  SceneState state, next;
+  const auto see = [&](const CapsuleRender& render, bool people) {
+    const Scene scene = FindCandidates(render.frame, state, next);
+    state = next;
+    std::vector<const Candidate*> users;
+    for (const Candidate& candidate : scene.candidates) users.push_back(&candidate);
+    if (!people) users.clear();
+    ConfirmUsers(scene, users, render.frame.time_s, state);
+  };
+  CapsulePose person = PersonAt(0, 2.5);
+  person.left_lift_rad = person.right_lift_rad = 3.0;  // out of the way
+  see(Shot({}, 0), false);
+  see(Shot({person}, 1), true);
+  const double x_m = static_cast<double>(apart_m);
+  const tests::Box thing{{x_m - 0.08, -0.8, 2.5}, {x_m + 0.08, 0.2, 2.6}};
+  const CapsuleRender render = Shot({person}, 2, {thing});
+  double share = -1;
+  for (const Candidate& candidate : FindCandidates(render.frame, state, next).candidates) {
+    if (candidate.track < 0) share = candidate.arrived_share;
+  }
+  return share;
+}
+
+TEST(FindCandidates, WhatComesIntoViewCloseToSomebodySeenMayBeTheRestOfThem) {
+  EXPECT_EQ(ArrivedBeside(0.4F), 0.0);
+  EXPECT_GT(ArrivedBeside(0.9F), 0.9);
 }
 
 TEST(JoinBehind, ThingsSideBySideWithTheWallBetweenThemStayApart) {

@@ -263,6 +263,21 @@ TEST_F(Identity, SurvivesASecondOutOfView) {
   EXPECT_EQ(See(Shot({PersonAt(0.3, 2.5)}, 30)), std::vector<int>{1});
 }
 
+TEST_F(Identity, SurvivesAWayBehindSomebodyElse) {
+  // Half seen for a few frames, then 1.2 s and 1.7 m behind somebody near, then at the other side.
+  const auto far_x_m = [](int i) { return 1.35 - 1.4 * i / 30.0; };
+  int far_id = 0;
+  for (int i = 0; i <= 46; ++i) {
+    std::vector<CapsulePose> people = {PersonAt(0, 1.8)};
+    if (i <= 6 || i >= 43) people.push_back(PersonAt(far_x_m(i), 3.6));
+    const std::vector<int> ids = See(Shot(people, i));
+    ASSERT_EQ(ids.size(), people.size()) << i;
+    if (i == 6) far_id = ids[0];
+  }
+  EXPECT_EQ(state_.users.size(), 2U);
+  EXPECT_EQ(See(Shot({PersonAt(0, 1.8), PersonAt(far_x_m(47), 3.6)}, 47))[1], far_id);
+}
+
 TEST_F(Identity, WhoTurnsOutToBePartOfAnotherIsForgotten) {
   // Remembered, the part would claim its cells again in the next frame.
   const CapsuleRender render = Shot({PersonAt(-0.3, 2.5), PersonAt(0.3, 2.5)}, 0);

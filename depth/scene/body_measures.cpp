@@ -1,0 +1,60 @@
+#include "depth/scene/body_measures.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace ossa::depth {
+namespace {
+
+// How measures spread, metres: over people, over frames of one person, and what stays off however
+// many frames are averaged, for people bend, turn and stand half behind others. Measured on
+// rendered rooms, validation subjects: people crossing (frames; means of eight frames), and people
+// standing.
+struct Spread {
+  double people, frames, lasting;
+};
+constexpr std::array<Spread, kMeasureCount> kSpread = {{
+    {0.140, 0.028, 0.030},  // head's height over the floor
+    {0.033, 0.020, 0.015},  // shoulder to shoulder
+    {0.028, 0.013, 0.010},  // spine to the shoulders' middle
+    {0.026, 0.025, 0.016},  // shoulder to elbow
+    {0.046, 0.025, 0.013},  // hip to knee
+    {0.042, 0.030, 0.014},  // knee to ankle
+}};
+
+double Square(double x) { return x * x; }
+
+double LogNormal(double x, double variance) {
+  return -0.5 * (x * x / variance + std::log(variance));
+}
+
+}  // namespace
+
+void BodyMeasures::Add(const MeasuredBody& look) {
+  constexpr int kMostLooks = 60;  // then as an exponential mean: children grow, coats come off
+  for (size_t k = 0; k < kMeasureCount; ++k) {
+    if (!look[k]) continue;
+    looks[k] = std::min(looks[k] + 1, kMostLooks);
+    mean_m[k] += (*look[k] - mean_m[k]) / static_cast<float>(looks[k]);
+  }
+}
+
+double LogLikelihoodRatio(const BodyMeasures& known, const MeasuredBody& look) {
+  // One wrong measure may not outweigh the others. Measures of one body go together (who is tall
+  // has long legs): a third of them count.
+  constexpr double kMost = 3.0, kIndependent = 1.0 / 3;
+  double sum = 0;
+  for (size_t k = 0; k < kMeasureCount; ++k) {
+    if (known.looks[k] == 0 || !look[k]) continue;
+    const Spread& spread = kSpread[k];
+    const double noise =
+        2 * Square(spread.lasting) + Square(spread.frames) * (1 + 1.0 / known.looks[k]);
+    const double off_m = static_cast<double>(known.mean_m[k] - *look[k]);
+    const double ratio =
+        LogNormal(off_m, noise) - LogNormal(off_m, noise + 2 * Square(spread.people));
+    sum += std::clamp(ratio, -kMost, kMost);
+  }
+  return kIndependent * sum;
+}
+
+}  // namespace ossa::depth
