@@ -166,7 +166,8 @@ bool ReachesBeyond(const std::vector<depth::Bone>& bones, const depth::Region& r
 // than a person has, or where all bones are known and something reaches far beyond them.
 void TrimToBody(const Eyes& eyes, const depth::DepthFrame& frame, const depth::Scene& scene,
                 Found& found) {
-  constexpr float kReach_m = 0.3F;    // half a stout trunk, and what proposals may be off
+  constexpr float kReach_m = 0.3F;    // half a stout trunk, and what proposals may be off,
+  constexpr float kFar_m = 0.4F;      // ... and more than they ever are
   constexpr size_t kEnoughBones = 6;  // else the forest saw too little of the body to say
   constexpr size_t kAllBones = recon::kJointCount - 1;
   constexpr float kPerson_m2 = 0.9F;  // nobody free of furniture shows more
@@ -174,8 +175,9 @@ void TrimToBody(const Eyes& eyes, const depth::DepthFrame& frame, const depth::S
   if (bones.size() < kEnoughBones) return;
   const bool large = found.candidate.region.area_m2 >= kPerson_m2;
   const bool whole =
-      bones.size() == kAllBones && ReachesBeyond(bones, found.candidate.region, kReach_m);
-  if (large || whole) depth::KeepNear(scene, frame, bones, kReach_m, found.candidate);
+      bones.size() == kAllBones && ReachesBeyond(bones, found.candidate.region, kFar_m);
+  if (large || whole)
+    depth::KeepNear(scene, frame, bones, large ? kReach_m : kFar_m, found.candidate);
 }
 
 }  // namespace
