@@ -25,9 +25,13 @@ namespace {
 
 class Best : public Reconstructor {
  public:
-  explicit Best(const ReconstructorOptions& options) : options_(options.best) {
+  explicit Best(const ReconstructorOptions& options)
+      : options_(options.best),
+        constants_(options.best.constants),
+        plausibility_(constants_.slack_m) {
     if (const auto learned = LearnedOf(options)) correction_ = learned->correction;
-    size_.Expect(correction_.proportions);
+    size_.Expect(correction_.proportions, constants_.expected);
+    StartFilters();
     if (options.database) natural_ = MakePlantard2016(ForCompletion(options));
   }
 
@@ -75,9 +79,9 @@ class Best : public Reconstructor {
 
   void Reset() override {
     person_.Reset();
-    plausibility_ = Plausibility();
+    plausibility_ = Plausibility(constants_.slack_m);
     size_ = BodySize(true);
-    size_.Expect(correction_.proportions);
+    size_.Expect(correction_.proportions, constants_.expected);
     if (natural_) natural_->Reset();
     had_.fill(false);
     mean_offset_ = Posture();
@@ -112,16 +116,15 @@ class Best : public Reconstructor {
     return options;
   }
 
-  void StartFilters() { filters_.fill(LagFilter()); }
+  void StartFilters() { filters_.fill(LagFilter(constants_)); }
 
   JointWeights Trust(const PreparedPosture& prepared, const ReconstructionInput& input,
                      double doubt) const {
     JointWeights trust{};
     const Reliability& r = prepared.terms;
     for (size_t i = 0; i < kJointCount; ++i) {
-      // Inferred joints of an SDK are guesses, but guesses near the truth.
-      constexpr double kInferred = 0.3;
-      const double state = input.observed.state[i] == TrackingState::kTracked ? 1.0 : kInferred;
+      const double state =
+          input.observed.state[i] == TrackingState::kTracked ? 1.0 : GuessesOf(input).trust;
       // Bones of real sensors are off by up to a third in the course of a move; by half they are
       // wrong. Where the trunk's own joints lie, sensors only define, and each differently.
       const double bones = InTrunk(i) ? 1.0 : std::clamp((r.kinematics[i] - 0.5) / 0.2, 0.0, 1.0);
@@ -178,7 +181,7 @@ class Best : public Reconstructor {
     for (size_t i = 0; i < kJointCount; ++i) {
       const double held =
           prepared.between[i] > 0.0 ? trust[i] / kBetween : std::min(1.0, trust[i] / kSound);
-      const double fair = natural ? FairGuess(input.observed, i) : 1.0;
+      const double fair = natural ? FairGuess(input, i) : 1.0;
       const Eigen::Vector3d hung =
           fair * Hung(before, i, target, prepared) +
           (1.0 - fair) * (i == 0 ? model.position_m[i] : Hung(model, i, target, prepared));
@@ -186,12 +189,24 @@ class Best : public Reconstructor {
     }
   }
 
+  /// What the sensor's guesses (inferred joints) are worth: how far they are trusted, and from
+  /// which confidence on they are fair ones.
+  struct Guesses {
+    double trust, fair_confidence;
+  };
+  /// With a depth image a guess has been held against the surface (ReliabilityOptions::use_depth),
+  /// and what is left of them is near the truth. Without one most guesses of a joint behind
+  /// something are where that thing is. Of trusts of 0.01 to 0.3 and confidences of 0.25 to 1 the
+  /// best on ten rendered scenes of validation subjects.
+  static Guesses GuessesOf(const ReconstructionInput& input) {
+    return input.depth != nullptr ? Guesses{0.3, 0.25} : Guesses{0.1, 0.75};
+  }
+
   /// In [0, 1]: 0 for a joint the sensor says nothing of.
-  static double FairGuess(const TrackedPosture& observed, size_t joint) {
-    constexpr double kFair =
-        0.25;  // the forest's confidence is a probability of being within 10 cm
-    if (observed.state[joint] == TrackingState::kNotTracked) return 0.0;
-    return std::clamp(observed.confidence[joint] / kFair, 0.0, 1.0);
+  static double FairGuess(const ReconstructionInput& input, size_t joint) {
+    if (input.observed.state[joint] == TrackingState::kNotTracked) return 0.0;
+    return std::clamp(input.observed.confidence[joint] / GuessesOf(input).fair_confidence, 0.0,
+                      1.0);
   }
 
   /// Where the joint is when it hangs on its parent in `target` as it does in `posture`.
@@ -228,13 +243,10 @@ class Best : public Reconstructor {
 
   Posture Corrected(const Posture& in_camera, const Moment& moment) const {
     if (!corrects()) return in_camera;
-    // 0.5 to 0.7 are as good on people left out (UI-PRMD): the error within a clip is 6 % less than
-    // with 1, the whole error the same.
-    constexpr double kOfPosture = 0.6;
     Posture offset = OffsetsAt(in_camera, moment);
     for (size_t i = 0; i < kJointCount; ++i) {
       const Eigen::Vector3d& mean = mean_offset_.position_m[i];
-      offset.position_m[i] = mean + kOfPosture * (offset.position_m[i] - mean);
+      offset.position_m[i] = mean + constants_.of_posture * (offset.position_m[i] - mean);
     }
     const Placement turn{Eigen::Vector3d::Zero(), moment.placement.yaw_rad};
     offset = Placed(Scaled(offset, moment.scale), turn);
@@ -249,18 +261,18 @@ class Best : public Reconstructor {
     // definition. They give way first.
     constexpr double kTrunk = 0.1;
     // Of a limb the far joints give way: sensors see them worst, and a hand that is off must not
-    // pull its elbow along. Of 0.3, 0.5 and 1 the best trade on clips that no table reports.
-    constexpr double kOutwards = 0.5;
+    // pull its elbow along.
     JointWeights firm, weights;
     for (size_t i = 0; i < kJointCount; ++i) {
       const bool in_limb = i > 0 && !InTrunk(static_cast<size_t>(kJointParent[i]));
-      firm[i] = in_limb ? kOutwards * firm[static_cast<size_t>(kJointParent[i])] : 1.0;
+      firm[i] = in_limb ? constants_.outwards * firm[static_cast<size_t>(kJointParent[i])] : 1.0;
       weights[i] = (InTrunk(i) ? kTrunk : firm[i]) * (0.2 + moment.trust[i]);
     }
     return {WithBoneLengths(posture, size_.lengths_m(), weights), moment.reliability};
   }
 
   BestOptions options_;
+  BestConstants constants_;
   std::unique_ptr<Reconstructor> natural_;  // plantard-2016, where there is a database
   PoseCorrection correction_;
   Person person_;

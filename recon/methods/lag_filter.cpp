@@ -6,10 +6,6 @@
 namespace ossa::recon {
 namespace {
 
-// Chosen on UI-PRMD and ITOP by the trade of acceleration error against mean error; within a factor
-// of two of each nothing moves by more than 2 %.
-constexpr double kNoise_m = 0.02;
-constexpr double kAcceleration = 10.0;  // m/s^2, standard deviation
 constexpr double kVelocityMemory_s = 0.3;
 // Second differences of real moves stay below a centimetre a frame squared; sensors without any
 // smoothing of their own have five and more.
@@ -54,7 +50,7 @@ void LagFilter::Measure(const Eigen::Vector3d& value_m, double dt_s, double trus
 }
 
 void LagFilter::StepKalman(const Eigen::Vector3d& value_m, double dt_s, double trust) {
-  const double r = kNoise_m * kNoise_m / trust;
+  const double r = noise_m_ * noise_m_ / trust;
   if (steps_ == 0) {
     position_ = value_m;
     velocity_.setZero();
@@ -63,7 +59,7 @@ void LagFilter::StepKalman(const Eigen::Vector3d& value_m, double dt_s, double t
   }
   // x' = F x with F = [1, dt phi; 0, phi]: the velocity fades.
   const double phi = std::exp(-dt_s / kVelocityMemory_s), f = dt_s * phi;
-  const double q = kAcceleration * kAcceleration, t2 = dt_s * dt_s;
+  const double q = acceleration_ * acceleration_, t2 = dt_s * dt_s;
   const Eigen::Vector3d predicted = position_ + f * velocity_, faded = phi * velocity_;
   const double n00 = p00_ + 2.0 * f * p01_ + f * f * p11_ + q * t2 * t2 / 4.0;
   const double n01 = phi * (p01_ + f * p11_) + q * t2 * dt_s / 2.0;

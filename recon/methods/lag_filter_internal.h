@@ -2,6 +2,7 @@
 #include <Eigen/Core>
 
 #include "recon/methods/joint_filters_internal.h"
+#include "recon/methods/reconstructor.h"
 
 namespace ossa::recon {
 
@@ -15,6 +16,8 @@ namespace ossa::recon {
 /// jitter, of this joint over the last second, says which of the two is heard.
 class LagFilter {
  public:
+  explicit LagFilter(const BestConstants& constants = {})
+      : noise_m_(constants.noise_m), acceleration_(constants.acceleration) {}
   /// trust in (0, 1] divides the measurement's variance. The estimate for now.
   Eigen::Vector3d Step(const Eigen::Vector3d& value_m, double dt_s, double trust);
   /// What is now thought of the step before.
@@ -24,6 +27,7 @@ class LagFilter {
   void StepKalman(const Eigen::Vector3d& value_m, double dt_s, double trust);
   void Measure(const Eigen::Vector3d& value_m, double dt_s, double trust);
 
+  double noise_m_, acceleration_;
   int steps_ = 0;
   Eigen::Vector3d position_ = Eigen::Vector3d::Zero(), velocity_ = Eigen::Vector3d::Zero();
   Eigen::Vector3d kalman_before_ = Eigen::Vector3d::Zero(), before_ = Eigen::Vector3d::Zero();

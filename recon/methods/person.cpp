@@ -132,12 +132,11 @@ void BodySize::Observe(const Posture& in_camera, const JointWeights& trust, doub
     }
     mean[i] = weight > 0.0 ? sum / weight : lengths_m_[i];
   }
-  constexpr double kExpected = 0.3;  // as good as any from 0.15 to 0.5 (UI-PRMD)
   for (size_t i = 1; i < kJointCount; ++i) {
     if (proportions_[i] > 0.0) {
       const double size = expected_scale > 0.0 ? expected_scale : scale_;
       const double expected_m = size * proportions_[i] * StandardBoneLengths()[i];
-      mean[i] += kExpected * (expected_m - mean[i]);
+      mean[i] += expected_ * (expected_m - mean[i]);
     }
     // Where trunk joints lie is each sensor's own definition; limbs differ between people only.
     const bool trunk = i <= 4 || i == 8 || i == 12 || i == 16;

@@ -19,7 +19,11 @@ class BodySize {
   explicit BodySize(bool as_measured) : as_measured_(as_measured) {}
   /// Bones are expected in these proportions to the standard ones (0: nothing is expected): the
   /// lengths taken lie between what is measured, in one frame, and what the body's size tells.
-  void Expect(const BoneLengths& proportions) { proportions_ = proportions; }
+  /// `share`: of what the size tells.
+  void Expect(const BoneLengths& proportions, double share) {
+    proportions_ = proportions;
+    expected_ = share;
+  }
   /// `expected_scale`: what the proportions are multiplied with; 0: the measured size.
   void Observe(const Posture& in_camera, const JointWeights& trust, double expected_scale = 0.0);
   const BoneLengths& lengths_m() const { return lengths_m_; }
@@ -34,6 +38,7 @@ class BodySize {
   BoneLengths lengths_m_ = StandardBoneLengths();
   BoneLengths mean_m_{};  // of what was measured in the last second or so
   BoneLengths proportions_{};
+  double expected_ = 0.0;
   double scale_ = 1.0;
   bool locked_ = false;
   int other_size_frames_ = 0;

@@ -14,7 +14,6 @@ constexpr double kLongestGap_s = 0.5;     // afterwards the past says nothing
 constexpr double kBodySpeed = 5.0;        // m/s of a whole body
 constexpr double kCutSpeed = 4.5;         // m/s of half of all joints: rather a cut than a move
 constexpr double kLimbSpeed = 8.0;        // m/s of a hand
-constexpr double kSlack_m = 0.12;         // sensors are off by as much without failing
 constexpr double kJumpTrust = 0.05;
 constexpr double kWrongBone = 0.35;   // a bone off by a third
 constexpr double kSamePlace_m = 0.1;  // a hand within this of the other one has snapped to it
@@ -74,13 +73,13 @@ double Plausibility::Repair(ReconstructionInput& input) {
   const auto straight = MedianDistance(input.observed, predicted);
   const TrackedPosture exchanged = SidesExchanged(input.observed);
   const auto mirrored = MedianDistance(exchanged, predicted);
-  const bool sides = straight && mirrored && *straight > kSlack_m && *mirrored < 0.4 * *straight;
+  const bool sides = straight && mirrored && *straight > slack_m_ && *mirrored < 0.4 * *straight;
   exchanged_s_ = sides ? exchanged_s_ + step_s : 0.0;
   if (sides) {
     if (exchanged_s_ > kSidesPatience_s) return BelieveAfterAll();
     input.observed = exchanged;
     doubt = 0.5;
-  } else if (straight && *straight > kSlack_m + 0.1 + kBodySpeed * step_s) {
+  } else if (straight && *straight > slack_m_ + 0.1 + kBodySpeed * step_s) {
     body_jumped_s_ += step_s;
     if (body_jumped_s_ < (SameBones(input.observed) ? kOwnPatience_s : kPatience_s)) return 0.0;
     return BelieveAfterAll();
@@ -109,7 +108,7 @@ void Plausibility::JudgeJoints(const TrackedPosture& observed, const Posture& pr
       continue;
     }
     const Eigen::Vector3d& p = observed.posture.position_m[i];
-    const double allowed = kSlack_m + kLimbSpeed * std::min(dt_s, 0.1) * 0.5;
+    const double allowed = slack_m_ + kLimbSpeed * std::min(dt_s, 0.1) * 0.5;
     if ((p - predicted.position_m[i]).norm() <= allowed) {
       jumped_s_[i] = 0.0;
       continue;

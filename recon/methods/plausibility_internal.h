@@ -9,6 +9,7 @@ namespace ossa::recon {
 /// Gross failures, told from motion: what no body does between two frames.
 class Plausibility {
  public:
+  explicit Plausibility(double slack_m = BestConstants().slack_m) : slack_m_(slack_m) {}
   /// Exchanges left and right back where the sensor exchanged them. Returns the doubt about the
   /// whole person as a factor of trust: 1 none, 0.5 sides exchanged, 0 another body or a jump.
   /// Also judges single joints: see joint_trust.
@@ -26,6 +27,7 @@ class Plausibility {
   bool SameBones(const TrackedPosture& observed) const;
   bool LooksWrong(const TrackedPosture& observed, size_t joint) const;
 
+  double slack_m_;  // sensors are off by as much without failing
   std::optional<Posture> last_, before_last_;
   Posture suspect_;                             // where each jumped joint was last said to be
   std::array<double, kJointCount> jumped_s_{};  // for how long; 0: it did not

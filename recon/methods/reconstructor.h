@@ -71,6 +71,22 @@ struct GaussianProcessOptions {
   bool incremental = true;   // algorithm 2: reliable samples of low variance join the local models
 };
 
+/// What of `best` was chosen on recordings. `ossa experiment sdk` with data = ["nested"] chooses
+/// each on people other than those it is then tested on.
+struct BestConstants {
+  // Of the filter: within a factor of two of each nothing moves by more than 2 %.
+  double noise_m = 0.02;       // of one measurement, standard deviation
+  double acceleration = 10.0;  // of a joint, m/s^2, standard deviation
+  // Share taken of what the learned correction changes with the posture.
+  double of_posture = 0.6;
+  // How firm a joint of a limb is, over its parent, when bones get their lengths.
+  double outwards = 0.5;
+  // Share of what is expected of a body of this size in a bone's length, beside what is measured.
+  double expected = 0.3;
+  // A joint may be so far from where it was expected without having failed, metres.
+  double slack_m = 0.12;
+};
+
 /// Settings of `best`; the switches are for ablations.
 struct BestOptions {
   bool repair = true;    // gross failures are told from motion
@@ -78,6 +94,7 @@ struct BestOptions {
   bool correct = true;   // learned systematic errors are taken off
   bool filter = true;    // of each joint, revised a frame later
   bool bones = true;     // constant bone lengths
+  BestConstants constants;
 };
 
 struct ReconstructorOptions {

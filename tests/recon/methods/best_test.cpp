@@ -71,6 +71,18 @@ TEST(Best, TakesNanForMissing) {
   EXPECT_LT(test::MeanDistance_m(made.posture, At(t)), 0.05);
 }
 
+TEST(Best, FollowsAGuessLittleThatNoDepthImageWasHeldAgainst) {
+  const auto method = MakeBestOne();
+  const double t = SeenWell(*method);
+  TrackedPosture observed = test::AllTracked(At(t));
+  const auto hand = static_cast<size_t>(Index(Joint::kHandLeft));
+  observed.state[hand] = TrackingState::kInferred;
+  observed.posture.position_m[hand].x() += 0.1;
+  const auto made = StepOn(*method, observed, t);
+  // A tenth of trust of the half that is needed moves it by a fifth, the filter by less.
+  EXPECT_LT((made.posture.position_m[hand] - At(t).position_m[hand]).norm(), 0.03);
+}
+
 TEST(Best, DoesNotCollapseWithBonesOfNoLength) {
   const auto method = MakeBestOne();
   const double t = SeenWell(*method);

@@ -12,6 +12,7 @@
 #include "recon/methods/recorded_pairs.h"
 #include "recon/methods/sequence.h"
 #include "tools/experiments/compare/sequence_text.h"
+#include "tools/experiments/sdk/sdk_internal.h"
 #include "tools/tracker/shipped.h"
 
 namespace ossa::tools {
@@ -23,12 +24,13 @@ std::string KeyOf(const ExperimentContext& context, const MethodRun& run) {
   const auto& gp = o.gaussian_process;
   const auto& best = o.best;
   std::string key = fmt::format(
-      "{} {} seed {} pca {} {} {} {} {} {} {} {} {} {} {} {} gp {} {} {} {} {} best {} {} {} {} {}",
+      "{} {} seed {} pca {} {} {} {} {} {} {} {} {} {} {} {} gp {} {} {} {} {} best {} {} {} {} {} "
+      "{}",
       KeyOfCode(), o.method, o.seed, pca.neighbours, pca.dimensions, pca.steps, pca.samples,
       pca.control, pca.style, pca.kinematics, pca.continuity, pca.solver, pca.use_reliability,
       pca.extend_database, pca.keep_reliable, gp.nearby_models, gp.spatial, gp.temporal,
       gp.reliability, gp.incremental, best.repair, best.correct, best.bones, best.complete,
-      best.filter);
+      best.filter, DescriptionOfConstants(best.constants));
   if (o.database) {
     key.append(" ").append(run.database_key.empty() ? KeyOfFile(DatabaseOf(context).path)
                                                     : run.database_key);

@@ -1,5 +1,6 @@
 #pragma once
 #include <functional>
+#include <nlohmann/json_fwd.hpp>
 #include <string>
 #include <vector>
 
@@ -35,6 +36,23 @@ struct MethodScore {
   double ms_per_frame = 0.0;
 };
 
+/// The options with what `method`, where it learns, made of the fold's training clips.
+recon::ReconstructorOptions LearnFold(const Fold& fold, const std::string& method,
+                                      const recon::ReconstructorOptions& options);
+
+struct FoldScore {
+  std::vector<ClipMetrics> clips;
+  double seconds = 0.0;  // of reconstruction, summed over threads
+};
+/// The method over the fold's tested clips; nothing is learned but what the options bring.
+FoldScore TestFold(const Fold& fold, const std::string& method,
+                   const recon::ReconstructorOptions& options, int threads);
+
+/// For the cache: the numbers of a clip that the studies of recordings show.
+nlohmann::json ClipsToJson(const std::vector<ClipMetrics>& clips);
+std::vector<ClipMetrics> ClipsFromJson(const nlohmann::json& json);
+std::string DescriptionOfConstants(const recon::BestConstants& constants);
+
 /// Runs `method` ("raw" and "butterworth" included) with `options` over the folds, learning from
 /// each fold's training clips where the method learns. Kept in the experiment's cache.
 MethodScore RunFolds(ExperimentContext& context, const std::string& data,
@@ -54,10 +72,25 @@ std::optional<double> Average(const std::vector<ClipMetrics>& clips,
                               std::optional<double> ClipMetrics::*member);
 std::optional<double> Median(const std::vector<ClipMetrics>& clips,
                              std::optional<double> ClipMetrics::*member);
+/// "mean (median)"; the mean alone of fewer than three clips.
+std::string MeanAndMedian(const std::vector<ClipMetrics>& clips,
+                          std::optional<double> ClipMetrics::*member);
 std::string Number(const std::optional<double>& value, int digits = 2);
 
 /// Methods that need pairs to learn from.
 bool Learns(const std::string& method);
+
+/// A row of the table of methods.
+std::vector<std::string> MethodRow(const std::string& data, const MethodScore& score);
+
+/// sdk_nested.cpp: `best` with constants chosen without the person tested. Adds a row to the table
+/// of methods; returns what was chosen for whom.
+Table RunNested(ExperimentContext& context, const std::string& data, const std::vector<Fold>& folds,
+                const recon::ReconstructorOptions& options, Table* methods);
+
+/// linear_bound.cpp: what the best filter of fixed weights leaves.
+Table EmptyLinearBound();
+void AddLinearBound(const std::string& data, const std::vector<Fold>& folds, Table* table);
 
 /// KERAAL, Microsoft's CSV files, KinectGait: jumps, hand snaps, wrong bones before and after.
 Table GrossFailureTable(const ExperimentContext& context, const std::vector<std::string>& methods,

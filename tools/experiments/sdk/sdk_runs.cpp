@@ -49,37 +49,47 @@ ClipMetrics FromJson(const nlohmann::json& numbers) {
   return clip;
 }
 
+}  // namespace
+
+std::string DescriptionOfConstants(const recon::BestConstants& c) {
+  return fmt::format("{} {} {} {} {} {}", c.noise_m, c.acceleration, c.of_posture, c.outwards,
+                     c.expected, c.slack_m);
+}
+
+namespace {
+
 std::string DescriptionOf(const recon::ReconstructorOptions& o) {
   return fmt::format(
-      "{} {} {} {} {} {} {} {} {} {} {} {} {} {} {} {} {} {}", o.local_pca.neighbours,
+      "{} {} {} {} {} {} {} {} {} {} {} {} {} {} {} {} {} {} {}", o.local_pca.neighbours,
       o.local_pca.dimensions, o.local_pca.steps, o.local_pca.samples, o.local_pca.control,
       o.local_pca.style, o.local_pca.kinematics, o.local_pca.continuity, o.local_pca.solver,
       o.local_pca.use_reliability, o.gaussian_process.incremental, o.gaussian_process.nearby_models,
       o.best.repair, o.best.complete, o.best.correct, o.best.filter, o.best.bones,
-      o.database ? o.database->size() : 0);
+      o.database ? o.database->size() : 0, DescriptionOfConstants(o.best.constants));
 }
 
-struct FoldScore {
-  std::vector<ClipMetrics> clips;
-  double seconds = 0.0;  // of reconstruction, summed over threads
-};
+}  // namespace
 
-FoldScore RunFold(const Fold& fold, const std::string& method,
-                  const recon::ReconstructorOptions& options, int threads) {
+recon::ReconstructorOptions LearnFold(const Fold& fold, const std::string& method,
+                                      const recon::ReconstructorOptions& options) {
   recon::ReconstructorOptions with = options;
-  if (Learns(method)) {
-    recon::LearnOptions learn;
-    learn.processes = method != "best";
-    if (learn.processes) learn.correction.centres = 0;
-    learn.mixture.seed = learn.correction.seed = options.seed;
-    with.learned = std::make_shared<const recon::LearnedModels>(
-        recon::LearnedModels::Learn(PairsOf(fold.train), learn));
-  }
+  if (!Learns(method)) return with;
+  recon::LearnOptions learn;
+  learn.processes = method != "best";
+  if (learn.processes) learn.correction.centres = 0;
+  learn.mixture.seed = learn.correction.seed = options.seed;
+  with.learned = std::make_shared<const recon::LearnedModels>(
+      recon::LearnedModels::Learn(PairsOf(fold.train), learn));
+  return with;
+}
+
+FoldScore TestFold(const Fold& fold, const std::string& method,
+                   const recon::ReconstructorOptions& options, int threads) {
   std::vector<std::vector<ClipMetrics>> clips(fold.test.size());
   std::vector<double> seconds(fold.test.size());
   InParallel(fold.test.size(), threads, [&](size_t i) {
     const auto start = Clock::now();
-    const auto made = RunMethod(fold.test[i]->observed, method, with);
+    const auto made = RunMethod(fold.test[i]->observed, method, options);
     seconds[i] = std::chrono::duration<double>(Clock::now() - start).count();
     for (const PairedTracks& pair : PairUp(fold.test[i]->truth, made)) {
       clips[i].push_back(Measure(pair));
@@ -94,7 +104,17 @@ FoldScore RunFold(const Fold& fold, const std::string& method,
   return score;
 }
 
-}  // namespace
+nlohmann::json ClipsToJson(const std::vector<ClipMetrics>& clips) {
+  auto json = nlohmann::json::array();
+  for (const ClipMetrics& clip : clips) json.push_back(ToJson(clip));
+  return json;
+}
+
+std::vector<ClipMetrics> ClipsFromJson(const nlohmann::json& json) {
+  std::vector<ClipMetrics> clips;
+  for (const auto& clip : json) clips.push_back(FromJson(clip));
+  return clips;
+}
 
 bool Learns(const std::string& method) {
   return method == "liu-2016" || method == "full-gp" || method == "exemplar" || method == "best";
@@ -185,15 +205,15 @@ MethodScore RunFolds(ExperimentContext& context, const std::string& data,
                                         observed, context.seed, DescriptionOf(options));
     const auto text = context.Cached(key, [&] {
       if (context.progress) context.progress(0, 0, data + " " + method + " " + fold.name);
-      const FoldScore made = RunFold(fold, method, options, context.threads);
-      nlohmann::json json = {{"seconds", made.seconds}, {"clips", nlohmann::json::array()}};
-      for (const ClipMetrics& clip : made.clips) json["clips"].push_back(ToJson(clip));
-      return json.dump();
+      const FoldScore made =
+          TestFold(fold, method, LearnFold(fold, method, options), context.threads);
+      return nlohmann::json{{"seconds", made.seconds}, {"clips", ClipsToJson(made.clips)}}.dump();
     });
     const auto json = nlohmann::json::parse(text);
     seconds += json.at("seconds").get<double>();
     frames += static_cast<double>(observed);
-    for (const auto& clip : json.at("clips")) score.clips.push_back(FromJson(clip));
+    for (ClipMetrics& clip : ClipsFromJson(json.at("clips")))
+      score.clips.push_back(std::move(clip));
   }
   score.ms_per_frame = frames > 0 ? 1e3 * seconds / frames : 0.0;
   return score;
@@ -219,6 +239,13 @@ std::optional<double> Median(const std::vector<ClipMetrics>& clips,
   std::sort(values.begin(), values.end());
   const size_t half = values.size() / 2;
   return values.size() % 2 == 1 ? values[half] : 0.5 * (values[half - 1] + values[half]);
+}
+
+std::string MeanAndMedian(const std::vector<ClipMetrics>& clips,
+                          std::optional<double> ClipMetrics::*member) {
+  const std::string mean = Number(Average(clips, member));
+  if (clips.size() < 3) return mean;
+  return fmt::format("{} ({})", mean, Number(Median(clips, member)));
 }
 
 std::string Number(const std::optional<double>& value, int digits) {

@@ -1,0 +1,81 @@
+// The studies of recordings with truth: that what is chosen or fitted never saw the person tested.
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <random>
+
+#include "tests/recon/synthetic_motion.h"
+#include "tests/support/temporary_folder.h"
+#include "tools/experiments/sdk/sdk_internal.h"
+
+namespace ossa::tools {
+namespace {
+
+recon::SkeletonSequence SequenceOf(const std::vector<recon::Posture>& postures) {
+  recon::SkeletonSequence sequence{"made up", {}};
+  for (size_t f = 0; f < postures.size(); ++f) {
+    recon::SkeletonFrame& frame = sequence.frames.emplace_back();
+    frame.frame = static_cast<int64_t>(f);
+    frame.time_s = static_cast<double>(f) / 30.0;
+    recon::BodyRecord& body = frame.bodies.emplace_back();
+    for (size_t j = 0; j < recon::kJointCount; ++j) {
+      body.joints[j].emplace().position_m = postures[f].position_m[j];
+    }
+  }
+  return sequence;
+}
+
+/// One clip of a person; seen `late` frames too late and with noise.
+RecordedPair Recorded(const std::string& subject, double phase_s, int late, double noise_m) {
+  std::mt19937_64 rng(3);
+  std::normal_distribution<double> normal(0.0, 1.0);
+  std::vector<recon::Posture> truth, seen;
+  for (int f = 0; f < 60; ++f) {
+    const auto at = [&](int frame) {
+      return recon::test::InFrontOfCamera(recon::test::Motion(phase_s + frame / 30.0));
+    };
+    truth.push_back(at(f));
+    seen.push_back(at(f - late));
+    for (auto& p : seen.back().position_m) {
+      p += noise_m * Eigen::Vector3d(normal(rng), normal(rng), normal(rng));
+    }
+  }
+  return {subject + "/clip", subject, SequenceOf(seen), SequenceOf(truth)};
+}
+
+std::vector<Fold> FoldsOf(const std::vector<RecordedPair>& people) {
+  return LeaveOneSubjectOut(people, [](const RecordedPair&) { return true; });
+}
+
+TEST(LinearBound, TakesAFrameOfDelayOff) {
+  const std::vector<RecordedPair> people = {Recorded("a", 0.0, 1, 0.0), Recorded("b", 5.0, 1, 0.0)};
+  Table table;
+  AddLinearBound("made up", FoldsOf(people), &table);
+  const double raw_cm =
+      *Measure(PairUp(people[0].truth, people[0].observed)[0]).mean_joint_error_cm;
+  // What was seen a frame later is the truth; only the clip's last frame of 60 has none. The table
+  // is rounded to a tenth of a millimetre.
+  EXPECT_LT(std::stod(table.rows[0][3]), raw_cm / 60.0 + 0.02);
+}
+
+TEST(Nested, NobodysConstantsDependOnWhatTheyAreTestedOn) {
+  const test::TemporaryFolder folder;
+  ExperimentContext context;
+  context.out = folder.path();
+  const auto chosen = [&](double noise_of_c_m) {
+    const std::vector<RecordedPair> people = {Recorded("a", 0.0, 0, 0.01),
+                                              Recorded("b", 5.0, 0, 0.01),
+                                              Recorded("c", 9.0, 0, noise_of_c_m)};
+    context.out = folder.path() / std::to_string(noise_of_c_m);
+    std::filesystem::create_directories(context.out);
+    Table methods;
+    const Table table = RunNested(context, "made up", FoldsOf(people), {}, &methods);
+    EXPECT_EQ(methods.rows.size(), 1U);
+    EXPECT_EQ(table.rows.size(), 3U);
+    return std::vector<std::string>(table.rows[2].begin(), table.rows[2].end() - 2);
+  };
+  EXPECT_EQ(chosen(0.002), chosen(0.1));
+}
+
+}  // namespace
+}  // namespace ossa::tools
