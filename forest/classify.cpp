@@ -81,7 +81,7 @@ std::vector<float> ContextPosterior(const ForestModel& model, const Walked& walk
   const size_t trees = model.data().trees.size();
   const size_t pixels = walked.leaf.size() / trees;
   const size_t step = std::max<size_t>(1, pixels / kPixels);
-  std::vector<int32_t> sum(contexts, 0);
+  std::vector<int32_t> sum(contexts, 0);  // of at most twice kPixels for each tree: it fits
   size_t heard = 0;
   const auto evidence_of = [&](size_t i, size_t t) {
     return model.tables().leaves[t].evidence.data() +

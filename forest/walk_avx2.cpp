@@ -21,7 +21,8 @@ constexpr size_t kLanes = 8;
 constexpr size_t kGroups = 16;  // 128 pixels: a tile of ChooseSparse
 constexpr int kCachedLevels = 9;
 
-// Everything about eight pixels under way. Pairs of 16 bits are (u, v) or (x, y), as in Node.
+// Everything about eight pixels under way. Pairs of 16 bits are (u, v) or (x, y), as in Node: no
+// image is larger than 2^15 a side.
 struct Lanes {
   __m256i place;  // box coordinates + 1 (ring included), in pairs
   __m256i scale;  // FixedScale, in pairs
