@@ -32,9 +32,8 @@ std::vector<float> DepthsOf(const PointGrid& grid, const Region& region) {
   return z_m;
 }
 
-// Cells both hold, as a share of the smaller.
-double Overlap(const PointGrid& grid, const UserTrack& user, const Candidate& person) {
-  if (user.cells.empty()) return 0;
+// Cells of the user's surface that the person holds now.
+size_t Common(const PointGrid& grid, const UserTrack& user, const Candidate& person) {
   size_t common = 0, i = 0;
   for (const int cell : person.region.cells) {
     while (i < user.cells.size() && user.cells[i] < cell) ++i;
@@ -43,7 +42,13 @@ double Overlap(const PointGrid& grid, const UserTrack& user, const Candidate& pe
       ++common;
     }
   }
-  return static_cast<double>(common) /
+  return common;
+}
+
+// Cells both hold, as a share of the smaller.
+double Overlap(const PointGrid& grid, const UserTrack& user, const Candidate& person) {
+  if (user.cells.empty()) return 0;
+  return static_cast<double>(Common(grid, user, person)) /
          static_cast<double>(std::min(user.cells.size(), person.region.cells.size()));
 }
 
@@ -57,16 +62,36 @@ std::vector<int> PersonOfCells(const PointGrid& grid, const std::vector<const Ca
   return person_of;
 }
 
-// Which user each person is: who goes on from the frame before as said, and all the others at once
-// as those of the lost users they most likely are. -1 for somebody new.
+// Which user each person goes on as by their cells; -1 for nobody. Of somebody whose pieces are
+// taken for two people the one that holds most goes on, whichever was told to.
+std::vector<int> TracksGoingOn(const PointGrid& grid, const std::vector<const Candidate*>& people,
+                               const SceneState& state) {
+  constexpr size_t kMuchMore = 2;  // times as many cells: ids do not go to and fro
+  std::vector<int> track_of;
+  for (const Candidate* person : people) track_of.push_back(person->track);
+  for (size_t p = 0; p < people.size(); ++p) {
+    if (people[p]->track < 0) continue;
+    const UserTrack& user = state.users[static_cast<size_t>(people[p]->track)];
+    size_t most = kMuchMore * Common(grid, user, *people[p]), heir = p;
+    for (size_t other = 0; other < people.size(); ++other) {
+      if (track_of[other] >= 0) continue;
+      const size_t common = Common(grid, user, *people[other]);
+      if (common > most) most = common, heir = other;
+    }
+    if (heir != p) std::swap(track_of[p], track_of[heir]);
+  }
+  return track_of;
+}
+
+// Which user each person is: who goes on from the frame before, and all the others at once as those
+// of the lost users they most likely are. -1 for somebody new.
 std::vector<int> TracksOf(const Scene& scene, const std::vector<const Candidate*>& people,
                           const std::vector<int>& person_of, double time_s, const SceneState& state,
                           const SceneOptions& options) {
-  std::vector<int> track_of(people.size(), -1);
+  std::vector<int> track_of = TracksGoingOn(scene.grid, people, state);
   std::vector<uint8_t> taken(state.users.size(), 0);
   std::vector<size_t> newcomers, lost;
   for (size_t p = 0; p < people.size(); ++p) {
-    track_of[p] = people[p]->track;
     for (const int track : people[p]->absorbed) taken[static_cast<size_t>(track)] = 1;
     if (track_of[p] >= 0) taken[static_cast<size_t>(track_of[p])] = 1;
     if (track_of[p] < 0) newcomers.push_back(p);

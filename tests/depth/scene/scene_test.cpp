@@ -294,6 +294,23 @@ TEST_F(Identity, WhoTurnsOutToBePartOfAnotherIsForgotten) {
   EXPECT_EQ(next.users.size(), 1U);
 }
 
+TEST_F(Identity, OfTwoPiecesOfSomebodyTheLargerGoesOn) {
+  ASSERT_EQ(See(Shot({PersonAt(0, 2.5)}, 0)), std::vector<int>{1});
+  SceneState next;
+  const CapsuleRender render = Shot({PersonAt(0, 2.5)}, 1);
+  const Scene scene = FindCandidates(render.frame, state_, next);
+  ASSERT_EQ(scene.candidates.size(), 1U);
+  Candidate piece = scene.candidates[0], rest = piece;
+  ASSERT_GE(piece.track, 0);
+  const std::vector<int> cells = piece.region.cells;
+  const auto cut = cells.begin() + static_cast<std::ptrdiff_t>(cells.size() / 5);
+  piece.region = MakeRegion(scene.grid, {cells.begin(), cut});
+  rest.region = MakeRegion(scene.grid, {cut, cells.end()});
+  rest.track = -1;  // the forest took it for somebody new
+  EXPECT_EQ(ConfirmUsers(scene, {&piece, &rest}, render.frame.time_s, next),
+            (std::vector<int>{2, 1}));
+}
+
 TEST_F(Identity, ASceneIsFreshAtFirstAndAfterAGap) {
   See(Shot({PersonAt(0, 2.5)}, 0));
   EXPECT_TRUE(fresh_);
