@@ -29,7 +29,6 @@ struct Person {
 struct CompleteOptions {
   bool physics = false;
   MechanicsBuild mechanics;
-  TrackingMode mode = TrackingMode::kStanding;
   SmoothingOptions smoothing;
   recon::ReconstructorOptions reconstructor;
 };

@@ -105,7 +105,6 @@ struct Tracker::Impl {
         targets(JointTargets(model, o.model.empty() ? "body.ossa" : o.model)) {
     complete.physics = o.physics;
     complete.mechanics = o.mechanics;
-    complete.mode = o.mode;
     complete.smoothing = o.smoothing;
     complete.reconstructor.method = o.method;
     complete.reconstructor.database = LoadDatabase(o);
