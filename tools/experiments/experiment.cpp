@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <fstream>
+#include <map>
 #include <nlohmann/json.hpp>
 #include <sstream>
 
@@ -26,6 +27,22 @@ void WriteAll(const std::filesystem::path& path, const std::string& text) {
   AtomicFile file(path);
   file.stream() << text;
   file.Commit();
+}
+
+// KeyOfFile() of this program ("program") and of each ossa library it has loaded ("forest", ...).
+std::map<std::string, std::string> KeysOfLoadedCode() {
+  std::map<std::string, std::string> keys = {{"program", KeyOfFile("/proc/self/exe")}};
+  constexpr std::string_view kPrefix = "libossa_";
+  std::ifstream maps("/proc/self/maps");
+  for (std::string line; std::getline(maps, line);) {
+    const size_t path = line.find('/');
+    const size_t name = line.rfind(kPrefix);
+    if (path == std::string::npos || name == std::string::npos) continue;
+    const size_t begin = name + kPrefix.size();
+    std::string library = line.substr(begin, line.find('.', begin) - begin);
+    if (!keys.contains(library)) keys.emplace(library, KeyOfFile(line.substr(path)));
+  }
+  return keys;
 }
 
 // Width on a terminal: bytes that continue a UTF-8 character take no place.
@@ -90,6 +107,16 @@ std::string ContentHash(const std::string& text) {
 
 std::string KeyOfFile(const std::filesystem::path& path) {
   return path.filename().string() + ":" + ContentHash(ReadAll(path));
+}
+
+std::string KeyOfCode(std::initializer_list<std::string_view> libraries) {
+  static const std::map<std::string, std::string> keys = KeysOfLoadedCode();
+  std::string key = keys.at("program");
+  for (const std::string_view library : libraries) {
+    const auto found = keys.find(std::string(library));
+    if (found != keys.end()) key.append(" ").append(found->second);
+  }
+  return key;
 }
 
 std::vector<Table> RunExperiment(const std::string& name, ExperimentContext& context) {

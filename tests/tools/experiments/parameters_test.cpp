@@ -89,6 +89,16 @@ TEST(CachedResults, AreComputedOnceAndSurviveOnlyTheirOwnKey) {
   EXPECT_EQ(context.Cached("a", compute), "result 3");
 }
 
+// A result of an older program must not be taken for one of this: its key names the program and the
+// libraries that made it by their content.
+TEST(CachedResults, KnowTheCodeThatMadeThem) {
+  const std::string forest = KeyOfCode({"forest"});
+  EXPECT_NE(forest.find("libossa_forest.so"), std::string::npos) << forest;
+  EXPECT_EQ(forest.find("libossa_recon.so"), std::string::npos) << forest;
+  EXPECT_TRUE(forest.starts_with(KeyOfCode({}) + " ")) << forest;
+  EXPECT_EQ(forest, KeyOfCode({"forest"}));
+}
+
 TEST(CachedResults, StopBeforeTheNextStepWhenInterrupted) {
   const test::TemporaryFolder folder;
   ExperimentContext context;

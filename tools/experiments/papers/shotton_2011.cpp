@@ -69,7 +69,8 @@ fs::path Laboratory::DataOf(Split split, int64_t frames) {
   RenderJob job;
   job.command = fmt::format("ossa experiment shotton-2011 {} {} {} seed {}",
                             test ? "test" : "train", motion, frames, context_.seed);
-  job.out = context_.out / "cache" / ContentHash(job.command);
+  job.out =
+      context_.out / "cache" / ContentHash(job.command + KeyOfCode({"depth", "recon", "synth"}));
   if (IsDataset(job.out)) return job.out;
   if (!recon::BodyIsFetched(recon::BodyFolder())) {
     throw InputError(recon::BodyFolder().string() +
@@ -132,8 +133,9 @@ Evaluation Laboratory::Measured(const std::string& key,
 
 Evaluation Laboratory::Judge(const Setting& setting, int64_t test_frames) {
   const std::string key =
-      fmt::format("shotton 4 {} {} {} {} {} {} {} seed {}", motion_, setting.images, setting.depth,
-                  setting.trees, pixels_, candidates_, validation_images_, context_.seed);
+      fmt::format("shotton {} {} {} {} {} {} {} {} seed {}", KeyOfCode({"forest", "learning"}),
+                  motion_, setting.images, setting.depth, setting.trees, pixels_, candidates_,
+                  validation_images_, context_.seed);
   return Measured(
       key,
       [&] {
@@ -166,8 +168,8 @@ Evaluation Laboratory::Judge(const Setting& setting, int64_t test_frames) {
 Evaluation Laboratory::JudgeShipped(int64_t test_frames) {
   const fs::path path = context_.model.empty() ? tracker::ShippedFile("body.ossa") : context_.model;
   return Measured(
-      "shotton shipped " + KeyOfFile(path), [&] { return forest::ReadForestModel(path); },
-      test_frames);
+      fmt::format("shotton shipped {} {}", KeyOfCode({"forest", "learning"}), KeyOfFile(path)),
+      [&] { return forest::ReadForestModel(path); }, test_frames);
 }
 
 // A plot that stands by itself: LinePlot's lines with their names at the right.

@@ -116,7 +116,6 @@ class Gatherer {
 // Kept in the study's cache, one line an example: fitting again with another prior takes seconds.
 std::vector<Example> Examples(ExperimentContext& context, Split split, const std::string& mocap,
                               int performances, uint64_t seed) {
-  constexpr const char* kVersion = "person signs 2";  // raise when scene or signs change
   const auto compute = [&] {
     std::ostringstream text;
     text.precision(9);
@@ -128,10 +127,11 @@ std::vector<Example> Examples(ExperimentContext& context, Split split, const std
     return text.str();
   };
   const auto model = context.model.empty() ? tracker::ShippedFile("body.ossa") : context.model;
-  std::istringstream lines(
-      context.Cached(fmt::format("{} {} {} {} {} {}", kVersion, static_cast<int>(split), mocap,
-                                 performances, seed, KeyOfFile(model)),
-                     compute));
+  std::istringstream lines(context.Cached(
+      fmt::format("person signs {} {} {} {} {} {}",
+                  KeyOfCode({"depth", "forest", "synth", "tracker"}), static_cast<int>(split),
+                  mocap, performances, seed, KeyOfFile(model)),
+      compute));
   std::vector<Example> examples;
   for (std::string line; std::getline(lines, line);) {
     std::istringstream words(line);

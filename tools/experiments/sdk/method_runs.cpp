@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <chrono>
-#include <fstream>
 #include <map>
 
 #include "depth/error.h"
@@ -26,11 +25,11 @@ std::string KeyOf(const ExperimentContext& context, const MethodRun& run) {
   std::string key = fmt::format(
       "{} {} seed {} pca {} {} {} {} {} {} {} {} {} {} {} {} gp {} {} {} {} {} best {} {} {} {} {} "
       "{}",
-      KeyOfCode(), o.method, o.seed, pca.neighbours, pca.dimensions, pca.steps, pca.samples,
-      pca.control, pca.style, pca.kinematics, pca.continuity, pca.solver, pca.use_reliability,
-      pca.extend_database, pca.keep_reliable, gp.nearby_models, gp.spatial, gp.temporal,
-      gp.reliability, gp.incremental, best.repair, best.correct, best.bones, best.complete,
-      best.filter, DescriptionOfConstants(best.constants));
+      KeyOfCode({"recon"}), o.method, o.seed, pca.neighbours, pca.dimensions, pca.steps,
+      pca.samples, pca.control, pca.style, pca.kinematics, pca.continuity, pca.solver,
+      pca.use_reliability, pca.extend_database, pca.keep_reliable, gp.nearby_models, gp.spatial,
+      gp.temporal, gp.reliability, gp.incremental, best.repair, best.correct, best.bones,
+      best.complete, best.filter, DescriptionOfConstants(best.constants));
   if (o.database) {
     key.append(" ").append(run.database_key.empty() ? KeyOfFile(DatabaseOf(context).path)
                                                     : run.database_key);
@@ -44,20 +43,6 @@ void StopWhenInterrupted(const ExperimentContext& context) {
 }
 
 }  // namespace
-
-std::string KeyOfCode() {
-  static const std::string key = [] {
-    std::string made = KeyOfFile("/proc/self/exe");
-    std::ifstream maps("/proc/self/maps");
-    for (std::string line; std::getline(maps, line);) {
-      const size_t path = line.find('/');
-      if (path == std::string::npos || line.find("libossa_recon") == std::string::npos) continue;
-      return made + " " + KeyOfFile(line.substr(path));
-    }
-    return made;
-  }();
-  return key;
-}
 
 OpenDatabase DatabaseOf(const ExperimentContext& context) {
   OpenDatabase database;
@@ -144,7 +129,7 @@ std::filesystem::path LearnWithout(const ExperimentContext& context,
                                    const std::string& left_out,
                                    const recon::LearnOptions& options) {
   std::string key =
-      fmt::format("learn {} {} {} {} {} {} {} {}", KeyOfCode(), options.mixture.regions,
+      fmt::format("learn {} {} {} {} {} {} {} {}", KeyOfCode({"recon"}), options.mixture.regions,
                   options.mixture.samples, options.mixture.seed, options.most_pairs,
                   options.full_samples, options.correction.centres, options.correction.most_pairs);
   std::vector<recon::PosturePair> pairs;

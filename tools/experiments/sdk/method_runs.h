@@ -12,10 +12,6 @@
 
 namespace ossa::tools {
 
-/// The code that made a number, for cache keys: this program and, where it is linked dynamically,
-/// recon beside it.
-std::string KeyOfCode();
-
 /// A posture database and where it came from.
 struct OpenDatabase {
   std::filesystem::path path;

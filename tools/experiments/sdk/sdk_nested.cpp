@@ -51,8 +51,8 @@ using ClipsBySetting = std::vector<std::vector<ClipMetrics>>;
 ClipsBySetting TryAll(ExperimentContext& context, const Fold& fold,
                       const std::vector<recon::BestConstants>& settings,
                       const recon::ReconstructorOptions& options) {
-  std::string key =
-      fmt::format("nested {} {} {} {}", KeyOfCode(), fold.name, fold.test.size(), options.seed);
+  std::string key = fmt::format("nested {} {} {} {}", KeyOfCode({"recon"}), fold.name,
+                                fold.test.size(), options.seed);
   for (const auto& setting : settings) key.append(" ").append(DescriptionOfConstants(setting));
   const std::string text = context.Cached(key, [&] {
     if (context.progress) context.progress(0, 0, "nested, without " + fold.name);

@@ -197,7 +197,7 @@ MethodScore RunFolds(ExperimentContext& context, const std::string& data,
   MethodScore score;
   score.method = method;
   double seconds = 0.0, frames = 0.0;
-  const std::string code = KeyOfCode();
+  const std::string code = KeyOfCode({"recon"});
   for (const Fold& fold : folds) {
     size_t observed = 0;
     for (const RecordedPair* pair : fold.test) observed += pair->observed.frames.size();

@@ -25,7 +25,6 @@
 namespace ossa::tools {
 namespace {
 
-constexpr const char* kVersion = "staged 2";  // part of every cache key; raise when frames change
 constexpr double kSensorHeight_m = 1.0;
 
 Eigen::Isometry3d CameraPlace(const StageOptions& options) {
@@ -268,7 +267,8 @@ RecordedPair Studio::Record(const recon::MotionClip& clip, const StageOptions& o
     return TextOf(observed).append(kSequenceEnd).append(TextOf(truth));
   };
   std::string key =
-      fmt::format("{} {} {} {}", kVersion, state_->observer, KeyOf(options), KeyOf(clip));
+      fmt::format("staged {} {} {} {}", KeyOfCode({"depth", "forest", "synth", "tracker"}),
+                  state_->observer, KeyOf(options), KeyOf(clip));
   if (!state_->model_path.empty()) key.append(" ").append(KeyOfFile(state_->model_path));
   const std::string text = state_->context.Cached(key, compute);
   const size_t end = text.find(kSequenceEnd);
