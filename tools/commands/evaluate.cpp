@@ -31,7 +31,10 @@ void NoteInCard(const std::string& path, const forest::ForestModel& model, const
   auto card = nlohmann::ordered_json::parse(model.manifest(), nullptr, false);
   if (!card.is_object()) throw InputError(path + ": expected a card that is a JSON object");
   auto numbers = nlohmann::ordered_json::parse(evaluation);
-  numbers.erase("ap_10cm_visible");
+  for (const char* detail :
+       {"ap_10cm_visible", "confidence_of_seen_joints", "confidence_of_inferred_joints"}) {
+    numbers.erase(detail);
+  }
   card["accuracy"][name] = numbers;
   forest::ForestData data = model.data();
   data.manifest = card.dump(2);

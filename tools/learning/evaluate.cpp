@@ -50,6 +50,7 @@ struct Totals {
   std::array<int64_t, recon::kJointCount> joints_visible{};
   std::array<int64_t, kCommonPartCount> common_pixels{};
   std::array<int64_t, kCommonPartCount> common_right{};
+  Calibration seen_joints, inferred_joints;
   int64_t people = 0, swapped = 0, turned = 0, turned_swapped = 0, classified = 0;
   double classify_ms = 0, propose_ms = 0, relabel_ms = 0;
 };
@@ -93,9 +94,18 @@ void RateJoints(const forest::TrainingImage& image,
     const bool visible = image.target_visible[j] != 0;
     ++totals->joints[j];
     totals->joints_visible[j] += visible ? 1 : 0;
+    const Eigen::Vector3d truth_m = image.target_m[j].cast<double>();
+    const auto is_hit = [&](const forest::Proposal& proposal) {
+      return (proposal.position_m - truth_m).norm() < kHit_m;
+    };
+    if (!proposals[j].empty()) {
+      const forest::Proposal& best = proposals[j].front();
+      (best.seen ? totals->seen_joints : totals->inferred_joints)
+          .Count(best.confidence, is_hit(best));
+    }
     bool found = false;
     for (const forest::Proposal& proposal : proposals[j]) {
-      const bool is_near = (proposal.position_m - image.target_m[j].cast<double>()).norm() < kHit_m;
+      const bool is_near = is_hit(proposal);
       const RatedProposal rated{proposal.confidence, is_near && !found};
       found = found || is_near;
       totals->rated[j].push_back(rated);
@@ -214,6 +224,8 @@ Evaluation Summarise(Totals totals, int64_t frames) {
     e.map_10cm_visible += e.ap_10cm_visible.back() / recon::kJointCount;
   }
   SummariseCommon(totals, &e);
+  e.seen_joints = totals.seen_joints;
+  e.inferred_joints = totals.inferred_joints;
   e.swapped_left_right = Share(totals.swapped, pixels > 0 ? totals.people : 0);
   e.swapped_left_right_turned = Share(totals.turned_swapped, totals.turned);
   const auto people = static_cast<double>(std::max<int64_t>(totals.people, 1));

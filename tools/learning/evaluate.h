@@ -6,6 +6,7 @@
 
 #include "forest/forest.h"
 #include "forest/propose.h"
+#include "tools/learning/calibration.h"
 #include "tools/synth/dataset.h"
 
 namespace ossa::tools {
@@ -35,6 +36,8 @@ struct Evaluation {
   std::vector<double> common_accuracy;  // of parts told by PCL's people trees too; NaN as above
   double mean_common_accuracy = 0.0;
   double map_10cm_common = 0.0;     // over joints that lie within one class of either
+  Calibration seen_joints;          // of each joint's best proposal within 10 cm
+  Calibration inferred_joints;      // the same where no surface of the joint's own voted
   double swapped_left_right = 0.0;  // share of people most of whose paired parts are mirrored
   double swapped_left_right_turned = 0.0;  // of those turned by more than 60°
   double ns_per_pixel = 0.0;               // person pixel, all trees, one thread

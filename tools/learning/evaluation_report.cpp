@@ -25,6 +25,34 @@ nlohmann::ordered_json Number(double value) {
   return std::isfinite(value) ? nlohmann::ordered_json(value) : nlohmann::ordered_json(nullptr);
 }
 
+nlohmann::ordered_json CalibrationJson(const Calibration& calibration) {
+  nlohmann::ordered_json json;
+  json["calibration_error"] = Number(calibration.ExpectedError());
+  json["tenths"] = nlohmann::ordered_json::array();
+  for (const Calibration::Bin& bin : calibration.Bins()) {
+    if (bin.joints == 0) continue;
+    const double within = static_cast<double>(bin.hits) / static_cast<double>(bin.joints);
+    json["tenths"].push_back({{"joints", bin.joints},
+                              {"mean_confidence", bin.mean_confidence},
+                              {"within_10cm", within}});
+  }
+  return json;
+}
+
+std::string CalibrationTable(const std::string& heading, const Calibration& calibration) {
+  std::string html = fmt::format(
+      "<h2>{}</h2>\n<table>\n<tr><th>joints</th><th>confidence, %</th><th>within 10 cm, "
+      "%</th></tr>\n",
+      heading);
+  for (const Calibration::Bin& bin : calibration.Bins()) {
+    if (bin.joints == 0) continue;
+    html += fmt::format("<tr><td>{}</td><td>{:.1f}</td><td>{:.1f}</td></tr>\n", bin.joints,
+                        100 * bin.mean_confidence,
+                        100.0 * static_cast<double>(bin.hits) / static_cast<double>(bin.joints));
+  }
+  return html + "</table>\n";
+}
+
 template <typename Names>
 std::string Bars(const std::string& heading, const std::vector<double>& values, const Names& names,
                  size_t first) {
@@ -56,6 +84,8 @@ std::string EvaluationJson(const Evaluation& e) {
   json["mean_common_accuracy"] = Number(e.mean_common_accuracy);
   json["per_common_part_accuracy"] = ByName(e.common_accuracy, CommonPartNames(), 0);
   json["map_10cm_common"] = Number(e.map_10cm_common);
+  json["confidence_of_seen_joints"] = CalibrationJson(e.seen_joints);
+  json["confidence_of_inferred_joints"] = CalibrationJson(e.inferred_joints);
   json["swapped_left_right"] = Number(e.swapped_left_right);
   json["swapped_left_right_turned"] = Number(e.swapped_left_right_turned);
   json["ns_per_pixel"] = e.ns_per_pixel;
@@ -86,6 +116,8 @@ std::string EvaluationHtml(const Evaluation& e, const std::string& title) {
       e.ns_per_pixel, e.classify_ms, e.propose_ms);
   html += Bars("Pixels right by part, %", e.class_accuracy, recon::kPartNames, 1);
   html += Bars("Average precision by joint, %", e.ap_10cm, recon::kJointNames, 0);
+  html += CalibrationTable("Confidence of joints that are seen", e.seen_joints);
+  html += CalibrationTable("Confidence of joints that are inferred", e.inferred_joints);
   return html + "</body></html>\n";
 }
 
