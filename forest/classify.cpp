@@ -12,6 +12,7 @@
 #include <algorithm>
 #include <cmath>
 #include <memory>
+#include <numeric>
 
 #include "forest/clones_internal.h"
 #include "forest/feature_internal.h"
@@ -45,26 +46,25 @@ constexpr size_t kAhead = 12;  // pixels whose rows are fetched before they are 
 // A pixel without reading has no feature.
 std::vector<int32_t> PixelsWithReading(const depth::DepthView& depth,
                                        std::span<const int32_t> pixels) {
-  std::vector<int32_t> kept;
-  kept.reserve(pixels.size());
-  int v = 0;
-  int32_t row_begin = 0;  // pixels ascend: no division
-  for (const int32_t pixel : pixels) {
-    for (; pixel >= row_begin + depth.width; row_begin += depth.width) ++v;
-    if (depth.at(pixel - row_begin, v) != 0) kept.push_back(pixel);
-  }
+  std::vector<int32_t> kept(pixels.size());
+  size_t count = 0;
+  ForRows(pixels, depth.width, [&](int v, size_t first, size_t last) {
+    for (size_t i = first; i < last; ++i) {
+      kept[count] = pixels[i];
+      count += depth.at(pixels[i] - v * depth.width, v) != 0 ? 1 : 0;
+    }
+  });
+  kept.resize(count);
   return kept;
 }
 
 std::vector<int32_t> BoxPositions(const ObjectImage& image, int width,
                                   std::span<const int32_t> pixels) {
   std::vector<int32_t> position(pixels.size());
-  int32_t y = 0;
-  int32_t row_begin = image.v0 * width;  // pixels ascend: no division
-  for (size_t i = 0; i < pixels.size(); ++i) {
-    for (; pixels[i] >= row_begin + width; row_begin += width) ++y;
-    position[i] = (y << 16) | (pixels[i] - row_begin - image.u0);
-  }
+  ForRows(pixels, width, [&](int v, size_t first, size_t last) {
+    const int32_t y_and_minus_u0 = (v - image.v0) * kPositionRow - v * width - image.u0;
+    for (size_t i = first; i < last; ++i) position[i] = y_and_minus_u0 + pixels[i];
+  });
   return position;
 }
 
@@ -182,12 +182,13 @@ std::vector<float> ScalesOf(const std::vector<uint16_t>& mass, size_t stride) {
 }
 
 // Metres of surface between neighbouring pixels, at the object's mean depth; 0 without pixels.
-double Pitch_m(const ObjectImage& image, const depth::Camera& camera,
-               std::span<const int32_t> position) {
-  int64_t sum_mm = 0;
-  for (const int32_t p : position) sum_mm += image.depth_mm[image.At(p & 0xffff, p >> 16)];
-  if (sum_mm == 0) return 0.0;
-  return 1e-3 * static_cast<double>(sum_mm) / static_cast<double>(position.size()) / camera.fx;
+double Pitch_m(const ObjectImage& image, const depth::Camera& camera, int background_mm,
+               size_t pixels) {
+  if (pixels == 0) return 0.0;
+  // What is not the object's reads background_mm.
+  const int64_t around = static_cast<int64_t>(image.depth_mm.size() - pixels) * background_mm;
+  const int64_t all_mm = std::accumulate(image.depth_mm.begin(), image.depth_mm.end(), int64_t{0});
+  return 1e-3 * static_cast<double>(all_mm - around) / static_cast<double>(pixels) / camera.fx;
 }
 
 std::span<const float> PriorOf(const ForestModel& model, const ClassifyOptions& options) {
@@ -220,7 +221,7 @@ Classification Classify(const ForestModel& model, const depth::DepthView& depth,
   const size_t trees = model.data().trees.size();
   const ObjectImage image = CutOut(depth, camera, result.pixel, model.data().background_mm);
   const std::vector<int32_t> position = BoxPositions(image, depth.width, result.pixel);
-  const double pitch_m = Pitch_m(image, camera, position);
+  const double pitch_m = Pitch_m(image, camera, model.data().background_mm, result.pixel.size());
   const double spacing = pitch_m > 0 ? std::clamp(options.fine_m / pitch_m, 1.0, kMostSparse) : 1.0;
   SparsePixels sparse = ChooseSparse(image, position, spacing);
   Walked walked;

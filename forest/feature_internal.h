@@ -29,6 +29,21 @@ struct ObjectImage {
   }
 };
 
+/// Calls function(row, first, last) for each row of ascending places, row · row_length + column:
+/// place[first] ... place[last - 1] are those in it.
+template <typename Function>
+void ForRows(std::span<const int32_t> place, int32_t row_length, const Function& function) {
+  for (auto first = place.begin(), last = first; first != place.end(); first = last) {
+    const int32_t row = *first / row_length;
+    const auto most = first + std::min<ptrdiff_t>(place.end() - first, row_length);
+    last = std::lower_bound(first, most, (int64_t{row} + 1) * row_length);
+    function(row, static_cast<size_t>(first - place.begin()),
+             static_cast<size_t>(last - place.begin()));
+  }
+}
+
+inline constexpr int32_t kPositionRow = 1 << 16;  // positions are y << 16 | x
+
 /// Of a position y << 16 | x.
 inline int DepthAt(const ObjectImage& image, int32_t position) {
   return image.depth_mm[image.At(position & 0xffff, position >> 16)];

@@ -37,10 +37,8 @@ struct Corner {
   uint8_t label = 0;
 };
 
-uint8_t LabelBetween(const SparsePixels& sparse, const SmoothMasses& smooth, int32_t position,
-                     int depth_mm) {
-  const Between& x = sparse.column[static_cast<size_t>(position & 0xffff)];
-  const Between& y = sparse.row[static_cast<size_t>(position >> 16)];
+uint8_t LabelBetween(const SparsePixels& sparse, const SmoothMasses& smooth, const Between& x,
+                     const Between& y, int depth_mm) {
   std::array<Corner, 4> corners;
   size_t count = 0;
   for (int corner = 0; corner < 4; ++corner) {
@@ -77,17 +75,20 @@ std::vector<uint8_t> LabelPixels(const ObjectImage& image, std::span<const int32
   const std::vector<uint8_t> between = LabelsBetween(sparse, smooth);
   const auto columns = static_cast<size_t>(sparse.grid.width + 1);
   std::vector<uint8_t> labels(position.size());
-  for (size_t i = 0; i < position.size(); ++i) {
-    const int32_t p = position[i];
-    const auto sample = static_cast<size_t>(sparse.from[i]);
-    labels[i] = smooth.label[sample];
-    if (sparse.position[sample] == p) continue;
-    const auto x = static_cast<size_t>(sparse.column[static_cast<size_t>(p & 0xffff)].low + 1);
-    const auto y = static_cast<size_t>(sparse.row[static_cast<size_t>(p >> 16)].low + 1);
-    if (between[y * columns + x] != kMixed) continue;
-    const uint8_t label = LabelBetween(sparse, smooth, p, DepthAt(image, p));
-    if (label != 0) labels[i] = label;
-  }
+  ForRows(position, kPositionRow, [&](int y, size_t first, size_t last) {
+    const Between& row = sparse.row[static_cast<size_t>(y)];
+    const uint8_t* row_between = &between[static_cast<size_t>(row.low + 1) * columns];
+    for (size_t i = first; i < last; ++i) {
+      const int x = position[i] & 0xffff;
+      const Between& column = sparse.column[static_cast<size_t>(x)];
+      const auto sample = static_cast<size_t>(sparse.from[i]);
+      labels[i] = smooth.label[sample];
+      if (row_between[column.low + 1] != kMixed || sparse.position[sample] == position[i]) continue;
+      const uint8_t label =
+          LabelBetween(sparse, smooth, column, row, image.depth_mm[image.At(x, y)]);
+      if (label != 0) labels[i] = label;
+    }
+  });
   return labels;
 }
 

@@ -30,15 +30,17 @@ std::vector<Between> PlacesOnGrid(int pixels, double spacing) {
 // The pixel of each cell that is to be its sample: the one in its middle, else the first.
 void ChooseOfEachCell(std::span<const int32_t> position, SparsePixels* sparse) {
   const auto columns = static_cast<size_t>(sparse->grid.width);
-  for (size_t i = 0; i < position.size(); ++i) {
-    const Between& x = sparse->column[static_cast<size_t>(position[i] & 0xffff)];
-    const Between& y = sparse->row[static_cast<size_t>(position[i] >> 16)];
-    int32_t& chosen =
-        sparse->sample[static_cast<size_t>(y.cell) * columns + static_cast<size_t>(x.cell)];
-    if (chosen == SparsePixels::kNone || (x.is_centre && y.is_centre)) {
-      chosen = static_cast<int32_t>(i);
+  ForRows(position, kPositionRow, [&](int y, size_t first, size_t last) {
+    const Between& row = sparse->row[static_cast<size_t>(y)];
+    int32_t* cells = &sparse->sample[static_cast<size_t>(row.cell) * columns];
+    for (size_t i = first; i < last; ++i) {
+      const Between& column = sparse->column[static_cast<size_t>(position[i] & 0xffff)];
+      int32_t& chosen = cells[column.cell];
+      if (chosen == SparsePixels::kNone || (column.is_centre && row.is_centre)) {
+        chosen = static_cast<int32_t>(i);
+      }
     }
-  }
+  });
 }
 
 // Numbers the chosen pixels tile by tile.
@@ -62,15 +64,9 @@ void NumberByTile(const ObjectImage& image, std::span<const int32_t> position,
   sparse->on_grid = sparse->position.size();
 }
 
-// The sample of the pixel's cell, or another of the four around it; kNone when all of them lie on
-// other surfaces.
-int32_t SampleFor(const SparsePixels& sparse, int32_t position, int depth_mm) {
-  const Between& x = sparse.column[static_cast<size_t>(position & 0xffff)];
-  const Between& y = sparse.row[static_cast<size_t>(position >> 16)];
+// The first of the four samples around a pixel that lies on its surface; or kNone.
+int32_t SampleAround(const SparsePixels& sparse, const Between& x, const Between& y, int depth_mm) {
   const ObjectImage& grid = sparse.grid;
-  if (SameSurface(grid.depth_mm[grid.At(x.cell, y.cell)], depth_mm)) {
-    return sparse.SampleAt(x.cell, y.cell);
-  }
   for (int corner = 0; corner < 4; ++corner) {
     const int cell_x = x.low + corner % 2;
     const int cell_y = y.low + corner / 2;
@@ -79,6 +75,34 @@ int32_t SampleFor(const SparsePixels& sparse, int32_t position, int depth_mm) {
     if (SameSurface(grid.depth_mm[grid.At(cell_x, cell_y)], depth_mm)) return sample;
   }
   return SparsePixels::kNone;
+}
+
+// Gives each pixel the sample of its cell, or another of the four around it, or makes it a sample
+// of its own.
+void SpreadSamples(const ObjectImage& image, std::span<const int32_t> position,
+                   SparsePixels* sparse) {
+  const ObjectImage& grid = sparse->grid;
+  sparse->from.resize(position.size());
+  ForRows(position, kPositionRow, [&](int y, size_t first, size_t last) {
+    const Between& row = sparse->row[static_cast<size_t>(y)];
+    const uint16_t* cell_mm = &grid.depth_mm[grid.At(0, row.cell)];
+    const int32_t* cell_sample =
+        &sparse->sample[static_cast<size_t>(row.cell) * static_cast<size_t>(grid.width)];
+    const uint16_t* pixel_mm = &image.depth_mm[image.At(0, y)];
+    for (size_t i = first; i < last; ++i) {
+      const int x = position[i] & 0xffff;
+      const Between& column = sparse->column[static_cast<size_t>(x)];
+      int32_t sample = cell_sample[column.cell];
+      if (!SameSurface(cell_mm[column.cell], pixel_mm[x])) {
+        sample = SampleAround(*sparse, column, row, pixel_mm[x]);
+      }
+      if (sample == SparsePixels::kNone) {
+        sample = static_cast<int32_t>(sparse->position.size());
+        sparse->position.push_back(position[i]);
+      }
+      sparse->from[i] = sample;
+    }
+  });
 }
 
 }  // namespace
@@ -97,14 +121,7 @@ SparsePixels ChooseSparse(const ObjectImage& image, std::span<const int32_t> pos
                        SparsePixels::kNone);
   ChooseOfEachCell(position, &sparse);
   NumberByTile(image, position, &sparse);
-  sparse.from.resize(position.size());
-  for (size_t i = 0; i < position.size(); ++i) {
-    int32_t& sample = sparse.from[i];
-    sample = SampleFor(sparse, position[i], DepthAt(image, position[i]));
-    if (sample != SparsePixels::kNone) continue;
-    sample = static_cast<int32_t>(sparse.position.size());
-    sparse.position.push_back(position[i]);
-  }
+  SpreadSamples(image, position, &sparse);
   return sparse;
 }
 

@@ -13,25 +13,23 @@ ObjectImage CutOut(const depth::DepthView& depth, const depth::Camera& camera,
   image.u0 = depth.width;
   image.v0 = pixels.empty() ? 0 : pixels.front() / depth.width;
   const int v1 = pixels.empty() ? -1 : pixels.back() / depth.width;
-  int32_t row_begin = image.v0 * depth.width;  // pixels ascend: no division
-  for (const int32_t pixel : pixels) {
-    while (pixel >= row_begin + depth.width) row_begin += depth.width;
-    image.u0 = std::min(image.u0, pixel - row_begin);
-    u1 = std::max(u1, pixel - row_begin);
-  }
+  ForRows(pixels, depth.width, [&](int v, size_t first, size_t last) {
+    image.u0 = std::min(image.u0, pixels[first] - v * depth.width);
+    u1 = std::max(u1, pixels[last - 1] - v * depth.width);
+  });
   image.width = std::max(0, u1 - image.u0 + 1);
   image.height = v1 - image.v0 + 1;
   image.depth_mm.assign(
       static_cast<size_t>(image.stride()) * static_cast<size_t>(image.height + 2) + 2,
       background_mm);
-  int v = image.v0;
-  row_begin = image.v0 * depth.width;
-  for (const int32_t pixel : pixels) {
-    for (; pixel >= row_begin + depth.width; row_begin += depth.width) ++v;
-    const int u = pixel - row_begin;
-    const uint16_t mm = depth.at(u, v);
-    if (mm != 0) image.depth_mm[image.At(u - image.u0, v - image.v0)] = std::min(mm, background_mm);
-  }
+  ForRows(pixels, depth.width, [&](int v, size_t first, size_t last) {
+    uint16_t* row = &image.depth_mm[image.At(0, v - image.v0)];
+    for (size_t i = first; i < last; ++i) {
+      const int u = pixels[i] - v * depth.width;
+      const uint16_t mm = depth.at(u, v);
+      if (mm != 0) row[u - image.u0] = std::min(mm, background_mm);
+    }
+  });
   return image;
 }
 
