@@ -62,8 +62,8 @@ std::vector<int32_t> BoxPositions(const ObjectImage& image, int width,
                                   std::span<const int32_t> pixels) {
   std::vector<int32_t> position(pixels.size());
   ForRows(pixels, width, [&](int v, size_t first, size_t last) {
-    const int32_t y_and_minus_u0 = (v - image.v0) * kPositionRow - v * width - image.u0;
-    for (size_t i = first; i < last; ++i) position[i] = y_and_minus_u0 + pixels[i];
+    const int32_t shift = (v - image.v0) * kPositionRow - v * width - image.u0;
+    for (size_t i = first; i < last; ++i) position[i] = shift + pixels[i];
   });
   return position;
 }
