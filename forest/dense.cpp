@@ -1,5 +1,6 @@
 #include "forest/dense_internal.h"
 
+#include <algorithm>
 #include <cstring>
 
 #include "forest/clones_internal.h"
@@ -40,12 +41,44 @@ template <int kRows>
   }
 }
 
+constexpr int kTileRows = 4;
+
 OSSA_CLONES void MultiplyTiles(const Factors& f, Eigen::Index rows) {
-  constexpr int kTileRows = 4;
   for (Eigen::Index column = 0; column + kTileColumns <= f.columns; column += kTileColumns) {
     Eigen::Index row = 0;
     for (; row + kTileRows <= rows; row += kTileRows) Tile<kTileRows>(f, row, column);
     for (; row < rows; ++row) Tile<1>(f, row, column);
+  }
+}
+
+// A row's sums over kInner inner indices from `k` on, added to what is there already.
+template <int kInner>
+[[gnu::always_inline]] inline void AddToRow(const Factors& f, Eigen::Index row, Eigen::Index k) {
+  const float* a = f.a + row * f.a_stride + k;
+  const float* b = f.b + k * f.b_stride;
+  float* out = f.out + row * f.columns;
+  const Eigen::Index columns = f.columns - f.columns % kTileColumns;
+  for (Eigen::Index column = 0; column < columns; column += kLanes) {
+    Lanes sum;
+    std::memcpy(&sum, out + column, sizeof(sum));
+    for (int i = 0; i < kInner; ++i) {
+      Lanes line;
+      std::memcpy(&line, b + i * f.b_stride + column, sizeof(line));
+      sum += a[i] * line;
+    }
+    std::memcpy(out + column, &sum, sizeof(sum));
+  }
+}
+
+// A few rows by a matrix that the caches nearest to the processor cannot hold: it is read once, in
+// the order in which it lies, instead of tile by tile.
+OSSA_CLONES void MultiplyFewRows(const Factors& f, Eigen::Index rows) {
+  constexpr int kAtOnce = 4;
+  std::fill(f.out, f.out + rows * f.columns, 0.0F);
+  for (Eigen::Index row = 0; row < rows; ++row) {
+    Eigen::Index k = 0;
+    for (; k + kAtOnce <= f.inner; k += kAtOnce) AddToRow<kAtOnce>(f, row, k);
+    for (; k < f.inner; ++k) AddToRow<1>(f, row, k);
   }
 }
 
@@ -68,7 +101,7 @@ RowMatrix Product(const Eigen::Ref<const RowMatrix>& a, const Eigen::Ref<const R
   RowMatrix out(a.rows(), b.cols());
   const Factors factors{a.data(),   a.outerStride(), b.data(), b.outerStride(),
                         out.data(), a.cols(),        b.cols()};
-  MultiplyTiles(factors, a.rows());
+  a.rows() < kTileRows ? MultiplyFewRows(factors, a.rows()) : MultiplyTiles(factors, a.rows());
   MultiplyRest(factors, a.rows());
   return out;
 }
