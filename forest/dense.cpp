@@ -4,14 +4,12 @@
 #include <cstring>
 
 #include "forest/clones_internal.h"
+#include "forest/lanes_internal.h"
 
 namespace ossa::forest {
 namespace {
 
-constexpr Eigen::Index kLanes = 8;
 constexpr Eigen::Index kTileColumns = 2 * kLanes;
-
-using Lanes = float __attribute__((vector_size(kLanes * sizeof(float))));
 
 struct Factors {
   const float* a = nullptr;   // rows × inner

@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "forest/clones_internal.h"
+#include "forest/lanes_internal.h"
 #include "forest/refine_internal.h"
 
 namespace ossa::forest {
@@ -18,24 +20,89 @@ constexpr size_t kNumbersOfObject = 10;  // AddObject, without the contexts
 constexpr float kFar_m = 1.0F;           // of modes and predictions from the place
 constexpr double kBorderReach_m = 0.5;   // farther borders of the image do not matter
 constexpr float kSurfaceReach_m = 0.6F;  // nor surface
+constexpr float kNowhere_m = 1e4F;       // out of anything's reach
 
-// Evidence's surface in the frame.
+// Evidence's surface in the frame, one array a coordinate; filled up with points far away.
 struct Surface {
-  std::vector<Eigen::Vector3f> point_m;
+  std::vector<float> x, y, z;
   Eigen::Vector3f centre_m = Eigen::Vector3f::Zero();
   float area_m2 = 0.0F;
+
+  void Add(const Eigen::Vector3f& p_m) {
+    x.push_back(p_m.x());
+    y.push_back(p_m.y());
+    z.push_back(p_m.z());
+  }
 };
+
+// What lies nearest to a place: at all, and across the line of sight.
+struct Nearest {
+  float square_m2 = kSurfaceReach_m * kSurfaceReach_m;
+  float aside_m2 = square_m2;
+  float behind_m = 0.0F;  // of the place, along the line of sight
+};
+
+// The same for each lane's share of the points.
+struct NearestOfLanes {
+  Lanes square_m2, aside_m2, behind_m;
+  IntLanes number;  // of the point that is nearest across the line of sight
+};
+
+OSSA_CLONES void FindNearest(const Surface& surface, const float* place, const float* ray,
+                             NearestOfLanes* out) {
+  NearestOfLanes near = *out;
+  for (size_t i = 0; i < surface.x.size(); i += kLanes) {
+    Lanes x, y, z;
+    Load(surface.x.data() + i, &x);
+    Load(surface.y.data() + i, &y);
+    Load(surface.z.data() + i, &z);
+    x -= place[0];
+    y -= place[1];
+    z -= place[2];
+    const Lanes along = x * ray[0] + (y * ray[1] + z * ray[2]);
+    const Lanes square = x * x + (y * y + z * z);
+    Lanes aside = square - along * along;
+    aside = aside > 0.0F ? aside : Lanes{};
+    near.square_m2 = square < near.square_m2 ? square : near.square_m2;
+    const IntLanes nearer = aside < near.aside_m2;
+    near.aside_m2 = nearer ? aside : near.aside_m2;
+    near.behind_m = nearer ? along : near.behind_m;
+    near.number = nearer ? IntLanes{} + static_cast<int32_t>(i) : near.number;
+  }
+  *out = near;
+}
+
+// Of points equally near the first counts, whichever lane it went through.
+Nearest NearestTo(const Surface& surface, const Eigen::Vector3f& place_m,
+                  const Eigen::Vector3f& ray) {
+  Nearest nearest;
+  NearestOfLanes lanes{Lanes{} + nearest.square_m2, Lanes{} + nearest.aside_m2, Lanes{},
+                       IntLanes{}};
+  FindNearest(surface, place_m.data(), ray.data(), &lanes);
+  int32_t number = 0;
+  for (size_t l = 0; l < kLanes; ++l) {
+    nearest.square_m2 = std::min(nearest.square_m2, lanes.square_m2[l]);
+    if (lanes.aside_m2[l] > nearest.aside_m2) continue;
+    if (lanes.aside_m2[l] == nearest.aside_m2 && lanes.number[l] >= number) continue;
+    nearest.aside_m2 = lanes.aside_m2[l];
+    nearest.behind_m = lanes.behind_m[l];
+    number = lanes.number[l];
+  }
+  return nearest;
+}
 
 class Describer {
  public:
   Describer(const depth::Camera& camera, const Evidence& evidence, Description* out)
       : camera_(camera), evidence_(evidence), out_(*out) {
-    for (size_t i = 0; i < evidence.surface_m.size(); ++i) {
-      surface_.point_m.push_back(InFrame(evidence.surface_m[i].cast<double>()));
-      surface_.centre_m += evidence.area_m2[i] * surface_.point_m.back();
+    for (size_t i = 0; i < evidence.count; ++i) {
+      const Eigen::Vector3f p_m = InFrame(evidence.surface_m(i).cast<double>());
+      surface_.Add(p_m);
+      surface_.centre_m += evidence.area_m2[i] * p_m;
       surface_.area_m2 += evidence.area_m2[i];
     }
     if (surface_.area_m2 > 0) surface_.centre_m /= surface_.area_m2;
+    while (surface_.x.size() % kLanes != 0) surface_.Add(Eigen::Vector3f::Constant(kNowhere_m));
   }
 
   void AddObject(std::span<const float> context_posterior, const Beliefs& beliefs) {
@@ -79,30 +146,7 @@ class Describer {
 
   // How much surface each class has, where, and how far spread.
   void AddClasses() {
-    const auto classes = static_cast<size_t>(evidence_.class_count);
-    constexpr float kLeastProbability = 0.01F;
-    std::vector<float> area(classes, 0.0F);
-    std::vector<Eigen::Array3f> sum(classes, Eigen::Array3f::Zero());
-    std::vector<Eigen::Array3f> square(classes, Eigen::Array3f::Zero());
-    for (size_t i = 0; i < surface_.point_m.size(); ++i) {
-      const Eigen::Array3f x = surface_.point_m[i].array();
-      for (size_t c = 1; c < classes; ++c) {
-        const float p = evidence_.probability[i * classes + c];
-        if (p < kLeastProbability) continue;
-        const float weight = p * evidence_.area_m2[i];
-        area[c] += weight;
-        sum[c] += weight * x;
-        square[c] += weight * x * x;
-      }
-    }
-    for (size_t c = 1; c < classes; ++c) {
-      constexpr float kLeastArea_m2 = 1e-4F;
-      const float whole = std::max(area[c], kLeastArea_m2);
-      const Eigen::Array3f mean = sum[c] / whole;
-      Add(std::sqrt(area[c]));
-      Add(Eigen::Vector3f(mean));
-      Add(Eigen::Vector3f((square[c] / whole - mean * mean).max(0.0F).sqrt()));
-    }
+    for (size_t c = 1; c < static_cast<size_t>(evidence_.class_count); ++c) AddClass(c);
   }
 
  private:
@@ -116,6 +160,29 @@ class Describer {
   void Add(float value) { out_.value.push_back(value); }
   void Add(const Eigen::Vector3f& v) {
     out_.value.insert(out_.value.end(), v.data(), v.data() + 3);
+  }
+
+  void AddClass(size_t c) {
+    constexpr float kLeastProbability = 0.01F;
+    constexpr float kLeastArea_m2 = 1e-4F;
+    const float* probability = evidence_.probability_of(c);
+    picked_.resize(evidence_.count);
+    picked_.resize(PickAtLeast(kLeastProbability, probability, evidence_.count, picked_.data()));
+    float area_m2 = 0.0F;
+    Eigen::Array3f sum = Eigen::Array3f::Zero();
+    Eigen::Array3f square = Eigen::Array3f::Zero();
+    for (const uint32_t i : picked_) {
+      const float weight = probability[i] * evidence_.area_m2[i];
+      const Eigen::Array3f x(surface_.x[i], surface_.y[i], surface_.z[i]);
+      area_m2 += weight;
+      sum += weight * x;
+      square += weight * x * x;
+    }
+    const float whole = std::max(area_m2, kLeastArea_m2);
+    const Eigen::Array3f mean = sum / whole;
+    Add(std::sqrt(area_m2));
+    Add(Eigen::Vector3f(mean));
+    Add(Eigen::Vector3f((square / whole - mean * mean).max(0.0F).sqrt()));
   }
 
   // How far inside the image a place is seen: of the nearer side, the upper and the lower border.
@@ -133,22 +200,10 @@ class Describer {
   // place there: before it, something hides the place, far behind, nothing can be there.
   void AddNearestSurface(const Eigen::Vector3f& place_m) {
     const Eigen::Vector3f ray = (place_m + RootFromCamera()).normalized();
-    float nearest_m2 = kSurfaceReach_m * kSurfaceReach_m;
-    float nearest_aside_m2 = nearest_m2;
-    float behind_m = 0.0F;
-    for (const Eigen::Vector3f& point : surface_.point_m) {
-      const Eigen::Vector3f off = point - place_m;
-      const float along = off.dot(ray);
-      const float square = off.squaredNorm();
-      const float aside_m2 = std::max(square - along * along, 0.0F);
-      nearest_m2 = std::min(nearest_m2, square);
-      if (aside_m2 >= nearest_aside_m2) continue;
-      nearest_aside_m2 = aside_m2;
-      behind_m = along;
-    }
-    Add(std::sqrt(nearest_m2));
-    Add(std::sqrt(nearest_aside_m2));
-    Add(std::clamp(behind_m, -kSurfaceReach_m, kSurfaceReach_m));
+    const Nearest nearest = NearestTo(surface_, place_m, ray);
+    Add(std::sqrt(nearest.square_m2));
+    Add(std::sqrt(nearest.aside_m2));
+    Add(std::clamp(nearest.behind_m, -kSurfaceReach_m, kSurfaceReach_m));
   }
 
   // In the frame's axes.
@@ -160,6 +215,7 @@ class Describer {
   const Evidence& evidence_;
   Description& out_;
   Surface surface_;
+  std::vector<uint32_t> picked_;  // samples of the class at hand
 };
 
 // The root is the mean of the places, those of little support less.

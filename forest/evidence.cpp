@@ -14,7 +14,8 @@ constexpr size_t kSampledPixels = 640;  // more do not move the modes by a milli
 // Pixel i's context: over many pixels each is drawn as often as it is likely, without chance.
 size_t DrawContext(const std::vector<float>& posterior, size_t i) {
   constexpr double kGolden = 0.6180339887498949;  // multiples spread evenly over the unit interval
-  double left = std::fmod(static_cast<double>(i) * kGolden, 1.0);
+  double left = static_cast<double>(i) * kGolden;
+  left -= std::trunc(left);
   for (size_t k = 0; k < posterior.size(); ++k) {
     left -= static_cast<double>(posterior[k]);
     if (left < 0) return k;
@@ -47,50 +48,53 @@ std::vector<const Vote*> VotesOf(const ForestModel& model, const Classification&
   return votes;
 }
 
-void AddVotes(const Vote* votes, const Eigen::Vector3f& surface_m, float area_m2,
-              Evidence* evidence) {
-  for (size_t t = 0; t < evidence->votes.size(); ++t) {
-    if (votes[t].spread_cm == Vote::kNone) continue;
-    const Eigen::Vector3f offset_m =
-        Eigen::Vector3f(votes[t].offset_cm[0], votes[t].offset_cm[1], votes[t].offset_cm[2]) *
-        0.01F;
-    evidence->votes[t].push_back({surface_m + offset_m,
-                                  0.01F * static_cast<float>(votes[t].spread_cm), offset_m.norm(),
-                                  area_m2});
+// Evidence of so many samples that all say nothing yet.
+Evidence EmptyEvidence(size_t count, size_t classes, size_t targets) {
+  Evidence evidence;
+  evidence.count = count;
+  const size_t stride = PaddedToLanes(count);
+  for (auto* values :
+       {&evidence.x_m, &evidence.y_m, &evidence.z_m, &evidence.distance_m, &evidence.area_m2}) {
+    values->resize(stride);
   }
+  evidence.class_count = static_cast<int>(classes);
+  evidence.probability.resize(classes * stride);
+  evidence.votes.resize(targets * stride);
+  return evidence;
 }
 
 }  // namespace
 
 Evidence GatherEvidence(const ForestModel& model, const depth::DepthView& depth,
                         const depth::Camera& camera, const Classification& classification) {
-  Evidence evidence;
-  evidence.class_count = classification.class_count;
+  const size_t pixel_count = classification.pixel.size();
+  const size_t step = std::max<size_t>(1, pixel_count / kSampledPixels);
+  std::vector<size_t> pixels;
+  for (size_t i = step / 2; i < pixel_count; i += step) pixels.push_back(i);
+  const std::vector<const Vote*> votes = VotesOf(model, classification, pixels);
+  const auto classes = static_cast<size_t>(classification.class_count);
+  const size_t targets = model.targets().size();
+  Evidence evidence = EmptyEvidence(pixels.size(), classes, targets);
   if (!classification.context.empty()) {
     evidence.context_certainty =
         *std::max_element(classification.context.begin(), classification.context.end());
   }
-  const size_t count = classification.pixel.size();
-  const size_t step = std::max<size_t>(1, count / kSampledPixels);
-  std::vector<size_t> pixels;
-  for (size_t i = step / 2; i < count; i += step) pixels.push_back(i);
-  const std::vector<const Vote*> votes = VotesOf(model, classification, pixels);
-  const auto classes = static_cast<size_t>(classification.class_count);
-  evidence.probability.reserve(pixels.size() * classes);
-  evidence.votes.resize(model.targets().size());
-  for (auto& list : evidence.votes) list.reserve(pixels.size());
+  const size_t stride = evidence.stride();
   for (size_t k = 0; k < pixels.size(); ++k) {
     const int u = classification.pixel[pixels[k]] % depth.width;
     const int v = classification.pixel[pixels[k]] / depth.width;
-    const Eigen::Vector3d p = depth::BackProject(camera, u, v, depth.at(u, v));
-    evidence.surface_m.push_back(p.cast<float>());
-    evidence.area_m2.push_back(
-        static_cast<float>(static_cast<double>(step) * p.z() * p.z() / (camera.fx * camera.fy)));
+    const Eigen::Vector3d p_m = depth::BackProject(camera, u, v, depth.at(u, v));
+    evidence.x_m[k] = static_cast<float>(p_m.x());
+    evidence.y_m[k] = static_cast<float>(p_m.y());
+    evidence.z_m[k] = static_cast<float>(p_m.z());
+    evidence.distance_m[k] = evidence.surface_m(k).norm();
+    evidence.area_m2[k] =
+        static_cast<float>(static_cast<double>(step) * p_m.z() * p_m.z() / (camera.fx * camera.fy));
     for (size_t c = 0; c < classes; ++c) {
-      evidence.probability.push_back(classification.Probability(pixels[k], c));
+      evidence.probability[c * stride + k] = classification.Probability(pixels[k], c);
     }
-    if (votes[k] != nullptr) {
-      AddVotes(votes[k], evidence.surface_m.back(), evidence.area_m2.back(), &evidence);
+    for (size_t t = 0; votes[k] != nullptr && t < targets; ++t) {
+      evidence.votes[t * stride + k] = votes[k][t];
     }
   }
   return evidence;

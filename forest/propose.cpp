@@ -15,60 +15,21 @@
 namespace ossa::forest {
 namespace {
 
-constexpr float kReferenceArea_m2 = 0.004F;  // A0: about the seen surface of an elbow
 constexpr size_t kStarts = 12;
 constexpr size_t kClimbs = 3;
 constexpr int kMaxSteps = 20;
 constexpr float kStopStep_m = 2e-3F;  // the mode is then within a centimetre at most
 
-struct TargetPoints {
-  WeightedPoints points;
-  WeightedPoints surface;  // the class part of them, weights in reference areas
-  float vote_total = 0.0F;
-};
-
-void AddSurface(const Evidence& evidence, const ProposalTarget& target, TargetPoints* out) {
-  const auto classes = static_cast<size_t>(evidence.class_count);
-  for (size_t i = 0; i < evidence.surface_m.size(); ++i) {
-    float p = 0.0F;
-    for (const uint8_t c : target.classes) p += evidence.probability[i * classes + c];
-    if (p < target.probability_threshold) continue;
-    const Eigen::Vector3f& s = evidence.surface_m[i];
-    const Eigen::Vector3f inside = s * (1.0F + target.push_back_m / s.norm());
-    const float weight = p * evidence.area_m2[i] / kReferenceArea_m2;
-    out->surface.Add(inside, weight);
-    if (target.class_weight > 0) out->points.Add(inside, weight * target.class_weight);
-  }
-}
-
-void AddVotes(const Evidence& evidence, const ProposalTarget& target, size_t index,
-              TargetPoints* out) {
-  const size_t first = out->points.size();
-  for (const PositionVote& vote : evidence.votes[index]) {
-    if (vote.distance_m > target.vote_radius_m) continue;
-    const float relative = vote.spread_m / target.vote_sharpness_m;
-    const float softness = 1.0F + relative * relative;
-    const float weight = vote.area_m2 / (softness * softness);
-    out->points.Add(vote.position_m, weight);
-    out->vote_total += weight;
-  }
-  if (out->vote_total <= 0) return;
-  // Most votes are vague and weigh next to nothing: those of a fifth of the mean are left out.
-  const float mean = out->vote_total / static_cast<float>(out->points.size() - first);
-  out->points.KeepHeavier(first, 0.2F * mean);
-  for (size_t i = first; i < out->points.size(); ++i) out->points.weight[i] /= out->vote_total;
-}
-
 std::vector<Eigen::Vector3f> StartPoints(const WeightedPoints& points, float bandwidth_m) {
   std::vector<std::pair<float, size_t>> by_density;
   const size_t step = std::max<size_t>(1, points.size() / kStarts);
   for (size_t i = 0; i < points.size(); i += step) {
-    by_density.emplace_back(-SumKernels(points, points.at(i), 1.5F * bandwidth_m).density, i);
+    by_density.emplace_back(-Density(points, points.at(i), 1.5F * bandwidth_m), i);
   }
   const auto heaviest = static_cast<size_t>(
-      std::max_element(points.weight.begin(), points.weight.end()) - points.weight.begin());
-  by_density.emplace_back(-SumKernels(points, points.at(heaviest), 1.5F * bandwidth_m).density,
-                          heaviest);
+      std::max_element(points.weight.begin(), points.weight.begin() + points.size()) -
+      points.weight.begin());
+  by_density.emplace_back(-Density(points, points.at(heaviest), 1.5F * bandwidth_m), heaviest);
   std::sort(by_density.begin(), by_density.end());
   std::vector<Eigen::Vector3f> starts;
   for (const auto& [density, i] : by_density) {
@@ -116,9 +77,9 @@ void DescribeModes(const Evidence& evidence, const TargetPoints& points,
   for (const Mode& mode : *modes) total += mode.density;
   for (Mode& mode : *modes) {
     const float bandwidth_m = std::max(target.bandwidth_m, 0.06F);
-    const float surface = SumKernels(points.surface, mode.position_m, bandwidth_m).density;
-    const float votes = SumKernels(points.points, mode.position_m, bandwidth_m).density -
-                        target.class_weight * surface;
+    const float surface = Density(points.surface, mode.position_m, bandwidth_m);
+    const float votes =
+        Density(points.points, mode.position_m, bandwidth_m) - target.class_weight * surface;
     mode.feature = {std::log1p(10.0F * surface), std::sqrt(std::max(votes, 0.0F)),
                     mode.density / total, std::log1p(points.vote_total * 1e3F),
                     evidence.context_certainty};
@@ -174,9 +135,7 @@ std::vector<std::vector<Proposal>> ProposeTogether(const ForestModel& model, con
 
 std::vector<Mode> FindModes(const Evidence& evidence, const ProposalTarget& target,
                             size_t target_index) {
-  TargetPoints points;
-  AddSurface(evidence, target, &points);
-  AddVotes(evidence, target, target_index, &points);
+  const TargetPoints points = PointsOf(evidence, target, target_index);
   if (points.points.size() == 0) return {};
   std::vector<Mode> modes;
   for (const Eigen::Vector3f& start : StartPoints(points.points, target.bandwidth_m)) {

@@ -5,34 +5,31 @@
 #include <vector>
 
 #include "forest/forest.h"
+#include "forest/lanes_internal.h"
 #include "forest/propose.h"
 
 namespace ossa::forest {
 
-/// Weighted points of a density estimate, one array a coordinate (metres) for the vector units.
-struct WeightedPoints {
-  std::vector<float> x, y, z, weight;
-
+/// Weighted points of a density estimate, one array a coordinate (metres) for the vector units,
+/// filled up with points without weight.
+class WeightedPoints {
+ public:
+  explicit WeightedPoints(size_t most) {
+    for (auto* values : {&x_m, &y_m, &z_m, &weight}) values->resize(PaddedToLanes(most));
+  }
   void Add(const Eigen::Vector3f& p_m, float w) {
-    x.push_back(p_m.x());
-    y.push_back(p_m.y());
-    z.push_back(p_m.z());
-    weight.push_back(w);
+    x_m[size_] = p_m.x();
+    y_m[size_] = p_m.y();
+    z_m[size_] = p_m.z();
+    weight[size_++] = w;
   }
-  /// Drops the points from number `first` on that weigh less.
-  void KeepHeavier(size_t first, float least) {
-    size_t kept = first;
-    for (size_t i = first; i < size(); ++i) {
-      if (weight[i] < least) continue;
-      x[kept] = x[i];
-      y[kept] = y[i];
-      z[kept] = z[i];
-      weight[kept++] = weight[i];
-    }
-    for (auto* values : {&x, &y, &z, &weight}) values->resize(kept);
-  }
-  size_t size() const { return x.size(); }
-  Eigen::Vector3f at(size_t i) const { return {x[i], y[i], z[i]}; }
+  size_t size() const { return size_; }
+  Eigen::Vector3f at(size_t i) const { return {x_m[i], y_m[i], z_m[i]}; }
+
+  std::vector<float> x_m, y_m, z_m, weight;
+
+ private:
+  size_t size_ = 0;
 };
 
 /// Sum of weight · kernel and of weight · kernel · position.
@@ -41,26 +38,36 @@ struct KernelSum {
   Eigen::Vector3f moment = Eigen::Vector3f::Zero();
 };
 KernelSum SumKernels(const WeightedPoints& points, const Eigen::Vector3f& at_m, float bandwidth_m);
+/// The same density without the moment: two thirds of the time.
+float Density(const WeightedPoints& points, const Eigen::Vector3f& at_m, float bandwidth_m);
 
-/// One position vote of a pixel.
-struct PositionVote {
-  Eigen::Vector3f position_m;
-  float spread_m = 0.0F;
-  float distance_m = 0.0F;  // from the voting pixel
-  float area_m2 = 0.0F;     // of the surface its pixel stands for
-};
-
-/// What an object's pixels say, before any target's parameters come in.
+/// What an object's pixels say, before any target's parameters come in: an array for each quantity,
+/// a value in it for each sample of the pixels, filled up with samples that say nothing.
 struct Evidence {
   int class_count = 0;
-  std::vector<Eigen::Vector3f> surface_m;        // a sample of the pixels
-  std::vector<float> area_m2;                    // of surface that each stands for
-  std::vector<float> probability;                // sample × class
-  std::vector<std::vector<PositionVote>> votes;  // a list a target
-  float context_certainty = 1.0F;                // largest posterior
+  size_t count = 0;                  // of samples
+  std::vector<float> x_m, y_m, z_m;  // surface
+  std::vector<float> distance_m;     // of it from the camera
+  std::vector<float> area_m2;        // of surface that the sample stands for
+  std::vector<float> probability;    // class × stride
+  std::vector<Vote> votes;           // target × stride
+  float context_certainty = 1.0F;    // largest posterior
+
+  size_t stride() const { return area_m2.size(); }
+  Eigen::Vector3f surface_m(size_t i) const { return {x_m[i], y_m[i], z_m[i]}; }
+  const float* probability_of(size_t c) const { return probability.data() + c * stride(); }
+  const Vote* votes_for(size_t target) const { return votes.data() + target * stride(); }
 };
 Evidence GatherEvidence(const ForestModel& model, const depth::DepthView& depth,
                         const depth::Camera& camera, const Classification& classification);
+
+/// The points whose density a target's modes are sought in.
+struct TargetPoints {
+  WeightedPoints points;
+  WeightedPoints surface;  // the class part of them, weights in reference areas
+  float vote_total = 0.0F;
+};
+TargetPoints PointsOf(const Evidence& evidence, const ProposalTarget& target, size_t target_index);
 
 /// A mode with what its confidence is computed from.
 struct Mode {

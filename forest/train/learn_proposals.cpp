@@ -83,7 +83,7 @@ std::vector<ValidationImage> GatherAll(const ForestModel& model, const TrainingS
     images[i] = GatherImage(model, source.Read(chosen[i]));
   });
   std::erase_if(images,
-                [](const ValidationImage& image) { return image.evidence.surface_m.empty(); });
+                [](const ValidationImage& image) { return image.evidence.count == 0; });
   return images;
 }
 
