@@ -18,9 +18,8 @@ namespace {
 
 constexpr int kRounds = 4;  // the first with the modes' own confidences
 constexpr double kModeNoise_m = 0.03;
-constexpr double kPlaceSpread_m = 2;  // of the common place: free
-constexpr double kStrayDensity = 4;   // of modes that are not the target's, a cubic metre
-constexpr double kMostTrust = 0.97;   // of all modes of a target together
+constexpr double kStrayDensity = 4;  // of modes that are not the target's, a cubic metre
+constexpr double kMostTrust = 0.97;  // of all modes of a target together
 constexpr double kLeastTrust = 1e-3;
 constexpr double kContextRange = 4;  // nats below the likeliest context: not looked at
 constexpr double kApart_m = 0.08;    // modes nearer to the fused place are part of it
@@ -65,43 +64,6 @@ Observed Observe(const ForestModel& model, const ModesOfTargets& modes) {
   return observed;
 }
 
-// The arrangement with the common place as three more factors.
-struct FactorModel {
-  Eigen::MatrixXd loading;   // target · 3 × factor
-  Eigen::VectorXd mean;      // target · 3
-  Eigen::VectorXd variance;  // a target
-};
-
-FactorModel FactorsOf(const Arrangement& arrangement) {
-  const auto targets = static_cast<Eigen::Index>(arrangement.noise_m.size());
-  const Eigen::Index factors =
-      static_cast<Eigen::Index>(arrangement.loading_m.size()) / (3 * targets);
-  FactorModel model;
-  model.loading.resize(3 * targets, factors + 3);
-  model.mean.resize(3 * targets);
-  model.variance.resize(targets);
-  for (Eigen::Index i = 0; i < 3 * targets; ++i) {
-    for (Eigen::Index f = 0; f < factors; ++f) {
-      model.loading(i, f) = arrangement.loading_m[static_cast<size_t>(i * factors + f)];
-    }
-    for (Eigen::Index axis = 0; axis < 3; ++axis) {
-      model.loading(i, factors + axis) = i % 3 == axis ? kPlaceSpread_m : 0.0;
-    }
-    model.mean[i] = arrangement.mean_m[static_cast<size_t>(i)];
-  }
-  for (Eigen::Index t = 0; t < targets; ++t) {
-    const double noise = arrangement.noise_m[static_cast<size_t>(t)];
-    model.variance[t] = noise * noise;
-  }
-  return model;
-}
-
-// The weighed modes of a target as one measurement.
-struct Site {
-  double variance_m2 = 0.0;  // the factor model's noise included; 0: nothing measured
-  Eigen::Vector3d mean_m = Eigen::Vector3d::Zero();
-};
-
 Site SiteOf(const Observed& observed, size_t t, const std::vector<double>& weight,
             double model_variance) {
   Site site;
@@ -133,44 +95,6 @@ double Weigh(const Observed& observed, size_t t, Belief* belief) {
   return std::log(whole);
 }
 
-// Predictions of every target by all others: the posterior of the factors given all sites, each
-// target's own site taken out again.
-void Predict(const FactorModel& model, const std::vector<Site>& sites,
-             std::vector<Belief>* beliefs) {
-  const Eigen::Index factors = model.loading.cols();
-  Eigen::MatrixXd scaled = Eigen::MatrixXd::Zero(model.loading.rows(), factors);
-  Eigen::VectorXd pull = Eigen::VectorXd::Zero(model.loading.rows());
-  for (size_t t = 0; t < sites.size(); ++t) {
-    if (sites[t].variance_m2 <= 0) continue;
-    const auto row = static_cast<Eigen::Index>(3 * t);
-    const double root = 1.0 / std::sqrt(sites[t].variance_m2);
-    scaled.middleRows<3>(row) = root * model.loading.middleRows<3>(row);
-    pull.segment<3>(row) = root * (sites[t].mean_m - model.mean.segment<3>(row));
-  }
-  Eigen::MatrixXd precision = Eigen::MatrixXd::Identity(factors, factors);
-  precision.selfadjointView<Eigen::Lower>().rankUpdate(scaled.transpose());
-  const Eigen::LLT<Eigen::MatrixXd> root(precision);
-  const Eigen::VectorXd z = root.solve(scaled.transpose() * pull);
-  const Eigen::MatrixXd spread = root.matrixL().solve(model.loading.transpose());
-  for (size_t t = 0; t < sites.size(); ++t) {
-    const auto row = static_cast<Eigen::Index>(3 * t);
-    Eigen::Matrix3d covariance = spread.middleCols<3>(row).transpose() * spread.middleCols<3>(row);
-    Eigen::Vector3d offset = model.loading.middleRows<3>(row) * z;
-    if (sites[t].variance_m2 > 0) {
-      const double weight = 1.0 / sites[t].variance_m2;
-      const Eigen::Matrix3d inverse = covariance.inverse();
-      const Eigen::Vector3d own = weight * (sites[t].mean_m - model.mean.segment<3>(row));
-      covariance = (inverse - weight * Eigen::Matrix3d::Identity()).inverse();
-      offset = covariance * (inverse * offset - own);
-    }
-    Belief& belief = (*beliefs)[t];
-    belief.predicted_m = model.mean.segment<3>(row) + offset;
-    belief.covariance_m2 =
-        0.5 * (covariance + covariance.transpose()) +
-        model.variance[static_cast<Eigen::Index>(t)] * Eigen::Matrix3d::Identity();
-  }
-}
-
 // Beliefs under one arrangement; `log_likelihood` receives how well the modes fit it.
 std::vector<Belief> BeliefsUnder(const FactorModel& model, const Observed& observed,
                                  double* log_likelihood) {
@@ -181,12 +105,12 @@ std::vector<Belief> BeliefsUnder(const FactorModel& model, const Observed& obser
   }
   for (int round = 0; round < kRounds; ++round) {
     for (size_t t = 0; t < beliefs.size(); ++t) {
-      sites[t] =
-          SiteOf(observed, t, beliefs[t].weight, model.variance[static_cast<Eigen::Index>(t)]);
+      sites[t] = SiteOf(observed, t, beliefs[t].weight, model.variance_m2(t));
     }
-    Predict(model, sites, &beliefs);
+    const std::vector<Prediction> predictions = model.Predict(sites);
     *log_likelihood = 0;
     for (size_t t = 0; t < beliefs.size(); ++t) {
+      static_cast<Prediction&>(beliefs[t]) = predictions[t];
       *log_likelihood += Weigh(observed, t, &beliefs[t]);
     }
   }
@@ -238,8 +162,7 @@ Beliefs Agree(const ForestModel& model, std::span<const float> context_posterior
     const double log_prior = std::log(std::max(static_cast<double>(context_posterior[k]), 1e-6));
     if (log_prior < std::log(static_cast<double>(top)) - kContextRange) continue;
     double fit = 0;
-    std::vector<Belief> beliefs =
-        BeliefsUnder(FactorsOf(model.data().arrangements[k]), observed, &fit);
+    std::vector<Belief> beliefs = BeliefsUnder(model.tables().factor_models[k], observed, &fit);
     const double score = fit + log_prior;
     next_score = std::max(next_score, std::min(score, best_score));
     if (score <= best_score) continue;

@@ -5,6 +5,7 @@
 #include <span>
 #include <vector>
 
+#include "forest/factor_model_internal.h"
 #include "forest/forest.h"
 #include "forest/propose_internal.h"
 
@@ -12,10 +13,9 @@ namespace ossa::forest {
 
 using ModesOfTargets = std::vector<std::vector<Mode>>;  // a list a target
 
-/// What is believed of one target, in metres of camera space.
-struct Belief {
-  Eigen::Vector3d predicted_m = Eigen::Vector3d::Zero();        // by all the other targets
-  Eigen::Matrix3d covariance_m2 = Eigen::Matrix3d::Identity();  // of that prediction
+/// What is believed of one target, in metres of camera space: what all others say of it, and what
+/// that makes of its modes.
+struct Belief : Prediction {
   std::vector<double> weight;      // of each mode: P(it is the target's), other targets heard
   std::vector<double> confidence;  // of each mode by itself
   double support() const;          // P(one of the modes is the target's)

@@ -168,6 +168,7 @@ RuntimeTables MakeRuntimeTables(const ForestData& data) {
     PreferLargePages(leaves.evidence);
     tables.leaves.push_back(std::move(leaves));
   }
+  for (const Arrangement& each : data.arrangements) tables.factor_models.emplace_back(each);
   tables.neighbours = Neighbours(data);
   return tables;
 }

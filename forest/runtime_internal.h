@@ -3,6 +3,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "forest/factor_model_internal.h"
 #include "forest/forest.h"
 
 namespace ossa::forest {
@@ -29,7 +30,8 @@ struct LeafTables {
 
 /// Derived from ForestData when a model is made.
 struct RuntimeTables {
-  std::vector<LeafTables> leaves;  // one a tree
+  std::vector<LeafTables> leaves;          // one a tree
+  std::vector<FactorModel> factor_models;  // one an arrangement
   /// Of each target, the two others that move with it most; empty without arrangements.
   std::vector<std::vector<uint32_t>> neighbours;
 };

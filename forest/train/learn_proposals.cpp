@@ -82,8 +82,7 @@ std::vector<ValidationImage> GatherAll(const ForestModel& model, const TrainingS
   oneapi::tbb::parallel_for(size_t{0}, chosen.size(), [&](size_t i) {
     images[i] = GatherImage(model, source.Read(chosen[i]));
   });
-  std::erase_if(images,
-                [](const ValidationImage& image) { return image.evidence.count == 0; });
+  std::erase_if(images, [](const ValidationImage& image) { return image.evidence.count == 0; });
   return images;
 }
 

@@ -1,5 +1,7 @@
 #include <gtest/gtest.h>
 
+#include <Eigen/Dense>
+
 #include "depth/error.h"
 #include "forest/agree_internal.h"
 #include "forest/train.h"
@@ -105,6 +107,66 @@ TEST(ForestModelFile, ArrangementsComeBackAsTheyWere) {
   const ForestModel read = ReadForestModel(std::as_bytes(std::span(bytes)), "body.ossa");
   EXPECT_EQ(test::BytesOf(read), bytes);
   EXPECT_EQ(read.data().arrangements.size(), 2U);
+}
+
+// Five targets (no multiple of what a processor does side by side) and two factors.
+Arrangement SomeArrangement() {
+  Arrangement arrangement;
+  for (int i = 0; i < 15; ++i) {
+    arrangement.mean_m.push_back(0.1F * static_cast<float>(i % 4));
+    arrangement.loading_m.push_back(0.1F * std::sin(static_cast<float>(3 * i)));
+    arrangement.loading_m.push_back(0.2F * std::cos(static_cast<float>(5 * i)));
+  }
+  arrangement.noise_m = {0.02F, 0.03F, 0.04F, 0.05F, 0.06F};
+  return arrangement;
+}
+
+// All coordinates as one normal distribution; target `t` given the sites of all others, by the
+// rule for conditional distributions.
+Prediction PredictByConditioning(const Arrangement& arrangement, const std::vector<Site>& sites,
+                                 size_t t) {
+  Eigen::MatrixXd loading(15, 5);
+  for (int i = 0; i < 15; ++i) {
+    for (int f = 0; f < 2; ++f)
+      loading(i, f) = arrangement.loading_m[static_cast<size_t>(2 * i + f)];
+    for (int axis = 0; axis < 3; ++axis) loading(i, 2 + axis) = i % 3 == axis ? 2.0 : 0.0;
+  }
+  Eigen::MatrixXd covariance = loading * loading.transpose();
+  Eigen::VectorXd off = Eigen::VectorXd::Zero(15);
+  std::vector<Eigen::Index> given;
+  for (size_t s = 0; s < sites.size(); ++s) {
+    if (s == t || sites[s].variance_m2 <= 0) continue;
+    for (Eigen::Index i = 3 * static_cast<Eigen::Index>(s), axis = 0; axis < 3; ++i, ++axis) {
+      given.push_back(i);
+      covariance(i, i) += sites[s].variance_m2;
+      off[i] = sites[s].mean_m[axis] - arrangement.mean_m[static_cast<size_t>(i)];
+    }
+  }
+  const auto own = Eigen::seqN(3 * static_cast<Eigen::Index>(t), 3);
+  const Eigen::MatrixXd gain = covariance(own, given) * covariance(given, given).inverse();
+  Prediction prediction;
+  const float* mean_m = arrangement.mean_m.data() + 3 * t;
+  prediction.predicted_m = Eigen::Vector3d(mean_m[0], mean_m[1], mean_m[2]) + gain * off(given);
+  const double noise_m = arrangement.noise_m[t];
+  prediction.covariance_m2 = covariance(own, own) - gain * covariance(given, own) +
+                             noise_m * noise_m * Eigen::Matrix3d::Identity();
+  return prediction;
+}
+
+TEST(FactorModel, PredictsATargetByAllOthersAsConditioningDoes) {
+  const std::vector<Site> sites = {{1e-3, {0.1, 0.2, 2.0}},
+                                   {4e-3, {0.3, 0.1, 2.1}},
+                                   {},
+                                   {2e-3, {0.2, 0.0, 1.9}},
+                                   {9e-3, {0.0, 0.4, 2.0}}};
+  const std::vector<Prediction> predictions = FactorModel(SomeArrangement()).Predict(sites);
+  ASSERT_EQ(predictions.size(), sites.size());
+  for (size_t t = 0; t < sites.size(); ++t) {
+    const Prediction expected = PredictByConditioning(SomeArrangement(), sites, t);
+    // Both lose digits where a place that is free by metres is told to centimetres.
+    EXPECT_LT((predictions[t].predicted_m - expected.predicted_m).norm(), 1e-9) << t;
+    EXPECT_LT((predictions[t].covariance_m2 - expected.covariance_m2).norm(), 1e-9) << t;
+  }
 }
 
 }  // namespace
