@@ -9,65 +9,134 @@
 namespace ossa::forest {
 namespace {
 
-constexpr int kMaxCells = 512;      // context × class, 9 bits of an entry
 constexpr float kSmoothing = 3.0F;  // entry weights (of 127) by which a leaf's own mix of classes
                                     // stands in where a context was hardly seen
 
-struct LeafCells {
-  std::array<float, kMaxCells> weight{};
-  std::vector<float> class_weight;    // sum over contexts
-  std::vector<float> context_weight;  // sum over classes
-  float total = 0.0F;
+// A leaf's weights, told by context and class. Few of the cells are anything but 0: Load clears
+// those of the leaf before instead of all.
+class LeafCells {
+ public:
+  LeafCells(size_t classes, size_t contexts)
+      : context_weight(contexts, 0.0F),
+        class_weight_(classes, 0.0F),
+        weight_(contexts * classes, 0.0F) {}
+
+  void Load(const Tree& tree, size_t leaf) {
+    Clear();
+    float total = 0.0F;
+    for (uint32_t i = tree.entry_begin[leaf]; i < tree.entry_begin[leaf + 1]; ++i) {
+      const size_t cell = tree.entries[i] & 511U;
+      const size_t c = cell % class_weight_.size();
+      const auto weight = static_cast<float>(tree.entries[i] >> 9U);
+      if (class_weight_[c] == 0.0F) seen_classes.push_back(c);
+      weight_[cell] += weight;
+      class_weight_[c] += weight;
+      context_weight[cell / class_weight_.size()] += weight;
+      total += weight;
+    }
+    for (const size_t c : seen_classes) share_of_seen.push_back(class_weight_[c] / total);
+  }
+
+  float Weight(size_t context, size_t c) const {
+    return weight_[context * class_weight_.size() + c];
+  }
+
+  std::vector<size_t> seen_classes;   // in no order
+  std::vector<float> share_of_seen;   // of each of them: P(class | leaf)
+  std::vector<float> context_weight;  // sums over classes
+
+ private:
+  void Clear() {
+    for (const size_t c : seen_classes) {
+      class_weight_[c] = 0.0F;
+      for (size_t k = 0; k < context_weight.size(); ++k) {
+        weight_[k * class_weight_.size() + c] = 0.0F;
+      }
+    }
+    std::fill(context_weight.begin(), context_weight.end(), 0.0F);
+    seen_classes.clear();
+    share_of_seen.clear();
+  }
+
+  std::vector<float> class_weight_;
+  std::vector<float> weight_;  // context × class
 };
 
-LeafCells CellsOf(const Tree& tree, size_t leaf, size_t classes, size_t contexts) {
-  LeafCells cells;
-  cells.class_weight.assign(classes, 0.0F);
-  cells.context_weight.assign(contexts, 0.0F);
-  for (uint32_t i = tree.entry_begin[leaf]; i < tree.entry_begin[leaf + 1]; ++i) {
-    const size_t code = tree.entries[i] & 511U;
-    const auto weight = static_cast<float>(tree.entries[i] >> 9U);
-    cells.weight[code] += weight;
-    cells.class_weight[code % classes] += weight;
-    cells.context_weight[code / classes] += weight;
-    cells.total += weight;
+// log P(leaf | context) up to a constant of the leaf, by the leaf's weight in the context. Weights
+// are whole numbers: a table spares millions of logarithms.
+class LogRatios {
+ public:
+  explicit LogRatios(const ForestData& data) {
+    constexpr size_t kMostWeight = 127;  // of an entry
+    for (const float prior : data.context_prior) {
+      prior_.push_back(std::max(prior, 1e-3F));
+      std::vector<float>& ratio = table_.emplace_back();
+      for (size_t w = 0; w <= kMostWeight * data.class_names.size(); ++w) {
+        ratio.push_back(Compute(static_cast<float>(w), prior_.back()));
+      }
+    }
   }
-  return cells;
-}
 
-// log P(leaf | context) up to a constant of the leaf, centred, so that sums stay small.
-void AppendEvidence(const LeafCells& cells, const ForestData& data, std::vector<int16_t>* out) {
-  constexpr float kFloor = 0.5F;  // half an entry weight: what rounding may have hidden
+  float Of(float weight, size_t context) const {
+    const std::vector<float>& ratio = table_[context];
+    if (weight < static_cast<float>(ratio.size())) return ratio[static_cast<size_t>(weight)];
+    return Compute(weight, prior_[context]);
+  }
+
+ private:
+  static float Compute(float weight, float prior) {
+    constexpr float kFloor = 0.5F;  // half an entry weight: what rounding may have hidden
+    return std::log((weight + kFloor * prior) / prior);
+  }
+
+  std::vector<float> prior_;
+  std::vector<std::vector<float>> table_;  // context × weight
+};
+
+// Centred, so that sums stay small.
+void AppendEvidence(const LeafCells& cells, const LogRatios& log_ratios,
+                    std::vector<int16_t>* out) {
   const size_t contexts = cells.context_weight.size();
-  std::vector<float> log_ratio(contexts);
   float mean = 0.0F;
   for (size_t k = 0; k < contexts; ++k) {
-    const float prior = std::max(data.context_prior[k], 1e-3F);
-    log_ratio[k] = std::log((cells.context_weight[k] + kFloor * prior) / prior);
-    mean += log_ratio[k] / static_cast<float>(contexts);
+    mean += log_ratios.Of(cells.context_weight[k], k) / static_cast<float>(contexts);
   }
-  for (const float value : log_ratio) {
-    out->push_back(static_cast<int16_t>(std::lround(256.0F * (value - mean))));
+  for (size_t k = 0; k < contexts; ++k) {
+    const float value = log_ratios.Of(cells.context_weight[k], k) - mean;
+    out->push_back(static_cast<int16_t>(std::lround(256.0F * value)));
   }
 }
 
 // P(class | leaf, context), smoothed by P(class | leaf), as the largest shares of 255.
 ShareRow SharesOf(const LeafCells& cells, size_t context) {
-  const size_t classes = cells.class_weight.size();
-  std::vector<std::pair<float, uint8_t>> shares;
+  std::array<std::pair<float, uint8_t>, kMostShares> most{};  // (-p, column), ascending
   const float whole = cells.context_weight[context] + kSmoothing;
-  for (size_t c = 1; c < classes; ++c) {
-    const float prior = cells.total > 0 ? cells.class_weight[c] / cells.total : 0.0F;
-    const float p = (cells.weight[context * classes + c] + kSmoothing * prior) / whole;
-    if (p > 0.004F) shares.emplace_back(-p, static_cast<uint8_t>(c - 1));
+  for (size_t i = 0; i < cells.seen_classes.size(); ++i) {
+    const size_t c = cells.seen_classes[i];
+    const float p = (cells.Weight(context, c) + kSmoothing * cells.share_of_seen[i]) / whole;
+    if (p <= 0.004F) continue;
+    std::pair<float, uint8_t> share{-p, static_cast<uint8_t>(c - 1)};
+    for (auto& larger : most) {
+      if (share < larger) std::swap(share, larger);
+    }
   }
-  std::sort(shares.begin(), shares.end());
   ShareRow row;
-  for (size_t i = 0; i < std::min(kMostShares, shares.size()); ++i) {
-    row.column[i] = shares[i].second;
-    row.share[i] = static_cast<uint8_t>(std::lround(-shares[i].first * 255.0F));
+  for (size_t i = 0; i < kMostShares; ++i) {
+    row.column[i] = most[i].second;
+    row.share[i] = static_cast<uint8_t>(std::lround(-most[i].first * 255.0F));
   }
   return row;
+}
+
+// The rows of one leaf. All contexts in which it was never seen have one row.
+void FillShares(const LeafCells& cells, size_t leaf, size_t leaf_count, ShareRow* shares) {
+  const ShareRow* unseen = nullptr;
+  for (size_t k = 0; k < cells.context_weight.size(); ++k) {
+    ShareRow& row = shares[k * leaf_count + leaf];
+    const bool is_seen = cells.context_weight[k] > 0.0F;
+    row = is_seen || unseen == nullptr ? SharesOf(cells, k) : *unseen;
+    if (!is_seen) unseen = &row;
+  }
 }
 
 // Trees and tables are read at random places; with pages of 4 kB most reads would miss the
@@ -147,18 +216,17 @@ std::vector<int32_t> VoteRows(const Tree& tree, size_t* row_count) {
 
 RuntimeTables MakeRuntimeTables(const ForestData& data) {
   RuntimeTables tables;
-  const size_t classes = data.class_names.size();
   const size_t contexts = data.context_names.size();
+  const LogRatios log_ratios(data);
+  LeafCells cells(data.class_names.size(), contexts);
   for (const Tree& tree : data.trees) {
     LeafTables leaves;
     leaves.shares.resize(contexts * tree.leaf_count());
     leaves.evidence.reserve(contexts * tree.leaf_count());
     for (size_t leaf = 0; leaf < tree.leaf_count(); ++leaf) {
-      const LeafCells cells = CellsOf(tree, leaf, classes, contexts);
-      AppendEvidence(cells, data, &leaves.evidence);
-      for (size_t k = 0; k < contexts; ++k) {
-        leaves.shares[k * tree.leaf_count() + leaf] = SharesOf(cells, k);
-      }
+      cells.Load(tree, leaf);
+      AppendEvidence(cells, log_ratios, &leaves.evidence);
+      FillShares(cells, leaf, tree.leaf_count(), leaves.shares.data());
     }
     size_t rows = 0;
     leaves.vote_row = VoteRows(tree, &rows);
