@@ -19,7 +19,6 @@ std::vector<Found> LookAt(const Eyes& eyes, const depth::DepthFrame& frame,
     PerceiveOptions perceive;
     Known known = eyes.known(candidates[i]);
     perceive.context_prior = std::move(known.context_prior);
-    perceive.keep_resolution = options.keep_resolution;
     if (candidates[i].track >= 0) perceive.least_score = 0.0;
     looked[i].perception = Perceive(eyes.model, eyes.targets, frame, candidates[i], perceive);
     double& score = looked[i].perception.person_score;

@@ -76,13 +76,12 @@ struct FindOptions {
   // Of what has not moved at all after so many looks: most likely furniture.
   double still_person = 0.75;
   int still_looks = 10;
-  bool keep_resolution = false;  // see PerceiveOptions
-  size_t max_candidates = 16;    // looked at per frame, the largest first
-  double hopeful = 0.35;         // what scores less is looked at again only ...
-  double look_again_s = 0.25;    // ... so much later
-  double forget_s = 2.0;         // a doubt that is not renewed
-  double memory = 0.85;          // share of a known person's mean score in the new one
-  int grown_up_looks = 30;       // after so many a person is not taken for part of another
+  size_t max_candidates = 16;  // looked at per frame, the largest first
+  double hopeful = 0.35;       // what scores less is looked at again only ...
+  double look_again_s = 0.25;  // ... so much later
+  double forget_s = 2.0;       // a doubt that is not renewed
+  double memory = 0.85;        // share of a known person's mean score in the new one
+  int grown_up_looks = 30;     // after so many a person is not taken for part of another
 };
 
 /// The same thing looked at before, at the same place unless it moves; null if there was none.

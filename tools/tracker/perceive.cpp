@@ -4,6 +4,7 @@
 #include <chrono>
 #include <cmath>
 
+#include "forest/relabel.h"
 #include "tools/tracker/thin_internal.h"
 
 namespace ossa::tracker {
@@ -17,7 +18,6 @@ double MillisecondsSince(Clock::time_point start) {
 
 int ScaleFor(const depth::DepthFrame& frame, const depth::Candidate& candidate,
              const PerceiveOptions& options) {
-  if (options.keep_resolution) return 1;
   const double z_m = std::max(0.3, static_cast<double>(candidate.region.mean_m.z()));
   int scale = std::clamp(static_cast<int>(options.sample_m * frame.camera.fx / z_m), 1, 8);
   while (candidate.pixels.size() / static_cast<size_t>(scale * scale) > options.max_pixels &&
@@ -74,6 +74,20 @@ Perception Perceive(const forest::ForestModel& model,
   perception.person_score = PersonScore(perception.sign);
   perception.propose_ms = MillisecondsSince(propose_start);
   return perception;
+}
+
+void PaintParts(const forest::ForestModel& model, const depth::DepthFrame& frame,
+                const depth::Candidate& candidate, const Perception& perception,
+                depth::Image<uint8_t>& parts) {
+  forest::ClassifyOptions options;
+  options.context_prior = perception.classification.context;
+  const forest::Classification seen =
+      forest::Classify(model, frame.view(), frame.camera, candidate.pixels, options);
+  const std::vector<uint8_t> labels =
+      forest::Relabel(model, frame.view(), frame.camera, seen, perception.proposals);
+  for (size_t i = 0; i < labels.size(); ++i) {
+    parts.data[static_cast<size_t>(seen.pixel[i])] = labels[i];
+  }
 }
 
 }  // namespace ossa::tracker

@@ -22,10 +22,9 @@ struct Perception {
 };
 
 struct PerceiveOptions {
-  double sample_m = 0.012;       // pixels are thinned until one stands for so much of the surface
-  size_t max_pixels = 6000;      // and further, to at most so many
-  bool keep_resolution = false;  // for pictures of the parts
-  double least_score = 0.1;      // by the surface alone; below, no proposals are made
+  double sample_m = 0.012;   // pixels are thinned until one stands for so much of the surface
+  size_t max_pixels = 6000;  // and further, to at most so many
+  double least_score = 0.1;  // by the surface alone; below, no proposals are made
   std::vector<float> context_prior;
   int threads = 1;
 };
@@ -34,5 +33,11 @@ Perception Perceive(const forest::ForestModel& model,
                     const std::array<int, recon::kJointCount>& targets,
                     const depth::DepthFrame& frame, const depth::Candidate& candidate,
                     const PerceiveOptions& options);
+
+/// Labels of the candidate's pixels into an image of the frame's size: looked at once more at full
+/// resolution, with what was perceived of the facing and the joints in mind (forest::Relabel).
+void PaintParts(const forest::ForestModel& model, const depth::DepthFrame& frame,
+                const depth::Candidate& candidate, const Perception& perception,
+                depth::Image<uint8_t>& parts);
 
 }  // namespace ossa::tracker

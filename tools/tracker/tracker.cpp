@@ -72,20 +72,6 @@ unsigned ClippedEdges(const depth::DepthFrame& frame, const std::vector<int32_t>
   return edges;
 }
 
-// Part labels of one person, at the resolution they were found, into the frame's image.
-void PaintParts(const depth::DepthFrame& frame, const depth::Candidate& candidate,
-                const Perception& perception, depth::Image<uint8_t>& parts) {
-  const forest::Classification& seen = perception.classification;
-  const int scale = perception.scale, width = frame.camera.width;
-  depth::Image<uint8_t> small((width + scale - 1) / scale,
-                              (frame.camera.height + scale - 1) / scale);
-  for (size_t i = 0; i < seen.pixel.size(); ++i)
-    small.data[static_cast<size_t>(seen.pixel[i])] = seen.label[i];
-  for (const int32_t pixel : candidate.pixels) {
-    parts.data[static_cast<size_t>(pixel)] = small.at(pixel % width / scale, pixel / width / scale);
-  }
-}
-
 }  // namespace
 
 struct Tracker::Impl {
@@ -136,7 +122,6 @@ std::vector<Found> Tracker::Impl::Segment(const depth::DepthFrame& frame, BodyFr
   FindOptions find;
   find.max_users = options.max_users;
   find.threads = options.threads;
-  find.keep_resolution = options.keep_parts;
   const Eyes eyes{
       model, targets, [&](const depth::Candidate& candidate) -> Known {
         if (candidate.track < 0) return {};
@@ -254,7 +239,7 @@ BodyFrame Tracker::Impl::Push(const depth::DepthFrame& frame) {
     if (body.state == BodyState::kPositionOnly) return;
     TrackBody(frame, result.floor, found[i].perception, *persons[i], body, times[i]);
     if (options.keep_parts)
-      PaintParts(frame, found[i].candidate, found[i].perception, result.parts);
+      PaintParts(model, frame, found[i].candidate, found[i].perception, result.parts);
   });
   for (const StageTimes& t : times) {
     result.ms.reconstruct += t.reconstruct;
