@@ -76,7 +76,7 @@ OSSA_CLONES void AddTo(const int16_t* __restrict values, size_t count, int32_t* 
 // independent, so that their mean counts as evidence_scale of them (learned on held-out frames).
 std::vector<float> ContextPosterior(const ForestModel& model, const Walked& walked,
                                     std::span<const float> prior) {
-  constexpr size_t kPixels = 1500;  // their mean is the mean of all to a hundredth
+  constexpr size_t kPixels = 500;  // tell the facing as well as all do
   const auto contexts = static_cast<size_t>(model.context_count());
   const size_t trees = model.data().trees.size();
   const size_t pixels = walked.leaf.size() / trees;
