@@ -2,6 +2,7 @@
 
 #include <dlfcn.h>
 
+#include <algorithm>
 #include <cstdlib>
 #include <string>
 #include <system_error>
@@ -21,9 +22,8 @@ std::filesystem::path OwnBinary() {
              : std::filesystem::path();
 }
 
-}  // namespace
-
-std::filesystem::path ShippedFile(std::string_view name) {
+// Where shipped files may be, the first place first.
+std::vector<std::filesystem::path> Folders() {
   std::vector<std::filesystem::path> folders;
   if (const char* share = std::getenv("OSSA_SHARE"); share != nullptr && *share != '\0') {
     folders.emplace_back(share);
@@ -34,14 +34,30 @@ std::filesystem::path ShippedFile(std::string_view name) {
     if (!error) folders.push_back(real.parent_path().parent_path() / OSSA_DATA_DIR / "ossa");
   }
   folders.emplace_back(OSSA_SHIPPED_DIR);
+  return folders;
+}
+
+}  // namespace
+
+std::filesystem::path ShippedFile(std::string_view name) {
+  std::error_code error;
   std::string places;
-  for (const auto& folder : folders) {
+  for (const auto& folder : Folders()) {
     const auto file = folder / name;
     if (std::filesystem::is_regular_file(file, error)) return file;
     places += (places.empty() ? "" : ", ") + folder.string();
   }
   throw InputError(std::string(name) + ": not among the files shipped with ossa (looked in " +
                    places + "); name one with --model or --database");
+}
+
+bool IsShippedFile(const std::filesystem::path& path, std::string_view name) {
+  std::error_code error;
+  const auto folders = Folders();
+  const auto first = std::find_if(folders.begin(), folders.end(), [&](const auto& folder) {
+    return std::filesystem::is_regular_file(folder / name, error);
+  });
+  return first != folders.end() && std::filesystem::equivalent(path, *first / name, error);
 }
 
 }  // namespace ossa::tracker

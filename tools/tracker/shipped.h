@@ -10,4 +10,7 @@ namespace ossa::tracker {
 /// looked for.
 std::filesystem::path ShippedFile(std::string_view name);
 
+/// Is `path` that very file? False as well when there is no such file.
+bool IsShippedFile(const std::filesystem::path& path, std::string_view name);
+
 }  // namespace ossa::tracker

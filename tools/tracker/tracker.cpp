@@ -49,7 +49,7 @@ std::shared_ptr<const recon::PostureDatabase> LoadDatabase(const TrackerOptions&
 // (tools/train_correction). Of another forest it is known that it was shown our own bodies: bones
 // are expected in the proportions of the standard body.
 std::shared_ptr<const recon::LearnedModels> LearnedOf(const TrackerOptions& options) {
-  if (options.model.empty()) {
+  if (options.model.empty() || IsShippedFile(options.model, "body.ossa")) {
     return std::make_shared<recon::LearnedModels>(
         recon::LearnedModels::Load(ShippedFile("body.ossagp")));
   }

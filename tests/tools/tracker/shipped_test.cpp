@@ -1,0 +1,32 @@
+#include "tests/tools/tracker/tracked_scenes.h"
+
+namespace ossa::tracker {
+namespace {
+
+TEST(ShippedFile, IsItselfByAnyPathAndNoOtherFile) {
+  OSSA_NEEDS_MODEL();
+  const std::filesystem::path model = ShippedFile("body.ossa");
+  EXPECT_TRUE(IsShippedFile(model, "body.ossa"));
+  EXPECT_TRUE(IsShippedFile(model.parent_path() / "." / model.filename(), "body.ossa"));
+  EXPECT_FALSE(IsShippedFile(model, "authored.ossadb"));
+  EXPECT_FALSE(IsShippedFile(model, "nothing_of_that_name"));
+  EXPECT_FALSE(IsShippedFile(model.parent_path() / "nothing_of_that_name", "body.ossa"));
+}
+
+// What is known of the shipped forest's errors corrects its joints, however it was named.
+TEST(ShippedFile, NamedByItsPathTracksAsUnnamed) {
+  OSSA_NEEDS_MODEL();
+  TrackerOptions named;
+  named.model = ShippedFile("body.ossa").string();
+  const auto render = Rendered({PersonAt(0.0, 2.5)});
+  const BodyFrame a = Tracker(named).Push(render.frame);
+  const BodyFrame b = Tracker().Push(render.frame);
+  ASSERT_EQ(a.bodies.size(), 1U);
+  ASSERT_EQ(b.bodies.size(), 1U);
+  for (size_t j = 0; j < recon::kJointCount; ++j) {
+    EXPECT_EQ(a.bodies[0].reconstructed.position_m[j], b.bodies[0].reconstructed.position_m[j]);
+  }
+}
+
+}  // namespace
+}  // namespace ossa::tracker
