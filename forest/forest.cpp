@@ -197,7 +197,7 @@ void CheckPartPrior(const ForestData& data, const std::string& name) {
 
 }  // namespace
 
-ForestModel::ForestModel(ForestData data, const std::string& name) {
+ForestModel::ForestModel(ForestData data, const std::string& name, ModelUse use) {
   CheckNames(data, name);
   if (data.trees.empty() || data.trees.size() > 64) Refuse(name, "expected 1 to 64 trees");
   for (size_t t = 0; t < data.trees.size(); ++t) CheckTree(data, t, name);
@@ -205,8 +205,8 @@ ForestModel::ForestModel(ForestData data, const std::string& name) {
   CheckArrangements(data, name);
   CheckRefinement(data, name);
   CheckPartPrior(data, name);
+  tables_ = std::make_shared<const RuntimeTables>(MakeRuntimeTables(&data, use));
   data_ = std::make_shared<const ForestData>(std::move(data));
-  tables_ = std::make_shared<const RuntimeTables>(MakeRuntimeTables(*data_));
 }
 
 }  // namespace ossa::forest

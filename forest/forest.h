@@ -135,11 +135,16 @@ struct ForestData {
 
 struct RuntimeTables;  // forest/runtime_internal.h
 
+/// What a model is there for. One that is only run lets go what its leaves held (Tree::entries) as
+/// soon as the tables that run are made of it: a fifth of the memory. It cannot be written.
+enum class ModelUse { kAny, kRunOnly };
+
 /// A checked forest, ready to run. Immutable; copies share.
 class ForestModel {
  public:
   /// Throws InputError (naming `name`) when the data contradict themselves.
-  explicit ForestModel(ForestData data, const std::string& name = "model");
+  explicit ForestModel(ForestData data, const std::string& name = "model",
+                       ModelUse use = ModelUse::kAny);
 
   const ForestData& data() const { return *data_; }
   int class_count() const { return static_cast<int>(data_->class_names.size()); }
@@ -154,10 +159,11 @@ class ForestModel {
 };
 
 /// Throws InputError that names the file, the byte and the field.
-ForestModel ReadForestModel(const std::filesystem::path& path);
+ForestModel ReadForestModel(const std::filesystem::path& path, ModelUse use = ModelUse::kAny);
 ForestModel ReadForestModel(std::span<const std::byte> bytes, const std::string& name);
 /// True when the file starts as a forest model does.
 bool IsForestModel(const std::filesystem::path& path);
+/// Precondition: the model is not for running only.
 void WriteForestModel(const std::filesystem::path& path, const ForestModel& model);
 
 }  // namespace ossa::forest

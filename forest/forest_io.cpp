@@ -3,6 +3,7 @@
 #include <array>
 #include <cstring>
 #include <fstream>
+#include <stdexcept>
 
 #include "depth/error.h"
 #include "depth/file/sealed_file.h"
@@ -186,13 +187,14 @@ std::vector<std::byte> Unpacked(const std::vector<std::byte>& sealed, const std:
 }
 
 // Each form is let go before the next but one is made: a model is some 60 MB in each of them.
-ForestModel Parse(std::vector<std::byte> sealed, const std::string& name, uint32_t version) {
+ForestModel Parse(std::vector<std::byte> sealed, const std::string& name, uint32_t version,
+                  ModelUse use) {
   std::vector<std::byte> payload = Unpacked(sealed, name);
   std::vector<std::byte>().swap(sealed);
   const std::string where = name + " (unpacked)";
   ForestData data = ParseForest(payload, where, version);
   std::vector<std::byte>().swap(payload);
-  return ForestModel(std::move(data), where);
+  return ForestModel(std::move(data), where, use);
 }
 
 std::vector<std::byte> Packed(const ForestData& data, int level) {
@@ -219,21 +221,23 @@ std::vector<std::byte> Packed(const ForestData& data, int level) {
 
 }  // namespace
 
-ForestModel ReadForestModel(const std::filesystem::path& path) {
+ForestModel ReadForestModel(const std::filesystem::path& path, ModelUse use) {
   std::array<char, kVersionAt + sizeof(uint32_t)> head{};
   std::ifstream(path, std::ios::binary).read(head.data(), head.size());
   const SealedFormat format = FormatOf(std::as_bytes(std::span(head)));
-  return Parse(ReadSealedFile(path, format), path.string(), format.version);
+  return Parse(ReadSealedFile(path, format), path.string(), format.version, use);
 }
 
 ForestModel ReadForestModel(std::span<const std::byte> bytes, const std::string& name) {
   const SealedFormat format = FormatOf(bytes);
-  return Parse(OpenSealedBytes(bytes, name, format), name, format.version);
+  return Parse(OpenSealedBytes(bytes, name, format), name, format.version, ModelUse::kAny);
 }
 
 bool IsForestModel(const std::filesystem::path& path) { return IsSealedFile(path, kFormat); }
 
 void WriteForestModel(const std::filesystem::path& path, const ForestModel& model) {
+  const Tree& first = model.data().trees.front();
+  if (first.entry_begin.empty()) throw std::logic_error("a model to run only cannot be written");
   WriteSealedFile(path, kFormat, Packed(model.data(), kCompressionLevel));
 }
 

@@ -34,6 +34,7 @@ NodeColumns ColumnsOf(const std::vector<Node>& nodes) {
 // Breadth-first: the n-th inner node has children 1 + 2n and 2 + 2n, the n-th leaf number n.
 std::vector<Node> NodesOf(const NodeColumns& columns, const PayloadReader& reader) {
   std::vector<Node> nodes;
+  nodes.reserve(columns.is_leaf.size());
   size_t inner = 0;
   int32_t leaf = 0;
   for (const auto& column : columns.inner) {
@@ -86,6 +87,8 @@ void GetLeaves(PayloadReader* reader, Tree* tree) {
   const auto steps = GetPlanes<uint16_t>(reader, "leaf entry codes");
   const auto weights = reader->GetVector<uint8_t>("leaf entry weights");
   if (steps.size() != weights.size()) reader->Fail("leaf entry weights", "not one a code");
+  tree->entries.reserve(steps.size());
+  tree->entry_begin.reserve(counts.size() + 1);
   tree->entry_begin.push_back(0);
   for (const uint16_t count : counts) {
     if (count > steps.size() - tree->entries.size()) reader->Fail("leaf entries", "too few");

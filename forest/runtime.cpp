@@ -191,6 +191,25 @@ std::vector<std::vector<uint32_t>> Neighbours(const ForestData& data) {
   return neighbours;
 }
 
+LeafTables MakeLeafTables(const Tree& tree, size_t contexts, const LogRatios& log_ratios,
+                          LeafCells* cells) {
+  LeafTables leaves;
+  leaves.shares.resize(contexts * tree.leaf_count());
+  leaves.evidence.reserve(contexts * tree.leaf_count());
+  for (size_t leaf = 0; leaf < tree.leaf_count(); ++leaf) {
+    cells->Load(tree, leaf);
+    AppendEvidence(*cells, log_ratios, &leaves.evidence);
+    FillShares(*cells, leaf, tree.leaf_count(), leaves.shares.data());
+  }
+  size_t rows = 0;
+  leaves.vote_row = VoteRows(tree, &rows);
+  if (tree.votes.empty()) std::fill(leaves.vote_row.begin(), leaves.vote_row.end(), -1);
+  PreferLargePages(tree.nodes);
+  PreferLargePages(leaves.shares);
+  PreferLargePages(leaves.evidence);
+  return leaves;
+}
+
 }  // namespace
 
 std::vector<int32_t> VoteRows(const Tree& tree, size_t* row_count) {
@@ -214,30 +233,18 @@ std::vector<int32_t> VoteRows(const Tree& tree, size_t* row_count) {
   return row_of_leaf;
 }
 
-RuntimeTables MakeRuntimeTables(const ForestData& data) {
+RuntimeTables MakeRuntimeTables(ForestData* data, ModelUse use) {
   RuntimeTables tables;
-  const size_t contexts = data.context_names.size();
-  const LogRatios log_ratios(data);
-  LeafCells cells(data.class_names.size(), contexts);
-  for (const Tree& tree : data.trees) {
-    LeafTables leaves;
-    leaves.shares.resize(contexts * tree.leaf_count());
-    leaves.evidence.reserve(contexts * tree.leaf_count());
-    for (size_t leaf = 0; leaf < tree.leaf_count(); ++leaf) {
-      cells.Load(tree, leaf);
-      AppendEvidence(cells, log_ratios, &leaves.evidence);
-      FillShares(cells, leaf, tree.leaf_count(), leaves.shares.data());
-    }
-    size_t rows = 0;
-    leaves.vote_row = VoteRows(tree, &rows);
-    if (tree.votes.empty()) std::fill(leaves.vote_row.begin(), leaves.vote_row.end(), -1);
-    PreferLargePages(tree.nodes);
-    PreferLargePages(leaves.shares);
-    PreferLargePages(leaves.evidence);
-    tables.leaves.push_back(std::move(leaves));
+  const LogRatios log_ratios(*data);
+  LeafCells cells(data->class_names.size(), data->context_names.size());
+  for (Tree& tree : data->trees) {
+    tables.leaves.push_back(MakeLeafTables(tree, data->context_names.size(), log_ratios, &cells));
+    if (use == ModelUse::kAny) continue;
+    std::vector<uint32_t>().swap(tree.entry_begin);
+    std::vector<uint16_t>().swap(tree.entries);
   }
-  for (const Arrangement& each : data.arrangements) tables.factor_models.emplace_back(each);
-  tables.neighbours = Neighbours(data);
+  for (const Arrangement& each : data->arrangements) tables.factor_models.emplace_back(each);
+  tables.neighbours = Neighbours(*data);
   return tables;
 }
 

@@ -36,7 +36,8 @@ struct RuntimeTables {
   std::vector<std::vector<uint32_t>> neighbours;
 };
 
-RuntimeTables MakeRuntimeTables(const ForestData& data);
+/// Of a model that is only run, each tree's entries are let go before the next tree's turn.
+RuntimeTables MakeRuntimeTables(ForestData* data, ModelUse use);
 
 /// The row of votes of each leaf: rows are given out breadth-first to the nodes at the tree's
 /// vote_depth and to the leaves above it. `row_count` receives their number.

@@ -3,6 +3,7 @@
 
 #include <fstream>
 #include <limits>
+#include <stdexcept>
 
 #include "depth/error.h"
 #include "depth/file/sealed_file.h"
@@ -43,6 +44,21 @@ TEST(ForestModelFile, ComesBackAsItWas) {
   const std::vector<char> bytes = test::BytesOf(BallModel());
   const ForestModel read = ReadForestModel(std::as_bytes(std::span(bytes)), "body.ossa");
   EXPECT_EQ(test::BytesOf(read), bytes);
+}
+
+TEST(ForestModelFile, ReadToRunOnlyItRunsAsEver) {
+  const ossa::test::TemporaryFolder folder;
+  const auto path = folder.path() / "body.ossa";
+  WriteForestModel(path, BallModel());
+  const ForestModel to_run = ReadForestModel(path, ModelUse::kRunOnly);
+  EXPECT_TRUE(to_run.data().trees.front().entries.empty());
+  const TrainingImage image = BallFigures(1, 9).Read(0);
+  const auto classify = [&](const ForestModel& model) {
+    return Classify(model, test::ViewOf(image), image.camera, test::ObjectPixels(image));
+  };
+  EXPECT_EQ(classify(to_run).label, classify(BallModel()).label);
+  EXPECT_EQ(classify(to_run).mass, classify(BallModel()).mass);
+  EXPECT_THROW(WriteForestModel(folder.path() / "again.ossa", to_run), std::logic_error);
 }
 
 TEST(ForestModelFile, EveryTruncationIsRefusedByName) {

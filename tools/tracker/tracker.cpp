@@ -87,7 +87,7 @@ struct Tracker::Impl {
 
   explicit Impl(const TrackerOptions& o)
       : options(o),
-        model(forest::ReadForestModel(ModelPath(o))),
+        model(forest::ReadForestModel(ModelPath(o), forest::ModelUse::kRunOnly)),
         targets(JointTargets(model, o.model.empty() ? "body.ossa" : o.model)) {
     complete.physics = o.physics;
     complete.mechanics = o.mechanics;
