@@ -26,12 +26,13 @@ template <int kRows>
 [[gnu::always_inline]] inline void Tile(const Factors& f, Eigen::Index row, Eigen::Index column) {
   Lanes sum[kRows][2] = {};
   for (Eigen::Index k = 0; k < f.inner; ++k) {
-    Lanes b[2];
-    std::memcpy(b, f.b + k * f.b_stride + column, sizeof(b));
+    Lanes left, right;  // loaded one by one: copied together they would go through memory
+    Load(f.b + k * f.b_stride + column, &left);
+    Load(f.b + k * f.b_stride + column + kLanes, &right);
     for (int r = 0; r < kRows; ++r) {
       const float a = f.a[(row + r) * f.a_stride + k];
-      sum[r][0] += a * b[0];
-      sum[r][1] += a * b[1];
+      sum[r][0] += a * left;
+      sum[r][1] += a * right;
     }
   }
   for (int r = 0; r < kRows; ++r) {
@@ -58,10 +59,10 @@ template <int kInner>
   const Eigen::Index columns = f.columns - f.columns % kTileColumns;
   for (Eigen::Index column = 0; column < columns; column += kLanes) {
     Lanes sum;
-    std::memcpy(&sum, out + column, sizeof(sum));
+    Load(out + column, &sum);
     for (int i = 0; i < kInner; ++i) {
       Lanes line;
-      std::memcpy(&line, b + i * f.b_stride + column, sizeof(line));
+      Load(b + i * f.b_stride + column, &line);
       sum += a[i] * line;
     }
     std::memcpy(out + column, &sum, sizeof(sum));

@@ -188,13 +188,23 @@ std::vector<uint8_t> Relabel(const ForestModel& model, const depth::DepthView& d
   const Spots spots = ChooseSpots(depth, camera, classification.pixel);
   const size_t stride = classification.mass_stride;
   const RowMatrix factor = FactorsAt(prior, anchors, spots, static_cast<Eigen::Index>(stride));
+  // Pixels that share sample and spot share the label: each sample knows its last.
+  struct Last {
+    uint32_t spot = ~0U;
+    uint8_t label = 0;
+  };
+  std::vector<Last> last(classification.mass_scale.size());
   for (size_t i = 0; i < label.size(); ++i) {
     if (label[i] == 0) continue;  // the trees say nothing of it
     const auto sample = static_cast<size_t>(classification.sample[i]);
-    const uint8_t column =
-        Likeliest(classification.mass.data() + sample * stride, classification.mass_scale[sample],
-                  factor.row(spots.of_pixel[i]).data(), stride);
-    label[i] = static_cast<uint8_t>(column + 1);
+    const uint32_t spot = spots.of_pixel[i];
+    if (last[sample].spot != spot) {
+      const uint8_t column =
+          Likeliest(classification.mass.data() + sample * stride, classification.mass_scale[sample],
+                    factor.row(spot).data(), stride);
+      last[sample] = {spot, static_cast<uint8_t>(column + 1)};
+    }
+    label[i] = last[sample].label;
   }
   return label;
 }
