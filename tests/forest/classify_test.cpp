@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <array>
+
 #include "forest/feature_internal.h"
 #include "forest/smooth_internal.h"
 #include "forest/sparse_internal.h"
@@ -66,6 +68,23 @@ TEST(Classify, LetsFewPixelsSpeakForTheirNeighbours) {
   }
   // What changes lies at the edges of the balls, a pixel wide: 3 % of a ball 60 pixels across.
   EXPECT_GT(static_cast<double>(same) / static_cast<double>(all), 0.97);
+}
+
+TEST(ForRows, GivesEachRowThatHoldsAnythingOnce) {
+  const std::vector<int32_t> place = {3, 4, 9, 20, 29, 30};  // in rows of ten
+  std::vector<std::array<size_t, 3>> rows;
+  ForRows(place, 10, [&](int32_t row, size_t first, size_t last) {
+    rows.push_back({static_cast<size_t>(row), first, last});
+  });
+  EXPECT_EQ(rows, (std::vector<std::array<size_t, 3>>{{0, 0, 3}, {2, 3, 5}, {3, 5, 6}}));
+}
+
+TEST(ForRows, TheLastRowOfTheLargestBoxOverflowsNothing) {
+  const std::vector<int32_t> place = {0x7fff'0000, 0x7fff'ffff};
+  ForRows(place, kPositionRow, [](int32_t row, size_t first, size_t last) {
+    EXPECT_EQ(row, 0x7fff);
+    EXPECT_EQ(last - first, 2U);
+  });
 }
 
 // The vector path takes 128 pixels at a time, eight to a vector: any rest of them must do.
