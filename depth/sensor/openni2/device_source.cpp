@@ -3,6 +3,7 @@
 #include <atomic>
 #include <cmath>
 #include <cstring>
+#include <mutex>
 #include <string>
 #include <thread>
 
@@ -22,13 +23,15 @@ using std::chrono::milliseconds;
 // the unplugged flag must be looked at between short waits.
 constexpr milliseconds kSlice{100};
 
-// Sets a flag when the device goes; called on the driver's thread, where nothing else is allowed.
+// Sets a flag when the device goes; called on a driver's thread, where nothing else is allowed, for
+// any device of the process: another camera may be unplugged while this one is looked for.
 class UnplugFlag final : public openni::OpenNI::DeviceDisconnectedListener {
  public:
   UnplugFlag() { openni::OpenNI::addDeviceDisconnectedListener(this); }
   ~UnplugFlag() override { openni::OpenNI::removeDeviceDisconnectedListener(this); }
 
   void Watch(const std::string& uri) {
+    const std::lock_guard lock(mutex_);
     uri_ = uri;
     set_ = false;
   }
@@ -36,9 +39,11 @@ class UnplugFlag final : public openni::OpenNI::DeviceDisconnectedListener {
 
  private:
   void onDeviceDisconnected(const openni::DeviceInfo* info) override {
+    const std::lock_guard lock(mutex_);
     if (uri_ == info->getUri()) set_ = true;
   }
-  std::string uri_;  // written only while no device is open
+  std::mutex mutex_;  // guards uri_
+  std::string uri_;
   std::atomic<bool> set_ = false;
 };
 
