@@ -80,6 +80,19 @@ std::vector<uint8_t> ArrivedSince(const PointGrid& grid, const BackgroundState& 
   return arrived;
 }
 
+float ArrivedArea_m2(const PointGrid& grid, const std::vector<int>& cells,
+                     const std::vector<uint8_t>& arrived) {
+  float area_m2 = 0;
+  for (const int cell : cells) {
+    const int x = cell % grid.width, y = cell / grid.width;
+    bool all = grid.Contains(x - 1, y - 1) && grid.Contains(x + 1, y + 1);
+    for (int i = 0; i < 9 && all; ++i)
+      all = arrived[static_cast<size_t>(grid.cell(x - 1 + i % 3, y - 1 + i / 3))] != 0;
+    area_m2 += all ? grid.Area(cell) : 0.0F;
+  }
+  return area_m2;
+}
+
 std::vector<uint8_t> SeenBackground(const PointGrid& grid, const BackgroundState& state,
                                     const BackgroundOptions& options) {
   return SeenFor(options.steady_frames, grid, state);

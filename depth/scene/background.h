@@ -30,6 +30,10 @@ std::vector<uint8_t> SeenBefore(const PointGrid& grid, const BackgroundState& st
 /// True per cell that stands clearly before a surface that was seen there: it came here.
 std::vector<uint8_t> ArrivedSince(const PointGrid& grid, const BackgroundState& state);
 
+/// Surface of those of `cells` that have arrived with all their neighbours.
+float ArrivedArea_m2(const PointGrid& grid, const std::vector<int>& cells,
+                     const std::vector<uint8_t>& arrived);
+
 /// True per cell where the known background itself is seen.
 std::vector<uint8_t> SeenBackground(const PointGrid& grid, const BackgroundState& state,
                                     const BackgroundOptions& options = {});

@@ -22,6 +22,9 @@ constexpr std::array<Spread, kMeasureCount> kSpread = {{
     {0.042, 0.030, 0.014},  // knee to ankle
 }};
 
+// Times the spread over frames, in the first three of somebody who comes out from behind another.
+constexpr double kHalfHidden = 2.5;
+
 double Square(double x) { return x * x; }
 
 double LogNormal(double x, double variance) {
@@ -39,7 +42,7 @@ void BodyMeasures::Add(const MeasuredBody& look) {
   }
 }
 
-double LogLikelihoodRatio(const BodyMeasures& known, const MeasuredBody& look) {
+double LogLikelihoodRatio(const BodyMeasures& known, const MeasuredBody& look, bool half_hidden) {
   // One wrong measure may not outweigh the others. Measures of one body go together (who is tall
   // has long legs): a third of them count.
   constexpr double kMost = 3.0, kIndependent = 1.0 / 3;
@@ -47,8 +50,8 @@ double LogLikelihoodRatio(const BodyMeasures& known, const MeasuredBody& look) {
   for (size_t k = 0; k < kMeasureCount; ++k) {
     if (known.looks[k] == 0 || !look[k]) continue;
     const Spread& spread = kSpread[k];
-    const double noise =
-        2 * Square(spread.lasting) + Square(spread.frames) * (1 + 1.0 / known.looks[k]);
+    const double frames = Square(half_hidden ? kHalfHidden : 1.0) + 1.0 / known.looks[k];
+    const double noise = 2 * Square(spread.lasting) + frames * Square(spread.frames);
     const double off_m = static_cast<double>(known.mean_m[k] - *look[k]);
     const double ratio =
         LogNormal(off_m, noise) - LogNormal(off_m, noise + 2 * Square(spread.people));

@@ -19,7 +19,9 @@ struct BodyMeasures {
 };
 
 /// Log of how much likelier two looks' measures are when both are of one body than when they are of
-/// two people. 0 where nothing can be compared; bounded, for a look may be wrong altogether.
-double LogLikelihoodRatio(const BodyMeasures& known, const MeasuredBody& look);
+/// two people. 0 where nothing can be compared; bounded, for a look may be wrong altogether. A look
+/// at somebody half hidden is rougher.
+double LogLikelihoodRatio(const BodyMeasures& known, const MeasuredBody& look,
+                          bool half_hidden = false);
 
 }  // namespace ossa::depth

@@ -28,22 +28,11 @@ bool Covered(const PointGrid& grid, int from, int to) {
   return 3 * nearer > steps;
 }
 
-// On the way from the cell of one that is nearest to the other's middle.
-bool HiddenBetween(const PointGrid& grid, const Region& a, const Region& b) {
-  const auto nearest = [&](const Region& region, const Eigen::Vector3f& to_m) {
-    return *std::min_element(region.cells.begin(), region.cells.end(), [&](int p, int q) {
-      return (grid.at(p) - to_m).squaredNorm() < (grid.at(q) - to_m).squaredNorm();
-    });
-  };
-  const int from = nearest(a, b.mean_m);
-  return Covered(grid, from, nearest(b, grid.at(from)));
-}
-
 // Two pieces of one person, of whom somebody nearer hides the middle.
 bool OneBehind(const PointGrid& grid, const Region& a, const Region& b) {
   constexpr float kAside_m = 0.45F, kDeep_m = 0.5F, kPerson_m2 = 0.5F;
-  const Eigen::Vector3f apart_m = a.mean_m - b.mean_m;
-  if (std::abs(apart_m.x()) > kAside_m || std::abs(apart_m.z()) > kDeep_m) return false;
+  const Eigen::Vector2f apart_m = grid.OnFloor(a.mean_m - b.mean_m);
+  if (std::abs(apart_m.x()) > kAside_m || std::abs(apart_m.y()) > kDeep_m) return false;
   if (a.area_m2 + b.area_m2 > kPerson_m2) return false;
   return HiddenBetween(grid, a, b);
 }
@@ -54,8 +43,8 @@ bool LegsBelow(const PointGrid& grid, const Region& body, const Region& legs) {
   constexpr float kLeast_m2 = 0.02F, kMost_m2 = 0.3F, kBroad_m = 0.09F;
   constexpr float kBody_m2 = 0.12F;
   if (legs.area_m2 < kLeast_m2 || legs.area_m2 > kMost_m2 || body.area_m2 < kBody_m2) return false;
-  const Eigen::Vector3f apart_m = body.mean_m - legs.mean_m;
-  if (std::abs(apart_m.x()) > kAside_m || std::abs(apart_m.z()) > kDeep_m) return false;
+  const Eigen::Vector2f apart_m = grid.OnFloor(body.mean_m - legs.mean_m);
+  if (std::abs(apart_m.x()) > kAside_m || std::abs(apart_m.y()) > kDeep_m) return false;
   const float below_m = body.low_m.y() - legs.high_m.y();
   if (below_m < 0 || below_m > kFarBelow_m) return false;
   if (legs.area_m2 < kBroad_m * (legs.high_m.y() - legs.low_m.y())) return false;
@@ -63,6 +52,17 @@ bool LegsBelow(const PointGrid& grid, const Region& body, const Region& legs) {
 }
 
 }  // namespace
+
+// From the cell of one that is nearest to the other's middle.
+bool HiddenBetween(const PointGrid& grid, const Region& a, const Region& b) {
+  const auto nearest = [&](const Region& region, const Eigen::Vector3f& to_m) {
+    return *std::min_element(region.cells.begin(), region.cells.end(), [&](int p, int q) {
+      return (grid.at(p) - to_m).squaredNorm() < (grid.at(q) - to_m).squaredNorm();
+    });
+  };
+  const int from = nearest(a, b.mean_m);
+  return Covered(grid, from, nearest(b, grid.at(from)));
+}
 
 std::vector<Region> JoinBehind(const PointGrid& grid, std::vector<Region> regions,
                                const std::vector<uint8_t>& arrived, const std::vector<int>& owner,

@@ -112,7 +112,7 @@ std::vector<int> TracksOf(const Scene& scene, const std::vector<const Candidate*
       const double overlap =
           time_s - user.seen_s < 0.5 ? Overlap(scene.grid, user, *people[p]) : 0.0;
       weight.back().push_back(
-          LogLikelihoodRatio(user, *people[p], way, time_s, options.reidentify) +
+          LogLikelihoodRatio(scene.grid, user, *people[p], way, time_s, options.reidentify) +
           (overlap > 0.3 ? kSameCells * overlap : 0.0));
     }
   }
@@ -158,24 +158,28 @@ void NoteMovement(UserTrack& user, const Region& region, double time_s) {
   user.moved = user.moved || HasMoved(user.first_mean_m, user.first_m2, region);
 }
 
-void Renew(UserTrack& user, const PointGrid& grid, const Region& region, double time_s) {
+void Renew(UserTrack& user, const PointGrid& grid, const Candidate& person, double time_s) {
   constexpr float kHidden = 0.8F;  // of the surface seen lately
+  const Region& region = person.region;
   const bool hidden = region.area_m2 < kHidden * user.full_m2;
   const auto dt = static_cast<float>(time_s - user.seen_s);
   if (user.cells.empty() || dt <= 1e-3F || dt >= 0.5F) {
     user.velocity_m_s.setZero();
+    user.steps = 0;
   } else if (!hidden) {
     Vector3f velocity = (region.mean_m - user.mean_m) / dt;
     velocity.y() = 0;  // nobody flies
     // Half of a new velocity each frame; nobody runs faster than 4 m/s in view of a Kinect.
     user.velocity_m_s = 0.5F * (user.velocity_m_s + velocity);
     if (user.velocity_m_s.norm() > 4) user.velocity_m_s *= 4 / user.velocity_m_s.norm();
+    ++user.steps;
   }
   if (hidden && !user.cells.empty()) {
     MoveHidden(user, region, time_s);
   } else {
     user.mean_m = region.mean_m;
   }
+  if (!hidden) user.body.Add(person.body);  // of who is half hidden joints are guesses
   NoteMovement(user, region, time_s);
   constexpr float kForget = 0.99F;  // who turns sideways shows less for long
   user.full_m2 = std::max(region.area_m2, kForget * user.full_m2);
@@ -243,8 +247,7 @@ std::vector<int> ConfirmUsers(const Scene& scene, const std::vector<const Candid
       state.next_id = state.next_id % 255 + 1;  // ids fit the user image's byte
     }
     UserTrack& user = state.users[static_cast<size_t>(track_of[p])];
-    Renew(user, scene.grid, people[p]->region, time_s);
-    user.body.Add(people[p]->body);
+    Renew(user, scene.grid, *people[p], time_s);
     ids.push_back(user.id);
     for (const int cell : people[p]->region.cells) claimed[static_cast<size_t>(cell)] = 1;
   }

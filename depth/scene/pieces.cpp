@@ -30,18 +30,22 @@ float Gap(const PointGrid& grid, const Region& small, const std::vector<int>& la
 }
 
 // Somebody comes out from behind somebody else in pieces: a piece that was nobody's is the user's
-// of whom a good part is still hidden, if it is where the user is expected and not more than the
-// user lacks. users.size() for none.
-size_t ComesOutAs(const Region& piece, const std::vector<Region>& owned,
+// of whom a good part is still hidden, if it is where the user is expected, or a stride from there
+// and only nearer surface lies between, and not more than the user lacks. users.size() for none.
+size_t ComesOutAs(const PointGrid& grid, const Region& piece, const std::vector<Region>& owned,
                   const std::vector<int>& home, const std::vector<UserTrack>& users,
                   double time_s) {
-  constexpr float kHidden = 0.75F, kAside_m = 0.35F, kBehind_m = 0.25F;
+  constexpr float kHidden = 0.75F, kAside_m = 0.35F, kBehind_m = 0.25F, kStride_m = 0.6F;
+  constexpr float kSideways_m2 = 0.3F;  // of an adult
   for (size_t u = 0; u < users.size(); ++u) {
     if (home[u] < 0) continue;
-    const float seen_m2 = owned[static_cast<size_t>(home[u])].area_m2, full_m2 = users[u].full_m2;
+    const Region& seen = owned[static_cast<size_t>(home[u])];
+    // Who was half hidden all along has more than was ever seen.
+    const float seen_m2 = seen.area_m2, full_m2 = std::max(users[u].full_m2, kSideways_m2);
     if (seen_m2 > kHidden * full_m2 || seen_m2 + piece.area_m2 > 1.1F * full_m2) continue;
-    const Eigen::Vector3f off = PredictedMean_m(users[u], time_s) - piece.mean_m;
-    if (std::abs(off.x()) < kAside_m && std::abs(off.z()) < kBehind_m) return u;
+    const Eigen::Vector2f off = grid.OnFloor(PredictedMean_m(users[u], time_s) - piece.mean_m);
+    if (std::abs(off.y()) > kBehind_m || std::abs(off.x()) > kStride_m) continue;
+    if (std::abs(off.x()) < kAside_m || HiddenBetween(grid, seen, piece)) return u;
   }
   return users.size();
 }
@@ -205,7 +209,7 @@ std::vector<Region> JoinByHistory(const PointGrid& grid, std::vector<Region> reg
   }
   std::vector<Region> result;
   for (Region& region : others) {
-    const size_t u = ComesOutAs(region, owned, home, users, time_s);
+    const size_t u = ComesOutAs(grid, region, owned, home, users, time_s);
     if (u == users.size()) {
       result.push_back(std::move(region));
     } else {

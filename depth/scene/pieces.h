@@ -35,6 +35,9 @@ bool ArrivedPersonSized(const Region& region, const std::vector<uint8_t>& arrive
 std::vector<Region> JoinPieces(const PointGrid& grid, std::vector<Region> regions,
                                const std::vector<int>& owner, size_t users);
 
+/// True where on the way between two pieces is nothing but nearer surface.
+bool HiddenBetween(const PointGrid& grid, const Region& a, const Region& b);
+
 /// What shows of somebody at either side of somebody nearer, and above: pieces that came here and
 /// were nobody's, one as far away as the other, with nothing but nearer surface on the way between
 /// them.

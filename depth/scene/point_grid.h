@@ -1,5 +1,6 @@
 #pragma once
 #include <Eigen/Core>
+#include <Eigen/Geometry>
 #include <vector>
 
 #include "depth/image/camera.h"
@@ -10,13 +11,14 @@ namespace ossa::depth {
 /// A depth image thinned to about 160 × 120 camera-space points: enough to tell people from rooms,
 /// and sixteen times cheaper than the image itself.
 struct PointGrid {
-  int width = 0;                         // cells
-  int height = 0;                        // cells
-  int step = 1;                          // pixels a cell, both ways
-  Camera camera;                         // of the full image
-  std::vector<Eigen::Vector3f> point_m;  // row-major; z = 0 where nothing was measured
-  float max_depth_m = 0;                 // what is farther counts as not measured,
-  std::vector<uint8_t> beyond;           // ... and is marked here
+  int width = 0;                                  // cells
+  int height = 0;                                 // cells
+  int step = 1;                                   // pixels a cell, both ways
+  Camera camera;                                  // of the full image
+  std::vector<Eigen::Vector3f> point_m;           // row-major; z = 0 where nothing was measured
+  float max_depth_m = 0;                          // what is farther counts as not measured,
+  std::vector<uint8_t> beyond;                    // ... and is marked here
+  Eigen::Vector3f up = Eigen::Vector3f::UnitY();  // by the floor, where one is known
 
   int cells() const { return width * height; }
   int cell(int x, int y) const { return y * width + x; }
@@ -28,6 +30,12 @@ struct PointGrid {
   /// Cells that a length across the line of sight spans at depth z.
   float CellsOf(float length_m, float z_m) const {
     return length_m * static_cast<float>(camera.fx) / (z_m * static_cast<float>(step));
+  }
+  /// Where a point is over the floor, to the left and ahead: head and feet of one person are about
+  /// at one place, also before a sensor that looks down.
+  Eigen::Vector2f OnFloor(const Eigen::Vector3f& p_m) const {
+    const Eigen::Vector3f left = up.cross(Eigen::Vector3f::UnitZ()).normalized();
+    return {left.dot(p_m), left.cross(up).dot(p_m)};
   }
   /// Area of one cell's patch seen frontally, square metres.
   float Area(int cell) const {

@@ -10,8 +10,6 @@ namespace {
 
 using Eigen::Vector2d;
 
-Vector2d OnFloor(const Eigen::Vector3f& p) { return {p.x(), p.z()}; }
-
 // Of a place `off` the expected one, a normal distribution over the floor.
 double Density_1_m2(const Vector2d& off_m, double spread_m) {
   const double variance = spread_m * spread_m;
@@ -20,13 +18,16 @@ double Density_1_m2(const Vector2d& off_m, double spread_m) {
 
 // Some of those out of view walk on, less and less straight; some stay; some go anywhere that can
 // be reached on foot.
-double PlaceDensity_1_m2(const UserTrack& lost, const Vector2d& place_m, double time_s,
+double PlaceDensity_1_m2(const PointGrid& grid, const UserTrack& lost,
+                         const Eigen::Vector3f& place_m, double time_s,
                          const ReidentifyOptions& options) {
   const double gone_s = std::max(0.0, time_s - lost.seen_s);
   const double walked_s = options.walk_s * (1 - std::exp(-gone_s / options.walk_s));
-  const Vector2d from_m = place_m - OnFloor(lost.mean_m);
-  const Vector2d walked_m = from_m - walked_s * OnFloor(lost.velocity_m_s);
-  return options.walk_share * Density_1_m2(walked_m, 0.2 + 0.35 * gone_s) +
+  const Vector2d from_m = grid.OnFloor(place_m - lost.mean_m).cast<double>();
+  const Vector2d walked_m = from_m - walked_s * grid.OnFloor(lost.velocity_m_s).cast<double>();
+  // The velocity of who was seen for a few frames only is rough.
+  const double rough_m_s = 1.0 / std::max(1, lost.steps);
+  return options.walk_share * Density_1_m2(walked_m, 0.2 + (0.35 + rough_m_s) * gone_s) +
          options.stay_share * Density_1_m2(from_m, 0.25 + 0.25 * gone_s) +
          (1 - options.walk_share - options.stay_share) * Density_1_m2(from_m, 0.5 + 0.9 * gone_s);
 }
@@ -62,12 +63,12 @@ Way WayOf(const PointGrid& grid, const std::vector<int>& cells, const std::vecto
   return behind ? Way::kBehind : Way::kOpen;
 }
 
-double LogLikelihoodRatio(const UserTrack& lost, const Candidate& newcomer, Way way, double time_s,
-                          const ReidentifyOptions& options) {
-  double density = PlaceDensity_1_m2(lost, OnFloor(newcomer.region.mean_m), time_s, options);
+double LogLikelihoodRatio(const PointGrid& grid, const UserTrack& lost, const Candidate& newcomer,
+                          Way way, double time_s, const ReidentifyOptions& options) {
+  double density = PlaceDensity_1_m2(grid, lost, newcomer.region.mean_m, time_s, options);
   if (lost.lost_behind != (way == Way::kBehind)) density *= options.other_way;
   return std::log(density / NewPeople_1_m2(way, options)) +
-         LogLikelihoodRatio(lost.body, newcomer.body);
+         LogLikelihoodRatio(lost.body, newcomer.body, way == Way::kBehind);
 }
 
 std::vector<int> BestAssignment(const std::vector<std::vector<double>>& weight, size_t columns) {

@@ -19,8 +19,8 @@ Way WayOf(const PointGrid& grid, const std::vector<int>& cells, const std::vecto
           const std::vector<int>& person_of, int self);
 
 /// Log of how much likelier it is that a newcomer is this lost user than that it is somebody new.
-double LogLikelihoodRatio(const UserTrack& lost, const Candidate& newcomer, Way way, double time_s,
-                          const ReidentifyOptions& options);
+double LogLikelihoodRatio(const PointGrid& grid, const UserTrack& lost, const Candidate& newcomer,
+                          Way way, double time_s, const ReidentifyOptions& options);
 
 /// The assignment of columns to rows with the largest sum of weights; only positive weights count.
 /// Column of each row, -1 for none. The Hungarian method.

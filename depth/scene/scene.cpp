@@ -69,6 +69,7 @@ std::vector<Candidate> CandidatesIn(const DepthFrame& frame, const PointGrid& gr
     candidate.has_head = !seeds.empty();
     candidate.flat_share = ShareOf(piece, facts.flat);
     candidate.arrived_share = ShareOf(piece, facts.arrived);
+    candidate.arrived_m2 = ArrivedArea_m2(grid, piece.cells, facts.arrived);
     candidate.region = std::move(piece);
     candidates.push_back(std::move(candidate));
   }
@@ -106,14 +107,14 @@ void ContinueTracks(const std::vector<int>& owner, const std::vector<UserTrack>&
 
 // What comes into view close to somebody who is seen may be the rest of them: of it nothing is
 // taken for granted.
-void DoubtRests(const std::vector<UserTrack>& users, double time_s,
+void DoubtRests(const PointGrid& grid, const std::vector<UserTrack>& users, double time_s,
                 std::vector<Candidate>& candidates) {
   constexpr float kClose_m = 0.45F;
   const auto close = [&](const Candidate& candidate, const Candidate& other) {
     if (other.track < 0) return false;
     const Vector3f off =
         PredictedMean_m(users[static_cast<size_t>(other.track)], time_s) - candidate.region.mean_m;
-    return std::hypot(off.x(), off.z()) < kClose_m;
+    return grid.OnFloor(off).norm() < kClose_m;
   };
   for (Candidate& candidate : candidates) {
     if (candidate.track < 0 &&
@@ -151,6 +152,7 @@ Scene FindCandidates(const DepthFrame& frame, const SceneState& state, SceneStat
   scene.fresh = since_s < 0 || since_s > options.fresh_s;
   next.last_s = frame.time_s;
   scene.floor = FindFloor(scene.grid, next.floor, options.floor);
+  if (scene.floor) scene.grid.up = scene.floor->coefficients.head<3>().cast<float>();
   const RoomShape shape = RoomSurfaces(scene.grid, scene.floor);
   std::vector<uint8_t> ignore = shape.room;
   const std::vector<uint8_t> background =
@@ -176,7 +178,7 @@ Scene FindCandidates(const DepthFrame& frame, const SceneState& state, SceneStat
   }
   ContinueTracks(owner, next.users, scene.candidates);
   MarkReturning(next.users, frame.time_s, options, scene.candidates);
-  DoubtRests(next.users, frame.time_s, scene.candidates);
+  DoubtRests(scene.grid, next.users, frame.time_s, scene.candidates);
   std::stable_sort(
       scene.candidates.begin(), scene.candidates.end(),
       [](const Candidate& a, const Candidate& b) { return a.region.area_m2 > b.region.area_m2; });
@@ -247,6 +249,7 @@ Candidate JoinCandidates(const Scene& scene, const DepthFrame& frame, const Cand
   const double of_a = cells(a) / std::max(1.0, cells(a) + cells(b));
   whole.flat_share = of_a * a.flat_share + (1 - of_a) * b.flat_share;
   whole.arrived_share = of_a * a.arrived_share + (1 - of_a) * b.arrived_share;
+  whole.arrived_m2 = a.arrived_m2 + b.arrived_m2;
   whole.origin = a.origin;
   return whole;
 }

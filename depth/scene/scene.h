@@ -21,7 +21,8 @@ struct UserTrack {
   std::vector<float> z_m;  // depth of those cells
   Eigen::Vector3f mean_m = Eigen::Vector3f::Zero();
   Eigen::Vector3f velocity_m_s = Eigen::Vector3f::Zero();
-  float full_m2 = 0;                                       // the most surface seen of it lately
+  int steps = 0;      // from frame to frame that the velocity is of
+  float full_m2 = 0;  // the most surface seen of it lately
   Eigen::Vector3f first_mean_m = Eigen::Vector3f::Zero();  // and surface, when it was new
   float first_m2 = 0;
   bool moved = false;  // since then
@@ -86,6 +87,7 @@ struct Candidate {
   double flat_share = 0;        // of the cells that lie on flat pieces
   double arrived_share = 0;     // of the cells that stand where something behind them was seen; 0
                                 // for what may be the rest of somebody who is seen
+  float arrived_m2 = 0;         // the same as surface, without its rims: edges flicker
   int origin = -1;              // candidates of one connected region have the same
   MeasuredBody body{};          // by the caller, of those it confirms
 };

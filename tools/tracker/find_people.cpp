@@ -68,16 +68,6 @@ std::vector<Candidate> WorthLooking(const depth::Scene& scene, double time_s,
   return candidates;
 }
 
-// Pieces of two regions are tried where they would be two people, one above the other; and at
-// first, when nobody knows how many there are, where they meet and either looks like a person.
-bool MayBeParts(const depth::Scene& scene, const FindOptions& options, const Found& a,
-                const Found& b, bool stacked) {
-  const auto [less, more] = std::minmax(a.single_score, b.single_score);
-  if (stacked && less >= options.new_person) return true;
-  return std::max(a.looks, b.looks) <= options.young_looks && more >= options.new_person &&
-         depth::Adjoining(scene, a.candidate, b.candidate);
-}
-
 // Two pieces were one person when the whole looks more like a person than either, or
 // as much when one is above the other, and has one head. People tracked for long are left as they
 // are. Returns the whole, or nothing.
@@ -86,7 +76,7 @@ std::optional<Found> Together(const Eyes& eyes, const depth::DepthFrame& frame,
                               const Found& b) {
   constexpr float kTwoPeople_m2 = 1.1F, kStacked_m = 0.3F;
   const Eigen::Vector3f apart = a.candidate.region.mean_m - b.candidate.region.mean_m;
-  const bool stacked = std::hypot(apart.x(), apart.z()) < kStacked_m;
+  const bool stacked = scene.grid.OnFloor(apart).norm() < kStacked_m;
   const bool one_region = a.candidate.origin == b.candidate.origin;
   if (!one_region && !MayBeParts(scene, options, a, b, stacked)) return {};
   if (std::min(a.looks, b.looks) > options.grown_up_looks) return {};
@@ -119,12 +109,13 @@ void JoinParts(const Eyes& eyes, const depth::DepthFrame& frame, const depth::Sc
 
 // Bones between the best proposals of neighbouring joints, as far as they hang together from the
 // trunk outwards and have about a body's lengths.
-std::vector<depth::Bone> BonesOf(const Eyes& eyes, const Perception& perception) {
+std::vector<depth::Bone> BonesOf(const std::array<int, recon::kJointCount>& targets,
+                                 const Perception& perception) {
   using recon::Joint;
   const recon::BoneLengths average_m = AverageBoneLengths();
   std::array<const forest::Proposal*, recon::kJointCount> best{};
   for (size_t j = 0; j < recon::kJointCount; ++j) {
-    const auto& modes = perception.proposals.at(static_cast<size_t>(eyes.targets[j]));
+    const auto& modes = perception.proposals.at(static_cast<size_t>(targets[j]));
     best[j] = modes.empty() ? nullptr : &modes.front();
   }
   std::array<bool, recon::kJointCount> reached{};
@@ -161,16 +152,24 @@ bool ReachesBeyond(const std::vector<depth::Bone>& bones, const depth::Region& r
          ((region.high_m - high_m).array() > reach_m).any();
 }
 
-// What hangs on to a person and is not near any of their bones is furniture: where more is held
-// than a person has, or where all bones are known and something reaches far beyond them.
-void TrimToBody(const Eyes& eyes, const depth::DepthFrame& frame, const depth::Scene& scene,
-                Found& found) {
+}  // namespace
+
+bool MayBeParts(const depth::Scene& scene, const FindOptions& options, const Found& a,
+                const Found& b, bool stacked) {
+  const auto [less, more] = std::minmax(a.single_score, b.single_score);
+  if (stacked && less >= options.new_person) return true;
+  return std::max(a.looks, b.looks) <= options.young_looks && more >= options.new_person &&
+         depth::Adjoining(scene, a.candidate, b.candidate);
+}
+
+void TrimToBody(const std::array<int, recon::kJointCount>& targets, const depth::DepthFrame& frame,
+                const depth::Scene& scene, Found& found) {
   constexpr float kReach_m = 0.3F;    // half a stout trunk, and what proposals may be off,
   constexpr float kFar_m = 0.4F;      // ... and more than they ever are
   constexpr size_t kEnoughBones = 6;  // else the forest saw too little of the body to say
   constexpr size_t kAllBones = recon::kJointCount - 1;
   constexpr float kPerson_m2 = 0.9F;  // nobody free of furniture shows more
-  const auto bones = BonesOf(eyes, found.perception);
+  const auto bones = BonesOf(targets, found.perception);
   if (bones.size() < kEnoughBones) return;
   const bool large = found.candidate.region.area_m2 >= kPerson_m2;
   const bool whole =
@@ -178,8 +177,6 @@ void TrimToBody(const Eyes& eyes, const depth::DepthFrame& frame, const depth::S
   if (large || whole)
     depth::KeepNear(scene, frame, bones, large ? kReach_m : kFar_m, found.candidate);
 }
-
-}  // namespace
 
 std::vector<Found> FindPeople(const Eyes& eyes, const depth::DepthFrame& frame,
                               const depth::Scene& scene, const depth::SceneOptions& scene_options,
@@ -203,7 +200,7 @@ std::vector<Found> FindPeople(const Eyes& eyes, const depth::DepthFrame& frame,
   });
   if (found.size() > static_cast<size_t>(options.max_users))
     found.resize(static_cast<size_t>(options.max_users));
-  for (Found& one : found) TrimToBody(eyes, frame, scene, one);
+  for (Found& one : found) TrimToBody(eyes.targets, frame, scene, one);
   return found;
 }
 

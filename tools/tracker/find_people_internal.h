@@ -94,6 +94,19 @@ bool Arrived(const depth::Candidate& candidate);
 bool Accepted(Found& looked, const depth::Scene& scene, double time_s, const FindOptions& options,
               FinderState& state);
 
+/// Pieces of two regions are tried as one person where they would be two people, one above the
+/// other
+/// (`stacked`); and at first, when nobody knows how many there are, where they meet and either
+/// looks like a person.
+bool MayBeParts(const depth::Scene& scene, const FindOptions& options, const Found& a,
+                const Found& b, bool stacked);
+
+/// What hangs on to a person and is not near any of their bones is furniture: it is taken off where
+/// more is held than a person has, or where all bones are known and something reaches far beyond
+/// them. `targets` as in Eyes.
+void TrimToBody(const std::array<int, recon::kJointCount>& targets, const depth::DepthFrame& frame,
+                const depth::Scene& scene, Found& found);
+
 /// The people among the scene's candidates, known ones first. Candidates with two heads are cut;
 /// pieces of one region that are more of a person together than alone are joined.
 std::vector<Found> FindPeople(const Eyes& eyes, const depth::DepthFrame& frame,

@@ -1,5 +1,7 @@
 #include "tools/tracker/measure_body_internal.h"
 
+#include "recon/body/standard_body.h"
+
 namespace ossa::tracker {
 namespace {
 
@@ -14,16 +16,30 @@ const Eigen::Vector3d* Seen(const Perception& perception,
   return modes.empty() || modes.front().confidence < kSure ? nullptr : &modes.front().position_m;
 }
 
+// Between two joints of the standard body at rest.
+double AverageDistance_m(Joint a, Joint b) {
+  static const recon::Posture body = recon::StandardPosture(recon::RigPose{});
+  const auto at = [](Joint joint) {
+    return body.position_m[static_cast<size_t>(recon::Index(joint))];
+  };
+  return (at(a) - at(b)).norm();
+}
+
 }  // namespace
 
 depth::MeasuredBody MeasureBody(const Perception& perception,
                                 const std::array<int, recon::kJointCount>& targets,
                                 const std::optional<depth::FloorPlane>& floor) {
+  // Of the average body: shorter than a child's or longer than anybody's are the limbs of people
+  // half hidden.
+  constexpr double kLeast = 0.55, kMost = 1.4;
   depth::MeasuredBody body;
   const auto seen = [&](Joint joint) { return Seen(perception, targets, joint); };
   const auto distance_m = [&](Joint a, Joint b) -> std::optional<float> {
     if (seen(a) == nullptr || seen(b) == nullptr) return std::nullopt;
-    return static_cast<float>((*seen(a) - *seen(b)).norm());
+    const double length_m = (*seen(a) - *seen(b)).norm(), average_m = AverageDistance_m(a, b);
+    if (length_m < kLeast * average_m || length_m > kMost * average_m) return std::nullopt;
+    return static_cast<float>(length_m);
   };
   // Of two limbs whichever is seen.
   const auto either_m = [&](Joint a, Joint b, Joint other_a, Joint other_b) {

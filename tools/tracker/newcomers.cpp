@@ -54,7 +54,9 @@ void Renew(Doubt& doubt, const Found& looked, double time_s) {
   doubt.cells = region.cells;
   doubt.mean_m = region.mean_m;
   doubt.arrived = Arrived(looked.candidate);
-  doubt.moved = doubt.moved || depth::HasMoved(doubt.first_mean_m, doubt.first_m2, region);
+  // What grows without standing before anything is uncovered by somebody who passes.
+  doubt.moved = doubt.moved || (looked.candidate.arrived_m2 > 0 &&
+                                depth::HasMoved(doubt.first_mean_m, doubt.first_m2, region));
 }
 
 // Somebody tracked a moment ago goes on by their mean score. Of whom was accepted only just more is

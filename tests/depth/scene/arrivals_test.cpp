@@ -95,6 +95,64 @@ TEST_F(Behind, WhatDidNotComeOrIsSomebodysStaysApart) {
   EXPECT_GT(JoinBehind(grid_, pieces_, all_, nobody_, 1).size(), 1U);
 }
 
+// What shows of something broad at both sides of a post: the left piece is a user's of whom more
+// was seen before, the right one comes out a stride from where the user is expected.
+std::vector<Region> BroadBehind(const std::vector<tests::Box>& post) {
+  const tests::Box broad{{-0.35, -0.5, 3.2}, {0.35, 0.2, 3.4}};
+  std::vector<tests::Box> both = post;
+  both.push_back(broad);
+  const PointGrid grid = GridOf(Shot({}, 0, both));
+  std::vector<Region> pieces;
+  for (const bool left : {true, false}) {
+    std::vector<int> cells;
+    for (int i = 0; i < grid.cells(); ++i) {
+      const Eigen::Vector3f& p = grid.at(i);
+      if (p.z() > 3.1F && p.z() < 3.45F && p.y() > -0.52F &&
+          (left ? p.x() > 0.17F : p.x() < -0.17F))
+        cells.push_back(i);
+    }
+    pieces.push_back(MakeRegion(grid, std::move(cells)));
+  }
+  std::vector<int> owner(static_cast<size_t>(grid.cells()), -1);
+  for (const int cell : pieces[0].cells) owner[static_cast<size_t>(cell)] = 0;
+  UserTrack user;
+  user.mean_m = pieces[0].mean_m;
+  return JoinByHistory(grid, std::move(pieces), owner, {user}, 0.0);
+}
+
+TEST(JoinByHistory, TakesWhatComesOutAtTheOtherSideOfSomebodyNearer) {
+  const tests::Box post{{-0.1, -0.9, 2.0}, {0.1, 0.9, 2.05}};
+  EXPECT_EQ(BroadBehind({post}).size(), 1U);
+}
+
+TEST(JoinByHistory, LeavesWhatStandsBesideWithNothingNearerBetween) {
+  EXPECT_EQ(BroadBehind({}).size(), 2U);
+}
+
+TEST(PointGrid, HeadAndFeetAreAtOnePlaceOverTheFloorOfASensorThatLooksDown) {
+  const float tilt_rad = 0.35F;
+  PointGrid grid;
+  grid.up = {0, std::cos(tilt_rad), -std::sin(tilt_rad)};
+  const Eigen::Vector3f feet_m(0.5F, -1.0F, 3.0F), head_m = feet_m + 1.7F * grid.up;
+  EXPECT_LT((grid.OnFloor(head_m) - grid.OnFloor(feet_m)).norm(), 1e-5F);
+  const Eigen::Vector3f beside_m = feet_m + Eigen::Vector3f(0.3F, 0, 0);
+  EXPECT_NEAR((grid.OnFloor(beside_m) - grid.OnFloor(feet_m)).x(), 0.3F, 1e-5F);
+}
+
+TEST(ArrivedArea, RimsDoNotCount) {
+  const PointGrid grid = GridOf(Shot({}));
+  std::vector<uint8_t> arrived(static_cast<size_t>(grid.cells()), 0);
+  std::vector<int> cells;
+  for (int y = 40; y < 60; ++y) {
+    for (int x = 80; x < 82; ++x)
+      cells.push_back(grid.cell(x, y)), arrived[static_cast<size_t>(cells.back())] = 1;
+  }
+  EXPECT_EQ(ArrivedArea_m2(grid, cells, arrived), 0.0F);
+  for (int y = 40; y < 60; ++y)
+    cells.push_back(grid.cell(82, y)), arrived[static_cast<size_t>(cells.back())] = 1;
+  EXPECT_GT(ArrivedArea_m2(grid, cells, arrived), 0.0F);
+}
+
 TEST_F(Behind, LegsBelowATableBecomeTheirsWhoStandsAtIt) {
   ASSERT_EQ(pieces_.size(), 2U);
   const size_t body = pieces_[0].mean_m.y() > pieces_[1].mean_m.y() ? 0 : 1;

@@ -35,6 +35,12 @@ TEST(BodyMeasures, SayNothingWhereNothingIsSeenOrAllIsWrong) {
   EXPECT_GT(LogLikelihoodRatio(KnownAs(Adult()), absurd), 0.0);
 }
 
+TEST(BodyMeasures, OfSomebodyHalfHiddenSayLess) {
+  const BodyMeasures known = KnownAs(Adult());
+  EXPECT_LT(LogLikelihoodRatio(known, Child()), LogLikelihoodRatio(known, Child(), true));
+  EXPECT_GT(LogLikelihoodRatio(known, Adult()), LogLikelihoodRatio(known, Adult(), true));
+}
+
 TEST(BodyMeasures, AreTheMeanOfTheLooksThatShowThem) {
   BodyMeasures known;
   known.Add({1.5F});
@@ -97,7 +103,7 @@ class Lost : public testing::Test {
     Candidate newcomer;
     newcomer.region.mean_m = {x_m, 0.2F, 4.0F};
     newcomer.body = body_;
-    return LogLikelihoodRatio(user_, newcomer, way, 1.0 + gone_s, {});
+    return LogLikelihoodRatio(PointGrid{}, user_, newcomer, way, 1.0 + gone_s, {});
   }
   void SetUp() override {
     user_.mean_m = {0, 0, 4};
@@ -111,7 +117,11 @@ class Lost : public testing::Test {
 TEST_F(Lost, WhoWalksOnComesBackFartherOn) {
   EXPECT_LT(Ratio(1.7F, 1.2, Way::kOpen), 0.0);
   user_.velocity_m_s = {1.4F, 0, 0};
+  user_.steps = 1;
+  const double rough = Ratio(1.7F, 1.2, Way::kOpen);
+  user_.steps = 20;
   EXPECT_GT(Ratio(1.7F, 1.2, Way::kOpen), 0.0);
+  EXPECT_GT(Ratio(1.7F, 1.2, Way::kOpen), rough);
   EXPECT_LT(Ratio(-1.7F, 1.2, Way::kOpen), 0.0);
 }
 

@@ -23,6 +23,7 @@ class Newcomer : public testing::Test {
     found.perception.person_score = found.single_score = look.score;
     depth::Candidate& candidate = found.candidate;
     candidate.arrived_share = look.arrived_share;
+    candidate.arrived_m2 = static_cast<float>(look.arrived_share) * look.area_m2;
     candidate.has_head = look.has_head;
     candidate.region.mean_m = {look.x_m, 0, 3};
     candidate.region.area_m2 = look.area_m2;
@@ -56,9 +57,14 @@ TEST_F(Newcomer, IsBelievedAtOnceInAFreshSceneAndElsewhereOrWithoutAHeadWhenItIs
 
 TEST_F(Newcomer, ThatStandsLikeFurnitureIsNobodyHoweverOftenItIsLookedAt) {
   EXPECT_EQ(AcceptedIn(60, false, [](int) { return Look{0.85}; }), -1);
-  // As good a look of something that turns, and shows a quarter more, is somebody.
-  const auto turns = [](int f) { return Look{0.85, 0, 0, f < 10 ? 0.1F : 0.125F}; };
+  // As good a look of something that turns, and shows a quarter more, is somebody,
+  const auto turns = [](int f) {
+    return f < 10 ? Look{0.85} : Look{.score = 0.85, .arrived_share = 0.2, .area_m2 = 0.125F};
+  };
   EXPECT_EQ(AcceptedIn(60, false, turns), 10);
+  // ... but not of which somebody who passes uncovers a quarter more: it stands before nothing new.
+  const auto uncovered = [](int f) { return Look{0.85, 0, 0, f < 10 ? 0.1F : 0.125F}; };
+  EXPECT_EQ(AcceptedIn(60, false, uncovered), -1);
 }
 
 TEST_F(Newcomer, WhoCameInBehindOthersIsFollowedThroughLooksThatShowLittle) {
