@@ -49,8 +49,10 @@ OSSA_CLONES void AddRow(const float* row, size_t count, float* sum) {
   for (size_t i = 0; i < count; ++i) sum[i] += row[i];
 }
 
-// The largest number whose root is at most `root`: comparing with it needs no roots.
+// The largest number whose root is at most `root`: comparing with it needs no roots. Negative where
+// there is none.
 float LargestSquare(float root) {
+  if (root < 0.0F) return -1.0F;
   constexpr float kInfinity = std::numeric_limits<float>::infinity();
   float square = root * root;
   while (std::sqrt(square) > root) square = std::nextafter(square, 0.0F);
