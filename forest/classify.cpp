@@ -231,7 +231,7 @@ Classification Classify(const ForestModel& model, const depth::DepthView& depth,
   const auto walk = options.instructions == InstructionSet::kScalar ? WalkScalar : Walk;
   ForRanges(walkers, options.threads, [&](size_t first, size_t last) {
     for (size_t t = 0; t < trees; ++t) {
-      walk({model.data().trees[t].nodes.data(), &image,
+      walk({model.tables().nodes[t].front().node.data(), &image,
             std::span(sparse.position).subspan(first, last - first)},
            walked.leaf.data() + first * trees + t, trees);
     }

@@ -135,8 +135,9 @@ struct ForestData {
 
 struct RuntimeTables;  // forest/runtime_internal.h
 
-/// What a model is there for. One that is only run lets go what its leaves held (Tree::entries) as
-/// soon as the tables that run are made of it: a fifth of the memory. It cannot be written.
+/// What a model is there for. One that is only run lets go of its trees' nodes and of what their
+/// leaves held (Tree::entries) as soon as the tables that run are made of them. It cannot be
+/// written.
 enum class ModelUse { kAny, kRunOnly };
 
 /// A checked forest, ready to run. Immutable; copies share.

@@ -204,7 +204,6 @@ LeafTables MakeLeafTables(const Tree& tree, size_t contexts, const LogRatios& lo
   size_t rows = 0;
   leaves.vote_row = VoteRows(tree, &rows);
   if (tree.votes.empty()) std::fill(leaves.vote_row.begin(), leaves.vote_row.end(), -1);
-  PreferLargePages(tree.nodes);
   PreferLargePages(leaves.shares);
   PreferLargePages(leaves.evidence);
   return leaves;
@@ -239,9 +238,13 @@ RuntimeTables MakeRuntimeTables(ForestData* data, ModelUse use) {
   LeafCells cells(data->class_names.size(), data->context_names.size());
   for (Tree& tree : data->trees) {
     tables.leaves.push_back(MakeLeafTables(tree, data->context_names.size(), log_ratios, &cells));
-    if (use == ModelUse::kAny) continue;
-    std::vector<uint32_t>().swap(tree.entry_begin);
-    std::vector<uint16_t>().swap(tree.entries);
+    if (use == ModelUse::kRunOnly) {
+      std::vector<uint32_t>().swap(tree.entry_begin);
+      std::vector<uint16_t>().swap(tree.entries);
+    }
+    tables.nodes.push_back(LayOutInLines(tree.nodes));
+    PreferLargePages(tables.nodes.back());
+    if (use == ModelUse::kRunOnly) std::vector<Node>().swap(tree.nodes);
   }
   for (const Arrangement& each : data->arrangements) tables.factor_models.emplace_back(each);
   tables.neighbours = Neighbours(*data);

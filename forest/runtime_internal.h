@@ -28,15 +28,26 @@ struct LeafTables {
   size_t leaf_count() const { return vote_row.size(); }
 };
 
+/// Nodes as walks want them: a line of the cache at a time.
+struct alignas(64) NodeLine {
+  std::array<Node, 4> node;
+};
+
+/// The same tree with the nodes in another order: children still stand side by side, a child's
+/// children often in the line of the child. Precondition: breadth-first order, as in Tree.
+std::vector<NodeLine> LayOutInLines(const std::vector<Node>& nodes);
+
 /// Derived from ForestData when a model is made.
 struct RuntimeTables {
-  std::vector<LeafTables> leaves;          // one a tree
-  std::vector<FactorModel> factor_models;  // one an arrangement
+  std::vector<std::vector<NodeLine>> nodes;  // of each tree
+  std::vector<LeafTables> leaves;            // one a tree
+  std::vector<FactorModel> factor_models;    // one an arrangement
   /// Of each target, the two others that move with it most; empty without arrangements.
   std::vector<std::vector<uint32_t>> neighbours;
 };
 
-/// Of a model that is only run, each tree's entries are let go before the next tree's turn.
+/// Of a model that is only run, each tree's nodes and entries are let go before the next tree's
+/// turn.
 RuntimeTables MakeRuntimeTables(ForestData* data, ModelUse use);
 
 /// The row of votes of each leaf: rows are given out breadth-first to the nodes at the tree's

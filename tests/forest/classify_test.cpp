@@ -5,6 +5,7 @@
 #include <array>
 
 #include "forest/feature_internal.h"
+#include "forest/runtime_internal.h"
 #include "forest/smooth_internal.h"
 #include "forest/sparse_internal.h"
 #include "tests/forest/ball_figure.h"
@@ -105,6 +106,29 @@ TEST(Walk, AnyNumberOfPixelsEndsInTheLeavesOfTheScalarPath) {
     Walk(input, best.data(), 1);
     EXPECT_EQ(best, scalar) << count << " pixels";
   }
+}
+
+TEST(LayOutInLines, EveryWalkEndsInTheLeafItEndedInBefore) {
+  const TrainingImage image = BallFigures(1, 8).Read(0);
+  const ObjectImage cut = CutOut(test::ViewOf(image), image.camera, test::ObjectPixels(image),
+                                 BallModel().data().background_mm);
+  std::vector<int32_t> position;
+  for (int i = 0; i < cut.width * cut.height; ++i) {
+    position.push_back(i / cut.width << 16 | i % cut.width);
+  }
+  const std::vector<Node>& nodes = BallModel().data().trees.front().nodes;
+  const std::vector<NodeLine> lines = LayOutInLines(nodes);
+  EXPECT_LE(4 * lines.size(), nodes.size() + 5);  // the root's line and one of two leaves have room
+  std::vector<int32_t> before(position.size()), after(position.size());
+  WalkScalar({nodes.data(), &cut, position}, before.data(), 1);
+  WalkScalar({lines.front().node.data(), &cut, position}, after.data(), 1);
+  EXPECT_EQ(after, before);
+}
+
+TEST(LayOutInLines, ATreeOfOneLeafIsOneLine) {
+  const std::vector<NodeLine> lines = LayOutInLines({Node{}});
+  ASSERT_EQ(lines.size(), 1U);
+  EXPECT_EQ(lines.front().node.front(), Node{});
 }
 
 // A flat board of 6 × 4 pixels, the right half 20 cm behind the left.
