@@ -40,6 +40,7 @@ class Best : public Reconstructor {
     const double doubt = options_.repair ? plausibility_.Repair(input) : 1.0;  // 1.
     const PreparedPosture prepared = person_.Prepare(input);
     if (prepared.restarted) StartFilters();
+    FindLost(prepared, input);
     JointWeights trust = Trust(prepared, input, doubt);  // 2.
     Posture target = prepared.in_camera;
     if (doubt == 0.0 && person_.last_in_camera()) {
@@ -50,7 +51,9 @@ class Best : public Reconstructor {
     if (plausibility_.elsewhere()) StartFilters();
     Posture now = target, before = target;
     for (size_t i = 0; options_.filter && i < kJointCount; ++i) {  // 4.
-      const double heard = std::max(trust[i], kLeastTrust);
+      // A posture that is held has been through this filter and must not lag behind what moves it.
+      const bool holds = lost_[i] && !KnowsNatural(prepared);
+      const double heard = holds ? 1.0 : std::max(trust[i], kLeastTrust);
       now.position_m[i] = filters_[i].Step(target.position_m[i], prepared.dt_s, heard);
       before.position_m[i] = filters_[i].before_m();
     }
@@ -100,8 +103,8 @@ class Best : public Reconstructor {
     JointWeights trust{}, reliability{};
   };
 
-  // A completed joint enters its filter as a measurement of twice the variance: the natural posture
-  // follows the joints that are seen.
+  // Where nothing is completed, a joint in doubt enters its filter as a measurement of at most
+  // twice the variance.
   static constexpr double kLeastTrust = 0.5;
   // Trust from which on a joint stays where it is seen.
   static constexpr double kSound = 0.5;
@@ -133,11 +136,26 @@ class Best : public Reconstructor {
     }
     for (const BetweenTwo& line : kBetweenTwo) {
       const auto at = [](Joint joint) { return static_cast<size_t>(Index(joint)); };
-      if (prepared.between[at(line.joint)] == 0.0) continue;
+      if (!OnLine(prepared, at(line.joint))) continue;
       const double ends = std::min({trust[at(line.a)], trust[at(line.b)], 1.0});
       trust[at(line.joint)] = kBetween * ends;
     }
     return trust;
+  }
+
+  /// Whether an absent joint is taken from the line of the two around it. An ankle only of a sensor
+  /// that never has one, whose foot is where others have the ankle; a foot beside it stands out.
+  bool OnLine(const PreparedPosture& prepared, size_t joint) const {
+    const bool ankle = joint == static_cast<size_t>(Index(Joint::kAnkleLeft)) ||
+                       joint == static_cast<size_t>(Index(Joint::kAnkleRight));
+    return prepared.between[joint] > 0.0 && !(ankle && lost_[joint]);
+  }
+
+  /// Which joints are absent in this frame, of a sensor that has them. With a depth image none:
+  /// there the tracker itself has placed what it does not see.
+  void FindLost(const PreparedPosture& prepared, const ReconstructionInput& input) {
+    for (size_t i = 0; i < kJointCount; ++i)
+      lost_[i] = input.depth == nullptr && had_[i] && prepared.present[i] == 0.0;
   }
 
   /// Joints that the sensor does not have lie where the joints around them say: of a body that is
@@ -174,19 +192,53 @@ class Best : public Reconstructor {
     if (!InDoubt(prepared, trust)) return;
     const Posture before =
         person_.last_in_camera() ? *person_.last_in_camera() : prepared.in_camera;
-    constexpr int kFewest = 4;  // fewer joints tell no posture from another
-    const auto seen = std::count(prepared.present.begin(), prepared.present.end(), 1.0);
-    const bool natural = natural_ && seen >= kFewest;
+    const bool natural = KnowsNatural(prepared);
     const Posture model = natural ? natural_->Step(input).posture : before;
+    JointWeights held;  // 1: where it is seen, 0: where it hangs
+    Posture hung;
     for (size_t i = 0; i < kJointCount; ++i) {
-      const double held =
-          prepared.between[i] > 0.0 ? trust[i] / kBetween : std::min(1.0, trust[i] / kSound);
+      held[i] = OnLine(prepared, i) ? trust[i] / kBetween : std::min(1.0, trust[i] / kSound);
       const double fair = natural ? FairGuess(input, i) : 1.0;
-      const Eigen::Vector3d hung =
+      hung.position_m[i] =
           fair * Hung(before, i, target, prepared) +
           (1.0 - fair) * (i == 0 ? model.position_m[i] : Hung(model, i, target, prepared));
-      target.position_m[i] = held * target.position_m[i] + (1.0 - held) * hung;
+      target.position_m[i] = held[i] * target.position_m[i] + (1.0 - held[i]) * hung.position_m[i];
     }
+    ReachOut(held, hung, target);
+  }
+
+  /// Whether enough is seen to look for a natural posture like it; else the last one is held.
+  bool KnowsNatural(const PreparedPosture& prepared) const {
+    constexpr int kFewest = 4;  // fewer joints tell no posture from another
+    const auto seen = std::count(prepared.present.begin(), prepared.present.end(), 1.0);
+    return natural_ && seen >= kFewest;
+  }
+
+  /// A limb reaches for what is seen of it: where a hand is not where the arm would have it, the
+  /// hidden joints above follow, each by its share of the way from the shoulder.
+  void ReachOut(const JointWeights& held, const Posture& hung, Posture& target) const {
+    for (size_t end = 0; end < kJointCount; ++end) {
+      if (!InLimb(end) || held[end] == 0.0) continue;
+      size_t fixed = ParentOf(end);
+      while (InLimb(fixed) && held[fixed] < 1.0) fixed = ParentOf(fixed);
+      const double whole_m = AlongBones(hung, end, fixed);
+      if (!(whole_m > 1e-3)) continue;
+      const Eigen::Vector3d pulled_m = target.position_m[end] - hung.position_m[end];
+      for (size_t i = ParentOf(end); i != fixed; i = ParentOf(i)) {
+        const double share = AlongBones(hung, i, fixed) / whole_m;
+        if (lost_[i]) target.position_m[i] += (1.0 - held[i]) * share * pulled_m;
+      }
+    }
+  }
+
+  static size_t ParentOf(size_t joint) { return static_cast<size_t>(kJointParent[joint]); }
+
+  /// From a joint up to one of its ancestors.
+  static double AlongBones(const Posture& posture, size_t joint, size_t ancestor) {
+    double way_m = 0.0;
+    for (; joint != ancestor; joint = ParentOf(joint))
+      way_m += (posture.position_m[joint] - posture.position_m[ParentOf(joint)]).norm();
+    return way_m;
   }
 
   /// What the sensor's guesses (inferred joints) are worth: how far they are trusted, and from
@@ -220,6 +272,9 @@ class Best : public Reconstructor {
   static bool InTrunk(size_t joint) {
     return joint <= static_cast<size_t>(Index(Joint::kShoulderCenter));
   }
+
+  /// Beyond shoulder or hip.
+  static bool InLimb(size_t joint) { return joint > 0 && !InTrunk(ParentOf(joint)); }
 
   bool corrects() const { return options_.correct && !correction_.empty(); }
 
@@ -264,8 +319,7 @@ class Best : public Reconstructor {
     // pull its elbow along.
     JointWeights firm, weights;
     for (size_t i = 0; i < kJointCount; ++i) {
-      const bool in_limb = i > 0 && !InTrunk(static_cast<size_t>(kJointParent[i]));
-      firm[i] = in_limb ? constants_.outwards * firm[static_cast<size_t>(kJointParent[i])] : 1.0;
+      firm[i] = InLimb(i) ? constants_.outwards * firm[ParentOf(i)] : 1.0;
       weights[i] = (InTrunk(i) ? kTrunk : firm[i]) * (0.2 + moment.trust[i]);
     }
     return {WithBoneLengths(posture, size_.lengths_m(), weights), moment.reliability};
@@ -283,7 +337,8 @@ class Best : public Reconstructor {
   double offsets_s_ = 0.0;  // for how long it was averaged
   std::optional<Moment> last_;
   std::optional<ReconstructedPosture> revised_;
-  std::array<bool, kJointCount> had_{};  // joints that were ever seen
+  std::array<bool, kJointCount> had_{};   // joints that were ever seen
+  std::array<bool, kJointCount> lost_{};  // of those: absent now, see FindLost
 };
 
 }  // namespace
