@@ -186,6 +186,7 @@ void Renew(UserTrack& user, const PointGrid& grid, const Candidate& person, doub
   user.cells = region.cells;
   user.z_m = DepthsOf(grid, region);
   user.seen_s = time_s;
+  user.arrived_share = person.arrived_share;
   user.lost_behind = false;
 }
 

@@ -77,16 +77,20 @@ std::vector<Candidate> CandidatesIn(const DepthFrame& frame, const PointGrid& gr
 }
 
 // Each user of before goes on in the one candidate that holds most of their cells, if that is a
-// good part of either: what merely touches a person is not that person.
+// good part of either: what merely touches a person is not that person. Nor is the furniture they
+// touched while they went out of view: it was seen there before, they were not.
 void ContinueTracks(const std::vector<int>& owner, const std::vector<UserTrack>& users,
-                    std::vector<Candidate>& candidates) {
+                    const std::vector<uint8_t>& seen_before, std::vector<Candidate>& candidates) {
   constexpr size_t kPart = 4;  // a quarter
+  constexpr double kMostly = 0.5;
   std::vector<size_t> best(users.size(), 0);
   std::vector<int> heir(users.size(), -1);
   for (size_t c = 0; c < candidates.size(); ++c) {
     const Region& region = candidates[c].region;
     const auto overlap = Overlaps(region, owner, users.size());
+    const bool of_room = ShareOf(region, seen_before) > kMostly;
     for (size_t u = 0; u < users.size(); ++u) {
+      if (of_room && users[u].arrived_share > kMostly) continue;
       const size_t common = overlap[u].size();
       const size_t least = std::min(region.cells.size(), users[u].cells.size()) / kPart;
       if (common <= std::max(best[u], least)) continue;
@@ -167,7 +171,8 @@ Scene FindCandidates(const DepthFrame& frame, const SceneState& state, SceneStat
   regions = JoinBelow(scene.grid, std::move(regions), next.users.size(), owner);
   regions = JoinBehind(scene.grid, std::move(regions), arrived, owner, next.users.size());
   regions = JoinByHistory(scene.grid, std::move(regions), owner, next.users, frame.time_s);
-  std::vector<uint8_t> barred = SeenBefore(scene.grid, next.background);
+  const std::vector<uint8_t> seen_before = SeenBefore(scene.grid, next.background);
+  std::vector<uint8_t> barred = seen_before;
   for (size_t i = 0; i < barred.size(); ++i) barred[i] &= owner[i] < 0;
   const CellFacts facts{owner, barred, arrived, shape.flat};
   for (size_t r = 0; r < regions.size(); ++r) {
@@ -176,7 +181,7 @@ Scene FindCandidates(const DepthFrame& frame, const SceneState& state, SceneStat
       scene.candidates.push_back(std::move(candidate));
     }
   }
-  ContinueTracks(owner, next.users, scene.candidates);
+  ContinueTracks(owner, next.users, seen_before, scene.candidates);
   MarkReturning(next.users, frame.time_s, options, scene.candidates);
   DoubtRests(scene.grid, next.users, frame.time_s, scene.candidates);
   std::stable_sort(

@@ -30,6 +30,7 @@ struct UserTrack {
   Eigen::Vector3f rest_mean_m = Eigen::Vector3f::Zero();  // where it was then, and its surface
   float rest_m2 = 0;
   double seen_s = 0;
+  double arrived_share = 0;  // of what was seen last; see Candidate
   bool lost_behind = false;  // out of view, it was last seen at the outline of somebody nearer
   BodyMeasures body;
 };

@@ -173,6 +173,27 @@ TEST_F(Behind, ATablesOwnLegsAreTooThin) {
   EXPECT_EQ(JoinBelow(grid_, regions, 0, nobody_).size(), 2U);
 }
 
+// A box like a person that stood there before somebody who came passed it and went out of view.
+TEST(WhoCame, DoesNotGoOnAsFurnitureThatStoodThereBefore) {
+  const tests::Box box{{-0.17, -0.95, 3.0}, {0.17, 0.5, 3.2}};
+  SceneState state, next;
+  const Scene before = FindCandidates(Shot({}, 0, {box}).frame, state, next);
+  ASSERT_EQ(before.candidates.size(), 1U);
+  state = std::move(next);
+  ConfirmUsers(before, {}, 0.0, state);
+  UserTrack user;
+  user.id = 1;
+  user.cells = before.candidates[0].region.cells;
+  for (const int cell : user.cells) user.z_m.push_back(before.grid.z(cell));
+  for (const double arrived_share : {0.0, 1.0}) {
+    user.arrived_share = arrived_share;
+    state.users = {user};
+    const Scene now = FindCandidates(Shot({}, 1, {box}).frame, state, next);
+    ASSERT_EQ(now.candidates.size(), 1U);
+    EXPECT_EQ(now.candidates[0].track, arrived_share > 0.5 ? -1 : 0);
+  }
+}
+
 // What comes into view beside somebody seen, and how much of it counts as having come: its
 // candidate's arrived_share.
 double ArrivedBeside(float apart_m) {
