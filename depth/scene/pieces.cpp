@@ -40,12 +40,19 @@ size_t ComesOutAs(const PointGrid& grid, const Region& piece, const std::vector<
   for (size_t u = 0; u < users.size(); ++u) {
     if (home[u] < 0) continue;
     const Region& seen = owned[static_cast<size_t>(home[u])];
+    const auto lacks_it = [&](float full_m2) {
+      return seen.area_m2 <= kHidden * full_m2 && seen.area_m2 + piece.area_m2 <= 1.1F * full_m2;
+    };
+    const Eigen::Vector3f off = PredictedMean_m(users[u], time_s) - piece.mean_m;
+    const bool expected = std::abs(off.x()) < kAside_m && std::abs(off.z()) < kBehind_m;
+    if (expected && lacks_it(users[u].full_m2)) return u;
     // Who was half hidden all along has more than was ever seen.
-    const float seen_m2 = seen.area_m2, full_m2 = std::max(users[u].full_m2, kSideways_m2);
-    if (seen_m2 > kHidden * full_m2 || seen_m2 + piece.area_m2 > 1.1F * full_m2) continue;
-    const Eigen::Vector2f off = grid.OnFloor(PredictedMean_m(users[u], time_s) - piece.mean_m);
-    if (std::abs(off.y()) > kBehind_m || std::abs(off.x()) > kStride_m) continue;
-    if (std::abs(off.x()) < kAside_m || HiddenBetween(grid, seen, piece)) return u;
+    const Eigen::Vector2f on_floor = grid.OnFloor(off);
+    const bool a_stride_off =
+        std::abs(on_floor.x()) < kStride_m && std::abs(on_floor.y()) < kBehind_m;
+    if (a_stride_off && lacks_it(std::max(users[u].full_m2, kSideways_m2)) &&
+        HiddenBetween(grid, seen, piece))
+      return u;
   }
   return users.size();
 }

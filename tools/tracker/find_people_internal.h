@@ -31,8 +31,9 @@ struct Doubt {
   double time_s = 0.0;  // of the last look
   double mean_score = 0.0;
   int looks = 1;
-  bool fallen = false;   // it was taken for a person, but did not stay one or never moved
-  bool arrived = false;  // it came here, and goes on moving
+  bool fallen = false;       // it was taken for a person, but did not stay one or never moved
+  bool before_room = false;  // any of it was seen where the room behind was seen before
+  bool arrived = false;      // it came here, and goes on moving
 };
 
 struct FinderState {

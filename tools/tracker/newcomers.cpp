@@ -54,9 +54,8 @@ void Renew(Doubt& doubt, const Found& looked, double time_s) {
   doubt.cells = region.cells;
   doubt.mean_m = region.mean_m;
   doubt.arrived = Arrived(looked.candidate);
-  // What grows without standing before anything is uncovered by somebody who passes.
-  doubt.moved = doubt.moved || (looked.candidate.arrived_m2 > 0 &&
-                                depth::HasMoved(doubt.first_mean_m, doubt.first_m2, region));
+  doubt.moved = doubt.moved || depth::HasMoved(doubt.first_mean_m, doubt.first_m2, region);
+  doubt.before_room = doubt.before_room || looked.candidate.arrived_m2 > 0;
 }
 
 // Somebody tracked a moment ago goes on by their mean score. Of whom was accepted only just more is
@@ -94,7 +93,9 @@ double FirstScore(const Candidate& candidate, const depth::Scene& scene,
 double ProbationScore(const Doubt& doubt, const FindOptions& options) {
   if (doubt.arrived && doubt.moved) return options.arrived_person;
   if (!doubt.moved) return options.sure_person;
-  return doubt.fallen ? options.still_person : options.new_person;
+  // What grows without standing before anything may be uncovered by somebody who passes.
+  const bool doubtful = doubt.fallen || !doubt.before_room;
+  return doubtful ? options.still_person : options.new_person;
 }
 
 // Newcomers are accepted at once in a fresh scene or when there is no doubt, else after a few

@@ -57,13 +57,13 @@ TEST_F(Newcomer, IsBelievedAtOnceInAFreshSceneAndElsewhereOrWithoutAHeadWhenItIs
 
 TEST_F(Newcomer, ThatStandsLikeFurnitureIsNobodyHoweverOftenItIsLookedAt) {
   EXPECT_EQ(AcceptedIn(60, false, [](int) { return Look{0.85}; }), -1);
-  // As good a look of something that turns, and shows a quarter more, is somebody,
+  // A poorer look of something that turns, and shows a quarter more, is somebody,
   const auto turns = [](int f) {
-    return f < 10 ? Look{0.85} : Look{.score = 0.85, .arrived_share = 0.2, .area_m2 = 0.125F};
+    return f < 10 ? Look{0.7} : Look{.score = 0.7, .arrived_share = 0.2, .area_m2 = 0.125F};
   };
   EXPECT_EQ(AcceptedIn(60, false, turns), 10);
   // ... but not of which somebody who passes uncovers a quarter more: it stands before nothing new.
-  const auto uncovered = [](int f) { return Look{0.85, 0, 0, f < 10 ? 0.1F : 0.125F}; };
+  const auto uncovered = [](int f) { return Look{0.7, 0, 0, f < 10 ? 0.1F : 0.125F}; };
   EXPECT_EQ(AcceptedIn(60, false, uncovered), -1);
 }
 
