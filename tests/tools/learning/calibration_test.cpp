@@ -36,9 +36,7 @@ TEST(Calibration, KeepsTenthsApartAndBothEndsInside) {
   EXPECT_NEAR(bins[6].mean_confidence, 0.65, 1e-12);
 }
 
-TEST(Calibration, OfNothingIsNoNumber) {
-  EXPECT_TRUE(std::isnan(Calibration().ExpectedError()));
-}
+TEST(Calibration, OfNothingIsNoNumber) { EXPECT_TRUE(std::isnan(Calibration().ExpectedError())); }
 
 }  // namespace
 }  // namespace ossa::tools
