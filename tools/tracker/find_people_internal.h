@@ -74,8 +74,10 @@ struct FindOptions {
   // Of somebody accepted a few looks ago: what was a person by luck is none on average.
   double young_person = 0.4;
   int young_looks = 12;
-  // Of what has not moved at all after so many looks: most likely furniture.
+  // Of what has not moved at all after so many looks: most likely furniture. Of somebody accepted
+  // less, for who sits behind a thing that does not move seems not to move, either.
   double still_person = 0.75;
+  double still_known = 0.7;
   int still_looks = 10;
   size_t max_candidates = 16;  // looked at per frame, the largest first
   double hopeful = 0.35;       // what scores less is looked at again only ...

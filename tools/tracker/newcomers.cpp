@@ -68,7 +68,7 @@ bool AcceptedAgain(const Found& looked, double time_s, const FindOptions& option
   const bool young = looked.looks <= options.young_looks;
   const bool still = looked.looks > options.still_looks && !looked.moved;
   const double needed = arrived ? options.arrived_known
-                        : still ? options.still_person
+                        : still ? options.still_known
                         : young ? options.young_person
                                 : options.known_person;
   if (score >= needed) return true;

@@ -92,5 +92,21 @@ TEST_F(Newcomer, OnceAcceptedWhoCameHereAndMovesIsKeptOnLess) {
   EXPECT_FALSE(goes_on(1.0, false));  // a chair that somebody put there
 }
 
+TEST_F(Newcomer, OnceAcceptedWhoNeverMovesMustLookLikeAPerson) {
+  const depth::Scene scene;
+  FinderState state;
+  const auto goes_on = [&](double mean_score, int looks, bool moved) {
+    Found found = Seen({mean_score});
+    found.looks = looks;
+    found.moved = moved;
+    return Accepted(found, scene, 1.0, options_, state);
+  };
+  const int young = options_.still_looks, grown_up = options_.young_looks + 1;
+  EXPECT_TRUE(goes_on(0.72, grown_up, false));
+  EXPECT_FALSE(goes_on(0.68, grown_up, false));  // a lamp, most likely
+  EXPECT_TRUE(goes_on(0.68, young, false));      // it may move yet
+  EXPECT_TRUE(goes_on(0.3, grown_up, true));
+}
+
 }  // namespace
 }  // namespace ossa::tracker
