@@ -6,6 +6,7 @@
 #include <cstdlib>
 #include <string>
 #include <system_error>
+#include <utility>
 #include <vector>
 
 #include "depth/error.h"
@@ -31,7 +32,11 @@ std::vector<std::filesystem::path> Folders() {
   std::error_code error;
   for (const auto& binary : {OwnBinary(), std::filesystem::path("/proc/self/exe")}) {
     const auto real = std::filesystem::canonical(binary, error);
-    if (!error) folders.push_back(real.parent_path().parent_path() / OSSA_DATA_DIR / "ossa");
+    if (error) continue;
+    for (const char* data : {OSSA_DATA_FROM_LIB, OSSA_DATA_FROM_BIN}) {
+      auto folder = (real.parent_path() / data / "ossa").lexically_normal();
+      if (folders.empty() || folders.back() != folder) folders.push_back(std::move(folder));
+    }
   }
   folders.emplace_back(OSSA_SHIPPED_DIR);
   return folders;
