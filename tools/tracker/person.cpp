@@ -2,7 +2,9 @@
 
 #include <algorithm>
 #include <chrono>
+#include <cmath>
 
+#include "recon/hiding.h"
 #include "recon/orientation.h"
 
 namespace ossa::tracker {
@@ -42,6 +44,24 @@ recon::Posture HeldToImage(const recon::Posture& posture, const recon::TrackedPo
   return held;
 }
 
+// What is not seen is where the camera does not see it. The way there takes some frames, so that a
+// guess that wanders about does not flicker; what is seen is back at once.
+recon::Posture WithHiddenHidden(recon::Posture posture, const recon::TrackedPosture& observed,
+                                const depth::DepthFrame& frame, Person& person) {
+  constexpr double kWay_s = 0.05;
+  const double share = 1.0 - std::exp(-std::max(0.0, frame.time_s - person.before_s) / kWay_s);
+  for (size_t j = 0; j < kJointCount; ++j) {
+    if (observed.state[j] == TrackingState::kTracked) {
+      person.aside_m[j].setZero();
+      continue;
+    }
+    Eigen::Vector3d& place = posture.position_m[j];
+    person.aside_m[j] += share * (recon::HiddenPlace(place, frame) - place - person.aside_m[j]);
+    place += person.aside_m[j];
+  }
+  return posture;
+}
+
 }  // namespace
 
 bool IsSeatedJoint(recon::Joint joint) {
@@ -66,7 +86,8 @@ void CompleteBody(const depth::DepthFrame& frame, const std::optional<Eigen::Vec
     if (made) posture = made->posture;
     ms.physics += MillisecondsSince(physics_start);
   }
-  body.smoothed = Smooth(HeldToImage(posture, steady, body.reliability), frame.time_s,
+  const recon::Posture held = HeldToImage(posture, steady, body.reliability);
+  body.smoothed = Smooth(WithHiddenHidden(held, steady, frame, person), frame.time_s,
                          options.smoothing, person.smoothing);
   body.absolute_orientation = recon::OrientationsOf(body.smoothed);
   body.hierarchical_orientation = recon::HierarchicalOf(body.absolute_orientation);

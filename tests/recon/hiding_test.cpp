@@ -1,0 +1,75 @@
+#include "recon/hiding.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <limits>
+
+namespace ossa::recon {
+namespace {
+
+// A board at 2 m before a wall at 4 m: x from 0 to 0.4 m, y from -0.4 to 0.4 m.
+depth::DepthFrame BoardBeforeWall() {
+  depth::DepthFrame frame;
+  frame.camera = depth::KinectV1Camera(320, 240);
+  frame.depth_mm.assign(320 * 240, 4000);
+  for (int v = 0; v < 240; ++v) {
+    for (int u = 0; u < 320; ++u) {
+      const Eigen::Vector3d p = depth::BackProject(frame.camera, u, v, 2000.0);
+      if (p.x() >= 0.0 && p.x() <= 0.4 && std::abs(p.y()) <= 0.4)
+        frame.depth_mm[static_cast<size_t>(v * 320 + u)] = 2000;
+    }
+  }
+  return frame;
+}
+
+TEST(HiddenPlace, OfWhatIsHiddenOrSeenIsItsOwn) {
+  const depth::DepthFrame frame = BoardBeforeWall();
+  for (const Eigen::Vector3d& place :
+       {Eigen::Vector3d(0.2, 0.0, 2.03), Eigen::Vector3d(0.2, 0.0, 2.8),
+        Eigen::Vector3d(0.2, 0.0, 1.95), Eigen::Vector3d(-1.0, 0.0, 4.05)}) {
+    EXPECT_FALSE(IsInTheAir(place, frame));
+    EXPECT_EQ(HiddenPlace(place, frame), place);
+  }
+}
+
+// 20 cm beside the board, as far as the board: the nearest place is its edge, and 3 cm within.
+TEST(HiddenPlace, OfAJointInTheAirIsTheNearestOutlineAndALimbsBreadthWithin) {
+  const depth::DepthFrame frame = BoardBeforeWall();
+  const Eigen::Vector3d floating(-0.2, 0.1, 2.0);
+  ASSERT_TRUE(IsInTheAir(floating, frame));
+  const Eigen::Vector3d hidden = HiddenPlace(floating, frame);
+  EXPECT_FALSE(IsInTheAir(hidden, frame));
+  // A pixel is 7 mm there and a step of the search a centimetre.
+  const double across_m = (hidden - floating).head<2>().norm();
+  EXPECT_NEAR(across_m, 0.2 + HidingOptions{}.inwards_m, 0.02);
+  EXPECT_GT(hidden.x(), 0.0);
+  EXPECT_NEAR(hidden.z(), 2.0 + HidingOptions{}.skin_m, 1e-6);
+}
+
+// Behind the board's depth it goes straight behind the board, no deeper than it was.
+TEST(HiddenPlace, KeepsTheDepthOfWhatIsFartherThanItsCover) {
+  const Eigen::Vector3d hidden = HiddenPlace({-0.1, 0.0, 2.5}, BoardBeforeWall());
+  EXPECT_NEAR(hidden.z(), 2.5, 1e-9);
+  EXPECT_GT(hidden.x(), 0.0);
+}
+
+TEST(HiddenPlace, OfWhatFloatsBeforeSomethingIsBehindItsSurface) {
+  const Eigen::Vector3d hidden = HiddenPlace({0.2, 0.0, 1.7}, BoardBeforeWall());
+  EXPECT_NEAR(hidden.z(), 2.0 + HidingOptions{}.skin_m, 1e-6);
+  EXPECT_NEAR(hidden.x() / hidden.z(), 0.2 / 1.7, 1e-9) << "along its line of sight";
+}
+
+TEST(HiddenPlace, IsUnknownOutsideTheImageWithoutReadingAndOutOfReach) {
+  depth::DepthFrame frame = BoardBeforeWall();
+  const double nan = std::numeric_limits<double>::quiet_NaN();
+  const Eigen::Vector3d far_off(-0.6, 0.0, 2.0), outside(9.0, 0.0, 2.0), behind(0.0, 0.0, -1.0);
+  EXPECT_TRUE(IsInTheAir(far_off, frame));
+  for (const auto& place : {far_off, outside, behind}) EXPECT_EQ(HiddenPlace(place, frame), place);
+  EXPECT_TRUE(std::isnan(HiddenPlace({nan, 0.0, 2.0}, frame).x()));
+  frame.depth_mm.assign(frame.depth_mm.size(), 0);
+  EXPECT_EQ(HiddenPlace({-0.2, 0.1, 2.0}, frame), Eigen::Vector3d(-0.2, 0.1, 2.0));
+}
+
+}  // namespace
+}  // namespace ossa::recon

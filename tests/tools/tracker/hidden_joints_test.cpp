@@ -1,0 +1,56 @@
+#include "recon/hiding.h"
+#include "tests/support/capsule_person.h"
+#include "tests/tools/tracker/tracked_scenes.h"
+#include "tools/tracker/person_internal.h"
+
+namespace ossa::tracker {
+namespace {
+
+constexpr auto kHand = static_cast<size_t>(recon::Index(recon::Joint::kHandLeft));
+
+// Somebody whose left hand is said to be 30 cm before the body, where the camera looks through it
+// at the wall.
+struct HandInTheAir {
+  tests::CapsuleRender render = Rendered({PersonAt(0.0, 2.5)});
+  Body body;
+  CompleteOptions options;
+  Person person;
+
+  explicit HandInTheAir(recon::TrackingState state) {
+    options.reconstructor.method = "none";
+    options.smoothing = SmoothingPreset("none");
+    body.raw.posture = render.joints.front();
+    body.raw.state.fill(recon::TrackingState::kTracked);
+    body.raw.confidence.fill(1.0);
+    body.raw.posture.position_m[kHand] += Eigen::Vector3d(0.15, 0.0, -0.3);
+    body.raw.state[kHand] = state;
+  }
+
+  const Eigen::Vector3d& Hand(int frames) {
+    StageTimes ms;
+    for (int f = 0; f < frames; ++f) {
+      render.frame.time_s = f / 30.0;
+      CompleteBody(render.frame, std::nullopt, options, person, body, ms);
+      person.before_s = render.frame.time_s;
+    }
+    return body.smoothed.position_m[kHand];
+  }
+};
+
+TEST(HiddenJoints, AreNotLeftWhereTheCameraLooksThroughThem) {
+  HandInTheAir scene(recon::TrackingState::kInferred);
+  const Eigen::Vector3d said = scene.body.raw.posture.position_m[kHand];
+  ASSERT_TRUE(recon::IsInTheAir(said, scene.render.frame));
+  EXPECT_FALSE(recon::IsInTheAir(scene.Hand(10), scene.render.frame));
+  EXPECT_EQ(scene.body.raw.posture.position_m[kHand], said) << "raw is what was inferred";
+}
+
+TEST(HiddenJoints, ThatAreSeenAgainStayWhereTheyAreSeen) {
+  HandInTheAir scene(recon::TrackingState::kInferred);
+  scene.Hand(10);
+  scene.body.raw.state[kHand] = recon::TrackingState::kTracked;
+  EXPECT_LT((scene.Hand(1) - scene.body.raw.posture.position_m[kHand]).norm(), 0.061);
+}
+
+}  // namespace
+}  // namespace ossa::tracker
