@@ -7,6 +7,7 @@
 
 #include "depth/image/depth_frame.h"
 #include "forest/forest.h"
+#include "forest/node_lines_internal.h"
 
 namespace ossa::forest {
 
@@ -85,9 +86,9 @@ inline int32_t ScaleOffset(int32_t offset, int32_t fixed_scale) {
   return (offset * fixed_scale + (1 << 14)) >> 15;
 }
 
-/// Leaves reached by pixels of an object in one tree.
+/// Leaves reached by pixels of an object in one tree, in the order of its lines.
 struct WalkInput {
-  const Node* nodes = nullptr;
+  const LinedTree* tree = nullptr;
   const ObjectImage* image = nullptr;
   std::span<const int32_t> position;  // y << 16 | x, box coordinates
 };

@@ -1,97 +1,119 @@
-// Below the uppermost levels each step of a walk meets a node that is in no near cache. Two pairs
-// of children fit a line: the second is that of the child which more leaves lie below, so that of
-// two steps the second often costs nothing.
-#include <cstdint>
+// Below the uppermost levels each step of a walk meets a node that is in no near cache. Of nodes of
+// 8 bytes three levels fit a line, so that two steps of three cost nothing. Levels are counted from
+// below: the lowest, where most nodes are, fill their lines.
+#include "forest/node_lines_internal.h"
 
-#include "forest/runtime_internal.h"
+#include <algorithm>
+#include <cmath>
+#include <cstdlib>
+#include <numeric>
 
 namespace ossa::forest {
 namespace {
 
-constexpr int32_t kNowhere = -1;
-constexpr int32_t kLine = static_cast<int32_t>(sizeof(NodeLine) / sizeof(Node));
-static_assert(kLine == 4);
-
-std::vector<int32_t> LeavesBelow(const std::vector<Node>& nodes) {
-  std::vector<int32_t> leaves(nodes.size(), 1);
-  for (size_t i = nodes.size(); i-- > 0;) {  // children stand behind their parents
+// Levels of inner nodes.
+int HeightOf(const std::vector<Node>& nodes) {
+  int height = 0;
+  std::vector<int> level(nodes.size(), 0);
+  for (size_t i = 0; i < nodes.size(); ++i) {  // parents stand before their children
     if (nodes[i].is_leaf()) continue;
     const auto left = static_cast<size_t>(nodes[i].left);
-    leaves[i] = leaves[left] + leaves[left + 1];
+    level[left] = level[left + 1] = level[i] + 1;
+    height = std::max(height, level[i] + 1);
   }
-  return leaves;
+  return height;
 }
 
-// Finds each node's new place. Pairs are named by their left node.
+// The smallest step of which all offsets are multiples and none too many; else the smallest in
+// which none is too many.
+int OffsetStep(const std::vector<Node>& nodes) {
+  int largest = 0;
+  int common = 0;
+  for (const Node& node : nodes) {
+    if (node.is_leaf()) continue;
+    for (const int offset : {node.u[0], node.u[1], node.v[0], node.v[1]}) {
+      largest = std::max(largest, std::abs(offset));
+      common = std::gcd(common, offset);
+    }
+  }
+  const int least = std::max(1, (largest + kMostPackedOffset - 1) / kMostPackedOffset);
+  for (int step = least; step <= common; ++step) {
+    if (common % step == 0) return step;
+  }
+  return least;
+}
+
+uint16_t PackWord(int offset, int offset_step, int piece) {
+  const long steps = std::lround(static_cast<double>(offset) / offset_step);
+  return static_cast<uint16_t>(static_cast<int>(steps) * 16 | (piece & 15));
+}
+
+PackedNode Pack(const Node& node, int offset_step) {
+  const int threshold = node.threshold_mm;
+  return {{PackWord(node.u[0], offset_step, threshold),
+           PackWord(node.u[1], offset_step, threshold >> 8),
+           PackWord(node.v[0], offset_step, threshold >> 4),
+           PackWord(node.v[1], offset_step, threshold >> 12)}};
+}
+
 class Placer {
  public:
-  explicit Placer(const std::vector<Node>& nodes)
-      : place(nodes.size(), kNowhere), nodes_(nodes), leaves_(LeavesBelow(nodes)) {
-    place[0] = 0;
-    waiting_.reserve(nodes.size() / 2);
-    PushPairBelow(0);
-    for (size_t i = 0; i < waiting_.size(); ++i) PlaceLine(waiting_[i]);
+  explicit Placer(const std::vector<Node>& nodes) : nodes_(nodes) {
+    tree.offset_step = OffsetStep(nodes);
+    const int above = (kLevelsOfLine - HeightOf(nodes) % kLevelsOfLine) % kLevelsOfLine;
+    tree.first_node = (1 << above) - 1;
+    PlaceLine(0, static_cast<size_t>(tree.first_node));
+    for (size_t i = 0; i < waiting_.size(); ++i) PlaceLine(waiting_[i], 0);
   }
 
-  std::vector<int32_t> place;
-  int32_t lines() const { return end_ / kLine; }
+  LinedTree tree;
 
  private:
-  void PushPairBelow(int32_t node) {
-    const int32_t left = nodes_[static_cast<size_t>(node)].left;
-    if (left >= 0) waiting_.push_back(left);
+  static constexpr size_t kNodes = 7;
+
+  // The line with this node of the tree at this place in it.
+  void PlaceLine(int32_t root, size_t at) {
+    std::array<int32_t, kNodes + kExitsOfLine> node;  // of the tree, in each place and way out
+    node.fill(kNowhere);
+    node[at] = root;
+    NodeLine line;
+    for (size_t i = at; i < kNodes; ++i) {
+      if (node[i] == kNowhere) continue;
+      const Node& here = nodes_[static_cast<size_t>(node[i])];
+      if (here.is_leaf()) {  // goes on to the left
+        node[2 * i + 1] = node[i];
+        continue;
+      }
+      line.node[i] = Pack(here, tree.offset_step);
+      node[2 * i + 1] = here.left;
+      node[2 * i + 2] = here.left + 1;
+    }
+    line.lines = static_cast<uint32_t>(waiting_.size() + 1) << 8U;
+    line.leaves = static_cast<uint32_t>(tree.leaf.size()) << 8U;
+    for (uint32_t way = 0; way < kExitsOfLine; ++way) Leave(node[kNodes + way], 1U << way, &line);
+    tree.lines.push_back(line);
   }
 
-  void PlacePair(int32_t left, int32_t at) {
-    place[static_cast<size_t>(left)] = at;
-    place[static_cast<size_t>(left) + 1] = at + 1;
-  }
-
-  // The pair, and with it the pair below the heavier of its nodes.
-  void PlaceLine(int32_t pair) {
-    const auto weight = [&](int32_t node) { return leaves_[static_cast<size_t>(node)]; };
-    const int32_t heavier = weight(pair) >= weight(pair + 1) ? pair : pair + 1;
-    const int32_t below = nodes_[static_cast<size_t>(heavier)].left;
-    if (below < 0) return PlaceTwoLeaves(pair);
-    PlacePair(pair, end_);
-    PlacePair(below, end_ + 2);
-    end_ += kLine;
-    PushPairBelow(heavier == pair ? pair + 1 : pair);
-    PushPairBelow(below);
-    PushPairBelow(below + 1);
-  }
-
-  // Nothing is below: two such pairs share a line.
-  void PlaceTwoLeaves(int32_t pair) {
-    if (half_line_ == kNowhere) {
-      PlacePair(pair, end_);
-      half_line_ = end_ + 2;
-      end_ += kLine;
+  void Leave(int32_t node, uint32_t way, NodeLine* line) {
+    if (node == kNowhere) return;
+    const Node& below = nodes_[static_cast<size_t>(node)];
+    if (below.is_leaf()) {
+      line->leaves |= way;
+      tree.leaf.push_back(below.leaf());
     } else {
-      PlacePair(pair, half_line_);
-      half_line_ = kNowhere;
+      line->lines |= way;
+      waiting_.push_back(node);
     }
   }
 
+  static constexpr int32_t kNowhere = -1;
   const std::vector<Node>& nodes_;
-  std::vector<int32_t> leaves_;
-  std::vector<int32_t> waiting_;  // pairs; those before the one at hand are placed
-  int32_t end_ = kLine;           // the root has a line of its own
-  int32_t half_line_ = kNowhere;  // the free half of a line of leaves
+  std::vector<int32_t> waiting_;  // roots of lines behind the first; those before the one at hand
+                                  // are placed
 };
 
 }  // namespace
 
-std::vector<NodeLine> LayOutInLines(const std::vector<Node>& nodes) {
-  const Placer placer(nodes);
-  std::vector<NodeLine> lines(static_cast<size_t>(placer.lines()));
-  for (size_t i = 0; i < nodes.size(); ++i) {
-    const auto at = static_cast<size_t>(placer.place[i]);
-    Node& node = lines[at / kLine].node[at % kLine];
-    node = nodes[i];
-    if (!node.is_leaf()) node.left = placer.place[static_cast<size_t>(node.left)];
-  }
-  return lines;
-}
+LinedTree LayOutInLines(const std::vector<Node>& nodes) { return Placer(nodes).tree; }
 
 }  // namespace ossa::forest

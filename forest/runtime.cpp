@@ -191,19 +191,21 @@ std::vector<std::vector<uint32_t>> Neighbours(const ForestData& data) {
   return neighbours;
 }
 
-LeafTables MakeLeafTables(const Tree& tree, size_t contexts, const LogRatios& log_ratios,
-                          LeafCells* cells) {
+LeafTables MakeLeafTables(const Tree& tree, const std::vector<int32_t>& order, size_t contexts,
+                          const LogRatios& log_ratios, LeafCells* cells) {
   LeafTables leaves;
   leaves.shares.resize(contexts * tree.leaf_count());
   leaves.evidence.reserve(contexts * tree.leaf_count());
   for (size_t leaf = 0; leaf < tree.leaf_count(); ++leaf) {
-    cells->Load(tree, leaf);
+    cells->Load(tree, static_cast<size_t>(order[leaf]));
     AppendEvidence(*cells, log_ratios, &leaves.evidence);
     FillShares(*cells, leaf, tree.leaf_count(), leaves.shares.data());
   }
   size_t rows = 0;
-  leaves.vote_row = VoteRows(tree, &rows);
-  if (tree.votes.empty()) std::fill(leaves.vote_row.begin(), leaves.vote_row.end(), -1);
+  const std::vector<int32_t> vote_row = VoteRows(tree, &rows);
+  for (const int32_t leaf : order) {
+    leaves.vote_row.push_back(tree.votes.empty() ? -1 : vote_row[static_cast<size_t>(leaf)]);
+  }
   PreferLargePages(leaves.shares);
   PreferLargePages(leaves.evidence);
   return leaves;
@@ -237,13 +239,16 @@ RuntimeTables MakeRuntimeTables(ForestData* data, ModelUse use) {
   const LogRatios log_ratios(*data);
   LeafCells cells(data->class_names.size(), data->context_names.size());
   for (Tree& tree : data->trees) {
-    tables.leaves.push_back(MakeLeafTables(tree, data->context_names.size(), log_ratios, &cells));
+    LinedTree lined = LayOutInLines(tree.nodes);
+    tables.leaves.push_back(
+        MakeLeafTables(tree, lined.leaf, data->context_names.size(), log_ratios, &cells));
+    std::vector<int32_t>().swap(lined.leaf);
     if (use == ModelUse::kRunOnly) {
       std::vector<uint32_t>().swap(tree.entry_begin);
       std::vector<uint16_t>().swap(tree.entries);
     }
-    tables.nodes.push_back(LayOutInLines(tree.nodes));
-    PreferLargePages(tables.nodes.back());
+    PreferLargePages(lined.lines);
+    tables.trees.push_back(std::move(lined));
     if (use == ModelUse::kRunOnly) std::vector<Node>().swap(tree.nodes);
   }
   for (const Arrangement& each : data->arrangements) tables.factor_models.emplace_back(each);

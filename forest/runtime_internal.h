@@ -5,6 +5,7 @@
 
 #include "forest/factor_model_internal.h"
 #include "forest/forest.h"
+#include "forest/node_lines_internal.h"
 
 namespace ossa::forest {
 
@@ -19,7 +20,7 @@ struct alignas(8) ShareRow {
   std::array<uint8_t, kMostShares> share{};
 };
 
-/// One tree's leaves as classification wants them.
+/// One tree's leaves as classification wants them, in the order of LinedTree.
 struct LeafTables {
   std::vector<int16_t> evidence;  // leaf × context: log P(leaf | context) - mean, 1/256 nat
   std::vector<ShareRow> shares;   // context × leaf: one context's rows stand together
@@ -28,26 +29,17 @@ struct LeafTables {
   size_t leaf_count() const { return vote_row.size(); }
 };
 
-/// Nodes as walks want them: a line of the cache at a time.
-struct alignas(64) NodeLine {
-  std::array<Node, 4> node;
-};
-
-/// The same tree with the nodes in another order: children still stand side by side, a child's
-/// children often in the line of the child. Precondition: breadth-first order, as in Tree.
-std::vector<NodeLine> LayOutInLines(const std::vector<Node>& nodes);
-
 /// Derived from ForestData when a model is made.
 struct RuntimeTables {
-  std::vector<std::vector<NodeLine>> nodes;  // of each tree
-  std::vector<LeafTables> leaves;            // one a tree
-  std::vector<FactorModel> factor_models;    // one an arrangement
+  std::vector<LinedTree> trees;
+  std::vector<LeafTables> leaves;          // one a tree
+  std::vector<FactorModel> factor_models;  // one an arrangement
   /// Of each target, the two others that move with it most; empty without arrangements.
   std::vector<std::vector<uint32_t>> neighbours;
 };
 
 /// Of a model that is only run, each tree's nodes and entries are let go before the next tree's
-/// turn.
+/// turn. Precondition: no tree has more than LinedTree::kMostLeaves leaves.
 RuntimeTables MakeRuntimeTables(ForestData* data, ModelUse use);
 
 /// The row of votes of each leaf: rows are given out breadth-first to the nodes at the tree's

@@ -1,6 +1,7 @@
-#include "forest/feature_internal.h"
-
 #include <algorithm>
+#include <bit>
+
+#include "forest/feature_internal.h"
 
 namespace ossa::forest {
 
@@ -33,26 +34,54 @@ ObjectImage CutOut(const depth::DepthView& depth, const depth::Camera& camera,
   return image;
 }
 
-void WalkScalar(const WalkInput& input, int32_t* leaf, size_t leaf_stride) {
+namespace {
+
+// The way out of a line: whether it leads to another line, and the number of that line or leaf.
+struct WayOut {
+  bool goes_on = false;
+  int32_t number = 0;
+};
+
+WayOut LeaveLine(const NodeLine& line, uint32_t way) {
+  const uint32_t bit = 1U << way;
+  const bool goes_on = (line.lines & bit) != 0;
+  const uint32_t ways = goes_on ? line.lines : line.leaves;
+  return {goes_on, static_cast<int32_t>(ways >> 8U) + std::popcount(ways & (bit - 1))};
+}
+
+int32_t WalkOne(const WalkInput& input, int x, int y) {
   const ObjectImage& image = *input.image;
+  const LinedTree& tree = *input.tree;
   const uint16_t* depth_mm = image.depth_mm.data();
-  for (size_t i = 0; i < input.position.size(); ++i) {
-    const int x = input.position[i] & 0xffff;
-    const int y = input.position[i] >> 16;
-    const auto d_mm = static_cast<float>(depth_mm[image.At(x, y)]);
-    const int scale_u = FixedScale(image.scale_u, d_mm);
-    const int scale_v = FixedScale(image.scale_v, d_mm);
-    const auto read = [&](const std::array<int16_t, 2>& offset) {
-      const int probe_x = std::clamp(x + ScaleOffset(offset[0], scale_u), -1, image.width);
-      const int probe_y = std::clamp(y + ScaleOffset(offset[1], scale_v), -1, image.height);
-      return static_cast<int>(depth_mm[image.At(probe_x, probe_y)]);
-    };
-    const Node* node = input.nodes;
-    while (!node->is_leaf()) {
-      const int response_mm = read(node->u) - read(node->v);
-      node = input.nodes + node->left + (response_mm > node->threshold_mm ? 1 : 0);
+  const auto d_mm = static_cast<float>(depth_mm[image.At(x, y)]);
+  const int scale_u = FixedScale(image.scale_u, d_mm);
+  const int scale_v = FixedScale(image.scale_v, d_mm);
+  const auto read = [&](int steps_u, int steps_v) {
+    const int offset_u = ScaleOffset(steps_u * tree.offset_step, scale_u);
+    const int offset_v = ScaleOffset(steps_v * tree.offset_step, scale_v);
+    const int probe_x = std::clamp(x + offset_u, -1, image.width);
+    const int probe_y = std::clamp(y + offset_v, -1, image.height);
+    return static_cast<int>(depth_mm[image.At(probe_x, probe_y)]);
+  };
+  auto at = static_cast<size_t>(tree.first_node);
+  for (WayOut out{true, 0};; at = 0) {
+    const NodeLine& line = tree.lines[static_cast<size_t>(out.number)];
+    while (at < line.node.size()) {
+      const PackedNode& node = line.node[at];
+      const int response_mm =
+          read(node.offset(0), node.offset(1)) - read(node.offset(2), node.offset(3));
+      at = 2 * at + (response_mm > node.threshold_mm() ? 2 : 1);
     }
-    leaf[i * leaf_stride] = node->leaf();
+    out = LeaveLine(line, static_cast<uint32_t>(at - line.node.size()));
+    if (!out.goes_on) return out.number;
+  }
+}
+
+}  // namespace
+
+void WalkScalar(const WalkInput& input, int32_t* leaf, size_t leaf_stride) {
+  for (size_t i = 0; i < input.position.size(); ++i) {
+    leaf[i * leaf_stride] = WalkOne(input, input.position[i] & 0xffff, input.position[i] >> 16);
   }
 }
 

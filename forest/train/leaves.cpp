@@ -35,13 +35,14 @@ void Add(int64_t* to, int64_t value) {
 }
 
 // Leaf of each sample of an image, in one tree.
-std::vector<int32_t> LeavesOf(const Tree& tree, const StoredImage& image, size_t step) {
+std::vector<int32_t> LeavesOf(const LinedTree& tree, const StoredImage& image, size_t step) {
   std::vector<int32_t> position;
   for (size_t i = 0; i < image.samples.size(); i += step) {
     position.push_back((image.samples[i].y << 16) | image.samples[i].x);
   }
   std::vector<int32_t> leaf(position.size());
-  Walk({tree.nodes.data(), &image.image, position}, leaf.data(), 1);
+  Walk({&tree, &image.image, position}, leaf.data(), 1);
+  for (int32_t& each : leaf) each = tree.leaf[static_cast<size_t>(each)];
   return leaf;
 }
 
@@ -71,12 +72,13 @@ void CountCells(const Tree& tree, const ImageParts& parts, size_t class_count,
                 const std::vector<uint64_t>& shares, std::vector<uint32_t>* counts) {
   constexpr uint64_t kSeed = 0xba1a;
   const size_t cells = class_count * shares.size();
+  const LinedTree lined = LayOutInLines(tree.nodes);
   counts->assign(tree.leaf_count() * cells, 0);
   parts.Visit([&](size_t, const std::vector<StoredImage>& images) {
     oneapi::tbb::parallel_for(size_t{0}, images.size(), [&](size_t i) {
       const StoredImage& image = images[i];
       if (Random(MixSeed(kSeed, image.index)).Next() >> 32U >= shares[image.context]) return;
-      const std::vector<int32_t> leaf = LeavesOf(tree, image, 1);
+      const std::vector<int32_t> leaf = LeavesOf(lined, image, 1);
       for (size_t s = 0; s < leaf.size(); ++s) {
         const size_t cell = static_cast<size_t>(leaf[s]) * cells + image.context * class_count +
                             image.samples[s].label;
@@ -142,10 +144,11 @@ void AddVote(const Eigen::Vector3i& offset_mm, const VoteSum* before, VoteSum* s
 
 void SumVotes(const Tree& tree, const std::vector<int32_t>& row_of_leaf, const ImageParts& parts,
               size_t targets, const VotePass& pass) {
+  const LinedTree lined = LayOutInLines(tree.nodes);
   parts.Visit([&](size_t, const std::vector<StoredImage>& images) {
     oneapi::tbb::parallel_for(size_t{0}, images.size(), [&](size_t i) {
       const StoredImage& image = images[i];
-      const std::vector<int32_t> leaf = LeavesOf(tree, image, kVoteEvery);
+      const std::vector<int32_t> leaf = LeavesOf(lined, image, kVoteEvery);
       const size_t contexts = pass.contexts;
       for (size_t s = 0; s < leaf.size(); ++s) {
         const PixelSample& pixel = image.samples[s * kVoteEvery];
