@@ -133,54 +133,73 @@ std::vector<ActiveContext> ActiveContexts(std::span<const float> posterior) {
   }
 }
 
+// Samples whose leaves are added up before their sums are read: a sum that was only just written
+// number by number cannot be read many at once.
+constexpr size_t kMixedAtOnce = 32;
+
 // out = sum · 255 / total, rounded; the same on every path.
-OSSA_CLONES void ToMasses(const uint32_t* sum, float scale, size_t count, uint8_t* out) {
-  for (size_t c = 0; c < count; ++c) {
-    out[c] = static_cast<uint8_t>(static_cast<int32_t>(static_cast<float>(sum[c]) * scale + 0.5F));
+OSSA_CLONES void ToMasses(const uint32_t* sum, const uint32_t* total, size_t samples, size_t stride,
+                          uint8_t* out) {
+  for (size_t i = 0; i < samples; ++i, sum += stride, out += stride) {
+    const float scale = total[i] > 0 ? 255.0F / static_cast<float>(total[i]) : 0.0F;
+    for (size_t c = 0; c < stride; ++c) {
+      out[c] =
+          static_cast<uint8_t>(static_cast<int32_t>(static_cast<float>(sum[c]) * scale + 0.5F));
+    }
   }
+}
+
+// Adds what a sample's leaves say; returns how much it is.
+uint32_t AddLeaves(const ForestModel& model, std::span<const ActiveContext> active,
+                   const int32_t* leaf, uint32_t* sum) {
+  uint32_t total = 0;
+  for (const LeafTables& tables : model.tables().leaves) {
+    const auto row_number = static_cast<size_t>(*leaf++);
+    for (const ActiveContext& context : active) {
+      const ShareRow& row = tables.shares[context.index * tables.leaf_count() + row_number];
+      for (size_t s = 0; s < kMostShares; ++s) {
+        const uint32_t mass = context.share * row.share[s];
+        sum[row.column[s]] += mass;
+        total += mass;
+      }
+    }
+  }
+  return total;
 }
 
 // Masses of walked pixels [first, last). Integers and one rounding: the same in every order.
 void MixLeaves(const ForestModel& model, std::span<const ActiveContext> active,
                std::array<size_t, 2> range, Walked* walked) {
   const size_t trees = model.data().trees.size();
-  std::array<uint32_t, 256> sum{};
-  for (size_t i = range[0]; i < range[1]; ++i) {
-    const size_t next = std::min(i + kAhead, range[1] - 1);
-    for (const ActiveContext& context : active) {
-      FetchRows(model, context.index, &walked->leaf[next * trees]);
-    }
-    std::fill_n(sum.begin(), walked->stride, 0U);
-    uint32_t total = 0;
-    for (size_t t = 0; t < trees; ++t) {
-      const LeafTables& tables = model.tables().leaves[t];
-      const auto leaf = static_cast<size_t>(walked->leaf[i * trees + t]);
+  std::vector<uint32_t> sum(kMixedAtOnce * walked->stride);
+  std::array<uint32_t, kMixedAtOnce> total{};
+  for (size_t first = range[0]; first < range[1]; first += kMixedAtOnce) {
+    const size_t count = std::min(kMixedAtOnce, range[1] - first);
+    std::fill(sum.begin(), sum.end(), 0U);
+    for (size_t i = 0; i < count; ++i) {
+      const size_t next = std::min(first + i + kAhead, range[1] - 1);
       for (const ActiveContext& context : active) {
-        const ShareRow& row = tables.shares[context.index * tables.leaf_count() + leaf];
-        for (size_t s = 0; s < kMostShares; ++s) {
-          const uint32_t mass = context.share * row.share[s];
-          sum[row.column[s]] += mass;
-          total += mass;
-        }
+        FetchRows(model, context.index, &walked->leaf[next * trees]);
       }
+      total[i] = AddLeaves(model, active, &walked->leaf[(first + i) * trees],
+                           sum.data() + i * walked->stride);
     }
-    const float scale = total > 0 ? 255.0F / static_cast<float>(total) : 0.0F;
-    ToMasses(sum.data(), scale, walked->stride, walked->mass.get() + i * walked->stride);
+    ToMasses(sum.data(), total.data(), count, walked->stride,
+             walked->mass.get() + first * walked->stride);
   }
 }
 
-OSSA_CLONES uint32_t SumOf(const uint16_t* mass, size_t count) {
-  uint32_t total = 0;
-  for (size_t c = 0; c < count; ++c) total += mass[c];
-  return total;
+OSSA_CLONES void ToScales(const uint16_t* mass, size_t samples, size_t stride, float* scale) {
+  for (size_t i = 0; i < samples; ++i, mass += stride) {
+    uint32_t total = 0;
+    for (size_t c = 0; c < stride; ++c) total += mass[c];
+    scale[i] = total > 0 ? 1.0F / static_cast<float>(total) : 0.0F;
+  }
 }
 
 std::vector<float> ScalesOf(const std::vector<uint16_t>& mass, size_t stride) {
   std::vector<float> scale(mass.size() / stride);
-  for (size_t s = 0; s < scale.size(); ++s) {
-    const uint32_t total = SumOf(mass.data() + s * stride, stride);
-    scale[s] = total > 0 ? 1.0F / static_cast<float>(total) : 0.0F;
-  }
+  ToScales(mass.data(), scale.size(), stride, scale.data());
   return scale;
 }
 

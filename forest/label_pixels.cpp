@@ -30,40 +30,65 @@ std::vector<uint8_t> LabelsBetween(const SparsePixels& sparse, const SmoothMasse
   return between;
 }
 
-// One of the four samples around a pixel.
-struct Corner {
-  const uint16_t* mass = nullptr;
-  uint32_t weight = 0;
-  uint8_t label = 0;
+// Four samples and what they say of each other's labels: all pixels between them ask the same.
+struct Quad {
+  int32_t row = -2;                   // whose it is; those of other rows are out of date
+  int32_t count = 0;                  // of samples that exist
+  std::array<int32_t, 4> corner{};    // of each: 0 to 3, row by row
+  std::array<int32_t, 4> depth_mm{};  // of each
+  std::array<uint8_t, 4> label{};     // of each
+  std::array<std::array<uint32_t, 4>, 4> mass{};  // label's of × sample's
 };
 
-uint8_t LabelBetween(const SparsePixels& sparse, const SmoothMasses& smooth, const Between& x,
-                     const Between& y, int depth_mm) {
-  std::array<Corner, 4> corners;
-  size_t count = 0;
+void FillQuad(const SparsePixels& sparse, const SmoothMasses& smooth, int32_t x, int32_t y,
+              Quad* quad) {
+  quad->row = y;
+  quad->count = 0;
+  std::array<const uint16_t*, 4> mass{};
   for (int corner = 0; corner < 4; ++corner) {
-    const int cell_x = x.low + corner % 2;
-    const int cell_y = y.low + corner / 2;
-    const int across = corner % 2 == 0 ? 8 - x.eighths : x.eighths;
-    const int down = corner / 2 == 0 ? 8 - y.eighths : y.eighths;
+    const int cell_x = x + corner % 2;
+    const int cell_y = y + corner / 2;
     const int32_t sample = sparse.SampleAt(cell_x, cell_y);
     if (sample == SparsePixels::kNone) continue;
-    if (!SameSurface(sparse.grid.depth_mm[sparse.grid.At(cell_x, cell_y)], depth_mm)) continue;
     const auto s = static_cast<size_t>(sample);
-    corners[count++] = {smooth.mass.data() + s * smooth.stride,
-                        static_cast<uint32_t>(across * down), smooth.label[s]};
+    const auto k = static_cast<size_t>(quad->count++);
+    mass[k] = smooth.mass.data() + s * smooth.stride;
+    quad->corner[k] = corner;
+    quad->depth_mm[k] = sparse.grid.depth_mm[sparse.grid.At(cell_x, cell_y)];
+    quad->label[k] = smooth.label[s];
+  }
+  const auto count = static_cast<size_t>(quad->count);
+  for (size_t c = 0; c < count; ++c) {
+    const size_t label = quad->label[c];
+    for (size_t k = 0; k < count; ++k) quad->mass[c][k] = label > 0 ? mass[k][label - 1] : 0U;
+  }
+}
+
+// The label of those samples on the pixel's surface that has most of their masses, weighted
+// bilinearly; 0 where there is none.
+uint8_t LabelBetween(const Quad& quad, const Between& x, const Between& y, int depth_mm) {
+  const std::array<uint32_t, 2> across = {static_cast<uint32_t>(8 - x.eighths),
+                                          static_cast<uint32_t>(x.eighths)};
+  const std::array<uint32_t, 2> down = {static_cast<uint32_t>(8 - y.eighths),
+                                        static_cast<uint32_t>(y.eighths)};
+  const auto count = static_cast<size_t>(quad.count);
+  std::array<uint32_t, 4> weight{};
+  std::array<bool, 4> is_near{};
+  for (size_t k = 0; k < count; ++k) {
+    const auto corner = static_cast<size_t>(quad.corner[k]);
+    is_near[k] = SameSurface(quad.depth_mm[k], depth_mm);
+    weight[k] = is_near[k] ? across[corner % 2] * down[corner / 2] : 0;
   }
   uint32_t most = 0;
   uint8_t best = 0;
   for (size_t c = 0; c < count; ++c) {
-    const uint8_t label = corners[c].label;
-    if (label == 0 || label == best) continue;
-    uint32_t mass = 0;
-    for (size_t k = 0; k < count; ++k) mass += corners[k].weight * corners[k].mass[label - 1U];
-    if (mass > most || (mass == most && label < best)) {
-      most = mass;
-      best = label;
-    }
+    const std::array<uint32_t, 4>& of = quad.mass[c];
+    const uint32_t mass =
+        is_near[c] ? weight[0] * of[0] + weight[1] * of[1] + weight[2] * of[2] + weight[3] * of[3]
+                   : 0;
+    const bool wins = mass > most || (mass == most && mass > 0 && quad.label[c] < best);
+    most = wins ? mass : most;
+    best = wins ? quad.label[c] : best;
   }
   return best;
 }
@@ -74,19 +99,27 @@ std::vector<uint8_t> LabelPixels(const ObjectImage& image, std::span<const int32
                                  const SparsePixels& sparse, const SmoothMasses& smooth) {
   const std::vector<uint8_t> between = LabelsBetween(sparse, smooth);
   const auto columns = static_cast<size_t>(sparse.grid.width + 1);
+  std::vector<Quad> quads(columns);
   std::vector<uint8_t> labels(position.size());
+  uint8_t* label = labels.data();
+  const uint8_t* sample_label = smooth.label.data();
+  const int32_t* from = sparse.from.data();
   ForRows(position, kPositionRow, [&](int y, size_t first, size_t last) {
     const Between& row = sparse.row[static_cast<size_t>(y)];
     const uint8_t* row_between = &between[static_cast<size_t>(row.low + 1) * columns];
+    const uint16_t* depth_mm = &image.depth_mm[image.At(0, y)];
+    const Between* column_of = sparse.column.data();
+    Quad* row_quads = quads.data() + 1;
     for (size_t i = first; i < last; ++i) {
       const int x = position[i] & 0xffff;
-      const Between& column = sparse.column[static_cast<size_t>(x)];
-      const auto sample = static_cast<size_t>(sparse.from[i]);
-      labels[i] = smooth.label[sample];
+      const Between& column = column_of[x];
+      const auto sample = static_cast<size_t>(from[i]);
+      label[i] = sample_label[sample];
       if (row_between[column.low + 1] != kMixed || sparse.position[sample] == position[i]) continue;
-      const uint8_t label =
-          LabelBetween(sparse, smooth, column, row, image.depth_mm[image.At(x, y)]);
-      if (label != 0) labels[i] = label;
+      Quad& quad = row_quads[column.low];
+      if (quad.row != row.low) FillQuad(sparse, smooth, column.low, row.low, &quad);
+      const uint8_t mixed = LabelBetween(quad, column, row, depth_mm[x]);
+      if (mixed != 0) label[i] = mixed;
     }
   });
   return labels;

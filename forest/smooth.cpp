@@ -87,98 +87,92 @@ OSSA_CLONES void AverageRun(const uint16_t* sum, int radius, int32_t first,
 }
 
 // The first of a row's largest columns + 1; 0 where there is no mass.
-inline uint8_t LabelOf(const uint16_t* mass, size_t stride) {
-  std::array<uint16_t, kBlock> lane;
-  Block most = {};
-  for (size_t b = 0; b < stride; b += kBlock) {
-    Block here;
-    std::memcpy(&here, mass + b, sizeof(Block));
-    most = here > most ? here : most;
+[[gnu::always_inline]] inline uint8_t LabelOf(const uint16_t* mass, size_t stride) {
+  constexpr uint32_t kColumns = 255;
+  uint32_t best = 0;
+  for (size_t c = 0; c < stride; ++c) {
+    const uint32_t key =
+        static_cast<uint32_t>(mass[c]) << 8U | (kColumns - static_cast<uint32_t>(c));
+    best = key > best ? key : best;
   }
-  std::memcpy(lane.data(), &most, sizeof(Block));
-  const uint16_t largest = *std::max_element(lane.begin(), lane.end());
-  if (largest == 0) return 0;
-  Block number = {0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15};
-  Block first = ~Block{};
-  for (size_t b = 0; b < stride; b += kBlock, number += kBlock) {
-    Block here;
-    std::memcpy(&here, mass + b, sizeof(Block));
-    const Block column = here == largest ? number : ~Block{};
-    first = column < first ? column : first;
-  }
-  std::memcpy(lane.data(), &first, sizeof(Block));
-  return static_cast<uint8_t>(*std::min_element(lane.begin(), lane.end()) + 1);
+  return best >> 8U == 0 ? 0 : static_cast<uint8_t>(kColumns - (best & kColumns) + 1);
 }
 
-// out = sums at `high` - sums at `low`, modulo 2^16, and its label.
-OSSA_CLONES void Conclude(const Ring& ring, std::span<const std::array<int32_t, 2>> high_low,
-                          uint16_t* out, uint8_t* label) {
+// Where a sample's window ends below, and before it begins; and the sample itself.
+struct Window {
+  int32_t high = kNone;
+  int32_t low = kNone;
+  int32_t sample = 0;
+};
+
+// Sums at `high` - sums at `low`, modulo 2^16, and the label of each.
+OSSA_CLONES void Conclude(const Ring& ring, std::span<const Window> windows, uint16_t* mass,
+                          uint8_t* label) {
   const uint16_t* rows = ring.rows.data();
-  for (const auto& [high, low] : high_low) {
-    const uint16_t* minuend = rows + ring.At(high);
-    const uint16_t* subtrahend = rows + ring.At(low);
-    for (size_t c = 0; c < ring.stride; ++c) {
-      out[c] = static_cast<uint16_t>(minuend[c] - subtrahend[c]);
+  const size_t stride = ring.stride;
+  for (const Window& window : windows) {
+    const uint16_t* minuend = rows + ring.At(window.high);
+    const uint16_t* subtrahend = rows + ring.At(window.low);
+    uint16_t* out = mass + static_cast<size_t>(window.sample) * stride;
+    for (size_t b = 0; b < stride; b += kBlock) {
+      Block high, low;
+      std::memcpy(&high, minuend + b, sizeof(Block));
+      std::memcpy(&low, subtrahend + b, sizeof(Block));
+      high -= low;
+      std::memcpy(out + b, &high, sizeof(Block));
     }
-    *label++ = LabelOf(out, ring.stride);
-    out += ring.stride;
+    label[window.sample] = LabelOf(out, stride);
   }
 }
 
 // The samples on the grid, in raster order: what follows numbers them so.
 struct Raster {
-  std::vector<int32_t> position;  // y << 16 | x, of the grid
+  std::vector<int32_t> cell;
   std::vector<int32_t> sample;
   std::vector<size_t> row_begin;  // the first of each row, and one past the last of all
   std::vector<int32_t> index;     // of a cell: its number here; or kNone
-};
-
-Raster RasterOf(const SparsePixels& sparse) {
-  Raster raster;
-  raster.index.assign(sparse.sample.size(), kNone);
-  for (int y = 0; y < sparse.grid.height; ++y) {
-    raster.row_begin.push_back(raster.position.size());
-    for (int x = 0; x < sparse.grid.width; ++x) {
-      const int32_t sample = sparse.SampleAt(x, y);
-      if (sample == kNone) continue;
-      raster.index[static_cast<size_t>(y * sparse.grid.width + x)] =
-          static_cast<int32_t>(raster.position.size());
-      raster.position.push_back((y << 16) | x);
-      raster.sample.push_back(sample);
-    }
-  }
-  raster.row_begin.push_back(raster.position.size());
-  return raster;
-}
-
-// Where each sample's column goes on, on the same surface.
-struct Columns {
+  // Where each sample's column goes on, on the same surface.
   std::vector<int32_t> up;             // its neighbour above; or kNone
   std::vector<uint16_t> above, below;  // how many follow each way
 };
 
-Columns LinkColumns(const ObjectImage& grid, const Raster& raster) {
-  const size_t count = raster.position.size();
-  Columns columns;
-  columns.up.assign(count, kNone);
-  columns.above.assign(count, 0);
-  columns.below.assign(count, 0);
-  for (size_t i = 0; i < count; ++i) {
-    const int32_t p = raster.position[i];
-    if (p >> 16 == 0) continue;
-    const int above = ((p >> 16) - 1) * grid.width + (p & 0xffff);
-    const int32_t up = raster.index[static_cast<size_t>(above)];
-    if (up == kNone) continue;
-    if (!SameSurface(DepthAt(grid, p), DepthAt(grid, raster.position[static_cast<size_t>(up)])))
-      continue;
-    columns.up[i] = up;
-    columns.above[i] = static_cast<uint16_t>(columns.above[static_cast<size_t>(up)] + 1);
+// The sample above one of row y, where it lies on the same surface.
+int32_t NeighbourAbove(const ObjectImage& grid, const Raster& raster, int x, int y) {
+  if (y == 0) return kNone;
+  const int32_t up = raster.index[static_cast<size_t>((y - 1) * grid.width + x)];
+  if (up == kNone) return kNone;
+  return SameSurface(grid.depth_mm[grid.At(x, y)], grid.depth_mm[grid.At(x, y - 1)]) ? up : kNone;
+}
+
+Raster RasterOf(const SparsePixels& sparse) {
+  const ObjectImage& grid = sparse.grid;
+  Raster raster;
+  raster.index.assign(sparse.sample.size(), kNone);
+  for (auto* list : {&raster.cell, &raster.sample, &raster.up}) list->resize(sparse.on_grid);
+  raster.above.assign(sparse.on_grid, 0);
+  raster.below.assign(sparse.on_grid, 0);
+  size_t count = 0;
+  for (int y = 0, cell = 0; y < grid.height; ++y) {
+    raster.row_begin.push_back(count);
+    for (int x = 0; x < grid.width; ++x, ++cell) {
+      const int32_t sample = sparse.sample[static_cast<size_t>(cell)];
+      if (sample == kNone) continue;
+      const int32_t up = NeighbourAbove(grid, raster, x, y);
+      if (up != kNone) {
+        raster.above[count] = static_cast<uint16_t>(raster.above[static_cast<size_t>(up)] + 1);
+      }
+      raster.index[static_cast<size_t>(cell)] = static_cast<int32_t>(count);
+      raster.up[count] = up;
+      raster.cell[count] = cell;
+      raster.sample[count++] = sample;
+    }
   }
+  raster.row_begin.push_back(count);
   for (size_t i = count; i-- > 0;) {
-    if (columns.up[i] == kNone) continue;
-    columns.below[static_cast<size_t>(columns.up[i])] = static_cast<uint16_t>(columns.below[i] + 1);
+    if (raster.up[i] == kNone) continue;
+    raster.below[static_cast<size_t>(raster.up[i])] = static_cast<uint16_t>(raster.below[i] + 1);
   }
-  return columns;
+  return raster;
 }
 
 // Samples in as many rows as must be held at once: a window, the row above it and the newest.
@@ -198,10 +192,8 @@ class Smoother {
         grid_(masses.sparse->grid),
         radius_(radius),
         raster_(RasterOf(*masses.sparse)),
-        columns_(LinkColumns(grid_, raster_)),
         ring_(MostHeld(raster_.row_begin, radius), masses.stride),
-        sum_(static_cast<size_t>(grid_.width + 1) * masses.stride),
-        row_label_(static_cast<size_t>(grid_.width)) {
+        sum_(static_cast<size_t>(grid_.width + 1) * masses.stride) {
     const size_t samples = masses.sparse->position.size();
     result_.stride = masses.stride;
     result_.mass.resize(samples * masses.stride);
@@ -220,43 +212,36 @@ class Smoother {
  private:
   // Runs of a row end where the object does or the depth jumps.
   void AverageRow(size_t y) {
-    const auto& position = raster_.position;
+    const uint16_t* depth_mm = &grid_.depth_mm[grid_.At(0, static_cast<int>(y))];
+    const auto& cell = raster_.cell;
+    const auto row_cell = static_cast<int32_t>(y) * grid_.width;
     for (size_t begin = raster_.row_begin[y], end; begin < raster_.row_begin[y + 1]; begin = end) {
-      int depth_mm = DepthAt(grid_, position[begin]);
+      int here_mm = depth_mm[cell[begin] - row_cell];
       for (end = begin + 1; end < raster_.row_begin[y + 1]; ++end) {
-        if (position[end] != position[end - 1] + 1) break;
-        const int next_mm = DepthAt(grid_, position[end]);
-        if (!SameSurface(next_mm, depth_mm)) break;
-        depth_mm = next_mm;
+        if (cell[end] != cell[end - 1] + 1) break;
+        const int next_mm = depth_mm[cell[end] - row_cell];
+        if (!SameSurface(next_mm, here_mm)) break;
+        here_mm = next_mm;
       }
       PrefixRun(masses_.mass, std::span(raster_.sample).subspan(begin, end - begin), masses_.stride,
                 sum_.data());
       AverageRun(sum_.data(), radius_, static_cast<int32_t>(begin),
-                 std::span(columns_.up).subspan(begin, end - begin), &ring_);
+                 std::span(raster_.up).subspan(begin, end - begin), &ring_);
     }
   }
 
   void ConcludeRow(size_t y) {
-    const size_t begin = raster_.row_begin[y];
-    high_low_.clear();
-    for (size_t i = begin; i < raster_.row_begin[y + 1]; ++i) {
-      const int32_t p = raster_.position[i];
-      const int at = (p >> 16) * grid_.width + (p & 0xffff);
-      const int down = std::min<int>(radius_, columns_.below[i]);
-      const int32_t high = raster_.index[static_cast<size_t>(at + down * grid_.width)];
-      const bool goes_on = columns_.above[i] > radius_;
-      high_low_.push_back(
-          {high,
-           goes_on ? raster_.index[static_cast<size_t>(at - (radius_ + 1) * grid_.width)] : kNone});
+    windows_.clear();
+    for (size_t i = raster_.row_begin[y]; i < raster_.row_begin[y + 1]; ++i) {
+      const int32_t cell = raster_.cell[i];
+      const int down = std::min<int>(radius_, raster_.below[i]);
+      const bool goes_on = raster_.above[i] > radius_;
+      const int32_t low =
+          goes_on ? raster_.index[static_cast<size_t>(cell - (radius_ + 1) * grid_.width)] : kNone;
+      windows_.push_back(
+          {raster_.index[static_cast<size_t>(cell + down * grid_.width)], low, raster_.sample[i]});
     }
-    // The sums along the row are done with: their place serves.
-    Conclude(ring_, high_low_, sum_.data(), row_label_.data());
-    for (size_t k = 0; k < high_low_.size(); ++k) {
-      const auto sample = static_cast<size_t>(raster_.sample[begin + k]);
-      std::copy_n(sum_.data() + k * masses_.stride, masses_.stride,
-                  result_.mass.data() + sample * masses_.stride);
-      result_.label[sample] = row_label_[k];
-    }
+    Conclude(ring_, windows_, result_.mass.data(), result_.label.data());
   }
 
   void ConcludeLoners() {
@@ -273,11 +258,9 @@ class Smoother {
   const ObjectImage& grid_;
   int radius_;
   Raster raster_;
-  Columns columns_;
-  Ring ring_;                                     // sums down the columns, modulo 2^16
-  std::vector<uint16_t> sum_;                     // along a run
-  std::vector<std::array<int32_t, 2>> high_low_;  // of a row: the ends of each sample's window
-  std::vector<uint8_t> row_label_;
+  Ring ring_;                    // sums down the columns, modulo 2^16
+  std::vector<uint16_t> sum_;    // along a run
+  std::vector<Window> windows_;  // of a row
   SmoothMasses result_;
 };
 

@@ -27,33 +27,54 @@ std::vector<Between> PlacesOnGrid(int pixels, double spacing) {
   return places;
 }
 
-// The pixel of each cell that is to be its sample: the one in its middle, else the first.
-void ChooseOfEachCell(std::span<const int32_t> position, SparsePixels* sparse) {
-  const auto columns = static_cast<size_t>(sparse->grid.width);
-  ForRows(position, kPositionRow, [&](int y, size_t first, size_t last) {
-    const Between& row = sparse->row[static_cast<size_t>(y)];
-    int32_t* cells = &sparse->sample[static_cast<size_t>(row.cell) * columns];
-    for (size_t i = first; i < last; ++i) {
-      const Between& column = sparse->column[static_cast<size_t>(position[i] & 0xffff)];
-      int32_t& chosen = cells[column.cell];
-      if (chosen == SparsePixels::kNone || (column.is_centre && row.is_centre)) {
-        chosen = static_cast<int32_t>(i);
-      }
-    }
-  });
+// The pixels of each cell along one axis.
+struct Cell {
+  int begin = 0, end = 0;
+  int centre = -1;  // the one nearest to the cell's middle; -1: it lies off the box
+};
+
+std::vector<Cell> CellsOf(const std::vector<Between>& places) {
+  std::vector<Cell> cells;
+  for (size_t i = 0; i < places.size(); ++i) {
+    const int pixel = static_cast<int>(i);
+    if (cells.size() <= static_cast<size_t>(places[i].cell)) cells.push_back({pixel, pixel, -1});
+    cells.back().end = pixel + 1;
+    if (places[i].is_centre) cells.back().centre = pixel;
+  }
+  return cells;
 }
 
-// Numbers the chosen pixels tile by tile.
-void NumberByTile(const ObjectImage& image, std::span<const int32_t> position,
-                  SparsePixels* sparse) {
+// Pixels that are not of the object read as the ring around them does.
+bool IsObject(const ObjectImage& image, int x, int y) {
+  return image.depth_mm[image.At(x, y)] != image.depth_mm.front();
+}
+
+// The pixel of a cell that is to be its sample: the one in its middle, else the first; or kNone.
+int32_t PixelOf(const ObjectImage& image, const Cell& column, const Cell& row) {
+  if (column.centre >= 0 && row.centre >= 0 && IsObject(image, column.centre, row.centre)) {
+    return row.centre << 16 | column.centre;
+  }
+  for (int y = row.begin; y < row.end; ++y) {
+    for (int x = column.begin; x < column.end; ++x) {
+      if (IsObject(image, x, y)) return y << 16 | x;
+    }
+  }
+  return SparsePixels::kNone;
+}
+
+// Chooses each cell's sample, tile by tile.
+void ChooseOfEachCell(const ObjectImage& image, SparsePixels* sparse) {
   ObjectImage& grid = sparse->grid;
+  const std::vector<Cell> columns = CellsOf(sparse->column);
+  const std::vector<Cell> rows = CellsOf(sparse->row);
   for (int y0 = 0; y0 < grid.height; y0 += kTileRows) {
     for (int x0 = 0; x0 < grid.width; x0 += kTileColumns) {
       for (int y = y0; y < std::min(grid.height, y0 + kTileRows); ++y) {
         int32_t* row = &sparse->sample[static_cast<size_t>(y) * static_cast<size_t>(grid.width)];
         for (int x = x0; x < std::min(grid.width, x0 + kTileColumns); ++x) {
-          if (row[x] == SparsePixels::kNone) continue;
-          const int32_t p = position[static_cast<size_t>(row[x])];
+          const int32_t p =
+              PixelOf(image, columns[static_cast<size_t>(x)], rows[static_cast<size_t>(y)]);
+          if (p == SparsePixels::kNone) continue;
           row[x] = static_cast<int32_t>(sparse->position.size());
           grid.depth_mm[grid.At(x, y)] = static_cast<uint16_t>(DepthAt(image, p));
           sparse->position.push_back(p);
@@ -83,6 +104,9 @@ void SpreadSamples(const ObjectImage& image, std::span<const int32_t> position,
                    SparsePixels* sparse) {
   const ObjectImage& grid = sparse->grid;
   sparse->from.resize(position.size());
+  int32_t* from = sparse->from.data();
+  std::vector<int32_t> cell_of;  // of each x
+  for (const Between& column : sparse->column) cell_of.push_back(column.cell);
   ForRows(position, kPositionRow, [&](int y, size_t first, size_t last) {
     const Between& row = sparse->row[static_cast<size_t>(y)];
     const uint16_t* cell_mm = &grid.depth_mm[grid.At(0, row.cell)];
@@ -91,16 +115,16 @@ void SpreadSamples(const ObjectImage& image, std::span<const int32_t> position,
     const uint16_t* pixel_mm = &image.depth_mm[image.At(0, y)];
     for (size_t i = first; i < last; ++i) {
       const int x = position[i] & 0xffff;
-      const Between& column = sparse->column[static_cast<size_t>(x)];
-      int32_t sample = cell_sample[column.cell];
-      if (!SameSurface(cell_mm[column.cell], pixel_mm[x])) {
-        sample = SampleAround(*sparse, column, row, pixel_mm[x]);
+      const int32_t cell = cell_of[static_cast<size_t>(x)];
+      int32_t sample = cell_sample[cell];
+      if (!SameSurface(cell_mm[cell], pixel_mm[x])) {
+        sample = SampleAround(*sparse, sparse->column[static_cast<size_t>(x)], row, pixel_mm[x]);
       }
       if (sample == SparsePixels::kNone) {
         sample = static_cast<int32_t>(sparse->position.size());
         sparse->position.push_back(position[i]);
       }
-      sparse->from[i] = sample;
+      from[i] = sample;
     }
   });
 }
@@ -119,8 +143,8 @@ SparsePixels ChooseSparse(const ObjectImage& image, std::span<const int32_t> pos
                        0);
   sparse.sample.assign(static_cast<size_t>(grid.width) * static_cast<size_t>(grid.height),
                        SparsePixels::kNone);
-  ChooseOfEachCell(position, &sparse);
-  NumberByTile(image, position, &sparse);
+  sparse.position.reserve(sparse.sample.size());
+  ChooseOfEachCell(image, &sparse);
   SpreadSamples(image, position, &sparse);
   return sparse;
 }
