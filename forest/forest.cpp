@@ -84,6 +84,10 @@ void CheckTree(const ForestData& data, size_t t, const std::string& name) {
   const Tree& tree = data.trees[t];
   const std::string where = name + ": tree " + std::to_string(t);
   if (tree.entry_begin.empty()) Refuse(where, "no leaves");
+  if (tree.leaf_count() > LinedTree::kMostLeaves) {
+    Refuse(where, "leaves: expected at most " + std::to_string(LinedTree::kMostLeaves) +
+                      ", found " + std::to_string(tree.leaf_count()));
+  }
   CheckTopology(tree, where);
   CheckLeaves(tree, data, where);
   size_t rows = 0;

@@ -11,17 +11,18 @@
 namespace ossa::forest {
 namespace {
 
-// Levels of inner nodes.
-int HeightOf(const std::vector<Node>& nodes) {
-  int height = 0;
-  std::vector<int> level(nodes.size(), 0);
+// Inner nodes of each level.
+std::vector<size_t> InnerNodes(const std::vector<Node>& nodes) {
+  std::vector<size_t> count;
+  std::vector<uint32_t> level(nodes.size(), 0);
   for (size_t i = 0; i < nodes.size(); ++i) {  // parents stand before their children
     if (nodes[i].is_leaf()) continue;
     const auto left = static_cast<size_t>(nodes[i].left);
     level[left] = level[left + 1] = level[i] + 1;
-    height = std::max(height, level[i] + 1);
+    if (level[i] == count.size()) count.push_back(0);
+    ++count[level[i]];
   }
-  return height;
+  return count;
 }
 
 // The smallest step of which all offsets are multiples and none too many; else the smallest in
@@ -60,7 +61,11 @@ class Placer {
  public:
   explicit Placer(const std::vector<Node>& nodes) : nodes_(nodes) {
     tree.offset_step = OffsetStep(nodes);
-    const int above = (kLevelsOfLine - HeightOf(nodes) % kLevelsOfLine) % kLevelsOfLine;
+    const std::vector<size_t> inner = InnerNodes(nodes);
+    const size_t above = (kLevelsOfLine - inner.size() % kLevelsOfLine) % kLevelsOfLine;
+    size_t lines = 1;
+    for (size_t l = kLevelsOfLine - above; l < inner.size(); l += kLevelsOfLine) lines += inner[l];
+    tree.lines.reserve(lines);
     tree.first_node = (1 << above) - 1;
     PlaceLine(0, static_cast<size_t>(tree.first_node));
     for (size_t i = 0; i < waiting_.size(); ++i) PlaceLine(waiting_[i], 0);

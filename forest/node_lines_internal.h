@@ -20,7 +20,7 @@ struct PackedNode {
 };
 inline constexpr int kMostPackedOffset = 2047;
 
-inline constexpr int kLevelsOfLine = 3;
+inline constexpr size_t kLevelsOfLine = 3;
 inline constexpr uint32_t kExitsOfLine = 8;
 
 /// Three levels of a tree: seven nodes, breadth-first, a line of the cache. Of the eight ways out

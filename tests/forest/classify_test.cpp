@@ -2,7 +2,10 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <array>
+#include <random>
+#include <utility>
 
 #include "forest/feature_internal.h"
 #include "forest/runtime_internal.h"
@@ -88,19 +91,25 @@ TEST(ForRows, TheLastRowOfTheLargestBoxOverflowsNothing) {
   });
 }
 
-// The vector path takes 128 pixels at a time, eight to a vector: any rest of them must do.
-TEST(Walk, AnyNumberOfPixelsEndsInTheLeavesOfTheScalarPath) {
+// A figure cut out, with the whole box as positions: its border and pixels off the object as well.
+ObjectImage CutFigure(std::vector<int32_t>* position) {
   const TrainingImage image = BallFigures(1, 8).Read(0);
   const ObjectImage cut = CutOut(test::ViewOf(image), image.camera, test::ObjectPixels(image),
                                  BallModel().data().background_mm);
-  std::vector<int32_t> position;  // the whole box: its border and pixels off the object as well
   for (int i = 0; i < cut.width * cut.height; ++i) {
-    position.push_back(i / cut.width << 16 | i % cut.width);
+    position->push_back(i / cut.width << 16 | i % cut.width);
   }
-  const Tree& tree = BallModel().data().trees.front();
+  return cut;
+}
+
+// The vector path takes 128 pixels at a time, eight to a vector: any rest of them must do.
+TEST(Walk, AnyNumberOfPixelsEndsInTheLeavesOfTheScalarPath) {
+  std::vector<int32_t> position;
+  const ObjectImage cut = CutFigure(&position);
+  const LinedTree tree = LayOutInLines(BallModel().data().trees.front().nodes);
   for (const size_t count : {size_t{1}, size_t{7}, size_t{8}, size_t{9}, size_t{127}, size_t{128},
                              size_t{137}, position.size()}) {
-    const WalkInput input{tree.nodes.data(), &cut, std::span(position).last(count)};
+    const WalkInput input{&tree, &cut, std::span(position).last(count)};
     std::vector<int32_t> scalar(count), best(count);
     WalkScalar(input, scalar.data(), 1);
     Walk(input, best.data(), 1);
@@ -108,27 +117,105 @@ TEST(Walk, AnyNumberOfPixelsEndsInTheLeavesOfTheScalarPath) {
   }
 }
 
-TEST(LayOutInLines, EveryWalkEndsInTheLeafItEndedInBefore) {
-  const TrainingImage image = BallFigures(1, 8).Read(0);
-  const ObjectImage cut = CutOut(test::ViewOf(image), image.camera, test::ObjectPixels(image),
-                                 BallModel().data().background_mm);
-  std::vector<int32_t> position;
-  for (int i = 0; i < cut.width * cut.height; ++i) {
-    position.push_back(i / cut.width << 16 | i % cut.width);
+// A tree of any shape: leaves on all levels, one in `leaf_in` nodes.
+std::vector<Node> RandomTree(unsigned seed, int levels, int leaf_in, int offset_step) {
+  std::mt19937 random(seed);
+  const auto draw = [&](int most) { return static_cast<int>(random() % (2U * most + 1U)) - most; };
+  std::vector<Node> nodes(1);
+  std::vector<int> level(1, 0);
+  int32_t leaves = 0;
+  for (size_t i = 0; i < nodes.size(); ++i) {
+    if (level[i] == levels || (i > 0 && random() % static_cast<unsigned>(leaf_in) == 0)) {
+      nodes[i].left = ~leaves++;
+      continue;
+    }
+    Node node;
+    for (auto* offset : {&node.u, &node.v}) {
+      for (int16_t& value : *offset) value = static_cast<int16_t>(draw(500) * offset_step);
+    }
+    node.threshold_mm = static_cast<int16_t>(draw(300));
+    node.left = static_cast<int32_t>(nodes.size());
+    nodes[i] = node;
+    nodes.resize(nodes.size() + 2);
+    level.resize(nodes.size(), level[i] + 1);
   }
-  const std::vector<Node>& nodes = BallModel().data().trees.front().nodes;
-  const std::vector<NodeLine> lines = LayOutInLines(nodes);
-  EXPECT_LE(4 * lines.size(), nodes.size() + 5);  // the root's line and one of two leaves have room
-  std::vector<int32_t> before(position.size()), after(position.size());
-  WalkScalar({nodes.data(), &cut, position}, before.data(), 1);
-  WalkScalar({lines.front().node.data(), &cut, position}, after.data(), 1);
-  EXPECT_EQ(after, before);
+  return nodes;
+}
+
+// The leaf of a walk from node to node.
+int32_t LeafOf(const std::vector<Node>& nodes, const ObjectImage& image, int x, int y) {
+  const auto d_mm = static_cast<float>(image.depth_mm[image.At(x, y)]);
+  const auto read = [&](const std::array<int16_t, 2>& offset) {
+    const int u = x + ScaleOffset(offset[0], FixedScale(image.scale_u, d_mm));
+    const int v = y + ScaleOffset(offset[1], FixedScale(image.scale_v, d_mm));
+    return int{
+        image.depth_mm[image.At(std::clamp(u, -1, image.width), std::clamp(v, -1, image.height))]};
+  };
+  const Node* node = nodes.data();
+  while (!node->is_leaf()) {
+    node = &nodes[static_cast<size_t>(node->left) +
+                  (read(node->u) - read(node->v) > node->threshold_mm ? 1 : 0)];
+  }
+  return node->leaf();
+}
+
+TEST(LayOutInLines, EveryWalkEndsInTheLeafItEndedInBefore) {
+  std::vector<int32_t> position;
+  const ObjectImage cut = CutFigure(&position);
+  for (int levels = 1; levels <= 11; ++levels) {
+    for (const int leaf_in : {3, 10, 1000}) {
+      const auto seed = static_cast<unsigned>(100 * levels + leaf_in);
+      const std::vector<Node> nodes = RandomTree(seed, levels, leaf_in, 1 + levels % 8);
+      const LinedTree tree = LayOutInLines(nodes);
+      std::vector<int32_t> leaf(position.size());
+      Walk({&tree, &cut, position}, leaf.data(), 1);
+      for (size_t i = 0; i < position.size(); ++i) {
+        ASSERT_EQ(tree.leaf.at(static_cast<size_t>(leaf[i])),
+                  LeafOf(nodes, cut, position[i] & 0xffff, position[i] >> 16))
+            << levels << " levels, a leaf in " << leaf_in;
+      }
+    }
+  }
+}
+
+TEST(LayOutInLines, EveryLeafHasANumberOfItsOwn) {
+  const std::vector<Node> nodes = RandomTree(5, 12, 6, 1);
+  std::vector<int32_t> leaf = LayOutInLines(nodes).leaf;
+  std::sort(leaf.begin(), leaf.end());
+  ASSERT_EQ(leaf.size(), nodes.size() / 2 + 1);
+  for (size_t i = 0; i < leaf.size(); ++i) EXPECT_EQ(leaf[i], static_cast<int32_t>(i));
+}
+
+TEST(LayOutInLines, AFullTreeOfSixLevelsIsNineLines) {
+  EXPECT_EQ(LayOutInLines(RandomTree(1, 6, 1 << 30, 1)).lines.size(), 9U);
+}
+
+TEST(LayOutInLines, OffsetsTooManyForItsStepsAreRounded) {
+  Node inner;
+  inner.u = {32767, -32768};
+  inner.v = {1000, 7};
+  inner.threshold_mm = -1234;
+  inner.left = 1;
+  Node left, right;
+  left.left = ~0;
+  right.left = ~1;
+  const LinedTree tree = LayOutInLines({inner, left, right});
+  const PackedNode& node = tree.lines.front().node.at(static_cast<size_t>(tree.first_node));
+  for (const auto& [k, offset] : {std::pair{0, 32767}, {1, -32768}, {2, 1000}, {3, 7}}) {
+    EXPECT_NEAR(node.offset(static_cast<size_t>(k)) * tree.offset_step, offset,
+                0.5 * tree.offset_step);
+  }
+  EXPECT_EQ(node.threshold_mm(), -1234);
 }
 
 TEST(LayOutInLines, ATreeOfOneLeafIsOneLine) {
-  const std::vector<NodeLine> lines = LayOutInLines({Node{}});
-  ASSERT_EQ(lines.size(), 1U);
-  EXPECT_EQ(lines.front().node.front(), Node{});
+  std::vector<int32_t> position;
+  const ObjectImage cut = CutFigure(&position);
+  const LinedTree tree = LayOutInLines({Node{}});
+  EXPECT_EQ(tree.lines.size(), 1U);
+  std::vector<int32_t> leaf(position.size(), -1);
+  Walk({&tree, &cut, position}, leaf.data(), 1);
+  EXPECT_EQ(leaf, std::vector<int32_t>(position.size(), 0));
 }
 
 // A flat board of 6 × 4 pixels, the right half 20 cm behind the left.
@@ -170,6 +257,16 @@ TEST(ChooseSparse, APixelAloneOnItsSurfaceIsASampleOffTheGrid) {
   EXPECT_EQ(sparse.position[sample], position[0]);
 }
 
+TEST(ChooseSparse, ACellWithoutItsMiddleHasItsFirstPixelAsSample) {
+  std::vector<int32_t> position;
+  ObjectImage image = SteppedBoard(&position);
+  std::erase(position, 1 << 16 | 1);  // the middle of the first cell of three by three
+  image.depth_mm[image.At(1, 1)] = 10000;
+  const SparsePixels sparse = ChooseSparse(image, position, 3.0);
+  EXPECT_EQ(sparse.position.at(0), 0);
+  EXPECT_EQ(sparse.position.at(1), 1 << 16 | 4);
+}
+
 TEST(ChooseSparse, EveryPixelWalksAtStepOne) {
   std::vector<int32_t> position;
   const ObjectImage image = SteppedBoard(&position);
@@ -187,8 +284,9 @@ TEST(LabelPixels, TheBorderOfTwoLabelsLiesBetweenTheirSamples) {
   ObjectImage image;
   image.width = 6;
   image.height = 1;
-  image.depth_mm.assign(static_cast<size_t>(image.stride()) * 3 + 2, 2000);
+  image.depth_mm.assign(static_cast<size_t>(image.stride()) * 3 + 2, 10000);
   const std::vector<int32_t> position = {0, 1, 2, 3, 4, 5};
+  for (const int32_t x : position) image.depth_mm[image.At(x, 0)] = 2000;
   const SparsePixels sparse = ChooseSparse(image, position, 3.0);
   ASSERT_EQ(sparse.on_grid, 2U);
   SmoothMasses smooth;

@@ -170,6 +170,12 @@ TEST(ForestModel, RefusesNumbersThatAreNone) {
   EXPECT_NE(RefusalOfData(data).find("not a number"), std::string::npos);
 }
 
+TEST(ForestModel, RefusesMoreLeavesThanItsLinesCanCount) {
+  ForestData data = BallModel().data();
+  data.trees.front().entry_begin.assign((size_t{1} << 24U) + 2, 0);
+  EXPECT_NE(RefusalOfData(std::move(data)).find("16777217"), std::string::npos);
+}
+
 TEST(ForestModel, RefusesVotesThatDoNotFitItsContexts) {
   ForestData data = BallModel().data();
   data.trees[0].votes.resize(data.trees[0].votes.size() / 2);
