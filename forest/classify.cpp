@@ -41,7 +41,7 @@ struct ActiveContext {
   uint32_t share = 0;  // of kContextUnits
 };
 
-constexpr size_t kAhead = 12;  // pixels whose rows are fetched before they are used
+constexpr size_t kAhead = 24;  // pixels whose rows are fetched before they are used
 
 // A pixel without reading has no feature.
 std::vector<int32_t> PixelsWithReading(const depth::DepthView& depth,

@@ -8,6 +8,7 @@
 #include "recon/motion/authored.h"
 #include "tests/support/run_command.h"
 #include "tests/support/temporary_folder.h"
+#include "tools/experiments/compare/metrics.h"
 #include "tools/experiments/rooms/rooms_internal.h"
 #include "tools/experiments/stage/jobs.h"
 
@@ -41,6 +42,34 @@ TEST(RoomStage, SameSeedSameFramesWithEverybodyInThem) {
   EXPECT_EQ(first.depth.depth_mm, again.depth.depth_mm);
   for (const int user : {1, 2})
     EXPECT_GT(std::count(first.users.data.begin(), first.users.data.end(), user), 200);
+}
+
+// Somebody whose joints on the left are seen and right, and whose others are unseen and a metre
+// off.
+TEST(RoomJudge, SeenJointsAreJudgedBesideAll) {
+  constexpr int kWidth = 80, kHeight = 60;
+  LabelledFrame truth;
+  truth.depth.camera = {kWidth, kHeight, 72, 72, 40, 30};
+  truth.depth.depth_mm.assign(kWidth * kHeight, 2000);
+  truth.users = {kWidth, kHeight, 1};
+  TruthBody& person = truth.bodies.emplace_back();
+  tracker::BodyFrame answer;
+  answer.users = {kWidth, kHeight, 7};
+  tracker::Body& body = answer.bodies.emplace_back();
+  body.id = 7;
+  for (size_t j = 0; j < recon::kJointCount; ++j) {
+    person.visible[j] = j % 2 == 0;
+    const Eigen::Vector3d at_m(0.1 * static_cast<double>(j), 0, 2);
+    person.joints_m.position_m[j] = at_m;
+    body.raw.posture.position_m[j] = at_m + Eigen::Vector3d(0, j % 2 == 0 ? 0.0 : 1.0, 0);
+    body.raw.state[j] = recon::TrackingState::kTracked;
+    body.raw.confidence[j] = 0.9;
+  }
+  RoomJudge judge;
+  judge.See(truth, answer);
+  EXPECT_EQ(judge.score.found, 1);
+  EXPECT_DOUBLE_EQ(Measure(judge.score.raw).map_10cm.value(), 0.5);
+  EXPECT_DOUBLE_EQ(Measure(judge.score.raw_seen).map_10cm.value(), 1.0);
 }
 
 TEST(RoomsCommand, AbsurdParametersAreOneLine) {

@@ -87,6 +87,7 @@ struct RoomScore {
   int64_t switches = 0;                        // a person's id is another than when last found
   double iou = 0;                              // summed over found
   PairedTracks raw, final;
+  PairedTracks raw_seen;  // raw, without joints that others, the person or the image's edge hide
 
   void Add(const RoomScore& other);
 };

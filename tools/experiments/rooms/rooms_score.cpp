@@ -72,6 +72,12 @@ SparsePosture TrueJoints(const TruthBody& truth) {
   return posture;
 }
 
+SparsePosture SeenJoints(const TruthBody& truth) {
+  SparsePosture posture = TrueJoints(truth);
+  std::copy(truth.visible.begin(), truth.visible.end(), posture.present.begin());
+  return posture;
+}
+
 void Append(PairedTracks& to, const PairedTracks& more) {
   to.time_s.insert(to.time_s.end(), more.time_s.begin(), more.time_s.end());
   to.truth.insert(to.truth.end(), more.truth.begin(), more.truth.end());
@@ -90,6 +96,7 @@ void RoomScore::Add(const RoomScore& other) {
   iou += other.iou;
   Append(raw, other.raw);
   Append(final, other.final);
+  Append(raw_seen, other.raw_seen);
 }
 
 void RoomJudge::SeePerson(const TruthBody& truth, const tracker::BodyFrame& answer, int body,
@@ -104,6 +111,9 @@ void RoomJudge::SeePerson(const TruthBody& truth, const tracker::BodyFrame& answ
     track->truth.push_back(TrueJoints(truth));
     track->result.push_back(joints(kind));
   }
+  score.raw_seen.time_s.push_back(time_s);
+  score.raw_seen.truth.push_back(SeenJoints(truth));
+  score.raw_seen.result.push_back(score.raw.result.back());
   if (body < 0) return;
   const int id = answer.bodies[static_cast<size_t>(body)].id;
   const auto before = id_of_person_.find(truth.id);
