@@ -106,7 +106,7 @@ void ReferenceLengths::FromAnyPosture(const BoneLengths& lengths, const JointWei
 }
 
 Reliability ReliabilityEstimator::Step(const TrackedPosture& observed,
-                                       const depth::DepthFrame* depth) {
+                                       const depth::DepthFrame* depth, double dt_s) {
   Reliability r;
   JointWeights seen{};
   for (size_t i = 0; i < kJointCount; ++i) {
@@ -129,8 +129,11 @@ Reliability ReliabilityEstimator::Step(const TrackedPosture& observed,
   reference_.Observe(observed.posture, r.state);
   r.behaviour = Behaviour();
   r.kinematics = Kinematics(observed.posture, seen);
+  r.speed.fill(1.0);
+  if (options_.use_speed) r.speed = speed_.Step(observed.posture, seen, dt_s, options_);
   for (size_t i = 0; i < kJointCount; ++i) {
-    r.instant[i] = std::min({r.behaviour[i], r.kinematics[i], r.state[i], r.surface[i]});
+    r.instant[i] =
+        std::min({r.behaviour[i], r.kinematics[i], r.state[i], r.surface[i], r.speed[i]});
   }
   instant_.push_back(r.instant);
   if (instant_.size() > static_cast<size_t>(options_.window_frames)) instant_.pop_front();

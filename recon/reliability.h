@@ -17,6 +17,9 @@ struct ReliabilityOptions {
   // Departure, ours: is there a surface where the joint is said to be? Without a depth image
   // (files, the studies of the papers) the terms are the papers' three.
   bool use_depth = true;
+  // Departure, ours, off for the papers' methods: a joint that leaves its bone faster than people
+  // move. One wrong frame is too short for the vibration of eq. 4, and may keep the bone's length.
+  bool use_speed = false;
   double d_min_m = 0.03;                  // d_min of eq. 3, metres
   double floor_rad = 1.5707963267948966;  // theta_floor of eq. 4: 90 degrees
   double roof_rad = 2.356194490192345;    // theta_roof of eq. 4: 135 degrees
@@ -25,14 +28,17 @@ struct ReliabilityOptions {
   double window_sigma_frames = 2.0;       // of w(f), eq. 8; the paper gives none
   double surface_behind_m = 0.25;         // a joint lies at most this far behind the skin it is in
   double surface_before_m = 0.08;         // a joint in free space: the surface is this much farther
+  double usual_speed = 5.0;               // m/s about the next joint: a thrower's arm
+  double no_speed = 8.0;                  // m/s about the next joint that nobody reaches
 };
 
-/// The three terms of one frame and the smoothed rate.
+/// The terms of one frame and the smoothed rate.
 struct Reliability {
   JointWeights behaviour{};   // Rb
   JointWeights kinematics{};  // Rk
   JointWeights state{};       // Rt
   JointWeights surface{};     // ours; 1 where the image cannot tell
+  JointWeights speed{};       // ours; 1 where it is not used
   JointWeights instant{};     // min of the above, this frame only
   JointWeights rate{};        // R_i of eq. 8
 };
@@ -60,11 +66,29 @@ class ReferenceLengths {
 /// True for the two reference postures of fig. 2: upright trunk and legs, arms level or hanging.
 bool IsReferencePosture(const Posture& in_camera);
 
+/// Ours: which joints move as a person's can about the next joint up that does, or about the whole
+/// body, since they were last believed to. What stays where it jumped to is believed once a limb
+/// could have come there; what comes back was never gone.
+class SpeedTerm {
+ public:
+  SpeedTerm() { unbelieved_s_.fill(-1.0); }
+  /// 1 up to the usual speed, 0 from that on which nobody reaches.
+  JointWeights Step(const Posture& posture, const JointWeights& seen, double dt_s,
+                    const ReliabilityOptions& options);
+
+ private:
+  Eigen::Vector3d BodyMoved(const Posture& posture, const JointWeights& seen) const;
+
+  Posture believed_;  // where each joint was, or would be now had it stayed on its bone
+  std::array<double, kJointCount> unbelieved_s_{};  // for how long; < 0: it was never believed
+};
+
 /// One person's reliability, frame by frame. Joints that are not finite count as not tracked.
 class ReliabilityEstimator {
  public:
   explicit ReliabilityEstimator(const ReliabilityOptions& options = {}) : options_(options) {}
-  Reliability Step(const TrackedPosture& observed, const depth::DepthFrame* depth);
+  Reliability Step(const TrackedPosture& observed, const depth::DepthFrame* depth,
+                   double dt_s = 1.0 / 30.0);
   void Reset();
   const ReferenceLengths& reference() const { return reference_; }
 
@@ -78,6 +102,7 @@ class ReliabilityEstimator {
   std::deque<Posture> postures_;      // newest last
   std::deque<JointWeights> seen_;     // 1 where the joint of that frame is a finite observation
   std::deque<JointWeights> instant_;  // newest last
+  SpeedTerm speed_;
 };
 
 /// Ours: what the depth image says of joints at these positions. A surface close in front of the

@@ -131,7 +131,7 @@ class Best : public Reconstructor {
       // Bones of real sensors are off by up to a third in the course of a move; by half they are
       // wrong. Where the trunk's own joints lie, sensors only define, and each differently.
       const double bones = InTrunk(i) ? 1.0 : std::clamp((r.kinematics[i] - 0.5) / 0.2, 0.0, 1.0);
-      trust[i] = prepared.present[i] * state * bones * r.behaviour[i] * r.surface[i] *
+      trust[i] = prepared.present[i] * state * bones * r.behaviour[i] * r.surface[i] * r.speed[i] *
                  (options_.repair ? plausibility_.joint_trust()[i] : 1.0) * doubt;
     }
     for (const BetweenTwo& line : kBetweenTwo) {
@@ -329,7 +329,7 @@ class Best : public Reconstructor {
   BestConstants constants_;
   std::unique_ptr<Reconstructor> natural_;  // plantard-2016, where there is a database
   PoseCorrection correction_;
-  Person person_;
+  Person person_{ReliabilityOptions{.use_speed = true}};
   Plausibility plausibility_;
   BodySize size_{true};  // of what comes out: the correction may change bones
   std::array<LagFilter, kJointCount> filters_;

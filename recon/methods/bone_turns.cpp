@@ -1,5 +1,7 @@
 #include "recon/methods/bone_turns_internal.h"
 
+#include "recon/database/nearest.h"
+
 namespace ossa::recon {
 
 JointOrientations TurnedOntoBones(const PostureDatabase& database, std::span<const int> postures,
@@ -32,11 +34,13 @@ JointOrientations TurnedOntoBones(const PostureDatabase& database, std::span<con
 }
 
 std::vector<double> InverseDistances(const PostureDatabase& database,
-                                     std::span<const int> neighbours, const PostureVector& made) {
+                                     std::span<const int> neighbours, const PostureVector& made,
+                                     const JointWeights& reliability) {
+  constexpr double kLeast_m2 = 1e-4;
   std::vector<double> weights;
   for (const int n : neighbours) {
-    const double d = (database.postures().col(n) - made).squaredNorm();
-    weights.push_back(1.0 / (1e-4 + d));  // 1 cm: a neighbour hit exactly does not silence the rest
+    const double d = WeightedDistance(database.postures().col(n), made, reliability);
+    weights.push_back(1.0 / (kLeast_m2 + d));
   }
   return weights;
 }

@@ -12,9 +12,10 @@ JointOrientations TurnedOntoBones(const PostureDatabase& database, std::span<con
                                   std::span<const double> weights, const Posture& in_camera,
                                   double yaw_rad);
 
-/// Weights of sec. VII-B: the inverse of eq. 9 between the posture made and each neighbour, all R_i
-/// one: of the posture made every joint is known.
+/// Weights of sec. VII-B: the inverse of eq. 9 between each neighbour and the posture made.
+/// Departure: 1 cm^2 is added, or a neighbour hit exactly would silence the others.
 std::vector<double> InverseDistances(const PostureDatabase& database,
-                                     std::span<const int> neighbours, const PostureVector& made);
+                                     std::span<const int> neighbours, const PostureVector& made,
+                                     const JointWeights& reliability);
 
 }  // namespace ossa::recon

@@ -30,7 +30,7 @@ ReconstructedPosture NaturalPostureMethod::Step(const ReconstructionInput& input
   last_ = space.Posture(found.q);
   const PostureVector shown = options_.keep_reliable ? WithReliableJoints(*last_, energy) : *last_;
   ReconstructedPosture out{person_.InCamera(PostureOf(shown), prepared), prepared.reliability};
-  const auto weights = InverseDistances(*database_, selected_, *last_);
+  const auto weights = InverseDistances(*database_, selected_, *last_, energy.reliability);
   out.orientation =
       TurnedOntoBones(*database_, selected_, weights, out.posture, prepared.placement.yaw_rad);
   person_.Remember(out.posture, prepared);

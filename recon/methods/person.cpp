@@ -91,21 +91,26 @@ Posture Completed(const Posture& in_camera, const JointWeights& present_in, cons
   return out;
 }
 
-/// Whether, over the last second, the median bone is off by more than the mean of one person's
-/// bones wanders: those that are observed, or, as measured, what a learned correction made of them.
-bool BodySize::HasOtherBones(const BoneLengths& measured, const JointWeights& trust) {
-  constexpr double kMemory = 1.0 / 30.0;
-  const double other = as_measured_ ? 0.07 : 0.06;
-  std::vector<double> off;
+// Robbins and Monro 1951, for the median: each sample moves it a step up or down, the n-th by 1/n.
+// Half of a body's lengths may be wrong without moving it far, as they are of somebody seen from
+// the side.
+void BodySize::TypicalBones::Add(const BoneLengths& measured, const JointWeights& trust) {
+  constexpr double kStep = 0.5;
+  constexpr int kMemory_frames = 600;
+  ++frames;
   for (size_t i = 1; i < kJointCount; ++i) {
     const double w = std::min(trust[i], trust[static_cast<size_t>(kJointParent[i])]);
-    if (w > 0.5 && std::isfinite(measured[i])) {
-      mean_m_[i] += kMemory * (measured[i] - mean_m_[i]);
+    if (!std::isfinite(measured[i]) || w <= 0.5) continue;
+    // Left and right are one bone.
+    const size_t bone = std::min(i, static_cast<size_t>(kMirroredJoint[i]));
+    int& n = samples[bone];
+    n = std::min(n + 1, kMemory_frames);
+    if (n <= 2) {
+      length_m[bone] += (measured[i] - length_m[bone]) / n;
+    } else {
+      length_m[bone] *= 1.0 + std::copysign(kStep / n, measured[i] - length_m[bone]);
     }
-    off.push_back(std::abs(mean_m_[i] / lengths_m_[i] - 1.0));
   }
-  std::nth_element(off.begin(), off.begin() + static_cast<ptrdiff_t>(off.size() / 2), off.end());
-  return off[off.size() / 2] > other;
 }
 
 void BodySize::Observe(const Posture& in_camera, const JointWeights& trust, double expected_scale) {
@@ -113,40 +118,56 @@ void BodySize::Observe(const Posture& in_camera, const JointWeights& trust, doub
   const BoneLengths measured = BoneLengthsOf(in_camera);
   const double scale = BodyScaleOf(measured, trust);
   if (locked_) {
-    const bool other =
-        good >= 12 && (std::abs(scale / scale_ - 1.0) > 0.25 || HasOtherBones(measured, trust));
-    other_size_frames_ = other ? other_size_frames_ + 1 : 0;
-    if (other_size_frames_ < 30) return;
+    const bool other_size = good >= 12 && std::abs(scale / scale_ - 1.0) > 0.25;
+    other_size_frames_ = other_size ? other_size_frames_ + 1 : 0;
+    if (other_size_frames_ < kPatience_frames) {
+      if (good >= 12 && !other_size) Reconsider(measured, trust, expected_scale);
+      return;
+    }
   }
   scale_ = good >= 4 ? scale : 1.0;
-  lengths_m_ = ScaledBoneLengths(scale_);
-  BoneLengths mean{};
+  typical_ = {};
+  next_look_ = kFirstLook_frames;
+  typical_.Add(measured, trust);
+  lengths_m_ = Taken(expected_scale);
+  locked_ = good >= 12;
+  other_size_frames_ = 0;
+}
+
+// After four seconds, eight, sixteen, ...: bones that are typically others than they were in the
+// first frame are taken anew. A body whose bones are seen as they are is left alone.
+void BodySize::Reconsider(const BoneLengths& measured, const JointWeights& trust,
+                          double expected_scale) {
+  typical_.Add(measured, trust);
+  if (typical_.frames < next_look_) return;
+  next_look_ *= 2;
+  const BoneLengths taken = Taken(expected_scale);
+  constexpr double kOther = 0.05;  // the median of that many frames is no more than 1 % off
+  bool other = false;
   for (size_t i = 1; i < kJointCount; ++i) {
-    const auto mirror = static_cast<size_t>(kMirroredJoint[i]);
-    double sum = 0.0, weight = 0.0;
-    for (const size_t side : {i, mirror}) {
-      const double w = std::min(trust[side], trust[static_cast<size_t>(kJointParent[side])]);
-      if (!std::isfinite(measured[side]) || w <= 0.5) continue;
-      sum += w * measured[side];
-      weight += w;
-    }
-    mean[i] = weight > 0.0 ? sum / weight : lengths_m_[i];
+    other = other || std::abs(taken[i] / lengths_m_[i] - 1.0) > kOther;
   }
+  if (other) lengths_m_ = taken;
+}
+
+/// The lengths that what is typical tells.
+BoneLengths BodySize::Taken(double expected_scale) const {
+  BoneLengths lengths = ScaledBoneLengths(scale_);
   for (size_t i = 1; i < kJointCount; ++i) {
+    const size_t bone = std::min(i, static_cast<size_t>(kMirroredJoint[i]));
+    double length = typical_.samples[bone] > 0 ? typical_.length_m[bone] : lengths[i];
     if (proportions_[i] > 0.0) {
       const double size = expected_scale > 0.0 ? expected_scale : scale_;
       const double expected_m = size * proportions_[i] * StandardBoneLengths()[i];
-      mean[i] += expected_ * (expected_m - mean[i]);
+      length += expected_ * (expected_m - length);
     }
     // Where trunk joints lie is each sensor's own definition; limbs differ between people only.
     const bool trunk = i <= 4 || i == 8 || i == 12 || i == 16;
     const double shortest = as_measured_ ? 0.1 : trunk ? 0.5 : 0.75;
     const double longest = as_measured_ || trunk ? 2.0 : 1.25;
-    lengths_m_[i] = std::clamp(mean[i], shortest * lengths_m_[i], longest * lengths_m_[i]);
+    lengths[i] = std::clamp(length, shortest * lengths[i], longest * lengths[i]);
   }
-  mean_m_ = lengths_m_;
-  locked_ = good >= 12;
-  other_size_frames_ = 0;
+  return lengths;
 }
 
 PreparedPosture Person::Prepare(const ReconstructionInput& input) {
@@ -158,7 +179,7 @@ PreparedPosture Person::Prepare(const ReconstructionInput& input) {
     estimator_.Reset();  // displacements across a gap are no vibration
     if (!started_) size_ = BodySize();
   }
-  const Reliability r = estimator_.Step(input.observed, input.depth);
+  const Reliability r = estimator_.Step(input.observed, input.depth, out.dt_s);
   out.reliability = r.rate;
   out.terms = r;
   for (size_t i = 0; i < kJointCount; ++i) {

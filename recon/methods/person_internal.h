@@ -9,8 +9,9 @@ namespace ossa::recon {
 
 /// The person's bone lengths, kept constant from the first good frame on: the standing or T-posed
 /// person that tracking starts with (Shum 2013 fig. 2), left and right averaged, each bone within a
-/// quarter of a body of that size. Measured anew only when the body has another size or other bones
-/// for a second: that is another person.
+/// quarter of a body of that size. Measured anew when the body has another size for a second, which
+/// is another person; and, at looks that become rarer, when the bones seen until then are typically
+/// others.
 class BodySize {
  public:
   BodySize() = default;
@@ -32,16 +33,28 @@ class BodySize {
   double scale() const { return scale_; }
 
  private:
-  bool HasOtherBones(const BoneLengths& measured, const JointWeights& trust);
+  static constexpr int kPatience_frames = 30;    // another size for so long is another person
+  static constexpr int kFirstLook_frames = 120;  // sooner, a pose is taken for a body
+  /// Median length of each bone over the frames seen; of a pair of bones at its left one.
+  struct TypicalBones {
+    void Add(const BoneLengths& measured, const JointWeights& trust);
+    BoneLengths length_m{};
+    std::array<int, kJointCount> samples{};
+    int frames = 0;
+  };
+
+  void Reconsider(const BoneLengths& measured, const JointWeights& trust, double expected_scale);
+  BoneLengths Taken(double expected_scale) const;
 
   bool as_measured_ = false;
   BoneLengths lengths_m_ = StandardBoneLengths();
-  BoneLengths mean_m_{};  // of what was measured in the last second or so
+  TypicalBones typical_;
   BoneLengths proportions_{};
   double expected_ = 0.0;
   double scale_ = 1.0;
   bool locked_ = false;
   int other_size_frames_ = 0;
+  int next_look_ = kFirstLook_frames;
 };
 
 /// One observation made ready for the methods: complete, finite, normalised.

@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <cmath>
 #include <limits>
 
 #include "tests/recon/synthetic_motion.h"
@@ -105,6 +107,67 @@ TEST(Reliability, RecoversWithinTheGaussianWindow) {  // eq. 8: six frames
     last = rate;
   }
   EXPECT_NEAR(estimator.Step(seen, nullptr).rate[3], 1.0, 1e-12);
+}
+
+ReliabilityEstimator WithSpeed() {
+  ReliabilityOptions options;
+  options.use_speed = true;
+  return ReliabilityEstimator(options);
+}
+
+TEST(SpeedReliability, OfAJointThatIsGoneForOneFrameFallsThereAndNotWhereItComesBack) {
+  ReliabilityEstimator estimator = WithSpeed();
+  const Posture still = test::InFrontOfCamera(test::Gesture(0.9, 0.1, 0.1));
+  const Posture gone = test::InFrontOfCamera(test::Gesture(2.4, 0.1, 0.1));  // the left arm
+  for (int f = 0; f < 5; ++f) estimator.Step(test::AllTracked(still), nullptr);
+  const Reliability out = estimator.Step(test::AllTracked(gone), nullptr);
+  EXPECT_LT(out.speed[5], 0.5);
+  EXPECT_LT(out.instant[5], 0.5);
+  EXPECT_EQ(out.speed[4], 1.0) << "the shoulder stayed";
+  EXPECT_EQ(out.speed[9], 1.0) << "the right elbow stayed";
+  const Reliability back = estimator.Step(test::AllTracked(still), nullptr);
+  for (const double speed : back.speed) EXPECT_EQ(speed, 1.0);
+}
+
+TEST(SpeedReliability, OfWhatStaysComesBackOnceALimbCouldHaveCome) {
+  ReliabilityEstimator estimator = WithSpeed();
+  const Posture still = test::InFrontOfCamera(test::Gesture(0.9, 0.1, 0.1));
+  const Posture other = test::InFrontOfCamera(test::Gesture(2.4, 0.1, 0.1));
+  estimator.Step(test::AllTracked(still), nullptr);
+  const double way_m = (other.position_m[5] - still.position_m[5]).norm();
+  const int frames = static_cast<int>(std::ceil(30.0 * way_m / 6.5));  // halfway from 5 to 8 m/s
+  ASSERT_GT(frames, 1);
+  for (int f = 1; f < frames; ++f) {
+    EXPECT_LT(estimator.Step(test::AllTracked(other), nullptr).speed[5], 0.5) << f;
+  }
+  EXPECT_GE(estimator.Step(test::AllTracked(other), nullptr).speed[5], 0.5);
+}
+
+TEST(SpeedReliability, LeavesAFastMoveAJumpOfTheWholeBodyAndALongStepAlone) {
+  const auto lowest = [](double rad_per_frame, double dt_s, double body_m) {
+    ReliabilityEstimator estimator = WithSpeed();
+    double least = 1.0;
+    for (int f = 0; f < 6; ++f) {
+      Posture seen = test::InFrontOfCamera(test::Gesture(rad_per_frame * f, 0.1, 0.1));
+      for (auto& p : seen.position_m) p.x() += body_m * f;
+      for (const double s : estimator.Step(test::AllTracked(seen), nullptr, dt_s).speed) {
+        least = std::min(least, s);
+      }
+    }
+    return least;
+  };
+  // An arm of a quarter of a metre to the elbow, a revolution in less than half a second.
+  EXPECT_EQ(lowest(0.45, 1.0 / 30.0, 0.0), 1.0);
+  EXPECT_EQ(lowest(0.0, 1.0 / 30.0, 0.5), 1.0);
+  EXPECT_LT(lowest(1.2, 1.0 / 30.0, 0.0), 0.5);
+  EXPECT_EQ(lowest(1.2, 0.1, 0.0), 1.0);
+}
+
+TEST(SpeedReliability, IsOffForThePapersMethods) {
+  ReliabilityEstimator estimator;
+  estimator.Step(test::AllTracked(test::InFrontOfCamera(test::Gesture(0.1, 0.1, 0.1))), nullptr);
+  const Posture far = test::InFrontOfCamera(test::Gesture(2.4, 0.1, 0.1));
+  for (const double s : estimator.Step(test::AllTracked(far), nullptr).speed) EXPECT_EQ(s, 1.0);
 }
 
 TEST(SurfaceReliability, TellsHiddenAndFloatingJointsFromSeenOnes) {

@@ -20,8 +20,9 @@ struct PairedFormat {
 // UI-PRMD: centimetres, x to the subject's left, z towards the sensor (subjects stand at
 // z = -240 cm, facing it): half a turn about the vertical gives camera space.
 const PairedFormat kUiPrmd = {"t_s", "K_", 1.0 / 30.0, {-0.01, 0.01, -0.01}};
-// ITOP: metres, x to the right of the image, left-handed: one axis is turned round.
-const PairedFormat kItop = {"", "P_", 1.0 / 30.0, {-1.0, 1.0, 1.0}};
+// ITOP: metres, x to the right of the image, left-handed: one axis is turned round. It has no
+// times: at 30 Hz one true hand in twenty would be faster than 10 m/s, at 10 Hz than 3.4.
+const PairedFormat kItop = {"", "P_", 1.0 / 10.0, {-1.0, 1.0, 1.0}};
 
 // Of UI-PRMD's 22 names the second half is the SDK's; its collars and second neck are none of ours,
 // and "Neck" there is the SDK 2 neck, above ShoulderCenter.

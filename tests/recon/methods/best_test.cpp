@@ -222,6 +222,22 @@ TEST(Best, HoldsAHandThatSnapsToTheOther) {
   EXPECT_LT(off_m, 0.3 * (observed.posture.position_m[7] - At(t).position_m[7]).norm());
 }
 
+// The forearm keeps its length and is nowhere near the other hand: only its speed is wrong.
+TEST(Best, DoubtsAndHoldsAForearmThatIsElsewhereForOneFrame) {
+  const auto method = MakeBestOne();
+  const double t = SeenWell(*method);
+  TrackedPosture observed = test::AllTracked(At(t));
+  const Eigen::Vector3d elbow = observed.posture.position_m[5];
+  for (const size_t i : {size_t{6}, size_t{7}}) {
+    observed.posture.position_m[i] = 2.0 * elbow - observed.posture.position_m[i];
+  }
+  const auto made = StepOn(*method, observed, t);
+  EXPECT_LT(made.reliability[6], 0.5);
+  EXPECT_GT(made.reliability[5], 0.5);
+  const double off_m = (made.posture.position_m[7] - At(t).position_m[7]).norm();
+  EXPECT_LT(off_m, 0.3 * (observed.posture.position_m[7] - At(t).position_m[7]).norm());
+}
+
 TEST(Best, AnElbowIsNotPulledAlongByAForearmSeenTooLong) {
   const auto method = MakeBestOne();
   const double t = SeenWell(*method);

@@ -22,6 +22,60 @@ TEST(Person, KeepsTheReachOfAHandWhoseArmIsHidden) {
   }
 }
 
+/// The standing person with the hips that far apart over the standard ones.
+Posture WithHips(double factor) {
+  Posture posture = test::InFrontOfCamera(test::Gesture(0.2, 0.2, 0.1));
+  for (const size_t hip : {size_t{12}, size_t{16}}) {
+    const Eigen::Vector3d moved =
+        (factor - 1.0) * (posture.position_m[hip] - posture.position_m[0]);
+    for (size_t i = hip; i < hip + 4; ++i) posture.position_m[i] += moved;
+  }
+  return posture;
+}
+
+// A person who comes in sideways: the first frame has the hips in one another.
+TEST(BodySize, TakesBonesAnewThatAreTypicallyOthersThanInTheFirstFrame) {
+  BodySize size(true);
+  JointWeights all;
+  all.fill(1.0);
+  size.Observe(WithHips(0.5), all);
+  const double hip = StandardBoneLengths()[12];
+  EXPECT_NEAR(size.lengths_m()[12], 0.5 * hip, 1e-9);
+  for (int f = 0; f < 130; ++f) size.Observe(WithHips(f % 3 == 0 ? 0.5 : 1.0), all);
+  EXPECT_NEAR(size.lengths_m()[12], hip, 0.03 * hip);
+  EXPECT_NEAR(size.lengths_m()[16], hip, 0.03 * hip);
+}
+
+// Of bones seen with noise the lengths of the first frame stay, to the bit.
+TEST(BodySize, LeavesBonesAloneThatAreSeenAsTheyAre) {
+  BodySize size(true);
+  JointWeights all;
+  all.fill(1.0);
+  size.Observe(WithHips(1.0), all);
+  const BoneLengths first = size.lengths_m();
+  std::mt19937_64 rng(3);
+  for (int f = 0; f < 1000; ++f) {
+    Posture seen = WithHips(1.0);
+    test::AddNoise(seen, 0.004, rng);
+    size.Observe(seen, all);
+  }
+  EXPECT_EQ(size.lengths_m(), first);
+}
+
+TEST(BodySize, IsMeasuredAnewForAnotherSizeAfterASecond) {
+  BodySize size(true);
+  JointWeights all;
+  all.fill(1.0);
+  for (int f = 0; f < 60; ++f) size.Observe(WithHips(1.0), all);
+  const Posture child = test::InFrontOfCamera(test::Gesture(0.2, 0.2, 0.1), 0.6);
+  for (int f = 0; f < 30; ++f) {
+    EXPECT_NEAR(size.scale(), 1.0, 1e-6) << f;
+    size.Observe(child, all);
+  }
+  EXPECT_NEAR(size.scale(), 0.6, 1e-6);
+  EXPECT_NEAR(size.lengths_m()[13], 0.6 * StandardBoneLengths()[13], 1e-6);
+}
+
 TEST(Person, TakesTrunkBonesAsTheSensorHasThem) {
   Person person;
   Posture posture = test::InFrontOfCamera(test::Gesture(0.2, 0.2, 0.1));

@@ -1,6 +1,7 @@
 #include <gtest/gtest.h>
 
 #include "recon/database/nearest.h"
+#include "recon/methods/bone_turns_internal.h"
 #include "recon/methods/posture_space_internal.h"
 #include "recon/methods/reconstructor.h"
 #include "tests/recon/synthetic_motion.h"
@@ -31,6 +32,25 @@ Problem MakeProblem(double t_s, bool history) {
   }
   p.space = MakePostureSpace(db, neighbours, 20);
   return p;
+}
+
+// Sec. VII-B: w_n = 1 / sum over i of R_i (p_i - p_i^n)^2, eq. 9.
+TEST(InverseDistances, AreThoseOfEquation9) {
+  const auto db = PostureDatabase::Build(test::GestureClips(), {});
+  const PostureVector made = VectorOf(test::Motion(0.7));
+  JointWeights reliability;
+  for (size_t i = 0; i < kJointCount; ++i) reliability[i] = 0.05 * static_cast<double>(i);
+  const int neighbours[] = {0, 5, 17};
+  const auto weights = InverseDistances(db, neighbours, made, reliability);
+  for (size_t n = 0; n < 3; ++n) {
+    const Posture other = db.posture(neighbours[n]);
+    double d = 0.0;
+    for (size_t i = 0; i < kJointCount; ++i) {
+      const Eigen::Vector3d p = PostureOf(made).position_m[i];
+      d += reliability[i] * (p - other.position_m[i]).squaredNorm();
+    }
+    EXPECT_NEAR(weights[n] * (d + 1e-4), 1.0, 1e-4);  // single precision
+  }
 }
 
 TEST(PostureSpace, ReproducesItsNeighboursUpToWhatItSaysLiesOutside) {

@@ -115,13 +115,16 @@ TEST(UiPrmdTable, HoldsTwoSkeletonsOfWhichOneIsChosen) {
 TEST(Itop, TurnsTheXAxisRound) {
   const std::string text =
       "frame,G_RHand_x,G_RHand_y,G_RHand_z,P_RHand_x,P_RHand_y,P_RHand_z\n"
-      "3,-0.4,0.1,2.5,-0.5,0.2,2.6\n";
+      "3,-0.4,0.1,2.5,-0.5,0.2,2.6\n"
+      "4,-0.4,0.1,2.5,-0.5,0.2,2.6\n";
   SkeletonReadOptions options;
   options.columns = "truth";
   // The right hand of a person who faces the camera is at its left: positive x in camera space.
   ExpectAt(Read(text, options), 0, Joint::kHandRight, 0.4, 0.1, 2.5);
   options.columns = "estimate";
-  ExpectAt(Read(text, options), 0, Joint::kHandRight, 0.5, 0.2, 2.6);
+  const SkeletonSequence estimate = Read(text, options);
+  ExpectAt(estimate, 0, Joint::kHandRight, 0.5, 0.2, 2.6);
+  EXPECT_NEAR(estimate.frames[1].time_s - estimate.frames[0].time_s, 0.1, kExact);  // 10 Hz
 }
 
 // A chain bent at the spine: 90 degrees about z turns what follows from up to the left.

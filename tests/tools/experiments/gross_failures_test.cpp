@@ -32,9 +32,9 @@ recon::JointRecord& At(recon::SkeletonSequence& sequence, size_t frame, Joint jo
 
 TEST(GrossFailures, OfAPersonStandingStillAreNone) {
   const auto still = Still(10);
-  const GrossFailures found = CountGrossFailures(still, still);
+  const GrossFailures found = CountGrossFailures(still, still, still);
   EXPECT_EQ(found.frames, 10);
-  EXPECT_EQ(found.jumps + found.snaps + found.wrong_bones + found.distrusted, 0);
+  EXPECT_EQ(found.jumps + found.snaps + found.wrong_bones + found.noticed, 0);
   EXPECT_EQ(found.jitter_cm, 0.0);
 }
 
@@ -44,11 +44,13 @@ TEST(GrossFailures, AreCountedWhereAHandFallsOntoTheOtherForOneFrame) {
   hand.position_m = At(sequence, 5, Joint::kHandRight).position_m;
   auto judged = sequence;
   At(judged, 5, Joint::kHandLeft).reliability = 0.2;
-  const GrossFailures found = CountGrossFailures(sequence, judged);
+  const GrossFailures found = CountGrossFailures(sequence, judged, sequence);
   EXPECT_EQ(found.snaps, 1);
   EXPECT_EQ(found.jumps, 2);        // there and back
   EXPECT_EQ(found.wrong_bones, 1);  // wrist to hand, in that frame
-  EXPECT_EQ(found.distrusted, 2);   // the jump there and the snap; the way back is not distrusted
+  EXPECT_EQ(found.noticed, 3);      // the jump there, the way back from it and the snap
+  EXPECT_EQ(found.joints, 200);
+  EXPECT_EQ(found.doubted, 1);
   EXPECT_GT(found.jitter_cm, 0.0);
 }
 
@@ -58,15 +60,28 @@ TEST(GrossFailures, AreNotLookedForAcrossGapsInTime) {
     sequence.frames[f].time_s += 1.0;
     At(sequence, f, Joint::kHandLeft).position_m.y() += 0.5;
   }
-  EXPECT_EQ(CountGrossFailures(sequence, sequence).jumps, 0);
+  EXPECT_EQ(CountGrossFailures(sequence, sequence, sequence).jumps, 0);
+}
+
+// A method that stretches a bone for good has it wrong, however constant it is.
+TEST(GrossFailures, MeasureBonesByWhatTheSensorSaid) {
+  const auto recording = Still(10);
+  auto made = recording;
+  for (size_t f = 0; f < 10; ++f) {
+    auto& hand = At(made, f, Joint::kHandLeft).position_m;
+    hand += 0.5 * (hand - At(made, f, Joint::kWristLeft).position_m);
+  }
+  EXPECT_EQ(CountGrossFailures(made, made, made).wrong_bones, 0);
+  EXPECT_EQ(CountGrossFailures(made, made, recording).wrong_bones, 10);
 }
 
 TEST(GrossFailures, AddUpOverRecordings) {
-  GrossFailures a{10, 1, 2, 3, 1, 0.5};
-  a += GrossFailures{30, 2, 0, 1, 1, 0.1};
+  GrossFailures a{10, 1, 2, 3, 1, 100, 4, 0.5};
+  a += GrossFailures{30, 2, 0, 1, 1, 200, 5, 0.1};
   EXPECT_EQ(a.frames, 40);
   EXPECT_EQ(a.jumps, 3);
   EXPECT_EQ(a.wrong_bones, 4);
+  EXPECT_EQ(a.doubted, 9);
   EXPECT_NEAR(a.jitter_cm, (10 * 0.5 + 30 * 0.1) / 40, 1e-12);  // weighed by frames
 }
 

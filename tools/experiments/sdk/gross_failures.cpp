@@ -38,12 +38,20 @@ const BodyRecord* BodyOf(const recon::SkeletonFrame& frame, int id) {
   return found == frame.bodies.end() ? nullptr : &*found;
 }
 
-bool Distrusted(const recon::SkeletonFrame& frame, int id, std::initializer_list<size_t> joints) {
-  const BodyRecord* body = BodyOf(frame, id);
-  return body != nullptr && std::any_of(joints.begin(), joints.end(), [body](size_t j) {
-           return body->joints[j] && body->joints[j]->reliability.value_or(1.0) < 0.5;
-         });
-}
+/// What a method said of the frames before and after a jump.
+struct Verdicts {
+  const recon::SkeletonFrame& before;
+  const recon::SkeletonFrame& now;
+
+  bool Doubt(int id, std::initializer_list<size_t> joints) const {
+    return std::any_of(joints.begin(), joints.end(), [&](size_t j) {
+      return Doubted(BodyOf(before, id), j) || Doubted(BodyOf(now, id), j);
+    });
+  }
+  static bool Doubted(const BodyRecord* body, size_t j) {
+    return body != nullptr && body->joints[j] && body->joints[j]->reliability.value_or(1.0) < 0.5;
+  }
+};
 
 /// Median length of every bone; 0 where it was never seen.
 std::array<double, kJointCount> MedianBones_m(const recon::SkeletonSequence& sequence) {
@@ -64,25 +72,33 @@ std::array<double, kJointCount> MedianBones_m(const recon::SkeletonSequence& seq
   return medians;
 }
 
-void CountJumps(const BodyRecord& now, const BodyRecord& before, const recon::SkeletonFrame& judged,
+void CountDoubts(const BodyRecord* judged, GrossFailures& out) {
+  for (size_t j = 0; judged != nullptr && j < kJointCount; ++j) {
+    if (!At(*judged, j)) continue;
+    ++out.joints;
+    out.doubted += Verdicts::Doubted(judged, j) ? 1 : 0;
+  }
+}
+
+void CountJumps(const BodyRecord& now, const BodyRecord& before, const Verdicts& judged,
                 GrossFailures& out) {
   for (size_t j = 1; j < kJointCount; ++j) {
     const auto parent = static_cast<size_t>(recon::kJointParent[j]);
     const auto here = Between(now, parent, j), there = Between(before, parent, j);
     if (!here || !there || (*here - *there).norm() < kJump_m) continue;
     ++out.jumps;
-    out.distrusted += Distrusted(judged, now.id, {j, parent}) ? 1 : 0;
+    out.noticed += judged.Doubt(now.id, {j, parent}) ? 1 : 0;
   }
 }
 
-void CountSnaps(const BodyRecord& now, const BodyRecord& before, const recon::SkeletonFrame& judged,
+void CountSnaps(const BodyRecord& now, const BodyRecord& before, const Verdicts& judged,
                 GrossFailures& out) {
   for (const auto& [left, right] : kHandsAndWrists) {
     const auto here = Between(now, left, right), there = Between(before, left, right);
     if (!here || !there) continue;
     if (here->norm() < kTogether_m && there->norm() > kApart_m) {
       ++out.snaps;
-      out.distrusted += Distrusted(judged, now.id, {left, right}) ? 1 : 0;
+      out.noticed += judged.Doubt(now.id, {left, right}) ? 1 : 0;
     }
     return;  // wrists only where there are no hands
   }
@@ -99,31 +115,39 @@ GrossFailures& GrossFailures::operator+=(const GrossFailures& other) {
   jumps += other.jumps;
   snaps += other.snaps;
   wrong_bones += other.wrong_bones;
-  distrusted += other.distrusted;
+  noticed += other.noticed;
+  joints += other.joints;
+  doubted += other.doubted;
   return *this;
 }
 
 GrossFailures CountGrossFailures(const recon::SkeletonSequence& sequence,
-                                 const recon::SkeletonSequence& judged) {
+                                 const recon::SkeletonSequence& judged,
+                                 const recon::SkeletonSequence& recording) {
   GrossFailures out;
-  const auto medians = MedianBones_m(sequence);
+  const auto medians = MedianBones_m(recording);
   double jitter_sum_m = 0.0, jitter_count = 0.0;
   for (size_t f = 0; f < sequence.frames.size(); ++f) {
     const auto& frame = sequence.frames[f];
-    const auto& verdict = judged.frames[std::min(f, judged.frames.size() - 1)];
+    const auto verdict = [&](size_t frame) -> const recon::SkeletonFrame& {
+      return judged.frames[std::min(frame, judged.frames.size() - 1)];
+    };
     for (const BodyRecord& now : frame.bodies) {
       ++out.frames;
+      CountDoubts(BodyOf(verdict(f), now.id), out);
       for (size_t j = 1; j < kJointCount; ++j) {
         const auto bone = Between(now, static_cast<size_t>(recon::kJointParent[j]), j);
-        if (bone && std::abs(bone->norm() - medians[j]) > kWrongBone * medians[j]) {
+        if (bone && medians[j] > 0.0 &&
+            std::abs(bone->norm() - medians[j]) > kWrongBone * medians[j]) {
           ++out.wrong_bones;
         }
       }
       if (f == 0 || frame.time_s - sequence.frames[f - 1].time_s > kLongestStep_s) continue;
       const BodyRecord* before = BodyOf(sequence.frames[f - 1], now.id);
       if (before == nullptr) continue;
-      CountJumps(now, *before, verdict, out);
-      CountSnaps(now, *before, verdict, out);
+      const Verdicts verdicts{verdict(f - 1), verdict(f)};
+      CountJumps(now, *before, verdicts, out);
+      CountSnaps(now, *before, verdicts, out);
       const BodyRecord* older = f < 2 ? nullptr : BodyOf(sequence.frames[f - 2], now.id);
       for (size_t j = 0; j < kJointCount && older != nullptr; ++j) {
         const auto a = At(now, j), b = At(*before, j), c = At(*older, j);

@@ -1,0 +1,64 @@
+#include <algorithm>
+#include <vector>
+
+#include "recon/reliability.h"
+
+namespace ossa::recon {
+
+/// Of the joints, the median for each axis: a few that jump do not move it.
+Eigen::Vector3d SpeedTerm::BodyMoved(const Posture& posture, const JointWeights& seen) const {
+  Eigen::Vector3d body = Eigen::Vector3d::Zero();
+  for (int axis = 0; axis < 3; ++axis) {
+    std::vector<double> moved;
+    for (size_t i = 0; i < kJointCount; ++i) {
+      if (seen[i] == 0.0 || unbelieved_s_[i] < 0.0) continue;
+      moved.push_back(posture.position_m[i][axis] - believed_.position_m[i][axis]);
+    }
+    if (moved.empty()) return Eigen::Vector3d::Zero();
+    const auto middle = moved.begin() + static_cast<ptrdiff_t>(moved.size() / 2);
+    std::nth_element(moved.begin(), middle, moved.end());
+    body[axis] = *middle;
+  }
+  return body;
+}
+
+JointWeights SpeedTerm::Step(const Posture& posture, const JointWeights& seen, double dt_s,
+                             const ReliabilityOptions& options) {
+  JointWeights speed;
+  speed.fill(1.0);
+  const Eigen::Vector3d body = BodyMoved(posture, seen);
+  const Posture before = believed_;
+  std::array<bool, kJointCount> sound{};  // believed now and before
+  for (size_t i = 0; i < kJointCount; ++i) {
+    if (seen[i] == 0.0) {
+      unbelieved_s_[i] = -1.0;
+      continue;
+    }
+    int above = kJointParent[i];
+    while (above >= 0 && !sound[static_cast<size_t>(above)]) {
+      above = kJointParent[static_cast<size_t>(above)];
+    }
+    Eigen::Vector3d along = body;
+    if (above >= 0) {
+      const auto a = static_cast<size_t>(above);
+      along = posture.position_m[a] - before.position_m[a];
+    }
+    const bool first = unbelieved_s_[i] < 0.0;
+    if (!first) {
+      const double way_m = (posture.position_m[i] - before.position_m[i] - along).norm();
+      const double over = way_m / (unbelieved_s_[i] + dt_s) - options.usual_speed;
+      speed[i] = 1.0 - std::clamp(over / (options.no_speed - options.usual_speed), 0.0, 1.0);
+    }
+    if (speed[i] >= 0.5) {
+      believed_.position_m[i] = posture.position_m[i];
+      unbelieved_s_[i] = 0.0;
+      sound[i] = !first;
+    } else {
+      believed_.position_m[i] += along;
+      unbelieved_s_[i] += dt_s;
+    }
+  }
+  return speed;
+}
+
+}  // namespace ossa::recon
