@@ -62,8 +62,10 @@ void ReferenceLengths::Observe(const Posture& in_camera, const JointWeights& tru
 }
 
 void ReferenceLengths::FromReferencePosture(const BoneLengths& lengths, const JointWeights& trust) {
-  // A length that no body of this size has is an error of the frame, not a feature of the person;
-  // so is one far from what an earlier reference posture showed, while the size stayed the same.
+  // Departure: the paper takes the lengths of every reference posture as they are. A length that no
+  // body of this size has is an error of the frame, not a feature of the person; so is one far from
+  // what an earlier reference posture showed, while the size stayed the same: of that person's
+  // postures the mean of some ten holds.
   const double scale = BodyScaleOf(lengths, trust);
   const bool same_size = from_posture_ && std::abs(scale / scale_ - 1.0) < 0.2;
   for (size_t i = 1; i < kJointCount; ++i) {
@@ -81,9 +83,11 @@ void ReferenceLengths::FromReferencePosture(const BoneLengths& lengths, const Jo
 }
 
 /// Departure: before any reference posture, of which the paper says nothing: the standard body at
-/// the person's size, but the midline as the mean of what was seen so far. Sensors place the spine
-/// differently (a Kinect v2's lies 10 cm higher, which would make the hips' centre half unreliable
-/// for ever) but seldom wrongly; the other joints the other way round.
+/// the person's size, but the midline, hands and feet as the mean of what was seen so far. Sensors
+/// place the spine differently (a Kinect v2's lies 10 cm higher, which would make the hips' centre
+/// half unreliable for ever) but seldom wrongly, and each has its own idea of where a hand or a
+/// foot is (a Kinect v2's hand lies twice as far from the wrist); the other joints the other way
+/// round.
 void ReferenceLengths::FromAnyPosture(const BoneLengths& lengths, const JointWeights& trust) {
   constexpr int kMemory = 30;  // frames
   const auto seen = std::count_if(trust.begin(), trust.end(), [](double t) { return t > 0.5; });
@@ -96,7 +100,8 @@ void ReferenceLengths::FromAnyPosture(const BoneLengths& lengths, const JointWei
   for (size_t i = 1; i < kJointCount; ++i) {
     const double standard = scale_ * StandardBoneLengths()[i];
     if (measured_[i] == 0) lengths_m_[i] = standard;
-    if (i > 3) continue;  // spine, shoulders' centre, head
+    const bool midline = i <= 3, hand_or_foot = !midline && i % 4 == 3;
+    if (!midline && !hand_or_foot) continue;
     const double both = std::min(trust[i], trust[static_cast<size_t>(kJointParent[i])]);
     if (both <= 0.5 || !std::isfinite(lengths[i])) continue;
     const double length = std::clamp(lengths[i], kShortest * standard, kLongest * standard);
@@ -144,7 +149,8 @@ Reliability ReliabilityEstimator::Step(const TrackedPosture& observed,
 void ReliabilityEstimator::Reset() { *this = ReliabilityEstimator(options_); }
 
 // Eqs. 1-4. Departure: eq. 3 prints the cosine where the text and the limits in degrees of eq. 4
-// mean the angle itself; the angle it is.
+// mean the angle itself; the angle it is. The sums of eqs. 4 and 8 are over f_b and f_total terms:
+// their printed limits, from 0 to f_b, would make four angles of which the mean is a third.
 JointWeights ReliabilityEstimator::Behaviour() const {
   JointWeights rb;
   rb.fill(1.0);

@@ -67,7 +67,7 @@ class PostureDatabase {
   const BoneLengths& bone_lengths_m() const { return bone_lengths_m_; }
   const std::string& clip_of(int i) const { return clip_names_[clip_of_[static_cast<size_t>(i)]]; }
   int clip_count() const { return static_cast<int>(clip_names_.size()); }
-  /// Filtered edges of node i, nearest first; both ways.
+  /// Filtered edges of node i, nearest first; both ways where no node has more than `most_edges`.
   std::span<const int32_t> neighbours(int i) const;
   int64_t edge_count() const { return static_cast<int64_t>(edges_.size()); }
   const DatabaseOptions& options() const { return options_; }

@@ -71,7 +71,8 @@ LocalMixture LocalMixture::Learn(const Eigen::MatrixXd& inputs, const Eigen::Mat
       if (region[i] == q) rows.push_back(static_cast<int>(i));
     }
     if (rows.empty()) continue;
-    // Budgeting is cubic; four times the budget is plenty to choose from.
+    // Departure: the paper learns from and budgets all samples of a region. Both are cubic: the
+    // parameters come of S of them, and four times the budget is plenty to choose from.
     rows = EveryNth(rows, static_cast<size_t>(4 * options.samples));
     const std::vector<int> some = EveryNth(rows, static_cast<size_t>(options.samples));
     const auto parameters = LearnParameters(Rows(inputs, some), Rows(outputs, some), start);

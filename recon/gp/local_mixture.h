@@ -28,7 +28,7 @@ class LocalMixture {
 
   /// Algorithm 1, online part: eq. 13 over the `nearby` most similar models (eq. 10).
   GaussianPrediction Predict(const Eigen::VectorXd& input, int nearby) const;
-  /// Algorithm 2.
+  /// Algorithm 2. A new model has the parameters of the most similar one (the paper names none).
   void Update(const Eigen::VectorXd& input, const Eigen::Vector3d& output,
               const LocalMixtureOptions& options);
 
@@ -44,8 +44,10 @@ class LocalMixture {
   double LogSimilarity(size_t model, const Eigen::VectorXd& input) const;
 
   std::vector<GaussianProcess> models_;
-  std::vector<Eigen::VectorXd> centres_;  // C_q
-  double w_ = 0.0;                        // W of eq. 10: the median of those learned in the regions
+  // C_q: the mean of the model's samples, as algorithm 2 keeps it. Departure: also before the first
+  // update, when the paper's is that of K-means, with the samples that budgeting dropped.
+  std::vector<Eigen::VectorXd> centres_;
+  double w_ = 0.0;  // W of eq. 10: the median of those learned in the regions
 };
 
 /// Lloyd's K-means with seeded k-means++ starts; returns the region of each row.

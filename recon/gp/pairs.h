@@ -9,7 +9,8 @@ namespace ossa::recon {
 /// What was observed and what was true at one moment, in the person's own frame: normalised, and
 /// divided by the body's size so that everyone is a standard adult. Departure from Liu 2016
 /// sec. 3.1: one factor instead of a bone-by-bone retargeting, because the truth often lacks joints
-/// (13 from Vicon) and because a bone observed too short is itself an error to learn.
+/// (13 from Vicon) and because a bone observed too short is itself an error to learn. The truth is
+/// placed and turned as the observation is, so that the root, too, has an offset.
 struct PosturePair {
   Posture observed;      // complete
   Posture residual;      // truth minus observed; eq. 19: m = y + x

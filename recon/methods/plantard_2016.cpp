@@ -14,6 +14,9 @@
 namespace ossa::recon {
 namespace {
 
+// Departure: the reliability is Shum 2013's (eqs. 1-8 there), which sec. 5 reviews. Its eq. 3, one
+// minus the mean angle, has neither floor nor roof nor a unit; in radians it would call every joint
+// wrong that turns by 57 degrees between two frames. Its eq. 4 lets one bone count for more than 1.
 // Departure: eqs. 6, 8 and 9 print differences of positions where a norm or a square was meant:
 // signs would cancel. The energies are read as the squares of [37] (Shum 2013), which the paper
 // says it takes them from; eq. 8 is a mean where Shum's eq. 10 is a sum. Read as distances, eq. 8

@@ -82,6 +82,23 @@ TEST(Reliability, LearnsTheBonesOfASensorWithAnotherSpineAndNoHands) {
   }
 }
 
+// A Kinect v2's hand lies nearly twice as far from its wrist; nobody need stand straight to learn
+// it.
+TEST(Reliability, LearnsWhereASensorPutsHands) {
+  ReliabilityEstimator estimator;
+  Reliability r;
+  for (int f = 0; f < 40; ++f) {
+    Posture seen = test::InFrontOfCamera(test::Gesture(0.9, 0.9, 0.1, 0.8));
+    ASSERT_FALSE(IsReferencePosture(seen));
+    for (const size_t hand : {size_t{7}, size_t{11}}) {
+      seen.position_m[hand] += 0.8 * (seen.position_m[hand] - seen.position_m[hand - 1]);
+    }
+    r = estimator.Step(test::AllTracked(seen), nullptr);
+  }
+  EXPECT_GT(r.kinematics[kHandLeft], 0.95);
+  EXPECT_GT(r.kinematics[11], 0.95);
+}
+
 TEST(Reliability, OfInferredAndMissingJointsIsZero) {  // eq. 7
   ReliabilityEstimator estimator;
   TrackedPosture seen = test::AllTracked(test::InFrontOfCamera(test::Gesture(0.1, 0.1, 0.1)));

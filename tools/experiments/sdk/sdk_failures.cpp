@@ -6,7 +6,6 @@
 #include "tools/experiments/sdk/gross_failures.h"
 #include "tools/experiments/sdk/method_runs.h"
 #include "tools/experiments/sdk/sdk_internal.h"
-#include "tools/tracker/shipped.h"
 
 namespace ossa::tools {
 namespace {
@@ -70,10 +69,6 @@ Table GrossFailureTable(const ExperimentContext& context, const std::vector<std:
       for (const recon::SkeletonSequence& clip : clips) {
         MethodRun run{method, options, {}};
         run.options.method = method;
-        // As `ossa reconstruct` does: a Kinect v2's errors are known, from other people.
-        if (method == "best" && clip.sensor == recon::kKinectV2) {
-          run.options.learned_file = tracker::ShippedFile("kinect_v2.ossagp");
-        }
         const auto result = method == "raw" || method == "butterworth"
                                 ? RunMethod(clip, method, options)
                                 : RunMethod(context, run, clip);

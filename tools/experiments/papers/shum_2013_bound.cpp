@@ -1,0 +1,106 @@
+#include "tools/experiments/papers/shum_2013_bound.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <numbers>
+
+#include "recon/database/nearest.h"
+#include "recon/database/posture_database.h"
+#include "recon/normalise.h"
+
+namespace ossa::tools {
+namespace {
+
+using recon::BoneLengths;
+using recon::JointWeights;
+using recon::kJointCount;
+using recon::Posture;
+
+constexpr size_t kBones = kJointCount - 1;
+using Directions = std::array<Eigen::Vector3f, kBones>;
+
+Directions DirectionsOf(const Posture& posture) {
+  Directions out;
+  for (size_t i = 1; i < kJointCount; ++i) {
+    const auto parent = static_cast<size_t>(recon::kJointParent[i]);
+    const Eigen::Vector3d bone = posture.position_m[i] - posture.position_m[parent];
+    out[i - 1] = bone.normalized().cast<float>();
+  }
+  return out;
+}
+
+/// Eq. 18 of one frame where both postures have the same bones: each is off by its length times
+/// what its direction is off.
+double Error_cm(const Directions& a, const Directions& b, const BoneLengths& lengths_m) {
+  double sum_m = 0.0;
+  for (size_t i = 0; i < kBones; ++i) {
+    sum_m += lengths_m[i + 1] * static_cast<double>((a[i] - b[i]).norm());
+  }
+  return 100.0 * sum_m / static_cast<double>(kBones);
+}
+
+bool IsWhole(const recon::SkeletonFrame& frame) {
+  return !frame.bodies.empty() &&
+         std::all_of(frame.bodies[0].joints.begin(), frame.bodies[0].joints.end(),
+                     [](const auto& joint) { return joint && joint->position_m.allFinite(); });
+}
+
+}  // namespace
+
+std::optional<DatabaseBound> BoundOf(const recon::PostureDatabase& database,
+                                     const recon::SkeletonSequence& truth,
+                                     const std::vector<recon::Joint>& parts) {
+  std::vector<Directions> nodes;
+  for (int n = 0; n < database.size(); ++n) nodes.push_back(DirectionsOf(database.posture(n)));
+  JointWeights all, given{};
+  all.fill(1.0);
+  given[0] = 1.0;
+  for (const recon::Joint part : parts) given[static_cast<size_t>(Index(part))] = 1.0;
+  DatabaseBound bound;
+  double frames = 0.0, yaw_rad = std::numbers::pi;
+  for (const auto& frame : truth.frames) {
+    if (!IsWhole(frame)) continue;
+    const Posture seen = recon::TrackedPostureOf(frame.bodies[0]).posture;
+    const recon::Placement place = recon::PlacementOf(seen, all, yaw_rad);
+    yaw_rad = place.yaw_rad;
+    const Posture own = recon::Normalised(seen, place);
+    const BoneLengths lengths_m = recon::BoneLengthsOf(own);
+    const Directions wanted = DirectionsOf(own);
+    double nearest_cm = 1e9;
+    for (const Directions& node : nodes) {
+      nearest_cm = std::min(nearest_cm, Error_cm(wanted, node, lengths_m));
+    }
+    const auto query = recon::VectorOf(recon::Retargeted(own, recon::StandardBoneLengths()));
+    const int by_parts = recon::NearestPostures(database, query, given, 1).at(0).index;
+    bound.nearest_cm += nearest_cm;
+    bound.by_parts_cm += Error_cm(wanted, nodes[static_cast<size_t>(by_parts)], lengths_m);
+    ++frames;
+  }
+  if (frames == 0.0) return std::nullopt;
+  return DatabaseBound{bound.nearest_cm / frames, bound.by_parts_cm / frames};
+}
+
+std::string ErrorByLimbs(const recon::SkeletonSequence& truth,
+                         const recon::SkeletonSequence& made) {
+  std::array<double, 3> sum_cm{}, count{};  // trunk and head, arms, legs
+  const size_t frames = std::min(truth.frames.size(), made.frames.size());
+  for (size_t f = 0; f < frames; ++f) {
+    if (!IsWhole(truth.frames[f]) || !IsWhole(made.frames[f])) continue;
+    const auto& a = truth.frames[f].bodies[0].joints;
+    const auto& b = made.frames[f].bodies[0].joints;
+    for (size_t i = 1; i < kJointCount; ++i) {
+      const auto parent = static_cast<size_t>(recon::kJointParent[i]);
+      const size_t limb = i < 4 ? 0 : i < 12 ? 1 : 2;
+      sum_cm[limb] += 100.0 * ((a[i]->position_m - a[parent]->position_m) -
+                               (b[i]->position_m - b[parent]->position_m))
+                                  .norm();
+      ++count[limb];
+    }
+  }
+  const auto mean = [&](size_t limb) { return sum_cm[limb] / std::max(1.0, count[limb]); };
+  return fmt::format("{:.2f} / {:.2f} / {:.2f}", mean(0), mean(1), mean(2));
+}
+
+}  // namespace ossa::tools

@@ -1,0 +1,30 @@
+#pragma once
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "recon/skeleton_sequence.h"
+
+namespace ossa::recon {
+class PostureDatabase;  // recon/database/posture_database.h
+}
+
+namespace ossa::tools {
+
+/// What a database can give for a performance, on the performer's own true bones: eq. 18 of Shum
+/// 2013 in centimetres, mean over the frames.
+struct DatabaseBound {
+  double nearest_cm = 0.0;   // of the posture that is best under eq. 18, of which nothing is hidden
+  double by_parts_cm = 0.0;  // of the posture that is nearest by the places of the parts given
+};
+
+/// `parts` counts the joints that are given; the root is always. Nothing without a whole posture.
+std::optional<DatabaseBound> BoundOf(const recon::PostureDatabase& database,
+                                     const recon::SkeletonSequence& truth,
+                                     const std::vector<recon::Joint>& parts);
+
+/// Eq. 18 between two performances, frame by frame, of the bones of trunk and head, arms and legs:
+/// "1.23 / 4.56 / 7.89" in centimetres.
+std::string ErrorByLimbs(const recon::SkeletonSequence& truth, const recon::SkeletonSequence& made);
+
+}  // namespace ossa::tools
