@@ -37,10 +37,10 @@ std::array<float, 4 * kJointCount> QuaternionsOf(const PostureClip& clip, size_t
 }
 
 /// Algorithm 1: what is kept of one clip, and the distances of successive kept postures. Departure:
-/// each posture is compared with the one kept last, not with all of P_intra: connections are then steps that people make without
-/// a discontinuity, and their spread is small, as in the paper (0.21 +- 0.02 m for thres_1 = 0.2
-/// m). Compared with all that was kept, a move back through kept postures would make one connection
-/// a metre long. What comes twice, algorithm 2 removes.
+/// each posture is compared with the one kept last, not with all of P_intra: connections are then
+/// steps that people make without a discontinuity, and their spread is small, as in the paper (0.21
+/// +- 0.02 m for thres_1 = 0.2 m). Compared with all that was kept, a move back through kept
+/// postures would make one connection a metre long. What comes twice, algorithm 2 removes.
 std::vector<ClipPosture> FilterIntraPoses(const PostureClip& clip, const DatabaseOptions& options,
                                           std::vector<double>& connections) {
   JointWeights all;
@@ -123,8 +123,8 @@ PostureDatabase PostureDatabase::Build(const std::vector<PostureClip>& clips,
   return db;
 }
 
-// Algorithm 3, the nearest first. Where `most_edges` cuts off, an edge may be left in one direction:
-// the denser of two places has nearer nodes to keep.
+// Algorithm 3, the nearest first. Where `most_edges` cuts off, an edge may be left in one
+// direction: the denser of two places has nearer nodes to keep.
 void PostureDatabase::Connect() {
   PostureGrid grid(static_cast<float>(edge_threshold_m_), DatabaseFilter::kMaxJoint);
   for (int i = 0; i < size(); ++i) grid.Insert(postures_.col(i));
