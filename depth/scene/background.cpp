@@ -7,7 +7,9 @@ namespace {
 
 constexpr uint8_t kSaturated = 250;
 
-bool SameSurface(float a_m, float b_m) { return std::abs(a_m - b_m) < DepthTolerance(b_m); }
+bool SameSurface(float a_m, float b_m, float tolerance = 1.0F) {
+  return std::abs(a_m - b_m) < tolerance * DepthTolerance(b_m);
+}
 
 bool SensorMoved(const PointGrid& grid, const BackgroundState& state,
                  const BackgroundOptions& options) {
@@ -25,13 +27,14 @@ bool SensorMoved(const PointGrid& grid, const BackgroundState& state,
   return known > 500 && moved > options.moved_share * known;
 }
 
-std::vector<uint8_t> SeenFor(int frames, const PointGrid& grid, const BackgroundState& state) {
+std::vector<uint8_t> SeenFor(int frames, const PointGrid& grid, const BackgroundState& state,
+                             float tolerance = 1.0F) {
   std::vector<uint8_t> seen(static_cast<size_t>(grid.cells()), 0);
   if (state.width != grid.width || state.height != grid.height) return seen;
   for (int i = 0; i < grid.cells(); ++i) {
     const auto n = static_cast<size_t>(i);
-    seen[n] =
-        grid.valid(i) & (state.steady[n] >= frames) & SameSurface(grid.z(i), state.surface_m[n]);
+    seen[n] = grid.valid(i) & (state.steady[n] >= frames) &
+              SameSurface(grid.z(i), state.surface_m[n], tolerance);
   }
   return seen;
 }
@@ -65,6 +68,12 @@ void LearnBackground(const PointGrid& grid, const std::vector<uint8_t>& claimed,
 
 std::vector<uint8_t> SeenBefore(const PointGrid& grid, const BackgroundState& state) {
   return SeenFor(1, grid, state);
+}
+
+std::vector<uint8_t> SeenItself(const PointGrid& grid, const BackgroundState& state) {
+  constexpr int kSomeFrames = 3;
+  constexpr float kClose = 0.5F;  // of the tolerance: one and a half steps of the sensor
+  return SeenFor(kSomeFrames, grid, state, kClose);
 }
 
 std::vector<uint8_t> ArrivedSince(const PointGrid& grid, const BackgroundState& state) {

@@ -27,6 +27,9 @@ void LearnBackground(const PointGrid& grid, const std::vector<uint8_t>& claimed,
 /// part of anybody who comes near.
 std::vector<uint8_t> SeenBefore(const PointGrid& grid, const BackgroundState& state);
 
+/// The same more surely: for some frames, at a depth that differs by little more than noise.
+std::vector<uint8_t> SeenItself(const PointGrid& grid, const BackgroundState& state);
+
 /// True per cell that stands clearly before a surface that was seen there: it came here.
 std::vector<uint8_t> ArrivedSince(const PointGrid& grid, const BackgroundState& state);
 

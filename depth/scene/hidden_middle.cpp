@@ -30,10 +30,9 @@ bool Covered(const PointGrid& grid, int from, int to) {
 
 // Two pieces of one person, of whom somebody nearer hides the middle.
 bool OneBehind(const PointGrid& grid, const Region& a, const Region& b) {
-  constexpr float kAside_m = 0.45F, kDeep_m = 0.5F, kPerson_m2 = 0.5F;
+  constexpr float kAside_m = 0.7F, kDeep_m = 0.5F;  // who is hidden in part may be in stride
   const Eigen::Vector2f apart_m = grid.OnFloor(a.mean_m - b.mean_m);
   if (std::abs(apart_m.x()) > kAside_m || std::abs(apart_m.y()) > kDeep_m) return false;
-  if (a.area_m2 + b.area_m2 > kPerson_m2) return false;
   return HiddenBetween(grid, a, b);
 }
 
@@ -64,9 +63,19 @@ bool HiddenBetween(const PointGrid& grid, const Region& a, const Region& b) {
   return Covered(grid, from, nearest(b, grid.at(from)));
 }
 
+bool OneAbove(const PointGrid& grid, const Region& a, const Region& b) {
+  constexpr float kAside_m = 0.35F, kDeep_m = 0.3F;
+  const Eigen::Vector2f apart_m = grid.OnFloor(a.mean_m - b.mean_m);
+  if (std::abs(apart_m.x()) > kAside_m || std::abs(apart_m.y()) > kDeep_m) return false;
+  const bool a_is_upper = a.mean_m.y() > b.mean_m.y();
+  const Region &upper = a_is_upper ? a : b, &lower = a_is_upper ? b : a;
+  return upper.mean_m.y() > lower.high_m.y() && lower.mean_m.y() < upper.low_m.y();
+}
+
 std::vector<Region> JoinBehind(const PointGrid& grid, std::vector<Region> regions,
                                const std::vector<uint8_t>& arrived, const std::vector<int>& owner,
                                size_t users) {
+  constexpr float kPerson_m2 = 0.5F;
   std::vector<Region> others, pieces;
   for (Region& region : regions) {
     const bool newcomer = MostlyArrived(region, arrived) && MostlyOf(region, owner, users) < 0;
@@ -74,7 +83,10 @@ std::vector<Region> JoinBehind(const PointGrid& grid, std::vector<Region> region
   }
   for (size_t i = 0; i < pieces.size(); ++i) {
     for (size_t k = i + 1; k < pieces.size(); ++k) {
-      if (!OneBehind(grid, pieces[i], pieces[k])) continue;
+      const Region &a = pieces[i], &b = pieces[k];
+      const bool one_person =
+          a.area_m2 + b.area_m2 <= kPerson_m2 && (OneBehind(grid, a, b) || OneAbove(grid, a, b));
+      if (!one_person) continue;
       pieces[i] = Joined(grid, pieces[i], pieces[k]);
       pieces.erase(pieces.begin() + static_cast<std::ptrdiff_t>(k));
       k = i;

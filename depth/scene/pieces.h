@@ -40,7 +40,7 @@ bool HiddenBetween(const PointGrid& grid, const Region& a, const Region& b);
 
 /// What shows of somebody at either side of somebody nearer, and above: pieces that came here and
 /// were nobody's, one as far away as the other, with nothing but nearer surface on the way between
-/// them.
+/// them, or one above the other.
 std::vector<Region> JoinBehind(const PointGrid& grid, std::vector<Region> regions,
                                const std::vector<uint8_t>& arrived, const std::vector<int>& owner,
                                size_t users);

@@ -76,6 +76,18 @@ std::vector<Candidate> CandidatesIn(const DepthFrame& frame, const PointGrid& gr
   return candidates;
 }
 
+// Who came into the room is not made of it: what was seen there before, nobody's, they enter by a
+// rim only, however far they did in the frames before, or they would creep into what they pass.
+void LetGoOfRoom(const PointGrid& grid, const SceneState& state, std::vector<int>& owner,
+                 std::vector<uint8_t>& barred) {
+  const std::vector<uint8_t> room = SeenItself(grid, state.background);
+  for (size_t i = 0; i < owner.size(); ++i) {
+    if (!room[i] || owner[i] < 0 || !state.users[static_cast<size_t>(owner[i])].came) continue;
+    owner[i] = -1;
+    barred[i] = 1;
+  }
+}
+
 // Each user of before goes on in the one candidate that holds most of their cells, if that is a
 // good part of either: what merely touches a person is not that person. Nor is the furniture they
 // touched while they went out of view: it was seen there before, they were not.
@@ -90,7 +102,7 @@ void ContinueTracks(const std::vector<int>& owner, const std::vector<UserTrack>&
     const auto overlap = Overlaps(region, owner, users.size());
     const bool of_room = ShareOf(region, seen_before) > kMostly;
     for (size_t u = 0; u < users.size(); ++u) {
-      if (of_room && users[u].arrived_share > kMostly) continue;
+      if (of_room && users[u].came) continue;
       const size_t common = overlap[u].size();
       const size_t least = std::min(region.cells.size(), users[u].cells.size()) / kPart;
       if (common <= std::max(best[u], least)) continue;
@@ -174,6 +186,7 @@ Scene FindCandidates(const DepthFrame& frame, const SceneState& state, SceneStat
   const std::vector<uint8_t> seen_before = SeenBefore(scene.grid, next.background);
   std::vector<uint8_t> barred = seen_before;
   for (size_t i = 0; i < barred.size(); ++i) barred[i] &= owner[i] < 0;
+  LetGoOfRoom(scene.grid, next, owner, barred);
   const CellFacts facts{owner, barred, arrived, shape.flat};
   for (size_t r = 0; r < regions.size(); ++r) {
     for (Candidate& candidate : CandidatesIn(frame, scene.grid, regions[r], facts, next, options)) {

@@ -14,6 +14,9 @@
 
 namespace ossa::depth {
 
+/// Points of a body that are known again in every look, in a fixed order: where they are seen.
+using Marks = std::vector<std::optional<Eigen::Vector3f>>;
+
 /// People of the frames before, as far as places go.
 struct UserTrack {
   int id = 0;
@@ -22,6 +25,7 @@ struct UserTrack {
   Eigen::Vector3f mean_m = Eigen::Vector3f::Zero();
   Eigen::Vector3f velocity_m_s = Eigen::Vector3f::Zero();
   int steps = 0;      // from frame to frame that the velocity is of
+  Marks marks_m;      // of the last frame it was seen in
   float full_m2 = 0;  // the most surface seen of it lately
   Eigen::Vector3f first_mean_m = Eigen::Vector3f::Zero();  // and surface, when it was new
   float first_m2 = 0;
@@ -31,6 +35,7 @@ struct UserTrack {
   float rest_m2 = 0;
   double seen_s = 0;
   double arrived_share = 0;  // of what was seen last; see Candidate
+  bool came = false;         // most of it once stood where the room behind it was seen before
   bool lost_behind = false;  // out of view, it was last seen at the outline of somebody nearer
   BodyMeasures body;
 };
@@ -91,6 +96,7 @@ struct Candidate {
   float arrived_m2 = 0;         // the same as surface, without its rims: edges flicker
   int origin = -1;              // candidates of one connected region have the same
   MeasuredBody body{};          // by the caller, of those it confirms
+  Marks marks_m;                // likewise
 };
 
 struct Scene {
@@ -115,6 +121,10 @@ std::vector<Candidate> SplitCandidate(const Scene& scene, const DepthFrame& fram
 /// True where two candidates meet along a rim: at a shirt's hem or a belt the surface may jump by
 /// more than connected surface does.
 bool Adjoining(const Scene& scene, const Candidate& a, const Candidate& b);
+
+/// Two pieces at one place over the floor, one above the other: nobody stands on somebody else,
+/// whatever shows between them.
+bool OneAbove(const PointGrid& grid, const Region& a, const Region& b);
 
 /// Two candidates as one; it goes on as `a`, if that was anybody, and `b` is nobody any more.
 Candidate JoinCandidates(const Scene& scene, const DepthFrame& frame, const Candidate& a,

@@ -76,7 +76,8 @@ std::optional<Found> Together(const Eyes& eyes, const depth::DepthFrame& frame,
                               const Found& b) {
   constexpr float kTwoPeople_m2 = 1.1F, kStacked_m = 0.3F;
   const Eigen::Vector3f apart = a.candidate.region.mean_m - b.candidate.region.mean_m;
-  const bool stacked = std::hypot(apart.x(), apart.z()) < kStacked_m;
+  const bool stacked = std::hypot(apart.x(), apart.z()) < kStacked_m ||
+                       depth::OneAbove(scene.grid, a.candidate.region, b.candidate.region);
   const bool one_region = a.candidate.origin == b.candidate.origin;
   if (!one_region && !MayBeParts(scene, options, a, b, stacked)) return {};
   if (std::min(a.looks, b.looks) > options.grown_up_looks) return {};

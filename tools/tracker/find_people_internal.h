@@ -34,6 +34,7 @@ struct Doubt {
   bool fallen = false;       // it was taken for a person, but did not stay one or never moved
   bool before_room = false;  // any of it was seen where the room behind was seen before
   bool arrived = false;      // it came here, and goes on moving
+  double went_m = 0.0;       // from the first look's place
 };
 
 struct FinderState {
@@ -70,7 +71,10 @@ struct FindOptions {
   // others little is seen. At the first look, and as the mean of a few.
   double sure_arrived = 0.6;
   double arrived_person = 0.15;
-  double arrived_known = 0.05;  // ... and once it was accepted, while it moves
+  double arrived_known = 0.02;  // ... and once it was accepted, while it moves
+  // ... and of what also went so far over the floor since the first look: only people walk.
+  double walked_m = 0.5;
+  double walked_person = 0.02;
   // Of somebody accepted a few looks ago: what was a person by luck is none on average.
   double young_person = 0.4;
   int young_looks = 12;

@@ -7,7 +7,7 @@ namespace {
 
 using recon::Joint;
 
-// The best proposal for a joint, if the forest is sure enough of it for a measure.
+// The best proposal for a joint, if the forest is sure enough of it for a measure or a mark.
 const Eigen::Vector3d* Seen(const Perception& perception,
                             const std::array<int, recon::kJointCount>& targets, Joint joint) {
   constexpr double kSure = 0.3;
@@ -61,6 +61,16 @@ depth::MeasuredBody MeasureBody(const Perception& perception,
   set(Measure::kShin,
       either_m(Joint::kKneeLeft, Joint::kAnkleLeft, Joint::kKneeRight, Joint::kAnkleRight));
   return body;
+}
+
+depth::Marks SureJoints(const Perception& perception,
+                        const std::array<int, recon::kJointCount>& targets) {
+  depth::Marks marks_m(recon::kJointCount);
+  for (size_t j = 0; j < recon::kJointCount; ++j) {
+    const Eigen::Vector3d* seen_m = Seen(perception, targets, static_cast<Joint>(j));
+    if (seen_m != nullptr) marks_m[j] = seen_m->cast<float>();
+  }
+  return marks_m;
 }
 
 }  // namespace ossa::tracker

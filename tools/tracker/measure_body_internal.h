@@ -4,6 +4,7 @@
 
 #include "depth/scene/body_measures.h"
 #include "depth/scene/floor.h"
+#include "depth/scene/scene.h"
 #include "recon/skeleton.h"
 #include "tools/tracker/perceive_internal.h"
 
@@ -13,5 +14,9 @@ namespace ossa::tracker {
 depth::MeasuredBody MeasureBody(const Perception& perception,
                                 const std::array<int, recon::kJointCount>& targets,
                                 const std::optional<depth::FloorPlane>& floor);
+
+/// The joints that the forest is sure of, in their order, as marks on the body.
+depth::Marks SureJoints(const Perception& perception,
+                        const std::array<int, recon::kJointCount>& targets);
 
 }  // namespace ossa::tracker

@@ -54,6 +54,8 @@ void Renew(Doubt& doubt, const Found& looked, double time_s) {
   doubt.cells = region.cells;
   doubt.mean_m = region.mean_m;
   doubt.arrived = Arrived(looked.candidate);
+  const Eigen::Vector3f way_m = region.mean_m - doubt.first_mean_m;
+  doubt.went_m = static_cast<double>(std::hypot(way_m.x(), way_m.z()));
   doubt.moved = doubt.moved || depth::HasMoved(doubt.first_mean_m, doubt.first_m2, region);
   doubt.before_room = doubt.before_room || looked.candidate.arrived_m2 > 0;
 }
@@ -91,6 +93,7 @@ double FirstScore(const Candidate& candidate, const depth::Scene& scene,
 
 // What a newcomer needs as the mean of several looks.
 double ProbationScore(const Doubt& doubt, const FindOptions& options) {
+  if (doubt.arrived && doubt.went_m > options.walked_m) return options.walked_person;
   if (doubt.arrived && doubt.moved) return options.arrived_person;
   if (!doubt.moved) return options.sure_person;
   // What grows without standing before anything may be uncovered by somebody who passes.

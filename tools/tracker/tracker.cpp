@@ -138,6 +138,7 @@ std::vector<Found> Tracker::Impl::Segment(const depth::DepthFrame& frame, BodyFr
   std::vector<const depth::Candidate*> users;
   for (Found& one : found) {
     one.candidate.body = MeasureBody(one.perception, targets, scene.floor);
+    one.candidate.marks_m = SureJoints(one.perception, targets);
     users.push_back(&one.candidate);
   }
   const std::vector<int> ids =

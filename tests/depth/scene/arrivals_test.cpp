@@ -185,13 +185,62 @@ TEST(WhoCame, DoesNotGoOnAsFurnitureThatStoodThereBefore) {
   user.id = 1;
   user.cells = before.candidates[0].region.cells;
   for (const int cell : user.cells) user.z_m.push_back(before.grid.z(cell));
-  for (const double arrived_share : {0.0, 1.0}) {
-    user.arrived_share = arrived_share;
+  // Last seen together with the box, of which nothing came.
+  for (const bool came : {false, true}) {
+    user.came = came;
     state.users = {user};
     const Scene now = FindCandidates(Shot({}, 1, {box}).frame, state, next);
     ASSERT_EQ(now.candidates.size(), 1U);
-    EXPECT_EQ(now.candidates[0].track, arrived_share > 0.5 ? -1 : 0);
+    EXPECT_EQ(now.candidates[0].track, came ? -1 : 0);
   }
+}
+
+TEST(WhoCame, IsRememberedHoweverMuchFurnitureTheyHoldLater) {
+  SceneState state, next;
+  for (int f = 0; f < 2; ++f) {
+    const Scene scene = FindCandidates(Shot({PersonAt(0, 2.5)}, f).frame, state, next);
+    ASSERT_EQ(scene.candidates.size(), 1U);
+    Candidate person = scene.candidates[0];
+    person.arrived_share = f == 0 ? 0.9 : 0.2;
+    state = std::move(next);
+    ConfirmUsers(scene, {&person}, f / 30.0, state);
+    ASSERT_EQ(state.users.size(), 1U);
+    EXPECT_TRUE(state.users[0].came);
+  }
+}
+
+// Somebody walks up to a box that stood there before, and stays at it: the share of what is held
+// for them that is theirs.
+double ShareOfPersonAtABox(bool came) {
+  const tests::Box box{{-0.3, -0.5, 2.45}, {-0.05, 0.3, 2.7}};
+  SceneState state, next;
+  double share = 0;
+  for (int f = 0; f < 30; ++f) {
+    CapsulePose pose = PersonAt(f < 13 ? 0.9 - 0.06 * f : 0.16, 2.6);
+    pose.left_lift_rad = pose.right_lift_rad = 0.1;
+    const CapsuleRender render =
+        Shot(f < 4 ? std::vector<CapsulePose>{} : std::vector{pose}, f, {box});
+    const Scene scene = FindCandidates(render.frame, state, next);
+    state = std::move(next);
+    std::vector<const Candidate*> people;
+    for (const Candidate& candidate : scene.candidates) {
+      double theirs = 0;
+      for (const int32_t pixel : candidate.pixels)
+        theirs += render.person.data[static_cast<size_t>(pixel)] > 0 ? 1 : 0;
+      theirs /= static_cast<double>(candidate.pixels.size());
+      if (candidate.track < 0 && theirs < 0.5) continue;
+      people.push_back(&candidate);
+      share = theirs;
+    }
+    ConfirmUsers(scene, people, render.frame.time_s, state);
+    for (UserTrack& user : state.users) user.came = came;
+  }
+  return share;
+}
+
+TEST(WhoCame, DoesNotCreepIntoTheFurnitureTheyTouch) {
+  EXPECT_GT(ShareOfPersonAtABox(true), 0.85);
+  EXPECT_LT(ShareOfPersonAtABox(false), 0.8);  // for all that is known of them it may be theirs
 }
 
 // What comes into view beside somebody seen, and how much of it counts as having come: its
@@ -223,6 +272,45 @@ double ArrivedBeside(float apart_m) {
 TEST(FindCandidates, WhatComesIntoViewCloseToSomebodySeenMayBeTheRestOfThem) {
   EXPECT_EQ(ArrivedBeside(0.4F), 0.0);
   EXPECT_GT(ArrivedBeside(0.9F), 0.9);
+}
+
+// Pieces of what came where nothing was, with the wall in view between them, joined: how many
+// remain.
+size_t JoinedOf(const tests::Box& a, const tests::Box& b) {
+  const PointGrid grid = GridOf(Shot({}, 0, {a, b}));
+  auto regions = Changed(GridOf(Shot({})), grid);
+  EXPECT_EQ(regions.size(), 2U);
+  const auto cells = static_cast<size_t>(grid.cells());
+  return JoinBehind(grid, std::move(regions), std::vector<uint8_t>(cells, 1),
+                    std::vector<int>(cells, -1), 0)
+      .size();
+}
+
+TEST(JoinBehind, NobodyComesAboveSomebodyElseAtOnePlace) {
+  const tests::Box lower{{-0.1, -0.9, 3.0}, {0.1, -0.3, 3.2}};
+  EXPECT_EQ(JoinedOf(lower, {{-0.2, 0.1, 3.0}, {0.0, 0.5, 3.2}}), 1U);
+  EXPECT_EQ(JoinedOf(lower, {{-0.2, 0.1, 3.6}, {0.0, 0.5, 3.8}}), 2U);     // behind,
+  EXPECT_EQ(JoinedOf(lower, {{0.45, 0.1, 3.0}, {0.65, 0.5, 3.2}}), 2U);    // to the side,
+  EXPECT_EQ(JoinedOf(lower, {{0.15, -0.7, 3.0}, {0.35, -0.1, 3.2}}), 2U);  // half beside
+}
+
+TEST(OneAbove, IsMeantOverTheFloorAlsoOfASensorThatLooksDown) {
+  const float tilt_rad = 0.45F;
+  PointGrid grid;
+  grid.up = {0, std::cos(tilt_rad), -std::sin(tilt_rad)};
+  const auto piece = [&](float height_m, float beside_m) {
+    Region region;
+    region.mean_m = Eigen::Vector3f(beside_m, -1, 3) + height_m * grid.up;
+    region.low_m = region.mean_m - Eigen::Vector3f(0.2F, 0.25F, 0.1F);
+    region.high_m = region.mean_m + Eigen::Vector3f(0.2F, 0.25F, 0.1F);
+    return region;
+  };
+  const Region trousers = piece(0.5F, 0), shirt = piece(1.2F, 0);
+  EXPECT_GT(trousers.mean_m.z() - shirt.mean_m.z(), 0.3F);  // as the sensor sees it
+  EXPECT_TRUE(OneAbove(grid, trousers, shirt));
+  EXPECT_TRUE(OneAbove(grid, shirt, trousers));
+  EXPECT_FALSE(OneAbove(grid, trousers, piece(1.2F, 0.5F)));
+  EXPECT_FALSE(OneAbove(grid, trousers, piece(0.6F, 0.2F)));
 }
 
 TEST(JoinBehind, ThingsSideBySideWithTheWallBetweenThemStayApart) {

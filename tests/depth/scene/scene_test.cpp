@@ -278,6 +278,57 @@ TEST_F(Identity, SurvivesAWayBehindSomebodyElse) {
   EXPECT_EQ(See(Shot({PersonAt(0, 1.8), PersonAt(far_x_m(47), 3.6)}, 47))[1], far_id);
 }
 
+// Half of somebody who walks is hidden at a time; the candidates' marks are on the whole body.
+class HalfHidden : public testing::Test {
+ protected:
+  // Velocity after ten frames of a walk of 1.5 m/s of which `shown` of 1 is seen in each.
+  template <class Shown>
+  Eigen::Vector3f VelocityAfter(const Shown& shown, bool marked) {
+    SceneState state, next;
+    for (int f = 0; f < 10; ++f) {
+      const float x_m = -0.4F + 0.05F * static_cast<float>(f);
+      const CapsuleRender render = Shot({PersonAt(static_cast<double>(x_m), 2.5)}, f);
+      const Scene scene = FindCandidates(render.frame, state, next);
+      EXPECT_EQ(scene.candidates.size(), 1U);
+      Candidate person = scene.candidates.at(0);
+      std::vector<int> seen;
+      for (const int cell : person.region.cells)
+        if (scene.grid.at(cell).x() > x_m + shown(f)) seen.push_back(cell);
+      person.region = MakeRegion(scene.grid, std::move(seen));
+      if (marked) {
+        for (const float height_m : {-0.8F, -0.6F, -0.4F, -0.2F, 0.0F, 0.3F, 0.6F})
+          person.marks_m.emplace_back(Eigen::Vector3f(x_m, height_m, 2.5F));
+        const auto frame = static_cast<size_t>(f);
+        if (f % 3 == 0) *person.marks_m[(frame + 1) % 7] += Eigen::Vector3f(0.4F, 0, 0.4F);
+        person.marks_m[frame % 7].reset();
+      }
+      state = std::move(next);
+      ConfirmUsers(scene, {&person}, render.frame.time_s, state);
+    }
+    return state.users.at(0).velocity_m_s;
+  }
+};
+
+TEST_F(HalfHidden, WalksAsTheMarksOnTheBodyDo) {
+  const auto uncovered = [](int f) { return 0.2F - 0.06F * static_cast<float>(f); };
+  EXPECT_NEAR(VelocityAfter(uncovered, true).x(), 1.5F, 0.05F);
+  EXPECT_LT(VelocityAfter(uncovered, false).x(), 1.2F);  // the middle of what is seen lags
+}
+
+TEST_F(Identity, BesideSomebodyNearerTheMiddleOfTheSurfaceSaysNothingOfTheVelocity) {
+  // Somebody comes out to the left from behind somebody near who stands still.
+  int seen = 0;
+  for (int i = 0; i < 12; ++i) {
+    See(Shot({PersonAt(0, 1.8), PersonAt(0.45 + 0.02 * i, 3.4)}, i));
+    for (const UserTrack& user : state_.users) {
+      if (user.mean_m.z() < 2.6F || user.mean_m.x() < 0.4F) continue;
+      EXPECT_EQ(user.velocity_m_s.norm(), 0.0F) << i;
+      ++seen;
+    }
+  }
+  EXPECT_GT(seen, 6);
+}
+
 TEST_F(Identity, WhoTurnsOutToBePartOfAnotherIsForgotten) {
   // Remembered, the part would claim its cells again in the next frame.
   const CapsuleRender render = Shot({PersonAt(-0.3, 2.5), PersonAt(0.3, 2.5)}, 0);

@@ -69,43 +69,15 @@ TEST_F(Newcomer, ThatStandsLikeFurnitureIsNobodyHoweverOftenItIsLookedAt) {
 
 TEST_F(Newcomer, WhoCameInBehindOthersIsFollowedThroughLooksThatShowLittle) {
   // A head above somebody's shoulder, at 1.2 m/s: no cell is the same from one frame to the next.
-  const auto walks = [](int f) { return Look{0.3, 0.04F * static_cast<float>(f), 1.0}; };
-  EXPECT_EQ(AcceptedIn(30, false, walks), options_.probation_looks - 1);
-  // The edge of furniture that somebody uncovers seems to move too, but it did not come.
-  const auto uncovered = [](int f) { return Look{0.3, 0.04F * static_cast<float>(f), 0.0}; };
-  EXPECT_EQ(AcceptedIn(30, false, uncovered), -1);
-}
-
-TEST_F(Newcomer, OnceAcceptedWhoCameHereAndMovesIsKeptOnLess) {
-  depth::Scene scene;
-  scene.fresh = false;
-  FinderState state;
-  const auto goes_on = [&](double arrived_share, bool moving) {
-    Found found = Seen({0.1, 0, arrived_share});
-    found.looks = 5;
-    found.moved = true;
-    found.moving = moving;
-    return Accepted(found, scene, 1.0, options_, state);
+  const auto at = [](int steps, double arrived_share) {
+    return Look{0.04, 0.04F * static_cast<float>(steps), arrived_share};
   };
-  EXPECT_TRUE(goes_on(1.0, true));
-  EXPECT_FALSE(goes_on(0.0, true));
-  EXPECT_FALSE(goes_on(1.0, false));  // a chair that somebody put there
-}
-
-TEST_F(Newcomer, OnceAcceptedWhoNeverMovesMustLookLikeAPerson) {
-  const depth::Scene scene;
-  FinderState state;
-  const auto goes_on = [&](double mean_score, int looks, bool moved) {
-    Found found = Seen({mean_score});
-    found.looks = looks;
-    found.moved = moved;
-    return Accepted(found, scene, 1.0, options_, state);
-  };
-  const int young = options_.still_looks, grown_up = options_.young_looks + 1;
-  EXPECT_TRUE(goes_on(0.72, grown_up, false));
-  EXPECT_FALSE(goes_on(0.68, grown_up, false));  // a lamp, most likely
-  EXPECT_TRUE(goes_on(0.68, young, false));      // it may move yet
-  EXPECT_TRUE(goes_on(0.3, grown_up, true));
+  const auto walks = [&](int f) { return at(f, 1); };
+  EXPECT_EQ(AcceptedIn(60, false, walks), 13);  // 52 cm
+  const auto sways = [&](int f) { return at(f % 8 < 4 ? f % 4 : 4 - f % 4, 1); };
+  EXPECT_EQ(AcceptedIn(60, false, sways), -1);
+  const auto was_there = [&](int f) { return at(f, 0); };
+  EXPECT_EQ(AcceptedIn(60, false, was_there), -1);
 }
 
 }  // namespace
