@@ -294,6 +294,20 @@ TEST(JoinBehind, NobodyComesAboveSomebodyElseAtOnePlace) {
   EXPECT_EQ(JoinedOf(lower, {{0.15, -0.7, 3.0}, {0.35, -0.1, 3.2}}), 2U);  // half beside
 }
 
+TEST(JoinBehind, SomebodyInStrideShowsAtBothSidesOfSomebodyNear) {
+  const tests::Box post{{-0.17, -0.9, 2.0}, {0.17, 0.9, 2.05}};
+  const tests::Box strider{{-0.38, -0.8, 3.2}, {0.38, 0.3, 3.4}};
+  const PointGrid grid = GridOf(Shot({}, 0, {post, strider}));
+  auto regions = Changed(GridOf(Shot({}, 0, {post})), grid);
+  ASSERT_EQ(regions.size(), 2U);
+  EXPECT_GT(std::abs(regions[0].mean_m.x() - regions[1].mean_m.x()), 0.6F);
+  const auto cells = static_cast<size_t>(grid.cells());
+  EXPECT_EQ(JoinBehind(grid, std::move(regions), std::vector<uint8_t>(cells, 1),
+                       std::vector<int>(cells, -1), 0)
+                .size(),
+            1U);
+}
+
 TEST(OneAbove, IsMeantOverTheFloorAlsoOfASensorThatLooksDown) {
   const float tilt_rad = 0.45F;
   PointGrid grid;
