@@ -121,22 +121,26 @@ void ContinueTracks(const std::vector<int>& owner, const std::vector<UserTrack>&
   }
 }
 
+// Over the floor, from the nearer sides of two pieces.
+float GapOnFloor_m(const PointGrid& grid, const Region& a, const Region& b) {
+  const float aside_m = std::max({0.0F, a.low_m.x() - b.high_m.x(), b.low_m.x() - a.high_m.x()});
+  return std::hypot(aside_m, grid.OnFloor(a.mean_m - b.mean_m).y());
+}
+
 // What comes into view close to somebody who is seen may be the rest of them: of it nothing is
 // taken for granted.
 void DoubtRests(const PointGrid& grid, const std::vector<UserTrack>& users, double time_s,
                 std::vector<Candidate>& candidates) {
-  constexpr float kClose_m = 0.45F;
-  const auto close = [&](const Candidate& candidate, const Candidate& other) {
-    if (other.track < 0) return false;
-    const Vector3f off =
-        PredictedMean_m(users[static_cast<size_t>(other.track)], time_s) - candidate.region.mean_m;
-    return grid.OnFloor(off).norm() < kClose_m;
-  };
+  constexpr float kClose_m = 0.45F, kBeside_m = 0.7F;
   for (Candidate& candidate : candidates) {
-    if (candidate.track < 0 &&
-        std::any_of(candidates.begin(), candidates.end(),
-                    [&](const Candidate& other) { return close(candidate, other); }))
-      candidate.arrived_share = 0;
+    if (candidate.track >= 0) continue;
+    for (const Candidate& other : candidates) {
+      if (other.track < 0) continue;
+      const Vector3f off_m = PredictedMean_m(users[static_cast<size_t>(other.track)], time_s) -
+                             candidate.region.mean_m;
+      if (grid.OnFloor(off_m).norm() < kClose_m) candidate.arrived_share = 0;
+      if (GapOnFloor_m(grid, candidate.region, other.region) < kBeside_m) candidate.alone = false;
+    }
   }
 }
 
@@ -223,6 +227,7 @@ std::vector<Candidate> SplitCandidate(const Scene& scene, const DepthFrame& fram
     part.origin = candidate.origin;
     part.flat_share = candidate.flat_share;
     part.arrived_share = candidate.arrived_share;
+    part.alone = candidate.alone;
     part.region = std::move(piece);
     pieces.push_back(std::move(part));
   }
@@ -268,6 +273,7 @@ Candidate JoinCandidates(const Scene& scene, const DepthFrame& frame, const Cand
   whole.flat_share = of_a * a.flat_share + (1 - of_a) * b.flat_share;
   whole.arrived_share = of_a * a.arrived_share + (1 - of_a) * b.arrived_share;
   whole.arrived_m2 = a.arrived_m2 + b.arrived_m2;
+  whole.alone = a.alone && b.alone;
   whole.origin = a.origin;
   return whole;
 }

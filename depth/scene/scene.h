@@ -94,6 +94,7 @@ struct Candidate {
   double arrived_share = 0;     // of the cells that stand where something behind them was seen; 0
                                 // for what may be the rest of somebody who is seen
   float arrived_m2 = 0;         // the same as surface, without its rims: edges flicker
+  bool alone = true;            // nobody who is seen is beside it
   int origin = -1;              // candidates of one connected region have the same
   MeasuredBody body{};          // by the caller, of those it confirms
   Marks marks_m;                // likewise

@@ -74,10 +74,8 @@ std::vector<Candidate> WorthLooking(const depth::Scene& scene, double time_s,
 std::optional<Found> Together(const Eyes& eyes, const depth::DepthFrame& frame,
                               const depth::Scene& scene, const FindOptions& options, const Found& a,
                               const Found& b) {
-  constexpr float kTwoPeople_m2 = 1.1F, kStacked_m = 0.3F;
-  const Eigen::Vector3f apart = a.candidate.region.mean_m - b.candidate.region.mean_m;
-  const bool stacked = std::hypot(apart.x(), apart.z()) < kStacked_m ||
-                       depth::OneAbove(scene.grid, a.candidate.region, b.candidate.region);
+  constexpr float kTwoPeople_m2 = 1.1F;
+  const bool stacked = Stacked(scene, a, b);
   const bool one_region = a.candidate.origin == b.candidate.origin;
   if (!one_region && !MayBeParts(scene, options, a, b, stacked)) return {};
   if (std::min(a.looks, b.looks) > options.grown_up_looks) return {};
@@ -154,6 +152,14 @@ bool ReachesBeyond(const std::vector<depth::Bone>& bones, const depth::Region& r
 }
 
 }  // namespace
+
+bool Stacked(const depth::Scene& scene, const Found& a, const Found& b) {
+  constexpr float kStacked_m = 0.3F;
+  const depth::Region &of_a = a.candidate.region, &of_b = b.candidate.region;
+  const Eigen::Vector3f apart_m = of_a.mean_m - of_b.mean_m;
+  return std::hypot(apart_m.x(), apart_m.z()) < kStacked_m ||
+         depth::OneAbove(scene.grid, of_a, of_b);
+}
 
 bool MayBeParts(const depth::Scene& scene, const FindOptions& options, const Found& a,
                 const Found& b, bool stacked) {

@@ -72,7 +72,8 @@ struct FindOptions {
   double sure_arrived = 0.6;
   double arrived_person = 0.15;
   double arrived_known = 0.02;  // ... and once it was accepted, while it moves
-  // ... and of what also went so far over the floor since the first look: only people walk.
+  // ... and of what also went so far over the floor since the first look, with nobody beside whose
+  // rest it may be: only people walk.
   double walked_m = 0.5;
   double walked_person = 0.02;
   // Of somebody accepted a few looks ago: what was a person by luck is none on average.
@@ -100,6 +101,9 @@ bool Arrived(const depth::Candidate& candidate);
 /// Whether what was looked at is somebody; what is not is remembered.
 bool Accepted(Found& looked, const depth::Scene& scene, double time_s, const FindOptions& options,
               FinderState& state);
+
+/// One above the other, as the sensor sees it or over the floor.
+bool Stacked(const depth::Scene& scene, const Found& a, const Found& b);
 
 /// Pieces of two regions are tried as one person where they would be two people, one above the
 /// other

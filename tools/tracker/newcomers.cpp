@@ -92,8 +92,9 @@ double FirstScore(const Candidate& candidate, const depth::Scene& scene,
 }
 
 // What a newcomer needs as the mean of several looks.
-double ProbationScore(const Doubt& doubt, const FindOptions& options) {
-  if (doubt.arrived && doubt.went_m > options.walked_m) return options.walked_person;
+double ProbationScore(const Doubt& doubt, const Candidate& candidate, const FindOptions& options) {
+  if (doubt.arrived && candidate.alone && doubt.went_m > options.walked_m)
+    return options.walked_person;
   if (doubt.arrived && doubt.moved) return options.arrived_person;
   if (!doubt.moved) return options.sure_person;
   // What grows without standing before anything may be uncovered by somebody who passes.
@@ -115,7 +116,7 @@ bool AcceptedNew(Found& looked, const depth::Scene& scene, double time_s,
   }
   Renew(*before, looked, time_s);
   if (before->looks < options.probation_looks ||
-      before->mean_score < ProbationScore(*before, options)) {
+      before->mean_score < ProbationScore(*before, looked.candidate, options)) {
     return false;
   }
   score = before->mean_score;

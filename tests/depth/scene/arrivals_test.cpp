@@ -243,9 +243,8 @@ TEST(WhoCame, DoesNotCreepIntoTheFurnitureTheyTouch) {
   EXPECT_LT(ShareOfPersonAtABox(false), 0.8);  // for all that is known of them it may be theirs
 }
 
-// What comes into view beside somebody seen, and how much of it counts as having come: its
-// candidate's arrived_share.
-double ArrivedBeside(float apart_m) {
+// What comes into view beside somebody seen.
+Candidate NewBeside(float apart_m) {
   SceneState state, next;
   const auto see = [&](const CapsuleRender& render, bool people) {
     const Scene scene = FindCandidates(render.frame, state, next);
@@ -262,16 +261,19 @@ double ArrivedBeside(float apart_m) {
   const double x_m = static_cast<double>(apart_m);
   const tests::Box thing{{x_m - 0.08, -0.8, 2.5}, {x_m + 0.08, 0.2, 2.6}};
   const CapsuleRender render = Shot({person}, 2, {thing});
-  double share = -1;
   for (const Candidate& candidate : FindCandidates(render.frame, state, next).candidates) {
-    if (candidate.track < 0) share = candidate.arrived_share;
+    if (candidate.track < 0) return candidate;
   }
-  return share;
+  ADD_FAILURE() << "nothing new";
+  return {};
 }
 
 TEST(FindCandidates, WhatComesIntoViewCloseToSomebodySeenMayBeTheRestOfThem) {
-  EXPECT_EQ(ArrivedBeside(0.4F), 0.0);
-  EXPECT_GT(ArrivedBeside(0.9F), 0.9);
+  EXPECT_EQ(NewBeside(0.4F).arrived_share, 0.0);
+  EXPECT_GT(NewBeside(0.9F).arrived_share, 0.9);
+  // 8 cm of the thing and some 20 cm of the person lie between the middles and the sides.
+  EXPECT_FALSE(NewBeside(0.9F).alone);
+  EXPECT_TRUE(NewBeside(1.1F).alone);
 }
 
 // Pieces of what came where nothing was, with the wall in view between them, joined: how many

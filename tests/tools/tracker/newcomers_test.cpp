@@ -13,6 +13,7 @@ struct Look {
   double arrived_share = 0;  // of what stands where the room behind was seen
   float area_m2 = 0.1F;
   bool has_head = true;
+  bool alone = true;
 };
 
 class Newcomer : public testing::Test {
@@ -25,6 +26,7 @@ class Newcomer : public testing::Test {
     candidate.arrived_share = look.arrived_share;
     candidate.arrived_m2 = static_cast<float>(look.arrived_share) * look.area_m2;
     candidate.has_head = look.has_head;
+    candidate.alone = look.alone;
     candidate.region.mean_m = {look.x_m, 0, 3};
     candidate.region.area_m2 = look.area_m2;
     const int column = 80 + static_cast<int>(std::lround(look.x_m / 0.04F));
@@ -74,6 +76,12 @@ TEST_F(Newcomer, WhoCameInBehindOthersIsFollowedThroughLooksThatShowLittle) {
   };
   const auto walks = [&](int f) { return at(f, 1); };
   EXPECT_EQ(AcceptedIn(60, false, walks), 13);  // 52 cm
+  const auto beside_somebody = [&](int f) {
+    Look look = at(f, 1);
+    look.alone = false;
+    return look;
+  };
+  EXPECT_EQ(AcceptedIn(60, false, beside_somebody), -1);
   const auto sways = [&](int f) { return at(f % 8 < 4 ? f % 4 : 4 - f % 4, 1); };
   EXPECT_EQ(AcceptedIn(60, false, sways), -1);
   const auto was_there = [&](int f) { return at(f, 0); };

@@ -118,6 +118,24 @@ TEST_F(Halves, AreTriedAtAnyAgeWhereTheyWouldBeTwoPeopleOneAboveTheOther) {
   EXPECT_FALSE(Tried(0.9, 0.1, options_.young_looks + 1, true));
 }
 
+TEST_F(Halves, AreStackedAlsoBeforeASensorThatLooksDown) {
+  EXPECT_TRUE(Stacked(scene_, upper_, lower_));
+  const float tilt_rad = 0.5F;
+  scene_.grid.up = {0, std::cos(tilt_rad), -std::sin(tilt_rad)};
+  const auto at = [&](float height_m) {
+    depth::Region region;
+    region.mean_m = Eigen::Vector3f(0, -1, 3) + height_m * scene_.grid.up;
+    region.low_m = region.mean_m - Eigen::Vector3f(0.2F, 0.2F, 0.1F);
+    region.high_m = region.mean_m + Eigen::Vector3f(0.2F, 0.2F, 0.1F);
+    return region;
+  };
+  upper_.candidate.region = at(1.2F);
+  lower_.candidate.region = at(0.45F);
+  EXPECT_TRUE(Stacked(scene_, upper_, lower_));
+  scene_.grid.up = {0, 1, 0};  // as much farther away, and not below
+  EXPECT_FALSE(Stacked(scene_, upper_, lower_));
+}
+
 TEST(MeasureBody, LeavesOutLimbsThatNobodyHas) {
   recon::Posture joints = tests::JointsOf(PersonAt(0, 2.5));
   const auto thigh_m = [&] {
