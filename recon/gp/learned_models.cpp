@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <fstream>
 
 #include "depth/error.h"
 #include "depth/file/sealed_file.h"
@@ -11,7 +12,8 @@ namespace ossa::recon {
 namespace {
 
 constexpr SealedFormat kFormat = {
-    {'O', 'S', 'S', 'A', 'G', 'P', '0', '0'}, 2, "learned reconstruction"};
+    {'O', 'S', 'S', 'A', 'G', 'P', '0', '0'}, LearnedModels::kVersion, "learned reconstruction"};
+constexpr uint32_t kOldestVersion = 2;
 
 // More than any honest file holds; a damaged count is refused before it costs memory or time.
 constexpr uint64_t kMostModels = 1000, kMostRows = 5000;
@@ -54,6 +56,36 @@ GaussianProcess GetProcess(PayloadReader& in, Eigen::Index features) {
   return model;
 }
 
+/// Of joints of the left and the middle; an empty matrix where nothing was learned.
+void PutFilter(PayloadWriter& out, const LinearFilter& filter) {
+  out.Put(filter.step_s);
+  for (const auto& of_output : filter.weights) {
+    for (size_t joint = 0; joint < kJointCount; ++joint) {
+      if (LearnedSideOf(joint) == joint) PutMatrix(out, of_output[joint]);
+    }
+  }
+}
+
+LinearFilter GetFilter(PayloadReader& in) {
+  LinearFilter filter;
+  filter.step_s = in.Get<double>("filter's step");
+  if (!(filter.step_s == 0.0 || (filter.step_s > 1e-3 && filter.step_s < 1.0))) {
+    in.Fail("filter's step", "expected 0, or 0.001 s to 1 s");
+  }
+  for (auto& of_output : filter.weights) {
+    for (size_t joint = 0; joint < kJointCount; ++joint) {
+      if (LearnedSideOf(joint) != joint) continue;
+      Eigen::MatrixXf& weights = of_output[joint];
+      weights = GetMatrix(in, "filter's weights");
+      const bool fits = weights.rows() == FilterFeatureSize(joint) && weights.cols() == 3;
+      if (weights.size() > 0 && !fits) {
+        in.Fail("filter's weights", "expected three numbers for each step that the joint's sees");
+      }
+    }
+  }
+  return filter;
+}
+
 Eigen::Index FeatureSize(size_t joint) { return JointFeature(Posture(), joint).size(); }
 
 struct JointSamples {
@@ -91,6 +123,7 @@ LearnedModels LearnedModels::Learn(const std::vector<PosturePair>& pairs,
   out.pair_count = pairs.size();
   if (options.correction.centres > 0) {
     out.correction = PoseCorrection::Learn(pairs, options.correction);
+    out.filter = LinearFilter::Learn(pairs, options.filter);
   }
   if (!options.processes) return out;
   out.exemplars = Thinned(pairs, options.most_pairs);
@@ -134,17 +167,26 @@ void LearnedModels::Save(const std::filesystem::path& path) const {
   PutMatrix(out, correction.mean);
   out.Put(correction.width);
   out.Put(correction.proportions);
+  PutFilter(out, filter);
   WriteSealedFile(path, kFormat, out.bytes());
 }
 
 bool LearnedModels::IsOne(const std::filesystem::path& path) { return IsSealedFile(path, kFormat); }
 
 LearnedModels LearnedModels::Load(const std::filesystem::path& path) {
-  const auto payload = ReadSealedFile(path, kFormat);
-  return FromBytes(payload, path.string());
+  SealedFormat format = kFormat;
+  constexpr std::streamoff kVersionAt = 12;  // of a sealed file: after magic and byte order
+  std::ifstream file(path, std::ios::binary);
+  uint32_t version = 0;
+  file.seekg(kVersionAt);
+  file.read(reinterpret_cast<char*>(&version), sizeof(version));
+  if (file && version >= kOldestVersion && version < kVersion) format.version = version;
+  const auto payload = ReadSealedFile(path, format);
+  return FromBytes(payload, path.string(), format.version);
 }
 
-LearnedModels LearnedModels::FromBytes(std::span<const std::byte> bytes, const std::string& name) {
+LearnedModels LearnedModels::FromBytes(std::span<const std::byte> bytes, const std::string& name,
+                                       uint32_t version) {
   PayloadReader in(bytes, name);
   LearnedModels out;
   out.pair_count = in.Get<uint64_t>("pair count");
@@ -187,6 +229,7 @@ LearnedModels LearnedModels::FromBytes(std::span<const std::byte> bytes, const s
     in.Fail("centres", "expected a correction of whole postures");
   }
   c.mean = Eigen::Map<const Eigen::VectorXf>(mean.data(), mean.size());
+  if (version >= 3) out.filter = GetFilter(in);
   in.ExpectEnd();
   return out;
 }

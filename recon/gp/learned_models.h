@@ -4,6 +4,7 @@
 #include <functional>
 #include <span>
 
+#include "recon/gp/linear_filter.h"
 #include "recon/gp/local_mixture.h"
 #include "recon/gp/pose_correction.h"
 
@@ -13,19 +14,21 @@ struct LearnOptions {
   bool processes = true;  // false: the correction alone, for `best`
   LocalMixtureOptions mixture;
   PoseCorrectionOptions correction;
+  LinearFilterOptions filter;
   size_t most_pairs = 2500;  // for the mixtures, the full processes and the exemplars
   int full_samples = 350;    // of each joint's full Gaussian process: its variance costs their
                              // square a frame, 0.8 ms for 20 joints
 };
 
 /// What `ossa learn` makes of pairs and the .ossagp file holds: for each joint with known truth the
-/// local mixture (liu-2016) and the full process (full-gp), the pairs themselves (exemplar) and the
-/// correction of the whole posture (best).
+/// local mixture (liu-2016) and the full process (full-gp), the pairs themselves (exemplar), the
+/// correction of the whole posture and the filter (best).
 struct LearnedModels {
   std::array<LocalMixture, kJointCount> mixtures;
   std::array<GaussianProcess, kJointCount> full;
   std::vector<PosturePair> exemplars;
   PoseCorrection correction;
+  LinearFilter filter;
   uint64_t pair_count = 0;  // learned from
 
   /// `progress` (may be empty) is told the number of joints done; returns false to stop.
@@ -35,7 +38,11 @@ struct LearnedModels {
   /// True when the file says that it is one; it may still be damaged.
   static bool IsOne(const std::filesystem::path& path);
   static LearnedModels Load(const std::filesystem::path& path);
-  static LearnedModels FromBytes(std::span<const std::byte> bytes, const std::string& name);
+  /// Of a payload; older versions are still read, without what they lack.
+  static LearnedModels FromBytes(std::span<const std::byte> bytes, const std::string& name,
+                                 uint32_t version = kVersion);
+  /// Version 3 added the filter.
+  static constexpr uint32_t kVersion = 3;
 };
 
 }  // namespace ossa::recon

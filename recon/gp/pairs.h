@@ -17,6 +17,10 @@ struct PosturePair {
   JointWeights known{};  // 1 where the truth has the joint and the observation saw it
   int group = 0;         // the person it is of: what is learned must hold for other groups
   double worst_m = 0.0;  // largest residual of the frame, those too large to be learned from too
+  // Where and when it was seen: camera = placement of scale times normalised.
+  Placement placement;
+  double scale = 1.0, time_s = 0.0;
+  int clip = 0;  // pairs of one clip are one person's, in the order of time
 };
 
 /// At most so many, evenly spread.

@@ -6,8 +6,8 @@
 //      six frames; softened where good sensors are imprecise anyway (bone lengths);
 //   3. joints in doubt are completed: hung on what is seen, as they hung before where the sensor's
 //      guesses are fair, else as plantard-2016 has them in a natural posture;
-//   4. a filter a joint weighs by trust; a frame later it says better what it thought
-//      (lag_filter_internal.h);
+//   4. a filter a joint weighs by trust, or one that was learned of this sensor; a frame later it
+//      says better what it thought (posture_filter_internal.h);
 //   5. the learned systematic error of the whole posture is taken off (recon/gp/pose_correction.h);
 //   6. the person's constant bone lengths are imposed, moving the joints least.
 #include <algorithm>
@@ -15,10 +15,10 @@
 
 #include "recon/gp/learned_models.h"
 #include "recon/methods/bone_projection_internal.h"
-#include "recon/methods/lag_filter_internal.h"
 #include "recon/methods/methods_internal.h"
 #include "recon/methods/person_internal.h"
 #include "recon/methods/plausibility_internal.h"
+#include "recon/methods/posture_filter_internal.h"
 
 namespace ossa::recon {
 namespace {
@@ -29,9 +29,13 @@ class Best : public Reconstructor {
       : options_(options.best),
         constants_(options.best.constants),
         plausibility_(constants_.slack_m) {
-    if (const auto learned = LearnedOf(options)) correction_ = learned->correction;
+    LinearFilter linear;
+    if (const auto learned = LearnedOf(options)) {
+      correction_ = learned->correction;
+      linear = learned->filter;
+    }
     size_.Expect(correction_.proportions, constants_.expected);
-    StartFilters();
+    filter_ = PostureFilter(constants_, linear);
     if (options.database) natural_ = MakePlantard2016(ForCompletion(options));
   }
 
@@ -39,7 +43,7 @@ class Best : public Reconstructor {
     ReconstructionInput input = raw;
     const double doubt = options_.repair ? plausibility_.Repair(input) : 1.0;  // 1.
     const PreparedPosture prepared = person_.Prepare(input);
-    if (prepared.restarted) StartFilters();
+    if (prepared.restarted) filter_.Restart();
     FindLost(prepared, input);
     JointWeights trust = Trust(prepared, input, doubt);  // 2.
     Posture target = prepared.in_camera;
@@ -48,15 +52,9 @@ class Best : public Reconstructor {
     } else if (options_.complete) {
       Complete(prepared, input, trust, target);  // 3.
     }
-    if (plausibility_.elsewhere()) StartFilters();
-    Posture now = target, before = target;
-    for (size_t i = 0; options_.filter && i < kJointCount; ++i) {  // 4.
-      // A posture that is held has been through this filter and must not lag behind what moves it.
-      const bool holds = lost_[i] && !KnowsNatural(prepared);
-      const double heard = holds ? 1.0 : std::max(trust[i], kLeastTrust);
-      now.position_m[i] = filters_[i].Step(target.position_m[i], prepared.dt_s, heard);
-      before.position_m[i] = filters_[i].before_m();
-    }
+    if (plausibility_.elsewhere()) filter_.Restart();
+    const Posture now = options_.filter ? Filtered(target, prepared, trust) : target;  // 4.
+    const Posture& before = options_.filter ? filter_.before() : target;
     Moment moment{doubt > 0.0 ? now : prepared.in_camera, prepared.placement, prepared.scale, trust,
                   prepared.reliability};
     for (size_t i = 0; i < kJointCount; ++i) {
@@ -91,7 +89,7 @@ class Best : public Reconstructor {
     offsets_s_ = 0.0;
     last_.reset();
     revised_.reset();
-    StartFilters();
+    filter_.Restart();
   }
 
  private:
@@ -118,8 +116,6 @@ class Best : public Reconstructor {
     options.local_pca.samples = 60;
     return options;
   }
-
-  void StartFilters() { filters_.fill(LagFilter(constants_)); }
 
   JointWeights Trust(const PreparedPosture& prepared, const ReconstructionInput& input,
                      double doubt) const {
@@ -231,6 +227,19 @@ class Best : public Reconstructor {
     }
   }
 
+  Posture Filtered(const Posture& target, const PreparedPosture& prepared,
+                   const JointWeights& trust) {
+    JointWeights heard;
+    std::array<bool, kJointCount> believed;
+    for (size_t i = 0; i < kJointCount; ++i) {
+      // A posture that is held has been through this filter and must not lag behind what moves it.
+      const bool holds = lost_[i] && !KnowsNatural(prepared);
+      heard[i] = holds ? 1.0 : std::max(trust[i], kLeastTrust);
+      believed[i] = trust[i] > kSound;
+    }
+    return filter_.Step(target, prepared.placement.yaw_rad, prepared.dt_s, heard, believed);
+  }
+
   static size_t ParentOf(size_t joint) { return static_cast<size_t>(kJointParent[joint]); }
 
   /// From a joint up to one of its ancestors.
@@ -332,7 +341,7 @@ class Best : public Reconstructor {
   Person person_{ReliabilityOptions{.use_speed = true}};
   Plausibility plausibility_;
   BodySize size_{true};  // of what comes out: the correction may change bones
-  std::array<LagFilter, kJointCount> filters_;
+  PostureFilter filter_;
   Posture mean_offset_;     // of this person, normalised and scaled
   double offsets_s_ = 0.0;  // for how long it was averaged
   std::optional<Moment> last_;

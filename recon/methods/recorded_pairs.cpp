@@ -54,6 +54,7 @@ size_t AddPairs(const SkeletonSequence& observed, const SkeletonSequence& truth,
   const auto matched = Matched(observed, truth);
   const size_t before = pairs.size();
   std::map<int, Person> people;
+  std::map<int, int> clips;
   for (size_t f = 0; f < matched.size(); ++f) {
     for (const BodyRecord& body : observed.frames[f].bodies) {
       const PreparedPosture prepared =
@@ -76,6 +77,10 @@ size_t AddPairs(const SkeletonSequence& observed, const SkeletonSequence& truth,
       }
       if (known < 4.0) continue;
       pair.observed = prepared.scaled;
+      pair.placement = prepared.placement;
+      pair.scale = prepared.scale;
+      pair.time_s = observed.frames[f].time_s;
+      pair.clip = clips.try_emplace(body.id, static_cast<int>(pairs.size())).first->second;
       const Posture true_scaled =
           Scaled(Normalised(truth_in_camera, prepared.placement), 1.0 / prepared.scale);
       for (size_t i = 0; i < kJointCount; ++i) {

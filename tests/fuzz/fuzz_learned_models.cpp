@@ -21,6 +21,8 @@ std::vector<std::string> ossa::fuzz::Seeds() {
   Eigen::MatrixXd inputs = Eigen::MatrixXd::Zero(2, features);
   inputs(1, 0) = 0.5;
   models.full[3] = recon::GaussianProcess({}, inputs, Eigen::MatrixXd::Constant(2, 3, 0.1));
+  models.filter.step_s = 1.0 / 30.0;
+  models.filter.weights[0][3] = Eigen::MatrixXf::Constant(recon::FilterFeatureSize(3), 3, 0.01F);
   const std::string path = ScratchPath("learned");
   models.Save(path);
   return {TakeFile(path).substr(kSealSize)};

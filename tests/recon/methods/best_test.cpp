@@ -7,8 +7,8 @@
 #include <random>
 #include <vector>
 
+#include "recon/filters/lag_filter_internal.h"
 #include "recon/methods/bone_projection_internal.h"
-#include "recon/methods/lag_filter_internal.h"
 #include "recon/methods/reconstructor.h"
 #include "recon/methods/sequence.h"
 #include "tests/recon/synthetic_motion.h"

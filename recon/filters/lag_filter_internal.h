@@ -1,8 +1,7 @@
 #pragma once
 #include <Eigen/Core>
 
-#include "recon/methods/joint_filters_internal.h"
-#include "recon/methods/reconstructor.h"
+#include "recon/filters/joint_filters_internal.h"
 
 namespace ossa::recon {
 
@@ -16,8 +15,9 @@ namespace ossa::recon {
 /// jitter, of this joint over the last second, says which of the two is heard.
 class LagFilter {
  public:
-  explicit LagFilter(const BestConstants& constants = {})
-      : noise_m_(constants.noise_m), acceleration_(constants.acceleration) {}
+  /// Standard deviations of one measurement, metres, and of a joint's acceleration, m/s^2.
+  explicit LagFilter(double noise_m = 0.02, double acceleration = 10.0)
+      : noise_m_(noise_m), acceleration_(acceleration) {}
   /// trust in (0, 1] divides the measurement's variance. The estimate for now.
   Eigen::Vector3d Step(const Eigen::Vector3d& value_m, double dt_s, double trust);
   /// What is now thought of the step before.

@@ -1,4 +1,4 @@
-#include "recon/methods/lag_filter_internal.h"
+#include "recon/filters/lag_filter_internal.h"
 
 #include <algorithm>
 #include <cmath>

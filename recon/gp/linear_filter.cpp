@@ -1,0 +1,79 @@
+#include "recon/gp/linear_filter.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace ossa::recon {
+namespace {
+
+/// The joint, its parent, its children.
+const std::vector<size_t>& Neighbourhood(size_t joint) {
+  static const auto kAll = [] {
+    std::array<std::vector<size_t>, kJointCount> all;
+    for (size_t i = 0; i < kJointCount; ++i) {
+      all[i].push_back(i);
+      if (kJointParent[i] >= 0) all[i].push_back(static_cast<size_t>(kJointParent[i]));
+      for (size_t k = i + 1; k < kJointCount; ++k) {
+        if (kJointParent[k] == static_cast<int>(i)) all[i].push_back(k);
+      }
+    }
+    return all;
+  }();
+  return kAll[joint];
+}
+
+}  // namespace
+
+size_t LearnedSideOf(size_t joint) {
+  return std::min(joint, static_cast<size_t>(kMirroredJoint[joint]));
+}
+
+Eigen::Index FilterFeatureSize(size_t joint) {
+  return 3 * LinearFilter::kSteps * static_cast<Eigen::Index>(Neighbourhood(joint).size());
+}
+
+Eigen::VectorXf FilterFeature(std::span<const Posture> window, const LinearFilter::Steps& steps,
+                              double yaw_rad, size_t joint, bool mirrored) {
+  const auto own = [&](size_t i) { return mirrored ? static_cast<size_t>(kMirroredJoint[i]) : i; };
+  const double c = std::cos(yaw_rad), s = std::sin(yaw_rad), side = mirrored ? -1.0 : 1.0;
+  const size_t newest = window.size() - 1;
+  Eigen::VectorXf feature(FilterFeatureSize(joint));
+  Eigen::Index at = 0;
+  for (const size_t neighbour : Neighbourhood(own(joint))) {
+    const size_t i = steps[own(neighbour)] >= LinearFilter::kFewest ? own(neighbour) : joint;
+    const auto position = [&](size_t ago) { return window[newest - ago].position_m[i]; };
+    const auto known = static_cast<size_t>(std::min(steps[i], LinearFilter::kSteps));
+    const Eigen::Vector3d mean = (position(0) - position(known)) / static_cast<double>(known);
+    for (size_t ago = LinearFilter::kSteps; ago-- > 0; at += 3) {
+      const Eigen::Vector3d step = ago < known ? position(ago) - position(ago + 1) : mean;
+      feature[at] = static_cast<float>(side * (c * step.x() - s * step.z()));
+      feature[at + 1] = static_cast<float>(step.y());
+      feature[at + 2] = static_cast<float>(s * step.x() + c * step.z());
+    }
+  }
+  return feature;
+}
+
+const Eigen::MatrixXf& LinearFilter::WeightsOf(Output output, size_t joint) const {
+  return weights[output][LearnedSideOf(joint)];
+}
+
+std::array<Eigen::Vector3d, LinearFilter::kOutputs> LinearFilter::Estimate(
+    size_t joint, std::span<const Posture> window, const Steps& steps, double yaw_rad) const {
+  const bool mirrored = LearnedSideOf(joint) != joint;
+  const double c = std::cos(yaw_rad), s = std::sin(yaw_rad);
+  const Eigen::VectorXf feature = FilterFeature(window, steps, yaw_rad, joint, mirrored);
+  std::array<Eigen::Vector3d, kOutputs> estimates;
+  for (const Output output : {kNow, kBefore}) {
+    const Eigen::MatrixXf& known = WeightsOf(output, joint);
+    Eigen::Vector3d& estimate = estimates[output];
+    estimate = window[window.size() - 1 - output].position_m[joint];
+    if (known.size() == 0) continue;
+    Eigen::Vector3d off = (known.transpose() * feature).cast<double>();
+    if (mirrored) off.x() = -off.x();
+    estimate += Eigen::Vector3d(c * off.x() + s * off.z(), off.y(), -s * off.x() + c * off.z());
+  }
+  return estimates;
+}
+
+}  // namespace ossa::recon

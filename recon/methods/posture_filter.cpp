@@ -1,0 +1,47 @@
+#include "recon/methods/posture_filter_internal.h"
+
+#include <algorithm>
+
+namespace ossa::recon {
+
+void PostureFilter::Restart() {
+  filters_.fill(lag_);
+  window_.clear();
+  steps_.fill(-1);
+}
+
+void PostureFilter::Remember(const Posture& in_camera, double dt_s,
+                             const std::array<bool, kJointCount>& believed) {
+  if (!window_.empty() && !linear_.IsStep(dt_s)) {
+    window_.clear();
+    steps_.fill(-1);
+  }
+  if (window_.size() == LinearFilter::kFrames) window_.erase(window_.begin());
+  window_.push_back(in_camera);
+  for (size_t i = 0; i < kJointCount; ++i) steps_[i] = believed[i] ? steps_[i] + 1 : -1;
+}
+
+Posture PostureFilter::Step(const Posture& in_camera, double yaw_rad, double dt_s,
+                            const JointWeights& heard,
+                            const std::array<bool, kJointCount>& believed) {
+  // A joint that is believed again is taken over from LagFilter in so many frames.
+  constexpr int kTakeOver = 4;
+  if (!linear_.empty()) Remember(in_camera, dt_s, believed);
+  Posture now;
+  for (size_t i = 0; i < kJointCount; ++i) {
+    now.position_m[i] = filters_[i].Step(in_camera.position_m[i], dt_s, heard[i]);
+    before_.position_m[i] = filters_[i].before_m();
+    const int ready = steps_[i] - LinearFilter::kFewest + 1;
+    if (ready < 1) continue;
+    const double share = std::min(1.0, static_cast<double>(ready) / kTakeOver);
+    const auto better_m = linear_.Estimate(i, window_, steps_, yaw_rad);
+    const auto hear = [&](LinearFilter::Output output, Eigen::Vector3d& position_m) {
+      if (linear_.Knows(output, i)) position_m += share * (better_m[output] - position_m);
+    };
+    hear(LinearFilter::kNow, now.position_m[i]);
+    hear(LinearFilter::kBefore, before_.position_m[i]);
+  }
+  return now;
+}
+
+}  // namespace ossa::recon

@@ -1,0 +1,136 @@
+// When `best` hears the filter that was learned of a sensor, and when the two it has anyway.
+#include <gtest/gtest.h>
+
+#include <functional>
+#include <limits>
+
+#include "recon/methods/reconstructor.h"
+#include "tests/recon/noisy_sensor.h"
+
+namespace ossa::recon {
+namespace {
+
+constexpr size_t kElbow = 5, kWrist = 6, kHand = 7;
+
+/// Knows the filter and nothing else of the sensor.
+std::unique_ptr<Reconstructor> MakeBestOne(bool learned) {
+  static const auto models = [] {
+    LearnedModels made;
+    made.filter = LinearFilter::Learn(test::PairsOfPeople(3));
+    return std::make_shared<const LearnedModels>(made);
+  }();
+  ReconstructorOptions options;
+  if (learned) options.learned = models;
+  return MakeReconstructor(options);
+}
+
+using TimeOf = std::function<double(int frame)>;
+
+struct Made {
+  std::vector<Posture> now, revised;  // revised of the frame before
+};
+
+Made Follow(bool learned, const std::vector<TrackedPosture>& seen, const TimeOf& time_s) {
+  const auto method = MakeBestOne(learned);
+  Made made;
+  for (size_t f = 0; f < seen.size(); ++f) {
+    made.now.push_back(method->Step({seen[f], time_s(static_cast<int>(f)), nullptr}).posture);
+    const auto revised = method->Revised();
+    made.revised.push_back(revised ? revised->posture : made.now.back());
+  }
+  return made;
+}
+
+std::vector<TrackedPosture> SeenBy(int person, int frames) {
+  std::vector<TrackedPosture> seen;
+  for (const Posture& posture : test::Seen(person, frames).seen) {
+    seen.push_back(test::AllTracked(posture));
+  }
+  return seen;
+}
+
+double Regular(int frame) { return frame * test::kFrame_s; }
+
+bool Same(const Posture& a, const Posture& b) { return a.position_m == b.position_m; }
+
+TEST(LearnedFilter, IsHeardFromTheFourthFrameOn) {
+  const auto seen = SeenBy(5, 12);
+  const Made with = Follow(true, seen, Regular), without = Follow(false, seen, Regular);
+  for (size_t f = 0; f < seen.size(); ++f) {
+    EXPECT_EQ(Same(with.now[f], without.now[f]), f < LinearFilter::kFewest) << f;
+    EXPECT_EQ(Same(with.revised[f], without.revised[f]), f < LinearFilter::kFewest) << f;
+  }
+}
+
+TEST(LearnedFilter, IsNearerTheTruthOfALateSensorThanWhatServesAnySensor) {
+  const auto seen = SeenBy(5, 200);
+  const auto truth = test::Seen(5, 200).truth;
+  std::array<double, 2> off_m{};
+  for (const bool learned : {false, true}) {
+    const Made made = Follow(learned, seen, Regular);
+    for (size_t f = 30; f < seen.size(); ++f) {
+      off_m[learned] += (made.revised[f].position_m[kHand] - truth[f - 1].position_m[kHand]).norm();
+    }
+  }
+  EXPECT_LT(off_m[1], 0.8 * off_m[0]);
+}
+
+TEST(LearnedFilter, StepsAsideAtAnotherFrameRate) {
+  const auto seen = SeenBy(5, 40);
+  for (const double rate_hz : {15.0, 60.0}) {
+    const TimeOf time_s = [rate_hz](int frame) { return frame / rate_hz; };
+    const Made with = Follow(true, seen, time_s), without = Follow(false, seen, time_s);
+    for (size_t f = 0; f < seen.size(); ++f) {
+      EXPECT_TRUE(Same(with.now[f], without.now[f])) << rate_hz << " " << f;
+      EXPECT_TRUE(Same(with.revised[f], without.revised[f])) << rate_hz << " " << f;
+    }
+  }
+}
+
+TEST(LearnedFilter, StartsAnewWhereFramesAreMissing) {
+  const auto seen = SeenBy(5, 40);
+  constexpr int kGap = 20;
+  for (const double gap_s : {0.1, 3.0}) {
+    const TimeOf time_s = [gap_s](int f) { return Regular(f) + (f >= kGap ? gap_s : 0.0); };
+    const Made with = Follow(true, seen, time_s), without = Follow(false, seen, time_s);
+    // Both go on from postures that differ by millimetres; no more than these is left of it.
+    for (size_t f = kGap; f < kGap + LinearFilter::kFewest; ++f) {
+      EXPECT_LT(test::MeanDistance_m(with.now[f], without.now[f]), 0.002) << gap_s << " " << f;
+    }
+    EXPECT_FALSE(
+        Same(with.now[kGap + LinearFilter::kFewest], without.now[kGap + LinearFilter::kFewest]));
+  }
+}
+
+/// How far elbow and wrist come to lie from where they would be, at worst, when the hand is off by
+/// so much (or missing) in three frames.
+double ArmPulled_m(bool learned, double hand_off_m) {
+  const auto good = SeenBy(5, 60);
+  const Made before = Follow(learned, good, Regular);
+  constexpr size_t kBad = 40;
+  auto seen = good;
+  for (size_t f = kBad; f < kBad + 3; ++f) {
+    seen[f].posture.position_m[kHand] += Eigen::Vector3d::Constant(hand_off_m);
+  }
+  const Made made = Follow(learned, seen, Regular);
+  double worst_m = 0.0;
+  for (size_t f = kBad; f < seen.size(); ++f) {
+    for (const size_t joint : {kElbow, kWrist}) {
+      const Eigen::Vector3d pulled =
+          made.now[f].position_m[joint] - before.now[f].position_m[joint];
+      worst_m = std::max(worst_m, pulled.norm());
+    }
+  }
+  return worst_m;
+}
+
+TEST(LearnedFilter, AHandThatJumpsOrIsLostPullsItsArmNoMoreThanWithoutIt) {
+  for (const double off_m : {0.6, std::numeric_limits<double>::quiet_NaN()}) {
+    // Without, bones of constant length pull by up to 2 cm. A filter that took in half a metre in
+    // one of its steps would move the wrist by more than that.
+    EXPECT_LT(ArmPulled_m(true, off_m), ArmPulled_m(false, off_m) + 0.01) << off_m;
+  }
+}
+
+}  // namespace
+}  // namespace ossa::recon

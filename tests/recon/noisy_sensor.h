@@ -1,0 +1,53 @@
+#pragma once
+#include "recon/gp/learned_models.h"
+#include "recon/methods/recorded_pairs.h"
+#include "tests/recon/synthetic_motion.h"
+
+namespace ossa::recon::test {
+
+constexpr double kFrame_s = 1.0 / 30.0;
+
+/// Somebody's motion, true and as a sensor has it that jitters and is a frame late. People differ
+/// in size and in what they do.
+struct SeenPerson {
+  std::vector<Posture> truth, seen;
+};
+
+inline SeenPerson Seen(int person, int frames = 300) {
+  std::mt19937_64 rng(static_cast<uint64_t>(100 + person));
+  SeenPerson out;
+  for (int f = 0; f < frames; ++f) {
+    const auto at = [&](int frame) {
+      return InFrontOfCamera(Motion(30.0 * person + frame * kFrame_s), 0.9 + 0.05 * person);
+    };
+    out.truth.push_back(at(f));
+    out.seen.push_back(at(f - 1));
+    AddNoise(out.seen.back(), 0.005, rng);
+  }
+  return out;
+}
+
+inline SkeletonSequence SequenceOf(const std::vector<Posture>& postures) {
+  SkeletonSequence sequence;
+  for (size_t f = 0; f < postures.size(); ++f) {
+    SkeletonFrame& frame = sequence.frames.emplace_back();
+    frame.frame = static_cast<int64_t>(f);
+    frame.time_s = static_cast<double>(f) * kFrame_s;
+    frame.bodies.resize(1);
+    for (size_t i = 0; i < kJointCount; ++i) {
+      frame.bodies[0].joints[i].emplace().position_m = postures[f].position_m[i];
+    }
+  }
+  return sequence;
+}
+
+inline std::vector<PosturePair> PairsOfPeople(int people) {
+  std::vector<PosturePair> pairs;
+  for (int person = 0; person < people; ++person) {
+    const SeenPerson seen = Seen(person);
+    AddPairs(SequenceOf(seen.seen), SequenceOf(seen.truth), pairs, person);
+  }
+  return pairs;
+}
+
+}  // namespace ossa::recon::test
