@@ -12,7 +12,8 @@ namespace ossa::test {
 class TemporaryFolder {
  public:
   TemporaryFolder() {
-    std::string name = (std::filesystem::temp_directory_path() / "ossa_test_XXXXXX").string();
+    const std::string to_fill(6, 'X');  // mkdtemp's
+    std::string name = (std::filesystem::temp_directory_path() / ("ossa_test_" + to_fill)).string();
     if (mkdtemp(name.data()) == nullptr) throw std::runtime_error("no temporary folder: " + name);
     path_ = name;
   }
