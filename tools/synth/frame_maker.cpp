@@ -88,6 +88,7 @@ struct FrameMaker::State {
   std::vector<Dressed> wearers;  // one a person
   std::vector<std::vector<Eigen::Vector3f>> posed_m;
   std::vector<int> mesh_of_person;
+  std::vector<recon::Posture> path_in_world;  // of a sequence: the first person's, all frames
 
   explicit State(const FrameStudio& shared) : studio(shared), options(shared.options) {
     const auto people = static_cast<size_t>(options.people);
@@ -105,6 +106,8 @@ struct FrameMaker::State {
   recon::Posture Pose(const recon::RigPose& pose, size_t person,
                       const Eigen::Isometry3d& camera_from_world);
   recon::RigPose DrawPose(int64_t index, Random& random) const;
+  std::vector<Prop> DrawProps(const recon::Posture& joints_in_cam, const ViewSample& view,
+                              Random& random);
   std::optional<LabelledFrame> Try(int64_t index, int attempt);
   LabelledFrame Shoot(const ViewSample& view, const std::vector<Prop>& props, const Box& box,
                       uint64_t noise_seed);
@@ -157,6 +160,36 @@ recon::RigPose FrameMaker::State::DrawPose(int64_t index, Random& random) const 
     return poses[static_cast<size_t>(std::min(at, period - at))];
   }
   return Varied(poses[random.Index(poses.size())], options.variation, random);
+}
+
+// What stands about and what is held. In a sequence the first frame decides: the room and what
+// stands in it stay where they are, and what is held goes along with the hands.
+std::vector<Prop> FrameMaker::State::DrawProps(const recon::Posture& joints_in_cam,
+                                               const ViewSample& view, Random& random) {
+  const Eigen::Isometry3d world_from_camera = view.camera_from_world.inverse();
+  recon::Posture joints_in_world = joints_in_cam;
+  for (auto& joint_m : joints_in_world.position_m) joint_m = world_from_camera * joint_m;
+  if (options.sequence && path_in_world.empty()) {
+    for (const recon::RigPose& pose : studio.poses) {
+      path_in_world.push_back(recon::JointsOf(wearers[0].body, Turned(pose, view.facing_rad)));
+    }
+  }
+  std::vector<Prop> props;
+  if (options.sequence) {
+    recon::Posture first_in_cam = path_in_world[0];
+    for (auto& joint_m : first_in_cam.position_m) joint_m = view.camera_from_world * joint_m;
+    for (Prop& prop :
+         SampleLastingProps(options.occluders, path_in_world, view.camera_from_world, random)) {
+      props.push_back(Carried(std::move(prop), first_in_cam, joints_in_cam));
+    }
+  } else {
+    props = SampleProps(options.occluders, joints_in_world, view.camera_from_world, random);
+  }
+  if (options.background == Background::kRoom || random.Chance(kRoomShare)) {
+    for (Prop& prop : SampleRoom(view.camera_from_world, random, path_in_world))
+      props.push_back(std::move(prop));
+  }
+  return props;
 }
 
 // Renders, senses, labels. The image is the crop `box` of the view.
@@ -223,19 +256,14 @@ std::optional<LabelledFrame> FrameMaker::State::Try(int64_t index, int attempt) 
     renderer.UpdateVertices(mesh_of_person[person], posed_m[person]);
     box = Union(box, Cover(posed_m[person], view.camera));
   }
-  if (options.background == Background::kRoom) {
+  // Nobody in view: another view is tried, but a sequence keeps its own.
+  const bool unseen = box.u1 - box.u0 < 2 || box.v1 - box.v0 < 2;
+  if (options.background == Background::kRoom || (unseen && options.sequence)) {
     box = {0, 0, view.camera.width - 1, view.camera.height - 1};
   }
-  if (box.u1 - box.u0 < 2 || box.v1 - box.v0 < 2) return std::nullopt;
+  if (unseen && !options.sequence && options.background != Background::kRoom) return std::nullopt;
 
-  recon::Posture joints_in_world = bodies[0].joints_m;
-  for (auto& joint_m : joints_in_world.position_m) {
-    joint_m = view.camera_from_world.inverse() * joint_m;
-  }
-  auto props = SampleProps(options.occluders, joints_in_world, view.camera_from_world, random);
-  if (options.background == Background::kRoom || random.Chance(kRoomShare)) {
-    for (Prop& prop : SampleRoom(view.camera_from_world, random)) props.push_back(std::move(prop));
-  }
+  const std::vector<Prop> props = DrawProps(bodies[0].joints_m, view, random);
   Random noise = StreamOf(options.seed, kNoiseStream, index, attempt);
   LabelledFrame frame = Shoot(view, props, box, noise.Bits());
   frame.bodies = std::move(bodies);

@@ -55,7 +55,8 @@ Prop HeldInOneHand(const recon::Posture& joints, Random& random) {
   const bool left = random.Chance(0.5);
   const Vector3f hand_m = joints[left ? Joint::kHandLeft : Joint::kHandRight].cast<float>();
   return {depth::Moved(SmallThing(random),
-                       Eigen::Translation3f(hand_m) * AnyRotation(random) * Affine3f::Identity())};
+                       Eigen::Translation3f(hand_m) * AnyRotation(random) * Affine3f::Identity()),
+          true, left ? Grip::kLeftHand : Grip::kRightHand};
 }
 
 /// Between the hands, turned as the line between them lies.
@@ -66,13 +67,18 @@ Prop HeldInBothHands(const recon::Posture& joints, Random& random) {
   const Eigen::Quaternionf turn = Eigen::Quaternionf::FromTwoVectors(Vector3f::UnitX(), across) *
                                   Eigen::AngleAxisf(Draw(random, -3.1, 3.1), Vector3f::UnitX());
   return {depth::Moved(LargeThing(across.norm(), random),
-                       Eigen::Translation3f((left_m + right_m) / 2) * turn * Affine3f::Identity())};
+                       Eigen::Translation3f((left_m + right_m) / 2) * turn * Affine3f::Identity()),
+          true, Grip::kBothHands};
 }
 
-Prop Held(const recon::Posture& joints, Random& random) {
-  const double span_m = (joints[Joint::kHandLeft] - joints[Joint::kHandRight]).norm();
-  return span_m < 0.8 && random.Chance(0.5) ? HeldInBothHands(joints, random)
-                                            : HeldInOneHand(joints, random);
+double Span_m(const recon::Posture& joints) {
+  return (joints[Joint::kHandLeft] - joints[Joint::kHandRight]).norm();
+}
+
+/// `widest_m`: how far apart the hands ever are.
+Prop Held(const recon::Posture& joints, double widest_m, Random& random) {
+  return widest_m < 0.8 && random.Chance(0.5) ? HeldInBothHands(joints, random)
+                                              : HeldInOneHand(joints, random);
 }
 
 /// A thing on the floor, or at some height, between the person and the camera.
@@ -117,6 +123,49 @@ void MoveToCamera(const Eigen::Isometry3d& camera_from_world, std::vector<Prop>&
   for (Prop& prop : props) prop.mesh_in_cam = depth::Moved(std::move(prop.mesh_in_cam), move);
 }
 
+/// Where a grip is, and the line that turns with it.
+struct Grasp {
+  Vector3f place_m, along;
+};
+
+Grasp GraspOf(Grip grip, const recon::Posture& joints) {
+  const auto at = [&](Joint joint) -> Vector3f { return joints[joint].cast<float>(); };
+  switch (grip) {
+    case Grip::kLeftHand:
+      return {at(Joint::kHandLeft), at(Joint::kHandLeft) - at(Joint::kElbowLeft)};
+    case Grip::kRightHand:
+      return {at(Joint::kHandRight), at(Joint::kHandRight) - at(Joint::kElbowRight)};
+    case Grip::kBothHands:
+      return {(at(Joint::kHandLeft) + at(Joint::kHandRight)) / 2,
+              at(Joint::kHandLeft) - at(Joint::kHandRight)};
+    case Grip::kNone:
+      break;
+  }
+  return {Vector3f::Zero(), Vector3f::Zero()};
+}
+
+Eigen::AlignedBox2f GroundOf(const depth::TriangleMesh& mesh) {
+  Eigen::AlignedBox2f ground;
+  for (const auto& vertex_m : mesh.vertices_m)
+    ground.extend(Eigen::Vector2f(vertex_m.x(), vertex_m.z()));
+  return ground;
+}
+
+/// Over the floor, everything that the person of the path may touch.
+Eigen::AlignedBox2f GroundOf(std::span<const recon::Posture> path_in_world) {
+  constexpr float kFlesh_m = 0.2F;  // from a joint to the skin and a little air
+  Eigen::AlignedBox2f ground;
+  for (const recon::Posture& posture : path_in_world) {
+    for (const auto& joint_m : posture.position_m) {
+      ground.extend(
+          Eigen::Vector2f(static_cast<float>(joint_m.x()), static_cast<float>(joint_m.z())));
+    }
+  }
+  if (ground.isEmpty()) return ground;
+  const Eigen::Vector2f flesh = Eigen::Vector2f::Constant(kFlesh_m);
+  return {ground.min() - flesh, ground.max() + flesh};
+}
+
 }  // namespace
 
 std::optional<Occluders> OccludersFromName(std::string_view name) {
@@ -127,17 +176,42 @@ std::optional<Occluders> OccludersFromName(std::string_view name) {
   return std::nullopt;
 }
 
-std::vector<Prop> SampleProps(Occluders kind, const recon::Posture& joints_in_world,
-                              const Eigen::Isometry3d& camera_from_world, Random& random) {
+std::vector<Prop> SampleLastingProps(Occluders kind, std::span<const recon::Posture> path_in_world,
+                                     const Eigen::Isometry3d& camera_from_world, Random& random) {
+  const Eigen::Vector3d camera_m = camera_from_world.inverse().translation();
+  const auto way_m = [&](const recon::Posture& p) {
+    return (p[Joint::kHipCenter] - camera_m).norm();
+  };
+  const auto nearest =
+      std::min_element(path_in_world.begin(), path_in_world.end(),
+                       [&](const auto& a, const auto& b) { return way_m(a) < way_m(b); });
+  double widest_m = 0.0;
+  for (const auto& posture : path_in_world) widest_m = std::max(widest_m, Span_m(posture));
   std::vector<Prop> props;
   // With `any` most frames are free: a model must not expect a box in every hand.
   const bool held = kind == Occluders::kHeld || (kind == Occluders::kAny && random.Chance(0.2));
   const bool scene = kind == Occluders::kScene || (kind == Occluders::kAny && random.Chance(0.2));
-  if (held) props.push_back(Held(joints_in_world, random));
-  if (held && random.Chance(0.25)) props.push_back(HeldInOneHand(joints_in_world, random));
-  if (scene) props.push_back(StandingBefore(joints_in_world, camera_from_world, random));
+  if (held) props.push_back(Held(path_in_world[0], widest_m, random));
+  if (held && random.Chance(0.25)) props.push_back(HeldInOneHand(path_in_world[0], random));
+  if (scene) props.push_back(StandingBefore(*nearest, camera_from_world, random));
   MoveToCamera(camera_from_world, props);
   return props;
+}
+
+std::vector<Prop> SampleProps(Occluders kind, const recon::Posture& joints_in_world,
+                              const Eigen::Isometry3d& camera_from_world, Random& random) {
+  return SampleLastingProps(kind, {&joints_in_world, 1}, camera_from_world, random);
+}
+
+Prop Carried(Prop prop, const recon::Posture& then_in_cam, const recon::Posture& now_in_cam) {
+  if (prop.grip == Grip::kNone) return prop;
+  const Grasp then = GraspOf(prop.grip, then_in_cam);
+  const Grasp now = GraspOf(prop.grip, now_in_cam);
+  const auto turn = Eigen::Quaternionf::FromTwoVectors(then.along, now.along);
+  prop.mesh_in_cam = depth::Moved(std::move(prop.mesh_in_cam),
+                                  Eigen::Translation3f(now.place_m) * turn *
+                                      Eigen::Translation3f(-then.place_m) * Affine3f::Identity());
+  return prop;
 }
 
 depth::TriangleMesh SampleFurniture(Random& random) {
@@ -159,14 +233,24 @@ depth::TriangleMesh SampleFurniture(Random& random) {
   }
 }
 
-std::vector<Prop> SampleRoom(const Eigen::Isometry3d& camera_from_world, Random& random) {
+std::vector<Prop> SampleRoom(const Eigen::Isometry3d& camera_from_world, Random& random,
+                             std::span<const recon::Posture> path_in_world) {
   const Eigen::Vector3d camera_m = camera_from_world.inverse().translation();
   // The person stands over the origin and the camera looks along -z: the wall behind the person is
   // at -behind, the camera is inside the room too.
-  const float behind_m = Draw(random, 0.5, 3.0);
-  const auto before_m = static_cast<float>(camera_m.z()) + Draw(random, 0.3, 1.0);
-  const float width_m = Draw(random, 2.5, 6.0);
-  const float shift_m = Draw(random, -0.3, 0.3) * width_m;
+  float behind_m = Draw(random, 0.5, 3.0);
+  auto before_m = static_cast<float>(camera_m.z()) + Draw(random, 0.3, 1.0);
+  float width_m = Draw(random, 2.5, 6.0);
+  float shift_m = Draw(random, -0.3, 0.3) * width_m;
+  const Eigen::AlignedBox2f path = GroundOf(path_in_world);
+  if (!path.isEmpty()) {
+    const float low_m = std::min(shift_m - width_m / 2, path.min().x());
+    const float high_m = std::max(shift_m + width_m / 2, path.max().x());
+    width_m = high_m - low_m;
+    shift_m = (low_m + high_m) / 2;
+    behind_m = std::max(behind_m, -path.min().y());
+    before_m = std::max(before_m, path.max().y());
+  }
   std::vector<Prop> props;
   props.push_back(
       {depth::Moved(depth::MakeRoom({width_m, Draw(random, 2.3, 3.0), behind_m + before_m}),
@@ -180,9 +264,10 @@ std::vector<Prop> SampleRoom(const Eigen::Isometry3d& camera_from_world, Random&
                            0.0F, -Draw(random, 0.0, behind_m));
     const auto turn =
         Eigen::AngleAxisf(static_cast<float>(random.Normal(0, 0.3)), Vector3f::UnitY());
-    props.push_back({depth::Moved(SampleFurniture(random),
-                                  Eigen::Translation3f(place_m) * turn * Affine3f::Identity()),
-                     false});
+    depth::TriangleMesh furniture = depth::Moved(
+        SampleFurniture(random), Eigen::Translation3f(place_m) * turn * Affine3f::Identity());
+    if (path.isEmpty() || !path.intersects(GroundOf(furniture)))
+      props.push_back({std::move(furniture), false});
   }
   MoveToCamera(camera_from_world, props);
   return props;

@@ -5,8 +5,6 @@
 #include <cmath>
 #include <numbers>
 
-#include "tools/synth/props.h"
-
 namespace ossa::tools {
 namespace {
 
@@ -66,29 +64,6 @@ TEST(ViewSampler, TrainAndTestNeverShareAPlacement) {
     const ViewSample test = SampleView({.view = View::kAny, .split = Split::kTest}, b);
     EXPECT_FALSE(train.camera_from_world.isApprox(test.camera_from_world, 1e-9));
   }
-}
-
-TEST(Props, HeldThingsAreAtAHandAndRoomsAreBackground) {
-  Random random(4);
-  recon::Posture joints;
-  for (auto& joint_m : joints.position_m) joint_m = {0.0, 1.0, 0.0};
-  joints[recon::Joint::kHandLeft] = {0.9, 1.0, 0.0};
-  joints[recon::Joint::kHandRight] = {-0.9, 1.0, 0.0};
-  for (int i = 0; i < 50; ++i) {
-    const auto props = SampleProps(Occluders::kHeld, joints, Eigen::Isometry3d::Identity(), random);
-    ASSERT_FALSE(props.empty());
-    float nearest_m = 1e9F;
-    for (const auto& vertex_m : props[0].mesh_in_cam.vertices_m) {
-      nearest_m = std::min({nearest_m, (vertex_m - Eigen::Vector3f(0.9F, 1.0F, 0.0F)).norm(),
-                            (vertex_m - Eigen::Vector3f(-0.9F, 1.0F, 0.0F)).norm()});
-    }
-    EXPECT_LT(nearest_m, 0.4F);  // no thing is wider than 0.8 m
-    EXPECT_TRUE(props[0].counts_as_other);
-  }
-  for (const Prop& prop : SampleRoom(Eigen::Isometry3d::Identity(), random)) {
-    EXPECT_FALSE(prop.counts_as_other);
-  }
-  EXPECT_TRUE(SampleProps(Occluders::kNone, joints, Eigen::Isometry3d::Identity(), random).empty());
 }
 
 }  // namespace

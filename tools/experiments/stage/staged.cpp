@@ -91,19 +91,17 @@ class Set {
     if (options.clutter == Clutter::kCarSeat) {
       renderer_.AddMesh(depth::Moved(CarSeat(), to_camera), false);
     }
-    if (options.clutter == Clutter::kFurniture && !poses_.empty()) {
-      const recon::Posture first = actors_[0].Take(poses_[0], camera_from_world_);
-      for (const Prop& prop : Props(Occluders::kScene, first)) {
-        renderer_.AddMesh(prop.mesh_in_cam, false);
-      }
+    if (options.clutter == Clutter::kFurniture) {
+      for (const Prop& prop : Props(Occluders::kScene)) renderer_.AddMesh(prop.mesh_in_cam, false);
     }
+    if (options.clutter == Clutter::kHeld) held_ = Props(Occluders::kHeld);
   }
 
   size_t size() const { return poses_.size(); }
   StagedFrame Shoot(size_t index);
 
  private:
-  std::vector<Prop> Props(Occluders kind, const recon::Posture& joints_in_cam) const;
+  std::vector<Prop> Props(Occluders kind) const;
   LabelledFrame Sense(size_t index, const recon::Posture& joints);
 
   const recon::BodyModel& model_;
@@ -113,23 +111,26 @@ class Set {
   std::vector<recon::RigPose> poses_;
   std::vector<Actor> actors_;  // one
   depth::Renderer renderer_;
+  std::vector<Prop> held_;  // as in the first posture
 };
 
-// The same draws every frame: the thing keeps its size, and a held one goes with the hands.
-std::vector<Prop> Set::Props(Occluders kind, const recon::Posture& joints_in_cam) const {
-  recon::Posture in_world = joints_in_cam;
-  const Eigen::Isometry3d world_from_camera = camera_from_world_.inverse();
-  for (auto& joint_m : in_world.position_m) joint_m = world_from_camera * joint_m;
+// What stands between the person's whole path and the sensor, or is held in the first posture.
+std::vector<Prop> Set::Props(Occluders kind) const {
+  if (poses_.empty()) return {};
+  std::vector<recon::Posture> path_in_world;
+  for (const recon::RigPose& pose : poses_)
+    path_in_world.push_back(recon::JointsOf(actors_[0].body(), pose));
   Random random(options_.seed, 2);
-  return SampleProps(kind, in_world, camera_from_world_, random);
+  return SampleLastingProps(kind, path_in_world, camera_from_world_, random);
 }
 
 LabelledFrame Set::Sense(size_t index, const recon::Posture& joints) {
   std::vector<int> held;
-  if (options_.clutter == Clutter::kHeld) {
-    for (const Prop& prop : Props(Occluders::kHeld, joints)) {
-      held.push_back(renderer_.AddMesh(prop.mesh_in_cam, false));
-    }
+  if (!held_.empty()) {
+    recon::Posture first = recon::JointsOf(actors_[0].body(), poses_[0]);
+    for (auto& joint_m : first.position_m) joint_m = camera_from_world_ * joint_m;
+    for (const Prop& prop : held_)
+      held.push_back(renderer_.AddMesh(Carried(prop, first, joints).mesh_in_cam, false));
   }
   LabelledFrame frame =
       SenseActors(renderer_, camera_, model_, actors_, options_.seed * 1000003 + index);
