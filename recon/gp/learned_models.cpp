@@ -13,7 +13,7 @@ namespace {
 
 constexpr SealedFormat kFormat = {
     {'O', 'S', 'S', 'A', 'G', 'P', '0', '0'}, LearnedModels::kVersion, "learned reconstruction"};
-constexpr uint32_t kOldestVersion = 2;
+constexpr uint32_t kOldestVersion = 2, kVersionOfSteps = 3;
 
 // More than any honest file holds; a damaged count is refused before it costs memory or time.
 constexpr uint64_t kMostModels = 1000, kMostRows = 5000;
@@ -72,14 +72,16 @@ LinearFilter GetFilter(PayloadReader& in) {
   if (!(filter.step_s == 0.0 || (filter.step_s > 1e-3 && filter.step_s < 1.0))) {
     in.Fail("filter's step", "expected 0, or 0.001 s to 1 s");
   }
-  for (auto& of_output : filter.weights) {
+  for (const auto output : {LinearFilter::kNow, LinearFilter::kBefore}) {
     for (size_t joint = 0; joint < kJointCount; ++joint) {
       if (LearnedSideOf(joint) != joint) continue;
-      Eigen::MatrixXf& weights = of_output[joint];
+      Eigen::MatrixXf& weights = filter.weights[output][joint];
       weights = GetMatrix(in, "filter's weights");
-      const bool fits = weights.rows() == FilterFeatureSize(joint) && weights.cols() == 3;
-      if (weights.size() > 0 && !fits) {
-        in.Fail("filter's weights", "expected three numbers for each step that the joint's sees");
+      const bool steps = weights.rows() == FilterFeatureSize(joint) && weights.cols() == 3;
+      const bool pulls = weights.rows() == PullFeatureSize(output) && weights.cols() == 1;
+      if (weights.size() > 0 && !steps && !pulls) {
+        in.Fail("filter's weights",
+                "expected three numbers for each step that the joint sees, or one for each pull");
       }
     }
   }
@@ -168,7 +170,9 @@ void LearnedModels::Save(const std::filesystem::path& path) const {
   out.Put(correction.width);
   out.Put(correction.proportions);
   PutFilter(out, filter);
-  WriteSealedFile(path, kFormat, out.bytes());
+  SealedFormat format = kFormat;
+  if (!filter.HasPulls()) format.version = kVersionOfSteps;  // what older programs read
+  WriteSealedFile(path, format, out.bytes());
 }
 
 bool LearnedModels::IsOne(const std::filesystem::path& path) { return IsSealedFile(path, kFormat); }
@@ -229,7 +233,7 @@ LearnedModels LearnedModels::FromBytes(std::span<const std::byte> bytes, const s
     in.Fail("centres", "expected a correction of whole postures");
   }
   c.mean = Eigen::Map<const Eigen::VectorXf>(mean.data(), mean.size());
-  if (version >= 3) out.filter = GetFilter(in);
+  if (version >= kVersionOfSteps) out.filter = GetFilter(in);
   in.ExpectEnd();
   return out;
 }

@@ -41,8 +41,8 @@ struct LearnedModels {
   /// Of a payload; older versions are still read, without what they lack.
   static LearnedModels FromBytes(std::span<const std::byte> bytes, const std::string& name,
                                  uint32_t version = kVersion);
-  /// Version 3 added the filter.
-  static constexpr uint32_t kVersion = 3;
+  /// Version 3 added the filter, 4 its pulls.
+  static constexpr uint32_t kVersion = 4;
 };
 
 }  // namespace ossa::recon

@@ -10,7 +10,7 @@
 namespace ossa::recon {
 
 struct LinearFilterOptions {
-  // Tried in turn for each joint; those that hold best for people left out are taken.
+  // Tried in turn for each joint; those that hold best for what is left out (FoldsOf) are taken.
   std::vector<double> ridges = {1e-4, 1e-3, 1e-2, 1e-1,
                                 1.0};  // over the mean square of a regressor
   // Squared error of second differences over squared error of position, in what is minimised.
@@ -23,16 +23,22 @@ struct LinearFilterOptions {
 
 /// Ours, of `best`: a filter of fixed weights for each joint, learned from what a sensor said and
 /// what was true (N. Wiener 1949, in discrete time: ridge regression of the error on what was
-/// seen). It sees the last steps of the joint and of its neighbours, each a bone away, in the
-/// body's frame: so it knows the sensor's delay, which way its noise lies and what neighbours
-/// share of it. What stands still it leaves alone. Left and right have the same weights, mirrored.
-/// A joint has weights only where, on people left out, they do better than LagFilter does; of one
-/// person nobody can be left out, and nothing is learned.
+/// seen). What stands still it leaves alone. The weights of a joint are of one of two kinds:
+///   steps: of the joint and of its neighbours, each a bone away, in the body's frame, an own
+///   weight
+///     for every axis: it knows the sensor's delay, which way its noise lies and what neighbours
+///     share of it. Learned of several people;
+///   pulls: of the joint alone, the same few weights for all axes. The farther another position is
+///     from the one that is estimated, the less it may pull, so that gross errors are learned of
+///     too. Of one person: many weights would not hold for anybody else.
+/// Left and right have the same weights, mirrored. A joint has weights only where, on people left
+/// out (of one person: on long blocks of time), they do better than LagFilter does.
 class LinearFilter {
  public:
   static constexpr int kSteps = 9;            // from frame to frame, that it sees
   static constexpr int kFrames = kSteps + 1;  // at most, of which it must be told
   static constexpr int kFewest = 3;           // steps of a joint, for it to be heard
+  static constexpr int kPulling = 4;          // frames before the one estimated, that pull at it
   /// Of the newest frame, and of the one before it once the newest is known.
   enum Output { kNow = 0, kBefore = 1, kOutputs = 2 };
   /// Of each joint: so many steps, up to the newest frame, are believed.
@@ -43,14 +49,18 @@ class LinearFilter {
 
   bool empty() const { return step_s == 0.0; }
   bool Knows(Output output, size_t joint) const { return WeightsOf(output, joint).size() > 0; }
+  /// Whether its weights are of pulls, which need a joint in the window but not believed there.
+  bool Pulls(Output output, size_t joint) const;
+  bool HasPulls() const;  // of any joint
   /// Whether the step from frame to frame is the one that was learned of.
   bool IsStep(double dt_s) const { return std::abs(dt_s / step_s - 1.0) < 0.25; }
   /// Where the joint is, of each output that is known. `window`: postures in camera space, the
-  /// newest last; the joint has kFewest steps in it.
+  /// newest last, kFewest steps or more; weights of steps need the joint believed in as many.
   std::array<Eigen::Vector3d, kOutputs> Estimate(size_t joint, std::span<const Posture> window,
                                                  const Steps& steps, double yaw_rad) const;
 
-  // Public for the file. Of joints of the left and the middle: regressors x 3, empty: not learned.
+  // Public for the file. Of joints of the left and the middle: of steps regressors x 3, of pulls
+  // regressors x 1, empty: not learned.
   double step_s = 0.0;  // 0: nothing is known
   std::array<std::array<Eigen::MatrixXf, kJointCount>, kOutputs> weights;
 
@@ -67,5 +77,13 @@ size_t LearnedSideOf(size_t joint);
 Eigen::VectorXf FilterFeature(std::span<const Posture> window, const LinearFilter::Steps& steps,
                               double yaw_rad, size_t joint, bool mirrored);
 Eigen::Index FilterFeatureSize(size_t joint);
+
+/// What other positions of a joint pull it by, of which `steps` up to the newest frame are known:
+/// for kPulling frames before the one estimated (as far back as is known), and of kBefore for the
+/// newest too, the way there d in metres: d, d / (1 + |d|^2 / r^2) with r = 5 cm, the same with 15
+/// cm (the influence function of Cauchy's distribution). 3 x regressors, in camera space.
+Eigen::Matrix3Xf PullFeature(std::span<const Posture> window, int steps, size_t joint,
+                             LinearFilter::Output output);
+Eigen::Index PullFeatureSize(LinearFilter::Output output);
 
 }  // namespace ossa::recon

@@ -1,5 +1,8 @@
 #include "recon/gp/pairs.h"
 
+#include <algorithm>
+#include <map>
+
 namespace ossa::recon {
 namespace {
 
@@ -12,6 +15,41 @@ std::vector<PosturePair> Thinned(const std::vector<PosturePair>& pairs, size_t m
   std::vector<PosturePair> out;
   for (size_t i = 0; i < most; ++i) out.push_back(pairs[i * pairs.size() / most]);
   return out;
+}
+
+namespace {
+
+std::vector<int> BlocksOf(size_t count, int most) {
+  // Few and long: half a minute of a recording of two minutes, in which somebody else may come.
+  constexpr int kBlocks = 4;
+  constexpr double kGap = 0.05;  // of a block, at either end: seconds, not frames
+  const auto blocks = static_cast<size_t>(std::min(kBlocks, most));
+  std::vector<int> fold;
+  for (size_t i = 0; i < count; ++i) {
+    const size_t block = i * blocks / count;
+    const double at = static_cast<double>(i * blocks % count) / static_cast<double>(count);
+    const bool gap = (at < kGap && block > 0) || (at > 1.0 - kGap && block + 1 < blocks);
+    fold.push_back(gap ? kNoFold : static_cast<int>(block));
+  }
+  return fold;
+}
+
+}  // namespace
+
+bool OfOnePerson(const std::vector<PosturePair>& pairs) {
+  return std::all_of(pairs.begin(), pairs.end(),
+                     [&](const PosturePair& pair) { return pair.group == pairs[0].group; });
+}
+
+std::vector<int> FoldsOf(const std::vector<PosturePair>& pairs, int most) {
+  if (OfOnePerson(pairs)) return BlocksOf(pairs.size(), most);
+  std::map<int, int> people;
+  for (const PosturePair& pair : pairs) {
+    people.try_emplace(pair.group, static_cast<int>(people.size()));
+  }
+  std::vector<int> fold;
+  for (const PosturePair& pair : pairs) fold.push_back(people[pair.group] % most);
+  return fold;
 }
 
 PosturePair Mirrored(const PosturePair& pair) {

@@ -26,6 +26,15 @@ struct PosturePair {
 /// At most so many, evenly spread.
 std::vector<PosturePair> Thinned(const std::vector<PosturePair>& pairs, size_t most);
 
+/// What is left out in turn, to try what is learned on what it was not learned of: one number a
+/// pair, from 0. Several people: each with all of its pairs, by turns, in at most so many folds. Of
+/// one person, or where nobody was told apart: long blocks of time, because neighbours in time are
+/// nearly the same, and others may come into view; between two blocks pairs are in no fold.
+std::vector<int> FoldsOf(const std::vector<PosturePair>& pairs, int most);
+constexpr int kNoFold = -1;
+/// Whether nobody can be left out.
+bool OfOnePerson(const std::vector<PosturePair>& pairs);
+
 /// Left and right exchanged: people's errors do not know sides, and pairs are dear.
 PosturePair Mirrored(const PosturePair& pair);
 

@@ -200,24 +200,14 @@ std::vector<PosturePair> Sound(const std::vector<PosturePair>& pairs, double gro
   return sound.size() >= 10 ? sound : pairs;
 }
 
-/// People by turns; of one person runs of pairs: neighbours in time are nearly the same.
-std::vector<int> FoldsOf(const std::vector<PosturePair>& pairs, int folds) {
-  std::map<int, int> people;
-  for (const PosturePair& pair : pairs) people.try_emplace(pair.group, people.size());
-  std::vector<int> fold;
-  for (size_t i = 0; i < pairs.size(); ++i) {
-    const auto run = static_cast<int>(i * static_cast<size_t>(folds) / pairs.size());
-    fold.push_back(people.size() > 1 ? people[pairs[i].group] % folds : run);
-  }
-  return fold;
-}
-
-/// The gain of each joint that minimises the squared error, g = sum(y o) / sum(o o).
-JointWeights GainsOf(const std::vector<PosturePair>& pairs, const std::vector<Posture>& offsets) {
+/// The gain of each joint that is best on pairs left out: of least squares, g = sum(y o) / sum(o
+/// o), weighed by the inverse of each error, so that a few gross ones do not decide.
+JointWeights GainsOf(const std::vector<PosturePair>& pairs, const std::vector<int>& fold,
+                     const std::vector<Posture>& offsets) {
   JointWeights agree{}, square{}, gains{};
   for (size_t i = 0; i < pairs.size(); ++i) {
     for (size_t j = 0; j < kJointCount; ++j) {
-      if (pairs[i].known[j] == 0.0) continue;
+      if (pairs[i].known[j] == 0.0 || fold[i] == kNoFold) continue;
       const Eigen::Vector3d& offset = offsets[i].position_m[j];
       agree[j] += offset.dot(pairs[i].residual.position_m[j]);
       square[j] += offset.squaredNorm();
@@ -235,12 +225,12 @@ JointWeights GainsOf(const std::vector<PosturePair>& pairs, const std::vector<Po
 }
 
 /// Mean distance of the known joints from the truth, after offsets times gains.
-double ErrorLeft(const std::vector<PosturePair>& pairs, const std::vector<Posture>& offsets,
-                 const JointWeights& gains) {
+double ErrorLeft(const std::vector<PosturePair>& pairs, const std::vector<int>& fold,
+                 const std::vector<Posture>& offsets, const JointWeights& gains) {
   double sum_m = 0.0, count = 0.0;
   for (size_t i = 0; i < pairs.size(); ++i) {
     for (size_t j = 0; j < kJointCount; ++j) {
-      if (pairs[i].known[j] == 0.0) continue;
+      if (pairs[i].known[j] == 0.0 || fold[i] == kNoFold) continue;
       sum_m += (pairs[i].residual.position_m[j] - gains[j] * offsets[i].position_m[j]).norm();
       count += 1.0;
     }
@@ -292,7 +282,7 @@ PoseCorrection::HeldOut PoseCorrection::LeaveOut(const std::vector<PosturePair>&
   for (int held = 0; held < options.folds; ++held) {
     std::vector<PosturePair> rest;
     for (size_t i = 0; i < pairs.size(); ++i) {
-      if (fold[i] != held) rest.push_back(pairs[i]);
+      if (fold[i] != held && fold[i] != kNoFold) rest.push_back(pairs[i]);
     }
     if (rest.empty() || rest.size() == pairs.size()) continue;
     const PoseCorrection fit = Fit(rest, width, noise_ratio, options);
@@ -301,8 +291,13 @@ PoseCorrection::HeldOut PoseCorrection::LeaveOut(const std::vector<PosturePair>&
     }
   }
   HeldOut out;
-  out.gains = GainsOf(pairs, offsets);
-  out.error_m = ErrorLeft(pairs, offsets, out.gains);
+  out.gains = GainsOf(pairs, fold, offsets);
+  // What holds from block to block of one person may be the person's own: half of it is believed.
+  constexpr double kOfOnePerson = 0.5;
+  if (OfOnePerson(pairs)) {
+    for (double& gain : out.gains) gain *= kOfOnePerson;
+  }
+  out.error_m = ErrorLeft(pairs, fold, offsets, out.gains);
   return out;
 }
 

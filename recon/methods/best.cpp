@@ -184,7 +184,11 @@ class Best : public Reconstructor {
   /// hanging as a frame before amounts to, is nearer the truth than any database; of
   /// poor ones the natural posture is.
   void Complete(const PreparedPosture& prepared, const ReconstructionInput& input,
-                const JointWeights& trust, Posture& target) {
+                const JointWeights& trust_in, Posture& target) {
+    JointWeights trust = trust_in;
+    for (size_t i = 0; i < kJointCount; ++i) {
+      if (FilterKnows(prepared, i)) trust[i] = 1.0;
+    }
     if (!InDoubt(prepared, trust)) return;
     const Posture before =
         person_.last_in_camera() ? *person_.last_in_camera() : prepared.in_camera;
@@ -201,6 +205,13 @@ class Best : public Reconstructor {
       target.position_m[i] = held[i] * target.position_m[i] + (1.0 - held[i]) * hung.position_m[i];
     }
     ReachOut(held, hung, target);
+  }
+
+  /// Whether the learned filter is to have a joint as it is seen, doubted or not: it has learned of
+  /// this sensor what to make of gross errors. Of jumps that are waited out it has not.
+  bool FilterKnows(const PreparedPosture& prepared, size_t joint) const {
+    return options_.filter && filter_.Pulls(joint) && prepared.present[joint] > 0.0 &&
+           plausibility_.joint_trust()[joint] > kSound;
   }
 
   /// Whether enough is seen to look for a natural posture like it; else the last one is held.
@@ -229,15 +240,15 @@ class Best : public Reconstructor {
 
   Posture Filtered(const Posture& target, const PreparedPosture& prepared,
                    const JointWeights& trust) {
-    JointWeights heard;
-    std::array<bool, kJointCount> believed;
+    Heard heard;
     for (size_t i = 0; i < kJointCount; ++i) {
       // A posture that is held has been through this filter and must not lag behind what moves it.
       const bool holds = lost_[i] && !KnowsNatural(prepared);
-      heard[i] = holds ? 1.0 : std::max(trust[i], kLeastTrust);
-      believed[i] = trust[i] > kSound;
+      heard.weights[i] = holds ? 1.0 : std::max(trust[i], kLeastTrust);
+      heard.believed[i] = trust[i] > kSound;
+      heard.seen[i] = !lost_[i];
     }
-    return filter_.Step(target, prepared.placement.yaw_rad, prepared.dt_s, heard, believed);
+    return filter_.Step(target, prepared.placement.yaw_rad, prepared.dt_s, heard);
   }
 
   static size_t ParentOf(size_t joint) { return static_cast<size_t>(kJointParent[joint]); }

@@ -1,42 +1,48 @@
 #include "recon/methods/posture_filter_internal.h"
 
 #include <algorithm>
+#include <optional>
 
 namespace ossa::recon {
 
 void PostureFilter::Restart() {
   filters_.fill(lag_);
-  window_.clear();
-  steps_.fill(-1);
+  Forget();
 }
 
-void PostureFilter::Remember(const Posture& in_camera, double dt_s,
-                             const std::array<bool, kJointCount>& believed) {
-  if (!window_.empty() && !linear_.IsStep(dt_s)) {
-    window_.clear();
-    steps_.fill(-1);
-  }
+void PostureFilter::Forget() {
+  window_.clear();
+  steps_.fill(-1);
+  seen_.fill(-1);
+}
+
+void PostureFilter::Remember(const Posture& in_camera, double dt_s, const Heard& heard) {
+  if (!window_.empty() && !linear_.IsStep(dt_s)) Forget();
   if (window_.size() == LinearFilter::kFrames) window_.erase(window_.begin());
   window_.push_back(in_camera);
-  for (size_t i = 0; i < kJointCount; ++i) steps_[i] = believed[i] ? steps_[i] + 1 : -1;
+  for (size_t i = 0; i < kJointCount; ++i) {
+    steps_[i] = heard.believed[i] ? steps_[i] + 1 : -1;
+    seen_[i] = heard.seen[i] ? seen_[i] + 1 : -1;
+  }
 }
 
 Posture PostureFilter::Step(const Posture& in_camera, double yaw_rad, double dt_s,
-                            const JointWeights& heard,
-                            const std::array<bool, kJointCount>& believed) {
+                            const Heard& heard) {
   // A joint that is believed again is taken over from LagFilter in so many frames.
   constexpr int kTakeOver = 4;
-  if (!linear_.empty()) Remember(in_camera, dt_s, believed);
+  if (!linear_.empty()) Remember(in_camera, dt_s, heard);
   Posture now;
   for (size_t i = 0; i < kJointCount; ++i) {
-    now.position_m[i] = filters_[i].Step(in_camera.position_m[i], dt_s, heard[i]);
+    now.position_m[i] = filters_[i].Step(in_camera.position_m[i], dt_s, heard.weights[i]);
     before_.position_m[i] = filters_[i].before_m();
-    const int ready = steps_[i] - LinearFilter::kFewest + 1;
-    if (ready < 1) continue;
-    const double share = std::min(1.0, static_cast<double>(ready) / kTakeOver);
-    const auto better_m = linear_.Estimate(i, window_, steps_, yaw_rad);
+    std::optional<std::array<Eigen::Vector3d, LinearFilter::kOutputs>> better_m;
     const auto hear = [&](LinearFilter::Output output, Eigen::Vector3d& position_m) {
-      if (linear_.Knows(output, i)) position_m += share * (better_m[output] - position_m);
+      const int steps = linear_.Pulls(output, i) ? seen_[i] : steps_[i];
+      const int ready = steps - LinearFilter::kFewest + 1;
+      if (ready < 1 || !linear_.Knows(output, i)) return;
+      if (!better_m) better_m = linear_.Estimate(i, window_, steps_, yaw_rad);
+      const double share = std::min(1.0, static_cast<double>(ready) / kTakeOver);
+      position_m += share * ((*better_m)[output] - position_m);
     };
     hear(LinearFilter::kNow, now.position_m[i]);
     hear(LinearFilter::kBefore, before_.position_m[i]);
