@@ -27,6 +27,26 @@ inline SeenPerson Seen(int person, int frames = 300) {
   return out;
 }
 
+/// Somebody before a sensor without any memory: it jitters by centimetres, and in one frame of
+/// twenty a joint of the limbs is somewhere else, 30 cm away.
+inline SeenPerson SeenBadly(int person, int frames = 600) {
+  std::mt19937_64 rng(static_cast<uint64_t>(200 + person));
+  std::normal_distribution<double> normal(0.0, 1.0);
+  std::uniform_real_distribution<double> unit(0.0, 1.0);
+  SeenPerson out;
+  for (int f = 0; f < frames; ++f) {
+    out.truth.push_back(InFrontOfCamera(Motion(30.0 * person + f * kFrame_s), 0.9 + 0.05 * person));
+    out.seen.push_back(out.truth.back());
+    AddNoise(out.seen.back(), 0.02, rng);
+    for (size_t i = 4; i < kJointCount; ++i) {
+      if (unit(rng) > 0.05) continue;
+      const Eigen::Vector3d away(normal(rng), normal(rng), normal(rng));
+      out.seen.back().position_m[i] += 0.3 * away.normalized();
+    }
+  }
+  return out;
+}
+
 inline SkeletonSequence SequenceOf(const std::vector<Posture>& postures) {
   SkeletonSequence sequence;
   for (size_t f = 0; f < postures.size(); ++f) {
@@ -47,6 +67,14 @@ inline std::vector<PosturePair> PairsOfPeople(int people) {
     const SeenPerson seen = Seen(person);
     AddPairs(SequenceOf(seen.seen), SequenceOf(seen.truth), pairs, person);
   }
+  return pairs;
+}
+
+/// One recording of one person by that sensor.
+inline std::vector<PosturePair> PairsOfABadSensor() {
+  const SeenPerson seen = SeenBadly(0);
+  std::vector<PosturePair> pairs;
+  AddPairs(SequenceOf(seen.seen), SequenceOf(seen.truth), pairs, 0);
   return pairs;
 }
 

@@ -133,10 +133,13 @@ std::filesystem::path LearnWithout(const ExperimentContext& context,
                   options.mixture.samples, options.mixture.seed, options.most_pairs,
                   options.full_samples, options.correction.centres, options.correction.most_pairs);
   std::vector<recon::PosturePair> pairs;
+  std::map<std::string, int> people;
   for (const RecordedPair& clip : clips) {
     if (clip.subject == left_out && !left_out.empty()) continue;
     key.append(" ").append(ContentHash(TextOf(clip.observed) + TextOf(clip.truth)));
-    recon::AddPairs(clip.observed, clip.truth, pairs);
+    const int person =
+        people.try_emplace(clip.subject, static_cast<int>(people.size())).first->second;
+    recon::AddPairs(clip.observed, clip.truth, pairs, person);
   }
   if (pairs.empty()) throw InputError("learning: expected pairs of postures, found none");
   const auto path = context.out / "cache" / (ContentHash(key) + ".ossagp");
