@@ -1,6 +1,7 @@
 #include "recon/gp/pose_correction.h"
 
 #include <Eigen/Cholesky>
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <map>
@@ -81,26 +82,17 @@ Eigen::MatrixXf Regressors(const Eigen::MatrixXf& centres, const Eigen::MatrixXf
   return out;
 }
 
-struct Samples {
+}  // namespace
+
+/// What is learned from, made ready for every choice of width and noise.
+struct PoseCorrection::Samples {
   Eigen::MatrixXf features;  // features x n
   Eigen::MatrixXf residual;  // n x 60
   std::vector<PosturePair> pairs;
+  Eigen::MatrixXf centres;
 };
 
-Samples SamplesOf(std::vector<PosturePair> pairs) {
-  Samples s;
-  const size_t single = pairs.size();
-  for (size_t i = 0; i < single; ++i) pairs.push_back(Mirrored(pairs[i]));
-  const auto n = static_cast<Eigen::Index>(pairs.size());
-  s.features.resize(4 * static_cast<Eigen::Index>(kLines.size()), n);
-  s.residual.resize(n, kPostureDims);
-  for (Eigen::Index i = 0; i < n; ++i) {
-    s.features.col(i) = CorrectionFeature(pairs[static_cast<size_t>(i)].observed);
-    s.residual.row(i) = VectorOf(pairs[static_cast<size_t>(i)].residual).transpose();
-  }
-  s.pairs = std::move(pairs);
-  return s;
-}
+namespace {
 
 /// Means of K-means regions with ten members or more: postures that nobody held.
 Eigen::MatrixXf Centres(const Eigen::MatrixXf& features, int count, uint64_t seed) {
@@ -240,14 +232,30 @@ double ErrorLeft(const std::vector<PosturePair>& pairs, const std::vector<int>& 
 
 }  // namespace
 
+PoseCorrection::Samples PoseCorrection::SamplesOf(std::vector<PosturePair> pairs,
+                                                  const PoseCorrectionOptions& options) {
+  Samples s;
+  const size_t single = pairs.size();
+  for (size_t i = 0; i < single; ++i) pairs.push_back(Mirrored(pairs[i]));
+  const auto n = static_cast<Eigen::Index>(pairs.size());
+  s.features.resize(4 * static_cast<Eigen::Index>(kLines.size()), n);
+  s.residual.resize(n, kPostureDims);
+  for (Eigen::Index i = 0; i < n; ++i) {
+    s.features.col(i) = CorrectionFeature(pairs[static_cast<size_t>(i)].observed);
+    s.residual.row(i) = VectorOf(pairs[static_cast<size_t>(i)].residual).transpose();
+  }
+  s.pairs = std::move(pairs);
+  s.centres = Centres(s.features, options.centres, options.seed);
+  return s;
+}
+
 // Subset of regressors (Rasmussen & Williams 2006, eq. 8.13) beside a linear model: the prior of
 // the kernel's weights is the centres' own kernel matrix, that of the linear ones is unit.
-PoseCorrection PoseCorrection::Fit(const std::vector<PosturePair>& pairs, double width,
-                                   double noise_ratio, const PoseCorrectionOptions& options) {
-  const Samples samples = SamplesOf(pairs);
+PoseCorrection PoseCorrection::Fit(const Samples& samples, double width, double noise_ratio,
+                                   const PoseCorrectionOptions& options) {
   PoseCorrection out;
   out.width = width;
-  out.centres = Centres(samples.features, options.centres, options.seed);
+  out.centres = samples.centres;
   const Eigen::Index m = out.centres.cols(), all = m + samples.features.rows();
   out.weights = Eigen::MatrixXf::Zero(all, kPostureDims);
   out.mean = Eigen::VectorXf::Zero(kPostureDims);
@@ -275,17 +283,13 @@ PoseCorrection PoseCorrection::Fit(const std::vector<PosturePair>& pairs, double
 }
 
 PoseCorrection::HeldOut PoseCorrection::LeaveOut(const std::vector<PosturePair>& pairs,
-                                                 double width, double noise_ratio,
+                                                 const std::vector<int>& fold,
+                                                 const std::map<int, Samples>& rest, double width,
+                                                 double noise_ratio,
                                                  const PoseCorrectionOptions& options) {
-  const std::vector<int> fold = FoldsOf(pairs, options.folds);
   std::vector<Posture> offsets(pairs.size());
-  for (int held = 0; held < options.folds; ++held) {
-    std::vector<PosturePair> rest;
-    for (size_t i = 0; i < pairs.size(); ++i) {
-      if (fold[i] != held && fold[i] != kNoFold) rest.push_back(pairs[i]);
-    }
-    if (rest.empty() || rest.size() == pairs.size()) continue;
-    const PoseCorrection fit = Fit(rest, width, noise_ratio, options);
+  for (const auto& [held, samples] : rest) {
+    const PoseCorrection fit = Fit(samples, width, noise_ratio, options);
     for (size_t i = 0; i < pairs.size(); ++i) {
       if (fold[i] == held) offsets[i] = fit.Offsets(pairs[i].observed);
     }
@@ -309,18 +313,28 @@ PoseCorrection PoseCorrection::Learn(const std::vector<PosturePair>& all_pairs,
   const std::vector<PosturePair> some = Thinned(pairs, kForChoice);
   PoseCorrectionOptions quick = options;
   quick.centres = std::min(options.centres, 100);
+  const std::vector<int> fold = FoldsOf(some, options.folds);
+  std::map<int, Samples> rest;  // of each fold left out
+  for (int held = 0; held < options.folds; ++held) {
+    std::vector<PosturePair> others;
+    for (size_t i = 0; i < some.size(); ++i) {
+      if (fold[i] != held && fold[i] != kNoFold) others.push_back(some[i]);
+    }
+    const bool nobody = std::find(fold.begin(), fold.end(), held) == fold.end();
+    if (!nobody && !others.empty()) rest.emplace(held, SamplesOf(std::move(others), quick));
+  }
   double width = options.widths.front(), noise_ratio = options.noise_ratios.front();
   std::optional<HeldOut> best;
   for (const double w : options.widths) {
     for (const double n : options.noise_ratios) {
-      const HeldOut held = LeaveOut(some, w, n, quick);
+      const HeldOut held = LeaveOut(some, fold, rest, w, n, quick);
       if (best && held.error_m >= best->error_m) continue;
       best = held;
       width = w;
       noise_ratio = n;
     }
   }
-  PoseCorrection out = Fit(pairs, width, noise_ratio, options);
+  PoseCorrection out = Fit(SamplesOf(pairs, options), width, noise_ratio, options);
   out.proportions = TrueProportions(pairs);
   for (size_t j = 0; j < kJointCount; ++j) {
     const auto gain = static_cast<float>(best->gains[j]);

@@ -1,5 +1,6 @@
 #pragma once
 #include <Eigen/Core>
+#include <map>
 #include <vector>
 
 #include "recon/gp/pairs.h"
@@ -54,9 +55,13 @@ class PoseCorrection {
     double error_m = 0.0;  // mean, with those gains
   };
 
-  static PoseCorrection Fit(const std::vector<PosturePair>& pairs, double width, double noise_ratio,
+  struct Samples;  // pairs made ready for a fit
+  static Samples SamplesOf(std::vector<PosturePair> pairs, const PoseCorrectionOptions& options);
+  static PoseCorrection Fit(const Samples& samples, double width, double noise_ratio,
                             const PoseCorrectionOptions& options);
-  static HeldOut LeaveOut(const std::vector<PosturePair>& pairs, double width, double noise_ratio,
+  /// `rest`: by fold, what is learned from when it is left out.
+  static HeldOut LeaveOut(const std::vector<PosturePair>& pairs, const std::vector<int>& fold,
+                          const std::map<int, Samples>& rest, double width, double noise_ratio,
                           const PoseCorrectionOptions& options);
 };
 
