@@ -58,6 +58,21 @@ TEST(LinearBound, TakesAFrameOfDelayOff) {
   EXPECT_LT(std::stod(table.rows[0][3]), raw_cm / 60.0 + 0.02);
 }
 
+TEST(Itop, BestLearnedOfHalfARecordingIsBetterThanOneEuroOnTheOther) {
+  if (!std::filesystem::exists(OSSA_SHARED_DIR "/real/itop_a2j")) GTEST_SKIP() << "no recordings";
+  const auto whole = LoadItop(OSSA_SHARED_DIR).at(0);
+  const size_t frames = whole.observed.frames.size();
+  const std::vector<RecordedPair> halves = {Part(whole, 0, frames / 2, "first"),
+                                            Part(whole, frames / 2, frames, "second")};
+  for (const Fold& fold : FoldsOf(halves)) {
+    const auto error_cm = [&](const std::string& method) {
+      const FoldScore score = TestFold(fold, method, LearnFold(fold, method, {}), 1);
+      return *score.clips.at(0).mean_joint_error_cm;
+    };
+    EXPECT_LT(error_cm("best"), error_cm("one-euro") - 0.05) << fold.name;
+  }
+}
+
 TEST(Nested, NobodysConstantsDependOnWhatTheyAreTestedOn) {
   const test::TemporaryFolder folder;
   ExperimentContext context;
