@@ -24,10 +24,9 @@ struct LinearFilterOptions {
 /// Ours, of `best`: a filter of fixed weights for each joint, learned from what a sensor said and
 /// what was true (N. Wiener 1949, in discrete time: ridge regression of the error on what was
 /// seen). What stands still it leaves alone. The weights of a joint are of one of two kinds:
-///   steps: of the joint and of its neighbours, each a bone away, in the body's frame, an own
-///   weight
-///     for every axis: it knows the sensor's delay, which way its noise lies and what neighbours
-///     share of it. Learned of several people;
+///   steps: of the joint and of its neighbours, each a bone away, in the body's frame, weights of
+///     their own for every axis: it knows the sensor's delay, which way its noise lies and what
+///     neighbours share of it. Learned of several people;
 ///   pulls: of the joint alone, the same few weights for all axes. The farther another position is
 ///     from the one that is estimated, the less it may pull, so that gross errors are learned of
 ///     too. Of one person: many weights would not hold for anybody else.

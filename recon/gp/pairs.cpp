@@ -8,17 +8,6 @@ namespace {
 
 Eigen::Vector3d MirroredPoint(const Eigen::Vector3d& p) { return {-p.x(), p.y(), p.z()}; }
 
-}  // namespace
-
-std::vector<PosturePair> Thinned(const std::vector<PosturePair>& pairs, size_t most) {
-  if (pairs.size() <= most) return pairs;
-  std::vector<PosturePair> out;
-  for (size_t i = 0; i < most; ++i) out.push_back(pairs[i * pairs.size() / most]);
-  return out;
-}
-
-namespace {
-
 std::vector<int> BlocksOf(size_t count, int most) {
   // Few and long: half a minute of a recording of two minutes, in which somebody else may come.
   constexpr int kBlocks = 4;
@@ -35,6 +24,13 @@ std::vector<int> BlocksOf(size_t count, int most) {
 }
 
 }  // namespace
+
+std::vector<PosturePair> Thinned(const std::vector<PosturePair>& pairs, size_t most) {
+  if (pairs.size() <= most) return pairs;
+  std::vector<PosturePair> out;
+  for (size_t i = 0; i < most; ++i) out.push_back(pairs[i * pairs.size() / most]);
+  return out;
+}
 
 bool OfOnePerson(const std::vector<PosturePair>& pairs) {
   return std::all_of(pairs.begin(), pairs.end(),

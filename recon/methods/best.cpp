@@ -184,8 +184,7 @@ class Best : public Reconstructor {
   /// hanging as a frame before amounts to, is nearer the truth than any database; of
   /// poor ones the natural posture is.
   void Complete(const PreparedPosture& prepared, const ReconstructionInput& input,
-                const JointWeights& trust_in, Posture& target) {
-    JointWeights trust = trust_in;
+                JointWeights trust, Posture& target) {
     for (size_t i = 0; i < kJointCount; ++i) {
       if (FilterKnows(prepared, i)) trust[i] = 1.0;
     }
@@ -210,7 +209,7 @@ class Best : public Reconstructor {
   /// Whether the learned filter is to have a joint as it is seen, doubted or not: it has learned of
   /// this sensor what to make of gross errors. Of jumps that are waited out it has not.
   bool FilterKnows(const PreparedPosture& prepared, size_t joint) const {
-    return options_.filter && filter_.Pulls(joint) && prepared.present[joint] > 0.0 &&
+    return options_.filter && filter_.HeardPulls(joint) && prepared.present[joint] > 0.0 &&
            plausibility_.joint_trust()[joint] > kSound;
   }
 

@@ -33,8 +33,10 @@ class PostureFilter {
   /// What is now thought of the step before.
   const Posture& before() const { return before_; }
   void Restart();
-  /// Whether a joint's learned weights are of pulls.
-  bool Pulls(size_t joint) const { return linear_.Pulls(LinearFilter::kNow, joint); }
+  /// Whether weights of pulls were heard of a joint in the last step.
+  bool HeardPulls(size_t joint) const {
+    return seen_[joint] >= LinearFilter::kFewest && linear_.Pulls(LinearFilter::kNow, joint);
+  }
 
  private:
   void Remember(const Posture& in_camera, double dt_s, const Heard& heard);
