@@ -24,6 +24,7 @@ function(ossa_library name)
   add_library(${target} ${ARG_SOURCES})
   add_library(ossa::${name} ALIAS ${target})
   ossa_common(${target})
+  ossa_precompile(${target} ossa_library_headers)
   set_target_properties(${target} PROPERTIES EXPORT_NAME ${name} VERSION ${PROJECT_VERSION}
                         SOVERSION ${PROJECT_VERSION_MAJOR})
   target_include_directories(${target} PUBLIC
@@ -46,6 +47,9 @@ function(ossa_test name)
   cmake_parse_arguments(ARG "" "" "SOURCES;LIBS;LABELS" ${ARGN})
   add_executable(${name} ${ARG_SOURCES})
   ossa_common(${name})
+  ossa_precompile(${name} ossa_test_headers)
+  # What a test spends its time on is in the libraries: a better optimiser only costs building time.
+  target_compile_options(${name} PRIVATE $<$<CONFIG:Release>:-O1>)
   target_link_libraries(${name} PRIVATE ${ARG_LIBS} GTest::gtest GTest::gtest_main)
   target_compile_definitions(${name} PRIVATE
     OSSA_SOURCE_DIR="${CMAKE_SOURCE_DIR}" OSSA_BINARY_DIR="${CMAKE_BINARY_DIR}"

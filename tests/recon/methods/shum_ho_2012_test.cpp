@@ -1,6 +1,6 @@
 #include <gtest/gtest.h>
 
-#include <Eigen/SVD>
+#include <Eigen/Eigenvalues>
 
 #include "recon/methods/reconstructor.h"
 #include "tests/recon/synthetic_motion.h"
@@ -17,8 +17,8 @@ int MatchWithoutLeftArm(const PostureDatabase& database, const Posture& seen) {
   const Eigen::MatrixXd postures = database.postures().cast<double>();
   const Eigen::VectorXd mean = postures.rowwise().mean();
   const Eigen::MatrixXd centred = postures.colwise() - mean;
-  const Eigen::BDCSVD<Eigen::MatrixXd> svd(centred, Eigen::ComputeThinU);
-  const Eigen::MatrixXd projection = svd.matrixU().leftCols(kDimensions).transpose();
+  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> scatter(centred * centred.transpose());
+  const Eigen::MatrixXd projection = scatter.eigenvectors().rightCols(kDimensions).transpose();
   Eigen::VectorXd query = VectorOf(seen).cast<double>() - mean;
   for (const size_t joint : kLeftArm)
     query.segment<3>(3 * static_cast<Eigen::Index>(joint)).setZero();
