@@ -9,8 +9,8 @@ namespace ossa {
 /// Every reader of every room throws this and nothing else for bad input.
 class InputError : public std::runtime_error {
  public:
-  /// Control characters in `message`, which may quote a hostile file, are written as \xNN: it stays
-  /// one line and changes no terminal.
+  /// `message`, which may quote a hostile file, is put on one line that changes no terminal: see
+  /// one_line.h.
   explicit InputError(const std::string& message);
 };
 

@@ -1,6 +1,7 @@
 #include "forest/import_pcl.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <deque>
 #include <fstream>
@@ -39,13 +40,15 @@ class Lines {
   // The next line as whole numbers.
   std::vector<int> Next(size_t count, const std::string& what) {
     ++line_;
-    std::string text;
+    // No line of a tree is longer; a file of other content may be one endless line.
+    std::array<char, 128> line{};
+    file_.getline(line.data(), line.size());
+    const auto length = static_cast<size_t>(file_.gcount()) - (file_.good() ? 1 : 0);
+    const std::string text(line.data(), length);
+    std::istringstream words(text);
     std::vector<int> values;
-    if (std::getline(file_, text)) {
-      std::istringstream words(text);
-      for (int value = 0; words >> value;) values.push_back(value);
-      if (values.size() == count && words.eof()) return values;
-    }
+    for (int value = 0; words >> value;) values.push_back(value);
+    if (!file_.fail() && values.size() == count && words.eof()) return values;
     Fail("expected " + what + ", found '" + text.substr(0, 40) + "'");
   }
   [[noreturn]] void Fail(const std::string& reason) const {

@@ -3,8 +3,10 @@
 #include <array>
 #include <exception>
 #include <filesystem>
+#include <string>
 #include <string_view>
 
+#include "depth/one_line.h"
 #include "tools/commands/command.h"
 #include "tools/commands/commands.h"
 #include "tools/commands/study.h"
@@ -41,6 +43,11 @@ int Help(std::FILE* out) {
   return out == stdout ? 0 : 2;
 }
 
+int Complain(const std::string& reason, int status) {
+  fmt::print(stderr, "ossa: {}\n", ossa::OnOneLine(reason));
+  return status;
+}
+
 }  // namespace
 
 int main(int argc, char** argv) try {
@@ -55,17 +62,14 @@ int main(int argc, char** argv) try {
     ossa::commands::InstallInterruptHandler();
     return command.run(argc - 1, argv + 1);
   }
-  if (!name.empty()) fmt::print(stderr, "ossa: unknown command '{}'\n", name);
+  if (!name.empty()) Complain(fmt::format("unknown command '{}'", name), 2);
   return Help(stderr);
 } catch (const ossa::commands::HelpShown&) {
   return 0;
 } catch (const ossa::commands::UsageError& error) {
-  fmt::print(stderr, "ossa: {}\n", error.what());
-  return 2;
+  return Complain(error.what(), 2);
 } catch (const std::filesystem::filesystem_error& error) {
-  fmt::print(stderr, "ossa: {}: {}\n", error.path1().string(), error.code().message());
-  return 1;
+  return Complain(error.path1().string() + ": " + error.code().message(), 1);
 } catch (const std::exception& error) {
-  fmt::print(stderr, "ossa: {}\n", error.what());
-  return 1;
+  return Complain(error.what(), 1);
 }

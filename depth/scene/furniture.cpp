@@ -111,9 +111,7 @@ std::vector<int> TakeTop(const PointGrid& grid, const FloorPlane& floor, int sta
     const Vector3d p = grid.at(cell).cast<double>();
     spread.Add(p, HorizontalArea_m2(grid, floor.coefficients.head<3>(), cell));
     mean_m += (floor.HeightOf(p) - mean_m) / static_cast<double>(i + 1);
-    constexpr int kSteps[8][2] = {{1, 0}, {-1, 0}, {0, 1}, {0, -1},
-                                  {2, 0}, {-2, 0}, {0, 2}, {0, -2}};
-    for (const auto& step : kSteps) {
+    for (const auto& step : kStepsOverGaps) {
       if (!grid.Contains(x + step[0], y + step[1])) continue;
       const int next = grid.cell(x + step[0], y + step[1]);
       float& height_m = level_m[static_cast<size_t>(next)];

@@ -173,9 +173,7 @@ std::vector<Region> SplitBySeeds(const PointGrid& grid, const Region& region,
     queue.pop();
     if (d > distance[static_cast<size_t>(cell)]) continue;
     const int x = cell % grid.width, y = cell / grid.width;
-    constexpr int kSteps[8][2] = {{1, 0}, {-1, 0}, {0, 1}, {0, -1},
-                                  {2, 0}, {-2, 0}, {0, 2}, {0, -2}};
-    for (const auto& step : kSteps) {
+    for (const auto& step : kStepsOverGaps) {
       if (!grid.Contains(x + step[0], y + step[1])) continue;
       const int next = grid.cell(x + step[0], y + step[1]);
       const auto n = static_cast<size_t>(next);

@@ -44,6 +44,11 @@ struct PointGrid {
   }
 };
 
+/// From a cell to those beside it, columns and rows, and to those one farther on: a line of cells
+/// without a measurement does not part a surface.
+inline constexpr int kStepsOverGaps[8][2] = {{1, 0}, {-1, 0}, {0, 1}, {0, -1},
+                                             {2, 0}, {-2, 0}, {0, 2}, {0, -2}};
+
 PointGrid MakePointGrid(const DepthView& depth, const Camera& camera, float max_depth_m);
 
 /// How far two measurements of one flat surface may differ at depth z: the 2.9 mm × z² quantisation

@@ -110,9 +110,7 @@ std::vector<Region> ConnectedRegions(const PointGrid& grid, std::span<const uint
     done[static_cast<size_t>(start)] = 1;
     for (size_t i = 0; i < front.size(); ++i) {
       const int cell = front[i], x = cell % grid.width, y = cell / grid.width;
-      constexpr int kSteps[8][2] = {{1, 0}, {-1, 0}, {0, 1}, {0, -1},
-                                    {2, 0}, {-2, 0}, {0, 2}, {0, -2}};
-      for (const auto& step : kSteps) {
+      for (const auto& step : kStepsOverGaps) {
         if (!grid.Contains(x + step[0], y + step[1])) continue;
         const int next = grid.cell(x + step[0], y + step[1]);
         const auto n = static_cast<size_t>(next);

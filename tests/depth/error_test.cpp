@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include "depth/one_line.h"
+
 namespace ossa {
 namespace {
 
@@ -12,6 +14,25 @@ TEST(InputErrors, StayOneLineWhateverTheyQuote) {
 
 TEST(InputErrors, KeepLettersBeyondAscii) {
   EXPECT_STREQ(InputError("J\xC3\xBCrgen.ossa: empty").what(), "J\xC3\xBCrgen.ossa: empty");
+}
+
+TEST(InputErrors, WriteBytesThatAreNoTextAsNumbers) {
+  const std::string cut = "\xC3", second_only = "\x80", too_long = "\xC0\xAF",
+                    surrogate = "\xED\xA0\x80", too_large = "\xF4\x90\x80\x80",
+                    control = "\xC2\x9B";
+  EXPECT_EQ(OnOneLine(cut), "\\xC3");
+  EXPECT_EQ(OnOneLine(cut + "x"), "\\xC3x");
+  EXPECT_EQ(OnOneLine(second_only), "\\x80");
+  EXPECT_EQ(OnOneLine(too_long), "\\xC0\\xAF");
+  EXPECT_EQ(OnOneLine(surrogate), "\\xED\\xA0\\x80");
+  EXPECT_EQ(OnOneLine(too_large), "\\xF4\\x90\\x80\\x80");
+  EXPECT_EQ(OnOneLine(control), "\\xC2\\x9B");
+}
+
+TEST(InputErrors, KeepCharactersOfEveryLength) {
+  const std::string text =
+      "a\xC2\xA0\xE2\x82\xAC\xF0\x9F\xA6\xB4";  // a, no-break space, euro, bone
+  EXPECT_EQ(OnOneLine(text), text);
 }
 
 }  // namespace

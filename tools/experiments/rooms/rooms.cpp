@@ -66,43 +66,27 @@ std::string Cell(const std::optional<double>& value, double scale, int digits) {
 }
 
 Table WhereTable() {
-  Table table;
-  table.title = "Who is where";
-  table.columns = {"scenario",
-                   "frames",
-                   "people in view",
-                   "found, %",
-                   "cut, per 100 frames",
-                   "invented, per 100 frames",
-                   "identity switches",
-                   "IoU of pixels"};
-  table.note =
-      "In view: 0.1 m2 and six joints seen, each person in each frame. Cut: a second body on "
-      "somebody who has one. Invented: a body that is nobody's.";
-  return table;
+  return {.title = "Who is where",
+          .columns = {"scenario", "frames", "people in view", "found, %", "cut, per 100 frames",
+                      "invented, per 100 frames", "identity switches", "IoU of pixels"},
+          .note =
+              "In view: 0.1 m2 and six joints seen, each person in each frame. Cut: a second "
+              "body on somebody who has one. Invented: a body that is nobody's."};
 }
 
 Table JointsTable() {
-  Table table;
-  table.title = "Joints of the people in view";
-  table.columns = {"scenario",
-                   "raw: mAP 10 cm, %",
-                   "final: mAP 10 cm, %",
-                   "raw: mean error, cm",
-                   "final: mean error, cm",
-                   "raw, seen joints: mAP 10 cm, %"};
-  table.note =
-      "All 20 joints, also those hidden or outside the image; last those that are seen. Who is not "
-      "found has no joint right.";
-  return table;
+  return {.title = "Joints of the people in view",
+          .columns = {"scenario", "raw: mAP 10 cm, %", "final: mAP 10 cm, %", "raw: mean error, cm",
+                      "final: mean error, cm", "raw, seen joints: mAP 10 cm, %"},
+          .note =
+              "All 20 joints, also those hidden or outside the image; last those that are seen. "
+              "Who is not found has no joint right."};
 }
 
 Table JitterTable() {
-  Table table;
-  table.title = "A still person, 3 m away";
-  table.columns = {"positions", "RMS about their means, mm", "wanted"};
-  table.note = "After the first second; the last performance.";
-  return table;
+  return {.title = "A still person, 3 m away",
+          .columns = {"positions", "RMS about their means, mm", "wanted"},
+          .note = "After the first second; the last performance."};
 }
 
 void AddRow(const std::string& name, const RoomScore& s, Table& where, Table& joints) {

@@ -64,9 +64,6 @@ recon::SkeletonSequence RunMethod(const recon::SkeletonSequence& observed,
                                   const std::string& method,
                                   const recon::ReconstructorOptions& options);
 
-/// Calls body(i) for 0 <= i < count on so many threads; the first exception comes back.
-void InParallel(size_t count, int threads, const std::function<void(size_t)>& body);
-
 /// Mean or median over the clips that have the number.
 std::optional<double> Average(const std::vector<ClipMetrics>& clips,
                               std::optional<double> ClipMetrics::*member);

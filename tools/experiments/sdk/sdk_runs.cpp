@@ -2,18 +2,16 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <atomic>
 #include <chrono>
 #include <map>
-#include <mutex>
 #include <nlohmann/json.hpp>
-#include <thread>
 
 #include "recon/database/posture_database.h"
 #include "recon/methods/recorded_pairs.h"
 #include "recon/methods/sequence.h"
 #include "tools/experiments/sdk/method_runs.h"
 #include "tools/experiments/sdk/sdk_internal.h"
+#include "tools/experiments/stage/jobs.h"
 
 namespace ossa::tools {
 namespace {
@@ -87,7 +85,7 @@ FoldScore TestFold(const Fold& fold, const std::string& method,
                    const recon::ReconstructorOptions& options, int threads) {
   std::vector<std::vector<ClipMetrics>> clips(fold.test.size());
   std::vector<double> seconds(fold.test.size());
-  InParallel(fold.test.size(), threads, [&](size_t i) {
+  RunJobs(fold.test.size(), threads, [&](size_t i) {
     const auto start = Clock::now();
     const auto made = RunMethod(fold.test[i]->observed, method, options);
     seconds[i] = std::chrono::duration<double>(Clock::now() - start).count();
@@ -118,28 +116,6 @@ std::vector<ClipMetrics> ClipsFromJson(const nlohmann::json& json) {
 
 bool Learns(const std::string& method) {
   return method == "liu-2016" || method == "full-gp" || method == "exemplar" || method == "best";
-}
-
-void InParallel(size_t count, int threads, const std::function<void(size_t)>& body) {
-  std::atomic<size_t> next{0};
-  std::exception_ptr failure;
-  std::mutex failed;
-  const auto work = [&] {
-    for (size_t i = next++; i < count; i = next++) {
-      try {
-        body(i);
-      } catch (...) {
-        const std::lock_guard lock(failed);
-        if (!failure) failure = std::current_exception();
-        next = count;
-      }
-    }
-  };
-  std::vector<std::thread> pool;
-  for (int t = 1; t < threads; ++t) pool.emplace_back(work);
-  work();
-  for (std::thread& thread : pool) thread.join();
-  if (failure) std::rethrow_exception(failure);
 }
 
 std::vector<Fold> LeaveOneSubjectOut(const std::vector<RecordedPair>& pairs,
