@@ -3,6 +3,7 @@
 
 #include "physics/character_internal.h"
 #include "physics/world.h"
+#include "recon/smallest_turn.h"
 
 namespace ossa::physics {
 namespace {
@@ -278,7 +279,7 @@ void Character::DriveAxes(const ControlTarget& target, const ControlGains& gains
     const Vector3d axis = AxisOf(body_[bone]);
     // The target's frame swung onto the present axis leaves the difference about it.
     const Quaterniond swing =
-        Quaterniond::FromTwoVectors(target.orientation[bone] * Vector3d::UnitY(), axis);
+        recon::SmallestTurn(target.orientation[bone] * Vector3d::UnitY(), axis);
     const Vector3d x_target = swing * (target.orientation[bone] * Vector3d::UnitX());
     const Vector3d x_now = now * Vector3d::UnitX();
     const double angle = std::atan2(axis.dot(x_now.cross(x_target)), x_now.dot(x_target));

@@ -6,6 +6,7 @@
 #include <numbers>
 
 #include "recon/orientation.h"
+#include "recon/smallest_turn.h"
 
 namespace ossa::physics {
 namespace {
@@ -126,7 +127,7 @@ recon::Posture WithinRanges(recon::Posture posture) {
     const Vector3d lower = posture.position_m[range.bone + 1] - posture.position_m[range.bone];
     const Vector3d to =
         NearestBend(orientation[range.bone], twist, arm ? 1.0 : -1.0, lower.normalized());
-    Turn(posture, range.bone + 1, Eigen::Quaterniond::FromTwoVectors(lower, to));
+    Turn(posture, range.bone + 1, recon::SmallestTurn(lower, to));
     orientation = recon::OrientationsOf(posture);
   }
   return posture;

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "recon/smallest_turn.h"
+
 namespace ossa::recon {
 namespace {
 
@@ -98,7 +100,7 @@ class Solver {
       return;
     }
     const Vector3d direction = y.normalized();
-    const Quaterniond swing = Quaterniond::FromTwoVectors(carried * Vector3d::UnitY(), direction);
+    const Quaterniond swing = SmallestTurn(carried * Vector3d::UnitY(), direction);
     const Vector3d x_carried = swing * (carried * Vector3d::UnitX());
     result_[bone] = FrameFrom(direction, XHint(bone, direction, x_carried));
   }

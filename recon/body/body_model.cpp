@@ -235,7 +235,7 @@ void CloseHands(const ShapedBody& body, double left, double right, RigPose* pose
   constexpr size_t kLeftFingerBase = 21, kRightFingerBase = 28;
   for (const auto& [base, axes, closed] : {std::tuple{kLeftFingerBase, size_t{0}, left},
                                            std::tuple{kRightFingerBase, size_t{2}, right}}) {
-    const auto bend = [&, axes = axes](size_t axis, double angle_rad) {
+    const auto bend = [&, axes = axes, closed = closed](size_t axis, double angle_rad) {
       return Eigen::Quaterniond(
           Eigen::AngleAxisd(closed * angle_rad, body.flexion_axis[axes + axis]));
     };

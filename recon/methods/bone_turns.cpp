@@ -1,6 +1,7 @@
 #include "recon/methods/bone_turns_internal.h"
 
 #include "recon/database/nearest.h"
+#include "recon/smallest_turn.h"
 
 namespace ossa::recon {
 
@@ -28,7 +29,7 @@ JointOrientations TurnedOntoBones(const PostureDatabase& database, std::span<con
     const Eigen::Vector3d bone = in_camera.position_m[i] - in_camera.position_m[parent];
     if (!(bone.norm() > 1e-6)) continue;
     const Eigen::Vector3d now = out[i] * Eigen::Vector3d::UnitY();
-    out[i] = (Eigen::Quaterniond::FromTwoVectors(now, bone) * out[i]).normalized();
+    out[i] = (SmallestTurn(now, bone) * out[i]).normalized();
   }
   return out;
 }

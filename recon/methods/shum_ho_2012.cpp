@@ -1,10 +1,10 @@
 // H. P. H. Shum, E. S. L. Ho, Real-time physical modelling of character movements with Microsoft
 // Kinect, VRST 2012: sections 5 and 6 (positions and axial rotations of the matched posture).
-#include <Eigen/Eigenvalues>
 
 #include "recon/methods/bone_turns_internal.h"
 #include "recon/methods/methods_internal.h"
 #include "recon/methods/person_internal.h"
+#include "recon/spectrum.h"
 
 namespace ossa::recon {
 namespace {
@@ -24,9 +24,8 @@ ReducedDatabase Reduce(const PostureDatabase& database) {
   centred.colwise() -= database.mean();
   const Eigen::MatrixXf covariance =
       centred * centred.transpose() / static_cast<float>(database.size());
-  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXf> eigen(covariance);
   ReducedDatabase reduced;
-  reduced.projection = eigen.eigenvectors().rightCols(kReducedDims);
+  reduced.projection = SpectrumOf(covariance).vectors.rightCols(kReducedDims);
   reduced.postures = reduced.projection.transpose() * centred;
   return reduced;
 }

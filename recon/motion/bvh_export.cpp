@@ -11,6 +11,7 @@
 #include "recon/motion/bvh.h"
 #include "recon/motion/bvh_source_internal.h"
 #include "recon/motion/retarget_internal.h"
+#include "recon/smallest_turn.h"
 
 namespace ossa::recon {
 namespace {
@@ -247,8 +248,7 @@ void AppendFrame(const Layout& layout, const Vector3d& root_m,
     const size_t turner = layout.turner[j];
     if (turner != 0) {
       const Quaterniond& carried = world[static_cast<size_t>(layout.joints[turner].parent)];
-      world[turner] =
-          Quaterniond::FromTwoVectors(carried * RestDirection(j), direction[j]) * carried;
+      world[turner] = SmallestTurn(carried * RestDirection(j), direction[j]) * carried;
     }
     world[layout.place[j]] = world[turner];
   }

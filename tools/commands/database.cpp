@@ -9,6 +9,7 @@
 #include "recon/body/standard_body.h"
 #include "recon/database/posture_database.h"
 #include "recon/motion/mocap.h"
+#include "recon/smallest_turn.h"
 #include "tools/commands/checks.h"
 #include "tools/commands/command.h"
 #include "tools/commands/commands.h"
@@ -27,7 +28,7 @@ recon::JointOrientations OrientationsOf(const recon::RigPose& pose) {
   for (size_t j = 1; j < recon::kJointCount; ++j) {
     const auto parent = static_cast<size_t>(recon::kJointParent[j]);
     const Eigen::Vector3d along = rest.position_m[j] - rest.position_m[parent];
-    const auto rest_from_bone = Eigen::Quaterniond::FromTwoVectors(Eigen::Vector3d::UnitY(), along);
+    const auto rest_from_bone = recon::SmallestTurn(Eigen::Vector3d::UnitY(), along);
     const auto bone = static_cast<size_t>(anchors[parent].bone);
     out[j] = (pose.world_from_rest[bone] * rest_from_bone).normalized();
   }

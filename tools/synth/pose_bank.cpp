@@ -6,6 +6,7 @@
 #include <unordered_map>
 
 #include "recon/body/standard_body.h"
+#include "recon/smallest_turn.h"
 
 namespace ossa::tools {
 namespace {
@@ -78,7 +79,7 @@ void RandomArm(size_t side, recon::RigPose* pose, Random& random) {
   } while (outwards * direction.x() < -0.45 || direction.z() < -0.5 ||
            (outwards * direction.x() < 0.1 && direction.z() < 0.25));
   const Quaterniond swing =
-      Quaterniond::FromTwoVectors(RestDirection(arm.first), direction) *
+      recon::SmallestTurn(RestDirection(arm.first), direction) *
       Quaterniond(AngleAxisd(random.Uniform(-1.2, 1.2), RestDirection(arm.first)));
   // The elbow's hinge: across upper arm and forearm at rest, where it is bent a little already.
   const Vector3d hinge = RestDirection(arm.first).cross(RestDirection(arm.first + 1)).normalized();
@@ -88,7 +89,7 @@ void RandomArm(size_t side, recon::RigPose* pose, Random& random) {
     pose->world_from_rest[b] = trunk * swing * bend;
   }
   // The collar rises with the arm, or the shoulder tears.
-  const Quaterniond whole = Quaterniond::FromTwoVectors(RestDirection(arm.first), direction);
+  const Quaterniond whole = recon::SmallestTurn(RestDirection(arm.first), direction);
   pose->world_from_rest[kCollar[side]] = trunk * Quaterniond::Identity().slerp(0.25, whole);
 }
 

@@ -5,6 +5,7 @@
 #include <numbers>
 
 #include "depth/render/shapes.h"
+#include "recon/smallest_turn.h"
 
 namespace ossa::tools {
 namespace {
@@ -64,7 +65,7 @@ Prop HeldInBothHands(const recon::Posture& joints, Random& random) {
   const Vector3f left_m = joints[Joint::kHandLeft].cast<float>();
   const Vector3f right_m = joints[Joint::kHandRight].cast<float>();
   const Vector3f across = left_m - right_m;
-  const Eigen::Quaternionf turn = Eigen::Quaternionf::FromTwoVectors(Vector3f::UnitX(), across) *
+  const Eigen::Quaternionf turn = recon::SmallestTurn(Vector3f::UnitX(), across) *
                                   Eigen::AngleAxisf(Draw(random, -3.1, 3.1), Vector3f::UnitX());
   return {depth::Moved(LargeThing(across.norm(), random),
                        Eigen::Translation3f((left_m + right_m) / 2) * turn * Affine3f::Identity()),

@@ -1,8 +1,7 @@
 #include <gtest/gtest.h>
 
-#include <Eigen/Eigenvalues>
-
 #include "recon/methods/reconstructor.h"
+#include "recon/spectrum.h"
 #include "tests/recon/synthetic_motion.h"
 
 namespace ossa::recon {
@@ -17,8 +16,9 @@ int MatchWithoutLeftArm(const PostureDatabase& database, const Posture& seen) {
   const Eigen::MatrixXd postures = database.postures().cast<double>();
   const Eigen::VectorXd mean = postures.rowwise().mean();
   const Eigen::MatrixXd centred = postures.colwise() - mean;
-  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> scatter(centred * centred.transpose());
-  const Eigen::MatrixXd projection = scatter.eigenvectors().rightCols(kDimensions).transpose();
+  const Eigen::MatrixXd projection = SpectrumOf(Eigen::MatrixXd(centred * centred.transpose()))
+                                         .vectors.rightCols(kDimensions)
+                                         .transpose();
   Eigen::VectorXd query = VectorOf(seen).cast<double>() - mean;
   for (const size_t joint : kLeftArm)
     query.segment<3>(3 * static_cast<Eigen::Index>(joint)).setZero();

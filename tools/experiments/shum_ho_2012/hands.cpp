@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "recon/smallest_turn.h"
 #include "tools/experiments/shum_ho_2012/internal.h"
 
 namespace ossa::tools {
@@ -109,7 +110,7 @@ int TakeBox(Stage& stage, int person, Joint hand) {
   ObjectOptions box;
   box.size_m = Vector3d::Constant(kEdge_m);
   box.mass_kg = 0.5;
-  box.orientation = Eigen::Quaterniond::FromTwoVectors(Vector3d::UnitY(), along);
+  box.orientation = recon::SmallestTurn(Vector3d::UnitY(), along);
   const double outwards = hand == Joint::kHandLeft ? 0.03 : -0.03;  // clear of the thigh
   box.position_m = now[hand] + (0.5 * kEdge_m + 0.04) * along;
   box.position_m += now[Joint::kHipLeft].x() > now[Joint::kHipRight].x()

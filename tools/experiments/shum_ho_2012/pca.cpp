@@ -1,7 +1,6 @@
 // Shum & Ho 2012, sec. 8.4 and fig. 5: how many dimensions a posture search needs.
 #include <fmt/format.h>
 
-#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <random>
 
@@ -10,6 +9,7 @@
 #include "recon/database/posture_database.h"
 #include "recon/motion/mocap.h"
 #include "recon/normalise.h"
+#include "recon/spectrum.h"
 #include "tools/experiments/compare/recordings.h"
 #include "tools/experiments/compare/svg_plot.h"
 #include "tools/experiments/shum_ho_2012/internal.h"
@@ -116,11 +116,11 @@ Table DimensionStudy(ExperimentContext& context) {
   const Eigen::MatrixXf postures = database.postures();
   const Eigen::VectorXf mean = postures.rowwise().mean();
   const Eigen::MatrixXf centred = postures.colwise() - mean;
-  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> pca(
-      (centred * centred.transpose()).cast<double>());
+  const auto pca =
+      recon::SpectrumOf(Eigen::MatrixXd((centred * centred.transpose()).cast<double>()));
   const std::vector<PostureVector> queries = Queries(context);
   const auto match = [&](int dims) {
-    const Eigen::MatrixXf basis = pca.eigenvectors().rightCols(dims).cast<float>();
+    const Eigen::MatrixXf basis = pca.vectors.rightCols(dims).cast<float>();
     return MatchAll(postures, basis.transpose() * centred, basis, mean, queries);
   };
   const Matched whole = match(kPostureDims);
