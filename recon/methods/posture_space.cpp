@@ -1,10 +1,10 @@
 // Shum et al. 2013, sections V-B and VI.
+#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
 #include <random>
 
 #include "recon/methods/posture_space_internal.h"
-#include "recon/spectrum.h"
 
 namespace ossa::recon {
 
@@ -39,7 +39,8 @@ PostureSpace MakePostureSpace(const PostureDatabase& database, std::span<const i
   space.mean = d.rowwise().mean();
   d.colwise() -= space.mean;
   const Eigen::MatrixXf gram = d.transpose() * d;
-  const auto [values, vectors] = SpectrumOf(gram);
+  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXf> eigen(gram);
+  const Eigen::VectorXf values = eigen.eigenvalues();  // rising
   Eigen::Index dims = 0;
   const float smallest = std::max(1e-8F, 1e-5F * std::max(values[k - 1], 0.0F));
   while (dims < std::min<Eigen::Index>(dimensions, k) && values[k - 1 - dims] > smallest) ++dims;
@@ -47,7 +48,7 @@ PostureSpace MakePostureSpace(const PostureDatabase& database, std::span<const i
   space.deviation.resize(dims);
   for (Eigen::Index c = 0; c < dims; ++c) {
     const float value = values[k - 1 - c];
-    space.basis.col(c) = d * vectors.col(k - 1 - c) / std::sqrt(value);
+    space.basis.col(c) = d * eigen.eigenvectors().col(k - 1 - c) / std::sqrt(value);
     space.deviation[c] = std::sqrt(value / static_cast<float>(k));
   }
   space.neighbours = space.basis.transpose() * d;

@@ -76,10 +76,31 @@ bool IsKinectV2(std::string_view format, std::string_view columns) {
          format == "ui-prmd-kinect";
 }
 
+/// Squares and differences of what is farther away than anything a sensor sees would overflow, and
+/// a mean error be infinite: a damaged file, or numbers in a unit of their own.
+void CheckPlaces(const SkeletonSequence& sequence, const std::string& name) {
+  constexpr double kFarthest_m = 1e6;
+  for (const SkeletonFrame& frame : sequence.frames) {
+    for (const BodyRecord& body : frame.bodies) {
+      for (size_t j = 0; j < kJointCount; ++j) {
+        if (!body.joints[j]) continue;
+        const double far_m = body.joints[j]->position_m.cwiseAbs().maxCoeff();
+        if (!(far_m > kFarthest_m)) continue;
+        std::ostringstream found;
+        found << far_m;
+        throw InputError(name + ": frame " + std::to_string(frame.frame) + ": " +
+                         std::string(kJointNames[j]) + ": expected a place within 1000 km, found " +
+                         found.str() + " m");
+      }
+    }
+  }
+}
+
 SkeletonSequence Read(SkeletonInput input, const SkeletonReadOptions& options) {
   const SkeletonFormat& format =
       options.format.empty() ? FormatOf(input.stream, input.name) : FormatNamed(options.format);
   SkeletonSequence sequence = format.read(input);
+  CheckPlaces(sequence, input.name);
   if (IsKinectV2(format.name, input.columns)) sequence.sensor = kKinectV2;
   return sequence;
 }

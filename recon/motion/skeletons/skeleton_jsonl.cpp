@@ -125,7 +125,7 @@ class SkeletonJsonlReader::Lines {
     if (NestsDeeply(lines_.line())) lines_.Fail("JSON nested at most 32 deep", lines_.line());
     // The parser never throws here (third argument), so its own wording never reaches the user.
     const Json json = Json::parse(lines_.line(), nullptr, false);
-    if (json.is_discarded()) lines_.Fail("one whole JSON object", lines_.line());
+    if (json.is_discarded()) FailWhereJsonStops();
     if (!json.is_object()) lines_.Fail("a JSON object", lines_.line());
     frame = FrameOf(json);
     return true;
@@ -135,6 +135,24 @@ class SkeletonJsonlReader::Lines {
   const std::string& source() const { return lines_.source(); }
 
  private:
+  // A line may be long: what a user has to look at is where it stops being JSON.
+  [[noreturn]] void FailWhereJsonStops() const {
+    constexpr std::string_view kExpected = "one whole JSON object";
+    const std::string_view line = lines_.line();
+    try {
+      [[maybe_unused]] const Json whole = Json::parse(line);
+    } catch (const Json::parse_error& fault) {
+      const std::string found = fault.byte > line.size() || fault.byte == 0
+                                    ? "the end of the line"
+                                    : Quoted(line.substr(fault.byte - 1));
+      throw InputError(fmt::format("{}: line {}: expected {}, found {} at byte {}", lines_.source(),
+                                   lines_.number(), kExpected, found, fault.byte));
+    } catch (const Json::out_of_range&) {
+      lines_.Fail("numbers of at most 1.8e308", line);
+    }
+    lines_.Fail(kExpected, line);
+  }
+
   [[noreturn]] void Fail(const std::string& where, std::string_view expected,
                          const Json& found) const {
     lines_.Fail(fmt::format("{} in {}", expected, where), found.dump(-1, ' ', true, kReplace));

@@ -187,5 +187,14 @@ INSTANTIATE_TEST_SUITE_P(
         Wrong{"TrcEndlessLine", ExampleText(".trc") + std::string(2 << 20, '1'), "1 MiB"}),
     [](const testing::TestParamInfo<Wrong>& info) { return info.param.name; });
 
+// A place of 1e300 m once gave an infinite mean error without a word.
+TEST(SkeletonFiles, WithAPlaceNobodyCanBeAtAreRefusedByFrameAndJoint) {
+  std::string text = ExampleText(".jsonl");
+  const size_t head = text.find("\"p\":[", text.find("\"Head\""));
+  text.replace(head, text.find(']', head) - head, "\"p\":[0,1e300,0");
+  EXPECT_EQ(ComplaintAbout(text),
+            "file: frame 0: Head: expected a place within 1000 km, found 1e+300 m");
+}
+
 }  // namespace
 }  // namespace ossa::recon

@@ -82,8 +82,10 @@ TEST_P(BadJsonl, IsRefusedInOneLineByLineAndExpectation) {
 INSTANTIATE_TEST_SUITE_P(
     EveryRule, BadJsonl,
     testing::Values(
-        BadLine{WithJoint(R"("Head":{"p":[1,2,NaN]})"), "line 2: expected one whole JSON object"},
-        BadLine{WithJoint(R"("Head":{"p":[1,2,1e999]})"), "line 2"},
+        BadLine{WithJoint(R"("Head":{"p":[1,2,NaN]})"),
+                "line 2: expected one whole JSON object, found 'NaN]}}}]}' at byte 70"},
+        BadLine{WithJoint(R"("Head":{"p":[1,2,1e999]})"), "line 2: expected numbers of at most"},
+        BadLine{R"({"frame":0,"time_s":)", "found the end of the line at byte 21"},
         BadLine{WithJoint(R"("Head":{"p":[1,2]})"), "3 numbers in Head.p"},
         BadLine{WithJoint(R"("Head":{"p":[1,2,"3"]})"), "finite number in Head.p"},
         BadLine{WithJoint(R"("Head":{"state":"tracked"})"), "\"p\" in Head"},
