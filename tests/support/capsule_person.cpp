@@ -172,8 +172,9 @@ recon::Posture JointsOf(const CapsulePose& pose) {
   p[Joint::kSpine] = pose.feet_m + 0.60 * h * up;
   p[Joint::kShoulderCenter] = pose.feet_m + 0.83 * h * up;
   p[Joint::kHead] = pose.feet_m + 0.93 * h * up;
-  const auto side = [&](double sign, double lift, double bend, double swing, Joint first_arm,
-                        Joint first_leg) {
+  const auto side = [&, left = left, up = up, forward = forward](double sign, double lift,
+                                                                 double bend, double swing,
+                                                                 Joint first_arm, Joint first_leg) {
     const auto joint = [&](Joint j, int step) -> Vector3d& {
       return p[static_cast<Joint>(static_cast<int>(j) + step)];
     };

@@ -69,6 +69,7 @@ Table WhereTable() {
   return {.title = "Who is where",
           .columns = {"scenario", "frames", "people in view", "found, %", "cut, per 100 frames",
                       "invented, per 100 frames", "identity switches", "IoU of pixels"},
+          .rows = {},
           .note =
               "In view: 0.1 m2 and six joints seen, each person in each frame. Cut: a second "
               "body on somebody who has one. Invented: a body that is nobody's."};
@@ -78,6 +79,7 @@ Table JointsTable() {
   return {.title = "Joints of the people in view",
           .columns = {"scenario", "raw: mAP 10 cm, %", "final: mAP 10 cm, %", "raw: mean error, cm",
                       "final: mean error, cm", "raw, seen joints: mAP 10 cm, %"},
+          .rows = {},
           .note =
               "All 20 joints, also those hidden or outside the image; last those that are seen. "
               "Who is not found has no joint right."};
@@ -86,6 +88,7 @@ Table JointsTable() {
 Table JitterTable() {
   return {.title = "A still person, 3 m away",
           .columns = {"positions", "RMS about their means, mm", "wanted"},
+          .rows = {},
           .note = "After the first second; the last performance."};
 }
 
