@@ -190,11 +190,11 @@ Eigen::Vector3d Fuse(const Belief& belief, const std::vector<Mode>& modes, doubl
   return whole.inverse() * pull;
 }
 
-std::vector<Candidate> Candidates(const ProposalTarget& target, const Beliefs& beliefs,
-                                  size_t target_index, const std::vector<Mode>& modes,
-                                  const RefinedPlace* refined) {
+std::vector<PlaceCandidate> Candidates(const ProposalTarget& target, const Beliefs& beliefs,
+                                       size_t target_index, const std::vector<Mode>& modes,
+                                       const RefinedPlace* refined) {
   const Belief& belief = beliefs.target[target_index];
-  std::vector<Candidate> candidates(1);
+  std::vector<PlaceCandidate> candidates(1);
   candidates[0].is_fused = true;
   candidates[0].position_m = Fuse(belief, modes, target.mode_noise_m);
   if (refined != nullptr) {
@@ -232,7 +232,7 @@ std::vector<Candidate> Candidates(const ProposalTarget& target, const Beliefs& b
   return candidates;
 }
 
-double ConfidenceOf(const ProposalTarget& target, const Candidate& candidate) {
+double ConfidenceOf(const ProposalTarget& target, const PlaceCandidate& candidate) {
   if (candidate.refined_confidence) return *candidate.refined_confidence;
   return Evaluate(candidate.is_fused ? target.fused : target.apart, candidate.feature);
 }

@@ -43,7 +43,7 @@ struct RefinedPlace {
 };
 
 /// A place where a target may be, with what its confidence is computed from.
-struct Candidate {
+struct PlaceCandidate {
   Eigen::Vector3d position_m = Eigen::Vector3d::Zero();
   std::array<float, Agreement::kFeatures> feature{};
   bool is_fused = false;  // modes and other targets joined; else a mode that stands apart
@@ -51,11 +51,11 @@ struct Candidate {
   std::optional<double> refined_confidence;  // of a fused place that the refinement moved
 };
 /// `refined` may be null: the fused place then stays where it is.
-std::vector<Candidate> Candidates(const ProposalTarget& target, const Beliefs& beliefs,
-                                  size_t target_index, const std::vector<Mode>& modes,
-                                  const RefinedPlace* refined = nullptr);
+std::vector<PlaceCandidate> Candidates(const ProposalTarget& target, const Beliefs& beliefs,
+                                       size_t target_index, const std::vector<Mode>& modes,
+                                       const RefinedPlace* refined = nullptr);
 /// P(within 10 cm of the target).
-double ConfidenceOf(const ProposalTarget& target, const Candidate& candidate);
+double ConfidenceOf(const ProposalTarget& target, const PlaceCandidate& candidate);
 
 /// Where the prediction and the likeliest mode meet when modes have this noise.
 Eigen::Vector3d Fuse(const Belief& belief, const std::vector<Mode>& modes, double mode_noise_m);

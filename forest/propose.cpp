@@ -113,7 +113,7 @@ std::vector<std::vector<Proposal>> ProposeTogether(const ForestModel& model, con
   for (size_t t = 0; t < modes.size(); ++t) {
     const ProposalTarget& target = model.targets()[t];
     const RefinedPlace* place = refined.empty() ? nullptr : &refined[t];
-    for (const Candidate& candidate : Candidates(target, beliefs, t, modes[t], place)) {
+    for (const PlaceCandidate& candidate : Candidates(target, beliefs, t, modes[t], place)) {
       Proposal proposal;
       if (candidate.mode >= 0) {
         proposal = ProposalAt(target, modes[t][static_cast<size_t>(candidate.mode)]);

@@ -59,7 +59,7 @@ void TuneNoise(const std::vector<ValidationImage>& images, const std::vector<Hea
 
 // A candidate and what is true of it.
 struct JudgedCandidate {
-  Candidate candidate;
+  PlaceCandidate candidate;
   bool is_near = false;  // to the target's true position
   bool visible = false;  // the target
   bool seen = false;     // by what mean shift saw
@@ -73,7 +73,7 @@ std::vector<JudgedCandidate> JudgeCandidates(const std::vector<ValidationImage>&
     if (!images[i].target_m[t].allFinite()) continue;
     const Eigen::Vector3d truth_m = images[i].target_m[t].cast<double>();
     const std::vector<Mode>& modes = heard[i].modes[t];
-    for (const Candidate& candidate :
+    for (const PlaceCandidate& candidate :
          Candidates(target, heard[i].beliefs, t, modes, heard[i].RefinedOf(t))) {
       const bool seen =
           candidate.mode >= 0 &&
