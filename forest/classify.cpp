@@ -252,6 +252,7 @@ Classification Classify(const ForestModel& model, const depth::DepthView& depth,
   walked.leaf.resize(walkers * trees);
   const auto walk = options.instructions == InstructionSet::kScalar ? WalkScalar : Walk;
   ForRanges(walkers, options.threads, [&](size_t first, size_t last) {
+    if (first == last) return;  // no pixels: no leaves to point into
     for (size_t t = 0; t < trees; ++t) {
       walk({&model.tables().trees[t], &image,
             std::span(sparse.position).subspan(first, last - first)},
