@@ -15,7 +15,9 @@ class NoisyJoint {
  public:
   explicit NoisyJoint(double noise_m) : noise_(0.0, noise_m) {}
   Vector3d At(double x_m) {
-    return Vector3d(x_m + noise_(random_), noise_(random_), 3 + noise_(random_));
+    // One by one: the order in which a call's arguments are drawn is the compiler's.
+    const double z_m = 3 + noise_(random_), y_m = noise_(random_);
+    return {x_m + noise_(random_), y_m, z_m};
   }
 
  private:
