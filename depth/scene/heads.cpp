@@ -103,12 +103,14 @@ class HeadFinder {
     return filled > 5;  // a lifted arm covers one column of three
   }
 
-  // Surface on a row 32 cm below the head's centre, from 17 cm left to 17 cm right; rows under the
-  // image's edge count half, for heads at the bottom.
+  // Surface on a row 32 cm below the head's centre, from 17 cm left to 17 cm right. A row under the
+  // image's edge counts half, for heads at the bottom, and so does one that something nearer hides
+  // altogether, for heads above the back of a seat.
   float ShoulderShare(int x, int y, float z) const {
+    constexpr float kNearer_m = 0.1F;
     const float row = static_cast<float>(y) + grid_.CellsOf(0.32F, z);
     if (row >= static_cast<float>(grid_.height)) return 0.5F;
-    int filled = 0;
+    int filled = 0, hidden = 0;
     constexpr int kSamples = 7;
     for (int i = 0; i < kSamples; ++i) {
       const float side_m = 0.17F * (static_cast<float>(i) / 3.0F - 1.0F);
@@ -117,7 +119,9 @@ class HeadFinder {
       if (!grid_.Contains(cx, cy)) continue;
       const int cell = grid_.cell(cx, cy);
       filled += member_[static_cast<size_t>(cell)] && std::abs(grid_.z(cell) - z) < 0.3F ? 1 : 0;
+      hidden += grid_.valid(cell) && grid_.z(cell) < z - kNearer_m ? 1 : 0;
     }
+    if (filled == 0 && hidden == kSamples) return 0.5F;
     return static_cast<float>(filled) / static_cast<float>(kSamples);
   }
 

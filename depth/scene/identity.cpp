@@ -85,6 +85,24 @@ std::vector<int> TracksGoingOn(const PointGrid& grid, const std::vector<const Ca
   return track_of;
 }
 
+// What came and is nobody yet may be one of the lost, too, and leaves the others to those who are
+// somebody already.
+std::vector<const Candidate*> Rivals(const Scene& scene, const std::vector<int>& person_of) {
+  constexpr double kMostly = 0.5, kHardly = 0.1;
+  std::vector<const Candidate*> rivals;
+  for (const Candidate& candidate : scene.candidates) {
+    if (candidate.track >= 0 || candidate.arrived_share <= kMostly || !candidate.returning)
+      continue;
+    const auto& cells = candidate.region.cells;
+    const auto taken = std::count_if(cells.begin(), cells.end(), [&](int cell) {
+      return person_of[static_cast<size_t>(cell)] >= 0;
+    });
+    if (static_cast<double>(taken) < kHardly * static_cast<double>(cells.size()))
+      rivals.push_back(&candidate);
+  }
+  return rivals;
+}
+
 // Which user each person is: who goes on from the frame before, and all the others at once as those
 // of the lost users they most likely are. -1 for somebody new.
 std::vector<int> TracksOf(const Scene& scene, const std::vector<const Candidate*>& people,
@@ -103,21 +121,22 @@ std::vector<int> TracksOf(const Scene& scene, const std::vector<const Candidate*
   }
   if (newcomers.empty() || lost.empty()) return track_of;
   std::vector<std::vector<double>> weight;
-  for (const size_t p : newcomers) {
-    const Region& region = people[p]->region;
-    const Way way = WayOf(scene.grid, region.cells, DepthsOf(scene.grid, region), person_of,
-                          static_cast<int>(p));
+  const auto add = [&](const Candidate& person, int self, double less) {
+    const Region& region = person.region;
+    const Way way = WayOf(scene.grid, region.cells, DepthsOf(scene.grid, region), person_of, self);
     weight.emplace_back();
     for (const size_t t : lost) {
       const UserTrack& user = state.users[t];
       constexpr double kSameCells = 8;  // e^8 : 1 that what is where a user just was is that user
-      const double overlap =
-          time_s - user.seen_s < 0.5 ? Overlap(scene.grid, user, *people[p]) : 0.0;
+      const double overlap = time_s - user.seen_s < 0.5 ? Overlap(scene.grid, user, person) : 0.0;
       weight.back().push_back(
-          LogLikelihoodRatio(scene.grid, user, *people[p], way, time_s, options.reidentify) +
-          (overlap > 0.3 ? kSameCells * overlap : 0.0));
+          LogLikelihoodRatio(scene.grid, user, person, way, time_s, options.reidentify) +
+          (overlap > 0.3 ? kSameCells * overlap : 0.0) - less);
     }
-  }
+  };
+  constexpr double kNobodyYet = 1;  // e : 1 against it
+  for (const size_t p : newcomers) add(*people[p], static_cast<int>(p), 0.0);
+  for (const Candidate* rival : Rivals(scene, person_of)) add(*rival, -1, kNobodyYet);
   const std::vector<int> assigned = BestAssignment(weight, lost.size());
   for (size_t i = 0; i < newcomers.size(); ++i) {
     if (assigned[i] >= 0)

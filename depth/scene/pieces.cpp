@@ -5,6 +5,7 @@
 #include <iterator>
 #include <span>
 
+#include "depth/scene/boards_internal.h"
 #include "depth/scene/heads.h"
 
 namespace ossa::depth {
@@ -164,7 +165,8 @@ bool ArrivedPersonSized(const Region& region, const std::vector<uint8_t>& arrive
 }
 
 std::vector<Region> JoinPieces(const PointGrid& grid, std::vector<Region> regions,
-                               const std::vector<int>& owner, size_t users) {
+                               const RoomShape& shape, const std::vector<int>& owner,
+                               size_t users) {
   constexpr float kPieceArea_m2 = 0.12F, kReach_m = 0.42F;
   std::vector<int> label(static_cast<size_t>(grid.cells()), -1);
   std::vector<Region> big, small;
@@ -177,13 +179,18 @@ std::vector<Region> JoinPieces(const PointGrid& grid, std::vector<Region> region
     }
   }
   std::vector<int> owner_of_big;
-  for (const Region& region : big) owner_of_big.push_back(MostlyOf(region, owner, users));
+  std::vector<std::optional<FlatPlane>> board;
+  for (const Region& region : big) {
+    owner_of_big.push_back(MostlyOf(region, owner, users));
+    board.push_back(BoardOf(region, shape));
+  }
   for (const Region& piece : small) {
     const int mine = MostlyOf(piece, owner, users);
     int best = -1;
     float best_gap = kReach_m;
     for (size_t i = 0; i < owner_of_big.size(); ++i) {
       if (mine >= 0 && owner_of_big[i] >= 0 && mine != owner_of_big[i]) continue;
+      if (board[i] && StandsBehind(grid, piece, *board[i])) continue;
       const float gap = Gap(grid, piece, label, static_cast<int>(i));
       if (gap < best_gap) best_gap = gap, best = static_cast<int>(i);
     }

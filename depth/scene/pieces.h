@@ -31,9 +31,9 @@ bool ArrivedPersonSized(const Region& region, const std::vector<uint8_t>& arrive
 
 /// Hands held out, forearms cut off by the projector's shadow, legs below a table: small pieces
 /// join the big piece they are nearest to, if an arm could bridge the way. Pieces far behind do
-/// not, nor those of another user of before.
+/// not, nor those of another user of before, nor what shows of somebody over the back of a seat.
 std::vector<Region> JoinPieces(const PointGrid& grid, std::vector<Region> regions,
-                               const std::vector<int>& owner, size_t users);
+                               const RoomShape& shape, const std::vector<int>& owner, size_t users);
 
 /// True where on the way between two pieces is nothing but nearer surface.
 bool HiddenBetween(const PointGrid& grid, const Region& a, const Region& b);

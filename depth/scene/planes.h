@@ -7,14 +7,20 @@
 
 namespace ossa::depth {
 
-/// A flat, connected piece of the scene. A plane is linear in inverse depth:
-/// 1 / z = slope_x x + slope_y y + at_zero over grid cells (x, y), and the error of a
-/// structured-light sensor is the same everywhere in inverse depth, so fits need no weights.
-struct FlatPiece {
+/// A plane is linear in inverse depth: 1 / z = slope_x x + slope_y y + at_zero over grid cells
+/// (x, y).
+struct FlatPlane {
   double slope_x = 0, slope_y = 0, at_zero = 0;  // 1/m a cell, 1/m a cell, 1/m
-  Eigen::Vector3d normal{0, 0, -1};              // unit, towards the sensor, camera space
-  double area_m2 = 0;                            // of the surface itself, not of its frontal view
-  std::vector<int> cells;                        // ascending
+
+  double At(int x, int y) const { return slope_x * x + slope_y * y + at_zero; }
+};
+
+/// A flat, connected piece of the scene. The error of a structured-light sensor is the same
+/// everywhere in inverse depth, so fits need no weights.
+struct FlatPiece : FlatPlane {
+  Eigen::Vector3d normal{0, 0, -1};  // unit, towards the sensor, camera space
+  double area_m2 = 0;                // of the surface itself, not of its frontal view
+  std::vector<int> cells;            // ascending
 };
 
 /// Flat pieces among the cells with ignore = 0, largest first: grown from the flattest blocks of

@@ -38,7 +38,11 @@ void MarkFlatPieces(const PointGrid& grid, const std::optional<FloorPlane>& floo
   const std::vector<FlatPiece> pieces = FlatPieces(grid, shape.room);  // largest first
   std::vector<const FlatPiece*> walls;
   for (const FlatPiece& piece : pieces) {
-    for (const int cell : piece.cells) shape.flat[static_cast<size_t>(cell)] = 1;
+    for (const int cell : piece.cells) {
+      shape.flat[static_cast<size_t>(cell)] = 1;
+      shape.plane_of[static_cast<size_t>(cell)] = static_cast<int>(shape.planes.size());
+    }
+    shape.planes.push_back(piece);
     const bool top = piece.normal.dot(up) > kTop;
     const bool large = piece.area_m2 >= (top ? kTopArea_m2 : RoomArea_m2(MeanDepth_m(grid, piece)));
     const bool of_wall = !large && std::any_of(walls.begin(), walls.end(), [&](const FlatPiece* w) {
@@ -64,7 +68,10 @@ bool OnOrUnder(const FloorPlane& floor, const Vector3f& p) {
 
 RoomShape RoomSurfaces(const PointGrid& grid, const std::optional<FloorPlane>& floor) {
   const auto cells = static_cast<size_t>(grid.cells());
-  RoomShape shape{std::vector<uint8_t>(cells, 0), std::vector<uint8_t>(cells, 0)};
+  RoomShape shape{std::vector<uint8_t>(cells, 0),
+                  std::vector<uint8_t>(cells, 0),
+                  {},
+                  std::vector<int>(cells, -1)};
   if (floor) {
     for (int i = 0; i < grid.cells(); ++i) {
       if (!grid.valid(i)) continue;

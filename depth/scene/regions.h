@@ -6,15 +6,18 @@
 #include <vector>
 
 #include "depth/scene/floor.h"
+#include "depth/scene/planes.h"
 #include "depth/scene/point_grid.h"
 
 namespace ossa::depth {
 
 /// What shape alone says of each cell (1 = yes).
 struct RoomShape {
-  std::vector<uint8_t> room;  // the floor, and planes too large to be a person's side: walls,
-                              // ceilings, doors, table tops
-  std::vector<uint8_t> flat;  // on a flat piece of any size
+  std::vector<uint8_t> room;      // the floor, and planes too large to be a person's side: walls,
+                                  // ceilings, doors, table tops
+  std::vector<uint8_t> flat;      // on a flat piece of any size
+  std::vector<FlatPlane> planes;  // of all flat pieces
+  std::vector<int> plane_of;      // which of them a cell lies on, -1 for none
 };
 RoomShape RoomSurfaces(const PointGrid& grid, const std::optional<FloorPlane>& floor);
 

@@ -4,7 +4,9 @@
 #include <array>
 #include <cmath>
 
+#include "depth/scene/boards_internal.h"
 #include "depth/scene/heads.h"
+#include "depth/scene/outline_internal.h"
 #include "depth/scene/pieces.h"
 #include "depth/scene/region_pixels_internal.h"
 
@@ -49,7 +51,8 @@ struct CellFacts {
   const std::vector<int>& owner;       // user of the frame before
   const std::vector<uint8_t>& barred;  // it was nobody's, and is as it was
   const std::vector<uint8_t>& arrived;
-  const std::vector<uint8_t>& flat;
+  const RoomShape& shape;
+  const std::optional<FloorPlane>& floor;
 };
 
 // A connected region as pieces that may be one person each.
@@ -67,9 +70,11 @@ std::vector<Candidate> CandidatesIn(const DepthFrame& frame, const PointGrid& gr
     Candidate candidate;
     candidate.pixels = PixelsOf(frame, grid, piece);
     candidate.has_head = !seeds.empty();
-    candidate.flat_share = ShareOf(piece, facts.flat);
+    candidate.flat_share = ShareOf(piece, facts.shape.flat);
+    candidate.board = BoardOf(piece, facts.shape);
     candidate.arrived_share = ShareOf(piece, facts.arrived);
     candidate.arrived_m2 = ArrivedArea_m2(grid, piece.cells, facts.arrived);
+    candidate.hidden_share = HiddenShare(grid, facts.floor, piece);
     candidate.region = std::move(piece);
     candidates.push_back(std::move(candidate));
   }
@@ -183,7 +188,7 @@ Scene FindCandidates(const DepthFrame& frame, const SceneState& state, SceneStat
 
   constexpr float kSpeck_m2 = 0.004F;  // a fist has 0.006
   std::vector<Region> regions = ConnectedRegions(scene.grid, ignore, kSpeck_m2);
-  regions = JoinPieces(scene.grid, std::move(regions), owner, next.users.size());
+  regions = JoinPieces(scene.grid, std::move(regions), shape, owner, next.users.size());
   regions = JoinBelow(scene.grid, std::move(regions), next.users.size(), owner);
   regions = JoinBehind(scene.grid, std::move(regions), arrived, owner, next.users.size());
   regions = JoinByHistory(scene.grid, std::move(regions), owner, next.users, frame.time_s);
@@ -191,7 +196,7 @@ Scene FindCandidates(const DepthFrame& frame, const SceneState& state, SceneStat
   std::vector<uint8_t> barred = seen_before;
   for (size_t i = 0; i < barred.size(); ++i) barred[i] &= owner[i] < 0;
   LetGoOfRoom(scene.grid, next, owner, barred);
-  const CellFacts facts{owner, barred, arrived, shape.flat};
+  const CellFacts facts{owner, barred, arrived, shape, scene.floor};
   for (size_t r = 0; r < regions.size(); ++r) {
     for (Candidate& candidate : CandidatesIn(frame, scene.grid, regions[r], facts, next, options)) {
       candidate.origin = static_cast<int>(r);
@@ -228,6 +233,7 @@ std::vector<Candidate> SplitCandidate(const Scene& scene, const DepthFrame& fram
     part.flat_share = candidate.flat_share;
     part.arrived_share = candidate.arrived_share;
     part.alone = candidate.alone;
+    part.hidden_share = candidate.hidden_share;
     part.region = std::move(piece);
     pieces.push_back(std::move(part));
   }
@@ -258,6 +264,10 @@ bool Adjoining(const Scene& scene, const Candidate& a, const Candidate& b) {
   return static_cast<float>(rim) > kReach * grid.CellsOf(kRim_m, a.region.mean_m.z());
 }
 
+bool HidesPartOf(const Scene& scene, const Candidate& board, const Candidate& person) {
+  return board.board && StandsBehind(scene.grid, person.region, *board.board);
+}
+
 Candidate JoinCandidates(const Scene& scene, const DepthFrame& frame, const Candidate& a,
                          const Candidate& b) {
   const auto cells = [](const Candidate& c) { return static_cast<double>(c.region.cells.size()); };
@@ -274,6 +284,7 @@ Candidate JoinCandidates(const Scene& scene, const DepthFrame& frame, const Cand
   whole.arrived_share = of_a * a.arrived_share + (1 - of_a) * b.arrived_share;
   whole.arrived_m2 = a.arrived_m2 + b.arrived_m2;
   whole.alone = a.alone && b.alone;
+  whole.hidden_share = of_a * a.hidden_share + (1 - of_a) * b.hidden_share;
   whole.origin = a.origin;
   return whole;
 }

@@ -95,9 +95,12 @@ struct Candidate {
                                 // for what may be the rest of somebody who is seen
   float arrived_m2 = 0;         // the same as surface, without its rims: edges flicker
   bool alone = true;            // nobody who is seen is beside it
+  double hidden_share = 0;      // of its outline where more of it may be out of sight
   int origin = -1;              // candidates of one connected region have the same
   MeasuredBody body{};          // by the caller, of those it confirms
   Marks marks_m;                // likewise
+  /// Of what is all but one plane: that plane.
+  std::optional<FlatPlane> board{};
 };
 
 struct Scene {
@@ -122,6 +125,10 @@ std::vector<Candidate> SplitCandidate(const Scene& scene, const DepthFrame& fram
 /// True where two candidates meet along a rim: at a shirt's hem or a belt the surface may jump by
 /// more than connected surface does.
 bool Adjoining(const Scene& scene, const Candidate& a, const Candidate& b);
+
+/// True where one is all but one plane, as the back of a seat is, and the other is behind it: they
+/// are not one person, however they look together.
+bool HidesPartOf(const Scene& scene, const Candidate& board, const Candidate& person);
 
 /// Two pieces at one place over the floor, one above the other: nobody stands on somebody else,
 /// whatever shows between them.

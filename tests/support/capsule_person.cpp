@@ -212,6 +212,8 @@ CapsuleRender Render(const CapsuleScene& scene, const depth::Camera& camera) {
                   static_cast<uint8_t>(i + 1));
     }
   }
+  for (const Capsule& capsule : scene.capsules)
+    DrawCapsule(canvas, camera, capsule, capsule.a_m, Vector3d::UnitX(), 0);
   std::mt19937_64 random(scene.seed);
   std::normal_distribution<double> normal;
   depth::DepthFrame& frame = canvas.render.frame;

@@ -47,6 +47,7 @@ struct Plane {
 struct CapsuleScene {
   std::vector<CapsulePose> people;
   std::vector<Box> boxes;
+  std::vector<Capsule> capsules;  // of animals and things
   std::vector<Plane> planes;
   double noise_m = 0.0;  // standard deviation at 1 m, growing with z squared
   uint64_t seed = 1;

@@ -26,6 +26,7 @@ std::vector<Found> LookAt(const Eyes& eyes, const depth::DepthFrame& frame,
     looked[i].looks = known.looks + 1;
     looked[i].moved = known.moved;
     looked[i].moving = known.moving;
+    looked[i].full_m2 = known.full_m2;
     if (known.person_score) {
       const double weight = std::max(1.0 / looked[i].looks, 1 - options.memory);
       score = *known.person_score + weight * (score - *known.person_score);
@@ -39,7 +40,7 @@ std::vector<Found> LookAt(const Eyes& eyes, const depth::DepthFrame& frame,
 std::vector<Found> CutByHeads(const Eyes& eyes, const depth::DepthFrame& frame,
                               const depth::Scene& scene, const depth::SceneOptions& scene_options,
                               const FindOptions& options, const Found& whole) {
-  if (whole.perception.heads_m.size() < 2) return {};
+  if (whole.perception.heads_m.size() < 2 || !MayBeTwo(whole, options)) return {};
   auto cut =
       depth::SplitCandidate(scene, frame, whole.candidate, whole.perception.heads_m, scene_options);
   if (cut.size() < 2) return {};
@@ -79,6 +80,9 @@ std::optional<Found> Together(const Eyes& eyes, const depth::DepthFrame& frame,
   const bool one_region = a.candidate.origin == b.candidate.origin;
   if (!one_region && !MayBeParts(scene, options, a, b, stacked)) return {};
   if (std::min(a.looks, b.looks) > options.grown_up_looks) return {};
+  if (depth::HidesPartOf(scene, a.candidate, b.candidate) ||
+      depth::HidesPartOf(scene, b.candidate, a.candidate))
+    return {};
   if (a.candidate.region.area_m2 + b.candidate.region.area_m2 > kTwoPeople_m2) return {};
   const bool a_first = a.looks != b.looks ? a.looks > b.looks : a.single_score >= b.single_score;
   const Candidate& first = a_first ? a.candidate : b.candidate;
@@ -167,6 +171,11 @@ bool MayBeParts(const depth::Scene& scene, const FindOptions& options, const Fou
   if (stacked && less >= options.new_person) return true;
   return std::max(a.looks, b.looks) <= options.young_looks && more >= options.new_person &&
          depth::Adjoining(scene, a.candidate, b.candidate);
+}
+
+bool MayBeTwo(const Found& whole, const FindOptions& options) {
+  return whole.looks <= options.grown_up_looks ||
+         whole.candidate.region.area_m2 > options.grown_share * whole.full_m2;
 }
 
 void TrimToBody(const std::array<int, recon::kJointCount>& targets, const depth::DepthFrame& frame,

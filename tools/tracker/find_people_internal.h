@@ -18,6 +18,7 @@ struct Found {
   int looks = 1;
   bool moved = false;   // of somebody known: since it was first seen,
   bool moving = false;  // ... and lately
+  float full_m2 = 0;    // the most surface seen of them lately
 };
 
 /// What was looked at and not taken for a person, so far: judged by all looks together, for noise
@@ -31,6 +32,7 @@ struct Doubt {
   double time_s = 0.0;  // of the last look
   double mean_score = 0.0;
   int looks = 1;
+  int unbroken = 1;          // of them without a gap
   bool fallen = false;       // it was taken for a person, but did not stay one or never moved
   bool before_room = false;  // any of it was seen where the room behind was seen before
   bool arrived = false;      // it came here, and goes on moving
@@ -47,6 +49,7 @@ struct Known {
   int looks = 0;                       // that mean is of
   bool moved = false;                  // since it was first seen
   bool moving = false;                 // lately
+  float full_m2 = 0;                   // the most surface seen of it lately
 };
 
 /// What candidates are looked at with.
@@ -66,6 +69,7 @@ struct FindOptions {
   double new_person = 0.6;
   double sure_person = 0.93;
   int probation_looks = 4;
+  int standing_looks = 3;  // of what has not moved, unbroken: scraps of furniture come and go
   double known_person = 0.25;
   // Of what came into view where the room was seen before: furniture does not, but of people behind
   // others little is seen. At the first look, and as the mean of a few.
@@ -89,7 +93,8 @@ struct FindOptions {
   double look_again_s = 0.25;  // ... so much later
   double forget_s = 2.0;       // a doubt that is not renewed
   double memory = 0.85;        // share of a known person's mean score in the new one
-  int grown_up_looks = 30;     // after so many a person is not taken for part of another
+  int grown_up_looks = 30;     // after so many a person is not taken for part of another,
+  float grown_share = 1.2F;    // ... nor for two, unless so much more is there than was lately
 };
 
 /// The same thing looked at before, at the same place unless it moves; null if there was none.
@@ -97,6 +102,10 @@ Doubt* DoubtOf(const depth::Candidate& candidate, double time_s, FinderState& st
 
 /// Most of it stands where the room behind it was seen before.
 bool Arrived(const depth::Candidate& candidate);
+
+/// Some of it may be out of sight: little consent is asked for. What is seen whole must look like a
+/// person, however it came: dogs and pushed chairs come, too.
+bool MayHideMore(const depth::Candidate& candidate);
 
 /// Whether what was looked at is somebody; what is not is remembered.
 bool Accepted(Found& looked, const depth::Scene& scene, double time_s, const FindOptions& options,
@@ -111,6 +120,10 @@ bool Stacked(const depth::Scene& scene, const Found& a, const Found& b);
 /// looks like a person.
 bool MayBeParts(const depth::Scene& scene, const FindOptions& options, const Found& a,
                 const Found& b, bool stacked);
+
+/// False of somebody tracked for long of whom no more shows than before: where the forest sees a
+/// second head, as on the back of who bends down, nobody came.
+bool MayBeTwo(const Found& whole, const FindOptions& options);
 
 /// What hangs on to a person and is not near any of their bones is furniture: it is taken off where
 /// more is held than a person has, or where all bones are known and something reaches far beyond

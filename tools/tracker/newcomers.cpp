@@ -47,8 +47,10 @@ Doubt FirstDoubt(const Found& looked, double time_s) {
 // One look more.
 void Renew(Doubt& doubt, const Found& looked, double time_s) {
   constexpr int kMostLooks = 8;
+  constexpr double kUnbroken_s = 0.12;  // three frames: single ones may be missed
   const depth::Region& region = looked.candidate.region;
   doubt.looks = std::min(doubt.looks + 1, kMostLooks);
+  doubt.unbroken = time_s - doubt.time_s < kUnbroken_s ? doubt.unbroken + 1 : 1;
   doubt.mean_score += (looked.perception.person_score - doubt.mean_score) / doubt.looks;
   doubt.time_s = time_s;
   doubt.cells = region.cells;
@@ -65,8 +67,9 @@ void Renew(Doubt& doubt, const Found& looked, double time_s) {
 bool AcceptedAgain(const Found& looked, double time_s, const FindOptions& options,
                    FinderState& state) {
   const double score = looked.perception.person_score;
-  const bool arrived =
-      looked.moving && Arrived(looked.candidate);  // a chair that was put there rests
+  // A chair that was put there rests; who bends down to the floor was somebody before.
+  const bool little_seen = MayHideMore(looked.candidate) || looked.looks > options.grown_up_looks;
+  const bool arrived = looked.moving && little_seen && Arrived(looked.candidate);
   const bool young = looked.looks <= options.young_looks;
   const bool still = looked.looks > options.still_looks && !looked.moved;
   const double needed = arrived ? options.arrived_known
@@ -82,20 +85,23 @@ bool AcceptedAgain(const Found& looked, double time_s, const FindOptions& option
   return false;
 }
 
+constexpr double kNeverAtOnce = 2;  // no score is
+
 // What a newcomer needs at the first look. A corner of furniture may look like a person once, but
-// seldom has the shape of a head, too.
+// seldom has the shape of a head, too; what did not come into a known room needs more than one.
 double FirstScore(const Candidate& candidate, const depth::Scene& scene,
                   const FindOptions& options) {
   if (candidate.returning) return options.new_person;
   if (scene.fresh) return candidate.has_head ? options.new_person : options.sure_person;
-  return Arrived(candidate) ? options.sure_arrived : options.sure_person;
+  return Arrived(candidate) ? options.sure_arrived : kNeverAtOnce;
 }
 
 // What a newcomer needs as the mean of several looks.
 double ProbationScore(const Doubt& doubt, const Candidate& candidate, const FindOptions& options) {
-  if (doubt.arrived && candidate.alone && doubt.went_m > options.walked_m)
+  const bool little_seen = doubt.arrived && MayHideMore(candidate);
+  if (little_seen && candidate.alone && doubt.went_m > options.walked_m)
     return options.walked_person;
-  if (doubt.arrived && doubt.moved) return options.arrived_person;
+  if (little_seen && doubt.moved) return options.arrived_person;
   if (!doubt.moved) return options.sure_person;
   // What grows without standing before anything may be uncovered by somebody who passes.
   const bool doubtful = doubt.fallen || !doubt.before_room;
@@ -115,8 +121,9 @@ bool AcceptedNew(Found& looked, const depth::Scene& scene, double time_s,
     return false;
   }
   Renew(*before, looked, time_s);
-  if (before->looks < options.probation_looks ||
-      before->mean_score < ProbationScore(*before, looked.candidate, options)) {
+  const bool often = before->moved ? before->looks >= options.probation_looks
+                                   : before->unbroken >= options.standing_looks;
+  if (!often || before->mean_score < ProbationScore(*before, looked.candidate, options)) {
     return false;
   }
   score = before->mean_score;
@@ -125,6 +132,11 @@ bool AcceptedNew(Found& looked, const depth::Scene& scene, double time_s,
 }
 
 }  // namespace
+
+bool MayHideMore(const Candidate& candidate) {
+  constexpr double kSome = 0.12;  // of the outline: a piece of itself that is cut off hides less
+  return candidate.hidden_share > kSome;
+}
 
 bool Arrived(const Candidate& candidate) { return candidate.arrived_share > 0.5; }
 

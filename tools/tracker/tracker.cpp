@@ -103,11 +103,28 @@ struct Tracker::Impl {
 
   BodyFrame Push(const depth::DepthFrame& frame);
   std::vector<Found> Segment(const depth::DepthFrame& frame, BodyFrame& result);
+  Known KnownOf(const depth::Candidate& candidate, double time_s) const;
   std::vector<Person*> PersonsOf(const std::vector<int>& ids, double time_s);
   std::vector<float> ContextPrior(const Person& person, double time_s) const;
   void TrackBody(const depth::DepthFrame& frame, const std::optional<Eigen::Vector4d>& floor,
                  const Perception& perception, Person& person, Body& body, StageTimes& ms) const;
 };
+
+Known Tracker::Impl::KnownOf(const depth::Candidate& candidate, double time_s) const {
+  if (candidate.track < 0) return {};
+  const auto& user = scene_state.users[static_cast<size_t>(candidate.track)];
+  const auto found = people.find(user.id);
+  if (found == people.end()) return {};
+  const Person& person = found->second;
+  Known known;
+  known.context_prior = ContextPrior(person, time_s);
+  known.person_score = person.score;
+  known.looks = person.looks;
+  known.moved = user.moved;
+  known.moving = time_s - user.moved_s < kMoving_s;
+  known.full_m2 = user.full_m2;
+  return known;
+}
 
 // Who is where: fills floor, user image and the bodies' outer facts.
 std::vector<Found> Tracker::Impl::Segment(const depth::DepthFrame& frame, BodyFrame& result) {
@@ -122,16 +139,9 @@ std::vector<Found> Tracker::Impl::Segment(const depth::DepthFrame& frame, BodyFr
   FindOptions find;
   find.max_users = options.max_users;
   find.threads = options.threads;
-  const Eyes eyes{
-      model, targets, [&](const depth::Candidate& candidate) -> Known {
-        if (candidate.track < 0) return {};
-        const auto& user = scene_state.users[static_cast<size_t>(candidate.track)];
-        const auto found = people.find(user.id);
-        if (found == people.end()) return {};
-        const Person& person = found->second;
-        const bool moving = frame.time_s - user.moved_s < kMoving_s;
-        return {ContextPrior(person, frame.time_s), person.score, person.looks, user.moved, moving};
-      }};
+  const Eyes eyes{model, targets, [&](const depth::Candidate& candidate) {
+                    return KnownOf(candidate, frame.time_s);
+                  }};
   const auto look_start = Clock::now();
   std::vector<Found> found = FindPeople(eyes, frame, scene, scene_options, find, finder_state);
   const double look_ms = MillisecondsSince(look_start);

@@ -44,6 +44,26 @@ TEST(RoomStage, SameSeedSameFramesWithEverybodyInThem) {
     EXPECT_GT(std::count(first.users.data.begin(), first.users.data.end(), user), 200);
 }
 
+// Without the sofa the same seed has the same person before the same sensor.
+TEST(RoomStage, ASofaBeforeHidesAThirdOfThePersonOrMore) {
+  if (!recon::BodyIsFetched(recon::BodyFolder())) GTEST_SKIP() << "no body: tools/fetch_body";
+  recon::AuthoredOptions options;
+  options.variations = 1;
+  const auto clips = recon::AuthoredClips(options);
+  const recon::BodyModel model = LoadFetchedBody();
+  const recon::Wardrobe wardrobe(model);
+  const RoomCast cast{model, wardrobe, clips, Split::kTest, 160, 120, 4};
+  for (const uint64_t seed : {1U, 2U, 3U, 4U, 5U, 6U}) {
+    const auto seen = [&](Furnishing furnishing) {
+      const LabelledFrame frame = RoomStage({"one", 1, furnishing}, cast, seed).Shoot(0);
+      return std::count(frame.users.data.begin(), frame.users.data.end(), 1);
+    };
+    const auto whole = seen(Furnishing::kEmpty), rest = seen(Furnishing::kSofaBefore);
+    EXPECT_LE(3 * rest, 2 * whole) << seed;
+    EXPECT_GT(rest, 60) << seed;  // a head and shoulders, at least
+  }
+}
+
 // Somebody whose joints on the left are seen and right, and whose others are unseen and a metre
 // off.
 TEST(RoomJudge, SeenJointsAreJudgedBesideAll) {

@@ -14,6 +14,7 @@ struct Look {
   float area_m2 = 0.1F;
   bool has_head = true;
   bool alone = true;
+  double hidden_share = 0.3;  // of its outline, by something nearer
 };
 
 class Newcomer : public testing::Test {
@@ -27,6 +28,7 @@ class Newcomer : public testing::Test {
     candidate.arrived_m2 = static_cast<float>(look.arrived_share) * look.area_m2;
     candidate.has_head = look.has_head;
     candidate.alone = look.alone;
+    candidate.hidden_share = look.hidden_share;
     candidate.region.mean_m = {look.x_m, 0, 3};
     candidate.region.area_m2 = look.area_m2;
     const int column = 80 + static_cast<int>(std::lround(look.x_m / 0.04F));
@@ -49,12 +51,13 @@ class Newcomer : public testing::Test {
   FindOptions options_;
 };
 
-TEST_F(Newcomer, IsBelievedAtOnceInAFreshSceneAndElsewhereOrWithoutAHeadWhenItIsSure) {
+TEST_F(Newcomer, IsBelievedAtOnceInAFreshSceneAndElsewhereAfterThreeSureLooks) {
   EXPECT_EQ(AcceptedIn(1, true, [](int) { return Look{0.65}; }), 0);
   EXPECT_EQ(AcceptedIn(1, true, [](int) { return Look{0.85, 0, 0, 0.1F, false}; }), -1);
   EXPECT_EQ(AcceptedIn(1, true, [](int) { return Look{0.95, 0, 0, 0.1F, false}; }), 0);
   EXPECT_EQ(AcceptedIn(1, false, [](int) { return Look{0.65}; }), -1);
-  EXPECT_EQ(AcceptedIn(1, false, [](int) { return Look{0.95}; }), 0);
+  EXPECT_EQ(AcceptedIn(3, false, [](int) { return Look{0.95}; }), 2);
+  EXPECT_EQ(AcceptedIn(20, false, [](int f) { return Look{f < 2 ? 0.98 : 0.7}; }), -1);
 }
 
 TEST_F(Newcomer, ThatStandsLikeFurnitureIsNobodyHoweverOftenItIsLookedAt) {
@@ -86,6 +89,44 @@ TEST_F(Newcomer, WhoCameInBehindOthersIsFollowedThroughLooksThatShowLittle) {
   EXPECT_EQ(AcceptedIn(60, false, sways), -1);
   const auto was_there = [&](int f) { return at(f, 0); };
   EXPECT_EQ(AcceptedIn(60, false, was_there), -1);
+}
+
+TEST_F(Newcomer, WhoCameAndIsSeenWholeMustLookLikeAPerson) {
+  // A dog that walks by: nothing hides any of it.
+  const auto walks = [](double score) {
+    return [score](int f) {
+      Look look{score, 0.04F * static_cast<float>(f), 1};
+      look.hidden_share = 0;
+      return look;
+    };
+  };
+  EXPECT_EQ(AcceptedIn(60, false, walks(0.4)), -1);
+  EXPECT_EQ(AcceptedIn(60, false, walks(0.65)), 0);
+}
+
+TEST_F(Newcomer, WhoCameStaysSomebodyWhileBendingDownAfterManyLooksOnly) {
+  Look bent{0.1, 0, 1};
+  bent.hidden_share = 0;
+  FinderState state;
+  for (const int looks : {20, 40}) {
+    Found found = Seen(bent);
+    found.looks = looks;
+    found.moved = found.moving = true;
+    EXPECT_EQ(Accepted(found, {}, 1.0, options_, state), looks == 40);
+  }
+}
+
+TEST(MayBeTwo, WhoWasOneForLongIsOneWhileNoMoreShows) {
+  FindOptions options;
+  Found whole;
+  whole.full_m2 = 0.45F;
+  whole.candidate.region.area_m2 = 0.40F;  // bending down
+  whole.looks = 12;
+  EXPECT_TRUE(MayBeTwo(whole, options));
+  whole.looks = 40;
+  EXPECT_FALSE(MayBeTwo(whole, options));
+  whole.candidate.region.area_m2 = 0.65F;  // somebody came
+  EXPECT_TRUE(MayBeTwo(whole, options));
 }
 
 }  // namespace

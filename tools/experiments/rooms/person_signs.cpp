@@ -64,6 +64,7 @@ class Gatherer {
       const int width = k % 2 ? 640 : 320;
       const RoomCast cast{model, wardrobe, clips_, split_, width, width * 3 / 4, 90};
       Rooms(cast, seed + 100 * k, examples[k]);
+      BehindSeats(cast, seed + 100 * k + 50, examples[k]);
       for (const View view : {View::kFront, View::kAny, View::kNear})
         Singles(view, seed + k, examples[k]);
       const std::lock_guard lock(mutex);
@@ -76,10 +77,20 @@ class Gatherer {
 
  private:
   void Rooms(const RoomCast& cast, uint64_t seed, std::vector<Example>& examples) {
-    for (const RoomScenario& scenario : RoomScenarios()) {
-      RoomStage stage(scenario, cast, ++seed);
-      for (int64_t f = 5; f < stage.size(); f += 20) Look(stage.Shoot(f), examples);
-    }
+    for (const RoomScenario& scenario : RoomScenarios()) Play(scenario, cast, ++seed, examples);
+  }
+
+  // Head and shoulders alone are rare among the others.
+  void BehindSeats(const RoomCast& cast, uint64_t seed, std::vector<Example>& examples) {
+    constexpr int kSeats = 10;
+    const RoomScenario scenario{"one, sofa before", 1, Furnishing::kSofaBefore};
+    for (int i = 0; i < kSeats; ++i) Play(scenario, cast, ++seed, examples);
+  }
+
+  void Play(const RoomScenario& scenario, const RoomCast& cast, uint64_t seed,
+            std::vector<Example>& examples) {
+    RoomStage stage(scenario, cast, seed);
+    for (int64_t f = 5; f < stage.size(); f += 20) Look(stage.Shoot(f), examples);
   }
 
   void Singles(View view, uint64_t seed, std::vector<Example>& examples) {

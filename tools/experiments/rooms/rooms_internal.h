@@ -18,11 +18,12 @@ namespace ossa::tools {
 // Rooms: people in rendered rooms, and how well the tracker tells who is where.
 
 enum class Furnishing {
-  kEmpty,      // floor, walls, ceiling
-  kFurnished,  // things along the walls and between the people
-  kSofa,       // a sofa at everybody's calves
-  kTable,      // a table that touches everybody from the sensor's side
-  kWall,       // a wall at everybody's back
+  kEmpty,       // floor, walls, ceiling
+  kFurnished,   // things along the walls and between the people
+  kSofa,        // a sofa at everybody's calves
+  kTable,       // a table that touches everybody from the sensor's side
+  kWall,        // a wall at everybody's back
+  kSofaBefore,  // a sofa or an armchair between everybody and the sensor, from either side of it
 };
 
 struct RoomScenario {
@@ -63,6 +64,7 @@ class RoomStage {
   void PlaceSensor(Random& random);
   void PlacePeople(Random& random);
   void Furnish(Random& random);
+  void StandSofaBefore(const Eigen::Vector3d& person_m, Random& random);
   Way Staying(int person, Random& random) const;
   Way Crossing(int person, Random& random) const;
   recon::RigPose PoseAt(const Way& way, double root_scale, int64_t index) const;

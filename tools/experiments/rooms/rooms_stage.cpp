@@ -76,6 +76,7 @@ std::vector<RoomScenario> RoomScenarios() {
     all.push_back({fmt::format("{} crossing", people), people, Furnishing::kFurnished, true});
   }
   all.push_back({.name = "one, still at 3 m", .still = true});
+  all.push_back({"one, sofa before", 1, Furnishing::kSofaBefore});  // last: the others keep seeds
   return all;
 }
 
@@ -167,6 +168,20 @@ void RoomStage::Stand(const depth::TriangleMesh& mesh, const Vector3d& place_m, 
   renderer_.AddMesh(depth::Moved(mesh, place), false);
 }
 
+// Somebody behind a back rest, or before a sofa that shows the sensor its back: from the hips down,
+// or more, they are hidden.
+void RoomStage::StandSofaBefore(const Vector3d& person_m, Random& random) {
+  constexpr double kDepth_m = 0.6, kBack_m = 0.2;
+  const auto width_m = static_cast<float>(random.Uniform(0.5, 1.6));
+  const auto seat_m = static_cast<float>(random.Uniform(0.5, 0.85));
+  const bool back_to_sensor = random.Chance(0.5);
+  const double gap_m = random.Uniform(0.2, 0.4);
+  const double z_m = gap_m + kDepth_m / 2 + (back_to_sensor ? 0 : kBack_m);
+  Stand(depth::MakeSofa(width_m, static_cast<float>(kDepth_m), seat_m),
+        person_m + Vector3d(random.Uniform(-0.15, 0.15), 0, z_m),
+        back_to_sensor ? std::numbers::pi : 0.0);
+}
+
 void RoomStage::Furnish(Random& random) {
   const double rear_m = 0.45 + 0.45 * (scenario_.people - 1);  // behind the last lane or row
   const bool tight = scenario_.furnishing == Furnishing::kWall;
@@ -183,6 +198,7 @@ void RoomStage::Furnish(Random& random) {
       Stand(depth::MakeSofa(1.6F, 0.75F, 0.42F), at_m - Vector3d(0, 0, 0.55), 0);
     if (scenario_.furnishing == Furnishing::kTable)
       Stand(depth::MakeTable({1.1F, 0.74F, 0.6F}), at_m + Vector3d(0, 0, 0.47), 0);
+    if (scenario_.furnishing == Furnishing::kSofaBefore) StandSofaBefore(at_m, random);
     if (tight && scenario_.people > 1)  // a screen at each back
       Stand(depth::MakeBox({1.0F, 4.0F, 0.05F}), at_m - Vector3d(0, 0, 0.4), 0);
   }
