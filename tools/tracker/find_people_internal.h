@@ -63,16 +63,17 @@ struct Eyes {
 struct FindOptions {
   int max_users = 6;
   int threads = 1;
-  // Of a newcomer with a head's shape in a fresh scene, where there is one look only; of other
-  // newcomers at the first look, or else as the mean of a few; and of somebody tracked a moment
-  // ago: hysteresis keeps a person who turns away.
+  // Of a newcomer with a head's shape in a fresh scene, where there is one look only, or as the
+  // mean of a few looks at what moved; of other newcomers in a fresh scene, and as the mean of a
+  // few looks at what stands still; and of somebody tracked a moment ago: hysteresis keeps a person
+  // who turns away.
   double new_person = 0.6;
   double sure_person = 0.93;
   int probation_looks = 4;
   int standing_looks = 3;  // of what has not moved, unbroken: scraps of furniture come and go
   double known_person = 0.25;
-  // Of what came into view where the room was seen before: furniture does not, but of people behind
-  // others little is seen. At the first look, and as the mean of a few.
+  // Of what came into view where the room was seen before: furniture does not. At the first look;
+  // and, where something nearer hides part of it, so that little is seen, as the mean of a few.
   double sure_arrived = 0.6;
   double arrived_person = 0.15;
   double arrived_known = 0.02;  // ... and once it was accepted, while it moves
