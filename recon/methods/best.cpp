@@ -5,7 +5,8 @@
 //   2. trust of each joint: reliability without the window of eq. 8, which would punish a joint for
 //      six frames; softened where good sensors are imprecise anyway (bone lengths);
 //   3. joints in doubt are completed: hung on what is seen, as they hung before where the sensor's
-//      guesses are fair, else as plantard-2016 has them in a natural posture;
+//      guesses are fair, else as is to be expected of what was seen until now (recon/gp/
+//      posture_prior.h) or, without a prior, as plantard-2016 has them in a natural posture;
 //   4. a filter a joint weighs by trust, or one that was learned of this sensor; a frame later it
 //      says better what it thought (posture_filter_internal.h);
 //   5. the learned systematic error of the whole posture is taken off (recon/gp/pose_correction.h);
@@ -19,6 +20,7 @@
 #include "recon/methods/person_internal.h"
 #include "recon/methods/plausibility_internal.h"
 #include "recon/methods/posture_filter_internal.h"
+#include "recon/methods/prior_completion_internal.h"
 
 namespace ossa::recon {
 namespace {
@@ -36,7 +38,11 @@ class Best : public Reconstructor {
     }
     size_.Expect(correction_.proportions, constants_.expected);
     filter_ = PostureFilter(constants_, linear);
-    if (options.database) natural_ = MakePlantard2016(ForCompletion(options));
+    if (options.prior) {
+      expected_.emplace(options.prior);
+    } else if (options.database) {
+      natural_ = MakePlantard2016(ForCompletion(options));
+    }
   }
 
   ReconstructedPosture Step(const ReconstructionInput& raw) override {
@@ -84,6 +90,7 @@ class Best : public Reconstructor {
     size_ = BodySize(true);
     size_.Expect(correction_.proportions, constants_.expected);
     if (natural_) natural_->Reset();
+    if (expected_) expected_->Forget();
     had_.fill(false);
     mean_offset_ = Posture();
     offsets_s_ = 0.0;
@@ -184,15 +191,18 @@ class Best : public Reconstructor {
   /// hanging as a frame before amounts to, is nearer the truth than any database; of
   /// poor ones the natural posture is.
   void Complete(const PreparedPosture& prepared, const ReconstructionInput& input,
-                JointWeights trust, Posture& target) {
+                const JointWeights& trusted, Posture& target) {
+    JointWeights trust = trusted;
     for (size_t i = 0; i < kJointCount; ++i) {
       if (FilterKnows(prepared, i)) trust[i] = 1.0;
     }
-    if (!InDoubt(prepared, trust)) return;
-    const Posture before =
-        person_.last_in_camera() ? *person_.last_in_camera() : prepared.in_camera;
+    if (!InDoubt(prepared, trust)) {
+      if (expected_) expected_->Forget();
+      return;
+    }
+    const Posture before = person_.last_in_camera().value_or(prepared.in_camera);
     const bool natural = KnowsNatural(prepared);
-    const Posture model = natural ? natural_->Step(input).posture : before;
+    const Posture model = natural ? Natural(prepared, input, trusted) : before;
     JointWeights held;  // 1: where it is seen, 0: where it hangs
     Posture hung;
     for (size_t i = 0; i < kJointCount; ++i) {
@@ -215,9 +225,15 @@ class Best : public Reconstructor {
 
   /// Whether enough is seen to look for a natural posture like it; else the last one is held.
   bool KnowsNatural(const PreparedPosture& prepared) const {
-    constexpr int kFewest = 4;  // fewer joints tell no posture from another
+    constexpr int kFewest = 4;  // fewer joints tell no posture of a database from another
     const auto seen = std::count(prepared.present.begin(), prepared.present.end(), 1.0);
-    return natural_ && seen >= kFewest;
+    return expected_ ? seen > 0 : natural_ && seen >= kFewest;
+  }
+
+  Posture Natural(const PreparedPosture& prepared, const ReconstructionInput& input,
+                  const JointWeights& trust) {
+    if (!expected_) return natural_->Step(input).posture;
+    return expected_->Step(prepared, trust, person_.last_in_camera(), person_.size().lengths_m());
   }
 
   /// A limb reaches for what is seen of it: where a hand is not where the arm would have it, the
@@ -346,7 +362,8 @@ class Best : public Reconstructor {
 
   BestOptions options_;
   BestConstants constants_;
-  std::unique_ptr<Reconstructor> natural_;  // plantard-2016, where there is a database
+  std::optional<PriorCompletion> expected_;  // where there is a prior
+  std::unique_ptr<Reconstructor> natural_;   // else plantard-2016, where there is a database
   PoseCorrection correction_;
   Person person_{ReliabilityOptions{.use_speed = true}};
   Plausibility plausibility_;

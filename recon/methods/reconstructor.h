@@ -42,6 +42,7 @@ class Reconstructor {
 
 class PostureDatabase;  // recon/database/posture_database.h
 struct LearnedModels;   // recon/gp/learned_models.h
+struct PosturePrior;    // recon/gp/posture_prior.h
 
 /// Settings of the natural posture space and its energy: shum-2013, plantard-2016.
 struct LocalPcaOptions {
@@ -102,6 +103,7 @@ struct ReconstructorOptions {
   std::shared_ptr<const PostureDatabase> database;  // needed by the methods that look things up
   std::string learned_file;  // .ossagp of `ossa learn`: liu-2016, full-gp, exemplar, best
   std::shared_ptr<const LearnedModels> learned;  // the same, already in memory; goes first
+  std::shared_ptr<const PosturePrior> prior;     // best completes by it, else by the database
   uint64_t seed = 1;
   LocalPcaOptions local_pca;
   GaussianProcessOptions gaussian_process;

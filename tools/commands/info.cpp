@@ -12,6 +12,7 @@
 #include "forest/forest.h"
 #include "recon/database/posture_database.h"
 #include "recon/gp/learned_models.h"
+#include "recon/gp/posture_prior.h"
 #include "recon/motion/skeletons/skeleton_io.h"
 #include "tools/commands/command.h"
 #include "tools/commands/commands.h"
@@ -96,6 +97,18 @@ void ShowLearned(const fs::path& path) {
   }
 }
 
+void ShowPrior(const fs::path& path) {
+  const auto prior = recon::PosturePrior::Load(path);
+  const double unexplained = prior.rest_m2.sum();
+  fmt::print(
+      "posture prior, {} modes learned from {} postures, {:.2f} % of the variance in none, {:.1f} "
+      "kB\ncorrelation times {:.2f} s to {:.2f} s\n",
+      prior.time_s.size(), prior.frames,
+      100.0 * unexplained / (unexplained + prior.modes_m.squaredNorm()),
+      static_cast<double>(fs::file_size(path)) * 1e-3, prior.time_s.minCoeff(),
+      prior.time_s.maxCoeff());
+}
+
 bool IsDepthRecording(const fs::path& path) {
   if (path.extension() == ".oni") return true;
   if (!fs::is_directory(path)) return false;
@@ -132,6 +145,7 @@ constexpr std::array kKinds = {
     FileKind{forest::IsForestModel, ShowModel},
     FileKind{recon::PostureDatabase::IsOne, ShowDatabase},
     FileKind{recon::LearnedModels::IsOne, ShowLearned},
+    FileKind{recon::PosturePrior::IsOne, ShowPrior},
     FileKind{tools::IsDataset, ShowDataset},
     FileKind{IsDepthRecording, ShowDepthRecording},
     FileKind{IsRegularFile, ShowSkeletons},
@@ -142,8 +156,9 @@ constexpr std::array kKinds = {
 int Info(int argc, char** argv) {
   CLI::App app("Say what a file holds: a model's card, a database's clips, a data set's origin");
   std::string file;
-  app.add_option("FILE", file,
-                 "a .ossa, .ossadb, .ossagp, .oni or skeleton file, a DATASET or PNG folder")
+  app.add_option(
+         "FILE", file,
+         "a .ossa, .ossadb, .ossagp, .ossaprior, .oni or skeleton file, a DATASET or PNG folder")
       ->required();
   Parse(app, argc, argv);
   if (!fs::exists(file)) throw InputError(file + ": no such file or folder");

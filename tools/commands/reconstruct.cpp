@@ -12,6 +12,7 @@
 #include "depth/error.h"
 #include "depth/file/atomic_file.h"
 #include "recon/database/posture_database.h"
+#include "recon/gp/posture_prior.h"
 #include "recon/methods/sequence.h"
 #include "recon/motion/skeletons/skeleton_io.h"
 #include "tools/commands/checks.h"
@@ -37,10 +38,18 @@ struct ReconstructArguments {
   bool no_reliability = false;
 };
 
+/// What best completes postures by, unless a database is named for it.
+std::shared_ptr<const recon::PosturePrior> PriorFor(const ReconstructArguments& a) {
+  if (a.options.method != "best" || !a.database_file.empty()) return nullptr;
+  return std::make_shared<recon::PosturePrior>(
+      recon::PosturePrior::Load(tracker::ShippedFile(recon::kShippedPrior)));
+}
+
 /// The database the method looks things up in: the one named, else the shipped one.
 std::shared_ptr<const recon::PostureDatabase> DatabaseFor(const ReconstructArguments& a) {
-  const bool looks_up = a.options.method == "best" || a.options.method.starts_with("shum") ||
-                        a.options.method.starts_with("plantard");
+  const bool looks_up = a.options.method.starts_with("shum") ||
+                        a.options.method.starts_with("plantard") ||
+                        (a.options.method == "best" && !a.database_file.empty());
   if (!looks_up) return nullptr;
   const std::filesystem::path file = a.database_file.empty()
                                          ? tracker::ShippedFile("authored.ossadb")
@@ -71,7 +80,8 @@ void AddMethodOptions(CLI::App& app, ReconstructArguments& a) {
   app.add_option("--method", a.options.method, "how the postures are made whole")
       ->capture_default_str()
       ->check(CLI::IsMember(methods));
-  app.add_option("--database", a.database_file, "posture database; without it the shipped one");
+  app.add_option("--database", a.database_file,
+                 "posture database; without it the shipped one, of best the shipped prior");
   app.add_option("--learned", a.learned,
                  "what `ossa learn` wrote, .ossagp, or none; without it best takes off what is "
                  "known of a Kinect v2's errors where the recording is one's");
@@ -130,6 +140,7 @@ int Reconstruct(int argc, char** argv) {
     AtomicFile::CheckWritable(a.out);
   }
   a.options.database = DatabaseFor(a);
+  a.options.prior = PriorFor(a);
   a.options.learned_file = LearnedFor(a, clips);
   Progress progress("reconstruct", a.quiet);
   double done = 0.0, total = 0.0;

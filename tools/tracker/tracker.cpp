@@ -12,6 +12,7 @@
 #include "forest/forest.h"
 #include "recon/database/posture_database.h"
 #include "recon/gp/learned_models.h"
+#include "recon/gp/posture_prior.h"
 #include "tools/tracker/find_people_internal.h"
 #include "tools/tracker/measure_body_internal.h"
 #include "tools/tracker/parallel_internal.h"
@@ -35,10 +36,18 @@ std::string ModelPath(const TrackerOptions& options) {
   return options.model.empty() ? ShippedFile("body.ossa").string() : options.model;
 }
 
-// The filters need no database; the others take the shipped one unless another is named.
+// best completes postures by the shipped prior, unless a database is named for it.
+std::shared_ptr<const recon::PosturePrior> LoadPrior(const TrackerOptions& options) {
+  if (options.method != "best" || !options.database.empty()) return nullptr;
+  return std::make_shared<recon::PosturePrior>(
+      recon::PosturePrior::Load(ShippedFile(recon::kShippedPrior)));
+}
+
+// The filters and best need no database; the others take the shipped one unless another is named.
 std::shared_ptr<const recon::PostureDatabase> LoadDatabase(const TrackerOptions& options) {
   const bool plain = options.method == "none" || options.method == "holt" ||
-                     options.method == "one-euro" || options.method == "kalman";
+                     options.method == "one-euro" || options.method == "kalman" ||
+                     options.method == "best";
   if (options.database.empty() && plain) return nullptr;
   const std::string path =
       options.database.empty() ? ShippedFile("authored.ossadb").string() : options.database;
@@ -94,6 +103,7 @@ struct Tracker::Impl {
     complete.smoothing = o.smoothing;
     complete.reconstructor.method = o.method;
     complete.reconstructor.database = LoadDatabase(o);
+    complete.reconstructor.prior = LoadPrior(o);
     complete.reconstructor.learned_file = o.learned;
     if (o.learned.empty() && o.method == "best") complete.reconstructor.learned = LearnedOf(o);
     complete.reconstructor.seed = o.seed;

@@ -137,6 +137,7 @@ Liu2016Study::Liu2016Study(ExperimentContext& context) {
              "Motions: ossa's authored actions by {} movers, {} frames each, {} of them "
              "tested with the others learned from. ",
              movers, frames, tested);
+  prior = PriorOf(context);
   Studio studio(context, observer);
   const auto clips = AuthoredMotions(context, AllActions(), movers);
   std::set<std::string> names;
@@ -175,7 +176,10 @@ MethodRun Liu2016Study::Run(const ExperimentContext& context, const std::string&
   run.options.seed = context.seed;
   if (method == "none") return run;
   run.options.learned_file = LearnWithout(context, recordings, mover).string();
-  if (method == "best") run.options.database = DatabaseOf(context).postures;
+  if (method == "best") {
+    run.options.database = DatabaseOf(context).postures;
+    run.options.prior = prior;
+  }
   return run;
 }
 

@@ -11,6 +11,7 @@ struct Liu2016Study {
   std::vector<RecordedPair> recordings;
   std::vector<std::string> folds;  // movers left out in turn
   std::string note;
+  std::shared_ptr<const recon::PosturePrior> prior;  // of best
 
   /// Recordings of an action ("" = all) by the mover left out.
   std::vector<RecordedPair> TestClips(const std::string& action, const std::string& mover) const;

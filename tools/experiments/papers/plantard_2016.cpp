@@ -72,7 +72,10 @@ Study Prepare(ExperimentContext& context) {
     run.options.method = method;
     run.options.database = DatabaseOf(context).postures;
     run.options.seed = context.seed;
-    if (run.options.method == "best") KnowObserver(observer, &run);
+    if (run.options.method == "best") {
+      run.options.prior = PriorOf(context);
+      KnowObserver(observer, &run);
+    }
     study.pairs.push_back(RunOverClips(context, run, study.scenarios));
     study.clips.push_back(MeasureAll(study.pairs.back()));
     study.methods.push_back(std::move(run));

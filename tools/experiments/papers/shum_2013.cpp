@@ -266,6 +266,7 @@ Shum2013Study::Shum2013Study(ExperimentContext& context) {
   kept = method("shum-2013, reliable kept", "shum-2013");
   kept.options.local_pca.keep_reliable = true;
   best = method("best", "best");
+  best.options.prior = PriorOf(context);
   KnowObserver(observer, &best);
 }
 

@@ -8,6 +8,7 @@
 
 #include "depth/error.h"
 #include "recon/database/posture_database.h"
+#include "recon/gp/posture_prior.h"
 #include "recon/methods/recorded_pairs.h"
 #include "recon/methods/sequence.h"
 #include "tools/experiments/compare/sequence_text.h"
@@ -34,6 +35,7 @@ std::string KeyOf(const ExperimentContext& context, const MethodRun& run) {
     key.append(" ").append(run.database_key.empty() ? KeyOfFile(DatabaseOf(context).path)
                                                     : run.database_key);
   }
+  if (o.prior) key.append(" ").append(KeyOfFile(tracker::ShippedFile(recon::kShippedPrior)));
   if (!o.learned_file.empty()) key.append(" ").append(KeyOfFile(o.learned_file));
   return key;
 }
@@ -55,6 +57,14 @@ OpenDatabase DatabaseOf(const ExperimentContext& context) {
   }
   database.postures = open;
   return database;
+}
+
+std::shared_ptr<const recon::PosturePrior> PriorOf(ExperimentContext& context) {
+  const bool wanted = context.parameters.Integer("best_prior", 1) != 0;
+  if (!wanted || !context.database.empty()) return nullptr;
+  static const auto kShipped = std::make_shared<const recon::PosturePrior>(
+      recon::PosturePrior::Load(tracker::ShippedFile(recon::kShippedPrior)));
+  return kShipped;
 }
 
 void KnowObserver(const std::string& observer, MethodRun* best) {

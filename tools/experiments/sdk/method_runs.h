@@ -19,6 +19,9 @@ struct OpenDatabase {
 };
 /// --database of the study, else the shipped one.
 OpenDatabase DatabaseOf(const ExperimentContext& context);
+/// What best completes postures by: the shipped prior, or nothing where the study names a database
+/// or says best_prior = 0, so that it is the database's postures.
+std::shared_ptr<const recon::PosturePrior> PriorOf(ExperimentContext& context);
 
 /// A method with its settings, as a study compares it.
 struct MethodRun {

@@ -65,6 +65,7 @@ std::vector<Table> RunSdk(ExperimentContext& context) {
   recon::ReconstructorOptions options;
   options.seed = context.seed;
   options.database = DatabaseOf(context).postures;
+  options.prior = PriorOf(context);
   options.best.repair = context.parameters.Integer("best_repair", 1) != 0;
   options.best.complete = context.parameters.Integer("best_complete", 1) != 0;
   options.best.correct = context.parameters.Integer("best_correct", 1) != 0;

@@ -7,6 +7,7 @@
 #include <nlohmann/json.hpp>
 
 #include "recon/database/posture_database.h"
+#include "recon/gp/posture_prior.h"
 #include "recon/methods/recorded_pairs.h"
 #include "recon/methods/sequence.h"
 #include "tools/experiments/sdk/method_runs.h"
@@ -56,14 +57,19 @@ std::string DescriptionOfConstants(const recon::BestConstants& c) {
 
 namespace {
 
+std::string DescriptionOfPrior(const recon::PosturePrior& prior) {
+  return fmt::format("prior {} {} {}", prior.frames, prior.time_s.sum(), prior.modes_m.norm());
+}
+
 std::string DescriptionOf(const recon::ReconstructorOptions& o) {
   return fmt::format(
-      "{} {} {} {} {} {} {} {} {} {} {} {} {} {} {} {} {} {} {}", o.local_pca.neighbours,
+      "{} {} {} {} {} {} {} {} {} {} {} {} {} {} {} {} {} {} {} {}", o.local_pca.neighbours,
       o.local_pca.dimensions, o.local_pca.steps, o.local_pca.samples, o.local_pca.control,
       o.local_pca.style, o.local_pca.kinematics, o.local_pca.continuity, o.local_pca.solver,
       o.local_pca.use_reliability, o.gaussian_process.incremental, o.gaussian_process.nearby_models,
       o.best.repair, o.best.complete, o.best.correct, o.best.filter, o.best.bones,
-      o.database ? o.database->size() : 0, DescriptionOfConstants(o.best.constants));
+      o.database ? o.database->size() : 0, o.prior ? DescriptionOfPrior(*o.prior) : "",
+      DescriptionOfConstants(o.best.constants));
 }
 
 }  // namespace

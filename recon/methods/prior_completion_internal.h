@@ -1,0 +1,28 @@
+#pragma once
+#include <memory>
+#include <optional>
+
+#include "recon/gp/prior_filter.h"
+#include "recon/methods/person_internal.h"
+
+namespace ossa::recon {
+
+/// Completes the postures of one person by a PosturePrior, for as long as something is in doubt.
+class PriorCompletion {
+ public:
+  explicit PriorCompletion(std::shared_ptr<const PosturePrior> prior) : filter_(std::move(prior)) {}
+
+  /// What is to be expected of the whole posture, camera space, bones of the lengths given. Joints
+  /// count as far as they are trusted, in [0, 1]. `before`: the posture made of the frame before;
+  /// what it was is known well when doubt begins.
+  Posture Step(const PreparedPosture& prepared, const JointWeights& trust,
+               const std::optional<Posture>& before, const BoneLengths& lengths_m);
+  /// All joints are seen well, or the person is somebody else: what was expected counts no more.
+  void Forget() { doubting_ = false; }
+
+ private:
+  PriorFilter filter_;
+  bool doubting_ = false;
+};
+
+}  // namespace ossa::recon

@@ -1,0 +1,65 @@
+#include <fmt/format.h>
+
+#include <CLI/CLI.hpp>
+#include <string>
+#include <vector>
+
+#include "depth/error.h"
+#include "depth/file/atomic_file.h"
+#include "recon/body/standard_body.h"
+#include "recon/gp/posture_prior.h"
+#include "recon/motion/mocap.h"
+#include "tools/commands/checks.h"
+#include "tools/commands/command.h"
+#include "tools/commands/commands.h"
+
+namespace ossa::commands {
+namespace {
+
+std::vector<recon::PriorClip> ClipsOf(const std::vector<recon::MotionClip>& motions,
+                                      double authored_weight) {
+  std::vector<recon::PriorClip> clips;
+  for (const recon::MotionClip& motion : motions) {
+    recon::PriorClip& clip = clips.emplace_back();
+    clip.frame_s = motion.frame_s;
+    clip.weight = motion.name.starts_with("authored/") ? authored_weight : 1.0;
+    for (const recon::RigPose& pose : motion.frames) {
+      clip.postures.push_back(recon::StandardPosture(pose));
+    }
+  }
+  return clips;
+}
+
+}  // namespace
+
+int Prior(int argc, char** argv) {
+  CLI::App app("Learn from motion capture how people hold themselves and how fast that changes");
+  std::vector<std::string> mocap;
+  std::string out;
+  recon::PosturePriorOptions options;
+  recon::MocapOptions mocap_options;
+  double authored_weight = 0.3;
+  app.add_option("--mocap", mocap, "folders of BVH or AMC files, or the word authored")->required();
+  app.add_option("--out", out, "the .ossaprior file to write")->required();
+  app.add_option("--modes", options.modes, "independent ways of moving that are told apart")
+      ->capture_default_str()
+      ->check(CLI::Range(1, recon::kBoneDims));
+  app.add_option("--authored-weight", authored_weight, "of an authored frame beside a captured one")
+      ->capture_default_str()
+      ->check(Positive());
+  app.add_option("--seed", mocap_options.seed, "variation of the authored clips")
+      ->capture_default_str();
+  app.add_option("--mapping", mocap_options.mapping_file, "bone names of an unknown conversion");
+  Parse(app, argc, argv);
+  AtomicFile::CheckWritable(out);
+
+  const auto clips = ClipsOf(recon::LoadMocap(mocap, mocap_options), authored_weight);
+  if (Interrupted()) throw InputError("prior: interrupted; nothing was written");
+  const auto prior = recon::PosturePrior::Learn(clips, options);
+  prior.Save(out);
+  fmt::print("{}: {} modes learned from {} postures in {} clips\n", out, prior.time_s.size(),
+             prior.frames, clips.size());
+  return 0;
+}
+
+}  // namespace ossa::commands
