@@ -7,6 +7,7 @@
 #include <map>
 
 #include "recon/gp/learned_models.h"
+#include "recon/gp/posture_prior.h"
 #include "recon/methods/reconstructor.h"
 #include "tests/recon/synthetic_motion.h"
 
@@ -84,6 +85,18 @@ void MethodPerFrame(benchmark::State& state, const std::string& name) {
   options.learned = learned;
   Follow(state, options);
 }
+
+/// best as it is shipped: an arm hidden half of the time comes from a prior, not from a database.
+void BestWithPriorPerFrame(benchmark::State& state) {
+  PriorClip clip;
+  for (const PostureClip& swings : SwingingClips(20000)) {
+    clip.postures.insert(clip.postures.end(), swings.postures.begin(), swings.postures.end());
+  }
+  ReconstructorOptions options;
+  options.prior = std::make_shared<PosturePrior>(PosturePrior::Learn({clip}));
+  Follow(state, options);
+}
+BENCHMARK(BestWithPriorPerFrame)->Iterations(300)->Unit(benchmark::kMillisecond);
 
 void Plantard2016PerFrame(benchmark::State& state) {
   ReconstructorOptions options;
