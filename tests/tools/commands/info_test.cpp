@@ -62,6 +62,11 @@ TEST(InfoCommand, ShowsWhatAPostureDatabaseHolds) {
   ExpectShown(folder / "x.ossadb", "clip: two.bvh");
 }
 
+TEST(InfoCommand, ShowsWhatTheShippedPriorHolds) {
+  ExpectShown(std::filesystem::path(OSSA_SOURCE_DIR) / "tools/tracker/shipped/posture.ossaprior",
+              "posture prior, 40 modes learned from ");
+}
+
 TEST(InfoCommand, ShowsWhatAFolderOfDepthImagesHolds) {
   const TemporaryFolder folder;
   test::WriteExampleFolder(folder.path(), 3);
