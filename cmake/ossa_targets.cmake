@@ -49,7 +49,9 @@ function(ossa_test name)
   ossa_common(${name})
   ossa_precompile(${name} ossa_test_headers)
   # What a test spends its time on is in the libraries: a better optimiser only costs building time.
-  target_compile_options(${name} PRIVATE $<$<CONFIG:Release>:-O1>)
+  # With -O1 GCC 12 takes copies of an empty std::optional for reads of what it does not hold.
+  target_compile_options(${name} PRIVATE
+    $<$<CONFIG:Release>:-O1> $<$<CXX_COMPILER_ID:GNU>:-Wno-maybe-uninitialized>)
   target_link_libraries(${name} PRIVATE ${ARG_LIBS} GTest::gtest GTest::gtest_main)
   target_compile_definitions(${name} PRIVATE
     OSSA_SOURCE_DIR="${CMAKE_SOURCE_DIR}" OSSA_BINARY_DIR="${CMAKE_BINARY_DIR}"
