@@ -28,7 +28,7 @@ namespace {
 constexpr const char* kButterworth = "butterworth";
 
 struct ReconstructArguments {
-  std::string skeletons, out, database_file, learned;
+  std::string skeletons, out, database_file, prior_file, learned;
   recon::ReconstructorOptions options;
   recon::SkeletonReadOptions read;
   MechanicsOptions mechanics;
@@ -38,11 +38,13 @@ struct ReconstructArguments {
   bool no_reliability = false;
 };
 
-/// What best completes postures by, unless a database is named for it.
+/// What best completes postures by: the prior named, else the shipped one, unless a database is
+/// named for it.
 std::shared_ptr<const recon::PosturePrior> PriorFor(const ReconstructArguments& a) {
-  if (a.options.method != "best" || !a.database_file.empty()) return nullptr;
-  return std::make_shared<recon::PosturePrior>(
-      recon::PosturePrior::Load(tracker::ShippedFile(recon::kShippedPrior)));
+  const bool named = !a.prior_file.empty();
+  if (a.options.method != "best" || (!named && !a.database_file.empty())) return nullptr;
+  return std::make_shared<recon::PosturePrior>(recon::PosturePrior::Load(
+      named ? std::filesystem::path(a.prior_file) : tracker::ShippedFile(recon::kShippedPrior)));
 }
 
 /// The database the method looks things up in: the one named, else the shipped one.
@@ -82,6 +84,7 @@ void AddMethodOptions(CLI::App& app, ReconstructArguments& a) {
       ->check(CLI::IsMember(methods));
   app.add_option("--database", a.database_file,
                  "posture database; without it the shipped one, of best the shipped prior");
+  app.add_option("--prior", a.prior_file, ".ossaprior of 'ossa prior', for best");
   app.add_option("--learned", a.learned,
                  "what `ossa learn` wrote, .ossagp, or none; without it best takes off what is "
                  "known of a Kinect v2's errors where the recording is one's");

@@ -45,7 +45,10 @@ struct TrackOptions {
 void AddTrackerOptions(CLI::App& app, TrackOptions& options) {
   tracker::TrackerOptions& t = options.tracker;
   app.add_option("--model", t.model, "forest model, .ossa (default: the shipped one)");
-  app.add_option("--database", t.database, "posture database, .ossadb (default: the shipped one)");
+  app.add_option("--database", t.database,
+                 "posture database, .ossadb (default: the shipped one, of best the shipped prior)");
+  app.add_option("--prior", t.prior,
+                 ".ossaprior of 'ossa prior', for best (default: the shipped one)");
   app.add_option("--learned", t.learned, ".ossagp of 'ossa learn', for the methods that learn");
   app.add_option("--method", t.method, "how postures are completed (default best)")
       ->check(CLI::IsMember(recon::ReconstructionMethods()));

@@ -36,11 +36,13 @@ std::string ModelPath(const TrackerOptions& options) {
   return options.model.empty() ? ShippedFile("body.ossa").string() : options.model;
 }
 
-// best completes postures by the shipped prior, unless a database is named for it.
+// What best completes postures by: the prior named, else the shipped one, unless a database is
+// named for it.
 std::shared_ptr<const recon::PosturePrior> LoadPrior(const TrackerOptions& options) {
-  if (options.method != "best" || !options.database.empty()) return nullptr;
-  return std::make_shared<recon::PosturePrior>(
-      recon::PosturePrior::Load(ShippedFile(recon::kShippedPrior)));
+  const bool named = !options.prior.empty();
+  if (options.method != "best" || (!named && !options.database.empty())) return nullptr;
+  return std::make_shared<recon::PosturePrior>(recon::PosturePrior::Load(
+      named ? std::filesystem::path(options.prior) : ShippedFile(recon::kShippedPrior)));
 }
 
 // The filters and best need no database; the others take the shipped one unless another is named.

@@ -1,11 +1,18 @@
 // `ossa prior` from the outside: a prior that its reader takes, and wrong usage.
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include <filesystem>
+#include <fstream>
+#include <iterator>
 
+#include "depth/error.h"
+#include "recon/body/standard_body.h"
 #include "recon/gp/posture_prior.h"
 #include "tests/support/run_command.h"
 #include "tests/support/temporary_folder.h"
+#include "tools/tracker/shipped.h"
+#include "tools/tracker/tracker.h"
 
 namespace ossa::commands {
 namespace {
@@ -21,6 +28,55 @@ TEST(PriorCommand, LearnsAPriorOfTheModesAskedForThatInfoShows) {
   const auto info = RunOssa({"info", out});
   EXPECT_EQ(info.exit_status, 0) << info.err;
   EXPECT_NE(info.out.find("posture prior, 12 modes learned from "), std::string::npos) << info.out;
+}
+
+// Thirty frames of somebody at rest, of whose left arm no more is seen after ten.
+std::string LosingAnArm() {
+  std::string lines;
+  for (int i = 0; i < 30; ++i) {
+    lines += fmt::format("{{\"frame\":{},\"time_s\":{},\"bodies\":[{{\"id\":1,\"joints\":{{", i,
+                         i / 30.0);
+    const recon::Posture posture = recon::StandardPosture({});
+    for (int j = 0; j < recon::kJointCount; ++j) {
+      const auto joint = static_cast<recon::Joint>(j);
+      const Eigen::Vector3d p = posture[joint] + Eigen::Vector3d(0, 0, 2.5);
+      const bool seen =
+          i < 10 || (joint != recon::Joint::kHandLeft && joint != recon::Joint::kWristLeft &&
+                     joint != recon::Joint::kElbowLeft);
+      lines += fmt::format("{}\"{}\":{{\"p\":[{},{},{}],\"state\":\"{}\",\"confidence\":{}}}",
+                           j == 0 ? "" : ",", recon::kJointNames[static_cast<size_t>(j)], p.x(),
+                           p.y(), p.z(), seen ? "tracked" : "not_tracked", seen ? 1 : 0);
+    }
+    lines += "}}]}\n";
+  }
+  return lines;
+}
+
+TEST(PriorCommand, AnotherPriorIsUsedWhereItIsNamed) {
+  const test::TemporaryFolder folder;
+  const std::string prior = folder / "x.ossaprior", in = folder / "in.jsonl";
+  std::ofstream(in) << LosingAnArm();
+  ASSERT_EQ(RunOssa({"prior", "--mocap", "authored", "--modes", "3", "--out", prior}).exit_status,
+            0);
+  const auto text = [&](const std::vector<std::string>& more, const std::string& name) {
+    std::vector<std::string> arguments = {"reconstruct", in, "--out", folder / name, "--quiet"};
+    arguments.insert(arguments.end(), more.begin(), more.end());
+    const auto run = RunOssa(arguments);
+    EXPECT_EQ(run.exit_status, 0) << run.err;
+    std::ifstream file(folder / name);
+    return std::string(std::istreambuf_iterator<char>(file), {});
+  };
+  const std::string shipped = text({}, "shipped.jsonl");
+  EXPECT_TRUE(shipped != text({"--prior", prior}, "named.jsonl"));
+  const std::string by_name = tracker::ShippedFile(recon::kShippedPrior).string();
+  EXPECT_TRUE(shipped == text({"--prior", by_name}, "shipped_by_name.jsonl"));
+  const auto bad = RunOssa({"reconstruct", in, "--out", folder / "bad.jsonl", "--prior", in});
+  EXPECT_EQ(bad.exit_status, 1);
+  EXPECT_EQ(test::LineCount(bad.err), 1) << bad.err;
+  EXPECT_NE(bad.err.find("in.jsonl"), std::string::npos) << bad.err;
+  tracker::TrackerOptions options;
+  options.prior = in;
+  EXPECT_THROW(tracker::Tracker{options}, InputError);
 }
 
 TEST(PriorCommand, SaysWhatIsWrongInOneLine) {
