@@ -3,7 +3,9 @@
 #include <algorithm>
 #include <atomic>
 #include <fstream>
+#include <memory>
 #include <stdexcept>
+#include <vector>
 
 #include "recon/motion/authored.h"
 #include "tests/support/run_command.h"
@@ -28,14 +30,27 @@ TEST(RunJobs, ThrowsWhatAJobThrew) {
   EXPECT_THROW(RunJobs(40, 2, fail), std::runtime_error);
 }
 
-TEST(RoomStage, SameSeedSameFramesWithEverybodyInThem) {
-  if (!recon::BodyIsFetched(recon::BodyFolder())) GTEST_SKIP() << "no body: tools/fetch_body";
-  recon::AuthoredOptions options;
-  options.variations = 1;
-  const auto clips = recon::AuthoredClips(options);
-  const recon::BodyModel model = LoadFetchedBody();
-  const recon::Wardrobe wardrobe(model);
-  const RoomCast cast{model, wardrobe, clips, Split::kTest, 160, 120, 4};
+// Small pictures of everybody in authored motion.
+class InRooms : public testing::Test {
+ protected:
+  void SetUp() override {
+    if (!recon::BodyIsFetched(recon::BodyFolder())) GTEST_SKIP() << "no body: tools/fetch_body";
+    recon::AuthoredOptions options;
+    options.variations = 1;
+    clips_ = recon::AuthoredClips(options);
+    model_ = std::make_unique<recon::BodyModel>(LoadFetchedBody());
+    wardrobe_ = std::make_unique<recon::Wardrobe>(*model_);
+  }
+  RoomCast Cast() const { return {*model_, *wardrobe_, clips_, Split::kTest, 160, 120, 4}; }
+
+ private:
+  std::vector<recon::MotionClip> clips_;
+  std::unique_ptr<recon::BodyModel> model_;
+  std::unique_ptr<recon::Wardrobe> wardrobe_;
+};
+
+TEST_F(InRooms, SameSeedSameFramesWithEverybodyInThem) {
+  const RoomCast cast = Cast();
   const RoomScenario scenario{"two", 2, Furnishing::kFurnished};
   const LabelledFrame first = RoomStage(scenario, cast, 3).Shoot(1);
   const LabelledFrame again = RoomStage(scenario, cast, 3).Shoot(1);
@@ -45,14 +60,8 @@ TEST(RoomStage, SameSeedSameFramesWithEverybodyInThem) {
 }
 
 // Without the sofa the same seed has the same person before the same sensor.
-TEST(RoomStage, ASofaBeforeHidesAThirdOfThePersonOrMore) {
-  if (!recon::BodyIsFetched(recon::BodyFolder())) GTEST_SKIP() << "no body: tools/fetch_body";
-  recon::AuthoredOptions options;
-  options.variations = 1;
-  const auto clips = recon::AuthoredClips(options);
-  const recon::BodyModel model = LoadFetchedBody();
-  const recon::Wardrobe wardrobe(model);
-  const RoomCast cast{model, wardrobe, clips, Split::kTest, 160, 120, 4};
+TEST_F(InRooms, ASofaBeforeHidesAThirdOfThePersonOrMore) {
+  const RoomCast cast = Cast();
   for (const uint64_t seed : {1U, 2U, 3U, 4U, 5U, 6U}) {
     const auto seen = [&](Furnishing furnishing) {
       const LabelledFrame frame = RoomStage({"one", 1, furnishing}, cast, seed).Shoot(0);
