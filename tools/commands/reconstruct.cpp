@@ -12,7 +12,6 @@
 #include "depth/error.h"
 #include "depth/file/atomic_file.h"
 #include "recon/database/posture_database.h"
-#include "recon/gp/posture_prior.h"
 #include "recon/methods/sequence.h"
 #include "recon/motion/skeletons/skeleton_io.h"
 #include "tools/commands/checks.h"
@@ -37,15 +36,6 @@ struct ReconstructArguments {
   bool quiet = false;
   bool no_reliability = false;
 };
-
-/// What best completes postures by: the prior named, else the shipped one, unless a database is
-/// named for it.
-std::shared_ptr<const recon::PosturePrior> PriorFor(const ReconstructArguments& a) {
-  const bool named = !a.prior_file.empty();
-  if (a.options.method != "best" || (!named && !a.database_file.empty())) return nullptr;
-  return std::make_shared<recon::PosturePrior>(recon::PosturePrior::Load(
-      named ? std::filesystem::path(a.prior_file) : tracker::ShippedFile(recon::kShippedPrior)));
-}
 
 /// The database the method looks things up in: the one named, else the shipped one.
 std::shared_ptr<const recon::PostureDatabase> DatabaseFor(const ReconstructArguments& a) {
@@ -143,7 +133,7 @@ int Reconstruct(int argc, char** argv) {
     AtomicFile::CheckWritable(a.out);
   }
   a.options.database = DatabaseFor(a);
-  a.options.prior = PriorFor(a);
+  a.options.prior = tracker::PriorFor(a.options.method, a.prior_file, a.database_file);
   a.options.learned_file = LearnedFor(a, clips);
   Progress progress("reconstruct", a.quiet);
   double done = 0.0, total = 0.0;

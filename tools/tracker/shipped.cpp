@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "depth/error.h"
+#include "recon/gp/posture_prior.h"
 
 namespace ossa::tracker {
 namespace {
@@ -63,6 +64,14 @@ bool IsShippedFile(const std::filesystem::path& path, std::string_view name) {
     return std::filesystem::is_regular_file(folder / name, error);
   });
   return first != folders.end() && std::filesystem::equivalent(path, *first / name, error);
+}
+
+std::shared_ptr<const recon::PosturePrior> PriorFor(const std::string& method,
+                                                    const std::string& prior,
+                                                    const std::string& database) {
+  if (method != "best" || (prior.empty() && !database.empty())) return nullptr;
+  return std::make_shared<recon::PosturePrior>(recon::PosturePrior::Load(
+      prior.empty() ? ShippedFile(recon::kShippedPrior) : std::filesystem::path(prior)));
 }
 
 }  // namespace ossa::tracker

@@ -12,7 +12,6 @@
 #include "forest/forest.h"
 #include "recon/database/posture_database.h"
 #include "recon/gp/learned_models.h"
-#include "recon/gp/posture_prior.h"
 #include "tools/tracker/find_people_internal.h"
 #include "tools/tracker/measure_body_internal.h"
 #include "tools/tracker/parallel_internal.h"
@@ -34,15 +33,6 @@ double MillisecondsSince(Clock::time_point start) {
 
 std::string ModelPath(const TrackerOptions& options) {
   return options.model.empty() ? ShippedFile("body.ossa").string() : options.model;
-}
-
-// What best completes postures by: the prior named, else the shipped one, unless a database is
-// named for it.
-std::shared_ptr<const recon::PosturePrior> LoadPrior(const TrackerOptions& options) {
-  const bool named = !options.prior.empty();
-  if (options.method != "best" || (!named && !options.database.empty())) return nullptr;
-  return std::make_shared<recon::PosturePrior>(recon::PosturePrior::Load(
-      named ? std::filesystem::path(options.prior) : ShippedFile(recon::kShippedPrior)));
 }
 
 // The filters and best need no database; the others take the shipped one unless another is named.
@@ -105,7 +95,7 @@ struct Tracker::Impl {
     complete.smoothing = o.smoothing;
     complete.reconstructor.method = o.method;
     complete.reconstructor.database = LoadDatabase(o);
-    complete.reconstructor.prior = LoadPrior(o);
+    complete.reconstructor.prior = PriorFor(o.method, o.prior, o.database);
     complete.reconstructor.learned_file = o.learned;
     if (o.learned.empty() && o.method == "best") complete.reconstructor.learned = LearnedOf(o);
     complete.reconstructor.seed = o.seed;
