@@ -1,9 +1,9 @@
 #pragma once
 #include <Eigen/Core>
 
-namespace ossa::forest {
+#include "forest/network.h"
 
-using RowMatrix = Eigen::Matrix<float, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
+namespace ossa::forest {
 
 /// a · b. Every sum runs over the inner index from its start to its end, one product after another:
 /// the same bits on every machine, which Eigen's own products do not promise.

@@ -170,7 +170,7 @@ void CheckRefinement(const ForestData& data, const std::string& name) {
   constexpr float kMost = 1e6F;
   bool sane = AllWithin(refinement.input_mean, -kMost, kMost) &&
               AllWithin(refinement.input_scale, 0.0F, kMost);
-  for (const RefinementLayer& layer : refinement.layers) {
+  for (const NetworkLayer& layer : refinement.layers) {
     const size_t outputs = layer.bias.size();
     if (outputs > kMaxLayerWidth || layer.weight.size() != inputs * outputs) {
       Refuse(name, "refinement: a layer's weights do not match its inputs and outputs");

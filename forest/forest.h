@@ -7,6 +7,8 @@
 #include <string>
 #include <vector>
 
+#include "forest/network.h"
+
 namespace ossa::forest {
 
 /// Offsets of features are stored in 1/16 pixel·metre at the reference focal length of 575 pixels
@@ -95,19 +97,13 @@ struct Arrangement {
   std::vector<float> noise_m;    // a target: what the factors leave, each axis
 };
 
-/// A layer of a network: outputs = inputs · weight + bias.
-struct RefinementLayer {
-  std::vector<float> weight;  // input × output, row-major
-  std::vector<float> bias;    // one an output
-};
-
 /// The second stage: a network that corrects the places of all targets of an object at once, from
 /// what the first stage found of all of them (forest/refine_internal.h says what goes in and out).
 /// Learned on images that the trees have not seen.
 struct Refinement {
   std::vector<float> input_mean;
-  std::vector<float> input_scale;       // 1 / standard deviation
-  std::vector<RefinementLayer> layers;  // rectified between; empty: places stay as they are
+  std::vector<float> input_scale;    // 1 / standard deviation
+  std::vector<NetworkLayer> layers;  // rectified between; empty: places stay as they are
 };
 
 /// How classes lie to the targets (forest/relabel.cpp): the second look at labels.

@@ -17,7 +17,7 @@ namespace {
 // Version 2 added arrangements and what agreement with them says; models of version 1 lack them.
 // Version 3 packs trees more tightly. Version 4 added the refinement, version 5 the part prior.
 constexpr SealedFormat kFormat{{'o', 's', 's', 'a', 'f', 'r', 's', 't'}, 5, "forest model"};
-constexpr size_t kVersionAt = 12;  // of a sealed file
+constexpr uint32_t kOldestVersion = 1;  // that is still read
 constexpr int kCompressionLevel = 19;
 constexpr int kQuickLevel = 3;
 constexpr uint64_t kMaxUnpacked = uint64_t{1} << 31U;
@@ -80,7 +80,7 @@ void PutRefinement(PayloadWriter* writer, const Refinement& refinement) {
   writer->PutVector(refinement.input_mean);
   writer->PutVector(refinement.input_scale);
   writer->Put<uint32_t>(static_cast<uint32_t>(refinement.layers.size()));
-  for (const RefinementLayer& layer : refinement.layers) {
+  for (const NetworkLayer& layer : refinement.layers) {
     PutPlanes(writer, layer.weight);
     writer->PutVector(layer.bias);
   }
@@ -94,7 +94,7 @@ Refinement GetRefinement(PayloadReader* reader) {
   constexpr uint32_t kMost = 64;  // the model itself allows fewer
   if (layers > kMost) reader->Fail("refinement layers", "more than 64");
   for (uint32_t i = 0; i < layers; ++i) {
-    RefinementLayer layer;
+    NetworkLayer layer;
     layer.weight = GetPlanes<float>(reader, "refinement weights");
     layer.bias = reader->GetVector<float>("refinement biases");
     refinement.layers.push_back(std::move(layer));
@@ -168,16 +168,6 @@ ForestData ParseForest(std::span<const std::byte> payload, const std::string& na
   return data;
 }
 
-// The format to expect of a file that starts so: older versions are still read.
-SealedFormat FormatOf(std::span<const std::byte> head) {
-  SealedFormat format = kFormat;
-  uint32_t version = 0;
-  if (head.size() < kVersionAt + sizeof(version)) return format;
-  std::memcpy(&version, head.data() + kVersionAt, sizeof(version));
-  if (version >= 1 && version < kFormat.version) format.version = version;
-  return format;
-}
-
 std::vector<std::byte> Unpacked(const std::vector<std::byte>& sealed, const std::string& name) {
   PayloadReader outer(sealed, name);
   const auto size = outer.Get<uint64_t>("unpacked length");
@@ -222,14 +212,12 @@ std::vector<std::byte> Packed(const ForestData& data, int level) {
 }  // namespace
 
 ForestModel ReadForestModel(const std::filesystem::path& path, ModelUse use) {
-  std::array<char, kVersionAt + sizeof(uint32_t)> head{};
-  std::ifstream(path, std::ios::binary).read(head.data(), head.size());
-  const SealedFormat format = FormatOf(std::as_bytes(std::span(head)));
+  const SealedFormat format = FormatOf(path, kFormat, kOldestVersion);
   return Parse(ReadSealedFile(path, format), path.string(), format.version, use);
 }
 
 ForestModel ReadForestModel(std::span<const std::byte> bytes, const std::string& name) {
-  const SealedFormat format = FormatOf(bytes);
+  const SealedFormat format = FormatOf(bytes, kFormat, kOldestVersion);
   return Parse(OpenSealedBytes(bytes, name, format), name, format.version, ModelUse::kAny);
 }
 

@@ -22,7 +22,7 @@ RowMatrix Normalised(const Refinement& refinement, std::span<const float> descri
 
 RowMatrix RunLayers(const Refinement& refinement, RowMatrix rows) {
   for (size_t l = 0; l < refinement.layers.size(); ++l) {
-    const RefinementLayer& layer = refinement.layers[l];
+    const NetworkLayer& layer = refinement.layers[l];
     const auto outputs = static_cast<Eigen::Index>(layer.bias.size());
     const Eigen::Map<const RowMatrix> weight(layer.weight.data(), rows.cols(), outputs);
     const Eigen::Map<const Eigen::RowVectorXf> bias(layer.bias.data(), outputs);

@@ -90,6 +90,15 @@ Posture Placed(const Posture& normalised, const Placement& camera_from_normalise
   return out;
 }
 
+Posture Mirrored(const Posture& normalised) {
+  Posture out;
+  for (size_t i = 0; i < kJointCount; ++i) {
+    out.position_m[i] = normalised.position_m[static_cast<size_t>(kMirroredJoint[i])];
+    out.position_m[i].x() *= -1.0;
+  }
+  return out;
+}
+
 Posture Scaled(const Posture& posture, double factor) {
   Posture out = posture;
   for (auto& p : out.position_m) p *= factor;

@@ -32,6 +32,9 @@ Posture Normalised(const Posture& in_camera, const Placement& camera_from_normal
 /// The way back.
 Posture Placed(const Posture& normalised, const Placement& camera_from_normalised);
 
+/// Left and right exchanged, of a normalised posture: mirrored at x = 0.
+Posture Mirrored(const Posture& normalised);
+
 /// Every position multiplied by one factor.
 Posture Scaled(const Posture& posture, double factor);
 

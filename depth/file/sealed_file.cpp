@@ -75,6 +75,24 @@ bool IsSealedFile(const std::filesystem::path& path, const SealedFormat& format)
   return file && magic == format.magic;
 }
 
+SealedFormat FormatOf(std::span<const std::byte> bytes, const SealedFormat& newest,
+                      uint32_t oldest) {
+  Header header;
+  if (bytes.size() < sizeof(header)) return newest;
+  std::memcpy(&header, bytes.data(), sizeof(header));
+  SealedFormat format = newest;
+  if (header.version >= oldest && header.version < newest.version) format.version = header.version;
+  return format;
+}
+
+SealedFormat FormatOf(const std::filesystem::path& path, const SealedFormat& newest,
+                      uint32_t oldest) {
+  std::array<std::byte, sizeof(Header)> head{};
+  std::ifstream file(path, std::ios::binary);
+  file.read(reinterpret_cast<char*>(head.data()), head.size());
+  return file ? FormatOf(std::span<const std::byte>(head), newest, oldest) : newest;
+}
+
 std::vector<std::byte> ReadSealedFile(const std::filesystem::path& path,
                                       const SealedFormat& format) {
   std::ifstream file(path, std::ios::binary | std::ios::ate);

@@ -31,6 +31,14 @@ bool IsSealedFile(const std::filesystem::path& path, const SealedFormat& format)
 std::vector<std::byte> ReadSealedFile(const std::filesystem::path& path,
                                       const SealedFormat& format);
 
+/// The format as it was when the file was written, where files of versions from `oldest` on are
+/// still read; `newest` where the file says anything else, for ReadSealedFile to refuse.
+SealedFormat FormatOf(const std::filesystem::path& path, const SealedFormat& newest,
+                      uint32_t oldest);
+/// The same, of a file's bytes.
+SealedFormat FormatOf(std::span<const std::byte> bytes, const SealedFormat& newest,
+                      uint32_t oldest);
+
 /// As ReadSealedFile, of bytes already in memory (`name` stands for the file in messages).
 std::vector<std::byte> OpenSealedBytes(std::span<const std::byte> bytes, const std::string& name,
                                        const SealedFormat& format);

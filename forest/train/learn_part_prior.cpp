@@ -13,7 +13,7 @@
 #include "forest/propose.h"
 #include "forest/relabel_internal.h"
 #include "forest/train/learn_internal.h"
-#include "forest/train/network_internal.h"
+#include "forest/train/network_trainer_internal.h"
 #include "forest/train/random_internal.h"
 #include "forest/train/thread_limit_internal.h"
 
@@ -138,7 +138,7 @@ PartPrior Fit(const LabelledPixels& pixels, uint64_t seed) {
     const float left = 1.0F - static_cast<float>(step) / static_cast<float>(steps);
     regression.Step(LossGradient(score, pixels, chosen, weight), kRate * left);
   }
-  const RefinementLayer layer = regression.Layers().front();
+  const NetworkLayer layer = regression.Layers().front();
   return {layer.weight, layer.bias};
 }
 

@@ -5,30 +5,24 @@
 #include <Eigen/Dense>
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 
 #include "depth/error.h"
+#include "forest/network.h"
 #include "forest/refine_internal.h"
 #include "forest/train/learn_internal.h"
-#include "forest/train/network_internal.h"
 #include "forest/train/thread_limit_internal.h"
 
 namespace ossa::forest {
 namespace {
 
-constexpr Eigen::Index kBatch = 128;
-constexpr double kRate = 1e-3;      // of Adam, at its highest
-constexpr int64_t kWarmUp = 200;    // steps until it is
 constexpr float kWindow_m = 0.07F;  // a place so far off is worth 0.6 of a hit, at 10 cm 0.36
 constexpr float kPull = 0.1F;       // of places that are far off, against the hits
 constexpr float kSoft_m = 0.02F;    // errors below pull less
 constexpr float kConfidenceShare = 0.5F;
 
-// What is known of images, a row each, and what the network should say.
-struct Examples {
-  RowMatrix input;   // image × DescriptionSize
-  RowMatrix wanted;  // image × target · 3: offsets in refinement steps; NaN: not known
-};
+// What is known of images, a row each, and what the network should say. Input: image ×
+// DescriptionSize; wanted: image × target · 3, offsets in refinement steps, NaN: not known.
+using Examples = NetworkExamples;
 
 // False when nothing is seen.
 bool AddExample(const ForestModel& model, const TrainingImage& image, Eigen::Index row,
@@ -104,7 +98,7 @@ Refinement NormaliseInputs(RowMatrix* input) {
 // Gradient of the loss by the outputs. An error e costs 1 - exp(-e² / 2 w²), which counts misses,
 // and a little of its length, which draws places that are farther off than any window; the
 // confidence costs the cross entropy with whether the place is within 10 cm.
-RowMatrix LossGradient(const RowMatrix& out, const RowMatrix& wanted) {
+RowMatrix GradientOfLoss(const RowMatrix& out, const RowMatrix& wanted) {
   const auto step_m = static_cast<float>(kRefinementStep_m);
   const Eigen::Index targets = wanted.cols() / 3;
   RowMatrix gradient = RowMatrix::Zero(out.rows(), out.cols());
@@ -125,44 +119,6 @@ RowMatrix LossGradient(const RowMatrix& out, const RowMatrix& wanted) {
   return gradient / static_cast<float>(out.rows() * targets);
 }
 
-RowMatrix Rows(const RowMatrix& all, std::span<const Eigen::Index> chosen) {
-  RowMatrix rows(static_cast<Eigen::Index>(chosen.size()), all.cols());
-  for (size_t i = 0; i < chosen.size(); ++i) {
-    rows.row(static_cast<Eigen::Index>(i)) = all.row(chosen[i]);
-  }
-  return rows;
-}
-
-// Rises at first, then falls to nothing along half a cosine (Loshchilov and Hutter 2017).
-float RateAt(int64_t step, int64_t steps) {
-  const double done = static_cast<double>(step) / static_cast<double>(steps);
-  const double warm = std::min(1.0, static_cast<double>(step + 1) / static_cast<double>(kWarmUp));
-  return static_cast<float>(kRate * warm * 0.5 * (1.0 + std::cos(std::numbers::pi * done)));
-}
-
-std::vector<RefinementLayer> LearnLayers(const Examples& examples,
-                                         const RefinementOptions& options) {
-  const Eigen::Index targets = examples.wanted.cols() / 3;
-  NetworkTrainer network({examples.input.cols(), options.hidden, 4 * targets}, options.seed);
-  std::vector<Eigen::Index> order(static_cast<size_t>(examples.input.rows()));
-  for (size_t i = 0; i < order.size(); ++i) order[i] = static_cast<Eigen::Index>(i);
-  Random random(MixSeed(options.seed, 0x5befe7));
-  const auto batches = static_cast<int64_t>(order.size()) / kBatch;
-  const int64_t steps = batches * options.epochs;
-  for (int64_t step = 0; step < steps; ++step) {
-    if (options.stop && options.stop()) throw TrainInterrupted("interrupted while refining");
-    const int64_t batch = step % batches;
-    for (size_t i = order.size(); batch == 0 && i > 1; --i) {
-      std::swap(order[i - 1], order[random.Below(static_cast<uint32_t>(i))]);
-    }
-    const std::span chosen(order.data() + batch * kBatch, size_t{kBatch});
-    const RowMatrix& out = network.Forward(Rows(examples.input, chosen));
-    network.Step(LossGradient(out, Rows(examples.wanted, chosen)), RateAt(step, steps));
-    if (options.progress) options.progress(step + 1, steps);
-  }
-  return network.Layers();
-}
-
 }  // namespace
 
 ForestModel LearnRefinement(const ForestModel& model, const TrainingSource& source,
@@ -172,13 +128,20 @@ ForestModel LearnRefinement(const ForestModel& model, const TrainingSource& sour
     throw InputError("refinement: the model has no arrangements to start from");
   }
   Examples examples = GatherExamples(model, source, options);
-  if (examples.input.rows() < kBatch) {
-    throw InputError("refinement: expected at least " + std::to_string(kBatch) +
+  if (examples.input.rows() < kNetworkBatch) {
+    throw InputError("refinement: expected at least " + std::to_string(kNetworkBatch) +
                      " images that show something, found " + std::to_string(examples.input.rows()));
   }
   ForestData data = model.data();
   data.refinement = NormaliseInputs(&examples.input);
-  data.refinement.layers = LearnLayers(examples, options);
+  NetworkOptions network;
+  network.hidden = options.hidden;
+  network.outputs = 4 * static_cast<Eigen::Index>(model.targets().size());
+  network.epochs = options.epochs;
+  network.seed = options.seed;
+  network.progress = options.progress;
+  network.stop = options.stop;
+  data.refinement.layers = LearnNetwork(examples, GradientOfLoss, network);
   return ForestModel(std::move(data));
 }
 

@@ -178,13 +178,7 @@ void LearnedModels::Save(const std::filesystem::path& path) const {
 bool LearnedModels::IsOne(const std::filesystem::path& path) { return IsSealedFile(path, kFormat); }
 
 LearnedModels LearnedModels::Load(const std::filesystem::path& path) {
-  SealedFormat format = kFormat;
-  constexpr std::streamoff kVersionAt = 12;  // of a sealed file: after magic and byte order
-  std::ifstream file(path, std::ios::binary);
-  uint32_t version = 0;
-  file.seekg(kVersionAt);
-  file.read(reinterpret_cast<char*>(&version), sizeof(version));
-  if (file && version >= kOldestVersion && version < kVersion) format.version = version;
+  const SealedFormat format = FormatOf(path, kFormat, kOldestVersion);
   const auto payload = ReadSealedFile(path, format);
   return FromBytes(payload, path.string(), format.version);
 }

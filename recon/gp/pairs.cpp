@@ -6,8 +6,6 @@
 namespace ossa::recon {
 namespace {
 
-Eigen::Vector3d MirroredPoint(const Eigen::Vector3d& p) { return {-p.x(), p.y(), p.z()}; }
-
 std::vector<int> BlocksOf(size_t count, int most) {
   // Few and long: half a minute of a recording of two minutes, in which somebody else may come.
   constexpr int kBlocks = 4;
@@ -52,11 +50,10 @@ PosturePair Mirrored(const PosturePair& pair) {
   PosturePair out;
   out.group = pair.group;
   out.worst_m = pair.worst_m;
+  out.observed = Mirrored(pair.observed);
+  out.residual = Mirrored(pair.residual);
   for (size_t i = 0; i < kJointCount; ++i) {
-    const auto m = static_cast<size_t>(kMirroredJoint[i]);
-    out.observed.position_m[i] = MirroredPoint(pair.observed.position_m[m]);
-    out.residual.position_m[i] = MirroredPoint(pair.residual.position_m[m]);
-    out.known[i] = pair.known[m];
+    out.known[i] = pair.known[static_cast<size_t>(kMirroredJoint[i])];
   }
   return out;
 }

@@ -4,6 +4,7 @@
 
 #include <Eigen/Eigenvalues>
 #include <algorithm>
+#include <bit>
 #include <cmath>
 #include <numbers>
 #include <stdexcept>
@@ -16,10 +17,74 @@ namespace {
 
 using BoneMatrix = Eigen::Matrix<double, kBoneDims, kBoneDims>;
 
-constexpr SealedFormat kFormat = {{'O', 'S', 'S', 'A', 'P', 'R', '0', '0'}, 1, "posture prior"};
+constexpr SealedFormat kFormat = {
+    {'O', 'S', 'S', 'A', 'P', 'R', '0', '0'}, PosturePrior::kVersion, "posture prior"};
+constexpr uint32_t kVersionOfNetwork = 2;
+constexpr Eigen::Index kMostUnits = 1 << 14;
 
 // A mode is neither forgotten within a frame nor kept for ever.
 constexpr double kShortest_s = 0.02, kLongest_s = 1000.0;
+
+/// Numbers as the upper halves of their floats: the lower halves say nothing.
+void PutHalves(PayloadWriter& out, const Eigen::Ref<const Eigen::MatrixXf>& numbers) {
+  std::vector<uint16_t> halves;
+  for (const float number : numbers.reshaped()) {
+    const uint32_t half = std::isfinite(number) ? 0x8000U : 0U;  // rounded, but not NaN to a number
+    halves.push_back(static_cast<uint16_t>((std::bit_cast<uint32_t>(number) + half) >> 16U));
+  }
+  out.PutVector(halves);
+}
+
+constexpr float kMost = 1e6F;  // of anything in a network
+
+Eigen::VectorXf GetFloats(PayloadReader& in, std::string_view field, size_t count) {
+  const auto numbers = in.GetVector<float>(field);
+  if (numbers.size() != count) in.Fail(field, fmt::format("expected {} numbers", count));
+  for (const float number : numbers) {
+    if (!(std::abs(number) <= kMost)) in.Fail(field, "expected numbers of at most a million");
+  }
+  return Eigen::Map<const Eigen::VectorXf>(numbers.data(), static_cast<Eigen::Index>(count));
+}
+
+Eigen::MatrixXf GetHalves(PayloadReader& in, std::string_view field, Eigen::Index rows,
+                          Eigen::Index columns) {
+  const auto halves = in.GetVector<uint16_t>(field);
+  if (halves.size() != static_cast<size_t>(rows * columns)) {
+    in.Fail(field, fmt::format("expected {} numbers", rows * columns));
+  }
+  Eigen::MatrixXf numbers(rows, columns);
+  for (size_t i = 0; i < halves.size(); ++i) {
+    const float number = std::bit_cast<float>(static_cast<uint32_t>(halves[i]) << 16U);
+    if (!(std::abs(number) <= kMost)) in.Fail(field, "expected numbers of at most a million");
+    numbers.reshaped()[static_cast<Eigen::Index>(i)] = number;
+  }
+  return numbers;
+}
+
+void PutNetwork(PayloadWriter& out, const PriorNetwork& network) {
+  out.Put(static_cast<uint32_t>(network.unit_bias.size()));
+  out.PutArray(std::span<const float>(network.input_mean.data(), kPriorInputs));
+  out.PutArray(std::span<const float>(network.input_scale.data(), kPriorInputs));
+  PutHalves(out, network.unit_weight);
+  PutHalves(out, network.unit_bias);
+  PutHalves(out, network.bone_weight);
+  PutHalves(out, network.bone_bias);
+}
+
+PriorNetwork GetNetwork(PayloadReader& in) {
+  const auto units = static_cast<Eigen::Index>(in.Get<uint32_t>("units"));
+  if (units < 1 || units > kMostUnits) {
+    in.Fail("units", fmt::format("expected 1 to {}", kMostUnits));
+  }
+  PriorNetwork network;
+  network.input_mean = GetFloats(in, "input means", kPriorInputs);
+  network.input_scale = GetFloats(in, "input scales", kPriorInputs);
+  network.unit_weight = GetHalves(in, "unit weights", units, kPriorInputs);
+  network.unit_bias = GetHalves(in, "unit biases", units, 1);
+  network.bone_weight = GetHalves(in, "bone weights", kBoneDims, units);
+  network.bone_bias = GetHalves(in, "bone biases", kBoneDims, 1);
+  return network;
+}
 
 /// Sums over all frames and their mirror images; what is about the mean is made of them later, so
 /// that no motion needs to be held in memory.
@@ -31,27 +96,6 @@ struct Sums {
   BoneVector lagged_first = BoneVector::Zero();   // of (b(t) + b(t + lag)) / 2
   BoneMatrix lagged_second = BoneMatrix::Zero();  // of the symmetric part of b(t) b(t + lag)'
 };
-
-/// Normalised, of the standard size; a frame that is not finite ends the motion before it.
-std::vector<std::vector<BoneVector>> FiniteRuns(const PriorClip& clip) {
-  std::vector<std::vector<BoneVector>> runs(1);
-  JointWeights all;
-  all.fill(1.0);
-  double yaw_rad = std::numbers::pi;
-  for (const Posture& posture : clip.postures) {
-    const bool finite = std::all_of(posture.position_m.begin(), posture.position_m.end(),
-                                    [](const Eigen::Vector3d& p) { return p.allFinite(); });
-    if (!finite) {
-      if (!runs.back().empty()) runs.emplace_back();
-      continue;
-    }
-    const Placement placement = PlacementOf(posture, all, yaw_rad);
-    yaw_rad = placement.yaw_rad;
-    const Posture own = Normalised(posture, placement);
-    runs.back().push_back(BonesOf(Retargeted(own, StandardBoneLengths())));
-  }
-  return runs;
-}
 
 void Add(const std::vector<BoneVector>& run, size_t lag, double weight, Sums& sums) {
   if (run.empty()) return;
@@ -113,6 +157,26 @@ void PosturePriorOptions::Check() const {
   }
 }
 
+std::vector<std::vector<BoneVector>> NormalisedRuns(const PriorClip& clip) {
+  std::vector<std::vector<BoneVector>> runs(1);
+  JointWeights all;
+  all.fill(1.0);
+  double yaw_rad = std::numbers::pi;
+  for (const Posture& posture : clip.postures) {
+    const bool finite = std::all_of(posture.position_m.begin(), posture.position_m.end(),
+                                    [](const Eigen::Vector3d& p) { return p.allFinite(); });
+    if (!finite) {
+      if (!runs.back().empty()) runs.emplace_back();
+      continue;
+    }
+    const Placement placement = PlacementOf(posture, all, yaw_rad);
+    yaw_rad = placement.yaw_rad;
+    const Posture own = Normalised(posture, placement);
+    runs.back().push_back(BonesOf(Retargeted(own, StandardBoneLengths())));
+  }
+  return runs;
+}
+
 BoneVector BonesOf(const Posture& posture) {
   BoneVector bones_m;
   for (int i = 1; i < kJointCount; ++i) {
@@ -137,7 +201,7 @@ PosturePrior PosturePrior::Learn(const std::vector<PriorClip>& clips,
   Sums sums;
   for (const PriorClip& clip : clips) {
     const auto lag = static_cast<size_t>(std::max(1.0, std::round(options.lag_s / clip.frame_s)));
-    for (const auto& run : FiniteRuns(clip)) Add(run, lag, clip.weight, sums);
+    for (const auto& run : NormalisedRuns(clip)) Add(run, lag, clip.weight, sums);
   }
   constexpr uint64_t kFewest = 100;  // a hundred numbers' mean and spread tell something
   if (sums.frames < kFewest || !(sums.lagged_weight > 0.0)) {
@@ -193,16 +257,24 @@ void PosturePrior::Save(const std::filesystem::path& path) const {
        {Eigen::MatrixXd(mean_m), Eigen::MatrixXd(rest_m2), Eigen::MatrixXd(time_s), modes_m}) {
     put(m);
   }
-  WriteSealedFile(path, kFormat, out.bytes());
+  SealedFormat format = kFormat;
+  if (network.empty()) {
+    format.version = kVersionOfNetwork - 1;  // what older programs read
+  } else {
+    PutNetwork(out, network);
+  }
+  WriteSealedFile(path, format, out.bytes());
 }
 
 bool PosturePrior::IsOne(const std::filesystem::path& path) { return IsSealedFile(path, kFormat); }
 
 PosturePrior PosturePrior::Load(const std::filesystem::path& path) {
-  return FromBytes(ReadSealedFile(path, kFormat), path.string());
+  const SealedFormat format = FormatOf(path, kFormat, 1);
+  return FromBytes(ReadSealedFile(path, format), path.string(), format.version);
 }
 
-PosturePrior PosturePrior::FromBytes(std::span<const std::byte> bytes, const std::string& name) {
+PosturePrior PosturePrior::FromBytes(std::span<const std::byte> bytes, const std::string& name,
+                                     uint32_t version) {
   PayloadReader in(bytes, name);
   PosturePrior out;
   out.frames = in.Get<uint64_t>("frames");
@@ -238,6 +310,7 @@ PosturePrior PosturePrior::FromBytes(std::span<const std::byte> bytes, const std
   }
   out.modes_m = get("modes", kBoneDims * times.size(), -kLongestBone_m, kLongestBone_m);
   out.modes_m.resize(kBoneDims, out.time_s.size());
+  if (version >= kVersionOfNetwork) out.network = GetNetwork(in);
   in.ExpectEnd();
   return out;
 }

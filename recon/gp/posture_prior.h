@@ -6,15 +6,11 @@
 #include <string>
 #include <vector>
 
+#include "recon/gp/prior_network.h"
 #include "recon/normalise.h"
 #include "recon/posture.h"
 
 namespace ossa::recon {
-
-/// 57 numbers: x y z of each bone's vector from parent to joint, joints 1 to 19 in enum order,
-/// metres, of a normalised posture of the standard size.
-inline constexpr int kBoneDims = 3 * (kJointCount - 1);
-using BoneVector = Eigen::Matrix<double, kBoneDims, 1>;
 
 /// The prior that comes with ossa, among the shipped files.
 inline constexpr const char* kShippedPrior = "posture.ossaprior";
@@ -52,6 +48,7 @@ struct PosturePrior {
   BoneVector rest_m2 = BoneVector::Zero();  // variance of each number that no mode explains
   Eigen::VectorXd time_s;                   // correlation time of each mode, slowest first
   uint64_t frames = 0;                      // learned from
+  PriorNetwork network;                     // what no Gaussian says; may be empty
 
   /// Throws InputError when the clips hold no moving, finite postures.
   static PosturePrior Learn(const std::vector<PriorClip>& clips,
@@ -59,12 +56,18 @@ struct PosturePrior {
 
   /// .ossaprior: reads refuse damaged, truncated and hostile files by name and byte.
   static PosturePrior Load(const std::filesystem::path& path);
-  /// Of a payload.
-  static PosturePrior FromBytes(std::span<const std::byte> bytes, const std::string& name);
+  /// Of a payload; older versions are still read, without what they lack.
+  static PosturePrior FromBytes(std::span<const std::byte> bytes, const std::string& name,
+                                uint32_t version = kVersion);
+  /// Version 2 added the network. Without one, files are of version 1.
+  static constexpr uint32_t kVersion = 2;
   void Save(const std::filesystem::path& path) const;
   /// True when the file says that it is one; it may still be damaged.
   static bool IsOne(const std::filesystem::path& path);
 };
+
+/// The clip normalised, of the standard size; a frame that is not finite ends the run before it.
+std::vector<std::vector<BoneVector>> NormalisedRuns(const PriorClip& clip);
 
 /// Vectors of the bones as they are.
 BoneVector BonesOf(const Posture& posture);

@@ -66,7 +66,7 @@ Refinement Constant(const Eigen::Vector3f& steps, float logit) {
   Refinement refinement;
   refinement.input_mean.assign(inputs, 0.0F);
   refinement.input_scale.assign(inputs, 1.0F);
-  RefinementLayer layer;
+  NetworkLayer layer;
   layer.weight.assign(inputs * 12, 0.0F);
   for (int t = 0; t < 3; ++t) {
     layer.bias.insert(layer.bias.end(), steps.data(), steps.data() + 3);

@@ -7,7 +7,8 @@
 
 namespace {
 
-using ossa::recon::PosturePrior;
+namespace recon = ossa::recon;
+using recon::PosturePrior;
 
 constexpr size_t kSealSize = 32;  // magic, byte order, version, length and checksum
 
@@ -20,13 +21,26 @@ std::vector<std::string> ossa::fuzz::Seeds() {
   prior.time_s = Eigen::VectorXd::Constant(2, 0.5);
   const std::string path = ScratchPath("prior");
   prior.Save(path);
-  return {TakeFile(path).substr(kSealSize)};
+  const std::string without = TakeFile(path).substr(kSealSize);
+  prior.network = {
+      Eigen::VectorXf::Zero(recon::kPriorInputs),    Eigen::VectorXf::Ones(recon::kPriorInputs),
+      Eigen::MatrixXf::Ones(1, recon::kPriorInputs), Eigen::VectorXf::Zero(1),
+      Eigen::MatrixXf::Ones(recon::kBoneDims, 1),    Eigen::VectorXf::Zero(recon::kBoneDims)};
+  prior.Save(path);
+  return {without, TakeFile(path).substr(kSealSize)};
 }
 
 extern "C" int LLVMFuzzerTestOneInput(const uint8_t* data, size_t size) {
-  ossa::fuzz::ExpectValueOrOneLine([&] {
-    const auto prior = PosturePrior::FromBytes(std::as_bytes(std::span(data, size)), "x.ossaprior");
-    if (prior.modes_m.cols() != prior.time_s.size() || !prior.modes_m.allFinite()) abort();
-  });
+  for (uint32_t version = 1; version <= PosturePrior::kVersion; ++version) {
+    ossa::fuzz::ExpectValueOrOneLine([&] {
+      const auto prior =
+          PosturePrior::FromBytes(std::as_bytes(std::span(data, size)), "x.ossaprior", version);
+      if (prior.modes_m.cols() != prior.time_s.size() || !prior.modes_m.allFinite()) abort();
+      const auto says_m = prior.network.empty()
+                              ? recon::BoneVector(recon::BoneVector::Zero())
+                              : prior.network.Correction_m(recon::PriorInput::Zero());
+      if (!says_m.allFinite()) abort();
+    });
+  }
   return 0;
 }

@@ -102,11 +102,11 @@ void ShowPrior(const fs::path& path) {
   const double unexplained = prior.rest_m2.sum();
   fmt::print(
       "posture prior, {} modes learned from {} postures, {:.2f} % of the variance in none, {:.1f} "
-      "kB\ncorrelation times {:.2f} s to {:.2f} s\n",
+      "kB\ncorrelation times {:.2f} s to {:.2f} s, {} units that correct what the modes say\n",
       prior.time_s.size(), prior.frames,
       100.0 * unexplained / (unexplained + prior.modes_m.squaredNorm()),
       static_cast<double>(fs::file_size(path)) * 1e-3, prior.time_s.minCoeff(),
-      prior.time_s.maxCoeff());
+      prior.time_s.maxCoeff(), prior.network.unit_bias.size());
 }
 
 bool IsDepthRecording(const fs::path& path) {

@@ -6,12 +6,14 @@
 
 #include "depth/error.h"
 #include "depth/file/atomic_file.h"
+#include "forest/train.h"
 #include "recon/body/standard_body.h"
 #include "recon/gp/posture_prior.h"
 #include "recon/motion/mocap.h"
 #include "tools/commands/checks.h"
 #include "tools/commands/command.h"
 #include "tools/commands/commands.h"
+#include "tools/learning/learn_prior_network.h"
 
 namespace ossa::commands {
 namespace {
@@ -39,6 +41,8 @@ int Prior(int argc, char** argv) {
   recon::PosturePriorOptions options;
   recon::MocapOptions mocap_options;
   double authored_weight = 0.3;
+  tools::PriorNetworkOptions network;
+  bool quiet = false;
   app.add_option("--mocap", mocap, "folders of BVH or AMC files, or the word authored")->required();
   app.add_option("--out", out, "the .ossaprior file to write")->required();
   app.add_option("--modes", options.modes, "independent ways of moving that are told apart")
@@ -47,15 +51,45 @@ int Prior(int argc, char** argv) {
   app.add_option("--authored-weight", authored_weight, "of an authored frame beside a captured one")
       ->capture_default_str()
       ->check(Positive());
-  app.add_option("--seed", mocap_options.seed, "variation of the authored clips")
+  app.add_option("--hidden", network.hidden,
+                 "units of the network that corrects what the modes say; 0: none")
+      ->capture_default_str()
+      ->check(CLI::Range(0, 1024));
+  app.add_option("--epochs", network.epochs, "times that the network looks at each example")
+      ->capture_default_str()
+      ->check(CLI::Range(1, 1000));
+  app.add_option("--walks", network.walks,
+                 "through each motion of weight 1 while the network learns, other joints hidden "
+                 "each time")
+      ->capture_default_str()
+      ->check(CLI::Range(1, 1000));
+  app.add_option("--seed", mocap_options.seed,
+                 "variation of the authored clips, and what is hidden from the network")
       ->capture_default_str();
+  app.add_option("--threads", network.threads, "0: one a core")
+      ->capture_default_str()
+      ->check(CLI::Range(0, 1024));
+  app.add_flag("--quiet", quiet, "no progress");
   app.add_option("--mapping", mocap_options.mapping_file, "bone names of an unknown conversion");
   Parse(app, argc, argv);
   AtomicFile::CheckWritable(out);
 
   const auto clips = ClipsOf(recon::LoadMocap(mocap, mocap_options), authored_weight);
   if (Interrupted()) throw InputError("prior: interrupted; nothing was written");
-  const auto prior = recon::PosturePrior::Learn(clips, options);
+  auto prior = recon::PosturePrior::Learn(clips, options);
+  if (network.hidden > 0) {
+    Progress bar("prior", quiet);
+    network.seed = mocap_options.seed;
+    network.stop = Interrupted;
+    network.progress = [&](int64_t done, int64_t total) {
+      bar.Update(static_cast<double>(done), static_cast<double>(total), "learning the network");
+    };
+    try {
+      prior.network = tools::LearnPriorNetwork(prior, clips, network);
+    } catch (const forest::TrainInterrupted&) {
+      throw InputError("prior: interrupted; nothing was written");
+    }
+  }
   prior.Save(out);
   fmt::print("{}: {} modes learned from {} postures in {} clips\n", out, prior.time_s.size(),
              prior.frames, clips.size());

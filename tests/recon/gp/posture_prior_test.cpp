@@ -26,15 +26,6 @@ PriorClip GesturesFor(double seconds, double from_s = 0.0) {
   return clip;
 }
 
-Posture MirroredPosture(const Posture& posture) {
-  Posture out;
-  for (size_t i = 0; i < kJointCount; ++i) {
-    out.position_m[i] = posture.position_m[static_cast<size_t>(kMirroredJoint[i])];
-    out.position_m[i].x() *= -1.0;
-  }
-  return out;
-}
-
 std::shared_ptr<const PosturePrior> Learned() {
   static const auto prior =
       std::make_shared<const PosturePrior>(PosturePrior::Learn({GesturesFor(120.0)}));
@@ -56,7 +47,7 @@ TEST(PosturePrior, HasMeanAndCovarianceOfThePosturesAndTheirMirrorImages) {
   std::vector<BoneVector> bones;
   for (const Posture& posture : clip.postures) {
     bones.push_back(BonesOf(posture));
-    bones.push_back(BonesOf(MirroredPosture(posture)));
+    bones.push_back(BonesOf(Mirrored(posture)));
   }
   BoneVector mean = BoneVector::Zero();
   for (const BoneVector& b : bones) mean += b / static_cast<double>(bones.size());
@@ -81,7 +72,7 @@ TEST(PosturePrior, KeepsItsModesApartALagLater) {
     for (const bool mirrored : {false, true}) {
       const auto modes = [&](size_t frame) -> Eigen::VectorXd {
         const Posture& p = clip.postures[frame];
-        return modes_of * (BonesOf(mirrored ? MirroredPosture(p) : p) - prior.mean_m);
+        return modes_of * (BonesOf(mirrored ? Mirrored(p) : p) - prior.mean_m);
       };
       const Eigen::MatrixXd product = modes(f) * modes(f + lag).transpose();
       kept +=
@@ -285,11 +276,11 @@ TEST(PriorFilter, MirrorsWhatItIsShownMirrored) {
     PriorObservation observation = Seeing(test::Motion(f * kFrame_s), 0.01);
     for (size_t j = 5; j < 8; ++j) observation.sd_m[j] = f > 3 ? 0.0 : 0.01;
     PriorObservation mirrored = observation;
-    mirrored.seen = MirroredPosture(observation.seen);
+    mirrored.seen = Mirrored(observation.seen);
     for (size_t j = 0; j < kJointCount; ++j) {
       mirrored.sd_m[j] = observation.sd_m[static_cast<size_t>(kMirroredJoint[j])];
     }
-    const Posture a = MirroredPosture(one.Step(kFrame_s, observation));
+    const Posture a = Mirrored(one.Step(kFrame_s, observation));
     EXPECT_LT(test::MeanDistance_m(a, other.Step(kFrame_s, mirrored)), 1e-6) << f;
   }
 }

@@ -22,12 +22,15 @@ using test::RunOssa;
 TEST(PriorCommand, LearnsAPriorOfTheModesAskedForThatInfoShows) {
   const test::TemporaryFolder folder;
   const std::string out = folder / "x.ossaprior";
-  const auto run = RunOssa({"prior", "--mocap", "authored", "--modes", "12", "--out", out});
+  const auto run = RunOssa({"prior", "--mocap", "authored", "--modes", "12", "--hidden", "8",
+                            "--walks", "1", "--epochs", "1", "--quiet", "--out", out});
   ASSERT_EQ(run.exit_status, 0) << run.err;
   EXPECT_EQ(recon::PosturePrior::Load(out).time_s.size(), 12);
+  EXPECT_EQ(recon::PosturePrior::Load(out).network.unit_bias.size(), 8);
   const auto info = RunOssa({"info", out});
   EXPECT_EQ(info.exit_status, 0) << info.err;
   EXPECT_NE(info.out.find("posture prior, 12 modes learned from "), std::string::npos) << info.out;
+  EXPECT_NE(info.out.find(", 8 units "), std::string::npos) << info.out;
 }
 
 // Thirty frames of somebody at rest, of whose left arm no more is seen after ten.
@@ -56,8 +59,10 @@ TEST(PriorCommand, AnotherPriorIsUsedWhereItIsNamed) {
   const test::TemporaryFolder folder;
   const std::string prior = folder / "x.ossaprior", in = folder / "in.jsonl";
   std::ofstream(in) << LosingAnArm();
-  ASSERT_EQ(RunOssa({"prior", "--mocap", "authored", "--modes", "3", "--out", prior}).exit_status,
-            0);
+  ASSERT_EQ(
+      RunOssa({"prior", "--mocap", "authored", "--modes", "3", "--hidden", "0", "--out", prior})
+          .exit_status,
+      0);
   const auto text = [&](const std::vector<std::string>& more, const std::string& name) {
     std::vector<std::string> arguments = {"reconstruct", in, "--out", folder / name, "--quiet"};
     arguments.insert(arguments.end(), more.begin(), more.end());

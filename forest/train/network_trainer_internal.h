@@ -21,7 +21,7 @@ class NetworkTrainer {
   /// One step down the gradient (of the loss by the outputs of the last Forward).
   void Step(RowMatrix gradient, float rate);
 
-  std::vector<RefinementLayer> Layers() const;
+  std::vector<NetworkLayer> Layers() const;
 
  private:
   /// Numbers that are learned, with Adam's running means of their gradient and of its square.

@@ -1,4 +1,4 @@
-#include "forest/train/network_internal.h"
+#include "forest/train/network_trainer_internal.h"
 
 #include <bit>
 #include <cmath>
@@ -99,8 +99,8 @@ void NetworkTrainer::Step(RowMatrix gradient, float rate) {
   }
 }
 
-std::vector<RefinementLayer> NetworkTrainer::Layers() const {
-  std::vector<RefinementLayer> layers;
+std::vector<NetworkLayer> NetworkTrainer::Layers() const {
+  std::vector<NetworkLayer> layers;
   for (size_t l = 0; l < weight_.size(); ++l) {
     layers.push_back({Rounded(weight_[l].value), Rounded(bias_[l].value)});
   }

@@ -1,0 +1,58 @@
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <numeric>
+#include <span>
+
+#include "forest/network.h"
+#include "forest/train.h"
+#include "forest/train/network_trainer_internal.h"
+#include "forest/train/random_internal.h"
+
+namespace ossa::forest {
+namespace {
+
+constexpr double kRate = 1e-3;    // of Adam, at its highest
+constexpr int64_t kWarmUp = 200;  // steps until it is
+
+RowMatrix Rows(const RowMatrix& all, std::span<const Eigen::Index> chosen) {
+  RowMatrix rows(static_cast<Eigen::Index>(chosen.size()), all.cols());
+  for (size_t i = 0; i < chosen.size(); ++i) {
+    rows.row(static_cast<Eigen::Index>(i)) = all.row(chosen[i]);
+  }
+  return rows;
+}
+
+// Rises at first, then falls to nothing along half a cosine (Loshchilov and Hutter 2017).
+float RateAt(int64_t step, int64_t steps) {
+  const double done = static_cast<double>(step) / static_cast<double>(steps);
+  const double warm = std::min(1.0, static_cast<double>(step + 1) / static_cast<double>(kWarmUp));
+  return static_cast<float>(kRate * warm * 0.5 * (1.0 + std::cos(std::numbers::pi * done)));
+}
+
+}  // namespace
+
+std::vector<NetworkLayer> LearnNetwork(const NetworkExamples& examples,
+                                       const LossGradient& gradient,
+                                       const NetworkOptions& options) {
+  NetworkTrainer network({examples.input.cols(), options.hidden, options.outputs}, options.seed);
+  std::vector<Eigen::Index> order(static_cast<size_t>(examples.input.rows()));
+  std::iota(order.begin(), order.end(), Eigen::Index{0});
+  Random random(MixSeed(options.seed, 0x5befe7));
+  const auto batches = static_cast<int64_t>(order.size()) / kNetworkBatch;
+  const int64_t steps = batches * options.epochs;
+  for (int64_t step = 0; step < steps; ++step) {
+    if (options.stop && options.stop()) throw TrainInterrupted("interrupted while refining");
+    const int64_t batch = step % batches;
+    for (size_t i = order.size(); batch == 0 && i > 1; --i) {
+      std::swap(order[i - 1], order[random.Below(static_cast<uint32_t>(i))]);
+    }
+    const std::span chosen(order.data() + batch * kNetworkBatch, size_t{kNetworkBatch});
+    const RowMatrix& out = network.Forward(Rows(examples.input, chosen));
+    network.Step(gradient(out, Rows(examples.wanted, chosen)), RateAt(step, steps));
+    if (options.progress) options.progress(step + 1, steps);
+  }
+  return network.Layers();
+}
+
+}  // namespace ossa::forest

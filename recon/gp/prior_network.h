@@ -1,0 +1,42 @@
+#pragma once
+#include <Eigen/Core>
+
+#include "recon/normalise.h"
+#include "recon/posture.h"
+
+namespace ossa::recon {
+
+/// 57 numbers: x y z of each bone's vector from parent to joint, joints 1 to 19 in enum order,
+/// metres, of a normalised posture of the standard size.
+inline constexpr int kBoneDims = 3 * (kJointCount - 1);
+using BoneVector = Eigen::Matrix<double, kBoneDims, 1>;
+
+/// What a PriorNetwork reads of a step of a PriorFilter, joints 1 to 19 in enum order, the standard
+/// body: the bones that are expected (57), how clearly each joint is seen (0 not at all, 1 exactly;
+/// 19), and how far from where it is expected it is seen (metres, 0 of joints that are not; 57).
+inline constexpr int kPriorInputs = 2 * kBoneDims + kJointCount - 1;
+using PriorInput = Eigen::Matrix<float, kPriorInputs, 1>;
+
+/// How clearly a joint is seen whose place is known with that standard deviation; 0: not seen.
+float Clearness(double sd_m);
+
+/// What a Gaussian prior cannot say of how people hold themselves: knees bend one way only, and who
+/// bends down holds the hands otherwise than who squats. A network of one rectified layer that
+/// knows how far the bones lie from where a PriorFilter expects them. No size of its own: it is
+/// learned for one PosturePrior, which it is part of.
+struct PriorNetwork {
+  Eigen::VectorXf input_mean, input_scale;  // kPriorInputs; scale: 1 / standard deviation
+  Eigen::MatrixXf unit_weight;              // unit x input
+  Eigen::VectorXf unit_bias;
+  Eigen::MatrixXf bone_weight;  // kBoneDims x unit, in kBoneStep_m
+  Eigen::VectorXf bone_bias;
+
+  static constexpr double kBoneStep_m = 0.1;
+
+  /// Without units nothing is corrected.
+  bool empty() const { return unit_bias.size() == 0; }
+  /// To be added to the bones that were expected.
+  BoneVector Correction_m(const PriorInput& input) const;
+};
+
+}  // namespace ossa::recon

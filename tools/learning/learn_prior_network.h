@@ -1,0 +1,29 @@
+#pragma once
+#include <cstdint>
+#include <functional>
+#include <vector>
+
+#include "recon/gp/posture_prior.h"
+
+namespace ossa::tools {
+
+struct PriorNetworkOptions {
+  int hidden = 512;  // rectified units, 1..1024
+  int epochs = 12;   // times that every example is looked at
+  int walks = 24;    // through each clip of weight 1, other joints hidden each time
+  uint64_t seed = 1;
+  int threads = 0;                                 // 0: all; they do not change the network
+  std::function<void(int64_t, int64_t)> progress;  // steps done, steps in all
+  std::function<bool()> stop;                      // true: end with forest::TrainInterrupted
+};
+
+/// Learns what no Gaussian says of how people hold themselves (recon::PriorNetwork): the prior's
+/// filter walks through the clips while limbs, halves of the body or joints at random are hidden,
+/// and the network learns from where it expected the bones to where they were. Every
+/// second walk is of the mirror image. The same bytes for any number of threads. Throws InputError
+/// where the clips hold too few postures.
+recon::PriorNetwork LearnPriorNetwork(const recon::PosturePrior& prior,
+                                      const std::vector<recon::PriorClip>& clips,
+                                      const PriorNetworkOptions& options);
+
+}  // namespace ossa::tools
