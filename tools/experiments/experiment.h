@@ -37,6 +37,8 @@ class Parameters {
   bool Flag(const std::string& key, bool usual);
   std::string Text(const std::string& key, const std::string& usual);
   std::vector<std::string> Texts(const std::string& key, const std::vector<std::string>& usual);
+  /// Some of `known`, all by default. Throws InputError for any other.
+  std::set<std::string> Some(const std::string& key, const std::vector<std::string>& known);
   std::vector<double> Numbers(const std::string& key, const std::vector<double>& usual);
 
   /// What was used, as TOML: written beside the results so that the study can be repeated.

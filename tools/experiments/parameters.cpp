@@ -224,6 +224,19 @@ std::vector<std::string> Parameters::Texts(const std::string& key,
   return texts;
 }
 
+std::set<std::string> Parameters::Some(const std::string& key,
+                                       const std::vector<std::string>& known) {
+  std::set<std::string> some;
+  for (const std::string& text : Texts(key, known)) {
+    if (std::find(known.begin(), known.end(), text) == known.end()) {
+      throw InputError(fmt::format("{}: parameter {}: expected some of {}; found '{}'", source_,
+                                   key, fmt::join(known, ", "), text));
+    }
+    some.insert(text);
+  }
+  return some;
+}
+
 std::vector<double> Parameters::Numbers(const std::string& key, const std::vector<double>& usual) {
   const Value* value = Find(key, true, true);
   const auto numbers = value != nullptr ? value->numbers : usual;

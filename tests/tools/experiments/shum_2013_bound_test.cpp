@@ -70,10 +70,10 @@ TEST(BoundOf, IsLargerWhereThePartsGivenDoNotTell) {
 
 TEST(ErrorByLimbs, TellsTheArmThatIsOff) {
   const auto truth = Performance(recon::StandardStance(), 1.0);
-  const std::string limbs = ErrorByLimbs(truth, Performance(Raised(), 1.0));
-  EXPECT_EQ(limbs.substr(0, 7), "0.00 / ");
-  EXPECT_NE(limbs.substr(7, 4), "0.00");
-  EXPECT_TRUE(limbs.ends_with(" / 0.00"));
+  const Eigen::Vector3d limbs_cm = ErrorByLimbs_cm(truth, Performance(Raised(), 1.0));
+  EXPECT_NEAR(limbs_cm[0], 0.0, 1e-9);
+  EXPECT_GT(limbs_cm[1], 1.0);
+  EXPECT_NEAR(limbs_cm[2], 0.0, 1e-9);
 }
 
 }  // namespace

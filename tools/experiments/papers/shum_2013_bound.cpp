@@ -82,9 +82,9 @@ std::optional<DatabaseBound> BoundOf(const recon::PostureDatabase& database,
   return DatabaseBound{bound.nearest_cm / frames, bound.by_parts_cm / frames};
 }
 
-std::string ErrorByLimbs(const recon::SkeletonSequence& truth,
-                         const recon::SkeletonSequence& made) {
-  std::array<double, 3> sum_cm{}, count{};  // trunk and head, arms, legs
+Eigen::Vector3d ErrorByLimbs_cm(const recon::SkeletonSequence& truth,
+                                const recon::SkeletonSequence& made) {
+  Eigen::Vector3d sum_cm = Eigen::Vector3d::Zero(), count = Eigen::Vector3d::Zero();
   const size_t frames = std::min(truth.frames.size(), made.frames.size());
   for (size_t f = 0; f < frames; ++f) {
     if (!IsWhole(truth.frames[f]) || !IsWhole(made.frames[f])) continue;
@@ -92,15 +92,14 @@ std::string ErrorByLimbs(const recon::SkeletonSequence& truth,
     const auto& b = made.frames[f].bodies[0].joints;
     for (size_t i = 1; i < kJointCount; ++i) {
       const auto parent = static_cast<size_t>(recon::kJointParent[i]);
-      const size_t limb = i < 4 ? 0 : i < 12 ? 1 : 2;
+      const Eigen::Index limb = i < 4 ? 0 : i < 12 ? 1 : 2;
       sum_cm[limb] += 100.0 * ((a[i]->position_m - a[parent]->position_m) -
                                (b[i]->position_m - b[parent]->position_m))
                                   .norm();
       ++count[limb];
     }
   }
-  const auto mean = [&](size_t limb) { return sum_cm[limb] / std::max(1.0, count[limb]); };
-  return fmt::format("{:.2f} / {:.2f} / {:.2f}", mean(0), mean(1), mean(2));
+  return sum_cm.cwiseQuotient(count.cwiseMax(1.0));
 }
 
 }  // namespace ossa::tools

@@ -1,6 +1,6 @@
 #pragma once
+#include <Eigen/Core>
 #include <optional>
-#include <string>
 #include <vector>
 
 #include "recon/skeleton_sequence.h"
@@ -23,8 +23,9 @@ std::optional<DatabaseBound> BoundOf(const recon::PostureDatabase& database,
                                      const recon::SkeletonSequence& truth,
                                      const std::vector<recon::Joint>& parts);
 
-/// Eq. 18 between two performances, frame by frame, of the bones of trunk and head, arms and legs:
-/// "1.23 / 4.56 / 7.89" in centimetres.
-std::string ErrorByLimbs(const recon::SkeletonSequence& truth, const recon::SkeletonSequence& made);
+/// Eq. 18 between two performances, mean over the frames, of the bones of trunk and head, of arms
+/// and of legs, centimetres.
+Eigen::Vector3d ErrorByLimbs_cm(const recon::SkeletonSequence& truth,
+                                const recon::SkeletonSequence& made);
 
 }  // namespace ossa::tools

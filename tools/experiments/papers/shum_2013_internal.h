@@ -6,7 +6,8 @@ namespace ossa::tools {
 
 /// The recordings and methods of `ossa experiment shum-2013`.
 struct Shum2013Study {
-  explicit Shum2013Study(ExperimentContext& context);
+  /// `occluded`: performances behind furniture and with held things are wanted, too.
+  Shum2013Study(ExperimentContext& context, bool occluded);
 
   std::vector<RecordedPair> clean, furniture, held;  // classes (a), (b), (c) of table IV
   MethodRun raw, method_a, method_b, shum, kept, best;

@@ -168,6 +168,35 @@ std::filesystem::path LearnWithout(const ExperimentContext& context,
   return path;
 }
 
+std::optional<double> Average(const std::vector<ClipMetrics>& clips,
+                              std::optional<double> ClipMetrics::*member) {
+  double sum = 0.0, count = 0.0;
+  for (const ClipMetrics& clip : clips) {
+    if (clip.*member) sum += *(clip.*member), count += 1.0;
+  }
+  if (count == 0.0) return std::nullopt;
+  return sum / count;
+}
+
+std::optional<double> Median(const std::vector<ClipMetrics>& clips,
+                             std::optional<double> ClipMetrics::*member) {
+  std::vector<double> values;
+  for (const ClipMetrics& clip : clips) {
+    if (clip.*member) values.push_back(*(clip.*member));
+  }
+  if (values.empty()) return std::nullopt;
+  std::sort(values.begin(), values.end());
+  const size_t half = values.size() / 2;
+  return values.size() % 2 == 1 ? values[half] : 0.5 * (values[half - 1] + values[half]);
+}
+
+std::string MeanAndMedian(const std::vector<ClipMetrics>& clips,
+                          std::optional<double> ClipMetrics::*member) {
+  const std::string mean = Cell(Average(clips, member));
+  if (clips.size() < 3) return mean;
+  return fmt::format("{} ({})", mean, Cell(Median(clips, member)));
+}
+
 std::string Cell(const std::optional<double>& value, int digits, double scale) {
   return value ? fmt::format("{:.{}f}", scale * *value, digits) : "-";
 }

@@ -49,6 +49,15 @@ std::vector<PairedTracks> RunOverClips(const ExperimentContext& context, const M
                                        const std::vector<RecordedPair>& clips);
 std::vector<ClipMetrics> MeasureAll(const std::vector<PairedTracks>& pairs);
 
+/// Mean or median over the clips that have the number.
+std::optional<double> Average(const std::vector<ClipMetrics>& clips,
+                              std::optional<double> ClipMetrics::*member);
+std::optional<double> Median(const std::vector<ClipMetrics>& clips,
+                             std::optional<double> ClipMetrics::*member);
+/// "mean (median)"; the mean alone of fewer than three clips.
+std::string MeanAndMedian(const std::vector<ClipMetrics>& clips,
+                          std::optional<double> ClipMetrics::*member);
+
 /// Milliseconds a frame of the method, median over the frames of the recording. Not cached: a time
 /// is of this machine and now.
 double MedianStep_ms(const MethodRun& run, const recon::SkeletonSequence& observed);

@@ -36,7 +36,7 @@ std::vector<std::string> MethodRow(const std::string& data, const MethodScore& s
           both(&ClipMetrics::parent_relative_error_cm),
           both(&ClipMetrics::offset_removed_error_cm),
           both(&ClipMetrics::acceleration_error_cm_per_frame2),
-          Number(Average(score.clips, &ClipMetrics::p99_cm), 1),
+          Cell(Average(score.clips, &ClipMetrics::p99_cm), 1),
           fmt::format("{:.2f}", score.ms_per_frame)};
 }
 

@@ -64,16 +64,6 @@ recon::SkeletonSequence RunMethod(const recon::SkeletonSequence& observed,
                                   const std::string& method,
                                   const recon::ReconstructorOptions& options);
 
-/// Mean or median over the clips that have the number.
-std::optional<double> Average(const std::vector<ClipMetrics>& clips,
-                              std::optional<double> ClipMetrics::*member);
-std::optional<double> Median(const std::vector<ClipMetrics>& clips,
-                             std::optional<double> ClipMetrics::*member);
-/// "mean (median)"; the mean alone of fewer than three clips.
-std::string MeanAndMedian(const std::vector<ClipMetrics>& clips,
-                          std::optional<double> ClipMetrics::*member);
-std::string Number(const std::optional<double>& value, int digits = 2);
-
 /// Methods that need pairs to learn from.
 bool Learns(const std::string& method);
 

@@ -154,7 +154,7 @@ Table RunNested(ExperimentContext& context, const std::string& data, const std::
       row.push_back(fmt::format("{:g}", with.best.constants.*choice.member));
     }
     for (const auto& score : {nested, fixed}) {
-      row.push_back(Number(Average(score.clips, &ClipMetrics::parent_relative_error_cm)));
+      row.push_back(Cell(Average(score.clips, &ClipMetrics::parent_relative_error_cm)));
     }
     table.rows.push_back(std::move(row));
   }

@@ -38,15 +38,7 @@ std::set<std::string> Parts(Parameters& parameters) {
   std::vector<std::string> known;
   for (const Scene& scene : kScenes) known.emplace_back(scene.file);
   known.insert(known.end(), {"filter", "cost", "dimensions"});
-  std::set<std::string> parts;
-  for (const std::string& part : parameters.Texts("parts", known)) {
-    if (std::find(known.begin(), known.end(), part) == known.end()) {
-      throw InputError(fmt::format("shum-ho-2012: parameter parts: expected some of {}; found '{}'",
-                                   fmt::join(known, ", "), part));
-    }
-    parts.insert(part);
-  }
-  return parts;
+  return parameters.Some("parts", known);
 }
 
 void PlayScene(const Scene& scene, const ExperimentContext& context, const Actors& actors,
