@@ -93,5 +93,41 @@ TEST(AtomicFile, TakesThePlaceOfAFileOnly) {
   EXPECT_FALSE(std::filesystem::exists(folder / "new"));
 }
 
+// Else the disk that a link leads away from would be filled.
+TEST(AtomicFile, ALinkStaysAndWhatItLeadsToIsWritten) {
+  const test::TemporaryFolder folder;
+  std::filesystem::create_directory(folder / "large_disk");
+  std::filesystem::create_symlink("large_disk/out", folder / "link");
+  std::filesystem::create_symlink(folder / "link", folder / "link_to_link");
+  std::filesystem::create_symlink("round", folder / "round");
+  for (const std::string text : {"new", "again"}) {
+    AtomicFile file(folder / "link_to_link");
+    file.stream() << text;
+    file.Commit();
+    EXPECT_TRUE(std::filesystem::is_symlink(folder / "link"));
+    EXPECT_TRUE(std::filesystem::is_symlink(folder / "link_to_link"));
+    std::string found;
+    std::ifstream(folder / "large_disk/out") >> found;
+    EXPECT_EQ(found, text);
+  }
+  EXPECT_THROW(AtomicFile::CheckWritable(folder / "round"), InputError);
+}
+
+TEST(AtomicFile, AFileThatMayNotBeWrittenIsNotReplaced) {
+  if (geteuid() == 0) GTEST_SKIP() << "root may write anything";
+  const test::TemporaryFolder folder;
+  std::ofstream(folder / "kept") << "as it is";
+  std::filesystem::permissions(folder / "kept", std::filesystem::perms::owner_read);
+  EXPECT_THROW(AtomicFile::CheckWritable(folder / "kept"), InputError);
+}
+
+TEST(AtomicFile, AFullDiskIsKnownBeforeTheEnd) {
+  const test::TemporaryFolder folder;
+  AtomicFile file(folder / "out");
+  EXPECT_NO_THROW(file.Check());
+  file.stream().setstate(std::ios::badbit);
+  EXPECT_THROW(file.Check(), InputError);
+}
+
 }  // namespace
 }  // namespace ossa
