@@ -10,6 +10,7 @@
 #include "depth/error.h"
 #include "depth/image/camera_io.h"
 #include "depth/sensor/drivers/camera_property_internal.h"
+#include "depth/sensor/drivers/virtual_uri.h"
 #include "depth/sensor/openni2/openni_depth_internal.h"
 #include "depth/sensor/source_internal.h"
 
@@ -65,12 +66,30 @@ Camera CameraOf(const openni::VideoStream& stream, int width, int height) {
                                stream.getVerticalFieldOfView());
 }
 
+// OpenNI2 crashes on what is not ASCII; our own scheme has %XX for it.
+std::string AsciiUri(const std::string& uri) {
+  std::string ascii;
+  for (const char c : uri) {
+    const auto byte = static_cast<unsigned char>(c);
+    if (byte >= 0x20 && byte < 0x7F) {
+      ascii.push_back(c);
+      continue;
+    }
+    if (!uri.starts_with(kVirtualScheme)) {
+      throw InputError("openni:" + uri + ": expected a URI in ASCII: OpenNI2 takes no other");
+    }
+    constexpr std::string_view kDigits = "0123456789ABCDEF";
+    ascii += {'%', kDigits[byte >> 4U], kDigits[byte & 15U]};
+  }
+  return ascii;
+}
+
 // OpenNI2 itself keeps but the newest frame of a stream, so that a slow reader loses old frames and
 // never falls behind; the frame numbers tell how many.
 class DeviceSource final : public FrameSource {
  public:
   DeviceSource(std::string uri, const SourceOptions& options)
-      : wanted_uri_(std::move(uri)), options_(options) {
+      : wanted_uri_(std::move(uri)), ascii_uri_(AsciiUri(wanted_uri_)), options_(options) {
     const auto deadline = Clock::now() + options.device_wait;
     while (!TryOpen()) {
       const bool go_on = !options.keep_waiting || options.keep_waiting();
@@ -117,7 +136,7 @@ class DeviceSource final : public FrameSource {
   }
 
   bool TryOpen() {
-    const std::string uri = wanted_uri_.empty() ? FirstDevice() : wanted_uri_;
+    const std::string uri = wanted_uri_.empty() ? FirstDevice() : ascii_uri_;
     if (uri.empty()) return false;
     unplugged_.Watch(uri);
     if (device_.open(uri.c_str()) != openni::STATUS_OK ||
@@ -200,6 +219,7 @@ class DeviceSource final : public FrameSource {
   OpenNiSession session_;  // first: ends last
   UnplugFlag unplugged_;
   std::string wanted_uri_;
+  std::string ascii_uri_;
   SourceOptions options_;
   openni::Device device_;
   openni::VideoStream stream_;

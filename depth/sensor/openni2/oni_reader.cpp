@@ -1,13 +1,16 @@
 // ossa_oni_reader FILE.oni: plays a recording through OpenNI2 and writes its frames to standard
 // output. A program of its own so that a file that crashes, hangs or bloats the OpenNI2 library
 // ends this process and not the one that wants the frames.
+#include <fcntl.h>
 #include <sys/resource.h>
 #include <unistd.h>
 
 #include <algorithm>
+#include <cerrno>
 #include <chrono>
 #include <climits>
 #include <cstdlib>
+#include <cstring>
 #include <string>
 #include <thread>
 
@@ -99,10 +102,18 @@ void SendFrames(openni::VideoStream& stream, int frame_count) {
   WriteAll(&static_cast<const OniPipeMessage&>(OniPipeMessage{}), sizeof(OniPipeMessage));
 }
 
+// OpenNI2 crashes on names that are not ASCII (it takes bytes for signed numbers and indexes a
+// table by their sum) and cuts long ones short: it is given one that is neither.
+std::string PlainName(const char* path) {
+  const int file = open(path, O_RDONLY);
+  if (file < 0) throw InputError(std::string("cannot be read: ") + std::strerror(errno));
+  return "/proc/self/fd/" + std::to_string(file);
+}
+
 void Play(const char* path) {
   const OpenNiSession session;
   openni::Device device;
-  if (device.open(path) != openni::STATUS_OK) {
+  if (device.open(PlainName(path).c_str()) != openni::STATUS_OK) {
     throw InputError("OpenNI2 cannot open it: damaged or cut short");
   }
   openni::VideoStream stream;

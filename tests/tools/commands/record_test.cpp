@@ -192,6 +192,28 @@ TEST(RecordCommand, WritesDumpsThatTheKinectDriverPlaysBitForBit) {
   EXPECT_GE(frames, 3);
 }
 
+// OpenNI2 itself crashes on names that are not ASCII and cuts off after 255 characters.
+TEST(RecordCommand, NamesMayHoldAnyBytes) {
+  const TemporaryFolder folder;
+  for (const std::string& name :
+       {std::string("caf\xC3\xA9 \xE6\x97\xA5"), std::string("\xFF\xFE\n"),
+        std::string(120, 'x') + "/" + std::string(150, 'y')}) {
+    const std::filesystem::path images = folder / name;
+    std::filesystem::create_directories(images);
+    WriteExampleFolder(images, 4);
+    const std::string out = images.string() + ".oni";
+    EXPECT_EQ(RunOssa({"record", images.string(), "--out", out}).exit_status, 0);
+    EXPECT_EQ(FramesIn(out), 4);
+    if (name.size() > 100) continue;  // of a URI OpenNI2 keeps no more
+    const CommandResult live =
+        RunOssa({"record", "openni:ossa://" + images.string(), "--out", out, "--patience", "2"});
+    EXPECT_EQ(live.exit_status, 0) << live.err;
+  }
+  const CommandResult other = RunOssa({"record", "openni:caf\xC3\xA9", "--out", "x.oni"});
+  EXPECT_EQ(other.exit_status, 1);
+  EXPECT_NE(other.err.find("expected a URI in ASCII"), std::string::npos) << other.err;
+}
+
 TEST(RecordCommand, HelpIsNoFailure) {
   const CommandResult result = RunOssa({"record", "--help"});
   EXPECT_EQ(result.exit_status, 0);
