@@ -1,14 +1,18 @@
 #include <fmt/format.h>
 
 #include <array>
+#include <cstdio>
 #include <exception>
 #include <filesystem>
+#include <new>
 #include <string>
 #include <string_view>
+#include <system_error>
 
 #include "depth/one_line.h"
 #include "tools/commands/command.h"
 #include "tools/commands/commands.h"
+#include "tools/commands/process.h"
 #include "tools/commands/study.h"
 
 namespace {
@@ -35,42 +39,53 @@ constexpr std::array kCommands = {
     Command{"render", "make labelled depth images of people in motion", ossa::commands::Render},
 };
 
-int Help(std::FILE* out) {
-  fmt::print(out, "ossa: skeletons from depth images\n\nusage: ossa COMMAND ...\n\n");
+std::string HelpText() {
+  std::string text = "ossa: skeletons from depth images\n\nusage: ossa COMMAND ...\n\n";
   for (const Command& command : kCommands) {
-    fmt::print(out, "  {:<12} {}\n", command.name, command.summary);
+    text += fmt::format("  {:<12} {}\n", command.name, command.summary);
   }
-  fmt::print(out, "\n'ossa COMMAND --help' says everything about one.\n");
-  return out == stdout ? 0 : 2;
+  return text + "\n'ossa COMMAND --help' says everything about one.\n";
 }
 
 int Complain(const std::string& reason, int status) {
-  fmt::print(stderr, "ossa: {}\n", ossa::OnOneLine(reason));
+  ossa::commands::Say("ossa: " + ossa::OnOneLine(reason) + "\n");
   return status;
 }
 
-}  // namespace
-
-int main(int argc, char** argv) try {
+int Run(int argc, char** argv) try {
   const std::string_view name = argc > 1 ? argv[1] : "";
-  if (name == "--help" || name == "-h") return Help(stdout);
+  if (name == "--help" || name == "-h") {
+    fmt::print("{}", HelpText());
+    return 0;
+  }
   if (name == "--version") {
     fmt::print("ossa {}\n", OSSA_VERSION);
     return 0;
   }
   for (const Command& command : kCommands) {
-    if (command.name != name) continue;
-    ossa::commands::InstallInterruptHandler();
-    return command.run(argc - 1, argv + 1);
+    if (command.name == name) return command.run(argc - 1, argv + 1);
   }
   if (!name.empty()) Complain(fmt::format("unknown command '{}'", name), 2);
-  return Help(stderr);
+  ossa::commands::Say(HelpText());
+  return 2;
 } catch (const ossa::commands::HelpShown&) {
   return 0;
 } catch (const ossa::commands::UsageError& error) {
   return Complain(error.what(), 2);
 } catch (const std::filesystem::filesystem_error& error) {
   return Complain(error.path1().string() + ": " + error.code().message(), 1);
+} catch (const std::bad_alloc&) {
+  return Complain("out of memory", 1);
+} catch (const std::system_error& error) {
+  if (std::ferror(stdout) == 0) return Complain(error.what(), 1);
+  return ossa::commands::EndOutput(0, error.code().value());
 } catch (const std::exception& error) {
   return Complain(error.what(), 1);
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  ossa::commands::PrepareProcess();
+  return ossa::commands::EndOutput(Run(argc, argv));
 }

@@ -7,17 +7,13 @@
 #include <charconv>
 #include <chrono>
 #include <cmath>
-#include <csignal>
-#include <cstdio>
 #include <cstdlib>
 #include <string>
 
+#include "tools/commands/process.h"
+
 namespace ossa::commands {
 namespace {
-
-volatile std::sig_atomic_t interrupted = 0;
-
-void NoteInterrupt(int) { interrupted = 1; }
 
 double Now_s() {
   return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
@@ -70,18 +66,11 @@ void Parse(CLI::App& app, int argc, char** argv) {
   }
 }
 
-bool Interrupted() { return interrupted != 0; }
-
-void InstallInterruptHandler() {
-  std::signal(SIGINT, NoteInterrupt);
-  std::signal(SIGTERM, NoteInterrupt);
-}
-
 Progress::Progress(std::string label, bool quiet)
     : label_(std::move(label)), quiet_(quiet), terminal_(isatty(STDERR_FILENO) != 0) {}
 
 Progress::~Progress() {
-  if (open_line_) fmt::print(stderr, "\n");
+  if (open_line_) Say("\n");
 }
 
 void Progress::Update(double done, double total, const std::string& note) {
@@ -94,12 +83,11 @@ void Progress::Update(double done, double total, const std::string& note) {
   if (terminal_) {
     constexpr int kWidth = 30;
     const int filled = static_cast<int>(share * kWidth);
-    fmt::print(stderr, "\r{} [{:#<{}}{:.<{}}] {:3.0f} % {}\033[K", label_, "", filled, "",
-               kWidth - filled, 100 * share, note);
-    std::fflush(stderr);
+    Say(fmt::format("\r{} [{:#<{}}{:.<{}}] {:3.0f} % {}\033[K", label_, "", filled, "",
+                    kWidth - filled, 100 * share, note));
     open_line_ = true;
   } else {
-    fmt::print(stderr, "{}: {:.0f} of {:.0f} {}\n", label_, done, total, note);
+    Say(fmt::format("{}: {:.0f} of {:.0f} {}\n", label_, done, total, note));
   }
 }
 

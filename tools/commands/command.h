@@ -33,7 +33,6 @@ void Parse(CLI::App& app, int argc, char** argv);
 
 /// True once Ctrl-C or SIGTERM came. Long loops ask it, stop, and leave no half-written file.
 bool Interrupted();
-void InstallInterruptHandler();
 
 /// Progress on stderr: one line rewritten in place on a terminal, a plain line about every five
 /// seconds otherwise, nothing when quiet.

@@ -18,6 +18,7 @@
 #include "tools/commands/command.h"
 #include "tools/commands/commands.h"
 #include "tools/commands/mechanics_options.h"
+#include "tools/commands/process.h"
 #include "tools/tracker/mechanics.h"
 #include "tools/tracker/shipped.h"
 
@@ -59,9 +60,8 @@ std::string LearnedFor(const ReconstructArguments& a,
   });
   if (!a.learned.empty() || a.options.method != "best" || !kinect) return a.learned;
   if (!a.quiet) {
-    fmt::print(stderr,
-               "reconstruct: a Kinect v2's skeletons: its known errors are taken off "
-               "(kinect_v2.ossagp; --learned none leaves them)\n");
+    Say("reconstruct: a Kinect v2's skeletons: its known errors are taken off "
+        "(kinect_v2.ossagp; --learned none leaves them)\n");
   }
   return tracker::ShippedFile("kinect_v2.ossagp").string();
 }

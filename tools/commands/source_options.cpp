@@ -8,6 +8,7 @@
 #include "depth/error.h"
 #include "depth/image/camera_io.h"
 #include "tools/commands/command.h"
+#include "tools/commands/process.h"
 
 namespace ossa::commands {
 namespace {
@@ -16,7 +17,7 @@ constexpr double kLongest_s = 1e6;  // eleven days
 
 std::function<bool()> KeepWaitingFor(const std::string& source, bool quiet) {
   return [source, said = quiet]() mutable {
-    if (!said) fmt::print(stderr, "waiting for {} (Ctrl-C ends it)\n", source);
+    if (!said) Say(fmt::format("waiting for {} (Ctrl-C ends it)\n", source));
     said = true;
     return !Interrupted();
   };

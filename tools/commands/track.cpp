@@ -18,6 +18,7 @@
 #include "tools/commands/command.h"
 #include "tools/commands/commands.h"
 #include "tools/commands/mechanics_options.h"
+#include "tools/commands/process.h"
 #include "tools/commands/source_options.h"
 #include "tools/tracker/picture.h"
 #include "tools/tracker/run_stats.h"
@@ -120,6 +121,7 @@ class SkeletonOutput {
     recon::SkeletonFrame record = tracker::RecordOf(bodies, kind_);
     if (writer_) {
       writer_->Write(record);
+      file_->Check();
     } else {
       sequence_.frames.push_back(std::move(record));
     }
@@ -231,8 +233,8 @@ void Report(const TrackOptions& options, const Run& run) {
   }
   if (run.ending != Ending::kComplete) {
     const char* what = run.ending == Ending::kUnplugged ? "unplugged" : "delivers no frames";
-    fmt::print(stderr, "ossa track: {}: the device {} for {:g} s: ending after {} frames\n",
-               options.source.name, what, options.source.patience_s, run.stats.frames());
+    Say(fmt::format("ossa track: {}: the device {} for {:g} s: ending after {} frames\n",
+                    options.source.name, what, options.source.patience_s, run.stats.frames()));
   }
   if (!options.quiet) {
     fmt::print("{} frames, {} dropped, {} reconnections\n", run.stats.frames(), run.dropped,
@@ -252,7 +254,7 @@ int Track(int argc, char** argv) {
   std::unique_ptr<viewer::Viewer> viewer;
   if (options.view) {
     viewer = std::make_unique<viewer::Viewer>(options.port);
-    fmt::print(stderr, "watch at http://127.0.0.1:{}/\n", viewer->port());
+    Say(fmt::format("watch at http://127.0.0.1:{}/\n", viewer->port()));
   }
   const Run run = TrackAll(*source, tracker, options, output, pictures, viewer.get());
   if (run.stats.frames() == 0) throw InputError(options.source.name + ": no frame came");

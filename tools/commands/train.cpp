@@ -15,6 +15,7 @@
 #include "tools/commands/checks.h"
 #include "tools/commands/command.h"
 #include "tools/commands/commands.h"
+#include "tools/commands/process.h"
 #include "tools/learning/common_parts.h"
 #include "tools/learning/person_source.h"
 
@@ -185,8 +186,8 @@ nlohmann::ordered_json Card(const TrainArguments& a, const tools::PersonSource& 
 void SayRate(const forest::TrainSummary& summary) {
   if (summary.split_seconds <= 0) return;
   const auto evaluations = static_cast<double>(summary.evaluations);
-  fmt::print(stderr, "train: {} images, {:.3g} evaluations, {:.0f} M a second\n", summary.images,
-             evaluations, 1e-6 * evaluations / summary.split_seconds);
+  Say(fmt::format("train: {} images, {:.3g} evaluations, {:.0f} M a second\n", summary.images,
+                  evaluations, 1e-6 * evaluations / summary.split_seconds));
 }
 
 // With validation frames the trees also get proposals, to be evaluated like a model of ours.
@@ -262,7 +263,7 @@ int LearnAgain(const TrainArguments& a) {
     card.erase("accuracy");  // of the proposals as they were
     card.erase("refinement_data");
     NoteRefinement(a, &card);
-    data.manifest = card.dump(2);
+    data.manifest = card.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace);
   }
   forest::WriteForestModel(a.out, forest::ForestModel(std::move(data)));
   return 0;
@@ -286,7 +287,8 @@ int TrainOnData(TrainArguments* a, const forest::Reducer& reducer) {
     model = forest::FitInto(model, static_cast<uint64_t>(a->max_megabytes * 1e6));
   }
   forest::ForestData data = LearnJoints(*a, model, source, sources.held_out).data();
-  data.manifest = Card(*a, source, summary).dump(2);
+  data.manifest = Card(*a, source, summary)
+                      .dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace);
   forest::WriteForestModel(a->out, forest::ForestModel(std::move(data)));
   fs::remove(o.checkpoint);
   return 0;

@@ -12,6 +12,7 @@
 #include "recon/motion/skeletons/skeleton_io.h"
 #include "tools/commands/command.h"
 #include "tools/commands/commands.h"
+#include "tools/commands/process.h"
 #include "tools/commands/source_options.h"
 #include "tools/tracker/skeleton_record.h"
 #include "tools/tracker/tracker.h"
@@ -47,7 +48,7 @@ class Clockwork {
 };
 
 void SayWhere(const viewer::Viewer& viewer) {
-  fmt::print(stderr, "watch at http://127.0.0.1:{}/ (Ctrl-C ends)\n", viewer.port());
+  Say(fmt::format("watch at http://127.0.0.1:{}/ (Ctrl-C ends)\n", viewer.port()));
 }
 
 void ShowSkeletons(const ViewOptions& options) {

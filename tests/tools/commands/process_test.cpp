@@ -1,0 +1,116 @@
+// What a shell, a full disk and an impatient user do to every command.
+#include <gtest/gtest.h>
+#include <signal.h>
+
+#include <fstream>
+
+#include "tests/support/depth_examples.h"
+#include "tests/support/run_command.h"
+#include "tests/support/temporary_folder.h"
+
+namespace ossa::commands {
+namespace {
+
+using test::CommandResult;
+using test::TemporaryFolder;
+
+// `$1` in `script` stands for the command, `$2` for the folder.
+CommandResult Shell(const std::string& script, const TemporaryFolder& folder) {
+  return test::RunProgram(
+      {"/bin/bash", "-c", script, "shell", test::OssaPath(), folder.path().string()});
+}
+
+std::string Bytes(const std::filesystem::path& path) {
+  std::ifstream file(path, std::ios::binary);
+  return {std::istreambuf_iterator<char>(file), {}};
+}
+
+TEST(Streams, WhatIsPrintedNeverEndsInAFileThatWasOpenedLater) {
+  const TemporaryFolder folder;
+  test::WriteExampleFolder(folder.path(), 5);
+  const std::string track = R"("$1" track "$2" --method none --out "$2/)";
+  ASSERT_EQ(Shell(track + "a.jsonl\"", folder).exit_status, 0);
+  EXPECT_EQ(Shell(track + "b.jsonl\" 2>&-", folder).exit_status, 0);
+  EXPECT_EQ(Shell(track + "c.jsonl\" <&- 2>&- >&-", folder).exit_status, 1)
+      << "the summary could not be printed";
+  EXPECT_EQ(Bytes(folder / "a.jsonl"), Bytes(folder / "b.jsonl"));
+  EXPECT_EQ(Bytes(folder / "a.jsonl"), Bytes(folder / "c.jsonl"));
+}
+
+TEST(Streams, WhatCannotBePrintedIsAFailure) {
+  const TemporaryFolder folder;
+  for (const char* words : {"--help", "--version", "track --help"}) {
+    const CommandResult result = Shell(std::string("\"$1\" ") + words + " > /dev/full", folder);
+    EXPECT_EQ(result.exit_status, 1) << words;
+    EXPECT_EQ(result.err, "ossa: standard output: cannot be written: No space left on device\n");
+  }
+}
+
+TEST(Streams, AReaderThatHasEnoughEndsItQuietly) {
+  const TemporaryFolder folder;
+  const CommandResult result =
+      Shell("(\"$1\" experiment --help; echo $? >&2) | sleep 0; true", folder);
+  // The reader may be gone after the text has fitted into the pipe.
+  EXPECT_TRUE(result.err == "141\n" || result.err == "0\n") << result.err;
+}
+
+TEST(Streams, AnErrorStreamThatIsFullEndsNoWork) {
+  const TemporaryFolder folder;
+  test::WriteExampleFolder(folder.path(), 3);
+  EXPECT_EQ(Shell(R"("$1" record "$2" --out "$2/x.oni" 2> /dev/full)", folder).exit_status, 0);
+  EXPECT_TRUE(std::filesystem::exists(folder / "x.oni"));
+}
+
+TEST(Files, ThatMayGrowNoMoreAreOneLineAndNothingIsLeft) {
+  const TemporaryFolder folder;
+  test::WriteExampleFolder(folder.path(), 40);
+  const CommandResult result =
+      Shell(R"(ulimit -f 1; exec "$1" record "$2" --out "$2/x.oni" --quiet)", folder);
+  EXPECT_EQ(result.exit_status, 1);
+  EXPECT_EQ(result.err,
+            "ossa: " + (folder / "x.oni").string() + ": writing failed: is the disk full?\n");
+  for (const auto& entry : std::filesystem::directory_iterator(folder.path())) {
+    EXPECT_EQ(entry.path().extension(), ".png") << entry.path();
+  }
+}
+
+TEST(Memory, ThatIsUsedUpIsOneLine) {
+#if defined(__SANITIZE_ADDRESS__)
+  GTEST_SKIP() << "its shadow alone takes more";
+#endif
+  const TemporaryFolder folder;
+  const CommandResult result =
+      Shell(R"(ulimit -v 400000; exec "$1" database --mocap authored --out "$2/x.ossadb" --quiet)",
+            folder);
+  EXPECT_EQ(result.exit_status, 1);
+  EXPECT_EQ(result.err, "ossa: out of memory\n");
+  EXPECT_FALSE(std::filesystem::exists(folder / "x.ossadb"));
+}
+
+// The first is noted, and as good as lost on who does not ask; one right behind it, as timeout(1)
+// sends, is the same; the next ends it.
+TEST(Interrupt, ASecondOneEndsWhatDoesNotListen) {
+  const TemporaryFolder folder;
+  const CommandResult deaf = Shell(
+      R"("$1" database --mocap authored --mocap authored --mocap authored --out "$2/x" --quiet &
+         sleep 0.3; kill -INT $!; kill -INT $!; sleep 0.8; kill -INT $!; wait $!; echo $?)",
+      folder);
+  // Where the machine is quick the first has been listened to meanwhile.
+  EXPECT_TRUE(deaf.out == "130\n" || deaf.out == "1\n") << deaf.out << deaf.err;
+  EXPECT_FALSE(std::filesystem::exists(folder / "x"));
+}
+
+TEST(Interrupt, ATerminalThatGoesAwayEndsARecordingWithAWholeFile) {
+  const TemporaryFolder folder;
+  test::WriteExampleFolder(folder.path(), 10);
+  const std::string out = (folder / "x.oni").string();
+  auto running = test::StartOssa({"record", "openni:ossa://" + folder.path().string() + "?loop=1",
+                                  "--out", out, "--seconds", "1000"});
+  ASSERT_TRUE(running.WaitForError("recording", test::kCommandTimeout));
+  running.Signal(SIGHUP);
+  EXPECT_EQ(running.Wait(test::kCommandTimeout).exit_status, 0);
+  EXPECT_TRUE(std::filesystem::exists(out));
+}
+
+}  // namespace
+}  // namespace ossa::commands

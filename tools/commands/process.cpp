@@ -1,0 +1,83 @@
+#include "tools/commands/process.h"
+
+#include <fcntl.h>
+#include <unistd.h>
+
+#include <cerrno>
+#include <csignal>
+#include <cstdint>
+#include <cstdio>
+#include <cstring>
+#include <ctime>
+#include <string>
+
+#include "tools/commands/command.h"
+
+namespace ossa::commands {
+namespace {
+
+// Of the first interruption, on the steady clock; 0: none yet.
+volatile std::sig_atomic_t interrupted = 0;
+volatile int64_t interrupted_at_ms = 0;
+
+int64_t Now_ms() {
+  timespec now{};
+  clock_gettime(CLOCK_MONOTONIC, &now);  // allowed in a signal handler
+  return int64_t{1000} * now.tv_sec + now.tv_nsec / 1'000'000;
+}
+
+// timeout(1), mpirun and scripts may send the same signal to the process and to its group: two at
+// once are one.
+void NoteInterrupt(int signal) {
+  constexpr int64_t kImpatient_ms = 500;
+  const int64_t now_ms = Now_ms();
+  if (interrupted == 0) {
+    interrupted_at_ms = now_ms;
+    interrupted = 1;
+  } else if (now_ms - interrupted_at_ms >= kImpatient_ms) {
+    std::signal(signal, SIG_DFL);
+    std::raise(signal);
+  }
+}
+
+// Not SIG_IGN, which the programs that we start would inherit.
+void FailTheWrite(int) {}
+
+}  // namespace
+
+bool Interrupted() { return interrupted != 0; }
+
+void PrepareProcess() {
+  for (const int stream : {STDIN_FILENO, STDOUT_FILENO, STDERR_FILENO}) {
+    if (fcntl(stream, F_GETFD) != -1 || errno != EBADF) continue;
+    // The lowest number that is free is this one; what is open for reading cannot be printed to.
+    if (open("/dev/null", O_RDONLY) != stream) break;
+  }
+  std::signal(SIGINT, NoteInterrupt);
+  std::signal(SIGTERM, NoteInterrupt);
+  if (std::signal(SIGHUP, NoteInterrupt) == SIG_IGN) std::signal(SIGHUP, SIG_IGN);
+  std::signal(SIGPIPE, FailTheWrite);
+  std::signal(SIGXFSZ, FailTheWrite);
+}
+
+void Say(const std::string& text) {
+  std::fwrite(text.data(), 1, text.size(), stderr);
+  std::fflush(stderr);
+}
+
+int EndOutput(int status, int error_number) {
+  errno = error_number;
+  const bool failed_before = std::ferror(stdout) != 0;
+  if (std::fflush(stdout) == 0 && !failed_before) return status;
+  if (errno == EPIPE) {
+    std::signal(SIGPIPE, SIG_DFL);
+    std::raise(SIGPIPE);
+  }
+  if (status == 0) {
+    Say(std::string("ossa: standard output: cannot be written") +
+        (errno != 0 ? std::string(": ") + std::strerror(errno) : "") + "\n");
+  }
+  return status == 0 ? 1 : status;
+}
+
+}  // namespace ossa::commands
