@@ -37,7 +37,7 @@ void NoteInCard(const std::string& path, const forest::ForestModel& model, const
   }
   card["accuracy"][name] = numbers;
   forest::ForestData data = model.data();
-  data.manifest = card.dump(2);
+  data.manifest = card.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace);
   forest::WriteForestModel(path, forest::ForestModel(std::move(data)));
 }
 

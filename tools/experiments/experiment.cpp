@@ -142,7 +142,8 @@ std::vector<Table> RunExperiment(const std::string& name, ExperimentContext& con
                                  {"note", table.note}});
   }
   WriteAll(context.out / "TABLE.md", markdown);
-  WriteAll(context.out / "summary.json", summary.dump(2) + "\n");
+  WriteAll(context.out / "summary.json",
+           summary.dump(2, ' ', false, nlohmann::json::error_handler_t::replace) + "\n");
   WriteAll(context.out / "parameters.toml", fmt::format("# ossa experiment {} --seed {}\n{}", name,
                                                         context.seed, context.parameters.Used()));
   return tables;

@@ -89,7 +89,7 @@ std::string ManifestToJson(const DatasetManifest& manifest) {
   json["png"] = manifest.png;
   json["packed"] = manifest.packed;
   json["frames_per_shard"] = manifest.frames_per_shard;
-  return json.dump(2) + "\n";
+  return json.dump(2, ' ', false, nlohmann::json::error_handler_t::replace) + "\n";
 }
 
 DatasetManifest ReadManifest(const std::filesystem::path& folder) {

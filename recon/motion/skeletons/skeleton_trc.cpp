@@ -3,6 +3,7 @@
 
 #include <algorithm>
 
+#include "depth/one_line.h"
 #include "recon/motion/skeletons/joint_names_internal.h"
 #include "recon/motion/skeletons/skeleton_formats_internal.h"
 
@@ -22,7 +23,7 @@ double DataRate_Hz(const SkeletonSequence& sequence) {
 void WriteHeader(std::ostream& stream, const SkeletonSequence& sequence,
                  const std::string& file_name) {
   const double rate_Hz = DataRate_Hz(sequence);
-  stream << "PathFileType\t4\t(X/Y/Z)\t" << file_name << '\n'
+  stream << "PathFileType\t4\t(X/Y/Z)\t" << OnOneLine(file_name) << '\n'
          << "DataRate\tCameraRate\tNumFrames\tNumMarkers\tUnits\tOrigDataRate\t"
             "OrigDataStartFrame\tOrigNumFrames\n"
          << fmt::format("{0:.3f}\t{0:.3f}\t{1}\t{2}\tmm\t{0:.3f}\t1\t{1}\n", rate_Hz,
