@@ -89,6 +89,7 @@ SkeletonSequence ReadSkeletonCsv(SkeletonInput& input) {
   lines.Expect("a header line");
   if (Trimmed(lines.line()) != Header()) lines.Fail("ossa's own header", lines.line());
   SkeletonSequence sequence{input.name, {}};
+  RowTimes times;
   while (lines.NextFilled()) {
     // A row that ends in an empty field has its last comma at the end: Split opens no piece there.
     auto fields = Split(lines.line(), ',');
@@ -98,6 +99,7 @@ SkeletonSequence ReadSkeletonCsv(SkeletonInput& input) {
     }
     const long number = WholeNumberIn(lines, fields[0], "frame", 0, INT32_MAX);
     const double time_s = NumberIn(lines, fields[1], "time_s");
+    times.Take(lines, time_s);
     if (sequence.frames.empty() || sequence.frames.back().frame != number) {
       sequence.frames.push_back({number, time_s, std::nullopt, {}});
     }

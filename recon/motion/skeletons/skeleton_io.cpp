@@ -1,5 +1,7 @@
 #include "recon/motion/skeletons/skeleton_io.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <array>
 #include <fstream>
@@ -96,11 +98,33 @@ void CheckPlaces(const SkeletonSequence& sequence, const std::string& name) {
   }
 }
 
+/// Formats of rows have said which line; whatever it is, times that stand still all the time, or
+/// every second frame and more, are none: speeds, filters and what is aligned by time would be made
+/// of nothing.
+void CheckTimes(const SkeletonSequence& sequence, const std::string& name) {
+  const auto& frames = sequence.frames;
+  size_t still = 0;
+  for (size_t f = 1; f < frames.size(); ++f) {
+    const double step_s = frames[f].time_s - frames[f - 1].time_s;
+    still += step_s == 0.0 ? 1 : 0;
+    const std::string wrong = WrongStep(step_s);
+    if (wrong.empty()) continue;
+    throw InputError(fmt::format("{}: frame {}: expected {}, found {} after {}", name,
+                                 frames[f].frame, wrong, frames[f].time_s, frames[f - 1].time_s));
+  }
+  if (frames.size() < 3 || 2 * still <= frames.size()) return;
+  throw InputError(
+      fmt::format("{}: expected times that grow from frame to frame, found {} of {} "
+                  "frames at the time of the one before",
+                  name, still, frames.size()));
+}
+
 SkeletonSequence Read(SkeletonInput input, const SkeletonReadOptions& options) {
   const SkeletonFormat& format =
       options.format.empty() ? FormatOf(input.stream, input.name) : FormatNamed(options.format);
   SkeletonSequence sequence = format.read(input);
   CheckPlaces(sequence, input.name);
+  CheckTimes(sequence, input.name);
   if (IsKinectV2(format.name, input.columns)) sequence.sensor = kKinectV2;
   return sequence;
 }

@@ -194,10 +194,11 @@ class SkeletonJsonlReader::Lines {
     return value;
   }
 
-  SkeletonFrame FrameOf(const Json& json) const {
+  SkeletonFrame FrameOf(const Json& json) {
     SkeletonFrame frame;
     frame.frame = Integer(Need(json, "frame", "the frame"), "\"frame\"");
     frame.time_s = Number(Need(json, "time_s", "the frame"), "\"time_s\"");
+    times_.Take(lines_, frame.time_s);
     if (const auto floor = json.find("floor"); floor != json.end() && !floor->is_null()) {
       const auto plane = Numbers<4>(*floor, "\"floor\"");
       frame.floor = Eigen::Vector4d(plane.data());
@@ -271,6 +272,7 @@ class SkeletonJsonlReader::Lines {
 
   static constexpr auto kReplace = Json::error_handler_t::replace;
   TextLines lines_;
+  RowTimes times_;
 };
 
 SkeletonJsonlReader::SkeletonJsonlReader(std::istream& stream, std::string source)

@@ -51,6 +51,7 @@ SkeletonSequence ReadLabanotation(SkeletonInput& input) {
   constexpr double kSecondsPerTick = 1e-7;
   TextLines lines(input.stream, input.name);
   SkeletonSequence sequence{input.name, {}};
+  RowTimes times;
   std::optional<double> first;
   while (lines.NextFilled()) {
     const auto numbers = NumbersIn(lines, Split(lines.line(), ','), kLabanColumns,
@@ -64,9 +65,7 @@ SkeletonSequence ReadLabanotation(SkeletonInput& input) {
       if (joint) PutJoint(body, *joint, Eigen::Vector3d(values), state);
     }
     const double time_s = (numbers[0] - *first) * kSecondsPerTick;
-    if (!sequence.frames.empty() && time_s < sequence.frames.back().time_s) {
-      lines.Fail("ticks that grow", lines.line());
-    }
+    times.Take(lines, time_s);
     sequence.frames.push_back(OneBodyFrame(sequence.frames.size(), time_s, std::move(body)));
   }
   RequireFrames(sequence);

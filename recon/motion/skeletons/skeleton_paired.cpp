@@ -75,6 +75,7 @@ SkeletonSequence ReadPaired(SkeletonInput& input, const PairedFormat& format) {
   const auto header = Split(header_line, ',');
   const auto columns = ColumnsOf(lines, header, prefix);
   SkeletonSequence sequence{input.name, {}};
+  RowTimes times;
   while (lines.NextFilled()) {
     auto fields = Split(lines.line(), ',');
     if (lines.line().ends_with(',')) fields.emplace_back();
@@ -94,6 +95,7 @@ SkeletonSequence ReadPaired(SkeletonInput& input, const PairedFormat& format) {
     const double first = NumberIn(lines, fields[0], header[0]);
     const double time_s =
         format.time_column.empty() ? first * input.FrameTime_s(format.usual_step_s) : first;
+    times.Take(lines, time_s);
     sequence.frames.push_back(OneBodyFrame(sequence.frames.size(), time_s, std::move(body)));
   }
   RequireFrames(sequence);

@@ -128,6 +128,7 @@ SkeletonSequence ReadTrc(SkeletonInput& input) {
   TrcHeader header = ReadHeader(lines);
   ReadMarkerNames(lines, header);
   SkeletonSequence sequence{input.name, {}};
+  RowTimes times;
   while (lines.NextFilled()) {
     const auto fields = Split(lines.line(), '\t');
     if (fields.size() < 2 || fields.size() > 2 + 3 * header.markers) {
@@ -135,6 +136,7 @@ SkeletonSequence ReadTrc(SkeletonInput& input) {
                  fmt::format("{} columns", fields.size()));
     }
     const double time_s = NumberIn(lines, fields[1], "Time");
+    times.Take(lines, time_s);
     sequence.frames.push_back(
         OneBodyFrame(sequence.frames.size(), time_s, BodyIn(lines, fields, header)));
   }

@@ -1,3 +1,5 @@
+#include <fmt/format.h>
+
 #include <charconv>
 #include <cmath>
 
@@ -99,6 +101,19 @@ long WholeNumberIn(const TextLines& lines, std::string_view field, std::string_v
                field);
   }
   return value;
+}
+
+std::string WrongStep(double step_s) {
+  constexpr double kLongestPause_s = 86400;
+  if (step_s < 0) return "times that grow";
+  if (step_s > kLongestPause_s) return "seconds, and at most a day after the frame before";
+  return {};
+}
+
+void RowTimes::Take(const TextLines& lines, double time_s) {
+  const std::string wrong = last_s_ ? WrongStep(time_s - *last_s_) : "";
+  if (!wrong.empty()) lines.Fail(wrong, fmt::format("{} after {}", time_s, *last_s_));
+  last_s_ = time_s;
 }
 
 std::vector<double> NumbersIn(const TextLines& lines, std::span<const std::string_view> fields,

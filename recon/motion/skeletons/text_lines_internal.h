@@ -1,6 +1,7 @@
 #pragma once
 #include <cstddef>
 #include <istream>
+#include <optional>
 #include <span>
 #include <string>
 #include <string_view>
@@ -57,6 +58,19 @@ double NumberIn(const TextLines& lines, std::string_view field, std::string_view
 /// A whole number in [low, high].
 long WholeNumberIn(const TextLines& lines, std::string_view field, std::string_view what, long low,
                    long high);
+/// What is wrong with a frame that comes this much after the one before it, seconds; "" when
+/// nothing is: times may stand still for a frame (loggers ask faster than sensors answer), but not
+/// run backwards, nor leap by more than a day (a clock that was set, or another unit).
+std::string WrongStep(double step_s);
+/// Asks that of each row's time in turn, and throws with file and line.
+class RowTimes {
+ public:
+  void Take(const TextLines& lines, double time_s);
+
+ private:
+  std::optional<double> last_s_;
+};
+
 /// All fields of a line as finite numbers, exactly `count` of them.
 std::vector<double> NumbersIn(const TextLines& lines, std::span<const std::string_view> fields,
                               size_t count, std::string_view what);

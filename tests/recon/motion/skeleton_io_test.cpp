@@ -196,5 +196,51 @@ TEST(SkeletonFiles, WithAPlaceNobodyCanBeAtAreRefusedByFrameAndJoint) {
             "file: frame 0: Head: expected a place within 1000 km, found 1e+300 m");
 }
 
+// `text` of frames 0 to 3 with these times, in the format of its name.
+std::string ExampleTextAt(const char* extension, const std::vector<double>& times_s) {
+  const test::TemporaryFolder folder;
+  const auto path = folder / (std::string("walk") + extension);
+  SkeletonSequence sequence = ExampleSequence(static_cast<int>(times_s.size()));
+  for (size_t f = 0; f < times_s.size(); ++f) sequence.frames[f].time_s = times_s[f];
+  WriteSkeletons(path, sequence);
+  std::ifstream file(path);
+  return {std::istreambuf_iterator<char>(file), {}};
+}
+
+TEST(SkeletonTimes, ThatRunBackwardsOrLeapAreRefusedByLine) {
+  struct Format {
+    const char* extension;
+    const char* line;
+  };
+  for (const auto& [extension, line] :
+       {Format{".jsonl", "line 3"}, {".trc", "line 9"}, {".csv", "line 4"}}) {
+    const std::string backwards = ComplaintAbout(ExampleTextAt(extension, {0, 0.2, 0.1, 0.3}));
+    EXPECT_NE(backwards.find(line), std::string::npos) << backwards;
+    EXPECT_NE(backwards.find("expected times that grow, found '0.1 after 0.2'"), std::string::npos)
+        << backwards;
+    const std::string leaping = ComplaintAbout(ExampleTextAt(extension, {0, 0.1, 1e9, 1e9 + 1}));
+    EXPECT_NE(leaping.find("at most a day after the frame before"), std::string::npos) << leaping;
+  }
+}
+
+// Speeds and what is aligned by time would be made of nothing.
+TEST(SkeletonTimes, ThatStandStillAreRefused) {
+  for (const char* extension : {".jsonl", ".trc", ".csv"}) {
+    EXPECT_EQ(ComplaintAbout(ExampleTextAt(extension, {1, 1, 1, 1})),
+              "file: expected times that grow from frame to frame, found 3 of 4 frames at the time "
+              "of the one before");
+  }
+}
+
+// Loggers ask twice as often as a sensor answers; clocks begin anywhere; people make pauses.
+TEST(SkeletonTimes, MayRepeatOnceBeginAnywhereAndPause) {
+  for (const std::vector<double>& times_s : {std::vector<double>{0, 0, 0.1, 0.1},
+                                             {-5, -4, 0, 1},
+                                             {1.7e9, 1.7e9 + 0.1, 1.7e9 + 3600},
+                                             {7}}) {
+    EXPECT_EQ(ComplaintAbout(ExampleTextAt(".jsonl", times_s)), "") << times_s[0];
+  }
+}
+
 }  // namespace
 }  // namespace ossa::recon
