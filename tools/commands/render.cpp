@@ -1,11 +1,13 @@
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
+#include <optional>
 #include <string>
 #include <thread>
 #include <vector>
 
 #include "depth/error.h"
+#include "depth/file/folder_lock.h"
 #include "recon/motion/mocap.h"
 #include "tools/commands/command.h"
 #include "tools/commands/commands.h"
@@ -156,6 +158,9 @@ int Render(int argc, char** argv) {
   job.sources = a.mocap;
   job.terms = TermsOf(a);
   job.interrupted = Interrupted;
+  // Ranks work together; who holds the folder for them is the first.
+  std::optional<FolderLock> lock;
+  if (job.rank == 0) lock.emplace(job.out);
   Progress progress("render", a.quiet || ranks.rank() != 0);
   const auto share = static_cast<double>(a.frames) / ranks.size();
   job.progress = [&](int64_t done) { progress.Update(static_cast<double>(done), share); };

@@ -9,6 +9,7 @@
 
 #include "depth/error.h"
 #include "depth/file/atomic_file.h"
+#include "depth/file/folder_lock.h"
 #include "forest/forest.h"
 #include "forest/train.h"
 #include "recon/body/body_model.h"
@@ -97,6 +98,7 @@ fs::path Laboratory::DataOf(Split split, int64_t frames) {
     context_.progress(static_cast<double>(done), static_cast<double>(frames),
                       test ? "rendering test images" : "rendering training images");
   };
+  const FolderLock lock(job.out);
   if (RenderShare(studio, job) != RenderEnd::kDone) throw Interruption{};
   FinishDataset(studio, job);
   return job.out;
