@@ -6,6 +6,7 @@
 #include <stdexcept>
 
 #include "depth/error.h"
+#include "depth/file/open_file.h"
 #include "depth/file/sealed_file.h"
 #include "forest/compact.h"
 #include "forest/forest.h"

@@ -8,6 +8,7 @@
 #include <sstream>
 
 #include "depth/error.h"
+#include "depth/file/open_file.h"
 
 namespace ossa::forest {
 namespace {
@@ -34,7 +35,7 @@ struct PclTree {
 
 class Lines {
  public:
-  explicit Lines(const std::filesystem::path& path) : path_(path), file_(path) {
+  explicit Lines(const std::filesystem::path& path) : path_(path), file_(OpenFile(path)) {
     if (!file_) throw InputError(path.string() + ": cannot be read: expected a PCL people tree");
   }
   // The next line as whole numbers.

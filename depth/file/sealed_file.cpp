@@ -2,10 +2,9 @@
 
 #include <xxhash.h>
 
-#include <fstream>
-
 #include "depth/error.h"
 #include "depth/file/atomic_file.h"
+#include "depth/file/open_file.h"
 
 namespace ossa {
 namespace {
@@ -69,7 +68,7 @@ std::vector<std::byte> OpenSealedBytes(std::span<const std::byte> bytes, const s
 }
 
 bool IsSealedFile(const std::filesystem::path& path, const SealedFormat& format) {
-  std::ifstream file(path, std::ios::binary);
+  std::ifstream file = OpenFile(path);
   std::array<char, 8> magic{};
   file.read(magic.data(), magic.size());
   return file && magic == format.magic;
@@ -88,15 +87,15 @@ SealedFormat FormatOf(std::span<const std::byte> bytes, const SealedFormat& newe
 SealedFormat FormatOf(const std::filesystem::path& path, const SealedFormat& newest,
                       uint32_t oldest) {
   std::array<std::byte, sizeof(Header)> head{};
-  std::ifstream file(path, std::ios::binary);
+  std::ifstream file = OpenFile(path);
   file.read(reinterpret_cast<char*>(head.data()), head.size());
   return file ? FormatOf(std::span<const std::byte>(head), newest, oldest) : newest;
 }
 
 std::vector<std::byte> ReadSealedFile(const std::filesystem::path& path,
                                       const SealedFormat& format) {
-  std::ifstream file(path, std::ios::binary | std::ios::ate);
-  if (!file || !std::filesystem::is_regular_file(path)) {
+  std::ifstream file = OpenFile(path, std::ios::ate);
+  if (!file) {
     throw InputError(path.string() + ": cannot be read: expected a " + std::string(format.what));
   }
   std::vector<std::byte> bytes(static_cast<size_t>(file.tellg()));

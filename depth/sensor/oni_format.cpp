@@ -7,6 +7,7 @@
 #include <memory>
 
 #include "depth/error.h"
+#include "depth/file/open_file.h"
 #include "depth/image/depth_png.h"
 #include "depth/sensor/oni_format_internal.h"
 
@@ -113,9 +114,8 @@ OniPreamble ParseOniPreamble(std::span<const uint8_t> bytes) {
 }
 
 OniPreamble CheckOniFile(const std::filesystem::path& path) {
-  std::error_code error;
-  std::ifstream file(path, std::ios::binary);
-  if (!std::filesystem::is_regular_file(path, error) || !file) {
+  std::ifstream file = OpenFile(path);
+  if (!file) {
     throw InputError(path.string() + ": expected an .oni recording, found no such file");
   }
   constexpr size_t kLongestPreamble = 1 << 16;  // ours is under 2 kB

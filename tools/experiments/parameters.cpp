@@ -9,6 +9,7 @@
 #include <string_view>
 
 #include "depth/error.h"
+#include "depth/file/open_file.h"
 #include "tools/experiments/experiment.h"
 
 namespace ossa::tools {
@@ -122,8 +123,8 @@ class FlatToml {
 };
 
 std::string TextOf(const std::filesystem::path& path) {
-  std::ifstream file(path, std::ios::binary);
-  if (!file || std::filesystem::is_directory(path)) {
+  std::ifstream file = OpenFile(path);
+  if (!file) {
     throw InputError(path.string() + ": cannot be read: expected a TOML file");
   }
   return {std::istreambuf_iterator<char>(file), {}};

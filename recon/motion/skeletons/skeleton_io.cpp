@@ -282,6 +282,11 @@ std::vector<SkeletonClip> ReadSkeletonClips(const fs::path& path,
   const SkeletonPath parts = TakeApart(path);
   const std::string columns = Columns(options, parts);
   if (!fs::exists(parts.path)) throw InputError(parts.path.string() + ": no such file or folder");
+  if (!fs::is_directory(parts.path) && !fs::is_regular_file(parts.path)) {
+    throw InputError(parts.path.string() +
+                     ": expected a file or a folder, found a pipe or a device, which cannot be "
+                     "read twice: save it to a file first");
+  }
   std::vector<SkeletonClip> clips;
   if (fs::is_directory(parts.path)) {
     clips = ReadFolderClips(parts, columns, options);

@@ -8,6 +8,8 @@
 
 #include "depth/error.h"
 #include "depth/file/atomic_file.h"
+#include "depth/file/folder_lock.h"
+#include "depth/file/open_file.h"
 #include "tests/support/temporary_folder.h"
 
 namespace ossa {
@@ -127,6 +129,31 @@ TEST(AtomicFile, AFullDiskIsKnownBeforeTheEnd) {
   EXPECT_NO_THROW(file.Check());
   file.stream().setstate(std::ios::badbit);
   EXPECT_THROW(file.Check(), InputError);
+}
+
+TEST(FolderLock, IsHeldByOneAndGivenBack) {
+  const test::TemporaryFolder folder;
+  {
+    const FolderLock first(folder / "a/b");
+    EXPECT_THROW(FolderLock(folder / "a/b"), InputError);
+    EXPECT_NO_THROW(FolderLock(folder / "a"));
+  }
+  EXPECT_NO_THROW(FolderLock(folder / "a/b"));
+  std::ofstream(folder / "file") << "no folder";
+  EXPECT_THROW(FolderLock(folder / "file"), InputError);
+}
+
+// To open it would be to wait for who writes to it.
+TEST(OpenFile, APipeIsNoFile) {
+  const test::TemporaryFolder folder;
+  ASSERT_EQ(mkfifo((folder / "pipe").c_str(), 0600), 0);
+  EXPECT_FALSE(OpenFile(folder / "pipe"));
+  EXPECT_FALSE(OpenFile(folder / "nothing"));
+  EXPECT_FALSE(OpenFile(folder.path()));
+  std::ofstream(folder / "file") << "text";
+  std::string text;
+  OpenFile(folder / "file") >> text;
+  EXPECT_EQ(text, "text");
 }
 
 }  // namespace
