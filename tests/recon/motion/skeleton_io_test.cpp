@@ -196,7 +196,14 @@ TEST(SkeletonFiles, WithAPlaceNobodyCanBeAtAreRefusedByFrameAndJoint) {
             "file: frame 0: Head: expected a place within 1000 km, found 1e+300 m");
 }
 
-// `text` of frames 0 to 3 with these times, in the format of its name.
+// Its header names the file, on one line.
+TEST(SkeletonFiles, OfATrcMayHaveAnyName) {
+  const test::TemporaryFolder folder;
+  WriteSkeletons(folder / "two\nlines\t.trc", ExampleSequence(3));
+  ExpectSamePositions(ReadSkeletons(folder / "two\nlines\t.trc"), ExampleSequence(3));
+}
+
+// A text of frames with these times, in the format of this extension.
 std::string ExampleTextAt(const char* extension, const std::vector<double>& times_s) {
   const test::TemporaryFolder folder;
   const auto path = folder / (std::string("walk") + extension);

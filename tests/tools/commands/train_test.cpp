@@ -48,6 +48,16 @@ TEST_F(BadDataSet, AMissingImageIsNamed) {
   ExpectRefused("000002.png");
 }
 
+// It threw when the card was written: after all the work.
+TEST_F(BadDataSet, WordsThatAreNoUtf8AreNoFailureAtTheEnd) {
+  const CommandResult result =
+      RunOssa({"train", data(), "--out", model(), "--trees", "1", "--depth", "3", "--pixels", "50",
+               "--validation", data(), "--quiet", "--terms", "caf\xE9"});
+  EXPECT_EQ(result.exit_status, 0) << result.err;
+  const std::string kReplaced = "caf\xEF\xBF\xBD";
+  EXPECT_NE(RunOssa({"info", model()}).out.find(kReplaced), std::string::npos);
+}
+
 TEST_F(BadDataSet, ATruncatedImageIsNamed) {
   const fs::path image = fs::path(data()) / "parts" / "000001.png";
   fs::resize_file(image, fs::file_size(image) / 2);
