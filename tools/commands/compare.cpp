@@ -1,11 +1,15 @@
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
+#include <cmath>
+#include <string>
+#include <vector>
 
 #include "depth/error.h"
 #include "depth/file/atomic_file.h"
 #include "tools/commands/command.h"
 #include "tools/commands/commands.h"
+#include "tools/commands/outputs.h"
 #include "tools/experiments/compare/comparison.h"
 
 namespace ossa::commands {
@@ -24,7 +28,7 @@ void ReadTimeAlignment(const std::string& word, tools::PairOptions& options) {
     options.time = tools::TimeAlignment::kNone;
   } else if (word == "correlate") {
     options.time = tools::TimeAlignment::kCorrelate;
-  } else if (CLI::detail::lexical_cast(word, options.offset_s)) {
+  } else if (CLI::detail::lexical_cast(word, options.offset_s) && std::isfinite(options.offset_s)) {
     options.time = tools::TimeAlignment::kFixed;
   } else {
     throw UsageError("--time: expected auto, none, correlate or seconds, found '" + word + "'");
@@ -68,8 +72,11 @@ int Compare(int argc, char** argv) {
       app.add_option("--json", json, "write all numbers as JSON to FILE ('-' or none: stdout)")
           ->expected(0, 1);
   app.add_option("--report", report, "write one self-contained HTML page with plots");
-  app.add_option("--columns", options.reading.columns, "truth or observed, for files of both");
-  app.add_option("--format", options.reading.format, "read every file in this format");
+  app.add_option("--columns", options.reading.columns, "truth or observed, for files of both")
+      ->check(CLI::IsMember({"truth", "vicon", "G", "ground-truth", "observed", "kinect",
+                             "estimate", "a2j", "K", "P"}));
+  app.add_option("--format", options.reading.format, "read every file in this format")
+      ->check(CLI::IsMember(recon::SkeletonFormats()));
   app.add_option("--only", options.only, "clips whose name holds TEXT (repeat for several)")
       ->allow_extra_args(false);
   app.add_option("--skip", options.skip, "no clips whose name holds TEXT (repeat for several)")
@@ -82,6 +89,9 @@ int Compare(int argc, char** argv) {
   options.pairing.rigid = align == "rigid";
 
   const bool json_to_stdout = json_option->count() > 0 && (json.empty() || json == "-");
+  std::vector<std::string> inputs = results;
+  inputs.push_back(truth);
+  CheckOutputs({json_to_stdout ? "" : json, report}, inputs);
   if (!json.empty() && !json_to_stdout) AtomicFile::CheckWritable(json);
   if (!report.empty()) AtomicFile::CheckWritable(report);
   const tools::Comparison comparison = tools::Compare(truth, results, options);

@@ -13,6 +13,7 @@
 #include "tools/commands/checks.h"
 #include "tools/commands/command.h"
 #include "tools/commands/commands.h"
+#include "tools/commands/outputs.h"
 
 namespace ossa::commands {
 namespace {
@@ -74,6 +75,7 @@ int Database(int argc, char** argv) {
   app.add_option("--mapping", mocap_options.mapping_file, "bone names of an unknown conversion");
   app.add_flag("--quiet", quiet, "no progress");
   Parse(app, argc, argv);
+  CheckOutputs({out}, mocap);
   AtomicFile::CheckWritable(out);
 
   options.filter =

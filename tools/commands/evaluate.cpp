@@ -10,6 +10,7 @@
 #include "tools/commands/checks.h"
 #include "tools/commands/command.h"
 #include "tools/commands/commands.h"
+#include "tools/commands/outputs.h"
 #include "tools/learning/evaluate.h"
 
 namespace ossa::commands {
@@ -63,6 +64,7 @@ int Evaluate(int argc, char** argv) {
       ->check(Positive());
   app.add_flag("--quiet", quiet, "no progress");
   Parse(app, argc, argv);
+  CheckOutputs({json_path, report_path}, {model_path, dataset_path});
   CheckWritable(json_path);
   CheckWritable(report_path);
   const forest::ForestModel model = forest::ReadForestModel(model_path);

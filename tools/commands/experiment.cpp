@@ -1,6 +1,8 @@
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
+#include <algorithm>
+#include <string>
 
 #include "depth/error.h"
 #include "tools/commands/command.h"
@@ -17,6 +19,14 @@ std::string ListOfExperiments() {
     list += fmt::format("\n  {:<16} {}", e.name, e.summary);
   }
   return list;
+}
+
+std::string Names() {
+  std::string names;
+  for (const tools::Experiment& e : tools::Experiments()) {
+    names.append(names.empty() ? "" : " ").append(e.name);
+  }
+  return names;
 }
 
 // Runs it with a progress bar and prints its tables and what it was run with.
@@ -69,6 +79,10 @@ int Experiment(int argc, char** argv) {
   app.footer(ListOfExperiments());
   Parse(app, argc, argv);
 
+  const auto known = tools::Experiments();
+  if (std::ranges::find(known, name, &tools::Experiment::name) == known.end()) {
+    throw UsageError(fmt::format("NAME: expected one of {}, found '{}'", Names(), name));
+  }
   if (!parameters.empty()) context.parameters = tools::Parameters::FromToml(parameters);
   return RunAndPrint(name, context, quiet);
 }
@@ -99,7 +113,9 @@ int Study(int argc, char** argv) {
   context.database = given.Text("database", "");
   context.full = given.Flag("full", false);
   context.threads = Threads(given.Integer("threads", 1));
-  context.seed = static_cast<uint64_t>(std::max(0, given.Integer("seed", 1)));
+  const int seed = given.Integer("seed", 1);
+  if (seed < 0) throw InputError(fmt::format("{}: seed = {}: expected 0 or more", file, seed));
+  context.seed = static_cast<uint64_t>(seed);
   return RunAndPrint(name, context, quiet);
 }
 

@@ -8,6 +8,7 @@
 #include <string>
 
 #include "depth/error.h"
+#include "depth/one_line.h"
 #include "depth/sensor/frame_source.h"
 #include "forest/forest.h"
 #include "recon/database/posture_database.h"
@@ -54,9 +55,10 @@ void ShowDataset(const fs::path& path) {
   const tools::DatasetReader reader(path);
   const tools::DatasetManifest& m = reader.manifest();
   fmt::print("data set, {} frames of {} x {}, seed {}, split {}, view {}\nmade by: {}\n", m.frames,
-             m.camera.width, m.camera.height, m.seed, m.split, m.view, m.command);
-  for (const std::string& source : m.sources) fmt::print("motion: {}\n", source);
-  for (const std::string& terms : m.terms) fmt::print("terms: {}\n", terms);
+             m.camera.width, m.camera.height, m.seed, OnOneLine(m.split), OnOneLine(m.view),
+             OnOneLine(m.command));
+  for (const std::string& source : m.sources) fmt::print("motion: {}\n", OnOneLine(source));
+  for (const std::string& terms : m.terms) fmt::print("terms: {}\n", OnOneLine(terms));
 }
 
 void ShowDatabase(const fs::path& path) {
@@ -72,7 +74,7 @@ void ShowDatabase(const fs::path& path) {
              options.threshold_m, database.edge_threshold_m());
   for (int i = 0; i < size; ++i) {
     if (i == 0 || database.clip_of(i) != database.clip_of(i - 1)) {
-      fmt::print("clip: {}\n", database.clip_of(i));
+      fmt::print("clip: {}\n", OnOneLine(database.clip_of(i)));
     }
   }
 }
@@ -136,7 +138,7 @@ void ShowSkeletons(const fs::path& path) {
     for (const recon::SkeletonFrame& frame : frames) bodies += frame.bodies.size();
     const double seconds = frames.empty() ? 0.0 : frames.back().time_s - frames.front().time_s;
     fmt::print("skeletons{}{}, {} frames, {:.2f} s, {} bodies\n", clip.name.empty() ? "" : " ",
-               clip.name, frames.size(), seconds, bodies);
+               OnOneLine(clip.name), frames.size(), seconds, bodies);
   }
 }
 

@@ -12,6 +12,7 @@
 #include "recon/motion/skeletons/skeleton_io.h"
 #include "tools/commands/command.h"
 #include "tools/commands/commands.h"
+#include "tools/commands/outputs.h"
 
 namespace ossa::commands {
 namespace {
@@ -85,6 +86,9 @@ int Learn(int argc, char** argv) {
   options.correction.seed = options.mixture.seed;
   options.processes = !correction_only;
 
+  std::vector<std::string> inputs = observed;
+  inputs.insert(inputs.end(), truth.begin(), truth.end());
+  CheckOutputs({out}, inputs);
   AtomicFile::CheckWritable(out);
   std::vector<recon::PosturePair> pairs;
   People people;

@@ -13,6 +13,7 @@
 #include "tools/commands/checks.h"
 #include "tools/commands/command.h"
 #include "tools/commands/commands.h"
+#include "tools/commands/outputs.h"
 #include "tools/learning/learn_prior_network.h"
 
 namespace ossa::commands {
@@ -72,6 +73,7 @@ int Prior(int argc, char** argv) {
   app.add_flag("--quiet", quiet, "no progress");
   app.add_option("--mapping", mocap_options.mapping_file, "bone names of an unknown conversion");
   Parse(app, argc, argv);
+  CheckOutputs({out}, mocap);
   AtomicFile::CheckWritable(out);
 
   const auto clips = ClipsOf(recon::LoadMocap(mocap, mocap_options), authored_weight);

@@ -18,6 +18,7 @@
 #include "tools/commands/command.h"
 #include "tools/commands/commands.h"
 #include "tools/commands/mechanics_options.h"
+#include "tools/commands/outputs.h"
 #include "tools/commands/process.h"
 #include "tools/tracker/mechanics.h"
 #include "tools/tracker/shipped.h"
@@ -124,12 +125,17 @@ int Reconstruct(int argc, char** argv) {
   double* const weights[] = {&pca.control, &pca.style, &pca.kinematics, &pca.continuity};
   for (size_t i = 0; i < a.weights.size(); ++i) *weights[i] = a.weights[i];
 
+  CheckOutputs({a.out}, {a.skeletons});
+  for (const double weight : a.weights) {
+    if (!(weight >= 0))
+      throw UsageError(fmt::format("--weights: expected numbers from 0 up, found {}", weight));
+  }
   const auto clips = recon::ReadSkeletonClips(a.skeletons, a.read);
   const bool many = clips.size() > 1;
   if (many) {
     std::filesystem::create_directories(a.out);
   } else {
-    recon::CheckSkeletonExtension(a.out);
+    CheckSkeletonName(a.out);
     AtomicFile::CheckWritable(a.out);
   }
   a.options.database = DatabaseFor(a);

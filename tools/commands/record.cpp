@@ -12,6 +12,7 @@
 #include "tools/commands/checks.h"
 #include "tools/commands/command.h"
 #include "tools/commands/commands.h"
+#include "tools/commands/outputs.h"
 #include "tools/commands/source_options.h"
 
 namespace ossa::commands {
@@ -58,6 +59,7 @@ RecordOptions ParseOptions(int argc, char** argv) {
   if (!options.fakenect && !options.out.ends_with(".oni")) {
     throw UsageError("--out: expected a name that ends in .oni, found '" + options.out + "'");
   }
+  CheckOutputs({options.out}, {options.source.name});
   return options;
 }
 

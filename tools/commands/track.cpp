@@ -18,6 +18,7 @@
 #include "tools/commands/command.h"
 #include "tools/commands/commands.h"
 #include "tools/commands/mechanics_options.h"
+#include "tools/commands/outputs.h"
 #include "tools/commands/process.h"
 #include "tools/commands/source_options.h"
 #include "tools/tracker/picture.h"
@@ -91,6 +92,12 @@ TrackOptions ParseOptions(int argc, char** argv) {
     throw UsageError(
         "track: nothing to do: name --out, --picture, --pictures, --json-stats or --view");
   }
+  if (!options.out.empty()) CheckSkeletonName(options.out);
+  if (!options.picture.empty() && !options.picture.ends_with(".png")) {
+    throw UsageError("--picture: expected a name that ends in .png, found '" + options.picture +
+                     "'");
+  }
+  CheckOutputs({options.out, options.json_stats, options.picture}, {options.source.name});
   options.tracker.physics = options.mechanics.on();
   options.tracker.mechanics = options.mechanics.build;
   options.tracker.smoothing = tracker::SmoothingPreset(
@@ -109,7 +116,6 @@ class SkeletonOutput {
     if (posture == "raw") kind_ = tracker::PostureKind::kRaw;
     if (posture == "reconstructed") kind_ = tracker::PostureKind::kReconstructed;
     if (path_.empty()) return;
-    recon::CheckSkeletonExtension(path_);
     AtomicFile::CheckWritable(path_);
     if (path_.ends_with(".jsonl")) {
       file_.emplace(path_);
@@ -257,6 +263,9 @@ int Track(int argc, char** argv) {
     Say(fmt::format("watch at http://127.0.0.1:{}/\n", viewer->port()));
   }
   const Run run = TrackAll(*source, tracker, options, output, pictures, viewer.get());
+  if (run.stats.frames() == 0 && Interrupted()) {
+    throw InputError("track: interrupted before the first frame; nothing was written");
+  }
   if (run.stats.frames() == 0) throw InputError(options.source.name + ": no frame came");
   output.Finish();
   pictures.Finish();

@@ -101,15 +101,19 @@ void AddOptions(CLI::App* app, TrainArguments* a) {
       ->allow_extra_args(false);
   app->add_option("--seed", o.seed, "of every random choice")->capture_default_str();
   app->add_option("--threads", o.threads, "0: all cores")->capture_default_str();
-  app->add_flag("--resume", o.resume, "go on from OUT.checkpoint where a run was cut off");
+  auto* resume =
+      app->add_flag("--resume", o.resume, "go on from OUT.checkpoint where a run was cut off");
   app->add_flag("--quiet", a->quiet, "no progress");
-  app->add_option("--trees-of", a->trees_of,
-                  "keep the trees of this model; learn only how joints lie to each other (on "
-                  "DATASET) and the proposals (on --validation)");
-  app->add_option(
+  auto* trees_of =
+      app->add_option("--trees-of", a->trees_of,
+                      "keep the trees of this model; learn only how joints lie to each other (on "
+                      "DATASET) and the proposals (on --validation)");
+  auto* import_pcl = app->add_option(
       "--import-pcl", a->import_pcl,
       "make a model of PCL people trees (text, up to 4) instead of training; proposals of "
       "joints are learned on --validation");
+  trees_of->excludes(resume)->excludes(import_pcl);
+  import_pcl->excludes(resume);
 }
 
 void ShowProgress(Progress* bar, const forest::TrainProgress& p) {
@@ -271,7 +275,6 @@ int LearnAgain(const TrainArguments& a) {
 
 int TrainOnData(TrainArguments* a, const forest::Reducer& reducer) {
   forest::TrainOptions& o = a->options;
-  o.memory_bytes = ParseMemory(a->memory);
   const Sources sources(*a);
   const tools::PersonSource& source = sources.training;
   o.fingerprint = source.fingerprint();
@@ -322,12 +325,20 @@ int Train(int argc, char** argv) {
   if (!arguments.import_pcl.empty()) return ImportPcl(arguments);
   if (arguments.datasets.empty()) throw UsageError("DATASET is required");
   if (!arguments.trees_of.empty()) return LearnAgain(arguments);
+  arguments.options.memory_bytes = ParseMemory(arguments.memory);
   try {
     arguments.options.Check();
   } catch (const std::invalid_argument& error) {
     throw UsageError(error.what());
   }
-  return TrainOnData(&arguments, *reducer);
+  try {
+    return TrainOnData(&arguments, *reducer);
+  } catch (const forest::TrainInterrupted& interruption) {
+    const fs::path checkpoint = arguments.out.string() + ".checkpoint";
+    if (!fs::exists(checkpoint)) throw;
+    throw InputError(fmt::format("train: {}: the same command with --resume goes on from {}",
+                                 interruption.what(), checkpoint.string()));
+  }
 }
 
 }  // namespace ossa::commands

@@ -4,6 +4,7 @@
 
 #include <fstream>
 
+#include "depth/file/folder_lock.h"
 #include "tests/support/depth_examples.h"
 #include "tests/support/run_command.h"
 #include "tests/support/temporary_folder.h"
@@ -110,6 +111,51 @@ TEST(Interrupt, ATerminalThatGoesAwayEndsARecordingWithAWholeFile) {
   running.Signal(SIGHUP);
   EXPECT_EQ(running.Wait(test::kCommandTimeout).exit_status, 0);
   EXPECT_TRUE(std::filesystem::exists(out));
+}
+
+// Wrong usage is 2 and said before anything is opened or written.
+TEST(WrongUsage, OfOutputs) {
+  const TemporaryFolder folder;
+  std::ofstream(folder / "in.jsonl") << "precious";
+  for (const char* words :
+       {"track /nowhere --out x.xyz", "track /nowhere --out x", "track /nowhere --picture x.jpg",
+        "track /nowhere --out x.jsonl --json-stats ./x.jsonl",
+        "reconstruct in.jsonl --out in.jsonl", "reconstruct in.jsonl#truth --out ./in.jsonl",
+        "compare in.jsonl a --json in.jsonl", "compare a b --json x --report x",
+        "learn --observed a --truth in.jsonl --out in.jsonl",
+        "database --mocap in.jsonl --out in.jsonl", "prior --mocap in.jsonl --out in.jsonl",
+        "record in.oni --out in.oni", "evaluate a b --json x --report x"}) {
+    const CommandResult result = Shell(std::string("cd \"$2\" && \"$1\" ") + words, folder);
+    EXPECT_EQ(result.exit_status, 2) << words << ": " << result.err;
+    EXPECT_EQ(test::LineCount(result.err), 1) << result.err;
+  }
+  EXPECT_EQ(Bytes(folder / "in.jsonl"), "precious");
+}
+
+TEST(WrongUsage, OfOptions) {
+  const TemporaryFolder folder;
+  for (const char* words :
+       {"compare a b --time nan", "compare a b --format x", "compare a b --columns x",
+        "experiment nosuch --out x", "reconstruct a --out x.csv --weights 1,1,1,-1",
+        "train a --out x --memory 1K", "train a --out x --resume --trees-of b",
+        "train a --out x --trees-of b --import-pcl c"}) {
+    const CommandResult result = Shell(std::string("cd \"$2\" && \"$1\" ") + words, folder);
+    EXPECT_EQ(result.exit_status, 2) << words << ": " << result.err;
+    EXPECT_EQ(test::LineCount(result.err), 1) << result.err;
+  }
+  EXPECT_TRUE(std::filesystem::is_empty(folder.path()));
+}
+
+TEST(Render, OneAtATimeInAFolder) {
+  const TemporaryFolder folder;
+  const FolderLock other(folder / "set");
+  const CommandResult result =
+      test::RunOssa({"render", "--mocap", "authored", "--frames", "2", "--size", "64x48", "--out",
+                     (folder / "set").string()});
+  if (result.err.find("MPFB body") != std::string::npos) GTEST_SKIP() << result.err;
+  EXPECT_EQ(result.exit_status, 1);
+  EXPECT_NE(result.err.find("another ossa is writing here"), std::string::npos) << result.err;
+  EXPECT_TRUE(std::filesystem::is_empty(folder / "set"));
 }
 
 }  // namespace

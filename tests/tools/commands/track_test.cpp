@@ -215,7 +215,7 @@ TEST(TrackCommand, AnUnknownExtensionIsRefusedBeforeAnythingIsTracked) {
   const TemporaryFolder folder;
   WriteExampleFolder(folder.path(), 1);
   const CommandResult result = TrackTo(folder.path(), folder / "x.doc");
-  EXPECT_EQ(result.exit_status, 1);
+  EXPECT_EQ(result.exit_status, 2);
   EXPECT_NE(result.err.find("x.doc"), std::string::npos) << result.err;
 }
 

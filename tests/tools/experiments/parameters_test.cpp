@@ -122,7 +122,7 @@ TEST(ExperimentCommand, RefusesUnknownStudiesAndMissingData) {
   const test::TemporaryFolder folder;
   const std::string out = folder / "out";
   auto run = test::RunOssa({"experiment", "nonsense", "--out", out});
-  EXPECT_EQ(run.exit_status, 1);
+  EXPECT_EQ(run.exit_status, 2);
   EXPECT_NE(run.err.find("expected one of body "), std::string::npos) << run.err;
   run = test::RunOssa({"experiment", "sdk", "--out", out});
   EXPECT_EQ(run.exit_status, 1);

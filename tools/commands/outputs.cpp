@@ -1,0 +1,53 @@
+#include "tools/commands/outputs.h"
+
+#include <filesystem>
+#include <system_error>
+
+#include "depth/error.h"
+#include "recon/motion/skeletons/skeleton_io.h"
+#include "tools/commands/command.h"
+
+namespace ossa::commands {
+namespace {
+
+namespace fs = std::filesystem;
+
+// Whether both names are of one file, also where there is none yet.
+bool IsOne(const fs::path& a, const fs::path& b) {
+  std::error_code unknown;
+  if (fs::equivalent(a, b, unknown)) return true;
+  return !fs::exists(a, unknown) && !fs::exists(b, unknown) &&
+         fs::weakly_canonical(fs::absolute(a, unknown), unknown) ==
+             fs::weakly_canonical(fs::absolute(b, unknown), unknown);
+}
+
+fs::path FileOf(const std::string& input) {
+  std::error_code unknown;
+  return fs::exists(input, unknown) ? input : input.substr(0, input.find('#'));
+}
+
+}  // namespace
+
+void CheckOutputs(const std::vector<std::string>& outputs, const std::vector<std::string>& inputs) {
+  for (size_t i = 0; i < outputs.size(); ++i) {
+    if (outputs[i].empty()) continue;
+    for (size_t k = 0; k < i; ++k) {
+      if (outputs[k].empty() || !IsOne(outputs[i], outputs[k])) continue;
+      throw UsageError(outputs[i] + ": expected a file of its own for each output");
+    }
+    for (const std::string& input : inputs) {
+      if (!IsOne(outputs[i], FileOf(input))) continue;
+      throw UsageError(outputs[i] + ": expected a new file, found what is to be read");
+    }
+  }
+}
+
+void CheckSkeletonName(const std::string& path) {
+  try {
+    recon::CheckSkeletonExtension(path);
+  } catch (const InputError& error) {
+    throw UsageError(error.what());
+  }
+}
+
+}  // namespace ossa::commands

@@ -1,0 +1,15 @@
+#pragma once
+#include <string>
+#include <vector>
+
+namespace ossa::commands {
+
+/// Throws UsageError when two outputs are one file, of which the first would be lost, or an output
+/// is one of the inputs: a recording would be replaced by what was made of it. Empty names are
+/// options that were not given; `#truth` and the like after an input's name are no part of it.
+void CheckOutputs(const std::vector<std::string>& outputs, const std::vector<std::string>& inputs);
+
+/// Throws UsageError for a name whose extension is of no skeleton format that is written.
+void CheckSkeletonName(const std::string& path);
+
+}  // namespace ossa::commands
