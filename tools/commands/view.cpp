@@ -38,6 +38,8 @@ class Clockwork {
     last_s_ = time_s;
     std::this_thread::sleep_until(start_ + Seconds(time_s));
   }
+  // For a frame's time, as every other; a recording of one frame would begin anew without end.
+  static void ShowTheLast() { std::this_thread::sleep_for(Seconds(1.0 / 30.0)); }
 
  private:
   static Clock::duration Seconds(double s) {
@@ -65,6 +67,7 @@ void ShowSkeletons(const ViewOptions& options) {
       clockwork.WaitFor(frame.time_s);
       viewer.Show(blank, frame);
     }
+    clockwork.ShowTheLast();
   } while (!options.once && !Interrupted());
 }
 
@@ -83,6 +86,7 @@ void ShowSource(const ViewOptions& options) {
       viewer.Show(read.frame, tracker::RecordOf(tracker.Push(read.frame)));
     }
     if (options.once || Interrupted()) return;
+    clockwork.ShowTheLast();
     source = OpenSource(options.source, true);
   }
 }

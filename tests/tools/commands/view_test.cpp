@@ -45,6 +45,18 @@ TEST(ViewCommand, CtrlCEndsIt) {
   EXPECT_FALSE(command.Wait(test::kCommandTimeout).timed_out);
 }
 
+// It began anew without end: a second of processor time would be used up at once.
+TEST(ViewCommand, ARecordingOfOneFrameIsShownAtItsLeisure) {
+  const TemporaryFolder folder;
+  std::ofstream(folder / "one.jsonl") << R"({"frame":0,"time_s":0,"bodies":[]})"
+                                      << "\n";
+  const CommandResult result = test::RunProgram(
+      {"/bin/bash", "-c", R"(ulimit -t 1; timeout -s INT 3 "$1" view "$2" --port 0)", "shell",
+       test::OssaPath(), (folder / "one.jsonl").string()});
+  constexpr int kEndedByTimeout = 124;
+  EXPECT_EQ(result.exit_status, kEndedByTimeout) << result.err;
+}
+
 TEST(ViewCommand, APortThatIsTakenIsOneLine) {
   const TemporaryFolder folder;
   WriteSkeletons(folder / "x.jsonl");
