@@ -1,5 +1,6 @@
 #include <archive.h>
 #include <archive_entry.h>
+#include <locale.h>
 
 #include <array>
 #include <fstream>
@@ -57,6 +58,31 @@ std::string ReadMember(const std::filesystem::path& path, archive* reader, size_
   }
 }
 
+// Programs begin in the C locale, in which libarchive has no name for members of a .zip that are
+// named beyond ASCII: they would all be one. For this thread, and for characters only.
+class Utf8Names {
+ public:
+  Utf8Names() : utf8_(newlocale(LC_CTYPE_MASK, "C.UTF-8", nullptr)) {
+    if (utf8_ != nullptr) before_ = uselocale(utf8_);
+  }
+  ~Utf8Names() {
+    if (utf8_ == nullptr) return;
+    uselocale(before_);
+    freelocale(utf8_);
+  }
+  Utf8Names(const Utf8Names&) = delete;
+  Utf8Names& operator=(const Utf8Names&) = delete;
+
+ private:
+  locale_t utf8_;
+  locale_t before_ = nullptr;
+};
+
+std::string NameOf(archive_entry* entry, size_t number) {
+  const char* name = archive_entry_pathname(entry);
+  return name != nullptr ? name : "member " + std::to_string(number);
+}
+
 std::string FirstBytes(const std::filesystem::path& path, size_t count) {
   std::ifstream file(path, std::ios::binary);
   std::string bytes(count, '\0');
@@ -110,6 +136,7 @@ bool IsArchive(const std::filesystem::path& path) {
 }
 
 std::map<std::string, std::string> ReadArchive(const std::filesystem::path& path) {
+  const Utf8Names names;
   Archive reader = Open(path, false);
   std::map<std::string, std::string> members;
   size_t total = 0;
@@ -119,8 +146,7 @@ std::map<std::string, std::string> ReadArchive(const std::filesystem::path& path
     if (status == ARCHIVE_EOF) return members;
     if (status < ARCHIVE_WARN) Fail(path, reader.get());
     if (archive_entry_filetype(entry) != AE_IFREG) continue;
-    const char* name = archive_entry_pathname(entry);
-    members[name != nullptr ? name : ""] = ReadMember(path, reader.get(), total);
+    members[NameOf(entry, members.size())] = ReadMember(path, reader.get(), total);
   }
 }
 

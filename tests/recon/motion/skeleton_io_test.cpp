@@ -249,5 +249,30 @@ TEST(SkeletonTimes, MayRepeatOnceBeginAnywhereAndPause) {
   }
 }
 
+// Of Python's zipfile: "\xC3\xA4.jsonl" and "\xC3\xB6.jsonl", a frame with nobody in each.
+constexpr std::string_view kZip =
+    "504b0304140000080000000021002f1a36fd230000002300000008000000c3a42e6a736f6e6c7b226672616d"
+    "65223a302c2274696d655f73223a302c22626f64696573223a5b5d7d0a504b0304140000080000000021002f"
+    "1a36fd230000002300000008000000c3b62e6a736f6e6c7b226672616d65223a302c2274696d655f73223a30"
+    "2c22626f64696573223a5b5d7d0a504b01021403140000080000000021002f1a36fd23000000230000000800"
+    "00000000000000000000800100000000c3a42e6a736f6e6c504b01021403140000080000000021002f1a36fd"
+    "2300000023000000080000000000000000000000800149000000c3b62e6a736f6e6c504b0506000000000200"
+    "02006c000000920000000000";
+
+// They were one recording: libarchive had no name for either.
+TEST(SkeletonArchives, MembersMayBeNamedBeyondAscii) {
+  const test::TemporaryFolder folder;
+  {
+    std::ofstream file(folder / "x.zip", std::ios::binary);
+    for (size_t i = 0; i < kZip.size(); i += 2) {
+      file.put(static_cast<char>(std::stoi(std::string(kZip.substr(i, 2)), nullptr, 16)));
+    }
+  }
+  const auto clips = ReadSkeletonClips(folder / "x.zip");
+  ASSERT_EQ(clips.size(), 2u);
+  EXPECT_EQ(clips[0].name, "\xC3\xA4");
+  EXPECT_EQ(clips[1].name, "\xC3\xB6");
+}
+
 }  // namespace
 }  // namespace ossa::recon
