@@ -11,7 +11,8 @@ struct MechanicsBuild {
 };
 
 /// Lets one mechanical character a body id follow a recording (Shum 2013 sec. VII): all 20 joints
-/// come out with orientations, bones of constant length, above each frame's floor where it has one.
+/// come out with orientations, bones of constant length, above each frame's floor where it has one
+/// (one that lies 0.2 m and more above the person's lowest joint is another thing's top).
 /// Joints' reliabilities say how far the character is led by them; joints that were absent come out
 /// inferred.
 void FollowMechanically(recon::SkeletonSequence& sequence, const MechanicsBuild& build);

@@ -23,9 +23,14 @@ class Mechanics {
                                                  double time_s);
 
  private:
+  /// The floor, if it can be the one that the person stands on.
+  std::optional<Eigen::Vector4d> OwnFloor(const recon::Posture& target,
+                                          const std::optional<Eigen::Vector4d>& floor);
+
   MechanicsBuild build_;
   std::unique_ptr<physics::CharacterFilter> character_;
   double last_s_ = 0.0;
+  bool floor_is_another_ = false;  // what was taken for the floor is not under the person
 };
 
 }  // namespace ossa::tracker

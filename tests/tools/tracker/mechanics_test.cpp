@@ -1,6 +1,7 @@
 #include <gtest/gtest.h>
 
 #include "recon/body/standard_body.h"
+#include "recon/normalise.h"
 #include "tools/tracker/mechanics_internal.h"
 
 namespace ossa::tracker {
@@ -24,6 +25,34 @@ TEST(Mechanics, AFootNobodySeesStaysWhereTheReconstructionPutIt) {
     // A quarter of the foot's length: the character is pulled, not placed.
     EXPECT_LT((made->posture[foot] - standing[foot]).norm(), 0.04) << recon::NameOf(foot);
   }
+}
+
+/// How high the left foot of somebody who stands with the feet at y = 0 is in the end, in metres,
+/// when so high a floor is said to be there, one height after another, a second each.
+double FootOn(std::initializer_list<double> floors_m) {
+  const recon::Posture standing = recon::StandardStance();
+  std::array<double, recon::kJointCount> trust;
+  trust.fill(1.0);
+  Mechanics mechanics{MechanicsBuild{}};
+  std::optional<physics::FilteredPosture> made;
+  int frame = 0;
+  for (const double floor_m : floors_m) {
+    for (int i = 0; i < 30; ++i) {
+      made = mechanics.Follow(standing, trust, Eigen::Vector4d(0.0, 1.0, 0.0, -floor_m),
+                              ++frame / 30.0);
+    }
+  }
+  return made ? made->posture[Joint::kFootLeft].y() - standing[Joint::kFootLeft].y() : -1.0;
+}
+
+TEST(Mechanics, TheTopOfATableIsNobodysFloor) {
+  EXPECT_NEAR(FootOn({0.5}), 0.0, 0.02);  // a table's: the legs behind it are not lifted onto it
+  EXPECT_GT(FootOn({0.08}), 0.05);        // a little too high for the feet: they stand on it
+  EXPECT_NEAR(FootOn({0.0}), 0.0, 0.02);
+  // From possible to impossible and back, with a margin between.
+  EXPECT_GT(FootOn({0.14}), 0.1);
+  EXPECT_NEAR(FootOn({0.5, 0.14}), 0.0, 0.02);
+  EXPECT_GT(FootOn({0.5, 0.08}), 0.05);
 }
 
 }  // namespace
