@@ -1,15 +1,5 @@
-#include <fmt/format.h>
-
 #include <array>
-#include <cstdio>
-#include <exception>
-#include <filesystem>
-#include <new>
-#include <string>
-#include <string_view>
-#include <system_error>
 
-#include "depth/one_line.h"
 #include "tools/commands/command.h"
 #include "tools/commands/commands.h"
 #include "tools/commands/process.h"
@@ -39,53 +29,10 @@ constexpr std::array kCommands = {
     Command{"render", "make labelled depth images of people in motion", ossa::commands::Render},
 };
 
-std::string HelpText() {
-  std::string text = "ossa: skeletons from depth images\n\nusage: ossa COMMAND ...\n\n";
-  for (const Command& command : kCommands) {
-    text += fmt::format("  {:<12} {}\n", command.name, command.summary);
-  }
-  return text + "\n'ossa COMMAND --help' says everything about one.\n";
-}
-
-int Complain(const std::string& reason, int status) {
-  ossa::commands::Say("ossa: " + ossa::OnOneLine(reason) + "\n");
-  return status;
-}
-
-int Run(int argc, char** argv) try {
-  const std::string_view name = argc > 1 ? argv[1] : "";
-  if (name == "--help" || name == "-h") {
-    fmt::print("{}", HelpText());
-    return 0;
-  }
-  if (name == "--version") {
-    fmt::print("ossa {}\n", OSSA_VERSION);
-    return 0;
-  }
-  for (const Command& command : kCommands) {
-    if (command.name == name) return command.run(argc - 1, argv + 1);
-  }
-  if (!name.empty()) Complain(fmt::format("unknown command '{}'", name), 2);
-  ossa::commands::Say(HelpText());
-  return 2;
-} catch (const ossa::commands::HelpShown&) {
-  return 0;
-} catch (const ossa::commands::UsageError& error) {
-  return Complain(error.what(), 2);
-} catch (const std::filesystem::filesystem_error& error) {
-  return Complain(error.path1().string() + ": " + error.code().message(), 1);
-} catch (const std::bad_alloc&) {
-  return Complain("out of memory", 1);
-} catch (const std::system_error& error) {
-  if (std::ferror(stdout) == 0) return Complain(error.what(), 1);
-  return ossa::commands::EndOutput(0, error.code().value());
-} catch (const std::exception& error) {
-  return Complain(error.what(), 1);
-}
-
 }  // namespace
 
 int main(int argc, char** argv) {
   ossa::commands::PrepareProcess();
-  return ossa::commands::EndOutput(Run(argc, argv));
+  const int status = ossa::commands::RunOneOf(kCommands, OSSA_VERSION, argc, argv);
+  return ossa::commands::EndOutput(status);
 }

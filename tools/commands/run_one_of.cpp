@@ -1,0 +1,64 @@
+#include <fmt/format.h>
+
+#include <cstdio>
+#include <exception>
+#include <filesystem>
+#include <new>
+#include <string_view>
+#include <system_error>
+
+#include "depth/one_line.h"
+#include "tools/commands/command.h"
+#include "tools/commands/process.h"
+
+namespace ossa::commands {
+namespace {
+
+std::string HelpText(std::span<const Command> commands) {
+  std::string text = "ossa: skeletons from depth images\n\nusage: ossa COMMAND ...\n\n";
+  for (const Command& command : commands) {
+    text += fmt::format("  {:<12} {}\n", command.name, command.summary);
+  }
+  return text + "\n'ossa COMMAND --help' says everything about one.\n";
+}
+
+int Complain(const std::string& reason, int status) {
+  Say("ossa: " + OnOneLine(reason) + "\n");
+  return status;
+}
+
+}  // namespace
+
+int RunOneOf(std::span<const Command> commands, const std::string& version, int argc,
+             char** argv) try {
+  const std::string_view name = argc > 1 ? argv[1] : "";
+  if (name == "--help" || name == "-h") {
+    fmt::print("{}", HelpText(commands));
+    return 0;
+  }
+  if (name == "--version") {
+    fmt::print("ossa {}\n", version);
+    return 0;
+  }
+  for (const Command& command : commands) {
+    if (command.name == name) return command.run(argc - 1, argv + 1);
+  }
+  if (!name.empty()) Complain(fmt::format("unknown command '{}'", name), 2);
+  Say(HelpText(commands));
+  return 2;
+} catch (const HelpShown&) {
+  return 0;
+} catch (const UsageError& error) {
+  return Complain(error.what(), 2);
+} catch (const std::filesystem::filesystem_error& error) {
+  return Complain(error.path1().string() + ": " + error.code().message(), 1);
+} catch (const std::bad_alloc&) {
+  return Complain("out of memory", 1);
+} catch (const std::system_error& error) {
+  if (std::ferror(stdout) == 0) return Complain(error.what(), 1);
+  return EndOutput(0, error.code().value());
+} catch (const std::exception& error) {
+  return Complain(error.what(), 1);
+}
+
+}  // namespace ossa::commands
