@@ -51,7 +51,7 @@ std::string WholeFile() {
 }
 
 // The format of the model file at hand: its magic and version, after which the payload follows.
-ossa::SealedFormat FormatOf(const std::string& file) {
+ossa::SealedFormat FormatAtHand(const std::string& file) {
   ossa::SealedFormat format;
   std::memcpy(format.magic.data(), file.data(), format.magic.size());
   constexpr size_t kVersionAt = 12;  // after the byte-order mark
@@ -64,13 +64,13 @@ ossa::SealedFormat FormatOf(const std::string& file) {
 
 std::vector<std::string> ossa::fuzz::Seeds() {
   const std::string file = WholeFile();
-  const auto payload =
-      OpenSealedBytes(std::as_bytes(std::span(file.data(), file.size())), "seed", FormatOf(file));
+  const auto payload = OpenSealedBytes(std::as_bytes(std::span(file.data(), file.size())), "seed",
+                                       FormatAtHand(file));
   return {std::string(reinterpret_cast<const char*>(payload.data()), payload.size())};
 }
 
 extern "C" int LLVMFuzzerTestOneInput(const uint8_t* data, size_t size) {
-  static const ossa::SealedFormat format = FormatOf(WholeFile());
+  static const ossa::SealedFormat format = FormatAtHand(WholeFile());
   const std::string path = ossa::fuzz::ScratchPath("input");
   ossa::WriteSealedFile(path, format, std::as_bytes(std::span(data, size)));
   const std::string file = ossa::fuzz::TakeFile(path);
