@@ -2,11 +2,9 @@
 
 #include <array>
 #include <cstring>
-#include <fstream>
 #include <stdexcept>
 
 #include "depth/error.h"
-#include "depth/file/open_file.h"
 #include "depth/file/sealed_file.h"
 #include "forest/compact.h"
 #include "forest/forest.h"

@@ -2,10 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
-#include <fstream>
 
 #include "depth/error.h"
-#include "depth/file/open_file.h"
 #include "depth/file/sealed_file.h"
 #include "recon/database/posture_database.h"
 
