@@ -24,7 +24,7 @@ struct NetworkExamples {
 using LossGradient = std::function<RowMatrix(const RowMatrix& out, const RowMatrix& wanted)>;
 
 struct NetworkOptions {
-  Eigen::Index hidden = 512;  // rectified units of the one hidden layer
+  std::vector<Eigen::Index> hidden = {512};  // rectified units of each hidden layer
   Eigen::Index outputs = 0;
   int64_t epochs = 12;  // times that every example is seen
   uint64_t seed = 1;
@@ -34,7 +34,7 @@ struct NetworkOptions {
 
 inline constexpr Eigen::Index kNetworkBatch = 128;
 
-/// Learns a network of one hidden layer by Adam with dropout (network_trainer_internal.h), in
+/// Learns a network by Adam with dropout (network_trainer_internal.h), in
 /// batches of kNetworkBatch; what does not fill a batch waits for the next epoch. The same bytes on
 /// every machine and for any number of threads. The weights' lower 16 bits are 0.
 std::vector<NetworkLayer> LearnNetwork(const NetworkExamples& examples,

@@ -18,6 +18,7 @@ constexpr std::array kCommands = {
     Command{"database", "build a posture database from motion capture", ossa::commands::Database},
     Command{"learn", "learn a sensor's errors from observed and true skeletons",
             ossa::commands::Learn},
+    Command{"look", "learn to look again at where a forest puts the joints", ossa::commands::Look},
     Command{"prior", "learn from motion capture how people move", ossa::commands::Prior},
     Command{"reconstruct", "make recorded skeletons complete and plausible",
             ossa::commands::Reconstruct},

@@ -35,7 +35,10 @@ float RateAt(int64_t step, int64_t steps) {
 std::vector<NetworkLayer> LearnNetwork(const NetworkExamples& examples,
                                        const LossGradient& gradient,
                                        const NetworkOptions& options) {
-  NetworkTrainer network({examples.input.cols(), options.hidden, options.outputs}, options.seed);
+  std::vector<Eigen::Index> widths = {examples.input.cols()};
+  widths.insert(widths.end(), options.hidden.begin(), options.hidden.end());
+  widths.push_back(options.outputs);
+  NetworkTrainer network(widths, options.seed);
   std::vector<Eigen::Index> order(static_cast<size_t>(examples.input.rows()));
   std::iota(order.begin(), order.end(), Eigen::Index{0});
   Random random(MixSeed(options.seed, 0x5befe7));

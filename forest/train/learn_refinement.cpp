@@ -135,7 +135,7 @@ ForestModel LearnRefinement(const ForestModel& model, const TrainingSource& sour
   ForestData data = model.data();
   data.refinement = NormaliseInputs(&examples.input);
   NetworkOptions network;
-  network.hidden = options.hidden;
+  network.hidden = {options.hidden};
   network.outputs = 4 * static_cast<Eigen::Index>(model.targets().size());
   network.epochs = options.epochs;
   network.seed = options.seed;

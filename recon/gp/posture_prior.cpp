@@ -4,7 +4,6 @@
 
 #include <Eigen/Eigenvalues>
 #include <algorithm>
-#include <bit>
 #include <cmath>
 #include <numbers>
 #include <stdexcept>
@@ -20,71 +19,9 @@ using BoneMatrix = Eigen::Matrix<double, kBoneDims, kBoneDims>;
 constexpr SealedFormat kFormat = {
     {'O', 'S', 'S', 'A', 'P', 'R', '0', '0'}, PosturePrior::kVersion, "posture prior"};
 constexpr uint32_t kVersionOfNetwork = 2;
-constexpr Eigen::Index kMostUnits = 1 << 14;
 
 // A mode is neither forgotten within a frame nor kept for ever.
 constexpr double kShortest_s = 0.02, kLongest_s = 1000.0;
-
-/// Numbers as the upper halves of their floats: the lower halves say nothing.
-void PutHalves(PayloadWriter& out, const Eigen::Ref<const Eigen::MatrixXf>& numbers) {
-  std::vector<uint16_t> halves;
-  for (const float number : numbers.reshaped()) {
-    const uint32_t half = std::isfinite(number) ? 0x8000U : 0U;  // rounded, but not NaN to a number
-    halves.push_back(static_cast<uint16_t>((std::bit_cast<uint32_t>(number) + half) >> 16U));
-  }
-  out.PutVector(halves);
-}
-
-constexpr float kMost = 1e6F;  // of anything in a network
-
-Eigen::VectorXf GetFloats(PayloadReader& in, std::string_view field, size_t count) {
-  const auto numbers = in.GetVector<float>(field);
-  if (numbers.size() != count) in.Fail(field, fmt::format("expected {} numbers", count));
-  for (const float number : numbers) {
-    if (!(std::abs(number) <= kMost)) in.Fail(field, "expected numbers of at most a million");
-  }
-  return Eigen::Map<const Eigen::VectorXf>(numbers.data(), static_cast<Eigen::Index>(count));
-}
-
-Eigen::MatrixXf GetHalves(PayloadReader& in, std::string_view field, Eigen::Index rows,
-                          Eigen::Index columns) {
-  const auto halves = in.GetVector<uint16_t>(field);
-  if (halves.size() != static_cast<size_t>(rows * columns)) {
-    in.Fail(field, fmt::format("expected {} numbers", rows * columns));
-  }
-  Eigen::MatrixXf numbers(rows, columns);
-  for (size_t i = 0; i < halves.size(); ++i) {
-    const float number = std::bit_cast<float>(static_cast<uint32_t>(halves[i]) << 16U);
-    if (!(std::abs(number) <= kMost)) in.Fail(field, "expected numbers of at most a million");
-    numbers.reshaped()[static_cast<Eigen::Index>(i)] = number;
-  }
-  return numbers;
-}
-
-void PutNetwork(PayloadWriter& out, const PriorNetwork& network) {
-  out.Put(static_cast<uint32_t>(network.unit_bias.size()));
-  out.PutArray(std::span<const float>(network.input_mean.data(), kPriorInputs));
-  out.PutArray(std::span<const float>(network.input_scale.data(), kPriorInputs));
-  PutHalves(out, network.unit_weight);
-  PutHalves(out, network.unit_bias);
-  PutHalves(out, network.bone_weight);
-  PutHalves(out, network.bone_bias);
-}
-
-PriorNetwork GetNetwork(PayloadReader& in) {
-  const auto units = static_cast<Eigen::Index>(in.Get<uint32_t>("units"));
-  if (units < 1 || units > kMostUnits) {
-    in.Fail("units", fmt::format("expected 1 to {}", kMostUnits));
-  }
-  PriorNetwork network;
-  network.input_mean = GetFloats(in, "input means", kPriorInputs);
-  network.input_scale = GetFloats(in, "input scales", kPriorInputs);
-  network.unit_weight = GetHalves(in, "unit weights", units, kPriorInputs);
-  network.unit_bias = GetHalves(in, "unit biases", units, 1);
-  network.bone_weight = GetHalves(in, "bone weights", kBoneDims, units);
-  network.bone_bias = GetHalves(in, "bone biases", kBoneDims, 1);
-  return network;
-}
 
 /// Sums over all frames and their mirror images; what is about the mean is made of them later, so
 /// that no motion needs to be held in memory.
@@ -261,6 +198,7 @@ void PosturePrior::Save(const std::filesystem::path& path) const {
   if (network.empty()) {
     format.version = kVersionOfNetwork - 1;  // what older programs read
   } else {
+    out.Put(static_cast<uint32_t>(network.layers.front().bias.size()));
     PutNetwork(out, network);
   }
   WriteSealedFile(path, format, out.bytes());
@@ -310,7 +248,13 @@ PosturePrior PosturePrior::FromBytes(std::span<const std::byte> bytes, const std
   }
   out.modes_m = get("modes", kBoneDims * times.size(), -kLongestBone_m, kLongestBone_m);
   out.modes_m.resize(kBoneDims, out.time_s.size());
-  if (version >= kVersionOfNetwork) out.network = GetNetwork(in);
+  if (version >= kVersionOfNetwork) {
+    const auto units = in.Get<uint32_t>("units");
+    if (units < 1 || units > kMostUnits) {
+      in.Fail("units", fmt::format("expected 1 to {}", kMostUnits));
+    }
+    out.network = {GetNetwork(in, {kPriorInputs, units, kBoneDims})};
+  }
   in.ExpectEnd();
   return out;
 }

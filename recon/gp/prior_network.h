@@ -1,6 +1,7 @@
 #pragma once
 #include <Eigen/Core>
 
+#include "recon/gp/rectified_network.h"
 #include "recon/normalise.h"
 #include "recon/posture.h"
 
@@ -21,22 +22,16 @@ using PriorInput = Eigen::Matrix<float, kPriorInputs, 1>;
 float Clearness(double sd_m);
 
 /// What a Gaussian prior cannot say of how people hold themselves: knees bend one way only, and who
-/// bends down holds the hands otherwise than who squats. A network of one rectified layer that
-/// knows how far the bones lie from where a PriorFilter expects them. No size of its own: it is
-/// learned for one PosturePrior, which it is part of.
-struct PriorNetwork {
-  Eigen::VectorXf input_mean, input_scale;  // kPriorInputs; scale: 1 / standard deviation
-  Eigen::MatrixXf unit_weight;              // unit x input
-  Eigen::VectorXf unit_bias;
-  Eigen::MatrixXf bone_weight;  // kBoneDims x unit, in kBoneStep_m
-  Eigen::VectorXf bone_bias;
-
+/// bends down holds the hands otherwise than who squats. A network that knows how far the bones lie
+/// from where a PriorFilter expects them: kPriorInputs -> kBoneDims, in kBoneStep_m. No size of its
+/// own: it is learned for one PosturePrior, which it is part of.
+struct PriorNetwork : RectifiedNetwork {
   static constexpr double kBoneStep_m = 0.1;
 
-  /// Without units nothing is corrected.
-  bool empty() const { return unit_bias.size() == 0; }
   /// To be added to the bones that were expected.
-  BoneVector Correction_m(const PriorInput& input) const;
+  BoneVector Correction_m(const PriorInput& input) const {
+    return kBoneStep_m * Run(input).cast<double>();
+  }
 };
 
 }  // namespace ossa::recon

@@ -22,10 +22,11 @@ std::vector<std::string> ossa::fuzz::Seeds() {
   const std::string path = ScratchPath("prior");
   prior.Save(path);
   const std::string without = TakeFile(path).substr(kSealSize);
-  prior.network = {
-      Eigen::VectorXf::Zero(recon::kPriorInputs),    Eigen::VectorXf::Ones(recon::kPriorInputs),
-      Eigen::MatrixXf::Ones(1, recon::kPriorInputs), Eigen::VectorXf::Zero(1),
-      Eigen::MatrixXf::Ones(recon::kBoneDims, 1),    Eigen::VectorXf::Zero(recon::kBoneDims)};
+  prior.network.input_mean = Eigen::VectorXf::Zero(recon::kPriorInputs);
+  prior.network.input_scale = Eigen::VectorXf::Ones(recon::kPriorInputs);
+  prior.network.layers = {
+      {Eigen::MatrixXf::Ones(1, recon::kPriorInputs), Eigen::VectorXf::Zero(1)},
+      {Eigen::MatrixXf::Ones(recon::kBoneDims, 1), Eigen::VectorXf::Zero(recon::kBoneDims)}};
   prior.Save(path);
   return {without, TakeFile(path).substr(kSealSize)};
 }

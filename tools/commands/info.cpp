@@ -14,6 +14,7 @@
 #include "recon/database/posture_database.h"
 #include "recon/gp/learned_models.h"
 #include "recon/gp/posture_prior.h"
+#include "recon/look/close_look.h"
 #include "recon/motion/skeletons/skeleton_io.h"
 #include "tools/commands/command.h"
 #include "tools/commands/commands.h"
@@ -108,7 +109,14 @@ void ShowPrior(const fs::path& path) {
       prior.time_s.size(), prior.frames,
       100.0 * unexplained / (unexplained + prior.modes_m.squaredNorm()),
       static_cast<double>(fs::file_size(path)) * 1e-3, prior.time_s.minCoeff(),
-      prior.time_s.maxCoeff(), prior.network.unit_bias.size());
+      prior.time_s.maxCoeff(),
+      prior.network.empty() ? 0 : prior.network.layers.front().bias.size());
+}
+
+void ShowLook(const fs::path& path) {
+  const auto look = recon::CloseLook::Load(path);
+  fmt::print("close look at a forest's joints, {} networks learned from {} people, {:.1f} MB\n",
+             look.networks.size(), look.people, static_cast<double>(fs::file_size(path)) * 1e-6);
 }
 
 bool IsDepthRecording(const fs::path& path) {
@@ -148,6 +156,7 @@ constexpr std::array kKinds = {
     FileKind{recon::PostureDatabase::IsOne, ShowDatabase},
     FileKind{recon::LearnedModels::IsOne, ShowLearned},
     FileKind{recon::PosturePrior::IsOne, ShowPrior},
+    FileKind{recon::CloseLook::IsOne, ShowLook},
     FileKind{tools::IsDataset, ShowDataset},
     FileKind{IsDepthRecording, ShowDepthRecording},
     FileKind{IsRegularFile, ShowSkeletons},
@@ -158,9 +167,9 @@ constexpr std::array kKinds = {
 int Info(int argc, char** argv) {
   CLI::App app("Say what a file holds: a model's card, a database's clips, a data set's origin");
   std::string file;
-  app.add_option(
-         "FILE", file,
-         "a .ossa, .ossadb, .ossagp, .ossaprior, .oni or skeleton file, a DATASET or PNG folder")
+  app.add_option("FILE", file,
+                 "a .ossa, .ossadb, .ossagp, .ossaprior, .ossalook, .oni or skeleton file, a "
+                 "DATASET or PNG folder")
       ->required();
   Parse(app, argc, argv);
   if (!fs::exists(file)) throw InputError(file + ": no such file or folder");

@@ -52,6 +52,9 @@ void AddTrackerOptions(CLI::App& app, TrackOptions& options) {
   app.add_option("--prior", t.prior,
                  ".ossaprior of 'ossa prior', for best (default: the shipped one)");
   app.add_option("--learned", t.learned, ".ossagp of 'ossa learn', for the methods that learn");
+  app.add_option(
+      "--look", t.look,
+      ".ossalook of 'ossa look' (default: with best and the shipped model the shipped one)");
   app.add_option("--method", t.method, "how postures are completed (default best)")
       ->check(CLI::IsMember(recon::ReconstructionMethods()));
   AddMechanicsOptions(app, options.mechanics);
@@ -73,8 +76,9 @@ TrackOptions ParseOptions(int argc, char** argv) {
   TrackOptions options;
   AddSourceOptions(app, options.source);
   app.add_option("--out", options.out, "skeletons: FILE.jsonl, .bvh, .trc or .csv");
-  app.add_option("--posture", options.posture, "what --out gets: final, reconstructed or raw")
-      ->check(CLI::IsMember({"final", "reconstructed", "raw"}));
+  app.add_option("--posture", options.posture,
+                 "what --out gets: final, reconstructed, looked (raw after a close look) or raw")
+      ->check(CLI::IsMember({"final", "reconstructed", "looked", "raw"}));
   AddTrackerOptions(app, options);
   app.add_option("--frames", options.frames, "stop after so many frames")->check(Positive());
   AddDeviceOptions(app, options.source);
@@ -114,6 +118,7 @@ class SkeletonOutput {
  public:
   SkeletonOutput(const std::string& path, const std::string& posture) : path_(path) {
     if (posture == "raw") kind_ = tracker::PostureKind::kRaw;
+    if (posture == "looked") kind_ = tracker::PostureKind::kLooked;
     if (posture == "reconstructed") kind_ = tracker::PostureKind::kReconstructed;
     if (path_.empty()) return;
     AtomicFile::CheckWritable(path_);

@@ -14,6 +14,7 @@
 #include "forest/network.h"
 #include "forest/train.h"
 #include "recon/gp/prior_filter.h"
+#include "tools/learning/learn_rectified_network.h"
 #include "tools/synth/random.h"
 
 namespace ossa::tools {
@@ -163,46 +164,6 @@ void Take(const Walk& walk, const std::shared_ptr<const recon::PosturePrior>& pr
   }
 }
 
-/// The mean length of the bones' errors, smooth where they are small.
-forest::RowMatrix GradientOfLoss(const forest::RowMatrix& out, const forest::RowMatrix& wanted) {
-  constexpr float kSoft = 0.05F;  // steps
-  forest::RowMatrix gradient = out - wanted;
-  for (Eigen::Index i = 0; i < gradient.rows(); ++i) {
-    for (Eigen::Index bone = 0; bone < kBoneDims; bone += 3) {
-      auto error = gradient.block<1, 3>(i, bone);
-      error /= std::sqrt(error.squaredNorm() + kSoft * kSoft);
-    }
-  }
-  return gradient / static_cast<float>(gradient.rows());
-}
-
-/// Means and scales of the inputs, which are then normalised in place.
-recon::PriorNetwork NormaliseInputs(forest::RowMatrix* input) {
-  constexpr double kLeastDeviation = 1e-3;
-  recon::PriorNetwork network;
-  network.input_mean.resize(input->cols());
-  network.input_scale.resize(input->cols());
-  for (Eigen::Index i = 0; i < input->cols(); ++i) {
-    const Eigen::VectorXd column = input->col(i).cast<double>();
-    const double mean = column.mean();
-    const double deviation = std::sqrt((column.array() - mean).square().mean());
-    network.input_mean[i] = static_cast<float>(mean);
-    network.input_scale[i] = static_cast<float>(1.0 / (deviation + kLeastDeviation));
-    input->col(i) = (input->col(i).array() - network.input_mean[i]) * network.input_scale[i];
-  }
-  return network;
-}
-
-Eigen::MatrixXf Transposed(const forest::NetworkLayer& layer, Eigen::Index inputs) {
-  const auto outputs = static_cast<Eigen::Index>(layer.bias.size());
-  return Eigen::Map<const forest::RowMatrix>(layer.weight.data(), inputs, outputs).transpose();
-}
-
-Eigen::VectorXf BiasOf(const forest::NetworkLayer& layer) {
-  return Eigen::Map<const Eigen::VectorXf>(layer.bias.data(),
-                                           static_cast<Eigen::Index>(layer.bias.size()));
-}
-
 }  // namespace
 
 recon::PriorNetwork LearnPriorNetwork(const recon::PosturePrior& prior,
@@ -236,20 +197,15 @@ recon::PriorNetwork LearnPriorNetwork(const recon::PosturePrior& prior,
     if (!options.stop || !options.stop()) Take(walks[i], gaussian, options.seed, &examples);
   });
   if (options.stop && options.stop()) throw forest::TrainInterrupted("interrupted");
-  recon::PriorNetwork network = NormaliseInputs(&examples.input);
   forest::NetworkOptions learning;
-  learning.hidden = options.hidden;
+  learning.hidden = {options.hidden};
   learning.outputs = kBoneDims;
   learning.epochs = options.epochs;
   learning.seed = options.seed;
   learning.progress = options.progress;
   learning.stop = options.stop;
-  const auto layers = forest::LearnNetwork(examples, GradientOfLoss, learning);
-  network.unit_weight = Transposed(layers.at(0), recon::kPriorInputs);
-  network.unit_bias = BiasOf(layers.at(0));
-  network.bone_weight = Transposed(layers.at(1), options.hidden);
-  network.bone_bias = BiasOf(layers.at(1));
-  return network;
+  constexpr float kSoft = 0.05F;  // steps
+  return {LearnRectifiedNetwork(&examples, GradientOfLengths(kSoft), learning)};
 }
 
 }  // namespace ossa::tools

@@ -73,7 +73,9 @@ void CompleteBody(const depth::DepthFrame& frame, const std::optional<Eigen::Vec
                   const CompleteOptions& options, Person& person, Body& body, StageTimes& ms) {
   const auto start = Clock::now();
   if (!person.reconstructor) person.reconstructor = recon::MakeReconstructor(options.reconstructor);
-  const recon::TrackedPosture steady = person.steady.Step(body.raw, frame.time_s);
+  recon::TrackedPosture seen = body.raw;
+  if (body.looked && options.reconstructor.method == "best") seen.posture = *body.looked;
+  const recon::TrackedPosture steady = person.steady.Step(seen, frame.time_s);
   const auto result = person.reconstructor->Step({steady, frame.time_s, &frame});
   body.reconstructed = result.posture;
   body.reliability = result.reliability;

@@ -10,8 +10,9 @@ struct PosturePrior;
 
 namespace ossa::tracker {
 
-/// A file that comes with ossa (body.ossa, body.ossagp, kinect_v2.ossagp, authored.ossadb,
-/// posture.ossaprior): in the folder the environment variable OSSA_SHARE names, else in
+/// A file that comes with ossa (body.ossa, body.ossagp, body.ossalook, kinect_v2.ossagp,
+/// authored.ossadb, posture.ossaprior): in the folder the environment variable OSSA_SHARE names,
+/// else in
 /// ../share/ossa beside the running program, else in the source tree it was built from. Throws
 /// InputError that says where it was looked for.
 std::filesystem::path ShippedFile(std::string_view name);

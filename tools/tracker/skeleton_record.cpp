@@ -3,8 +3,14 @@
 namespace ossa::tracker {
 namespace {
 
+// Joints as they are seen, frame by frame.
+bool IsOfTheImage(PostureKind kind) {
+  return kind == PostureKind::kRaw || kind == PostureKind::kLooked;
+}
+
 const recon::Posture& PostureOf(const Body& body, PostureKind kind) {
-  if (kind == PostureKind::kRaw) return body.raw.posture;
+  if (kind == PostureKind::kLooked && body.looked) return *body.looked;
+  if (IsOfTheImage(kind)) return body.raw.posture;
   return kind == PostureKind::kReconstructed ? body.reconstructed : body.smoothed;
 }
 
@@ -14,7 +20,7 @@ recon::BodyRecord RecordOf(const Body& body, PostureKind kind) {
   const recon::Posture& posture = PostureOf(body, kind);
   for (size_t j = 0; j < recon::kJointCount; ++j) {
     const bool absent =
-        kind == PostureKind::kRaw && body.raw.state[j] == recon::TrackingState::kNotTracked;
+        IsOfTheImage(kind) && body.raw.state[j] == recon::TrackingState::kNotTracked;
     if (absent || !posture.position_m[j].allFinite()) continue;
     recon::JointRecord joint;
     joint.position_m = posture.position_m[j];

@@ -5,10 +5,11 @@
 namespace ossa::tracker {
 
 /// Which of a body's postures a file gets.
-enum class PostureKind { kFinal, kReconstructed, kRaw };
+enum class PostureKind { kFinal, kReconstructed, kLooked, kRaw };
 
 /// The bodies of a frame as skeleton files hold them. Not-tracked joints keep the reconstruction's
-/// position and say not_tracked; in raw records they are absent. Bodies known by position only are
+/// position and say not_tracked; in raw records they are absent, and in looked ones, which are raw
+/// ones where there was no close look. Bodies known by position only are
 /// left out.
 recon::SkeletonFrame RecordOf(const BodyFrame& frame, PostureKind kind = PostureKind::kFinal);
 

@@ -12,7 +12,9 @@
 #include "forest/forest.h"
 #include "recon/database/posture_database.h"
 #include "recon/gp/learned_models.h"
+#include "recon/look/close_look.h"
 #include "tools/tracker/find_people_internal.h"
+#include "tools/tracker/look_closely_internal.h"
 #include "tools/tracker/measure_body_internal.h"
 #include "tools/tracker/parallel_internal.h"
 #include "tools/tracker/perceive_internal.h"
@@ -59,6 +61,14 @@ std::shared_ptr<const recon::LearnedModels> LearnedOf(const TrackerOptions& opti
   return models;
 }
 
+std::shared_ptr<const recon::CloseLook> LookOf(const TrackerOptions& options) {
+  const bool is_shipped = options.model.empty() || IsShippedFile(options.model, "body.ossa");
+  if (options.look.empty() && !(is_shipped && options.method == "best")) return nullptr;
+  return std::make_shared<recon::CloseLook>(
+      recon::CloseLook::Load(options.look.empty() ? ShippedFile(recon::kShippedLook)
+                                                  : std::filesystem::path(options.look)));
+}
+
 unsigned ClippedEdges(const depth::DepthFrame& frame, const std::vector<int32_t>& pixels) {
   // The sensor leaves a margin of a few pixels without readings at each border.
   const int margin = std::max(2, frame.camera.width / 64);
@@ -79,6 +89,7 @@ struct Tracker::Impl {
   TrackerOptions options;
   forest::ForestModel model;
   std::array<int, recon::kJointCount> targets;
+  std::shared_ptr<const recon::CloseLook> look;
   CompleteOptions complete;
   depth::SceneOptions scene_options;
   depth::SceneState scene_state;
@@ -89,7 +100,8 @@ struct Tracker::Impl {
   explicit Impl(const TrackerOptions& o)
       : options(o),
         model(forest::ReadForestModel(ModelPath(o), forest::ModelUse::kRunOnly)),
-        targets(JointTargets(model, o.model.empty() ? "body.ossa" : o.model)) {
+        targets(JointTargets(model, o.model.empty() ? "body.ossa" : o.model)),
+        look(LookOf(o)) {
     complete.physics = o.physics;
     complete.mechanics = o.mechanics;
     complete.smoothing = o.smoothing;
@@ -109,7 +121,7 @@ struct Tracker::Impl {
   std::vector<Person*> PersonsOf(const std::vector<int>& ids, double time_s);
   std::vector<float> ContextPrior(const Person& person, double time_s) const;
   void TrackBody(const depth::DepthFrame& frame, const std::optional<Eigen::Vector4d>& floor,
-                 const Perception& perception, Person& person, Body& body, StageTimes& ms) const;
+                 const Found& found, Person& person, Body& body, StageTimes& ms) const;
 };
 
 Known Tracker::Impl::KnownOf(const depth::Candidate& candidate, double time_s) const {
@@ -209,9 +221,9 @@ std::vector<float> Tracker::Impl::ContextPrior(const Person& person, double time
 
 // From pixels to all three postures of one person.
 void Tracker::Impl::TrackBody(const depth::DepthFrame& frame,
-                              const std::optional<Eigen::Vector4d>& floor,
-                              const Perception& perception, Person& person, Body& body,
-                              StageTimes& ms) const {
+                              const std::optional<Eigen::Vector4d>& floor, const Found& found,
+                              Person& person, Body& body, StageTimes& ms) const {
+  const Perception& perception = found.perception;
   ChoiceContext context;
   context.camera = &frame.camera;
   context.expected_m = person.lengths_m;
@@ -219,6 +231,12 @@ void Tracker::Impl::TrackBody(const depth::DepthFrame& frame,
   const bool recent = person.before && frame.time_s - person.before_s <= kRecent_s;
   context.before = recent ? &*person.before : nullptr;
   body.raw = ChoosePosture(model, targets, perception.proposals, context);
+  if (look) {
+    const auto start = Clock::now();
+    body.looked =
+        LookClosely(*look, frame, found.candidate, perception.proposals, targets, body.raw);
+    ms.reconstruct += MillisecondsSince(start);
+  }
   for (size_t j = 0; j < recon::kJointCount; ++j) {
     if (options.mode == TrackingMode::kStanding || IsSeatedJoint(static_cast<recon::Joint>(j)))
       continue;
@@ -250,7 +268,7 @@ BodyFrame Tracker::Impl::Push(const depth::DepthFrame& frame) {
     ++persons[i]->looks;
     persons[i]->seen_s = frame.time_s;
     if (body.state == BodyState::kPositionOnly) return;
-    TrackBody(frame, result.floor, found[i].perception, *persons[i], body, times[i]);
+    TrackBody(frame, result.floor, found[i], *persons[i], body, times[i]);
     if (options.keep_parts)
       PaintParts(model, frame, found[i].candidate, found[i].perception, result.parts);
   });

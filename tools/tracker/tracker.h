@@ -43,8 +43,9 @@ struct Body {
   BodyState state = BodyState::kTracked;
   Eigen::Vector3d position_m = Eigen::Vector3d::Zero();  // middle of the seen surface
   recon::TrackedPosture raw;                             // what the image says, joint by joint
-  recon::Posture reconstructed;  // made complete and bone-consistent by the method
-  recon::Posture smoothed;       // after physics and smoothing, seen joints held to the image
+  std::optional<recon::Posture> looked;  // the raw joints after a close look, where there was one
+  recon::Posture reconstructed;          // made complete and bone-consistent by the method
+  recon::Posture smoothed;  // after physics and smoothing, seen joints held to the image
   std::array<double, recon::kJointCount> reliability{};  // R_i of the raw joints
   recon::JointOrientations absolute_orientation;         // as the SDK defines them
   recon::JointOrientations hierarchical_orientation;
@@ -79,6 +80,7 @@ struct TrackerOptions {
   std::string database;         // .ossadb; "" = the shipped one, of best the shipped prior
   std::string prior;            // .ossaprior, of best; "" = without a database the shipped one
   std::string learned;          // .ossagp; "" = with best and the shipped model the shipped one
+  std::string look;             // .ossalook; "" = with best and the shipped model the shipped one
   std::string method = "best";  // one of recon::ReconstructionMethods()
   bool physics = false;         // let the mechanical character follow the posture
   MechanicsBuild mechanics;     // how that is built

@@ -33,17 +33,15 @@ PriorNetwork Silent(Eigen::Index units) {
   PriorNetwork network;
   network.input_mean = Eigen::VectorXf::Zero(kPriorInputs);
   network.input_scale = Eigen::VectorXf::Ones(kPriorInputs);
-  network.unit_weight = Eigen::MatrixXf::Zero(units, kPriorInputs);
-  network.unit_bias = Eigen::VectorXf::Zero(units);
-  network.bone_weight = Eigen::MatrixXf::Zero(kBoneDims, units);
-  network.bone_bias = Eigen::VectorXf::Zero(kBoneDims);
+  network.layers = {{Eigen::MatrixXf::Zero(units, kPriorInputs), Eigen::VectorXf::Zero(units)},
+                    {Eigen::MatrixXf::Zero(kBoneDims, units), Eigen::VectorXf::Zero(kBoneDims)}};
   return network;
 }
 
 /// Whatever is seen, the head is to be that much farther forward.
 PriorNetwork HeadForward(double by_m) {
   PriorNetwork network = Silent(1);
-  network.bone_bias[kHead + 2] = static_cast<float>(by_m / PriorNetwork::kBoneStep_m);
+  network.layers[1].bias[kHead + 2] = static_cast<float>(by_m / PriorNetwork::kBoneStep_m);
   return network;
 }
 
@@ -61,12 +59,12 @@ TEST(PriorNetwork, IsOneRectifiedLayerOfNormalisedInputs) {
   PriorNetwork network = Silent(2);
   network.input_mean[4] = 1.0F;
   network.input_scale[4] = 2.0F;
-  network.unit_weight(0, 4) = 1.0F;
-  network.unit_weight(1, 4) = -1.0F;
-  network.unit_bias[0] = 0.5F;
-  network.bone_weight(7, 0) = 3.0F;
-  network.bone_weight(8, 1) = 1.0F;
-  network.bone_bias[7] = 0.25F;
+  network.layers[0].weight(0, 4) = 1.0F;
+  network.layers[0].weight(1, 4) = -1.0F;
+  network.layers[0].bias[0] = 0.5F;
+  network.layers[1].weight(7, 0) = 3.0F;
+  network.layers[1].weight(8, 1) = 1.0F;
+  network.layers[1].bias[7] = 0.25F;
   const auto said = [&](float x) {
     PriorInput input = PriorInput::Zero();
     input[4] = x;
@@ -154,15 +152,15 @@ TEST(PriorNetwork, IsKeptInThePriorsFile) {
   EXPECT_TRUE(PosturePrior::Load(folder / "without.ossaprior").network.empty());
   prior.network = HeadForward(0.05);
   prior.network.input_mean[2] = 0.123F;
-  prior.network.unit_weight(0, 3) = -1.5F;
+  prior.network.layers[0].weight(0, 3) = -1.5F;
   prior.Save(folder / "with.ossaprior");
   constexpr size_t kVersionAt = 12;                      // of a sealed file
   EXPECT_EQ(bytes("without.ossaprior")[kVersionAt], 1);  // as before there were networks
   EXPECT_EQ(bytes("with.ossaprior")[kVersionAt], 2);
   const PriorNetwork read = PosturePrior::Load(folder / "with.ossaprior").network;
   EXPECT_EQ(read.input_mean[2], 0.123F);
-  EXPECT_EQ(read.unit_weight(0, 3), -1.5F);
-  EXPECT_NEAR(read.bone_bias[kHead + 2], 0.5F, 0.5F / 128.0F);  // 8 bits of it
+  EXPECT_EQ(read.layers[0].weight(0, 3), -1.5F);
+  EXPECT_NEAR(read.layers[1].bias[kHead + 2], 0.5F, 0.5F / 128.0F);  // 8 bits of it
   PosturePrior::Load(folder / "with.ossaprior").Save(folder / "again.ossaprior");
   EXPECT_EQ(bytes("with.ossaprior"), bytes("again.ossaprior"));
 }
@@ -183,10 +181,10 @@ TEST(PriorNetwork, WithOddNumbersIsRefused) {
   };
   constexpr float kInfinity = std::numeric_limits<float>::infinity();
   refused([](PriorNetwork& n) { n.input_scale[5] = std::nanf(""); }, "input scales");
-  refused([](PriorNetwork& n) { n.unit_weight(0, 5) = kInfinity; }, "unit weights");
-  refused([](PriorNetwork& n) { n.unit_bias.setZero(1 << 15); }, "units");
-  refused([](PriorNetwork& n) { n.bone_weight.setZero(kBoneDims, 2); }, "bone weights");
-  refused([](PriorNetwork& n) { n.bone_bias[0] = 1e9F; }, "bone biases");
+  refused([](PriorNetwork& n) { n.layers[0].weight(0, 5) = kInfinity; }, "unit weights");
+  refused([](PriorNetwork& n) { n.layers[0].bias.setZero(1 << 15); }, "units");
+  refused([](PriorNetwork& n) { n.layers[1].weight.setZero(kBoneDims, 2); }, "output weights");
+  refused([](PriorNetwork& n) { n.layers[1].bias[0] = 1e9F; }, "output biases");
 }
 
 }  // namespace

@@ -99,10 +99,11 @@ TEST(LearnPriorNetwork, IsTheSameForAnyThreads) {
   three.threads = 3;
   one.epochs = three.epochs = 1;
   const auto a = LearnPriorNetwork(prior, clips, one), b = LearnPriorNetwork(prior, clips, three);
-  EXPECT_TRUE(a.unit_weight == b.unit_weight && a.bone_weight == b.bone_weight);
+  EXPECT_TRUE(a.layers[0].weight == b.layers[0].weight);
+  EXPECT_TRUE(a.layers[1].weight == b.layers[1].weight);
   EXPECT_TRUE(a.input_mean == b.input_mean && a.input_scale == b.input_scale);
   one.seed = 2;
-  EXPECT_FALSE(LearnPriorNetwork(prior, clips, one).unit_weight == a.unit_weight);
+  EXPECT_FALSE(LearnPriorNetwork(prior, clips, one).layers[0].weight == a.layers[0].weight);
 }
 
 TEST(LearnPriorNetwork, NeedsMotionAndMayBeStopped) {

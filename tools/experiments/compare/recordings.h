@@ -13,6 +13,8 @@ struct RecordedPair {
   std::string subject;  // who; learning must leave the tested one out
   recon::SkeletonSequence observed;
   recon::SkeletonSequence truth;
+  /// `observed` after a close look at the depth images; without frames where there was none.
+  recon::SkeletonSequence looked;
 };
 
 /// The real recordings with truth in a shared data folder (DIR of `--shared DIR`). Each throws

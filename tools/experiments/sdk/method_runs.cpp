@@ -68,7 +68,9 @@ std::shared_ptr<const recon::PosturePrior> PriorOf(ExperimentContext& context) {
 }
 
 void KnowObserver(const std::string& observer, MethodRun* best) {
-  if (observer == "forest") best->options.learned_file = tracker::ShippedFile("body.ossagp");
+  if (observer != "forest") return;
+  best->options.learned_file = tracker::ShippedFile("body.ossagp");
+  best->looks = true;
 }
 
 recon::SkeletonSequence RunMethod(const ExperimentContext& context, const MethodRun& run,
@@ -101,7 +103,9 @@ std::vector<PairedTracks> RunOverClips(const ExperimentContext& context, const M
   std::vector<PairedTracks> pairs;
   for (const RecordedPair& clip : clips) {
     StopWhenInterrupted(context);
-    pairs.push_back(PairClip(clip.clip, clip.truth, RunMethod(context, run, clip.observed)));
+    const bool looks = run.looks && !clip.looked.frames.empty();
+    const auto made = RunMethod(context, run, looks ? clip.looked : clip.observed);
+    pairs.push_back(PairClip(clip.clip, clip.truth, made));
     if (context.progress) {
       context.progress(static_cast<double>(pairs.size()), static_cast<double>(clips.size()),
                        run.label + " " + clip.clip);

@@ -28,9 +28,11 @@ struct MethodRun {
   std::string label;  // in tables
   recon::ReconstructorOptions options;
   std::string database_key;  // of a database that is not DatabaseOf(context): for the cache
+  bool looks = false;        // starts from RecordedPair::looked where there is one
 };
 
-/// best as `ossa track` runs it: of the shipped forest's joints it knows the systematic errors.
+/// best as `ossa track` runs it: the shipped forest's joints are looked at again, closely, and it
+/// knows their systematic errors.
 /// `observer` is a study's: "forest" or "simulated".
 void KnowObserver(const std::string& observer, MethodRun* best);
 

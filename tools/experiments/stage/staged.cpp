@@ -10,6 +10,7 @@
 #include "depth/render/shapes.h"
 #include "recon/body/body_model.h"
 #include "recon/body/clothing.h"
+#include "recon/look/close_look.h"
 #include "tools/experiments/compare/sequence_text.h"
 #include "tools/experiments/stage/staged_internal.h"
 #include "tools/synth/dataset.h"
@@ -59,7 +60,7 @@ struct Studio::State {
 
   const ExperimentContext& context;
   std::string observer;
-  std::filesystem::path model_path;
+  std::filesystem::path model_path, look_path;
   std::unique_ptr<recon::BodyModel> model;
   std::unique_ptr<recon::Wardrobe> wardrobe;
 
@@ -202,10 +203,12 @@ void BeginWhenFound(RecordedPair& pair) {
     ++first;
   }
   const auto drop = [first](recon::SkeletonSequence& sequence) {
+    if (sequence.frames.size() <= first) return;
     sequence.frames.erase(sequence.frames.begin(),
                           sequence.frames.begin() + static_cast<std::ptrdiff_t>(first));
   };
   drop(pair.observed);
+  drop(pair.looked);
   drop(pair.truth);
 }
 
@@ -226,6 +229,7 @@ Studio::Studio(const ExperimentContext& context, std::string observer)
     : state_(std::make_unique<State>(context, std::move(observer))) {
   if (state_->observer == "forest") {
     state_->model_path = context.model.empty() ? tracker::ShippedFile("body.ossa") : context.model;
+    if (context.model.empty()) state_->look_path = tracker::ShippedFile(recon::kShippedLook);
   } else if (state_->observer != "simulated") {
     throw InputError("observer '" + state_->observer + "': expected forest or simulated");
   }
@@ -248,6 +252,7 @@ RecordedPair Studio::Record(const recon::MotionClip& clip, const StageOptions& o
     if (state_->observer == "forest") {
       tracker::TrackerOptions how;
       how.model = state_->model_path.string();
+      how.look = state_->look_path.string();
       how.method = "none";
       how.smoothing = tracker::SmoothingPreset("none");
       how.threads = state_->context.threads;
@@ -255,29 +260,45 @@ RecordedPair Studio::Record(const recon::MotionClip& clip, const StageOptions& o
     }
     SimulatedSdk sdk(options.seed);
     recon::SkeletonSequence observed;
+    recon::SkeletonSequence looked;
     recon::SkeletonSequence truth;
     for (size_t f = 0; f < set.size(); ++f) {
       if (state_->context.interrupted && state_->context.interrupted()) throw Interruption{};
       const StagedFrame frame = set.Shoot(f);
-      observed.frames.push_back(tracker ? PersonOf(tracker::RecordOf(tracker->Push(frame.depth),
-                                                                     tracker::PostureKind::kRaw),
-                                                   frame.truth)
-                                        : sdk.Observe(frame));
+      if (tracker) {
+        const tracker::BodyFrame bodies = tracker->Push(frame.depth);
+        const auto person = [&](tracker::PostureKind kind) {
+          return PersonOf(tracker::RecordOf(bodies, kind), frame.truth);
+        };
+        observed.frames.push_back(person(tracker::PostureKind::kRaw));
+        if (!state_->look_path.empty()) {
+          looked.frames.push_back(person(tracker::PostureKind::kLooked));
+        }
+      } else {
+        observed.frames.push_back(sdk.Observe(frame));
+      }
       truth.frames.push_back(frame.truth);
     }
-    return TextOf(observed).append(kSequenceEnd).append(TextOf(truth));
+    std::string text = TextOf(observed).append(kSequenceEnd).append(TextOf(looked));
+    return text.append(kSequenceEnd).append(TextOf(truth));
   };
   std::string key =
       fmt::format("staged {} {} {} {}", KeyOfCode({"depth", "forest", "synth", "tracker"}),
                   state_->observer, KeyOf(options), KeyOf(clip));
-  if (!state_->model_path.empty()) key.append(" ").append(KeyOfFile(state_->model_path));
+  for (const auto& path : {state_->model_path, state_->look_path}) {
+    if (!path.empty()) key.append(" ").append(KeyOfFile(path));
+  }
   const std::string text = state_->context.Cached(key, compute);
-  const size_t end = text.find(kSequenceEnd);
+  const size_t end = text.find(kSequenceEnd), looked = end + kSequenceEnd.size();
+  const size_t looked_end = text.find(kSequenceEnd, looked);
   RecordedPair pair;
   pair.clip = options.name;
   pair.subject = clip.subject.empty() ? clip.name : clip.subject;
   pair.observed = SequenceOf(text.substr(0, end), options.name);
-  pair.truth = SequenceOf(text.substr(end + kSequenceEnd.size()), options.name);
+  if (looked_end > looked) {
+    pair.looked = SequenceOf(text.substr(looked, looked_end - looked), options.name);
+  }
+  pair.truth = SequenceOf(text.substr(looked_end + kSequenceEnd.size()), options.name);
   BeginWhenFound(pair);
   return pair;
 }

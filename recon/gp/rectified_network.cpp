@@ -1,0 +1,97 @@
+#include "recon/gp/rectified_network.h"
+
+#include <fmt/format.h>
+
+#include <bit>
+#include <cmath>
+#include <span>
+#include <string>
+#include <string_view>
+
+#include "depth/file/sealed_file.h"
+
+namespace ossa::recon {
+namespace {
+
+constexpr float kMost = 1e6F;  // of anything in a network
+
+void PutFloats(PayloadWriter& out, const Eigen::VectorXf& numbers) {
+  out.PutArray(std::span<const float>(numbers.data(), static_cast<size_t>(numbers.size())));
+}
+
+void PutHalves(PayloadWriter& out, const Eigen::Ref<const Eigen::MatrixXf>& numbers) {
+  std::vector<uint16_t> halves;
+  for (const float number : numbers.reshaped()) {
+    const uint32_t half = std::isfinite(number) ? 0x8000U : 0U;  // rounded, but not NaN to a number
+    halves.push_back(static_cast<uint16_t>((std::bit_cast<uint32_t>(number) + half) >> 16U));
+  }
+  out.PutVector(halves);
+}
+
+void Check(const PayloadReader& in, std::string_view field, size_t found, Eigen::Index count) {
+  if (found != static_cast<size_t>(count)) {
+    in.Fail(field, fmt::format("expected {} numbers", count));
+  }
+}
+
+void CheckModest(const PayloadReader& in, std::string_view field, float number) {
+  if (!(std::abs(number) <= kMost)) in.Fail(field, "expected numbers of at most a million");
+}
+
+Eigen::VectorXf GetFloats(PayloadReader& in, std::string_view field, Eigen::Index count) {
+  const auto numbers = in.GetVector<float>(field);
+  Check(in, field, numbers.size(), count);
+  for (const float number : numbers) CheckModest(in, field, number);
+  return Eigen::Map<const Eigen::VectorXf>(numbers.data(), count);
+}
+
+Eigen::MatrixXf GetHalves(PayloadReader& in, std::string_view field, Eigen::Index rows,
+                          Eigen::Index columns) {
+  const auto halves = in.GetVector<uint16_t>(field);
+  Check(in, field, halves.size(), rows * columns);
+  Eigen::MatrixXf numbers(rows, columns);
+  for (size_t i = 0; i < halves.size(); ++i) {
+    const float number = std::bit_cast<float>(static_cast<uint32_t>(halves[i]) << 16U);
+    CheckModest(in, field, number);
+    numbers.reshaped()[static_cast<Eigen::Index>(i)] = number;
+  }
+  return numbers;
+}
+
+}  // namespace
+
+Eigen::VectorXf RectifiedNetwork::Run(const Eigen::Ref<const Eigen::VectorXf>& input) const {
+  // What was never seen while it was learned is taken for the most that was.
+  constexpr float kFarthest = 5.0F;  // standard deviations
+  Eigen::VectorXf value =
+      (input - input_mean).cwiseProduct(input_scale).cwiseMin(kFarthest).cwiseMax(-kFarthest);
+  for (size_t l = 0; l < layers.size(); ++l) {
+    if (l > 0) value = value.cwiseMax(0.0F);
+    value = (layers[l].weight * value + layers[l].bias).eval();
+  }
+  return value;
+}
+
+void PutNetwork(PayloadWriter& out, const RectifiedNetwork& network) {
+  PutFloats(out, network.input_mean);
+  PutFloats(out, network.input_scale);
+  for (const RectifiedNetwork::Layer& layer : network.layers) {
+    PutHalves(out, layer.weight);
+    PutHalves(out, layer.bias);
+  }
+}
+
+RectifiedNetwork GetNetwork(PayloadReader& in, const std::vector<Eigen::Index>& sizes) {
+  RectifiedNetwork network;
+  network.input_mean = GetFloats(in, "input means", sizes.front());
+  network.input_scale = GetFloats(in, "input scales", sizes.front());
+  for (size_t l = 1; l < sizes.size(); ++l) {
+    const std::string layer = l + 1 == sizes.size() ? "output" : "unit";
+    RectifiedNetwork::Layer& added = network.layers.emplace_back();
+    added.weight = GetHalves(in, layer + " weights", sizes[l], sizes[l - 1]);
+    added.bias = GetHalves(in, layer + " biases", sizes[l], 1);
+  }
+  return network;
+}
+
+}  // namespace ossa::recon

@@ -1,0 +1,37 @@
+#pragma once
+#include <Eigen/Core>
+#include <vector>
+
+namespace ossa {
+class PayloadReader;
+class PayloadWriter;
+}  // namespace ossa
+
+namespace ossa::recon {
+
+/// inputs -> rectified units, one layer or more -> outputs. The inputs are normalised first.
+struct RectifiedNetwork {
+  struct Layer {
+    Eigen::MatrixXf weight;  // output x input
+    Eigen::VectorXf bias;
+  };
+
+  Eigen::VectorXf input_mean, input_scale;  // scale: 1 / standard deviation
+  std::vector<Layer> layers;                // the last one's outputs are not rectified
+
+  /// Without layers there is nothing to say.
+  bool empty() const { return layers.empty(); }
+  Eigen::VectorXf Run(const Eigen::Ref<const Eigen::VectorXf>& input) const;
+};
+
+/// Into a payload; of the weights, the upper halves of their floats: the lower halves say nothing.
+/// How many units there are is not written.
+void PutNetwork(PayloadWriter& out, const RectifiedNetwork& network);
+/// `sizes`: inputs, units of each hidden layer, outputs. Throws InputError where there are not so
+/// many or some number is immodest.
+RectifiedNetwork GetNetwork(PayloadReader& in, const std::vector<Eigen::Index>& sizes);
+
+/// The most units that a layer read from a file may have.
+inline constexpr Eigen::Index kMostUnits = 1 << 14;
+
+}  // namespace ossa::recon

@@ -1,0 +1,227 @@
+#include "recon/look/close_look.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
+#include "depth/file/sealed_file.h"
+
+namespace ossa::recon {
+namespace {
+
+constexpr SealedFormat kFormat = {{'O', 'S', 'S', 'A', 'L', 'K', '0', '0'}, 1, "close look"};
+
+constexpr double kMostBehind_mm = 300.0;
+constexpr double kNearer_mm = 30.0;  // by so much, something that is not the person is before it
+
+// The neighbourhood of places in an image.
+class Sampler {
+ public:
+  Sampler(const LookInput& input, const Eigen::Matrix3d& frame_from_camera)
+      : frame_(*input.depth),
+        is_person_(input.is_person),
+        camera_from_frame_(frame_from_camera.transpose()) {}
+
+  std::array<int16_t, kLookSamples> Around(const Eigen::Vector3d& joint_m) const {
+    std::array<int16_t, kLookSamples> behind_mm{};
+    size_t next = 0;
+    for (const double step_m : kLookSteps_m) {
+      for (int row = 0; row < kLookGrid; ++row) {
+        for (int column = 0; column < kLookGrid; ++column) {
+          const Eigen::Vector3d aside_m((column - kLookGrid / 2) * step_m,
+                                        (row - kLookGrid / 2) * step_m, 0.0);
+          behind_mm[next++] = At(joint_m + camera_from_frame_ * aside_m);
+        }
+      }
+    }
+    return behind_mm;
+  }
+
+ private:
+  int16_t At(const Eigen::Vector3d& place_m) const {
+    constexpr double kNearest_m = 0.2;  // what is nearer is beside the sensor
+    if (place_m.z() < kNearest_m) return LookDescription::kHidden;
+    const Eigen::Vector2d pixel = depth::Project(frame_.camera, place_m);
+    const depth::DepthView view = frame_.view();
+    // Compared as they are: a place far aside is a number that no int holds.
+    if (!(pixel.x() > -0.5 && pixel.x() < view.width - 0.5 && pixel.y() > -0.5 &&
+          pixel.y() < view.height - 0.5)) {
+      return LookDescription::kHidden;
+    }
+    const auto u = static_cast<int>(std::lround(pixel.x()));
+    const auto v = static_cast<int>(std::lround(pixel.y()));
+    const uint16_t depth_mm = view.at(u, v);
+    if (depth_mm == 0) return LookDescription::kBeside;
+    const double behind_mm = (depth_mm - 1e3 * place_m.z()) * place_m.norm() / place_m.z();
+    const auto index = static_cast<size_t>(v) * static_cast<size_t>(view.width);
+    if (is_person_[index + static_cast<size_t>(u)] != 0) {
+      return static_cast<int16_t>(std::clamp(behind_mm, -kMostBehind_mm, kMostBehind_mm));
+    }
+    return behind_mm < -kNearer_mm ? LookDescription::kHidden : LookDescription::kBeside;
+  }
+
+  const depth::DepthFrame& frame_;
+  std::span<const uint8_t> is_person_;
+  Eigen::Matrix3d camera_from_frame_;
+};
+
+// The mean of the proposals, those of little confidence less.
+Eigen::Vector3d MiddleOf(const LookInput& input) {
+  constexpr double kLeastWeight = 0.05;
+  Eigen::Vector3d sum_m = Eigen::Vector3d::Zero();
+  double whole = 0.0;
+  for (size_t j = 0; j < kJointCount; ++j) {
+    const double weight = std::max(kLeastWeight, input.confidence[j]);
+    sum_m += weight * input.proposed.position_m[j];
+    whole += weight;
+  }
+  return sum_m / whole;
+}
+
+bool CanBeLookedAt(const LookInput& input) {
+  const depth::DepthFrame* frame = input.depth;
+  if (frame == nullptr || frame->camera.width <= 0 || frame->camera.height <= 0 ||
+      input.is_person.size() != frame->depth_mm.size() ||
+      frame->depth_mm.size() !=
+          static_cast<size_t>(frame->camera.width) * static_cast<size_t>(frame->camera.height)) {
+    return false;
+  }
+  constexpr double kFarthest_m = 100.0;
+  for (size_t j = 0; j < kJointCount; ++j) {
+    if (!(input.proposed.position_m[j].norm() < kFarthest_m)) return false;
+    if (!(input.confidence[j] >= 0.0 && input.confidence[j] <= 1.0)) return false;
+  }
+  return true;
+}
+
+}  // namespace
+
+std::optional<LookDescription> LookDescription::Of(const LookInput& input) {
+  if (!CanBeLookedAt(input)) return std::nullopt;
+  LookDescription out;
+  out.middle_m = MiddleOf(input);
+  const Eigen::Vector3d z = out.middle_m.normalized();
+  const Eigen::Vector3d level = Eigen::Vector3d::UnitY().cross(z);
+  constexpr double kLeast = 1e-3;  // right above, below or behind the sensor nobody is seen
+  if (!(out.middle_m.z() > 0.0 && level.norm() > kLeast)) return std::nullopt;
+  const Eigen::Vector3d x = level.normalized();
+  out.frame_from_camera << x.transpose(), z.cross(x).transpose(), z.transpose();
+  const Sampler sampler(input, out.frame_from_camera);
+  for (size_t j = 0; j < kJointCount; ++j) {
+    const Eigen::Vector3d& joint_m = input.proposed.position_m[j];
+    out.place.position_m[j] = out.frame_from_camera * (joint_m - out.middle_m);
+    out.behind_mm[j] = sampler.Around(joint_m);
+  }
+  out.confidence = input.confidence;
+  out.seen = input.seen;
+  return out;
+}
+
+LookDescription LookDescription::Mirrored() const {
+  const Eigen::Vector3d mirror(-1.0, 1.0, 1.0);
+  LookDescription out = *this;
+  out.middle_m = mirror.cwiseProduct(middle_m);
+  out.frame_from_camera = mirror.asDiagonal() * frame_from_camera * mirror.asDiagonal();
+  for (size_t j = 0; j < kJointCount; ++j) {
+    const auto other = static_cast<size_t>(kMirroredJoint[j]);
+    out.place.position_m[other] = mirror.cwiseProduct(place.position_m[j]);
+    out.confidence[other] = confidence[j];
+    out.seen[other] = seen[j];
+    for (size_t row = 0; row < kLookSamples; row += kLookGrid) {
+      std::reverse_copy(behind_mm[j].begin() + static_cast<std::ptrdiff_t>(row),
+                        behind_mm[j].begin() + static_cast<std::ptrdiff_t>(row + kLookGrid),
+                        out.behind_mm[other].begin() + static_cast<std::ptrdiff_t>(row));
+    }
+  }
+  return out;
+}
+
+Eigen::VectorXf NumbersOf(const LookDescription& description, Joint joint) {
+  Eigen::VectorXf numbers(kLookInputs);
+  float* next = numbers.data();
+  const auto& behind_mm = description.behind_mm[static_cast<size_t>(Index(joint))];
+  const auto is_surface = [](int16_t mm) {
+    return mm != LookDescription::kBeside && mm != LookDescription::kHidden;
+  };
+  for (const int16_t mm : behind_mm) *next++ = is_surface(mm) ? 1e-3F * static_cast<float>(mm) : 0;
+  for (const int16_t mm : behind_mm) *next++ = mm == LookDescription::kBeside ? 1.0F : 0.0F;
+  for (const int16_t mm : behind_mm) *next++ = mm == LookDescription::kHidden ? 1.0F : 0.0F;
+  for (const Eigen::Vector3d& place_m : description.place.position_m) {
+    const Eigen::Vector3f from_m = (place_m - description.place[joint]).cast<float>();
+    next = std::copy(from_m.begin(), from_m.end(), next);
+  }
+  for (const double confidence : description.confidence) *next++ = static_cast<float>(confidence);
+  for (const bool seen : description.seen) *next++ = seen ? 1.0F : 0.0F;
+  const Eigen::Vector3f middle_m = description.middle_m.cast<float>();
+  std::copy(middle_m.begin(), middle_m.end(), next);
+  return numbers;
+}
+
+std::optional<Posture> CloseLook::Look(const LookInput& input) const {
+  const auto seen = LookDescription::Of(input);
+  if (!seen) return std::nullopt;
+  const LookDescription mirrored = seen->Mirrored();
+  Posture joints_m = input.proposed;
+  const auto move = [&](Joint joint, const LookDescription& view, const RectifiedNetwork& network,
+                        Joint named) {
+    const Eigen::Vector3d offset_m = kStep_m * network.Run(NumbersOf(view, named)).cast<double>();
+    const double share = std::min(1.0, kFarthest_m / std::max(offset_m.norm(), 1e-9));
+    const Eigen::Vector3d in_camera = view.frame_from_camera.transpose() * (share * offset_m);
+    joints_m[joint] +=
+        joint == named ? in_camera : in_camera.cwiseProduct(Eigen::Vector3d(-1.0, 1.0, 1.0));
+  };
+  for (size_t k = 0; k < kLookJoints.size(); ++k) {
+    const Joint joint = kLookJoints[k];
+    const auto other = static_cast<Joint>(kMirroredJoint[static_cast<size_t>(Index(joint))]);
+    move(joint, *seen, networks[k], joint);
+    if (other != joint) move(other, mirrored, networks[k], joint);
+  }
+  return joints_m;
+}
+
+void CloseLook::Save(const std::filesystem::path& path) const {
+  PayloadWriter out;
+  out.Put(people);
+  for (const RectifiedNetwork& network : networks) {
+    const size_t hidden = network.layers.size() - 1;
+    out.Put(static_cast<uint32_t>(hidden));
+    for (size_t l = 0; l < hidden; ++l) {
+      out.Put(static_cast<uint32_t>(network.layers[l].bias.size()));
+    }
+    PutNetwork(out, network);
+  }
+  WriteSealedFile(path, kFormat, out.bytes());
+}
+
+bool CloseLook::IsOne(const std::filesystem::path& path) { return IsSealedFile(path, kFormat); }
+
+CloseLook CloseLook::Load(const std::filesystem::path& path) {
+  return FromBytes(ReadSealedFile(path, kFormat), path.string());
+}
+
+CloseLook CloseLook::FromBytes(std::span<const std::byte> bytes, const std::string& name) {
+  constexpr uint32_t kMostLayers = 4;
+  PayloadReader in(bytes, name);
+  CloseLook out;
+  out.people = in.Get<uint64_t>("people");
+  for (RectifiedNetwork& network : out.networks) {
+    const auto hidden = in.Get<uint32_t>("layers");
+    if (hidden > kMostLayers) in.Fail("layers", fmt::format("expected at most {}", kMostLayers));
+    std::vector<Eigen::Index> sizes = {kLookInputs};
+    for (uint32_t l = 0; l < hidden; ++l) {
+      const auto units = in.Get<uint32_t>("units");
+      if (units < 1 || units > kMostUnits) {
+        in.Fail("units", fmt::format("expected 1 to {}", kMostUnits));
+      }
+      sizes.push_back(units);
+    }
+    sizes.push_back(3);
+    network = GetNetwork(in, sizes);
+  }
+  in.ExpectEnd();
+  return out;
+}
+
+}  // namespace ossa::recon

@@ -1,0 +1,245 @@
+#include "recon/look/close_look.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <fstream>
+#include <limits>
+
+#include "depth/error.h"
+#include "recon/body/standard_body.h"
+#include "tests/support/temporary_folder.h"
+
+namespace ossa::recon {
+namespace {
+
+constexpr int kWidth = 160, kHeight = 120;
+constexpr double kWall_m = 2.0;
+constexpr int kCentre = (kLookGrid / 2) * (kLookGrid + 1);  // of the finer grid
+
+// Somebody two metres away whose surface is a wall that fills the image, all joints 5 cm within.
+struct Scene {
+  depth::DepthFrame frame;
+  std::vector<uint8_t> is_person;
+  LookInput input;
+
+  Scene() {
+    frame.camera = depth::KinectV1Camera(kWidth, kHeight);
+    frame.depth_mm.assign(kWidth * kHeight, static_cast<uint16_t>(1000 * kWall_m));
+    is_person.assign(frame.depth_mm.size(), 1);
+    const Posture standing = StandardPosture(RigPose{});
+    for (size_t j = 0; j < kJointCount; ++j) {
+      const Eigen::Vector3d& p_m = standing.position_m[j];
+      input.proposed.position_m[j] = {0.5 * p_m.x(), 0.5 * (p_m.y() - 0.9), kWall_m + 0.05};
+    }
+    input.confidence.fill(0.8);
+    input.seen.fill(true);
+    input.depth = &frame;
+    input.is_person = is_person;
+  }
+  Scene(const Scene&) = delete;
+  Scene& operator=(const Scene&) = delete;
+};
+
+CloseLook Silent() {
+  CloseLook look;
+  look.people = 7;
+  for (RectifiedNetwork& network : look.networks) {
+    network.input_mean = Eigen::VectorXf::Zero(kLookInputs);
+    network.input_scale = Eigen::VectorXf::Ones(kLookInputs);
+    network.layers = {{Eigen::MatrixXf::Zero(2, kLookInputs), Eigen::VectorXf::Zero(2)},
+                      {Eigen::MatrixXf::Zero(3, 2), Eigen::VectorXf::Zero(3)}};
+  }
+  return look;
+}
+
+size_t NetworkOf(Joint joint) {
+  return static_cast<size_t>(std::find(kLookJoints.begin(), kLookJoints.end(), joint) -
+                             kLookJoints.begin());
+}
+
+TEST(CloseLook, SeesHowFarBehindTheJointSurfaceLies) {
+  Scene scene;
+  const auto seen = LookDescription::Of(scene.input);
+  ASSERT_TRUE(seen);
+  for (size_t j = 0; j < kJointCount; ++j) {
+    const double along = scene.input.proposed.position_m[j].norm() / (kWall_m + 0.05);
+    EXPECT_NEAR(seen->behind_mm[j][kCentre], -50.0 * along, 2.0) << j;
+  }
+  // Straight ahead the coarser grid reaches as far up as it should: the ray is level there.
+  EXPECT_NEAR((seen->frame_from_camera * Eigen::Vector3d::UnitY()).y(), 1.0, 0.1);
+}
+
+TEST(CloseLook, TellsWhatIsBesideAndWhatIsHidden) {
+  Scene scene;
+  const auto centre = [&] {
+    return LookDescription::Of(scene.input)->behind_mm[Index(Joint::kHead)][kCentre];
+  };
+  std::fill(scene.is_person.begin(), scene.is_person.end(), uint8_t{0});
+  const auto all = [&](double depth_m) {
+    std::fill(scene.frame.depth_mm.begin(), scene.frame.depth_mm.end(),
+              static_cast<uint16_t>(1000 * depth_m));
+  };
+  EXPECT_EQ(centre(), LookDescription::kHidden);  // a wall just before the head, not the person's
+  all(kWall_m + 1.0);
+  EXPECT_EQ(centre(), LookDescription::kBeside);
+  all(0.0);  // no reading
+  EXPECT_EQ(centre(), LookDescription::kBeside);
+  all(kWall_m - 1.0);
+  EXPECT_EQ(centre(), LookDescription::kHidden);
+  scene.input.proposed[Joint::kHead].x() = 50.0;  // outside the image
+  all(kWall_m + 1.0);
+  EXPECT_EQ(centre(), LookDescription::kHidden);
+}
+
+TEST(CloseLook, OfTheMirrorImageIsTheMirrorImage) {
+  Scene scene;
+  scene.frame.camera.cx = (kWidth - 1) / 2.0;
+  scene.input.proposed[Joint::kHandLeft] += Eigen::Vector3d(0.1, 0.3, -0.2);
+  scene.input.confidence[Index(Joint::kKneeRight)] = 0.1;
+  scene.input.seen[Index(Joint::kFootLeft)] = false;
+  for (int v = 0; v < kHeight; ++v) {
+    for (int u = 0; u < kWidth; ++u) {
+      const auto i = static_cast<size_t>(v * kWidth + u);
+      scene.frame.depth_mm[i] = static_cast<uint16_t>(1900 + u + 2 * v);
+      scene.is_person[i] = u < 100 ? 1 : 0;
+    }
+  }
+  Scene mirror;
+  mirror.frame.camera = scene.frame.camera;
+  for (size_t j = 0; j < kJointCount; ++j) {
+    const auto other = static_cast<size_t>(kMirroredJoint[j]);
+    mirror.input.proposed.position_m[other] =
+        scene.input.proposed.position_m[j].cwiseProduct(Eigen::Vector3d(-1, 1, 1));
+    mirror.input.confidence[other] = scene.input.confidence[j];
+    mirror.input.seen[other] = scene.input.seen[j];
+  }
+  for (size_t i = 0; i < scene.is_person.size(); ++i) {
+    const size_t row = i / kWidth * kWidth, other = row + kWidth - 1 - i % kWidth;
+    mirror.frame.depth_mm[other] = scene.frame.depth_mm[i];
+    mirror.is_person[other] = scene.is_person[i];
+  }
+  const LookDescription expected = *LookDescription::Of(mirror.input);
+  const LookDescription got = LookDescription::Of(scene.input)->Mirrored();
+  EXPECT_TRUE(got.middle_m.isApprox(expected.middle_m));
+  EXPECT_TRUE(got.frame_from_camera.isApprox(expected.frame_from_camera));
+  int different = 0;
+  for (size_t j = 0; j < kJointCount; ++j) {
+    EXPECT_LT((got.place.position_m[j] - expected.place.position_m[j]).norm(), 1e-9) << j;
+    EXPECT_EQ(got.confidence[j], expected.confidence[j]) << j;
+    EXPECT_EQ(got.seen[j], expected.seen[j]) << j;
+    for (size_t s = 0; s < kLookSamples; ++s) {
+      different += std::abs(got.behind_mm[j][s] - expected.behind_mm[j][s]) > 1 ? 1 : 0;
+    }
+  }
+  // Only where a sample falls between two pixels may the other one be read.
+  EXPECT_LT(different, kJointCount * kLookSamples / 100);
+  EXPECT_TRUE(NumbersOf(got, Joint::kHead).allFinite());
+}
+
+TEST(CloseLook, MovesEachJointByItsNetworkAndTheOtherSideInTheMirror) {
+  Scene scene;
+  CloseLook look = Silent();
+  look.networks[NetworkOf(Joint::kHead)].layers[1].bias = {0.0F, 0.5F, 0.0F};
+  look.networks[NetworkOf(Joint::kKneeLeft)].layers[1].bias = {0.4F, 0.0F, 0.0F};
+  const auto joints_m = look.Look(scene.input);
+  ASSERT_TRUE(joints_m);
+  const auto moved_m = [&](Joint joint) -> Eigen::Vector3d {
+    return (*joints_m)[joint] - scene.input.proposed[joint];
+  };
+  EXPECT_NEAR(moved_m(Joint::kHead).norm(), 0.05, 1e-6);
+  EXPECT_GT(moved_m(Joint::kHead).y(), 0.045);
+  EXPECT_NEAR(moved_m(Joint::kKneeLeft).x(), 0.04, 0.002);
+  EXPECT_NEAR(moved_m(Joint::kKneeRight).x(), -0.04, 0.002);
+  EXPECT_EQ(moved_m(Joint::kSpine).norm(), 0.0);
+}
+
+TEST(CloseLook, MovesNoJointFarAway) {
+  Scene scene;
+  CloseLook look = Silent();
+  look.networks[NetworkOf(Joint::kSpine)].layers[1].bias = {300.0F, 0.0F, -400.0F};
+  const auto joints_m = look.Look(scene.input);
+  ASSERT_TRUE(joints_m);
+  EXPECT_NEAR(((*joints_m)[Joint::kSpine] - scene.input.proposed[Joint::kSpine]).norm(),
+              CloseLook::kFarthest_m, 1e-6);
+}
+
+TEST(CloseLook, HasNothingToSayOfWhatCannotBeLookedAt) {
+  const CloseLook look = Silent();
+  const auto spoiled = [&](void (*spoil)(Scene&)) {
+    Scene scene;
+    EXPECT_TRUE(look.Look(scene.input));
+    spoil(scene);
+    return !look.Look(scene.input);
+  };
+  EXPECT_TRUE(spoiled([](Scene& s) { s.input.depth = nullptr; }));
+  EXPECT_TRUE(spoiled([](Scene& s) { s.input.is_person = s.input.is_person.first(5); }));
+  EXPECT_TRUE(spoiled([](Scene& s) { s.frame.depth_mm.pop_back(); }));
+  EXPECT_TRUE(spoiled([](Scene& s) { s.input.proposed[Joint::kHead].x() = std::nan(""); }));
+  EXPECT_TRUE(spoiled([](Scene& s) { s.input.proposed[Joint::kHead].y() = 1e300; }));
+  EXPECT_TRUE(spoiled([](Scene& s) { s.input.confidence[3] = std::nan(""); }));
+  EXPECT_TRUE(spoiled([](Scene& s) {
+    for (auto& p_m : s.input.proposed.position_m) p_m.z() = -2.0;
+  }));
+}
+
+TEST(CloseLook, IsKeptInAFile) {
+  const test::TemporaryFolder folder;
+  CloseLook look = Silent();
+  look.networks[2].layers[0].weight(1, 5) = 0.5F;
+  look.Save(folder / "a.ossalook");
+  EXPECT_TRUE(CloseLook::IsOne(folder / "a.ossalook"));
+  const CloseLook read = CloseLook::Load(folder / "a.ossalook");
+  EXPECT_EQ(read.people, 7U);
+  EXPECT_EQ(read.networks[2].layers[0].weight(1, 5), 0.5F);
+  read.Save(folder / "b.ossalook");
+  const auto bytes = [&](const char* name) {
+    std::ifstream in(folder / name, std::ios::binary);
+    return std::string(std::istreambuf_iterator<char>(in), {});
+  };
+  EXPECT_EQ(bytes("a.ossalook"), bytes("b.ossalook"));
+  std::ofstream(folder / "short.ossalook", std::ios::binary) << bytes("a.ossalook").substr(0, 1000);
+  EXPECT_THROW(CloseLook::Load(folder / "short.ossalook"), InputError);
+}
+
+TEST(CloseLook, WithOddNumbersIsRefused) {
+  const test::TemporaryFolder folder;
+  const auto refused = [&](void (*spoil)(RectifiedNetwork&), const char* field) {
+    CloseLook look = Silent();
+    spoil(look.networks[4]);
+    look.Save(folder / "odd.ossalook");
+    try {
+      CloseLook::Load(folder / "odd.ossalook");
+      FAIL() << field;
+    } catch (const InputError& error) {
+      EXPECT_NE(std::string(error.what()).find(field), std::string::npos) << error.what();
+    }
+  };
+  constexpr float kInfinity = std::numeric_limits<float>::infinity();
+  refused([](RectifiedNetwork& n) { n.input_mean[5] = std::nanf(""); }, "input means");
+  refused([](RectifiedNetwork& n) { n.input_scale.conservativeResize(3); }, "input scales");
+  refused([](RectifiedNetwork& n) { n.layers[0].weight(0, 5) = kInfinity; }, "unit weights");
+  refused([](RectifiedNetwork& n) { n.layers[0].bias.setZero(1 << 15); }, "units");
+  refused([](RectifiedNetwork& n) { n.layers[1].weight.setZero(4, 2); }, "output weights");
+  refused([](RectifiedNetwork& n) { n.layers.resize(9, n.layers[1]); }, "layers");
+}
+
+TEST(RectifiedNetwork, RectifiesEveryLayerButTheLast) {
+  RectifiedNetwork network;
+  network.input_mean = Eigen::VectorXf::Constant(1, 1.0F);
+  network.input_scale = Eigen::VectorXf::Constant(1, 2.0F);
+  Eigen::MatrixXf both(2, 1), sum(1, 2), minus(1, 1);
+  both << 1.0F, -1.0F;
+  sum << 1.0F, -3.0F;
+  minus << -1.0F;
+  network.layers = {{both, Eigen::VectorXf::Zero(2)},
+                    {sum, Eigen::VectorXf::Constant(1, 0.5F)},
+                    {minus, Eigen::VectorXf::Zero(1)}};
+  const auto said = [&](float x) { return network.Run(Eigen::VectorXf::Constant(1, x))[0]; };
+  EXPECT_FLOAT_EQ(said(2.0F), -2.5F);  // 2 -> (2, 0) -> 2.5 -> -2.5
+  EXPECT_FLOAT_EQ(said(0.0F), 0.0F);   // -2 -> (0, 2) -> rectified
+  EXPECT_FLOAT_EQ(said(1e6F), -5.5F);  // no more than five standard deviations are believed
+}
+
+}  // namespace
+}  // namespace ossa::recon

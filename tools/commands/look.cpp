@@ -1,0 +1,68 @@
+#include <fmt/format.h>
+
+#include <CLI/CLI.hpp>
+#include <string>
+#include <vector>
+
+#include "depth/error.h"
+#include "depth/file/atomic_file.h"
+#include "forest/forest.h"
+#include "forest/train.h"
+#include "tools/commands/command.h"
+#include "tools/commands/commands.h"
+#include "tools/commands/outputs.h"
+#include "tools/learning/learn_close_look.h"
+#include "tools/tracker/shipped.h"
+
+namespace ossa::commands {
+
+int Look(int argc, char** argv) {
+  CLI::App app(
+      "Learn to look again, closely, at where a forest puts the joints: on people that it was not "
+      "trained on");
+  std::vector<std::string> datasets;
+  std::string out, model_path;
+  tools::CloseLookOptions options;
+  bool quiet = false;
+  app.add_option("DATASET", datasets, "folders made by ossa render")->required();
+  app.add_option("--out", out, "the .ossalook file to write")->required();
+  app.add_option("--model", model_path, "forest model, .ossa (default: the shipped one)");
+  app.add_option("--hidden", options.hidden,
+                 "units of each network's first layer, half as many of its second")
+      ->capture_default_str()
+      ->check(CLI::Range(2, 1024));
+  app.add_option("--epochs", options.epochs, "times that every person is looked at")
+      ->capture_default_str()
+      ->check(CLI::Range(1, 1000));
+  app.add_option("--seed", options.seed, "of the learning")->capture_default_str();
+  app.add_option("--threads", options.threads, "0: one a core")
+      ->capture_default_str()
+      ->check(CLI::Range(0, 1024));
+  app.add_flag("--quiet", quiet, "no progress");
+  Parse(app, argc, argv);
+  if (!out.ends_with(".ossalook")) {
+    throw UsageError("look: --out: expected a name that ends in .ossalook, found '" + out + "'");
+  }
+  if (model_path.empty()) model_path = tracker::ShippedFile("body.ossa").string();
+  std::vector<std::string> inputs = datasets;
+  inputs.push_back(model_path);
+  CheckOutputs({out}, inputs);
+  AtomicFile::CheckWritable(out);
+
+  const forest::ForestModel model = forest::ReadForestModel(model_path);
+  Progress bar("look", quiet);
+  options.stop = Interrupted;
+  options.progress = [&](int64_t done, int64_t total) {
+    bar.Update(static_cast<double>(done), static_cast<double>(total), "learning");
+  };
+  try {
+    const auto look = tools::LearnCloseLook(model, {datasets.begin(), datasets.end()}, options);
+    look.Save(out);
+    fmt::print("{}: learned from {} people\n", out, look.people);
+  } catch (const forest::TrainInterrupted&) {
+    throw InputError("look: interrupted; nothing was written");
+  }
+  return 0;
+}
+
+}  // namespace ossa::commands

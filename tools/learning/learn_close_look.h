@@ -1,0 +1,29 @@
+#pragma once
+#include <cstdint>
+#include <filesystem>
+#include <functional>
+#include <vector>
+
+#include "forest/forest.h"
+#include "recon/look/close_look.h"
+
+namespace ossa::tools {
+
+struct CloseLookOptions {
+  int hidden = 128;  // units of each network's first layer, half as many of the second; 2..1024
+  int epochs = 12;   // times that every person is looked at
+  uint64_t seed = 1;
+  int threads = 0;                                 // 0: all; they do not change the network
+  std::function<void(int64_t, int64_t)> progress;  // steps done, steps in all
+  std::function<bool()> stop;                      // true: end with forest::TrainInterrupted
+};
+
+/// Learns from the forest's proposals for the people of data sets, which the forest was not trained
+/// on, and from their mirror images, how far from them the joints lie.
+/// The same bytes for any
+/// number of threads. Throws InputError where too few people are seen.
+recon::CloseLook LearnCloseLook(const forest::ForestModel& model,
+                                const std::vector<std::filesystem::path>& datasets,
+                                const CloseLookOptions& options);
+
+}  // namespace ossa::tools
