@@ -257,7 +257,7 @@ RecordedPair Studio::Record(const recon::MotionClip& clip, const StageOptions& o
     recon::SkeletonSequence observed;
     recon::SkeletonSequence truth;
     for (size_t f = 0; f < set.size(); ++f) {
-      if (state_->context.interrupted && state_->context.interrupted()) throw Interruption{};
+      state_->context.StopIfAsked();
       const StagedFrame frame = set.Shoot(f);
       observed.frames.push_back(tracker ? PersonOf(tracker::RecordOf(tracker->Push(frame.depth),
                                                                      tracker::PostureKind::kRaw),
