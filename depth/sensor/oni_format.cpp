@@ -74,21 +74,6 @@ std::vector<uint8_t> ReadStart(std::ifstream& file, size_t at_most) {
   return bytes;
 }
 
-uint64_t SealOf(std::ifstream& file, std::vector<uint8_t> start, const OniPreamble& preamble) {
-  const std::unique_ptr<XXH3_state_t, decltype(&XXH3_freeState)> state(XXH3_createState(),
-                                                                       XXH3_freeState);
-  XXH3_64bits_reset(state.get());
-  file.clear();
-  file.seekg(static_cast<std::streamoff>(preamble.size));
-  std::vector<char> buffer(1 << 20);
-  while (file.read(buffer.data(), static_cast<std::streamsize>(buffer.size())), file.gcount() > 0) {
-    XXH3_64bits_update(state.get(), buffer.data(), static_cast<size_t>(file.gcount()));
-  }
-  std::memset(start.data() + preamble.seal_at, 0, sizeof(uint64_t));
-  XXH3_64bits_update(state.get(), start.data(), preamble.size);
-  return XXH3_64bits_digest(state.get());
-}
-
 }  // namespace
 
 OniPreamble ParseOniPreamble(std::span<const uint8_t> bytes) {
@@ -113,19 +98,36 @@ OniPreamble ParseOniPreamble(std::span<const uint8_t> bytes) {
   return preamble;
 }
 
+uint64_t OniSealOf(std::ifstream& file, std::span<const uint8_t> unsealed) {
+  const std::unique_ptr<XXH3_state_t, decltype(&XXH3_freeState)> state(XXH3_createState(),
+                                                                       XXH3_freeState);
+  XXH3_64bits_reset(state.get());
+  file.clear();
+  file.seekg(static_cast<std::streamoff>(unsealed.size()));
+  std::vector<char> buffer(1 << 20);
+  while (file.read(buffer.data(), static_cast<std::streamsize>(buffer.size())), file.gcount() > 0) {
+    XXH3_64bits_update(state.get(), buffer.data(), static_cast<size_t>(file.gcount()));
+  }
+  XXH3_64bits_update(state.get(), unsealed.data(), unsealed.size());
+  return XXH3_64bits_digest(state.get());
+}
+
 OniPreamble CheckOniFile(const std::filesystem::path& path) {
   std::ifstream file = OpenFile(path);
   if (!file) {
     throw InputError(path.string() + ": expected an .oni recording, found no such file");
   }
   constexpr size_t kLongestPreamble = 1 << 16;  // ours is under 2 kB
-  const std::vector<uint8_t> start = ReadStart(file, kLongestPreamble);
+  std::vector<uint8_t> start = ReadStart(file, kLongestPreamble);
   if (start.size() < sizeof(OniFileHeader) || std::memcmp(start.data(), "NI10", 4) != 0) {
     throw InputError(path.string() + ": byte 0: expected an .oni recording (NI10), found " +
                      std::to_string(start.size()) + " bytes of something else");
   }
   const OniPreamble preamble = ParseOniPreamble(start);
-  if (preamble.seal && SealOf(file, start, preamble) != *preamble.seal) {
+  if (!preamble.seal) return preamble;
+  start.resize(preamble.size);
+  std::memset(start.data() + preamble.seal_at, 0, sizeof(uint64_t));
+  if (OniSealOf(file, start) != *preamble.seal) {
     throw InputError(path.string() + ": byte " + std::to_string(preamble.seal_at) +
                      ": checksum: the recording is damaged or cut short");
   }

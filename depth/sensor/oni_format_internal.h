@@ -3,6 +3,7 @@
 #include <array>
 #include <cstdint>
 #include <filesystem>
+#include <fstream>
 #include <optional>
 #include <span>
 #include <string>
@@ -70,6 +71,10 @@ struct OniPreamble {
 /// Reads as far as the records before the first frame are well-formed: what is not ours is for
 /// OpenNI2 to judge. Never reads past `bytes`.
 OniPreamble ParseOniPreamble(std::span<const uint8_t> bytes);
+
+/// What the seal is to be: the XXH3 of the file's bytes from where `unsealed` ends, then of
+/// `unsealed`, the bytes before the first frame with the seal's value zeroed.
+uint64_t OniSealOf(std::ifstream& file, std::span<const uint8_t> unsealed);
 
 /// Throws InputError unless the file begins as an .oni does and its seal, if any, is unbroken.
 OniPreamble CheckOniFile(const std::filesystem::path& path);

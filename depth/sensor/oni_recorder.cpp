@@ -12,6 +12,7 @@
 
 #include "depth/error.h"
 #include "depth/file/atomic_file.h"
+#include "depth/file/open_file.h"
 #include "depth/sensor/oni_codec_internal.h"
 #include "depth/sensor/oni_format_internal.h"
 
@@ -162,7 +163,45 @@ struct OniRecorder::State {
                         static_cast<std::streamsize>(bytes.size()));
     XXH3_64bits_update(hash.get(), bytes.data(), bytes.size());
     position += bytes.size();
-    if (!file.stream()) throw InputError(name + ": writing failed: is the disk full?");
+    file.Check();
+  }
+
+  // What was put is now in the file, to stay there if what follows does not fit.
+  void Flush() {
+    file.stream().flush();
+    file.Check();
+  }
+
+  // What follows the frames.
+  Totals PutEnd() {
+    Put(Record(OniRecord::kNodeRemoved, {}, 0, sizeof(OniFileHeader)));
+    Totals totals;
+    totals.frames = static_cast<uint32_t>(seek_table.size() - 1);
+    totals.last_timestamp_us = seek_table.back().timestamp_us;
+    const size_t table_size = seek_table.size() * sizeof(OniSeekEntry);
+    if (static_cast<int64_t>(table_size) < kLargestOniData) {  // 2.6 hours; longer: no seeking
+      totals.seek_table_at = position;
+      Put(Record(OniRecord::kSeekTable, {}, table_size));
+      const auto* entries = reinterpret_cast<const uint8_t*>(seek_table.data());
+      Put(Bytes(entries, entries + table_size));
+    }
+    Put(Record(OniRecord::kEnd, {}));
+    Flush();
+    return totals;
+  }
+
+  void PutSealedPreamble(const Totals& totals) {
+    file.stream().seekp(0);
+    Put(Preamble(camera, frames_per_second, totals));
+    Flush();
+  }
+
+  // The last frames, of so many bytes or more.
+  void Drop(uint64_t bytes) {
+    for (const uint64_t end = frames_end; end - frames_end < bytes && seek_table.size() > 1;) {
+      frames_end = seek_table.back().position;
+      seek_table.pop_back();
+    }
   }
 
   // Time since the first frame, always growing, as the player's seek table must.
@@ -182,7 +221,7 @@ struct OniRecorder::State {
   std::vector<OniSeekEntry> seek_table{OniSeekEntry{}};  // entry 0 is unused: frames start at 1
   double first_time_s = 0.0;
   uint64_t position = 0;
-  bool finished = false;
+  uint64_t frames_end = 0;  // of the last whole one
 };
 
 OniRecorder::OniRecorder(const std::filesystem::path& path, const Camera& camera,
@@ -193,6 +232,7 @@ OniRecorder::OniRecorder(const std::filesystem::path& path, const Camera& camera
   }
   state_ = std::make_unique<State>(path, camera, frames_per_second);
   state_->Put(Preamble(camera, frames_per_second, {}));
+  state_->Flush();
   XXH3_64bits_reset(state_->hash.get());  // the seal begins at the first frame
 }
 
@@ -224,29 +264,43 @@ void OniRecorder::Write(const DepthFrame& frame) {
   Append(static_cast<uint32_t>(state_->seek_table.size()), &fields);
   state_->Put(Record(OniRecord::kNewData, fields, data.size(), state_->seek_table.back().position));
   state_->Put(data);
+  state_->Flush();
   state_->seek_table.push_back(entry);
+  state_->frames_end = state_->position;
 }
 
 void OniRecorder::Finish() {
   State& state = *state_;
-  state.Put(Record(OniRecord::kNodeRemoved, {}, 0, sizeof(OniFileHeader)));
-  Totals totals;
-  totals.frames = static_cast<uint32_t>(frame_count());
-  totals.last_timestamp_us = state.seek_table.back().timestamp_us;
-  const size_t table_size = state.seek_table.size() * sizeof(OniSeekEntry);
-  if (static_cast<int64_t>(table_size) < kLargestOniData) {  // 2.6 hours; longer: no seeking
-    totals.seek_table_at = state.position;
-    state.Put(Record(OniRecord::kSeekTable, {}, table_size));
-    const auto* entries = reinterpret_cast<const uint8_t*>(state.seek_table.data());
-    state.Put(Bytes(entries, entries + table_size));
-  }
-  state.Put(Record(OniRecord::kEnd, {}));
+  Totals totals = state.PutEnd();
   const Bytes unsealed = Preamble(state.camera, state.frames_per_second, totals);
   XXH3_64bits_update(state.hash.get(), unsealed.data(), unsealed.size());
   totals.seal = XXH3_64bits_digest(state.hash.get());
-  state.file.stream().seekp(0);
-  state.Put(Preamble(state.camera, state.frames_per_second, totals));
+  state.PutSealedPreamble(totals);
   state.file.Commit();
+}
+
+// No room is kept for the end from the beginning: what is cut off makes it, on every file system,
+// and nobody else can be kept from taking it, so that it may take several attempts.
+int64_t OniRecorder::FinishWithWhatFits() {
+  State& state = *state_;
+  for (uint64_t to_drop = 0;;) {
+    state.Drop(to_drop);
+    if (frame_count() == 0) return 0;
+    try {
+      state.file.CutTo(state.frames_end);
+      state.position = state.frames_end;
+      Totals totals = state.PutEnd();
+      // The hash that ran along has seen what was cut off.
+      std::ifstream written = OpenFile(state.file.temporary_path());
+      totals.seal = OniSealOf(written, Preamble(state.camera, state.frames_per_second, totals));
+      state.PutSealedPreamble(totals);
+      state.file.Commit();
+      return frame_count();
+    } catch (const DiskFull&) {
+      const uint64_t end_size = state.seek_table.size() * sizeof(OniSeekEntry);
+      to_drop = std::max(2 * to_drop, end_size);
+    }
+  }
 }
 
 }  // namespace ossa::depth

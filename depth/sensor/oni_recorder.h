@@ -24,9 +24,13 @@ class OniRecorder {
   ~OniRecorder();
 
   /// Throws InputError naming the frame when its size is another, when it holds a depth that the
-  /// format would corrupt (above kLargestOniDepth_mm), or when the disk is full.
+  /// format would corrupt (above kLargestOniDepth_mm), and DiskFull when it does not fit.
   void Write(const DepthFrame& frame);
+  /// Throws DiskFull when what ends the file does not fit.
   void Finish();
+  /// In place of Finish(), after DiskFull: ends the file after the last whole frame, or so many
+  /// before it that the end fits. Returns how many frames were kept; 0: none, and nothing is left.
+  int64_t FinishWithWhatFits();
   int64_t frame_count() const;
 
  private:

@@ -15,7 +15,8 @@ constexpr SealedFormat kFormat = {
 constexpr uint32_t kOldestVersion = 2, kVersionOfSteps = 3;
 
 // More than any honest file holds; a damaged count is refused before it costs memory or time.
-constexpr uint64_t kMostModels = 1000, kMostRows = 5000;
+constexpr uint64_t kMostModels = LearnOptions::kMostRegions;
+constexpr uint64_t kMostRows = LearnOptions::kMostSamples;
 
 void PutMatrix(PayloadWriter& out, const Eigen::MatrixXf& m) {
   out.Put<uint32_t>(static_cast<uint32_t>(m.rows()));

@@ -11,6 +11,9 @@
 namespace ossa::recon {
 
 struct LearnOptions {
+  // What a file may hold: see mixture.regions and mixture.samples.
+  static constexpr int kMostRegions = 1000, kMostSamples = 5000;
+
   bool processes = true;  // false: the correction alone, for `best`
   LocalMixtureOptions mixture;
   PoseCorrectionOptions correction;

@@ -65,7 +65,8 @@ LocalMixture LocalMixture::Learn(const Eigen::MatrixXd& inputs, const Eigen::Mat
   const std::vector<int> region = KMeans(inputs, options.regions, options.seed);
   GaussianProcessParameters start;
   std::vector<GaussianProcess> models;
-  for (int q = 0; q < options.regions; ++q) {
+  const int filled = region.empty() ? 0 : *std::max_element(region.begin(), region.end()) + 1;
+  for (int q = 0; q < filled; ++q) {
     std::vector<int> rows;
     for (size_t i = 0; i < region.size(); ++i) {
       if (region[i] == q) rows.push_back(static_cast<int>(i));

@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "depth/error.h"
 #include "recon/database/posture_database.h"
 #include "recon/gp/learned_models.h"
 #include "recon/methods/methods_internal.h"
@@ -24,14 +23,8 @@ struct OffsetPrediction {
 /// Sec. 4.5 over any predictor of offsets.
 class OffsetReconstructor : public Reconstructor {
  public:
-  OffsetReconstructor(const ReconstructorOptions& options, const char* method)
-      : options_(options.gaussian_process) {
-    models_ = LearnedOf(options);
-    if (!models_) {
-      throw InputError(std::string("reconstruction: method ") + method +
-                       " needs a learned file (.ossagp of `ossa learn`)");
-    }
-  }
+  explicit OffsetReconstructor(const ReconstructorOptions& options)
+      : options_(options.gaussian_process), models_(LearnedOf(options)) {}
 
   ReconstructedPosture Step(const ReconstructionInput& input) override {
     const PreparedPosture prepared = person_.Prepare(input);
@@ -118,7 +111,7 @@ class OffsetReconstructor : public Reconstructor {
 class Liu2016 : public OffsetReconstructor {
  public:
   explicit Liu2016(const ReconstructorOptions& options)
-      : OffsetReconstructor(options, "liu-2016"), mixtures_(models_->mixtures) {}
+      : OffsetReconstructor(options), mixtures_(models_->mixtures) {}
 
  protected:
   OffsetPrediction Predict(const PreparedPosture& prepared, size_t joint) override {
@@ -146,7 +139,7 @@ class Liu2016 : public OffsetReconstructor {
 
 class FullGp : public OffsetReconstructor {
  public:
-  explicit FullGp(const ReconstructorOptions& options) : OffsetReconstructor(options, "full-gp") {}
+  explicit FullGp(const ReconstructorOptions& options) : OffsetReconstructor(options) {}
 
  protected:
   OffsetPrediction Predict(const PreparedPosture& prepared, size_t joint) override {
@@ -160,8 +153,7 @@ class FullGp : public OffsetReconstructor {
 /// Mean offset of the nearest training pairs, weighed by their distance.
 class Exemplar : public OffsetReconstructor {
  public:
-  explicit Exemplar(const ReconstructorOptions& options)
-      : OffsetReconstructor(options, "exemplar") {
+  explicit Exemplar(const ReconstructorOptions& options) : OffsetReconstructor(options) {
     postures_.resize(kPostureDims, static_cast<Eigen::Index>(models_->exemplars.size()));
     for (Eigen::Index i = 0; i < postures_.cols(); ++i) {
       postures_.col(i) = VectorOf(models_->exemplars[static_cast<size_t>(i)].observed);

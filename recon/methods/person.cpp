@@ -6,8 +6,6 @@
 namespace ossa::recon {
 namespace {
 
-constexpr double kLongestGap_s = 0.5;
-
 size_t At(Joint joint) { return static_cast<size_t>(Index(joint)); }
 
 /// The standard stance, facing the camera, two metres away: what is said of a person of whom
@@ -172,9 +170,9 @@ BoneLengths BodySize::Taken(double expected_scale) const {
 
 PreparedPosture Person::Prepare(const ReconstructionInput& input) {
   PreparedPosture out;
-  const double step_s = input.time_s - last_time_s_;
-  out.restarted = !started_ || !(step_s > 0.0 && step_s <= kLongestGap_s);
-  out.dt_s = out.restarted ? 1.0 / 30.0 : std::clamp(step_s, 0.005, kLongestGap_s);
+  const std::optional<double> step_s = steps_.To(input.time_s);
+  out.restarted = !step_s;
+  if (step_s) out.dt_s = std::max(*step_s, 0.005);
   if (out.restarted) {
     estimator_.Reset();  // displacements across a gap are no vibration
     if (!started_) size_ = BodySize();
@@ -199,7 +197,6 @@ PreparedPosture Person::Prepare(const ReconstructionInput& input) {
       RetargetedAsSeen(Normalised(out.in_camera, out.placement), out.present, size_.lengths_m());
   out.scale = size_.scale();
   out.scaled = Scaled(Normalised(out.in_camera, out.placement), 1.0 / out.scale);
-  last_time_s_ = input.time_s;
   started_ = true;
   return out;
 }
@@ -218,6 +215,7 @@ void Person::Reset() {
   size_ = BodySize();
   last_in_camera_.reset();
   last_yaw_rad_ = M_PI;
+  steps_ = {};
   started_ = false;
 }
 

@@ -1,6 +1,7 @@
 #pragma once
 #include <optional>
 
+#include "recon/methods/frame_steps_internal.h"
 #include "recon/methods/reconstructor.h"
 #include "recon/normalise.h"
 #include "recon/reliability.h"
@@ -69,7 +70,7 @@ struct PreparedPosture {
   JointWeights present{};      // 1 for a finite joint that is tracked or inferred
   JointWeights between{};      // 1 for an absent joint that lies between two present ones
   double dt_s = 1.0 / 30.0;    // since the frame before, clamped to [5 ms, 0.5 s]
-  bool restarted = true;  // first frame, or a gap, or time ran backwards: history means nothing
+  bool restarted = true;       // no step from the frame before (FrameSteps): history means nothing
 };
 
 /// What every method needs to remember of one person.
@@ -90,7 +91,7 @@ class Person {
   BodySize size_;
   std::optional<Posture> last_in_camera_;
   double last_yaw_rad_ = 3.14159265358979323846;  // a person faces the camera until seen otherwise
-  double last_time_s_ = 0.0;
+  FrameSteps steps_;
   bool started_ = false;
 };
 

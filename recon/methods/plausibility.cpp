@@ -10,7 +10,6 @@ namespace {
 constexpr double kPatience_s = 0.1;       // a jump that stays as long is believed after all
 constexpr double kOwnPatience_s = 0.04;   // ... of a body with the person's own bones
 constexpr double kSidesPatience_s = 0.6;  // sides exchanged for longer: the person turned, unseen
-constexpr double kLongestGap_s = 0.5;     // afterwards the past says nothing
 constexpr double kBodySpeed = 5.0;        // m/s of a whole body
 constexpr double kCutSpeed = 4.5;         // m/s of half of all joints: rather a cut than a move
 constexpr double kLimbSpeed = 8.0;        // m/s of a hand
@@ -52,15 +51,15 @@ std::optional<double> MedianDistance(const TrackedPosture& observed, const Postu
 double Plausibility::Repair(ReconstructionInput& input) {
   joint_trust_.fill(1.0);
   elsewhere_ = false;
-  const double step_s = input.time_s - last_time_s_;
-  last_time_s_ = input.time_s;
-  if (!last_ || !(step_s > 0.0 && step_s < kLongestGap_s)) {
+  const std::optional<double> step = steps_.To(input.time_s);
+  if (!last_ || !step) {
     last_.reset();
     before_last_.reset();
     jumped_s_.fill(0.0);
     body_jumped_s_ = exchanged_s_ = 0.0;
     return 1.0;
   }
+  const double step_s = *step;
   Posture predicted = *last_;
   if (before_last_) {
     // Half the velocity: a full step would make every change of direction a jump.

@@ -1,6 +1,7 @@
 #pragma once
 #include <optional>
 
+#include "recon/methods/frame_steps_internal.h"
 #include "recon/methods/reconstructor.h"
 #include "recon/normalise.h"
 
@@ -34,7 +35,7 @@ class Plausibility {
   JointWeights joint_trust_{};
   double body_jumped_s_ = 0.0, exchanged_s_ = 0.0;
   bool elsewhere_ = false;
-  double last_time_s_ = 0.0;
+  FrameSteps steps_;
   double last_dt_s_ = 1.0 / 30.0;
 };
 

@@ -14,21 +14,22 @@ namespace {
 struct Method {
   const char* name;
   bool needs_database;
+  bool needs_learned;
   std::unique_ptr<Reconstructor> (*make)(const ReconstructorOptions&);
 };
 
 constexpr std::array kMethods = {
-    Method{"none", false, MakeNone},
-    Method{"holt", false, MakeHolt},
-    Method{"one-euro", false, MakeOneEuro},
-    Method{"kalman", false, MakeKalman},
-    Method{"shum-ho-2012", true, MakeShumHo2012},
-    Method{"shum-2013", true, MakeShum2013},
-    Method{"plantard-2016", true, MakePlantard2016},
-    Method{"liu-2016", false, MakeLiu2016},
-    Method{"full-gp", false, MakeFullGp},
-    Method{"exemplar", false, MakeExemplar},
-    Method{"best", false, MakeBest},
+    Method{"none", false, false, MakeNone},
+    Method{"holt", false, false, MakeHolt},
+    Method{"one-euro", false, false, MakeOneEuro},
+    Method{"kalman", false, false, MakeKalman},
+    Method{"shum-ho-2012", true, false, MakeShumHo2012},
+    Method{"shum-2013", true, false, MakeShum2013},
+    Method{"plantard-2016", true, false, MakePlantard2016},
+    Method{"liu-2016", false, true, MakeLiu2016},
+    Method{"full-gp", false, true, MakeFullGp},
+    Method{"exemplar", false, true, MakeExemplar},
+    Method{"best", false, false, MakeBest},
 };
 
 void CheckLocalPca(const LocalPcaOptions& o) {
@@ -58,12 +59,21 @@ const std::vector<std::string>& ReconstructionMethods() {
   return names;
 }
 
+bool NeedsLearned(const std::string& method) {
+  return std::any_of(kMethods.begin(), kMethods.end(),
+                     [&](const Method& m) { return m.needs_learned && m.name == method; });
+}
+
 std::unique_ptr<Reconstructor> MakeReconstructor(const ReconstructorOptions& options) {
   CheckLocalPca(options.local_pca);
   for (const Method& method : kMethods) {
     if (options.method != method.name) continue;
     if (method.needs_database && (!options.database || options.database->size() < 1)) {
       throw InputError("reconstruction: method " + options.method + " needs a posture database");
+    }
+    if (method.needs_learned && !options.learned && options.learned_file.empty()) {
+      throw InputError("reconstruction: method " + options.method +
+                       " needs a learned file (.ossagp of `ossa learn`)");
     }
     return method.make(options);
   }

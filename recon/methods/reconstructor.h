@@ -113,7 +113,10 @@ struct ReconstructorOptions {
 /// Names of all methods, in the order of `ossa track --help`.
 const std::vector<std::string>& ReconstructionMethods();
 
-/// Throws InputError for an unknown method or a missing database.
+/// Whether a method works by what `ossa learn` makes, and not without.
+bool NeedsLearned(const std::string& method);
+
+/// Throws InputError for an unknown method, a missing database and missing learned models.
 std::unique_ptr<Reconstructor> MakeReconstructor(const ReconstructorOptions& options);
 
 }  // namespace ossa::recon

@@ -124,7 +124,10 @@ std::vector<MotionClip> LoadMocap(const std::vector<std::string>& sources,
     }
     const auto files =
         fs::is_directory(source) ? MotionFilesIn(source) : std::vector<fs::path>{source};
-    for (const fs::path& file : files) clips.push_back(loader.Load(file));
+    for (const fs::path& file : files) {
+      if (options.stop && options.stop()) break;
+      clips.push_back(loader.Load(file));
+    }
   }
   std::stable_sort(clips.begin(), clips.end(),
                    [](const MotionClip& a, const MotionClip& b) { return a.name < b.name; });

@@ -1,5 +1,6 @@
 #pragma once
 #include <cstdint>
+#include <functional>
 #include <string>
 #include <vector>
 
@@ -12,6 +13,8 @@ struct MocapOptions {
   uint64_t seed = 1;            // variation of the authored clips
   double amc_hz = 120.0;        // AMC files do not say; CMU and HDM05 publish at 120
   std::string mapping_file;     // bone names of an unknown conversion; "" = the known ones only
+  /// Asked before each file; true: no more are read, and those until then are what is returned.
+  std::function<bool()> stop = {};
 };
 
 /// Loads every clip of the sources: a folder of BVH, of AMC beside their ASF, of pybullet humanoid

@@ -11,6 +11,7 @@
 #include "tools/commands/commands.h"
 #include "tools/commands/outputs.h"
 #include "tools/experiments/compare/comparison.h"
+#include "tools/experiments/experiment.h"
 
 namespace ossa::commands {
 namespace {
@@ -32,6 +33,15 @@ void ReadTimeAlignment(const std::string& word, tools::PairOptions& options) {
     options.time = tools::TimeAlignment::kFixed;
   } else {
     throw UsageError("--time: expected auto, none, correlate or seconds, found '" + word + "'");
+  }
+}
+
+tools::Comparison Compared(const std::string& truth, const std::vector<std::string>& results,
+                           const tools::CompareOptions& options) {
+  try {
+    return tools::Compare(truth, results, options);
+  } catch (const tools::Interruption&) {
+    throw InputError("compare: interrupted; nothing was written");
   }
 }
 
@@ -71,7 +81,7 @@ int Compare(int argc, char** argv) {
   auto* json_option =
       app.add_option("--json", json, "write all numbers as JSON to FILE ('-' or none: stdout)")
           ->expected(0, 1);
-  app.add_option("--report", report, "write one self-contained HTML page with plots");
+  app.add_option("--report", report, "write one self-contained page with plots, FILE.html");
   app.add_option("--columns", options.reading.columns, "truth or observed, for files of both")
       ->check(CLI::IsMember({"truth", "vicon", "G", "ground-truth", "observed", "kinect",
                              "estimate", "a2j", "K", "P"}));
@@ -91,10 +101,13 @@ int Compare(int argc, char** argv) {
   const bool json_to_stdout = json_option->count() > 0 && (json.empty() || json == "-");
   std::vector<std::string> inputs = results;
   inputs.push_back(truth);
+  CheckNotOtherKind("--json", json, ".json");
+  CheckExtension("--report", report, ".html");
   CheckOutputs({json_to_stdout ? "" : json, report}, inputs);
   if (!json.empty() && !json_to_stdout) AtomicFile::CheckWritable(json);
   if (!report.empty()) AtomicFile::CheckWritable(report);
-  const tools::Comparison comparison = tools::Compare(truth, results, options);
+  options.stop = Interrupted;
+  const tools::Comparison comparison = Compared(truth, results, options);
   if (json_to_stdout) {
     fmt::print("{}", tools::ToJson(comparison));
   } else {

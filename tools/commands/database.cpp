@@ -75,12 +75,16 @@ int Database(int argc, char** argv) {
   app.add_option("--mapping", mocap_options.mapping_file, "bone names of an unknown conversion");
   app.add_flag("--quiet", quiet, "no progress");
   Parse(app, argc, argv);
+  CheckNotOtherKind("--out", out, ".ossadb");
   CheckOutputs({out}, mocap);
   AtomicFile::CheckWritable(out);
 
   options.filter =
       filter == "max-joint" ? recon::DatabaseFilter::kMaxJoint : recon::DatabaseFilter::kSumSquared;
-  const auto clips = PosturesOf(recon::LoadMocap(mocap, mocap_options), quiet);
+  mocap_options.stop = Interrupted;
+  const auto motions = recon::LoadMocap(mocap, mocap_options);
+  if (Interrupted()) throw InputError("database: interrupted; nothing was written");
+  const auto clips = PosturesOf(motions, quiet);
   const auto database = recon::PostureDatabase::Build(clips, options);
   if (Interrupted()) throw InputError("database: interrupted; nothing was written");
   database.Save(out);

@@ -11,6 +11,7 @@
 #include "tools/commands/command.h"
 #include "tools/commands/commands.h"
 #include "tools/commands/outputs.h"
+#include "tools/json/json_text.h"
 #include "tools/learning/evaluate.h"
 
 namespace ossa::commands {
@@ -38,7 +39,7 @@ void NoteInCard(const std::string& path, const forest::ForestModel& model, const
   }
   card["accuracy"][name] = numbers;
   forest::ForestData data = model.data();
-  data.manifest = card.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace);
+  data.manifest = tools::JsonText(card);
   forest::WriteForestModel(path, forest::ForestModel(std::move(data)));
 }
 
@@ -56,7 +57,7 @@ int Evaluate(int argc, char** argv) {
   app.add_option("MODEL", model_path, "a .ossa file")->required();
   app.add_option("DATASET", dataset_path, "a folder made by ossa render")->required();
   app.add_option("--json", json_path, "write the numbers here");
-  app.add_option("--report", report_path, "write a page with tables here");
+  app.add_option("--report", report_path, "write a page with tables here, FILE.html");
   app.add_option("--card", card_name,
                  "note the numbers in the model's card under this name (rewrites MODEL)");
   app.add_option("--every", step, "look at every N-th frame")
@@ -64,6 +65,8 @@ int Evaluate(int argc, char** argv) {
       ->check(Positive());
   app.add_flag("--quiet", quiet, "no progress");
   Parse(app, argc, argv);
+  CheckNotOtherKind("--json", json_path, ".json");
+  CheckExtension("--report", report_path, ".html");
   CheckOutputs({json_path, report_path}, {model_path, dataset_path});
   CheckWritable(json_path);
   CheckWritable(report_path);

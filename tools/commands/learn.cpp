@@ -33,8 +33,11 @@ class People {
 /// Clips of both sides by name; a single file on each side belongs together whatever its name.
 void AddClips(const std::string& observed_path, const std::string& truth_path, People& people,
               std::vector<recon::PosturePair>& pairs) {
-  const auto observed = recon::ReadSkeletonClips(observed_path);
-  const auto truth = recon::ReadSkeletonClips(truth_path);
+  recon::SkeletonReadOptions reading;
+  reading.stop = Interrupted;
+  const auto observed = recon::ReadSkeletonClips(observed_path, reading);
+  const auto truth = recon::ReadSkeletonClips(truth_path, reading);
+  if (Interrupted()) throw InputError("learn: interrupted; nothing was written");
   const size_t before = pairs.size();
   if (observed.size() == 1 && truth.size() == 1) {
     recon::AddPairs(observed[0].sequence, truth[0].sequence, pairs, people.Of(observed_path, ""));
@@ -68,8 +71,12 @@ int Learn(int argc, char** argv) {
       ->required();
   app.add_option("--out", out, "the .ossagp file to write")->required();
   app.add_option("--seed", options.mixture.seed, "of the clustering")->capture_default_str();
-  app.add_option("--regions", options.mixture.regions, "Q of liu-2016")->capture_default_str();
-  app.add_option("--samples", options.mixture.samples, "S of liu-2016")->capture_default_str();
+  app.add_option("--regions", options.mixture.regions, "Q of liu-2016")
+      ->capture_default_str()
+      ->check(CLI::Range(1, recon::LearnOptions::kMostRegions));
+  app.add_option("--samples", options.mixture.samples, "S of liu-2016")
+      ->capture_default_str()
+      ->check(CLI::Range(2, recon::LearnOptions::kMostSamples));
   app.add_option("--pairs", options.most_pairs, "at most, for liu-2016, full-gp and exemplar")
       ->capture_default_str();
   app.add_flag("--correction-only", correction_only,
@@ -80,9 +87,10 @@ int Learn(int argc, char** argv) {
     throw UsageError(fmt::format("learn: {} --observed but {} --truth; expected as many",
                                  observed.size(), truth.size()));
   }
-  if (options.mixture.regions < 1 || options.mixture.samples < 2 || options.most_pairs < 10) {
-    throw UsageError("learn: --regions, --samples (>= 2) and --pairs (>= 10) must be positive");
+  if (options.most_pairs < 10) {
+    throw UsageError(fmt::format("--pairs: expected 10 or more, found {}", options.most_pairs));
   }
+  CheckExtension("--out", out, ".ossagp");
   options.correction.seed = options.mixture.seed;
   options.processes = !correction_only;
 

@@ -1,5 +1,7 @@
 #include "tools/commands/outputs.h"
 
+#include <fmt/format.h>
+
 #include <filesystem>
 #include <system_error>
 
@@ -39,6 +41,19 @@ void CheckOutputs(const std::vector<std::string>& outputs, const std::vector<std
       if (!IsOne(outputs[i], FileOf(input))) continue;
       throw UsageError(outputs[i] + ": expected a new file, found what is to be read");
     }
+  }
+}
+
+void CheckExtension(const char* option, const std::string& path, const char* extension) {
+  if (path.empty() || path.ends_with(extension)) return;
+  throw UsageError(
+      fmt::format("{}: expected a name that ends in {}, found '{}'", option, extension, path));
+}
+
+void CheckNotOtherKind(const char* option, const std::string& path, const char* extension) {
+  for (const char* other : {".ossa", ".ossadb", ".ossaprior", ".ossagp", ".oni", ".jsonl", ".json",
+                            ".bvh", ".trc", ".csv", ".png", ".html"}) {
+    if (path.ends_with(other)) CheckExtension(option, path, extension);
   }
 }
 

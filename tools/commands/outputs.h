@@ -9,6 +9,13 @@ namespace ossa::commands {
 /// options that were not given; `#truth` and the like after an input's name are no part of it.
 void CheckOutputs(const std::vector<std::string>& outputs, const std::vector<std::string>& inputs);
 
+/// Throws UsageError for a name that does not end so. Of an option that was not given it is empty.
+void CheckExtension(const char* option, const std::string& path, const char* extension);
+
+/// For files that may have any name: throws UsageError only for one that ends as another kind of
+/// file that ossa writes.
+void CheckNotOtherKind(const char* option, const std::string& path, const char* extension);
+
 /// Throws UsageError for a name whose extension is of no skeleton format that is written.
 void CheckSkeletonName(const std::string& path);
 

@@ -73,9 +73,11 @@ int Prior(int argc, char** argv) {
   app.add_flag("--quiet", quiet, "no progress");
   app.add_option("--mapping", mocap_options.mapping_file, "bone names of an unknown conversion");
   Parse(app, argc, argv);
+  CheckExtension("--out", out, ".ossaprior");
   CheckOutputs({out}, mocap);
   AtomicFile::CheckWritable(out);
 
+  mocap_options.stop = Interrupted;
   const auto clips = ClipsOf(recon::LoadMocap(mocap, mocap_options), authored_weight);
   if (Interrupted()) throw InputError("prior: interrupted; nothing was written");
   auto prior = recon::PosturePrior::Learn(clips, options);

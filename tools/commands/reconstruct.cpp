@@ -18,6 +18,7 @@
 #include "tools/commands/command.h"
 #include "tools/commands/commands.h"
 #include "tools/commands/mechanics_options.h"
+#include "tools/commands/method_options.h"
 #include "tools/commands/outputs.h"
 #include "tools/commands/process.h"
 #include "tools/tracker/mechanics.h"
@@ -125,12 +126,15 @@ int Reconstruct(int argc, char** argv) {
   double* const weights[] = {&pca.control, &pca.style, &pca.kinematics, &pca.continuity};
   for (size_t i = 0; i < a.weights.size(); ++i) *weights[i] = a.weights[i];
 
+  CheckLearned(a.options.method, a.learned);
   CheckOutputs({a.out}, {a.skeletons});
   for (const double weight : a.weights) {
     if (!(weight >= 0))
       throw UsageError(fmt::format("--weights: expected numbers from 0 up, found {}", weight));
   }
+  a.read.stop = Interrupted;
   const auto clips = recon::ReadSkeletonClips(a.skeletons, a.read);
+  if (Interrupted()) throw InputError("reconstruct: interrupted; nothing was written");
   const bool many = clips.size() > 1;
   if (many) {
     std::filesystem::create_directories(a.out);

@@ -6,6 +6,7 @@
 #include <string>
 
 #include "depth/error.h"
+#include "depth/file/atomic_file.h"
 #include "depth/sensor/fakenect_dump.h"
 #include "depth/sensor/frame_source.h"
 #include "depth/sensor/oni_recorder.h"
@@ -56,9 +57,7 @@ RecordOptions ParseOptions(int argc, char** argv) {
       "write a dump that libfreenect's fakenect plays as a Kinect v1; --out is its folder");
   app.add_flag("--quiet", options.quiet, "no progress");
   Parse(app, argc, argv);
-  if (!options.fakenect && !options.out.ends_with(".oni")) {
-    throw UsageError("--out: expected a name that ends in .oni, found '" + options.out + "'");
-  }
+  if (!options.fakenect) CheckExtension("--out", options.out, ".oni");
   CheckOutputs({options.out}, {options.source.name});
   return options;
 }
@@ -113,11 +112,25 @@ int Report(const RecordOptions& options, const Recorded& recorded) {
 }
 
 template <typename Recorder>
-int RecordTo(Recorder recorder, depth::FrameSource& source, const RecordOptions& options) {
+int RecordTo(Recorder& recorder, depth::FrameSource& source, const RecordOptions& options) {
   const Recorded recorded = RecordFrames(source, options, recorder);
   if (recorded.frames == 0) throw InputError(options.source.name + ": no frame came");
   recorder.Finish();
   return Report(options, recorded);
+}
+
+// On a full disk what was recorded until then is kept, as far as it and the file's end fit.
+int RecordOni(const depth::Camera& camera, depth::FrameSource& source,
+              const RecordOptions& options) {
+  AtomicFile::CheckWritable(options.out);
+  depth::OniRecorder recorder(options.out, camera);
+  try {
+    return RecordTo(recorder, source, options);
+  } catch (const DiskFull& full) {
+    const int64_t frames = recorder.frame_count();
+    throw InputError(fmt::format("{} {} of {} frames were kept", full.what(),
+                                 recorder.FinishWithWhatFits(), frames));
+  }
 }
 
 }  // namespace
@@ -126,8 +139,9 @@ int Record(int argc, char** argv) {
   const RecordOptions options = ParseOptions(argc, argv);
   const auto source = OpenSource(options.source, options.quiet);
   const depth::Camera& camera = source->camera();
-  return options.fakenect ? RecordTo(depth::FakenectDump(options.out, camera), *source, options)
-                          : RecordTo(depth::OniRecorder(options.out, camera), *source, options);
+  if (!options.fakenect) return RecordOni(camera, *source, options);
+  depth::FakenectDump dump(options.out, camera);
+  return RecordTo(dump, *source, options);
 }
 
 }  // namespace ossa::commands

@@ -18,6 +18,7 @@
 #include "tools/commands/command.h"
 #include "tools/commands/commands.h"
 #include "tools/commands/mechanics_options.h"
+#include "tools/commands/method_options.h"
 #include "tools/commands/outputs.h"
 #include "tools/commands/process.h"
 #include "tools/commands/source_options.h"
@@ -96,11 +97,10 @@ TrackOptions ParseOptions(int argc, char** argv) {
     throw UsageError(
         "track: nothing to do: name --out, --picture, --pictures, --json-stats or --view");
   }
+  CheckLearned(options.tracker.method, options.tracker.learned);
   if (!options.out.empty()) CheckSkeletonName(options.out);
-  if (!options.picture.empty() && !options.picture.ends_with(".png")) {
-    throw UsageError("--picture: expected a name that ends in .png, found '" + options.picture +
-                     "'");
-  }
+  CheckExtension("--picture", options.picture, ".png");
+  CheckNotOtherKind("--json-stats", options.json_stats, ".json");
   CheckOutputs({options.out, options.json_stats, options.picture}, {options.source.name});
   options.tracker.physics = options.mechanics.on();
   options.tracker.mechanics = options.mechanics.build;

@@ -15,7 +15,9 @@
 #include "tools/commands/checks.h"
 #include "tools/commands/command.h"
 #include "tools/commands/commands.h"
+#include "tools/commands/outputs.h"
 #include "tools/commands/process.h"
+#include "tools/json/json_text.h"
 #include "tools/learning/common_parts.h"
 #include "tools/learning/person_source.h"
 
@@ -267,7 +269,7 @@ int LearnAgain(const TrainArguments& a) {
     card.erase("accuracy");  // of the proposals as they were
     card.erase("refinement_data");
     NoteRefinement(a, &card);
-    data.manifest = card.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace);
+    data.manifest = tools::JsonText(card);
   }
   forest::WriteForestModel(a.out, forest::ForestModel(std::move(data)));
   return 0;
@@ -279,6 +281,7 @@ int TrainOnData(TrainArguments* a, const forest::Reducer& reducer) {
   const tools::PersonSource& source = sources.training;
   o.fingerprint = source.fingerprint();
   o.checkpoint = a->out.string() + ".checkpoint";
+  if (reducer.rank() == 0) AtomicFile::CheckWritable(o.checkpoint);
   o.stop = Interrupted;
   Progress bar("train", a->quiet || reducer.rank() != 0);
   o.progress = [&](const forest::TrainProgress& p) { ShowProgress(&bar, p); };
@@ -290,8 +293,7 @@ int TrainOnData(TrainArguments* a, const forest::Reducer& reducer) {
     model = forest::FitInto(model, static_cast<uint64_t>(a->max_megabytes * 1e6));
   }
   forest::ForestData data = LearnJoints(*a, model, source, sources.held_out).data();
-  data.manifest = Card(*a, source, summary)
-                      .dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace);
+  data.manifest = tools::JsonText(Card(*a, source, summary));
   forest::WriteForestModel(a->out, forest::ForestModel(std::move(data)));
   fs::remove(o.checkpoint);
   return 0;
@@ -321,6 +323,7 @@ int Train(int argc, char** argv) {
   arguments.command = CommandLine(argc, argv);
   AddOptions(&app, &arguments);
   Parse(app, argc, argv);
+  CheckNotOtherKind("--out", arguments.out.string(), ".ossa");
   AtomicFile::CheckWritable(arguments.out);
   if (!arguments.import_pcl.empty()) return ImportPcl(arguments);
   if (arguments.datasets.empty()) throw UsageError("DATASET is required");

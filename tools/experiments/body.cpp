@@ -129,6 +129,7 @@ std::vector<Table> RunBody(ExperimentContext& context) {
   rest.root_m = recon::StandardRigRest().head_m[0];
   std::vector<Picture> views;
   for (const double yaw_rad : {0.0, std::numbers::pi / 2, std::numbers::pi}) {
+    context.StopIfAsked();
     views.push_back(painter.Paint(rest, yaw_rad));
   }
   WritePicture(context.out / "parts.png", Strip(views, 3));
@@ -136,13 +137,16 @@ std::vector<Table> RunBody(ExperimentContext& context) {
 
   recon::MocapOptions options;
   options.seed = context.seed;
+  options.stop = context.interrupted;
   const auto clips =
       Named(recon::LoadMocap(sources, options), context.parameters.Texts("only", {}));
+  context.StopIfAsked();
   const int times = std::clamp(context.parameters.Integer("times", 1), 1, 20);
   std::vector<Picture> poses;
   Table motions{
       "Motions on the body (motions.png, from the left)", {"clip", "frame", "of"}, {}, ""};
   for (const Moment& at : Chosen(clips, static_cast<size_t>(count), static_cast<size_t>(times))) {
+    context.StopIfAsked();
     poses.push_back(painter.Paint(at.clip->frames[at.frame], 0.0));
     motions.rows.push_back(
         {at.clip->name, std::to_string(at.frame), std::to_string(at.clip->frames.size())});

@@ -11,6 +11,7 @@
 
 #include "depth/error.h"
 #include "depth/file/atomic_file.h"
+#include "tools/json/json_text.h"
 
 namespace ossa::tools {
 namespace {
@@ -83,6 +84,10 @@ std::string ToMarkdown(const Table& table) {
   return text;
 }
 
+void ExperimentContext::StopIfAsked() const {
+  if (interrupted && interrupted()) throw Interruption{};
+}
+
 std::string ExperimentContext::Cached(const std::string& key,
                                       const std::function<std::string()>& compute) const {
   const auto folder = out / "cache";
@@ -93,7 +98,7 @@ std::string ExperimentContext::Cached(const std::string& key,
     const std::string begin = fmt::format("{}\n{}\n", key.size(), key);
     if (text.starts_with(begin)) return text.substr(begin.size());
   }
-  if (interrupted && interrupted()) throw Interruption{};
+  StopIfAsked();
   const std::string result = compute();
   std::filesystem::create_directories(folder);
   WriteAll(path, fmt::format("{}\n{}\n{}", key.size(), key, result));
@@ -142,8 +147,7 @@ std::vector<Table> RunExperiment(const std::string& name, ExperimentContext& con
                                  {"note", table.note}});
   }
   WriteAll(context.out / "TABLE.md", markdown);
-  WriteAll(context.out / "summary.json",
-           summary.dump(2, ' ', false, nlohmann::json::error_handler_t::replace) + "\n");
+  WriteAll(context.out / "summary.json", JsonText(summary) + "\n");
   WriteAll(context.out / "parameters.toml", fmt::format("# ossa experiment {} --seed {}\n{}", name,
                                                         context.seed, context.parameters.Used()));
   return tables;

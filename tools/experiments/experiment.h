@@ -72,7 +72,10 @@ struct ExperimentContext {
   int threads = 1;
   bool full = false;  // the study's long form; the short one takes a minute or two
   std::function<void(double done, double total, const std::string& note)> progress;
-  std::function<bool()> interrupted;  // true: stop soon by throwing Interruption
+  std::function<bool()> interrupted;  // true: stop soon, by StopIfAsked()
+
+  /// Throws Interruption when the user pressed Ctrl-C. Studies ask between steps of a second.
+  void StopIfAsked() const;
 
   /// The result of a costly step: kept under out/cache by the content of `key`, so that a study
   /// that was stopped takes up where it was. The key must name everything the result depends on:

@@ -154,7 +154,7 @@ SensorStatistics OfRenderedFrames(ExperimentContext& context, int64_t frames) {
     const FrameStudio studio(recon::BodyModel::Load(recon::BodyFolder()), bank, options);
     FrameMaker maker(studio);
     for (int64_t i = 0; i < frames / 2; ++i) {
-      if (context.interrupted && context.interrupted()) throw Interruption{};
+      context.StopIfAsked();
       const LabelledFrame frame = maker.Make(i);
       const depth::Camera& camera = frame.depth.camera;
       depth::Image<uint16_t> image(camera.width, camera.height);

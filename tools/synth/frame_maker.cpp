@@ -63,7 +63,8 @@ std::vector<Eigen::Vector3d> SamplePlaces(int people, Random& random) {
   constexpr double kApart_m = 0.55;
   std::vector<Eigen::Vector3d> places{Eigen::Vector3d::Zero()};
   while (static_cast<int>(places.size()) < people) {
-    const Eigen::Vector3d place(random.Uniform(-1.6, 1.6), 0, random.Uniform(-1.8, 0.5));
+    const double z_m = random.Uniform(-1.8, 0.5), x_m = random.Uniform(-1.6, 1.6);
+    const Eigen::Vector3d place(x_m, 0, z_m);
     const bool free = std::all_of(places.begin(), places.end(), [&](const auto& other) {
       return (place - other).norm() > kApart_m;
     });
@@ -248,7 +249,8 @@ std::optional<LabelledFrame> FrameMaker::State::Try(int64_t index, int attempt) 
         person == 0 ? view.facing_rad : view.facing_rad + random.Uniform(-1.5, 1.5);
     recon::RigPose pose = Turned(DrawPose(index, random), heading_rad);
     if (!options.sequence) {
-      recon::CloseHands(wearers[person].body, random.Uniform(0, 1), random.Uniform(0, 1), &pose);
+      const double right = random.Uniform(0, 1), left = random.Uniform(0, 1);
+      recon::CloseHands(wearers[person].body, left, right, &pose);
     }
     pose.root_m += places[person] / wearers[person].body.root_scale;
     bodies.push_back(

@@ -5,6 +5,7 @@
 
 #include "depth/error.h"
 #include "depth/image/camera_io.h"
+#include "tools/json/json_text.h"
 #include "tools/synth/manifest_internal.h"
 
 namespace ossa::tools {
@@ -89,7 +90,7 @@ std::string ManifestToJson(const DatasetManifest& manifest) {
   json["png"] = manifest.png;
   json["packed"] = manifest.packed;
   json["frames_per_shard"] = manifest.frames_per_shard;
-  return json.dump(2, ' ', false, nlohmann::json::error_handler_t::replace) + "\n";
+  return JsonText(json) + "\n";
 }
 
 DatasetManifest ReadManifest(const std::filesystem::path& folder) {

@@ -46,7 +46,9 @@ uint64_t CellKey(const recon::Posture& posture, double cell_m) {
 }
 
 Vector3d AnyDirection(Random& random) {
-  const Vector3d v(random.Normal(0, 1), random.Normal(0, 1), random.Normal(0, 1));
+  // In g++'s order, from when these were arguments: data sets stay the same.
+  const double z = random.Normal(0, 1), y = random.Normal(0, 1), x = random.Normal(0, 1);
+  const Vector3d v(x, y, z);
   return v.norm() > 1e-6 ? Vector3d(v.normalized()) : Vector3d::UnitX();
 }
 

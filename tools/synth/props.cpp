@@ -18,11 +18,14 @@ float Draw(Random& random, double low, double high) {
   return static_cast<float>(random.Uniform(low, high));
 }
 
+// Draws have names, or stand in braces: in which order the arguments of a call are drawn is the
+// compiler's to choose. The orders here are g++'s, from when they stood there: data sets stay the
+// same.
+
 Eigen::Quaternionf AnyRotation(Random& random) {
-  return Eigen::Quaternionf(
-             static_cast<float>(random.Normal(0, 1)), static_cast<float>(random.Normal(0, 1)),
-             static_cast<float>(random.Normal(0, 1)), static_cast<float>(random.Normal(0, 1)))
-      .normalized();
+  const double z = random.Normal(0, 1), y = random.Normal(0, 1);
+  const double x = random.Normal(0, 1), w = random.Normal(0, 1);
+  return Eigen::Quaterniond(w, x, y, z).cast<float>().normalized();
 }
 
 /// A thing that fits a hand, centred near where it is held.
@@ -35,13 +38,17 @@ depth::TriangleMesh SmallThing(Random& random) {
           {Draw(random, 0.05, 0.25), Draw(random, 0.05, 0.35), Draw(random, 0.02, 0.2)});
     case 2: {  // a stick, bat or racket handle, held near its end
       const float length_m = Draw(random, 0.3, 1.1);
-      return depth::Moved(depth::MakeCapsule(Draw(random, 0.012, 0.035), length_m),
-                          Affine3f(Eigen::Translation3f(0, Draw(random, 0.2, 0.5) * length_m, 0)));
+      const float above_m = Draw(random, 0.2, 0.5) * length_m;
+      const float radius_m = Draw(random, 0.012, 0.035);
+      return depth::Moved(depth::MakeCapsule(radius_m, length_m),
+                          Affine3f(Eigen::Translation3f(0, above_m, 0)));
     }
-    default:  // a bag or bottle, hanging below the hand
+    default: {  // a bag or bottle, hanging below the hand
+      const float above_m = Draw(random, -0.35, -0.1);
       return depth::Moved(depth::MakeBox({Draw(random, 0.08, 0.4), Draw(random, 0.15, 0.45),
                                           Draw(random, 0.06, 0.2)}),
-                          Affine3f(Eigen::Translation3f(0, Draw(random, -0.35, -0.1), 0)));
+                          Affine3f(Eigen::Translation3f(0, above_m, 0)));
+    }
   }
 }
 
@@ -55,9 +62,10 @@ depth::TriangleMesh LargeThing(float span_m, Random& random) {
 Prop HeldInOneHand(const recon::Posture& joints, Random& random) {
   const bool left = random.Chance(0.5);
   const Vector3f hand_m = joints[left ? Joint::kHandLeft : Joint::kHandRight].cast<float>();
-  return {depth::Moved(SmallThing(random),
-                       Eigen::Translation3f(hand_m) * AnyRotation(random) * Affine3f::Identity()),
-          true, left ? Grip::kLeftHand : Grip::kRightHand};
+  const Eigen::Quaternionf turn = AnyRotation(random);
+  return {
+      depth::Moved(SmallThing(random), Eigen::Translation3f(hand_m) * turn * Affine3f::Identity()),
+      true, left ? Grip::kLeftHand : Grip::kRightHand};
 }
 
 /// Between the hands, turned as the line between them lies.
@@ -101,10 +109,11 @@ Prop StandingBefore(const recon::Posture& joints, const Eigen::Isometry3d& camer
       mesh = depth::MakeTable(
           {Draw(random, 0.5, 1.4), Draw(random, 0.4, 0.95), Draw(random, 0.4, 0.8)});
       break;
-    case 1:
-      mesh = depth::MakeChair(Draw(random, 0.38, 0.5), Draw(random, 0.38, 0.55),
-                              Draw(random, 0.3, 0.6));
+    case 1: {
+      const float back_m = Draw(random, 0.3, 0.6), width_m = Draw(random, 0.38, 0.55);
+      mesh = depth::MakeChair(Draw(random, 0.38, 0.5), width_m, back_m);
       break;
+    }
     case 2:  // a board, or a pillar, upright
       mesh = depth::MakeBox({Draw(random, 0.08, 0.7), Draw(random, 0.3, 1.5), 0.03F});
       foot_m.y() = Draw(random, 0.2, 1.2);
@@ -217,19 +226,21 @@ Prop Carried(Prop prop, const recon::Posture& then_in_cam, const recon::Posture&
 
 depth::TriangleMesh SampleFurniture(Random& random) {
   switch (random.Index(4)) {
-    case 0:
-      return depth::MakeSofa(Draw(random, 0.8, 2.2), Draw(random, 0.5, 0.8),
-                             Draw(random, 0.35, 0.45));
+    case 0: {
+      const float seat_m = Draw(random, 0.35, 0.45), deep_m = Draw(random, 0.5, 0.8);
+      return depth::MakeSofa(Draw(random, 0.8, 2.2), deep_m, seat_m);
+    }
     case 1:
       return depth::MakeTable(
           {Draw(random, 0.5, 1.8), Draw(random, 0.4, 0.9), Draw(random, 0.4, 0.9)});
-    case 2:
-      return depth::MakeChair(Draw(random, 0.4, 0.5), Draw(random, 0.4, 0.55),
-                              Draw(random, 0.4, 0.6));
+    case 2: {
+      const float back_m = Draw(random, 0.4, 0.6), width_m = Draw(random, 0.4, 0.55);
+      return depth::MakeChair(Draw(random, 0.4, 0.5), width_m, back_m);
+    }
     default: {  // a cupboard or a shelf
-      const Vector3f size_m(Draw(random, 0.4, 1.4), Draw(random, 0.6, 2.1), Draw(random, 0.3, 0.6));
-      return depth::Moved(depth::MakeBox(size_m),
-                          Affine3f(Eigen::Translation3f(0, size_m.y() / 2, 0)));
+      const float deep_m = Draw(random, 0.3, 0.6), high_m = Draw(random, 0.6, 2.1);
+      return depth::Moved(depth::MakeBox({Draw(random, 0.4, 1.4), high_m, deep_m}),
+                          Affine3f(Eigen::Translation3f(0, high_m / 2, 0)));
     }
   }
 }
@@ -261,8 +272,9 @@ std::vector<Prop> SampleRoom(const Eigen::Isometry3d& camera_from_world, Random&
   for (size_t i = 0; i < count; ++i) {
     // Along the wall behind, and at either side of the person, never on the person's place.
     const float side = random.Chance(0.5) ? 1.0F : -1.0F;
-    const Vector3f place_m(shift_m * 0.5F + side * Draw(random, 0.7, std::max(0.8, 0.45 * width_m)),
-                           0.0F, -Draw(random, 0.0, behind_m));
+    const float z_m = -Draw(random, 0.0, behind_m);
+    const float aside_m = side * Draw(random, 0.7, std::max(0.8, 0.45 * width_m));
+    const Vector3f place_m(shift_m * 0.5F + aside_m, 0.0F, z_m);
     const auto turn =
         Eigen::AngleAxisf(static_cast<float>(random.Normal(0, 0.3)), Vector3f::UnitY());
     depth::TriangleMesh furniture = depth::Moved(

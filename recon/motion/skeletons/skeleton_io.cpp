@@ -186,6 +186,8 @@ std::string WithoutExtension(std::string name) {
   return name;
 }
 
+bool Stopped(const SkeletonReadOptions& options) { return options.stop && options.stop(); }
+
 std::vector<SkeletonClip> ReadArchiveClips(const SkeletonPath& parts, const std::string& columns,
                                            const SkeletonReadOptions& options) {
   const auto members = ReadArchive(parts.path);
@@ -198,6 +200,7 @@ std::vector<SkeletonClip> ReadArchiveClips(const SkeletonPath& parts, const std:
   std::vector<SkeletonClip> clips;
   for (const auto& [name, text] : members) {
     if (IsPassedOver(name) || name.find(parts.member) == std::string::npos) continue;
+    if (Stopped(options)) break;
     clips.push_back({WithoutExtension(name),
                      ReadText(text, parts.path.string() + "#" + name, columns, options, sibling)});
   }
@@ -213,6 +216,7 @@ std::vector<SkeletonClip> ReadFolderClips(const SkeletonPath& parts, const std::
   std::vector<SkeletonClip> clips;
   for (const fs::path& file : files) {
     if (file.string().find(parts.member) == std::string::npos) continue;
+    if (Stopped(options)) break;
     const std::string name = WithoutExtension(fs::relative(file, parts.path).string());
     if (!IsArchive(file)) {
       clips.push_back({name, ReadFile(file, columns, options)});
@@ -295,7 +299,9 @@ std::vector<SkeletonClip> ReadSkeletonClips(const fs::path& path,
   } else {
     clips.push_back({"", ReadFile(parts.path, columns, options)});
   }
-  if (clips.empty()) throw InputError(path.string() + ": holds no skeleton recording");
+  if (clips.empty() && !Stopped(options)) {
+    throw InputError(path.string() + ": holds no skeleton recording");
+  }
   return clips;
 }
 

@@ -1,5 +1,6 @@
 #pragma once
 #include <filesystem>
+#include <functional>
 #include <iosfwd>
 #include <string>
 #include <vector>
@@ -17,6 +18,9 @@ struct SkeletonReadOptions {
   std::string format;
   /// Time step of formats that carry no time, seconds; 0: the format's own usual rate.
   double frame_s = 0.0;
+  /// Asked before each recording of a folder or an archive; true: no more are read, and those until
+  /// then are what is returned.
+  std::function<bool()> stop = {};
 };
 
 /// The names of all formats that are read, e.g. "jsonl", "kinect-v2-csv".

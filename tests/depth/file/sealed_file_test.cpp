@@ -1,10 +1,14 @@
 #include "depth/file/sealed_file.h"
 
+#include <fcntl.h>
 #include <gtest/gtest.h>
+#include <sys/file.h>
 #include <sys/stat.h>
+#include <sys/wait.h>
 #include <unistd.h>
 
 #include <fstream>
+#include <optional>
 
 #include "depth/error.h"
 #include "depth/file/atomic_file.h"
@@ -121,6 +125,71 @@ TEST(AtomicFile, AFileThatMayNotBeWrittenIsNotReplaced) {
   std::ofstream(folder / "kept") << "as it is";
   std::filesystem::permissions(folder / "kept", std::filesystem::perms::owner_read);
   EXPECT_THROW(AtomicFile::CheckWritable(folder / "kept"), InputError);
+}
+
+// The number of a process that was.
+pid_t DeadProcess() {
+  const pid_t process = fork();
+  if (process == 0) _exit(0);
+  waitpid(process, nullptr, 0);
+  return process;
+}
+
+// What SIGKILL left of the same file goes; what somebody may still be writing, here or on another
+// machine, does not, nor what is another file's or has another's name.
+TEST(AtomicFile, TakesAwayWhatTheKilledLeftOfTheSameFile) {
+  const test::TemporaryFolder folder;
+  const std::string dead = std::to_string(DeadProcess());
+  const auto leave = [&](const std::string& name) {
+    std::ofstream(folder / name) << "half";
+    return folder / name;
+  };
+  const auto left = leave("out.oni.partial-" + dead);
+  std::vector<std::filesystem::path> kept = {leave("out.oni.partial-" + std::to_string(getppid())),
+                                             leave("out.oni"),
+                                             leave("other.oni.partial-" + dead),
+                                             leave("out.oni2.partial-" + dead),
+                                             leave("out.oni.partial-" + dead + "x"),
+                                             leave("out.oni.partial-"),
+                                             leave("out.oni.partial--1"),
+                                             leave("out.oni.partial-99999999999999999999")};
+  const auto locked = leave("out.oni.partial-" + std::to_string(DeadProcess()));
+  const int lock = open(locked.c_str(), O_WRONLY);
+  ASSERT_EQ(flock(lock, LOCK_EX | LOCK_NB), 0);
+  kept.push_back(locked);
+  std::filesystem::create_symlink("out.oni", folder / "link");
+  AtomicFile::CheckWritable(folder / "link");
+  EXPECT_FALSE(std::filesystem::exists(left));
+  for (const auto& path : kept) EXPECT_TRUE(std::filesystem::exists(path)) << path;
+  close(lock);
+  AtomicFile::CheckWritable(folder / "link");
+  EXPECT_FALSE(std::filesystem::exists(locked));
+}
+
+// Its number may be unknown here: what is being written is locked.
+TEST(AtomicFile, IsLockedWhileItIsWritten) {
+  const test::TemporaryFolder folder;
+  std::optional<AtomicFile> file(folder / "out");
+  const int other = open(file->temporary_path().c_str(), O_WRONLY);
+  EXPECT_NE(flock(other, LOCK_EX | LOCK_NB), 0);
+  file.reset();
+  EXPECT_EQ(flock(other, LOCK_EX | LOCK_NB), 0);
+  close(other);
+}
+
+TEST(AtomicFile, WhatIsCutOffIsGoneAndWritingGoesOnThere) {
+  const test::TemporaryFolder folder;
+  AtomicFile file(folder / "out");
+  file.stream() << "kept, gone" << std::flush;
+  file.stream().setstate(std::ios::badbit);
+  file.CutTo(4);
+  EXPECT_THROW(file.CutTo(5), InputError);
+  file.CutTo(4);
+  file.stream() << "!";
+  file.Commit();
+  std::string text;
+  std::getline(std::ifstream(folder / "out"), text);
+  EXPECT_EQ(text, "kept!");
 }
 
 TEST(AtomicFile, AFullDiskIsKnownBeforeTheEnd) {

@@ -1,11 +1,15 @@
 #include "depth/sensor/oni_recorder.h"
 
 #include <gtest/gtest.h>
+#include <signal.h>
+#include <sys/resource.h>
 
 #include <fstream>
+#include <optional>
 #include <random>
 
 #include "depth/error.h"
+#include "depth/file/atomic_file.h"
 #include "depth/sensor/frame_source.h"
 #include "tests/support/depth_examples.h"
 #include "tests/support/temporary_folder.h"
@@ -87,14 +91,17 @@ TEST(OniRecorder, KeepsTheExactCameraAndTheOddestSize) {
   EXPECT_EQ(OpenSource((folder / "x.oni").string(), options)->camera(), (Camera{7, 3, 9, 9, 4, 2}));
 }
 
+std::string BytesOf(const std::filesystem::path& path) {
+  std::ifstream file(path, std::ios::binary);
+  return {std::istreambuf_iterator<char>(file), {}};
+}
+
 TEST(OniRecorder, TheSameFramesGiveTheSameBytes) {
   const TemporaryFolder folder;
-  const auto bytes = [&](const std::string& name) {
+  for (const char* name : {"a.oni", "b.oni"}) {
     Record(folder / name, {ExampleFrame(0), ExampleFrame(1)});
-    std::ifstream file(folder / name, std::ios::binary);
-    return std::string((std::istreambuf_iterator<char>(file)), {});
-  };
-  EXPECT_EQ(bytes("a.oni"), bytes("b.oni"));
+  }
+  EXPECT_EQ(BytesOf(folder / "a.oni"), BytesOf(folder / "b.oni"));
 }
 
 TEST(OniRecorder, RefusesWhatTheFormatWouldCorrupt) {
@@ -123,6 +130,62 @@ TEST(OniRecorder, RefusesFramesNoPlayerHolds) {
   const TemporaryFolder folder;
   EXPECT_THROW(OniRecorder(folder / "x.oni", KinectV1Camera(4000, 3000)), InputError);
   EXPECT_THROW(OniRecorder(folder / "no/folder/x.oni", KinectV1Camera(4, 3)), InputError);
+}
+
+// For this process, as long as it lives, no file grows beyond so many bytes: as on a full disk.
+class FullDisk {
+ public:
+  explicit FullDisk(uint64_t bytes) : handler_before_(signal(SIGXFSZ, SIG_IGN)) {
+    getrlimit(RLIMIT_FSIZE, &before_);
+    rlimit now = before_;
+    now.rlim_cur = bytes;
+    setrlimit(RLIMIT_FSIZE, &now);
+  }
+  ~FullDisk() {
+    setrlimit(RLIMIT_FSIZE, &before_);
+    signal(SIGXFSZ, handler_before_);
+  }
+  FullDisk(const FullDisk&) = delete;
+  FullDisk& operator=(const FullDisk&) = delete;
+
+ private:
+  rlimit before_{};
+  sighandler_t handler_before_;
+};
+
+// How many frames are kept of so many; none when there is no room even before the first.
+int64_t RecordWithin(uint64_t bytes, const std::filesystem::path& path, int frames) {
+  const FullDisk disk(bytes);
+  std::optional<OniRecorder> recorder;
+  try {
+    recorder.emplace(path, ExampleFrame(0).camera);
+    for (int i = 0; i < frames; ++i) recorder->Write(ExampleFrame(i));
+    recorder->Finish();
+    return recorder->frame_count();
+  } catch (const DiskFull&) {
+    return recorder ? recorder->FinishWithWhatFits() : 0;
+  }
+}
+
+// Whatever does not fit, a frame, its end or the file's: what is kept is the recording of as many
+// frames as there is room for, byte for byte.
+TEST(OniRecorder, OnAFullDiskKeepsWhatFits) {
+  const TemporaryFolder folder;
+  constexpr int kFrames = 9;
+  std::vector<std::string> whole = {""};
+  for (int count = 1; count <= kFrames; ++count) {
+    EXPECT_EQ(RecordWithin(RLIM_INFINITY, folder / "x.oni", count), count);
+    whole.push_back(BytesOf(folder / "x.oni"));
+  }
+  for (uint64_t room = 300; room <= whole.back().size(); room += 53) {
+    std::filesystem::remove(folder / "x.oni");
+    size_t fit = kFrames;
+    while (whole[fit].size() > room) --fit;
+    EXPECT_EQ(RecordWithin(room, folder / "x.oni", kFrames), fit) << room << " bytes";
+    EXPECT_EQ(std::filesystem::exists(folder / "x.oni"), fit > 0);
+    EXPECT_EQ(BytesOf(folder / "x.oni"), whole[fit]) << room << " bytes";
+    EXPECT_EQ(std::filesystem::is_empty(folder.path()), fit == 0);
+  }
 }
 
 TEST(OniRecorder, LeavesNothingWithoutFinish) {

@@ -7,10 +7,10 @@
 #include <limits>
 #include <memory>
 
-#include "depth/error.h"
 #include "recon/gp/posture_prior.h"
 #include "recon/gp/prior_filter.h"
 #include "tests/recon/synthetic_motion.h"
+#include "tests/support/refused.h"
 #include "tests/support/temporary_folder.h"
 
 namespace ossa::recon {
@@ -172,12 +172,7 @@ TEST(PriorNetwork, WithOddNumbersIsRefused) {
     prior.network = HeadForward(0.05);
     spoil(prior.network);
     prior.Save(folder / "odd.ossaprior");
-    try {
-      PosturePrior::Load(folder / "odd.ossaprior");
-      FAIL() << field;
-    } catch (const InputError& error) {
-      EXPECT_NE(std::string(error.what()).find(field), std::string::npos) << error.what();
-    }
+    ossa::test::ExpectRefused([&] { PosturePrior::Load(folder / "odd.ossaprior"); }, field);
   };
   constexpr float kInfinity = std::numeric_limits<float>::infinity();
   refused([](PriorNetwork& n) { n.input_scale[5] = std::nanf(""); }, "input scales");

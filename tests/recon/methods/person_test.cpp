@@ -1,5 +1,7 @@
 #include <gtest/gtest.h>
 
+#include <cmath>
+
 #include "recon/methods/person_internal.h"
 #include "tests/recon/synthetic_motion.h"
 
@@ -74,6 +76,28 @@ TEST(BodySize, IsMeasuredAnewForAnotherSizeAfterASecond) {
   }
   EXPECT_NEAR(size.scale(), 0.6, 1e-6);
   EXPECT_NEAR(size.lengths_m()[13], 0.6 * StandardBoneLengths()[13], 1e-6);
+}
+
+TEST(Person, IsForgottenAfterAGapAndWhenTimeRunsBackNotWhenATimeRepeats) {
+  Person person;
+  const TrackedPosture seen = test::AllTracked(test::InFrontOfCamera(test::Gesture(0.2, 0.2, 0.1)));
+  struct Case {
+    double time_s;
+    bool restarted;
+    double dt_s;
+  };
+  constexpr double kUsual_s = 1.0 / 30.0;
+  for (const Case& at :
+       {Case{5.0, true, kUsual_s}, Case{5.0, false, kUsual_s}, Case{5.25, false, 0.25},
+        Case{5.25, false, 0.25}, Case{5.248, false, 0.25}, Case{5.246, false, 0.25},
+        // Back by little each time, but by 6 ms from the latest.
+        Case{5.244, true, kUsual_s}, Case{4.0, true, kUsual_s}, Case{4.5, false, 0.5},
+        Case{5.125, true, kUsual_s}, Case{std::nan(""), true, kUsual_s},
+        Case{5.25, true, kUsual_s}}) {
+    const PreparedPosture prepared = person.Prepare({seen, at.time_s, nullptr});
+    EXPECT_EQ(prepared.restarted, at.restarted) << at.time_s;
+    EXPECT_DOUBLE_EQ(prepared.dt_s, at.dt_s) << at.time_s;
+  }
 }
 
 TEST(Person, TakesTrunkBonesAsTheSensorHasThem) {

@@ -92,6 +92,26 @@ TEST_P(EveryMethod, SurvivesWhatNoSensorShouldSay) {
   }
 }
 
+// A logger stamps two frames alike that came a frame apart: until the next stamp all is as if it
+// had not. Steps of 1/32 s have no rounding.
+TEST_P(EveryMethod, RemembersThePersonWhenATimeRepeats) {
+  const auto right = Make(), repeating = Make();
+  std::mt19937_64 rng(7);
+  for (int f = 0; f < 12; ++f) {
+    Posture posture = test::InFrontOfCamera(test::Motion(f / 32.0));
+    test::AddNoise(posture, 0.01, rng);
+    TrackedPosture seen = test::AllTracked(posture);
+    seen.state[7] = f > 5 ? TrackingState::kNotTracked : TrackingState::kTracked;
+    const int stamp = f == 11 ? 10 : f;
+    const auto expected = right->Step({seen, f / 32.0, nullptr});
+    const auto made = repeating->Step({seen, stamp / 32.0, nullptr});
+    for (size_t i = 0; i < kJointCount; ++i) {
+      ASSERT_EQ(made.posture.position_m[i], expected.posture.position_m[i]) << f << " " << i;
+    }
+    ASSERT_EQ(repeating->Revised().has_value(), right->Revised().has_value()) << f;
+  }
+}
+
 TEST_P(EveryMethod, SaysThatUnseenJointsAreUnreliable) {
   const auto method = Make();
   TrackedPosture observed = test::AllTracked(test::InFrontOfCamera(test::Motion(0.0)));

@@ -123,14 +123,28 @@ TEST(Interrupt, ATerminalThatGoesAwayEndsARecordingWithAWholeFile) {
 TEST(WrongUsage, OfOutputs) {
   const TemporaryFolder folder;
   std::ofstream(folder / "in.jsonl") << "precious";
-  for (const char* words :
-       {"track /nowhere --out x.xyz", "track /nowhere --out x", "track /nowhere --picture x.jpg",
-        "track /nowhere --out x.jsonl --json-stats ./x.jsonl",
-        "reconstruct in.jsonl --out in.jsonl", "reconstruct in.jsonl#truth --out ./in.jsonl",
-        "compare in.jsonl a --json in.jsonl", "compare a b --json x --report x",
-        "learn --observed a --truth in.jsonl --out in.jsonl",
-        "database --mocap in.jsonl --out in.jsonl", "prior --mocap in.jsonl --out in.jsonl",
-        "record in.oni --out in.oni", "evaluate a b --json x --report x"}) {
+  std::filesystem::create_symlink("in.jsonl", folder / "same");
+  for (const char* words : {"track /nowhere --out x.xyz",
+                            "track /nowhere --out x",
+                            "track /nowhere --picture x.jpg",
+                            "track /nowhere --out in.jsonl --json-stats ./same",
+                            "reconstruct in.jsonl --out in.jsonl",
+                            "reconstruct in.jsonl#truth --out ./in.jsonl",
+                            "compare in.json a --json in.json",
+                            "compare a b --report x",
+                            "compare a b --json x.csv",
+                            "learn --observed a --truth in.ossagp --out in.ossagp",
+                            "database --mocap in.ossadb --out in.ossadb",
+                            "prior --mocap in.ossaprior --out in.ossaprior",
+                            "record in.oni --out in.oni",
+                            "evaluate a b --report x",
+                            "evaluate a b --json x.html",
+                            "learn --observed a --truth b --out x",
+                            "learn --observed a --truth b --out x.ossa",
+                            "prior --mocap authored --out x.ossadb",
+                            "database --mocap authored --out x.ossa",
+                            "train a --out x.jsonl",
+                            "track /nowhere --out x.jsonl --json-stats x.html"}) {
     const CommandResult result = Shell(std::string("cd \"$2\" && \"$1\" ") + words, folder);
     EXPECT_EQ(result.exit_status, 2) << words << ": " << result.err;
     EXPECT_EQ(test::LineCount(result.err), 1) << result.err;
@@ -141,7 +155,12 @@ TEST(WrongUsage, OfOutputs) {
 TEST(WrongUsage, OfOptions) {
   const TemporaryFolder folder;
   for (const char* words :
-       {"compare a b --time nan", "compare a b --format x", "compare a b --columns x",
+       {"learn --observed a --truth b --out x.ossagp --regions 1000000000",
+        "learn --observed a --truth b --out x.ossagp --regions 1e8",
+        "learn --observed a --truth b --out x.ossagp --samples 5001",
+        "learn --observed a --truth b --out x.ossagp --pairs 9",
+        "track a --out x.jsonl --method liu-2016", "reconstruct a --out x.jsonl --method liu-2016",
+        "compare a b --time nan", "compare a b --format x", "compare a b --columns x",
         "experiment nosuch --out x", "reconstruct a --out x.csv --weights 1,1,1,-1",
         "train a --out x --memory 1K", "train a --out x --resume --trees-of b",
         "train a --out x --trees-of b --import-pcl c"}) {

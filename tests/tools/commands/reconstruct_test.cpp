@@ -222,6 +222,12 @@ INSTANTIATE_TEST_SUITE_P(
         BadReconstruct{"hinges", {"IN", "--out", "OUT", "--hinges"}, 2, "--physics"},
         BadReconstruct{"limits", {"IN", "--out", "OUT", "--joint-limits"}, 2, "--physics"},
         BadReconstruct{"method", {"IN", "--out", "OUT", "--method", "guess"}, 2, "--method"},
+        BadReconstruct{
+            "nothing_learned", {"IN", "--out", "OUT", "--method", "full-gp"}, 2, "--learned"},
+        BadReconstruct{"learned_none",
+                       {"IN", "--out", "OUT", "--method", "exemplar", "--learned", "none"},
+                       2,
+                       "--learned"},
         BadReconstruct{"no_such_file", {"/no/such.jsonl", "--out", "OUT"}, 1, "/no/such.jsonl"},
         BadReconstruct{"learned", {"IN", "--out", "OUT", "--learned", "/no.gp"}, 1, "/no.gp"}),
     [](const auto& info) { return std::string(info.param.name); });

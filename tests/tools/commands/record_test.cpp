@@ -1,6 +1,7 @@
 #include <gtest/gtest.h>
 #include <signal.h>
 
+#include <algorithm>
 #include <fstream>
 
 #include "depth/sensor/frame_source.h"
@@ -90,6 +91,37 @@ TEST(RecordCommand, KilledItLeavesNothingUnderTheFinalName) {
   running.Signal(SIGKILL);
   EXPECT_EQ(running.Wait(test::kCommandTimeout).exit_status, 128 + SIGKILL);
   EXPECT_FALSE(std::filesystem::exists(out));
+  const auto partials = [&folder] {
+    const std::filesystem::directory_iterator files(folder.path());
+    return std::count_if(begin(files), end(files), [](const auto& entry) {
+      return entry.path().string().find(".partial-") != std::string::npos;
+    });
+  };
+  EXPECT_EQ(partials(), 1);
+  EXPECT_EQ(RunOssa({"record", folder.path().string(), "--out", out, "--quiet"}).exit_status, 0);
+  EXPECT_EQ(partials(), 0) << "the next to write the same file takes it away";
+}
+
+// `ulimit -f` counts kilobytes; a frame has more than two.
+TEST(RecordCommand, OnAFullDiskSaysHowManyFramesItKept) {
+  const TemporaryFolder folder;
+  constexpr int kFrames = 40;
+  WriteExampleFolder(folder.path(), kFrames);
+  const std::string out = (folder / "x.oni").string();
+  for (const char* kilobytes : {"6", "13", "40"}) {
+    const CommandResult result = test::RunProgram(
+        {"/bin/bash", "-c", R"(ulimit -f "$1"; exec "$2" record "$3" --out "$4" --quiet)", "shell",
+         kilobytes, test::OssaPath(), folder.path().string(), out});
+    EXPECT_EQ(result.exit_status, 1);
+    const int kept = FramesIn(out);
+    EXPECT_GE(kept, 1);
+    EXPECT_LT(kept, kFrames);
+    const std::string begin =
+        "ossa: " + out + ": writing failed: is the disk full? " + std::to_string(kept) + " of ";
+    EXPECT_TRUE(result.err.starts_with(begin)) << result.err << begin;
+    EXPECT_TRUE(result.err.ends_with(" frames were kept\n")) << result.err;
+    EXPECT_EQ(test::LineCount(result.err), 1) << result.err;
+  }
 }
 
 TEST(RecordCommand, WaitsForADeviceThatComesLater) {

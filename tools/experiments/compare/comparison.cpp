@@ -7,6 +7,7 @@
 #include <set>
 
 #include "depth/error.h"
+#include "tools/experiments/experiment.h"
 
 namespace ossa::tools {
 namespace {
@@ -18,12 +19,18 @@ bool HoldsAny(const std::string& name, const std::vector<std::string>& parts) {
                      [&](const std::string& part) { return name.find(part) != std::string::npos; });
 }
 
+void StopIfAsked(const CompareOptions& options) {
+  if (options.stop && options.stop()) throw Interruption{};
+}
+
 /// `columns`: of files that hold truth and estimate side by side, what is wanted unless said.
 std::vector<SkeletonClip> Chosen(const std::string& path, const CompareOptions& options,
                                  const char* columns) {
   auto reading = options.reading;
   if (reading.columns.empty()) reading.columns = columns;
+  reading.stop = options.stop;
   auto clips = recon::ReadSkeletonClips(path, reading);
+  StopIfAsked(options);
   std::erase_if(clips, [&](const SkeletonClip& clip) {
     return HoldsAny(clip.name, options.skip) ||
            (!options.only.empty() && !HoldsAny(clip.name, options.only));
@@ -72,6 +79,7 @@ ComparedResult CompareOne(const std::string& truth_name, const std::vector<Skele
       compared.missing_clips.push_back(clip.name);
       continue;
     }
+    StopIfAsked(options);
     AddClip(compared, clip.name, clip, single ? results[0] : *found->second, options.pairing);
   }
   if (compared.missing_clips.size() == truth.size()) {

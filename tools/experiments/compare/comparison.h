@@ -1,5 +1,6 @@
 #pragma once
 #include <filesystem>
+#include <functional>
 #include <string>
 #include <vector>
 
@@ -15,6 +16,7 @@ struct CompareOptions {
   std::vector<std::string> only;  // clips whose name holds one of these; empty: all
   std::vector<std::string> skip;  // but none whose name holds one of these
   uint64_t seed = 1;              // of the bootstrap
+  std::function<bool()> stop;     // asked before each clip; true: ends by throwing Interruption
 };
 
 /// One result against the truth, over all clips that both have.
@@ -48,6 +50,7 @@ struct Comparison {
 
 /// Reads and compares. Clips are matched by name; a single clip on both sides needs no equal name.
 /// Of files that hold truth and estimate side by side, each side takes its own unless said.
+/// Throws Interruption (tools/experiments/experiment.h) when it is to stop.
 Comparison Compare(const std::string& truth, const std::vector<std::string>& results,
                    const CompareOptions& options);
 

@@ -5,6 +5,7 @@
 
 #include "tools/experiments/compare/comparison.h"
 #include "tools/experiments/experiment.h"
+#include "tools/json/json_text.h"
 
 namespace ossa::tools {
 namespace {
@@ -156,7 +157,7 @@ std::string ToJson(const Comparison& comparison) {
                              {"p", test.result.p},
                              {"p_bonferroni", test.corrected_p}});
   }
-  return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
+  return JsonText(json) + "\n";
 }
 
 std::string Advice(const Comparison& comparison) {

@@ -113,7 +113,7 @@ Evaluation Laboratory::Measured(const std::string& key,
     const Evaluation e = Evaluate(grown, DatasetReader(test), 1, [&](int64_t, int64_t) {
       return !(context_.interrupted && context_.interrupted());
     });
-    if (context_.interrupted && context_.interrupted()) throw Interruption{};
+    context_.StopIfAsked();
     return nlohmann::json{{"pixel", e.pixel_accuracy}, {"class", e.mean_class_accuracy},
                           {"map", e.map_10cm},         {"map_visible", e.map_10cm_visible},
                           {"ap", e.ap_10cm},           {"ap_visible", e.ap_10cm_visible}}

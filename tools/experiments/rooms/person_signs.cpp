@@ -110,7 +110,7 @@ class Gatherer {
   }
 
   void Look(const LabelledFrame& frame, std::vector<Example>& examples) {
-    if (context_.interrupted && context_.interrupted()) throw Interruption{};
+    context_.StopIfAsked();
     for (auto& seen : collector_.Look(frame.depth)) {
       const auto person = IsPerson(seen.pixels, frame);
       if (person) examples.push_back({*person, std::move(seen.signs)});

@@ -28,7 +28,7 @@ RoomScore Play(const RoomScenario& scenario, const RoomCast& cast, const Job& jo
   tracker::Tracker tracker(how);
   RoomJudge judge;
   for (int64_t f = 0; f < stage.size(); ++f) {
-    if (context.interrupted && context.interrupted()) throw Interruption{};
+    context.StopIfAsked();
     const LabelledFrame frame = stage.Shoot(f);
     const tracker::BodyFrame answer = tracker.Push(frame.depth);
     judge.See(frame, answer);

@@ -40,9 +40,7 @@ std::string KeyOf(const ExperimentContext& context, const MethodRun& run) {
   return key;
 }
 
-void StopWhenInterrupted(const ExperimentContext& context) {
-  if (context.interrupted && context.interrupted()) throw Interruption{};
-}
+void StopWhenInterrupted(const ExperimentContext& context) { context.StopIfAsked(); }
 
 }  // namespace
 

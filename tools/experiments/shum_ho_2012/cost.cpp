@@ -144,7 +144,7 @@ Endurance Endure(const Actors& actors, double hours, const ExperimentContext& co
   EnduranceRun run(actors.Play(actions[0])[0], context.seed);
   const auto wanted = static_cast<int64_t>(hours * 3600.0 / kFrame_s);
   while (run.found().frames < wanted) {
-    if (context.interrupted && context.interrupted()) throw Interruption();
+    context.StopIfAsked();
     run.Play(actors.Play(actions[run.Pick(actions.size())]), wanted);
   }
   return run.found();

@@ -235,7 +235,7 @@ Table FilterStudy(ExperimentContext& context, const Actors& actors) {
   plain.lead = 0.0;
   motor.control = physics::Control::kMotor;
   for (const FilterData& data : FilterDataOf(context, actors, table.note)) {
-    if (context.interrupted && context.interrupted()) throw Interruption();
+    context.StopIfAsked();
     AddRow(table, data, "pd", paper);
     AddRow(table, data, "pd, lead 0", plain);
     AddRow(table, data, "motor", motor);

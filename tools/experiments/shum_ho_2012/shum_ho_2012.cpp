@@ -73,7 +73,7 @@ std::vector<Table> RunShumHo2012(ExperimentContext& context) {
   double done = 0.0;
   const auto begin = [&](const std::string& part) {
     if (!parts.contains(part)) return false;
-    if (context.interrupted && context.interrupted()) throw Interruption();
+    context.StopIfAsked();
     if (context.progress) context.progress(done++, static_cast<double>(parts.size()), part);
     return true;
   };

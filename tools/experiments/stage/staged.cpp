@@ -263,7 +263,7 @@ RecordedPair Studio::Record(const recon::MotionClip& clip, const StageOptions& o
     recon::SkeletonSequence looked;
     recon::SkeletonSequence truth;
     for (size_t f = 0; f < set.size(); ++f) {
-      if (state_->context.interrupted && state_->context.interrupted()) throw Interruption{};
+      state_->context.StopIfAsked();
       const StagedFrame frame = set.Shoot(f);
       if (tracker) {
         const tracker::BodyFrame bodies = tracker->Push(frame.depth);
