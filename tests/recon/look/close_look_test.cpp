@@ -140,8 +140,8 @@ TEST(CloseLook, OfTheMirrorImageIsTheMirrorImage) {
 TEST(CloseLook, MovesEachJointByItsNetworkAndTheOtherSideInTheMirror) {
   Scene scene;
   CloseLook look = Silent();
-  look.networks[NetworkOf(Joint::kHead)].layers[1].bias = {0.0F, 0.5F, 0.0F};
-  look.networks[NetworkOf(Joint::kKneeLeft)].layers[1].bias = {0.4F, 0.0F, 0.0F};
+  look.networks[NetworkOf(Joint::kHead)].layers[1].bias = Eigen::Vector3f(0.0F, 0.5F, 0.0F);
+  look.networks[NetworkOf(Joint::kKneeLeft)].layers[1].bias = Eigen::Vector3f(0.4F, 0.0F, 0.0F);
   const auto joints_m = look.Look(scene.input);
   ASSERT_TRUE(joints_m);
   const auto moved_m = [&](Joint joint) -> Eigen::Vector3d {
@@ -157,7 +157,7 @@ TEST(CloseLook, MovesEachJointByItsNetworkAndTheOtherSideInTheMirror) {
 TEST(CloseLook, MovesNoJointFarAway) {
   Scene scene;
   CloseLook look = Silent();
-  look.networks[NetworkOf(Joint::kSpine)].layers[1].bias = {300.0F, 0.0F, -400.0F};
+  look.networks[NetworkOf(Joint::kSpine)].layers[1].bias = Eigen::Vector3f(300.0F, 0.0F, -400.0F);
   const auto joints_m = look.Look(scene.input);
   ASSERT_TRUE(joints_m);
   EXPECT_NEAR(((*joints_m)[Joint::kSpine] - scene.input.proposed[Joint::kSpine]).norm(),

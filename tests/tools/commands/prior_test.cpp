@@ -26,7 +26,7 @@ TEST(PriorCommand, LearnsAPriorOfTheModesAskedForThatInfoShows) {
                             "--walks", "1", "--epochs", "1", "--quiet", "--out", out});
   ASSERT_EQ(run.exit_status, 0) << run.err;
   EXPECT_EQ(recon::PosturePrior::Load(out).time_s.size(), 12);
-  EXPECT_EQ(recon::PosturePrior::Load(out).network.unit_bias.size(), 8);
+  EXPECT_EQ(recon::PosturePrior::Load(out).network.layers.at(0).bias.size(), 8);
   const auto info = RunOssa({"info", out});
   EXPECT_EQ(info.exit_status, 0) << info.err;
   EXPECT_NE(info.out.find("posture prior, 12 modes learned from "), std::string::npos) << info.out;

@@ -1,0 +1,79 @@
+// `ossa look` from the outside: it learns from rendered people, and track looks with what it made.
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+
+#include "recon/body/body_model.h"
+#include "recon/look/close_look.h"
+#include "tests/support/run_command.h"
+#include "tests/support/temporary_folder.h"
+
+namespace ossa::commands {
+namespace {
+
+using test::RunOssa;
+
+std::string TextOf(const std::string& path) {
+  std::ifstream file(path, std::ios::binary);
+  return {std::istreambuf_iterator<char>(file), {}};
+}
+
+TEST(LookCommand, LearnsTheSameForAnyThreadsAndTrackLooksWithIt) {
+  if (!std::filesystem::exists(recon::BodyFolder())) GTEST_SKIP() << "no body: tools/fetch_body";
+  const test::TemporaryFolder folder;
+  const std::string people = folder / "people", clip = folder / "clip";
+  ASSERT_EQ(RunOssa({"render", "--mocap", "authored", "--out", people, "--frames", "80", "--size",
+                     "160x120", "--format", "packed", "--quiet"})
+                .exit_status,
+            0);
+  const auto learn = [&](const char* threads, const std::string& out) {
+    const auto run = RunOssa({"look", people, "--out", out, "--hidden", "4", "--epochs", "1",
+                              "--threads", threads, "--quiet"});
+    EXPECT_EQ(run.exit_status, 0) << run.err;
+    return TextOf(out);
+  };
+  const std::string look = folder / "a.ossalook";
+  EXPECT_EQ(learn("1", look), learn("3", folder / "b.ossalook"));
+  EXPECT_GE(recon::CloseLook::Load(look).people, 64U);
+  EXPECT_EQ(recon::CloseLook::Load(look).networks[0].layers.at(0).bias.size(), 4);
+  EXPECT_EQ(recon::CloseLook::Load(look).networks[0].layers.at(1).bias.size(), 2);
+  const auto info = RunOssa({"info", look});
+  EXPECT_NE(info.out.find("close look at a forest's joints, 12 networks"), std::string::npos)
+      << info.out << info.err;
+
+  ASSERT_EQ(RunOssa({"render", "--mocap", "authored", "--out", clip, "--frames", "5", "--sequence",
+                     "--view", "front", "--size", "160x120", "--quiet"})
+                .exit_status,
+            0);
+  const auto track = [&](const std::string& posture, const std::string& with) {
+    const std::string out = folder / "joints.jsonl";
+    const auto run =
+        RunOssa({"track", clip, "--out", out, "--posture", posture, "--look", with, "--quiet"});
+    EXPECT_EQ(run.exit_status, 0) << run.err;
+    return TextOf(out);
+  };
+  const std::string raw = track("raw", look);
+  EXPECT_NE(raw.find("HipCenter"), std::string::npos);
+  EXPECT_FALSE(raw == track("looked", look));
+  const auto bad = RunOssa({"track", clip, "--out", folder / "x.jsonl", "--look", clip});
+  EXPECT_EQ(bad.exit_status, 1);
+  EXPECT_EQ(test::LineCount(bad.err), 1) << bad.err;
+}
+
+TEST(LookCommand, SaysWhatIsWrongInOneLine) {
+  const test::TemporaryFolder folder;
+  const std::string out = folder / "x.ossalook";
+  EXPECT_EQ(RunOssa({"look", "--out", out}).exit_status, 2);
+  EXPECT_EQ(RunOssa({"look", "/nonexistent", "--out", folder / "x.ossagp"}).exit_status, 2);
+  EXPECT_EQ(RunOssa({"look", "/nonexistent", "--hidden", "1", "--out", out}).exit_status, 2);
+  const auto run = RunOssa({"look", "/nonexistent", "--out", out});
+  EXPECT_EQ(run.exit_status, 1);
+  EXPECT_NE(run.err.find("/nonexistent"), std::string::npos) << run.err;
+  EXPECT_EQ(test::LineCount(run.err), 1) << run.err;
+  EXPECT_FALSE(std::filesystem::exists(out));
+}
+
+}  // namespace
+}  // namespace ossa::commands

@@ -1,0 +1,52 @@
+#include "tools/learning/learn_close_look.h"
+
+#include <gtest/gtest.h>
+
+#include "depth/error.h"
+#include "forest/network.h"
+#include "tools/learning/learn_rectified_network.h"
+
+namespace ossa::tools {
+namespace {
+
+// y = |x| of three numbers at once: no line says that.
+forest::NetworkExamples Bends() {
+  constexpr Eigen::Index kRows = 4 * forest::kNetworkBatch;
+  forest::NetworkExamples examples{forest::RowMatrix(kRows, 1), forest::RowMatrix(kRows, 3)};
+  for (Eigen::Index i = 0; i < kRows; ++i) {
+    const float x = 2.0F * static_cast<float>(i) / static_cast<float>(kRows) - 1.0F;
+    examples.input(i, 0) = 50.0F + 10.0F * x;
+    for (Eigen::Index k = 0; k < 3; ++k) examples.wanted(i, k) = std::abs(x);
+  }
+  return examples;
+}
+
+TEST(LearnRectifiedNetwork, OfTwoHiddenLayersBends) {
+  forest::NetworkExamples examples = Bends();
+  forest::NetworkOptions options;
+  options.hidden = {32, 16};
+  options.outputs = 3;
+  options.epochs = 200;
+  const auto network = LearnRectifiedNetwork(&examples, GradientOfLengths(0.01F), options);
+  ASSERT_EQ(network.layers.size(), 3U);
+  EXPECT_EQ(network.layers[1].weight.rows(), 16);
+  EXPECT_EQ(network.layers[1].weight.cols(), 32);
+  for (const float x : {-0.9F, -0.4F, 0.4F, 0.9F}) {
+    const Eigen::VectorXf said = network.Run(Eigen::VectorXf::Constant(1, 50.0F + 10.0F * x));
+    for (Eigen::Index k = 0; k < 3; ++k) EXPECT_NEAR(said[k], std::abs(x), 0.1F) << x;
+  }
+}
+
+TEST(LearnRectifiedNetwork, WhatIsNotKnownPullsNowhere) {
+  const auto gradient = GradientOfLengths(0.01F);
+  forest::RowMatrix out = forest::RowMatrix::Zero(2, 6), wanted = out;
+  wanted(0, 1) = std::numeric_limits<float>::quiet_NaN();
+  wanted(1, 3) = 2.0F;
+  const forest::RowMatrix found = gradient(out, wanted);
+  EXPECT_TRUE((found.row(0).array() == 0.0F).all());
+  EXPECT_NEAR(found(1, 3), -0.5F, 1e-4F);  // of length 1, over two rows
+  EXPECT_EQ(found(1, 0), 0.0F);
+}
+
+}  // namespace
+}  // namespace ossa::tools
