@@ -1,4 +1,5 @@
-// ossa's own method, the default. Causal; a joint seen well passes nearly unchanged. In order:
+// ossa's own method, the default. Causal; a joint seen well passes nearly unchanged. Where there is
+// a depth image the tracker has looked again, closely, at the joints (recon/look). In order:
 //   1. whole-person failures (left and right exchanged, a jump to another body) are undone or
 //      waited out; single joints that jump are doubted until they stay (gross failures, snapped
 //      hands);

@@ -30,7 +30,7 @@ struct Scene {
     const Posture standing = StandardPosture(RigPose{});
     for (size_t j = 0; j < kJointCount; ++j) {
       const Eigen::Vector3d& p_m = standing.position_m[j];
-      input.proposed.position_m[j] = {0.5 * p_m.x(), 0.5 * (p_m.y() - 0.9), kWall_m + 0.05};
+      input.proposed.position_m[j] = {0.5 * p_m.x(), 0.5 * p_m.y(), kWall_m + 0.05};
     }
     input.confidence.fill(0.8);
     input.seen.fill(true);
