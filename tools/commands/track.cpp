@@ -53,9 +53,9 @@ void AddTrackerOptions(CLI::App& app, TrackOptions& options) {
   app.add_option("--prior", t.prior,
                  ".ossaprior of 'ossa prior', for best (default: the shipped one)");
   app.add_option("--learned", t.learned, ".ossagp of 'ossa learn', for the methods that learn");
-  app.add_option(
-      "--look", t.look,
-      ".ossalook of 'ossa look' (default: with best and the shipped model the shipped one)");
+  app.add_option("--look", t.look,
+                 ".ossalook of 'ossa look', or none (default: with best and the shipped model the "
+                 "shipped one)");
   app.add_option("--method", t.method, "how postures are completed (default best)")
       ->check(CLI::IsMember(recon::ReconstructionMethods()));
   AddMechanicsOptions(app, options.mechanics);

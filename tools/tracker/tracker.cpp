@@ -63,6 +63,7 @@ std::shared_ptr<const recon::LearnedModels> LearnedOf(const TrackerOptions& opti
 
 std::shared_ptr<const recon::CloseLook> LookOf(const TrackerOptions& options) {
   const bool is_shipped = options.model.empty() || IsShippedFile(options.model, "body.ossa");
+  if (options.look == "none") return nullptr;
   if (options.look.empty() && !(is_shipped && options.method == "best")) return nullptr;
   return std::make_shared<recon::CloseLook>(
       recon::CloseLook::Load(options.look.empty() ? ShippedFile(recon::kShippedLook)

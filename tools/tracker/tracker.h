@@ -76,11 +76,11 @@ enum class TrackingMode {
 };
 
 struct TrackerOptions {
-  std::string model;            // .ossa; "" = the shipped one
-  std::string database;         // .ossadb; "" = the shipped one, of best the shipped prior
-  std::string prior;            // .ossaprior, of best; "" = without a database the shipped one
-  std::string learned;          // .ossagp; "" = with best and the shipped model the shipped one
-  std::string look;             // .ossalook; "" = with best and the shipped model the shipped one
+  std::string model;     // .ossa; "" = the shipped one
+  std::string database;  // .ossadb; "" = the shipped one, of best the shipped prior
+  std::string prior;     // .ossaprior, of best; "" = without a database the shipped one
+  std::string learned;   // .ossagp; "" = with best and the shipped model the shipped one
+  std::string look;      // .ossalook or none; "" = with best and the shipped model the shipped one
   std::string method = "best";  // one of recon::ReconstructionMethods()
   bool physics = false;         // let the mechanical character follow the posture
   MechanicsBuild mechanics;     // how that is built

@@ -66,6 +66,14 @@ TEST(LookedAt, OtherMethodsGoByTheRawJoints) {
   EXPECT_EQ(with.smoothed[Joint::kHead], without.smoothed[Joint::kHead]);
 }
 
+TEST(LookedAt, NoLookMayBeAskedFor) {
+  OSSA_NEEDS_MODEL();
+  TrackerOptions options;
+  EXPECT_TRUE(Tracked(options).looked);
+  options.look = "none";
+  EXPECT_FALSE(Tracked(options).looked);
+}
+
 TEST(LookedAt, AForestOfOnesOwnIsNotLookedAtUnasked) {
   OSSA_NEEDS_MODEL();
   const test::TemporaryFolder folder;
