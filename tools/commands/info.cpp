@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <array>
 #include <filesystem>
-#include <ranges>
 #include <string>
 
 #include "depth/error.h"
@@ -86,12 +85,12 @@ void ShowLearned(const fs::path& path) {
              static_cast<double>(fs::file_size(path)) * 1e-6);
   fmt::print("best: a correction of {} centres\n", learned.correction.centres.cols());
   if (!learned.filter.empty()) {
-    const auto heard = [&](size_t joint) {
-      return learned.filter.Knows(recon::LinearFilter::kBefore, joint);
-    };
-    const auto joints = std::views::iota(size_t{0}, size_t{recon::kJointCount});
-    fmt::print("best: a filter of {} joints at {:.3g} frames a second\n",
-               std::ranges::count_if(joints, heard), 1.0 / learned.filter.step_s);
+    int heard = 0;
+    for (size_t j = 0; j < recon::kJointCount; ++j) {
+      heard += learned.filter.Knows(recon::LinearFilter::kBefore, j) ? 1 : 0;
+    }
+    fmt::print("best: a filter of {} joints at {:.3g} frames a second\n", heard,
+               1.0 / learned.filter.step_s);
   }
   fmt::print("exemplar: {} pairs\n", learned.exemplars.size());
   for (size_t j = 0; j < recon::kJointCount; ++j) {
