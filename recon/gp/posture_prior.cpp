@@ -249,10 +249,7 @@ PosturePrior PosturePrior::FromBytes(std::span<const std::byte> bytes, const std
   out.modes_m = get("modes", kBoneDims * times.size(), -kLongestBone_m, kLongestBone_m);
   out.modes_m.resize(kBoneDims, out.time_s.size());
   if (version >= kVersionOfNetwork) {
-    const auto units = in.Get<uint32_t>("units");
-    if (units < 1 || units > kMostUnits) {
-      in.Fail("units", fmt::format("expected 1 to {}", kMostUnits));
-    }
+    const Eigen::Index units = GetUnits(in);
     out.network = {GetNetwork(in, {kPriorInputs, units, kBoneDims})};
   }
   in.ExpectEnd();

@@ -81,6 +81,15 @@ void PutNetwork(PayloadWriter& out, const RectifiedNetwork& network) {
   }
 }
 
+Eigen::Index GetUnits(PayloadReader& in) {
+  constexpr uint32_t kMostUnits = 1 << 14;
+  const auto units = in.Get<uint32_t>("units");
+  if (units < 1 || units > kMostUnits) {
+    in.Fail("units", fmt::format("expected 1 to {}", kMostUnits));
+  }
+  return units;
+}
+
 RectifiedNetwork GetNetwork(PayloadReader& in, const std::vector<Eigen::Index>& sizes) {
   RectifiedNetwork network;
   network.input_mean = GetFloats(in, "input means", sizes.front());

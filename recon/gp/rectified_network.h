@@ -31,7 +31,7 @@ void PutNetwork(PayloadWriter& out, const RectifiedNetwork& network);
 /// many or some number is immodest.
 RectifiedNetwork GetNetwork(PayloadReader& in, const std::vector<Eigen::Index>& sizes);
 
-/// The most units that a layer read from a file may have.
-inline constexpr Eigen::Index kMostUnits = 1 << 14;
+/// How many units a layer has, of which no file may have absurdly many.
+Eigen::Index GetUnits(PayloadReader& in);
 
 }  // namespace ossa::recon

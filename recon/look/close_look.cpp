@@ -210,13 +210,7 @@ CloseLook CloseLook::FromBytes(std::span<const std::byte> bytes, const std::stri
     const auto hidden = in.Get<uint32_t>("layers");
     if (hidden > kMostLayers) in.Fail("layers", fmt::format("expected at most {}", kMostLayers));
     std::vector<Eigen::Index> sizes = {kLookInputs};
-    for (uint32_t l = 0; l < hidden; ++l) {
-      const auto units = in.Get<uint32_t>("units");
-      if (units < 1 || units > kMostUnits) {
-        in.Fail("units", fmt::format("expected 1 to {}", kMostUnits));
-      }
-      sizes.push_back(units);
-    }
+    for (uint32_t l = 0; l < hidden; ++l) sizes.push_back(GetUnits(in));
     sizes.push_back(3);
     network = GetNetwork(in, sizes);
   }

@@ -1,15 +1,18 @@
 #include <gtest/gtest.h>
 #include <zstd.h>
 
+#include <array>
 #include <fstream>
 #include <limits>
 #include <stdexcept>
+#include <string_view>
 
 #include "depth/error.h"
 #include "depth/file/sealed_file.h"
 #include "forest/classify.h"
 #include "forest/compact.h"
 #include "forest/forest.h"
+#include "forest/targets.h"
 #include "tests/forest/ball_figure.h"
 #include "tests/support/temporary_folder.h"
 
@@ -44,6 +47,16 @@ TEST(ForestModelFile, ComesBackAsItWas) {
   const std::vector<char> bytes = test::BytesOf(BallModel());
   const ForestModel read = ReadForestModel(std::as_bytes(std::span(bytes)), "body.ossa");
   EXPECT_EQ(test::BytesOf(read), bytes);
+}
+
+TEST(TargetsNamed, AreInTheOrderOfTheNamesOrRefused) {
+  const ForestModel model = BallModel();
+  ASSERT_GE(model.targets().size(), 2U);
+  const std::array<std::string_view, 2> names = {model.targets()[1].name, model.targets()[0].name};
+  EXPECT_EQ(TargetsNamed(model, names, "body.ossa"), (std::vector<size_t>{1, 0}));
+  const std::array<std::string_view, 1> missing = {"Tail"};
+  EXPECT_EQ(Refusal([&] { TargetsNamed(model, missing, "body.ossa"); }),
+            "body.ossa: targets: expected one named 'Tail', found none");
 }
 
 TEST(ForestModelFile, ReadToRunOnlyItRunsAsEver) {

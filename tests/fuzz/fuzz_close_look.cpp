@@ -10,8 +10,6 @@ namespace {
 namespace recon = ossa::recon;
 using recon::CloseLook;
 
-constexpr size_t kSealSize = 32;  // magic, byte order, version, length and checksum
-
 }  // namespace
 
 std::vector<std::string> ossa::fuzz::Seeds() {
@@ -24,7 +22,7 @@ std::vector<std::string> ossa::fuzz::Seeds() {
   }
   const std::string path = ScratchPath("look");
   look.Save(path);
-  return {TakeFile(path).substr(kSealSize)};
+  return {TakePayload(path)};
 }
 
 extern "C" int LLVMFuzzerTestOneInput(const uint8_t* data, size_t size) {

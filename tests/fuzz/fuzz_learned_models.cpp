@@ -9,8 +9,6 @@ namespace {
 
 using ossa::recon::LearnedModels;
 
-constexpr size_t kSealSize = 32;  // magic, byte order, version, length and checksum
-
 }  // namespace
 
 std::vector<std::string> ossa::fuzz::Seeds() {
@@ -25,7 +23,7 @@ std::vector<std::string> ossa::fuzz::Seeds() {
   models.filter.weights[0][3] = Eigen::MatrixXf::Constant(recon::FilterFeatureSize(3), 3, 0.01F);
   const std::string path = ScratchPath("learned");
   models.Save(path);
-  return {TakeFile(path).substr(kSealSize)};
+  return {TakePayload(path)};
 }
 
 extern "C" int LLVMFuzzerTestOneInput(const uint8_t* data, size_t size) {

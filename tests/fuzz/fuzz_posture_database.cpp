@@ -11,9 +11,6 @@ namespace {
 
 using ossa::recon::PostureDatabase;
 
-// What lies under the seal: magic, byte order, version, length and checksum come first.
-constexpr size_t kSealSize = 32;
-
 }  // namespace
 
 std::vector<std::string> ossa::fuzz::Seeds() {
@@ -22,7 +19,7 @@ std::vector<std::string> ossa::fuzz::Seeds() {
   clips[0].postures = {recon::test::Gesture(0.2, 0.2, 0.1), recon::test::Gesture(1.5, 1.5, 0.1)};
   const std::string path = ScratchPath("database");
   PostureDatabase::Build(clips, {}).Save(path);
-  return {TakeFile(path).substr(kSealSize)};
+  return {TakePayload(path)};
 }
 
 extern "C" int LLVMFuzzerTestOneInput(const uint8_t* data, size_t size) {

@@ -10,8 +10,6 @@ namespace {
 namespace recon = ossa::recon;
 using recon::PosturePrior;
 
-constexpr size_t kSealSize = 32;  // magic, byte order, version, length and checksum
-
 }  // namespace
 
 std::vector<std::string> ossa::fuzz::Seeds() {
@@ -21,14 +19,14 @@ std::vector<std::string> ossa::fuzz::Seeds() {
   prior.time_s = Eigen::VectorXd::Constant(2, 0.5);
   const std::string path = ScratchPath("prior");
   prior.Save(path);
-  const std::string without = TakeFile(path).substr(kSealSize);
+  const std::string without = TakePayload(path);
   prior.network.input_mean = Eigen::VectorXf::Zero(recon::kPriorInputs);
   prior.network.input_scale = Eigen::VectorXf::Ones(recon::kPriorInputs);
   prior.network.layers = {
       {Eigen::MatrixXf::Ones(1, recon::kPriorInputs), Eigen::VectorXf::Zero(1)},
       {Eigen::MatrixXf::Ones(recon::kBoneDims, 1), Eigen::VectorXf::Zero(recon::kBoneDims)}};
   prior.Save(path);
-  return {without, TakeFile(path).substr(kSealSize)};
+  return {without, TakePayload(path)};
 }
 
 extern "C" int LLVMFuzzerTestOneInput(const uint8_t* data, size_t size) {

@@ -16,6 +16,11 @@ std::string TakeFile(const std::string& path) {
   return bytes;
 }
 
+std::string TakePayload(const std::string& path) {
+  constexpr size_t kSealSize = 32;  // magic, byte order, version, length and checksum
+  return TakeFile(path).substr(kSealSize);
+}
+
 std::string ScratchPath(const std::string& name) {
   const char* memory = "/dev/shm";
   const std::string folder = std::filesystem::is_directory(memory) ? memory : "/tmp";

@@ -40,9 +40,7 @@ int Look(int argc, char** argv) {
       ->check(CLI::Range(0, 1024));
   app.add_flag("--quiet", quiet, "no progress");
   Parse(app, argc, argv);
-  if (!out.ends_with(".ossalook")) {
-    throw UsageError("look: --out: expected a name that ends in .ossalook, found '" + out + "'");
-  }
+  CheckExtension("--out", out, ".ossalook");
   if (model_path.empty()) model_path = tracker::ShippedFile("body.ossa").string();
   std::vector<std::string> inputs = datasets;
   inputs.push_back(model_path);

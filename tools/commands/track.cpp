@@ -11,6 +11,7 @@
 #include "depth/error.h"
 #include "depth/file/atomic_file.h"
 #include "depth/sensor/frame_source.h"
+#include "recon/look/close_look.h"
 #include "recon/methods/reconstructor.h"
 #include "recon/motion/skeletons/skeleton_io.h"
 #include "recon/motion/skeletons/skeleton_jsonl.h"
@@ -24,6 +25,7 @@
 #include "tools/commands/source_options.h"
 #include "tools/tracker/picture.h"
 #include "tools/tracker/run_stats.h"
+#include "tools/tracker/shipped.h"
 #include "tools/tracker/skeleton_record.h"
 #include "tools/viewer/viewer.h"
 
@@ -72,6 +74,16 @@ void AddTrackerOptions(CLI::App& app, TrackOptions& options) {
   app.add_option("--seed", t.seed, "of the methods that draw samples (default 1)");
 }
 
+// A look that was asked for is had with every method.
+void NeedLook(tracker::TrackerOptions& options) {
+  const bool is_shipped =
+      options.model.empty() || tracker::IsShippedFile(options.model, "body.ossa");
+  if (options.look == "none" || (options.look.empty() && !is_shipped)) {
+    throw UsageError("--posture looked: expected --look FILE.ossalook of 'ossa look' with it");
+  }
+  if (options.look.empty()) options.look = tracker::ShippedFile(recon::kShippedLook).string();
+}
+
 TrackOptions ParseOptions(int argc, char** argv) {
   CLI::App app("Follow the people in any SOURCE and write their skeletons");
   TrackOptions options;
@@ -98,6 +110,7 @@ TrackOptions ParseOptions(int argc, char** argv) {
         "track: nothing to do: name --out, --picture, --pictures, --json-stats or --view");
   }
   CheckLearned(options.tracker.method, options.tracker.learned);
+  if (options.posture == "looked") NeedLook(options.tracker);
   if (!options.out.empty()) CheckSkeletonName(options.out);
   CheckExtension("--picture", options.picture, ".png");
   CheckNotOtherKind("--json-stats", options.json_stats, ".json");

@@ -10,6 +10,7 @@
 #include "depth/error.h"
 #include "forest/classify.h"
 #include "forest/relabel.h"
+#include "forest/targets.h"
 #include "recon/body/parts.h"
 #include "tools/learning/common_parts.h"
 #include "tools/learning/person_source.h"
@@ -143,25 +144,10 @@ void AddPerson(const forest::ForestModel& model, const LabelledFrame& frame, con
   RateJoints(image, by_joint, totals);
 }
 
-std::vector<size_t> TargetOfJoint(const forest::ForestModel& model) {
-  std::vector<size_t> target_of_joint;
-  for (const auto name : recon::kJointNames) {
-    const auto targets = model.targets();
-    const auto found = std::find_if(targets.begin(), targets.end(),
-                                    [&](const auto& target) { return target.name == name; });
-    if (found == targets.end()) {
-      throw InputError("the model has no target '" + std::string(name) +
-                       "': only models of the 20 joints can be evaluated");
-    }
-    target_of_joint.push_back(static_cast<size_t>(found - targets.begin()));
-  }
-  return target_of_joint;
-}
-
 Meaning MeaningOf(const forest::ForestModel& model) {
   const std::vector<std::string>& names = model.data().class_names;
   Meaning meaning;
-  meaning.target_of_joint = TargetOfJoint(model);
+  meaning.target_of_joint = forest::TargetsNamed(model, recon::kJointNames, "the model");
   meaning.has_our_parts =
       std::equal(names.begin(), names.end(), recon::kPartNames.begin(), recon::kPartNames.end());
   const auto common = CommonPartsOfModel(names);

@@ -16,6 +16,7 @@
 #include "depth/error.h"
 #include "forest/classify.h"
 #include "forest/propose.h"
+#include "forest/targets.h"
 #include "forest/train.h"
 #include "recon/skeleton.h"
 #include "tools/learning/learn_rectified_network.h"
@@ -34,27 +35,12 @@ struct Example {
   std::array<Eigen::Vector3f, kJointCount> offset_m{};
 };
 
-std::array<size_t, kJointCount> TargetsOf(const forest::ForestModel& model) {
-  std::array<size_t, kJointCount> target_of_joint{};
-  for (size_t j = 0; j < kJointCount; ++j) {
-    const auto targets = model.targets();
-    const auto found = std::find_if(targets.begin(), targets.end(), [&](const auto& target) {
-      return target.name == recon::kJointNames[j];
-    });
-    if (found == targets.end()) {
-      throw InputError("close look: the model has no target '" +
-                       std::string(recon::kJointNames[j]) + "'; expected the 20 joints");
-    }
-    target_of_joint[j] = static_cast<size_t>(found - targets.begin());
-  }
-  return target_of_joint;
-}
-
 // Reads data sets and asks the forest.
 class Gatherer {
  public:
   Gatherer(const forest::ForestModel& model, const std::vector<std::filesystem::path>& datasets)
-      : model_(model), target_of_joint_(TargetsOf(model)) {
+      : model_(model),
+        target_of_joint_(forest::TargetsNamed(model, recon::kJointNames, "the model")) {
     for (const auto& folder : datasets) {
       readers_.emplace_back(folder);
       for (int64_t f = 0; f < readers_.back().frame_count(); ++f) {
@@ -121,7 +107,7 @@ class Gatherer {
   }
 
   const forest::ForestModel& model_;
-  std::array<size_t, kJointCount> target_of_joint_;
+  std::vector<size_t> target_of_joint_;
   std::vector<DatasetReader> readers_;
   std::vector<Place> places_;
 };

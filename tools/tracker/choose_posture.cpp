@@ -2,7 +2,6 @@
 #include <cmath>
 #include <limits>
 
-#include "depth/error.h"
 #include "recon/body/standard_body.h"
 #include "tools/tracker/choose_posture_internal.h"
 
@@ -151,17 +150,9 @@ void DoubtHipsWithoutLegs(double leg_area_m2, recon::TrackedPosture& posture) {
 
 std::array<int, kJointCount> JointTargets(const forest::ForestModel& model,
                                           const std::string& model_name) {
+  const auto named = forest::TargetsNamed(model, recon::kJointNames, model_name);
   std::array<int, kJointCount> targets{};
-  for (size_t j = 0; j < kJointCount; ++j) {
-    const auto found = std::find_if(
-        model.targets().begin(), model.targets().end(),
-        [&](const forest::ProposalTarget& target) { return target.name == recon::kJointNames[j]; });
-    if (found == model.targets().end()) {
-      throw InputError(model_name + ": targets: expected one named '" +
-                       std::string(recon::kJointNames[j]) + "', found none");
-    }
-    targets[j] = static_cast<int>(found - model.targets().begin());
-  }
+  for (size_t j = 0; j < kJointCount; ++j) targets[j] = static_cast<int>(named[j]);
   return targets;
 }
 

@@ -57,6 +57,12 @@ TEST(LookCommand, LearnsTheSameForAnyThreadsAndTrackLooksWithIt) {
   const std::string raw = track("raw", look);
   EXPECT_NE(raw.find("HipCenter"), std::string::npos);
   EXPECT_FALSE(raw == track("looked", look));
+  const std::string unlike_best = folder / "none.jsonl";
+  EXPECT_EQ(RunOssa({"track", clip, "--method", "none", "--posture", "looked", "--out", unlike_best,
+                     "--quiet"})
+                .exit_status,
+            0);
+  EXPECT_FALSE(raw == TextOf(unlike_best));  // the shipped look was taken
   const auto bad = RunOssa({"track", clip, "--out", folder / "x.jsonl", "--look", clip});
   EXPECT_EQ(bad.exit_status, 1);
   EXPECT_EQ(test::LineCount(bad.err), 1) << bad.err;
@@ -68,6 +74,13 @@ TEST(LookCommand, SaysWhatIsWrongInOneLine) {
   EXPECT_EQ(RunOssa({"look", "--out", out}).exit_status, 2);
   EXPECT_EQ(RunOssa({"look", "/nonexistent", "--out", folder / "x.ossagp"}).exit_status, 2);
   EXPECT_EQ(RunOssa({"look", "/nonexistent", "--hidden", "1", "--out", out}).exit_status, 2);
+  const auto track = [&](const char* option, const char* with) {
+    return RunOssa({"track", "/nonexistent", "--out", folder / "x.jsonl", "--posture", "looked",
+                    option, with})
+        .exit_status;
+  };
+  EXPECT_EQ(track("--look", "none"), 2);
+  EXPECT_EQ(track("--model", "my.ossa"), 2);
   const auto run = RunOssa({"look", "/nonexistent", "--out", out});
   EXPECT_EQ(run.exit_status, 1);
   EXPECT_NE(run.err.find("/nonexistent"), std::string::npos) << run.err;

@@ -144,6 +144,7 @@ TEST(WrongUsage, OfOutputs) {
                             "prior --mocap authored --out x.ossadb",
                             "database --mocap authored --out x.ossa",
                             "train a --out x.jsonl",
+                            "train a --out x.ossalook",
                             "track /nowhere --out x.jsonl --json-stats x.html"}) {
     const CommandResult result = Shell(std::string("cd \"$2\" && \"$1\" ") + words, folder);
     EXPECT_EQ(result.exit_status, 2) << words << ": " << result.err;

@@ -40,8 +40,6 @@ std::string KeyOf(const ExperimentContext& context, const MethodRun& run) {
   return key;
 }
 
-void StopWhenInterrupted(const ExperimentContext& context) { context.StopIfAsked(); }
-
 }  // namespace
 
 OpenDatabase DatabaseOf(const ExperimentContext& context) {
@@ -76,7 +74,7 @@ recon::SkeletonSequence RunMethod(const ExperimentContext& context, const Method
   const std::string key = KeyOf(context, run) + " on " + ContentHash(TextOf(observed));
   const std::string text = context.Cached(key, [&] {
     return TextOf(recon::ReconstructSequence(observed, run.options, [&](size_t) {
-      StopWhenInterrupted(context);
+      context.StopIfAsked();
       return true;
     }));
   });
@@ -100,7 +98,7 @@ std::vector<PairedTracks> RunOverClips(const ExperimentContext& context, const M
                                        const std::vector<RecordedPair>& clips) {
   std::vector<PairedTracks> pairs;
   for (const RecordedPair& clip : clips) {
-    StopWhenInterrupted(context);
+    context.StopIfAsked();
     const bool looks = run.looks && !clip.looked.frames.empty();
     const auto made = RunMethod(context, run, looks ? clip.looked : clip.observed);
     pairs.push_back(PairClip(clip.clip, clip.truth, made));
@@ -156,13 +154,13 @@ std::filesystem::path LearnWithout(const ExperimentContext& context,
   if (pairs.empty()) throw InputError("learning: expected pairs of postures, found none");
   const auto path = context.out / "cache" / (ContentHash(key) + ".ossagp");
   if (std::filesystem::exists(path)) return path;
-  StopWhenInterrupted(context);
+  context.StopIfAsked();
   if (context.progress) {
     context.progress(0, 1,
                      fmt::format("learning from {} pairs without {}", pairs.size(), left_out));
   }
   const auto models = recon::LearnedModels::Learn(pairs, options, [&](int) {
-    StopWhenInterrupted(context);
+    context.StopIfAsked();
     return true;
   });
   std::filesystem::create_directories(path.parent_path());
