@@ -2,6 +2,7 @@
 #include <cmath>
 #include <limits>
 
+#include "forest/targets.h"
 #include "recon/body/standard_body.h"
 #include "tools/tracker/choose_posture_internal.h"
 
