@@ -11,7 +11,7 @@
 namespace ossa::recon {
 namespace {
 
-constexpr SealedFormat kFormat = {{'O', 'S', 'S', 'A', 'L', 'K', '0', '0'}, 1, "close look"};
+constexpr SealedFormat kFormat = {{'O', 'S', 'S', 'A', 'L', 'K', '0', '0'}, 2, "close look"};
 
 constexpr double kMostBehind_mm = 300.0;
 constexpr double kNearer_mm = 30.0;  // by so much, something that is not the person is before it
@@ -80,6 +80,27 @@ Eigen::Vector3d MiddleOf(const LookInput& input) {
   return sum_m / whole;
 }
 
+// The joints, each moved by what its network says of it.
+Posture Glanced(const Glance& glance, const LookDescription& seen, Posture joints_m) {
+  const LookDescription mirrored = seen.Mirrored();
+  const auto move = [&](Joint joint, const LookDescription& view, const RectifiedNetwork& network,
+                        Joint named) {
+    const Eigen::Vector3d offset_m =
+        CloseLook::kStep_m * network.Run(NumbersOf(view, named)).cast<double>();
+    const double share = std::min(1.0, CloseLook::kFarthest_m / std::max(offset_m.norm(), 1e-9));
+    const Eigen::Vector3d in_camera = view.frame_from_camera.transpose() * (share * offset_m);
+    joints_m[joint] +=
+        joint == named ? in_camera : in_camera.cwiseProduct(Eigen::Vector3d(-1.0, 1.0, 1.0));
+  };
+  for (size_t k = 0; k < kLookJoints.size(); ++k) {
+    const Joint joint = kLookJoints[k];
+    const auto other = static_cast<Joint>(kMirroredJoint[static_cast<size_t>(Index(joint))]);
+    move(joint, seen, glance[k], joint);
+    if (other != joint) move(other, mirrored, glance[k], joint);
+  }
+  return joints_m;
+}
+
 bool CanBeLookedAt(const LookInput& input) {
   const depth::DepthFrame* frame = input.depth;
   if (frame == nullptr || frame->camera.width <= 0 || frame->camera.height <= 0 ||
@@ -91,12 +112,32 @@ bool CanBeLookedAt(const LookInput& input) {
   constexpr double kFarthest_m = 100.0;
   for (size_t j = 0; j < kJointCount; ++j) {
     if (!(input.proposed.position_m[j].norm() < kFarthest_m)) return false;
+    if (!(input.moved.position_m[j].norm() < kFarthest_m)) return false;
     if (!(input.confidence[j] >= 0.0 && input.confidence[j] <= 1.0)) return false;
   }
   return true;
 }
 
+RectifiedNetwork GetLookNetwork(PayloadReader& in) {
+  constexpr uint32_t kMostLayers = 2;  // with modest weights no sum through them is too large
+  const auto hidden = in.Get<uint32_t>("layers");
+  if (hidden > kMostLayers) in.Fail("layers", fmt::format("expected at most {}", kMostLayers));
+  std::vector<Eigen::Index> sizes = {kLookInputs};
+  for (uint32_t l = 0; l < hidden; ++l) sizes.push_back(GetUnits(in));
+  sizes.push_back(3);
+  return GetNetwork(in, sizes);
+}
+
 }  // namespace
+
+LookInput LookInput::MovedTo(const Posture& joints_m) const {
+  LookInput out = *this;
+  for (size_t j = 0; j < kJointCount; ++j) {
+    out.moved.position_m[j] += joints_m.position_m[j] - proposed.position_m[j];
+  }
+  out.proposed = joints_m;
+  return out;
+}
 
 std::optional<LookDescription> LookDescription::Of(const LookInput& input) {
   if (!CanBeLookedAt(input)) return std::nullopt;
@@ -112,6 +153,7 @@ std::optional<LookDescription> LookDescription::Of(const LookInput& input) {
   for (size_t j = 0; j < kJointCount; ++j) {
     const Eigen::Vector3d& joint_m = input.proposed.position_m[j];
     out.place.position_m[j] = out.frame_from_camera * (joint_m - out.middle_m);
+    out.moved.position_m[j] = out.frame_from_camera * input.moved.position_m[j];
     out.behind_mm[j] = sampler.Around(joint_m);
   }
   out.confidence = input.confidence;
@@ -127,6 +169,7 @@ LookDescription LookDescription::Mirrored() const {
   for (size_t j = 0; j < kJointCount; ++j) {
     const auto other = static_cast<size_t>(kMirroredJoint[j]);
     out.place.position_m[other] = mirror.cwiseProduct(place.position_m[j]);
+    out.moved.position_m[other] = mirror.cwiseProduct(moved.position_m[j]);
     out.confidence[other] = confidence[j];
     out.seen[other] = seen[j];
     for (size_t row = 0; row < kLookSamples; row += kLookGrid) {
@@ -152,6 +195,10 @@ Eigen::VectorXf NumbersOf(const LookDescription& description, Joint joint) {
     const Eigen::Vector3f from_m = (place_m - description.place[joint]).cast<float>();
     next = std::copy(from_m.begin(), from_m.end(), next);
   }
+  for (const Eigen::Vector3d& moved_m : description.moved.position_m) {
+    const Eigen::Vector3f by_m = moved_m.cast<float>();
+    next = std::copy(by_m.begin(), by_m.end(), next);
+  }
   for (const double confidence : description.confidence) *next++ = static_cast<float>(confidence);
   for (const bool seen : description.seen) *next++ = seen ? 1.0F : 0.0F;
   const Eigen::Vector3f middle_m = description.middle_m.cast<float>();
@@ -160,37 +207,29 @@ Eigen::VectorXf NumbersOf(const LookDescription& description, Joint joint) {
 }
 
 std::optional<Posture> CloseLook::Look(const LookInput& input) const {
-  const auto seen = LookDescription::Of(input);
-  if (!seen) return std::nullopt;
-  const LookDescription mirrored = seen->Mirrored();
-  Posture joints_m = input.proposed;
-  const auto move = [&](Joint joint, const LookDescription& view, const RectifiedNetwork& network,
-                        Joint named) {
-    const Eigen::Vector3d offset_m = kStep_m * network.Run(NumbersOf(view, named)).cast<double>();
-    const double share = std::min(1.0, kFarthest_m / std::max(offset_m.norm(), 1e-9));
-    const Eigen::Vector3d in_camera = view.frame_from_camera.transpose() * (share * offset_m);
-    joints_m[joint] +=
-        joint == named ? in_camera : in_camera.cwiseProduct(Eigen::Vector3d(-1.0, 1.0, 1.0));
-  };
-  for (size_t k = 0; k < kLookJoints.size(); ++k) {
-    const Joint joint = kLookJoints[k];
-    const auto other = static_cast<Joint>(kMirroredJoint[static_cast<size_t>(Index(joint))]);
-    move(joint, *seen, networks[k], joint);
-    if (other != joint) move(other, mirrored, networks[k], joint);
+  LookInput now = input;
+  for (size_t g = 0; g < glances.size(); ++g) {
+    const auto seen = LookDescription::Of(now);
+    if (!seen && g == 0) return std::nullopt;
+    if (!seen) break;
+    now = now.MovedTo(Glanced(glances[g], *seen, now.proposed));
   }
-  return joints_m;
+  return now.proposed;
 }
 
 void CloseLook::Save(const std::filesystem::path& path) const {
   PayloadWriter out;
   out.Put(people);
-  for (const RectifiedNetwork& network : networks) {
-    const size_t hidden = network.layers.size() - 1;
-    out.Put(static_cast<uint32_t>(hidden));
-    for (size_t l = 0; l < hidden; ++l) {
-      out.Put(static_cast<uint32_t>(network.layers[l].bias.size()));
+  out.Put(static_cast<uint32_t>(glances.size()));
+  for (const Glance& glance : glances) {
+    for (const RectifiedNetwork& network : glance) {
+      const size_t hidden = network.layers.size() - 1;
+      out.Put(static_cast<uint32_t>(hidden));
+      for (size_t l = 0; l < hidden; ++l) {
+        out.Put(static_cast<uint32_t>(network.layers[l].bias.size()));
+      }
+      PutNetwork(out, network);
     }
-    PutNetwork(out, network);
   }
   WriteSealedFile(path, kFormat, out.bytes());
 }
@@ -202,17 +241,15 @@ CloseLook CloseLook::Load(const std::filesystem::path& path) {
 }
 
 CloseLook CloseLook::FromBytes(std::span<const std::byte> bytes, const std::string& name) {
-  constexpr uint32_t kMostLayers = 2;  // with modest weights no sum through them is too large
   PayloadReader in(bytes, name);
   CloseLook out;
   out.people = in.Get<uint64_t>("people");
-  for (RectifiedNetwork& network : out.networks) {
-    const auto hidden = in.Get<uint32_t>("layers");
-    if (hidden > kMostLayers) in.Fail("layers", fmt::format("expected at most {}", kMostLayers));
-    std::vector<Eigen::Index> sizes = {kLookInputs};
-    for (uint32_t l = 0; l < hidden; ++l) sizes.push_back(GetUnits(in));
-    sizes.push_back(3);
-    network = GetNetwork(in, sizes);
+  const auto glances = in.Get<uint32_t>("glances");
+  if (glances < 1 || glances > kMostGlances) {
+    in.Fail("glances", fmt::format("expected 1 to {}", kMostGlances));
+  }
+  for (uint32_t g = 0; g < glances; ++g) {
+    for (RectifiedNetwork& network : out.glances.emplace_back()) network = GetLookNetwork(in);
   }
   in.ExpectEnd();
   return out;

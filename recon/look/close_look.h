@@ -7,6 +7,7 @@
 #include <optional>
 #include <span>
 #include <string>
+#include <vector>
 
 #include "depth/image/depth_frame.h"
 #include "recon/gp/rectified_network.h"
@@ -24,6 +25,10 @@ struct LookInput {
   std::array<bool, kJointCount> seen{};          // false: inferred from the other joints
   const depth::DepthFrame* depth = nullptr;      // the whole image; borrowed
   std::span<const uint8_t> is_person;  // of each of its pixels, row-major: 1 for this person's
+  Posture moved;  // from the forest's proposals to `proposed`, by earlier glances; metres
+
+  /// After a glance that put the joints there.
+  LookInput MovedTo(const Posture& joints_m) const;
 };
 
 /// Around each joint surface is sampled on two square grids across the line of sight.
@@ -42,6 +47,7 @@ struct LookDescription {
   Posture place;                                       // proposed, from the middle, these axes
   std::array<double, kJointCount> confidence{};
   std::array<bool, kJointCount> seen{};
+  Posture moved;  // by earlier glances, these axes
   /// Of each joint, by grid, row and column (x): how much farther than the joint surface lies
   /// there, millimetres, within 300.
   std::array<std::array<int16_t, kLookSamples>, kJointCount> behind_mm{};
@@ -53,9 +59,9 @@ struct LookDescription {
 };
 
 /// What the network of a joint reads: of each sample of the joint the surface, whether it is beside
-/// and whether hidden; where all joints lie from this one, how confident they are and which are
-/// seen; the middle.
-inline constexpr int kLookInputs = 3 * kLookSamples + 5 * kJointCount + 3;
+/// and whether hidden; where all joints lie from this one, how far earlier glances moved them, how
+/// confident they are and which are seen; the middle.
+inline constexpr int kLookInputs = 3 * kLookSamples + 8 * kJointCount + 3;
 Eigen::VectorXf NumbersOf(const LookDescription& description, Joint joint);
 
 /// Joints that have networks of their own: of a pair, the left one; the right one is looked at in
@@ -65,21 +71,25 @@ inline constexpr std::array<Joint, 12> kLookJoints = {
     Joint::kShoulderLeft, Joint::kElbowLeft, Joint::kWristLeft,      Joint::kHandLeft,
     Joint::kHipLeft,      Joint::kKneeLeft,  Joint::kAnkleLeft,      Joint::kFootLeft};
 
+/// A network a joint looks at the surface around where the joint is said to be and at where all
+/// others are, and says how far from there the joint lies in the mean.
+using Glance = std::array<RectifiedNetwork, kLookJoints.size()>;  // kLookInputs -> 3, in kStep_m
+
 /// Ours, of `best`: a forest proposes the likeliest place of each joint, which of a hidden one may
-/// be far off; here a network a joint looks at the surface around the proposal and at all other
-/// proposals, and says how far from it the joint lies in the mean. Frame by frame, no time in it.
-/// Learned of a forest's proposals on rendered people (`ossa look`). The idea of correcting a first
-/// pose by what the image shows around it is that of Dollar et al. 2010, "Cascaded pose
-/// regression".
+/// be far off; glances, the first at the proposals, each later one at where the one before it put
+/// the joints, move them. Frame by frame, no time in it. Learned of a forest's proposals on
+/// rendered people (`ossa look`). The idea of correcting a pose again and again by what the image
+/// shows around it is that of Dollar et al. 2010, "Cascaded pose regression".
 struct CloseLook {
-  std::array<RectifiedNetwork, kLookJoints.size()> networks;  // kLookInputs -> 3, in kStep_m
-  uint64_t people = 0;                                        // learned from
+  std::vector<Glance> glances;
+  uint64_t people = 0;  // the last glance was learned from
 
   static constexpr double kStep_m = 0.1;
-  /// Whatever a network says, a joint goes no farther from its proposal.
+  /// Whatever a network says, at one glance a joint goes no farther.
   static constexpr double kFarthest_m = 0.6;
+  static constexpr size_t kMostGlances = 8;
 
-  /// The joints, camera space; nothing where LookDescription::Of has nothing to say.
+  /// The joints, camera space; nothing where LookDescription::Of has nothing to say at first.
   std::optional<Posture> Look(const LookInput& input) const;
 
   /// .ossalook: reads refuse damaged, truncated and hostile files by name and byte.

@@ -15,7 +15,7 @@ using recon::CloseLook;
 std::vector<std::string> ossa::fuzz::Seeds() {
   CloseLook look;
   look.people = 1;
-  for (recon::RectifiedNetwork& network : look.networks) {
+  for (recon::RectifiedNetwork& network : look.glances.emplace_back()) {
     network.input_mean = Eigen::VectorXf::Zero(recon::kLookInputs);
     network.input_scale = Eigen::VectorXf::Ones(recon::kLookInputs);
     network.layers = {{Eigen::MatrixXf::Ones(3, recon::kLookInputs), Eigen::VectorXf::Zero(3)}};
@@ -28,8 +28,10 @@ std::vector<std::string> ossa::fuzz::Seeds() {
 extern "C" int LLVMFuzzerTestOneInput(const uint8_t* data, size_t size) {
   ossa::fuzz::ExpectValueOrOneLine([&] {
     const auto look = CloseLook::FromBytes(std::as_bytes(std::span(data, size)), "x.ossalook");
-    for (const recon::RectifiedNetwork& network : look.networks) {
-      if (!network.Run(Eigen::VectorXf::Zero(recon::kLookInputs)).allFinite()) abort();
+    for (const recon::Glance& glance : look.glances) {
+      for (const recon::RectifiedNetwork& network : glance) {
+        if (!network.Run(Eigen::VectorXf::Zero(recon::kLookInputs)).allFinite()) abort();
+      }
     }
   });
   return 0;

@@ -114,8 +114,10 @@ void ShowPrior(const fs::path& path) {
 
 void ShowLook(const fs::path& path) {
   const auto look = recon::CloseLook::Load(path);
-  fmt::print("close look at a forest's joints, {} networks learned from {} people, {:.1f} MB\n",
-             look.networks.size(), look.people, static_cast<double>(fs::file_size(path)) * 1e-6);
+  fmt::print(
+      "close look at a forest's joints, {} of {} networks, learned from {} people, {:.1f} MB\n",
+      look.glances.size() == 1 ? "1 glance" : fmt::format("{} glances", look.glances.size()),
+      recon::kLookJoints.size(), look.people, static_cast<double>(fs::file_size(path)) * 1e-6);
 }
 
 bool IsDepthRecording(const fs::path& path) {

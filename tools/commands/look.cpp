@@ -21,12 +21,14 @@ int Look(int argc, char** argv) {
       "Learn to look again, closely, at where a forest puts the joints: on people that it was not "
       "trained on");
   std::vector<std::string> datasets;
-  std::string out, model_path;
+  std::string out, after, model_path;
   tools::CloseLookOptions options;
   bool quiet = false;
   app.add_option("DATASET", datasets, "folders made by ossa render")->required();
   app.add_option("--out", out, "the .ossalook file to write")->required();
   app.add_option("--model", model_path, "forest model, .ossa (default: the shipped one)");
+  app.add_option("--after", after,
+                 "a .ossalook: its glances come first, one more is learned from where they end");
   app.add_option("--hidden", options.hidden,
                  "units of each network's first layer, half as many of its second")
       ->capture_default_str()
@@ -44,10 +46,16 @@ int Look(int argc, char** argv) {
   if (model_path.empty()) model_path = tracker::ShippedFile("body.ossa").string();
   std::vector<std::string> inputs = datasets;
   inputs.push_back(model_path);
+  if (!after.empty()) inputs.push_back(after);
   CheckOutputs({out}, inputs);
   AtomicFile::CheckWritable(out);
 
   const forest::ForestModel model = forest::ReadForestModel(model_path);
+  if (!after.empty()) options.after = recon::CloseLook::Load(after);
+  if (options.after.glances.size() >= recon::CloseLook::kMostGlances) {
+    throw InputError(
+        fmt::format("{}: expected less than {} glances", after, recon::CloseLook::kMostGlances));
+  }
   Progress bar("look", quiet);
   options.stop = Interrupted;
   options.progress = [&](int64_t done, int64_t total) {

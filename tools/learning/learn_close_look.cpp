@@ -38,8 +38,10 @@ struct Example {
 // Reads data sets and asks the forest.
 class Gatherer {
  public:
-  Gatherer(const forest::ForestModel& model, const std::vector<std::filesystem::path>& datasets)
+  Gatherer(const forest::ForestModel& model, const recon::CloseLook& before,
+           const std::vector<std::filesystem::path>& datasets)
       : model_(model),
+        before_(before),
         target_of_joint_(forest::TargetsNamed(model, recon::kJointNames, "the model")) {
     for (const auto& folder : datasets) {
       readers_.emplace_back(folder);
@@ -78,7 +80,8 @@ class Gatherer {
     int64_t frame = 0;
   };
 
-  // The likeliest place of each joint; the result borrows from frame and `is_person`.
+  // The likeliest place of each joint, after the glances that are known already; the result borrows
+  // from frame and `is_person`.
   std::optional<recon::LookInput> Propose(const LabelledFrame& frame, int id,
                                           std::vector<uint8_t>* is_person) const {
     constexpr size_t kFewest = 200;  // pixels: fewer are a hand or a head
@@ -103,10 +106,13 @@ class Gatherer {
     }
     input.depth = &depth;
     input.is_person = *is_person;
-    return input;
+    const auto looked = before_.Look(input);
+    if (!looked) return std::nullopt;
+    return input.MovedTo(*looked);
   }
 
   const forest::ForestModel& model_;
+  const recon::CloseLook& before_;
   std::vector<size_t> target_of_joint_;
   std::vector<DatasetReader> readers_;
   std::vector<Place> places_;
@@ -168,9 +174,10 @@ recon::CloseLook LearnCloseLook(const forest::ForestModel& model,
       oneapi::tbb::global_control::max_allowed_parallelism,
       options.threads > 0 ? static_cast<size_t>(options.threads)
                           : std::max<size_t>(1, std::thread::hardware_concurrency()));
-  const std::vector<Example> people = Gather(Gatherer(model, datasets), options);
-  recon::CloseLook look;
+  recon::CloseLook look = options.after;
+  const std::vector<Example> people = Gather(Gatherer(model, look, datasets), options);
   look.people = people.size();
+  recon::Glance& learned = look.glances.emplace_back();
   std::mutex mutex;
   std::array<int64_t, kLookJoints.size()> done{};
   oneapi::tbb::parallel_for(size_t{0}, kLookJoints.size(), [&](size_t k) {
@@ -189,7 +196,7 @@ recon::CloseLook LearnCloseLook(const forest::ForestModel& model,
                        steps * static_cast<int64_t>(done.size()));
     };
     constexpr float kSoft = 0.2F;  // steps: errors below 2 cm pull less
-    look.networks[k] = LearnRectifiedNetwork(&examples, GradientOfLengths(kSoft), learning);
+    learned[k] = LearnRectifiedNetwork(&examples, GradientOfLengths(kSoft), learning);
   });
   return look;
 }

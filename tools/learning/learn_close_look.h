@@ -10,6 +10,7 @@
 namespace ossa::tools {
 
 struct CloseLookOptions {
+  recon::CloseLook after;  // whose glances come first
   int hidden = 128;  // units of each network's first layer, half as many of the second; 2..1024
   int epochs = 12;   // times that every person is looked at
   uint64_t seed = 1;
@@ -18,10 +19,10 @@ struct CloseLookOptions {
   std::function<bool()> stop;                      // true: end with forest::TrainInterrupted
 };
 
-/// Learns from the forest's proposals for the people of data sets, which the forest was not trained
-/// on, and from their mirror images, how far from them the joints lie.
-/// The same bytes for any
-/// number of threads. Throws InputError where too few people are seen.
+/// Learns one glance more: from the forest's proposals for the people of data sets, which the
+/// forest was not trained on, and from their mirror images, how far the joints lie from where the
+/// glances before it put them. The same bytes for any number of threads. Throws InputError where
+/// too few people are seen.
 recon::CloseLook LearnCloseLook(const forest::ForestModel& model,
                                 const std::vector<std::filesystem::path>& datasets,
                                 const CloseLookOptions& options);

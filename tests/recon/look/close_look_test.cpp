@@ -44,7 +44,7 @@ struct Scene {
 CloseLook Silent() {
   CloseLook look;
   look.people = 7;
-  for (RectifiedNetwork& network : look.networks) {
+  for (RectifiedNetwork& network : look.glances.emplace_back()) {
     network.input_mean = Eigen::VectorXf::Zero(kLookInputs);
     network.input_scale = Eigen::VectorXf::Ones(kLookInputs);
     network.layers = {{Eigen::MatrixXf::Zero(2, kLookInputs), Eigen::VectorXf::Zero(2)},
@@ -140,8 +140,8 @@ TEST(CloseLook, OfTheMirrorImageIsTheMirrorImage) {
 TEST(CloseLook, MovesEachJointByItsNetworkAndTheOtherSideInTheMirror) {
   Scene scene;
   CloseLook look = Silent();
-  look.networks[NetworkOf(Joint::kHead)].layers[1].bias = Eigen::Vector3f(0.0F, 0.5F, 0.0F);
-  look.networks[NetworkOf(Joint::kKneeLeft)].layers[1].bias = Eigen::Vector3f(0.4F, 0.0F, 0.0F);
+  look.glances[0][NetworkOf(Joint::kHead)].layers[1].bias = Eigen::Vector3f(0.0F, 0.5F, 0.0F);
+  look.glances[0][NetworkOf(Joint::kKneeLeft)].layers[1].bias = Eigen::Vector3f(0.4F, 0.0F, 0.0F);
   const auto joints_m = look.Look(scene.input);
   ASSERT_TRUE(joints_m);
   const auto moved_m = [&](Joint joint) -> Eigen::Vector3d {
@@ -154,10 +154,39 @@ TEST(CloseLook, MovesEachJointByItsNetworkAndTheOtherSideInTheMirror) {
   EXPECT_EQ(moved_m(Joint::kSpine).norm(), 0.0);
 }
 
+TEST(CloseLook, EachGlanceBeginsWhereTheOneBeforeItEnded) {
+  Scene scene;
+  CloseLook look = Silent();
+  look.glances[0][NetworkOf(Joint::kHead)].layers[1].bias = Eigen::Vector3f(0.0F, 0.5F, 0.0F);
+  const auto once_m = look.Look(scene.input);
+  ASSERT_TRUE(once_m);
+  // The second says that the head is back where it was proposed, which it knows as it moved.
+  look.glances.push_back(Silent().glances[0]);
+  RectifiedNetwork& head = look.glances[1][NetworkOf(Joint::kHead)];
+  constexpr int kMoved = 3 * kLookSamples + 3 * kJointCount;  // of the inputs: moves so far
+  head.layers = {{Eigen::MatrixXf::Zero(3, kLookInputs), Eigen::VectorXf::Zero(3)}};
+  for (int axis = 0; axis < 3; ++axis) {
+    head.layers[0].weight(axis, kMoved + 3 * Index(Joint::kHead) + axis) =
+        -1.0F / static_cast<float>(CloseLook::kStep_m);
+  }
+  const auto twice_m = look.Look(scene.input);
+  ASSERT_TRUE(twice_m);
+  EXPECT_GT(((*once_m)[Joint::kHead] - scene.input.proposed[Joint::kHead]).norm(), 0.04);
+  EXPECT_NEAR(((*twice_m)[Joint::kHead] - scene.input.proposed[Joint::kHead]).norm(), 0.0, 1e-5);
+
+  const LookInput moved = scene.input.MovedTo(*once_m);
+  const auto first = LookDescription::Of(scene.input), second = LookDescription::Of(moved);
+  ASSERT_TRUE(first && second);
+  EXPECT_EQ(first->moved[Joint::kHead].norm(), 0.0);
+  EXPECT_GT(second->moved[Joint::kHead].y(), 0.04);
+  EXPECT_GT(second->place[Joint::kHead].y(), first->place[Joint::kHead].y() + 0.03);
+  EXPECT_EQ(second->Mirrored().moved[Joint::kHead].x(), -second->moved[Joint::kHead].x());
+}
+
 TEST(CloseLook, MovesNoJointFarAway) {
   Scene scene;
   CloseLook look = Silent();
-  look.networks[NetworkOf(Joint::kSpine)].layers[1].bias = Eigen::Vector3f(300.0F, 0.0F, -400.0F);
+  look.glances[0][NetworkOf(Joint::kSpine)].layers[1].bias = Eigen::Vector3f(300.0F, 0.0F, -400.0F);
   const auto joints_m = look.Look(scene.input);
   ASSERT_TRUE(joints_m);
   EXPECT_NEAR(((*joints_m)[Joint::kSpine] - scene.input.proposed[Joint::kSpine]).norm(),
@@ -186,12 +215,12 @@ TEST(CloseLook, HasNothingToSayOfWhatCannotBeLookedAt) {
 TEST(CloseLook, IsKeptInAFile) {
   const test::TemporaryFolder folder;
   CloseLook look = Silent();
-  look.networks[2].layers[0].weight(1, 5) = 0.5F;
+  look.glances[0][2].layers[0].weight(1, 5) = 0.5F;
   look.Save(folder / "a.ossalook");
   EXPECT_TRUE(CloseLook::IsOne(folder / "a.ossalook"));
   const CloseLook read = CloseLook::Load(folder / "a.ossalook");
   EXPECT_EQ(read.people, 7U);
-  EXPECT_EQ(read.networks[2].layers[0].weight(1, 5), 0.5F);
+  EXPECT_EQ(read.glances[0][2].layers[0].weight(1, 5), 0.5F);
   read.Save(folder / "b.ossalook");
   const auto bytes = [&](const char* name) {
     std::ifstream in(folder / name, std::ios::binary);
@@ -206,7 +235,7 @@ TEST(CloseLook, WithOddNumbersIsRefused) {
   const test::TemporaryFolder folder;
   const auto refused = [&](void (*spoil)(RectifiedNetwork&), const char* field) {
     CloseLook look = Silent();
-    spoil(look.networks[4]);
+    spoil(look.glances[0][4]);
     look.Save(folder / "odd.ossalook");
     try {
       CloseLook::Load(folder / "odd.ossalook");
@@ -222,6 +251,18 @@ TEST(CloseLook, WithOddNumbersIsRefused) {
   refused([](RectifiedNetwork& n) { n.layers[0].bias.setZero(1 << 15); }, "units");
   refused([](RectifiedNetwork& n) { n.layers[1].weight.setZero(4, 2); }, "output weights");
   refused([](RectifiedNetwork& n) { n.layers.resize(9, n.layers[1]); }, "layers");
+
+  for (const size_t glances : {size_t{0}, CloseLook::kMostGlances + 1}) {
+    CloseLook look = Silent();
+    look.glances.resize(glances, Silent().glances[0]);
+    look.Save(folder / "odd.ossalook");
+    try {
+      CloseLook::Load(folder / "odd.ossalook");
+      ADD_FAILURE() << glances;
+    } catch (const InputError& error) {
+      EXPECT_NE(std::string(error.what()).find("glances"), std::string::npos) << error.what();
+    }
+  }
 }
 
 TEST(RectifiedNetwork, RectifiesEveryLayerButTheLast) {

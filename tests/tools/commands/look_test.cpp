@@ -37,11 +37,22 @@ TEST(LookCommand, LearnsTheSameForAnyThreadsAndTrackLooksWithIt) {
   const std::string look = folder / "a.ossalook";
   EXPECT_EQ(learn("1", look), learn("3", folder / "b.ossalook"));
   EXPECT_GE(recon::CloseLook::Load(look).people, 64U);
-  EXPECT_EQ(recon::CloseLook::Load(look).networks[0].layers.at(0).bias.size(), 4);
-  EXPECT_EQ(recon::CloseLook::Load(look).networks[0].layers.at(1).bias.size(), 2);
+  EXPECT_EQ(recon::CloseLook::Load(look).glances.at(0)[0].layers.at(0).bias.size(), 4);
+  EXPECT_EQ(recon::CloseLook::Load(look).glances.at(0)[0].layers.at(1).bias.size(), 2);
   const auto info = RunOssa({"info", look});
-  EXPECT_NE(info.out.find("close look at a forest's joints, 12 networks"), std::string::npos)
+  EXPECT_NE(info.out.find("close look at a forest's joints, 1 glance of 12 networks"),
+            std::string::npos)
       << info.out << info.err;
+
+  const std::string twice = folder / "c.ossalook";
+  const auto again = RunOssa({"look", people, "--after", look, "--out", twice, "--hidden", "4",
+                              "--epochs", "1", "--quiet"});
+  EXPECT_EQ(again.exit_status, 0) << again.err;
+  const auto both = recon::CloseLook::Load(twice);
+  ASSERT_EQ(both.glances.size(), 2U);
+  const auto first_weights = [](const recon::Glance& glance) { return glance[3].layers[0].weight; };
+  EXPECT_EQ(first_weights(both.glances[0]), first_weights(recon::CloseLook::Load(look).glances[0]));
+  EXPECT_NE(first_weights(both.glances[0]), first_weights(both.glances[1]));
 
   ASSERT_EQ(RunOssa({"render", "--mocap", "authored", "--out", clip, "--frames", "5", "--sequence",
                      "--view", "front", "--size", "160x120", "--quiet"})
@@ -81,6 +92,10 @@ TEST(LookCommand, SaysWhatIsWrongInOneLine) {
   };
   EXPECT_EQ(track("--look", "none"), 2);
   EXPECT_EQ(track("--model", "my.ossa"), 2);
+  EXPECT_EQ(RunOssa({"look", "/nonexistent", "--after", out, "--out", out}).exit_status, 2);
+  const auto after = RunOssa({"look", "/nonexistent", "--after", "/no.ossalook", "--out", out});
+  EXPECT_EQ(after.exit_status, 1);
+  EXPECT_NE(after.err.find("/no.ossalook"), std::string::npos) << after.err;
   const auto run = RunOssa({"look", "/nonexistent", "--out", out});
   EXPECT_EQ(run.exit_status, 1);
   EXPECT_NE(run.err.find("/nonexistent"), std::string::npos) << run.err;

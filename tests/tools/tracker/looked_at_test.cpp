@@ -13,8 +13,9 @@ using recon::Joint;
 // Whatever is seen, the head is higher up.
 recon::CloseLook HeadHigher(float by_m) {
   recon::CloseLook look;
-  for (size_t k = 0; k < look.networks.size(); ++k) {
-    recon::RectifiedNetwork& network = look.networks[k];
+  recon::Glance& glance = look.glances.emplace_back();
+  for (size_t k = 0; k < glance.size(); ++k) {
+    recon::RectifiedNetwork& network = glance[k];
     network.input_mean = Eigen::VectorXf::Zero(recon::kLookInputs);
     network.input_scale = Eigen::VectorXf::Ones(recon::kLookInputs);
     network.layers = {{Eigen::MatrixXf::Zero(3, recon::kLookInputs), Eigen::VectorXf::Zero(3)}};
