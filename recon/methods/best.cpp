@@ -135,7 +135,9 @@ class Best : public Reconstructor {
       // Bones of real sensors are off by up to a third in the course of a move; by half they are
       // wrong. Where the trunk's own joints lie, sensors only define, and each differently.
       const double bones = InTrunk(i) ? 1.0 : std::clamp((r.kinematics[i] - 0.5) / 0.2, 0.0, 1.0);
-      trust[i] = prepared.present[i] * state * bones * r.behaviour[i] * r.surface[i] * r.speed[i] *
+      // A close look has seen what surface there is, and said where behind it the joint is.
+      const double surface = options_.looked ? 1.0 : r.surface[i];
+      trust[i] = prepared.present[i] * state * bones * r.behaviour[i] * surface * r.speed[i] *
                  (options_.repair ? plausibility_.joint_trust()[i] : 1.0) * doubt;
     }
     for (const BetweenTwo& line : kBetweenTwo) {
@@ -282,16 +284,16 @@ class Best : public Reconstructor {
   struct Guesses {
     double trust, fair_confidence;
   };
-  /// With a depth image a guess has been held against the surface (ReliabilityOptions::use_depth),
-  /// and what is left of them is near the truth. Without one most guesses of a joint behind
-  /// something are where that thing is. Of trusts of 0.01 to 0.3 and confidences of 0.25 to 1 the
-  /// best on ten rendered scenes of validation subjects.
-  static Guesses GuessesOf(const ReconstructionInput& input) {
-    return input.depth != nullptr ? Guesses{0.3, 0.25} : Guesses{0.1, 0.75};
+  /// After a close look, or with a depth image, a guess has been held against the surface
+  /// (ReliabilityOptions::use_depth), and what is left of them is near the truth. Without one most
+  /// guesses of a joint behind something are where that thing is. Of trusts of 0.01 to 0.3 and
+  /// confidences of 0.25 to 1 the best on ten rendered scenes of validation subjects.
+  Guesses GuessesOf(const ReconstructionInput& input) const {
+    return options_.looked || input.depth != nullptr ? Guesses{0.3, 0.25} : Guesses{0.1, 0.75};
   }
 
   /// In [0, 1]: 0 for a joint the sensor says nothing of.
-  static double FairGuess(const ReconstructionInput& input, size_t joint) {
+  double FairGuess(const ReconstructionInput& input, size_t joint) const {
     if (input.observed.state[joint] == TrackingState::kNotTracked) return 0.0;
     return std::clamp(input.observed.confidence[joint] / GuessesOf(input).fair_confidence, 0.0,
                       1.0);
@@ -349,14 +351,14 @@ class Best : public Reconstructor {
   ReconstructedPosture WithBones(const Posture& posture, const Moment& moment) const {
     if (!options_.bones) return {posture, moment.reliability};
     // Sensors and markers see limbs; where inside the trunk its joints lie is a matter of
-    // definition. They give way first.
-    constexpr double kTrunk = 0.1;
+    // definition. They give way first, but for those of a close look, which knows them best.
+    const double trunk = options_.looked ? 1.0 : 0.1;
     // Of a limb the far joints give way: sensors see them worst, and a hand that is off must not
     // pull its elbow along.
     JointWeights firm, weights;
     for (size_t i = 0; i < kJointCount; ++i) {
       firm[i] = InLimb(i) ? constants_.outwards * firm[ParentOf(i)] : 1.0;
-      weights[i] = (InTrunk(i) ? kTrunk : firm[i]) * (0.2 + moment.trust[i]);
+      weights[i] = (InTrunk(i) ? trunk : firm[i]) * (0.2 + moment.trust[i]);
     }
     return {WithBoneLengths(posture, size_.lengths_m(), weights), moment.reliability};
   }

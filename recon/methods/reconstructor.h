@@ -90,6 +90,9 @@ struct BestConstants {
 
 /// Settings of `best`; the switches are for ablations.
 struct BestOptions {
+  /// What is observed are joints after a close look (recon/look/close_look.h): the trunk's are the
+  /// surest, and those of hidden joints are no longer where the surface is that hides them.
+  bool looked = false;
   bool repair = true;    // gross failures are told from motion
   bool complete = true;  // joints in doubt come from the posture space
   bool correct = true;   // learned systematic errors are taken off

@@ -111,6 +111,7 @@ struct Tracker::Impl {
     complete.reconstructor.prior = PriorFor(o.method, o.prior, o.database);
     complete.reconstructor.learned_file = o.learned;
     if (o.learned.empty() && o.method == "best") complete.reconstructor.learned = LearnedOf(o);
+    complete.reconstructor.best.looked = look != nullptr;
     complete.reconstructor.seed = o.seed;
     recon::MakeReconstructor(complete.reconstructor);  // says now what is wrong with the options
     scene_options.max_depth_m = o.near_range ? 3.0F : 6.0F;

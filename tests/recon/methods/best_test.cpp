@@ -7,6 +7,7 @@
 #include <random>
 #include <vector>
 
+#include "depth/image/depth_frame.h"
 #include "recon/filters/lag_filter_internal.h"
 #include "recon/methods/bone_projection_internal.h"
 #include "recon/methods/reconstructor.h"
@@ -18,11 +19,12 @@ namespace {
 
 constexpr double kStep_s = 1.0 / 30.0;
 
-std::unique_ptr<Reconstructor> MakeBestOne() {
+std::unique_ptr<Reconstructor> MakeBestOne(bool looked = false) {
   static const auto db =
       std::make_shared<PostureDatabase>(PostureDatabase::Build(test::GestureClips(), {}));
   ReconstructorOptions options;
   options.database = db;
+  options.best.looked = looked;
   return MakeReconstructor(options);
 }
 
@@ -82,6 +84,45 @@ TEST(Best, FollowsAGuessLittleThatNoDepthImageWasHeldAgainst) {
   const auto made = StepOn(*method, observed, t);
   // A tenth of trust of the half that is needed moves it by a fifth, the filter by less.
   EXPECT_LT((made.posture.position_m[hand] - At(t).position_m[hand]).norm(), 0.03);
+}
+
+// What is behind a wall nobody sees, but for a close look, which was learned to say where it is.
+TEST(Best, BelievesACloseLookBehindWhatHides) {
+  depth::DepthFrame wall;
+  wall.camera = depth::KinectV1Camera(320, 240);
+  wall.depth_mm.assign(320 * 240, 1000);
+  const auto hand = static_cast<size_t>(Index(Joint::kHandLeft));
+  const auto off_m = [&](bool looked) {
+    const auto method = MakeBestOne(looked);
+    const double t = SeenWell(*method);
+    TrackedPosture observed = test::AllTracked(At(t));
+    const Eigen::Vector3d forearm_m =
+        observed.posture.position_m[hand] - observed.posture[Joint::kElbowLeft];
+    const Eigen::AngleAxisd turn(0.5, Eigen::Vector3d::UnitX());
+    observed.posture.position_m[hand] = observed.posture[Joint::kElbowLeft] + turn * forearm_m;
+    observed.posture[Joint::kWristLeft] =
+        observed.posture[Joint::kElbowLeft] +
+        turn * (observed.posture[Joint::kWristLeft] - observed.posture[Joint::kElbowLeft]);
+    ReconstructedPosture made;
+    for (int f = 0; f < 6; ++f) made = method->Step({observed, t + f * kStep_s, &wall});
+    return (made.posture.position_m[hand] - observed.posture.position_m[hand]).norm();
+  };
+  EXPECT_LT(off_m(true), 0.03);
+  EXPECT_GT(off_m(false), 0.06);
+}
+
+TEST(Best, MovesTheTrunkLittleAfterACloseLook) {
+  const auto moved_m = [](bool looked) {
+    const auto method = MakeBestOne(looked);
+    const double t = SeenWell(*method);
+    TrackedPosture observed = test::AllTracked(At(t));
+    observed.posture[Joint::kShoulderLeft] +=
+        0.06 * (observed.posture[Joint::kShoulderLeft] - observed.posture[Joint::kShoulderCenter])
+                   .normalized();
+    const auto made = StepOn(*method, observed, t);
+    return (made.posture[Joint::kShoulderCenter] - observed.posture[Joint::kShoulderCenter]).norm();
+  };
+  EXPECT_LT(moved_m(true), 0.8 * moved_m(false));
 }
 
 TEST(Best, DoesNotCollapseWithBonesOfNoLength) {

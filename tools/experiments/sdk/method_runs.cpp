@@ -25,12 +25,13 @@ std::string KeyOf(const ExperimentContext& context, const MethodRun& run) {
   const auto& best = o.best;
   std::string key = fmt::format(
       "{} {} seed {} pca {} {} {} {} {} {} {} {} {} {} {} {} gp {} {} {} {} {} best {} {} {} {} {} "
+      "{} "
       "{}",
       KeyOfCode({"recon"}), o.method, o.seed, pca.neighbours, pca.dimensions, pca.steps,
       pca.samples, pca.control, pca.style, pca.kinematics, pca.continuity, pca.solver,
       pca.use_reliability, pca.extend_database, pca.keep_reliable, gp.nearby_models, gp.spatial,
-      gp.temporal, gp.reliability, gp.incremental, best.repair, best.correct, best.bones,
-      best.complete, best.filter, DescriptionOfConstants(best.constants));
+      gp.temporal, gp.reliability, gp.incremental, best.looked, best.repair, best.correct,
+      best.bones, best.complete, best.filter, DescriptionOfConstants(best.constants));
   if (o.database) {
     key.append(" ").append(run.database_key.empty() ? KeyOfFile(DatabaseOf(context).path)
                                                     : run.database_key);
@@ -66,7 +67,7 @@ std::shared_ptr<const recon::PosturePrior> PriorOf(ExperimentContext& context) {
 void KnowObserver(const std::string& observer, MethodRun* best) {
   if (observer != "forest") return;
   best->options.learned_file = tracker::ShippedFile("body.ossagp");
-  best->looks = true;
+  best->options.best.looked = true;
 }
 
 recon::SkeletonSequence RunMethod(const ExperimentContext& context, const MethodRun& run,
@@ -99,7 +100,7 @@ std::vector<PairedTracks> RunOverClips(const ExperimentContext& context, const M
   std::vector<PairedTracks> pairs;
   for (const RecordedPair& clip : clips) {
     context.StopIfAsked();
-    const bool looks = run.looks && !clip.looked.frames.empty();
+    const bool looks = run.options.best.looked && !clip.looked.frames.empty();
     const auto made = RunMethod(context, run, looks ? clip.looked : clip.observed);
     pairs.push_back(PairClip(clip.clip, clip.truth, made));
     if (context.progress) {
