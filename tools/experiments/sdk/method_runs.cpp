@@ -67,7 +67,7 @@ std::shared_ptr<const recon::PosturePrior> PriorOf(ExperimentContext& context) {
 void KnowObserver(const std::string& observer, MethodRun* best) {
   if (observer != "forest") return;
   best->options.learned_file = tracker::ShippedFile("body.ossagp");
-  best->options.best.looked = true;
+  best->looks = true;
 }
 
 recon::SkeletonSequence RunMethod(const ExperimentContext& context, const MethodRun& run,
@@ -100,8 +100,10 @@ std::vector<PairedTracks> RunOverClips(const ExperimentContext& context, const M
   std::vector<PairedTracks> pairs;
   for (const RecordedPair& clip : clips) {
     context.StopIfAsked();
-    const bool looks = run.options.best.looked && !clip.looked.frames.empty();
-    const auto made = RunMethod(context, run, looks ? clip.looked : clip.observed);
+    MethodRun with = run;
+    with.options.best.looked = run.looks && !clip.looked.frames.empty();
+    const auto made =
+        RunMethod(context, with, with.options.best.looked ? clip.looked : clip.observed);
     pairs.push_back(PairClip(clip.clip, clip.truth, made));
     if (context.progress) {
       context.progress(static_cast<double>(pairs.size()), static_cast<double>(clips.size()),

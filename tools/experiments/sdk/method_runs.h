@@ -26,9 +26,9 @@ std::shared_ptr<const recon::PosturePrior> PriorOf(ExperimentContext& context);
 /// A method with its settings, as a study compares it.
 struct MethodRun {
   std::string label;  // in tables
-  /// best.looked: the method starts from RecordedPair::looked where there is one.
   recon::ReconstructorOptions options;
   std::string database_key;  // of a database that is not DatabaseOf(context): for the cache
+  bool looks = false;        // over clips it starts from RecordedPair::looked, and best knows it
 };
 
 /// best as `ossa track` runs it: the shipped forest's joints are looked at again, closely, and it
