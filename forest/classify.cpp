@@ -14,7 +14,7 @@
 #include <memory>
 #include <numeric>
 
-#include "forest/clones_internal.h"
+#include "depth/clones.h"
 #include "forest/feature_internal.h"
 #include "forest/forest.h"
 #include "forest/runtime_internal.h"

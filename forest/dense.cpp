@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cstring>
 
-#include "forest/clones_internal.h"
+#include "depth/clones.h"
 #include "forest/lanes_internal.h"
 
 namespace ossa::forest {

@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "forest/clones_internal.h"
+#include "depth/clones.h"
 #include "forest/lanes_internal.h"
 #include "forest/refine_internal.h"
 

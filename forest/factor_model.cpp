@@ -10,7 +10,7 @@
 #include <cmath>
 #include <cstring>
 
-#include "forest/clones_internal.h"
+#include "depth/clones.h"
 
 namespace ossa::forest {
 namespace {

@@ -1,4 +1,4 @@
-#include "forest/clones_internal.h"
+#include "depth/clones.h"
 #include "forest/lanes_internal.h"
 #include "forest/propose_internal.h"
 

@@ -11,7 +11,7 @@
 #include <bit>
 #include <cmath>
 
-#include "forest/clones_internal.h"
+#include "depth/clones.h"
 #include "forest/forest.h"
 #include "forest/relabel_internal.h"
 

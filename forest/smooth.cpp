@@ -11,7 +11,7 @@
 #include <cstdlib>
 #include <cstring>
 
-#include "forest/clones_internal.h"
+#include "depth/clones.h"
 
 namespace ossa::forest {
 namespace {

@@ -6,7 +6,7 @@
 #include <cstring>
 #include <limits>
 
-#include "forest/clones_internal.h"
+#include "depth/clones.h"
 #include "forest/lanes_internal.h"
 #include "forest/propose_internal.h"
 

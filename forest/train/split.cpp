@@ -4,7 +4,7 @@
 #include <array>
 #include <cmath>
 
-#include "forest/clones_internal.h"
+#include "depth/clones.h"
 
 namespace ossa::forest {
 namespace {

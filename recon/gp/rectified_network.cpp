@@ -21,10 +21,7 @@ void PutFloats(PayloadWriter& out, const Eigen::VectorXf& numbers) {
 
 void PutHalves(PayloadWriter& out, const Eigen::Ref<const Eigen::MatrixXf>& numbers) {
   std::vector<uint16_t> halves;
-  for (const float number : numbers.reshaped()) {
-    const uint32_t half = std::isfinite(number) ? 0x8000U : 0U;  // rounded, but not NaN to a number
-    halves.push_back(static_cast<uint16_t>((std::bit_cast<uint32_t>(number) + half) >> 16U));
-  }
+  for (const float number : numbers.reshaped()) halves.push_back(HalfOf(number));
   out.PutVector(halves);
 }
 
@@ -51,7 +48,7 @@ Eigen::MatrixXf GetHalves(PayloadReader& in, std::string_view field, Eigen::Inde
   Check(in, field, halves.size(), rows * columns);
   Eigen::MatrixXf numbers(rows, columns);
   for (size_t i = 0; i < halves.size(); ++i) {
-    const float number = std::bit_cast<float>(static_cast<uint32_t>(halves[i]) << 16U);
+    const float number = OfHalf(halves[i]);
     CheckModest(in, field, number);
     numbers.reshaped()[static_cast<Eigen::Index>(i)] = number;
   }
@@ -60,11 +57,19 @@ Eigen::MatrixXf GetHalves(PayloadReader& in, std::string_view field, Eigen::Inde
 
 }  // namespace
 
-Eigen::VectorXf RectifiedNetwork::Run(const Eigen::Ref<const Eigen::VectorXf>& input) const {
+uint16_t HalfOf(float number) {
+  const uint32_t half = std::isfinite(number) ? 0x8000U : 0U;  // rounded, but not NaN to a number
+  return static_cast<uint16_t>((std::bit_cast<uint32_t>(number) + half) >> 16U);
+}
+
+Eigen::VectorXf RectifiedNetwork::Normalised(const Eigen::Ref<const Eigen::VectorXf>& input) const {
   // What was never seen while it was learned is taken for the most that was.
   constexpr float kFarthest = 5.0F;  // standard deviations
-  Eigen::VectorXf value =
-      (input - input_mean).cwiseProduct(input_scale).cwiseMin(kFarthest).cwiseMax(-kFarthest);
+  return (input - input_mean).cwiseProduct(input_scale).cwiseMin(kFarthest).cwiseMax(-kFarthest);
+}
+
+Eigen::VectorXf RectifiedNetwork::Run(const Eigen::Ref<const Eigen::VectorXf>& input) const {
+  Eigen::VectorXf value = Normalised(input);
   for (size_t l = 0; l < layers.size(); ++l) {
     if (l > 0) value = value.cwiseMax(0.0F);
     value = (layers[l].weight * value + layers[l].bias).eval();

@@ -1,5 +1,7 @@
 #pragma once
 #include <Eigen/Core>
+#include <bit>
+#include <cstdint>
 #include <vector>
 
 namespace ossa {
@@ -22,7 +24,15 @@ struct RectifiedNetwork {
   /// Without layers there is nothing to say.
   bool empty() const { return layers.empty(); }
   Eigen::VectorXf Run(const Eigen::Ref<const Eigen::VectorXf>& input) const;
+  /// What the first layer gets of an input.
+  Eigen::VectorXf Normalised(const Eigen::Ref<const Eigen::VectorXf>& input) const;
 };
+
+/// The upper half of a float, rounded, and the float that it stands for.
+uint16_t HalfOf(float number);
+inline float OfHalf(uint16_t half) {
+  return std::bit_cast<float>(static_cast<uint32_t>(half) << 16U);
+}
 
 /// Into a payload; of the weights, the upper halves of their floats: the lower halves say nothing.
 /// How many units there are is not written.

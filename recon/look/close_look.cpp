@@ -50,8 +50,8 @@ class Sampler {
           pixel.y() < view.height - 0.5)) {
       return LookDescription::kHidden;
     }
-    const auto u = static_cast<int>(std::lround(pixel.x()));
-    const auto v = static_cast<int>(std::lround(pixel.y()));
+    const auto u = static_cast<int>(pixel.x() + 0.5);
+    const auto v = static_cast<int>(pixel.y() + 0.5);
     const uint16_t depth_mm = view.at(u, v);
     if (depth_mm == 0) return LookDescription::kBeside;
     const double behind_mm = (depth_mm - 1e3 * place_m.z()) * place_m.norm() / place_m.z();
@@ -78,27 +78,6 @@ Eigen::Vector3d MiddleOf(const LookInput& input) {
     whole += weight;
   }
   return sum_m / whole;
-}
-
-// The joints, each moved by what its network says of it.
-Posture Glanced(const Glance& glance, const LookDescription& seen, Posture joints_m) {
-  const LookDescription mirrored = seen.Mirrored();
-  const auto move = [&](Joint joint, const LookDescription& view, const RectifiedNetwork& network,
-                        Joint named) {
-    const Eigen::Vector3d offset_m =
-        CloseLook::kStep_m * network.Run(NumbersOf(view, named)).cast<double>();
-    const double share = std::min(1.0, CloseLook::kFarthest_m / std::max(offset_m.norm(), 1e-9));
-    const Eigen::Vector3d in_camera = view.frame_from_camera.transpose() * (share * offset_m);
-    joints_m[joint] +=
-        joint == named ? in_camera : in_camera.cwiseProduct(Eigen::Vector3d(-1.0, 1.0, 1.0));
-  };
-  for (size_t k = 0; k < kLookJoints.size(); ++k) {
-    const Joint joint = kLookJoints[k];
-    const auto other = static_cast<Joint>(kMirroredJoint[static_cast<size_t>(Index(joint))]);
-    move(joint, seen, glance[k], joint);
-    if (other != joint) move(other, mirrored, glance[k], joint);
-  }
-  return joints_m;
 }
 
 bool CanBeLookedAt(const LookInput& input) {
@@ -206,13 +185,42 @@ Eigen::VectorXf NumbersOf(const LookDescription& description, Joint joint) {
   return numbers;
 }
 
-std::optional<Posture> CloseLook::Look(const LookInput& input) const {
+Looker::Looker(const CloseLook& look) {
+  for (const Glance& glance : look.glances) {
+    Runners& runners = glances_.emplace_back();
+    for (size_t k = 0; k < glance.size(); ++k) runners[k] = NetworkRunner(glance[k]);
+  }
+}
+
+// Each joint moved by what its network says of it; of a pair both at once, the right one mirrored.
+Posture Looker::Glanced(const Runners& glance, const LookDescription& seen, Posture joints_m) {
+  const LookDescription mirrored = seen.Mirrored();
+  const Eigen::Vector3d mirror(-1.0, 1.0, 1.0);
+  const Eigen::Matrix3d camera_from_frame = seen.frame_from_camera.transpose();
+  for (size_t k = 0; k < kLookJoints.size(); ++k) {
+    const Joint joint = kLookJoints[k];
+    const auto other = static_cast<Joint>(kMirroredJoint[static_cast<size_t>(Index(joint))]);
+    Eigen::MatrixXf numbers(kLookInputs, other != joint ? 2 : 1);
+    numbers.col(0) = NumbersOf(seen, joint);
+    if (other != joint) numbers.col(1) = NumbersOf(mirrored, joint);
+    const Eigen::MatrixXd offsets_m = CloseLook::kStep_m * glance[k].Run(numbers).cast<double>();
+    for (Eigen::Index side = 0; side < offsets_m.cols(); ++side) {
+      Eigen::Vector3d offset_m = offsets_m.col(side);
+      offset_m *= std::min(1.0, CloseLook::kFarthest_m / std::max(offset_m.norm(), 1e-9));
+      if (side == 1) offset_m = mirror.cwiseProduct(offset_m);
+      joints_m[side == 0 ? joint : other] += camera_from_frame * offset_m;
+    }
+  }
+  return joints_m;
+}
+
+std::optional<Posture> Looker::Look(const LookInput& input) const {
   LookInput now = input;
-  for (size_t g = 0; g < glances.size(); ++g) {
+  for (size_t g = 0; g < glances_.size(); ++g) {
     const auto seen = LookDescription::Of(now);
     if (!seen && g == 0) return std::nullopt;
     if (!seen) break;
-    now = now.MovedTo(Glanced(glances[g], *seen, now.proposed));
+    now = now.MovedTo(Glanced(glances_[g], *seen, now.proposed));
   }
   return now.proposed;
 }

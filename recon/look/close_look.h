@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "depth/image/depth_frame.h"
+#include "recon/gp/network_runner.h"
 #include "recon/gp/rectified_network.h"
 #include "recon/posture.h"
 
@@ -89,15 +90,27 @@ struct CloseLook {
   static constexpr double kFarthest_m = 0.6;
   static constexpr size_t kMostGlances = 8;
 
-  /// The joints, camera space; nothing where LookDescription::Of has nothing to say at first.
-  std::optional<Posture> Look(const LookInput& input) const;
-
   /// .ossalook: reads refuse damaged, truncated and hostile files by name and byte.
   static CloseLook Load(const std::filesystem::path& path);
   static CloseLook FromBytes(std::span<const std::byte> bytes, const std::string& name);
   void Save(const std::filesystem::path& path) const;
   /// True when the file says that it is one; it may still be damaged.
   static bool IsOne(const std::filesystem::path& path);
+};
+
+/// A close look made ready to be had often.
+class Looker {
+ public:
+  explicit Looker(const CloseLook& look);
+
+  /// The joints, camera space; nothing where LookDescription::Of has nothing to say at first.
+  std::optional<Posture> Look(const LookInput& input) const;
+
+ private:
+  using Runners = std::array<NetworkRunner, kLookJoints.size()>;
+  static Posture Glanced(const Runners& glance, const LookDescription& seen, Posture joints_m);
+
+  std::vector<Runners> glances_;
 };
 
 }  // namespace ossa::recon

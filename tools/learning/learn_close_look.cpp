@@ -41,7 +41,7 @@ class Gatherer {
   Gatherer(const forest::ForestModel& model, const recon::CloseLook& before,
            const std::vector<std::filesystem::path>& datasets)
       : model_(model),
-        before_(before),
+        looker_(before),
         target_of_joint_(forest::TargetsNamed(model, recon::kJointNames, "the model")) {
     for (const auto& folder : datasets) {
       readers_.emplace_back(folder);
@@ -106,13 +106,13 @@ class Gatherer {
     }
     input.depth = &depth;
     input.is_person = *is_person;
-    const auto looked = before_.Look(input);
+    const auto looked = looker_.Look(input);
     if (!looked) return std::nullopt;
     return input.MovedTo(*looked);
   }
 
   const forest::ForestModel& model_;
-  const recon::CloseLook& before_;
+  recon::Looker looker_;
   std::vector<size_t> target_of_joint_;
   std::vector<DatasetReader> readers_;
   std::vector<Place> places_;

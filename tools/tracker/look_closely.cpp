@@ -15,7 +15,7 @@ const forest::Proposal* ProposalAt(const std::vector<forest::Proposal>& best_fir
 }  // namespace
 
 std::optional<recon::Posture> LookClosely(
-    const recon::CloseLook& look, const depth::DepthFrame& frame, const depth::Candidate& candidate,
+    const recon::Looker& look, const depth::DepthFrame& frame, const depth::Candidate& candidate,
     const std::vector<std::vector<forest::Proposal>>& proposals,
     const std::array<int, recon::kJointCount>& targets, const recon::TrackedPosture& chosen) {
   recon::LookInput input;

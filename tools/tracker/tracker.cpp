@@ -61,11 +61,11 @@ std::shared_ptr<const recon::LearnedModels> LearnedOf(const TrackerOptions& opti
   return models;
 }
 
-std::shared_ptr<const recon::CloseLook> LookOf(const TrackerOptions& options) {
+std::shared_ptr<const recon::Looker> LookOf(const TrackerOptions& options) {
   const bool is_shipped = options.model.empty() || IsShippedFile(options.model, "body.ossa");
   if (options.look == "none") return nullptr;
   if (options.look.empty() && !(is_shipped && options.method == "best")) return nullptr;
-  return std::make_shared<recon::CloseLook>(
+  return std::make_shared<recon::Looker>(
       recon::CloseLook::Load(options.look.empty() ? ShippedFile(recon::kShippedLook)
                                                   : std::filesystem::path(options.look)));
 }
@@ -90,7 +90,7 @@ struct Tracker::Impl {
   TrackerOptions options;
   forest::ForestModel model;
   std::array<int, recon::kJointCount> targets;
-  std::shared_ptr<const recon::CloseLook> look;
+  std::shared_ptr<const recon::Looker> look;
   CompleteOptions complete;
   depth::SceneOptions scene_options;
   depth::SceneState scene_state;

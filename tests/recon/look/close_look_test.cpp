@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <cstdlib>
 #include <fstream>
 #include <limits>
 
@@ -142,7 +143,7 @@ TEST(CloseLook, MovesEachJointByItsNetworkAndTheOtherSideInTheMirror) {
   CloseLook look = Silent();
   look.glances[0][NetworkOf(Joint::kHead)].layers[1].bias = Eigen::Vector3f(0.0F, 0.5F, 0.0F);
   look.glances[0][NetworkOf(Joint::kKneeLeft)].layers[1].bias = Eigen::Vector3f(0.4F, 0.0F, 0.0F);
-  const auto joints_m = look.Look(scene.input);
+  const auto joints_m = Looker(look).Look(scene.input);
   ASSERT_TRUE(joints_m);
   const auto moved_m = [&](Joint joint) -> Eigen::Vector3d {
     return (*joints_m)[joint] - scene.input.proposed[joint];
@@ -158,7 +159,7 @@ TEST(CloseLook, EachGlanceBeginsWhereTheOneBeforeItEnded) {
   Scene scene;
   CloseLook look = Silent();
   look.glances[0][NetworkOf(Joint::kHead)].layers[1].bias = Eigen::Vector3f(0.0F, 0.5F, 0.0F);
-  const auto once_m = look.Look(scene.input);
+  const auto once_m = Looker(look).Look(scene.input);
   ASSERT_TRUE(once_m);
   // The second says that the head is back where it was proposed, which it knows as it moved.
   look.glances.push_back(Silent().glances[0]);
@@ -169,7 +170,7 @@ TEST(CloseLook, EachGlanceBeginsWhereTheOneBeforeItEnded) {
     head.layers[0].weight(axis, kMoved + 3 * Index(Joint::kHead) + axis) =
         -1.0F / static_cast<float>(CloseLook::kStep_m);
   }
-  const auto twice_m = look.Look(scene.input);
+  const auto twice_m = Looker(look).Look(scene.input);
   ASSERT_TRUE(twice_m);
   EXPECT_GT(((*once_m)[Joint::kHead] - scene.input.proposed[Joint::kHead]).norm(), 0.04);
   EXPECT_NEAR(((*twice_m)[Joint::kHead] - scene.input.proposed[Joint::kHead]).norm(), 0.0, 1e-5);
@@ -187,7 +188,7 @@ TEST(CloseLook, MovesNoJointFarAway) {
   Scene scene;
   CloseLook look = Silent();
   look.glances[0][NetworkOf(Joint::kSpine)].layers[1].bias = Eigen::Vector3f(300.0F, 0.0F, -400.0F);
-  const auto joints_m = look.Look(scene.input);
+  const auto joints_m = Looker(look).Look(scene.input);
   ASSERT_TRUE(joints_m);
   EXPECT_NEAR(((*joints_m)[Joint::kSpine] - scene.input.proposed[Joint::kSpine]).norm(),
               CloseLook::kFarthest_m, 1e-6);
@@ -197,9 +198,9 @@ TEST(CloseLook, HasNothingToSayOfWhatCannotBeLookedAt) {
   const CloseLook look = Silent();
   const auto spoiled = [&](void (*spoil)(Scene&)) {
     Scene scene;
-    EXPECT_TRUE(look.Look(scene.input));
+    EXPECT_TRUE(Looker(look).Look(scene.input));
     spoil(scene);
-    return !look.Look(scene.input);
+    return !Looker(look).Look(scene.input);
   };
   EXPECT_TRUE(spoiled([](Scene& s) { s.input.depth = nullptr; }));
   EXPECT_TRUE(spoiled([](Scene& s) { s.input.is_person = s.input.is_person.first(5); }));
@@ -261,6 +262,31 @@ TEST(CloseLook, WithOddNumbersIsRefused) {
       ADD_FAILURE() << glances;
     } catch (const InputError& error) {
       EXPECT_NE(std::string(error.what()).find("glances"), std::string::npos) << error.what();
+    }
+  }
+}
+
+TEST(NetworkRunner, SaysWhatTheNetworkSays) {
+  std::srand(7);  // Eigen draws from it
+  for (const int hidden : {0, 1, 2}) {
+    RectifiedNetwork network;
+    network.input_mean = Eigen::VectorXf::Random(11);
+    network.input_scale = 3.0F * Eigen::VectorXf::Random(11).cwiseAbs();
+    Eigen::Index inputs = 11;
+    for (int l = 0; l < hidden; ++l, inputs = 7) {
+      network.layers.push_back({Eigen::MatrixXf::Random(7, inputs), Eigen::VectorXf::Random(7)});
+    }
+    network.layers.push_back({Eigen::MatrixXf::Random(3, inputs), Eigen::VectorXf::Random(3)});
+    Eigen::MatrixXf some = 4.0F * Eigen::MatrixXf::Random(11, 3);
+    some.col(0).head(6).setZero();
+    some.col(1).setZero();
+    // Weights as files have them.
+    Eigen::MatrixXf& first = network.layers.front().weight;
+    first = (64.0F * first).array().round() / 64.0F;
+    const Eigen::MatrixXf said = NetworkRunner(network).Run(some);
+    ASSERT_EQ(said.cols(), 3);
+    for (Eigen::Index c = 0; c < 3; ++c) {
+      EXPECT_LT((said.col(c) - network.Run(some.col(c))).norm(), 1e-4F) << hidden;
     }
   }
 }
