@@ -39,7 +39,6 @@ OSSA_CLONES void AddTerms(const Term* terms, size_t count, size_t rows, float* _
 }  // namespace
 
 NetworkRunner::NetworkRunner(RectifiedNetwork network) : network_(std::move(network)) {
-  if (network_.empty()) return;
   at_zero_ = network_.Normalised(Eigen::VectorXf::Zero(network_.input_mean.size()));
   const RectifiedNetwork::Layer& first = network_.layers.front();
   first_layer_ = first.weight * at_zero_ + first.bias;

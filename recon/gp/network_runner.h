@@ -11,6 +11,7 @@ namespace ossa::recon {
 class NetworkRunner {
  public:
   NetworkRunner() = default;
+  /// Precondition: the network has layers.
   explicit NetworkRunner(RectifiedNetwork network);
 
   /// As RectifiedNetwork::Run of a network that was read from a file but for the order of sums, of

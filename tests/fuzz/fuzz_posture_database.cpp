@@ -1,7 +1,6 @@
 // Posture databases and learned models: any payload is a value or an InputError.
 #include <cstdint>
 
-#include "depth/file/sealed_file.h"
 #include "recon/database/posture_database.h"
 #include "tests/fuzz/outcome.h"
 #include "tests/fuzz/seeds.h"

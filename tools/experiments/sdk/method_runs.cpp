@@ -24,9 +24,8 @@ std::string KeyOf(const ExperimentContext& context, const MethodRun& run) {
   const auto& gp = o.gaussian_process;
   const auto& best = o.best;
   std::string key = fmt::format(
-      "{} {} seed {} pca {} {} {} {} {} {} {} {} {} {} {} {} gp {} {} {} {} {} best {} {} {} {} {} "
-      "{} "
-      "{}",
+      "{} {} seed {} pca {} {} {} {} {} {} {} {} {} {} {} {} gp {} {} {} {} {} "
+      "best {} {} {} {} {} {} {}",
       KeyOfCode({"recon"}), o.method, o.seed, pca.neighbours, pca.dimensions, pca.steps,
       pca.samples, pca.control, pca.style, pca.kinematics, pca.continuity, pca.solver,
       pca.use_reliability, pca.extend_database, pca.keep_reliable, gp.nearby_models, gp.spatial,
