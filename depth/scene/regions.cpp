@@ -58,13 +58,13 @@ void MarkFlatPieces(const PointGrid& grid, const std::optional<FloorPlane>& floo
   }
 }
 
-// Lower than the floor's tolerance. Most points are clearly higher or lower than any tolerance.
+}  // namespace
+
+// Most points are clearly higher or lower than any tolerance.
 bool OnOrUnder(const FloorPlane& floor, const Vector3f& p) {
   const double height_m = floor.HeightOf(p.cast<double>());
   return height_m < MostHeightTolerance(p) && height_m < HeightTolerance(floor, p);
 }
-
-}  // namespace
 
 RoomShape RoomSurfaces(const PointGrid& grid, const std::optional<FloorPlane>& floor) {
   const auto cells = static_cast<size_t>(grid.cells());

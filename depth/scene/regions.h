@@ -11,6 +11,9 @@
 
 namespace ossa::depth {
 
+/// A measurement (camera space, metres) that may be the floor's as well: no person keeps it.
+bool OnOrUnder(const FloorPlane& floor, const Eigen::Vector3f& p);
+
 /// What shape alone says of each cell (1 = yes).
 struct RoomShape {
   std::vector<uint8_t> room;      // the floor, and planes too large to be a person's side: walls,

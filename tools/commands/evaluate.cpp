@@ -74,7 +74,7 @@ int Evaluate(int argc, char** argv) {
   const tools::DatasetReader dataset{std::filesystem::path(dataset_path)};
   Progress bar("evaluate", quiet);
   const tools::Evaluation evaluation =
-      tools::Evaluate(model, dataset, step, [&](int64_t done, int64_t total) {
+      tools::Evaluate(model, model_path, dataset, step, [&](int64_t done, int64_t total) {
         bar.Update(static_cast<double>(done), static_cast<double>(total));
         return !Interrupted();
       });

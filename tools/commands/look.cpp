@@ -51,6 +51,7 @@ int Look(int argc, char** argv) {
   AtomicFile::CheckWritable(out);
 
   const forest::ForestModel model = forest::ReadForestModel(model_path);
+  options.model_name = model_path;
   if (!after.empty()) options.after = recon::CloseLook::Load(after);
   if (options.after.glances.size() >= recon::CloseLook::kMostGlances) {
     throw InputError(

@@ -144,16 +144,16 @@ void AddPerson(const forest::ForestModel& model, const LabelledFrame& frame, con
   RateJoints(image, by_joint, totals);
 }
 
-Meaning MeaningOf(const forest::ForestModel& model) {
+Meaning MeaningOf(const forest::ForestModel& model, const std::string& name) {
   const std::vector<std::string>& names = model.data().class_names;
   Meaning meaning;
-  meaning.target_of_joint = forest::TargetsNamed(model, recon::kJointNames, "the model");
+  meaning.target_of_joint = forest::TargetsNamed(model, recon::kJointNames, name);
   meaning.has_our_parts =
       std::equal(names.begin(), names.end(), recon::kPartNames.begin(), recon::kPartNames.end());
   const auto common = CommonPartsOfModel(names);
   if (!common) {
-    throw InputError("the model's " + std::to_string(names.size()) +
-                     " classes are neither our 31 parts nor those of PCL's people trees");
+    throw InputError(name + ": expected our 31 parts or those of PCL's people trees, found " +
+                     std::to_string(names.size()) + " other classes");
   }
   meaning.common_part = *common;
   return meaning;
@@ -246,9 +246,10 @@ double AveragePrecision(std::vector<RatedProposal> proposals, int64_t positives)
   return area;
 }
 
-Evaluation Evaluate(const forest::ForestModel& model, const DatasetReader& dataset, int64_t step,
+Evaluation Evaluate(const forest::ForestModel& model, const std::string& name,
+                    const DatasetReader& dataset, int64_t step,
                     const std::function<bool(int64_t, int64_t)>& progress) {
-  const Meaning meaning = MeaningOf(model);
+  const Meaning meaning = MeaningOf(model, name);
   Totals totals;
   int64_t frames = 0;
   for (int64_t i = 0; i < dataset.frame_count(); i += step) {

@@ -47,7 +47,9 @@ struct Evaluation {
 };
 
 /// `step` > 1 looks at every step-th frame. `progress(done, total)` returns false to stop early.
-Evaluation Evaluate(const forest::ForestModel& model, const DatasetReader& dataset, int64_t step,
+/// Throws InputError that names the model by `name` where it is none of people.
+Evaluation Evaluate(const forest::ForestModel& model, const std::string& name,
+                    const DatasetReader& dataset, int64_t step,
                     const std::function<bool(int64_t, int64_t)>& progress);
 
 std::string EvaluationJson(const Evaluation& evaluation);

@@ -20,6 +20,7 @@
 #include "forest/train.h"
 #include "recon/skeleton.h"
 #include "tools/learning/learn_rectified_network.h"
+#include "tools/learning/segmented_person.h"
 #include "tools/synth/dataset.h"
 
 namespace ossa::tools {
@@ -38,11 +39,11 @@ struct Example {
 // Reads data sets and asks the forest.
 class Gatherer {
  public:
-  Gatherer(const forest::ForestModel& model, const recon::CloseLook& before,
+  Gatherer(const forest::ForestModel& model, const CloseLookOptions& options,
            const std::vector<std::filesystem::path>& datasets)
       : model_(model),
-        looker_(before),
-        target_of_joint_(forest::TargetsNamed(model, recon::kJointNames, "the model")) {
+        looker_(options.after),
+        target_of_joint_(forest::TargetsNamed(model, recon::kJointNames, options.model_name)) {
     for (const auto& folder : datasets) {
       readers_.emplace_back(folder);
       for (int64_t f = 0; f < readers_.back().frame_count(); ++f) {
@@ -58,8 +59,9 @@ class Gatherer {
   std::optional<Example> Read(size_t index) const {
     const auto [dataset, number] = places_[index];
     const DatasetReader& reader = readers_[dataset];
-    const LabelledFrame frame = Uncropped(reader.Read(number), reader.manifest().camera);
+    LabelledFrame frame = Uncropped(reader.Read(number), reader.manifest().camera);
     if (frame.bodies.empty()) return std::nullopt;
+    LayFloor(&frame);
     const TruthBody& body = frame.bodies[static_cast<size_t>(number) % frame.bodies.size()];
     std::vector<uint8_t> is_person;
     const auto input = Propose(frame, body.id, &is_person);
@@ -87,11 +89,9 @@ class Gatherer {
     constexpr size_t kFewest = 200;  // pixels: fewer are a hand or a head
     const depth::DepthFrame& depth = frame.depth;
     std::vector<int32_t> pixels;
-    is_person->assign(depth.depth_mm.size(), 0);
-    for (size_t i = 0; i < depth.depth_mm.size(); ++i) {
-      if (frame.users.data[i] != id || frame.parts.data[i] == 0 || depth.depth_mm[i] == 0) continue;
-      (*is_person)[i] = 1;
-      pixels.push_back(static_cast<int32_t>(i));
+    *is_person = SegmentedPerson(frame, id);
+    for (size_t i = 0; i < is_person->size(); ++i) {
+      if ((*is_person)[i] != 0) pixels.push_back(static_cast<int32_t>(i));
     }
     if (pixels.size() < kFewest) return std::nullopt;
     const auto classes = forest::Classify(model_, depth.view(), depth.camera, pixels);
@@ -175,7 +175,7 @@ recon::CloseLook LearnCloseLook(const forest::ForestModel& model,
       options.threads > 0 ? static_cast<size_t>(options.threads)
                           : std::max<size_t>(1, std::thread::hardware_concurrency()));
   recon::CloseLook look = options.after;
-  const std::vector<Example> people = Gather(Gatherer(model, look, datasets), options);
+  const std::vector<Example> people = Gather(Gatherer(model, options, datasets), options);
   look.people = people.size();
   recon::Glance& learned = look.glances.emplace_back();
   std::mutex mutex;

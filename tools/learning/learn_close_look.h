@@ -2,6 +2,7 @@
 #include <cstdint>
 #include <filesystem>
 #include <functional>
+#include <string>
 #include <vector>
 
 #include "forest/forest.h"
@@ -10,7 +11,8 @@
 namespace ossa::tools {
 
 struct CloseLookOptions {
-  recon::CloseLook after;  // whose glances come first
+  recon::CloseLook after;                // whose glances come first
+  std::string model_name = "the model";  // in errors
   int hidden = 128;  // units of each network's first layer, half as many of the second; 2..1024
   int epochs = 12;   // times that every person is looked at
   uint64_t seed = 1;

@@ -110,7 +110,7 @@ Evaluation Laboratory::Measured(const std::string& key,
   const fs::path test = DataOf(Split::kTest, test_frames);
   const std::string text = context_.Cached(key + " on " + test.filename().string(), [&] {
     const forest::ForestModel grown = model();
-    const Evaluation e = Evaluate(grown, DatasetReader(test), 1, [&](int64_t, int64_t) {
+    const Evaluation e = Evaluate(grown, key, DatasetReader(test), 1, [&](int64_t, int64_t) {
       return !(context_.interrupted && context_.interrupted());
     });
     context_.StopIfAsked();

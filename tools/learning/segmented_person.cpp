@@ -1,0 +1,86 @@
+#include "tools/learning/segmented_person.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <cstdlib>
+
+#include "depth/scene/point_grid.h"
+#include "depth/scene/regions.h"
+#include "recon/body/parts.h"
+
+namespace ossa::tools {
+namespace {
+
+// As the tracker's regions are connected (depth/scene/regions.cpp), whose cells these would be.
+constexpr int kCellsAcross = 160, kCellsOver = 2;
+
+bool GoesOn(uint16_t a_mm, uint16_t b_mm) {
+  const float near_m = 1e-3F * static_cast<float>(std::min(a_mm, b_mm));
+  const float apart_m = 1e-3F * static_cast<float>(std::abs(a_mm - b_mm));
+  return apart_m < 0.04F + 0.5F * depth::DepthTolerance(near_m);
+}
+
+// Precondition: the floor is known.
+bool MayBeFloor(const LabelledFrame& frame, int u, int v) {
+  const Eigen::Vector3d place_m =
+      depth::BackProject(frame.depth.camera, u, v, frame.depth.view().at(u, v));
+  return depth::OnOrUnder({*frame.floor}, place_m.cast<float>());
+}
+
+}  // namespace
+
+std::vector<uint8_t> SegmentedPerson(const LabelledFrame& frame, int id) {
+  const depth::DepthView view = frame.depth.view();
+  std::vector<uint8_t> is_person(frame.depth.depth_mm.size(), 0);
+  std::vector<int> front;
+  for (size_t i = 0; i < is_person.size(); ++i) {
+    const uint8_t part = frame.parts.data[i];
+    if (frame.users.data[i] != id || part == 0 || part == recon::kOtherPart) continue;
+    if (frame.depth.depth_mm[i] == 0) continue;
+    const auto u = static_cast<int>(i) % view.width, v = static_cast<int>(i) / view.width;
+    if (frame.floor && MayBeFloor(frame, u, v)) continue;
+    is_person[i] = 1;
+    front.push_back(static_cast<int>(i));
+  }
+  const int reach = kCellsOver * std::max(1, view.width / kCellsAcross);
+  for (size_t f = 0; f < front.size(); ++f) {
+    const int at = front[f], u = at % view.width, v = at / view.width;
+    const auto join = [&](int other_u, int other_v) {
+      if (other_u < 0 || other_u >= view.width || other_v < 0 || other_v >= view.height) return;
+      const int other = other_v * view.width + other_u;
+      const auto o = static_cast<size_t>(other);
+      if (is_person[o] != 0 || frame.parts.data[o] != recon::kOtherPart) return;
+      if (frame.users.data[o] != id || frame.depth.depth_mm[o] == 0) return;
+      if (!GoesOn(frame.depth.depth_mm[static_cast<size_t>(at)], frame.depth.depth_mm[o])) return;
+      is_person[o] = 1;
+      front.push_back(other);
+    };
+    for (int step = 1; step <= reach; ++step) {
+      join(u - step, v);
+      join(u + step, v);
+      join(u, v - step);
+      join(u, v + step);
+    }
+  }
+  return is_person;
+}
+
+void LayFloor(LabelledFrame* frame) {
+  if (!frame->floor) return;
+  constexpr double kNearest_m = 0.4, kFarthest_m = 8.0;  // of what a sensor measures
+  const depth::Camera& camera = frame->depth.camera;
+  for (int v = 0; v < camera.height; ++v) {
+    for (int u = 0; u < camera.width; ++u) {
+      uint16_t& depth_mm = frame->depth.depth_mm[static_cast<size_t>(v * camera.width + u)];
+      if (depth_mm != 0) continue;
+      const Eigen::Vector3d ray = depth::BackProject(camera, u, v, 1e3);  // at a metre
+      const double z_m = -(*frame->floor)[3] / frame->floor->head<3>().dot(ray);
+      if (z_m > kNearest_m && z_m < kFarthest_m) {
+        depth_mm = static_cast<uint16_t>(std::lround(1e3 * z_m));
+      }
+    }
+  }
+}
+
+}  // namespace ossa::tools
