@@ -69,8 +69,8 @@ TEST(SegmentedPerson, LosesItsSolesToTheFloor) {
     const double height_m =
         kSensorHeight_m + depth::BackProject(frame.depth.camera, 40, v, 2000).y();
     EXPECT_TRUE(IsPersons(without, 40, v));
-    if (height_m > 0.15) EXPECT_TRUE(IsPersons(with, 40, v)) << height_m;
-    if (height_m < 0.02) EXPECT_FALSE(IsPersons(with, 40, v)) << height_m;
+    if (height_m > 0.02 && height_m < 0.15) continue;  // how wide the floor is, is not the point
+    EXPECT_EQ(IsPersons(with, 40, v), height_m >= 0.15) << height_m;
   }
 }
 
