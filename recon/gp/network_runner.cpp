@@ -1,7 +1,6 @@
 #include "recon/gp/network_runner.h"
 
 #include <algorithm>
-#include <utility>
 #include <vector>
 
 #include "depth/clones.h"
@@ -36,35 +35,49 @@ OSSA_CLONES void AddTerms(const Term* terms, size_t count, size_t rows, float* _
   }
 }
 
+// What a layer says of the inputs that are not nought, each times its scale.
+Eigen::VectorXf Said(const std::vector<uint16_t>& weights, const Eigen::VectorXf& at_zero,
+                     const Eigen::Ref<const Eigen::VectorXf>& inputs, const float* scale,
+                     std::vector<Term>& terms) {
+  const auto rows = static_cast<size_t>(at_zero.size());
+  terms.clear();
+  for (Eigen::Index i = 0; i < inputs.size(); ++i) {
+    if (inputs[i] == 0.0F) continue;
+    terms.push_back({weights.data() + static_cast<size_t>(i) * rows,
+                     scale != nullptr ? inputs[i] * scale[i] : inputs[i]});
+  }
+  Eigen::VectorXf sums = at_zero;
+  AddTerms(terms.data(), terms.size(), rows, sums.data());
+  return sums;
+}
+
 }  // namespace
 
-NetworkRunner::NetworkRunner(RectifiedNetwork network) : network_(std::move(network)) {
-  at_zero_ = network_.Normalised(Eigen::VectorXf::Zero(network_.input_mean.size()));
-  const RectifiedNetwork::Layer& first = network_.layers.front();
-  first_layer_ = first.weight * at_zero_ + first.bias;
-  for (const float weight : first.weight.reshaped()) weights_.push_back(HalfOf(weight));
-  network_.layers.front().weight.resize(0, 0);
+NetworkRunner::NetworkRunner(const RectifiedNetwork& network) : input_scale_(network.input_scale) {
+  const Eigen::VectorXf nought =
+      network.Normalised(Eigen::VectorXf::Zero(network.input_mean.size()));
+  for (const RectifiedNetwork::Layer& layer : network.layers) {
+    Layer& ready = layers_.emplace_back();
+    ready.at_zero = layers_.size() == 1 ? layer.weight * nought + layer.bias : layer.bias;
+    for (const float weight : layer.weight.reshaped()) ready.weights.push_back(HalfOf(weight));
+  }
 }
 
 Eigen::MatrixXf NetworkRunner::Run(const Eigen::Ref<const Eigen::MatrixXf>& inputs) const {
-  const auto rows = static_cast<size_t>(first_layer_.size());
-  Eigen::MatrixXf value = first_layer_.replicate(1, inputs.cols());
+  Eigen::MatrixXf outputs(layers_.back().at_zero.size(), inputs.cols());
+  std::vector<Term> terms;
+  terms.reserve(static_cast<size_t>(inputs.rows()));
   for (Eigen::Index c = 0; c < inputs.cols(); ++c) {
-    const Eigen::VectorXf moved = network_.Normalised(inputs.col(c)) - at_zero_;
-    std::vector<Term> terms;
-    terms.reserve(static_cast<size_t>(moved.size()));
-    for (Eigen::Index i = 0; i < moved.size(); ++i) {
-      if (inputs(i, c) == 0.0F) continue;
-      terms.push_back({weights_.data() + static_cast<size_t>(i) * rows, moved[i]});
+    const Layer& first = layers_.front();
+    Eigen::VectorXf value =
+        Said(first.weights, first.at_zero, inputs.col(c), input_scale_.data(), terms);
+    for (size_t l = 1; l < layers_.size(); ++l) {
+      value = value.cwiseMax(0.0F).eval();
+      value = Said(layers_[l].weights, layers_[l].at_zero, value, nullptr, terms);
     }
-    AddTerms(terms.data(), terms.size(), rows, value.col(c).data());
+    outputs.col(c) = value;
   }
-  for (size_t l = 1; l < network_.layers.size(); ++l) {
-    const RectifiedNetwork::Layer& layer = network_.layers[l];
-    const Eigen::MatrixXf before = value.cwiseMax(0.0F);
-    value = (layer.weight * before).colwise() + layer.bias;
-  }
-  return value;
+  return outputs;
 }
 
 }  // namespace ossa::recon

@@ -7,22 +7,25 @@
 namespace ossa::recon {
 
 /// A network made ready to be run often: what inputs of nought say is added up beforehand, so that
-/// only the others cost anything.
+/// only the others cost anything, and so it is with units that are silent.
 class NetworkRunner {
  public:
   NetworkRunner() = default;
   /// Precondition: the network has layers.
-  explicit NetworkRunner(RectifiedNetwork network);
+  explicit NetworkRunner(const RectifiedNetwork& network);
 
   /// As RectifiedNetwork::Run of a network that was read from a file but for the order of sums, of
   /// several inputs at a time, a column each; so are the outputs.
   Eigen::MatrixXf Run(const Eigen::Ref<const Eigen::MatrixXf>& inputs) const;
 
  private:
-  RectifiedNetwork network_;       // without the first layer's weights
-  std::vector<uint16_t> weights_;  // those, input by input: they come from afar, halves do sooner
-  Eigen::VectorXf at_zero_;        // inputs of nought, normalised
-  Eigen::VectorXf first_layer_;    // what they make the first layer say
+  struct Layer {
+    std::vector<uint16_t> weights;  // input by input: they come from afar, halves do sooner
+    Eigen::VectorXf at_zero;        // what it says when all its inputs are nought
+  };
+
+  Eigen::VectorXf input_scale_;
+  std::vector<Layer> layers_;
 };
 
 }  // namespace ossa::recon

@@ -48,11 +48,11 @@ std::shared_ptr<const recon::PostureDatabase> LoadDatabase(const TrackerOptions&
   return std::make_shared<recon::PostureDatabase>(recon::PostureDatabase::Load(path));
 }
 
-// What best knows of the forest's errors: the shipped forest's are shipped with it
-// (tools/train_correction). Of another forest it is known that it was shown our own bodies: bones
-// are expected in the proportions of the standard body.
-std::shared_ptr<const recon::LearnedModels> LearnedOf(const TrackerOptions& options) {
-  if (options.model.empty() || IsShippedFile(options.model, "body.ossa")) {
+// What best knows of the errors that a close look leaves in the shipped forest's joints is shipped
+// with them (tools/train_correction). Of other joints it is known that their forest was shown our
+// own bodies: bones are expected in the proportions of the standard body.
+std::shared_ptr<const recon::LearnedModels> LearnedOf(const TrackerOptions& options, bool looked) {
+  if (looked && (options.model.empty() || IsShippedFile(options.model, "body.ossa"))) {
     return std::make_shared<recon::LearnedModels>(
         recon::LearnedModels::Load(ShippedFile("body.ossagp")));
   }
@@ -110,7 +110,9 @@ struct Tracker::Impl {
     complete.reconstructor.database = LoadDatabase(o);
     complete.reconstructor.prior = PriorFor(o.method, o.prior, o.database);
     complete.reconstructor.learned_file = o.learned;
-    if (o.learned.empty() && o.method == "best") complete.reconstructor.learned = LearnedOf(o);
+    if (o.learned.empty() && o.method == "best") {
+      complete.reconstructor.learned = LearnedOf(o, look != nullptr);
+    }
     complete.reconstructor.best.looked = look != nullptr;
     complete.reconstructor.seed = o.seed;
     recon::MakeReconstructor(complete.reconstructor);  // says now what is wrong with the options
