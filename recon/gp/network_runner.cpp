@@ -1,6 +1,7 @@
 #include "recon/gp/network_runner.h"
 
 #include <algorithm>
+#include <utility>
 #include <vector>
 
 #include "depth/clones.h"
@@ -35,16 +36,14 @@ OSSA_CLONES void AddTerms(const Term* terms, size_t count, size_t rows, float* _
   }
 }
 
-// What a layer says of the inputs that are not nought, each times its scale.
-Eigen::VectorXf Said(const std::vector<uint16_t>& weights, const Eigen::VectorXf& at_zero,
-                     const Eigen::Ref<const Eigen::VectorXf>& inputs, const float* scale,
-                     std::vector<Term>& terms) {
+// `at_zero` and what each factor that is not nought adds; `terms` is room to work in.
+Eigen::VectorXf Sum(const std::vector<uint16_t>& weights, const Eigen::VectorXf& at_zero,
+                    const Eigen::VectorXf& factors, std::vector<Term>& terms) {
   const auto rows = static_cast<size_t>(at_zero.size());
   terms.clear();
-  for (Eigen::Index i = 0; i < inputs.size(); ++i) {
-    if (inputs[i] == 0.0F) continue;
-    terms.push_back({weights.data() + static_cast<size_t>(i) * rows,
-                     scale != nullptr ? inputs[i] * scale[i] : inputs[i]});
+  for (Eigen::Index i = 0; i < factors.size(); ++i) {
+    if (factors[i] == 0.0F) continue;
+    terms.push_back({weights.data() + static_cast<size_t>(i) * rows, factors[i]});
   }
   Eigen::VectorXf sums = at_zero;
   AddTerms(terms.data(), terms.size(), rows, sums.data());
@@ -53,12 +52,12 @@ Eigen::VectorXf Said(const std::vector<uint16_t>& weights, const Eigen::VectorXf
 
 }  // namespace
 
-NetworkRunner::NetworkRunner(const RectifiedNetwork& network) : input_scale_(network.input_scale) {
-  const Eigen::VectorXf nought =
-      network.Normalised(Eigen::VectorXf::Zero(network.input_mean.size()));
-  for (const RectifiedNetwork::Layer& layer : network.layers) {
+NetworkRunner::NetworkRunner(RectifiedNetwork network) : network_(std::move(network)) {
+  nought_ = network_.Normalised(Eigen::VectorXf::Zero(network_.input_mean.size()));
+  for (const RectifiedNetwork::Layer& layer : std::exchange(network_.layers, {})) {
     Layer& ready = layers_.emplace_back();
-    ready.at_zero = layers_.size() == 1 ? layer.weight * nought + layer.bias : layer.bias;
+    ready.at_zero = layer.bias;
+    if (layers_.size() == 1) ready.at_zero += layer.weight * nought_;
     for (const float weight : layer.weight.reshaped()) ready.weights.push_back(HalfOf(weight));
   }
 }
@@ -68,12 +67,10 @@ Eigen::MatrixXf NetworkRunner::Run(const Eigen::Ref<const Eigen::MatrixXf>& inpu
   std::vector<Term> terms;
   terms.reserve(static_cast<size_t>(inputs.rows()));
   for (Eigen::Index c = 0; c < inputs.cols(); ++c) {
-    const Layer& first = layers_.front();
-    Eigen::VectorXf value =
-        Said(first.weights, first.at_zero, inputs.col(c), input_scale_.data(), terms);
-    for (size_t l = 1; l < layers_.size(); ++l) {
-      value = value.cwiseMax(0.0F).eval();
-      value = Said(layers_[l].weights, layers_[l].at_zero, value, nullptr, terms);
+    Eigen::VectorXf value = network_.Normalised(inputs.col(c)) - nought_;
+    for (size_t l = 0; l < layers_.size(); ++l) {
+      if (l > 0) value = value.cwiseMax(0.0F).eval();
+      value = Sum(layers_[l].weights, layers_[l].at_zero, value, terms);
     }
     outputs.col(c) = value;
   }

@@ -12,7 +12,7 @@ class NetworkRunner {
  public:
   NetworkRunner() = default;
   /// Precondition: the network has layers.
-  explicit NetworkRunner(const RectifiedNetwork& network);
+  explicit NetworkRunner(RectifiedNetwork network);
 
   /// As RectifiedNetwork::Run of a network that was read from a file but for the order of sums, of
   /// several inputs at a time, a column each; so are the outputs.
@@ -24,7 +24,8 @@ class NetworkRunner {
     Eigen::VectorXf at_zero;        // what it says when all its inputs are nought
   };
 
-  Eigen::VectorXf input_scale_;
+  RectifiedNetwork network_;  // without its layers: it knows how inputs are normalised
+  Eigen::VectorXf nought_;    // inputs of nought, normalised
   std::vector<Layer> layers_;
 };
 

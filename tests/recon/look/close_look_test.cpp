@@ -280,9 +280,9 @@ TEST(NetworkRunner, SaysWhatTheNetworkSays) {
     Eigen::MatrixXf some = 4.0F * Eigen::MatrixXf::Random(11, 3);
     some.col(0).head(6).setZero();
     some.col(1).setZero();
-    // Weights as files have them.
-    Eigen::MatrixXf& first = network.layers.front().weight;
-    first = (64.0F * first).array().round() / 64.0F;
+    for (RectifiedNetwork::Layer& layer : network.layers) {  // weights as files have them
+      layer.weight = (64.0F * layer.weight).array().round() / 64.0F;
+    }
     const Eigen::MatrixXf said = NetworkRunner(network).Run(some);
     ASSERT_EQ(said.cols(), 3);
     for (Eigen::Index c = 0; c < 3; ++c) {
