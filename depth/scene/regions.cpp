@@ -100,10 +100,11 @@ Region MakeRegion(const PointGrid& grid, std::vector<int> cells) {
   return region;
 }
 
-bool Continuous(const PointGrid& grid, int a, int b) {
-  const float near = std::min(grid.z(a), grid.z(b));
+bool Continuous(const PointGrid& grid, int a, int b) { return Continuous(grid.z(a), grid.z(b)); }
+
+bool Continuous(float a_m, float b_m) {
   // A thigh or a forearm recedes by at most about 4 cm a cell; sensor steps come on top.
-  return std::abs(grid.z(a) - grid.z(b)) < 0.04F + 0.5F * DepthTolerance(near);
+  return std::abs(a_m - b_m) < 0.04F + 0.5F * DepthTolerance(std::min(a_m, b_m));
 }
 
 std::vector<Region> ConnectedRegions(const PointGrid& grid, std::span<const uint8_t> ignore,

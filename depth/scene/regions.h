@@ -38,8 +38,10 @@ Region MakeRegion(const PointGrid& grid, std::vector<int> cells);
 std::vector<Region> ConnectedRegions(const PointGrid& grid, std::span<const uint8_t> ignore,
                                      float min_area_m2);
 
-/// True when neighbouring cells may lie on one body.
+/// True when neighbouring cells, or measurements as near to each other, of these depths may lie on
+/// one body.
 bool Continuous(const PointGrid& grid, int cell_a, int cell_b);
+bool Continuous(float a_m, float b_m);
 
 /// Share of the region's cells that are marked.
 double ShareOf(const Region& region, const std::vector<uint8_t>& marked);

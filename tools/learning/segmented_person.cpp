@@ -3,9 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
-#include <cstdlib>
 
-#include "depth/scene/point_grid.h"
 #include "depth/scene/regions.h"
 #include "recon/body/parts.h"
 
@@ -16,9 +14,7 @@ namespace {
 constexpr int kCellsAcross = 160, kCellsOver = 2;
 
 bool GoesOn(uint16_t a_mm, uint16_t b_mm) {
-  const float near_m = 1e-3F * static_cast<float>(std::min(a_mm, b_mm));
-  const float apart_m = 1e-3F * static_cast<float>(std::abs(a_mm - b_mm));
-  return apart_m < 0.04F + 0.5F * depth::DepthTolerance(near_m);
+  return depth::Continuous(1e-3F * static_cast<float>(a_mm), 1e-3F * static_cast<float>(b_mm));
 }
 
 // Precondition: the floor is known.
