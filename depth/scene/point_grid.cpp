@@ -22,9 +22,11 @@ uint16_t ReadingOf(const DepthView& depth, int u0, int v0, int step, uint16_t ma
 
 }  // namespace
 
+int CellPixels(int image_width) { return std::max(1, image_width / 160); }
+
 PointGrid MakePointGrid(const DepthView& depth, const Camera& camera, float max_depth_m) {
   PointGrid grid;
-  grid.step = std::max(1, depth.width / 160);
+  grid.step = CellPixels(depth.width);
   grid.width = (depth.width + grid.step - 1) / grid.step;
   grid.height = (depth.height + grid.step - 1) / grid.step;
   grid.camera = camera;

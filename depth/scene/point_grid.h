@@ -49,6 +49,9 @@ struct PointGrid {
 inline constexpr int kStepsOverGaps[8][2] = {{1, 0}, {-1, 0}, {0, 1}, {0, -1},
                                              {2, 0}, {-2, 0}, {0, 2}, {0, -2}};
 
+/// Pixels that a cell is wide, in an image of so many columns.
+int CellPixels(int image_width);
+
 PointGrid MakePointGrid(const DepthView& depth, const Camera& camera, float max_depth_m);
 
 /// How far two measurements of one flat surface may differ at depth z: the 2.9 mm × z² quantisation

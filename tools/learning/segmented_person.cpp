@@ -4,14 +4,15 @@
 #include <cmath>
 #include <cstddef>
 
+#include "depth/scene/point_grid.h"
 #include "depth/scene/regions.h"
 #include "recon/body/parts.h"
 
 namespace ossa::tools {
 namespace {
 
-// As the tracker's regions are connected (depth/scene/regions.cpp), whose cells these would be.
-constexpr int kCellsAcross = 160, kCellsOver = 2;
+// As far as the tracker's regions reach over what was not measured: depth::kStepsOverGaps.
+constexpr int kCellsOver = 2;
 
 bool GoesOn(uint16_t a_mm, uint16_t b_mm) {
   return depth::Continuous(1e-3F * static_cast<float>(a_mm), 1e-3F * static_cast<float>(b_mm));
@@ -39,7 +40,7 @@ std::vector<uint8_t> SegmentedPerson(const LabelledFrame& frame, int id) {
     is_person[i] = 1;
     front.push_back(static_cast<int>(i));
   }
-  const int reach = kCellsOver * std::max(1, view.width / kCellsAcross);
+  const int reach = kCellsOver * depth::CellPixels(view.width);
   for (size_t f = 0; f < front.size(); ++f) {
     const int at = front[f], u = at % view.width, v = at / view.width;
     const auto join = [&](int other_u, int other_v) {
