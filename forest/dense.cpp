@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cstring>
+#include <vector>
 
 #include "depth/clones.h"
 #include "forest/lanes_internal.h"
@@ -21,18 +22,45 @@ struct Factors {
   Eigen::Index columns = 0;
 };
 
+// Of the inner indices so many at a time: what a tile reads of b stays in the nearest cache. The
+// sums wait in `out` in between, which takes no bit from them.
+constexpr Eigen::Index kInnerBlock = 256;
+constexpr int kTileRows = 6;  // with two columns of lanes: as many sums as AVX2 has registers for
+
+// The next inner indices, and what b has in them of a tile's columns, line by line.
+struct Block {
+  Eigen::Index begin = 0, end = 0;
+  alignas(64) float b[kInnerBlock * kTileColumns];
+};
+
+// Columns that b does not have are nought.
+[[gnu::always_inline]] inline void Pack(const Factors& f, Eigen::Index column, Eigen::Index columns,
+                                        Block* block) {
+  for (Eigen::Index k = block->begin; k < block->end; ++k) {
+    float* line = block->b + (k - block->begin) * kTileColumns;
+    std::copy_n(f.b + k * f.b_stride + column, columns, line);
+    std::fill(line + columns, line + kTileColumns, 0.0F);
+  }
+}
+
 // kRows rows of the product by kTileColumns columns, held in registers while the inner index runs.
 template <int kRows>
-[[gnu::always_inline]] inline void Tile(const Factors& f, Eigen::Index row, Eigen::Index column) {
+[[gnu::always_inline]] inline void Tile(const Factors& f, const Block& block, Eigen::Index row,
+                                        Eigen::Index column) {
   Lanes sum[kRows][2] = {};
-  for (Eigen::Index k = 0; k < f.inner; ++k) {
+  for (int r = 0; r < kRows && block.begin > 0; ++r) {
+    std::memcpy(sum[r], f.out + (row + r) * f.columns + column, sizeof(sum[r]));
+  }
+  const float* a = f.a + row * f.a_stride + block.begin;
+  const float* b = block.b;
+  for (Eigen::Index k = block.begin; k < block.end; ++k, ++a, b += kTileColumns) {
     Lanes left, right;  // loaded one by one: copied together they would go through memory
-    Load(f.b + k * f.b_stride + column, &left);
-    Load(f.b + k * f.b_stride + column + kLanes, &right);
+    Load(b, &left);
+    Load(b + kLanes, &right);
     for (int r = 0; r < kRows; ++r) {
-      const float a = f.a[(row + r) * f.a_stride + k];
-      sum[r][0] += a * left;
-      sum[r][1] += a * right;
+      const float factor = a[r * f.a_stride];
+      sum[r][0] += factor * left;
+      sum[r][1] += factor * right;
     }
   }
   for (int r = 0; r < kRows; ++r) {
@@ -40,13 +68,22 @@ template <int kRows>
   }
 }
 
-constexpr int kTileRows = 4;
+[[gnu::always_inline]] inline void MultiplyBlock(const Factors& f, const Block& block,
+                                                 Eigen::Index rows, Eigen::Index column) {
+  Eigen::Index row = 0;
+  for (; row + kTileRows <= rows; row += kTileRows) Tile<kTileRows>(f, block, row, column);
+  for (; row < rows; ++row) Tile<1>(f, block, row, column);
+}
 
 OSSA_CLONES void MultiplyTiles(const Factors& f, Eigen::Index rows) {
-  for (Eigen::Index column = 0; column + kTileColumns <= f.columns; column += kTileColumns) {
-    Eigen::Index row = 0;
-    for (; row + kTileRows <= rows; row += kTileRows) Tile<kTileRows>(f, row, column);
-    for (; row < rows; ++row) Tile<1>(f, row, column);
+  Block block;
+  for (Eigen::Index begin = 0; begin < f.inner; begin += kInnerBlock) {
+    block.begin = begin;
+    block.end = std::min(f.inner, begin + kInnerBlock);
+    for (Eigen::Index column = 0; column + kTileColumns <= f.columns; column += kTileColumns) {
+      Pack(f, column, kTileColumns, &block);
+      MultiplyBlock(f, block, rows, column);
+    }
   }
 }
 
@@ -81,16 +118,23 @@ OSSA_CLONES void MultiplyFewRows(const Factors& f, Eigen::Index rows) {
   }
 }
 
-// The columns that fill no tile.
-void MultiplyRest(const Factors& f, Eigen::Index rows) {
+// The columns that fill no tile, as one that nought fills.
+OSSA_CLONES void MultiplyRest(const Factors& f, Eigen::Index rows) {
+  const Eigen::Index rest = f.columns % kTileColumns;
+  if (rest == 0) return;
+  std::vector<float> sums(static_cast<size_t>(rows * kTileColumns));
+  Factors padded = f;
+  padded.out = sums.data();
+  padded.columns = kTileColumns;
+  Block block;
+  for (Eigen::Index begin = 0; begin < f.inner; begin += kInnerBlock) {
+    block.begin = begin;
+    block.end = std::min(f.inner, begin + kInnerBlock);
+    Pack(f, f.columns - rest, rest, &block);
+    MultiplyBlock(padded, block, rows, 0);
+  }
   for (Eigen::Index row = 0; row < rows; ++row) {
-    for (Eigen::Index c = f.columns - f.columns % kTileColumns; c < f.columns; ++c) {
-      float sum = 0.0F;
-      for (Eigen::Index k = 0; k < f.inner; ++k) {
-        sum += f.a[row * f.a_stride + k] * f.b[k * f.b_stride + c];
-      }
-      f.out[row * f.columns + c] = sum;
-    }
+    std::copy_n(sums.data() + row * kTileColumns, rest, f.out + (row + 1) * f.columns - rest);
   }
 }
 
@@ -100,6 +144,7 @@ RowMatrix Product(const Eigen::Ref<const RowMatrix>& a, const Eigen::Ref<const R
   RowMatrix out(a.rows(), b.cols());
   const Factors factors{a.data(),   a.outerStride(), b.data(), b.outerStride(),
                         out.data(), a.cols(),        b.cols()};
+  if (factors.inner == 0) return RowMatrix::Zero(a.rows(), b.cols());
   a.rows() < kTileRows ? MultiplyFewRows(factors, a.rows()) : MultiplyTiles(factors, a.rows());
   MultiplyRest(factors, a.rows());
   return out;

@@ -23,19 +23,23 @@ struct NetworkExamples {
 /// The gradient, by the outputs of a batch, of the loss that is to fall; `wanted`: their rows.
 using LossGradient = std::function<RowMatrix(const RowMatrix& out, const RowMatrix& wanted)>;
 
+inline constexpr Eigen::Index kNetworkBatch = 128;
+
 struct NetworkOptions {
   std::vector<Eigen::Index> hidden = {512};  // rectified units of each hidden layer
   Eigen::Index outputs = 0;
   int64_t epochs = 12;  // times that every example is seen
+  Eigen::Index batch = kNetworkBatch;
+  float rate = 1e-3F;    // of Adam, at its highest
+  float decay = 0.02F;   // of weights, a unit of the rate
+  float dropped = 0.1F;  // share of hidden units at each step, [0, 1)
   uint64_t seed = 1;
   std::function<void(int64_t step, int64_t steps)> progress;
   std::function<bool()> stop;  // true: end with TrainInterrupted as soon as possible
 };
 
-inline constexpr Eigen::Index kNetworkBatch = 128;
-
 /// Learns a network by Adam with dropout (network_trainer_internal.h), in
-/// batches of kNetworkBatch; what does not fill a batch waits for the next epoch. The same bytes on
+/// batches; what does not fill a batch waits for the next epoch. The same bytes on
 /// every machine and for any number of threads. The weights' lower 16 bits are 0.
 std::vector<NetworkLayer> LearnNetwork(const NetworkExamples& examples,
                                        const LossGradient& gradient, const NetworkOptions& options);

@@ -12,8 +12,7 @@
 namespace ossa::forest {
 namespace {
 
-constexpr double kRate = 1e-3;    // of Adam, at its highest
-constexpr int64_t kWarmUp = 200;  // steps until it is
+constexpr int64_t kWarmUp = 200;  // steps until the rate is at its highest
 
 RowMatrix Rows(const RowMatrix& all, std::span<const Eigen::Index> chosen) {
   RowMatrix rows(static_cast<Eigen::Index>(chosen.size()), all.cols());
@@ -24,10 +23,10 @@ RowMatrix Rows(const RowMatrix& all, std::span<const Eigen::Index> chosen) {
 }
 
 // Rises at first, then falls to nothing along half a cosine (Loshchilov and Hutter 2017).
-float RateAt(int64_t step, int64_t steps) {
+float RateAt(double highest, int64_t step, int64_t steps) {
   const double done = static_cast<double>(step) / static_cast<double>(steps);
   const double warm = std::min(1.0, static_cast<double>(step + 1) / static_cast<double>(kWarmUp));
-  return static_cast<float>(kRate * warm * 0.5 * (1.0 + std::cos(std::numbers::pi * done)));
+  return static_cast<float>(highest * warm * 0.5 * (1.0 + std::cos(std::numbers::pi * done)));
 }
 
 }  // namespace
@@ -38,11 +37,11 @@ std::vector<NetworkLayer> LearnNetwork(const NetworkExamples& examples,
   std::vector<Eigen::Index> widths = {examples.input.cols()};
   widths.insert(widths.end(), options.hidden.begin(), options.hidden.end());
   widths.push_back(options.outputs);
-  NetworkTrainer network(widths, options.seed);
+  NetworkTrainer network(widths, {options.decay, options.dropped}, options.seed);
   std::vector<Eigen::Index> order(static_cast<size_t>(examples.input.rows()));
   std::iota(order.begin(), order.end(), Eigen::Index{0});
   Random random(MixSeed(options.seed, 0x5befe7));
-  const auto batches = static_cast<int64_t>(order.size()) / kNetworkBatch;
+  const auto batches = static_cast<int64_t>(order.size()) / options.batch;
   const int64_t steps = batches * options.epochs;
   for (int64_t step = 0; step < steps; ++step) {
     if (options.stop && options.stop()) throw TrainInterrupted("interrupted while refining");
@@ -50,9 +49,11 @@ std::vector<NetworkLayer> LearnNetwork(const NetworkExamples& examples,
     for (size_t i = order.size(); batch == 0 && i > 1; --i) {
       std::swap(order[i - 1], order[random.Below(static_cast<uint32_t>(i))]);
     }
-    const std::span chosen(order.data() + batch * kNetworkBatch, size_t{kNetworkBatch});
+    const std::span chosen(order.data() + batch * options.batch,
+                           static_cast<size_t>(options.batch));
     const RowMatrix& out = network.Forward(Rows(examples.input, chosen));
-    network.Step(gradient(out, Rows(examples.wanted, chosen)), RateAt(step, steps));
+    network.Step(gradient(out, Rows(examples.wanted, chosen)),
+                 RateAt(double{options.rate}, step, steps));
     if (options.progress) options.progress(step + 1, steps);
   }
   return network.Layers();

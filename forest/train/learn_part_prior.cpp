@@ -24,6 +24,7 @@ constexpr size_t kPixels = 60;  // of an image: more are much alike
 constexpr Eigen::Index kBatch = 2048;
 constexpr int kEpochs = 5;
 constexpr float kRate = 0.02F;    // of Adam, at its highest
+constexpr float kDecay = 0.02F;   // of weights, a unit of the rate
 constexpr double kRarest = 1e-3;  // classes rarer than that count as if they were not
 
 // Pixels of one image or of all, a row each.
@@ -123,7 +124,7 @@ RowMatrix LossGradient(const RowMatrix& score, const LabelledPixels& pixels,
 PartPrior Fit(const LabelledPixels& pixels, uint64_t seed) {
   const Eigen::Index classes = pixels.offset.cols();
   const std::vector<float> weight = WeightOfClasses(pixels.column, classes);
-  NetworkTrainer regression({pixels.near.cols(), classes}, seed);
+  NetworkTrainer regression({pixels.near.cols(), classes}, {.decay = kDecay}, seed);
   Random random(MixSeed(seed, 0x9a57));
   const auto count = static_cast<uint32_t>(pixels.column.size());
   const int64_t steps = kEpochs * static_cast<int64_t>(count) / kBatch + 1;

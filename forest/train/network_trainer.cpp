@@ -3,14 +3,14 @@
 #include <bit>
 #include <cmath>
 
+#include "depth/clones.h"
+
 namespace ossa::forest {
 namespace {
 
 constexpr float kMeanKept = 0.9F;  // Adam's beta 1 and 2 and epsilon, as its authors set them
 constexpr float kSquareKept = 0.999F;
 constexpr float kLeastRoot = 1e-8F;
-constexpr float kDecay = 0.02F;           // of weights, a unit of the rate
-constexpr float kDropped = 0.1F;          // of hidden units: 0.2 and none are worse on validation
 constexpr float kLastLayerScale = 0.05F;  // the network starts by saying next to nothing
 
 // He et al. 2015: activations keep their size from layer to layer.
@@ -21,6 +21,24 @@ RowMatrix RandomWeights(Eigen::Index inputs, Eigen::Index outputs, Random* rando
     weight.data()[i] = static_cast<float>(bound * (2.0 * random->Unit() - 1.0));
   }
   return weight;
+}
+
+struct Running {
+  float *value, *mean, *square;
+};
+
+// In one go: the numbers are far more than the nearest caches hold.
+OSSA_CLONES void DescendAll(const Running& of, const float* gradient, Eigen::Index count,
+                            float rate, float square_scale) {
+  float* __restrict value = of.value;
+  float* __restrict mean = of.mean;
+  float* __restrict square = of.square;
+  for (Eigen::Index i = 0; i < count; ++i) {
+    const float slope = gradient[i];
+    mean[i] = kMeanKept * mean[i] + (1.0F - kMeanKept) * slope;
+    square[i] = kSquareKept * square[i] + (1.0F - kSquareKept) * (slope * slope);
+    value[i] -= rate * mean[i] / (std::sqrt(square_scale * square[i]) + kLeastRoot);
+  }
 }
 
 // The upper half of a float's bits, rounded: more says nothing, and costs the file two bytes each.
@@ -43,17 +61,16 @@ NetworkTrainer::Learned::Learned(RowMatrix start)
       square(RowMatrix::Zero(value.rows(), value.cols())) {}
 
 void NetworkTrainer::Learned::Descend(const RowMatrix& gradient, float rate, int step) {
-  mean = kMeanKept * mean + (1.0F - kMeanKept) * gradient;
-  square = kSquareKept * square + (1.0F - kSquareKept) * gradient.cwiseAbs2();
   const auto steps = static_cast<double>(step);
   const auto mean_scale = static_cast<float>(1.0 / (1.0 - std::pow(double{kMeanKept}, steps)));
   const auto square_scale = static_cast<float>(1.0 / (1.0 - std::pow(double{kSquareKept}, steps)));
-  value.array() -=
-      rate * mean_scale * mean.array() / ((square_scale * square.array()).sqrt() + kLeastRoot);
+  DescendAll({value.data(), mean.data(), square.data()}, gradient.data(), value.size(),
+             rate * mean_scale, square_scale);
 }
 
-NetworkTrainer::NetworkTrainer(const std::vector<Eigen::Index>& widths, uint64_t seed)
-    : random_(seed) {
+NetworkTrainer::NetworkTrainer(const std::vector<Eigen::Index>& widths, Restraint restraint,
+                               uint64_t seed)
+    : restraint_(restraint), random_(seed) {
   for (size_t l = 0; l + 1 < widths.size(); ++l) {
     weight_.emplace_back(RandomWeights(widths[l], widths[l + 1], &random_));
     bias_.emplace_back(RowMatrix::Zero(1, widths[l + 1]));
@@ -62,10 +79,11 @@ NetworkTrainer::NetworkTrainer(const std::vector<Eigen::Index>& widths, uint64_t
 }
 
 void NetworkTrainer::DropUnits(RowMatrix* activation) {
-  constexpr auto kBound = static_cast<uint64_t>(static_cast<double>(kDropped) * 0x1p64);
+  if (restraint_.dropped == 0.0F) return;
+  const auto bound = static_cast<uint64_t>(static_cast<double>(restraint_.dropped) * 0x1p64);
   for (Eigen::Index i = 0; i < activation->size(); ++i) {
     float& value = activation->data()[i];
-    value = random_.Next() < kBound ? 0.0F : value / (1.0F - kDropped);
+    value = random_.Next() < bound ? 0.0F : value / (1.0F - restraint_.dropped);
   }
 }
 
@@ -91,9 +109,9 @@ void NetworkTrainer::Step(RowMatrix gradient, float rate) {
     const RowMatrix by_bias = gradient.colwise().sum();
     if (l > 0) {  // through the rectifier and the units that were not dropped
       gradient = Product(gradient, weight_[l].value.transpose());
-      gradient = (input.array() > 0.0F).select(gradient, 0.0F) / (1.0F - kDropped);
+      gradient = (input.array() > 0.0F).select(gradient, 0.0F) / (1.0F - restraint_.dropped);
     }
-    weight_[l].value *= 1.0F - rate * kDecay;
+    weight_[l].value *= 1.0F - rate * restraint_.decay;
     weight_[l].Descend(by_weight, rate, step_);
     bias_[l].Descend(by_bias, rate, step_);
   }

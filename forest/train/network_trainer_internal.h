@@ -13,8 +13,14 @@ namespace ossa::forest {
 /// machine and for any number of threads: it runs in one, by products in a fixed order.
 class NetworkTrainer {
  public:
+  /// What keeps a network from learning its examples by heart.
+  struct Restraint {
+    float decay = 0.0F;    // of weights, a unit of the rate
+    float dropped = 0.0F;  // share of hidden units at each step, [0, 1)
+  };
+
   /// `widths`: inputs, hidden layers, outputs.
-  NetworkTrainer(const std::vector<Eigen::Index>& widths, uint64_t seed);
+  NetworkTrainer(const std::vector<Eigen::Index>& widths, Restraint restraint, uint64_t seed);
 
   /// Outputs of a batch of inputs, hidden units dropped at random. Kept for Step.
   const RowMatrix& Forward(RowMatrix batch);
@@ -34,6 +40,7 @@ class NetworkTrainer {
   void DropUnits(RowMatrix* activation);
 
   std::vector<Learned> weight_, bias_;
+  Restraint restraint_;
   std::vector<RowMatrix> activation_;  // the batch, then each layer's outputs
   Random random_;
   int step_ = 0;

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <bit>
 #include <cmath>
 #include <span>
@@ -13,7 +14,8 @@
 namespace ossa::recon {
 namespace {
 
-constexpr float kMost = 1e6F;  // of anything in a network
+constexpr float kMost = 1e6F;        // of anything in a network
+constexpr float kMostByte = 127.0F;  // of a weight
 
 void PutFloats(PayloadWriter& out, const Eigen::VectorXf& numbers) {
   out.PutArray(std::span<const float>(numbers.data(), static_cast<size_t>(numbers.size())));
@@ -55,6 +57,23 @@ Eigen::MatrixXf GetHalves(PayloadReader& in, std::string_view field, Eigen::Inde
   return numbers;
 }
 
+void PutBytes(PayloadWriter& out, const Eigen::MatrixXf& weight) {
+  const WeightBytes bytes = BytesOf(weight);
+  PutFloats(out, bytes.step);
+  out.PutArray(std::span<const int8_t>(bytes.of.data(), static_cast<size_t>(bytes.of.size())));
+}
+
+Eigen::MatrixXf GetBytes(PayloadReader& in, std::string_view field, Eigen::Index rows,
+                         Eigen::Index columns) {
+  WeightBytes bytes;
+  bytes.step = GetFloats(in, field, columns);
+  for (const float step : bytes.step) CheckModest(in, field, kMostByte * step);
+  const auto of = in.GetVector<int8_t>(field);
+  Check(in, field, of.size(), rows * columns);
+  bytes.of = Eigen::Map<const decltype(bytes.of)>(of.data(), rows, columns);
+  return bytes.Weights();
+}
+
 }  // namespace
 
 uint16_t HalfOf(float number) {
@@ -77,11 +96,28 @@ Eigen::VectorXf RectifiedNetwork::Run(const Eigen::Ref<const Eigen::VectorXf>& i
   return value;
 }
 
-void PutNetwork(PayloadWriter& out, const RectifiedNetwork& network) {
+Eigen::MatrixXf WeightBytes::Weights() const { return of.cast<float>() * step.asDiagonal(); }
+
+WeightBytes BytesOf(const Eigen::MatrixXf& weight) {
+  WeightBytes bytes{{weight.rows(), weight.cols()}, Eigen::VectorXf::Zero(weight.cols())};
+  for (Eigen::Index i = 0; i < weight.cols(); ++i) {
+    // In halves of floats, 127 steps are a float and divided by 127 a step again.
+    const float largest = weight.col(i).cwiseAbs().maxCoeff<Eigen::PropagateNaN>();
+    bytes.step[i] = OfHalf(HalfOf(largest / kMostByte));
+    for (Eigen::Index o = 0; o < weight.rows(); ++o) {
+      const float steps = std::round(weight(o, i) / bytes.step[i]);  // NaN of a column of noughts
+      const float known = std::isfinite(steps) ? steps : 0.0F;
+      bytes.of(o, i) = static_cast<int8_t>(std::clamp(known, -kMostByte, kMostByte));
+    }
+  }
+  return bytes;
+}
+
+void PutNetwork(PayloadWriter& out, const RectifiedNetwork& network, WeightForm form) {
   PutFloats(out, network.input_mean);
   PutFloats(out, network.input_scale);
   for (const RectifiedNetwork::Layer& layer : network.layers) {
-    PutHalves(out, layer.weight);
+    form == WeightForm::kBytes ? PutBytes(out, layer.weight) : PutHalves(out, layer.weight);
     PutHalves(out, layer.bias);
   }
 }
@@ -95,14 +131,16 @@ Eigen::Index GetUnits(PayloadReader& in) {
   return units;
 }
 
-RectifiedNetwork GetNetwork(PayloadReader& in, const std::vector<Eigen::Index>& sizes) {
+RectifiedNetwork GetNetwork(PayloadReader& in, const std::vector<Eigen::Index>& sizes,
+                            WeightForm form) {
   RectifiedNetwork network;
   network.input_mean = GetFloats(in, "input means", sizes.front());
   network.input_scale = GetFloats(in, "input scales", sizes.front());
   for (size_t l = 1; l < sizes.size(); ++l) {
     const std::string layer = l + 1 == sizes.size() ? "output" : "unit";
     RectifiedNetwork::Layer& added = network.layers.emplace_back();
-    added.weight = GetHalves(in, layer + " weights", sizes[l], sizes[l - 1]);
+    const auto get = form == WeightForm::kBytes ? GetBytes : GetHalves;
+    added.weight = get(in, layer + " weights", sizes[l], sizes[l - 1]);
     added.bias = GetHalves(in, layer + " biases", sizes[l], 1);
   }
   return network;

@@ -34,12 +34,27 @@ inline float OfHalf(uint16_t half) {
   return std::bit_cast<float>(static_cast<uint32_t>(half) << 16U);
 }
 
-/// Into a payload; of the weights, the upper halves of their floats: the lower halves say nothing.
-/// How many units there are is not written.
-void PutNetwork(PayloadWriter& out, const RectifiedNetwork& network);
+/// A layer's weights in bytes: of each input's the largest is 127.
+struct WeightBytes {
+  Eigen::Matrix<int8_t, Eigen::Dynamic, Eigen::Dynamic> of;  // output x input
+  Eigen::VectorXf step;                                      // of each input: a byte's worth
+
+  Eigen::MatrixXf Weights() const;
+};
+/// Of weights that were bytes once, the same bytes.
+WeightBytes BytesOf(const Eigen::MatrixXf& weight);
+
+/// How weights are written: the upper halves of their floats (what is learned has no lower ones),
+/// or bytes.
+enum class WeightForm { kHalves, kBytes };
+
+/// Into a payload. How many units there are is not written.
+void PutNetwork(PayloadWriter& out, const RectifiedNetwork& network,
+                WeightForm form = WeightForm::kHalves);
 /// `sizes`: inputs, units of each hidden layer, outputs. Throws InputError where there are not so
 /// many or some number is immodest.
-RectifiedNetwork GetNetwork(PayloadReader& in, const std::vector<Eigen::Index>& sizes);
+RectifiedNetwork GetNetwork(PayloadReader& in, const std::vector<Eigen::Index>& sizes,
+                            WeightForm form = WeightForm::kHalves);
 
 /// How many units a layer has, of which no file may have absurdly many.
 Eigen::Index GetUnits(PayloadReader& in);

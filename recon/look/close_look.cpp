@@ -6,15 +6,62 @@
 #include <cmath>
 #include <vector>
 
+#include "depth/clones.h"
 #include "depth/file/sealed_file.h"
 
 namespace ossa::recon {
 namespace {
 
-constexpr SealedFormat kFormat = {{'O', 'S', 'S', 'A', 'L', 'K', '0', '0'}, 2, "close look"};
+constexpr SealedFormat kFormat = {{'O', 'S', 'S', 'A', 'L', 'K', '0', '0'}, 3, "close look"};
 
 constexpr double kMostBehind_mm = 300.0;
 constexpr double kNearer_mm = 30.0;  // by so much, something that is not the person is before it
+
+// Where on the two grids the samples of a joint are, by grid, row and column.
+struct Grids {
+  std::array<double, kLookSamples> x_m{}, y_m{};
+};
+
+constexpr Grids MakeGrids() {
+  Grids grids;
+  size_t next = 0;
+  for (const double step_m : kLookSteps_m) {
+    for (int row = 0; row < kLookGrid; ++row) {
+      for (int column = 0; column < kLookGrid; ++column, ++next) {
+        grids.x_m[next] = (column - kLookGrid / 2) * step_m;
+        grids.y_m[next] = (row - kLookGrid / 2) * step_m;
+      }
+    }
+  }
+  return grids;
+}
+
+// The samples of a joint as the camera has them.
+struct Samples {
+  std::array<double, kLookSamples> u{}, v{}, z_m{};  // in the image, and how far along its axis
+  std::array<double, kLookSamples> slant{};          // way along the ray, for each metre of z
+};
+
+// As depth::Project, side by side.
+OSSA_CLONES void Place(const depth::Camera& camera, const Eigen::Vector3d& joint_m,
+                       const Eigen::Matrix3d& camera_from_frame, Samples* samples) {
+  static constexpr Grids kGrids = MakeGrids();
+  const double x_m = joint_m.x(), y_m = joint_m.y(), z_m = joint_m.z();
+  const double xx = camera_from_frame(0, 0), xy = camera_from_frame(0, 1);
+  const double yx = camera_from_frame(1, 0), yy = camera_from_frame(1, 1);
+  const double zx = camera_from_frame(2, 0), zy = camera_from_frame(2, 1);
+  const double fx = camera.fx, fy = camera.fy, cx = camera.cx, cy = camera.cy;
+  for (size_t i = 0; i < kLookSamples; ++i) {
+    const double right_m = kGrids.x_m[i], down_m = kGrids.y_m[i];
+    const double z = z_m + zx * right_m + zy * down_m;
+    const double tangent_x = (x_m + xx * right_m + xy * down_m) / z;
+    const double tangent_y = (y_m + yx * right_m + yy * down_m) / z;
+    samples->u[i] = cx - fx * tangent_x;
+    samples->v[i] = cy - fy * tangent_y;
+    samples->z_m[i] = z;
+    samples->slant[i] = std::sqrt(1.0 + tangent_x * tangent_x + tangent_y * tangent_y);
+  }
+}
 
 // The neighbourhood of places in an image.
 class Sampler {
@@ -24,37 +71,29 @@ class Sampler {
         is_person_(input.is_person),
         camera_from_frame_(frame_from_camera.transpose()) {}
 
-  std::array<int16_t, kLookSamples> Around(const Eigen::Vector3d& joint_m) const {
+  std::array<int16_t, kLookSamples> Around(const Eigen::Vector3d& joint_m) {
+    Place(frame_.camera, joint_m, camera_from_frame_, &samples_);
     std::array<int16_t, kLookSamples> behind_mm{};
-    size_t next = 0;
-    for (const double step_m : kLookSteps_m) {
-      for (int row = 0; row < kLookGrid; ++row) {
-        for (int column = 0; column < kLookGrid; ++column) {
-          const Eigen::Vector3d aside_m((column - kLookGrid / 2) * step_m,
-                                        (row - kLookGrid / 2) * step_m, 0.0);
-          behind_mm[next++] = At(joint_m + camera_from_frame_ * aside_m);
-        }
-      }
-    }
+    for (size_t i = 0; i < kLookSamples; ++i) behind_mm[i] = At(i);
     return behind_mm;
   }
 
  private:
-  int16_t At(const Eigen::Vector3d& place_m) const {
+  int16_t At(size_t sample) const {
     constexpr double kNearest_m = 0.2;  // what is nearer is beside the sensor
-    if (place_m.z() < kNearest_m) return LookDescription::kHidden;
-    const Eigen::Vector2d pixel = depth::Project(frame_.camera, place_m);
+    const double z_m = samples_.z_m[sample];
+    if (z_m < kNearest_m) return LookDescription::kHidden;
+    const double right = samples_.u[sample], down = samples_.v[sample];
     const depth::DepthView view = frame_.view();
     // Compared as they are: a place far aside is a number that no int holds.
-    if (!(pixel.x() > -0.5 && pixel.x() < view.width - 0.5 && pixel.y() > -0.5 &&
-          pixel.y() < view.height - 0.5)) {
+    if (!(right > -0.5 && right < view.width - 0.5 && down > -0.5 && down < view.height - 0.5)) {
       return LookDescription::kHidden;
     }
-    const auto u = static_cast<int>(pixel.x() + 0.5);
-    const auto v = static_cast<int>(pixel.y() + 0.5);
+    const auto u = static_cast<int>(right + 0.5);
+    const auto v = static_cast<int>(down + 0.5);
     const uint16_t depth_mm = view.at(u, v);
     if (depth_mm == 0) return LookDescription::kBeside;
-    const double behind_mm = (depth_mm - 1e3 * place_m.z()) * place_m.norm() / place_m.z();
+    const double behind_mm = (depth_mm - 1e3 * z_m) * samples_.slant[sample];
     const auto index = static_cast<size_t>(v) * static_cast<size_t>(view.width);
     if (is_person_[index + static_cast<size_t>(u)] != 0) {
       return static_cast<int16_t>(std::clamp(behind_mm, -kMostBehind_mm, kMostBehind_mm));
@@ -65,6 +104,7 @@ class Sampler {
   const depth::DepthFrame& frame_;
   std::span<const uint8_t> is_person_;
   Eigen::Matrix3d camera_from_frame_;
+  Samples samples_;
 };
 
 // The mean of the proposals, those of little confidence less.
@@ -104,7 +144,7 @@ RectifiedNetwork GetLookNetwork(PayloadReader& in) {
   std::vector<Eigen::Index> sizes = {kLookInputs};
   for (uint32_t l = 0; l < hidden; ++l) sizes.push_back(GetUnits(in));
   sizes.push_back(3);
-  return GetNetwork(in, sizes);
+  return GetNetwork(in, sizes, WeightForm::kBytes);
 }
 
 }  // namespace
@@ -128,7 +168,7 @@ std::optional<LookDescription> LookDescription::Of(const LookInput& input) {
   if (!(out.middle_m.z() > 0.0 && level.norm() > kLeast)) return std::nullopt;
   const Eigen::Vector3d x = level.normalized();
   out.frame_from_camera << x.transpose(), z.cross(x).transpose(), z.transpose();
-  const Sampler sampler(input, out.frame_from_camera);
+  Sampler sampler(input, out.frame_from_camera);
   for (size_t j = 0; j < kJointCount; ++j) {
     const Eigen::Vector3d& joint_m = input.proposed.position_m[j];
     out.place.position_m[j] = out.frame_from_camera * (joint_m - out.middle_m);
@@ -236,7 +276,7 @@ void CloseLook::Save(const std::filesystem::path& path) const {
       for (size_t l = 0; l < hidden; ++l) {
         out.Put(static_cast<uint32_t>(network.layers[l].bias.size()));
       }
-      PutNetwork(out, network);
+      PutNetwork(out, network, WeightForm::kBytes);
     }
   }
   WriteSealedFile(path, kFormat, out.bytes());

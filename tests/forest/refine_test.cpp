@@ -44,7 +44,8 @@ TEST_P(ProductOfSizes, IsTheSumInItsOrderBitByBit) {
 INSTANTIATE_TEST_SUITE_P(Dense, ProductOfSizes,
                          testing::Values(std::array{1, 1, 1}, std::array{1, 40, 16},
                                          std::array{4, 7, 32}, std::array{5, 3, 37},
-                                         std::array{9, 64, 15}));
+                                         std::array{9, 64, 15}, std::array{13, 600, 37},
+                                         std::array{6, 256, 16}, std::array{8, 0, 20}));
 
 // The ball model with proposals and arrangements learned.
 const ForestModel& Arranged() {

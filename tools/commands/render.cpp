@@ -22,6 +22,7 @@ struct Arguments {
   std::vector<std::string> mocap;
   std::string out, size = "640x480", bodies = "random", noise = "kinect-v1", view = "front";
   std::string occluders = "none", split = "train", background, format = "png", camera = "kinect-v1";
+  std::string poses = "spread";
   int64_t frames = 0;
   uint64_t seed = 1;
   int people = 1;
@@ -48,6 +49,11 @@ void Declare(CLI::App& app, Arguments& a) {
       ->capture_default_str();
   app.add_option("--occluders", a.occluders, "objects held or in front, part 32")
       ->check(CLI::IsMember({"none", "held", "scene", "any"}))
+      ->capture_default_str();
+  app.add_option("--poses", a.poses,
+                 "spread: seldom ones nearly as often as common ones, arms anywhere at times; "
+                 "natural: as often as in the motion")
+      ->check(CLI::IsMember({"spread", "natural"}))
       ->capture_default_str();
   app.add_option("--people", a.people, "in each frame")
       ->check(CLI::Range(1, 6))
@@ -93,6 +99,10 @@ tools::FrameOptions OptionsOf(const Arguments& a) {
   options.sequence = a.sequence;
   options.people = a.people;
   options.seed = a.seed;
+  options.variation = tools::VariationOf(*tools::PosesFromName(a.poses));
+  if (a.sequence && a.poses != "spread") {
+    throw UsageError("--poses " + a.poses + ": a --sequence has the poses of its clip");
+  }
   if (options.generic_cameras && a.format != "packed") {
     throw UsageError("--camera generic: needs --format packed, where each frame has its camera");
   }
@@ -109,6 +119,7 @@ std::string CommandOf(const Arguments& a) {
       a.frames, a.seed, a.size, a.bodies, a.noise, a.view, a.occluders, a.people, a.split, a.camera,
       a.format);
   if (!a.background.empty()) command += " --background " + a.background;
+  if (a.poses != "spread") command += " --poses " + a.poses;
   if (a.sequence) command += " --sequence";
   return command;
 }
@@ -141,8 +152,9 @@ int Render(int argc, char** argv) {
   recon::MocapOptions mocap_options;
   mocap_options.seed = a.seed;
   const auto clips = recon::LoadMocap(a.mocap, mocap_options);
+  const tools::PoseBankOptions bank = tools::BankOf(*tools::PosesFromName(a.poses));
   auto poses =
-      a.sequence ? tools::SequencePoses(clips, a.frames, a.seed) : tools::MakePoseBank(clips);
+      a.sequence ? tools::SequencePoses(clips, a.frames, a.seed) : tools::MakePoseBank(clips, bank);
   if (poses.empty()) throw InputError(a.mocap.front() + ": expected motion, found no frames");
   const tools::FrameStudio studio(recon::BodyModel::Load(recon::BodyFolder()), std::move(poses),
                                   options);

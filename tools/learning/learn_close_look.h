@@ -13,7 +13,7 @@ namespace ossa::tools {
 struct CloseLookOptions {
   recon::CloseLook after;                // whose glances come first
   std::string model_name = "the model";  // in errors
-  int hidden = 128;  // units of each network's first layer, half as many of the second; 2..1024
+  int hidden = 256;  // units of each network's first layer, half as many of the second; 2..1024
   int epochs = 12;   // times that every person is looked at
   uint64_t seed = 1;
   int threads = 0;                                 // 0: all; they do not change the network

@@ -5,18 +5,19 @@
 namespace ossa::tools {
 namespace {
 
-// Column by column: the inputs may fill much of the memory.
+// Row by row, as they lie: the inputs may fill much of the memory.
 void Normalise(forest::RowMatrix* input, recon::RectifiedNetwork* network) {
   constexpr double kLeastDeviation = 1e-3;
-  network->input_mean.resize(input->cols());
-  network->input_scale.resize(input->cols());
-  for (Eigen::Index i = 0; i < input->cols(); ++i) {
-    const Eigen::VectorXd column = input->col(i).cast<double>();
-    const double mean = column.mean();
-    const double deviation = std::sqrt((column.array() - mean).square().mean());
-    network->input_mean[i] = static_cast<float>(mean);
-    network->input_scale[i] = static_cast<float>(1.0 / (deviation + kLeastDeviation));
-    input->col(i) = (input->col(i).array() - network->input_mean[i]) * network->input_scale[i];
+  const auto count = static_cast<double>(input->rows());
+  Eigen::RowVectorXd mean = Eigen::RowVectorXd::Zero(input->cols()), square = mean;
+  for (const auto& row : input->rowwise()) mean += row.cast<double>();
+  mean /= count;
+  for (const auto& row : input->rowwise()) square += (row.cast<double>() - mean).cwiseAbs2();
+  const Eigen::RowVectorXd deviation = (square / count).cwiseSqrt();
+  network->input_mean = mean.cast<float>();
+  network->input_scale = (deviation.array() + kLeastDeviation).inverse().cast<float>();
+  for (auto row : input->rowwise()) {
+    row = (row - network->input_mean.transpose()).cwiseProduct(network->input_scale.transpose());
   }
 }
 

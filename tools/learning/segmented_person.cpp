@@ -1,7 +1,6 @@
 #include "tools/learning/segmented_person.h"
 
 #include <algorithm>
-#include <cmath>
 #include <cstddef>
 
 #include "depth/scene/point_grid.h"
@@ -31,15 +30,19 @@ std::vector<uint8_t> SegmentedPerson(const LabelledFrame& frame, int id) {
   const depth::DepthView view = frame.depth.view();
   std::vector<uint8_t> is_person(frame.depth.depth_mm.size(), 0);
   std::vector<int> front;
+  bool has_things = false;
   for (size_t i = 0; i < is_person.size(); ++i) {
     const uint8_t part = frame.parts.data[i];
-    if (frame.users.data[i] != id || part == 0 || part == recon::kOtherPart) continue;
+    if (frame.users.data[i] != id || part == 0) continue;
+    has_things = has_things || part == recon::kOtherPart;
+    if (part == recon::kOtherPart) continue;
     if (frame.depth.depth_mm[i] == 0) continue;
     const auto u = static_cast<int>(i) % view.width, v = static_cast<int>(i) / view.width;
     if (frame.floor && MayBeFloor(frame, u, v)) continue;
     is_person[i] = 1;
     front.push_back(static_cast<int>(i));
   }
+  if (!has_things) return is_person;
   const int reach = kCellsOver * depth::CellPixels(view.width);
   for (size_t f = 0; f < front.size(); ++f) {
     const int at = front[f], u = at % view.width, v = at / view.width;
@@ -67,14 +70,18 @@ void LayFloor(LabelledFrame* frame) {
   if (!frame->floor) return;
   constexpr double kNearest_m = 0.4, kFarthest_m = 8.0;  // of what a sensor measures
   const depth::Camera& camera = frame->depth.camera;
+  const Eigen::Vector3d normal = frame->floor->head<3>();
+  const auto towards = [&](double u, double v) {  // the floor, a metre along the axis
+    return normal.dot(depth::BackProject(camera, u, v, 1e3));
+  };
   for (int v = 0; v < camera.height; ++v) {
+    const double start = towards(0, v), step = towards(1, v) - start;
     for (int u = 0; u < camera.width; ++u) {
       uint16_t& depth_mm = frame->depth.depth_mm[static_cast<size_t>(v * camera.width + u)];
       if (depth_mm != 0) continue;
-      const Eigen::Vector3d ray = depth::BackProject(camera, u, v, 1e3);  // at a metre
-      const double z_m = -(*frame->floor)[3] / frame->floor->head<3>().dot(ray);
+      const double z_m = -(*frame->floor)[3] / (start + u * step);
       if (z_m > kNearest_m && z_m < kFarthest_m) {
-        depth_mm = static_cast<uint16_t>(std::lround(1e3 * z_m));
+        depth_mm = static_cast<uint16_t>(1e3 * z_m + 0.5);
       }
     }
   }

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numbers>
 #include <unordered_map>
 
@@ -148,6 +149,22 @@ std::vector<recon::RigPose> MakePoseBank(const std::vector<recon::MotionClip>& c
     }
   }
   return bank;
+}
+
+std::optional<Poses> PosesFromName(std::string_view name) {
+  if (name == "spread") return Poses::kSpread;
+  if (name == "natural") return Poses::kNatural;
+  return std::nullopt;
+}
+
+PoseBankOptions BankOf(Poses poses) {
+  if (poses == Poses::kSpread) return {};
+  return {.least_distance_m = 0.0, .most_alike = std::numeric_limits<int>::max()};
+}
+
+PoseVariation VariationOf(Poses poses) {
+  if (poses == Poses::kSpread) return {};
+  return {.random_arm_share = 0.0, .perturbation_rad = 0.04};
 }
 
 recon::RigPose Varied(const recon::RigPose& from, const PoseVariation& variation, Random& random) {

@@ -1,4 +1,6 @@
 #pragma once
+#include <optional>
+#include <string_view>
 #include <vector>
 
 #include "recon/body/rig.h"
@@ -24,6 +26,15 @@ struct PoseVariation {
   double perturbation_rad = 0.08;  // of each limb, standard deviation
   double wrist_rad = 0.35;         // of the hand against the forearm, which mocap lacks
 };
+
+/// How often poses are had.
+enum class Poses {
+  kSpread,   // what people do seldom nearly as often as what they do all the time
+  kNatural,  // as often as people take them: a pose is as likely as another of the clips
+};
+std::optional<Poses> PosesFromName(std::string_view name);
+PoseBankOptions BankOf(Poses poses);
+PoseVariation VariationOf(Poses poses);
 
 /// The pose seen in a mirror: left and right change places.
 recon::RigPose Mirrored(const recon::RigPose& pose);

@@ -24,7 +24,7 @@ TEST(LookCommand, LearnsTheSameForAnyThreadsAndTrackLooksWithIt) {
   if (!std::filesystem::exists(recon::BodyFolder())) GTEST_SKIP() << "no body: tools/fetch_body";
   const test::TemporaryFolder folder;
   const std::string people = folder / "people", clip = folder / "clip";
-  ASSERT_EQ(RunOssa({"render", "--mocap", "authored", "--out", people, "--frames", "80", "--size",
+  ASSERT_EQ(RunOssa({"render", "--mocap", "authored", "--out", people, "--frames", "150", "--size",
                      "160x120", "--format", "packed", "--quiet"})
                 .exit_status,
             0);
@@ -36,7 +36,7 @@ TEST(LookCommand, LearnsTheSameForAnyThreadsAndTrackLooksWithIt) {
   };
   const std::string look = folder / "a.ossalook";
   EXPECT_EQ(learn("1", look), learn("3", folder / "b.ossalook"));
-  EXPECT_GE(recon::CloseLook::Load(look).people, 64U);
+  EXPECT_GE(recon::CloseLook::Load(look).people, 128U);
   EXPECT_EQ(recon::CloseLook::Load(look).glances.at(0)[0].layers.at(0).bias.size(), 4);
   EXPECT_EQ(recon::CloseLook::Load(look).glances.at(0)[0].layers.at(1).bias.size(), 2);
   const auto info = RunOssa({"info", look});
