@@ -32,7 +32,7 @@ struct NetworkOptions {
   Eigen::Index batch = kNetworkBatch;
   float rate = 1e-3F;    // of Adam, at its highest
   float decay = 0.02F;   // of weights, a unit of the rate
-  float dropped = 0.1F;  // share of hidden units at each step, [0, 1)
+  float dropped = 0.1F;  // share of hidden units a step; for a forest 0.2 and none are worse
   uint64_t seed = 1;
   std::function<void(int64_t step, int64_t steps)> progress;
   std::function<bool()> stop;  // true: end with TrainInterrupted as soon as possible

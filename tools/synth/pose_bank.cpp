@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <numbers>
 #include <unordered_map>
 
 #include "recon/body/standard_body.h"
@@ -15,8 +14,6 @@ namespace {
 using Eigen::AngleAxisd;
 using Eigen::Quaterniond;
 using Eigen::Vector3d;
-
-constexpr double kPi = std::numbers::pi;
 
 // First bone of each limb and how many bones follow it in a row (rig.h's order).
 struct Chain {

@@ -103,5 +103,25 @@ TEST(LookCommand, SaysWhatIsWrongInOneLine) {
   EXPECT_FALSE(std::filesystem::exists(out));
 }
 
+TEST(LookCommand, HasNoGlanceMoreThanMayBe) {
+  const test::TemporaryFolder folder;
+  recon::CloseLook look;
+  look.glances.resize(recon::CloseLook::kMostGlances);
+  for (recon::Glance& glance : look.glances) {
+    for (recon::RectifiedNetwork& network : glance) {
+      network.input_mean = Eigen::VectorXf::Zero(recon::kLookInputs);
+      network.input_scale = Eigen::VectorXf::Ones(recon::kLookInputs);
+      network.layers = {{Eigen::MatrixXf::Zero(3, recon::kLookInputs), Eigen::VectorXf::Zero(3)}};
+    }
+  }
+  const std::string most = folder / "most.ossalook";
+  look.Save(most);
+  const auto run =
+      RunOssa({"look", "/nonexistent", "--after", most, "--out", folder / "x.ossalook"});
+  EXPECT_EQ(run.exit_status, 1);
+  EXPECT_NE(run.err.find(most + ": expected less than 8 glances"), std::string::npos) << run.err;
+  EXPECT_EQ(test::LineCount(run.err), 1) << run.err;
+}
+
 }  // namespace
 }  // namespace ossa::commands
