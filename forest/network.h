@@ -38,9 +38,9 @@ struct NetworkOptions {
   std::function<bool()> stop;  // true: end with TrainInterrupted as soon as possible
 };
 
-/// Learns a network by Adam with dropout (network_trainer_internal.h), in
-/// batches; what does not fill a batch waits for the next epoch. The same bytes on
-/// every machine and for any number of threads. The weights' lower 16 bits are 0.
+/// Learns a network by Adam with dropout (network_trainer_internal.h), in batches; what does not
+/// fill a batch waits for the next epoch. The same bytes on every machine and for any number of
+/// threads. The weights' lower 16 bits are 0.
 std::vector<NetworkLayer> LearnNetwork(const NetworkExamples& examples,
                                        const LossGradient& gradient, const NetworkOptions& options);
 
