@@ -19,89 +19,82 @@ using WordLanes = int32_t __attribute__((vector_size(kLanes * sizeof(int32_t))))
 // numbers without leaving their lane.
 constexpr size_t kInWords = kLanes * sizeof(int32_t);
 
-// An input that says something: its column of the weights, and by how much to take it.
-struct Term {
-  const int8_t* column = nullptr;
+constexpr size_t kAhead = 24;  // terms whose weights are fetched while others are added
+
+// Where among the weights of a line that of a unit lies.
+size_t PlaceOf(size_t unit) {
+  const size_t in_group = unit % kInWords;
+  return unit - in_group + in_group % kLanes * sizeof(int32_t) + in_group / kLanes;
+}
+
+}  // namespace
+
+// An input that says something, and by how much to take its weights.
+struct NetworkRunner::Term {
+  uint32_t input = 0;
   float factor = 0.0F;
 };
 
-constexpr size_t kAhead = 12;  // terms whose weights are fetched while others are added
+// The terms of the factors that are not nought, and kAhead more. Without a branch: which ones are
+// not, nobody foresees.
+size_t NetworkRunner::TermsOf(const Eigen::VectorXf& factors, const Layer& layer,
+                              std::vector<Term>& terms) {
+  const auto inputs = static_cast<size_t>(layer.step.size());  // factors may be padded
+  terms.resize(inputs + kAhead);
+  size_t count = 0;
+  for (size_t i = 0; i < inputs; ++i) {
+    const auto at = static_cast<Eigen::Index>(i);
+    terms[count] = {static_cast<uint32_t>(i), factors[at] * layer.step[at]};
+    count += factors[at] != 0.0F ? 1 : 0;
+  }
+  std::fill_n(terms.begin() + static_cast<std::ptrdiff_t>(count), kAhead, Term{});
+  return count;
+}
 
-// kGroups times kInWords sums, held in registers while all terms go by.
-template <size_t kGroups>
-[[gnu::always_inline]] inline void AddTile(const Term* terms, size_t count, size_t row,
-                                           float* sums) {
+// To the sums of the units of a line, which registers hold while all terms go by.
+OSSA_CLONES void NetworkRunner::AddTerms(const std::vector<Term>& terms, size_t count,
+                                         const Line* lines, float* sums) {
+  constexpr size_t kGroups = sizeof(Line) / kInWords;
   constexpr int32_t kHighest = static_cast<int32_t>(0xff000000U);
   Lanes sum[kGroups][sizeof(int32_t)];
-  std::memcpy(sum, sums + row, sizeof(sum));
-  for (size_t t = 0; t < count; ++t) {
-    __builtin_prefetch(terms[t + kAhead].column + row);
-    const float factor = terms[t].factor * 0x1p-24F;
+  std::memcpy(sum, sums, sizeof(sum));
+  const Term* term = terms.data();
+  for (const Term* const end = term + count; term < end; ++term) {
+    __builtin_prefetch(lines + term[kAhead].input);
+    const float factor = term->factor * 0x1p-24F;
     for (size_t group = 0; group < kGroups; ++group) {
       WordLanes words;
-      std::memcpy(&words, terms[t].column + row + group * kInWords, sizeof(words));
+      std::memcpy(&words, lines[term->input].weights.data() + group * kInWords, sizeof(words));
       sum[group][0] += factor * __builtin_convertvector(words << 24, Lanes);
       sum[group][1] += factor * __builtin_convertvector((words << 16) & kHighest, Lanes);
       sum[group][2] += factor * __builtin_convertvector((words << 8) & kHighest, Lanes);
       sum[group][3] += factor * __builtin_convertvector(words & kHighest, Lanes);
     }
   }
-  std::memcpy(sums + row, sum, sizeof(sum));
+  std::memcpy(sums, sum, sizeof(sum));
 }
-
-// `rows`: a multiple of kInWords. After the terms there are kAhead more, of any column.
-OSSA_CLONES void AddTerms(const Term* terms, size_t count, size_t rows, float* sums) {
-  size_t row = 0;
-  for (; row + 2 * kInWords <= rows; row += 2 * kInWords) AddTile<2>(terms, count, row, sums);
-  for (; row < rows; row += kInWords) AddTile<1>(terms, count, row, sums);
-}
-
-size_t Padded(Eigen::Index rows) {
-  return (static_cast<size_t>(rows) + kInWords - 1) / kInWords * kInWords;
-}
-
-// Where among its input's bytes the weight of a unit lies.
-size_t PlaceOf(size_t unit) {
-  const size_t in_group = unit % kInWords;
-  return unit - in_group + in_group % kLanes * sizeof(int32_t) + in_group / kLanes;
-}
-
-// The terms of the factors that are not nought, and kAhead more. Without a branch: which ones are
-// not, nobody foresees.
-size_t TermsOf(const Eigen::VectorXf& factors, const int8_t* weights, size_t stride,
-               const Eigen::VectorXf& step, std::vector<Term>& terms) {
-  const auto inputs = static_cast<size_t>(step.size());  // factors may be padded
-  terms.resize(inputs + kAhead);
-  size_t count = 0;
-  for (size_t i = 0; i < inputs; ++i) {
-    const auto at = static_cast<Eigen::Index>(i);
-    terms[count] = {weights + i * stride, factors[at] * step[at]};
-    count += factors[at] != 0.0F ? 1 : 0;
-  }
-  std::fill_n(terms.begin() + static_cast<std::ptrdiff_t>(count), kAhead, Term{weights, 0.0F});
-  return count;
-}
-
-}  // namespace
 
 NetworkRunner::NetworkRunner(RectifiedNetwork network) : network_(std::move(network)) {
   nought_ = network_.Normalised(Eigen::VectorXf::Zero(network_.input_mean.size()));
   for (const RectifiedNetwork::Layer& layer : std::exchange(network_.layers, {})) {
+    const auto units = static_cast<size_t>(layer.weight.rows());
+    const auto inputs = static_cast<size_t>(layer.weight.cols());
+    const size_t blocks = (units + sizeof(Line) - 1) / sizeof(Line);
     const WeightBytes bytes = BytesOf(layer.weight);
     Layer& ready = layers_.emplace_back();
-    ready.stride = Padded(layer.weight.rows());
-    ready.at_zero = Eigen::VectorXf::Zero(static_cast<Eigen::Index>(ready.stride));
+    ready.step = bytes.step;
+    ready.at_zero = Eigen::VectorXf::Zero(static_cast<Eigen::Index>(blocks * sizeof(Line)));
     ready.at_zero.head(layer.bias.size()) = layer.bias;
     if (layers_.size() == 1) ready.at_zero.head(layer.bias.size()) += layer.weight * nought_;
-    ready.step = bytes.step;
-    outputs_ = layer.bias.size();
-    ready.weights.assign(ready.stride * static_cast<size_t>(layer.weight.cols()), 0);
-    for (Eigen::Index c = 0; c < layer.weight.cols(); ++c) {
-      int8_t* column = ready.weights.data() + static_cast<size_t>(c) * ready.stride;
-      for (Eigen::Index r = 0; r < layer.weight.rows(); ++r) {
-        column[PlaceOf(static_cast<size_t>(r))] = bytes.of(r, c);
+    ready.lines.resize(blocks * inputs, Line{});
+    for (size_t i = 0; i < inputs; ++i) {
+      for (size_t unit = 0; unit < units; ++unit) {
+        Line& line = ready.lines[unit / sizeof(Line) * inputs + i];
+        line.weights[PlaceOf(unit % sizeof(Line))] =
+            bytes.of(static_cast<Eigen::Index>(unit), static_cast<Eigen::Index>(i));
       }
     }
+    outputs_ = layer.bias.size();
   }
 }
 
@@ -111,11 +104,14 @@ Eigen::MatrixXf NetworkRunner::Run(const Eigen::Ref<const Eigen::MatrixXf>& inpu
   for (Eigen::Index c = 0; c < inputs.cols(); ++c) {
     Eigen::VectorXf value = network_.Normalised(inputs.col(c)) - nought_;
     for (const Layer& layer : layers_) {
-      const size_t count = TermsOf(value, layer.weights.data(), layer.stride, layer.step, terms);
-      Eigen::VectorXf sums = layer.at_zero;
-      AddTerms(terms.data(), count, layer.stride, sums.data());
-      value = std::move(sums);
-      if (&layer != &layers_.back()) value = value.cwiseMax(0.0F).eval();
+      if (&layer != &layers_.front()) value = value.cwiseMax(0.0F).eval();
+      const size_t count = TermsOf(value, layer, terms);
+      value = layer.at_zero;
+      const Line* lines = layer.lines.data();
+      for (Eigen::Index unit = 0; unit < value.size(); unit += sizeof(Line)) {
+        AddTerms(terms, count, lines, value.data() + unit);
+        lines += layer.step.size();
+      }
     }
     outputs.col(c) = value.head(outputs_);
   }

@@ -1,4 +1,5 @@
 #pragma once
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <vector>
@@ -21,12 +22,21 @@ class NetworkRunner {
   Eigen::MatrixXf Run(const Eigen::Ref<const Eigen::MatrixXf>& inputs) const;
 
  private:
-  struct Layer {
-    std::vector<int8_t> weights;  // input by input, `stride` bytes each
-    size_t stride = 0;            // as many as the layer has units, or a few more that say nothing
-    Eigen::VectorXf step;         // of each input: a byte's worth
-    Eigen::VectorXf at_zero;      // what each unit says when all inputs are nought
+  /// The weights of one input for as many units as a line of the cache holds.
+  struct alignas(64) Line {
+    std::array<int8_t, 64> weights;
   };
+  struct Layer {
+    std::vector<Line> lines;  // those of all inputs for the first units, then for the next ones
+    Eigen::VectorXf step;     // of each input: a byte's worth
+    Eigen::VectorXf at_zero;  // what each unit says when all inputs are nought; fills the lines
+  };
+  struct Term;
+
+  static size_t TermsOf(const Eigen::VectorXf& factors, const Layer& layer,
+                        std::vector<Term>& terms);
+  static void AddTerms(const std::vector<Term>& terms, size_t count, const Line* lines,
+                       float* sums);
 
   RectifiedNetwork network_;  // without its layers: it knows how inputs are normalised
   Eigen::VectorXf nought_;    // inputs of nought, normalised
