@@ -1,9 +1,8 @@
-#include <sys/mman.h>
-
 #include <algorithm>
 #include <array>
 #include <cmath>
 
+#include "depth/large_pages.h"
 #include "forest/runtime_internal.h"
 
 namespace ossa::forest {
@@ -139,22 +138,10 @@ void FillShares(const LeafCells& cells, size_t leaf, size_t leaf_count, ShareRow
   }
 }
 
-// Trees and tables are read at random places; with pages of 4 kB most reads would miss the
-// translation cache first. A wish: where the system refuses, all is as good but slower.
+// Trees and tables are read at random places.
 template <typename T>
 void PreferLargePages(const std::vector<T>& table) {
-#if defined(__linux__)
-  constexpr int kCollapse = 25;  // MADV_COLLAPSE of Linux 6.1, missing in older headers
-  constexpr uintptr_t kPage = uintptr_t{2} << 20U;
-  const auto begin = (reinterpret_cast<uintptr_t>(table.data()) + kPage - 1) / kPage * kPage;
-  const auto end = reinterpret_cast<uintptr_t>(table.data() + table.size()) / kPage * kPage;
-  if (begin >= end) return;
-  auto* memory = reinterpret_cast<void*>(begin);
-  madvise(memory, end - begin, MADV_HUGEPAGE);
-  madvise(memory, end - begin, kCollapse);
-#else
-  static_cast<void>(table);
-#endif
+  ossa::PreferLargePages(table.data(), table.size() * sizeof(T));
 }
 
 // Variance of the difference of two targets' positions, summed over contexts and axes.

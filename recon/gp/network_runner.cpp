@@ -1,30 +1,31 @@
 #include "recon/gp/network_runner.h"
 
 #include <algorithm>
+#include <bit>
 #include <cstring>
 #include <utility>
 #include <vector>
 
 #include "depth/clones.h"
+#include "depth/large_pages.h"
 
 namespace ossa::recon {
 namespace {
 
-constexpr size_t kLanes = 8;
+constexpr size_t kLanes = 16;
 using Lanes = float __attribute__((vector_size(kLanes * sizeof(float))));
 using WordLanes = int32_t __attribute__((vector_size(kLanes * sizeof(int32_t))));
 
-// The weights of so many units lie in as many words as there are lanes: the word of a lane has in
-// its lowest byte the unit of that lane, in the next the one kLanes units on. Thus bytes become
-// numbers without leaving their lane.
-constexpr size_t kInWords = kLanes * sizeof(int32_t);
+// The weights of a line are as many words as there are lanes: the word of a lane has in its lowest
+// byte the unit of that lane, in the next the one kLanes units on. Thus bytes become numbers
+// without leaving their lane.
+size_t PlaceOf(size_t unit) { return unit % kLanes * sizeof(int32_t) + unit / kLanes; }
 
 constexpr size_t kAhead = 24;  // terms whose weights are fetched while others are added
 
-// Where among the weights of a line that of a unit lies.
-size_t PlaceOf(size_t unit) {
-  const size_t in_group = unit % kInWords;
-  return unit - in_group + in_group % kLanes * sizeof(int32_t) + in_group / kLanes;
+// How often a line is filled by the weights of one input.
+size_t BlocksOf(const RectifiedNetwork::Layer& layer, size_t units_a_line) {
+  return (static_cast<size_t>(layer.weight.rows()) + units_a_line - 1) / units_a_line;
 }
 
 }  // namespace
@@ -35,8 +36,8 @@ struct NetworkRunner::Term {
   float factor = 0.0F;
 };
 
-// The terms of the factors that are not nought, and kAhead more. Without a branch: which ones are
-// not, nobody foresees.
+// The terms of the factors that are not nought. Without a branch: which ones are not, nobody
+// foresees. After them come the first ones again, whose weights for the next units are wanted next.
 size_t NetworkRunner::TermsOf(const Eigen::VectorXf& factors, const Layer& layer,
                               std::vector<Term>& terms) {
   const auto inputs = static_cast<size_t>(layer.step.size());  // factors may be padded
@@ -45,51 +46,80 @@ size_t NetworkRunner::TermsOf(const Eigen::VectorXf& factors, const Layer& layer
   for (size_t i = 0; i < inputs; ++i) {
     const auto at = static_cast<Eigen::Index>(i);
     terms[count] = {static_cast<uint32_t>(i), factors[at] * layer.step[at]};
-    count += factors[at] != 0.0F ? 1 : 0;
+    count += (std::bit_cast<uint32_t>(factors[at]) << 1U) != 0 ? 1 : 0;  // the sign of nought
   }
-  std::fill_n(terms.begin() + static_cast<std::ptrdiff_t>(count), kAhead, Term{});
+  for (size_t i = 0; i < kAhead; ++i) terms[count + i] = i < count ? terms[i] : Term{};
   return count;
 }
 
 // To the sums of the units of a line, which registers hold while all terms go by.
-OSSA_CLONES void NetworkRunner::AddTerms(const std::vector<Term>& terms, size_t count,
-                                         const Line* lines, float* sums) {
-  constexpr size_t kGroups = sizeof(Line) / kInWords;
+OSSA_WIDE_CLONES void NetworkRunner::AddTerms(const std::vector<Term>& terms, size_t count,
+                                              const Line* lines, const Line* next_lines,
+                                              float* sums) {
+  static_assert(sizeof(Line) == sizeof(WordLanes));
   constexpr int32_t kHighest = static_cast<int32_t>(0xff000000U);
-  Lanes sum[kGroups][sizeof(int32_t)];
+  Lanes sum[sizeof(int32_t)];
   std::memcpy(sum, sums, sizeof(sum));
   const Term* term = terms.data();
-  for (const Term* const end = term + count; term < end; ++term) {
-    __builtin_prefetch(lines + term[kAhead].input);
+  const Term* const end = term + count;
+  const Term* const last_lap = term + (count - std::min(count, kAhead));
+  for (; term < end; ++term) {
+    __builtin_prefetch((term < last_lap ? lines : next_lines) + term[kAhead].input);
     const float factor = term->factor * 0x1p-24F;
-    for (size_t group = 0; group < kGroups; ++group) {
-      WordLanes words;
-      std::memcpy(&words, lines[term->input].weights.data() + group * kInWords, sizeof(words));
-      sum[group][0] += factor * __builtin_convertvector(words << 24, Lanes);
-      sum[group][1] += factor * __builtin_convertvector((words << 16) & kHighest, Lanes);
-      sum[group][2] += factor * __builtin_convertvector((words << 8) & kHighest, Lanes);
-      sum[group][3] += factor * __builtin_convertvector(words & kHighest, Lanes);
-    }
+    WordLanes words;
+    std::memcpy(&words, lines + term->input, sizeof(words));
+    sum[0] += factor * __builtin_convertvector(words << 24, Lanes);
+    sum[1] += factor * __builtin_convertvector((words << 16) & kHighest, Lanes);
+    sum[2] += factor * __builtin_convertvector((words << 8) & kHighest, Lanes);
+    sum[3] += factor * __builtin_convertvector(words & kHighest, Lanes);
   }
   std::memcpy(sums, sum, sizeof(sum));
 }
 
-NetworkRunner::NetworkRunner(RectifiedNetwork network) : network_(std::move(network)) {
+size_t NetworkRunner::LinesOf(const RectifiedNetwork& network) {
+  size_t lines = 0;
+  for (const RectifiedNetwork::Layer& layer : network.layers) {
+    lines += BlocksOf(layer, sizeof(Line)) * static_cast<size_t>(layer.weight.cols());
+  }
+  return lines;
+}
+
+NetworkRunner::NetworkRunner(const RectifiedNetwork& network)
+    : NetworkRunner(std::move(Of({&network}).front())) {}
+
+std::vector<NetworkRunner> NetworkRunner::Of(const std::vector<const RectifiedNetwork*>& networks) {
+  size_t count = 0;
+  for (const RectifiedNetwork* network : networks) count += LinesOf(*network);
+  auto lines = std::make_shared<std::vector<Line>>();
+  lines->reserve(count);
+  PreferLargePages(lines->data(), count * sizeof(Line));  // while none of it has a page yet
+  std::vector<NetworkRunner> runners(networks.size());
+  for (size_t n = 0; n < networks.size(); ++n) {
+    runners[n].Add(*networks[n], lines.get());
+    runners[n].lines_ = lines;
+  }
+  return runners;
+}
+
+void NetworkRunner::Add(const RectifiedNetwork& network, std::vector<Line>* lines) {
+  network_.input_mean = network.input_mean;
+  network_.input_scale = network.input_scale;
   nought_ = network_.Normalised(Eigen::VectorXf::Zero(network_.input_mean.size()));
-  for (const RectifiedNetwork::Layer& layer : std::exchange(network_.layers, {})) {
+  for (const RectifiedNetwork::Layer& layer : network.layers) {
     const auto units = static_cast<size_t>(layer.weight.rows());
     const auto inputs = static_cast<size_t>(layer.weight.cols());
-    const size_t blocks = (units + sizeof(Line) - 1) / sizeof(Line);
+    const size_t blocks = BlocksOf(layer, sizeof(Line));
     const WeightBytes bytes = BytesOf(layer.weight);
     Layer& ready = layers_.emplace_back();
     ready.step = bytes.step;
     ready.at_zero = Eigen::VectorXf::Zero(static_cast<Eigen::Index>(blocks * sizeof(Line)));
     ready.at_zero.head(layer.bias.size()) = layer.bias;
     if (layers_.size() == 1) ready.at_zero.head(layer.bias.size()) += layer.weight * nought_;
-    ready.lines.resize(blocks * inputs, Line{});
+    ready.first_line = lines->size();
+    lines->resize(lines->size() + blocks * inputs, Line{});
     for (size_t i = 0; i < inputs; ++i) {
       for (size_t unit = 0; unit < units; ++unit) {
-        Line& line = ready.lines[unit / sizeof(Line) * inputs + i];
+        Line& line = (*lines)[ready.first_line + unit / sizeof(Line) * inputs + i];
         line.weights[PlaceOf(unit % sizeof(Line))] =
             bytes.of(static_cast<Eigen::Index>(unit), static_cast<Eigen::Index>(i));
       }
@@ -107,10 +137,11 @@ Eigen::MatrixXf NetworkRunner::Run(const Eigen::Ref<const Eigen::MatrixXf>& inpu
       if (&layer != &layers_.front()) value = value.cwiseMax(0.0F).eval();
       const size_t count = TermsOf(value, layer, terms);
       value = layer.at_zero;
-      const Line* lines = layer.lines.data();
+      const Line* lines = lines_->data() + layer.first_line;
       for (Eigen::Index unit = 0; unit < value.size(); unit += sizeof(Line)) {
-        AddTerms(terms, count, lines, value.data() + unit);
-        lines += layer.step.size();
+        const Line* next_lines = lines + layer.step.size();  // beyond the last: only fetched
+        AddTerms(terms, count, lines, next_lines, value.data() + unit);
+        lines = next_lines;
       }
     }
     outputs.col(c) = value.head(outputs_);

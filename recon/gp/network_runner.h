@@ -2,6 +2,7 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <memory>
 #include <vector>
 
 #include "recon/gp/rectified_network.h"
@@ -15,7 +16,9 @@ class NetworkRunner {
  public:
   NetworkRunner() = default;
   /// Precondition: the network has layers.
-  explicit NetworkRunner(RectifiedNetwork network);
+  explicit NetworkRunner(const RectifiedNetwork& network);
+  /// Of networks that are run one after the other: their weights lie together, in large pages.
+  static std::vector<NetworkRunner> Of(const std::vector<const RectifiedNetwork*>& networks);
 
   /// As RectifiedNetwork::Run of a network whose weights are bytes (BytesOf) but for the order of
   /// sums, of several inputs at a time, a column each; so are the outputs.
@@ -27,7 +30,7 @@ class NetworkRunner {
     std::array<int8_t, 64> weights;
   };
   struct Layer {
-    std::vector<Line> lines;  // those of all inputs for the first units, then for the next ones
+    size_t first_line = 0;    // those of all inputs for the first units, then for the next ones
     Eigen::VectorXf step;     // of each input: a byte's worth
     Eigen::VectorXf at_zero;  // what each unit says when all inputs are nought; fills the lines
   };
@@ -36,8 +39,11 @@ class NetworkRunner {
   static size_t TermsOf(const Eigen::VectorXf& factors, const Layer& layer,
                         std::vector<Term>& terms);
   static void AddTerms(const std::vector<Term>& terms, size_t count, const Line* lines,
-                       float* sums);
+                       const Line* next_lines, float* sums);
+  static size_t LinesOf(const RectifiedNetwork& network);
+  void Add(const RectifiedNetwork& network, std::vector<Line>* lines);
 
+  std::shared_ptr<const std::vector<Line>> lines_;  // of all that are run together
   RectifiedNetwork network_;  // without its layers: it knows how inputs are normalised
   Eigen::VectorXf nought_;    // inputs of nought, normalised
   std::vector<Layer> layers_;

@@ -226,14 +226,15 @@ Eigen::VectorXf NumbersOf(const LookDescription& description, Joint joint) {
 }
 
 Looker::Looker(const CloseLook& look) {
+  std::vector<const RectifiedNetwork*> networks;
   for (const Glance& glance : look.glances) {
-    Runners& runners = glances_.emplace_back();
-    for (size_t k = 0; k < glance.size(); ++k) runners[k] = NetworkRunner(glance[k]);
+    for (const RectifiedNetwork& network : glance) networks.push_back(&network);
   }
+  networks_ = NetworkRunner::Of(networks);
 }
 
 // Each joint moved by what its network says of it; of a pair both at once, the right one mirrored.
-Posture Looker::Glanced(const Runners& glance, const LookDescription& seen, Posture joints_m) {
+Posture Looker::Glanced(size_t glance, const LookDescription& seen, Posture joints_m) const {
   const LookDescription mirrored = seen.Mirrored();
   const Eigen::Vector3d mirror(-1.0, 1.0, 1.0);
   const Eigen::Matrix3d camera_from_frame = seen.frame_from_camera.transpose();
@@ -243,7 +244,8 @@ Posture Looker::Glanced(const Runners& glance, const LookDescription& seen, Post
     Eigen::MatrixXf numbers(kLookInputs, other != joint ? 2 : 1);
     numbers.col(0) = NumbersOf(seen, joint);
     if (other != joint) numbers.col(1) = NumbersOf(mirrored, joint);
-    const Eigen::MatrixXd offsets_m = CloseLook::kStep_m * glance[k].Run(numbers).cast<double>();
+    const NetworkRunner& network = networks_[glance * kLookJoints.size() + k];
+    const Eigen::MatrixXd offsets_m = CloseLook::kStep_m * network.Run(numbers).cast<double>();
     for (Eigen::Index side = 0; side < offsets_m.cols(); ++side) {
       Eigen::Vector3d offset_m = offsets_m.col(side);
       offset_m *= std::min(1.0, CloseLook::kFarthest_m / std::max(offset_m.norm(), 1e-9));
@@ -256,11 +258,11 @@ Posture Looker::Glanced(const Runners& glance, const LookDescription& seen, Post
 
 std::optional<Posture> Looker::Look(const LookInput& input) const {
   LookInput now = input;
-  for (size_t g = 0; g < glances_.size(); ++g) {
+  for (size_t g = 0; g * kLookJoints.size() < networks_.size(); ++g) {
     const auto seen = LookDescription::Of(now);
     if (!seen && g == 0) return std::nullopt;
     if (!seen) break;
-    now = now.MovedTo(Glanced(glances_[g], *seen, now.proposed));
+    now = now.MovedTo(Glanced(g, *seen, now.proposed));
   }
   return now.proposed;
 }

@@ -107,10 +107,9 @@ class Looker {
   std::optional<Posture> Look(const LookInput& input) const;
 
  private:
-  using Runners = std::array<NetworkRunner, kLookJoints.size()>;
-  static Posture Glanced(const Runners& glance, const LookDescription& seen, Posture joints_m);
+  Posture Glanced(size_t glance, const LookDescription& seen, Posture joints_m) const;
 
-  std::vector<Runners> glances_;
+  std::vector<NetworkRunner> networks_;  // of all glances, one after the other
 };
 
 }  // namespace ossa::recon

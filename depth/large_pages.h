@@ -1,0 +1,11 @@
+#pragma once
+#include <cstddef>
+
+namespace ossa {
+
+/// Asks the system to keep this memory in pages of 2 MB, as far as whole ones fit into it: of
+/// tables that are read at random places most reads would else miss the translation cache first. A
+/// wish: where the system refuses, all is as good but slower.
+void PreferLargePages(const void* memory, size_t bytes);
+
+}  // namespace ossa
