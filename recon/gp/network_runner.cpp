@@ -12,14 +12,20 @@
 namespace ossa::recon {
 namespace {
 
-constexpr size_t kLanes = 16;
+constexpr size_t kLanes = 8;  // GCC makes poor code of more than a register holds
 using Lanes = float __attribute__((vector_size(kLanes * sizeof(float))));
 using WordLanes = int32_t __attribute__((vector_size(kLanes * sizeof(int32_t))));
 
-// The weights of a line are as many words as there are lanes: the word of a lane has in its lowest
-// byte the unit of that lane, in the next the one kLanes units on. Thus bytes become numbers
-// without leaving their lane.
-size_t PlaceOf(size_t unit) { return unit % kLanes * sizeof(int32_t) + unit / kLanes; }
+// The weights of so many units lie in as many words as there are lanes: the word of a lane has in
+// its lowest byte the unit of that lane, in the next the one kLanes units on. Thus bytes become
+// numbers without leaving their lane.
+constexpr size_t kInWords = kLanes * sizeof(int32_t);
+
+// Where among the weights of a line that of a unit lies.
+size_t PlaceOf(size_t unit) {
+  const size_t in_group = unit % kInWords;
+  return unit - in_group + in_group % kLanes * sizeof(int32_t) + in_group / kLanes;
+}
 
 constexpr size_t kAhead = 24;  // terms whose weights are fetched while others are added
 
@@ -46,19 +52,18 @@ size_t NetworkRunner::TermsOf(const Eigen::VectorXf& factors, const Layer& layer
   for (size_t i = 0; i < inputs; ++i) {
     const auto at = static_cast<Eigen::Index>(i);
     terms[count] = {static_cast<uint32_t>(i), factors[at] * layer.step[at]};
-    count += (std::bit_cast<uint32_t>(factors[at]) << 1U) != 0 ? 1 : 0;  // the sign of nought
+    count += (std::bit_cast<uint32_t>(factors[at]) << 1U) != 0 ? 1 : 0;  // nought of any sign
   }
   for (size_t i = 0; i < kAhead; ++i) terms[count + i] = i < count ? terms[i] : Term{};
   return count;
 }
 
 // To the sums of the units of a line, which registers hold while all terms go by.
-OSSA_WIDE_CLONES void NetworkRunner::AddTerms(const std::vector<Term>& terms, size_t count,
-                                              const Line* lines, const Line* next_lines,
-                                              float* sums) {
-  static_assert(sizeof(Line) == sizeof(WordLanes));
+OSSA_CLONES void NetworkRunner::AddTerms(const std::vector<Term>& terms, size_t count,
+                                         const Line* lines, const Line* next_lines, float* sums) {
+  constexpr size_t kGroups = sizeof(Line) / kInWords;
   constexpr int32_t kHighest = static_cast<int32_t>(0xff000000U);
-  Lanes sum[sizeof(int32_t)];
+  Lanes sum[kGroups][sizeof(int32_t)];
   std::memcpy(sum, sums, sizeof(sum));
   const Term* term = terms.data();
   const Term* const end = term + count;
@@ -66,12 +71,14 @@ OSSA_WIDE_CLONES void NetworkRunner::AddTerms(const std::vector<Term>& terms, si
   for (; term < end; ++term) {
     __builtin_prefetch((term < last_lap ? lines : next_lines) + term[kAhead].input);
     const float factor = term->factor * 0x1p-24F;
-    WordLanes words;
-    std::memcpy(&words, lines + term->input, sizeof(words));
-    sum[0] += factor * __builtin_convertvector(words << 24, Lanes);
-    sum[1] += factor * __builtin_convertvector((words << 16) & kHighest, Lanes);
-    sum[2] += factor * __builtin_convertvector((words << 8) & kHighest, Lanes);
-    sum[3] += factor * __builtin_convertvector(words & kHighest, Lanes);
+    for (size_t group = 0; group < kGroups; ++group) {
+      WordLanes words;
+      std::memcpy(&words, lines[term->input].weights.data() + group * kInWords, sizeof(words));
+      sum[group][0] += factor * __builtin_convertvector(words << 24, Lanes);
+      sum[group][1] += factor * __builtin_convertvector((words << 16) & kHighest, Lanes);
+      sum[group][2] += factor * __builtin_convertvector((words << 8) & kHighest, Lanes);
+      sum[group][3] += factor * __builtin_convertvector(words & kHighest, Lanes);
+    }
   }
   std::memcpy(sums, sum, sizeof(sum));
 }

@@ -2,12 +2,14 @@
 """How far the joints of a tracked recording lie from marks made by eye, across the line of sight.
 
   ossa track FRAMES --method none --smoothing none --posture raw --out joints.jsonl
-  tests/golden/score_marks.py joints.jsonl [tests/golden/kinect_marks.txt]
+  tests/golden/score_marks.py joints.jsonl
+
+Of several recordings the first is of frame 0, the next of frame 1: stills, each tracked alone.
 """
+import argparse
 import json
 import math
 import pathlib
-import sys
 
 FOCAL_PX, CENTRE_U, CENTRE_V = 575.0, 320.0, 240.0  # a Kinect v1
 
@@ -20,15 +22,19 @@ def distance_m(joint, u, v):
 
 
 def main():
-    marks_file = pathlib.Path(__file__).with_name("kinect_marks.txt")
-    if len(sys.argv) > 2:
-        marks_file = pathlib.Path(sys.argv[2])
+    parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
+    parser.add_argument("recordings", nargs="+", type=pathlib.Path, help="skeletons, .jsonl")
+    parser.add_argument("--marks", type=pathlib.Path,
+                        default=pathlib.Path(__file__).with_name("kinect_marks.txt"))
+    arguments = parser.parse_args()
     frames = {}
-    for line in pathlib.Path(sys.argv[1]).read_text().splitlines():
-        frame = json.loads(line)
-        frames[frame["frame"]] = frame.get("bodies", [])
+    for index, recording in enumerate(arguments.recordings):
+        for line in recording.read_text().splitlines():
+            frame = json.loads(line)
+            number = frame["frame"] if len(arguments.recordings) == 1 else index
+            frames[number] = frame.get("bodies", [])
     distances = []
-    for line in marks_file.read_text().splitlines():
+    for line in arguments.marks.read_text().splitlines():
         if line.startswith("#"):
             continue
         frame, name, u, v = line.split()
