@@ -114,22 +114,16 @@ Camera OptionOrKinect(const SourceOptions& options, ImageSize size) {
                         : KinectV1Camera(size.width, size.height);
 }
 
-}  // namespace
-
-std::unique_ptr<FrameSource> OpenFolder(const fs::path& folder, const SourceOptions& options) {
-  std::vector<FolderFrame> frames = ListFrames(folder);
+std::unique_ptr<FrameSource> OpenFrames(std::vector<FolderFrame> frames, const fs::path& folder,
+                                        const SourceOptions& options) {
   const ImageSize size = ReadDepthPngSize(frames.front().path);
   const std::optional<Camera> stated = CameraJsonIn(folder, size);
   return std::make_unique<FolderSource>(std::move(frames),
                                         stated ? *stated : OptionOrKinect(options, size));
 }
 
-bool IsDataSet(const fs::path& folder) {
-  return fs::is_regular_file(folder / "manifest.json") && fs::is_directory(folder / "depth");
-}
-
-std::unique_ptr<FrameSource> OpenDataSet(const fs::path& folder, const SourceOptions& options) {
-  std::vector<FolderFrame> frames = ListFrames(folder / "depth");
+std::unique_ptr<FrameSource> OpenFramesOfSet(std::vector<FolderFrame> frames,
+                                             const fs::path& folder, const SourceOptions& options) {
   const ImageSize size = ReadDepthPngSize(frames.front().path);
   const fs::path manifest = folder / "manifest.json";
   Camera camera;
@@ -141,6 +135,27 @@ std::unique_ptr<FrameSource> OpenDataSet(const fs::path& folder, const SourceOpt
     camera = StatedCamera(ReadManifestCamera(manifest), manifest, size);
   }
   return std::make_unique<FolderSource>(std::move(frames), camera);
+}
+
+}  // namespace
+
+std::unique_ptr<FrameSource> OpenFolder(const fs::path& folder, const SourceOptions& options) {
+  return OpenFrames(ListFrames(folder), folder, options);
+}
+
+std::unique_ptr<FrameSource> OpenStill(const fs::path& png, const SourceOptions& options) {
+  const fs::path folder = fs::absolute(png).parent_path();
+  const fs::path above = folder.parent_path();
+  return IsDataSet(above) && folder == above / "depth" ? OpenFramesOfSet({{png, 0}}, above, options)
+                                                       : OpenFrames({{png, 0}}, folder, options);
+}
+
+bool IsDataSet(const fs::path& folder) {
+  return fs::is_regular_file(folder / "manifest.json") && fs::is_directory(folder / "depth");
+}
+
+std::unique_ptr<FrameSource> OpenDataSet(const fs::path& folder, const SourceOptions& options) {
+  return OpenFramesOfSet(ListFrames(folder / "depth"), folder, options);
 }
 
 }  // namespace ossa::depth

@@ -52,7 +52,8 @@ struct SourceOptions {
 };
 
 /// Opens SOURCE as DESIGN.md §4 names it: "openni:", "openni:URI", "FILE.oni", a folder of 16-bit
-/// PNGs in name order, or a DATASET folder. Throws InputError naming it and what was expected.
+/// PNGs in name order, or a DATASET folder; or one such PNG, a still. Throws InputError naming it
+/// and what was expected.
 std::unique_ptr<FrameSource> OpenSource(const std::string& source,
                                         const SourceOptions& options = {});
 

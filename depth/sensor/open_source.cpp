@@ -10,11 +10,11 @@ namespace {
 
 constexpr std::string_view kDevicePrefix = "openni:";
 
-bool HasOniExtension(const std::filesystem::path& path) {
+std::string LowerCaseExtension(const std::filesystem::path& path) {
   std::string extension = path.extension().string();
   std::transform(extension.begin(), extension.end(), extension.begin(),
                  [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-  return extension == ".oni";
+  return extension;
 }
 
 }  // namespace
@@ -28,10 +28,14 @@ std::unique_ptr<FrameSource> OpenSource(const std::string& source, const SourceO
   if (std::filesystem::is_directory(path, error)) {
     return IsDataSet(path) ? OpenDataSet(path, options) : OpenFolder(path, options);
   }
-  if (HasOniExtension(path)) return OpenOniFile(path, options);
+  const std::string extension = LowerCaseExtension(path);
+  if (extension == ".oni") return OpenOniFile(path, options);
+  if (extension == ".png" && std::filesystem::exists(path, error)) {
+    return OpenStill(path, options);
+  }
   throw InputError(source +
-                   ": expected openni:, openni:URI, FILE.oni, a folder of 16-bit PNGs or a data "
-                   "set, found no such thing");
+                   ": expected openni:, openni:URI, FILE.oni, a 16-bit PNG or a folder of them, or "
+                   "a data set, found no such thing");
 }
 
 }  // namespace ossa::depth

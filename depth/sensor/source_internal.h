@@ -14,6 +14,10 @@ namespace ossa::depth {
 std::unique_ptr<FrameSource> OpenFolder(const std::filesystem::path& folder,
                                         const SourceOptions& options);
 
+/// One 16-bit PNG: a recording of a single frame. Camera as of the folder or data set it is in.
+std::unique_ptr<FrameSource> OpenStill(const std::filesystem::path& png,
+                                       const SourceOptions& options);
+
 /// A data set: manifest.json, depth/ and more (DESIGN.md §5).
 bool IsDataSet(const std::filesystem::path& folder);
 std::unique_ptr<FrameSource> OpenDataSet(const std::filesystem::path& folder,

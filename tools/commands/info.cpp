@@ -121,7 +121,7 @@ void ShowLook(const fs::path& path) {
 }
 
 bool IsDepthRecording(const fs::path& path) {
-  if (path.extension() == ".oni") return true;
+  if (path.extension() == ".oni" || path.extension() == ".png") return true;
   if (!fs::is_directory(path)) return false;
   return std::ranges::any_of(fs::directory_iterator(path), [](const fs::directory_entry& entry) {
     return entry.path().extension() == ".png";
@@ -168,9 +168,10 @@ constexpr std::array kKinds = {
 int Info(int argc, char** argv) {
   CLI::App app("Say what a file holds: a model's card, a database's clips, a data set's origin");
   std::string file;
-  app.add_option("FILE", file,
-                 "a .ossa, .ossadb, .ossagp, .ossaprior, .ossalook, .oni or skeleton file, a "
-                 "DATASET or PNG folder")
+  app.add_option(
+         "FILE", file,
+         "a .ossa, .ossadb, .ossagp, .ossaprior, .ossalook, .oni or skeleton file, a 16-bit PNG "
+         "or a folder of them, or a DATASET")
       ->required();
   Parse(app, argc, argv);
   if (!fs::exists(file)) throw InputError(file + ": no such file or folder");

@@ -26,9 +26,10 @@ std::function<bool()> KeepWaitingFor(const std::string& source, bool quiet) {
 }  // namespace
 
 void AddSourceOptions(CLI::App& app, SourceArguments& arguments) {
-  app.add_option("SOURCE", arguments.name,
-                 "openni: (first device), openni:URI, FILE.oni, a folder of 16-bit PNGs or a "
-                 "DATASET; openni:ossa://PATH plays the last three as a live device")
+  app.add_option(
+         "SOURCE", arguments.name,
+         "openni: (first device), openni:URI, FILE.oni, a 16-bit PNG or a folder of them, or a "
+         "DATASET; openni:ossa://PATH plays what is recorded as a live device")
       ->required();
   app.add_option("--camera", arguments.camera, "kinect-v1 or fx,fy,cx,cy in pixels");
 }

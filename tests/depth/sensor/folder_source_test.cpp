@@ -103,6 +103,28 @@ TEST(FolderSource, CameraIsCameraJsonElseTheOptionElseKinect) {
   EXPECT_THROW(OpenSource(folder.path().string()), InputError);
 }
 
+TEST(OpenSource, OnePngIsAFrame) {
+  const TemporaryFolder folder;
+  WriteFrame(folder / "000007.png", 70);
+  WriteFrame(folder / "000008.PNG", 80);
+  for (const char* name : {"000007.png", "000008.PNG"}) {
+    const auto source = OpenSource((folder / name).string());
+    EXPECT_EQ(source->frame_count(), 1);
+    const ReadResult only = Next(*source);
+    ASSERT_EQ(only.status, ReadStatus::kFrame);
+    EXPECT_EQ(only.frame.depth_mm[0], name[5] == '7' ? 70 : 80);
+    EXPECT_EQ(only.frame.index, 0);
+    EXPECT_EQ(Next(*source).status, ReadStatus::kEnd);
+  }
+  Camera camera = KinectV1Camera(8, 6);
+  camera.fx = 5.0;
+  WriteCameraJson(folder / "camera.json", camera);
+  EXPECT_EQ(OpenSource((folder / "000007.png").string())->camera().fx, 5.0);
+  std::ofstream(folder / "cut.png") << "\x89PNG";
+  EXPECT_THROW(OpenSource((folder / "cut.png").string()), InputError);
+  EXPECT_THROW(OpenSource((folder / "none.png").string()), InputError);
+}
+
 TEST(DataSetSource, TakesTheManifestsCameraAndTheDepthFolder) {
   const TemporaryFolder folder;
   std::filesystem::create_directory(folder / "depth");
@@ -112,6 +134,7 @@ TEST(DataSetSource, TakesTheManifestsCameraAndTheDepthFolder) {
   const auto source = OpenSource(folder.path().string());
   EXPECT_EQ(source->camera(), camera);
   EXPECT_EQ(Next(*source).frame.depth_mm[0], 42);
+  EXPECT_EQ(OpenSource((folder / "depth/000000.png").string())->camera(), camera);
 }
 
 TEST(OpenSource, WhatIsNotASourceIsOneLine) {
