@@ -16,7 +16,7 @@
 #include <cmath>
 
 #include "recon/gp/learned_models.h"
-#include "recon/methods/bone_projection_internal.h"
+#include "recon/methods/bone_projection.h"
 #include "recon/methods/methods_internal.h"
 #include "recon/methods/person_internal.h"
 #include "recon/methods/plausibility_internal.h"

@@ -15,21 +15,22 @@ struct Method {
   const char* name;
   bool needs_database;
   bool needs_learned;
+  bool keeps_bones;
   std::unique_ptr<Reconstructor> (*make)(const ReconstructorOptions&);
 };
 
 constexpr std::array kMethods = {
-    Method{"none", false, false, MakeNone},
-    Method{"holt", false, false, MakeHolt},
-    Method{"one-euro", false, false, MakeOneEuro},
-    Method{"kalman", false, false, MakeKalman},
-    Method{"shum-ho-2012", true, false, MakeShumHo2012},
-    Method{"shum-2013", true, false, MakeShum2013},
-    Method{"plantard-2016", true, false, MakePlantard2016},
-    Method{"liu-2016", false, true, MakeLiu2016},
-    Method{"full-gp", false, true, MakeFullGp},
-    Method{"exemplar", false, true, MakeExemplar},
-    Method{"best", false, false, MakeBest},
+    Method{"none", false, false, false, MakeNone},
+    Method{"holt", false, false, false, MakeHolt},
+    Method{"one-euro", false, false, false, MakeOneEuro},
+    Method{"kalman", false, false, false, MakeKalman},
+    Method{"shum-ho-2012", true, false, true, MakeShumHo2012},
+    Method{"shum-2013", true, false, true, MakeShum2013},
+    Method{"plantard-2016", true, false, true, MakePlantard2016},
+    Method{"liu-2016", false, true, false, MakeLiu2016},
+    Method{"full-gp", false, true, false, MakeFullGp},
+    Method{"exemplar", false, true, false, MakeExemplar},
+    Method{"best", false, false, true, MakeBest},
 };
 
 void CheckLocalPca(const LocalPcaOptions& o) {
@@ -62,6 +63,11 @@ const std::vector<std::string>& ReconstructionMethods() {
 bool NeedsLearned(const std::string& method) {
   return std::any_of(kMethods.begin(), kMethods.end(),
                      [&](const Method& m) { return m.needs_learned && m.name == method; });
+}
+
+bool KeepsBones(const std::string& method) {
+  return std::any_of(kMethods.begin(), kMethods.end(),
+                     [&](const Method& m) { return m.keeps_bones && m.name == method; });
 }
 
 std::unique_ptr<Reconstructor> MakeReconstructor(const ReconstructorOptions& options) {

@@ -119,6 +119,10 @@ const std::vector<std::string>& ReconstructionMethods();
 /// Whether a method works by what `ossa learn` makes, and not without.
 bool NeedsLearned(const std::string& method);
 
+/// Whether a person's bones have the same lengths in all that a method makes; other methods move
+/// joints alone.
+bool KeepsBones(const std::string& method);
+
 /// Throws InputError for an unknown method, a missing database and missing learned models.
 std::unique_ptr<Reconstructor> MakeReconstructor(const ReconstructorOptions& options);
 

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "recon/hiding.h"
+#include "recon/methods/bone_projection.h"
 #include "recon/orientation.h"
 
 namespace ossa::tracker {
@@ -62,6 +63,20 @@ recon::Posture WithHiddenHidden(recon::Posture posture, const recon::TrackedPost
   return posture;
 }
 
+// Joints that are held or moved aside one by one lengthen and shorten bones, which get the lengths
+// again that they had in `whole`; what is not seen moves most.
+recon::Posture WithBonesOf(const recon::Posture& whole, const recon::Posture& moved,
+                           const recon::TrackedPosture& observed,
+                           const std::array<double, kJointCount>& reliability) {
+  constexpr double kUnseen = 0.1, kLeast = 0.2;
+  recon::JointWeights weights;
+  for (size_t j = 0; j < kJointCount; ++j) {
+    const bool seen = observed.state[j] == TrackingState::kTracked;
+    weights[j] = seen ? kLeast + std::clamp(reliability[j], 0.0, 1.0) : kUnseen;
+  }
+  return recon::WithBoneLengths(moved, recon::BoneLengthsOf(whole), weights);
+}
+
 }  // namespace
 
 bool IsSeatedJoint(recon::Joint joint) {
@@ -88,9 +103,12 @@ void CompleteBody(const depth::DepthFrame& frame, const std::optional<Eigen::Vec
     if (made) posture = made->posture;
     ms.physics += MillisecondsSince(physics_start);
   }
-  const recon::Posture held = HeldToImage(posture, steady, body.reliability);
-  body.smoothed = Smooth(WithHiddenHidden(held, steady, frame, person), frame.time_s,
-                         options.smoothing, person.smoothing);
+  const bool has_bones = options.physics || recon::KeepsBones(options.reconstructor.method);
+  const recon::Posture whole = posture;
+  const recon::Posture held = HeldToImage(whole, steady, body.reliability);
+  posture = WithHiddenHidden(held, steady, frame, person);
+  if (has_bones) posture = WithBonesOf(whole, posture, steady, body.reliability);
+  body.smoothed = Smooth(posture, frame.time_s, options.smoothing, person.smoothing);
   body.absolute_orientation = recon::OrientationsOf(body.smoothed);
   body.hierarchical_orientation = recon::HierarchicalOf(body.absolute_orientation);
 }

@@ -9,7 +9,7 @@
 
 #include "depth/image/depth_frame.h"
 #include "recon/filters/lag_filter_internal.h"
-#include "recon/methods/bone_projection_internal.h"
+#include "recon/methods/bone_projection.h"
 #include "recon/methods/reconstructor.h"
 #include "recon/methods/sequence.h"
 #include "tests/recon/synthetic_motion.h"

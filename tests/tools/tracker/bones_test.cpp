@@ -1,0 +1,70 @@
+// Bones of the skeletons that come out in the end, whatever holds their joints to the image.
+#include <gtest/gtest.h>
+
+#include <random>
+
+#include "recon/normalise.h"
+#include "tests/support/capsule_person.h"
+#include "tests/tools/tracker/tracked_scenes.h"
+#include "tools/tracker/person_internal.h"
+
+namespace ossa::tracker {
+namespace {
+
+using recon::kJointCount;
+using recon::TrackingState;
+
+// How far, of all frames and bones, a final bone is from what it was at first, as a share of it,
+// when the joints of somebody who stands are seen centimetres off and the left arm only guessed.
+double WorstDrift(const CompleteOptions& options) {
+  tests::CapsuleRender render = Rendered({PersonAt(0.0, 2.5)});
+  std::mt19937_64 random(3);
+  std::normal_distribution<double> off_m(0.0, 0.04);
+  Person person;
+  recon::BoneLengths first{};
+  double worst = 0.0;
+  for (int f = 0; f < 60; ++f) {
+    Body body;
+    body.raw.posture = render.joints.front();
+    body.raw.state.fill(TrackingState::kTracked);
+    body.raw.confidence.fill(1.0);
+    for (size_t j = 0; j < kJointCount; ++j) {
+      for (double& x : body.raw.posture.position_m[j]) x += off_m(random);
+      if (j >= 4 && j < 8) body.raw.state[j] = TrackingState::kInferred;
+    }
+    render.frame.time_s = f / 30.0;
+    StageTimes ms;
+    CompleteBody(render.frame, std::nullopt, options, person, body, ms);
+    person.before_s = render.frame.time_s;
+    const recon::BoneLengths lengths = recon::BoneLengthsOf(body.smoothed);
+    if (f == 0) first = lengths;
+    for (size_t j = 1; j < kJointCount; ++j) {
+      worst = std::max(worst, std::abs(lengths[j] / first[j] - 1.0));
+    }
+  }
+  return worst;
+}
+
+CompleteOptions Unsmoothed(const std::string& method) {
+  CompleteOptions options;
+  options.reconstructor.method = method;
+  options.smoothing = SmoothingPreset("none");
+  return options;
+}
+
+TEST(FinalBones, KeepTheirLengthsWhereJointsAreHeldToTheImage) {
+  EXPECT_LT(WorstDrift(Unsmoothed("best")), 0.001);
+}
+
+TEST(FinalBones, AreThoseOfTheMechanicalCharacter) {
+  CompleteOptions options = Unsmoothed("best");
+  options.physics = true;
+  EXPECT_LT(WorstDrift(options), 0.001);
+}
+
+TEST(FinalBones, AreAsSeenWhereNothingIsReconstructed) {
+  EXPECT_GT(WorstDrift(Unsmoothed("none")), 0.1);
+}
+
+}  // namespace
+}  // namespace ossa::tracker
