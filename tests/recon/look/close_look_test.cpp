@@ -267,30 +267,49 @@ TEST(CloseLook, WithOddNumbersIsRefused) {
   }
 }
 
+// Of random weights, as files have them.
+RectifiedNetwork RandomNetwork(int hidden, Eigen::Index units, Eigen::Index inputs) {
+  RectifiedNetwork network;
+  network.input_mean = Eigen::VectorXf::Random(inputs);
+  network.input_scale = 3.0F * Eigen::VectorXf::Random(inputs).cwiseAbs();
+  for (int l = 0; l < hidden; ++l, inputs = units) {
+    network.layers.push_back(
+        {Eigen::MatrixXf::Random(units, inputs), Eigen::VectorXf::Random(units)});
+  }
+  network.layers.push_back({Eigen::MatrixXf::Random(3, inputs), Eigen::VectorXf::Random(3)});
+  for (RectifiedNetwork::Layer& layer : network.layers) {
+    layer.weight = BytesOf(layer.weight).Weights();
+  }
+  return network;
+}
+
 TEST(NetworkRunner, SaysWhatTheNetworkSays) {
   std::srand(7);  // Eigen draws from it
   for (const int hidden : {0, 1, 2}) {
-    const Eigen::Index units = hidden == 1 ? 7 : 103;  // 103: more than registers hold
-    RectifiedNetwork network;
-    network.input_mean = Eigen::VectorXf::Random(11);
-    network.input_scale = 3.0F * Eigen::VectorXf::Random(11).cwiseAbs();
-    Eigen::Index inputs = 11;
-    for (int l = 0; l < hidden; ++l, inputs = units) {
-      network.layers.push_back(
-          {Eigen::MatrixXf::Random(units, inputs), Eigen::VectorXf::Random(units)});
-    }
-    network.layers.push_back({Eigen::MatrixXf::Random(3, inputs), Eigen::VectorXf::Random(3)});
+    const RectifiedNetwork network = RandomNetwork(hidden, hidden == 1 ? 7 : 103, 11);
     Eigen::MatrixXf some = 4.0F * Eigen::MatrixXf::Random(11, 3);
     some.col(0).head(6).setZero();
     some.col(1).setZero();
-    for (RectifiedNetwork::Layer& layer : network.layers) {  // weights as files have them
-      layer.weight = BytesOf(layer.weight).Weights();
-    }
     const Eigen::MatrixXf said = NetworkRunner(network).Run(some);
     ASSERT_EQ(said.cols(), 3);
     for (Eigen::Index c = 0; c < 3; ++c) {
       EXPECT_LT((said.col(c) - network.Run(some.col(c))).norm(), 1e-3F) << hidden;
     }
+  }
+}
+
+// 103 and 130 units: more than a line of the cache holds, and than two.
+TEST(NetworkRunner, NetworksWhoseWeightsLieTogetherSayWhatEachSaysAlone) {
+  std::srand(8);
+  const std::vector<RectifiedNetwork> networks = {RandomNetwork(2, 103, 40), RandomNetwork(0, 1, 5),
+                                                  RandomNetwork(1, 130, 40)};
+  const auto runners = NetworkRunner::Of({&networks[0], &networks[1], &networks[2]});
+  ASSERT_EQ(runners.size(), networks.size());
+  for (size_t n = 0; n < networks.size(); ++n) {
+    const Eigen::VectorXf some = Eigen::VectorXf::Random(networks[n].input_mean.size());
+    const Eigen::VectorXf said = runners[n].Run(some);
+    EXPECT_LT((said - networks[n].Run(some)).norm(), 1e-3F) << n;
+    EXPECT_EQ(said, NetworkRunner(networks[n]).Run(some).col(0)) << n;
   }
 }
 
