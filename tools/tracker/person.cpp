@@ -63,8 +63,8 @@ recon::Posture WithHiddenHidden(recon::Posture posture, const recon::TrackedPost
   return posture;
 }
 
-// Joints that are held or moved aside one by one lengthen and shorten bones, which get the lengths
-// again that they had in `whole`; what is not seen moves most.
+// Joints that are held, moved aside and smoothed one by one lengthen and shorten bones, which get
+// the lengths again that they had in `whole`; what is not seen moves most.
 recon::Posture WithBonesOf(const recon::Posture& whole, const recon::Posture& moved,
                            const recon::TrackedPosture& observed,
                            const std::array<double, kJointCount>& reliability) {
@@ -106,9 +106,9 @@ void CompleteBody(const depth::DepthFrame& frame, const std::optional<Eigen::Vec
   const bool has_bones = options.physics || recon::KeepsBones(options.reconstructor.method);
   const recon::Posture whole = posture;
   const recon::Posture held = HeldToImage(whole, steady, body.reliability);
-  posture = WithHiddenHidden(held, steady, frame, person);
-  if (has_bones) posture = WithBonesOf(whole, posture, steady, body.reliability);
-  body.smoothed = Smooth(posture, frame.time_s, options.smoothing, person.smoothing);
+  body.smoothed = Smooth(WithHiddenHidden(held, steady, frame, person), frame.time_s,
+                         options.smoothing, person.smoothing);
+  if (has_bones) body.smoothed = WithBonesOf(whole, body.smoothed, steady, body.reliability);
   body.absolute_orientation = recon::OrientationsOf(body.smoothed);
   body.hierarchical_orientation = recon::HierarchicalOf(body.absolute_orientation);
 }

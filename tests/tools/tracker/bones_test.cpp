@@ -62,6 +62,12 @@ TEST(FinalBones, AreThoseOfTheMechanicalCharacter) {
   EXPECT_LT(WorstDrift(options), 0.001);
 }
 
+TEST(FinalBones, KeepTheirLengthsWhereJointsAreSmoothed) {
+  CompleteOptions options = Unsmoothed("best");
+  options.smoothing = SmoothingPreset("verysmooth");
+  EXPECT_LT(WorstDrift(options), 0.001);
+}
+
 TEST(FinalBones, AreAsSeenWhereNothingIsReconstructed) {
   EXPECT_GT(WorstDrift(Unsmoothed("none")), 0.1);
 }
