@@ -1,6 +1,7 @@
 #pragma once
 #include <chrono>
 #include <cstdint>
+#include <filesystem>
 #include <functional>
 #include <memory>
 #include <optional>
@@ -50,6 +51,9 @@ struct SourceOptions {
   // player itself waits 3 s for a frame of a file that is merely cut short.
   std::chrono::milliseconds player_patience{10000};
 };
+
+/// FILE.oni or FILE.png, in capitals or not.
+bool IsRecordingFile(const std::filesystem::path& path);
 
 /// Opens SOURCE as DESIGN.md §4 names it: "openni:", "openni:URI", "FILE.oni", a folder of 16-bit
 /// PNGs in name order, or a DATASET folder; or one such PNG, a still. Throws InputError naming it

@@ -19,6 +19,11 @@ std::string LowerCaseExtension(const std::filesystem::path& path) {
 
 }  // namespace
 
+bool IsRecordingFile(const std::filesystem::path& path) {
+  const std::string extension = LowerCaseExtension(path);
+  return extension == ".oni" || extension == ".png";
+}
+
 std::unique_ptr<FrameSource> OpenSource(const std::string& source, const SourceOptions& options) {
   if (source.starts_with(kDevicePrefix)) {
     return OpenOpenNiDevice(source.substr(kDevicePrefix.size()), options);

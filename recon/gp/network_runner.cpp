@@ -95,16 +95,22 @@ NetworkRunner::NetworkRunner(const RectifiedNetwork& network)
     : NetworkRunner(std::move(Of({&network}).front())) {}
 
 std::vector<NetworkRunner> NetworkRunner::Of(const std::vector<const RectifiedNetwork*>& networks) {
-  size_t count = 0;
-  for (const RectifiedNetwork* network : networks) count += LinesOf(*network);
+  size_t count = 0, beyond = 0;  // as far as fetching ahead looks beyond a layer
+  for (const RectifiedNetwork* network : networks) {
+    count += LinesOf(*network);
+    for (const RectifiedNetwork::Layer& layer : network->layers) {
+      beyond = std::max(beyond, static_cast<size_t>(layer.weight.cols()));
+    }
+  }
   auto lines = std::make_shared<std::vector<Line>>();
-  lines->reserve(count);
-  PreferLargePages(lines->data(), count * sizeof(Line));  // while none of it has a page yet
+  lines->reserve(count + beyond);
+  PreferLargePages(lines->data(), lines->capacity() * sizeof(Line));  // before it has pages
   std::vector<NetworkRunner> runners(networks.size());
   for (size_t n = 0; n < networks.size(); ++n) {
     runners[n].Add(*networks[n], lines.get());
     runners[n].lines_ = lines;
   }
+  lines->resize(count + beyond);
   return runners;
 }
 
@@ -146,7 +152,7 @@ Eigen::MatrixXf NetworkRunner::Run(const Eigen::Ref<const Eigen::MatrixXf>& inpu
       value = layer.at_zero;
       const Line* lines = lines_->data() + layer.first_line;
       for (Eigen::Index unit = 0; unit < value.size(); unit += sizeof(Line)) {
-        const Line* next_lines = lines + layer.step.size();  // beyond the last: only fetched
+        const Line* next_lines = lines + layer.step.size();  // of the last: only fetched
         AddTerms(terms, count, lines, next_lines, value.data() + unit);
         lines = next_lines;
       }

@@ -121,8 +121,7 @@ void ShowLook(const fs::path& path) {
 }
 
 bool IsDepthRecording(const fs::path& path) {
-  if (path.extension() == ".oni" || path.extension() == ".png") return true;
-  if (!fs::is_directory(path)) return false;
+  if (!fs::is_directory(path)) return depth::IsRecordingFile(path);
   return std::ranges::any_of(fs::directory_iterator(path), [](const fs::directory_entry& entry) {
     return entry.path().extension() == ".png";
   });

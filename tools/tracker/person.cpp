@@ -103,12 +103,12 @@ void CompleteBody(const depth::DepthFrame& frame, const std::optional<Eigen::Vec
     if (made) posture = made->posture;
     ms.physics += MillisecondsSince(physics_start);
   }
-  const bool has_bones = options.physics || recon::KeepsBones(options.reconstructor.method);
-  const recon::Posture whole = posture;
-  const recon::Posture held = HeldToImage(whole, steady, body.reliability);
+  const recon::Posture held = HeldToImage(posture, steady, body.reliability);
   body.smoothed = Smooth(WithHiddenHidden(held, steady, frame, person), frame.time_s,
                          options.smoothing, person.smoothing);
-  if (has_bones) body.smoothed = WithBonesOf(whole, body.smoothed, steady, body.reliability);
+  if (options.physics || recon::KeepsBones(options.reconstructor.method)) {
+    body.smoothed = WithBonesOf(posture, body.smoothed, steady, body.reliability);
+  }
   body.absolute_orientation = recon::OrientationsOf(body.smoothed);
   body.hierarchical_orientation = recon::HierarchicalOf(body.absolute_orientation);
 }

@@ -108,6 +108,7 @@ TEST(OpenSource, OnePngIsAFrame) {
   WriteFrame(folder / "000007.png", 70);
   WriteFrame(folder / "000008.PNG", 80);
   for (const char* name : {"000007.png", "000008.PNG"}) {
+    EXPECT_TRUE(IsRecordingFile(folder / name));
     const auto source = OpenSource((folder / name).string());
     EXPECT_EQ(source->frame_count(), 1);
     const ReadResult only = Next(*source);

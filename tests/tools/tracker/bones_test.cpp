@@ -1,7 +1,10 @@
 // Bones of the skeletons that come out in the end, whatever holds their joints to the image.
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <cmath>
 #include <random>
+#include <string>
 
 #include "recon/normalise.h"
 #include "tests/support/capsule_person.h"
