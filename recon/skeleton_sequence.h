@@ -24,6 +24,8 @@ struct JointRecord {
 struct BodyRecord {
   int id = 0;
   std::array<std::optional<JointRecord>, kJointCount> joints;  // absent joints are empty
+  /// As a close look judges them of this frame alone (ReconstructionInput::bones_m).
+  std::optional<BoneLengths> bones_m = std::nullopt;
 };
 
 struct SkeletonFrame {

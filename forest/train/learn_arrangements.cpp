@@ -8,8 +8,8 @@
 #include <optional>
 
 #include "depth/error.h"
+#include "forest/thread_limit.h"
 #include "forest/train.h"
-#include "forest/train/thread_limit_internal.h"
 
 namespace ossa::forest {
 namespace {

@@ -12,10 +12,10 @@
 #include "forest/classify.h"
 #include "forest/propose.h"
 #include "forest/relabel_internal.h"
+#include "forest/thread_limit.h"
 #include "forest/train/learn_internal.h"
 #include "forest/train/network_trainer_internal.h"
 #include "forest/train/random_internal.h"
-#include "forest/train/thread_limit_internal.h"
 
 namespace ossa::forest {
 namespace {

@@ -9,9 +9,9 @@
 
 #include "depth/error.h"
 #include "forest/classify.h"
+#include "forest/thread_limit.h"
 #include "forest/train.h"
 #include "forest/train/learn_internal.h"
-#include "forest/train/thread_limit_internal.h"
 
 namespace ossa::forest {
 namespace {

@@ -9,8 +9,8 @@
 #include "depth/error.h"
 #include "forest/network.h"
 #include "forest/refine_internal.h"
+#include "forest/thread_limit.h"
 #include "forest/train/learn_internal.h"
-#include "forest/train/thread_limit_internal.h"
 
 namespace ossa::forest {
 namespace {

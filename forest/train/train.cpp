@@ -5,10 +5,10 @@
 #include <optional>
 
 #include "depth/error.h"
+#include "forest/thread_limit.h"
 #include "forest/train/checkpoint_internal.h"
 #include "forest/train/grow_internal.h"
 #include "forest/train/leaves_internal.h"
-#include "forest/train/thread_limit_internal.h"
 
 namespace ossa::forest {
 namespace {

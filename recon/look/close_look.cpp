@@ -8,11 +8,12 @@
 
 #include "depth/clones.h"
 #include "depth/file/sealed_file.h"
+#include "recon/look/bone_measure.h"
 
 namespace ossa::recon {
 namespace {
 
-constexpr SealedFormat kFormat = {{'O', 'S', 'S', 'A', 'L', 'K', '0', '0'}, 3, "close look"};
+constexpr SealedFormat kFormat = {{'O', 'S', 'S', 'A', 'L', 'K', '0', '0'}, 4, "close look"};
 
 constexpr double kMostBehind_mm = 300.0;
 constexpr double kNearer_mm = 30.0;  // by so much, something that is not the person is before it
@@ -137,14 +138,23 @@ bool CanBeLookedAt(const LookInput& input) {
   return true;
 }
 
-RectifiedNetwork GetLookNetwork(PayloadReader& in) {
+RectifiedNetwork GetLookNetwork(PayloadReader& in, Eigen::Index inputs, Eigen::Index outputs) {
   constexpr uint32_t kMostLayers = 2;  // with modest weights no sum through them is too large
   const auto hidden = in.Get<uint32_t>("layers");
   if (hidden > kMostLayers) in.Fail("layers", fmt::format("expected at most {}", kMostLayers));
-  std::vector<Eigen::Index> sizes = {kLookInputs};
+  std::vector<Eigen::Index> sizes = {inputs};
   for (uint32_t l = 0; l < hidden; ++l) sizes.push_back(GetUnits(in));
-  sizes.push_back(3);
+  sizes.push_back(outputs);
   return GetNetwork(in, sizes, WeightForm::kBytes);
+}
+
+void PutLookNetwork(PayloadWriter& out, const RectifiedNetwork& network) {
+  const size_t hidden = network.layers.size() - 1;
+  out.Put(static_cast<uint32_t>(hidden));
+  for (size_t l = 0; l < hidden; ++l) {
+    out.Put(static_cast<uint32_t>(network.layers[l].bias.size()));
+  }
+  PutNetwork(out, network, WeightForm::kBytes);
 }
 
 }  // namespace
@@ -158,9 +168,9 @@ LookInput LookInput::MovedTo(const Posture& joints_m) const {
   return out;
 }
 
-std::optional<LookDescription> LookDescription::Of(const LookInput& input) {
+std::optional<ProposedPerson> ProposedPerson::Of(const LookInput& input) {
   if (!CanBeLookedAt(input)) return std::nullopt;
-  LookDescription out;
+  ProposedPerson out;
   out.middle_m = MiddleOf(input);
   const Eigen::Vector3d z = out.middle_m.normalized();
   const Eigen::Vector3d level = Eigen::Vector3d::UnitY().cross(z);
@@ -168,21 +178,19 @@ std::optional<LookDescription> LookDescription::Of(const LookInput& input) {
   if (!(out.middle_m.z() > 0.0 && level.norm() > kLeast)) return std::nullopt;
   const Eigen::Vector3d x = level.normalized();
   out.frame_from_camera << x.transpose(), z.cross(x).transpose(), z.transpose();
-  Sampler sampler(input, out.frame_from_camera);
   for (size_t j = 0; j < kJointCount; ++j) {
     const Eigen::Vector3d& joint_m = input.proposed.position_m[j];
     out.place.position_m[j] = out.frame_from_camera * (joint_m - out.middle_m);
     out.moved.position_m[j] = out.frame_from_camera * input.moved.position_m[j];
-    out.behind_mm[j] = sampler.Around(joint_m);
   }
   out.confidence = input.confidence;
   out.seen = input.seen;
   return out;
 }
 
-LookDescription LookDescription::Mirrored() const {
+ProposedPerson ProposedPerson::Mirrored() const {
   const Eigen::Vector3d mirror(-1.0, 1.0, 1.0);
-  LookDescription out = *this;
+  ProposedPerson out = *this;
   out.middle_m = mirror.cwiseProduct(middle_m);
   out.frame_from_camera = mirror.asDiagonal() * frame_from_camera * mirror.asDiagonal();
   for (size_t j = 0; j < kJointCount; ++j) {
@@ -191,6 +199,25 @@ LookDescription LookDescription::Mirrored() const {
     out.moved.position_m[other] = mirror.cwiseProduct(moved.position_m[j]);
     out.confidence[other] = confidence[j];
     out.seen[other] = seen[j];
+  }
+  return out;
+}
+
+std::optional<LookDescription> LookDescription::Of(const LookInput& input) {
+  const auto person = ProposedPerson::Of(input);
+  if (!person) return std::nullopt;
+  LookDescription out{*person};
+  Sampler sampler(input, out.frame_from_camera);
+  for (size_t j = 0; j < kJointCount; ++j) {
+    out.behind_mm[j] = sampler.Around(input.proposed.position_m[j]);
+  }
+  return out;
+}
+
+LookDescription LookDescription::Mirrored() const {
+  LookDescription out{ProposedPerson::Mirrored()};
+  for (size_t j = 0; j < kJointCount; ++j) {
+    const auto other = static_cast<size_t>(kMirroredJoint[j]);
     for (size_t row = 0; row < kLookSamples; row += kLookGrid) {
       std::reverse_copy(behind_mm[j].begin() + static_cast<std::ptrdiff_t>(row),
                         behind_mm[j].begin() + static_cast<std::ptrdiff_t>(row + kLookGrid),
@@ -225,11 +252,12 @@ Eigen::VectorXf NumbersOf(const LookDescription& description, Joint joint) {
   return numbers;
 }
 
-Looker::Looker(const CloseLook& look) {
+Looker::Looker(const CloseLook& look) : glances_(look.glances.size()) {
   std::vector<const RectifiedNetwork*> networks;
   for (const Glance& glance : look.glances) {
     for (const RectifiedNetwork& network : glance) networks.push_back(&network);
   }
+  if (!look.bones.empty()) networks.push_back(&look.bones);
   networks_ = NetworkRunner::Of(networks);
 }
 
@@ -256,15 +284,20 @@ Posture Looker::Glanced(size_t glance, const LookDescription& seen, Posture join
   return joints_m;
 }
 
-std::optional<Posture> Looker::Look(const LookInput& input) const {
+std::optional<Looked> Looker::Look(const LookInput& input) const {
   LookInput now = input;
-  for (size_t g = 0; g * kLookJoints.size() < networks_.size(); ++g) {
+  for (size_t g = 0; g < glances_; ++g) {
     const auto seen = LookDescription::Of(now);
     if (!seen && g == 0) return std::nullopt;
     if (!seen) break;
     now = now.MovedTo(Glanced(g, *seen, now.proposed));
   }
-  return now.proposed;
+  Looked out{now.proposed, std::nullopt};
+  if (networks_.size() > glances_ * kLookJoints.size()) {
+    const auto person = ProposedPerson::Of(now);
+    if (person) out.bones_m = MeasuredBones(networks_.back(), *person);
+  }
+  return out;
 }
 
 void CloseLook::Save(const std::filesystem::path& path) const {
@@ -272,15 +305,10 @@ void CloseLook::Save(const std::filesystem::path& path) const {
   out.Put(people);
   out.Put(static_cast<uint32_t>(glances.size()));
   for (const Glance& glance : glances) {
-    for (const RectifiedNetwork& network : glance) {
-      const size_t hidden = network.layers.size() - 1;
-      out.Put(static_cast<uint32_t>(hidden));
-      for (size_t l = 0; l < hidden; ++l) {
-        out.Put(static_cast<uint32_t>(network.layers[l].bias.size()));
-      }
-      PutNetwork(out, network, WeightForm::kBytes);
-    }
+    for (const RectifiedNetwork& network : glance) PutLookNetwork(out, network);
   }
+  out.Put(bones.empty() ? uint64_t{0} : measured);
+  if (!bones.empty()) PutLookNetwork(out, bones);
   WriteSealedFile(path, kFormat, out.bytes());
 }
 
@@ -299,8 +327,12 @@ CloseLook CloseLook::FromBytes(std::span<const std::byte> bytes, const std::stri
     in.Fail("glances", fmt::format("expected 1 to {}", kMostGlances));
   }
   for (uint32_t g = 0; g < glances; ++g) {
-    for (RectifiedNetwork& network : out.glances.emplace_back()) network = GetLookNetwork(in);
+    for (RectifiedNetwork& network : out.glances.emplace_back()) {
+      network = GetLookNetwork(in, kLookInputs, 3);
+    }
   }
+  out.measured = in.Get<uint64_t>("people measured");
+  if (out.measured > 0) out.bones = GetLookNetwork(in, kBoneInputs, kMeasuredBones.size());
   in.ExpectEnd();
   return out;
 }

@@ -37,25 +37,33 @@ inline constexpr int kLookGrid = 9;  // samples a side
 inline constexpr std::array<double, 2> kLookSteps_m = {0.025, 0.07};
 inline constexpr int kLookSamples = static_cast<int>(kLookSteps_m.size()) * kLookGrid * kLookGrid;
 
-/// A person as a close look sees them, in axes of which z runs along the ray to the person and x is
-/// level: it does not matter where in the image somebody stands.
-struct LookDescription {
-  /// Where no surface of the person is: the sensor looks past it, or at something nearer.
-  static constexpr int16_t kBeside = 500, kHidden = -500;
-
+/// Where a person's joints are said to be, in axes of which z runs along the ray to the person and
+/// x is level: it does not matter where in the image somebody stands.
+struct ProposedPerson {
   Eigen::Matrix3d frame_from_camera = Eigen::Matrix3d::Identity();
   Eigen::Vector3d middle_m = Eigen::Vector3d::Zero();  // of the person, camera space
   Posture place;                                       // proposed, from the middle, these axes
   std::array<double, kJointCount> confidence{};
   std::array<bool, kJointCount> seen{};
   Posture moved;  // by earlier glances, these axes
+
+  /// Nothing where a proposal is not finite or the image has not a pixel for each of `is_person`.
+  static std::optional<ProposedPerson> Of(const LookInput& input);
+  /// Of the mirror image: left and right exchanged.
+  ProposedPerson Mirrored() const;
+};
+
+/// A person as a close look sees them.
+struct LookDescription : ProposedPerson {
+  /// Where no surface of the person is: the sensor looks past it, or at something nearer.
+  static constexpr int16_t kBeside = 500, kHidden = -500;
+
   /// Of each joint, by grid, row and column (x): how much farther than the joint surface lies
   /// there, millimetres, within 300.
   std::array<std::array<int16_t, kLookSamples>, kJointCount> behind_mm{};
 
-  /// Nothing where a proposal is not finite or the image has not a pixel for each of `is_person`.
+  /// Nothing where ProposedPerson has nothing.
   static std::optional<LookDescription> Of(const LookInput& input);
-  /// Of the mirror image: left and right exchanged.
   LookDescription Mirrored() const;
 };
 
@@ -83,7 +91,9 @@ using Glance = std::array<RectifiedNetwork, kLookJoints.size()>;  // kLookInputs
 /// shows around it is that of Dollar et al. 2010, "Cascaded pose regression".
 struct CloseLook {
   std::vector<Glance> glances;
-  uint64_t people = 0;  // the last glance was learned from
+  RectifiedNetwork bones;  // kBoneInputs -> kMeasuredBones, see bone_measure.h; or empty
+  uint64_t people = 0;     // the last glance was learned from
+  uint64_t measured = 0;   // people whose bones were learned from
 
   static constexpr double kStep_m = 0.1;
   /// Whatever a network says, at one glance a joint goes no farther.
@@ -98,18 +108,25 @@ struct CloseLook {
   static bool IsOne(const std::filesystem::path& path);
 };
 
+/// What a close look makes of a person.
+struct Looked {
+  Posture joints_m;                    // camera space
+  std::optional<BoneLengths> bones_m;  // judged from this frame alone, if that was learned
+};
+
 /// A close look made ready to be had often.
 class Looker {
  public:
   explicit Looker(const CloseLook& look);
 
-  /// The joints, camera space; nothing where LookDescription::Of has nothing to say at first.
-  std::optional<Posture> Look(const LookInput& input) const;
+  /// Nothing where LookDescription::Of has nothing to say at first.
+  std::optional<Looked> Look(const LookInput& input) const;
 
  private:
   Posture Glanced(size_t glance, const LookDescription& seen, Posture joints_m) const;
 
-  std::vector<NetworkRunner> networks_;  // of all glances, one after the other
+  std::vector<NetworkRunner> networks_;  // of all glances, one after the other; then of the bones
+  size_t glances_ = 0;
 };
 
 }  // namespace ossa::recon

@@ -11,7 +11,8 @@
 //   4. a filter a joint weighs by trust, or one that was learned of this sensor; a frame later it
 //      says better what it thought (posture_filter_internal.h);
 //   5. the learned systematic error of the whole posture is taken off (recon/gp/pose_correction.h);
-//   6. the person's constant bone lengths are imposed, moving the joints least.
+//   6. the person's constant bone lengths are imposed, moving the joints least; a close look judges
+//      them frame by frame (recon/look/bone_measure.h).
 #include <algorithm>
 #include <cmath>
 
@@ -69,7 +70,7 @@ class Best : public Reconstructor {
     }
     RememberOffsets(now, moment, prepared.dt_s);
     const Posture corrected = Corrected(now, moment);  // 5.
-    size_.Observe(corrected, TrustOfBones(prepared, trust), prepared.scale);
+    size_.Observe(corrected, TrustOfBones(prepared, trust), prepared.scale, input.bones_m);
     const ReconstructedPosture out = WithBones(corrected, moment);  // 6.
     revised_.reset();
     if (last_ && !prepared.restarted && options_.filter) {

@@ -111,7 +111,14 @@ void BodySize::TypicalBones::Add(const BoneLengths& measured, const JointWeights
   }
 }
 
-void BodySize::Observe(const Posture& in_camera, const JointWeights& trust, double expected_scale) {
+void BodySize::JudgedBones::Add(const BoneLengths& judged_m) {
+  constexpr int kMemory_frames = 600;
+  frames = std::min(frames + 1, kMemory_frames);
+  for (size_t i = 1; i < kJointCount; ++i) mean_m[i] += (judged_m[i] - mean_m[i]) / frames;
+}
+
+void BodySize::Observe(const Posture& in_camera, const JointWeights& trust, double expected_scale,
+                       const std::optional<BoneLengths>& judged) {
   const auto good = std::count_if(trust.begin(), trust.end(), [](double t) { return t > 0.5; });
   const BoneLengths measured = BoneLengthsOf(in_camera);
   const double scale = BodyScaleOf(measured, trust);
@@ -119,37 +126,44 @@ void BodySize::Observe(const Posture& in_camera, const JointWeights& trust, doub
     const bool other_size = good >= 12 && std::abs(scale / scale_ - 1.0) > 0.25;
     other_size_frames_ = other_size ? other_size_frames_ + 1 : 0;
     if (other_size_frames_ < kPatience_frames) {
-      if (good >= 12 && !other_size) Reconsider(measured, trust, expected_scale);
+      if (good < 12 || other_size) return;
+      typical_.Add(measured, trust);
+      if (judged) judged_.Add(*judged);
+      Reconsider(expected_scale);
       return;
     }
+    judged_ = {};  // of somebody else
   }
   scale_ = good >= 4 ? scale : 1.0;
   typical_ = {};
   next_look_ = kFirstLook_frames;
   typical_.Add(measured, trust);
+  if (judged) judged_.Add(*judged);
   lengths_m_ = Taken(expected_scale);
   locked_ = good >= 12;
   other_size_frames_ = 0;
 }
 
-// After four seconds, eight, sixteen, ...: bones that are typically others than they were in the
-// first frame are taken anew. A body whose bones are seen as they are is left alone.
-void BodySize::Reconsider(const BoneLengths& measured, const JointWeights& trust,
-                          double expected_scale) {
-  typical_.Add(measured, trust);
-  if (typical_.frames < next_look_) return;
-  next_look_ *= 2;
+// What is judged settles in the first second. After four seconds, eight, sixteen, ...: bones that
+// are typically others than they were then are taken anew. A body whose bones are seen as they are
+// is left alone.
+void BodySize::Reconsider(double expected_scale) {
+  const bool settles = judged_.frames > 0 && judged_.frames <= kSettled_frames;
+  const bool looks = typical_.frames >= next_look_;
+  if (!settles && !looks) return;
+  if (looks) next_look_ *= 2;
   const BoneLengths taken = Taken(expected_scale);
   constexpr double kOther = 0.05;  // the median of that many frames is no more than 1 % off
-  bool other = false;
+  bool other = settles;
   for (size_t i = 1; i < kJointCount; ++i) {
     other = other || std::abs(taken[i] / lengths_m_[i] - 1.0) > kOther;
   }
   if (other) lengths_m_ = taken;
 }
 
-/// The lengths that what is typical tells.
+/// The lengths that what was judged tells; if nothing was, what is typical.
 BoneLengths BodySize::Taken(double expected_scale) const {
+  if (judged_.frames > 0) return judged_.mean_m;
   BoneLengths lengths = ScaledBoneLengths(scale_);
   for (size_t i = 1; i < kJointCount; ++i) {
     const size_t bone = std::min(i, static_cast<size_t>(kMirroredJoint[i]));

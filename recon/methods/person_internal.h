@@ -10,7 +10,8 @@ namespace ossa::recon {
 
 /// The person's bone lengths, kept constant from the first good frame on: the standing or T-posed
 /// person that tracking starts with (Shum 2013 fig. 2), left and right averaged, each bone within a
-/// quarter of a body of that size. Measured anew when the body has another size for a second, which
+/// quarter of a body of that size. With a close look, which judges them in each frame, they settle
+/// in the first second. Measured anew when the body has another size for a second, which
 /// is another person; and, at looks that become rarer, when the bones seen until then are typically
 /// others.
 class BodySize {
@@ -26,8 +27,11 @@ class BodySize {
     proportions_ = proportions;
     expected_ = share;
   }
-  /// `expected_scale`: what the proportions are multiplied with; 0: the measured size.
-  void Observe(const Posture& in_camera, const JointWeights& trust, double expected_scale = 0.0);
+  /// `expected_scale`: what the proportions are multiplied with; 0: the measured size. `judged`:
+  /// the bones as a close look judges them in this frame, which goes before what lies between
+  /// joints; their mean settles in the first second.
+  void Observe(const Posture& in_camera, const JointWeights& trust, double expected_scale = 0.0,
+               const std::optional<BoneLengths>& judged = std::nullopt);
   const BoneLengths& lengths_m() const { return lengths_m_; }
   bool locked() const { return locked_; }
   /// Over the standard body, as a whole.
@@ -35,6 +39,7 @@ class BodySize {
 
  private:
   static constexpr int kPatience_frames = 30;    // another size for so long is another person
+  static constexpr int kSettled_frames = 30;     // judged bones are the mean of so many
   static constexpr int kFirstLook_frames = 120;  // sooner, a pose is taken for a body
   /// Median length of each bone over the frames seen; of a pair of bones at its left one.
   struct TypicalBones {
@@ -44,12 +49,20 @@ class BodySize {
     int frames = 0;
   };
 
-  void Reconsider(const BoneLengths& measured, const JointWeights& trust, double expected_scale);
+  /// Mean length of each bone over the frames in which it was judged.
+  struct JudgedBones {
+    void Add(const BoneLengths& judged_m);
+    BoneLengths mean_m{};
+    int frames = 0;
+  };
+
+  void Reconsider(double expected_scale);
   BoneLengths Taken(double expected_scale) const;
 
   bool as_measured_ = false;
   BoneLengths lengths_m_ = StandardBoneLengths();
   TypicalBones typical_;
+  JudgedBones judged_;
   BoneLengths proportions_{};
   double expected_ = 0.0;
   double scale_ = 1.0;

@@ -18,6 +18,8 @@ struct ReconstructionInput {
   /// The depth image, when there is one: whether a surface lies where a joint is said to be tells
   /// an occluded joint from a wrong one. Borrowed for the call.
   const depth::DepthFrame* depth = nullptr;
+  /// The person's bones as a close look judges them in this frame (recon/look/bone_measure.h).
+  std::optional<BoneLengths> bones_m = std::nullopt;
 };
 
 struct ReconstructedPosture {

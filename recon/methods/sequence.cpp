@@ -67,7 +67,7 @@ SkeletonSequence ReconstructSequence(const SkeletonSequence& sequence,
       Follower& person = people[body.id];
       if (!person.method) person.method = MakeReconstructor(options);
       const TrackedPosture observed = TrackedPostureOf(body);
-      const auto now = person.method->Step({observed, frame.time_s, nullptr});
+      const auto now = person.method->Step({observed, frame.time_s, nullptr, body.bones_m});
       if (const auto revised = person.method->Revised()) {
         BodyRecord& written = out.frames[person.frame].bodies[person.body];
         written = Reconstructed(written, person.observed, *revised);

@@ -1,6 +1,7 @@
 // Close looks (.ossalook): any payload is a value or an InputError.
 #include <cstdint>
 
+#include "recon/look/bone_measure.h"
 #include "recon/look/close_look.h"
 #include "tests/fuzz/outcome.h"
 #include "tests/fuzz/seeds.h"
@@ -10,16 +11,21 @@ namespace {
 namespace recon = ossa::recon;
 using recon::CloseLook;
 
+recon::RectifiedNetwork Plain(Eigen::Index inputs, Eigen::Index outputs) {
+  recon::RectifiedNetwork network;
+  network.input_mean = Eigen::VectorXf::Zero(inputs);
+  network.input_scale = Eigen::VectorXf::Ones(inputs);
+  network.layers = {{Eigen::MatrixXf::Ones(outputs, inputs), Eigen::VectorXf::Zero(outputs)}};
+  return network;
+}
+
 }  // namespace
 
 std::vector<std::string> ossa::fuzz::Seeds() {
   CloseLook look;
-  look.people = 1;
-  for (recon::RectifiedNetwork& network : look.glances.emplace_back()) {
-    network.input_mean = Eigen::VectorXf::Zero(recon::kLookInputs);
-    network.input_scale = Eigen::VectorXf::Ones(recon::kLookInputs);
-    network.layers = {{Eigen::MatrixXf::Ones(3, recon::kLookInputs), Eigen::VectorXf::Zero(3)}};
-  }
+  look.people = look.measured = 1;
+  look.glances.emplace_back().fill(Plain(recon::kLookInputs, 3));
+  look.bones = Plain(recon::kBoneInputs, recon::kMeasuredBones.size());
   const std::string path = ScratchPath("look");
   look.Save(path);
   return {TakePayload(path)};
@@ -32,6 +38,10 @@ extern "C" int LLVMFuzzerTestOneInput(const uint8_t* data, size_t size) {
       for (const recon::RectifiedNetwork& network : glance) {
         if (!network.Run(Eigen::VectorXf::Zero(recon::kLookInputs)).allFinite()) abort();
       }
+    }
+    if (!look.bones.empty() &&
+        !look.bones.Run(Eigen::VectorXf::Zero(recon::kBoneInputs)).allFinite()) {
+      abort();
     }
   });
   return 0;

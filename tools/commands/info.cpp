@@ -13,6 +13,7 @@
 #include "recon/database/posture_database.h"
 #include "recon/gp/learned_models.h"
 #include "recon/gp/posture_prior.h"
+#include "recon/look/bone_measure.h"
 #include "recon/look/close_look.h"
 #include "recon/motion/skeletons/skeleton_io.h"
 #include "tools/commands/command.h"
@@ -118,6 +119,10 @@ void ShowLook(const fs::path& path) {
       "close look at a forest's joints, {} of {} networks, learned from {} people, {:.1f} MB\n",
       look.glances.size() == 1 ? "1 glance" : fmt::format("{} glances", look.glances.size()),
       recon::kLookJoints.size(), look.people, static_cast<double>(fs::file_size(path)) * 1e-6);
+  if (!look.bones.empty()) {
+    fmt::print("and a measure of {} bones, learned from {} people\n", recon::kMeasuredBones.size(),
+               look.measured);
+  }
 }
 
 bool IsDepthRecording(const fs::path& path) {

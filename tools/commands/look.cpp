@@ -11,6 +11,7 @@
 #include "tools/commands/command.h"
 #include "tools/commands/commands.h"
 #include "tools/commands/outputs.h"
+#include "tools/learning/learn_bone_measure.h"
 #include "tools/learning/learn_close_look.h"
 #include "tools/tracker/shipped.h"
 
@@ -23,12 +24,15 @@ int Look(int argc, char** argv) {
   std::vector<std::string> datasets;
   std::string out, after, model_path;
   tools::CloseLookOptions options;
-  bool quiet = false;
+  bool bones = false, quiet = false;
   app.add_option("DATASET", datasets, "folders made by ossa render")->required();
   app.add_option("--out", out, "the .ossalook file to write")->required();
   app.add_option("--model", model_path, "forest model, .ossa (default: the shipped one)");
   app.add_option("--after", after,
                  "a .ossalook: its glances come first, one more is learned from where they end");
+  app.add_flag("--bones", bones,
+               "learn no glance more but how long people's bones are, of where the glances of "
+               "--after put the joints");
   app.add_option("--hidden", options.hidden,
                  "units of each network's first layer, half as many of its second")
       ->capture_default_str()
@@ -43,6 +47,7 @@ int Look(int argc, char** argv) {
   app.add_flag("--quiet", quiet, "no progress");
   Parse(app, argc, argv);
   CheckExtension("--out", out, ".ossalook");
+  if (bones && after.empty()) throw UsageError("--bones: expected --after LOOK, too");
   if (model_path.empty()) model_path = tracker::ShippedFile("body.ossa").string();
   std::vector<std::string> inputs = datasets;
   inputs.push_back(model_path);
@@ -53,7 +58,7 @@ int Look(int argc, char** argv) {
   const forest::ForestModel model = forest::ReadForestModel(model_path);
   options.model_name = model_path;
   if (!after.empty()) options.after = recon::CloseLook::Load(after);
-  if (options.after.glances.size() >= recon::CloseLook::kMostGlances) {
+  if (!bones && options.after.glances.size() >= recon::CloseLook::kMostGlances) {
     throw InputError(
         fmt::format("{}: expected less than {} glances", after, recon::CloseLook::kMostGlances));
   }
@@ -63,9 +68,10 @@ int Look(int argc, char** argv) {
     bar.Update(static_cast<double>(done), static_cast<double>(total), "learning");
   };
   try {
-    const auto look = tools::LearnCloseLook(model, {datasets.begin(), datasets.end()}, options);
+    const auto learn = bones ? tools::LearnBoneMeasure : tools::LearnCloseLook;
+    const auto look = learn(model, {datasets.begin(), datasets.end()}, options);
     look.Save(out);
-    fmt::print("{}: learned from {} people\n", out, look.people);
+    fmt::print("{}: learned from {} people\n", out, bones ? look.measured : look.people);
   } catch (const forest::TrainInterrupted&) {
     throw InputError("look: interrupted; nothing was written");
   }

@@ -1,6 +1,5 @@
 #include "tools/learning/learn_prior_network.h"
 
-#include <oneapi/tbb/global_control.h>
 #include <oneapi/tbb/parallel_for.h>
 
 #include <algorithm>
@@ -8,10 +7,10 @@
 #include <cmath>
 #include <memory>
 #include <numbers>
-#include <thread>
 
 #include "depth/error.h"
 #include "forest/network.h"
+#include "forest/thread_limit.h"
 #include "forest/train.h"
 #include "recon/gp/prior_filter.h"
 #include "tools/learning/learn_rectified_network.h"
@@ -169,10 +168,7 @@ void Take(const Walk& walk, const std::shared_ptr<const recon::PosturePrior>& pr
 recon::PriorNetwork LearnPriorNetwork(const recon::PosturePrior& prior,
                                       const std::vector<recon::PriorClip>& clips,
                                       const PriorNetworkOptions& options) {
-  const oneapi::tbb::global_control limit(
-      oneapi::tbb::global_control::max_allowed_parallelism,
-      options.threads > 0 ? static_cast<size_t>(options.threads)
-                          : std::max<size_t>(1, std::thread::hardware_concurrency()));
+  const forest::ThreadLimit limit(options.threads);
   auto gaussian = std::make_shared<recon::PosturePrior>(prior);
   gaussian->network = {};
   std::vector<std::vector<std::vector<BoneVector>>> runs;

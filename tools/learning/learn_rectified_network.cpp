@@ -64,4 +64,12 @@ forest::LossGradient GradientOfLengths(float soft) {
   };
 }
 
+forest::LossGradient GradientOfNumbers(float soft) {
+  return [soft](const forest::RowMatrix& out, const forest::RowMatrix& wanted) {
+    const auto error = (out - wanted).array().eval();
+    const auto rows = static_cast<float>(out.rows());
+    return forest::RowMatrix(error / (rows * (error.square() + soft * soft).sqrt()));
+  };
+}
+
 }  // namespace ossa::tools

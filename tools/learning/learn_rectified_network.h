@@ -13,4 +13,8 @@ recon::RectifiedNetwork LearnRectifiedNetwork(forest::NetworkExamples* examples,
 /// smooth below `soft`. Points that are not finite are not known.
 forest::LossGradient GradientOfLengths(float soft);
 
+/// Of outputs that are numbers: the gradient of their errors' mean absolute value, smooth below
+/// `soft`.
+forest::LossGradient GradientOfNumbers(float soft);
+
 }  // namespace ossa::tools

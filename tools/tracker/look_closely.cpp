@@ -14,7 +14,7 @@ const forest::Proposal* ProposalAt(const std::vector<forest::Proposal>& best_fir
 
 }  // namespace
 
-std::optional<recon::Posture> LookClosely(
+std::optional<recon::Looked> LookClosely(
     const recon::Looker& look, const depth::DepthFrame& frame, const depth::Candidate& candidate,
     const std::vector<std::vector<forest::Proposal>>& proposals,
     const std::array<int, recon::kJointCount>& targets, const recon::TrackedPosture& chosen) {

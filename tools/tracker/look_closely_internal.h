@@ -11,7 +11,7 @@ namespace ossa::tracker {
 
 /// The joints of a posture chosen among the proposals, looked at again; those for which nothing was
 /// chosen from where they are likeliest. Nothing where some joint has no proposal at all.
-std::optional<recon::Posture> LookClosely(
+std::optional<recon::Looked> LookClosely(
     const recon::Looker& look, const depth::DepthFrame& frame, const depth::Candidate& candidate,
     const std::vector<std::vector<forest::Proposal>>& proposals,
     const std::array<int, recon::kJointCount>& targets, const recon::TrackedPosture& chosen);

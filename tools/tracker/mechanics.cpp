@@ -80,17 +80,36 @@ std::optional<Eigen::Vector4d> Mechanics::OwnFloor(const recon::Posture& target,
   return floor_is_another_ ? std::nullopt : floor;
 }
 
+void Mechanics::Make(const recon::BoneLengths& bones_m) {
+  physics::CharacterFilterOptions options;
+  if (build_.motors) options.control = physics::Control::kMotor;
+  options.hinges = build_.hinges;
+  options.joint_limits = build_.joint_limits;
+  character_ = std::make_unique<physics::CharacterFilter>(bones_m, options);
+  bones_m_ = bones_m;
+}
+
+bool Mechanics::MeasuredAnew(const recon::BoneLengths& bones_m) {
+  constexpr double kSame = 0.001, kOther = 0.01;
+  constexpr int kPatience_frames = 10;
+  const auto most = [&](const recon::BoneLengths& other_m) {
+    double share = 0.0;
+    for (size_t i = 1; i < kJointCount; ++i) {
+      share = std::max(share, std::abs(bones_m[i] / other_m[i] - 1.0));
+    }
+    return share;
+  };
+  same_frames_ = latest_m_[1] > 0.0 && most(latest_m_) < kSame ? same_frames_ + 1 : 0;
+  latest_m_ = bones_m;
+  return same_frames_ == kPatience_frames && most(bones_m_) > kOther;
+}
+
 std::optional<physics::FilteredPosture> Mechanics::Follow(
     const recon::Posture& target, std::span<const double> trust,
     const std::optional<Eigen::Vector4d>& floor, double time_s) {
-  if (!character_) {
-    physics::CharacterFilterOptions options;
-    if (build_.motors) options.control = physics::Control::kMotor;
-    options.hinges = build_.hinges;
-    options.joint_limits = build_.joint_limits;
-    character_ = std::make_unique<physics::CharacterFilter>(BonesOf(target), options);
-    last_s_ = time_s - 1.0 / 30.0;
-  }
+  const recon::BoneLengths bones_m = BonesOf(target);
+  if (!character_) last_s_ = time_s - 1.0 / 30.0;
+  if (!character_ || MeasuredAnew(bones_m)) Make(bones_m);
   const double dt_s = time_s - last_s_;
   last_s_ = time_s;
   if (!(dt_s > 0.0)) return std::nullopt;

@@ -11,7 +11,7 @@
 namespace ossa::tracker {
 
 /// The mechanical character of one person: made at the first posture, with its bones, and led by
-/// the postures that follow.
+/// the postures that follow. Made anew when they come to have other bones, and keep those.
 class Mechanics {
  public:
   explicit Mechanics(const MechanicsBuild& build) : build_(build) {}
@@ -26,9 +26,15 @@ class Mechanics {
   /// The floor, if it can be the one that the person stands on.
   std::optional<Eigen::Vector4d> OwnFloor(const recon::Posture& target,
                                           const std::optional<Eigen::Vector4d>& floor);
+  void Make(const recon::BoneLengths& bones_m);
+  /// Whether the postures have had these bones for a while, which are not the character's.
+  bool MeasuredAnew(const recon::BoneLengths& bones_m);
 
   MechanicsBuild build_;
   std::unique_ptr<physics::CharacterFilter> character_;
+  recon::BoneLengths bones_m_{};   // the character's
+  recon::BoneLengths latest_m_{};  // of the last posture
+  int same_frames_ = 0;            // for how long they have been so
   double last_s_ = 0.0;
   bool floor_is_another_ = false;  // what was taken for the floor is not under the person
 };

@@ -91,7 +91,8 @@ void CompleteBody(const depth::DepthFrame& frame, const std::optional<Eigen::Vec
   recon::TrackedPosture seen = body.raw;
   if (body.looked && options.reconstructor.method == "best") seen.posture = *body.looked;
   const recon::TrackedPosture steady = person.steady.Step(seen, frame.time_s);
-  const auto result = person.reconstructor->Step({steady, frame.time_s, &frame});
+  const auto result =
+      person.reconstructor->Step({steady, frame.time_s, &frame, body.looked_bones_m});
   body.reconstructed = result.posture;
   body.reliability = result.reliability;
   ms.reconstruct += MillisecondsSince(start);

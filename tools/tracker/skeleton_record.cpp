@@ -30,6 +30,7 @@ recon::BodyRecord RecordOf(const Body& body, PostureKind kind) {
     if (kind == PostureKind::kFinal) joint.orientation = body.absolute_orientation[j];
     record.joints[j] = joint;
   }
+  if (kind == PostureKind::kLooked && body.looked) record.bones_m = body.looked_bones_m;
   return record;
 }
 

@@ -237,8 +237,12 @@ void Tracker::Impl::TrackBody(const depth::DepthFrame& frame,
   body.raw = ChoosePosture(model, targets, perception.proposals, context);
   if (look) {
     const auto start = Clock::now();
-    body.looked =
+    const auto looked =
         LookClosely(*look, frame, found.candidate, perception.proposals, targets, body.raw);
+    if (looked) {
+      body.looked = looked->joints_m;
+      body.looked_bones_m = looked->bones_m;
+    }
     ms.reconstruct += MillisecondsSince(start);
   }
   for (size_t j = 0; j < recon::kJointCount; ++j) {

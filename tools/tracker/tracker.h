@@ -44,8 +44,9 @@ struct Body {
   Eigen::Vector3d position_m = Eigen::Vector3d::Zero();  // middle of the seen surface
   recon::TrackedPosture raw;                             // what the image says, joint by joint
   std::optional<recon::Posture> looked;  // the raw joints after a close look, where there was one
-  recon::Posture reconstructed;          // made complete and bone-consistent by the method
-  recon::Posture smoothed;  // after physics and smoothing, seen joints held to the image
+  std::optional<recon::BoneLengths> looked_bones_m;  // what the look judges of this frame alone
+  recon::Posture reconstructed;  // made complete and bone-consistent by the method
+  recon::Posture smoothed;       // after physics and smoothing, seen joints held to the image
   std::array<double, recon::kJointCount> reliability{};  // R_i of the raw joints
   recon::JointOrientations absolute_orientation;         // as the SDK defines them
   recon::JointOrientations hierarchical_orientation;

@@ -7,6 +7,7 @@
 #include <memory>
 #include <nlohmann/json.hpp>
 #include <set>
+#include <span>
 #include <stdexcept>
 
 #include "depth/error.h"
@@ -78,7 +79,12 @@ void AppendBody(std::string& text, const BodyRecord& body) {
     fmt::format_to(std::back_inserter(text), "\"{}\":", kJointNames[j]);
     AppendJoint(text, *body.joints[j]);
   }
-  text += "}}";
+  text.push_back('}');
+  if (body.bones_m) {
+    text += ",\"bones\":";
+    AppendVector(text, std::span(*body.bones_m).subspan(1), kLengthDigits);
+  }
+  text.push_back('}');
 }
 
 // The JSON library prints recursively: a line of half a million brackets must not reach it.
@@ -226,7 +232,22 @@ class SkeletonJsonlReader::Lines {
       if (!known) lines_.Fail("one of the 20 SDK joint names in \"joints\"", name);
       body.joints[static_cast<size_t>(Index(*known))] = JointOf(joint, name);
     }
+    if (const auto bones = json.find("bones"); bones != json.end()) body.bones_m = BonesOf(*bones);
     return body;
+  }
+
+  // Of the bones that end in the joints, in their order; none ends in the first.
+  BoneLengths BonesOf(const Json& json) const {
+    constexpr double kMost_m = 10.0;
+    const auto lengths_m = Numbers<kJointCount - 1>(json, "\"bones\"");
+    BoneLengths bones_m{};
+    for (size_t i = 0; i < lengths_m.size(); ++i) {
+      if (!(lengths_m[i] > 0.0 && lengths_m[i] < kMost_m)) {
+        Fail("\"bones\"", "lengths of 0 to 10 m", json);
+      }
+      bones_m[i + 1] = lengths_m[i];
+    }
+    return bones_m;
   }
 
   JointRecord JointOf(const Json& json, const std::string& name) const {

@@ -9,6 +9,8 @@
 
 #include "depth/error.h"
 #include "recon/body/standard_body.h"
+#include "recon/look/bone_measure.h"
+#include "recon/normalise.h"
 #include "tests/support/temporary_folder.h"
 
 namespace ossa::recon {
@@ -54,9 +56,31 @@ CloseLook Silent() {
   return look;
 }
 
+std::optional<Posture> JointsOf(const std::optional<Looked>& looked) {
+  return looked ? std::optional(looked->joints_m) : std::nullopt;
+}
+
 size_t NetworkOf(Joint joint) {
   return static_cast<size_t>(std::find(kLookJoints.begin(), kLookJoints.end(), joint) -
                              kLookJoints.begin());
+}
+
+// Of random weights, as files have them.
+RectifiedNetwork RandomNetwork(int hidden, Eigen::Index units, Eigen::Index inputs,
+                               Eigen::Index outputs = 3) {
+  RectifiedNetwork network;
+  network.input_mean = Eigen::VectorXf::Random(inputs);
+  network.input_scale = 3.0F * Eigen::VectorXf::Random(inputs).cwiseAbs();
+  for (int l = 0; l < hidden; ++l, inputs = units) {
+    network.layers.push_back(
+        {Eigen::MatrixXf::Random(units, inputs), Eigen::VectorXf::Random(units)});
+  }
+  network.layers.push_back(
+      {Eigen::MatrixXf::Random(outputs, inputs), Eigen::VectorXf::Random(outputs)});
+  for (RectifiedNetwork::Layer& layer : network.layers) {
+    layer.weight = BytesOf(layer.weight).Weights();
+  }
+  return network;
 }
 
 TEST(CloseLook, SeesHowFarBehindTheJointSurfaceLies) {
@@ -143,7 +167,7 @@ TEST(CloseLook, MovesEachJointByItsNetworkAndTheOtherSideInTheMirror) {
   CloseLook look = Silent();
   look.glances[0][NetworkOf(Joint::kHead)].layers[1].bias = Eigen::Vector3f(0.0F, 0.5F, 0.0F);
   look.glances[0][NetworkOf(Joint::kKneeLeft)].layers[1].bias = Eigen::Vector3f(0.4F, 0.0F, 0.0F);
-  const auto joints_m = Looker(look).Look(scene.input);
+  const auto joints_m = JointsOf(Looker(look).Look(scene.input));
   ASSERT_TRUE(joints_m);
   const auto moved_m = [&](Joint joint) -> Eigen::Vector3d {
     return (*joints_m)[joint] - scene.input.proposed[joint];
@@ -159,7 +183,7 @@ TEST(CloseLook, EachGlanceBeginsWhereTheOneBeforeItEnded) {
   Scene scene;
   CloseLook look = Silent();
   look.glances[0][NetworkOf(Joint::kHead)].layers[1].bias = Eigen::Vector3f(0.0F, 0.5F, 0.0F);
-  const auto once_m = Looker(look).Look(scene.input);
+  const auto once_m = JointsOf(Looker(look).Look(scene.input));
   ASSERT_TRUE(once_m);
   // The second says that the head is back where it was proposed, which it knows as it moved.
   look.glances.push_back(Silent().glances[0]);
@@ -170,7 +194,7 @@ TEST(CloseLook, EachGlanceBeginsWhereTheOneBeforeItEnded) {
     head.layers[0].weight(axis, kMoved + 3 * Index(Joint::kHead) + axis) =
         -1.0F / static_cast<float>(CloseLook::kStep_m);
   }
-  const auto twice_m = Looker(look).Look(scene.input);
+  const auto twice_m = JointsOf(Looker(look).Look(scene.input));
   ASSERT_TRUE(twice_m);
   EXPECT_GT(((*once_m)[Joint::kHead] - scene.input.proposed[Joint::kHead]).norm(), 0.04);
   // Its weights are bytes: a part in five hundred.
@@ -189,7 +213,7 @@ TEST(CloseLook, MovesNoJointFarAway) {
   Scene scene;
   CloseLook look = Silent();
   look.glances[0][NetworkOf(Joint::kSpine)].layers[1].bias = Eigen::Vector3f(300.0F, 0.0F, -400.0F);
-  const auto joints_m = Looker(look).Look(scene.input);
+  const auto joints_m = JointsOf(Looker(look).Look(scene.input));
   ASSERT_TRUE(joints_m);
   EXPECT_NEAR(((*joints_m)[Joint::kSpine] - scene.input.proposed[Joint::kSpine]).norm(),
               CloseLook::kFarthest_m, 1e-6);
@@ -214,6 +238,49 @@ TEST(CloseLook, HasNothingToSayOfWhatCannotBeLookedAt) {
   }));
 }
 
+TEST(BoneMeasure, ReadsThePersonAndSaysLogarithmsOverTheStandardBones) {
+  Scene scene;
+  scene.input.proposed[Joint::kFootRight] = scene.input.proposed[Joint::kAnkleRight];  // no length
+  const auto person = ProposedPerson::Of(scene.input);
+  ASSERT_TRUE(person);
+  EXPECT_TRUE(BoneNumbersOf(*person).allFinite());
+  BoneLengths lengths_m = StandardBoneLengths();
+  EXPECT_LT(BoneOutputsOf(lengths_m).norm(), 1e-6F);
+  const auto shin = static_cast<size_t>(Index(Joint::kAnkleLeft));
+  lengths_m[shin] *= 1.2;  // of the left one only: half of it for the pair
+  const Eigen::VectorXf outputs = BoneOutputsOf(lengths_m);
+  EXPECT_NEAR(outputs.cwiseAbs().maxCoeff(), std::log(1.1) / kBoneStep, 1e-4);
+  EXPECT_NEAR(outputs.cwiseAbs().sum(), std::log(1.1) / kBoneStep, 1e-4);
+}
+
+// A network that adds up where the left hand and the right one are, sideways: nothing in the mean
+// of a person and the mirror image, but for what the bias says.
+TEST(BoneMeasure, IsTheMeanOfThePersonAndTheMirrorImage) {
+  Scene scene;
+  scene.input.proposed[Joint::kHandLeft].x() += 0.4;
+  CloseLook look = Silent();
+  EXPECT_FALSE(Looker(look).Look(scene.input)->bones_m);
+  constexpr auto kBones = static_cast<Eigen::Index>(kMeasuredBones.size());
+  look.bones.input_mean = Eigen::VectorXf::Zero(kBoneInputs);
+  look.bones.input_scale = Eigen::VectorXf::Ones(kBoneInputs);
+  look.bones.layers = {{Eigen::MatrixXf::Zero(kBones, kBoneInputs), Eigen::VectorXf::Zero(kBones)}};
+  look.bones.layers[0].bias[0] = 1.0F;
+  look.bones.layers[0].bias[1] = 1000.0F;
+  for (const Joint hand : {Joint::kHandLeft, Joint::kHandRight}) {
+    look.bones.layers[0].weight.col(3 * Index(hand)).setConstant(1.0F);
+  }
+  const auto looked = Looker(look).Look(scene.input);
+  ASSERT_TRUE(looked && looked->bones_m);
+  const auto over = [&](Joint joint) {
+    const auto j = static_cast<size_t>(Index(joint));
+    return (*looked->bones_m)[j] / StandardBoneLengths()[j];
+  };
+  EXPECT_NEAR(over(Joint::kSpine), std::exp(kBoneStep), 1e-4);
+  EXPECT_NEAR(over(Joint::kShoulderCenter), std::exp(1.0), 1e-4);  // no giants
+  EXPECT_NEAR(over(Joint::kKneeLeft), 1.0, 1e-4);
+  EXPECT_EQ(over(Joint::kKneeLeft), over(Joint::kKneeRight));
+}
+
 TEST(CloseLook, IsKeptInAFile) {
   const test::TemporaryFolder folder;
   CloseLook look = Silent();
@@ -231,6 +298,15 @@ TEST(CloseLook, IsKeptInAFile) {
   EXPECT_EQ(bytes("a.ossalook"), bytes("b.ossalook"));
   std::ofstream(folder / "short.ossalook", std::ios::binary) << bytes("a.ossalook").substr(0, 1000);
   EXPECT_THROW(CloseLook::Load(folder / "short.ossalook"), InputError);
+
+  EXPECT_TRUE(read.bones.empty());
+  look.bones = RandomNetwork(2, 6, kBoneInputs, kMeasuredBones.size());
+  look.measured = 9;
+  look.Save(folder / "bones.ossalook");
+  const CloseLook bones = CloseLook::Load(folder / "bones.ossalook");
+  EXPECT_EQ(bones.measured, 9U);
+  const Eigen::VectorXf some = Eigen::VectorXf::Random(kBoneInputs);
+  EXPECT_LT((bones.bones.Run(some) - look.bones.Run(some)).norm(), 0.1F);
 }
 
 TEST(CloseLook, WithOddNumbersIsRefused) {
@@ -253,6 +329,20 @@ TEST(CloseLook, WithOddNumbersIsRefused) {
   refused([](RectifiedNetwork& n) { n.layers[0].bias.setZero(1 << 15); }, "units");
   refused([](RectifiedNetwork& n) { n.layers[1].weight.setZero(4, 2); }, "output weights");
   refused([](RectifiedNetwork& n) { n.layers.resize(9, n.layers[1]); }, "layers");
+  const auto refused_bones = [&](RectifiedNetwork bones, const char* field) {
+    CloseLook look = Silent();
+    look.bones = std::move(bones);
+    look.measured = 1;
+    look.Save(folder / "odd.ossalook");
+    try {
+      CloseLook::Load(folder / "odd.ossalook");
+      FAIL() << field;
+    } catch (const InputError& error) {
+      EXPECT_NE(std::string(error.what()).find(field), std::string::npos) << error.what();
+    }
+  };
+  refused_bones(RandomNetwork(1, 4, kBoneInputs, 3), "output weights");
+  refused_bones(RandomNetwork(1, 4, kBoneInputs - 1, kMeasuredBones.size()), "input means");
 
   for (const size_t glances : {size_t{0}, CloseLook::kMostGlances + 1}) {
     CloseLook look = Silent();
@@ -265,22 +355,6 @@ TEST(CloseLook, WithOddNumbersIsRefused) {
       EXPECT_NE(std::string(error.what()).find("glances"), std::string::npos) << error.what();
     }
   }
-}
-
-// Of random weights, as files have them.
-RectifiedNetwork RandomNetwork(int hidden, Eigen::Index units, Eigen::Index inputs) {
-  RectifiedNetwork network;
-  network.input_mean = Eigen::VectorXf::Random(inputs);
-  network.input_scale = 3.0F * Eigen::VectorXf::Random(inputs).cwiseAbs();
-  for (int l = 0; l < hidden; ++l, inputs = units) {
-    network.layers.push_back(
-        {Eigen::MatrixXf::Random(units, inputs), Eigen::VectorXf::Random(units)});
-  }
-  network.layers.push_back({Eigen::MatrixXf::Random(3, inputs), Eigen::VectorXf::Random(3)});
-  for (RectifiedNetwork::Layer& layer : network.layers) {
-    layer.weight = BytesOf(layer.weight).Weights();
-  }
-  return network;
 }
 
 TEST(NetworkRunner, SaysWhatTheNetworkSays) {

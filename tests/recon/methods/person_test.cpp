@@ -64,6 +64,32 @@ TEST(BodySize, LeavesBonesAloneThatAreSeenAsTheyAre) {
   EXPECT_EQ(size.lengths_m(), first);
 }
 
+// The first second's mean of what a look judges, whatever lies between the joints; then no more.
+TEST(BodySize, OfBonesThatAreJudgedSettlesInASecond) {
+  BodySize size(true);
+  JointWeights all;
+  all.fill(1.0);
+  const Posture seen = WithHips(1.5);
+  const size_t hip = 12;
+  const auto judged = [&](double factor) {
+    BoneLengths lengths_m = StandardBoneLengths();
+    lengths_m[hip] *= factor;
+    size.Observe(seen, all, 0.0, lengths_m);
+    return size.lengths_m()[hip] / StandardBoneLengths()[hip];
+  };
+  EXPECT_NEAR(judged(1.10), 1.10, 1e-9);
+  EXPECT_NEAR(judged(1.20), 1.15, 1e-9);
+  for (int i = 2; i < 30; ++i) judged(i % 2 == 0 ? 1.10 : 1.20);
+  const double settled = judged(1.18);
+  EXPECT_NEAR(settled, 1.15, 1e-9);
+  for (int i = 0; i < 80; ++i) EXPECT_EQ(judged(1.18), settled) << i;
+  // What is typically other is taken after four seconds, nor is a frame without judgement a change.
+  size.Observe(seen, all, 0.0);
+  EXPECT_EQ(size.lengths_m()[hip] / StandardBoneLengths()[hip], settled);
+  for (int i = 0; i < 200; ++i) judged(1.40);
+  EXPECT_GT(judged(1.40), 1.20);
+}
+
 TEST(BodySize, IsMeasuredAnewForAnotherSizeAfterASecond) {
   BodySize size(true);
   JointWeights all;

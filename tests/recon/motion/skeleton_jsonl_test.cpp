@@ -37,6 +37,8 @@ TEST(SkeletonJsonl, GivesBackEveryFieldItWrote) {
   SkeletonSequence written = ExampleSequence(5, 2);
   written.frames[1].floor.reset();
   written.frames[2].bodies.clear();
+  BoneLengths& bones_m = written.frames[3].bodies[0].bones_m.emplace();
+  for (size_t i = 1; i < kJointCount; ++i) bones_m[i] = 0.1 + 0.01 * static_cast<double>(i);
   std::stringstream stream;
   SkeletonJsonlWriter writer(stream);
   for (const SkeletonFrame& frame : written.frames) writer.Write(frame);
@@ -46,6 +48,9 @@ TEST(SkeletonJsonl, GivesBackEveryFieldItWrote) {
     // Equal text means equal to the seventh digit of a metre in every field.
     EXPECT_EQ(SkeletonJsonLine(read.frames[f]), SkeletonJsonLine(written.frames[f]));
   }
+  EXPECT_FALSE(read.frames[3].bodies[1].bones_m);
+  ASSERT_TRUE(read.frames[3].bodies[0].bones_m);
+  EXPECT_NEAR(read.frames[3].bodies[0].bones_m->back(), bones_m.back(), 1e-7);
 }
 
 TEST(SkeletonJsonl, NeverWritesANumberThatNoReaderTakes) {
@@ -100,6 +105,11 @@ INSTANTIATE_TEST_SUITE_P(
         BadLine{R"({"frame":0,"time_s":0})", "\"bodies\""},
         BadLine{R"({"frame":0,"time_s":0,"bodies":[{"id":1,"joints":{}},{"id":1,"joints":{}}]})",
                 "used once"},
+        BadLine{R"({"frame":0,"time_s":0,"bodies":[{"id":1,"joints":{},"bones":[1,2]}]})",
+                "19 numbers in \"bones\""},
+        BadLine{R"({"frame":0,"time_s":0,"bodies":[{"id":1,"joints":{},"bones":)"
+                R"([1,1,1,1,1,1,1,1,1,1,1,1,1,1,1,1,1,1,0]}]})",
+                "lengths of 0 to 10 m"},
         BadLine{"[1,2]\n", "JSON object"}, BadLine{"", "end of the file"},
         BadLine{std::string(1000, '[') + std::string(1000, ']'), "32 deep"},
         BadLine{std::string((size_t{1} << 20) + 10, 'x'), "1 MiB"},

@@ -54,6 +54,18 @@ TEST(LookCommand, LearnsTheSameForAnyThreadsAndTrackLooksWithIt) {
   EXPECT_EQ(first_weights(both.glances[0]), first_weights(recon::CloseLook::Load(look).glances[0]));
   EXPECT_NE(first_weights(both.glances[0]), first_weights(both.glances[1]));
 
+  const auto measure = [&](const char* threads, const std::string& out) {
+    const auto run = RunOssa({"look", people, "--after", look, "--bones", "--out", out, "--hidden",
+                              "4", "--epochs", "1", "--threads", threads, "--quiet"});
+    EXPECT_EQ(run.exit_status, 0) << run.err;
+    return TextOf(out);
+  };
+  const std::string bones = folder / "bones.ossalook";
+  EXPECT_EQ(measure("1", bones), measure("3", folder / "bones3.ossalook"));
+  const auto measured = RunOssa({"info", bones});
+  EXPECT_NE(measured.out.find("1 glance of 12 networks"), std::string::npos) << measured.out;
+  EXPECT_NE(measured.out.find("a measure of 11 bones"), std::string::npos) << measured.out;
+
   ASSERT_EQ(RunOssa({"render", "--mocap", "authored", "--out", clip, "--frames", "5", "--sequence",
                      "--view", "front", "--size", "160x120", "--quiet"})
                 .exit_status,
@@ -93,6 +105,7 @@ TEST(LookCommand, SaysWhatIsWrongInOneLine) {
   EXPECT_EQ(track("--look", "none"), 2);
   EXPECT_EQ(track("--model", "my.ossa"), 2);
   EXPECT_EQ(RunOssa({"look", "/nonexistent", "--after", out, "--out", out}).exit_status, 2);
+  EXPECT_EQ(RunOssa({"look", "/nonexistent", "--bones", "--out", out}).exit_status, 2);
   const auto after = RunOssa({"look", "/nonexistent", "--after", "/no.ossalook", "--out", out});
   EXPECT_EQ(after.exit_status, 1);
   EXPECT_NE(after.err.find("/no.ossalook"), std::string::npos) << after.err;

@@ -1,6 +1,9 @@
 // The tracker's joints after a close look: made-up networks, the shipped forest.
 #include <gtest/gtest.h>
 
+#include <cmath>
+
+#include "recon/look/bone_measure.h"
 #include "recon/look/close_look.h"
 #include "tests/support/temporary_folder.h"
 #include "tests/tools/tracker/tracked_scenes.h"
@@ -52,6 +55,26 @@ TEST(LookedAt, JointsStandBesideTheRawOnesAndBestStartsFromThem) {
   EXPECT_NEAR(moved_m(there.raw.posture, *there.looked), 0.0, 1e-9);
   EXPECT_NEAR(moved_m(up.raw.posture, *up.looked), 0.06, 0.005);
   EXPECT_GT(moved_m(there.smoothed, up.smoothed), 0.02);  // bones are kept, so not all of it
+}
+
+// Bones that the look judges half as long again are so in what best makes of the joints.
+TEST(LookedAt, BestHasTheBonesThatTheLookJudges) {
+  OSSA_NEEDS_MODEL();
+  const test::TemporaryFolder folder;
+  const auto shin_m = [&](float longer) {
+    recon::CloseLook look = HeadHigher(0.0F);
+    constexpr auto kBones = static_cast<Eigen::Index>(recon::kMeasuredBones.size());
+    look.measured = 1;
+    look.bones.input_mean = Eigen::VectorXf::Zero(recon::kBoneInputs);
+    look.bones.input_scale = Eigen::VectorXf::Ones(recon::kBoneInputs);
+    look.bones.layers = {{Eigen::MatrixXf::Zero(kBones, recon::kBoneInputs),
+                          Eigen::VectorXf::Constant(kBones, std::log(longer) / 0.1F)}};
+    TrackerOptions options;
+    options.look = folder / "bones.ossalook";
+    look.Save(options.look);
+    return recon::BoneLengthsOf(Tracked(options).smoothed)[recon::Index(Joint::kAnkleLeft)];
+  };
+  EXPECT_NEAR(shin_m(1.5F) / shin_m(1.0F), 1.5, 0.01);  // in a file, weights are halves
 }
 
 TEST(LookedAt, OtherMethodsGoByTheRawJoints) {

@@ -27,6 +27,30 @@ TEST(Mechanics, AFootNobodySeesStaysWhereTheReconstructionPutIt) {
   }
 }
 
+/// The left shin of the character that followed somebody whose legs are `longer` after the first
+/// frame, each frame by another `unsteady` more or less, over that of the first frame.
+double ShinAfter(double longer, double unsteady) {
+  recon::BoneLengths bones_m = recon::StandardBoneLengths();
+  const auto shin = static_cast<size_t>(recon::Index(Joint::kAnkleLeft));
+  std::array<double, recon::kJointCount> trust;
+  trust.fill(1.0);
+  Mechanics mechanics{MechanicsBuild{}};
+  std::optional<physics::FilteredPosture> made;
+  for (int i = 0; i < 30; ++i) {
+    const double now = i == 0 ? 1.0 : longer + (i % 2 == 0 ? unsteady : -unsteady);
+    bones_m[shin] = now * recon::StandardBoneLengths()[shin];
+    made = mechanics.Follow(recon::Retargeted(recon::StandardStance(), bones_m), trust,
+                            std::nullopt, (i + 1) / 30.0);
+  }
+  return made ? recon::BoneLengthsOf(made->posture)[shin] / recon::StandardBoneLengths()[shin] : 0;
+}
+
+TEST(Mechanics, TheCharacterGetsTheBonesThatThePosturesComeToKeep) {
+  EXPECT_NEAR(ShinAfter(1.1, 0.0), 1.1, 2e-3);
+  EXPECT_NEAR(ShinAfter(1.1, 0.02), 1.0, 2e-3);   // they keep none
+  EXPECT_NEAR(ShinAfter(1.005, 0.0), 1.0, 2e-3);  // hardly others
+}
+
 /// How high the left foot of somebody who stands with the feet at y = 0 is in the end, in metres,
 /// when so high a floor is said to be there, one height after another, a second each.
 double FootOn(std::initializer_list<double> floors_m) {

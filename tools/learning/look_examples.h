@@ -1,0 +1,27 @@
+#pragma once
+#include <Eigen/Core>
+#include <array>
+#include <filesystem>
+#include <vector>
+
+#include "forest/forest.h"
+#include "recon/look/close_look.h"
+#include "tools/learning/learn_close_look.h"
+
+namespace ossa::tools {
+
+/// A person where the forest and the glances known already put the joints; how far from there the
+/// joints are, in the description's axes; and the person's true bones.
+struct LookExample {
+  recon::LookDescription description;
+  std::array<Eigen::Vector3f, recon::kJointCount> offset_m{};
+  recon::BoneLengths bones_m{};
+};
+
+/// One person of each frame of the data sets of whom enough is seen, in order. Throws InputError
+/// where there are too few to learn from.
+std::vector<LookExample> GatherLookExamples(const forest::ForestModel& model,
+                                            const std::vector<std::filesystem::path>& datasets,
+                                            const CloseLookOptions& options);
+
+}  // namespace ossa::tools
