@@ -33,16 +33,8 @@ recon::CloseLook LearnBoneMeasure(const forest::ForestModel& model,
   recon::CloseLook look = options.after;
   const std::vector<LookExample> people = GatherLookExamples(model, datasets, options);
   forest::NetworkExamples examples = ExamplesOf(people);
-  forest::NetworkOptions learning;
-  learning.hidden = {options.hidden, options.hidden / 2};
-  learning.outputs = kBones;
-  learning.epochs = options.epochs;
-  learning.batch = 2 * forest::kNetworkBatch;
-  learning.rate = 2e-3F;
+  forest::NetworkOptions learning = LookLearning(options, kBones);
   learning.decay = 0.02F;
-  learning.dropped = 0.0F;
-  learning.seed = options.seed;
-  learning.stop = options.stop;
   learning.progress = options.progress;
   constexpr float kSoft = 0.2F;  // steps: errors below 2 % pull less
   look.measured = people.size();

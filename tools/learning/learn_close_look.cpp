@@ -62,17 +62,9 @@ recon::CloseLook LearnCloseLook(const forest::ForestModel& model,
   std::array<int64_t, kLookJoints.size()> done{};
   oneapi::tbb::parallel_for(size_t{0}, kLookJoints.size(), [&](size_t k) {
     forest::NetworkExamples examples = ExamplesOf(people, kLookJoints[k]);
-    forest::NetworkOptions learning;
-    learning.hidden = {options.hidden, options.hidden / 2};
-    learning.outputs = 3;
-    learning.epochs = options.epochs;
+    forest::NetworkOptions learning = LookLearning(options, 3);
     // Of decays of 0.02 to 1, with and without dropout, the best on validation subjects.
-    learning.batch = 2 * forest::kNetworkBatch;
-    learning.rate = 2e-3F;
     learning.decay = 0.5F;
-    learning.dropped = 0.0F;
-    learning.seed = options.seed;
-    learning.stop = options.stop;
     learning.progress = [&](int64_t step, int64_t steps) {
       const std::lock_guard lock(mutex);
       done[k] = step;

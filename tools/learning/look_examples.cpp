@@ -126,4 +126,17 @@ std::vector<LookExample> GatherLookExamples(const forest::ForestModel& model,
   return people;
 }
 
+forest::NetworkOptions LookLearning(const CloseLookOptions& options, Eigen::Index outputs) {
+  forest::NetworkOptions learning;
+  learning.hidden = {options.hidden, options.hidden / 2};
+  learning.outputs = outputs;
+  learning.epochs = options.epochs;
+  learning.batch = 2 * forest::kNetworkBatch;
+  learning.rate = 2e-3F;
+  learning.dropped = 0.0F;
+  learning.seed = options.seed;
+  learning.stop = options.stop;
+  return learning;
+}
+
 }  // namespace ossa::tools

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "forest/forest.h"
+#include "forest/network.h"
 #include "recon/look/close_look.h"
 #include "tools/learning/learn_close_look.h"
 
@@ -23,5 +24,8 @@ struct LookExample {
 std::vector<LookExample> GatherLookExamples(const forest::ForestModel& model,
                                             const std::vector<std::filesystem::path>& datasets,
                                             const CloseLookOptions& options);
+
+/// How a network is learned from them: two layers, large batches, no dropout.
+forest::NetworkOptions LookLearning(const CloseLookOptions& options, Eigen::Index outputs);
 
 }  // namespace ossa::tools

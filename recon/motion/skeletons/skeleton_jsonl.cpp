@@ -238,12 +238,12 @@ class SkeletonJsonlReader::Lines {
 
   // Of the bones that end in the joints, in their order; none ends in the first.
   BoneLengths BonesOf(const Json& json) const {
-    constexpr double kMost_m = 10.0;
+    constexpr double kMost_m = 2.0;
     const auto lengths_m = Numbers<kJointCount - 1>(json, "\"bones\"");
     BoneLengths bones_m{};
     for (size_t i = 0; i < lengths_m.size(); ++i) {
       if (!(lengths_m[i] > 0.0 && lengths_m[i] < kMost_m)) {
-        Fail("\"bones\"", "lengths of 0 to 10 m", json);
+        Fail("\"bones\"", "lengths of 0 to 2 m", json);
       }
       bones_m[i + 1] = lengths_m[i];
     }

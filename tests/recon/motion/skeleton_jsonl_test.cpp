@@ -109,7 +109,7 @@ INSTANTIATE_TEST_SUITE_P(
                 "19 numbers in \"bones\""},
         BadLine{R"({"frame":0,"time_s":0,"bodies":[{"id":1,"joints":{},"bones":)"
                 R"([1,1,1,1,1,1,1,1,1,1,1,1,1,1,1,1,1,1,0]}]})",
-                "lengths of 0 to 10 m"},
+                "lengths of 0 to 2 m"},
         BadLine{"[1,2]\n", "JSON object"}, BadLine{"", "end of the file"},
         BadLine{std::string(1000, '[') + std::string(1000, ']'), "32 deep"},
         BadLine{std::string((size_t{1} << 20) + 10, 'x'), "1 MiB"},
