@@ -203,13 +203,14 @@ ProposedPerson ProposedPerson::Mirrored() const {
   return out;
 }
 
-std::optional<LookDescription> LookDescription::Of(const LookInput& input) {
+std::optional<LookDescription> LookDescription::Of(const LookInput& input,
+                                                   const JointSet& looked_at) {
   const auto person = ProposedPerson::Of(input);
   if (!person) return std::nullopt;
   LookDescription out{*person};
   Sampler sampler(input, out.frame_from_camera);
   for (size_t j = 0; j < kJointCount; ++j) {
-    out.behind_mm[j] = sampler.Around(input.proposed.position_m[j]);
+    if (looked_at[j]) out.behind_mm[j] = sampler.Around(input.proposed.position_m[j]);
   }
   return out;
 }
@@ -261,24 +262,31 @@ Looker::Looker(const CloseLook& look) : glances_(look.glances.size()) {
   networks_ = NetworkRunner::Of(networks);
 }
 
-// Each joint moved by what its network says of it; of a pair both at once, the right one mirrored.
-Posture Looker::Glanced(size_t glance, const LookDescription& seen, Posture joints_m) const {
+// Each joint that is looked at moved by what its network says of it; of a pair both at once, the
+// right one mirrored.
+Posture Looker::Glanced(size_t glance, const LookDescription& seen, const JointSet& looked_at,
+                        Posture joints_m) const {
   const LookDescription mirrored = seen.Mirrored();
   const Eigen::Vector3d mirror(-1.0, 1.0, 1.0);
   const Eigen::Matrix3d camera_from_frame = seen.frame_from_camera.transpose();
   for (size_t k = 0; k < kLookJoints.size(); ++k) {
     const Joint joint = kLookJoints[k];
-    const auto other = static_cast<Joint>(kMirroredJoint[static_cast<size_t>(Index(joint))]);
-    Eigen::MatrixXf numbers(kLookInputs, other != joint ? 2 : 1);
-    numbers.col(0) = NumbersOf(seen, joint);
-    if (other != joint) numbers.col(1) = NumbersOf(mirrored, joint);
+    const auto index = static_cast<size_t>(Index(joint));
+    const auto other = static_cast<size_t>(kMirroredJoint[index]);
+    const bool is_pair = other != index;
+    const bool one = looked_at[index], both = one && is_pair && looked_at[other];
+    if (!one && !(is_pair && looked_at[other])) continue;
+    Eigen::MatrixXf numbers(kLookInputs, both ? 2 : 1);
+    numbers.col(0) = NumbersOf(one ? seen : mirrored, joint);
+    if (both) numbers.col(1) = NumbersOf(mirrored, joint);
     const NetworkRunner& network = networks_[glance * kLookJoints.size() + k];
     const Eigen::MatrixXd offsets_m = CloseLook::kStep_m * network.Run(numbers).cast<double>();
-    for (Eigen::Index side = 0; side < offsets_m.cols(); ++side) {
-      Eigen::Vector3d offset_m = offsets_m.col(side);
+    for (Eigen::Index column = 0; column < offsets_m.cols(); ++column) {
+      const bool is_mirrored = !one || column == 1;
+      Eigen::Vector3d offset_m = offsets_m.col(column);
       offset_m *= std::min(1.0, CloseLook::kFarthest_m / std::max(offset_m.norm(), 1e-9));
-      if (side == 1) offset_m = mirror.cwiseProduct(offset_m);
-      joints_m[side == 0 ? joint : other] += camera_from_frame * offset_m;
+      if (is_mirrored) offset_m = mirror.cwiseProduct(offset_m);
+      joints_m.position_m[is_mirrored ? other : index] += camera_from_frame * offset_m;
     }
   }
   return joints_m;
@@ -286,11 +294,17 @@ Posture Looker::Glanced(size_t glance, const LookDescription& seen, Posture join
 
 std::optional<Looked> Looker::Look(const LookInput& input) const {
   LookInput now = input;
+  JointSet looked_at = kAllJoints;
   for (size_t g = 0; g < glances_; ++g) {
-    const auto seen = LookDescription::Of(now);
+    const auto seen = LookDescription::Of(now, looked_at);
     if (!seen && g == 0) return std::nullopt;
     if (!seen) break;
-    now = now.MovedTo(Glanced(g, *seen, now.proposed));
+    const Posture next_m = Glanced(g, *seen, looked_at, now.proposed);
+    for (size_t j = 0; g > 0 && j < kJointCount; ++j) {
+      const double moved_m = (next_m.position_m[j] - now.proposed.position_m[j]).norm();
+      if (moved_m < CloseLook::kAtRest_m) looked_at[j] = false;
+    }
+    now = now.MovedTo(next_m);
   }
   Looked out{now.proposed, std::nullopt};
   if (networks_.size() > glances_ * kLookJoints.size()) {

@@ -53,6 +53,14 @@ struct ProposedPerson {
   ProposedPerson Mirrored() const;
 };
 
+/// Of each joint, whether it is looked at.
+using JointSet = std::array<bool, kJointCount>;
+inline constexpr JointSet kAllJoints = [] {
+  JointSet all{};
+  all.fill(true);
+  return all;
+}();
+
 /// A person as a close look sees them.
 struct LookDescription : ProposedPerson {
   /// Where no surface of the person is: the sensor looks past it, or at something nearer.
@@ -62,8 +70,10 @@ struct LookDescription : ProposedPerson {
   /// there, millimetres, within 300.
   std::array<std::array<int16_t, kLookSamples>, kJointCount> behind_mm{};
 
-  /// Nothing where ProposedPerson has nothing.
-  static std::optional<LookDescription> Of(const LookInput& input);
+  /// Nothing where ProposedPerson has nothing. Of joints that are not looked at no surface is
+  /// sampled.
+  static std::optional<LookDescription> Of(const LookInput& input,
+                                           const JointSet& looked_at = kAllJoints);
   LookDescription Mirrored() const;
 };
 
@@ -98,6 +108,9 @@ struct CloseLook {
   static constexpr double kStep_m = 0.1;
   /// Whatever a network says, at one glance a joint goes no farther.
   static constexpr double kFarthest_m = 0.6;
+  /// A joint that the second glance moves by less is where it is: the third, which would move it by
+  /// less still, spares the time.
+  static constexpr double kAtRest_m = 0.008;
   static constexpr size_t kMostGlances = 8;
 
   /// .ossalook: reads refuse damaged, truncated and hostile files by name and byte.
@@ -123,7 +136,8 @@ class Looker {
   std::optional<Looked> Look(const LookInput& input) const;
 
  private:
-  Posture Glanced(size_t glance, const LookDescription& seen, Posture joints_m) const;
+  Posture Glanced(size_t glance, const LookDescription& seen, const JointSet& looked_at,
+                  Posture joints_m) const;
 
   std::vector<NetworkRunner> networks_;  // of all glances, one after the other; then of the bones
   size_t glances_ = 0;
