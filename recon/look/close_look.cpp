@@ -273,12 +273,11 @@ Posture Looker::Glanced(size_t glance, const LookDescription& seen, const JointS
     const Joint joint = kLookJoints[k];
     const auto index = static_cast<size_t>(Index(joint));
     const auto other = static_cast<size_t>(kMirroredJoint[index]);
-    const bool is_pair = other != index;
-    const bool one = looked_at[index], both = one && is_pair && looked_at[other];
-    if (!one && !(is_pair && looked_at[other])) continue;
-    Eigen::MatrixXf numbers(kLookInputs, both ? 2 : 1);
+    const bool one = looked_at[index], two = other != index && looked_at[other];
+    if (!one && !two) continue;
+    Eigen::MatrixXf numbers(kLookInputs, one && two ? 2 : 1);
     numbers.col(0) = NumbersOf(one ? seen : mirrored, joint);
-    if (both) numbers.col(1) = NumbersOf(mirrored, joint);
+    if (one && two) numbers.col(1) = NumbersOf(mirrored, joint);
     const NetworkRunner& network = networks_[glance * kLookJoints.size() + k];
     const Eigen::MatrixXd offsets_m = CloseLook::kStep_m * network.Run(numbers).cast<double>();
     for (Eigen::Index column = 0; column < offsets_m.cols(); ++column) {

@@ -11,9 +11,8 @@ namespace ossa::recon {
 /// The person's bone lengths, kept constant from the first good frame on: the standing or T-posed
 /// person that tracking starts with (Shum 2013 fig. 2), left and right averaged, each bone within a
 /// quarter of a body of that size. With a close look, which judges them in each frame, they settle
-/// in the first second. Measured anew when the body has another size for a second, which
-/// is another person; and, at looks that become rarer, when the bones seen until then are typically
-/// others.
+/// in the first second. Measured anew when the body has another size for a second, which is another
+/// person; and, at looks that become rarer, when the bones seen until then are typically others.
 class BodySize {
  public:
   BodySize() = default;

@@ -72,7 +72,8 @@ TEST(FinalBones, AreThoseOfTheMechanicalCharacter) {
 
 TEST(FinalBones, KeepTheLengthsInWhichTheySettleWhereTheyAreJudged) {
   CompleteOptions options = Unsmoothed("best");
-  EXPECT_GT(WorstDrift(options, 1), 0.001);  // frames with too many odd joints count for nothing
+  EXPECT_GT(WorstDrift(options, 1), 0.001);
+  // Later than in a second: frames with too many odd joints count for nothing.
   EXPECT_LT(WorstDrift(options, 60), 0.001);
   options.physics = true;  // whose character is made anew a while after
   EXPECT_LT(WorstDrift(options, 75), 0.001);
