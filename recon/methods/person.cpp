@@ -163,12 +163,13 @@ void BodySize::Reconsider(double expected_scale) {
 
 /// The lengths that what was judged tells; if nothing was, what is typical.
 BoneLengths BodySize::Taken(double expected_scale) const {
-  if (judged_.frames > 0) return judged_.mean_m;
   BoneLengths lengths = ScaledBoneLengths(scale_);
   for (size_t i = 1; i < kJointCount; ++i) {
     const size_t bone = std::min(i, static_cast<size_t>(kMirroredJoint[i]));
     double length = typical_.samples[bone] > 0 ? typical_.length_m[bone] : lengths[i];
-    if (proportions_[i] > 0.0) {
+    if (judged_.frames > 0) {
+      length = judged_.mean_m[i];
+    } else if (proportions_[i] > 0.0) {
       const double size = expected_scale > 0.0 ? expected_scale : scale_;
       const double expected_m = size * proportions_[i] * StandardBoneLengths()[i];
       length += expected_ * (expected_m - length);

@@ -88,6 +88,11 @@ TEST(BodySize, OfBonesThatAreJudgedSettlesInASecond) {
   EXPECT_EQ(size.lengths_m()[hip] / StandardBoneLengths()[hip], settled);
   for (int i = 0; i < 200; ++i) judged(1.40);
   EXPECT_GT(judged(1.40), 1.20);
+  BodySize absurd(true);
+  BoneLengths long_m;
+  long_m.fill(1.9);  // a hand, too
+  absurd.Observe(seen, all, 0.0, long_m);
+  EXPECT_LT(absurd.lengths_m()[7], 3.0 * StandardBoneLengths()[7]);
 }
 
 TEST(BodySize, IsMeasuredAnewForAnotherSizeAfterASecond) {
