@@ -22,7 +22,7 @@ std::vector<fs::path> PngsInNameOrder(const fs::path& folder) {
   std::vector<fs::path> paths;
   std::error_code error;
   for (fs::directory_iterator it(folder, error), end; !error && it != end; it.increment(error)) {
-    if (it->path().extension() == ".png") paths.push_back(it->path());
+    if (IsPngName(it->path())) paths.push_back(it->path());
   }
   if (error) throw InputError(folder.string() + ": cannot be read: " + error.message());
   std::sort(paths.begin(), paths.end());

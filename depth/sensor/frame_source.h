@@ -52,8 +52,9 @@ struct SourceOptions {
   std::chrono::milliseconds player_patience{10000};
 };
 
-/// FILE.oni or FILE.png, in capitals or not.
-bool IsRecordingFile(const std::filesystem::path& path);
+/// FILE.oni, FILE.png, in capitals or not, or a folder of the latter. A folder that cannot be read
+/// throws std::filesystem::filesystem_error.
+bool IsRecording(const std::filesystem::path& path);
 
 /// Opens SOURCE as DESIGN.md §4 names it: "openni:", "openni:URI", "FILE.oni", a folder of 16-bit
 /// PNGs in name order, or a DATASET folder; or one such PNG, a still. Throws InputError naming it

@@ -19,9 +19,15 @@ std::string LowerCaseExtension(const std::filesystem::path& path) {
 
 }  // namespace
 
-bool IsRecordingFile(const std::filesystem::path& path) {
-  const std::string extension = LowerCaseExtension(path);
-  return extension == ".oni" || extension == ".png";
+bool IsPngName(const std::filesystem::path& path) { return LowerCaseExtension(path) == ".png"; }
+
+bool IsRecording(const std::filesystem::path& path) {
+  if (!std::filesystem::is_directory(path)) {
+    return LowerCaseExtension(path) == ".oni" || IsPngName(path);
+  }
+  const std::filesystem::directory_iterator entries(path);
+  return std::any_of(begin(entries), end(entries),
+                     [](const auto& entry) { return IsPngName(entry.path()); });
 }
 
 std::unique_ptr<FrameSource> OpenSource(const std::string& source, const SourceOptions& options) {
@@ -33,11 +39,8 @@ std::unique_ptr<FrameSource> OpenSource(const std::string& source, const SourceO
   if (std::filesystem::is_directory(path, error)) {
     return IsDataSet(path) ? OpenDataSet(path, options) : OpenFolder(path, options);
   }
-  const std::string extension = LowerCaseExtension(path);
-  if (extension == ".oni") return OpenOniFile(path, options);
-  if (extension == ".png" && std::filesystem::exists(path, error)) {
-    return OpenStill(path, options);
-  }
+  if (LowerCaseExtension(path) == ".oni") return OpenOniFile(path, options);
+  if (IsPngName(path) && std::filesystem::exists(path, error)) return OpenStill(path, options);
   throw InputError(source +
                    ": expected openni:, openni:URI, FILE.oni, a 16-bit PNG or a folder of them, or "
                    "a data set, found no such thing");

@@ -7,6 +7,9 @@
 
 namespace ossa::depth {
 
+/// Whether a file is a PNG by its name, .PNG as well.
+bool IsPngName(const std::filesystem::path& path);
+
 /// A folder of 16-bit PNGs in name order, 30 frames a second. Names that are all digits of one
 /// length are frame numbers: a number that is missing counts as a dropped frame, and time passes.
 /// A frame that cannot be read, or of another size than the first, throws InputError when its turn

@@ -125,13 +125,6 @@ void ShowLook(const fs::path& path) {
   }
 }
 
-bool IsDepthRecording(const fs::path& path) {
-  if (!fs::is_directory(path)) return depth::IsRecordingFile(path);
-  return std::ranges::any_of(fs::directory_iterator(path), [](const fs::directory_entry& entry) {
-    return entry.path().extension() == ".png";
-  });
-}
-
 void ShowDepthRecording(const fs::path& path) {
   const auto source = depth::OpenSource(path.string());
   const depth::Camera& camera = source->camera();
@@ -163,7 +156,7 @@ constexpr std::array kKinds = {
     FileKind{recon::PosturePrior::IsOne, ShowPrior},
     FileKind{recon::CloseLook::IsOne, ShowLook},
     FileKind{tools::IsDataset, ShowDataset},
-    FileKind{IsDepthRecording, ShowDepthRecording},
+    FileKind{depth::IsRecording, ShowDepthRecording},
     FileKind{IsRegularFile, ShowSkeletons},
 };
 

@@ -103,12 +103,24 @@ TEST(FolderSource, CameraIsCameraJsonElseTheOptionElseKinect) {
   EXPECT_THROW(OpenSource(folder.path().string()), InputError);
 }
 
+TEST(FolderSource, NamesInCapitalsAreFramesToo) {
+  const TemporaryFolder folder;
+  EXPECT_FALSE(IsRecording(folder.path()));
+  WriteFrame(folder / "000007.PNG", 70);
+  EXPECT_TRUE(IsRecording(folder.path()));
+  WriteFrame(folder / "000009.png", 90);
+  const auto source = OpenSource(folder.path().string());
+  EXPECT_EQ(source->frame_count(), 2);
+  EXPECT_EQ(Next(*source).frame.index, 7);
+  EXPECT_EQ(Next(*source).dropped, 1);
+}
+
 TEST(OpenSource, OnePngIsAFrame) {
   const TemporaryFolder folder;
   WriteFrame(folder / "000007.png", 70);
   WriteFrame(folder / "000008.PNG", 80);
   for (const char* name : {"000007.png", "000008.PNG"}) {
-    EXPECT_TRUE(IsRecordingFile(folder / name));
+    EXPECT_TRUE(IsRecording(folder / name));
     const auto source = OpenSource((folder / name).string());
     EXPECT_EQ(source->frame_count(), 1);
     const ReadResult only = Next(*source);
