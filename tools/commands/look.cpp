@@ -40,6 +40,14 @@ int Look(int argc, char** argv) {
   app.add_option("--epochs", options.epochs, "times that every person is looked at")
       ->capture_default_str()
       ->check(CLI::Range(1, 1000));
+  app.add_option("--shifted", options.shifted,
+                 "how often each person is looked at from places near where the joints are put, "
+                 "besides from there")
+      ->capture_default_str()
+      ->check(CLI::Range(0, 100));
+  app.add_option("--shift", options.shift_m, "how far off such a place is, metres along each axis")
+      ->capture_default_str()
+      ->check(CLI::Range(0.0, 0.5));
   app.add_option("--seed", options.seed, "of the learning")->capture_default_str();
   app.add_option("--threads", options.threads, "0: one a core")
       ->capture_default_str()

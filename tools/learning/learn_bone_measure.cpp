@@ -31,13 +31,15 @@ recon::CloseLook LearnBoneMeasure(const forest::ForestModel& model,
                                   const CloseLookOptions& options) {
   const forest::ThreadLimit limit(options.threads);
   recon::CloseLook look = options.after;
-  const std::vector<LookExample> people = GatherLookExamples(model, datasets, options);
-  forest::NetworkExamples examples = ExamplesOf(people);
+  CloseLookOptions as_they_are = options;
+  as_they_are.shifted = 0;
+  const LookExamples found = GatherLookExamples(model, datasets, as_they_are);
+  forest::NetworkExamples examples = ExamplesOf(found.all);
   forest::NetworkOptions learning = LookLearning(options, kBones);
   learning.decay = 0.02F;
   learning.progress = options.progress;
   constexpr float kSoft = 0.2F;  // steps: errors below 2 % pull less
-  look.measured = people.size();
+  look.measured = found.people;
   look.bones = LearnRectifiedNetwork(&examples, GradientOfNumbers(kSoft), learning);
   return look;
 }

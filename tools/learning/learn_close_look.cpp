@@ -18,11 +18,11 @@ namespace {
 
 using recon::kLookJoints;
 
-// Two rows a person: as it is, and mirrored. What is off by more was mistaken for something else,
+// Two rows an example: as it is, and mirrored. What is off by more was mistaken for something else,
 // and nothing near the proposal tells of it.
-forest::NetworkExamples ExamplesOf(const std::vector<LookExample>& people, recon::Joint joint) {
+forest::NetworkExamples ExamplesOf(const std::vector<LookExample>& examples, recon::Joint joint) {
   constexpr float kFarthest_m = 0.6F;
-  const auto rows = 2 * static_cast<Eigen::Index>(people.size());
+  const auto rows = 2 * static_cast<Eigen::Index>(examples.size());
   forest::NetworkExamples out{forest::RowMatrix(rows, recon::kLookInputs),
                               forest::RowMatrix(rows, 3)};
   const auto index = static_cast<size_t>(recon::Index(joint));
@@ -35,8 +35,8 @@ forest::NetworkExamples ExamplesOf(const std::vector<LookExample>& people, recon
                                   : std::numeric_limits<float>::quiet_NaN();
     }
   };
-  for (size_t i = 0; i < people.size(); ++i) {
-    const LookExample& person = people[i];
+  for (size_t i = 0; i < examples.size(); ++i) {
+    const LookExample& person = examples[i];
     const auto row = 2 * static_cast<Eigen::Index>(i);
     out.input.row(row) = recon::NumbersOf(person.description, joint).transpose();
     want(row, person.offset_m[index]);
@@ -53,15 +53,15 @@ recon::CloseLook LearnCloseLook(const forest::ForestModel& model,
                                 const CloseLookOptions& options) {
   const forest::ThreadLimit limit(options.threads);
   recon::CloseLook look = options.after;
-  const std::vector<LookExample> people = GatherLookExamples(model, datasets, options);
-  look.people = people.size();
+  const LookExamples found = GatherLookExamples(model, datasets, options);
+  look.people = found.people;
   look.bones = {};  // they were of joints where the glances before this one put them
   look.measured = 0;
   recon::Glance& learned = look.glances.emplace_back();
   std::mutex mutex;
   std::array<int64_t, kLookJoints.size()> done{};
   oneapi::tbb::parallel_for(size_t{0}, kLookJoints.size(), [&](size_t k) {
-    forest::NetworkExamples examples = ExamplesOf(people, kLookJoints[k]);
+    forest::NetworkExamples examples = ExamplesOf(found.all, kLookJoints[k]);
     forest::NetworkOptions learning = LookLearning(options, 3);
     // Of decays of 0.02 to 1, with and without dropout, the best on validation subjects.
     learning.decay = 0.5F;

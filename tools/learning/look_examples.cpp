@@ -13,12 +13,14 @@
 #include "recon/skeleton.h"
 #include "tools/learning/segmented_person.h"
 #include "tools/synth/dataset.h"
+#include "tools/synth/random.h"
 
 namespace ossa::tools {
 namespace {
 
 using recon::kJointCount;
 using recon::LookDescription;
+using recon::Posture;
 
 // Reads data sets and asks the forest.
 class Gatherer {
@@ -26,6 +28,7 @@ class Gatherer {
   Gatherer(const forest::ForestModel& model, const CloseLookOptions& options,
            const std::vector<std::filesystem::path>& datasets)
       : model_(model),
+        options_(options),
         looker_(options.after),
         target_of_joint_(forest::TargetsNamed(model, recon::kJointNames, options.model_name)) {
     for (const auto& folder : datasets) {
@@ -38,26 +41,26 @@ class Gatherer {
 
   size_t size() const { return places_.size(); }
 
-  /// Of one person of the frame, in turn where there are several. Nothing where too little is seen
-  /// or some joint has no proposal.
-  std::optional<LookExample> Read(size_t index) const {
+  /// Of one person of the frame, in turn where there are several; the first as it is. None where
+  /// too little is seen or some joint has no proposal.
+  std::vector<LookExample> Read(size_t index) const {
     const auto [dataset, number] = places_[index];
     const DatasetReader& reader = readers_[dataset];
     LabelledFrame frame = Uncropped(reader.Read(number), reader.manifest().camera);
-    if (frame.bodies.empty()) return std::nullopt;
+    if (frame.bodies.empty()) return {};
     LayFloor(&frame);
     const TruthBody& body = frame.bodies[static_cast<size_t>(number) % frame.bodies.size()];
     std::vector<uint8_t> is_person;
-    const auto input = Propose(frame, body.id, &is_person);
-    if (!input) return std::nullopt;
-    const auto description = LookDescription::Of(*input);
-    if (!description) return std::nullopt;
-    LookExample example{*description, {}, recon::BoneLengthsOf(body.joints_m)};
-    for (size_t j = 0; j < kJointCount; ++j) {
-      const Eigen::Vector3d offset_m = body.joints_m.position_m[j] - input->proposed.position_m[j];
-      example.offset_m[j] = (description->frame_from_camera * offset_m).cast<float>();
+    auto input = Propose(frame, body.id, &is_person);
+    std::vector<LookExample> examples;
+    if (!input || !AddExample(*input, body.joints_m, &examples)) return {};
+    const Posture put_m = input->proposed;
+    Random random(options_.seed, index);
+    for (int i = 0; i < options_.shifted; ++i) {
+      input->proposed = Shifted(put_m, random);
+      AddExample(*input, body.joints_m, &examples);
     }
-    return example;
+    return examples;
   }
 
  private:
@@ -65,6 +68,27 @@ class Gatherer {
     size_t dataset = 0;
     int64_t frame = 0;
   };
+
+  // False where LookDescription has nothing to say.
+  static bool AddExample(const recon::LookInput& input, const Posture& true_m,
+                         std::vector<LookExample>* examples) {
+    const auto description = LookDescription::Of(input);
+    if (!description) return false;
+    LookExample& example =
+        examples->emplace_back(LookExample{*description, {}, recon::BoneLengthsOf(true_m)});
+    for (size_t j = 0; j < kJointCount; ++j) {
+      const Eigen::Vector3d offset_m = true_m.position_m[j] - input.proposed.position_m[j];
+      example.offset_m[j] = (description->frame_from_camera * offset_m).cast<float>();
+    }
+    return true;
+  }
+
+  Posture Shifted(Posture put_m, Random& random) const {
+    for (Eigen::Vector3d& joint_m : put_m.position_m) {
+      for (double& axis_m : joint_m) axis_m += random.Normal(0.0, options_.shift_m);
+    }
+    return put_m;
+  }
 
   // The likeliest place of each joint, after the glances that are known already; the result borrows
   // from frame and `is_person`.
@@ -96,6 +120,7 @@ class Gatherer {
   }
 
   const forest::ForestModel& model_;
+  const CloseLookOptions& options_;
   recon::Looker looker_;
   std::vector<size_t> target_of_joint_;
   std::vector<DatasetReader> readers_;
@@ -104,26 +129,28 @@ class Gatherer {
 
 }  // namespace
 
-std::vector<LookExample> GatherLookExamples(const forest::ForestModel& model,
-                                            const std::vector<std::filesystem::path>& datasets,
-                                            const CloseLookOptions& options) {
+LookExamples GatherLookExamples(const forest::ForestModel& model,
+                                const std::vector<std::filesystem::path>& datasets,
+                                const CloseLookOptions& options) {
   const Gatherer gatherer(model, options, datasets);
-  std::vector<std::optional<LookExample>> found(gatherer.size());
+  std::vector<std::vector<LookExample>> found(gatherer.size());
   oneapi::tbb::parallel_for(size_t{0}, found.size(), [&](size_t i) {
     if (!options.stop || !options.stop()) found[i] = gatherer.Read(i);
   });
   if (options.stop && options.stop()) throw forest::TrainInterrupted("interrupted");
-  std::vector<LookExample> people;
-  for (auto& example : found) {
-    if (example) people.push_back(std::move(*example));
-    example.reset();
+  LookExamples out;
+  out.all.reserve(found.size() * static_cast<size_t>(1 + options.shifted));
+  for (auto& examples : found) {
+    out.people += examples.empty() ? 0 : 1;
+    out.all.insert(out.all.end(), examples.begin(), examples.end());
+    examples = {};  // there may be more of them than memory holds twice
   }
   constexpr size_t kFewest = forest::kNetworkBatch;
-  if (people.size() < kFewest) {
+  if (out.people < kFewest) {
     throw InputError(fmt::format("close look: expected at least {} people who are seen, found {}",
-                                 kFewest, people.size()));
+                                 kFewest, out.people));
   }
-  return people;
+  return out;
 }
 
 forest::NetworkOptions LookLearning(const CloseLookOptions& options, Eigen::Index outputs) {

@@ -19,11 +19,16 @@ struct LookExample {
   recon::BoneLengths bones_m{};
 };
 
+struct LookExamples {
+  std::vector<LookExample> all;  // of each person as it is, then from shifted places
+  size_t people = 0;
+};
+
 /// One person of each frame of the data sets of whom enough is seen, in order. Throws InputError
 /// where there are too few to learn from.
-std::vector<LookExample> GatherLookExamples(const forest::ForestModel& model,
-                                            const std::vector<std::filesystem::path>& datasets,
-                                            const CloseLookOptions& options);
+LookExamples GatherLookExamples(const forest::ForestModel& model,
+                                const std::vector<std::filesystem::path>& datasets,
+                                const CloseLookOptions& options);
 
 /// How a network is learned from them: two layers, large batches, no dropout.
 forest::NetworkOptions LookLearning(const CloseLookOptions& options, Eigen::Index outputs);
