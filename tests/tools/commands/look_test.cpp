@@ -1,14 +1,18 @@
 // `ossa look` from the outside: it learns from rendered people, and track looks with what it made.
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <filesystem>
 #include <fstream>
 #include <iterator>
 
+#include "forest/forest.h"
 #include "recon/body/body_model.h"
 #include "recon/look/close_look.h"
 #include "tests/support/run_command.h"
 #include "tests/support/temporary_folder.h"
+#include "tools/learning/look_examples.h"
+#include "tools/tracker/shipped.h"
 
 namespace ossa::commands {
 namespace {
@@ -91,12 +95,56 @@ TEST(LookCommand, LearnsTheSameForAnyThreadsAndTrackLooksWithIt) {
   EXPECT_EQ(test::LineCount(bad.err), 1) << bad.err;
 }
 
+// Where the joints truly are, in camera space.
+recon::Posture TruthOf(const tools::LookExample& example) {
+  const recon::ProposedPerson& person = example.description;
+  recon::Posture true_m;
+  for (size_t j = 0; j < recon::kJointCount; ++j) {
+    const Eigen::Vector3d there_m = person.place.position_m[j] + example.offset_m[j].cast<double>();
+    true_m.position_m[j] = person.frame_from_camera.transpose() * there_m + person.middle_m;
+  }
+  return true_m;
+}
+
+TEST(LookExamples, OfShiftedPlacesLeadToTheSameJoints) {
+  if (!std::filesystem::exists(recon::BodyFolder())) GTEST_SKIP() << "no body: tools/fetch_body";
+  const test::TemporaryFolder folder;
+  const std::string people = folder / "people";
+  ASSERT_EQ(RunOssa({"render", "--mocap", "authored", "--out", people, "--frames", "150", "--size",
+                     "160x120", "--format", "packed", "--quiet"})
+                .exit_status,
+            0);
+  const auto model = forest::ReadForestModel(tracker::ShippedFile("body.ossa"));
+  tools::CloseLookOptions options;
+  options.shifted = 2;
+  options.shift_m = 0.03;
+  const tools::LookExamples found = tools::GatherLookExamples(model, {people}, options);
+  ASSERT_EQ(found.all.size(), 3 * found.people);
+  double squares_m2 = 0.0;
+  for (size_t i = 0; i < found.all.size(); i += 3) {
+    const recon::Posture true_m = TruthOf(found.all[i]);
+    for (size_t copy = i + 1; copy < i + 3; ++copy) {
+      const recon::Posture again_m = TruthOf(found.all[copy]);
+      for (size_t j = 0; j < recon::kJointCount; ++j) {
+        EXPECT_LT((again_m.position_m[j] - true_m.position_m[j]).norm(), 1e-5) << i << ' ' << j;
+        squares_m2 += (found.all[copy].offset_m[j] - found.all[i].offset_m[j]).squaredNorm();
+      }
+    }
+  }
+  const double axes = 3.0 * 2.0 * static_cast<double>(found.people * recon::kJointCount);
+  EXPECT_NEAR(std::sqrt(squares_m2 / axes), options.shift_m, 0.002);
+  options.shifted = 0;
+  EXPECT_EQ(tools::GatherLookExamples(model, {people}, options).all.size(), found.people);
+}
+
 TEST(LookCommand, SaysWhatIsWrongInOneLine) {
   const test::TemporaryFolder folder;
   const std::string out = folder / "x.ossalook";
   EXPECT_EQ(RunOssa({"look", "--out", out}).exit_status, 2);
   EXPECT_EQ(RunOssa({"look", "/nonexistent", "--out", folder / "x.ossagp"}).exit_status, 2);
   EXPECT_EQ(RunOssa({"look", "/nonexistent", "--hidden", "1", "--out", out}).exit_status, 2);
+  EXPECT_EQ(RunOssa({"look", "/nonexistent", "--shifted", "-1", "--out", out}).exit_status, 2);
+  EXPECT_EQ(RunOssa({"look", "/nonexistent", "--shift", "nan", "--out", out}).exit_status, 2);
   const auto track = [&](const char* option, const char* with) {
     return RunOssa({"track", "/nonexistent", "--out", folder / "x.jsonl", "--posture", "looked",
                     option, with})
