@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 #include <oneapi/tbb/parallel_for.h>
 
+#include <algorithm>
 #include <optional>
 
 #include "depth/error.h"
@@ -133,17 +134,21 @@ LookExamples GatherLookExamples(const forest::ForestModel& model,
                                 const std::vector<std::filesystem::path>& datasets,
                                 const CloseLookOptions& options) {
   const Gatherer gatherer(model, options, datasets);
-  std::vector<std::vector<LookExample>> found(gatherer.size());
-  oneapi::tbb::parallel_for(size_t{0}, found.size(), [&](size_t i) {
-    if (!options.stop || !options.stop()) found[i] = gatherer.Read(i);
-  });
-  if (options.stop && options.stop()) throw forest::TrainInterrupted("interrupted");
+  // Not all at once: there may be more of them than memory holds twice.
+  constexpr size_t kBlock = 4096;
+  std::vector<std::vector<LookExample>> found(kBlock);
   LookExamples out;
-  out.all.reserve(found.size() * static_cast<size_t>(1 + options.shifted));
-  for (auto& examples : found) {
-    out.people += examples.empty() ? 0 : 1;
-    out.all.insert(out.all.end(), examples.begin(), examples.end());
-    examples = {};  // there may be more of them than memory holds twice
+  out.all.reserve(gatherer.size() * static_cast<size_t>(1 + options.shifted));
+  for (size_t first = 0; first < gatherer.size(); first += kBlock) {
+    const size_t count = std::min(kBlock, gatherer.size() - first);
+    oneapi::tbb::parallel_for(size_t{0}, count, [&](size_t i) {
+      if (!options.stop || !options.stop()) found[i] = gatherer.Read(first + i);
+    });
+    if (options.stop && options.stop()) throw forest::TrainInterrupted("interrupted");
+    for (size_t i = 0; i < count; ++i) {
+      out.people += found[i].empty() ? 0 : 1;
+      out.all.insert(out.all.end(), found[i].begin(), found[i].end());
+    }
   }
   constexpr size_t kFewest = forest::kNetworkBatch;
   if (out.people < kFewest) {
