@@ -56,6 +56,9 @@ int Look(int argc, char** argv) {
   Parse(app, argc, argv);
   CheckExtension("--out", out, ".ossalook");
   if (bones && after.empty()) throw UsageError("--bones: expected --after LOOK, too");
+  if (bones && app.count("--shifted") + app.count("--shift") > 0) {
+    throw UsageError("--shifted, --shift: bones are learned of joints where they are put");
+  }
   if (model_path.empty()) model_path = tracker::ShippedFile("body.ossa").string();
   std::vector<std::string> inputs = datasets;
   inputs.push_back(model_path);

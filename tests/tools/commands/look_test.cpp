@@ -154,6 +154,10 @@ TEST(LookCommand, SaysWhatIsWrongInOneLine) {
   EXPECT_EQ(track("--model", "my.ossa"), 2);
   EXPECT_EQ(RunOssa({"look", "/nonexistent", "--after", out, "--out", out}).exit_status, 2);
   EXPECT_EQ(RunOssa({"look", "/nonexistent", "--bones", "--out", out}).exit_status, 2);
+  EXPECT_EQ(RunOssa({"look", "/nonexistent", "--after", folder / "y.ossalook", "--bones", "--shift",
+                     "0.01", "--out", out})
+                .exit_status,
+            2);
   const auto after = RunOssa({"look", "/nonexistent", "--after", "/no.ossalook", "--out", out});
   EXPECT_EQ(after.exit_status, 1);
   EXPECT_NE(after.err.find("/no.ossalook"), std::string::npos) << after.err;
