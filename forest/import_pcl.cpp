@@ -109,7 +109,8 @@ Tree Convert(const PclTree& source) {
       node.left = ~static_cast<int32_t>(tree.leaf_count());
       // Unused labels 25 to 31 stand for background in PCL: a leaf that says nothing.
       if (common[i] < static_cast<int>(kPclNames.size())) {
-        tree.entries.push_back(static_cast<uint16_t>(127U << 9U | (common[i] + 1U)));
+        tree.entries.push_back(
+            static_cast<uint16_t>(127U << 9U | (static_cast<uint32_t>(common[i]) + 1U)));
       }
       tree.entry_begin.push_back(static_cast<uint32_t>(tree.entries.size()));
     } else {

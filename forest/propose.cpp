@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <span>
 
 #include "forest/agree_internal.h"
 #include "forest/propose_internal.h"
@@ -26,9 +27,9 @@ std::vector<Eigen::Vector3f> StartPoints(const WeightedPoints& points, float ban
   for (size_t i = 0; i < points.size(); i += step) {
     by_density.emplace_back(-Density(points, points.at(i), 1.5F * bandwidth_m), i);
   }
-  const auto heaviest = static_cast<size_t>(
-      std::max_element(points.weight.begin(), points.weight.begin() + points.size()) -
-      points.weight.begin());
+  const auto weights = std::span(points.weight).first(points.size());
+  const auto heaviest =
+      static_cast<size_t>(std::max_element(weights.begin(), weights.end()) - weights.begin());
   by_density.emplace_back(-Density(points, points.at(heaviest), 1.5F * bandwidth_m), heaviest);
   std::sort(by_density.begin(), by_density.end());
   std::vector<Eigen::Vector3f> starts;

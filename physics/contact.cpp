@@ -40,11 +40,11 @@ double Approach(dGeomID a, dGeomID b, const dContact& c) {
 const std::vector<std::array<size_t, 2>>& SelfCollisionPairs() {
   static const std::vector<std::array<size_t, 2>> pairs = [] {
     std::vector<std::array<size_t, 2>> list;
-    for (const size_t arm : {6, 7, 10, 11}) {
-      for (const size_t trunk : {1, 2, 3}) list.push_back({arm, trunk});
+    for (const size_t arm : {6U, 7U, 10U, 11U}) {
+      for (const size_t trunk : {1U, 2U, 3U}) list.push_back({arm, trunk});
     }
-    for (const size_t left : {14, 15}) {
-      for (const size_t right : {18, 19}) list.push_back({left, right});
+    for (const size_t left : {14U, 15U}) {
+      for (const size_t right : {18U, 19U}) list.push_back({left, right});
     }
     list.push_back({6, 10});
     return list;

@@ -17,7 +17,7 @@ void PrepareOde() {
   std::call_once(once, [] { dInitODE2(0); });
   thread_local const bool ready = [] {
     const std::scoped_lock lock(OdeMutex());
-    return dAllocateODEDataForThread(dAllocateMaskAll) != 0;
+    return dAllocateODEDataForThread(static_cast<unsigned>(dAllocateMaskAll)) != 0;
   }();
   (void)ready;
 }

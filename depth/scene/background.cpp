@@ -16,13 +16,13 @@ bool SensorMoved(const PointGrid& grid, const BackgroundState& state,
   int known = 0, moved = 0;
   for (int i = 0; i < grid.cells(); ++i) {
     const auto n = static_cast<size_t>(i);
+    const bool valid = grid.valid(i), same = SameSurface(grid.z(i), state.surface_m[n]);
     // Single ands: half the readings are a little farther away, which no processor foresees.
-    const bool is_known = (state.steady[n] >= options.steady_frames) & grid.valid(i);
+    const bool is_known = (state.steady[n] >= options.steady_frames) & valid;
     // Nearer things are people passing; a surface that is suddenly farther away is not.
-    const bool is_farther =
-        (grid.z(i) > state.surface_m[n]) & !SameSurface(grid.z(i), state.surface_m[n]);
+    const bool is_farther = (grid.z(i) > state.surface_m[n]) & !same;
     known += is_known ? 1 : 0;
-    moved += is_known & is_farther ? 1 : 0;
+    moved += (is_known & is_farther) ? 1 : 0;
   }
   return known > 500 && moved > options.moved_share * known;
 }
@@ -33,8 +33,9 @@ std::vector<uint8_t> SeenFor(int frames, const PointGrid& grid, const Background
   if (state.width != grid.width || state.height != grid.height) return seen;
   for (int i = 0; i < grid.cells(); ++i) {
     const auto n = static_cast<size_t>(i);
-    seen[n] = grid.valid(i) & (state.steady[n] >= frames) &
-              SameSurface(grid.z(i), state.surface_m[n], tolerance);
+    const bool valid = grid.valid(i);
+    const bool same = SameSurface(grid.z(i), state.surface_m[n], tolerance);
+    seen[n] = valid & (state.steady[n] >= frames) & same;
   }
   return seen;
 }
@@ -83,8 +84,9 @@ std::vector<uint8_t> ArrivedSince(const PointGrid& grid, const BackgroundState& 
   for (int i = 0; i < grid.cells(); ++i) {
     const auto n = static_cast<size_t>(i);
     const float before_m = state.surface_m[n];
-    arrived[n] = grid.valid(i) & (state.steady[n] > 0) &
-                 (grid.z(i) < before_m - kClearly_m - DepthTolerance(before_m));
+    const bool valid = grid.valid(i);
+    const bool nearer = grid.z(i) < before_m - kClearly_m - DepthTolerance(before_m);
+    arrived[n] = valid & (state.steady[n] > 0) & nearer;
   }
   return arrived;
 }

@@ -70,7 +70,7 @@ constexpr float kHiddenScale = 0.01f;  // of what is not worn
 
 }  // namespace
 
-Wardrobe::Wardrobe(const BodyModel& model) : model_(&model) {
+Wardrobe::Wardrobe(const BodyModel& model) {
   constexpr float kBaseFloor_m = -0.8168f;  // of base.obj
   constexpr size_t kLeftArm = 18, kRightArm = 25, kLeftUpLeg = 2, kRightUpLeg = 7;
   for (size_t i = 0; i < model.vertex_count(); ++i) {

@@ -44,7 +44,6 @@ class Wardrobe {
     float along = 0;  // arms, legs: 0, 1, 2 at the three joints; torso: 1 at the hips' height
     bool before_face = false;  // of long hair
   };
-  const BodyModel* model_;
   std::vector<Place> place_;
 };
 

@@ -120,7 +120,9 @@ TEST(Walk, AnyNumberOfPixelsEndsInTheLeavesOfTheScalarPath) {
 // A tree of any shape: leaves on all levels, one in `leaf_in` nodes.
 std::vector<Node> RandomTree(unsigned seed, int levels, int leaf_in, int offset_step) {
   std::mt19937 random(seed);
-  const auto draw = [&](int most) { return static_cast<int>(random() % (2U * most + 1U)) - most; };
+  const auto draw = [&](int most) {
+    return static_cast<int>(random() % (2U * static_cast<uint32_t>(most) + 1U)) - most;
+  };
   std::vector<Node> nodes(1);
   std::vector<int> level(1, 0);
   int32_t leaves = 0;

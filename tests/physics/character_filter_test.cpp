@@ -161,7 +161,7 @@ TEST(CharacterFilter, JointsOfNoWeightAreAsGoodAsMissing) {
   std::array<double, recon::kJointCount> weight;
   weight.fill(1.0);
   Posture target = StandingPerson();
-  for (const size_t joint : {5, 6, 7}) {
+  for (const size_t joint : {5U, 6U, 7U}) {
     weight[joint] = 0.0;
     target.position_m[joint].setConstant(50.0);
   }

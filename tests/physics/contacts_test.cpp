@@ -200,7 +200,7 @@ TEST(FootPin, HoldsWhileTheTargetStandsAndLetsGoWhenItLifts) {
   }
   EXPECT_LT(slid, 0.005);  // the bound
   Posture lifted = StandingPerson();
-  for (const size_t joint : {13, 14, 15}) {
+  for (const size_t joint : {13U, 14U, 15U}) {
     lifted.position_m[joint] += Vector3d(0.0, joint == 13 ? 0.15 : 0.25, 0.2);
   }
   scene.world.SetTarget(scene.person, lifted);
@@ -224,7 +224,7 @@ TEST(FootPin, IsNotShakenOffByThreeCentimetresOfNoise) {
   EXPECT_GT(pinned, 120);  // half of the time both feet; before noise was measured: 6 of 240
   // It still knows when the foot is gone.
   Posture lifted = StandingPerson();
-  for (const size_t joint : {13, 14, 15}) {
+  for (const size_t joint : {13U, 14U, 15U}) {
     lifted.position_m[joint] += Vector3d(0.0, joint == 13 ? 0.15 : 0.3, 0.25);
   }
   for (int i = 0; i < 10; ++i) {

@@ -127,7 +127,7 @@ TEST_P(Hinges, TurnAboutOneAxis) {
   for (int i = 0; i < 150; ++i) {
     const Posture target = DancingPerson(i * kFrame_s);
     const auto out = filter.Step(target, {}, Ground(), kFrame_s);
-    for (const size_t side : {0, 1}) {
+    for (const size_t side : {0U, 1U}) {
       const size_t forearm = side == 0 ? 6 : 10;
       const Vector3d axis = Axis(out, forearm, Vector3d::UnitX());
       const Vector3d in_parent = out.orientation[forearm - 1].conjugate() * axis;

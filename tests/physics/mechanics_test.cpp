@@ -80,7 +80,7 @@ TEST(Mechanics, AStepOfTheTargetIsAnsweredAsDerived) {
     const double wanted = jump * (1.0 - (1.0 + wt) * std::exp(-wt));
     const auto posture = world.StateOf(person).posture;
     // All joints move alike, no joint pulls on another. Tolerance: first order in the step.
-    for (const size_t joint : {0, 3, 7, 19}) {
+    for (const size_t joint : {0U, 3U, 7U, 19U}) {
       EXPECT_NEAR(posture.position_m[joint].x() - StandingPerson().position_m[joint].x() - x0,
                   wanted, 0.002)
           << joint;

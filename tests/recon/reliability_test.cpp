@@ -106,7 +106,7 @@ TEST(Reliability, OfInferredAndMissingJointsIsZero) {  // eq. 7
   seen.state[5] = TrackingState::kNotTracked;
   seen.posture.position_m[9].setConstant(std::numeric_limits<double>::quiet_NaN());
   const Reliability r = estimator.Step(seen, nullptr);
-  for (const size_t i : {3, 5, 9}) EXPECT_EQ(r.rate[i], 0.0) << i;
+  for (const size_t i : {3U, 5U, 9U}) EXPECT_EQ(r.rate[i], 0.0) << i;
   EXPECT_NEAR(r.rate[0], 1.0, 1e-12);
 }
 

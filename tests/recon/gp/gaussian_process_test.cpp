@@ -129,7 +129,7 @@ TEST(LocalMixture, WeighsTheNearestModelsByOneKernelForAll) {
   const Eigen::VectorXd at = Eigen::Vector2d(1.6, 0.1);
   Eigen::Vector3d sum = Eigen::Vector3d::Zero();
   double variance = 0.0, total = 0.0;
-  for (const size_t q : {1, 2}) {  // L = 2: the centres at about 1 and 2
+  for (const size_t q : {1U, 2U}) {  // L = 2: the centres at about 1 and 2
     const Eigen::VectorXd centre = models[q].inputs().colwise().mean().transpose();
     const double similarity = std::exp(-0.5 * 10.0 * (at - centre).squaredNorm());
     const GaussianPrediction local = models[q].Predict(at);

@@ -254,7 +254,7 @@ TEST(PriorFilter, LetsAHiddenArmGoWithTheOther) {
   double off_m = 0.0, held_off_m = 0.0;
   for (size_t f = 1; f < 90; ++f) {
     PriorObservation observation = Seeing(truth[f], 0.005);
-    for (const size_t hidden : {5, 6, 7}) observation.sd_m[hidden] = 0.0;
+    for (const size_t hidden : {5U, 6U, 7U}) observation.sd_m[hidden] = 0.0;
     const Posture made = filter.Step(kFrame_s, observation);
     off_m += (made.position_m[7] - truth[f].position_m[7]).norm() / 89.0;
     held_off_m += (truth[0].position_m[7] - truth[f].position_m[7]).norm() / 89.0;

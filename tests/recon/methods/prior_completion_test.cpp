@@ -102,7 +102,7 @@ TEST(BestWithPrior, MirrorsWhatItIsShownMirrored) {
 
 TEST(BestWithPrior, IsFiniteWhateverIsSeen) {
   const double nan = std::numeric_limits<double>::quiet_NaN();
-  for (const size_t seen : {0, 1, 2, 5}) {
+  for (const size_t seen : {0U, 1U, 2U, 5U}) {
     const auto method = MakeBestOne();
     for (int f = 0; f < 40; ++f) {
       TrackedPosture observed = test::AllTracked(At(f * kStep_s));

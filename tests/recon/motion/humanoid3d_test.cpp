@@ -20,7 +20,7 @@ std::vector<double> Row() {
   std::vector<double> row(44, 0.0);
   row[0] = 1.0 / 30.0;
   row[2] = 0.89;
-  for (const size_t quaternion : {4, 8, 12, 16, 21, 25, 30, 35, 39}) row[quaternion] = 1.0;
+  for (const size_t quaternion : {4U, 8U, 12U, 16U, 21U, 25U, 30U, 35U, 39U}) row[quaternion] = 1.0;
   return row;
 }
 
