@@ -29,11 +29,16 @@ std::vector<fs::path> PngsInNameOrder(const fs::path& folder) {
   return paths;
 }
 
-// Longer digit strings are time stamps (Skeltrack's dumps), not counts of frames.
+// Longer digit strings are time stamps (Skeltrack's dumps), not counts of frames; nor are numbers
+// that two files have (7.png and 7.PNG).
 bool AreFrameNumbers(const std::vector<fs::path>& paths) {
   constexpr size_t kLongest = 8;
   const size_t length = paths.front().stem().string().size();
-  return length <= kLongest && std::all_of(paths.begin(), paths.end(), [&](const fs::path& path) {
+  const auto twice =
+      std::adjacent_find(paths.begin(), paths.end(),
+                         [](const fs::path& a, const fs::path& b) { return a.stem() == b.stem(); });
+  return length <= kLongest && twice == paths.end() &&
+         std::all_of(paths.begin(), paths.end(), [&](const fs::path& path) {
            const std::string stem = path.stem().string();
            return stem.size() == length &&
                   stem.find_first_not_of("0123456789") == std::string::npos;

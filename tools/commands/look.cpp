@@ -37,7 +37,8 @@ int Look(int argc, char** argv) {
                  "units of each network's first layer, half as many of its second")
       ->capture_default_str()
       ->check(CLI::Range(2, 1024));
-  app.add_option("--epochs", options.epochs, "times that every person is looked at")
+  app.add_option("--epochs", options.epochs,
+                 "times that every person is looked at, from each place")
       ->capture_default_str()
       ->check(CLI::Range(1, 1000));
   app.add_option("--shifted", options.shifted,

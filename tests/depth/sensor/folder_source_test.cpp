@@ -113,6 +113,13 @@ TEST(FolderSource, NamesInCapitalsAreFramesToo) {
   EXPECT_EQ(source->frame_count(), 2);
   EXPECT_EQ(Next(*source).frame.index, 7);
   EXPECT_EQ(Next(*source).dropped, 1);
+  WriteFrame(folder / "000007.png", 71);  // beside the one in capitals: names count no frames
+  const auto counted = OpenSource(folder.path().string());
+  for (int i = 0; i < 3; ++i) {
+    const ReadResult next = Next(*counted);
+    EXPECT_EQ(next.frame.index, i);
+    EXPECT_EQ(next.dropped, 0);
+  }
 }
 
 TEST(OpenSource, OnePngIsAFrame) {
