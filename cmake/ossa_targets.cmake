@@ -1,8 +1,8 @@
-# How a target of ours is made: warnings are errors for our code and only ours. Not with sanitizers,
-# whose checks make GCC see uninitialised values where there are none; the plain build has judged.
+# How a target of ours is made: warnings are errors for our code and only ours. Not of GCC with
+# sanitizers, whose checks make it see uninitialised values where there are none.
 add_library(ossa_warnings INTERFACE)
 target_compile_options(ossa_warnings INTERFACE -Wall -Wextra -Wconversion)
-if(NOT OSSA_SANITIZE)
+if(NOT OSSA_SANITIZE OR CMAKE_CXX_COMPILER_ID MATCHES "Clang")
   target_compile_options(ossa_warnings INTERFACE -Werror)
 endif()
 

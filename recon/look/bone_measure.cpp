@@ -58,4 +58,10 @@ BoneLengths MeasuredBones(const NetworkRunner& network, const ProposedPerson& pe
   return lengths_m;
 }
 
+void JudgedBones::Add(const BoneLengths& judged_m) {
+  constexpr int kMemory_frames = 600;
+  frames = std::min(frames + 1, kMemory_frames);
+  for (size_t i = 1; i < kJointCount; ++i) mean_m[i] += (judged_m[i] - mean_m[i]) / frames;
+}
+
 }  // namespace ossa::recon

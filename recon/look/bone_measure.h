@@ -32,4 +32,15 @@ Eigen::VectorXf BoneOutputsOf(const BoneLengths& lengths_m);
 /// The mean of what it says of the person and of the mirror image.
 BoneLengths MeasuredBones(const NetworkRunner& network, const ProposedPerson& person);
 
+/// Mean length of each bone over the frames in which it was judged.
+struct JudgedBones {
+  void Add(const BoneLengths& judged_m);
+  BoneLengths mean_m{};
+  int frames = 0;  // up to twenty seconds: what is older fades
+};
+
+/// What the networks of a glance read that is told the bones: what others read, and the bones as
+/// the network above says them.
+inline constexpr int kToldInputs = kLookInputs + static_cast<int>(kMeasuredBones.size());
+
 }  // namespace ossa::recon

@@ -1,19 +1,14 @@
 #include "recon/look/close_look.h"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <cmath>
 #include <vector>
 
 #include "depth/clones.h"
-#include "depth/file/sealed_file.h"
 #include "recon/look/bone_measure.h"
 
 namespace ossa::recon {
 namespace {
-
-constexpr SealedFormat kFormat = {{'O', 'S', 'S', 'A', 'L', 'K', '0', '0'}, 4, "close look"};
 
 constexpr double kMostBehind_mm = 300.0;
 constexpr double kNearer_mm = 30.0;  // by so much, something that is not the person is before it
@@ -138,23 +133,12 @@ bool CanBeLookedAt(const LookInput& input) {
   return true;
 }
 
-RectifiedNetwork GetLookNetwork(PayloadReader& in, Eigen::Index inputs, Eigen::Index outputs) {
-  constexpr uint32_t kMostLayers = 2;  // with modest weights no sum through them is too large
-  const auto hidden = in.Get<uint32_t>("layers");
-  if (hidden > kMostLayers) in.Fail("layers", fmt::format("expected at most {}", kMostLayers));
-  std::vector<Eigen::Index> sizes = {inputs};
-  for (uint32_t l = 0; l < hidden; ++l) sizes.push_back(GetUnits(in));
-  sizes.push_back(outputs);
-  return GetNetwork(in, sizes, WeightForm::kBytes);
-}
-
-void PutLookNetwork(PayloadWriter& out, const RectifiedNetwork& network) {
-  const size_t hidden = network.layers.size() - 1;
-  out.Put(static_cast<uint32_t>(hidden));
-  for (size_t l = 0; l < hidden; ++l) {
-    out.Put(static_cast<uint32_t>(network.layers[l].bias.size()));
-  }
-  PutNetwork(out, network, WeightForm::kBytes);
+// Of a body at all, however small or large.
+bool AreBones(const BoneLengths& lengths_m) {
+  constexpr double kShortest_m = 1e-3, kLongest_m = 10.0;
+  return std::all_of(lengths_m.begin() + 1, lengths_m.end(), [](double length_m) {
+    return length_m >= kShortest_m && length_m <= kLongest_m;
+  });
 }
 
 }  // namespace
@@ -253,19 +237,27 @@ Eigen::VectorXf NumbersOf(const LookDescription& description, Joint joint) {
   return numbers;
 }
 
-Looker::Looker(const CloseLook& look) : glances_(look.glances.size()) {
+Looker::Looker(const CloseLook& look) {
   std::vector<const RectifiedNetwork*> networks;
-  for (const Glance& glance : look.glances) {
-    for (const RectifiedNetwork& network : glance) networks.push_back(&network);
+  const auto add = [&networks](const std::vector<Glance>& glances) {
+    for (const Glance& glance : glances) {
+      for (const RectifiedNetwork& network : glance) networks.push_back(&network);
+    }
+  };
+  add(look.glances);
+  before_bones_ = networks.size();
+  if (!look.bones.empty()) {
+    networks.push_back(&look.bones);
+    add(look.told);
   }
-  if (!look.bones.empty()) networks.push_back(&look.bones);
   networks_ = NetworkRunner::Of(networks);
 }
 
 // Each joint that is looked at moved by what its network says of it; of a pair both at once, the
 // right one mirrored.
-Posture Looker::Glanced(size_t glance, const LookDescription& seen, const JointSet& looked_at,
-                        Posture joints_m) const {
+Posture Looker::Moved(Networks of_joints, const LookInput& input, const LookDescription& seen,
+                      const JointSet& looked_at) {
+  Posture joints_m = input.proposed;
   const LookDescription mirrored = seen.Mirrored();
   const Eigen::Vector3d mirror(-1.0, 1.0, 1.0);
   const Eigen::Matrix3d camera_from_frame = seen.frame_from_camera.transpose();
@@ -275,11 +267,13 @@ Posture Looker::Glanced(size_t glance, const LookDescription& seen, const JointS
     const auto other = static_cast<size_t>(kMirroredJoint[index]);
     const bool one = looked_at[index], two = other != index && looked_at[other];
     if (!one && !two) continue;
-    Eigen::MatrixXf numbers(kLookInputs, one && two ? 2 : 1);
-    numbers.col(0) = NumbersOf(one ? seen : mirrored, joint);
-    if (one && two) numbers.col(1) = NumbersOf(mirrored, joint);
-    const NetworkRunner& network = networks_[glance * kLookJoints.size() + k];
-    const Eigen::MatrixXd offsets_m = CloseLook::kStep_m * network.Run(numbers).cast<double>();
+    Eigen::MatrixXf numbers(input.bones_m ? kToldInputs : kLookInputs, one && two ? 2 : 1);
+    numbers.col(0).head(kLookInputs) = NumbersOf(one ? seen : mirrored, joint);
+    if (one && two) numbers.col(1).head(kLookInputs) = NumbersOf(mirrored, joint);
+    if (input.bones_m) {
+      numbers.bottomRows(kToldInputs - kLookInputs).colwise() = BoneOutputsOf(*input.bones_m);
+    }
+    const Eigen::MatrixXd offsets_m = CloseLook::kStep_m * of_joints[k].Run(numbers).cast<double>();
     for (Eigen::Index column = 0; column < offsets_m.cols(); ++column) {
       const bool is_mirrored = !one || column == 1;
       Eigen::Vector3d offset_m = offsets_m.col(column);
@@ -291,62 +285,35 @@ Posture Looker::Glanced(size_t glance, const LookDescription& seen, const JointS
   return joints_m;
 }
 
-std::optional<Looked> Looker::Look(const LookInput& input) const {
-  LookInput now = input;
+// As far as there is something to see.
+LookInput Looker::Glanced(Networks networks, LookInput input) {
   JointSet looked_at = kAllJoints;
-  for (size_t g = 0; g < glances_; ++g) {
-    const auto seen = LookDescription::Of(now, looked_at);
-    if (!seen && g == 0) return std::nullopt;
+  for (size_t first = 0; first < networks.size(); first += kLookJoints.size()) {
+    const auto seen = LookDescription::Of(input, looked_at);
     if (!seen) break;
-    const Posture next_m = Glanced(g, *seen, looked_at, now.proposed);
-    for (size_t j = 0; g > 0 && j < kJointCount; ++j) {
-      const double moved_m = (next_m.position_m[j] - now.proposed.position_m[j]).norm();
+    const Networks of_joints = networks.subspan(first, kLookJoints.size());
+    const Posture next_m = Moved(of_joints, input, *seen, looked_at);
+    for (size_t j = 0; first > 0 && j < kJointCount; ++j) {
+      const double moved_m = (next_m.position_m[j] - input.proposed.position_m[j]).norm();
       if (moved_m < CloseLook::kAtRest_m) looked_at[j] = false;
     }
-    now = now.MovedTo(next_m);
+    input = input.MovedTo(next_m);
   }
+  return input;
+}
+
+std::optional<Looked> Looker::Look(const LookInput& input) const {
+  if (!ProposedPerson::Of(input)) return std::nullopt;
+  const Networks all = networks_;
+  LookInput now = input;
+  now.bones_m.reset();
+  now = Glanced(all.first(before_bones_), std::move(now));
   Looked out{now.proposed, std::nullopt};
-  if (networks_.size() > glances_ * kLookJoints.size()) {
-    const auto person = ProposedPerson::Of(now);
-    if (person) out.bones_m = MeasuredBones(networks_.back(), *person);
-  }
-  return out;
-}
-
-void CloseLook::Save(const std::filesystem::path& path) const {
-  PayloadWriter out;
-  out.Put(people);
-  out.Put(static_cast<uint32_t>(glances.size()));
-  for (const Glance& glance : glances) {
-    for (const RectifiedNetwork& network : glance) PutLookNetwork(out, network);
-  }
-  out.Put(bones.empty() ? uint64_t{0} : measured);
-  if (!bones.empty()) PutLookNetwork(out, bones);
-  WriteSealedFile(path, kFormat, out.bytes());
-}
-
-bool CloseLook::IsOne(const std::filesystem::path& path) { return IsSealedFile(path, kFormat); }
-
-CloseLook CloseLook::Load(const std::filesystem::path& path) {
-  return FromBytes(ReadSealedFile(path, kFormat), path.string());
-}
-
-CloseLook CloseLook::FromBytes(std::span<const std::byte> bytes, const std::string& name) {
-  PayloadReader in(bytes, name);
-  CloseLook out;
-  out.people = in.Get<uint64_t>("people");
-  const auto glances = in.Get<uint32_t>("glances");
-  if (glances < 1 || glances > kMostGlances) {
-    in.Fail("glances", fmt::format("expected 1 to {}", kMostGlances));
-  }
-  for (uint32_t g = 0; g < glances; ++g) {
-    for (RectifiedNetwork& network : out.glances.emplace_back()) {
-      network = GetLookNetwork(in, kLookInputs, 3);
-    }
-  }
-  out.measured = in.Get<uint64_t>("people measured");
-  if (out.measured > 0) out.bones = GetLookNetwork(in, kBoneInputs, kMeasuredBones.size());
-  in.ExpectEnd();
+  const auto person = ProposedPerson::Of(now);
+  if (all.size() == before_bones_ || !person) return out;
+  out.bones_m = MeasuredBones(all[before_bones_], *person);
+  now.bones_m = input.bones_m && AreBones(*input.bones_m) ? input.bones_m : out.bones_m;
+  out.joints_m = Glanced(all.subspan(before_bones_ + 1), std::move(now)).proposed;
   return out;
 }
 

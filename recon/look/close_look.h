@@ -27,6 +27,7 @@ struct LookInput {
   const depth::DepthFrame* depth = nullptr;      // the whole image; borrowed
   std::span<const uint8_t> is_person;  // of each of its pixels, row-major: 1 for this person's
   Posture moved;  // from the forest's proposals to `proposed`, by earlier glances; metres
+  std::optional<BoneLengths> bones_m;  // the person's, where earlier frames have told them
 
   /// After a glance that put the joints there.
   LookInput MovedTo(const Posture& joints_m) const;
@@ -102,8 +103,10 @@ using Glance = std::array<RectifiedNetwork, kLookJoints.size()>;  // kLookInputs
 struct CloseLook {
   std::vector<Glance> glances;
   RectifiedNetwork bones;  // kBoneInputs -> kMeasuredBones, see bone_measure.h; or empty
-  uint64_t people = 0;     // the last glance was learned from
-  uint64_t measured = 0;   // people whose bones were learned from
+  /// After the bones: glances whose networks are told them (kToldInputs), none without.
+  std::vector<Glance> told;
+  uint64_t people = 0;    // the last glance was learned from
+  uint64_t measured = 0;  // people whose bones were learned from
 
   static constexpr double kStep_m = 0.1;
   /// Whatever a network says, at one glance a joint goes no farther.
@@ -111,11 +114,14 @@ struct CloseLook {
   /// A joint that a glance after the first moves by less is where it is: the next one, which would
   /// move it by less still, spares the time.
   static constexpr double kAtRest_m = 0.008;
-  static constexpr size_t kMostGlances = 8;
+  static constexpr size_t kMostGlances = 8;  // of either kind
 
-  /// .ossalook: reads refuse damaged, truncated and hostile files by name and byte.
+  /// .ossalook: reads refuse damaged, truncated and hostile files by name and byte. The oldest
+  /// version that is still read has no glances that are told of the bones.
+  static constexpr uint32_t kVersion = 5, kOldestVersion = 4;
   static CloseLook Load(const std::filesystem::path& path);
-  static CloseLook FromBytes(std::span<const std::byte> bytes, const std::string& name);
+  static CloseLook FromBytes(std::span<const std::byte> bytes, const std::string& name,
+                             uint32_t version = kVersion);
   void Save(const std::filesystem::path& path) const;
   /// True when the file says that it is one; it may still be damaged.
   static bool IsOne(const std::filesystem::path& path);
@@ -136,11 +142,15 @@ class Looker {
   std::optional<Looked> Look(const LookInput& input) const;
 
  private:
-  Posture Glanced(size_t glance, const LookDescription& seen, const JointSet& looked_at,
-                  Posture joints_m) const;
+  using Networks = std::span<const NetworkRunner>;  // of glances, one after the other
 
-  std::vector<NetworkRunner> networks_;  // of all glances, one after the other; then of the bones
-  size_t glances_ = 0;
+  static LookInput Glanced(Networks networks, LookInput input);
+  static Posture Moved(Networks of_joints, const LookInput& input, const LookDescription& seen,
+                       const JointSet& looked_at);
+
+  // Of the glances; of the bones, if they are measured; of the glances that are told them.
+  std::vector<NetworkRunner> networks_;
+  size_t before_bones_ = 0;
 };
 
 }  // namespace ossa::recon

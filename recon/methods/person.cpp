@@ -111,12 +111,6 @@ void BodySize::TypicalBones::Add(const BoneLengths& measured, const JointWeights
   }
 }
 
-void BodySize::JudgedBones::Add(const BoneLengths& judged_m) {
-  constexpr int kMemory_frames = 600;
-  frames = std::min(frames + 1, kMemory_frames);
-  for (size_t i = 1; i < kJointCount; ++i) mean_m[i] += (judged_m[i] - mean_m[i]) / frames;
-}
-
 void BodySize::Observe(const Posture& in_camera, const JointWeights& trust, double expected_scale,
                        const std::optional<BoneLengths>& judged) {
   const auto good = std::count_if(trust.begin(), trust.end(), [](double t) { return t > 0.5; });

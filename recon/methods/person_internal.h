@@ -1,6 +1,7 @@
 #pragma once
 #include <optional>
 
+#include "recon/look/bone_measure.h"
 #include "recon/methods/frame_steps_internal.h"
 #include "recon/methods/reconstructor.h"
 #include "recon/normalise.h"
@@ -45,13 +46,6 @@ class BodySize {
     void Add(const BoneLengths& measured, const JointWeights& trust);
     BoneLengths length_m{};
     std::array<int, kJointCount> samples{};
-    int frames = 0;
-  };
-
-  /// Mean length of each bone over the frames in which it was judged.
-  struct JudgedBones {
-    void Add(const BoneLengths& judged_m);
-    BoneLengths mean_m{};
     int frames = 0;
   };
 

@@ -26,6 +26,7 @@ std::vector<std::string> ossa::fuzz::Seeds() {
   look.people = look.measured = 1;
   look.glances.emplace_back().fill(Plain(recon::kLookInputs, 3));
   look.bones = Plain(recon::kBoneInputs, recon::kMeasuredBones.size());
+  look.told.emplace_back().fill(Plain(recon::kToldInputs, 3));
   const std::string path = ScratchPath("look");
   look.Save(path);
   return {TakePayload(path)};
@@ -34,11 +35,15 @@ std::vector<std::string> ossa::fuzz::Seeds() {
 extern "C" int LLVMFuzzerTestOneInput(const uint8_t* data, size_t size) {
   ossa::fuzz::ExpectValueOrOneLine([&] {
     const auto look = CloseLook::FromBytes(std::as_bytes(std::span(data, size)), "x.ossalook");
-    for (const recon::Glance& glance : look.glances) {
-      for (const recon::RectifiedNetwork& network : glance) {
-        if (!network.Run(Eigen::VectorXf::Zero(recon::kLookInputs)).allFinite()) abort();
+    const auto run = [](const std::vector<recon::Glance>& glances, Eigen::Index inputs) {
+      for (const recon::Glance& glance : glances) {
+        for (const recon::RectifiedNetwork& network : glance) {
+          if (!network.Run(Eigen::VectorXf::Zero(inputs)).allFinite()) abort();
+        }
       }
-    }
+    };
+    run(look.glances, recon::kLookInputs);
+    run(look.told, recon::kToldInputs);
     if (!look.bones.empty() &&
         !look.bones.Run(Eigen::VectorXf::Zero(recon::kBoneInputs)).allFinite()) {
       abort();

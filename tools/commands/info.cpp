@@ -115,14 +115,17 @@ void ShowPrior(const fs::path& path) {
 
 void ShowLook(const fs::path& path) {
   const auto look = recon::CloseLook::Load(path);
+  const auto count = [](const std::vector<recon::Glance>& glances) {
+    return glances.size() == 1 ? "1 glance" : fmt::format("{} glances", glances.size());
+  };
   fmt::print(
       "close look at a forest's joints, {} of {} networks, learned from {} people, {:.1f} MB\n",
-      look.glances.size() == 1 ? "1 glance" : fmt::format("{} glances", look.glances.size()),
-      recon::kLookJoints.size(), look.people, static_cast<double>(fs::file_size(path)) * 1e-6);
-  if (!look.bones.empty()) {
-    fmt::print("and a measure of {} bones, learned from {} people\n", recon::kMeasuredBones.size(),
-               look.measured);
-  }
+      count(look.glances), recon::kLookJoints.size(), look.people,
+      static_cast<double>(fs::file_size(path)) * 1e-6);
+  if (look.bones.empty()) return;
+  fmt::print("and a measure of {} bones, learned from {} people{}\n", recon::kMeasuredBones.size(),
+             look.measured,
+             look.told.empty() ? "" : fmt::format("; {} told of them", count(look.told)));
 }
 
 void ShowDepthRecording(const fs::path& path) {

@@ -29,7 +29,8 @@ int Look(int argc, char** argv) {
   app.add_option("--out", out, "the .ossalook file to write")->required();
   app.add_option("--model", model_path, "forest model, .ossa (default: the shipped one)");
   app.add_option("--after", after,
-                 "a .ossalook: its glances come first, one more is learned from where they end");
+                 "a .ossalook: its glances come first, one more is learned from where they end; if "
+                 "it measures bones, one that is told them");
   app.add_flag("--bones", bones,
                "learn no glance more but how long people's bones are, of where the glances of "
                "--after put the joints");
@@ -70,7 +71,13 @@ int Look(int argc, char** argv) {
   const forest::ForestModel model = forest::ReadForestModel(model_path);
   options.model_name = model_path;
   if (!after.empty()) options.after = recon::CloseLook::Load(after);
-  if (!bones && options.after.glances.size() >= recon::CloseLook::kMostGlances) {
+  const recon::CloseLook& known = options.after;
+  if (bones && !known.told.empty()) {
+    throw InputError(fmt::format("{}: expected no glance that is told of the bones, found {}",
+                                 after, known.told.size()));
+  }
+  const size_t glances = known.bones.empty() ? known.glances.size() : known.told.size();
+  if (!bones && glances >= recon::CloseLook::kMostGlances) {
     throw InputError(
         fmt::format("{}: expected less than {} glances", after, recon::CloseLook::kMostGlances));
   }

@@ -9,6 +9,7 @@
 #include <numeric>
 
 #include "forest/thread_limit.h"
+#include "recon/look/bone_measure.h"
 #include "recon/skeleton.h"
 #include "tools/learning/learn_rectified_network.h"
 #include "tools/learning/look_examples.h"
@@ -20,11 +21,13 @@ using recon::kLookJoints;
 
 // Two rows an example: as it is, and mirrored. What is off by more was mistaken for something else,
 // and nothing near the proposal tells of it.
-forest::NetworkExamples ExamplesOf(const std::vector<LookExample>& examples, recon::Joint joint) {
+forest::NetworkExamples ExamplesOf(const std::vector<LookExample>& examples, recon::Joint joint,
+                                   bool told) {
   constexpr float kFarthest_m = 0.6F;
   const auto rows = 2 * static_cast<Eigen::Index>(examples.size());
-  forest::NetworkExamples out{forest::RowMatrix(rows, recon::kLookInputs),
-                              forest::RowMatrix(rows, 3)};
+  forest::NetworkExamples out{
+      forest::RowMatrix(rows, told ? recon::kToldInputs : recon::kLookInputs),
+      forest::RowMatrix(rows, 3)};
   const auto index = static_cast<size_t>(recon::Index(joint));
   const auto other = static_cast<size_t>(recon::kMirroredJoint[index]);
   const auto want = [&out](Eigen::Index row, const Eigen::Vector3f& offset_m) {
@@ -38,9 +41,15 @@ forest::NetworkExamples ExamplesOf(const std::vector<LookExample>& examples, rec
   for (size_t i = 0; i < examples.size(); ++i) {
     const LookExample& person = examples[i];
     const auto row = 2 * static_cast<Eigen::Index>(i);
-    out.input.row(row) = recon::NumbersOf(person.description, joint).transpose();
+    const auto put = [&](Eigen::Index at, const recon::LookDescription& seen) {
+      out.input.row(at).head(recon::kLookInputs) = recon::NumbersOf(seen, joint).transpose();
+      if (!told) return;
+      out.input.row(at).tail(recon::kToldInputs - recon::kLookInputs) =
+          recon::BoneOutputsOf(person.told_m).transpose();
+    };
+    put(row, person.description);
     want(row, person.offset_m[index]);
-    out.input.row(row + 1) = recon::NumbersOf(person.description.Mirrored(), joint).transpose();
+    put(row + 1, person.description.Mirrored());
     want(row + 1, person.offset_m[other].cwiseProduct(Eigen::Vector3f(-1, 1, 1)));
   }
   return out;
@@ -55,13 +64,12 @@ recon::CloseLook LearnCloseLook(const forest::ForestModel& model,
   recon::CloseLook look = options.after;
   const LookExamples found = GatherLookExamples(model, datasets, options);
   look.people = found.people;
-  look.bones = {};  // they were of joints where the glances before this one put them
-  look.measured = 0;
-  recon::Glance& learned = look.glances.emplace_back();
+  const bool told = !look.bones.empty();
+  recon::Glance& learned = (told ? look.told : look.glances).emplace_back();
   std::mutex mutex;
   std::array<int64_t, kLookJoints.size()> done{};
   oneapi::tbb::parallel_for(size_t{0}, kLookJoints.size(), [&](size_t k) {
-    forest::NetworkExamples examples = ExamplesOf(found.all, kLookJoints[k]);
+    forest::NetworkExamples examples = ExamplesOf(found.all, kLookJoints[k], told);
     forest::NetworkOptions learning = LookLearning(options, 3);
     // Of decays of 0.02 to 1, with and without dropout, the best on validation subjects.
     learning.decay = 0.5F;

@@ -52,11 +52,13 @@ class Gatherer {
     LayFloor(&frame);
     const TruthBody& body = frame.bodies[static_cast<size_t>(number) % frame.bodies.size()];
     std::vector<uint8_t> is_person;
-    auto input = Propose(frame, body.id, &is_person);
+    const auto proposed = Propose(frame, body.id, &is_person);
+    if (!proposed) return {};
+    Random random(options_.seed, index);
+    auto input = Glanced(*proposed, recon::BoneLengthsOf(body.joints_m), random);
     std::vector<LookExample> examples;
     if (!input || !AddExample(*input, body.joints_m, &examples)) return {};
     const Posture put_m = input->proposed;
-    Random random(options_.seed, index);
     for (int i = 0; i < options_.shifted; ++i) {
       input->proposed = Shifted(put_m, random);
       AddExample(*input, body.joints_m, &examples);
@@ -77,6 +79,7 @@ class Gatherer {
     if (!description) return false;
     LookExample& example =
         examples->emplace_back(LookExample{*description, {}, recon::BoneLengthsOf(true_m)});
+    example.told_m = input.bones_m.value_or(example.bones_m);
     for (size_t j = 0; j < kJointCount; ++j) {
       const Eigen::Vector3d offset_m = true_m.position_m[j] - input.proposed.position_m[j];
       example.offset_m[j] = (description->frame_from_camera * offset_m).cast<float>();
@@ -91,8 +94,7 @@ class Gatherer {
     return put_m;
   }
 
-  // The likeliest place of each joint, after the glances that are known already; the result borrows
-  // from frame and `is_person`.
+  // The likeliest place of each joint; the result borrows from frame and `is_person`.
   std::optional<recon::LookInput> Propose(const LabelledFrame& frame, int id,
                                           std::vector<uint8_t>* is_person) const {
     constexpr size_t kFewest = 200;  // pixels: fewer are a hand or a head
@@ -115,7 +117,24 @@ class Gatherer {
     }
     input.depth = &depth;
     input.is_person = *is_person;
-    const auto looked = looker_.Look(input);
+    return input;
+  }
+
+  // After the glances that are known already. Frames before one would have told the bones about as
+  // well as the frame itself does, or somewhat better: from none to half of its error is taken
+  // away.
+  std::optional<recon::LookInput> Glanced(recon::LookInput input, const recon::BoneLengths& true_m,
+                                          Random& random) const {
+    constexpr double kLeastLeft = 0.5;
+    auto looked = looker_.Look(input);
+    if (looked && looked->bones_m) {
+      const double left = random.Uniform(kLeastLeft, 1.0);
+      input.bones_m = true_m;
+      for (size_t i = 0; i < kJointCount; ++i) {
+        (*input.bones_m)[i] += left * ((*looked->bones_m)[i] - true_m[i]);
+      }
+      if (!options_.after.told.empty()) looked = looker_.Look(input);
+    }
     if (!looked) return std::nullopt;
     return input.MovedTo(looked->joints_m);
   }
@@ -164,7 +183,7 @@ forest::NetworkOptions LookLearning(const CloseLookOptions& options, Eigen::Inde
   learning.outputs = outputs;
   learning.epochs = options.epochs;
   learning.batch = 2 * forest::kNetworkBatch;
-  learning.rate = 2e-3F;
+  learning.rate = 1e-3F;
   learning.dropped = 0.0F;
   learning.seed = options.seed;
   learning.stop = options.stop;

@@ -12,11 +12,13 @@
 namespace ossa::tools {
 
 /// A person where the forest and the glances known already put the joints; how far from there the
-/// joints are, in the description's axes; and the person's true bones.
+/// joints are, in the description's axes; the person's true bones, and what the glances known
+/// already would be told of them.
 struct LookExample {
   recon::LookDescription description;
   std::array<Eigen::Vector3f, recon::kJointCount> offset_m{};
   recon::BoneLengths bones_m{};
+  recon::BoneLengths told_m{};  // the true ones where nothing judges them yet
 };
 
 struct LookExamples {

@@ -17,8 +17,10 @@ const forest::Proposal* ProposalAt(const std::vector<forest::Proposal>& best_fir
 std::optional<recon::Looked> LookClosely(
     const recon::Looker& look, const depth::DepthFrame& frame, const depth::Candidate& candidate,
     const std::vector<std::vector<forest::Proposal>>& proposals,
-    const std::array<int, recon::kJointCount>& targets, const recon::TrackedPosture& chosen) {
+    const std::array<int, recon::kJointCount>& targets, const recon::TrackedPosture& chosen,
+    recon::JudgedBones* bones) {
   recon::LookInput input;
+  if (bones->frames > 0) input.bones_m = bones->mean_m;
   for (size_t j = 0; j < recon::kJointCount; ++j) {
     const forest::Proposal* proposal =
         ProposalAt(proposals[static_cast<size_t>(targets[j])], chosen.posture.position_m[j]);
@@ -31,7 +33,9 @@ std::optional<recon::Looked> LookClosely(
   for (const int32_t pixel : candidate.pixels) is_person[static_cast<size_t>(pixel)] = 1;
   input.depth = &frame;
   input.is_person = is_person;
-  return look.Look(input);
+  auto looked = look.Look(input);
+  if (looked && looked->bones_m) bones->Add(*looked->bones_m);
+  return looked;
 }
 
 }  // namespace ossa::tracker

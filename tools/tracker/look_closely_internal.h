@@ -5,15 +5,18 @@
 
 #include "depth/scene/scene.h"
 #include "forest/propose.h"
+#include "recon/look/bone_measure.h"
 #include "recon/look/close_look.h"
 
 namespace ossa::tracker {
 
 /// The joints of a posture chosen among the proposals, looked at again; those for which nothing was
-/// chosen from where they are likeliest. Nothing where some joint has no proposal at all.
+/// chosen from where they are likeliest. Nothing where some joint has no proposal at all. `bones`:
+/// the person's as judged until now, of which the look is told; this frame's are added.
 std::optional<recon::Looked> LookClosely(
     const recon::Looker& look, const depth::DepthFrame& frame, const depth::Candidate& candidate,
     const std::vector<std::vector<forest::Proposal>>& proposals,
-    const std::array<int, recon::kJointCount>& targets, const recon::TrackedPosture& chosen);
+    const std::array<int, recon::kJointCount>& targets, const recon::TrackedPosture& chosen,
+    recon::JudgedBones* bones);
 
 }  // namespace ossa::tracker

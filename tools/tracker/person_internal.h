@@ -2,6 +2,7 @@
 #include <memory>
 #include <optional>
 
+#include "recon/look/bone_measure.h"
 #include "recon/methods/reconstructor.h"
 #include "tools/tracker/choose_posture_internal.h"
 #include "tools/tracker/mechanics_internal.h"
@@ -18,6 +19,7 @@ struct Person {
   std::optional<double> score;  // mean of the last looks
   int looks = 0;
   recon::BoneLengths lengths_m = AverageBoneLengths();
+  recon::JudgedBones bones;                     // by close looks until now
   std::optional<recon::TrackedPosture> before;  // of the last frame it was tracked in
   std::vector<float> context;                   // facing, as the forest saw it
   SteadyBody steady;

@@ -237,8 +237,8 @@ void Tracker::Impl::TrackBody(const depth::DepthFrame& frame,
   body.raw = ChoosePosture(model, targets, perception.proposals, context);
   if (look) {
     const auto start = Clock::now();
-    const auto looked =
-        LookClosely(*look, frame, found.candidate, perception.proposals, targets, body.raw);
+    const auto looked = LookClosely(*look, frame, found.candidate, perception.proposals, targets,
+                                    body.raw, &person.bones);
     if (looked) {
       body.looked = looked->joints_m;
       body.looked_bones_m = looked->bones_m;

@@ -8,6 +8,7 @@
 #include <limits>
 
 #include "depth/error.h"
+#include "depth/file/sealed_file.h"
 #include "recon/body/standard_body.h"
 #include "recon/look/bone_measure.h"
 #include "recon/normalise.h"
@@ -312,6 +313,60 @@ TEST(BoneMeasure, IsTheMeanOfThePersonAndTheMirrorImage) {
   EXPECT_EQ(over(Joint::kKneeLeft), over(Joint::kKneeRight));
 }
 
+// A look that says nothing but of the bones, all standard, and then once more, told of them.
+CloseLook SilentAndTold() {
+  CloseLook look = Silent();
+  constexpr auto kBones = static_cast<Eigen::Index>(kMeasuredBones.size());
+  look.bones.input_mean = Eigen::VectorXf::Zero(kBoneInputs);
+  look.bones.input_scale = Eigen::VectorXf::Ones(kBoneInputs);
+  look.bones.layers = {{Eigen::MatrixXf::Zero(kBones, kBoneInputs), Eigen::VectorXf::Zero(kBones)}};
+  look.measured = 3;
+  for (RectifiedNetwork& network : look.told.emplace_back()) {
+    network.input_mean = Eigen::VectorXf::Zero(kToldInputs);
+    network.input_scale = Eigen::VectorXf::Ones(kToldInputs);
+    network.layers = {{Eigen::MatrixXf::Zero(3, kToldInputs), Eigen::VectorXf::Zero(3)}};
+  }
+  return look;
+}
+
+// The head rises by a step for each step of the first bone, the spine; every glance before, and
+// what is said of the bones, is of joints where the others put them.
+TEST(CloseLook, GlancesAfterTheBonesAreToldOfThem) {
+  Scene scene;
+  CloseLook look = SilentAndTold();
+  look.told[0][NetworkOf(Joint::kHead)].layers[0].weight(1, kLookInputs) = 1.0F;
+  const auto rise_m = [&](const std::optional<BoneLengths>& bones_m) {
+    scene.input.bones_m = bones_m;
+    const auto looked = Looker(look).Look(scene.input);
+    EXPECT_TRUE(looked && looked->bones_m);
+    EXPECT_NEAR((*looked->bones_m)[Index(Joint::kFootLeft)],
+                StandardBoneLengths()[Index(Joint::kFootLeft)], 1e-6);
+    return (looked->joints_m[Joint::kHead] - scene.input.proposed[Joint::kHead]).norm();
+  };
+  BoneLengths tall_m = StandardBoneLengths();
+  tall_m[Index(Joint::kSpine)] *= std::exp(2.0 * kBoneStep);
+  EXPECT_NEAR(rise_m(tall_m), 2.0 * CloseLook::kStep_m, 1e-4);
+  EXPECT_NEAR(rise_m(std::nullopt), 0.0, 1e-6);  // what is judged of this frame
+  look.bones.layers[0].bias[0] = 1.0F;
+  EXPECT_NEAR(rise_m(std::nullopt), CloseLook::kStep_m, 1e-4);
+  for (const double odd_m : {0.0, -1.0, std::nan(""), 1e300}) {
+    tall_m[Index(Joint::kHandRight)] = odd_m;
+    EXPECT_NEAR(rise_m(tall_m), CloseLook::kStep_m, 1e-4) << odd_m;
+  }
+}
+
+TEST(BoneMeasure, IsTheMeanOfAllFrames) {
+  JudgedBones bones;
+  BoneLengths lengths_m = StandardBoneLengths();
+  bones.Add(lengths_m);
+  EXPECT_EQ(bones.mean_m[1], lengths_m[1]);
+  for (double& length_m : lengths_m) length_m *= 4.0;
+  bones.Add(lengths_m);
+  bones.Add(lengths_m);
+  EXPECT_EQ(bones.frames, 3);
+  EXPECT_NEAR(bones.mean_m[1], 3.0 * StandardBoneLengths()[1], 1e-12);
+}
+
 TEST(CloseLook, IsKeptInAFile) {
   const test::TemporaryFolder folder;
   CloseLook look = Silent();
@@ -338,6 +393,33 @@ TEST(CloseLook, IsKeptInAFile) {
   EXPECT_EQ(bones.measured, 9U);
   const Eigen::VectorXf some = Eigen::VectorXf::Random(kBoneInputs);
   EXPECT_LT((bones.bones.Run(some) - look.bones.Run(some)).norm(), 0.1F);
+
+  look = SilentAndTold();
+  look.told[0][4].layers[0].weight(2, kToldInputs - 1) = 1.0F;
+  look.Save(folder / "told.ossalook");
+  const CloseLook told = CloseLook::Load(folder / "told.ossalook");
+  ASSERT_EQ(told.told.size(), 1U);
+  EXPECT_NEAR(told.told[0][4].layers[0].weight(2, kToldInputs - 1), 1.0F, 1.0F / 500.0F);
+}
+
+TEST(CloseLook, OfTheVersionBeforeIsReadAndOlderOnesAreRefused) {
+  const test::TemporaryFolder folder;
+  CloseLook look = SilentAndTold();
+  look.told.clear();
+  look.Save(folder / "now.ossalook");
+  SealedFormat format = {{'O', 'S', 'S', 'A', 'L', 'K', '0', '0'}, CloseLook::kVersion, "look"};
+  std::vector<std::byte> payload = ReadSealedFile(folder / "now.ossalook", format);
+  payload.resize(payload.size() - sizeof(uint32_t));  // how many glances are told
+  format.version = CloseLook::kOldestVersion;
+  WriteSealedFile(folder / "before.ossalook", format, payload);
+  const CloseLook before = CloseLook::Load(folder / "before.ossalook");
+  EXPECT_EQ(before.measured, 3U);
+  EXPECT_TRUE(before.told.empty());
+  before.Save(folder / "again.ossalook");
+  EXPECT_NO_THROW(CloseLook::Load(folder / "again.ossalook"));
+  format.version = CloseLook::kOldestVersion - 1;
+  WriteSealedFile(folder / "older.ossalook", format, payload);
+  EXPECT_THROW(CloseLook::Load(folder / "older.ossalook"), InputError);
 }
 
 TEST(CloseLook, WithOddNumbersIsRefused) {
@@ -375,6 +457,12 @@ TEST(CloseLook, WithOddNumbersIsRefused) {
     look.glances.resize(glances, Silent().glances[0]);
     refused_look(look, "glances");
   }
+  look = SilentAndTold();
+  look.told.resize(CloseLook::kMostGlances + 1, look.told[0]);
+  refused_look(look, "told glances");
+  look = SilentAndTold();
+  look.told[0][1].input_mean = Eigen::VectorXf::Zero(kLookInputs);
+  refused_look(look, "input means");
 }
 
 TEST(NetworkRunner, SaysWhatTheNetworkSays) {

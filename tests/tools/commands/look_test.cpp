@@ -8,7 +8,9 @@
 
 #include "forest/forest.h"
 #include "recon/body/body_model.h"
+#include "recon/look/bone_measure.h"
 #include "recon/look/close_look.h"
+#include "recon/normalise.h"
 #include "tests/support/run_command.h"
 #include "tests/support/temporary_folder.h"
 #include "tools/learning/look_examples.h"
@@ -69,6 +71,22 @@ TEST(LookCommand, LearnsTheSameForAnyThreadsAndTrackLooksWithIt) {
   const auto measured = RunOssa({"info", bones});
   EXPECT_NE(measured.out.find("1 glance of 12 networks"), std::string::npos) << measured.out;
   EXPECT_NE(measured.out.find("a measure of 11 bones"), std::string::npos) << measured.out;
+
+  const auto tell = [&](const char* threads, const std::string& out) {
+    const auto run = RunOssa({"look", people, "--after", bones, "--out", out, "--hidden", "4",
+                              "--epochs", "1", "--threads", threads, "--quiet"});
+    EXPECT_EQ(run.exit_status, 0) << run.err;
+    return TextOf(out);
+  };
+  const std::string told = folder / "told.ossalook";
+  EXPECT_EQ(tell("1", told), tell("3", folder / "told3.ossalook"));
+  EXPECT_EQ(recon::CloseLook::Load(told).glances.size(), 1U);
+  EXPECT_EQ(recon::CloseLook::Load(told).told.size(), 1U);
+  EXPECT_NE(RunOssa({"info", told}).out.find("; 1 glance told of them"), std::string::npos);
+  const auto late = RunOssa(
+      {"look", people, "--after", told, "--bones", "--out", folder / "late.ossalook", "--quiet"});
+  EXPECT_EQ(late.exit_status, 1);
+  EXPECT_EQ(test::LineCount(late.err), 1) << late.err;
 
   ASSERT_EQ(RunOssa({"render", "--mocap", "authored", "--out", clip, "--frames", "5", "--sequence",
                      "--view", "front", "--size", "160x120", "--quiet"})
@@ -135,6 +153,51 @@ TEST(LookExamples, OfShiftedPlacesLeadToTheSameJoints) {
   EXPECT_NEAR(std::sqrt(squares_m2 / axes), options.shift_m, 0.002);
   options.shifted = 0;
   EXPECT_EQ(tools::GatherLookExamples(model, {people}, options).all.size(), found.people);
+}
+
+// Glances that say nothing, and bones that are the standard ones whoever it is.
+recon::CloseLook StandardBones() {
+  recon::CloseLook look;
+  const auto silent = [](Eigen::Index inputs, Eigen::Index outputs) {
+    recon::RectifiedNetwork network;
+    network.input_mean = Eigen::VectorXf::Zero(inputs);
+    network.input_scale = Eigen::VectorXf::Ones(inputs);
+    network.layers = {{Eigen::MatrixXf::Zero(outputs, inputs), Eigen::VectorXf::Zero(outputs)}};
+    return network;
+  };
+  look.glances.emplace_back().fill(silent(recon::kLookInputs, 3));
+  look.bones = silent(recon::kBoneInputs, recon::kMeasuredBones.size());
+  return look;
+}
+
+TEST(LookExamples, AreToldOfBonesBetweenTheTrueOnesAndThoseThatAreJudged) {
+  if (!std::filesystem::exists(recon::BodyFolder())) GTEST_SKIP() << "no body: tools/fetch_body";
+  const test::TemporaryFolder folder;
+  const std::string people = folder / "people";
+  ASSERT_EQ(RunOssa({"render", "--mocap", "authored", "--out", people, "--frames", "150", "--size",
+                     "160x120", "--format", "packed", "--quiet"})
+                .exit_status,
+            0);
+  const auto model = forest::ReadForestModel(tracker::ShippedFile("body.ossa"));
+  tools::CloseLookOptions options;
+  options.after = StandardBones();
+  const tools::LookExamples found = tools::GatherLookExamples(model, {people}, options);
+  double least = 1.0, most = 0.0;
+  for (const tools::LookExample& example : found.all) {
+    double told_m2 = 0.0, judged_m2 = 0.0;  // along the way from the true ones
+    for (size_t i = 1; i < recon::kJointCount; ++i) {
+      const double off_m = recon::StandardBoneLengths()[i] - example.bones_m[i];
+      told_m2 += off_m * (example.told_m[i] - example.bones_m[i]);
+      judged_m2 += off_m * off_m;
+    }
+    const double left = told_m2 / judged_m2;
+    least = std::min(least, left);
+    most = std::max(most, left);
+  }
+  EXPECT_GE(least, 0.5);
+  EXPECT_LT(least, 0.6);
+  EXPECT_LE(most, 1.0);
+  EXPECT_GT(most, 0.9);
 }
 
 TEST(LookCommand, SaysWhatIsWrongInOneLine) {

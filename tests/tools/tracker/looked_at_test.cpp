@@ -29,6 +29,17 @@ recon::CloseLook HeadHigher(float by_m) {
   return look;
 }
 
+// All bones longer by as many steps as the person's middle is metres farther than two, times five.
+void MeasureByDistance(recon::CloseLook* look) {
+  constexpr auto kBones = static_cast<Eigen::Index>(recon::kMeasuredBones.size());
+  look->measured = 1;
+  look->bones.input_mean = Eigen::VectorXf::Zero(recon::kBoneInputs);
+  look->bones.input_scale = Eigen::VectorXf::Ones(recon::kBoneInputs);
+  look->bones.layers = {{Eigen::MatrixXf::Zero(kBones, recon::kBoneInputs),
+                         Eigen::VectorXf::Constant(kBones, -10.0F)}};
+  look->bones.layers[0].weight.rightCols(1).setConstant(5.0F);
+}
+
 Body Tracked(const TrackerOptions& options) {
   Tracker tracker(options);
   BodyFrame result;
@@ -75,6 +86,52 @@ TEST(LookedAt, BestHasTheBonesThatTheLookJudges) {
     return recon::BoneLengthsOf(Tracked(options).smoothed)[recon::Index(Joint::kAnkleLeft)];
   };
   EXPECT_NEAR(shin_m(1.5F) / shin_m(1.0F), 1.5, 0.01);  // in a file, weights are halves
+}
+
+// Who walks away is measured longer and longer; the head rises by a step for each step of the spine
+// that the look is told, which is the mean of the frames before.
+TEST(LookedAt, TheLookIsToldOfTheBonesOfAllFramesBefore) {
+  OSSA_NEEDS_MODEL();
+  const test::TemporaryFolder folder;
+  recon::CloseLook look = HeadHigher(0.0F);
+  MeasureByDistance(&look);
+  const auto track = [&] {
+    TrackerOptions options;
+    options.look = folder / "told.ossalook";
+    look.Save(options.look);
+    std::vector<Body> frames;
+    Tracker tracker(options);
+    for (int i = 0; i < 20; ++i) {
+      const auto now = tracker.Push(Rendered({PersonAt(0, 2.3 + 0.02 * i)}, i).frame);
+      if (!now.bodies.empty() && now.bodies[0].looked) frames.push_back(now.bodies[0]);
+    }
+    return frames;
+  };
+  const std::vector<Body> without = track();
+  recon::Glance& glance = look.told.emplace_back();
+  for (size_t k = 0; k < glance.size(); ++k) {
+    glance[k].input_mean = Eigen::VectorXf::Zero(recon::kToldInputs);
+    glance[k].input_scale = Eigen::VectorXf::Ones(recon::kToldInputs);
+    glance[k].layers = {{Eigen::MatrixXf::Zero(3, recon::kToldInputs), Eigen::VectorXf::Zero(3)}};
+    const bool head = recon::kLookJoints[k] == Joint::kHead;
+    if (head) glance[k].layers[0].weight(1, recon::kLookInputs) = 1.0F;
+  }
+  const std::vector<Body> with = track();
+  ASSERT_EQ(with.size(), without.size());
+  ASSERT_GT(with.size(), 10U);
+  recon::JudgedBones before;
+  for (size_t f = 0; f < with.size(); ++f) {
+    const recon::BoneLengths judged_m = *with[f].looked_bones_m;
+    const recon::BoneLengths told_m = f == 0 ? judged_m : before.mean_m;
+    const double rise_m =
+        ((*with[f].looked)[Joint::kHead] - (*without[f].looked)[Joint::kHead]).norm();
+    EXPECT_NEAR(rise_m, recon::CloseLook::kStep_m * std::abs(recon::BoneOutputsOf(told_m)[0]),
+                0.001)
+        << f;
+    before.Add(judged_m);
+  }
+  const double last = recon::BoneOutputsOf(*with.back().looked_bones_m)[0];
+  EXPECT_GT(last - recon::BoneOutputsOf(before.mean_m)[0], 0.5);  // the mean is not the last one
 }
 
 TEST(LookedAt, OtherMethodsGoByTheRawJoints) {
