@@ -50,6 +50,9 @@ int Look(int argc, char** argv) {
   app.add_option("--shift", options.shift_m, "how far off such a place is, metres along each axis")
       ->capture_default_str()
       ->check(CLI::Range(0.0, 0.5));
+  app.add_option("--rate", options.rate, "of the learning, at its highest")
+      ->capture_default_str()
+      ->check(CLI::Range(1e-6, 0.1));
   app.add_option("--seed", options.seed, "of the learning")->capture_default_str();
   app.add_option("--threads", options.threads, "0: one a core")
       ->capture_default_str()

@@ -17,6 +17,7 @@ struct CloseLookOptions {
   int epochs = 12;   // times that every person is looked at, as is and from each shifted place
   int shifted = 1;  // times that joints are looked at from places at random near where they are put
   double shift_m = 0.025;  // of such a place, standard deviation along each axis
+  double rate = 1e-3;      // of learning, at its highest
   uint64_t seed = 1;
   int threads = 0;                                 // 0: all; they do not change the network
   std::function<void(int64_t, int64_t)> progress;  // steps done, steps in all

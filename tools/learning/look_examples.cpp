@@ -183,7 +183,7 @@ forest::NetworkOptions LookLearning(const CloseLookOptions& options, Eigen::Inde
   learning.outputs = outputs;
   learning.epochs = options.epochs;
   learning.batch = 2 * forest::kNetworkBatch;
-  learning.rate = 1e-3F;
+  learning.rate = static_cast<float>(options.rate);
   learning.dropped = 0.0F;
   learning.seed = options.seed;
   learning.stop = options.stop;

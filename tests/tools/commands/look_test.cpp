@@ -208,6 +208,7 @@ TEST(LookCommand, SaysWhatIsWrongInOneLine) {
   EXPECT_EQ(RunOssa({"look", "/nonexistent", "--hidden", "1", "--out", out}).exit_status, 2);
   EXPECT_EQ(RunOssa({"look", "/nonexistent", "--shifted", "-1", "--out", out}).exit_status, 2);
   EXPECT_EQ(RunOssa({"look", "/nonexistent", "--shift", "nan", "--out", out}).exit_status, 2);
+  EXPECT_EQ(RunOssa({"look", "/nonexistent", "--rate", "0", "--out", out}).exit_status, 2);
   const auto track = [&](const char* option, const char* with) {
     return RunOssa({"track", "/nonexistent", "--out", folder / "x.jsonl", "--posture", "looked",
                     option, with})
