@@ -26,14 +26,17 @@ std::string TextOf(const std::string& path) {
   return {std::istreambuf_iterator<char>(file), {}};
 }
 
+void RenderPeople(const std::string& folder) {
+  const auto run = RunOssa({"render", "--mocap", "authored", "--out", folder, "--frames", "150",
+                            "--size", "160x120", "--format", "packed", "--quiet"});
+  ASSERT_EQ(run.exit_status, 0) << run.err;
+}
+
 TEST(LookCommand, LearnsTheSameForAnyThreadsAndTrackLooksWithIt) {
   if (!std::filesystem::exists(recon::BodyFolder())) GTEST_SKIP() << "no body: tools/fetch_body";
   const test::TemporaryFolder folder;
   const std::string people = folder / "people", clip = folder / "clip";
-  ASSERT_EQ(RunOssa({"render", "--mocap", "authored", "--out", people, "--frames", "150", "--size",
-                     "160x120", "--format", "packed", "--quiet"})
-                .exit_status,
-            0);
+  RenderPeople(people);
   const auto learn = [&](const char* threads, const std::string& out) {
     const auto run = RunOssa({"look", people, "--out", out, "--hidden", "4", "--epochs", "1",
                               "--threads", threads, "--quiet"});
@@ -128,10 +131,7 @@ TEST(LookExamples, OfShiftedPlacesLeadToTheSameJoints) {
   if (!std::filesystem::exists(recon::BodyFolder())) GTEST_SKIP() << "no body: tools/fetch_body";
   const test::TemporaryFolder folder;
   const std::string people = folder / "people";
-  ASSERT_EQ(RunOssa({"render", "--mocap", "authored", "--out", people, "--frames", "150", "--size",
-                     "160x120", "--format", "packed", "--quiet"})
-                .exit_status,
-            0);
+  RenderPeople(people);
   const auto model = forest::ReadForestModel(tracker::ShippedFile("body.ossa"));
   tools::CloseLookOptions options;
   options.shifted = 2;
@@ -174,10 +174,7 @@ TEST(LookExamples, AreToldOfBonesBetweenTheTrueOnesAndThoseThatAreJudged) {
   if (!std::filesystem::exists(recon::BodyFolder())) GTEST_SKIP() << "no body: tools/fetch_body";
   const test::TemporaryFolder folder;
   const std::string people = folder / "people";
-  ASSERT_EQ(RunOssa({"render", "--mocap", "authored", "--out", people, "--frames", "150", "--size",
-                     "160x120", "--format", "packed", "--quiet"})
-                .exit_status,
-            0);
+  RenderPeople(people);
   const auto model = forest::ReadForestModel(tracker::ShippedFile("body.ossa"));
   tools::CloseLookOptions options;
   options.after = StandardBones();
