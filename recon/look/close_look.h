@@ -98,8 +98,9 @@ using Glance = std::array<RectifiedNetwork, kLookJoints.size()>;  // kLookInputs
 /// Ours, of `best`: a forest proposes the likeliest place of each joint, which of a hidden one may
 /// be far off; glances, the first at the proposals, each later one at where the one before it put
 /// the joints, move them. Frame by frame; of other frames it is told the bones alone. Learned of a
-/// forest's proposals on rendered people (`ossa look`). The idea of correcting a pose again and again by what the image
-/// shows around it is that of Dollar et al. 2010, "Cascaded pose regression".
+/// forest's proposals on rendered people (`ossa look`). The idea of correcting a pose again and
+/// again by what the image shows around it is that of Dollar et al. 2010, "Cascaded pose
+/// regression".
 struct CloseLook {
   std::vector<Glance> glances;
   RectifiedNetwork bones;  // kBoneInputs -> kMeasuredBones, see bone_measure.h; or empty
