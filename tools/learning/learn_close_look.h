@@ -27,8 +27,7 @@ struct CloseLookOptions {
 /// Learns one glance more: from the forest's proposals for the people of data sets, which the
 /// forest was not trained on, from their mirror images and from shifted places, how far the joints
 /// lie from where the glances before it put them. Where these judge how long bones are, it is told
-/// that. The same bytes for any number of threads. Throws
-/// InputError where too few people are seen.
+/// that. The same bytes for any number of threads. Throws InputError where too few people are seen.
 recon::CloseLook LearnCloseLook(const forest::ForestModel& model,
                                 const std::vector<std::filesystem::path>& datasets,
                                 const CloseLookOptions& options);
