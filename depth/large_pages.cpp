@@ -5,6 +5,9 @@
 #if defined(__linux__)
 #include <sys/mman.h>
 #endif
+#if defined(__GLIBC__)
+#include <malloc.h>
+#endif
 
 namespace ossa {
 
@@ -22,6 +25,12 @@ void PreferLargePages(const void* memory, size_t bytes) {
 #else
   static_cast<void>(memory);
   static_cast<void>(bytes);
+#endif
+}
+
+void ReturnFreedMemory() {
+#if defined(__GLIBC__)
+  malloc_trim(0);
 #endif
 }
 

@@ -8,4 +8,8 @@ namespace ossa {
 /// wish: where the system refuses, all is as good but slower.
 void PreferLargePages(const void* memory, size_t bytes);
 
+/// Gives memory that was freed back to the system, before something large needs other memory: what
+/// a file was read through would else be counted with what stays. A wish, too.
+void ReturnFreedMemory();
+
 }  // namespace ossa

@@ -34,59 +34,96 @@ size_t BlocksOf(const RectifiedNetwork::Layer& layer, size_t units_a_line) {
   return (static_cast<size_t>(layer.weight.rows()) + units_a_line - 1) / units_a_line;
 }
 
-}  // namespace
-
-// An input that says something, and by how much to take its weights.
-struct NetworkRunner::Term {
+// An input that says something, and by how much to take its weights in each column.
+template <size_t kColumns>
+struct Term {
   uint32_t input = 0;
-  float factor = 0.0F;
+  std::array<float, kColumns> factor{};
 };
 
-// The terms of the factors that are not nought. Without a branch: which ones are not, nobody
-// foresees. After them come the first ones again, whose weights for the next units are wanted next.
-size_t NetworkRunner::TermsOf(const Eigen::VectorXf& factors, const Layer& layer,
-                              std::vector<Term>& terms) {
-  const auto inputs = static_cast<size_t>(layer.step.size());  // factors may be padded
+// The terms whose factors are not nought in all columns. Without a branch: which ones are not,
+// nobody foresees. After them come the first ones again, whose weights for the next units are
+// wanted next.
+template <size_t kColumns>
+size_t TermsOf(const std::array<Eigen::VectorXf, kColumns>& factors, const Eigen::VectorXf& step,
+               std::vector<Term<kColumns>>& terms) {
+  const auto inputs = static_cast<size_t>(step.size());  // factors may be padded
   terms.resize(inputs + kAhead);
   size_t count = 0;
   for (size_t i = 0; i < inputs; ++i) {
     const auto at = static_cast<Eigen::Index>(i);
-    terms[count] = {static_cast<uint32_t>(i), factors[at] * layer.step[at]};
-    count += (std::bit_cast<uint32_t>(factors[at]) << 1U) != 0 ? 1 : 0;  // nought of any sign
+    Term<kColumns>& term = terms[count];
+    term.input = static_cast<uint32_t>(i);
+    uint32_t some = 0;
+    for (size_t c = 0; c < kColumns; ++c) {
+      term.factor[c] = factors[c][at] * step[at];
+      some |= std::bit_cast<uint32_t>(factors[c][at]) << 1U;  // nought of any sign
+    }
+    count += some != 0 ? 1 : 0;
   }
-  for (size_t i = 0; i < kAhead; ++i) terms[count + i] = i < count ? terms[i] : Term{};
+  for (size_t i = 0; i < kAhead; ++i) terms[count + i] = i < count ? terms[i] : Term<kColumns>{};
   return count;
 }
 
-// To the sums of the units of a line, which registers hold while all terms go by.
-OSSA_CLONES void NetworkRunner::AddTerms(const std::vector<Term>& terms, size_t count,
-                                         const Line* lines, const Line* next_lines, float* sums) {
-  constexpr size_t kGroups = sizeof(Line) / kInWords;
+// To the sums of the units of a line, as many at a time as registers hold sums of while all terms
+// go by: the fewer, the more columns a weight is taken for once it has become a number.
+template <size_t kColumns>
+[[gnu::always_inline]] inline void AddTerms(const std::vector<Term<kColumns>>& terms, size_t count,
+                                            const WeightLine* lines, const WeightLine* next_lines,
+                                            const std::array<float*, kColumns>& sums) {
+  constexpr size_t kGroups = sizeof(WeightLine) / kInWords;
+  constexpr size_t kAtOnce = kGroups / kColumns;
   constexpr int32_t kHighest = static_cast<int32_t>(0xff000000U);
-  Lanes sum[kGroups][sizeof(int32_t)];
-  std::memcpy(sum, sums, sizeof(sum));
-  const Term* term = terms.data();
-  const Term* const end = term + count;
-  const Term* const last_lap = term + (count - std::min(count, kAhead));
-  for (; term < end; ++term) {
-    __builtin_prefetch((term < last_lap ? lines : next_lines) + term[kAhead].input);
-    const float factor = term->factor * 0x1p-24F;
-    for (size_t group = 0; group < kGroups; ++group) {
-      WordLanes words;
-      std::memcpy(&words, lines[term->input].weights.data() + group * kInWords, sizeof(words));
-      sum[group][0] += factor * __builtin_convertvector(words << 24, Lanes);
-      sum[group][1] += factor * __builtin_convertvector((words << 16) & kHighest, Lanes);
-      sum[group][2] += factor * __builtin_convertvector((words << 8) & kHighest, Lanes);
-      sum[group][3] += factor * __builtin_convertvector(words & kHighest, Lanes);
+  const Term<kColumns>* const end = terms.data() + count;
+  const Term<kColumns>* const last_lap = end - std::min(count, kAhead);
+  for (size_t first = 0; first < kGroups; first += kAtOnce) {
+    Lanes sum[kColumns][kAtOnce][sizeof(int32_t)];
+    for (size_t c = 0; c < kColumns; ++c) {
+      std::memcpy(sum[c], sums[c] + first * kInWords, sizeof(sum[c]));
+    }
+    for (const Term<kColumns>* term = terms.data(); term < end; ++term) {
+      if (first == 0) {
+        __builtin_prefetch((term < last_lap ? lines : next_lines) + term[kAhead].input);
+      }
+      const int8_t* const weights = lines[term->input].weights.data() + first * kInWords;
+      for (size_t group = 0; group < kAtOnce; ++group) {
+        WordLanes words;
+        std::memcpy(&words, weights + group * kInWords, sizeof(words));
+        const Lanes weight[sizeof(int32_t)] = {
+            __builtin_convertvector(words << 24, Lanes),
+            __builtin_convertvector((words << 16) & kHighest, Lanes),
+            __builtin_convertvector((words << 8) & kHighest, Lanes),
+            __builtin_convertvector(words & kHighest, Lanes)};
+        for (size_t c = 0; c < kColumns; ++c) {
+          const float factor = term->factor[c] * 0x1p-24F;
+          for (size_t i = 0; i < sizeof(int32_t); ++i) sum[c][group][i] += factor * weight[i];
+        }
+      }
+    }
+    for (size_t c = 0; c < kColumns; ++c) {
+      std::memcpy(sums[c] + first * kInWords, sum[c], sizeof(sum[c]));
     }
   }
-  std::memcpy(sums, sum, sizeof(sum));
 }
+
+OSSA_CLONES_FMA void AddToOne(const std::vector<Term<1>>& terms, size_t count,
+                              const WeightLine* lines, const WeightLine* next_lines,
+                              const std::array<float*, 1>& sums) {
+  AddTerms<1>(terms, count, lines, next_lines, sums);
+}
+
+OSSA_CLONES_FMA void AddToTwo(const std::vector<Term<2>>& terms, size_t count,
+                              const WeightLine* lines, const WeightLine* next_lines,
+                              const std::array<float*, 2>& sums) {
+  AddTerms<2>(terms, count, lines, next_lines, sums);
+}
+
+}  // namespace
 
 size_t NetworkRunner::LinesOf(const RectifiedNetwork& network) {
   size_t lines = 0;
   for (const RectifiedNetwork::Layer& layer : network.layers) {
-    lines += BlocksOf(layer, sizeof(Line)) * static_cast<size_t>(layer.weight.cols());
+    lines += BlocksOf(layer, sizeof(WeightLine)) * static_cast<size_t>(layer.weight.cols());
   }
   return lines;
 }
@@ -102,9 +139,9 @@ std::vector<NetworkRunner> NetworkRunner::Of(const std::vector<const RectifiedNe
       beyond = std::max(beyond, static_cast<size_t>(layer.weight.cols()));
     }
   }
-  auto lines = std::make_shared<std::vector<Line>>();
+  auto lines = std::make_shared<std::vector<WeightLine>>();
   lines->reserve(count + beyond);
-  PreferLargePages(lines->data(), lines->capacity() * sizeof(Line));  // before it has pages
+  PreferLargePages(lines->data(), lines->capacity() * sizeof(WeightLine));  // before it has pages
   std::vector<NetworkRunner> runners(networks.size());
   for (size_t n = 0; n < networks.size(); ++n) {
     runners[n].Add(*networks[n], lines.get());
@@ -114,26 +151,26 @@ std::vector<NetworkRunner> NetworkRunner::Of(const std::vector<const RectifiedNe
   return runners;
 }
 
-void NetworkRunner::Add(const RectifiedNetwork& network, std::vector<Line>* lines) {
+void NetworkRunner::Add(const RectifiedNetwork& network, std::vector<WeightLine>* lines) {
   network_.input_mean = network.input_mean;
   network_.input_scale = network.input_scale;
   nought_ = network_.Normalised(Eigen::VectorXf::Zero(network_.input_mean.size()));
   for (const RectifiedNetwork::Layer& layer : network.layers) {
     const auto units = static_cast<size_t>(layer.weight.rows());
     const auto inputs = static_cast<size_t>(layer.weight.cols());
-    const size_t blocks = BlocksOf(layer, sizeof(Line));
+    const size_t blocks = BlocksOf(layer, sizeof(WeightLine));
     const WeightBytes bytes = BytesOf(layer.weight);
     Layer& ready = layers_.emplace_back();
     ready.step = bytes.step;
-    ready.at_zero = Eigen::VectorXf::Zero(static_cast<Eigen::Index>(blocks * sizeof(Line)));
+    ready.at_zero = Eigen::VectorXf::Zero(static_cast<Eigen::Index>(blocks * sizeof(WeightLine)));
     ready.at_zero.head(layer.bias.size()) = layer.bias;
     if (layers_.size() == 1) ready.at_zero.head(layer.bias.size()) += layer.weight * nought_;
     ready.first_line = lines->size();
-    lines->resize(lines->size() + blocks * inputs, Line{});
+    lines->resize(lines->size() + blocks * inputs, WeightLine{});
     for (size_t i = 0; i < inputs; ++i) {
       for (size_t unit = 0; unit < units; ++unit) {
-        Line& line = (*lines)[ready.first_line + unit / sizeof(Line) * inputs + i];
-        line.weights[PlaceOf(unit % sizeof(Line))] =
+        WeightLine& line = (*lines)[ready.first_line + unit / sizeof(WeightLine) * inputs + i];
+        line.weights[PlaceOf(unit % sizeof(WeightLine))] =
             bytes.of(static_cast<Eigen::Index>(unit), static_cast<Eigen::Index>(i));
       }
     }
@@ -141,24 +178,43 @@ void NetworkRunner::Add(const RectifiedNetwork& network, std::vector<Line>* line
   }
 }
 
+template <size_t kColumns>
+void NetworkRunner::RunColumns(const Eigen::Ref<const Eigen::MatrixXf>& inputs, Eigen::Index first,
+                               Eigen::MatrixXf* outputs) const {
+  std::array<Eigen::VectorXf, kColumns> values;
+  for (size_t c = 0; c < kColumns; ++c) {
+    values[c] = network_.Normalised(inputs.col(first + static_cast<Eigen::Index>(c))) - nought_;
+  }
+  std::vector<Term<kColumns>> terms;
+  for (const Layer& layer : layers_) {
+    if (&layer != &layers_.front()) {
+      for (Eigen::VectorXf& value : values) value = value.cwiseMax(0.0F).eval();
+    }
+    const size_t count = TermsOf<kColumns>(values, layer.step, terms);
+    values.fill(layer.at_zero);
+    const WeightLine* lines = lines_->data() + layer.first_line;
+    for (Eigen::Index unit = 0; unit < layer.at_zero.size(); unit += sizeof(WeightLine)) {
+      const WeightLine* next_lines = lines + layer.step.size();  // of the last: only fetched
+      std::array<float*, kColumns> sums;
+      for (size_t c = 0; c < kColumns; ++c) sums[c] = values[c].data() + unit;
+      if constexpr (kColumns == 1) {
+        AddToOne(terms, count, lines, next_lines, sums);
+      } else {
+        AddToTwo(terms, count, lines, next_lines, sums);
+      }
+      lines = next_lines;
+    }
+  }
+  for (size_t c = 0; c < kColumns; ++c) {
+    outputs->col(first + static_cast<Eigen::Index>(c)) = values[c].head(outputs_);
+  }
+}
+
 Eigen::MatrixXf NetworkRunner::Run(const Eigen::Ref<const Eigen::MatrixXf>& inputs) const {
   Eigen::MatrixXf outputs(outputs_, inputs.cols());
-  std::vector<Term> terms;
-  for (Eigen::Index c = 0; c < inputs.cols(); ++c) {
-    Eigen::VectorXf value = network_.Normalised(inputs.col(c)) - nought_;
-    for (const Layer& layer : layers_) {
-      if (&layer != &layers_.front()) value = value.cwiseMax(0.0F).eval();
-      const size_t count = TermsOf(value, layer, terms);
-      value = layer.at_zero;
-      const Line* lines = lines_->data() + layer.first_line;
-      for (Eigen::Index unit = 0; unit < value.size(); unit += sizeof(Line)) {
-        const Line* next_lines = lines + layer.step.size();  // of the last: only fetched
-        AddTerms(terms, count, lines, next_lines, value.data() + unit);
-        lines = next_lines;
-      }
-    }
-    outputs.col(c) = value.head(outputs_);
-  }
+  Eigen::Index c = 0;
+  for (; c + 1 < inputs.cols(); c += 2) RunColumns<2>(inputs, c, &outputs);
+  if (c < inputs.cols()) RunColumns<1>(inputs, c, &outputs);
   return outputs;
 }
 

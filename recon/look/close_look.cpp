@@ -4,104 +4,10 @@
 #include <cmath>
 #include <vector>
 
-#include "depth/clones.h"
 #include "recon/look/bone_measure.h"
 
 namespace ossa::recon {
 namespace {
-
-constexpr double kMostBehind_mm = 300.0;
-constexpr double kNearer_mm = 30.0;  // by so much, something that is not the person is before it
-
-// Where on the two grids the samples of a joint are, by grid, row and column.
-struct Grids {
-  std::array<double, kLookSamples> x_m{}, y_m{};
-};
-
-constexpr Grids MakeGrids() {
-  Grids grids;
-  size_t next = 0;
-  for (const double step_m : kLookSteps_m) {
-    for (int row = 0; row < kLookGrid; ++row) {
-      for (int column = 0; column < kLookGrid; ++column, ++next) {
-        grids.x_m[next] = (column - kLookGrid / 2) * step_m;
-        grids.y_m[next] = (row - kLookGrid / 2) * step_m;
-      }
-    }
-  }
-  return grids;
-}
-
-// The samples of a joint as the camera has them.
-struct Samples {
-  std::array<double, kLookSamples> u{}, v{}, z_m{};  // in the image, and how far along its axis
-  std::array<double, kLookSamples> slant{};          // way along the ray, for each metre of z
-};
-
-// As depth::Project, side by side.
-OSSA_CLONES void Place(const depth::Camera& camera, const Eigen::Vector3d& joint_m,
-                       const Eigen::Matrix3d& camera_from_frame, Samples* samples) {
-  static constexpr Grids kGrids = MakeGrids();
-  const double x_m = joint_m.x(), y_m = joint_m.y(), z_m = joint_m.z();
-  const double xx = camera_from_frame(0, 0), xy = camera_from_frame(0, 1);
-  const double yx = camera_from_frame(1, 0), yy = camera_from_frame(1, 1);
-  const double zx = camera_from_frame(2, 0), zy = camera_from_frame(2, 1);
-  const double fx = camera.fx, fy = camera.fy, cx = camera.cx, cy = camera.cy;
-  for (size_t i = 0; i < kLookSamples; ++i) {
-    const double right_m = kGrids.x_m[i], down_m = kGrids.y_m[i];
-    const double z = z_m + zx * right_m + zy * down_m;
-    const double tangent_x = (x_m + xx * right_m + xy * down_m) / z;
-    const double tangent_y = (y_m + yx * right_m + yy * down_m) / z;
-    samples->u[i] = cx - fx * tangent_x;
-    samples->v[i] = cy - fy * tangent_y;
-    samples->z_m[i] = z;
-    samples->slant[i] = std::sqrt(1.0 + tangent_x * tangent_x + tangent_y * tangent_y);
-  }
-}
-
-// The neighbourhood of places in an image.
-class Sampler {
- public:
-  Sampler(const LookInput& input, const Eigen::Matrix3d& frame_from_camera)
-      : frame_(*input.depth),
-        is_person_(input.is_person),
-        camera_from_frame_(frame_from_camera.transpose()) {}
-
-  std::array<int16_t, kLookSamples> Around(const Eigen::Vector3d& joint_m) {
-    Place(frame_.camera, joint_m, camera_from_frame_, &samples_);
-    std::array<int16_t, kLookSamples> behind_mm{};
-    for (size_t i = 0; i < kLookSamples; ++i) behind_mm[i] = At(i);
-    return behind_mm;
-  }
-
- private:
-  int16_t At(size_t sample) const {
-    constexpr double kNearest_m = 0.2;  // what is nearer is beside the sensor
-    const double z_m = samples_.z_m[sample];
-    if (z_m < kNearest_m) return LookDescription::kHidden;
-    const double right = samples_.u[sample], down = samples_.v[sample];
-    const depth::DepthView view = frame_.view();
-    // Compared as they are: a place far aside is a number that no int holds.
-    if (!(right > -0.5 && right < view.width - 0.5 && down > -0.5 && down < view.height - 0.5)) {
-      return LookDescription::kHidden;
-    }
-    const auto u = static_cast<int>(right + 0.5);
-    const auto v = static_cast<int>(down + 0.5);
-    const uint16_t depth_mm = view.at(u, v);
-    if (depth_mm == 0) return LookDescription::kBeside;
-    const double behind_mm = (depth_mm - 1e3 * z_m) * samples_.slant[sample];
-    const auto index = static_cast<size_t>(v) * static_cast<size_t>(view.width);
-    if (is_person_[index + static_cast<size_t>(u)] != 0) {
-      return static_cast<int16_t>(std::clamp(behind_mm, -kMostBehind_mm, kMostBehind_mm));
-    }
-    return behind_mm < -kNearer_mm ? LookDescription::kHidden : LookDescription::kBeside;
-  }
-
-  const depth::DepthFrame& frame_;
-  std::span<const uint8_t> is_person_;
-  Eigen::Matrix3d camera_from_frame_;
-  Samples samples_;
-};
 
 // The mean of the proposals, those of little confidence less.
 Eigen::Vector3d MiddleOf(const LookInput& input) {
@@ -192,9 +98,9 @@ std::optional<LookDescription> LookDescription::Of(const LookInput& input,
   const auto person = ProposedPerson::Of(input);
   if (!person) return std::nullopt;
   LookDescription out{*person};
-  Sampler sampler(input, out.frame_from_camera);
+  const SurfaceSampler sampler(*input.depth, input.is_person, out.frame_from_camera);
   for (size_t j = 0; j < kJointCount; ++j) {
-    if (looked_at[j]) out.behind_mm[j] = sampler.Around(input.proposed.position_m[j]);
+    if (looked_at[j]) out.samples[j] = sampler.Around(input.proposed.position_m[j]);
   }
   return out;
 }
@@ -204,9 +110,9 @@ LookDescription LookDescription::Mirrored() const {
   for (size_t j = 0; j < kJointCount; ++j) {
     const auto other = static_cast<size_t>(kMirroredJoint[j]);
     for (size_t row = 0; row < kLookSamples; row += kLookGrid) {
-      std::reverse_copy(behind_mm[j].begin() + static_cast<std::ptrdiff_t>(row),
-                        behind_mm[j].begin() + static_cast<std::ptrdiff_t>(row + kLookGrid),
-                        out.behind_mm[other].begin() + static_cast<std::ptrdiff_t>(row));
+      std::reverse_copy(samples[j].begin() + static_cast<std::ptrdiff_t>(row),
+                        samples[j].begin() + static_cast<std::ptrdiff_t>(row + kLookGrid),
+                        out.samples[other].begin() + static_cast<std::ptrdiff_t>(row));
     }
   }
   return out;
@@ -215,13 +121,12 @@ LookDescription LookDescription::Mirrored() const {
 Eigen::VectorXf NumbersOf(const LookDescription& description, Joint joint) {
   Eigen::VectorXf numbers(kLookInputs);
   float* next = numbers.data();
-  const auto& behind_mm = description.behind_mm[static_cast<size_t>(Index(joint))];
-  const auto is_surface = [](int16_t mm) {
-    return mm != LookDescription::kBeside && mm != LookDescription::kHidden;
-  };
-  for (const int16_t mm : behind_mm) *next++ = is_surface(mm) ? 1e-3F * static_cast<float>(mm) : 0;
-  for (const int16_t mm : behind_mm) *next++ = mm == LookDescription::kBeside ? 1.0F : 0.0F;
-  for (const int16_t mm : behind_mm) *next++ = mm == LookDescription::kHidden ? 1.0F : 0.0F;
+  const auto& samples = description.samples[static_cast<size_t>(Index(joint))];
+  for (const LookSample& sample : samples) {
+    *next++ = 1e-3F * sample.surface() * static_cast<float>(sample.behind_mm());
+  }
+  for (const LookSample& sample : samples) *next++ = sample.beside();
+  for (const LookSample& sample : samples) *next++ = sample.hidden();
   for (const Eigen::Vector3d& place_m : description.place.position_m) {
     const Eigen::Vector3f from_m = (place_m - description.place[joint]).cast<float>();
     next = std::copy(from_m.begin(), from_m.end(), next);

@@ -12,6 +12,7 @@
 #include "depth/image/depth_frame.h"
 #include "recon/gp/network_runner.h"
 #include "recon/gp/rectified_network.h"
+#include "recon/look/surface_samples.h"
 #include "recon/posture.h"
 
 namespace ossa::recon {
@@ -32,11 +33,6 @@ struct LookInput {
   /// After a glance that put the joints there.
   LookInput MovedTo(const Posture& joints_m) const;
 };
-
-/// Around each joint surface is sampled on two square grids across the line of sight.
-inline constexpr int kLookGrid = 9;  // samples a side
-inline constexpr std::array<double, 2> kLookSteps_m = {0.025, 0.07};
-inline constexpr int kLookSamples = static_cast<int>(kLookSteps_m.size()) * kLookGrid * kLookGrid;
 
 /// Where a person's joints are said to be, in axes of which z runs along the ray to the person and
 /// x is level: it does not matter where in the image somebody stands.
@@ -64,12 +60,8 @@ inline constexpr JointSet kAllJoints = [] {
 
 /// A person as a close look sees them.
 struct LookDescription : ProposedPerson {
-  /// Where no surface of the person is: the sensor looks past it, or at something nearer.
-  static constexpr int16_t kBeside = 500, kHidden = -500;
-
-  /// Of each joint, by grid, row and column (x): how much farther than the joint surface lies
-  /// there, millimetres, within 300.
-  std::array<std::array<int16_t, kLookSamples>, kJointCount> behind_mm{};
+  /// Of each joint; see SurfaceSampler::Around.
+  std::array<std::array<LookSample, kLookSamples>, kJointCount> samples{};
 
   /// Nothing where ProposedPerson has nothing. Of joints that are not looked at no surface is
   /// sampled.
@@ -78,9 +70,9 @@ struct LookDescription : ProposedPerson {
   LookDescription Mirrored() const;
 };
 
-/// What the network of a joint reads: of each sample of the joint the surface, whether it is beside
-/// and whether hidden; where all joints lie from this one, how far earlier glances moved them, how
-/// confident they are and which are seen; the middle.
+/// What the network of a joint reads: of each sample of the joint how far behind it surface lies,
+/// metres, times the share of it, then the shares beside and hidden; where all joints lie from this
+/// one, how far earlier glances moved them, how confident they are and which are seen; the middle.
 inline constexpr int kLookInputs = 3 * kLookSamples + 8 * kJointCount + 3;
 Eigen::VectorXf NumbersOf(const LookDescription& description, Joint joint);
 

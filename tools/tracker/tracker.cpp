@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "depth/error.h"
+#include "depth/large_pages.h"
 #include "depth/scene/scene.h"
 #include "depth/sensor/frame_source.h"
 #include "forest/forest.h"
@@ -65,9 +66,11 @@ std::shared_ptr<const recon::Looker> LookOf(const TrackerOptions& options) {
   const bool is_shipped = options.model.empty() || IsShippedFile(options.model, "body.ossa");
   if (options.look == "none") return nullptr;
   if (options.look.empty() && !(is_shipped && options.method == "best")) return nullptr;
-  return std::make_shared<recon::Looker>(
+  auto look = std::make_shared<recon::Looker>(
       recon::CloseLook::Load(options.look.empty() ? ShippedFile(recon::kShippedLook)
                                                   : std::filesystem::path(options.look)));
+  ReturnFreedMemory();
+  return look;
 }
 
 unsigned ClippedEdges(const depth::DepthFrame& frame, const std::vector<int32_t>& pixels) {
@@ -88,9 +91,9 @@ unsigned ClippedEdges(const depth::DepthFrame& frame, const std::vector<int32_t>
 
 struct Tracker::Impl {
   TrackerOptions options;
+  std::shared_ptr<const recon::Looker> look;  // before the forest: see ReturnFreedMemory
   forest::ForestModel model;
   std::array<int, recon::kJointCount> targets;
-  std::shared_ptr<const recon::Looker> look;
   CompleteOptions complete;
   depth::SceneOptions scene_options;
   depth::SceneState scene_state;
@@ -100,9 +103,9 @@ struct Tracker::Impl {
 
   explicit Impl(const TrackerOptions& o)
       : options(o),
+        look(LookOf(o)),
         model(forest::ReadForestModel(ModelPath(o), forest::ModelUse::kRunOnly)),
-        targets(JointTargets(model, o.model.empty() ? "body.ossa" : o.model)),
-        look(LookOf(o)) {
+        targets(JointTargets(model, o.model.empty() ? "body.ossa" : o.model)) {
     complete.physics = o.physics;
     complete.mechanics = o.mechanics;
     complete.smoothing = o.smoothing;
@@ -117,6 +120,7 @@ struct Tracker::Impl {
     complete.reconstructor.seed = o.seed;
     recon::MakeReconstructor(complete.reconstructor);  // says now what is wrong with the options
     scene_options.max_depth_m = o.near_range ? 3.0F : 6.0F;
+    ReturnFreedMemory();
   }
 
   BodyFrame Push(const depth::DepthFrame& frame);

@@ -28,7 +28,7 @@ TEST(CloseLook, SeesHowFarBehindTheJointSurfaceLies) {
   ASSERT_TRUE(seen);
   for (size_t j = 0; j < kJointCount; ++j) {
     const double along = scene.input.proposed.position_m[j].norm() / (kWall_m + 0.05);
-    EXPECT_NEAR(seen->behind_mm[j][kCentre], -50.0 * along, 2.0) << j;
+    EXPECT_NEAR(seen->samples[j][kCentre].behind_mm(), -50.0 * along, 2.0) << j;
   }
   // Straight ahead the coarser grid reaches as far up as it should: the ray is level there.
   EXPECT_NEAR((seen->frame_from_camera * Eigen::Vector3d::UnitY()).y(), 1.0, 0.1);
@@ -37,23 +37,23 @@ TEST(CloseLook, SeesHowFarBehindTheJointSurfaceLies) {
 TEST(CloseLook, TellsWhatIsBesideAndWhatIsHidden) {
   Scene scene;
   const auto centre = [&] {
-    return LookDescription::Of(scene.input)->behind_mm[Index(Joint::kHead)][kCentre];
+    return LookDescription::Of(scene.input)->samples[Index(Joint::kHead)][kCentre];
   };
   std::fill(scene.is_person.begin(), scene.is_person.end(), uint8_t{0});
   const auto all = [&](double depth_m) {
     std::fill(scene.frame.depth_mm.begin(), scene.frame.depth_mm.end(),
               static_cast<uint16_t>(1000 * depth_m));
   };
-  EXPECT_EQ(centre(), LookDescription::kHidden);  // a wall just before the head, not the person's
+  EXPECT_EQ(centre().hidden(), 1.0F);  // a wall just before the head, not the person's
   all(kWall_m + 1.0);
-  EXPECT_EQ(centre(), LookDescription::kBeside);
+  EXPECT_EQ(centre().beside(), 1.0F);
   all(0.0);  // no reading
-  EXPECT_EQ(centre(), LookDescription::kBeside);
+  EXPECT_EQ(centre().beside(), 1.0F);
   all(kWall_m - 1.0);
-  EXPECT_EQ(centre(), LookDescription::kHidden);
+  EXPECT_EQ(centre().hidden(), 1.0F);
   scene.input.proposed[Joint::kHead].x() = 50.0;  // outside the image
   all(kWall_m + 1.0);
-  EXPECT_EQ(centre(), LookDescription::kHidden);
+  EXPECT_EQ(centre().hidden(), 1.0F);
 }
 
 TEST(CloseLook, OfTheMirrorImageIsTheMirrorImage) {
@@ -93,10 +93,12 @@ TEST(CloseLook, OfTheMirrorImageIsTheMirrorImage) {
     EXPECT_EQ(got.confidence[j], expected.confidence[j]) << j;
     EXPECT_EQ(got.seen[j], expected.seen[j]) << j;
     for (size_t s = 0; s < kLookSamples; ++s) {
-      different += std::abs(got.behind_mm[j][s] - expected.behind_mm[j][s]) > 1 ? 1 : 0;
+      const LookSample &one = got.samples[j][s], &other = expected.samples[j][s];
+      different += std::abs(one.behind_mm() - other.behind_mm()) > 1 ? 1 : 0;
+      different += one.surface() != other.surface() || one.hidden() != other.hidden() ? 1 : 0;
     }
   }
-  // Only where a sample falls between two pixels may the other one be read.
+  // Only where one falls between two pixels may the other one be read.
   EXPECT_LT(different, kJointCount * kLookSamples / 100);
   EXPECT_TRUE(NumbersOf(got, Joint::kHead).allFinite());
 }
