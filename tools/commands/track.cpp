@@ -54,7 +54,9 @@ void AddTrackerOptions(CLI::App& app, TrackOptions& options) {
                  "posture database, .ossadb (default: the shipped one, of best the shipped prior)");
   app.add_option("--prior", t.prior,
                  ".ossaprior of 'ossa prior', for best (default: the shipped one)");
-  app.add_option("--learned", t.learned, ".ossagp of 'ossa learn', for the methods that learn");
+  app.add_option("--learned", t.learned,
+                 ".ossagp of 'ossa learn', for the methods that learn, or none (default: with best "
+                 "and the shipped model the shipped one)");
   app.add_option("--look", t.look,
                  ".ossalook of 'ossa look', or none (default: with best and the shipped model the "
                  "shipped one)");

@@ -112,9 +112,10 @@ struct Tracker::Impl {
     complete.reconstructor.method = o.method;
     complete.reconstructor.database = LoadDatabase(o);
     complete.reconstructor.prior = PriorFor(o.method, o.prior, o.database);
-    complete.reconstructor.learned_file = o.learned;
-    if (o.learned.empty() && o.method == "best") {
-      complete.reconstructor.learned = LearnedOf(o, look != nullptr);
+    const bool none = o.learned == "none";
+    complete.reconstructor.learned_file = none ? "" : o.learned;
+    if (complete.reconstructor.learned_file.empty() && o.method == "best") {
+      complete.reconstructor.learned = LearnedOf(o, look != nullptr && !none);
     }
     complete.reconstructor.best.looked = look != nullptr;
     complete.reconstructor.seed = o.seed;

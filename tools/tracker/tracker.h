@@ -80,7 +80,7 @@ struct TrackerOptions {
   std::string model;     // .ossa; "" = the shipped one
   std::string database;  // .ossadb; "" = the shipped one, of best the shipped prior
   std::string prior;     // .ossaprior, of best; "" = without a database the shipped one
-  std::string learned;   // .ossagp; "" = with best and the shipped model the shipped one
+  std::string learned;   // .ossagp or none; "" = with best and the shipped model its own
   std::string look;      // .ossalook or none; "" = with best and the shipped model the shipped one
   std::string method = "best";  // one of recon::ReconstructionMethods()
   bool physics = false;         // let the mechanical character follow the posture

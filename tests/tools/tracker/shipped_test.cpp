@@ -28,5 +28,22 @@ TEST(ShippedFile, NamedByItsPathTracksAsUnnamed) {
   }
 }
 
+// Without a look nothing is known of what it leaves: there "none" changes nothing.
+TEST(ShippedFile, OfWhatIsKnownOfALooksErrorsNoneIsTakenOffWhereNoneIsWanted) {
+  OSSA_NEEDS_MODEL();
+  const auto render = Rendered({PersonAt(0.0, 2.5)});
+  const auto head_m = [&render](const std::string& look, const std::string& learned) {
+    TrackerOptions options;
+    options.look = look;
+    options.learned = learned;
+    const BodyFrame frame = Tracker(options).Push(render.frame);
+    EXPECT_EQ(frame.bodies.size(), 1U);
+    return frame.bodies.empty() ? Eigen::Vector3d::Zero().eval()
+                                : frame.bodies[0].reconstructed[recon::Joint::kHead];
+  };
+  EXPECT_GT((head_m("", "") - head_m("", "none")).norm(), 1e-4);
+  EXPECT_EQ(head_m("none", ""), head_m("none", "none"));
+}
+
 }  // namespace
 }  // namespace ossa::tracker
