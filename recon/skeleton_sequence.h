@@ -39,11 +39,13 @@ struct SkeletonFrame {
 struct SkeletonSequence {
   std::string source;  // file it came from, for messages
   std::vector<SkeletonFrame> frames;
-  std::string sensor{};  // kKinectV2 where the file's format tells; else empty
+  std::string sensor{};  // kKinectV2 or kCloseLook where the file tells; else empty
 };
 
 /// The Kinect SDK 2's skeleton, of Kinect v2 (Xbox One).
 constexpr const char* kKinectV2 = "Kinect v2";
+/// ossa's own joints after a close look, `ossa track --posture looked`: nothing else judges bones.
+constexpr const char* kCloseLook = "close look";
 
 /// A body record as the trackers' type: absent joints are not tracked; a joint without a state
 /// counts as tracked; a joint without confidence gets 1 (tracked), 0.5 (inferred) or 0.

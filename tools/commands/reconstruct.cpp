@@ -52,20 +52,36 @@ std::shared_ptr<const recon::PostureDatabase> DatabaseFor(const ReconstructArgum
   return std::make_shared<recon::PostureDatabase>(recon::PostureDatabase::Load(file));
 }
 
-/// What is learned of the recordings' sensor: the file that was named; else, for best and Kinect
-/// v2, the shipped one.
+/// A sensor whose errors are known.
+struct KnownSensor {
+  const char* name;
+  const char* whose;  // skeletons
+  const char* file;   // shipped
+};
+constexpr KnownSensor kKnownSensors[] = {
+    {recon::kKinectV2, "a Kinect v2's skeletons", "kinect_v2.ossagp"},
+    {recon::kCloseLook, "ossa's joints after a close look", "body.ossagp"}};
+
+/// What is learned of the recordings' sensor: the file that was named; else, for best, the shipped
+/// one of the sensor that all recordings are of.
 std::string LearnedFor(const ReconstructArguments& a,
                        const std::vector<recon::SkeletonClip>& clips) {
   if (a.learned == "none") return {};
-  const bool kinect = std::all_of(clips.begin(), clips.end(), [](const auto& clip) {
-    return clip.sequence.sensor == recon::kKinectV2;
-  });
-  if (!a.learned.empty() || a.options.method != "best" || !kinect) return a.learned;
-  if (!a.quiet) {
-    Say("reconstruct: a Kinect v2's skeletons: its known errors are taken off "
-        "(kinect_v2.ossagp; --learned none leaves them)\n");
+  if (!a.learned.empty() || a.options.method != "best") return a.learned;
+  for (const KnownSensor& sensor : kKnownSensors) {
+    const bool all = std::all_of(clips.begin(), clips.end(), [&sensor](const auto& clip) {
+      return clip.sequence.sensor == sensor.name;
+    });
+    if (!all) continue;
+    if (!a.quiet) {
+      Say(
+          fmt::format("reconstruct: {}: their known errors are taken off ({}; --learned none "
+                      "leaves them)\n",
+                      sensor.whose, sensor.file));
+    }
+    return tracker::ShippedFile(sensor.file).string();
   }
-  return tracker::ShippedFile("kinect_v2.ossagp").string();
+  return {};
 }
 
 void AddMethodOptions(CLI::App& app, ReconstructArguments& a) {
@@ -77,9 +93,10 @@ void AddMethodOptions(CLI::App& app, ReconstructArguments& a) {
   app.add_option("--database", a.database_file,
                  "posture database; without it the shipped one, of best the shipped prior");
   app.add_option("--prior", a.prior_file, ".ossaprior of 'ossa prior', for best");
-  app.add_option("--learned", a.learned,
-                 "what `ossa learn` wrote, .ossagp, or none; without it best takes off what is "
-                 "known of a Kinect v2's errors where the recording is one's");
+  app.add_option(
+      "--learned", a.learned,
+      "what `ossa learn` wrote, .ossagp, or none; without it best takes off what is "
+      "known of the errors of a Kinect v2 or a close look where the recording is theirs");
   app.add_option("--seed", a.options.seed, "of the stochastic search")->capture_default_str();
   app.add_option("--cutoff", a.cutoff_hz, "of the Butterworth filter, Hz")
       ->capture_default_str()
@@ -153,6 +170,7 @@ int Reconstruct(int argc, char** argv) {
       progress.Update(done + static_cast<double>(frames), total);
       return !Interrupted();
     };
+    a.options.best.looked = clip.sequence.sensor == recon::kCloseLook;
     auto made = a.options.method == kButterworth
                     ? recon::ButterworthSequence(clip.sequence, a.cutoff_hz)
                     : recon::ReconstructSequence(clip.sequence, a.options, update);

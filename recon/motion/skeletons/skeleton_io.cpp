@@ -98,6 +98,13 @@ void CheckPlaces(const SkeletonSequence& sequence, const std::string& name) {
   }
 }
 
+bool IsOfACloseLook(const SkeletonSequence& sequence) {
+  return std::any_of(sequence.frames.begin(), sequence.frames.end(), [](const auto& frame) {
+    return std::any_of(frame.bodies.begin(), frame.bodies.end(),
+                       [](const BodyRecord& body) { return body.bones_m.has_value(); });
+  });
+}
+
 /// Formats of rows have said which line; whatever it is, times that stand still all the time, or
 /// every second frame and more, are none: speeds, filters and what is aligned by time would be made
 /// of nothing.
@@ -126,6 +133,7 @@ SkeletonSequence Read(SkeletonInput input, const SkeletonReadOptions& options) {
   CheckPlaces(sequence, input.name);
   CheckTimes(sequence, input.name);
   if (IsKinectV2(format.name, input.columns)) sequence.sensor = kKinectV2;
+  if (IsOfACloseLook(sequence)) sequence.sensor = kCloseLook;
   return sequence;
 }
 

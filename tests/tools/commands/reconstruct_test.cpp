@@ -122,6 +122,24 @@ TEST_F(ReconstructCommand, TakesOffAKinectsKnownErrorsAndSaysSo) {
   EXPECT_LT(BoneDrift(with), 0.001);
 }
 
+TEST_F(ReconstructCommand, TakesOffWhatACloseLookLeavesAndSaysSo) {
+  const std::string in = folder_ / "looked.jsonl", out = folder_ / "out.jsonl";
+  auto looked = Recording();
+  for (auto& frame : looked.frames) frame.bodies[0].bones_m = recon::StandardBoneLengths();
+  recon::WriteSkeletons(in, looked);
+  EXPECT_EQ(recon::ReadSkeletons(in).sensor, recon::kCloseLook);
+  const auto corrected = RunOssa({"reconstruct", in, "--out", out});
+  ASSERT_EQ(corrected.exit_status, 0) << corrected.err;
+  EXPECT_NE(corrected.err.find("body.ossagp"), std::string::npos) << corrected.err;
+  const auto with = recon::ReadSkeletons(out);
+  EXPECT_EQ(with.sensor, "");  // what comes out is no longer what a look said
+  const auto left = RunOssa({"reconstruct", in, "--out", out, "--learned", "none"});
+  EXPECT_EQ(left.err.find("body.ossagp"), std::string::npos) << left.err;
+  const double moved_m = MeanDistance(with, recon::ReadSkeletons(out));
+  EXPECT_GT(moved_m, 1e-4);  // a look is right in the mean but for millimetres
+  EXPECT_LT(moved_m, 0.05);
+}
+
 TEST_F(ReconstructCommand, KnowsNothingOfAnUnknownSensor) {
   const auto run = RunOssa({"reconstruct", in_, "--out", folder_ / "out.jsonl"});
   EXPECT_EQ(run.err.find("ossagp"), std::string::npos) << run.err;
