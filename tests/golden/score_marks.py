@@ -47,6 +47,9 @@ def main():
     for limit_m in (0.05, 0.1):
         share = sum(d <= limit_m for d in distances) / len(distances)
         print(f"within {100 * limit_m:.0f} cm: {100 * share:.1f} % of {len(distances)} marks")
+    finite = [d for d in distances if math.isfinite(d)]
+    if finite:
+        print(f"mean of the {len(finite)} found: {100 * sum(finite) / len(finite):.2f} cm")
 
 
 if __name__ == "__main__":
