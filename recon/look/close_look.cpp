@@ -198,7 +198,7 @@ LookInput Looker::Glanced(Networks networks, LookInput input) {
     if (!seen) break;
     const Networks of_joints = networks.subspan(first, kLookJoints.size());
     const Posture next_m = Moved(of_joints, input, *seen, looked_at);
-    for (size_t j = 0; first > 0 && j < kJointCount; ++j) {
+    for (size_t j = 0; j < kJointCount; ++j) {
       const double moved_m = (next_m.position_m[j] - input.proposed.position_m[j]).norm();
       if (moved_m < CloseLook::kAtRest_m) looked_at[j] = false;
     }

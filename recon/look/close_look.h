@@ -104,8 +104,8 @@ struct CloseLook {
   static constexpr double kStep_m = 0.1;
   /// Whatever a network says, at one glance a joint goes no farther.
   static constexpr double kFarthest_m = 0.6;
-  /// A joint that a glance after the first moves by less is where it is: the next one, which would
-  /// move it by less still, spares the time.
+  /// A joint that a glance moves by less is where it is: the next one, which would move it by less
+  /// still, spares the time. The first that is told of the bones looks at all of them again.
   static constexpr double kAtRest_m = 0.008;
   static constexpr size_t kMostGlances = 8;  // of either kind
 

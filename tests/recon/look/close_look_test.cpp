@@ -150,22 +150,22 @@ TEST(CloseLook, EachGlanceBeginsWhereTheOneBeforeItEnded) {
   EXPECT_EQ(second->Mirrored().moved[Joint::kHead].x(), -second->moved[Joint::kHead].x());
 }
 
-// The second glance moves the head by a little or by more, and of the knees the one on the side to
-// which the head is put; the third would move all three by 5 cm.
-TEST(CloseLook, JointsThatTheSecondGlanceLeavesAreNotLookedAtAgain) {
+// The first glance moves the head by a little or by more, and of the knees the one on the side to
+// which the head is put; the second would move all three by 5 cm.
+TEST(CloseLook, JointsThatAGlanceLeavesAreNotLookedAtAgain) {
   Scene scene;
   const auto moved_m = [&](float by_m, Joint joint) {
     CloseLook look = Silent();
-    look.glances.resize(3, look.glances[0]);
+    look.glances.resize(2, look.glances[0]);
     constexpr auto kStep = static_cast<float>(CloseLook::kStep_m);
     const size_t head = NetworkOf(Joint::kHead), knee = NetworkOf(Joint::kKneeLeft);
-    look.glances[1][head].layers[1].bias[1] = by_m / kStep;
-    RectifiedNetwork& knees = look.glances[1][knee];
+    look.glances[0][head].layers[1].bias[1] = by_m / kStep;
+    RectifiedNetwork& knees = look.glances[0][knee];
     knees.layers = {{Eigen::MatrixXf::Zero(1, kLookInputs), Eigen::VectorXf::Zero(1)},
                     {Eigen::MatrixXf::Zero(3, 1), Eigen::VectorXf::Zero(3)}};
     knees.layers[0].weight(0, 3 * kLookSamples + 3 * Index(Joint::kHead)) = 1.0F;  // from the knee
     knees.layers[1].weight(1, 0) = 1.0F;
-    for (const size_t k : {head, knee}) look.glances[2][k].layers[1].bias[1] = 0.05F / kStep;
+    for (const size_t k : {head, knee}) look.glances[1][k].layers[1].bias[1] = 0.05F / kStep;
     const auto joints_m = JointsOf(Looker(look).Look(scene.input));
     return joints_m ? ((*joints_m)[joint] - scene.input.proposed[joint]).norm() : -1.0;
   };
