@@ -14,8 +14,6 @@
 
 namespace ossa::forest {
 
-bool HasAvx2() { return __builtin_cpu_supports("avx2") != 0; }
-
 namespace {
 
 constexpr size_t kLanes = 8;
@@ -263,7 +261,6 @@ __attribute__((target("avx2"))) void WalkAvx2(const WalkInput& input, int32_t* l
 
 namespace ossa::forest {
 
-bool HasAvx2() { return false; }
 void WalkAvx2(const WalkInput& input, int32_t* leaf, size_t leaf_stride) {
   WalkScalar(input, leaf, leaf_stride);
 }

@@ -3,45 +3,9 @@
 #include <gtest/gtest.h>
 
 #include <cstdlib>
-#include <vector>
-
-#include "recon/gp/network_runner.h"
-#include "tests/recon/gp/random_network.h"
 
 namespace ossa::recon {
 namespace {
-
-using test::RandomNetwork;
-
-TEST(NetworkRunner, SaysWhatTheNetworkSays) {
-  std::srand(7);  // Eigen draws from it
-  for (const int hidden : {0, 1, 2}) {
-    const RectifiedNetwork network = RandomNetwork(hidden, hidden == 1 ? 7 : 103, 11);
-    Eigen::MatrixXf some = 4.0F * Eigen::MatrixXf::Random(11, 3);
-    some.col(0).head(6).setZero();
-    some.col(1).setZero();
-    const Eigen::MatrixXf said = NetworkRunner(network).Run(some);
-    ASSERT_EQ(said.cols(), 3);
-    for (Eigen::Index c = 0; c < 3; ++c) {
-      EXPECT_LT((said.col(c) - network.Run(some.col(c))).norm(), 1e-3F) << hidden;
-    }
-  }
-}
-
-// 103 and 130 units: more than a line of the cache holds, and than two.
-TEST(NetworkRunner, NetworksWhoseWeightsLieTogetherSayWhatEachSaysAlone) {
-  std::srand(8);
-  const std::vector<RectifiedNetwork> networks = {RandomNetwork(2, 103, 40), RandomNetwork(0, 1, 5),
-                                                  RandomNetwork(1, 130, 40)};
-  const auto runners = NetworkRunner::Of({&networks[0], &networks[1], &networks[2]});
-  ASSERT_EQ(runners.size(), networks.size());
-  for (size_t n = 0; n < networks.size(); ++n) {
-    const Eigen::VectorXf some = Eigen::VectorXf::Random(networks[n].input_mean.size());
-    const Eigen::VectorXf said = runners[n].Run(some);
-    EXPECT_LT((said - networks[n].Run(some)).norm(), 1e-3F) << n;
-    EXPECT_EQ(said, NetworkRunner(networks[n]).Run(some).col(0)) << n;
-  }
-}
 
 TEST(WeightBytes, AreTheSameOfWeightsThatWereBytesOnce) {
   std::srand(3);
