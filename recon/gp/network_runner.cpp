@@ -1,7 +1,7 @@
 #include "recon/gp/network_runner.h"
 
 #include <algorithm>
-#include <bit>
+#include <cmath>
 #include <cstring>
 #include <limits>
 #include <utility>
@@ -35,9 +35,8 @@ float MostQuanta(size_t factors) {
 
 // To the nearest whole numbers.
 OSSA_CLONES void Round(const float* numbers, float times, size_t count, int16_t* rounded) {
-  constexpr float kOnes = 0x1.8p23F;  // floats of this size end with the ones
   for (size_t i = 0; i < count; ++i) {
-    rounded[i] = static_cast<int16_t>(std::bit_cast<int32_t>(numbers[i] * times + kOnes));
+    rounded[i] = static_cast<int16_t>(std::rint(numbers[i] * times));
   }
 }
 

@@ -9,6 +9,7 @@
 #include <string>
 #include <string_view>
 
+#include "depth/clones.h"
 #include "depth/file/sealed_file.h"
 
 namespace ossa::recon {
@@ -30,6 +31,13 @@ void PutHalves(PayloadWriter& out, const Eigen::Ref<const Eigen::MatrixXf>& numb
 void Check(const PayloadReader& in, std::string_view field, size_t found, Eigen::Index count) {
   if (found != static_cast<size_t>(count)) {
     in.Fail(field, fmt::format("expected {} numbers", count));
+  }
+}
+
+// A column's weights as steps, of which the largest is kMostByte.
+OSSA_CLONES void ToSteps(const float* weights, float step, size_t count, int8_t* steps) {
+  for (size_t i = 0; i < count; ++i) {
+    steps[i] = static_cast<int8_t>(std::clamp(std::rint(weights[i] / step), -kMostByte, kMostByte));
   }
 }
 
@@ -100,15 +108,14 @@ Eigen::MatrixXf WeightBytes::Weights() const { return of.cast<float>() * step.as
 
 WeightBytes BytesOf(const Eigen::MatrixXf& weight) {
   WeightBytes bytes{{weight.rows(), weight.cols()}, Eigen::VectorXf::Zero(weight.cols())};
+  bytes.of.setZero();
   for (Eigen::Index i = 0; i < weight.cols(); ++i) {
     // In halves of floats, 127 steps are a float and divided by 127 a step again.
     const float largest = weight.col(i).cwiseAbs().maxCoeff<Eigen::PropagateNaN>();
-    bytes.step[i] = OfHalf(HalfOf(largest / kMostByte));
-    for (Eigen::Index o = 0; o < weight.rows(); ++o) {
-      const float steps = std::round(weight(o, i) / bytes.step[i]);  // NaN of a column of noughts
-      const float known = std::isfinite(steps) ? steps : 0.0F;
-      bytes.of(o, i) = static_cast<int8_t>(std::clamp(known, -kMostByte, kMostByte));
-    }
+    const float step = OfHalf(HalfOf(largest / kMostByte));
+    bytes.step[i] = step;
+    if (!(step > 0.0F && std::isfinite(step))) continue;  // nothing that could be told in steps
+    ToSteps(weight.col(i).data(), step, static_cast<size_t>(weight.rows()), bytes.of.col(i).data());
   }
   return bytes;
 }
