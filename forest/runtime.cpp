@@ -115,6 +115,7 @@ ShareRow SharesOf(const LeafCells& cells, size_t context) {
     const float p = (cells.Weight(context, c) + kSmoothing * cells.share_of_seen[i]) / whole;
     if (p <= 0.004F) continue;
     std::pair<float, uint8_t> share{-p, static_cast<uint8_t>(c - 1)};
+    if (!(share < most.back())) continue;
     for (auto& larger : most) {
       if (share < larger) std::swap(share, larger);
     }
