@@ -225,7 +225,7 @@ std::vector<SkeletonClip> ReadFolderClips(const SkeletonPath& parts, const std::
   for (const fs::path& file : files) {
     if (file.string().find(parts.member) == std::string::npos) continue;
     if (Stopped(options)) break;
-    const std::string name = WithoutExtension(fs::relative(file, parts.path).string());
+    const std::string name = WithoutExtension(file.lexically_relative(parts.path).string());
     if (!IsArchive(file)) {
       clips.push_back({name, ReadFile(file, columns, options)});
       continue;

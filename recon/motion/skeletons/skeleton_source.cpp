@@ -2,6 +2,7 @@
 #include <archive_entry.h>
 #include <locale.h>
 
+#include <algorithm>
 #include <array>
 #include <fstream>
 #include <memory>
@@ -83,6 +84,11 @@ std::string NameOf(archive_entry* entry, size_t number) {
   return name != nullptr ? name : "member " + std::to_string(number);
 }
 
+// Of a name under which something is written into a folder: whether it would lie elsewhere.
+bool LeadsOut(const std::filesystem::path& name) {
+  return name.is_absolute() || std::find(name.begin(), name.end(), "..") != name.end();
+}
+
 std::string FirstBytes(const std::filesystem::path& path, size_t count) {
   std::ifstream file(path, std::ios::binary);
   std::string bytes(count, '\0');
@@ -146,7 +152,12 @@ std::map<std::string, std::string> ReadArchive(const std::filesystem::path& path
     if (status == ARCHIVE_EOF) return members;
     if (status < ARCHIVE_WARN) Fail(path, reader.get());
     if (archive_entry_filetype(entry) != AE_IFREG) continue;
-    members[NameOf(entry, members.size())] = ReadMember(path, reader.get(), total);
+    const std::string name = NameOf(entry, members.size());
+    if (LeadsOut(name)) {
+      throw InputError(path.string() + "#" + name +
+                       ": expected members named as within the archive, found one that leads out");
+    }
+    members[name] = ReadMember(path, reader.get(), total);
   }
 }
 

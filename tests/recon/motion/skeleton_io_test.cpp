@@ -9,6 +9,7 @@
 #include "depth/error.h"
 #include "recon/motion/skeletons/skeleton_jsonl.h"
 #include "tests/recon/motion/skeleton_examples.h"
+#include "tests/support/refused.h"
 #include "tests/support/temporary_folder.h"
 
 namespace ossa::recon {
@@ -259,19 +260,54 @@ constexpr std::string_view kZip =
     "2300000023000000080000000000000000000000800149000000c3b62e6a736f6e6c504b0506000000000200"
     "02006c000000920000000000";
 
+// The same with "../x.jsonl" and with "/x.jsonl".
+constexpr std::string_view kZipsThatLeadOut[] = {
+    "504b0304140000000000000021002f1a36fd23000000230000000a0000002e2e2f782e6a736f6e6c7b226672"
+    "616d65223a302c2274696d655f73223a302c22626f64696573223a5b5d7d0a504b0102140314000000000000"
+    "0021002f1a36fd23000000230000000a00000000000000000000008001000000002e2e2f782e6a736f6e6c50"
+    "4b05060000000001000100380000004b0000000000",
+    "504b0304140000000000000021002f1a36fd2300000023000000080000002f782e6a736f6e6c7b226672616d"
+    "65223a302c2274696d655f73223a302c22626f64696573223a5b5d7d0a504b01021403140000000000000021"
+    "002f1a36fd23000000230000000800000000000000000000008001000000002f782e6a736f6e6c504b050600"
+    "0000000100010036000000490000000000"};
+
+void WriteBytes(const std::filesystem::path& path, std::string_view hex) {
+  std::ofstream file(path, std::ios::binary);
+  for (size_t i = 0; i < hex.size(); i += 2) {
+    file.put(static_cast<char>(std::stoi(std::string(hex.substr(i, 2)), nullptr, 16)));
+  }
+}
+
 // They were one recording: libarchive had no name for either.
 TEST(SkeletonArchives, MembersMayBeNamedBeyondAscii) {
   const test::TemporaryFolder folder;
-  {
-    std::ofstream file(folder / "x.zip", std::ios::binary);
-    for (size_t i = 0; i < kZip.size(); i += 2) {
-      file.put(static_cast<char>(std::stoi(std::string(kZip.substr(i, 2)), nullptr, 16)));
-    }
-  }
+  WriteBytes(folder / "x.zip", kZip);
   const auto clips = ReadSkeletonClips(folder / "x.zip");
   ASSERT_EQ(clips.size(), 2u);
   EXPECT_EQ(clips[0].name, "\xC3\xA4");
   EXPECT_EQ(clips[1].name, "\xC3\xB6");
+}
+
+// What is made of members is written under their names.
+TEST(SkeletonArchives, MembersWhoseNamesLeadOutAreRefused) {
+  const test::TemporaryFolder folder;
+  for (const std::string_view zip : kZipsThatLeadOut) {
+    WriteBytes(folder / "x.zip", zip);
+    test::ExpectRefused([&] { ReadSkeletonClips(folder / "x.zip"); }, "x.jsonl");
+  }
+}
+
+TEST(SkeletonClips, OfAFolderAreNamedAsTheyLieThereThoughTheyAreLinks) {
+  const test::TemporaryFolder folder;
+  for (const char* name : {"elsewhere", "here"}) std::filesystem::create_directory(folder / name);
+  for (const char* name : {"a.jsonl", "b.jsonl"}) {
+    WriteSkeletons(folder / "elsewhere" / name, ExampleSequence(2));
+    std::filesystem::create_symlink(folder / "elsewhere" / name, folder / "here" / name);
+  }
+  const auto clips = ReadSkeletonClips(folder / "here/");
+  ASSERT_EQ(clips.size(), 2u);
+  EXPECT_EQ(clips[0].name, "a");
+  EXPECT_EQ(clips[1].name, "b");
 }
 
 }  // namespace
