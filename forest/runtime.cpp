@@ -237,7 +237,10 @@ RuntimeTables MakeRuntimeTables(ForestData* data, ModelUse use) {
     }
     PreferLargePages(lined.lines);
     tables.trees.push_back(std::move(lined));
-    if (use == ModelUse::kRunOnly) std::vector<Node>().swap(tree.nodes);
+    if (use == ModelUse::kRunOnly) {
+      std::vector<Node>().swap(tree.nodes);
+      ReturnFreedMemory();  // before the next tree's tables are made
+    }
   }
   for (const Arrangement& each : data->arrangements) tables.factor_models.emplace_back(each);
   tables.neighbours = Neighbours(*data);
