@@ -1,10 +1,9 @@
-#include <zstd.h>
-
 #include <array>
 #include <cstring>
 #include <stdexcept>
 
 #include "depth/error.h"
+#include "depth/file/compressed.h"
 #include "depth/file/sealed_file.h"
 #include "forest/compact.h"
 #include "forest/forest.h"
@@ -19,7 +18,6 @@ constexpr SealedFormat kFormat{{'o', 's', 's', 'a', 'f', 'r', 's', 't'}, 5, "for
 constexpr uint32_t kOldestVersion = 1;  // that is still read
 constexpr int kCompressionLevel = 19;
 constexpr int kQuickLevel = 3;
-constexpr uint64_t kMaxUnpacked = uint64_t{1} << 31U;
 
 void PutNames(PayloadWriter* writer, const std::vector<std::string>& names) {
   writer->Put<uint32_t>(static_cast<uint32_t>(names.size()));
@@ -119,28 +117,6 @@ ProposalTarget GetTarget(PayloadReader* reader) {
   return target;
 }
 
-std::vector<std::byte> Compressed(const std::vector<std::byte>& bytes, int level) {
-  std::vector<std::byte> out(ZSTD_compressBound(bytes.size()));
-  const size_t size = ZSTD_compress(out.data(), out.size(), bytes.data(), bytes.size(), level);
-  out.resize(size);
-  return out;
-}
-
-std::vector<std::byte> Decompressed(const std::vector<std::byte>& bytes, uint64_t size,
-                                    const std::string& name) {
-  // zstd stores at most about 1 : 2^17; a larger claim is a lie, refused before allocating.
-  if (size > kMaxUnpacked || size / (uint64_t{1} << 18U) > bytes.size()) {
-    throw InputError(name + ": byte 32: unpacked length: " + std::to_string(size) +
-                     " is more than the file can hold");
-  }
-  std::vector<std::byte> out(size);
-  const size_t got = ZSTD_decompress(out.data(), out.size(), bytes.data(), bytes.size());
-  if (ZSTD_isError(got) != 0 || got != size) {
-    throw InputError(name + ": byte 40: compressed payload: the forest model is damaged");
-  }
-  return out;
-}
-
 ForestData ParseForest(std::span<const std::byte> payload, const std::string& name,
                        uint32_t version) {
   PayloadReader reader(payload, name);
@@ -167,18 +143,10 @@ ForestData ParseForest(std::span<const std::byte> payload, const std::string& na
   return data;
 }
 
-std::vector<std::byte> Unpacked(const std::vector<std::byte>& sealed, const std::string& name) {
-  PayloadReader outer(sealed, name);
-  const auto size = outer.Get<uint64_t>("unpacked length");
-  const auto packed = outer.GetVector<std::byte>("compressed payload");
-  outer.ExpectEnd();
-  return Decompressed(packed, size, name);
-}
-
 // Each form is let go before the next but one is made: a model is some 60 MB in each of them.
 ForestModel Parse(std::vector<std::byte> sealed, const std::string& name, uint32_t version,
                   ModelUse use) {
-  std::vector<std::byte> payload = Unpacked(sealed, name);
+  std::vector<std::byte> payload = Decompressed(sealed, name, kFormat.what);
   std::vector<std::byte>().swap(sealed);
   const std::string where = name + " (unpacked)";
   ForestData data = ParseForest(payload, where, version);
@@ -202,10 +170,7 @@ std::vector<std::byte> Packed(const ForestData& data, int level) {
   PutRefinement(&writer, data.refinement);
   PutPlanes(&writer, data.part_prior.weight);
   writer.PutVector(data.part_prior.bias);
-  PayloadWriter outer;
-  outer.Put<uint64_t>(writer.bytes().size());
-  outer.PutVector(Compressed(writer.bytes(), level));
-  return outer.bytes();
+  return Compressed(writer.bytes(), level);
 }
 
 }  // namespace

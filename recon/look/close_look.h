@@ -109,10 +109,12 @@ struct CloseLook {
   static constexpr double kAtRest_m = 0.008;
   static constexpr size_t kMostGlances = 8;  // of either kind
 
-  /// .ossalook: reads refuse damaged, truncated and hostile files by name and byte. The oldest
-  /// version that is still read has no glances that are told of the bones.
-  static constexpr uint32_t kVersion = 5, kOldestVersion = 4;
+  /// .ossalook: reads refuse damaged, truncated and hostile files by name and byte. Version 5,
+  /// which is still read, is not compressed; version 4 has no glances that are told of the bones,
+  /// either.
+  static constexpr uint32_t kVersion = 6, kOldestVersion = 4;
   static CloseLook Load(const std::filesystem::path& path);
+  /// Of a payload that is not compressed, or no longer.
   static CloseLook FromBytes(std::span<const std::byte> bytes, const std::string& name,
                              uint32_t version = kVersion);
   void Save(const std::filesystem::path& path) const;

@@ -1,5 +1,6 @@
 #include <fmt/format.h>
 
+#include "depth/file/compressed.h"
 #include "depth/file/sealed_file.h"
 #include "recon/look/bone_measure.h"
 #include "recon/look/close_look.h"
@@ -9,6 +10,9 @@ namespace {
 
 constexpr SealedFormat kFormat = {
     {'O', 'S', 'S', 'A', 'L', 'K', '0', '0'}, CloseLook::kVersion, "close look"};
+constexpr uint32_t kFirstTold = 5;        // version with glances that are told of the bones
+constexpr uint32_t kFirstCompressed = 6;  // version that is
+constexpr int kCompressionLevel = 19;
 
 RectifiedNetwork GetLookNetwork(PayloadReader& in, Eigen::Index inputs, Eigen::Index outputs) {
   constexpr uint32_t kMostLayers = 2;  // with modest weights no sum through them is too large
@@ -62,14 +66,20 @@ void CloseLook::Save(const std::filesystem::path& path) const {
     PutLookNetwork(out, bones);
     PutGlances(out, told);
   }
-  WriteSealedFile(path, kFormat, out.bytes());
+  WriteSealedFile(path, kFormat, Compressed(out.bytes(), kCompressionLevel));
 }
 
 bool CloseLook::IsOne(const std::filesystem::path& path) { return IsSealedFile(path, kFormat); }
 
 CloseLook CloseLook::Load(const std::filesystem::path& path) {
   const SealedFormat format = FormatOf(path, kFormat, kOldestVersion);
-  return FromBytes(ReadSealedFile(path, format), path.string(), format.version);
+  std::vector<std::byte> payload = ReadSealedFile(path, format);
+  std::string name = path.string();
+  if (format.version >= kFirstCompressed) {
+    payload = Decompressed(payload, name, format.what);
+    name += " (unpacked)";
+  }
+  return FromBytes(payload, name, format.version);
 }
 
 CloseLook CloseLook::FromBytes(std::span<const std::byte> bytes, const std::string& name,
@@ -81,7 +91,7 @@ CloseLook CloseLook::FromBytes(std::span<const std::byte> bytes, const std::stri
   out.measured = in.Get<uint64_t>("people measured");
   if (out.measured > 0) {
     out.bones = GetLookNetwork(in, kBoneInputs, kMeasuredBones.size());
-    if (version > kOldestVersion) out.told = GetGlances(in, "told glances", 0, kToldInputs);
+    if (version >= kFirstTold) out.told = GetGlances(in, "told glances", 0, kToldInputs);
   }
   in.ExpectEnd();
   return out;

@@ -1,5 +1,4 @@
 #include <gtest/gtest.h>
-#include <zstd.h>
 
 #include <array>
 #include <fstream>
@@ -8,6 +7,7 @@
 #include <string_view>
 
 #include "depth/error.h"
+#include "depth/file/compressed.h"
 #include "depth/file/sealed_file.h"
 #include "forest/classify.h"
 #include "forest/compact.h"
@@ -124,16 +124,10 @@ PayloadWriter OldPayload() {
 }
 
 TEST(ForestModelFile, TreesOfOlderVersionsAreRead) {
-  const std::vector<std::byte> payload = OldPayload().bytes();
-  std::vector<std::byte> packed(ZSTD_compressBound(payload.size()));
-  packed.resize(ZSTD_compress(packed.data(), packed.size(), payload.data(), payload.size(), 3));
-  PayloadWriter outer;
-  outer.Put<uint64_t>(payload.size());
-  outer.PutVector(packed);
   const ossa::test::TemporaryFolder folder;
   const auto path = folder.path() / "old.ossa";
   WriteSealedFile(path, {{'o', 's', 's', 'a', 'f', 'r', 's', 't'}, 1, "forest model"},
-                  outer.bytes());
+                  Compressed(OldPayload().bytes(), 3));
   const Tree tree = ReadForestModel(path).data().trees.at(0);
   EXPECT_EQ(tree.nodes, (std::vector<Node>{
                             {{48, 0}, {0, 0}, 25, 0, 1}, {{}, {}, 0, 0, ~0}, {{}, {}, 0, 0, ~1}}));
@@ -151,19 +145,10 @@ TEST_P(OlderFile, IsReadWithoutWhatItLacks) {
   const auto path = folder.path() / "model.ossa";
   const std::array<char, 8> magic = {'o', 's', 's', 'a', 'f', 'r', 's', 't'};
   WriteForestModel(path, BallModel());
-  const auto sealed = ReadSealedFile(path, {magic, 5, "forest model"});
-  PayloadReader reader(sealed, "model");
-  std::vector<std::byte> payload(reader.Get<uint64_t>("unpacked length"));
-  const auto packed = reader.GetVector<std::byte>("payload");
-  ASSERT_EQ(ZSTD_decompress(payload.data(), payload.size(), packed.data(), packed.size()),
-            payload.size());
+  std::vector<std::byte> payload =
+      Decompressed(ReadSealedFile(path, {magic, 5, "forest model"}), "model", "forest model");
   payload.resize(payload.size() - missing_bytes);
-  std::vector<std::byte> again(ZSTD_compressBound(payload.size()));
-  again.resize(ZSTD_compress(again.data(), again.size(), payload.data(), payload.size(), 3));
-  PayloadWriter outer;
-  outer.Put<uint64_t>(payload.size());
-  outer.PutVector(again);
-  WriteSealedFile(path, {magic, version, "forest model"}, outer.bytes());
+  WriteSealedFile(path, {magic, version, "forest model"}, Compressed(payload, 3));
   EXPECT_EQ(test::BytesOf(ReadForestModel(path)), test::BytesOf(BallModel()));
 }
 INSTANTIATE_TEST_SUITE_P(ForestModelFile, OlderFile,

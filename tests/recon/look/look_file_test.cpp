@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "depth/error.h"
+#include "depth/file/compressed.h"
 #include "depth/file/sealed_file.h"
 #include "recon/look/close_look.h"
 #include "tests/recon/gp/random_network.h"
@@ -33,7 +34,7 @@ TEST(CloseLook, IsKeptInAFile) {
     return std::string(std::istreambuf_iterator<char>(in), {});
   };
   EXPECT_EQ(bytes("a.ossalook"), bytes("b.ossalook"));
-  std::ofstream(folder / "short.ossalook", std::ios::binary) << bytes("a.ossalook").substr(0, 1000);
+  std::ofstream(folder / "short.ossalook", std::ios::binary) << bytes("a.ossalook").substr(0, 100);
   EXPECT_THROW(CloseLook::Load(folder / "short.ossalook"), InputError);
 
   EXPECT_TRUE(read.bones.empty());
@@ -53,20 +54,28 @@ TEST(CloseLook, IsKeptInAFile) {
   EXPECT_NEAR(told.told[0][4].layers[0].weight(2, kToldInputs - 1), 1.0F, 1.0F / 500.0F);
 }
 
-TEST(CloseLook, OfTheVersionBeforeIsReadAndOlderOnesAreRefused) {
+TEST(CloseLook, OfTheVersionsBeforeIsReadAndOlderOnesAreRefused) {
   const ossa::test::TemporaryFolder folder;
+  SilentAndTold().Save(folder / "now.ossalook");
+  SealedFormat format = {{'O', 'S', 'S', 'A', 'L', 'K', '0', '0'}, CloseLook::kVersion, "look"};
+  std::vector<std::byte> payload =
+      Decompressed(ReadSealedFile(folder / "now.ossalook", format), "now", "look");
+  format.version = 5;  // not compressed
+  WriteSealedFile(folder / "before.ossalook", format, payload);
+  EXPECT_EQ(CloseLook::Load(folder / "before.ossalook").told.size(), 1U);
+
   CloseLook look = SilentAndTold();
   look.told.clear();
-  look.Save(folder / "now.ossalook");
-  SealedFormat format = {{'O', 'S', 'S', 'A', 'L', 'K', '0', '0'}, CloseLook::kVersion, "look"};
-  std::vector<std::byte> payload = ReadSealedFile(folder / "now.ossalook", format);
+  look.Save(folder / "untold.ossalook");
+  format.version = CloseLook::kVersion;
+  payload = Decompressed(ReadSealedFile(folder / "untold.ossalook", format), "untold", "look");
   payload.resize(payload.size() - sizeof(uint32_t));  // how many glances are told
   format.version = CloseLook::kOldestVersion;
-  WriteSealedFile(folder / "before.ossalook", format, payload);
-  const CloseLook before = CloseLook::Load(folder / "before.ossalook");
-  EXPECT_EQ(before.measured, 3U);
-  EXPECT_TRUE(before.told.empty());
-  before.Save(folder / "again.ossalook");
+  WriteSealedFile(folder / "old.ossalook", format, payload);
+  const CloseLook old = CloseLook::Load(folder / "old.ossalook");
+  EXPECT_EQ(old.measured, 3U);
+  EXPECT_TRUE(old.told.empty());
+  old.Save(folder / "again.ossalook");
   EXPECT_NO_THROW(CloseLook::Load(folder / "again.ossalook"));
   format.version = CloseLook::kOldestVersion - 1;
   WriteSealedFile(folder / "older.ossalook", format, payload);
