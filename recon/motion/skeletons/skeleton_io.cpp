@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <array>
 #include <fstream>
+#include <map>
 #include <set>
 #include <sstream>
 
@@ -194,6 +195,18 @@ std::string WithoutExtension(std::string name) {
   return name;
 }
 
+// Of files that differ by their extensions alone, these tell them apart.
+std::vector<std::string> ClipNames(const std::vector<std::string>& files) {
+  std::map<std::string, int> count;
+  for (const std::string& file : files) ++count[WithoutExtension(file)];
+  std::vector<std::string> names;
+  for (const std::string& file : files) {
+    const std::string name = WithoutExtension(file);
+    names.push_back(count[name] > 1 ? file : name);
+  }
+  return names;
+}
+
 bool Stopped(const SkeletonReadOptions& options) { return options.stop && options.stop(); }
 
 std::vector<SkeletonClip> ReadArchiveClips(const SkeletonPath& parts, const std::string& columns,
@@ -205,34 +218,43 @@ std::vector<SkeletonClip> ReadArchiveClips(const SkeletonPath& parts, const std:
     if (found == members.end()) return std::nullopt;
     return found->second;
   };
+  std::vector<std::string> files;
+  for (const auto& [file, text] : members) {
+    if (!IsPassedOver(file) && file.find(parts.member) != std::string::npos) files.push_back(file);
+  }
+  const std::vector<std::string> names = ClipNames(files);
   std::vector<SkeletonClip> clips;
-  for (const auto& [name, text] : members) {
-    if (IsPassedOver(name) || name.find(parts.member) == std::string::npos) continue;
-    if (Stopped(options)) break;
-    clips.push_back({WithoutExtension(name),
-                     ReadText(text, parts.path.string() + "#" + name, columns, options, sibling)});
+  for (size_t i = 0; i < files.size() && !Stopped(options); ++i) {
+    clips.push_back({names[i], ReadText(members.at(files[i]), parts.path.string() + "#" + files[i],
+                                        columns, options, sibling)});
   }
   return clips;
 }
 
 std::vector<SkeletonClip> ReadFolderClips(const SkeletonPath& parts, const std::string& columns,
                                           const SkeletonReadOptions& options) {
-  std::set<fs::path> files;
+  std::set<fs::path> found;
   for (const auto& entry : fs::recursive_directory_iterator(parts.path)) {
-    if (entry.is_regular_file() && !IsPassedOver(entry.path())) files.insert(entry.path());
+    const bool asked_for = entry.path().string().find(parts.member) != std::string::npos;
+    if (asked_for && entry.is_regular_file() && !IsPassedOver(entry.path())) {
+      found.insert(entry.path());
+    }
   }
-  std::vector<SkeletonClip> clips;
+  const std::vector<fs::path> files(found.begin(), found.end());
+  std::vector<std::string> inside;
   for (const fs::path& file : files) {
-    if (file.string().find(parts.member) == std::string::npos) continue;
-    if (Stopped(options)) break;
-    const std::string name = WithoutExtension(file.lexically_relative(parts.path).string());
-    if (!IsArchive(file)) {
-      clips.push_back({name, ReadFile(file, columns, options)});
+    inside.push_back(file.lexically_relative(parts.path).string());
+  }
+  const std::vector<std::string> names = ClipNames(inside);
+  std::vector<SkeletonClip> clips;
+  for (size_t i = 0; i < files.size() && !Stopped(options); ++i) {
+    if (!IsArchive(files[i])) {
+      clips.push_back({names[i], ReadFile(files[i], columns, options)});
       continue;
     }
-    for (SkeletonClip& clip : ReadArchiveClips({file, {}, {}}, columns, options)) {
+    for (SkeletonClip& clip : ReadArchiveClips({files[i], {}, {}}, columns, options)) {
       // Archives usually hold a folder of their own name: "s01/s01/x" says no more than "s01/x".
-      if (!clip.name.starts_with(name + "/")) clip.name = name + "/" + clip.name;
+      if (!clip.name.starts_with(names[i] + "/")) clip.name = names[i] + "/" + clip.name;
       clips.push_back(std::move(clip));
     }
   }

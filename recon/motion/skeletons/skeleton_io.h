@@ -35,7 +35,9 @@ SkeletonSequence ReadSkeletons(const std::filesystem::path& path,
 
 /// One recording of several.
 struct SkeletonClip {
-  std::string name;  // path inside the folder or archive without its extension; "" for one file
+  // Path inside the folder or archive; without its extension, where that tells no two apart; "" for
+  // one file.
+  std::string name;
   SkeletonSequence sequence;
 };
 

@@ -297,6 +297,20 @@ TEST(SkeletonArchives, MembersWhoseNamesLeadOutAreRefused) {
   }
 }
 
+// What is made of one would take the other's place.
+TEST(SkeletonClips, ThatDifferByTheirExtensionsAloneKeepThem) {
+  const test::TemporaryFolder folder;
+  WriteSkeletons(folder / "a.csv", ExampleSequence(3));
+  WriteSkeletons(folder / "a.jsonl", ExampleSequence(2));
+  WriteSkeletons(folder / "b.jsonl", ExampleSequence(1));
+  const auto clips = ReadSkeletonClips(folder.path());
+  ASSERT_EQ(clips.size(), 3u);
+  EXPECT_EQ(clips[0].name, "a.csv");
+  EXPECT_EQ(clips[0].sequence.frames.size(), 3u);
+  EXPECT_EQ(clips[1].name, "a.jsonl");
+  EXPECT_EQ(clips[2].name, "b");
+}
+
 TEST(SkeletonClips, OfAFolderAreNamedAsTheyLieThereThoughTheyAreLinks) {
   const test::TemporaryFolder folder;
   for (const char* name : {"elsewhere", "here"}) std::filesystem::create_directory(folder / name);
