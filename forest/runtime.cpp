@@ -1,3 +1,6 @@
+#include <oneapi/tbb/blocked_range.h>
+#include <oneapi/tbb/parallel_for.h>
+
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -92,9 +95,8 @@ class LogRatios {
   std::vector<std::vector<float>> table_;  // context × weight
 };
 
-// Centred, so that sums stay small.
-void AppendEvidence(const LeafCells& cells, const LogRatios& log_ratios,
-                    std::vector<int16_t>* out) {
+// The rows of one leaf, centred, so that sums stay small.
+void FillEvidence(const LeafCells& cells, const LogRatios& log_ratios, int16_t* evidence) {
   const size_t contexts = cells.context_weight.size();
   float mean = 0.0F;
   for (size_t k = 0; k < contexts; ++k) {
@@ -102,7 +104,7 @@ void AppendEvidence(const LeafCells& cells, const LogRatios& log_ratios,
   }
   for (size_t k = 0; k < contexts; ++k) {
     const float value = log_ratios.Of(cells.context_weight[k], k) - mean;
-    out->push_back(static_cast<int16_t>(std::lround(256.0F * value)));
+    evidence[k] = static_cast<int16_t>(std::lround(256.0F * value));
   }
 }
 
@@ -179,16 +181,22 @@ std::vector<std::vector<uint32_t>> Neighbours(const ForestData& data) {
   return neighbours;
 }
 
-LeafTables MakeLeafTables(const Tree& tree, const std::vector<int32_t>& order, size_t contexts,
-                          const LogRatios& log_ratios, LeafCells* cells) {
+LeafTables MakeLeafTables(const Tree& tree, const std::vector<int32_t>& order, size_t classes,
+                          size_t contexts, const LogRatios& log_ratios) {
   LeafTables leaves;
-  leaves.shares.resize(contexts * tree.leaf_count());
-  leaves.evidence.reserve(contexts * tree.leaf_count());
-  for (size_t leaf = 0; leaf < tree.leaf_count(); ++leaf) {
-    cells->Load(tree, static_cast<size_t>(order[leaf]));
-    AppendEvidence(*cells, log_ratios, &leaves.evidence);
-    FillShares(*cells, leaf, tree.leaf_count(), leaves.shares.data());
-  }
+  const size_t count = tree.leaf_count();
+  leaves.shares.resize(contexts * count);
+  leaves.evidence.resize(contexts * count);
+  constexpr size_t kAtOnce = 4096;
+  using Leaves = oneapi::tbb::blocked_range<size_t>;
+  oneapi::tbb::parallel_for(Leaves(0, count, kAtOnce), [&](const Leaves& some) {
+    LeafCells cells(classes, contexts);
+    for (size_t leaf = some.begin(); leaf < some.end(); ++leaf) {
+      cells.Load(tree, static_cast<size_t>(order[leaf]));
+      FillEvidence(cells, log_ratios, &leaves.evidence[leaf * contexts]);
+      FillShares(cells, leaf, count, leaves.shares.data());
+    }
+  });
   size_t rows = 0;
   const std::vector<int32_t> vote_row = VoteRows(tree, &rows);
   for (const int32_t leaf : order) {
@@ -225,11 +233,10 @@ std::vector<int32_t> VoteRows(const Tree& tree, size_t* row_count) {
 RuntimeTables MakeRuntimeTables(ForestData* data, ModelUse use) {
   RuntimeTables tables;
   const LogRatios log_ratios(*data);
-  LeafCells cells(data->class_names.size(), data->context_names.size());
   for (Tree& tree : data->trees) {
     LinedTree lined = LayOutInLines(tree.nodes);
-    tables.leaves.push_back(
-        MakeLeafTables(tree, lined.leaf, data->context_names.size(), log_ratios, &cells));
+    tables.leaves.push_back(MakeLeafTables(tree, lined.leaf, data->class_names.size(),
+                                           data->context_names.size(), log_ratios));
     std::vector<int32_t>().swap(lined.leaf);
     if (use == ModelUse::kRunOnly) {
       std::vector<uint32_t>().swap(tree.entry_begin);
