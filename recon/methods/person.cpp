@@ -117,6 +117,7 @@ void BodySize::Observe(const Posture& in_camera, const JointWeights& trust, doub
   const BoneLengths measured = BoneLengthsOf(in_camera);
   const double scale = BodyScaleOf(measured, trust);
   if (locked_) {
+    Grow();
     const bool other_size = good >= 12 && std::abs(scale / scale_ - 1.0) > 0.25;
     other_size_frames_ = other_size ? other_size_frames_ + 1 : 0;
     if (other_size_frames_ < kPatience_frames) {
@@ -134,11 +135,12 @@ void BodySize::Observe(const Posture& in_camera, const JointWeights& trust, doub
   typical_.Add(measured, trust);
   if (judged) judged_.Add(*judged);
   lengths_m_ = Taken(expected_scale);
+  grown_frames_ = kGrow_frames;
   locked_ = good >= 12;
   other_size_frames_ = 0;
 }
 
-// What is judged settles in the first second. After four seconds, eight, sixteen, ...: bones that
+// What is judged settles in the first second. After 3.5 seconds, seven, fourteen, ...: bones that
 // are typically others than they were then are taken anew. A body whose bones are seen as they are
 // is left alone.
 void BodySize::Reconsider(double expected_scale) {
@@ -148,11 +150,27 @@ void BodySize::Reconsider(double expected_scale) {
   if (looks) next_look_ *= 2;
   const BoneLengths taken = Taken(expected_scale);
   constexpr double kOther = 0.05;  // the median of that many frames is no more than 1 % off
-  bool other = settles;
+  bool other = false;
   for (size_t i = 1; i < kJointCount; ++i) {
     other = other || std::abs(taken[i] / lengths_m_[i] - 1.0) > kOther;
   }
-  if (other) lengths_m_ = taken;
+  if (settles) {
+    lengths_m_ = taken;
+  } else if (other) {
+    grow_from_m_ = lengths_m_;
+    grow_to_m_ = taken;
+    grown_frames_ = 0;
+  }
+}
+
+void BodySize::Grow() {
+  if (grown_frames_ == kGrow_frames) return;
+  ++grown_frames_;
+  const double part = static_cast<double>(grown_frames_) / kGrow_frames;
+  const double share = part * part * (3.0 - 2.0 * part);  // begins and ends at rest
+  for (size_t i = 0; i < kJointCount; ++i) {
+    lengths_m_[i] = (1.0 - share) * grow_from_m_[i] + share * grow_to_m_[i];
+  }
 }
 
 /// The lengths that what was judged tells; if nothing was, what is typical.

@@ -13,7 +13,8 @@ namespace ossa::recon {
 /// person that tracking starts with (Shum 2013 fig. 2), left and right averaged, each bone within a
 /// quarter of a body of that size. With a close look, which judges them in each frame, they settle
 /// in the first second. Measured anew when the body has another size for a second, which is another
-/// person; and, at looks that become rarer, when the bones seen until then are typically others.
+/// person; and, at looks that become rarer, when the bones seen until then are typically others: to
+/// these they grow in half a second.
 class BodySize {
  public:
   BodySize() = default;
@@ -40,7 +41,8 @@ class BodySize {
  private:
   static constexpr int kPatience_frames = 30;    // another size for so long is another person
   static constexpr int kSettled_frames = 30;     // judged bones are the mean of so many
-  static constexpr int kFirstLook_frames = 120;  // sooner, a pose is taken for a body
+  static constexpr int kFirstLook_frames = 105;  // sooner, a pose is taken for a body
+  static constexpr int kGrow_frames = 15;        // a bone that grew at once would throw its joints
   /// Median length of each bone over the frames seen; of a pair of bones at its left one.
   struct TypicalBones {
     void Add(const BoneLengths& measured, const JointWeights& trust);
@@ -50,10 +52,13 @@ class BodySize {
   };
 
   void Reconsider(double expected_scale);
+  void Grow();
   BoneLengths Taken(double expected_scale) const;
 
   bool as_measured_ = false;
   BoneLengths lengths_m_ = StandardBoneLengths();
+  BoneLengths grow_from_m_{}, grow_to_m_{};
+  int grown_frames_ = kGrow_frames;
   TypicalBones typical_;
   JudgedBones judged_;
   BoneLengths proportions_{};
