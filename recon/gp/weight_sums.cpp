@@ -13,37 +13,16 @@
 
 #if defined(__x86_64__)
 #include <immintrin.h>
-#define OSSA_AVX2 __attribute__((target("avx2")))
 #endif
 
 namespace ossa::recon {
 namespace {
 
-template <size_t kColumns>
-void OneByOne(const WeightSums<kColumns>& of) {
-  const WeightLine* line = of.lines;
-  for (size_t block = 0; block < of.blocks; ++block) {
-    for (int32_t* const sums : of.sums) {
-      std::fill_n(sums + block * WeightLine::kUnits, WeightLine::kUnits, 0);
-    }
-    for (const PairFactors<kColumns>& factors : of.factors) {
-      for (size_t c = 0; c < kColumns; ++c) {
-        int32_t* const sums = of.sums[c] + block * WeightLine::kUnits;
-        for (size_t unit = 0; unit < WeightLine::kUnits; ++unit) {
-          const auto [first, second] = line->weights[unit];
-          sums[unit] += first * factors[c][0] + second * factors[c][1];
-        }
-      }
-      ++line;
-    }
-  }
-}
-
 #if defined(__x86_64__)
 // Registers hold the sums of a block's units while all pairs go by. Weights are widened once for
 // all columns.
 template <size_t kColumns>
-OSSA_AVX2 inline void EightByEight(const WeightSums<kColumns>& of) {
+__attribute__((target("avx2"))) void EightByEight(const WeightSums<kColumns>& of) {
   constexpr size_t kLanes = 8;
   constexpr size_t kGroups = WeightLine::kUnits / kLanes;
   const WeightLine* line = of.lines;
@@ -70,27 +49,42 @@ OSSA_AVX2 inline void EightByEight(const WeightSums<kColumns>& of) {
     }
   }
 }
-
-OSSA_AVX2 void EightByEightOfOne(const WeightSums<1>& of) { EightByEight(of); }
-OSSA_AVX2 void EightByEightOfTwo(const WeightSums<2>& of) { EightByEight(of); }
-#else
-void EightByEightOfOne(const WeightSums<1>& of) { OneByOne(of); }
-void EightByEightOfTwo(const WeightSums<2>& of) { OneByOne(of); }
 #endif
 
 }  // namespace
 
-void AddWeightsOneByOne(const WeightSums<1>& of) { OneByOne(of); }
-void AddWeightsOneByOne(const WeightSums<2>& of) { OneByOne(of); }
-
-void AddWeights(const WeightSums<1>& of) {
-  static const bool has_avx2 = HasAvx2();
-  (has_avx2 ? EightByEightOfOne : OneByOne<1>)(of);
+template <size_t kColumns>
+void AddWeightsOneByOne(const WeightSums<kColumns>& of) {
+  const WeightLine* line = of.lines;
+  for (size_t block = 0; block < of.blocks; ++block) {
+    for (int32_t* const sums : of.sums) {
+      std::fill_n(sums + block * WeightLine::kUnits, WeightLine::kUnits, 0);
+    }
+    for (const PairFactors<kColumns>& factors : of.factors) {
+      for (size_t c = 0; c < kColumns; ++c) {
+        int32_t* const sums = of.sums[c] + block * WeightLine::kUnits;
+        for (size_t unit = 0; unit < WeightLine::kUnits; ++unit) {
+          const auto [first, second] = line->weights[unit];
+          sums[unit] += first * factors[c][0] + second * factors[c][1];
+        }
+      }
+      ++line;
+    }
+  }
 }
 
-void AddWeights(const WeightSums<2>& of) {
+template <size_t kColumns>
+void AddWeights(const WeightSums<kColumns>& of) {
+#if defined(__x86_64__)
   static const bool has_avx2 = HasAvx2();
-  (has_avx2 ? EightByEightOfTwo : OneByOne<2>)(of);
+  if (has_avx2) return EightByEight(of);
+#endif
+  AddWeightsOneByOne(of);
 }
+
+template void AddWeights(const WeightSums<1>& of);
+template void AddWeights(const WeightSums<2>& of);
+template void AddWeightsOneByOne(const WeightSums<1>& of);
+template void AddWeightsOneByOne(const WeightSums<2>& of);
 
 }  // namespace ossa::recon

@@ -21,12 +21,12 @@ struct WeightSums {
   std::array<int32_t*, kColumns> sums{};  // WeightLine::kUnits a block
 };
 
-/// Precondition: no sum reaches 2^31, in whatever order its terms are added.
-void AddWeights(const WeightSums<1>& of);
-void AddWeights(const WeightSums<2>& of);
+/// Of one column or two. Precondition: no sum reaches 2^31, in whatever order its terms are added.
+template <size_t kColumns>
+void AddWeights(const WeightSums<kColumns>& of);
 
 /// The same, one unit after the other.
-void AddWeightsOneByOne(const WeightSums<1>& of);
-void AddWeightsOneByOne(const WeightSums<2>& of);
+template <size_t kColumns>
+void AddWeightsOneByOne(const WeightSums<kColumns>& of);
 
 }  // namespace ossa::recon

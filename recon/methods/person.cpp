@@ -149,17 +149,17 @@ void BodySize::Reconsider(double expected_scale) {
   if (!settles && !looks) return;
   if (looks) next_look_ *= 2;
   const BoneLengths taken = Taken(expected_scale);
-  constexpr double kOther = 0.05;  // the median of that many frames is no more than 1 % off
-  bool other = false;
-  for (size_t i = 1; i < kJointCount; ++i) {
-    other = other || std::abs(taken[i] / lengths_m_[i] - 1.0) > kOther;
-  }
   if (settles) {
     lengths_m_ = taken;
-  } else if (other) {
+    return;
+  }
+  constexpr double kOther = 0.05;  // the median of that many frames is no more than 1 % off
+  for (size_t i = 1; i < kJointCount; ++i) {
+    if (std::abs(taken[i] / lengths_m_[i] - 1.0) <= kOther) continue;
     grow_from_m_ = lengths_m_;
     grow_to_m_ = taken;
     grown_frames_ = 0;
+    return;
   }
 }
 
