@@ -6,6 +6,7 @@
 
 #include "tests/recon/synthetic_motion.h"
 #include "tests/support/temporary_folder.h"
+#include "tools/experiments/papers/liu_2016_internal.h"
 #include "tools/experiments/sdk/sdk_internal.h"
 
 namespace ossa::tools {
@@ -45,6 +46,22 @@ RecordedPair Recorded(const std::string& subject, double phase_s, int late, doub
 
 std::vector<Fold> FoldsOf(const std::vector<RecordedPair>& people) {
   return LeaveOneSubjectOut(people, [](const RecordedPair&) { return true; });
+}
+
+TEST(Liu2016Study, LearnsOfTheOthersWithWhateverOptions) {
+  test::TemporaryFolder folder;
+  ExperimentContext context;
+  context.out = folder.path();
+  Liu2016Study study;
+  study.recordings = {Recorded("a", 0.0, 1, 0.01), Recorded("b", 5.0, 0, 0.02)};
+  recon::LearnOptions learn;
+  learn.mixture.samples = learn.full_samples = 10;
+  learn.correction.centres = 0;
+  for (const auto& [tested, other] : {std::pair{0, 1}, std::pair{1, 0}}) {
+    const auto at = [&](int i) { return study.recordings[static_cast<size_t>(i)]; };
+    const MethodRun run = study.Run(context, "made up", "liu-2016", at(tested).subject, learn);
+    EXPECT_EQ(run.options.learned_file, LearnWithout(context, {at(other)}, "", learn).string());
+  }
 }
 
 TEST(LinearBound, TakesAFrameOfDelayOff) {

@@ -170,12 +170,13 @@ std::vector<RecordedPair> Liu2016Study::TestClips(const std::string& action,
 }
 
 MethodRun Liu2016Study::Run(const ExperimentContext& context, const std::string& label,
-                            const std::string& method, const std::string& mover) const {
+                            const std::string& method, const std::string& mover,
+                            const recon::LearnOptions& learn) const {
   MethodRun run{label, {}, {}};
   run.options.method = method;
   run.options.seed = context.seed;
   if (method == "none") return run;
-  run.options.learned_file = LearnWithout(context, recordings, mover).string();
+  run.options.learned_file = LearnWithout(context, recordings, mover, learn).string();
   if (method == "best") {
     run.options.database = DatabaseOf(context).postures;
     run.options.prior = prior;
@@ -185,10 +186,11 @@ MethodRun Liu2016Study::Run(const ExperimentContext& context, const std::string&
 
 std::optional<double> ErrorOf(const ExperimentContext& context, const Liu2016Study& study,
                               const std::string& action, const std::string& method,
-                              const std::function<void(MethodRun&)>& prepare) {
+                              const std::function<void(MethodRun&)>& prepare,
+                              const recon::LearnOptions& learn) {
   std::vector<ClipMetrics> clips;
   for (const std::string& mover : study.folds) {
-    MethodRun run = study.Run(context, method, method, mover);
+    MethodRun run = study.Run(context, method, method, mover, learn);
     if (prepare) prepare(run);
     for (const ClipMetrics& clip :
          MeasureAll(RunOverClips(context, run, study.TestClips(action, mover)))) {

@@ -6,6 +6,7 @@ namespace ossa::tools {
 /// The recordings of `ossa experiment liu-2016`: clips are named "ACTION/MOVER", the subject is the
 /// mover, folds leave one mover out.
 struct Liu2016Study {
+  Liu2016Study() = default;  // of recordings to be given
   explicit Liu2016Study(ExperimentContext& context);
 
   std::vector<RecordedPair> recordings;
@@ -15,15 +16,17 @@ struct Liu2016Study {
 
   /// Recordings of an action ("" = all) by the mover left out.
   std::vector<RecordedPair> TestClips(const std::string& action, const std::string& mover) const;
-  /// A learning method for the fold.
+  /// A learning method for the fold: whatever is learned is learned of the other movers.
   MethodRun Run(const ExperimentContext& context, const std::string& label,
-                const std::string& method, const std::string& mover) const;
+                const std::string& method, const std::string& mover,
+                const recon::LearnOptions& learn = {}) const;
 };
 
 /// Mean over folds and clips of an action; `prepare` may change the settings.
 std::optional<double> ErrorOf(const ExperimentContext& context, const Liu2016Study& study,
                               const std::string& action, const std::string& method,
-                              const std::function<void(MethodRun&)>& prepare = {});
+                              const std::function<void(MethodRun&)>& prepare = {},
+                              const recon::LearnOptions& learn = {});
 
 /// Figures 3, 7 and 8.
 std::vector<Table> FiguresOfLiu2016(ExperimentContext& context, const Liu2016Study& study);
