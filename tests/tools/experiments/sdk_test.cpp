@@ -64,6 +64,26 @@ TEST(Liu2016Study, LearnsOfTheOthersWithWhateverOptions) {
   }
 }
 
+TEST(Hardest, GroupsStandAloneWhereTheLastMethodIsFarOff) {
+  const auto clip = [](const char* name, double cm) {
+    ClipMetrics metrics;
+    metrics.name = name;
+    metrics.parent_relative_error_cm = cm;
+    return metrics;
+  };
+  const std::vector<MethodScore> scores = {
+      {"raw",
+       {clip("a/m1_e1", 9.0), clip("a/m1_e2", 10.0), clip("a/m2_e1", 40.0), clip("b/m1_e1", 2.0)},
+       0.0},
+      {"best",
+       {clip("a/m1_e1", 11.0), clip("a/m1_e2", 12.0), clip("a/m2_e1", 3.0), clip("b/m1_e1", 1.0)},
+       0.0}};
+  const Table table = HardestTable("made up", scores);
+  const std::vector<std::vector<std::string>> expected = {{"a", "m1", "2", "9.50", "11.50"},
+                                                          {"all others", "", "2", "21.00", "2.00"}};
+  EXPECT_EQ(table.rows, expected);
+}
+
 TEST(LinearBound, TakesAFrameOfDelayOff) {
   const std::vector<RecordedPair> people = {Recorded("a", 0.0, 1, 0.0), Recorded("b", 5.0, 1, 0.0)};
   Table table;

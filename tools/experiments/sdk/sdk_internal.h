@@ -75,6 +75,10 @@ std::vector<std::string> MethodRow(const std::string& data, const MethodScore& s
 Table RunNested(ExperimentContext& context, const std::string& data, const std::vector<Fold>& folds,
                 const recon::ReconstructorOptions& options, Table* methods);
 
+/// sdk_hardest.cpp: eq. 18 of each person and exercise of UI-PRMD in which the last of the methods
+/// is 10 cm off and more, and of all others together.
+Table HardestTable(const std::string& data, const std::vector<MethodScore>& scores);
+
 /// linear_bound.cpp: what the best filter of fixed weights leaves.
 Table EmptyLinearBound();
 void AddLinearBound(const std::string& data, const std::vector<Fold>& folds, Table* table);
