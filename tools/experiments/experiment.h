@@ -33,12 +33,16 @@ class Parameters {
   static Parameters FromToml(const std::filesystem::path& path);
 
   double Number(const std::string& key, double usual);
-  int Integer(const std::string& key, int usual);
+  /// Throws InputError for less than `least`.
+  int Integer(const std::string& key, int usual, int least = 0);
   bool Flag(const std::string& key, bool usual);
   std::string Text(const std::string& key, const std::string& usual);
   std::vector<std::string> Texts(const std::string& key, const std::vector<std::string>& usual);
-  /// Some of `known`, all by default. Throws InputError for any other.
+  /// Some of `known`, at least one, all by default. Throws InputError for any other.
   std::set<std::string> Some(const std::string& key, const std::vector<std::string>& known);
+  /// The same, `usual` by default, in the order in which they are given.
+  std::vector<std::string> Some(const std::string& key, const std::vector<std::string>& known,
+                                const std::vector<std::string>& usual);
   std::vector<double> Numbers(const std::string& key, const std::vector<double>& usual);
 
   /// What was used, as TOML: written beside the results so that the study can be repeated.

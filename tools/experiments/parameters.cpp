@@ -201,11 +201,13 @@ double Parameters::Number(const std::string& key, double usual) {
   return number;
 }
 
-int Parameters::Integer(const std::string& key, int usual) {
+int Parameters::Integer(const std::string& key, int usual, int least) {
   const double number = Number(key, usual);
   if (number != std::floor(number) || std::abs(number) > 1e9) {
     Fail(source_, values_.at(key).line, key + " as a whole number");
   }
+  if (number < least)
+    Fail(source_, values_.at(key).line, fmt::format("{} of {} or more", key, least));
   used_[key] = fmt::format("{}", static_cast<int>(number));
   return static_cast<int>(number);
 }
@@ -225,17 +227,26 @@ std::vector<std::string> Parameters::Texts(const std::string& key,
   return texts;
 }
 
-std::set<std::string> Parameters::Some(const std::string& key,
-                                       const std::vector<std::string>& known) {
-  std::set<std::string> some;
-  for (const std::string& text : Texts(key, known)) {
-    if (std::find(known.begin(), known.end(), text) == known.end()) {
-      throw InputError(fmt::format("{}: parameter {}: expected some of {}; found '{}'", source_,
-                                   key, fmt::join(known, ", "), text));
-    }
-    some.insert(text);
+std::vector<std::string> Parameters::Some(const std::string& key,
+                                          const std::vector<std::string>& known,
+                                          const std::vector<std::string>& usual) {
+  std::vector<std::string> some = Texts(key, usual);
+  const auto expect = [&](bool fine, const std::string& found) {
+    if (fine) return;
+    throw InputError(fmt::format("{}: parameter {}: expected some of {}; found {}", source_, key,
+                                 fmt::join(known, ", "), found));
+  };
+  expect(!some.empty(), "none");
+  for (const std::string& text : some) {
+    expect(std::find(known.begin(), known.end(), text) != known.end(), "'" + text + "'");
   }
   return some;
+}
+
+std::set<std::string> Parameters::Some(const std::string& key,
+                                       const std::vector<std::string>& known) {
+  const auto some = Some(key, known, known);
+  return {some.begin(), some.end()};
 }
 
 std::vector<double> Parameters::Numbers(const std::string& key, const std::vector<double>& usual) {

@@ -59,6 +59,31 @@ TEST_F(StudyParameters, ThatAreWrongAreRefusedByLine) {
   EXPECT_EQ(Complaint("samples = \n").find('\n'), std::string::npos);
 }
 
+TEST_F(StudyParameters, ThatAreTooSmallOrUnknownAreRefused) {
+  Parameters p = From("folds = 0\nmethods = [\"best\", \"none\", \"bets\"]\nparts = []\n");
+  EXPECT_EQ(p.Integer("folds", 1), 0);
+  EXPECT_EQ(p.Integer("movers", 3, 2), 3);
+  const auto complaint = [](const auto& ask) {
+    try {
+      ask();
+    } catch (const InputError& error) {
+      return std::string(error.what());
+    }
+    return std::string();
+  };
+  EXPECT_NE(
+      complaint([&] { p.Integer("folds", 1, 1); }).find("line 1: expected folds of 1 or more"),
+      std::string::npos);
+  EXPECT_NE(complaint([&] {
+              p.Some("methods", {"none", "best"}, {});
+            }).find("found 'bets'"),
+            std::string::npos);
+  EXPECT_NE(complaint([&] { p.Some("parts", {"a"}); }).find("expected some of a; found none"),
+            std::string::npos);
+  const std::vector<std::string> in_order = {"best", "none", "bets"};
+  EXPECT_EQ(p.Some("methods", {"none", "best", "bets"}, {}), in_order);
+}
+
 TEST_F(StudyParameters, KeepLettersBeyondAsciiInQuotes) {
   EXPECT_EQ(From("kind = \"J\xC3\xBCrgen\"  # \xC3\xBC\n").Text("kind", ""), "J\xC3\xBCrgen");
   // Found by fuzzing: toml++ runs into what it declares unreachable.
@@ -147,6 +172,34 @@ TEST(StudyCommand, RefusesAFileThatSaysTooLittleOrTooMuch) {
   EXPECT_NE(complaint("experiment = \"sdk\"\nthreads = 0\n" + out).find("threads = 0"),
             std::string::npos);
 }
+
+struct Refusal {
+  const char *study, *parameters, *expected;
+};
+
+class AbsurdParameters : public testing::TestWithParam<Refusal> {};
+
+TEST_P(AbsurdParameters, AreOneLine) {
+  const test::TemporaryFolder folder;
+  std::ofstream(folder / "p.toml") << GetParam().parameters;
+  const auto result = test::RunOssa(
+      {"experiment", GetParam().study, "--out", folder / "out", "--parameters", folder / "p.toml"});
+  EXPECT_EQ(result.exit_status, 1);
+  EXPECT_EQ(test::LineCount(result.err), 1) << result.err;
+  EXPECT_NE(result.err.find(GetParam().expected), std::string::npos) << result.err;
+}
+
+INSTANTIATE_TEST_SUITE_P(
+    Studies, AbsurdParameters,
+    testing::Values(
+        Refusal{"rooms", "performances = 0\n", "line 1: expected performances of 1 or more"},
+        Refusal{"rooms", "only = \"attic\"\n", "no scenario has 'attic' in its name"},
+        Refusal{"sdk", "every_nth_clip = 0\n", "line 1: expected every_nth_clip of 1 or more"},
+        Refusal{"sdk", "data = [\"hardst\"]\n", "found 'hardst'"},
+        Refusal{"sdk", "data = [\"hardest\"]\n", "expected some of correct, incorrect"},
+        Refusal{"sdk", "methods = [\"bets\"]\n", "found 'bets'"},
+        Refusal{"liu-2016", "folds = 0\n", "line 1: expected folds of 1 or more"}),
+    [](const auto& info) { return std::to_string(info.index); });
 
 }  // namespace
 }  // namespace ossa::tools

@@ -129,9 +129,9 @@ Table TableFive(const ExperimentContext& context, const Liu2016Study& study) {
 
 Liu2016Study::Liu2016Study(ExperimentContext& context) {
   const std::string observer = context.parameters.Text("observer", "forest");
-  const int movers = context.parameters.Integer("movers", context.full ? 5 : 3);
-  const int frames = context.parameters.Integer("frames", context.full ? 240 : 120);
-  const int tested = context.parameters.Integer("folds", context.full ? movers : 1);
+  const int movers = context.parameters.Integer("movers", context.full ? 5 : 3, 2);
+  const int frames = context.parameters.Integer("frames", context.full ? 240 : 120, 2);
+  const int tested = context.parameters.Integer("folds", context.full ? movers : 1, 1);
   note = ObserverNote(observer) +
          fmt::format(
              "Motions: ossa's authored actions by {} movers, {} frames each, {} of them "

@@ -49,7 +49,7 @@ struct Study {
 Study Prepare(ExperimentContext& context) {
   Study study;
   const std::string observer = context.parameters.Text("observer", "forest");
-  const int frames = context.parameters.Integer("frames", context.full ? 600 : 120);
+  const int frames = context.parameters.Integer("frames", context.full ? 600 : 120, 2);
   const auto motions = StudyMotions(context, kScenarios, frames);
   study.note = ObserverNote(observer) + motions.note;
   Studio studio(context, observer);

@@ -40,10 +40,10 @@ class Laboratory {
       : context_(context),
         motion_(context.parameters.Text("motion", "authored")),
         test_motion_(context.parameters.Text("test_motion", motion_)),
-        pixels_(context.parameters.Integer("pixels", context.full ? 300 : 150)),
-        candidates_(context.parameters.Integer("candidates", context.full ? 500 : 150)),
+        pixels_(context.parameters.Integer("pixels", context.full ? 300 : 150, 1)),
+        candidates_(context.parameters.Integer("candidates", context.full ? 500 : 150, 1)),
         validation_images_(
-            context.parameters.Integer("validation_images", context.full ? 400 : 60)) {}
+            context.parameters.Integer("validation_images", context.full ? 400 : 60, 1)) {}
 
   // A data set of this study; finished ones are kept.
   fs::path DataOf(Split split, int64_t frames);
@@ -229,14 +229,14 @@ std::string Percent(double share) { return std::isnan(share) ? "-" : Cell(100 * 
 
 std::vector<Table> RunShotton2011(ExperimentContext& context) {
   Laboratory laboratory(context);
-  const int64_t tests = context.parameters.Integer("test_images", context.full ? 1000 : 150);
+  const int64_t tests = context.parameters.Integer("test_images", context.full ? 1000 : 150, 1);
   const auto images = context.parameters.Numbers(
       "images", context.full ? std::vector<double>{300, 1000, 3000, 10000, 30000}
                              : std::vector<double>{100, 1000});
   const auto depths =
       context.parameters.Numbers("depths", context.full ? std::vector<double>{5, 8, 12, 16, 20}
                                                         : std::vector<double>{5, 10, 15});
-  const int trees = context.parameters.Integer("trees", context.full ? 3 : 1);
+  const int trees = context.parameters.Integer("trees", context.full ? 3 : 1, 1);
   Table table;
   table.title = "Figure 6: accuracy against training images and depth";
   table.columns = {"images",          "depth",        "mean class accuracy, %",

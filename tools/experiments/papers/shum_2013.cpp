@@ -253,8 +253,8 @@ std::vector<Table> RunShum2013(ExperimentContext& context) {
 
 Shum2013Study::Shum2013Study(ExperimentContext& context, bool occluded) {
   const std::string observer = context.parameters.Text("observer", "forest");
-  const int clips = context.parameters.Integer("clips", context.full ? 8 : 2);
-  const int frames = context.parameters.Integer("frames", context.full ? 450 : 150);
+  const int clips = context.parameters.Integer("clips", context.full ? 8 : 2, 1);
+  const int frames = context.parameters.Integer("frames", context.full ? 450 : 150, 2);
   const auto motions = StudyMotions(context, static_cast<size_t>(clips), frames);
   Studio studio(context, observer);
   note = ObserverNote(observer) + motions.note;

@@ -229,9 +229,8 @@ void AddRows(const std::string& what, const VectorXd& weights, size_t count,
 std::vector<Table> RunPersonSigns(ExperimentContext& context) {
   const std::string train = context.parameters.Text("mocap", "authored");
   const std::string check = context.parameters.Text("check_mocap", "authored");
-  const int performances = context.parameters.Integer("performances", context.full ? 60 : 8);
+  const int performances = context.parameters.Integer("performances", context.full ? 60 : 8, 2);
   const double prior = context.parameters.Number("prior", 1.0);
-  if (performances < 2) throw InputError("person-signs: expected performances >= 2");
   const uint64_t seed = context.seed * 1000000;
   const auto fitted = Examples(context, Split::kTrain, train, performances, seed);
   const auto checked =

@@ -149,15 +149,11 @@ tracker::TrackerOptions TrackerOf(ExperimentContext& context) {
 
 std::vector<Table> RunRooms(ExperimentContext& context) {
   const auto sources = context.parameters.Texts("mocap", {"authored"});
-  const int performances = context.parameters.Integer("performances", context.full ? 6 : 2);
-  const int frames = context.parameters.Integer("frames", context.full ? 150 : 90);
-  const int width = context.parameters.Integer("width", 640);
+  const int performances = context.parameters.Integer("performances", context.full ? 6 : 2, 1);
+  const int frames = context.parameters.Integer("frames", context.full ? 150 : 90, 2);
+  const int width = context.parameters.Integer("width", 640, 160);
   const int pictures_every = context.parameters.Integer("pictures_every", 0);
   const std::string only = context.parameters.Text("only", "");
-  if (performances < 1 || frames < 2 || width < 160 || pictures_every < 0)
-    throw InputError(
-        "rooms: expected performances >= 1, frames >= 2, width >= 160, "
-        "pictures_every >= 0");
   tracker::TrackerOptions how = TrackerOf(context);
   how.keep_parts = pictures_every > 0;
   const Split split = SplitOf(context);
@@ -173,6 +169,7 @@ std::vector<Table> RunRooms(ExperimentContext& context) {
     for (int k = 0; k < performances; ++k)
       jobs.push_back({s, context.seed * 1000 + s * 50 + static_cast<uint64_t>(k), pictures_every});
   }
+  if (jobs.empty()) throw InputError(fmt::format("rooms: no scenario has '{}' in its name", only));
   const auto scores = PlayAll(jobs, scenarios, cast, how, context);
 
   Table where = WhereTable(), joints = JointsTable(), jitter = JitterTable();

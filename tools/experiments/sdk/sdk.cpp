@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <iterator>
 
+#include "depth/error.h"
 #include "tools/experiments/experiments_internal.h"
 #include "tools/experiments/sdk/method_runs.h"
 #include "tools/experiments/sdk/sdk_internal.h"
@@ -57,11 +58,20 @@ Table EmptyTable() {
 
 std::vector<Table> RunSdk(ExperimentContext& context) {
   Table table = EmptyTable();
-  const auto methods = context.parameters.Texts("methods", AllMethods());
-  const auto sets = context.parameters.Texts("data", {"correct", "incorrect", "itop", "failures"});
-  const auto wanted = [&](const char* name) {
+  const auto all = AllMethods();
+  const auto methods = context.parameters.Some("methods", all, all);
+  const std::vector<std::string> recordings = {"correct", "incorrect", "itop", "failures"};
+  std::vector<std::string> known = recordings;
+  known.insert(known.end(), {"nested", "linear-bound", "hardest"});
+  const auto sets = context.parameters.Some("data", known, recordings);
+  const auto wanted = [&](const std::string& name) {
     return std::find(sets.begin(), sets.end(), name) != sets.end();
   };
+  if (std::none_of(recordings.begin(), recordings.end(), wanted)) {
+    throw InputError(fmt::format("sdk: data: expected some of {} to be tried on; found {}",
+                                 fmt::join(recordings, ", "), fmt::join(sets, ", ")));
+  }
+  const int every = context.parameters.Integer("every_nth_clip", 1, 1);
   recon::ReconstructorOptions options;
   options.seed = context.seed;
   options.database = DatabaseOf(context).postures;
@@ -71,7 +81,6 @@ std::vector<Table> RunSdk(ExperimentContext& context) {
   options.best.correct = context.parameters.Integer("best_correct", 1) != 0;
   options.best.filter = context.parameters.Integer("best_filter", 1) != 0;
   options.best.bones = context.parameters.Integer("best_bones", 1) != 0;
-  const int every = context.parameters.Integer("every_nth_clip", 1);
   std::vector<Table> tables;
   Table linear = EmptyLinearBound();
   const bool bound = wanted("linear-bound");

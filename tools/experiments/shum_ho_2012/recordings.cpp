@@ -110,7 +110,7 @@ FilterData InRuns(const FilterData& whole) {
 /// The raw joints of ossa's forest on rendered depth images, without and with furniture.
 FilterData Rendered(ExperimentContext& context, std::string& note) {
   constexpr size_t kScenes = 6;
-  const int frames = context.parameters.Integer("rendered_frames", 150);
+  const int frames = context.parameters.Integer("rendered_frames", 150, 2);
   const std::string observer = context.parameters.Text("observer", "forest");
   const StudyMotion motions = StudyMotions(context, kScenes, frames);
   Studio studio(context, observer);
