@@ -38,7 +38,7 @@ class Parameters {
   bool Flag(const std::string& key, bool usual);
   std::string Text(const std::string& key, const std::string& usual);
   std::vector<std::string> Texts(const std::string& key, const std::vector<std::string>& usual);
-  /// Some of `known`, at least one, all by default. Throws InputError for any other.
+  /// Some of `known`, all by default. Throws InputError for any other.
   std::set<std::string> Some(const std::string& key, const std::vector<std::string>& known);
   /// The same, `usual` by default, in the order in which they are given.
   std::vector<std::string> Some(const std::string& key, const std::vector<std::string>& known,

@@ -231,14 +231,10 @@ std::vector<std::string> Parameters::Some(const std::string& key,
                                           const std::vector<std::string>& known,
                                           const std::vector<std::string>& usual) {
   std::vector<std::string> some = Texts(key, usual);
-  const auto expect = [&](bool fine, const std::string& found) {
-    if (fine) return;
-    throw InputError(fmt::format("{}: parameter {}: expected some of {}; found {}", source_, key,
-                                 fmt::join(known, ", "), found));
-  };
-  expect(!some.empty(), "none");
   for (const std::string& text : some) {
-    expect(std::find(known.begin(), known.end(), text) != known.end(), "'" + text + "'");
+    if (std::find(known.begin(), known.end(), text) != known.end()) continue;
+    throw InputError(fmt::format("{}: parameter {}: expected some of {}; found '{}'", source_, key,
+                                 fmt::join(known, ", "), text));
   }
   return some;
 }
