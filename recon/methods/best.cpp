@@ -38,7 +38,8 @@ class Best : public Reconstructor {
       correction_ = learned->correction;
       linear = learned->filter;
     }
-    size_.Expect(correction_.proportions, constants_.expected);
+    bones_m_ = options.bones_m;
+    MeasureAnew();
     filter_ = PostureFilter(constants_, linear);
     if (options.prior) {
       expected_.emplace(options.prior);
@@ -86,11 +87,12 @@ class Best : public Reconstructor {
 
   std::optional<ReconstructedPosture> Revised() const override { return revised_; }
 
+  std::optional<BoneLengths> Bones() const override { return size_.Latest(); }
+
   void Reset() override {
     person_.Reset();
     plausibility_ = Plausibility(constants_.slack_m);
-    size_ = BodySize(true);
-    size_.Expect(correction_.proportions, constants_.expected);
+    MeasureAnew();
     if (natural_) natural_->Reset();
     if (expected_) expected_->Forget();
     had_.fill(false);
@@ -102,6 +104,12 @@ class Best : public Reconstructor {
   }
 
  private:
+  void MeasureAnew() {
+    size_ = BodySize(true);
+    size_.Expect(correction_.proportions, constants_.expected);
+    if (bones_m_) size_.Know(*bones_m_);
+  }
+
   /// What a frame's last steps need to know of it.
   struct Moment {
     Posture stands;  // should the next frame tell nothing of it: what was seen, if it was a jump
@@ -123,6 +131,7 @@ class Best : public Reconstructor {
   static ReconstructorOptions ForCompletion(ReconstructorOptions options) {
     options.local_pca.steps = 8;
     options.local_pca.samples = 60;
+    options.bones_m.reset();  // it has joints where the sensor has them
     return options;
   }
 
@@ -371,7 +380,8 @@ class Best : public Reconstructor {
   PoseCorrection correction_;
   Person person_{ReliabilityOptions{.use_speed = true}};
   Plausibility plausibility_;
-  BodySize size_{true};  // of what comes out: the correction may change bones
+  BodySize size_;                       // of what comes out: the correction may change bones
+  std::optional<BoneLengths> bones_m_;  // where they are known
   PostureFilter filter_;
   Posture mean_offset_;     // of this person, normalised and scaled
   double offsets_s_ = 0.0;  // for how long it was averaged

@@ -9,9 +9,13 @@ namespace ossa::recon {
 class NaturalPostureMethod : public Reconstructor {
  public:
   explicit NaturalPostureMethod(const ReconstructorOptions& options)
-      : options_(options.local_pca), database_(options.database), seed_(options.seed) {}
+      : options_(options.local_pca),
+        database_(options.database),
+        seed_(options.seed),
+        person_({}, options.bones_m) {}
 
   ReconstructedPosture Step(const ReconstructionInput& input) override;
+  std::optional<BoneLengths> Bones() const override { return person_.size().Latest(); }
   void Reset() override;
 
  protected:

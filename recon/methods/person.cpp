@@ -113,9 +113,11 @@ void BodySize::TypicalBones::Add(const BoneLengths& measured, const JointWeights
 
 void BodySize::Observe(const Posture& in_camera, const JointWeights& trust, double expected_scale,
                        const std::optional<BoneLengths>& judged) {
+  if (known_) return;
   const auto good = std::count_if(trust.begin(), trust.end(), [](double t) { return t > 0.5; });
   const BoneLengths measured = BoneLengthsOf(in_camera);
   const double scale = BodyScaleOf(measured, trust);
+  expected_scale_ = expected_scale;
   if (locked_) {
     Grow();
     const bool other_size = good >= 12 && std::abs(scale / scale_ - 1.0) > 0.25;
@@ -124,7 +126,7 @@ void BodySize::Observe(const Posture& in_camera, const JointWeights& trust, doub
       if (good < 12 || other_size) return;
       typical_.Add(measured, trust);
       if (judged) judged_.Add(*judged);
-      Reconsider(expected_scale);
+      Reconsider();
       return;
     }
     judged_ = {};  // of somebody else
@@ -134,21 +136,30 @@ void BodySize::Observe(const Posture& in_camera, const JointWeights& trust, doub
   next_look_ = kFirstLook_frames;
   typical_.Add(measured, trust);
   if (judged) judged_.Add(*judged);
-  lengths_m_ = Taken(expected_scale);
+  lengths_m_ = Taken();
   grown_frames_ = kGrow_frames;
   locked_ = good >= 12;
   other_size_frames_ = 0;
 }
 
+void BodySize::Know(const BoneLengths& lengths_m) {
+  JointWeights all;
+  all.fill(1.0);
+  lengths_m_ = lengths_m;
+  scale_ = BodyScaleOf(lengths_m, all);
+  grown_frames_ = kGrow_frames;
+  known_ = locked_ = true;
+}
+
 // What is judged settles in the first second. After 3.5 seconds, seven, fourteen, ...: bones that
 // are typically others than they were then are taken anew. A body whose bones are seen as they are
 // is left alone.
-void BodySize::Reconsider(double expected_scale) {
+void BodySize::Reconsider() {
   const bool settles = judged_.frames > 0 && judged_.frames <= kSettled_frames;
   const bool looks = typical_.frames >= next_look_;
   if (!settles && !looks) return;
   if (looks) next_look_ *= 2;
-  const BoneLengths taken = Taken(expected_scale);
+  const BoneLengths taken = Taken();
   if (settles) {
     lengths_m_ = taken;
     return;
@@ -174,7 +185,7 @@ void BodySize::Grow() {
 }
 
 /// The lengths that what was judged tells; if nothing was, what is typical.
-BoneLengths BodySize::Taken(double expected_scale) const {
+BoneLengths BodySize::Taken() const {
   BoneLengths lengths = ScaledBoneLengths(scale_);
   for (size_t i = 1; i < kJointCount; ++i) {
     const size_t bone = std::min(i, static_cast<size_t>(kMirroredJoint[i]));
@@ -182,7 +193,7 @@ BoneLengths BodySize::Taken(double expected_scale) const {
     if (judged_.frames > 0) {
       length = judged_.mean_m[i];
     } else if (proportions_[i] > 0.0) {
-      const double size = expected_scale > 0.0 ? expected_scale : scale_;
+      const double size = expected_scale_ > 0.0 ? expected_scale_ : scale_;
       const double expected_m = size * proportions_[i] * StandardBoneLengths()[i];
       length += expected_ * (expected_m - length);
     }
@@ -195,6 +206,12 @@ BoneLengths BodySize::Taken(double expected_scale) const {
   return lengths;
 }
 
+BodySize Person::FreshSize() const {
+  BodySize size;
+  if (bones_m_) size.Know(*bones_m_);
+  return size;
+}
+
 PreparedPosture Person::Prepare(const ReconstructionInput& input) {
   PreparedPosture out;
   const std::optional<double> step_s = steps_.To(input.time_s);
@@ -202,7 +219,7 @@ PreparedPosture Person::Prepare(const ReconstructionInput& input) {
   if (step_s) out.dt_s = std::max(*step_s, 0.005);
   if (out.restarted) {
     estimator_.Reset();  // displacements across a gap are no vibration
-    if (!started_) size_ = BodySize();
+    if (!started_) size_ = FreshSize();
   }
   const Reliability r = estimator_.Step(input.observed, input.depth, out.dt_s);
   out.reliability = r.rate;
@@ -239,7 +256,7 @@ void Person::Remember(const Posture& in_camera, const PreparedPosture& prepared)
 
 void Person::Reset() {
   estimator_.Reset();
-  size_ = BodySize();
+  size_ = FreshSize();
   last_in_camera_.reset();
   last_yaw_rad_ = M_PI;
   steps_ = {};

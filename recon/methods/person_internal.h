@@ -14,7 +14,7 @@ namespace ossa::recon {
 /// quarter of a body of that size. With a close look, which judges them in each frame, they settle
 /// in the first second. Measured anew when the body has another size for a second, which is another
 /// person; and, at looks that become rarer, when the bones seen until then are typically others: to
-/// these they grow in half a second.
+/// these they grow in half a second. Bones that are known stay.
 class BodySize {
  public:
   BodySize() = default;
@@ -33,7 +33,11 @@ class BodySize {
   /// joints; their mean settles in the first second.
   void Observe(const Posture& in_camera, const JointWeights& trust, double expected_scale = 0.0,
                const std::optional<BoneLengths>& judged = std::nullopt);
+  /// The person's bones were measured before: these stay, whatever is observed.
+  void Know(const BoneLengths& lengths_m);
   const BoneLengths& lengths_m() const { return lengths_m_; }
+  /// What would be taken now, by all that was observed: lengths_m() changes rarely.
+  BoneLengths Latest() const { return known_ ? lengths_m_ : Taken(); }
   bool locked() const { return locked_; }
   /// Over the standard body, as a whole.
   double scale() const { return scale_; }
@@ -51,11 +55,12 @@ class BodySize {
     int frames = 0;
   };
 
-  void Reconsider(double expected_scale);
+  void Reconsider();
   void Grow();
-  BoneLengths Taken(double expected_scale) const;
+  BoneLengths Taken() const;
 
   bool as_measured_ = false;
+  bool known_ = false;
   BoneLengths lengths_m_ = StandardBoneLengths();
   BoneLengths grow_from_m_{}, grow_to_m_{};
   int grown_frames_ = kGrow_frames;
@@ -63,6 +68,7 @@ class BodySize {
   JudgedBones judged_;
   BoneLengths proportions_{};
   double expected_ = 0.0;
+  double expected_scale_ = 0.0;
   double scale_ = 1.0;
   bool locked_ = false;
   int other_size_frames_ = 0;
@@ -87,7 +93,10 @@ struct PreparedPosture {
 /// What every method needs to remember of one person.
 class Person {
  public:
-  explicit Person(const ReliabilityOptions& options = {}) : estimator_(options) {}
+  /// `bones_m`: the person's bones where they are known.
+  explicit Person(const ReliabilityOptions& options = {},
+                  const std::optional<BoneLengths>& bones_m = std::nullopt)
+      : estimator_(options), bones_m_(bones_m), size_(FreshSize()) {}
   PreparedPosture Prepare(const ReconstructionInput& input);
   /// A normalised posture of the standard size back in the camera, with this person's bones.
   Posture InCamera(const Posture& normalised, const PreparedPosture& prepared) const;
@@ -98,7 +107,10 @@ class Person {
   const std::optional<Posture>& last_in_camera() const { return last_in_camera_; }
 
  private:
+  BodySize FreshSize() const;
+
   ReliabilityEstimator estimator_;
+  std::optional<BoneLengths> bones_m_;
   BodySize size_;
   std::optional<Posture> last_in_camera_;
   double last_yaw_rad_ = 3.14159265358979323846;  // a person faces the camera until seen otherwise

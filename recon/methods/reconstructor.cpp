@@ -44,6 +44,18 @@ void CheckLocalPca(const LocalPcaOptions& o) {
   }
 }
 
+void CheckBones(const BoneLengths& lengths_m, const Method& method) {
+  if (!method.keeps_bones) {
+    throw InputError(std::string("reconstruction: method ") + method.name +
+                     " moves joints alone, it cannot keep bones");
+  }
+  for (size_t i = 1; i < kJointCount; ++i) {
+    if (lengths_m[i] > 0.0 && lengths_m[i] < 10.0) continue;
+    throw InputError("reconstruction: expected bones longer than 0 and shorter than 10 m, found " +
+                     std::to_string(lengths_m[i]) + " m");
+  }
+}
+
 }  // namespace
 
 std::shared_ptr<const LearnedModels> LearnedOf(const ReconstructorOptions& options) {
@@ -81,6 +93,7 @@ std::unique_ptr<Reconstructor> MakeReconstructor(const ReconstructorOptions& opt
       throw InputError("reconstruction: method " + options.method +
                        " needs a learned file (.ossagp of `ossa learn`)");
     }
+    if (options.bones_m) CheckBones(*options.bones_m, method);
     return method.make(options);
   }
   std::string known;

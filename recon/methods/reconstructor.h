@@ -38,6 +38,9 @@ class Reconstructor {
   /// What the last Step made the method think of the frame before it, for callers that can wait one
   /// frame (files). Empty for methods that do not look back, and after a gap.
   virtual std::optional<ReconstructedPosture> Revised() const { return std::nullopt; }
+  /// How long the person's bones are, by all that was observed until now: those of what comes out
+  /// change more rarely. Empty for methods that move joints alone.
+  virtual std::optional<BoneLengths> Bones() const { return std::nullopt; }
   /// Forgets the person.
   virtual void Reset() = 0;
 };
@@ -109,6 +112,9 @@ struct ReconstructorOptions {
   std::string learned_file;  // .ossagp of `ossa learn`: liu-2016, full-gp, exemplar, best
   std::shared_ptr<const LearnedModels> learned;  // the same, already in memory; goes first
   std::shared_ptr<const PosturePrior> prior;     // best completes by it, else by the database
+  /// The person's bones, where they were measured before: they stay from the first frame to the
+  /// last. Only for methods that keep bones (KeepsBones).
+  std::optional<BoneLengths> bones_m;
   uint64_t seed = 1;
   LocalPcaOptions local_pca;
   GaussianProcessOptions gaussian_process;
@@ -125,7 +131,8 @@ bool NeedsLearned(const std::string& method);
 /// joints alone.
 bool KeepsBones(const std::string& method);
 
-/// Throws InputError for an unknown method, a missing database and missing learned models.
+/// Throws InputError for an unknown method, a missing database, missing learned models and bones
+/// that cannot be.
 std::unique_ptr<Reconstructor> MakeReconstructor(const ReconstructorOptions& options);
 
 }  // namespace ossa::recon

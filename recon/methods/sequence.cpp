@@ -51,13 +51,20 @@ struct Track {
   std::vector<double> time_s;
 };
 
-}  // namespace
+std::unique_ptr<Reconstructor> MethodFor(int person, const ReconstructorOptions& options,
+                                         const BonesOfPeople& bones) {
+  const auto known = bones.find(person);
+  if (known == bones.end()) return MakeReconstructor(options);
+  ReconstructorOptions with = options;
+  with.bones_m = known->second;
+  return MakeReconstructor(with);
+}
 
-SkeletonSequence ReconstructSequence(const SkeletonSequence& sequence,
-                                     const ReconstructorOptions& options,
-                                     const std::function<bool(size_t)>& progress) {
+/// As ReconstructSequence; `people`: what the methods are at the end, by body id.
+SkeletonSequence Run(const SkeletonSequence& sequence, const ReconstructorOptions& options,
+                     const std::function<bool(size_t)>& progress, const BonesOfPeople& bones,
+                     std::map<int, Follower>& people) {
   MakeReconstructor(options);  // complain before any work
-  std::map<int, Follower> people;
   SkeletonSequence out;
   out.source = sequence.source;
   for (const SkeletonFrame& frame : sequence.frames) {
@@ -65,7 +72,7 @@ SkeletonSequence ReconstructSequence(const SkeletonSequence& sequence,
     made.bodies.clear();
     for (const BodyRecord& body : frame.bodies) {
       Follower& person = people[body.id];
-      if (!person.method) person.method = MakeReconstructor(options);
+      if (!person.method) person.method = MethodFor(body.id, options, bones);
       const TrackedPosture observed = TrackedPostureOf(body);
       const auto now = person.method->Step({observed, frame.time_s, nullptr, body.bones_m});
       if (const auto revised = person.method->Revised()) {
@@ -81,6 +88,28 @@ SkeletonSequence ReconstructSequence(const SkeletonSequence& sequence,
     if (progress && !progress(out.frames.size())) break;
   }
   return out;
+}
+
+}  // namespace
+
+SkeletonSequence ReconstructSequence(const SkeletonSequence& sequence,
+                                     const ReconstructorOptions& options,
+                                     const std::function<bool(size_t)>& progress,
+                                     const BonesOfPeople& bones) {
+  std::map<int, Follower> people;
+  return Run(sequence, options, progress, bones, people);
+}
+
+BonesOfPeople MeasureBones(const SkeletonSequence& sequence, const ReconstructorOptions& options,
+                           const std::function<bool(size_t)>& progress) {
+  BonesOfPeople bones;
+  if (!KeepsBones(options.method)) return bones;
+  std::map<int, Follower> people;
+  Run(sequence, options, progress, {}, people);
+  for (const auto& [id, person] : people) {
+    if (const auto lengths_m = person.method->Bones()) bones[id] = *lengths_m;
+  }
+  return bones;
 }
 
 SkeletonSequence ButterworthSequence(const SkeletonSequence& sequence, double cutoff_hz) {

@@ -1,5 +1,6 @@
 #pragma once
 #include <functional>
+#include <map>
 #include <memory>
 
 #include "recon/methods/reconstructor.h"
@@ -7,14 +8,24 @@
 
 namespace ossa::recon {
 
+/// Bone lengths by body id.
+using BonesOfPeople = std::map<int, BoneLengths>;
+
 /// Runs one Reconstructor a person (by body id) over a recording, frame by frame in its order. A
 /// frame holds what the method thinks of it a frame later, where the method revises.
 /// Frames without bodies stay empty. Each joint comes out with a position, its reliability and a
 /// state: tracked stays, everything that was made up is inferred. `progress` (may be empty) is
-/// called with the number of frames done and returns false to stop.
+/// called with the number of frames done and returns false to stop. `bones`: of the people whose
+/// bones are known, in place of options.bones_m.
 SkeletonSequence ReconstructSequence(const SkeletonSequence& sequence,
                                      const ReconstructorOptions& options,
-                                     const std::function<bool(size_t)>& progress = {});
+                                     const std::function<bool(size_t)>& progress = {},
+                                     const BonesOfPeople& bones = {});
+
+/// Offline: how long the bones of each person are, by the whole recording. Reconstructed with
+/// these, a person has the same ones in every frame. Empty for methods that move joints alone.
+BonesOfPeople MeasureBones(const SkeletonSequence& sequence, const ReconstructorOptions& options,
+                           const std::function<bool(size_t)>& progress = {});
 
 /// Offline, for comparison only: second-order Butterworth low pass run forwards and backwards over
 /// every joint (zero phase). Absent joints stay absent.

@@ -33,7 +33,7 @@ ReducedDatabase Reduce(const PostureDatabase& database) {
 class ShumHo2012 : public Reconstructor {
  public:
   explicit ShumHo2012(const ReconstructorOptions& options)
-      : database_(options.database), reduced_(Reduce(*database_)) {}
+      : database_(options.database), reduced_(Reduce(*database_)), person_({}, options.bones_m) {}
 
   ReconstructedPosture Step(const ReconstructionInput& input) override {
     const PreparedPosture prepared = person_.Prepare(input);
@@ -61,6 +61,7 @@ class ShumHo2012 : public Reconstructor {
     return out;
   }
 
+  std::optional<BoneLengths> Bones() const override { return person_.size().Latest(); }
   void Reset() override { person_.Reset(); }
 
  private:

@@ -1,6 +1,7 @@
 #pragma once
 #include <fmt/format.h>
 
+#include <CLI/CLI.hpp>
 #include <string>
 
 #include "recon/methods/reconstructor.h"
@@ -15,5 +16,28 @@ inline void CheckLearned(const std::string& method, const std::string& learned) 
       fmt::format("--method {}: expected --learned FILE.ossagp of 'ossa learn' with it, found {}",
                   method, learned.empty() ? "none" : "--learned none"));
 }
+
+/// --bones: which frames tell how long a person's bones are.
+struct BonesOption {
+  std::string from = "so-far";
+  bool of_recording() const { return from == "recording"; }
+  void AddTo(CLI::App& app) {
+    app.add_option("--bones", from,
+                   "how long a person's bones are by: so-far, the frames until then (they may "
+                   "change), or recording, all frames (the same lengths in each of them)")
+        ->capture_default_str()
+        ->check(CLI::IsMember({"so-far", "recording"}));
+  }
+  /// Throws UsageError for a method that moves joints alone.
+  void Check(const std::string& method) const {
+    if (!of_recording() || recon::KeepsBones(method)) return;
+    std::string keeping;
+    for (const std::string& name : recon::ReconstructionMethods()) {
+      if (recon::KeepsBones(name)) keeping += (keeping.empty() ? "" : ", ") + name;
+    }
+    throw UsageError(fmt::format(
+        "--bones recording: expected a method that keeps bones ({}), found {}", keeping, method));
+  }
+};
 
 }  // namespace ossa::commands

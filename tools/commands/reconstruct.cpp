@@ -34,6 +34,7 @@ struct ReconstructArguments {
   recon::ReconstructorOptions options;
   recon::SkeletonReadOptions read;
   MechanicsOptions mechanics;
+  BonesOption bones;
   std::vector<double> weights;
   double cutoff_hz = 6.0;
   bool quiet = false;
@@ -124,6 +125,7 @@ void AddMethodOptions(CLI::App& app, ReconstructArguments& a) {
                "shum-2013, plantard-2016: joints stay where they were seen, as far as that is "
                "reliable (not in the papers)");
   app.add_flag("--extend", pca.extend_database, "reliable postures join the database (sec. IX)");
+  a.bones.AddTo(app);
 }
 
 }  // namespace
@@ -144,6 +146,7 @@ int Reconstruct(int argc, char** argv) {
   for (size_t i = 0; i < a.weights.size(); ++i) *weights[i] = a.weights[i];
 
   CheckLearned(a.options.method, a.learned);
+  a.bones.Check(a.options.method);
   CheckOutputs({a.out}, {a.skeletons});
   for (const double weight : a.weights) {
     if (!(weight >= 0))
@@ -165,15 +168,21 @@ int Reconstruct(int argc, char** argv) {
   Progress progress("reconstruct", a.quiet);
   double done = 0.0, total = 0.0;
   for (const auto& clip : clips) total += static_cast<double>(clip.sequence.frames.size());
+  if (a.bones.of_recording()) total *= 2.0;
   for (const auto& clip : clips) {
     const auto update = [&](size_t frames) {
       progress.Update(done + static_cast<double>(frames), total);
       return !Interrupted();
     };
     a.options.best.looked = clip.sequence.sensor == recon::kCloseLook;
+    recon::BonesOfPeople bones;
+    if (a.bones.of_recording()) {
+      bones = recon::MeasureBones(clip.sequence, a.options, update);
+      done += static_cast<double>(clip.sequence.frames.size());
+    }
     auto made = a.options.method == kButterworth
                     ? recon::ButterworthSequence(clip.sequence, a.cutoff_hz)
-                    : recon::ReconstructSequence(clip.sequence, a.options, update);
+                    : recon::ReconstructSequence(clip.sequence, a.options, update, bones);
     if (Interrupted()) throw InputError("reconstruct: interrupted; nothing half-written is left");
     if (a.mechanics.on()) tracker::FollowMechanically(made, a.mechanics.build);
     std::filesystem::path to = a.out;

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <chrono>
 #include <filesystem>
+#include <map>
 #include <memory>
 #include <optional>
 #include <string>
@@ -40,6 +41,7 @@ struct TrackOptions {
   std::string out, json_stats, picture, pictures;
   std::string smoothing, posture = "final", mode = "standing";
   MechanicsOptions mechanics;
+  BonesOption bones;
   tracker::TrackerOptions tracker;
   int64_t frames = 0;
   int port = 8080;
@@ -63,6 +65,7 @@ void AddTrackerOptions(CLI::App& app, TrackOptions& options) {
   app.add_option("--method", t.method, "how postures are completed (default best)")
       ->check(CLI::IsMember(recon::ReconstructionMethods()));
   AddMechanicsOptions(app, options.mechanics);
+  options.bones.AddTo(app);
   app.add_option("--smoothing", options.smoothing,
                  "preset of the filter (default: none with best, else default)")
       ->check(CLI::IsMember(tracker::SmoothingPresets()));
@@ -112,6 +115,7 @@ TrackOptions ParseOptions(int argc, char** argv) {
         "track: nothing to do: name --out, --picture, --pictures, --json-stats or --view");
   }
   CheckLearned(options.tracker.method, options.tracker.learned);
+  options.bones.Check(options.tracker.method);
   if (options.posture == "looked") NeedLook(options.tracker);
   if (!options.out.empty()) CheckSkeletonName(options.out);
   CheckExtension("--picture", options.picture, ".png");
@@ -251,6 +255,37 @@ Run TrackAll(depth::FrameSource& source, tracker::Tracker& tracker, const TrackO
   return run;
 }
 
+// How long people's bones are by the whole recording, which is tracked for nothing else.
+std::map<int, recon::BoneLengths> MeasureBones(const TrackOptions& options) {
+  const auto source = OpenSource(options.source, options.quiet);
+  if (source->is_live()) {
+    throw UsageError(fmt::format("--bones recording: {}: expected a recording, found a device",
+                                 options.source.name));
+  }
+  tracker::TrackerOptions measuring = options.tracker;
+  measuring.keep_parts = false;
+  tracker::Tracker tracker(measuring);
+  Progress progress("measuring bones", options.quiet);
+  const auto known = static_cast<double>(source->frame_count().value_or(0));
+  std::map<int, recon::BoneLengths> bones_m;
+  int64_t frames = 0;
+  tracker.Run(
+      *source,
+      [&](const tracker::BodyFrame& bodies) {
+        for (const tracker::Body& body : bodies.bodies) {
+          if (body.bones_m) bones_m[body.id] = *body.bones_m;
+        }
+        ++frames;
+        if (known > 0) progress.Update(static_cast<double>(frames), known);
+        return !Interrupted() && frames != options.frames;
+      },
+      [] { return !Interrupted(); });
+  if (Interrupted()) {
+    throw InputError("track: interrupted while bones were measured; nothing was written");
+  }
+  return bones_m;
+}
+
 void Report(const TrackOptions& options, const Run& run) {
   if (!options.json_stats.empty()) {
     AtomicFile file(options.json_stats);
@@ -271,7 +306,8 @@ void Report(const TrackOptions& options, const Run& run) {
 }  // namespace
 
 int Track(int argc, char** argv) {
-  const TrackOptions options = ParseOptions(argc, argv);
+  TrackOptions options = ParseOptions(argc, argv);
+  if (options.bones.of_recording()) options.tracker.bones_m = MeasureBones(options);
   const auto source = OpenSource(options.source, options.quiet);
   tracker::Tracker tracker(options.tracker);
   SkeletonOutput output(options.out, options.posture);

@@ -84,10 +84,17 @@ bool IsSeatedJoint(recon::Joint joint) {
          recon::Index(joint) <= recon::Index(recon::Joint::kHandRight);
 }
 
+std::unique_ptr<recon::Reconstructor> MethodFor(int id, const CompleteOptions& options) {
+  recon::ReconstructorOptions with = options.reconstructor;
+  const auto known = options.bones_m.find(id);
+  if (known != options.bones_m.end()) with.bones_m = known->second;
+  return recon::MakeReconstructor(with);
+}
+
 void CompleteBody(const depth::DepthFrame& frame, const std::optional<Eigen::Vector4d>& floor,
                   const CompleteOptions& options, Person& person, Body& body, StageTimes& ms) {
   const auto start = Clock::now();
-  if (!person.reconstructor) person.reconstructor = recon::MakeReconstructor(options.reconstructor);
+  if (!person.reconstructor) person.reconstructor = MethodFor(body.id, options);
   recon::TrackedPosture seen = body.raw;
   if (body.looked && options.reconstructor.method == "best") seen.posture = *body.looked;
   const recon::TrackedPosture steady = person.steady.Step(seen, frame.time_s);
@@ -95,6 +102,7 @@ void CompleteBody(const depth::DepthFrame& frame, const std::optional<Eigen::Vec
       person.reconstructor->Step({steady, frame.time_s, &frame, body.looked_bones_m});
   body.reconstructed = result.posture;
   body.reliability = result.reliability;
+  body.bones_m = person.reconstructor->Bones();
   ms.reconstruct += MillisecondsSince(start);
   recon::Posture posture = body.reconstructed;
   if (options.physics) {

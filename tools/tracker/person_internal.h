@@ -1,4 +1,5 @@
 #pragma once
+#include <map>
 #include <memory>
 #include <optional>
 
@@ -40,7 +41,11 @@ struct CompleteOptions {
   MechanicsBuild mechanics;
   SmoothingOptions smoothing;
   recon::ReconstructorOptions reconstructor;
+  std::map<int, recon::BoneLengths> bones_m;  // known ones, by body id
 };
+
+/// The person's own method, which has the bones where they are known.
+std::unique_ptr<recon::Reconstructor> MethodFor(int id, const CompleteOptions& options);
 
 /// From the raw posture in `body` to its reconstructed and smoothed ones and its orientations.
 void CompleteBody(const depth::DepthFrame& frame, const std::optional<Eigen::Vector4d>& floor,

@@ -119,7 +119,9 @@ struct Tracker::Impl {
     }
     complete.reconstructor.best.looked = look != nullptr;
     complete.reconstructor.seed = o.seed;
+    complete.bones_m = o.bones_m;
     recon::MakeReconstructor(complete.reconstructor);  // says now what is wrong with the options
+    for (const auto& [id, lengths_m] : o.bones_m) MethodFor(id, complete);
     scene_options.max_depth_m = o.near_range ? 3.0F : 6.0F;
     ReturnFreedMemory();
   }
@@ -128,6 +130,7 @@ struct Tracker::Impl {
   std::vector<Found> Segment(const depth::DepthFrame& frame, BodyFrame& result);
   Known KnownOf(const depth::Candidate& candidate, double time_s) const;
   std::vector<Person*> PersonsOf(const std::vector<int>& ids, double time_s);
+  void Introduce(int id, Person& person) const;
   std::vector<float> ContextPrior(const Person& person, double time_s) const;
   void TrackBody(const depth::DepthFrame& frame, const std::optional<Eigen::Vector4d>& floor,
                  const Found& found, Person& person, Body& body, StageTimes& ms) const;
@@ -200,6 +203,16 @@ std::vector<Found> Tracker::Impl::Segment(const depth::DepthFrame& frame, BodyFr
   return found;
 }
 
+// Of somebody new: what is known already. A look judges the bones that the method ends with.
+void Tracker::Impl::Introduce(int id, Person& person) const {
+  constexpr int kFrames = 600;  // what is judged now changes little
+  person.id = id;
+  const auto known = options.bones_m.find(id);
+  if (known != options.bones_m.end() && complete.reconstructor.best.looked) {
+    person.bones = {known->second, kFrames};
+  }
+}
+
 std::vector<Person*> Tracker::Impl::PersonsOf(const std::vector<int>& ids, double time_s) {
   std::erase_if(people, [&](const auto& entry) {
     return time_s - entry.second.seen_s > scene_options.reidentify.forget_behind_s;
@@ -207,7 +220,7 @@ std::vector<Person*> Tracker::Impl::PersonsOf(const std::vector<int>& ids, doubl
   std::vector<Person*> persons;
   for (const int id : ids) {
     Person& person = people[id];
-    person.id = id;
+    if (person.id != id) Introduce(id, person);
     if (person.seen_s == 0.0 || person.seen_s > time_s) person.seen_s = time_s;
     persons.push_back(&person);
   }

@@ -3,6 +3,7 @@
 #include <array>
 #include <cstdint>
 #include <functional>
+#include <map>
 #include <memory>
 #include <optional>
 #include <string>
@@ -45,8 +46,9 @@ struct Body {
   recon::TrackedPosture raw;                             // what the image says, joint by joint
   std::optional<recon::Posture> looked;  // the raw joints after a close look, where there was one
   std::optional<recon::BoneLengths> looked_bones_m;  // what the look judges of this frame alone
-  recon::Posture reconstructed;  // made complete and bone-consistent by the method
-  recon::Posture smoothed;       // after physics and smoothing, seen joints held to the image
+  recon::Posture reconstructed;               // made complete and bone-consistent by the method
+  std::optional<recon::BoneLengths> bones_m;  // by all frames until now, of methods that keep bones
+  recon::Posture smoothed;  // after physics and smoothing, seen joints held to the image
   std::array<double, recon::kJointCount> reliability{};  // R_i of the raw joints
   recon::JointOrientations absolute_orientation;         // as the SDK defines them
   recon::JointOrientations hierarchical_orientation;
@@ -89,6 +91,9 @@ struct TrackerOptions {
   TrackingMode mode = TrackingMode::kStanding;
   bool near_range = false;  // the SDK's near mode: people from 0.4 to 3 m only
   int max_users = 6;
+  /// By body id, of people whose bones are known (Body::bones_m of a run before over the same
+  /// recording): they stay from the first frame to the last. Only for methods that keep bones.
+  std::map<int, recon::BoneLengths> bones_m;
   bool keep_parts = false;  // fill BodyFrame::parts
   int threads = 1;
   uint64_t seed = 1;

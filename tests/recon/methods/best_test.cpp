@@ -337,6 +337,43 @@ TEST(ReconstructSequence, WritesTheRevisedPosturesAndTheLastOneAsItIs) {
   EXPECT_EQ(made.frames[9].bodies.at(0).joints[7]->position_m, last.posture.position_m[7]);
 }
 
+// Two people, the second with a forearm that the first two frames have too long: bones by the whole
+// recording are nearer the truth, and the same in every frame.
+TEST(MeasureBones, OfARecordingAreKeptFromItsFirstFrameOn) {
+  SkeletonSequence sequence;
+  for (int f = 0; f < 60; ++f) {
+    SkeletonFrame frame;
+    frame.frame = f;
+    frame.time_s = f * kStep_s;
+    for (const int id : {4, 9}) {
+      Posture seen = At(frame.time_s);
+      if (id == 9 && f < 2) seen[Joint::kWristLeft].y() -= 0.15;
+      if (id == 9 && f < 2) seen[Joint::kHandLeft].y() -= 0.15;
+      BodyRecord& body = frame.bodies.emplace_back();
+      body.id = id;
+      for (size_t i = 0; i < kJointCount; ++i)
+        body.joints[i].emplace().position_m = seen.position_m[i];
+    }
+    sequence.frames.push_back(frame);
+  }
+  const BonesOfPeople bones = MeasureBones(sequence, {});
+  ASSERT_EQ(bones.size(), 2U);
+  const BoneLengths truth = BoneLengthsOf(At(0.0));
+  constexpr size_t kForearm = 6;
+  EXPECT_NEAR(bones.at(9)[kForearm], truth[kForearm], 0.02);
+  const auto forearms = [&](const SkeletonSequence& made) {
+    std::vector<double> lengths_m;
+    for (const SkeletonFrame& frame : made.frames)
+      lengths_m.push_back(BoneLengthsOf(TrackedPostureOf(frame.bodies.at(1)).posture)[kForearm]);
+    return lengths_m;
+  };
+  EXPECT_GT(forearms(ReconstructSequence(sequence, {})).front(), truth[kForearm] + 0.05);
+  for (const double length_m : forearms(ReconstructSequence(sequence, {}, {}, bones))) {
+    EXPECT_NEAR(length_m, bones.at(9)[kForearm], 1e-6);
+  }
+  EXPECT_TRUE(MeasureBones(sequence, {.method = "one-euro"}).empty());
+}
+
 TEST(WithBoneLengths, GivesExactLengthsAndMovesLessThanRetargeting) {
   const BoneLengths wanted = StandardBoneLengths();
   JointWeights weights;

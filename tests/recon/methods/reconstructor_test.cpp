@@ -27,10 +27,12 @@ std::vector<std::string> PlainMethods() {
 
 class EveryMethod : public testing::TestWithParam<std::string> {
  protected:
-  std::unique_ptr<Reconstructor> Make() const {
+  std::unique_ptr<Reconstructor> Make(
+      const std::optional<BoneLengths>& bones_m = std::nullopt) const {
     ReconstructorOptions options;
     options.method = GetParam();
     options.database = Database();
+    options.bones_m = bones_m;
     return MakeReconstructor(options);
   }
 };
@@ -144,6 +146,45 @@ TEST_P(MethodWithBones, KeepsBoneLengthsConstant) {
   }
 }
 
+// Whatever is seen, from the first frame on: a first frame with an arm too long, noise, somebody
+// else's size for seconds.
+TEST_P(MethodWithBones, KeepsBonesThatAreKnown) {
+  BoneLengths known = ScaledBoneLengths(1.1);
+  known[5] *= 0.9;
+  const auto method = Make(known);
+  std::mt19937_64 rng(5);
+  for (int f = 0; f < 150; ++f) {
+    Posture seen = test::InFrontOfCamera(test::Motion(f / 30.0), f > 60 ? 0.6 : 1.1);
+    if (f == 0) seen.position_m[7] += 0.4 * (seen.position_m[7] - seen.position_m[5]);
+    test::AddNoise(seen, 0.01, rng);
+    if (f == 30) method->Reset();
+    const auto lengths =
+        BoneLengthsOf(method->Step({test::AllTracked(seen), f / 30.0, nullptr}).posture);
+    for (size_t i = 1; i < kJointCount; ++i) {
+      ASSERT_NEAR(lengths[i], known[i], 1e-5) << f << " " << i;
+    }
+  }
+  EXPECT_EQ(method->Bones(), known);
+}
+
+// The first frame has the right arm half as long again; what is typical is told all the same.
+TEST_P(MethodWithBones, TellsTheBonesOfAllThatWasSeen) {
+  const auto method = Make();
+  std::mt19937_64 rng(5);
+  for (int f = 0; f < 60; ++f) {
+    Posture seen = test::InFrontOfCamera(test::Motion(f / 30.0), 1.1);
+    if (f == 0) seen.position_m[9] += 0.5 * (seen.position_m[9] - seen.position_m[8]);
+    test::AddNoise(seen, 0.005, rng);
+    method->Step({test::AllTracked(seen), f / 30.0, nullptr});
+  }
+  const auto bones = method->Bones();
+  ASSERT_TRUE(bones.has_value());
+  const BoneLengths truth = ScaledBoneLengths(1.1);
+  for (const size_t i : {5U, 6U, 9U, 10U, 13U, 14U, 17U, 18U}) {
+    EXPECT_NEAR((*bones)[i], truth[i], 0.05 * truth[i]) << i;
+  }
+}
+
 std::string NameOfCase(const testing::TestParamInfo<std::string>& info) {
   std::string name = info.param;
   std::erase(name, '-');
@@ -186,6 +227,19 @@ TEST(MakeReconstructor, NamesTheUnknownMethodAndTheMissingDatabase) {
   EXPECT_THROW(MakeReconstructor(options), InputError);
   options.method = "shum-2013";
   EXPECT_THROW(MakeReconstructor(options), InputError);
+}
+
+TEST(MakeReconstructor, RefusesBonesThatCannotBeAndMethodsThatKeepNone) {
+  ReconstructorOptions options;
+  options.bones_m = StandardBoneLengths();
+  EXPECT_NO_THROW(MakeReconstructor(options));
+  options.method = "one-euro";
+  EXPECT_THROW(MakeReconstructor(options), InputError);
+  options.method = "best";
+  for (const double impossible : {0.0, -0.1, 1e30, std::numeric_limits<double>::quiet_NaN()}) {
+    (*options.bones_m)[7] = impossible;
+    EXPECT_THROW(MakeReconstructor(options), InputError) << impossible;
+  }
 }
 
 }  // namespace

@@ -217,6 +217,27 @@ TEST_F(ReconstructCommand, HingesAndJointLimitsChangeWhatTheCharacterDoes) {
   EXPECT_LT(BoneDrift(hinged), 1e-4);
 }
 
+// The first frame has a forearm 15 cm too long, by which all others are made unless the whole
+// recording tells how long it is.
+TEST_F(ReconstructCommand, BonesByTheWholeRecordingAreTheSameInEveryFrame) {
+  const auto truth = Recording();
+  auto recording = truth;
+  for (const size_t joint : {size_t{6}, size_t{7}})
+    recording.frames[0].bodies[0].joints[joint]->position_m.y() -= 0.15;
+  recon::WriteSkeletons(in_, recording);
+  const auto forearm_m = [](const recon::SkeletonSequence& sequence) {
+    return recon::BoneLengthsOf(
+        recon::TrackedPostureOf(sequence.frames.front().bodies.at(0)).posture)[6];
+  };
+  const auto so_far = Made({"--bones", "so-far"}, "a.jsonl");
+  EXPECT_EQ(MeanDistance(Made({}, "b.jsonl"), so_far), 0.0);
+  EXPECT_GT(forearm_m(so_far), forearm_m(truth) + 0.05);
+  const auto whole = Made({"--bones", "recording"});
+  EXPECT_NEAR(forearm_m(whole), forearm_m(truth), 0.02);
+  EXPECT_LT(BoneDrift(whole), 1e-3);
+  EXPECT_LT(BoneDrift(Made({"--bones", "recording", "--physics", "on"}, "c.jsonl")), 1e-3);
+}
+
 TEST_F(ReconstructCommand, PhysicsOffIsTheDefault) {
   EXPECT_EQ(MeanDistance(Made({}, "a.jsonl"), Made({"--physics", "off"}, "b.jsonl")), 0.0);
 }
@@ -269,6 +290,11 @@ INSTANTIATE_TEST_SUITE_P(
         BadReconstruct{"control", {"IN", "--out", "OUT", "--control", "magic"}, 2, "--control"},
         BadReconstruct{"hinges", {"IN", "--out", "OUT", "--hinges"}, 2, "--physics"},
         BadReconstruct{"limits", {"IN", "--out", "OUT", "--joint-limits"}, 2, "--physics"},
+        BadReconstruct{"bones", {"IN", "--out", "OUT", "--bones", "mine"}, 2, "--bones"},
+        BadReconstruct{"bones_of_a_filter",
+                       {"IN", "--out", "OUT", "--bones", "recording", "--method", "holt"},
+                       2,
+                       "found holt"},
         BadReconstruct{"method", {"IN", "--out", "OUT", "--method", "guess"}, 2, "--method"},
         BadReconstruct{
             "nothing_learned", {"IN", "--out", "OUT", "--method", "full-gp"}, 2, "--learned"},

@@ -4,6 +4,7 @@
 #include <filesystem>
 #include <fstream>
 #include <nlohmann/json.hpp>
+#include <optional>
 #include <thread>
 
 #include "depth/image/depth_png.h"
@@ -228,6 +229,44 @@ TEST(TrackCommand, WrongUsageExitsWithTwo) {
       RunOssa({"track", ".", "--out", "x.jsonl", "--frames", "99999999999999999999"}).exit_status,
       2);
   EXPECT_EQ(RunOssa({"track", ".", "--out", "x.jsonl", "--method", "magic"}).exit_status, 2);
+}
+
+TEST(TrackCommand, BonesByTheWholeRecordingAreTheSameInEveryFrame) {
+  OSSA_NEEDS_MODEL();
+  const TemporaryFolder folder;
+  WriteWalk(folder / "in", 20);
+  const auto drift = [&](const char* bones) {
+    const auto out = folder / (std::string(bones) + ".jsonl");
+    const CommandResult result = TrackTo(folder / "in", out, {"--bones", bones}, "best");
+    EXPECT_EQ(result.exit_status, 0) << result.err;
+    double worst = 0.0;
+    std::optional<recon::BoneLengths> first;
+    for (const auto& frame : recon::ReadSkeletons(out.string()).frames) {
+      if (frame.bodies.empty()) continue;
+      const auto lengths_m = recon::BoneLengthsOf(recon::TrackedPostureOf(frame.bodies[0]).posture);
+      if (!first) first = lengths_m;
+      for (size_t i = 1; i < recon::kJointCount; ++i)
+        worst = std::max(worst, std::abs(lengths_m[i] / (*first)[i] - 1.0));
+    }
+    EXPECT_TRUE(first.has_value());
+    return worst;
+  };
+  EXPECT_GT(drift("so-far"), 1e-3);
+  EXPECT_LT(drift("recording"), 1e-3);
+}
+
+TEST(TrackCommand, BonesByTheWholeRecordingNeedARecordingAndAMethodThatKeepsThem) {
+  const TemporaryFolder folder;
+  WriteFlat(folder.path(), 3000, 1);
+  const auto out = folder / "x.jsonl";
+  CommandResult result = TrackTo(folder.path(), out, {"--bones", "recording"}, "kalman");
+  EXPECT_EQ(result.exit_status, 2);
+  EXPECT_NE(result.err.find("found kalman"), std::string::npos) << result.err;
+  result =
+      TrackTo("openni:ossa://" + folder.path().string(), out, {"--bones", "recording"}, "best");
+  EXPECT_EQ(result.exit_status, 2);
+  EXPECT_NE(result.err.find("expected a recording"), std::string::npos) << result.err;
+  EXPECT_FALSE(std::filesystem::exists(out));
 }
 
 TEST(TrackCommand, ADeviceThatDeliversNothingEndsTheRunAndTheFileIsWhole) {

@@ -64,12 +64,12 @@ Table GrossFailureTable(const ExperimentContext& context, const std::vector<std:
                    "wrong bones", "noticed, %", "doubted, %", "jitter, cm"};
   for (const auto& [source, clips] : Recordings(context)) {
     for (const std::string& method : methods) {
-      if (Learns(method) && method != "best") continue;  // nothing to learn from
+      if (Learns(method) && !IsBest(method)) continue;  // nothing to learn from
       GrossFailures raw, made;
       for (const recon::SkeletonSequence& clip : clips) {
         MethodRun run{method, options, {}};
         run.options.method = method;
-        const auto result = method == "raw" || method == "butterworth"
+        const auto result = method == "raw" || method == "butterworth" || method == kBestOffline
                                 ? RunMethod(clip, method, options)
                                 : RunMethod(context, run, clip);
         raw += CountGrossFailures(clip, result, clip);

@@ -64,7 +64,13 @@ recon::SkeletonSequence RunMethod(const recon::SkeletonSequence& observed,
                                   const std::string& method,
                                   const recon::ReconstructorOptions& options);
 
-/// Methods that need pairs to learn from.
+/// `best` with bones by the whole recording, of which each frame has the same: it looks ahead.
+inline constexpr const char* kBestOffline = "best-offline";
+
+/// best or best-offline.
+bool IsBest(const std::string& method);
+
+/// Methods that learn of pairs.
 bool Learns(const std::string& method);
 
 /// A row of the table of methods.

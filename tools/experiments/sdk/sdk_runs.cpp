@@ -79,7 +79,7 @@ recon::ReconstructorOptions LearnFold(const Fold& fold, const std::string& metho
   recon::ReconstructorOptions with = options;
   if (!Learns(method)) return with;
   recon::LearnOptions learn;
-  learn.processes = method != "best";
+  learn.processes = !IsBest(method);
   if (learn.processes) learn.correction.centres = 0;
   learn.mixture.seed = learn.correction.seed = options.seed;
   with.learned = std::make_shared<const recon::LearnedModels>(
@@ -120,8 +120,10 @@ std::vector<ClipMetrics> ClipsFromJson(const nlohmann::json& json) {
   return clips;
 }
 
+bool IsBest(const std::string& method) { return method == "best" || method == kBestOffline; }
+
 bool Learns(const std::string& method) {
-  return method == "liu-2016" || method == "full-gp" || method == "exemplar" || method == "best";
+  return method == "liu-2016" || method == "full-gp" || method == "exemplar" || IsBest(method);
 }
 
 std::vector<Fold> LeaveOneSubjectOut(const std::vector<RecordedPair>& pairs,
@@ -169,8 +171,10 @@ recon::SkeletonSequence RunMethod(const recon::SkeletonSequence& observed,
   if (method == "raw") return observed;
   if (method == "butterworth") return recon::ButterworthSequence(observed);
   recon::ReconstructorOptions with = options;
-  with.method = method;
-  return recon::ReconstructSequence(observed, with);
+  with.method = IsBest(method) ? "best" : method;
+  recon::BonesOfPeople bones;
+  if (method == kBestOffline) bones = recon::MeasureBones(observed, with);
+  return recon::ReconstructSequence(observed, with, {}, bones);
 }
 
 MethodScore RunFolds(ExperimentContext& context, const std::string& data,
