@@ -1,5 +1,7 @@
 #include "recon/skeleton_sequence.h"
 
+#include <algorithm>
+
 namespace ossa::recon {
 namespace {
 
@@ -9,6 +11,15 @@ double ConfidenceOf(TrackingState state) {
 }
 
 }  // namespace
+
+std::optional<int> RepeatedBody(const SkeletonFrame& frame) {
+  for (auto body = frame.bodies.begin(); body != frame.bodies.end(); ++body) {
+    const bool repeats = std::any_of(frame.bodies.begin(), body,
+                                     [&](const BodyRecord& other) { return other.id == body->id; });
+    if (repeats) return body->id;
+  }
+  return std::nullopt;
+}
 
 TrackedPosture TrackedPostureOf(const BodyRecord& body) {
   TrackedPosture tracked;

@@ -47,6 +47,9 @@ constexpr const char* kKinectV2 = "Kinect v2";
 /// ossa's own joints after a close look, `ossa track --posture looked`: nothing else judges bones.
 constexpr const char* kCloseLook = "close look";
 
+/// The id that two bodies of the frame have, if any: a damaged file.
+std::optional<int> RepeatedBody(const SkeletonFrame& frame);
+
 /// A body record as the trackers' type: absent joints are not tracked; a joint without a state
 /// counts as tracked; a joint without confidence gets 1 (tracked), 0.5 (inferred) or 0.
 TrackedPosture TrackedPostureOf(const BodyRecord& body);

@@ -20,7 +20,7 @@ struct PosturePair {
   // Where and when it was seen: camera = placement of scale times normalised.
   Placement placement;
   double scale = 1.0, time_s = 0.0;
-  int clip = 0;  // pairs of one clip are one person's, in the order of time
+  int clip = 0;  // pairs of one clip follow each other: one person's, in the order of time
 };
 
 /// At most so many, evenly spread.

@@ -305,8 +305,9 @@ class Best : public Reconstructor {
   /// In [0, 1]: 0 for a joint the sensor says nothing of.
   double FairGuess(const ReconstructionInput& input, size_t joint) const {
     if (input.observed.state[joint] == TrackingState::kNotTracked) return 0.0;
-    return std::clamp(input.observed.confidence[joint] / GuessesOf(input).fair_confidence, 0.0,
-                      1.0);
+    const double confidence = input.observed.confidence[joint];
+    if (!std::isfinite(confidence)) return 0.0;
+    return std::clamp(confidence / GuessesOf(input).fair_confidence, 0.0, 1.0);
   }
 
   /// Where the joint is when it hangs on its parent in `target` as it does in `posture`.

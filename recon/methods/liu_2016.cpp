@@ -113,6 +113,12 @@ class Liu2016 : public OffsetReconstructor {
   explicit Liu2016(const ReconstructorOptions& options)
       : OffsetReconstructor(options), mixtures_(models_->mixtures) {}
 
+  void Reset() override {
+    OffsetReconstructor::Reset();
+    mixtures_ = models_->mixtures;
+    sample_ = 0;
+  }
+
  protected:
   OffsetPrediction Predict(const PreparedPosture& prepared, size_t joint) override {
     const LocalMixture& mixture = mixtures_[joint];

@@ -2,7 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <map>
+#include <optional>
 
 #include "recon/methods/person_internal.h"
 
@@ -10,82 +12,142 @@ namespace ossa::recon {
 namespace {
 
 constexpr double kSameTime_s = 0.02;
+// Nobody knows what a limb did between frames farther apart.
+constexpr double kLongestStep_s = 0.1;
 // Farther off than this the observation shows another limb; there is no offset to learn from it.
 constexpr double kFarthestResidual_m = 0.5;
 
-/// The truth frame of each observed frame, or null.
-std::vector<const SkeletonFrame*> Matched(const SkeletonSequence& observed,
-                                          const SkeletonSequence& truth) {
-  std::map<int64_t, const SkeletonFrame*> by_number;
-  std::map<double, const SkeletonFrame*> by_time;
-  for (const SkeletonFrame& frame : truth.frames) {
-    by_number[frame.frame] = &frame;
-    by_time[frame.time_s] = &frame;
+/// The truth at one moment: between two frames; of one alone both are the same. Empty: not known.
+struct TrueMoment {
+  const SkeletonFrame* before = nullptr;
+  const SkeletonFrame* after = nullptr;
+  double share = 0.0;  // of the way from `before` to `after`
+};
+
+/// Frames of the same number. Nothing where numbers and times do not tell the same story: of
+/// recordings of two rates all numbers are shared, and all but the first frame are other moments.
+/// Clocks may drift apart where the recordings have all frames in common.
+std::vector<TrueMoment> ByNumber(const SkeletonSequence& observed, const SkeletonSequence& truth) {
+  constexpr double kDrift_s = 0.5;
+  std::map<int64_t, const SkeletonFrame*> numbered;
+  for (const SkeletonFrame& frame : truth.frames) numbered[frame.frame] = &frame;
+  std::vector<TrueMoment> moments(observed.frames.size());
+  size_t same = 0, drifted = 0;
+  for (size_t f = 0; f < moments.size(); ++f) {
+    const auto found = numbered.find(observed.frames[f].frame);
+    if (found == numbered.end()) continue;
+    const double apart_s = std::abs(found->second->time_s - observed.frames[f].time_s);
+    same += apart_s <= kSameTime_s ? 1 : 0;
+    drifted += apart_s < kDrift_s ? 1 : 0;
+    if (apart_s < kDrift_s) moments[f] = {found->second, found->second, 0.0};
   }
-  std::vector<const SkeletonFrame*> matched;
-  size_t found = 0;
-  for (const SkeletonFrame& frame : observed.frames) {
-    const auto it = by_number.find(frame.frame);
-    const bool same = it != by_number.end() &&
-                      std::abs(it->second->time_s - frame.time_s) < 0.5;  // numbering that agrees
-    matched.push_back(same ? it->second : nullptr);
-    found += same ? 1 : 0;
-  }
-  if (found > 0) return matched;
-  for (size_t i = 0; i < matched.size(); ++i) {
-    const double time_s = observed.frames[i].time_s;
-    const auto it = by_time.lower_bound(time_s - kSameTime_s);
-    if (it != by_time.end() && it->first <= time_s + kSameTime_s) matched[i] = it->second;
-  }
-  return matched;
+  const size_t all = moments.size();
+  const bool as_many = numbered.size() == all && truth.frames.size() == all;
+  if (10 * same >= 9 * all || (as_many && drifted == all)) return moments;
+  return {};
 }
 
-const BodyRecord* BodyOf(const SkeletonFrame& frame, int id) {
-  for (const BodyRecord& body : frame.bodies) {
-    if (body.id == id) return &body;
+std::vector<TrueMoment> ByTime(const SkeletonSequence& observed, const SkeletonSequence& truth) {
+  std::map<double, const SkeletonFrame*> timed;
+  for (const SkeletonFrame& frame : truth.frames) timed[frame.time_s] = &frame;
+  std::vector<TrueMoment> moments;
+  for (const SkeletonFrame& frame : observed.frames) {
+    TrueMoment& moment = moments.emplace_back();
+    const auto after = timed.lower_bound(frame.time_s);
+    if (after != timed.end() && after->first <= frame.time_s + kSameTime_s)
+      moment = {after->second, after->second, 0.0};
+    if (after == timed.begin() || (moment.after && after->first == frame.time_s)) continue;
+    const auto before = std::prev(after);
+    if (after != timed.end() && after->first - before->first <= kLongestStep_s) {
+      moment = {before->second, after->second,
+                (frame.time_s - before->first) / (after->first - before->first)};
+    } else if (before->first >= frame.time_s - kSameTime_s) {
+      moment = {before->second, before->second, 0.0};
+    }
   }
-  return frame.bodies.empty() ? nullptr : &frame.bodies.front();
+  return moments;
 }
+
+const JointRecord* JointOf(const SkeletonFrame& frame, int id, size_t joint) {
+  const BodyRecord* of = frame.bodies.empty() ? nullptr : &frame.bodies.front();
+  for (const BodyRecord& body : frame.bodies) {
+    if (body.id == id) of = &body;
+  }
+  if (of == nullptr || !of->joints[joint]) return nullptr;
+  const JointRecord& record = *of->joints[joint];
+  return record.state == TrackingState::kNotTracked ? nullptr : &record;
+}
+
+std::optional<Eigen::Vector3d> TrueJoint(const TrueMoment& moment, int id, size_t joint) {
+  if (moment.before == nullptr) return std::nullopt;
+  const JointRecord* before = JointOf(*moment.before, id, joint);
+  const JointRecord* after = JointOf(*moment.after, id, joint);
+  if (before == nullptr || after == nullptr) return std::nullopt;
+  return Eigen::Vector3d(before->position_m +
+                         moment.share * (after->position_m - before->position_m));
+}
+
+/// What was observed of a body in one frame beside what was true. Nothing where too few joints are
+/// known.
+std::optional<PosturePair> PairOf(const PreparedPosture& prepared, const TrueMoment& moment,
+                                  int id) {
+  constexpr double kFewest = 4.0;
+  Posture truth_in_camera = prepared.in_camera;
+  PosturePair pair;
+  double known = 0.0;
+  for (size_t i = 0; i < kJointCount; ++i) {
+    const auto p = prepared.present[i] > 0.0 ? TrueJoint(moment, id, i) : std::nullopt;
+    if (!p) continue;
+    const double off_m = (*p - prepared.in_camera.position_m[i]).norm();
+    pair.worst_m = std::max(pair.worst_m, off_m);
+    if (!(off_m < kFarthestResidual_m)) continue;
+    truth_in_camera.position_m[i] = *p;
+    pair.known[i] = 1.0;
+    known += 1.0;
+  }
+  if (known < kFewest) return std::nullopt;
+  pair.observed = prepared.scaled;
+  pair.placement = prepared.placement;
+  pair.scale = prepared.scale;
+  const Posture true_scaled =
+      Scaled(Normalised(truth_in_camera, prepared.placement), 1.0 / prepared.scale);
+  for (size_t i = 0; i < kJointCount; ++i) {
+    pair.residual.position_m[i] = true_scaled.position_m[i] - prepared.scaled.position_m[i];
+  }
+  return pair;
+}
+
+/// A person who is observed, with pairs in the order of time.
+struct Observed {
+  Person person;
+  std::vector<PosturePair> pairs;
+};
 
 }  // namespace
 
 size_t AddPairs(const SkeletonSequence& observed, const SkeletonSequence& truth,
                 std::vector<PosturePair>& pairs, int group) {
-  const auto matched = Matched(observed, truth);
-  const size_t before = pairs.size();
-  std::map<int, Person> people;
-  std::map<int, int> clips;
-  for (size_t f = 0; f < matched.size(); ++f) {
+  std::vector<TrueMoment> moments = ByNumber(observed, truth);
+  if (moments.empty()) moments = ByTime(observed, truth);
+  std::map<int, Observed> people;
+  for (size_t f = 0; f < moments.size(); ++f) {
+    const double time_s = observed.frames[f].time_s;
     for (const BodyRecord& body : observed.frames[f].bodies) {
+      Observed& one = people[body.id];
       const PreparedPosture prepared =
-          people[body.id].Prepare({TrackedPostureOf(body), observed.frames[f].time_s, nullptr});
-      const BodyRecord* true_body = matched[f] ? BodyOf(*matched[f], body.id) : nullptr;
-      if (true_body == nullptr) continue;
-      Posture truth_in_camera = prepared.in_camera;
-      PosturePair pair;
-      pair.group = group;
-      double known = 0.0;
-      for (size_t i = 0; i < kJointCount; ++i) {
-        if (!true_body->joints[i] || prepared.present[i] == 0.0) continue;
-        const Eigen::Vector3d& p = true_body->joints[i]->position_m;
-        const double off_m = (p - prepared.in_camera.position_m[i]).norm();
-        pair.worst_m = std::max(pair.worst_m, off_m);
-        if (!(off_m < kFarthestResidual_m)) continue;
-        truth_in_camera.position_m[i] = p;
-        pair.known[i] = 1.0;
-        known += 1.0;
-      }
-      if (known < 4.0) continue;
-      pair.observed = prepared.scaled;
-      pair.placement = prepared.placement;
-      pair.scale = prepared.scale;
-      pair.time_s = observed.frames[f].time_s;
-      pair.clip = clips.try_emplace(body.id, static_cast<int>(pairs.size())).first->second;
-      const Posture true_scaled =
-          Scaled(Normalised(truth_in_camera, prepared.placement), 1.0 / prepared.scale);
-      for (size_t i = 0; i < kJointCount; ++i) {
-        pair.residual.position_m[i] = true_scaled.position_m[i] - prepared.scaled.position_m[i];
-      }
+          one.person.Prepare({TrackedPostureOf(body), time_s, nullptr});
+      auto pair = PairOf(prepared, moments[f], body.id);
+      if (!pair) continue;
+      pair->group = group;
+      pair->time_s = time_s;
+      one.pairs.push_back(*pair);
+    }
+  }
+  const size_t before = pairs.size();
+  for (auto& [id, one] : people) {
+    const int clip = static_cast<int>(pairs.size());
+    for (PosturePair& pair : one.pairs) {
+      pair.clip = clip;
       pairs.push_back(pair);
     }
   }

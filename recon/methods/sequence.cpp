@@ -1,8 +1,14 @@
 #include "recon/methods/sequence.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <map>
+
+#include "depth/error.h"
+#include "recon/gp/learned_models.h"
+#include "recon/methods/methods_internal.h"
 
 namespace ossa::recon {
 namespace {
@@ -39,17 +45,59 @@ std::vector<Eigen::Vector3d> LowPass(const std::vector<Eigen::Vector3d>& x, doub
   return y;
 }
 
+// Who comes back later under the same id is measured anew.
+constexpr double kForgotten_s = 60.0;
+
 /// A person, and where the posture of the last frame was written: it may be revised.
 struct Follower {
   std::unique_ptr<Reconstructor> method;
   TrackedPosture observed;
+  double seen_s = 0.0;
   size_t frame = 0, body = 0;
 };
 
+/// A joint of a person for as long as it is there.
 struct Track {
-  std::vector<JointRecord*> joints;  // present ones, in time order
+  std::vector<JointRecord*> joints;  // in time order
   std::vector<double> time_s;
 };
+
+double MedianStep_s(const SkeletonSequence& sequence) {
+  std::vector<double> steps;
+  for (size_t f = 1; f < sequence.frames.size(); ++f)
+    steps.push_back(sequence.frames[f].time_s - sequence.frames[f - 1].time_s);
+  if (steps.empty()) return 0.0;
+  const auto middle = steps.begin() + static_cast<ptrdiff_t>(steps.size() / 2);
+  std::nth_element(steps.begin(), middle, steps.end());
+  return *middle;
+}
+
+/// Every joint of every person, anew after an absence of a few frames: what comes after it is not
+/// the next sample of what was before.
+std::vector<Track> TracksOf(SkeletonSequence& sequence) {
+  constexpr double kGap_frames = 3.5;
+  const double gap_s = kGap_frames * MedianStep_s(sequence);
+  std::vector<Track> tracks;
+  std::map<std::pair<int, size_t>, size_t> latest;
+  for (SkeletonFrame& frame : sequence.frames) {
+    for (BodyRecord& body : frame.bodies) {
+      for (size_t i = 0; i < kJointCount; ++i) {
+        auto& joint = body.joints[i];
+        // What a sensor does not see lies anywhere, at the camera as a rule.
+        if (joint && joint->state == TrackingState::kNotTracked) joint.reset();
+        if (!joint) continue;
+        const auto [found, is_new] = latest.try_emplace({body.id, i}, tracks.size());
+        if (is_new || frame.time_s - tracks[found->second].time_s.back() > gap_s) {
+          found->second = tracks.size();
+          tracks.emplace_back();
+        }
+        tracks[found->second].joints.push_back(&*joint);
+        tracks[found->second].time_s.push_back(frame.time_s);
+      }
+    }
+  }
+  return tracks;
+}
 
 std::unique_ptr<Reconstructor> MethodFor(int person, const ReconstructorOptions& options,
                                          const BonesOfPeople& bones) {
@@ -60,14 +108,29 @@ std::unique_ptr<Reconstructor> MethodFor(int person, const ReconstructorOptions&
   return MakeReconstructor(with);
 }
 
-/// As ReconstructSequence; `people`: what the methods are at the end, by body id.
-SkeletonSequence Run(const SkeletonSequence& sequence, const ReconstructorOptions& options,
+/// As ReconstructSequence. `measured`, if given: bones as the methods tell them in the end.
+SkeletonSequence Run(const SkeletonSequence& sequence, ReconstructorOptions options,
                      const std::function<bool(size_t)>& progress, const BonesOfPeople& bones,
-                     std::map<int, Follower>& people) {
-  MakeReconstructor(options);  // complain before any work
+                     BonesOfPeople* measured) {
+  options.learned = LearnedOf(options);  // read once, not for each person
+  MakeReconstructor(options);            // complain before any work
+  std::map<int, Follower> people;
+  const auto tell_bones = [&](int id, const Follower& person) {
+    const auto lengths_m = person.method->Bones();
+    if (measured != nullptr && lengths_m) (*measured)[id] = *lengths_m;
+  };
   SkeletonSequence out;
   out.source = sequence.source;
   for (const SkeletonFrame& frame : sequence.frames) {
+    if (const auto id = RepeatedBody(frame)) {
+      throw InputError(fmt::format("{}: frame {}: expected each body once, found two of id {}",
+                                   sequence.source, frame.frame, *id));
+    }
+    std::erase_if(people, [&](const auto& entry) {
+      const bool gone = frame.time_s - entry.second.seen_s > kForgotten_s;
+      if (gone) tell_bones(entry.first, entry.second);
+      return gone;
+    });
     SkeletonFrame made = frame;
     made.bodies.clear();
     for (const BodyRecord& body : frame.bodies) {
@@ -80,6 +143,7 @@ SkeletonSequence Run(const SkeletonSequence& sequence, const ReconstructorOption
         written = Reconstructed(written, person.observed, *revised);
       }
       person.observed = observed;
+      person.seen_s = frame.time_s;
       person.frame = out.frames.size();
       person.body = made.bodies.size();
       made.bodies.push_back(Reconstructed(body, observed, now));
@@ -87,6 +151,7 @@ SkeletonSequence Run(const SkeletonSequence& sequence, const ReconstructorOption
     out.frames.push_back(std::move(made));
     if (progress && !progress(out.frames.size())) break;
   }
+  for (const auto& [id, person] : people) tell_bones(id, person);
   return out;
 }
 
@@ -96,36 +161,19 @@ SkeletonSequence ReconstructSequence(const SkeletonSequence& sequence,
                                      const ReconstructorOptions& options,
                                      const std::function<bool(size_t)>& progress,
                                      const BonesOfPeople& bones) {
-  std::map<int, Follower> people;
-  return Run(sequence, options, progress, bones, people);
+  return Run(sequence, options, progress, bones, nullptr);
 }
 
 BonesOfPeople MeasureBones(const SkeletonSequence& sequence, const ReconstructorOptions& options,
                            const std::function<bool(size_t)>& progress) {
   BonesOfPeople bones;
-  if (!KeepsBones(options.method)) return bones;
-  std::map<int, Follower> people;
-  Run(sequence, options, progress, {}, people);
-  for (const auto& [id, person] : people) {
-    if (const auto lengths_m = person.method->Bones()) bones[id] = *lengths_m;
-  }
+  if (KeepsBones(options.method)) Run(sequence, options, progress, {}, &bones);
   return bones;
 }
 
 SkeletonSequence ButterworthSequence(const SkeletonSequence& sequence, double cutoff_hz) {
   SkeletonSequence out = sequence;
-  std::map<std::pair<int, size_t>, Track> tracks;
-  for (SkeletonFrame& frame : out.frames) {
-    for (BodyRecord& body : frame.bodies) {
-      for (size_t i = 0; i < kJointCount; ++i) {
-        if (!body.joints[i]) continue;
-        Track& track = tracks[{body.id, i}];
-        track.joints.push_back(&*body.joints[i]);
-        track.time_s.push_back(frame.time_s);
-      }
-    }
-  }
-  for (auto& [key, track] : tracks) {
+  for (Track& track : TracksOf(out)) {
     const size_t n = track.joints.size();
     if (n < 3 || !(track.time_s.back() > track.time_s.front())) continue;
     const double step_s = (track.time_s.back() - track.time_s.front()) / static_cast<double>(n - 1);

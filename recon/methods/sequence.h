@@ -13,10 +13,11 @@ using BonesOfPeople = std::map<int, BoneLengths>;
 
 /// Runs one Reconstructor a person (by body id) over a recording, frame by frame in its order. A
 /// frame holds what the method thinks of it a frame later, where the method revises.
-/// Frames without bodies stay empty. Each joint comes out with a position, its reliability and a
-/// state: tracked stays, everything that was made up is inferred. `progress` (may be empty) is
-/// called with the number of frames done and returns false to stop. `bones`: of the people whose
-/// bones are known, in place of options.bones_m.
+/// Frames without bodies stay empty; who was away for a minute is somebody new. Each joint comes
+/// out with a position, its reliability and a state: tracked stays, everything that was made up is
+/// inferred. `progress` (may be empty) is called with the number of frames done and returns false
+/// to stop. `bones`: of the people whose bones are known, in place of options.bones_m. Throws
+/// InputError as MakeReconstructor does, and where a frame has two bodies of one id.
 SkeletonSequence ReconstructSequence(const SkeletonSequence& sequence,
                                      const ReconstructorOptions& options,
                                      const std::function<bool(size_t)>& progress = {},
@@ -28,7 +29,8 @@ BonesOfPeople MeasureBones(const SkeletonSequence& sequence, const Reconstructor
                            const std::function<bool(size_t)>& progress = {});
 
 /// Offline, for comparison only: second-order Butterworth low pass run forwards and backwards over
-/// every joint (zero phase). Absent joints stay absent.
+/// every joint (zero phase), anew after an absence. Joints that are absent or not tracked are
+/// absent.
 SkeletonSequence ButterworthSequence(const SkeletonSequence& sequence, double cutoff_hz = 6.0);
 
 }  // namespace ossa::recon

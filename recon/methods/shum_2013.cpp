@@ -11,7 +11,14 @@ namespace {
 
 class Shum2013 : public NaturalPostureMethod {
  public:
-  using NaturalPostureMethod::NaturalPostureMethod;
+  explicit Shum2013(const ReconstructorOptions& options)
+      : NaturalPostureMethod(options), given_(database_) {}
+
+  void Reset() override {
+    NaturalPostureMethod::Reset();
+    database_ = given_;
+    added_ = 0;
+  }
 
  private:
   /// Sec. V-B: the K nearest of all postures under eq. 9.
@@ -43,6 +50,7 @@ class Shum2013 : public NaturalPostureMethod {
     ++added_;
   }
 
+  std::shared_ptr<const PostureDatabase> given_;  // without what was added
   int added_ = 0;
 };
 

@@ -113,8 +113,10 @@ struct Tracker::Impl {
     complete.reconstructor.database = LoadDatabase(o);
     complete.reconstructor.prior = PriorFor(o.method, o.prior, o.database);
     const bool none = o.learned == "none";
-    complete.reconstructor.learned_file = none ? "" : o.learned;
-    if (complete.reconstructor.learned_file.empty() && o.method == "best") {
+    if (!none && !o.learned.empty()) {
+      complete.reconstructor.learned =
+          std::make_shared<recon::LearnedModels>(recon::LearnedModels::Load(o.learned));
+    } else if (o.method == "best") {
       complete.reconstructor.learned = LearnedOf(o, look != nullptr && !none);
     }
     complete.reconstructor.best.looked = look != nullptr;

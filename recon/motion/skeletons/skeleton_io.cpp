@@ -99,6 +99,15 @@ void CheckPlaces(const SkeletonSequence& sequence, const std::string& name) {
   }
 }
 
+void CheckBodies(const SkeletonSequence& sequence, const std::string& name) {
+  for (const SkeletonFrame& frame : sequence.frames) {
+    const auto id = RepeatedBody(frame);
+    if (!id) continue;
+    throw InputError(fmt::format("{}: frame {}: expected each body once, found two of id {}", name,
+                                 frame.frame, *id));
+  }
+}
+
 bool IsOfACloseLook(const SkeletonSequence& sequence) {
   return std::any_of(sequence.frames.begin(), sequence.frames.end(), [](const auto& frame) {
     return std::any_of(frame.bodies.begin(), frame.bodies.end(),
@@ -131,6 +140,7 @@ SkeletonSequence Read(SkeletonInput input, const SkeletonReadOptions& options) {
   const SkeletonFormat& format =
       options.format.empty() ? FormatOf(input.stream, input.name) : FormatNamed(options.format);
   SkeletonSequence sequence = format.read(input);
+  CheckBodies(sequence, input.name);
   CheckPlaces(sequence, input.name);
   CheckTimes(sequence, input.name);
   if (IsKinectV2(format.name, input.columns)) sequence.sensor = kKinectV2;

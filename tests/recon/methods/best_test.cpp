@@ -11,7 +11,6 @@
 #include "recon/filters/lag_filter_internal.h"
 #include "recon/methods/bone_projection.h"
 #include "recon/methods/reconstructor.h"
-#include "recon/methods/sequence.h"
 #include "tests/recon/synthetic_motion.h"
 
 namespace ossa::recon {
@@ -72,6 +71,22 @@ TEST(Best, TakesNanForMissing) {
   const auto made = StepOn(*method, observed, t);
   EXPECT_EQ(made.reliability[7], 0.0);
   EXPECT_LT(test::MeanDistance_m(made.posture, At(t)), 0.05);
+}
+
+// One guess without a number for its confidence must not stay in a filter for good.
+TEST(Best, TakesAConfidenceThatIsNoNumberForNone) {
+  const auto method = MakeBestOne();
+  double t = SeenWell(*method);
+  TrackedPosture guess = test::AllTracked(At(t));
+  guess.state[5] = TrackingState::kInferred;
+  guess.confidence[5] = std::numeric_limits<double>::quiet_NaN();
+  StepOn(*method, guess, t);
+  ReconstructedPosture made;
+  for (int f = 0; f < 30; ++f) {
+    t += kStep_s;
+    made = StepOn(*method, test::AllTracked(At(t)), t);
+  }
+  EXPECT_LT(test::MeanDistance_m(made.posture, At(t)), 0.01);
 }
 
 TEST(Best, FollowsAGuessLittleThatNoDepthImageWasHeldAgainst) {
@@ -310,68 +325,6 @@ TEST(Best, ThinksBetterOfAFrameWhenItHasSeenTheNext) {
     }
   }
   EXPECT_LT(revised_m, 0.9 * now_m);
-}
-
-TEST(ReconstructSequence, WritesTheRevisedPosturesAndTheLastOneAsItIs) {
-  SkeletonSequence sequence;
-  for (int f = 0; f < 10; ++f) {
-    SkeletonFrame frame;
-    frame.frame = f;
-    frame.time_s = f * kStep_s;
-    frame.bodies.resize(1);
-    for (size_t i = 0; i < kJointCount; ++i) {
-      frame.bodies[0].joints[i].emplace().position_m = At(frame.time_s).position_m[i];
-    }
-    sequence.frames.push_back(frame);
-  }
-  const auto made = ReconstructSequence(sequence, {});
-  const auto method = MakeReconstructor({});
-  ReconstructedPosture last;
-  for (size_t f = 0; f < 10; ++f) {
-    last = method->Step(
-        {TrackedPostureOf(sequence.frames[f].bodies[0]), sequence.frames[f].time_s, nullptr});
-    if (f == 0) continue;
-    const auto& written = made.frames[f - 1].bodies.at(0).joints[7]->position_m;
-    EXPECT_EQ(written, method->Revised()->posture.position_m[7]) << f;
-  }
-  EXPECT_EQ(made.frames[9].bodies.at(0).joints[7]->position_m, last.posture.position_m[7]);
-}
-
-// Two people, the second with a forearm that the first two frames have too long: bones by the whole
-// recording are nearer the truth, and the same in every frame.
-TEST(MeasureBones, OfARecordingAreKeptFromItsFirstFrameOn) {
-  SkeletonSequence sequence;
-  for (int f = 0; f < 60; ++f) {
-    SkeletonFrame frame;
-    frame.frame = f;
-    frame.time_s = f * kStep_s;
-    for (const int id : {4, 9}) {
-      Posture seen = At(frame.time_s);
-      if (id == 9 && f < 2) seen[Joint::kWristLeft].y() -= 0.15;
-      if (id == 9 && f < 2) seen[Joint::kHandLeft].y() -= 0.15;
-      BodyRecord& body = frame.bodies.emplace_back();
-      body.id = id;
-      for (size_t i = 0; i < kJointCount; ++i)
-        body.joints[i].emplace().position_m = seen.position_m[i];
-    }
-    sequence.frames.push_back(frame);
-  }
-  const BonesOfPeople bones = MeasureBones(sequence, {});
-  ASSERT_EQ(bones.size(), 2U);
-  const BoneLengths truth = BoneLengthsOf(At(0.0));
-  constexpr size_t kForearm = 6;
-  EXPECT_NEAR(bones.at(9)[kForearm], truth[kForearm], 0.02);
-  const auto forearms = [&](const SkeletonSequence& made) {
-    std::vector<double> lengths_m;
-    for (const SkeletonFrame& frame : made.frames)
-      lengths_m.push_back(BoneLengthsOf(TrackedPostureOf(frame.bodies.at(1)).posture)[kForearm]);
-    return lengths_m;
-  };
-  EXPECT_GT(forearms(ReconstructSequence(sequence, {})).front(), truth[kForearm] + 0.05);
-  for (const double length_m : forearms(ReconstructSequence(sequence, {}, {}, bones))) {
-    EXPECT_NEAR(length_m, bones.at(9)[kForearm], 1e-6);
-  }
-  EXPECT_TRUE(MeasureBones(sequence, {.method = "one-euro"}).empty());
 }
 
 TEST(WithBoneLengths, GivesExactLengthsAndMovesLessThanRetargeting) {

@@ -127,6 +127,24 @@ std::string NameOfCase(const testing::TestParamInfo<std::string>& info) {
   return name;
 }
 
+// What was learned on of one person is not the next one's.
+TEST(Liu2016, ForgetsWhatItLearnedOfAPersonWhenReset) {
+  ReconstructorOptions options;
+  options.method = "liu-2016";
+  options.learned = LowHand();
+  const auto used = MakeReconstructor(options), fresh = MakeReconstructor(options);
+  const auto step = [](Reconstructor& method, int f) {
+    const Posture seen = test::InFrontOfCamera(test::Motion(f / 30.0));
+    return method.Step({test::AllTracked(seen), f / 30.0, nullptr}).posture;
+  };
+  for (int f = 0; f < 3000; ++f) step(*used, f);
+  used->Reset();
+  for (int f = 0; f < 30; ++f) {
+    const Posture one = step(*used, f), two = step(*fresh, f);
+    for (size_t i = 0; i < kJointCount; ++i) ASSERT_EQ(one.position_m[i], two.position_m[i]) << f;
+  }
+}
+
 INSTANTIATE_TEST_SUITE_P(Methods, LearnedMethod, testing::Values("liu-2016", "full-gp", "exemplar"),
                          NameOfCase);
 

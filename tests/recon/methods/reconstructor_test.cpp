@@ -72,6 +72,27 @@ TEST_P(EveryMethod, GivesTheSamePosturesForTheSameSeed) {
   }
 }
 
+TEST_P(EveryMethod, ForgetsAllOfThePersonWhenReset) {
+  ReconstructorOptions options;
+  options.method = GetParam();
+  options.database = Database();
+  options.local_pca.extend_database = true;
+  const auto used = MakeReconstructor(options), fresh = MakeReconstructor(options);
+  for (int f = 0; f < 60; ++f) {  // with a bowed head, which joins the database
+    Posture seen = test::InFrontOfCamera(test::Motion(f / 30.0), 1.2);
+    seen[Joint::kHead] -= Eigen::Vector3d(0.0, 0.15, 0.15);
+    used->Step({test::AllTracked(seen), f / 30.0, nullptr});
+  }
+  used->Reset();
+  for (int f = 0; f < 20; ++f) {
+    const auto seen = test::AllTracked(test::InFrontOfCamera(test::Motion(f / 30.0)));
+    const auto one = used->Step({seen, f / 30.0, nullptr});
+    const auto two = fresh->Step({seen, f / 30.0, nullptr});
+    for (size_t i = 0; i < kJointCount; ++i)
+      ASSERT_EQ(one.posture.position_m[i], two.posture.position_m[i]) << f << " " << i;
+  }
+}
+
 TEST_P(EveryMethod, SurvivesWhatNoSensorShouldSay) {
   const auto method = Make();
   const double nan = std::numeric_limits<double>::quiet_NaN();
