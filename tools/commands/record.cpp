@@ -64,9 +64,8 @@ RecordOptions ParseOptions(int argc, char** argv) {
 
 // Takes frames until the source ends, the time is up, Ctrl-C comes or a device is given up.
 template <typename Recorder>
-Recorded RecordFrames(depth::FrameSource& source, const RecordOptions& options,
-                      Recorder& recorder) {
-  Recorded recorded;
+void RecordFrames(depth::FrameSource& source, const RecordOptions& options, Recorder& recorder,
+                  Recorded& recorded) {
   Progress progress("recording", options.quiet);
   auto last_frame_at = Clock::now();
   std::optional<double> first_time_s;
@@ -91,7 +90,6 @@ Recorded RecordFrames(depth::FrameSource& source, const RecordOptions& options,
       break;
     }
   }
-  return recorded;
 }
 
 // A device that goes for good ends a recording; only one that was to be longer has failed then.
@@ -111,9 +109,20 @@ int Report(const RecordOptions& options, const Recorded& recorded) {
   return 0;
 }
 
+// What a device gave until a frame that cannot be recorded is kept: it gives it once.
 template <typename Recorder>
 int RecordTo(Recorder& recorder, depth::FrameSource& source, const RecordOptions& options) {
-  const Recorded recorded = RecordFrames(source, options, recorder);
+  Recorded recorded;
+  try {
+    RecordFrames(source, options, recorder, recorded);
+  } catch (const DiskFull&) {
+    throw;  // nothing more can be written
+  } catch (const InputError& error) {
+    if (recorded.frames == 0 || !source.is_live()) throw;
+    recorder.Finish();
+    throw InputError(fmt::format("{}; the {} frames before it are in {}", error.what(),
+                                 recorded.frames, options.out));
+  }
   if (recorded.frames == 0) throw InputError(options.source.name + ": no frame came");
   recorder.Finish();
   return Report(options, recorded);

@@ -109,8 +109,8 @@ int View(int argc, char** argv) {
   app.add_flag("--once", options.once, "end with the recording instead of starting over");
   Parse(app, argc, argv);
   const std::string& what = options.source.name;
-  if (what.starts_with("openni:") || what.ends_with(".oni") ||
-      std::filesystem::is_directory(what)) {
+  if (what.starts_with("openni:") || std::filesystem::is_directory(what) ||
+      depth::IsRecording(what)) {
     ShowSource(options);
   } else {
     ShowSkeletons(options);

@@ -1,8 +1,12 @@
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <limits>
 
+#include "depth/error.h"
 #include "forest/targets.h"
+#include "recon/body/parts.h"
 #include "recon/body/standard_body.h"
 #include "tools/tracker/choose_posture_internal.h"
 
@@ -151,6 +155,11 @@ void DoubtHipsWithoutLegs(double leg_area_m2, recon::TrackedPosture& posture) {
 
 std::array<int, kJointCount> JointTargets(const forest::ForestModel& model,
                                           const std::string& model_name) {
+  if (model.class_count() > recon::kLabelCount) {
+    throw InputError(
+        fmt::format("{}: expected at most {} classes, the labels of body parts, found {}",
+                    model_name, recon::kLabelCount, model.class_count()));
+  }
   const auto named = forest::TargetsNamed(model, recon::kJointNames, model_name);
   std::array<int, kJointCount> targets{};
   for (size_t j = 0; j < kJointCount; ++j) targets[j] = static_cast<int>(named[j]);

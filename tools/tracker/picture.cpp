@@ -14,7 +14,7 @@ namespace {
 using recon::kJointCount;
 using recon::TrackingState;
 
-constexpr int kPanelWidth = 480;
+constexpr int kPanelWidth = 480, kPanelHeight = 960;  // at most
 
 cv::Mat DepthPanel(const depth::DepthFrame& frame) {
   std::vector<uint16_t> sorted;
@@ -114,8 +114,10 @@ void WritePicture(const std::filesystem::path& path, const depth::DepthFrame& fr
                                  SkeletonPanel(frame, bodies, true),
                                  SkeletonPanel(frame, bodies, false)};
   for (cv::Mat& panel : panels) {
-    const int height = std::max(1, panel.rows * kPanelWidth / panel.cols);
-    cv::resize(panel, panel, {kPanelWidth, height}, 0, 0, cv::INTER_AREA);
+    const double scale = std::min(static_cast<double>(kPanelWidth) / panel.cols,
+                                  static_cast<double>(kPanelHeight) / panel.rows);
+    const auto scaled = [&](int size) { return std::max(1, static_cast<int>(size * scale)); };
+    cv::resize(panel, panel, {scaled(panel.cols), scaled(panel.rows)}, 0, 0, cv::INTER_AREA);
   }
   cv::Mat row;
   cv::hconcat(panels, row);

@@ -3,6 +3,8 @@
 #include <httplib.h>
 
 #include <algorithm>
+#include <chrono>
+#include <future>
 #include <mutex>
 #include <nlohmann/json.hpp>
 #include <string>
@@ -33,11 +35,37 @@ std::string GreyImage(const depth::DepthFrame& frame) {
   return grey;
 }
 
+// Pages elsewhere can make a browser ask this machine under a name of theirs (DNS rebinding).
+bool IsForThisMachine(const httplib::Request& request) {
+  std::string host = request.get_header_value("Host");
+  if (host.empty()) return true;  // no browser
+  const size_t colon = host.rfind(':');
+  if (colon != std::string::npos && host.find(']', colon) == std::string::npos) host.resize(colon);
+  return host == "127.0.0.1" || host == "localhost" || host == "[::1]";
+}
+
+// A browser holds some connections in store. One that sends nothing, or hardly anything, may keep
+// its thread from the others for a moment only.
+void LimitClients(httplib::Server& server) {
+  constexpr size_t kThreads = 8, kLongestRequest = 1024;
+  server.new_task_queue = [] { return new httplib::ThreadPool(kThreads); };
+  server.set_keep_alive_timeout(1);
+  server.set_read_timeout(std::chrono::milliseconds(300));
+  server.set_write_timeout(std::chrono::milliseconds(1000));
+  server.set_payload_max_length(kLongestRequest);
+  server.set_pre_routing_handler([](const httplib::Request& request, httplib::Response& response) {
+    if (IsForThisMachine(request)) return httplib::Server::HandlerResponse::Unhandled;
+    response.status = 403;
+    return httplib::Server::HandlerResponse::Handled;
+  });
+}
+
 }  // namespace
 
 struct Viewer::Impl {
   httplib::Server server;
   std::thread thread;
+  std::promise<void> ended;
   int port = 0;
   std::mutex mutex;  // guards what follows
   std::string frame_json = R"({"number":-1})";
@@ -56,12 +84,15 @@ struct Viewer::Impl {
       const std::lock_guard lock(mutex);
       response.set_content(grey, "application/octet-stream");
     });
-    thread = std::thread([this] { server.listen_after_bind(); });
+    thread = std::thread([this] {
+      server.listen_after_bind();
+      ended.set_value();
+    });
   }
 };
 
 Viewer::Viewer(int port) : impl_(std::make_unique<Impl>()) {
-  impl_->server.new_task_queue = [] { return new httplib::ThreadPool(2); };
+  LimitClients(impl_->server);
   // The default shares the port with whoever listens already; a taken port must be an error.
   impl_->server.set_socket_options([](auto socket) {
     const int yes = 1;
@@ -81,7 +112,14 @@ Viewer::Viewer(int port) : impl_(std::make_unique<Impl>()) {
 
 Viewer::~Viewer() {
   impl_->server.stop();
-  impl_->thread.join();
+  if (impl_->ended.get_future().wait_for(std::chrono::seconds(2)) == std::future_status::ready) {
+    impl_->thread.join();
+    return;
+  }
+  // A client goes on sending a byte now and then. The program must end all the same; what serves
+  // the client is left to the end of the process.
+  impl_->thread.detach();
+  static_cast<void>(impl_.release());
 }
 
 int Viewer::port() const { return impl_->port; }

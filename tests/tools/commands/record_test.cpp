@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <fstream>
 
+#include "depth/image/depth_png.h"
 #include "depth/sensor/frame_source.h"
 #include "tests/support/depth_examples.h"
 #include "tests/support/run_command.h"
@@ -160,6 +161,23 @@ TEST(RecordCommand, ADeviceThatFallsSilentIsAFailureWithAWholeFile) {
   EXPECT_EQ(result.exit_status, 1);
   EXPECT_NE(result.err.find("delivers no frames"), std::string::npos) << result.err;
   EXPECT_EQ(test::LineCount(result.err), 1);
+  EXPECT_GE(FramesIn(out), 1);
+}
+
+TEST(RecordCommand, KeepsWhatADeviceGaveBeforeAFrameThatCannotBeRecorded) {
+  const TemporaryFolder folder;
+  std::filesystem::create_directories(folder / "in");
+  WriteExampleFolder(folder / "in", 4);
+  depth::DepthFrame saturated = ExampleFrame(0);
+  saturated.depth_mm[7] = 65535;  // .oni has no number for it
+  depth::WriteDepthPng(folder / "in" / "000003.png", saturated.view());
+  const auto out = folder / "x.oni";
+  const CommandResult result = RunOssa(
+      {"record", "openni:ossa://" + (folder / "in").string(), "--out", out.string(), "--quiet"});
+  EXPECT_EQ(result.exit_status, 1);
+  EXPECT_NE(result.err.find("65535"), std::string::npos) << result.err;
+  EXPECT_NE(result.err.find("frames before it are in"), std::string::npos) << result.err;
+  EXPECT_EQ(test::LineCount(result.err), 1) << result.err;
   EXPECT_GE(FramesIn(out), 1);
 }
 
