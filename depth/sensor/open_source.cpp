@@ -32,7 +32,11 @@ bool IsRecording(const std::filesystem::path& path) {
 
 std::unique_ptr<FrameSource> OpenSource(const std::string& source, const SourceOptions& options) {
   if (source.starts_with(kDevicePrefix)) {
-    return OpenOpenNiDevice(source.substr(kDevicePrefix.size()), options);
+    // OpenNI2 takes a file for a device, and plays it again and again with the times of its end.
+    const std::string uri = source.substr(kDevicePrefix.size());
+    std::error_code none;
+    if (std::filesystem::is_regular_file(uri, none)) return OpenSource(uri, options);
+    return OpenOpenNiDevice(uri, options);
   }
   const std::filesystem::path path(source);
   std::error_code error;

@@ -86,7 +86,8 @@ Posture PostureOf(const PostureVector& vector) {
 }
 
 PostureDatabase PostureDatabase::Build(const std::vector<PostureClip>& clips,
-                                       const DatabaseOptions& options) {
+                                       const DatabaseOptions& options,
+                                       const std::function<bool()>& stop) {
   if (!(options.threshold_m > 0.0) || !std::isfinite(options.threshold_m)) {
     throw InputError("posture database: threshold must be a positive number of metres");
   }
@@ -96,6 +97,7 @@ PostureDatabase PostureDatabase::Build(const std::vector<PostureClip>& clips,
   PostureGrid grid(static_cast<float>(options.threshold_m), options.filter);
   std::vector<double> connections;
   for (const PostureClip& clip : clips) {
+    if (stop && stop()) return db;
     const auto clip_index = static_cast<uint32_t>(db.clip_names_.size());
     db.clip_names_.push_back(clip.name);
     db.source_postures_ += static_cast<int64_t>(clip.postures.size());
@@ -118,19 +120,20 @@ PostureDatabase PostureDatabase::Build(const std::vector<PostureClip>& clips,
     for (const double c : connections) variance += (c - mean) * (c - mean) / n;
   }
   db.edge_threshold_m_ = mean + 2.0 * std::sqrt(variance);
-  db.Connect();
+  db.Connect(stop);
   db.Summarise();
   return db;
 }
 
 // Algorithm 3, the nearest first. Where `most_edges` cuts off, an edge may be left in one
 // direction: the denser of two places has nearer nodes to keep.
-void PostureDatabase::Connect() {
+void PostureDatabase::Connect(const std::function<bool()>& stop) {
   PostureGrid grid(static_cast<float>(edge_threshold_m_), DatabaseFilter::kMaxJoint);
   for (int i = 0; i < size(); ++i) grid.Insert(postures_.col(i));
   edge_begin_.assign(1, 0);
   edges_.clear();
   for (int i = 0; i < size(); ++i) {
+    if (stop && i % 64 == 0 && stop()) return;
     auto near = grid.Within(postures_.col(i));
     std::erase_if(near, [i](const auto& entry) { return entry.second == i; });
     const size_t keep = std::min(near.size(), static_cast<size_t>(options_.most_edges));

@@ -2,6 +2,7 @@
 #include <Eigen/Core>
 #include <cstdint>
 #include <filesystem>
+#include <functional>
 #include <span>
 #include <string>
 #include <vector>
@@ -46,9 +47,11 @@ class PostureDatabase {
   /// Normalises, retargets, filters within clips then between clips (Plantard 2016 algs. 1-4; with
   /// kSumSquared the same screening under Shum's distance) and connects. Departure: algorithm 2 as
   /// printed keeps a posture that is far from any one other; the text's "same process" is meant,
-  /// far from all kept ones. Throws InputError when no finite posture is given.
+  /// far from all kept ones. Throws InputError when no finite posture is given. `stop` is asked now
+  /// and then; once it is true, what comes back is unfinished and of no use.
   static PostureDatabase Build(const std::vector<PostureClip>& clips,
-                               const DatabaseOptions& options);
+                               const DatabaseOptions& options,
+                               const std::function<bool()>& stop = {});
 
   /// .ossadb: reads refuse damaged, truncated and hostile files by name and byte.
   static PostureDatabase Load(const std::filesystem::path& path);
@@ -82,7 +85,7 @@ class PostureDatabase {
   PostureDatabase WithEdges(int most_edges) const;
 
  private:
-  void Connect();
+  void Connect(const std::function<bool()>& stop = {});
   void Summarise();
 
   DatabaseOptions options_;

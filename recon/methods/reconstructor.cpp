@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <string_view>
 
 #include "depth/error.h"
 #include "recon/database/posture_database.h"
@@ -42,6 +43,32 @@ void CheckLocalPca(const LocalPcaOptions& o) {
     throw InputError("reconstruction: unknown solver '" + o.solver +
                      "', expected stochastic or ceres");
   }
+}
+
+/// A file may hold the correction of `best` alone.
+bool Holds(const LearnedModels& learned, std::string_view method) {
+  if (method == "liu-2016") {
+    return std::any_of(learned.mixtures.begin(), learned.mixtures.end(),
+                       [](const LocalMixture& mixture) { return !mixture.empty(); });
+  }
+  if (method == "full-gp") {
+    return std::any_of(learned.full.begin(), learned.full.end(),
+                       [](const GaussianProcess& process) { return process.size() > 0; });
+  }
+  return !learned.exemplars.empty();
+}
+
+void CheckLearned(const ReconstructorOptions& options) {
+  const auto learned = LearnedOf(options);
+  if (learned == nullptr) {
+    throw InputError("reconstruction: method " + options.method +
+                     " needs a learned file (.ossagp of `ossa learn`)");
+  }
+  if (Holds(*learned, options.method)) return;
+  const std::string file = options.learned_file.empty() ? "reconstruction" : options.learned_file;
+  throw InputError(file + ": expected what method " + options.method +
+                   " has learned, found only what best uses (`ossa learn` without "
+                   "--correction-only)");
 }
 
 void CheckBones(const BoneLengths& lengths_m, const Method& method) {
@@ -89,10 +116,7 @@ std::unique_ptr<Reconstructor> MakeReconstructor(const ReconstructorOptions& opt
     if (method.needs_database && (!options.database || options.database->size() < 1)) {
       throw InputError("reconstruction: method " + options.method + " needs a posture database");
     }
-    if (method.needs_learned && !options.learned && options.learned_file.empty()) {
-      throw InputError("reconstruction: method " + options.method +
-                       " needs a learned file (.ossagp of `ossa learn`)");
-    }
+    if (method.needs_learned) CheckLearned(options);
     if (options.bones_m) CheckBones(*options.bones_m, method);
     return method.make(options);
   }

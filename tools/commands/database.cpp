@@ -76,7 +76,9 @@ int Database(int argc, char** argv) {
   app.add_flag("--quiet", quiet, "no progress");
   Parse(app, argc, argv);
   CheckNotOtherKind("--out", out, ".ossadb");
-  CheckOutputs({out}, mocap);
+  std::vector<std::string> inputs = mocap;
+  inputs.push_back(mocap_options.mapping_file);
+  CheckOutputs({out}, inputs);
   AtomicFile::CheckWritable(out);
 
   options.filter =
@@ -85,7 +87,7 @@ int Database(int argc, char** argv) {
   const auto motions = recon::LoadMocap(mocap, mocap_options);
   if (Interrupted()) throw InputError("database: interrupted; nothing was written");
   const auto clips = PosturesOf(motions, quiet);
-  const auto database = recon::PostureDatabase::Build(clips, options);
+  const auto database = recon::PostureDatabase::Build(clips, options, Interrupted);
   if (Interrupted()) throw InputError("database: interrupted; nothing was written");
   database.Save(out);
   fmt::print("{}: {} postures of {} in {} clips, {:.1f} edges a posture\n", out, database.size(),

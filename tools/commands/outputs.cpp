@@ -28,6 +28,21 @@ fs::path FileOf(const std::string& input) {
   return fs::exists(input, unknown) ? input : input.substr(0, input.find('#'));
 }
 
+// Whether an input folder has the file among what is read of it: images, labels, truth and the like
+// of a data set or a folder of frames. Results may lie beside them.
+bool IsReadOf(const fs::path& folder, const fs::path& output) {
+  std::error_code unknown;
+  if (!fs::is_directory(folder, unknown) || !fs::exists(output, unknown)) return false;
+  const fs::path inside = fs::weakly_canonical(output, unknown)
+                              .lexically_relative(fs::weakly_canonical(folder, unknown));
+  if (inside.empty() || *inside.begin() == "..") return false;
+  const fs::path first = *inside.begin();
+  if (inside == "." || first == "depth" || first == "parts" || first == "shards") return true;
+  const bool is_data_set = fs::exists(folder / "manifest.json", unknown);
+  return inside == "manifest.json" || inside == "truth.jsonl" || inside == "camera.json" ||
+         (!is_data_set && inside == first && inside.extension() == ".png");
+}
+
 }  // namespace
 
 void CheckOutputs(const std::vector<std::string>& outputs, const std::vector<std::string>& inputs) {
@@ -38,7 +53,7 @@ void CheckOutputs(const std::vector<std::string>& outputs, const std::vector<std
       throw UsageError(outputs[i] + ": expected a file of its own for each output");
     }
     for (const std::string& input : inputs) {
-      if (!IsOne(outputs[i], FileOf(input))) continue;
+      if (!IsOne(outputs[i], FileOf(input)) && !IsReadOf(FileOf(input), outputs[i])) continue;
       throw UsageError(outputs[i] + ": expected a new file, found what is to be read");
     }
   }

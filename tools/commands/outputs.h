@@ -5,7 +5,8 @@
 namespace ossa::commands {
 
 /// Throws UsageError when two outputs are one file, of which the first would be lost, or an output
-/// is one of the inputs: a recording would be replaced by what was made of it. Empty names are
+/// is one of the inputs, or of the files that an input folder is made of: a recording would be
+/// replaced by what was made of it. Outputs may be folders. Empty names are
 /// options that were not given; `#truth` and the like after an input's name are no part of it.
 void CheckOutputs(const std::vector<std::string>& outputs, const std::vector<std::string>& inputs);
 

@@ -74,7 +74,9 @@ int Prior(int argc, char** argv) {
   app.add_option("--mapping", mocap_options.mapping_file, "bone names of an unknown conversion");
   Parse(app, argc, argv);
   CheckExtension("--out", out, ".ossaprior");
-  CheckOutputs({out}, mocap);
+  std::vector<std::string> inputs = mocap;
+  inputs.push_back(mocap_options.mapping_file);
+  CheckOutputs({out}, inputs);
   AtomicFile::CheckWritable(out);
 
   mocap_options.stop = Interrupted;

@@ -166,32 +166,36 @@ int Reconstruct(int argc, char** argv) {
   a.options.prior = tracker::PriorFor(a.options.method, a.prior_file, a.database_file);
   a.options.learned_file = LearnedFor(a, clips);
   Progress progress("reconstruct", a.quiet);
+  const int rounds = 1 + (a.bones.of_recording() ? 1 : 0) + (a.mechanics.on() ? 1 : 0);
   double done = 0.0, total = 0.0;
-  for (const auto& clip : clips) total += static_cast<double>(clip.sequence.frames.size());
-  if (a.bones.of_recording()) total *= 2.0;
+  for (const auto& clip : clips) total += rounds * static_cast<double>(clip.sequence.frames.size());
+  const auto update = [&](size_t frames) {
+    progress.Update(done + static_cast<double>(frames), total);
+    return !Interrupted();
+  };
   for (const auto& clip : clips) {
-    const auto update = [&](size_t frames) {
-      progress.Update(done + static_cast<double>(frames), total);
-      return !Interrupted();
-    };
+    const auto frames = static_cast<double>(clip.sequence.frames.size());
     a.options.best.looked = clip.sequence.sensor == recon::kCloseLook;
     recon::BonesOfPeople bones;
     if (a.bones.of_recording()) {
       bones = recon::MeasureBones(clip.sequence, a.options, update);
-      done += static_cast<double>(clip.sequence.frames.size());
+      done += frames;
     }
     auto made = a.options.method == kButterworth
                     ? recon::ButterworthSequence(clip.sequence, a.cutoff_hz)
                     : recon::ReconstructSequence(clip.sequence, a.options, update, bones);
+    done += frames;
+    if (a.mechanics.on()) {
+      tracker::FollowMechanically(made, a.mechanics.build, update);
+      done += frames;
+    }
     if (Interrupted()) throw InputError("reconstruct: interrupted; nothing half-written is left");
-    if (a.mechanics.on()) tracker::FollowMechanically(made, a.mechanics.build);
     std::filesystem::path to = a.out;
     if (many) {
       to = to / (clip.name + ".jsonl");
       std::filesystem::create_directories(to.parent_path());
     }
     recon::WriteSkeletons(to, made);
-    done += static_cast<double>(clip.sequence.frames.size());
   }
   return 0;
 }

@@ -120,7 +120,8 @@ TrackOptions ParseOptions(int argc, char** argv) {
   if (!options.out.empty()) CheckSkeletonName(options.out);
   CheckExtension("--picture", options.picture, ".png");
   CheckNotOtherKind("--json-stats", options.json_stats, ".json");
-  CheckOutputs({options.out, options.json_stats, options.picture}, {options.source.name});
+  CheckOutputs({options.out, options.json_stats, options.picture, options.pictures},
+               {options.source.name});
   options.tracker.physics = options.mechanics.on();
   options.tracker.mechanics = options.mechanics.build;
   options.tracker.smoothing = tracker::SmoothingPreset(
@@ -135,7 +136,9 @@ TrackOptions ParseOptions(int argc, char** argv) {
 // the whole recording. Either way the file appears only when complete.
 class SkeletonOutput {
  public:
-  SkeletonOutput(const std::string& path, const std::string& posture) : path_(path) {
+  explicit SkeletonOutput(const TrackOptions& options)
+      : path_(options.out), seated_(options.mode == "seated") {
+    const std::string& posture = options.posture;
     if (posture == "raw") kind_ = tracker::PostureKind::kRaw;
     if (posture == "looked") kind_ = tracker::PostureKind::kLooked;
     if (posture == "reconstructed") kind_ = tracker::PostureKind::kReconstructed;
@@ -149,6 +152,7 @@ class SkeletonOutput {
   void Write(const tracker::BodyFrame& bodies) {
     if (path_.empty()) return;
     recon::SkeletonFrame record = tracker::RecordOf(bodies, kind_);
+    if (seated_) KeepSeatedJoints(record);
     if (writer_) {
       writer_->Write(record);
       file_->Check();
@@ -166,7 +170,17 @@ class SkeletonOutput {
   }
 
  private:
+  // Nobody looks for the others.
+  static void KeepSeatedJoints(recon::SkeletonFrame& record) {
+    for (recon::BodyRecord& body : record.bodies) {
+      for (size_t j = 0; j < recon::kJointCount; ++j) {
+        if (!tracker::IsSeatedJoint(static_cast<recon::Joint>(j))) body.joints[j].reset();
+      }
+    }
+  }
+
   std::string path_;
+  bool seated_ = false;
   tracker::PostureKind kind_ = tracker::PostureKind::kFinal;
   std::optional<AtomicFile> file_;
   std::optional<recon::SkeletonJsonlWriter> writer_;
@@ -308,9 +322,9 @@ void Report(const TrackOptions& options, const Run& run) {
 int Track(int argc, char** argv) {
   TrackOptions options = ParseOptions(argc, argv);
   if (options.bones.of_recording()) options.tracker.bones_m = MeasureBones(options);
+  tracker::Tracker tracker(options.tracker);  // first: a device's frames do not wait meanwhile
   const auto source = OpenSource(options.source, options.quiet);
-  tracker::Tracker tracker(options.tracker);
-  SkeletonOutput output(options.out, options.posture);
+  SkeletonOutput output(options);
   Pictures pictures(options);
   if (!options.json_stats.empty()) AtomicFile::CheckWritable(options.json_stats);
   std::unique_ptr<viewer::Viewer> viewer;
@@ -323,9 +337,9 @@ int Track(int argc, char** argv) {
     throw InputError("track: interrupted before the first frame; nothing was written");
   }
   if (run.stats.frames() == 0) throw InputError(options.source.name + ": no frame came");
-  output.Finish();
   pictures.Finish();
   Report(options, run);
+  output.Finish();
   return 0;
 }
 

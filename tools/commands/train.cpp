@@ -62,12 +62,21 @@ void AddOptions(CLI::App* app, TrainArguments* a) {
   forest::TrainOptions& o = a->options;
   app->add_option("DATASET", a->datasets, "labelled data sets (folders made by ossa render)");
   app->add_option("--out", a->out, "the model file to write")->required();
-  app->add_option("--trees", o.trees, "trees of the forest")->capture_default_str();
-  app->add_option("--depth", o.depth, "levels of splits")->capture_default_str();
-  app->add_option("--candidates", o.candidates, "offset pairs tried a node")->capture_default_str();
-  app->add_option("--thresholds", o.thresholds, "thresholds a candidate")->capture_default_str();
+  app->add_option("--trees", o.trees, "trees of the forest")
+      ->capture_default_str()
+      ->check(CLI::Range(1, 16));
+  app->add_option("--depth", o.depth, "levels of splits")
+      ->capture_default_str()
+      ->check(CLI::Range(1, 24));
+  app->add_option("--candidates", o.candidates, "offset pairs tried a node")
+      ->capture_default_str()
+      ->check(CLI::Range(1, 100000));
+  app->add_option("--thresholds", o.thresholds, "thresholds a candidate")
+      ->capture_default_str()
+      ->check(CLI::Range(2, 63));
   app->add_option("--pixels", o.pixels, "pixels an image and tree, balanced over its classes")
-      ->capture_default_str();
+      ->capture_default_str()
+      ->check(CLI::Range(1, 100000));
   app->add_option("--refill-pixels", o.refill_pixels,
                   "pixels an image that fill leaves and votes (0: as --pixels)")
       ->capture_default_str();
@@ -102,7 +111,9 @@ void AddOptions(CLI::App* app, TrainArguments* a) {
   app->add_option("--terms", a->terms, "terms of the data, for the model's card; repeat for more")
       ->allow_extra_args(false);
   app->add_option("--seed", o.seed, "of every random choice")->capture_default_str();
-  app->add_option("--threads", o.threads, "0: all cores")->capture_default_str();
+  app->add_option("--threads", o.threads, "0: all cores")
+      ->capture_default_str()
+      ->check(CLI::Range(0, 1024));
   auto* resume =
       app->add_flag("--resume", o.resume, "go on from OUT.checkpoint where a run was cut off");
   app->add_flag("--quiet", a->quiet, "no progress");
@@ -234,6 +245,18 @@ forest::ForestModel Refined(const TrainArguments& a, const forest::ForestModel& 
   return forest::LearnPartPrior(sure, fresher, a.options.seed, a.options.threads);
 }
 
+// Hours before they are needed.
+void CheckRefinement(const TrainArguments& a) {
+  if (a.refinement.empty()) return;
+  const tools::PersonSource fresh(a.refinement, {kForLabels, 100}, tools::Extent::kWholeImage);
+  const auto images = static_cast<Eigen::Index>(2 * fresh.size());  // mirrored, too
+  if (images >= forest::kNetworkBatch) return;
+  throw InputError(fmt::format("{}: expected at least {} images for --refinement, found {}",
+                               a.refinement.front().string(),
+                               forest::kNetworkBatch * 100 / (2 * (100 - kForLabels)) + 1,
+                               fresh.size() * 100 / (100 - kForLabels)));
+}
+
 forest::ForestModel LearnJoints(const TrainArguments& a, const forest::ForestModel& model,
                                 const tools::PersonSource& source,
                                 const tools::PersonSource& held_out) {
@@ -299,6 +322,14 @@ int TrainOnData(TrainArguments* a, const forest::Reducer& reducer) {
   return 0;
 }
 
+std::vector<std::string> InputsOf(const TrainArguments& a) {
+  std::vector<std::string> inputs = {a.trees_of.string()};
+  for (const auto* list : {&a.datasets, &a.validation, &a.refinement, &a.import_pcl}) {
+    for (const fs::path& path : *list) inputs.push_back(path.string());
+  }
+  return inputs;
+}
+
 std::string CommandLine(int argc, char** argv) {
   // Without what leaves the model as it is: the same bytes however it was trained.
   std::string line = "ossa";
@@ -324,9 +355,11 @@ int Train(int argc, char** argv) {
   AddOptions(&app, &arguments);
   Parse(app, argc, argv);
   CheckNotOtherKind("--out", arguments.out.string(), ".ossa");
+  CheckOutputs({arguments.out.string()}, InputsOf(arguments));
   AtomicFile::CheckWritable(arguments.out);
   if (!arguments.import_pcl.empty()) return ImportPcl(arguments);
   if (arguments.datasets.empty()) throw UsageError("DATASET is required");
+  CheckRefinement(arguments);
   if (!arguments.trees_of.empty()) return LearnAgain(arguments);
   arguments.options.memory_bytes = ParseMemory(arguments.memory);
   try {

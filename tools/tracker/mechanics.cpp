@@ -122,13 +122,16 @@ std::optional<physics::FilteredPosture> Mechanics::Follow(
   return filtered;
 }
 
-void FollowMechanically(recon::SkeletonSequence& sequence, const MechanicsBuild& build) {
+void FollowMechanically(recon::SkeletonSequence& sequence, const MechanicsBuild& build,
+                        const std::function<bool(size_t)>& progress) {
   std::map<int, Mechanics> people;
+  size_t done = 0;
   for (recon::SkeletonFrame& frame : sequence.frames) {
     for (recon::BodyRecord& body : frame.bodies) {
       const auto person = people.try_emplace(body.id, build).first;
       FollowBody(frame, person->second, body);
     }
+    if (progress && !progress(++done)) return;
   }
 }
 

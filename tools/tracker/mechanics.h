@@ -1,4 +1,6 @@
 #pragma once
+#include <functional>
+
 #include "recon/skeleton_sequence.h"
 
 namespace ossa::tracker {
@@ -14,7 +16,9 @@ struct MechanicsBuild {
 /// come out with orientations, bones of constant length, above each frame's floor where it has one
 /// (one that lies 0.2 m and more above the person's lowest joint is another thing's top).
 /// Joints' reliabilities say how far the character is led by them; joints that were absent come out
-/// inferred.
-void FollowMechanically(recon::SkeletonSequence& sequence, const MechanicsBuild& build);
+/// inferred. `progress` (may be empty) is called with the number of frames done and returns false
+/// to stop.
+void FollowMechanically(recon::SkeletonSequence& sequence, const MechanicsBuild& build,
+                        const std::function<bool(size_t)>& progress = {});
 
 }  // namespace ossa::tracker

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 
+#include "depth/error.h"
 #include "depth/one_line.h"
 #include "recon/motion/skeletons/joint_names_internal.h"
 #include "recon/motion/skeletons/skeleton_formats_internal.h"
@@ -38,6 +39,7 @@ void WriteHeader(std::ostream& stream, const SkeletonSequence& sequence,
 struct TrcHeader {
   double metres_per_unit = 0.0;
   size_t markers = 0;
+  size_t frames = 0;                         // 0: the header does not say
   std::vector<std::optional<Joint>> joints;  // one entry per marker
 };
 
@@ -56,6 +58,8 @@ TrcHeader ReadHeader(TextLines& lines) {
   for (size_t i = 0; i < std::min(keys.size(), values.size()); ++i) {
     if (keys[i] == "NumMarkers") {
       header.markers = static_cast<size_t>(WholeNumberIn(lines, values[i], "NumMarkers", 1, 10000));
+    } else if (keys[i] == "NumFrames" && !values[i].empty()) {
+      header.frames = static_cast<size_t>(WholeNumberIn(lines, values[i], "NumFrames", 0, 1e9));
     } else if (keys[i] == "Units") {
       if (values[i] != "mm" && values[i] != "m") lines.Fail("Units mm or m", values[i]);
       header.metres_per_unit = values[i] == "mm" ? 1.0 / kMillimetresPerMetre : 1.0;
@@ -139,6 +143,10 @@ SkeletonSequence ReadTrc(SkeletonInput& input) {
     times.Take(lines, time_s);
     sequence.frames.push_back(
         OneBodyFrame(sequence.frames.size(), time_s, BodyIn(lines, fields, header)));
+  }
+  if (sequence.frames.size() < header.frames) {
+    throw InputError(fmt::format("{}: expected {} frames as NumFrames says, found {}: cut short",
+                                 input.name, header.frames, sequence.frames.size()));
   }
   RequireFrames(sequence);
   return sequence;

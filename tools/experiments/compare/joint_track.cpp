@@ -221,10 +221,32 @@ PairedTracks PairTracks(const JointTrack& truth, const JointTrack& result,
   return pair;
 }
 
+// The person a file is about when it should be one: the one with the most frames.
+const JointTrack* MainTrack(const std::map<int, JointTrack>& tracks) {
+  const JointTrack* main = nullptr;
+  for (const auto& [id, track] : tracks) {
+    if (main == nullptr || track.time_s.size() > main->time_s.size()) main = &track;
+  }
+  return main;
+}
+
+// One clock for all. Who is whom is told by places at the same time, so that times are taken as
+// they are unless something else is asked for; those seen most are then taken for the same person.
+PairedTracks ClockOfCrowd(const std::map<int, JointTrack>& truths,
+                          const std::map<int, JointTrack>& results, const PairOptions& options) {
+  PairedTracks clock;
+  const JointTrack* result = MainTrack(results);
+  if (options.time == TimeAlignment::kAuto || result == nullptr) return clock;
+  FindOffset(*MainTrack(truths), *result, options, clock);
+  return clock;
+}
+
 // Several people: in every frame each true person takes the nearest result nobody nearer took, so
 // that identities do not matter here (identity switches are the tracker's own table).
 std::vector<PairedTracks> PairCrowd(const std::map<int, JointTrack>& truths,
-                                    const SkeletonSequence& result, const PairOptions& options) {
+                                    SkeletonSequence result, const PairOptions& options) {
+  const PairedTracks clock = ClockOfCrowd(truths, TracksOf(result), options);
+  for (SkeletonFrame& frame : result.frames) frame.time_s += clock.offset_s;
   std::map<int, JointTrack> taken;
   for (const SkeletonFrame& frame : result.frames) {
     struct Candidate {
@@ -267,17 +289,10 @@ std::vector<PairedTracks> PairCrowd(const std::map<int, JointTrack>& truths,
   for (const auto& [id, track] : truths) {
     pairs.push_back(PairTracks(track, taken[id], each));
     pairs.back().name = "body " + std::to_string(id);
+    pairs.back().offset_s = clock.offset_s;
+    pairs.back().same_clock = clock.same_clock;
   }
   return pairs;
-}
-
-// The person a file is about when it should be one: the one with the most frames.
-const JointTrack* MainTrack(const std::map<int, JointTrack>& tracks) {
-  const JointTrack* main = nullptr;
-  for (const auto& [id, track] : tracks) {
-    if (main == nullptr || track.time_s.size() > main->time_s.size()) main = &track;
-  }
-  return main;
 }
 
 }  // namespace
