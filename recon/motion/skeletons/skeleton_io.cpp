@@ -371,7 +371,7 @@ void WriteSkeletons(const fs::path& path, const SkeletonSequence& sequence) {
     if (path.extension() == ".bvh") {
       BvhExportOptions options;
       options.body_id = ids[i];
-      WriteBvh(BvhOfSkeleton(sequence, options), own);
+      WriteBvhOfSkeleton(sequence, own, options);
       continue;
     }
     AtomicFile file(own);
