@@ -286,8 +286,9 @@ std::span<const SkeletonFormat> AllSkeletonFormats() {
   static const std::vector<SkeletonFormat> kAll = [] {
     std::vector<SkeletonFormat> all;
     // Azure before ours: both are JSON with "bodies", and only its marks are unmistakable.
-    for (const auto formats : {AzureFormats(), PlainFormats(), PairedFormats(), UiPrmdFormats(),
-                               KinectV2Formats(), KinectV1Formats(), BinaryFormats()}) {
+    for (const auto formats :
+         {AzureFormats(), PlainFormats(), PairedFormats(), UiPrmdFormats(), KinectV2Formats(),
+          KinectV1Formats(), C3dFormats(), StreamSaverFormats()}) {
       all.insert(all.end(), formats.begin(), formats.end());
     }
     return all;
