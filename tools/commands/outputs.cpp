@@ -23,11 +23,6 @@ bool IsOne(const fs::path& a, const fs::path& b) {
              fs::weakly_canonical(fs::absolute(b, unknown), unknown);
 }
 
-fs::path FileOf(const std::string& input) {
-  std::error_code unknown;
-  return fs::exists(input, unknown) ? input : input.substr(0, input.find('#'));
-}
-
 }  // namespace
 
 void CheckOutputs(const std::vector<std::string>& outputs, const std::vector<std::string>& inputs) {
@@ -38,7 +33,7 @@ void CheckOutputs(const std::vector<std::string>& outputs, const std::vector<std
       throw UsageError(outputs[i] + ": expected a file of its own for each output");
     }
     for (const std::string& input : inputs) {
-      if (!IsOne(outputs[i], FileOf(input))) continue;
+      if (!IsOne(outputs[i], recon::SkeletonFileOf(input))) continue;
       throw UsageError(outputs[i] + ": expected a new file, found what is to be read");
     }
   }

@@ -55,6 +55,8 @@ std::span<const SkeletonFormat> StreamSaverFormats();  // skeleton_stream_saver.
 
 /// The file of times that Kinect Stream Saver writes beside its joints: no recording of its own.
 inline constexpr const char* kSaverTimes = "liTimeStamp.binary";
+/// UI-PRMD's joint angles, which are read together with the positions they belong to.
+bool HoldsAngles(std::string_view name);
 
 /// Puts a joint into a body unless the position is the "no reading" of its format.
 inline void PutJoint(BodyRecord& body, Joint joint, const Eigen::Vector3d& position_m,

@@ -28,10 +28,16 @@ std::vector<std::string> SkeletonFormats();
 
 /// Reads one recording in any format that ossa knows, found by content: brought to our 20 joints,
 /// camera space (x to the sensor's left, y up, z forward), metres, the person's own left and right.
-/// `path` may carry `#truth` or `#observed` (see options) and, for an archive, `#MEMBER`. Throws
-/// InputError in one line; an archive or a folder with several recordings is refused here.
+/// `path` may carry `#truth` or `#observed` (see options) and, for a folder or an archive,
+/// `#MEMBER`: the recording of that name in it, with or without its extension; where there is none,
+/// what has that word as a whole name in its path, else what has it anywhere there. A path that
+/// exists as it stands is itself, else the longest part before a '#' that exists is what is read.
+/// Throws InputError in one line; an archive or a folder with several recordings is refused here.
 SkeletonSequence ReadSkeletons(const std::filesystem::path& path,
                                const SkeletonReadOptions& options = {});
+
+/// What is read of such a path: the file or folder, without what is said after '#'.
+std::filesystem::path SkeletonFileOf(const std::filesystem::path& path);
 
 /// One recording of several.
 struct SkeletonClip {

@@ -249,6 +249,17 @@ TEST_F(ReconstructCommand, RefusesABvhThatNobodyWouldRead) {
   EXPECT_FALSE(std::filesystem::exists(out));
 }
 
+// Whatever is said after '#', and whatever is in the folder's name.
+TEST_F(ReconstructCommand, NeverWritesOverWhatItReads) {
+  std::filesystem::create_directory(folder_ / "a#b");
+  const std::string in = folder_ / "a#b/in.jsonl";
+  recon::WriteSkeletons(in, Recording());
+  const auto run = RunOssa({"reconstruct", in + "#observed", "--out", in, "--method", "none"});
+  EXPECT_EQ(run.exit_status, 2);
+  EXPECT_NE(run.err.find(in + ": expected a new file, found what is to be read"), std::string::npos)
+      << run.err;
+}
+
 struct BadReconstruct {
   const char* name;
   std::vector<std::string> arguments;
