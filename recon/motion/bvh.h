@@ -3,6 +3,7 @@
 #include <Eigen/Geometry>
 #include <cstddef>
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -48,23 +49,37 @@ BvhFile ReadBvh(const std::filesystem::path& path);
 std::string FormatBvh(const BvhFile& bvh);
 void WriteBvh(const BvhFile& bvh, const std::filesystem::path& path);
 
+/// Skeletons are read from a BVH of at most so many bytes: six hours of motion or more.
+inline constexpr size_t kMostBvhBytes = size_t{1} << 29;
+
 struct BvhExportOptions {
-  int body_id = -1;  // which body of the sequence; -1: the one seen in most frames
-  /// BVH needs a fixed step; the sequence is resampled to it by time (rotations by slerp).
+  std::optional<int> body_id;  // which body of the sequence; none: the one seen in most frames
+  /// BVH needs a fixed step; the sequence is resampled to it by time, joints moving straight from
+  /// frame to frame.
   double frame_s = 1.0 / 30.0;
+  /// A longer text is refused: a gap in a recording, a day at most, is filled like all else.
+  size_t most_bytes = kMostBvhBytes;
 };
 
 /// One body of a skeleton file as a BVH of the 20 SDK joints, centimetres in the sequence's own
 /// axes (camera space), with constant bone lengths: the median of each bone over the frames. The
 /// direction of every bone is kept exactly and the whole is moved to lie nearest to the observed
-/// joints (least squares). A missing joint holds its bone's last direction. Where bones branch,
+/// joints (least squares). A missing joint holds its bone's last direction; one that is not tracked
+/// is missing unless it has a reliability: then a method has placed it. Where bones branch,
 /// each has a joint of its own, without length, named after both ends ("HipCenter-Spine"), so that
-/// it can turn alone. Throws InputError when no frame has the body.
+/// it can turn alone. It begins with the sequence's first frame, whoever is in it, and stands until
+/// the body is first seen: those of several people are in step with each other and the recording.
+/// Throws InputError when no frame has the body, or its text would surely exceed the options'
+/// bytes.
 BvhFile BvhOfSkeleton(const SkeletonSequence& sequence, const BvhExportOptions& options = {});
+/// The same into a file, without ever holding more than a frame of it; the file appears only when
+/// complete.
+void WriteBvhOfSkeleton(const SkeletonSequence& sequence, const std::filesystem::path& path,
+                        const BvhExportOptions& options = {});
 
 /// The 20 joints of a BVH: by name and in centimetres when it has the SDK's joints (as
-/// BvhOfSkeleton makes them), else by retargeting to the standard body. Throws InputError for
-/// unknown names.
+/// BvhOfSkeleton makes them), else by retargeting to the standard body. The one body's id is 1.
+/// Throws InputError for unknown names.
 SkeletonSequence SkeletonOfBvh(const BvhFile& bvh, const std::string& source);
 
 }  // namespace ossa::recon

@@ -1,16 +1,20 @@
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <map>
 #include <numbers>
 #include <optional>
 
 #include "depth/error.h"
+#include "depth/file/atomic_file.h"
 #include "recon/body/standard_body.h"
 #include "recon/motion/bone_names_internal.h"
 #include "recon/motion/bvh.h"
 #include "recon/motion/bvh_source_internal.h"
+#include "recon/motion/bvh_text_internal.h"
 #include "recon/motion/retarget_internal.h"
+#include "recon/motion/sightings_internal.h"
 #include "recon/smallest_turn.h"
 
 namespace ossa::recon {
@@ -21,79 +25,6 @@ using Eigen::Vector3d;
 
 constexpr double kCentimetres = 100.0;  // of a metre; the unit most programs expect of BVH
 constexpr size_t kJoints = kJointCount;
-constexpr double kMaxFrames = 1e7;  // four days at 30 Hz: beyond it the times are damaged
-
-/// What was seen of the body at one time; empty joints were not.
-struct Sighting {
-  double time_s = 0.0;
-  std::array<std::optional<Vector3d>, kJoints> joint;
-};
-
-int MostSeenBody(const SkeletonSequence& sequence) {
-  std::map<int, int> seen;
-  for (const SkeletonFrame& frame : sequence.frames) {
-    for (const BodyRecord& body : frame.bodies) ++seen[body.id];
-  }
-  const auto most = std::max_element(
-      seen.begin(), seen.end(), [](const auto& a, const auto& b) { return a.second < b.second; });
-  if (most == seen.end()) throw InputError(sequence.source + ": expected a body, found none");
-  return most->first;
-}
-
-std::vector<Sighting> SightingsOf(const SkeletonSequence& sequence, int id) {
-  std::vector<Sighting> sightings;
-  for (const SkeletonFrame& frame : sequence.frames) {
-    for (const BodyRecord& body : frame.bodies) {
-      if (body.id != id) continue;
-      const TrackedPosture tracked = TrackedPostureOf(body);
-      Sighting sighting{frame.time_s, {}};
-      for (size_t j = 0; j < kJoints; ++j) {
-        const Vector3d& place = tracked.posture.position_m[j];
-        if (tracked.state[j] != TrackingState::kNotTracked && place.allFinite()) {
-          sighting.joint[j] = place;
-        }
-      }
-      // Times must go forward; a repeated frame brings nothing new.
-      if (sightings.empty() || frame.time_s > sightings.back().time_s)
-        sightings.push_back(sighting);
-    }
-  }
-  if (sightings.empty()) {
-    throw InputError(sequence.source + ": expected body " + std::to_string(id) +
-                     ", found no frame of it");
-  }
-  return sightings;
-}
-
-std::vector<Sighting> Resampled(const std::vector<Sighting>& sightings, double step_s,
-                                const std::string& source) {
-  const double begin_s = sightings.front().time_s;
-  const double length_s = sightings.back().time_s - begin_s;
-  if (!(length_s <= step_s * kMaxFrames)) {
-    throw InputError(source + ": time_s goes on for " + std::to_string(length_s) +
-                     " s, expected at most ten million frames");
-  }
-  std::vector<Sighting> even;
-  size_t after = 0;
-  for (size_t k = 0; static_cast<double>(k) * step_s <= length_s + 1e-6; ++k) {
-    const double time_s = begin_s + static_cast<double>(k) * step_s;
-    while (after + 1 < sightings.size() && sightings[after].time_s < time_s - 1e-6) ++after;
-    const Sighting& next = sightings[after];
-    const Sighting& last = sightings[after == 0 ? 0 : after - 1];
-    const double gap_s = next.time_s - last.time_s;
-    const double mix = gap_s > 0 ? std::clamp((time_s - last.time_s) / gap_s, 0.0, 1.0) : 1.0;
-    Sighting sighting{time_s, {}};
-    for (size_t j = 0; j < kJoints; ++j) {
-      if (last.joint[j] && next.joint[j]) {
-        sighting.joint[j] = *last.joint[j] + mix * (*next.joint[j] - *last.joint[j]);
-      } else {
-        sighting.joint[j] = mix < 0.5 ? last.joint[j] : next.joint[j];
-      }
-    }
-    even.push_back(sighting);
-  }
-  return even;
-}
 
 BoneLengths MedianLengths(const std::vector<Sighting>& sightings) {
   const BoneLengths standard = BoneLengthsOf(StandardPosture(RigPose()));
@@ -278,31 +209,107 @@ SkeletonFrame FrameOf(const Posture& posture, size_t frame, double frame_s) {
   SkeletonFrame out;
   out.frame = static_cast<int64_t>(frame);
   out.time_s = static_cast<double>(frame) * frame_s;
+  body.id = 1;
   out.bodies.push_back(body);
   return out;
 }
 
+EvenSightings EvenSightingsOf(const SkeletonSequence& sequence, const BvhExportOptions& options) {
+  auto seen = SightingsOf(sequence, options.body_id);
+  const double begin_s = std::min(sequence.frames.front().time_s, seen.front().time_s);
+  return EvenSightings(std::move(seen), begin_s, options.frame_s);
+}
+
+/// A body on its way into a BVH, a frame at a time.
+class BvhBody {
+ public:
+  /// `name`: of the file, for messages.
+  BvhBody(const SkeletonSequence& sequence, const BvhExportOptions& options, std::string name)
+      : name_(std::move(name)),
+        options_(options),
+        sightings_(EvenSightingsOf(sequence, options)),
+        lengths_(MedianLengths(sightings_.seen())),
+        layout_(LayoutOf(lengths_)) {
+    for (size_t j = 0; j < kJoints; ++j) direction_[j] = RestDirection(j);
+    // What the first frames lack stands from the beginning as it is first seen.
+    const auto& seen = sightings_.seen();
+    for (auto s = seen.rbegin(); s != seen.rend(); ++s) Update(*s);
+    CheckLength();
+  }
+
+  const std::vector<BvhJoint>& joints() const { return layout_.joints; }
+  size_t FrameCount() const { return static_cast<size_t>(sightings_.Count()); }
+
+  /// Appends the channels' values of the next frame.
+  void Next(std::vector<double>& values) {
+    Update(sightings_.Next());
+    AppendFrame(layout_, root_m_, direction_, values);
+  }
+
+  [[noreturn]] void FailTooLong() const {
+    constexpr double kMebi = 1 << 20;
+    const SightingGap gap = sightings_.LongestGap();
+    throw InputError(fmt::format(
+        "{}: expected a BVH of at most {:.4g} MiB, as ossa reads them, found {:.0f} frames of "
+        "{:.4g} s, the longest gap without the body being of {:.7g} s after time_s {:.3f}: .jsonl "
+        "has "
+        "no such limit",
+        name_, static_cast<double>(options_.most_bytes) / kMebi, sightings_.Count(),
+        options_.frame_s, gap.length_s, gap.begin_s));
+  }
+
+ private:
+  void Update(const Sighting& sighting) {
+    UpdateDirections(sighting, direction_);
+    root_m_ = RootOf(sighting, lengths_, direction_).value_or(root_m_);
+  }
+
+  /// What is surely too long is refused before anything is made of it.
+  void CheckLength() const {
+    constexpr double kLeastBytes = 2.0;  // a digit and what follows it
+    size_t channels = 0;
+    for (const BvhJoint& joint : layout_.joints) channels += joint.channels.size();
+    const double least_bytes = sightings_.Count() * kLeastBytes * static_cast<double>(channels);
+    if (!(least_bytes <= static_cast<double>(options_.most_bytes))) FailTooLong();
+  }
+
+  std::string name_;
+  BvhExportOptions options_;
+  EvenSightings sightings_;
+  BoneLengths lengths_;
+  Layout layout_;
+  std::array<Vector3d, kJoints> direction_;
+  Vector3d root_m_ = Vector3d::Zero();
+};
+
 }  // namespace
 
 BvhFile BvhOfSkeleton(const SkeletonSequence& sequence, const BvhExportOptions& options) {
-  const int id = options.body_id >= 0 ? options.body_id : MostSeenBody(sequence);
-  const auto sightings = Resampled(SightingsOf(sequence, id), options.frame_s, sequence.source);
-  const BoneLengths lengths = MedianLengths(sightings);
-  const Layout layout = LayoutOf(lengths);
+  BvhBody body(sequence, options, sequence.source);
   BvhFile bvh;
-  bvh.joints = layout.joints;
+  bvh.joints = body.joints();
   bvh.frame_s = options.frame_s;
-  std::array<Vector3d, kJoints> direction;
-  for (size_t j = 0; j < kJoints; ++j) direction[j] = RestDirection(j);
-  // What the first frames lack stands from the beginning as it is first seen.
-  for (auto s = sightings.rbegin(); s != sightings.rend(); ++s) UpdateDirections(*s, direction);
-  Vector3d root_m = Vector3d::Zero();
-  for (const Sighting& sighting : sightings) {
-    UpdateDirections(sighting, direction);
-    root_m = RootOf(sighting, lengths, direction).value_or(root_m);
-    AppendFrame(layout, root_m, direction, bvh.values);
-  }
+  for (size_t f = 0; f < body.FrameCount(); ++f) body.Next(bvh.values);
   return bvh;
+}
+
+void WriteBvhOfSkeleton(const SkeletonSequence& sequence, const std::filesystem::path& path,
+                        const BvhExportOptions& options) {
+  BvhBody body(sequence, options, path.string());
+  AtomicFile file(path);
+  std::string text = BvhHead(body.joints(), options.frame_s, body.FrameCount());
+  size_t bytes = 0;
+  std::vector<double> values;
+  for (size_t f = 0; f < body.FrameCount(); ++f) {
+    values.clear();
+    body.Next(values);
+    AppendBvhFrame(text, values);
+    bytes += text.size();
+    if (bytes > options.most_bytes) body.FailTooLong();
+    file.stream() << text;
+    text.clear();
+  }
+  file.Commit();
 }
 
 SkeletonSequence SkeletonOfBvh(const BvhFile& bvh, const std::string& source) {

@@ -1,10 +1,11 @@
 #include <array>
-#include <charconv>
+#include <span>
 #include <string_view>
 
-#include "depth/error.h"
 #include "depth/file/atomic_file.h"
 #include "recon/motion/bvh.h"
+#include "recon/motion/bvh_text_internal.h"
+#include "recon/motion/fixed_point_internal.h"
 
 namespace ossa::recon {
 namespace {
@@ -12,29 +13,20 @@ namespace {
 constexpr std::array<std::string_view, 6> kChannelNames = {"Xposition", "Yposition", "Zposition",
                                                            "Xrotation", "Yrotation", "Zrotation"};
 
-/// Shortest decimal within 1e-6: a millionth of a centimetre or degree.
-void AppendNumber(std::string& text, double value) {
-  std::array<char, 32> digits{};
-  const auto end = std::to_chars(digits.data(), digits.data() + digits.size(), value,
-                                 std::chars_format::fixed, 6)
-                       .ptr;
-  std::string_view shown(digits.data(), static_cast<size_t>(end - digits.data()));
-  while (shown.ends_with('0')) shown.remove_suffix(1);
-  if (shown.ends_with('.')) shown.remove_suffix(1);
-  text += shown == "-0" ? "0" : shown;
-}
+constexpr int kDigits = 6;  // a millionth of a centimetre or degree
 
 void AppendOffset(std::string& text, const std::string& indent, const Eigen::Vector3d& offset) {
   text.append(indent).append("OFFSET");
   for (const double value : offset) {
     text += ' ';
-    AppendNumber(text, value);
+    AppendFixed(text, value, kDigits);
   }
   text += '\n';
 }
 
-void AppendJoint(const BvhFile& bvh, size_t index, std::string indent, std::string& text) {
-  const BvhJoint& joint = bvh.joints[index];
+void AppendJoint(const std::vector<BvhJoint>& joints, size_t index, std::string indent,
+                 std::string& text) {
+  const BvhJoint& joint = joints[index];
   text.append(indent).append(joint.parent < 0 ? "ROOT " : "JOINT ").append(joint.name);
   text.append("\n").append(indent).append("{\n");
   const std::string inner = indent + "  ";
@@ -44,8 +36,8 @@ void AppendJoint(const BvhFile& bvh, size_t index, std::string indent, std::stri
     text.append(" ").append(kChannelNames[static_cast<size_t>(channel)]);
   }
   text += '\n';
-  for (size_t child = index + 1; child < bvh.joints.size(); ++child) {
-    if (bvh.joints[child].parent == static_cast<int>(index)) AppendJoint(bvh, child, inner, text);
+  for (size_t child = index + 1; child < joints.size(); ++child) {
+    if (joints[child].parent == static_cast<int>(index)) AppendJoint(joints, child, inner, text);
   }
   for (const Eigen::Vector3d& end : joint.end_sites) {
     text.append(inner).append("End Site\n").append(inner).append("{\n");
@@ -57,16 +49,30 @@ void AppendJoint(const BvhFile& bvh, size_t index, std::string indent, std::stri
 
 }  // namespace
 
-std::string FormatBvh(const BvhFile& bvh) {
+std::string BvhHead(const std::vector<BvhJoint>& joints, double frame_s, size_t frames) {
+  // A step of 1/30 s in six digits is 36 ms wrong after an hour.
+  constexpr int kTimeDigits = 10;
   std::string text = "HIERARCHY\n";
-  AppendJoint(bvh, 0, "", text);
-  text.append("MOTION\nFrames: ").append(std::to_string(bvh.FrameCount())).append("\nFrame Time: ");
-  AppendNumber(text, bvh.frame_s);
+  AppendJoint(joints, 0, "", text);
+  text.append("MOTION\nFrames: ").append(std::to_string(frames)).append("\nFrame Time: ");
+  AppendFixed(text, frame_s, kTimeDigits);
   text += '\n';
+  return text;
+}
+
+void AppendBvhFrame(std::string& text, std::span<const double> values) {
+  for (size_t i = 0; i < values.size(); ++i) {
+    if (i > 0) text += ' ';
+    AppendFixed(text, values[i], kDigits);
+  }
+  text += '\n';
+}
+
+std::string FormatBvh(const BvhFile& bvh) {
+  std::string text = BvhHead(bvh.joints, bvh.frame_s, bvh.FrameCount());
   const size_t channels = bvh.ChannelCount();
-  for (size_t i = 0; i < bvh.values.size(); ++i) {
-    AppendNumber(text, bvh.values[i]);
-    text += (i + 1) % channels == 0 ? '\n' : ' ';
+  for (size_t f = 0; f < bvh.FrameCount(); ++f) {
+    AppendBvhFrame(text, std::span(bvh.values).subspan(f * channels, channels));
   }
   return text;
 }

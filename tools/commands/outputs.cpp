@@ -23,11 +23,6 @@ bool IsOne(const fs::path& a, const fs::path& b) {
              fs::weakly_canonical(fs::absolute(b, unknown), unknown);
 }
 
-fs::path FileOf(const std::string& input) {
-  std::error_code unknown;
-  return fs::exists(input, unknown) ? input : input.substr(0, input.find('#'));
-}
-
 // Whether an input folder has the file among what is read of it: images, labels, truth and the like
 // of a data set or a folder of frames. Results may lie beside them.
 bool IsReadOf(const fs::path& folder, const fs::path& output) {
@@ -53,7 +48,8 @@ void CheckOutputs(const std::vector<std::string>& outputs, const std::vector<std
       throw UsageError(outputs[i] + ": expected a file of its own for each output");
     }
     for (const std::string& input : inputs) {
-      if (!IsOne(outputs[i], FileOf(input)) && !IsReadOf(FileOf(input), outputs[i])) continue;
+      const fs::path file = recon::SkeletonFileOf(input);
+      if (!IsOne(outputs[i], file) && !IsReadOf(file, outputs[i])) continue;
       throw UsageError(outputs[i] + ": expected a new file, found what is to be read");
     }
   }

@@ -57,9 +57,7 @@ Hips HipCentres(const Markers& markers) {
   backwards -= backwards.dot(leftwards) * leftwards;
   if (width_m < 1e-6 || backwards.norm() < 1e-6) return {};
   backwards.normalize();
-  const Eigen::Vector3d down = leftwards.cross(backwards).dot(*back - middle) < 0
-                                   ? Eigen::Vector3d(leftwards.cross(backwards))
-                                   : Eigen::Vector3d(backwards.cross(leftwards));
+  const Eigen::Vector3d down = backwards.cross(leftwards);  // the axes are right-handed
   const Eigen::Vector3d base = middle + width_m * (0.19 * backwards + 0.30 * down);
   return {Eigen::Vector3d(base + 0.36 * width_m * leftwards),
           Eigen::Vector3d(base - 0.36 * width_m * leftwards)};

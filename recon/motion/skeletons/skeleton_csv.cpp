@@ -3,8 +3,10 @@
 // NAME_state, NAME_confidence, NAME_reliability; empty where unknown or absent.
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <array>
 
+#include "recon/motion/fixed_point_internal.h"
 #include "recon/motion/skeletons/skeleton_formats_internal.h"
 
 namespace ossa::recon {
@@ -67,12 +69,41 @@ std::optional<JointRecord> JointIn(const TextLines& lines, const std::string_vie
   return joint;
 }
 
+std::string BeginOfRow(const SkeletonFrame& frame) {
+  constexpr int kDigits = 7;  // as in JSONL: of seconds since 1970 no step is lost
+  std::string row = std::to_string(frame.frame) + ",";
+  AppendFixed(row, frame.time_s, kDigits);
+  row.push_back(',');
+  return row;
+}
+
+// The row's body, or none.
+std::optional<BodyRecord> BodyIn(const TextLines& lines,
+                                 const std::vector<std::string_view>& fields) {
+  if (fields[2].empty()) return std::nullopt;
+  BodyRecord body;
+  body.id = static_cast<int>(WholeNumberIn(lines, fields[2], "body", INT32_MIN, INT32_MAX));
+  for (size_t j = 0; j < kJointCount; ++j) {
+    body.joints[j] = JointIn(lines, &fields[kLeading + j * kFields.size()], kJointNames[j]);
+  }
+  return body;
+}
+
+// Whether a row's body is one more of the frame before it. Frame numbers may stand still, as in a
+// JSONL whose "frame" is always 0, and so may times.
+bool BelongsTo(const SkeletonFrame& frame, int64_t number, double time_s,
+               const std::optional<BodyRecord>& body) {
+  return frame.frame == number && frame.time_s == time_s && body && !frame.bodies.empty() &&
+         std::none_of(frame.bodies.begin(), frame.bodies.end(),
+                      [&](const BodyRecord& other) { return other.id == body->id; });
+}
+
 }  // namespace
 
 void WriteSkeletonCsv(std::ostream& stream, const SkeletonSequence& sequence) {
   stream << Header() << '\n';
   for (const SkeletonFrame& frame : sequence.frames) {
-    const std::string begin = fmt::format("{},{:.9g},", frame.frame, frame.time_s);
+    const std::string begin = BeginOfRow(frame);
     if (frame.bodies.empty()) {
       stream << begin << std::string(kColumns - kLeading, ',') << '\n';
     }
@@ -97,19 +128,14 @@ SkeletonSequence ReadSkeletonCsv(SkeletonInput& input) {
     if (fields.size() != kColumns) {
       lines.Fail(fmt::format("{} columns", kColumns), fmt::format("{} columns", fields.size()));
     }
-    const long number = WholeNumberIn(lines, fields[0], "frame", 0, INT32_MAX);
+    const int64_t number = WholeNumberIn(lines, fields[0], "frame", INT64_MIN, INT64_MAX);
     const double time_s = NumberIn(lines, fields[1], "time_s");
     times.Take(lines, time_s);
-    if (sequence.frames.empty() || sequence.frames.back().frame != number) {
+    auto body = BodyIn(lines, fields);
+    if (sequence.frames.empty() || !BelongsTo(sequence.frames.back(), number, time_s, body)) {
       sequence.frames.push_back({number, time_s, std::nullopt, {}});
     }
-    if (fields[2].empty()) continue;
-    BodyRecord body;
-    body.id = static_cast<int>(WholeNumberIn(lines, fields[2], "body", INT32_MIN, INT32_MAX));
-    for (size_t j = 0; j < kJointCount; ++j) {
-      body.joints[j] = JointIn(lines, &fields[kLeading + j * kFields.size()], kJointNames[j]);
-    }
-    sequence.frames.back().bodies.push_back(std::move(body));
+    if (body) sequence.frames.back().bodies.push_back(std::move(*body));
   }
   RequireFrames(sequence);
   return sequence;

@@ -44,13 +44,19 @@ struct SkeletonFormat {
 std::span<const SkeletonFormat> AllSkeletonFormats();
 
 // Formats by the file they are written in.
-std::span<const SkeletonFormat> PlainFormats();     // skeleton_plain.cpp: jsonl, csv, trc, bvh
-std::span<const SkeletonFormat> KinectV1Formats();  // skeleton_kinect_v1.cpp
-std::span<const SkeletonFormat> KinectV2Formats();  // skeleton_kinect_v2.cpp
-std::span<const SkeletonFormat> PairedFormats();    // skeleton_paired.cpp: UI-PRMD, ITOP
-std::span<const SkeletonFormat> UiPrmdFormats();    // skeleton_uiprmd.cpp: its original files
-std::span<const SkeletonFormat> AzureFormats();     // skeleton_azure.cpp
-std::span<const SkeletonFormat> BinaryFormats();    // skeleton_binary.cpp
+std::span<const SkeletonFormat> PlainFormats();        // skeleton_plain.cpp: jsonl, csv, trc, bvh
+std::span<const SkeletonFormat> KinectV1Formats();     // skeleton_kinect_v1.cpp
+std::span<const SkeletonFormat> KinectV2Formats();     // skeleton_kinect_v2.cpp
+std::span<const SkeletonFormat> PairedFormats();       // skeleton_paired.cpp: UI-PRMD, ITOP
+std::span<const SkeletonFormat> UiPrmdFormats();       // skeleton_uiprmd.cpp: its original files
+std::span<const SkeletonFormat> AzureFormats();        // skeleton_azure.cpp
+std::span<const SkeletonFormat> C3dFormats();          // skeleton_c3d.cpp
+std::span<const SkeletonFormat> StreamSaverFormats();  // skeleton_stream_saver.cpp
+
+/// The file of times that Kinect Stream Saver writes beside its joints: no recording of its own.
+inline constexpr const char* kSaverTimes = "liTimeStamp.binary";
+/// UI-PRMD's joint angles, which are read together with the positions they belong to.
+bool HoldsAngles(std::string_view name);
 
 /// Puts a joint into a body unless the position is the "no reading" of its format.
 inline void PutJoint(BodyRecord& body, Joint joint, const Eigen::Vector3d& position_m,

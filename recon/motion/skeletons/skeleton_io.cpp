@@ -3,17 +3,14 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
 #include <fstream>
 #include <map>
 #include <set>
 #include <sstream>
 
 #include "depth/error.h"
-#include "depth/file/atomic_file.h"
-#include "recon/motion/bvh.h"
+#include "recon/motion/skeletons/recording_names_internal.h"
 #include "recon/motion/skeletons/skeleton_formats_internal.h"
-#include "recon/motion/skeletons/skeleton_jsonl.h"
 #include "recon/motion/skeletons/skeleton_source_internal.h"
 
 namespace ossa::recon {
@@ -181,113 +178,112 @@ SkeletonSequence ReadFile(const fs::path& path, const std::string& columns,
   return Read({file, path.string(), columns, options.frame_s, TextOfFile}, options);
 }
 
-// Extensions that never hold a skeleton, and what lies beside recordings in the data sets we know.
-bool IsPassedOver(const fs::path& path) {
-  static const std::set<std::string> kOther = {".md", ".png", ".jpg", ".mp4", ".avi", ".html",
-                                               ".py", ".m",   ".pdf", ".yml", ".toml"};
-  const std::string name = path.filename().string();
-  for (const char* word : {"README", "LICENSE", "ORIGINAL_", "INDEX.", "PROVENANCE", "manifest.",
-                           "camera.json", "SHA256"}) {
-    if (name.starts_with(word)) return true;
-  }
-  // Angles are read together with the positions they belong to.
-  return name.starts_with('.') || kOther.contains(path.extension().string()) ||
-         name.ends_with("_angles.txt");
-}
-
-std::string WithoutExtension(std::string name) {
-  const size_t slash = name.rfind('/');
-  for (const char* extension : {".gz", ".tar", ".tgz", ".zip"}) {
-    if (name.ends_with(extension)) name.resize(name.size() - std::string_view(extension).size());
-  }
-  const size_t dot = name.rfind('.');
-  if (dot != std::string::npos && (slash == std::string::npos || dot > slash)) name.resize(dot);
-  return name;
-}
-
-// Of files that differ by their extensions alone, these tell them apart.
-std::vector<std::string> ClipNames(const std::vector<std::string>& files) {
-  std::map<std::string, int> count;
-  for (const std::string& file : files) ++count[WithoutExtension(file)];
-  std::vector<std::string> names;
-  for (const std::string& file : files) {
-    const std::string name = WithoutExtension(file);
-    names.push_back(count[name] > 1 ? file : name);
-  }
-  return names;
-}
-
 bool Stopped(const SkeletonReadOptions& options) { return options.stop && options.stop(); }
 
-std::vector<SkeletonClip> ReadArchiveClips(const SkeletonPath& parts, const std::string& columns,
-                                           const SkeletonReadOptions& options) {
-  const auto members = ReadArchive(parts.path);
+using Members = std::map<std::string, std::string>;
+
+std::vector<RecordingPlace> PlacesIn(const Members& members, const std::string& file) {
+  std::vector<RecordingPlace> places;
+  for (const auto& [name, text] : members) {
+    if (!IsPassedOver(name)) places.push_back({file, name});
+  }
+  return places;
+}
+
+// Of an archive, the members at these places.
+std::vector<SkeletonClip> ReadMembers(const fs::path& archive, const Members& members,
+                                      const std::vector<RecordingPlace>& places,
+                                      const std::string& columns,
+                                      const SkeletonReadOptions& options) {
+  const std::string prefix = archive.string() + "#";
   const auto sibling = [&](const std::string& name) -> std::optional<std::string> {
-    const std::string prefix = parts.path.string() + "#";
     const auto found = members.find(name.starts_with(prefix) ? name.substr(prefix.size()) : name);
     if (found == members.end()) return std::nullopt;
     return found->second;
   };
   std::vector<std::string> files;
-  for (const auto& [file, text] : members) {
-    if (!IsPassedOver(file) && file.find(parts.member) != std::string::npos) files.push_back(file);
-  }
+  for (const RecordingPlace& place : places) files.push_back(place.member);
   const std::vector<std::string> names = ClipNames(files);
   std::vector<SkeletonClip> clips;
   for (size_t i = 0; i < files.size() && !Stopped(options); ++i) {
-    clips.push_back({names[i], ReadText(members.at(files[i]), parts.path.string() + "#" + files[i],
-                                        columns, options, sibling)});
+    clips.push_back(
+        {names[i], ReadText(members.at(files[i]), prefix + files[i], columns, options, sibling)});
   }
   return clips;
 }
 
+std::vector<SkeletonClip> ReadArchiveClips(const SkeletonPath& parts, const std::string& columns,
+                                           const SkeletonReadOptions& options) {
+  const Members members = ReadArchive(parts.path);
+  const auto places = AskedFor(PlacesIn(members, {}), parts.member);
+  return ReadMembers(parts.path, members, places, columns, options);
+}
+
+std::vector<RecordingPlace> FilesIn(const fs::path& folder) {
+  std::vector<RecordingPlace> files;
+  fs::path latest = folder;
+  try {
+    for (const auto& entry : fs::recursive_directory_iterator(folder)) {
+      latest = entry.path();
+      if (!entry.is_regular_file() || IsPassedOver(entry.path())) continue;
+      files.push_back({entry.path().lexically_relative(folder).string(), {}});
+    }
+  } catch (const fs::filesystem_error& error) {  // an increment's names no path
+    throw InputError(latest.string() + ": " + error.code().message());
+  }
+  return files;
+}
+
+// Archives are opened for their members' names only where no file is named exactly so.
+std::vector<RecordingPlace> PlacesAskedFor(const SkeletonPath& parts) {
+  const auto files = FilesIn(parts.path);
+  if (parts.member.empty()) return files;
+  if (auto named = ExactlyNamed(files, parts.member); !named.empty()) return named;
+  std::vector<RecordingPlace> places;
+  for (const RecordingPlace& place : files) {
+    const fs::path path = parts.path / place.file;
+    const auto inside = IsArchive(path) ? PlacesIn(ReadArchive(path), place.file)
+                                        : std::vector<RecordingPlace>{place};
+    places.insert(places.end(), inside.begin(), inside.end());
+  }
+  return AskedFor(places, parts.member);
+}
+
 std::vector<SkeletonClip> ReadFolderClips(const SkeletonPath& parts, const std::string& columns,
                                           const SkeletonReadOptions& options) {
-  std::set<fs::path> found;
-  for (const auto& entry : fs::recursive_directory_iterator(parts.path)) {
-    const bool asked_for = entry.path().string().find(parts.member) != std::string::npos;
-    if (asked_for && entry.is_regular_file() && !IsPassedOver(entry.path())) {
-      found.insert(entry.path());
-    }
-  }
-  const std::vector<fs::path> files(found.begin(), found.end());
+  std::map<fs::path, std::vector<RecordingPlace>> files;
+  for (const RecordingPlace& place : PlacesAskedFor(parts)) files[place.file].push_back(place);
   std::vector<std::string> inside;
-  for (const fs::path& file : files) {
-    inside.push_back(file.lexically_relative(parts.path).string());
-  }
+  for (const auto& [file, places] : files) inside.push_back(file.string());
   const std::vector<std::string> names = ClipNames(inside);
   std::vector<SkeletonClip> clips;
-  for (size_t i = 0; i < files.size() && !Stopped(options); ++i) {
-    if (!IsArchive(files[i])) {
-      clips.push_back({names[i], ReadFile(files[i], columns, options)});
+  auto name = names.begin();
+  for (auto file = files.begin(); file != files.end() && !Stopped(options); ++file, ++name) {
+    const fs::path path = parts.path / file->first;
+    if (!IsArchive(path)) {
+      clips.push_back({*name, ReadFile(path, columns, options)});
       continue;
     }
-    for (SkeletonClip& clip : ReadArchiveClips({files[i], {}, {}}, columns, options)) {
+    const Members members = ReadArchive(path);
+    const bool is_whole = file->second.front().member.empty();
+    const auto places = is_whole ? PlacesIn(members, {}) : file->second;
+    for (SkeletonClip& clip : ReadMembers(path, members, places, columns, options)) {
       // Archives usually hold a folder of their own name: "s01/s01/x" says no more than "s01/x".
-      if (!clip.name.starts_with(names[i] + "/")) clip.name = names[i] + "/" + clip.name;
+      if (!clip.name.starts_with(*name + "/")) clip.name = *name + "/" + clip.name;
       clips.push_back(std::move(clip));
     }
   }
   return clips;
 }
 
-std::vector<int> BodyIds(const SkeletonSequence& sequence) {
-  std::vector<int> ids;
-  for (const SkeletonFrame& frame : sequence.frames) {
-    for (const BodyRecord& body : frame.bodies) {
-      if (std::find(ids.begin(), ids.end(), body.id) == ids.end()) ids.push_back(body.id);
-    }
+// Of a folder `s01` beside an archive `s01.tar`, or of names that lose an extension and become
+// another's, results would take each other's place.
+void MakeNamesDiffer(std::vector<SkeletonClip>& clips) {
+  std::set<std::string> taken;
+  for (SkeletonClip& clip : clips) {
+    const std::string name = clip.name;
+    for (int n = 2; !taken.insert(clip.name).second; ++n) clip.name = fmt::format("{}_{}", name, n);
   }
-  if (ids.empty()) ids.push_back(1);
-  return ids;
-}
-
-fs::path PathForBody(const fs::path& path, size_t index, int id) {
-  if (index == 0) return path;
-  fs::path other = path;
-  other.replace_filename(path.stem().string() + "_" + std::to_string(id) +
-                         path.extension().string());
-  return other;
 }
 
 }  // namespace
@@ -296,8 +292,9 @@ std::span<const SkeletonFormat> AllSkeletonFormats() {
   static const std::vector<SkeletonFormat> kAll = [] {
     std::vector<SkeletonFormat> all;
     // Azure before ours: both are JSON with "bodies", and only its marks are unmistakable.
-    for (const auto formats : {AzureFormats(), PlainFormats(), PairedFormats(), UiPrmdFormats(),
-                               KinectV2Formats(), KinectV1Formats(), BinaryFormats()}) {
+    for (const auto formats :
+         {AzureFormats(), PlainFormats(), PairedFormats(), UiPrmdFormats(), KinectV2Formats(),
+          KinectV1Formats(), C3dFormats(), StreamSaverFormats()}) {
       all.insert(all.end(), formats.begin(), formats.end());
     }
     return all;
@@ -321,11 +318,16 @@ SkeletonSequence ReadSkeletonStream(std::istream& stream, const std::string& nam
   return Read({stream, name, Columns(options, {}), options.frame_s, {}}, options);
 }
 
+fs::path SkeletonFileOf(const fs::path& path) { return TakeApart(path).path; }
+
 std::vector<SkeletonClip> ReadSkeletonClips(const fs::path& path,
                                             const SkeletonReadOptions& options) {
   const SkeletonPath parts = TakeApart(path);
   const std::string columns = Columns(options, parts);
-  if (!fs::exists(parts.path)) throw InputError(parts.path.string() + ": no such file or folder");
+  std::error_code unknown;
+  if (!fs::exists(parts.path, unknown)) {
+    throw InputError(parts.path.string() + ": no such file or folder");
+  }
   if (!fs::is_directory(parts.path) && !fs::is_regular_file(parts.path)) {
     throw InputError(parts.path.string() +
                      ": expected a file or a folder, found a pipe or a device, which cannot be "
@@ -336,9 +338,13 @@ std::vector<SkeletonClip> ReadSkeletonClips(const fs::path& path,
     clips = ReadFolderClips(parts, columns, options);
   } else if (IsArchive(parts.path)) {
     clips = ReadArchiveClips(parts, columns, options);
-  } else {
+  } else if (parts.member.empty()) {
     clips.push_back({"", ReadFile(parts.path, columns, options)});
+  } else {
+    throw InputError(parts.path.string() + ": expected a folder or an archive before '#', or " +
+                     "#truth or #observed after it, found #" + parts.member);
   }
+  MakeNamesDiffer(clips);
   if (clips.empty() && !Stopped(options)) {
     throw InputError(path.string() + ": holds no skeleton recording");
   }
@@ -348,46 +354,13 @@ std::vector<SkeletonClip> ReadSkeletonClips(const fs::path& path,
 SkeletonSequence ReadSkeletons(const fs::path& path, const SkeletonReadOptions& options) {
   auto clips = ReadSkeletonClips(path, options);
   if (clips.size() > 1) {
+    const SkeletonPath parts = TakeApart(path);
+    const std::string columns = parts.columns.empty() ? "" : "#" + parts.columns;
     throw InputError(path.string() + ": expected one recording, found " +
-                     std::to_string(clips.size()) + ": name one, as " + path.string() + "#" +
-                     clips[0].name);
+                     std::to_string(clips.size()) + ": name one, as " + parts.path.string() +
+                     columns + "#" + clips[0].name);
   }
   return std::move(clips[0].sequence);
-}
-
-void CheckSkeletonExtension(const fs::path& path) {
-  static constexpr std::array kKnown = {".jsonl", ".csv", ".trc", ".bvh"};
-  if (std::find(kKnown.begin(), kKnown.end(), path.extension()) != kKnown.end()) return;
-  throw InputError(path.string() + ": expected a name in .jsonl, .csv, .trc or .bvh, found " +
-                   Quoted(path.extension().string()));
-}
-
-void WriteSkeletons(const fs::path& path, const SkeletonSequence& sequence) {
-  CheckSkeletonExtension(path);
-  if (path.extension() == ".jsonl" || path.extension() == ".csv") {
-    AtomicFile file(path);
-    if (path.extension() == ".csv") {
-      WriteSkeletonCsv(file.stream(), sequence);
-    } else {
-      SkeletonJsonlWriter writer(file.stream());
-      for (const SkeletonFrame& frame : sequence.frames) writer.Write(frame);
-    }
-    file.Commit();
-    return;
-  }
-  const std::vector<int> ids = BodyIds(sequence);
-  for (size_t i = 0; i < ids.size(); ++i) {
-    const fs::path own = PathForBody(path, i, ids[i]);
-    if (path.extension() == ".bvh") {
-      BvhExportOptions options;
-      options.body_id = ids[i];
-      WriteBvh(BvhOfSkeleton(sequence, options), own);
-      continue;
-    }
-    AtomicFile file(own);
-    WriteTrc(file.stream(), sequence, ids[i], own.filename().string());
-    file.Commit();
-  }
 }
 
 }  // namespace ossa::recon

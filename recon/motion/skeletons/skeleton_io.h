@@ -28,10 +28,16 @@ std::vector<std::string> SkeletonFormats();
 
 /// Reads one recording in any format that ossa knows, found by content: brought to our 20 joints,
 /// camera space (x to the sensor's left, y up, z forward), metres, the person's own left and right.
-/// `path` may carry `#truth` or `#observed` (see options) and, for an archive, `#MEMBER`. Throws
-/// InputError in one line; an archive or a folder with several recordings is refused here.
+/// `path` may carry `#truth` or `#observed` (see options) and, for a folder or an archive,
+/// `#MEMBER`: the recording of that name in it, with or without its extension; where there is none,
+/// what has that word as a whole name in its path, else what has it anywhere there. A path that
+/// exists as it stands is itself, else the longest part before a '#' that exists is what is read.
+/// Throws InputError in one line; an archive or a folder with several recordings is refused here.
 SkeletonSequence ReadSkeletons(const std::filesystem::path& path,
                                const SkeletonReadOptions& options = {});
+
+/// What is read of such a path: the file or folder, without what is said after '#'.
+std::filesystem::path SkeletonFileOf(const std::filesystem::path& path);
 
 /// One recording of several.
 struct SkeletonClip {
@@ -53,8 +59,9 @@ SkeletonSequence ReadSkeletonStream(std::istream& stream, const std::string& nam
                                     const SkeletonReadOptions& options = {});
 
 /// Writes by extension: .jsonl, .csv, .trc, .bvh. TRC and BVH hold one person a file: of several,
-/// the first goes to `path` and each other to `path` with `_ID` before the extension. The file
-/// appears under its name only when complete.
+/// the first goes to `path` and each other to `path` with `_ID` before the extension; all begin
+/// with the sequence's first frame. The file appears under its name only when complete. Throws
+/// InputError for a BVH that would be too long to be read: a gap in a recording is filled there.
 void WriteSkeletons(const std::filesystem::path& path, const SkeletonSequence& sequence);
 
 /// Throws InputError when WriteSkeletons would refuse the extension: ask before a long run.

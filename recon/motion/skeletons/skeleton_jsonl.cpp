@@ -11,6 +11,7 @@
 #include <stdexcept>
 
 #include "depth/error.h"
+#include "recon/motion/fixed_point_internal.h"
 #include "recon/motion/skeletons/text_lines_internal.h"
 
 namespace ossa::recon {
@@ -20,15 +21,9 @@ using Json = nlohmann::json;
 
 constexpr std::array<std::string_view, 3> kStateNames = {"not_tracked", "inferred", "tracked"};
 
-// Fixed point keeps files small and diffable; "-0" is written "0" so that equal values are equal
-// bytes.
 void AppendNumber(std::string& text, double value, int digits) {
   if (!std::isfinite(value)) throw std::invalid_argument("skeleton JSONL: a number is not finite");
-  const size_t begin = text.size();
-  fmt::format_to(std::back_inserter(text), "{:.{}f}", value, digits);
-  while (text.back() == '0') text.pop_back();
-  if (text.back() == '.') text.pop_back();
-  if (std::string_view(text).substr(begin) == "-0") text.erase(begin, 1);
+  AppendFixed(text, value, digits);
 }
 
 template <typename Vector>

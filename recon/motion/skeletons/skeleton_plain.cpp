@@ -32,14 +32,13 @@ bool IsBvh(const SkeletonSample& sample) {
   return !sample.lines.empty() && sample.lines[0].starts_with("HIERARCHY");
 }
 
-// The BVH reader wants the whole text; half a gigabyte is days of motion.
+// The BVH reader wants the whole text.
 SkeletonSequence ReadBvhSkeleton(SkeletonInput& input) {
-  constexpr size_t kMostBytes = size_t{1} << 29;
   std::string text;
   std::array<char, 1 << 16> block{};
   while (input.stream.read(block.data(), block.size()) || input.stream.gcount() > 0) {
     text.append(block.data(), static_cast<size_t>(input.stream.gcount()));
-    if (text.size() > kMostBytes)
+    if (text.size() > kMostBvhBytes)
       throw InputError(input.name + ": expected at most 512 MiB of BVH");
   }
   SkeletonSequence sequence = SkeletonOfBvh(ParseBvh(std::move(text), input.name), input.name);

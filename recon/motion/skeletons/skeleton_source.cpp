@@ -97,6 +97,18 @@ std::string FirstBytes(const std::filesystem::path& path, size_t count) {
   return bytes;
 }
 
+// Columns are said before or after the member; a member's own name may hold a '#'.
+void TakeWords(std::string words, SkeletonPath& parts) {
+  const size_t last = words.rfind('#') + 1;  // 0 without one
+  const size_t first = std::min(words.find('#'), words.size());
+  if (parts.columns = ColumnsNamed(words.substr(last)); !parts.columns.empty()) {
+    words.resize(last > 0 ? last - 1 : 0);
+  } else if (parts.columns = ColumnsNamed(words.substr(0, first)); !parts.columns.empty()) {
+    words.erase(0, first + 1);
+  }
+  parts.member = std::move(words);
+}
+
 }  // namespace
 
 std::string ColumnsNamed(const std::string& word) {
@@ -110,17 +122,17 @@ std::string ColumnsNamed(const std::string& word) {
 }
 
 SkeletonPath TakeApart(const std::filesystem::path& path) {
-  SkeletonPath parts{path, {}, {}};
-  if (std::filesystem::exists(path)) return parts;
-  std::string text = path.string();
-  for (size_t mark = text.rfind('#'); mark != std::string::npos; mark = text.rfind('#')) {
-    const std::string word = text.substr(mark + 1);
-    const std::string columns = ColumnsNamed(word);
-    (columns.empty() ? parts.member : parts.columns) = columns.empty() ? word : columns;
-    text.resize(mark);
+  const std::string text = path.string();
+  for (size_t end = text.size(); end != std::string::npos && end > 0;
+       end = text.rfind('#', end - 1)) {
+    std::error_code unknown;
+    const std::string left = text.substr(0, end);
+    if (!std::filesystem::exists(left, unknown)) continue;
+    SkeletonPath parts{left, {}, {}};
+    if (end < text.size()) TakeWords(text.substr(end + 1), parts);
+    return parts;
   }
-  parts.path = text;
-  return parts;
+  return {path, {}, {}};
 }
 
 bool IsGzip(const std::filesystem::path& path) { return FirstBytes(path, 2) == "\x1F\x8B"; }

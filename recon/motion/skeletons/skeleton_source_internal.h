@@ -9,9 +9,10 @@ namespace ossa::recon {
 struct SkeletonPath {
   std::filesystem::path path;
   std::string columns;  // "truth", "observed" or ""
-  std::string member;   // part of a member's name, or ""
+  std::string member;   // a name, or part of one, inside the folder or archive, or ""
 };
-/// The path as it is when such a file exists, else taken apart at '#'.
+/// Taken apart behind the longest part before a '#' that exists; a path of which none does is left
+/// whole.
 SkeletonPath TakeApart(const std::filesystem::path& path);
 
 /// "truth" for truth, vicon, ...; "observed" for kinect, estimate, ...; "" for none of them.

@@ -87,9 +87,19 @@ std::string AnglesFor(const SkeletonInput& input) {
   return *text;
 }
 
+// Kinect's angles have as many columns as its positions, and Vicon's as its markers: only the name
+// tells.
+void RefuseAngles(const SkeletonInput& input) {
+  if (!HoldsAngles(input.name)) return;
+  throw InputError(input.name +
+                   ": expected places, as in a ..._positions.txt, found the joint angles that "
+                   "belong to them");
+}
+
 SkeletonSequence ReadKinect(SkeletonInput& input) {
   constexpr double kUsualStep_s = 1.0 / 30.0;
   constexpr double kMetresPerCentimetre = 0.01;
+  RefuseAngles(input);
   std::istringstream angle_stream(AnglesFor(input));
   TextLines angles(angle_stream, input.name + " (angles)");
   TextLines lines(input.stream, input.name);
@@ -123,6 +133,7 @@ constexpr std::array<const char*, 39> kMarkers = {
 SkeletonSequence ReadVicon(SkeletonInput& input) {
   constexpr double kUsualStep_s = 0.01;
   constexpr double kMetresPerMillimetre = 1e-3;
+  RefuseAngles(input);
   TextLines lines(input.stream, input.name);
   SkeletonSequence sequence{input.name, {}};
   const double step_s = input.FrameTime_s(kUsualStep_s);
@@ -160,6 +171,11 @@ constexpr SkeletonFormat kFormats[] = {
 };
 
 }  // namespace
+
+bool HoldsAngles(std::string_view name) {
+  if (name.ends_with(".gz")) name.remove_suffix(3);
+  return name.ends_with("_angles.txt");
+}
 
 std::span<const SkeletonFormat> UiPrmdFormats() { return kFormats; }
 

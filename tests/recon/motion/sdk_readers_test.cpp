@@ -11,6 +11,8 @@
 #include "depth/error.h"
 #include "tests/recon/motion/skeleton_examples.h"
 #include "tests/recon/motion/skeleton_texts.h"
+#include "tests/recon/motion/tar_bytes.h"
+#include "tests/support/refused.h"
 #include "tests/support/temporary_folder.h"
 
 namespace ossa::recon {
@@ -171,6 +173,20 @@ TEST(UiPrmdOriginal, GivesJointCentresFromMarkers) {
   EXPECT_FALSE(read.frames[0].bodies[0].joints[13].has_value());
 }
 
+// As many numbers as of Vicon's markers, or of Kinect's joints: degrees were read as lengths.
+TEST(UiPrmdOriginal, AnglesAreNoPlaces) {
+  const test::TemporaryFolder folder;
+  for (const int columns : {117, 66}) {
+    std::ofstream file(folder / "m01_s01_e01_angles.txt");
+    for (int i = 0; i < columns; ++i) file << (i > 0 ? "," : "") << i;
+    file << "\n";
+    file.close();
+    test::ExpectRefused([&] { ReadSkeletons(folder / "m01_s01_e01_angles.txt"); },
+                        "m01_s01_e01_angles.txt: expected places, as in a ..._positions.txt, found "
+                        "the joint angles");
+  }
+}
+
 TEST(AzureKinect, TurnsAxesAndMillimetres) {
   const auto read = Read(AzureText());
   ASSERT_EQ(read.frames.size(), 2u);
@@ -188,16 +204,31 @@ TEST(KinectStreamSaver, ReadsOnlyTheSkeletonsThatWereSeen) {
   ExpectAt(read, 2, Joint::kFootRight, 0.19, 0.2, 2, kFloat_m);
 }
 
+// Two frames, 40 ms apart.
+std::string SaverTimesBytes() {
+  std::string bytes(2 * 5 * sizeof(int64_t), '\0');
+  Put<int64_t>(bytes, 4 * sizeof(int64_t), 5000);
+  Put<int64_t>(bytes, 9 * sizeof(int64_t), 5040);
+  return bytes;
+}
+
 TEST(KinectStreamSaver, TakesTimesFromTheFileBesideIt) {
   const test::TemporaryFolder folder;
   std::ofstream(folder / "Joint_Position.binary", std::ios::binary) << SaverBytes(2);
-  std::ofstream times(folder / "liTimeStamp.binary", std::ios::binary);
-  for (int64_t row = 0; row < 2; ++row) {
-    const int64_t values[5] = {0, 0, 0, 0, 5000 + 40 * row};
-    times.write(reinterpret_cast<const char*>(values), sizeof(values));
-  }
-  times.close();
+  std::ofstream(folder / "liTimeStamp.binary", std::ios::binary) << SaverTimesBytes();
   EXPECT_NEAR(ReadSkeletons(folder / "Joint_Position.binary").frames[1].time_s, 0.040, kExact);
+}
+
+// The times were taken for a recording of their own, which nobody knows.
+TEST(KinectStreamSaver, IsReadAsTheFolderOrArchiveThatItIs) {
+  const test::TemporaryFolder folder;
+  std::filesystem::create_directory(folder / "walk");
+  std::ofstream(folder / "walk/Joint_Position.binary", std::ios::binary) << SaverBytes(2);
+  std::ofstream(folder / "walk/liTimeStamp.binary", std::ios::binary) << SaverTimesBytes();
+  EXPECT_NEAR(ReadSkeletons(folder / "walk").frames[1].time_s, 0.040, kExact);
+  WriteTar(folder / "walk.tar", {{"walk/Joint_Position.binary", SaverBytes(2)},
+                                 {"walk/liTimeStamp.binary", SaverTimesBytes()}});
+  EXPECT_NEAR(ReadSkeletons(folder / "walk.tar").frames[1].time_s, 0.040, kExact);
 }
 
 TEST(C3d, ReadsLabelledPointsWithZUp) {

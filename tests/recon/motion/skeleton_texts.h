@@ -111,7 +111,7 @@ inline std::string C3dBytes() {
   Put<float>(bytes, 20, 50.0f);
   std::string section = std::string("\x01\x50\x01\x54", 4);
   section += std::string("\x05\xFF", 2) + "POINT" + std::string("\x03\x00\x00", 3);
-  section += std::string("\x06\x01", 2) + "LABELS" + std::string("\x19\x00\xFF\x02\x0A\x02", 6) +
+  section += std::string("\x06\x01", 2) + "LABELS" + std::string("\x1B\x00\xFF\x02\x0A\x02", 6) +
              "HipCenter Head      " + std::string(1, '\0');
   section += std::string("\x05\x01", 2) + "UNITS" + std::string("\x08\x00\xFF\x01\x02", 5) + "mm" +
              std::string(1, '\0');

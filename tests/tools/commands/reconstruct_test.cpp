@@ -253,6 +253,34 @@ TEST_F(ReconstructCommand, ACharacterStandsInForJointsThatAFileLacks) {
   EXPECT_EQ(hand->state, recon::TrackingState::kInferred);
 }
 
+// A gap is filled there, at 30 frames a second.
+TEST_F(ReconstructCommand, RefusesABvhThatNobodyWouldRead) {
+  auto recording = Recording();
+  for (size_t f = 30; f < 33; ++f) {
+    for (size_t later = f; later < 60; ++later) recording.frames[later].time_s += 80000.0;
+  }
+  recon::WriteSkeletons(in_, recording);
+  const std::string out = folder_ / "out.bvh";
+  const auto run = RunOssa({"reconstruct", in_, "--out", out, "--method", "none", "--quiet"});
+  EXPECT_EQ(run.exit_status, 1);
+  EXPECT_EQ(test::LineCount(run.err), 1) << run.err;
+  EXPECT_NE(run.err.find("out.bvh: expected a BVH of at most 512 MiB"), std::string::npos)
+      << run.err;
+  EXPECT_NE(run.err.find("the longest gap"), std::string::npos) << run.err;
+  EXPECT_FALSE(std::filesystem::exists(out));
+}
+
+// Whatever is said after '#', and whatever is in the folder's name.
+TEST_F(ReconstructCommand, NeverWritesOverWhatItReads) {
+  std::filesystem::create_directory(folder_ / "a#b");
+  const std::string in = folder_ / "a#b/in.jsonl";
+  recon::WriteSkeletons(in, Recording());
+  const auto run = RunOssa({"reconstruct", in + "#observed", "--out", in, "--method", "none"});
+  EXPECT_EQ(run.exit_status, 2);
+  EXPECT_NE(run.err.find(in + ": expected a new file, found what is to be read"), std::string::npos)
+      << run.err;
+}
+
 struct BadReconstruct {
   const char* name;
   std::vector<std::string> arguments;
