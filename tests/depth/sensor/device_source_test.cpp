@@ -9,6 +9,7 @@
 #include "depth/error.h"
 #include "depth/image/camera_io.h"
 #include "depth/sensor/frame_source.h"
+#include "depth/sensor/oni_recorder.h"
 #include "tests/support/depth_examples.h"
 #include "tests/support/temporary_folder.h"
 
@@ -41,6 +42,21 @@ int NumberOf(const DepthFrame& frame, int count) {
     if (frame.depth_mm == ExampleFrame(i).depth_mm) return i;
   }
   return -1;
+}
+
+// OpenNI2 takes it for a device that plays without end.
+TEST(Device, IsNoneWhereTheUriIsARecording) {
+  const TemporaryFolder folder;
+  {
+    OniRecorder recorder(folder / "x.oni", ExampleFrame(0).camera);
+    for (int i = 0; i < 3; ++i) recorder.Write(ExampleFrame(i));
+    recorder.Finish();
+  }
+  const auto source = OpenSource("openni:" + (folder / "x.oni").string());
+  EXPECT_FALSE(source->is_live());
+  for (int i = 0; i < 3; ++i)
+    EXPECT_EQ(NextFrame(*source).frame.depth_mm, ExampleFrame(i).depth_mm);
+  EXPECT_EQ(source->Read(std::chrono::minutes(1)).status, ReadStatus::kEnd);
 }
 
 TEST(Device, DeliversTheFramesBitForBitAt30Hz) {

@@ -1,5 +1,6 @@
 #include <gtest/gtest.h>
 
+#include "depth/error.h"
 #include "recon/gp/learned_models.h"
 #include "recon/methods/reconstructor.h"
 #include "tests/recon/synthetic_motion.h"
@@ -125,6 +126,14 @@ std::string NameOfCase(const testing::TestParamInfo<std::string>& info) {
   std::string name = info.param;
   std::erase(name, '-');
   return name;
+}
+
+// `ossa learn --correction-only`, and what ships: postures came out as they went in.
+TEST_P(LearnedMethod, RefusesAFileThatHoldsOnlyWhatBestUses) {
+  ReconstructorOptions options;
+  options.method = GetParam();
+  options.learned = std::make_shared<const LearnedModels>();
+  EXPECT_THROW(MakeReconstructor(options), InputError);
 }
 
 // What was learned on of one person is not the next one's.

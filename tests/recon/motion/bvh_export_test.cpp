@@ -82,6 +82,46 @@ TEST(BvhExport, OfSeveralPeopleIsInStepWithTheRecording) {
   }
 }
 
+// What the image does not show of a person is not tracked, wherever a file has it; a method that
+// placed it says how reliable that is.
+TEST(BvhExport, HasJointsThatAreNotTrackedWhereAMethodPlacedThem) {
+  for (const bool placed : {false, true}) {
+    SkeletonSequence sequence = SeenAt({0.0, 1 / 30.0, 2 / 30.0});
+    for (size_t f = 1; f < 3; ++f) {
+      JointRecord& hand = *sequence.frames[f].bodies[0].joints[7];
+      hand.state = TrackingState::kNotTracked;
+      if (placed) hand.reliability = 0.1;
+      if (!placed) hand.position_m.setZero();
+    }
+    const SkeletonSequence made = SkeletonOfBvh(BvhOfSkeleton(sequence), "made.bvh");
+    SkeletonSequence held = SeenAt({0.0, 1 / 30.0, 2 / 30.0});
+    const auto bone = [](const BodyRecord& body) -> Eigen::Vector3d {
+      return (body.joints[7]->position_m - body.joints[6]->position_m).normalized();
+    };
+    for (size_t f = 0; f < 3; ++f) {
+      const Eigen::Vector3d expected = bone(held.frames[placed ? f : 0].bodies[0]);
+      EXPECT_LT((bone(made.frames[f].bodies[0]) - expected).norm(), 1e-5) << placed << f;
+    }
+  }
+}
+
+// `Frame Time: 0.033333` of others' files: each time it was written it lost its last frame.
+TEST(BvhExport, KeepsTheLastFrameWhereTimesAreRounded) {
+  std::vector<double> times_s;
+  for (int f = 0; f < 2000; ++f) times_s.push_back(f * 0.033333);
+  EXPECT_EQ(BvhOfSkeleton(SeenAt(times_s)).FrameCount(), 2000u);
+}
+
+TEST(BvhExport, OfNobodyIsRefusedByName) {
+  const ossa::test::TemporaryFolder folder;
+  SkeletonSequence nobody = SeenAt({0.0, 0.1});
+  for (SkeletonFrame& frame : nobody.frames) frame.bodies.clear();
+  ossa::test::ExpectRefused([&] { WriteSkeletons(folder / "x.bvh", nobody); },
+                            "x.bvh: expected somebody");
+  WriteSkeletons(folder / "x.trc", nobody);
+  EXPECT_TRUE(std::filesystem::exists(folder / "x.trc"));
+}
+
 // A negative id meant the body seen most.
 TEST(BvhExport, IsOfTheBodyAskedForWhateverItsNumber) {
   SkeletonSequence sequence = TwoPeople();

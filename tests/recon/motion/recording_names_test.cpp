@@ -108,6 +108,15 @@ TEST(RecordingNames, AreAdvisedAsTheyCanBeSaid) {
                       "found 2: name one, as " + tar + "#truth#1");
 }
 
+// One's results took the other's place.
+TEST(RecordingNames, OfAFolderDiffer) {
+  const test::TemporaryFolder folder;
+  const std::string walks = folder / "walks";
+  WriteWalk(walks + "/s01/x.jsonl", 2);
+  WriteTar(walks + "/s01.tar", {{"x.jsonl", Walk(3)}});
+  EXPECT_EQ(NamesAt(walks), (Names{"s01/x", "s01/x_2"}));
+}
+
 TEST(RecordingNames, AreNoneOfASingleFiles) {
   const test::TemporaryFolder folder;
   const std::string walk = folder / "walk.jsonl";

@@ -1,6 +1,7 @@
 #include <gtest/gtest.h>
 #include <signal.h>
 
+#include <algorithm>
 #include <filesystem>
 #include <fstream>
 #include <nlohmann/json.hpp>
@@ -253,6 +254,44 @@ TEST(TrackCommand, BonesByTheWholeRecordingAreTheSameInEveryFrame) {
   };
   EXPECT_GT(drift("so-far"), 1e-3);
   EXPECT_LT(drift("recording"), 1e-3);
+}
+
+TEST(TrackCommand, OfSomebodySeatedHasTheUpperTenJoints) {
+  OSSA_NEEDS_MODEL();
+  const TemporaryFolder folder;
+  WriteWalk(folder / "in", 3);
+  for (const char* name : {"x.jsonl", "x.trc"}) {
+    const CommandResult result =
+        TrackTo(folder / "in", folder / name, {"--mode", "seated"}, "best");
+    ASSERT_EQ(result.exit_status, 0) << result.err;
+    const auto& frame = recon::ReadSkeletons((folder / name).string()).frames.back();
+    ASSERT_FALSE(frame.bodies.empty());
+    const auto& joints = frame.bodies[0].joints;
+    EXPECT_EQ(std::count_if(joints.begin(), joints.end(), [](const auto& j) { return bool(j); }),
+              10);
+  }
+}
+
+// A recording or a data set would be gone.
+TEST(TrackCommand, NeverWritesOverTheFramesItReads) {
+  const TemporaryFolder folder;
+  WriteWalk(folder / "data/depth", 2);
+  std::ofstream(folder / "data/manifest.json") << "{}";
+  WriteWalk(folder / "frames", 2);
+  const auto data = (folder / "data").string(), frames = (folder / "frames").string();
+  for (const std::vector<std::string>& arguments :
+       std::vector<std::vector<std::string>>{{data, "--pictures", data + "/depth"},
+                                             {data, "--json-stats", data + "/manifest.json"},
+                                             {data, "--picture", data + "/depth/000001.png"},
+                                             {frames, "--pictures", frames},
+                                             {frames, "--picture", frames + "/000001.png"}}) {
+    std::vector<std::string> command = {"track"};
+    command.insert(command.end(), arguments.begin(), arguments.end());
+    const CommandResult result = RunOssa(command);
+    EXPECT_EQ(result.exit_status, 2) << result.err;
+    EXPECT_NE(result.err.find(arguments[2] + ": expected a new file"), std::string::npos)
+        << result.err;
+  }
 }
 
 TEST(TrackCommand, BonesByTheWholeRecordingNeedARecordingAndAMethodThatKeepsThem) {

@@ -147,7 +147,28 @@ TEST(EvaluateCommand, ADamagedModelIsOneLine) {
   EXPECT_NE(result.err.find("broken.ossa"), std::string::npos) << result.err;
 }
 
+// Not after the hours in which trees grow.
+TEST_F(BadDataSet, TooFewImagesForARefinementAreToldBeforeTreesGrow) {
+  for (const std::string& fresh : {data(), std::string("/nowhere")}) {
+    const CommandResult result =
+        RunOssa({"train", data(), "--out", model(), "--trees", "1", "--depth", "3", "--validation",
+                 data(), "--refinement", fresh});
+    EXPECT_EQ(result.exit_status, 1);
+    EXPECT_EQ(test::LineCount(result.err), 1) << result.err;  // no progress of trees before it
+    EXPECT_NE(result.err.find(fresh), std::string::npos) << result.err;
+    EXPECT_FALSE(fs::exists(model() + ".checkpoint"));
+  }
+}
+
+TEST_F(BadDataSet, NoModelIsWrittenOverWhatIsRead) {
+  const auto manifest = data() + "/manifest.json";
+  EXPECT_EQ(RunOssa({"train", data(), "--out", manifest}).exit_status, 2);
+  EXPECT_EQ(RunOssa({"train", "--import-pcl", manifest, "--out", manifest}).exit_status, 2);
+  EXPECT_TRUE(fs::file_size(manifest) > 0);
+}
+
 TEST(TrainCommand, WrongUsageIsStatusTwo) {
+  EXPECT_EQ(RunOssa({"train", "d", "--out", "x.ossa", "--trees", "0"}).exit_status, 2);
   EXPECT_EQ(RunOssa({"train", "--out", "x.ossa"}).exit_status, 2);
   EXPECT_EQ(RunOssa({"train", "d", "--out", "x.ossa", "--depth", "99"}).exit_status, 2);
   EXPECT_EQ(RunOssa({"train", "d", "--out", "x.ossa", "--memory", "many"}).exit_status, 2);

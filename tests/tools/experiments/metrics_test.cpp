@@ -236,6 +236,31 @@ TEST(SeveralPeople, AreMatchedByPlaceNotById) {
   for (const auto& pair : pairs) EXPECT_EQ(*Measure(pair).mean_joint_error_cm, 0);
 }
 
+// Two people, whose clock is half a second late.
+TEST(SeveralPeople, AreComparedAtTheTimesAskedFor) {
+  auto truth = Swinging(90, 1 / 30.0);
+  for (auto& frame : truth.frames) {
+    auto other = frame.bodies[0];
+    other.id = 2;
+    for (auto& joint : other.joints) joint->position_m.x() += 3.0;
+    frame.bodies.push_back(other);
+  }
+  auto late = truth;
+  for (auto& frame : late.frames) frame.time_s += 0.5;
+  const auto error_cm = [&](const PairOptions& options) {
+    double worst = 0;
+    for (const auto& pair : PairUp(truth, late, options)) {
+      worst = std::max(worst, *Measure(pair).mean_joint_error_cm);
+    }
+    return worst;
+  };
+  EXPECT_GT(error_cm({}), 1);
+  EXPECT_LT(error_cm({.time = TimeAlignment::kFixed, .offset_s = -0.5}), 1e-6);
+  EXPECT_LT(error_cm({.time = TimeAlignment::kCorrelate}), 0.5);
+  EXPECT_GT(error_cm({.time = TimeAlignment::kFixed, .offset_s = 0.5}), 1);
+  EXPECT_NEAR(PairUp(truth, late, {.time = TimeAlignment::kCorrelate})[0].offset_s, -0.5, 0.02);
+}
+
 TEST(MeanOverClips, CountsAShortClipAsMuchAsALongOne) {
   ClipMetrics one;
   one.frames = 10;
