@@ -137,9 +137,9 @@ void ShowDepthRecording(const fs::path& path) {
              camera.fx, camera.fy, camera.cx, camera.cy);
 }
 
-bool IsRegularFile(const fs::path& path) { return fs::is_regular_file(path); }
+bool HoldsAnything(const fs::path& path) { return !fs::is_directory(path) || !fs::is_empty(path); }
 
-// Whatever else it is: a skeleton file of some SDK's, or the readers say why not.
+// Whatever else it is: skeletons of some SDK's, alone or in a folder, or the readers say why not.
 void ShowSkeletons(const fs::path& path) {
   for (const recon::SkeletonClip& clip : recon::ReadSkeletonClips(path)) {
     const auto& frames = clip.sequence.frames;
@@ -160,7 +160,7 @@ constexpr std::array kKinds = {
     FileKind{recon::CloseLook::IsOne, ShowLook},
     FileKind{tools::IsDataset, ShowDataset},
     FileKind{depth::IsRecording, ShowDepthRecording},
-    FileKind{IsRegularFile, ShowSkeletons},
+    FileKind{HoldsAnything, ShowSkeletons},
 };
 
 }  // namespace
@@ -170,17 +170,23 @@ int Info(int argc, char** argv) {
   std::string file;
   app.add_option(
          "FILE", file,
-         "a .ossa, .ossadb, .ossagp, .ossaprior, .ossalook, .oni or skeleton file, a 16-bit PNG "
-         "or a folder of them, or a DATASET")
+         "a .ossa, .ossadb, .ossagp, .ossaprior, .ossalook, .oni or skeleton file, a 16-bit PNG, "
+         "a folder of PNGs or of skeleton files, or a DATASET")
       ->required();
   Parse(app, argc, argv);
-  if (!fs::exists(file)) throw InputError(file + ": no such file or folder");
+  if (!fs::exists(file)) {
+    if (!fs::exists(recon::SkeletonFileOf(file))) {
+      throw InputError(file + ": no such file or folder");
+    }
+    ShowSkeletons(file);  // FILE#truth and the like
+    return 0;
+  }
   for (const FileKind& kind : kKinds) {
     if (!kind.is(file)) continue;
     kind.show(file);
     return 0;
   }
-  throw InputError(file + ": expected a DATASET or a folder of PNGs");
+  throw InputError(file + ": expected a DATASET, a folder of PNGs or one of skeleton files");
 }
 
 }  // namespace ossa::commands

@@ -53,7 +53,8 @@ void AddClips(const std::string& observed_path, const std::string& truth_path, P
   if (pairs.size() == before) {
     throw InputError(observed_path + ": no frame matches one of " + truth_path +
                      "; expected recordings of the same names, the same frame numbers or times, "
-                     "and at least 4 common joints");
+                     "and at least 4 common joints less than 0.5 m apart (of other axes and "
+                     "places nothing is learned)");
   }
 }
 

@@ -17,6 +17,13 @@ inline void CheckLearned(const std::string& method, const std::string& learned) 
                   method, learned.empty() ? "none" : "--learned none"));
 }
 
+/// Throws UsageError where best is given both to complete postures by.
+inline void CheckOneOf(const std::string& method, const std::string& database,
+                       const std::string& prior) {
+  if (method != "best" || database.empty() || prior.empty()) return;
+  throw UsageError("--database and --prior: expected one of them, best completes by one");
+}
+
 /// --bones: which frames tell how long a person's bones are.
 struct BonesOption {
   std::string from = "so-far";

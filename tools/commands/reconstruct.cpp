@@ -147,6 +147,8 @@ int Reconstruct(int argc, char** argv) {
 
   CheckLearned(a.options.method, a.learned);
   a.bones.Check(a.options.method);
+  a.mechanics.Check();
+  CheckOneOf(a.options.method, a.database_file, a.prior_file);
   CheckOutputs({a.out}, {a.skeletons});
   for (const double weight : a.weights) {
     if (!(weight >= 0))

@@ -116,6 +116,8 @@ TrackOptions ParseOptions(int argc, char** argv) {
   }
   CheckLearned(options.tracker.method, options.tracker.learned);
   options.bones.Check(options.tracker.method);
+  options.mechanics.Check();
+  CheckOneOf(options.tracker.method, options.tracker.database, options.tracker.prior);
   if (options.posture == "looked") NeedLook(options.tracker);
   if (!options.out.empty()) CheckSkeletonName(options.out);
   CheckExtension("--picture", options.picture, ".png");

@@ -3,7 +3,6 @@
 
 #include <algorithm>
 
-#include "depth/error.h"
 #include "depth/one_line.h"
 #include "recon/motion/skeletons/joint_names_internal.h"
 #include "recon/motion/skeletons/skeleton_formats_internal.h"
@@ -145,8 +144,8 @@ SkeletonSequence ReadTrc(SkeletonInput& input) {
         OneBodyFrame(sequence.frames.size(), time_s, BodyIn(lines, fields, header)));
   }
   if (sequence.frames.size() < header.frames) {
-    throw InputError(fmt::format("{}: expected {} frames as NumFrames says, found {}: cut short",
-                                 input.name, header.frames, sequence.frames.size()));
+    lines.Fail(fmt::format("{} frames as NumFrames says", header.frames),
+               std::to_string(sequence.frames.size()));
   }
   RequireFrames(sequence);
   return sequence;

@@ -186,7 +186,7 @@ INSTANTIATE_TEST_SUITE_P(
               "40 marker names"},
         Wrong{"TrcCut", ExampleText(".trc").substr(0, 60), "expected"},
         Wrong{"TrcRowsCut", Replaced(ExampleText(".trc"), "\t3\t20\tmm", "\t9\t20\tmm"),
-              "expected 9 frames as NumFrames says, found 3"},
+              "expected 9 frames as NumFrames says, found '3'"},
         Wrong{"TrcEndlessLine", ExampleText(".trc") + std::string(2 << 20, '1'), "1 MiB"}),
     [](const testing::TestParamInfo<Wrong>& info) { return info.param.name; });
 

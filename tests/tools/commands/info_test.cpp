@@ -79,6 +79,8 @@ TEST(InfoCommand, ShowsWhatASkeletonFileHolds) {
       << R"({"frame":0,"time_s":0,"bodies":[{"id":1,"joints":{"Head":{"p":[0,0,2]}}}]})"
       << "\n";
   ExpectShown(folder / "x.jsonl", "skeletons, 1 frames, 0.00 s, 1 bodies");
+  ExpectShown(folder / "x.jsonl#truth", "skeletons, 1 frames, 0.00 s, 1 bodies");
+  ExpectShown(folder.path(), "skeletons x, 1 frames, 0.00 s, 1 bodies");
 }
 
 TEST(InfoCommand, RefusesWhatIsDamagedUnknownOrNotThere) {
@@ -90,7 +92,7 @@ TEST(InfoCommand, RefusesWhatIsDamagedUnknownOrNotThere) {
   ExpectRefused(folder / "letter.txt", "expected");
   ExpectRefused(folder / "none.ossa", "no such file");
   std::filesystem::create_directory(folder / "empty");
-  ExpectRefused(folder / "empty", "expected a DATASET or a folder of PNGs");
+  ExpectRefused(folder / "empty", "expected a DATASET, a folder of PNGs or one of skeleton files");
 }
 
 }  // namespace
