@@ -4,6 +4,7 @@
 #include <iterator>
 
 #include "depth/error.h"
+#include "depth/file/open_file.h"
 #include "recon/motion/text_scanner_internal.h"
 
 namespace ossa::recon {
@@ -119,7 +120,7 @@ std::string ReadTextFile(const std::filesystem::path& path) {
     throw InputError(path.string() + ": expected a text of at most 1 GiB, found " +
                      std::to_string(size) + " bytes");
   }
-  std::ifstream file(path, std::ios::binary);
+  std::ifstream file = OpenFile(path);
   std::string text(size, '\0');
   file.read(text.data(), static_cast<std::streamsize>(size));
   if (!file) throw InputError(path.string() + ": cannot be read");

@@ -8,6 +8,7 @@
 #include <mutex>
 
 #include "depth/error.h"
+#include "depth/file/open_file.h"
 #include "depth/image/depth_png.h"
 #include "recon/body/parts.h"
 #include "tools/synth/manifest_internal.h"
@@ -27,7 +28,7 @@ fs::path ImagePath(const fs::path& folder, const char* kind, int64_t index) {
 }
 
 std::vector<std::string> ReadTruthLines(const fs::path& path, int64_t expected) {
-  std::ifstream file(path);
+  std::ifstream file = OpenFile(path);
   if (!file) throw InputError(path.string() + ": cannot be read: expected the truth of a data set");
   std::vector<std::string> lines;
   for (std::string line; std::getline(file, line);) lines.push_back(std::move(line));

@@ -4,6 +4,7 @@
 #include <nlohmann/json.hpp>
 
 #include "depth/error.h"
+#include "depth/file/open_file.h"
 #include "depth/image/camera_io.h"
 #include "tools/json/json_text.h"
 #include "tools/synth/manifest_internal.h"
@@ -95,7 +96,7 @@ std::string ManifestToJson(const DatasetManifest& manifest) {
 
 DatasetManifest ReadManifest(const std::filesystem::path& folder) {
   const auto path = folder / "manifest.json";
-  std::ifstream file(path);
+  std::ifstream file = OpenFile(path);
   if (!file) throw InputError(path.string() + ": cannot be read: expected a data set's manifest");
   const Json json = Json::parse(file, nullptr, false);
   if (json.is_discarded()) throw InputError(path.string() + ": expected JSON, found other text");

@@ -1,8 +1,8 @@
 // Data sets and models that are not what they should be: one clear line each.
 #include <gtest/gtest.h>
+#include <sys/stat.h>
 
 #include <csignal>
-
 #include <filesystem>
 #include <fstream>
 #include <thread>
@@ -68,6 +68,15 @@ TEST_F(BadDataSet, AnImageOfAnotherKindIsNamed) {
   fs::copy_file(fs::path(data()) / "depth" / "000001.png",
                 fs::path(data()) / "parts" / "000001.png", fs::copy_options::overwrite_existing);
   ExpectRefused("000001.png");
+}
+
+// To open one that nobody writes to is to wait for ever.
+TEST_F(BadDataSet, PipesAreRefusedNotWaitedFor) {
+  for (const char* name : {"truth.jsonl", "manifest.json"}) {
+    fs::remove(fs::path(data()) / name);
+    ASSERT_EQ(mkfifo((fs::path(data()) / name).c_str(), 0600), 0);
+    ExpectRefused(name);
+  }
 }
 
 TEST_F(BadDataSet, ALostManifestIsNamed) {
