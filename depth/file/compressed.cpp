@@ -24,10 +24,13 @@ std::vector<std::byte> Decompressed(std::span<const std::byte> sealed, const std
   const auto size = in.Get<uint64_t>("unpacked length");
   const auto bytes = in.GetVector<std::byte>("compressed payload");
   in.ExpectEnd();
-  // zstd stores at most about 1 : 2^17; a larger claim is a lie, refused before allocating.
+  // zstd's shortest block, 4 bytes, holds 2^17 that are all the same, and a frame that we wrote
+  // says itself what it holds: another claim is a lie, refused before allocating.
   constexpr uint64_t kMost = uint64_t{1} << 31U;
-  constexpr uint64_t kMostTimes = uint64_t{1} << 18U;
-  if (size > kMost || size / kMostTimes > bytes.size()) {
+  constexpr uint64_t kMostTimes = uint64_t{1} << 15U;
+  const uint64_t said = ZSTD_getFrameContentSize(bytes.data(), bytes.size());
+  const bool is_frame = said != ZSTD_CONTENTSIZE_ERROR;  // else told of below: it is damaged
+  if (size > kMost || size / kMostTimes > bytes.size() || (is_frame && size != said)) {
     throw InputError(file + ": byte 32: unpacked length: " + std::to_string(size) +
                      " is more than the file can hold");
   }

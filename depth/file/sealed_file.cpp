@@ -24,21 +24,11 @@ uint64_t Checksum(std::span<const std::byte> bytes) {
   return XXH3_64bits(bytes.data(), bytes.size());
 }
 
-}  // namespace
-
-void WriteSealedFile(const std::filesystem::path& path, const SealedFormat& format,
-                     std::span<const std::byte> payload) {
-  const Header header{format.magic, kByteOrderMark, format.version, payload.size(),
-                      Checksum(payload)};
-  AtomicFile file(path);
-  file.stream().write(reinterpret_cast<const char*>(&header), sizeof(header));
-  file.stream().write(reinterpret_cast<const char*>(payload.data()),
-                      static_cast<std::streamsize>(payload.size()));
-  file.Commit();
-}
-
-std::vector<std::byte> OpenSealedBytes(std::span<const std::byte> bytes, const std::string& name,
-                                       const SealedFormat& format) {
+// Everything but the checksum: `bytes` begin with the header, if there are so many, and are
+// followed by more up to `size`. What follows need not be read to refuse another kind of file,
+// which may not even fit into memory.
+Header CheckedHeader(std::span<const std::byte> bytes, uint64_t size, const std::string& name,
+                     const SealedFormat& format) {
   const std::string what(format.what);
   Header header;
   if (bytes.size() < sizeof(header)) {
@@ -56,14 +46,46 @@ std::vector<std::byte> OpenSealedBytes(std::span<const std::byte> bytes, const s
     throw InputError(name + ": byte 12: version: expected " + std::to_string(format.version) +
                      ", found " + std::to_string(header.version));
   }
-  const auto payload = bytes.subspan(sizeof(header));
-  if (header.payload_size != payload.size()) {
+  if (header.payload_size != size - sizeof(header)) {
     throw InputError(name + ": byte 16: length: expected " + std::to_string(header.payload_size) +
-                     " bytes of payload, found " + std::to_string(payload.size()));
+                     " bytes of payload, found " + std::to_string(size - sizeof(header)));
   }
+  return header;
+}
+
+void CheckPayload(std::span<const std::byte> payload, const Header& header, const std::string& name,
+                  const SealedFormat& format) {
   if (header.checksum != Checksum(payload)) {
-    throw InputError(name + ": byte 24: checksum: the " + what + " is damaged");
+    throw InputError(name + ": byte 24: checksum: the " + std::string(format.what) + " is damaged");
   }
+}
+
+// The file's next bytes, fewer where it ends.
+std::vector<std::byte> NextBytes(std::ifstream& file, size_t at_most) {
+  std::vector<std::byte> bytes(at_most);
+  file.read(reinterpret_cast<char*>(bytes.data()), static_cast<std::streamsize>(at_most));
+  bytes.resize(static_cast<size_t>(file.gcount()));
+  return bytes;
+}
+
+}  // namespace
+
+void WriteSealedFile(const std::filesystem::path& path, const SealedFormat& format,
+                     std::span<const std::byte> payload) {
+  const Header header{format.magic, kByteOrderMark, format.version, payload.size(),
+                      Checksum(payload)};
+  AtomicFile file(path);
+  file.stream().write(reinterpret_cast<const char*>(&header), sizeof(header));
+  file.stream().write(reinterpret_cast<const char*>(payload.data()),
+                      static_cast<std::streamsize>(payload.size()));
+  file.Commit();
+}
+
+std::vector<std::byte> OpenSealedBytes(std::span<const std::byte> bytes, const std::string& name,
+                                       const SealedFormat& format) {
+  const Header header = CheckedHeader(bytes, bytes.size(), name, format);
+  const auto payload = bytes.subspan(sizeof(header));
+  CheckPayload(payload, header, name, format);
   return {payload.begin(), payload.end()};
 }
 
@@ -86,10 +108,8 @@ SealedFormat FormatOf(std::span<const std::byte> bytes, const SealedFormat& newe
 
 SealedFormat FormatOf(const std::filesystem::path& path, const SealedFormat& newest,
                       uint32_t oldest) {
-  std::array<std::byte, sizeof(Header)> head{};
   std::ifstream file = OpenFile(path);
-  file.read(reinterpret_cast<char*>(head.data()), head.size());
-  return file ? FormatOf(std::span<const std::byte>(head), newest, oldest) : newest;
+  return FormatOf(NextBytes(file, sizeof(Header)), newest, oldest);
 }
 
 std::vector<std::byte> ReadSealedFile(const std::filesystem::path& path,
@@ -98,11 +118,13 @@ std::vector<std::byte> ReadSealedFile(const std::filesystem::path& path,
   if (!file) {
     throw InputError(path.string() + ": cannot be read: expected a " + std::string(format.what));
   }
-  std::vector<std::byte> bytes(static_cast<size_t>(file.tellg()));
+  const auto size = static_cast<uint64_t>(file.tellg());
   file.seekg(0);
-  file.read(reinterpret_cast<char*>(bytes.data()), static_cast<std::streamsize>(bytes.size()));
-  if (!file) throw InputError(path.string() + ": reading failed");
-  return OpenSealedBytes(bytes, path.string(), format);
+  const Header header = CheckedHeader(NextBytes(file, sizeof(Header)), size, path.string(), format);
+  std::vector<std::byte> payload = NextBytes(file, header.payload_size);
+  if (payload.size() != header.payload_size) throw InputError(path.string() + ": reading failed");
+  CheckPayload(payload, header, path.string(), format);
+  return payload;
 }
 
 std::string PayloadReader::GetString(std::string_view field) {

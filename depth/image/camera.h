@@ -1,8 +1,13 @@
 #pragma once
 #include <Eigen/Core>
 #include <cmath>
+#include <string>
 
 namespace ossa::depth {
+
+/// Images larger than this in either direction are refused before anything is allocated: no depth
+/// camera comes near it, and a hostile header could ask for 16 GB.
+inline constexpr int kLargestImageSide = 8192;
 
 /// A pinhole depth camera without distortion. Pixel centres lie at integer (u, v); u grows to the
 /// image right, v down. Camera space: metres, right-handed, x to the sensor's left, y up, z
@@ -18,11 +23,22 @@ struct Camera {
   bool operator==(const Camera&) const = default;
 };
 
+/// True of a camera that can be: sides of 1 to kLargestImageSide pixels, focal lengths of 0.1 to
+/// 1e6, a centre within 1e6 of the image's corner. Fisheye-like focal lengths and centres far off
+/// the image are legal, if odd; with 0, NaN or 1e-300 every point would be nonsense.
+bool IsSane(const Camera& camera);
+/// Throws InputError naming the first field for which it is not. `name` stands for what says
+/// so, as "FILE: camera".
+void CheckCamera(const Camera& camera, const std::string& name);
+
 /// The Kinect v1 depth camera: f = 575 px at 640 pixels width, centre of the image, scaled with it.
 Camera KinectV1Camera(int width, int height);
 
 /// The same view sampled at another width and height.
 Camera Resized(const Camera& camera, int width, int height);
+
+/// Of the same view what is within width × height pixels from (left, top) on.
+Camera Cropped(const Camera& camera, int left, int top, int width, int height);
 
 /// The one conversion from sensor units to metres.
 inline double MetresFromMillimetres(double depth_mm) { return depth_mm * 1e-3; }

@@ -8,6 +8,7 @@
 
 #include "depth/error.h"
 #include "depth/file/atomic_file.h"
+#include "depth/file/open_file.h"
 #include "depth/image/depth_png.h"
 
 namespace ossa::depth {
@@ -19,10 +20,8 @@ using nlohmann::json;
 constexpr std::streamoff kLargestJson = std::streamoff{16} << 20;
 
 std::string ReadText(const std::filesystem::path& path) {
-  std::ifstream file(path, std::ios::binary | std::ios::ate);
-  if (!file || std::filesystem::is_directory(path)) {
-    throw InputError(path.string() + ": cannot be read");
-  }
+  std::ifstream file = OpenFile(path, std::ios::ate);
+  if (!file) throw InputError(path.string() + ": cannot be read");
   if (file.tellg() > kLargestJson) {
     throw InputError(path.string() + ": expected a small JSON file, found " +
                      std::to_string(file.tellg()) + " bytes");
@@ -43,41 +42,33 @@ json ParseJson(const std::string& text, const std::string& name) {
   }
 }
 
-double Number(const json& object, const char* field, double least, double most,
-              const std::string& name) {
+double Number(const json& object, const char* field, const std::string& name) {
   const auto found = object.find(field);
   if (found == object.end() || !found->is_number()) {
     throw InputError(name + ": camera: expected a number named \"" + field + "\"");
   }
-  const double value = found->get<double>();
-  if (!(value >= least && value <= most)) {
-    throw InputError(name + ": camera: \"" + field + "\": expected " + json(least).dump() + " to " +
-                     json(most).dump() + ", found " + json(value).dump());
-  }
-  return value;
+  return found->get<double>();
 }
 
 int WholeNumber(const json& object, const char* field, const std::string& name) {
-  const double value = Number(object, field, 1, kLargestImageSide, name);
-  if (value != std::floor(value)) {
+  constexpr double kAnInt = 1e9;  // holds it; what is too large for an image is told of by its name
+  const double value = Number(object, field, name);
+  if (value != std::floor(value) || std::abs(value) > kAnInt) {
     throw InputError(name + ": camera: \"" + field + "\": expected a whole number of pixels");
   }
   return static_cast<int>(value);
 }
-
-// Focal lengths from a fisheye-like 1/10 pixel up and centres far off the image are legal, if odd.
-constexpr double kLeastFocal = 0.1;
-constexpr double kMost = 1e6;
 
 Camera FromObject(const json& object, const std::string& name) {
   if (!object.is_object()) throw InputError(name + ": camera: expected a JSON object");
   Camera camera;
   camera.width = WholeNumber(object, "width", name);
   camera.height = WholeNumber(object, "height", name);
-  camera.fx = Number(object, "fx", kLeastFocal, kMost, name);
-  camera.fy = Number(object, "fy", kLeastFocal, kMost, name);
-  camera.cx = Number(object, "cx", -kMost, kMost, name);
-  camera.cy = Number(object, "cy", -kMost, kMost, name);
+  camera.fx = Number(object, "fx", name);
+  camera.fy = Number(object, "fy", name);
+  camera.cx = Number(object, "cx", name);
+  camera.cy = Number(object, "cy", name);
+  CheckCamera(camera, name + ": camera");
   return camera;
 }
 
@@ -132,10 +123,13 @@ Camera ReadManifestCamera(const std::filesystem::path& manifest_path) {
 Camera ParseCamera(const std::string& text) {
   if (text == "kinect-v1") return KinectV1Camera(640, 480);
   const std::vector<double> values = SplitNumbers(text);
-  if (values.size() != 4 || values[0] < kLeastFocal || values[1] < kLeastFocal) {
+  if (values.size() != 4) {
     throw InputError("--camera: expected kinect-v1 or fx,fy,cx,cy in pixels, found '" + text + "'");
   }
-  return {0, 0, values[0], values[1], values[2], values[3]};
+  Camera camera{1, 1, values[0], values[1], values[2], values[3]};
+  CheckCamera(camera, "--camera");
+  camera.width = camera.height = 0;  // not known yet
+  return camera;
 }
 
 Camera CameraForSize(const Camera& camera, int width, int height) {

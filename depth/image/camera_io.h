@@ -18,8 +18,9 @@ std::string CameraToJson(const Camera& camera);
 /// The "camera" object of a data set's manifest.json.
 Camera ReadManifestCamera(const std::filesystem::path& manifest_path);
 
-/// What `--camera kinect-v1|fx,fy,cx,cy` says. Four numbers are in pixels of whatever frames come,
-/// so their camera has width and height 0 until CameraForSize is told the size.
+/// What `--camera kinect-v1|fx,fy,cx,cy` says. Four numbers are in pixels of whatever frames come
+/// (of the whole image, where a sensor crops it), so their camera has width and height 0 until
+/// CameraForSize is told the size.
 Camera ParseCamera(const std::string& text);
 
 /// `camera` for frames of this size: one without a size takes it as it is, another is scaled.

@@ -7,10 +7,6 @@
 
 namespace ossa::depth {
 
-/// Images larger than this in either direction are refused before anything is allocated: no depth
-/// camera comes near it, and a hostile header could ask for 16 GB.
-inline constexpr int kLargestImageSide = 8192;
-
 struct ImageSize {
   int width = 0;
   int height = 0;

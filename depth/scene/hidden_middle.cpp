@@ -100,6 +100,7 @@ std::vector<Region> JoinBehind(const PointGrid& grid, std::vector<Region> region
 std::vector<Region> JoinBelow(const PointGrid& grid, std::vector<Region> regions, size_t users,
                               std::vector<int>& owner) {
   for (size_t i = 0; i < regions.size(); ++i) {
+    if (regions[i].cells.empty()) continue;  // somebody's legs by now
     Region whole = regions[i];
     for (size_t k = 0; k < regions.size(); ++k) {
       Region& legs = regions[k];

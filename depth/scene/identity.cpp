@@ -259,6 +259,34 @@ void Renew(UserTrack& user, const PointGrid& grid, const Candidate& person,
   user.lost_behind = false;
 }
 
+bool HasId(const std::vector<UserTrack>& users, int id) {
+  return std::any_of(users.begin(), users.end(),
+                     [&](const UserTrack& user) { return user.id == id; });
+}
+
+constexpr int kLargestId = 255;  // ids fit the user image's byte
+
+// The next one in turn that nobody has, in view or remembered. See ForgetTooMany: there is one.
+int TakeId(SceneState& state) {
+  const auto next = [](int id) { return id % kLargestId + 1; };
+  int id = state.next_id;
+  while (HasId(state.users, id)) id = next(id);
+  state.next_id = next(id);
+  return id;
+}
+
+// Where time stands still nobody is out of view for too long, but ids are not to run out: then who
+// came first of those out of view goes. Half of the ids stay free for the next frame.
+void ForgetTooMany(const std::vector<int>& ids, SceneState& state) {
+  constexpr size_t kMost = kLargestId / 2;
+  size_t too_many = std::max(state.users.size(), kMost) - kMost;
+  std::erase_if(state.users, [&](const UserTrack& user) {
+    const bool goes = too_many > 0 && std::find(ids.begin(), ids.end(), user.id) == ids.end();
+    too_many -= goes ? 1 : 0;
+    return goes;
+  });
+}
+
 // Who turned out to be part of somebody else is nobody, and may not claim cells again.
 void ForgetAbsorbed(const std::vector<const Candidate*>& people, const std::vector<int>& ids,
                     SceneState& state) {
@@ -312,9 +340,9 @@ std::vector<int> ConfirmUsers(const Scene& scene, const std::vector<const Candid
   for (size_t p = 0; p < people.size(); ++p) {
     if (track_of[p] < 0) {
       track_of[p] = static_cast<int>(state.users.size());
-      state.users.push_back({});
-      state.users.back().id = state.next_id;
-      state.next_id = state.next_id % 255 + 1;  // ids fit the user image's byte
+      UserTrack newcomer;
+      newcomer.id = TakeId(state);
+      state.users.push_back(std::move(newcomer));
     }
     UserTrack& user = state.users[static_cast<size_t>(track_of[p])];
     Renew(user, scene.grid, *people[p], person_of, static_cast<int>(p), time_s);
@@ -325,6 +353,7 @@ std::vector<int> ConfirmUsers(const Scene& scene, const std::vector<const Candid
   std::erase_if(state.users, [&](const UserTrack& user) {
     return IsForgotten(user, time_s, options.reidentify);
   });
+  ForgetTooMany(ids, state);
   NoteWhereLost(scene, person_of, time_s, state);
   LearnBackground(scene.grid, claimed, state.background, options.background);
   return ids;

@@ -123,6 +123,7 @@ std::vector<std::vector<int>> Overlaps(const Region& region, const std::vector<i
 }
 
 int MostlyOf(const Region& region, const std::vector<int>& owner, size_t users) {
+  if (region.cells.empty()) return -1;
   const auto overlap = Overlaps(region, owner, users);
   for (size_t u = 0; u < users; ++u) {
     if (2 * overlap[u].size() >= region.cells.size()) return static_cast<int>(u);

@@ -15,7 +15,8 @@ std::vector<int> PreviousOwners(const PointGrid& grid, const SceneState& state, 
 std::vector<std::vector<int>> Overlaps(const Region& region, const std::vector<int>& owner,
                                        size_t users);
 
-/// The user of before who had most of the region's cells, at least half; -1 for none.
+/// The user of before who had most of the region's cells, at least half; -1 for none, and for a
+/// region without cells.
 int MostlyOf(const Region& region, const std::vector<int>& owner, size_t users);
 bool MostlyArrived(const Region& region, const std::vector<uint8_t>& arrived);
 

@@ -146,8 +146,8 @@ struct Bone {
 void KeepNear(const Scene& scene, const DepthFrame& frame, std::span<const Bone> bones,
               float reach_m, Candidate& candidate);
 
-/// Gives the confirmed candidates their identities (same order) and learns the background from
-/// everything else.
+/// Gives the confirmed candidates their identities (same order), 1 to 255, and learns the
+/// background from everything else. Nobody gets the identity of somebody who is remembered.
 std::vector<int> ConfirmUsers(const Scene& scene, const std::vector<const Candidate*>& people,
                               double time_s, SceneState& state, const SceneOptions& options = {});
 

@@ -1,6 +1,5 @@
 #include <xxhash.h>
 
-#include <algorithm>
 #include <cmath>
 #include <cstring>
 #include <fstream>
@@ -8,7 +7,6 @@
 
 #include "depth/error.h"
 #include "depth/file/open_file.h"
-#include "depth/image/depth_png.h"
 #include "depth/sensor/oni_format_internal.h"
 
 namespace ossa::depth {
@@ -46,17 +44,12 @@ std::optional<Camera> CameraFrom(std::span<const uint8_t> value) {
   std::array<double, 6> numbers{};
   if (value.size() != sizeof(numbers)) return std::nullopt;
   std::memcpy(numbers.data(), value.data(), sizeof(numbers));
-  const bool sane =
-      std::all_of(numbers.begin(), numbers.end(), [](double x) { return std::isfinite(x); }) &&
-      numbers[0] >= 1 && numbers[0] <= kLargestImageSide && numbers[1] >= 1 &&
-      numbers[1] <= kLargestImageSide && numbers[2] > 0 && numbers[3] > 0;
-  if (!sane) return std::nullopt;
-  return Camera{static_cast<int>(numbers[0]),
-                static_cast<int>(numbers[1]),
-                numbers[2],
-                numbers[3],
-                numbers[4],
-                numbers[5]};
+  const auto pixels = [](double side) {  // 0 for what no int holds, NaN too
+    return std::abs(side) < 1e9 ? static_cast<int>(side) : 0;
+  };
+  const Camera camera{pixels(numbers[0]), pixels(numbers[1]), numbers[2],
+                      numbers[3],         numbers[4],         numbers[5]};
+  return IsSane(camera) ? std::optional(camera) : std::nullopt;
 }
 
 void TakeProperty(const Property& property, OniPreamble* preamble) {

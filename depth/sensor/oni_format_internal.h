@@ -1,5 +1,5 @@
 #pragma once
-// The .oni container as OpenNI2 2.2 writes and reads it: a 20-byte header, then records.
+// The .oni container as OpenNI2 2.2 writes and reads it: a 24-byte header, then records.
 #include <array>
 #include <cstdint>
 #include <filesystem>

@@ -3,28 +3,28 @@
 // ends being of one build on one machine.
 #include <cstdint>
 
+#include "depth/sensor/image_window_internal.h"
+
 namespace ossa::depth {
 
 struct OniPipeHello {
   static constexpr uint32_t kMagic = 0x6f6e6970;
   uint32_t magic = kMagic;
-  int32_t width = 0;
-  int32_t height = 0;
-  float horizontal_fov_rad = 0.0f;
+  ImageWindow window;               // of the frames to come
+  float horizontal_fov_rad = 0.0f;  // of the whole image
   float vertical_fov_rad = 0.0f;
   int32_t frame_count = -1;  // -1: the file does not know
 };
 
 enum class OniPipeKind : uint32_t { kFrame = 1, kEnd = 2, kError = 3 };
 
-/// Before every message; a frame is followed by width × height uint16 millimetres, not mirrored; an
-/// error by `size` characters.
+/// Before every message; a frame is followed by its window's width × height uint16 millimetres, not
+/// mirrored; an error by `size` characters.
 struct OniPipeMessage {
   OniPipeKind kind = OniPipeKind::kEnd;
-  uint32_t size = 0;  // of an error's text
-  int32_t width = 0;
-  int32_t height = 0;
-  int64_t index = 0;  // from 0
+  uint32_t size = 0;   // of an error's text
+  ImageWindow window;  // that the frame shows
+  int64_t index = 0;   // from 0
   uint64_t timestamp_us = 0;
 };
 

@@ -258,6 +258,11 @@ void OniRecorder::Write(const DepthFrame& frame) {
     throw InputError(place + "expected at most " + std::to_string(kLargestOniTable) +
                      " different depths, found more, which .oni would corrupt");
   }
+  if (static_cast<int64_t>(data.size()) > kLargestOniData) {
+    throw InputError(place + "expected depths that fit the " + std::to_string(kLargestOniData) +
+                     " bytes that an OpenNI2 player has for a frame, found noise that takes " +
+                     std::to_string(data.size()));
+  }
   const OniSeekEntry entry{state_->TimestampOf(frame), 0, state_->position};
   Bytes fields;
   Append(entry.timestamp_us, &fields);

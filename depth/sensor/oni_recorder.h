@@ -19,12 +19,13 @@ inline constexpr uint16_t kLargestOniDepth_mm = 65534;
 class OniRecorder {
  public:
   /// All frames must have the camera's size. Throws InputError when the file cannot be written or
-  /// when OpenNI2's player could not hold a frame (more than 1600 × 1200).
+  /// when OpenNI2's player could not hold a frame (more than 2.88 million pixels).
   OniRecorder(const std::filesystem::path& path, const Camera& camera, int frames_per_second = 30);
   ~OniRecorder();
 
   /// Throws InputError naming the frame when its size is another, when it holds a depth that the
-  /// format would corrupt (above kLargestOniDepth_mm), and DiskFull when it does not fit.
+  /// format would corrupt (above kLargestOniDepth_mm), when it comes out larger than a player can
+  /// hold (noise all over a frame of 1600 × 1200), and DiskFull when it does not fit.
   void Write(const DepthFrame& frame);
   /// Throws DiskFull when what ends the file does not fit.
   void Finish();

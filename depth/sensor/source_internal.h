@@ -12,7 +12,8 @@ bool IsPngName(const std::filesystem::path& path);
 
 /// A folder of 16-bit PNGs in name order, 30 frames a second. Names that are all digits of one
 /// length are frame numbers: a number that is missing counts as a dropped frame, and time passes.
-/// A frame that cannot be read, or of another size than the first, throws InputError when its turn
+/// A first frame whose header is damaged throws InputError at opening: it tells the size of all.
+/// Any other frame that cannot be read, or of another size than the first, does when its turn
 /// comes; reading again goes on with the one after it.
 std::unique_ptr<FrameSource> OpenFolder(const std::filesystem::path& folder,
                                         const SourceOptions& options);

@@ -118,11 +118,9 @@ int ossa_tracker_push(ossa_tracker* tracker, const uint16_t* depth_mm, const oss
   return Guarded([&] {
     if (tracker == nullptr || depth_mm == nullptr || camera == nullptr || frame == nullptr)
       throw std::invalid_argument("ossa_tracker_push: expected no null argument");
-    if (camera->width <= 0 || camera->height <= 0 || camera->width > 8192 || camera->height > 8192)
-      throw std::invalid_argument(
-          "ossa_tracker_push: expected an image of 1 to 8192 pixels a side");
     ossa::depth::DepthFrame depth;
     depth.camera = {camera->width, camera->height, camera->fx, camera->fy, camera->cx, camera->cy};
+    ossa::depth::CheckCamera(depth.camera, "ossa_tracker_push: camera");  // before depth_mm is read
     depth.time_s = time_s;
     depth.index = tracker->last.index + 1;
     const auto pixels = static_cast<size_t>(camera->width) * static_cast<size_t>(camera->height);

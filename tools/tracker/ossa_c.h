@@ -59,7 +59,8 @@ typedef struct ossa_tracker ossa_tracker;
 ossa_tracker* ossa_tracker_create(const ossa_options* options);
 void ossa_tracker_destroy(ossa_tracker* tracker);
 
-/* One depth image, row-major, millimetres, 0 = no reading; fills *frame. */
+/* One depth image, row-major, millimetres, 0 = no reading; fills *frame. Fails for a camera that
+   cannot be: focal lengths of 0, NaN and the like. */
 int ossa_tracker_push(ossa_tracker* tracker, const uint16_t* depth_mm, const ossa_camera* camera,
                       double time_s, ossa_frame* frame);
 

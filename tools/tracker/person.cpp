@@ -84,6 +84,15 @@ bool IsSeatedJoint(recon::Joint joint) {
          recon::Index(joint) <= recon::Index(recon::Joint::kHandRight);
 }
 
+void ForgetGone(const std::vector<int>& in_view, double time_s, double forget_s,
+                std::map<int, Person>& people) {
+  std::erase_if(people, [&](const auto& entry) {
+    const auto& [id, person] = entry;
+    const bool is_in_view = std::find(in_view.begin(), in_view.end(), id) != in_view.end();
+    return time_s - person.seen_s > forget_s || (person.seen_s > time_s && !is_in_view);
+  });
+}
+
 std::unique_ptr<recon::Reconstructor> MethodFor(int id, const CompleteOptions& options) {
   recon::ReconstructorOptions with = options.reconstructor;
   const auto known = options.bones_m.find(id);

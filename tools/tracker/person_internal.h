@@ -2,6 +2,7 @@
 #include <map>
 #include <memory>
 #include <optional>
+#include <vector>
 
 #include "recon/look/bone_measure.h"
 #include "recon/methods/reconstructor.h"
@@ -35,6 +36,12 @@ struct Person {
     return none;
   }
 };
+
+/// Forgets who was out of view for more than `forget_s`, and of those not in view (`in_view`: ids)
+/// who was seen later than now: time went back, this is another recording, and whoever has that id
+/// in it may be anybody.
+void ForgetGone(const std::vector<int>& in_view, double time_s, double forget_s,
+                std::map<int, Person>& people);
 
 struct CompleteOptions {
   bool physics = false;

@@ -216,9 +216,7 @@ void Tracker::Impl::Introduce(int id, Person& person) const {
 }
 
 std::vector<Person*> Tracker::Impl::PersonsOf(const std::vector<int>& ids, double time_s) {
-  std::erase_if(people, [&](const auto& entry) {
-    return time_s - entry.second.seen_s > scene_options.reidentify.forget_behind_s;
-  });
+  ForgetGone(ids, time_s, scene_options.reidentify.forget_behind_s, people);
   std::vector<Person*> persons;
   for (const int id : ids) {
     Person& person = people[id];
@@ -331,11 +329,11 @@ Tracker::Tracker(Tracker&&) noexcept = default;
 Tracker& Tracker::operator=(Tracker&&) noexcept = default;
 
 BodyFrame Tracker::Push(const depth::DepthFrame& frame) {
+  const std::string name = "frame " + std::to_string(frame.index);
+  depth::CheckCamera(frame.camera, name + ": camera");
   const auto pixels = static_cast<int64_t>(frame.depth_mm.size());
-  if (frame.camera.width <= 0 || frame.camera.height <= 0 ||
-      pixels != static_cast<int64_t>(frame.camera.width) * frame.camera.height) {
-    throw InputError("frame " + std::to_string(frame.index) + ": expected " +
-                     std::to_string(frame.camera.width) + "x" +
+  if (pixels != static_cast<int64_t>(frame.camera.width) * frame.camera.height) {
+    throw InputError(name + ": expected " + std::to_string(frame.camera.width) + "x" +
                      std::to_string(frame.camera.height) + " depth values, found " +
                      std::to_string(pixels));
   }

@@ -21,7 +21,8 @@ class DepthStream : public oni::driver::StreamBase {
   int getRequiredFrameSize() override;
 
  protected:
-  /// Copies a width × height image out to whoever listens; called on the driver's thread.
+  /// Copies an image, which must be of the stream's size, out to whoever listens; called on the
+  /// driver's thread.
   void Deliver(const uint16_t* depth_mm, int frame_index, uint64_t timestamp_us);
 
  private:

@@ -28,7 +28,7 @@ constexpr int kMaxValue = 65535;  // the depths of recordings are below it, or O
 class VirtualCamera {
  public:
   VirtualCamera(const std::string& uri, const VirtualDeviceOptions& options)
-      : options_(options), source_(OpenSource(options.path)) {
+      : options_(options), source_(OpenSource(options.path)), camera_(source_->camera()) {
     CopyName(uri, info_.uri);
     CopyName("ossa", info_.vendor);
     CopyName("virtual depth camera", info_.name);
@@ -36,7 +36,7 @@ class VirtualCamera {
 
   const OniDeviceInfo& info() const { return info_; }
   const VirtualDeviceOptions& options() const { return options_; }
-  const Camera& camera() const { return source_->camera(); }
+  const Camera& camera() const { return camera_; }  // its streams', whatever is played later
   int fps() const { return std::max(1, static_cast<int>(options_.fps.value_or(30.0))); }
 
   struct Frame {
@@ -45,13 +45,16 @@ class VirtualCamera {
     Seconds due{0};  // since the camera began to play
   };
 
-  // The next frame, or none at the end. A frame that cannot be read is passed over: its number is
-  // missing, as with a camera.
+  // The next frame, or none at the end. A frame that cannot be read or is of another size than the
+  // streams is passed over: its number is missing, as with a camera.
   std::optional<Frame> Next() {
     for (bool restarted = false;;) {
       try {
         ReadResult result = source_->Read(std::chrono::milliseconds(1000));
-        if (result.status == ReadStatus::kFrame) return Timed(std::move(result.frame));
+        if (result.status == ReadStatus::kFrame) {
+          CheckSize(result.frame.camera);
+          return Timed(std::move(result.frame));
+        }
         if (result.status == ReadStatus::kTimeout) continue;
         if (!options_.loop || restarted) return std::nullopt;
         restarted = true;
@@ -78,6 +81,12 @@ class VirtualCamera {
   int unplugs_left = 0;
 
  private:
+  void CheckSize(const Camera& camera) const {
+    if (camera.width != camera_.width || camera.height != camera_.height) {
+      throw InputError(options_.path + ": a frame of another size than the first");
+    }
+  }
+
   Frame Timed(DepthFrame image) {
     failed_ = false;
     const double period_s = 1.0 / options_.fps.value_or(30.0);
@@ -90,6 +99,7 @@ class VirtualCamera {
   OniDeviceInfo info_{};
   VirtualDeviceOptions options_;
   std::unique_ptr<FrameSource> source_;
+  const Camera camera_;
   std::optional<Clock::time_point> began_;
   int index_ = 0;
   bool failed_ = false;

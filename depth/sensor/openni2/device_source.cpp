@@ -60,7 +60,8 @@ Camera CameraOf(const openni::VideoStream& stream, int width, int height) {
   int size = sizeof(exact);
   if (stream.isPropertySupported(kCameraProperty) &&
       stream.getProperty(kCameraProperty, exact.data(), &size) == openni::STATUS_OK) {
-    return {width, height, exact[2], exact[3], exact[4], exact[5]};
+    const Camera camera{width, height, exact[2], exact[3], exact[4], exact[5]};
+    if (IsSane(camera)) return camera;
   }
   return CameraFromFieldOfView(width, height, stream.getHorizontalFieldOfView(),
                                stream.getVerticalFieldOfView());
@@ -156,8 +157,9 @@ class DeviceSource final : public FrameSource {
     const int width = mode.getResolutionX();
     const int height = mode.getResolutionY();
     period_s_ = 1.0 / std::max(mode.getFps(), 1);
-    camera_ = options_.camera ? CameraForSize(*options_.camera, width, height)
-                              : CameraOf(stream_, width, height);
+    whole_ = options_.camera ? CameraForSize(*options_.camera, width, height)
+                             : CameraOf(stream_, width, height);
+    camera_ = CameraOfWindow(whole_, WindowOf(stream_, mirrored_));
     return stream_.start() == openni::STATUS_OK;
   }
 
@@ -186,10 +188,10 @@ class DeviceSource final : public FrameSource {
     ReadResult result = Result(ReadStatus::kFrame);
     try {
       result.frame.depth_mm = MillimetresOf(frame, mirrored_);
+      result.frame.camera = CameraOfWindow(whole_, WindowOf(frame, mirrored_));
     } catch (const InputError& error) {
       throw InputError("openni:" + wanted_uri_ + ": " + error.what());
     }
-    result.frame.camera = CameraForSize(camera_, frame.getWidth(), frame.getHeight());
     const double sensor_s = static_cast<double>(frame.getTimestamp()) * 1e-6;
     if (last_index_ < 0) {
       time_offset_s_ = -sensor_s;
@@ -224,7 +226,8 @@ class DeviceSource final : public FrameSource {
   openni::Device device_;
   openni::VideoStream stream_;
   std::string error_ = "no reason given";
-  Camera camera_;
+  Camera whole_;   // of the whole image, of which frames may show a part
+  Camera camera_;  // of the part
   bool open_ = false;
   bool mirrored_ = false;
   bool after_gap_ = true;

@@ -3,7 +3,6 @@
 
 #include "depth/error.h"
 #include "depth/image/camera_io.h"
-#include "depth/image/depth_png.h"
 #include "depth/sensor/child_process_internal.h"
 #include "depth/sensor/oni_format_internal.h"
 #include "depth/sensor/oni_pipe_internal.h"
@@ -35,7 +34,8 @@ class OniFileSource final : public FrameSource {
     }
     Take(reinterpret_cast<char*>(&hello) + sizeof(hello.magic),
          sizeof(hello) - sizeof(hello.magic));
-    camera_ = CameraOf(hello, options);
+    whole_ = WholeCameraOf(hello, options);
+    camera_ = CameraOfWindow(whole_, hello.window);
     if (hello.frame_count >= 0) frame_count_ = hello.frame_count;
   }
 
@@ -61,27 +61,24 @@ class OniFileSource final : public FrameSource {
   std::optional<int64_t> frame_count() const override { return frame_count_; }
 
  private:
-  Camera CameraOf(const OniPipeHello& hello, const SourceOptions& options) const {
-    if (hello.width <= 0 || hello.height <= 0 || hello.width > kLargestImageSide ||
-        hello.height > kLargestImageSide) {
-      throw InputError(name_ + ": video mode: expected a size, found " +
-                       std::to_string(hello.width) + "x" + std::to_string(hello.height));
+  Camera WholeCameraOf(const OniPipeHello& hello, const SourceOptions& options) const {
+    const int width = hello.window.whole_width, height = hello.window.whole_height;
+    if (!hello.window.IsSane()) {
+      throw InputError(name_ + ": video mode: expected a size, found " + std::to_string(width) +
+                       "x" + std::to_string(height));
     }
-    if (options.camera) return CameraForSize(*options.camera, hello.width, hello.height);
-    if (preamble_.camera) return CameraForSize(*preamble_.camera, hello.width, hello.height);
-    return CameraFromFieldOfView(hello.width, hello.height, hello.horizontal_fov_rad,
-                                 hello.vertical_fov_rad);
+    if (options.camera) return CameraForSize(*options.camera, width, height);
+    if (preamble_.camera) return CameraForSize(*preamble_.camera, width, height);
+    return CameraFromFieldOfView(width, height, hello.horizontal_fov_rad, hello.vertical_fov_rad);
   }
 
   ReadResult TakeFrame(const OniPipeMessage& message) {
-    if (message.width <= 0 || message.height <= 0 || message.width > kLargestImageSide ||
-        message.height > kLargestImageSide) {
-      FailHung();
-    }
+    const ImageWindow& window = message.window;
+    if (!window.IsSane()) FailHung();
     ReadResult result{.status = ReadStatus::kFrame, .frame = {}};
-    result.frame.camera = CameraForSize(camera_, message.width, message.height);
-    result.frame.depth_mm.resize(static_cast<size_t>(message.width) *
-                                 static_cast<size_t>(message.height));
+    result.frame.camera = CameraOfWindow(whole_, window);
+    result.frame.depth_mm.resize(static_cast<size_t>(window.width) *
+                                 static_cast<size_t>(window.height));
     Take(result.frame.depth_mm.data(), result.frame.depth_mm.size() * sizeof(uint16_t));
     result.frame.index = message.index;
     result.frame.time_s = static_cast<double>(message.timestamp_us) * 1e-6;
@@ -124,7 +121,8 @@ class OniFileSource final : public FrameSource {
   milliseconds patience_;
   OniPreamble preamble_;
   ChildProcess child_;
-  Camera camera_;
+  Camera whole_;   // of the whole image, of which frames may show a part
+  Camera camera_;  // of the part
   std::optional<int64_t> frame_count_;
   milliseconds waited_{0};
   int64_t next_frame_ = 0;

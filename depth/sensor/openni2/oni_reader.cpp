@@ -66,8 +66,7 @@ void SendFrame(const openni::VideoFrameRef& frame, bool mirrored, int64_t index)
   const auto depth_mm = MillimetresOf(frame, mirrored);
   OniPipeMessage message;
   message.kind = OniPipeKind::kFrame;
-  message.width = frame.getWidth();
-  message.height = frame.getHeight();
+  message.window = WindowOf(frame, mirrored);
   message.index = index;
   message.timestamp_us = frame.getTimestamp();
   WriteAll(&message, sizeof(message));
@@ -124,14 +123,10 @@ void Play(const char* path) {
   if (playback == nullptr) throw InputError("expected a recording, found a device");
   playback->setRepeatEnabled(false);
   playback->setSpeed(-1);  // lock step: any other speed drops frames
-  const openni::VideoMode mode = stream.getVideoMode();
   // Kept in 32 bits, -1 (written as all ones) when the recorder was killed.
   const int frame_count = playback->getNumberOfFrames(stream);
-  const OniPipeHello hello{OniPipeHello::kMagic,
-                           mode.getResolutionX(),
-                           mode.getResolutionY(),
-                           stream.getHorizontalFieldOfView(),
-                           stream.getVerticalFieldOfView(),
+  const OniPipeHello hello{OniPipeHello::kMagic, WindowOf(stream, stream.getMirroringEnabled()),
+                           stream.getHorizontalFieldOfView(), stream.getVerticalFieldOfView(),
                            frame_count};
   WriteAll(&hello, sizeof(hello));
   if (frame_count == 0) {

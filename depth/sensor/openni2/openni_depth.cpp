@@ -18,6 +18,15 @@ std::mutex& SessionMutex() {
   return mutex;
 }
 
+ImageWindow WholeImage(int width, int height) { return {width, height, 0, 0, width, height}; }
+
+// OpenNI2 counts a window's place in the image as it is delivered: where that is mirrored, from the
+// other side.
+ImageWindow TurnedBack(ImageWindow window, bool mirrored) {
+  if (mirrored) window.left = window.whole_width - window.left - window.width;
+  return window;
+}
+
 }  // namespace
 
 OpenNiSession::OpenNiSession() {
@@ -71,6 +80,35 @@ std::vector<uint16_t> MillimetresOf(const openni::VideoFrameRef& frame, bool mir
     if (mirrored) std::reverse(row, row + width);
   }
   return depth_mm;
+}
+
+ImageWindow WindowOf(const openni::VideoFrameRef& frame, bool mirrored) {
+  const int width = frame.getWidth(), height = frame.getHeight();
+  if (!frame.getCroppingEnabled()) return WholeImage(width, height);
+  const openni::VideoMode mode = frame.getVideoMode();
+  const ImageWindow window{mode.getResolutionX(),
+                           mode.getResolutionY(),
+                           frame.getCropOriginX(),
+                           frame.getCropOriginY(),
+                           width,
+                           height};
+  if (!window.IsSane()) {
+    const auto two = [](int a, const char* between, int b) {
+      return std::to_string(a) + between + std::to_string(b);
+    };
+    throw InputError("expected a part of the " + two(window.whole_width, "x", window.whole_height) +
+                     " image, found " + two(width, "x", height) + " from pixel (" +
+                     two(window.left, ", ", window.top) + ") on");
+  }
+  return TurnedBack(window, mirrored);
+}
+
+ImageWindow WindowOf(const openni::VideoStream& stream, bool mirrored) {
+  const openni::VideoMode mode = stream.getVideoMode();
+  ImageWindow window = WholeImage(mode.getResolutionX(), mode.getResolutionY());
+  const bool cropped = stream.getCropping(&window.left, &window.top, &window.width, &window.height);
+  if (!cropped || !window.IsSane()) return WholeImage(window.whole_width, window.whole_height);
+  return TurnedBack(window, mirrored);
 }
 
 Camera CameraFromFieldOfView(int width, int height, double horizontal_rad, double vertical_rad) {

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <cstring>
+#include <random>
 #include <vector>
 
 #include "depth/file/sealed_file.h"
@@ -43,6 +44,27 @@ TEST(Compressed, LengthsThatNoFileHoldsAreRefused) {
     std::memcpy(lying.data(), &size, sizeof(size));
     test::ExpectRefused([&] { Decompressed(lying, "x.file", "thing"); }, "x.file");
   }
+}
+
+std::vector<std::byte> Noise(size_t size) {
+  std::mt19937 random(1);
+  std::vector<std::byte> bytes(size);
+  for (std::byte& byte : bytes) byte = static_cast<std::byte>(random());
+  return bytes;
+}
+
+// Before anything is allocated, not as bytes that are damaged.
+TEST(Compressed, ALengthThatSoFewBytesCannotHoldIsRefused) {
+  std::vector<std::byte> lying = Compressed(Noise(8000), 3);
+  for (const uint64_t size : {uint64_t{1} << 30U, uint64_t{8001}}) {
+    std::memcpy(lying.data(), &size, sizeof(size));
+    test::ExpectRefused([&] { Decompressed(lying, "x.file", "thing"); }, "unpacked length");
+  }
+}
+
+TEST(Compressed, TheMostThatZstdCanHoldComesBack) {
+  const std::vector<std::byte> zeros(size_t{1} << 26U);
+  EXPECT_EQ(Decompressed(Compressed(zeros, 3), "x", "thing"), zeros);
 }
 
 }  // namespace

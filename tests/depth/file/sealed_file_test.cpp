@@ -14,6 +14,7 @@
 #include "depth/file/atomic_file.h"
 #include "depth/file/folder_lock.h"
 #include "depth/file/open_file.h"
+#include "tests/support/refused.h"
 #include "tests/support/temporary_folder.h"
 
 namespace ossa {
@@ -65,6 +66,26 @@ INSTANTIATE_TEST_SUITE_P(EveryField, DamagedSealedFile,
                          testing::Values(Damage{0, "magic"}, Damage{8, "byte order"},
                                          Damage{12, "version"}, Damage{16, "length"},
                                          Damage{24, "checksum"}, Damage{33, "checksum"}));
+
+// A terabyte that takes no room on the disk.
+TEST(SealedFile, AnotherFileIsRefusedByItsHeaderBeforeAllocating) {
+  const test::TemporaryFolder folder;
+  for (const auto& [name, field] : {std::pair("other", "magic"), {"longer", "length"}}) {
+    if (name == std::string("other")) {
+      std::ofstream(folder / name) << "NI10 and so on";
+    } else {
+      WriteSealedFile(folder / name, kFormat, {});
+    }
+    std::filesystem::resize_file(folder / name, uintmax_t{1} << 40U);
+    test::ExpectRefused([&] { ReadSealedFile(folder / name, kFormat); }, field);
+  }
+}
+
+TEST(SealedFile, ShorterThanItsHeaderIsRefused) {
+  const test::TemporaryFolder folder;
+  std::ofstream(folder / "short") << "ossatest";
+  test::ExpectRefused([&] { ReadSealedFile(folder / "short", kFormat); }, "found 8 bytes");
+}
 
 TEST(SealedFile, ACountLargerThanTheFileIsRefusedBeforeAllocating) {
   PayloadWriter writer;

@@ -1,8 +1,13 @@
 #include "depth/image/camera_io.h"
 
+#include <fcntl.h>
 #include <gtest/gtest.h>
+#include <sys/stat.h>
+#include <unistd.h>
 
+#include <chrono>
 #include <fstream>
+#include <future>
 
 #include "depth/error.h"
 #include "tests/support/temporary_folder.h"
@@ -17,6 +22,19 @@ TEST(CameraJson, GivesBackExactlyWhatWasWritten) {
   const Camera camera{320, 240, 285.1234567890123, 286.5, 1.0 / 3.0, 119.75};
   WriteCameraJson(folder / "camera.json", camera);
   EXPECT_EQ(ReadCameraJson(folder / "camera.json"), camera);
+}
+
+// A pipe that nobody writes to would be waited for, whatever signal comes.
+TEST(CameraJson, APipeIsNone) {
+  const TemporaryFolder folder;
+  ASSERT_EQ(mkfifo((folder / "camera.json").c_str(), 0600), 0);
+  auto read =
+      std::async(std::launch::async, [&] { return ReadCameraJson(folder / "camera.json"); });
+  const bool waits = read.wait_for(std::chrono::seconds(10)) == std::future_status::timeout;
+  const int both_ends = open((folder / "camera.json").c_str(), O_RDWR);  // who waits goes on
+  EXPECT_FALSE(waits);
+  EXPECT_THROW(read.get(), InputError);
+  close(both_ends);
 }
 
 class BadCameraJson : public testing::TestWithParam<std::pair<const char*, const char*>> {};
@@ -59,8 +77,9 @@ TEST(CameraOption, KinectScalesAndNumbersDoNot) {
 }
 
 TEST(CameraOption, AnythingElseIsRefused) {
-  for (const char* text : {"", "kinect", "1,2,3", "1,2,3,4,5", "1,2,3,", ",1,2,3,4", "0,1,2,3",
-                           "525,-1,2,3", "nan,1,2,3", "1,inf,2,3", "5 2,1,2,3"}) {
+  for (const char* text :
+       {"", "kinect", "1,2,3", "1,2,3,4,5", "1,2,3,", ",1,2,3,4", "0,1,2,3", "525,-1,2,3",
+        "nan,1,2,3", "1,inf,2,3", "1e-300,1,2,3", "1,1e7,2,3", "1,1,1e300,3", "5 2,1,2,3"}) {
     EXPECT_THROW(ParseCamera(text), InputError) << text;
   }
 }

@@ -2,6 +2,10 @@
 
 #include <gtest/gtest.h>
 
+#include <limits>
+
+#include "tests/support/refused.h"
+
 namespace ossa::depth {
 namespace {
 
@@ -28,6 +32,39 @@ TEST(Camera, LeftOfTheImageIsPositiveXAndTopIsPositiveY) {
 TEST(Camera, KinectFocalLengthScalesWithTheWidth) {
   EXPECT_DOUBLE_EQ(KinectV1Camera(320, 240).fx, 287.5);
   EXPECT_EQ(Resized(KinectV1Camera(640, 480), 320, 240), KinectV1Camera(320, 240));
+}
+
+TEST(Camera, CroppedSeesTheSamePointsElsewhere) {
+  const Camera whole = KinectV1Camera(640, 480), part = Cropped(whole, 320, 100, 320, 240);
+  EXPECT_EQ(BackProject(part, 10, 20, 1500), BackProject(whole, 330, 120, 1500));
+  EXPECT_EQ(part.width, 320);
+  EXPECT_EQ(part.height, 240);
+}
+
+struct Wrong {
+  const char* field;
+  Camera camera;
+};
+
+TEST(Camera, ThatCannotBeIsRefusedByTheNameOfTheField) {
+  constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
+  constexpr double kInfinity = std::numeric_limits<double>::infinity();
+  EXPECT_TRUE(IsSane(Camera{}));
+  EXPECT_TRUE(IsSane({1, 8192, 0.1, 1e6, -1e6, 1e6}));
+  EXPECT_NO_THROW(CheckCamera(Camera{}, "x"));
+  for (const auto& [field, camera] : {Wrong{"width", {0, 480, 575, 575, 320, 240}},
+                                      {"height", {640, 8193, 575, 575, 320, 240}},
+                                      {"fx", {640, 480, 0, 575, 320, 240}},
+                                      {"fx", {640, 480, kNan, 575, 320, 240}},
+                                      {"fx", {640, 480, 1e-300, 575, 320, 240}},
+                                      {"fy", {640, 480, 575, -575, 320, 240}},
+                                      {"fy", {640, 480, 575, kInfinity, 320, 240}},
+                                      {"cx", {640, 480, 575, 575, -kInfinity, 240}},
+                                      {"cy", {640, 480, 575, 575, 320, kNan}}}) {
+    EXPECT_FALSE(IsSane(camera)) << field;
+    test::ExpectRefused([&, &camera = camera] { CheckCamera(camera, "x"); },
+                        std::string("x: \"") + field + '"');
+  }
 }
 
 }  // namespace

@@ -6,6 +6,7 @@
 #include "depth/scene/boards_internal.h"
 #include "depth/scene/heads.h"
 #include "depth/scene/outline_internal.h"
+#include "depth/scene/pieces.h"
 #include "depth/scene/scene.h"
 #include "tests/depth/scene/shots.h"
 
@@ -133,6 +134,55 @@ int IdOfTheFirst(bool other_comes_too) {
 TEST(ConfirmUsers, WhoIsNobodyYetMayBeOneOfTheLostToo) {
   EXPECT_EQ(IdOfTheFirst(false), 1);  // half a metre away, not seven tenths
   EXPECT_EQ(IdOfTheFirst(true), 2);   // the other one stands where the first was lost
+}
+
+// What is 3 m away, seen through openings in a board 2 m away.
+PointGrid GridBehindBoard(const std::vector<tests::Box>& openings) {
+  DepthFrame frame;
+  frame.camera = KinectV1Camera(320, 240);
+  frame.depth_mm.assign(320 * 240, 2000);
+  for (int v = 0; v < 240; ++v) {
+    for (int u = 0; u < 320; ++u) {
+      const Eigen::Vector3d p_m = BackProject(frame.camera, u, v, 3000);
+      for (const tests::Box& box : openings) {
+        const bool within =
+            (p_m.array() >= box.low_m.array()).all() && (p_m.array() <= box.high_m.array()).all();
+        if (within) frame.depth_mm[static_cast<size_t>(v * 320 + u)] = 3000;
+      }
+    }
+  }
+  return MakePointGrid(frame.view(), frame.camera, 6.0F);
+}
+
+Region RegionIn(const PointGrid& grid, const tests::Box& opening) {
+  std::vector<int> cells;
+  for (int i = 0; i < grid.cells(); ++i) {
+    const Eigen::Array3d p_m = grid.at(i).cast<double>().array();
+    if ((p_m >= opening.low_m.array()).all() && (p_m <= opening.high_m.array()).all())
+      cells.push_back(i);
+  }
+  return MakeRegion(grid, std::move(cells));
+}
+
+TEST(MostlyOf, NothingIsNobodys) { EXPECT_EQ(MostlyOf(Region{}, std::vector<int>{0, 0}, 1), -1); }
+
+TEST(JoinBelow, LegsThatWereTakenAreNoBodyWithLegsOfItsOwn) {
+  const tests::Box torso{{-0.3, 0.45, 2.5}, {0.3, 1.05, 3.5}},
+      hips{{-0.3, 0, 2.5}, {0.3, 0.25, 3.5}}, shins{{-0.15, -0.35, 2.5}, {0.15, -0.2, 3.5}},
+      other{{-1.4, -0.5, 2.5}, {-1.0, 0.8, 3.5}};
+  const PointGrid grid = GridBehindBoard({torso, hips, shins, other});
+  std::vector<Region> regions;
+  for (const tests::Box& box : {torso, hips, shins, other}) regions.push_back(RegionIn(grid, box));
+  std::vector<int> owner(static_cast<size_t>(grid.cells()), -1);
+  for (const int cell : regions[3].cells) owner[static_cast<size_t>(cell)] = 0;
+  const std::vector<int> known = owner;
+  const size_t trunk = regions[0].cells.size() + regions[1].cells.size();
+  const size_t legs = regions[2].cells.size();
+  const std::vector<Region> joined = JoinBelow(grid, std::move(regions), 1, owner);
+  ASSERT_EQ(joined.size(), 3U);
+  EXPECT_EQ(joined[0].cells.size(), trunk);
+  EXPECT_EQ(joined[1].cells.size(), legs);  // too far below the torso
+  EXPECT_EQ(owner, known);
 }
 
 }  // namespace

@@ -171,5 +171,46 @@ TEST(WayOf, IsBehindAtSomebodysOutlineAndElsewhereOpenOrTheBorder) {
   EXPECT_EQ(WayOfFarther(-1.8), Way::kBorder);
 }
 
+// A few cells in the middle of the image, said to be `x_m` to the side.
+Candidate SomebodyFarOff(const PointGrid& grid, float x_m) {
+  Candidate person;
+  person.region = MakeRegion(grid, {grid.cell(40, 40), grid.cell(41, 40)});
+  person.region.mean_m.x() = x_m;
+  return person;
+}
+
+Scene EmptyScene() {
+  Scene scene;
+  scene.grid = GridOf(Shot({}));
+  return scene;
+}
+
+TEST(ConfirmUsers, GivesNobodyTheIdOfSomebodyRemembered) {
+  const Scene scene = EmptyScene();
+  SceneState state;
+  state.next_id = 255;  // the last; then from 1 again
+  for (const int id : {255, 1, 3}) {
+    UserTrack user;
+    user.id = id;
+    user.mean_m = {50, 0, 3};
+    state.users.push_back(user);
+  }
+  const Candidate a = SomebodyFarOff(scene.grid, -20), b = SomebodyFarOff(scene.grid, 20);
+  EXPECT_EQ(ConfirmUsers(scene, {&a, &b}, 0.1, state), (std::vector<int>{2, 4}));
+}
+
+// Nobody is forgotten where time stands still, as of an application that gives none.
+TEST(ConfirmUsers, AnyNumberOfVisitorsHaveDifferentIdsThatFitAByte) {
+  const Scene scene = EmptyScene();
+  SceneState state;
+  for (int i = 0; i < 300; ++i) {
+    const Candidate visitor = SomebodyFarOff(scene.grid, 20.0F * static_cast<float>(i));
+    const int id = ConfirmUsers(scene, {&visitor}, 0.0, state).at(0);
+    EXPECT_TRUE(id >= 1 && id <= 255) << id;
+    const auto has_it = [&](const UserTrack& user) { return user.id == id; };
+    EXPECT_EQ(std::count_if(state.users.begin(), state.users.end(), has_it), 1) << i;
+  }
+}
+
 }  // namespace
 }  // namespace ossa::depth

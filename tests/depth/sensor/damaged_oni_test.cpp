@@ -3,6 +3,7 @@
 #include <sys/stat.h>
 
 #include <cstdlib>
+#include <cstring>
 #include <fstream>
 #include <functional>
 
@@ -107,6 +108,62 @@ TEST(ForeignOni, FlippedBitsInItsHeaderNeverReachUs) {
     EXPECT_TRUE(!outcome.error.empty() || outcome.frames == kFrames) << "byte " << at;
     EXPECT_EQ(outcome.error.find('\n'), std::string::npos) << outcome.error;
   }
+}
+
+// Overwrites the first values of a general property.
+template <typename... T>
+void SetProperty(const std::string& name, std::string* bytes, T... values) {
+  size_t at = bytes->find(name + '\0') + name.size() + 1 + sizeof(uint32_t);
+  const auto put = [&](auto value) {
+    std::memcpy(bytes->data() + at, &value, sizeof(value));
+    at += sizeof(value);
+  };
+  (put(values), ...);
+}
+
+// The example's frames as a window of 64 x 48 pixels with the same angle of view.
+std::string CroppedRecording(const std::filesystem::path& path, uint16_t left, uint16_t top) {
+  std::string bytes = Recording(path);
+  Unseal(&bytes);
+  bytes.at(bytes.find("ossaCamera")) = 'X';
+  SetProperty("xnSupportedMapOutputModes", &bytes, uint32_t{64}, uint32_t{48}, uint32_t{30});
+  SetProperty("xnMapOutputMode", &bytes, uint32_t{64}, uint32_t{48}, uint32_t{30});
+  SetProperty("oniRequiredFrameSize", &bytes, uint64_t{64 * 48 * 2});
+  SetProperty("xnCropping", &bytes, uint32_t{1}, left, top, uint16_t{32}, uint16_t{24});
+  return bytes;
+}
+
+// A mirrored image is turned back, and the window in it.
+TEST(ForeignOni, OfACroppedImageHasTheWholeOnesCameraShifted) {
+  const TemporaryFolder folder;
+  const std::string path = (folder / "x.oni").string();
+  const Camera whole = KinectV1Camera(64, 48);
+  for (const bool mirrored : {false, true}) {
+    std::string bytes = CroppedRecording(path, 30, 20);
+    SetProperty("xnMirror", &bytes, uint64_t{mirrored});
+    std::ofstream(path, std::ios::binary) << bytes;
+    const auto source = OpenSource(path);
+    const ReadResult result = source->Read(milliseconds(60000));
+    EXPECT_EQ(result.frame.depth_mm[mirrored ? 31 : 0], ExampleFrame(0).depth_mm[0]);
+    for (const Camera& camera : {source->camera(), result.frame.camera}) {
+      EXPECT_EQ(camera.width, 32);
+      EXPECT_EQ(camera.height, 24);
+      EXPECT_NEAR(camera.fx, whole.fx, 1e-4);  // by angles of view in single precision
+      EXPECT_NEAR(camera.fy, whole.fy, 1e-4);
+      EXPECT_DOUBLE_EQ(camera.cx, whole.cx - (mirrored ? 64 - 30 - 32 : 30));
+      EXPECT_DOUBLE_EQ(camera.cy, whole.cy - 20);
+    }
+  }
+}
+
+TEST(ForeignOni, WithACameraThatCannotBeGoesByItsAngleOfView) {
+  const TemporaryFolder folder;
+  std::string bytes = Recording(folder / "x.oni");
+  Unseal(&bytes);
+  SetProperty("ossaCamera", &bytes, 32.0, 24.0, 1e-300, 1e-300);
+  std::ofstream(folder / "x.oni", std::ios::binary) << bytes;
+  EXPECT_NEAR(OpenSource((folder / "x.oni").string())->camera().fx, KinectV1Camera(32, 24).fx,
+              1e-4);
 }
 
 TEST(ForeignOni, OfAKilledRecorderPlaysAsFarAsItGoes) {

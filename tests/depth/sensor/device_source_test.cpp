@@ -191,6 +191,27 @@ TEST(Device, AFrameItCannotReadIsADroppedFrame) {
   }
 }
 
+// Its stream has the size it began with: what comes to play next in the same place has another.
+TEST(Device, FramesOfAnotherSizeThanItsStreamsAreNotDelivered) {
+  const TemporaryFolder folder;
+  for (const auto& [name, width] : {std::pair("large", 32), {"small", 16}}) {
+    std::filesystem::create_directory(folder / name);
+    WriteExampleFolder(folder / name, 1, width, width * 3 / 4);
+  }
+  std::filesystem::create_directory_symlink("large", folder / "now");
+  const auto source = OpenSource(Uri(folder, "/now?loop=1&fps=20"));
+  ASSERT_EQ(NumberOf(NextFrame(*source).frame, 1), 0);
+  std::filesystem::create_directory_symlink("small", folder / "next");
+  std::filesystem::rename(folder / "next", folder / "now");
+  const auto deadline = Clock::now() + std::chrono::minutes(1);
+  ReadResult result;
+  do {
+    result = source->Read(milliseconds(200));
+    ASSERT_TRUE(result.status != ReadStatus::kFrame || NumberOf(result.frame, 1) == 0);
+  } while (result.status != ReadStatus::kDisconnected && Clock::now() < deadline);
+  EXPECT_EQ(result.status, ReadStatus::kDisconnected) << "as at the end of a recording";
+}
+
 TEST(Device, TwoAtOnceDoNotDisturbEachOther) {
   const TemporaryFolder a;
   const TemporaryFolder b;

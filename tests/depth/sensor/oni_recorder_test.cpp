@@ -12,6 +12,7 @@
 #include "depth/file/atomic_file.h"
 #include "depth/sensor/frame_source.h"
 #include "tests/support/depth_examples.h"
+#include "tests/support/refused.h"
 #include "tests/support/temporary_folder.h"
 
 namespace ossa::depth {
@@ -124,6 +125,24 @@ TEST(OniRecorder, RefusesWhatTheFormatWouldCorrupt) {
   refused("expected at most 32767 different depths");
   frame = ExampleFrame(0);
   refused("expected 640x480, found 32x24");
+}
+
+// Noise takes three bytes a pixel, and the table comes on top: too much at the largest size alone.
+TEST(OniRecorder, RefusesAFrameThatComesOutLargerThanAPlayerHolds) {
+  const TemporaryFolder folder;
+  const auto noise = [](int width, int height) {
+    DepthFrame frame;
+    frame.camera = KinectV1Camera(width, height);
+    std::mt19937 random(1);
+    frame.depth_mm.resize(static_cast<size_t>(width) * static_cast<size_t>(height));
+    for (uint16_t& value : frame.depth_mm) value = static_cast<uint16_t>(random() % 32767);
+    return frame;
+  };
+  const DepthFrame large = noise(1600, 1180);
+  Record(folder / "large.oni", {large});
+  EXPECT_EQ(ReadAll(*OpenSource((folder / "large.oni").string())).at(0).depth_mm, large.depth_mm);
+  const DepthFrame too_large = noise(1600, 1200);
+  test::ExpectRefused([&] { Record(folder / "x.oni", {too_large}); }, "x.oni: frame 0: expected");
 }
 
 TEST(OniRecorder, RefusesFramesNoPlayerHolds) {

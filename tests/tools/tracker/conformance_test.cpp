@@ -2,6 +2,7 @@
 // SDK 1.8 gave, ossa::tracker gives.
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <map>
 #include <numbers>
 
@@ -290,6 +291,29 @@ TEST(SdkConformance, ACHeaderServesOtherLanguages) {
   EXPECT_EQ(ossa_tracker_push(tracker, render.frame.depth_mm.data(), &camera, 0.1, &frame), 0);
   EXPECT_EQ(frame.bodies[0].state, OSSA_POSITION_ONLY);
   ossa_tracker_destroy(tracker);
+}
+
+TEST(SdkConformance, ACameraThatCannotBeIsRefused) {
+  OSSA_NEEDS_MODEL();
+  ossa_options options{};
+  options.method = "none";
+  ossa_tracker* by_c = ossa_tracker_create(&options);
+  Tracker tracker(PlainOptions());
+  depth::DepthFrame frame = Rendered({}).frame;
+  constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
+  for (const double f : {0.0, -287.5, kNan, std::numeric_limits<double>::infinity(), 1e-300}) {
+    frame.camera.fx = f;
+    EXPECT_THROW(tracker.Push(frame), InputError) << f;
+    const depth::Camera& c = frame.camera;
+    const ossa_camera camera = {c.width, c.height, c.fx, c.fy, c.cx, c.cy};
+    ossa_frame bodies;
+    EXPECT_EQ(ossa_tracker_push(by_c, frame.depth_mm.data(), &camera, 0.0, &bodies), 1) << f;
+    EXPECT_NE(std::string(ossa_last_error()).find("\"fx\""), std::string::npos);
+  }
+  frame.camera = depth::KinectV1Camera(320, 240);
+  frame.camera.cy = kNan;
+  EXPECT_THROW(tracker.Push(frame), InputError);
+  ossa_tracker_destroy(by_c);
 }
 
 TEST(SdkConformance, TheCHeaderReportsFailuresInWords) {
