@@ -12,6 +12,11 @@ double ConfidenceOf(TrackingState state) {
 
 }  // namespace
 
+bool HasPlace(const JointRecord& joint) {
+  const bool somewhere = joint.state != TrackingState::kNotTracked || joint.reliability.has_value();
+  return somewhere && joint.position_m.allFinite();
+}
+
 std::optional<int> RepeatedBody(const SkeletonFrame& frame) {
   for (auto body = frame.bodies.begin(); body != frame.bodies.end(); ++body) {
     const bool repeats = std::any_of(frame.bodies.begin(), body,

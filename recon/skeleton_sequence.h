@@ -47,6 +47,10 @@ constexpr const char* kKinectV2 = "Kinect v2";
 /// ossa's own joints after a close look, `ossa track --posture looked`: nothing else judges bones.
 constexpr const char* kCloseLook = "close look";
 
+/// Whether the joint's position says something. What a sensor does not see lies anywhere, at the
+/// camera as a rule; where a method has then placed it there is a reliability.
+bool HasPlace(const JointRecord& joint);
+
 /// The id that two bodies of the frame have, if any: a damaged file.
 std::optional<int> RepeatedBody(const SkeletonFrame& frame);
 

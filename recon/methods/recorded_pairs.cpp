@@ -75,7 +75,7 @@ const JointRecord* JointOf(const SkeletonFrame& frame, int id, size_t joint) {
   }
   if (of == nullptr || !of->joints[joint]) return nullptr;
   const JointRecord& record = *of->joints[joint];
-  return record.state == TrackingState::kNotTracked ? nullptr : &record;
+  return HasPlace(record) ? &record : nullptr;
 }
 
 std::optional<Eigen::Vector3d> TrueJoint(const TrueMoment& moment, int id, size_t joint) {

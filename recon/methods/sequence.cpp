@@ -83,8 +83,7 @@ std::vector<Track> TracksOf(SkeletonSequence& sequence) {
     for (BodyRecord& body : frame.bodies) {
       for (size_t i = 0; i < kJointCount; ++i) {
         auto& joint = body.joints[i];
-        // What a sensor does not see lies anywhere, at the camera as a rule.
-        if (joint && joint->state == TrackingState::kNotTracked) joint.reset();
+        if (joint && !HasPlace(*joint)) joint.reset();
         if (!joint) continue;
         const auto [found, is_new] = latest.try_emplace({body.id, i}, tracks.size());
         if (is_new || frame.time_s - tracks[found->second].time_s.back() > gap_s) {

@@ -24,12 +24,6 @@ int MostSeenBody(const SkeletonSequence& sequence) {
   return most->first;
 }
 
-// What a sensor does not see lies anywhere; what a method has then placed has a reliability.
-bool HasPlace(const JointRecord& joint) {
-  const bool somewhere = joint.state != TrackingState::kNotTracked || joint.reliability.has_value();
-  return somewhere && joint.position_m.allFinite();
-}
-
 Sighting SightingIn(const BodyRecord& body, double time_s) {
   Sighting sighting{time_s, {}};
   for (size_t j = 0; j < kJointCount; ++j) {

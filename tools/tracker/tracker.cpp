@@ -114,6 +114,7 @@ struct Tracker::Impl {
     complete.reconstructor.prior = PriorFor(o.method, o.prior, o.database);
     const bool none = o.learned == "none";
     if (!none && !o.learned.empty()) {
+      complete.reconstructor.learned_file = o.learned;  // for messages; it is read once
       complete.reconstructor.learned =
           std::make_shared<recon::LearnedModels>(recon::LearnedModels::Load(o.learned));
     } else if (o.method == "best") {
