@@ -110,18 +110,17 @@ class OffsetReconstructor : public Reconstructor {
 
 class Liu2016 : public OffsetReconstructor {
  public:
-  explicit Liu2016(const ReconstructorOptions& options)
-      : OffsetReconstructor(options), mixtures_(models_->mixtures) {}
+  using OffsetReconstructor::OffsetReconstructor;
 
   void Reset() override {
     OffsetReconstructor::Reset();
-    mixtures_ = models_->mixtures;
+    own_.fill(std::nullopt);
     sample_ = 0;
   }
 
  protected:
   OffsetPrediction Predict(const PreparedPosture& prepared, size_t joint) override {
-    const LocalMixture& mixture = mixtures_[joint];
+    const LocalMixture& mixture = MixtureOf(joint);
     if (mixture.empty()) return {};
     const auto p = mixture.Predict(JointFeature(prepared.scaled, joint), options_.nearby_models);
     return {p.mean, p.variance / std::max(mixture.noise(), 1e-12)};
@@ -132,14 +131,20 @@ class Liu2016 : public OffsetReconstructor {
   /// new, and a frame has a millisecond.
   void Learn(const PreparedPosture& prepared, size_t joint, const OffsetPrediction& p) override {
     constexpr double kReliable = 0.9, kSure = 0.5;
-    if (!options_.incremental || mixtures_[joint].empty()) return;
+    if (!options_.incremental || MixtureOf(joint).empty()) return;
     if (prepared.reliability[joint] < kReliable || p.unsureness > kSure) return;
     if (sample_++ % 67 != 0) return;
-    mixtures_[joint].Update(JointFeature(prepared.scaled, joint), p.offset, {});
+    if (!own_[joint]) own_[joint] = models_->mixtures[joint];
+    own_[joint]->Update(JointFeature(prepared.scaled, joint), p.offset, {});
   }
 
  private:
-  std::array<LocalMixture, kJointCount> mixtures_;  // this person's own: they learn on
+  const LocalMixture& MixtureOf(size_t joint) const {
+    return own_[joint] ? *own_[joint] : models_->mixtures[joint];
+  }
+
+  // This person's, of joints that have learned on: megabytes that somebody who passes by never has.
+  std::array<std::optional<LocalMixture>, kJointCount> own_;
   uint64_t sample_ = 0;
 };
 
