@@ -47,6 +47,12 @@ bool AreFrameNumbers(const std::vector<fs::path>& paths) {
 
 std::vector<FolderFrame> ListFrames(const fs::path& folder) {
   const std::vector<fs::path> paths = PngsInNameOrder(folder);
+  if (paths.empty() && fs::is_directory(folder / "shards")) {
+    throw InputError(
+        folder.string() +
+        ": expected a folder of 16-bit PNGs, found a packed data set, whose images are "
+        "cut out around people: `ossa render --format png` or both keeps them whole");
+  }
   if (paths.empty()) {
     throw InputError(folder.string() + ": expected a folder of 16-bit PNGs, found none in it");
   }

@@ -29,6 +29,7 @@ namespace fs = std::filesystem;
 struct FileKind {
   bool (*is)(const fs::path&);
   void (*show)(const fs::path&);
+  const char* extension = nullptr;  // a damaged one is known by it
 };
 
 void ShowModel(const fs::path& path) {
@@ -151,13 +152,13 @@ void ShowSkeletons(const fs::path& path) {
   }
 }
 
-// The first kind that knows the file by its content shows it.
+// The first kind that knows the file by its content, or by its extension, shows it.
 constexpr std::array kKinds = {
-    FileKind{forest::IsForestModel, ShowModel},
-    FileKind{recon::PostureDatabase::IsOne, ShowDatabase},
-    FileKind{recon::LearnedModels::IsOne, ShowLearned},
-    FileKind{recon::PosturePrior::IsOne, ShowPrior},
-    FileKind{recon::CloseLook::IsOne, ShowLook},
+    FileKind{forest::IsForestModel, ShowModel, ".ossa"},
+    FileKind{recon::PostureDatabase::IsOne, ShowDatabase, ".ossadb"},
+    FileKind{recon::LearnedModels::IsOne, ShowLearned, ".ossagp"},
+    FileKind{recon::PosturePrior::IsOne, ShowPrior, ".ossaprior"},
+    FileKind{recon::CloseLook::IsOne, ShowLook, ".ossalook"},
     FileKind{tools::IsDataset, ShowDataset},
     FileKind{depth::IsRecording, ShowDepthRecording},
     FileKind{HoldsAnything, ShowSkeletons},
@@ -182,7 +183,8 @@ int Info(int argc, char** argv) {
     return 0;
   }
   for (const FileKind& kind : kKinds) {
-    if (!kind.is(file)) continue;
+    const bool is_named_so = kind.extension != nullptr && file.ends_with(kind.extension);
+    if (!is_named_so && !kind.is(file)) continue;
     kind.show(file);
     return 0;
   }

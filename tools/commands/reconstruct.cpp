@@ -85,6 +85,19 @@ std::string LearnedFor(const ReconstructArguments& a,
   return {};
 }
 
+/// Whether --out is a folder: of several recordings, and of one that is in a folder or archive
+/// where --out has no extension. Throws UsageError for several and a name that ends as one file's.
+bool GoesToFolder(const ReconstructArguments& a, const std::vector<recon::SkeletonClip>& clips) {
+  const std::filesystem::path out(a.out);
+  if (clips.size() == 1) return out.extension().empty() && !clips[0].name.empty();
+  for (const char* one : {".jsonl", ".bvh", ".trc", ".csv"}) {
+    if (out.extension() != one) continue;
+    throw UsageError(fmt::format("{}: expected a folder for {} recordings, as {} and {}", a.out,
+                                 clips.size(), clips[0].name, clips[1].name));
+  }
+  return true;
+}
+
 void AddMethodOptions(CLI::App& app, ReconstructArguments& a) {
   auto methods = recon::ReconstructionMethods();
   methods.emplace_back(kButterworth);
@@ -157,8 +170,8 @@ int Reconstruct(int argc, char** argv) {
   a.read.stop = Interrupted;
   const auto clips = recon::ReadSkeletonClips(a.skeletons, a.read);
   if (Interrupted()) throw InputError("reconstruct: interrupted; nothing was written");
-  const bool many = clips.size() > 1;
-  if (many) {
+  const bool to_folder = GoesToFolder(a, clips);
+  if (to_folder) {
     std::filesystem::create_directories(a.out);
   } else {
     CheckSkeletonName(a.out);
@@ -193,7 +206,7 @@ int Reconstruct(int argc, char** argv) {
     }
     if (Interrupted()) throw InputError("reconstruct: interrupted; nothing half-written is left");
     std::filesystem::path to = a.out;
-    if (many) {
+    if (to_folder) {
       to = to / (clip.name + ".jsonl");
       std::filesystem::create_directories(to.parent_path());
     }

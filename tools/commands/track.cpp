@@ -101,7 +101,7 @@ TrackOptions ParseOptions(int argc, char** argv) {
   app.add_option("--frames", options.frames, "stop after so many frames")->check(Positive());
   AddDeviceOptions(app, options.source);
   app.add_option("--json-stats", options.json_stats,
-                 "milliseconds a stage, frames a second, memory");
+                 "milliseconds a stage, frames a second, memory, FILE.json ('-': stdout)");
   app.add_option("--picture", options.picture,
                  "FILE.png of one frame: depth, parts, joints, skeleton");
   app.add_option("--pictures", options.pictures, "folder for such a picture of every frame");
@@ -303,7 +303,9 @@ std::map<int, recon::BoneLengths> MeasureBones(const TrackOptions& options) {
 }
 
 void Report(const TrackOptions& options, const Run& run) {
-  if (!options.json_stats.empty()) {
+  if (options.json_stats == "-") {
+    fmt::print("{}", run.stats.Json(run.dropped));
+  } else if (!options.json_stats.empty()) {
     AtomicFile file(options.json_stats);
     file.stream() << run.stats.Json(run.dropped);
     file.Commit();
@@ -313,7 +315,7 @@ void Report(const TrackOptions& options, const Run& run) {
     Say(fmt::format("ossa track: {}: the device {} for {:g} s: ending after {} frames\n",
                     options.source.name, what, options.source.patience_s, run.stats.frames()));
   }
-  if (!options.quiet) {
+  if (!options.quiet && options.json_stats != "-") {
     fmt::print("{} frames, {} dropped, {} reconnections\n", run.stats.frames(), run.dropped,
                run.lost_gaps);
   }
@@ -328,7 +330,8 @@ int Track(int argc, char** argv) {
   const auto source = OpenSource(options.source, options.quiet);
   SkeletonOutput output(options);
   Pictures pictures(options);
-  if (!options.json_stats.empty()) AtomicFile::CheckWritable(options.json_stats);
+  if (!options.json_stats.empty() && options.json_stats != "-")
+    AtomicFile::CheckWritable(options.json_stats);
   std::unique_ptr<viewer::Viewer> viewer;
   if (options.view) {
     viewer = std::make_unique<viewer::Viewer>(options.port);

@@ -12,6 +12,7 @@
 #include "recon/motion/skeletons/skeleton_io.h"
 #include "tools/commands/command.h"
 #include "tools/commands/commands.h"
+#include "tools/commands/method_options.h"
 #include "tools/commands/process.h"
 #include "tools/commands/source_options.h"
 #include "tools/tracker/skeleton_record.h"
@@ -106,8 +107,10 @@ int View(int argc, char** argv) {
   app.add_option("--database", options.tracker.database, "posture database, .ossadb");
   app.add_option("--method", options.tracker.method, "how postures are completed (default best)")
       ->check(CLI::IsMember(recon::ReconstructionMethods()));
+  app.add_option("--learned", options.tracker.learned, ".ossagp, for the methods that learn");
   app.add_flag("--once", options.once, "end with the recording instead of starting over");
   Parse(app, argc, argv);
+  CheckLearned(options.tracker.method, options.tracker.learned);
   const std::string& what = options.source.name;
   if (what.starts_with("openni:") || std::filesystem::is_directory(what) ||
       depth::IsRecording(what)) {

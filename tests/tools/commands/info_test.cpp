@@ -91,6 +91,8 @@ TEST(InfoCommand, RefusesWhatIsDamagedUnknownOrNotThere) {
   std::ofstream(folder / "letter.txt") << "Dear Sir or Madam,\n";
   ExpectRefused(folder / "letter.txt", "expected");
   ExpectRefused(folder / "none.ossa", "no such file");
+  std::ofstream(folder / "empty.ossa");
+  ExpectRefused(folder / "empty.ossa", "forest model");
   std::filesystem::create_directory(folder / "empty");
   ExpectRefused(folder / "empty", "expected a DATASET, a folder of PNGs or one of skeleton files");
 }

@@ -238,6 +238,19 @@ TEST_F(ReconstructCommand, BonesByTheWholeRecordingAreTheSameInEveryFrame) {
   EXPECT_LT(BoneDrift(Made({"--bones", "recording", "--physics", "on"}, "c.jsonl")), 1e-3);
 }
 
+TEST_F(ReconstructCommand, OfAFolderGoesToAFolder) {
+  const std::string clips = folder_ / "clips", out = folder_ / "made";
+  std::filesystem::create_directories(clips);
+  recon::WriteSkeletons(clips + "/a.jsonl", Recording());
+  EXPECT_EQ(RunOssa({"reconstruct", clips, "--out", out, "--quiet"}).exit_status, 0);
+  EXPECT_EQ(recon::ReadSkeletons(out + "/a.jsonl").frames.size(), 60U);
+  recon::WriteSkeletons(clips + "/b.jsonl", Recording());
+  const auto run = RunOssa({"reconstruct", clips, "--out", folder_ / "x.bvh", "--quiet"});
+  EXPECT_EQ(run.exit_status, 2);
+  EXPECT_NE(run.err.find("expected a folder for 2 recordings"), std::string::npos) << run.err;
+  EXPECT_FALSE(std::filesystem::exists(folder_ / "x.bvh"));
+}
+
 TEST_F(ReconstructCommand, PhysicsOffIsTheDefault) {
   EXPECT_EQ(MeanDistance(Made({}, "a.jsonl"), Made({"--physics", "off"}, "b.jsonl")), 0.0);
 }

@@ -90,6 +90,13 @@ TEST(ViewCommand, WhatIsNoSkeletonFileIsNamed) {
   EXPECT_EQ(RunOssa({"view", folder.path().string(), "--camera", "wide"}).exit_status, 2);
 }
 
+TEST(ViewCommand, AMethodThatLearnsNeedsWhatWasLearned) {
+  const TemporaryFolder folder;
+  const CommandResult result = RunOssa({"view", folder.path().string(), "--method", "full-gp"});
+  EXPECT_EQ(result.exit_status, 2);
+  EXPECT_NE(result.err.find("--learned"), std::string::npos) << result.err;
+}
+
 TEST(ViewCommand, AStillIsASource) {
   const TemporaryFolder folder;
   std::ofstream(folder / "still.png") << "no image\n";
