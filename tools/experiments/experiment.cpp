@@ -5,8 +5,8 @@
 
 #include <algorithm>
 #include <fstream>
-#include <map>
 #include <nlohmann/json.hpp>
+#include <set>
 #include <sstream>
 
 #include "depth/error.h"
@@ -30,20 +30,18 @@ void WriteAll(const std::filesystem::path& path, const std::string& text) {
   file.Commit();
 }
 
-// KeyOfFile() of this program ("program") and of each ossa library it has loaded ("forest", ...).
-std::map<std::string, std::string> KeysOfLoadedCode() {
-  std::map<std::string, std::string> keys = {{"program", KeyOfFile("/proc/self/exe")}};
-  constexpr std::string_view kPrefix = "libossa_";
+// KeyOfFile() of this program and of each ossa library that it has loaded.
+std::string KeyOfLoadedCode() {
+  std::set<std::string> libraries;
   std::ifstream maps("/proc/self/maps");
   for (std::string line; std::getline(maps, line);) {
     const size_t path = line.find('/');
-    const size_t name = line.rfind(kPrefix);
-    if (path == std::string::npos || name == std::string::npos) continue;
-    const size_t begin = name + kPrefix.size();
-    std::string library = line.substr(begin, line.find('.', begin) - begin);
-    if (!keys.contains(library)) keys.emplace(library, KeyOfFile(line.substr(path)));
+    if (path == std::string::npos || line.rfind("/libossa_") == std::string::npos) continue;
+    libraries.insert(line.substr(path));
   }
-  return keys;
+  std::string key = KeyOfFile("/proc/self/exe");
+  for (const std::string& library : libraries) key.append(" ").append(KeyOfFile(library));
+  return key;
 }
 
 // Width on a terminal: bytes that continue a UTF-8 character take no place.
@@ -114,13 +112,8 @@ std::string KeyOfFile(const std::filesystem::path& path) {
   return path.filename().string() + ":" + ContentHash(ReadAll(path));
 }
 
-std::string KeyOfCode(std::initializer_list<std::string_view> libraries) {
-  static const std::map<std::string, std::string> keys = KeysOfLoadedCode();
-  std::string key = keys.at("program");
-  for (const std::string_view library : libraries) {
-    const auto found = keys.find(std::string(library));
-    if (found != keys.end()) key.append(" ").append(found->second);
-  }
+std::string KeyOfCode() {
+  static const std::string key = KeyOfLoadedCode();
   return key;
 }
 

@@ -93,9 +93,9 @@ struct ExperimentContext {
 std::string ContentHash(const std::string& text);
 std::string KeyOfFile(const std::filesystem::path& path);
 
-/// The code that made a number, for cache keys: this program and those of the ossa libraries named
-/// ("forest", "recon", ...) that are linked into it dynamically.
-std::string KeyOfCode(std::initializer_list<std::string_view> libraries);
+/// The code that made a number, for cache keys: this program and all ossa libraries that are linked
+/// into it dynamically. All, for whoever lists those that a step runs forgets one.
+std::string KeyOfCode();
 
 /// The user stopped the study; what is cached stays.
 struct Interruption {};

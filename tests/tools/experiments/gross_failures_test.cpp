@@ -60,7 +60,20 @@ TEST(GrossFailures, AreNotLookedForAcrossGapsInTime) {
     sequence.frames[f].time_s += 1.0;
     At(sequence, f, Joint::kHandLeft).position_m.y() += 0.5;
   }
-  EXPECT_EQ(CountGrossFailures(sequence, sequence, sequence).jumps, 0);
+  const GrossFailures found = CountGrossFailures(sequence, sequence, sequence);
+  EXPECT_EQ(found.jumps, 0);
+  EXPECT_EQ(found.jitter_cm, 0.0);
+}
+
+// What a method has put where the sensor saw nothing can be wrong as well.
+TEST(GrossFailures, AreCountedOfWhatIsPlacedUnseen) {
+  auto sequence = Still(10);
+  auto& hand = At(sequence, 5, Joint::kHandLeft);
+  hand.state = recon::TrackingState::kNotTracked;
+  hand.position_m.y() += 0.5;
+  EXPECT_EQ(CountGrossFailures(sequence, sequence, Still(10)).wrong_bones, 1);
+  hand.reliability.reset();  // a sensor's word for nowhere
+  EXPECT_EQ(CountGrossFailures(sequence, sequence, Still(10)).wrong_bones, 0);
 }
 
 // A method that stretches a bone for good has it wrong, however constant it is.

@@ -98,5 +98,37 @@ TEST(RoomJudge, SeenJointsAreJudgedBesideAll) {
   EXPECT_DOUBLE_EQ(Measure(judge.score.raw_seen).map_10cm.value(), 1.0);
 }
 
+// Joints that the forest did not find are missing of raw, but final has put them somewhere and is
+// judged for it.
+TEST(RoomJudge, WhatIsPlacedUnseenIsJudged) {
+  constexpr int kWidth = 80, kHeight = 60;
+  LabelledFrame truth;
+  truth.depth.camera = {kWidth, kHeight, 72, 72, 40, 30};
+  truth.depth.depth_mm.assign(kWidth * kHeight, 2000);
+  truth.users = {kWidth, kHeight, 1};
+  TruthBody& person = truth.bodies.emplace_back();
+  tracker::BodyFrame answer;
+  answer.users = {kWidth, kHeight, 7};
+  tracker::Body& body = answer.bodies.emplace_back();
+  body.id = 7;
+  for (size_t j = 0; j < recon::kJointCount; ++j) {
+    person.visible[j] = true;
+    const bool found = j % 2 == 0;
+    const Eigen::Vector3d at_m(0.1 * static_cast<double>(j), 0, 2);
+    person.joints_m.position_m[j] = at_m;
+    body.raw.posture.position_m[j] = at_m;
+    body.raw.state[j] =
+        found ? recon::TrackingState::kTracked : recon::TrackingState::kNotTracked;
+    body.raw.confidence[j] = found ? 0.9 : 0.0;
+    body.smoothed.position_m[j] = at_m + Eigen::Vector3d(0, found ? 0.0 : 0.2, 0);
+  }
+  RoomJudge judge;
+  judge.See(truth, answer);
+  const ClipMetrics raw = Measure(judge.score.raw), final = Measure(judge.score.final);
+  EXPECT_NEAR(raw.mean_joint_error_cm.value(), 0.0, 1e-9);
+  EXPECT_DOUBLE_EQ(raw.map_10cm.value(), 0.5);
+  EXPECT_NEAR(final.mean_joint_error_cm.value(), 10.0, 1e-9);
+}
+
 }  // namespace
 }  // namespace ossa::tools

@@ -4,7 +4,9 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <array>
+#include <map>
 #include <set>
 
 #include "tools/experiments/experiments_internal.h"
@@ -125,6 +127,16 @@ Table TableFive(const ExperimentContext& context, const Liu2016Study& study) {
   return table;
 }
 
+/// A mover is one body, in every study that has them, and no other mover's.
+uint64_t BodyOf(const std::string& mover, std::map<std::string, uint64_t>* bodies) {
+  const auto known = bodies->find(mover);
+  if (known != bodies->end()) return known->second;
+  auto body = static_cast<uint64_t>(ContentHash(mover)[0]);
+  const auto taken = [&](const auto& other) { return other.second == body; };
+  while (std::any_of(bodies->begin(), bodies->end(), taken)) ++body;
+  return bodies->emplace(mover, body).first->second;
+}
+
 }  // namespace
 
 Liu2016Study::Liu2016Study(ExperimentContext& context) {
@@ -141,12 +153,13 @@ Liu2016Study::Liu2016Study(ExperimentContext& context) {
   Studio studio(context, observer);
   const auto clips = AuthoredMotions(context, AllActions(), movers);
   std::set<std::string> names;
+  std::map<std::string, uint64_t> bodies;
   for (size_t i = 0; i < clips.size(); ++i) {
     StageOptions stage;
     stage.name = clips[i].name.substr(clips[i].name.find('/') + 1);
     stage.frames = frames;
     const std::string mover = stage.name.substr(stage.name.find('/') + 1);
-    stage.seed = context.seed * 1000 + ContentHash(mover)[0];  // a mover is one body
+    stage.seed = context.seed * 1000 + BodyOf(mover, &bodies);
     if (context.progress) {
       context.progress(static_cast<double>(i), static_cast<double>(clips.size()),
                        "filming " + stage.name);

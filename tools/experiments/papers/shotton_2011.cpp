@@ -51,6 +51,7 @@ class Laboratory {
   Evaluation Judge(const Setting& setting, int64_t test_frames);
   Evaluation JudgeShipped(int64_t test_frames);
   const std::string& test_motion() const { return test_motion_; }
+  bool TestsOnItsOwnMotion() const { return test_motion_ == motion_; }
 
  private:
   Evaluation Measured(const std::string& key, const std::function<forest::ForestModel()>& model,
@@ -71,7 +72,7 @@ fs::path Laboratory::DataOf(Split split, int64_t frames) {
   job.command = fmt::format("ossa experiment shotton-2011 {} {} {} seed {}",
                             test ? "test" : "train", motion, frames, context_.seed);
   job.out =
-      context_.out / "cache" / ContentHash(job.command + KeyOfCode({"depth", "recon", "synth"}));
+      context_.out / "cache" / ContentHash(job.command + KeyOfCode());
   if (IsDataset(job.out)) return job.out;
   if (!recon::BodyIsFetched(recon::BodyFolder())) {
     throw InputError(recon::BodyFolder().string() +
@@ -135,7 +136,7 @@ Evaluation Laboratory::Measured(const std::string& key,
 
 Evaluation Laboratory::Judge(const Setting& setting, int64_t test_frames) {
   const std::string key =
-      fmt::format("shotton {} {} {} {} {} {} {} {} seed {}", KeyOfCode({"forest", "learning"}),
+      fmt::format("shotton {} {} {} {} {} {} {} {} seed {}", KeyOfCode(),
                   motion_, setting.images, setting.depth, setting.trees, pixels_, candidates_,
                   validation_images_, context_.seed);
   return Measured(
@@ -170,7 +171,7 @@ Evaluation Laboratory::Judge(const Setting& setting, int64_t test_frames) {
 Evaluation Laboratory::JudgeShipped(int64_t test_frames) {
   const fs::path path = context_.model.empty() ? tracker::ShippedFile("body.ossa") : context_.model;
   return Measured(
-      fmt::format("shotton shipped {} {}", KeyOfCode({"forest", "learning"}), KeyOfFile(path)),
+      fmt::format("shotton shipped {} {}", KeyOfCode(), KeyOfFile(path)),
       [&] { return forest::ReadForestModel(path); }, test_frames);
 }
 
@@ -256,10 +257,11 @@ std::vector<Table> RunShotton2011(ExperimentContext& context) {
   table.note =
       "MPFB bodies of test shapes, front views at 320 x 240, structured-light noise; far fewer "
       "images than the paper's.";
-  if (laboratory.test_motion() == "authored") {
+  if (laboratory.TestsOnItsOwnMotion()) {
     table.note +=
-        " Tested on other movers of authored motions: for unseen motion name folders of subjects "
-        "kept apart as motion and test_motion.";
+        " Tested on the motions it was trained on, by other bodies (of authored ones by other "
+        "movers): for unseen motion name folders of subjects kept apart as motion and "
+        "test_motion.";
   }
   Table joints;
   joints.title = "Figure 8: average precision within 10 cm by joint, the shipped model";

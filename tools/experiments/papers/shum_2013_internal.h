@@ -11,6 +11,7 @@ struct Shum2013Study {
 
   std::vector<RecordedPair> clean, furniture, held;  // classes (a), (b), (c) of table IV
   MethodRun raw, method_a, method_b, shum, kept, best;
+  MethodRun best_of_truth;  // that expects no observer's errors: table III begins with true joints
   std::string note;
 };
 

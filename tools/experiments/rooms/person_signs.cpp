@@ -140,7 +140,7 @@ std::vector<Example> Examples(ExperimentContext& context, Split split, const std
   const auto model = context.model.empty() ? tracker::ShippedFile("body.ossa") : context.model;
   std::istringstream lines(context.Cached(
       fmt::format("person signs {} {} {} {} {} {}",
-                  KeyOfCode({"depth", "forest", "synth", "tracker"}), static_cast<int>(split),
+                  KeyOfCode(), static_cast<int>(split),
                   mocap, performances, seed, KeyOfFile(model)),
       compute));
   std::vector<Example> examples;
@@ -250,6 +250,8 @@ std::vector<Table> RunPersonSigns(ExperimentContext& context) {
   AddRows("others, surface", surface_weights, surface, checked, table);
   AddRows("others", weights, all, checked, table);
   table.note = "Weights: person_signs.inc, to be put into tools/tracker.";
+  if (train == check)
+    table.note += " Others: other bodies and rooms; their motions are those fitted on.";
   return {table};
 }
 

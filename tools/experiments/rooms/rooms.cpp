@@ -81,10 +81,9 @@ Table JointsTable() {
                       "final: mean error, cm", "raw, seen joints: mAP 10 cm, %"},
           .rows = {},
           .note =
-              "All 20 joints, also those hidden or outside the image, but for those that the "
-              "forest does "
-              "not find at all: they count as missing, and in no error. Last those that are seen. "
-              "Who is not found has no joint right."};
+              "All 20 joints, also those hidden or outside the image. Raw: those that the forest "
+              "does not find at all are missing, and in no error; final: all are placed. Last "
+              "those that are seen. Who is not found has no joint right."};
 }
 
 Table JitterTable() {

@@ -20,8 +20,7 @@ constexpr std::array<std::pair<size_t, size_t>, 2> kHandsAndWrists = {{{7, 11}, 
 
 std::optional<Eigen::Vector3d> At(const BodyRecord& body, size_t joint) {
   const auto& record = body.joints[joint];
-  if (!record || record->state == recon::TrackingState::kNotTracked) return std::nullopt;
-  if (!record->position_m.allFinite()) return std::nullopt;
+  if (!record || !recon::HasPlace(*record)) return std::nullopt;
   return record->position_m;
 }
 
@@ -36,6 +35,10 @@ const BodyRecord* BodyOf(const recon::SkeletonFrame& frame, int id) {
   const auto found = std::find_if(frame.bodies.begin(), frame.bodies.end(),
                                   [id](const BodyRecord& body) { return body.id == id; });
   return found == frame.bodies.end() ? nullptr : &*found;
+}
+
+bool AfterAGap(const recon::SkeletonSequence& sequence, size_t frame) {
+  return sequence.frames[frame].time_s - sequence.frames[frame - 1].time_s > kLongestStep_s;
 }
 
 /// What a method said of the frames before and after a jump.
@@ -142,13 +145,15 @@ GrossFailures CountGrossFailures(const recon::SkeletonSequence& sequence,
           ++out.wrong_bones;
         }
       }
-      if (f == 0 || frame.time_s - sequence.frames[f - 1].time_s > kLongestStep_s) continue;
+      if (f == 0 || AfterAGap(sequence, f)) continue;
       const BodyRecord* before = BodyOf(sequence.frames[f - 1], now.id);
       if (before == nullptr) continue;
       const Verdicts verdicts{verdict(f - 1), verdict(f)};
       CountJumps(now, *before, verdicts, out);
       CountSnaps(now, *before, verdicts, out);
-      const BodyRecord* older = f < 2 ? nullptr : BodyOf(sequence.frames[f - 2], now.id);
+      const BodyRecord* older = f < 2 || AfterAGap(sequence, f - 1)
+                                    ? nullptr
+                                    : BodyOf(sequence.frames[f - 2], now.id);
       for (size_t j = 0; j < kJointCount && older != nullptr; ++j) {
         const auto a = At(now, j), b = At(*before, j), c = At(*older, j);
         if (!a || !b || !c) continue;

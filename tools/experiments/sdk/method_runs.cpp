@@ -26,7 +26,7 @@ std::string KeyOf(const ExperimentContext& context, const MethodRun& run) {
   std::string key = fmt::format(
       "{} {} seed {} pca {} {} {} {} {} {} {} {} {} {} {} {} gp {} {} {} {} {} "
       "best {} {} {} {} {} {} {}",
-      KeyOfCode({"recon"}), o.method, o.seed, pca.neighbours, pca.dimensions, pca.steps,
+      KeyOfCode(), o.method, o.seed, pca.neighbours, pca.dimensions, pca.steps,
       pca.samples, pca.control, pca.style, pca.kinematics, pca.continuity, pca.solver,
       pca.use_reliability, pca.extend_database, pca.keep_reliable, gp.nearby_models, gp.spatial,
       gp.temporal, gp.reliability, gp.incremental, best.looked, best.repair, best.correct,
@@ -141,7 +141,7 @@ std::filesystem::path LearnWithout(const ExperimentContext& context,
                                    const std::string& left_out,
                                    const recon::LearnOptions& options) {
   std::string key =
-      fmt::format("learn {} {} {} {} {} {} {} {}", KeyOfCode({"recon"}), options.mixture.regions,
+      fmt::format("learn {} {} {} {} {} {} {} {}", KeyOfCode(), options.mixture.regions,
                   options.mixture.samples, options.mixture.seed, options.most_pairs,
                   options.full_samples, options.correction.centres, options.correction.most_pairs);
   std::vector<recon::PosturePair> pairs;

@@ -50,7 +50,9 @@ Table EmptyTable() {
   table.columns = {"data",           "method",       "clips", "frames",   "mean error", "eq. 18",
                    "offset removed", "acceleration", "p99",   "bones, %", "ms/frame"};
   table.note =
-      "UI-PRMD: leave one subject out; ITOP: learned on one half, tested on the other, both ways. "
+      "UI-PRMD: leave one subject out; ITOP: learned on one half, tested on the other, both ways "
+      "(one of its people is in both, by a hundred frames). ms: processor time, of the run that "
+      "the cache keeps. "
       "butterworth looks into the future and is here for comparison only; so does best-offline, "
       "best with the bones of the whole recording. Bones: standard deviation of a bone's length "
       "over the clip.";

@@ -17,6 +17,7 @@ struct Fold {
   std::string name;  // of what is tested
   std::vector<const RecordedPair*> train;
   std::vector<const RecordedPair*> test;
+  std::string key;  // for the cache: of the content of both
 };
 
 /// One fold a subject: all others to learn from, those for which `tested` is true to test.
@@ -33,7 +34,7 @@ std::vector<recon::PosturePair> PairsOf(const std::vector<const RecordedPair*>& 
 struct MethodScore {
   std::string method;
   std::vector<ClipMetrics> clips;
-  double ms_per_frame = 0.0;
+  double ms_per_frame = 0.0;  // of processor time
 };
 
 /// The options with what `method`, where it learns, made of the fold's training clips.
@@ -42,7 +43,7 @@ recon::ReconstructorOptions LearnFold(const Fold& fold, const std::string& metho
 
 struct FoldScore {
   std::vector<ClipMetrics> clips;
-  double seconds = 0.0;  // of reconstruction, summed over threads
+  double milliseconds = 0.0;  // of processor time that reconstruction took, summed over threads
 };
 /// The method over the fold's tested clips; nothing is learned but what the options bring.
 FoldScore TestFold(const Fold& fold, const std::string& method,
@@ -52,6 +53,9 @@ FoldScore TestFold(const Fold& fold, const std::string& method,
 nlohmann::json ClipsToJson(const std::vector<ClipMetrics>& clips);
 std::vector<ClipMetrics> ClipsFromJson(const nlohmann::json& json);
 std::string DescriptionOfConstants(const recon::BestConstants& constants);
+/// Everything of the options that a study of recordings varies, and the files they were read from.
+std::string KeyOfOptions(const ExperimentContext& context,
+                         const recon::ReconstructorOptions& options);
 
 /// Runs `method` ("raw" and "butterworth" included) with `options` over the folds, learning from
 /// each fold's training clips where the method learns. Kept in the experiment's cache.

@@ -51,8 +51,7 @@ using ClipsBySetting = std::vector<std::vector<ClipMetrics>>;
 ClipsBySetting TryAll(ExperimentContext& context, const Fold& fold,
                       const std::vector<recon::BestConstants>& settings,
                       const recon::ReconstructorOptions& options) {
-  std::string key = fmt::format("nested {} {} {} {}", KeyOfCode({"recon"}), fold.name,
-                                fold.test.size(), options.seed);
+  std::string key = fmt::format("nested {} {} {}", KeyOfCode(), fold.key, KeyOfOptions(context, options));
   for (const auto& setting : settings) key.append(" ").append(DescriptionOfConstants(setting));
   const std::string text = context.Cached(key, [&] {
     if (context.progress) context.progress(0, 0, "nested, without " + fold.name);
@@ -73,7 +72,7 @@ ClipsBySetting TryAll(ExperimentContext& context, const Fold& fold,
 
 /// Learned without either, tested on both.
 Fold WithoutBoth(const Fold& a, const Fold& b) {
-  Fold both{a.name + " " + b.name, {}, a.test};
+  Fold both{a.name + " " + b.name, {}, a.test, "without " + a.key + " " + b.key};
   both.test.insert(both.test.end(), b.test.begin(), b.test.end());
   for (const RecordedPair* recorded : a.train) {
     if (recorded->subject != b.name) both.train.push_back(recorded);

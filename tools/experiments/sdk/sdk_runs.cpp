@@ -2,7 +2,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <chrono>
 #include <map>
 #include <nlohmann/json.hpp>
 
@@ -10,14 +9,14 @@
 #include "recon/gp/posture_prior.h"
 #include "recon/methods/recorded_pairs.h"
 #include "recon/methods/sequence.h"
+#include "tools/experiments/compare/sequence_text.h"
 #include "tools/experiments/sdk/method_runs.h"
 #include "tools/experiments/sdk/sdk_internal.h"
 #include "tools/experiments/stage/jobs.h"
+#include "tools/tracker/shipped.h"
 
 namespace ossa::tools {
 namespace {
-
-using Clock = std::chrono::steady_clock;
 
 // What a study keeps of a clip.
 constexpr std::array kKept = {&ClipMetrics::mean_joint_error_cm,
@@ -57,22 +56,31 @@ std::string DescriptionOfConstants(const recon::BestConstants& c) {
 
 namespace {
 
-std::string DescriptionOfPrior(const recon::PosturePrior& prior) {
-  return fmt::format("prior {} {} {}", prior.frames, prior.time_s.sum(), prior.modes_m.norm());
+/// What a fold learns from and is tested on, frame by frame.
+std::string KeyOfRecordings(const Fold& fold) {
+  std::string key;
+  for (const auto* side : {&fold.train, &fold.test}) {
+    for (const RecordedPair* pair : *side)
+      key.append(ContentHash(TextOf(pair->observed) + TextOf(pair->truth)));
+    key.append(" ");
+  }
+  return ContentHash(key);
 }
 
-std::string DescriptionOf(const recon::ReconstructorOptions& o) {
+}  // namespace
+
+std::string KeyOfOptions(const ExperimentContext& context, const recon::ReconstructorOptions& o) {
   return fmt::format(
-      "{} {} {} {} {} {} {} {} {} {} {} {} {} {} {} {} {} {} {} {}", o.local_pca.neighbours,
+      "seed {} "
+      "{} {} {} {} {} {} {} {} {} {} {} {} {} {} {} {} {} {} {} {}", o.seed, o.local_pca.neighbours,
       o.local_pca.dimensions, o.local_pca.steps, o.local_pca.samples, o.local_pca.control,
       o.local_pca.style, o.local_pca.kinematics, o.local_pca.continuity, o.local_pca.solver,
       o.local_pca.use_reliability, o.gaussian_process.incremental, o.gaussian_process.nearby_models,
       o.best.repair, o.best.complete, o.best.correct, o.best.filter, o.best.bones,
-      o.database ? o.database->size() : 0, o.prior ? DescriptionOfPrior(*o.prior) : "",
+      o.database ? KeyOfFile(DatabaseOf(context).path) : "",
+      o.prior ? KeyOfFile(tracker::ShippedFile(recon::kShippedPrior)) : "",
       DescriptionOfConstants(o.best.constants));
 }
-
-}  // namespace
 
 recon::ReconstructorOptions LearnFold(const Fold& fold, const std::string& method,
                                       const recon::ReconstructorOptions& options) {
@@ -90,11 +98,11 @@ recon::ReconstructorOptions LearnFold(const Fold& fold, const std::string& metho
 FoldScore TestFold(const Fold& fold, const std::string& method,
                    const recon::ReconstructorOptions& options, int threads) {
   std::vector<std::vector<ClipMetrics>> clips(fold.test.size());
-  std::vector<double> seconds(fold.test.size());
+  std::vector<double> milliseconds(fold.test.size());
   RunJobs(fold.test.size(), threads, [&](size_t i) {
-    const auto start = Clock::now();
+    const double start_ms = ProcessorTime_ms();
     const auto made = RunMethod(fold.test[i]->observed, method, options);
-    seconds[i] = std::chrono::duration<double>(Clock::now() - start).count();
+    milliseconds[i] = ProcessorTime_ms() - start_ms;
     for (const PairedTracks& pair : PairUp(fold.test[i]->truth, made)) {
       clips[i].push_back(Measure(pair));
       clips[i].back().name = fold.test[i]->clip;
@@ -103,7 +111,7 @@ FoldScore TestFold(const Fold& fold, const std::string& method,
   FoldScore score;
   for (size_t i = 0; i < clips.size(); ++i) {
     score.clips.insert(score.clips.end(), clips[i].begin(), clips[i].end());
-    score.seconds += seconds[i];
+    score.milliseconds += milliseconds[i];
   }
   return score;
 }
@@ -140,7 +148,10 @@ std::vector<Fold> LeaveOneSubjectOut(const std::vector<RecordedPair>& pairs,
     }
   }
   std::vector<Fold> list;
-  for (auto& [subject, fold] : folds) list.push_back(std::move(fold));
+  for (auto& [subject, fold] : folds) {
+    fold.key = KeyOfRecordings(fold);
+    list.push_back(std::move(fold));
+  }
   return list;
 }
 
@@ -182,26 +193,25 @@ MethodScore RunFolds(ExperimentContext& context, const std::string& data,
                      const recon::ReconstructorOptions& options) {
   MethodScore score;
   score.method = method;
-  double seconds = 0.0, frames = 0.0;
-  const std::string code = KeyOfCode({"recon"});
+  double milliseconds = 0.0, frames = 0.0;
   for (const Fold& fold : folds) {
     size_t observed = 0;
     for (const RecordedPair* pair : fold.test) observed += pair->observed.frames.size();
-    const std::string key = fmt::format("{} {} {} {} {} {} {}", code, data, fold.name, method,
-                                        observed, context.seed, DescriptionOf(options));
+    const std::string key = fmt::format("{} {} {} {}", KeyOfCode(), fold.key, method,
+                                        KeyOfOptions(context, options));
     const auto text = context.Cached(key, [&] {
       if (context.progress) context.progress(0, 0, data + " " + method + " " + fold.name);
       const FoldScore made =
           TestFold(fold, method, LearnFold(fold, method, options), context.threads);
-      return nlohmann::json{{"seconds", made.seconds}, {"clips", ClipsToJson(made.clips)}}.dump();
+      return nlohmann::json{{"ms", made.milliseconds}, {"clips", ClipsToJson(made.clips)}}.dump();
     });
     const auto json = nlohmann::json::parse(text);
-    seconds += json.at("seconds").get<double>();
+    milliseconds += json.at("ms").get<double>();
     frames += static_cast<double>(observed);
     for (ClipMetrics& clip : ClipsFromJson(json.at("clips")))
       score.clips.push_back(std::move(clip));
   }
-  score.ms_per_frame = frames > 0 ? 1e3 * seconds / frames : 0.0;
+  score.ms_per_frame = frames > 0 ? milliseconds / frames : 0.0;
   return score;
 }
 

@@ -32,11 +32,11 @@ Cost CostOf(const std::vector<Posture>& motion, int people, physics::Control con
   const Eigen::Vector4d floor(0.0, 1.0, 0.0, 0.0);
   std::vector<double> ms;
   for (size_t f = 0; f < motion.size(); ++f) {
-    const double start_ms = ProcessorMs();
+    const double start_ms = ProcessorTime_ms();
     for (size_t k = 0; k < filters.size(); ++k) {
       filters[k].Step(motion[(f + 37 * k) % motion.size()], {}, floor, kFrame_s);
     }
-    ms.push_back(ProcessorMs() - start_ms);
+    ms.push_back(ProcessorTime_ms() - start_ms);
   }
   Cost cost{0.0, 0.0};
   for (const double m : ms) cost.mean_ms += m / static_cast<double>(ms.size());
@@ -172,11 +172,11 @@ Table CostStudy(ExperimentContext& context, const Actors& actors) {
     row(fmt::format("six people, {}", name), text(six), "<= 4 ms", six.median_ms <= 4.0);
   }
   const double hours = context.parameters.Number("endurance_hours", 0.1);
-  const double start_ms = ProcessorMs();
+  const double start_ms = ProcessorTime_ms();
   const Endurance e = Endure(actors, hours, context);
   row(fmt::format("{:g} hours of clips, pushes, bad and dropped frames: not finite", hours),
       fmt::format("{} of {} frames, in {:.0f} s", e.rescued, e.frames,
-                  1e-3 * (ProcessorMs() - start_ms)),
+                  1e-3 * (ProcessorTime_ms() - start_ms)),
       "0", e.rescued == 0);
   row("character lost: > 25 cm off after a second of good targets", std::to_string(e.lost), "0",
       e.lost == 0);

@@ -175,9 +175,9 @@ void Run(const FilterCase& c, const physics::CharacterFilterOptions& options, Me
   m.feet.NextCase();
   for (size_t f = 0; f < observed.size(); ++f) {
     const double dt_s = f == 0 ? 1.0 / 30.0 : c.tracks.time_s[f] - c.tracks.time_s[f - 1];
-    const double start_ms = ProcessorMs();
+    const double start_ms = ProcessorTime_ms();
     const auto out = filter.Step(targets.At(f), {}, c.floor, dt_s);
-    m.ms += ProcessorMs() - start_ms;
+    m.ms += ProcessorTime_ms() - start_ms;
     result.result[f] = ResultOf(out.posture, observed[f]);
     m.depth_m = std::max(m.depth_m, out.floor_depth_m);
     m.gap_m = std::max(m.gap_m, out.max_anchor_gap_m);

@@ -7,6 +7,7 @@
 #include "recon/body/rig.h"
 #include "tools/experiments/experiment.h"
 #include "tools/experiments/shum_ho_2012/scene_painter.h"
+#include "tools/experiments/stage/jobs.h"
 
 namespace ossa::tools {
 
@@ -76,9 +77,6 @@ SceneResult ThrowBoxes(const Actors& actors, uint64_t seed);
 
 /// Contact depth, cost: the numbers that every scene shares.
 void AddCommonNumbers(const Stage& stage, SceneResult& result);
-/// Processor time of this thread so far: unlike the clock on the wall, no neighbour's work is in
-/// it.
-double ProcessorMs();
 std::string Text(double value, int digits, const std::string& unit);
 
 /// The character as a filter on noisy authored motion and, when there, on real recordings.

@@ -94,12 +94,12 @@ Matched MatchAll(const Eigen::MatrixXf& postures, const Eigen::MatrixXf& reduced
   m.us = 1e300;
   std::vector<Eigen::Index> found(queries.size());
   for (int round = 0; round < 3; ++round) {
-    const double start_ms = ProcessorMs();
+    const double start_ms = ProcessorTime_ms();
     for (size_t k = 0; k < queries.size(); ++k) {
       const Eigen::VectorXf q = basis.transpose() * (queries[k] - mean);
       (reduced.colwise() - q).colwise().squaredNorm().minCoeff(&found[k]);
     }
-    m.us = std::min(m.us, 1e3 * (ProcessorMs() - start_ms) /
+    m.us = std::min(m.us, 1e3 * (ProcessorTime_ms() - start_ms) /
                               static_cast<double>(std::max<size_t>(queries.size(), 1)));
   }
   for (size_t k = 0; k < queries.size(); ++k) {

@@ -90,19 +90,13 @@ bool Stage::Struck(int person, const std::vector<size_t>& bones, int object) con
 
 void Stage::Advance(const std::vector<Posture>& targets, const std::string& caption) {
   for (size_t c = 0; c < targets.size(); ++c) world.SetTarget(static_cast<int>(c), targets[c]);
-  const double start_ms = ProcessorMs();
+  const double start_ms = ProcessorTime_ms();
   world.Step(1.0 / 30.0);
-  simulated_ms_ += ProcessorMs() - start_ms;
+  simulated_ms_ += ProcessorTime_ms() - start_ms;
   deepest_m_ = std::max(deepest_m_, world.Contacts().character_object_depth_m);
   const bool picture = filmed_ && frames_ % 2 == 0;
   ++frames_;
   if (picture) pictures_.push_back(Paint(world, view_, {targets, caption}));
-}
-
-double ProcessorMs() {
-  timespec time{};
-  clock_gettime(CLOCK_THREAD_CPUTIME_ID, &time);
-  return 1e3 * static_cast<double>(time.tv_sec) + 1e-6 * static_cast<double>(time.tv_nsec);
 }
 
 std::string Text(double value, int digits, const std::string& unit) {

@@ -1,6 +1,7 @@
 #include "tools/experiments/stage/jobs.h"
 
 #include <atomic>
+#include <ctime>
 #include <exception>
 #include <mutex>
 #include <thread>
@@ -28,6 +29,12 @@ void RunJobs(size_t count, int threads, const std::function<void(size_t)>& job) 
   work();
   others.clear();
   if (failure) std::rethrow_exception(failure);
+}
+
+double ProcessorTime_ms() {
+  timespec time{};
+  clock_gettime(CLOCK_THREAD_CPUTIME_ID, &time);
+  return 1e3 * static_cast<double>(time.tv_sec) + 1e-6 * static_cast<double>(time.tv_nsec);
 }
 
 }  // namespace ossa::tools

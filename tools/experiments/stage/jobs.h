@@ -8,4 +8,7 @@ namespace ossa::tools {
 /// failure is thrown when all threads have ended.
 void RunJobs(size_t count, int threads, const std::function<void(size_t)>& job);
 
+/// Processor time of this thread: what others do on the machine does not count.
+double ProcessorTime_ms();
+
 }  // namespace ossa::tools
