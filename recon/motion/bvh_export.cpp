@@ -251,9 +251,8 @@ class BvhBody {
     const SightingGap gap = sightings_.LongestGap();
     throw InputError(fmt::format(
         "{}: expected a BVH of at most {:.4g} MiB, as ossa reads them, found {:.0f} frames of "
-        "{:.4g} s, the longest gap without the body being of {:.7g} s after time_s {:.3f}: .jsonl "
-        "has "
-        "no such limit",
+        "{:.4g} s, the longest gap without the body being of {:.7g} s after time_s {:.3f}: "
+        ".jsonl has no such limit",
         name_, static_cast<double>(options_.most_bytes) / kMebi, sightings_.Count(),
         options_.frame_s, gap.length_s, gap.begin_s));
   }

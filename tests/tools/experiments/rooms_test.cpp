@@ -117,8 +117,7 @@ TEST(RoomJudge, WhatIsPlacedUnseenIsJudged) {
     const Eigen::Vector3d at_m(0.1 * static_cast<double>(j), 0, 2);
     person.joints_m.position_m[j] = at_m;
     body.raw.posture.position_m[j] = at_m;
-    body.raw.state[j] =
-        found ? recon::TrackingState::kTracked : recon::TrackingState::kNotTracked;
+    body.raw.state[j] = found ? recon::TrackingState::kTracked : recon::TrackingState::kNotTracked;
     body.raw.confidence[j] = found ? 0.9 : 0.0;
     body.smoothed.position_m[j] = at_m + Eigen::Vector3d(0, found ? 0.0 : 0.2, 0);
   }

@@ -71,8 +71,7 @@ fs::path Laboratory::DataOf(Split split, int64_t frames) {
   RenderJob job;
   job.command = fmt::format("ossa experiment shotton-2011 {} {} {} seed {}",
                             test ? "test" : "train", motion, frames, context_.seed);
-  job.out =
-      context_.out / "cache" / ContentHash(job.command + KeyOfCode());
+  job.out = context_.out / "cache" / ContentHash(job.command + KeyOfCode());
   if (IsDataset(job.out)) return job.out;
   if (!recon::BodyIsFetched(recon::BodyFolder())) {
     throw InputError(recon::BodyFolder().string() +
@@ -135,10 +134,9 @@ Evaluation Laboratory::Measured(const std::string& key,
 }
 
 Evaluation Laboratory::Judge(const Setting& setting, int64_t test_frames) {
-  const std::string key =
-      fmt::format("shotton {} {} {} {} {} {} {} {} seed {}", KeyOfCode(),
-                  motion_, setting.images, setting.depth, setting.trees, pixels_, candidates_,
-                  validation_images_, context_.seed);
+  const std::string key = fmt::format("shotton {} {} {} {} {} {} {} {} seed {}", KeyOfCode(),
+                                      motion_, setting.images, setting.depth, setting.trees,
+                                      pixels_, candidates_, validation_images_, context_.seed);
   return Measured(
       key,
       [&] {

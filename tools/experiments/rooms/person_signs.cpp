@@ -139,9 +139,8 @@ std::vector<Example> Examples(ExperimentContext& context, Split split, const std
   };
   const auto model = context.model.empty() ? tracker::ShippedFile("body.ossa") : context.model;
   std::istringstream lines(context.Cached(
-      fmt::format("person signs {} {} {} {} {} {}",
-                  KeyOfCode(), static_cast<int>(split),
-                  mocap, performances, seed, KeyOfFile(model)),
+      fmt::format("person signs {} {} {} {} {} {}", KeyOfCode(), static_cast<int>(split), mocap,
+                  performances, seed, KeyOfFile(model)),
       compute));
   std::vector<Example> examples;
   for (std::string line; std::getline(lines, line);) {

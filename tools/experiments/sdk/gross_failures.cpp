@@ -151,9 +151,8 @@ GrossFailures CountGrossFailures(const recon::SkeletonSequence& sequence,
       const Verdicts verdicts{verdict(f - 1), verdict(f)};
       CountJumps(now, *before, verdicts, out);
       CountSnaps(now, *before, verdicts, out);
-      const BodyRecord* older = f < 2 || AfterAGap(sequence, f - 1)
-                                    ? nullptr
-                                    : BodyOf(sequence.frames[f - 2], now.id);
+      const BodyRecord* older =
+          f < 2 || AfterAGap(sequence, f - 1) ? nullptr : BodyOf(sequence.frames[f - 2], now.id);
       for (size_t j = 0; j < kJointCount && older != nullptr; ++j) {
         const auto a = At(now, j), b = At(*before, j), c = At(*older, j);
         if (!a || !b || !c) continue;

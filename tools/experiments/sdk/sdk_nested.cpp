@@ -51,7 +51,8 @@ using ClipsBySetting = std::vector<std::vector<ClipMetrics>>;
 ClipsBySetting TryAll(ExperimentContext& context, const Fold& fold,
                       const std::vector<recon::BestConstants>& settings,
                       const recon::ReconstructorOptions& options) {
-  std::string key = fmt::format("nested {} {} {}", KeyOfCode(), fold.key, KeyOfOptions(context, options));
+  std::string key =
+      fmt::format("nested {} {} {}", KeyOfCode(), fold.key, KeyOfOptions(context, options));
   for (const auto& setting : settings) key.append(" ").append(DescriptionOfConstants(setting));
   const std::string text = context.Cached(key, [&] {
     if (context.progress) context.progress(0, 0, "nested, without " + fold.name);

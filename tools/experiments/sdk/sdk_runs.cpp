@@ -72,11 +72,12 @@ std::string KeyOfRecordings(const Fold& fold) {
 std::string KeyOfOptions(const ExperimentContext& context, const recon::ReconstructorOptions& o) {
   return fmt::format(
       "seed {} "
-      "{} {} {} {} {} {} {} {} {} {} {} {} {} {} {} {} {} {} {} {}", o.seed, o.local_pca.neighbours,
-      o.local_pca.dimensions, o.local_pca.steps, o.local_pca.samples, o.local_pca.control,
-      o.local_pca.style, o.local_pca.kinematics, o.local_pca.continuity, o.local_pca.solver,
-      o.local_pca.use_reliability, o.gaussian_process.incremental, o.gaussian_process.nearby_models,
-      o.best.repair, o.best.complete, o.best.correct, o.best.filter, o.best.bones,
+      "{} {} {} {} {} {} {} {} {} {} {} {} {} {} {} {} {} {} {} {}",
+      o.seed, o.local_pca.neighbours, o.local_pca.dimensions, o.local_pca.steps,
+      o.local_pca.samples, o.local_pca.control, o.local_pca.style, o.local_pca.kinematics,
+      o.local_pca.continuity, o.local_pca.solver, o.local_pca.use_reliability,
+      o.gaussian_process.incremental, o.gaussian_process.nearby_models, o.best.repair,
+      o.best.complete, o.best.correct, o.best.filter, o.best.bones,
       o.database ? KeyOfFile(DatabaseOf(context).path) : "",
       o.prior ? KeyOfFile(tracker::ShippedFile(recon::kShippedPrior)) : "",
       DescriptionOfConstants(o.best.constants));
@@ -197,8 +198,8 @@ MethodScore RunFolds(ExperimentContext& context, const std::string& data,
   for (const Fold& fold : folds) {
     size_t observed = 0;
     for (const RecordedPair* pair : fold.test) observed += pair->observed.frames.size();
-    const std::string key = fmt::format("{} {} {} {}", KeyOfCode(), fold.key, method,
-                                        KeyOfOptions(context, options));
+    const std::string key =
+        fmt::format("{} {} {} {}", KeyOfCode(), fold.key, method, KeyOfOptions(context, options));
     const auto text = context.Cached(key, [&] {
       if (context.progress) context.progress(0, 0, data + " " + method + " " + fold.name);
       const FoldScore made =

@@ -283,8 +283,7 @@ RecordedPair Studio::Record(const recon::MotionClip& clip, const StageOptions& o
     return text.append(kSequenceEnd).append(TextOf(truth));
   };
   std::string key =
-      fmt::format("staged {} {} {} {}", KeyOfCode(),
-                  state_->observer, KeyOf(options), KeyOf(clip));
+      fmt::format("staged {} {} {} {}", KeyOfCode(), state_->observer, KeyOf(options), KeyOf(clip));
   for (const auto& path : {state_->model_path, state_->look_path}) {
     if (!path.empty()) key.append(" ").append(KeyOfFile(path));
   }
