@@ -16,7 +16,7 @@ namespace ossa::tools {
 struct Evaluation {
   int64_t frames = 0;
   int64_t people = 0;
-  double pixel_accuracy = 0.0;  // over person pixels; NaN for a model of PCL's classes
+  double pixel_accuracy = 0.0;  // over pixels of the 31 parts; NaN for a model of PCL's classes
   double mean_class_accuracy = 0.0;              // of the 31 parts that occur
   double mean_class_accuracy_first_stage = 0.0;  // of labels before joints speak back to them
   std::vector<double> class_accuracy;            // by label

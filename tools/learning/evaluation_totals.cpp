@@ -44,7 +44,7 @@ int64_t SumOf(std::span<const int64_t> counts) {
 }
 
 void SummarisePixels(const EvaluationTotals& totals, Evaluation* e) {
-  e->pixel_accuracy = Share(SumOf(totals.right), SumOf(totals.pixels));
+  e->pixel_accuracy = Share(SumOf(PartsOf(totals.right)), SumOf(PartsOf(totals.pixels)));
   e->class_accuracy = Shares(totals.right, totals.pixels);
   e->mean_class_accuracy = MeanOfKnown(PartsOf(e->class_accuracy));
   const std::vector<double> first = Shares(totals.right_first, totals.pixels);

@@ -44,6 +44,17 @@ TEST(EvaluationTotals, OfNobodySayNothing) {
   }
 }
 
+TEST(EvaluationTotals, PixelsOfHeldThingsAreNobodys) {
+  EvaluationTotals totals = OnePerson();
+  totals.pixels[5] = 10;
+  totals.right[5] = 9;
+  totals.pixels[recon::kOtherPart] = 90;
+  const Evaluation e = Summarise(totals);
+  EXPECT_EQ(e.pixel_accuracy, 0.9);
+  EXPECT_EQ(e.mean_class_accuracy, 0.9);
+  EXPECT_EQ(e.class_accuracy[recon::kOtherPart], 0.0);
+}
+
 TEST(EvaluationTotals, WhatDoesNotOccurIsLeftOutOfTheJson) {
   const auto json = nlohmann::json::parse(EvaluationJson(Summarise(OnePerson())));
   EXPECT_EQ(json["ap_10cm_visible"].size(), 2u);
