@@ -38,7 +38,41 @@ show("friedman_ties", *stats.friedmanchisquare(np.round(a), np.round(b), np.roun
 show("chi_square_tail", stats.chi2.sf(3.7, 2), stats.chi2.sf(60.0, 40), stats.chi2.sf(0.05, 7))
 show("f_tail", stats.f.sf(2.5, 2, 22), stats.f.sf(30.0, 3, 9), stats.f.sf(0.3, 5, 100))
 show("student_tail", 2 * stats.t.sf(2.2, 11), 2 * stats.t.sf(0.1, 3), 2 * stats.t.sf(9.0, 30))
-show("normal_ks", *stats.kstest(a, "norm", args=(a.mean(), a.std(ddof=1)), mode="exact"))
+
+
+# Lilliefors' test: the law of Kolmogorov-Smirnov's distance from the normal law with the sample's own
+# mean and deviation, by simulation with a random stream of its own.
+simulation = np.random.RandomState(17)
+
+
+def distance(samples):
+    x = np.sort(samples, axis=1)
+    n = x.shape[1]
+    law = stats.norm.cdf((x - x.mean(1, keepdims=True)) / x.std(1, ddof=1, keepdims=True))
+    i = np.arange(n)
+    return np.maximum((i + 1) / n - law, law - i / n).max(1)
+
+
+def lilliefors(sample, count=200000):
+    d = distance(sample[None, :])[0]
+    return d, (distance(simulation.normal(size=(count, len(sample)))) >= d).mean()
+
+
+skewed = np.round(simulation.gamma(0.7, 1.0, 12), 3)
+far = np.round(np.append(simulation.normal(0, 1, 11), 3.5), 3)
+many = np.round(simulation.gamma(3.5, 1.0, 150), 2)
+show("skewed", *skewed)
+show("far", *far)
+show("many", *many)
+show("lilliefors_a", *lilliefors(a))
+show("lilliefors_skewed", *lilliefors(skewed))
+show("lilliefors_far", *lilliefors(far))
+show("lilliefors_many", *lilliefors(many, 100000))
+# Quantiles of Stephens' (sqrt(n) - 0.01 + 0.85 / sqrt(n)) d, which hardly depends on n.
+scale = np.sqrt(20) - 0.01 + 0.85 / np.sqrt(20)
+tails = np.array([0.1, 0.15, 0.2, 0.25, 0.3, 0.4, 0.5, 0.6, 0.7, 0.8, 0.9, 0.95, 0.99])
+show("lilliefors_tails", *tails)
+show("lilliefors_quantiles", *np.quantile(scale * distance(simulation.normal(size=(200000, 20))), 1 - tails))
 # Repeated-measures analysis of variance by its definition (sums of squares), F's tail by scipy.
 table = np.stack([a, b, c])
 grand = table.mean()

@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <numbers>
 
 #include "depth/error.h"
@@ -13,6 +12,7 @@
 #include "forest/targets.h"
 #include "recon/body/parts.h"
 #include "tools/learning/common_parts.h"
+#include "tools/learning/evaluation_totals.h"
 #include "tools/learning/person_source.h"
 
 namespace ossa::tools {
@@ -28,11 +28,6 @@ double Now_ms() {
   return 1e3 * static_cast<double>(now.tv_sec) + 1e-6 * static_cast<double>(now.tv_nsec);
 }
 
-double Share(int64_t part, int64_t whole) {
-  return whole > 0 ? static_cast<double>(part) / static_cast<double>(whole)
-                   : std::numeric_limits<double>::quiet_NaN();
-}
-
 // What a model's classes and targets are to us.
 struct Meaning {
   bool has_our_parts = false;        // else only common parts can be compared
@@ -40,24 +35,8 @@ struct Meaning {
   std::vector<size_t> target_of_joint;
 };
 
-// Sums over a data set.
-struct Totals {
-  std::array<int64_t, recon::kLabelCount> pixels{};
-  std::array<int64_t, recon::kLabelCount> right{};
-  std::array<int64_t, recon::kLabelCount> right_first{};  // before Relabel
-  std::array<std::vector<RatedProposal>, recon::kJointCount> rated;
-  std::array<std::vector<RatedProposal>, recon::kJointCount> rated_visible;
-  std::array<int64_t, recon::kJointCount> joints{};
-  std::array<int64_t, recon::kJointCount> joints_visible{};
-  std::array<int64_t, kCommonPartCount> common_pixels{};
-  std::array<int64_t, kCommonPartCount> common_right{};
-  Calibration seen_joints, inferred_joints;
-  int64_t people = 0, swapped = 0, turned = 0, turned_swapped = 0, classified = 0;
-  double classify_ms = 0, propose_ms = 0, relabel_ms = 0;
-};
-
 void CountPixels(const forest::TrainingImage& image, const forest::Classification& result,
-                 const std::vector<uint8_t>& labels, bool is_turned, Totals* totals) {
+                 const std::vector<uint8_t>& labels, bool is_turned, EvaluationTotals* totals) {
   int64_t same_side = 0;
   int64_t other_side = 0;
   for (size_t i = 0; i < result.pixel.size(); ++i) {
@@ -78,7 +57,7 @@ void CountPixels(const forest::TrainingImage& image, const forest::Classificatio
 
 void CountCommonParts(const forest::TrainingImage& image, const forest::Classification& result,
                       const std::vector<uint8_t>& labels, const std::vector<uint8_t>& common_part,
-                      Totals* totals) {
+                      EvaluationTotals* totals) {
   for (size_t i = 0; i < result.pixel.size(); ++i) {
     const uint8_t truth = CommonPartOfTruth(image.label[static_cast<size_t>(result.pixel[i])]);
     if (truth == kNoCommonPart) continue;
@@ -90,7 +69,8 @@ void CountCommonParts(const forest::TrainingImage& image, const forest::Classifi
 // Shotton et al. 2011, sec. 4.2: the first proposal within 0.1 m is the true positive, all others
 // are false positives; a joint without any lowers the recall.
 void RateJoints(const forest::TrainingImage& image,
-                const std::vector<std::vector<forest::Proposal>>& proposals, Totals* totals) {
+                const std::vector<std::vector<forest::Proposal>>& proposals,
+                EvaluationTotals* totals) {
   for (size_t j = 0; j < recon::kJointCount; ++j) {
     const bool visible = image.target_visible[j] != 0;
     ++totals->joints[j];
@@ -116,7 +96,7 @@ void RateJoints(const forest::TrainingImage& image,
 }
 
 void AddPerson(const forest::ForestModel& model, const LabelledFrame& frame, const TruthBody& body,
-               const Meaning& meaning, Totals* totals) {
+               const Meaning& meaning, EvaluationTotals* totals) {
   const forest::TrainingImage image = PersonImage(frame, body);
   std::vector<int32_t> pixels;
   for (size_t i = 0; i < image.label.size(); ++i) {
@@ -159,108 +139,22 @@ Meaning MeaningOf(const forest::ForestModel& model, const std::string& name) {
   return meaning;
 }
 
-void SummariseCommon(const Totals& totals, Evaluation* e) {
-  double class_sum = 0;
-  int classes = 0;
-  for (size_t c = 0; c < kCommonPartCount; ++c) {
-    e->common_accuracy.push_back(Share(totals.common_right[c], totals.common_pixels[c]));
-    if (totals.common_pixels[c] == 0) continue;
-    class_sum += e->common_accuracy.back();
-    ++classes;
-  }
-  e->mean_common_accuracy = classes > 0 ? class_sum / classes : 0.0;
-  int joints = 0;
-  double ap_sum = 0;
-  for (size_t j = 0; j < recon::kJointCount; ++j) {
-    if (!IsCommonJoint(static_cast<recon::Joint>(j))) continue;
-    ap_sum += e->ap_10cm[j];
-    ++joints;
-  }
-  e->map_10cm_common = ap_sum / joints;
-}
-
-Evaluation Summarise(Totals totals, int64_t frames) {
-  Evaluation e;
-  e.frames = frames;
-  e.people = totals.people;
-  int64_t pixels = 0;
-  int64_t right = 0;
-  double class_sum = 0;
-  double first_sum = 0;
-  int classes = 0;
-  for (size_t c = 0; c < recon::kLabelCount; ++c) {
-    pixels += totals.pixels[c];
-    right += totals.right[c];
-    e.class_accuracy.push_back(Share(totals.right[c], totals.pixels[c]));
-    if (c < 1 || c > recon::kPartCount || totals.pixels[c] == 0) continue;
-    class_sum += e.class_accuracy.back();
-    first_sum += Share(totals.right_first[c], totals.pixels[c]);
-    ++classes;
-  }
-  e.pixel_accuracy = Share(right, pixels);
-  e.mean_class_accuracy =
-      classes > 0 ? class_sum / classes : std::numeric_limits<double>::quiet_NaN();
-  e.mean_class_accuracy_first_stage =
-      classes > 0 ? first_sum / classes : std::numeric_limits<double>::quiet_NaN();
-  for (size_t j = 0; j < recon::kJointCount; ++j) {
-    e.ap_10cm.push_back(AveragePrecision(std::move(totals.rated[j]), totals.joints[j]));
-    e.ap_10cm_visible.push_back(
-        AveragePrecision(std::move(totals.rated_visible[j]), totals.joints_visible[j]));
-    e.map_10cm += e.ap_10cm.back() / recon::kJointCount;
-    e.map_10cm_visible += e.ap_10cm_visible.back() / recon::kJointCount;
-  }
-  SummariseCommon(totals, &e);
-  e.seen_joints = totals.seen_joints;
-  e.inferred_joints = totals.inferred_joints;
-  e.swapped_left_right = Share(totals.swapped, pixels > 0 ? totals.people : 0);
-  e.swapped_left_right_turned = Share(totals.turned_swapped, totals.turned);
-  const auto people = static_cast<double>(std::max<int64_t>(totals.people, 1));
-  const auto classified = static_cast<double>(std::max<int64_t>(totals.classified, 1));
-  e.ns_per_pixel = totals.classify_ms * 1e6 / classified;
-  e.relabel_ns_per_pixel = totals.relabel_ms * 1e6 / classified;
-  e.classify_ms = totals.classify_ms / people;
-  e.propose_ms = totals.propose_ms / people;
-  return e;
-}
-
 }  // namespace
-
-double AveragePrecision(std::vector<RatedProposal> proposals, int64_t positives) {
-  if (positives == 0) return 0.0;
-  std::stable_sort(proposals.begin(), proposals.end(),
-                   [](const auto& a, const auto& b) { return a.confidence > b.confidence; });
-  std::vector<double> precision;
-  std::vector<bool> hit;
-  int64_t hits = 0;
-  for (size_t i = 0; i < proposals.size(); ++i) {
-    hits += proposals[i].is_hit ? 1 : 0;
-    precision.push_back(static_cast<double>(hits) / static_cast<double>(i + 1));
-    hit.push_back(proposals[i].is_hit);
-  }
-  double area = 0;
-  double best = 0;
-  for (size_t i = proposals.size(); i-- > 0;) {
-    best = std::max(best, precision[i]);
-    if (hit[i]) area += best / static_cast<double>(positives);
-  }
-  return area;
-}
 
 Evaluation Evaluate(const forest::ForestModel& model, const std::string& name,
                     const DatasetReader& dataset, int64_t step,
                     const std::function<bool(int64_t, int64_t)>& progress) {
   const Meaning meaning = MeaningOf(model, name);
-  Totals totals;
-  int64_t frames = 0;
+  EvaluationTotals totals;
   for (int64_t i = 0; i < dataset.frame_count(); i += step) {
     if (progress && !progress(i, dataset.frame_count())) break;
     const LabelledFrame frame = Uncropped(dataset.Read(i), dataset.manifest().camera);
     for (const TruthBody& body : frame.bodies) {
       AddPerson(model, frame, body, meaning, &totals);
     }
-    ++frames;
+    ++totals.frames;
   }
-  return Summarise(std::move(totals), frames);
+  return Summarise(std::move(totals));
 }
 
 }  // namespace ossa::tools

@@ -11,29 +11,20 @@
 
 namespace ossa::tools {
 
-/// A proposal of one joint somewhere in a data set, for average precision.
-struct RatedProposal {
-  double confidence = 0.0;
-  bool is_hit = false;  // the first within 10 cm of its true joint
-};
-
-/// Area under the precision-recall curve, with precision made monotone (as PASCAL VOC 2010 does).
-/// `positives` true joints exist.
-double AveragePrecision(std::vector<RatedProposal> proposals, int64_t positives);
-
-/// What `ossa evaluate` reports (DESIGN.md, section 4).
+/// What `ossa evaluate` reports (DESIGN.md, section 4). NaN stands for what nothing in the data
+/// says: the accuracy of a class or the average precision of a joint that does not occur.
 struct Evaluation {
   int64_t frames = 0;
   int64_t people = 0;
-  double pixel_accuracy = 0.0;       // over person pixels; NaN for a model of PCL's classes
-  double mean_class_accuracy = 0.0;  // of the 31 parts that occur
+  double pixel_accuracy = 0.0;  // over pixels of the 31 parts; NaN for a model of PCL's classes
+  double mean_class_accuracy = 0.0;              // of the 31 parts that occur
   double mean_class_accuracy_first_stage = 0.0;  // of labels before joints speak back to them
-  std::vector<double> class_accuracy;            // by label; NaN where a class does not occur
+  std::vector<double> class_accuracy;            // by label
   std::vector<double> ap_10cm;                   // by joint
   std::vector<double> ap_10cm_visible;
-  double map_10cm = 0.0;
+  double map_10cm = 0.0;  // means over the joints that occur
   double map_10cm_visible = 0.0;
-  std::vector<double> common_accuracy;  // of parts told by PCL's people trees too; NaN as above
+  std::vector<double> common_accuracy;  // of parts told by PCL's people trees too
   double mean_common_accuracy = 0.0;
   double map_10cm_common = 0.0;     // over joints that lie within one class of either
   Calibration seen_joints;          // of each joint's best proposal within 10 cm

@@ -39,6 +39,11 @@ nlohmann::ordered_json CalibrationJson(const Calibration& calibration) {
   return json;
 }
 
+// For reading: `scale` times the value, a dash where there is none.
+std::string Shown(double value, double scale, int digits) {
+  return std::isfinite(value) ? fmt::format("{:.{}f}", scale * value, digits) : "–";
+}
+
 std::string CalibrationTable(const std::string& heading, const Calibration& calibration) {
   std::string html = fmt::format(
       "<h2>{}</h2>\n<table>\n<tr><th>joints</th><th>confidence, %</th><th>within 10 cm, "
@@ -106,14 +111,13 @@ std::string EvaluationHtml(const Evaluation& e, const std::string& title) {
       ".bar{{background:#3a7ca5;height:11px}}</style></head><body>\n<h1>{0}</h1>\n",
       escaped);
   html += fmt::format(
-      "<p>{} frames, {} people. Pixels right: {:.1f} %. Mean of the classes: {:.1f} %. Joint mAP "
-      "at "
-      "10 cm: {:.3f}, visible joints only: {:.3f}. Left and right swapped: {:.1f} % of all people, "
-      "{:.1f} % of those turned by more than 60°. {:.0f} ns a person pixel; classify {:.2f} ms, "
+      "<p>{} frames, {} people. Pixels right: {} %. Mean of the classes: {} %. Joint mAP at "
+      "10 cm: {}, visible joints only: {}. Left and right swapped: {} % of all people, "
+      "{} % of those turned by more than 60°. {:.0f} ns a person pixel; classify {:.2f} ms, "
       "propose {:.2f} ms a person.</p>\n",
-      e.frames, e.people, 100 * e.pixel_accuracy, 100 * e.mean_class_accuracy, e.map_10cm,
-      e.map_10cm_visible, 100 * e.swapped_left_right, 100 * e.swapped_left_right_turned,
-      e.ns_per_pixel, e.classify_ms, e.propose_ms);
+      e.frames, e.people, Shown(e.pixel_accuracy, 100, 1), Shown(e.mean_class_accuracy, 100, 1),
+      Shown(e.map_10cm, 1, 3), Shown(e.map_10cm_visible, 1, 3), Shown(e.swapped_left_right, 100, 1),
+      Shown(e.swapped_left_right_turned, 100, 1), e.ns_per_pixel, e.classify_ms, e.propose_ms);
   html += Bars("Pixels right by part, %", e.class_accuracy, recon::kPartNames, 1);
   html += Bars("Average precision by joint, %", e.ap_10cm, recon::kJointNames, 0);
   html += CalibrationTable("Confidence of joints that are seen", e.seen_joints);

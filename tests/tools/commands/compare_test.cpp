@@ -131,6 +131,28 @@ TEST_F(CompareCommand, ComparesFoldersClipByClipWithIntervalsAndTests) {
   EXPECT_TRUE(found);
 }
 
+// A method that sees somebody who is not there keeps its clips in the paired tests.
+TEST_F(CompareCommand, PairsClipsInWhichAResultHasABodyTooMany) {
+  for (const char* name : {"t", "a", "b"}) std::filesystem::create_directories(folder_ / name);
+  for (int clip = 0; clip < 6; ++clip) {
+    const std::string name = "/c" + std::to_string(clip) + ".jsonl";
+    recon::WriteSkeletons((folder_ / "t").string() + name, ExampleSequence(5));
+    recon::WriteSkeletons((folder_ / "a").string() + name,
+                          Moved(ExampleSequence(5), 0.01 + 0.001 * clip));
+    auto haunted = Moved(ExampleSequence(5), 0.03 + 0.002 * clip);
+    haunted.frames[2].bodies.push_back(Moved(ExampleSequence(5), 2.0).frames[2].bodies[0]);
+    haunted.frames[2].bodies.back().id = 99;
+    recon::WriteSkeletons((folder_ / "b").string() + name, haunted);
+  }
+  const auto run = RunOssa({"compare", folder_ / "t", folder_ / "a", folder_ / "b", "--json"});
+  ASSERT_EQ(run.exit_status, 0) << run.err;
+  const auto json = nlohmann::json::parse(run.out);
+  EXPECT_EQ(json["results"][1]["clips"][0]["name"], "c0");
+  EXPECT_NEAR(json["results"][1]["mean_joint_error_cm"], 3.5, 1e-3);
+  ASSERT_FALSE(json["tests"].empty());
+  EXPECT_EQ(json["tests"][0]["clips"], 6);
+}
+
 struct BadUse {
   const char* name;
   std::vector<std::string> arguments;

@@ -236,6 +236,38 @@ TEST(SeveralPeople, AreMatchedByPlaceNotById) {
   for (const auto& pair : pairs) EXPECT_EQ(*Measure(pair).mean_joint_error_cm, 0);
 }
 
+// One person, and in every third frame a body that is not there.
+SkeletonSequence WithGhosts(SkeletonSequence sequence) {
+  for (size_t f = 0; f < sequence.frames.size(); f += 3) {
+    BodyRecord ghost = sequence.frames[f].bodies[0];
+    ghost.id = 7;
+    for (auto& joint : ghost.joints) joint->position_m.x() += 1.5;
+    auto& bodies = sequence.frames[f].bodies;
+    bodies.insert(bodies.begin(), ghost);
+  }
+  return sequence;
+}
+
+TEST(OnePerson, IsTheSamePairWithAndWithoutAGhost) {
+  const auto truth = Swinging(30, 1 / 30.0);
+  const auto pairs = PairUp(truth, WithGhosts(truth));
+  ASSERT_EQ(pairs.size(), 1u);
+  EXPECT_EQ(pairs[0].name, PairUp(truth, truth)[0].name);
+  EXPECT_EQ(Measure(pairs[0]).frames, 30);
+  EXPECT_EQ(*Measure(pairs[0]).mean_joint_error_cm, 0);
+}
+
+TEST(OnePerson, IsFoundOnAnotherClockWithAndWithoutAGhost) {
+  const auto truth = Swinging(150, 1 / 30.0);
+  auto result = truth;
+  for (auto& frame : result.frames) frame.time_s += 100.013;
+  const auto alone = PairUp(truth, result)[0];
+  const auto haunted = PairUp(truth, WithGhosts(result))[0];
+  EXPECT_FALSE(haunted.same_clock);
+  EXPECT_EQ(haunted.offset_s, alone.offset_s);
+  EXPECT_EQ(*Measure(haunted).mean_joint_error_cm, *Measure(alone).mean_joint_error_cm);
+}
+
 // Two people, whose clock is half a second late.
 TEST(SeveralPeople, AreComparedAtTheTimesAskedFor) {
   auto truth = Swinging(90, 1 / 30.0);

@@ -3,9 +3,11 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
 #include <cstdlib>
 #include <fstream>
 #include <map>
+#include <random>
 #include <sstream>
 
 #include "tools/experiments/compare/joint_track.h"
@@ -75,12 +77,41 @@ TEST(Statistics, TailsAgreeWithScipy) {
   EXPECT_NEAR(StudentTail(9, 30), t[2], kTolerance);
 }
 
-TEST(Statistics, NormalityTestAgreesWithScipyWithinItsApproximation) {
-  const auto result = NormalKs(G("a"));
-  ASSERT_TRUE(result.has_value());
-  EXPECT_NEAR(result->statistic, G("normal_ks")[0], kTolerance);
-  // Stephens' approximation of p is good to about 0.02 at a dozen values.
-  EXPECT_NEAR(result->p, G("normal_ks")[1], 0.02);
+TEST(Lilliefors, AgreesWithSimulation) {
+  // The simulated p has a deviation of 0.001; the table between p of 0.1 and 1 is linear between
+  // quantiles that move by 0.003 with the number of values: about 0.01 in p.
+  const std::map<std::string, double> tolerances = {
+      {"a", 0.01}, {"skewed", 0.01}, {"many", 0.005}, {"far", 0.002}};
+  for (const auto& [name, tolerance] : tolerances) {
+    const auto result = Lilliefors(G(name));
+    ASSERT_TRUE(result.has_value());
+    EXPECT_NEAR(result->statistic, G("lilliefors_" + name)[0], kTolerance) << name;
+    EXPECT_NEAR(result->p, G("lilliefors_" + name)[1], tolerance) << name;
+  }
+}
+
+// By Kolmogorov's law, for a normal law given beforehand, one in 40 000 was at 0.05.
+TEST(Lilliefors, RejectsNormalSamplesAsOftenAsItSays) {
+  std::mt19937_64 random(5);
+  std::normal_distribution<double> normal(30.0, 7.0);
+  constexpr int kSamples = 4000;
+  std::map<double, int> rejected = {{0.01, 0}, {0.05, 0}, {0.5, 0}};
+  for (int s = 0; s < kSamples; ++s) {
+    Numbers sample(10);
+    for (double& value : sample) value = normal(random);
+    const double p = Lilliefors(sample)->p;
+    for (auto& [level, count] : rejected) count += p <= level ? 1 : 0;
+  }
+  for (const auto& [level, count] : rejected) {
+    // Three deviations of a binomial count, and 0.01 of p for the formulas.
+    const double tolerance = 3 * std::sqrt(level * (1 - level) / kSamples) + 0.01 * level;
+    EXPECT_NEAR(static_cast<double>(count) / kSamples, level, tolerance);
+  }
+}
+
+TEST(Lilliefors, OfTooFewOrEqualValuesSaysNothing) {
+  EXPECT_FALSE(Lilliefors(Numbers{1, 2, 3, 5}).has_value());
+  EXPECT_FALSE(Lilliefors(Numbers{2, 2, 2, 2, 2}).has_value());
 }
 
 TEST(Bootstrap, AgreesWithScipyWithinItsOwnNoise) {

@@ -130,8 +130,8 @@ void TestQuantity(const std::vector<ComparedResult>& results, const std::string&
   const size_t units = values[0].size();
   if (units < kFewestUnits) return;
   for (size_t r = 0; r < results.size(); ++r) {
-    AddTest(tests, "Kolmogorov-Smirnov normality", quantity, results[r].label, units,
-            NormalKs(values[r]), 1);
+    AddTest(tests, "Lilliefors normality", quantity, results[r].label, units, Lilliefors(values[r]),
+            1);
   }
   AddTest(tests, "repeated-measures Anova", quantity, "all", units, RepeatedAnova(values), 1);
   AddTest(tests, "Friedman", quantity, "all", units, Friedman(values), 1);

@@ -6,6 +6,7 @@
 #include <limits>
 #include <map>
 #include <optional>
+#include <tuple>
 
 namespace ossa::tools {
 namespace {
@@ -205,22 +206,6 @@ void FindOffset(const JointTrack& truth, const JointTrack& result, const PairOpt
   }
 }
 
-PairedTracks PairTracks(const JointTrack& truth, const JointTrack& result,
-                        const PairOptions& options) {
-  PairedTracks pair;
-  FindOffset(truth, result, options, pair);
-  for (size_t i = 0; i < result.time_s.size(); ++i) {
-    const double time_s = result.time_s[i] + pair.offset_s;
-    const auto posture = At(truth, time_s);
-    if (!posture) continue;
-    pair.time_s.push_back(time_s);
-    pair.truth.push_back(*posture);
-    pair.result.push_back(result.postures[i]);
-  }
-  if (options.rigid) AlignRigidly(pair);
-  return pair;
-}
-
 // The person a file is about when it should be one: the one with the most frames.
 const JointTrack* MainTrack(const std::map<int, JointTrack>& tracks) {
   const JointTrack* main = nullptr;
@@ -230,69 +215,93 @@ const JointTrack* MainTrack(const std::map<int, JointTrack>& tracks) {
   return main;
 }
 
-// One clock for all. Who is whom is told by places at the same time, so that times are taken as
-// they are unless something else is asked for; those seen most are then taken for the same person.
-PairedTracks ClockOfCrowd(const std::map<int, JointTrack>& truths,
-                          const std::map<int, JointTrack>& results, const PairOptions& options) {
+// The one person of a result in all its frames, also those in which nobody is seen: of several
+// bodies the one with the most frames, else the first, for a changed id is still the same person.
+JointTrack OnlyTrack(const SkeletonSequence& result) {
+  std::map<int, size_t> frames_of;
+  for (const SkeletonFrame& frame : result.frames) {
+    for (const BodyRecord& body : frame.bodies) ++frames_of[body.id];
+  }
+  JointTrack only;
+  for (const SkeletonFrame& frame : result.frames) {
+    if (!only.time_s.empty() && frame.time_s <= only.time_s.back()) continue;
+    const auto main = std::max_element(frame.bodies.begin(), frame.bodies.end(),
+                                       [&](const BodyRecord& a, const BodyRecord& b) {
+                                         return frames_of.at(a.id) < frames_of.at(b.id);
+                                       });
+    only.time_s.push_back(frame.time_s);
+    only.postures.push_back(main == frame.bodies.end() ? SparsePosture{} : SparsePostureOf(*main));
+  }
+  return only;
+}
+
+// One clock for all. Who of several people is whom is told by places at the same time, so that
+// times are taken as they are unless something else is asked for; those seen most are then taken
+// for the same person.
+PairedTracks ClockOf(const std::map<int, JointTrack>& truths, const SkeletonSequence& result,
+                     const PairOptions& options) {
   PairedTracks clock;
-  const JointTrack* result = MainTrack(results);
-  if (options.time == TimeAlignment::kAuto || result == nullptr) return clock;
-  FindOffset(*MainTrack(truths), *result, options, clock);
+  if (result.frames.empty()) return clock;
+  if (truths.size() == 1) {
+    FindOffset(truths.begin()->second, OnlyTrack(result), options, clock);
+    return clock;
+  }
+  const auto results = TracksOf(result);
+  const JointTrack* main = MainTrack(results);
+  if (options.time == TimeAlignment::kAuto || main == nullptr) return clock;
+  FindOffset(*MainTrack(truths), *main, options, clock);
   return clock;
 }
 
-// Several people: in every frame each true person takes the nearest result nobody nearer took, so
-// that identities do not matter here (identity switches are the tracker's own table).
-std::vector<PairedTracks> PairCrowd(const std::map<int, JointTrack>& truths,
-                                    SkeletonSequence result, const PairOptions& options) {
-  const PairedTracks clock = ClockOfCrowd(truths, TracksOf(result), options);
-  for (SkeletonFrame& frame : result.frames) frame.time_s += clock.offset_s;
-  std::map<int, JointTrack> taken;
-  for (const SkeletonFrame& frame : result.frames) {
-    struct Candidate {
-      double distance_m;
-      int truth;
-      size_t body;
-    };
-    std::vector<Candidate> candidates;
-    std::map<int, bool> there;
-    for (const auto& [id, track] : truths) {
-      const auto posture = At(track, frame.time_s);
-      there[id] = posture.has_value();
-      for (size_t b = 0; posture && b < frame.bodies.size(); ++b) {
-        candidates.push_back({MeanDistance(*posture, SparsePostureOf(frame.bodies[b])), id, b});
-      }
-    }
-    std::sort(candidates.begin(), candidates.end(), [](const Candidate& a, const Candidate& b) {
-      return std::tie(a.distance_m, a.truth, a.body) < std::tie(b.distance_m, b.truth, b.body);
-    });
-    std::map<int, size_t> match;
-    std::vector<bool> used(frame.bodies.size(), false);
-    for (const Candidate& c : candidates) {
-      if (match.contains(c.truth) || used[c.body]) continue;
-      match[c.truth] = c.body;
-      used[c.body] = true;
-    }
-    for (const auto& [id, is_there] : there) {
-      if (!is_there) continue;
-      JointTrack& track = taken[id];
-      if (!track.time_s.empty() && track.time_s.back() >= frame.time_s) continue;
-      track.time_s.push_back(frame.time_s);
-      const auto found = match.find(id);
-      track.postures.push_back(found == match.end() ? SparsePosture{}
-                                                    : SparsePostureOf(frame.bodies[found->second]));
+using Postures = std::vector<std::optional<SparsePosture>>;
+
+// Each true person takes the nearest body nobody nearer took, so that identities do not matter here
+// (identity switches are the tracker's own table). Postures without joints where none is left.
+std::vector<SparsePosture> TakenBodies(const Postures& truths,
+                                       const std::vector<SparsePosture>& bodies) {
+  struct Candidate {
+    double distance_m;
+    size_t truth, body;
+  };
+  std::vector<Candidate> candidates;
+  for (size_t t = 0; t < truths.size(); ++t) {
+    for (size_t b = 0; truths[t] && b < bodies.size(); ++b) {
+      candidates.push_back({MeanDistance(*truths[t], bodies[b]), t, b});
     }
   }
-  PairOptions each = options;
-  each.time = TimeAlignment::kNone;
-  std::vector<PairedTracks> pairs;
-  for (const auto& [id, track] : truths) {
-    pairs.push_back(PairTracks(track, taken[id], each));
-    pairs.back().name = "body " + std::to_string(id);
-    pairs.back().offset_s = clock.offset_s;
-    pairs.back().same_clock = clock.same_clock;
+  std::sort(candidates.begin(), candidates.end(), [](const Candidate& a, const Candidate& b) {
+    return std::tie(a.distance_m, a.truth, a.body) < std::tie(b.distance_m, b.truth, b.body);
+  });
+  std::vector<SparsePosture> taken(truths.size());
+  std::vector<bool> served(truths.size(), false);
+  std::vector<bool> used(bodies.size(), false);
+  for (const Candidate& c : candidates) {
+    if (served[c.truth] || used[c.body]) continue;
+    served[c.truth] = used[c.body] = true;
+    taken[c.truth] = bodies[c.body];
   }
-  return pairs;
+  return taken;
+}
+
+// Frame by frame; of frames with the same time the first counts.
+void PairFrames(const std::map<int, JointTrack>& truths, const std::vector<SkeletonFrame>& frames,
+                std::vector<PairedTracks>& pairs) {
+  std::optional<double> last_s;
+  for (const SkeletonFrame& frame : frames) {
+    if (last_s && frame.time_s <= *last_s) continue;
+    last_s = frame.time_s;
+    Postures there;
+    for (const auto& [id, track] : truths) there.push_back(At(track, frame.time_s));
+    std::vector<SparsePosture> bodies;
+    for (const BodyRecord& body : frame.bodies) bodies.push_back(SparsePostureOf(body));
+    const auto taken = TakenBodies(there, bodies);
+    for (size_t t = 0; t < there.size(); ++t) {
+      if (!there[t]) continue;
+      pairs[t].time_s.push_back(frame.time_s);
+      pairs[t].truth.push_back(*there[t]);
+      pairs[t].result.push_back(taken[t]);
+    }
+  }
 }
 
 }  // namespace
@@ -356,22 +365,19 @@ double TimeOffset_s(const JointTrack& truth, const JointTrack& result, double ma
 std::vector<PairedTracks> PairUp(const SkeletonSequence& truth, const SkeletonSequence& result,
                                  const PairOptions& options) {
   const auto truths = TracksOf(truth);
-  const auto results = TracksOf(result);
   if (truths.empty()) return {};
-  if (truths.size() > 1) return PairCrowd(truths, result, options);
-  const JointTrack& true_track = *MainTrack(truths);
-  bool crowded = false;
-  for (const SkeletonFrame& frame : result.frames) crowded = crowded || frame.bodies.size() > 1;
-  if (crowded || results.empty()) return PairCrowd(truths, result, options);
-  // One person in every frame: a changed id is still the same person.
-  JointTrack whole;
-  for (const SkeletonFrame& frame : result.frames) {
-    if (!whole.time_s.empty() && frame.time_s <= whole.time_s.back()) continue;
-    whole.time_s.push_back(frame.time_s);
-    whole.postures.push_back(frame.bodies.empty() ? SparsePosture{}
-                                                  : SparsePostureOf(frame.bodies[0]));
+  const PairedTracks clock = ClockOf(truths, result, options);
+  std::vector<SkeletonFrame> frames = result.frames;
+  for (SkeletonFrame& frame : frames) frame.time_s += clock.offset_s;
+  std::vector<PairedTracks> pairs(truths.size(), clock);
+  PairFrames(truths, frames, pairs);
+  for (size_t t = 0; const auto& [id, track] : truths) {
+    // One person needs no name: methods that see more people than there are would give it others.
+    if (truths.size() > 1) pairs[t].name = "body " + std::to_string(id);
+    if (options.rigid) AlignRigidly(pairs[t]);
+    ++t;
   }
-  return {PairTracks(true_track, whole, options)};
+  return pairs;
 }
 
 }  // namespace ossa::tools

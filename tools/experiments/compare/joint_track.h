@@ -27,7 +27,7 @@ SparsePosture SparsePostureOf(const recon::BodyRecord& body);
 
 /// Truth and result of the same person at the same times, frame by frame.
 struct PairedTracks {
-  std::string name;
+  std::string name;  // which of several true people; empty for one
   std::vector<double> time_s;
   std::vector<SparsePosture> truth;
   std::vector<SparsePosture> result;

@@ -36,9 +36,11 @@ std::optional<TestResult> PairedT(std::span<const double> a, std::span<const dou
 std::optional<TestResult> Friedman(const std::vector<std::vector<double>>& values);
 /// One-way repeated-measures analysis of variance; statistic = F(k - 1, (k - 1)(n - 1)).
 std::optional<TestResult> RepeatedAnova(const std::vector<std::vector<double>>& values);
-/// Kolmogorov-Smirnov against the normal law with the values' own mean and deviation; p by
-/// Stephens' approximation. Plantard 2016 uses it to choose between the tests above.
-std::optional<TestResult> NormalKs(std::span<const double> values);
+/// Lilliefors' test of normality: Kolmogorov-Smirnov's distance from the normal law with the
+/// values' own mean and deviation, which lies nearer to them than any law given beforehand would,
+/// so that p is not Kolmogorov's. Empty for fewer than five values. Plantard 2016 tests normality
+/// to choose between the tests above.
+std::optional<TestResult> Lilliefors(std::span<const double> values);
 
 /// Upper tails, for the tests and for checking them.
 double ChiSquareTail(double x, double degrees);

@@ -216,7 +216,7 @@ Table Tests(const Study& study) {
   for (size_t m = 0; m < 3; ++m) {
     error.push_back(Values(study.clips[m], &ClipMetrics::parent_relative_error_cm, 1));
     over.push_back(Values(study.clips[m], &ClipMetrics::fraction_frames_over_20cm, 1));
-    add("eq. 13", "Kolmogorov-Smirnov normality", study.methods[m].label, NormalKs(error[m]), 1);
+    add("eq. 13", "Lilliefors normality", study.methods[m].label, Lilliefors(error[m]), 1);
   }
   add("eq. 13", "repeated-measures Anova", "raw, shum-2013, plantard-2016", RepeatedAnova(error),
       1);
