@@ -182,10 +182,10 @@ int Reconstruct(int argc, char** argv) {
   a.options.learned_file = LearnedFor(a, clips);
   Progress progress("reconstruct", a.quiet);
   const int rounds = 1 + (a.bones.of_recording() ? 1 : 0) + (a.mechanics.on() ? 1 : 0);
-  double done = 0.0, total = 0.0;
-  for (const auto& clip : clips) total += rounds * static_cast<double>(clip.sequence.frames.size());
+  double done = 0.0, total = 0.0;  // done: in all rounds
+  for (const auto& clip : clips) total += static_cast<double>(clip.sequence.frames.size());
   const auto update = [&](size_t frames) {
-    progress.Update(done + static_cast<double>(frames), total);
+    progress.Update((done + static_cast<double>(frames)) / rounds, total);
     return !Interrupted();
   };
   for (const auto& clip : clips) {

@@ -183,6 +183,14 @@ TEST_F(ReconstructCommand, CompletesEveryFrame) {
   EXPECT_LT(MeanDistance(made, Recording()), 0.03);
 }
 
+// It counted 180 of 180: each of the three times that a frame is gone through.
+TEST_F(ReconstructCommand, CountsAFrameOnceHoweverOftenItIsGoneThrough) {
+  const auto run = RunOssa({"reconstruct", in_, "--out", folder_ / "out.jsonl", "--bones",
+                            "recording", "--physics", "on"});
+  EXPECT_NE(run.err.find("reconstruct: 60 of 60"), std::string::npos) << run.err;
+  EXPECT_EQ(run.err.find("180"), std::string::npos) << run.err;
+}
+
 TEST_F(ReconstructCommand, LetsACharacterFollowWithConstantBonesAndOrientations) {
   for (const char* control : {"pd", "motor"}) {
     const auto made = Made({"--method", "none", "--physics", "on", "--control", control});
