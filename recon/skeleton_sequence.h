@@ -40,6 +40,9 @@ struct SkeletonSequence {
   std::string source;  // file it came from, for messages
   std::vector<SkeletonFrame> frames;
   std::string sensor{};  // kKinectV2 or kCloseLook where the file tells; else empty
+  /// Of a file that holds two skeletons side by side which one this is, truth or observed; else
+  /// empty.
+  std::string columns{};
 };
 
 /// The Kinect SDK 2's skeleton, of Kinect v2 (Xbox One).

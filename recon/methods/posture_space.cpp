@@ -26,11 +26,12 @@ Eigen::VectorXf PostureSpace::Project(const PostureVector& x) const {
   return basis.transpose().lazyProduct(d);
 }
 
-// K postures span at most K - 1 directions: the eigenvectors of the small K x K matrix D'D give
-// those of the covariance.
+// The covariance D D' and the matrix D'D have the same eigenvalues but for zeros, and D takes the
+// eigenvectors of D'D to those of D D': the smaller of both is decomposed. Which goes by K alone.
 PostureSpace MakePostureSpace(const PostureDatabase& database, std::span<const int> neighbours,
                               int dimensions) {
   const auto k = static_cast<Eigen::Index>(neighbours.size());
+  const bool few = k <= kPostureDims;
   PostureSpace space;
   Eigen::Matrix<float, kPostureDims, Eigen::Dynamic> d(kPostureDims, k);
   for (Eigen::Index n = 0; n < k; ++n) {
@@ -38,17 +39,30 @@ PostureSpace MakePostureSpace(const PostureDatabase& database, std::span<const i
   }
   space.mean = d.rowwise().mean();
   d.colwise() -= space.mean;
-  const Eigen::MatrixXf gram = d.transpose() * d;
-  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXf> eigen(gram);
+  Eigen::MatrixXf products;
+  if (few) {
+    products = d.transpose() * d;
+  } else {
+    products = d * d.transpose();
+  }
+  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXf> eigen(products);
   const Eigen::VectorXf values = eigen.eigenvalues();  // rising
+  const Eigen::Index most = values.size();
   Eigen::Index dims = 0;
-  const float smallest = std::max(1e-8F, 1e-5F * std::max(values[k - 1], 0.0F));
-  while (dims < std::min<Eigen::Index>(dimensions, k) && values[k - 1 - dims] > smallest) ++dims;
+  const float smallest = std::max(1e-8F, 1e-5F * std::max(values[most - 1], 0.0F));
+  while (dims < std::min<Eigen::Index>(dimensions, most) && values[most - 1 - dims] > smallest) {
+    ++dims;
+  }
   space.basis.resize(kPostureDims, dims);
   space.deviation.resize(dims);
   for (Eigen::Index c = 0; c < dims; ++c) {
-    const float value = values[k - 1 - c];
-    space.basis.col(c) = d * eigen.eigenvectors().col(k - 1 - c) / std::sqrt(value);
+    const float value = values[most - 1 - c];
+    const auto direction = eigen.eigenvectors().col(most - 1 - c);
+    if (few) {
+      space.basis.col(c) = d * direction / std::sqrt(value);
+    } else {
+      space.basis.col(c) = direction;
+    }
     space.deviation[c] = std::sqrt(value / static_cast<float>(k));
   }
   space.neighbours = space.basis.transpose() * d;

@@ -99,6 +99,11 @@ const std::vector<std::string>& ReconstructionMethods() {
   return names;
 }
 
+bool NeedsDatabase(const std::string& method) {
+  return std::any_of(kMethods.begin(), kMethods.end(),
+                     [&](const Method& m) { return m.needs_database && m.name == method; });
+}
+
 bool NeedsLearned(const std::string& method) {
   return std::any_of(kMethods.begin(), kMethods.end(),
                      [&](const Method& m) { return m.needs_learned && m.name == method; });

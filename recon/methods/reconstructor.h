@@ -124,6 +124,9 @@ struct ReconstructorOptions {
 /// Names of all methods, in the order of `ossa track --help`.
 const std::vector<std::string>& ReconstructionMethods();
 
+/// Whether a method looks postures up in a database, and does not work without.
+bool NeedsDatabase(const std::string& method);
+
 /// Whether a method works by what `ossa learn` makes, and not without.
 bool NeedsLearned(const std::string& method);
 

@@ -1,5 +1,6 @@
 // Time a frame of every method of reconstruction, one person, one core; the query of plantard-2016
-// against the number of postures; building the pose graph; learning from pairs.
+// against the number of postures; shum-2013 against that of its neighbours; building the pose
+// graph; learning from pairs.
 #include <benchmark/benchmark.h>
 
 #include <array>
@@ -109,6 +110,21 @@ BENCHMARK(Plantard2016PerFrame)
     ->Arg(100000)
     ->Arg(1000000)
     ->Iterations(300)
+    ->Unit(benchmark::kMillisecond);
+
+/// By K, the neighbours that span the natural posture space.
+void Shum2013PerFrame(benchmark::State& state) {
+  ReconstructorOptions options;
+  options.method = "shum-2013";
+  options.database = Database(20000);
+  options.local_pca.neighbours = static_cast<int>(state.range(0));
+  Follow(state, options);
+}
+BENCHMARK(Shum2013PerFrame)
+    ->Arg(30)
+    ->Arg(300)
+    ->Arg(3000)
+    ->Iterations(30)
     ->Unit(benchmark::kMillisecond);
 
 void BuildGraph(benchmark::State& state) {

@@ -140,16 +140,35 @@ void ShowDepthRecording(const fs::path& path) {
 
 bool HoldsAnything(const fs::path& path) { return !fs::is_directory(path) || !fs::is_empty(path); }
 
+void ShowSkeletonClip(const recon::SkeletonClip& clip) {
+  const auto& frames = clip.sequence.frames;
+  const std::string& columns = clip.sequence.columns;
+  const std::string name = clip.name + (columns.empty() ? "" : "#" + columns);
+  size_t bodies = 0;
+  for (const recon::SkeletonFrame& frame : frames) bodies += frame.bodies.size();
+  const double seconds = frames.empty() ? 0.0 : frames.back().time_s - frames.front().time_s;
+  fmt::print("skeletons{}{}, {} frames, {:.2f} s, {} bodies\n", name.empty() ? "" : " ",
+             OnOneLine(name), frames.size(), seconds, bodies);
+}
+
 // Whatever else it is: skeletons of some SDK's, alone or in a folder, or the readers say why not.
+// Of files that hold two side by side both, unless the path says which.
 void ShowSkeletons(const fs::path& path) {
-  for (const recon::SkeletonClip& clip : recon::ReadSkeletonClips(path)) {
-    const auto& frames = clip.sequence.frames;
-    size_t bodies = 0;
-    for (const recon::SkeletonFrame& frame : frames) bodies += frame.bodies.size();
-    const double seconds = frames.empty() ? 0.0 : frames.back().time_s - frames.front().time_s;
-    fmt::print("skeletons{}{}, {} frames, {:.2f} s, {} bodies\n", clip.name.empty() ? "" : " ",
-               OnOneLine(clip.name), frames.size(), seconds, bodies);
+  recon::SkeletonReadOptions reading;
+  reading.columns = "observed";
+  auto clips = recon::ReadSkeletonClips(path, reading);
+  const auto may_have_another = [](const recon::SkeletonClip& clip) {
+    return clip.sequence.columns == "observed";
+  };
+  if (std::any_of(clips.begin(), clips.end(), may_have_another)) {
+    reading.columns = "truth";
+    for (recon::SkeletonClip& clip : recon::ReadSkeletonClips(path, reading)) {
+      if (clip.sequence.columns == "truth") clips.push_back(std::move(clip));
+    }
+    std::stable_sort(clips.begin(), clips.end(),
+                     [](const auto& a, const auto& b) { return a.name < b.name; });
   }
+  for (const recon::SkeletonClip& clip : clips) ShowSkeletonClip(clip);
 }
 
 // The first kind that knows the file by its content, or by its extension, shows it.

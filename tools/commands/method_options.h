@@ -9,6 +9,61 @@
 
 namespace ossa::commands {
 
+/// Offline, of `ossa reconstruct` alone: no method of recon::Reconstructor.
+inline constexpr const char* kButterworth = "butterworth";
+
+/// Names of the methods for which `holds` does, for messages.
+inline std::string MethodsThat(bool (*holds)(const std::string&)) {
+  auto methods = recon::ReconstructionMethods();
+  methods.emplace_back(kButterworth);
+  std::string names;
+  for (const std::string& name : methods) {
+    if (holds(name)) names += (names.empty() ? "" : ", ") + name;
+  }
+  return names;
+}
+
+/// An option that not every method reads.
+struct MethodOption {
+  const char* name;
+  bool (*is_read_by)(const std::string& method);
+};
+
+inline bool IsBest(const std::string& method) { return method == "best"; }
+inline bool IsShum2013(const std::string& method) { return method == "shum-2013"; }
+inline bool IsButterworth(const std::string& method) { return method == kButterworth; }
+inline bool HasLocalPca(const std::string& method) {
+  return method == "shum-2013" || method == "plantard-2016";
+}
+inline bool MayLookUp(const std::string& method) {
+  return recon::NeedsDatabase(method) || IsBest(method);
+}
+inline bool MayHaveLearned(const std::string& method) {
+  return recon::NeedsLearned(method) || IsBest(method);
+}
+
+inline constexpr MethodOption kMethodOptions[] = {
+    {"--database", MayLookUp},         {"--prior", IsBest},
+    {"--learned", MayHaveLearned},     {"--cutoff", IsButterworth},
+    {"--solver", HasLocalPca},         {"--neighbours", HasLocalPca},
+    {"--dimensions", HasLocalPca},     {"--steps", HasLocalPca},
+    {"--samples", HasLocalPca},        {"--weights", HasLocalPca},
+    {"--no-reliability", HasLocalPca}, {"--keep-reliable", HasLocalPca},
+    {"--extend", IsShum2013}};
+
+/// Throws UsageError for an option that was given and that the method does not read: what comes out
+/// would be without what was asked for. The word none asks for nothing. Options that a command does
+/// not have are not given.
+inline void CheckRead(const CLI::App& app, const std::string& method) {
+  for (const auto& [name, is_read_by] : kMethodOptions) {
+    const CLI::Option* option = app.get_option_no_throw(name);
+    if (option == nullptr || option->count() == 0 || is_read_by(method)) continue;
+    if (option->results().front() == "none") continue;
+    throw UsageError(fmt::format("{} is not read by --method {}: expected a method that does ({})",
+                                 name, method, MethodsThat(is_read_by)));
+  }
+}
+
 /// Throws UsageError for a method that works by what was learned when --learned names nothing.
 inline void CheckLearned(const std::string& method, const std::string& learned) {
   if (!recon::NeedsLearned(method) || (!learned.empty() && learned != "none")) return;
@@ -38,12 +93,9 @@ struct BonesOption {
   /// Throws UsageError for a method that moves joints alone.
   void Check(const std::string& method) const {
     if (!of_recording() || recon::KeepsBones(method)) return;
-    std::string keeping;
-    for (const std::string& name : recon::ReconstructionMethods()) {
-      if (recon::KeepsBones(name)) keeping += (keeping.empty() ? "" : ", ") + name;
-    }
-    throw UsageError(fmt::format(
-        "--bones recording: expected a method that keeps bones ({}), found {}", keeping, method));
+    throw UsageError(
+        fmt::format("--bones recording: expected a method that keeps bones ({}), found {}",
+                    MethodsThat(recon::KeepsBones), method));
   }
 };
 

@@ -27,8 +27,6 @@
 namespace ossa::commands {
 namespace {
 
-constexpr const char* kButterworth = "butterworth";
-
 struct ReconstructArguments {
   std::string skeletons, out, database_file, prior_file, learned;
   recon::ReconstructorOptions options;
@@ -43,9 +41,7 @@ struct ReconstructArguments {
 
 /// The database the method looks things up in: the one named, else the shipped one.
 std::shared_ptr<const recon::PostureDatabase> DatabaseFor(const ReconstructArguments& a) {
-  const bool looks_up = a.options.method.starts_with("shum") ||
-                        a.options.method.starts_with("plantard") ||
-                        (a.options.method == "best" && !a.database_file.empty());
+  const bool looks_up = recon::NeedsDatabase(a.options.method) || !a.database_file.empty();
   if (!looks_up) return nullptr;
   const std::filesystem::path file = a.database_file.empty()
                                          ? tracker::ShippedFile("authored.ossadb")
@@ -112,20 +108,20 @@ void AddMethodOptions(CLI::App& app, ReconstructArguments& a) {
       "what `ossa learn` wrote, .ossagp, or none; without it best takes off what is "
       "known of the errors of a Kinect v2 or a close look where the recording is theirs");
   app.add_option("--seed", a.options.seed, "of the stochastic search")->capture_default_str();
-  app.add_option("--cutoff", a.cutoff_hz, "of the Butterworth filter, Hz")
+  app.add_option("--cutoff", a.cutoff_hz, "of butterworth, Hz")
       ->capture_default_str()
       ->check(Positive());
   recon::LocalPcaOptions& pca = a.options.local_pca;
-  app.add_option("--solver", pca.solver, "of shum-2013: stochastic or ceres")
+  app.add_option("--solver", pca.solver, "of shum-2013, plantard-2016: stochastic or ceres")
       ->capture_default_str()
       ->check(CLI::IsMember({"stochastic", "ceres"}));
-  app.add_option("--neighbours", pca.neighbours, "K of the local PCA")
+  app.add_option("--neighbours", pca.neighbours, "K of the local PCA of shum-2013, plantard-2016")
       ->capture_default_str()
       ->check(CLI::Range(2, 100000));
   const std::tuple<const char*, int*, const char*> counts[] = {
-      {"--dimensions", &pca.dimensions, "of the local PCA"},
-      {"--steps", &pca.steps, "of the stochastic search"},
-      {"--samples", &pca.samples, "a step"}};
+      {"--dimensions", &pca.dimensions, "of that PCA"},
+      {"--steps", &pca.steps, "of the search in its space"},
+      {"--samples", &pca.samples, "a step of the stochastic search"}};
   for (const auto& [name, value, meaning] : counts) {
     app.add_option(name, *value, meaning)->capture_default_str()->check(CLI::Range(1, 100000));
   }
@@ -137,7 +133,8 @@ void AddMethodOptions(CLI::App& app, ReconstructArguments& a) {
   app.add_flag("--keep-reliable", pca.keep_reliable,
                "shum-2013, plantard-2016: joints stay where they were seen, as far as that is "
                "reliable (not in the papers)");
-  app.add_flag("--extend", pca.extend_database, "reliable postures join the database (sec. IX)");
+  app.add_flag("--extend", pca.extend_database,
+               "of shum-2013: reliable postures join the database (sec. IX)");
   a.bones.AddTo(app);
 }
 
@@ -152,12 +149,17 @@ int Reconstruct(int argc, char** argv) {
   AddMethodOptions(app, a);
   AddMechanicsOptions(app, a.mechanics);
   app.add_flag("--quiet", a.quiet, "no progress");
+  app.footer("Options that the method does not read are refused.");
   Parse(app, argc, argv);
   recon::LocalPcaOptions& pca = a.options.local_pca;
   pca.use_reliability = !a.no_reliability;
   double* const weights[] = {&pca.control, &pca.style, &pca.kinematics, &pca.continuity};
   for (size_t i = 0; i < a.weights.size(); ++i) *weights[i] = a.weights[i];
 
+  CheckRead(app, a.options.method);
+  if (a.options.local_pca.solver == "ceres" && app.count("--samples") > 0) {
+    throw UsageError("--samples is not read by --solver ceres: expected --solver stochastic");
+  }
   CheckLearned(a.options.method, a.learned);
   a.bones.Check(a.options.method);
   a.mechanics.Check();
@@ -182,10 +184,10 @@ int Reconstruct(int argc, char** argv) {
   a.options.learned_file = LearnedFor(a, clips);
   Progress progress("reconstruct", a.quiet);
   const int rounds = 1 + (a.bones.of_recording() ? 1 : 0) + (a.mechanics.on() ? 1 : 0);
-  double done = 0.0, total = 0.0;
-  for (const auto& clip : clips) total += rounds * static_cast<double>(clip.sequence.frames.size());
+  double done = 0.0, total = 0.0;  // done: in all rounds
+  for (const auto& clip : clips) total += static_cast<double>(clip.sequence.frames.size());
   const auto update = [&](size_t frames) {
-    progress.Update(done + static_cast<double>(frames), total);
+    progress.Update((done + static_cast<double>(frames)) / rounds, total);
     return !Interrupted();
   };
   for (const auto& clip : clips) {

@@ -60,8 +60,8 @@ void AddTrackerOptions(CLI::App& app, TrackOptions& options) {
                  ".ossagp of 'ossa learn', for the methods that learn, or none (default: with best "
                  "and the shipped model the shipped one)");
   app.add_option("--look", t.look,
-                 ".ossalook of 'ossa look', or none (default: with best and the shipped model the "
-                 "shipped one)");
+                 ".ossalook of 'ossa look', for best and --posture looked, or none (default: with "
+                 "best and the shipped model the shipped one)");
   app.add_option("--method", t.method, "how postures are completed (default best)")
       ->check(CLI::IsMember(recon::ReconstructionMethods()));
   AddMechanicsOptions(app, options.mechanics);
@@ -89,6 +89,14 @@ void NeedLook(tracker::TrackerOptions& options) {
   if (options.look.empty()) options.look = tracker::ShippedFile(recon::kShippedLook).string();
 }
 
+// Throws UsageError for a look that would be had and not be used.
+void CheckLookIsRead(const tracker::TrackerOptions& options) {
+  if (options.look.empty() || options.look == "none" || IsBest(options.method)) return;
+  throw UsageError(
+      fmt::format("--look is not read by --method {}: expected best, or --posture looked with it",
+                  options.method));
+}
+
 TrackOptions ParseOptions(int argc, char** argv) {
   CLI::App app("Follow the people in any SOURCE and write their skeletons");
   TrackOptions options;
@@ -108,17 +116,23 @@ TrackOptions ParseOptions(int argc, char** argv) {
   app.add_flag("--view", options.view, "show it in a browser while it runs (127.0.0.1)");
   app.add_option("--port", options.port, "of --view (default 8080)")->check(CLI::Range(0, 65535));
   app.add_flag("--quiet", options.quiet, "no progress");
+  app.footer("Options that the method does not read are refused.");
   Parse(app, argc, argv);
   if (options.out.empty() && options.picture.empty() && options.pictures.empty() && !options.view &&
       options.json_stats.empty()) {
     throw UsageError(
         "track: nothing to do: name --out, --picture, --pictures, --json-stats or --view");
   }
+  CheckRead(app, options.tracker.method);
   CheckLearned(options.tracker.method, options.tracker.learned);
   options.bones.Check(options.tracker.method);
   options.mechanics.Check();
   CheckOneOf(options.tracker.method, options.tracker.database, options.tracker.prior);
-  if (options.posture == "looked") NeedLook(options.tracker);
+  if (options.posture == "looked") {
+    NeedLook(options.tracker);
+  } else {
+    CheckLookIsRead(options.tracker);
+  }
   if (!options.out.empty()) CheckSkeletonName(options.out);
   CheckExtension("--picture", options.picture, ".png");
   CheckNotOtherKind("--json-stats", options.json_stats, ".json");

@@ -38,12 +38,9 @@ std::string ModelPath(const TrackerOptions& options) {
   return options.model.empty() ? ShippedFile("body.ossa").string() : options.model;
 }
 
-// The filters and best need no database; the others take the shipped one unless another is named.
+// Methods that look postures up take the shipped database unless another is named.
 std::shared_ptr<const recon::PostureDatabase> LoadDatabase(const TrackerOptions& options) {
-  const bool plain = options.method == "none" || options.method == "holt" ||
-                     options.method == "one-euro" || options.method == "kalman" ||
-                     options.method == "best";
-  if (options.database.empty() && plain) return nullptr;
+  if (options.database.empty() && !recon::NeedsDatabase(options.method)) return nullptr;
   const std::string path =
       options.database.empty() ? ShippedFile("authored.ossadb").string() : options.database;
   return std::make_shared<recon::PostureDatabase>(recon::PostureDatabase::Load(path));

@@ -225,6 +225,7 @@ SkeletonSequence ReadC3d(SkeletonInput& input) {
     const double step_s = input.FrameTime_s(1.0 / c3d.rate_Hz);
     sequence.frames.push_back(OneBodyFrame(f, static_cast<double>(f) * step_s, BodyIn(points)));
   }
+  TakeOutNobody(sequence);
   return sequence;
 }
 

@@ -77,6 +77,10 @@ inline SkeletonFrame OneBodyFrame(size_t index, double time_s, BodyRecord body) 
   return frame;
 }
 
+/// Of formats whose frames hold a body whatever was seen: in a recording of which no frame has a
+/// joint there is nobody. (Of somebody who is lost for a while the body stays, without joints.)
+void TakeOutNobody(SkeletonSequence& sequence);
+
 /// Throws unless the sequence has frames: an empty file is never a silent success.
 void RequireFrames(const SkeletonSequence& sequence);
 

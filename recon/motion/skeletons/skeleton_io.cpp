@@ -302,6 +302,18 @@ std::span<const SkeletonFormat> AllSkeletonFormats() {
   return kAll;
 }
 
+void TakeOutNobody(SkeletonSequence& sequence) {
+  for (const SkeletonFrame& frame : sequence.frames) {
+    for (const BodyRecord& body : frame.bodies) {
+      if (std::any_of(body.joints.begin(), body.joints.end(),
+                      [](const auto& joint) { return joint.has_value(); })) {
+        return;
+      }
+    }
+  }
+  for (SkeletonFrame& frame : sequence.frames) frame.bodies.clear();
+}
+
 void RequireFrames(const SkeletonSequence& sequence) {
   if (!sequence.frames.empty()) return;
   throw InputError(sequence.source + ": expected at least one frame, found none");

@@ -75,6 +75,7 @@ SkeletonSequence ReadPaired(SkeletonInput& input, const PairedFormat& format) {
   const auto header = Split(header_line, ',');
   const auto columns = ColumnsOf(lines, header, prefix);
   SkeletonSequence sequence{input.name, {}};
+  sequence.columns = input.columns;
   RowTimes times;
   while (lines.NextFilled()) {
     auto fields = Split(lines.line(), ',');

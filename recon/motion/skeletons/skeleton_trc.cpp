@@ -148,6 +148,7 @@ SkeletonSequence ReadTrc(SkeletonInput& input) {
                std::to_string(sequence.frames.size()));
   }
   RequireFrames(sequence);
+  TakeOutNobody(sequence);
   return sequence;
 }
 

@@ -13,11 +13,20 @@ namespace {
 
 namespace fs = std::filesystem;
 
-std::vector<int> BodyIds(const SkeletonSequence& sequence) {
+bool IsAnyone(const BodyRecord&) { return true; }
+
+bool IsSomewhere(const BodyRecord& body) {
+  return std::any_of(body.joints.begin(), body.joints.end(),
+                     [](const auto& joint) { return joint && HasPlace(*joint); });
+}
+
+// Of the bodies that `counts` holds for in some frame, as they appear.
+std::vector<int> BodyIds(const SkeletonSequence& sequence, bool (*counts)(const BodyRecord&)) {
   std::vector<int> ids;
   for (const SkeletonFrame& frame : sequence.frames) {
     for (const BodyRecord& body : frame.bodies) {
-      if (std::find(ids.begin(), ids.end(), body.id) == ids.end()) ids.push_back(body.id);
+      const bool is_new = std::find(ids.begin(), ids.end(), body.id) == ids.end();
+      if (is_new && counts(body)) ids.push_back(body.id);
     }
   }
   return ids;
@@ -31,8 +40,9 @@ fs::path PathForBody(const fs::path& path, size_t index, int id) {
   return other;
 }
 
+// Every frame of a BVH is a whole posture: of a body that has no joint in any it would be made up.
 void WriteBvhs(const fs::path& path, const SkeletonSequence& sequence) {
-  const std::vector<int> ids = BodyIds(sequence);
+  const std::vector<int> ids = BodyIds(sequence, IsSomewhere);
   if (ids.empty()) {
     throw InputError(path.string() +
                      ": expected somebody whose motion a .bvh can hold, found nobody in any frame "
@@ -46,7 +56,7 @@ void WriteBvhs(const fs::path& path, const SkeletonSequence& sequence) {
 }
 
 void WriteTrcs(const fs::path& path, const SkeletonSequence& sequence) {
-  std::vector<int> ids = BodyIds(sequence);
+  std::vector<int> ids = BodyIds(sequence, IsAnyone);
   if (ids.empty()) ids.push_back(1);  // a table of empty rows
   for (size_t i = 0; i < ids.size(); ++i) {
     const fs::path own = PathForBody(path, i, ids[i]);

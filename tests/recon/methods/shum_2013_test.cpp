@@ -1,5 +1,8 @@
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <functional>
+
 #include "recon/database/nearest.h"
 #include "recon/methods/bone_turns_internal.h"
 #include "recon/methods/posture_space_internal.h"
@@ -59,6 +62,38 @@ TEST(PostureSpace, ReproducesItsNeighboursUpToWhatItSaysLiesOutside) {
   const Eigen::MatrixXf gram = p.space.basis.transpose().lazyProduct(p.space.basis);
   EXPECT_LT((gram - Eigen::MatrixXf::Identity(gram.rows(), gram.cols())).norm(), 1e-3F);
   EXPECT_LT(p.space.outside.maxCoeff(), 0.05F);
+}
+
+/// Of the k postures nearest to one of the motion's.
+PostureSpace SpaceOf(const PostureDatabase& db, int k) {
+  JointWeights all;
+  all.fill(1.0);
+  std::vector<int> neighbours;
+  for (const auto& n : NearestPostures(db, VectorOf(test::Motion(1.0)), all, k)) {
+    neighbours.push_back(n.index);
+  }
+  return MakePostureSpace(db, neighbours, 20);
+}
+
+// On both sides of K = 60, where another matrix is decomposed: the scatter of the neighbours from
+// their mean, rotated into the space, is diagonal, and its entries are K times the variances.
+TEST(PostureSpace, HasThePrincipalDirectionsOfAnyNumberOfNeighbours) {
+  DatabaseOptions all;
+  all.threshold_m = 1e-4;
+  const auto db = PostureDatabase::Build(test::GestureClips(), all);
+  ASSERT_GE(db.size(), 400);
+  for (const int k : {30, 60, 61, 400}) {
+    const PostureSpace space = SpaceOf(db, k);
+    ASSERT_GT(space.dimensions(), 1) << k;
+    const Eigen::MatrixXf scatter = space.neighbours * space.neighbours.transpose();
+    const Eigen::VectorXf expected = space.deviation.array().square() * static_cast<float>(k);
+    EXPECT_LT((scatter - Eigen::MatrixXf(expected.asDiagonal())).cwiseAbs().maxCoeff(),
+              1e-4F * expected[0])
+        << k;  // single precision
+    EXPECT_TRUE(std::is_sorted(expected.begin(), expected.end(), std::greater<>())) << k;
+    const Eigen::MatrixXf gram = space.basis.transpose().lazyProduct(space.basis);
+    EXPECT_LT((gram - Eigen::MatrixXf::Identity(gram.rows(), gram.cols())).norm(), 1e-3F) << k;
+  }
 }
 
 TEST(EnergyResiduals, HaveTheirJacobian) {

@@ -3,6 +3,7 @@
 
 #include <filesystem>
 #include <fstream>
+#include <iterator>
 
 #include "recon/motion/bvh.h"
 #include "recon/motion/skeletons/skeleton_io.h"
@@ -120,6 +121,24 @@ TEST(BvhExport, OfNobodyIsRefusedByName) {
                             "x.bvh: expected somebody");
   WriteSkeletons(folder / "x.trc", nobody);
   EXPECT_TRUE(std::filesystem::exists(folder / "x.trc"));
+}
+
+// It was a T-pose at the camera.
+TEST(BvhExport, OfABodyWithoutAnyJointIsRefusedByName) {
+  const ossa::test::TemporaryFolder folder;
+  SkeletonSequence unseen = SeenAt({0.0, 0.1});
+  for (SkeletonFrame& frame : unseen.frames) frame.bodies[0].joints = {};
+  ossa::test::ExpectRefused([&] { WriteSkeletons(folder / "x.bvh", unseen); },
+                            "x.bvh: expected somebody");
+  SkeletonSequence two = SeenAt({0.0, 0.1});
+  for (SkeletonFrame& frame : two.frames) {
+    frame.bodies.insert(frame.bodies.begin(), BodyRecord{});
+    frame.bodies[0].id = 12;
+  }
+  WriteSkeletons(folder / "two.bvh", two);
+  const SkeletonSequence read = ReadSkeletons(folder / "two.bvh");
+  EXPECT_GT(read.frames[0].bodies[0].joints[0]->position_m.z(), 0.5) << "who was seen";
+  EXPECT_EQ(std::distance(std::filesystem::directory_iterator(folder.path()), {}), 1);
 }
 
 // A negative id meant the body seen most.

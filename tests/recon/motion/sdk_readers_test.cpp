@@ -324,6 +324,17 @@ INSTANTIATE_TEST_SUITE_P(
                     Wrong{"Ntu", NtuText() + std::string(2 << 20, '1'), "1 MiB"}),
     NameOfCase);
 
+// As of a recording of nobody, and where no point is named as a joint.
+TEST(C3d, WithoutAnyJointHoldsNobody) {
+  std::string unseen = C3dBytes();
+  for (size_t point = 0; point < 6; ++point) Put<float>(unseen, 1024 + 16 * point + 12, -1.0f);
+  for (const std::string& bytes : {unseen, With(C3dBytes(), "HipCenter Head", "Ball      Hat ")}) {
+    const auto read = Read(bytes);
+    ASSERT_EQ(read.frames.size(), 3u);
+    for (const SkeletonFrame& frame : read.frames) EXPECT_TRUE(frame.bodies.empty());
+  }
+}
+
 TEST(C3d, OfAnotherProcessorIsRefusedByName) {
   std::string bytes = C3dBytes();
   bytes[512 + 3] = 86;

@@ -48,6 +48,28 @@ TEST_P(EveryWrittenFormat, IsFoundByContentAndReadBack) {
 INSTANTIATE_TEST_SUITE_P(All, EveryWrittenFormat, testing::Values(".jsonl", ".csv", ".trc"),
                          [](const auto& info) { return std::string(info.param + 1); });
 
+// A table of blank rows was read as a person without joints, whom `ossa reconstruct` then made up.
+TEST_P(EveryWrittenFormat, OfNobodyIsReadBackAsNobody) {
+  const test::TemporaryFolder folder;
+  SkeletonSequence nobody = ExampleSequence(3);
+  for (SkeletonFrame& frame : nobody.frames) frame.bodies.clear();
+  WriteSkeletons(folder / (std::string("nobody") + GetParam()), nobody);
+  const auto read = ReadSkeletons(folder / (std::string("nobody") + GetParam()));
+  ASSERT_EQ(read.frames.size(), nobody.frames.size());
+  for (const SkeletonFrame& frame : read.frames) EXPECT_TRUE(frame.bodies.empty());
+}
+
+// Of who is out of sight for a while the rows are blank.
+TEST(TrcFile, KeepsABodyThatIsLostForAWhile) {
+  const test::TemporaryFolder folder;
+  SkeletonSequence lost = ExampleSequence(3);
+  lost.frames[1].bodies.clear();
+  WriteSkeletons(folder / "lost.trc", lost);
+  const auto read = ReadSkeletons(folder / "lost.trc");
+  ASSERT_EQ(read.frames[1].bodies.size(), 1u);
+  for (const auto& joint : read.frames[1].bodies[0].joints) EXPECT_FALSE(joint.has_value());
+}
+
 TEST(BvhFile, HoldsTheSamePostureWithConstantBones) {
   const test::TemporaryFolder folder;
   // A stiff figure that moves as a whole has constant bones already: nothing is lost.

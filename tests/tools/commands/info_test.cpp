@@ -83,6 +83,25 @@ TEST(InfoCommand, ShowsWhatASkeletonFileHolds) {
   ExpectShown(folder.path(), "skeletons x, 1 frames, 0.00 s, 1 bodies");
 }
 
+TEST(InfoCommand, ShowsBothSkeletonsOfAFileThatHoldsTwoSideBySide) {
+  const TemporaryFolder folder;
+  const std::string file = folder / "two.csv";
+  std::ofstream(file) << "t_s,K_head_x,K_head_y,K_head_z,G_head_x,G_head_y,G_head_z\n"
+                         "0.0,1,2,-240,1,2,-241\n0.5,1,2,-240,1,2,-241\n";
+  const std::string rest = ", 2 frames, 0.50 s, 2 bodies\n";
+  const std::string observed = "skeletons #observed" + rest, truth = "skeletons #truth" + rest;
+  EXPECT_EQ(RunOssa({"info", file}).out, observed + truth);
+  EXPECT_EQ(RunOssa({"info", file + "#observed"}).out, observed);
+  EXPECT_EQ(RunOssa({"info", file + "#kinect"}).out, observed);
+  EXPECT_EQ(RunOssa({"info", file + "#truth"}).out, truth);
+  std::ofstream(folder / "one.jsonl")
+      << R"({"frame":0,"time_s":0,"bodies":[{"id":1,"joints":{"Head":{"p":[0,0,2]}}}]})"
+      << "\n";
+  EXPECT_EQ(RunOssa({"info", folder.path().string()}).out,
+            "skeletons one, 1 frames, 0.00 s, 1 bodies\nskeletons two#observed" + rest +
+                "skeletons two#truth" + rest);
+}
+
 TEST(InfoCommand, RefusesWhatIsDamagedUnknownOrNotThere) {
   const TemporaryFolder folder;
   TwoPostures().Save(folder / "cut.ossadb");

@@ -162,7 +162,8 @@ TEST(WrongUsage, OfOptions) {
         "learn --observed a --truth b --out x.ossagp --pairs 9",
         "track a --out x.jsonl --method liu-2016", "reconstruct a --out x.jsonl --method liu-2016",
         "compare a b --time nan", "compare a b --format x", "compare a b --columns x",
-        "experiment nosuch --out x", "reconstruct a --out x.csv --weights 1,1,1,-1",
+        "experiment nosuch --out x",
+        "reconstruct a --out x.csv --method shum-2013 --weights 1,1,1,-1",
         "train a --out x --memory 1K", "train a --out x --resume --trees-of b",
         "train a --out x --trees-of b --import-pcl c"}) {
     const CommandResult result = Shell(std::string("cd \"$2\" && \"$1\" ") + words, folder);

@@ -183,6 +183,23 @@ TEST_F(ReconstructCommand, CompletesEveryFrame) {
   EXPECT_LT(MeanDistance(made, Recording()), 0.03);
 }
 
+// It counted 180 of 180: each of the three times that a frame is gone through.
+TEST_F(ReconstructCommand, CountsAFrameOnceHoweverOftenItIsGoneThrough) {
+  const auto run = RunOssa({"reconstruct", in_, "--out", folder_ / "out.jsonl", "--bones",
+                            "recording", "--physics", "on"});
+  EXPECT_NE(run.err.find("reconstruct: 60 of 60"), std::string::npos) << run.err;
+  EXPECT_EQ(run.err.find("180"), std::string::npos) << run.err;
+}
+
+TEST_F(ReconstructCommand, TakesWhatTheMethodReads) {
+  for (const char* method : {"shum-2013", "plantard-2016"}) {
+    Made({"--method", method, "--solver", "ceres", "--neighbours", "20", "--dimensions", "8",
+          "--steps", "4", "--weights", "1,1,1,1", "--no-reliability", "--keep-reliable"});
+  }
+  Made({"--method", "shum-2013", "--extend", "--samples", "9", "--learned", "none"});
+  Made({"--method", "butterworth", "--cutoff", "3", "--learned", "none"});
+}
+
 TEST_F(ReconstructCommand, LetsACharacterFollowWithConstantBonesAndOrientations) {
   for (const char* control : {"pd", "motor"}) {
     const auto made = Made({"--method", "none", "--physics", "on", "--control", control});
@@ -344,6 +361,41 @@ INSTANTIATE_TEST_SUITE_P(
                        {"IN", "--out", "OUT", "--database", "a", "--prior", "b"},
                        2,
                        "one of them"},
+        BadReconstruct{"solver_of_best",
+                       {"IN", "--out", "OUT", "--solver", "ceres"},
+                       2,
+                       "--solver is not read by --method best: expected a method that does "
+                       "(shum-2013, plantard-2016)"},
+        BadReconstruct{"weights_of_best",
+                       {"IN", "--out", "OUT", "--weights", "1,1,1,1"},
+                       2,
+                       "--weights is not read by --method best"},
+        BadReconstruct{"flag_of_a_filter",
+                       {"IN", "--out", "OUT", "--method", "holt", "--no-reliability"},
+                       2,
+                       "--no-reliability is not read"},
+        BadReconstruct{"extended_graph",
+                       {"IN", "--out", "OUT", "--method", "plantard-2016", "--extend"},
+                       2,
+                       "(shum-2013)"},
+        BadReconstruct{"cutoff", {"IN", "--out", "OUT", "--cutoff", "6"}, 2, "(butterworth)"},
+        BadReconstruct{
+            "samples_of_ceres",
+            {"IN", "--out", "OUT", "--method", "shum-2013", "--solver", "ceres", "--samples", "10"},
+            2,
+            "--samples is not read by --solver ceres"},
+        BadReconstruct{"database_of_a_filter",
+                       {"IN", "--out", "OUT", "--method", "kalman", "--database", "IN"},
+                       2,
+                       "--database is not read by --method kalman"},
+        BadReconstruct{"prior_of_another",
+                       {"IN", "--out", "OUT", "--method", "shum-2013", "--prior", "IN"},
+                       2,
+                       "--prior is not read"},
+        BadReconstruct{"learned_of_a_filter",
+                       {"IN", "--out", "OUT", "--method", "butterworth", "--learned", "IN"},
+                       2,
+                       "--learned is not read"},
         BadReconstruct{"method", {"IN", "--out", "OUT", "--method", "guess"}, 2, "--method"},
         BadReconstruct{
             "nothing_learned", {"IN", "--out", "OUT", "--method", "full-gp"}, 2, "--learned"},

@@ -232,6 +232,26 @@ TEST(TrackCommand, WrongUsageExitsWithTwo) {
   EXPECT_EQ(RunOssa({"track", ".", "--out", "x.jsonl", "--method", "magic"}).exit_status, 2);
 }
 
+TEST(TrackCommand, WhatTheMethodDoesNotReadIsRefused) {
+  for (const char* option : {"--look", "--learned", "--prior", "--database"}) {
+    const CommandResult result =
+        RunOssa({"track", ".", "--out", "x.jsonl", "--method", "kalman", option, "x.file"});
+    EXPECT_EQ(result.exit_status, 2) << option;
+    EXPECT_NE(result.err.find(std::string(option) + " is not read by --method kalman"),
+              std::string::npos)
+        << result.err;
+  }
+  // Where there is none of it nothing is lost, and raw joints may be looked at again.
+  const std::vector<std::vector<std::string>> good = {
+      {"--look", "none"}, {"--learned", "none"}, {"--posture", "looked", "--look", "/no.look"}};
+  for (const std::vector<std::string>& options : good) {
+    std::vector<std::string> arguments = {"track",   "/nonexistent", "--out",
+                                          "x.jsonl", "--method",     "kalman"};
+    arguments.insert(arguments.end(), options.begin(), options.end());
+    EXPECT_EQ(RunOssa(arguments).exit_status, 1) << options.back();
+  }
+}
+
 TEST(TrackCommand, BonesByTheWholeRecordingAreTheSameInEveryFrame) {
   OSSA_NEEDS_MODEL();
   const TemporaryFolder folder;
