@@ -69,7 +69,8 @@ void Declare(CLI::App& app, Arguments& a) {
   app.add_option("--camera", a.camera, "intrinsics; 'generic' varies them and needs packed form")
       ->check(CLI::IsMember({"kinect-v1", "generic"}))
       ->capture_default_str();
-  app.add_option("--format", a.format, "png files, packed shards (faster, smaller), or both")
+  app.add_option("--format", a.format,
+                 "png files (depth/, parts/, users/), packed shards (faster, smaller), or both")
       ->check(CLI::IsMember({"png", "packed", "both"}))
       ->capture_default_str();
   app.add_flag("--sequence", a.sequence,

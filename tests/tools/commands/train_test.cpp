@@ -79,6 +79,24 @@ TEST_F(BadDataSet, PipesAreRefusedNotWaitedFor) {
   }
 }
 
+// As README.md says of data sets of other makers.
+TEST_F(BadDataSet, UsersAreNeededOfSeveralPeopleOnly) {
+  fs::remove_all(fs::path(data()) / "users");
+  const std::vector<std::string> words = {
+      "train", data(),     "--out", model(),        "--trees", "1",      "--depth",
+      "3",     "--pixels", "50",    "--validation", data(),    "--quiet"};
+  const CommandResult result = RunOssa(words);
+  EXPECT_EQ(result.exit_status, 0) << result.err;
+  fs::remove(model());
+  fs::remove_all(data());
+  ASSERT_EQ(RunOssa({"render", "--mocap", "authored", "--out", data(), "--frames", "4", "--size",
+                     "96x72", "--people", "2", "--quiet"})
+                .exit_status,
+            0);
+  fs::remove(fs::path(data()) / "users" / "000003.png");
+  ExpectRefused("users/000003.png");
+}
+
 TEST_F(BadDataSet, ALostManifestIsNamed) {
   fs::remove(fs::path(data()) / "manifest.json");
   ExpectRefused("data");
