@@ -201,5 +201,19 @@ TEST(TrainCommand, WrongUsageIsStatusTwo) {
   EXPECT_EQ(RunOssa({"train", "d", "--out", "x.ossa", "--memory", "many"}).exit_status, 2);
 }
 
+// It named the field of the C++ struct.
+TEST(TrainCommand, NumbersOutOfRangeAreToldByTheirOption) {
+  const std::vector<std::pair<std::string, std::string>> beyond = {
+      {"--node-pixels", "99"},    {"--min-node-pixels", "1"}, {"--refill-pixels", "-1"},
+      {"--box", "2000"},          {"--offsets", "1"},         {"--min-gain", "-0.1"},
+      {"--context-share", "1.1"}, {"--vote-depth", "19"},     {"--memory", "1K"}};
+  for (const auto& [option, value] : beyond) {
+    const CommandResult result = RunOssa({"train", "d", "--out", "x.ossa", option, value});
+    EXPECT_EQ(result.exit_status, 2) << option;
+    EXPECT_EQ(test::LineCount(result.err), 1) << result.err;
+    EXPECT_NE(result.err.find(option), std::string::npos) << result.err;
+  }
+}
+
 }  // namespace
 }  // namespace ossa::tests
