@@ -215,5 +215,25 @@ TEST(TrainCommand, NumbersOutOfRangeAreToldByTheirOption) {
   }
 }
 
+TEST_F(TrainingRuns, ACheckpointOfOtherOptionsNamesTheFirst) {
+  std::vector<std::string> words = Arguments("cut.ossa");
+  words.insert(words.end(), {"--candidates", "20000"});  // so many that it does not end meanwhile
+  test::RunningCommand run = test::StartOssa(words);
+  const auto end = std::chrono::steady_clock::now() + test::kCommandTimeout;
+  while (!fs::exists(folder_ / "cut.ossa.checkpoint") && std::chrono::steady_clock::now() < end) {
+    std::this_thread::sleep_for(std::chrono::milliseconds(1));
+  }
+  run.Signal(SIGKILL);
+  run.Wait(test::kCommandTimeout);
+  words.back() = "300";
+  const CommandResult other = RunOssa(words);
+  EXPECT_EQ(other.exit_status, 1);
+  EXPECT_EQ(test::LineCount(other.err), 1) << other.err;
+  EXPECT_NE(other.err.find("cut.ossa.checkpoint: checkpoint of another run: candidates: expected "
+                           "300 as in this run, found 20000"),
+            std::string::npos)
+      << other.err;
+}
+
 }  // namespace
 }  // namespace ossa::tests
