@@ -1,12 +1,14 @@
 #include "forest/train/checkpoint_internal.h"
 
+#include <algorithm>
+
 #include "depth/error.h"
 #include "depth/file/sealed_file.h"
 
 namespace ossa::forest {
 namespace {
 
-constexpr SealedFormat kFormat{{'o', 's', 's', 'a', 'c', 'h', 'k', 'p'}, 1, "training checkpoint"};
+constexpr SealedFormat kFormat{{'o', 's', 's', 'a', 'c', 'h', 'k', 'p'}, 2, "training checkpoint"};
 
 void CheckNodes(const std::vector<Node>& nodes, size_t frontier, const PayloadReader& reader) {
   size_t next = 1;
@@ -20,11 +22,37 @@ void CheckNodes(const std::vector<Node>& nodes, size_t frontier, const PayloadRe
   if (next != nodes.size() || frontier > nodes.size()) reader.Fail("nodes", "wrong number");
 }
 
+std::vector<Setting> ReadSettings(PayloadReader& reader) {
+  const auto count = reader.Get<uint32_t>("number of settings");
+  if (count > 64) reader.Fail("number of settings", "more than 64");
+  std::vector<Setting> settings;
+  for (uint32_t i = 0; i < count; ++i) {
+    std::string name = reader.GetString("setting");
+    settings.push_back({std::move(name), reader.GetString("setting's value")});
+  }
+  return settings;
+}
+
+void CheckSameRun(const std::vector<Setting>& found, const std::vector<Setting>& expected,
+                  const std::filesystem::path& path) {
+  for (const Setting& setting : expected) {
+    const auto same = std::ranges::find(found, setting.name, &Setting::name);
+    const std::string value = same == found.end() ? "none" : same->value;
+    if (value == setting.value) continue;
+    throw InputError(path.string() + ": checkpoint of another run: " + setting.name +
+                     ": expected " + setting.value + " as in this run, found " + value);
+  }
+}
+
 }  // namespace
 
 void WriteCheckpoint(const std::filesystem::path& path, const Checkpoint& checkpoint) {
   PayloadWriter writer;
-  writer.PutString(checkpoint.fingerprint);
+  writer.Put<uint32_t>(static_cast<uint32_t>(checkpoint.settings.size()));
+  for (const Setting& setting : checkpoint.settings) {
+    writer.PutString(setting.name);
+    writer.PutString(setting.value);
+  }
   writer.Put<uint32_t>(static_cast<uint32_t>(checkpoint.finished.size()));
   for (const auto& nodes : checkpoint.finished) writer.PutVector(nodes);
   writer.Put<int32_t>(checkpoint.growing.level);
@@ -33,16 +61,12 @@ void WriteCheckpoint(const std::filesystem::path& path, const Checkpoint& checkp
   WriteSealedFile(path, kFormat, writer.bytes());
 }
 
-Checkpoint ReadCheckpoint(const std::filesystem::path& path, const std::string& fingerprint) {
+Checkpoint ReadCheckpoint(const std::filesystem::path& path, const std::vector<Setting>& settings) {
   const std::vector<std::byte> payload = ReadSealedFile(path, kFormat);
   PayloadReader reader(payload, path.string());
   Checkpoint checkpoint;
-  checkpoint.fingerprint = reader.GetString("fingerprint");
-  if (checkpoint.fingerprint != fingerprint) {
-    throw InputError(path.string() +
-                     ": checkpoint of another run: expected the same data sets and options (" +
-                     fingerprint + "), found " + checkpoint.fingerprint);
-  }
+  checkpoint.settings = ReadSettings(reader);
+  CheckSameRun(checkpoint.settings, settings, path);
   const auto finished = reader.Get<uint32_t>("number of trees");
   if (finished > 64) reader.Fail("number of trees", "more than 64");
   for (uint32_t i = 0; i < finished; ++i) {

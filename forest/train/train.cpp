@@ -1,6 +1,8 @@
 #include "forest/train.h"
 
 #include <algorithm>
+#include <array>
+#include <charconv>
 #include <chrono>
 #include <optional>
 
@@ -23,17 +25,32 @@ void Require(bool holds, const std::string& name, double value, const std::strin
                               ", must be in " + range);
 }
 
+// The shortest text that stands for the number.
+template <typename Number>
+std::string TextOf(Number number) {
+  std::array<char, 32> text{};
+  const auto [end, error] = std::to_chars(text.data(), text.data() + text.size(), number);
+  return {text.data(), end};
+}
+
 // Everything that decides the bytes of the model: neither threads, memory nor ranks.
-std::string FingerprintOf(const TrainOptions& o, const TrainingSource& source) {
-  std::string text = o.fingerprint + " images " + std::to_string(source.size());
-  for (const double value :
-       {double(o.trees), double(o.depth), double(o.candidates), double(o.thresholds),
-        double(o.pixels), double(o.refill_pixels), double(o.offsets), o.box_pixel_m,
-        double(o.node_pixels), double(o.min_node_pixels), o.min_gain_bits, o.context_share,
-        double(o.vote_depth), double(o.seed)}) {
-    text.append(1, ' ').append(std::to_string(value));
-  }
-  return text;
+std::vector<Setting> SettingsOf(const TrainOptions& o, const TrainingSource& source) {
+  return {{"data", o.fingerprint},
+          {"images", TextOf(source.size())},
+          {"trees", TextOf(o.trees)},
+          {"depth", TextOf(o.depth)},
+          {"candidates", TextOf(o.candidates)},
+          {"thresholds", TextOf(o.thresholds)},
+          {"pixels", TextOf(o.pixels)},
+          {"refill-pixels", TextOf(o.refill_pixels)},
+          {"offsets", TextOf(o.offsets)},
+          {"box", TextOf(o.box_pixel_m)},
+          {"node-pixels", TextOf(o.node_pixels)},
+          {"min-node-pixels", TextOf(o.min_node_pixels)},
+          {"min-gain", TextOf(o.min_gain_bits)},
+          {"context-share", TextOf(o.context_share)},
+          {"vote-depth", TextOf(o.vote_depth)},
+          {"seed", TextOf(o.seed)}};
 }
 
 // One training run: what the levels have in common.
@@ -42,10 +59,10 @@ class Run {
   Run(const TrainingSource& source, const TrainingVocabulary& vocabulary,
       const TrainOptions& options, const Reducer& reducer, TrainSummary* summary)
       : vocabulary_(vocabulary), options_(options), reducer_(reducer), summary_(summary) {
-    checkpoint_.fingerprint = FingerprintOf(options, source);
+    checkpoint_.settings = SettingsOf(options, source);
     if (options.resume && !options.checkpoint.empty() &&
         std::filesystem::exists(options.checkpoint)) {
-      checkpoint_ = ReadCheckpoint(options.checkpoint, checkpoint_.fingerprint);
+      checkpoint_ = ReadCheckpoint(options.checkpoint, checkpoint_.settings);
     }
     Report(-1, {}, 0);
     parts_.emplace(source, options, vocabulary.class_names.size(), reducer);

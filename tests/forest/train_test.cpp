@@ -140,10 +140,30 @@ TEST(Train, RefusesTheCheckpointOfAnotherRun) {
   TrainOptions options = QuickOptions();
   options.depth = 2;
   options.checkpoint = folder / "checkpoint";
+  options.fingerprint = "ten figures";
   Train(BallFigures(10, 3), BallVocabulary(), options);
-  options.seed = 2;
   options.resume = true;
-  EXPECT_THROW(Train(BallFigures(10, 3), BallVocabulary(), options), InputError);
+  const auto complaint = [](const TrainOptions& other) {
+    try {
+      Train(BallFigures(10, 3), BallVocabulary(), other);
+    } catch (const InputError& error) {
+      return std::string(error.what());
+    }
+    return std::string();
+  };
+  EXPECT_EQ(complaint(options), "");
+  TrainOptions other = options;
+  other.seed = (uint64_t{1} << 60U) + 1;
+  EXPECT_TRUE(
+      complaint(other).ends_with("seed: expected 1152921504606846977 as in this run, found 1"))
+      << complaint(other);
+  other = options;
+  other.min_gain_bits += 1e-9;  // printed with six digits it was the same
+  EXPECT_NE(complaint(other).find("min-gain: expected "), std::string::npos) << complaint(other);
+  other = options;
+  other.fingerprint = "others";
+  EXPECT_TRUE(complaint(other).ends_with("data: expected others as in this run, found ten figures"))
+      << complaint(other);
 }
 
 // One class only: there is nothing to tell apart.

@@ -13,6 +13,7 @@
 #include "tools/commands/checks.h"
 #include "tools/commands/command.h"
 #include "tools/commands/commands.h"
+#include "tools/commands/mapping_option.h"
 #include "tools/commands/outputs.h"
 
 namespace ossa::commands {
@@ -72,7 +73,7 @@ int Database(int argc, char** argv) {
       ->check(CLI::IsMember({"sum-squared", "max-joint"}));
   app.add_option("--seed", mocap_options.seed, "variation of the authored clips")
       ->capture_default_str();
-  app.add_option("--mapping", mocap_options.mapping_file, "bone names of an unknown conversion");
+  AddMappingOption(app, mocap_options.mapping_file);
   app.add_flag("--quiet", quiet, "no progress");
   Parse(app, argc, argv);
   CheckNotOtherKind("--out", out, ".ossadb");

@@ -13,6 +13,7 @@
 #include "tools/commands/checks.h"
 #include "tools/commands/command.h"
 #include "tools/commands/commands.h"
+#include "tools/commands/mapping_option.h"
 #include "tools/commands/outputs.h"
 #include "tools/learning/learn_prior_network.h"
 
@@ -71,7 +72,7 @@ int Prior(int argc, char** argv) {
       ->capture_default_str()
       ->check(CLI::Range(0, 1024));
   app.add_flag("--quiet", quiet, "no progress");
-  app.add_option("--mapping", mocap_options.mapping_file, "bone names of an unknown conversion");
+  AddMappingOption(app, mocap_options.mapping_file);
   Parse(app, argc, argv);
   CheckExtension("--out", out, ".ossaprior");
   std::vector<std::string> inputs = mocap;

@@ -11,6 +11,7 @@
 #include "recon/motion/mocap.h"
 #include "tools/commands/command.h"
 #include "tools/commands/commands.h"
+#include "tools/commands/mapping_option.h"
 #include "tools/synth/ranks.h"
 #include "tools/synth/render_dataset.h"
 #include "tools/synth/sequence.h"
@@ -22,7 +23,7 @@ struct Arguments {
   std::vector<std::string> mocap;
   std::string out, size = "640x480", bodies = "random", noise = "kinect-v1", view = "front";
   std::string occluders = "none", split = "train", background, format = "png", camera = "kinect-v1";
-  std::string poses = "spread";
+  std::string poses = "spread", mapping;
   int64_t frames = 0;
   uint64_t seed = 1;
   int people = 1;
@@ -68,11 +69,13 @@ void Declare(CLI::App& app, Arguments& a) {
   app.add_option("--camera", a.camera, "intrinsics; 'generic' varies them and needs packed form")
       ->check(CLI::IsMember({"kinect-v1", "generic"}))
       ->capture_default_str();
-  app.add_option("--format", a.format, "png files, packed shards (faster, smaller), or both")
+  app.add_option("--format", a.format,
+                 "png files (depth/, parts/, users/), packed shards (faster, smaller), or both")
       ->check(CLI::IsMember({"png", "packed", "both"}))
       ->capture_default_str();
   app.add_flag("--sequence", a.sequence,
                "one continuous clip at 30 Hz: one body before one camera, frames in order");
+  AddMappingOption(app, a.mapping);
   app.add_option("--threads", a.threads)->check(CLI::Range(1, 1024));
   app.add_flag("--quiet", a.quiet, "no progress");
 }
@@ -121,6 +124,7 @@ std::string CommandOf(const Arguments& a) {
   if (!a.background.empty()) command += " --background " + a.background;
   if (a.poses != "spread") command += " --poses " + a.poses;
   if (a.sequence) command += " --sequence";
+  if (!a.mapping.empty()) command += " --mapping " + a.mapping;
   return command;
 }
 
@@ -151,6 +155,7 @@ int Render(int argc, char** argv) {
   tools::Ranks ranks;
   recon::MocapOptions mocap_options;
   mocap_options.seed = a.seed;
+  mocap_options.mapping_file = a.mapping;
   const auto clips = recon::LoadMocap(a.mocap, mocap_options);
   const tools::PoseBankOptions bank = tools::BankOf(*tools::PosesFromName(a.poses));
   auto poses =

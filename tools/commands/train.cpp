@@ -52,8 +52,8 @@ uint64_t ParseMemory(const std::string& text) {
   }
   const std::string unit = text.substr(used);
   const double scale = unit == "G" ? 0x1p30 : unit == "M" ? 0x1p20 : unit == "K" ? 0x1p10 : 0;
-  if (used == 0 || scale == 0 || !(number > 0) || number * scale > 0x1p50) {
-    throw UsageError("--memory " + text + ": expected a number with K, M or G, e.g. 8G");
+  if (used == 0 || scale == 0 || !(number * scale >= 0x1p20) || number * scale > 0x1p50) {
+    throw UsageError("--memory " + text + ": expected a number with K, M or G from 1M up, e.g. 8G");
   }
   return static_cast<uint64_t>(number * scale);
 }
@@ -79,22 +79,30 @@ void AddOptions(CLI::App* app, TrainArguments* a) {
       ->check(CLI::Range(1, 100000));
   app->add_option("--refill-pixels", o.refill_pixels,
                   "pixels an image that fill leaves and votes (0: as --pixels)")
-      ->capture_default_str();
+      ->capture_default_str()
+      ->check(CLI::Range(0, 100000));
   app->add_option("--box", o.box_pixel_m, "longest offset, pixel metres at f = 575")
-      ->capture_default_str();
+      ->capture_default_str()
+      ->check(CLI::Range(1, 1999));
   app->add_option("--offsets", o.offsets, "distinct offsets a node, candidates are pairs of them")
-      ->capture_default_str();
+      ->capture_default_str()
+      ->check(CLI::Range(2, 4096));
   app->add_option("--node-pixels", o.node_pixels, "pixels looked at in a node, at most")
-      ->capture_default_str();
+      ->capture_default_str()
+      ->check(CLI::Range(100, 1000000));
   app->add_option("--min-node-pixels", o.min_node_pixels, "smaller nodes are leaves")
-      ->capture_default_str();
+      ->capture_default_str()
+      ->check(CLI::Range(2, 1000000000));
   app->add_option("--min-gain", o.min_gain_bits, "splits that gain fewer bits a pixel are not made")
-      ->capture_default_str();
+      ->capture_default_str()
+      ->check(NotNegative());
   app->add_option("--context-share", o.context_share,
                   "share of the upper nodes that split for the facing sector")
-      ->capture_default_str();
+      ->capture_default_str()
+      ->check(CLI::Range(0.0, 1.0));
   app->add_option("--vote-depth", o.vote_depth, "depth of the nodes that keep position votes")
-      ->capture_default_str();
+      ->capture_default_str()
+      ->check(CLI::Range(0, 18));
   app->add_option("--validation", a->validation,
                   "data sets for proposal parameters (default: 4 of each 100 frames, held out)");
   app->add_option("--validation-images", a->validation_images, "images of them to use")
@@ -362,11 +370,6 @@ int Train(int argc, char** argv) {
   CheckRefinement(arguments);
   if (!arguments.trees_of.empty()) return LearnAgain(arguments);
   arguments.options.memory_bytes = ParseMemory(arguments.memory);
-  try {
-    arguments.options.Check();
-  } catch (const std::invalid_argument& error) {
-    throw UsageError(error.what());
-  }
   try {
     return TrainOnData(&arguments, *reducer);
   } catch (const forest::TrainInterrupted& interruption) {

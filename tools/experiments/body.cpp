@@ -6,7 +6,9 @@
 #include <cmath>
 #include <map>
 #include <numbers>
+#include <set>
 
+#include "depth/error.h"
 #include "depth/render/renderer.h"
 #include "recon/body/body_model.h"
 #include "recon/body/parts.h"
@@ -108,13 +110,35 @@ std::vector<Moment> Chosen(const std::vector<recon::MotionClip>& clips, size_t c
   return chosen;
 }
 
-/// Clips whose name holds one of the words; all of them without any.
+/// Names to choose clips by, each once: "authored/golf" of authored/golf/00, 01, ...
+std::string NamesOf(const std::vector<recon::MotionClip>& clips) {
+  constexpr size_t kMost = 100;  // still one line that can be read
+  std::set<std::string> names;
+  for (const recon::MotionClip& clip : clips) {
+    names.insert(clip.name.substr(0, clip.name.rfind('/')));
+  }
+  std::vector<std::string> shown(names.begin(), names.end());
+  const size_t more = shown.size() - std::min(shown.size(), kMost);
+  shown.resize(shown.size() - more);
+  return fmt::format("{}{}", fmt::join(shown, ", "),
+                     more > 0 ? fmt::format(" and {} more", more) : "");
+}
+
+/// Clips whose name holds one of the words; all of them without any. Throws InputError for a word
+/// that no name holds.
 std::vector<recon::MotionClip> Named(std::vector<recon::MotionClip> clips,
                                      const std::vector<std::string>& words) {
-  std::erase_if(clips, [&words](const recon::MotionClip& clip) {
-    return !words.empty() && std::none_of(words.begin(), words.end(), [&](const std::string& word) {
-      return clip.name.find(word) != std::string::npos;
-    });
+  const auto holds = [](const recon::MotionClip& clip, const std::string& word) {
+    return clip.name.find(word) != std::string::npos;
+  };
+  for (const std::string& word : words) {
+    if (std::ranges::any_of(clips, [&](const auto& clip) { return holds(clip, word); })) continue;
+    throw InputError(fmt::format(
+        "experiment body: only: no clip has '{}' in its name; there are {}", word, NamesOf(clips)));
+  }
+  std::erase_if(clips, [&](const recon::MotionClip& clip) {
+    return !words.empty() &&
+           std::ranges::none_of(words, [&](const auto& word) { return holds(clip, word); });
   });
   return clips;
 }
@@ -123,7 +147,10 @@ std::vector<recon::MotionClip> Named(std::vector<recon::MotionClip> clips,
 
 std::vector<Table> RunBody(ExperimentContext& context) {
   const auto sources = context.parameters.Texts("mocap", {"authored"});
-  const int count = std::clamp(context.parameters.Integer("clips", 8), 1, 40);
+  const auto only = context.parameters.Texts("only", {});
+  const int count = context.parameters.Integer("clips", 8, 1, 40);
+  const int times = context.parameters.Integer("times", 1, 1, 20);
+  if (sources.empty()) throw InputError("experiment body: mocap: expected motion, found none");
   BodyPainter painter;
   recon::RigPose rest;
   rest.root_m = recon::StandardRigRest().head_m[0];
@@ -138,10 +165,9 @@ std::vector<Table> RunBody(ExperimentContext& context) {
   recon::MocapOptions options;
   options.seed = context.seed;
   options.stop = context.interrupted;
-  const auto clips =
-      Named(recon::LoadMocap(sources, options), context.parameters.Texts("only", {}));
+  const auto all = recon::LoadMocap(sources, options);
   context.StopIfAsked();
-  const int times = std::clamp(context.parameters.Integer("times", 1), 1, 20);
+  const auto clips = Named(all, only);
   std::vector<Picture> poses;
   Table motions{
       "Motions on the body (motions.png, from the left)", {"clip", "frame", "of"}, {}, ""};

@@ -28,13 +28,15 @@ std::string ToMarkdown(const Table& table);
 /// asked for are refused at the end, so that a misspelt one is not silently ignored.
 class Parameters {
  public:
+  static constexpr int kMostInteger = 1'000'000'000;
+
   Parameters() = default;
   /// Throws InputError with file, line and column for what is no TOML, or not flat.
   static Parameters FromToml(const std::filesystem::path& path);
 
   double Number(const std::string& key, double usual);
-  /// Throws InputError for less than `least`.
-  int Integer(const std::string& key, int usual, int least = 0);
+  /// Throws InputError for less than `least` or more than `most`.
+  int Integer(const std::string& key, int usual, int least = 0, int most = kMostInteger);
   bool Flag(const std::string& key, bool usual);
   std::string Text(const std::string& key, const std::string& usual);
   std::vector<std::string> Texts(const std::string& key, const std::vector<std::string>& usual);

@@ -201,13 +201,15 @@ double Parameters::Number(const std::string& key, double usual) {
   return number;
 }
 
-int Parameters::Integer(const std::string& key, int usual, int least) {
+int Parameters::Integer(const std::string& key, int usual, int least, int most) {
   const double number = Number(key, usual);
-  if (number != std::floor(number) || std::abs(number) > 1e9) {
+  if (number != std::floor(number) || std::abs(number) > kMostInteger) {
     Fail(source_, values_.at(key).line, key + " as a whole number");
   }
-  if (number < least)
-    Fail(source_, values_.at(key).line, fmt::format("{} of {} or more", key, least));
+  if (number < least || number > most) {
+    const std::string end = most == kMostInteger ? " or more" : fmt::format(" to {}", most);
+    Fail(source_, values_.at(key).line, fmt::format("{} of {}{}", key, least, end));
+  }
   used_[key] = fmt::format("{}", static_cast<int>(number));
   return static_cast<int>(number);
 }

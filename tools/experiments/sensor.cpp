@@ -170,10 +170,10 @@ std::string Cell(double value) { return std::isnan(value) ? "-" : fmt::format("{
 }  // namespace
 
 std::vector<Table> RunSensor(ExperimentContext& context) {
+  const int frames = context.parameters.Integer("frames", 24, 2, 10'000);
   if (context.shared.empty()) {
     throw InputError("experiment sensor: expected --shared FOLDER with real/depth_frames");
   }
-  const int frames = std::clamp(context.parameters.Integer("frames", 24), 2, 10'000);
   const SensorStatistics real = OfRealFrames(context.shared);
   const SensorStatistics made = OfRenderedFrames(context, frames);
   Table bands{"The sensor by distance",

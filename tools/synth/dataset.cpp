@@ -189,18 +189,4 @@ LabelledFrame Uncropped(const LabelledFrame& frame, const depth::Camera& whole) 
   return out;
 }
 
-double FacingAngle(const recon::Posture& joints_m) {
-  using recon::Joint;
-  const Eigen::Vector3d left_from_right = joints_m[Joint::kShoulderLeft] -
-                                          joints_m[Joint::kShoulderRight] +
-                                          joints_m[Joint::kHipLeft] - joints_m[Joint::kHipRight];
-  // y up: left x up = forward for a person (left = +x, up = +y, forward = +z). Camera space is
-  // right-handed too.
-  const Eigen::Vector3d forward = left_from_right.cross(Eigen::Vector3d::UnitY());
-  const Eigen::Vector3d centre =
-      0.5 * (joints_m[Joint::kHipCenter] + joints_m[Joint::kShoulderCenter]);
-  const double sight_rad = std::atan2(-centre.x(), -centre.z());  // towards the sensor
-  return std::remainder(std::atan2(forward.x(), forward.z()) - sight_rad, 2.0 * M_PI);
-}
-
 }  // namespace ossa::tools

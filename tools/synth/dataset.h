@@ -77,8 +77,4 @@ class DatasetReader {
 /// optical centre is taken for the data set's: a few pixels off.)
 LabelledFrame Uncropped(const LabelledFrame& frame, const depth::Camera& whole);
 
-/// Yaw of a person relative to the line of sight, seen from above, radians in (-pi, pi]: 0 faces
-/// the sensor, +-pi shows it the back, +pi/2 looks towards camera -x (the image right).
-double FacingAngle(const recon::Posture& joints_m);
-
 }  // namespace ossa::tools

@@ -97,5 +97,36 @@ TEST(PriorCommand, SaysWhatIsWrongInOneLine) {
   EXPECT_FALSE(std::filesystem::exists(out));
 }
 
+// tools/train_prior of these clips: the arguments with which it calls the command, one a line.
+test::CommandResult TrainPrior(const std::vector<std::string>& clips) {
+  const test::TemporaryFolder folder;
+  std::filesystem::create_directories(folder / "mocap");
+  for (const std::string& clip : clips) std::ofstream(folder / "mocap" / clip) << "BVH";
+  std::ofstream(folder / "ossa") << "#!/bin/sh\nprintf '%s\\n' \"$@\"\n";
+  std::filesystem::permissions(folder / "ossa", std::filesystem::perms::owner_all);
+  return test::RunProgram({OSSA_SOURCE_DIR "/tools/train_prior", folder / "mocap",
+                           folder / "x.ossaprior", folder / "ossa"});
+}
+
+TEST(TrainPrior, LeavesOutSubjectsThatValidateOrTest) {
+  const auto run = TrainPrior({"01_01.bvh", "02_01.bvh", "03_02.bvh", "07_01.bvh", "09_01.bvh",
+                               "10_03.bvh", "12_01.bvh", "60_15.bvh", "102_01.bvh"});
+  EXPECT_EQ(run.exit_status, 0) << run.err;
+  for (const char* learned : {"authored", "/01_01.bvh", "/10_03.bvh", "/102_01.bvh"}) {
+    EXPECT_NE(run.out.find(learned), std::string::npos) << learned << "\n" << run.out;
+  }
+  // Nor the folder, in which they lie, as a whole.
+  for (const char* kept : {"/02_", "/03_", "/07_", "/09_", "/12_", "/60_", "/mocap\n"}) {
+    EXPECT_EQ(run.out.find(kept), std::string::npos) << kept << "\n" << run.out;
+  }
+  for (const std::vector<std::string>& nobody :
+       {std::vector<std::string>{}, {"02_01.bvh", "60_01.bvh"}}) {
+    const auto refused = TrainPrior(nobody);
+    EXPECT_EQ(refused.exit_status, 1);
+    EXPECT_EQ(test::LineCount(refused.err), 1) << refused.err;
+    EXPECT_NE(refused.err.find("found none"), std::string::npos) << refused.err;
+  }
+}
+
 }  // namespace
 }  // namespace ossa::commands

@@ -79,6 +79,24 @@ TEST_F(BadDataSet, PipesAreRefusedNotWaitedFor) {
   }
 }
 
+// As README.md says of data sets of other makers.
+TEST_F(BadDataSet, UsersAreNeededOfSeveralPeopleOnly) {
+  fs::remove_all(fs::path(data()) / "users");
+  const std::vector<std::string> words = {
+      "train", data(),     "--out", model(),        "--trees", "1",      "--depth",
+      "3",     "--pixels", "50",    "--validation", data(),    "--quiet"};
+  const CommandResult result = RunOssa(words);
+  EXPECT_EQ(result.exit_status, 0) << result.err;
+  fs::remove(model());
+  fs::remove_all(data());
+  ASSERT_EQ(RunOssa({"render", "--mocap", "authored", "--out", data(), "--frames", "4", "--size",
+                     "96x72", "--people", "2", "--quiet"})
+                .exit_status,
+            0);
+  fs::remove(fs::path(data()) / "users" / "000003.png");
+  ExpectRefused("users/000003.png");
+}
+
 TEST_F(BadDataSet, ALostManifestIsNamed) {
   fs::remove(fs::path(data()) / "manifest.json");
   ExpectRefused("data");
@@ -181,6 +199,40 @@ TEST(TrainCommand, WrongUsageIsStatusTwo) {
   EXPECT_EQ(RunOssa({"train", "--out", "x.ossa"}).exit_status, 2);
   EXPECT_EQ(RunOssa({"train", "d", "--out", "x.ossa", "--depth", "99"}).exit_status, 2);
   EXPECT_EQ(RunOssa({"train", "d", "--out", "x.ossa", "--memory", "many"}).exit_status, 2);
+}
+
+// It named the field of the C++ struct.
+TEST(TrainCommand, NumbersOutOfRangeAreToldByTheirOption) {
+  const std::vector<std::pair<std::string, std::string>> beyond = {
+      {"--node-pixels", "99"},    {"--min-node-pixels", "1"}, {"--refill-pixels", "-1"},
+      {"--box", "2000"},          {"--offsets", "1"},         {"--min-gain", "-0.1"},
+      {"--context-share", "1.1"}, {"--vote-depth", "19"},     {"--memory", "1K"}};
+  for (const auto& [option, value] : beyond) {
+    const CommandResult result = RunOssa({"train", "d", "--out", "x.ossa", option, value});
+    EXPECT_EQ(result.exit_status, 2) << option;
+    EXPECT_EQ(test::LineCount(result.err), 1) << result.err;
+    EXPECT_NE(result.err.find(option), std::string::npos) << result.err;
+  }
+}
+
+TEST_F(TrainingRuns, ACheckpointOfOtherOptionsNamesTheFirst) {
+  std::vector<std::string> words = Arguments("cut.ossa");
+  words.insert(words.end(), {"--candidates", "20000"});  // so many that it does not end meanwhile
+  test::RunningCommand run = test::StartOssa(words);
+  const auto end = std::chrono::steady_clock::now() + test::kCommandTimeout;
+  while (!fs::exists(folder_ / "cut.ossa.checkpoint") && std::chrono::steady_clock::now() < end) {
+    std::this_thread::sleep_for(std::chrono::milliseconds(1));
+  }
+  run.Signal(SIGKILL);
+  run.Wait(test::kCommandTimeout);
+  words.back() = "300";
+  const CommandResult other = RunOssa(words);
+  EXPECT_EQ(other.exit_status, 1);
+  EXPECT_EQ(test::LineCount(other.err), 1) << other.err;
+  EXPECT_NE(other.err.find("cut.ossa.checkpoint: checkpoint of another run: candidates: expected "
+                           "300 as in this run, found 20000"),
+            std::string::npos)
+      << other.err;
 }
 
 }  // namespace

@@ -3,6 +3,7 @@
 #include <fstream>
 
 #include "depth/error.h"
+#include "recon/body/body_model.h"
 #include "tests/support/run_command.h"
 #include "tests/support/temporary_folder.h"
 #include "tools/experiments/experiment.h"
@@ -63,6 +64,7 @@ TEST_F(StudyParameters, ThatAreTooSmallOrUnknownAreRefused) {
   Parameters p = From("folds = 0\nmethods = [\"best\", \"none\", \"bets\"]\nparts = []\n");
   EXPECT_EQ(p.Integer("folds", 1), 0);
   EXPECT_EQ(p.Integer("movers", 3, 2), 3);
+  EXPECT_EQ(p.Integer("folds", 1, 0, 0), 0);
   const auto complaint = [](const auto& ask) {
     try {
       ask();
@@ -172,6 +174,22 @@ TEST(StudyCommand, RefusesAFileThatSaysTooLittleOrTooMuch) {
             std::string::npos);
 }
 
+// It ended in a complaint about a picture of no pixels.
+TEST(BodyStudy, NamesTheClipsThatThereAreForOneThatThereIsNot) {
+  if (!recon::BodyIsFetched(recon::BodyFolder())) GTEST_SKIP() << "no body: tools/fetch_body";
+  const test::TemporaryFolder folder;
+  std::ofstream(folder / "p.toml") << "only = [\"golf\", \"yodelling\"]\n";
+  const auto run = test::RunOssa(
+      {"experiment", "body", "--out", folder / "out", "--parameters", folder / "p.toml"});
+  EXPECT_EQ(run.exit_status, 1);
+  EXPECT_EQ(test::LineCount(run.err), 1) << run.err;
+  EXPECT_NE(run.err.find("no clip has 'yodelling' in its name; there are authored/"),
+            std::string::npos)
+      << run.err;
+  EXPECT_NE(run.err.find("authored/golf, "), std::string::npos) << run.err;
+  EXPECT_EQ(run.err.find("golf/00"), std::string::npos) << run.err;
+}
+
 struct Refusal {
   const char *study, *parameters, *expected;
 };
@@ -193,6 +211,12 @@ INSTANTIATE_TEST_SUITE_P(
     testing::Values(
         Refusal{"rooms", "performances = 0\n", "line 1: expected performances of 1 or more"},
         Refusal{"rooms", "only = \"attic\"\n", "no scenario has 'attic' in its name"},
+        Refusal{"body", "clips = 0\n", "line 1: expected clips of 1 to 40"},
+        Refusal{"body", "clips = 41\n", "line 1: expected clips of 1 to 40"},
+        Refusal{"body", "times = 21\n", "line 1: expected times of 1 to 20"},
+        Refusal{"sensor", "frames = 1\n", "line 1: expected frames of 2 to 10000"},
+        Refusal{"sensor", "frames = 10001\n", "line 1: expected frames of 2 to 10000"},
+        Refusal{"body", "mocap = []\n", "mocap: expected motion"},
         Refusal{"sdk", "every_nth_clip = 0\n", "line 1: expected every_nth_clip of 1 or more"},
         Refusal{"sdk", "data = [\"hardst\"]\n", "found 'hardst'"},
         Refusal{"sdk", "data = []\n", "expected some of correct, incorrect"},
