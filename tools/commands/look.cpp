@@ -59,7 +59,7 @@ int Look(int argc, char** argv) {
       ->check(CLI::Range(0, 1024));
   app.add_flag("--quiet", quiet, "no progress");
   Parse(app, argc, argv);
-  CheckExtension("--out", out, ".ossalook");
+  CheckNotOtherKind("--out", out, ".ossalook");
   if (bones && after.empty()) throw UsageError("--bones: expected --after LOOK, too");
   if (bones && app.count("--shifted") + app.count("--shift") > 0) {
     throw UsageError("--shifted, --shift: bones are learned of joints where they are put");

@@ -73,7 +73,7 @@ int Prior(int argc, char** argv) {
   app.add_flag("--quiet", quiet, "no progress");
   app.add_option("--mapping", mocap_options.mapping_file, "bone names of an unknown conversion");
   Parse(app, argc, argv);
-  CheckExtension("--out", out, ".ossaprior");
+  CheckNotOtherKind("--out", out, ".ossaprior");
   std::vector<std::string> inputs = mocap;
   inputs.push_back(mocap_options.mapping_file);
   CheckOutputs({out}, inputs);
