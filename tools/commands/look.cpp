@@ -30,7 +30,8 @@ int Look(int argc, char** argv) {
   app.add_option("--model", model_path, "forest model, .ossa (default: the shipped one)");
   app.add_option("--after", after,
                  "a .ossalook: its glances come first, one more is learned from where they end; if "
-                 "it measures bones, one that is told them");
+                 "it measures bones, one that is told them (best of other people; the file counts "
+                 "those of its last glance)");
   app.add_flag("--bones", bones,
                "learn no glance more but how long people's bones are, of where the glances of "
                "--after put the joints");
