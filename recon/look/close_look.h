@@ -98,7 +98,7 @@ struct CloseLook {
   RectifiedNetwork bones;  // kBoneInputs -> kMeasuredBones, see bone_measure.h; or empty
   /// After the bones: glances whose networks are told them (kToldInputs), none without.
   std::vector<Glance> told;
-  uint64_t people = 0;    // the last glance was learned from
+  uint64_t people = 0;    // that the glance made last, of either kind, was learned from
   uint64_t measured = 0;  // people whose bones were learned from
 
   static constexpr double kStep_m = 0.1;

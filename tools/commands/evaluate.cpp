@@ -56,7 +56,8 @@ int Evaluate(int argc, char** argv) {
   bool quiet = false;
   app.add_option("MODEL", model_path, "a .ossa file")->required();
   app.add_option("DATASET", dataset_path, "a folder made by ossa render")->required();
-  app.add_option("--json", json_path, "write the numbers here");
+  app.add_option("--json", json_path,
+                 "write the numbers here, FILE.json (they are printed in any case)");
   app.add_option("--report", report_path, "write a page with tables here, FILE.html");
   app.add_option("--card", card_name,
                  "note the numbers in the model's card under this name (rewrites MODEL)");
@@ -65,6 +66,7 @@ int Evaluate(int argc, char** argv) {
       ->check(Positive());
   app.add_flag("--quiet", quiet, "no progress");
   Parse(app, argc, argv);
+  if (json_path == "-") json_path.clear();  // stdout, as of track and compare: they are printed
   CheckNotOtherKind("--json", json_path, ".json");
   CheckExtension("--report", report_path, ".html");
   CheckOutputs({json_path, report_path}, {model_path, dataset_path});

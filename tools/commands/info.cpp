@@ -116,12 +116,14 @@ void ShowPrior(const fs::path& path) {
 
 void ShowLook(const fs::path& path) {
   const auto look = recon::CloseLook::Load(path);
+  // How many people earlier glances were learned from the file does not keep.
+  const bool is_one = look.glances.size() + look.told.size() == 1;
   const auto count = [](const std::vector<recon::Glance>& glances) {
     return glances.size() == 1 ? "1 glance" : fmt::format("{} glances", glances.size());
   };
   fmt::print(
-      "close look at a forest's joints, {} of {} networks, learned from {} people, {:.1f} MB\n",
-      count(look.glances), recon::kLookJoints.size(), look.people,
+      "close look at a forest's joints, {} of {} networks, {}learned from {} people, {:.1f} MB\n",
+      count(look.glances), recon::kLookJoints.size(), is_one ? "" : "the last made ", look.people,
       static_cast<double>(fs::file_size(path)) * 1e-6);
   if (look.bones.empty()) return;
   fmt::print("and a measure of {} bones, learned from {} people{}\n", recon::kMeasuredBones.size(),

@@ -91,7 +91,7 @@ int Learn(int argc, char** argv) {
   if (options.most_pairs < 10) {
     throw UsageError(fmt::format("--pairs: expected 10 or more, found {}", options.most_pairs));
   }
-  CheckExtension("--out", out, ".ossagp");
+  CheckNotOtherKind("--out", out, ".ossagp");
   options.correction.seed = options.mixture.seed;
   options.processes = !correction_only;
 

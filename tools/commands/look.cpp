@@ -30,7 +30,8 @@ int Look(int argc, char** argv) {
   app.add_option("--model", model_path, "forest model, .ossa (default: the shipped one)");
   app.add_option("--after", after,
                  "a .ossalook: its glances come first, one more is learned from where they end; if "
-                 "it measures bones, one that is told them");
+                 "it measures bones, one that is told them (best of other people; the file counts "
+                 "those of its last glance)");
   app.add_flag("--bones", bones,
                "learn no glance more but how long people's bones are, of where the glances of "
                "--after put the joints");
@@ -59,7 +60,7 @@ int Look(int argc, char** argv) {
       ->check(CLI::Range(0, 1024));
   app.add_flag("--quiet", quiet, "no progress");
   Parse(app, argc, argv);
-  CheckExtension("--out", out, ".ossalook");
+  CheckNotOtherKind("--out", out, ".ossalook");
   if (bones && after.empty()) throw UsageError("--bones: expected --after LOOK, too");
   if (bones && app.count("--shifted") + app.count("--shift") > 0) {
     throw UsageError("--shifted, --shift: bones are learned of joints where they are put");

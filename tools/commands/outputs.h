@@ -10,11 +10,15 @@ namespace ossa::commands {
 /// options that were not given; `#truth` and the like after an input's name are no part of it.
 void CheckOutputs(const std::vector<std::string>& outputs, const std::vector<std::string>& inputs);
 
-/// Throws UsageError for a name that does not end so. Of an option that was not given it is empty.
+// Which name a file of one format may have, the same for every option: where its kind is told by
+// the content (models, databases and what else is learned) or by the option (--json) any, but for
+// one that ends as another kind of file; where programs tell it by the name (.oni, .png, .html) one
+// that ends so. Of an option that was not given the name is empty.
+
+/// Throws UsageError for a name that does not end so.
 void CheckExtension(const char* option, const std::string& path, const char* extension);
 
-/// For files that may have any name: throws UsageError only for one that ends as another kind of
-/// file that ossa writes.
+/// Throws UsageError for a name that ends as another kind of file that ossa writes.
 void CheckNotOtherKind(const char* option, const std::string& path, const char* extension);
 
 /// Throws UsageError for a name whose extension is of no skeleton format that is written.

@@ -74,7 +74,7 @@ int Prior(int argc, char** argv) {
   app.add_flag("--quiet", quiet, "no progress");
   AddMappingOption(app, mocap_options.mapping_file);
   Parse(app, argc, argv);
-  CheckExtension("--out", out, ".ossaprior");
+  CheckNotOtherKind("--out", out, ".ossaprior");
   std::vector<std::string> inputs = mocap;
   inputs.push_back(mocap_options.mapping_file);
   CheckOutputs({out}, inputs);

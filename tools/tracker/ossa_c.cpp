@@ -142,4 +142,37 @@ int ossa_tracker_choose_users(ossa_tracker* tracker, const int32_t* ids, int32_t
   });
 }
 
+int ossa_tracker_set_seated(ossa_tracker* tracker, int32_t seated) {
+  using ossa::tracker::TrackingMode;
+  return Guarded([&] {
+    if (tracker == nullptr)
+      throw std::invalid_argument("ossa_tracker_set_seated: expected no null argument");
+    tracker->tracker.SetMode(seated != 0 ? TrackingMode::kSeated : TrackingMode::kStanding);
+  });
+}
+
+int ossa_tracker_set_smoothing(ossa_tracker* tracker, const char* preset) {
+  return Guarded([&] {
+    if (tracker == nullptr || preset == nullptr)
+      throw std::invalid_argument("ossa_tracker_set_smoothing: expected no null argument");
+    tracker->tracker.SetSmoothing(ossa::tracker::SmoothingPreset(preset));
+  });
+}
+
+int ossa_tracker_set_smooth_parameters(ossa_tracker* tracker,
+                                       const ossa_smooth_parameters* parameters) {
+  return Guarded([&] {
+    if (tracker == nullptr || parameters == nullptr)
+      throw std::invalid_argument("ossa_tracker_set_smooth_parameters: expected no null argument");
+    ossa::tracker::SmoothingOptions options;
+    options.kind = ossa::tracker::SmoothingKind::kHolt;
+    options.smoothing = static_cast<double>(parameters->smoothing);
+    options.correction = static_cast<double>(parameters->correction);
+    options.prediction = static_cast<double>(parameters->prediction);
+    options.jitter_radius_m = static_cast<double>(parameters->jitter_radius_m);
+    options.max_deviation_radius_m = static_cast<double>(parameters->max_deviation_radius_m);
+    tracker->tracker.SetSmoothing(options);
+  });
+}
+
 const char* ossa_last_error(void) { return last_error.c_str(); }

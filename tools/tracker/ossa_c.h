@@ -53,6 +53,14 @@ typedef struct {
   double fx, fy, cx, cy; /* pixels */
 } ossa_camera;
 
+/* NUI_TRANSFORM_SMOOTH_PARAMETERS of the Kinect SDK. */
+typedef struct {
+  float smoothing;                               /* [0, 1) */
+  float correction;                              /* [0, 1] */
+  float prediction;                              /* frames, [0, 100) */
+  float jitter_radius_m, max_deviation_radius_m; /* above 0 */
+} ossa_smooth_parameters;
+
 typedef struct ossa_tracker ossa_tracker;
 
 /* options may be NULL. NULL on failure. */
@@ -66,6 +74,15 @@ int ossa_tracker_push(ossa_tracker* tracker, const uint16_t* depth_mm, const oss
 
 /* Track only these fully; count < 0: all. */
 int ossa_tracker_choose_users(ossa_tracker* tracker, const int32_t* ids, int32_t count);
+
+/* From the next push on. 0: standing, all 20 joints; else seated, the upper ten. */
+int ossa_tracker_set_seated(ossa_tracker* tracker, int32_t seated);
+/* From the next push on: a preset by name, as `ossa track --smoothing`. */
+int ossa_tracker_set_smoothing(ossa_tracker* tracker, const char* preset);
+/* From the next push on: the SDK's filter with these parameters. Fails outside their ranges, and
+   the smoothing stays as it was. */
+int ossa_tracker_set_smooth_parameters(ossa_tracker* tracker,
+                                       const ossa_smooth_parameters* parameters);
 
 const char* ossa_last_error(void);
 

@@ -49,8 +49,9 @@ TEST(LookCommand, LearnsTheSameForAnyThreadsAndTrackLooksWithIt) {
   EXPECT_EQ(recon::CloseLook::Load(look).glances.at(0)[0].layers.at(0).bias.size(), 4);
   EXPECT_EQ(recon::CloseLook::Load(look).glances.at(0)[0].layers.at(1).bias.size(), 2);
   const auto info = RunOssa({"info", look});
-  EXPECT_NE(info.out.find("close look at a forest's joints, 1 glance of 12 networks"),
-            std::string::npos)
+  EXPECT_NE(
+      info.out.find("close look at a forest's joints, 1 glance of 12 networks, learned from "),
+      std::string::npos)
       << info.out << info.err;
 
   const std::string twice = folder / "c.ossalook";
@@ -59,6 +60,8 @@ TEST(LookCommand, LearnsTheSameForAnyThreadsAndTrackLooksWithIt) {
   EXPECT_EQ(again.exit_status, 0) << again.err;
   const auto both = recon::CloseLook::Load(twice);
   ASSERT_EQ(both.glances.size(), 2U);
+  EXPECT_NE(RunOssa({"info", twice}).out.find("2 glances of 12 networks, the last made learned"),
+            std::string::npos);
   const auto first_weights = [](const recon::Glance& glance) { return glance[3].layers[0].weight; };
   EXPECT_EQ(first_weights(both.glances[0]), first_weights(recon::CloseLook::Load(look).glances[0]));
   EXPECT_NE(first_weights(both.glances[0]), first_weights(both.glances[1]));
@@ -72,7 +75,8 @@ TEST(LookCommand, LearnsTheSameForAnyThreadsAndTrackLooksWithIt) {
   const std::string bones = folder / "bones.ossalook";
   EXPECT_EQ(measure("1", bones), measure("3", folder / "bones3.ossalook"));
   const auto measured = RunOssa({"info", bones});
-  EXPECT_NE(measured.out.find("1 glance of 12 networks"), std::string::npos) << measured.out;
+  EXPECT_NE(measured.out.find("1 glance of 12 networks, learned from "), std::string::npos)
+      << measured.out;
   EXPECT_NE(measured.out.find("a measure of 11 bones"), std::string::npos) << measured.out;
 
   const auto tell = [&](const char* threads, const std::string& out) {

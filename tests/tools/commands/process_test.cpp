@@ -119,6 +119,20 @@ TEST(Interrupt, ATerminalThatGoesAwayEndsARecordingWithAWholeFile) {
   EXPECT_TRUE(std::filesystem::exists(out));
 }
 
+// What is told by its content, or by the option, may be called anything: these miss their inputs.
+TEST(AnyName, IsGoodForOutputsOfOneFormat) {
+  const TemporaryFolder folder;
+  for (const char* words :
+       {"learn --observed a --truth b --out x", "prior --mocap a --out x.bin", "look a --out x",
+        "train a --out x", "database --mocap a --out x.bin", "evaluate a b --json x.txt",
+        "evaluate a b --json -", "compare a b --json x.txt", "compare a b --json -",
+        "track /nowhere --json-stats x.txt", "track /nowhere --json-stats -"}) {
+    const CommandResult result = Shell(std::string("cd \"$2\" && \"$1\" ") + words, folder);
+    EXPECT_EQ(result.exit_status, 1) << words << ": " << result.err;
+  }
+  EXPECT_TRUE(std::filesystem::is_empty(folder.path()));
+}
+
 // Wrong usage is 2 and said before anything is opened or written.
 TEST(WrongUsage, OfOutputs) {
   const TemporaryFolder folder;
@@ -139,7 +153,6 @@ TEST(WrongUsage, OfOutputs) {
                             "record in.oni --out in.oni",
                             "evaluate a b --report x",
                             "evaluate a b --json x.html",
-                            "learn --observed a --truth b --out x",
                             "learn --observed a --truth b --out x.ossa",
                             "prior --mocap authored --out x.ossadb",
                             "database --mocap authored --out x.ossa",

@@ -174,6 +174,17 @@ TEST(EvaluateCommand, ADamagedModelIsOneLine) {
   EXPECT_NE(result.err.find("broken.ossa"), std::string::npos) << result.err;
 }
 
+// As of compare and track, --json - is stdout: it was a file of that name.
+TEST_F(TrainingRuns, EvaluatedToADashWriteNoFileOfThatName) {
+  Unbroken();
+  const CommandResult result =
+      test::RunProgram({"/bin/sh", "-c", R"(cd "$2" && "$1" evaluate whole.ossa "$3" --json -)",
+                        "sh", test::OssaPath(), folder_.path().string(), data()});
+  EXPECT_EQ(result.exit_status, 0) << result.err;
+  EXPECT_TRUE(result.out.starts_with("{")) << result.out;
+  EXPECT_FALSE(fs::exists(folder_ / "-"));
+}
+
 // Not after the hours in which trees grow.
 TEST_F(BadDataSet, TooFewImagesForARefinementAreToldBeforeTreesGrow) {
   for (const std::string& fresh : {data(), std::string("/nowhere")}) {

@@ -293,6 +293,87 @@ TEST(SdkConformance, ACHeaderServesOtherLanguages) {
   ossa_tracker_destroy(tracker);
 }
 
+/// A walk to the side, a frame a push, seen through the C interface.
+class WalkInC {
+ public:
+  WalkInC() {
+    ossa_options options{};
+    options.method = "none";
+    options.smoothing = "none";
+    tracker = ossa_tracker_create(&options);
+  }
+  ~WalkInC() { ossa_tracker_destroy(tracker); }
+  WalkInC(const WalkInC&) = delete;
+  WalkInC& operator=(const WalkInC&) = delete;
+
+  ossa_joint Next(Joint joint) {
+    const CapsuleRender render = Rendered({PersonAt(0.03 * frames_, 2.5)}, frames_);
+    const depth::Camera& c = render.frame.camera;
+    const ossa_camera camera = {c.width, c.height, c.fx, c.fy, c.cx, c.cy};
+    ossa_frame frame;
+    EXPECT_EQ(ossa_tracker_push(tracker, render.frame.depth_mm.data(), &camera, render.frame.time_s,
+                                &frame),
+              0)
+        << ossa_last_error();
+    ++frames_;
+    EXPECT_EQ(frame.body_count, 1);
+    return frame.bodies[0].joints[recon::Index(joint)];
+  }
+  /// How far smoothing moved the head, metres.
+  float SmoothedBy_m() {
+    const ossa_joint head = Next(Joint::kHead);
+    return std::hypot(head.smoothed_m[0] - head.reconstructed_m[0],
+                      head.smoothed_m[1] - head.reconstructed_m[1],
+                      head.smoothed_m[2] - head.reconstructed_m[2]);
+  }
+  ossa_tracker* tracker = nullptr;
+
+ private:
+  int frames_ = 0;
+};
+
+TEST(SdkConformance, InCModesAndSmoothingChangeWhileRunning) {
+  OSSA_NEEDS_MODEL();
+  WalkInC walk;
+  ASSERT_NE(walk.tracker, nullptr) << ossa_last_error();
+  EXPECT_NE(walk.Next(Joint::kSpine).state, OSSA_NOT_TRACKED);
+  EXPECT_EQ(ossa_tracker_set_seated(walk.tracker, 1), 0);
+  EXPECT_EQ(walk.Next(Joint::kSpine).state, OSSA_NOT_TRACKED);
+  EXPECT_EQ(ossa_tracker_set_seated(walk.tracker, 0), 0);
+  EXPECT_NE(walk.Next(Joint::kSpine).state, OSSA_NOT_TRACKED);
+  EXPECT_EQ(walk.SmoothedBy_m(), 0.0F);
+  EXPECT_EQ(ossa_tracker_set_smoothing(walk.tracker, "verysmooth"), 0);
+  walk.SmoothedBy_m();  // the filter starts with what it sees
+  EXPECT_GT(walk.SmoothedBy_m(), 1e-4F);
+  // The SDK's parameters: never farther off than the last of them (single precision).
+  const ossa_smooth_parameters near_raw = {0.7F, 0.3F, 1.0F, 1.0F, 0.001F};
+  EXPECT_EQ(ossa_tracker_set_smooth_parameters(walk.tracker, &near_raw), 0);
+  const float moved_m = walk.SmoothedBy_m();
+  EXPECT_GT(moved_m, 0.0F);
+  EXPECT_LT(moved_m, 0.00101F);
+  EXPECT_EQ(ossa_tracker_set_smoothing(walk.tracker, "none"), 0);
+  EXPECT_EQ(walk.SmoothedBy_m(), 0.0F);
+}
+
+TEST(SdkConformance, InCWrongModesAndSmoothingAreSaidInWords) {
+  OSSA_NEEDS_MODEL();
+  WalkInC walk;
+  const auto says = [](const char* what) {
+    return std::string(ossa_last_error()).find(what) != std::string::npos;
+  };
+  EXPECT_EQ(ossa_tracker_set_smoothing(walk.tracker, "treacle"), 1);
+  EXPECT_TRUE(says("treacle")) << ossa_last_error();
+  const ossa_smooth_parameters stuck = {1.0F, 0.5F, 0.5F, 0.05F, 0.04F};
+  EXPECT_EQ(ossa_tracker_set_smooth_parameters(walk.tracker, &stuck), 1);
+  EXPECT_TRUE(says("smoothing = 1")) << ossa_last_error();
+  walk.SmoothedBy_m();
+  EXPECT_EQ(walk.SmoothedBy_m(), 0.0F) << "as it was";
+  EXPECT_EQ(ossa_tracker_set_seated(nullptr, 1), 1);
+  EXPECT_EQ(ossa_tracker_set_smoothing(walk.tracker, nullptr), 1);
+  EXPECT_EQ(ossa_tracker_set_smooth_parameters(walk.tracker, nullptr), 1);
+  EXPECT_TRUE(says("ossa_tracker_set_smooth_parameters: expected no null"));
+}
+
 TEST(SdkConformance, ACameraThatCannotBeIsRefused) {
   OSSA_NEEDS_MODEL();
   ossa_options options{};
