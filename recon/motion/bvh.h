@@ -79,7 +79,8 @@ void WriteBvhOfSkeleton(const SkeletonSequence& sequence, const std::filesystem:
 
 /// The 20 joints of a BVH: by name and in centimetres when it has the SDK's joints (as
 /// BvhOfSkeleton makes them), else by retargeting to the standard body. The one body's id is 1.
-/// Throws InputError for unknown names.
-SkeletonSequence SkeletonOfBvh(const BvhFile& bvh, const std::string& source);
+/// Throws InputError for unknown names. The BVH is taken, so that a long one need not be there
+/// beside the skeletons.
+SkeletonSequence SkeletonOfBvh(BvhFile bvh, const std::string& source);
 
 }  // namespace ossa::recon

@@ -199,6 +199,11 @@ bool HasSdkJoints(const BvhFile& bvh) {
   });
 }
 
+MotionClip AtItsOwnRate(BvhFile bvh, const std::string& source) {
+  const SourceMotion motion = SourceOf(std::move(bvh), source);
+  return Retarget(motion, FindBones(motion, std::nullopt), motion.frame_s);
+}
+
 SkeletonFrame FrameOf(const Posture& posture, size_t frame, double frame_s) {
   BodyRecord body;
   for (size_t j = 0; j < kJoints; ++j) {
@@ -311,14 +316,14 @@ void WriteBvhOfSkeleton(const SkeletonSequence& sequence, const std::filesystem:
   file.Commit();
 }
 
-SkeletonSequence SkeletonOfBvh(const BvhFile& bvh, const std::string& source) {
+SkeletonSequence SkeletonOfBvh(BvhFile bvh, const std::string& source) {
   SkeletonSequence sequence;
   sequence.source = source;
+  sequence.frames.reserve(bvh.FrameCount());
   if (!HasSdkJoints(bvh)) {
-    const SourceMotion motion = SourceOf(bvh, source);
-    const MotionClip clip = Retarget(motion, FindBones(motion, std::nullopt), bvh.frame_s);
+    const MotionClip clip = AtItsOwnRate(std::move(bvh), source);
     for (size_t f = 0; f < clip.frames.size(); ++f) {
-      sequence.frames.push_back(FrameOf(StandardPosture(clip.frames[f]), f, bvh.frame_s));
+      sequence.frames.push_back(FrameOf(StandardPosture(clip.frames[f]), f, clip.frame_s));
     }
     return sequence;
   }

@@ -129,6 +129,9 @@ class Parser {
     }
     const size_t channels = bvh_.ChannelCount();
     if (channels == 0) scan_.Fail("at least one channel in the file", "none");
+    // A number takes a digit and what ends it: a header that lies does not fill the memory.
+    const size_t most = (scan_.BytesLeft() + 1) / 2;
+    bvh_.values.reserve(std::min(static_cast<size_t>(frames) * channels, most));
     for (size_t frame = 0; frame < static_cast<size_t>(frames); ++frame) {
       ReadFrame(frame, static_cast<size_t>(frames), channels);
     }

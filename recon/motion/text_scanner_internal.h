@@ -26,6 +26,8 @@ class TextScanner {
   double ToNumber(std::string_view word, const std::string& what) const;
 
   int line() const { return word_line_; }
+  /// Nothing that is announced can be longer than what is left.
+  size_t BytesLeft() const { return text_.size() - at_; }
   const std::string& source() const { return source_; }
   [[noreturn]] void Fail(const std::string& expected, std::string_view found) const;
 

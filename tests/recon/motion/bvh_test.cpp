@@ -117,6 +117,16 @@ TEST(BvhReader, RefusesAMillionNestedJointsWithoutUsingUpTheStack) {
   EXPECT_THROW(ParseBvh(text, "deep.bvh"), InputError);
 }
 
+// Of a recording of hours every number that is kept twice is a gigabyte.
+TEST(BvhReader, KeepsOfALongFileNoMoreThanItsNumbers) {
+  std::string text = kTwoJoints;
+  text.replace(text.find("Frames: 1\n"), 10, "Frames: 1025\n");
+  for (int frame = 1; frame < 1025; ++frame) text += "1 2 3 10 20 30 40 50 60\n";
+  const BvhFile bvh = ParseBvh(text, "long.bvh");
+  EXPECT_EQ(bvh.FrameCount(), 1025u);
+  EXPECT_EQ(bvh.values.capacity(), bvh.values.size());
+}
+
 TEST(BvhReader, RefusesAFileThatIsNotThere) {
   EXPECT_THROW(ReadBvh("/nonexistent/x.bvh"), InputError);
 }
