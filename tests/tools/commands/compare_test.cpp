@@ -153,6 +153,23 @@ TEST_F(CompareCommand, PairsClipsInWhichAResultHasABodyTooMany) {
   EXPECT_EQ(json["tests"][0]["clips"], 6);
 }
 
+// Who finds nobody has missed everybody: that is a row beside the others', not an error.
+TEST_F(CompareCommand, ShowsTheMissesOfAResultInWhichNobodyIs) {
+  auto nobody = ExampleSequence(20);
+  for (auto& frame : nobody.frames) frame.bodies.clear();
+  const std::string path = folder_ / "nobody.jsonl";
+  recon::WriteSkeletons(path, nobody);
+  const auto run = RunOssa({"compare", truth_, path, near_, "--json", folder_ / "c.json",
+                            "--report", folder_ / "c.html"});
+  ASSERT_EQ(run.exit_status, 0) << run.err;
+  EXPECT_NE(run.out.find("| mAP 10cm %"), std::string::npos) << run.out;
+  const auto json = nlohmann::json::parse(Content(folder_ / "c.json"));
+  EXPECT_EQ(json["results"][0]["map_10cm"], 0);
+  EXPECT_EQ(json["results"][0]["fraction_joints_missing"], 1);
+  EXPECT_TRUE(json["results"][0]["mean_joint_error_cm"].is_null());
+  EXPECT_NEAR(json["results"][1]["mean_joint_error_cm"], 2.0, 1e-3);
+}
+
 struct BadUse {
   const char* name;
   std::vector<std::string> arguments;
@@ -187,6 +204,7 @@ INSTANTIATE_TEST_SUITE_P(
         BadUse{"Align", {"@good.jsonl", "@good.jsonl", "--align", "scale"}, 2, "--align"},
         BadUse{"Time", {"@good.jsonl", "@good.jsonl", "--time", "soon"}, 2, "--time"},
         BadUse{"AbsentFile", {"@good.jsonl", "@none.jsonl"}, 1, "none.jsonl"},
+        BadUse{"AnotherTime", {"@good.jsonl", "@good.jsonl", "--time", "1000"}, 1, "at the times"},
         BadUse{"EmptyFile", {"@good.jsonl", "@empty.jsonl"}, 1, "empty.jsonl: line 1"},
         BadUse{"Junk", {"@good.jsonl", "@junk.jsonl"}, 1, "junk.jsonl: line 1"},
         BadUse{

@@ -86,9 +86,8 @@ ComparedResult CompareOne(const std::string& truth_name, const std::vector<Skele
     RefuseEmpty(truth_name, name, "clips with the names of those");
   }
   compared.mean = MeanOverClips(name, compared.clips);
-  if (compared.mean.frames == 0) {
-    RefuseEmpty(truth_name, name, "frames with joints at the times");
-  }
+  // Who finds nobody is compared: all is missed.
+  if (compared.clips.empty()) RefuseEmpty(truth_name, name, "frames at the times");
   compared.mean_joint_error_interval =
       BootstrapMean(Values(compared.clips, &ClipMetrics::mean_joint_error_cm), options.seed);
   compared.parent_relative_error_interval =

@@ -6,7 +6,10 @@
 #include <limits>
 #include <map>
 #include <optional>
+#include <set>
 #include <tuple>
+
+#include "tools/experiments/compare/absent_frames.h"
 
 namespace ossa::tools {
 namespace {
@@ -28,24 +31,33 @@ double MedianStep_s(const std::vector<double>& time_s) {
   return *middle;
 }
 
+std::vector<SkeletonFrame> InOrder(std::vector<SkeletonFrame> frames) {
+  std::stable_sort(
+      frames.begin(), frames.end(),
+      [](const SkeletonFrame& a, const SkeletonFrame& b) { return a.time_s < b.time_s; });
+  return frames;
+}
+
 // Every person of a sequence as a track. Frames out of order are put in order; of frames with the
 // same time the first counts.
 std::map<int, JointTrack> TracksOf(const SkeletonSequence& sequence) {
-  std::vector<const SkeletonFrame*> frames;
-  for (const SkeletonFrame& frame : sequence.frames) frames.push_back(&frame);
-  std::stable_sort(
-      frames.begin(), frames.end(),
-      [](const SkeletonFrame* a, const SkeletonFrame* b) { return a->time_s < b->time_s; });
   std::map<int, JointTrack> tracks;
-  for (const SkeletonFrame* frame : frames) {
-    for (const BodyRecord& body : frame->bodies) {
+  for (const SkeletonFrame& frame : InOrder(sequence.frames)) {
+    for (const BodyRecord& body : frame.bodies) {
       JointTrack& track = tracks[body.id];
-      if (!track.time_s.empty() && track.time_s.back() == frame->time_s) continue;
-      track.time_s.push_back(frame->time_s);
+      if (!track.time_s.empty() && track.time_s.back() == frame.time_s) continue;
+      track.time_s.push_back(frame.time_s);
       track.postures.push_back(SparsePostureOf(body));
     }
   }
   return tracks;
+}
+
+// When any of them is there.
+std::vector<double> TimesOf(const std::map<int, JointTrack>& tracks) {
+  std::set<double> times;
+  for (const auto& [id, track] : tracks) times.insert(track.time_s.begin(), track.time_s.end());
+  return {times.begin(), times.end()};
 }
 
 SparsePosture Between(const SparsePosture& a, const SparsePosture& b, double share) {
@@ -223,7 +235,7 @@ JointTrack OnlyTrack(const SkeletonSequence& result) {
     for (const BodyRecord& body : frame.bodies) ++frames_of[body.id];
   }
   JointTrack only;
-  for (const SkeletonFrame& frame : result.frames) {
+  for (const SkeletonFrame& frame : InOrder(result.frames)) {
     if (!only.time_s.empty() && frame.time_s <= only.time_s.back()) continue;
     const auto main = std::max_element(frame.bodies.begin(), frame.bodies.end(),
                                        [&](const BodyRecord& a, const BodyRecord& b) {
@@ -367,8 +379,9 @@ std::vector<PairedTracks> PairUp(const SkeletonSequence& truth, const SkeletonSe
   const auto truths = TracksOf(truth);
   if (truths.empty()) return {};
   const PairedTracks clock = ClockOf(truths, result, options);
-  std::vector<SkeletonFrame> frames = result.frames;
+  std::vector<SkeletonFrame> frames = InOrder(result.frames);
   for (SkeletonFrame& frame : frames) frame.time_s += clock.offset_s;
+  AddAbsentFrames({TimesOf(truths), kLongestGap_s, clock.same_clock}, &frames);
   std::vector<PairedTracks> pairs(truths.size(), clock);
   PairFrames(truths, frames, pairs);
   for (size_t t = 0; const auto& [id, track] : truths) {

@@ -51,7 +51,8 @@ struct PairOptions {
 
 /// Brings a result onto the truth: people matched, clocks aligned, truth interpolated linearly at
 /// the result's times (never across a gap of more than 0.2 s), optionally one rigid transform a
-/// clip. Several people in the truth give several pairs.
+/// clip. Several people in the truth give several pairs. Where the result has no frame though one
+/// was due (compare/absent_frames.h), it has a posture without joints.
 std::vector<PairedTracks> PairUp(const recon::SkeletonSequence& truth,
                                  const recon::SkeletonSequence& result,
                                  const PairOptions& options = {});

@@ -9,6 +9,7 @@
 #include <array>
 #include <numbers>
 #include <set>
+#include <span>
 
 #include "depth/file/atomic_file.h"
 #include "tools/experiments/compare/statistics.h"
@@ -101,10 +102,25 @@ Spread SpreadOf(const std::vector<double>& values) {
   return spread;
 }
 
+/// Of the clips that have it: one in which nothing could be compared is no clip without error.
 std::vector<double> Values(const std::vector<ClipMetrics>& clips,
                            std::optional<double> ClipMetrics::*member, double scale) {
   std::vector<double> values;
-  for (const ClipMetrics& clip : clips) values.push_back(scale * (clip.*member).value_or(0.0));
+  for (const ClipMetrics& clip : clips) {
+    if (clip.*member) values.push_back(scale * *(clip.*member));
+  }
+  return values;
+}
+
+/// Of some methods, clip by clip: of the clips that all of them have it of.
+std::vector<std::vector<double>> PairedValues(std::span<const std::vector<ClipMetrics>> methods,
+                                              std::optional<double> ClipMetrics::*member) {
+  std::vector<std::vector<double>> values(methods.size());
+  for (size_t clip = 0; clip < methods.front().size(); ++clip) {
+    const auto has = [&](const auto& clips) { return (clips[clip].*member).has_value(); };
+    if (!std::all_of(methods.begin(), methods.end(), has)) continue;
+    for (size_t m = 0; m < methods.size(); ++m) values[m].push_back(*(methods[m][clip].*member));
+  }
   return values;
 }
 
@@ -184,15 +200,15 @@ Table FigureFive(const Study& study) {
         SpreadOf(Values(study.clips[m], &ClipMetrics::fraction_frames_over_20cm, 100));
     std::vector<double> where_seen;
     for (size_t s = 0; s < study.scenarios.size(); ++s) {
-      where_seen.push_back(100 *
-                           OverWhereSeen(study.scenarios[s], study.pairs[m][s]).value_or(0.0));
+      const auto share = OverWhereSeen(study.scenarios[s], study.pairs[m][s]);
+      if (share) where_seen.push_back(100 * *share);
     }
-    table.rows.push_back({study.methods[m].label,
-                          fmt::format("{:.2f} ({:.2f})", error.mean, error.deviation),
-                          paper[m].first,
-                          fmt::format("{:.1f} ({:.1f}, {:.1f}-{:.1f})", over.mean, over.deviation,
-                                      over.low, over.high),
-                          paper[m].second, Cell(SpreadOf(where_seen).mean, 1)});
+    table.rows.push_back(
+        {study.methods[m].label, fmt::format("{:.2f} ({:.2f})", error.mean, error.deviation),
+         paper[m].first,
+         fmt::format("{:.1f} ({:.1f}, {:.1f}-{:.1f})", over.mean, over.deviation, over.low,
+                     over.high),
+         paper[m].second, where_seen.empty() ? "-" : Cell(SpreadOf(where_seen).mean, 1)});
   }
   table.note =
       "Paper: Kinect, its [37] (shum-2013) and its own method on industrial recordings. Its "
@@ -211,11 +227,10 @@ Table Tests(const Study& study) {
     table.rows.push_back({quantity, test, between, fmt::format("{:.4g}", result->statistic),
                           fmt::format("{:.3g}", std::min(1.0, corrections * result->p))});
   };
-  std::vector<std::vector<double>> error;
-  std::vector<std::vector<double>> over;
+  const auto first_three = std::span(study.clips).first(3);
+  const auto error = PairedValues(first_three, &ClipMetrics::parent_relative_error_cm);
+  const auto over = PairedValues(first_three, &ClipMetrics::fraction_frames_over_20cm);
   for (size_t m = 0; m < 3; ++m) {
-    error.push_back(Values(study.clips[m], &ClipMetrics::parent_relative_error_cm, 1));
-    over.push_back(Values(study.clips[m], &ClipMetrics::fraction_frames_over_20cm, 1));
     add("eq. 13", "Lilliefors normality", study.methods[m].label, Lilliefors(error[m]), 1);
   }
   add("eq. 13", "repeated-measures Anova", "raw, shum-2013, plantard-2016", RepeatedAnova(error),

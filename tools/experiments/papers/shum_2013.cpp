@@ -179,15 +179,15 @@ Table TableFour(const ExperimentContext& context, const Shum2013Study& study) {
     std::vector<std::string> row = {c.name, std::to_string(c.clips->size()), Cell(c.paper_raw_cm),
                                     Cell(c.paper_made_cm),
                                     Cell(100 * (1 - c.paper_made_cm / c.paper_raw_cm), 1)};
-    std::map<std::string, double> error_cm;
+    std::optional<double> raw_cm;
     for (const MethodRun& run :
          {study.raw, study.method_a, study.method_b, study.shum, study.kept, study.best}) {
       const auto made = MeasureAll(RunOverClips(context, run, *c.clips));
       const auto mean = Average(made, &ClipMetrics::parent_relative_error_cm);
-      error_cm[run.label] = mean.value_or(0.0);
+      if (run.label == study.raw.label) raw_cm = mean;
       row.push_back(MeanAndMedian(made, &ClipMetrics::parent_relative_error_cm));
       if (run.label != study.shum.label) continue;
-      row.push_back(Cell(100 * (1 - error_cm[run.label] / error_cm[study.raw.label]), 1));
+      row.push_back(mean && raw_cm ? Cell(100 * (1 - *mean / *raw_cm), 1) : "-");
     }
     table.rows.push_back(row);
   }
