@@ -6,6 +6,7 @@
 
 #include "recon/methods/reconstructor.h"
 #include "tools/commands/command.h"
+#include "tools/commands/process.h"
 
 namespace ossa::commands {
 
@@ -27,6 +28,7 @@ inline std::string MethodsThat(bool (*holds)(const std::string&)) {
 struct MethodOption {
   const char* name;
   bool (*is_read_by)(const std::string& method);
+  bool is_file = false;  // something to use: whoever tries all methods gives it to all of them
 };
 
 inline bool IsBest(const std::string& method) { return method == "best"; }
@@ -42,25 +44,38 @@ inline bool MayHaveLearned(const std::string& method) {
   return recon::NeedsLearned(method) || IsBest(method);
 }
 
-inline constexpr MethodOption kMethodOptions[] = {
-    {"--database", MayLookUp},         {"--prior", IsBest},
-    {"--learned", MayHaveLearned},     {"--cutoff", IsButterworth},
-    {"--solver", HasLocalPca},         {"--neighbours", HasLocalPca},
-    {"--dimensions", HasLocalPca},     {"--steps", HasLocalPca},
-    {"--samples", HasLocalPca},        {"--weights", HasLocalPca},
-    {"--no-reliability", HasLocalPca}, {"--keep-reliable", HasLocalPca},
-    {"--extend", IsShum2013}};
+inline constexpr MethodOption kMethodOptions[] = {{"--database", MayLookUp, true},
+                                                  {"--prior", IsBest, true},
+                                                  {"--learned", MayHaveLearned, true},
+                                                  {"--cutoff", IsButterworth},
+                                                  {"--solver", HasLocalPca},
+                                                  {"--neighbours", HasLocalPca},
+                                                  {"--dimensions", HasLocalPca},
+                                                  {"--steps", HasLocalPca},
+                                                  {"--samples", HasLocalPca},
+                                                  {"--weights", HasLocalPca},
+                                                  {"--no-reliability", HasLocalPca},
+                                                  {"--keep-reliable", HasLocalPca},
+                                                  {"--extend", IsShum2013}};
+
+inline void SayNotRead(const std::string& option, const std::string& method) {
+  Say(fmt::format("ossa: {} is not read by --method {}\n", option, method));
+}
 
 /// Throws UsageError for an option that was given and that the method does not read: what comes out
-/// would be without what was asked for. The word none asks for nothing. Options that a command does
-/// not have are not given.
-inline void CheckRead(const CLI::App& app, const std::string& method) {
-  for (const auto& [name, is_read_by] : kMethodOptions) {
+/// would be without what was asked for. Of a file it is said unless `quiet`; the word none asks for
+/// nothing. Options that a command does not have are not given.
+inline void CheckRead(const CLI::App& app, const std::string& method, bool quiet) {
+  for (const auto& [name, is_read_by, is_file] : kMethodOptions) {
     const CLI::Option* option = app.get_option_no_throw(name);
     if (option == nullptr || option->count() == 0 || is_read_by(method)) continue;
     if (option->results().front() == "none") continue;
-    throw UsageError(fmt::format("{} is not read by --method {}: expected a method that does ({})",
-                                 name, method, MethodsThat(is_read_by)));
+    if (!is_file) {
+      throw UsageError(
+          fmt::format("{} is not read by --method {}: expected a method that does ({})", name,
+                      method, MethodsThat(is_read_by)));
+    }
+    if (!quiet) SayNotRead(name, method);
   }
 }
 

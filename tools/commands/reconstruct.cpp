@@ -41,7 +41,8 @@ struct ReconstructArguments {
 
 /// The database the method looks things up in: the one named, else the shipped one.
 std::shared_ptr<const recon::PostureDatabase> DatabaseFor(const ReconstructArguments& a) {
-  const bool looks_up = recon::NeedsDatabase(a.options.method) || !a.database_file.empty();
+  const bool looks_up = recon::NeedsDatabase(a.options.method) ||
+                        (MayLookUp(a.options.method) && !a.database_file.empty());
   if (!looks_up) return nullptr;
   const std::filesystem::path file = a.database_file.empty()
                                          ? tracker::ShippedFile("authored.ossadb")
@@ -63,7 +64,7 @@ constexpr KnownSensor kKnownSensors[] = {
 /// one of the sensor that all recordings are of.
 std::string LearnedFor(const ReconstructArguments& a,
                        const std::vector<recon::SkeletonClip>& clips) {
-  if (a.learned == "none") return {};
+  if (a.learned == "none" || !MayHaveLearned(a.options.method)) return {};
   if (!a.learned.empty() || a.options.method != "best") return a.learned;
   for (const KnownSensor& sensor : kKnownSensors) {
     const bool all = std::all_of(clips.begin(), clips.end(), [&sensor](const auto& clip) {
@@ -149,14 +150,14 @@ int Reconstruct(int argc, char** argv) {
   AddMethodOptions(app, a);
   AddMechanicsOptions(app, a.mechanics);
   app.add_flag("--quiet", a.quiet, "no progress");
-  app.footer("Options that the method does not read are refused.");
+  app.footer("Options that the method does not read are refused; of files it is said.");
   Parse(app, argc, argv);
   recon::LocalPcaOptions& pca = a.options.local_pca;
   pca.use_reliability = !a.no_reliability;
   double* const weights[] = {&pca.control, &pca.style, &pca.kinematics, &pca.continuity};
   for (size_t i = 0; i < a.weights.size(); ++i) *weights[i] = a.weights[i];
 
-  CheckRead(app, a.options.method);
+  CheckRead(app, a.options.method, a.quiet);
   if (a.options.local_pca.solver == "ceres" && app.count("--samples") > 0) {
     throw UsageError("--samples is not read by --solver ceres: expected --solver stochastic");
   }

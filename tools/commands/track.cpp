@@ -89,12 +89,10 @@ void NeedLook(tracker::TrackerOptions& options) {
   if (options.look.empty()) options.look = tracker::ShippedFile(recon::kShippedLook).string();
 }
 
-// Throws UsageError for a look that would be had and not be used.
-void CheckLookIsRead(const tracker::TrackerOptions& options) {
-  if (options.look.empty() || options.look == "none" || IsBest(options.method)) return;
-  throw UsageError(
-      fmt::format("--look is not read by --method {}: expected best, or --posture looked with it",
-                  options.method));
+void CheckLookIsRead(const TrackOptions& options) {
+  const std::string& look = options.tracker.look;
+  if (look.empty() || look == "none" || IsBest(options.tracker.method) || options.quiet) return;
+  SayNotRead("--look", options.tracker.method);
 }
 
 TrackOptions ParseOptions(int argc, char** argv) {
@@ -116,14 +114,13 @@ TrackOptions ParseOptions(int argc, char** argv) {
   app.add_flag("--view", options.view, "show it in a browser while it runs (127.0.0.1)");
   app.add_option("--port", options.port, "of --view (default 8080)")->check(CLI::Range(0, 65535));
   app.add_flag("--quiet", options.quiet, "no progress");
-  app.footer("Options that the method does not read are refused.");
   Parse(app, argc, argv);
   if (options.out.empty() && options.picture.empty() && options.pictures.empty() && !options.view &&
       options.json_stats.empty()) {
     throw UsageError(
         "track: nothing to do: name --out, --picture, --pictures, --json-stats or --view");
   }
-  CheckRead(app, options.tracker.method);
+  CheckRead(app, options.tracker.method, options.quiet);
   CheckLearned(options.tracker.method, options.tracker.learned);
   options.bones.Check(options.tracker.method);
   options.mechanics.Check();
@@ -131,7 +128,7 @@ TrackOptions ParseOptions(int argc, char** argv) {
   if (options.posture == "looked") {
     NeedLook(options.tracker);
   } else {
-    CheckLookIsRead(options.tracker);
+    CheckLookIsRead(options);
   }
   if (!options.out.empty()) CheckSkeletonName(options.out);
   CheckExtension("--picture", options.picture, ".png");

@@ -110,7 +110,7 @@ int View(int argc, char** argv) {
   app.add_option("--learned", options.tracker.learned, ".ossagp, for the methods that learn");
   app.add_flag("--once", options.once, "end with the recording instead of starting over");
   Parse(app, argc, argv);
-  CheckRead(app, options.tracker.method);
+  CheckRead(app, options.tracker.method, false);
   CheckLearned(options.tracker.method, options.tracker.learned);
   const std::string& what = options.source.name;
   if (what.starts_with("openni:") || std::filesystem::is_directory(what) ||
