@@ -61,6 +61,7 @@ int Compare(int argc, char** argv) {
   std::string truth;
   std::vector<std::string> results;
   std::string align = "none";
+  std::string joints = "all";
   std::string time = "auto";
   std::string json;
   std::string report;
@@ -70,6 +71,11 @@ int Compare(int argc, char** argv) {
   app.add_option("RESULT", results, "one or more results")->required();
   app.add_option("--align", align, "rigid: one rotation and translation a clip (Procrustes)")
       ->check(CLI::IsMember({"none", "rigid"}))
+      ->capture_default_str();
+  app.add_option("--joints", joints,
+                 "of a result: all that have a place, or found, without those that say not_tracked "
+                 "and were placed unseen")
+      ->check(CLI::IsMember({"all", "found"}))
       ->capture_default_str();
   app.add_option("--time", time,
                  "auto: cross-correlation where the frame times disagree; none; correlate: always; "
@@ -97,6 +103,7 @@ int Compare(int argc, char** argv) {
   Parse(app, argc, argv);
   ReadTimeAlignment(time, options.pairing);
   options.pairing.rigid = align == "rigid";
+  options.pairing.found_only = joints == "found";
 
   const bool json_to_stdout = json_option->count() > 0 && (json.empty() || json == "-");
   std::vector<std::string> inputs = results;

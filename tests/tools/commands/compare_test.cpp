@@ -202,6 +202,7 @@ INSTANTIATE_TEST_SUITE_P(
     testing::Values(
         BadUse{"NoResult", {"@good.jsonl"}, 2, "RESULT"},
         BadUse{"Align", {"@good.jsonl", "@good.jsonl", "--align", "scale"}, 2, "--align"},
+        BadUse{"Joints", {"@good.jsonl", "@good.jsonl", "--joints", "some"}, 2, "--joints"},
         BadUse{"Time", {"@good.jsonl", "@good.jsonl", "--time", "soon"}, 2, "--time"},
         BadUse{"AbsentFile", {"@good.jsonl", "@none.jsonl"}, 1, "none.jsonl"},
         BadUse{"AnotherTime", {"@good.jsonl", "@good.jsonl", "--time", "1000"}, 1, "at the times"},

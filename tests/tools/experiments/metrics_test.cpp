@@ -135,6 +135,23 @@ TEST(Metrics, AMissingJointIsNotFoundButNoError) {
   EXPECT_EQ(*m.parent_relative_error_cm, 0);
 }
 
+// The state says that the sensor did not see it, the reliability that a method has placed it.
+TEST(Metrics, AJointThatIsPlacedUnseenIsJudged) {
+  const auto truth = Swinging(30, 1 / 30.0);
+  const auto result = Changed(truth, [](size_t, Joint j, auto& joint) {
+    if (j != Joint::kHandLeft) return;
+    joint->state = recon::TrackingState::kNotTracked;
+    joint->reliability = 0.0;
+    joint->position_m.y() += 0.5;
+  });
+  const ClipMetrics m = MeasureOne(truth, result);
+  EXPECT_EQ(*m.fraction_joints_missing, 0);
+  EXPECT_NEAR(*m.mean_joint_error_cm, 50.0 / 20, kExact);
+  const ClipMetrics found = MeasureOne(truth, result, {.found_only = true});
+  EXPECT_NEAR(*found.fraction_joints_missing, 1.0 / 20, kExact);
+  EXPECT_EQ(*found.mean_joint_error_cm, 0);
+}
+
 TEST(AveragePrecision, RanksByConfidence) {
   const auto truth = Swinging(4, 1 / 30.0);
   // Confidences .9 .8 .7 .6, the second wrong: precisions at the hits are 1, 2/3, 3/4, each a

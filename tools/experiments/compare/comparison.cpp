@@ -164,6 +164,7 @@ Comparison Compare(const std::string& truth, const std::vector<std::string>& res
   Comparison comparison;
   comparison.truth = truth;
   comparison.rigid = options.pairing.rigid;
+  comparison.found_only = options.pairing.found_only;
   const auto clips = Chosen(truth, options, "truth");
   for (const std::string& result : results) {
     comparison.results.push_back(CompareOne(truth, clips, result, options));

@@ -44,6 +44,7 @@ struct ComparedTest {
 struct Comparison {
   std::string truth;
   bool rigid = false;
+  bool found_only = false;
   std::vector<ComparedResult> results;
   std::vector<ComparedTest> tests;
 };

@@ -70,15 +70,23 @@ std::string WithInterval(const std::optional<double>& value,
 
 Table SummaryTable(const Comparison& comparison) {
   Table table;
-  table.title = fmt::format("Against {} ({})", comparison.truth,
-                            comparison.rigid ? "one rigid transform a clip" : "no alignment");
+  table.title = fmt::format("Against {} ({}{})", comparison.truth,
+                            comparison.rigid ? "one rigid transform a clip" : "no alignment",
+                            comparison.found_only ? ", joints found only" : "");
   table.columns = {""};
-  table.rows = {{"clips"},          {"frames"},
-                {"mean error cm"},  {"eq. 18 cm"},
-                {"frames >20cm %"}, {"joints <10cm %"},
-                {"mAP 10cm %"},     {"acceleration error cm/frame^2"},
-                {"offset-free cm"}, {"bone length variation %"},
-                {"p99 cm"},         {"time offset s"}};
+  table.rows = {{"clips"},
+                {"frames"},
+                {"mean error cm"},
+                {"eq. 18 cm"},
+                {"frames >20cm %"},
+                {"joints missing %"},
+                {"joints <10cm %"},
+                {"mAP 10cm %"},
+                {"acceleration error cm/frame^2"},
+                {"offset-free cm"},
+                {"bone length variation %"},
+                {"p99 cm"},
+                {"time offset s"}};
   for (const ComparedResult& r : comparison.results) {
     const ClipMetrics& m = r.mean;
     table.columns.push_back(r.label);
@@ -88,6 +96,7 @@ Table SummaryTable(const Comparison& comparison) {
         WithInterval(m.mean_joint_error_cm, r.mean_joint_error_interval),
         WithInterval(m.parent_relative_error_cm, r.parent_relative_error_interval),
         Number(m.fraction_frames_over_20cm, 1, 100),
+        Number(m.fraction_joints_missing, 1, 100),
         Number(m.fraction_joints_within_10cm, 1, 100),
         Number(m.map_10cm, 1, 100),
         Number(m.acceleration_error_cm_per_frame2),
@@ -143,6 +152,7 @@ Table TestTable(const Comparison& comparison) {
 std::string ToJson(const Comparison& comparison) {
   Json json = {{"truth", comparison.truth},
                {"align", comparison.rigid ? "rigid" : "none"},
+               {"joints", comparison.found_only ? "found" : "all"},
                {"results", Json::array()},
                {"tests", Json::array()}};
   for (const ComparedResult& result : comparison.results) {

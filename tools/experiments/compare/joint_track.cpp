@@ -53,6 +53,18 @@ std::map<int, JointTrack> TracksOf(const SkeletonSequence& sequence) {
   return tracks;
 }
 
+// Without the joints that say not_tracked, wherever a method has put them.
+std::vector<SkeletonFrame> FoundOnly(std::vector<SkeletonFrame> frames) {
+  for (SkeletonFrame& frame : frames) {
+    for (BodyRecord& body : frame.bodies) {
+      for (auto& joint : body.joints) {
+        if (joint && joint->state == recon::TrackingState::kNotTracked) joint.reset();
+      }
+    }
+  }
+  return frames;
+}
+
 // When any of them is there.
 std::vector<double> TimesOf(const std::map<int, JointTrack>& tracks) {
   std::set<double> times;
@@ -322,8 +334,7 @@ SparsePosture SparsePostureOf(const BodyRecord& body) {
   SparsePosture sparse;
   const recon::TrackedPosture tracked = recon::TrackedPostureOf(body);
   for (size_t j = 0; j < kJoints; ++j) {
-    sparse.present[j] = tracked.state[j] != recon::TrackingState::kNotTracked &&
-                        tracked.posture.position_m[j].allFinite();
+    sparse.present[j] = body.joints[j] && recon::HasPlace(*body.joints[j]);
     sparse.position_m[j] = tracked.posture.position_m[j];
     sparse.confidence[j] = tracked.confidence[j];
   }
@@ -380,6 +391,7 @@ std::vector<PairedTracks> PairUp(const SkeletonSequence& truth, const SkeletonSe
   if (truths.empty()) return {};
   const PairedTracks clock = ClockOf(truths, result, options);
   std::vector<SkeletonFrame> frames = InOrder(result.frames);
+  if (options.found_only) frames = FoundOnly(std::move(frames));
   for (SkeletonFrame& frame : frames) frame.time_s += clock.offset_s;
   AddAbsentFrames({TimesOf(truths), kLongestGap_s, clock.same_clock}, &frames);
   std::vector<PairedTracks> pairs(truths.size(), clock);

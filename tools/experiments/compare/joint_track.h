@@ -8,7 +8,8 @@
 
 namespace ossa::tools {
 
-/// Joints of one person at one time; those that are absent or not tracked are not there.
+/// Joints of one person at one time. What a sensor does not track is not there; what a method has
+/// placed unseen is (recon::HasPlace): it answers for it as for any other joint.
 struct SparsePosture {
   std::array<Eigen::Vector3d, recon::kJointCount> position_m;
   std::array<bool, recon::kJointCount> present{};
@@ -47,6 +48,7 @@ struct PairOptions {
   double offset_s = 0.0;      // for kFixed: added to the result's times
   double max_offset_s = 2.0;  // correlation looks this far either way
   bool rigid = false;         // Procrustes without scale over the whole clip, before anything else
+  bool found_only = false;    // of the result no joints that a method has placed unseen
 };
 
 /// Brings a result onto the truth: people matched, clocks aligned, truth interpolated linearly at

@@ -78,15 +78,6 @@ SparsePosture SeenJoints(const TruthBody& truth) {
   return posture;
 }
 
-/// The joints that have a place, those too that no image shows and a method has placed: it answers
-/// for them as for any other.
-SparsePosture PlacedJoints(const recon::BodyRecord& body) {
-  SparsePosture posture = SparsePostureOf(body);
-  for (size_t j = 0; j < recon::kJointCount; ++j)
-    posture.present[j] = body.joints[j] && recon::HasPlace(*body.joints[j]);
-  return posture;
-}
-
 void Append(PairedTracks& to, const PairedTracks& more) {
   to.time_s.insert(to.time_s.end(), more.time_s.begin(), more.time_s.end());
   to.truth.insert(to.truth.end(), more.truth.begin(), more.truth.end());
@@ -112,7 +103,7 @@ void RoomJudge::SeePerson(const TruthBody& truth, const tracker::BodyFrame& answ
                           double time_s) {
   const auto joints = [&](tracker::PostureKind kind) {
     const auto record = tracker::RecordOf(answer, kind);
-    return body < 0 ? SparsePosture{} : PlacedJoints(record.bodies[static_cast<size_t>(body)]);
+    return body < 0 ? SparsePosture{} : SparsePostureOf(record.bodies[static_cast<size_t>(body)]);
   };
   for (const auto& [track, kind] : {std::pair(&score.raw, tracker::PostureKind::kRaw),
                                     {&score.final, tracker::PostureKind::kFinal}}) {
