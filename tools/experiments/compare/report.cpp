@@ -295,11 +295,10 @@ std::string ClipTable(const Comparison& comparison) {
 
 std::string ToHtml(const Comparison& comparison) {
   std::string html = kHead;
-  html += fmt::format("<h1>Skeletons against {}</h1><p class=\"note\">Alignment: {}{}. {}</p>\n",
-                      Escaped(comparison.truth),
-                      comparison.rigid ? "one rigid transform a clip" : "none",
-                      comparison.found_only ? "; joints found only" : "",
-                      Escaped(Advice(comparison)));
+  html += fmt::format(
+      "<h1>Skeletons against {}</h1><p class=\"note\">Alignment: {}{}. {}</p>\n",
+      Escaped(comparison.truth), comparison.rigid ? "one rigid transform a clip" : "none",
+      comparison.found_only ? "; joints found only" : "", Escaped(Advice(comparison)));
   html += Summary(comparison) + "\n" + ErrorOverTime(comparison) + "\n" +
           CumulativeCurves(comparison) + "\n" + JointBars(comparison) + "\n" +
           WorstFrames(comparison) + "\n" + Tests(comparison) + ClipTable(comparison);
