@@ -163,6 +163,10 @@ TEST_F(CompareCommand, ShowsTheMissesOfAResultInWhichNobodyIs) {
                             "--report", folder_ / "c.html"});
   ASSERT_EQ(run.exit_status, 0) << run.err;
   EXPECT_NE(run.out.find("| mAP 10cm %"), std::string::npos) << run.out;
+  const std::string page = Content(folder_ / "c.html");
+  EXPECT_NE(page.find("<th>joints missing, %</th>"), std::string::npos);
+  EXPECT_NE(page.find("<td>100.0</td>"), std::string::npos);
+  EXPECT_EQ(page.find("nan"), std::string::npos);
   const auto json = nlohmann::json::parse(Content(folder_ / "c.json"));
   EXPECT_EQ(json["results"][0]["map_10cm"], 0);
   EXPECT_EQ(json["results"][0]["fraction_joints_missing"], 1);

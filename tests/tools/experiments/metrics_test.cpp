@@ -325,5 +325,18 @@ TEST(MeanOverClips, CountsAShortClipAsMuchAsALongOne) {
   EXPECT_FALSE(mean.p99_cm.has_value());
 }
 
+TEST(SharedValues, AreThoseOfClipsOfWhichEveryResultHasTheNumber) {
+  const auto clip = [](const char* name, std::optional<double> error_cm) {
+    ClipMetrics metrics;
+    metrics.name = name;
+    metrics.mean_joint_error_cm = error_cm;
+    return metrics;
+  };
+  const auto values = SharedValues(
+      {{clip("a", 1), clip("b", 2), clip("c", 3)}, {clip("a", 4), clip("b", {}), clip("c", 6)}},
+      &ClipMetrics::mean_joint_error_cm);
+  EXPECT_EQ(values, (std::vector<std::vector<double>>{{1, 3}, {4, 6}}));
+}
+
 }  // namespace
 }  // namespace ossa::tools

@@ -56,15 +56,6 @@ void AddClip(ComparedResult& compared, const std::string& name, const SkeletonCl
   }
 }
 
-std::vector<double> Values(const std::vector<ClipMetrics>& clips,
-                           std::optional<double> ClipMetrics::*member) {
-  std::vector<double> values;
-  for (const ClipMetrics& clip : clips) {
-    if (clip.*member) values.push_back(*(clip.*member));
-  }
-  return values;
-}
-
 ComparedResult CompareOne(const std::string& truth_name, const std::vector<SkeletonClip>& truth,
                           const std::string& name, const CompareOptions& options) {
   ComparedResult compared;
@@ -95,22 +86,6 @@ ComparedResult CompareOne(const std::string& truth_name, const std::vector<Skele
   return compared;
 }
 
-// values[result][clip] over the clips that every result has.
-std::vector<std::vector<double>> Shared(const std::vector<ComparedResult>& results,
-                                        std::optional<double> ClipMetrics::*member) {
-  std::map<std::string, size_t> seen;
-  for (const ComparedResult& result : results) {
-    for (const ClipMetrics& clip : result.clips) seen[clip.name] += clip.*member ? 1u : 0u;
-  }
-  std::vector<std::vector<double>> values(results.size());
-  for (size_t r = 0; r < results.size(); ++r) {
-    for (const ClipMetrics& clip : results[r].clips) {
-      if (seen[clip.name] == results.size()) values[r].push_back(*(clip.*member));
-    }
-  }
-  return values;
-}
-
 void AddTest(std::vector<ComparedTest>& tests, const std::string& test, const std::string& quantity,
              const std::string& between, size_t units, const std::optional<TestResult>& result,
              double corrections) {
@@ -124,7 +99,9 @@ void AddTest(std::vector<ComparedTest>& tests, const std::string& test, const st
 // quantities; the normality test says which to believe.
 void TestQuantity(const std::vector<ComparedResult>& results, const std::string& quantity,
                   std::optional<double> ClipMetrics::*member, std::vector<ComparedTest>& tests) {
-  const auto values = Shared(results, member);
+  std::vector<std::vector<ClipMetrics>> clips;
+  for (const ComparedResult& result : results) clips.push_back(result.clips);
+  const auto values = SharedValues(clips, member);
   constexpr size_t kFewestUnits = 5;  // below, no signed-rank test can reach p = 0.05
   const size_t units = values[0].size();
   if (units < kFewestUnits) return;

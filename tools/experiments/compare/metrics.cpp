@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 
 namespace ossa::tools {
 namespace {
@@ -266,6 +267,30 @@ ClipMetrics MeanOverClips(const std::string& name, const std::vector<ClipMetrics
     mean.offset_s += clip.offset_s / static_cast<double>(clips.size());
   }
   return mean;
+}
+
+std::vector<double> Values(const std::vector<ClipMetrics>& clips,
+                           std::optional<double> ClipMetrics::*member) {
+  std::vector<double> values;
+  for (const ClipMetrics& clip : clips) {
+    if (clip.*member) values.push_back(*(clip.*member));
+  }
+  return values;
+}
+
+std::vector<std::vector<double>> SharedValues(const std::vector<std::vector<ClipMetrics>>& clips,
+                                              std::optional<double> ClipMetrics::*member) {
+  std::map<std::string, size_t> holders;
+  for (const auto& of_result : clips) {
+    for (const ClipMetrics& clip : of_result) holders[clip.name] += clip.*member ? 1u : 0u;
+  }
+  std::vector<std::vector<double>> values(clips.size());
+  for (size_t r = 0; r < clips.size(); ++r) {
+    for (const ClipMetrics& clip : clips[r]) {
+      if (holders[clip.name] == clips.size()) values[r].push_back(*(clip.*member));
+    }
+  }
+  return values;
 }
 
 }  // namespace ossa::tools

@@ -59,4 +59,13 @@ std::vector<double> JointErrors_cm(const PairedTracks& pair);
 /// long clip counts as much as a short one; frames are summed.
 ClipMetrics MeanOverClips(const std::string& name, const std::vector<ClipMetrics>& clips);
 
+/// A number of the clips that have it, in their order.
+std::vector<double> Values(const std::vector<ClipMetrics>& clips,
+                           std::optional<double> ClipMetrics::*member);
+
+/// values[result][clip] of clips[result][clip], for paired tests: only of the clips, known by their
+/// names, of which every result has the number.
+std::vector<std::vector<double>> SharedValues(const std::vector<std::vector<ClipMetrics>>& clips,
+                                              std::optional<double> ClipMetrics::*member);
+
 }  // namespace ossa::tools

@@ -1,18 +1,15 @@
 // Plantard, Shum, Le Pierres, Multon: Filtered pose graph for efficient Kinect pose reconstruction
-// (2016): the ten scenarios of table 1, figures 5, 6 and 7 and the tests of section 8.2; figure 9
-// is in plantard_2016_sweeps.cpp.
+// (2016): the ten scenarios of table 1, figures 5, 6 and 7 and the tests of section 8.2; figure 5
+// and the tests are in plantard_2016_methods.cpp, figure 9 in plantard_2016_sweeps.cpp.
 #include "tools/experiments/papers/plantard_2016_internal.h"
 
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
 #include <numbers>
 #include <set>
-#include <span>
 
 #include "depth/file/atomic_file.h"
-#include "tools/experiments/compare/statistics.h"
 #include "tools/experiments/compare/svg_plot.h"
 #include "tools/experiments/experiments_internal.h"
 #include "tools/experiments/stage/motions.h"
@@ -44,8 +41,33 @@ struct Study {
   std::vector<MethodRun> methods;                // raw, shum-2013, plantard-2016, best
   std::vector<std::vector<PairedTracks>> pairs;  // [method][scenario]
   std::vector<std::vector<ClipMetrics>> clips;   // the same, measured
+  std::vector<std::vector<ClipMetrics>> seen;    // of these the frames in which somebody was seen
   std::string note;
 };
+
+bool SeesNobody(const recon::SkeletonFrame& frame) {
+  return std::all_of(frame.bodies.begin(), frame.bodies.end(), [](const recon::BodyRecord& body) {
+    return std::none_of(body.joints.begin(), body.joints.end(),
+                        [](const auto& joint) { return joint.has_value(); });
+  });
+}
+
+// The frames in which the sensor saw somebody: what a method makes of frames without a single joint
+// says little of it.
+PairedTracks WhereSeen(const RecordedPair& scenario, const PairedTracks& pair) {
+  std::set<double> unseen_s;
+  for (const auto& frame : scenario.observed.frames) {
+    if (SeesNobody(frame)) unseen_s.insert(frame.time_s);
+  }
+  PairedTracks seen{pair.name, {}, {}, {}};
+  for (size_t f = 0; f < pair.time_s.size(); ++f) {
+    if (unseen_s.contains(pair.time_s[f])) continue;
+    seen.time_s.push_back(pair.time_s[f]);
+    seen.truth.push_back(pair.truth[f]);
+    seen.result.push_back(pair.result[f]);
+  }
+  return seen;
+}
 
 Study Prepare(ExperimentContext& context) {
   Study study;
@@ -79,75 +101,13 @@ Study Prepare(ExperimentContext& context) {
     }
     study.pairs.push_back(RunOverClips(context, run, study.scenarios));
     study.clips.push_back(MeasureAll(study.pairs.back()));
+    auto& seen = study.seen.emplace_back();
+    for (size_t s = 0; s < study.scenarios.size(); ++s) {
+      seen.push_back(Measure(WhereSeen(study.scenarios[s], study.pairs.back()[s])));
+    }
     study.methods.push_back(std::move(run));
   }
   return study;
-}
-
-struct Spread {
-  double mean = 0, deviation = 0, low = 0, high = 0;
-};
-
-Spread SpreadOf(const std::vector<double>& values) {
-  Spread spread;
-  if (values.empty()) return spread;
-  const auto n = static_cast<double>(values.size());
-  for (const double value : values) spread.mean += value / n;
-  for (const double value : values) {
-    spread.deviation += (value - spread.mean) * (value - spread.mean) / std::max(1.0, n - 1);
-  }
-  spread.deviation = std::sqrt(spread.deviation);
-  spread.low = *std::min_element(values.begin(), values.end());
-  spread.high = *std::max_element(values.begin(), values.end());
-  return spread;
-}
-
-/// Of the clips that have it: one in which nothing could be compared is no clip without error.
-std::vector<double> Values(const std::vector<ClipMetrics>& clips,
-                           std::optional<double> ClipMetrics::*member, double scale) {
-  std::vector<double> values;
-  for (const ClipMetrics& clip : clips) {
-    if (clip.*member) values.push_back(scale * *(clip.*member));
-  }
-  return values;
-}
-
-/// Of some methods, clip by clip: of the clips that all of them have it of.
-std::vector<std::vector<double>> PairedValues(std::span<const std::vector<ClipMetrics>> methods,
-                                              std::optional<double> ClipMetrics::*member) {
-  std::vector<std::vector<double>> values(methods.size());
-  for (size_t clip = 0; clip < methods.front().size(); ++clip) {
-    const auto has = [&](const auto& clips) { return (clips[clip].*member).has_value(); };
-    if (!std::all_of(methods.begin(), methods.end(), has)) continue;
-    for (size_t m = 0; m < methods.size(); ++m) values[m].push_back(*(methods[m][clip].*member));
-  }
-  return values;
-}
-
-bool SeesNobody(const recon::SkeletonFrame& frame) {
-  return std::all_of(frame.bodies.begin(), frame.bodies.end(), [](const recon::BodyRecord& body) {
-    return std::none_of(body.joints.begin(), body.joints.end(),
-                        [](const auto& joint) { return joint.has_value(); });
-  });
-}
-
-// Share of the frames in which the sensor saw somebody that are 20 cm or more off: what a method
-// makes of frames without a single joint says little of it.
-std::optional<double> OverWhereSeen(const RecordedPair& scenario, const PairedTracks& pair) {
-  constexpr double kLarge_cm = 20;
-  std::set<double> unseen_s;
-  for (const auto& frame : scenario.observed.frames) {
-    if (SeesNobody(frame)) unseen_s.insert(frame.time_s);
-  }
-  const auto errors = ErrorsByFrame(pair).parent_relative_cm;
-  double over = 0;
-  double frames = 0;
-  for (size_t f = 0; f < errors.size(); ++f) {
-    if (!errors[f] || unseen_s.contains(pair.time_s[f])) continue;
-    over += *errors[f] >= kLarge_cm ? 1 : 0;
-    ++frames;
-  }
-  return frames > 0 ? std::optional(over / frames) : std::nullopt;
 }
 
 Table ByScenario(const Study& study) {
@@ -180,72 +140,6 @@ Table ByScenario(const Study& study) {
     table.rows.push_back(row);
   }
   table.note = study.note;
-  return table;
-}
-
-Table FigureFive(const Study& study) {
-  Table table;
-  table.title = "Figure 5: mean error and frames of 20 cm or more, over the scenarios";
-  table.columns = {"method",   "eq. 13, cm (sigma)",      "paper, cm", ">20 cm, % (sigma, min-max)",
-                   "paper, %", "somebody seen: >20 cm, %"};
-  const std::array<std::pair<const char*, const char*>, 4> paper = {
-      {{"15 (4)", "19.1 (27.3, 0.3-92.1)"},
-       {"10 (2)", "8.8 (7.9, 0-19.7)"},
-       {"9 (2)", "3.3 (3.9, 0-10.5)"},
-       {"-", "-"}}};
-  for (size_t m = 0; m < study.methods.size(); ++m) {
-    const Spread error =
-        SpreadOf(Values(study.clips[m], &ClipMetrics::parent_relative_error_cm, 1));
-    const Spread over =
-        SpreadOf(Values(study.clips[m], &ClipMetrics::fraction_frames_over_20cm, 100));
-    std::vector<double> where_seen;
-    for (size_t s = 0; s < study.scenarios.size(); ++s) {
-      const auto share = OverWhereSeen(study.scenarios[s], study.pairs[m][s]);
-      if (share) where_seen.push_back(100 * *share);
-    }
-    table.rows.push_back(
-        {study.methods[m].label, fmt::format("{:.2f} ({:.2f})", error.mean, error.deviation),
-         paper[m].first,
-         fmt::format("{:.1f} ({:.1f}, {:.1f}-{:.1f})", over.mean, over.deviation, over.low,
-                     over.high),
-         paper[m].second, where_seen.empty() ? "-" : Cell(SpreadOf(where_seen).mean, 1)});
-  }
-  table.note =
-      "Paper: Kinect, its [37] (shum-2013) and its own method on industrial recordings. Its "
-      "physical "
-      "filter (section 7) is not part of these rows.";
-  return table;
-}
-
-Table Tests(const Study& study) {
-  Table table;
-  table.title = "Section 8.2: paired tests over the ten scenarios";
-  table.columns = {"quantity", "test", "between", "statistic", "p (Bonferroni)"};
-  const auto add = [&](const char* quantity, const char* test, const std::string& between,
-                       const std::optional<TestResult>& result, double corrections) {
-    if (!result) return;
-    table.rows.push_back({quantity, test, between, fmt::format("{:.4g}", result->statistic),
-                          fmt::format("{:.3g}", std::min(1.0, corrections * result->p))});
-  };
-  const auto first_three = std::span(study.clips).first(3);
-  const auto error = PairedValues(first_three, &ClipMetrics::parent_relative_error_cm);
-  const auto over = PairedValues(first_three, &ClipMetrics::fraction_frames_over_20cm);
-  for (size_t m = 0; m < 3; ++m) {
-    add("eq. 13", "Lilliefors normality", study.methods[m].label, Lilliefors(error[m]), 1);
-  }
-  add("eq. 13", "repeated-measures Anova", "raw, shum-2013, plantard-2016", RepeatedAnova(error),
-      1);
-  add("share over 20 cm", "Friedman", "raw, shum-2013, plantard-2016", Friedman(over), 1);
-  for (size_t a = 0; a < 3; ++a) {
-    for (size_t b = a + 1; b < 3; ++b) {
-      const std::string between = study.methods[a].label + " / " + study.methods[b].label;
-      add("eq. 13", "paired t", between, PairedT(error[a], error[b]), 3);
-      add("share over 20 cm", "Wilcoxon signed rank", between, Wilcoxon(over[a], over[b]), 3);
-    }
-  }
-  table.note =
-      "Paper: both methods below the Kinect at p < 0.001 (Anova, Bonferroni); its own below the "
-      "Kinect and below [37] in frames over 20 cm at p < 0.01 (Friedman, Wilcoxon).";
   return table;
 }
 
@@ -316,13 +210,15 @@ void DrawCumulative(const ExperimentContext& context, const Study& study) {
 
 std::vector<Table> RunPlantard2016(ExperimentContext& context) {
   const Study study = Prepare(context);
+  std::vector<std::string> labels;
+  for (const MethodRun& run : study.methods) labels.push_back(run.label);
   std::vector<size_t> all(kScenarios);
   for (size_t s = 0; s < kScenarios; ++s) all[s] = s;
   DrawCumulative(context, study);
   return {
       ByScenario(study),
-      FigureFive(study),
-      Tests(study),
+      FigureFiveOfPlantard2016(labels, study.clips, study.seen),
+      TestsOfPlantard2016(labels, study.clips),
       Histogram(study, {7}, false, "Figure 6a: errors in scenario 8"),
       Histogram(study, {9}, false, "Figure 6b: errors in scenario 10"),
       Histogram(study, all, true, "Figure 7: frames at least this wrong (drawn in figure7.html)"),

@@ -1,9 +1,21 @@
 #pragma once
+#include <string>
 #include <vector>
 
 #include "tools/experiments/sdk/method_runs.h"
 
 namespace ossa::tools {
+
+/// Figure 5 of metrics [method][scenario], methods as in the paper and after them ours; `seen` are
+/// those of the frames in which the sensor saw somebody. A scenario in which a method has nothing
+/// to compare counts for none.
+Table FigureFiveOfPlantard2016(const std::vector<std::string>& labels,
+                               const std::vector<std::vector<ClipMetrics>>& clips,
+                               const std::vector<std::vector<ClipMetrics>>& seen);
+
+/// Section 8.2: tests between the first three methods.
+Table TestsOfPlantard2016(const std::vector<std::string>& labels,
+                          const std::vector<std::vector<ClipMetrics>>& clips);
 
 /// Figure 9: `method` (plantard-2016) over the hard scenarios, one parameter of the graph changed
 /// at a time.
