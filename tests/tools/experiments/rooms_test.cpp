@@ -70,60 +70,62 @@ TEST_F(InRooms, ASofaBeforeHidesAThirdOfThePersonOrMore) {
   }
 }
 
-// Somebody whose joints on the left are seen and right, and whose others are unseen and a metre
-// off.
-TEST(RoomJudge, SeenJointsAreJudgedBesideAll) {
-  constexpr int kWidth = 80, kHeight = 60;
-  LabelledFrame truth;
-  truth.depth.camera = {kWidth, kHeight, 72, 72, 40, 30};
-  truth.depth.depth_mm.assign(kWidth * kHeight, 2000);
-  truth.users = {kWidth, kHeight, 1};
-  TruthBody& person = truth.bodies.emplace_back();
-  tracker::BodyFrame answer;
-  answer.users = {kWidth, kHeight, 7};
-  tracker::Body& body = answer.bodies.emplace_back();
-  body.id = 7;
-  for (size_t j = 0; j < recon::kJointCount; ++j) {
-    person.visible[j] = j % 2 == 0;
-    const Eigen::Vector3d at_m(0.1 * static_cast<double>(j), 0, 2);
-    person.joints_m.position_m[j] = at_m;
-    body.raw.posture.position_m[j] = at_m + Eigen::Vector3d(0, j % 2 == 0 ? 0.0 : 1.0, 0);
-    body.raw.state[j] = recon::TrackingState::kTracked;
-    body.raw.confidence[j] = 0.9;
+// Somebody 2 m away who is alone in a small picture, found and tracked as they are.
+struct OnePerson {
+  OnePerson() {
+    constexpr int kWidth = 80, kHeight = 60;
+    truth.depth.camera = {kWidth, kHeight, 72, 72, 40, 30};
+    truth.depth.depth_mm.assign(kWidth * kHeight, 2000);
+    truth.users = {kWidth, kHeight, 1};
+    answer.users = {kWidth, kHeight, 7};
+    truth.bodies.resize(1);
+    answer.bodies.resize(1);
+    body().id = 7;
+    for (size_t j = 0; j < recon::kJointCount; ++j) {
+      const Eigen::Vector3d at_m(0.1 * static_cast<double>(j), 0, 2);
+      person().visible[j] = true;
+      person().joints_m.position_m[j] = at_m;
+      body().raw.posture.position_m[j] = body().smoothed.position_m[j] = at_m;
+      body().raw.state[j] = recon::TrackingState::kTracked;
+      body().raw.confidence[j] = 0.9;
+    }
   }
-  RoomJudge judge;
-  judge.See(truth, answer);
-  EXPECT_EQ(judge.score.found, 1);
-  EXPECT_DOUBLE_EQ(Measure(judge.score.raw).map_10cm.value(), 0.5);
-  EXPECT_DOUBLE_EQ(Measure(judge.score.raw_seen).map_10cm.value(), 1.0);
+  TruthBody& person() { return truth.bodies[0]; }
+  tracker::Body& body() { return answer.bodies[0]; }
+  RoomScore Judged() const {
+    RoomJudge judge;
+    judge.See(truth, answer);
+    return judge.score;
+  }
+
+  LabelledFrame truth;
+  tracker::BodyFrame answer;
+};
+
+// Every second joint is unseen and said to be a metre off.
+TEST(RoomJudge, SeenJointsAreJudgedBesideAll) {
+  OnePerson one;
+  for (size_t j = 1; j < recon::kJointCount; j += 2) {
+    one.person().visible[j] = false;
+    one.body().raw.posture.position_m[j].y() += 1.0;
+  }
+  const RoomScore score = one.Judged();
+  EXPECT_EQ(score.found, 1);
+  EXPECT_DOUBLE_EQ(Measure(score.raw).map_10cm.value(), 0.5);
+  EXPECT_DOUBLE_EQ(Measure(score.raw_seen).map_10cm.value(), 1.0);
 }
 
 // Joints that the forest did not find are missing of raw, but final has put them somewhere and is
 // judged for it.
 TEST(RoomJudge, WhatIsPlacedUnseenIsJudged) {
-  constexpr int kWidth = 80, kHeight = 60;
-  LabelledFrame truth;
-  truth.depth.camera = {kWidth, kHeight, 72, 72, 40, 30};
-  truth.depth.depth_mm.assign(kWidth * kHeight, 2000);
-  truth.users = {kWidth, kHeight, 1};
-  TruthBody& person = truth.bodies.emplace_back();
-  tracker::BodyFrame answer;
-  answer.users = {kWidth, kHeight, 7};
-  tracker::Body& body = answer.bodies.emplace_back();
-  body.id = 7;
-  for (size_t j = 0; j < recon::kJointCount; ++j) {
-    person.visible[j] = true;
-    const bool found = j % 2 == 0;
-    const Eigen::Vector3d at_m(0.1 * static_cast<double>(j), 0, 2);
-    person.joints_m.position_m[j] = at_m;
-    body.raw.posture.position_m[j] = at_m;
-    body.raw.state[j] = found ? recon::TrackingState::kTracked : recon::TrackingState::kNotTracked;
-    body.raw.confidence[j] = found ? 0.9 : 0.0;
-    body.smoothed.position_m[j] = at_m + Eigen::Vector3d(0, found ? 0.0 : 0.2, 0);
+  OnePerson one;
+  for (size_t j = 1; j < recon::kJointCount; j += 2) {
+    one.body().raw.state[j] = recon::TrackingState::kNotTracked;
+    one.body().raw.confidence[j] = 0.0;
+    one.body().smoothed.position_m[j].y() += 0.2;
   }
-  RoomJudge judge;
-  judge.See(truth, answer);
-  const ClipMetrics raw = Measure(judge.score.raw), final = Measure(judge.score.final);
+  const RoomScore score = one.Judged();
+  const ClipMetrics raw = Measure(score.raw), final = Measure(score.final);
   EXPECT_NEAR(raw.mean_joint_error_cm.value(), 0.0, 1e-9);
   EXPECT_DOUBLE_EQ(raw.map_10cm.value(), 0.5);
   EXPECT_NEAR(final.mean_joint_error_cm.value(), 10.0, 1e-9);
