@@ -63,9 +63,8 @@ std::string Summary(const Comparison& comparison) {
          "</table></div><p class=\"note\">Numbers over several clips are means of the "
          "clips', in brackets their 95 % bootstrap interval. eq. 18: joints relative to "
          "their parents (Shum 2013). Frames over 20 cm: by that error (Plantard 2016). "
-         "Joints that are missing, also those of frames that a result leaves out, are in no error "
-         "and "
-         "count as not within 10 cm.</p>";
+         "Joints that are missing, also those of frames that a result leaves out, are in no "
+         "error and count as not within 10 cm.</p>";
 }
 
 std::string Tests(const Comparison& comparison) {

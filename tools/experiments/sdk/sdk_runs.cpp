@@ -56,12 +56,19 @@ std::string DescriptionOfConstants(const recon::BestConstants& c) {
 
 namespace {
 
-/// What a fold learns from and is tested on, frame by frame.
-std::string KeyOfRecordings(const Fold& fold) {
+/// Of what the recordings hold, frame by frame.
+std::map<const RecordedPair*, std::string> KeysOf(const std::vector<RecordedPair>& pairs) {
+  std::map<const RecordedPair*, std::string> keys;
+  for (const RecordedPair& pair : pairs)
+    keys[&pair] = ContentHash(TextOf(pair.observed) + TextOf(pair.truth));
+  return keys;
+}
+
+/// Of what a fold learns from and is tested on.
+std::string KeyOf(const Fold& fold, const std::map<const RecordedPair*, std::string>& keys) {
   std::string key;
   for (const auto* side : {&fold.train, &fold.test}) {
-    for (const RecordedPair* pair : *side)
-      key.append(ContentHash(TextOf(pair->observed) + TextOf(pair->truth)));
+    for (const RecordedPair* pair : *side) key.append(keys.at(pair));
     key.append(" ");
   }
   return ContentHash(key);
@@ -148,9 +155,10 @@ std::vector<Fold> LeaveOneSubjectOut(const std::vector<RecordedPair>& pairs,
       }
     }
   }
+  const auto keys = KeysOf(pairs);
   std::vector<Fold> list;
   for (auto& [subject, fold] : folds) {
-    fold.key = KeyOfRecordings(fold);
+    fold.key = KeyOf(fold, keys);
     list.push_back(std::move(fold));
   }
   return list;
