@@ -67,7 +67,7 @@ void FillUnnamed(const std::array<bool, kJointCount>& named, Posture& target) {
   if (!named[0]) {
     target[Joint::kHipCenter] = 0.5 * (target[Joint::kHipLeft] + target[Joint::kHipRight]);
   }
-  for (const size_t end : {7, 11, 15, 19}) {
+  for (const size_t end : {7U, 11U, 15U, 19U}) {
     if (named[end - 1]) continue;
     target.position_m[end - 1] =
         (1.0 - kMostOfTheWay) * target.position_m[end - 2] + kMostOfTheWay * target.position_m[end];

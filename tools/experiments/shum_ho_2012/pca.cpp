@@ -57,7 +57,7 @@ std::vector<PostureVector> Queries(const ExperimentContext& context) {
       for (const recon::SkeletonFrame& frame : pairs[k].observed.frames) {
         if (frame.bodies.empty() || queries.size() >= kFrames) continue;
         Posture p = recon::TrackedPostureOf(frame.bodies[0]).posture;
-        for (const size_t hand : {7, 11}) {  // UI-PRMD has no hands
+        for (const size_t hand : {7U, 11U}) {  // UI-PRMD has no hands
           p.position_m[hand] = 1.3 * p.position_m[hand - 1] - 0.3 * p.position_m[hand - 2];
         }
         queries.push_back(Query(p));
