@@ -41,7 +41,6 @@ function(ossa_library name)
 endfunction()
 
 # ossa_test(NAME SOURCES ... LIBS ...): one GoogleTest program whose tests ctest lists one by one.
-# OSSA_SHARED_DIR (real recordings beside the checkout) may be absent: such tests skip visibly.
 # LABELS: `slow` for tests of many seconds.
 function(ossa_test name)
   cmake_parse_arguments(ARG "" "" "SOURCES;LIBS;LABELS" ${ARGN})
@@ -52,10 +51,7 @@ function(ossa_test name)
   # With -O1 GCC 12 takes copies of an empty std::optional for reads of what it does not hold.
   target_compile_options(${name} PRIVATE
     $<$<CONFIG:Release>:-O1> $<$<CXX_COMPILER_ID:GNU>:-Wno-maybe-uninitialized>)
-  target_link_libraries(${name} PRIVATE ${ARG_LIBS} GTest::gtest GTest::gtest_main)
-  target_compile_definitions(${name} PRIVATE
-    OSSA_SOURCE_DIR="${CMAKE_SOURCE_DIR}" OSSA_BINARY_DIR="${CMAKE_BINARY_DIR}"
-    OSSA_SHARED_DIR="${CMAKE_SOURCE_DIR}/../shared")
+  target_link_libraries(${name} PRIVATE ${ARG_LIBS} ossa_test_places GTest::gtest GTest::gtest_main)
   gtest_discover_tests(${name} DISCOVERY_MODE PRE_TEST
                        PROPERTIES TIMEOUT 300 LABELS "${ARG_LABELS}")
 endfunction()

@@ -14,7 +14,7 @@
 #include <memory>
 #include <numeric>
 
-#include "depth/clones.h"
+#include "depth/base/clones.h"
 #include "forest/feature_internal.h"
 #include "forest/forest.h"
 #include "forest/runtime_internal.h"

@@ -2,7 +2,7 @@
 // nothing at the top of the list and a third of the file.
 #include "forest/compact.h"
 
-#include "depth/error.h"
+#include "depth/base/error.h"
 
 namespace ossa::forest {
 namespace {

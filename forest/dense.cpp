@@ -4,7 +4,7 @@
 #include <cstring>
 #include <vector>
 
-#include "depth/clones.h"
+#include "depth/base/clones.h"
 #include "forest/lanes_internal.h"
 
 namespace ossa::forest {

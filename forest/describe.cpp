@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "depth/clones.h"
+#include "depth/base/clones.h"
 #include "forest/lanes_internal.h"
 #include "forest/refine_internal.h"
 

@@ -10,7 +10,7 @@
 #include <cmath>
 #include <cstring>
 
-#include "depth/clones.h"
+#include "depth/base/clones.h"
 
 namespace ossa::forest {
 namespace {

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "depth/error.h"
+#include "depth/base/error.h"
 #include "forest/refine_internal.h"
 #include "forest/runtime_internal.h"
 

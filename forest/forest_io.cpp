@@ -2,9 +2,9 @@
 #include <cstring>
 #include <stdexcept>
 
-#include "depth/error.h"
-#include "depth/file/compressed.h"
-#include "depth/file/sealed_file.h"
+#include "depth/base/compressed.h"
+#include "depth/base/error.h"
+#include "depth/base/sealed_file.h"
 #include "forest/compact.h"
 #include "forest/forest.h"
 #include "forest/pack_internal.h"

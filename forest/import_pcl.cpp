@@ -7,8 +7,8 @@
 #include <fstream>
 #include <sstream>
 
-#include "depth/error.h"
-#include "depth/file/open_file.h"
+#include "depth/base/error.h"
+#include "depth/base/open_file.h"
 
 namespace ossa::forest {
 namespace {

@@ -1,4 +1,4 @@
-#include "depth/clones.h"
+#include "depth/base/clones.h"
 #include "forest/lanes_internal.h"
 #include "forest/propose_internal.h"
 

@@ -2,7 +2,7 @@
 #include <string_view>
 #include <vector>
 
-#include "depth/file/sealed_file.h"
+#include "depth/base/sealed_file.h"
 #include "forest/forest.h"
 
 namespace ossa::forest {

@@ -11,7 +11,7 @@
 #include <bit>
 #include <cmath>
 
-#include "depth/clones.h"
+#include "depth/base/clones.h"
 #include "forest/forest.h"
 #include "forest/relabel_internal.h"
 

@@ -5,7 +5,7 @@
 #include <array>
 #include <cmath>
 
-#include "depth/large_pages.h"
+#include "depth/base/large_pages.h"
 #include "forest/runtime_internal.h"
 
 namespace ossa::forest {

@@ -11,7 +11,7 @@
 #include <cstdlib>
 #include <cstring>
 
-#include "depth/clones.h"
+#include "depth/base/clones.h"
 
 namespace ossa::forest {
 namespace {

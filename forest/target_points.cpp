@@ -6,7 +6,7 @@
 #include <cstring>
 #include <limits>
 
-#include "depth/clones.h"
+#include "depth/base/clones.h"
 #include "forest/lanes_internal.h"
 #include "forest/propose_internal.h"
 

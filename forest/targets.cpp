@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "depth/error.h"
+#include "depth/base/error.h"
 
 namespace ossa::forest {
 

@@ -1,7 +1,7 @@
 #include <algorithm>
 #include <bit>
 
-#include "depth/clones.h"
+#include "depth/base/clones.h"
 #include "forest/feature_internal.h"
 
 namespace ossa::forest {

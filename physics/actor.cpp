@@ -1,7 +1,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "depth/error.h"
+#include "depth/base/error.h"
 #include "physics/actor_internal.h"
 #include "physics/retarget.h"
 #include "recon/orientation.h"

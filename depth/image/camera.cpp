@@ -4,7 +4,7 @@
 #include <array>
 #include <sstream>
 
-#include "depth/error.h"
+#include "depth/base/error.h"
 
 namespace ossa::depth {
 namespace {

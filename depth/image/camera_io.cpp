@@ -6,9 +6,9 @@
 #include <nlohmann/json.hpp>
 #include <vector>
 
-#include "depth/error.h"
-#include "depth/file/atomic_file.h"
-#include "depth/file/open_file.h"
+#include "depth/base/atomic_file.h"
+#include "depth/base/error.h"
+#include "depth/base/open_file.h"
 #include "depth/image/depth_png.h"
 
 namespace ossa::depth {

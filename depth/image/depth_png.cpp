@@ -4,8 +4,8 @@
 #include <fstream>
 #include <system_error>
 
-#include "depth/error.h"
-#include "depth/file/atomic_file.h"
+#include "depth/base/atomic_file.h"
+#include "depth/base/error.h"
 #include "depth/image/png_codec_internal.h"
 
 namespace ossa::depth {

@@ -12,7 +12,7 @@
 #include <memory>
 #include <new>
 
-#include "depth/error.h"
+#include "depth/base/error.h"
 #include "depth/image/colour_png.h"
 #include "depth/image/png_codec_internal.h"
 

@@ -8,7 +8,7 @@
 #include <array>
 #include <cstring>
 
-#include "depth/error.h"
+#include "depth/base/error.h"
 #include "depth/sensor/child_process_internal.h"
 
 extern char** environ;

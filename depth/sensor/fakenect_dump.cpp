@@ -4,8 +4,8 @@
 #include <cmath>
 #include <cstdio>
 
-#include "depth/error.h"
-#include "depth/file/atomic_file.h"
+#include "depth/base/atomic_file.h"
+#include "depth/base/error.h"
 
 namespace ossa::depth {
 namespace {

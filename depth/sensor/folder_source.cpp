@@ -1,7 +1,7 @@
 #include <algorithm>
 #include <vector>
 
-#include "depth/error.h"
+#include "depth/base/error.h"
 #include "depth/image/camera_io.h"
 #include "depth/image/depth_png.h"
 #include "depth/sensor/source_internal.h"

@@ -5,8 +5,8 @@
 #include <fstream>
 #include <memory>
 
-#include "depth/error.h"
-#include "depth/file/open_file.h"
+#include "depth/base/error.h"
+#include "depth/base/open_file.h"
 #include "depth/sensor/oni_format_internal.h"
 
 namespace ossa::depth {

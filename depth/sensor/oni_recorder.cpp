@@ -10,9 +10,9 @@
 #include <cmath>
 #include <cstring>
 
-#include "depth/error.h"
-#include "depth/file/atomic_file.h"
-#include "depth/file/open_file.h"
+#include "depth/base/atomic_file.h"
+#include "depth/base/error.h"
+#include "depth/base/open_file.h"
 #include "depth/sensor/oni_codec_internal.h"
 #include "depth/sensor/oni_format_internal.h"
 

@@ -2,7 +2,7 @@
 #include <cctype>
 #include <system_error>
 
-#include "depth/error.h"
+#include "depth/base/error.h"
 #include "depth/sensor/source_internal.h"
 
 namespace ossa::depth {

@@ -2,8 +2,8 @@
 
 #include <algorithm>
 
-#include "depth/error.h"
-#include "depth/file/sealed_file.h"
+#include "depth/base/error.h"
+#include "depth/base/sealed_file.h"
 
 namespace ossa::forest {
 namespace {

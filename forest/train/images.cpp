@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "depth/error.h"
+#include "depth/base/error.h"
 #include "forest/train/images_internal.h"
 #include "forest/train/random_internal.h"
 

@@ -7,7 +7,7 @@
 #include <cmath>
 #include <optional>
 
-#include "depth/error.h"
+#include "depth/base/error.h"
 #include "forest/thread_limit.h"
 #include "forest/train.h"
 

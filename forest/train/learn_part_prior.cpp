@@ -8,7 +8,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "depth/error.h"
+#include "depth/base/error.h"
 #include "forest/classify.h"
 #include "forest/propose.h"
 #include "forest/relabel_internal.h"

@@ -7,7 +7,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "depth/error.h"
+#include "depth/base/error.h"
 #include "forest/classify.h"
 #include "forest/thread_limit.h"
 #include "forest/train.h"

@@ -6,7 +6,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "depth/error.h"
+#include "depth/base/error.h"
 #include "forest/network.h"
 #include "forest/refine_internal.h"
 #include "forest/thread_limit.h"

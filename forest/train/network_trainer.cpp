@@ -3,7 +3,7 @@
 #include <bit>
 #include <cmath>
 
-#include "depth/clones.h"
+#include "depth/base/clones.h"
 
 namespace ossa::forest {
 namespace {

@@ -4,7 +4,7 @@
 #include <array>
 #include <cmath>
 
-#include "depth/clones.h"
+#include "depth/base/clones.h"
 
 namespace ossa::forest {
 namespace {

@@ -6,7 +6,7 @@
 #include <chrono>
 #include <optional>
 
-#include "depth/error.h"
+#include "depth/base/error.h"
 #include "forest/thread_limit.h"
 #include "forest/train/checkpoint_internal.h"
 #include "forest/train/grow_internal.h"

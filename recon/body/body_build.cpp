@@ -5,8 +5,8 @@
 #include <numeric>
 #include <unordered_map>
 
-#include "depth/error.h"
-#include "depth/file/sealed_file.h"
+#include "depth/base/error.h"
+#include "depth/base/sealed_file.h"
 #include "recon/body/parts.h"
 
 namespace ossa::recon {

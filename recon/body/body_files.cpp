@@ -6,7 +6,7 @@
 #include <sstream>
 #include <string_view>
 
-#include "depth/error.h"
+#include "depth/base/error.h"
 #include "recon/body/body_files_internal.h"
 
 namespace ossa::recon {

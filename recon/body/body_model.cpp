@@ -5,7 +5,7 @@
 #include <cstdlib>
 #include <stdexcept>
 
-#include "depth/error.h"
+#include "depth/base/error.h"
 #include "recon/body/body_build_internal.h"
 #include "recon/body/standard_body.h"
 

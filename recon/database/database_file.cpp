@@ -2,8 +2,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "depth/error.h"
-#include "depth/file/sealed_file.h"
+#include "depth/base/error.h"
+#include "depth/base/sealed_file.h"
 #include "recon/database/posture_database.h"
 
 namespace ossa::recon {

@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "depth/error.h"
+#include "depth/base/error.h"
 #include "recon/database/posture_grid_internal.h"
 
 namespace ossa::recon {

@@ -6,23 +6,24 @@
 //   2. trust of each joint: reliability without the window of eq. 8, which would punish a joint for
 //      six frames; softened where good sensors are imprecise anyway (bone lengths);
 //   3. joints in doubt are completed: hung on what is seen, as they hung before where the sensor's
-//      guesses are fair, else as is to be expected of what was seen until now (recon/gp/
+//      guesses are fair, else as is to be expected of what was seen until now (recon/models/
 //      posture_prior.h) or, without a prior, as plantard-2016 has them in a natural posture;
 //   4. a filter a joint weighs by trust, or one that was learned of this sensor; a frame later it
 //      says better what it thought (posture_filter_internal.h);
-//   5. the learned systematic error of the whole posture is taken off (recon/gp/pose_correction.h);
+//   5. the learned systematic error of the whole posture is taken off
+//   (recon/models/pose_correction.h);
 //   6. the person's constant bone lengths are imposed, moving the joints least; a close look judges
-//      them frame by frame (recon/look/bone_measure.h).
+//      them frame by frame (recon/refine/bone_measure.h).
 #include <algorithm>
 #include <cmath>
 
-#include "recon/gp/learned_models.h"
 #include "recon/methods/bone_projection.h"
 #include "recon/methods/methods_internal.h"
 #include "recon/methods/person_internal.h"
 #include "recon/methods/plausibility_internal.h"
 #include "recon/methods/posture_filter_internal.h"
 #include "recon/methods/prior_completion_internal.h"
+#include "recon/models/learned_models.h"
 
 namespace ossa::recon {
 namespace {

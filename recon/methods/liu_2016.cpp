@@ -6,9 +6,9 @@
 #include <cmath>
 
 #include "recon/database/posture_database.h"
-#include "recon/gp/learned_models.h"
 #include "recon/methods/methods_internal.h"
 #include "recon/methods/person_internal.h"
+#include "recon/models/learned_models.h"
 
 namespace ossa::recon {
 namespace {

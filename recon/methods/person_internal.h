@@ -1,10 +1,10 @@
 #pragma once
 #include <optional>
 
-#include "recon/look/bone_measure.h"
 #include "recon/methods/frame_steps_internal.h"
 #include "recon/methods/reconstructor.h"
 #include "recon/normalise.h"
+#include "recon/refine/bone_measure.h"
 #include "recon/reliability.h"
 
 namespace ossa::recon {

@@ -3,8 +3,8 @@
 #include <vector>
 
 #include "recon/filters/lag_filter_internal.h"
-#include "recon/gp/linear_filter.h"
 #include "recon/methods/reconstructor.h"
+#include "recon/models/linear_filter.h"
 
 namespace ossa::recon {
 

@@ -2,8 +2,8 @@
 #include <memory>
 #include <optional>
 
-#include "recon/gp/prior_filter.h"
 #include "recon/methods/person_internal.h"
+#include "recon/models/prior_filter.h"
 
 namespace ossa::recon {
 

@@ -4,10 +4,10 @@
 #include <array>
 #include <string_view>
 
-#include "depth/error.h"
+#include "depth/base/error.h"
 #include "recon/database/posture_database.h"
-#include "recon/gp/learned_models.h"
 #include "recon/methods/methods_internal.h"
+#include "recon/models/learned_models.h"
 
 namespace ossa::recon {
 namespace {

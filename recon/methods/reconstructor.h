@@ -18,7 +18,7 @@ struct ReconstructionInput {
   /// The depth image, when there is one: whether a surface lies where a joint is said to be tells
   /// an occluded joint from a wrong one. Borrowed for the call.
   const depth::DepthFrame* depth = nullptr;
-  /// The person's bones as a close look judges them in this frame (recon/look/bone_measure.h).
+  /// The person's bones as a close look judges them in this frame (recon/refine/bone_measure.h).
   std::optional<BoneLengths> bones_m = std::nullopt;
 };
 
@@ -46,8 +46,8 @@ class Reconstructor {
 };
 
 class PostureDatabase;  // recon/database/posture_database.h
-struct LearnedModels;   // recon/gp/learned_models.h
-struct PosturePrior;    // recon/gp/posture_prior.h
+struct LearnedModels;   // recon/models/learned_models.h
+struct PosturePrior;    // recon/models/posture_prior.h
 
 /// Settings of the natural posture space and its energy: shum-2013, plantard-2016.
 struct LocalPcaOptions {
@@ -95,8 +95,8 @@ struct BestConstants {
 
 /// Settings of `best`; the switches are for ablations.
 struct BestOptions {
-  /// What is observed are joints after a close look (recon/look/close_look.h): the trunk's are the
-  /// surest, and those of hidden joints are no longer where the surface is that hides them.
+  /// What is observed are joints after a close look (recon/refine/close_look.h): the trunk's are
+  /// the surest, and those of hidden joints are no longer where the surface is that hides them.
   bool looked = false;
   bool repair = true;    // gross failures are told from motion
   bool complete = true;  // joints in doubt come from the posture space

@@ -2,7 +2,7 @@
 #include <cstddef>
 #include <vector>
 
-#include "recon/gp/pairs.h"
+#include "recon/models/pairs.h"
 #include "recon/skeleton_sequence.h"
 
 namespace ossa::recon {

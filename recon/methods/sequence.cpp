@@ -6,9 +6,9 @@
 #include <cmath>
 #include <map>
 
-#include "depth/error.h"
-#include "recon/gp/learned_models.h"
+#include "depth/base/error.h"
 #include "recon/methods/methods_internal.h"
+#include "recon/models/learned_models.h"
 
 namespace ossa::recon {
 namespace {

@@ -1,7 +1,7 @@
 #include <algorithm>
 #include <numbers>
 
-#include "depth/error.h"
+#include "depth/base/error.h"
 #include "recon/motion/acclaim_internal.h"
 #include "recon/motion/text_scanner_internal.h"
 

@@ -5,7 +5,7 @@
 #include <numbers>
 #include <optional>
 
-#include "depth/error.h"
+#include "depth/base/error.h"
 #include "recon/motion/acclaim_internal.h"
 #include "recon/motion/text_scanner_internal.h"
 

@@ -2,7 +2,7 @@
 #include <initializer_list>
 #include <map>
 
-#include "depth/error.h"
+#include "depth/base/error.h"
 #include "recon/body/rig.h"
 #include "recon/motion/bone_names_internal.h"
 #include "recon/motion/text_scanner_internal.h"

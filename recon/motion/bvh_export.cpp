@@ -6,8 +6,8 @@
 #include <numbers>
 #include <optional>
 
-#include "depth/error.h"
-#include "depth/file/atomic_file.h"
+#include "depth/base/atomic_file.h"
+#include "depth/base/error.h"
 #include "recon/body/standard_body.h"
 #include "recon/motion/bone_names_internal.h"
 #include "recon/motion/bvh.h"

@@ -5,7 +5,7 @@
 #include <numbers>
 #include <string_view>
 
-#include "depth/error.h"
+#include "depth/base/error.h"
 #include "recon/motion/bvh.h"
 #include "recon/motion/bvh_source_internal.h"
 #include "recon/motion/text_scanner_internal.h"

@@ -2,7 +2,7 @@
 #include <span>
 #include <string_view>
 
-#include "depth/file/atomic_file.h"
+#include "depth/base/atomic_file.h"
 #include "recon/motion/bvh.h"
 #include "recon/motion/bvh_text_internal.h"
 #include "recon/motion/fixed_point_internal.h"

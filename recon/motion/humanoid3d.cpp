@@ -3,7 +3,7 @@
 #include <memory>
 #include <nlohmann/json.hpp>
 
-#include "depth/error.h"
+#include "depth/base/error.h"
 #include "recon/motion/humanoid3d_internal.h"
 
 namespace ossa::recon {

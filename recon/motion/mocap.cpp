@@ -6,7 +6,7 @@
 #include <memory>
 #include <optional>
 
-#include "depth/error.h"
+#include "depth/base/error.h"
 #include "recon/motion/acclaim_internal.h"
 #include "recon/motion/authored.h"
 #include "recon/motion/bone_names_internal.h"

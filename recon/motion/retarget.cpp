@@ -5,7 +5,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "depth/error.h"
+#include "depth/base/error.h"
 #include "recon/body/standard_body.h"
 
 namespace ossa::recon {

@@ -3,7 +3,7 @@
 #include <map>
 #include <string>
 
-#include "depth/error.h"
+#include "depth/base/error.h"
 #include "recon/motion/sightings_internal.h"
 
 namespace ossa::recon {

@@ -3,8 +3,8 @@
 #include <fstream>
 #include <iterator>
 
-#include "depth/error.h"
-#include "depth/file/open_file.h"
+#include "depth/base/error.h"
+#include "depth/base/open_file.h"
 #include "recon/motion/text_scanner_internal.h"
 
 namespace ossa::recon {

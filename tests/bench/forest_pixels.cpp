@@ -9,7 +9,7 @@
 #include <random>
 #include <string>
 
-#include "depth/error.h"
+#include "depth/base/error.h"
 #include "forest/classify.h"
 #include "forest/feature_internal.h"
 #include "tools/learning/person_source.h"

@@ -7,9 +7,9 @@
 #include <cmath>
 #include <map>
 
-#include "recon/gp/learned_models.h"
-#include "recon/gp/posture_prior.h"
 #include "recon/methods/reconstructor.h"
+#include "recon/models/learned_models.h"
+#include "recon/models/posture_prior.h"
 #include "tests/recon/synthetic_motion.h"
 
 namespace ossa::recon {

@@ -2,7 +2,7 @@
 
 #include <Eigen/Dense>
 
-#include "depth/error.h"
+#include "depth/base/error.h"
 #include "forest/agree_internal.h"
 #include "forest/train.h"
 #include "tests/forest/ball_figure.h"

@@ -4,7 +4,7 @@
 
 #include <fstream>
 
-#include "depth/error.h"
+#include "depth/base/error.h"
 #include "tests/support/temporary_folder.h"
 
 namespace ossa::forest {

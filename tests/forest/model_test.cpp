@@ -6,9 +6,9 @@
 #include <stdexcept>
 #include <string_view>
 
-#include "depth/error.h"
-#include "depth/file/compressed.h"
-#include "depth/file/sealed_file.h"
+#include "depth/base/compressed.h"
+#include "depth/base/error.h"
+#include "depth/base/sealed_file.h"
 #include "forest/classify.h"
 #include "forest/compact.h"
 #include "forest/forest.h"

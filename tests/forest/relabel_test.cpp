@@ -4,7 +4,7 @@
 
 #include <cmath>
 
-#include "depth/error.h"
+#include "depth/base/error.h"
 #include "forest/relabel_internal.h"
 #include "forest/train.h"
 #include "forest/train/learn_internal.h"

@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <memory>
 
-#include "depth/error.h"
+#include "depth/base/error.h"
 #include "forest/classify.h"
 #include "forest/propose.h"
 #include "tests/forest/ball_figure.h"

@@ -4,7 +4,7 @@
 #include <cstdlib>
 #include <string>
 
-#include "depth/error.h"
+#include "depth/base/error.h"
 #include "depth/image/camera_io.h"
 #include "tests/fuzz/seeds.h"
 

@@ -1,8 +1,8 @@
 // Close looks (.ossalook): any payload is a value or an InputError.
 #include <cstdint>
 
-#include "recon/look/bone_measure.h"
-#include "recon/look/close_look.h"
+#include "recon/refine/bone_measure.h"
+#include "recon/refine/close_look.h"
 #include "tests/fuzz/outcome.h"
 #include "tests/fuzz/seeds.h"
 

@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "depth/error.h"
+#include "depth/base/error.h"
 #include "depth/image/png_codec_internal.h"
 #include "tests/fuzz/seeds.h"
 

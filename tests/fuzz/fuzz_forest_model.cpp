@@ -4,7 +4,7 @@
 #include <cstdint>
 #include <cstring>
 
-#include "depth/file/sealed_file.h"
+#include "depth/base/sealed_file.h"
 #include "forest/forest.h"
 #include "tests/fuzz/outcome.h"
 #include "tests/fuzz/seeds.h"

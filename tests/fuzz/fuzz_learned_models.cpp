@@ -1,7 +1,7 @@
 // Learned reconstructions (.ossagp): any payload is a value or an InputError.
 #include <cstdint>
 
-#include "recon/gp/learned_models.h"
+#include "recon/models/learned_models.h"
 #include "tests/fuzz/outcome.h"
 #include "tests/fuzz/seeds.h"
 

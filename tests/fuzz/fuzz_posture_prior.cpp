@@ -1,7 +1,7 @@
 // Posture priors (.ossaprior): any payload is a value or an InputError.
 #include <cstdint>
 
-#include "recon/gp/posture_prior.h"
+#include "recon/models/posture_prior.h"
 #include "tests/fuzz/outcome.h"
 #include "tests/fuzz/seeds.h"
 

@@ -2,7 +2,7 @@
 #include <cstdint>
 #include <filesystem>
 
-#include "depth/file/sealed_file.h"
+#include "depth/base/sealed_file.h"
 #include "tests/fuzz/outcome.h"
 #include "tests/fuzz/seeds.h"
 

@@ -3,10 +3,10 @@
 #include <filesystem>
 #include <sstream>
 
-#include "recon/motion/skeletons/skeleton_io.h"
+#include "recon/files/skeleton_io.h"
 #include "tests/fuzz/outcome.h"
 #include "tests/fuzz/seeds.h"
-#include "tests/recon/motion/skeleton_texts.h"
+#include "tests/recon/files/skeleton_texts.h"
 
 namespace {
 

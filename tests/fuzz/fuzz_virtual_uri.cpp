@@ -3,7 +3,7 @@
 #include <cstdlib>
 #include <string>
 
-#include "depth/error.h"
+#include "depth/base/error.h"
 #include "depth/sensor/drivers/virtual_uri.h"
 #include "tests/fuzz/seeds.h"
 

@@ -2,7 +2,7 @@
 #include <cstdlib>
 #include <string>
 
-#include "depth/error.h"
+#include "depth/base/error.h"
 
 namespace ossa::fuzz {
 

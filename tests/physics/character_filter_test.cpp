@@ -7,7 +7,7 @@
 #include <stdexcept>
 #include <tuple>
 
-#include "depth/error.h"
+#include "depth/base/error.h"
 #include "tests/physics/person.h"
 
 namespace ossa::physics {

@@ -1,6 +1,6 @@
 #pragma once
-#include "recon/gp/learned_models.h"
 #include "recon/methods/recorded_pairs.h"
+#include "recon/models/learned_models.h"
 #include "tests/recon/synthetic_motion.h"
 
 namespace ossa::recon::test {

@@ -3,7 +3,7 @@
 
 #include <string>
 
-#include "depth/error.h"
+#include "depth/base/error.h"
 
 namespace ossa::test {
 

@@ -4,8 +4,8 @@
 #include <string>
 #include <vector>
 
-#include "depth/error.h"
-#include "depth/file/atomic_file.h"
+#include "depth/base/atomic_file.h"
+#include "depth/base/error.h"
 #include "recon/body/standard_body.h"
 #include "recon/database/posture_database.h"
 #include "recon/motion/mocap.h"

@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <string>
 
-#include "depth/error.h"
+#include "depth/base/error.h"
 #include "tools/commands/command.h"
 #include "tools/commands/commands.h"
 #include "tools/commands/study.h"

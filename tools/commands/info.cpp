@@ -6,16 +6,16 @@
 #include <filesystem>
 #include <string>
 
-#include "depth/error.h"
-#include "depth/one_line.h"
+#include "depth/base/error.h"
+#include "depth/base/one_line.h"
 #include "depth/sensor/frame_source.h"
 #include "forest/forest.h"
 #include "recon/database/posture_database.h"
-#include "recon/gp/learned_models.h"
-#include "recon/gp/posture_prior.h"
-#include "recon/look/bone_measure.h"
-#include "recon/look/close_look.h"
-#include "recon/motion/skeletons/skeleton_io.h"
+#include "recon/files/skeleton_io.h"
+#include "recon/models/learned_models.h"
+#include "recon/models/posture_prior.h"
+#include "recon/refine/bone_measure.h"
+#include "recon/refine/close_look.h"
 #include "tools/commands/command.h"
 #include "tools/commands/commands.h"
 #include "tools/synth/dataset.h"

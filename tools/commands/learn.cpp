@@ -5,11 +5,11 @@
 #include <string>
 #include <vector>
 
-#include "depth/error.h"
-#include "depth/file/atomic_file.h"
-#include "recon/gp/learned_models.h"
+#include "depth/base/atomic_file.h"
+#include "depth/base/error.h"
+#include "recon/files/skeleton_io.h"
 #include "recon/methods/recorded_pairs.h"
-#include "recon/motion/skeletons/skeleton_io.h"
+#include "recon/models/learned_models.h"
 #include "tools/commands/command.h"
 #include "tools/commands/commands.h"
 #include "tools/commands/outputs.h"

@@ -4,8 +4,8 @@
 #include <string>
 #include <vector>
 
-#include "depth/error.h"
-#include "depth/file/atomic_file.h"
+#include "depth/base/atomic_file.h"
+#include "depth/base/error.h"
 #include "forest/forest.h"
 #include "forest/train.h"
 #include "tools/commands/command.h"

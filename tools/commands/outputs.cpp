@@ -5,8 +5,8 @@
 #include <filesystem>
 #include <system_error>
 
-#include "depth/error.h"
-#include "recon/motion/skeletons/skeleton_io.h"
+#include "depth/base/error.h"
+#include "recon/files/skeleton_io.h"
 #include "tools/commands/command.h"
 
 namespace ossa::commands {

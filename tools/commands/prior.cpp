@@ -4,11 +4,11 @@
 #include <string>
 #include <vector>
 
-#include "depth/error.h"
-#include "depth/file/atomic_file.h"
+#include "depth/base/atomic_file.h"
+#include "depth/base/error.h"
 #include "forest/train.h"
 #include "recon/body/standard_body.h"
-#include "recon/gp/posture_prior.h"
+#include "recon/models/posture_prior.h"
 #include "recon/motion/mocap.h"
 #include "tools/commands/checks.h"
 #include "tools/commands/command.h"

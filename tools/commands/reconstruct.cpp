@@ -9,11 +9,11 @@
 #include <tuple>
 #include <vector>
 
-#include "depth/error.h"
-#include "depth/file/atomic_file.h"
+#include "depth/base/atomic_file.h"
+#include "depth/base/error.h"
 #include "recon/database/posture_database.h"
+#include "recon/files/skeleton_io.h"
 #include "recon/methods/sequence.h"
-#include "recon/motion/skeletons/skeleton_io.h"
 #include "tools/commands/checks.h"
 #include "tools/commands/command.h"
 #include "tools/commands/commands.h"

@@ -5,8 +5,8 @@
 #include <optional>
 #include <string>
 
-#include "depth/error.h"
-#include "depth/file/atomic_file.h"
+#include "depth/base/atomic_file.h"
+#include "depth/base/error.h"
 #include "depth/sensor/fakenect_dump.h"
 #include "depth/sensor/frame_source.h"
 #include "depth/sensor/oni_recorder.h"

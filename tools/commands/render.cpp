@@ -6,8 +6,8 @@
 #include <thread>
 #include <vector>
 
-#include "depth/error.h"
-#include "depth/file/folder_lock.h"
+#include "depth/base/error.h"
+#include "depth/base/folder_lock.h"
 #include "recon/motion/mocap.h"
 #include "tools/commands/command.h"
 #include "tools/commands/commands.h"

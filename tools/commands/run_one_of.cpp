@@ -7,7 +7,7 @@
 #include <string_view>
 #include <system_error>
 
-#include "depth/one_line.h"
+#include "depth/base/one_line.h"
 #include "tools/commands/command.h"
 #include "tools/commands/process.h"
 

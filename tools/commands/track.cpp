@@ -9,13 +9,13 @@
 #include <optional>
 #include <string>
 
-#include "depth/error.h"
-#include "depth/file/atomic_file.h"
+#include "depth/base/atomic_file.h"
+#include "depth/base/error.h"
 #include "depth/sensor/frame_source.h"
-#include "recon/look/close_look.h"
+#include "recon/files/skeleton_io.h"
+#include "recon/files/skeleton_jsonl.h"
 #include "recon/methods/reconstructor.h"
-#include "recon/motion/skeletons/skeleton_io.h"
-#include "recon/motion/skeletons/skeleton_jsonl.h"
+#include "recon/refine/close_look.h"
 #include "tools/commands/checks.h"
 #include "tools/commands/command.h"
 #include "tools/commands/commands.h"

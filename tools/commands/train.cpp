@@ -6,8 +6,8 @@
 #include <nlohmann/json.hpp>
 #include <sstream>
 
-#include "depth/error.h"
-#include "depth/file/atomic_file.h"
+#include "depth/base/atomic_file.h"
+#include "depth/base/error.h"
 #include "forest/compact.h"
 #include "forest/import_pcl.h"
 #include "forest/train.h"

@@ -8,8 +8,8 @@
 #include <thread>
 
 #include "depth/sensor/frame_source.h"
+#include "recon/files/skeleton_io.h"
 #include "recon/methods/reconstructor.h"
-#include "recon/motion/skeletons/skeleton_io.h"
 #include "tools/commands/command.h"
 #include "tools/commands/commands.h"
 #include "tools/commands/method_options.h"

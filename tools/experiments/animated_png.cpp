@@ -5,7 +5,7 @@
 #include <stdexcept>
 #include <string>
 
-#include "depth/file/atomic_file.h"
+#include "depth/base/atomic_file.h"
 #include "depth/image/colour_png.h"
 
 namespace ossa::tools {

@@ -8,7 +8,7 @@
 #include <numbers>
 #include <set>
 
-#include "depth/error.h"
+#include "depth/base/error.h"
 #include "depth/render/renderer.h"
 #include "recon/body/body_model.h"
 #include "recon/body/parts.h"

@@ -9,8 +9,8 @@
 #include <set>
 #include <sstream>
 
-#include "depth/error.h"
-#include "depth/file/atomic_file.h"
+#include "depth/base/atomic_file.h"
+#include "depth/base/error.h"
 #include "tools/json/json_text.h"
 
 namespace ossa::tools {

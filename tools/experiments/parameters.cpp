@@ -8,8 +8,8 @@
 #include <iterator>
 #include <string_view>
 
-#include "depth/error.h"
-#include "depth/file/open_file.h"
+#include "depth/base/error.h"
+#include "depth/base/open_file.h"
 #include "tools/experiments/experiment.h"
 
 namespace ossa::tools {

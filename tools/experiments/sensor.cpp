@@ -6,7 +6,7 @@
 #include <cmath>
 #include <optional>
 
-#include "depth/error.h"
+#include "depth/base/error.h"
 #include "depth/image/depth_png.h"
 #include "recon/motion/mocap.h"
 #include "tools/experiments/experiments_internal.h"

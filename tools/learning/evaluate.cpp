@@ -6,7 +6,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "depth/error.h"
+#include "depth/base/error.h"
 #include "forest/classify.h"
 #include "forest/relabel.h"
 #include "forest/targets.h"

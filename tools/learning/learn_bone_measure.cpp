@@ -1,7 +1,7 @@
 #include "tools/learning/learn_bone_measure.h"
 
 #include "forest/thread_limit.h"
-#include "recon/look/bone_measure.h"
+#include "recon/refine/bone_measure.h"
 #include "tools/learning/learn_rectified_network.h"
 #include "tools/learning/look_examples.h"
 

@@ -9,7 +9,7 @@
 #include <numeric>
 
 #include "forest/thread_limit.h"
-#include "recon/look/bone_measure.h"
+#include "recon/refine/bone_measure.h"
 #include "recon/skeleton.h"
 #include "tools/learning/learn_rectified_network.h"
 #include "tools/learning/look_examples.h"

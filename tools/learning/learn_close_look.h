@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "forest/forest.h"
-#include "recon/look/close_look.h"
+#include "recon/refine/close_look.h"
 
 namespace ossa::tools {
 

@@ -8,11 +8,11 @@
 #include <memory>
 #include <numbers>
 
-#include "depth/error.h"
+#include "depth/base/error.h"
 #include "forest/network.h"
 #include "forest/thread_limit.h"
 #include "forest/train.h"
-#include "recon/gp/prior_filter.h"
+#include "recon/models/prior_filter.h"
 #include "tools/learning/learn_rectified_network.h"
 #include "tools/synth/random.h"
 

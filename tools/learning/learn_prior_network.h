@@ -3,7 +3,7 @@
 #include <functional>
 #include <vector>
 
-#include "recon/gp/posture_prior.h"
+#include "recon/models/posture_prior.h"
 
 namespace ossa::tools {
 

@@ -1,6 +1,6 @@
 #pragma once
 #include "forest/network.h"
-#include "recon/gp/rectified_network.h"
+#include "recon/models/rectified_network.h"
 
 namespace ossa::tools {
 

@@ -6,7 +6,7 @@
 #include <algorithm>
 #include <optional>
 
-#include "depth/error.h"
+#include "depth/base/error.h"
 #include "forest/classify.h"
 #include "forest/propose.h"
 #include "forest/targets.h"

@@ -6,7 +6,7 @@
 
 #include "forest/forest.h"
 #include "forest/network.h"
-#include "recon/look/close_look.h"
+#include "recon/refine/close_look.h"
 #include "tools/learning/learn_close_look.h"
 
 namespace ossa::tools {

@@ -6,7 +6,7 @@
 #include <limits>
 #include <numbers>
 
-#include "depth/error.h"
+#include "depth/base/error.h"
 #include "recon/body/parts.h"
 #include "recon/skeleton.h"
 

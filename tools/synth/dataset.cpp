@@ -7,8 +7,8 @@
 #include <fstream>
 #include <mutex>
 
-#include "depth/error.h"
-#include "depth/file/open_file.h"
+#include "depth/base/error.h"
+#include "depth/base/open_file.h"
 #include "depth/image/depth_png.h"
 #include "recon/body/parts.h"
 #include "tools/synth/manifest_internal.h"

@@ -3,8 +3,8 @@
 #include <fstream>
 #include <nlohmann/json.hpp>
 
-#include "depth/error.h"
-#include "depth/file/open_file.h"
+#include "depth/base/error.h"
+#include "depth/base/open_file.h"
 #include "depth/image/camera_io.h"
 #include "tools/json/json_text.h"
 #include "tools/synth/manifest_internal.h"

@@ -8,8 +8,8 @@
 #include <sstream>
 #include <thread>
 
-#include "depth/error.h"
-#include "depth/file/atomic_file.h"
+#include "depth/base/atomic_file.h"
+#include "depth/base/error.h"
 #include "depth/image/depth_png.h"
 #include "tools/synth/manifest_internal.h"
 #include "tools/synth/shard_internal.h"

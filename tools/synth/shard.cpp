@@ -4,8 +4,8 @@
 #include <cstdio>
 #include <memory>
 
-#include "depth/error.h"
-#include "depth/file/sealed_file.h"
+#include "depth/base/error.h"
+#include "depth/base/sealed_file.h"
 #include "tools/synth/shard_internal.h"
 
 namespace ossa::tools {

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <limits>
 
-#include "depth/error.h"
+#include "depth/base/error.h"
 
 namespace ossa::tools {
 

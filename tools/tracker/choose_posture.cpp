@@ -4,7 +4,7 @@
 #include <cmath>
 #include <limits>
 
-#include "depth/error.h"
+#include "depth/base/error.h"
 #include "forest/targets.h"
 #include "recon/body/parts.h"
 #include "recon/body/standard_body.h"

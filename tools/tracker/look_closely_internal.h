@@ -5,8 +5,8 @@
 
 #include "depth/scene/scene.h"
 #include "forest/propose.h"
-#include "recon/look/bone_measure.h"
-#include "recon/look/close_look.h"
+#include "recon/refine/bone_measure.h"
+#include "recon/refine/close_look.h"
 
 namespace ossa::tracker {
 

@@ -4,8 +4,8 @@
 #include <optional>
 #include <vector>
 
-#include "recon/look/bone_measure.h"
 #include "recon/methods/reconstructor.h"
+#include "recon/refine/bone_measure.h"
 #include "tools/tracker/choose_posture_internal.h"
 #include "tools/tracker/mechanics_internal.h"
 #include "tools/tracker/steady_internal.h"

@@ -4,7 +4,7 @@
 #include <opencv2/imgproc.hpp>
 #include <vector>
 
-#include "depth/file/atomic_file.h"
+#include "depth/base/atomic_file.h"
 #include "depth/image/colour_png.h"
 #include "recon/body/parts.h"
 

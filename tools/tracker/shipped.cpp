@@ -9,8 +9,8 @@
 #include <utility>
 #include <vector>
 
-#include "depth/error.h"
-#include "recon/gp/posture_prior.h"
+#include "depth/base/error.h"
+#include "recon/models/posture_prior.h"
 
 namespace ossa::tracker {
 namespace {

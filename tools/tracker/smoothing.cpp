@@ -5,7 +5,7 @@
 #include <numbers>
 #include <stdexcept>
 
-#include "depth/error.h"
+#include "depth/base/error.h"
 
 namespace ossa::tracker {
 namespace {

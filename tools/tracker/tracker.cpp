@@ -6,14 +6,14 @@
 #include <stdexcept>
 #include <utility>
 
-#include "depth/error.h"
-#include "depth/large_pages.h"
+#include "depth/base/error.h"
+#include "depth/base/large_pages.h"
 #include "depth/scene/scene.h"
 #include "depth/sensor/frame_source.h"
 #include "forest/forest.h"
 #include "recon/database/posture_database.h"
-#include "recon/gp/learned_models.h"
-#include "recon/look/close_look.h"
+#include "recon/models/learned_models.h"
+#include "recon/refine/close_look.h"
 #include "tools/tracker/find_people_internal.h"
 #include "tools/tracker/look_closely_internal.h"
 #include "tools/tracker/measure_body_internal.h"

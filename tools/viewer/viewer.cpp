@@ -10,8 +10,8 @@
 #include <string>
 #include <thread>
 
-#include "depth/error.h"
-#include "recon/motion/skeletons/skeleton_jsonl.h"
+#include "depth/base/error.h"
+#include "recon/files/skeleton_jsonl.h"
 #include "tools/viewer/page_internal.h"
 
 namespace ossa::viewer {

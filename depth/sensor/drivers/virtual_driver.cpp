@@ -10,7 +10,7 @@
 #include <thread>
 #include <utility>
 
-#include "depth/error.h"
+#include "depth/base/error.h"
 #include "depth/sensor/drivers/announcer_internal.h"
 #include "depth/sensor/drivers/depth_stream_internal.h"
 #include "depth/sensor/drivers/virtual_uri.h"

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <cstring>
 
-#include "depth/error.h"
+#include "depth/base/error.h"
 
 namespace ossa::depth {
 namespace {

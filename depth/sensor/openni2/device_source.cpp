@@ -7,7 +7,7 @@
 #include <string>
 #include <thread>
 
-#include "depth/error.h"
+#include "depth/base/error.h"
 #include "depth/image/camera_io.h"
 #include "depth/sensor/drivers/camera_property_internal.h"
 #include "depth/sensor/drivers/virtual_uri.h"

@@ -1,7 +1,7 @@
 #include <optional>
 #include <string>
 
-#include "depth/error.h"
+#include "depth/base/error.h"
 #include "depth/image/camera_io.h"
 #include "depth/sensor/child_process_internal.h"
 #include "depth/sensor/oni_format_internal.h"

@@ -14,7 +14,7 @@
 #include <string>
 #include <thread>
 
-#include "depth/error.h"
+#include "depth/base/error.h"
 #include "depth/sensor/oni_pipe_internal.h"
 #include "depth/sensor/openni2/openni_depth_internal.h"
 

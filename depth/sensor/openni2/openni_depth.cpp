@@ -6,7 +6,7 @@
 #include <mutex>
 #include <sstream>
 
-#include "depth/error.h"
+#include "depth/base/error.h"
 #include "depth/sensor/shutdown_gate_internal.h"
 
 namespace ossa::depth {

@@ -4,7 +4,7 @@
 
 #include <cstdlib>
 
-#include "depth/error.h"
+#include "depth/base/error.h"
 
 namespace ossa::depth {
 

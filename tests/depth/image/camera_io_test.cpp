@@ -9,7 +9,7 @@
 #include <fstream>
 #include <future>
 
-#include "depth/error.h"
+#include "depth/base/error.h"
 #include "tests/support/temporary_folder.h"
 
 namespace ossa::depth {

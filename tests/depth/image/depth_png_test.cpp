@@ -7,7 +7,7 @@
 #include <functional>
 #include <random>
 
-#include "depth/error.h"
+#include "depth/base/error.h"
 #include "tests/support/temporary_folder.h"
 
 namespace ossa::depth {

@@ -7,7 +7,7 @@
 #include <fstream>
 #include <functional>
 
-#include "depth/error.h"
+#include "depth/base/error.h"
 #include "depth/sensor/frame_source.h"
 #include "depth/sensor/oni_format_internal.h"
 #include "depth/sensor/oni_recorder.h"

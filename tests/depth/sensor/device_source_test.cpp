@@ -6,7 +6,7 @@
 #include <fstream>
 #include <thread>
 
-#include "depth/error.h"
+#include "depth/base/error.h"
 #include "depth/image/camera_io.h"
 #include "depth/sensor/frame_source.h"
 #include "depth/sensor/oni_recorder.h"

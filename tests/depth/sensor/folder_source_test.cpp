@@ -2,10 +2,11 @@
 
 #include <fstream>
 
-#include "depth/error.h"
+#include "depth/base/error.h"
 #include "depth/image/camera_io.h"
 #include "depth/image/depth_png.h"
 #include "depth/sensor/frame_source.h"
+#include "tests/support/places.h"
 #include "tests/support/temporary_folder.h"
 
 namespace ossa::depth {
@@ -170,7 +171,7 @@ TEST(OpenSource, WhatIsNotASourceIsOneLine) {
 }
 
 TEST(RealFrames, SkeltrackIsEightFramesOf640x480) {
-  const std::string folder = std::string(OSSA_SHARED_DIR) + "/real/depth_frames/skeltrack_v1";
+  const std::string folder = test::SharedFolder() / "real/depth_frames/skeltrack_v1";
   if (!std::filesystem::is_directory(folder)) GTEST_SKIP() << "not here: " << folder;
   const auto source = OpenSource(folder);
   int count = 0;

@@ -4,10 +4,11 @@
 #include <cmath>
 #include <fstream>
 
-#include "depth/error.h"
+#include "depth/base/error.h"
 #include "depth/sensor/drivers/kinect_depth.h"
 #include "depth/sensor/fakenect_dump.h"
 #include "tests/support/depth_examples.h"
+#include "tests/support/places.h"
 #include "tests/support/run_command.h"
 #include "tests/support/temporary_folder.h"
 
@@ -55,7 +56,7 @@ TEST(FakenectDump, IsOfAKinectsSize) {
 const std::string kFakenect = "/usr/lib/x86_64-linux-gnu/fakenect";
 
 TEST(KinectDriver, TellsAnyOpenNi2ProgramSerialTiltAndAccelerometer) {
-  const std::string probe = std::string(OSSA_BINARY_DIR) + "/bin/kinect_probe";
+  const std::string probe = (test::BinaryFolder() / "bin/kinect_probe").string();
   if (!std::filesystem::is_directory(kFakenect) || !std::filesystem::exists(probe)) {
     GTEST_SKIP() << "no fakenect or no libfreenect: " << kFakenect;
   }
@@ -65,7 +66,7 @@ TEST(KinectDriver, TellsAnyOpenNi2ProgramSerialTiltAndAccelerometer) {
   dump.Finish();
   const test::CommandResult result = test::RunProgram(
       {"/usr/bin/env",
-       "LD_LIBRARY_PATH=" + kFakenect + ":" + std::string(OSSA_BINARY_DIR) + "/lib/openni2",
+       "LD_LIBRARY_PATH=" + kFakenect + ":" + (test::BinaryFolder() / "lib/openni2").string(),
        "FAKENECT_PATH=" + folder.path().string(), probe, "freenect://0"});
   EXPECT_EQ(result.exit_status, 0) << result.out;
   const auto says = [&](const std::string& words) {

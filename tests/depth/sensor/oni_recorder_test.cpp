@@ -8,8 +8,8 @@
 #include <optional>
 #include <random>
 
-#include "depth/error.h"
-#include "depth/file/atomic_file.h"
+#include "depth/base/atomic_file.h"
+#include "depth/base/error.h"
 #include "depth/sensor/frame_source.h"
 #include "tests/support/depth_examples.h"
 #include "tests/support/refused.h"

@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-#include "depth/error.h"
+#include "depth/base/error.h"
 
 namespace ossa::depth {
 namespace {

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <fstream>
 
-#include "depth/error.h"
+#include "depth/base/error.h"
 #include "recon/database/nearest.h"
 #include "tests/recon/synthetic_motion.h"
 #include "tests/support/temporary_folder.h"

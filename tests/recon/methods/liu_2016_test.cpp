@@ -1,8 +1,8 @@
 #include <gtest/gtest.h>
 
-#include "depth/error.h"
-#include "recon/gp/learned_models.h"
+#include "depth/base/error.h"
 #include "recon/methods/reconstructor.h"
+#include "recon/models/learned_models.h"
 #include "tests/recon/synthetic_motion.h"
 
 namespace ossa::recon {

@@ -5,8 +5,8 @@
 #include <cmath>
 #include <limits>
 
-#include "recon/gp/posture_prior.h"
 #include "recon/methods/reconstructor.h"
+#include "recon/models/posture_prior.h"
 #include "tests/recon/synthetic_motion.h"
 
 namespace ossa::recon {

@@ -4,7 +4,7 @@
 
 #include <limits>
 
-#include "depth/error.h"
+#include "depth/base/error.h"
 #include "tests/recon/synthetic_motion.h"
 
 namespace ossa::recon {

@@ -6,7 +6,7 @@
 #include <cmath>
 #include <limits>
 
-#include "depth/error.h"
+#include "depth/base/error.h"
 #include "tests/recon/synthetic_motion.h"
 
 namespace ossa::recon {

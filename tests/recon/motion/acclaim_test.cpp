@@ -3,7 +3,7 @@
 #include <fstream>
 #include <numbers>
 
-#include "depth/error.h"
+#include "depth/base/error.h"
 #include "recon/body/standard_body.h"
 #include "recon/motion/acclaim_internal.h"
 #include "recon/motion/mocap.h"

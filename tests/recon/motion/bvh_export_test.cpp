@@ -5,8 +5,8 @@
 #include <fstream>
 #include <iterator>
 
+#include "recon/files/skeleton_io.h"
 #include "recon/motion/bvh.h"
-#include "recon/motion/skeletons/skeleton_io.h"
 #include "tests/recon/synthetic_motion.h"
 #include "tests/support/refused.h"
 #include "tests/support/temporary_folder.h"

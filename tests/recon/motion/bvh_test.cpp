@@ -4,7 +4,7 @@
 
 #include <numbers>
 
-#include "depth/error.h"
+#include "depth/base/error.h"
 
 namespace ossa::recon {
 namespace {

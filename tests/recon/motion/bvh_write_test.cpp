@@ -2,7 +2,7 @@
 
 #include <random>
 
-#include "depth/error.h"
+#include "depth/base/error.h"
 #include "recon/body/standard_body.h"
 #include "recon/motion/bvh.h"
 #include "tests/support/temporary_folder.h"

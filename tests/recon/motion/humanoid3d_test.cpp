@@ -6,7 +6,7 @@
 #include <numbers>
 #include <sstream>
 
-#include "depth/error.h"
+#include "depth/base/error.h"
 #include "recon/body/standard_body.h"
 #include "recon/motion/humanoid3d_internal.h"
 #include "recon/motion/mocap.h"

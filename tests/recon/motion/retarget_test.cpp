@@ -6,7 +6,7 @@
 #include <sstream>
 #include <vector>
 
-#include "depth/error.h"
+#include "depth/base/error.h"
 #include "recon/body/standard_body.h"
 #include "recon/motion/mocap.h"
 #include "tests/recon/motion/bvh_texts.h"

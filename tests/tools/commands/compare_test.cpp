@@ -4,8 +4,9 @@
 #include <fstream>
 #include <nlohmann/json.hpp>
 
-#include "recon/motion/skeletons/skeleton_io.h"
-#include "tests/recon/motion/skeleton_examples.h"
+#include "recon/files/skeleton_io.h"
+#include "tests/recon/files/skeleton_examples.h"
+#include "tests/support/places.h"
 #include "tests/support/run_command.h"
 #include "tests/support/temporary_folder.h"
 
@@ -216,8 +217,6 @@ INSTANTIATE_TEST_SUITE_P(
             "AbsentFolder", {"@good.jsonl", "@good.jsonl", "--json", "@no/x.json"}, 1, "x.json"}),
     [](const testing::TestParamInfo<BadUse>& info) { return info.param.name; });
 
-constexpr const char* kReal = OSSA_SHARED_DIR "/real";
-
 struct RealFigure {
   const char* name;
   const char* path;
@@ -234,7 +233,7 @@ class RealRecordings : public testing::TestWithParam<RealFigure> {};
 // The figures of the data's own READMEs, to the 0.1 cm to which they are promised.
 TEST_P(RealRecordings, GiveTheirPublishedFigures) {
   const RealFigure& figure = GetParam();
-  const std::string path = std::string(kReal) + figure.path;
+  const std::string path = (test::SharedFolder() / "real").string() + figure.path;
   if (!std::filesystem::exists(path)) GTEST_SKIP() << path << " is not here";
   std::vector<std::string> arguments = {"compare", path + "#truth", path + "#observed", "--json"};
   if (*figure.skip != 0) arguments.insert(arguments.end(), {"--skip", figure.skip});

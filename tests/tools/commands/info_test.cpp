@@ -7,6 +7,7 @@
 
 #include "recon/database/posture_database.h"
 #include "tests/support/depth_examples.h"
+#include "tests/support/places.h"
 #include "tests/support/run_command.h"
 #include "tests/support/temporary_folder.h"
 
@@ -63,7 +64,7 @@ TEST(InfoCommand, ShowsWhatAPostureDatabaseHolds) {
 }
 
 TEST(InfoCommand, ShowsWhatTheShippedPriorHolds) {
-  ExpectShown(std::filesystem::path(OSSA_SOURCE_DIR) / "tools/tracker/shipped/posture.ossaprior",
+  ExpectShown(test::SourceFolder() / "tools/tracker/shipped/posture.ossaprior",
               "posture prior, 40 modes learned from ");
 }
 

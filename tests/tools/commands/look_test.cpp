@@ -8,9 +8,9 @@
 
 #include "forest/forest.h"
 #include "recon/body/body_model.h"
-#include "recon/look/bone_measure.h"
-#include "recon/look/close_look.h"
 #include "recon/normalise.h"
+#include "recon/refine/bone_measure.h"
+#include "recon/refine/close_look.h"
 #include "tests/support/run_command.h"
 #include "tests/support/temporary_folder.h"
 #include "tools/learning/look_examples.h"

@@ -6,9 +6,10 @@
 #include <fstream>
 #include <iterator>
 
-#include "depth/error.h"
+#include "depth/base/error.h"
 #include "recon/body/standard_body.h"
-#include "recon/gp/posture_prior.h"
+#include "recon/models/posture_prior.h"
+#include "tests/support/places.h"
 #include "tests/support/run_command.h"
 #include "tests/support/temporary_folder.h"
 #include "tools/tracker/shipped.h"
@@ -104,7 +105,7 @@ test::CommandResult TrainPrior(const std::vector<std::string>& clips) {
   for (const std::string& clip : clips) std::ofstream(folder / "mocap" / clip) << "BVH";
   std::ofstream(folder / "ossa") << "#!/bin/sh\nprintf '%s\\n' \"$@\"\n";
   std::filesystem::permissions(folder / "ossa", std::filesystem::perms::owner_all);
-  return test::RunProgram({OSSA_SOURCE_DIR "/tools/train_prior", folder / "mocap",
+  return test::RunProgram({test::SourceFolder() / "tools/train_prior", folder / "mocap",
                            folder / "x.ossaprior", folder / "ossa"});
 }
 

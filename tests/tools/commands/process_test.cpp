@@ -4,7 +4,7 @@
 
 #include <fstream>
 
-#include "depth/file/folder_lock.h"
+#include "depth/base/folder_lock.h"
 #include "tests/support/depth_examples.h"
 #include "tests/support/run_command.h"
 #include "tests/support/temporary_folder.h"

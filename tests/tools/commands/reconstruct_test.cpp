@@ -6,7 +6,7 @@
 #include <fstream>
 #include <optional>
 
-#include "recon/motion/skeletons/skeleton_io.h"
+#include "recon/files/skeleton_io.h"
 #include "tests/recon/synthetic_motion.h"
 #include "tests/support/run_command.h"
 #include "tests/support/temporary_folder.h"

@@ -10,8 +10,9 @@
 
 #include "depth/image/depth_png.h"
 #include "depth/sensor/oni_recorder.h"
-#include "recon/motion/skeletons/skeleton_io.h"
+#include "recon/files/skeleton_io.h"
 #include "tests/support/depth_examples.h"
+#include "tests/support/places.h"
 #include "tests/support/run_command.h"
 #include "tests/support/temporary_folder.h"
 #include "tests/tools/tracker/tracked_scenes.h"
@@ -85,7 +86,7 @@ TEST(TrackCommand, AllFormatsSayTheSameToAReaderThatIsNotOurs) {
     const CommandResult result = TrackTo(folder / "in", out, {}, "shum-2013");
     ASSERT_EQ(result.exit_status, 0) << result.err;
   }
-  const std::string script = OSSA_SOURCE_DIR "/tests/tools/commands/read_outputs.py";
+  const std::string script = test::SourceFolder() / "tests/tools/commands/read_outputs.py";
   const CommandResult read =
       test::RunProgram({"/usr/bin/python3", script, (folder / "x").string()});
   EXPECT_EQ(read.exit_status, 0) << read.err;

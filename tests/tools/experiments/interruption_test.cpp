@@ -5,9 +5,9 @@
 #include <fstream>
 
 #include "recon/body/body_model.h"
+#include "recon/files/skeleton_io.h"
 #include "recon/motion/mocap.h"
-#include "recon/motion/skeletons/skeleton_io.h"
-#include "tests/recon/motion/skeleton_examples.h"
+#include "tests/recon/files/skeleton_examples.h"
 #include "tests/support/temporary_folder.h"
 #include "tools/experiments/compare/comparison.h"
 #include "tools/experiments/experiment.h"

@@ -4,7 +4,7 @@
 
 #include <cmath>
 
-#include "recon/motion/skeletons/skeleton_io.h"
+#include "recon/files/skeleton_io.h"
 
 namespace ossa::tools {
 namespace {

@@ -5,6 +5,7 @@
 #include <random>
 
 #include "tests/recon/synthetic_motion.h"
+#include "tests/support/places.h"
 #include "tests/support/temporary_folder.h"
 #include "tools/experiments/papers/liu_2016_internal.h"
 #include "tools/experiments/sdk/sdk_internal.h"
@@ -96,8 +97,9 @@ TEST(LinearBound, TakesAFrameOfDelayOff) {
 }
 
 TEST(Itop, BestLearnedOfHalfARecordingIsBetterThanOneEuroOnTheOther) {
-  if (!std::filesystem::exists(OSSA_SHARED_DIR "/real/itop_a2j")) GTEST_SKIP() << "no recordings";
-  const auto whole = LoadItop(OSSA_SHARED_DIR).at(0);
+  if (!std::filesystem::exists(test::SharedFolder() / "real/itop_a2j"))
+    GTEST_SKIP() << "no recordings";
+  const auto whole = LoadItop(test::SharedFolder()).at(0);
   const size_t frames = whole.observed.frames.size();
   const std::vector<RecordedPair> halves = {Part(whole, 0, frames / 2, "first"),
                                             Part(whole, frames / 2, frames, "second")};

@@ -5,7 +5,7 @@
 #include <fstream>
 #include <numbers>
 
-#include "depth/error.h"
+#include "depth/base/error.h"
 #include "recon/body/body_model.h"
 #include "tests/support/run_command.h"
 #include "tests/support/temporary_folder.h"

@@ -1,4 +1,5 @@
 #include "tools/experiments/compare/statistics.h"
+#include "tests/support/places.h"
 
 #include <gtest/gtest.h>
 
@@ -31,7 +32,7 @@ std::map<std::string, Numbers> ParseGolden(std::istream& stream) {
 
 const std::map<std::string, Numbers>& Golden() {
   static const auto kGolden = [] {
-    std::ifstream file(std::string(OSSA_SOURCE_DIR) + "/tests/golden/statistics.txt");
+    std::ifstream file(test::SourceFolder() / "tests/golden/statistics.txt");
     return ParseGolden(file);
   }();
   return kGolden;
@@ -149,7 +150,7 @@ TEST(RigidTransform, AgreesWithScipysKabsch) {
 }
 
 TEST(GoldenNumbers, AreWhatScipyGivesToday) {
-  const std::string script = std::string(OSSA_SOURCE_DIR) + "/tests/golden/statistics.py";
+  const std::string script = test::SourceFolder() / "tests/golden/statistics.py";
   if (std::system("/usr/bin/python3 -c 'import scipy.stats' 2>/dev/null") != 0) {
     GTEST_SKIP() << "python3-scipy is not installed";
   }

@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-#include "depth/error.h"
+#include "depth/base/error.h"
 #include "forest/network.h"
 #include "tools/learning/learn_rectified_network.h"
 

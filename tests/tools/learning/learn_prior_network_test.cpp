@@ -6,9 +6,9 @@
 #include <memory>
 #include <numbers>
 
-#include "depth/error.h"
+#include "depth/base/error.h"
 #include "forest/train.h"
-#include "recon/gp/prior_filter.h"
+#include "recon/models/prior_filter.h"
 
 namespace ossa::tools {
 namespace {

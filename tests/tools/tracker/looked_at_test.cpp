@@ -3,8 +3,8 @@
 
 #include <cmath>
 
-#include "recon/look/bone_measure.h"
-#include "recon/look/close_look.h"
+#include "recon/refine/bone_measure.h"
+#include "recon/refine/close_look.h"
 #include "tests/support/temporary_folder.h"
 #include "tests/tools/tracker/tracked_scenes.h"
 

@@ -6,6 +6,8 @@
 #include <set>
 #include <string>
 
+#include "tests/support/places.h"
+
 namespace {
 
 // Names of all tests of this program; parameterised ones as "Suite/*", as the table has them (the
@@ -24,7 +26,7 @@ std::set<std::string> ExistingTests() {
 }
 
 TEST(ReadmeTable, NamesOnlyTestsThatExistAndOneInEachRow) {
-  std::ifstream readme(std::string(OSSA_SOURCE_DIR) + "/README.md");
+  std::ifstream readme(ossa::test::SourceFolder() / "README.md");
   ASSERT_TRUE(readme.is_open());
   const std::set<std::string> existing = ExistingTests();
   const std::regex test_name("[A-Z][A-Za-z0-9]*(/\\*)?");

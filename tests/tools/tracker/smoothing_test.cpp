@@ -5,7 +5,7 @@
 #include <cmath>
 #include <random>
 
-#include "depth/error.h"
+#include "depth/base/error.h"
 
 namespace ossa::tracker {
 namespace {

@@ -3,7 +3,7 @@
 
 #include <string>
 
-#include "depth/error.h"
+#include "depth/base/error.h"
 #include "tests/support/capsule_person.h"
 #include "tools/tracker/shipped.h"
 #include "tools/tracker/tracker.h"

@@ -6,7 +6,7 @@
 #include <map>
 #include <set>
 
-#include "depth/error.h"
+#include "depth/base/error.h"
 #include "tools/experiments/experiment.h"
 
 namespace ossa::tools {

@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "recon/motion/skeletons/skeleton_io.h"
+#include "recon/files/skeleton_io.h"
 #include "tools/experiments/compare/metrics.h"
 #include "tools/experiments/compare/statistics.h"
 

@@ -4,8 +4,8 @@
 
 #include <map>
 
-#include "depth/error.h"
-#include "recon/motion/skeletons/skeleton_io.h"
+#include "depth/base/error.h"
+#include "recon/files/skeleton_io.h"
 
 namespace ossa::tools {
 namespace {

@@ -2,7 +2,7 @@
 
 #include <sstream>
 
-#include "recon/motion/skeletons/skeleton_jsonl.h"
+#include "recon/files/skeleton_jsonl.h"
 
 namespace ossa::tools {
 

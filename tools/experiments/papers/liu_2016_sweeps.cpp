@@ -2,10 +2,10 @@
 // of a hand).
 #include <fmt/format.h>
 
-#include "depth/file/atomic_file.h"
-#include "recon/gp/gaussian_process.h"
-#include "recon/gp/pairs.h"
+#include "depth/base/atomic_file.h"
 #include "recon/methods/recorded_pairs.h"
+#include "recon/models/gaussian_process.h"
+#include "recon/models/pairs.h"
 #include "tools/experiments/compare/svg_plot.h"
 #include "tools/experiments/papers/liu_2016_internal.h"
 

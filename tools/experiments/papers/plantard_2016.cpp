@@ -9,7 +9,7 @@
 #include <numbers>
 #include <set>
 
-#include "depth/file/atomic_file.h"
+#include "depth/base/atomic_file.h"
 #include "tools/experiments/compare/svg_plot.h"
 #include "tools/experiments/experiments_internal.h"
 #include "tools/experiments/stage/motions.h"

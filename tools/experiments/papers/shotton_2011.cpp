@@ -7,9 +7,9 @@
 #include <map>
 #include <nlohmann/json.hpp>
 
-#include "depth/error.h"
-#include "depth/file/atomic_file.h"
-#include "depth/file/folder_lock.h"
+#include "depth/base/atomic_file.h"
+#include "depth/base/error.h"
+#include "depth/base/folder_lock.h"
 #include "forest/forest.h"
 #include "forest/train.h"
 #include "recon/body/body_model.h"

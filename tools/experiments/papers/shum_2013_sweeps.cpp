@@ -5,7 +5,7 @@
 #include <array>
 #include <chrono>
 
-#include "depth/file/atomic_file.h"
+#include "depth/base/atomic_file.h"
 #include "physics/character_filter.h"
 #include "recon/database/posture_database.h"
 #include "recon/reliability.h"

@@ -9,8 +9,8 @@
 #include <mutex>
 #include <sstream>
 
-#include "depth/error.h"
-#include "depth/file/atomic_file.h"
+#include "depth/base/atomic_file.h"
+#include "depth/base/error.h"
 #include "recon/motion/mocap.h"
 #include "tools/experiments/experiments_internal.h"
 #include "tools/experiments/rooms/rooms_internal.h"

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <mutex>
 
-#include "depth/error.h"
+#include "depth/base/error.h"
 #include "recon/motion/mocap.h"
 #include "tools/experiments/compare/metrics.h"
 #include "tools/experiments/experiments_internal.h"

@@ -6,11 +6,11 @@
 #include <chrono>
 #include <map>
 
-#include "depth/error.h"
+#include "depth/base/error.h"
 #include "recon/database/posture_database.h"
-#include "recon/gp/posture_prior.h"
 #include "recon/methods/recorded_pairs.h"
 #include "recon/methods/sequence.h"
+#include "recon/models/posture_prior.h"
 #include "tools/experiments/compare/sequence_text.h"
 #include "tools/experiments/sdk/sdk_internal.h"
 #include "tools/tracker/shipped.h"

@@ -4,8 +4,8 @@
 #include <string>
 #include <vector>
 
-#include "recon/gp/learned_models.h"
 #include "recon/methods/reconstructor.h"
+#include "recon/models/learned_models.h"
 #include "tools/experiments/compare/metrics.h"
 #include "tools/experiments/compare/recordings.h"
 #include "tools/experiments/experiment.h"

@@ -7,7 +7,7 @@
 #include <algorithm>
 #include <iterator>
 
-#include "depth/error.h"
+#include "depth/base/error.h"
 #include "tools/experiments/experiments_internal.h"
 #include "tools/experiments/sdk/method_runs.h"
 #include "tools/experiments/sdk/sdk_internal.h"

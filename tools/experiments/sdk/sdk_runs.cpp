@@ -6,9 +6,9 @@
 #include <nlohmann/json.hpp>
 
 #include "recon/database/posture_database.h"
-#include "recon/gp/posture_prior.h"
 #include "recon/methods/recorded_pairs.h"
 #include "recon/methods/sequence.h"
+#include "recon/models/posture_prior.h"
 #include "tools/experiments/compare/sequence_text.h"
 #include "tools/experiments/sdk/method_runs.h"
 #include "tools/experiments/sdk/sdk_internal.h"

@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <random>
 
-#include "depth/file/atomic_file.h"
+#include "depth/base/atomic_file.h"
 #include "recon/body/standard_body.h"
 #include "recon/database/posture_database.h"
 #include "recon/motion/mocap.h"

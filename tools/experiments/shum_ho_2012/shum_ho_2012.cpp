@@ -7,7 +7,7 @@
 #include <array>
 #include <set>
 
-#include "depth/error.h"
+#include "depth/base/error.h"
 #include "tools/experiments/experiments_internal.h"
 #include "tools/experiments/shum_ho_2012/internal.h"
 

@@ -4,7 +4,7 @@
 
 #include <algorithm>
 
-#include "depth/error.h"
+#include "depth/base/error.h"
 #include "recon/motion/authored.h"
 #include "recon/motion/mocap.h"
 

@@ -6,11 +6,11 @@
 #include <cmath>
 #include <optional>
 
-#include "depth/error.h"
+#include "depth/base/error.h"
 #include "depth/render/shapes.h"
 #include "recon/body/body_model.h"
 #include "recon/body/clothing.h"
-#include "recon/look/close_look.h"
+#include "recon/refine/close_look.h"
 #include "tools/experiments/compare/sequence_text.h"
 #include "tools/experiments/stage/staged_internal.h"
 #include "tools/synth/dataset.h"

@@ -1,0 +1,46 @@
+#include "depth/base/compressed.h"
+
+#include <zstd.h>
+
+#include <cstdint>
+
+#include "depth/base/error.h"
+#include "depth/base/sealed_file.h"
+
+namespace ossa {
+
+std::vector<std::byte> Compressed(std::span<const std::byte> payload, int level) {
+  std::vector<std::byte> bytes(ZSTD_compressBound(payload.size()));
+  bytes.resize(ZSTD_compress(bytes.data(), bytes.size(), payload.data(), payload.size(), level));
+  PayloadWriter out;
+  out.Put<uint64_t>(payload.size());
+  out.PutVector(bytes);
+  return out.bytes();
+}
+
+std::vector<std::byte> Decompressed(std::span<const std::byte> sealed, const std::string& file,
+                                    std::string_view what) {
+  PayloadReader in(sealed, file);
+  const auto size = in.Get<uint64_t>("unpacked length");
+  const auto bytes = in.GetVector<std::byte>("compressed payload");
+  in.ExpectEnd();
+  // zstd's shortest block, 4 bytes, holds 2^17 that are all the same, and a frame that we wrote
+  // says itself what it holds: another claim is a lie, refused before allocating.
+  constexpr uint64_t kMost = uint64_t{1} << 31U;
+  constexpr uint64_t kMostTimes = uint64_t{1} << 15U;
+  const uint64_t said = ZSTD_getFrameContentSize(bytes.data(), bytes.size());
+  const bool is_frame = said != ZSTD_CONTENTSIZE_ERROR;  // else told of below: it is damaged
+  if (size > kMost || size / kMostTimes > bytes.size() || (is_frame && size != said)) {
+    throw InputError(file + ": byte 32: unpacked length: " + std::to_string(size) +
+                     " is more than the file can hold");
+  }
+  std::vector<std::byte> payload(size);
+  const size_t got = ZSTD_decompress(payload.data(), payload.size(), bytes.data(), bytes.size());
+  if (ZSTD_isError(got) != 0 || got != size) {
+    throw InputError(file + ": byte 40: compressed payload: the " + std::string(what) +
+                     " is damaged");
+  }
+  return payload;
+}
+
+}  // namespace ossa

@@ -1,0 +1,99 @@
+#include <algorithm>
+#include <map>
+#include <set>
+#include <string_view>
+
+#include "recon/files/recording_names_internal.h"
+#include "recon/files/skeleton_formats_internal.h"
+
+namespace ossa::recon {
+namespace {
+
+std::string WithoutExtension(std::string name) {
+  const size_t slash = name.rfind('/');
+  for (const char* extension : {".gz", ".tar", ".tgz", ".zip"}) {
+    if (name.ends_with(extension)) name.resize(name.size() - std::string_view(extension).size());
+  }
+  const size_t dot = name.rfind('.');
+  if (dot != std::string::npos && (slash == std::string::npos || dot > slash)) name.resize(dot);
+  return name;
+}
+
+// What a recording may be called, with and without the extensions.
+std::vector<std::string> NamesOf(const RecordingPlace& place) {
+  const auto& [file, member] = place;
+  if (file.empty()) return {member, WithoutExtension(member)};
+  if (member.empty()) return {file, WithoutExtension(file)};
+  std::vector<std::string> names;
+  for (const std::string& archive : {file, WithoutExtension(file)}) {
+    names.push_back(archive + "/" + member);
+    names.push_back(archive + "/" + WithoutExtension(member));
+  }
+  return names;
+}
+
+using Match = bool (*)(const std::string& name, const std::string& asked);
+
+bool IsIt(const std::string& name, const std::string& asked) { return name == asked; }
+
+bool HasItWhole(const std::string& name, const std::string& asked) {
+  return ("/" + name + "/").find("/" + asked + "/") != std::string::npos;
+}
+
+bool HasIt(const std::string& name, const std::string& asked) {
+  return name.find(asked) != std::string::npos;
+}
+
+std::vector<RecordingPlace> Matching(const std::vector<RecordingPlace>& places,
+                                     const std::string& asked, Match matches) {
+  std::vector<RecordingPlace> found;
+  for (const RecordingPlace& place : places) {
+    const auto names = NamesOf(place);
+    const bool any = std::any_of(names.begin(), names.end(),
+                                 [&](const std::string& name) { return matches(name, asked); });
+    if (any) found.push_back(place);
+  }
+  return found;
+}
+
+}  // namespace
+
+bool IsPassedOver(const std::filesystem::path& path) {
+  static const std::set<std::string> kOther = {".md", ".png", ".jpg", ".mp4", ".avi", ".html",
+                                               ".py", ".m",   ".pdf", ".yml", ".toml"};
+  const std::string name = path.filename().string();
+  for (const char* word : {"README", "LICENSE", "ORIGINAL_", "INDEX.", "PROVENANCE", "manifest.",
+                           "camera.json", "SHA256"}) {
+    if (name.starts_with(word)) return true;
+  }
+  return name.starts_with('.') || kOther.contains(path.extension().string()) ||
+         name == kSaverTimes || HoldsAngles(name);
+}
+
+std::vector<std::string> ClipNames(const std::vector<std::string>& files) {
+  std::map<std::string, int> count;
+  for (const std::string& file : files) ++count[WithoutExtension(file)];
+  std::vector<std::string> names;
+  for (const std::string& file : files) {
+    const std::string name = WithoutExtension(file);
+    names.push_back(count[name] > 1 ? file : name);
+  }
+  return names;
+}
+
+std::vector<RecordingPlace> AskedFor(const std::vector<RecordingPlace>& places,
+                                     const std::string& name) {
+  if (name.empty()) return places;
+  for (const Match matches : {IsIt, HasItWhole, HasIt}) {
+    auto found = Matching(places, name, matches);
+    if (!found.empty()) return found;
+  }
+  return {};
+}
+
+std::vector<RecordingPlace> ExactlyNamed(const std::vector<RecordingPlace>& places,
+                                         const std::string& name) {
+  return Matching(places, name, IsIt);
+}
+
+}  // namespace ossa::recon

@@ -1,0 +1,144 @@
+// ossa's own skeleton table: a header line, then a row a body (a frame without bodies is a row with
+// an empty body). frame,time_s,body, then per joint NAME_x NAME_y NAME_z (camera space, metres),
+// NAME_state, NAME_confidence, NAME_reliability; empty where unknown or absent.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+
+#include "recon/files/skeleton_formats_internal.h"
+#include "recon/motion/fixed_point_internal.h"
+
+namespace ossa::recon {
+namespace {
+
+constexpr std::array<std::string_view, 6> kFields = {"x",     "y",          "z",
+                                                     "state", "confidence", "reliability"};
+constexpr std::array<std::string_view, 3> kStates = {"not_tracked", "inferred", "tracked"};
+constexpr size_t kLeading = 3;
+constexpr size_t kColumns = kLeading + kJointCount * kFields.size();
+
+std::string Header() {
+  std::string header = "frame,time_s,body";
+  for (const std::string_view joint : kJointNames) {
+    for (const std::string_view field : kFields) header += fmt::format(",{}_{}", joint, field);
+  }
+  return header;
+}
+
+void AppendJoint(std::string& row, const std::optional<JointRecord>& joint) {
+  if (!joint) {
+    row.append(kFields.size(), ',');
+    return;
+  }
+  for (const double value : joint->position_m) row += fmt::format(",{:.7g}", value);
+  row.push_back(',');
+  if (joint->state) row += kStates[static_cast<size_t>(*joint->state)];
+  row.push_back(',');
+  if (joint->confidence) row += fmt::format("{:.6g}", *joint->confidence);
+  row.push_back(',');
+  if (joint->reliability) row += fmt::format("{:.6g}", *joint->reliability);
+}
+
+std::optional<TrackingState> StateIn(const TextLines& lines, std::string_view field) {
+  if (field.empty()) return std::nullopt;
+  for (size_t s = 0; s < kStates.size(); ++s) {
+    if (field == kStates[s]) return static_cast<TrackingState>(s);
+  }
+  lines.Fail("tracked, inferred or not_tracked", field);
+}
+
+std::optional<double> ShareIn(const TextLines& lines, std::string_view field,
+                              std::string_view what) {
+  if (field.empty()) return std::nullopt;
+  const double value = NumberIn(lines, field, what);
+  if (value < 0 || value > 1) lines.Fail(std::string(what) + " from 0 to 1", field);
+  return value;
+}
+
+std::optional<JointRecord> JointIn(const TextLines& lines, const std::string_view* fields,
+                                   std::string_view name) {
+  if (fields[0].empty() && fields[1].empty() && fields[2].empty()) return std::nullopt;
+  JointRecord joint;
+  for (int axis = 0; axis < 3; ++axis) {
+    joint.position_m[axis] = NumberIn(lines, fields[axis], name);
+  }
+  joint.state = StateIn(lines, fields[3]);
+  joint.confidence = ShareIn(lines, fields[4], "confidence");
+  joint.reliability = ShareIn(lines, fields[5], "reliability");
+  return joint;
+}
+
+std::string BeginOfRow(const SkeletonFrame& frame) {
+  constexpr int kDigits = 7;  // as in JSONL: of seconds since 1970 no step is lost
+  std::string row = std::to_string(frame.frame) + ",";
+  AppendFixed(row, frame.time_s, kDigits);
+  row.push_back(',');
+  return row;
+}
+
+// The row's body, or none.
+std::optional<BodyRecord> BodyIn(const TextLines& lines,
+                                 const std::vector<std::string_view>& fields) {
+  if (fields[2].empty()) return std::nullopt;
+  BodyRecord body;
+  body.id = static_cast<int>(WholeNumberIn(lines, fields[2], "body", INT32_MIN, INT32_MAX));
+  for (size_t j = 0; j < kJointCount; ++j) {
+    body.joints[j] = JointIn(lines, &fields[kLeading + j * kFields.size()], kJointNames[j]);
+  }
+  return body;
+}
+
+// Whether a row's body is one more of the frame before it. Frame numbers may stand still, as in a
+// JSONL whose "frame" is always 0, and so may times.
+bool BelongsTo(const SkeletonFrame& frame, int64_t number, double time_s,
+               const std::optional<BodyRecord>& body) {
+  return frame.frame == number && frame.time_s == time_s && body && !frame.bodies.empty() &&
+         std::none_of(frame.bodies.begin(), frame.bodies.end(),
+                      [&](const BodyRecord& other) { return other.id == body->id; });
+}
+
+}  // namespace
+
+void WriteSkeletonCsv(std::ostream& stream, const SkeletonSequence& sequence) {
+  stream << Header() << '\n';
+  for (const SkeletonFrame& frame : sequence.frames) {
+    const std::string begin = BeginOfRow(frame);
+    if (frame.bodies.empty()) {
+      stream << begin << std::string(kColumns - kLeading, ',') << '\n';
+    }
+    for (const BodyRecord& body : frame.bodies) {
+      std::string row = begin + std::to_string(body.id);
+      for (const auto& joint : body.joints) AppendJoint(row, joint);
+      stream << row << '\n';
+    }
+  }
+}
+
+SkeletonSequence ReadSkeletonCsv(SkeletonInput& input) {
+  TextLines lines(input.stream, input.name);
+  lines.Expect("a header line");
+  if (Trimmed(lines.line()) != Header()) lines.Fail("ossa's own header", lines.line());
+  SkeletonSequence sequence{input.name, {}};
+  RowTimes times;
+  while (lines.NextFilled()) {
+    // A row that ends in an empty field has its last comma at the end: Split opens no piece there.
+    auto fields = Split(lines.line(), ',');
+    if (lines.line().ends_with(',')) fields.emplace_back();
+    if (fields.size() != kColumns) {
+      lines.Fail(fmt::format("{} columns", kColumns), fmt::format("{} columns", fields.size()));
+    }
+    const int64_t number = WholeNumberIn(lines, fields[0], "frame", INT64_MIN, INT64_MAX);
+    const double time_s = NumberIn(lines, fields[1], "time_s");
+    times.Take(lines, time_s);
+    auto body = BodyIn(lines, fields);
+    if (sequence.frames.empty() || !BelongsTo(sequence.frames.back(), number, time_s, body)) {
+      sequence.frames.push_back({number, time_s, std::nullopt, {}});
+    }
+    if (body) sequence.frames.back().bodies.push_back(std::move(*body));
+  }
+  RequireFrames(sequence);
+  return sequence;
+}
+
+}  // namespace ossa::recon

@@ -1,0 +1,378 @@
+#include "recon/files/skeleton_io.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <fstream>
+#include <map>
+#include <set>
+#include <sstream>
+
+#include "depth/base/error.h"
+#include "recon/files/recording_names_internal.h"
+#include "recon/files/skeleton_formats_internal.h"
+#include "recon/files/skeleton_source_internal.h"
+
+namespace ossa::recon {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr size_t kSampleBytes = size_t{1} << 16;
+constexpr size_t kSampleLines = 64;
+
+std::string ReadSample(std::istream& stream) {
+  std::string head(kSampleBytes, '\0');
+  stream.read(head.data(), static_cast<std::streamsize>(head.size()));
+  head.resize(static_cast<size_t>(stream.gcount()));
+  stream.clear();
+  stream.seekg(0);
+  return head;
+}
+
+SkeletonSample SampleOf(std::string_view head, std::string_view name) {
+  SkeletonSample sample{name, head, {}};
+  if (head.starts_with("\xEF\xBB\xBF")) head.remove_prefix(3);
+  const bool may_be_cut = head.size() >= kSampleBytes - 3;
+  while (!head.empty() && sample.lines.size() < kSampleLines) {
+    const size_t end = head.find('\n');
+    if (end == std::string_view::npos && may_be_cut && !sample.lines.empty()) break;
+    const std::string_view line = Trimmed(head.substr(0, end));
+    if (!line.empty()) sample.lines.push_back(line);
+    if (end == std::string_view::npos) break;
+    head.remove_prefix(end + 1);
+  }
+  return sample;
+}
+
+const SkeletonFormat& FormatNamed(const std::string& format) {
+  const auto formats = AllSkeletonFormats();
+  const auto found = std::find_if(formats.begin(), formats.end(),
+                                  [&](const SkeletonFormat& f) { return f.name == format; });
+  if (found != formats.end()) return *found;
+  std::string known;
+  for (const SkeletonFormat& f : formats) known.append(" ").append(f.name);
+  throw InputError("format " + Quoted(format) + ": expected one of" + known);
+}
+
+const SkeletonFormat& FormatOf(std::istream& stream, const std::string& name) {
+  const std::string head = ReadSample(stream);
+  if (head.find_first_not_of(" \t\r\n") == std::string::npos) {
+    throw InputError(name + ": line 1: expected a skeleton recording, found an empty file");
+  }
+  const SkeletonSample sample = SampleOf(head, name);
+  for (const SkeletonFormat& format : AllSkeletonFormats()) {
+    if (format.recognises(sample)) return format;
+  }
+  throw InputError(name + ": line 1: expected a skeleton recording that ossa knows, found " +
+                   Quoted(sample.lines.empty() ? sample.head : sample.lines[0]));
+}
+
+/// Formats that only recordings of the Kinect SDK 2 are in; UI-PRMD's tables hold Vicon's beside
+/// it.
+bool IsKinectV2(std::string_view format, std::string_view columns) {
+  if (format == "ui-prmd-csv") return columns != "truth";
+  return format == "labanotation-csv" || format == "keraal-kinect" || format == "ntu" ||
+         format == "ui-prmd-kinect";
+}
+
+/// Squares and differences of what is farther away than anything a sensor sees would overflow, and
+/// a mean error be infinite: a damaged file, or numbers in a unit of their own.
+void CheckPlaces(const SkeletonSequence& sequence, const std::string& name) {
+  constexpr double kFarthest_m = 1e6;
+  for (const SkeletonFrame& frame : sequence.frames) {
+    for (const BodyRecord& body : frame.bodies) {
+      for (size_t j = 0; j < kJointCount; ++j) {
+        if (!body.joints[j]) continue;
+        const double far_m = body.joints[j]->position_m.cwiseAbs().maxCoeff();
+        if (!(far_m > kFarthest_m)) continue;
+        std::ostringstream found;
+        found << far_m;
+        throw InputError(name + ": frame " + std::to_string(frame.frame) + ": " +
+                         std::string(kJointNames[j]) + ": expected a place within 1000 km, found " +
+                         found.str() + " m");
+      }
+    }
+  }
+}
+
+void CheckBodies(const SkeletonSequence& sequence, const std::string& name) {
+  for (const SkeletonFrame& frame : sequence.frames) {
+    const auto id = RepeatedBody(frame);
+    if (!id) continue;
+    throw InputError(fmt::format("{}: frame {}: expected each body once, found two of id {}", name,
+                                 frame.frame, *id));
+  }
+}
+
+bool IsOfACloseLook(const SkeletonSequence& sequence) {
+  return std::any_of(sequence.frames.begin(), sequence.frames.end(), [](const auto& frame) {
+    return std::any_of(frame.bodies.begin(), frame.bodies.end(),
+                       [](const BodyRecord& body) { return body.bones_m.has_value(); });
+  });
+}
+
+/// Formats of rows have said which line; whatever it is, times that stand still all the time, or
+/// every second frame and more, are none: speeds, filters and what is aligned by time would be made
+/// of nothing.
+void CheckTimes(const SkeletonSequence& sequence, const std::string& name) {
+  const auto& frames = sequence.frames;
+  size_t still = 0;
+  for (size_t f = 1; f < frames.size(); ++f) {
+    const double step_s = frames[f].time_s - frames[f - 1].time_s;
+    still += step_s == 0.0 ? 1 : 0;
+    const std::string wrong = WrongStep(step_s);
+    if (wrong.empty()) continue;
+    throw InputError(fmt::format("{}: frame {}: expected {}, found {} after {}", name,
+                                 frames[f].frame, wrong, frames[f].time_s, frames[f - 1].time_s));
+  }
+  if (frames.size() < 3 || 2 * still <= frames.size()) return;
+  throw InputError(
+      fmt::format("{}: expected times that grow from frame to frame, found {} of {} "
+                  "frames at the time of the one before",
+                  name, still, frames.size()));
+}
+
+SkeletonSequence Read(SkeletonInput input, const SkeletonReadOptions& options) {
+  const SkeletonFormat& format =
+      options.format.empty() ? FormatOf(input.stream, input.name) : FormatNamed(options.format);
+  SkeletonSequence sequence = format.read(input);
+  CheckBodies(sequence, input.name);
+  CheckPlaces(sequence, input.name);
+  CheckTimes(sequence, input.name);
+  if (IsKinectV2(format.name, input.columns)) sequence.sensor = kKinectV2;
+  if (IsOfACloseLook(sequence)) sequence.sensor = kCloseLook;
+  return sequence;
+}
+
+std::optional<std::string> TextOfFile(const std::string& name) {
+  std::ifstream file(name, std::ios::binary);
+  if (!file) return std::nullopt;
+  std::ostringstream text;
+  text << file.rdbuf();
+  return std::move(text).str();
+}
+
+std::string Columns(const SkeletonReadOptions& options, const SkeletonPath& parts) {
+  if (!parts.columns.empty()) return parts.columns;
+  if (options.columns.empty()) return {};
+  const std::string columns = ColumnsNamed(options.columns);
+  if (columns.empty()) {
+    throw InputError("columns " + Quoted(options.columns) + ": expected truth or observed");
+  }
+  return columns;
+}
+
+SkeletonSequence ReadText(const std::string& text, const std::string& name,
+                          const std::string& columns, const SkeletonReadOptions& options,
+                          std::function<std::optional<std::string>(const std::string&)> sibling) {
+  std::istringstream stream(text);
+  return Read({stream, name, columns, options.frame_s, std::move(sibling)}, options);
+}
+
+SkeletonSequence ReadFile(const fs::path& path, const std::string& columns,
+                          const SkeletonReadOptions& options) {
+  if (IsGzip(path)) return ReadText(ReadGzip(path), path.string(), columns, options, {});
+  std::ifstream file(path, std::ios::binary);
+  if (!file) throw InputError(path.string() + ": cannot be opened for reading");
+  return Read({file, path.string(), columns, options.frame_s, TextOfFile}, options);
+}
+
+bool Stopped(const SkeletonReadOptions& options) { return options.stop && options.stop(); }
+
+using Members = std::map<std::string, std::string>;
+
+std::vector<RecordingPlace> PlacesIn(const Members& members, const std::string& file) {
+  std::vector<RecordingPlace> places;
+  for (const auto& [name, text] : members) {
+    if (!IsPassedOver(name)) places.push_back({file, name});
+  }
+  return places;
+}
+
+// Of an archive, the members at these places.
+std::vector<SkeletonClip> ReadMembers(const fs::path& archive, const Members& members,
+                                      const std::vector<RecordingPlace>& places,
+                                      const std::string& columns,
+                                      const SkeletonReadOptions& options) {
+  const std::string prefix = archive.string() + "#";
+  const auto sibling = [&](const std::string& name) -> std::optional<std::string> {
+    const auto found = members.find(name.starts_with(prefix) ? name.substr(prefix.size()) : name);
+    if (found == members.end()) return std::nullopt;
+    return found->second;
+  };
+  std::vector<std::string> files;
+  for (const RecordingPlace& place : places) files.push_back(place.member);
+  const std::vector<std::string> names = ClipNames(files);
+  std::vector<SkeletonClip> clips;
+  for (size_t i = 0; i < files.size() && !Stopped(options); ++i) {
+    clips.push_back(
+        {names[i], ReadText(members.at(files[i]), prefix + files[i], columns, options, sibling)});
+  }
+  return clips;
+}
+
+std::vector<SkeletonClip> ReadArchiveClips(const SkeletonPath& parts, const std::string& columns,
+                                           const SkeletonReadOptions& options) {
+  const Members members = ReadArchive(parts.path);
+  const auto places = AskedFor(PlacesIn(members, {}), parts.member);
+  return ReadMembers(parts.path, members, places, columns, options);
+}
+
+std::vector<RecordingPlace> FilesIn(const fs::path& folder) {
+  std::vector<RecordingPlace> files;
+  fs::path latest = folder;
+  try {
+    for (const auto& entry : fs::recursive_directory_iterator(folder)) {
+      latest = entry.path();
+      if (!entry.is_regular_file() || IsPassedOver(entry.path())) continue;
+      files.push_back({entry.path().lexically_relative(folder).string(), {}});
+    }
+  } catch (const fs::filesystem_error& error) {  // an increment's names no path
+    throw InputError(latest.string() + ": " + error.code().message());
+  }
+  return files;
+}
+
+// Archives are opened for their members' names only where no file is named exactly so.
+std::vector<RecordingPlace> PlacesAskedFor(const SkeletonPath& parts) {
+  const auto files = FilesIn(parts.path);
+  if (parts.member.empty()) return files;
+  if (auto named = ExactlyNamed(files, parts.member); !named.empty()) return named;
+  std::vector<RecordingPlace> places;
+  for (const RecordingPlace& place : files) {
+    const fs::path path = parts.path / place.file;
+    const auto inside = IsArchive(path) ? PlacesIn(ReadArchive(path), place.file)
+                                        : std::vector<RecordingPlace>{place};
+    places.insert(places.end(), inside.begin(), inside.end());
+  }
+  return AskedFor(places, parts.member);
+}
+
+std::vector<SkeletonClip> ReadFolderClips(const SkeletonPath& parts, const std::string& columns,
+                                          const SkeletonReadOptions& options) {
+  std::map<fs::path, std::vector<RecordingPlace>> files;
+  for (const RecordingPlace& place : PlacesAskedFor(parts)) files[place.file].push_back(place);
+  std::vector<std::string> inside;
+  for (const auto& [file, places] : files) inside.push_back(file.string());
+  const std::vector<std::string> names = ClipNames(inside);
+  std::vector<SkeletonClip> clips;
+  auto name = names.begin();
+  for (auto file = files.begin(); file != files.end() && !Stopped(options); ++file, ++name) {
+    const fs::path path = parts.path / file->first;
+    if (!IsArchive(path)) {
+      clips.push_back({*name, ReadFile(path, columns, options)});
+      continue;
+    }
+    const Members members = ReadArchive(path);
+    const bool is_whole = file->second.front().member.empty();
+    const auto places = is_whole ? PlacesIn(members, {}) : file->second;
+    for (SkeletonClip& clip : ReadMembers(path, members, places, columns, options)) {
+      // Archives usually hold a folder of their own name: "s01/s01/x" says no more than "s01/x".
+      if (!clip.name.starts_with(*name + "/")) clip.name = *name + "/" + clip.name;
+      clips.push_back(std::move(clip));
+    }
+  }
+  return clips;
+}
+
+// Of a folder `s01` beside an archive `s01.tar`, or of names that lose an extension and become
+// another's, results would take each other's place.
+void MakeNamesDiffer(std::vector<SkeletonClip>& clips) {
+  std::set<std::string> taken;
+  for (SkeletonClip& clip : clips) {
+    const std::string name = clip.name;
+    for (int n = 2; !taken.insert(clip.name).second; ++n) clip.name = fmt::format("{}_{}", name, n);
+  }
+}
+
+}  // namespace
+
+std::span<const SkeletonFormat> AllSkeletonFormats() {
+  static const std::vector<SkeletonFormat> kAll = [] {
+    std::vector<SkeletonFormat> all;
+    // Azure before ours: both are JSON with "bodies", and only its marks are unmistakable.
+    for (const auto formats :
+         {AzureFormats(), PlainFormats(), PairedFormats(), UiPrmdFormats(), KinectV2Formats(),
+          KinectV1Formats(), C3dFormats(), StreamSaverFormats()}) {
+      all.insert(all.end(), formats.begin(), formats.end());
+    }
+    return all;
+  }();
+  return kAll;
+}
+
+void TakeOutNobody(SkeletonSequence& sequence) {
+  for (const SkeletonFrame& frame : sequence.frames) {
+    for (const BodyRecord& body : frame.bodies) {
+      if (std::any_of(body.joints.begin(), body.joints.end(),
+                      [](const auto& joint) { return joint.has_value(); })) {
+        return;
+      }
+    }
+  }
+  for (SkeletonFrame& frame : sequence.frames) frame.bodies.clear();
+}
+
+void RequireFrames(const SkeletonSequence& sequence) {
+  if (!sequence.frames.empty()) return;
+  throw InputError(sequence.source + ": expected at least one frame, found none");
+}
+
+std::vector<std::string> SkeletonFormats() {
+  std::vector<std::string> names;
+  for (const SkeletonFormat& format : AllSkeletonFormats()) names.emplace_back(format.name);
+  return names;
+}
+
+SkeletonSequence ReadSkeletonStream(std::istream& stream, const std::string& name,
+                                    const SkeletonReadOptions& options) {
+  return Read({stream, name, Columns(options, {}), options.frame_s, {}}, options);
+}
+
+fs::path SkeletonFileOf(const fs::path& path) { return TakeApart(path).path; }
+
+std::vector<SkeletonClip> ReadSkeletonClips(const fs::path& path,
+                                            const SkeletonReadOptions& options) {
+  const SkeletonPath parts = TakeApart(path);
+  const std::string columns = Columns(options, parts);
+  std::error_code unknown;
+  if (!fs::exists(parts.path, unknown)) {
+    throw InputError(parts.path.string() + ": no such file or folder");
+  }
+  if (!fs::is_directory(parts.path) && !fs::is_regular_file(parts.path)) {
+    throw InputError(parts.path.string() +
+                     ": expected a file or a folder, found a pipe or a device, which cannot be "
+                     "read twice: save it to a file first");
+  }
+  std::vector<SkeletonClip> clips;
+  if (fs::is_directory(parts.path)) {
+    clips = ReadFolderClips(parts, columns, options);
+  } else if (IsArchive(parts.path)) {
+    clips = ReadArchiveClips(parts, columns, options);
+  } else if (parts.member.empty()) {
+    clips.push_back({"", ReadFile(parts.path, columns, options)});
+  } else {
+    throw InputError(parts.path.string() + ": expected a folder or an archive before '#', or " +
+                     "#truth or #observed after it, found #" + parts.member);
+  }
+  MakeNamesDiffer(clips);
+  if (clips.empty() && !Stopped(options)) {
+    throw InputError(path.string() + ": holds no skeleton recording");
+  }
+  return clips;
+}
+
+SkeletonSequence ReadSkeletons(const fs::path& path, const SkeletonReadOptions& options) {
+  auto clips = ReadSkeletonClips(path, options);
+  if (clips.size() > 1) {
+    const SkeletonPath parts = TakeApart(path);
+    const std::string columns = parts.columns.empty() ? "" : "#" + parts.columns;
+    throw InputError(path.string() + ": expected one recording, found " +
+                     std::to_string(clips.size()) + ": name one, as " + parts.path.string() +
+                     columns + "#" + clips[0].name);
+  }
+  return std::move(clips[0].sequence);
+}
+
+}  // namespace ossa::recon

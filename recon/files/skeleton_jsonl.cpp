@@ -1,0 +1,311 @@
+#include "recon/files/skeleton_jsonl.h"
+
+#include <fmt/format.h>
+
+#include <array>
+#include <cmath>
+#include <memory>
+#include <nlohmann/json.hpp>
+#include <set>
+#include <span>
+#include <stdexcept>
+
+#include "depth/base/error.h"
+#include "recon/files/text_lines_internal.h"
+#include "recon/motion/fixed_point_internal.h"
+
+namespace ossa::recon {
+namespace {
+
+using Json = nlohmann::json;
+
+constexpr std::array<std::string_view, 3> kStateNames = {"not_tracked", "inferred", "tracked"};
+
+void AppendNumber(std::string& text, double value, int digits) {
+  if (!std::isfinite(value)) throw std::invalid_argument("skeleton JSONL: a number is not finite");
+  AppendFixed(text, value, digits);
+}
+
+template <typename Vector>
+void AppendVector(std::string& text, const Vector& values, int digits) {
+  char separator = '[';
+  for (const double value : values) {
+    text.push_back(separator);
+    AppendNumber(text, value, digits);
+    separator = ',';
+  }
+  text.push_back(']');
+}
+
+constexpr int kLengthDigits = 7;
+constexpr int kOtherDigits = 6;
+
+void AppendJoint(std::string& text, const JointRecord& joint) {
+  text += "{\"p\":";
+  AppendVector(text, joint.position_m, kLengthDigits);
+  if (joint.state) {
+    fmt::format_to(std::back_inserter(text), ",\"state\":\"{}\"",
+                   kStateNames[static_cast<size_t>(*joint.state)]);
+  }
+  if (joint.confidence) {
+    text += ",\"confidence\":";
+    AppendNumber(text, *joint.confidence, kOtherDigits);
+  }
+  if (joint.reliability) {
+    text += ",\"reliability\":";
+    AppendNumber(text, *joint.reliability, kOtherDigits);
+  }
+  if (joint.orientation) {
+    const Eigen::Quaterniond& q = *joint.orientation;
+    text += ",\"q\":";
+    AppendVector(text, std::array{q.w(), q.x(), q.y(), q.z()}, kLengthDigits);
+  }
+  if (joint.visible) text += *joint.visible ? ",\"visible\":true" : ",\"visible\":false";
+  text.push_back('}');
+}
+
+void AppendBody(std::string& text, const BodyRecord& body) {
+  fmt::format_to(std::back_inserter(text), "{{\"id\":{},\"joints\":{{", body.id);
+  bool first = true;
+  for (size_t j = 0; j < kJointCount; ++j) {
+    if (!body.joints[j]) continue;
+    if (!first) text.push_back(',');
+    first = false;
+    fmt::format_to(std::back_inserter(text), "\"{}\":", kJointNames[j]);
+    AppendJoint(text, *body.joints[j]);
+  }
+  text.push_back('}');
+  if (body.bones_m) {
+    text += ",\"bones\":";
+    AppendVector(text, std::span(*body.bones_m).subspan(1), kLengthDigits);
+  }
+  text.push_back('}');
+}
+
+// The JSON library prints recursively: a line of half a million brackets must not reach it.
+bool NestsDeeply(std::string_view line) {
+  constexpr int kDeepest = 32;  // ours nests five deep
+  int depth = 0;
+  for (const char c : line) {
+    if (c == '[' || c == '{') ++depth;
+    if (c == ']' || c == '}') --depth;
+    if (depth > kDeepest) return true;
+  }
+  return false;
+}
+
+}  // namespace
+
+std::string SkeletonJsonLine(const SkeletonFrame& frame) {
+  std::string text = fmt::format("{{\"frame\":{},\"time_s\":", frame.frame);
+  AppendNumber(text, frame.time_s, kLengthDigits);
+  if (frame.floor) {
+    text += ",\"floor\":";
+    AppendVector(text, *frame.floor, kLengthDigits);
+  }
+  text += ",\"bodies\":[";
+  for (size_t b = 0; b < frame.bodies.size(); ++b) {
+    if (b > 0) text.push_back(',');
+    AppendBody(text, frame.bodies[b]);
+  }
+  text += "]}";
+  return text;
+}
+
+void SkeletonJsonlWriter::Write(const SkeletonFrame& frame) {
+  stream_ << SkeletonJsonLine(frame) << '\n';
+}
+
+// One line of a file, taken apart; every complaint names the line and the key.
+class SkeletonJsonlReader::Lines {
+ public:
+  Lines(std::istream& stream, std::string source) : lines_(stream, std::move(source)) {}
+
+  bool Next(SkeletonFrame& frame) {
+    if (!lines_.NextFilled()) return false;
+    if (NestsDeeply(lines_.line())) lines_.Fail("JSON nested at most 32 deep", lines_.line());
+    // The parser never throws here (third argument), so its own wording never reaches the user.
+    const Json json = Json::parse(lines_.line(), nullptr, false);
+    if (json.is_discarded()) FailWhereJsonStops();
+    if (!json.is_object()) lines_.Fail("a JSON object", lines_.line());
+    frame = FrameOf(json);
+    return true;
+  }
+
+  size_t number() const { return lines_.number(); }
+  const std::string& source() const { return lines_.source(); }
+
+ private:
+  // A line may be long: what a user has to look at is where it stops being JSON.
+  [[noreturn]] void FailWhereJsonStops() const {
+    constexpr std::string_view kExpected = "one whole JSON object";
+    const std::string_view line = lines_.line();
+    try {
+      [[maybe_unused]] const Json whole = Json::parse(line);
+    } catch (const Json::parse_error& fault) {
+      const std::string found = fault.byte > line.size() || fault.byte == 0
+                                    ? "the end of the line"
+                                    : Quoted(line.substr(fault.byte - 1));
+      throw InputError(fmt::format("{}: line {}: expected {}, found {} at byte {}", lines_.source(),
+                                   lines_.number(), kExpected, found, fault.byte));
+    } catch (const Json::out_of_range&) {
+      lines_.Fail("numbers of at most 1.8e308", line);
+    }
+    lines_.Fail(kExpected, line);
+  }
+
+  [[noreturn]] void Fail(const std::string& where, std::string_view expected,
+                         const Json& found) const {
+    lines_.Fail(fmt::format("{} in {}", expected, where), found.dump(-1, ' ', true, kReplace));
+  }
+
+  const Json& Need(const Json& object, const char* key, const std::string& where) const {
+    const auto found = object.find(key);
+    if (found == object.end()) {
+      lines_.Fail(fmt::format("\"{}\" in {}", key, where), object.dump(-1, ' ', true, kReplace));
+    }
+    return *found;
+  }
+
+  double Number(const Json& json, const std::string& where) const {
+    if (!json.is_number() || !std::isfinite(json.get<double>())) {
+      Fail(where, "a finite number", json);
+    }
+    return json.get<double>();
+  }
+
+  int64_t Integer(const Json& json, const std::string& where) const {
+    if (!json.is_number_integer()) Fail(where, "a whole number", json);
+    return json.get<int64_t>();
+  }
+
+  template <size_t kCount>
+  std::array<double, kCount> Numbers(const Json& json, const std::string& where) const {
+    if (!json.is_array() || json.size() != kCount) {
+      Fail(where, fmt::format("{} numbers", kCount), json);
+    }
+    std::array<double, kCount> values{};
+    for (size_t i = 0; i < kCount; ++i) values[i] = Number(json[i], where);
+    return values;
+  }
+
+  double Share(const Json& json, const std::string& where) const {
+    const double value = Number(json, where);
+    if (value < 0.0 || value > 1.0) Fail(where, "a number from 0 to 1", json);
+    return value;
+  }
+
+  SkeletonFrame FrameOf(const Json& json) {
+    SkeletonFrame frame;
+    frame.frame = Integer(Need(json, "frame", "the frame"), "\"frame\"");
+    frame.time_s = Number(Need(json, "time_s", "the frame"), "\"time_s\"");
+    times_.Take(lines_, frame.time_s);
+    if (const auto floor = json.find("floor"); floor != json.end() && !floor->is_null()) {
+      const auto plane = Numbers<4>(*floor, "\"floor\"");
+      frame.floor = Eigen::Vector4d(plane.data());
+    }
+    const Json& bodies = Need(json, "bodies", "the frame");
+    if (!bodies.is_array()) Fail("\"bodies\"", "a list", bodies);
+    std::set<int> ids;
+    for (const Json& body : bodies) {
+      frame.bodies.push_back(BodyOf(body));
+      if (!ids.insert(frame.bodies.back().id).second) Fail("\"id\"", "an id used once", body);
+    }
+    return frame;
+  }
+
+  BodyRecord BodyOf(const Json& json) const {
+    if (!json.is_object()) Fail("\"bodies\"", "objects", json);
+    BodyRecord body;
+    const int64_t id = Integer(Need(json, "id", "the body"), "\"id\"");
+    if (id < INT32_MIN || id > INT32_MAX) Fail("\"id\"", "an id of at most 31 bits", json);
+    body.id = static_cast<int>(id);
+    const Json& joints = Need(json, "joints", "the body");
+    if (!joints.is_object()) Fail("\"joints\"", "an object", joints);
+    for (const auto& [name, joint] : joints.items()) {
+      const auto known = JointFromName(name);
+      if (!known) lines_.Fail("one of the 20 SDK joint names in \"joints\"", name);
+      body.joints[static_cast<size_t>(Index(*known))] = JointOf(joint, name);
+    }
+    if (const auto bones = json.find("bones"); bones != json.end()) body.bones_m = BonesOf(*bones);
+    return body;
+  }
+
+  // Of the bones that end in the joints, in their order; none ends in the first.
+  BoneLengths BonesOf(const Json& json) const {
+    constexpr double kMost_m = 2.0;
+    const auto lengths_m = Numbers<kJointCount - 1>(json, "\"bones\"");
+    BoneLengths bones_m{};
+    for (size_t i = 0; i < lengths_m.size(); ++i) {
+      if (!(lengths_m[i] > 0.0 && lengths_m[i] < kMost_m)) {
+        Fail("\"bones\"", "lengths of 0 to 2 m", json);
+      }
+      bones_m[i + 1] = lengths_m[i];
+    }
+    return bones_m;
+  }
+
+  JointRecord JointOf(const Json& json, const std::string& name) const {
+    if (!json.is_object()) Fail(name, "an object", json);
+    JointRecord joint;
+    joint.position_m = Eigen::Vector3d(Numbers<3>(Need(json, "p", name), name + ".p").data());
+    if (const auto state = json.find("state"); state != json.end()) {
+      joint.state = StateOf(*state, name + ".state");
+    }
+    if (const auto value = json.find("confidence"); value != json.end()) {
+      joint.confidence = Share(*value, name + ".confidence");
+    }
+    if (const auto value = json.find("reliability"); value != json.end()) {
+      joint.reliability = Share(*value, name + ".reliability");
+    }
+    if (const auto value = json.find("q"); value != json.end()) {
+      joint.orientation = OrientationOf(*value, name + ".q");
+    }
+    if (const auto value = json.find("visible"); value != json.end()) {
+      if (!value->is_boolean()) Fail(name + ".visible", "true or false", *value);
+      joint.visible = value->get<bool>();
+    }
+    return joint;
+  }
+
+  TrackingState StateOf(const Json& json, const std::string& where) const {
+    for (size_t s = 0; s < kStateNames.size(); ++s) {
+      if (json.is_string() && json.get_ref<const std::string&>() == kStateNames[s]) {
+        return static_cast<TrackingState>(s);
+      }
+    }
+    Fail(where, "tracked, inferred or not_tracked", json);
+  }
+
+  Eigen::Quaterniond OrientationOf(const Json& json, const std::string& where) const {
+    const auto q = Numbers<4>(json, where);
+    const Eigen::Quaterniond rotation(q[0], q[1], q[2], q[3]);
+    // Files written with a few digits are off unit length by that much and no more.
+    constexpr double kTolerance = 1e-2;
+    if (std::abs(rotation.norm() - 1.0) > kTolerance) Fail(where, "a unit quaternion", json);
+    return rotation.normalized();
+  }
+
+  static constexpr auto kReplace = Json::error_handler_t::replace;
+  TextLines lines_;
+  RowTimes times_;
+};
+
+SkeletonJsonlReader::SkeletonJsonlReader(std::istream& stream, std::string source)
+    : lines_(std::make_unique<Lines>(stream, std::move(source))) {}
+SkeletonJsonlReader::~SkeletonJsonlReader() = default;
+
+bool SkeletonJsonlReader::Next(SkeletonFrame& frame) { return lines_->Next(frame); }
+
+SkeletonSequence ReadSkeletonJsonl(std::istream& stream, const std::string& source) {
+  SkeletonSequence sequence{source, {}};
+  SkeletonJsonlReader reader(stream, source);
+  SkeletonFrame frame;
+  while (reader.Next(frame)) sequence.frames.push_back(std::move(frame));
+  if (sequence.frames.empty()) {
+    throw InputError(source + ": line 1: expected a skeleton frame, found the end of the file");
+  }
+  return sequence;
+}
+
+}  // namespace ossa::recon

@@ -1,0 +1,159 @@
+// Texts with the 20 joints of the Kinect SDK 1: KinectGait, MSR Action3D, UTKinect-Action3D. All in
+// camera space and metres already; none has tracking states.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+
+#include "recon/files/joint_names_internal.h"
+#include "recon/files/skeleton_formats_internal.h"
+
+namespace ossa::recon {
+namespace {
+
+constexpr double kUsualStep_s = 1.0 / 30.0;
+
+bool AllNumbers(const std::vector<std::string_view>& words) {
+  return std::all_of(words.begin(), words.end(), [](std::string_view word) {
+    return !word.empty() && word.find_first_not_of("+-.0123456789eE") == std::string_view::npos;
+  });
+}
+
+// Joints that a sensor did not see are written as the origin.
+bool IsSeen(const Eigen::Vector3d& position) { return !position.isZero(0.0); }
+
+// --- KinectGait: `Name;x;y;z`, a joint a line; a new frame begins when the first name comes again.
+
+bool IsKinectGait(const SkeletonSample& sample) {
+  if (sample.lines.empty()) return false;
+  const auto fields = Split(sample.lines[0], ';');
+  return fields.size() == 4 && JointCalled(fields[0]).has_value();
+}
+
+void RequireWholeFrame(const TextLines& lines, const BodyRecord& body) {
+  for (size_t j = 0; j < kJointCount; ++j) {
+    if (!body.joints[j]) {
+      lines.Fail(fmt::format("{} before the next frame", kJointNames[j]), lines.line());
+    }
+  }
+}
+
+SkeletonSequence ReadKinectGait(SkeletonInput& input) {
+  TextLines lines(input.stream, input.name);
+  SkeletonSequence sequence{input.name, {}};
+  const double step_s = input.FrameTime_s(kUsualStep_s);
+  std::optional<Joint> first;
+  BodyRecord body;
+  const auto finish = [&] {
+    RequireWholeFrame(lines, body);
+    const size_t index = sequence.frames.size();
+    sequence.frames.push_back(OneBodyFrame(index, static_cast<double>(index) * step_s, body));
+    body = BodyRecord{};
+  };
+  while (lines.NextFilled()) {
+    const auto fields = Split(lines.line(), ';');
+    if (fields.size() != 4) lines.Fail("Name;x;y;z", lines.line());
+    const auto joint = JointCalled(fields[0]);
+    if (!joint) lines.Fail("the name of one of the 20 SDK joints", fields[0]);
+    if (!first) first = joint;
+    auto& record = body.joints[static_cast<size_t>(Index(*joint))];
+    if (record && joint == first) finish();
+    if (record) lines.Fail("each joint once a frame", fields[0]);
+    PutJoint(body, *joint,
+             {NumberIn(lines, fields[1], "x"), NumberIn(lines, fields[2], "y"),
+              NumberIn(lines, fields[3], "z")});
+  }
+  if (first) finish();
+  RequireFrames(sequence);
+  return sequence;
+}
+
+// --- MSR Action3D ("Real3D" files): `x y z confidence`, 20 lines a frame, in an order of its own.
+
+constexpr std::array<Joint, kJointCount> kMsrOrder = {
+    Joint::kShoulderRight, Joint::kShoulderLeft, Joint::kShoulderCenter, Joint::kSpine,
+    Joint::kHipRight,      Joint::kHipLeft,      Joint::kHipCenter,      Joint::kElbowRight,
+    Joint::kElbowLeft,     Joint::kWristRight,   Joint::kWristLeft,      Joint::kHandRight,
+    Joint::kHandLeft,      Joint::kKneeRight,    Joint::kKneeLeft,       Joint::kAnkleRight,
+    Joint::kAnkleLeft,     Joint::kFootRight,    Joint::kFootLeft,       Joint::kHead};
+
+bool IsMsrAction3D(const SkeletonSample& sample) {
+  if (sample.lines.size() < kJointCount) return false;
+  return std::all_of(sample.lines.begin(), sample.lines.begin() + kJointCount,
+                     [](std::string_view line) {
+                       const auto words = Words(line);
+                       return words.size() == 4 && AllNumbers(words);
+                     });
+}
+
+SkeletonSequence ReadMsrAction3D(SkeletonInput& input) {
+  TextLines lines(input.stream, input.name);
+  SkeletonSequence sequence{input.name, {}};
+  const double step_s = input.FrameTime_s(kUsualStep_s);
+  while (lines.NextFilled()) {
+    BodyRecord body;
+    for (size_t row = 0; row < kJointCount; ++row) {
+      if (row > 0) lines.Expect(fmt::format("line {} of the frame's 20", row + 1));
+      const auto numbers = NumbersIn(lines, Words(lines.line()), 4, "x y z confidence");
+      const Eigen::Vector3d position(numbers.data());
+      if (numbers[3] < 0 || numbers[3] > 1) {
+        lines.Fail("a confidence from 0 to 1 in column 4", lines.line());
+      }
+      if (!IsSeen(position)) continue;
+      PutJoint(body, kMsrOrder[row], position);
+      body.joints[static_cast<size_t>(Index(kMsrOrder[row]))]->confidence = numbers[3];
+    }
+    const size_t index = sequence.frames.size();
+    sequence.frames.push_back(OneBodyFrame(index, static_cast<double>(index) * step_s, body));
+  }
+  RequireFrames(sequence);
+  return sequence;
+}
+
+// --- UTKinect-Action3D: the frame's number, then x y z of the 20 joints in SDK order; frames are
+// numbered at 30 Hz with gaps, and some come twice.
+
+constexpr size_t kUtColumns = 1 + 3 * kJointCount;
+
+bool IsUtKinect(const SkeletonSample& sample) {
+  if (sample.lines.empty()) return false;
+  const auto words = Words(sample.lines[0]);
+  return words.size() == kUtColumns && AllNumbers(words);
+}
+
+SkeletonSequence ReadUtKinect(SkeletonInput& input) {
+  TextLines lines(input.stream, input.name);
+  SkeletonSequence sequence{input.name, {}};
+  const double step_s = input.FrameTime_s(kUsualStep_s);
+  std::optional<double> first;
+  while (lines.NextFilled()) {
+    const auto numbers =
+        NumbersIn(lines, Words(lines.line()), kUtColumns, "frame, then x y z of 20 joints");
+    if (!first) first = numbers[0];
+    BodyRecord body;
+    for (size_t j = 0; j < kJointCount; ++j) {
+      const Eigen::Vector3d position(&numbers[1 + 3 * j]);
+      if (IsSeen(position)) PutJoint(body, static_cast<Joint>(j), position);
+    }
+    const double time_s = (numbers[0] - *first) * step_s;
+    if (!sequence.frames.empty() && sequence.frames.back().time_s == time_s) continue;
+    if (!sequence.frames.empty() && time_s < sequence.frames.back().time_s) {
+      lines.Fail("frame numbers that grow", lines.line());
+    }
+    sequence.frames.push_back(OneBodyFrame(sequence.frames.size(), time_s, std::move(body)));
+  }
+  RequireFrames(sequence);
+  return sequence;
+}
+
+constexpr SkeletonFormat kFormats[] = {
+    {"kinect-gait", IsKinectGait, ReadKinectGait},
+    {"ut-kinect", IsUtKinect, ReadUtKinect},
+    {"msr-action3d", IsMsrAction3D, ReadMsrAction3D},
+};
+
+}  // namespace
+
+std::span<const SkeletonFormat> KinectV1Formats() { return kFormats; }
+
+}  // namespace ossa::recon

@@ -1,0 +1,218 @@
+// Texts with the 25 joints of the Kinect SDK 2: LabanotationSuite, KERAAL (with its Vicon targets),
+// NTU RGB+D. Camera space and metres; 20 of the 25 are ours: SpineBase is HipCenter, SpineMid is
+// Spine, SpineShoulder is ShoulderCenter, Head is Head; Neck, hand tips and thumbs are left out.
+#include <fmt/format.h>
+
+#include <array>
+#include <map>
+
+#include "recon/files/skeleton_formats_internal.h"
+
+namespace ossa::recon {
+namespace {
+
+constexpr double kUsualStep_s = 1.0 / 30.0;
+constexpr size_t kV2Joints = 25;
+constexpr size_t kSpineShoulder = 20;
+
+// Our joint of SDK 2's joint; its first twenty are SDK 1's but for Neck in place of ShoulderCenter.
+std::optional<Joint> JointOfV2(size_t joint) {
+  if (joint == kSpineShoulder) return Joint::kShoulderCenter;
+  if (joint == 2 || joint > kSpineShoulder) return std::nullopt;
+  return static_cast<Joint>(joint);
+}
+
+size_t CountOfNumbers(std::string_view line, char separator) {
+  const auto fields = separator == ' ' ? Words(line) : Split(line, separator);
+  for (const std::string_view field : fields) {
+    if (field.empty() || field.find_first_not_of("+-.0123456789eE") != std::string_view::npos) {
+      return 0;
+    }
+  }
+  return fields.size();
+}
+
+bool FirstLineHas(const SkeletonSample& sample, char separator, size_t numbers) {
+  return !sample.lines.empty() && CountOfNumbers(sample.lines[0], separator) == numbers;
+}
+
+TrackingState StateOf(const TextLines& lines, double number) {
+  if (number != 0 && number != 1 && number != 2) {
+    lines.Fail("a tracking state 0, 1 or 2", fmt::format("{}", number));
+  }
+  return static_cast<TrackingState>(static_cast<int>(number));
+}
+
+// --- LabanotationSuite: ticks of 100 ns, then x, y, z, state of each joint, a comma at the end.
+
+constexpr size_t kLabanColumns = 1 + 4 * kV2Joints;
+
+SkeletonSequence ReadLabanotation(SkeletonInput& input) {
+  constexpr double kSecondsPerTick = 1e-7;
+  TextLines lines(input.stream, input.name);
+  SkeletonSequence sequence{input.name, {}};
+  RowTimes times;
+  std::optional<double> first;
+  while (lines.NextFilled()) {
+    const auto numbers = NumbersIn(lines, Split(lines.line(), ','), kLabanColumns,
+                                   "ticks, then x y z state of 25 joints");
+    if (!first) first = numbers[0];
+    BodyRecord body;
+    for (size_t j = 0; j < kV2Joints; ++j) {
+      const auto joint = JointOfV2(j);
+      const double* values = &numbers[1 + 4 * j];
+      const TrackingState state = StateOf(lines, values[3]);
+      if (joint) PutJoint(body, *joint, Eigen::Vector3d(values), state);
+    }
+    const double time_s = (numbers[0] - *first) * kSecondsPerTick;
+    times.Take(lines, time_s);
+    sequence.frames.push_back(OneBodyFrame(sequence.frames.size(), time_s, std::move(body)));
+  }
+  RequireFrames(sequence);
+  return sequence;
+}
+
+// --- KERAAL: 25 times x y z and a quaternion x y z w, separated by spaces; no time, no state.
+
+constexpr size_t kKeraalColumns = 7 * kV2Joints;
+
+SkeletonSequence ReadKeraal(SkeletonInput& input) {
+  TextLines lines(input.stream, input.name);
+  SkeletonSequence sequence{input.name, {}};
+  const double step_s = input.FrameTime_s(kUsualStep_s);
+  while (lines.NextFilled()) {
+    const auto numbers = NumbersIn(lines, Words(lines.line()), kKeraalColumns,
+                                   "position and quaternion of 25 joints");
+    BodyRecord body;
+    for (size_t j = 0; j < kV2Joints; ++j) {
+      const auto joint = JointOfV2(j);
+      const Eigen::Vector3d position(&numbers[7 * j]);
+      if (!joint || position.isZero(0.0)) continue;
+      PutJoint(body, *joint, position);
+      const Eigen::Quaterniond q(numbers[7 * j + 6], numbers[7 * j + 3], numbers[7 * j + 4],
+                                 numbers[7 * j + 5]);
+      // End joints have no orientation in SDK 2: all zero. So have the seated recordings.
+      constexpr double kUnit = 1e-2;
+      if (std::abs(q.norm() - 1) < kUnit) {
+        body.joints[static_cast<size_t>(Index(*joint))]->orientation = q.normalized();
+      }
+    }
+    const size_t index = sequence.frames.size();
+    sequence.frames.push_back(OneBodyFrame(index, static_cast<double>(index) * step_s, body));
+  }
+  RequireFrames(sequence);
+  return sequence;
+}
+
+// --- KERAAL's Vicon: 17 rigid targets, millimetres, z up, about 60 Hz. A target sits on a limb,
+// not in a joint: each stands for the joint at the limb's far end, with a constant offset of 5-18
+// cm.
+
+constexpr size_t kTargets = 17;
+constexpr std::array<Joint, kTargets> kTargetJoints = {
+    Joint::kWristRight,     Joint::kWristLeft, Joint::kElbowRight, Joint::kElbowLeft,
+    Joint::kShoulderCenter, Joint::kKneeRight, Joint::kKneeLeft,   Joint::kShoulderRight,
+    Joint::kShoulderLeft,   Joint::kHandRight, Joint::kHandLeft,   Joint::kFootRight,
+    Joint::kFootLeft,       Joint::kHipCenter, Joint::kHead,       Joint::kAnkleRight,
+    Joint::kAnkleLeft};
+
+SkeletonSequence ReadKeraalVicon(SkeletonInput& input) {
+  constexpr double kMetresPerMillimetre = 1e-3;
+  constexpr double kViconStep_s = 1.0 / 60.0;
+  TextLines lines(input.stream, input.name);
+  SkeletonSequence sequence{input.name, {}};
+  const double step_s = input.FrameTime_s(kViconStep_s);
+  while (lines.NextFilled()) {
+    const auto numbers = NumbersIn(lines, Words(lines.line()), 7 * kTargets,
+                                   "position and quaternion of 17 targets");
+    BodyRecord body;
+    for (size_t t = 0; t < kTargets; ++t) {
+      const double* p = &numbers[7 * t];
+      if (p[0] == 0 && p[1] == 0 && p[2] == 0) continue;
+      PutJoint(body, kTargetJoints[t], kMetresPerMillimetre * Eigen::Vector3d(p[0], p[2], -p[1]));
+    }
+    const size_t index = sequence.frames.size();
+    sequence.frames.push_back(OneBodyFrame(index, static_cast<double>(index) * step_s, body));
+  }
+  RequireFrames(sequence);
+  return sequence;
+}
+
+// --- NTU RGB+D `.skeleton`: frame count; per frame a body count; per body a line of ten values
+// that begins with its id, the count 25, then a line a joint: x y z, depth and colour pixel,
+// quaternion w x y z, state.
+
+bool IsNtu(const SkeletonSample& sample) {
+  if (sample.lines.size() < 2 || CountOfNumbers(sample.lines[0], ' ') != 1 ||
+      CountOfNumbers(sample.lines[1], ' ') != 1) {
+    return false;
+  }
+  // A first frame without bodies is followed by another count.
+  for (size_t i = 2; i < sample.lines.size(); ++i) {
+    const size_t numbers = CountOfNumbers(sample.lines[i], ' ');
+    if (numbers != 1) return numbers == 10;
+  }
+  return true;
+}
+
+BodyRecord ReadNtuBody(TextLines& lines, std::map<std::string, int>& ids) {
+  lines.Expect("the ten values of a body");
+  const auto values = Words(lines.line());
+  if (values.size() != 10) lines.Fail("the ten values of a body", lines.line());
+  // Ids are 17-digit numbers: in order of appearance they become 1, 2, ...
+  const int next = static_cast<int>(ids.size()) + 1;
+  BodyRecord body;
+  body.id = ids.try_emplace(std::string(values[0]), next).first->second;
+  lines.Expect("the count of joints");
+  WholeNumberIn(lines, Trimmed(lines.line()), "the count of joints", kV2Joints, kV2Joints);
+  for (size_t j = 0; j < kV2Joints; ++j) {
+    lines.Expect(fmt::format("joint {} of 25", j + 1));
+    const auto fields = Words(lines.line());
+    if (fields.size() != 12) lines.Fail("12 values of a joint", lines.line());
+    const auto joint = JointOfV2(j);
+    if (!joint) continue;
+    // Pixels and quaternions may be NaN where nothing was seen; they are not used.
+    PutJoint(body, *joint,
+             {NumberIn(lines, fields[0], "x"), NumberIn(lines, fields[1], "y"),
+              NumberIn(lines, fields[2], "z")},
+             StateOf(lines, NumberIn(lines, fields[11], "the state")));
+  }
+  return body;
+}
+
+SkeletonSequence ReadNtu(SkeletonInput& input) {
+  TextLines lines(input.stream, input.name);
+  lines.Expect("the count of frames");
+  const long count =
+      WholeNumberIn(lines, Trimmed(lines.line()), "the count of frames", 1, 10000000);
+  SkeletonSequence sequence{input.name, {}};
+  const double step_s = input.FrameTime_s(kUsualStep_s);
+  std::map<std::string, int> ids;
+  for (long f = 0; f < count; ++f) {
+    lines.Expect(fmt::format("the count of bodies in frame {} of {}", f + 1, count));
+    const long bodies = WholeNumberIn(lines, Trimmed(lines.line()), "the count of bodies", 0, 6);
+    SkeletonFrame frame;
+    frame.frame = f;
+    frame.time_s = static_cast<double>(f) * step_s;
+    for (long b = 0; b < bodies; ++b) frame.bodies.push_back(ReadNtuBody(lines, ids));
+    sequence.frames.push_back(std::move(frame));
+  }
+  if (lines.NextFilled()) lines.Fail("the end of the file", lines.line());
+  return sequence;
+}
+
+constexpr SkeletonFormat kFormats[] = {
+    {"labanotation-csv",
+     [](const SkeletonSample& s) { return FirstLineHas(s, ',', kLabanColumns); }, ReadLabanotation},
+    {"keraal-kinect", [](const SkeletonSample& s) { return FirstLineHas(s, ' ', kKeraalColumns); },
+     ReadKeraal},
+    {"keraal-vicon", [](const SkeletonSample& s) { return FirstLineHas(s, ' ', 7 * kTargets); },
+     ReadKeraalVicon},
+    {"ntu", IsNtu, ReadNtu},
+};
+
+}  // namespace
+
+std::span<const SkeletonFormat> KinectV2Formats() { return kFormats; }
+
+}  // namespace ossa::recon

@@ -1,0 +1,122 @@
+// Tables that hold an estimate and the truth of the same frames side by side, told apart by the
+// prefix of their columns: UI-PRMD as prepared with Vicon joint centres (K_ Kinect, G_ Vicon) and
+// ITOP beside a network's estimate (P_ estimate, G_ truth).
+#include <fmt/format.h>
+
+#include "depth/base/error.h"
+#include "recon/files/joint_names_internal.h"
+#include "recon/files/skeleton_formats_internal.h"
+
+namespace ossa::recon {
+namespace {
+
+struct PairedFormat {
+  std::string_view time_column;  // "" : the first column counts frames
+  std::string_view observed_prefix;
+  double usual_step_s;
+  Eigen::Vector3d metres_per_unit;  // per axis; a negative sign turns the axis round
+};
+
+// UI-PRMD: centimetres, x to the subject's left, z towards the sensor (subjects stand at
+// z = -240 cm, facing it): half a turn about the vertical gives camera space.
+const PairedFormat kUiPrmd = {"t_s", "K_", 1.0 / 30.0, {-0.01, 0.01, -0.01}};
+// ITOP: metres, x to the right of the image, left-handed: one axis is turned round. It has no
+// times: at 30 Hz one true hand in twenty would be faster than 10 m/s, at 10 Hz than 3.4.
+const PairedFormat kItop = {"", "P_", 1.0 / 10.0, {-1.0, 1.0, 1.0}};
+
+// Of UI-PRMD's 22 names the second half is the SDK's; its collars and second neck are none of ours,
+// and "Neck" there is the SDK 2 neck, above ShoulderCenter.
+std::optional<Joint> JointOfColumn(std::string_view name) {
+  if (name == "Neck2_Neck" || name == "Neck_dup" || name.ends_with("Collar")) return std::nullopt;
+  if (name == "LToes") return Joint::kFootLeft;
+  if (name == "RToes") return Joint::kFootRight;
+  const size_t mark = name.rfind('_');
+  return JointCalled(mark == std::string_view::npos ? name : name.substr(mark + 1));
+}
+
+struct JointColumns {
+  Joint joint;
+  size_t x;
+};
+
+std::string PrefixOf(const SkeletonInput& input, const PairedFormat& format) {
+  if (input.columns == "truth") return "G_";
+  if (input.columns == "observed") return std::string(format.observed_prefix);
+  throw InputError(
+      fmt::format("{}: holds two skeletons side by side: expected {}#truth or {}#observed",
+                  input.name, input.name, input.name));
+}
+
+std::vector<JointColumns> ColumnsOf(const TextLines& lines,
+                                    const std::vector<std::string_view>& header,
+                                    const std::string& prefix) {
+  std::vector<JointColumns> columns;
+  for (size_t c = 0; c + 2 < header.size(); ++c) {
+    if (!header[c].starts_with(prefix) || !header[c].ends_with("_x")) continue;
+    const std::string_view name =
+        header[c].substr(prefix.size(), header[c].size() - 2 - prefix.size());
+    const auto joint = JointOfColumn(name);
+    if (!joint) continue;
+    if (header[c + 1] != fmt::format("{}{}_y", prefix, name) ||
+        header[c + 2] != fmt::format("{}{}_z", prefix, name)) {
+      lines.Fail(fmt::format("{0}{1}_y and {0}{1}_z", prefix, name), header[c + 1]);
+    }
+    columns.push_back({*joint, c});
+  }
+  if (columns.empty()) lines.Fail("columns that begin with " + prefix, lines.line());
+  return columns;
+}
+
+SkeletonSequence ReadPaired(SkeletonInput& input, const PairedFormat& format) {
+  const std::string prefix = PrefixOf(input, format);
+  TextLines lines(input.stream, input.name);
+  lines.Expect("a header line");
+  const std::string header_line(lines.line());
+  const auto header = Split(header_line, ',');
+  const auto columns = ColumnsOf(lines, header, prefix);
+  SkeletonSequence sequence{input.name, {}};
+  sequence.columns = input.columns;
+  RowTimes times;
+  while (lines.NextFilled()) {
+    auto fields = Split(lines.line(), ',');
+    if (lines.line().ends_with(',')) fields.emplace_back();
+    if (fields.size() != header.size()) {
+      lines.Fail(fmt::format("{} columns", header.size()),
+                 fmt::format("{} columns", fields.size()));
+    }
+    BodyRecord body;
+    for (const auto& [joint, x] : columns) {
+      if (fields[x].empty() && fields[x + 1].empty() && fields[x + 2].empty()) continue;
+      Eigen::Vector3d position;
+      for (size_t axis = 0; axis < 3; ++axis) {
+        position[static_cast<int>(axis)] = NumberIn(lines, fields[x + axis], header[x + axis]);
+      }
+      PutJoint(body, joint, position.cwiseProduct(format.metres_per_unit));
+    }
+    const double first = NumberIn(lines, fields[0], header[0]);
+    const double time_s =
+        format.time_column.empty() ? first * input.FrameTime_s(format.usual_step_s) : first;
+    times.Take(lines, time_s);
+    sequence.frames.push_back(OneBodyFrame(sequence.frames.size(), time_s, std::move(body)));
+  }
+  RequireFrames(sequence);
+  return sequence;
+}
+
+bool HasColumns(const SkeletonSample& sample, std::string_view begin, std::string_view other) {
+  return !sample.lines.empty() && sample.lines[0].starts_with(begin) &&
+         sample.lines[0].find(other) != std::string_view::npos;
+}
+
+constexpr SkeletonFormat kFormats[] = {
+    {"ui-prmd-csv", [](const SkeletonSample& s) { return HasColumns(s, "t_s,", ",G_head_x"); },
+     [](SkeletonInput& input) { return ReadPaired(input, kUiPrmd); }},
+    {"itop-csv", [](const SkeletonSample& s) { return HasColumns(s, "frame,G_", ",P_"); },
+     [](SkeletonInput& input) { return ReadPaired(input, kItop); }},
+};
+
+}  // namespace
+
+std::span<const SkeletonFormat> PairedFormats() { return kFormats; }
+
+}  // namespace ossa::recon

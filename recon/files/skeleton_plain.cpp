@@ -1,0 +1,60 @@
+// The formats that are not an SDK's: our own JSONL and table, OpenSim's TRC.
+#include <array>
+
+#include "depth/base/error.h"
+#include "recon/files/skeleton_formats_internal.h"
+#include "recon/files/skeleton_jsonl.h"
+#include "recon/motion/bvh.h"
+
+namespace ossa::recon {
+namespace {
+
+bool IsJsonl(const SkeletonSample& sample) {
+  if (sample.lines.empty() || !Trimmed(sample.lines[0]).starts_with('{')) return false;
+  // Azure Kinect's recordings are JSON too: an object over many lines with other keys.
+  return sample.lines[0].find("\"bodies\"") != std::string_view::npos ||
+         (sample.lines[0].size() > 1 && sample.name.ends_with(".jsonl"));
+}
+
+SkeletonSequence ReadJsonl(SkeletonInput& input) {
+  return ReadSkeletonJsonl(input.stream, input.name);
+}
+
+bool IsCsv(const SkeletonSample& sample) {
+  return !sample.lines.empty() && sample.lines[0].starts_with("frame,time_s,body,");
+}
+
+bool IsTrc(const SkeletonSample& sample) {
+  return !sample.lines.empty() && sample.lines[0].starts_with("PathFileType");
+}
+
+bool IsBvh(const SkeletonSample& sample) {
+  return !sample.lines.empty() && sample.lines[0].starts_with("HIERARCHY");
+}
+
+// The BVH reader wants the whole text.
+SkeletonSequence ReadBvhSkeleton(SkeletonInput& input) {
+  std::string text;
+  std::array<char, 1 << 16> block{};
+  while (input.stream.read(block.data(), block.size()) || input.stream.gcount() > 0) {
+    text.append(block.data(), static_cast<size_t>(input.stream.gcount()));
+    if (text.size() > kMostBvhBytes)
+      throw InputError(input.name + ": expected at most 512 MiB of BVH");
+  }
+  SkeletonSequence sequence = SkeletonOfBvh(ParseBvh(std::move(text), input.name), input.name);
+  RequireFrames(sequence);
+  return sequence;
+}
+
+constexpr SkeletonFormat kFormats[] = {
+    {"trc", IsTrc, ReadTrc},
+    {"csv", IsCsv, ReadSkeletonCsv},
+    {"bvh", IsBvh, ReadBvhSkeleton},
+    {"jsonl", IsJsonl, ReadJsonl},
+};
+
+}  // namespace
+
+std::span<const SkeletonFormat> PlainFormats() { return kFormats; }
+
+}  // namespace ossa::recon

@@ -1,0 +1,133 @@
+#include <fmt/format.h>
+
+#include <charconv>
+#include <cmath>
+
+#include "depth/base/error.h"
+#include "recon/files/text_lines_internal.h"
+
+namespace ossa::recon {
+namespace {
+
+constexpr std::string_view kWhiteSpace = " \t\v\f\r";
+
+}  // namespace
+
+bool TextLines::Next() {
+  line_.clear();
+  ++number_;
+  std::streambuf* buffer = stream_.rdbuf();
+  int c = buffer->sbumpc();
+  if (c == std::char_traits<char>::eof()) return false;
+  for (; c != std::char_traits<char>::eof() && c != '\n'; c = buffer->sbumpc()) {
+    line_.push_back(static_cast<char>(c));
+    if (line_.size() > kLongestLine) Fail("a line of at most 1 MiB", line_);
+  }
+  if (!line_.empty() && line_.back() == '\r') line_.pop_back();
+  if (number_ == 1 && line_.starts_with("\xEF\xBB\xBF")) line_.erase(0, 3);
+  return true;
+}
+
+bool TextLines::NextFilled() {
+  while (Next()) {
+    if (!Trimmed(line_).empty()) return true;
+  }
+  return false;
+}
+
+void TextLines::Expect(std::string_view what) {
+  if (!NextFilled()) Fail(what, "the end of the file");
+}
+
+void TextLines::Fail(std::string_view expected, std::string_view found) const {
+  const std::string shown = found == "the end of the file" ? std::string(found) : Quoted(found);
+  throw InputError(source_ + ": line " + std::to_string(number_) + ": expected " +
+                   std::string(expected) + ", found " + shown);
+}
+
+std::string Quoted(std::string_view bytes) {
+  constexpr size_t kShown = 40;
+  std::string text = "'";
+  for (const char c : bytes.substr(0, kShown)) text.push_back(c >= ' ' && c <= '~' ? c : '?');
+  text += bytes.size() > kShown ? "...'" : "'";
+  return text;
+}
+
+std::vector<std::string_view> Split(std::string_view line, char separator) {
+  std::vector<std::string_view> fields;
+  while (!line.empty()) {
+    const size_t end = line.find(separator);
+    fields.push_back(Trimmed(line.substr(0, end)));
+    if (end == std::string_view::npos) break;
+    line.remove_prefix(end + 1);
+  }
+  return fields;
+}
+
+std::vector<std::string_view> Words(std::string_view line) {
+  std::vector<std::string_view> words;
+  size_t begin = line.find_first_not_of(kWhiteSpace);
+  while (begin != std::string_view::npos) {
+    const size_t end = line.find_first_of(kWhiteSpace, begin);
+    words.push_back(line.substr(begin, end - begin));
+    begin = end == std::string_view::npos ? end : line.find_first_not_of(kWhiteSpace, end);
+  }
+  return words;
+}
+
+std::string_view Trimmed(std::string_view text) {
+  const size_t begin = text.find_first_not_of(kWhiteSpace);
+  if (begin == std::string_view::npos) return {};
+  return text.substr(begin, text.find_last_not_of(kWhiteSpace) - begin + 1);
+}
+
+double NumberIn(const TextLines& lines, std::string_view field, std::string_view what) {
+  const std::string_view digits = field.starts_with('+') ? field.substr(1) : field;
+  double value = 0;
+  const auto [end, error] = std::from_chars(digits.data(), digits.data() + digits.size(), value);
+  if (error != std::errc() || end != digits.data() + digits.size() || !std::isfinite(value)) {
+    lines.Fail("a finite number for " + std::string(what), field);
+  }
+  return value;
+}
+
+long WholeNumberIn(const TextLines& lines, std::string_view field, std::string_view what, long low,
+                   long high) {
+  long value = 0;
+  const auto [end, error] = std::from_chars(field.data(), field.data() + field.size(), value);
+  if (error != std::errc() || end != field.data() + field.size() || value < low || value > high) {
+    lines.Fail(std::string(what) + " as a whole number from " + std::to_string(low) + " to " +
+                   std::to_string(high),
+               field);
+  }
+  return value;
+}
+
+std::string WrongStep(double step_s) {
+  constexpr double kLongestPause_s = 86400;
+  if (step_s < 0) return "times that grow";
+  if (step_s > kLongestPause_s) return "seconds, and at most a day after the frame before";
+  return {};
+}
+
+void RowTimes::Take(const TextLines& lines, double time_s) {
+  const std::string wrong = last_s_ ? WrongStep(time_s - *last_s_) : "";
+  if (!wrong.empty()) lines.Fail(wrong, fmt::format("{} after {}", time_s, *last_s_));
+  last_s_ = time_s;
+}
+
+std::vector<double> NumbersIn(const TextLines& lines, std::span<const std::string_view> fields,
+                              size_t count, std::string_view what) {
+  if (fields.size() != count) {
+    lines.Fail(std::to_string(count) + " numbers (" + std::string(what) + ")",
+               std::to_string(fields.size()) + " fields");
+  }
+  std::vector<double> numbers;
+  numbers.reserve(count);
+  for (size_t i = 0; i < count; ++i) {
+    numbers.push_back(NumberIn(lines, fields[i], "column " + std::to_string(i + 1)));
+  }
+  return numbers;
+}
+
+}  // namespace ossa::recon

@@ -1,0 +1,51 @@
+#pragma once
+#include <array>
+#include <filesystem>
+#include <functional>
+#include <span>
+
+#include "recon/models/linear_filter.h"
+#include "recon/models/local_mixture.h"
+#include "recon/models/pose_correction.h"
+
+namespace ossa::recon {
+
+struct LearnOptions {
+  // What a file may hold: see mixture.regions and mixture.samples.
+  static constexpr int kMostRegions = 1000, kMostSamples = 5000;
+
+  bool processes = true;  // false: the correction alone, for `best`
+  LocalMixtureOptions mixture;
+  PoseCorrectionOptions correction;
+  LinearFilterOptions filter;
+  size_t most_pairs = 2500;  // for the mixtures, the full processes and the exemplars
+  int full_samples = 350;    // of each joint's full Gaussian process: its variance costs their
+                             // square a frame, 0.8 ms for 20 joints
+};
+
+/// What `ossa learn` makes of pairs and the .ossagp file holds: for each joint with known truth the
+/// local mixture (liu-2016) and the full process (full-gp), the pairs themselves (exemplar), the
+/// correction of the whole posture and the filter (best).
+struct LearnedModels {
+  std::array<LocalMixture, kJointCount> mixtures;
+  std::array<GaussianProcess, kJointCount> full;
+  std::vector<PosturePair> exemplars;
+  PoseCorrection correction;
+  LinearFilter filter;
+  uint64_t pair_count = 0;  // learned from
+
+  /// `progress` (may be empty) is told the number of joints done; returns false to stop.
+  static LearnedModels Learn(const std::vector<PosturePair>& pairs, const LearnOptions& options,
+                             const std::function<bool(int)>& progress = {});
+  void Save(const std::filesystem::path& path) const;
+  /// True when the file says that it is one; it may still be damaged.
+  static bool IsOne(const std::filesystem::path& path);
+  static LearnedModels Load(const std::filesystem::path& path);
+  /// Of a payload; older versions are still read, without what they lack.
+  static LearnedModels FromBytes(std::span<const std::byte> bytes, const std::string& name,
+                                 uint32_t version = kVersion);
+  /// Version 3 added the filter, 4 its pulls.
+  static constexpr uint32_t kVersion = 4;
+};
+
+}  // namespace ossa::recon

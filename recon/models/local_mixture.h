@@ -1,0 +1,57 @@
+#pragma once
+#include <cstdint>
+#include <vector>
+
+#include "recon/models/gaussian_process.h"
+
+namespace ossa::recon {
+
+/// Liu 2016 sec. 4.2.
+struct LocalMixtureOptions {
+  int regions = 30;        // Q, by K-means
+  int samples = 50;        // S of each local model, chosen by posture budgeting
+  uint64_t seed = 1;       // of K-means
+  double w_similar = 0.1;  // algorithm 2: below it a new local model is made; the paper gives none
+  int most_samples = 100;  // a local model stops growing here, to stay within the frame's time
+  int most_models = 60;
+};
+
+/// One joint's mixture of local Gaussian processes.
+class LocalMixture {
+ public:
+  LocalMixture() = default;
+  /// Algorithm 1, offline part.
+  static LocalMixture Learn(const Eigen::MatrixXd& inputs, const Eigen::MatrixXd& outputs,
+                            const LocalMixtureOptions& options);
+  /// From models already learned (files).
+  explicit LocalMixture(std::vector<GaussianProcess> models);
+
+  /// Algorithm 1, online part: eq. 13 over the `nearby` most similar models (eq. 10).
+  GaussianPrediction Predict(const Eigen::VectorXd& input, int nearby) const;
+  /// Algorithm 2. A new model has the parameters of the most similar one (the paper names none).
+  void Update(const Eigen::VectorXd& input, const Eigen::Vector3d& output,
+              const LocalMixtureOptions& options);
+
+  bool empty() const { return models_.empty(); }
+  const std::vector<GaussianProcess>& models() const { return models_; }
+  /// Mean noise variance of the local models, square metres.
+  double noise() const;
+
+ private:
+  /// Logarithm of eq. 10. Its W has no index of a model, as in the local processes of
+  /// Nguyen-Tuong 2008 that the paper follows: one width for all. With each model's own, the model
+  /// of the widest kernel is similar to everything and speaks everywhere.
+  double LogSimilarity(size_t model, const Eigen::VectorXd& input) const;
+
+  std::vector<GaussianProcess> models_;
+  // C_q: the mean of the model's samples, as algorithm 2 keeps it. Departure: also before the first
+  // update, when the paper's is that of K-means, with the samples that budgeting dropped.
+  std::vector<Eigen::VectorXd> centres_;
+  double w_ = 0.0;  // W of eq. 10: the median of those learned in the regions
+};
+
+/// Lloyd's K-means with seeded k-means++ starts; returns the region of each row.
+std::vector<int> KMeans(const Eigen::MatrixXd& rows, int regions, uint64_t seed,
+                        int iterations = 15);
+
+}  // namespace ossa::recon

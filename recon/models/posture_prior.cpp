@@ -1,0 +1,259 @@
+#include "recon/models/posture_prior.h"
+
+#include <fmt/format.h>
+
+#include <Eigen/Eigenvalues>
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <stdexcept>
+
+#include "depth/base/error.h"
+#include "depth/base/sealed_file.h"
+
+namespace ossa::recon {
+namespace {
+
+using BoneMatrix = Eigen::Matrix<double, kBoneDims, kBoneDims>;
+
+constexpr SealedFormat kFormat = {
+    {'O', 'S', 'S', 'A', 'P', 'R', '0', '0'}, PosturePrior::kVersion, "posture prior"};
+constexpr uint32_t kVersionOfNetwork = 2;
+
+// A mode is neither forgotten within a frame nor kept for ever.
+constexpr double kShortest_s = 0.02, kLongest_s = 1000.0;
+
+/// Sums over all frames and their mirror images; what is about the mean is made of them later, so
+/// that no motion needs to be held in memory.
+struct Sums {
+  double weight = 0.0, lagged_weight = 0.0;
+  uint64_t frames = 0;
+  BoneVector first = BoneVector::Zero();          // of b(t)
+  BoneMatrix second = BoneMatrix::Zero();         // of b(t) b(t)'
+  BoneVector lagged_first = BoneVector::Zero();   // of (b(t) + b(t + lag)) / 2
+  BoneMatrix lagged_second = BoneMatrix::Zero();  // of the symmetric part of b(t) b(t + lag)'
+};
+
+void Add(const std::vector<BoneVector>& run, size_t lag, double weight, Sums& sums) {
+  if (run.empty()) return;
+  const auto n = static_cast<Eigen::Index>(run.size()), ahead = static_cast<Eigen::Index>(lag);
+  Eigen::MatrixXd b(kBoneDims, n);
+  for (Eigen::Index i = 0; i < n; ++i) b.col(i) = run[static_cast<size_t>(i)];
+  sums.frames += run.size();
+  sums.weight += weight * static_cast<double>(n);
+  sums.first += weight * b.rowwise().sum();
+  sums.second += weight * (b * b.transpose());
+  if (n <= ahead) return;
+  const auto now = b.leftCols(n - ahead), later = b.rightCols(n - ahead);
+  const BoneMatrix product = now * later.transpose();
+  sums.lagged_weight += weight * static_cast<double>(n - ahead);
+  sums.lagged_first += 0.5 * weight * (now.rowwise().sum() + later.rowwise().sum());
+  sums.lagged_second += 0.5 * weight * (product + product.transpose());
+}
+
+/// Left and right exchanged: x changes its sign, bones their places.
+BoneMatrix Mirror() {
+  BoneMatrix mirror = BoneMatrix::Zero();
+  for (int i = 1; i < kJointCount; ++i) {
+    const int other = kMirroredJoint[static_cast<size_t>(i)];
+    for (int axis = 0; axis < 3; ++axis) {
+      mirror(3 * (i - 1) + axis, 3 * (other - 1) + axis) = axis == 0 ? -1.0 : 1.0;
+    }
+  }
+  return mirror;
+}
+
+/// Eigenvectors by falling eigenvalue, each with its largest entry positive: the same every time.
+template <typename Matrix>
+std::pair<Eigen::VectorXd, Eigen::MatrixXd> SortedEigen(const Matrix& symmetric) {
+  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> solver(symmetric);
+  Eigen::VectorXd values = solver.eigenvalues().reverse();
+  Eigen::MatrixXd vectors = solver.eigenvectors().rowwise().reverse();
+  for (Eigen::Index k = 0; k < vectors.cols(); ++k) {
+    Eigen::Index largest = 0;
+    vectors.col(k).cwiseAbs().maxCoeff(&largest);
+    if (vectors(largest, k) < 0.0) vectors.col(k) *= -1.0;
+  }
+  return {values, vectors};
+}
+
+}  // namespace
+
+void PosturePriorOptions::Check() const {
+  if (modes < 1 || modes > kBoneDims) {
+    throw std::invalid_argument(
+        fmt::format("PosturePriorOptions.modes = {}, must be in [1, {}]", modes, kBoneDims));
+  }
+  if (!(lag_s > 0.0 && lag_s <= 10.0)) {
+    throw std::invalid_argument(
+        fmt::format("PosturePriorOptions.lag_s = {}, must be in (0, 10]", lag_s));
+  }
+  if (!(slowness > 0.0 && slowness <= 100.0)) {
+    throw std::invalid_argument(
+        fmt::format("PosturePriorOptions.slowness = {}, must be in (0, 100]", slowness));
+  }
+}
+
+std::vector<std::vector<BoneVector>> NormalisedRuns(const PriorClip& clip) {
+  std::vector<std::vector<BoneVector>> runs(1);
+  JointWeights all;
+  all.fill(1.0);
+  double yaw_rad = std::numbers::pi;
+  for (const Posture& posture : clip.postures) {
+    const bool finite = std::all_of(posture.position_m.begin(), posture.position_m.end(),
+                                    [](const Eigen::Vector3d& p) { return p.allFinite(); });
+    if (!finite) {
+      if (!runs.back().empty()) runs.emplace_back();
+      continue;
+    }
+    const Placement placement = PlacementOf(posture, all, yaw_rad);
+    yaw_rad = placement.yaw_rad;
+    const Posture own = Normalised(posture, placement);
+    runs.back().push_back(BonesOf(Retargeted(own, StandardBoneLengths())));
+  }
+  return runs;
+}
+
+BoneVector BonesOf(const Posture& posture) {
+  BoneVector bones_m;
+  for (int i = 1; i < kJointCount; ++i) {
+    const auto joint = static_cast<size_t>(i), parent = static_cast<size_t>(kJointParent[joint]);
+    bones_m.segment<3>(3 * (i - 1)) = posture.position_m[joint] - posture.position_m[parent];
+  }
+  return bones_m;
+}
+
+Posture PostureOfBones(const BoneVector& bones_m) {
+  Posture posture;
+  for (int i = 1; i < kJointCount; ++i) {
+    const auto joint = static_cast<size_t>(i), parent = static_cast<size_t>(kJointParent[joint]);
+    posture.position_m[joint] = posture.position_m[parent] + bones_m.segment<3>(3 * (i - 1));
+  }
+  return posture;
+}
+
+PosturePrior PosturePrior::Learn(const std::vector<PriorClip>& clips,
+                                 const PosturePriorOptions& options) {
+  options.Check();
+  Sums sums;
+  for (const PriorClip& clip : clips) {
+    const auto lag = static_cast<size_t>(std::max(1.0, std::round(options.lag_s / clip.frame_s)));
+    for (const auto& run : NormalisedRuns(clip)) Add(run, lag, clip.weight, sums);
+  }
+  constexpr uint64_t kFewest = 100;  // a hundred numbers' mean and spread tell something
+  if (sums.frames < kFewest || !(sums.lagged_weight > 0.0)) {
+    throw InputError(
+        fmt::format("posture prior: expected motions of at least {} finite postures, found {}",
+                    kFewest, sums.frames));
+  }
+  const BoneMatrix mirror = Mirror();
+  const auto both_sides = [&](const BoneMatrix& m) -> BoneMatrix {
+    return 0.5 * (m + mirror * m * mirror.transpose());
+  };
+  PosturePrior out;
+  out.frames = sums.frames;
+  const BoneVector mean = sums.first / sums.weight;
+  out.mean_m = 0.5 * (mean + mirror * mean);
+  const BoneMatrix covariance =
+      both_sides(sums.second) / sums.weight - out.mean_m * out.mean_m.transpose();
+  const BoneVector halfway = sums.lagged_first / sums.lagged_weight;
+  const BoneVector lagged_mean = 0.5 * (halfway + mirror * halfway);
+  const BoneMatrix lagged =
+      both_sides(sums.lagged_second) / sums.lagged_weight - lagged_mean * out.mean_m.transpose() -
+      out.mean_m * lagged_mean.transpose() + out.mean_m * out.mean_m.transpose();
+  const auto [variance, axes] = SortedEigen(covariance);
+  // What hardly ever moves (0.1 mm) is no mode, lest its correlation be rounding.
+  constexpr double kLeast_m2 = 1e-8;
+  Eigen::Index modes = 0;
+  while (modes < options.modes && variance[modes] > kLeast_m2) ++modes;
+  if (modes == 0) throw InputError("posture prior: expected motions, found nothing that moves");
+  const Eigen::VectorXd spread = variance.head(modes).cwiseSqrt();
+  const Eigen::MatrixXd white =
+      spread.cwiseInverse().asDiagonal() * axes.leftCols(modes).transpose();
+  const auto [correlation, turn] = SortedEigen(white * lagged * white.transpose());
+  out.modes_m = axes.leftCols(modes) * spread.asDiagonal() * turn;
+  out.rest_m2 = (covariance.diagonal() - out.modes_m.rowwise().squaredNorm()).cwiseMax(0.0);
+  // correlation = exp(-lag / time)
+  out.time_s.resize(modes);
+  for (Eigen::Index k = 0; k < modes; ++k) {
+    const double kept = std::clamp(correlation[k], 0.02, 0.9999);
+    out.time_s[k] =
+        std::clamp(-options.slowness * options.lag_s / std::log(kept), kShortest_s, kLongest_s);
+  }
+  return out;
+}
+
+void PosturePrior::Save(const std::filesystem::path& path) const {
+  PayloadWriter out;
+  out.Put(frames);
+  const auto put = [&](const Eigen::MatrixXd& m) {
+    const Eigen::MatrixXf single = m.cast<float>();
+    out.PutArray(std::span<const float>(single.data(), static_cast<size_t>(single.size())));
+  };
+  for (const Eigen::MatrixXd& m :
+       {Eigen::MatrixXd(mean_m), Eigen::MatrixXd(rest_m2), Eigen::MatrixXd(time_s), modes_m}) {
+    put(m);
+  }
+  SealedFormat format = kFormat;
+  if (network.empty()) {
+    format.version = kVersionOfNetwork - 1;  // what older programs read
+  } else {
+    out.Put(static_cast<uint32_t>(network.layers.front().bias.size()));
+    PutNetwork(out, network);
+  }
+  WriteSealedFile(path, format, out.bytes());
+}
+
+bool PosturePrior::IsOne(const std::filesystem::path& path) { return IsSealedFile(path, kFormat); }
+
+PosturePrior PosturePrior::Load(const std::filesystem::path& path) {
+  const SealedFormat format = FormatOf(path, kFormat, 1);
+  return FromBytes(ReadSealedFile(path, format), path.string(), format.version);
+}
+
+PosturePrior PosturePrior::FromBytes(std::span<const std::byte> bytes, const std::string& name,
+                                     uint32_t version) {
+  PayloadReader in(bytes, name);
+  PosturePrior out;
+  out.frames = in.Get<uint64_t>("frames");
+  /// So many numbers, each in [least, most] metres, square metres or seconds.
+  const auto get = [&](std::string_view field, size_t count, double least, double most) {
+    const auto values = in.GetVector<float>(field);
+    if (values.size() != count) in.Fail(field, fmt::format("expected {} numbers", count));
+    for (const float v : values) {
+      if (!(v >= least && v <= most)) {
+        in.Fail(field, fmt::format("expected numbers in [{}, {}]", least, most));
+      }
+    }
+    Eigen::MatrixXd numbers(static_cast<Eigen::Index>(count), 1);
+    for (size_t i = 0; i < count; ++i) {
+      numbers(static_cast<Eigen::Index>(i), 0) = static_cast<double>(values[i]);
+    }
+    return numbers;
+  };
+  constexpr double kLongestBone_m = 10.0;
+  out.mean_m = get("mean", kBoneDims, -kLongestBone_m, kLongestBone_m);
+  out.rest_m2 = get("rest", kBoneDims, 0.0, kLongestBone_m);
+  const auto times = in.GetVector<float>("correlation times");
+  if (times.empty() || times.size() > kBoneDims) {
+    in.Fail("correlation times", fmt::format("expected 1 to {} modes", kBoneDims));
+  }
+  out.time_s.resize(static_cast<Eigen::Index>(times.size()));
+  for (size_t k = 0; k < times.size(); ++k) {
+    const double time_s = times[k];
+    if (!(time_s > 0.5 * kShortest_s && time_s < 2.0 * kLongest_s)) {
+      in.Fail("correlation times", "expected 0.01 s to 2000 s");
+    }
+    out.time_s[static_cast<Eigen::Index>(k)] = time_s;
+  }
+  out.modes_m = get("modes", kBoneDims * times.size(), -kLongestBone_m, kLongestBone_m);
+  out.modes_m.resize(kBoneDims, out.time_s.size());
+  if (version >= kVersionOfNetwork) {
+    const Eigen::Index units = GetUnits(in);
+    out.network = {GetNetwork(in, {kPriorInputs, units, kBoneDims})};
+  }
+  in.ExpectEnd();
+  return out;
+}
+
+}  // namespace ossa::recon

@@ -1,0 +1,77 @@
+#pragma once
+#include <Eigen/Core>
+#include <cstdint>
+#include <filesystem>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "recon/models/prior_network.h"
+#include "recon/normalise.h"
+#include "recon/posture.h"
+
+namespace ossa::recon {
+
+/// The prior that comes with ossa, among the shipped files.
+inline constexpr const char* kShippedPrior = "posture.ossaprior";
+
+/// A motion that postures are learned of: any size, any y-up frame, facing anywhere.
+struct PriorClip {
+  std::vector<Posture> postures;
+  double frame_s = 1.0 / 30.0;
+  double weight = 1.0;  // of one of its frames
+};
+
+/// Chosen on CMU subjects left out of learning (table III of Shum 2013; hands alone, hands and
+/// feet).
+struct PosturePriorOptions {
+  int modes = 40;  // in [1, 57]; 25 lose wrists and ankles, 0.9 cm where most is given
+  double lag_s =
+      1.0 / 3.0;  // over which the modes' correlation is measured; 0.13 to 0.7 do as well
+  // Correlation times over what the lag tells: limbs move smoothly, and from one frame to the next
+  // they change less than anything does that forgets as fast over the lag. 1 costs 2 %.
+  double slowness = 2.0;
+
+  /// Throws std::invalid_argument with name, value and range.
+  void Check() const;
+};
+
+/// Ours, of `best`: how people hold themselves and how fast that changes, as one Gaussian process
+/// in time. A posture's bones are the mean plus independent modes, each an Ornstein-Uhlenbeck
+/// process of variance 1 and its own correlation time: principal components, turned so that none
+/// tells of another a lag later (slow feature analysis, Wiskott & Sejnowski 2002, of the symmetric
+/// part). So a mean, a covariance and a lagged covariance of all postures learned from are all it
+/// holds: nobody's posture. It knows no left from right: every motion counts mirrored, too.
+struct PosturePrior {
+  BoneVector mean_m = BoneVector::Zero();
+  Eigen::MatrixXd modes_m;                  // kBoneDims x modes: bones = mean + modes * u
+  BoneVector rest_m2 = BoneVector::Zero();  // variance of each number that no mode explains
+  Eigen::VectorXd time_s;                   // correlation time of each mode, slowest first
+  uint64_t frames = 0;                      // learned from
+  PriorNetwork network;                     // what no Gaussian says; may be empty
+
+  /// Throws InputError when the clips hold no moving, finite postures.
+  static PosturePrior Learn(const std::vector<PriorClip>& clips,
+                            const PosturePriorOptions& options = {});
+
+  /// .ossaprior: reads refuse damaged, truncated and hostile files by name and byte.
+  static PosturePrior Load(const std::filesystem::path& path);
+  /// Of a payload; older versions are still read, without what they lack.
+  static PosturePrior FromBytes(std::span<const std::byte> bytes, const std::string& name,
+                                uint32_t version = kVersion);
+  /// Version 2 added the network. Without one, files are of version 1.
+  static constexpr uint32_t kVersion = 2;
+  void Save(const std::filesystem::path& path) const;
+  /// True when the file says that it is one; it may still be damaged.
+  static bool IsOne(const std::filesystem::path& path);
+};
+
+/// The clip normalised, of the standard size; a frame that is not finite ends the run before it.
+std::vector<std::vector<BoneVector>> NormalisedRuns(const PriorClip& clip);
+
+/// Vectors of the bones as they are.
+BoneVector BonesOf(const Posture& posture);
+/// The way back, root at the origin.
+Posture PostureOfBones(const BoneVector& bones_m);
+
+}  // namespace ossa::recon

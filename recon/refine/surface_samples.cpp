@@ -1,0 +1,132 @@
+#include "recon/refine/surface_samples.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "depth/base/clones.h"
+
+namespace ossa::recon {
+namespace {
+
+constexpr float kMostBehind_mm = 300.0F;
+constexpr float kNearer_mm = 30.0F;  // by so much, something that is not the person is before it
+constexpr float kNearest_m = 0.2F;   // what is nearer is beside the sensor
+
+template <typename T>
+using OfSamples = std::array<T, kLookSamples>;
+
+// Where on the two grids one tap of each sample is.
+struct Grids {
+  OfSamples<float> x_m{}, y_m{};
+};
+
+constexpr std::array<Grids, kLookTaps> MakeGrids() {
+  constexpr double kAside[kLookTaps] = {-0.25, 0.25, -0.25, 0.25};  // of a cell
+  constexpr double kDown[kLookTaps] = {-0.25, -0.25, 0.25, 0.25};
+  std::array<Grids, kLookTaps> grids;
+  for (size_t tap = 0; tap < kLookTaps; ++tap) {
+    size_t next = 0;
+    for (const double step_m : kLookSteps_m) {
+      for (int row = 0; row < kLookGrid; ++row) {
+        for (int column = 0; column < kLookGrid; ++column, ++next) {
+          constexpr int kMiddle = kLookGrid / 2;
+          grids[tap].x_m[next] = static_cast<float>((column - kMiddle + kAside[tap]) * step_m);
+          grids[tap].y_m[next] = static_cast<float>((row - kMiddle + kDown[tap]) * step_m);
+        }
+      }
+    }
+  }
+  return grids;
+}
+
+constexpr std::array<Grids, kLookTaps> kGrids = MakeGrids();
+
+// One tap of each sample, as the camera has it.
+struct Taps {
+  OfSamples<int32_t> pixel{};  // or kOutside
+  OfSamples<float> z_mm{};     // along the camera's axis
+  OfSamples<float> slant{};    // way along the ray, for each metre of z
+  OfSamples<int32_t> depth_mm{}, is_person{};
+};
+constexpr int32_t kOutside = -1;
+
+// What the taps so far have found.
+struct Sums {
+  OfSamples<float> behind_mm{};
+  OfSamples<int32_t> surface{}, hidden{};
+};
+
+// As depth::Project, side by side.
+OSSA_CLONES void Project(const depth::Camera& camera, const Eigen::Vector3f& joint_m,
+                         const Eigen::Matrix3f& camera_from_frame, const Grids& grids, Taps* taps) {
+  const float x_m = joint_m.x(), y_m = joint_m.y(), z_m = joint_m.z();
+  const float xx = camera_from_frame(0, 0), xy = camera_from_frame(0, 1);
+  const float yx = camera_from_frame(1, 0), yy = camera_from_frame(1, 1);
+  const float zx = camera_from_frame(2, 0), zy = camera_from_frame(2, 1);
+  const auto fx = static_cast<float>(camera.fx), fy = static_cast<float>(camera.fy);
+  const auto cx = static_cast<float>(camera.cx), cy = static_cast<float>(camera.cy);
+  const int width = camera.width, height = camera.height;
+  const auto right_end = static_cast<float>(width), bottom = static_cast<float>(height);
+  for (size_t i = 0; i < kLookSamples; ++i) {
+    const float right_m = grids.x_m[i], down_m = grids.y_m[i];
+    const float z = z_m + zx * right_m + zy * down_m;
+    const float per_z = std::clamp(1.0F / z, 0.0F, 1.0F / kNearest_m);
+    const float tangent_x = (x_m + xx * right_m + xy * down_m) * per_z;
+    const float tangent_y = (y_m + yx * right_m + yy * down_m) * per_z;
+    // Bounded: a place far aside is a number that no int holds.
+    const float u = std::clamp(cx - fx * tangent_x + 0.5F, 0.0F, right_end);
+    const float v = std::clamp(cy - fy * tangent_y + 0.5F, 0.0F, bottom);
+    const auto column = static_cast<int32_t>(u), row = static_cast<int32_t>(v);
+    const bool inside =
+        (z >= kNearest_m) & (u > 0.0F) & (column < width) & (v > 0.0F) & (row < height);
+    taps->pixel[i] = inside ? row * width + column : kOutside;
+    taps->z_mm[i] = 1e3F * z;
+    taps->slant[i] = std::sqrt(1.0F + tangent_x * tangent_x + tangent_y * tangent_y);
+  }
+}
+
+// Without branches, all numbers of one width: several samples at a time.
+OSSA_CLONES void Add(const Taps& taps, Sums* sums) {
+  for (size_t i = 0; i < kLookSamples; ++i) {
+    const int32_t outside = taps.pixel[i] == kOutside ? 1 : 0;
+    const int32_t read = taps.depth_mm[i] != 0 ? 1 : 0;
+    const int32_t person = read & (taps.is_person[i] != 0 ? 1 : 0);
+    const float behind_mm = (static_cast<float>(taps.depth_mm[i]) - taps.z_mm[i]) * taps.slant[i];
+    const int32_t nearer = behind_mm < -kNearer_mm ? 1 : 0;
+    const float within_mm = std::min(std::max(behind_mm, -kMostBehind_mm), kMostBehind_mm);
+    sums->behind_mm[i] += static_cast<float>(person) * within_mm;
+    sums->surface[i] += person;
+    sums->hidden[i] += outside | (read & (person ^ 1) & nearer);
+  }
+}
+
+OSSA_CLONES void Mean(const Sums& sums, OfSamples<LookSample>* samples) {
+  for (size_t i = 0; i < kLookSamples; ++i) {
+    const int32_t surface = sums.surface[i];
+    const float mean_mm = sums.behind_mm[i] / static_cast<float>(std::max(1, surface));
+    const auto from_nearest = static_cast<int32_t>(mean_mm + (kMostBehind_mm + 0.5F));
+    const int32_t behind_mm = from_nearest - static_cast<int32_t>(kMostBehind_mm);
+    (*samples)[i] = {behind_mm, surface, sums.hidden[i]};
+  }
+}
+
+}  // namespace
+
+OfSamples<LookSample> SurfaceSampler::Around(const Eigen::Vector3d& joint_m) const {
+  Taps taps;
+  Sums sums;
+  for (const Grids& grids : kGrids) {
+    Project(frame_.camera, joint_m.cast<float>(), camera_from_frame_, grids, &taps);
+    for (size_t i = 0; i < kLookSamples; ++i) {
+      const int32_t pixel = taps.pixel[i];
+      taps.depth_mm[i] = pixel == kOutside ? 0 : frame_.depth_mm[static_cast<size_t>(pixel)];
+      taps.is_person[i] = pixel == kOutside ? 0 : is_person_[static_cast<size_t>(pixel)];
+    }
+    Add(taps, &sums);
+  }
+  OfSamples<LookSample> samples;
+  Mean(sums, &samples);
+  return samples;
+}
+
+}  // namespace ossa::recon

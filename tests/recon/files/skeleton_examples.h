@@ -1,0 +1,59 @@
+#pragma once
+#include <cmath>
+#include <sstream>
+#include <string>
+
+#include "depth/base/error.h"
+#include "recon/files/skeleton_io.h"
+
+namespace ossa::recon {
+
+/// A made-up walk of one or more people: smooth, every joint in another place, some joints with
+/// states and confidences, one joint missing.
+inline SkeletonSequence ExampleSequence(int frames, int bodies = 1) {
+  SkeletonSequence sequence{"example", {}};
+  for (int f = 0; f < frames; ++f) {
+    SkeletonFrame frame;
+    frame.frame = f;
+    frame.time_s = f / 30.0;
+    frame.floor = Eigen::Vector4d(0, 1, 0, 0.9);
+    for (int b = 0; b < bodies; ++b) {
+      BodyRecord body;
+      body.id = b + 1;
+      for (int j = 0; j < kJointCount; ++j) {
+        if (j == 7) continue;
+        JointRecord joint;
+        joint.position_m = {0.05 * j + b, 0.1 * std::sin(0.2 * f + j), 2.0 + 0.01 * f};
+        joint.state = static_cast<TrackingState>(j % 3);
+        joint.confidence = 0.5;
+        body.joints[static_cast<size_t>(j)] = joint;
+      }
+      frame.bodies.push_back(body);
+    }
+    sequence.frames.push_back(frame);
+  }
+  return sequence;
+}
+
+/// What reading this text says; "" when it is read without complaint.
+inline std::string ComplaintAbout(const std::string& text, const SkeletonReadOptions& options = {},
+                                  const std::string& name = "file") {
+  try {
+    std::istringstream stream(text);
+    ReadSkeletonStream(stream, name, options);
+  } catch (const InputError& error) {
+    return error.what();
+  }
+  return {};
+}
+
+/// Position of a joint of the first body of a frame.
+inline Eigen::Vector3d At(const SkeletonSequence& sequence, size_t frame, Joint joint) {
+  return sequence.frames.at(frame)
+      .bodies.at(0)
+      .joints[static_cast<size_t>(Index(joint))]
+      .value()
+      .position_m;
+}
+
+}  // namespace ossa::recon

@@ -1,0 +1,162 @@
+#include "recon/models/gaussian_process.h"
+
+#include <gtest/gtest.h>
+
+#include <Eigen/LU>
+#include <array>
+#include <cmath>
+#include <random>
+
+#include "recon/models/local_mixture.h"
+
+namespace ossa::recon {
+namespace {
+
+struct Samples {
+  Eigen::MatrixXd x, y;
+};
+
+/// A smooth function of two numbers, three outputs.
+Samples MakeSamples(int count, double noise_m = 0.0) {
+  std::mt19937_64 rng(3);
+  std::uniform_real_distribution<double> uniform(-0.5, 0.5);
+  std::normal_distribution<double> normal(0.0, 1.0);
+  Samples s{Eigen::MatrixXd(count, 2), Eigen::MatrixXd(count, 3)};
+  for (int i = 0; i < count; ++i) {
+    s.x.row(i) << uniform(rng), uniform(rng);
+    s.y.row(i) << 0.05 * std::sin(4.0 * s.x(i, 0)), 0.03 * s.x(i, 1), 0.02;
+    for (int c = 0; c < 3; ++c) s.y(i, c) += noise_m * normal(rng);
+  }
+  return s;
+}
+
+TEST(GaussianProcess, PredictsAsTheTextbookFormulaWithAnExplicitInverse) {
+  const Samples s = MakeSamples(20);
+  const GaussianProcessParameters p;
+  const GaussianProcess process(p, s.x, s.y);
+  const Eigen::VectorXd at = Eigen::Vector2d(0.1, -0.2);
+  Eigen::VectorXd k(20);
+  for (int i = 0; i < 20; ++i) {
+    k[i] = p.theta0 * std::exp(-0.5 * p.w * (s.x.row(i).transpose() - at).squaredNorm()) + p.theta1;
+  }
+  const Eigen::MatrixXd inverse = KernelMatrix(p, s.x).inverse();
+  const Eigen::Vector3d mean = s.y.transpose() * (inverse * k);      // eq. 8
+  const double variance = p.theta0 + p.theta1 - k.dot(inverse * k);  // eq. 9
+  const GaussianPrediction made = process.Predict(at);
+  // Condition number of K about 1e3: twelve digits stay.
+  EXPECT_LT((made.mean - mean).norm(), 1e-10);
+  EXPECT_NEAR(made.variance, variance, 1e-10);
+}
+
+TEST(GaussianProcess, GrownSampleBySampleEqualsTheOneLearnedAtOnce) {
+  const Samples s = MakeSamples(30);
+  GaussianProcess grown({}, s.x.topRows(10), s.y.topRows(10));
+  for (int i = 10; i < 30; ++i) grown.Add(s.x.row(i).transpose(), s.y.row(i).transpose());
+  const GaussianProcess whole({}, s.x, s.y);
+  EXPECT_LT((grown.factor() - whole.factor()).cwiseAbs().maxCoeff(), 1e-12);  // eqs. 14-17
+  const Eigen::VectorXd at = Eigen::Vector2d(0.3, 0.3);
+  EXPECT_LT((grown.Predict(at).mean - whole.Predict(at).mean).norm(), 1e-10);
+}
+
+TEST(NegativeLogLikelihood, HasItsGradient) {
+  const Samples s = MakeSamples(15, 0.01);
+  const GaussianProcessParameters p{2e-3, 5e-4, 30.0, 5e3};
+  double gradient[4];
+  NegativeLogLikelihood(p, s.x, s.y, gradient);
+  constexpr double kStep = 1e-5;  // of the logarithms
+  for (int i = 0; i < 4; ++i) {
+    GaussianProcessParameters plus = p, minus = p;
+    double* const up[] = {&plus.theta0, &plus.theta1, &plus.w, &plus.beta};
+    double* const down[] = {&minus.theta0, &minus.theta1, &minus.w, &minus.beta};
+    *up[i] *= std::exp(kStep);
+    *down[i] *= std::exp(-kStep);
+    const double numeric = (NegativeLogLikelihood(plus, s.x, s.y, nullptr) -
+                            NegativeLogLikelihood(minus, s.x, s.y, nullptr)) /
+                           (2.0 * kStep);
+    // Central differences lose half the digits of a value of a few hundred.
+    EXPECT_NEAR(gradient[i], numeric, 1e-4 * (1.0 + std::abs(numeric))) << i;
+  }
+}
+
+TEST(LearnParameters, NeverLowersTheLikelihoodAndFindsTheNoise) {
+  const Samples s = MakeSamples(120, 0.01);
+  const GaussianProcessParameters start;
+  const auto learned = LearnParameters(s.x, s.y, start);
+  EXPECT_LE(NegativeLogLikelihood(learned, s.x, s.y, nullptr),
+            NegativeLogLikelihood(start, s.x, s.y, nullptr));
+  // 360 noisy numbers tell their standard deviation to about 4 %; flat likelihood: 20 %.
+  EXPECT_NEAR(1.0 / std::sqrt(learned.beta), 0.01, 0.002);
+}
+
+/// Prediction of a process at one of its own places, as a normal distribution.
+double KlWithout(const GaussianProcessParameters& p, const Samples& s, Eigen::Index t) {
+  const Eigen::Index n = s.x.rows();
+  Eigen::MatrixXd x(n - 1, s.x.cols()), y(n - 1, 3);
+  x << s.x.topRows(t), s.x.bottomRows(n - 1 - t);
+  y << s.y.topRows(t), s.y.bottomRows(n - 1 - t);
+  const auto with = GaussianProcess(p, s.x, s.y).Predict(s.x.row(t).transpose());
+  const auto without = GaussianProcess(p, x, y).Predict(s.x.row(t).transpose());
+  const double a = with.variance + 1.0 / p.beta, b = without.variance + 1.0 / p.beta;
+  return 1.5 * (std::log(b / a) + a / b - 1.0) +
+         0.5 * (with.mean - without.mean).squaredNorm() / b;  // eqs. 1-2, three outputs
+}
+
+TEST(BudgetedSamples, FirstDropsTheSampleWhoseLossTheKlDivergenceFeelsLeast) {
+  const Samples s = MakeSamples(12, 0.01);
+  const GaussianProcessParameters p;
+  Eigen::Index least = 0;
+  for (Eigen::Index t = 1; t < 12; ++t) {
+    if (KlWithout(p, s, t) < KlWithout(p, s, least)) least = t;
+  }
+  const auto kept = BudgetedSamples(p, s.x, s.y, 11);
+  ASSERT_EQ(kept.size(), 11u);
+  EXPECT_EQ(std::count(kept.begin(), kept.end(), static_cast<int>(least)), 0);
+}
+
+// Eqs. 10, 12 and 13 written out, over the L nearest centres. The kernels' own widths differ a
+// thousandfold: the widest must not speak for places that are far from its samples.
+TEST(LocalMixture, WeighsTheNearestModelsByOneKernelForAll) {
+  const Samples s = MakeSamples(30);
+  std::vector<GaussianProcess> models;
+  const std::array<double, 3> widths = {0.1, 10.0, 100.0};
+  for (int q = 0; q < 3; ++q) {
+    GaussianProcessParameters p;
+    p.w = widths[static_cast<size_t>(q)];
+    Eigen::MatrixXd x = s.x.middleRows(10 * q, 10);
+    x.col(0).array() += q;  // regions a metre apart
+    models.emplace_back(p, x, s.y.middleRows(10 * q, 10));
+  }
+  const Eigen::VectorXd at = Eigen::Vector2d(1.6, 0.1);
+  Eigen::Vector3d sum = Eigen::Vector3d::Zero();
+  double variance = 0.0, total = 0.0;
+  for (const size_t q : {1U, 2U}) {  // L = 2: the centres at about 1 and 2
+    const Eigen::VectorXd centre = models[q].inputs().colwise().mean().transpose();
+    const double similarity = std::exp(-0.5 * 10.0 * (at - centre).squaredNorm());
+    const GaussianPrediction local = models[q].Predict(at);
+    sum += similarity * local.mean;
+    variance += similarity * local.variance;
+    total += similarity;
+  }
+  const GaussianPrediction made = LocalMixture(models).Predict(at, 2);
+  EXPECT_LT((made.mean - sum / total).norm(), 1e-12);  // rounding
+  EXPECT_NEAR(made.variance, variance / total, 1e-12);
+}
+
+TEST(LocalMixture, FollowsTheFunctionAndOpensAModelWhereNothingIsSimilar) {
+  const Samples s = MakeSamples(400);
+  LocalMixtureOptions options;
+  options.regions = 6;
+  options.samples = 30;
+  LocalMixture mixture = LocalMixture::Learn(s.x, s.y, options);
+  const Eigen::VectorXd at = Eigen::Vector2d(0.2, 0.1);
+  EXPECT_NEAR(mixture.Predict(at, 3).mean[0], 0.05 * std::sin(0.8), 0.005);  // a tenth of its range
+  const size_t before = mixture.models().size();
+  mixture.Update(Eigen::Vector2d(50.0, 50.0), {0.1, 0.2, 0.3}, options);  // algorithm 2
+  ASSERT_EQ(mixture.models().size(), before + 1);
+  mixture.Update(Eigen::Vector2d(50.0, 50.001), {0.1, 0.2, 0.3}, options);
+  EXPECT_EQ(mixture.models().size(), before + 1);
+  EXPECT_EQ(mixture.models().back().size(), 2);
+}
+
+}  // namespace
+}  // namespace ossa::recon

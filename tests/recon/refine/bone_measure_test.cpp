@@ -1,0 +1,98 @@
+#include "recon/refine/bone_measure.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "recon/normalise.h"
+#include "tests/recon/refine/look_scene.h"
+
+namespace ossa::recon {
+namespace {
+
+using test::NetworkOf;
+using test::Scene;
+using test::Silent;
+using test::SilentAndTold;
+using test::StandardBones;
+
+TEST(BoneMeasure, ReadsThePersonAndSaysLogarithmsOverTheStandardBones) {
+  Scene scene;
+  scene.input.proposed[Joint::kFootRight] = scene.input.proposed[Joint::kAnkleRight];  // no length
+  const auto person = ProposedPerson::Of(scene.input);
+  ASSERT_TRUE(person);
+  EXPECT_TRUE(BoneNumbersOf(*person).allFinite());
+  BoneLengths lengths_m = StandardBoneLengths();
+  EXPECT_LT(BoneOutputsOf(lengths_m).norm(), 1e-6F);
+  const auto shin = static_cast<size_t>(Index(Joint::kAnkleLeft));
+  lengths_m[shin] *= 1.2;  // of the left one only: half of it for the pair
+  const Eigen::VectorXf outputs = BoneOutputsOf(lengths_m);
+  EXPECT_NEAR(outputs.cwiseAbs().maxCoeff(), std::log(1.1) / kBoneStep, 1e-4);
+  EXPECT_NEAR(outputs.cwiseAbs().sum(), std::log(1.1) / kBoneStep, 1e-4);
+}
+
+// A network that adds up where the left hand and the right one are, sideways: nothing in the mean
+// of a person and the mirror image, but for what the bias says.
+TEST(BoneMeasure, IsTheMeanOfThePersonAndTheMirrorImage) {
+  Scene scene;
+  scene.input.proposed[Joint::kHandLeft].x() += 0.4;
+  CloseLook look = Silent();
+  EXPECT_FALSE(Looker(look).Look(scene.input)->bones_m);
+  look.bones = StandardBones();
+  look.bones.layers[0].bias[0] = 1.0F;
+  look.bones.layers[0].bias[1] = 1000.0F;
+  for (const Joint hand : {Joint::kHandLeft, Joint::kHandRight}) {
+    look.bones.layers[0].weight.col(3 * Index(hand)).setConstant(1.0F);
+  }
+  const auto looked = Looker(look).Look(scene.input);
+  ASSERT_TRUE(looked && looked->bones_m);
+  const auto over = [&](Joint joint) {
+    const auto j = static_cast<size_t>(Index(joint));
+    return (*looked->bones_m)[j] / StandardBoneLengths()[j];
+  };
+  EXPECT_NEAR(over(Joint::kSpine), std::exp(kBoneStep), 1e-4);
+  EXPECT_NEAR(over(Joint::kShoulderCenter), std::exp(1.0), 1e-4);  // no giants
+  EXPECT_NEAR(over(Joint::kKneeLeft), 1.0, 1e-4);
+  EXPECT_EQ(over(Joint::kKneeLeft), over(Joint::kKneeRight));
+}
+
+// The head rises by a step for each step of the first bone, the spine; every glance before, and
+// what is said of the bones, is of joints where the others put them.
+TEST(CloseLook, GlancesAfterTheBonesAreToldOfThem) {
+  Scene scene;
+  CloseLook look = SilentAndTold();
+  look.told[0][NetworkOf(Joint::kHead)].layers[0].weight(1, kLookInputs) = 1.0F;
+  const auto rise_m = [&](const std::optional<BoneLengths>& bones_m) {
+    scene.input.bones_m = bones_m;
+    const auto looked = Looker(look).Look(scene.input);
+    EXPECT_TRUE(looked && looked->bones_m);
+    EXPECT_NEAR((*looked->bones_m)[Index(Joint::kFootLeft)],
+                StandardBoneLengths()[Index(Joint::kFootLeft)], 1e-6);
+    return (looked->joints_m[Joint::kHead] - scene.input.proposed[Joint::kHead]).norm();
+  };
+  BoneLengths tall_m = StandardBoneLengths();
+  tall_m[Index(Joint::kSpine)] *= std::exp(2.0 * kBoneStep);
+  EXPECT_NEAR(rise_m(tall_m), 2.0 * CloseLook::kStep_m, 1e-4);
+  EXPECT_NEAR(rise_m(std::nullopt), 0.0, 1e-6);  // what is judged of this frame
+  look.bones.layers[0].bias[0] = 1.0F;
+  EXPECT_NEAR(rise_m(std::nullopt), CloseLook::kStep_m, 1e-4);
+  for (const double odd_m : {0.0, -1.0, std::nan(""), 1e300}) {
+    tall_m[Index(Joint::kHandRight)] = odd_m;
+    EXPECT_NEAR(rise_m(tall_m), CloseLook::kStep_m, 1e-4) << odd_m;
+  }
+}
+
+TEST(BoneMeasure, IsTheMeanOfAllFrames) {
+  JudgedBones bones;
+  BoneLengths lengths_m = StandardBoneLengths();
+  bones.Add(lengths_m);
+  EXPECT_EQ(bones.mean_m[1], lengths_m[1]);
+  for (double& length_m : lengths_m) length_m *= 4.0;
+  bones.Add(lengths_m);
+  bones.Add(lengths_m);
+  EXPECT_EQ(bones.frames, 3);
+  EXPECT_NEAR(bones.mean_m[1], 3.0 * StandardBoneLengths()[1], 1e-12);
+}
+
+}  // namespace
+}  // namespace ossa::recon
