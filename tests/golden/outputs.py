@@ -18,6 +18,8 @@ import subprocess
 import sys
 import tempfile
 
+import sensor_skeleton
+
 HERE = pathlib.Path(__file__).resolve().parent
 GOLDEN = HERE / "outputs.txt"
 CLIPS = {"one": HERE / "clips" / "one", "two": HERE / "clips" / "two"}
@@ -39,11 +41,28 @@ RUNS = {
     "reconstruct_kalman.jsonl": "reconstruct {track_raw.jsonl} --out {out} --method kalman",
     "reconstruct_shum_ho_2012.jsonl": "reconstruct {track_raw.jsonl} --out {out} --method shum-ho-2012",
     "reconstruct_physics.bvh": "reconstruct {track_raw.jsonl} --out {out} --method shum-2013 --physics on",
+    "sensor_none.jsonl": "reconstruct {sensor} --out {out} --method none",
+    "sensor_holt.jsonl": "reconstruct {sensor} --out {out} --method holt",
+    "sensor_butterworth.jsonl": "reconstruct {sensor} --out {out} --method butterworth",
+    "sensor_best.jsonl": "reconstruct {sensor} --out {out}",
+    "sensor_best_database.jsonl": "reconstruct {sensor} --out {out} --database {database}",
+    "sensor_best_bones.jsonl": "reconstruct {sensor} --out {out} --bones recording",
+    "sensor_shum_2013.jsonl": "reconstruct {sensor} --out {out} --method shum-2013 --steps 8 --samples 60",
+    "sensor_plantard_2016.jsonl": "reconstruct {sensor} --out {out} --method plantard-2016 --steps 8 --samples 60",
+    "sensor_physics.jsonl": "reconstruct {sensor} --out {out} --method shum-ho-2012 --physics on",
+    "learned.ossagp": "learn --observed {sensor} --truth {sensor_truth} --out {out} --regions 4 --samples 20 --pairs 150",
+    "sensor_best_learned.jsonl": "reconstruct {sensor} --out {out} --learned {learned.ossagp}",
+    "sensor_liu_2016.jsonl": "reconstruct {sensor} --out {out} --method liu-2016 --learned {learned.ossagp}",
+    "sensor_full_gp.jsonl": "reconstruct {sensor} --out {out} --method full-gp --learned {learned.ossagp}",
+    "sensor_exemplar.jsonl": "reconstruct {sensor} --out {out} --method exemplar --learned {learned.ossagp}",
+    "sensor_best.bvh": "reconstruct {sensor} --out {out} --bones recording",
+    "compare_sensor.json": "compare {sensor_truth} {sensor_best.jsonl} {sensor_liu_2016.jsonl} --json {out}",
     "compare.json": "compare {one}/truth.jsonl {track_raw.jsonl} {track_best.jsonl} {track_shum_2013.jsonl} "
                     "--json {out}",
     "evaluate.json": "evaluate {model} {one} --json {out}",
 }
-MODEL = HERE.parent.parent / "tools" / "tracker" / "shipped" / "body.ossa"
+SHIPPED = HERE.parent.parent / "tools" / "tracker" / "shipped"
+MODELS = {"model": SHIPPED / "body.ossa", "database": SHIPPED / "authored.ossadb"}
 
 
 def without_times(name, text):
@@ -60,7 +79,9 @@ def mean_of_numbers(text):
 
 def run_all(ossa):
     with tempfile.TemporaryDirectory() as folder:
-        known = {**CLIPS, "model": MODEL}
+        known = {**CLIPS, **MODELS, "sensor": pathlib.Path(folder) / "sensor.jsonl",
+                 "sensor_truth": pathlib.Path(folder) / "sensor_truth.jsonl"}
+        sensor_skeleton.write(known["sensor_truth"], known["sensor"])
         for name, arguments in RUNS.items():
             out = pathlib.Path(folder) / name
             words = []
@@ -71,8 +92,8 @@ def run_all(ossa):
             subprocess.run([ossa, *words, *([] if words[0] == "compare" else ["--quiet"])], check=True,
                            stdout=subprocess.DEVNULL, cwd=folder)
             known[name] = out
-            text = without_times(name, out.read_text().replace(folder, "").replace(str(HERE), ""))
-            yield f"{name} {hashlib.sha256(text.encode()).hexdigest()} {mean_of_numbers(text):.9g}"
+            text = without_times(name, out.read_bytes().decode("latin-1").replace(folder, "").replace(str(HERE), ""))
+            yield f"{name} {hashlib.sha256(text.encode('latin-1')).hexdigest()} {mean_of_numbers(text):.9g}"
 
 
 def main():
