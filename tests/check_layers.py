@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""The rooms of DESIGN.md and the arrows between them, checked by reading every #include.
+"""The rooms of docs/architecture.md and the arrows between them, checked by reading every #include.
 
 Usage: check_layers.py [TOP]. Prints each broken rule as FILE:LINE: reason; exit status 1 if any.
 """

@@ -28,7 +28,8 @@ struct RenderedImage {
 struct RenderOptions {
   bool projector = false;  // trace the second ray of a structured-light sensor
   /// Camera to projector, metres; Kinect v1: 75 mm. Positive: the projector stands on the side of
-  /// the image right, so that shadows fall to the image left of near things (FACTS.md).
+  /// the image right, so that shadows fall to the image left of near things, as in real Kinect v1
+  /// frames.
   double baseline_m = 0.075;
 };
 

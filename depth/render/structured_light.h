@@ -13,8 +13,8 @@ namespace ossa::depth {
 struct StructuredLightOptions {
   double baseline_m = 0.075;
   /// Disparity step in pixels of a 640-pixel-wide image: 1/8 px gives depth steps of
-  /// z² / (8 f b) = 2.9e-6 z² mm, the 4-5 mm at 1.2 m and 46 mm at 4 m of the real frames
-  /// (FACTS.md).
+  /// z² / (8 f b) = 2.9e-6 z² mm, the 4-5 mm at 1.2 m and 46 mm at 4 m of real
+  /// Kinect v1 frames (`ossa experiment sensor`).
   double disparity_step_px = 0.125;
   /// Standard deviation of the disparity, same pixels: a quarter step. Departure: Khoshelham &
   /// Elberink 2012, sec. 4, have half a step; in the real frames a plane through 5 × 5 pixels

@@ -11,9 +11,11 @@ namespace {
 using Eigen::Matrix3d;
 using Eigen::Vector3d;
 
-constexpr int kBlock = 4;             // cells a side
-constexpr int kFewest = 11;           // measured cells of a block's 16
-constexpr double kStep_1_m = 2.9e-3;  // quantisation of the Kinect v1 in inverse depth (FACTS)
+constexpr int kBlock = 4;    // cells a side
+constexpr int kFewest = 11;  // measured cells of a block's 16
+// Quantisation of the Kinect v1 in inverse depth, measured on real frames (`ossa experiment
+// sensor`).
+constexpr double kStep_1_m = 2.9e-3;
 // A flat block shows the quantisation (0.29 steps) and jitter of about one step.
 constexpr double kFlatRms = 1.1 * kStep_1_m;
 constexpr double kJoinRms = 1.3 * kStep_1_m;  // of a block against the plane it is to join

@@ -56,9 +56,9 @@ struct SourceOptions {
 /// throws std::filesystem::filesystem_error.
 bool IsRecording(const std::filesystem::path& path);
 
-/// Opens SOURCE as DESIGN.md §4 names it: "openni:", "openni:URI", "FILE.oni", a folder of 16-bit
-/// PNGs in name order, or a DATASET folder; or one such PNG, a still. Throws InputError naming it
-/// and what was expected.
+/// Opens SOURCE (docs/architecture.md, "Sources"): "openni:", "openni:URI", "FILE.oni", a folder of
+/// 16-bit PNGs in name order, or a DATASET folder; or one such PNG, a still. Throws InputError
+/// naming it and what was expected.
 std::unique_ptr<FrameSource> OpenSource(const std::string& source,
                                         const SourceOptions& options = {});
 

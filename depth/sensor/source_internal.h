@@ -22,7 +22,7 @@ std::unique_ptr<FrameSource> OpenFolder(const std::filesystem::path& folder,
 std::unique_ptr<FrameSource> OpenStill(const std::filesystem::path& png,
                                        const SourceOptions& options);
 
-/// A data set: manifest.json, depth/ and more (DESIGN.md §5).
+/// A data set: manifest.json, depth/ and more (docs/architecture.md, "Data set").
 bool IsDataSet(const std::filesystem::path& folder);
 std::unique_ptr<FrameSource> OpenDataSet(const std::filesystem::path& folder,
                                          const SourceOptions& options);

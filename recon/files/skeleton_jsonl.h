@@ -8,7 +8,8 @@
 
 namespace ossa::recon {
 
-/// One frame as a line of skeleton JSONL (DESIGN section 5), without the line end:
+/// One frame as a line of skeleton JSONL (docs/architecture.md, "Skeleton JSONL"), without the line
+/// end:
 /// {"frame":0,"time_s":0.0,"floor":[a,b,c,d],"bodies":[{"id":1,"joints":{"HipCenter":{"p":[x,y,z],
 /// "state":"tracked","confidence":0.93,"reliability":0.88,"q":[w,x,y,z],"visible":true},...}}]}
 /// Beside "joints" a body may have "bones": the lengths of the 19 bones as they were judged of this

@@ -11,8 +11,8 @@
 
 namespace ossa::tools {
 
-/// What `ossa evaluate` reports (DESIGN.md, section 4). NaN stands for what nothing in the data
-/// says: the accuracy of a class or the average precision of a joint that does not occur.
+/// What `ossa evaluate` reports (docs/architecture.md, "Reports"). NaN stands for what nothing in
+/// the data says: the accuracy of a class or the average precision of a joint that does not occur.
 struct Evaluation {
   int64_t frames = 0;
   int64_t people = 0;

@@ -51,9 +51,9 @@ struct DatasetManifest {
 /// True when the folder has the manifest of a finished data set.
 bool IsDataset(const std::filesystem::path& folder);
 
-/// Reads a DATASET (DESIGN.md §5), from its shards when it has them, else from its PNG files.
-/// Every damage throws an InputError that names the file. Read may be called from many threads;
-/// frames of one shard asked one after another are fast.
+/// Reads a DATASET (docs/architecture.md, "Data set"), from its shards when it has them, else from
+/// its PNG files. Every damage throws an InputError that names the file. Read may be called from
+/// many threads; frames of one shard asked one after another are fast.
 class DatasetReader {
  public:
   explicit DatasetReader(const std::filesystem::path& folder);

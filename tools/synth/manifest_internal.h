@@ -10,7 +10,8 @@ namespace ossa::tools {
 std::string ManifestToJson(const DatasetManifest& manifest);
 DatasetManifest ReadManifest(const std::filesystem::path& folder);
 
-/// One line of truth.jsonl (DESIGN.md §5) without the newline, and back; `place` is for messages.
+/// One line of truth.jsonl (docs/architecture.md, "Data set") without the newline, and back;
+/// `place` is for messages.
 std::string TruthLine(const LabelledFrame& frame);
 /// Fills index, time, floor and bodies of a frame.
 void ParseTruthLine(const std::string& line, const std::string& place, LabelledFrame* frame);

@@ -11,7 +11,7 @@
 
 namespace ossa::tools {
 
-/// `--occluders` of DESIGN.md §4.
+/// The values of `ossa render --occluders`.
 enum class Occluders { kNone, kHeld, kScene, kAny };
 std::optional<Occluders> OccludersFromName(std::string_view name);
 

@@ -8,7 +8,7 @@
 
 namespace ossa::tools {
 
-/// `--view` of DESIGN.md §4: front: facing the camera within 60°, whole body mostly in view, 1.5-4
+/// `ossa render --view`: front: facing the camera within 60°, whole body mostly in view, 1.5-4
 /// m; near: 0.7-1.7 m, cropped by the image; any: every side, height, distance and crop.
 enum class View { kFront, kNear, kAny };
 std::optional<View> ViewFromName(std::string_view name);

@@ -23,8 +23,8 @@ class TimeHistogram {
   double sum_ms_ = 0;
 };
 
-/// What `ossa track --json-stats` says, in DESIGN's keys: medians of the stages' milliseconds,
-/// median and 99th percentile of the total, frames a second of processing.
+/// What `ossa track --json-stats` says (docs/architecture.md, "Reports"): medians of the stages'
+/// milliseconds, median and 99th percentile of the total, frames a second of processing.
 class RunStats {
  public:
   void Add(const StageTimes& ms);

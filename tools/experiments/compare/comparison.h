@@ -55,7 +55,8 @@ struct Comparison {
 Comparison Compare(const std::string& truth, const std::vector<std::string>& results,
                    const CompareOptions& options);
 
-/// DESIGN section 4's object, with more keys beside: confidence intervals, clips, tests.
+/// The object of `ossa compare --json` (docs/architecture.md), with confidence intervals, clips and
+/// tests beside the measures.
 std::string ToJson(const Comparison& comparison);
 /// What to try where the numbers say that the skeletons do not share a space; "" where they do.
 std::string Advice(const Comparison& comparison);
