@@ -4,8 +4,8 @@
 #include <cmath>
 
 #include "depth/base/error.h"
-#include "forest/refine_internal.h"
-#include "forest/runtime_internal.h"
+#include "forest/joint_features_internal.h"
+#include "forest/runtime_tables_internal.h"
 
 namespace ossa::forest {
 namespace {

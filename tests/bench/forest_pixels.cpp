@@ -10,8 +10,8 @@
 #include <string>
 
 #include "depth/base/error.h"
-#include "forest/classify.h"
-#include "forest/feature_internal.h"
+#include "forest/classification/classify.h"
+#include "forest/trees/depth_feature_internal.h"
 #include "tools/learning/person_source.h"
 
 namespace ossa::tools {

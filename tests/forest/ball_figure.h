@@ -2,7 +2,7 @@
 #include <vector>
 
 #include "depth/image/depth_frame.h"
-#include "forest/train.h"
+#include "forest/training/train.h"
 
 namespace ossa::forest::test {
 

@@ -7,7 +7,7 @@
 #include "depth/base/atomic_file.h"
 #include "depth/base/error.h"
 #include "forest/forest.h"
-#include "forest/train.h"
+#include "forest/training/train.h"
 #include "tools/commands/command.h"
 #include "tools/commands/commands.h"
 #include "tools/commands/outputs.h"

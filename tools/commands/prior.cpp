@@ -6,7 +6,7 @@
 
 #include "depth/base/atomic_file.h"
 #include "depth/base/error.h"
-#include "forest/train.h"
+#include "forest/training/train.h"
 #include "recon/body/standard_body.h"
 #include "recon/models/posture_prior.h"
 #include "recon/motion/mocap.h"

@@ -8,10 +8,10 @@
 
 #include "depth/base/atomic_file.h"
 #include "depth/base/error.h"
-#include "forest/compact.h"
 #include "forest/import_pcl.h"
-#include "forest/train.h"
-#include "forest/train_mpi.h"
+#include "forest/prune.h"
+#include "forest/training/mpi_reducer.h"
+#include "forest/training/train.h"
 #include "tools/commands/checks.h"
 #include "tools/commands/command.h"
 #include "tools/commands/commands.h"

@@ -7,8 +7,8 @@
 #include <numbers>
 
 #include "depth/base/error.h"
-#include "forest/classify.h"
-#include "forest/relabel.h"
+#include "forest/classification/classify.h"
+#include "forest/proposals/relabel.h"
 #include "forest/targets.h"
 #include "recon/body/parts.h"
 #include "tools/learning/common_parts.h"

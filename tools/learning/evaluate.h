@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "forest/forest.h"
-#include "forest/propose.h"
+#include "forest/proposals/propose.h"
 #include "tools/learning/calibration.h"
 #include "tools/synth/dataset.h"
 

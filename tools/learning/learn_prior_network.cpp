@@ -11,7 +11,7 @@
 #include "depth/base/error.h"
 #include "forest/network.h"
 #include "forest/thread_limit.h"
-#include "forest/train.h"
+#include "forest/training/train.h"
 #include "recon/models/prior_filter.h"
 #include "tools/learning/learn_rectified_network.h"
 #include "tools/synth/random.h"

@@ -7,10 +7,10 @@
 #include <optional>
 
 #include "depth/base/error.h"
-#include "forest/classify.h"
-#include "forest/propose.h"
+#include "forest/classification/classify.h"
+#include "forest/proposals/propose.h"
 #include "forest/targets.h"
-#include "forest/train.h"
+#include "forest/training/train.h"
 #include "recon/skeleton.h"
 #include "tools/learning/segmented_person.h"
 #include "tools/synth/dataset.h"

@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "forest/train.h"
+#include "forest/training/train.h"
 #include "tools/synth/dataset.h"
 
 namespace ossa::tools {

@@ -9,7 +9,7 @@
 #include "depth/image/camera.h"
 #include "depth/scene/point_grid.h"
 #include "forest/forest.h"
-#include "forest/propose.h"
+#include "forest/proposals/propose.h"
 #include "recon/posture.h"
 
 namespace ossa::tracker {

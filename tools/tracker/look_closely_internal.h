@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "depth/scene/scene.h"
-#include "forest/propose.h"
+#include "forest/proposals/propose.h"
 #include "recon/refine/bone_measure.h"
 #include "recon/refine/close_look.h"
 

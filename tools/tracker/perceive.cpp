@@ -4,7 +4,7 @@
 #include <chrono>
 #include <cmath>
 
-#include "forest/relabel.h"
+#include "forest/proposals/relabel.h"
 #include "tools/tracker/thin_internal.h"
 
 namespace ossa::tracker {

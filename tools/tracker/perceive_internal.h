@@ -2,9 +2,9 @@
 #include <vector>
 
 #include "depth/scene/scene.h"
-#include "forest/classify.h"
+#include "forest/classification/classify.h"
 #include "forest/forest.h"
-#include "forest/propose.h"
+#include "forest/proposals/propose.h"
 #include "tools/tracker/signs_internal.h"
 
 namespace ossa::tracker {

@@ -5,8 +5,8 @@
 #include <vector>
 
 #include "depth/scene/scene.h"
-#include "forest/classify.h"
-#include "forest/propose.h"
+#include "forest/classification/classify.h"
+#include "forest/proposals/propose.h"
 #include "recon/skeleton.h"
 
 namespace ossa::tracker {

@@ -7,7 +7,7 @@
 #include <numbers>
 
 #include "depth/base/error.h"
-#include "forest/train.h"
+#include "forest/training/train.h"
 #include "recon/models/prior_filter.h"
 
 namespace ossa::tools {

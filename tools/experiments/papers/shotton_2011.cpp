@@ -11,7 +11,7 @@
 #include "depth/base/error.h"
 #include "depth/base/folder_lock.h"
 #include "forest/forest.h"
-#include "forest/train.h"
+#include "forest/training/train.h"
 #include "recon/body/body_model.h"
 #include "recon/motion/mocap.h"
 #include "tools/experiments/compare/svg_plot.h"

@@ -1,0 +1,280 @@
+// Shotton et al. 2011, sec. 3.3: P(c | I, x) = 1/T Σ_t P_t(c | I, x).
+// Departure: leaves know the joint distribution of class and context (which way the person faces).
+// All the object's pixels first vote on the context; then each pixel reads P(c | leaf, context).
+// A single pixel cannot tell a left shoulder seen from behind from a right one seen from the front;
+// the whole person can.
+#include "forest/classification/classify.h"
+
+#include <oneapi/tbb/blocked_range.h>
+#include <oneapi/tbb/parallel_for.h>
+#include <oneapi/tbb/task_arena.h>
+
+#include <algorithm>
+#include <cmath>
+#include <memory>
+#include <numeric>
+
+#include "depth/base/clones.h"
+#include "forest/classification/sample_grid_internal.h"
+#include "forest/classification/smoothed_masses_internal.h"
+#include "forest/forest.h"
+#include "forest/runtime_tables_internal.h"
+#include "forest/trees/depth_feature_internal.h"
+
+namespace ossa::forest {
+namespace {
+
+constexpr float kEvidenceUnit = 1.0F / 256.0F;  // of LeafTables::evidence
+constexpr uint32_t kContextUnits = 64;          // the posterior in integer shares, exact sums
+constexpr size_t kPixelsPerTask = 2048;
+
+// What those pixels say that walk.
+struct Walked {
+  std::vector<int32_t> leaf;  // pixel × tree
+  size_t stride = 0;          // of a row of masses
+  std::unique_ptr<uint8_t[]>
+      mass;  // of 255; class c stands in column c - 1: class 0 is never given
+};
+
+struct ActiveContext {
+  uint32_t index = 0;
+  uint32_t share = 0;  // of kContextUnits
+};
+
+constexpr size_t kAhead = 24;  // pixels whose rows are fetched before they are used
+
+// A pixel without reading has no feature.
+std::vector<int32_t> PixelsWithReading(const depth::DepthView& depth,
+                                       std::span<const int32_t> pixels) {
+  std::vector<int32_t> kept(pixels.size());
+  size_t count = 0;
+  ForRows(pixels, depth.width, [&](int v, size_t first, size_t last) {
+    for (size_t i = first; i < last; ++i) {
+      kept[count] = pixels[i];
+      count += depth.at(pixels[i] - v * depth.width, v) != 0 ? 1 : 0;
+    }
+  });
+  kept.resize(count);
+  return kept;
+}
+
+std::vector<int32_t> BoxPositions(const ObjectImage& image, int width,
+                                  std::span<const int32_t> pixels) {
+  std::vector<int32_t> position(pixels.size());
+  ForRows(pixels, width, [&](int v, size_t first, size_t last) {
+    const int32_t shift = (v - image.v0) * kPositionRow - v * width - image.u0;
+    for (size_t i = first; i < last; ++i) position[i] = shift + pixels[i];
+  });
+  return position;
+}
+
+OSSA_CLONES void AddTo(const int16_t* __restrict values, size_t count, int32_t* __restrict sum) {
+  for (size_t k = 0; k < count; ++k) sum[k] += values[k];
+}
+
+// Posterior ∝ prior · exp(evidence_scale · mean evidence): the pixels of one object are far from
+// independent, so that their mean counts as evidence_scale of them (learned on held-out frames).
+std::vector<float> ContextPosterior(const ForestModel& model, const Walked& walked,
+                                    std::span<const float> prior) {
+  constexpr size_t kPixels = 500;  // tell the facing as well as all do
+  const auto contexts = static_cast<size_t>(model.context_count());
+  const size_t trees = model.data().trees.size();
+  const size_t pixels = walked.leaf.size() / trees;
+  const size_t step = std::max<size_t>(1, pixels / kPixels);
+  std::vector<int32_t> sum(contexts, 0);  // of at most twice kPixels for each tree: it fits
+  size_t heard = 0;
+  const auto evidence_of = [&](size_t i, size_t t) {
+    return model.tables().leaves[t].evidence.data() +
+           static_cast<size_t>(walked.leaf[i * trees + t]) * contexts;
+  };
+  for (size_t i = 0; i < pixels; i += step) {
+    const size_t next = std::min(i + kAhead * step, pixels - 1);
+    for (size_t t = 0; t < trees; ++t, ++heard) {
+      __builtin_prefetch(evidence_of(next, t));
+      AddTo(evidence_of(i, t), contexts, sum.data());
+    }
+  }
+  std::vector<float> log_posterior(contexts);
+  const auto count = static_cast<float>(std::max<size_t>(heard, 1));
+  for (size_t k = 0; k < contexts; ++k) {
+    const float mean = static_cast<float>(sum[k]) * kEvidenceUnit / count;
+    log_posterior[k] = model.data().evidence_scale * mean + std::log(std::max(prior[k], 1e-4F));
+  }
+  const float top = *std::max_element(log_posterior.begin(), log_posterior.end());
+  float total = 0.0F;
+  for (float& value : log_posterior) total += value = std::exp(value - top);
+  for (float& value : log_posterior) value /= total;
+  return log_posterior;
+}
+
+// The contexts that are mixed: rare ones change no label, and each costs a row of every leaf.
+std::vector<ActiveContext> ActiveContexts(std::span<const float> posterior) {
+  constexpr uint32_t kLeastShare = 3;
+  std::vector<uint32_t> share;
+  for (const float p : posterior) {
+    share.push_back(static_cast<uint32_t>(std::lround(p * static_cast<float>(kContextUnits))));
+  }
+  const uint32_t least = std::min(kLeastShare, *std::max_element(share.begin(), share.end()));
+  std::vector<ActiveContext> active;
+  for (uint32_t k = 0; k < share.size(); ++k) {
+    if (share[k] >= least) active.push_back({k, share[k]});
+  }
+  return active;
+}
+
+// The rows of a pixel's leaves: asked for some pixels ahead, since each is a cache miss.
+// Always inline: GCC 12 takes a function that only fetches for one without effect, and leaves its
+// calls out.
+[[gnu::always_inline]] inline void FetchRows(const ForestModel& model, size_t context,
+                                             const int32_t* leaf) {
+  for (const LeafTables& tables : model.tables().leaves) {
+    __builtin_prefetch(&tables.shares[context * tables.leaf_count() + static_cast<size_t>(*leaf)]);
+    ++leaf;
+  }
+}
+
+// Samples whose leaves are added up before their sums are read: a sum that was only just written
+// number by number cannot be read many at once.
+constexpr size_t kMixedAtOnce = 32;
+
+// out = sum · 255 / total, rounded; the same on every path.
+OSSA_CLONES void ToMasses(const uint32_t* sum, const uint32_t* total, size_t samples, size_t stride,
+                          uint8_t* out) {
+  for (size_t i = 0; i < samples; ++i, sum += stride, out += stride) {
+    const float scale = total[i] > 0 ? 255.0F / static_cast<float>(total[i]) : 0.0F;
+    for (size_t c = 0; c < stride; ++c) {
+      out[c] =
+          static_cast<uint8_t>(static_cast<int32_t>(static_cast<float>(sum[c]) * scale + 0.5F));
+    }
+  }
+}
+
+// Adds what a sample's leaves say; returns how much it is.
+uint32_t AddLeaves(const ForestModel& model, std::span<const ActiveContext> active,
+                   const int32_t* leaf, uint32_t* sum) {
+  uint32_t total = 0;
+  for (const LeafTables& tables : model.tables().leaves) {
+    const auto row_number = static_cast<size_t>(*leaf++);
+    for (const ActiveContext& context : active) {
+      const ShareRow& row = tables.shares[context.index * tables.leaf_count() + row_number];
+      for (size_t s = 0; s < kMostShares; ++s) {
+        const uint32_t mass = context.share * row.share[s];
+        sum[row.column[s]] += mass;
+        total += mass;
+      }
+    }
+  }
+  return total;
+}
+
+// Masses of walked pixels [first, last). Integers and one rounding: the same in every order.
+void MixLeaves(const ForestModel& model, std::span<const ActiveContext> active,
+               std::array<size_t, 2> range, Walked* walked) {
+  const size_t trees = model.data().trees.size();
+  std::vector<uint32_t> sum(kMixedAtOnce * walked->stride);
+  std::array<uint32_t, kMixedAtOnce> total{};
+  for (size_t first = range[0]; first < range[1]; first += kMixedAtOnce) {
+    const size_t count = std::min(kMixedAtOnce, range[1] - first);
+    std::fill(sum.begin(), sum.end(), 0U);
+    for (size_t i = 0; i < count; ++i) {
+      const size_t next = std::min(first + i + kAhead, range[1] - 1);
+      for (const ActiveContext& context : active) {
+        FetchRows(model, context.index, &walked->leaf[next * trees]);
+      }
+      total[i] = AddLeaves(model, active, &walked->leaf[(first + i) * trees],
+                           sum.data() + i * walked->stride);
+    }
+    ToMasses(sum.data(), total.data(), count, walked->stride,
+             walked->mass.get() + first * walked->stride);
+  }
+}
+
+OSSA_CLONES void ToScales(const uint16_t* mass, size_t samples, size_t stride, float* scale) {
+  for (size_t i = 0; i < samples; ++i, mass += stride) {
+    uint32_t total = 0;
+    for (size_t c = 0; c < stride; ++c) total += mass[c];
+    scale[i] = total > 0 ? 1.0F / static_cast<float>(total) : 0.0F;
+  }
+}
+
+std::vector<float> ScalesOf(const std::vector<uint16_t>& mass, size_t stride) {
+  std::vector<float> scale(mass.size() / stride);
+  ToScales(mass.data(), scale.size(), stride, scale.data());
+  return scale;
+}
+
+// Metres of surface between neighbouring pixels, at the object's mean depth; 0 without pixels.
+double Pitch_m(const ObjectImage& image, const depth::Camera& camera, int background_mm,
+               size_t pixels) {
+  if (pixels == 0) return 0.0;
+  // What is not the object's reads background_mm.
+  const int64_t around = static_cast<int64_t>(image.depth_mm.size() - pixels) * background_mm;
+  const int64_t all_mm = std::accumulate(image.depth_mm.begin(), image.depth_mm.end(), int64_t{0});
+  return 1e-3 * static_cast<double>(all_mm - around) / static_cast<double>(pixels) / camera.fx;
+}
+
+std::span<const float> PriorOf(const ForestModel& model, const ClassifyOptions& options) {
+  const bool known = options.context_prior.size() == static_cast<size_t>(model.context_count());
+  return known ? options.context_prior : std::span(model.data().context_prior);
+}
+
+int InSteps(double length_m, double step_m) {
+  return step_m > 0 ? static_cast<int>(std::min(length_m / step_m, 1e6)) : 0;
+}
+
+template <typename Function>
+void ForRanges(size_t count, int threads, const Function& function) {
+  if (threads <= 1 || count <= kPixelsPerTask) return function(0, count);
+  oneapi::tbb::task_arena arena(threads);
+  arena.execute([&] {
+    oneapi::tbb::parallel_for(oneapi::tbb::blocked_range<size_t>(0, count, kPixelsPerTask),
+                              [&](const auto& range) { function(range.begin(), range.end()); });
+  });
+}
+
+}  // namespace
+
+Classification Classify(const ForestModel& model, const depth::DepthView& depth,
+                        const depth::Camera& camera, std::span<const int32_t> pixels,
+                        const ClassifyOptions& options) {
+  Classification result;
+  result.class_count = model.class_count();
+  result.pixel = PixelsWithReading(depth, pixels);
+  const size_t trees = model.data().trees.size();
+  const ObjectImage image = CutOut(depth, camera, result.pixel, model.data().background_mm);
+  const std::vector<int32_t> position = BoxPositions(image, depth.width, result.pixel);
+  const double pitch_m = Pitch_m(image, camera, model.data().background_mm, result.pixel.size());
+  const double spacing = pitch_m > 0 ? std::clamp(options.fine_m / pitch_m, 1.0, kMostSparse) : 1.0;
+  SparsePixels sparse = ChooseSparse(image, position, spacing);
+  Walked walked;
+  walked.stride = (static_cast<size_t>(result.class_count) + 14) / 16 * 16;
+  const size_t walkers = sparse.position.size();
+  walked.leaf.resize(walkers * trees);
+  const auto walk = options.instructions == InstructionSet::kScalar ? WalkScalar : Walk;
+  ForRanges(walkers, options.threads, [&](size_t first, size_t last) {
+    if (first == last) return;  // no pixels: no leaves to point into
+    for (size_t t = 0; t < trees; ++t) {
+      walk({&model.tables().trees[t], &image,
+            std::span(sparse.position).subspan(first, last - first)},
+           walked.leaf.data() + first * trees + t, trees);
+    }
+  });
+  result.context = ContextPosterior(model, walked, PriorOf(model, options));
+  const std::vector<ActiveContext> active = ActiveContexts(result.context);
+  walked.mass = std::make_unique_for_overwrite<uint8_t[]>(walkers * walked.stride);
+  ForRanges(walkers, options.threads, [&](size_t first, size_t last) {
+    MixLeaves(model, active, {first, last}, &walked);
+  });
+  const double spacing_m = spacing * pitch_m;
+  SmoothMasses smooth = Smooth({&sparse, walked.mass.get(), walked.stride},
+                               InSteps(options.smoothing_m + spacing_m / 2, spacing_m));
+  result.label = LabelPixels(image, position, sparse, smooth);
+  result.mass = std::move(smooth.mass);
+  result.mass_stride = walked.stride;
+  result.mass_scale = ScalesOf(result.mass, walked.stride);
+  result.leaf = std::move(walked.leaf);
+  result.sample = std::move(sparse.from);
+  return result;
+}
+
+}  // namespace ossa::forest

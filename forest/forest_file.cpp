@@ -1,0 +1,202 @@
+#include <array>
+#include <cstring>
+#include <stdexcept>
+
+#include "depth/base/compressed.h"
+#include "depth/base/error.h"
+#include "depth/base/sealed_file.h"
+#include "forest/forest.h"
+#include "forest/prune.h"
+#include "forest/trees/tree_codec_internal.h"
+
+namespace ossa::forest {
+namespace {
+
+// Version 2 added arrangements and what agreement with them says; models of version 1 lack them.
+// Version 3 packs trees more tightly. Version 4 added the refinement, version 5 the part prior.
+constexpr SealedFormat kFormat{{'o', 's', 's', 'a', 'f', 'r', 's', 't'}, 5, "forest model"};
+constexpr uint32_t kOldestVersion = 1;  // that is still read
+constexpr int kCompressionLevel = 19;
+constexpr int kQuickLevel = 3;
+
+void PutNames(PayloadWriter* writer, const std::vector<std::string>& names) {
+  writer->Put<uint32_t>(static_cast<uint32_t>(names.size()));
+  for (const std::string& name : names) writer->PutString(name);
+}
+
+std::vector<std::string> GetNames(PayloadReader* reader, std::string_view field) {
+  const auto count = reader->Get<uint32_t>(field);
+  if (count > 255) reader->Fail(field, "more than 255");
+  std::vector<std::string> names;
+  for (uint32_t i = 0; i < count; ++i) names.push_back(reader->GetString(field));
+  return names;
+}
+
+void PutTarget(PayloadWriter* writer, const ProposalTarget& target) {
+  writer->PutString(target.name);
+  writer->PutVector(target.classes);
+  writer->Put(std::array{target.bandwidth_m, target.probability_threshold, target.push_back_m,
+                         target.class_weight, target.vote_radius_m, target.vote_sharpness_m,
+                         target.tracked_confidence, target.inferred_confidence});
+  writer->Put(target.correct);
+  writer->Put(target.visible);
+}
+
+void PutAgreement(PayloadWriter* writer, const ForestData& data) {
+  for (const ProposalTarget& target : data.targets) {
+    writer->Put(target.mode_noise_m);
+    writer->Put(target.fused);
+    writer->Put(target.apart);
+  }
+  writer->Put<uint32_t>(static_cast<uint32_t>(data.arrangements.size()));
+  for (const Arrangement& arrangement : data.arrangements) {
+    writer->PutVector(arrangement.mean_m);
+    writer->PutVector(arrangement.loading_m);
+    writer->PutVector(arrangement.noise_m);
+  }
+}
+
+void GetAgreement(PayloadReader* reader, ForestData* data) {
+  for (ProposalTarget& target : data->targets) {
+    target.mode_noise_m = reader->Get<float>("target mode noise");
+    target.fused = reader->Get<Agreement>("target agreement");
+    target.apart = reader->Get<Agreement>("target agreement of modes apart");
+  }
+  const auto count = reader->Get<uint32_t>("number of arrangements");
+  if (count > data->context_names.size()) reader->Fail("number of arrangements", "too many");
+  for (uint32_t i = 0; i < count; ++i) {
+    Arrangement arrangement;
+    arrangement.mean_m = reader->GetVector<float>("arrangement means");
+    arrangement.loading_m = reader->GetVector<float>("arrangement loadings");
+    arrangement.noise_m = reader->GetVector<float>("arrangement noise");
+    data->arrangements.push_back(std::move(arrangement));
+  }
+}
+
+void PutRefinement(PayloadWriter* writer, const Refinement& refinement) {
+  writer->PutVector(refinement.input_mean);
+  writer->PutVector(refinement.input_scale);
+  writer->Put<uint32_t>(static_cast<uint32_t>(refinement.layers.size()));
+  for (const NetworkLayer& layer : refinement.layers) {
+    PutPlanes(writer, layer.weight);
+    writer->PutVector(layer.bias);
+  }
+}
+
+Refinement GetRefinement(PayloadReader* reader) {
+  Refinement refinement;
+  refinement.input_mean = reader->GetVector<float>("refinement input means");
+  refinement.input_scale = reader->GetVector<float>("refinement input scales");
+  const auto layers = reader->Get<uint32_t>("refinement layers");
+  constexpr uint32_t kMost = 64;  // the model itself allows fewer
+  if (layers > kMost) reader->Fail("refinement layers", "more than 64");
+  for (uint32_t i = 0; i < layers; ++i) {
+    NetworkLayer layer;
+    layer.weight = GetPlanes<float>(reader, "refinement weights");
+    layer.bias = reader->GetVector<float>("refinement biases");
+    refinement.layers.push_back(std::move(layer));
+  }
+  return refinement;
+}
+
+ProposalTarget GetTarget(PayloadReader* reader) {
+  ProposalTarget target;
+  target.name = reader->GetString("target name");
+  target.classes = reader->GetVector<uint8_t>("target classes");
+  const auto numbers = reader->Get<std::array<float, 8>>("target parameters");
+  target.bandwidth_m = numbers[0];
+  target.probability_threshold = numbers[1];
+  target.push_back_m = numbers[2];
+  target.class_weight = numbers[3];
+  target.vote_radius_m = numbers[4];
+  target.vote_sharpness_m = numbers[5];
+  target.tracked_confidence = numbers[6];
+  target.inferred_confidence = numbers[7];
+  target.correct = reader->Get<Confidence>("target confidence");
+  target.visible = reader->Get<Confidence>("target visibility");
+  return target;
+}
+
+ForestData ParseForest(std::span<const std::byte> payload, const std::string& name,
+                       uint32_t version) {
+  PayloadReader reader(payload, name);
+  ForestData data;
+  data.manifest = reader.GetString("manifest");
+  data.class_names = GetNames(&reader, "class names");
+  data.context_names = GetNames(&reader, "context names");
+  data.context_prior = reader.GetVector<float>("context prior");
+  data.evidence_scale = reader.Get<float>("evidence scale");
+  data.background_mm = reader.Get<uint16_t>("background depth");
+  const auto targets = reader.Get<uint32_t>("number of targets");
+  for (uint32_t i = 0; i < targets; ++i) data.targets.push_back(GetTarget(&reader));
+  const auto trees = reader.Get<uint32_t>("number of trees");
+  for (uint32_t i = 0; i < trees; ++i) {
+    data.trees.push_back(version >= 3 ? GetTree(&reader) : GetTreeOfVersion2(&reader));
+  }
+  if (version >= 2) GetAgreement(&reader, &data);
+  if (version >= 4) data.refinement = GetRefinement(&reader);
+  if (version >= 5) {
+    data.part_prior.weight = GetPlanes<float>(&reader, "part prior weights");
+    data.part_prior.bias = reader.GetVector<float>("part prior biases");
+  }
+  reader.ExpectEnd();
+  return data;
+}
+
+// Each form is let go before the next but one is made: a model is some 60 MB in each of them.
+ForestModel Parse(std::vector<std::byte> sealed, const std::string& name, uint32_t version,
+                  ModelUse use) {
+  std::vector<std::byte> payload = Decompressed(sealed, name, kFormat.what);
+  std::vector<std::byte>().swap(sealed);
+  const std::string where = name + " (unpacked)";
+  ForestData data = ParseForest(payload, where, version);
+  std::vector<std::byte>().swap(payload);
+  return ForestModel(std::move(data), where, use);
+}
+
+std::vector<std::byte> Packed(const ForestData& data, int level) {
+  PayloadWriter writer;
+  writer.PutString(data.manifest);
+  PutNames(&writer, data.class_names);
+  PutNames(&writer, data.context_names);
+  writer.PutVector(data.context_prior);
+  writer.Put(data.evidence_scale);
+  writer.Put(data.background_mm);
+  writer.Put<uint32_t>(static_cast<uint32_t>(data.targets.size()));
+  for (const ProposalTarget& target : data.targets) PutTarget(&writer, target);
+  writer.Put<uint32_t>(static_cast<uint32_t>(data.trees.size()));
+  for (const Tree& tree : data.trees) PutTree(&writer, tree);
+  PutAgreement(&writer, data);
+  PutRefinement(&writer, data.refinement);
+  PutPlanes(&writer, data.part_prior.weight);
+  writer.PutVector(data.part_prior.bias);
+  return Compressed(writer.bytes(), level);
+}
+
+}  // namespace
+
+ForestModel ReadForestModel(const std::filesystem::path& path, ModelUse use) {
+  const SealedFormat format = FormatOf(path, kFormat, kOldestVersion);
+  return Parse(ReadSealedFile(path, format), path.string(), format.version, use);
+}
+
+ForestModel ReadForestModel(std::span<const std::byte> bytes, const std::string& name) {
+  const SealedFormat format = FormatOf(bytes, kFormat, kOldestVersion);
+  return Parse(OpenSealedBytes(bytes, name, format), name, format.version, ModelUse::kAny);
+}
+
+bool IsForestModel(const std::filesystem::path& path) { return IsSealedFile(path, kFormat); }
+
+void WriteForestModel(const std::filesystem::path& path, const ForestModel& model) {
+  const Tree& first = model.data().trees.front();
+  if (first.entry_begin.empty()) throw std::logic_error("a model to run only cannot be written");
+  WriteSealedFile(path, kFormat, Packed(model.data(), kCompressionLevel));
+}
+
+uint64_t FileSize(const ForestData& data, Packing packing) {
+  constexpr uint64_t kSeal = 40;  // of a sealed file: magic, version, checksum, length
+  const bool tight = packing == Packing::kFile;
+  return Packed(data, tight ? kCompressionLevel : kQuickLevel).size() + kSeal;
+}
+
+}  // namespace ossa::forest

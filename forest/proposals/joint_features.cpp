@@ -1,0 +1,253 @@
+// An object in numbers, for the refinement. Positions are told about the object's own root, in axes
+// of which z runs along the ray to it: wherever in the image somebody stands, the numbers are the
+// same. Lengths are metres; what is far says no more than "far" and is cut off.
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <cmath>
+
+#include "depth/base/clones.h"
+#include "forest/joint_features_internal.h"
+#include "forest/lanes_internal.h"
+#include "forest/proposals/refinement_internal.h"
+
+namespace ossa::forest {
+namespace {
+
+constexpr float kFar_m = 1.0F;           // of modes and predictions from the place
+constexpr double kBorderReach_m = 0.5;   // farther borders of the image do not matter
+constexpr float kSurfaceReach_m = 0.6F;  // nor surface
+constexpr float kNowhere_m = 1e4F;       // out of anything's reach
+
+// Evidence's surface in the frame, one array a coordinate; filled up with points far away.
+struct Surface {
+  std::vector<float> x, y, z;
+  Eigen::Vector3f centre_m = Eigen::Vector3f::Zero();
+  float area_m2 = 0.0F;
+
+  void Add(const Eigen::Vector3f& p_m) {
+    x.push_back(p_m.x());
+    y.push_back(p_m.y());
+    z.push_back(p_m.z());
+  }
+};
+
+// What lies nearest to a place: at all, and across the line of sight.
+struct Nearest {
+  float square_m2 = kSurfaceReach_m * kSurfaceReach_m;
+  float aside_m2 = square_m2;
+  float behind_m = 0.0F;  // of the place, along the line of sight
+};
+
+// The same for each lane's share of the points.
+struct NearestOfLanes {
+  Lanes square_m2, aside_m2, behind_m;
+  IntLanes number;  // of the point that is nearest across the line of sight
+};
+
+OSSA_CLONES void FindNearest(const Surface& surface, const float* place, const float* ray,
+                             NearestOfLanes* out) {
+  NearestOfLanes near = *out;
+  for (size_t i = 0; i < surface.x.size(); i += kLanes) {
+    Lanes x, y, z;
+    Load(surface.x.data() + i, &x);
+    Load(surface.y.data() + i, &y);
+    Load(surface.z.data() + i, &z);
+    x -= place[0];
+    y -= place[1];
+    z -= place[2];
+    const Lanes along = x * ray[0] + (y * ray[1] + z * ray[2]);
+    const Lanes square = x * x + (y * y + z * z);
+    Lanes aside = square - along * along;
+    aside = aside > 0.0F ? aside : Lanes{};
+    near.square_m2 = square < near.square_m2 ? square : near.square_m2;
+    const IntLanes nearer = aside < near.aside_m2;
+    near.aside_m2 = nearer ? aside : near.aside_m2;
+    near.behind_m = nearer ? along : near.behind_m;
+    near.number = nearer ? IntLanes{} + static_cast<int32_t>(i) : near.number;
+  }
+  *out = near;
+}
+
+// Of points equally near the first counts, whichever lane it went through.
+Nearest NearestTo(const Surface& surface, const Eigen::Vector3f& place_m,
+                  const Eigen::Vector3f& ray) {
+  Nearest nearest;
+  NearestOfLanes lanes{Lanes{} + nearest.square_m2, Lanes{} + nearest.aside_m2, Lanes{},
+                       IntLanes{}};
+  FindNearest(surface, place_m.data(), ray.data(), &lanes);
+  int32_t number = 0;
+  for (size_t l = 0; l < kLanes; ++l) {
+    nearest.square_m2 = std::min(nearest.square_m2, lanes.square_m2[l]);
+    if (lanes.aside_m2[l] > nearest.aside_m2) continue;
+    if (lanes.aside_m2[l] == nearest.aside_m2 && lanes.number[l] >= number) continue;
+    nearest.aside_m2 = lanes.aside_m2[l];
+    nearest.behind_m = lanes.behind_m[l];
+    number = lanes.number[l];
+  }
+  return nearest;
+}
+
+class Describer {
+ public:
+  Describer(const depth::Camera& camera, const Evidence& evidence, Description* out)
+      : camera_(camera), evidence_(evidence), out_(*out) {
+    for (size_t i = 0; i < evidence.count; ++i) {
+      const Eigen::Vector3f p_m = InFrame(evidence.surface_m(i).cast<double>());
+      surface_.Add(p_m);
+      surface_.centre_m += evidence.area_m2[i] * p_m;
+      surface_.area_m2 += evidence.area_m2[i];
+    }
+    if (surface_.area_m2 > 0) surface_.centre_m /= surface_.area_m2;
+    while (surface_.x.size() % kLanes != 0) surface_.Add(Eigen::Vector3f::Constant(kNowhere_m));
+  }
+
+  void AddObject(std::span<const float> context_posterior, const Beliefs& beliefs) {
+    out_.value.insert(out_.value.end(), context_posterior.begin(), context_posterior.end());
+    Add(surface_.area_m2);
+    Add(surface_.centre_m);
+    Add(static_cast<float>(beliefs.margin));
+    Add(static_cast<float>(beliefs.mean_confidence));
+    Add(static_cast<float>(beliefs.mean_support));
+    Add(static_cast<float>(out_.root_m.norm()));
+    Add(static_cast<float>(out_.root_m.x() / out_.root_m.z()));
+    Add(static_cast<float>(out_.root_m.y() / out_.root_m.z()));
+  }
+
+  void AddTarget(size_t t, const Beliefs& beliefs) {
+    const Belief& belief = beliefs.target[t];
+    Add(InFrame(out_.place_m[t]));
+    Add(FromPlace(t, belief.predicted_m));
+    Add(static_cast<float>(0.5 * std::log(belief.covariance_m2.trace() / 3.0)));
+    Add(static_cast<float>(belief.support()));
+    Add(static_cast<float>(beliefs.neighbour_support[t]));
+    AddBorders(out_.place_m[t]);
+    AddNearestSurface(InFrame(out_.place_m[t]));
+  }
+
+  void AddModes(size_t t, const ProposalTarget& target, const std::vector<Mode>& modes,
+                const Belief& belief) {
+    for (size_t m = 0; m < kModes; ++m) {
+      if (m >= modes.size()) {
+        out_.value.insert(out_.value.end(), kNumbersOfMode, 0.0F);
+        continue;
+      }
+      Add(FromPlace(t, modes[m].position_m.cast<double>()));
+      Add(static_cast<float>(belief.confidence[m]));
+      Add(static_cast<float>(belief.weight[m]));
+      Add(static_cast<float>(Evaluate(target.visible, modes[m].feature)));
+      Add(modes[m].feature[0]);  // surface of the target's classes
+      Add(modes[m].feature[1]);  // votes
+    }
+  }
+
+  // How much surface each class has, where, and how far spread.
+  void AddClasses() {
+    for (size_t c = 1; c < static_cast<size_t>(evidence_.class_count); ++c) AddClass(c);
+  }
+
+ private:
+  Eigen::Vector3f InFrame(const Eigen::Vector3d& p_m) const {
+    return (out_.frame_from_camera * (p_m - out_.root_m)).cast<float>();
+  }
+  Eigen::Vector3f FromPlace(size_t t, const Eigen::Vector3d& p_m) const {
+    const Eigen::Vector3d offset = out_.frame_from_camera * (p_m - out_.place_m[t]);
+    return offset.cast<float>().cwiseMax(-kFar_m).cwiseMin(kFar_m);
+  }
+  void Add(float value) { out_.value.push_back(value); }
+  void Add(const Eigen::Vector3f& v) {
+    out_.value.insert(out_.value.end(), v.data(), v.data() + 3);
+  }
+
+  void AddClass(size_t c) {
+    constexpr float kLeastProbability = 0.01F;
+    constexpr float kLeastArea_m2 = 1e-4F;
+    const float* probability = evidence_.probability_of(c);
+    picked_.resize(evidence_.count);
+    picked_.resize(PickAtLeast(kLeastProbability, probability, evidence_.count, picked_.data()));
+    float area_m2 = 0.0F;
+    Eigen::Array3f sum = Eigen::Array3f::Zero();
+    Eigen::Array3f square = Eigen::Array3f::Zero();
+    for (const uint32_t i : picked_) {
+      const float weight = probability[i] * evidence_.area_m2[i];
+      const Eigen::Array3f x(surface_.x[i], surface_.y[i], surface_.z[i]);
+      area_m2 += weight;
+      sum += weight * x;
+      square += weight * x * x;
+    }
+    const float whole = std::max(area_m2, kLeastArea_m2);
+    const Eigen::Array3f mean = sum / whole;
+    Add(std::sqrt(area_m2));
+    Add(Eigen::Vector3f(mean));
+    Add(Eigen::Vector3f((square / whole - mean * mean).max(0.0F).sqrt()));
+  }
+
+  // How far inside the image a place is seen: of the nearer side, the upper and the lower border.
+  void AddBorders(const Eigen::Vector3d& place_m) {
+    const double z_m = std::max(place_m.z(), 0.1);
+    const double u = camera_.cx - camera_.fx * place_m.x() / z_m;
+    const double v = camera_.cy - camera_.fy * place_m.y() / z_m;
+    const double metres = z_m / camera_.fx;
+    for (const double pixels : {std::min(u, camera_.width - 1 - u), v, camera_.height - 1 - v}) {
+      Add(static_cast<float>(std::clamp(pixels * metres, -kBorderReach_m, kBorderReach_m)));
+    }
+  }
+
+  // How near surface is at all; how near across the line of sight, and how far it lies behind the
+  // place there: before it, something hides the place, far behind, nothing can be there.
+  void AddNearestSurface(const Eigen::Vector3f& place_m) {
+    const Eigen::Vector3f ray = (place_m + RootFromCamera()).normalized();
+    const Nearest nearest = NearestTo(surface_, place_m, ray);
+    Add(std::sqrt(nearest.square_m2));
+    Add(std::sqrt(nearest.aside_m2));
+    Add(std::clamp(nearest.behind_m, -kSurfaceReach_m, kSurfaceReach_m));
+  }
+
+  // In the frame's axes.
+  Eigen::Vector3f RootFromCamera() const {
+    return {0.0F, 0.0F, static_cast<float>(out_.root_m.norm())};
+  }
+
+  const depth::Camera& camera_;
+  const Evidence& evidence_;
+  Description& out_;
+  Surface surface_;
+  std::vector<uint32_t> picked_;  // samples of the class at hand
+};
+
+// The root is the mean of the places, those of little support less.
+void PlaceFrame(const Beliefs& beliefs, Description* out) {
+  constexpr double kLeastSupport = 0.05;
+  double whole = 0;
+  for (size_t t = 0; t < out->place_m.size(); ++t) {
+    const double weight = std::max(beliefs.target[t].support(), kLeastSupport);
+    out->root_m += weight * out->place_m[t];
+    whole += weight;
+  }
+  out->root_m /= whole;
+  const Eigen::Vector3d z = out->root_m.normalized();
+  const Eigen::Vector3d x = Eigen::Vector3d::UnitY().cross(z).normalized();
+  out->frame_from_camera << x.transpose(), z.cross(x).transpose(), z.transpose();
+}
+
+}  // namespace
+
+Description Describe(const ForestModel& model, const depth::Camera& camera,
+                     const Evidence& evidence, std::span<const float> context_posterior,
+                     const ModesOfTargets& modes, const Beliefs& beliefs) {
+  Description description;
+  for (size_t t = 0; t < modes.size(); ++t) {
+    description.place_m.push_back(
+        Fuse(beliefs.target[t], modes[t], model.targets()[t].mode_noise_m));
+  }
+  PlaceFrame(beliefs, &description);
+  Describer describer(camera, evidence, &description);
+  describer.AddObject(context_posterior, beliefs);
+  for (size_t t = 0; t < modes.size(); ++t) {
+    describer.AddTarget(t, beliefs);
+    describer.AddModes(t, model.targets()[t], modes[t], beliefs.target[t]);
+  }
+  describer.AddClasses();
+  return description;
+}
+
+}  // namespace ossa::forest

@@ -1,0 +1,257 @@
+#include <oneapi/tbb/blocked_range.h>
+#include <oneapi/tbb/parallel_for.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "depth/base/large_pages.h"
+#include "forest/runtime_tables_internal.h"
+
+namespace ossa::forest {
+namespace {
+
+constexpr float kSmoothing = 3.0F;  // entry weights (of 127) by which a leaf's own mix of classes
+                                    // stands in where a context was hardly seen
+
+// A leaf's weights, told by context and class. Few of the cells are anything but 0: Load clears
+// those of the leaf before instead of all.
+class LeafCells {
+ public:
+  LeafCells(size_t classes, size_t contexts)
+      : context_weight(contexts, 0.0F),
+        class_weight_(classes, 0.0F),
+        weight_(contexts * classes, 0.0F) {}
+
+  void Load(const Tree& tree, size_t leaf) {
+    Clear();
+    float total = 0.0F;
+    for (uint32_t i = tree.entry_begin[leaf]; i < tree.entry_begin[leaf + 1]; ++i) {
+      const size_t cell = tree.entries[i] & 511U;
+      const size_t c = cell % class_weight_.size();
+      const auto weight = static_cast<float>(tree.entries[i] >> 9U);
+      if (class_weight_[c] == 0.0F) seen_classes.push_back(c);
+      weight_[cell] += weight;
+      class_weight_[c] += weight;
+      context_weight[cell / class_weight_.size()] += weight;
+      total += weight;
+    }
+    for (const size_t c : seen_classes) share_of_seen.push_back(class_weight_[c] / total);
+  }
+
+  float Weight(size_t context, size_t c) const {
+    return weight_[context * class_weight_.size() + c];
+  }
+
+  std::vector<size_t> seen_classes;   // in no order
+  std::vector<float> share_of_seen;   // of each of them: P(class | leaf)
+  std::vector<float> context_weight;  // sums over classes
+
+ private:
+  void Clear() {
+    for (const size_t c : seen_classes) {
+      class_weight_[c] = 0.0F;
+      for (size_t k = 0; k < context_weight.size(); ++k) {
+        weight_[k * class_weight_.size() + c] = 0.0F;
+      }
+    }
+    std::fill(context_weight.begin(), context_weight.end(), 0.0F);
+    seen_classes.clear();
+    share_of_seen.clear();
+  }
+
+  std::vector<float> class_weight_;
+  std::vector<float> weight_;  // context × class
+};
+
+// log P(leaf | context) up to a constant of the leaf, by the leaf's weight in the context. Weights
+// are whole numbers: a table spares millions of logarithms.
+class LogRatios {
+ public:
+  explicit LogRatios(const ForestData& data) {
+    constexpr size_t kMostWeight = 127;  // of an entry
+    for (const float prior : data.context_prior) {
+      prior_.push_back(std::max(prior, 1e-3F));
+      std::vector<float>& ratio = table_.emplace_back();
+      for (size_t w = 0; w <= kMostWeight * data.class_names.size(); ++w) {
+        ratio.push_back(Compute(static_cast<float>(w), prior_.back()));
+      }
+    }
+  }
+
+  float Of(float weight, size_t context) const {
+    const std::vector<float>& ratio = table_[context];
+    if (weight < static_cast<float>(ratio.size())) return ratio[static_cast<size_t>(weight)];
+    return Compute(weight, prior_[context]);
+  }
+
+ private:
+  static float Compute(float weight, float prior) {
+    constexpr float kFloor = 0.5F;  // half an entry weight: what rounding may have hidden
+    return std::log((weight + kFloor * prior) / prior);
+  }
+
+  std::vector<float> prior_;
+  std::vector<std::vector<float>> table_;  // context × weight
+};
+
+// The rows of one leaf, centred, so that sums stay small.
+void FillEvidence(const LeafCells& cells, const LogRatios& log_ratios, int16_t* evidence) {
+  const size_t contexts = cells.context_weight.size();
+  float mean = 0.0F;
+  for (size_t k = 0; k < contexts; ++k) {
+    mean += log_ratios.Of(cells.context_weight[k], k) / static_cast<float>(contexts);
+  }
+  for (size_t k = 0; k < contexts; ++k) {
+    const float value = log_ratios.Of(cells.context_weight[k], k) - mean;
+    evidence[k] = static_cast<int16_t>(std::lround(256.0F * value));
+  }
+}
+
+// P(class | leaf, context), smoothed by P(class | leaf), as the largest shares of 255.
+ShareRow SharesOf(const LeafCells& cells, size_t context) {
+  std::array<std::pair<float, uint8_t>, kMostShares> most{};  // (-p, column), ascending
+  const float whole = cells.context_weight[context] + kSmoothing;
+  for (size_t i = 0; i < cells.seen_classes.size(); ++i) {
+    const size_t c = cells.seen_classes[i];
+    const float p = (cells.Weight(context, c) + kSmoothing * cells.share_of_seen[i]) / whole;
+    if (p <= 0.004F) continue;
+    std::pair<float, uint8_t> share{-p, static_cast<uint8_t>(c - 1)};
+    if (!(share < most.back())) continue;
+    for (auto& larger : most) {
+      if (share < larger) std::swap(share, larger);
+    }
+  }
+  ShareRow row;
+  for (size_t i = 0; i < kMostShares; ++i) {
+    row.column[i] = most[i].second;
+    row.share[i] = static_cast<uint8_t>(std::lround(-most[i].first * 255.0F));
+  }
+  return row;
+}
+
+// The rows of one leaf. All contexts in which it was never seen have one row.
+void FillShares(const LeafCells& cells, size_t leaf, size_t leaf_count, ShareRow* shares) {
+  const ShareRow* unseen = nullptr;
+  for (size_t k = 0; k < cells.context_weight.size(); ++k) {
+    ShareRow& row = shares[k * leaf_count + leaf];
+    const bool is_seen = cells.context_weight[k] > 0.0F;
+    row = is_seen || unseen == nullptr ? SharesOf(cells, k) : *unseen;
+    if (!is_seen) unseen = &row;
+  }
+}
+
+// Trees and tables are read at random places.
+template <typename T>
+void PreferLargePages(const std::vector<T>& table) {
+  ossa::PreferLargePages(table.data(), table.size() * sizeof(T));
+}
+
+// Variance of the difference of two targets' positions, summed over contexts and axes.
+float LooseJoint(const ForestData& data, size_t a, size_t b) {
+  float sum = 0.0F;
+  for (const Arrangement& arrangement : data.arrangements) {
+    const size_t factors = arrangement.loading_m.size() / (3 * data.targets.size());
+    for (size_t i = 0; i < 3 * factors; ++i) {
+      const float difference =
+          arrangement.loading_m[a * 3 * factors + i] - arrangement.loading_m[b * 3 * factors + i];
+      sum += difference * difference;
+    }
+    sum += 3.0F * arrangement.noise_m[a] * arrangement.noise_m[a];
+    sum += 3.0F * arrangement.noise_m[b] * arrangement.noise_m[b];
+  }
+  return sum;
+}
+
+std::vector<std::vector<uint32_t>> Neighbours(const ForestData& data) {
+  constexpr size_t kMost = 2;
+  if (data.arrangements.empty()) return {};
+  std::vector<std::vector<uint32_t>> neighbours(data.targets.size());
+  for (size_t t = 0; t < data.targets.size(); ++t) {
+    std::vector<std::pair<float, uint32_t>> others;
+    for (size_t other = 0; other < data.targets.size(); ++other) {
+      if (other == t) continue;
+      others.emplace_back(LooseJoint(data, t, other), static_cast<uint32_t>(other));
+    }
+    std::sort(others.begin(), others.end());
+    for (size_t i = 0; i < std::min(kMost, others.size()); ++i) {
+      neighbours[t].push_back(others[i].second);
+    }
+  }
+  return neighbours;
+}
+
+LeafTables MakeLeafTables(const Tree& tree, const std::vector<int32_t>& order, size_t classes,
+                          size_t contexts, const LogRatios& log_ratios) {
+  LeafTables leaves;
+  const size_t count = tree.leaf_count();
+  leaves.shares.resize(contexts * count);
+  leaves.evidence.resize(contexts * count);
+  constexpr size_t kAtOnce = 4096;
+  using Leaves = oneapi::tbb::blocked_range<size_t>;
+  oneapi::tbb::parallel_for(Leaves(0, count, kAtOnce), [&](const Leaves& some) {
+    LeafCells cells(classes, contexts);
+    for (size_t leaf = some.begin(); leaf < some.end(); ++leaf) {
+      cells.Load(tree, static_cast<size_t>(order[leaf]));
+      FillEvidence(cells, log_ratios, &leaves.evidence[leaf * contexts]);
+      FillShares(cells, leaf, count, leaves.shares.data());
+    }
+  });
+  size_t rows = 0;
+  const std::vector<int32_t> vote_row = VoteRows(tree, &rows);
+  for (const int32_t leaf : order) {
+    leaves.vote_row.push_back(tree.votes.empty() ? -1 : vote_row[static_cast<size_t>(leaf)]);
+  }
+  PreferLargePages(leaves.shares);
+  PreferLargePages(leaves.evidence);
+  return leaves;
+}
+
+}  // namespace
+
+std::vector<int32_t> VoteRows(const Tree& tree, size_t* row_count) {
+  std::vector<int32_t> row_of_leaf(tree.leaf_count(), -1);
+  std::vector<int32_t> level(tree.nodes.size(), 0);
+  std::vector<int32_t> row(tree.nodes.size(), -1);
+  int32_t rows = 0;
+  for (size_t i = 0; i < tree.nodes.size(); ++i) {
+    const Node& node = tree.nodes[i];
+    if (row[i] < 0 && (node.is_leaf() || level[i] == tree.vote_depth)) row[i] = rows++;
+    if (node.is_leaf()) {
+      row_of_leaf[static_cast<size_t>(node.leaf())] = row[i];
+      continue;
+    }
+    for (size_t child = static_cast<size_t>(node.left), n = 0; n < 2; ++n, ++child) {
+      level[child] = level[i] + 1;
+      row[child] = row[i];
+    }
+  }
+  *row_count = static_cast<size_t>(rows);
+  return row_of_leaf;
+}
+
+RuntimeTables MakeRuntimeTables(ForestData* data, ModelUse use) {
+  RuntimeTables tables;
+  const LogRatios log_ratios(*data);
+  for (Tree& tree : data->trees) {
+    LinedTree lined = LayOutInLines(tree.nodes);
+    tables.leaves.push_back(MakeLeafTables(tree, lined.leaf, data->class_names.size(),
+                                           data->context_names.size(), log_ratios));
+    std::vector<int32_t>().swap(lined.leaf);
+    if (use == ModelUse::kRunOnly) {
+      std::vector<uint32_t>().swap(tree.entry_begin);
+      std::vector<uint16_t>().swap(tree.entries);
+    }
+    PreferLargePages(lined.lines);
+    tables.trees.push_back(std::move(lined));
+    if (use == ModelUse::kRunOnly) {
+      std::vector<Node>().swap(tree.nodes);
+      ReturnFreedMemory();  // before the next tree's tables are made
+    }
+  }
+  for (const Arrangement& each : data->arrangements) tables.factor_models.emplace_back(each);
+  tables.neighbours = Neighbours(*data);
+  return tables;
+}
+
+}  // namespace ossa::forest

@@ -1,0 +1,49 @@
+#pragma once
+#include <array>
+#include <cstdint>
+#include <vector>
+
+#include "forest/factor_model_internal.h"
+#include "forest/forest.h"
+#include "forest/trees/node_lines_internal.h"
+
+namespace ossa::forest {
+
+/// Classes kept a leaf and context: trees of depth 20 with eight instead tell parts as well to
+/// 0.0003, and take 70 MB more.
+inline constexpr size_t kMostShares = 4;
+
+/// P(class | leaf, context) as the largest shares of 255, in the class's columns (class - 1); an
+/// eighth of a cache line. Unused entries have share 0.
+struct alignas(8) ShareRow {
+  std::array<uint8_t, kMostShares> column{};
+  std::array<uint8_t, kMostShares> share{};
+};
+
+/// One tree's leaves as classification wants them, in the order of LinedTree.
+struct LeafTables {
+  std::vector<int16_t> evidence;  // leaf × context: log P(leaf | context) - mean, 1/256 nat
+  std::vector<ShareRow> shares;   // context × leaf: one context's rows stand together
+  std::vector<int32_t> vote_row;  // of each leaf; -1 where the tree has no votes
+
+  size_t leaf_count() const { return vote_row.size(); }
+};
+
+/// Derived from ForestData when a model is made.
+struct RuntimeTables {
+  std::vector<LinedTree> trees;
+  std::vector<LeafTables> leaves;          // one a tree
+  std::vector<FactorModel> factor_models;  // one an arrangement
+  /// Of each target, the two others that move with it most; empty without arrangements.
+  std::vector<std::vector<uint32_t>> neighbours;
+};
+
+/// Of a model that is only run, each tree's nodes and entries are let go before the next tree's
+/// turn. Precondition: no tree has more than LinedTree::kMostLeaves leaves.
+RuntimeTables MakeRuntimeTables(ForestData* data, ModelUse use);
+
+/// The row of votes of each leaf: rows are given out breadth-first to the nodes at the tree's
+/// vote_depth and to the leaves above it. `row_count` receives their number.
+std::vector<int32_t> VoteRows(const Tree& tree, size_t* row_count);
+
+}  // namespace ossa::forest

@@ -1,0 +1,158 @@
+// How far modes are trusted against the prediction by the other targets, and how likely the place
+// where both meet is right: fitted on images never trained on.
+#include <oneapi/tbb/parallel_for.h>
+
+#include "forest/proposals/refinement_internal.h"
+#include "forest/training/validation_internal.h"
+
+namespace ossa::forest {
+namespace {
+
+constexpr double kTrackedPrecision = 0.90;
+constexpr double kInferredPrecision = 0.50;
+
+// What was heard of an image, and where the refinement, if there is one, puts the targets.
+struct HeardImage : Heard {
+  std::vector<RefinedPlace> refined;
+
+  const RefinedPlace* RefinedOf(size_t t) const { return refined.empty() ? nullptr : &refined[t]; }
+};
+
+std::vector<HeardImage> HearAll(const ForestModel& model,
+                                const std::vector<ValidationImage>& images) {
+  std::vector<HeardImage> heard(images.size());
+  const Refinement& refinement = model.data().refinement;
+  oneapi::tbb::parallel_for(size_t{0}, images.size(), [&](size_t i) {
+    const ValidationImage& image = images[i];
+    HeardImage& one = heard[i];
+    static_cast<Heard&>(one) = Hear(model, image);
+    if (refinement.layers.empty()) return;
+    one.refined = Refine(refinement, Describe(model, image.camera, image.evidence, image.context,
+                                              one.modes, one.beliefs));
+  });
+  return heard;
+}
+
+// Hits within 10 cm, and half as much for being within 5 cm as well.
+double Score(const std::vector<ValidationImage>& images, const std::vector<HeardImage>& heard,
+             size_t t, double noise_m) {
+  double score = 0;
+  for (size_t i = 0; i < images.size(); ++i) {
+    if (!images[i].target_m[t].allFinite()) continue;
+    const Eigen::Vector3d place = Fuse(heard[i].beliefs.target[t], heard[i].modes[t], noise_m);
+    const double error_m = (place - images[i].target_m[t].cast<double>()).norm();
+    score += (error_m < kHitRadius_m ? 1.0 : 0.0) + (error_m < kHitRadius_m / 2 ? 0.5 : 0.0);
+  }
+  return score;
+}
+
+void TuneNoise(const std::vector<ValidationImage>& images, const std::vector<HeardImage>& heard,
+               size_t t, ProposalTarget* target) {
+  double best = -1;
+  for (const float noise_m : {0.003F, 0.01F, 0.02F, 0.03F, 0.045F, 0.065F, 0.09F}) {
+    const double score = Score(images, heard, t, noise_m);
+    if (score <= best) continue;
+    best = score;
+    target->mode_noise_m = noise_m;
+  }
+}
+
+// A candidate and what is true of it.
+struct JudgedCandidate {
+  PlaceCandidate candidate;
+  bool is_near = false;  // to the target's true position
+  bool visible = false;  // the target
+  bool seen = false;     // by what mean shift saw
+};
+
+std::vector<JudgedCandidate> JudgeCandidates(const std::vector<ValidationImage>& images,
+                                             const std::vector<HeardImage>& heard,
+                                             const ProposalTarget& target, size_t t) {
+  std::vector<JudgedCandidate> judged;
+  for (size_t i = 0; i < images.size(); ++i) {
+    if (!images[i].target_m[t].allFinite()) continue;
+    const Eigen::Vector3d truth_m = images[i].target_m[t].cast<double>();
+    const std::vector<Mode>& modes = heard[i].modes[t];
+    for (const PlaceCandidate& candidate :
+         Candidates(target, heard[i].beliefs, t, modes, heard[i].RefinedOf(t))) {
+      const bool seen =
+          candidate.mode >= 0 &&
+          Evaluate(target.visible, modes[static_cast<size_t>(candidate.mode)].feature) >= 0.5;
+      judged.push_back({candidate, (candidate.position_m - truth_m).norm() < kHitRadius_m,
+                        images[i].target_visible[t] != 0, seen});
+    }
+  }
+  return judged;
+}
+
+// P(within 10 cm) of the candidates that are fused, or of those that stand apart.
+Agreement FitAgreement(const std::vector<JudgedCandidate>& judged, bool is_fused) {
+  using Example = Judged<Agreement::kFeatures>;
+  std::vector<Example> examples;
+  for (const JudgedCandidate& one : judged) {
+    if (one.candidate.is_fused != is_fused) continue;
+    examples.push_back({one.candidate.feature, one.is_near, one.visible});
+  }
+  return FitLogistic(examples, &Example::is_near);
+}
+
+// The least confidence from which on (by all of at least as much) the wanted share is right.
+float ThresholdFor(std::vector<std::pair<double, bool>> rated, double precision) {
+  std::sort(rated.begin(), rated.end(),
+            [](const auto& a, const auto& b) { return a.first > b.first; });
+  double right = 0;
+  float threshold = 0.99F;
+  for (size_t i = 0; i < rated.size(); ++i) {
+    right += rated[i].second ? 1.0 : 0.0;
+    if (right >= precision * static_cast<double>(i + 1)) {
+      threshold = std::min(0.99F, static_cast<float>(rated[i].first));
+    }
+  }
+  return threshold;
+}
+
+}  // namespace
+
+Heard Hear(const ForestModel& model, const ValidationImage& image) {
+  Heard heard;
+  for (size_t t = 0; t < model.targets().size(); ++t) {
+    heard.modes.push_back(FindModes(image.evidence, model.targets()[t], t));
+  }
+  heard.beliefs = Agree(model, image.context, heard.modes);
+  return heard;
+}
+
+void SetThresholds(const std::vector<RatedPlace>& rated, ProposalTarget* target) {
+  std::vector<std::pair<double, bool>> all;
+  std::vector<std::pair<double, bool>> seen;
+  for (const RatedPlace& place : rated) {
+    all.emplace_back(place.confidence, place.is_near);
+    if (place.seen) seen.emplace_back(place.confidence, place.is_near && place.visible);
+  }
+  target->inferred_confidence = ThresholdFor(all, kInferredPrecision);
+  target->tracked_confidence =
+      std::max(target->inferred_confidence, ThresholdFor(seen, kTrackedPrecision));
+}
+
+ForestModel LearnAgreement(const ForestModel& model, const std::vector<ValidationImage>& images) {
+  const std::vector<HeardImage> heard = HearAll(model, images);
+  ForestData data = model.data();
+  oneapi::tbb::parallel_for(size_t{0}, data.targets.size(), [&](size_t t) {
+    ProposalTarget& target = data.targets[t];
+    // The refinement was learned with the noise as it is, and tells fused places' confidence
+    // itself.
+    const bool is_refined = !data.refinement.layers.empty();
+    if (!is_refined) TuneNoise(images, heard, t, &target);
+    const std::vector<JudgedCandidate> judged = JudgeCandidates(images, heard, target, t);
+    if (!is_refined) target.fused = FitAgreement(judged, true);
+    target.apart = FitAgreement(judged, false);
+    std::vector<RatedPlace> rated;
+    for (const JudgedCandidate& one : judged) {
+      rated.push_back({ConfidenceOf(target, one.candidate), one.is_near, one.visible, one.seen});
+    }
+    SetThresholds(rated, &target);
+  });
+  return ForestModel(std::move(data));
+}
+
+}  // namespace ossa::forest

@@ -1,0 +1,149 @@
+// Learns the second stage (forest/proposals/refinement.cpp) on images that the trees have not seen:
+// on their own training images trees err much less than they will ever again.
+#include <oneapi/tbb/parallel_for.h>
+
+#include <Eigen/Dense>
+#include <algorithm>
+#include <cmath>
+
+#include "depth/base/error.h"
+#include "forest/joint_features_internal.h"
+#include "forest/network.h"
+#include "forest/proposals/refinement_internal.h"
+#include "forest/thread_limit.h"
+#include "forest/training/validation_internal.h"
+
+namespace ossa::forest {
+namespace {
+
+constexpr float kWindow_m = 0.07F;  // a place so far off is worth 0.6 of a hit, at 10 cm 0.36
+constexpr float kPull = 0.1F;       // of places that are far off, against the hits
+constexpr float kSoft_m = 0.02F;    // errors below pull less
+constexpr float kConfidenceShare = 0.5F;
+
+// What is known of images, a row each, and what the network should say. Input: image ×
+// DescriptionSize; wanted: image × target · 3, offsets in refinement steps, NaN: not known.
+using Examples = NetworkExamples;
+
+// False when nothing is seen.
+bool AddExample(const ForestModel& model, const TrainingImage& image, Eigen::Index row,
+                Examples* out) {
+  const ValidationImage gathered = GatherImage(model, image);
+  const Heard heard = Hear(model, gathered);
+  const bool is_blank = std::all_of(heard.modes.begin(), heard.modes.end(),
+                                    [](const std::vector<Mode>& modes) { return modes.empty(); });
+  if (is_blank) return false;
+  const Description description = Describe(model, image.camera, gathered.evidence, gathered.context,
+                                           heard.modes, heard.beliefs);
+  for (size_t i = 0; i < description.value.size(); ++i) {
+    out->input(row, static_cast<Eigen::Index>(i)) = description.value[i];
+  }
+  for (size_t t = 0; t < image.target_m.size(); ++t) {
+    const Eigen::Vector3d offset_m =
+        description.frame_from_camera * (image.target_m[t].cast<double>() - description.place_m[t]);
+    out->wanted.block<1, 3>(row, static_cast<Eigen::Index>(3 * t)) =
+        (offset_m / kRefinementStep_m).cast<float>().transpose();
+  }
+  return true;
+}
+
+Examples GatherExamples(const ForestModel& model, const TrainingSource& source,
+                        const RefinementOptions& options) {
+  const size_t targets = model.targets().size();
+  const auto size =
+      static_cast<Eigen::Index>(DescriptionSize(targets, static_cast<size_t>(model.class_count()),
+                                                static_cast<size_t>(model.context_count())));
+  const auto count = static_cast<Eigen::Index>(source.size());
+  Examples examples{RowMatrix(count, size),
+                    RowMatrix(count, static_cast<Eigen::Index>(3 * targets))};
+  std::vector<uint8_t> is_there(source.size(), 0);
+  oneapi::tbb::parallel_for(size_t{0}, source.size(), [&](size_t i) {
+    if (options.stop && options.stop()) return;
+    const bool added = AddExample(model, source.Read(i), static_cast<Eigen::Index>(i), &examples);
+    is_there[i] = added ? 1 : 0;
+  });
+  if (options.stop && options.stop()) throw TrainInterrupted("interrupted while reading");
+  Eigen::Index kept = 0;
+  for (Eigen::Index i = 0; i < count; ++i) {
+    if (is_there[static_cast<size_t>(i)] == 0) continue;
+    examples.input.row(kept) = examples.input.row(i).eval();
+    examples.wanted.row(kept++) = examples.wanted.row(i).eval();
+  }
+  examples.input.conservativeResize(kept, Eigen::NoChange);
+  examples.wanted.conservativeResize(kept, Eigen::NoChange);
+  return examples;
+}
+
+// Means and scales of the inputs, which are then normalised in place.
+Refinement NormaliseInputs(RowMatrix* input) {
+  constexpr double kLeastDeviation = 1e-4;
+  const Eigen::RowVectorXd mean =
+      input->cast<double>().colwise().sum() / static_cast<double>(input->rows());
+  Eigen::RowVectorXd square = Eigen::RowVectorXd::Zero(input->cols());
+  for (Eigen::Index i = 0; i < input->rows(); ++i) {
+    square += (input->row(i).cast<double>() - mean).cwiseAbs2();
+  }
+  Refinement refinement;
+  for (Eigen::Index i = 0; i < input->cols(); ++i) {
+    const double deviation = std::sqrt(square[i] / static_cast<double>(input->rows()));
+    refinement.input_mean.push_back(static_cast<float>(mean[i]));
+    refinement.input_scale.push_back(static_cast<float>(1.0 / (deviation + kLeastDeviation)));
+  }
+  for (Eigen::Index i = 0; i < input->rows(); ++i) {
+    const std::span<const float> row(input->row(i).data(), static_cast<size_t>(input->cols()));
+    input->row(i) = Normalised(refinement, row).row(0);
+  }
+  return refinement;
+}
+
+// Gradient of the loss by the outputs. An error e costs 1 - exp(-e² / 2 w²), which counts misses,
+// and a little of its length, which draws places that are farther off than any window; the
+// confidence costs the cross entropy with whether the place is within 10 cm.
+RowMatrix GradientOfLoss(const RowMatrix& out, const RowMatrix& wanted) {
+  const auto step_m = static_cast<float>(kRefinementStep_m);
+  const Eigen::Index targets = wanted.cols() / 3;
+  RowMatrix gradient = RowMatrix::Zero(out.rows(), out.cols());
+  for (Eigen::Index i = 0; i < out.rows(); ++i) {
+    for (Eigen::Index t = 0; t < targets; ++t) {
+      const Eigen::RowVector3f error_m =
+          step_m * (out.block<1, 3>(i, 3 * t) - wanted.block<1, 3>(i, 3 * t));
+      if (!error_m.allFinite()) continue;
+      const float square = error_m.squaredNorm();
+      const float within = std::exp(-square / (2.0F * kWindow_m * kWindow_m));
+      const float pull = kPull / (std::sqrt(square + kSoft_m * kSoft_m) * step_m);
+      gradient.block<1, 3>(i, 3 * t) = step_m * (within / (kWindow_m * kWindow_m) + pull) * error_m;
+      const float hit = square < kHitRadius_m * kHitRadius_m ? 1.0F : 0.0F;
+      const float said = 1.0F / (1.0F + std::exp(-out(i, 3 * targets + t)));
+      gradient(i, 3 * targets + t) = kConfidenceShare * (said - hit);
+    }
+  }
+  return gradient / static_cast<float>(out.rows() * targets);
+}
+
+}  // namespace
+
+ForestModel LearnRefinement(const ForestModel& model, const TrainingSource& source,
+                            const RefinementOptions& options) {
+  const ThreadLimit limit(options.threads);
+  if (model.data().arrangements.empty()) {
+    throw InputError("refinement: the model has no arrangements to start from");
+  }
+  Examples examples = GatherExamples(model, source, options);
+  if (examples.input.rows() < kNetworkBatch) {
+    throw InputError("refinement: expected at least " + std::to_string(kNetworkBatch) +
+                     " images that show something, found " + std::to_string(examples.input.rows()));
+  }
+  ForestData data = model.data();
+  data.refinement = NormaliseInputs(&examples.input);
+  NetworkOptions network;
+  network.hidden = {options.hidden};
+  network.outputs = 4 * static_cast<Eigen::Index>(model.targets().size());
+  network.epochs = options.epochs;
+  network.seed = options.seed;
+  network.progress = options.progress;
+  network.stop = options.stop;
+  data.refinement.layers = LearnNetwork(examples, GradientOfLoss, network);
+  return ForestModel(std::move(data));
+}
+
+}  // namespace ossa::forest

@@ -1,0 +1,103 @@
+#pragma once
+#include <algorithm>
+#include <bit>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "depth/image/depth_frame.h"
+#include "forest/trees/node_lines_internal.h"
+#include "forest/trees/tree.h"
+
+namespace ossa::forest {
+
+/// One object cut out of a depth image: a box of (width + 2) × (height + 2) pixels whose outermost
+/// ring, and every pixel not of the object, reads as background. Offsets that leave the box are
+/// clamped to the ring.
+struct ObjectImage {
+  int width = 0;  // without the ring
+  int height = 0;
+  int u0 = 0;  // image position of the box's first pixel
+  int v0 = 0;
+  float scale_u = 0.0F;  // offset units · mm to pixels: (fx / 575) · 1000 / 16
+  float scale_v = 0.0F;
+  std::vector<uint16_t> depth_mm;  // row-major with the ring, + 2 elements so that a 32-bit read
+                                   // of the last one stays inside
+
+  int stride() const { return width + 2; }
+  size_t At(int x, int y) const {  // box coordinates
+    return static_cast<size_t>(y + 1) * static_cast<size_t>(stride()) + static_cast<size_t>(x + 1);
+  }
+};
+
+/// Calls function(row, first, last) for each row of ascending places, row · row_length + column:
+/// place[first] ... place[last - 1] are those in it.
+template <typename Function>
+void ForRows(std::span<const int32_t> place, int32_t row_length, const Function& function) {
+  for (auto first = place.begin(), last = first; first != place.end(); first = last) {
+    const int32_t row = *first / row_length;
+    const auto most = first + std::min<ptrdiff_t>(place.end() - first, row_length);
+    last = std::lower_bound(first, most, (int64_t{row} + 1) * row_length);
+    function(row, static_cast<size_t>(first - place.begin()),
+             static_cast<size_t>(last - place.begin()));
+  }
+}
+
+inline constexpr int32_t kPositionRow = 1 << 16;  // positions are y << 16 | x
+
+/// Of a position y << 16 | x.
+inline int DepthAt(const ObjectImage& image, int32_t position) {
+  return image.depth_mm[image.At(position & 0xffff, position >> 16)];
+}
+
+/// Factors from offset units to pixels · millimetres for a focal length.
+inline float OffsetScale(double focal_px) {
+  return static_cast<float>(focal_px / kReferenceFocal_px * 1000.0 / kOffsetUnitsPerPixelMetre);
+}
+
+/// Cuts the pixels (v * width + u) of one object out. Pixels without reading are background.
+ObjectImage CutOut(const depth::DepthView& depth, const depth::Camera& camera,
+                   std::span<const int32_t> pixels, uint16_t background_mm);
+
+/// Nearest integer, ties to even, as CVTPS2DQ does; for |x| < 2^22. Plain arithmetic, so that
+/// compilers vectorise it and every path gives the same value.
+inline int32_t RoundToEven(float x) {
+  constexpr float kMagic = 12582912.0F;  // 1.5 · 2^23
+  return std::bit_cast<int32_t>(x + kMagic) - std::bit_cast<int32_t>(kMagic);
+}
+
+/// Where a probe of a pixel (x, y of the box) lands in ObjectImage::depth_mm.
+/// Departure from eq. 1: pixels off the object, not only off the image, read as background.
+inline int32_t ProbeIndex(int x, int y, float offset_u, float offset_v, float pixels_u,
+                          float pixels_v, int width, int height, int stride) {
+  int px = x + RoundToEven(offset_u * pixels_u);
+  int py = y + RoundToEven(offset_v * pixels_v);
+  px = px < -1 ? -1 : (px > width ? width : px);
+  py = py < -1 ? -1 : (py > height ? height : py);
+  return (py + 1) * stride + px + 1;
+}
+
+/// A walk down trained trees scales offsets in fixed point: pixels an offset unit, in 1/2^15, which
+/// vector units multiply sixteen at once. It agrees with ProbeIndex to a thousandth of the offset.
+inline int32_t FixedScale(float scale, float depth_mm) {
+  return RoundToEven(std::min(scale * 32768.0F / depth_mm, 32767.0F));
+}
+inline int32_t ScaleOffset(int32_t offset, int32_t fixed_scale) {
+  return (offset * fixed_scale + (1 << 14)) >> 15;
+}
+
+/// Leaves reached by pixels of an object in one tree, in the order of its lines.
+struct WalkInput {
+  const LinedTree* tree = nullptr;
+  const ObjectImage* image = nullptr;
+  std::span<const int32_t> position;  // y << 16 | x, box coordinates
+};
+
+/// leaf[i * leaf_stride] = leaf of position[i].
+void WalkScalar(const WalkInput& input, int32_t* leaf, size_t leaf_stride);
+/// The same leaves, 128 pixels in flight. Precondition: HasAvx2() (depth/base/clones.h).
+void WalkAvx2(const WalkInput& input, int32_t* leaf, size_t leaf_stride);
+/// The fastest of this machine.
+void Walk(const WalkInput& input, int32_t* leaf, size_t leaf_stride);
+
+}  // namespace ossa::forest

@@ -1,0 +1,40 @@
+#pragma once
+#include <string_view>
+#include <vector>
+
+#include "depth/base/sealed_file.h"
+#include "forest/trees/tree.h"
+
+namespace ossa::forest {
+
+/// One tree as model files since version 3 hold it: columns of bytes, made to compress well.
+void PutTree(PayloadWriter* writer, const Tree& tree);
+Tree GetTree(PayloadReader* reader);
+/// As files of versions 1 and 2 hold it.
+Tree GetTreeOfVersion2(PayloadReader* reader);
+
+/// All first bytes, then all second bytes, and so on: they compress better side by side.
+template <typename T>
+void PutPlanes(PayloadWriter* writer, const std::vector<T>& values) {
+  std::vector<uint8_t> plane(values.size());
+  const auto* bytes = reinterpret_cast<const uint8_t*>(values.data());
+  for (size_t b = 0; b < sizeof(T); ++b) {
+    for (size_t i = 0; i < plane.size(); ++i) plane[i] = bytes[i * sizeof(T) + b];
+    writer->PutVector(plane);
+  }
+}
+
+template <typename T>
+std::vector<T> GetPlanes(PayloadReader* reader, std::string_view field) {
+  std::vector<T> values;
+  for (size_t b = 0; b < sizeof(T); ++b) {
+    const auto plane = reader->GetVector<uint8_t>(field);
+    if (b == 0) values.resize(plane.size());
+    if (plane.size() != values.size()) reader->Fail(field, "uneven planes of bytes");
+    auto* bytes = reinterpret_cast<uint8_t*>(values.data());
+    for (size_t i = 0; i < plane.size(); ++i) bytes[i * sizeof(T) + b] = plane[i];
+  }
+  return values;
+}
+
+}  // namespace ossa::forest
