@@ -4,7 +4,7 @@
 #include <cstring>
 #include <vector>
 
-#include "depth/base/clones.h"
+#include "depth/base/cpu_dispatch.h"
 #include "forest/lanes_internal.h"
 
 namespace ossa::forest {
@@ -75,7 +75,7 @@ template <int kRows>
   for (; row < rows; ++row) Tile<1>(f, block, row, column);
 }
 
-OSSA_CLONES void MultiplyTiles(const Factors& f, Eigen::Index rows) {
+OSSA_CPU_DISPATCH void MultiplyTiles(const Factors& f, Eigen::Index rows) {
   Block block;
   for (Eigen::Index begin = 0; begin < f.inner; begin += kInnerBlock) {
     block.begin = begin;
@@ -108,7 +108,7 @@ template <int kInner>
 
 // A few rows by a matrix that the caches nearest to the processor cannot hold: it is read once, in
 // the order in which it lies, instead of tile by tile.
-OSSA_CLONES void MultiplyFewRows(const Factors& f, Eigen::Index rows) {
+OSSA_CPU_DISPATCH void MultiplyFewRows(const Factors& f, Eigen::Index rows) {
   constexpr int kAtOnce = 4;
   std::fill(f.out, f.out + rows * f.columns, 0.0F);
   for (Eigen::Index row = 0; row < rows; ++row) {
@@ -119,7 +119,7 @@ OSSA_CLONES void MultiplyFewRows(const Factors& f, Eigen::Index rows) {
 }
 
 // The columns that fill no tile, as one that nought fills.
-OSSA_CLONES void MultiplyRest(const Factors& f, Eigen::Index rows) {
+OSSA_CPU_DISPATCH void MultiplyRest(const Factors& f, Eigen::Index rows) {
   const Eigen::Index rest = f.columns % kTileColumns;
   if (rest == 0) return;
   std::vector<float> sums(static_cast<size_t>(rows * kTileColumns));

@@ -10,7 +10,7 @@
 #include <cmath>
 #include <cstring>
 
-#include "depth/base/clones.h"
+#include "depth/base/cpu_dispatch.h"
 
 namespace ossa::forest {
 namespace {
@@ -29,8 +29,8 @@ size_t FilledUp(size_t count) { return (count + kWide - 1) / kWide * kWide; }
 }
 
 // precision += weight · LᵀL of the three rows of L, from the diagonal on.
-OSSA_CLONES void AddTarget(const double* rows, double weight, size_t factors, size_t stride,
-                           double* precision) {
+OSSA_CPU_DISPATCH void AddTarget(const double* rows, double weight, size_t factors, size_t stride,
+                                 double* precision) {
   for (size_t i = 0; i < factors; ++i) {
     const double a = weight * rows[i];
     const double b = weight * rows[stride + i];
@@ -48,7 +48,7 @@ OSSA_CLONES void AddTarget(const double* rows, double weight, size_t factors, si
 }
 
 // Cholesky: the upper half of P becomes U, but 1 / u on the diagonal.
-OSSA_CLONES void Factorise(size_t factors, size_t stride, double* p) {
+OSSA_CPU_DISPATCH void Factorise(size_t factors, size_t stride, double* p) {
   for (size_t k = 0; k < factors; ++k) {
     double* row = p + k * stride;
     const double inverse = 1.0 / std::sqrt(row[k]);
@@ -88,7 +88,8 @@ template <size_t kColumns>
   }
 }
 
-OSSA_CLONES void Solve(const double* u, size_t factors, size_t stride, double* b, size_t b_stride) {
+OSSA_CPU_DISPATCH void Solve(const double* u, size_t factors, size_t stride, double* b,
+                             size_t b_stride) {
   constexpr size_t kAtOnce = 4;
   size_t column = 0;
   for (; column + kAtOnce * kWide <= b_stride; column += kAtOnce * kWide) {
@@ -105,8 +106,8 @@ struct Moments {
   double value[kMoments][kWide];
 };
 
-OSSA_CLONES void SumMoments(const double* x, const double* q, size_t factors, size_t axis_stride,
-                            size_t stride, Moments* out) {
+OSSA_CPU_DISPATCH void SumMoments(const double* x, const double* q, size_t factors,
+                                  size_t axis_stride, size_t stride, Moments* out) {
   Wide sum[kMoments] = {};
   for (size_t i = 0; i < factors; ++i) {
     Wide axis[3];

@@ -14,7 +14,7 @@
 #include <memory>
 #include <numeric>
 
-#include "depth/base/clones.h"
+#include "depth/base/cpu_dispatch.h"
 #include "forest/classification/sample_grid_internal.h"
 #include "forest/classification/smoothed_masses_internal.h"
 #include "forest/forest.h"
@@ -68,7 +68,8 @@ std::vector<int32_t> BoxPositions(const ObjectImage& image, int width,
   return position;
 }
 
-OSSA_CLONES void AddTo(const int16_t* __restrict values, size_t count, int32_t* __restrict sum) {
+OSSA_CPU_DISPATCH void AddTo(const int16_t* __restrict values, size_t count,
+                             int32_t* __restrict sum) {
   for (size_t k = 0; k < count; ++k) sum[k] += values[k];
 }
 
@@ -138,8 +139,8 @@ std::vector<ActiveContext> ActiveContexts(std::span<const float> posterior) {
 constexpr size_t kMixedAtOnce = 32;
 
 // out = sum · 255 / total, rounded; the same on every path.
-OSSA_CLONES void ToMasses(const uint32_t* sum, const uint32_t* total, size_t samples, size_t stride,
-                          uint8_t* out) {
+OSSA_CPU_DISPATCH void ToMasses(const uint32_t* sum, const uint32_t* total, size_t samples,
+                                size_t stride, uint8_t* out) {
   for (size_t i = 0; i < samples; ++i, sum += stride, out += stride) {
     const float scale = total[i] > 0 ? 255.0F / static_cast<float>(total[i]) : 0.0F;
     for (size_t c = 0; c < stride; ++c) {
@@ -189,7 +190,7 @@ void MixLeaves(const ForestModel& model, std::span<const ActiveContext> active,
   }
 }
 
-OSSA_CLONES void ToScales(const uint16_t* mass, size_t samples, size_t stride, float* scale) {
+OSSA_CPU_DISPATCH void ToScales(const uint16_t* mass, size_t samples, size_t stride, float* scale) {
   for (size_t i = 0; i < samples; ++i, mass += stride) {
     uint32_t total = 0;
     for (size_t c = 0; c < stride; ++c) total += mass[c];

@@ -11,7 +11,7 @@
 #include <cstdlib>
 #include <cstring>
 
-#include "depth/base/clones.h"
+#include "depth/base/cpu_dispatch.h"
 
 namespace ossa::forest {
 namespace {
@@ -45,8 +45,8 @@ using Block = uint16_t __attribute__((vector_size(2 * kBlock)));
 using ByteBlock = uint8_t __attribute__((vector_size(kBlock)));
 
 // sum[i] = sum[i - 1] + mass[sample[i]] along one run; sum has one row more, the first of zeros.
-OSSA_CLONES void PrefixRun(const uint8_t* mass, std::span<const int32_t> sample, size_t stride,
-                           uint16_t* sum) {
+OSSA_CPU_DISPATCH void PrefixRun(const uint8_t* mass, std::span<const int32_t> sample,
+                                 size_t stride, uint16_t* sum) {
   std::fill_n(sum, stride, uint16_t{0});
   for (size_t b = 0; b < stride; b += kBlock) {
     Block total = {};
@@ -61,8 +61,8 @@ OSSA_CLONES void PrefixRun(const uint8_t* mass, std::span<const int32_t> sample,
 
 // Means over windows of a run that begins with pixel `first`, times four, added to the sums of the
 // pixels above.
-OSSA_CLONES void AverageRun(const uint16_t* sum, int radius, int32_t first,
-                            std::span<const int32_t> up, Ring* ring) {
+OSSA_CPU_DISPATCH void AverageRun(const uint16_t* sum, int radius, int32_t first,
+                                  std::span<const int32_t> up, Ring* ring) {
   const auto count = static_cast<int>(up.size());
   const size_t stride = ring->stride;
   for (int i = 0; i < count; ++i) {
@@ -106,8 +106,8 @@ struct Window {
 };
 
 // Sums at `high` - sums at `low`, modulo 2^16, and the label of each.
-OSSA_CLONES void Conclude(const Ring& ring, std::span<const Window> windows, uint16_t* mass,
-                          uint8_t* label) {
+OSSA_CPU_DISPATCH void Conclude(const Ring& ring, std::span<const Window> windows, uint16_t* mass,
+                                uint8_t* label) {
   const uint16_t* rows = ring.rows.data();
   const size_t stride = ring.stride;
   for (const Window& window : windows) {

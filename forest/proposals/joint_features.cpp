@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "depth/base/clones.h"
+#include "depth/base/cpu_dispatch.h"
 #include "forest/joint_features_internal.h"
 #include "forest/lanes_internal.h"
 #include "forest/proposals/refinement_internal.h"
@@ -44,8 +44,8 @@ struct NearestOfLanes {
   IntLanes number;  // of the point that is nearest across the line of sight
 };
 
-OSSA_CLONES void FindNearest(const Surface& surface, const float* place, const float* ray,
-                             NearestOfLanes* out) {
+OSSA_CPU_DISPATCH void FindNearest(const Surface& surface, const float* place, const float* ray,
+                                   NearestOfLanes* out) {
   NearestOfLanes near = *out;
   for (size_t i = 0; i < surface.x.size(); i += kLanes) {
     Lanes x, y, z;

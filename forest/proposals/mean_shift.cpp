@@ -1,4 +1,4 @@
-#include "depth/base/clones.h"
+#include "depth/base/cpu_dispatch.h"
 #include "forest/lanes_internal.h"
 #include "forest/proposals/modes_internal.h"
 
@@ -43,13 +43,13 @@ template <bool kMoment>
   *out = sums;
 }
 
-OSSA_CLONES void AccumulateDensity(const WeightedPoints& points, const float* at, float inverse,
-                                   LaneSums* out) {
+OSSA_CPU_DISPATCH void AccumulateDensity(const WeightedPoints& points, const float* at,
+                                         float inverse, LaneSums* out) {
   Accumulate<false>(points, at, inverse, out);
 }
 
-OSSA_CLONES void AccumulateAll(const WeightedPoints& points, const float* at, float inverse,
-                               LaneSums* out) {
+OSSA_CPU_DISPATCH void AccumulateAll(const WeightedPoints& points, const float* at, float inverse,
+                                     LaneSums* out) {
   Accumulate<true>(points, at, inverse, out);
 }
 

@@ -11,7 +11,7 @@
 #include <bit>
 #include <cmath>
 
-#include "depth/base/clones.h"
+#include "depth/base/cpu_dispatch.h"
 #include "forest/forest.h"
 #include "forest/proposals/relabel_internal.h"
 
@@ -76,7 +76,8 @@ Spots ChooseSpots(const depth::DepthView& depth, const depth::Camera& camera,
   return spots;
 }
 
-OSSA_CLONES void NearnessOf(const Anchors& anchors, const Eigen::Vector3f& point_m, float* out) {
+OSSA_CPU_DISPATCH void NearnessOf(const Anchors& anchors, const Eigen::Vector3f& point_m,
+                                  float* out) {
   constexpr float kPerSquare = 1.0F / (kReach_m * kReach_m);
   const size_t targets = anchors.x.size();
   const float px = point_m.x(), py = point_m.y(), pz = point_m.z();
@@ -103,7 +104,7 @@ inline float Exp2(float x) {
 }
 
 // exp(score - the largest one's), in place; scores in log 2.
-OSSA_CLONES void ToFactors(float* score, size_t count) {
+OSSA_CPU_DISPATCH void ToFactors(float* score, size_t count) {
   float most = score[0];
   for (size_t c = 1; c < count; ++c) most = score[c] > most ? score[c] : most;
   for (size_t c = 0; c < count; ++c) score[c] = Exp2(score[c] - most);
@@ -141,8 +142,8 @@ RowMatrix FactorsAt(const PartPrior& prior, const Anchors& anchors, const Spots&
 
 // Column of the largest product; the first of equals. The bits of positive numbers are ordered as
 // the numbers are: the last eight of them carry the column.
-OSSA_CLONES uint8_t Likeliest(const uint16_t* mass, float scale, const float* factor,
-                              size_t columns) {
+OSSA_CPU_DISPATCH uint8_t Likeliest(const uint16_t* mass, float scale, const float* factor,
+                                    size_t columns) {
   constexpr int32_t kColumnBits = 0xff;
   int32_t best = 0;
   for (size_t c = 0; c < columns; ++c) {

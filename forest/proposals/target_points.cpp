@@ -6,7 +6,7 @@
 #include <cstring>
 #include <limits>
 
-#include "depth/base/clones.h"
+#include "depth/base/cpu_dispatch.h"
 #include "forest/lanes_internal.h"
 #include "forest/proposals/modes_internal.h"
 
@@ -25,8 +25,8 @@ template <int kByte>
 
 // The weight of each sample's vote; kNoVote where it has none, or one that is too long.
 static_assert(std::endian::native == std::endian::little && sizeof(Vote) == sizeof(int32_t));
-OSSA_CLONES void WeighVotes(const Vote* vote, const float* area_m2, size_t count, float sharpness_m,
-                            float longest_m2, float* weight) {
+OSSA_CPU_DISPATCH void WeighVotes(const Vote* vote, const float* area_m2, size_t count,
+                                  float sharpness_m, float longest_m2, float* weight) {
   for (size_t i = 0; i < count; i += kLanes) {
     IntLanes votes;
     std::memcpy(&votes, vote + i, sizeof(votes));
@@ -45,7 +45,7 @@ OSSA_CLONES void WeighVotes(const Vote* vote, const float* area_m2, size_t count
   }
 }
 
-OSSA_CLONES void AddRow(const float* row, size_t count, float* sum) {
+OSSA_CPU_DISPATCH void AddRow(const float* row, size_t count, float* sum) {
   for (size_t i = 0; i < count; ++i) sum[i] += row[i];
 }
 

@@ -3,7 +3,7 @@
 #include <bit>
 #include <cmath>
 
-#include "depth/base/clones.h"
+#include "depth/base/cpu_dispatch.h"
 
 namespace ossa::forest {
 namespace {
@@ -28,8 +28,8 @@ struct Running {
 };
 
 // In one go: the numbers are far more than the nearest caches hold.
-OSSA_CLONES void DescendAll(const Running& of, const float* gradient, Eigen::Index count,
-                            float rate, float square_scale) {
+OSSA_CPU_DISPATCH void DescendAll(const Running& of, const float* gradient, Eigen::Index count,
+                                  float rate, float square_scale) {
   float* __restrict value = of.value;
   float* __restrict mean = of.mean;
   float* __restrict square = of.square;

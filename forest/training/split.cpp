@@ -4,7 +4,7 @@
 #include <array>
 #include <cmath>
 
-#include "depth/base/clones.h"
+#include "depth/base/cpu_dispatch.h"
 
 namespace ossa::forest {
 namespace {
@@ -12,9 +12,9 @@ namespace {
 constexpr size_t kTile = 32;  // samples probed before their depths are written out by rows
 
 // Positions of all probes of one sample.
-OSSA_CLONES void ProbeIndices(const float* offset_u, const float* offset_v, size_t count,
-                              const std::array<int, 5>& place, float pixels_u, float pixels_v,
-                              int32_t* index) {
+OSSA_CPU_DISPATCH void ProbeIndices(const float* offset_u, const float* offset_v, size_t count,
+                                    const std::array<int, 5>& place, float pixels_u, float pixels_v,
+                                    int32_t* index) {
   const auto [x, y, width, height, stride] = place;
   for (size_t m = 0; m < count; ++m) {
     index[m] =
@@ -22,8 +22,8 @@ OSSA_CLONES void ProbeIndices(const float* offset_u, const float* offset_v, size
   }
 }
 
-OSSA_CLONES void BinResponses(const int16_t* first, const int16_t* second, size_t count,
-                              const Candidate& candidate, int bins, uint16_t* bin) {
+OSSA_CPU_DISPATCH void BinResponses(const int16_t* first, const int16_t* second, size_t count,
+                                    const Candidate& candidate, int bins, uint16_t* bin) {
   const auto jitter = candidate.jitter_mm;
   const auto shift = candidate.shift;
   const auto half = static_cast<int16_t>(bins / 2);

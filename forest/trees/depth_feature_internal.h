@@ -95,7 +95,7 @@ struct WalkInput {
 
 /// leaf[i * leaf_stride] = leaf of position[i].
 void WalkScalar(const WalkInput& input, int32_t* leaf, size_t leaf_stride);
-/// The same leaves, 128 pixels in flight. Precondition: HasAvx2() (depth/base/clones.h).
+/// The same leaves, 128 pixels in flight. Precondition: HasAvx2() (depth/base/cpu_dispatch.h).
 void WalkAvx2(const WalkInput& input, int32_t* leaf, size_t leaf_stride);
 /// The fastest of this machine.
 void Walk(const WalkInput& input, int32_t* leaf, size_t leaf_stride);

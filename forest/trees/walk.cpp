@@ -1,7 +1,7 @@
 #include <algorithm>
 #include <bit>
 
-#include "depth/base/clones.h"
+#include "depth/base/cpu_dispatch.h"
 #include "forest/trees/depth_feature_internal.h"
 
 namespace ossa::forest {

@@ -7,7 +7,7 @@
 #include <utility>
 #include <vector>
 
-#include "depth/base/clones.h"
+#include "depth/base/cpu_dispatch.h"
 #include "depth/base/large_pages.h"
 #include "recon/models/weight_sums_internal.h"
 
@@ -34,7 +34,7 @@ float MostQuanta(size_t factors) {
 }
 
 // To the nearest whole numbers.
-OSSA_CLONES void Round(const float* numbers, float times, size_t count, int16_t* rounded) {
+OSSA_CPU_DISPATCH void Round(const float* numbers, float times, size_t count, int16_t* rounded) {
   for (size_t i = 0; i < count; ++i) {
     rounded[i] = static_cast<int16_t>(std::rint(numbers[i] * times));
   }

@@ -9,7 +9,7 @@
 #include <string>
 #include <string_view>
 
-#include "depth/base/clones.h"
+#include "depth/base/cpu_dispatch.h"
 #include "depth/base/sealed_file.h"
 
 namespace ossa::recon {
@@ -35,7 +35,7 @@ void Check(const PayloadReader& in, std::string_view field, size_t found, Eigen:
 }
 
 // A column's weights as steps, of which the largest is kMostByte.
-OSSA_CLONES void ToSteps(const float* weights, float step, size_t count, int8_t* steps) {
+OSSA_CPU_DISPATCH void ToSteps(const float* weights, float step, size_t count, int8_t* steps) {
   for (size_t i = 0; i < count; ++i) {
     steps[i] = static_cast<int8_t>(std::clamp(std::rint(weights[i] / step), -kMostByte, kMostByte));
   }

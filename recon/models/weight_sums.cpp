@@ -9,7 +9,7 @@
 #include <algorithm>
 #include <bit>
 
-#include "depth/base/clones.h"
+#include "depth/base/cpu_dispatch.h"
 
 #if defined(__x86_64__)
 #include <immintrin.h>

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "depth/base/clones.h"
+#include "depth/base/cpu_dispatch.h"
 
 namespace ossa::recon {
 namespace {
@@ -57,8 +57,9 @@ struct Sums {
 };
 
 // As depth::Project, side by side.
-OSSA_CLONES void Project(const depth::Camera& camera, const Eigen::Vector3f& joint_m,
-                         const Eigen::Matrix3f& camera_from_frame, const Grids& grids, Taps* taps) {
+OSSA_CPU_DISPATCH void Project(const depth::Camera& camera, const Eigen::Vector3f& joint_m,
+                               const Eigen::Matrix3f& camera_from_frame, const Grids& grids,
+                               Taps* taps) {
   const float x_m = joint_m.x(), y_m = joint_m.y(), z_m = joint_m.z();
   const float xx = camera_from_frame(0, 0), xy = camera_from_frame(0, 1);
   const float yx = camera_from_frame(1, 0), yy = camera_from_frame(1, 1);
@@ -86,7 +87,7 @@ OSSA_CLONES void Project(const depth::Camera& camera, const Eigen::Vector3f& joi
 }
 
 // Without branches, all numbers of one width: several samples at a time.
-OSSA_CLONES void Add(const Taps& taps, Sums* sums) {
+OSSA_CPU_DISPATCH void Add(const Taps& taps, Sums* sums) {
   for (size_t i = 0; i < kLookSamples; ++i) {
     const int32_t outside = taps.pixel[i] == kOutside ? 1 : 0;
     const int32_t read = taps.depth_mm[i] != 0 ? 1 : 0;
@@ -100,7 +101,7 @@ OSSA_CLONES void Add(const Taps& taps, Sums* sums) {
   }
 }
 
-OSSA_CLONES void Mean(const Sums& sums, OfSamples<LookSample>* samples) {
+OSSA_CPU_DISPATCH void Mean(const Sums& sums, OfSamples<LookSample>* samples) {
   for (size_t i = 0; i < kLookSamples; ++i) {
     const int32_t surface = sums.surface[i];
     const float mean_mm = sums.behind_mm[i] / static_cast<float>(std::max(1, surface));

@@ -1,12 +1,12 @@
 #pragma once
 
-// OSSA_CLONES before a function: compiled once for AVX2 and once for any x86-64, picked when the
-// program starts. Only where the compiler can do it; elsewhere one version serves.
+// OSSA_CPU_DISPATCH before a function: compiled once for AVX2 and once for any x86-64, picked when
+// the program starts. Only where the compiler can do it; elsewhere one version serves.
 #if defined(__x86_64__) && defined(__GNUC__) && !defined(__clang__) && \
     !defined(__SANITIZE_ADDRESS__)
-#define OSSA_CLONES __attribute__((target_clones("avx2", "default")))
+#define OSSA_CPU_DISPATCH __attribute__((target_clones("avx2", "default")))
 #else
-#define OSSA_CLONES
+#define OSSA_CPU_DISPATCH
 #endif
 
 namespace ossa {
