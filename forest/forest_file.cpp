@@ -2,9 +2,9 @@
 #include <cstring>
 #include <stdexcept>
 
+#include "depth/base/checksummed_container.h"
 #include "depth/base/compressed.h"
 #include "depth/base/error.h"
-#include "depth/base/sealed_file.h"
 #include "forest/forest.h"
 #include "forest/prune.h"
 #include "forest/trees/tree_codec_internal.h"
@@ -14,7 +14,7 @@ namespace {
 
 // Version 2 added arrangements and what agreement with them says; models of version 1 lack them.
 // Version 3 packs trees more tightly. Version 4 added the refinement, version 5 the part prior.
-constexpr SealedFormat kFormat{{'o', 's', 's', 'a', 'f', 'r', 's', 't'}, 5, "forest model"};
+constexpr ContainerFormat kFormat{{'o', 's', 's', 'a', 'f', 'r', 's', 't'}, 5, "forest model"};
 constexpr uint32_t kOldestVersion = 1;  // that is still read
 constexpr int kCompressionLevel = 19;
 constexpr int kQuickLevel = 3;
@@ -144,10 +144,10 @@ ForestData ParseForest(std::span<const std::byte> payload, const std::string& na
 }
 
 // Each form is let go before the next but one is made: a model is some 60 MB in each of them.
-ForestModel Parse(std::vector<std::byte> sealed, const std::string& name, uint32_t version,
+ForestModel Parse(std::vector<std::byte> compressed, const std::string& name, uint32_t version,
                   ModelUse use) {
-  std::vector<std::byte> payload = Decompressed(sealed, name, kFormat.what);
-  std::vector<std::byte>().swap(sealed);
+  std::vector<std::byte> payload = Decompress(compressed, name, kFormat.what);
+  std::vector<std::byte>().swap(compressed);
   const std::string where = name + " (unpacked)";
   ForestData data = ParseForest(payload, where, version);
   std::vector<std::byte>().swap(payload);
@@ -170,33 +170,34 @@ std::vector<std::byte> Packed(const ForestData& data, int level) {
   PutRefinement(&writer, data.refinement);
   PutPlanes(&writer, data.part_prior.weight);
   writer.PutVector(data.part_prior.bias);
-  return Compressed(writer.bytes(), level);
+  return Compress(writer.bytes(), level);
 }
 
 }  // namespace
 
 ForestModel ReadForestModel(const std::filesystem::path& path, ModelUse use) {
-  const SealedFormat format = FormatOf(path, kFormat, kOldestVersion);
-  return Parse(ReadSealedFile(path, format), path.string(), format.version, use);
+  const ContainerFormat format = ReadContainerFormat(path, kFormat, kOldestVersion);
+  return Parse(ReadContainer(path, format), path.string(), format.version, use);
 }
 
 ForestModel ReadForestModel(std::span<const std::byte> bytes, const std::string& name) {
-  const SealedFormat format = FormatOf(bytes, kFormat, kOldestVersion);
-  return Parse(OpenSealedBytes(bytes, name, format), name, format.version, ModelUse::kAny);
+  const ContainerFormat format = ReadContainerFormat(bytes, kFormat, kOldestVersion);
+  return Parse(ReadContainerBytes(bytes, name, format), name, format.version, ModelUse::kAny);
 }
 
-bool IsForestModel(const std::filesystem::path& path) { return IsSealedFile(path, kFormat); }
+bool IsForestModel(const std::filesystem::path& path) { return IsContainer(path, kFormat); }
 
 void WriteForestModel(const std::filesystem::path& path, const ForestModel& model) {
   const Tree& first = model.data().trees.front();
   if (first.entry_begin.empty()) throw std::logic_error("a model to run only cannot be written");
-  WriteSealedFile(path, kFormat, Packed(model.data(), kCompressionLevel));
+  WriteContainer(path, kFormat, Packed(model.data(), kCompressionLevel));
 }
 
 uint64_t FileSize(const ForestData& data, Packing packing) {
-  constexpr uint64_t kSeal = 40;  // of a sealed file: magic, version, checksum, length
+  constexpr uint64_t kContainerHeader =
+      40;  // of a checksummed container: magic, version, checksum, length
   const bool tight = packing == Packing::kFile;
-  return Packed(data, tight ? kCompressionLevel : kQuickLevel).size() + kSeal;
+  return Packed(data, tight ? kCompressionLevel : kQuickLevel).size() + kContainerHeader;
 }
 
 }  // namespace ossa::forest

@@ -4,12 +4,12 @@
 
 #include <cstdint>
 
+#include "depth/base/checksummed_container.h"
 #include "depth/base/error.h"
-#include "depth/base/sealed_file.h"
 
 namespace ossa {
 
-std::vector<std::byte> Compressed(std::span<const std::byte> payload, int level) {
+std::vector<std::byte> Compress(std::span<const std::byte> payload, int level) {
   std::vector<std::byte> bytes(ZSTD_compressBound(payload.size()));
   bytes.resize(ZSTD_compress(bytes.data(), bytes.size(), payload.data(), payload.size(), level));
   PayloadWriter out;
@@ -18,9 +18,9 @@ std::vector<std::byte> Compressed(std::span<const std::byte> payload, int level)
   return out.bytes();
 }
 
-std::vector<std::byte> Decompressed(std::span<const std::byte> sealed, const std::string& file,
-                                    std::string_view what) {
-  PayloadReader in(sealed, file);
+std::vector<std::byte> Decompress(std::span<const std::byte> compressed, const std::string& file,
+                                  std::string_view what) {
+  PayloadReader in(compressed, file);
   const auto size = in.Get<uint64_t>("unpacked length");
   const auto bytes = in.GetVector<std::byte>("compressed payload");
   in.ExpectEnd();

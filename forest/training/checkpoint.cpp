@@ -2,13 +2,14 @@
 
 #include <algorithm>
 
+#include "depth/base/checksummed_container.h"
 #include "depth/base/error.h"
-#include "depth/base/sealed_file.h"
 
 namespace ossa::forest {
 namespace {
 
-constexpr SealedFormat kFormat{{'o', 's', 's', 'a', 'c', 'h', 'k', 'p'}, 2, "training checkpoint"};
+constexpr ContainerFormat kFormat{
+    {'o', 's', 's', 'a', 'c', 'h', 'k', 'p'}, 2, "training checkpoint"};
 
 void CheckNodes(const std::vector<Node>& nodes, size_t frontier, const PayloadReader& reader) {
   size_t next = 1;
@@ -58,11 +59,11 @@ void WriteCheckpoint(const std::filesystem::path& path, const Checkpoint& checkp
   writer.Put<int32_t>(checkpoint.growing.level);
   writer.Put<uint64_t>(checkpoint.growing.frontier_begin);
   writer.PutVector(checkpoint.growing.nodes);
-  WriteSealedFile(path, kFormat, writer.bytes());
+  WriteContainer(path, kFormat, writer.bytes());
 }
 
 Checkpoint ReadCheckpoint(const std::filesystem::path& path, const std::vector<Setting>& settings) {
-  const std::vector<std::byte> payload = ReadSealedFile(path, kFormat);
+  const std::vector<std::byte> payload = ReadContainer(path, kFormat);
   PayloadReader reader(payload, path.string());
   Checkpoint checkpoint;
   checkpoint.settings = ReadSettings(reader);

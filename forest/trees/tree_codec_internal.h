@@ -2,7 +2,7 @@
 #include <string_view>
 #include <vector>
 
-#include "depth/base/sealed_file.h"
+#include "depth/base/checksummed_container.h"
 #include "forest/trees/tree.h"
 
 namespace ossa::forest {

@@ -5,14 +5,14 @@
 #include <numeric>
 #include <unordered_map>
 
+#include "depth/base/checksummed_container.h"
 #include "depth/base/error.h"
-#include "depth/base/sealed_file.h"
 #include "recon/body/parts.h"
 
 namespace ossa::recon {
 namespace {
 
-constexpr SealedFormat kCacheFormat{{'O', 'S', 'S', 'A', 'B', 'O', 'D', 'Y'}, 2, "body cache"};
+constexpr ContainerFormat kCacheFormat{{'O', 'S', 'S', 'A', 'B', 'O', 'D', 'Y'}, 2, "body cache"};
 constexpr float kDeltaUnit_dm = 1e-3f;
 
 /// A point that is a weighted sum of vertices of base.obj.
@@ -221,11 +221,11 @@ void BodyModelBuilder::WriteCache(const std::filesystem::path& path, const BodyM
     writer.PutVector(model.targets_[i].delta);
     writer.PutVector(model.targets_[i].point_delta_dm);
   }
-  WriteSealedFile(path, kCacheFormat, writer.bytes());
+  WriteContainer(path, kCacheFormat, writer.bytes());
 }
 
 BodyModel BodyModelBuilder::ReadCache(const std::filesystem::path& path) {
-  const auto payload = ReadSealedFile(path, kCacheFormat);
+  const auto payload = ReadContainer(path, kCacheFormat);
   PayloadReader reader(payload, path.string());
   BodyModel model;
   model.base_dm_ = GetPoints(reader, "base");

@@ -4,7 +4,7 @@
 
 namespace ossa::recon {
 
-/// Makes a BodyModel of the files, and keeps it in a sealed file for the next start.
+/// Makes a BodyModel of the files, and keeps it in a checksummed container for the next start.
 struct BodyModelBuilder {
   static BodyModel Build(const BodyFiles& files);
   static void WriteCache(const std::filesystem::path& path, const BodyModel& model);

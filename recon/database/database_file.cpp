@@ -2,14 +2,15 @@
 #include <algorithm>
 #include <cmath>
 
+#include "depth/base/checksummed_container.h"
 #include "depth/base/error.h"
-#include "depth/base/sealed_file.h"
 #include "recon/database/posture_database.h"
 
 namespace ossa::recon {
 namespace {
 
-constexpr SealedFormat kFormat = {{'O', 'S', 'S', 'A', 'D', 'B', '0', '0'}, 1, "posture database"};
+constexpr ContainerFormat kFormat = {
+    {'O', 'S', 'S', 'A', 'D', 'B', '0', '0'}, 1, "posture database"};
 
 void ExpectFinite(const PayloadReader& reader, std::span<const float> values, float limit,
                   std::string_view field) {
@@ -37,15 +38,15 @@ void PostureDatabase::Save(const std::filesystem::path& path) const {
   out.PutVector(quaternions_);
   out.PutVector(edge_begin_);
   out.PutVector(edges_);
-  WriteSealedFile(path, kFormat, out.bytes());
+  WriteContainer(path, kFormat, out.bytes());
 }
 
 bool PostureDatabase::IsOne(const std::filesystem::path& path) {
-  return IsSealedFile(path, kFormat);
+  return IsContainer(path, kFormat);
 }
 
 PostureDatabase PostureDatabase::Load(const std::filesystem::path& path) {
-  const auto payload = ReadSealedFile(path, kFormat);
+  const auto payload = ReadContainer(path, kFormat);
   return FromBytes(payload, path.string());
 }
 

@@ -3,14 +3,14 @@
 #include <algorithm>
 #include <cmath>
 
+#include "depth/base/checksummed_container.h"
 #include "depth/base/error.h"
-#include "depth/base/sealed_file.h"
 #include "recon/database/posture_database.h"
 
 namespace ossa::recon {
 namespace {
 
-constexpr SealedFormat kFormat = {
+constexpr ContainerFormat kFormat = {
     {'O', 'S', 'S', 'A', 'G', 'P', '0', '0'}, LearnedModels::kVersion, "learned reconstruction"};
 constexpr uint32_t kOldestVersion = 2, kVersionOfSteps = 3;
 
@@ -170,16 +170,16 @@ void LearnedModels::Save(const std::filesystem::path& path) const {
   out.Put(correction.width);
   out.Put(correction.proportions);
   PutFilter(out, filter);
-  SealedFormat format = kFormat;
+  ContainerFormat format = kFormat;
   if (!filter.HasPulls()) format.version = kVersionOfSteps;  // what older programs read
-  WriteSealedFile(path, format, out.bytes());
+  WriteContainer(path, format, out.bytes());
 }
 
-bool LearnedModels::IsOne(const std::filesystem::path& path) { return IsSealedFile(path, kFormat); }
+bool LearnedModels::IsOne(const std::filesystem::path& path) { return IsContainer(path, kFormat); }
 
 LearnedModels LearnedModels::Load(const std::filesystem::path& path) {
-  const SealedFormat format = FormatOf(path, kFormat, kOldestVersion);
-  const auto payload = ReadSealedFile(path, format);
+  const ContainerFormat format = ReadContainerFormat(path, kFormat, kOldestVersion);
+  const auto payload = ReadContainer(path, format);
   return FromBytes(payload, path.string(), format.version);
 }
 

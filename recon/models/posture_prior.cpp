@@ -8,15 +8,15 @@
 #include <numbers>
 #include <stdexcept>
 
+#include "depth/base/checksummed_container.h"
 #include "depth/base/error.h"
-#include "depth/base/sealed_file.h"
 
 namespace ossa::recon {
 namespace {
 
 using BoneMatrix = Eigen::Matrix<double, kBoneDims, kBoneDims>;
 
-constexpr SealedFormat kFormat = {
+constexpr ContainerFormat kFormat = {
     {'O', 'S', 'S', 'A', 'P', 'R', '0', '0'}, PosturePrior::kVersion, "posture prior"};
 constexpr uint32_t kVersionOfNetwork = 2;
 
@@ -194,21 +194,21 @@ void PosturePrior::Save(const std::filesystem::path& path) const {
        {Eigen::MatrixXd(mean_m), Eigen::MatrixXd(rest_m2), Eigen::MatrixXd(time_s), modes_m}) {
     put(m);
   }
-  SealedFormat format = kFormat;
+  ContainerFormat format = kFormat;
   if (network.empty()) {
     format.version = kVersionOfNetwork - 1;  // what older programs read
   } else {
     out.Put(static_cast<uint32_t>(network.layers.front().bias.size()));
     PutNetwork(out, network);
   }
-  WriteSealedFile(path, format, out.bytes());
+  WriteContainer(path, format, out.bytes());
 }
 
-bool PosturePrior::IsOne(const std::filesystem::path& path) { return IsSealedFile(path, kFormat); }
+bool PosturePrior::IsOne(const std::filesystem::path& path) { return IsContainer(path, kFormat); }
 
 PosturePrior PosturePrior::Load(const std::filesystem::path& path) {
-  const SealedFormat format = FormatOf(path, kFormat, 1);
-  return FromBytes(ReadSealedFile(path, format), path.string(), format.version);
+  const ContainerFormat format = ReadContainerFormat(path, kFormat, 1);
+  return FromBytes(ReadContainer(path, format), path.string(), format.version);
 }
 
 PosturePrior PosturePrior::FromBytes(std::span<const std::byte> bytes, const std::string& name,

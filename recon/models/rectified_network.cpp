@@ -9,8 +9,8 @@
 #include <string>
 #include <string_view>
 
+#include "depth/base/checksummed_container.h"
 #include "depth/base/cpu_dispatch.h"
-#include "depth/base/sealed_file.h"
 
 namespace ossa::recon {
 namespace {

@@ -1,14 +1,14 @@
 #include <fmt/format.h>
 
+#include "depth/base/checksummed_container.h"
 #include "depth/base/compressed.h"
-#include "depth/base/sealed_file.h"
 #include "recon/refine/bone_measure.h"
 #include "recon/refine/close_look.h"
 
 namespace ossa::recon {
 namespace {
 
-constexpr SealedFormat kFormat = {
+constexpr ContainerFormat kFormat = {
     {'O', 'S', 'S', 'A', 'L', 'K', '0', '0'}, CloseLook::kVersion, "close look"};
 constexpr uint32_t kFirstTold = 5;        // version with glances that are told of the bones
 constexpr uint32_t kFirstCompressed = 6;  // version that is
@@ -66,17 +66,17 @@ void CloseLook::Save(const std::filesystem::path& path) const {
     PutLookNetwork(out, bones);
     PutGlances(out, told);
   }
-  WriteSealedFile(path, kFormat, Compressed(out.bytes(), kCompressionLevel));
+  WriteContainer(path, kFormat, Compress(out.bytes(), kCompressionLevel));
 }
 
-bool CloseLook::IsOne(const std::filesystem::path& path) { return IsSealedFile(path, kFormat); }
+bool CloseLook::IsOne(const std::filesystem::path& path) { return IsContainer(path, kFormat); }
 
 CloseLook CloseLook::Load(const std::filesystem::path& path) {
-  const SealedFormat format = FormatOf(path, kFormat, kOldestVersion);
-  std::vector<std::byte> payload = ReadSealedFile(path, format);
+  const ContainerFormat format = ReadContainerFormat(path, kFormat, kOldestVersion);
+  std::vector<std::byte> payload = ReadContainer(path, format);
   std::string name = path.string();
   if (format.version >= kFirstCompressed) {
-    payload = Decompressed(payload, name, format.what);
+    payload = Decompress(payload, name, format.what);
     name += " (unpacked)";
   }
   return FromBytes(payload, name, format.version);

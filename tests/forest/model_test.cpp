@@ -6,9 +6,9 @@
 #include <stdexcept>
 #include <string_view>
 
+#include "depth/base/checksummed_container.h"
 #include "depth/base/compressed.h"
 #include "depth/base/error.h"
-#include "depth/base/sealed_file.h"
 #include "forest/classification/classify.h"
 #include "forest/forest.h"
 #include "forest/prune.h"
@@ -126,8 +126,8 @@ PayloadWriter OldPayload() {
 TEST(ForestModelFile, TreesOfOlderVersionsAreRead) {
   const ossa::test::TemporaryFolder folder;
   const auto path = folder.path() / "old.ossa";
-  WriteSealedFile(path, {{'o', 's', 's', 'a', 'f', 'r', 's', 't'}, 1, "forest model"},
-                  Compressed(OldPayload().bytes(), 3));
+  WriteContainer(path, {{'o', 's', 's', 'a', 'f', 'r', 's', 't'}, 1, "forest model"},
+                 Compress(OldPayload().bytes(), 3));
   const Tree tree = ReadForestModel(path).data().trees.at(0);
   EXPECT_EQ(tree.nodes, (std::vector<Node>{
                             {{48, 0}, {0, 0}, 25, 0, 1}, {{}, {}, 0, 0, ~0}, {{}, {}, 0, 0, ~1}}));
@@ -146,9 +146,9 @@ TEST_P(OlderFile, IsReadWithoutWhatItLacks) {
   const std::array<char, 8> magic = {'o', 's', 's', 'a', 'f', 'r', 's', 't'};
   WriteForestModel(path, BallModel());
   std::vector<std::byte> payload =
-      Decompressed(ReadSealedFile(path, {magic, 5, "forest model"}), "model", "forest model");
+      Decompress(ReadContainer(path, {magic, 5, "forest model"}), "model", "forest model");
   payload.resize(payload.size() - missing_bytes);
-  WriteSealedFile(path, {magic, version, "forest model"}, Compressed(payload, 3));
+  WriteContainer(path, {magic, version, "forest model"}, Compress(payload, 3));
   EXPECT_EQ(test::BytesOf(ReadForestModel(path)), test::BytesOf(BallModel()));
 }
 INSTANTIATE_TEST_SUITE_P(ForestModelFile, OlderFile,

@@ -4,7 +4,7 @@
 #include <cstdint>
 #include <cstring>
 
-#include "depth/base/sealed_file.h"
+#include "depth/base/checksummed_container.h"
 #include "forest/forest.h"
 #include "tests/fuzz/outcome.h"
 #include "tests/fuzz/seeds.h"
@@ -51,8 +51,8 @@ std::string WholeFile() {
 }
 
 // The format of the model file at hand: its magic and version, after which the payload follows.
-ossa::SealedFormat FormatAtHand(const std::string& file) {
-  ossa::SealedFormat format;
+ossa::ContainerFormat FormatAtHand(const std::string& file) {
+  ossa::ContainerFormat format;
   std::memcpy(format.magic.data(), file.data(), format.magic.size());
   constexpr size_t kVersionAt = 12;  // after the byte-order mark
   std::memcpy(&format.version, file.data() + kVersionAt, sizeof(format.version));
@@ -64,15 +64,15 @@ ossa::SealedFormat FormatAtHand(const std::string& file) {
 
 std::vector<std::string> ossa::fuzz::Seeds() {
   const std::string file = WholeFile();
-  const auto payload = OpenSealedBytes(std::as_bytes(std::span(file.data(), file.size())), "seed",
-                                       FormatAtHand(file));
+  const auto payload = ReadContainerBytes(std::as_bytes(std::span(file.data(), file.size())),
+                                          "seed", FormatAtHand(file));
   return {std::string(reinterpret_cast<const char*>(payload.data()), payload.size())};
 }
 
 extern "C" int LLVMFuzzerTestOneInput(const uint8_t* data, size_t size) {
-  static const ossa::SealedFormat format = FormatAtHand(WholeFile());
+  static const ossa::ContainerFormat format = FormatAtHand(WholeFile());
   const std::string path = ossa::fuzz::ScratchPath("input");
-  ossa::WriteSealedFile(path, format, std::as_bytes(std::span(data, size)));
+  ossa::WriteContainer(path, format, std::as_bytes(std::span(data, size)));
   const std::string file = ossa::fuzz::TakeFile(path);
   ossa::fuzz::ExpectValueOrOneLine([&] {
     const auto model =

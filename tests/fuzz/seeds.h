@@ -12,7 +12,7 @@ std::vector<std::string> Seeds();
 /// The bytes of a file, then the file is gone.
 std::string TakeFile(const std::string& path);
 
-/// Of a sealed file, what lies under the seal; then the file is gone.
+/// Of a checksummed container, what lies under the seal; then the file is gone.
 std::string TakePayload(const std::string& path);
 
 /// A path of this process for files of a run, in memory where there is such a folder.

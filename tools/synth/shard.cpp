@@ -4,14 +4,14 @@
 #include <cstdio>
 #include <memory>
 
+#include "depth/base/checksummed_container.h"
 #include "depth/base/error.h"
-#include "depth/base/sealed_file.h"
 #include "tools/synth/shard_internal.h"
 
 namespace ossa::tools {
 namespace {
 
-constexpr SealedFormat kShardFormat{{'O', 'S', 'S', 'A', 'S', 'H', 'R', 'D'}, 1, "frame shard"};
+constexpr ContainerFormat kShardFormat{{'O', 'S', 'S', 'A', 'S', 'H', 'R', 'D'}, 1, "frame shard"};
 constexpr int kCropBorder = 4;        // pixels of background kept around the labelled ones
 constexpr int kCompressionLevel = 1;  // the fastest; higher levels save under a tenth
 constexpr uint64_t kLargestFrame_bytes = uint64_t{1} << 28;
@@ -210,11 +210,11 @@ void WriteShard(const std::filesystem::path& path, int64_t first_index,
   writer.Put(first_index);
   writer.PutVector(offsets);
   writer.PutVector(blobs);
-  WriteSealedFile(path, kShardFormat, writer.bytes());
+  WriteContainer(path, kShardFormat, writer.bytes());
 }
 
 Shard ReadShard(const std::filesystem::path& path, int64_t first_index, int64_t count) {
-  const auto payload = ReadSealedFile(path, kShardFormat);
+  const auto payload = ReadContainer(path, kShardFormat);
   PayloadReader reader(payload, path.string());
   Shard shard;
   shard.file = path.string();

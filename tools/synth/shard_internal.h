@@ -9,9 +9,9 @@
 
 namespace ossa::tools {
 
-/// Frames packed one behind the other: a sealed file of zstd blobs, one a frame, cropped to the
-/// people. A few frames (DatasetManifest::frames_per_shard) a file, so that reading one is cheap
-/// and rendering resumes at a shard.
+/// Frames packed one behind the other: a checksummed container of zstd blobs, one a frame, cropped
+/// to the people. A few frames (DatasetManifest::frames_per_shard) a file, so that reading one is
+/// cheap and rendering resumes at a shard.
 struct Shard {
   int64_t first_index = 0;
   std::vector<uint64_t> offsets;  // count + 1 entries into blobs

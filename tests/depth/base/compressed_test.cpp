@@ -6,7 +6,7 @@
 #include <random>
 #include <vector>
 
-#include "depth/base/sealed_file.h"
+#include "depth/base/checksummed_container.h"
 #include "tests/support/refused.h"
 
 namespace ossa {
@@ -20,29 +20,29 @@ std::vector<std::byte> Steps() {
 
 TEST(Compressed, BytesAreFewerAndComeBack) {
   for (const int level : {3, 19}) {
-    const std::vector<std::byte> fewer = Compressed(Steps(), level);
+    const std::vector<std::byte> fewer = Compress(Steps(), level);
     EXPECT_LT(fewer.size(), 500U);
-    EXPECT_EQ(Decompressed(fewer, "x", "thing"), Steps());
+    EXPECT_EQ(Decompress(fewer, "x", "thing"), Steps());
   }
-  EXPECT_TRUE(Decompressed(Compressed({}, 3), "x", "thing").empty());
+  EXPECT_TRUE(Decompress(Compress({}, 3), "x", "thing").empty());
 }
 
 // Of other damage the file's seal tells.
 TEST(Compressed, WhatZstdDidNotMakeIsRefusedByName) {
   constexpr size_t kFrame = 2 * sizeof(uint64_t);  // after two lengths
-  std::vector<std::byte> damaged = Compressed(Steps(), 3);
+  std::vector<std::byte> damaged = Compress(Steps(), 3);
   damaged[kFrame] ^= std::byte{0xff};
-  test::ExpectRefused([&] { Decompressed(damaged, "x.file", "thing"); }, "x.file");
-  damaged = Compressed(Steps(), 3);
+  test::ExpectRefused([&] { Decompress(damaged, "x.file", "thing"); }, "x.file");
+  damaged = Compress(Steps(), 3);
   damaged.pop_back();
-  test::ExpectRefused([&] { Decompressed(damaged, "x.file", "thing"); }, "compressed payload");
+  test::ExpectRefused([&] { Decompress(damaged, "x.file", "thing"); }, "compressed payload");
 }
 
 TEST(Compressed, LengthsThatNoFileHoldsAreRefused) {
   for (const uint64_t size : {uint64_t{999}, uint64_t{1001}, uint64_t{1} << 31U, ~uint64_t{0}}) {
-    std::vector<std::byte> lying = Compressed(Steps(), 3);
+    std::vector<std::byte> lying = Compress(Steps(), 3);
     std::memcpy(lying.data(), &size, sizeof(size));
-    test::ExpectRefused([&] { Decompressed(lying, "x.file", "thing"); }, "x.file");
+    test::ExpectRefused([&] { Decompress(lying, "x.file", "thing"); }, "x.file");
   }
 }
 
@@ -55,16 +55,16 @@ std::vector<std::byte> Noise(size_t size) {
 
 // Before anything is allocated, not as bytes that are damaged.
 TEST(Compressed, ALengthThatSoFewBytesCannotHoldIsRefused) {
-  std::vector<std::byte> lying = Compressed(Noise(8000), 3);
+  std::vector<std::byte> lying = Compress(Noise(8000), 3);
   for (const uint64_t size : {uint64_t{1} << 30U, uint64_t{8001}}) {
     std::memcpy(lying.data(), &size, sizeof(size));
-    test::ExpectRefused([&] { Decompressed(lying, "x.file", "thing"); }, "unpacked length");
+    test::ExpectRefused([&] { Decompress(lying, "x.file", "thing"); }, "unpacked length");
   }
 }
 
 TEST(Compressed, TheMostThatZstdCanHoldComesBack) {
   const std::vector<std::byte> zeros(size_t{1} << 26U);
-  EXPECT_EQ(Decompressed(Compressed(zeros, 3), "x", "thing"), zeros);
+  EXPECT_EQ(Decompress(Compress(zeros, 3), "x", "thing"), zeros);
 }
 
 }  // namespace

@@ -5,8 +5,8 @@
 
 #include <filesystem>
 
+#include "depth/base/checksummed_container.h"
 #include "depth/base/error.h"
-#include "depth/base/sealed_file.h"
 #include "recon/filters/lag_filter_internal.h"
 #include "tests/recon/noisy_sensor.h"
 
@@ -223,10 +223,10 @@ TEST_F(FilterFile, GivesTheSameWeightsBack) {
 
 TEST_F(FilterFile, WithoutPullsIsOneThatOlderProgramsRead) {
   models_.Save(path_);
-  EXPECT_NO_THROW(ReadSealedFile(path_, {kMagic, 3, "learned reconstruction"}));
+  EXPECT_NO_THROW(ReadContainer(path_, {kMagic, 3, "learned reconstruction"}));
   models_.filter = LearnedOfOne();
   models_.Save(path_);
-  EXPECT_NO_THROW(ReadSealedFile(path_, {kMagic, 4, "learned reconstruction"}));
+  EXPECT_NO_THROW(ReadContainer(path_, {kMagic, 4, "learned reconstruction"}));
 }
 
 TEST_F(FilterFile, WithPullsOfTheOtherOutputIsRefused) {
@@ -239,17 +239,17 @@ TEST_F(FilterFile, WithPullsOfTheOtherOutputIsRefused) {
 TEST_F(FilterFile, OfTheVersionBeforeHasNone) {
   models_.filter = LinearFilter();
   models_.Save(path_);
-  auto payload = ReadSealedFile(path_, {kMagic, 3, "learned reconstruction"});
+  auto payload = ReadContainer(path_, {kMagic, 3, "learned reconstruction"});
   // The step, then of two outputs and twelve joints each an empty matrix: rows, columns, count.
   payload.resize(payload.size() - (8 + 2 * 12 * 16));
-  WriteSealedFile(path_, {kMagic, 2, "learned reconstruction"}, payload);
+  WriteContainer(path_, {kMagic, 2, "learned reconstruction"}, payload);
   EXPECT_TRUE(LearnedModels::Load(path_).filter.empty());
 }
 
 TEST_F(FilterFile, OfALaterVersionIsRefusedByItsNumber) {
   models_.Save(path_);
-  const auto payload = ReadSealedFile(path_, {kMagic, 3, "learned reconstruction"});
-  WriteSealedFile(path_, {kMagic, 5, "learned reconstruction"}, payload);
+  const auto payload = ReadContainer(path_, {kMagic, 3, "learned reconstruction"});
+  WriteContainer(path_, {kMagic, 5, "learned reconstruction"}, payload);
   EXPECT_NE(Refusal().find("version: expected 4, found 5"), std::string::npos) << Refusal();
 }
 

@@ -154,7 +154,7 @@ TEST(PriorNetwork, IsKeptInThePriorsFile) {
   prior.network.input_mean[2] = 0.123F;
   prior.network.layers[0].weight(0, 3) = -1.5F;
   prior.Save(folder / "with.ossaprior");
-  constexpr size_t kVersionAt = 12;                      // of a sealed file
+  constexpr size_t kVersionAt = 12;                      // of a checksummed container
   EXPECT_EQ(bytes("without.ossaprior")[kVersionAt], 1);  // as before there were networks
   EXPECT_EQ(bytes("with.ossaprior")[kVersionAt], 2);
   const PriorNetwork read = PosturePrior::Load(folder / "with.ossaprior").network;

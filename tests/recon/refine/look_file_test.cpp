@@ -4,9 +4,9 @@
 #include <fstream>
 #include <limits>
 
+#include "depth/base/checksummed_container.h"
 #include "depth/base/compressed.h"
 #include "depth/base/error.h"
-#include "depth/base/sealed_file.h"
 #include "recon/refine/close_look.h"
 #include "tests/recon/models/random_network.h"
 #include "tests/recon/refine/look_scene.h"
@@ -57,28 +57,28 @@ TEST(CloseLook, IsKeptInAFile) {
 TEST(CloseLook, OfTheVersionsBeforeIsReadAndOlderOnesAreRefused) {
   const ossa::test::TemporaryFolder folder;
   SilentAndTold().Save(folder / "now.ossalook");
-  SealedFormat format = {{'O', 'S', 'S', 'A', 'L', 'K', '0', '0'}, CloseLook::kVersion, "look"};
+  ContainerFormat format = {{'O', 'S', 'S', 'A', 'L', 'K', '0', '0'}, CloseLook::kVersion, "look"};
   std::vector<std::byte> payload =
-      Decompressed(ReadSealedFile(folder / "now.ossalook", format), "now", "look");
+      Decompress(ReadContainer(folder / "now.ossalook", format), "now", "look");
   format.version = 5;  // not compressed
-  WriteSealedFile(folder / "before.ossalook", format, payload);
+  WriteContainer(folder / "before.ossalook", format, payload);
   EXPECT_EQ(CloseLook::Load(folder / "before.ossalook").told.size(), 1U);
 
   CloseLook look = SilentAndTold();
   look.told.clear();
   look.Save(folder / "untold.ossalook");
   format.version = CloseLook::kVersion;
-  payload = Decompressed(ReadSealedFile(folder / "untold.ossalook", format), "untold", "look");
+  payload = Decompress(ReadContainer(folder / "untold.ossalook", format), "untold", "look");
   payload.resize(payload.size() - sizeof(uint32_t));  // how many glances are told
   format.version = CloseLook::kOldestVersion;
-  WriteSealedFile(folder / "old.ossalook", format, payload);
+  WriteContainer(folder / "old.ossalook", format, payload);
   const CloseLook old = CloseLook::Load(folder / "old.ossalook");
   EXPECT_EQ(old.measured, 3U);
   EXPECT_TRUE(old.told.empty());
   old.Save(folder / "again.ossalook");
   EXPECT_NO_THROW(CloseLook::Load(folder / "again.ossalook"));
   format.version = CloseLook::kOldestVersion - 1;
-  WriteSealedFile(folder / "older.ossalook", format, payload);
+  WriteContainer(folder / "older.ossalook", format, payload);
   EXPECT_THROW(CloseLook::Load(folder / "older.ossalook"), InputError);
 }
 

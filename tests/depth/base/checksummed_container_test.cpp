@@ -1,4 +1,4 @@
-#include "depth/base/sealed_file.h"
+#include "depth/base/checksummed_container.h"
 
 #include <fcntl.h>
 #include <gtest/gtest.h>
@@ -20,15 +20,15 @@
 namespace ossa {
 namespace {
 
-constexpr SealedFormat kFormat{{'o', 's', 's', 'a', 't', 'e', 's', 't'}, 7, "test file"};
+constexpr ContainerFormat kFormat{{'o', 's', 's', 'a', 't', 'e', 's', 't'}, 7, "test file"};
 
-std::vector<std::byte> SealedExample() {
+std::vector<std::byte> ContainerExample() {
   PayloadWriter writer;
   writer.Put<int32_t>(42);
   writer.PutString("bones");
   const auto path =
       std::filesystem::temp_directory_path() / ("ossa_sealed_" + std::to_string(getpid()) + ".bin");
-  WriteSealedFile(path, kFormat, writer.bytes());
+  WriteContainer(path, kFormat, writer.bytes());
   std::ifstream file(path, std::ios::binary);
   const std::string text((std::istreambuf_iterator<char>(file)), {});
   std::filesystem::remove(path);
@@ -36,8 +36,8 @@ std::vector<std::byte> SealedExample() {
   return {bytes.begin(), bytes.end()};
 }
 
-TEST(SealedFile, GivesBackWhatWasWritten) {
-  const auto payload = OpenSealedBytes(SealedExample(), "x", kFormat);
+TEST(ChecksummedContainer, GivesBackWhatWasWritten) {
+  const auto payload = ReadContainerBytes(ContainerExample(), "x", kFormat);
   PayloadReader reader(payload, "x");
   EXPECT_EQ(reader.Get<int32_t>("number"), 42);
   EXPECT_EQ(reader.GetString("name"), "bones");
@@ -49,46 +49,46 @@ struct Damage {
   const char* named;
 };
 
-class DamagedSealedFile : public testing::TestWithParam<Damage> {};
+class DamagedContainer : public testing::TestWithParam<Damage> {};
 
-TEST_P(DamagedSealedFile, IsRefusedByTheNameOfTheField) {
-  auto bytes = SealedExample();
+TEST_P(DamagedContainer, IsRefusedByTheNameOfTheField) {
+  auto bytes = ContainerExample();
   bytes.at(GetParam().byte) ^= std::byte{0x10};
   try {
-    OpenSealedBytes(bytes, "file.bin", kFormat);
+    ReadContainerBytes(bytes, "file.bin", kFormat);
     FAIL() << "damage at byte " << GetParam().byte << " was not noticed";
   } catch (const InputError& error) {
     EXPECT_NE(std::string(error.what()).find(GetParam().named), std::string::npos) << error.what();
   }
 }
 
-INSTANTIATE_TEST_SUITE_P(EveryField, DamagedSealedFile,
+INSTANTIATE_TEST_SUITE_P(EveryField, DamagedContainer,
                          testing::Values(Damage{0, "magic"}, Damage{8, "byte order"},
                                          Damage{12, "version"}, Damage{16, "length"},
                                          Damage{24, "checksum"}, Damage{33, "checksum"}));
 
 // A terabyte that takes no room on the disk.
-TEST(SealedFile, AnotherFileIsRefusedByItsHeaderBeforeAllocating) {
+TEST(ChecksummedContainer, AnotherFileIsRefusedByItsHeaderBeforeAllocating) {
   const test::TemporaryFolder folder;
   for (const auto& [name, field] : {std::pair("other", "magic"), {"longer", "length"}}) {
     if (name == std::string("other")) {
       std::ofstream(folder / name) << "NI10 and so on";
     } else {
-      WriteSealedFile(folder / name, kFormat, {});
+      WriteContainer(folder / name, kFormat, {});
     }
     std::filesystem::resize_file(folder / name, uintmax_t{1} << 40U);
     const auto path = folder / name;  // clang 14 captures no binding
-    test::ExpectRefused([&] { ReadSealedFile(path, kFormat); }, field);
+    test::ExpectRefused([&] { ReadContainer(path, kFormat); }, field);
   }
 }
 
-TEST(SealedFile, ShorterThanItsHeaderIsRefused) {
+TEST(ChecksummedContainer, ShorterThanItsHeaderIsRefused) {
   const test::TemporaryFolder folder;
   std::ofstream(folder / "short") << "ossatest";
-  test::ExpectRefused([&] { ReadSealedFile(folder / "short", kFormat); }, "found 8 bytes");
+  test::ExpectRefused([&] { ReadContainer(folder / "short", kFormat); }, "found 8 bytes");
 }
 
-TEST(SealedFile, ACountLargerThanTheFileIsRefusedBeforeAllocating) {
+TEST(ChecksummedContainer, ACountLargerThanTheFileIsRefusedBeforeAllocating) {
   PayloadWriter writer;
   writer.Put<uint64_t>(uint64_t{1} << 60);
   PayloadReader reader(writer.bytes(), "x");

@@ -11,37 +11,38 @@
 
 namespace ossa {
 
-/// The frame around every binary file ossa owns: 8 bytes of magic, a byte-order mark, the format's
-/// version, the payload's length and its XXH3 checksum, then the payload (little-endian).
-struct SealedFormat {
+/// A checksummed container, the frame around every binary file ossa owns: 8 bytes of magic, a
+/// byte-order mark, the format's version, the payload's length and its XXH3 checksum, then the
+/// payload (little-endian).
+struct ContainerFormat {
   std::array<char, 8> magic{};
   uint32_t version = 1;
   std::string_view what;  // for messages, e.g. "forest model"
 };
 
 /// Writes the payload atomically.
-void WriteSealedFile(const std::filesystem::path& path, const SealedFormat& format,
-                     std::span<const std::byte> payload);
+void WriteContainer(const std::filesystem::path& path, const ContainerFormat& format,
+                    std::span<const std::byte> payload);
 
 /// True when the file begins with the format's magic; its version and the rest may still be wrong.
-bool IsSealedFile(const std::filesystem::path& path, const SealedFormat& format);
+bool IsContainer(const std::filesystem::path& path, const ContainerFormat& format);
 
 /// Reads and verifies the frame; returns the payload. Throws InputError that names the file and the
 /// field when magic, byte order, version, length or checksum are not as expected.
-std::vector<std::byte> ReadSealedFile(const std::filesystem::path& path,
-                                      const SealedFormat& format);
+std::vector<std::byte> ReadContainer(const std::filesystem::path& path,
+                                     const ContainerFormat& format);
 
 /// The format as it was when the file was written, where files of versions from `oldest` on are
-/// still read; `newest` where the file says anything else, for ReadSealedFile to refuse.
-SealedFormat FormatOf(const std::filesystem::path& path, const SealedFormat& newest,
-                      uint32_t oldest);
+/// still read; `newest` where the file says anything else, for ReadContainer to refuse.
+ContainerFormat ReadContainerFormat(const std::filesystem::path& path,
+                                    const ContainerFormat& newest, uint32_t oldest);
 /// The same, of a file's bytes.
-SealedFormat FormatOf(std::span<const std::byte> bytes, const SealedFormat& newest,
-                      uint32_t oldest);
+ContainerFormat ReadContainerFormat(std::span<const std::byte> bytes, const ContainerFormat& newest,
+                                    uint32_t oldest);
 
-/// As ReadSealedFile, of bytes already in memory (`name` stands for the file in messages).
-std::vector<std::byte> OpenSealedBytes(std::span<const std::byte> bytes, const std::string& name,
-                                       const SealedFormat& format);
+/// As ReadContainer, of bytes already in memory (`name` stands for the file in messages).
+std::vector<std::byte> ReadContainerBytes(std::span<const std::byte> bytes, const std::string& name,
+                                          const ContainerFormat& format);
 
 /// Appends plain values, strings and vectors to a payload.
 class PayloadWriter {

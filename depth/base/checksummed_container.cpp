@@ -1,4 +1,4 @@
-#include "depth/base/sealed_file.h"
+#include "depth/base/checksummed_container.h"
 
 #include <xxhash.h>
 
@@ -28,7 +28,7 @@ uint64_t Checksum(std::span<const std::byte> bytes) {
 // followed by more up to `size`. What follows need not be read to refuse another kind of file,
 // which may not even fit into memory.
 Header CheckedHeader(std::span<const std::byte> bytes, uint64_t size, const std::string& name,
-                     const SealedFormat& format) {
+                     const ContainerFormat& format) {
   const std::string what(format.what);
   Header header;
   if (bytes.size() < sizeof(header)) {
@@ -54,7 +54,7 @@ Header CheckedHeader(std::span<const std::byte> bytes, uint64_t size, const std:
 }
 
 void CheckPayload(std::span<const std::byte> payload, const Header& header, const std::string& name,
-                  const SealedFormat& format) {
+                  const ContainerFormat& format) {
   if (header.checksum != Checksum(payload)) {
     throw InputError(name + ": byte 24: checksum: the " + std::string(format.what) + " is damaged");
   }
@@ -70,8 +70,8 @@ std::vector<std::byte> NextBytes(std::ifstream& file, size_t at_most) {
 
 }  // namespace
 
-void WriteSealedFile(const std::filesystem::path& path, const SealedFormat& format,
-                     std::span<const std::byte> payload) {
+void WriteContainer(const std::filesystem::path& path, const ContainerFormat& format,
+                    std::span<const std::byte> payload) {
   const Header header{format.magic, kByteOrderMark, format.version, payload.size(),
                       Checksum(payload)};
   AtomicFile file(path);
@@ -81,39 +81,39 @@ void WriteSealedFile(const std::filesystem::path& path, const SealedFormat& form
   file.Commit();
 }
 
-std::vector<std::byte> OpenSealedBytes(std::span<const std::byte> bytes, const std::string& name,
-                                       const SealedFormat& format) {
+std::vector<std::byte> ReadContainerBytes(std::span<const std::byte> bytes, const std::string& name,
+                                          const ContainerFormat& format) {
   const Header header = CheckedHeader(bytes, bytes.size(), name, format);
   const auto payload = bytes.subspan(sizeof(header));
   CheckPayload(payload, header, name, format);
   return {payload.begin(), payload.end()};
 }
 
-bool IsSealedFile(const std::filesystem::path& path, const SealedFormat& format) {
+bool IsContainer(const std::filesystem::path& path, const ContainerFormat& format) {
   std::ifstream file = OpenFile(path);
   std::array<char, 8> magic{};
   file.read(magic.data(), magic.size());
   return file && magic == format.magic;
 }
 
-SealedFormat FormatOf(std::span<const std::byte> bytes, const SealedFormat& newest,
-                      uint32_t oldest) {
+ContainerFormat ReadContainerFormat(std::span<const std::byte> bytes, const ContainerFormat& newest,
+                                    uint32_t oldest) {
   Header header;
   if (bytes.size() < sizeof(header)) return newest;
   std::memcpy(&header, bytes.data(), sizeof(header));
-  SealedFormat format = newest;
+  ContainerFormat format = newest;
   if (header.version >= oldest && header.version < newest.version) format.version = header.version;
   return format;
 }
 
-SealedFormat FormatOf(const std::filesystem::path& path, const SealedFormat& newest,
-                      uint32_t oldest) {
+ContainerFormat ReadContainerFormat(const std::filesystem::path& path,
+                                    const ContainerFormat& newest, uint32_t oldest) {
   std::ifstream file = OpenFile(path);
-  return FormatOf(NextBytes(file, sizeof(Header)), newest, oldest);
+  return ReadContainerFormat(NextBytes(file, sizeof(Header)), newest, oldest);
 }
 
-std::vector<std::byte> ReadSealedFile(const std::filesystem::path& path,
-                                      const SealedFormat& format) {
+std::vector<std::byte> ReadContainer(const std::filesystem::path& path,
+                                     const ContainerFormat& format) {
   std::ifstream file = OpenFile(path, std::ios::ate);
   if (!file) {
     throw InputError(path.string() + ": cannot be read: expected a " + std::string(format.what));
