@@ -9,6 +9,8 @@ namespace ossa::tools {
 std::vector<Table> RunBody(ExperimentContext& context);
 /// The simulated sensor beside real frames: depth steps, noise, shadows, holes.
 std::vector<Table> RunSensor(ExperimentContext& context);
+/// Real depth: each stage of the tracker on every real set, with truth and without.
+std::vector<Table> RunReal(ExperimentContext& context);
 /// Every method on every real recording, the SDK's own skeletons as the baseline.
 std::vector<Table> RunSdk(ExperimentContext& context);
 /// Fits the weights in tools/tracker/person_signs.inc.

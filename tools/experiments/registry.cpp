@@ -9,6 +9,8 @@ constexpr Experiment kExperiments[] = {
     {"person-signs", "fits what the tracker tells people from furniture by", RunPersonSigns},
     {"rooms", "the tracker in rendered rooms: people found, cut, invented, mixed up; joints",
      RunRooms},
+    {"real", "real depth: each stage of the tracker on every real set, with truth and without",
+     RunReal},
     {"sdk", "every method on every real recording; the SDK's skeletons as the baseline", RunSdk},
     {"shum-ho-2012", "the physical character: the paper's scenes, the filter, fig. 5",
      RunShumHo2012},

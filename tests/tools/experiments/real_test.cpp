@@ -1,0 +1,149 @@
+#include <gtest/gtest.h>
+
+#include <fstream>
+
+#include "depth/base/error.h"
+#include "depth/image/depth_png.h"
+#include "tests/support/places.h"
+#include "tests/support/refused.h"
+#include "tests/support/temporary_folder.h"
+#include "tools/experiments/real/real_judge_internal.h"
+
+namespace ossa::tools {
+namespace {
+
+using recon::Joint;
+
+// A folder laid out as SHARED: one set of two flat images with marks beside them.
+class SharedWithMarks {
+ public:
+  SharedWithMarks() {
+    std::filesystem::create_directories(set());
+    const std::vector<uint16_t> wall_mm(64 * 48, 2000);
+    for (const char* name : {"a.png", "b.png"}) {
+      depth::WriteDepthPng(set() / name, {wall_mm.data(), 64, 48, 64});
+    }
+  }
+  void Mark(const std::string& lines) const { std::ofstream(set() / "marks.txt") << lines; }
+  std::filesystem::path set() const { return folder_ / "real/depth_frames/mine"; }
+  std::filesystem::path path() const { return folder_.path(); }
+
+ private:
+  test::TemporaryFolder folder_;
+};
+
+TEST(RealSets, MarksBesideTheImagesMakeASet) {
+  const SharedWithMarks shared;
+  shared.Mark("# by eye\na.png Head 30 10\nb.png Head 31 11\nb.png HandLeft 50 20\n");
+  const auto sets = ReadRealSets(shared.path(), 0);
+  ASSERT_EQ(sets.size(), 1u);
+  EXPECT_EQ(sets[0].name, "mine");
+  EXPECT_EQ(sets[0].joint_names, (std::vector<std::string>{"Head", "HandLeft"}));
+  ASSERT_EQ(sets[0].stills.size(), 2u);
+  EXPECT_EQ(*sets[0].stills[1].truth[0].pixel, Eigen::Vector2d(31, 11));
+  EXPECT_FALSE(sets[0].stills[0].truth[1].pixel.has_value());
+}
+
+TEST(RealSets, ADamagedMarkIsRefusedWithItsLine) {
+  const SharedWithMarks shared;
+  shared.Mark("a.png Head 30 10\na.png Nose 30 10\n");
+  test::ExpectRefused([&] { ReadRealSets(shared.path(), 0); }, "marks.txt: line 2");
+}
+
+TEST(RealSets, FoldersWithoutMarksAreRecordingsWithoutTruth) {
+  const SharedWithMarks shared;
+  EXPECT_TRUE(ReadRealSets(shared.path(), 0).empty());
+  const auto videos = ReadRealVideos(shared.path(), 1);
+  ASSERT_EQ(videos.size(), 1u);
+  EXPECT_TRUE(videos[0].stills);
+  EXPECT_EQ(videos[0].frames.size(), 1u);
+}
+
+// Four stills of a set of one joint, whose errors along x are given; the last finds nothing.
+struct OneJoint {
+  RealSet set{.name = "one"};
+  std::vector<StillResult> results;
+
+  explicit OneJoint(const std::vector<double>& errors_m) {
+    set.joints = {Joint::kHead};
+    set.joint_names = {"Head"};
+    for (const double x : errors_m) {
+      StillResult result;
+      result.has_truth = {true};
+      result.errors[RealStage::kRaw] = {Eigen::Vector3d(x, 0, 0)};
+      results.push_back(result);
+    }
+    results.push_back({.bodies = 0, .errors = {}, .has_truth = {true}});
+  }
+};
+
+TEST(RealScore, AMissingJointIsWrongAndInNoMean) {
+  const OneJoint one({0.02, 0.04, 0.12});
+  const StageScore score = ScoreStage(one.set, one.results, RealStage::kRaw, false, {true});
+  EXPECT_EQ(score.joints, 4);
+  EXPECT_EQ(score.found, 3);
+  EXPECT_NEAR(score.mean_cm, 6.0, 1e-9);
+  EXPECT_NEAR(score.within_5cm, 0.5, 1e-9);
+  EXPECT_NEAR(score.within_10cm, 0.5, 1e-9);
+  EXPECT_NEAR(score.per_joint_10cm.at("Head"), 0.5, 1e-9);
+}
+
+// Offsets of even stills come from the odd ones: 10 cm for stills 0, 2, 4 and 0 for the others.
+TEST(RealScore, OffsetsComeFromTheOtherHalf) {
+  const OneJoint one({0.11, 0.10, 0.01, 0.10, 0.01, 0.10});
+  const StageScore score = ScoreStage(one.set, one.results, RealStage::kRaw, true, {true});
+  EXPECT_NEAR(score.mean_cm, 100 * (0.01 + 0.09 + 0.09 + 3 * 0.09) / 6, 1e-9);
+}
+
+TEST(RealScore, OffsetsOfSmallSetsComeFromAllStills) {
+  OneJoint one({0.11, 0.10, 0.09});
+  one.set.offsets_from_other_half = false;
+  const StageScore score = ScoreStage(one.set, one.results, RealStage::kRaw, true, {true});
+  EXPECT_NEAR(score.mean_cm, 2.0 / 3.0, 1e-9);
+}
+
+TEST(RealStills, AFewOfEachSetAreJudgedAtEveryStage) {
+  const auto sets = ReadRealSets(test::SharedFolder(), 2);
+  if (sets.empty()) GTEST_SKIP() << "no real depth with truth in " << test::SharedFolder();
+  tracker::Tracker tracker;
+  for (const RealSet& set : sets) {
+    ASSERT_LE(set.stills.size(), 2u);
+    const StillResult result = JudgeStill(set, set.stills[0], tracker);
+    if (result.bodies == 0) continue;
+    for (const RealStage stage : kRealStages) {
+      EXPECT_EQ(result.errors.at(stage).size(), set.joints.size()) << set.name;
+    }
+  }
+}
+
+// Eight people at a metre with the background cut: joints within a hand's breadth of the marks.
+TEST(RealStills, NearPeopleAreWithinTenCentimetresOfTheMarks) {
+  const auto sets = ReadRealSets(test::SharedFolder(), 3);
+  const auto marked = std::find_if(sets.begin(), sets.end(),
+                                   [](const RealSet& set) { return set.name == "skeltrack_v1"; });
+  if (marked == sets.end()) GTEST_SKIP() << "skeltrack_v1 is not in " << test::SharedFolder();
+  tracker::Tracker tracker;
+  std::vector<StillResult> results;
+  for (const RealStill& still : marked->stills) {
+    results.push_back(JudgeStill(*marked, still, tracker));
+  }
+  const std::vector<bool> all(marked->joints.size(), true);
+  const StageScore score = ScoreStage(*marked, results, RealStage::kFinal, false, all);
+  EXPECT_GE(score.within_10cm, 0.95);
+}
+
+TEST(RealVideo, SomebodyWhoSitsKeepsTheirNumber) {
+  for (const RealVideo& video : ReadRealVideos(test::SharedFolder(), 10)) {
+    if (video.name != "kinect_v1_seated_video") continue;
+    tracker::Tracker tracker;
+    const VideoScore score = JudgeVideo(video, tracker);
+    EXPECT_EQ(score.frames, 10);
+    EXPECT_EQ(score.one_body, 10);
+    EXPECT_EQ(score.identity_breaks, 0);
+    return;
+  }
+  GTEST_SKIP() << "kinect_v1_seated_video is not in " << test::SharedFolder();
+}
+
+}  // namespace
+}  // namespace ossa::tools

@@ -1,0 +1,147 @@
+// Stills with truth: what each stage of the tracker says of them, and how far off that is.
+#include "tools/experiments/real/real_judge_internal.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "depth/image/camera.h"
+
+namespace ossa::tools {
+namespace {
+
+// Fewer stills than this say nothing of a constant offset.
+constexpr size_t kLeastForOffset = 3;
+
+std::optional<Eigen::Vector3d> ErrorAgainst(const RealTruth& truth, const depth::Camera& camera,
+                                            const std::optional<Eigen::Vector3d>& estimate_m) {
+  if (!estimate_m || estimate_m->z() <= 0) return std::nullopt;
+  if (truth.position_m) return *estimate_m - *truth.position_m;
+  if (!truth.pixel) return std::nullopt;
+  const Eigen::Vector2d off_px = depth::Project(camera, *estimate_m) - *truth.pixel;
+  const double z = estimate_m->z();
+  return Eigen::Vector3d(-off_px.x() * z / camera.fx, -off_px.y() * z / camera.fy, 0.0);
+}
+
+JointErrors ErrorsOfBody(const RealSet& set, const RealStill& still, const StageJoints& joints) {
+  JointErrors errors;
+  for (size_t j = 0; j < set.joints.size(); ++j) {
+    errors.push_back(ErrorAgainst(still.truth[j], still.frame.camera,
+                                  joints[static_cast<size_t>(recon::Index(set.joints[j]))]));
+  }
+  return errors;
+}
+
+double MeanLength(const JointErrors& errors) {
+  double sum = 0;
+  int count = 0;
+  for (const auto& error : errors) {
+    if (error) sum += error->norm(), ++count;
+  }
+  return count == 0 ? std::numeric_limits<double>::infinity() : sum / count;
+}
+
+double Median(std::vector<double> values) {
+  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
+  std::nth_element(values.begin(), middle, values.end());
+  return *middle;
+}
+
+// The constant offset of joint `j`, by the stills that may say it for still `i`.
+Eigen::Vector3d OffsetFor(const RealSet& set, const std::vector<StillResult>& results,
+                          RealStage stage, size_t i, size_t j) {
+  std::array<std::vector<double>, 3> axes;
+  for (size_t k = 0; k < results.size(); ++k) {
+    if (set.offsets_from_other_half && k % 2 == i % 2) continue;
+    const auto errors = results[k].errors.find(stage);
+    if (errors == results[k].errors.end() || !errors->second[j]) continue;
+    for (size_t a = 0; a < 3; ++a) {
+      axes[a].push_back((*errors->second[j])[static_cast<Eigen::Index>(a)]);
+    }
+  }
+  if (axes[0].size() < kLeastForOffset) return Eigen::Vector3d::Zero();
+  return {Median(axes[0]), Median(axes[1]), Median(axes[2])};
+}
+
+struct JointTally {
+  int64_t joints = 0, within_10cm = 0;
+};
+
+}  // namespace
+
+std::string_view StageName(RealStage stage) {
+  switch (stage) {
+    case RealStage::kRaw:
+      return "raw";
+    case RealStage::kRefined:
+      return "refined";
+    case RealStage::kFinal:
+      return "final";
+    case RealStage::kPeer:
+      return "peer";
+  }
+  return "";
+}
+
+StillResult JudgeStill(const RealSet& set, const RealStill& still, tracker::Tracker& tracker) {
+  StillResult result;
+  for (const RealTruth& truth : still.truth) {
+    result.has_truth.push_back(truth.position_m || truth.pixel);
+  }
+  tracker.Reset();
+  const tracker::BodyFrame answer = tracker.Push(still.frame);
+  result.bodies = answer.bodies.size();
+  double nearest = std::numeric_limits<double>::infinity();
+  for (const tracker::Body& body : answer.bodies) {
+    const JointErrors raw = ErrorsOfBody(set, still, JointsAtStage(body, RealStage::kRaw));
+    if (!(MeanLength(raw) < nearest)) continue;
+    nearest = MeanLength(raw);
+    for (const RealStage stage : kRealStages) {
+      result.errors[stage] = ErrorsOfBody(set, still, JointsAtStage(body, stage));
+    }
+  }
+  if (!still.peer_m.empty()) {
+    JointErrors& errors = result.errors[RealStage::kPeer];
+    for (size_t j = 0; j < set.joints.size(); ++j) {
+      errors.push_back(ErrorAgainst(still.truth[j], still.frame.camera, still.peer_m[j]));
+    }
+  }
+  return result;
+}
+
+StageScore ScoreStage(const RealSet& set, const std::vector<StillResult>& results, RealStage stage,
+                      bool remove_offset, const std::vector<bool>& counted) {
+  StageScore score{.stage = stage, .offset_removed = remove_offset, .per_joint_10cm = {}};
+  std::map<std::string, JointTally> tallies;
+  double sum_m = 0;
+  int64_t within_5cm = 0, within_10cm = 0;
+  for (size_t i = 0; i < results.size(); ++i) {
+    const auto errors = results[i].errors.find(stage);
+    for (size_t j = 0; j < set.joints.size(); ++j) {
+      if (!counted[j] || !results[i].has_truth[j]) continue;
+      JointTally& tally = tallies[set.joint_names[j]];
+      ++score.joints, ++tally.joints;
+      if (errors == results[i].errors.end() || !errors->second[j]) continue;
+      Eigen::Vector3d error_m = *errors->second[j];
+      if (remove_offset) error_m -= OffsetFor(set, results, stage, i, j);
+      const double distance_m = error_m.norm();
+      ++score.found;
+      sum_m += distance_m;
+      within_5cm += distance_m <= 0.05;
+      within_10cm += distance_m <= 0.1;
+      tally.within_10cm += distance_m <= 0.1;
+    }
+  }
+  const auto share = [](int64_t part, int64_t whole) {
+    return whole == 0 ? 0.0 : static_cast<double>(part) / static_cast<double>(whole);
+  };
+  score.mean_cm = score.found == 0 ? std::nan("") : 100 * sum_m / static_cast<double>(score.found);
+  score.within_5cm = share(within_5cm, score.joints);
+  score.within_10cm = share(within_10cm, score.joints);
+  for (const auto& [name, tally] : tallies) {
+    score.per_joint_10cm[name] = share(tally.within_10cm, tally.joints);
+  }
+  return score;
+}
+
+}  // namespace ossa::tools

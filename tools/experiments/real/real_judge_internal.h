@@ -1,0 +1,60 @@
+#pragma once
+#include <map>
+#include <string>
+#include <vector>
+
+#include "tools/experiments/real/real_sets_internal.h"
+#include "tools/tracker/tracker.h"
+
+namespace ossa::tools {
+
+/// The stages of the tracker that are judged, in the order of the data's way.
+enum class RealStage { kRaw, kRefined, kFinal, kPeer };
+inline constexpr std::array kRealStages = {RealStage::kRaw, RealStage::kRefined, RealStage::kFinal};
+std::string_view StageName(RealStage stage);
+
+/// Where one stage puts the 20 joints; empty where it says nothing of a joint.
+using StageJoints = std::array<std::optional<Eigen::Vector3d>, recon::kJointCount>;
+StageJoints JointsAtStage(const tracker::Body& body, RealStage stage);
+
+/// Error of each joint of one still: estimate minus truth, camera axes, metres; across the line of
+/// sight only where the truth is a mark. Empty where either is missing.
+using JointErrors = std::vector<std::optional<Eigen::Vector3d>>;
+
+struct StillResult {
+  size_t bodies = 0;
+  std::map<RealStage, JointErrors> errors;
+  std::vector<bool> has_truth;  // by joint
+};
+
+/// A still, seen alone: the tracker is reset first. Of several bodies the one whose raw joints are
+/// nearest to the truth is judged.
+StillResult JudgeStill(const RealSet& set, const RealStill& still, tracker::Tracker& tracker);
+
+/// Figures of one stage over a set.
+struct StageScore {
+  RealStage stage = RealStage::kRaw;
+  bool offset_removed = false;
+  double mean_cm = 0.0;                        // of the joints found
+  double within_5cm = 0.0, within_10cm = 0.0;  // shares of all joints with truth: missing is wrong
+  int64_t joints = 0, found = 0;
+  std::map<std::string, double> per_joint_10cm;  // share within 10 cm by joint of the set
+};
+
+/// `counted` says by joint of the set which go into the score.
+StageScore ScoreStage(const RealSet& set, const std::vector<StillResult>& results, RealStage stage,
+                      bool remove_offset, const std::vector<bool>& counted);
+
+/// Figures that need no truth.
+struct VideoScore {
+  int64_t frames = 0, bodies = 0, one_body = 0;
+  int64_t identity_breaks = 0;            // frames in which somebody goes on under another number
+  std::map<RealStage, double> jitter_mm;  // of joints of somebody who holds still
+  std::map<RealStage, double> bone_variation;  // standard deviation over mean of bones, per cent
+  double explained = 0.0;  // share of users' pixels within 5 cm of the posed body
+};
+
+/// The tracker is reset first, and before each frame of a set of stills.
+VideoScore JudgeVideo(const RealVideo& video, tracker::Tracker& tracker);
+
+}  // namespace ossa::tools

@@ -1,0 +1,60 @@
+#pragma once
+#include <Eigen/Core>
+#include <array>
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "depth/image/depth_frame.h"
+#include "recon/skeleton.h"
+
+namespace ossa::tools {
+
+/// What a real frame's truth says of one joint: a point of camera space, or of a mark by eye the
+/// line of sight on which it lies, compared at the depth of the judged joint.
+struct RealTruth {
+  std::optional<Eigen::Vector3d> position_m;  // camera space
+  std::optional<Eigen::Vector2d> pixel;       // (u, v)
+};
+
+/// One still with its truth, a joint of the set at a time.
+struct RealStill {
+  std::string name;
+  depth::DepthFrame frame;
+  std::vector<RealTruth> truth{};  // one entry per joint of the set; both empty: nothing is known
+  /// What a peer says of the same joints, where the set has one.
+  std::vector<std::optional<Eigen::Vector3d>> peer_m{};
+};
+
+/// Stills of one kind, judged together.
+struct RealSet {
+  std::string name;
+  std::string peer{};                      // whose estimates peer_m are; "" = nobody's
+  std::vector<recon::Joint> joints{};      // that are judged
+  std::vector<std::string> joint_names{};  // as the set calls them
+  std::vector<RealStill> stills{};
+  /// Constant offsets are taken from the other half of the stills (even and odd), else, of sets too
+  /// small for that, from all of them.
+  bool offsets_from_other_half = true;
+};
+
+/// A recording without truth: frames in order of time.
+struct RealVideo {
+  std::string name;
+  std::vector<depth::DepthFrame> frames;
+  bool stills = false;  // the frames have nothing to do with each other
+};
+
+/// Sets with truth below SHARED/real: depth_frames/FOLDER with marks (marks.txt beside the images,
+/// else ossa's own marks of skeltrack_v1), itop_depth from the side and from the ceiling. Those
+/// that are not there are left out. Throws InputError for what is there and damaged. `most` stills
+/// of each set at most, spread over it; 0 = all.
+std::vector<RealSet> ReadRealSets(const std::filesystem::path& shared, int most);
+
+/// Everything else below SHARED/real that has depth images: kinect_v1_seated_video, other folders
+/// of depth_frames, recordings (.oni and .mkv). `most` frames of each at most, the first ones; 0 =
+/// all.
+std::vector<RealVideo> ReadRealVideos(const std::filesystem::path& shared, int most);
+
+}  // namespace ossa::tools
