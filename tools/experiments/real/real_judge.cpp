@@ -10,7 +10,8 @@
 namespace ossa::tools {
 namespace {
 
-// Fewer stills than this say nothing of a constant offset.
+// Fewer stills than this say nothing of a constant offset. By hand: the median of two is their
+// mean.
 constexpr size_t kLeastForOffset = 3;
 
 std::optional<Eigen::Vector3d> ErrorAgainst(const RealTruth& truth, const depth::Camera& camera,

@@ -56,7 +56,7 @@ constexpr const char* kItopAmbiguous = "top/046";
 // A Kinect v1's image cut to what its colour ramp shows, by the data's README.
 constexpr depth::Camera kSeatedCamera{
     .width = 474, .height = 490, .fx = 585, .fy = 585, .cx = 154, .cy = 245};
-constexpr double kKinectFrame_s = 1.0 / 30.0;
+constexpr double kKinectFrame_s = 1.0 / 30.0;  // of a Kinect v1, by its data sheet
 
 std::vector<fs::path> PngsOf(const fs::path& folder) {
   std::vector<fs::path> files;

@@ -10,6 +10,8 @@
 namespace ossa::tools {
 namespace {
 
+// Constants: chosen by hand; they define the figures and are never tuned.
+//
 // A body of another number so near to where somebody was a frame ago is the same person.
 constexpr double kSamePlace_m = 0.3;
 // Windows in which a raw joint's halves have means so near to each other hold still.
