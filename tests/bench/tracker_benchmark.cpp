@@ -67,7 +67,7 @@ void Track_640x480_ms(benchmark::State& state) {
     frame.index = index;
     frame.time_s = static_cast<double>(index++) / 30.0;
     const auto start = std::chrono::steady_clock::now();
-    const BodyFrame bodies = tracker.Push(frame);
+    const BodyFrame bodies = tracker.Track(frame);
     const std::chrono::duration<double, std::milli> took = std::chrono::steady_clock::now() - start;
     ms.push_back(took.count());
     if (index > 10) fewest = std::min(fewest, bodies.bodies.size());

@@ -8,7 +8,7 @@ int main() {
   ossa::depth::DepthFrame frame;
   frame.camera = ossa::depth::KinectV1Camera(640, 480);
   frame.depth_mm.assign(640 * 480, 3000);
-  const auto seen = tracker.Push(frame);
+  const auto seen = tracker.Track(frame);
   std::printf("ossa is installed and sees %zu people before a wall\n", seen.bodies.size());
   return seen.bodies.empty() ? 0 : 1;
 }

@@ -153,7 +153,7 @@ class SkeletonOutput {
       : path_(options.out), seated_(options.mode == "seated") {
     const std::string& posture = options.posture;
     if (posture == "raw") kind_ = tracker::PostureKind::kRaw;
-    if (posture == "looked") kind_ = tracker::PostureKind::kLooked;
+    if (posture == "looked") kind_ = tracker::PostureKind::kRefined;
     if (posture == "reconstructed") kind_ = tracker::PostureKind::kReconstructed;
     if (path_.empty()) return;
     AtomicFile::CheckWritable(path_);
@@ -203,8 +203,9 @@ class SkeletonOutput {
 size_t TrackedJoints(const tracker::BodyFrame& bodies) {
   size_t count = 0;
   for (const tracker::Body& body : bodies.bodies) {
-    count += static_cast<size_t>(
-        std::count(body.raw.state.begin(), body.raw.state.end(), recon::TrackingState::kTracked));
+    count += static_cast<size_t>(std::count_if(
+        body.joints.begin(), body.joints.end(),
+        [](const tracker::JointEstimate& j) { return j.state == recon::TrackingState::kTracked; }));
   }
   return count;
 }
@@ -270,7 +271,7 @@ Run TrackAll(depth::FrameSource& source, tracker::Tracker& tracker, const TrackO
     run.lost_gaps += gone ? 1 : 0;
     gone = false;
     run.dropped += read.dropped;
-    const tracker::BodyFrame bodies = tracker.Push(read.frame);
+    const tracker::BodyFrame bodies = tracker.Track(read.frame);
     run.stats.Add(bodies.ms);
     output.Write(bodies);
     pictures.Take(read.frame, bodies);

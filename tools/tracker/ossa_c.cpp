@@ -63,16 +63,17 @@ void Copy(const Eigen::Quaterniond& from, float* to) {
   to[3] = static_cast<float>(from.z());
 }
 
-ossa_joint JointOf(const Body& body, size_t j) {
+ossa_joint JointOf(const Body& body, const ossa::recon::JointOrientations& hierarchical, size_t j) {
+  const ossa::tracker::JointEstimate& estimate = body.joints[j];
   ossa_joint joint{};
   Copy(body.raw.posture.position_m[j], joint.raw_m);
   Copy(body.reconstructed.position_m[j], joint.reconstructed_m);
-  Copy(body.smoothed.position_m[j], joint.smoothed_m);
-  Copy(body.absolute_orientation[j], joint.absolute_wxyz);
-  Copy(body.hierarchical_orientation[j], joint.hierarchical_wxyz);
-  joint.confidence = static_cast<float>(body.raw.confidence[j]);
-  joint.reliability = static_cast<float>(body.reliability[j]);
-  joint.state = static_cast<int32_t>(body.raw.state[j]);
+  Copy(estimate.position_m, joint.smoothed_m);
+  Copy(estimate.orientation, joint.absolute_wxyz);
+  Copy(hierarchical[j], joint.hierarchical_wxyz);
+  joint.confidence = static_cast<float>(estimate.confidence);
+  joint.reliability = static_cast<float>(estimate.reliability);
+  joint.state = static_cast<int32_t>(estimate.state);
   return joint;
 }
 
@@ -84,7 +85,8 @@ ossa_body BodyOf(const Body& body) {
   Copy(body.position_m, c.position_m);
   c.clipped_edges = body.clipped_edges;
   if (c.state == OSSA_FULLY_TRACKED) {
-    for (size_t j = 0; j < OSSA_JOINTS; ++j) c.joints[j] = JointOf(body, j);
+    const auto hierarchical = ossa::tracker::HierarchicalOrientationsOf(body);
+    for (size_t j = 0; j < OSSA_JOINTS; ++j) c.joints[j] = JointOf(body, hierarchical, j);
   }
   return c;
 }
@@ -125,7 +127,7 @@ int ossa_tracker_push(ossa_tracker* tracker, const uint16_t* depth_mm, const oss
     depth.index = tracker->last.index + 1;
     const auto pixels = static_cast<size_t>(camera->width) * static_cast<size_t>(camera->height);
     depth.depth_mm.assign(depth_mm, depth_mm + pixels);
-    tracker->last = tracker->tracker.Push(depth);
+    tracker->last = tracker->tracker.Track(depth);
     *frame = FrameOf(tracker->last);
   });
 }

@@ -77,7 +77,31 @@ recon::Posture WithBonesOf(const recon::Posture& whole, const recon::Posture& mo
   return recon::WithBoneLengths(moved, recon::BoneLengthsOf(whole), weights);
 }
 
+recon::JointArray<JointEstimate> Estimates(const recon::Posture& posture,
+                                           const recon::TrackedPosture& observed,
+                                           const std::array<double, kJointCount>& reliability) {
+  const recon::JointOrientations orientation = recon::OrientationsOf(posture);
+  recon::JointArray<JointEstimate> joints;
+  for (size_t j = 0; j < kJointCount; ++j) {
+    joints[j] = {posture.position_m[j], orientation[j], observed.state[j], observed.confidence[j],
+                 reliability[j]};
+  }
+  return joints;
+}
+
 }  // namespace
+
+recon::Posture PostureOf(const Body& body) {
+  recon::Posture posture;
+  for (size_t j = 0; j < kJointCount; ++j) posture.position_m[j] = body.joints[j].position_m;
+  return posture;
+}
+
+recon::JointOrientations HierarchicalOrientationsOf(const Body& body) {
+  recon::JointOrientations absolute;
+  for (size_t j = 0; j < kJointCount; ++j) absolute[j] = body.joints[j].orientation;
+  return recon::HierarchicalOf(absolute);
+}
 
 bool IsSeatedJoint(recon::Joint joint) {
   return recon::Index(joint) >= recon::Index(recon::Joint::kShoulderCenter) &&
@@ -105,30 +129,28 @@ void CompleteBody(const depth::DepthFrame& frame, const std::optional<Eigen::Vec
   const auto start = Clock::now();
   if (!person.reconstructor) person.reconstructor = MethodFor(body.id, options);
   recon::TrackedPosture seen = body.raw;
-  if (body.looked && options.reconstructor.method == "best") seen.posture = *body.looked;
+  if (body.refined && options.reconstructor.method == "best") seen.posture = *body.refined;
   const recon::TrackedPosture steady = person.steady.Step(seen, frame.time_s);
   const auto result =
-      person.reconstructor->Step({steady, frame.time_s, &frame, body.looked_bones_m});
+      person.reconstructor->Step({steady, frame.time_s, &frame, body.refined_bones_m});
   body.reconstructed = result.posture;
-  body.reliability = result.reliability;
   body.bones_m = person.reconstructor->Bones();
   ms.reconstruct += MillisecondsSince(start);
   recon::Posture posture = body.reconstructed;
   if (options.physics) {
     const auto physics_start = Clock::now();
     if (!person.mechanics) person.mechanics = std::make_unique<Mechanics>(options.mechanics);
-    const auto made = person.mechanics->Follow(posture, body.reliability, floor, frame.time_s);
+    const auto made = person.mechanics->Follow(posture, result.reliability, floor, frame.time_s);
     if (made) posture = made->posture;
     ms.physics += MillisecondsSince(physics_start);
   }
-  const recon::Posture held = HeldToImage(posture, steady, body.reliability);
-  body.smoothed = Smooth(WithHiddenHidden(held, steady, frame, person), frame.time_s,
-                         options.smoothing, person.smoothing);
+  const recon::Posture held = HeldToImage(posture, steady, result.reliability);
+  recon::Posture smoothed = Smooth(WithHiddenHidden(held, steady, frame, person), frame.time_s,
+                                   options.smoothing, person.smoothing);
   if (options.physics || recon::KeepsBones(options.reconstructor.method)) {
-    body.smoothed = WithBonesOf(posture, body.smoothed, steady, body.reliability);
+    smoothed = WithBonesOf(posture, smoothed, steady, result.reliability);
   }
-  body.absolute_orientation = recon::OrientationsOf(body.smoothed);
-  body.hierarchical_orientation = recon::HierarchicalOf(body.absolute_orientation);
+  body.joints = Estimates(smoothed, body.raw, result.reliability);
 }
 
 }  // namespace ossa::tracker

@@ -54,7 +54,7 @@ struct CompleteOptions {
 /// The person's own method, which has the bones where they are known.
 std::unique_ptr<recon::Reconstructor> MethodFor(int id, const CompleteOptions& options);
 
-/// From the raw posture in `body` to its reconstructed and smoothed ones and its orientations.
+/// From the raw and refined postures in `body` to the reconstructed one and to its joints.
 void CompleteBody(const depth::DepthFrame& frame, const std::optional<Eigen::Vector4d>& floor,
                   const CompleteOptions& options, Person& person, Body& body, StageTimes& ms);
 

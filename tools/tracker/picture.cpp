@@ -74,19 +74,19 @@ void DrawJoints(cv::Mat& panel, const depth::Camera& camera, const recon::Postur
   const int thick = std::max(1, camera.width / 200);
   const auto shown = [&](size_t j) {
     return Drawable(posture.position_m[j]) &&
-           (all || body.raw.state[j] != TrackingState::kNotTracked);
+           (all || body.joints[j].state != TrackingState::kNotTracked);
   };
   for (size_t j = 1; bones && j < kJointCount; ++j) {
     const auto parent = static_cast<size_t>(recon::kJointParent[j]);
     if (!shown(j) || !shown(parent)) continue;
-    const bool seen = body.raw.state[j] == TrackingState::kTracked;
+    const bool seen = body.joints[j].state == TrackingState::kTracked;
     cv::line(panel, PixelOf(camera, posture.position_m[parent]),
              PixelOf(camera, posture.position_m[j]),
              seen ? BodyColour(body.id) : cv::Scalar(110, 110, 110), seen ? thick : 1, cv::LINE_AA);
   }
   for (size_t j = 0; j < kJointCount; ++j) {
     if (!shown(j)) continue;
-    const bool seen = body.raw.state[j] == TrackingState::kTracked;
+    const bool seen = body.joints[j].state == TrackingState::kTracked;
     // The person's left is drawn in red, the right in blue, the middle in white.
     const bool middle = recon::kMirroredJoint[j] == static_cast<int>(j);
     const bool left = recon::kMirroredJoint[j] > static_cast<int>(j);
@@ -101,7 +101,7 @@ cv::Mat SkeletonPanel(const depth::DepthFrame& frame, const BodyFrame& bodies, b
   cv::Mat panel = 0.6 * DepthPanel(frame);
   for (const Body& body : bodies.bodies) {
     if (body.state != BodyState::kTracked) continue;
-    DrawJoints(panel, frame.camera, raw ? body.raw.posture : body.smoothed, body, !raw, !raw);
+    DrawJoints(panel, frame.camera, raw ? body.raw.posture : PostureOf(body), body, !raw, !raw);
   }
   return panel;
 }

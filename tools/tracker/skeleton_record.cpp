@@ -5,32 +5,32 @@ namespace {
 
 // Joints as they are seen, frame by frame.
 bool IsOfTheImage(PostureKind kind) {
-  return kind == PostureKind::kRaw || kind == PostureKind::kLooked;
+  return kind == PostureKind::kRaw || kind == PostureKind::kRefined;
 }
 
-const recon::Posture& PostureOf(const Body& body, PostureKind kind) {
-  if (kind == PostureKind::kLooked && body.looked) return *body.looked;
+recon::Posture PostureOf(const Body& body, PostureKind kind) {
+  if (kind == PostureKind::kRefined && body.refined) return *body.refined;
   if (IsOfTheImage(kind)) return body.raw.posture;
-  return kind == PostureKind::kReconstructed ? body.reconstructed : body.smoothed;
+  return kind == PostureKind::kReconstructed ? body.reconstructed : PostureOf(body);
 }
 
 recon::BodyRecord RecordOf(const Body& body, PostureKind kind) {
   recon::BodyRecord record;
   record.id = body.id;
-  const recon::Posture& posture = PostureOf(body, kind);
+  const recon::Posture posture = PostureOf(body, kind);
   for (size_t j = 0; j < recon::kJointCount; ++j) {
     const bool absent =
-        IsOfTheImage(kind) && body.raw.state[j] == recon::TrackingState::kNotTracked;
+        IsOfTheImage(kind) && body.joints[j].state == recon::TrackingState::kNotTracked;
     if (absent || !posture.position_m[j].allFinite()) continue;
     recon::JointRecord joint;
     joint.position_m = posture.position_m[j];
-    joint.state = body.raw.state[j];
-    joint.confidence = body.raw.confidence[j];
-    joint.reliability = body.reliability[j];
-    if (kind == PostureKind::kFinal) joint.orientation = body.absolute_orientation[j];
+    joint.state = body.joints[j].state;
+    joint.confidence = body.joints[j].confidence;
+    joint.reliability = body.joints[j].reliability;
+    if (kind == PostureKind::kFinal) joint.orientation = body.joints[j].orientation;
     record.joints[j] = joint;
   }
-  if (kind == PostureKind::kLooked && body.looked) record.bones_m = body.looked_bones_m;
+  if (kind == PostureKind::kRefined && body.refined) record.bones_m = body.refined_bones_m;
   return record;
 }
 

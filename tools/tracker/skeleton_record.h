@@ -4,13 +4,12 @@
 
 namespace ossa::tracker {
 
-/// Which of a body's postures a file gets.
-enum class PostureKind { kFinal, kReconstructed, kLooked, kRaw };
+/// Which of a body's postures a file gets: its joints, or what a stage before made.
+enum class PostureKind { kFinal, kReconstructed, kRefined, kRaw };
 
 /// The bodies of a frame as skeleton files hold them. Not-tracked joints keep the reconstruction's
-/// position and say not_tracked; in raw records they are absent, and in looked ones, which are raw
-/// ones where there was no close look. Bodies known by position only are
-/// left out.
+/// position and say not_tracked; in raw and refined records they are absent. Refined records are
+/// raw ones where there was no refinement. Bodies known by position only are left out.
 recon::SkeletonFrame RecordOf(const BodyFrame& frame, PostureKind kind = PostureKind::kFinal);
 
 }  // namespace ossa::tracker

@@ -126,7 +126,7 @@ struct Tracker::Impl {
     ReturnFreedMemory();
   }
 
-  BodyFrame Push(const depth::DepthFrame& frame);
+  BodyFrame Track(const depth::DepthFrame& frame);
   std::vector<Found> Segment(const depth::DepthFrame& frame, BodyFrame& result);
   Known KnownOf(const depth::Candidate& candidate, double time_s) const;
   std::vector<Person*> PersonsOf(const std::vector<int>& ids, double time_s);
@@ -256,8 +256,8 @@ void Tracker::Impl::TrackBody(const depth::DepthFrame& frame,
     const auto looked = LookClosely(*look, frame, found.candidate, perception.proposals, targets,
                                     body.raw, &person.bones);
     if (looked) {
-      body.looked = looked->joints_m;
-      body.looked_bones_m = looked->bones_m;
+      body.refined = looked->joints_m;
+      body.refined_bones_m = looked->bones_m;
     }
     ms.reconstruct += MillisecondsSince(start);
   }
@@ -274,7 +274,7 @@ void Tracker::Impl::TrackBody(const depth::DepthFrame& frame,
   person.before_s = frame.time_s;
 }
 
-BodyFrame Tracker::Impl::Push(const depth::DepthFrame& frame) {
+BodyFrame Tracker::Impl::Track(const depth::DepthFrame& frame) {
   const auto start = Clock::now();
   BodyFrame result;
   result.index = frame.index;
@@ -326,7 +326,7 @@ Tracker::~Tracker() = default;
 Tracker::Tracker(Tracker&&) noexcept = default;
 Tracker& Tracker::operator=(Tracker&&) noexcept = default;
 
-BodyFrame Tracker::Push(const depth::DepthFrame& frame) {
+BodyFrame Tracker::Track(const depth::DepthFrame& frame) {
   const std::string name = "frame " + std::to_string(frame.index);
   depth::CheckCamera(frame.camera, name + ": camera");
   const auto pixels = static_cast<int64_t>(frame.depth_mm.size());
@@ -335,7 +335,7 @@ BodyFrame Tracker::Push(const depth::DepthFrame& frame) {
                      std::to_string(frame.camera.height) + " depth values, found " +
                      std::to_string(pixels));
   }
-  return impl_->Push(frame);
+  return impl_->Track(frame);
 }
 
 int64_t Tracker::Run(depth::FrameSource& source,
@@ -347,7 +347,7 @@ int64_t Tracker::Run(depth::FrameSource& source,
     if (read.status == depth::ReadStatus::kEnd) break;
     if (read.status != depth::ReadStatus::kFrame) continue;
     dropped += read.dropped;
-    if (!on_bodies(Push(read.frame))) break;
+    if (!on_bodies(Track(read.frame))) break;
   }
   return dropped;
 }

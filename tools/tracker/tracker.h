@@ -11,6 +11,7 @@
 
 #include "depth/image/depth_frame.h"
 #include "depth/image/image.h"
+#include "recon/joint_array.h"
 #include "recon/posture.h"
 #include "tools/tracker/mechanics.h"
 #include "tools/tracker/smoothing.h"
@@ -37,24 +38,45 @@ enum class BodyState {
   kTracked,       // fully tracked
 };
 
-/// Raw, reconstructed and smoothed positions stand side by side; states and confidences belong to
-/// the raw observation. Camera space, metres.
+/// One joint of a tracked body, as an application uses it. Camera space, metres.
+struct JointEstimate {
+  Eigen::Vector3d position_m = Eigen::Vector3d::Zero();
+  /// Camera from bone: the bone that ends in this joint has its y axis along the way from the
+  /// parent, as the Kinect SDK's absolute orientations. HierarchicalOrientationsOf gives the SDK's
+  /// other kind.
+  Eigen::Quaterniond orientation = Eigen::Quaterniond::Identity();
+  /// Tracked: seen in the image. Inferred: guessed from what is seen around it. Not tracked: the
+  /// position is what is plausible for the rest of the body.
+  recon::TrackingState state = recon::TrackingState::kNotTracked;
+  double confidence = 0.0;   // the forest's own trust in what it saw, [0, 1]
+  double reliability = 0.0;  // R_i of Shum 2013, eq. 8: does it move and measure as a joint? [0, 1]
+};
+
+/// One person. `joints` is the skeleton; below it stands what each stage before it made of the
+/// person, for who compares or debugs stages. Camera space, metres.
 struct Body {
-  int id = 0;
+  int id = 0;  // the same from frame to frame for as long as the person is followed, from 1
   BodyState state = BodyState::kTracked;
   Eigen::Vector3d position_m = Eigen::Vector3d::Zero();  // middle of the seen surface
-  recon::TrackedPosture raw;                             // what the image says, joint by joint
-  std::optional<recon::Posture> looked;  // the raw joints after a close look, where there was one
-  std::optional<recon::BoneLengths> looked_bones_m;  // what the look judges of this frame alone
-  recon::Posture reconstructed;               // made complete and bone-consistent by the method
+  recon::JointArray<JointEstimate> joints;  // as at first where only the position is known
+  unsigned clipped_edges = 0;               // of ClippedEdge
+  double person_score = 0.0;                // how sure the forest is that this is a person, [0, 1]
+
+  /// Stage 1, the forest: the joints chosen among its proposals, in this frame alone.
+  recon::TrackedPosture raw;
+  /// Stage 2, the refinement cascade at the depth image: the raw joints moved; absent without one.
+  std::optional<recon::Posture> refined;
+  std::optional<recon::BoneLengths> refined_bones_m;  // as it judges them in this frame alone
+  /// Stage 3, the method of reconstruction: made complete, plausible and steady.
+  recon::Posture reconstructed;
   std::optional<recon::BoneLengths> bones_m;  // by all frames until now, of methods that keep bones
-  recon::Posture smoothed;  // after physics and smoothing, seen joints held to the image
-  std::array<double, recon::kJointCount> reliability{};  // R_i of the raw joints
-  recon::JointOrientations absolute_orientation;         // as the SDK defines them
-  recon::JointOrientations hierarchical_orientation;
-  unsigned clipped_edges = 0;  // of ClippedEdge
-  double person_score = 0.0;   // how sure the forest is that this is a person, [0, 1]
 };
+
+/// Positions of the skeleton, in enum order.
+recon::Posture PostureOf(const Body& body);
+
+/// Each bone's turn against its parent's, as the Kinect SDK's hierarchical orientations.
+recon::JointOrientations HierarchicalOrientationsOf(const Body& body);
 
 /// Milliseconds spent on one frame, several people's added up; on several threads `total` is less
 /// than the sum. Looks at furniture count with the stages.
@@ -110,7 +132,7 @@ class Tracker {
 
   /// One frame in, its bodies out: polling. Frames of any size, in order of time. Throws InputError
   /// when pixels and camera do not agree in number.
-  BodyFrame Push(const depth::DepthFrame& frame);
+  BodyFrame Track(const depth::DepthFrame& frame);
 
   /// Reads a source to its end, or until the callback returns false. `idle` is asked about ten
   /// times a second while no frame comes: false ends the run. Returns frames lost by the device.

@@ -85,9 +85,9 @@ struct OnePerson {
       const Eigen::Vector3d at_m(0.1 * static_cast<double>(j), 0, 2);
       person().visible[j] = true;
       person().joints_m.position_m[j] = at_m;
-      body().raw.posture.position_m[j] = body().smoothed.position_m[j] = at_m;
-      body().raw.state[j] = recon::TrackingState::kTracked;
-      body().raw.confidence[j] = 0.9;
+      body().raw.posture.position_m[j] = body().joints[j].position_m = at_m;
+      body().raw.state[j] = body().joints[j].state = recon::TrackingState::kTracked;
+      body().raw.confidence[j] = body().joints[j].confidence = 0.9;
     }
   }
   TruthBody& person() { return truth.bodies[0]; }
@@ -120,9 +120,9 @@ TEST(RoomJudge, SeenJointsAreJudgedBesideAll) {
 TEST(RoomJudge, WhatIsPlacedUnseenIsJudged) {
   OnePerson one;
   for (size_t j = 1; j < recon::kJointCount; j += 2) {
-    one.body().raw.state[j] = recon::TrackingState::kNotTracked;
-    one.body().raw.confidence[j] = 0.0;
-    one.body().smoothed.position_m[j].y() += 0.2;
+    one.body().raw.state[j] = one.body().joints[j].state = recon::TrackingState::kNotTracked;
+    one.body().raw.confidence[j] = one.body().joints[j].confidence = 0.0;
+    one.body().joints[j].position_m.y() += 0.2;
   }
   const RoomScore score = one.Judged();
   const ClipMetrics raw = Measure(score.raw), final = Measure(score.final);

@@ -37,14 +37,14 @@ double WorstDrift(const CompleteOptions& options, int settled = 0) {
       if (j >= 4 && j < 8) body.raw.state[j] = TrackingState::kInferred;
     }
     if (settled > 0) {
-      body.looked_bones_m = recon::StandardBoneLengths();
-      for (double& length_m : *body.looked_bones_m) length_m *= over(random);
+      body.refined_bones_m = recon::StandardBoneLengths();
+      for (double& length_m : *body.refined_bones_m) length_m *= over(random);
     }
     render.frame.time_s = f / 30.0;
     StageTimes ms;
     CompleteBody(render.frame, std::nullopt, options, person, body, ms);
     person.before_s = render.frame.time_s;
-    const recon::BoneLengths lengths = recon::BoneLengthsOf(body.smoothed);
+    const recon::BoneLengths lengths = recon::BoneLengthsOf(PostureOf(body));
     if (f == settled) first = lengths;
     for (size_t j = 1; f > settled && j < kJointCount; ++j) {
       worst = std::max(worst, std::abs(lengths[j] / first[j] - 1.0));

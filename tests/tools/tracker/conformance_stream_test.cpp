@@ -19,7 +19,7 @@ TEST(SdkConformance, FramesCarryNumberAndTimeOfTheDepthFrameTheyWereMadeFrom) {
   Tracker tracker(PlainOptions());
   for (const int number : {7, 8, 11}) {  // two frames were lost
     const auto render = Rendered({PersonAt(0, 2.5)}, number);
-    const BodyFrame bodies = tracker.Push(render.frame);
+    const BodyFrame bodies = tracker.Track(render.frame);
     EXPECT_EQ(bodies.index, number);
     EXPECT_EQ(bodies.time_s, render.frame.time_s);
   }
@@ -27,7 +27,7 @@ TEST(SdkConformance, FramesCarryNumberAndTimeOfTheDepthFrameTheyWereMadeFrom) {
 
 TEST(SdkConformance, NobodyIsAnEmptyFrameAndAnEmptyUserImage) {
   OSSA_NEEDS_MODEL();
-  const BodyFrame bodies = Tracker(PlainOptions()).Push(Rendered({}).frame);
+  const BodyFrame bodies = Tracker(PlainOptions()).Track(Rendered({}).frame);
   EXPECT_TRUE(bodies.bodies.empty());
   EXPECT_TRUE(bodies.floor.has_value());
   ASSERT_EQ(bodies.users.data.size(), 320U * 240U);
@@ -39,12 +39,12 @@ TEST(SdkConformance, TrackingIdsArePositiveDifferentAndNotGivenToSomebodyElse) {
   Tracker tracker(PlainOptions());
   std::set<int> first;
   for (const Body& body :
-       tracker.Push(Rendered({PersonAt(-0.6, 2.5), PersonAt(0.6, 2.8)}).frame).bodies)
+       tracker.Track(Rendered({PersonAt(-0.6, 2.5), PersonAt(0.6, 2.8)}).frame).bodies)
     first.insert(body.id);
   ASSERT_EQ(first.size(), 2U);
   EXPECT_GT(*first.begin(), 0);
   // Ten seconds later somebody else is there: nobody is remembered for so long.
-  for (const Body& body : tracker.Push(Rendered({PersonAt(0, 2.2)}, 300).frame).bodies)
+  for (const Body& body : tracker.Track(Rendered({PersonAt(0, 2.2)}, 300).frame).bodies)
     EXPECT_EQ(first.count(body.id), 0U);
 }
 
@@ -54,8 +54,8 @@ TEST(SdkConformance, NoMoreUsersThanAskedForAndTheyKeepTheirPlaces) {
   options.max_users = 1;
   Tracker tracker(options);
   const auto people = {PersonAt(-0.6, 2.5), PersonAt(0.6, 2.8)};
-  const BodyFrame first = tracker.Push(Rendered(people, 0).frame);
-  const BodyFrame second = tracker.Push(Rendered(people, 1).frame);
+  const BodyFrame first = tracker.Track(Rendered(people, 0).frame);
+  const BodyFrame second = tracker.Track(Rendered(people, 1).frame);
   ASSERT_EQ(first.bodies.size(), 1U);
   ASSERT_EQ(second.bodies.size(), 1U);
   EXPECT_EQ(second.bodies[0].id, first.bodies[0].id);
@@ -64,7 +64,7 @@ TEST(SdkConformance, NoMoreUsersThanAskedForAndTheyKeepTheirPlaces) {
 TEST(SdkConformance, JointsMapToTheirOwnersPixelsOfTheDepthImage) {
   OSSA_NEEDS_MODEL();
   const auto render = Rendered({PersonAt(-0.6, 2.5), PersonAt(0.6, 2.8)});
-  const BodyFrame bodies = Tracker(PlainOptions()).Push(render.frame);
+  const BodyFrame bodies = Tracker(PlainOptions()).Track(render.frame);
   ASSERT_EQ(bodies.bodies.size(), 2U);
   for (const Body& body : bodies.bodies) {
     for (const Joint joint : {Joint::kHead, Joint::kSpine, Joint::kShoulderCenter}) {
@@ -84,7 +84,7 @@ TEST(SdkConformance, JointsMapToTheirOwnersPixelsOfTheDepthImage) {
 TEST(SdkConformance, PositionIsTheMiddleOfTheUsersPixels) {
   OSSA_NEEDS_MODEL();
   const auto render = Rendered({PersonAt(0.4, 2.5)});
-  const BodyFrame bodies = Tracker(PlainOptions()).Push(render.frame);
+  const BodyFrame bodies = Tracker(PlainOptions()).Track(render.frame);
   ASSERT_EQ(bodies.bodies.size(), 1U);
   Eigen::Vector3d sum = Eigen::Vector3d::Zero();
   double pixels = 0;
@@ -101,20 +101,20 @@ TEST(SdkConformance, PositionIsTheMiddleOfTheUsersPixels) {
 
 TEST(SdkConformance, AHierarchicalOrientationIsTheBonesTurnAgainstItsParent) {
   OSSA_NEEDS_MODEL();
-  const BodyFrame bodies = Tracker(PlainOptions()).Push(Rendered({PersonAt(0, 2.5)}).frame);
+  const BodyFrame bodies = Tracker(PlainOptions()).Track(Rendered({PersonAt(0, 2.5)}).frame);
   ASSERT_EQ(bodies.bodies.size(), 1U);
   const Body& body = bodies.bodies[0];
   // The person faces the sensor: out of the front is towards it, up is up, within 20 degrees
   // of what the forest makes of a capsule figure.
-  const Eigen::Quaterniond player = body.absolute_orientation[0];
+  const Eigen::Quaterniond player = body.joints[0].orientation;
   EXPECT_LT((player * Eigen::Vector3d::UnitZ()).z(), -0.94);
   EXPECT_GT((player * Eigen::Vector3d::UnitY()).y(), 0.94);
   for (size_t j = 1; j < kJointCount; ++j) {
     const auto parent = static_cast<size_t>(recon::kJointParent[j]);
     const Eigen::Quaterniond turn =
-        body.absolute_orientation[parent].conjugate() * body.absolute_orientation[j];
+        body.joints[parent].orientation.conjugate() * body.joints[j].orientation;
     // Unit quaternions through one product; arc cosines near 1 lose half the digits.
-    EXPECT_LT(turn.angularDistance(body.hierarchical_orientation[j]), 1e-6) << "joint " << j;
+    EXPECT_LT(turn.angularDistance(HierarchicalOrientationsOf(body)[j]), 1e-6) << "joint " << j;
   }
 }
 
@@ -124,9 +124,9 @@ TEST(SdkConformance, SmoothingParametersChangeWhileRunning) {
   options.smoothing = SmoothingPreset("none");
   Tracker tracker(options);
   const auto smoothed_by_m = [&](int frame) {
-    const BodyFrame bodies = tracker.Push(Rendered({PersonAt(0.03 * frame, 2.5)}, frame).frame);
+    const BodyFrame bodies = tracker.Track(Rendered({PersonAt(0.03 * frame, 2.5)}, frame).frame);
     const Body& body = bodies.bodies.at(0);
-    return (body.smoothed[Joint::kHead] - body.reconstructed[Joint::kHead]).norm();
+    return (body.joints[Joint::kHead].position_m - body.reconstructed[Joint::kHead]).norm();
   };
   for (int frame = 0; frame < 3; ++frame) EXPECT_EQ(smoothed_by_m(frame), 0.0);
   tracker.SetSmoothing(SmoothingPreset("verysmooth"));

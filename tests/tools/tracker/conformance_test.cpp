@@ -26,7 +26,7 @@ std::vector<CapsulePose> SixPeople() {
 }
 
 BodyFrame TrackOnce(const TrackerOptions& options, const CapsuleRender& render) {
-  return Tracker(options).Push(render.frame);
+  return Tracker(options).Track(render.frame);
 }
 
 TEST(SdkConformance, UserIndexImageSaysWhosePixelEachIs) {
@@ -77,16 +77,16 @@ TEST(SdkConformance, RawReconstructedAndSmoothedStandSideBySide) {
   options.smoothing = SmoothingPreset("default");
   Tracker tracker(options);
   BodyFrame bodies;
-  for (int i = 0; i < 5; ++i) bodies = tracker.Push(Rendered({PersonAt(0.02 * i, 2.5)}, i).frame);
+  for (int i = 0; i < 5; ++i) bodies = tracker.Track(Rendered({PersonAt(0.02 * i, 2.5)}, i).frame);
   ASSERT_EQ(bodies.bodies.size(), 1U);
   const Body& body = bodies.bodies[0];
   for (size_t j = 0; j < kJointCount; ++j) {
     EXPECT_TRUE(body.reconstructed.position_m[j].allFinite());
-    EXPECT_TRUE(body.smoothed.position_m[j].allFinite());
-    EXPECT_GT(body.smoothed.position_m[j].z(), 0.5) << "in front of the sensor";
+    EXPECT_TRUE(body.joints[j].position_m.allFinite());
+    EXPECT_GT(body.joints[j].position_m.z(), 0.5) << "in front of the sensor";
   }
-  EXPECT_NE(body.reconstructed[Joint::kHead], body.smoothed[Joint::kHead]);
-  EXPECT_NE(body.raw.posture[Joint::kHead], body.smoothed[Joint::kHead]);
+  EXPECT_NE(body.reconstructed[Joint::kHead], body.joints[Joint::kHead].position_m);
+  EXPECT_NE(body.raw.posture[Joint::kHead], body.joints[Joint::kHead].position_m);
 }
 
 TEST(SdkConformance, BoneOrientationsAreAbsoluteAndHierarchical) {
@@ -95,14 +95,14 @@ TEST(SdkConformance, BoneOrientationsAreAbsoluteAndHierarchical) {
   const BodyFrame bodies = TrackOnce(options, Rendered({PersonAt(0, 2.5)}));
   ASSERT_EQ(bodies.bodies.size(), 1U);
   const Body& body = bodies.bodies[0];
-  const auto absolute = recon::AbsoluteOf(body.hierarchical_orientation);
+  const auto absolute = recon::AbsoluteOf(HierarchicalOrientationsOf(body));
   for (size_t j = 1; j < kJointCount; ++j) {
     const auto parent = static_cast<size_t>(recon::kJointParent[j]);
     const Eigen::Vector3d bone =
-        (body.smoothed.position_m[j] - body.smoothed.position_m[parent]).normalized();
+        (body.joints[j].position_m - body.joints[parent].position_m).normalized();
     // The SDK's convention: the bone is the y axis. Doubles through one product: 1e-9.
-    EXPECT_LT((body.absolute_orientation[j] * Eigen::Vector3d::UnitY() - bone).norm(), 1e-9);
-    EXPECT_LT(absolute[j].angularDistance(body.absolute_orientation[j]), 1e-6);
+    EXPECT_LT((body.joints[j].orientation * Eigen::Vector3d::UnitY() - bone).norm(), 1e-9);
+    EXPECT_LT(absolute[j].angularDistance(body.joints[j].orientation), 1e-6);
   }
 }
 
@@ -143,7 +143,7 @@ TEST(SdkConformance, SeatedModeTracksTheTenUpperJoints) {
     const bool seated = IsSeatedJoint(static_cast<Joint>(j));
     upper += seated ? 1 : 0;
     if (!seated) {
-      EXPECT_EQ(bodies.bodies[0].raw.state[static_cast<size_t>(j)], TrackingState::kNotTracked);
+      EXPECT_EQ(bodies.bodies[0].joints[static_cast<Joint>(j)].state, TrackingState::kNotTracked);
     }
   }
   EXPECT_EQ(upper, 10);
@@ -154,8 +154,8 @@ TEST(SdkConformance, ModesChangeWhileRunning) {
   Tracker tracker(PlainOptions());
   const CapsuleRender render = Rendered({PersonAt(0, 2.5)});
   const auto tracked = [&] {
-    const BodyFrame bodies = tracker.Push(render.frame);
-    return bodies.bodies.at(0).raw.state[static_cast<size_t>(recon::Index(Joint::kSpine))];
+    const BodyFrame bodies = tracker.Track(render.frame);
+    return bodies.bodies.at(0).joints[Joint::kSpine].state;
   };
   EXPECT_NE(tracked(), TrackingState::kNotTracked);
   tracker.SetMode(TrackingMode::kSeated);
@@ -177,11 +177,11 @@ TEST(SdkConformance, ChosenUsersAreTrackedTheOthersByPositionOnly) {
   OSSA_NEEDS_MODEL();
   Tracker tracker(PlainOptions());
   const std::vector<CapsulePose> people = {PersonAt(-0.6, 2.5), PersonAt(0.6, 2.8)};
-  const BodyFrame first = tracker.Push(Rendered(people, 0).frame);
+  const BodyFrame first = tracker.Track(Rendered(people, 0).frame);
   ASSERT_EQ(first.bodies.size(), 2U);
   const int chosen = first.bodies[1].id;
   tracker.ChooseUsers({chosen});
-  const BodyFrame second = tracker.Push(Rendered(people, 1).frame);
+  const BodyFrame second = tracker.Track(Rendered(people, 1).frame);
   ASSERT_EQ(second.bodies.size(), 2U);
   for (const Body& body : second.bodies) {
     EXPECT_EQ(body.state == BodyState::kTracked, body.id == chosen);
@@ -190,7 +190,7 @@ TEST(SdkConformance, ChosenUsersAreTrackedTheOthersByPositionOnly) {
     EXPECT_NEAR(body.position_m.z(), 2.6, 0.5);
   }
   tracker.ChooseAllUsers();
-  for (const Body& body : tracker.Push(Rendered(people, 2).frame).bodies)
+  for (const Body& body : tracker.Track(Rendered(people, 2).frame).bodies)
     EXPECT_EQ(body.state, BodyState::kTracked);
 }
 
@@ -209,7 +209,7 @@ TEST(SdkConformance, TwoWhoPassEachOtherKeepTheirIdentities) {
   for (int i = 0; i <= 60; ++i) {  // two seconds, a metre a second, one passes 1.2 m behind
     const double way_m = -1.0 + i / 30.0;
     const BodyFrame bodies =
-        tracker.Push(Rendered({PersonAt(way_m, 2.4), PersonAt(-way_m, 3.6)}, i).frame);
+        tracker.Track(Rendered({PersonAt(way_m, 2.4), PersonAt(-way_m, 3.6)}, i).frame);
     EXPECT_LE(bodies.bodies.size(), 2U) << "frame " << i << ": nobody is cut in two";
     if (i != 0 && i != 60) continue;
     ASSERT_EQ(bodies.bodies.size(), 2U);
@@ -224,12 +224,12 @@ TEST(SdkConformance, TwoWhoPassEachOtherKeepTheirIdentities) {
 TEST(SdkConformance, APersonIsThereFromTheFirstFrameAndComesBackAsWhoTheyWere) {
   OSSA_NEEDS_MODEL();
   Tracker tracker(PlainOptions());
-  const BodyFrame first = tracker.Push(Rendered({PersonAt(0, 2.5)}, 0).frame);
+  const BodyFrame first = tracker.Track(Rendered({PersonAt(0, 2.5)}, 0).frame);
   ASSERT_EQ(first.bodies.size(), 1U);
-  for (int i = 1; i < 20; ++i) EXPECT_TRUE(tracker.Push(Rendered({}, i).frame).bodies.empty());
+  for (int i = 1; i < 20; ++i) EXPECT_TRUE(tracker.Track(Rendered({}, i).frame).bodies.empty());
   // A single look may leave doubts; four frames do not.
   BodyFrame back;
-  for (int i = 20; i < 25; ++i) back = tracker.Push(Rendered({PersonAt(0.2, 2.5)}, i).frame);
+  for (int i = 20; i < 25; ++i) back = tracker.Track(Rendered({PersonAt(0.2, 2.5)}, i).frame);
   ASSERT_EQ(back.bodies.size(), 1U);
   EXPECT_EQ(back.bodies[0].id, first.bodies[0].id);
 }
@@ -384,7 +384,7 @@ TEST(SdkConformance, ACameraThatCannotBeIsRefused) {
   constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
   for (const double f : {0.0, -287.5, kNan, std::numeric_limits<double>::infinity(), 1e-300}) {
     frame.camera.fx = f;
-    EXPECT_THROW(tracker.Push(frame), InputError) << f;
+    EXPECT_THROW(tracker.Track(frame), InputError) << f;
     const depth::Camera& c = frame.camera;
     const ossa_camera camera = {c.width, c.height, c.fx, c.fy, c.cx, c.cy};
     ossa_frame bodies;
@@ -393,7 +393,7 @@ TEST(SdkConformance, ACameraThatCannotBeIsRefused) {
   }
   frame.camera = depth::KinectV1Camera(320, 240);
   frame.camera.cy = kNan;
-  EXPECT_THROW(tracker.Push(frame), InputError);
+  EXPECT_THROW(tracker.Track(frame), InputError);
   ossa_tracker_destroy(by_c);
 }
 

@@ -33,7 +33,7 @@ struct HandInTheAir {
       CompleteBody(render.frame, std::nullopt, options, person, body, ms);
       person.before_s = render.frame.time_s;
     }
-    return body.smoothed.position_m[kHand];
+    return body.joints[kHand].position_m;
   }
 };
 

@@ -43,7 +43,7 @@ void MeasureByDistance(recon::CloseLook* look) {
 Body Tracked(const TrackerOptions& options) {
   Tracker tracker(options);
   BodyFrame result;
-  for (int i = 0; i < 15; ++i) result = tracker.Push(Rendered({PersonAt(0, 2.5)}, i).frame);
+  for (int i = 0; i < 15; ++i) result = tracker.Track(Rendered({PersonAt(0, 2.5)}, i).frame);
   EXPECT_EQ(result.bodies.size(), 1U);
   return result.bodies.empty() ? Body{} : result.bodies[0];
 }
@@ -58,14 +58,14 @@ TEST(LookedAt, JointsStandBesideTheRawOnesAndBestStartsFromThem) {
     return Tracked(options);
   };
   const Body there = higher(0.0), up = higher(0.06);
-  ASSERT_TRUE(there.looked && up.looked);
+  ASSERT_TRUE(there.refined && up.refined);
   const auto moved_m = [](const recon::Posture& a, const recon::Posture& b) {
     return (b[Joint::kHead] - a[Joint::kHead]).y();
   };
   EXPECT_NEAR(moved_m(there.raw.posture, up.raw.posture), 0.0, 1e-9);
-  EXPECT_NEAR(moved_m(there.raw.posture, *there.looked), 0.0, 1e-9);
-  EXPECT_NEAR(moved_m(up.raw.posture, *up.looked), 0.06, 0.005);
-  EXPECT_GT(moved_m(there.smoothed, up.smoothed), 0.02);  // bones are kept, so not all of it
+  EXPECT_NEAR(moved_m(there.raw.posture, *there.refined), 0.0, 1e-9);
+  EXPECT_NEAR(moved_m(up.raw.posture, *up.refined), 0.06, 0.005);
+  EXPECT_GT(moved_m(PostureOf(there), PostureOf(up)), 0.02);  // bones are kept, so not all of it
 }
 
 // Bones that the look judges half as long again are so in what best makes of the joints.
@@ -83,7 +83,7 @@ TEST(LookedAt, BestHasTheBonesThatTheLookJudges) {
     TrackerOptions options;
     options.look = folder / "bones.ossalook";
     look.Save(options.look);
-    return recon::BoneLengthsOf(Tracked(options).smoothed)[recon::Index(Joint::kAnkleLeft)];
+    return recon::BoneLengthsOf(PostureOf(Tracked(options)))[recon::Index(Joint::kAnkleLeft)];
   };
   EXPECT_NEAR(shin_m(1.5F) / shin_m(1.0F), 1.5, 0.01);  // in a file, weights are halves
 }
@@ -102,8 +102,8 @@ TEST(LookedAt, TheLookIsToldOfTheBonesOfAllFramesBefore) {
     std::vector<Body> frames;
     Tracker tracker(options);
     for (int i = 0; i < 20; ++i) {
-      const auto now = tracker.Push(Rendered({PersonAt(0, 2.3 + 0.02 * i)}, i).frame);
-      if (!now.bodies.empty() && now.bodies[0].looked) frames.push_back(now.bodies[0]);
+      const auto now = tracker.Track(Rendered({PersonAt(0, 2.3 + 0.02 * i)}, i).frame);
+      if (!now.bodies.empty() && now.bodies[0].refined) frames.push_back(now.bodies[0]);
     }
     return frames;
   };
@@ -121,16 +121,16 @@ TEST(LookedAt, TheLookIsToldOfTheBonesOfAllFramesBefore) {
   ASSERT_GT(with.size(), 10U);
   recon::JudgedBones before;
   for (size_t f = 0; f < with.size(); ++f) {
-    const recon::BoneLengths judged_m = *with[f].looked_bones_m;
+    const recon::BoneLengths judged_m = *with[f].refined_bones_m;
     const recon::BoneLengths told_m = f == 0 ? judged_m : before.mean_m;
     const double rise_m =
-        ((*with[f].looked)[Joint::kHead] - (*without[f].looked)[Joint::kHead]).norm();
+        ((*with[f].refined)[Joint::kHead] - (*without[f].refined)[Joint::kHead]).norm();
     EXPECT_NEAR(rise_m, recon::CloseLook::kStep_m * std::abs(recon::BoneOutputsOf(told_m)[0]),
                 0.001)
         << f;
     before.Add(judged_m);
   }
-  const double last = recon::BoneOutputsOf(*with.back().looked_bones_m)[0];
+  const double last = recon::BoneOutputsOf(*with.back().refined_bones_m)[0];
   EXPECT_GT(last - recon::BoneOutputsOf(before.mean_m)[0], 0.5);  // the mean is not the last one
 }
 
@@ -139,20 +139,20 @@ TEST(LookedAt, OtherMethodsGoByTheRawJoints) {
   const test::TemporaryFolder folder;
   TrackerOptions options = PlainOptions();
   const Body without = Tracked(options);
-  EXPECT_FALSE(without.looked);  // nobody asked
+  EXPECT_FALSE(without.refined);  // nobody asked
   options.look = folder / "head.ossalook";
   HeadHigher(0.06F).Save(options.look);
   const Body with = Tracked(options);
-  EXPECT_TRUE(with.looked);
-  EXPECT_EQ(with.smoothed[Joint::kHead], without.smoothed[Joint::kHead]);
+  EXPECT_TRUE(with.refined);
+  EXPECT_EQ(with.joints[Joint::kHead].position_m, without.joints[Joint::kHead].position_m);
 }
 
 TEST(LookedAt, NoLookMayBeAskedFor) {
   OSSA_NEEDS_MODEL();
   TrackerOptions options;
-  EXPECT_TRUE(Tracked(options).looked);
+  EXPECT_TRUE(Tracked(options).refined);
   options.look = "none";
-  EXPECT_FALSE(Tracked(options).looked);
+  EXPECT_FALSE(Tracked(options).refined);
 }
 
 TEST(LookedAt, AForestOfOnesOwnIsNotLookedAtUnasked) {
@@ -161,7 +161,7 @@ TEST(LookedAt, AForestOfOnesOwnIsNotLookedAtUnasked) {
   TrackerOptions options;
   options.model = folder / "own.ossa";
   std::filesystem::copy_file(ModelOrNothing(), options.model);
-  EXPECT_FALSE(Tracked(options).looked);
+  EXPECT_FALSE(Tracked(options).refined);
   options.look = folder / "missing.ossalook";
   EXPECT_THROW(Tracker{options}, InputError);
 }

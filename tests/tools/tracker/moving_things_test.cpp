@@ -83,7 +83,7 @@ TEST_P(MovingThing, IsNobody) {
       const bool there = f >= kEmpty;
       const Vector3d place_m(-from_m + step_m * (f - kEmpty), kFloor_m, z_m);
       bodies += static_cast<int>(
-          tracker.Push(Shown(there ? GetParam() : Thing{}, place_m, f).frame).bodies.size());
+          tracker.Track(Shown(there ? GetParam() : Thing{}, place_m, f).frame).bodies.size());
     }
     EXPECT_EQ(bodies, 0) << z_m << " m away";
   }

@@ -13,7 +13,7 @@ TrackerOptions WithParts() {
 TEST(BodyParts, AreGivenForEveryPixelOfAUserAndNoOther) {
   OSSA_NEEDS_MODEL();
   const auto render = Rendered({PersonAt(-0.5, 2.3), PersonAt(0.6, 2.8)});
-  const BodyFrame bodies = Tracker(WithParts()).Push(render.frame);
+  const BodyFrame bodies = Tracker(WithParts()).Track(render.frame);
   ASSERT_EQ(bodies.bodies.size(), 2U);
   ASSERT_EQ(bodies.parts.data.size(), bodies.users.data.size());
   for (size_t i = 0; i < bodies.parts.data.size(); ++i) {
@@ -26,7 +26,7 @@ TEST(BodyParts, AreGivenForEveryPixelOfAUserAndNoOther) {
 TEST(BodyParts, AreMostlyThoseOfThePersonInView) {
   OSSA_NEEDS_MODEL();
   const auto render = Rendered({PersonAt(0.0, 2.5)});
-  const BodyFrame bodies = Tracker(WithParts()).Push(render.frame);
+  const BodyFrame bodies = Tracker(WithParts()).Track(render.frame);
   int both = 0, same = 0;
   for (size_t i = 0; i < render.part.data.size(); ++i) {
     if (render.part.data[i] == 0 || bodies.parts.data[i] == 0) continue;
@@ -42,8 +42,8 @@ TEST(BodyParts, AreMostlyThoseOfThePersonInView) {
 TEST(BodyParts, ChangeNothingInTheJoints) {
   OSSA_NEEDS_MODEL();
   const auto render = Rendered({PersonAt(0.0, 1.1)});
-  const BodyFrame with = Tracker(WithParts()).Push(render.frame);
-  const BodyFrame without = Tracker(PlainOptions()).Push(render.frame);
+  const BodyFrame with = Tracker(WithParts()).Track(render.frame);
+  const BodyFrame without = Tracker(PlainOptions()).Track(render.frame);
   ASSERT_EQ(with.bodies.size(), 1U);
   ASSERT_EQ(without.bodies.size(), 1U);
   for (size_t j = 0; j < recon::kJointCount; ++j) {

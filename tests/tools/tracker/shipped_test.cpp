@@ -21,8 +21,8 @@ TEST(ShippedFile, NamedByItsPathTracksAsUnnamed) {
   TrackerOptions named;
   named.model = ShippedFile("body.ossa").string();
   const auto render = Rendered({PersonAt(0.0, 2.5)});
-  const BodyFrame a = Tracker(named).Push(render.frame);
-  const BodyFrame b = Tracker().Push(render.frame);
+  const BodyFrame a = Tracker(named).Track(render.frame);
+  const BodyFrame b = Tracker().Track(render.frame);
   ASSERT_EQ(a.bodies.size(), 1U);
   ASSERT_EQ(b.bodies.size(), 1U);
   for (size_t j = 0; j < recon::kJointCount; ++j) {
@@ -38,7 +38,7 @@ TEST(ShippedFile, OfWhatIsKnownOfALooksErrorsNoneIsTakenOffWhereNoneIsWanted) {
     TrackerOptions options;
     options.look = look;
     options.learned = learned;
-    const BodyFrame frame = Tracker(options).Push(render.frame);
+    const BodyFrame frame = Tracker(options).Track(render.frame);
     EXPECT_EQ(frame.bodies.size(), 1U);
     return frame.bodies.empty() ? recon::Posture() : frame.bodies[0].reconstructed;
   };

@@ -90,7 +90,7 @@ StillResult JudgeStill(const RealSet& set, const RealStill& still, tracker::Trac
     result.has_truth.push_back(truth.position_m || truth.pixel);
   }
   tracker.Reset();
-  const tracker::BodyFrame answer = tracker.Push(still.frame);
+  const tracker::BodyFrame answer = tracker.Track(still.frame);
   result.bodies = answer.bodies.size();
   double nearest = std::numeric_limits<double>::infinity();
   for (const tracker::Body& body : answer.bodies) {

@@ -8,10 +8,10 @@ StageJoints JointsAtStage(const tracker::Body& body, RealStage stage) {
   for (size_t j = 0; j < recon::kJointCount; ++j) {
     const bool seen = body.raw.state[j] != recon::TrackingState::kNotTracked;
     if (stage == RealStage::kFinal) {
-      joints[j] = body.smoothed.position_m[j];
+      joints[j] = body.joints[j].position_m;
     } else if (seen) {
-      const bool refined = stage == RealStage::kRefined && body.looked;
-      joints[j] = (refined ? *body.looked : body.raw.posture).position_m[j];
+      const bool refined = stage == RealStage::kRefined && body.refined;
+      joints[j] = (refined ? *body.refined : body.raw.posture).position_m[j];
     }
     if (joints[j] && !joints[j]->allFinite()) joints[j].reset();
   }

@@ -162,7 +162,7 @@ VideoScore JudgeVideo(const RealVideo& video, tracker::Tracker& tracker) {
   tracker.Reset();
   for (const depth::DepthFrame& frame : video.frames) {
     if (video.stills) tracker.Reset();
-    tracker::BodyFrame answer = tracker.Push(frame);
+    tracker::BodyFrame answer = tracker.Track(frame);
     ++score.frames;
     score.bodies += static_cast<int64_t>(answer.bodies.size());
     score.one_body += answer.bodies.size() == 1;

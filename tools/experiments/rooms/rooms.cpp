@@ -30,7 +30,7 @@ RoomScore Play(const RoomScenario& scenario, const RoomCast& cast, const Job& jo
   for (int64_t f = 0; f < stage.size(); ++f) {
     context.StopIfAsked();
     const LabelledFrame frame = stage.Shoot(f);
-    const tracker::BodyFrame answer = tracker.Push(frame.depth);
+    const tracker::BodyFrame answer = tracker.Track(frame.depth);
     judge.See(frame, answer);
     if (job.pictures_every == 0 || f % job.pictures_every != 0) continue;
     const auto name = fmt::format("{} {} {:03}.png", scenario.name, job.seed, f);

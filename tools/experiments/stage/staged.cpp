@@ -266,13 +266,13 @@ RecordedPair Studio::Record(const recon::MotionClip& clip, const StageOptions& o
       state_->context.StopIfAsked();
       const StagedFrame frame = set.Shoot(f);
       if (tracker) {
-        const tracker::BodyFrame bodies = tracker->Push(frame.depth);
+        const tracker::BodyFrame bodies = tracker->Track(frame.depth);
         const auto person = [&](tracker::PostureKind kind) {
           return PersonOf(tracker::RecordOf(bodies, kind), frame.truth);
         };
         observed.frames.push_back(person(tracker::PostureKind::kRaw));
         if (!state_->look_path.empty()) {
-          looked.frames.push_back(person(tracker::PostureKind::kLooked));
+          looked.frames.push_back(person(tracker::PostureKind::kRefined));
         }
       } else {
         observed.frames.push_back(sdk.Observe(frame));
