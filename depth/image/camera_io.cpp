@@ -120,24 +120,16 @@ Camera ReadManifestCamera(const std::filesystem::path& manifest_path) {
   return FromObject(manifest["camera"], name);
 }
 
-Camera ParseCamera(const std::string& text) {
-  if (text == "kinect-v1") return KinectV1Camera(640, 480);
+CameraChoice ParseCamera(const std::string& text) {
   const std::vector<double> values = SplitNumbers(text);
   if (values.size() != 4) {
-    throw InputError("--camera: expected kinect-v1 or fx,fy,cx,cy in pixels, found '" + text + "'");
+    PresetCamera(text, 1, 1);  // says what was expected, unless it is one
+    return CameraChoice(text);
   }
   Camera camera{1, 1, values[0], values[1], values[2], values[3]};
   CheckCamera(camera, "--camera");
   camera.width = camera.height = 0;  // not known yet
   return camera;
-}
-
-Camera CameraForSize(const Camera& camera, int width, int height) {
-  if (camera.width == width && camera.height == height) return camera;
-  if (camera.width == 0) {
-    return {width, height, camera.fx, camera.fy, camera.cx, camera.cy};
-  }
-  return Resized(camera, width, height);
 }
 
 }  // namespace ossa::depth

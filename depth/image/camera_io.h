@@ -3,6 +3,7 @@
 #include <string>
 
 #include "depth/image/camera.h"
+#include "depth/image/camera_presets.h"
 
 namespace ossa::depth {
 
@@ -18,12 +19,9 @@ std::string CameraToJson(const Camera& camera);
 /// The "camera" object of a data set's manifest.json.
 Camera ReadManifestCamera(const std::filesystem::path& manifest_path);
 
-/// What `--camera kinect-v1|fx,fy,cx,cy` says. Four numbers are in pixels of whatever frames come
-/// (of the whole image, where a sensor crops it), so their camera has width and height 0 until
-/// CameraForSize is told the size.
-Camera ParseCamera(const std::string& text);
-
-/// `camera` for frames of this size: one without a size takes it as it is, another is scaled.
-Camera CameraForSize(const Camera& camera, int width, int height);
+/// What `--camera PRESET|fx,fy,cx,cy` says (CameraPresetNames). Four numbers are in pixels of
+/// whatever frames come (of the whole image, where a sensor crops it), so their camera has width
+/// and height 0 until CameraForSize is told the size.
+CameraChoice ParseCamera(const std::string& text);
 
 }  // namespace ossa::depth

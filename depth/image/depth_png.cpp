@@ -56,6 +56,14 @@ ImageSize ReadDepthPngSize(const std::filesystem::path& path) {
   return DecodeGreyPngHeader(ReadBytes(path, 64), 16, path.string());
 }
 
+bool IsOtherPng(const std::filesystem::path& path) {
+  try {
+    return IsPngOfOtherKind(ReadBytes(path, 64), 16);
+  } catch (const InputError&) {
+    return false;
+  }
+}
+
 void WriteDepthPng(const std::filesystem::path& path, const DepthView& depth) {
   WriteBytes(path, EncodeGreyPng(reinterpret_cast<const uint8_t*>(depth.data_mm),
                                  {depth.width, depth.height},

@@ -21,6 +21,9 @@ Image<uint16_t> ReadDepthPng(const std::filesystem::path& path);
 /// Only the size of a depth image: reads and checks the header, not the pixels.
 ImageSize ReadDepthPngSize(const std::filesystem::path& path);
 
+/// A PNG with a sound header that is no depth image: colour, or of 8 bits.
+bool IsOtherPng(const std::filesystem::path& path);
+
 /// Writes atomically; the same image gives the same bytes.
 void WriteDepthPng(const std::filesystem::path& path, const DepthView& depth);
 

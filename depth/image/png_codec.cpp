@@ -136,15 +136,28 @@ std::vector<uint8_t> Encode(const uint8_t* samples, size_t stride, const PngForm
   return std::move(session.output);
 }
 
+bool HasSignature(std::span<const uint8_t> bytes) {
+  return bytes.size() >= kSignature.size() &&
+         std::equal(kSignature.begin(), kSignature.end(), bytes.begin());
+}
+
+bool HasHeader(std::span<const uint8_t> bytes) {
+  return bytes.size() >= kHeaderEnd && std::memcmp(bytes.data() + 12, "IHDR", 4) == 0;
+}
+
 }  // namespace
+
+bool IsPngOfOtherKind(std::span<const uint8_t> bytes, int bit_depth) {
+  return HasSignature(bytes) && HasHeader(bytes) &&
+         (bytes[24] != bit_depth || bytes[25] != PNG_COLOR_TYPE_GRAY);
+}
 
 ImageSize DecodeGreyPngHeader(std::span<const uint8_t> bytes, int bit_depth,
                               const std::string& name) {
-  if (bytes.size() < kSignature.size() ||
-      !std::equal(kSignature.begin(), kSignature.end(), bytes.begin())) {
+  if (!HasSignature(bytes)) {
     Fail(name, 0, "expected a PNG file, found " + std::to_string(bytes.size()) + " other bytes");
   }
-  if (bytes.size() < kHeaderEnd || std::memcmp(bytes.data() + 12, "IHDR", 4) != 0) {
+  if (!HasHeader(bytes)) {
     Fail(name, 8, "expected the PNG header IHDR, found none: the file is cut short or damaged");
   }
   const uint32_t width = BigEndian32(bytes.data() + 16);

@@ -14,6 +14,9 @@ namespace ossa::depth {
 ImageSize DecodeGreyPngHeader(std::span<const uint8_t> bytes, int bit_depth,
                               const std::string& name);
 
+/// Whether this begins as a PNG does, but of colours or of another bit depth.
+bool IsPngOfOtherKind(std::span<const uint8_t> bytes, int bit_depth);
+
 /// As above, with the pixels: row-major, height × width samples of bit_depth / 8 bytes.
 ImageSize DecodeGreyPng(std::span<const uint8_t> bytes, int bit_depth, const std::string& name,
                         std::vector<uint8_t>* samples);

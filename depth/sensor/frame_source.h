@@ -7,6 +7,7 @@
 #include <optional>
 #include <string>
 
+#include "depth/image/camera_presets.h"
 #include "depth/image/depth_frame.h"
 
 namespace ossa::depth {
@@ -43,22 +44,41 @@ class FrameSource {
   virtual std::optional<int64_t> frame_count() const = 0;
 };
 
+enum class NoteKind {
+  kInfo,     // what was assumed or passed over
+  kWarning,  // what was lost
+};
+
+/// What the 16-bit numbers of images are that do not say it themselves.
+enum class DepthFormat {
+  kPlain,      // lengths, SourceOptions::depth_scale to the metre
+  kSwapped,    // the same, with the bytes of each exchanged
+  kInverted,   // the same, subtracted from 65535
+  kDisparity,  // raw shifts of a Kinect v1, 11 bits, 2047 for no reading
+};
+
 struct SourceOptions {
-  std::optional<Camera> camera;  // overrides whatever the source says (but for camera.json)
+  std::optional<CameraChoice> camera = {};   // overrides whatever the source says
   std::chrono::milliseconds device_wait{0};  // how long to wait for a device to appear
   std::function<bool()> keep_waiting = {};   // asked ten times a second meanwhile; empty: yes
   // A recording's player that is silent for longer hangs inside OpenNI2: the file is damaged. The
   // player itself waits 3 s for a frame of a file that is merely cut short.
   std::chrono::milliseconds player_patience{10000};
+  // Units to the metre. Left out, they are millimetres, or the unit that a recording states; images
+  // that state none and cannot be millimetres of people are refused.
+  std::optional<double> depth_scale = {};
+  DepthFormat depth_format = DepthFormat::kPlain;
+  std::optional<double> fps = {};  // frames a second, whatever the recording says of its times
+  // One line for the user each; empty: nobody is told.
+  std::function<void(NoteKind, const std::string&)> note = {};
 };
 
-/// FILE.oni, FILE.png, in capitals or not, or a folder of the latter. A folder that cannot be read
-/// throws std::filesystem::filesystem_error.
+/// A file of depth images by its name, in capitals or not (FILE.oni, FILE.png), or a folder of the
+/// latter. A folder that cannot be read throws std::filesystem::filesystem_error.
 bool IsRecording(const std::filesystem::path& path);
 
-/// Opens SOURCE (docs/architecture.md, "Sources"): "openni:", "openni:URI", "FILE.oni", a folder of
-/// 16-bit PNGs in name order, or a DATASET folder; or one such PNG, a still. Throws InputError
-/// naming it and what was expected.
+/// Opens SOURCE: "openni:", "openni:URI", "FILE.oni", a folder of 16-bit PNGs, or a DATASET folder;
+/// or one such PNG, a still (docs/sources.md). Throws InputError naming it and what was expected.
 std::unique_ptr<FrameSource> OpenSource(const std::string& source,
                                         const SourceOptions& options = {});
 

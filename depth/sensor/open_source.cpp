@@ -3,6 +3,7 @@
 #include <system_error>
 
 #include "depth/base/error.h"
+#include "depth/sensor/folder_listing_internal.h"
 #include "depth/sensor/source_internal.h"
 
 namespace ossa::depth {
@@ -19,15 +20,14 @@ std::string LowerCaseExtension(const std::filesystem::path& path) {
 
 }  // namespace
 
-bool IsPngName(const std::filesystem::path& path) { return LowerCaseExtension(path) == ".png"; }
-
 bool IsRecording(const std::filesystem::path& path) {
   if (!std::filesystem::is_directory(path)) {
     return LowerCaseExtension(path) == ".oni" || IsPngName(path);
   }
   const std::filesystem::directory_iterator entries(path);
-  return std::any_of(begin(entries), end(entries),
-                     [](const auto& entry) { return IsPngName(entry.path()); });
+  return std::any_of(begin(entries), end(entries), [](const auto& entry) {
+    return IsPngName(entry.path()) || entry.path().filename() == "depth.txt";
+  });
 }
 
 std::unique_ptr<FrameSource> OpenSource(const std::string& source, const SourceOptions& options) {
@@ -36,15 +36,21 @@ std::unique_ptr<FrameSource> OpenSource(const std::string& source, const SourceO
     const std::string uri = source.substr(kDevicePrefix.size());
     std::error_code none;
     if (std::filesystem::is_regular_file(uri, none)) return OpenSource(uri, options);
-    return OpenOpenNiDevice(uri, options);
+    return Prepared(source, OpenOpenNiDevice(uri, options), UnitStated::kYes, options);
   }
   const std::filesystem::path path(source);
   std::error_code error;
   if (std::filesystem::is_directory(path, error)) {
-    return IsDataSet(path) ? OpenDataSet(path, options) : OpenFolder(path, options);
+    return Prepared(source,
+                    IsDataSet(path) ? OpenDataSet(path, options) : OpenFolder(path, options),
+                    UnitStated::kNo, options);
   }
-  if (LowerCaseExtension(path) == ".oni") return OpenOniFile(path, options);
-  if (IsPngName(path) && std::filesystem::exists(path, error)) return OpenStill(path, options);
+  if (LowerCaseExtension(path) == ".oni") {
+    return Prepared(source, OpenOniFile(path, options), UnitStated::kYes, options);
+  }
+  if (IsPngName(path) && std::filesystem::exists(path, error)) {
+    return Prepared(source, OpenStill(path, options), UnitStated::kNo, options);
+  }
   throw InputError(source +
                    ": expected openni:, openni:URI, FILE.oni, a 16-bit PNG or a folder of them, or "
                    "a data set, found no such thing");

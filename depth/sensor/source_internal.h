@@ -7,14 +7,10 @@
 
 namespace ossa::depth {
 
-/// Whether a file is a PNG by its name, .PNG as well.
-bool IsPngName(const std::filesystem::path& path);
-
-/// A folder of 16-bit PNGs in name order, 30 frames a second. Names that are all digits of one
-/// length are frame numbers: a number that is missing counts as a dropped frame, and time passes.
-/// A first frame whose header is damaged throws InputError at opening: it tells the size of all.
-/// Any other frame that cannot be read, or of another size than the first, does when its turn
-/// comes; reading again goes on with the one after it.
+/// A folder of 16-bit PNGs, ordered and timed as ListDepthFolder says. A frame number that is
+/// missing counts as a dropped frame, and time passes. Frames that cannot be read, or are of
+/// another size than most, are skipped, count as dropped, and are told of at the end; where there
+/// is no other, the first one's InputError is thrown.
 std::unique_ptr<FrameSource> OpenFolder(const std::filesystem::path& folder,
                                         const SourceOptions& options);
 
@@ -31,6 +27,18 @@ std::unique_ptr<FrameSource> OpenDataSet(const std::filesystem::path& folder,
 /// library is an InputError here, at opening or at the frame where it happens.
 std::unique_ptr<FrameSource> OpenOniFile(const std::filesystem::path& path,
                                          const SourceOptions& options);
+
+/// The camera whose images have this size; says in a note which was taken for whose.
+Camera CameraByImageSize(const std::string& name, int width, int height,
+                         const SourceOptions& options);
+
+/// Whether a source says what its numbers are.
+enum class UnitStated { kNo, kYes };
+
+/// The source with numbers and times as the options say. Without them, InputError where the first
+/// frames of a source that states no unit cannot be millimetres of people.
+std::unique_ptr<FrameSource> Prepared(const std::string& name, std::unique_ptr<FrameSource> source,
+                                      UnitStated unit, const SourceOptions& options);
 
 /// A device; an empty URI means the first found.
 std::unique_ptr<FrameSource> OpenOpenNiDevice(const std::string& uri, const SourceOptions& options);

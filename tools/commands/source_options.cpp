@@ -4,9 +4,12 @@
 
 #include <CLI/CLI.hpp>
 #include <cstdio>
+#include <set>
 
 #include "depth/base/error.h"
+#include "depth/base/one_line.h"
 #include "depth/image/camera_io.h"
+#include "depth/sensor/depth_coding.h"
 #include "tools/commands/command.h"
 #include "tools/commands/process.h"
 
@@ -23,6 +26,29 @@ std::function<bool()> KeepWaitingFor(const std::string& source, bool quiet) {
   };
 }
 
+// What a source has to say; of two that are opened in one run, once.
+void SayNote(depth::NoteKind kind, const std::string& text, bool quiet,
+             std::set<std::string>& said) {
+  if (quiet && kind == depth::NoteKind::kInfo) return;
+  if (said.insert(text).second) Say(text + "\n");
+}
+
+depth::SourceOptions DepthOptions(const SourceArguments& arguments, bool quiet) {
+  depth::SourceOptions options;
+  try {
+    if (!arguments.camera.empty()) options.camera = depth::ParseCamera(arguments.camera);
+    options.depth_format = depth::ParseDepthFormat(arguments.depth_format);
+  } catch (const InputError& error) {
+    throw UsageError(error.what());
+  }
+  if (arguments.depth_scale > 0) options.depth_scale = arguments.depth_scale;
+  if (arguments.fps > 0) options.fps = arguments.fps;
+  options.note = [quiet, said = arguments.said](depth::NoteKind kind, const std::string& text) {
+    SayNote(kind, OnOneLine(text), quiet, *said);
+  };
+  return options;
+}
+
 }  // namespace
 
 void AddSourceOptions(CLI::App& app, SourceArguments& arguments) {
@@ -31,7 +57,22 @@ void AddSourceOptions(CLI::App& app, SourceArguments& arguments) {
          "openni: (first device), openni:URI, FILE.oni, a 16-bit PNG or a folder of them, or a "
          "DATASET; openni:ossa://PATH plays what is recorded as a live device")
       ->required();
-  app.add_option("--camera", arguments.camera, "kinect-v1 or fx,fy,cx,cy in pixels");
+  std::string presets;
+  for (const std::string_view name : depth::CameraPresetNames()) presets.append(name).append(", ");
+  app.add_option("--camera", arguments.camera,
+                 presets +
+                     "or fx,fy,cx,cy in pixels (default: the source's own, else by its "
+                     "images' size)");
+  app.add_option("--depth-scale", arguments.depth_scale,
+                 "units to the metre of a recording's depths (default: its own, else 1000, "
+                 "millimetres)")
+      ->check(CLI::Range(1e-3, 1e6));
+  app.add_option("--depth-format", arguments.depth_format,
+                 "what the numbers are: plain, swapped (bytes), inverted (65535 is nearest) or "
+                 "disparity (Kinect v1, 11 bits)");
+  app.add_option("--fps", arguments.fps,
+                 "frames a second of a recording (default: its own times, else 30)")
+      ->check(CLI::Range(1e-3, 1e4));
 }
 
 void AddDeviceOptions(CLI::App& app, SourceArguments& arguments) {
@@ -43,18 +84,8 @@ void AddDeviceOptions(CLI::App& app, SourceArguments& arguments) {
       ->check(CLI::Range(1e-3, kLongest_s));
 }
 
-depth::SourceOptions CameraOptions(const SourceArguments& arguments) {
-  depth::SourceOptions options;
-  try {
-    if (!arguments.camera.empty()) options.camera = depth::ParseCamera(arguments.camera);
-  } catch (const InputError& error) {
-    throw UsageError(error.what());
-  }
-  return options;
-}
-
 std::unique_ptr<depth::FrameSource> OpenSource(const SourceArguments& arguments, bool quiet) {
-  depth::SourceOptions options = CameraOptions(arguments);
+  depth::SourceOptions options = DepthOptions(arguments, quiet);
   options.device_wait = Milliseconds(arguments.wait_s);
   if (arguments.wait_s > 0) options.keep_waiting = KeepWaitingFor(arguments.name, quiet);
   return depth::OpenSource(arguments.name, options);

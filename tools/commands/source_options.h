@@ -1,6 +1,7 @@
 #pragma once
 #include <chrono>
 #include <memory>
+#include <set>
 #include <string>
 
 #include "depth/sensor/frame_source.h"
@@ -13,20 +14,22 @@ namespace ossa::commands {
 
 /// A SOURCE and how it is read, the same for every command that has one.
 struct SourceArguments {
-  std::string name, camera;
+  std::string name, camera, depth_format = "plain";
+  double depth_scale = 0.0;  // units to the metre; 0: not said
+  double fps = 0.0;          // 0: not said
+  std::shared_ptr<std::set<std::string>> said = std::make_shared<std::set<std::string>>();
   double wait_s = 0.0;
   double patience_s = 5.0;
 };
 
-/// SOURCE and --camera.
+/// SOURCE, --camera, --depth-scale, --depth-format and --fps.
 void AddSourceOptions(CLI::App& app, SourceArguments& arguments);
 /// --wait and --patience, for what a device may do.
 void AddDeviceOptions(CLI::App& app, SourceArguments& arguments);
 
-/// What the arguments say of --camera; throws UsageError.
-depth::SourceOptions CameraOptions(const SourceArguments& arguments);
-
-/// Waits for a device as --wait asks, says so once unless quiet, and gives up at Ctrl-C.
+/// Waits for a device as --wait asks, says so once unless quiet, and gives up at Ctrl-C. What was
+/// assumed or passed over is said unless quiet, what was lost in any case. Throws UsageError for a
+/// --camera that is none.
 std::unique_ptr<depth::FrameSource> OpenSource(const SourceArguments& arguments, bool quiet);
 
 std::chrono::milliseconds Milliseconds(double seconds);

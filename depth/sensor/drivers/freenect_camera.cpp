@@ -3,7 +3,7 @@
 #include <cmath>
 
 #include "depth/sensor/drivers/freenect_camera_internal.h"
-#include "depth/sensor/drivers/kinect_depth.h"
+#include "depth/sensor/kinect_depth.h"
 
 namespace ossa::depth {
 namespace {

@@ -53,6 +53,7 @@ class VirtualCamera {
         ReadResult result = source_->Read(std::chrono::milliseconds(1000));
         if (result.status == ReadStatus::kFrame) {
           CheckSize(result.frame.camera);
+          index_ += static_cast<int>(result.dropped);
           return Timed(std::move(result.frame));
         }
         if (result.status == ReadStatus::kTimeout) continue;

@@ -1,12 +1,15 @@
 #include <gtest/gtest.h>
 
 #include <fstream>
+#include <string>
+#include <vector>
 
 #include "depth/base/error.h"
 #include "depth/image/camera_io.h"
 #include "depth/image/depth_png.h"
 #include "depth/sensor/frame_source.h"
 #include "tests/support/places.h"
+#include "tests/support/refused.h"
 #include "tests/support/temporary_folder.h"
 
 namespace ossa::depth {
@@ -62,46 +65,149 @@ TEST(FolderSource, NumbersThatAreTimeStampsAreNotCounted) {
   EXPECT_EQ(Next(*source).dropped, 0);
 }
 
-TEST(FolderSource, AnUnreadableFrameIsNamedAndReadingGoesOn) {
-  const TemporaryFolder folder;
-  WriteFrame(folder / "0.png", 1);
-  std::ofstream(folder / "1.png") << "not a PNG";
-  WriteFrame(folder / "2.png", 3);
-  const auto source = OpenSource(folder.path().string());
-  EXPECT_EQ(Next(*source).status, ReadStatus::kFrame);
-  EXPECT_THROW(Next(*source), InputError);
-  const ReadResult after = Next(*source);
-  EXPECT_EQ(after.frame.depth_mm[0], 3);
-  EXPECT_EQ(after.dropped, 1);
+// What a source told, a line a note.
+struct Notes {
+  std::string text;
+  SourceOptions Options() {
+    SourceOptions options;
+    options.note = [this](NoteKind, const std::string& note) { text += note + "\n"; };
+    return options;
+  }
+  bool Tell(const std::string& part) const { return text.find(part) != std::string::npos; }
+};
+
+// The values of all frames to the end.
+std::vector<uint16_t> ValuesOf(FrameSource& source) {
+  std::vector<uint16_t> values;
+  for (ReadResult result; (result = Next(source)).status == ReadStatus::kFrame;) {
+    values.push_back(result.frame.depth_mm[0]);
+  }
+  return values;
 }
 
-TEST(FolderSource, AFrameOfAnotherSizeIsRefusedByName) {
+std::vector<double> TimesOf(FrameSource& source) {
+  std::vector<double> times_s;
+  for (ReadResult result; (result = Next(source)).status == ReadStatus::kFrame;) {
+    times_s.push_back(result.frame.time_s);
+  }
+  return times_s;
+}
+
+TEST(FolderSource, FramesComeInNaturalOrder) {
   const TemporaryFolder folder;
-  WriteFrame(folder / "0.png", 1);
-  WriteFrame(folder / "1.png", 1, 16, 12);
+  for (const int number : {1, 2, 10, 9, 100}) {
+    WriteFrame(folder / ("img_" + std::to_string(number) + ".png"), static_cast<uint16_t>(number));
+  }
   const auto source = OpenSource(folder.path().string());
-  Next(*source);
-  try {
-    Next(*source);
-    FAIL();
-  } catch (const InputError& error) {
-    EXPECT_NE(std::string(error.what()).find("1.png: expected 8x6 like the first frame, found"),
-              std::string::npos);
+  EXPECT_EQ(ValuesOf(*source), (std::vector<uint16_t>{1, 2, 9, 10, 100}));
+}
+
+TEST(FolderSource, TimesInNamesAreTimes) {
+  const TemporaryFolder folder;
+  for (const char* name :
+       {"1305031102.175304.png", "1305031102.275304.png", "1305031104.275304.png"})
+    WriteFrame(folder / name, 1);
+  const auto times_s = TimesOf(*OpenSource(folder.path().string()));
+  ASSERT_EQ(times_s.size(), 3u);
+  EXPECT_NEAR(times_s[1], 0.1, 1e-6);
+  EXPECT_NEAR(times_s[2], 2.1, 1e-6);
+}
+
+TEST(FolderSource, DepthTxtSaysWhatIsWhen) {
+  const TemporaryFolder folder;
+  std::filesystem::create_directory(folder / "depth");
+  for (const char* name : {"b.png", "a.png", "c.png"}) {
+    WriteFrame(folder / (std::string("depth/") + name), static_cast<uint16_t>(name[0]));
+  }
+  std::ofstream(folder / "depth.txt") << "# time file\n5.0 depth/b.png\n5.1 depth/a.png\n";
+  for (const std::string& source : {folder.path().string(), (folder / "depth").string()}) {
+    EXPECT_TRUE(IsRecording(source));
+    EXPECT_EQ(ValuesOf(*OpenSource(source)), (std::vector<uint16_t>{'b', 'a'})) << source;
+    EXPECT_NEAR(TimesOf(*OpenSource(source))[1], 0.1, 1e-9);
   }
 }
 
-TEST(FolderSource, CameraIsCameraJsonElseTheOptionElseKinect) {
+TEST(FolderSource, FpsIsTheRateWhateverTheNamesSay) {
+  const TemporaryFolder folder;
+  for (const char* name : {"0.000.png", "0.033.png"}) WriteFrame(folder / name, 1);
+  EXPECT_DOUBLE_EQ(TimesOf(*OpenSource(folder.path().string(), {.fps = 10.0}))[1], 0.1);
+}
+
+TEST(FolderSource, AnUnreadableFrameIsSkippedCountedAndToldOf) {
+  const TemporaryFolder folder;
+  std::ofstream(folder / "0.png") << "not a PNG";
+  WriteFrame(folder / "1.png", 2);
+  std::ofstream(folder / "2.png") << "";
+  WriteFrame(folder / "3.png", 4);
+  Notes notes;
+  const auto source = OpenSource(folder.path().string(), notes.Options());
+  EXPECT_EQ(Next(*source).frame.depth_mm[0], 2);
+  const ReadResult after = Next(*source);
+  EXPECT_EQ(after.frame.depth_mm[0], 4);
+  EXPECT_EQ(after.dropped, 1);
+  EXPECT_EQ(Next(*source).status, ReadStatus::kEnd);
+  EXPECT_TRUE(notes.Tell("skipped 2 of 4 frames")) << notes.text;
+  EXPECT_TRUE(notes.Tell("0.png: byte 0")) << notes.text;
+}
+
+TEST(FolderSource, WhereNoFrameCanBeReadTheFirstIsRefused) {
+  const TemporaryFolder folder;
+  std::ofstream(folder / "0.png") << "not a PNG";
+  EXPECT_THROW(OpenSource(folder.path().string()), InputError);
+}
+
+TEST(FolderSource, AFrameOfAnotherSizeIsSkippedEvenTheFirst) {
+  const TemporaryFolder folder;
+  WriteFrame(folder / "0.png", 1, 16, 12);
+  for (const char* name : {"1.png", "2.png"}) WriteFrame(folder / name, 1);
+  Notes notes;
+  const auto source = OpenSource(folder.path().string(), notes.Options());
+  EXPECT_EQ(source->camera().width, 8);
+  EXPECT_EQ(ValuesOf(*source).size(), 2u);
+  EXPECT_TRUE(notes.Tell("0.png: expected 8x6 like the other frames, found 16x12")) << notes.text;
+}
+
+TEST(FolderSource, WhatIsNoDepthImageIsPassedOverWithANote) {
+  const TemporaryFolder folder;
+  for (const char* name : {"depth_0.png", "depth_1.png", "ir_0.png"}) WriteFrame(folder / name, 1);
+  std::ofstream(folder / "._depth_0.png") << "Mac";
+  std::ofstream(folder / "notes.txt") << "text";
+  const Image<uint8_t> grey(8, 6, 0);
+  WriteLabelPng(folder / "depth_shown.png", grey);
+  Notes notes;
+  const auto source = OpenSource(folder.path().string(), notes.Options());
+  EXPECT_EQ(source->frame_count(), 2);
+  EXPECT_TRUE(notes.Tell("passed over 4 files")) << notes.text;
+}
+
+TEST(FolderSource, ImagesThatAreNoneOfDepthAreRefusedByTheirKind) {
+  const TemporaryFolder folder;
+  WriteLabelPng(folder / "0.png", Image<uint8_t>(8, 6, 0));
+  test::ExpectRefused([&] { OpenSource(folder.path().string()); },
+                      "expected one channel of 16 bits, found grey of 8 bits");
+}
+
+TEST(FolderSource, CameraIsTheOptionElseCameraJsonElseBySize) {
   const TemporaryFolder folder;
   WriteFrame(folder / "0.png", 1);
   EXPECT_EQ(OpenSource(folder.path().string())->camera(), KinectV1Camera(8, 6));
   const SourceOptions options{.camera = ParseCamera("5,6,4,3"), .device_wait = {}};
-  const Camera chosen{8, 6, 5, 6, 4, 3};
+  const Camera chosen{8, 6, 5, 6, 4, 3}, stated{8, 6, 7, 7, 4, 3};
   EXPECT_EQ(OpenSource(folder.path().string(), options)->camera(), chosen);
-  const Camera stated{8, 6, 7, 7, 4, 3};
   WriteCameraJson(folder / "camera.json", stated);
-  EXPECT_EQ(OpenSource(folder.path().string(), options)->camera(), stated);
+  EXPECT_EQ(OpenSource(folder.path().string())->camera(), stated);
+  EXPECT_EQ(OpenSource(folder.path().string(), options)->camera(), chosen);
   WriteCameraJson(folder / "camera.json", KinectV1Camera(640, 480));
   EXPECT_THROW(OpenSource(folder.path().string()), InputError);
+}
+
+TEST(FolderSource, ACameraTakenByTheImageSizeIsToldOf) {
+  const TemporaryFolder folder;
+  WriteFrame(folder / "0.png", 1, 512, 424);
+  Notes notes;
+  const auto source = OpenSource(folder.path().string(), notes.Options());
+  EXPECT_EQ(source->camera().fx, 366.0);
+  EXPECT_TRUE(notes.Tell("512x424 are taken for a kinect-v2's (f 366 px)")) << notes.text;
 }
 
 TEST(FolderSource, NamesInCapitalsAreFramesToo) {

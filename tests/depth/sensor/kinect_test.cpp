@@ -5,8 +5,8 @@
 #include <fstream>
 
 #include "depth/base/error.h"
-#include "depth/sensor/drivers/kinect_depth.h"
 #include "depth/sensor/fakenect_dump.h"
+#include "depth/sensor/kinect_depth.h"
 #include "tests/support/depth_examples.h"
 #include "tests/support/places.h"
 #include "tests/support/run_command.h"

@@ -184,7 +184,6 @@ TEST(RecordCommand, KeepsWhatADeviceGaveBeforeAFrameThatCannotBeRecorded) {
 TEST(RecordCommand, SaysWhatIsWrongInOneLine) {
   const TemporaryFolder folder;
   WriteExampleFolder(folder.path(), 3);
-  std::ofstream(folder / "000001.png") << "no PNG";
   const std::string out = (folder / "x.oni").string();
   struct Case {
     std::vector<std::string> arguments;
@@ -202,8 +201,9 @@ TEST(RecordCommand, SaysWhatIsWrongInOneLine) {
            {{"record", "openni:", "--out", out}, 1, "no OpenNI2 device found"},
            {{"record", "openni:", "--out", out, "--camera", "1,2"}, 2, "--camera: expected"},
            {{"record", "x", "--out", out, "--patience", "nan"}, 2, "a finite number"},
-           {{"record", folder.path().string(), "--out", out, "--quiet"}, 1, "000001.png: byte 0"},
-           {{"record", folder.path().string(), "--out", "/nowhere/x.oni"},
+           {{"record", folder.path().string(), "--out", out, "--depth-format", "x"}, 2, "swapped"},
+           {{"record", "openni:", "--out", out, "--fps", "0"}, 2, "--fps"},
+           {{"record", folder.path().string(), "--out", "/nowhere/x.oni", "--quiet"},
             1,
             "cannot be written"}}) {
     const CommandResult result = RunOssa(bad.arguments);
@@ -212,6 +212,18 @@ TEST(RecordCommand, SaysWhatIsWrongInOneLine) {
     EXPECT_EQ(test::LineCount(result.err), 1) << result.err;
     EXPECT_FALSE(std::filesystem::exists(out));
   }
+}
+
+TEST(RecordCommand, AFrameThatCannotBeReadIsSkippedAndToldOf) {
+  const TemporaryFolder folder;
+  WriteExampleFolder(folder.path(), 3);
+  std::ofstream(folder / "000001.png") << "no PNG";
+  const std::string out = folder / "x.oni";
+  const CommandResult result = RunOssa({"record", folder.path().string(), "--out", out, "--quiet"});
+  EXPECT_EQ(result.exit_status, 0);
+  EXPECT_NE(result.err.find("skipped 1 of 3 frames"), std::string::npos) << result.err;
+  EXPECT_NE(result.err.find("000001.png: byte 0"), std::string::npos) << result.err;
+  EXPECT_EQ(depth::OpenSource(out)->frame_count(), 2);
 }
 
 // Debian puts fakenect's libfreenect beside the real one.

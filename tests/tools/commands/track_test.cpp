@@ -179,17 +179,36 @@ TEST(TrackCommand, AFolderWithGapsInItsNumbersIsTrackedInNameOrder) {
   EXPECT_EQ(recon::ReadSkeletons(out.string()).frames.size(), 4U);
 }
 
-TEST(TrackCommand, FramesOfChangingSizeEndWithOneLineThatNamesTheFile) {
+TEST(TrackCommand, FramesOfAnotherSizeAreSkippedAndToldOf) {
   OSSA_NEEDS_MODEL();
   const TemporaryFolder folder;
-  depth::WriteDepthPng(folder / "a.png", test::ExampleFrame(0, 64, 48).view());
+  for (const char* name : {"a.png", "c.png"}) {
+    depth::WriteDepthPng(folder / name, test::ExampleFrame(0, 64, 48).view());
+  }
   depth::WriteDepthPng(folder / "b.png", test::ExampleFrame(1, 32, 24).view());
   const auto out = folder / "x.jsonl";
   const CommandResult result = TrackTo(folder.path(), out, {"--quiet"});
-  EXPECT_EQ(result.exit_status, 1);
+  EXPECT_EQ(result.exit_status, 0);
   EXPECT_EQ(LineCount(result.err), 1) << result.err;
+  EXPECT_NE(result.err.find("skipped 1 of 3 frames"), std::string::npos) << result.err;
   EXPECT_NE(result.err.find("b.png"), std::string::npos) << result.err;
+  EXPECT_EQ(recon::ReadSkeletons(out.string()).frames.size(), 2U);
+}
+
+// Of a room in centimetres, as of anything that cannot be millimetres.
+TEST(TrackCommand, DepthsOfAnotherUnitAreRefusedUntilAnOptionReadsThem) {
+  OSSA_NEEDS_MODEL();
+  const TemporaryFolder folder;
+  depth::DepthFrame frame = Rendered({PersonAt(0, 2.6)}, 0).frame;
+  for (uint16_t& depth : frame.depth_mm) depth = static_cast<uint16_t>(depth / 10);
+  depth::WriteDepthPng(folder / "0.png", frame.view());
+  const auto out = folder / "x.jsonl";
+  const CommandResult refused = TrackTo(folder.path(), out, {"--quiet"});
+  EXPECT_EQ(refused.exit_status, 1);
+  EXPECT_EQ(LineCount(refused.err), 1) << refused.err;
+  EXPECT_NE(refused.err.find("--depth-scale 100 reads them"), std::string::npos) << refused.err;
   EXPECT_FALSE(std::filesystem::exists(out));
+  EXPECT_EQ(TrackTo(folder.path(), out, {"--depth-scale", "100"}).exit_status, 0);
 }
 
 TEST(TrackCommand, ADamagedRecordingEndsWithOneLineThatNamesIt) {

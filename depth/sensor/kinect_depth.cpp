@@ -1,4 +1,4 @@
-#include "depth/sensor/drivers/kinect_depth.h"
+#include "depth/sensor/kinect_depth.h"
 
 #include <cstddef>
 

@@ -1,0 +1,83 @@
+#include "depth/image/camera_presets.h"
+
+#include <algorithm>
+#include <array>
+
+#include "depth/base/error.h"
+
+namespace ossa::depth {
+namespace {
+
+// In the order of PresetCamera's figures.
+constexpr std::array<std::string_view, 9> kNames = {
+    "kinect-v1", "kinect-v2", "azure-nfov", "azure-wfov", "xtion", "d415", "d435", "d455", "femto"};
+
+// Azure Kinect and Orbbec's Femto share a sensor of 1024 × 1024 pixels, f about 504, which the wide
+// field of view shows whole and the narrow one from (192, 180) on (Azure Kinect SDK,
+// mode_specific_calibration.c); either mode may be binned by 2. Pixel centres are whole numbers.
+Camera AzureCamera(bool wide, int width, int height) {
+  constexpr double kFocal_px = 504.0;
+  const Camera whole{1024, 1024, kFocal_px, kFocal_px, 511.5, 511.5};
+  return Resized(wide ? whole : Cropped(whole, 192, 180, 640, 576), width, height);
+}
+
+// A RealSense scales its sensor's image until it covers the size asked for, and cuts the rest off
+// (rs-enumerate-devices -c of a D455: f 640 at 1280 x 720, 424 at 848 x 480, 384 at 640 x 480).
+Camera RealSenseCamera(double focal_at_1280_px, int rows_at_1280, int width, int height) {
+  const double scale = std::max(width / 1280.0, static_cast<double>(height) / rows_at_1280);
+  const double f = focal_at_1280_px * scale;
+  return {width, height, f, f, width / 2.0, height / 2.0};
+}
+
+bool IsAnyOf(int width, int height, std::initializer_list<std::array<int, 2>> sizes) {
+  return std::find(sizes.begin(), sizes.end(), std::array{width, height}) != sizes.end();
+}
+
+}  // namespace
+
+std::span<const std::string_view> CameraPresetNames() { return kNames; }
+
+Camera PresetCamera(std::string_view name, int width, int height) {
+  const auto scaled = [&](const Camera& camera) { return Resized(camera, width, height); };
+  if (name == "kinect-v1") return scaled(KinectV1Camera(640, 480));
+  // Users' calibrations: f 364 to 367; the centre varies by some pixels.
+  if (name == "kinect-v2") return scaled({512, 424, 366.0, 366.0, 256.0, 212.0});
+  if (name == "azure-nfov") return AzureCamera(false, width, height);
+  if (name == "azure-wfov") return AzureCamera(true, width, height);
+  // OpenNI's field of view, 58.6 degrees.
+  if (name == "xtion") return scaled({640, 480, 570.3, 570.3, 320.0, 240.0});
+  // Intel's data sheet: 65 degrees horizontally; users' D435 and D455 have f 640.
+  if (name == "d415") return RealSenseCamera(1005.0, 720, width, height);
+  if (name == "d435" || name == "d455") return RealSenseCamera(640.0, 800, width, height);
+  if (name == "femto") return AzureCamera(width == height, width, height);
+  std::string message = "--camera: expected fx,fy,cx,cy in pixels";
+  for (const std::string_view known : kNames) message.append(", ").append(known);
+  throw InputError(message + ", found '" + std::string(name) + "'");
+}
+
+CameraGuess GuessCamera(int width, int height) {
+  const auto guess = [&](std::string_view name, bool match = true) {
+    return CameraGuess{name, match, PresetCamera(name, width, height)};
+  };
+  if (IsAnyOf(width, height, {{512, 424}})) return guess("kinect-v2");
+  if (IsAnyOf(width, height, {{640, 576}, {320, 288}})) return guess("azure-nfov");
+  if (IsAnyOf(width, height, {{512, 512}, {1024, 1024}})) return guess("azure-wfov");
+  if (IsAnyOf(width, height,
+              {{1280, 800}, {1280, 720}, {848, 480}, {640, 360}, {480, 270}, {424, 240}})) {
+    return guess("d435");
+  }
+  const bool kinect = IsAnyOf(width, height, {{640, 480}, {320, 240}, {160, 120}, {80, 60}});
+  return {"kinect-v1", kinect, KinectV1Camera(width, height)};
+}
+
+Camera CameraForSize(const CameraChoice& choice, int width, int height) {
+  if (!choice.preset.empty()) return PresetCamera(choice.preset, width, height);
+  const Camera& camera = choice.camera;
+  if (camera.width == width && camera.height == height) return camera;
+  if (camera.width == 0) {
+    return {width, height, camera.fx, camera.fy, camera.cx, camera.cy};
+  }
+  return Resized(camera, width, height);
+}
+
+}  // namespace ossa::depth

@@ -1,0 +1,197 @@
+#include "depth/sensor/depth_census.h"
+
+#include <array>
+#include <bitset>
+#include <cmath>
+#include <cstdio>
+#include <span>
+
+namespace ossa::depth {
+namespace {
+
+constexpr int64_t kEnoughReadings = 2000;
+
+// Where people are followed, and some.
+constexpr double kNearest_mm = 300.0, kFarthest_mm = 12000.0;
+
+bool MayBeDistance(double mm) { return mm >= kNearest_mm && mm <= kFarthest_mm; }
+
+using Counts = std::vector<int64_t>;  // of each number, 65536
+
+// Of the numbers that are not 0.
+struct Spread {
+  int64_t readings = 0;
+  int64_t noughts = 0;
+  int distinct = 0;
+  int percent_1 = 0, percent_5 = 0, median = 0, percent_95 = 0, largest = 0;
+};
+
+int Percentile(const Counts& count, int64_t readings, double share) {
+  int64_t place = static_cast<int64_t>(share * static_cast<double>(readings - 1));
+  for (int number = 1; number < 65536; ++number) {
+    place -= count[static_cast<size_t>(number)];
+    if (place < 0) return number;
+  }
+  return 0;
+}
+
+Spread SpreadOf(const Counts& count) {
+  Spread spread;
+  spread.noughts = count[0];
+  for (int number = 1; number < 65536; ++number) {
+    const int64_t here = count[static_cast<size_t>(number)];
+    spread.readings += here;
+    spread.distinct += here > 0 ? 1 : 0;
+    if (here > 0) spread.largest = number;
+  }
+  spread.percent_1 = Percentile(count, spread.readings, 0.01);
+  spread.percent_5 = Percentile(count, spread.readings, 0.05);
+  spread.median = Percentile(count, spread.readings, 0.5);
+  spread.percent_95 = Percentile(count, spread.readings, 0.95);
+  return spread;
+}
+
+// Share of the readings for which something holds.
+template <typename Holds>
+double Share(const Counts& count, const Spread& spread, const Holds& holds) {
+  int64_t sum = 0;
+  for (int number = 1; number < 65536; ++number) {
+    if (holds(number)) sum += count[static_cast<size_t>(number)];
+  }
+  return static_cast<double>(sum) / static_cast<double>(spread.readings);
+}
+
+std::string Metres(double mm) {
+  std::array<char, 32> text{};
+  std::snprintf(text.data(), text.size(), "%.2g m", mm * 1e-3);
+  return text.data();
+}
+
+// The high byte of a distance is small; as the low one of every number it gives the exchange away.
+bool AreBytesExchanged(const Counts& count, const Spread& spread) {
+  constexpr int kMostHighByte = static_cast<int>(kFarthest_mm) / 256;
+  constexpr size_t kManyBytes = 16;
+  Counts exchanged(count.size(), 0);
+  std::bitset<256> low_bytes;
+  for (size_t number = 1; number < count.size(); ++number) {
+    exchanged[(number & 0xFF) << 8 | number >> 8] = count[number];
+    if (count[number] > 0) low_bytes.set(number >> 8);
+  }
+  const auto fits = [](int number) { return (number & 0xFF) <= kMostHighByte; };
+  return Share(count, spread, fits) > 0.995 && low_bytes.count() >= kManyBytes &&
+         MayBeDistance(SpreadOf(exchanged).median);
+}
+
+// Shifts end at 1090, infinitely far; no reading is 2047. Where everything was seen, nothing tells
+// them from millimetres of a wall so near that nobody could stand before it.
+bool AreShifts(const Counts& count, const Spread& spread) {
+  constexpr int kNoShift = 2047, kInfinite = 1091, kOfARoom = 880;  // 1.6 m
+  const auto between = [](int number) { return number >= kInfinite && number < kNoShift; };
+  if (Share(count, spread, between) > 0.002) return false;
+  if (spread.largest == kNoShift) {
+    return count[kNoShift] * 500 > spread.readings && spread.noughts * 10 < count[kNoShift];
+  }
+  const int64_t all = spread.readings + spread.noughts;
+  return spread.largest < kInfinite && spread.percent_1 > kNearest_mm &&
+         spread.percent_95 > kOfARoom && spread.noughts * 10 < all;
+}
+
+std::optional<DepthSuspicion> JudgeFormat(const Counts& count, const Spread& spread) {
+  constexpr int kInvertedFrom = 65535 - static_cast<int>(kFarthest_mm);
+  if (AreShifts(count, spread)) {
+    return DepthSuspicion{"a Kinect v1's raw shifts of 11 bits", "--depth-format disparity"};
+  }
+  if (spread.percent_5 > kInvertedFrom) {
+    return DepthSuspicion{"distances taken from 65535, so that the nearest are the largest",
+                          "--depth-format inverted"};
+  }
+  if (AreBytesExchanged(count, spread)) {
+    return DepthSuspicion{"distances whose two bytes are exchanged", "--depth-format swapped"};
+  }
+  return std::nullopt;
+}
+
+struct Unit {
+  int of_mm;  // so many to the millimetre
+  const char* looks;
+};
+
+// Whole millimetres times so many: sensors' readings have every remainder. What did not fit into 16
+// bits has any, or is 65535.
+std::optional<DepthSuspicion> JudgeMultiples(const Counts& count, const Spread& spread,
+                                             double share_of_steps_of_8) {
+  constexpr std::array<Unit, 4> kUnits = {{{10, "tenths of a millimetre"},
+                                           {8, "Kinect SDK depths with player bits, mm << 3"},
+                                           {5, "fifths of a millimetre, as TUM's"},
+                                           {4, "quarters of a millimetre"}}};
+  constexpr int kManyNumbers = 16, kSaturated = 65535;
+  constexpr double kNearlyAll = 0.8;  // of real images at most 0.48 are multiples of 4
+  if (spread.distinct < kManyNumbers) return std::nullopt;
+  for (const Unit& unit : kUnits) {
+    const auto is_multiple = [&](int number) {
+      return number % unit.of_mm == 0 || number == kSaturated;
+    };
+    // The bits of eight say who is there: it is the steps from pixel to pixel that have none.
+    const bool all = Share(count, spread, is_multiple) > kNearlyAll ||
+                     (unit.of_mm == 8 && share_of_steps_of_8 > 0.95);
+    // A sensor that rounds to centimetres is none of tenths, and sees people within 5 m.
+    const double least_mm = unit.of_mm == 10 ? 500.0 : kNearest_mm;
+    const double median_mm = static_cast<double>(spread.median) / unit.of_mm;
+    if (!all || median_mm < least_mm || median_mm > kFarthest_mm) continue;
+    return DepthSuspicion{std::string(unit.looks) +
+                              ": as millimetres half of them would lie beyond " +
+                              Metres(spread.median),
+                          "--depth-scale " + std::to_string(unit.of_mm * 1000)};
+  }
+  return std::nullopt;
+}
+
+std::optional<DepthSuspicion> JudgeRange(const Spread& spread) {
+  constexpr int kHeadAlone_mm = 640;    // nearer, a camera sees a head and no more
+  constexpr int kNearRoom_mm = 1000;    // no room ends here
+  constexpr int kNearerThanMost = 400;  // where few cameras see
+  constexpr int kBlind_mm = 120;        // where none does
+  if (spread.percent_95 < kHeadAlone_mm ||
+      (spread.percent_95 < kNearRoom_mm && spread.percent_5 < kNearerThanMost)) {
+    return DepthSuspicion{"centimetres: as millimetres nearly all of them would lie within " +
+                              Metres(spread.percent_95),
+                          "--depth-scale 100"};
+  }
+  if (spread.percent_5 < kBlind_mm) {
+    return DepthSuspicion{"no distances: many would lie within " + Metres(spread.percent_5) +
+                              ", where no depth camera sees (were they inverted or stretched?)",
+                          ""};
+  }
+  return std::nullopt;
+}
+
+}  // namespace
+
+void DepthCensus::Add(const DepthView& image) {
+  for (int v = 0; v < image.height; ++v) {
+    for (int u = 0; u < image.width; ++u) {
+      const int here = image.at(u, v);
+      ++count_[static_cast<size_t>(here)];
+      const int before = u > 0 ? image.at(u - 1, v) : 0;
+      if (here == 0 || before == 0 || here == before) continue;
+      ++steps_;
+      steps_of_8_ += (here - before) % 8 == 0 ? 1 : 0;
+    }
+  }
+}
+
+bool DepthCensus::IsEnough() const { return SpreadOf(count_).readings >= kEnoughReadings; }
+
+std::optional<DepthSuspicion> DepthCensus::Judge() const {
+  constexpr int64_t kEnoughSteps = 300;
+  constexpr int kFewNumbers = 10;  // a wall, or nothing
+  const Spread spread = SpreadOf(count_);
+  if (spread.readings < kEnoughReadings || spread.distinct < kFewNumbers) return std::nullopt;
+  if (auto found = JudgeFormat(count_, spread)) return found;
+  const double share =
+      steps_ < kEnoughSteps ? 0.0 : static_cast<double>(steps_of_8_) / static_cast<double>(steps_);
+  if (auto found = JudgeMultiples(count_, spread, share)) return found;
+  return JudgeRange(spread);
+}
+
+}  // namespace ossa::depth

@@ -1,0 +1,69 @@
+#include "depth/sensor/depth_list.h"
+
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+#include <fstream>
+#include <iterator>
+#include <optional>
+
+#include "depth/base/error.h"
+#include "depth/base/open_file.h"
+
+namespace ossa::depth {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr std::string_view kBlanks = " \t\r,";
+
+std::string_view TakeWord(std::string_view& line) {
+  line.remove_prefix(std::min(line.find_first_not_of(kBlanks), line.size()));
+  const std::string_view word = line.substr(0, line.find_first_of(kBlanks));
+  line.remove_prefix(word.size());
+  return word;
+}
+
+std::optional<DepthList::Entry> EntryOf(std::string_view line) {
+  const std::string_view time = TakeWord(line), file = TakeWord(line);
+  double time_s = 0.0;
+  const auto [end, error] = std::from_chars(time.data(), time.data() + time.size(), time_s);
+  const bool whole = error == std::errc() && end == time.data() + time.size();
+  if (!whole || !std::isfinite(time_s) || file.empty()) return std::nullopt;
+  return DepthList::Entry{time_s, std::string(file)};
+}
+
+}  // namespace
+
+DepthList ParseDepthList(std::string_view text) {
+  DepthList list;
+  for (int number = 1; !text.empty(); ++number) {
+    std::string_view line = text.substr(0, text.find_first_of("\n"));
+    text.remove_prefix(std::min(line.size() + 1, text.size()));
+    if (line.find_first_not_of(kBlanks) == std::string_view::npos || line.front() == '#') continue;
+    if (auto entry = EntryOf(line)) {
+      list.entries.push_back(std::move(*entry));
+    } else {
+      list.bad_lines.push_back(number);
+    }
+  }
+  std::stable_sort(list.entries.begin(), list.entries.end(),
+                   [](const auto& a, const auto& b) { return a.time_s < b.time_s; });
+  const double first_s = list.entries.empty() ? 0.0 : list.entries.front().time_s;
+  for (DepthList::Entry& entry : list.entries) entry.time_s -= first_s;
+  return list;
+}
+
+DepthList ReadDepthList(const fs::path& folder) {
+  constexpr std::uintmax_t kLargest = std::uintmax_t{256} << 20;  // a day of frames is a tenth
+  const fs::path path = folder / "depth.txt";
+  std::error_code none;
+  if (!fs::is_regular_file(path, none)) return {};
+  if (fs::file_size(path, none) > kLargest) return {};
+  std::ifstream file = OpenFile(path);
+  if (!file) throw InputError(path.string() + ": cannot be read");
+  const std::string text((std::istreambuf_iterator<char>(file)), {});
+  return ParseDepthList(text);
+}
+
+}  // namespace ossa::depth

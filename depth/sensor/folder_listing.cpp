@@ -1,0 +1,212 @@
+#include "depth/sensor/folder_listing_internal.h"
+
+#include <algorithm>
+#include <array>
+#include <map>
+#include <set>
+#include <string_view>
+#include <system_error>
+
+#include "depth/base/error.h"
+#include "depth/sensor/depth_list.h"
+#include "depth/sensor/frame_names.h"
+
+namespace ossa::depth {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr double kFramePeriod_s = 1.0 / 30.0;  // where nothing says when: the Kinect's rate
+
+// What lies in a folder, and what of it is left aside.
+struct Sorted {
+  std::vector<fs::path> depth;  // in natural order
+  std::vector<fs::path> other;
+};
+
+// Of those that may lie there no note is due.
+bool IsExpectedBeside(const fs::path& path) {
+  constexpr std::array<std::string_view, 5> kKnown = {"camera.json", "depth.txt", "manifest.json",
+                                                      "truth.jsonl", "extrinsics.json"};
+  return std::find(kKnown.begin(), kKnown.end(), path.filename().string()) != kKnown.end();
+}
+
+std::vector<fs::path> FilesIn(const fs::path& folder) {
+  std::vector<fs::path> paths;
+  std::error_code error, unknown;
+  for (fs::directory_iterator it(folder, error), end; !error && it != end; it.increment(error)) {
+    if (!it->is_directory(unknown)) paths.push_back(it->path());
+  }
+  if (error) throw InputError(folder.string() + ": cannot be read: " + error.message());
+  std::sort(paths.begin(), paths.end(), [](const fs::path& a, const fs::path& b) {
+    return NaturalLess(a.filename().string(), b.filename().string());
+  });
+  return paths;
+}
+
+// Words between whatever is no letter.
+bool HasWord(std::string_view family, std::span<const std::string_view> words) {
+  const auto is_letter = [](char c) { return c >= 'a' && c <= 'z'; };
+  for (size_t from = 0; from < family.size();) {
+    const size_t begin = static_cast<size_t>(
+        std::find_if(family.begin() + static_cast<ptrdiff_t>(from), family.end(), is_letter) -
+        family.begin());
+    size_t end = begin;
+    while (end < family.size() && is_letter(family[end])) ++end;
+    const std::string_view word = family.substr(begin, end - begin);
+    if (std::find(words.begin(), words.end(), word) != words.end()) return true;
+    from = end + 1;
+  }
+  return false;
+}
+
+enum class Rank { kDepth, kUnnamed, kNamedOther };
+
+// What a name says of the image: depth*.png beside ir*.png are the ones meant.
+Rank RankOf(const fs::path& png) {
+  constexpr std::array<std::string_view, 16> kOthers = {
+      "ir",  "infrared", "color", "colour", "rgb",   "amp",   "amplitude", "intensity",
+      "cnf", "mask",     "label", "labels", "index", "users", "conf",      "confidence"};
+  const std::string family = FamilyOfName(png.stem().string());
+  if (family.find("depth") != std::string::npos) return Rank::kDepth;
+  return HasWord(family, kOthers) ? Rank::kNamedOther : Rank::kUnnamed;
+}
+
+Sorted SortOut(const fs::path& folder) {
+  Sorted sorted;
+  std::map<Rank, std::vector<fs::path>> ranked;
+  for (fs::path& path : FilesIn(folder)) {
+    if (!IsPngName(path) || IsOtherPng(path)) {
+      if (!IsExpectedBeside(path)) sorted.other.push_back(std::move(path));
+    } else {
+      ranked[RankOf(path)].push_back(std::move(path));
+    }
+  }
+  for (auto& [rank, paths] : ranked) {
+    auto& to = sorted.depth.empty() ? sorted.depth : sorted.other;
+    std::move(paths.begin(), paths.end(), std::back_inserter(to));
+  }
+  return sorted;
+}
+
+void NotePassedOver(const fs::path& folder, const std::vector<fs::path>& others,
+                    const SourceOptions& options) {
+  constexpr size_t kNamed = 3;
+  if (others.empty() || !options.note) return;
+  std::string text = folder.string() + ": passed over " + std::to_string(others.size()) +
+                     (others.size() == 1 ? " file that is" : " files that are") +
+                     " no depth image: ";
+  for (size_t i = 0; i < std::min(others.size(), kNamed); ++i) {
+    text += (i > 0 ? ", " : "") + others[i].filename().string();
+  }
+  options.note(NoteKind::kInfo, text + (others.size() > kNamed ? ", ..." : ""));
+}
+
+// One frame of another size, or a broken first one, must not decide for all.
+ImageSize CommonSize(const std::vector<ListedFrame>& frames) {
+  std::vector<std::pair<ImageSize, int>> counts;
+  for (const ListedFrame& frame : frames) {
+    ImageSize size;
+    try {
+      size = ReadDepthPngSize(frame.path);
+    } catch (const InputError&) {
+      continue;  // told of when its turn comes
+    }
+    const auto same = [&](const auto& count) { return count.first == size; };
+    auto found = std::find_if(counts.begin(), counts.end(), same);
+    if (found == counts.end()) found = counts.insert(counts.end(), {size, 0});
+    ++found->second;
+  }
+  if (counts.empty()) return ReadDepthPngSize(frames.front().path);  // which says what is wrong
+  return std::max_element(counts.begin(), counts.end(),
+                          [](const auto& a, const auto& b) { return a.second < b.second; })
+      ->first;
+}
+
+std::vector<ListedFrame> FramesByName(const std::vector<fs::path>& paths) {
+  std::vector<std::string> stems;
+  for (const fs::path& path : paths) stems.push_back(path.stem().string());
+  const NamedTimes times = TimesOfNames(stems);
+  std::vector<ListedFrame> frames;
+  for (size_t i = 0; i < paths.size(); ++i) {
+    ListedFrame frame{paths[i], static_cast<int64_t>(i), 0.0};
+    if (times.kind == NamedTimes::Kind::kNumbers) frame.number = times.numbers[i];
+    const int64_t first = frames.empty() ? frame.number : frames.front().number;
+    frame.time_s = times.kind == NamedTimes::Kind::kTimes
+                       ? times.times_s[i]
+                       : static_cast<double>(frame.number - first) * kFramePeriod_s;
+    frames.push_back(std::move(frame));
+  }
+  return frames;
+}
+
+// As depth.txt beside the images or, as TUM's data sets have it, above their folder lists them.
+std::vector<ListedFrame> FramesByList(const fs::path& folder, const SourceOptions& options) {
+  const fs::path here = fs::absolute(folder).lexically_normal();
+  const fs::path plain = here.has_filename() ? here : here.parent_path();
+  for (const bool above : {false, true}) {
+    const fs::path place = above ? plain.parent_path() : folder;
+    const DepthList list = ReadDepthList(place);
+    std::vector<ListedFrame> frames;
+    for (const DepthList::Entry& entry : list.entries) {
+      const fs::path path = (place / entry.file).lexically_normal();
+      if (above && path.parent_path() != plain) continue;
+      frames.push_back({path, static_cast<int64_t>(frames.size()), entry.time_s});
+    }
+    if (frames.empty()) continue;
+    if (!list.bad_lines.empty() && options.note) {
+      options.note(NoteKind::kWarning,
+                   (place / "depth.txt").string() + ": line " +
+                       std::to_string(list.bad_lines.front()) +
+                       ": expected seconds and a file's name; lines passed over: " +
+                       std::to_string(list.bad_lines.size()));
+    }
+    const double first_s = frames.front().time_s;
+    for (ListedFrame& frame : frames) frame.time_s -= first_s;
+    return frames;
+  }
+  return {};
+}
+
+[[noreturn]] void FailEmpty(const fs::path& folder, const Sorted& sorted) {
+  const auto png = std::find_if(sorted.other.begin(), sorted.other.end(), IsPngName);
+  if (png != sorted.other.end()) ReadDepthPngSize(*png);  // says why it is none
+  if (fs::is_directory(folder / "shards")) {
+    throw InputError(
+        folder.string() +
+        ": expected a folder of 16-bit PNGs, found a packed data set, whose images are "
+        "cut out around people: `ossa render --format png` or both keeps them whole");
+  }
+  throw InputError(folder.string() + ": expected a folder of 16-bit PNGs, found none in it");
+}
+
+}  // namespace
+
+bool IsPngName(const fs::path& path) {
+  std::string extension = path.extension().string();
+  std::transform(extension.begin(), extension.end(), extension.begin(),
+                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+  return extension == ".png" && !path.filename().string().starts_with(".");
+}
+
+FolderListing ListDepthFolder(const fs::path& folder, const SourceOptions& options) {
+  Sorted sorted = SortOut(folder);
+  FolderListing listing;
+  listing.frames = FramesByList(folder, options);
+  if (!listing.frames.empty()) {
+    std::set<fs::path> listed;
+    for (const ListedFrame& frame : listing.frames) listed.insert(fs::absolute(frame.path));
+    for (const fs::path& path : sorted.depth) {
+      if (!listed.contains(fs::absolute(path).lexically_normal())) sorted.other.push_back(path);
+    }
+  } else if (sorted.depth.empty()) {
+    FailEmpty(folder, sorted);
+  } else {
+    listing.frames = FramesByName(sorted.depth);
+  }
+  NotePassedOver(folder, sorted.other, options);
+  listing.size = CommonSize(listing.frames);
+  return listing;
+}
+
+}  // namespace ossa::depth

@@ -1,0 +1,177 @@
+#include "depth/sensor/frame_names.h"
+
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+#include <optional>
+#include <ranges>
+
+namespace ossa::depth {
+namespace {
+
+bool IsDigit(char c) { return c >= '0' && c <= '9'; }
+
+size_t DigitsEnd(std::string_view text, size_t from) {
+  while (from < text.size() && IsDigit(text[from])) ++from;
+  return from;
+}
+
+std::string_view WithoutLeadingNoughts(std::string_view digits) {
+  return digits.substr(std::min(digits.find_first_not_of('0'), digits.size()));
+}
+
+// A name's last number and what stands around it.
+struct NumberedName {
+  std::string_view before, whole, fraction, after;
+};
+
+std::optional<NumberedName> LastNumberOf(std::string_view stem) {
+  size_t end = stem.size();
+  while (end > 0 && !IsDigit(stem[end - 1])) --end;
+  if (end == 0) return std::nullopt;
+  size_t begin = end;
+  while (begin > 0 && IsDigit(stem[begin - 1])) --begin;
+  NumberedName name{stem.substr(0, begin), stem.substr(begin, end - begin), {}, stem.substr(end)};
+  if (begin >= 2 && stem[begin - 1] == '.' && IsDigit(stem[begin - 2])) {
+    name.fraction = name.whole;
+    size_t whole = begin - 1;
+    while (whole > 0 && IsDigit(stem[whole - 1])) --whole;
+    name.whole = stem.substr(whole, begin - 1 - whole);
+    name.before = stem.substr(0, whole);
+  }
+  return name;
+}
+
+// All names' last numbers, where they are all that the names differ in; else empty.
+std::vector<NumberedName> LastNumbersOf(const std::vector<std::string>& stems) {
+  std::vector<NumberedName> names;
+  for (const std::string& stem : stems) {
+    const auto name = LastNumberOf(stem);
+    if (!name) return {};
+    names.push_back(*name);
+    const NumberedName& first = names.front();
+    if (name->before != first.before || name->after != first.after ||
+        name->fraction.empty() != first.fraction.empty()) {
+      return {};
+    }
+  }
+  return names;
+}
+
+std::optional<std::vector<int64_t>> WholeNumbers(const std::vector<NumberedName>& names) {
+  std::vector<int64_t> values;
+  for (const NumberedName& name : names) {
+    int64_t value = 0;
+    const char* const end = name.whole.data() + name.whole.size();
+    if (std::from_chars(name.whole.data(), end, value).ec != std::errc()) return std::nullopt;
+    values.push_back(value);
+  }
+  return values;
+}
+
+// Seconds and fraction, from the first frame on; subtracting first keeps the microseconds of a time
+// since 1970.
+std::vector<double> Seconds(const std::vector<NumberedName>& names,
+                            const std::vector<int64_t>& whole) {
+  std::vector<double> times_s;
+  for (size_t i = 0; i < names.size(); ++i) {
+    double fraction = 0.0;
+    const std::string text = "0." + std::string(names[i].fraction);
+    std::from_chars(text.data(), text.data() + text.size(), fraction);
+    times_s.push_back(static_cast<double>(whole[i] - whole[0]) + fraction);
+  }
+  for (double& time_s : times_s | std::views::reverse) time_s -= times_s.front();
+  return times_s;
+}
+
+int64_t MedianStep(const std::vector<int64_t>& values) {
+  std::vector<int64_t> steps;
+  for (size_t i = 1; i < values.size(); ++i) steps.push_back(values[i] - values[i - 1]);
+  std::nth_element(steps.begin(), steps.begin() + static_cast<ptrdiff_t>(steps.size() / 2),
+                   steps.end());
+  return steps[steps.size() / 2];
+}
+
+// Seconds a unit of whole numbers that are times, or nothing. Cameras give 0.5 to 200 frames a
+// second; below kLeastStep numbers rather count frames than milliseconds.
+std::optional<double> UnitOfTimes(int64_t step, size_t digits) {
+  constexpr int64_t kLeastStep = 15;
+  constexpr size_t kSecondsSince1970 = 10, kNanosecondsSince1970 = 18;
+  if (step < kLeastStep) {
+    return digits == kSecondsSince1970 ? std::optional(1.0) : std::nullopt;
+  }
+  if (step <= 2000) return 1e-3;
+  if (step >= 5000 && step <= 2'000'000) return 1e-6;
+  const bool nanoseconds = step >= 5'000'000 && step <= 2'000'000'000;
+  return nanoseconds && digits >= kNanosecondsSince1970 ? std::optional(1e-9) : std::nullopt;
+}
+
+NamedTimes TimesOfWholeNumbers(const std::vector<NumberedName>& names,
+                               const std::vector<int64_t>& values) {
+  constexpr size_t kLongestCount = 8;  // digits: longer numbers are times or say nothing
+  const size_t digits = names.back().whole.size();
+  const bool alone = names.front().before.empty() && names.front().after.empty();
+  NamedTimes times;
+  const int64_t step = values.size() > 1 ? MedianStep(values) : 1;
+  if (const auto unit_s = UnitOfTimes(step, digits)) {
+    times.kind = NamedTimes::Kind::kTimes;
+    for (const int64_t value : values) {
+      times.times_s.push_back(static_cast<double>(value - values.front()) * *unit_s);
+    }
+  } else if (digits <= kLongestCount && (alone || step == 1)) {
+    times.kind = NamedTimes::Kind::kNumbers;
+    times.numbers = values;
+  }
+  return times;
+}
+
+}  // namespace
+
+bool NaturalLess(std::string_view a, std::string_view b) {
+  size_t i = 0, k = 0;
+  while (i < a.size() && k < b.size()) {
+    if (IsDigit(a[i]) && IsDigit(b[k])) {
+      const size_t end_a = DigitsEnd(a, i), end_b = DigitsEnd(b, k);
+      const auto digits_a = WithoutLeadingNoughts(a.substr(i, end_a - i));
+      const auto digits_b = WithoutLeadingNoughts(b.substr(k, end_b - k));
+      if (digits_a.size() != digits_b.size()) return digits_a.size() < digits_b.size();
+      if (digits_a != digits_b) return digits_a < digits_b;
+      i = end_a;
+      k = end_b;
+    } else {
+      if (a[i] != b[k]) return a[i] < b[k];
+      ++i;
+      ++k;
+    }
+  }
+  const size_t left_a = a.size() - i, left_b = b.size() - k;
+  return left_a != left_b ? left_a < left_b : a < b;  // 1 and 01: any order, but always the same
+}
+
+std::string FamilyOfName(std::string_view stem) {
+  std::string family;
+  for (size_t i = 0; i < stem.size(); ++i) {
+    const bool point_in_number = stem[i] == '.' && i > 0 && IsDigit(stem[i - 1]) &&
+                                 i + 1 < stem.size() && IsDigit(stem[i + 1]);
+    if (IsDigit(stem[i]) || point_in_number) continue;
+    const bool capital = stem[i] >= 'A' && stem[i] <= 'Z';
+    family += capital ? static_cast<char>(stem[i] - 'A' + 'a') : stem[i];
+  }
+  return family;
+}
+
+NamedTimes TimesOfNames(const std::vector<std::string>& stems) {
+  const std::vector<NumberedName> names = LastNumbersOf(stems);
+  if (names.empty()) return {};
+  const auto whole = WholeNumbers(names);
+  if (!whole) return {};
+  if (!names.front().fraction.empty()) {
+    NamedTimes times{NamedTimes::Kind::kTimes, {}, Seconds(names, *whole)};
+    const bool ordered = std::is_sorted(times.times_s.begin(), times.times_s.end());
+    return ordered ? times : NamedTimes{};
+  }
+  const bool twice = std::adjacent_find(whole->begin(), whole->end()) != whole->end();
+  return twice ? NamedTimes{} : TimesOfWholeNumbers(names, *whole);
+}
+
+}  // namespace ossa::depth

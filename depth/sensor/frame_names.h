@@ -1,0 +1,29 @@
+#pragma once
+#include <cstdint>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace ossa::depth {
+
+/// Natural order: runs of digits compare as numbers of any length, so img_2 comes before img_10.
+bool NaturalLess(std::string_view a, std::string_view b);
+
+/// What the names of one kind of file share: small letters, with every number left out ("depth_",
+/// "frame-.depth", "").
+std::string FamilyOfName(std::string_view stem);
+
+/// When the frames of a sequence were taken, by their files' names without extension.
+struct NamedTimes {
+  enum class Kind { kPlaces, kNumbers, kTimes };
+  Kind kind = Kind::kPlaces;
+  std::vector<int64_t> numbers;  // kNumbers: of the frames; one that is missing was dropped
+  std::vector<double> times_s;   // kTimes: not decreasing
+};
+
+/// Names in natural order. Numbers with a fraction are seconds; whole ones are frame numbers where
+/// they count in small steps, and else milliseconds, microseconds or nanoseconds where that makes a
+/// frame rate that cameras have; what is neither says no more than the order.
+NamedTimes TimesOfNames(const std::vector<std::string>& stems);
+
+}  // namespace ossa::depth

@@ -1,0 +1,92 @@
+#include <deque>
+#include <string>
+#include <utility>
+
+#include "depth/base/error.h"
+#include "depth/sensor/depth_census.h"
+#include "depth/sensor/depth_coding.h"
+#include "depth/sensor/source_internal.h"
+
+namespace ossa::depth {
+namespace {
+
+// A recording whose numbers become millimetres, and places times, on the way out.
+class PreparedSource final : public FrameSource {
+ public:
+  PreparedSource(std::string name, std::unique_ptr<FrameSource> source,
+                 const SourceOptions& options)
+      : name_(std::move(name)), source_(std::move(source)), fps_(options.fps) {
+    const DepthCoding coding{options.depth_format, options.depth_scale.value_or(1000.0)};
+    if (!coding.IsMillimetres()) table_ = MillimetreTable(coding);
+  }
+
+  // Looks at the first frames that show anything.
+  void RefuseOtherUnits() {
+    constexpr size_t kEnoughFrames = 3, kMostFrames = 30;
+    DepthCensus census;
+    while (ahead_.size() < kMostFrames && (ahead_.size() < kEnoughFrames || !census.IsEnough())) {
+      ReadResult read = source_->Read(std::chrono::milliseconds(100));
+      if (read.status == ReadStatus::kFrame) census.Add(read.frame.view());
+      const bool ended = read.status == ReadStatus::kEnd;
+      if (read.status == ReadStatus::kFrame || ended) ahead_.push_back(std::move(read));
+      if (ended) break;
+    }
+    const auto suspicion = census.Judge();
+    if (!suspicion) return;
+    const std::string reads =
+        suspicion->option.empty() ? "" : suspicion->option + " reads them so; ";
+    throw InputError(name_ + ": expected depths in millimetres, found what looks like " +
+                     suspicion->looks + " (" + reads +
+                     "--depth-scale 1000 takes them as they are)");
+  }
+
+  ReadResult Read(std::chrono::milliseconds timeout) override {
+    ReadResult read = Next(timeout);
+    if (read.status != ReadStatus::kFrame) return read;
+    for (uint16_t& depth : read.frame.depth_mm) {
+      if (table_.empty()) break;
+      depth = table_[depth];
+    }
+    if (!first_index_) first_index_ = read.frame.index;
+    if (fps_) read.frame.time_s = static_cast<double>(read.frame.index - *first_index_) / *fps_;
+    return read;
+  }
+  const Camera& camera() const override { return source_->camera(); }
+  bool is_live() const override { return false; }
+  std::optional<int64_t> frame_count() const override { return source_->frame_count(); }
+
+ private:
+  ReadResult Next(std::chrono::milliseconds timeout) {
+    if (ahead_.empty()) return source_->Read(timeout);
+    ReadResult read = std::move(ahead_.front());
+    ahead_.pop_front();
+    return read;
+  }
+
+  std::string name_;
+  std::unique_ptr<FrameSource> source_;
+  std::optional<double> fps_;
+  std::vector<uint16_t> table_;  // millimetres of each number; empty: they are millimetres
+  std::deque<ReadResult> ahead_;
+  std::optional<int64_t> first_index_;
+};
+
+}  // namespace
+
+std::unique_ptr<FrameSource> Prepared(const std::string& name, std::unique_ptr<FrameSource> source,
+                                      UnitStated unit, const SourceOptions& options) {
+  const bool asked = options.depth_scale || options.depth_format != DepthFormat::kPlain;
+  if (source->is_live()) {
+    if (asked || options.fps) {
+      throw InputError(name +
+                       ": expected a recording for --depth-scale, --depth-format and --fps, "
+                       "found a device, which states its units and times");
+    }
+    return source;
+  }
+  auto prepared = std::make_unique<PreparedSource>(name, std::move(source), options);
+  if (unit == UnitStated::kNo && !asked) prepared->RefuseOtherUnits();
+  return prepared;
+}
+
+}  // namespace ossa::depth

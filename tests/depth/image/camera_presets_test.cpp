@@ -1,0 +1,70 @@
+#include "depth/image/camera_presets.h"
+
+#include <gtest/gtest.h>
+
+#include "depth/base/error.h"
+#include "depth/image/camera_io.h"
+
+namespace ossa::depth {
+namespace {
+
+struct Size {
+  int width, height;
+  const char* preset;
+  double f_px;
+};
+
+class ImageSizes : public testing::TestWithParam<Size> {};
+
+TEST_P(ImageSizes, TellTheCamera) {
+  const auto [width, height, preset, f_px] = GetParam();
+  const CameraGuess guess = GuessCamera(width, height);
+  EXPECT_EQ(guess.preset, preset);
+  EXPECT_TRUE(guess.sizes_match);
+  EXPECT_NEAR(guess.camera.fx, f_px, 0.5);
+  EXPECT_NEAR(guess.camera.fy, f_px, 0.5);
+  EXPECT_EQ(guess.camera.width, width);
+}
+
+INSTANTIATE_TEST_SUITE_P(
+    Known, ImageSizes,
+    testing::Values(Size{640, 480, "kinect-v1", 575}, Size{320, 240, "kinect-v1", 287.5},
+                    Size{512, 424, "kinect-v2", 366}, Size{640, 576, "azure-nfov", 504},
+                    Size{320, 288, "azure-nfov", 252}, Size{1024, 1024, "azure-wfov", 504},
+                    Size{512, 512, "azure-wfov", 252}, Size{1280, 720, "d435", 640},
+                    Size{848, 480, "d435", 424}));
+
+TEST(ImageSizes, OfNoKnownCameraAreAKinectV1s) {
+  const CameraGuess guess = GuessCamera(100, 100);
+  EXPECT_FALSE(guess.sizes_match);
+  EXPECT_EQ(guess.camera, KinectV1Camera(100, 100));
+}
+
+TEST(CameraPreset, EachNameIsACameraOfTheSizeAsked) {
+  for (const std::string_view name : CameraPresetNames()) {
+    const Camera camera = CameraForSize(ParseCamera(std::string(name)), 640, 480);
+    EXPECT_TRUE(IsSane(camera)) << name;
+    EXPECT_EQ(camera.width, 640) << name;
+  }
+}
+
+// What rs-enumerate-devices prints of a D455.
+TEST(CameraPreset, ARealSenseCutsWhatDoesNotFitItsSensorsShape) {
+  EXPECT_NEAR(PresetCamera("d455", 640, 480).fx, 384, 1);
+  EXPECT_NEAR(PresetCamera("d455", 480, 270).fx, 240, 1);
+}
+
+// The middle of the sensor is not that of the narrow view.
+TEST(CameraPreset, AzuresNarrowViewLiesAboveTheMiddleOfTheSensor) {
+  const Camera camera = PresetCamera("azure-nfov", 640, 576);
+  EXPECT_DOUBLE_EQ(camera.cx, 319.5);
+  EXPECT_DOUBLE_EQ(camera.cy, 331.5);
+}
+
+TEST(CameraPreset, AFemtosSquareImageIsTheWideView) {
+  EXPECT_EQ(PresetCamera("femto", 512, 512), PresetCamera("azure-wfov", 512, 512));
+  EXPECT_EQ(PresetCamera("femto", 640, 576), PresetCamera("azure-nfov", 640, 576));
+}
+
+}  // namespace
+}  // namespace ossa::depth

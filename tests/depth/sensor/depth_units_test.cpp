@@ -1,0 +1,141 @@
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <functional>
+#include <string>
+
+#include "depth/base/error.h"
+#include "depth/image/depth_png.h"
+#include "depth/sensor/depth_census.h"
+#include "depth/sensor/depth_coding.h"
+#include "depth/sensor/frame_source.h"
+#include "tests/support/capsule_person.h"
+#include "tests/support/places.h"
+#include "tests/support/refused.h"
+#include "tests/support/temporary_folder.h"
+
+namespace ossa::depth {
+namespace {
+
+// A person in a room, with holes as sensors leave them.
+const DepthFrame& RoomFrame() {
+  static const DepthFrame frame = [] {
+    tests::CapsuleScene scene;
+    scene.people.push_back({});
+    scene.planes = tests::EmptyRoom();
+    scene.noise_m = 0.002;
+    DepthFrame made = tests::Render(scene, KinectV1Camera(160, 120)).frame;
+    for (size_t i = 0; i < made.depth_mm.size(); i += 37) made.depth_mm[i] = 0;
+    return made;
+  }();
+  return frame;
+}
+
+using Change = std::function<int(int)>;
+
+DepthFrame Changed(const Change& change) {
+  DepthFrame frame = RoomFrame();
+  for (uint16_t& depth : frame.depth_mm) depth = static_cast<uint16_t>(change(depth));
+  return frame;
+}
+
+std::optional<DepthSuspicion> Judged(const DepthFrame& frame) {
+  DepthCensus census;
+  census.Add(frame.view());
+  return census.Judge();
+}
+
+int KinectShift(int mm) {  // Burrus's fit, not the table that reads it
+  return mm == 0 ? 2047 : static_cast<int>((3.3309495161 - 1000.0 / mm) / 0.0030711016);
+}
+
+struct Case {
+  const char* what;
+  Change change;
+  const char* option;
+  double off_mm;  // by which a distance may come back wrong
+};
+
+class DepthsOfOtherKinds : public testing::TestWithParam<Case> {};
+
+TEST_P(DepthsOfOtherKinds, AreKnownAndTheOptionReadsThem) {
+  const auto suspicion = Judged(Changed(GetParam().change));
+  ASSERT_TRUE(suspicion.has_value());
+  EXPECT_EQ(suspicion->option, GetParam().option);
+  const std::string option = suspicion->option;
+  const std::string value = option.substr(option.find(' ') + 1);
+  DepthCoding coding;
+  if (option.starts_with("--depth-scale")) coding.units_per_metre = std::stod(value);
+  if (option.starts_with("--depth-format")) coding.format = ParseDepthFormat(value);
+  const auto table = MillimetreTable(coding);
+  for (const int mm : {1000, 2000, 3500}) {
+    EXPECT_NEAR(table[static_cast<size_t>(GetParam().change(mm))], mm, GetParam().off_mm);
+  }
+  EXPECT_EQ(table[static_cast<size_t>(GetParam().change(0))], 0);
+}
+
+INSTANTIATE_TEST_SUITE_P(
+    All, DepthsOfOtherKinds,
+    testing::Values(
+        Case{"quarters", [](int mm) { return mm * 4; }, "--depth-scale 4000", 0},
+        Case{"fifths", [](int mm) { return mm * 5; }, "--depth-scale 5000", 0},
+        Case{"eighths", [](int mm) { return mm * 8; }, "--depth-scale 8000", 0},
+        Case{"player_bits", [](int mm) { return mm << 3 | (mm > 0 && mm < 3100 ? 2 : 0); },
+             "--depth-scale 8000", 0.5},
+        Case{"tenths", [](int mm) { return mm * 10; }, "--depth-scale 10000", 0},
+        Case{"centimetres", [](int mm) { return mm / 10; }, "--depth-scale 100", 10},
+        Case{"disparity", KinectShift, "--depth-format disparity", 60},
+        Case{"swapped", [](int mm) { return (mm & 255) << 8 | mm >> 8; }, "--depth-format swapped",
+             0},
+        Case{"inverted", [](int mm) { return 65535 - mm; }, "--depth-format inverted", 0}),
+    [](const auto& info) { return std::string(info.param.what); });
+
+TEST(DepthCensus, MillimetresAreNotSuspected) { EXPECT_FALSE(Judged(RoomFrame()).has_value()); }
+
+TEST(DepthCensus, ShiftsWithoutAHoleAreKnown) {
+  const auto suspicion = Judged(Changed([](int mm) { return KinectShift(mm == 0 ? 3000 : mm); }));
+  ASSERT_TRUE(suspicion.has_value());
+  EXPECT_EQ(suspicion->option, "--depth-format disparity");
+}
+
+TEST(DepthCensus, DepthsThatNoCameraSeesAreRefusedWithoutAnOption) {
+  const auto suspicion = Judged(Changed([](int mm) { return mm > 4000 ? 40 : 4600 - mm; }));
+  ASSERT_TRUE(suspicion.has_value());
+  EXPECT_EQ(suspicion->option, "");
+}
+
+TEST(DepthCensus, TooLittleIsNotJudged) {
+  DepthFrame frame = Changed([](int mm) { return mm / 10; });
+  frame.depth_mm.resize(160 * 10);
+  frame.camera.height = 10;
+  EXPECT_FALSE(Judged(frame).has_value());
+}
+
+TEST(DepthUnits, ASuspectIsRefusedWithTheOptionThatReadsIt) {
+  const test::TemporaryFolder folder;
+  const DepthFrame centimetres = Changed([](int mm) { return mm / 10; });
+  WriteDepthPng(folder / "0.png", centimetres.view());
+  const std::string name = folder.path().string();
+  test::ExpectRefused([&] { OpenSource(name); }, "centimetres");
+  test::ExpectRefused([&] { OpenSource(name); }, "--depth-scale 100 reads them so");
+  const auto read = OpenSource(name, {.depth_scale = 100.0})->Read(std::chrono::milliseconds(1));
+  EXPECT_EQ(read.frame.depth_mm[5000], centimetres.depth_mm[5000] * 10);
+  const auto raw = OpenSource(name, {.depth_scale = 1000.0})->Read(std::chrono::milliseconds(1));
+  EXPECT_EQ(raw.frame.depth_mm[5000], centimetres.depth_mm[5000]);
+}
+
+TEST(DepthUnits, RealSensorsAreNotSuspected) {
+  const auto real = test::SharedFolder() / "real";
+  if (!std::filesystem::is_directory(real)) GTEST_SKIP() << "not here: " << real;
+  for (const char* name :
+       {"depth_frames/skeltrack_v1", "depth_frames/pcl_person", "depth_frames/pcl_five_people",
+        "itop_depth/side", "itop_depth/top", "kinect_v1_seated_video/depth"}) {
+    for (const auto& entry : std::filesystem::directory_iterator(real / name)) {
+      if (entry.path().extension() != ".png") continue;
+      EXPECT_NO_THROW(OpenSource(entry.path().string())) << entry.path();
+    }
+  }
+}
+
+}  // namespace
+}  // namespace ossa::depth

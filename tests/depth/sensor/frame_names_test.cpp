@@ -1,0 +1,87 @@
+#include "depth/sensor/frame_names.h"
+
+#include <gtest/gtest.h>
+
+namespace ossa::depth {
+namespace {
+
+using Kind = NamedTimes::Kind;
+
+TEST(NaturalOrder, NumbersCompareAsNumbers) {
+  EXPECT_TRUE(NaturalLess("img_2", "img_10"));
+  EXPECT_TRUE(NaturalLess("img_9", "img_0010"));
+  EXPECT_TRUE(NaturalLess("a", "b"));
+  EXPECT_TRUE(NaturalLess("a99999999999999999999", "a100000000000000000000"));
+  EXPECT_FALSE(NaturalLess("img_10", "img_2"));
+  EXPECT_FALSE(NaturalLess("img_2", "img_2"));
+}
+
+TEST(NaturalOrder, OfEqualNumbersOneComesFirst) {
+  EXPECT_NE(NaturalLess("01", "1"), NaturalLess("1", "01"));
+}
+
+TEST(FamilyOfName, IsWhatIsLeftWithoutNumbers) {
+  EXPECT_EQ(FamilyOfName("Depth_0012"), "depth_");
+  EXPECT_EQ(FamilyOfName("frame-000001.depth"), "frame-.depth");
+  EXPECT_EQ(FamilyOfName("1305031102.175304"), "");
+}
+
+struct Case {
+  const char* what;
+  std::vector<std::string> names;
+  Kind kind;
+  double last_s;
+};
+
+class NamesOfFrames : public testing::TestWithParam<Case> {};
+
+TEST_P(NamesOfFrames, SayWhatTheyCan) {
+  const NamedTimes times = TimesOfNames(GetParam().names);
+  EXPECT_EQ(times.kind, GetParam().kind);
+  if (times.kind == Kind::kTimes) {
+    EXPECT_NEAR(times.times_s.back(), GetParam().last_s, 1e-6);
+  }
+}
+
+// A 10 Hz clip with a gap of 2 s, in the clocks that recorders have.
+INSTANTIATE_TEST_SUITE_P(
+    AllClocks, NamesOfFrames,
+    testing::Values(
+        Case{"seconds",
+             {"1305031102.175304", "1305031102.275304", "1305031104.275304"},
+             Kind::kTimes,
+             2.1},
+        Case{"milliseconds since 1970",
+             {"1305031102175", "1305031102275", "1305031104275"},
+             Kind::kTimes,
+             2.1},
+        Case{
+            "milliseconds", {"depth_0", "depth_100", "depth_200", "depth_2200"}, Kind::kTimes, 2.2},
+        Case{"microseconds since 1970",
+             {"1305031102175304", "1305031102275304", "1305031102375304", "1305031104375304"},
+             Kind::kTimes,
+             2.2},
+        Case{"microseconds", {"000000", "100000", "200000"}, Kind::kTimes, 0.2},
+        Case{"nanoseconds since 1970",
+             {"1305031102175304000", "1305031102275304000"},
+             Kind::kTimes,
+             0.1},
+        Case{"frame numbers", {"000003", "000004", "000007"}, Kind::kNumbers, 0},
+        Case{"every third frame", {"0003", "0006", "0009"}, Kind::kNumbers, 0},
+        Case{"frame numbers after a word",
+             {"img_9", "img_10", "img_12", "img_13"},
+             Kind::kNumbers,
+             0},
+        Case{"a device's ticks", {"depth-1028894671", "depth-1038901490"}, Kind::kPlaces, 0},
+        Case{"too large a number", {"1", "99999999999999999999"}, Kind::kPlaces, 0},
+        Case{"one number twice", {"1", "01"}, Kind::kPlaces, 0},
+        Case{"different words", {"a1", "b2"}, Kind::kPlaces, 0},
+        Case{"no numbers", {"a", "b"}, Kind::kPlaces, 0}, Case{"none", {}, Kind::kPlaces, 0}),
+    [](const auto& info) {
+      std::string name = info.param.what;
+      std::erase_if(name, [](char c) { return !std::isalnum(static_cast<unsigned char>(c)); });
+      return name;
+    });
+
+}  // namespace
+}  // namespace ossa::depth
