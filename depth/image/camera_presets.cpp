@@ -5,6 +5,7 @@
 
 #include "depth/base/error.h"
 
+// Constants: measured, as users' calibrations and data sheets have them; pixels.
 namespace ossa::depth {
 namespace {
 

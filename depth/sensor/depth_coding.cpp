@@ -10,7 +10,7 @@
 namespace ossa::depth {
 namespace {
 
-constexpr uint32_t kNumbers = 65536;
+constexpr uint32_t kNumbers = 65536;  // that 16 bits hold, by definition
 
 uint32_t Plain(DepthFormat format, uint32_t number) {
   switch (format) {

@@ -16,7 +16,8 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr double kFramePeriod_s = 1.0 / 30.0;  // where nothing says when: the Kinect's rate
+constexpr double kFramePeriod_s =
+    1.0 / 30.0;  // where nothing says when: by convention the Kinect's rate
 
 // What lies in a folder, and what of it is left aside.
 struct Sorted {
@@ -91,7 +92,7 @@ Sorted SortOut(const fs::path& folder) {
 
 void NotePassedOver(const fs::path& folder, const std::vector<fs::path>& others,
                     const SourceOptions& options) {
-  constexpr size_t kNamed = 3;
+  constexpr size_t kNamed = 3;  // by hand: a line's worth
   if (others.empty() || !options.note) return;
   std::string text = folder.string() + ": passed over " + std::to_string(others.size()) +
                      (others.size() == 1 ? " file that is" : " files that are") +

@@ -2,6 +2,7 @@
 
 #include <cstddef>
 
+// Constants: libfreenect's and PrimeSense's published figures.
 namespace ossa::depth {
 
 // Triangulation between projector and camera: a raw depth is a shift, in eighths of a pixel,
