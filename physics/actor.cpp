@@ -27,11 +27,14 @@ recon::BoneLengths Checked(recon::BoneLengths lengths) {
 }
 
 /// A trust of 0 still follows, slowly: its place was filled in by someone who knew better.
-constexpr double kLeastStiffness = 0.3;
+constexpr double kLeastStiffness = 0.3;  // share
+// Constants: chosen by hand, where nothing else is said; thresholds of Lead by a sweep on UI-PRMD
+// and noisy motion capture.
+
 /// What the user insists on pulls the joints before it along (sec. 6.1), not they it.
-constexpr double kConstrainedWeight = 50.0;
-constexpr double kFarthest_m = 1000.0;      // beyond is no place in a room
-constexpr double kLargestSpeed_m_s = 15.0;  // of a target; a fast punch has 10
+constexpr double kConstrainedWeight = 50.0;  // times the weight of other joints
+constexpr double kFarthest_m = 1000.0;       // beyond is no place in a room
+constexpr double kLargestSpeed_m_s = 15.0;   // of a target; a fast punch has 10
 
 double SmoothStep(double x, double from, double to) {
   const double t = std::clamp((x - from) / (to - from), 0.0, 1.0);
@@ -178,10 +181,10 @@ void Actor::SetLead(size_t joint, const std::optional<Vector4d>& floor, double s
 /// steady motion. Noise moves a joint to and fro, motion moves it on: the ratio of the mean
 /// velocity to the mean speed tells them apart, without a noise level to be set. Only the mean
 /// velocity is told. Departure from eq. 1, which differentiates the target; that hands the sensor's
-/// jitter on. The thresholds: sweep on UI-PRMD and on noisy mocap, CHANGES.md.
+/// jitter on. The thresholds are of a sweep on UI-PRMD and noisy motion capture.
 Vector3d Actor::Lead(size_t joint, const Vector3d& velocity_m_s, double dt_s) {
   constexpr double kMemory_s = 0.077;
-  constexpr double kNoiseRatio = 0.4, kMotionRatio = 0.8;
+  constexpr double kNoiseRatio = 0.4, kMotionRatio = 0.8;  // ratio of speeds
   constexpr double kSlow_m_s = 0.05, kFast_m_s = 0.3;
   const double share = 1.0 - std::exp(-dt_s / kMemory_s);
   Vector3d& mean = mean_velocity_m_s[joint];

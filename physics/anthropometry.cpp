@@ -70,7 +70,8 @@ const Row& RowOf(size_t joint) {
   return kSpineRow;
 }
 
-constexpr double kTissueDensity_kg_m3 = 1080.0;  // limbs, Winter 2009 table 4.1: 1050-1160
+constexpr double kTissueDensity_kg_m3 = 1080.0;  // limbs, Winter 2009 table 4.1: 1050-1160; density
+// Anthropometry: the middle of the normal range (WHO)
 constexpr double kBodyMassIndex_kg_m2 = 22.0;
 
 Segment MakeSegment(const Row& row, double length_m, double stature_m, double mass_kg) {

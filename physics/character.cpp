@@ -298,7 +298,7 @@ void Character::DriveAxes(const ControlTarget& target, const ControlGains& gains
 void Character::DriveMotors(const ControlTarget& target, const ControlGains& gains, double h_s) {
   // The share of a bone's turning that its servo is told. 1: 0.37 frames late on UI-PRMD and 48 %
   // less shaken than the sensor; 0.7: 0.50 frames and 53 %; 0.4: 0.66 frames and 56 %.
-  constexpr double kTold = 0.7;
+  constexpr double kTold = 0.7;  // chosen so, between lag and noise
   const double gain = std::min(0.5 * gains.rate_rad_s, 0.5 / h_s);
   const auto set = [](dJointID motor, bool linear, const Vector3d& speed, double bound) {
     constexpr std::array<int, 3> kVelocity = {dParamVel1, dParamVel2, dParamVel3};

@@ -10,7 +10,7 @@ namespace {
 using recon::kJointCount;
 using recon::Posture;
 
-constexpr double kLongestStep_s = 0.25;
+constexpr double kLongestStep_s = 0.25;  // chosen by hand
 
 bool Complete(const Posture& posture) {
   for (const auto& p : posture.position_m) {

@@ -10,11 +10,13 @@
 
 namespace ossa::physics {
 
+// Constants: chosen by hand, where nothing else is said.
+
 struct CharacterFilterOptions {
   int substeps = 10;                  // per 1/30 s, [5, 100]
   Control control = Control::kPaper;  // world.h
   ControlGains gains;                 // control.h
-  double lead = 1.0;                  // CharacterOptions::lead
+  double lead = 1.0;                  // CharacterOptions::lead; share
   bool floor = true;                  // use the floor when one is given
   bool pin_feet = true;
   bool self_collision = true;

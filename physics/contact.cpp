@@ -9,6 +9,8 @@ using Eigen::Vector3d;
 
 namespace {
 
+// Constants: chosen by hand, where no derivation is said.
+
 // Contacts are implicit springs, stable at any stiffness: a leg pressed down with the largest
 // control force (2 kg x 250 m/s^2) sinks 0.1 mm. Damping takes half of an overlap away in a
 // substep.

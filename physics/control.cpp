@@ -5,6 +5,7 @@
 namespace ossa::physics {
 
 double LargestStableRate(double h_s) {
+  // No unit; half of the bound of the discrete system, see control.h
   constexpr double kLargestRateTimesStep = 0.25;
   return kLargestRateTimesStep / h_s;
 }

@@ -18,7 +18,7 @@ namespace ossa::physics {
 /// largest rho of the segment table, 3.65 (shank), while w h < 0.256; LargestStableRate keeps to
 /// 0.25.
 struct ControlGains {
-  double rate_rad_s = 35.0;              // w; the sweep is in CHANGES.md
+  double rate_rad_s = 35.0;              // w; chosen by a sweep on UI-PRMD and noisy mocap
   double max_acceleration_m_s2 = 250.0;  // |F_i| <= m_i times this
   /// |T_i| <= axial inertia times this.
   double max_angular_acceleration_rad_s2 = 2000.0;

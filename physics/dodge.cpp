@@ -5,6 +5,8 @@
 
 namespace ossa::physics {
 
+// Constants: chosen by hand.
+
 using Eigen::Vector3d;
 using recon::Joint;
 

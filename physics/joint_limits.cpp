@@ -13,6 +13,8 @@ namespace {
 
 using Eigen::Vector3d;
 
+// Constants: chosen by hand, where no source is said.
+
 constexpr double kBound_nm = 200.0;    // what ligaments bear, about
 constexpr double kReturn_rad_s = 8.0;  // fastest way back
 

@@ -10,6 +10,9 @@ using Eigen::Vector4d;
 
 namespace {
 
+// Constants: chosen by hand at authored motion and UI-PRMD (`ossa experiment shum-ho-2012`, parts =
+// ["filter"]).
+
 constexpr double kReach_m = 0.02;  // a pin pulls with at most stiffness x reach
 constexpr double kFootStiffness_n_m = 1e6;
 /// What a pin moves: a leg's worth. Only sets the damping, 2 sqrt(k m).
@@ -27,7 +30,7 @@ constexpr double kAway_m = 0.04, kAwayTime_s = 0.06;
 constexpr double kBeside_m = 0.012, kBesideTime_s = 0.25;
 
 /// The thresholds above at the noise that the target shows. A noisy target is averaged for longer
-/// and may stray further before it says anything; factors by a sweep on noisy mocap (CHANGES.md).
+/// and may stray further before it says anything; factors by a sweep on noisy mocap.
 struct Thresholds {
   explicit Thresholds(double noise_m) {
     constexpr double kClean_m = 0.004;

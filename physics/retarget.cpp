@@ -12,7 +12,7 @@ using recon::kJointCount;
 using recon::kJointParent;
 using recon::Posture;
 
-constexpr double kTinyLength_m = 1e-6;
+constexpr double kTinyLength_m = 1e-6;  // a bound, against division by 0
 
 }  // namespace
 

@@ -20,6 +20,8 @@ void Require(bool good, const std::string& name, double value, const std::string
   }
 }
 
+// Constants: chosen by hand, where nothing else is said.
+
 constexpr double kFrame_s = 1.0 / 30.0;
 constexpr double kDodgeHold_s = 0.3;
 /// Of the constraint solver. Servo motors have twice the rows; fewer iterations keep them below the

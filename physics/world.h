@@ -63,9 +63,9 @@ struct ObjectOptions {
   Eigen::Vector3d size_m = {0.2, 0.2,
                             0.2};  // box: edges; ball: x = diameter; capsule: x = diameter,
                                    // y = length between the centres of its caps, along y
-  double mass_kg = 1.0;
-  double friction = 0.8;
-  double bounce = 0.0;  // restitution, [0, 1)
+  double mass_kg = 1.0;            // by hand
+  double friction = 0.8;           // Coulomb's coefficient, no unit; by hand: rubber on wood
+  double bounce = 0.0;             // restitution, [0, 1)
   Eigen::Vector3d position_m = Eigen::Vector3d::Zero();
   Eigen::Quaterniond orientation = Eigen::Quaterniond::Identity();
   Eigen::Vector3d velocity_m_s = Eigen::Vector3d::Zero();

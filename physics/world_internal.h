@@ -19,6 +19,7 @@ inline int TagOf(dGeomID geom) {
 
 /// Limbs see the floor coming from this much further away than other things: a plane costs nothing,
 /// and a foot that jumps to a new target comes down at 15 m/s.
+// Derived: 15 m/s for a substep of 1/300 s is 5 cm; twice that
 constexpr double kFloorLook_m = 0.1;
 
 struct World::Impl {

@@ -16,8 +16,8 @@ Unit     a suffix of the name (kStep_m, rate_hz), or a word of UNITS in the comm
 Origin   a word of ORIGINS in the comment: a paper with its year or an equation, a derivation,
          anthropometry, a standard, a format or protocol, or how the number was chosen: "chosen on
          VALIDATION DATA by COMMAND", "measured on ...", "by hand" where nobody varied it.
-         A comment that begins with "Constants:" names the origin of all constants of its file that
-         name none. Names that end in Version, Magic or Signature are of a format, names like
+         A comment that begins with "Constants:" holds for all constants of its file, its unit and its
+         origin for those that name none. Names that end in Version, Magic or Signature are of a format, names like
          kMetresPerMillimetre are definitions and need neither.
 
 tests/constants_allowed.txt counts, for each room, the constants that do not comply yet. It may only
@@ -56,7 +56,7 @@ ORIGINS = re.compile(
     r"standards?(?! deviation)|formats?|protocols?|specification|data ?sheet|OpenNI2?|libfreenect|Embree|ODE|glTF|PNG|BVH|C3D|TRC|"
     r"Kinect v[12]|Kinect SDK|SDKs?|PrimeSense|cache lines?|registers?|SSE2?|AVX2?|AVX-512|rounding|bounds?|for speed)\b|§", re.I)
 OF_FILE = re.compile(r"\bConstants: ")
-CONVERSION = re.compile(r"k(?:Kilo|Milli|Micro|Nano|Centi|Deci)?(?:[Mm]etres?|[Ss]econds?|Degrees?|Radians?|Inch)Per[A-Z]\w*$")
+CONVERSION = re.compile(r"kDegree$|k(?:Kilo|Milli|Micro|Nano|Centi|Deci)?(?:[Mm]etres?|[Ss]econds?|Degrees?|Radians?|Inch)Per[A-Z]\w*$")
 FORMAT_NAME = re.compile(r"(?:Version|Magic|Signature)\d*$")
 
 
@@ -123,31 +123,30 @@ def constants_of(lines):
         i += 1
 
 
-def origin_of_file(lines):
-    """Whether a comment "Constants: ..." of the file names an origin."""
+def comment_of_file(lines):
+    """The text after "Constants: " in the comments of a file."""
     comments = [comment if not code.strip() else "" for code, comment in map(split_comment, lines)]
+    text = ""
     for i, comment in enumerate(comments):
         if OF_FILE.search(comment):
-            block = comment[OF_FILE.search(comment).end():]
+            text += " " + comment[OF_FILE.search(comment).end():]
             while i + 1 < len(comments) and comments[i + 1]:
                 i += 1
-                block += " " + comments[i]
-            if ORIGINS.search(block):
-                return True
-    return False
+                text += " " + comments[i]
+    return text
 
 
 def faults_of(lines):
     """(line number, name, what is missing) of every constant that does not comply."""
-    of_file = origin_of_file(lines)
+    of_file = comment_of_file(lines)
     for number, kind, name, initialiser, comment in constants_of(lines):
         if not needs_origin(initialiser) or CONVERSION.match(name):
             continue
         whole = re.fullmatch(WHOLE, kind) is not None
         missing = []
-        if not whole and not FORMAT_NAME.search(name) and not UNIT_SUFFIX.search(name) and not UNITS.search(comment):
+        if not whole and not FORMAT_NAME.search(name) and not UNIT_SUFFIX.search(name) and not UNITS.search(comment + " " + of_file):
             missing.append("unit")
-        if not of_file and not ORIGINS.search(comment) and not FORMAT_NAME.search(name):
+        if not ORIGINS.search(comment + " " + of_file) and not FORMAT_NAME.search(name):
             missing.append("origin")
         if missing:
             yield number, name, " and ".join(missing)

@@ -58,7 +58,7 @@ void RemoveLeftovers(const std::filesystem::path& final_path) {
 
 // Where a chain of symbolic links leads, also to where nothing is yet.
 std::filesystem::path EndOfLinks(std::filesystem::path path) {
-  constexpr int kMostLinks = 40;  // the kernel's own limit
+  constexpr int kMostLinks = 40;  // the kernel's own limit; by definition of MAXSYMLINKS
   std::error_code error;
   for (int k = 0; std::filesystem::is_symlink(path, error); ++k) {
     if (k == kMostLinks) {

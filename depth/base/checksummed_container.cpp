@@ -9,7 +9,7 @@
 namespace ossa {
 namespace {
 
-constexpr uint32_t kByteOrderMark = 0x01020304;
+constexpr uint32_t kByteOrderMark = 0x01020304;  // our format
 
 struct Header {
   std::array<char, 8> magic{};

@@ -13,7 +13,8 @@ namespace ossa {
 
 void PreferLargePages(const void* memory, size_t bytes) {
 #if defined(__linux__)
-  constexpr int kCollapse = 25;  // MADV_COLLAPSE of Linux 6.1, missing in older headers
+  // MADV_COLLAPSE of Linux 6.1, missing in older headers; by definition
+  constexpr int kCollapse = 25;
   constexpr uintptr_t kPage = uintptr_t{2} << 20U;
   const auto at = reinterpret_cast<uintptr_t>(memory);
   const uintptr_t begin = (at + kPage - 1) / kPage * kPage;

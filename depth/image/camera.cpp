@@ -9,6 +9,8 @@
 namespace ossa::depth {
 namespace {
 
+// Constants: bounds, far from any camera that exists; chosen by hand.
+
 struct Field {
   const char* name;
   double value, least, most;

@@ -7,7 +7,7 @@ namespace ossa::depth {
 
 /// Images larger than this in either direction are refused before anything is allocated: no depth
 /// camera comes near it, and a hostile header could ask for 16 GB.
-inline constexpr int kLargestImageSide = 8192;
+inline constexpr int kLargestImageSide = 8192;  // pixels; chosen by hand
 
 /// A pinhole depth camera without distortion. Pixel centres lie at integer (u, v); u grows to the
 /// image right, v down. Camera space: metres, right-handed, x to the sensor's left, y up, z

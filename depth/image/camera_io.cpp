@@ -17,7 +17,7 @@ namespace {
 using nlohmann::json;
 
 // A manifest is a few kilobytes; anything of this size is not one.
-constexpr std::streamoff kLargestJson = std::streamoff{16} << 20;
+constexpr std::streamoff kLargestJson = std::streamoff{16} << 20;  // bytes; chosen by hand
 
 std::string ReadText(const std::filesystem::path& path) {
   std::ifstream file = OpenFile(path, std::ios::ate);
@@ -51,7 +51,8 @@ double Number(const json& object, const char* field, const std::string& name) {
 }
 
 int WholeNumber(const json& object, const char* field, const std::string& name) {
-  constexpr double kAnInt = 1e9;  // holds it; what is too large for an image is told of by its name
+  // Holds it; what is too large for an image is told of by its name; pixels; a bound
+  constexpr double kAnInt = 1e9;
   const double value = Number(object, field, name);
   if (value != std::floor(value) || std::abs(value) > kAnInt) {
     throw InputError(name + ": camera: \"" + field + "\": expected a whole number of pixels");

@@ -20,7 +20,8 @@ namespace ossa::depth {
 namespace {
 
 constexpr std::array<uint8_t, 8> kSignature = {0x89, 'P', 'N', 'G', '\r', '\n', 0x1a, '\n'};
-constexpr size_t kHeaderEnd = 8 + 4 + 4 + 13;  // signature, IHDR's length, its name, its contents
+// Signature, IHDR's length, its name, its contents; PNG's format
+constexpr size_t kHeaderEnd = 8 + 4 + 4 + 13;
 
 uint32_t BigEndian32(const uint8_t* bytes) {
   return uint32_t{bytes[0]} << 24 | uint32_t{bytes[1]} << 16 | uint32_t{bytes[2]} << 8 | bytes[3];

@@ -5,6 +5,8 @@
 namespace ossa::depth {
 namespace {
 
+// Constants: sizes of furniture, chosen by hand.
+
 TriangleMesh BoxAt(const Eigen::Vector3f& size_m, const Eigen::Vector3f& centre_m) {
   return Moved(MakeBox(size_m), Eigen::Affine3f(Eigen::Translation3f(centre_m)));
 }

@@ -9,6 +9,8 @@
 namespace ossa::depth {
 namespace {
 
+// Constants: chosen by hand.
+
 // Neighbours that differ by more than this share of their depth lie on two surfaces.
 constexpr float kEdgeShare = 0.03F;
 
@@ -45,7 +47,8 @@ class WavyNoise {
     }
   }
   float At(int u, int v) const {
-    constexpr float kRestore = 1.5F;  // between nodes the variance is 4/9 of theirs on average
+    // Between nodes the variance is 4/9 of theirs on average; factor; derived: sqrt(9/4)
+    constexpr float kRestore = 1.5F;
     const float x = static_cast<float>(u) * scale_;
     const float y = static_cast<float>(v) * scale_;
     const int column = static_cast<int>(x);

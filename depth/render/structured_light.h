@@ -7,6 +7,9 @@
 
 namespace ossa::depth {
 
+// Constants: measured on real Kinect v1 frames where it says so (`ossa experiment sensor` prints
+// both), else chosen by hand at pictures of both.
+
 /// How a structured-light sensor (Kinect v1, Xtion) falls short of a perfect one. It matches a
 /// projected pattern in small windows: what it measures is a disparity, in steps, with edges as
 /// ragged as its windows, and nothing where the pattern is not seen.
@@ -21,16 +24,16 @@ struct StructuredLightOptions {
   /// leaves 1.25 mm at 1.1 m and 2.7 mm at 1.9 m, little more than the steps alone.
   double disparity_noise_px = 0.025;
   /// Noise of one matching window is shared by this many pixels each way (640 wide).
-  int window_px = 3;
+  int window_px = 3;  // by hand
   /// Standard deviation of where a window's measure comes from, pixels, and how far neighbours go
   /// together: outlines waver by a pixel or two in waves of ten, as in the real frames.
   double lateral_noise_px = 0.9;
   int lateral_cell_px = 6;
   /// Surfaces begin to drop out below this |cos| of incidence and are gone at half of it.
-  double grazing_cos = 0.2;
-  double dropout = 0.0002;     // share of windows that fail anywhere
-  double edge_dropout = 0.08;  // ... whose neighbourhood has a depth edge
-  double edge_mixed = 0.03;    // ... that mix near and far instead of choosing
+  double grazing_cos = 0.2;    // cosine
+  double dropout = 0.0002;     // share of windows that fail anywhere; share
+  double edge_dropout = 0.08;  // ... whose neighbourhood has a depth edge; share
+  double edge_mixed = 0.03;    // ... that mix near and far instead of choosing; share
   double nearest_m = 0.4;      // nothing is read nearer than this, nor
   double farthest_m = 8.0;     // farther than this
   /// Width of the whole image, pixels, when the camera is a crop of it; 0: it is not.

@@ -13,7 +13,7 @@ namespace ossa::recon {
 namespace {
 
 constexpr ContainerFormat kCacheFormat{{'O', 'S', 'S', 'A', 'B', 'O', 'D', 'Y'}, 2, "body cache"};
-constexpr float kDeltaUnit_dm = 1e-3f;
+constexpr float kDeltaUnit_dm = 1e-3f;  // decimetres a unit; our format
 
 /// A point that is a weighted sum of vertices of base.obj.
 using PointRule = std::vector<std::pair<uint32_t, float>>;

@@ -15,7 +15,9 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr double kMetresPerDecimetre = 0.1;
-constexpr float kDeltaUnit_dm = 1e-3f;
+// Constants: of MPFB's rig and shape targets, by their format; turns of fingers by eye.
+
+constexpr float kDeltaUnit_dm = 1e-3f;  // decimetres a unit
 
 /// A factor of a target's weight: the word in its name and how much of it the shape has.
 struct Term {
@@ -32,7 +34,7 @@ Factor WithoutZeros(Factor factor) {
 Factor Gender(double male) { return WithoutZeros({{"female", 1.0 - male}, {"male", male}}); }
 
 Factor Age(double age) {
-  constexpr double kChild = 0.1875, kYoung = 0.5, kOld = 1.0;
+  constexpr double kChild = 0.1875, kYoung = 0.5, kOld = 1.0;  // no unit: MPFB's scale of age
   const double old = std::clamp((age - kYoung) / (kOld - kYoung), 0.0, 1.0);
   const double child = std::clamp((kYoung - age) / (kYoung - kChild), 0.0, 1.0);
   return WithoutZeros({{"child", child}, {"young", 1.0 - old - child}, {"old", old}});

@@ -60,13 +60,15 @@ class Waves {
   std::array<Wave, 4> waves_;
 };
 
+// Constants: heights of the MPFB body, measured on its mesh; numbers of bones are the rig's.
+
 // The neutral body's heights, metres over the soles.
 constexpr float kSkullFrom_m = 1.50f;  // hair grows above, on the back of the head
 constexpr float kFringe_m = 1.60f, kEars_m = 0.06f;
 constexpr float kForehead_m = 1.60f;  // and above this also in front
 constexpr float kWaist_m = 1.00f, kCrotch_m = 0.80f;
 constexpr float kKnee_m = 0.475f;
-constexpr float kHiddenScale = 0.01f;  // of what is not worn
+constexpr float kHiddenScale = 0.01f;  // of what is not worn; factor; by hand
 
 }  // namespace
 

@@ -47,6 +47,8 @@ enum Bone : size_t {
   kFinger = 22,
   kThumb = 23,
 };
+// Constants: numbers of the rig's bones (MPFB's format).
+
 constexpr size_t kRightLegOffset = 5;  // from a left leg bone to the right one
 constexpr size_t kRightArmOffset = 7;
 

@@ -9,7 +9,7 @@
 namespace ossa::recon {
 
 /// The 31 bones of the MPFB rig `cmu_mb`, parents before children.
-inline constexpr int kRigBoneCount = 31;
+inline constexpr int kRigBoneCount = 31;  // MPFB's format
 inline constexpr std::array<std::string_view, kRigBoneCount> kRigBoneNames = {
     "Hips",         "LHipJoint",      "LeftUpLeg",       "LeftLeg",         "LeftFoot",
     "LeftToeBase",  "RHipJoint",      "RightUpLeg",      "RightLeg",        "RightFoot",
@@ -25,8 +25,8 @@ inline constexpr std::array<int, kRigBoneCount> kRigBoneParent = {
 /// A pose of the rig, independent of the body's shape. World: metres, y up; a person at rest stands
 /// on y = 0 facing +z with its left side at +x.
 struct RigPose {
-  Eigen::Vector3d root_m =
-      Eigen::Vector3d::Zero();  // head of bone Hips; for a body of the average height
+  // Head of bone Hips; for a body of the average height
+  Eigen::Vector3d root_m = Eigen::Vector3d::Zero();
   /// Rotation of each bone from its rest (the rig's own A-pose) to the world. Global, not relative
   /// to the parent; identity everywhere is the rest pose.
   std::array<Eigen::Quaterniond, kRigBoneCount> world_from_rest;

@@ -55,7 +55,7 @@ std::vector<ClipPosture> FilterIntraPoses(const PostureClip& clip, const Databas
     const PostureVector vector =
         VectorOf(Retargeted(Normalised(clip.postures[frame], placement), StandardBoneLengths()));
     const auto distance_from_last = [&](DatabaseFilter filter) {
-      constexpr float kFar_m = 100.0F;
+      constexpr float kFar_m = 100.0F;  // a bound: farther than any posture
       return FilterDistance(kept.back().vector.data(), vector.data(), filter, kFar_m);
     };
     if (!kept.empty()) {

@@ -35,7 +35,8 @@ enum class DatabaseFilter : uint32_t {
 
 struct DatabaseOptions {
   DatabaseFilter filter = DatabaseFilter::kMaxJoint;
-  double threshold_m = 0.2;  // thres_1: postures nearer than this to a kept one are dropped, > 0
+  double threshold_m = 0.2;  // thres_1: postures nearer than this to a kept one are dropped, > 0;
+                             // Plantard 2016, section 8.3: some 2000 postures and more are enough
   int most_edges = 64;  // per node, nearest first. Departure: the paper's are unbounded (7.8 on
                         // average); a bound keeps the query's cost independent of the density
 };

@@ -14,7 +14,7 @@ namespace {
 
 using Words = std::vector<std::string_view>;
 
-constexpr size_t kMaxBones = 2000;  // a damaged file must not fill the memory
+constexpr size_t kMaxBones = 2000;  // a damaged file must not fill the memory; a bound, by hand
 constexpr double kMetresPerInch = 0.0254;
 constexpr std::array<std::string_view, 7> kDofNames = {"rx", "ry", "rz", "tx", "ty", "tz", "l"};
 

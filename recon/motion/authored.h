@@ -7,6 +7,8 @@
 
 namespace ossa::recon {
 
+// Constants: by convention (30 Hz, a Kinect SDK's rate; seed 1), the rest chosen by hand.
+
 struct AuthoredOptions {
   uint64_t seed = 1;
   double frame_s = 1.0 / 30.0;

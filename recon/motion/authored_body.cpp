@@ -16,8 +16,10 @@ using Eigen::Quaterniond;
 using Eigen::Vector3d;
 
 constexpr double kDegree = std::numbers::pi / 180.0;
+// Constants: chosen by hand.
+
 // Nobody stands with locked knees or punches with a locked elbow.
-constexpr double kStraightest = 0.995;
+constexpr double kStraightest = 0.995;  // share of the limb's length
 
 const Vector3d kX = Vector3d::UnitX(), kY = Vector3d::UnitY(), kZ = Vector3d::UnitZ();
 

@@ -48,6 +48,7 @@ struct BodyKey {
   BodyKey();
 };
 
+// Derived: what a key posture's fields hold
 inline constexpr size_t kBodyKeyNumbers = 17 + 2 * 5 + 2 * 6;
 using BodyKeyNumbers = std::array<double, kBodyKeyNumbers>;
 BodyKeyNumbers NumbersOf(const BodyKey& key);

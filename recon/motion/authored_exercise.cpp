@@ -9,6 +9,8 @@
 namespace ossa::recon {
 namespace {
 
+// Constants: of the authored mover, anthropometry: a person of 1.75 m, rounded; the rest by eye.
+
 using Eigen::Vector3d;
 
 double SideSign(size_t side) { return side == 0 ? 1.0 : -1.0; }
@@ -17,7 +19,7 @@ double SideSign(size_t side) { return side == 0 ? 1.0 : -1.0; }
 /// from the side (0) to the front (90); the shoulder blade's own plane lies near 35.
 void Elevate(ArmKey& arm, double elevation, double plane) {
   constexpr double kDegree = std::numbers::pi / 180.0;
-  constexpr double kAtTheSide = 3.0;
+  constexpr double kAtTheSide = 3.0;  // degrees
   if (plane < kAtTheSide) {
     arm.flex = 0.0;
     arm.abduct = elevation;

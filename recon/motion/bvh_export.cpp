@@ -252,7 +252,7 @@ class BvhBody {
   }
 
   [[noreturn]] void FailTooLong() const {
-    constexpr double kMebi = 1 << 20;
+    constexpr double kMebi = 1 << 20;  // bytes, by definition
     const SightingGap gap = sightings_.LongestGap();
     throw InputError(fmt::format(
         "{}: expected a BVH of at most {:.4g} MiB, as ossa reads them, found {:.0f} frames of "
@@ -270,7 +270,7 @@ class BvhBody {
 
   /// What is surely too long is refused before anything is made of it.
   void CheckLength() const {
-    constexpr double kLeastBytes = 2.0;  // a digit and what follows it
+    constexpr double kLeastBytes = 2.0;  // a digit and what follows it; bytes
     size_t channels = 0;
     for (const BvhJoint& joint : layout_.joints) channels += joint.channels.size();
     const double least_bytes = sightings_.Count() * kLeastBytes * static_cast<double>(channels);

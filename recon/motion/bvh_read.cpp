@@ -13,7 +13,7 @@
 namespace ossa::recon {
 namespace {
 
-constexpr size_t kMaxJoints = 2000;  // a damaged file must not fill the memory
+constexpr size_t kMaxJoints = 2000;  // a damaged file must not fill the memory; a bound, by hand
 constexpr std::array<std::string_view, 6> kChannelNames = {"xposition", "yposition", "zposition",
                                                            "xrotation", "yrotation", "zrotation"};
 

@@ -13,6 +13,8 @@ namespace {
 constexpr std::array<std::string_view, 6> kChannelNames = {"Xposition", "Yposition", "Zposition",
                                                            "Xrotation", "Yrotation", "Zrotation"};
 
+// Constants: chosen by hand, where no derivation is said.
+
 constexpr int kDigits = 6;  // a millionth of a centimetre or degree
 
 void AppendOffset(std::string& text, const std::string& indent, const Eigen::Vector3d& offset) {

@@ -9,7 +9,7 @@ namespace ossa::recon {
 namespace {
 
 // The largest double has 309 digits before the point.
-constexpr int kMostDigits = 20;
+constexpr int kMostDigits = 20;  // a bound; by hand
 constexpr int kLongest = std::numeric_limits<double>::max_exponent10 + kMostDigits + 3;
 
 }  // namespace

@@ -9,7 +9,7 @@
 namespace ossa::recon {
 namespace {
 
-constexpr size_t kNumbers = 44;
+constexpr size_t kNumbers = 44;  // a row of the format
 
 /// Joints of the humanoid in the order of a frame's numbers. Names are those of the rig, so that
 /// the known conversions find them. Offsets: Peng et al. 2018 (DeepMimic), humanoid3d; pybullet's

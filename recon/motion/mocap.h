@@ -8,6 +8,8 @@
 
 namespace ossa::recon {
 
+// Constants: by convention: 30 Hz and seed 1; AMC as its libraries say.
+
 struct MocapOptions {
   double frame_s = 1.0 / 30.0;  // clips are resampled to this step
   uint64_t seed = 1;            // variation of the authored clips

@@ -18,7 +18,7 @@ constexpr double kDegree = std::numbers::pi / 180.0;
 
 // Wrists bend less than about 70° any way; markers of the hand are few and jump. The angle between
 // forearm and hand is softly kept below this.
-constexpr double kWristLimit_rad = 50.0 * kDegree;
+constexpr double kWristLimit_rad = 50.0 * kDegree;  // anthropometry, with a margin; by hand
 
 size_t Bone(std::string_view name) { return static_cast<size_t>(RigBone(name)); }
 

@@ -11,6 +11,8 @@ namespace {
 
 using Eigen::Vector3d;
 
+// Constants: rounding of printed times, by hand.
+
 constexpr double kSameTime_s = 1e-6;
 
 int MostSeenBody(const SkeletonSequence& sequence) {

@@ -11,7 +11,10 @@ namespace ossa::recon {
 namespace {
 
 constexpr uintmax_t kMaxFileBytes = uintmax_t{1} << 30;
-constexpr double kMaxMagnitude = 1e9;  // no length, angle or time of a motion file is larger
+// Constants: bounds, by hand.
+
+// No length, angle or time of a motion file is larger; in any unit: no unit
+constexpr double kMaxMagnitude = 1e9;
 constexpr size_t kQuotedCharacters = 40;
 
 bool IsBlank(char c) { return c == ' ' || c == '\t' || c == '\r' || c == '\f' || c == '\v'; }

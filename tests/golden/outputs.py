@@ -6,7 +6,7 @@
 Runs OSSA (the command) on the clips beside this file and compares every output with
 tests/golden/outputs.txt: a line an output, its name, SHA-256, and the mean of all its numbers, which
 tells how large a difference is. --write makes that file anew; do so only for a change that is meant,
-and say in CHANGES.md what changed. Times are left out.
+and say in the commit what changed. Times are left out.
 """
 import argparse
 import hashlib

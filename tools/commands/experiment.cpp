@@ -1,7 +1,6 @@
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
-#include <algorithm>
 #include <string>
 
 #include "depth/base/error.h"
@@ -79,8 +78,7 @@ int Experiment(int argc, char** argv) {
   app.footer(ListOfExperiments());
   Parse(app, argc, argv);
 
-  const auto known = tools::Experiments();
-  if (std::ranges::find(known, name, &tools::Experiment::name) == known.end()) {
+  if (tools::FindExperiment(name) == nullptr) {
     throw UsageError(fmt::format("NAME: expected one of {}, found '{}'", Names(), name));
   }
   if (!parameters.empty()) context.parameters = tools::Parameters::FromToml(parameters);

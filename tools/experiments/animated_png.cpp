@@ -82,7 +82,7 @@ void AppendChunk(Bytes& file, const char* type, const Bytes& payload) {
   Append(file, Crc(file.data() + start, file.size() - start));
 }
 
-constexpr size_t kSignatureBytes = 8, kHeaderChunkBytes = 25;
+constexpr size_t kSignatureBytes = 8, kHeaderChunkBytes = 25;  // PNG's format
 
 /// The compressed pixels of a PNG, its IDAT chunks joined.
 Bytes PixelData(const Bytes& png) {

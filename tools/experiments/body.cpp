@@ -20,6 +20,8 @@
 namespace ossa::tools {
 namespace {
 
+// Constants: sizes of pictures and messages, by eye.
+
 constexpr int kWidth_px = 290;
 constexpr int kHeight_px = 360;
 constexpr double kDistance_m = 6.0;  // far away, so that the perspective is mild

@@ -118,12 +118,10 @@ std::string KeyOfCode() {
 }
 
 std::vector<Table> RunExperiment(const std::string& name, ExperimentContext& context) {
-  const auto all = Experiments();
-  const auto found =
-      std::find_if(all.begin(), all.end(), [&](const Experiment& e) { return e.name == name; });
-  if (found == all.end()) {
+  const Experiment* found = FindExperiment(name);
+  if (found == nullptr) {
     std::string known;
-    for (const Experiment& e : all) known.append(" ").append(e.name);
+    for (const Experiment& e : Experiments()) known.append(" ").append(e.name);
     throw InputError("experiment '" + name + "': expected one of" + known);
   }
   std::filesystem::create_directories(context.out);
@@ -131,7 +129,7 @@ std::vector<Table> RunExperiment(const std::string& name, ExperimentContext& con
   context.parameters.ExpectAllUsed();
   std::string markdown =
       fmt::format("## ossa experiment {} (seed {})\n\n", found->name, context.seed);
-  nlohmann::json summary = {{"experiment", name}, {"seed", context.seed}};
+  nlohmann::json summary = {{"experiment", found->name}, {"seed", context.seed}};
   for (const Table& table : tables) {
     markdown += ToMarkdown(table) + "\n";
     summary["tables"].push_back({{"title", table.title},
@@ -141,8 +139,9 @@ std::vector<Table> RunExperiment(const std::string& name, ExperimentContext& con
   }
   WriteAll(context.out / "TABLE.md", markdown);
   WriteAll(context.out / "summary.json", JsonText(summary) + "\n");
-  WriteAll(context.out / "parameters.toml", fmt::format("# ossa experiment {} --seed {}\n{}", name,
-                                                        context.seed, context.parameters.Used()));
+  WriteAll(context.out / "parameters.toml",
+           fmt::format("# ossa experiment {} --seed {}\n{}", found->name, context.seed,
+                       context.parameters.Used()));
   return tables;
 }
 

@@ -28,6 +28,7 @@ std::string ToMarkdown(const Table& table);
 /// asked for are refused at the end, so that a misspelt one is not silently ignored.
 class Parameters {
  public:
+  // A bound, so that products of counts fit 64 bits
   static constexpr int kMostInteger = 1'000'000'000;
 
   Parameters() = default;
@@ -110,6 +111,10 @@ struct Experiment {
 
 /// Every experiment, in the order of `ossa experiment --help`. Add yours in registry.cpp.
 std::span<const Experiment> Experiments();
+
+/// The experiment of that name, or of the name that it had before 0.2 (`rooms`); null: there is
+/// none.
+const Experiment* FindExperiment(std::string_view name);
 
 /// Runs one: writes TABLE.md, parameters.toml and summary.json to context.out and returns the
 /// tables. Throws InputError for an unknown name or missing data.

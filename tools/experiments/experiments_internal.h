@@ -15,8 +15,8 @@ std::vector<Table> RunReal(ExperimentContext& context);
 std::vector<Table> RunSdk(ExperimentContext& context);
 /// Fits the weights in tools/tracker/person_signs.inc.
 std::vector<Table> RunPersonSigns(ExperimentContext& context);
-/// One to six people in rendered rooms: who is found, cut in two, invented, mixed up.
-std::vector<Table> RunRooms(ExperimentContext& context);
+/// One to six people in rendered indoor scenes: who is found, cut in two, invented, mixed up.
+std::vector<Table> RunIndoorScenes(ExperimentContext& context);
 /// Shum & Ho 2012: scenes with objects, the character as a filter, dimensions of a posture search.
 std::vector<Table> RunShumHo2012(ExperimentContext& context);
 

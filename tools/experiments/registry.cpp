@@ -1,3 +1,6 @@
+#include <algorithm>
+#include <iterator>
+
 #include "tools/experiments/experiments_internal.h"
 
 namespace ossa::tools {
@@ -7,8 +10,9 @@ constexpr Experiment kExperiments[] = {
     {"body", "pictures of the 31 parts and of motions on the body", RunBody},
     {"sensor", "the simulated depth sensor beside a Kinect's frames", RunSensor},
     {"person-signs", "fits what the tracker tells people from furniture by", RunPersonSigns},
-    {"rooms", "the tracker in rendered rooms: people found, cut, invented, mixed up; joints",
-     RunRooms},
+    {"indoor-scenes",
+     "the tracker in rendered indoor scenes: people found, cut, invented, mixed up; joints",
+     RunIndoorScenes},
     {"real", "real depth: each stage of the tracker on every real set, with truth and without",
      RunReal},
     {"sdk", "every method on every real recording; the SDK's skeletons as the baseline", RunSdk},
@@ -25,5 +29,11 @@ constexpr Experiment kExperiments[] = {
 }  // namespace
 
 std::span<const Experiment> Experiments() { return kExperiments; }
+
+const Experiment* FindExperiment(std::string_view name) {
+  if (name == "rooms") name = "indoor-scenes";
+  const auto found = std::ranges::find(kExperiments, name, &Experiment::name);
+  return found == std::end(kExperiments) ? nullptr : &*found;
+}
 
 }  // namespace ossa::tools

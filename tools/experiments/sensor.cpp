@@ -21,6 +21,8 @@ namespace fs = std::filesystem;
 constexpr std::array kBands_m = {0.5, 1.0, 1.5,
                                  2.0, 3.0, 4.0};  // of distance, from each to the next
 constexpr size_t kBandCount = kBands_m.size() - 1;
+// Constants: of the Kinect v1's images, by hand.
+
 constexpr double kEdge_m = 0.15;  // a jump between two surfaces
 constexpr int kLongestShadow_px = 80;
 
@@ -71,7 +73,7 @@ std::optional<double> PlaneResidual_mm(const depth::Image<uint16_t>& image, int 
 // 1/far) pixels wide, on one side of the near surface.
 void CountShadows(const depth::Image<uint16_t>& image, double focal_px, int v,
                   SensorStatistics& statistics) {
-  constexpr double kBaseline_m = 0.075;
+  constexpr double kBaseline_m = 0.075;  // Kinect v1: 75 mm
   for (int u = 1; u < image.width; ++u) {
     if (image.at(u, v) != 0 || image.at(u - 1, v) == 0) continue;
     int end = u;

@@ -19,6 +19,8 @@ namespace {
 
 namespace fs = std::filesystem;
 
+// Constants: by hand, for speed.
+
 constexpr size_t kCachedShards = 6;  // readers of several threads walk through neighbours
 
 fs::path ImagePath(const fs::path& folder, const char* kind, int64_t index) {

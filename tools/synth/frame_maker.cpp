@@ -14,10 +14,12 @@
 namespace ossa::tools {
 namespace {
 
-constexpr int64_t kFramesPerBody = 8;   // shaping and dressing cost as much as the rest of a frame
-constexpr int kMostTries = 24;          // to find a view with enough of the person in it
-constexpr int kBorder_px = 12;          // rendered around the people, for edges and shadows
-constexpr double kRoomShare = 0.8;      // of frames: edges against a wall, else against nothing
+// Constants: chosen by hand, where nothing else is said.
+
+constexpr int64_t kFramesPerBody = 8;  // shaping and dressing cost as much as the rest of a frame
+constexpr int kMostTries = 24;         // to find a view with enough of the person in it
+constexpr int kBorder_px = 12;         // rendered around the people, for edges and shadows
+constexpr double kRoomShare = 0.8;  // of frames: edges against a wall, else against nothing; share
 constexpr double kTrustedGap_m = 0.25;  // feet farther off the floor than this are a jump
 
 // Streams of random numbers: what is drawn for one purpose must not shift what follows.
@@ -281,7 +283,7 @@ std::optional<LabelledFrame> FrameMaker::State::Try(int64_t index, int attempt) 
 namespace {
 
 bool ShowsEnough(const LabelledFrame& frame, int width) {
-  constexpr double kLeastPixels = 900;  // of a 640-pixel-wide image: half a head at 2 m
+  constexpr double kLeastPixels = 900;  // of a 640-pixel-wide image: half a head at 2 m; pixels
   constexpr int kLeastJoints = 5;
   const auto pixels = static_cast<double>(
       std::count_if(frame.parts.data.begin(), frame.parts.data.end(),

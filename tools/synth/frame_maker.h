@@ -12,6 +12,8 @@
 
 namespace ossa::tools {
 
+// Constants: the sensor's own image is a Kinect v1's; people and seed by convention.
+
 enum class SensorKind { kExact, kKinectV1 };
 enum class Background { kNone, kRoom };
 

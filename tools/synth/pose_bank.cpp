@@ -23,7 +23,7 @@ struct Chain {
 constexpr Chain kArms[2] = {{18, 6}, {25, 6}};  // upper arm, forearm, hand, fingers, thumb
 constexpr Chain kLegs[2] = {{2, 4}, {7, 4}};
 constexpr size_t kCollar[2] = {17, 24};
-constexpr size_t kSpine1 = 13, kNeck = 14;
+constexpr size_t kSpine1 = 13, kNeck = 14;  // numbers of the rig's format (MPFB, cmu_mb)
 
 double LargestMove_m(const recon::Posture& a, const recon::Posture& b) {
   double largest = 0;

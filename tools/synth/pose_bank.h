@@ -8,6 +8,8 @@
 
 namespace ossa::tools {
 
+// Constants: chosen by hand, where nothing else is said.
+
 struct PoseBankOptions {
   /// A frame is redundant when no joint moved farther than this since the last frame kept.
   double least_distance_m = 0.05;

@@ -163,7 +163,7 @@ Eigen::AlignedBox2f GroundOf(const depth::TriangleMesh& mesh) {
 
 /// Over the floor, everything that the person of the path may touch.
 Eigen::AlignedBox2f GroundOf(std::span<const recon::Posture> path_in_world) {
-  constexpr float kFlesh_m = 0.2F;  // from a joint to the skin and a little air
+  constexpr float kFlesh_m = 0.2F;  // from a joint to the skin and a little air; by hand
   Eigen::AlignedBox2f ground;
   for (const recon::Posture& posture : path_in_world) {
     for (const auto& joint_m : posture.position_m) {

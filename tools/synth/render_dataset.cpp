@@ -20,7 +20,7 @@ namespace {
 namespace fs = std::filesystem;
 
 // The unit of work, of resuming and of a shard file. Small enough that two threads end together.
-constexpr int64_t kFramesPerChunk = 64;
+constexpr int64_t kFramesPerChunk = 64;  // by hand
 
 int64_t ChunkCount(const RenderJob& job) {
   return (job.frames + kFramesPerChunk - 1) / kFramesPerChunk;

@@ -8,7 +8,8 @@
 namespace ossa::tools {
 namespace {
 
-constexpr double kRoomToMove_m = 1.2;  // extent of the hips' path that keeps a person in view
+// Extent of the hips' path that keeps a person in view; by hand
+constexpr double kRoomToMove_m = 1.2;
 
 struct Extent {
   Eigen::Vector3d low, high;

@@ -12,8 +12,10 @@ namespace ossa::tools {
 namespace {
 
 constexpr ContainerFormat kShardFormat{{'O', 'S', 'S', 'A', 'S', 'H', 'R', 'D'}, 1, "frame shard"};
+// Constants: by hand; the largest sizes are bounds, against damaged files.
+
 constexpr int kCropBorder = 4;        // pixels of background kept around the labelled ones
-constexpr int kCompressionLevel = 1;  // the fastest; higher levels save under a tenth
+constexpr int kCompressionLevel = 1;  // the fastest; higher levels save under a tenth; of zstd
 constexpr uint64_t kLargestFrame_bytes = uint64_t{1} << 28;
 constexpr int kLargestSide = 8192;
 

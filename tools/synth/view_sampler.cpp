@@ -7,7 +7,7 @@
 namespace ossa::tools {
 namespace {
 
-constexpr double kDegree = std::numbers::pi / 180.0;
+constexpr double kDegree = std::numbers::pi / 180.0;  // radians, by definition
 
 /// Where the camera stands and what it looks at.
 struct Placement {

@@ -27,8 +27,10 @@ constexpr std::array<JointSurface, recon::kJointCount> kSurfaces = {{
     {{21, 23, 0, 0, 0, 0}, 0.17},  // right hip ...
     {{27, 0, 0, 0, 0, 0}, 0.13},    {{29, 0, 0, 0, 0, 0}, 0.12}, {{31, 0, 0, 0, 0, 0}, 0.14},
 }};
+// Constants: chosen by hand, where nothing else is said.
+
 constexpr double kLeastArea_m2 = 4e-4;  // 2 × 2 cm: less is a sliver at an edge
-constexpr double kLeastPixels = 4;
+constexpr double kLeastPixels = 4;      // pixels
 
 using JointsOfPart = std::array<std::vector<size_t>, recon::kLabelCount>;
 

@@ -102,7 +102,8 @@ void TestQuantity(const std::vector<ComparedResult>& results, const std::string&
   std::vector<std::vector<ClipMetrics>> clips;
   for (const ComparedResult& result : results) clips.push_back(result.clips);
   const auto values = SharedValues(clips, member);
-  constexpr size_t kFewestUnits = 5;  // below, no signed-rank test can reach p = 0.05
+  // Below, no signed-rank test can reach p = 0.05; by definition: 2^-4 = 0.0625
+  constexpr size_t kFewestUnits = 5;
   const size_t units = values[0].size();
   if (units < kFewestUnits) return;
   for (size_t r = 0; r < results.size(); ++r) {

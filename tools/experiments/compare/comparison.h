@@ -15,7 +15,7 @@ struct CompareOptions {
   recon::SkeletonReadOptions reading;
   std::vector<std::string> only;  // clips whose name holds one of these; empty: all
   std::vector<std::string> skip;  // but none whose name holds one of these
-  uint64_t seed = 1;              // of the bootstrap
+  uint64_t seed = 1;              // of the bootstrap; by convention
   std::function<bool()> stop;     // asked before each clip; true: ends by throwing Interruption
 };
 

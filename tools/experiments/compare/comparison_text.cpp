@@ -171,7 +171,7 @@ std::string ToJson(const Comparison& comparison) {
 }
 
 std::string Advice(const Comparison& comparison) {
-  constexpr double kApart_cm = 50.0;  // no sensor is off by as much on the whole
+  constexpr double kApart_cm = 50.0;  // no sensor is off by as much on the whole; by hand
   if (comparison.rigid) return "";
   for (const ComparedResult& result : comparison.results) {
     const auto error_cm = result.mean.mean_joint_error_cm;

@@ -45,10 +45,11 @@ enum class TimeAlignment {
 
 struct PairOptions {
   TimeAlignment time = TimeAlignment::kAuto;
-  double offset_s = 0.0;      // for kFixed: added to the result's times
-  double max_offset_s = 2.0;  // correlation looks this far either way
-  bool rigid = false;         // Procrustes without scale over the whole clip, before anything else
-  bool found_only = false;    // of the result no joints that a method has placed unseen
+  double offset_s = 0.0;  // for kFixed: added to the result's times
+  // Correlation looks this far either way; by hand: two recorders started by one person
+  double max_offset_s = 2.0;
+  bool rigid = false;       // Procrustes without scale over the whole clip, before anything else
+  bool found_only = false;  // of the result no joints that a method has placed unseen
 };
 
 /// Brings a result onto the truth: people matched, clocks aligned, truth interpolated linearly at

@@ -11,6 +11,8 @@
 namespace ossa::tools {
 namespace {
 
+// Constants: sizes of the page's plots, pixels, by eye.
+
 constexpr size_t kJoints = recon::kJointCount;
 
 constexpr const char* kHead = R"(<!DOCTYPE html>
@@ -180,9 +182,9 @@ std::string JointBars(const Comparison& comparison) {
 // box; `centre` is the truth's, so that shifts show.
 std::string Bones(const SparsePosture& posture, const Eigen::Vector3d& centre, bool side,
                   const std::string& colour) {
-  constexpr double kPixelsPerMetre = 85;
-  constexpr double kCentreX = 85;
-  constexpr double kCentreY = 100;
+  constexpr double kPixelsPerMetre = 85;  // pixels
+  constexpr double kCentreX = 85;         // pixels
+  constexpr double kCentreY = 100;        // pixels
   const auto point = [&](size_t j) {
     const Eigen::Vector3d p = kPixelsPerMetre * (posture.position_m[j] - centre);
     return std::pair{kCentreX + (side ? p.z() + 170 : -p.x()), kCentreY - p.y()};

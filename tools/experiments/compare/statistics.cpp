@@ -10,8 +10,10 @@
 namespace ossa::tools {
 namespace {
 
-constexpr double kTiny = 1e-300;
-constexpr double kPrecision = 1e-15;
+// Constants: bounds of series, against endless loops; double precision ends them before.
+
+constexpr double kTiny = 1e-300;  // without it a ratio of a continued fraction would divide by 0
+constexpr double kPrecision = 1e-15;  // share of the sum
 constexpr int kMostTerms = 1000;
 
 // Upper incomplete gamma, regularised: series below a + 1, Lentz's continued fraction above
@@ -117,7 +119,7 @@ double ExactWilcoxonTail(size_t n, double smaller_sum) {
 // distribution of Lilliefors's test statistic for normality", The American Statistician 40(4). Good
 // up to 0.1 and 100 values; above those d is brought to 100.
 double DallalWilkinsonTail(double d, double n) {
-  constexpr double kMost = 100;
+  constexpr double kMost = 100;  // no unit: values; Dallal & Wilkinson 1986
   if (n > kMost) {
     d *= std::pow(n / kMost, 0.49);
     n = kMost;
@@ -216,7 +218,7 @@ std::optional<TestResult> Wilcoxon(std::span<const double> a, std::span<const do
   for (size_t i = 0; i < n; ++i) plus += positive[i] ? ranks.rank[i] : 0;
   const auto count = static_cast<double>(n);
   const double smaller = std::min(plus, count * (count + 1) / 2 - plus);
-  constexpr size_t kExactPairs = 50;
+  constexpr size_t kExactPairs = 50;  // pairs, for speed
   if (n <= kExactPairs && n == a.size() && ranks.tie_sum == 0) {
     return TestResult{smaller, ExactWilcoxonTail(n, smaller)};
   }
@@ -290,7 +292,7 @@ std::optional<TestResult> RepeatedAnova(const std::vector<std::vector<double>>& 
 }
 
 std::optional<TestResult> Lilliefors(std::span<const double> values) {
-  constexpr size_t kFewest = 5;  // the formulas of p hold from there
+  constexpr size_t kFewest = 5;  // the formulas of p hold from there; Lilliefors 1967
   if (values.size() < kFewest) return std::nullopt;
   std::vector<double> sorted(values.begin(), values.end());
   std::sort(sorted.begin(), sorted.end());

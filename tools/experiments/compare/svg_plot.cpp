@@ -10,6 +10,8 @@
 namespace ossa::tools {
 namespace {
 
+// Constants: layout of a plot in pixels, by eye.
+
 constexpr double kWidth = 860;
 constexpr double kHeight = 320;
 constexpr double kLeft = 56;

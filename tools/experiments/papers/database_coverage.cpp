@@ -12,6 +12,8 @@
 namespace ossa::tools {
 namespace {
 
+// Constants: chosen by hand, where nothing else is said.
+
 constexpr size_t kEveryNthFrame = 5;  // postures of neighbouring frames say the same
 
 std::string ExerciseOf(const std::string& clip) {
@@ -22,7 +24,7 @@ std::string ExerciseOf(const std::string& clip) {
 /// Mean joint distance to the nearest posture, of the joints that were seen; empty without enough.
 std::optional<double> NearestDistance_cm(const recon::PostureDatabase& database,
                                          const recon::BodyRecord& body, double& yaw_rad) {
-  constexpr double kFewest = 10.0;
+  constexpr double kFewest = 10.0;  // joints of 20, half of them; by hand
   recon::Posture seen = recon::TrackedPostureOf(body).posture;
   recon::JointWeights there{};
   double count = 0.0;

@@ -18,7 +18,7 @@
 namespace ossa::tools {
 namespace {
 
-constexpr size_t kScenarios = 10;
+constexpr size_t kScenarios = 10;  // table 1
 
 struct Scenario {
   Clutter clutter;
@@ -28,7 +28,7 @@ struct Scenario {
 
 // Table 1. Scenarios 8 and 10 are those with car seats of fig. 6.
 Scenario ScenarioOf(size_t index) {
-  constexpr double kRight_rad = -std::numbers::pi / 4;
+  constexpr double kRight_rad = -std::numbers::pi / 4;  // table 1: 45 degrees
   if (index < 3) return {Clutter::kNone, 0.0, "few, front"};
   if (index < 7) {
     return {index % 2 == 1 ? Clutter::kFurniture : Clutter::kCarSeat, 0.0, "many, front"};
@@ -146,8 +146,8 @@ Table ByScenario(const Study& study) {
 // Share of frames in each error band, or at least that wrong.
 Table Histogram(const Study& study, const std::vector<size_t>& scenarios, bool cumulative,
                 const std::string& title) {
-  constexpr int kBand_cm = 5;
-  constexpr int kBands = 8;
+  constexpr int kBand_cm = 5;  // figure 6
+  constexpr int kBands = 8;    // figure 6
   Table table;
   table.title = title;
   table.columns = {"error, cm"};
@@ -180,7 +180,7 @@ Table Histogram(const Study& study, const std::vector<size_t>& scenarios, bool c
 }
 
 void DrawCumulative(const ExperimentContext& context, const Study& study) {
-  constexpr double kFarthest_cm = 40;
+  constexpr double kFarthest_cm = 40;  // figure 7
   std::vector<Series> series;
   for (size_t m = 0; m < study.methods.size(); ++m) {
     std::vector<double> errors;

@@ -222,7 +222,7 @@ Table ByVisibility(const ExperimentContext& context, const Shum2013Study& study)
 
 /// Of the exercises of UI-PRMD; no table without the recordings.
 void AddCoverage(const ExperimentContext& context, std::vector<Table>& tables) {
-  constexpr size_t kEveryNthClip = 13;
+  constexpr size_t kEveryNthClip = 13;  // by hand: what takes minutes in the short form
   if (!std::filesystem::exists(context.shared / "real" / "uiprmd_kinect_vicon")) return;
   std::vector<RecordedPair> some;
   auto all = LoadUiPrmd(context.shared, false);

@@ -8,7 +8,7 @@ namespace {
 
 /// The true body of that time; null where there is none.
 const recon::BodyRecord* BodyAt(const recon::SkeletonSequence& truth, double time_s) {
-  constexpr double kSameTime_s = 1e-3;
+  constexpr double kSameTime_s = 1e-3;  // rounding of printed times
   const auto frame =
       std::lower_bound(truth.frames.begin(), truth.frames.end(), time_s - kSameTime_s,
                        [](const recon::SkeletonFrame& f, double time) { return f.time_s < time; });

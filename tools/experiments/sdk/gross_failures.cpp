@@ -11,10 +11,12 @@ namespace {
 using recon::BodyRecord;
 using recon::kJointCount;
 
+// Constants: chosen by hand, where nothing else is said.
+
 // 25 cm in a thirtieth of a second is 7.5 m/s about the next joint: a boxer's fist, in no exercise.
 constexpr double kJump_m = 0.25;
 constexpr double kApart_m = 0.25, kTogether_m = 0.10;
-constexpr double kWrongBone = 0.4;
+constexpr double kWrongBone = 0.4;  // share of its length
 constexpr double kLongestStep_s = 0.1;
 constexpr std::array<std::pair<size_t, size_t>, 2> kHandsAndWrists = {{{7, 11}, {6, 10}}};
 

@@ -13,6 +13,8 @@
 namespace ossa::tools {
 namespace {
 
+// Constants: frames of the window, by hand.
+
 constexpr int kAhead = 1, kBack = 12, kTaps = kAhead + 1 + kBack;
 using Taps = Eigen::Matrix<double, kTaps, 1>;
 using Positions = Eigen::Matrix3Xd;  // one column a frame

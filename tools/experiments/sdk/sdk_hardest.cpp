@@ -8,7 +8,7 @@
 namespace ossa::tools {
 namespace {
 
-constexpr double kHard_cm = 10.0;  // twice what a sensor's own joints are off by
+constexpr double kHard_cm = 10.0;  // twice what a sensor's own joints are off by; by hand
 
 /// Of "s01/m03_s01_e09", "s01" and "m03".
 std::pair<std::string, std::string> PersonAndExercise(const std::string& clip) {

@@ -8,6 +8,8 @@
 namespace ossa::tools {
 namespace {
 
+// Constants: of the scenes that are played, by hand.
+
 using Eigen::Vector3d;
 using physics::ObjectOptions;
 using recon::Joint;

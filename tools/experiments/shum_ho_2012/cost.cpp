@@ -15,7 +15,7 @@ namespace {
 using Eigen::Vector3d;
 using recon::Posture;
 
-constexpr double kFrame_s = 1.0 / 30.0;
+constexpr double kFrame_s = 1.0 / 30.0;  // 30 Hz, a Kinect SDK's rate
 
 /// Milliseconds of processor time a frame: median and mean over the frames.
 struct Cost {

@@ -12,6 +12,8 @@
 namespace ossa::tools {
 namespace {
 
+// Constants: chosen by hand, where nothing else is said.
+
 using Eigen::Vector3d;
 using recon::Joint;
 using recon::kJointCount;
@@ -63,7 +65,7 @@ class Targets {
 /// Joints that the sensor has no name for are put where they must be: the centre of the hips
 /// between them, wrists and ankles most of the way from elbow to hand and from knee to foot.
 void FillUnnamed(const std::array<bool, kJointCount>& named, Posture& target) {
-  constexpr double kMostOfTheWay = 0.75;
+  constexpr double kMostOfTheWay = 0.75;  // share of a step
   if (!named[0]) {
     target[Joint::kHipCenter] = 0.5 * (target[Joint::kHipLeft] + target[Joint::kHipRight]);
   }

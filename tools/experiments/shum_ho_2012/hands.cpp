@@ -14,6 +14,8 @@ using physics::ObjectOptions;
 using recon::Joint;
 using recon::Posture;
 
+// Constants: of the scenes that are played, by hand.
+
 constexpr double kMaceLength_m = 0.35;
 
 /// Hangs a mace on the right hand, free to turn about it; returns the object.

@@ -49,7 +49,7 @@ PostureVector Query(const Posture& in_camera) {
 /// 600 frames as in the paper: Kinect postures when there are recordings, else authored motion of
 /// another seed with 2 cm of noise on every joint.
 std::vector<PostureVector> Queries(const ExperimentContext& context) {
-  constexpr size_t kFrames = 600;
+  constexpr size_t kFrames = 600;  // Shum & Ho 2012, section 8.4
   std::vector<PostureVector> queries;
   if (!context.shared.empty()) {
     const auto pairs = LoadUiPrmd(context.shared, false);

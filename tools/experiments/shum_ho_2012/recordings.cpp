@@ -13,6 +13,8 @@
 namespace ossa::tools {
 namespace {
 
+// Constants: of which recordings are shown, by hand.
+
 using Eigen::Vector3d;
 using recon::kJointCount;
 using recon::Posture;

@@ -30,6 +30,8 @@ constexpr std::array<Scene, 6> kScenes = {{
     {"throw", "two characters throwing boxes (fig. 3f)", 0.45, ThrowBoxes},
 }};
 
+// Constants: of pictures, by eye.
+
 constexpr int kPictureMs = 67;  // every second 30 Hz frame
 constexpr int kStripPictures = 6;
 

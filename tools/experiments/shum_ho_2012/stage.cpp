@@ -10,6 +10,8 @@
 
 namespace ossa::tools {
 
+// Constants: of the scenes that are played, by hand.
+
 using recon::Posture;
 
 Actors::Actors(uint64_t seed) {

@@ -15,6 +15,8 @@ namespace {
 // swordplay, washing, turning dances.
 const std::vector<std::string> kHeldOutClips = {"02_05", "02_06", "02_07", "02_08", "02_09",
                                                 "02_10", "60_01", "60_05", "60_10", "60_14"};
+// Constants: chosen by hand, where nothing else is said.
+
 constexpr uint64_t kOtherMovers = 7919;  // added to the seed: not the shipped database's movers
 
 bool StaysInView(const recon::MotionClip& clip, size_t frames) {

@@ -2,6 +2,8 @@
 
 namespace ossa::tools {
 
+// Constants: chosen by hand, where nothing else is said.
+
 Eigen::Vector3d SimulatedSdk::Noise(double deviation_m) {
   const double x = random_.Normal(0, deviation_m);
   const double y = random_.Normal(0, deviation_m);
@@ -10,10 +12,12 @@ Eigen::Vector3d SimulatedSdk::Noise(double deviation_m) {
 
 Eigen::Vector3d SimulatedSdk::Hidden(const StagedFrame& frame, const Eigen::Vector3d& true_m,
                                      const Eigen::Vector3d& hips_m, JointMemory& memory) {
-  constexpr double kGrabbedShare = 0.5;
+  constexpr double kGrabbedShare =
+      0.5;                            // share of the occluded joints that jump to what hides them
   constexpr double kWander_m = 0.02;  // a frame
-  constexpr double kHome = 0.97;      // and back towards where it was: 8 cm an axis in the long run
-  constexpr double kFlesh_m = 0.05;   // how deep the SDK puts a joint behind the surface it sees
+  // And back towards where it was: 8 cm an axis in the long run; factor a frame
+  constexpr double kHome = 0.97;
+  constexpr double kFlesh_m = 0.05;     // how deep the SDK puts a joint behind the surface it sees
   constexpr double kSameDepth_m = 0.1;  // nearer than this the surface is the joint's own
   if (!memory.hidden) {
     memory.hidden = true;
@@ -40,7 +44,7 @@ Eigen::Vector3d SimulatedSdk::Hidden(const StagedFrame& frame, const Eigen::Vect
 recon::SkeletonFrame SimulatedSdk::Observe(const StagedFrame& frame) {
   constexpr double kJitter_m = 0.006;
   constexpr double kDrift_m = 0.015;  // standard deviation of the slow part
-  constexpr double kKeep = 0.95;      // of the drift from one frame to the next
+  constexpr double kKeep = 0.95;      // of the drift from one frame to the next; factor a frame
   recon::SkeletonFrame observed = frame.truth;
   auto& joints = observed.bodies.at(0).joints;
   const Eigen::Vector3d hips_m = joints[0]->position_m;

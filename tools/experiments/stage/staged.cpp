@@ -26,6 +26,8 @@
 namespace ossa::tools {
 namespace {
 
+// Constants: of the scenes that are played, by hand.
+
 constexpr double kSensorHeight_m = 1.0;
 
 Eigen::Isometry3d CameraPlace(const StageOptions& options) {

@@ -8,7 +8,7 @@
 
 #include "recon/motion/authored.h"
 #include "tools/experiments/compare/metrics.h"
-#include "tools/experiments/rooms/rooms_internal.h"
+#include "tools/experiments/indoor_scenes/indoor_scenes_internal.h"
 #include "tools/experiments/stage/jobs.h"
 
 namespace ossa::tools {
@@ -28,7 +28,7 @@ TEST(RunJobs, ThrowsWhatAJobThrew) {
 }
 
 // Small pictures of everybody in authored motion.
-class InRooms : public testing::Test {
+class InIndoorScenes : public testing::Test {
  protected:
   void SetUp() override {
     if (!recon::BodyIsFetched(recon::BodyFolder())) GTEST_SKIP() << "no body: tools/fetch_body";
@@ -38,7 +38,7 @@ class InRooms : public testing::Test {
     model_ = std::make_unique<recon::BodyModel>(LoadFetchedBody());
     wardrobe_ = std::make_unique<recon::Wardrobe>(*model_);
   }
-  RoomCast Cast() const { return {*model_, *wardrobe_, clips_, Split::kTest, 160, 120, 4}; }
+  IndoorCast Cast() const { return {*model_, *wardrobe_, clips_, Split::kTest, 160, 120, 4}; }
 
  private:
   std::vector<recon::MotionClip> clips_;
@@ -46,22 +46,22 @@ class InRooms : public testing::Test {
   std::unique_ptr<recon::Wardrobe> wardrobe_;
 };
 
-TEST_F(InRooms, SameSeedSameFramesWithEverybodyInThem) {
-  const RoomCast cast = Cast();
-  const RoomScenario scenario{"two", 2, Furnishing::kFurnished};
-  const LabelledFrame first = RoomStage(scenario, cast, 3).Shoot(1);
-  const LabelledFrame again = RoomStage(scenario, cast, 3).Shoot(1);
+TEST_F(InIndoorScenes, SameSeedSameFramesWithEverybodyInThem) {
+  const IndoorCast cast = Cast();
+  const IndoorScenario scenario{"two", 2, Furnishing::kFurnished};
+  const LabelledFrame first = IndoorStage(scenario, cast, 3).Shoot(1);
+  const LabelledFrame again = IndoorStage(scenario, cast, 3).Shoot(1);
   EXPECT_EQ(first.depth.depth_mm, again.depth.depth_mm);
   for (const int user : {1, 2})
     EXPECT_GT(std::count(first.users.data.begin(), first.users.data.end(), user), 200);
 }
 
 // Without the sofa the same seed has the same person before the same sensor.
-TEST_F(InRooms, ASofaBeforeHidesAThirdOfThePersonOrMore) {
-  const RoomCast cast = Cast();
+TEST_F(InIndoorScenes, ASofaBeforeHidesAThirdOfThePersonOrMore) {
+  const IndoorCast cast = Cast();
   for (const uint64_t seed : {1U, 2U, 3U, 4U, 5U, 6U}) {
     const auto seen = [&](Furnishing furnishing) {
-      const LabelledFrame frame = RoomStage({"one", 1, furnishing}, cast, seed).Shoot(0);
+      const LabelledFrame frame = IndoorStage({"one", 1, furnishing}, cast, seed).Shoot(0);
       return std::count(frame.users.data.begin(), frame.users.data.end(), 1);
     };
     const auto whole = seen(Furnishing::kEmpty), rest = seen(Furnishing::kSofaBefore);
@@ -92,8 +92,8 @@ struct OnePerson {
   }
   TruthBody& person() { return truth.bodies[0]; }
   tracker::Body& body() { return answer.bodies[0]; }
-  RoomScore Judged() const {
-    RoomJudge judge;
+  IndoorScore Judged() const {
+    IndoorJudge judge;
     judge.See(truth, answer);
     return judge.score;
   }
@@ -103,13 +103,13 @@ struct OnePerson {
 };
 
 // Every second joint is unseen and said to be a metre off.
-TEST(RoomJudge, SeenJointsAreJudgedBesideAll) {
+TEST(IndoorJudge, SeenJointsAreJudgedBesideAll) {
   OnePerson one;
   for (size_t j = 1; j < recon::kJointCount; j += 2) {
     one.person().visible[j] = false;
     one.body().raw.posture.position_m[j].y() += 1.0;
   }
-  const RoomScore score = one.Judged();
+  const IndoorScore score = one.Judged();
   EXPECT_EQ(score.found, 1);
   EXPECT_DOUBLE_EQ(Measure(score.raw).map_10cm.value(), 0.5);
   EXPECT_DOUBLE_EQ(Measure(score.raw_seen).map_10cm.value(), 1.0);
@@ -117,14 +117,14 @@ TEST(RoomJudge, SeenJointsAreJudgedBesideAll) {
 
 // Joints that the forest did not find are missing of raw, but final has put them somewhere and is
 // judged for it.
-TEST(RoomJudge, WhatIsPlacedUnseenIsJudged) {
+TEST(IndoorJudge, WhatIsPlacedUnseenIsJudged) {
   OnePerson one;
   for (size_t j = 1; j < recon::kJointCount; j += 2) {
     one.body().raw.state[j] = one.body().joints[j].state = recon::TrackingState::kNotTracked;
     one.body().raw.confidence[j] = one.body().joints[j].confidence = 0.0;
     one.body().joints[j].position_m.y() += 0.2;
   }
-  const RoomScore score = one.Judged();
+  const IndoorScore score = one.Judged();
   const ClipMetrics raw = Measure(score.raw), final = Measure(score.final);
   EXPECT_NEAR(raw.mean_joint_error_cm.value(), 0.0, 1e-9);
   EXPECT_DOUBLE_EQ(raw.map_10cm.value(), 0.5);

@@ -6,7 +6,7 @@
 #include <numbers>
 
 #include "depth/render/shapes.h"
-#include "tools/experiments/rooms/rooms_internal.h"
+#include "tools/experiments/indoor_scenes/indoor_scenes_internal.h"
 #include "tools/synth/person.h"
 #include "tools/synth/pose_bank.h"
 #include "tools/synth/props.h"
@@ -16,10 +16,13 @@
 namespace ossa::tools {
 namespace {
 
+// Constants: of the scenes that are played, by hand.
+
 using Eigen::Vector3d;
 using Eigen::Vector3f;
 
-constexpr double kHalfView = 0.45;  // x / z up to which people stay wholly in view
+constexpr double kHalfView = 0.45;  // x / z up to which people stay wholly in view; ratio of a
+                                    // Kinect v1's half width to its distance (0.55), less a margin
 
 // The stretch of a clip that goes farthest within `frames` frames, heading removed: who crosses a
 // room must walk.
@@ -58,8 +61,8 @@ std::vector<recon::RigPose> WalkPoses(const std::vector<recon::MotionClip>& clip
 
 }  // namespace
 
-std::vector<RoomScenario> RoomScenarios() {
-  std::vector<RoomScenario> all = {
+std::vector<IndoorScenario> IndoorScenarios() {
+  std::vector<IndoorScenario> all = {
       {"nobody, furnished", 0, Furnishing::kFurnished, false, false},
       {"one, empty room", 1, Furnishing::kEmpty, false, false},
       {"one, furnished", 1, Furnishing::kFurnished, false, false},
@@ -80,7 +83,7 @@ std::vector<RoomScenario> RoomScenarios() {
   return all;
 }
 
-RoomStage::RoomStage(const RoomScenario& scenario, const RoomCast& cast, uint64_t seed)
+IndoorStage::IndoorStage(const IndoorScenario& scenario, const IndoorCast& cast, uint64_t seed)
     : scenario_(scenario),
       cast_(cast),
       seed_(seed),
@@ -91,7 +94,7 @@ RoomStage::RoomStage(const RoomScenario& scenario, const RoomCast& cast, uint64_
   Furnish(random);
 }
 
-void RoomStage::PlaceSensor(Random& random) {
+void IndoorStage::PlaceSensor(Random& random) {
   // Lanes and rows of many people need more room than one.
   distance_m_ = scenario_.close ? random.Uniform(1.4, 1.8)
                                 : random.Uniform(2.2, 2.9) + 0.22 * (scenario_.people - 1);
@@ -101,7 +104,7 @@ void RoomStage::PlaceSensor(Random& random) {
   camera_from_world_ = LookAt({0, height_m, distance_m_}, {0, aim_m, 0});
 }
 
-void RoomStage::PlacePeople(Random& random) {
+void IndoorStage::PlacePeople(Random& random) {
   for (int person = 0; person < scenario_.people; ++person) {
     const recon::BodyShape shape = SampleShape(cast_.split, random);
     actors_.emplace_back(cast_.model, cast_.wardrobe, shape, SampleClothing(random));
@@ -111,7 +114,7 @@ void RoomStage::PlacePeople(Random& random) {
 }
 
 // In columns side by side, every other one nearer.
-RoomStage::Way RoomStage::Staying(int person, Random& random) const {
+IndoorStage::Way IndoorStage::Staying(int person, Random& random) const {
   Way way;
   way.poses = SequencePoses(cast_.clips, cast_.frames, random.Bits());
   const double column =
@@ -125,7 +128,7 @@ RoomStage::Way RoomStage::Staying(int person, Random& random) const {
 }
 
 // On lanes at different depths, from left to right and from right to left in turn.
-RoomStage::Way RoomStage::Crossing(int person, Random& random) const {
+IndoorStage::Way IndoorStage::Crossing(int person, Random& random) const {
   constexpr double kLane_m = 0.85;
   Way way;
   way.poses = WalkPoses(cast_.clips, cast_.frames, random);
@@ -140,7 +143,7 @@ RoomStage::Way RoomStage::Crossing(int person, Random& random) const {
 
 // A clip shorter than the performance is played to and fro, a walk more slowly. Where the walk
 // itself is shorter or longer than its lane, the feet slide a little.
-recon::RigPose RoomStage::PoseAt(const Way& way, double root_scale, int64_t index) const {
+recon::RigPose IndoorStage::PoseAt(const Way& way, double root_scale, int64_t index) const {
   const auto count = std::ssize(way.poses);
   const double share =
       static_cast<double>(index) / static_cast<double>(std::max<int64_t>(1, size() - 1));
@@ -161,7 +164,7 @@ recon::RigPose RoomStage::PoseAt(const Way& way, double root_scale, int64_t inde
   return pose;
 }
 
-void RoomStage::Stand(const depth::TriangleMesh& mesh, const Vector3d& place_m, double turn_rad) {
+void IndoorStage::Stand(const depth::TriangleMesh& mesh, const Vector3d& place_m, double turn_rad) {
   Eigen::Affine3f place(camera_from_world_.matrix().cast<float>());
   place.translate(place_m.cast<float>());
   place.rotate(Eigen::AngleAxisf(static_cast<float>(turn_rad), Vector3f::UnitY()));
@@ -170,7 +173,7 @@ void RoomStage::Stand(const depth::TriangleMesh& mesh, const Vector3d& place_m, 
 
 // Somebody behind a back rest, or before a sofa that shows the sensor its back: from the hips down,
 // or more, they are hidden.
-void RoomStage::StandSofaBefore(const Vector3d& person_m, Random& random) {
+void IndoorStage::StandSofaBefore(const Vector3d& person_m, Random& random) {
   constexpr double kDepth_m = 0.6, kBack_m = 0.2;
   const auto width_m = static_cast<float>(random.Uniform(0.5, 1.6));
   const auto seat_m = static_cast<float>(random.Uniform(0.5, 0.85));
@@ -182,7 +185,7 @@ void RoomStage::StandSofaBefore(const Vector3d& person_m, Random& random) {
         back_to_sensor ? std::numbers::pi : 0.0);
 }
 
-void RoomStage::Furnish(Random& random) {
+void IndoorStage::Furnish(Random& random) {
   const double rear_m = 0.45 + 0.45 * (scenario_.people - 1);  // behind the last lane or row
   const bool tight = scenario_.furnishing == Furnishing::kWall;
   const double behind_m = tight && scenario_.people == 1 ? 0.45 : rear_m + random.Uniform(0.3, 1.5);
@@ -216,7 +219,7 @@ void RoomStage::Furnish(Random& random) {
   }
 }
 
-LabelledFrame RoomStage::Shoot(int64_t index) {
+LabelledFrame IndoorStage::Shoot(int64_t index) {
   std::vector<TruthBody> bodies;
   for (size_t person = 0; person < actors_.size(); ++person) {
     Actor& actor = actors_[person];

@@ -15,7 +15,7 @@
 
 namespace ossa::tools {
 
-// Rooms: people in rendered rooms, and how well the tracker tells who is where.
+// Rooms: people in rendered indoor scenes, and how well the tracker tells who is where.
 
 enum class Furnishing {
   kEmpty,       // floor, walls, ceiling
@@ -26,7 +26,7 @@ enum class Furnishing {
   kSofaBefore,  // a sofa or an armchair between everybody and the sensor, from either side of it
 };
 
-struct RoomScenario {
+struct IndoorScenario {
   std::string name;
   int people = 1;
   Furnishing furnishing = Furnishing::kFurnished;
@@ -35,10 +35,10 @@ struct RoomScenario {
   bool still = false;     // 3 m away without moving
 };
 
-std::vector<RoomScenario> RoomScenarios();
+std::vector<IndoorScenario> IndoorScenarios();
 
 /// What a room is made of, besides the scenario.
-struct RoomCast {
+struct IndoorCast {
   const recon::BodyModel& model;
   const recon::Wardrobe& wardrobe;
   const std::vector<recon::MotionClip>& clips;
@@ -48,9 +48,9 @@ struct RoomCast {
 };
 
 /// One performance of a scenario: same scenario, cast and seed, same frames.
-class RoomStage {
+class IndoorStage {
  public:
-  RoomStage(const RoomScenario& scenario, const RoomCast& cast, uint64_t seed);
+  IndoorStage(const IndoorScenario& scenario, const IndoorCast& cast, uint64_t seed);
   LabelledFrame Shoot(int64_t index);
   int64_t size() const { return cast_.frames; }
 
@@ -70,8 +70,8 @@ class RoomStage {
   recon::RigPose PoseAt(const Way& way, double root_scale, int64_t index) const;
   void Stand(const depth::TriangleMesh& mesh, const Eigen::Vector3d& place_m, double turn_rad);
 
-  RoomScenario scenario_;
-  RoomCast cast_;
+  IndoorScenario scenario_;
+  IndoorCast cast_;
   uint64_t seed_;
   depth::Camera camera_;
   Eigen::Isometry3d camera_from_world_;
@@ -82,7 +82,7 @@ class RoomStage {
 };
 
 /// Everything counted over the frames of one scenario.
-struct RoomScore {
+struct IndoorScore {
   int64_t frames = 0, in_view = 0, found = 0;  // people, frame by frame
   int64_t cut = 0;                             // bodies too many on people who have one already
   int64_t invented = 0;                        // bodies that are no people
@@ -91,14 +91,14 @@ struct RoomScore {
   PairedTracks raw, final;
   PairedTracks raw_seen;  // raw, without joints that others, the person or the image's edge hide
 
-  void Add(const RoomScore& other);
+  void Add(const IndoorScore& other);
 };
 
 /// Judges a tracker's answers, frame by frame.
-class RoomJudge {
+class IndoorJudge {
  public:
   void See(const LabelledFrame& truth, const tracker::BodyFrame& answer);
-  RoomScore score;
+  IndoorScore score;
 
  private:
   void SeePerson(const TruthBody& truth, const tracker::BodyFrame& answer, int body, double time_s);

@@ -1,5 +1,5 @@
-// `ossa experiment rooms`: one to six people in rendered rooms, standing, crossing, among
-// furniture.
+// `ossa experiment indoor-scenes`: one to six people in rendered indoor scenes, standing, crossing,
+// among furniture.
 #include <fmt/format.h>
 
 #include <cmath>
@@ -9,7 +9,7 @@
 #include "recon/motion/mocap.h"
 #include "tools/experiments/compare/metrics.h"
 #include "tools/experiments/experiments_internal.h"
-#include "tools/experiments/rooms/rooms_internal.h"
+#include "tools/experiments/indoor_scenes/indoor_scenes_internal.h"
 #include "tools/experiments/stage/jobs.h"
 #include "tools/tracker/picture.h"
 
@@ -22,11 +22,11 @@ struct Job {
   int pictures_every;  // frames; 0: none
 };
 
-RoomScore Play(const RoomScenario& scenario, const RoomCast& cast, const Job& job,
-               const tracker::TrackerOptions& how, const ExperimentContext& context) {
-  RoomStage stage(scenario, cast, job.seed);
+IndoorScore Play(const IndoorScenario& scenario, const IndoorCast& cast, const Job& job,
+                 const tracker::TrackerOptions& how, const ExperimentContext& context) {
+  IndoorStage stage(scenario, cast, job.seed);
   tracker::Tracker tracker(how);
-  RoomJudge judge;
+  IndoorJudge judge;
   for (int64_t f = 0; f < stage.size(); ++f) {
     context.StopIfAsked();
     const LabelledFrame frame = stage.Shoot(f);
@@ -39,14 +39,15 @@ RoomScore Play(const RoomScenario& scenario, const RoomCast& cast, const Job& jo
   return std::move(judge.score);
 }
 
-std::vector<RoomScore> PlayAll(const std::vector<Job>& jobs,
-                               const std::vector<RoomScenario>& scenarios, const RoomCast& cast,
-                               const tracker::TrackerOptions& how, ExperimentContext& context) {
-  std::vector<RoomScore> scores(jobs.size());
+std::vector<IndoorScore> PlayAll(const std::vector<Job>& jobs,
+                                 const std::vector<IndoorScenario>& scenarios,
+                                 const IndoorCast& cast, const tracker::TrackerOptions& how,
+                                 ExperimentContext& context) {
+  std::vector<IndoorScore> scores(jobs.size());
   std::mutex mutex;
   size_t done = 0;
   RunJobs(jobs.size(), context.threads, [&](size_t i) {
-    const RoomScenario& scenario = scenarios[jobs[i].scenario];
+    const IndoorScenario& scenario = scenarios[jobs[i].scenario];
     scores[i] = Play(scenario, cast, jobs[i], how, context);
     const std::lock_guard lock(mutex);
     ++done;
@@ -93,7 +94,7 @@ Table JitterTable() {
           .note = "After the first second; the last performance."};
 }
 
-void AddRow(const std::string& name, const RoomScore& s, Table& where, Table& joints) {
+void AddRow(const std::string& name, const IndoorScore& s, Table& where, Table& joints) {
   where.rows.push_back(
       {name, std::to_string(s.frames), std::to_string(s.in_view), Share(s.found, s.in_view),
        Share(s.cut, s.frames), Share(s.invented, s.frames), std::to_string(s.switches),
@@ -108,7 +109,7 @@ void AddRow(const std::string& name, const RoomScore& s, Table& where, Table& jo
 // Root of the mean squared distance of a still person's joints from their means, millimetres: of
 // the joints that are there in nearly every frame. The first second is the filter's.
 std::optional<double> Jitter_mm(const PairedTracks& track) {
-  constexpr size_t kSettled = 30;
+  constexpr size_t kSettled = 30;  // frames, by hand: a second
   double square = 0, count = 0;
   for (size_t j = 0; j < recon::kJointCount; ++j) {
     std::vector<Eigen::Vector3d> places;
@@ -125,7 +126,7 @@ std::optional<double> Jitter_mm(const PairedTracks& track) {
   return 1000 * std::sqrt(square / count);
 }
 
-void AddJitterRows(const RoomScore& s, Table& jitter) {
+void AddJitterRows(const IndoorScore& s, Table& jitter) {
   jitter.rows.push_back({"raw, tracked joints", Cell(Jitter_mm(s.raw), 1, 1), "-"});
   jitter.rows.push_back({"final, default smoothing", Cell(Jitter_mm(s.final), 1, 1), "5"});
 }
@@ -148,7 +149,7 @@ tracker::TrackerOptions TrackerOf(ExperimentContext& context) {
 
 }  // namespace
 
-std::vector<Table> RunRooms(ExperimentContext& context) {
+std::vector<Table> RunIndoorScenes(ExperimentContext& context) {
   const auto sources = context.parameters.Texts("mocap", {"authored"});
   const int performances = context.parameters.Integer("performances", context.full ? 6 : 2, 1);
   const int frames = context.parameters.Integer("frames", context.full ? 150 : 90, 2);
@@ -161,23 +162,24 @@ std::vector<Table> RunRooms(ExperimentContext& context) {
   const auto clips = recon::LoadMocap(sources);
   const auto model = LoadFetchedBody();
   const recon::Wardrobe wardrobe(model);
-  const RoomCast cast{model, wardrobe, clips, split, width, width * 3 / 4, frames};
+  const IndoorCast cast{model, wardrobe, clips, split, width, width * 3 / 4, frames};
 
-  const auto scenarios = RoomScenarios();
+  const auto scenarios = IndoorScenarios();
   std::vector<Job> jobs;
   for (size_t s = 0; s < scenarios.size(); ++s) {
     if (scenarios[s].name.find(only) == std::string::npos) continue;
     for (int k = 0; k < performances; ++k)
       jobs.push_back({s, context.seed * 1000 + s * 50 + static_cast<uint64_t>(k), pictures_every});
   }
-  if (jobs.empty()) throw InputError(fmt::format("rooms: no scenario has '{}' in its name", only));
+  if (jobs.empty())
+    throw InputError(fmt::format("indoor-scenes: no scenario has '{}' in its name", only));
   const auto scores = PlayAll(jobs, scenarios, cast, how, context);
 
   Table where = WhereTable(), joints = JointsTable(), jitter = JitterTable();
-  RoomScore all;
+  IndoorScore all;
   for (size_t i = 0; i < jobs.size();) {
     const size_t scenario = jobs[i].scenario;
-    RoomScore sum;
+    IndoorScore sum;
     for (; i < jobs.size() && jobs[i].scenario == scenario; ++i) sum.Add(scores[i]);
     if (scenarios[scenario].still) AddJitterRows(scores[i - 1], jitter);
     AddRow(scenarios[scenario].name, sum, where, joints);

@@ -13,7 +13,7 @@
 #include "depth/base/error.h"
 #include "recon/motion/mocap.h"
 #include "tools/experiments/experiments_internal.h"
-#include "tools/experiments/rooms/rooms_internal.h"
+#include "tools/experiments/indoor_scenes/indoor_scenes_internal.h"
 #include "tools/experiments/stage/jobs.h"
 #include "tools/synth/frame_maker.h"
 #include "tools/tracker/person_signs.h"
@@ -21,6 +21,8 @@
 
 namespace ossa::tools {
 namespace {
+
+// Constants: sizes of the set of examples, by hand.
 
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
@@ -62,13 +64,13 @@ class Gatherer {
     int done = 0;
     RunJobs(examples.size(), context_.threads, [&](size_t k) {
       const int width = k % 2 ? 640 : 320;
-      const RoomCast cast{model, wardrobe, clips_, split_, width, width * 3 / 4, 90};
-      Rooms(cast, seed + 100 * k, examples[k]);
+      const IndoorCast cast{model, wardrobe, clips_, split_, width, width * 3 / 4, 90};
+      IndoorScenes(cast, seed + 100 * k, examples[k]);
       BehindSeats(cast, seed + 100 * k + 50, examples[k]);
       for (const View view : {View::kFront, View::kAny, View::kNear})
         Singles(view, seed + k, examples[k]);
       const std::lock_guard lock(mutex);
-      if (context_.progress) context_.progress(++done, performances, "rooms");
+      if (context_.progress) context_.progress(++done, performances, "scenes");
     });
     std::vector<Example> all;
     for (auto& some : examples) std::move(some.begin(), some.end(), std::back_inserter(all));
@@ -76,20 +78,20 @@ class Gatherer {
   }
 
  private:
-  void Rooms(const RoomCast& cast, uint64_t seed, std::vector<Example>& examples) {
-    for (const RoomScenario& scenario : RoomScenarios()) Play(scenario, cast, ++seed, examples);
+  void IndoorScenes(const IndoorCast& cast, uint64_t seed, std::vector<Example>& examples) {
+    for (const IndoorScenario& scenario : IndoorScenarios()) Play(scenario, cast, ++seed, examples);
   }
 
   // Head and shoulders alone are rare among the others.
-  void BehindSeats(const RoomCast& cast, uint64_t seed, std::vector<Example>& examples) {
+  void BehindSeats(const IndoorCast& cast, uint64_t seed, std::vector<Example>& examples) {
     constexpr int kSeats = 10;
-    const RoomScenario scenario{"one, sofa before", 1, Furnishing::kSofaBefore};
+    const IndoorScenario scenario{"one, sofa before", 1, Furnishing::kSofaBefore};
     for (int i = 0; i < kSeats; ++i) Play(scenario, cast, ++seed, examples);
   }
 
-  void Play(const RoomScenario& scenario, const RoomCast& cast, uint64_t seed,
+  void Play(const IndoorScenario& scenario, const IndoorCast& cast, uint64_t seed,
             std::vector<Example>& examples) {
-    RoomStage stage(scenario, cast, seed);
+    IndoorStage stage(scenario, cast, seed);
     for (int64_t f = 5; f < stage.size(); f += 20) Look(stage.Shoot(f), examples);
   }
 

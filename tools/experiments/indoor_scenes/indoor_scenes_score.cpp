@@ -1,16 +1,18 @@
 // Who was found, cut in two, invented or mixed up.
 #include <algorithm>
 
-#include "tools/experiments/rooms/rooms_internal.h"
+#include "tools/experiments/indoor_scenes/indoor_scenes_internal.h"
 #include "tools/tracker/skeleton_record.h"
 
 namespace ossa::tools {
 namespace {
 
+// Constants: by hand; they stay, or figures of before and after would not compare.
+
 // Less of a person than this a user of the tracker would not miss, nor mind.
 constexpr double kInView_m2 = 0.10;
 constexpr int kInViewJoints = 6;
-constexpr double kLeastIou = 0.25;  // of a body that is said to be a person's
+constexpr double kLeastIou = 0.25;  // of a body that is said to be a person's; a ratio of areas
 
 struct Overlaps {
   std::vector<std::vector<double>> common;  // pixels of each body on each person
@@ -86,7 +88,7 @@ void Append(PairedTracks& to, const PairedTracks& more) {
 
 }  // namespace
 
-void RoomScore::Add(const RoomScore& other) {
+void IndoorScore::Add(const IndoorScore& other) {
   frames += other.frames;
   in_view += other.in_view;
   found += other.found;
@@ -99,8 +101,8 @@ void RoomScore::Add(const RoomScore& other) {
   Append(raw_seen, other.raw_seen);
 }
 
-void RoomJudge::SeePerson(const TruthBody& truth, const tracker::BodyFrame& answer, int body,
-                          double time_s) {
+void IndoorJudge::SeePerson(const TruthBody& truth, const tracker::BodyFrame& answer, int body,
+                            double time_s) {
   const auto joints = [&](tracker::PostureKind kind) {
     const auto record = tracker::RecordOf(answer, kind);
     return body < 0 ? SparsePosture{} : SparsePostureOf(record.bodies[static_cast<size_t>(body)]);
@@ -121,7 +123,7 @@ void RoomJudge::SeePerson(const TruthBody& truth, const tracker::BodyFrame& answ
   id_of_person_[truth.id] = id;
 }
 
-void RoomJudge::See(const LabelledFrame& truth, const tracker::BodyFrame& answer) {
+void IndoorJudge::See(const LabelledFrame& truth, const tracker::BodyFrame& answer) {
   const Overlaps o = OverlapsOf(truth, answer);
   const std::vector<int> body_of = Match(o);
   ++score.frames;
