@@ -21,7 +21,7 @@ CODE = re.compile(r"`([^`\n]+)`")
 HEADING = re.compile(r"^#{1,6}\s+(.*?)\s*#*$")
 FENCE = re.compile(r"^\s*```(\w*)")
 ROOMS = ("depth", "forest", "recon", "physics", "tools", "tests", "cmake", "docs", ".ci")
-PATH = re.compile(rf"^(?!depth/\d)(?:{'|'.join(map(re.escape, ROOMS))})/[\w./*{{}},-]+$")
+PATH = re.compile(rf"^(?!depth/\d|.*NAME)(?:{'|'.join(map(re.escape, ROOMS))})/[\w./*{{}},-]+$")
 # Documents that are elsewhere: whoever reads the repository does not have them.
 ELSEWHERE = re.compile(r"\b(?:DESIGN|FACTS|STYLE)\b(?!\.md)")
 DOCUMENT = re.compile(r"(?<![\w/.*{}$-])((?:[\w-]+/)*[\w-]+\.md)\b")

@@ -1,0 +1,21 @@
+var searchData=
+[
+  ['u_0',['u',['../structossa_1_1forest_1_1Node.html#a1343031300df428c4f976c2150352e79',1,'ossa::forest::Node']]],
+  ['uncertainty_5fm_1',['Uncertainty_m',['../classossa_1_1recon_1_1PriorFilter.html#a20ad99d7aa4af9e03e1d7b1640a351c6',1,'ossa::recon::PriorFilter']]],
+  ['unplug_5fafter_2',['unplug_after',['../structossa_1_1depth_1_1VirtualDeviceOptions.html#ad307ba385b0cbfa429aad833bae1083c',1,'ossa::depth::VirtualDeviceOptions']]],
+  ['unplugs_3',['unplugs',['../structossa_1_1depth_1_1VirtualDeviceOptions.html#a9ac344bf8b809836554f91f4d139b2b7',1,'ossa::depth::VirtualDeviceOptions']]],
+  ['up_4',['up',['../structossa_1_1depth_1_1PointGrid.html#a035902ec16872470b93f1e83f041ae0d',1,'ossa::depth::PointGrid']]],
+  ['update_5',['Update',['../classossa_1_1recon_1_1LocalMixture.html#ab3588dce6d37ecccbe00c85e2421ac33',1,'ossa::recon::LocalMixture']]],
+  ['updatevertices_6',['UpdateVertices',['../classossa_1_1depth_1_1Renderer.html#adb0bd34bc1932353000b46e9dfd7f7c8',1,'ossa::depth::Renderer']]],
+  ['use_5fbehaviour_7',['use_behaviour',['../structossa_1_1recon_1_1ReliabilityOptions.html#af229a6d535b686b128fde2d73d22e0a0',1,'ossa::recon::ReliabilityOptions']]],
+  ['use_5fdepth_8',['use_depth',['../structossa_1_1recon_1_1ReliabilityOptions.html#a103637e1563db7a8039006add5bf547b',1,'ossa::recon::ReliabilityOptions']]],
+  ['use_5fkinematics_9',['use_kinematics',['../structossa_1_1recon_1_1ReliabilityOptions.html#aa4dce4ecfbaf91052b832a94b2eaf1bc',1,'ossa::recon::ReliabilityOptions']]],
+  ['use_5freliability_10',['use_reliability',['../structossa_1_1recon_1_1LocalPcaOptions.html#ad9ad9cafa0640edad287b7965072e193',1,'ossa::recon::LocalPcaOptions']]],
+  ['use_5fspeed_11',['use_speed',['../structossa_1_1recon_1_1ReliabilityOptions.html#afc5a956a0ff595a66fbfa373fae7d63a',1,'ossa::recon::ReliabilityOptions']]],
+  ['use_5fstate_12',['use_state',['../structossa_1_1recon_1_1ReliabilityOptions.html#adcbaa32a889424f0a13e53ad7a7deeef',1,'ossa::recon::ReliabilityOptions']]],
+  ['userimage_13',['UserImage',['../namespaceossa_1_1depth.html#aa8d41a185e06a348878a7d7a30934b29',1,'ossa::depth']]],
+  ['users_14',['users',['../structossa_1_1depth_1_1SceneState.html#af692b2605fc915c932c072a9a2008d6b',1,'ossa::depth::SceneState::users()'],['../structossa_1_1tracker_1_1BodyFrame.html#ab74f7a1c4da9cd7d40b7ea29507cd06d',1,'ossa::tracker::BodyFrame::users()']]],
+  ['usertrack_15',['UserTrack',['../structossa_1_1depth_1_1UserTrack.html',1,'ossa::depth']]],
+  ['usual_5fspeed_16',['usual_speed',['../structossa_1_1recon_1_1ReliabilityOptions.html#ac5cfde604da32d87a3ee280c577c014e',1,'ossa::recon::ReliabilityOptions']]],
+  ['usualsmoothing_17',['UsualSmoothing',['../namespaceossa_1_1tracker.html#a51494ab1155296355b53274c50b75cf9',1,'ossa::tracker']]]
+];

@@ -1,0 +1,26 @@
+var searchData=
+[
+  ['hair_5fm_0',['hair_m',['../structossa_1_1recon_1_1Clothing.html#ae5f78ae51ed16b125621790f7f805d73',1,'ossa::recon::Clothing']]],
+  ['halfof_1',['HalfOf',['../namespaceossa_1_1recon.html#a3697bccace4c086ae167d6a2cd818d6d',1,'ossa::recon']]],
+  ['hang_2',['Hang',['../classossa_1_1physics_1_1World.html#a50c0549a3f1a30b2aa0b77bf8bffa55b',1,'ossa::physics::World']]],
+  ['has_5fhead_3',['has_head',['../structossa_1_1depth_1_1Candidate.html#ade65949d07f780a9f6fa3cecdfb6090e',1,'ossa::depth::Candidate']]],
+  ['hasmoved_4',['HasMoved',['../namespaceossa_1_1depth.html#a8af0aecacc309e92a1b1dfa38db41031',1,'ossa::depth']]],
+  ['hasplace_5',['HasPlace',['../namespaceossa_1_1recon.html#a91f6a741b9ee0b4d2ff61a4c597a1ebe',1,'ossa::recon']]],
+  ['haspulls_6',['HasPulls',['../classossa_1_1recon_1_1LinearFilter.html#aa202714866dd8e36cdada0c5cce259c4',1,'ossa::recon::LinearFilter']]],
+  ['headblob_7',['HeadBlob',['../structossa_1_1depth_1_1HeadBlob.html',1,'ossa::depth']]],
+  ['headingof_8',['HeadingOf',['../namespaceossa_1_1recon.html#a7b0ea531d85ffde759fe13d2a042176e',1,'ossa::recon']]],
+  ['headseed_9',['HeadSeed',['../namespaceossa_1_1depth.html#abf5663aa20e51506a9c99d1afeaae937',1,'ossa::depth']]],
+  ['height_10',['height',['../structossa_1_1depth_1_1Camera.html#ae7661b96ca555e388bed2070162f6339',1,'ossa::depth::Camera::height()'],['../structossa_1_1depth_1_1PointGrid.html#ac57a573c803c2009b956977f7fd95409',1,'ossa::depth::PointGrid::height()'],['../structossa_1_1recon_1_1BodyShape.html#a9079aa4149124ccfb072221f55c0aec2',1,'ossa::recon::BodyShape::height()']]],
+  ['height_5fm_11',['height_m',['../structossa_1_1recon_1_1ShapedBody.html#ab99e34448402de5775cc2c99c4b3e375',1,'ossa::recon::ShapedBody']]],
+  ['hidden_12',['hidden',['../structossa_1_1forest_1_1RefinementOptions.html#a2d04b1895580b02a3a55165593399471',1,'ossa::forest::RefinementOptions::hidden()'],['../structossa_1_1forest_1_1NetworkOptions.html#ace2b2de7b6598bf8ee8722fe0aab39fc',1,'ossa::forest::NetworkOptions::hidden()']]],
+  ['hidden_5fshare_13',['hidden_share',['../structossa_1_1depth_1_1Candidate.html#a0386a47f090af402984866b593185f45',1,'ossa::depth::Candidate']]],
+  ['hiddenbetween_14',['HiddenBetween',['../namespaceossa_1_1depth.html#a7c3f9a3778377c109cd44cc102ff19b8',1,'ossa::depth']]],
+  ['hiddenplace_15',['HiddenPlace',['../namespaceossa_1_1recon.html#aab7d1055e0d782a23eb849eb68b3a334',1,'ossa::recon']]],
+  ['hidespartof_16',['HidesPartOf',['../namespaceossa_1_1depth.html#a0c9205915c5c8f361004c6815249905d',1,'ossa::depth']]],
+  ['hideunworn_17',['HideUnworn',['../classossa_1_1recon_1_1Wardrobe.html#a1f6f23d46a55dc085e1a45346dc27b77',1,'ossa::recon::Wardrobe']]],
+  ['hidingoptions_18',['HidingOptions',['../structossa_1_1recon_1_1HidingOptions.html',1,'ossa::recon']]],
+  ['hierarchicalof_19',['HierarchicalOf',['../namespaceossa_1_1recon.html#a38d6ea402259f2caf9d0bf78c72cdc35',1,'ossa::recon']]],
+  ['high_5fm_20',['high_m',['../structossa_1_1depth_1_1Region.html#a24966bc3a861cc7d29b8ee8770d24bbe',1,'ossa::depth::Region']]],
+  ['hinges_21',['hinges',['../structossa_1_1tracker_1_1MechanicsBuild.html#a662023c76ee1f1cf3ecfa689fc87f153',1,'ossa::tracker::MechanicsBuild::hinges()'],['../structossa_1_1physics_1_1CharacterOptions.html#ae7c99760bc33fb524b6342038ecc1a19',1,'ossa::physics::CharacterOptions::hinges()'],['../structossa_1_1physics_1_1CharacterFilterOptions.html#ae8d2c561046623aeea15f29b9292b8ec',1,'ossa::physics::CharacterFilterOptions::hinges()']]],
+  ['hold_22',['Hold',['../classossa_1_1physics_1_1World.html#a0b0fd6001a16788891f3b24b8cb76a38',1,'ossa::physics::World']]]
+];

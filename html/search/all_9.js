@@ -1,0 +1,22 @@
+var searchData=
+[
+  ['jitter_5fradius_5fm_0',['jitter_radius_m',['../structossa_1_1tracker_1_1SmoothingOptions.html#a2245c7dbd88388e18f89b7182b6cf182',1,'ossa::tracker::SmoothingOptions']]],
+  ['joinbehind_1',['JoinBehind',['../namespaceossa_1_1depth.html#aa17654edfeed17f7bd688e0a96e6f1aa',1,'ossa::depth']]],
+  ['joinbelow_2',['JoinBelow',['../namespaceossa_1_1depth.html#acaf6b3a3ed493b2089eb900e48811e25',1,'ossa::depth']]],
+  ['joinbyhistory_3',['JoinByHistory',['../namespaceossa_1_1depth.html#af8794c05931c05bd14eada88cd4db822',1,'ossa::depth']]],
+  ['joincandidates_4',['JoinCandidates',['../namespaceossa_1_1depth.html#aab19fc02ca87591037dca4a83f96a52e',1,'ossa::depth']]],
+  ['joinpieces_5',['JoinPieces',['../namespaceossa_1_1depth.html#a347602c30e277f08c2c12f5cca804c5b',1,'ossa::depth']]],
+  ['joint_6',['Joint',['../namespaceossa_1_1recon.html#a9431ed6d5afbdd47019755a479aa6800',1,'ossa::recon']]],
+  ['joint_5flimits_7',['joint_limits',['../structossa_1_1physics_1_1CharacterFilterOptions.html#acb7c9847f6b27a186c448fcaa4501660',1,'ossa::physics::CharacterFilterOptions::joint_limits()'],['../structossa_1_1physics_1_1CharacterOptions.html#aeecd062626762d14baffdd660eb00c59',1,'ossa::physics::CharacterOptions::joint_limits()'],['../structossa_1_1tracker_1_1MechanicsBuild.html#aca0fe578c9d7df9ac1b4f7abe04a3f4c',1,'ossa::tracker::MechanicsBuild::joint_limits()']]],
+  ['joint_5fm_8',['joint_m',['../structossa_1_1recon_1_1ShapedBody.html#ab0058c08bd5c106a5f7f26b90a388231',1,'ossa::recon::ShapedBody']]],
+  ['jointanchor_9',['JointAnchor',['../structossa_1_1recon_1_1JointAnchor.html',1,'ossa::recon']]],
+  ['jointfeature_10',['JointFeature',['../namespaceossa_1_1recon.html#a9f45f91ef3da8b63abb45075b2028022',1,'ossa::recon']]],
+  ['jointorientations_11',['JointOrientations',['../namespaceossa_1_1recon.html#a918f8c4341847a3b6d08dd68781aa625',1,'ossa::recon']]],
+  ['jointrecord_12',['JointRecord',['../structossa_1_1recon_1_1JointRecord.html',1,'ossa::recon']]],
+  ['joints_13',['joints',['../structossa_1_1recon_1_1BodyRecord.html#a73c89ff5685e551b2ea3109abfa64d7e',1,'ossa::recon::BodyRecord']]],
+  ['joints_5fm_14',['joints_m',['../structossa_1_1recon_1_1Looked.html#a6ce0565cadd91f469655bfaa951ebd79',1,'ossa::recon::Looked']]],
+  ['jointset_15',['JointSet',['../namespaceossa_1_1recon.html#a42c79dca946270bac9f47c17a4b55c3e',1,'ossa::recon']]],
+  ['jointsof_16',['JointsOf',['../namespaceossa_1_1recon.html#adf67783695ac958e958c2854d8fcc04f',1,'ossa::recon']]],
+  ['jointweights_17',['JointWeights',['../namespaceossa_1_1recon.html#aa6a50ab435d3187c57b653ec70037779',1,'ossa::recon']]],
+  ['judgedbones_18',['JudgedBones',['../structossa_1_1recon_1_1JudgedBones.html',1,'ossa::recon']]]
+];

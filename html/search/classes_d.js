@@ -1,0 +1,23 @@
+var searchData=
+[
+  ['partprior_0',['PartPrior',['../structossa_1_1forest_1_1PartPrior.html',1,'ossa::forest']]],
+  ['payloadreader_1',['PayloadReader',['../classossa_1_1PayloadReader.html',1,'ossa']]],
+  ['payloadwriter_2',['PayloadWriter',['../classossa_1_1PayloadWriter.html',1,'ossa']]],
+  ['placement_3',['Placement',['../structossa_1_1recon_1_1Placement.html',1,'ossa::recon']]],
+  ['pointgrid_4',['PointGrid',['../structossa_1_1depth_1_1PointGrid.html',1,'ossa::depth']]],
+  ['posecorrection_5',['PoseCorrection',['../classossa_1_1recon_1_1PoseCorrection.html',1,'ossa::recon']]],
+  ['posecorrectionoptions_6',['PoseCorrectionOptions',['../structossa_1_1recon_1_1PoseCorrectionOptions.html',1,'ossa::recon']]],
+  ['posture_7',['Posture',['../structossa_1_1recon_1_1Posture.html',1,'ossa::recon']]],
+  ['postureclip_8',['PostureClip',['../structossa_1_1recon_1_1PostureClip.html',1,'ossa::recon']]],
+  ['posturedatabase_9',['PostureDatabase',['../classossa_1_1recon_1_1PostureDatabase.html',1,'ossa::recon']]],
+  ['posturepair_10',['PosturePair',['../structossa_1_1recon_1_1PosturePair.html',1,'ossa::recon']]],
+  ['postureprior_11',['PosturePrior',['../structossa_1_1recon_1_1PosturePrior.html',1,'ossa::recon']]],
+  ['postureprioroptions_12',['PosturePriorOptions',['../structossa_1_1recon_1_1PosturePriorOptions.html',1,'ossa::recon']]],
+  ['priorclip_13',['PriorClip',['../structossa_1_1recon_1_1PriorClip.html',1,'ossa::recon']]],
+  ['priorfilter_14',['PriorFilter',['../classossa_1_1recon_1_1PriorFilter.html',1,'ossa::recon']]],
+  ['priornetwork_15',['PriorNetwork',['../structossa_1_1recon_1_1PriorNetwork.html',1,'ossa::recon']]],
+  ['priorobservation_16',['PriorObservation',['../structossa_1_1recon_1_1PriorObservation.html',1,'ossa::recon']]],
+  ['proposal_17',['Proposal',['../structossa_1_1forest_1_1Proposal.html',1,'ossa::forest']]],
+  ['proposaltarget_18',['ProposalTarget',['../structossa_1_1forest_1_1ProposalTarget.html',1,'ossa::forest']]],
+  ['proposedperson_19',['ProposedPerson',['../structossa_1_1recon_1_1ProposedPerson.html',1,'ossa::recon']]]
+];

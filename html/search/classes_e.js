@@ -1,0 +1,26 @@
+var searchData=
+[
+  ['readresult_0',['ReadResult',['../structossa_1_1depth_1_1ReadResult.html',1,'ossa::depth']]],
+  ['reconstructedposture_1',['ReconstructedPosture',['../structossa_1_1recon_1_1ReconstructedPosture.html',1,'ossa::recon']]],
+  ['reconstructioninput_2',['ReconstructionInput',['../structossa_1_1recon_1_1ReconstructionInput.html',1,'ossa::recon']]],
+  ['reconstructor_3',['Reconstructor',['../classossa_1_1recon_1_1Reconstructor.html',1,'ossa::recon']]],
+  ['reconstructoroptions_4',['ReconstructorOptions',['../structossa_1_1recon_1_1ReconstructorOptions.html',1,'ossa::recon']]],
+  ['rectifiednetwork_5',['RectifiedNetwork',['../structossa_1_1recon_1_1RectifiedNetwork.html',1,'ossa::recon']]],
+  ['reducer_6',['Reducer',['../classossa_1_1forest_1_1Reducer.html',1,'ossa::forest']]],
+  ['referencelengths_7',['ReferenceLengths',['../classossa_1_1recon_1_1ReferenceLengths.html',1,'ossa::recon']]],
+  ['refinement_8',['Refinement',['../structossa_1_1forest_1_1Refinement.html',1,'ossa::forest']]],
+  ['refinementoptions_9',['RefinementOptions',['../structossa_1_1forest_1_1RefinementOptions.html',1,'ossa::forest']]],
+  ['region_10',['Region',['../structossa_1_1depth_1_1Region.html',1,'ossa::depth']]],
+  ['reidentifyoptions_11',['ReidentifyOptions',['../structossa_1_1depth_1_1ReidentifyOptions.html',1,'ossa::depth']]],
+  ['reliability_12',['Reliability',['../structossa_1_1recon_1_1Reliability.html',1,'ossa::recon']]],
+  ['reliabilityestimator_13',['ReliabilityEstimator',['../classossa_1_1recon_1_1ReliabilityEstimator.html',1,'ossa::recon']]],
+  ['reliabilityoptions_14',['ReliabilityOptions',['../structossa_1_1recon_1_1ReliabilityOptions.html',1,'ossa::recon']]],
+  ['renderedimage_15',['RenderedImage',['../structossa_1_1depth_1_1RenderedImage.html',1,'ossa::depth']]],
+  ['renderer_16',['Renderer',['../classossa_1_1depth_1_1Renderer.html',1,'ossa::depth']]],
+  ['renderoptions_17',['RenderOptions',['../structossa_1_1depth_1_1RenderOptions.html',1,'ossa::depth']]],
+  ['rgb_18',['Rgb',['../structossa_1_1recon_1_1Rgb.html',1,'ossa::recon']]],
+  ['rigpose_19',['RigPose',['../structossa_1_1recon_1_1RigPose.html',1,'ossa::recon']]],
+  ['rigrest_20',['RigRest',['../structossa_1_1recon_1_1RigRest.html',1,'ossa::recon']]],
+  ['roomshape_21',['RoomShape',['../structossa_1_1depth_1_1RoomShape.html',1,'ossa::depth']]],
+  ['runstats_22',['RunStats',['../classossa_1_1tracker_1_1RunStats.html',1,'ossa::tracker']]]
+];

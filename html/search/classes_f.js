@@ -1,0 +1,26 @@
+var searchData=
+[
+  ['scene_0',['Scene',['../structossa_1_1depth_1_1Scene.html',1,'ossa::depth']]],
+  ['sceneoptions_1',['SceneOptions',['../structossa_1_1depth_1_1SceneOptions.html',1,'ossa::depth']]],
+  ['scenestate_2',['SceneState',['../structossa_1_1depth_1_1SceneState.html',1,'ossa::depth']]],
+  ['seed_3',['Seed',['../structossa_1_1depth_1_1Seed.html',1,'ossa::depth']]],
+  ['segment_4',['Segment',['../structossa_1_1physics_1_1Segment.html',1,'ossa::physics']]],
+  ['sensorimage_5',['SensorImage',['../structossa_1_1depth_1_1SensorImage.html',1,'ossa::depth']]],
+  ['shapedbody_6',['ShapedBody',['../structossa_1_1recon_1_1ShapedBody.html',1,'ossa::recon']]],
+  ['signcollector_7',['SignCollector',['../classossa_1_1tracker_1_1SignCollector.html',1,'ossa::tracker']]],
+  ['skeletonclip_8',['SkeletonClip',['../structossa_1_1recon_1_1SkeletonClip.html',1,'ossa::recon']]],
+  ['skeletonframe_9',['SkeletonFrame',['../structossa_1_1recon_1_1SkeletonFrame.html',1,'ossa::recon']]],
+  ['skeletonjsonlreader_10',['SkeletonJsonlReader',['../classossa_1_1recon_1_1SkeletonJsonlReader.html',1,'ossa::recon']]],
+  ['skeletonjsonlwriter_11',['SkeletonJsonlWriter',['../classossa_1_1recon_1_1SkeletonJsonlWriter.html',1,'ossa::recon']]],
+  ['skeletonreadoptions_12',['SkeletonReadOptions',['../structossa_1_1recon_1_1SkeletonReadOptions.html',1,'ossa::recon']]],
+  ['skeletonsequence_13',['SkeletonSequence',['../structossa_1_1recon_1_1SkeletonSequence.html',1,'ossa::recon']]],
+  ['smoothingoptions_14',['SmoothingOptions',['../structossa_1_1tracker_1_1SmoothingOptions.html',1,'ossa::tracker']]],
+  ['smoothingstate_15',['SmoothingState',['../structossa_1_1tracker_1_1SmoothingState.html',1,'ossa::tracker']]],
+  ['sourceoptions_16',['SourceOptions',['../structossa_1_1depth_1_1SourceOptions.html',1,'ossa::depth']]],
+  ['spectrum_17',['Spectrum',['../structossa_1_1recon_1_1Spectrum.html',1,'ossa::recon']]],
+  ['speedterm_18',['SpeedTerm',['../classossa_1_1recon_1_1SpeedTerm.html',1,'ossa::recon']]],
+  ['stagetimes_19',['StageTimes',['../structossa_1_1tracker_1_1StageTimes.html',1,'ossa::tracker']]],
+  ['strike_20',['Strike',['../structossa_1_1physics_1_1Strike.html',1,'ossa::physics']]],
+  ['structuredlightoptions_21',['StructuredLightOptions',['../structossa_1_1depth_1_1StructuredLightOptions.html',1,'ossa::depth']]],
+  ['surfacesampler_22',['SurfaceSampler',['../classossa_1_1recon_1_1SurfaceSampler.html',1,'ossa::recon']]]
+];

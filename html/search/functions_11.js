@@ -1,0 +1,24 @@
+var searchData=
+[
+  ['read_0',['Read',['../classossa_1_1forest_1_1TrainingSource.html#a0398b38dfd3c348ad6eeee1935f40af2',1,'ossa::forest::TrainingSource::Read()'],['../classossa_1_1depth_1_1FrameSource.html#a7fe72b48156ce927e38cd85a6f2f985d',1,'ossa::depth::FrameSource::Read()']]],
+  ['readcamerajson_1',['ReadCameraJson',['../namespaceossa_1_1depth.html#a5c5caf5b434bdd236093b01fd09da0dd',1,'ossa::depth']]],
+  ['readdepthpng_2',['ReadDepthPng',['../namespaceossa_1_1depth.html#a4360f14f5d33398bd8381e17fd67d4a5',1,'ossa::depth']]],
+  ['readdepthpngsize_3',['ReadDepthPngSize',['../namespaceossa_1_1depth.html#ad40de7e175218c615d752be5448a73af',1,'ossa::depth']]],
+  ['readlabelpng_4',['ReadLabelPng',['../namespaceossa_1_1depth.html#aa8e5b6281b131b30a790d14b04f3bd56',1,'ossa::depth']]],
+  ['readmanifestcamera_5',['ReadManifestCamera',['../namespaceossa_1_1depth.html#a659aacb4366b4e192f807235af81080b',1,'ossa::depth']]],
+  ['readskeletonclips_6',['ReadSkeletonClips',['../namespaceossa_1_1recon.html#a58ea73e38b2e063e5c7048d633aeb724',1,'ossa::recon']]],
+  ['readskeletonjsonl_7',['ReadSkeletonJsonl',['../namespaceossa_1_1recon.html#a91893825ba3a00aa75622ee9c77d8375',1,'ossa::recon']]],
+  ['readskeletons_8',['ReadSkeletons',['../namespaceossa_1_1recon.html#a36517568eb3c8a3f2c9959560c2b43c5',1,'ossa::recon']]],
+  ['readskeletonstream_9',['ReadSkeletonStream',['../namespaceossa_1_1recon.html#a049dbaa28667271bd27f47a41f6ec451',1,'ossa::recon']]],
+  ['reconstructionmethods_10',['ReconstructionMethods',['../namespaceossa_1_1recon.html#aa6bcd1088991ff95118d374946933449',1,'ossa::recon']]],
+  ['reconstructsequence_11',['ReconstructSequence',['../namespaceossa_1_1recon.html#a3f300bb3a415e3dccc3f4e3b809bfc50',1,'ossa::recon']]],
+  ['recordof_12',['RecordOf',['../namespaceossa_1_1tracker.html#ae9ce187b6443829c65fef667232c4d28',1,'ossa::tracker']]],
+  ['repeatedbody_13',['RepeatedBody',['../namespaceossa_1_1recon.html#a867f5dba1b74f90ec8f4eb89d42218c5',1,'ossa::recon']]],
+  ['reset_14',['Reset',['../classossa_1_1tracker_1_1Tracker.html#acddcbeb32f0c77af0eabdb387a2ab111',1,'ossa::tracker::Tracker::Reset()'],['../classossa_1_1physics_1_1CharacterFilter.html#aea808b326cc652923614a9007b9eedf6',1,'ossa::physics::CharacterFilter::Reset()'],['../classossa_1_1recon_1_1PriorFilter.html#a3a13cb3f0faee657cfc8dc7a3a1efaf3',1,'ossa::recon::PriorFilter::Reset()'],['../classossa_1_1recon_1_1Reconstructor.html#a985f2907d771221d49383dd0d9edd1bd',1,'ossa::recon::Reconstructor::Reset()']]],
+  ['resized_15',['Resized',['../namespaceossa_1_1depth.html#aa0c9bdea700af2b9ecc16b50a1c54bc3',1,'ossa::depth']]],
+  ['restorientations_16',['RestOrientations',['../namespaceossa_1_1recon.html#a3138f41849ac93b03a7659c82957966e',1,'ossa::recon']]],
+  ['retargeted_17',['Retargeted',['../namespaceossa_1_1recon.html#a342cf42f79f1b528cfd3b1edea0fb08c',1,'ossa::recon']]],
+  ['revised_18',['Revised',['../classossa_1_1recon_1_1Reconstructor.html#af0eb297f504fa68ef85aefac6b117206',1,'ossa::recon::Reconstructor']]],
+  ['rigbone_19',['RigBone',['../namespaceossa_1_1recon.html#a86985528dae6c60eedd0a021362549d9',1,'ossa::recon']]],
+  ['run_20',['Run',['../classossa_1_1tracker_1_1Tracker.html#ade0bb37384b56ad88fce23055aa5e486',1,'ossa::tracker::Tracker::Run()'],['../classossa_1_1recon_1_1NetworkRunner.html#ac5f0e45cfda69d2d07d0f95d8701fb47',1,'ossa::recon::NetworkRunner::Run()']]]
+];

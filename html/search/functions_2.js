@@ -1,0 +1,27 @@
+var searchData=
+[
+  ['camera_0',['camera',['../classossa_1_1depth_1_1FrameSource.html#abc02a91da1d1e9d74735309d4db677b1',1,'ossa::depth::FrameSource']]],
+  ['cameraforsize_1',['CameraForSize',['../namespaceossa_1_1depth.html#af8ee07eb0ea24449cf688756e4863468',1,'ossa::depth']]],
+  ['camerafromjson_2',['CameraFromJson',['../namespaceossa_1_1depth.html#a24b8943f13670ca3d2be7028b95b2e83',1,'ossa::depth']]],
+  ['cellpixels_3',['CellPixels',['../namespaceossa_1_1depth.html#a6a42765c32008c7806b27f4cd1c2db43',1,'ossa::depth']]],
+  ['cellsof_4',['CellsOf',['../structossa_1_1depth_1_1PointGrid.html#ac91da3da00779378f210dcc4c14f00da',1,'ossa::depth::PointGrid']]],
+  ['characterfilter_5',['CharacterFilter',['../classossa_1_1physics_1_1CharacterFilter.html#ab6bdeff72c0e6e26e1777da05f97de25',1,'ossa::physics::CharacterFilter']]],
+  ['check_6',['Check',['../classossa_1_1AtomicFile.html#a95026bb67c295b0dc6e162f86a56299f',1,'ossa::AtomicFile::Check()'],['../structossa_1_1forest_1_1TrainOptions.html#acdb9765340ebe69f8fc0093a9180862a',1,'ossa::forest::TrainOptions::Check()'],['../structossa_1_1recon_1_1PosturePriorOptions.html#a054e387fe86d0e1e9dbd541cd9776292',1,'ossa::recon::PosturePriorOptions::Check()'],['../structossa_1_1physics_1_1CharacterFilterOptions.html#a953a53e22e41a91fd875d80fde5c7916',1,'ossa::physics::CharacterFilterOptions::Check()'],['../structossa_1_1physics_1_1WorldOptions.html#a38e9611ef0a9b8152a7d2894b54834fd',1,'ossa::physics::WorldOptions::Check()'],['../structossa_1_1tracker_1_1SmoothingOptions.html#a777c2e8ad5a6116aa47a1031a09b4ec7',1,'ossa::tracker::SmoothingOptions::Check()'],['../structossa_1_1tracker_1_1TrackerOptions.html#a17e11f574407341a45490698c02ea994',1,'ossa::tracker::TrackerOptions::Check()']]],
+  ['checkcamera_7',['CheckCamera',['../namespaceossa_1_1depth.html#abe53392644c87664d3938c8d5ad933ac',1,'ossa::depth']]],
+  ['checkskeletonextension_8',['CheckSkeletonExtension',['../namespaceossa_1_1recon.html#ae013f67d620165a0daf265887d2d84b6',1,'ossa::recon']]],
+  ['checkwritable_9',['CheckWritable',['../classossa_1_1AtomicFile.html#a89fef14f77a2c73b7b866abd911dc36d',1,'ossa::AtomicFile']]],
+  ['chooseallusers_10',['ChooseAllUsers',['../classossa_1_1tracker_1_1Tracker.html#a4a9d1addd46e7ae0fd6eecfde8e3c873',1,'ossa::tracker::Tracker']]],
+  ['chooseusers_11',['ChooseUsers',['../classossa_1_1tracker_1_1Tracker.html#afd9e241d51f2fcffe1532139445a5e38',1,'ossa::tracker::Tracker']]],
+  ['clearness_12',['Clearness',['../namespaceossa_1_1recon.html#a2881e93db4e5e92d2e469c690dd53a4e',1,'ossa::recon']]],
+  ['closehands_13',['CloseHands',['../namespaceossa_1_1recon.html#a6cae40fafa4a7f2a50082ca3d378a87a',1,'ossa::recon']]],
+  ['commit_14',['Commit',['../classossa_1_1AtomicFile.html#afe8dcf1140fa10d4e80975ec39c99ad5',1,'ossa::AtomicFile']]],
+  ['confirmusers_15',['ConfirmUsers',['../namespaceossa_1_1depth.html#aa0d0e2829278d781042558abb7acc709',1,'ossa::depth']]],
+  ['connectedregions_16',['ConnectedRegions',['../namespaceossa_1_1depth.html#ac597d5dc441bcec871dae16f1da6fa95',1,'ossa::depth']]],
+  ['constrain_17',['Constrain',['../classossa_1_1physics_1_1World.html#aa01697f458f81d3609d5b13fc63c66ba',1,'ossa::physics::World']]],
+  ['continuous_18',['Continuous',['../namespaceossa_1_1depth.html#a8617d9086f88319a3ae863bbb58a4e87',1,'ossa::depth']]],
+  ['correction_5fm_19',['Correction_m',['../structossa_1_1recon_1_1PriorNetwork.html#a618cfc90ec9f9fb87861205075c24430',1,'ossa::recon::PriorNetwork']]],
+  ['correctionfeature_20',['CorrectionFeature',['../namespaceossa_1_1recon.html#aa777dc178d779b784e603afb4f8d1bc5',1,'ossa::recon']]],
+  ['cropped_21',['Cropped',['../namespaceossa_1_1depth.html#a9852bcaa75d71aac4d3be052cd0cd12a',1,'ossa::depth']]],
+  ['cutbyseeds_22',['CutBySeeds',['../namespaceossa_1_1depth.html#af619f5734e78ce413da5800d73968037',1,'ossa::depth']]],
+  ['cutto_23',['CutTo',['../classossa_1_1AtomicFile.html#a4721f671a81ebba851ca12e7035cec87',1,'ossa::AtomicFile']]]
+];

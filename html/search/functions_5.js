@@ -1,0 +1,20 @@
+var searchData=
+[
+  ['factor_0',['factor',['../classossa_1_1recon_1_1GaussianProcess.html#aad791b4c01785eb68c7100ece323bcf5',1,'ossa::recon::GaussianProcess']]],
+  ['fail_1',['Fail',['../classossa_1_1PayloadReader.html#ab2110220f339fbdd60c513cad5b40e34',1,'ossa::PayloadReader']]],
+  ['fakenectdump_2',['FakenectDump',['../classossa_1_1depth_1_1FakenectDump.html#a474ee5ad5006270182306b3a25e53513',1,'ossa::depth::FakenectDump']]],
+  ['filtered_3',['Filtered',['../classossa_1_1recon_1_1PostureDatabase.html#abaf5ad54e205d80bb8fe68ec6a26f658',1,'ossa::recon::PostureDatabase']]],
+  ['filterfeature_4',['FilterFeature',['../namespaceossa_1_1recon.html#ab25c3ca9e66fdcb5882d9bf132a29054',1,'ossa::recon']]],
+  ['findcandidates_5',['FindCandidates',['../namespaceossa_1_1depth.html#a9673315ee6c00c686f9b74e7ad8fae79',1,'ossa::depth']]],
+  ['findfloor_6',['FindFloor',['../namespaceossa_1_1depth.html#a919f9f6941f31d36f418cca3f9ec857d',1,'ossa::depth']]],
+  ['findheads_7',['FindHeads',['../namespaceossa_1_1depth.html#a4f9337cf4621b81ef45d1a2b51ca0b78',1,'ossa::depth']]],
+  ['finish_8',['Finish',['../classossa_1_1depth_1_1OniRecorder.html#a6127702695b508ff27fef367dc660cae',1,'ossa::depth::OniRecorder']]],
+  ['finishwithwhatfits_9',['FinishWithWhatFits',['../classossa_1_1depth_1_1OniRecorder.html#a66d1ac67b3c33514144b411b7d2e345f',1,'ossa::depth::OniRecorder']]],
+  ['flatpieces_10',['FlatPieces',['../namespaceossa_1_1depth.html#a029a53470341017c4f2a1d08c23263f8',1,'ossa::depth']]],
+  ['foldsof_11',['FoldsOf',['../namespaceossa_1_1recon.html#a5dc4293b7a6aaef6f93745ddfc865b08',1,'ossa::recon']]],
+  ['followmechanically_12',['FollowMechanically',['../namespaceossa_1_1tracker.html#a3bf573c14a547271cb3306ea53a4c9f1',1,'ossa::tracker']]],
+  ['forestmodel_13',['ForestModel',['../classossa_1_1forest_1_1ForestModel.html#aa45817054d7d0625172ee160e6e50d7a',1,'ossa::forest::ForestModel']]],
+  ['formatbvh_14',['FormatBvh',['../namespaceossa_1_1recon.html#a688c5fa7c5660949ccd45a5d6694b88c',1,'ossa::recon']]],
+  ['frame_5fcount_15',['frame_count',['../classossa_1_1depth_1_1FrameSource.html#a2e791f3f9d1d34d3a8b31a2ca34ddbda',1,'ossa::depth::FrameSource']]],
+  ['frombytes_16',['FromBytes',['../structossa_1_1recon_1_1CloseLook.html#ade9883a2860fb52f6559df17a91b52f3',1,'ossa::recon::CloseLook::FromBytes()'],['../structossa_1_1recon_1_1PosturePrior.html#a969e0754c9e45dfc770c6b5ca50e2e3e',1,'ossa::recon::PosturePrior::FromBytes()'],['../structossa_1_1recon_1_1LearnedModels.html#a86a1c81df96610769eef662b7f446155',1,'ossa::recon::LearnedModels::FromBytes()']]]
+];

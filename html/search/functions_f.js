@@ -1,0 +1,27 @@
+var searchData=
+[
+  ['parsebvh_0',['ParseBvh',['../namespaceossa_1_1recon.html#ad7806603a71f16642da898993874d93e',1,'ossa::recon']]],
+  ['parsecamera_1',['ParseCamera',['../namespaceossa_1_1depth.html#a48ac75496654f054e1ef3a235337a1a1',1,'ossa::depth']]],
+  ['parsevirtualuri_2',['ParseVirtualUri',['../namespaceossa_1_1depth.html#a8b33905a3f13929e364d6cca067871b1',1,'ossa::depth']]],
+  ['partcolour_3',['PartColour',['../namespaceossa_1_1recon.html#a7bada8ccb0f76b0e440164596412b5a8',1,'ossa::recon']]],
+  ['peakrss_5fmb_4',['PeakRss_mb',['../namespaceossa_1_1tracker.html#a567726e2c83e06c9abae38ffa7e02a91',1,'ossa::tracker']]],
+  ['perfectsensor_5',['PerfectSensor',['../namespaceossa_1_1depth.html#ae6fbc67376dfcadcc62d68f946388f66',1,'ossa::depth']]],
+  ['place_6',['Place',['../classossa_1_1physics_1_1World.html#a1f0df5935c7a2f67effa4623341a498e',1,'ossa::physics::World']]],
+  ['placed_7',['Placed',['../namespaceossa_1_1recon.html#a9670e679c4560f547b2c8ef1d37cdabc',1,'ossa::recon']]],
+  ['placementof_8',['PlacementOf',['../namespaceossa_1_1recon.html#af9a2eda8ee8d6425e73e62ef0af311ed',1,'ossa::recon']]],
+  ['posedboneheads_9',['PosedBoneHeads',['../namespaceossa_1_1recon.html#a22cf123e3d134e1314060cc3e98f3b7c',1,'ossa::recon']]],
+  ['postureofbones_10',['PostureOfBones',['../namespaceossa_1_1recon.html#ae06bcca24e997cf70de3ed9aeba1856f',1,'ossa::recon']]],
+  ['postures_11',['postures',['../classossa_1_1recon_1_1PostureDatabase.html#a218d6d049434f5a337af14443fd2ed2b',1,'ossa::recon::PostureDatabase']]],
+  ['predict_12',['Predict',['../classossa_1_1recon_1_1LocalMixture.html#aceca1b57815570cedb6c736875d92751',1,'ossa::recon::LocalMixture']]],
+  ['predictedmean_5fm_13',['PredictedMean_m',['../namespaceossa_1_1depth.html#ac16412abe8170b02b3ae72a938ddc7f8',1,'ossa::depth']]],
+  ['predictmean_14',['PredictMean',['../classossa_1_1recon_1_1GaussianProcess.html#adb71fb63e4b1cf156c2f224d8f20a3f2',1,'ossa::recon::GaussianProcess']]],
+  ['previousowners_15',['PreviousOwners',['../namespaceossa_1_1depth.html#ac890eb11382ee6a334184c48cd1d85ba',1,'ossa::depth']]],
+  ['priorfor_16',['PriorFor',['../namespaceossa_1_1tracker.html#a136f2e9f08adc9a7d100c77a57e95e70',1,'ossa::tracker']]],
+  ['probability_17',['Probability',['../structossa_1_1forest_1_1Classification.html#ac81566652dd92b1ba33845ff512e37ed',1,'ossa::forest::Classification']]],
+  ['project_18',['Project',['../namespaceossa_1_1depth.html#a0171d6fadcb7fe802639a583d99e5dc4',1,'ossa::depth']]],
+  ['pullfeature_19',['PullFeature',['../namespaceossa_1_1recon.html#a1d4bcfa68ca089d1b6cfd54528245542',1,'ossa::recon']]],
+  ['pulls_20',['Pulls',['../classossa_1_1recon_1_1LinearFilter.html#a54dec9b4b86dd65a486c29781607e0d5',1,'ossa::recon::LinearFilter']]],
+  ['push_21',['Push',['../classossa_1_1tracker_1_1Tracker.html#a20e7d25dca358a8ded69c42c3c76219c',1,'ossa::tracker::Tracker::Push()'],['../classossa_1_1physics_1_1World.html#acf114a62119f464fe1d297b173a94d37',1,'ossa::physics::World::Push()']]],
+  ['putarray_22',['PutArray',['../classossa_1_1PayloadWriter.html#aad5b06a7b0916aed5d45f745cb0d9342',1,'ossa::PayloadWriter']]],
+  ['putnetwork_23',['PutNetwork',['../namespaceossa_1_1recon.html#a3bfcf0371c8bf0d8ec81b93f4868ce68',1,'ossa::recon']]]
+];

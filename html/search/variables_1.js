@@ -1,0 +1,22 @@
+var searchData=
+[
+  ['bandwidth_5fm_0',['bandwidth_m',['../structossa_1_1forest_1_1ProposalTarget.html#aa6511339a0595f9efd62c4d87387c3b8',1,'ossa::forest::ProposalTarget']]],
+  ['barred_1',['barred',['../structossa_1_1depth_1_1Seed.html#ab64319f2d6e30d0f8a8d637ef594e4e9',1,'ossa::depth::Seed']]],
+  ['baseline_5fm_2',['baseline_m',['../structossa_1_1depth_1_1RenderOptions.html#a59b12551b5a2b47df2fc9506d23749b7',1,'ossa::depth::RenderOptions']]],
+  ['before_5fm_3',['before_m',['../structossa_1_1recon_1_1HidingOptions.html#ab1c13459121707665e2338e4d2855cb8',1,'ossa::recon::HidingOptions']]],
+  ['behaviour_4',['behaviour',['../structossa_1_1recon_1_1Reliability.html#a4d306a13f6ba659f875c41d8dd432b6e',1,'ossa::recon::Reliability']]],
+  ['behaviour_5fframes_5',['behaviour_frames',['../structossa_1_1recon_1_1ReliabilityOptions.html#a9df45f6765f4a0daf507c2b4663e874a',1,'ossa::recon::ReliabilityOptions']]],
+  ['beta_6',['beta',['../structossa_1_1recon_1_1GaussianProcessParameters.html#aa04aba4a8d484347ce99be3584130094',1,'ossa::recon::GaussianProcessParameters']]],
+  ['beta_5fper_5fm_7',['beta_per_m',['../structossa_1_1tracker_1_1SmoothingOptions.html#a50743c6ca9805f098b9a013e06f3cb38',1,'ossa::tracker::SmoothingOptions']]],
+  ['beyond_8',['beyond',['../structossa_1_1depth_1_1PointGrid.html#a4bec35e996ae2edb227a3a6698801ba4',1,'ossa::depth::PointGrid']]],
+  ['bias_9',['bias',['../structossa_1_1forest_1_1PartPrior.html#abeb946c15a4e473501bc36fb4b5548c9',1,'ossa::forest::PartPrior::bias()'],['../structossa_1_1forest_1_1NetworkLayer.html#ae0dd11d1dc1decae54b9a952856e7604',1,'ossa::forest::NetworkLayer::bias()']]],
+  ['board_10',['board',['../structossa_1_1depth_1_1Candidate.html#af6691e1994a017f633a671d763335945',1,'ossa::depth::Candidate']]],
+  ['bodies_11',['bodies',['../structossa_1_1tracker_1_1BodyFrame.html#a15202a9ddfc0f52e87613b5a3e29641a',1,'ossa::tracker::BodyFrame']]],
+  ['body_12',['body',['../structossa_1_1depth_1_1Candidate.html#a0d754d33abe3b5d5cb41a539e6a9c0b4',1,'ossa::depth::Candidate']]],
+  ['body_5fid_13',['body_id',['../structossa_1_1recon_1_1BvhExportOptions.html#a896756764345efaefa4cae3ba4b31aa0',1,'ossa::recon::BvhExportOptions']]],
+  ['bone_14',['bone',['../structossa_1_1physics_1_1Strike.html#a7af44dda331435971da0bc55908ce54b',1,'ossa::physics::Strike']]],
+  ['bones_15',['bones',['../structossa_1_1recon_1_1BestOptions.html#adcb58d2a91bc3ed80315e8591480e56a',1,'ossa::recon::BestOptions::bones()'],['../structossa_1_1recon_1_1CloseLook.html#adf010fdc9d1745b76f3e0d4714c9bde3',1,'ossa::recon::CloseLook::bones()']]],
+  ['bones_5fm_16',['bones_m',['../structossa_1_1recon_1_1ReconstructionInput.html#aa68c83925941e81ece31ea1893306b7f',1,'ossa::recon::ReconstructionInput::bones_m()'],['../structossa_1_1recon_1_1ReconstructorOptions.html#ae54f550815c42e1bc0e3647f893a3807',1,'ossa::recon::ReconstructorOptions::bones_m()'],['../structossa_1_1recon_1_1LookInput.html#afb1cb2063b1f47235cbcbd88efe52bc4',1,'ossa::recon::LookInput::bones_m()'],['../structossa_1_1recon_1_1Looked.html#aeb8d780d72cdb3d939889a0e1091c707',1,'ossa::recon::Looked::bones_m()'],['../structossa_1_1recon_1_1BodyRecord.html#a38608f2d0e854585a9a72013bea2442c',1,'ossa::recon::BodyRecord::bones_m()'],['../structossa_1_1tracker_1_1Body.html#ae165051aa68170b07321fd87a7c06e5c',1,'ossa::tracker::Body::bones_m()'],['../structossa_1_1tracker_1_1TrackerOptions.html#a004d233dea208dab4e18e3af85da99ff',1,'ossa::tracker::TrackerOptions::bones_m()']]],
+  ['bounce_17',['bounce',['../structossa_1_1physics_1_1ObjectOptions.html#a5a4d8a25e2f76209ded51c50997a13ab',1,'ossa::physics::ObjectOptions']]],
+  ['box_5fpixel_5fm_18',['box_pixel_m',['../structossa_1_1forest_1_1TrainOptions.html#af1db24e4e505e30d0a24d722bd8c7c7c',1,'ossa::forest::TrainOptions']]]
+];

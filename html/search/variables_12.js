@@ -1,0 +1,24 @@
+var searchData=
+[
+  ['target_5fm_0',['target_m',['../structossa_1_1forest_1_1TrainingImage.html#aa89d48ca996f0c4f0fd420c30cfee9da',1,'ossa::forest::TrainingImage']]],
+  ['target_5fvisible_1',['target_visible',['../structossa_1_1forest_1_1TrainingImage.html#a9f28c7ae15c9f6b5cabe382ae3f9ac2c',1,'ossa::forest::TrainingImage']]],
+  ['targets_2',['targets',['../structossa_1_1forest_1_1TrainingVocabulary.html#aa5445a494fbdde61b8315bcd932a33bc',1,'ossa::forest::TrainingVocabulary']]],
+  ['teleport_5fm_3',['teleport_m',['../structossa_1_1physics_1_1CharacterFilterOptions.html#ac691f799dbdb5495f64c3a76aaf8b134',1,'ossa::physics::CharacterFilterOptions']]],
+  ['temporal_4',['temporal',['../structossa_1_1recon_1_1GaussianProcessOptions.html#add589f427a037df783e89b10fbcc8f44',1,'ossa::recon::GaussianProcessOptions']]],
+  ['theta0_5',['theta0',['../structossa_1_1recon_1_1GaussianProcessParameters.html#a97e716b88324dc447cbf9940cfeb6253',1,'ossa::recon::GaussianProcessParameters']]],
+  ['theta1_6',['theta1',['../structossa_1_1recon_1_1GaussianProcessParameters.html#aeaf2d75fc0728650fe9787b73a080d31',1,'ossa::recon::GaussianProcessParameters']]],
+  ['threads_7',['threads',['../structossa_1_1forest_1_1TrainOptions.html#add04755cd45ce7d194458681c2e570bf',1,'ossa::forest::TrainOptions::threads()'],['../structossa_1_1forest_1_1RefinementOptions.html#a7aa699583f29df7b2c5eaa544b760764',1,'ossa::forest::RefinementOptions::threads()']]],
+  ['threshold_5fm_8',['threshold_m',['../structossa_1_1recon_1_1DatabaseOptions.html#a7f70d2c5fab7996556838d91d206220b',1,'ossa::recon::DatabaseOptions']]],
+  ['thresholds_9',['thresholds',['../structossa_1_1forest_1_1TrainOptions.html#a98734e737dc79309eacb9d3d4be8089d',1,'ossa::forest::TrainOptions']]],
+  ['tilt_5fdown_5frad_10',['tilt_down_rad',['../structossa_1_1tracker_1_1BodyFrame.html#a711f38c00abdcf270d3986c65de10ce1',1,'ossa::tracker::BodyFrame']]],
+  ['time_5fs_11',['time_s',['../structossa_1_1depth_1_1DepthFrame.html#a1290ca94e20b28d07cc2eef7bcd3dd1a',1,'ossa::depth::DepthFrame::time_s()'],['../structossa_1_1recon_1_1PosturePrior.html#a7802d6712d994885def164f183fd4ec3',1,'ossa::recon::PosturePrior::time_s()'],['../structossa_1_1recon_1_1ReconstructionInput.html#a5919c81549b353e0c0de2d926e5b0fda',1,'ossa::recon::ReconstructionInput::time_s()']]],
+  ['told_12',['told',['../structossa_1_1recon_1_1CloseLook.html#a556a269c27cf89492544420a948b7c94',1,'ossa::recon::CloseLook']]],
+  ['track_13',['track',['../structossa_1_1depth_1_1Candidate.html#ac968eef99606e2a0578c83ab9fcfff05',1,'ossa::depth::Candidate']]],
+  ['tracked_5fconfidence_14',['tracked_confidence',['../structossa_1_1forest_1_1ProposalTarget.html#a5acc06ed4f71da3c5c50aa984dc2d209',1,'ossa::forest::ProposalTarget']]],
+  ['transverse_5finertia_5fkgm2_15',['transverse_inertia_kgm2',['../structossa_1_1physics_1_1Segment.html#a9633dab7f70da1511e79e7b5741a5876',1,'ossa::physics::Segment']]],
+  ['tree_16',['tree',['../structossa_1_1forest_1_1TrainProgress.html#a0d6fe2692dc957aca5b020571828ae46',1,'ossa::forest::TrainProgress']]],
+  ['triangle_17',['triangle',['../structossa_1_1depth_1_1RenderedImage.html#a44f1d2a375db6fbd845148c4016bf1b7',1,'ossa::depth::RenderedImage']]],
+  ['triangles_18',['triangles',['../structossa_1_1depth_1_1TriangleMesh.html#af343b23473d9c167e3f2ca4860ac9293',1,'ossa::depth::TriangleMesh']]],
+  ['trouser_5fend_19',['trouser_end',['../structossa_1_1recon_1_1Clothing.html#a6fba1b6bd2becd7cfebc85c49243b7b1',1,'ossa::recon::Clothing']]],
+  ['trouser_5fm_20',['trouser_m',['../structossa_1_1recon_1_1Clothing.html#aa2abebf70ba55b5ba06d4bcd6e84e89a',1,'ossa::recon::Clothing']]]
+];

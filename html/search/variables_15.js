@@ -1,0 +1,19 @@
+var searchData=
+[
+  ['w_0',['w',['../structossa_1_1recon_1_1GaussianProcessParameters.html#a635fcb6d700999fbb1cce5cdc5c3da31',1,'ossa::recon::GaussianProcessParameters']]],
+  ['w_5fsimilar_1',['w_similar',['../structossa_1_1recon_1_1LocalMixtureOptions.html#adb6b37c78fcfbac484deaa0be78f0886',1,'ossa::recon::LocalMixtureOptions']]],
+  ['walk_5fs_2',['walk_s',['../structossa_1_1depth_1_1ReidentifyOptions.html#a747e7a10eb80446677b22eb1837ebf49',1,'ossa::depth::ReidentifyOptions']]],
+  ['walk_5fshare_3',['walk_share',['../structossa_1_1depth_1_1ReidentifyOptions.html#ad5ae75944508b2e02f5ba17efae61cfc',1,'ossa::depth::ReidentifyOptions']]],
+  ['wanted_4',['wanted',['../structossa_1_1forest_1_1NetworkExamples.html#a8bb40696f193edbf8b944427635e70b2',1,'ossa::forest::NetworkExamples']]],
+  ['weight_5',['weight',['../structossa_1_1forest_1_1PartPrior.html#a495043b687161358e0cc534aba1aa6f9',1,'ossa::forest::PartPrior::weight()'],['../structossa_1_1forest_1_1NetworkLayer.html#a8ee055e9381e52335c88713abff3a8b1',1,'ossa::forest::NetworkLayer::weight()'],['../structossa_1_1recon_1_1PriorClip.html#a3b9846c1c7c118eb317310461f6d368a',1,'ossa::recon::PriorClip::weight()'],['../structossa_1_1recon_1_1RectifiedNetwork_1_1Layer.html#adcc5b85cdfeab86a7d8e1f6a4a548413',1,'ossa::recon::RectifiedNetwork::Layer::weight()']]],
+  ['what_6',['what',['../structossa_1_1ContainerFormat.html#a320bec8aac8281e57cc52a5e0258f4d3',1,'ossa::ContainerFormat']]],
+  ['whole_5fwidth_5fpx_7',['whole_width_px',['../structossa_1_1depth_1_1StructuredLightOptions.html#ac78e47f62e9498b94e47859ad4eae62b',1,'ossa::depth::StructuredLightOptions']]],
+  ['width_8',['width',['../structossa_1_1depth_1_1Camera.html#a85fbf105baf914b7b44665d21a1fa389',1,'ossa::depth::Camera::width()'],['../structossa_1_1depth_1_1PointGrid.html#ac5ad0a06285df39a5a8f71c7fac63f70',1,'ossa::depth::PointGrid::width()']]],
+  ['widths_9',['widths',['../structossa_1_1recon_1_1PoseCorrectionOptions.html#a61cad1b425e21d25c38b260e2200edcd',1,'ossa::recon::PoseCorrectionOptions']]],
+  ['window_5fframes_10',['window_frames',['../structossa_1_1recon_1_1ReliabilityOptions.html#a4180499fa03b0c205bdf877cd29c6da4',1,'ossa::recon::ReliabilityOptions']]],
+  ['window_5fpx_11',['window_px',['../structossa_1_1depth_1_1StructuredLightOptions.html#a8857803064ddb94d5c76a19e938bf3e3',1,'ossa::depth::StructuredLightOptions']]],
+  ['window_5fsigma_5fframes_12',['window_sigma_frames',['../structossa_1_1recon_1_1ReliabilityOptions.html#aea155669465c88a5fef703a2b07f8381',1,'ossa::recon::ReliabilityOptions']]],
+  ['world_5ffrom_5frest_13',['world_from_rest',['../structossa_1_1recon_1_1RigPose.html#a2c20513b3a0ac74a274c8f9003fe08d2',1,'ossa::recon::RigPose']]],
+  ['worst_5fm_14',['worst_m',['../structossa_1_1recon_1_1PosturePair.html#a42563545eae2b9f544935a24722f374f',1,'ossa::recon::PosturePair']]],
+  ['wrinkle_15',['wrinkle',['../structossa_1_1recon_1_1Clothing.html#af7e8f6d65bc912a84323f529e5ee19ca',1,'ossa::recon::Clothing']]]
+];

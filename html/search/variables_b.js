@@ -1,0 +1,23 @@
+var searchData=
+[
+  ['label_0',['label',['../structossa_1_1forest_1_1TrainingImage.html#a4006879d6471a7c9def1cdd908d717a7',1,'ossa::forest::TrainingImage::label()'],['../structossa_1_1forest_1_1Classification.html#aea4335e3cb8742c3c205b6ddd2641d72',1,'ossa::forest::Classification::label()']]],
+  ['lag_5fs_1',['lag_s',['../structossa_1_1recon_1_1PosturePriorOptions.html#a31e3ba9d005e457651c653625e39f571',1,'ossa::recon::PosturePriorOptions']]],
+  ['last_5fs_2',['last_s',['../structossa_1_1depth_1_1SceneState.html#a2aafdd8c7b9c16755b54b3ba2cbf01ea',1,'ossa::depth::SceneState']]],
+  ['last_5fz_5fm_3',['last_z_m',['../structossa_1_1depth_1_1SceneState.html#a2aa0c8e8c659647c78d1435a23a6323f',1,'ossa::depth::SceneState']]],
+  ['lateral_5fnoise_5fpx_4',['lateral_noise_px',['../structossa_1_1depth_1_1StructuredLightOptions.html#a431a0ae17671f8951d766925e917f131',1,'ossa::depth::StructuredLightOptions']]],
+  ['layers_5',['layers',['../structossa_1_1forest_1_1Refinement.html#a65fb122a482f023ab881d806a1ab8ec3',1,'ossa::forest::Refinement::layers()'],['../structossa_1_1recon_1_1RectifiedNetwork.html#a165b21df00e2a9f6d26ce011f6c4e24b',1,'ossa::recon::RectifiedNetwork::layers()']]],
+  ['lead_6',['lead',['../structossa_1_1physics_1_1CharacterFilterOptions.html#a2a537ad4921ca35c04135f0c886878c6',1,'ossa::physics::CharacterFilterOptions::lead()'],['../structossa_1_1physics_1_1CharacterOptions.html#adf71ba13120b7bedfb48b06a5fde28df',1,'ossa::physics::CharacterOptions::lead()']]],
+  ['leaf_7',['leaf',['../structossa_1_1forest_1_1Classification.html#a650b9d9b7a6b72d8a69e5fb3960be4b5',1,'ossa::forest::Classification']]],
+  ['learned_8',['learned',['../structossa_1_1tracker_1_1TrackerOptions.html#ad99108daf6bafd41f6a3902943ab7568',1,'ossa::tracker::TrackerOptions::learned()'],['../structossa_1_1recon_1_1ReconstructorOptions.html#a0a366f43ddb134436f58b5ab18472f8f',1,'ossa::recon::ReconstructorOptions::learned()']]],
+  ['learned_5ffile_9',['learned_file',['../structossa_1_1recon_1_1ReconstructorOptions.html#a9ddd2b7b05d025bf4d4d3bea3348fc4e',1,'ossa::recon::ReconstructorOptions']]],
+  ['lengths_5fm_10',['lengths_m',['../structossa_1_1recon_1_1PriorObservation.html#a27c6ff1d59bd0ec638a38bbe14135789',1,'ossa::recon::PriorObservation']]],
+  ['level_11',['level',['../structossa_1_1forest_1_1TrainProgress.html#aeb933c2ff8d827bd2f4d3bfdae2185fe',1,'ossa::forest::TrainProgress']]],
+  ['lit_12',['lit',['../structossa_1_1depth_1_1RenderedImage.html#ab8e776708455e62ee5294a7b7a01c6a7',1,'ossa::depth::RenderedImage']]],
+  ['loading_5fm_13',['loading_m',['../structossa_1_1forest_1_1Arrangement.html#a92d015c5d4dc6423bbb32d03f1c32707',1,'ossa::forest::Arrangement']]],
+  ['long_5fhair_5fend_14',['long_hair_end',['../structossa_1_1recon_1_1Clothing.html#ace76862087012ec22eda5654e2737ae9',1,'ossa::recon::Clothing']]],
+  ['look_15',['look',['../structossa_1_1tracker_1_1TrackerOptions.html#a73e3ed88d9ca4573a76af9017b8ba7d3',1,'ossa::tracker::TrackerOptions']]],
+  ['looked_16',['looked',['../structossa_1_1recon_1_1BestOptions.html#a6da3d089d02a7e8a10f6f478d36a2400',1,'ossa::recon::BestOptions::looked()'],['../structossa_1_1tracker_1_1Body.html#ac7ed01656faf12405d3e2a493885295c',1,'ossa::tracker::Body::looked()']]],
+  ['looked_5fbones_5fm_17',['looked_bones_m',['../structossa_1_1tracker_1_1Body.html#a11cea8b8ed0b5d50c5615730797c3acb',1,'ossa::tracker::Body']]],
+  ['loop_18',['loop',['../structossa_1_1depth_1_1VirtualDeviceOptions.html#acf803570fb867f95bc98bdd9d1262595',1,'ossa::depth::VirtualDeviceOptions']]],
+  ['lost_5fbehind_19',['lost_behind',['../structossa_1_1depth_1_1UserTrack.html#aa1d5d7ab832a9f44ce181f277b48d854',1,'ossa::depth::UserTrack']]]
+];
