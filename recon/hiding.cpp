@@ -10,7 +10,7 @@ namespace ossa::recon {
 namespace {
 
 // A joint's own breadth: noise at an outline must not put a limb into the air.
-constexpr double kBreadth_m = 0.02;
+constexpr double kBreadth_m = 0.02;  // by hand
 
 // The image around one joint: how far what is seen at a pixel lies behind it.
 class Surroundings {

@@ -12,6 +12,8 @@ using Eigen::Matrix3d;
 using Eigen::Quaterniond;
 using Eigen::Vector3d;
 
+// Constants: bounds against division by 0, by hand.
+
 constexpr double kTinyLength_m = 1e-6;
 
 /// Frame whose y axis is `y` and whose x axis is as near to `x_hint` as that allows.
@@ -121,7 +123,7 @@ class Solver {
       if (!Usable(lower)) return x_carried;
       const Vector3d axis = hinge.sign * direction.cross(lower.normalized());
       const double sine = axis.norm();
-      constexpr double kSine10 = 0.1736, kSine30 = 0.5;
+      constexpr double kSine10 = 0.1736, kSine30 = 0.5;  // sines of 10 and 30 degrees
       const double t = std::clamp((sine - kSine10) / (kSine30 - kSine10), 0.0, 1.0);
       const double weight = t * t * (3.0 - 2.0 * t);
       if (weight <= 0.0) return x_carried;

@@ -10,6 +10,8 @@
 namespace ossa::recon {
 namespace {
 
+// Constants: chosen by hand, where no source is said.
+
 double AngleBetween(const Eigen::Vector3d& a, const Eigen::Vector3d& b) {
   return std::atan2(a.cross(b).norm(), a.dot(b));
 }
@@ -21,7 +23,7 @@ double TiltFromUp(const Posture& posture, Joint from, Joint to) {
 
 // Over the standard body's bones at the person's size: joints are defined differently by every
 // sensor, but not by more.
-constexpr double kShortest = 0.5, kLongest = 2.0;
+constexpr double kShortest = 0.5, kLongest = 2.0;  // ratio
 constexpr int kFewestJoints = 8;
 
 }  // namespace

@@ -9,6 +9,9 @@
 
 namespace ossa::recon {
 
+// Constants: Shum 2013 where an equation is said; ours chosen by hand on rendered people (`ossa
+// experiment shum-2013`).
+
 /// Shum et al. 2013, section IV: how far each joint of an observed posture may be believed.
 struct ReliabilityOptions {
   bool use_behaviour = true;   // Rb, eqs. 1-4: vibration

@@ -28,7 +28,7 @@ enum class Joint {
   kAnkleRight,
   kFootRight,
 };
-inline constexpr int kJointCount = 20;
+inline constexpr int kJointCount = 20;  // the Kinect SDK's
 
 /// Parent of each joint, parents before children; the root's is -1. The 19 others are the bones:
 /// bone of joint i runs from kJointParent[i] to i.

@@ -51,7 +51,7 @@ UNITS = re.compile(
     r"no unit|standard deviations?|cosines?|sines?|exponents?|half|halves|third|quarter|twice|1/m|1/s|correlations?|"
     r"variances?|densit(?:y|ies)|turns)(?!\w)|[%°]", re.I)
 ORIGINS = re.compile(
-    r"\b(?:\w+(?: et al\.?)?,? \(?(?:1[89]|20)\d\d\)?|eqs?\.|sec\.|section|tables?|figs?\.|figures?|algorithm \d|the papers?|"
+    r"\b(?:\w+(?: et al\.?)?,? \(?(?:1[89]|20)\d\d\)?|eqs?\. ?\d+|sec\. ?[\dIVX]+|section|tables?|figs?\. ?\d+|figures?|algorithm \d|the papers?|"
     r"chosen|measured|fitted|by hand|by eye|definition|conventions?|derived|follows|so that|because|anthropometr\w+|"
     r"standards?(?! deviation)|formats?|protocols?|specification|data ?sheet|OpenNI2?|libfreenect|Embree|ODE|glTF|PNG|BVH|C3D|TRC|"
     r"Kinect v[12]|Kinect SDK|SDKs?|PrimeSense|cache lines?|registers?|SSE2?|AVX2?|AVX-512|rounding|bounds?|for speed)\b|§", re.I)

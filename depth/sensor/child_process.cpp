@@ -21,7 +21,7 @@ ChildProcess::ChildProcess(const std::filesystem::path& program,
   if (pipe2(ends.data(), O_CLOEXEC) != 0) {
     throw InputError(program.string() + ": no pipe to it: " + std::strerror(errno));
   }
-  constexpr int kPipeSize = 1 << 20;  // more than a frame: the child decodes ahead
+  constexpr int kPipeSize = 1 << 20;  // more than a frame: the child decodes ahead; bytes; by hand
   fcntl(ends[1], F_SETPIPE_SZ, kPipeSize);
   posix_spawn_file_actions_t actions;
   posix_spawn_file_actions_init(&actions);

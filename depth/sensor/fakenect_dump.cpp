@@ -12,6 +12,8 @@ namespace {
 
 namespace fs = std::filesystem;
 
+// Constants: of libfreenect's format.
+
 constexpr int kWidth = 640;  // the one size fakenect knows
 constexpr int kHeight = 480;
 constexpr double kTicksPerSecond = 60e6;  // the Kinect's clock, 32 bits of it

@@ -13,9 +13,9 @@ std::array<uint16_t, 2048> AverageKinectDepthTable() {
   constexpr double kPixelAtReference_mm = 2.084;  // width of a (2 × 2 binned) pixel on that plane
   constexpr double kBaseline_mm = 75.0;
   constexpr double kShiftOfReference =
-      200.0;  // pixels, added by the device to keep shifts positive
-  constexpr double kShiftsPerPixel = 4.0;
-  constexpr double kPixelOffset = 0.375;  // of the correlation window's middle
+      200.0;                               // pixels, added by the device to keep shifts positive
+  constexpr double kShiftsPerPixel = 4.0;  // shifts a pixel, no unit
+  constexpr double kPixelOffset = 0.375;   // of the correlation window's middle
   constexpr double kFarthest_mm = 10000.0;
   std::array<uint16_t, 2048> table{};
   for (std::size_t raw = 0; raw < table.size() - 1; ++raw) {  // 2047 says that there is no reading

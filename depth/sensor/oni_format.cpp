@@ -110,7 +110,7 @@ OniPreamble CheckOniFile(const std::filesystem::path& path) {
   if (!file) {
     throw InputError(path.string() + ": expected an .oni recording, found no such file");
   }
-  constexpr size_t kLongestPreamble = 1 << 16;  // ours is under 2 kB
+  constexpr size_t kLongestPreamble = 1 << 16;  // ours is under 2 kB; bytes, a bound; by hand
   std::vector<uint8_t> start = ReadStart(file, kLongestPreamble);
   if (start.size() < sizeof(OniFileHeader) || std::memcmp(start.data(), "NI10", 4) != 0) {
     throw InputError(path.string() + ": byte 0: expected an .oni recording (NI10), found " +

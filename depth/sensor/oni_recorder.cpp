@@ -19,6 +19,8 @@
 namespace ossa::depth {
 namespace {
 
+// Constants: of OpenNI2's format.
+
 constexpr uint32_t kDepthNode = 2;             // type of node
 constexpr uint32_t kCodec16zT = 0x547a3631;    // "16zT"
 constexpr uint32_t kGrey16 = 4;                // OpenNI 1's name of the pixel format

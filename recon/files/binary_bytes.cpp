@@ -12,7 +12,7 @@ void FailAtByte(const std::string& name, size_t byte, const std::string& expecte
 }
 
 std::string ReadAllBytes(SkeletonInput& input) {
-  constexpr size_t kMostBytes = size_t{1} << 30;
+  constexpr size_t kMostBytes = size_t{1} << 30;  // a bound; by hand
   std::string bytes;
   std::array<char, 1 << 16> block{};
   while (input.stream.read(block.data(), block.size()) || input.stream.gcount() > 0) {

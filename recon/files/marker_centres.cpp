@@ -8,6 +8,8 @@
 namespace ossa::recon {
 namespace {
 
+// Constants: from a marker to the centre of its joint, by hand.
+
 using Point = std::optional<Eigen::Vector3d>;
 
 Point Marker(const Markers& markers, const std::string& name) {

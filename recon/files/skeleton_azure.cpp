@@ -13,6 +13,8 @@
 namespace ossa::recon {
 namespace {
 
+// Constants: bounds against damaged files, by hand.
+
 using Json = nlohmann::json;
 
 bool IsAzure(const SkeletonSample& sample) {

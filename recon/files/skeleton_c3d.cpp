@@ -16,6 +16,8 @@
 namespace ossa::recon {
 namespace {
 
+// Constants: of the C3D format.
+
 constexpr size_t kBlock = 512;
 constexpr size_t kLastByHeader = 65535;  // the header counts in 16 bits
 
@@ -139,7 +141,7 @@ size_t FramesSaid(const Parameters& parameters, const char* key) {
   if (found == parameters.end()) return 0;
   const auto& [type, data, length] = found->second;
   if (type == 4 && data.size() >= sizeof(float)) {
-    constexpr float kMost = 4294967040.0f;  // the last below 2^32
+    constexpr float kMost = 4294967040.0f;  // the last below 2^32; no unit: a count
     const auto count = ValueAt<float>(data, 0);
     return count >= 1 && count <= kMost ? static_cast<size_t>(count) : 0;
   }

@@ -15,7 +15,7 @@ namespace {
 constexpr std::array<std::string_view, 6> kFields = {"x",     "y",          "z",
                                                      "state", "confidence", "reliability"};
 constexpr std::array<std::string_view, 3> kStates = {"not_tracked", "inferred", "tracked"};
-constexpr size_t kLeading = 3;
+constexpr size_t kLeading = 3;  // columns of the format
 constexpr size_t kColumns = kLeading + kJointCount * kFields.size();
 
 std::string Header() {

@@ -18,6 +18,8 @@ namespace {
 
 namespace fs = std::filesystem;
 
+// Constants: bounds, by hand.
+
 constexpr size_t kSampleBytes = size_t{1} << 16;
 constexpr size_t kSampleLines = 64;
 

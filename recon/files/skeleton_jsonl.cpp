@@ -37,6 +37,8 @@ void AppendVector(std::string& text, const Vector& values, int digits) {
   text.push_back(']');
 }
 
+// Constants: digits that are written, and bounds of what is read, by hand.
+
 constexpr int kLengthDigits = 7;
 constexpr int kOtherDigits = 6;
 
@@ -281,7 +283,7 @@ class SkeletonJsonlReader::Lines {
     const auto q = Numbers<4>(json, where);
     const Eigen::Quaterniond rotation(q[0], q[1], q[2], q[3]);
     // Files written with a few digits are off unit length by that much and no more.
-    constexpr double kTolerance = 1e-2;
+    constexpr double kTolerance = 1e-2;  // of the length, no unit
     if (std::abs(rotation.norm() - 1.0) > kTolerance) Fail(where, "a unit quaternion", json);
     return rotation.normalized();
   }

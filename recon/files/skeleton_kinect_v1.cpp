@@ -11,7 +11,7 @@
 namespace ossa::recon {
 namespace {
 
-constexpr double kUsualStep_s = 1.0 / 30.0;
+constexpr double kUsualStep_s = 1.0 / 30.0;  // 30 Hz, the Kinect SDK's rate
 
 bool AllNumbers(const std::vector<std::string_view>& words) {
   return std::all_of(words.begin(), words.end(), [](std::string_view word) {

@@ -11,6 +11,8 @@
 namespace ossa::recon {
 namespace {
 
+// Constants: of the Kinect SDK 2 and of KERAAL's format.
+
 constexpr double kUsualStep_s = 1.0 / 30.0;
 constexpr size_t kV2Joints = 25;
 constexpr size_t kSpineShoulder = 20;
@@ -92,7 +94,7 @@ SkeletonSequence ReadKeraal(SkeletonInput& input) {
       const Eigen::Quaterniond q(numbers[7 * j + 6], numbers[7 * j + 3], numbers[7 * j + 4],
                                  numbers[7 * j + 5]);
       // End joints have no orientation in SDK 2: all zero. So have the seated recordings.
-      constexpr double kUnit = 1e-2;
+      constexpr double kUnit = 1e-2;  // share of the length
       if (std::abs(q.norm() - 1) < kUnit) {
         body.joints[static_cast<size_t>(Index(*joint))]->orientation = q.normalized();
       }

@@ -13,6 +13,8 @@
 namespace ossa::recon {
 namespace {
 
+// Constants: bytes, bounds, by hand.
+
 constexpr size_t kMostBytes = size_t{1} << 30;
 
 using Archive = std::unique_ptr<archive, decltype(&archive_read_free)>;

@@ -14,7 +14,7 @@
 namespace ossa::recon {
 namespace {
 
-constexpr size_t kSaverBodies = 6;
+constexpr size_t kSaverBodies = 6;  // of the format: the Kinect SDK 2 tracks six
 constexpr size_t kSaverFrameBytes = kSaverBodies * kJointCount * 4 * sizeof(float);
 
 bool IsStreamSaver(const SkeletonSample& sample) {

@@ -14,7 +14,7 @@ constexpr double kMillimetresPerMetre = 1000.0;
 
 // The mean rate; OpenSim wants one even when frames were dropped (the Time column stays exact).
 double DataRate_Hz(const SkeletonSequence& sequence) {
-  constexpr double kUsualRate_Hz = 30.0;
+  constexpr double kUsualRate_Hz = 30.0;  // by convention, a Kinect SDK's rate
   if (sequence.frames.size() < 2) return kUsualRate_Hz;
   const double span_s = sequence.frames.back().time_s - sequence.frames.front().time_s;
   return span_s > 0 ? static_cast<double>(sequence.frames.size() - 1) / span_s : kUsualRate_Hz;

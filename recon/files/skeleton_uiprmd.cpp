@@ -13,6 +13,8 @@
 namespace ossa::recon {
 namespace {
 
+// Constants: of UI-PRMD's format.
+
 constexpr size_t kJoints = 22;
 constexpr size_t kColumns = 3 * kJoints;
 constexpr std::array<int, kJoints> kParents = {-1, 0,  1,  2, 3,  4,  3,  6, 7,  8,  3,

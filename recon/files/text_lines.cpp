@@ -9,6 +9,8 @@
 namespace ossa::recon {
 namespace {
 
+// Constants: chosen by hand, where nothing else is said.
+
 constexpr std::string_view kWhiteSpace = " \t\v\f\r";
 
 }  // namespace

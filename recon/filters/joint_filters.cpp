@@ -4,8 +4,11 @@
 
 namespace ossa::recon {
 
+// Constants: of Holt's filter, the Kinect SDK's defaults; of One-Euro, Casiez 2012.
+
 Eigen::Vector3d HoltFilter::Step(const Eigen::Vector3d& value) {
-  constexpr double kSmoothing = 0.5, kCorrection = 0.5, kJitter_m = 0.05, kDeviation_m = 0.04;
+  constexpr double kSmoothing = 0.5, kCorrection = 0.5, kJitter_m = 0.05,
+                   kDeviation_m = 0.04;  // shares
   if (count_ == 0) {
     level_ = value;
     trend_.setZero();

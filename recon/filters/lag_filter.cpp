@@ -6,6 +6,8 @@
 namespace ossa::recon {
 namespace {
 
+// Constants: chosen by hand.
+
 constexpr double kVelocityMemory_s = 0.3;
 // Second differences of real moves stay below a centimetre a frame squared; sensors without any
 // smoothing of their own have five and more.
@@ -13,7 +15,7 @@ constexpr double kSteady_m = 0.015, kJumpy_m = 0.04;
 constexpr double kMostJitter_m = 0.2;  // one gross error says little about the usual jitter
 constexpr double kJitterMemory_s = 1.0;
 // How far One-Euro's estimate of the step before follows its next one.
-constexpr double kOneEuroBack = 0.3;
+constexpr double kOneEuroBack = 0.3;  // share
 
 }  // namespace
 

@@ -4,6 +4,8 @@
 
 namespace ossa::recon {
 
+// Constants: where learning starts, by hand.
+
 /// Phi of Liu et al. 2016 eq. 5: k(a, b) = theta0 exp(-w |a - b|^2 / 2) + theta1 + delta_ab / beta.
 /// W of the paper is w times the identity. Features in metres, outputs in metres.
 struct GaussianProcessParameters {

@@ -11,6 +11,8 @@
 namespace ossa::recon {
 namespace {
 
+// Constants: chosen by hand, where nothing else is said.
+
 constexpr int kParts = 2;  // errors of position without their mean; their second differences
 constexpr Eigen::Index kColumns = 3 * LinearFilter::kOutputs;
 

@@ -12,6 +12,8 @@ namespace {
 
 constexpr ContainerFormat kFormat = {
     {'O', 'S', 'S', 'A', 'G', 'P', '0', '0'}, LearnedModels::kVersion, "learned reconstruction"};
+// Constants: versions of the format; counts by hand.
+
 constexpr uint32_t kOldestVersion = 2, kVersionOfSteps = 3;
 
 // More than any honest file holds; a damaged count is refused before it costs memory or time.

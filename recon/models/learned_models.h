@@ -10,6 +10,8 @@
 
 namespace ossa::recon {
 
+// Constants: bounds of the format, and sizes chosen for speed.
+
 struct LearnOptions {
   // What a file may hold: see mixture.regions and mixture.samples.
   static constexpr int kMostRegions = 1000, kMostSamples = 5000;

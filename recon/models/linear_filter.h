@@ -9,6 +9,8 @@
 
 namespace ossa::recon {
 
+// Constants: chosen by hand, where no comparison is said.
+
 struct LinearFilterOptions {
   // Tried in turn for each joint; those that hold best for what is left out (FoldsOf) are taken.
   std::vector<double> ridges = {1e-4, 1e-3, 1e-2, 1e-1,
@@ -18,7 +20,7 @@ struct LinearFilterOptions {
   /// What a hundredth less error of position is worth, in hundredths less of second differences. On
   /// UI-PRMD, each person left out in turn, 8 takes 79 % of acceleration and gives offset removed
   /// 0.02 cm back, 32 takes 73 % and 0.02 cm more: with 12 the position is what it was.
-  double position_share = 12.0;
+  double position_share = 12.0;  // ratio; chosen so
 };
 
 /// Ours, of `best`: a filter of fixed weights for each joint, learned from what a sensor said and

@@ -6,12 +6,15 @@
 
 namespace ossa::recon {
 
+// Constants: Liu 2016, section 4.2, where it has them, else by hand.
+
 /// Liu 2016 sec. 4.2.
 struct LocalMixtureOptions {
   int regions = 30;        // Q, by K-means
   int samples = 50;        // S of each local model, chosen by posture budgeting
   uint64_t seed = 1;       // of K-means
-  double w_similar = 0.1;  // algorithm 2: below it a new local model is made; the paper gives none
+  double w_similar = 0.1;  // algorithm 2: below it a new local model is made; the paper gives none;
+                           // no unit, in (0, 1]
   int most_samples = 100;  // a local model stops growing here, to stay within the frame's time
   int most_models = 60;
 };

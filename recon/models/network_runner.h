@@ -12,7 +12,7 @@ namespace ossa::recon {
 /// The weights of a pair of inputs for as many units as fill a line of the cache: of each unit that
 /// of the first input and that of the second.
 struct alignas(64) WeightLine {
-  static constexpr size_t kUnits = 32;
+  static constexpr size_t kUnits = 32;  // bytes of half a cache line
   std::array<std::array<int8_t, 2>, kUnits> weights{};
 };
 

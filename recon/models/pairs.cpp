@@ -6,6 +6,8 @@
 namespace ossa::recon {
 namespace {
 
+// Constants: chosen by hand, where nothing else is said.
+
 std::vector<int> BlocksOf(size_t count, int most) {
   // Few and long: half a minute of a recording of two minutes, in which somebody else may come.
   constexpr int kBlocks = 4;

@@ -29,6 +29,8 @@ constexpr std::array<std::pair<int, int>, 15> kLines = {{{0, 1},
                                                          {16, 12},
                                                          {2, 4},
                                                          {2, 8}}};
+// Constants: chosen on people of UI-PRMD left out, where it says so, else by hand.
+
 constexpr double kDirectionScale = 0.3;  // a turned bone moves its end by about as many metres
 // A bone seen 10 cm too short tells as much as one turned by 60 degrees. Best of 1, 3, 5 on people
 // left out (UI-PRMD).

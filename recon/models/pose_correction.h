@@ -7,6 +7,8 @@
 
 namespace ossa::recon {
 
+// Constants: by hand; folds are the seven people of UI-PRMD.
+
 struct PoseCorrectionOptions {
   int centres = 300;  // inducing points, at most; 0: no correction is learned
   // Tried in turn; those that hold best for people left out are taken. Widths of the kernel in the

@@ -18,6 +18,8 @@ using BoneMatrix = Eigen::Matrix<double, kBoneDims, kBoneDims>;
 
 constexpr ContainerFormat kFormat = {
     {'O', 'S', 'S', 'A', 'P', 'R', '0', '0'}, PosturePrior::kVersion, "posture prior"};
+// Constants: bounds, by hand.
+
 constexpr uint32_t kVersionOfNetwork = 2;
 
 // A mode is neither forgotten within a frame nor kept for ever.

@@ -77,7 +77,7 @@ void PriorFilter::Predict(double dt_s, double root_sd_m) {
 
 /// Fades: where guesses come and go the posture must not jump.
 double PriorFilter::NetworkShare(double dt_s) {
-  constexpr double kFade_s = 0.25;
+  constexpr double kFade_s = 0.25;  // by hand
   const double wanted = last_.guesses ? 0.0 : 1.0;
   if (!(dt_s > 0.0)) return network_share_.value_or(wanted);
   const double before = network_share_.value_or(wanted);

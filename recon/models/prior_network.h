@@ -26,7 +26,7 @@ float Clearness(double sd_m);
 /// from where a PriorFilter expects them: kPriorInputs -> kBoneDims, in kBoneStep_m. No size of its
 /// own: it is learned for one PosturePrior, which it is part of.
 struct PriorNetwork : RectifiedNetwork {
-  static constexpr double kBoneStep_m = 0.1;
+  static constexpr double kBoneStep_m = 0.1;  // a unit of the network's inputs, by hand
 
   /// To be added to the bones that were expected.
   BoneVector Correction_m(const PriorInput& input) const {

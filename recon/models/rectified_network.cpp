@@ -15,7 +15,9 @@
 namespace ossa::recon {
 namespace {
 
-constexpr float kMost = 1e6F;        // of anything in a network
+// Constants: bounds and units of the format, by hand.
+
+constexpr float kMost = 1e6F;        // of anything in a network; no unit
 constexpr float kMostByte = 127.0F;  // of a weight
 
 void PutFloats(PayloadWriter& out, const Eigen::VectorXf& numbers) {

@@ -23,7 +23,7 @@ namespace {
 // all columns.
 template <size_t kColumns>
 __attribute__((target("avx2"))) void EightByEight(const WeightSums<kColumns>& of) {
-  constexpr size_t kLanes = 8;
+  constexpr size_t kLanes = 8;  // of an AVX2 register
   constexpr size_t kGroups = WeightLine::kUnits / kLanes;
   const WeightLine* line = of.lines;
   for (size_t block = 0; block < of.blocks; ++block) {

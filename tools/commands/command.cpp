@@ -81,7 +81,7 @@ void Progress::Update(double done, double total, const std::string& note) {
   last_s_ = now_s;
   const double share = total > 0 ? done / total : 0.0;
   if (terminal_) {
-    constexpr int kWidth = 30;
+    constexpr int kWidth = 30;  // characters, by eye
     const int filled = static_cast<int>(share * kWidth);
     Say(fmt::format("\r{} [{:#<{}}{:.<{}}] {:3.0f} % {}\033[K", label_, "", filled, "",
                     kWidth - filled, 100 * share, note));

@@ -29,7 +29,7 @@ int64_t Now_ms() {
 // timeout(1), mpirun and scripts may send the same signal to the process and to its group: two at
 // once are one.
 void NoteInterrupt(int signal) {
-  constexpr int64_t kImpatient_ms = 500;
+  constexpr int64_t kImpatient_ms = 500;  // by hand
   const int64_t now_ms = Now_ms();
   if (interrupted == 0) {
     interrupted_at_ms = now_ms;

@@ -22,6 +22,8 @@ namespace {
 using Clock = std::chrono::steady_clock;
 using std::chrono::milliseconds;
 
+// Constants: 30 Hz, a Kinect SDK's rate; by hand.
+
 constexpr double kPeriod_s = 1.0 / 30.0;
 
 struct RecordOptions {

@@ -16,7 +16,7 @@
 namespace ossa::commands {
 namespace {
 
-constexpr double kLongest_s = 1e6;  // eleven days
+constexpr double kLongest_s = 1e6;  // eleven days; a bound
 
 std::function<bool()> KeepWaitingFor(const std::string& source, bool quiet) {
   return [source, said = quiet]() mutable {

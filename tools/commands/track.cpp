@@ -44,7 +44,7 @@ struct TrackOptions {
   BonesOption bones;
   tracker::TrackerOptions tracker;
   int64_t frames = 0;
-  int port = 8080;
+  int port = 8080;  // by convention, an HTTP port that needs no rights
   bool view = false;
   bool quiet = false;
 };

@@ -27,7 +27,7 @@ using Clock = std::chrono::steady_clock;
 struct ViewOptions {
   SourceArguments source;
   tracker::TrackerOptions tracker;
-  int port = 8080;
+  int port = 8080;  // by convention, an HTTP port that needs no rights
   bool once = false;
 };
 

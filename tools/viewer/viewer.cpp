@@ -17,6 +17,8 @@
 namespace ossa::viewer {
 namespace {
 
+// Constants: chosen by hand, where nothing else is said.
+
 // Half the usual image each way: 77 kB a frame to the browser.
 constexpr int kThinning = 2;
 

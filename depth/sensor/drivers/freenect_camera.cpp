@@ -8,6 +8,8 @@
 namespace ossa::depth {
 namespace {
 
+// Constants: of the Kinect v1 (libfreenect), the rest by hand.
+
 constexpr size_t kPixels = 640 * 480;
 constexpr double kTicksPerMicrosecond = 60.0;  // the Kinect's clock, 32 bits of it
 constexpr double kPeriod_us = 1e6 / 30.0;

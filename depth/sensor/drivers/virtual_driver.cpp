@@ -22,7 +22,8 @@ namespace {
 using Clock = std::chrono::steady_clock;
 using Seconds = std::chrono::duration<double>;
 
-constexpr int kMaxValue = 65535;  // the depths of recordings are below it, or OniRecorder refuses
+// The depths of recordings are below it, or OniRecorder refuses; OpenNI2's bound
+constexpr int kMaxValue = 65535;
 
 // A camera outlives its opening: what it plays goes on while it is unplugged.
 class VirtualCamera {

@@ -9,6 +9,8 @@
 namespace ossa::depth {
 namespace {
 
+// Constants: bounds of a URI's numbers, by hand; no unit but their options' own.
+
 int HexDigit(char c) {
   if (c >= '0' && c <= '9') return c - '0';
   if (c >= 'a' && c <= 'f') return c - 'a' + 10;

@@ -10,13 +10,13 @@ namespace ossa::depth {
 struct VirtualDeviceOptions {
   std::string path;
   bool loop = false;   // loop=1: begin anew at the end; otherwise the device is unplugged there
-  double speed = 1.0;  // speed=2: twice as fast as recorded; > 0
+  double speed = 1.0;  // speed=2: twice as fast as recorded; > 0; factor; by definition
   std::optional<double> fps;  // fps=15: this rate whatever the recording's times; > 0
   bool mirror = false;        // mirror=1: the device mirrors until told not to, as real ones do
   // Simulated trouble, for tests: after so many frames delivered the device is unplugged ...
   std::optional<int> unplug_after;            // unplug_after=30; frames, > 0
   std::chrono::milliseconds replug_after{0};  // replug_after_ms=200; 0: never comes back
-  int unplugs = 1;                            // unplugs=5: this often
+  int unplugs = 1;                            // unplugs=5: this often; by hand
   // ... and after so many it stops delivering without a word.
   std::optional<int> stall_after;  // stall_after=30; frames
 };

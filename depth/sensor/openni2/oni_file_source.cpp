@@ -105,7 +105,7 @@ class OniFileSource final : public FrameSource {
   }
 
   [[noreturn]] void Fail(const OniPipeMessage& message) {
-    constexpr uint32_t kLongest = 1000;
+    constexpr uint32_t kLongest = 1000;  // a bound; by hand
     std::string text(std::min(message.size, kLongest), ' ');
     Take(text.data(), text.size());
     ended_ = true;

@@ -12,6 +12,8 @@
 namespace ossa::depth {
 namespace {
 
+// Constants: bounds of a field of view, by hand.
+
 // OpenNI2 counts initialisations without a lock.
 std::mutex& SessionMutex() {
   static std::mutex mutex;
