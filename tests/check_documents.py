@@ -25,6 +25,9 @@ PATH = re.compile(rf"^(?!depth/\d|.*NAME)(?:{'|'.join(map(re.escape, ROOMS))})/[
 # Documents that are elsewhere: whoever reads the repository does not have them.
 ELSEWHERE = re.compile(r"\b(?:DESIGN|FACTS|STYLE)\b(?!\.md)")
 DOCUMENT = re.compile(r"(?<![\w/.*{}$-])((?:[\w-]+/)*[\w-]+\.md)\b")
+# What is to be read in one sitting: words of the first screen, bytes of the release notes.
+MOST_WORDS = {"README.md": 1000}
+MOST_BYTES = {"CHANGES.md": 8000}
 MADE = {"TABLE.md"}  # written by commands
 
 
@@ -108,6 +111,13 @@ def foreign_citations(name, text, files):
                 yield f"{name}:{number}: cites a document that is not in the repository: {document}"
 
 
+def too_long(name, text):
+    if len(text.split()) > MOST_WORDS.get(name, len(text)):
+        yield f"{name}: {len(text.split())} words, at most {MOST_WORDS[name]}"
+    if len(text.encode()) > MOST_BYTES.get(name, len(text.encode())):
+        yield f"{name}: {len(text.encode())} bytes, at most {MOST_BYTES[name]}"
+
+
 def help_of(ossa, *arguments):
     return subprocess.run([ossa, *arguments, "--help"], capture_output=True, text=True).stdout
 
@@ -170,6 +180,7 @@ def main():
         if not name.endswith(".md"):
             continue
         found += broken_links(name, text, files)
+        found += too_long(name, text)
         found += missing_paths(name, text, files)
         if arguments.ossa:
             found += wrong_commands(name, text, arguments.ossa, helps)
