@@ -50,11 +50,28 @@ TEST(SdkConformance, UserIndexImageSaysWhosePixelEachIs) {
   }
 }
 
+// How many joints of a person are tracked within 15 cm of where they are: the forest knows bodies
+// of flesh, and a capsule figure's joints are so right at best.
+int CountJointsInPlace(const Body& body, const recon::Posture& truth) {
+  int count = 0;
+  for (size_t j = 0; j < kJointCount; ++j) {
+    const double off_m = (body.raw.posture.position_m[j] - truth.position_m[j]).norm();
+    count += body.raw.state[j] == TrackingState::kTracked && off_m < 0.15 ? 1 : 0;
+  }
+  return count;
+}
+
 TEST(SdkConformance, SixPeopleAreFullyTracked) {
   OSSA_NEEDS_MODEL();
-  const BodyFrame bodies = TrackOnce(PlainOptions(), Rendered(SixPeople()));
+  const CapsuleRender render = Rendered(SixPeople());
+  const BodyFrame bodies = TrackOnce(PlainOptions(), render);
   ASSERT_EQ(bodies.bodies.size(), 6U);
-  for (const Body& body : bodies.bodies) EXPECT_EQ(body.state, BodyState::kTracked);
+  for (const recon::Posture& truth : render.joints) {
+    int most = 0;
+    for (const Body& body : bodies.bodies) most = std::max(most, CountJointsInPlace(body, truth));
+    // Of the two at the image's borders an arm is cut off.
+    EXPECT_GT(most, kJointCount / 2) << "person at x = " << truth.position_m[0].x();
+  }
 }
 
 TEST(SdkConformance, TwentyJointsHaveStatesAndSeenOnesLieOnTheBody) {
