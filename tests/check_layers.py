@@ -15,6 +15,11 @@ ARROWS = {
     "physics": {"recon", "depth"},
     "tools": {"depth", "forest", "recon", "physics"},
 }
+# Of the folders of tools/: what they may include of each other; those not named, whatever they like.
+TOOLS = {
+    "tools/people": set(),
+    "tools/tracker": {"tools/people"},
+}
 # Inside public headers only Eigen and the standard library appear.
 HIDDEN = re.compile(
     r"^(opencv|ceres/|ode/|embree|OpenNI|OniC|Driver/Oni|nlohmann/|fmt/|spdlog/|CLI/|tbb/|oneapi/|hwy/|mpi\.h|"
@@ -42,6 +47,10 @@ def broken_rules(top: pathlib.Path):
                         yield f"{name}:{number}: {room}/ may not include {target}"
                     if target.endswith("_internal.h") and target_room != room:
                         yield f"{name}:{number}: {target} belongs to {target_room}/ alone"
+                    of_tools = "/".join(target.split("/")[:2])
+                    home = "/".join(name.split("/")[:2])
+                    if home in TOOLS and target_room == "tools" and of_tools not in TOOLS[home] | {home}:
+                        yield f"{name}:{number}: {home}/ may not include {target}"
                     source, sink = path.parent.relative_to(top).as_posix(), str(pathlib.PurePosixPath(target).parent)
                     if source != sink:
                         folders_of.setdefault((source, sink), f"{name}:{number}")

@@ -5,7 +5,7 @@
 namespace ossa::depth {
 namespace {
 
-constexpr uint8_t kSaturated = 250;
+constexpr uint8_t kSaturated = 250;  // frames, so that they fit a byte
 
 bool SameSurface(float a_m, float b_m, float tolerance = 1.0F) {
   return std::abs(a_m - b_m) < tolerance * DepthTolerance(b_m);
@@ -27,8 +27,8 @@ bool SensorMoved(const PointGrid& grid, const BackgroundState& state,
   return known > 500 && moved > options.moved_share * known;
 }
 
-std::vector<uint8_t> SeenFor(int frames, const PointGrid& grid, const BackgroundState& state,
-                             float tolerance = 1.0F) {
+std::vector<uint8_t> FindSurfacesSeenFor(int frames, const PointGrid& grid,
+                                         const BackgroundState& state, float tolerance = 1.0F) {
   std::vector<uint8_t> seen(static_cast<size_t>(grid.cells()), 0);
   if (state.width != grid.width || state.height != grid.height) return seen;
   for (int i = 0; i < grid.cells(); ++i) {
@@ -38,6 +38,20 @@ std::vector<uint8_t> SeenFor(int frames, const PointGrid& grid, const Background
     seen[n] = valid & (state.steady[n] >= frames) & same;
   }
   return seen;
+}
+
+std::vector<uint8_t> FindForeground(const PointGrid& grid, const BackgroundState& state,
+                                    float clearly_m) {
+  std::vector<uint8_t> foreground(static_cast<size_t>(grid.cells()), 0);
+  if (state.width != grid.width || state.height != grid.height) return foreground;
+  for (int i = 0; i < grid.cells(); ++i) {
+    const auto n = static_cast<size_t>(i);
+    const float before_m = state.surface_m[n];
+    const bool valid = grid.valid(i);
+    const bool nearer = grid.z(i) < before_m - clearly_m - DepthTolerance(before_m);
+    foreground[n] = valid & (state.steady[n] > 0) & nearer;
+  }
+  return foreground;
 }
 
 }  // namespace
@@ -67,46 +81,25 @@ void LearnBackground(const PointGrid& grid, const std::vector<uint8_t>& claimed,
   }
 }
 
-std::vector<uint8_t> SeenBefore(const PointGrid& grid, const BackgroundState& state) {
-  return SeenFor(1, grid, state);
+BackgroundMasks CompareWithBackground(const PointGrid& grid, const BackgroundState& state,
+                                      const BackgroundOptions& options) {
+  return {FindSurfacesSeenFor(options.steady_frames, grid, state),
+          FindSurfacesSeenFor(1, grid, state),
+          FindSurfacesSeenFor(options.certain_frames, grid, state, options.certain_tolerance),
+          FindForeground(grid, state, options.foreground_m)};
 }
 
-std::vector<uint8_t> SeenItself(const PointGrid& grid, const BackgroundState& state) {
-  constexpr int kSomeFrames = 3;
-  constexpr float kClose = 0.5F;  // of the tolerance: one and a half steps of the sensor
-  return SeenFor(kSomeFrames, grid, state, kClose);
-}
-
-std::vector<uint8_t> ArrivedSince(const PointGrid& grid, const BackgroundState& state) {
-  constexpr float kClearly_m = 0.1F;  // beyond noise
-  std::vector<uint8_t> arrived(static_cast<size_t>(grid.cells()), 0);
-  if (state.width != grid.width || state.height != grid.height) return arrived;
-  for (int i = 0; i < grid.cells(); ++i) {
-    const auto n = static_cast<size_t>(i);
-    const float before_m = state.surface_m[n];
-    const bool valid = grid.valid(i);
-    const bool nearer = grid.z(i) < before_m - kClearly_m - DepthTolerance(before_m);
-    arrived[n] = valid & (state.steady[n] > 0) & nearer;
-  }
-  return arrived;
-}
-
-float ArrivedArea_m2(const PointGrid& grid, const std::vector<int>& cells,
-                     const std::vector<uint8_t>& arrived) {
+float MeasureForegroundArea_m2(const PointGrid& grid, const std::vector<int>& cells,
+                               const std::vector<uint8_t>& foreground) {
   float area_m2 = 0;
   for (const int cell : cells) {
     const int x = cell % grid.width, y = cell / grid.width;
     bool all = grid.Contains(x - 1, y - 1) && grid.Contains(x + 1, y + 1);
     for (int i = 0; i < 9 && all; ++i)
-      all = arrived[static_cast<size_t>(grid.cell(x - 1 + i % 3, y - 1 + i / 3))] != 0;
+      all = foreground[static_cast<size_t>(grid.cell(x - 1 + i % 3, y - 1 + i / 3))] != 0;
     area_m2 += all ? grid.Area(cell) : 0.0F;
   }
   return area_m2;
-}
-
-std::vector<uint8_t> SeenBackground(const PointGrid& grid, const BackgroundState& state,
-                                    const BackgroundOptions& options) {
-  return SeenFor(options.steady_frames, grid, state);
 }
 
 }  // namespace ossa::depth

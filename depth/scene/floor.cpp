@@ -1,3 +1,5 @@
+// Constants: where a line names no origin, set by hand while developing on rendered rooms with
+// validation subjects (`ossa experiment indoor-scenes`); no sweep is recorded.
 #include "depth/scene/floor.h"
 
 #include <Eigen/Eigenvalues>
@@ -28,7 +30,7 @@ float Tolerance(const Vector4f& plane, const Vector3f& p) {
 // No tolerance there is larger, whatever the plane: that of looking straight at it. It spares most
 // points the root above.
 float MostTolerance(const Vector3f& p) {
-  constexpr float kMostAlong = 1.001F;  // 1, and what rounding may add
+  constexpr float kMostAlong = 1.001F;  // times the tolerance: 1, and what rounding may add
   return kLeastTolerance_m + kMostAlong * DepthTolerance(p.z());
 }
 

@@ -18,12 +18,13 @@ struct FloorPlane {
   double TiltDown_rad() const;
 };
 
+/// Constants: set by hand for the sensors of people's rooms: on shelves, tables and tripods.
 struct FloorOptions {
   double max_tilt_rad = 0.79;  // the sensor's tilt and roll stay below 45 degrees
   double min_height_m = 0.25;  // of the sensor over the floor
   double max_height_m = 3.5;
   double min_area_m2 = 0.5;       // visible floor, counted in squares of 10 cm
-  double max_share_below = 0.03;  // of all points: nothing lies under a floor (but mirrors)
+  double max_share_below = 0.03;  // share of all points: nothing lies under a floor (but mirrors)
   double smoothing = 0.25;        // share of a new frame's plane in the reported one
   uint64_t seed = 1;
 };

@@ -1,3 +1,5 @@
+// Constants: where a line names no origin, set by hand while developing on rendered rooms with
+// validation subjects (`ossa experiment indoor-scenes`); no sweep is recorded.
 #include "depth/scene/furniture_internal.h"
 
 #include <Eigen/Eigenvalues>
@@ -27,11 +29,12 @@ class Outline {
     }
   }
   bool IsLow() const {
-    constexpr double kTop_m = 0.65;
+    constexpr double kTop_m = 0.65;  // anthropometry: below the hips of adults
     return high_m_ < kTop_m;
   }
   bool IsFurniture() const {
-    constexpr double kFoot_m = 0.2, kWide_m = 0.9, kFilled = 0.55;
+    constexpr double kFoot_m = 0.2, kWide_m = 0.9;  // metres over the floor, and along it
+    constexpr double kFilled = 0.55;                // share of its box: two legs fill less
     const double wide_m = right_m_ - left_m_;
     return IsLow() && low_m_ < kFoot_m && wide_m > kWide_m &&
            area_m2_ > kFilled * wide_m * (high_m_ - low_m_);
@@ -66,7 +69,7 @@ struct Spread {
 
 // Area of a cell's patch of a horizontal surface.
 double HorizontalArea_m2(const PointGrid& grid, const Vector3d& up, int cell) {
-  constexpr double kMostSlanted = 0.05;  // beyond, the area is anybody's guess
+  constexpr double kMostSlanted = 0.05;  // cosine; beyond, the area is anybody's guess
   const Vector3d p = grid.at(cell).cast<double>();
   return static_cast<double>(grid.Area(cell)) /
          std::max(kMostSlanted, std::abs(up.dot(p)) / p.norm());
@@ -77,7 +80,7 @@ double HorizontalArea_m2(const PointGrid& grid, const Vector3d& up, int cell) {
 std::vector<float> LevelHeights(const PointGrid& grid, const FloorPlane& floor,
                                 const std::vector<uint8_t>& room) {
   constexpr float kLowest_m = 0.3F, kHighest_m = 1.3F;  // who lies on the floor is lower
-  constexpr float kLevel = 0.4F;
+  constexpr float kLevel = 0.4F;  // times the pitch of the cells: a slope of 22 degrees
   std::vector<float> height_m(static_cast<size_t>(grid.cells()), 0.0F), level_m = height_m;
   for (int i = 0; i < grid.cells(); ++i) {
     const auto n = static_cast<size_t>(i);
@@ -137,25 +140,25 @@ double HeightTolerance(const FloorPlane& floor, const Eigen::Vector3f& p) {
 }
 
 double MostHeightTolerance(const Eigen::Vector3f& p) {
-  constexpr double kMostAlong = 1.001;  // 1, and what rounding may add
+  constexpr double kMostAlong = 1.001;  // times the tolerance: 1, and what rounding may add
   return kLeastTolerance_m + kMostAlong * static_cast<double>(DepthTolerance(p.z()));
 }
 
 bool InPlaneOf(const PointGrid& grid, const FlatPiece& piece, const FlatPiece& wall) {
-  constexpr double kSameNormal = 0.97;  // 14 degrees
-  constexpr double kSameDepth_1_m = 2.9e-3;
+  constexpr double kSameNormal = 0.97;         // 14 degrees
+  constexpr double kSameDepth_per_m = 2.9e-3;  // sensor: one step of the Kinect v1 in inverse depth
   if (piece.normal.dot(wall.normal) < kSameNormal) return false;
   double off = 0;
   for (const int cell : piece.cells) {
     off += 1.0 / static_cast<double>(grid.z(cell)) - wall.slope_x * (cell % grid.width) -
            wall.slope_y * (cell / grid.width) - wall.at_zero;
   }
-  return std::abs(off) / static_cast<double>(piece.cells.size()) < kSameDepth_1_m;
+  return std::abs(off) / static_cast<double>(piece.cells.size()) < kSameDepth_per_m;
 }
 
 std::vector<int> LowFront(const PointGrid& grid, const FloorPlane& floor,
                           const std::vector<FlatPiece>& pieces, const FlatPiece& piece) {
-  constexpr double kUpright = 0.35;  // at most so much of the normal points up
+  constexpr double kUpright = 0.35;  // cosine: at most so much of the normal points up
   const Vector3d up = floor.coefficients.head<3>();
   if (std::abs(piece.normal.dot(up)) > kUpright) return {};
   Outline outline(floor, up.cross(piece.normal).normalized());

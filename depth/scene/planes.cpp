@@ -1,3 +1,5 @@
+// Constants: where a line names no origin, set by hand while developing on rendered rooms with
+// validation subjects (`ossa experiment indoor-scenes`); no sweep is recorded.
 #include "depth/scene/planes.h"
 
 #include <Eigen/LU>
@@ -15,11 +17,11 @@ constexpr int kBlock = 4;    // cells a side
 constexpr int kFewest = 11;  // measured cells of a block's 16
 // Quantisation of the Kinect v1 in inverse depth, measured on real frames (`ossa experiment
 // sensor`).
-constexpr double kStep_1_m = 2.9e-3;
+constexpr double kStep_per_m = 2.9e-3;
 // A flat block shows the quantisation (0.29 steps) and jitter of about one step.
-constexpr double kFlatRms = 1.1 * kStep_1_m;
-constexpr double kJoinRms = 1.3 * kStep_1_m;  // of a block against the plane it is to join
-constexpr double kCellOff = 2.6 * kStep_1_m;  // of a cell on the plane
+constexpr double kFlatRms_per_m = 1.1 * kStep_per_m;
+constexpr double kJoinRms_per_m = 1.3 * kStep_per_m;  // of a block against the plane it is to join
+constexpr double kCellOff_per_m = 2.6 * kStep_per_m;  // of a cell on the plane
 
 // Sums for the least-squares plane d = a x + b y + c of inverse depth over cells.
 struct Sums {
@@ -64,8 +66,8 @@ class PieceGrower {
       for (int x = 0; x < grid.width; ++x) {
         const int cell = grid.cell(x, y);
         if (ignore[static_cast<size_t>(cell)] || !grid.valid(cell)) continue;
-        piece_of_[PlaceOf(x, y)] = kFree;
-        inverse_depth_[PlaceOf(x, y)] = 1.0 / static_cast<double>(grid.z(cell));
+        piece_of_[IndexWithRim(x, y)] = kFree;
+        inverse_depth_[IndexWithRim(x, y)] = 1.0 / static_cast<double>(grid.z(cell));
       }
     }
     for (int by = 0; by < height_; ++by) {
@@ -76,7 +78,7 @@ class PieceGrower {
   std::vector<FlatPiece> Run() {
     std::vector<size_t> order;
     for (size_t block = 0; block < rms_.size(); ++block) {
-      if (rms_[block] <= kFlatRms) order.push_back(block);
+      if (rms_[block] <= kFlatRms_per_m) order.push_back(block);
     }
     std::stable_sort(order.begin(), order.end(),
                      [&](size_t a, size_t b) { return rms_[a] < rms_[b]; });
@@ -88,7 +90,7 @@ class PieceGrower {
       constexpr int kFewBlocks = 4;  // less is not worth calling flat
       if (blocks < kFewBlocks) continue;
       const Vector3d plane = sums.Fit();
-      if (Claim(plane, seed, static_cast<int>(pieces.size()))) pieces.push_back(PieceOf(plane));
+      if (Claim(plane, seed, static_cast<int>(pieces.size()))) pieces.push_back(MakePiece(plane));
     }
     HandOutCells(pieces);
     std::stable_sort(pieces.begin(), pieces.end(),
@@ -102,7 +104,7 @@ class PieceGrower {
     Sums sums;
     for (int y = by * kBlock; y < (by + 1) * kBlock; ++y) {
       for (int x = bx * kBlock; x < (bx + 1) * kBlock; ++x) {
-        const size_t place = PlaceOf(x, y);
+        const size_t place = IndexWithRim(x, y);
         if (piece_of_[place] != kTaken) sums.Add(x, y, inverse_depth_[place]);
       }
     }
@@ -124,7 +126,8 @@ class PieceGrower {
         const int x = bx + step[0], y = by + step[1];
         if (x < 0 || y < 0 || x >= width_ || y >= height_) continue;
         const auto next = static_cast<size_t>(y * width_ + x);
-        if (block_taken_[next] || rms_[next] > kFlatRms || sums_[next].Rms(plane) > kJoinRms)
+        if (block_taken_[next] || rms_[next] > kFlatRms_per_m ||
+            sums_[next].Rms(plane) > kJoinRms_per_m)
           continue;
         block_taken_[next] = 1;
         sums.Add(sums_[next]);
@@ -143,7 +146,8 @@ class PieceGrower {
     front_.clear();
     const auto claim_if_on_plane = [&](size_t place, int x, int y) {
       if (piece_of_[place] != kFree) return;
-      if (std::abs(inverse_depth_[place] - plane.dot(Vector3d(x, y, 1.0))) >= kCellOff) return;
+      if (std::abs(inverse_depth_[place] - plane.dot(Vector3d(x, y, 1.0))) >= kCellOff_per_m)
+        return;
       piece_of_[place] = piece;
       front_.push_back({x, y});
     };
@@ -151,11 +155,11 @@ class PieceGrower {
     const int y0 = static_cast<int>(seed) / width_ * kBlock;
     for (int i = 0; i < kBlock * kBlock; ++i) {
       const int x = x0 + i % kBlock, y = y0 + i / kBlock;
-      claim_if_on_plane(PlaceOf(x, y), x, y);
+      claim_if_on_plane(IndexWithRim(x, y), x, y);
     }
     for (size_t i = 0; i < front_.size(); ++i) {
       const auto [x, y] = front_[i];
-      const size_t place = PlaceOf(x, y), row = static_cast<size_t>(stride_);
+      const size_t place = IndexWithRim(x, y), row = static_cast<size_t>(stride_);
       for (const int step : {1, kRim}) {  // beyond the grid's edge nothing is free
         const auto columns = static_cast<size_t>(step), rows = columns * row;
         claim_if_on_plane(place + columns, x + step, y);
@@ -167,7 +171,7 @@ class PieceGrower {
     return !front_.empty();
   }
 
-  FlatPiece PieceOf(const Vector3d& plane) const {
+  FlatPiece MakePiece(const Vector3d& plane) const {
     FlatPiece piece;
     piece.slope_x = plane.x(), piece.slope_y = plane.y(), piece.at_zero = plane.z();
     SetNormal(plane, piece);
@@ -178,7 +182,7 @@ class PieceGrower {
   void HandOutCells(std::vector<FlatPiece>& pieces) const {
     for (int y = 0; y < grid_.height; ++y) {
       for (int x = 0; x < grid_.width; ++x) {
-        const int mine = piece_of_[PlaceOf(x, y)];
+        const int mine = piece_of_[IndexWithRim(x, y)];
         if (mine < 0) continue;
         FlatPiece& piece = pieces[static_cast<size_t>(mine)];
         piece.cells.push_back(grid_.cell(x, y));
@@ -199,7 +203,7 @@ class PieceGrower {
 
   double Area(int cell, const Vector3d& normal) const {
     const Vector3d p = grid_.at(cell).cast<double>();
-    constexpr double kMostSlanted = 0.1;  // beyond, the area is anybody's guess
+    constexpr double kMostSlanted = 0.1;  // cosine; beyond, the area is anybody's guess
     return static_cast<double>(grid_.Area(cell)) /
            std::max(kMostSlanted, std::abs(normal.dot(p)) / p.norm());
   }
@@ -207,7 +211,7 @@ class PieceGrower {
   static constexpr int kFree = -1, kTaken = -2;  // no piece's yet; never any piece's
   static constexpr int kRim = 3;  // around the grid, never any piece's: as far as Claim reaches
 
-  size_t PlaceOf(int x, int y) const {
+  size_t IndexWithRim(int x, int y) const {
     return static_cast<size_t>((y + kRim) * stride_ + x + kRim);
   }
 

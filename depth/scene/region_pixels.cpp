@@ -1,4 +1,4 @@
-#include "depth/scene/region_pixels_internal.h"
+#include "depth/scene/region_pixels.h"
 
 #include <algorithm>
 #include <array>
@@ -22,7 +22,7 @@ bool IsInside(const PointGrid& grid, const std::vector<Place>& place, int x, int
   return true;
 }
 
-std::vector<Place> PlacesOf(const PointGrid& grid, const Region& region) {
+std::vector<Place> ClassifyCells(const PointGrid& grid, const Region& region) {
   std::vector<Place> place(static_cast<size_t>(grid.cells()), Place::kElsewhere);
   for (const int cell : region.cells) place[static_cast<size_t>(cell)] = Place::kMember;
   for (const int cell : region.cells) {
@@ -40,7 +40,7 @@ std::vector<Place> PlacesOf(const PointGrid& grid, const Region& region) {
 }
 
 // Pixels that are judged side by side.
-constexpr int kLanes = 4;
+constexpr int kLanes = 4;  // as SSE2 registers hold
 using Lanes = float __attribute__((vector_size(kLanes * sizeof(float))));
 using LaneMask = int32_t __attribute__((vector_size(kLanes * sizeof(int32_t))));
 
@@ -103,10 +103,10 @@ class Around {
 
 }  // namespace
 
-std::vector<int32_t> PixelsOf(const DepthFrame& frame, const PointGrid& grid,
-                              const Region& region) {
+std::vector<int32_t> CollectPixels(const DepthFrame& frame, const PointGrid& grid,
+                                   const Region& region) {
   const DepthView depth = frame.view();
-  const std::vector<Place> place = PlacesOf(grid, region);
+  const std::vector<Place> place = ClassifyCells(grid, region);
   int low = grid.height, high = 0;
   for (const int cell : region.cells) {
     low = std::min(low, std::max(0, cell / grid.width - 1));

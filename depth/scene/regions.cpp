@@ -14,18 +14,18 @@ using Eigen::Vector3f;
 // How large a flat piece must be to be furniture or a wall: larger than the flattest part of a body
 // looks at this distance. At 1 m the sensor tells 1 cm of curvature, and a flat back has 0.15 m2;
 // from 3 m on a whole person is as flat as a board.
-constexpr double kPerson_m2 = 0.85;  // of a big person seen from the front
+constexpr double kPerson_m2 = 0.85;  // anthropometry: of a big person seen from the front
 
-double RoomArea_m2(double z_m) {
+double RequireRoomArea_m2(double z_m) {
   const double far_m = std::max(0.0, z_m - 1.0);
   return std::min(0.2 + 0.12 * far_m + 0.05 * far_m * far_m, kPerson_m2);
 }
 
 // Nobody's side looks up: tables, seats and shelves do.
-constexpr double kTop = 0.9;  // of the normal's share that points up
-constexpr double kTopArea_m2 = 0.12;
+constexpr double kTop = 0.9;          // cosine of the normal's angle to the vertical, by hand
+constexpr double kTopArea_m2 = 0.12;  // by hand: smaller ones may be a lap or an arm held out
 
-double MeanDepth_m(const PointGrid& grid, const FlatPiece& piece) {
+double ComputeMeanDepth_m(const PointGrid& grid, const FlatPiece& piece) {
   double z_m = 0;
   for (const int cell : piece.cells) z_m += static_cast<double>(grid.z(cell));
   return z_m / static_cast<double>(piece.cells.size());
@@ -44,7 +44,8 @@ void MarkFlatPieces(const PointGrid& grid, const std::optional<FloorPlane>& floo
     }
     shape.planes.push_back(piece);
     const bool top = piece.normal.dot(up) > kTop;
-    const bool large = piece.area_m2 >= (top ? kTopArea_m2 : RoomArea_m2(MeanDepth_m(grid, piece)));
+    const bool large =
+        piece.area_m2 >= (top ? kTopArea_m2 : RequireRoomArea_m2(ComputeMeanDepth_m(grid, piece)));
     const bool of_wall = !large && std::any_of(walls.begin(), walls.end(), [&](const FlatPiece* w) {
       return InPlaneOf(grid, piece, *w);
     });
@@ -66,9 +67,10 @@ bool OnOrUnder(const FloorPlane& floor, const Vector3f& p) {
   return height_m < MostHeightTolerance(p) && height_m < HeightTolerance(floor, p);
 }
 
-RoomShape RoomSurfaces(const PointGrid& grid, const std::optional<FloorPlane>& floor) {
+RoomShape FindRoomSurfaces(const PointGrid& grid, const std::optional<FloorPlane>& floor) {
   const auto cells = static_cast<size_t>(grid.cells());
   RoomShape shape{std::vector<uint8_t>(cells, 0),
+                  std::vector<uint8_t>(cells, 0),
                   std::vector<uint8_t>(cells, 0),
                   {},
                   std::vector<int>(cells, -1)};
@@ -77,6 +79,7 @@ RoomShape RoomSurfaces(const PointGrid& grid, const std::optional<FloorPlane>& f
       if (!grid.valid(i)) continue;
       shape.room[static_cast<size_t>(i)] = OnOrUnder(*floor, grid.at(i));
     }
+    shape.floor = shape.room;
   }
   if (floor) MarkTops(grid, *floor, shape.room);
   MarkFlatPieces(grid, floor, shape);
@@ -100,6 +103,12 @@ Region MakeRegion(const PointGrid& grid, std::vector<int> cells) {
   return region;
 }
 
+Region UniteRegions(const PointGrid& grid, const Region& a, const Region& b) {
+  std::vector<int> cells = a.cells;
+  cells.insert(cells.end(), b.cells.begin(), b.cells.end());
+  return MakeRegion(grid, std::move(cells));
+}
+
 bool Continuous(const PointGrid& grid, int a, int b) { return Continuous(grid.z(a), grid.z(b)); }
 
 bool Continuous(float a_m, float b_m) {
@@ -107,8 +116,8 @@ bool Continuous(float a_m, float b_m) {
   return std::abs(a_m - b_m) < 0.04F + 0.5F * DepthTolerance(std::min(a_m, b_m));
 }
 
-std::vector<Region> ConnectedRegions(const PointGrid& grid, std::span<const uint8_t> ignore,
-                                     float min_area_m2) {
+std::vector<Region> FindConnectedRegions(const PointGrid& grid, std::span<const uint8_t> ignore,
+                                         float min_area_m2) {
   std::vector<Region> regions;
   std::vector<uint8_t> done(ignore.begin(), ignore.end());
   std::vector<int> front;
@@ -135,7 +144,7 @@ std::vector<Region> ConnectedRegions(const PointGrid& grid, std::span<const uint
   return regions;
 }
 
-double ShareOf(const Region& region, const std::vector<uint8_t>& marked) {
+double MeasureShare(const Region& region, const std::vector<uint8_t>& marked) {
   const auto count = std::count_if(region.cells.begin(), region.cells.end(), [&](int cell) {
     return marked[static_cast<size_t>(cell)] != 0;
   });

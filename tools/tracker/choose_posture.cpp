@@ -1,11 +1,7 @@
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <cmath>
 #include <limits>
 
-#include "depth/base/error.h"
-#include "forest/targets.h"
 #include "recon/body/parts.h"
 #include "recon/body/standard_body.h"
 #include "tools/tracker/choose_posture_internal.h"
@@ -40,8 +36,8 @@ struct Option {
 // Exact minimum over the tree of joints: children before parents (Viterbi).
 class Chooser {
  public:
-  Chooser(const std::vector<std::vector<Proposal>>& proposals,
-          const std::array<int, kJointCount>& targets, const ChoiceContext& context)
+  Chooser(const std::vector<std::vector<Proposal>>& proposals, const people::JointTargets& targets,
+          const ChoiceContext& context)
       : context_(context) {
     for (int j = 0; j < kJointCount; ++j) {
       AddOptions(j, proposals[static_cast<size_t>(targets[static_cast<size_t>(j)])]);
@@ -153,21 +149,8 @@ void DoubtHipsWithoutLegs(double leg_area_m2, recon::TrackedPosture& posture) {
 
 }  // namespace
 
-std::array<int, kJointCount> JointTargets(const forest::ForestModel& model,
-                                          const std::string& model_name) {
-  if (model.class_count() > recon::kLabelCount) {
-    throw InputError(
-        fmt::format("{}: expected at most {} classes, the labels of body parts, found {}",
-                    model_name, recon::kLabelCount, model.class_count()));
-  }
-  const auto named = forest::TargetsNamed(model, recon::kJointNames, model_name);
-  std::array<int, kJointCount> targets{};
-  for (size_t j = 0; j < kJointCount; ++j) targets[j] = static_cast<int>(named[j]);
-  return targets;
-}
-
 recon::TrackedPosture ChoosePosture(const forest::ForestModel& model,
-                                    const std::array<int, kJointCount>& targets,
+                                    const people::JointTargets& targets,
                                     const std::vector<std::vector<Proposal>>& proposals,
                                     const ChoiceContext& context) {
   const auto chosen = Chooser(proposals, targets, context).Best();

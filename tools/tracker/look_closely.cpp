@@ -15,9 +15,9 @@ const forest::Proposal* ProposalAt(const std::vector<forest::Proposal>& best_fir
 }  // namespace
 
 std::optional<recon::Looked> LookClosely(
-    const recon::Looker& look, const depth::DepthFrame& frame, const depth::Candidate& candidate,
+    const recon::Looker& look, const depth::DepthFrame& frame, const people::Candidate& candidate,
     const std::vector<std::vector<forest::Proposal>>& proposals,
-    const std::array<int, recon::kJointCount>& targets, const recon::TrackedPosture& chosen,
+    const people::JointTargets& targets, const recon::TrackedPosture& chosen,
     recon::JudgedBones* bones) {
   recon::LookInput input;
   if (bones->frames > 0) input.bones_m = bones->mean_m;

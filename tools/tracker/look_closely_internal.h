@@ -3,10 +3,11 @@
 #include <optional>
 #include <vector>
 
-#include "depth/scene/scene.h"
 #include "forest/proposals/propose.h"
 #include "recon/refine/bone_measure.h"
 #include "recon/refine/close_look.h"
+#include "tools/people/candidate.h"
+#include "tools/people/joint_targets.h"
 
 namespace ossa::tracker {
 
@@ -14,9 +15,9 @@ namespace ossa::tracker {
 /// chosen from where they are likeliest. Nothing where some joint has no proposal at all. `bones`:
 /// the person's as judged until now, of which the look is told; this frame's are added.
 std::optional<recon::Looked> LookClosely(
-    const recon::Looker& look, const depth::DepthFrame& frame, const depth::Candidate& candidate,
+    const recon::Looker& look, const depth::DepthFrame& frame, const people::Candidate& candidate,
     const std::vector<std::vector<forest::Proposal>>& proposals,
-    const std::array<int, recon::kJointCount>& targets, const recon::TrackedPosture& chosen,
+    const people::JointTargets& targets, const recon::TrackedPosture& chosen,
     recon::JudgedBones* bones);
 
 }  // namespace ossa::tracker

@@ -17,13 +17,10 @@ namespace ossa::tracker {
 struct Person {
   int id = 0;
   double seen_s = 0.0;
-  double before_s = -1e9;       // time of `before` and `context`
-  std::optional<double> score;  // mean of the last looks
-  int looks = 0;
+  double before_s = -1e9;  // time of `before`
   recon::BoneLengths lengths_m = AverageBoneLengths();
   recon::JudgedBones bones;                     // by close looks until now
   std::optional<recon::TrackedPosture> before;  // of the last frame it was tracked in
-  std::vector<float> context;                   // facing, as the forest saw it
   SteadyBody steady;
   std::unique_ptr<recon::Reconstructor> reconstructor;
   std::unique_ptr<Mechanics> mechanics;

@@ -8,17 +8,14 @@
 
 #include "depth/base/error.h"
 #include "depth/base/large_pages.h"
-#include "depth/scene/scene.h"
 #include "depth/sensor/frame_source.h"
 #include "forest/forest.h"
 #include "recon/database/posture_database.h"
 #include "recon/models/learned_models.h"
 #include "recon/refine/close_look.h"
-#include "tools/tracker/find_people_internal.h"
+#include "tools/people/detect_people.h"
+#include "tools/people/parallel.h"
 #include "tools/tracker/look_closely_internal.h"
-#include "tools/tracker/measure_body_internal.h"
-#include "tools/tracker/parallel_internal.h"
-#include "tools/tracker/perceive_internal.h"
 #include "tools/tracker/person_internal.h"
 #include "tools/tracker/shipped.h"
 
@@ -27,7 +24,6 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
-constexpr double kMoving_s = 1.0;  // since the last shift; who is new may not have shifted yet
 constexpr double kRecent_s = 0.2;  // what was seen longer ago says nothing about now
 
 double MillisecondsSince(Clock::time_point start) {
@@ -70,7 +66,7 @@ std::shared_ptr<const recon::Looker> LookOf(const TrackerOptions& options) {
   return look;
 }
 
-unsigned ClippedEdges(const depth::DepthFrame& frame, const std::vector<int32_t>& pixels) {
+unsigned FindClippedEdges(const depth::DepthFrame& frame, const std::vector<int32_t>& pixels) {
   // The sensor leaves a margin of a few pixels without readings at each border.
   const int margin = std::max(2, frame.camera.width / 64);
   unsigned edges = 0;
@@ -90,19 +86,18 @@ struct Tracker::Impl {
   TrackerOptions options;
   std::shared_ptr<const recon::Looker> look;  // before the forest: see ReturnFreedMemory
   forest::ForestModel model;
-  std::array<int, recon::kJointCount> targets;
+  people::JointTargets targets;
   CompleteOptions complete;
-  depth::SceneOptions scene_options;
-  depth::SceneState scene_state;
-  FinderState finder_state;
-  std::map<int, Person> people;
+  people::PeopleOptions people_options;
+  people::PeopleState people_state;
+  std::map<int, Person> persons;  // by id
   std::optional<std::vector<int>> chosen_ids;
 
   explicit Impl(const TrackerOptions& o)
       : options(o),
         look(LookOf(o)),
         model(forest::ReadForestModel(ModelPath(o), forest::ModelUse::kRunOnly)),
-        targets(JointTargets(model, o.model.empty() ? "body.ossa" : o.model)) {
+        targets(people::FindJointTargets(model, o.model.empty() ? "body.ossa" : o.model)) {
     complete.physics = o.physics;
     complete.mechanics = o.mechanics;
     complete.smoothing = o.smoothing;
@@ -122,85 +117,34 @@ struct Tracker::Impl {
     complete.bones_m = o.bones_m;
     recon::MakeReconstructor(complete.reconstructor);  // says now what is wrong with the options
     for (const auto& [id, lengths_m] : o.bones_m) MethodFor(id, complete);
-    scene_options.max_depth_m = o.near_range ? 3.0F : 6.0F;
+    people_options.scene.max_depth_m = o.near_range ? 3.0F : 6.0F;
+    people_options.initiation.max_users = o.max_users;
+    people_options.threads = o.threads;
+    people_options.trace_surfaces = o.trace;
     ReturnFreedMemory();
   }
 
   BodyFrame Track(const depth::DepthFrame& frame);
-  std::vector<Found> Segment(const depth::DepthFrame& frame, BodyFrame& result);
-  Known KnownOf(const depth::Candidate& candidate, double time_s) const;
-  std::vector<Person*> PersonsOf(const std::vector<int>& ids, double time_s);
+  Body MakeBody(const depth::DepthFrame& frame, const people::Person& person) const;
+  std::vector<Person*> RememberPersons(const std::vector<Body>& bodies, double time_s);
   void Introduce(int id, Person& person) const;
-  std::vector<float> ContextPrior(const Person& person, double time_s) const;
   void TrackBody(const depth::DepthFrame& frame, const std::optional<Eigen::Vector4d>& floor,
-                 const Found& found, Person& person, Body& body, StageTimes& ms) const;
+                 const people::Detection& detection, Person& person, Body& body,
+                 StageTimes& ms) const;
 };
 
-Known Tracker::Impl::KnownOf(const depth::Candidate& candidate, double time_s) const {
-  if (candidate.track < 0) return {};
-  const auto& user = scene_state.users[static_cast<size_t>(candidate.track)];
-  const auto found = people.find(user.id);
-  if (found == people.end()) return {};
-  const Person& person = found->second;
-  Known known;
-  known.context_prior = ContextPrior(person, time_s);
-  known.person_score = person.score;
-  known.looks = person.looks;
-  known.moved = user.moved;
-  known.moving = time_s - user.moved_s < kMoving_s;
-  known.full_m2 = user.full_m2;
-  return known;
-}
-
-// Who is where: fills floor, user image and the bodies' outer facts.
-std::vector<Found> Tracker::Impl::Segment(const depth::DepthFrame& frame, BodyFrame& result) {
-  const auto start = Clock::now();
-  depth::SceneState next;
-  const depth::Scene scene = depth::FindCandidates(frame, scene_state, next, scene_options);
-  scene_state = std::move(next);
-  if (scene.floor) {
-    result.floor = scene.floor->coefficients;
-    result.tilt_down_rad = scene.floor->TiltDown_rad();
-  }
-  FindOptions find;
-  find.max_users = options.max_users;
-  find.threads = options.threads;
-  const Eyes eyes{model, targets, [&](const depth::Candidate& candidate) {
-                    return KnownOf(candidate, frame.time_s);
-                  }};
-  const auto look_start = Clock::now();
-  std::vector<Found> found = FindPeople(eyes, frame, scene, scene_options, find, finder_state);
-  const double look_ms = MillisecondsSince(look_start);
-  std::vector<const depth::Candidate*> users;
-  for (Found& one : found) {
-    one.candidate.body = MeasureBody(one.perception, targets, scene.floor);
-    one.candidate.marks_m = SureJoints(one.perception, targets);
-    users.push_back(&one.candidate);
-  }
-  const std::vector<int> ids =
-      depth::ConfirmUsers(scene, users, frame.time_s, scene_state, scene_options);
-  result.users = depth::UserImage(frame, users, ids);
-  result.bodies.resize(ids.size());
-  for (size_t i = 0; i < ids.size(); ++i) {
-    Body& body = result.bodies[i];
-    body.id = ids[i];
-    body.position_m = users[i]->region.mean_m.cast<double>();
-    body.clipped_edges = ClippedEdges(frame, users[i]->pixels);
-    body.person_score = found[i].perception.person_score;
-    const bool chosen = !chosen_ids || std::find(chosen_ids->begin(), chosen_ids->end(), ids[i]) !=
-                                           chosen_ids->end();
-    body.state = chosen ? BodyState::kTracked : BodyState::kPositionOnly;
-  }
-  // The time of the looks, wasted ones too, shared out as the people's own stages stand.
-  double classify_ms = 1e-6, propose_ms = 0;
-  for (const Found& one : found) {
-    classify_ms += one.perception.classify_ms;
-    propose_ms += one.perception.propose_ms;
-  }
-  result.ms.classify = look_ms * classify_ms / (classify_ms + propose_ms);
-  result.ms.propose = look_ms - result.ms.classify;
-  result.ms.segment = MillisecondsSince(start) - look_ms;
-  return found;
+// What is known of a person without their joints.
+Body Tracker::Impl::MakeBody(const depth::DepthFrame& frame, const people::Person& person) const {
+  const people::Candidate& seen = person.detection.candidate;
+  Body body;
+  body.id = person.id;
+  body.position_m = seen.region.mean_m.cast<double>();
+  body.clipped_edges = FindClippedEdges(frame, seen.pixels);
+  body.person_score = person.detection.score;
+  const bool chosen = !chosen_ids || std::find(chosen_ids->begin(), chosen_ids->end(), body.id) !=
+                                         chosen_ids->end();
+  body.state = chosen ? BodyState::kTracked : BodyState::kPositionOnly;
+  return body;
 }
 
 // Of somebody new: what is known already. A look judges the bones that the method ends with.
@@ -213,47 +157,37 @@ void Tracker::Impl::Introduce(int id, Person& person) const {
   }
 }
 
-std::vector<Person*> Tracker::Impl::PersonsOf(const std::vector<int>& ids, double time_s) {
-  ForgetGone(ids, time_s, scene_options.reidentify.forget_behind_s, people);
-  std::vector<Person*> persons;
+std::vector<Person*> Tracker::Impl::RememberPersons(const std::vector<Body>& bodies,
+                                                    double time_s) {
+  std::vector<int> ids;
+  for (const Body& body : bodies) ids.push_back(body.id);
+  ForgetGone(ids, time_s, people_options.association.reidentify.forget_occluded_s, persons);
+  std::vector<Person*> in_view;
   for (const int id : ids) {
-    Person& person = people[id];
+    Person& person = persons[id];
     if (person.id != id) Introduce(id, person);
-    if (person.seen_s == 0.0 || person.seen_s > time_s) person.seen_s = time_s;
-    persons.push_back(&person);
+    person.seen_s = time_s;
+    in_view.push_back(&person);
   }
-  return persons;
-}
-
-// Which way a person faced a moment ago says much of the way now.
-std::vector<float> Tracker::Impl::ContextPrior(const Person& person, double time_s) const {
-  // ... but first it must be clear that it is a person: on furniture the belief feeds itself.
-  constexpr int kFewLooks = 12;
-  if (person.looks < kFewLooks) return {};
-  if (person.context.empty() || time_s - person.before_s > kRecent_s) return {};
-  // A twentieth starts anew, so that an error does not keep itself alive.
-  constexpr float kFresh = 0.05F;
-  std::vector<float> prior = person.context;
-  for (float& share : prior)
-    share = (1 - kFresh) * share + kFresh / static_cast<float>(prior.size());
-  return prior;
+  return in_view;
 }
 
 // From pixels to all three postures of one person.
 void Tracker::Impl::TrackBody(const depth::DepthFrame& frame,
-                              const std::optional<Eigen::Vector4d>& floor, const Found& found,
-                              Person& person, Body& body, StageTimes& ms) const {
-  const Perception& perception = found.perception;
+                              const std::optional<Eigen::Vector4d>& floor,
+                              const people::Detection& detection, Person& person, Body& body,
+                              StageTimes& ms) const {
+  const people::ForestEvidence& evidence = detection.evidence;
   ChoiceContext context;
   context.camera = &frame.camera;
   context.expected_m = person.lengths_m;
-  context.leg_area_m2 = perception.leg_area_m2;
+  context.leg_area_m2 = evidence.leg_area_m2;
   const bool recent = person.before && frame.time_s - person.before_s <= kRecent_s;
   context.before = recent ? &*person.before : nullptr;
-  body.raw = ChoosePosture(model, targets, perception.proposals, context);
+  body.raw = ChoosePosture(model, targets, evidence.proposals, context);
   if (look) {
     const auto start = Clock::now();
-    const auto looked = LookClosely(*look, frame, found.candidate, perception.proposals, targets,
+    const auto looked = LookClosely(*look, frame, detection.candidate, evidence.proposals, targets,
                                     body.raw, &person.bones);
     if (looked) {
       body.refined = looked->joints_m;
@@ -270,7 +204,6 @@ void Tracker::Impl::TrackBody(const depth::DepthFrame& frame,
   LearnBoneLengths(body.raw, person.lengths_m);
   CompleteBody(frame, floor, complete, person, body, ms);
   person.before = body.raw;
-  person.context = perception.classification.context;
   person.before_s = frame.time_s;
 }
 
@@ -279,23 +212,30 @@ BodyFrame Tracker::Impl::Track(const depth::DepthFrame& frame) {
   BodyFrame result;
   result.index = frame.index;
   result.time_s = frame.time_s;
-  const std::vector<Found> found = Segment(frame, result);
-  std::vector<int> ids;
-  for (const Body& body : result.bodies) ids.push_back(body.id);
-  const std::vector<Person*> persons = PersonsOf(ids, frame.time_s);
+  people::PeopleInFrame seen =
+      people::DetectPeople(frame, {model, targets}, people_state, people_options);
+  if (seen.floor) {
+    result.floor = seen.floor->coefficients;
+    result.tilt_down_rad = seen.floor->TiltDown_rad();
+  }
+  result.users = std::move(seen.users);
+  result.decisions = std::move(seen.decisions);
+  for (const people::Person& person : seen.people) result.bodies.push_back(MakeBody(frame, person));
+  const std::vector<Person*> in_view = RememberPersons(result.bodies, frame.time_s);
   if (options.keep_parts)
     result.parts = depth::Image<uint8_t>(frame.camera.width, frame.camera.height);
-  std::vector<StageTimes> times(ids.size());
-  ParallelFor(ids.size(), options.threads, [&](size_t i) {
+  std::vector<StageTimes> times(result.bodies.size());
+  people::ParallelFor(result.bodies.size(), options.threads, [&](size_t i) {
     Body& body = result.bodies[i];
-    persons[i]->score = body.person_score;
-    ++persons[i]->looks;
-    persons[i]->seen_s = frame.time_s;
     if (body.state == BodyState::kPositionOnly) return;
-    TrackBody(frame, result.floor, found[i], *persons[i], body, times[i]);
+    const people::Detection& detection = seen.people[i].detection;
+    TrackBody(frame, result.floor, detection, *in_view[i], body, times[i]);
     if (options.keep_parts)
-      PaintParts(model, frame, found[i].candidate, found[i].perception, result.parts);
+      people::LabelParts(model, frame, detection.candidate, detection.evidence, result.parts);
   });
+  result.ms.segment = seen.segment_ms;
+  result.ms.classify = seen.classify_ms;
+  result.ms.propose = seen.propose_ms;
   for (const StageTimes& t : times) {
     result.ms.reconstruct += t.reconstruct;
     result.ms.physics += t.physics;
@@ -360,9 +300,8 @@ void Tracker::SetSmoothing(const SmoothingOptions& smoothing) {
   impl_->complete.smoothing = smoothing;
 }
 void Tracker::Reset() {
-  impl_->people.clear();
-  impl_->scene_state = {};
-  impl_->finder_state = {};
+  impl_->persons.clear();
+  impl_->people_state = {};
 }
 
 }  // namespace ossa::tracker

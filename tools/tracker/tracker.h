@@ -13,6 +13,7 @@
 #include "depth/image/image.h"
 #include "recon/joint_array.h"
 #include "recon/posture.h"
+#include "tools/people/decision.h"
 #include "tools/tracker/mechanics.h"
 #include "tools/tracker/smoothing.h"
 
@@ -92,6 +93,7 @@ struct BodyFrame {
   std::vector<Body> bodies;              // by id
   depth::Image<uint8_t> users;           // id of the body each pixel belongs to, 0 nobody
   depth::Image<uint8_t> parts;           // body part per pixel; empty unless asked for
+  people::FrameDecisions decisions;      // why whoever is here was found, or not
   StageTimes ms;
 };
 
@@ -117,6 +119,7 @@ struct TrackerOptions {
   /// recording): they stay from the first frame to the last. Only for methods that keep bones.
   std::map<int, recon::BoneLengths> bones_m;
   bool keep_parts = false;  // fill BodyFrame::parts
+  bool trace = false;  // BodyFrame::decisions also names the surfaces that nobody is looked for in
   int threads = 1;
   uint64_t seed = 1;
   void Check() const;  // throws std::invalid_argument with name, value and range

@@ -1,5 +1,5 @@
 // `ossa experiment person-signs`: fits what tells people from furniture
-// (tools/tracker/person_signs.inc).
+// (tools/people/person_classifier_weights.inc).
 #include <fmt/format.h>
 
 #include <Eigen/Cholesky>
@@ -15,8 +15,8 @@
 #include "tools/experiments/experiments_internal.h"
 #include "tools/experiments/indoor_scenes/indoor_scenes_internal.h"
 #include "tools/experiments/stage/jobs.h"
+#include "tools/people/feature_collector.h"
 #include "tools/synth/frame_maker.h"
-#include "tools/tracker/person_signs.h"
 #include "tools/tracker/shipped.h"
 
 namespace ossa::tools {
@@ -51,7 +51,7 @@ class Gatherer {
   Gatherer(ExperimentContext& context, Split split, const std::string& mocap)
       : context_(context),
         split_(split),
-        collector_(context.model),
+        collector_(context.model.empty() ? tracker::ShippedFile("body.ossa") : context.model),
         clips_(recon::LoadMocap({mocap})),
         poses_(MakePoseBank(clips_)) {}
 
@@ -113,15 +113,15 @@ class Gatherer {
 
   void Look(const LabelledFrame& frame, std::vector<Example>& examples) {
     context_.StopIfAsked();
-    for (auto& seen : collector_.Look(frame.depth)) {
+    for (auto& seen : collector_.Collect(frame.depth)) {
       const auto person = IsPerson(seen.pixels, frame);
-      if (person) examples.push_back({*person, std::move(seen.signs)});
+      if (person) examples.push_back({*person, std::move(seen.features)});
     }
   }
 
   ExperimentContext& context_;
   Split split_;
-  tracker::SignCollector collector_;
+  people::FeatureCollector collector_;
   std::vector<recon::MotionClip> clips_;
   std::vector<recon::RigPose> poses_;
 };
@@ -150,13 +150,13 @@ std::vector<Example> Examples(ExperimentContext& context, Split split, const std
     Example example;
     words >> example.person;
     for (double sign = 0; words >> sign;) example.signs.push_back(sign);
-    if (example.signs.size() == tracker::PersonSignNames().size())
+    if (example.signs.size() == people::PersonFeatureNames().size())
       examples.push_back(std::move(example));
   }
   return examples;
 }
 
-// Constant, signs, products of two: the order of tools/tracker/signs.cpp.
+// Constant, signs, products of two: the order of tools/people/person_features.cpp.
 VectorXd Terms(const std::vector<double>& signs, size_t count) {
   const auto n = static_cast<Eigen::Index>(count);
   VectorXd terms(1 + n + n * (n + 1) / 2);
@@ -236,9 +236,9 @@ std::vector<Table> RunPersonSigns(ExperimentContext& context) {
   const auto fitted = Examples(context, Split::kTrain, train, performances, seed);
   const auto checked =
       Examples(context, Split::kTest, check, std::max(1, performances / 4), seed + 500000);
-  const size_t all = tracker::PersonSignNames().size(), surface = tracker::SurfaceSignCount();
+  const size_t all = people::PersonFeatureNames().size(), surface = people::CountSurfaceFeatures();
   const VectorXd surface_weights = Fit(fitted, surface, prior), weights = Fit(fitted, all, prior);
-  AtomicFile file(context.out / "person_signs.inc");
+  AtomicFile file(context.out / "person_classifier_weights.inc");
   file.stream() << "// Written by `ossa experiment person-signs`.\n"
                 << ArrayText("kSurfaceWeights", surface_weights)
                 << ArrayText("kPersonWeights", weights);
@@ -250,7 +250,7 @@ std::vector<Table> RunPersonSigns(ExperimentContext& context) {
   AddRows("fitted on", weights, all, fitted, table);
   AddRows("others, surface", surface_weights, surface, checked, table);
   AddRows("others", weights, all, checked, table);
-  table.note = "Weights: person_signs.inc, to be put into tools/tracker.";
+  table.note = "Weights: person_classifier_weights.inc, to be put into tools/people.";
   if (train == check)
     table.note += " Others: other bodies and rooms; their motions are those fitted on.";
   return {table};

@@ -1,0 +1,84 @@
+// What stands before the background that was seen before.
+#include "depth/scene/background.h"
+
+#include <gtest/gtest.h>
+
+#include "tests/depth/scene/shots.h"
+
+namespace ossa::depth {
+namespace {
+
+// Cells of the frame that are a person's.
+std::vector<int> CellsOfPerson(const CapsuleRender& render, const PointGrid& grid) {
+  std::vector<int> cells;
+  for (int i = 0; i < grid.cells(); ++i) {
+    const int u = i % grid.width * grid.step, v = i / grid.width * grid.step;
+    if (grid.valid(i) && render.person.at(u, v) > 0) cells.push_back(i);
+  }
+  return cells;
+}
+
+double MeasureShare(const std::vector<int>& cells, const std::vector<uint8_t>& marked) {
+  double count = 0;
+  for (const int cell : cells) count += marked[static_cast<size_t>(cell)] != 0 ? 1 : 0;
+  return count / static_cast<double>(cells.size());
+}
+
+TEST(Foreground, KnowsWhoCameFromWhatAlwaysStoodThere) {
+  const std::vector<tests::Box> stool = {{{0.6, -1.0, 2.45}, {0.95, -0.4, 2.8}}};
+  const PointGrid before = GridOf(Shot({}, 0, stool));
+  BackgroundState state;
+  LearnBackground(before, std::vector<uint8_t>(static_cast<size_t>(before.cells()), 0), state);
+  const CapsuleRender render = Shot({PersonAt(-0.2, 2.5)}, 1, stool);
+  const PointGrid now = GridOf(render);
+  const auto foreground = CompareWithBackground(now, state).foreground;
+  // Feet stand on the floor that was seen there, at its own depth.
+  EXPECT_GT(MeasureShare(CellsOfPerson(render, now), foreground), 0.85);
+  const PointGrid empty = GridOf(Shot({}));
+  std::vector<int> of_stool;
+  for (int i = 0; i < now.cells(); ++i) {
+    if (before.z(i) < empty.z(i) - 0.1F && now.z(i) > before.z(i) - 0.05F) of_stool.push_back(i);
+  }
+  ASSERT_GT(of_stool.size(), 100U);
+  EXPECT_EQ(MeasureShare(of_stool, foreground), 0.0);  // without noise
+}
+
+TEST(Foreground, SeesSomebodyBeforeWhatIsTooFarToMatter) {
+  CapsuleScene scene;
+  scene.planes = {{{0, 1, 0}, 1.0}, {{0, 0, -1}, 7.5}};  // the wall is beyond the 6 m looked at
+  const PointGrid before = GridOf(tests::Render(scene, KinectV1Camera(320, 240)));
+  BackgroundState state;
+  LearnBackground(before, std::vector<uint8_t>(static_cast<size_t>(before.cells()), 0), state);
+  scene.people = {PersonAt(0, 4.0)};
+  const CapsuleRender render = tests::Render(scene, KinectV1Camera(320, 240));
+  const PointGrid now = GridOf(render);
+  const auto foreground = CompareWithBackground(now, state).foreground;
+  EXPECT_GT(MeasureShare(CellsOfPerson(render, now), foreground), 0.85);
+}
+
+TEST(ForegroundArea, RimsDoNotCount) {
+  const PointGrid grid = GridOf(Shot({}));
+  std::vector<uint8_t> foreground(static_cast<size_t>(grid.cells()), 0);
+  std::vector<int> cells;
+  for (int y = 40; y < 60; ++y) {
+    for (int x = 80; x < 82; ++x)
+      cells.push_back(grid.cell(x, y)), foreground[static_cast<size_t>(cells.back())] = 1;
+  }
+  EXPECT_EQ(MeasureForegroundArea_m2(grid, cells, foreground), 0.0F);
+  for (int y = 40; y < 60; ++y)
+    cells.push_back(grid.cell(82, y)), foreground[static_cast<size_t>(cells.back())] = 1;
+  EXPECT_GT(MeasureForegroundArea_m2(grid, cells, foreground), 0.0F);
+}
+
+TEST(PointGrid, HeadAndFeetAreAtOnePlaceOverTheFloorOfASensorThatLooksDown) {
+  const float tilt_rad = 0.35F;
+  PointGrid grid;
+  grid.up = {0, std::cos(tilt_rad), -std::sin(tilt_rad)};
+  const Eigen::Vector3f feet_m(0.5F, -1.0F, 3.0F), head_m = feet_m + 1.7F * grid.up;
+  EXPECT_LT((grid.OnFloor(head_m) - grid.OnFloor(feet_m)).norm(), 1e-5F);
+  const Eigen::Vector3f beside_m = feet_m + Eigen::Vector3f(0.3F, 0, 0);
+  EXPECT_NEAR((grid.OnFloor(beside_m) - grid.OnFloor(feet_m)).x(), 0.3F, 1e-5F);
+}
+
+}  // namespace
+}  // namespace ossa::depth

@@ -1,0 +1,233 @@
+// Who is who from one frame to the next.
+#include "tools/people/associate_tracks.h"
+
+#include "tests/tools/people/scenes.h"
+
+namespace ossa::people {
+namespace {
+
+class Identity : public testing::Test {
+ protected:
+  // All candidates are people; ids from left to right of the sensor (falling x).
+  std::vector<int> See(const CapsuleRender& render) {
+    const Proposed proposed = Propose(render, state_);
+    std::vector<Candidate> people = proposed.candidates;
+    std::sort(people.begin(), people.end(), [](const Candidate& a, const Candidate& b) {
+      return a.region.mean_m.x() > b.region.mean_m.x();
+    });
+    return Confirm(proposed, people, render.frame.time_s, state_);
+  }
+  std::vector<Track>& tracks() { return state_.tracks.tracks; }
+  PeopleState state_;
+};
+
+TEST_F(Identity, StaysWhileAPersonWalks) {
+  for (int i = 0; i < 20; ++i)
+    EXPECT_EQ(See(Shot({PersonAt(-0.5 + 0.05 * i, 2.5)}, i)), std::vector<int>{1}) << i;
+}
+
+TEST_F(Identity, OfTwoWhoPassEachOtherStaysWithEach) {
+  // Two metres a second, a metre apart: for a moment the farther one is hidden.
+  std::vector<int> ids, first;
+  for (int i = 0; i <= 30; ++i) {
+    const double x_m = -1.0 + i / 15.0;
+    ids = See(Shot({PersonAt(x_m, 2.4), PersonAt(-x_m, 3.6)}, i));
+    if (i > 0) continue;
+    ASSERT_EQ(ids.size(), 2U);
+    first = ids;
+  }
+  ASSERT_EQ(ids.size(), 2U);
+  EXPECT_EQ(ids[0], first[1]);
+  EXPECT_EQ(ids[1], first[0]);
+}
+
+TEST_F(Identity, SurvivesASecondOutOfView) {
+  EXPECT_EQ(See(Shot({PersonAt(0.2, 2.5)}, 0)), std::vector<int>{1});
+  for (int i = 1; i < 30; ++i) See(Shot({}, i));
+  EXPECT_EQ(See(Shot({PersonAt(0.3, 2.5)}, 30)), std::vector<int>{1});
+}
+
+TEST_F(Identity, SurvivesAWayBehindSomebodyElse) {
+  // Half seen for a few frames, then 1.2 s and 1.7 m behind somebody near, then at the other side.
+  const auto far_x_m = [](int i) { return 1.35 - 1.4 * i / 30.0; };
+  int far_id = 0;
+  for (int i = 0; i <= 46; ++i) {
+    std::vector<CapsulePose> people = {PersonAt(0, 1.8)};
+    if (i <= 6 || i >= 43) people.push_back(PersonAt(far_x_m(i), 3.6));
+    const std::vector<int> ids = See(Shot(people, i));
+    ASSERT_EQ(ids.size(), people.size()) << i;
+    if (i == 6) far_id = ids[0];
+  }
+  EXPECT_EQ(tracks().size(), 2U);
+  EXPECT_EQ(See(Shot({PersonAt(0, 1.8), PersonAt(far_x_m(47), 3.6)}, 47))[1], far_id);
+}
+
+// Half of somebody who walks is hidden at a time; the keypoints are on the whole body.
+class HalfHidden : public testing::Test {
+ protected:
+  // Velocity after ten frames of a walk of 1.5 m/s of which `shown` of 1 is seen in each.
+  template <class Shown>
+  Eigen::Vector3f VelocityAfter(const Shown& shown, bool with_keypoints) {
+    PeopleState state;
+    for (int f = 0; f < 10; ++f) {
+      const float x_m = -0.4F + 0.05F * static_cast<float>(f);
+      const CapsuleRender render = Shot({PersonAt(static_cast<double>(x_m), 2.5)}, f);
+      const Proposed proposed = Propose(render, state);
+      EXPECT_EQ(proposed.candidates.size(), 1U);
+      Candidate person = proposed.candidates.at(0);
+      const PointGrid& grid = proposed.scene.grid;
+      std::vector<int> seen;
+      for (const int cell : person.region.cells)
+        if (grid.at(cell).x() > x_m + shown(f)) seen.push_back(cell);
+      person.region = depth::MakeRegion(grid, std::move(seen));
+      Keypoints keypoints_m;
+      if (with_keypoints) {
+        for (const float height_m : {-0.8F, -0.6F, -0.4F, -0.2F, 0.0F, 0.3F, 0.6F})
+          keypoints_m.emplace_back(Eigen::Vector3f(x_m, height_m, 2.5F));
+        const auto frame = static_cast<size_t>(f);
+        if (f % 3 == 0) *keypoints_m[(frame + 1) % 7] += Eigen::Vector3f(0.4F, 0, 0.4F);
+        keypoints_m[frame % 7].reset();
+      }
+      Confirm(proposed, {person}, render.frame.time_s, state, {keypoints_m});
+    }
+    return state.tracks.tracks.at(0).velocity_m_s;
+  }
+};
+
+TEST_F(HalfHidden, WalksAsTheKeypointsOnTheBodyDo) {
+  const auto uncovered = [](int f) { return 0.2F - 0.06F * static_cast<float>(f); };
+  EXPECT_NEAR(VelocityAfter(uncovered, true).x(), 1.5F, 0.05F);
+  EXPECT_LT(VelocityAfter(uncovered, false).x(), 1.2F);  // the middle of what is seen lags
+}
+
+TEST_F(Identity, BesideSomebodyNearerTheMiddleOfTheSurfaceSaysNothingOfTheVelocity) {
+  // Somebody comes out to the left from behind somebody near who stands still.
+  int seen = 0;
+  for (int i = 0; i < 12; ++i) {
+    See(Shot({PersonAt(0, 1.8), PersonAt(0.45 + 0.02 * i, 3.4)}, i));
+    for (const Track& track : tracks()) {
+      if (track.mean_m.z() < 2.6F || track.mean_m.x() < 0.4F) continue;
+      EXPECT_EQ(track.velocity_m_s.norm(), 0.0F) << i;
+      ++seen;
+    }
+  }
+  EXPECT_GT(seen, 6);
+}
+
+TEST_F(Identity, WhoTurnsOutToBePartOfAnotherIsForgotten) {
+  // Remembered, the part would claim its cells again in the next frame.
+  const CapsuleRender render = Shot({PersonAt(-0.3, 2.5), PersonAt(0.3, 2.5)}, 0);
+  const std::vector<int> ids = See(render);
+  ASSERT_EQ(ids.size(), 2U);
+  const CapsuleRender second = Shot({PersonAt(-0.3, 2.5), PersonAt(0.3, 2.5)}, 1);
+  const Proposed proposed = Propose(second, state_);
+  ASSERT_EQ(proposed.candidates.size(), 2U);
+  const Candidate whole =
+      MergeCandidates(proposed.scene, second.frame, proposed.candidates[1], proposed.candidates[0]);
+  const int goes_on_as = tracks()[static_cast<size_t>(proposed.candidates[1].track)].id;
+  EXPECT_EQ(Confirm(proposed, {whole}, second.frame.time_s, state_), std::vector<int>{goes_on_as});
+  EXPECT_EQ(tracks().size(), 1U);
+}
+
+TEST_F(Identity, OfTwoPiecesOfSomebodyTheLargerGoesOn) {
+  ASSERT_EQ(See(Shot({PersonAt(0, 2.5)}, 0)), std::vector<int>{1});
+  const CapsuleRender render = Shot({PersonAt(0, 2.5)}, 1);
+  const Proposed proposed = Propose(render, state_);
+  const PointGrid& grid = proposed.scene.grid;
+  ASSERT_EQ(proposed.candidates.size(), 1U);
+  Candidate piece = proposed.candidates[0], rest = piece;
+  ASSERT_GE(piece.track, 0);
+  const std::vector<int> cells = piece.region.cells;
+  const auto cut = cells.begin() + static_cast<std::ptrdiff_t>(cells.size() / 5);
+  piece.region = depth::MakeRegion(grid, {cells.begin(), cut});
+  rest.region = depth::MakeRegion(grid, {cut, cells.end()});
+  rest.track = -1;  // the forest took it for somebody new
+  EXPECT_EQ(Confirm(proposed, {piece, rest}, render.frame.time_s, state_),
+            (std::vector<int>{2, 1}));
+}
+
+TEST_F(Identity, AnotherRoomIsAnotherScene) {
+  EXPECT_EQ(See(Shot({PersonAt(0, 2.5)}, 0)), std::vector<int>{1});
+  CapsuleScene other;
+  other.people = {PersonAt(0.1, 2.5)};
+  other.planes = {{{0, 1, 0}, 1.0}, {{0, 0, -1}, 3.4}};  // the wall is a metre nearer
+  CapsuleRender render = tests::Render(other, KinectV1Camera(320, 240));
+  render.frame.time_s = 1 / 30.0;
+  EXPECT_EQ(See(render), std::vector<int>{2});
+}
+
+// A few cells in the middle of the image, said to be `x_m` to the side.
+Candidate SomebodyFarOff(const PointGrid& grid, float x_m) {
+  Candidate person;
+  person.region = depth::MakeRegion(grid, {grid.cell(40, 40), grid.cell(41, 40)});
+  person.region.mean_m.x() = x_m;
+  return person;
+}
+
+Proposed EmptyScene() {
+  Proposed empty;
+  empty.scene.grid = GridOf(Shot({}));
+  return empty;
+}
+
+TEST(AssociateTracks, GivesNobodyTheIdOfSomebodyRemembered) {
+  const Proposed empty = EmptyScene();
+  PeopleState state;
+  state.tracks.next_id = 255;  // the last; then from 1 again
+  for (const int id : {255, 1, 3}) {
+    Track track;
+    track.id = id;
+    track.mean_m = {50, 0, 3};
+    state.tracks.tracks.push_back(track);
+  }
+  const Candidate a = SomebodyFarOff(empty.scene.grid, -20),
+                  b = SomebodyFarOff(empty.scene.grid, 20);
+  EXPECT_EQ(Confirm(empty, {a, b}, 0.1, state), (std::vector<int>{2, 4}));
+}
+
+// Nobody is forgotten where time stands still, as of an application that gives none.
+TEST(AssociateTracks, AnyNumberOfVisitorsHaveDifferentIdsThatFitAByte) {
+  const Proposed empty = EmptyScene();
+  PeopleState state;
+  for (int i = 0; i < 300; ++i) {
+    const Candidate visitor = SomebodyFarOff(empty.scene.grid, 20.0F * static_cast<float>(i));
+    const int id = Confirm(empty, {visitor}, 0.0, state).at(0);
+    EXPECT_TRUE(id >= 1 && id <= 255) << id;
+    const auto has_it = [&](const Track& track) { return track.id == id; };
+    EXPECT_EQ(std::count_if(state.tracks.tracks.begin(), state.tracks.tracks.end(), has_it), 1)
+        << i;
+  }
+}
+
+// Two are out of view, and of two who come back the one between their places is somebody already:
+// the id that goes to that one.
+int IdOfTheFirst(bool other_comes_too) {
+  PeopleState state;
+  for (int f = 0; f < 3; ++f) Confirm(Propose(Shot({}, f), state), {}, f / 30.0, state);
+  for (const float x_m : {0.0F, -1.2F}) {
+    Track track;
+    track.id = state.tracks.next_id++;
+    track.mean_m = {x_m, 0, 3};
+    track.last_seen_s = 3 / 30.0 - 1.0;
+    state.tracks.tracks.push_back(track);
+  }
+  std::vector<CapsulePose> people = {PersonAt(-0.5, 3.1)};
+  if (other_comes_too) people.push_back(PersonAt(0.25, 3.1));
+  for (CapsulePose& pose : people) pose.left_lift_rad = pose.right_lift_rad = 0.05;
+  const CapsuleRender render = Shot(people, 3);
+  const Proposed proposed = Propose(render, state);
+  EXPECT_EQ(proposed.candidates.size(), people.size());
+  const auto first = std::min_element(proposed.candidates.begin(), proposed.candidates.end(),
+                                      [](const Candidate& a, const Candidate& b) {
+                                        return a.region.mean_m.x() < b.region.mean_m.x();
+                                      });
+  return Confirm(proposed, {*first}, render.frame.time_s, state).at(0);
+}
+
+TEST(AssociateTracks, WhoIsNobodyYetMayBeOneOfTheLostToo) {
+  EXPECT_EQ(IdOfTheFirst(false), 1);  // half a metre away, not seven tenths
+  EXPECT_EQ(IdOfTheFirst(true), 2);   // the other one stands where the first was lost
+}
+
+}  // namespace
+}  // namespace ossa::people

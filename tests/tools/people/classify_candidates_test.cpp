@@ -1,0 +1,132 @@
+// What of the pieces and of the furniture around belongs to one person: made-up joints, no forest.
+#include "tools/people/classify_candidates.h"
+
+#include "tests/tools/people/evidence.h"
+#include "tests/tools/people/scenes.h"
+
+namespace ossa::people {
+namespace {
+
+using recon::Joint;
+
+// Somebody, and a box beside them that is held to be part of them.
+class PersonWithABox : public testing::Test {
+ protected:
+  void SetUp() override {
+    tests::CapsuleScene picture;
+    picture.people = {PersonAt(0, 2.5)};
+    picture.boxes = {{{-1.3, -0.4, 2.4}, {-0.9, -0.1, 2.6}}};
+    picture.planes = tests::EmptyRoom();
+    render_ = tests::Render(picture, depth::KinectV1Camera(320, 240));
+    scene_.grid = depth::MakePointGrid(render_.frame.view(), render_.frame.camera, 6.0F);
+    std::vector<int> cells;
+    for (int cell = 0; cell < scene_.grid.cells(); ++cell) {
+      if (scene_.grid.valid(cell) && scene_.grid.z(cell) < 3.0F &&
+          scene_.grid.at(cell).y() > -0.95F)
+        cells.push_back(cell);
+    }
+    detection_.candidate.region = depth::MakeRegion(scene_.grid, std::move(cells));
+    recon::Posture joints = render_.joints[0];
+    for (const auto& [wrist, hand] :
+         {std::pair(Joint::kWristLeft, Joint::kHandLeft), {Joint::kWristRight, Joint::kHandRight}})
+      joints[hand] = joints[wrist] + 0.5 * (joints[hand] - joints[wrist]);  // too long for a hand
+    detection_.evidence = MakeSureEvidence(joints);
+  }
+  // Of the box's, and of all other cells held.
+  std::pair<long, long> Held() const {
+    const auto& cells = detection_.candidate.region.cells;
+    const long box = std::count_if(cells.begin(), cells.end(),
+                                   [&](int cell) { return scene_.grid.at(cell).x() < -0.85F; });
+    return {box, std::ssize(cells) - box};
+  }
+  tests::CapsuleRender render_;
+  Scene scene_;
+  Detection detection_;
+};
+
+TEST_F(PersonWithABox, LosesTheBoxWhenAllBonesAreKnown) {
+  const auto [box, person] = Held();
+  ASSERT_GT(box, 40);
+  CropToBody(OneTargetPerJoint(), render_.frame, scene_, {}, detection_);
+  EXPECT_EQ(Held(), std::pair(0L, person));
+}
+
+TEST_F(PersonWithABox, KeepsItWhenAnArmIsNotSeen) {  // it may be the arm
+  const auto before = Held();
+  detection_.evidence.proposals[static_cast<size_t>(recon::Index(Joint::kHandRight))].clear();
+  CropToBody(OneTargetPerJoint(), render_.frame, scene_, {}, detection_);
+  EXPECT_EQ(Held(), before);
+}
+
+// Upper and lower half of somebody, from two regions.
+class Halves : public testing::Test {
+ protected:
+  void SetUp() override {
+    const auto render = Shot({PersonAt(0, 2.5)});
+    scene_.grid = depth::MakePointGrid(render.frame.view(), render.frame.camera, 6.0F);
+    std::vector<int> upper, lower;
+    for (int cell = 0; cell < scene_.grid.cells(); ++cell) {
+      const Eigen::Vector3f& p = scene_.grid.at(cell);
+      if (scene_.grid.valid(cell) && p.z() < 3.0F && p.y() > -0.95F)
+        (p.y() > 0 ? upper : lower).push_back(cell);
+    }
+    upper_.candidate.region = depth::MakeRegion(scene_.grid, std::move(upper));
+    lower_.candidate.region = depth::MakeRegion(scene_.grid, std::move(lower));
+  }
+  bool Tried(double upper_score, double lower_score, int age, bool stacked) {
+    upper_.evidence.score = upper_score;
+    lower_.evidence.score = lower_score;
+    upper_.age = lower_.age = age;
+    return MayBePartsOfOne(scene_, options_, upper_, lower_, stacked);
+  }
+  Scene scene_;
+  PeopleOptions options_;
+  Detection upper_, lower_;
+};
+
+TEST_F(Halves, AreTriedAsOneWhenEitherLooksLikeAPersonWhileBothAreNew) {
+  EXPECT_TRUE(Tried(0.9, 0.1, 1, false));
+  EXPECT_FALSE(Tried(0.5, 0.1, 1, false));
+  EXPECT_FALSE(Tried(0.9, 0.1, options_.initiation.early_age + 1, false));
+  lower_.candidate.region = depth::MakeRegion(scene_.grid, {0, 1, 2});  // does not meet the upper
+  EXPECT_FALSE(Tried(0.9, 0.1, 1, false));
+}
+
+TEST_F(Halves, AreTriedAtAnyAgeWhereTheyWouldBeTwoPeopleOneAboveTheOther) {
+  EXPECT_TRUE(Tried(0.9, 0.8, options_.initiation.early_age + 1, true));
+  EXPECT_FALSE(Tried(0.9, 0.1, options_.initiation.early_age + 1, true));
+}
+
+TEST_F(Halves, AreStackedAlsoBeforeASensorThatLooksDown) {
+  EXPECT_TRUE(AreStacked(scene_, options_, upper_, lower_));
+  const float tilt_rad = 0.5F;
+  scene_.grid.up = {0, std::cos(tilt_rad), -std::sin(tilt_rad)};
+  const auto at = [&](float height_m) {
+    Region region;
+    region.mean_m = Eigen::Vector3f(0, -1, 3) + height_m * scene_.grid.up;
+    region.low_m = region.mean_m - Eigen::Vector3f(0.2F, 0.2F, 0.1F);
+    region.high_m = region.mean_m + Eigen::Vector3f(0.2F, 0.2F, 0.1F);
+    return region;
+  };
+  upper_.candidate.region = at(1.2F);
+  lower_.candidate.region = at(0.45F);
+  EXPECT_TRUE(AreStacked(scene_, options_, upper_, lower_));
+  scene_.grid.up = {0, 1, 0};  // as much farther away, and not below
+  EXPECT_FALSE(AreStacked(scene_, options_, upper_, lower_));
+}
+
+TEST(MayBeTwo, WhoWasOneForLongIsOneWhileNoMoreShows) {
+  ClassificationOptions options;
+  Detection whole;
+  whole.prior.full_m2 = 0.45F;
+  whole.candidate.region.area_m2 = 0.40F;  // bending down
+  whole.age = 12;
+  EXPECT_TRUE(MayBeTwo(whole, options));
+  whole.age = 40;
+  EXPECT_FALSE(MayBeTwo(whole, options));
+  whole.candidate.region.area_m2 = 0.65F;  // somebody came
+  EXPECT_TRUE(MayBeTwo(whole, options));
+}
+
+}  // namespace
+}  // namespace ossa::people

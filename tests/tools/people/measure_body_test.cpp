@@ -1,0 +1,30 @@
+// Measures of a body between the joints that the forest is sure of: made-up joints, no forest.
+#include "tools/people/measure_body.h"
+
+#include <gtest/gtest.h>
+
+#include "tests/support/capsule_person.h"
+#include "tests/tools/people/evidence.h"
+
+namespace ossa::people {
+namespace {
+
+using recon::Joint;
+
+TEST(MeasureBody, LeavesOutLimbsThatNobodyHas) {
+  recon::Posture joints = tests::JointsOf(tests::CapsulePose{});
+  const auto thigh_m = [&] {
+    const auto body = MeasureBody(MakeSureEvidence(joints), OneTargetPerJoint(), std::nullopt);
+    return body[static_cast<size_t>(Measure::kThigh)];
+  };
+  ASSERT_TRUE(thigh_m());
+  // A knee half hidden is taken to be where the thigh ends that is seen.
+  for (const auto& [hip, knee] :
+       {std::pair(Joint::kHipLeft, Joint::kKneeLeft), {Joint::kHipRight, Joint::kKneeRight}}) {
+    joints[knee] = joints[hip] + 0.3 * (joints[knee] - joints[hip]);
+  }
+  EXPECT_FALSE(thigh_m());
+}
+
+}  // namespace
+}  // namespace ossa::people

@@ -1,0 +1,101 @@
+// Which pieces of a frame may be people, from shape and the tracks alone.
+#include "tools/people/propose_candidates.h"
+
+#include "tests/tools/people/scenes.h"
+
+namespace ossa::people {
+namespace {
+
+TEST(ProposeCandidates, APersonIsOnePieceWithoutTheRoom) {
+  const CapsuleRender render = Shot({PersonAt(0, 2.5)});
+  const Proposed proposed = ProposeAlone(render);
+  ASSERT_EQ(proposed.candidates.size(), 1U);
+  const auto [person, candidate] = MeasureCover(render, proposed.candidates[0], 1);
+  EXPECT_GT(person, 0.9);  // the soles are within the floor's tolerance
+  EXPECT_GT(candidate, 0.97);
+}
+
+TEST(ProposeCandidates, NobodyIsThereInAnEmptyRoom) {
+  EXPECT_TRUE(ProposeAlone(Shot({})).candidates.empty());
+}
+
+TEST(ProposeCandidates, ATableTopIsNotPartOfWhoStandsAtIt) {
+  const tests::Box top{{-0.7, -0.30, 2.0}, {0.7, -0.25, 2.45}};
+  const CapsuleRender render = Shot({PersonAt(0, 2.6)}, 0, {top});
+  double best = 0;
+  for (const Candidate& candidate : ProposeAlone(render).candidates)
+    best = std::max(best, MeasureCover(render, candidate, 1).second);
+  EXPECT_GT(best, 0.85);  // an edge of the top may stay
+}
+
+TEST(ProposeCandidates, TwoWhoTouchAreCutBetweenTheirHeads) {
+  const CapsuleRender render = Shot({PersonAt(-0.3, 2.5), PersonAt(0.3, 2.5)});
+  const Proposed proposed = ProposeAlone(render);
+  ASSERT_EQ(proposed.candidates.size(), 2U);
+  EXPECT_EQ(proposed.candidates[0].region_index, proposed.candidates[1].region_index);
+  for (const Candidate& candidate : proposed.candidates) {
+    const double best = std::max(MeasureCover(render, candidate, 1).second,
+                                 MeasureCover(render, candidate, 2).second);
+    EXPECT_GT(best, 0.85);  // the touching hands may go either way
+  }
+}
+
+TEST(MergeCandidates, GivesBackWhatWasCut) {
+  const CapsuleRender render = Shot({PersonAt(-0.3, 2.5), PersonAt(0.3, 2.5)});
+  const Proposed proposed = ProposeAlone(render);
+  ASSERT_EQ(proposed.candidates.size(), 2U);
+  const Candidate& a = proposed.candidates[0];
+  const Candidate& b = proposed.candidates[1];
+  const Candidate whole = MergeCandidates(proposed.scene, render.frame, a, b);
+  EXPECT_EQ(whole.region.cells.size(), a.region.cells.size() + b.region.cells.size());
+  // At the seam a pixel may have belonged to both or to neither.
+  EXPECT_NEAR(static_cast<double>(whole.pixels.size()),
+              static_cast<double>(a.pixels.size() + b.pixels.size()), 60.0);
+}
+
+TEST(MeetAlongRim, HalvesOfAPersonDoAndPeopleApartDoNot) {
+  const Proposed proposed = ProposeAlone(Shot({PersonAt(-0.6, 2.5), PersonAt(0.6, 2.5)}));
+  ASSERT_EQ(proposed.candidates.size(), 2U);
+  const Candidate& person = proposed.candidates[0];
+  std::vector<int> upper, lower;
+  for (const int cell : person.region.cells)
+    (proposed.scene.grid.at(cell).y() > 0 ? upper : lower).push_back(cell);
+  Candidate above, below;
+  above.region = MakeRegion(proposed.scene.grid, upper);
+  below.region = MakeRegion(proposed.scene.grid, lower);
+  EXPECT_TRUE(MeetAlongRim(proposed.scene, above, below, {}));
+  EXPECT_FALSE(MeetAlongRim(proposed.scene, person, proposed.candidates[1], {}));
+}
+
+// What comes into view beside somebody seen.
+Candidate NewBeside(float apart_m) {
+  PeopleState state;
+  const auto see = [&](const CapsuleRender& render, bool people) {
+    const Proposed proposed = Propose(render, state);
+    Confirm(proposed, people ? proposed.candidates : std::vector<Candidate>{}, render.frame.time_s,
+            state);
+  };
+  CapsulePose person = PersonAt(0, 2.5);
+  person.left_lift_rad = person.right_lift_rad = 3.0;  // out of the way
+  see(Shot({}, 0), false);
+  see(Shot({person}, 1), true);
+  const double x_m = static_cast<double>(apart_m);
+  const tests::Box thing{{x_m - 0.08, -0.8, 2.5}, {x_m + 0.08, 0.2, 2.6}};
+  const CapsuleRender render = Shot({person}, 2, {thing});
+  for (const Candidate& candidate : Propose(render, state).candidates) {
+    if (candidate.track < 0) return candidate;
+  }
+  ADD_FAILURE() << "nothing new";
+  return {};
+}
+
+TEST(ProposeCandidates, WhatComesIntoViewCloseToSomebodySeenMayBeTheRestOfThem) {
+  EXPECT_EQ(NewBeside(0.4F).foreground_share, 0.0);
+  EXPECT_GT(NewBeside(0.9F).foreground_share, 0.9);
+  // 8 cm of the thing and some 20 cm of the person lie between the middles and the sides.
+  EXPECT_FALSE(NewBeside(0.9F).isolated);
+  EXPECT_TRUE(NewBeside(1.1F).isolated);
+}
+
+}  // namespace
+}  // namespace ossa::people

@@ -1,0 +1,193 @@
+// Who is taken for a person at once, who after a few looks: looks are made up, no forest is needed.
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "tools/people/track_initiation.h"
+
+namespace ossa::people {
+namespace {
+
+struct Look {
+  double score = 0;
+  float x_m = 0;                // of the thing's middle
+  double foreground_share = 0;  // of what stands where the room behind was seen
+  float area_m2 = 0.1F;
+  bool has_head = true;
+  bool isolated = true;
+  double occluded_share = 0.3;  // of its silhouette, by something nearer
+};
+
+class NewPerson : public testing::Test {
+ protected:
+  // A thing of 100 cells that a step of 4 cm moves by one column of 160.
+  Detection Detect(const Look& look) {
+    Detection detection;
+    detection.score = detection.evidence.score = look.score;
+    Candidate& candidate = detection.candidate;
+    candidate.foreground_share = look.foreground_share;
+    candidate.foreground_m2 = static_cast<float>(look.foreground_share) * look.area_m2;
+    candidate.has_head = look.has_head;
+    candidate.isolated = look.isolated;
+    candidate.occluded_share = look.occluded_share;
+    candidate.region.mean_m = {look.x_m, 0, 3};
+    candidate.region.area_m2 = look.area_m2;
+    const int column = 80 + static_cast<int>(std::lround(look.x_m / 0.04F));
+    for (int row = 20; row < 120; ++row) candidate.region.cells.push_back(160 * row + column);
+    return detection;
+  }
+
+  // The frame in which it is accepted, of `frames` at 30 Hz; -1 for none.
+  template <class LookAt>
+  int AcceptedIn(int frames, bool fresh, const LookAt& look_at) {
+    std::vector<TentativeTrack> tentative;
+    for (int f = 0; f < frames; ++f) {
+      Detection detection = Detect(look_at(f));
+      if (DecidePerson(fresh && f == 0, f / 30.0, options_, tentative, detection)) return f;
+      rule_ = detection.decision.rule;
+    }
+    return -1;
+  }
+  InitiationOptions options_;
+  Rule rule_ = Rule::kCount;  // by which it was nobody last
+};
+
+TEST_F(NewPerson, IsBelievedAtOnceInAFreshSceneAndElsewhereAfterThreeSureLooks) {
+  EXPECT_EQ(AcceptedIn(1, true, [](int) { return Look{0.65}; }), 0);
+  EXPECT_EQ(AcceptedIn(1, true, [](int) { return Look{0.85, 0, 0, 0.1F, false}; }), -1);
+  EXPECT_EQ(AcceptedIn(1, true, [](int) { return Look{0.95, 0, 0, 0.1F, false}; }), 0);
+  EXPECT_EQ(AcceptedIn(1, false, [](int) { return Look{0.65}; }), -1);
+  EXPECT_EQ(AcceptedIn(3, false, [](int) { return Look{0.95}; }), 2);
+  EXPECT_EQ(AcceptedIn(20, false, [](int f) { return Look{f < 2 ? 0.98 : 0.7}; }), -1);
+}
+
+TEST_F(NewPerson, ThatStandsLikeFurnitureIsNobodyHoweverOftenItIsLookedAt) {
+  EXPECT_EQ(AcceptedIn(60, false, [](int) { return Look{0.85}; }), -1);
+  // A poorer look of something that turns, and shows a quarter more, is somebody,
+  const auto turns = [](int f) {
+    return f < 10 ? Look{0.7} : Look{.score = 0.7, .foreground_share = 0.2, .area_m2 = 0.125F};
+  };
+  EXPECT_EQ(AcceptedIn(60, false, turns), 10);
+  // ... but not of which somebody who passes uncovers a quarter more: it stands before nothing new.
+  const auto uncovered = [](int f) { return Look{0.7, 0, 0, f < 10 ? 0.1F : 0.125F}; };
+  EXPECT_EQ(AcceptedIn(60, false, uncovered), -1);
+}
+
+TEST_F(NewPerson, WhoCameInBehindOthersIsFollowedThroughLooksThatShowLittle) {
+  // A head above somebody's shoulder, at 1.2 m/s: no cell is the same from one frame to the next.
+  const auto at = [](int steps, double foreground_share) {
+    return Look{0.04, 0.04F * static_cast<float>(steps), foreground_share};
+  };
+  const auto walks = [&](int f) { return at(f, 1); };
+  EXPECT_EQ(AcceptedIn(60, false, walks), 13);  // 52 cm
+  const auto beside_somebody = [&](int f) {
+    Look look = at(f, 1);
+    look.isolated = false;
+    return look;
+  };
+  EXPECT_EQ(AcceptedIn(60, false, beside_somebody), -1);
+  const auto sways = [&](int f) { return at(f % 8 < 4 ? f % 4 : 4 - f % 4, 1); };
+  EXPECT_EQ(AcceptedIn(60, false, sways), -1);
+  const auto was_there = [&](int f) { return at(f, 0); };
+  EXPECT_EQ(AcceptedIn(60, false, was_there), -1);
+}
+
+TEST_F(NewPerson, WhoCameAndIsSeenWholeMustLookLikeAPerson) {
+  // A dog that walks by: nothing hides any of it.
+  const auto walks = [](double score) {
+    return [score](int f) {
+      Look look{score, 0.04F * static_cast<float>(f), 1};
+      look.occluded_share = 0;
+      return look;
+    };
+  };
+  EXPECT_EQ(AcceptedIn(60, false, walks(0.4)), -1);
+  EXPECT_EQ(AcceptedIn(60, false, walks(0.65)), 0);
+}
+
+TEST_F(NewPerson, WhoCameStaysSomebodyWhileBendingDownAfterManyLooksOnly) {
+  Look bent{0.1, 0, 1};
+  bent.occluded_share = 0;
+  std::vector<TentativeTrack> tentative;
+  for (const int age : {20, 40}) {
+    Detection detection = Detect(bent);
+    detection.age = age;
+    detection.prior.moved = detection.prior.moving = true;
+    EXPECT_EQ(DecidePerson(true, 1.0, options_, tentative, detection), age == 40);
+    EXPECT_EQ(detection.decision.rule, age == 40 ? Rule::kTrackContinued : Rule::kTrackLowScore);
+  }
+}
+
+TEST_F(NewPerson, OfWhomLittleIsSeenIsTentativeByTheRuleThatSaysWhatIsMissing) {
+  EXPECT_EQ(AcceptedIn(1, false, [](int) { return Look{0.95}; }), -1);
+  EXPECT_EQ(rule_, Rule::kFirstLook);
+  EXPECT_EQ(AcceptedIn(2, false, [](int) { return Look{0.95}; }), -1);
+  EXPECT_EQ(rule_, Rule::kFewLooks);
+  EXPECT_EQ(AcceptedIn(20, false, [](int) { return Look{0.7}; }), -1);
+  EXPECT_EQ(rule_, Rule::kLowMeanScore);
+}
+
+TEST_F(NewPerson, IsNoBoardThatScoresLow) {
+  Detection board = Detect(Look{0.3});
+  board.candidate.plane = FlatPlane{0, 0, 0.4};
+  std::vector<TentativeTrack> tentative;
+  EXPECT_FALSE(DecidePerson(true, 0, options_, tentative, board));
+  EXPECT_EQ(board.decision.rule, Rule::kPlanar);
+  EXPECT_EQ(board.decision.needed_score, options_.new_person);
+}
+
+TEST_F(NewPerson, BeyondTheMostUsersIsLeftOutByThatRule) {
+  options_.max_users = 2;
+  std::vector<Detection> detections;
+  for (const double score : {0.95, 0.97, 0.99}) detections.push_back(Detect(Look{score}));
+  std::vector<TentativeTrack> tentative;
+  std::vector<Decision> decided;
+  const auto people = SelectPeople(std::move(detections), true, 0, options_, tentative, decided);
+  ASSERT_EQ(people.size(), 2U);
+  EXPECT_EQ(people[0].score, 0.99);
+  ASSERT_EQ(decided.size(), 1U);
+  EXPECT_EQ(decided[0].rule, Rule::kUserLimit);
+  EXPECT_EQ(decided[0].score, 0.95);
+}
+
+// What scored low a moment ago, seen again so much later: whether it is worth classifying.
+bool IsWorthClassifying(double score, double later_s) {
+  Candidate candidate;
+  for (int cell = 0; cell < 100; ++cell) candidate.region.cells.push_back(cell);
+  TentativeTrack before;
+  before.cells = candidate.region.cells;
+  before.mean_score = score;
+  std::vector<TentativeTrack> tentative = {before};
+  std::vector<Decision> decided;
+  const auto selected =
+      SelectCandidates({candidate}, false, later_s, PeopleOptions{}, tentative, decided);
+  EXPECT_EQ(selected.size() + decided.size(), 1U);
+  if (!decided.empty()) {
+    EXPECT_EQ(decided[0].rule, Rule::kRejectedBefore);
+  }
+  return !selected.empty();
+}
+
+TEST(SelectCandidates, WhatScoredLowIsClassifiedAgainOnlyLater) {
+  EXPECT_FALSE(IsWorthClassifying(0.1, 0.1));
+  EXPECT_TRUE(IsWorthClassifying(0.1, 0.3));
+  EXPECT_TRUE(IsWorthClassifying(0.5, 0.1));
+}
+
+TEST(SelectCandidates, TheLargestAreClassifiedWhereThereAreTooMany) {
+  PeopleOptions options;
+  options.classification.max_candidates = 1;
+  Candidate large, small;
+  large.region.area_m2 = 0.5F, small.region.area_m2 = 0.1F;
+  large.region.cells = {1}, small.region.cells = {2};
+  std::vector<TentativeTrack> tentative;
+  std::vector<Decision> decided;
+  const auto selected = SelectCandidates({large, small}, true, 0, options, tentative, decided);
+  ASSERT_EQ(selected.size(), 1U);
+  EXPECT_EQ(selected[0].region.cells, large.region.cells);
+  ASSERT_EQ(decided.size(), 1U);
+  EXPECT_EQ(decided[0].rule, Rule::kCandidateLimit);
+}
+
+}  // namespace
+}  // namespace ossa::people

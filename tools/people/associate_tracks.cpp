@@ -1,0 +1,264 @@
+#include "tools/people/associate_tracks.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "tools/people/reidentify.h"
+#include "tools/people/track_prediction.h"
+#include "tools/people/update_track.h"
+
+namespace ossa::people {
+namespace {
+
+// Cells of the track's surface that the person holds now.
+size_t CountCommonCells(const PointGrid& grid, const Track& track, const Region& person,
+                        float same_depth_m) {
+  size_t common = 0, i = 0;
+  for (const int cell : person.cells) {
+    while (i < track.cells.size() && track.cells[i] < cell) ++i;
+    if (i < track.cells.size() && track.cells[i] == cell &&
+        std::abs(track.z_m[i] - grid.z(cell)) < same_depth_m) {
+      ++common;
+    }
+  }
+  return common;
+}
+
+// Cells both hold, as a share of the smaller.
+double MeasureOverlap(const PointGrid& grid, const Track& track, const Region& person,
+                      float same_depth_m) {
+  if (track.cells.empty()) return 0;
+  return static_cast<double>(CountCommonCells(grid, track, person, same_depth_m)) /
+         static_cast<double>(std::min(track.cells.size(), person.cells.size()));
+}
+
+// Whose each cell is, as an index into `people`; -1 for nobody's.
+std::vector<int> MapCellsToPeople(const PointGrid& grid, const std::vector<Detection>& people) {
+  std::vector<int> person_of(static_cast<size_t>(grid.cells()), -1);
+  for (size_t p = 0; p < people.size(); ++p) {
+    for (const int cell : people[p].candidate.region.cells)
+      person_of[static_cast<size_t>(cell)] = static_cast<int>(p);
+  }
+  return person_of;
+}
+
+// Which track each person continues by their cells; -1 for none. Of somebody whose pieces are taken
+// for two people the one that holds much more goes on, whichever was told to: ids do not go to and
+// fro.
+std::vector<int> FindContinuedTracks(const PointGrid& grid, const std::vector<Detection>& people,
+                                     const std::vector<Track>& tracks,
+                                     const AssociationOptions& options) {
+  std::vector<int> track_of;
+  for (const Detection& person : people) track_of.push_back(person.candidate.track);
+  for (size_t p = 0; p < people.size(); ++p) {
+    const int t = people[p].candidate.track;
+    if (t < 0) continue;
+    const auto count = [&](const Detection& person) {
+      return CountCommonCells(grid, tracks[static_cast<size_t>(t)], person.candidate.region,
+                              options.same_depth_m);
+    };
+    size_t most = options.heir_factor * count(people[p]), heir = p;
+    for (size_t other = 0; other < people.size(); ++other) {
+      if (track_of[other] >= 0) continue;
+      const size_t common = count(people[other]);
+      if (common > most) most = common, heir = other;
+    }
+    if (heir != p) std::swap(track_of[p], track_of[heir]);
+  }
+  return track_of;
+}
+
+// Rivals that are not part of a person by now.
+std::vector<const Region*> SelectFreeRivals(const std::vector<Region>& rivals,
+                                            const std::vector<int>& person_of, double taken_share) {
+  std::vector<const Region*> free;
+  for (const Region& rival : rivals) {
+    const auto taken = std::count_if(rival.cells.begin(), rival.cells.end(), [&](int cell) {
+      return person_of[static_cast<size_t>(cell)] >= 0;
+    });
+    if (static_cast<double>(taken) < taken_share * static_cast<double>(rival.cells.size()))
+      free.push_back(&rival);
+  }
+  return free;
+}
+
+// Tracks that nobody continues, as indices.
+std::vector<size_t> FindLostTracks(const std::vector<Detection>& people,
+                                   const std::vector<int>& track_of, size_t tracks) {
+  std::vector<uint8_t> taken(tracks, 0);
+  for (size_t p = 0; p < people.size(); ++p) {
+    for (const int track : people[p].candidate.absorbed) taken[static_cast<size_t>(track)] = 1;
+    if (track_of[p] >= 0) taken[static_cast<size_t>(track_of[p])] = 1;
+  }
+  std::vector<size_t> lost;
+  for (size_t t = 0; t < tracks; ++t) {
+    if (!taken[t]) lost.push_back(t);
+  }
+  return lost;
+}
+
+// Which track each person is: who continues from the frame before, and all the others at once as
+// those of the lost tracks they most likely are. -1 for somebody new.
+std::vector<int> AssignTracks(const Scene& scene, const std::vector<Region>& rivals,
+                              const std::vector<Detection>& people,
+                              const std::vector<int>& person_of, double time_s,
+                              const std::vector<Track>& tracks, const AssociationOptions& options) {
+  const PointGrid& grid = scene.grid;
+  std::vector<int> track_of = FindContinuedTracks(grid, people, tracks, options);
+  const std::vector<size_t> lost = FindLostTracks(people, track_of, tracks.size());
+  std::vector<size_t> unknown;
+  for (size_t p = 0; p < people.size(); ++p) {
+    if (track_of[p] < 0) unknown.push_back(p);
+  }
+  if (unknown.empty() || lost.empty()) return track_of;
+  std::vector<std::vector<double>> weight;
+  const auto add = [&](const Region& region, const FrameMeasures& measures, int self, double less) {
+    const Entrance entrance = FindEntrance(grid, region.cells, CollectDepths(grid, region),
+                                           person_of, self, options.reidentify);
+    weight.emplace_back();
+    for (const size_t t : lost) {
+      const Track& track = tracks[t];
+      const double overlap = time_s - track.last_seen_s < options.overlap_s
+                                 ? MeasureOverlap(grid, track, region, options.same_depth_m)
+                                 : 0.0;
+      weight.back().push_back(CompareWithLost(grid, track, region.mean_m, measures, entrance,
+                                              time_s, options.reidentify) +
+                              (overlap > options.min_overlap ? options.same_cells * overlap : 0.0) -
+                              less);
+    }
+  };
+  for (const size_t p : unknown)
+    add(people[p].candidate.region, people[p].measures, static_cast<int>(p), 0.0);
+  for (const Region* rival : SelectFreeRivals(rivals, person_of, options.rival_taken))
+    add(*rival, {}, -1, options.nobody_yet);
+  const std::vector<int> assigned = FindBestAssignment(weight, lost.size());
+  for (size_t i = 0; i < unknown.size(); ++i) {
+    if (assigned[i] >= 0)
+      track_of[unknown[i]] = static_cast<int>(lost[static_cast<size_t>(assigned[i])]);
+  }
+  return track_of;
+}
+
+// Of those who were in view a moment ago.
+void NoteWhereLost(const Scene& scene, const std::vector<int>& person_of, double time_s,
+                   const AssociationOptions& options, std::vector<Track>& tracks) {
+  for (Track& track : tracks) {
+    if (track.last_seen_s == time_s || track.cells.empty()) continue;
+    track.lost_behind =
+        track.lost_behind || FindEntrance(scene.grid, track.cells, track.z_m, person_of, -1,
+                                          options.reidentify) == Entrance::kBehind;
+    if (track.last_seen_s < time_s - options.cells_s) track.cells.clear(), track.z_m.clear();
+  }
+}
+
+constexpr int kLargestId = 255;  // so that ids fit the user image's byte
+
+bool HasId(const std::vector<Track>& tracks, int id) {
+  return std::any_of(tracks.begin(), tracks.end(),
+                     [&](const Track& track) { return track.id == id; });
+}
+
+// The next one in turn that nobody has, confirmed or lost. See ForgetTooMany: there is one.
+int TakeId(TrackList& list) {
+  const auto next = [](int id) { return id % kLargestId + 1; };
+  int id = list.next_id;
+  while (HasId(list.tracks, id)) id = next(id);
+  list.next_id = next(id);
+  return id;
+}
+
+// Where time stands still nobody is out of view for too long, but ids are not to run out: then who
+// came first of those out of view goes. Half of the ids stay free for the next frame.
+void ForgetTooMany(const std::vector<int>& ids, std::vector<Track>& tracks) {
+  constexpr size_t kMost = kLargestId / 2;
+  size_t too_many = std::max(tracks.size(), kMost) - kMost;
+  std::erase_if(tracks, [&](const Track& track) {
+    const bool goes = too_many > 0 && std::find(ids.begin(), ids.end(), track.id) == ids.end();
+    too_many -= goes ? 1 : 0;
+    return goes;
+  });
+}
+
+// Who turned out to be part of somebody else is nobody, and may not claim cells again.
+void ForgetAbsorbed(const std::vector<Detection>& people, const std::vector<int>& ids,
+                    std::vector<Track>& tracks) {
+  std::vector<int> absorbed;
+  for (const Detection& person : people) {
+    for (const int track : person.candidate.absorbed)
+      absorbed.push_back(tracks[static_cast<size_t>(track)].id);
+  }
+  const auto among = [](const std::vector<int>& all, int id) {
+    return std::find(all.begin(), all.end(), id) != all.end();
+  };
+  std::erase_if(tracks, [&](const Track& track) {
+    return among(absorbed, track.id) && !among(ids, track.id);
+  });
+}
+
+// Where the clock goes back another recording begins, in which whoever is followed goes on. Returns
+// the ids of those who were seen later than now.
+std::vector<int> FollowClockBack(double time_s, std::vector<Track>& tracks) {
+  std::vector<int> ids;
+  for (Track& track : tracks) {
+    if (time_s >= track.last_seen_s) continue;
+    track.last_seen_s = time_s;
+    ids.push_back(track.id);
+  }
+  return ids;
+}
+
+}  // namespace
+
+std::vector<Region> FindRivals(const std::vector<Candidate>& candidates) {
+  std::vector<Region> rivals;
+  for (const Candidate& candidate : candidates) {
+    if (candidate.track < 0 && IsForeground(candidate) && candidate.may_return)
+      rivals.push_back(candidate.region);
+  }
+  return rivals;
+}
+
+std::vector<int> AssociateTracks(const Scene& scene, const std::vector<Region>& rivals,
+                                 const std::vector<Detection>& people, double time_s,
+                                 TrackList& list, const AssociationOptions& options) {
+  std::vector<Track>& tracks = list.tracks;
+  const std::vector<int> of_later = FollowClockBack(time_s, tracks);
+  const std::vector<int> person_of = MapCellsToPeople(scene.grid, people);
+  std::vector<int> track_of =
+      AssignTracks(scene, rivals, people, person_of, time_s, tracks, options);
+  std::vector<int> ids;
+  for (size_t p = 0; p < people.size(); ++p) {
+    if (track_of[p] < 0) {
+      track_of[p] = static_cast<int>(tracks.size());
+      Track track;
+      track.id = TakeId(list);
+      tracks.push_back(std::move(track));
+    }
+    Track& track = tracks[static_cast<size_t>(track_of[p])];
+    UpdateTrack(scene.grid, people[p], person_of, static_cast<int>(p), time_s, options, track);
+    ids.push_back(track.id);
+  }
+  ForgetAbsorbed(people, ids, tracks);
+  std::erase_if(tracks,
+                [&](const Track& track) { return IsForgotten(track, time_s, options.reidentify); });
+  ForgetTooMany(ids, tracks);
+  NoteWhereLost(scene, person_of, time_s, options, tracks);
+  for (Track& track : tracks) {
+    const bool in_view = std::find(ids.begin(), ids.end(), track.id) != ids.end();
+    const bool later = std::find(of_later.begin(), of_later.end(), track.id) != of_later.end();
+    if (later && !in_view) ForgetEvidence(track);
+  }
+  return ids;
+}
+
+std::vector<TrackSummary> SummarizeTracks(const std::vector<Track>& tracks, double time_s) {
+  std::vector<TrackSummary> summaries;
+  for (const Track& track : tracks) {
+    const TrackStatus status =
+        track.last_seen_s == time_s ? TrackStatus::kConfirmed : TrackStatus::kLost;
+    summaries.push_back({track.id, status, track.last_seen_s, track.age});
+  }
+  return summaries;
+}
+
+}  // namespace ossa::people

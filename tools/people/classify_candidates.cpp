@@ -1,0 +1,234 @@
+#include "tools/people/classify_candidates.h"
+
+#include <algorithm>
+#include <cmath>
+#include <iterator>
+
+#include "recon/body/standard_body.h"
+#include "tools/people/occlusion_merge.h"
+#include "tools/people/parallel.h"
+
+namespace ossa::people {
+namespace {
+
+Detection Classify(const Classifying& with, Candidate candidate) {
+  const PeopleOptions& options = with.options;
+  Detection detection;
+  detection.prior = MakeTrackPrior(candidate, with.tracks, with.frame.time_s, options.prior);
+  const TrackPrior& prior = detection.prior;
+  const double min_score = candidate.track >= 0 ? 0.0 : options.evidence.min_surface_score;
+  detection.evidence = ClassifyCandidate(with.classifier, with.frame, candidate, prior.facing,
+                                         min_score, options.evidence);
+  detection.score = detection.evidence.score;
+  detection.age = prior.age + 1;
+  if (prior.score) {
+    const double weight = std::max(1.0 / detection.age, 1 - options.prior.memory);
+    detection.score = *prior.score + weight * (detection.score - *prior.score);
+  }
+  detection.candidate = std::move(candidate);
+  return detection;
+}
+
+std::vector<Detection> ClassifyEach(const Classifying& with, std::vector<Candidate> candidates) {
+  std::vector<Detection> detections(candidates.size());
+  ParallelFor(candidates.size(), with.options.threads,
+              [&](size_t i) { detections[i] = Classify(with, std::move(candidates[i])); });
+  return detections;
+}
+
+// Whether the whole of two pieces is one person: it looks more like a person than either piece, or
+// about as much when one is above the other, and has one head.
+bool IsOnePerson(const Detection& whole, const Detection& a, const Detection& b, bool stacked,
+                 const ClassificationOptions& options) {
+  const double best =
+      std::max(a.evidence.score, b.evidence.score) - (stacked ? options.stacked_loss : 0.0);
+  return whole.evidence.score >= best && whole.evidence.heads_m.size() <= 1;
+}
+
+// Two pieces as one person, if that is what they are. People tracked for long are left as they are.
+std::optional<Detection> TryAsOne(const Classifying& with, const Detection& a, const Detection& b) {
+  const ClassificationOptions& options = with.options.classification;
+  const PlanarOccluderOptions& occluder = with.options.candidates.occluder;
+  const bool stacked = AreStacked(with.scene, with.options, a, b);
+  const bool one_region = a.candidate.region_index == b.candidate.region_index;
+  if (!one_region && !MayBePartsOfOne(with.scene, with.options, a, b, stacked)) return {};
+  if (std::min(a.age, b.age) > options.mature_age) return {};
+  if (Occludes(with.scene, a.candidate, b.candidate, occluder) ||
+      Occludes(with.scene, b.candidate, a.candidate, occluder))
+    return {};
+  if (a.candidate.region.area_m2 + b.candidate.region.area_m2 > options.two_people_m2) return {};
+  const bool a_first = a.age != b.age ? a.age > b.age : a.evidence.score >= b.evidence.score;
+  const Candidate& first = a_first ? a.candidate : b.candidate;
+  const Candidate& second = a_first ? b.candidate : a.candidate;
+  Detection whole = Classify(with, MergeCandidates(with.scene, with.frame, first, second));
+  if (!IsOnePerson(whole, a, b, stacked, options)) return {};
+  return whole;
+}
+
+// Until nothing belongs together any more. What is no person alone may be part of one.
+void MergeParts(const Classifying& with, std::vector<Detection>& detections,
+                std::vector<Decision>& decided) {
+  for (size_t i = 0; i < detections.size(); ++i) {
+    for (size_t k = i + 1; k < detections.size(); ++k) {
+      auto whole = TryAsOne(with, detections[i], detections[k]);
+      if (!whole) continue;
+      decided.push_back(DescribeDetection(detections[i], Rule::kMerged, whole->evidence.score));
+      decided.push_back(DescribeDetection(detections[k], Rule::kMerged, whole->evidence.score));
+      detections[i] = std::move(*whole);
+      detections.erase(detections.begin() + static_cast<std::ptrdiff_t>(k));
+      k = i;
+    }
+  }
+}
+
+// A detection with several heads, cut; empty unless at least two of the pieces are people
+// themselves.
+std::vector<Detection> CutAtHeads(const Classifying& with, const Detection& whole,
+                                  std::vector<Decision>& decided) {
+  const PeopleOptions& options = with.options;
+  if (whole.evidence.heads_m.size() < 2 || !MayBeTwo(whole, options.classification)) return {};
+  auto cut = SplitCandidate(with.scene, with.frame, whole.candidate, whole.evidence.heads_m,
+                            options.candidates);
+  if (cut.size() < 2) return {};
+  std::vector<Detection> pieces = ClassifyEach(with, std::move(cut));
+  const double needed = options.initiation.new_person;
+  const auto others = std::stable_partition(
+      pieces.begin(), pieces.end(), [&](const Detection& piece) { return piece.score >= needed; });
+  if (others - pieces.begin() < 2) return {};
+  for (auto other = others; other != pieces.end(); ++other)
+    decided.push_back(DescribeDetection(*other, Rule::kPieceLowScore, needed));
+  pieces.erase(others, pieces.end());
+  for (Detection& piece : pieces) piece.is_piece = true;
+  decided.push_back(DescribeDetection(whole, Rule::kSplitAtHeads, needed));
+  return pieces;
+}
+
+// Bones between the best proposals of neighbouring joints, as far as they hang together from the
+// trunk outwards and have about a body's lengths.
+std::vector<Bone> ConnectBones(const JointTargets& targets, const ForestEvidence& evidence,
+                               double max_bone) {
+  using recon::Joint;
+  const recon::BoneLengths average_m =
+      recon::BoneLengthsOf(recon::StandardPosture(recon::RigPose{}));
+  std::array<const forest::Proposal*, recon::kJointCount> best{};
+  for (size_t j = 0; j < recon::kJointCount; ++j) {
+    const auto& modes = evidence.proposals.at(static_cast<size_t>(targets[j]));
+    best[j] = modes.empty() ? nullptr : &modes.front();
+  }
+  std::array<bool, recon::kJointCount> reached{};
+  std::vector<Bone> bones;
+  const auto reach = [&](size_t from, size_t to, size_t bone) {
+    if (best[from] == nullptr || best[to] == nullptr) return;
+    if ((best[from]->position_m - best[to]->position_m).norm() > max_bone * average_m[bone]) return;
+    reached[to] = true;
+    bones.push_back({best[from]->position_m.cast<float>(), best[to]->position_m.cast<float>()});
+  };
+  // The shoulders' middle is the surest; from there down to the hips, and parents before children.
+  constexpr auto kCentre = static_cast<size_t>(recon::Index(Joint::kShoulderCenter));
+  constexpr auto kSpine = static_cast<size_t>(recon::Index(Joint::kSpine));
+  reached[kCentre] = best[kCentre] != nullptr;
+  if (reached[kCentre]) reach(kCentre, kSpine, kCentre);
+  if (reached[kSpine]) reach(kSpine, 0, kSpine);
+  for (size_t j = kCentre + 1; j < recon::kJointCount; ++j) {
+    const auto parent = static_cast<size_t>(recon::kJointParent[j]);
+    if (reached[parent]) reach(parent, j, j);
+  }
+  return bones;
+}
+
+// Whether any of it lies so far outside the box around the bones.
+bool ReachesBeyond(const std::vector<Bone>& bones, const Region& region, float reach_m) {
+  Eigen::Vector3f low_m = region.high_m, high_m = region.low_m;
+  for (const Bone& bone : bones) {
+    low_m = low_m.cwiseMin(bone.from_m).cwiseMin(bone.to_m);
+    high_m = high_m.cwiseMax(bone.from_m).cwiseMax(bone.to_m);
+  }
+  return ((low_m - region.low_m).array() > reach_m).any() ||
+         ((region.high_m - high_m).array() > reach_m).any();
+}
+
+}  // namespace
+
+TrackPrior MakeTrackPrior(const Candidate& candidate, const std::vector<Track>& tracks,
+                          double time_s, const TrackPriorOptions& options) {
+  TrackPrior prior;
+  if (candidate.track < 0) return prior;
+  const Track& track = tracks[static_cast<size_t>(candidate.track)];
+  prior.score = track.score;
+  prior.age = track.age;
+  prior.moved = track.moved;
+  prior.moving = time_s - track.moved_s < options.moving_s;
+  prior.full_m2 = track.full_m2;
+  // Which way a person faced a moment ago says much of the way now.
+  const bool recent = !track.facing.empty() && time_s - track.facing_s <= options.facing_s;
+  if (track.age < options.min_facing_age || !recent) return prior;
+  prior.facing = track.facing;
+  const float fresh = options.fresh_facing;
+  for (float& share : prior.facing)
+    share = (1 - fresh) * share + fresh / static_cast<float>(prior.facing.size());
+  return prior;
+}
+
+Decision DescribeDetection(const Detection& detection, Rule rule, double needed_score) {
+  Decision decision = DescribeRegion(detection.candidate.region, rule);
+  decision.classified = true;
+  decision.score = detection.evidence.score;
+  decision.mean_score = detection.score;
+  decision.needed_score = needed_score;
+  decision.looks = detection.age;
+  return decision;
+}
+
+bool AreStacked(const Scene& scene, const PeopleOptions& options, const Detection& a,
+                const Detection& b) {
+  const Region &of_a = a.candidate.region, &of_b = b.candidate.region;
+  const Eigen::Vector3f apart_m = of_a.mean_m - of_b.mean_m;
+  return std::hypot(apart_m.x(), apart_m.z()) < options.classification.stacked_m ||
+         IsOneAbove(scene.grid, of_a, of_b, options.candidates.occlusion);
+}
+
+bool MayBePartsOfOne(const Scene& scene, const PeopleOptions& options, const Detection& a,
+                     const Detection& b, bool stacked) {
+  const auto [less, more] = std::minmax(a.evidence.score, b.evidence.score);
+  const double person = options.initiation.new_person;
+  if (stacked && less >= person) return true;
+  return std::max(a.age, b.age) <= options.initiation.early_age && more >= person &&
+         MeetAlongRim(scene, a.candidate, b.candidate, options.classification);
+}
+
+bool MayBeTwo(const Detection& whole, const ClassificationOptions& options) {
+  return whole.age <= options.mature_age ||
+         whole.candidate.region.area_m2 > options.grown_share * whole.prior.full_m2;
+}
+
+void CropToBody(const JointTargets& targets, const DepthFrame& frame, const Scene& scene,
+                const ClassificationOptions& options, Detection& detection) {
+  constexpr size_t kAllBones = recon::kJointCount - 1;
+  const auto bones = ConnectBones(targets, detection.evidence, options.max_bone);
+  if (bones.size() < options.min_crop_bones) return;
+  const Region& region = detection.candidate.region;
+  const bool large = region.area_m2 >= options.crop_area_m2;
+  const bool whole = bones.size() == kAllBones && ReachesBeyond(bones, region, options.crop_far_m);
+  if (!large && !whole) return;
+  CropToBones(scene, frame, bones, large ? options.crop_m : options.crop_far_m,
+              options.min_cropped_cells, detection.candidate);
+}
+
+std::vector<Detection> ClassifyCandidates(const Classifying& with,
+                                          std::vector<Candidate> candidates,
+                                          std::vector<Decision>& decided) {
+  std::vector<Detection> detections = ClassifyEach(with, std::move(candidates));
+  MergeParts(with, detections, decided);
+  std::vector<Detection> result;
+  for (Detection& detection : detections) {
+    std::vector<Detection> pieces = CutAtHeads(with, detection, decided);
+    if (pieces.empty()) {
+      result.push_back(std::move(detection));
+    } else {
+      std::move(pieces.begin(), pieces.end(), std::back_inserter(result));
+    }
+  }
+  return result;
+}
+
+}  // namespace ossa::people

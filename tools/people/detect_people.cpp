@@ -1,0 +1,110 @@
+#include "tools/people/detect_people.h"
+
+#include <chrono>
+
+#include "tools/people/classify_candidates.h"
+#include "tools/people/measure_body.h"
+#include "tools/people/propose_candidates.h"
+#include "tools/people/track_prediction.h"
+
+namespace ossa::people {
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+double MillisecondsSince(Clock::time_point start) {
+  return std::chrono::duration<double, std::milli>(Clock::now() - start).count();
+}
+
+// Tracks that may still be somebody's in this frame.
+void ForgetTracks(const Scene& scene, double time_s, const ReidentifyOptions& options,
+                  std::vector<Track>& tracks) {
+  std::erase_if(tracks, [&](const Track& track) {
+    return scene.changed || IsForgotten(track, time_s, options);
+  });
+}
+
+std::vector<uint8_t> MarkCells(const PointGrid& grid, const std::vector<Detection>& people) {
+  std::vector<uint8_t> marked(static_cast<size_t>(grid.cells()), 0);
+  for (const Detection& person : people) {
+    for (const int cell : person.candidate.region.cells) marked[static_cast<size_t>(cell)] = 1;
+  }
+  return marked;
+}
+
+void PaintUser(int id, const Candidate& candidate, depth::Image<uint8_t>& users) {
+  for (const int32_t pixel : candidate.pixels)
+    users.data[static_cast<size_t>(pixel)] = static_cast<uint8_t>(id);
+}
+
+// The time of the looks, wasted ones too, shared out as the people's own stages stand.
+void ShareOutTime(double frame_ms, double look_ms, PeopleInFrame& result) {
+  double classify_ms = 1e-6, propose_ms = 0;
+  for (const Person& person : result.people) {
+    classify_ms += person.detection.evidence.classify_ms;
+    propose_ms += person.detection.evidence.propose_ms;
+  }
+  result.classify_ms = look_ms * classify_ms / (classify_ms + propose_ms);
+  result.propose_ms = look_ms - result.classify_ms;
+  result.segment_ms = frame_ms - look_ms;
+}
+
+}  // namespace
+
+PeopleInFrame DetectPeople(const DepthFrame& frame, const PersonClassifier& classifier,
+                           PeopleState& state, const PeopleOptions& options) {
+  const auto start = Clock::now();
+  const double time_s = frame.time_s;
+  PeopleInFrame result;
+  auto& decided = result.decisions.candidates;
+
+  // Geometry.
+  const Scene scene = depth::MeasureScene(frame, state.scene, options.scene);
+  result.floor = scene.floor;
+  result.decisions.fresh_scene = scene.fresh;
+
+  // Candidates.
+  std::vector<Track>& tracks = state.tracks.tracks;
+  ForgetTracks(scene, time_s, options.association.reidentify, tracks);
+  Candidates proposed = ProposeCandidates(frame, scene, tracks, options.association.reidentify,
+                                          options.candidates, options.trace_surfaces);
+  decided = std::move(proposed.excluded);
+  const std::vector<Region> rivals = FindRivals(proposed.candidates);
+
+  // The forest's word on them, and decisions.
+  const auto look_start = Clock::now();
+  auto selected = SelectCandidates(std::move(proposed.candidates), scene.fresh, time_s, options,
+                                   state.tentative, decided);
+  auto detections =
+      ClassifyCandidates({classifier, frame, scene, tracks, options}, std::move(selected), decided);
+  auto people = SelectPeople(std::move(detections), scene.fresh, time_s, options.initiation,
+                             state.tentative, decided);
+  for (Detection& person : people)
+    CropToBody(classifier.targets, frame, scene, options.classification, person);
+  const double look_ms = MillisecondsSince(look_start);
+
+  // Identities.
+  for (Detection& person : people) {
+    person.measures =
+        MeasureBody(person.evidence, classifier.targets, scene.floor, options.measure);
+    person.keypoints_m = SelectKeypoints(person.evidence, classifier.targets, options.measure);
+  }
+  const std::vector<int> ids =
+      AssociateTracks(scene, rivals, people, time_s, state.tracks, options.association);
+
+  // User pixels, and the background: all that is nobody's.
+  depth::LearnBackground(scene.grid, MarkCells(scene.grid, people), state.scene.background,
+                         options.scene.background);
+  result.users = depth::Image<uint8_t>(frame.camera.width, frame.camera.height);
+  for (size_t i = 0; i < people.size(); ++i) {
+    PaintUser(ids[i], people[i].candidate, result.users);
+    people[i].decision.track = ids[i];
+    decided.push_back(people[i].decision);
+    result.people.push_back({ids[i], std::move(people[i])});
+  }
+  result.decisions.tracks = SummarizeTracks(tracks, time_s);
+  ShareOutTime(MillisecondsSince(start), look_ms, result);
+  return result;
+}
+
+}  // namespace ossa::people

@@ -1,0 +1,41 @@
+#pragma once
+#include <optional>
+#include <vector>
+
+#include "depth/image/depth_frame.h"
+#include "depth/image/image.h"
+#include "tools/people/associate_tracks.h"
+#include "tools/people/decision.h"
+#include "tools/people/detection.h"
+#include "tools/people/track_initiation.h"
+
+/// Who is in the picture, and which pixels are whose.
+namespace ossa::people {
+
+/// All that is remembered between frames.
+struct PeopleState {
+  depth::SceneState scene;
+  TrackList tracks;                       // confirmed and lost
+  std::vector<TentativeTrack> tentative;  // no person so far
+};
+
+struct Person {
+  int id = 0;  // 1 to 255, the same while somebody is followed
+  Detection detection;
+};
+
+struct PeopleInFrame {
+  std::optional<FloorPlane> floor;
+  std::vector<Person> people;
+  depth::Image<uint8_t> users;  // id of the person each pixel belongs to, 0 nobody
+  FrameDecisions decisions;     // on every candidate
+  double segment_ms = 0, classify_ms = 0, propose_ms = 0;  // wasted looks included
+};
+
+/// One frame's way from depth to people, each step with what the ones before it made: geometry,
+/// candidates, the forest's word on them, decisions, identities, user pixels, background. Frames of
+/// any size, in order of time. Works from a single frame; what is remembered makes it better.
+PeopleInFrame DetectPeople(const DepthFrame& frame, const PersonClassifier& classifier,
+                           PeopleState& state, const PeopleOptions& options = {});
+
+}  // namespace ossa::people

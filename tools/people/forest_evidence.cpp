@@ -1,0 +1,95 @@
+#include "tools/people/forest_evidence.h"
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+
+#include "forest/proposals/relabel.h"
+#include "tools/people/subsample.h"
+
+namespace ossa::people {
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+double MillisecondsSince(Clock::time_point start) {
+  return std::chrono::duration<double, std::milli>(Clock::now() - start).count();
+}
+
+int ChooseScale(const DepthFrame& frame, const Candidate& candidate,
+                const EvidenceOptions& options) {
+  constexpr double kNearest_m = 0.3;  // by hand: nearer than any depth sensor sees
+  const double z_m = std::max(kNearest_m, static_cast<double>(candidate.region.mean_m.z()));
+  int scale = std::clamp(static_cast<int>(options.sample_m * frame.camera.fx / z_m), 1, 8);
+  while (candidate.pixels.size() / static_cast<size_t>(scale * scale) > options.max_pixels &&
+         scale < 16) {
+    ++scale;
+  }
+  return scale;
+}
+
+// Heads that may be of several people: side by side, and not of very different size.
+std::vector<Eigen::Vector3d> SelectHeads(const std::vector<HeadCluster>& heads,
+                                         const EvidenceOptions& options) {
+  std::vector<Eigen::Vector3d> kept;
+  for (const HeadCluster& head : heads) {
+    const double least_m2 =
+        std::max(options.min_head_m2, options.min_head_share * heads.front().area_m2);
+    if (head.area_m2 < least_m2) continue;
+    const bool apart = std::all_of(kept.begin(), kept.end(), [&](const Eigen::Vector3d& other) {
+      return std::hypot(head.mean_m.x() - other.x(), head.mean_m.z() - other.z()) >
+             options.min_head_distance_m;
+    });
+    if (apart) kept.push_back(head.mean_m);
+  }
+  return kept;
+}
+
+}  // namespace
+
+ForestEvidence ClassifyCandidate(const PersonClassifier& classifier, const DepthFrame& frame,
+                                 const Candidate& candidate, std::vector<float> facing_prior,
+                                 double min_surface_score, const EvidenceOptions& options) {
+  ForestEvidence evidence;
+  const auto start = Clock::now();
+  evidence.scale = ChooseScale(frame, candidate, options);
+  const bool thin = evidence.scale > 1;
+  const Subsampled subsampled =
+      thin ? Subsample(frame, candidate.pixels, evidence.scale) : Subsampled{};
+  const DepthFrame& seen = thin ? subsampled.frame : frame;
+  forest::ClassifyOptions classify;
+  classify.context_prior = facing_prior;
+  evidence.classification = forest::Classify(classifier.model, seen.view(), seen.camera,
+                                             thin ? subsampled.pixels : candidate.pixels, classify);
+  const auto heads = FindHeadClusters(seen, evidence.classification);
+  evidence.heads_m = SelectHeads(heads, options);
+  evidence.leg_area_m2 = MeasureLegArea_m2(seen, evidence.classification);
+  AddSurfaceFeatures(seen, candidate, evidence.classification, heads, evidence.features);
+  evidence.score = ComputeSurfaceScore(evidence.features);
+  evidence.classify_ms = MillisecondsSince(start);
+  evidence.proposals.resize(classifier.model.targets().size());
+  if (evidence.score < min_surface_score) return evidence;
+  const auto propose_start = Clock::now();
+  evidence.proposals =
+      forest::Propose(classifier.model, seen.view(), seen.camera, evidence.classification);
+  AddProposalFeatures(evidence.proposals, classifier.targets, evidence.features);
+  evidence.score = ComputePersonScore(evidence.features);
+  evidence.propose_ms = MillisecondsSince(propose_start);
+  return evidence;
+}
+
+void LabelParts(const forest::ForestModel& model, const DepthFrame& frame,
+                const Candidate& candidate, const ForestEvidence& evidence,
+                depth::Image<uint8_t>& parts) {
+  forest::ClassifyOptions options;
+  options.context_prior = evidence.classification.context;
+  const forest::Classification seen =
+      forest::Classify(model, frame.view(), frame.camera, candidate.pixels, options);
+  const std::vector<uint8_t> labels =
+      forest::Relabel(model, frame.view(), frame.camera, seen, evidence.proposals);
+  for (size_t i = 0; i < labels.size(); ++i) {
+    parts.data[static_cast<size_t>(seen.pixel[i])] = labels[i];
+  }
+}
+
+}  // namespace ossa::people

@@ -1,0 +1,17 @@
+#pragma once
+#include "depth/image/depth_frame.h"
+#include "depth/scene/regions.h"
+#include "depth/scene/scene.h"
+
+/// The geometry that people are found in goes by its own names here.
+namespace ossa::people {
+
+using depth::DepthFrame;
+using depth::FlatPlane;
+using depth::FloorPlane;
+using depth::PointGrid;
+using depth::Region;
+using depth::RoomShape;
+using depth::Scene;
+
+}  // namespace ossa::people

@@ -1,0 +1,141 @@
+#include "tools/people/merge_regions.h"
+
+#include <algorithm>
+#include <cmath>
+#include <iterator>
+
+#include "tools/people/occlusion_merge.h"
+#include "tools/people/planar_occluder.h"
+#include "tools/people/track_prediction.h"
+
+namespace ossa::people {
+namespace {
+
+// The shortest way between the cells of a small piece and a big one, metres; only nearby cells of
+// the image are compared, and a piece behind the other does not reach around it.
+float MeasureGap_m(const PointGrid& grid, const Region& small, const std::vector<int>& label,
+                   int big, const MergeOptions& options) {
+  float best = 1e9F;
+  for (const int cell : small.cells) {
+    const int x = cell % grid.width, y = cell / grid.width;
+    const int reach = std::clamp(static_cast<int>(grid.CellsOf(options.search_m, grid.z(cell))),
+                                 options.min_search_cells, options.max_search_cells);
+    for (int dy = -reach; dy <= reach; dy += 2) {
+      for (int dx = -reach; dx <= reach; dx += 2) {
+        if (!grid.Contains(x + dx, y + dy)) continue;
+        const int other = grid.cell(x + dx, y + dy);
+        if (label[static_cast<size_t>(other)] != big) continue;
+        best = std::min(best, (grid.at(other) - grid.at(cell)).norm());
+      }
+    }
+  }
+  return best;
+}
+
+// Somebody comes out from behind somebody else in pieces: a piece that was nobody's is the track's
+// of which a good part is still hidden, if it is where the track is expected, or a stride from
+// there and only nearer surface lies between, and not more than the track lacks. tracks.size() for
+// none.
+size_t FindTrackBehind(const PointGrid& grid, const Region& piece, const std::vector<Region>& owned,
+                       const std::vector<int>& home, const std::vector<Track>& tracks,
+                       double time_s, const CandidateOptions& options) {
+  const MergeOptions& merge = options.merge;
+  for (size_t t = 0; t < tracks.size(); ++t) {
+    if (home[t] < 0) continue;
+    const Region& seen = owned[static_cast<size_t>(home[t])];
+    const auto lacks_it = [&](float most_m2) {
+      return seen.area_m2 <= merge.hidden_share * most_m2 &&
+             seen.area_m2 + piece.area_m2 <= merge.whole_share * most_m2;
+    };
+    const Eigen::Vector3f off =
+        PredictMean_m(tracks[t], time_s, options.prediction.max_prediction_s) - piece.mean_m;
+    const bool expected =
+        std::abs(off.x()) < merge.expected_aside_m && std::abs(off.z()) < merge.expected_deep_m;
+    if (expected && lacks_it(tracks[t].full_m2)) return t;
+    // Who was half hidden all along has more than was ever seen.
+    const Eigen::Vector2f on_floor = grid.OnFloor(off);
+    const bool a_stride_off =
+        std::abs(on_floor.x()) < merge.stride_m && std::abs(on_floor.y()) < merge.expected_deep_m;
+    if (a_stride_off && lacks_it(std::max(tracks[t].full_m2, merge.sideways_m2)) &&
+        IsOccludedBetween(grid, seen, piece, options.occlusion))
+      return t;
+  }
+  return tracks.size();
+}
+
+}  // namespace
+
+std::vector<Region> MergePieces(const PointGrid& grid, std::vector<Region> regions,
+                                const RoomShape& shape, const std::vector<int>& owner,
+                                size_t tracks, const CandidateOptions& options) {
+  std::vector<int> label(static_cast<size_t>(grid.cells()), -1);
+  std::vector<Region> big, small;
+  for (Region& region : regions) {
+    const bool whole = region.area_m2 >= options.merge.whole_m2;
+    (whole ? big : small).push_back(std::move(region));
+    if (!whole) continue;
+    for (const int cell : big.back().cells) {
+      label[static_cast<size_t>(cell)] = static_cast<int>(big.size()) - 1;
+    }
+  }
+  std::vector<int> owner_of_big;
+  std::vector<std::optional<FlatPlane>> plane;
+  for (const Region& region : big) {
+    owner_of_big.push_back(FindMainOwner(region, owner, tracks));
+    plane.push_back(FitWholePlane(region, shape, options.occluder));
+  }
+  for (const Region& piece : small) {
+    const int mine = FindMainOwner(piece, owner, tracks);
+    int best = -1;
+    float best_gap = options.merge.reach_m;
+    for (size_t i = 0; i < owner_of_big.size(); ++i) {
+      if (mine >= 0 && owner_of_big[i] >= 0 && mine != owner_of_big[i]) continue;
+      if (plane[i] && StandsBehind(grid, piece, *plane[i], options.occluder)) continue;
+      const float gap = MeasureGap_m(grid, piece, label, static_cast<int>(i), options.merge);
+      if (gap < best_gap) best_gap = gap, best = static_cast<int>(i);
+    }
+    if (best >= 0) {
+      big[static_cast<size_t>(best)] = UniteRegions(grid, big[static_cast<size_t>(best)], piece);
+    } else {
+      big.push_back(piece);
+    }
+  }
+  return big;
+}
+
+std::vector<Region> MergeByTracks(const PointGrid& grid, std::vector<Region> regions,
+                                  const std::vector<int>& owner, const std::vector<Track>& tracks,
+                                  double time_s, const CandidateOptions& options) {
+  std::vector<int> home(tracks.size(), -1);
+  std::vector<Region> owned, others;
+  for (Region& region : regions) {
+    const int track = FindMainOwner(region, owner, tracks.size());
+    int* place = track < 0 ? nullptr : &home[static_cast<size_t>(track)];
+    if (place == nullptr) {
+      others.push_back(std::move(region));
+    } else if (*place < 0) {
+      *place = static_cast<int>(owned.size());
+      owned.push_back(std::move(region));
+    } else {
+      Region& whole = owned[static_cast<size_t>(*place)];
+      whole = UniteRegions(grid, whole, region);
+    }
+  }
+  std::vector<Region> result;
+  for (Region& region : others) {
+    const size_t t = FindTrackBehind(grid, region, owned, home, tracks, time_s, options);
+    if (t == tracks.size()) {
+      result.push_back(std::move(region));
+    } else {
+      Region& whole = owned[static_cast<size_t>(home[t])];
+      whole = UniteRegions(grid, whole, region);
+    }
+  }
+  result.insert(result.end(), std::make_move_iterator(owned.begin()),
+                std::make_move_iterator(owned.end()));
+  std::stable_sort(result.begin(), result.end(),
+                   [](const Region& a, const Region& b) { return a.area_m2 > b.area_m2; });
+  return result;
+}
+
+}  // namespace ossa::people

@@ -1,0 +1,162 @@
+#include "tools/people/split_regions.h"
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+#include <limits>
+#include <queue>
+#include <span>
+
+#include "tools/people/head_detector.h"
+#include "tools/people/track_prediction.h"
+
+namespace ossa::people {
+namespace {
+
+// The seed a head is nearest to, if it could be the same person's; -1 for none.
+int FindOwnerOfHead(const PointGrid& grid, const HeadBlob& head, std::span<const Seed> seeds,
+                    float max_step_m) {
+  int mine = -1;
+  float nearest_m = max_step_m;
+  for (size_t i = 0; i < seeds.size(); ++i) {
+    for (const int cell : seeds[i].cells) {
+      const float off_m = (grid.at(cell) - head.position_m).norm();
+      if (off_m < nearest_m) nearest_m = off_m, mine = static_cast<int>(i);
+    }
+  }
+  return mine;
+}
+
+// One person alone needs no cut, unless much more hangs on than a person has, or than this one had
+// a frame ago.
+bool IsOnePerson(const Region& region, const Seed& seed, const SeedOptions& options) {
+  if (region.area_m2 > options.one_person_m2) return false;
+  if (seed.background == nullptr) return true;
+  return std::count_if(region.cells.begin(), region.cells.end(), [&](int cell) {
+           return (*seed.background)[static_cast<size_t>(cell)] != 0;
+         }) < options.one_person_background_cells;
+}
+
+}  // namespace
+
+std::vector<Region> SplitBySeeds(const PointGrid& grid, const Region& region,
+                                 const std::vector<Seed>& seeds, const SeedOptions& options) {
+  const auto cells = static_cast<size_t>(grid.cells());
+  std::vector<uint8_t> member(cells, 0);
+  for (const int cell : region.cells) member[static_cast<size_t>(cell)] = 1;
+  std::vector<float> distance(cells, std::numeric_limits<float>::infinity());
+  std::vector<int> owner(cells, -1);
+  using Item = std::pair<float, int>;
+  std::priority_queue<Item, std::vector<Item>, std::greater<>> queue;
+  for (size_t i = 0; i < seeds.size(); ++i) {
+    for (const int cell : seeds[i].cells) {
+      if (!member[static_cast<size_t>(cell)]) continue;
+      distance[static_cast<size_t>(cell)] = 0;
+      owner[static_cast<size_t>(cell)] = static_cast<int>(i);
+      queue.push({0.0F, cell});
+    }
+  }
+  while (!queue.empty()) {
+    const auto [d, cell] = queue.top();
+    queue.pop();
+    if (d > distance[static_cast<size_t>(cell)]) continue;
+    const int x = cell % grid.width, y = cell / grid.width;
+    for (const auto& step : depth::kStepsOverGaps) {
+      if (!grid.Contains(x + step[0], y + step[1])) continue;
+      const int next = grid.cell(x + step[0], y + step[1]);
+      const auto n = static_cast<size_t>(next);
+      if (!member[n]) continue;
+      Eigen::Vector3f way = grid.at(next) - grid.at(cell);
+      way.x() *= options.sideways;
+      const float jump = Continuous(grid, cell, next) ? 0.0F : options.jump_cost_m;
+      const float reached = d + way.norm() + jump;
+      const int mine = owner[static_cast<size_t>(cell)];
+      const Seed& seed = seeds[static_cast<size_t>(mine)];
+      if (reached >= distance[n] || reached > seed.reach_m) continue;
+      if (seed.background != nullptr && (*seed.background)[n] && reached > options.background_rim_m)
+        continue;
+      distance[n] = reached;
+      owner[n] = mine;
+      queue.push({reached, next});
+    }
+  }
+  std::vector<std::vector<int>> pieces(seeds.size());
+  for (const int cell : region.cells) {
+    const int i = owner[static_cast<size_t>(cell)];
+    if (i >= 0) pieces[static_cast<size_t>(i)].push_back(cell);
+  }
+  std::vector<Region> result;
+  for (auto& piece : pieces) result.push_back(MakeRegion(grid, std::move(piece)));
+  return result;
+}
+
+std::vector<int> CollectHeadCells(const PointGrid& grid, const Region& region,
+                                  const Eigen::Vector3f& head_m, const SeedOptions& options) {
+  std::vector<int> seed;
+  for (const int cell : region.cells) {
+    if ((grid.at(cell) - head_m).norm() < options.head_radius_m) seed.push_back(cell);
+  }
+  return seed;
+}
+
+bool IsPersonSized(const Region& region, const CandidateOptions& options) {
+  const Eigen::Vector3f size = region.high_m - region.low_m;
+  const float length = std::max(size.y(), std::max(size.x(), size.z()));
+  return region.area_m2 >= options.min_area_m2 && length >= options.min_height_m &&
+         region.cells.size() >= options.min_cells;
+}
+
+bool IsForegroundPersonSized(const Region& region, const std::vector<uint8_t>& foreground,
+                             const CandidateOptions& options) {
+  CandidateOptions less = options;
+  less.min_area_m2 = options.min_foreground_area_m2;
+  less.min_height_m = options.min_foreground_height_m;
+  return IsPersonSized(region, less) && MeasureShare(region, foreground) > kMostly;
+}
+
+std::vector<Seed> FindSeeds(const PointGrid& grid, const Region& region,
+                            const std::vector<int>& owner, size_t tracks,
+                            const std::vector<uint8_t>& background,
+                            const CandidateOptions& options) {
+  std::vector<Seed> seeds;
+  for (auto& cells : CollectOverlaps(region, owner, tracks)) {
+    if (cells.size() >= options.seeds.min_track_cells)
+      seeds.push_back({std::move(cells), options.seeds.growth_m, &background});
+  }
+  const size_t known = seeds.size();
+  std::vector<uint8_t> has_head(known, 0);
+  for (const HeadBlob& head : FindHeads(grid, region, options.heads)) {
+    const int mine =
+        FindOwnerOfHead(grid, head, std::span(seeds).first(known), options.seeds.owner_step_m);
+    // A person has one head, and it moves: the best head at a track is that track's. More heads are
+    // other people's, unless they lie within the track as it was.
+    std::vector<int> seed = CollectHeadCells(grid, region, head.position_m, options.seeds);
+    if (mine >= 0 && !has_head[static_cast<size_t>(mine)]) {
+      has_head[static_cast<size_t>(mine)] = 1;
+      continue;
+    }
+    const auto taken = std::count_if(
+        seed.begin(), seed.end(), [&](int cell) { return owner[static_cast<size_t>(cell)] >= 0; });
+    if (2 * taken < static_cast<long>(seed.size()))
+      seeds.push_back({std::move(seed), options.seeds.max_reach_m, nullptr});
+  }
+  return seeds;
+}
+
+std::vector<Region> CutAtSeeds(const PointGrid& grid, const Region& region, std::vector<Seed> seeds,
+                               const CandidateOptions& options) {
+  while (true) {
+    if (seeds.empty() || (seeds.size() == 1 && IsOnePerson(region, seeds[0], options.seeds)))
+      return {region};
+    std::vector<Region> pieces = SplitBySeeds(grid, region, seeds, options.seeds);
+    if (seeds.size() == 1) return pieces;
+    size_t least = 0;
+    for (size_t i = 1; i < pieces.size(); ++i) {
+      if (pieces[i].area_m2 < pieces[least].area_m2) least = i;
+    }
+    if (IsPersonSized(pieces[least], options)) return pieces;
+    seeds.erase(seeds.begin() + static_cast<std::ptrdiff_t>(least));
+  }
+}
+
+}  // namespace ossa::people
