@@ -19,6 +19,7 @@
 #include "tools/commands/checks.h"
 #include "tools/commands/command.h"
 #include "tools/commands/commands.h"
+#include "tools/commands/decision_trace.h"
 #include "tools/commands/mechanics_options.h"
 #include "tools/commands/method_options.h"
 #include "tools/commands/outputs.h"
@@ -38,7 +39,7 @@ using std::chrono::milliseconds;
 
 struct TrackOptions {
   SourceArguments source;
-  std::string out, json_stats, picture, pictures;
+  std::string out, json_stats, picture, pictures, trace;
   std::string smoothing, posture = "final", mode = "standing";
   MechanicsOptions mechanics;
   BonesOption bones;
@@ -108,6 +109,9 @@ TrackOptions ParseOptions(int argc, char** argv) {
   AddDeviceOptions(app, options.source);
   app.add_option("--json-stats", options.json_stats,
                  "milliseconds a stage, frames a second, memory, FILE.json ('-': stdout)");
+  app.add_option("--trace", options.trace,
+                 "FILE.jsonl: a line a frame with every piece of the scene, and the rule that "
+                 "decided whether it is a person");
   app.add_option("--picture", options.picture,
                  "FILE.png of one frame: depth, parts, joints, skeleton");
   app.add_option("--pictures", options.pictures, "folder for such a picture of every frame");
@@ -116,9 +120,9 @@ TrackOptions ParseOptions(int argc, char** argv) {
   app.add_flag("--quiet", options.quiet, "no progress");
   Parse(app, argc, argv);
   if (options.out.empty() && options.picture.empty() && options.pictures.empty() && !options.view &&
-      options.json_stats.empty()) {
+      options.json_stats.empty() && options.trace.empty()) {
     throw UsageError(
-        "track: nothing to do: name --out, --picture, --pictures, --json-stats or --view");
+        "track: nothing to do: name --out, --picture, --pictures, --json-stats, --trace or --view");
   }
   CheckRead(app, options.tracker.method, options.quiet);
   CheckLearned(options.tracker.method, options.tracker.learned);
@@ -133,7 +137,8 @@ TrackOptions ParseOptions(int argc, char** argv) {
   if (!options.out.empty()) CheckSkeletonName(options.out);
   CheckExtension("--picture", options.picture, ".png");
   CheckNotOtherKind("--json-stats", options.json_stats, ".json");
-  CheckOutputs({options.out, options.json_stats, options.picture, options.pictures},
+  CheckExtension("--trace", options.trace, ".jsonl");
+  CheckOutputs({options.out, options.json_stats, options.picture, options.pictures, options.trace},
                {options.source.name});
   options.tracker.physics = options.mechanics.on();
   options.tracker.mechanics = options.mechanics.build;
@@ -141,6 +146,7 @@ TrackOptions ParseOptions(int argc, char** argv) {
       options.smoothing.empty() ? tracker::UsualSmoothing(options.tracker.method)
                                 : std::string_view(options.smoothing));
   if (options.mode == "seated") options.tracker.mode = tracker::TrackingMode::kSeated;
+  options.tracker.trace = !options.trace.empty();
   options.tracker.keep_parts = !options.picture.empty() || !options.pictures.empty();
   return options;
 }
@@ -249,7 +255,8 @@ struct Run {
 };
 
 Run TrackAll(depth::FrameSource& source, tracker::Tracker& tracker, const TrackOptions& options,
-             SkeletonOutput& output, Pictures& pictures, viewer::Viewer* viewer) {
+             SkeletonOutput& output, DecisionTrace& trace, Pictures& pictures,
+             viewer::Viewer* viewer) {
   Run run;
   Progress progress("tracking", options.quiet);
   const auto known = static_cast<double>(source.frame_count().value_or(0));
@@ -274,6 +281,7 @@ Run TrackAll(depth::FrameSource& source, tracker::Tracker& tracker, const TrackO
     const tracker::BodyFrame bodies = tracker.Track(read.frame);
     run.stats.Add(bodies.ms);
     output.Write(bodies);
+    trace.Write(bodies);
     pictures.Take(read.frame, bodies);
     if (viewer != nullptr) viewer->Show(read.frame, tracker::RecordOf(bodies));
     const auto frames = static_cast<double>(run.stats.frames());
@@ -291,7 +299,7 @@ std::map<int, recon::BoneLengths> MeasureBones(const TrackOptions& options) {
                                  options.source.name));
   }
   tracker::TrackerOptions measuring = options.tracker;
-  measuring.keep_parts = false;
+  measuring.keep_parts = measuring.trace = false;
   tracker::Tracker tracker(measuring);
   Progress progress("measuring bones", options.quiet);
   const auto known = static_cast<double>(source->frame_count().value_or(0));
@@ -341,6 +349,7 @@ int Track(int argc, char** argv) {
   tracker::Tracker tracker(options.tracker);  // first: a device's frames do not wait meanwhile
   const auto source = OpenSource(options.source, options.quiet);
   SkeletonOutput output(options);
+  DecisionTrace trace(options.trace);
   Pictures pictures(options);
   if (!options.json_stats.empty() && options.json_stats != "-")
     AtomicFile::CheckWritable(options.json_stats);
@@ -349,13 +358,14 @@ int Track(int argc, char** argv) {
     viewer = std::make_unique<viewer::Viewer>(options.port);
     Say(fmt::format("watch at http://127.0.0.1:{}/\n", viewer->port()));
   }
-  const Run run = TrackAll(*source, tracker, options, output, pictures, viewer.get());
+  const Run run = TrackAll(*source, tracker, options, output, trace, pictures, viewer.get());
   if (run.stats.frames() == 0 && Interrupted()) {
     throw InputError("track: interrupted before the first frame; nothing was written");
   }
   if (run.stats.frames() == 0) throw InputError(options.source.name + ": no frame came");
   pictures.Finish();
   Report(options, run);
+  trace.Finish();
   output.Finish();
   return 0;
 }

@@ -115,6 +115,68 @@ TEST(TrackCommand, SaysHowManyFramesAndWritesEveryStagesMilliseconds) {
   EXPECT_GT(json.at("peak_rss_mb"), 1.0);
 }
 
+// The first candidate of a frame that a rule decided about, or null.
+nlohmann::json FindDecision(const nlohmann::json& frame, const std::string& rule) {
+  for (const auto& candidate : frame.at("candidates")) {
+    if (candidate.at("rule") == rule) return candidate;
+  }
+  return {};
+}
+
+TEST(TrackCommand, TracesWhichRuleDecidedAboutEveryPieceOfTheScene) {
+  OSSA_NEEDS_MODEL();
+  const TemporaryFolder folder;
+  std::filesystem::create_directories(folder / "in");
+  tests::CapsuleScene scene;
+  scene.people = {PersonAt(-0.9, 2.6)};
+  scene.planes = tests::EmptyRoom();
+  scene.boxes = {{{-0.05, -0.1, 2.5}, {0.08, 0.1, 2.6}},  // too small
+                 {{0.4, -0.5, 2.2}, {0.75, 0.1, 2.25}},   // a board
+                 {{1.1, -1.0, 3.0}, {2.0, 0.9, 3.5}}};    // a wardrobe
+  const auto render = tests::Render(scene, depth::KinectV1Camera(320, 240));
+  depth::WriteDepthPng(folder / "in/0.png", render.frame.view());
+  const auto trace = folder / "trace.jsonl";
+  const CommandResult result = RunOssa({"track", folder / "in", "--trace", trace.string()});
+  ASSERT_EQ(result.exit_status, 0) << result.err;
+  std::ifstream file(trace);
+  std::string line;
+  ASSERT_TRUE(std::getline(file, line));
+  const auto frame = nlohmann::json::parse(line);
+  EXPECT_EQ(frame.at("frame"), 0);
+  EXPECT_TRUE(frame.at("fresh_scene"));
+  const auto person = FindDecision(frame, "fresh_scene");
+  ASSERT_FALSE(person.is_null()) << line;
+  EXPECT_EQ(person.at("outcome"), "confirmed");
+  EXPECT_EQ(person.at("track"), 1);
+  EXPECT_NEAR(person.at("place_m").at(0), -0.9, 0.1);
+  EXPECT_GE(person.at("score"), person.at("needed_score"));
+  for (const auto& [rule, x_m] :
+       {std::pair("too_small", 0.0), {"planar", 0.57}, {"furniture", 1.5}}) {
+    const auto decision = FindDecision(frame, rule);
+    ASSERT_FALSE(decision.is_null()) << rule << ": " << line;
+    EXPECT_FALSE(decision.contains("track")) << rule;
+    EXPECT_GT(decision.at("why").get<std::string>().size(), 20U);
+    if (rule != std::string("furniture")) {
+      EXPECT_NEAR(decision.at("place_m").at(0), x_m, 0.1);
+    }
+  }
+  ASSERT_EQ(frame.at("tracks").size(), 1U);
+  EXPECT_EQ(frame.at("tracks").at(0).at("status"), "confirmed");
+  EXPECT_FALSE(std::getline(file, line));
+}
+
+TEST(TrackCommand, RefusesATraceThatIsNoJsonLinesOrAnotherOutput) {
+  const TemporaryFolder folder;
+  std::filesystem::create_directories(folder / "in");
+  WriteExampleFolder(folder / "in", 1);
+  const auto track = [&](const std::string& trace) {
+    return RunOssa({"track", folder / "in", "--out", folder / "x.jsonl", "--trace", trace})
+        .exit_status;
+  };
+  EXPECT_EQ(track(folder / "trace.csv"), 2);
+  EXPECT_EQ(track(folder / "x.jsonl"), 2);
+}
+
 TEST(TrackCommand, SameFramesSameSeedSameBytesWhateverTheThreads) {
   OSSA_NEEDS_MODEL();
   const TemporaryFolder folder;
