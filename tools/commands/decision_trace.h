@@ -7,8 +7,8 @@
 
 namespace ossa::commands {
 
-/// The file of `ossa track --trace`: a JSON line a frame, with every piece of the scene and the rule
-/// that decided whether it is a person. It appears only when complete.
+/// The file of `ossa track --trace`: a JSON line a frame, with every piece of the scene and the
+/// rule that decided whether it is a person. It appears only when complete.
 class DecisionTrace {
  public:
   /// "" writes nothing. Throws InputError where the file cannot be written.
