@@ -12,11 +12,14 @@ namespace {
 using forest::Proposal;
 using recon::kJointCount;
 
+// Constants: chosen by hand on rendered clips of validation subjects.
+
 constexpr int kModes = 4;  // modes beyond the fourth were never the right one on rendered frames
 
 // Costs are negative log-likelihoods.
-constexpr double kMissing = 2.3;       // -log 0.1: a mode must be more likely than that
-constexpr double kWorstBone = 6.0;     // a bone of any length may be a wrong expectation
+constexpr double kMissing = 2.3;  // -log 0.1: a mode must be more likely than that; no unit: nats
+// A bone of any length may be a wrong expectation; no unit: nats
+constexpr double kWorstBone = 6.0;
 constexpr double kWorstJump = 1.0;     // fast moves and unrelated frames are legal
 constexpr double kJumpScale_m = 0.15;  // 4.5 m/s at 30 Hz
 

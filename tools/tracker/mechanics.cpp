@@ -29,6 +29,8 @@ recon::BoneLengths BonesOf(const recon::Posture& posture) {
   return lengths_m;
 }
 
+// Constants: chosen by hand on rendered indoor scenes.
+
 // What nobody sees was completed by the reconstruction. Left to itself by the character, an unseen
 // foot hangs off the ankle, 14 cm wrong instead of 5 (rendered rooms).
 constexpr double kCompleted = 0.5;
@@ -90,7 +92,7 @@ void Mechanics::Make(const recon::BoneLengths& bones_m) {
 }
 
 bool Mechanics::MeasuredAnew(const recon::BoneLengths& bones_m) {
-  constexpr double kSame = 0.001, kOther = 0.01;
+  constexpr double kSame = 0.001, kOther = 0.01;  // share of the length
   constexpr int kPatience_frames = 10;
   const auto most = [&](const recon::BoneLengths& other_m) {
     double share = 0.0;

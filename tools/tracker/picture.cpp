@@ -14,6 +14,8 @@ namespace {
 using recon::kJointCount;
 using recon::TrackingState;
 
+// Constants: pixels, by eye.
+
 constexpr int kPanelWidth = 480, kPanelHeight = 960;  // at most
 
 cv::Mat DepthPanel(const depth::DepthFrame& frame) {

@@ -9,7 +9,7 @@
 namespace ossa::tracker {
 namespace {
 
-constexpr double kShortest_ms = 1e-3;
+constexpr double kShortest_ms = 1e-3;  // by hand
 const double kBinLog = std::log(1.01);
 
 double ThreeDecimals(double value) { return std::round(1000 * value) / 1000; }

@@ -7,6 +7,8 @@ namespace {
 
 using Eigen::Vector3d;
 
+// Constants: chosen by hand, where no derivation is said.
+
 // Squared distance of two means that agree, in variances: a still joint is let go by mistake about
 // once in 200 frames, and is back a frame later.
 constexpr double kAgree = 7.0;

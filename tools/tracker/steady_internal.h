@@ -21,7 +21,7 @@ class SteadyJoint {
   bool held() const { return frames_ > 0; }
 
  private:
-  static constexpr int kWindow = 16;  // half a second
+  static constexpr int kWindow = 16;  // half a second; frames, by hand
 
   const Eigen::Vector3d& Before(int frames) const;
   void LearnNoise();
