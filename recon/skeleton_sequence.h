@@ -43,6 +43,8 @@ struct SkeletonSequence {
   /// Of a file that holds two skeletons side by side which one this is, truth or observed; else
   /// empty.
   std::string columns{};
+  /// What was odd and how it was read, a line each, naming file and place: for people to see.
+  std::vector<std::string> warnings{};
 };
 
 /// The Kinect SDK 2's skeleton, of Kinect v2 (Xbox One).

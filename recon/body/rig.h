@@ -40,6 +40,8 @@ struct MotionClip {
   std::string subject;  // the performer, for splits; "" when unknown
   double frame_s = 1.0 / 30.0;
   std::vector<RigPose> frames;
+  /// What was odd in its file and how it was read, a line each: for people to see.
+  std::vector<std::string> warnings{};
 };
 
 }  // namespace ossa::recon

@@ -82,6 +82,7 @@ constexpr Side kSides[] = {
 
 void PutSide(BodyRecord& body, const Markers& markers, const Side& side, const Point& hip,
              const Point& trunk_down) {
+  // By hand: what laboratories enter for adults, half a joint's width and half a marker's.
   constexpr double kShoulder_m = 0.050;
   constexpr double kElbow_m = 0.047;
   constexpr double kKnee_m = 0.057;
@@ -110,6 +111,14 @@ void PutSide(BodyRecord& body, const Markers& markers, const Side& side, const P
 }
 
 }  // namespace
+
+bool IsTrunkMarker(const std::string& name) {
+  for (const char* marker : {"LFHD", "RFHD", "LBHD", "RBHD", "C7", "T10", "CLAV", "STRN", "LASI",
+                             "RASI", "LPSI", "RPSI"}) {
+    if (name == marker) return true;
+  }
+  return false;
+}
 
 BodyRecord JointCentres(const Markers& markers) {
   BodyRecord body;

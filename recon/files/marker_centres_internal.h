@@ -19,4 +19,7 @@ using Markers = std::map<std::string, Eigen::Vector3d>;
 /// and STRN; hand: FIN; foot: TOE.
 BodyRecord JointCentres(const Markers& markers);
 
+/// Whether the name is that of one of these markers on head or trunk.
+bool IsTrunkMarker(const std::string& name);
+
 }  // namespace ossa::recon

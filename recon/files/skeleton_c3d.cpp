@@ -1,17 +1,17 @@
-// C3D (c3d.org): points of the 3D data section, little-endian ("Intel") files, integers or
-// floats. No Debian package reads C3D, hence these pages. Labels that name joints are taken as they
-// are; else Plug-in Gait markers give joint centres. Laboratories have z up.
+// C3D (c3d.org): points of the 3D data section, integers or floats as Intel, DEC and MIPS
+// processors have them. No Debian package reads C3D, hence these pages. Labels that name joints are
+// taken as they are; else Plug-in Gait markers give joint centres. Laboratories have z up.
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <array>
+#include <bit>
 #include <cmath>
 #include <cstdint>
 #include <map>
 
 #include "recon/files/binary_bytes_internal.h"
-#include "recon/files/joint_names_internal.h"
-#include "recon/files/marker_centres_internal.h"
+#include "recon/files/point_bodies_internal.h"
 
 namespace ossa::recon {
 namespace {
@@ -42,25 +42,70 @@ void NeedBytes(const std::string& name, std::string_view bytes, size_t offset, s
   }
 }
 
+/// Whose numbers the file holds; the values are the format's.
+enum class Processor { kIntel = 84, kDec = 85, kMips = 86 };
+
+/// The bytes of a file, and numbers in them. The caller has checked that their bytes are there.
+class C3dBytes {
+ public:
+  C3dBytes(std::string_view bytes, Processor processor) : bytes_(bytes), processor_(processor) {}
+
+  std::string_view all() const { return bytes_; }
+  uint16_t Word(size_t at) const {
+    const uint32_t low = Byte(at), high = Byte(at + 1);
+    return static_cast<uint16_t>(processor_ == Processor::kMips ? (low << 8) + high
+                                                                : (high << 8) + low);
+  }
+  double Integer(size_t at) const { return static_cast<int16_t>(Word(at)); }
+  double Real(size_t at) const {
+    // DEC's floats have their halves exchanged, and an exponent that is larger by two.
+    const bool high_first = processor_ != Processor::kIntel;
+    const uint32_t high = Word(high_first ? at : at + 2), low = Word(high_first ? at + 2 : at);
+    const auto value = static_cast<double>(std::bit_cast<float>((high << 16) + low));
+    return processor_ == Processor::kDec ? value / 4 : value;
+  }
+
+ private:
+  uint32_t Byte(size_t at) const { return static_cast<uint8_t>(bytes_[at]); }
+
+  std::string_view bytes_;
+  Processor processor_;
+};
+
 bool IsC3d(const SkeletonSample& sample) {
   return sample.head.size() >= kBlock && sample.head[1] == 0x50 && sample.head[0] > 1;
 }
 
-C3d ReadC3dHeader(const std::string& name, std::string_view bytes) {
+size_t FindParameters(const std::string& name, std::string_view bytes) {
   NeedBytes(name, bytes, 0, kBlock, "a C3D header");
+  const size_t begin = (static_cast<size_t>(static_cast<uint8_t>(bytes[0])) - 1) * kBlock;
+  NeedBytes(name, bytes, begin, 4, "the parameter section");
+  return begin;
+}
+
+Processor ReadProcessor(const std::string& name, std::string_view bytes) {
+  const size_t at = FindParameters(name, bytes) + 3;
+  const auto type = static_cast<uint8_t>(bytes[at]);
+  if (type < 84 || type > 86) {
+    FailAtByte(name, at,
+               fmt::format("processor type 84, 85 or 86 (Intel, DEC, MIPS), found {}", type));
+  }
+  return static_cast<Processor>(type);
+}
+
+C3d ReadC3dHeader(const std::string& name, const C3dBytes& bytes) {
   C3d c3d;
-  const auto word = [&](size_t number) { return ValueAt<uint16_t>(bytes, 2 * (number - 1)); };
+  const auto word = [&](size_t number) { return bytes.Word(2 * (number - 1)); };
   c3d.points = word(2);
   const size_t analog = word(3);
   c3d.first = word(4);
   c3d.last = word(5);
-  const auto scale = ValueAt<float>(bytes, 12);
-  const auto rate = ValueAt<float>(bytes, 20);
+  const double scale = bytes.Real(12);
+  c3d.rate_Hz = bytes.Real(20);
   if (!std::isfinite(scale) || scale == 0) FailAtByte(name, 12, "a scale factor");
-  if (!std::isfinite(rate) || rate <= 0) FailAtByte(name, 20, "a frame rate");
+  if (!std::isfinite(c3d.rate_Hz) || c3d.rate_Hz <= 0) FailAtByte(name, 20, "a frame rate");
   c3d.floats = scale < 0;
-  c3d.scale = c3d.floats ? 1.0 : static_cast<double>(scale);
-  c3d.rate_Hz = static_cast<double>(rate);
+  c3d.scale = c3d.floats ? 1.0 : scale;
   if (word(9) < 2) FailAtByte(name, 16, "the block where the data begins");
   c3d.data = (static_cast<size_t>(word(9)) - 1) * kBlock;
   if (c3d.points == 0) FailAtByte(name, 2, "at least one point");
@@ -70,14 +115,15 @@ C3d ReadC3dHeader(const std::string& name, std::string_view bytes) {
 
 // A parameter's value.
 struct Parameter {
-  int type = 0;           // -1: texts; else bytes a number, 4 being floats
-  std::string_view data;  // all of it
-  size_t length = 0;      // of each of its texts
+  int type = 0;       // -1: texts; else bytes a number, 4 being floats
+  size_t begin = 0;   // byte of the file
+  size_t size = 0;    // bytes
+  size_t length = 0;  // of each of its texts
 };
 using Parameters = std::map<std::string, Parameter>;  // by GROUP:NAME
 
 // At `at`: element size, number of dimensions, dimensions, data.
-Parameter ParameterAt(const std::string& name, std::string_view bytes, size_t at) {
+Parameter ReadParameter(const std::string& name, std::string_view bytes, size_t at) {
   NeedBytes(name, bytes, at, 2, "a parameter's type");
   Parameter parameter;
   parameter.type = static_cast<int8_t>(bytes[at]);
@@ -89,29 +135,19 @@ Parameter ParameterAt(const std::string& name, std::string_view bytes, size_t at
     if (count > bytes.size()) FailAtByte(name, at + 2 + d, "dimensions that fit the file");
   }
   NeedBytes(name, bytes, at + 2 + dimensions, count, "a parameter's data");
-  parameter.data = bytes.substr(at + 2 + dimensions, count);
+  parameter.begin = at + 2 + dimensions;
+  parameter.size = count;
   parameter.length = dimensions > 0 ? static_cast<uint8_t>(bytes[at + 2]) : size_t{1};
   return parameter;
 }
 
-// Where the records of the parameter section begin.
-size_t BeginOfParameters(const std::string& name, std::string_view bytes) {
-  const size_t begin = (static_cast<size_t>(static_cast<uint8_t>(bytes[0])) - 1) * kBlock;
-  NeedBytes(name, bytes, begin, 4, "the parameter section");
-  constexpr uint8_t kIntel = 84;
-  if (static_cast<uint8_t>(bytes[begin + 3]) != kIntel) {
-    FailAtByte(name, begin + 3,
-               "an Intel file (processor type 84); DEC and MIPS files are not read");
-  }
-  return begin + 4;
-}
-
 // Walks the records: name length, group id, name, offset to the next, then for parameters (positive
 // ids) their values. A group may be named after its parameters.
-Parameters ParametersIn(const std::string& name, std::string_view bytes) {
+Parameters ReadParameters(const std::string& name, const C3dBytes& numbers) {
+  const std::string_view bytes = numbers.all();
   std::map<std::pair<int, std::string>, Parameter> by_id;
   std::map<int, std::string> groups;
-  for (size_t at = BeginOfParameters(name, bytes);;) {
+  for (size_t at = FindParameters(name, bytes) + 4;;) {
     NeedBytes(name, bytes, at, 2, "a parameter");
     const auto name_length =
         static_cast<size_t>(std::abs(static_cast<int>(static_cast<int8_t>(bytes[at]))));
@@ -120,9 +156,9 @@ Parameters ParametersIn(const std::string& name, std::string_view bytes) {
     NeedBytes(name, bytes, at, 2 + name_length + 2, "a parameter's name");
     const std::string key(bytes.substr(at + 2, name_length));
     const size_t next_at = at + 2 + name_length;
-    const auto next = ValueAt<uint16_t>(bytes, next_at);
+    const size_t next = numbers.Word(next_at);
     if (id < 0) groups[-id] = key;
-    if (id > 0) by_id[{id, key}] = ParameterAt(name, bytes, next_at + 2);
+    if (id > 0) by_id[{id, key}] = ReadParameter(name, bytes, next_at + 2);
     if (next == 0) break;
     at = next_at + next;
   }
@@ -136,96 +172,103 @@ Parameters ParametersIn(const std::string& name, std::string_view bytes) {
 
 // A number of frames: 16 bits without a sign, twice 16 bits, the lower ones first, or a float; 0
 // where it is none.
-size_t FramesSaid(const Parameters& parameters, const char* key) {
+size_t ReadFrameCount(const C3dBytes& bytes, const Parameters& parameters, const char* key) {
   const auto found = parameters.find(key);
   if (found == parameters.end()) return 0;
-  const auto& [type, data, length] = found->second;
-  if (type == 4 && data.size() >= sizeof(float)) {
-    constexpr float kMost = 4294967040.0f;  // the last below 2^32; no unit: a count
-    const auto count = ValueAt<float>(data, 0);
+  const Parameter& said = found->second;
+  if (said.type == 4 && said.size >= sizeof(float)) {
+    constexpr double kMost = 4294967040.0;  // frames, of the format: the last float below 2^32
+    const double count = bytes.Real(said.begin);
     return count >= 1 && count <= kMost ? static_cast<size_t>(count) : 0;
   }
-  if (type != 2 || data.size() < 2) return 0;
-  const size_t high = data.size() < 4 ? 0 : ValueAt<uint16_t>(data, 2);
-  return (high << 16) + ValueAt<uint16_t>(data, 0);
+  if (said.type != 2 || said.size < 2) return 0;
+  const size_t high = said.size < 4 ? 0 : bytes.Word(said.begin + 2);
+  return (high << 16) + bytes.Word(said.begin);
 }
 
 // The header's count, unless it ends beyond what the header can say: then the parameters', which
 // programs write for that.
-size_t FramesIn(const std::string& name, const C3d& c3d, const Parameters& parameters) {
-  const size_t end = FramesSaid(parameters, "TRIAL:ACTUAL_END_FIELD");
-  const size_t start = FramesSaid(parameters, "TRIAL:ACTUAL_START_FIELD");
+size_t CountFrames(const std::string& name, const C3dBytes& bytes, const C3d& c3d,
+                   const Parameters& parameters) {
+  const auto said = [&](const char* key) { return ReadFrameCount(bytes, parameters, key); };
+  const size_t end = said("TRIAL:ACTUAL_END_FIELD");
+  const size_t start = said("TRIAL:ACTUAL_START_FIELD");
   if (end > kLastByHeader && end >= start) return end - (start > 0 ? start : c3d.first) + 1;
-  const size_t count =
-      std::max(FramesSaid(parameters, "POINT:FRAMES"), FramesSaid(parameters, "POINT:LONG_FRAMES"));
+  const size_t count = std::max(said("POINT:FRAMES"), said("POINT:LONG_FRAMES"));
   if (c3d.first + count > kLastByHeader + 1) return count;
   if (c3d.last < c3d.first) FailAtByte(name, 8, "a last frame after the first");
   return c3d.last - c3d.first + 1;
 }
 
-void TakeLabels(const std::string& name, const Parameters& parameters, C3d& c3d) {
-  const auto labels = parameters.find("POINT:LABELS");
-  if (labels == parameters.end() || labels->second.length == 0) {
-    FailAtByte(name, kBlock, "the parameter POINT:LABELS");
-  }
-  const auto& [type, data, length] = labels->second;
-  for (size_t at = 0; at + length <= data.size(); at += length) {
-    std::string label(Trimmed(data.substr(at, length)));
-    // "Subject:LASI": the subject's name is no part of the marker's.
-    c3d.labels.push_back(
-        label.substr(label.find(':') == std::string::npos ? 0 : label.find(':') + 1));
-  }
-  if (const auto units = parameters.find("POINT:UNITS"); units != parameters.end()) {
-    const std::string_view unit = Trimmed(units->second.data);
-    c3d.metres_per_unit = unit == "m" ? 1.0 : unit == "cm" ? 1e-2 : 1e-3;
-  }
+std::string_view TextOf(const C3dBytes& bytes, const Parameter& parameter) {
+  return bytes.all().substr(parameter.begin, parameter.size);
 }
 
-// LSHO, LELB, ... are markers on the skin: joint centres are worked out from all of them.
-bool IsSkinMarker(const std::string& label) {
-  return label.size() == 4 && (label.ends_with("SHO") || label.ends_with("ELB") ||
-                               label.ends_with("KNE") || label.ends_with("ANK"));
+// A file of more than 255 points goes on with its labels in LABELS2, LABELS3, ...
+void ReadLabels(const std::string& name, const C3dBytes& bytes, const Parameters& parameters,
+                C3d& c3d) {
+  for (size_t more = 1; c3d.labels.size() < c3d.points; ++more) {
+    const std::string key = "POINT:LABELS" + (more == 1 ? "" : std::to_string(more));
+    const auto labels = parameters.find(key);
+    if (labels == parameters.end() || labels->second.length == 0) break;
+    const std::string_view text = TextOf(bytes, labels->second);
+    const size_t length = labels->second.length;
+    for (size_t at = 0; at + length <= text.size(); at += length) {
+      c3d.labels.emplace_back(Trimmed(text.substr(at, length)));
+    }
+  }
+  if (c3d.labels.empty()) FailAtByte(name, kBlock, "the parameter POINT:LABELS");
+  c3d.labels.resize(std::min(c3d.labels.size(), c3d.points));
 }
 
-BodyRecord BodyIn(const std::map<std::string, Eigen::Vector3d>& points) {
-  BodyRecord body;
-  bool any = false;
-  for (const auto& [label, position] : points) {
-    const auto joint = JointCalled(label);
-    if (!joint || IsSkinMarker(label)) continue;
-    PutJoint(body, *joint, position);
-    any = true;
+void ReadUnits(const std::string& name, const C3dBytes& bytes, const Parameters& parameters,
+               C3d& c3d) {
+  const auto units = parameters.find("POINT:UNITS");
+  if (units == parameters.end()) return;
+  std::string_view unit = TextOf(bytes, units->second);
+  unit = Trimmed(unit.substr(0, unit.find('\0')));
+  if (unit.empty()) return;
+  const auto metres = MetresPerUnit(unit);
+  if (!metres) {
+    FailAtByte(name, units->second.begin, "POINT:UNITS mm, cm or m, found " + Quoted(unit));
   }
-  return any ? body : JointCentres(points);
+  c3d.metres_per_unit = *metres;
+}
+
+// A negative fourth word says that the point was not seen; so do NaN and the origin.
+SeenPoint ReadPoint(const std::string& name, const C3dBytes& bytes, const C3d& c3d, size_t at) {
+  std::array<double, 4> v{};
+  for (size_t i = 0; i < 4; ++i) {
+    v[i] = c3d.floats ? bytes.Real(at + 4 * i) : bytes.Integer(at + 2 * i);
+  }
+  if (v[3] < 0 || std::isnan(v[0]) || std::isnan(v[1]) || std::isnan(v[2])) return std::nullopt;
+  const Eigen::Vector3d at_m = c3d.scale * c3d.metres_per_unit * Eigen::Vector3d(v[0], v[2], -v[1]);
+  if (!at_m.allFinite()) FailAtByte(name, at, "finite coordinates");
+  if (at_m.isZero(0.0)) return std::nullopt;
+  return at_m;
 }
 
 SkeletonSequence ReadC3d(SkeletonInput& input) {
-  const std::string bytes = ReadAllBytes(input);
+  const std::string text = ReadAllBytes(input);
+  const C3dBytes bytes(text, ReadProcessor(input.name, text));
   C3d c3d = ReadC3dHeader(input.name, bytes);
-  const Parameters parameters = ParametersIn(input.name, bytes);
-  c3d.frames = FramesIn(input.name, c3d, parameters);
-  TakeLabels(input.name, parameters, c3d);
+  const Parameters parameters = ReadParameters(input.name, bytes);
+  c3d.frames = CountFrames(input.name, bytes, c3d, parameters);
+  ReadLabels(input.name, bytes, parameters, c3d);
+  ReadUnits(input.name, bytes, parameters, c3d);
   const size_t word = c3d.floats ? 4 : 2;
-  NeedBytes(input.name, bytes, c3d.data, c3d.frames * c3d.words_per_frame * word, "all frames");
+  NeedBytes(input.name, text, c3d.data, c3d.frames * c3d.words_per_frame * word, "all frames");
   SkeletonSequence sequence{input.name, {}};
+  const auto bodies =
+      FindPointBodies(c3d.labels, input.mapping, {input.name, "POINT:LABELS"}, sequence.warnings);
+  const double step_s = input.FrameTime_s(1.0 / c3d.rate_Hz);
+  std::vector<SeenPoint> points(c3d.labels.size());
   for (size_t f = 0; f < c3d.frames; ++f) {
-    std::map<std::string, Eigen::Vector3d> points;
-    for (size_t p = 0; p < std::min(c3d.points, c3d.labels.size()); ++p) {
+    for (size_t p = 0; p < points.size(); ++p) {
       const size_t at = c3d.data + (f * c3d.words_per_frame + 4 * p) * word;
-      std::array<double, 4> v{};
-      for (size_t i = 0; i < 4; ++i) {
-        v[i] = c3d.floats ? static_cast<double>(ValueAt<float>(bytes, at + 4 * i))
-                          : static_cast<double>(ValueAt<int16_t>(bytes, at + 2 * i));
-      }
-      // A negative fourth word says that the point was not seen.
-      if (v[3] < 0) continue;
-      const Eigen::Vector3d at_m =
-          c3d.scale * c3d.metres_per_unit * Eigen::Vector3d(v[0], v[2], -v[1]);
-      if (!at_m.allFinite()) FailAtByte(input.name, at, "finite coordinates");
-      if (!at_m.isZero(0.0)) points[c3d.labels[p]] = at_m;
+      points[p] = ReadPoint(input.name, bytes, c3d, at);
     }
-    const double step_s = input.FrameTime_s(1.0 / c3d.rate_Hz);
-    sequence.frames.push_back(OneBodyFrame(f, static_cast<double>(f) * step_s, BodyIn(points)));
+    sequence.frames.push_back(MakeFrame(bodies, points, f, static_cast<double>(f) * step_s));
   }
   TakeOutNobody(sequence);
   return sequence;

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <array>
 
+#include "recon/files/csv_fields_internal.h"
 #include "recon/files/skeleton_formats_internal.h"
 #include "recon/motion/fixed_point_internal.h"
 
@@ -18,7 +19,7 @@ constexpr std::array<std::string_view, 3> kStates = {"not_tracked", "inferred", 
 constexpr size_t kLeading = 3;  // columns of the format
 constexpr size_t kColumns = kLeading + kJointCount * kFields.size();
 
-std::string Header() {
+std::string MakeHeader() {
   std::string header = "frame,time_s,body";
   for (const std::string_view joint : kJointNames) {
     for (const std::string_view field : kFields) header += fmt::format(",{}_{}", joint, field);
@@ -56,13 +57,12 @@ std::optional<double> ShareIn(const TextLines& lines, std::string_view field,
   return value;
 }
 
-std::optional<JointRecord> JointIn(const TextLines& lines, const std::string_view* fields,
+std::optional<JointRecord> JointIn(const TextLines& lines, const std::string* fields,
                                    std::string_view name) {
-  if (fields[0].empty() && fields[1].empty() && fields[2].empty()) return std::nullopt;
+  const auto place = PlaceIn(lines, {fields[0], fields[1], fields[2]}, name);
+  if (!place) return std::nullopt;
   JointRecord joint;
-  for (int axis = 0; axis < 3; ++axis) {
-    joint.position_m[axis] = NumberIn(lines, fields[axis], name);
-  }
+  joint.position_m = *place;
   joint.state = StateIn(lines, fields[3]);
   joint.confidence = ShareIn(lines, fields[4], "confidence");
   joint.reliability = ShareIn(lines, fields[5], "reliability");
@@ -78,8 +78,7 @@ std::string BeginOfRow(const SkeletonFrame& frame) {
 }
 
 // The row's body, or none.
-std::optional<BodyRecord> BodyIn(const TextLines& lines,
-                                 const std::vector<std::string_view>& fields) {
+std::optional<BodyRecord> BodyIn(const TextLines& lines, const std::vector<std::string>& fields) {
   if (fields[2].empty()) return std::nullopt;
   BodyRecord body;
   body.id = static_cast<int>(WholeNumberIn(lines, fields[2], "body", INT32_MIN, INT32_MAX));
@@ -101,7 +100,7 @@ bool BelongsTo(const SkeletonFrame& frame, int64_t number, double time_s,
 }  // namespace
 
 void WriteSkeletonCsv(std::ostream& stream, const SkeletonSequence& sequence) {
-  stream << Header() << '\n';
+  stream << MakeHeader() << '\n';
   for (const SkeletonFrame& frame : sequence.frames) {
     const std::string begin = BeginOfRow(frame);
     if (frame.bodies.empty()) {
@@ -118,13 +117,14 @@ void WriteSkeletonCsv(std::ostream& stream, const SkeletonSequence& sequence) {
 SkeletonSequence ReadSkeletonCsv(SkeletonInput& input) {
   TextLines lines(input.stream, input.name);
   lines.Expect("a header line");
-  if (Trimmed(lines.line()) != Header()) lines.Fail("ossa's own header", lines.line());
+  const CsvFields csv(lines.line());
+  if (ReadCsvHeader(lines.line()) != ReadCsvHeader(MakeHeader())) {
+    lines.Fail("ossa's own header", lines.line());
+  }
   SkeletonSequence sequence{input.name, {}};
   RowTimes times;
   while (lines.NextFilled()) {
-    // A row that ends in an empty field has its last comma at the end: Split opens no piece there.
-    auto fields = Split(lines.line(), ',');
-    if (lines.line().ends_with(',')) fields.emplace_back();
+    const std::vector<std::string> fields = csv.SplitRow(lines.line(), kColumns);
     if (fields.size() != kColumns) {
       lines.Fail(fmt::format("{} columns", kColumns), fmt::format("{} columns", fields.size()));
     }

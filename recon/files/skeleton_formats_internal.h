@@ -9,6 +9,7 @@
 #include <string_view>
 
 #include "recon/files/text_lines_internal.h"
+#include "recon/motion/bone_mapping_internal.h"
 #include "recon/skeleton_sequence.h"
 
 namespace ossa::recon {
@@ -21,6 +22,7 @@ struct SkeletonInput {
   double frame_s = 0.0;  // 0: the format's own usual rate
   /// The text of another file of the same recording, by its whole name; empty when there is none.
   std::function<std::optional<std::string>(const std::string& name)> sibling;
+  const BoneMapping* mapping = nullptr;  // of names, where one was given
 
   double FrameTime_s(double usual_s) const { return frame_s > 0 ? frame_s : usual_s; }
 };

@@ -37,7 +37,7 @@ SkeletonSample SampleOf(std::string_view head, std::string_view name) {
   if (head.starts_with("\xEF\xBB\xBF")) head.remove_prefix(3);
   const bool may_be_cut = head.size() >= kSampleBytes - 3;
   while (!head.empty() && sample.lines.size() < kSampleLines) {
-    const size_t end = head.find('\n');
+    const size_t end = head.find_first_of("\r\n");
     if (end == std::string_view::npos && may_be_cut && !sample.lines.empty()) break;
     const std::string_view line = Trimmed(head.substr(0, end));
     if (!line.empty()) sample.lines.push_back(line);
@@ -62,6 +62,9 @@ const SkeletonFormat& FormatOf(std::istream& stream, const std::string& name) {
   if (head.find_first_not_of(" \t\r\n") == std::string::npos) {
     throw InputError(name + ": line 1: expected a skeleton recording, found an empty file");
   }
+  if (head.starts_with("\xFF\xFE") || head.starts_with("\xFE\xFF")) {
+    throw InputError(name + ": line 1: expected text in UTF-8, found UTF-16: save it as UTF-8");
+  }
   const SkeletonSample sample = SampleOf(head, name);
   for (const SkeletonFormat& format : AllSkeletonFormats()) {
     if (format.recognises(sample)) return format;
@@ -81,7 +84,7 @@ bool IsKinectV2(std::string_view format, std::string_view columns) {
 /// Squares and differences of what is farther away than anything a sensor sees would overflow, and
 /// a mean error be infinite: a damaged file, or numbers in a unit of their own.
 void CheckPlaces(const SkeletonSequence& sequence, const std::string& name) {
-  constexpr double kFarthest_m = 1e6;
+  constexpr double kFarthest_m = 1e6;  // by hand: no sensor sees as far
   for (const SkeletonFrame& frame : sequence.frames) {
     for (const BodyRecord& body : frame.bodies) {
       for (size_t j = 0; j < kJointCount; ++j) {
@@ -138,6 +141,11 @@ void CheckTimes(const SkeletonSequence& sequence, const std::string& name) {
 SkeletonSequence Read(SkeletonInput input, const SkeletonReadOptions& options) {
   const SkeletonFormat& format =
       options.format.empty() ? FormatOf(input.stream, input.name) : FormatNamed(options.format);
+  std::optional<BoneMapping> mapping;
+  if (!options.mapping_file.empty()) {
+    mapping = ReadBoneMapping(options.mapping_file);
+    input.mapping = &*mapping;
+  }
   SkeletonSequence sequence = format.read(input);
   CheckBodies(sequence, input.name);
   CheckPlaces(sequence, input.name);

@@ -18,6 +18,9 @@ struct SkeletonReadOptions {
   std::string format;
   /// Time step of formats that carry no time, seconds; 0: the format's own usual rate.
   double frame_s = 0.0;
+  /// Names of joints or points that are none of those known, for files in which they occur: lines
+  /// `ElbowLeft = name` (docs/files.md); "" for none.
+  std::string mapping_file;
   /// Asked before each recording of a folder or an archive; true: no more are read, and those until
   /// then are what is returned.
   std::function<bool()> stop = {};

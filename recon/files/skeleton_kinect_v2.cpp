@@ -3,6 +3,7 @@
 // Spine, SpineShoulder is ShoulderCenter, Head is Head; Neck, hand tips and thumbs are left out.
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <array>
 #include <map>
 
@@ -27,6 +28,7 @@ std::optional<Joint> JointOfV2(size_t joint) {
 size_t CountOfNumbers(std::string_view line, char separator) {
   const auto fields = separator == ' ' ? Words(line) : Split(line, separator);
   for (const std::string_view field : fields) {
+    if (IsNan(field)) continue;
     if (field.empty() || field.find_first_not_of("+-.0123456789eE") != std::string_view::npos) {
       return 0;
     }
@@ -110,7 +112,7 @@ SkeletonSequence ReadKeraal(SkeletonInput& input) {
 // not in a joint: each stands for the joint at the limb's far end, with a constant offset of 5-18
 // cm.
 
-constexpr size_t kTargets = 17;
+constexpr size_t kTargets = 17;  // of the format
 constexpr std::array<Joint, kTargets> kTargetJoints = {
     Joint::kWristRight,     Joint::kWristLeft, Joint::kElbowRight, Joint::kElbowLeft,
     Joint::kShoulderCenter, Joint::kKneeRight, Joint::kKneeLeft,   Joint::kShoulderRight,
@@ -120,7 +122,7 @@ constexpr std::array<Joint, kTargets> kTargetJoints = {
 
 SkeletonSequence ReadKeraalVicon(SkeletonInput& input) {
   constexpr double kMetresPerMillimetre = 1e-3;
-  constexpr double kViconStep_s = 1.0 / 60.0;
+  constexpr double kViconStep_s = 1.0 / 60.0;  // measured on KERAAL's recordings
   TextLines lines(input.stream, input.name);
   SkeletonSequence sequence{input.name, {}};
   const double step_s = input.FrameTime_s(kViconStep_s);
@@ -157,14 +159,12 @@ bool IsNtu(const SkeletonSample& sample) {
   return true;
 }
 
-BodyRecord ReadNtuBody(TextLines& lines, std::map<std::string, int>& ids) {
-  lines.Expect("the ten values of a body");
-  const auto values = Words(lines.line());
-  if (values.size() != 10) lines.Fail("the ten values of a body", lines.line());
+// What follows the ten values of a body, of which `id` is the first.
+BodyRecord ReadNtuBody(TextLines& lines, const std::string& id, std::map<std::string, int>& ids) {
   // Ids are 17-digit numbers: in order of appearance they become 1, 2, ...
   const int next = static_cast<int>(ids.size()) + 1;
   BodyRecord body;
-  body.id = ids.try_emplace(std::string(values[0]), next).first->second;
+  body.id = ids.try_emplace(id, next).first->second;
   lines.Expect("the count of joints");
   WholeNumberIn(lines, Trimmed(lines.line()), "the count of joints", kV2Joints, kV2Joints);
   for (size_t j = 0; j < kV2Joints; ++j) {
@@ -173,35 +173,94 @@ BodyRecord ReadNtuBody(TextLines& lines, std::map<std::string, int>& ids) {
     if (fields.size() != 12) lines.Fail("12 values of a joint", lines.line());
     const auto joint = JointOfV2(j);
     if (!joint) continue;
-    // Pixels and quaternions may be NaN where nothing was seen; they are not used.
-    PutJoint(body, *joint,
-             {NumberIn(lines, fields[0], "x"), NumberIn(lines, fields[1], "y"),
-              NumberIn(lines, fields[2], "z")},
-             StateOf(lines, NumberIn(lines, fields[11], "the state")));
+    // All may be NaN where nothing was seen; pixels and quaternions are not used.
+    const auto place = PlaceIn(lines, {fields[0], fields[1], fields[2]}, "x, y or z");
+    if (!place || IsNan(fields[11])) continue;
+    PutJoint(body, *joint, *place, StateOf(lines, NumberIn(lines, fields[11], "the state")));
   }
   return body;
 }
 
-SkeletonSequence ReadNtu(SkeletonInput& input) {
-  TextLines lines(input.stream, input.name);
-  lines.Expect("the count of frames");
-  const long count =
-      WholeNumberIn(lines, Trimmed(lines.line()), "the count of frames", 1, 10000000);
-  SkeletonSequence sequence{input.name, {}};
-  const double step_s = input.FrameTime_s(kUsualStep_s);
-  std::map<std::string, int> ids;
-  for (long f = 0; f < count; ++f) {
-    lines.Expect(fmt::format("the count of bodies in frame {} of {}", f + 1, count));
-    const long bodies = WholeNumberIn(lines, Trimmed(lines.line()), "the count of bodies", 0, 6);
-    SkeletonFrame frame;
-    frame.frame = f;
-    frame.time_s = static_cast<double>(f) * step_s;
-    for (long b = 0; b < bodies; ++b) frame.bodies.push_back(ReadNtuBody(lines, ids));
-    sequence.frames.push_back(std::move(frame));
+// Its counts are often wrong, and not needed: a body begins with ten values, a frame with one.
+class NtuReader {
+ public:
+  explicit NtuReader(SkeletonInput& input)
+      : lines_(input.stream, input.name),
+        step_s_(input.FrameTime_s(kUsualStep_s)),
+        sequence_{input.name, {}} {}
+
+  SkeletonSequence Run() {
+    lines_.Expect("the count of frames");
+    const long frames = Count("the count of frames");
+    while (lines_.NextFilled()) {
+      const auto words = Words(lines_.line());
+      if (words.size() == 1) {
+        BeginFrame(Count("the count of bodies"));
+      } else if (words.size() == 10 && !sequence_.frames.empty()) {
+        const std::string id(words[0]);
+        const auto& body =
+            sequence_.frames.back().bodies.emplace_back(ReadNtuBody(lines_, id, ids_));
+        nan_joints_ += static_cast<size_t>(
+            std::count_if(body.joints.begin(), body.joints.end(),
+                          [](const auto& joint) { return !joint.has_value(); }));
+      } else {
+        lines_.Fail("the count of bodies of a frame or the ten values of a body", lines_.line());
+      }
+    }
+    EndFrame();
+    RequireFrames(sequence_);
+    Warn(frames);
+    return std::move(sequence_);
   }
-  if (lines.NextFilled()) lines.Fail("the end of the file", lines.line());
-  return sequence;
-}
+
+ private:
+  long Count(const char* what) const {
+    constexpr long kMost = 10000000;  // by hand: no recording is as long
+    return WholeNumberIn(lines_, Trimmed(lines_.line()), what, 0, kMost);
+  }
+
+  void BeginFrame(long bodies) {
+    EndFrame();
+    SkeletonFrame& frame = sequence_.frames.emplace_back();
+    frame.frame = static_cast<int64_t>(sequence_.frames.size()) - 1;
+    frame.time_s = static_cast<double>(frame.frame) * step_s_;
+    bodies_said_ = static_cast<size_t>(bodies);
+  }
+
+  void EndFrame() {
+    if (sequence_.frames.empty() || sequence_.frames.back().bodies.size() == bodies_said_) return;
+    if (wrong_frames_++ == 0) first_wrong_ = sequence_.frames.back().frame;
+  }
+
+  void Warn(long frames_said) {
+    if (static_cast<size_t>(frames_said) != sequence_.frames.size()) {
+      sequence_.warnings.push_back(
+          fmt::format("{}: line 1 counts {} frames, the file has {}: those are read",
+                      lines_.source(), frames_said, sequence_.frames.size()));
+    }
+    if (nan_joints_ > 0) {
+      sequence_.warnings.push_back(fmt::format("{}: {} joints are NaN: they count as not seen",
+                                               lines_.source(), nan_joints_));
+    }
+    if (wrong_frames_ > 0) {
+      sequence_.warnings.push_back(
+          fmt::format("{}: in {} frames, the first of them {}, there are more or fewer bodies than "
+                      "their count says: those that are there are read",
+                      lines_.source(), wrong_frames_, first_wrong_));
+    }
+  }
+
+  TextLines lines_;
+  double step_s_;
+  SkeletonSequence sequence_;
+  std::map<std::string, int> ids_;
+  size_t bodies_said_ = 0;
+  size_t nan_joints_ = 0;
+  size_t wrong_frames_ = 0;
+  int64_t first_wrong_ = 0;
+};
+
+SkeletonSequence ReadNtu(SkeletonInput& input) { return NtuReader(input).Run(); }
 
 constexpr SkeletonFormat kFormats[] = {
     {"labanotation-csv",

@@ -3,7 +3,10 @@
 // ITOP beside a network's estimate (P_ estimate, G_ truth).
 #include <fmt/format.h>
 
+#include <algorithm>
+
 #include "depth/base/error.h"
+#include "recon/files/csv_fields_internal.h"
 #include "recon/files/joint_names_internal.h"
 #include "recon/files/skeleton_formats_internal.h"
 
@@ -47,14 +50,12 @@ std::string PrefixOf(const SkeletonInput& input, const PairedFormat& format) {
                   input.name, input.name, input.name));
 }
 
-std::vector<JointColumns> ColumnsOf(const TextLines& lines,
-                                    const std::vector<std::string_view>& header,
+std::vector<JointColumns> ColumnsOf(const TextLines& lines, const std::vector<std::string>& header,
                                     const std::string& prefix) {
   std::vector<JointColumns> columns;
   for (size_t c = 0; c + 2 < header.size(); ++c) {
     if (!header[c].starts_with(prefix) || !header[c].ends_with("_x")) continue;
-    const std::string_view name =
-        header[c].substr(prefix.size(), header[c].size() - 2 - prefix.size());
+    const std::string name = header[c].substr(prefix.size(), header[c].size() - 2 - prefix.size());
     const auto joint = JointOfColumn(name);
     if (!joint) continue;
     if (header[c + 1] != fmt::format("{}{}_y", prefix, name) ||
@@ -71,27 +72,22 @@ SkeletonSequence ReadPaired(SkeletonInput& input, const PairedFormat& format) {
   const std::string prefix = PrefixOf(input, format);
   TextLines lines(input.stream, input.name);
   lines.Expect("a header line");
-  const std::string header_line(lines.line());
-  const auto header = Split(header_line, ',');
+  const CsvFields csv(lines.line());
+  const std::vector<std::string> header = ReadCsvHeader(lines.line());
   const auto columns = ColumnsOf(lines, header, prefix);
   SkeletonSequence sequence{input.name, {}};
   sequence.columns = input.columns;
   RowTimes times;
   while (lines.NextFilled()) {
-    auto fields = Split(lines.line(), ',');
-    if (lines.line().ends_with(',')) fields.emplace_back();
+    const std::vector<std::string> fields = csv.SplitRow(lines.line(), header.size());
     if (fields.size() != header.size()) {
       lines.Fail(fmt::format("{} columns", header.size()),
                  fmt::format("{} columns", fields.size()));
     }
     BodyRecord body;
     for (const auto& [joint, x] : columns) {
-      if (fields[x].empty() && fields[x + 1].empty() && fields[x + 2].empty()) continue;
-      Eigen::Vector3d position;
-      for (size_t axis = 0; axis < 3; ++axis) {
-        position[static_cast<int>(axis)] = NumberIn(lines, fields[x + axis], header[x + axis]);
-      }
-      PutJoint(body, joint, position.cwiseProduct(format.metres_per_unit));
+      const auto place = PlaceIn(lines, {fields[x], fields[x + 1], fields[x + 2]}, header[x]);
+      if (place) PutJoint(body, joint, place->cwiseProduct(format.metres_per_unit));
     }
     const double first = NumberIn(lines, fields[0], header[0]);
     const double time_s =
@@ -103,15 +99,19 @@ SkeletonSequence ReadPaired(SkeletonInput& input, const PairedFormat& format) {
   return sequence;
 }
 
-bool HasColumns(const SkeletonSample& sample, std::string_view begin, std::string_view other) {
-  return !sample.lines.empty() && sample.lines[0].starts_with(begin) &&
-         sample.lines[0].find(other) != std::string_view::npos;
+// Whether the table begins with the column `first` and has one whose name begins with `other`.
+bool HasColumns(const SkeletonSample& sample, std::string_view first, std::string_view other) {
+  if (sample.lines.empty()) return false;
+  const std::vector<std::string> header = ReadCsvHeader(sample.lines[0]);
+  return !header.empty() && header.front() == first &&
+         std::any_of(header.begin(), header.end(),
+                     [&](const std::string& name) { return name.starts_with(other); });
 }
 
 constexpr SkeletonFormat kFormats[] = {
-    {"ui-prmd-csv", [](const SkeletonSample& s) { return HasColumns(s, "t_s,", ",G_head_x"); },
+    {"ui-prmd-csv", [](const SkeletonSample& s) { return HasColumns(s, "t_s", "G_head_x"); },
      [](SkeletonInput& input) { return ReadPaired(input, kUiPrmd); }},
-    {"itop-csv", [](const SkeletonSample& s) { return HasColumns(s, "frame,G_", ",P_"); },
+    {"itop-csv", [](const SkeletonSample& s) { return HasColumns(s, "frame", "P_"); },
      [](SkeletonInput& input) { return ReadPaired(input, kItop); }},
 };
 

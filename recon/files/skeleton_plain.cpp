@@ -2,9 +2,11 @@
 #include <array>
 
 #include "depth/base/error.h"
+#include "recon/files/csv_fields_internal.h"
 #include "recon/files/skeleton_formats_internal.h"
 #include "recon/files/skeleton_jsonl.h"
 #include "recon/motion/bvh.h"
+#include "recon/motion/text_scanner_internal.h"
 
 namespace ossa::recon {
 namespace {
@@ -21,7 +23,9 @@ SkeletonSequence ReadJsonl(SkeletonInput& input) {
 }
 
 bool IsCsv(const SkeletonSample& sample) {
-  return !sample.lines.empty() && sample.lines[0].starts_with("frame,time_s,body,");
+  if (sample.lines.empty()) return false;
+  const std::vector<std::string> names = ReadCsvHeader(sample.lines[0]);
+  return names.size() > 3 && names[0] == "frame" && names[1] == "time_s" && names[2] == "body";
 }
 
 bool IsTrc(const SkeletonSample& sample) {
@@ -29,7 +33,7 @@ bool IsTrc(const SkeletonSample& sample) {
 }
 
 bool IsBvh(const SkeletonSample& sample) {
-  return !sample.lines.empty() && sample.lines[0].starts_with("HIERARCHY");
+  return !sample.lines.empty() && Lower(sample.lines[0].substr(0, 9)) == "hierarchy";
 }
 
 // The BVH reader wants the whole text.
@@ -41,7 +45,8 @@ SkeletonSequence ReadBvhSkeleton(SkeletonInput& input) {
     if (text.size() > kMostBvhBytes)
       throw InputError(input.name + ": expected at most 512 MiB of BVH");
   }
-  SkeletonSequence sequence = SkeletonOfBvh(ParseBvh(std::move(text), input.name), input.name);
+  SkeletonSequence sequence =
+      SkeletonOfBvh(ParseBvh(std::move(text), input.name), input.name, input.mapping);
   RequireFrames(sequence);
   return sequence;
 }

@@ -4,7 +4,7 @@
 #include <algorithm>
 
 #include "depth/base/one_line.h"
-#include "recon/files/joint_names_internal.h"
+#include "recon/files/point_bodies_internal.h"
 #include "recon/files/skeleton_formats_internal.h"
 
 namespace ossa::recon {
@@ -38,21 +38,33 @@ void WriteHeader(std::ostream& stream, const SkeletonSequence& sequence,
 struct TrcHeader {
   double metres_per_unit = 0.0;
   size_t markers = 0;
-  size_t frames = 0;                         // 0: the header does not say
-  std::vector<std::optional<Joint>> joints;  // one entry per marker
+  std::optional<size_t> frames;
 };
 
+std::vector<std::string> NotEmpty(const std::vector<std::string_view>& fields) {
+  std::vector<std::string> filled;
+  for (const std::string_view field : fields) {
+    if (!field.empty()) filled.emplace_back(field);
+  }
+  return filled;
+}
+
+// Names and values of the header stand under each other, or one after the other where programs
+// doubled some tabs.
 TrcHeader ReadHeader(TextLines& lines) {
   lines.Expect("a TRC header");
   if (!lines.line().starts_with("PathFileType")) lines.Fail("PathFileType", lines.line());
   lines.Expect("the line that names the header's fields");
-  const std::vector<std::string> keys = [&] {
-    std::vector<std::string> copies;
-    for (const auto field : Split(lines.line(), '\t')) copies.emplace_back(field);
-    return copies;
-  }();
+  const auto keys_at = Split(lines.line(), '\t');
+  std::vector<std::string> keys(keys_at.begin(), keys_at.end());
+  const std::vector<std::string> keys_filled = NotEmpty(keys_at);
   lines.Expect("the header's values");
-  const auto values = Split(lines.line(), '\t');
+  const auto values_at = Split(lines.line(), '\t');
+  std::vector<std::string> values(values_at.begin(), values_at.end());
+  if (const auto filled = NotEmpty(values_at); filled.size() == keys_filled.size()) {
+    keys = keys_filled;
+    values = filled;
+  }
   TrcHeader header;
   for (size_t i = 0; i < std::min(keys.size(), values.size()); ++i) {
     if (keys[i] == "NumMarkers") {
@@ -60,8 +72,9 @@ TrcHeader ReadHeader(TextLines& lines) {
     } else if (keys[i] == "NumFrames" && !values[i].empty()) {
       header.frames = static_cast<size_t>(WholeNumberIn(lines, values[i], "NumFrames", 0, 1e9));
     } else if (keys[i] == "Units") {
-      if (values[i] != "mm" && values[i] != "m") lines.Fail("Units mm or m", values[i]);
-      header.metres_per_unit = values[i] == "mm" ? 1.0 / kMillimetresPerMetre : 1.0;
+      const auto unit = MetresPerUnit(values[i]);
+      if (!unit) lines.Fail("Units mm, cm, m or inches", values[i]);
+      header.metres_per_unit = *unit;
     }
   }
   if (header.markers == 0) lines.Fail("NumMarkers", lines.line());
@@ -69,39 +82,103 @@ TrcHeader ReadHeader(TextLines& lines) {
   return header;
 }
 
-void ReadMarkerNames(TextLines& lines, TrcHeader& header) {
+// The names of all markers, in the order of their columns; "" for one that has none.
+std::vector<std::string> ReadMarkerNames(TextLines& lines, const TrcHeader& header) {
   lines.Expect("the line of marker names");
   if (!lines.line().starts_with("Frame#")) lines.Fail("Frame#, Time and names", lines.line());
-  bool any = false;
   const auto fields = Split(lines.line(), '\t');
-  for (size_t m = 0; m < header.markers; ++m) {
-    const size_t column = 2 + 3 * m;
-    if (column >= fields.size() || fields[column].empty()) {
-      lines.Fail(fmt::format("{} marker names", header.markers), fmt::format("{} names", m));
-    }
-    header.joints.push_back(JointCalled(fields[column]));
-    any = any || header.joints.back();
+  std::vector<std::string> names = NotEmpty(fields);
+  names.erase(names.begin(), names.begin() + std::min<std::ptrdiff_t>(
+                                                 2, static_cast<std::ptrdiff_t>(names.size())));
+  if (names.size() != header.markers) {
+    lines.Fail(fmt::format("{} marker names as NumMarkers says", header.markers),
+               fmt::format("{} names", names.size()));
   }
-  if (!any) lines.Fail("at least one marker named as a joint (e.g. ElbowLeft)", lines.line());
-  lines.Expect("the line of column names");
-  if (!Trimmed(lines.line()).starts_with("X1")) lines.Fail("X1, Y1, Z1, ...", lines.line());
+  return names;
 }
 
-BodyRecord BodyIn(const TextLines& lines, const std::vector<std::string_view>& fields,
-                  const TrcHeader& header) {
-  BodyRecord body;
-  for (size_t m = 0; m < header.markers; ++m) {
-    const size_t column = 2 + 3 * m;
-    // Blank or cut-off columns are how TRC says that a marker was not seen.
-    if (!header.joints[m] || column + 2 >= fields.size() || fields[column].empty()) continue;
-    Eigen::Vector3d position;
-    for (size_t axis = 0; axis < 3; ++axis) {
-      position[static_cast<int>(axis)] = NumberIn(lines, fields[column + axis], "a marker");
-    }
-    PutJoint(body, *header.joints[m], position * header.metres_per_unit);
-  }
-  return body;
+void ReadColumnNames(TextLines& lines) {
+  lines.Expect("the line of column names");
+  const std::string_view first = Trimmed(lines.line());
+  const bool numbered = first.size() > 1 && (first[0] == 'X' || first[0] == 'x') &&
+                        first[1] >= '0' && first[1] <= '9';
+  if (!numbered) lines.Fail("X1, Y1, Z1, ...", lines.line());
 }
+
+size_t DecimalsOf(std::string_view number) {
+  const size_t point = number.find('.');
+  return point == std::string_view::npos ? 0 : number.size() - point - 1;
+}
+
+// Rows of a TRC: frame number, time, then x y z of each marker.
+class TrcRows {
+ public:
+  TrcRows(TextLines& lines, size_t markers, double metres_per_unit)
+      : lines_(lines), markers_(markers), metres_per_unit_(metres_per_unit) {}
+
+  // False at the end. A row that was cut is refused: its last digits are missing.
+  bool Next() {
+    if (!lines_.NextFilled()) return false;
+    fields_ = Split(lines_.line(), '\t');
+    if (lines_.line().ends_with('\t')) fields_.emplace_back();  // Split opens no piece there
+    while (fields_.size() > Columns() && fields_.back().empty()) fields_.pop_back();
+    if (fields_.size() < 2 || fields_.size() > Columns()) {
+      lines_.Fail(fmt::format("2 to {} columns", Columns()),
+                  fmt::format("{} columns", fields_.size()));
+    }
+    if (!lines_.ended() && IsCut()) {
+      lines_.Fail(fmt::format("a whole row of {} columns", Columns()), lines_.line());
+    }
+    decimals_ = DecimalsOfAll().value_or(0);
+    return true;
+  }
+
+  double ReadTime_s() const { return NumberIn(lines_, fields_[1], "Time"); }
+
+  // Blank columns, NaN and columns left out at the end are how TRC says that nothing was seen.
+  std::vector<SeenPoint> ReadPoints() const {
+    std::vector<SeenPoint> points(markers_);
+    for (size_t m = 0; m < markers_; ++m) {
+      const size_t column = 2 + 3 * m;
+      if (column >= fields_.size()) continue;
+      const auto field = [&](size_t i) {
+        return column + i < fields_.size() ? fields_[column + i] : std::string_view();
+      };
+      points[m] = PlaceIn(lines_, {field(0), field(1), field(2)}, "a marker");
+      if (points[m]) *points[m] *= metres_per_unit_;
+    }
+    return points;
+  }
+
+ private:
+  size_t Columns() const { return 2 + 3 * markers_; }
+
+  // The decimals that all numbers of the row have; none where they differ.
+  std::optional<size_t> DecimalsOfAll() const {
+    std::optional<size_t> decimals;
+    for (size_t f = 2; f < fields_.size(); ++f) {
+      if (fields_[f].empty() || IsNan(fields_[f])) continue;
+      const size_t own = DecimalsOf(fields_[f]);
+      if (own != decimals.value_or(own)) return std::nullopt;
+      decimals = own;
+    }
+    return decimals;
+  }
+
+  // Of a row without a line end: columns are missing, or digits of the last number, where the row
+  // before has all its numbers alike.
+  bool IsCut() const {
+    if (fields_.size() < Columns()) return true;
+    const std::string_view last = fields_.back();
+    return !last.empty() && !IsNan(last) && DecimalsOf(last) < decimals_;
+  }
+
+  TextLines& lines_;
+  size_t markers_;
+  double metres_per_unit_;
+  std::vector<std::string_view> fields_;
+  size_t decimals_ = 0;  // of the numbers of the row before, where they are alike
+};
 
 }  // namespace
 
@@ -128,26 +205,27 @@ void WriteTrc(std::ostream& stream, const SkeletonSequence& sequence, int id,
 
 SkeletonSequence ReadTrc(SkeletonInput& input) {
   TextLines lines(input.stream, input.name);
-  TrcHeader header = ReadHeader(lines);
-  ReadMarkerNames(lines, header);
+  const TrcHeader header = ReadHeader(lines);
+  const std::vector<std::string> names = ReadMarkerNames(lines, header);
   SkeletonSequence sequence{input.name, {}};
+  const auto bodies =
+      FindPointBodies(names, input.mapping, {input.name, fmt::format("line {}", lines.number())},
+                      sequence.warnings);
+  ReadColumnNames(lines);
+  TrcRows rows(lines, header.markers, header.metres_per_unit);
   RowTimes times;
-  while (lines.NextFilled()) {
-    const auto fields = Split(lines.line(), '\t');
-    if (fields.size() < 2 || fields.size() > 2 + 3 * header.markers) {
-      lines.Fail(fmt::format("2 to {} columns", 2 + 3 * header.markers),
-                 fmt::format("{} columns", fields.size()));
-    }
-    const double time_s = NumberIn(lines, fields[1], "Time");
+  while (rows.Next()) {
+    const double time_s = rows.ReadTime_s();
     times.Take(lines, time_s);
-    sequence.frames.push_back(
-        OneBodyFrame(sequence.frames.size(), time_s, BodyIn(lines, fields, header)));
-  }
-  if (sequence.frames.size() < header.frames) {
-    lines.Fail(fmt::format("{} frames as NumFrames says", header.frames),
-               std::to_string(sequence.frames.size()));
+    sequence.frames.push_back(MakeFrame(bodies, rows.ReadPoints(), sequence.frames.size(), time_s));
   }
   RequireFrames(sequence);
+  if (header.frames && sequence.frames.size() != *header.frames) {
+    sequence.warnings.push_back(
+        fmt::format("{}: NumFrames says {} frames, the file has {}: those "
+                    "are read",
+                    input.name, *header.frames, sequence.frames.size()));
+  }
   TakeOutNobody(sequence);
   return sequence;
 }

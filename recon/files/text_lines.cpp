@@ -1,5 +1,6 @@
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <charconv>
 #include <cmath>
 
@@ -21,11 +22,12 @@ bool TextLines::Next() {
   std::streambuf* buffer = stream_.rdbuf();
   int c = buffer->sbumpc();
   if (c == std::char_traits<char>::eof()) return false;
-  for (; c != std::char_traits<char>::eof() && c != '\n'; c = buffer->sbumpc()) {
+  for (; c != std::char_traits<char>::eof() && c != '\n' && c != '\r'; c = buffer->sbumpc()) {
     line_.push_back(static_cast<char>(c));
     if (line_.size() > kLongestLine) Fail("a line of at most 1 MiB", line_);
   }
-  if (!line_.empty() && line_.back() == '\r') line_.pop_back();
+  ended_ = c != std::char_traits<char>::eof();
+  if (c == '\r' && buffer->sgetc() == '\n') buffer->sbumpc();
   if (number_ == 1 && line_.starts_with("\xEF\xBB\xBF")) line_.erase(0, 3);
   return true;
 }
@@ -48,7 +50,7 @@ void TextLines::Fail(std::string_view expected, std::string_view found) const {
 }
 
 std::string Quoted(std::string_view bytes) {
-  constexpr size_t kShown = 40;
+  constexpr size_t kShown = 40;  // characters, by hand
   std::string text = "'";
   for (const char c : bytes.substr(0, kShown)) text.push_back(c >= ' ' && c <= '~' ? c : '?');
   text += bytes.size() > kShown ? "...'" : "'";
@@ -93,6 +95,28 @@ double NumberIn(const TextLines& lines, std::string_view field, std::string_view
   return value;
 }
 
+bool IsNan(std::string_view field) {
+  if (field.starts_with('-') || field.starts_with('+')) field.remove_prefix(1);
+  std::string lower;
+  for (const char c : field) lower += static_cast<char>(c >= 'A' && c <= 'Z' ? c - 'A' + 'a' : c);
+  // Of printf, of Microsoft's old and new.
+  return lower == "nan" || lower.starts_with("nan(") || lower.starts_with("1.#qnan") ||
+         lower.starts_with("1.#ind");
+}
+
+std::optional<Eigen::Vector3d> PlaceIn(const TextLines& lines,
+                                       const std::array<std::string_view, 3>& fields,
+                                       std::string_view what) {
+  const auto is_blank = [](std::string_view field) { return field.empty(); };
+  if (std::all_of(fields.begin(), fields.end(), is_blank)) return std::nullopt;
+  if (std::any_of(fields.begin(), fields.end(), IsNan)) return std::nullopt;
+  Eigen::Vector3d place;
+  for (size_t axis = 0; axis < 3; ++axis) {
+    place[static_cast<int>(axis)] = NumberIn(lines, fields[axis], what);
+  }
+  return place;
+}
+
 long WholeNumberIn(const TextLines& lines, std::string_view field, std::string_view what, long low,
                    long high) {
   long value = 0;
@@ -106,7 +130,7 @@ long WholeNumberIn(const TextLines& lines, std::string_view field, std::string_v
 }
 
 std::string WrongStep(double step_s) {
-  constexpr double kLongestPause_s = 86400;
+  constexpr double kLongestPause_s = 86400;  // a day, by hand
   if (step_s < 0) return "times that grow";
   if (step_s > kLongestPause_s) return "seconds, and at most a day after the frame before";
   return {};

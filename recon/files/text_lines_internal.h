@@ -1,4 +1,6 @@
 #pragma once
+#include <Eigen/Core>
+#include <array>
 #include <cstddef>
 #include <istream>
 #include <optional>
@@ -14,7 +16,7 @@ namespace ossa::recon {
 /// this many bytes instead of being held in memory.
 inline constexpr size_t kLongestLine = size_t{1} << 20;
 
-/// Lines of a text, one at a time, bounded, without their line ends (\n or \r\n) and without a
+/// Lines of a text, one at a time, bounded, without their line ends (\n, \r\n or \r) and without a
 /// leading byte-order mark. Knows where it is, so that every complaint names file and line.
 class TextLines {
  public:
@@ -29,6 +31,8 @@ class TextLines {
   void Expect(std::string_view what);
 
   std::string_view line() const { return line_; }
+  /// Whether the line had a line end: the last one of a text that was cut has none.
+  bool ended() const { return ended_; }
   size_t number() const { return number_; }
   const std::string& source() const { return source_; }
 
@@ -40,6 +44,7 @@ class TextLines {
   std::istream& stream_;
   std::string source_;
   std::string line_;
+  bool ended_ = false;
   size_t number_ = 0;
 };
 
@@ -55,6 +60,12 @@ std::string_view Trimmed(std::string_view text);
 /// A finite number that fills the whole field. Throws with file and line otherwise; `what` names
 /// the field.
 double NumberIn(const TextLines& lines, std::string_view field, std::string_view what);
+/// Whether a field says "not a number", as programs write what they have not seen.
+bool IsNan(std::string_view field);
+/// Three numbers; none where all fields are blank or one is not a number.
+std::optional<Eigen::Vector3d> PlaceIn(const TextLines& lines,
+                                       const std::array<std::string_view, 3>& fields,
+                                       std::string_view what);
 /// A whole number in [low, high].
 long WholeNumberIn(const TextLines& lines, std::string_view field, std::string_view what, long low,
                    long high);

@@ -5,6 +5,7 @@
 #include "depth/base/error.h"
 #include "recon/body/rig.h"
 #include "recon/motion/bone_names_internal.h"
+#include "recon/motion/bone_parts_internal.h"
 #include "recon/motion/text_scanner_internal.h"
 
 namespace ossa::recon {
@@ -12,7 +13,7 @@ namespace {
 
 using Names = std::vector<std::string_view>;
 
-/// Joint names of one conversion, as Simplified() makes them; '*' stands for the side.
+/// Joint names of one conversion, as SimplifyJointName makes them; '*' stands for the side.
 struct Convention {
   std::array<std::string_view, 2> sides;
   Names hips, spine, neck;
@@ -77,23 +78,17 @@ const std::vector<Convention>& Conventions() {
   return known;
 }
 
-/// Lower case, without "name:" prefixes and separators: "mixamorig:Left_Arm" is "leftarm".
-std::string Simplified(std::string_view name) {
-  const size_t colon = name.rfind(':');
-  if (colon != std::string_view::npos) name.remove_prefix(colon + 1);
-  std::string simple;
-  for (const char c : Lower(name)) {
-    if (c != '_' && c != ' ' && c != '-' && c != '.') simple += c;
-  }
-  return simple;
-}
-
 class Finder {
  public:
   explicit Finder(const SourceMotion& motion) {
     for (size_t j = 0; j < motion.joints.size(); ++j) {
-      index_.emplace(Simplified(motion.joints[j].name), static_cast<int>(j));
+      index_.emplace(SimplifyJointName(motion.joints[j].name), static_cast<int>(j));
     }
+  }
+
+  /// Of joints that are given their names.
+  explicit Finder(const std::vector<std::pair<std::string, int>>& named) {
+    for (const auto& [name, joint] : named) index_.emplace(SimplifyJointName(name), joint);
   }
 
   int Find(std::string_view name) const {
@@ -124,11 +119,12 @@ class Finder {
   std::map<std::string, int, std::less<>> index_;
 };
 
-SourceBones BonesOf(const Convention& names, const Finder& finder) {
+SourceBones FindByConvention(const Convention& names, const Finder& finder) {
   SourceBones bones;
   bones.hips = finder.First(names.hips);
   bones.spine = finder.Chain(names.spine);
   bones.neck = finder.Chain(names.neck);
+  bones.head = finder.Find("head");
   for (size_t s = 0; s < 2; ++s) {
     const auto find = [&](const Names& of) { return finder.First(of, names.sides[s]); };
     bones.side[s] = {find(names.collar), find(names.arm), find(names.fore_arm), find(names.hand),
@@ -153,82 +149,72 @@ std::string Missing(const SourceBones& bones) {
   return "";
 }
 
-SourceBones MappedBones(const SourceMotion& motion, const BoneMapping& mapping) {
-  std::map<std::string, int, std::less<>> joints;
-  for (const auto& [bone, joint] : mapping.names) {
-    const auto found =
-        std::find_if(motion.joints.begin(), motion.joints.end(),
-                     [&name = joint](const SourceJoint& j) { return j.name == name; });
-    if (found == motion.joints.end()) {
-      throw InputError(motion.source + ": the mapping gives " + bone + " the joint '" + joint +
-                       "', expected a joint of this file");
-    }
-    joints[Simplified(bone)] = static_cast<int>(found - motion.joints.begin());
+std::string ListJoints(const SourceMotion& motion) {
+  constexpr size_t kMostListed = 60;  // by hand: what fits a line
+  std::string list;
+  for (size_t j = 0; j < std::min(kMostListed, motion.joints.size()); ++j) {
+    list += (j == 0 ? " '" : ", '") + motion.joints[j].name + "'";
   }
-  // A copy whose joints bear the rig's names is found by the rig's own convention.
-  SourceMotion renamed;
-  for (size_t j = 0; j < motion.joints.size(); ++j) renamed.joints.push_back({});
-  for (const auto& [bone, j] : joints) renamed.joints[static_cast<size_t>(j)].name = bone;
-  SourceBones bones = BonesOf(Conventions().front(), Finder(renamed));
+  if (motion.joints.size() > kMostListed) list += ", ...";
+  return "," + list;
+}
+
+int JointNamed(const SourceMotion& motion, const std::string& name) {
+  const auto found = std::find_if(motion.joints.begin(), motion.joints.end(),
+                                  [&](const SourceJoint& joint) { return joint.name == name; });
+  return found == motion.joints.end() ? -1 : static_cast<int>(found - motion.joints.begin());
+}
+
+bool NamesAny(const BoneMapping& mapping, const SourceMotion& motion) {
+  return std::any_of(mapping.lines.begin(), mapping.lines.end(),
+                     [&](const MappingLine& line) { return JointNamed(motion, line.joint) >= 0; });
+}
+
+SourceBones FindMapped(const SourceMotion& motion, const BoneMapping& mapping) {
+  std::vector<std::pair<std::string, int>> named;
+  std::array<int, 2> palms = {-1, -1};
+  for (const MappingLine& line : mapping.lines) {
+    const int joint = JointNamed(motion, line.joint);
+    if (joint < 0) FailInMapping(mapping, line, "a joint of " + motion.source);
+    const std::string bone = RigBoneAt(line.bone);
+    if (bone.empty()) {
+      palms[line.bone == NameOf(Joint::kHandLeft) ? 0 : 1] = joint;
+    } else {
+      named.emplace_back(bone, joint);
+    }
+  }
+  SourceBones bones = FindByConvention(Conventions().front(), Finder(named));
+  for (size_t s = 0; s < 2; ++s) bones.side[s].palm = palms[s];
   bones.rest_frame = mapping.rest_frame;
+  if (const std::string missing = Missing(bones); !missing.empty()) {
+    throw InputError(mapping.file + ": expected a line for " + missing + " of " + motion.source +
+                     ", found none");
+  }
+  if (bones.rest_frame && *bones.rest_frame >= motion.frame_count) {
+    throw InputError(mapping.file + ": line " + std::to_string(mapping.rest_line) +
+                     ": expected one of the " + std::to_string(motion.frame_count) + " frames of " +
+                     motion.source + ", found frame " + std::to_string(*bones.rest_frame));
+  }
   return bones;
 }
 
 }  // namespace
 
-SourceBones FindBones(const SourceMotion& motion, const std::optional<BoneMapping>& mapping) {
-  if (mapping) {
-    SourceBones bones = MappedBones(motion, *mapping);
-    if (const std::string missing = Missing(bones); !missing.empty()) {
-      throw InputError(motion.source + ": the mapping file names no joint for " + missing);
-    }
-    if (bones.rest_frame && *bones.rest_frame >= motion.frame_count) {
-      throw InputError(motion.source + ": the mapping's rest frame is " +
-                       std::to_string(*bones.rest_frame) + ", expected one of the " +
-                       std::to_string(motion.frame_count) + " frames");
-    }
-    return bones;
-  }
+SourceBones FindBones(const SourceMotion& motion, const BoneMapping* mapping) {
+  if (mapping != nullptr && NamesAny(*mapping, motion)) return FindMapped(motion, *mapping);
   const Finder finder(motion);
   std::string nearest;
   for (const Convention& names : Conventions()) {
-    SourceBones bones = BonesOf(names, finder);
+    SourceBones bones = FindByConvention(names, finder);
     const std::string missing = Missing(bones);
     if (missing.empty()) return bones;
     if (bones.hips >= 0 && bones.side[0].arm >= 0) nearest = missing;
   }
+  if (auto bones = FindBonesByParts(motion)) return *std::move(bones);
   throw InputError(motion.source + ": joint names of no known conversion (CMU, HDM05, BioVision, " +
-                   "Mixamo)" + (nearest.empty() ? "" : ", no joint for " + nearest) +
-                   ": expected a mapping file for its joints");
-}
-
-BoneMapping ReadBoneMapping(const std::filesystem::path& path) {
-  TextScanner scan(ReadTextFile(path), path.string());
-  BoneMapping mapping;
-  for (auto words = scan.LineOfWords(); !words.empty(); words = scan.LineOfWords()) {
-    words.erase(std::find_if(words.begin(), words.end(),
-                             [](std::string_view word) { return word.starts_with('#'); }),
-                words.end());
-    if (words.empty()) continue;
-    if (words.size() < 3 || words[1] != "=") scan.Fail("RigBone = joint name", words.front());
-    if (words[0] == "rest") {
-      if (words.size() != 4 || words[2] != "frame") scan.Fail("rest = frame N", words[2]);
-      const double frame = scan.ToNumber(words[3], "the rest frame");
-      if (frame < 0 || frame != static_cast<double>(static_cast<size_t>(frame))) {
-        scan.Fail("a frame number, 0 the first", words[3]);
-      }
-      mapping.rest_frame = static_cast<size_t>(frame);
-      continue;
-    }
-    if (std::find(kRigBoneNames.begin(), kRigBoneNames.end(), words[0]) == kRigBoneNames.end()) {
-      scan.Fail("a bone of the rig such as LeftForeArm", words[0]);
-    }
-    std::string joint(words[2]);
-    for (size_t w = 3; w < words.size(); ++w) (joint += ' ') += words[w];
-    mapping.names.emplace_back(words[0], joint);
-  }
-  if (mapping.names.empty()) scan.Fail("at least one line RigBone = joint name", "");
-  return mapping;
+                   "Mixamo, 3ds Max, Rigify, Unity, VRM, Xsens, ...)" +
+                   (nearest.empty() ? "" : ", no joint for " + nearest) +
+                   ": expected a mapping file for its joints" + ListJoints(motion));
 }
 
 }  // namespace ossa::recon

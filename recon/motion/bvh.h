@@ -17,7 +17,7 @@ enum class BvhChannel { kXposition, kYposition, kZposition, kXrotation, kYrotati
 
 struct BvhJoint {
   std::string name;
-  int parent = -1;                                   // -1 for the root; parents before children
+  int parent = -1;                                   // -1 for a root; parents before children
   Eigen::Vector3d offset = Eigen::Vector3d::Zero();  // from the parent, file units
   std::vector<BvhChannel> channels;                  // each at most once, any order
   std::vector<Eigen::Vector3d> end_sites;            // from this joint, file units
@@ -28,6 +28,8 @@ struct BvhFile {
   std::vector<BvhJoint> joints;
   double frame_s = 1.0 / 30.0;
   std::vector<double> values;  // row-major, frame x channel, channels in file order
+  /// What was odd in the text and how it was read, a line each.
+  std::vector<std::string> warnings{};
 
   size_t ChannelCount() const;
   size_t FrameCount() const;
@@ -40,10 +42,15 @@ struct BvhFramePose {
 };
 BvhFramePose PoseOf(const BvhFile& bvh, size_t frame);
 
-/// Reads any legal file: channel order per joint, 0 to 6 channels, several roots refused. Throws
-/// InputError naming the line. `source` names the text in messages.
+/// Reads any legal file, and what programs write beside the rules: channel order per joint, 0 to 6
+/// channels, several roots, line ends of any kind, more or fewer rows than the header announces
+/// (those that are there, with a warning). Throws InputError naming the line, of a cut last row,
+/// too. `source` names the text in messages.
 BvhFile ParseBvh(std::string text, const std::string& source);
 BvhFile ReadBvh(const std::filesystem::path& path);
+
+/// The skeletons of a file of several roots, a file each; the file itself where there is one.
+std::vector<BvhFile> SplitRoots(BvhFile bvh);
 
 /// Writes with the joint's own channel order; the file appears only when complete.
 std::string FormatBvh(const BvhFile& bvh);
@@ -77,10 +84,23 @@ BvhFile BvhOfSkeleton(const SkeletonSequence& sequence, const BvhExportOptions& 
 void WriteBvhOfSkeleton(const SkeletonSequence& sequence, const std::filesystem::path& path,
                         const BvhExportOptions& options = {});
 
-/// The 20 joints of a BVH: by name and in centimetres when it has the SDK's joints (as
-/// BvhOfSkeleton makes them), else by retargeting to the standard body. The one body's id is 1.
-/// Throws InputError for unknown names. The BVH is taken, so that a long one need not be there
-/// beside the skeletons.
-SkeletonSequence SkeletonOfBvh(BvhFile bvh, const std::string& source);
+struct BoneMapping;
+
+/// The 20 joints of a BVH where it has them, metres, of a body of its own size; each root that is a
+/// person is a body, ids 1, 2, ... A BVH with the SDK's joints (as BvhOfSkeleton makes them) has
+/// them by name, in centimetres. Of any other, joints are found by name (FindBones):
+///  - HipCenter, Head, shoulders, elbows, wrists, hips, knees, ankles are where its joints are;
+///    ShoulderCenter is the first joint of the neck, or between the shoulders without one; feet are
+///    the toe joints;
+///  - Spine lies on the line through the joints between hips and neck, as far along it as on the
+///    standard body;
+///  - hands, and feet without toe joint, lie towards what follows the wrist or ankle (the middle of
+///    its children, or its end site), as far as is usual for the forearm or shin.
+/// Its unit is the one in which the legs have a person's length: centimetres if they may, else
+/// metres, millimetres, inches or the CMU's (0.45 inch), with a warning. y is up, or z where the
+/// figure clearly stands along it, with a warning. Throws InputError for unknown names. The BVH is
+/// taken, so that a long one need not be there beside the skeletons.
+SkeletonSequence SkeletonOfBvh(BvhFile bvh, const std::string& source,
+                               const BoneMapping* mapping = nullptr);
 
 }  // namespace ossa::recon

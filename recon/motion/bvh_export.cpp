@@ -9,11 +9,8 @@
 #include "depth/base/atomic_file.h"
 #include "depth/base/error.h"
 #include "recon/body/standard_body.h"
-#include "recon/motion/bone_names_internal.h"
 #include "recon/motion/bvh.h"
-#include "recon/motion/bvh_source_internal.h"
 #include "recon/motion/bvh_text_internal.h"
-#include "recon/motion/retarget_internal.h"
 #include "recon/motion/sightings_internal.h"
 #include "recon/smallest_turn.h"
 
@@ -192,33 +189,6 @@ void AppendFrame(const Layout& layout, const Vector3d& root_m,
   }
 }
 
-bool HasSdkJoints(const BvhFile& bvh) {
-  return std::all_of(kJointNames.begin(), kJointNames.end(), [&](std::string_view name) {
-    return std::any_of(bvh.joints.begin(), bvh.joints.end(),
-                       [&](const BvhJoint& joint) { return joint.name == name; });
-  });
-}
-
-MotionClip AtItsOwnRate(BvhFile bvh, const std::string& source) {
-  const SourceMotion motion = SourceOf(std::move(bvh), source);
-  return Retarget(motion, FindBones(motion, std::nullopt), motion.frame_s);
-}
-
-SkeletonFrame FrameOf(const Posture& posture, size_t frame, double frame_s) {
-  BodyRecord body;
-  for (size_t j = 0; j < kJoints; ++j) {
-    JointRecord record;
-    record.position_m = posture.position_m[j];
-    body.joints[j] = record;
-  }
-  SkeletonFrame out;
-  out.frame = static_cast<int64_t>(frame);
-  out.time_s = static_cast<double>(frame) * frame_s;
-  body.id = 1;
-  out.bodies.push_back(body);
-  return out;
-}
-
 EvenSightings EvenSightingsOf(const SkeletonSequence& sequence, const BvhExportOptions& options) {
   auto seen = SightingsOf(sequence, options.body_id);
   const double begin_s = std::min(sequence.frames.front().time_s, seen.front().time_s);
@@ -314,31 +284,6 @@ void WriteBvhOfSkeleton(const SkeletonSequence& sequence, const std::filesystem:
     text.clear();
   }
   file.Commit();
-}
-
-SkeletonSequence SkeletonOfBvh(BvhFile bvh, const std::string& source) {
-  SkeletonSequence sequence;
-  sequence.source = source;
-  sequence.frames.reserve(bvh.FrameCount());
-  if (!HasSdkJoints(bvh)) {
-    const MotionClip clip = AtItsOwnRate(std::move(bvh), source);
-    for (size_t f = 0; f < clip.frames.size(); ++f) {
-      sequence.frames.push_back(FrameOf(StandardPosture(clip.frames[f]), f, clip.frame_s));
-    }
-    return sequence;
-  }
-  std::array<size_t, kJoints> at{};
-  for (size_t j = 0; j < kJoints; ++j) {
-    while (bvh.joints[at[j]].name != kJointNames[j]) ++at[j];
-  }
-  for (size_t f = 0; f < bvh.FrameCount(); ++f) {
-    const BvhFramePose pose = PoseOf(bvh, f);
-    Posture posture;
-    for (size_t j = 0; j < kJoints; ++j)
-      posture.position_m[j] = pose.position[at[j]] / kCentimetres;
-    sequence.frames.push_back(FrameOf(posture, f, bvh.frame_s));
-  }
-  return sequence;
 }
 
 }  // namespace ossa::recon

@@ -23,13 +23,11 @@ class Parser {
 
   BvhFile Run() {
     scan_.Expect("HIERARCHY");
-    scan_.Expect("ROOT");
-    ReadJoints();
-    const std::string_view next = scan_.PeekWord();
-    if (Lower(next) == "root") {
-      scan_.Word();
-      scan_.Fail("one skeleton, then 'MOTION'", next);
-    }
+    do {
+      scan_.Expect("ROOT");
+      root_ = bvh_.joints.size();
+      ReadJoints();
+    } while (Lower(scan_.PeekWord()) == "root");
     scan_.Expect("MOTION");
     ReadMotion();
     return std::move(bvh_);
@@ -70,8 +68,10 @@ class Parser {
       joint.name += word;
     }
     if (joint.name.empty()) scan_.Fail("a joint's name", "nothing");
-    for (const BvhJoint& other : bvh_.joints) {
-      if (other.name == joint.name) scan_.Fail("every joint name once", joint.name);
+    for (size_t other = root_; other < bvh_.joints.size(); ++other) {
+      if (bvh_.joints[other].name == joint.name) {
+        scan_.Fail("every joint name once", joint.name);
+      }
     }
     scan_.Expect("{");
     if (bvh_.joints.size() == kMaxJoints) {
@@ -112,18 +112,39 @@ class Parser {
     scan_.Expect("{");
     scan_.Expect("OFFSET");
     bvh_.joints[Top()].end_sites.push_back(Vector("End Site OFFSET"));
+    if (Lower(scan_.PeekWord()) == "channels") {
+      scan_.Word();
+      const std::string_view count = scan_.Word();
+      if (count != "0") scan_.Fail("no channels in an End Site", count);
+    }
     scan_.Expect("}");
   }
 
+  /// The number after "NAME:", with or without white space about the colon and in the name.
+  double NumberAfter(const std::string& name, const std::string& what) {
+    std::string wanted = Lower(name);
+    std::erase(wanted, ' ');
+    std::string seen;
+    while (true) {
+      const std::string_view word = scan_.Word();
+      const size_t colon = word.find(':');
+      seen += Lower(word.substr(0, colon));
+      if (word.empty() || !wanted.starts_with(seen) ||
+          (colon != std::string_view::npos && seen != wanted)) {
+        scan_.Fail("'" + name + ":'", word);
+      }
+      if (colon == std::string_view::npos) continue;
+      const std::string_view rest = word.substr(colon + 1);
+      return rest.empty() ? scan_.Number(what) : scan_.ToNumber(rest, what);
+    }
+  }
+
   void ReadMotion() {
-    scan_.Expect("Frames:");
-    const double frames = scan_.Number("the number of frames");
-    if (frames < 1 || frames != std::floor(frames)) {
+    const double frames = NumberAfter("Frames", "the number of frames");
+    if (frames < 0 || frames != std::floor(frames)) {
       scan_.Fail("a number of frames of at least 1", std::to_string(frames));
     }
-    scan_.Expect("Frame");
-    scan_.Expect("Time:");
-    bvh_.frame_s = scan_.Number("the frame time");
+    bvh_.frame_s = NumberAfter("Frame Time", "the frame time");
     if (bvh_.frame_s < 1e-4 || bvh_.frame_s > 60.0) {
       scan_.Fail("a frame time between 0.0001 and 60 s", std::to_string(bvh_.frame_s));
     }
@@ -132,21 +153,15 @@ class Parser {
     // A number takes a digit and what ends it: a header that lies does not fill the memory.
     const size_t most = (scan_.BytesLeft() + 1) / 2;
     bvh_.values.reserve(std::min(static_cast<size_t>(frames) * channels, most));
-    for (size_t frame = 0; frame < static_cast<size_t>(frames); ++frame) {
-      ReadFrame(frame, static_cast<size_t>(frames), channels);
+    while (ReadFrame(channels)) {
     }
-    const auto more = scan_.LineOfWords();
-    if (!more.empty()) {
-      scan_.Fail("nothing after the " + std::to_string(static_cast<size_t>(frames)) + " frames",
-                 more.front());
-    }
+    CheckFrames(static_cast<size_t>(frames));
   }
 
-  void ReadFrame(size_t frame, size_t frames, size_t channels) {
+  /// The next row; false at the end.
+  bool ReadFrame(size_t channels) {
     const auto words = scan_.LineOfWords();
-    if (words.empty()) {
-      scan_.Fail("frame " + std::to_string(frame + 1) + " of " + std::to_string(frames), "");
-    }
+    if (words.empty()) return false;
     if (words.size() != channels) {
       scan_.Fail(std::to_string(channels) + " numbers in a frame",
                  std::to_string(words.size()) + " numbers");
@@ -154,11 +169,23 @@ class Parser {
     for (const std::string_view word : words) {
       bvh_.values.push_back(scan_.ToNumber(word, "a channel's value"));
     }
+    return true;
+  }
+
+  void CheckFrames(size_t said) {
+    const size_t frames = bvh_.FrameCount();
+    if (frames == 0) scan_.Fail("frame 1 of " + std::to_string(said), "");
+    if (scan_.IsCutInLastNumber()) scan_.Fail("a whole last frame", "a number that is cut");
+    if (frames == said) return;
+    bvh_.values.shrink_to_fit();
+    bvh_.warnings.push_back(scan_.source() + ": the header says " + std::to_string(said) +
+                            " frames, the file has " + std::to_string(frames) + ": those are read");
   }
 
   TextScanner scan_;
   BvhFile bvh_;
   std::vector<int> open_;
+  size_t root_ = 0;  // the joint that is the root of the skeleton being read
 };
 
 }  // namespace
@@ -202,6 +229,39 @@ BvhFramePose PoseOf(const BvhFile& bvh, size_t frame) {
     }
   }
   return pose;
+}
+
+std::vector<BvhFile> SplitRoots(BvhFile bvh) {
+  std::vector<size_t> roots;
+  for (size_t j = 0; j < bvh.joints.size(); ++j) {
+    if (bvh.joints[j].parent < 0) roots.push_back(j);
+  }
+  std::vector<BvhFile> files;
+  if (roots.size() == 1) {
+    files.push_back(std::move(bvh));
+    return files;
+  }
+  const size_t channels = bvh.ChannelCount(), frames = bvh.FrameCount();
+  size_t first_channel = 0;
+  for (size_t r = 0; r < roots.size(); ++r) {
+    const size_t end = r + 1 < roots.size() ? roots[r + 1] : bvh.joints.size();
+    BvhFile& own = files.emplace_back();
+    own.frame_s = bvh.frame_s;
+    if (r == 0) own.warnings = bvh.warnings;
+    for (size_t j = roots[r]; j < end; ++j) {
+      own.joints.push_back(bvh.joints[j]);
+      if (own.joints.back().parent >= 0) own.joints.back().parent -= static_cast<int>(roots[r]);
+    }
+    const size_t own_channels = own.ChannelCount();
+    own.values.reserve(frames * own_channels);
+    for (size_t f = 0; f < frames; ++f) {
+      const auto begin =
+          bvh.values.begin() + static_cast<std::ptrdiff_t>(f * channels + first_channel);
+      own.values.insert(own.values.end(), begin, begin + static_cast<std::ptrdiff_t>(own_channels));
+    }
+    first_channel += own_channels;
+  }
+  return files;
 }
 
 BvhFile ParseBvh(std::string text, const std::string& source) {

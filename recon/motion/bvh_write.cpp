@@ -53,9 +53,11 @@ void AppendJoint(const std::vector<BvhJoint>& joints, size_t index, std::string 
 
 std::string BvhHead(const std::vector<BvhJoint>& joints, double frame_s, size_t frames) {
   // A step of 1/30 s in six digits is 36 ms wrong after an hour.
-  constexpr int kTimeDigits = 10;
+  constexpr int kTimeDigits = 10;  // by hand, for rounding
   std::string text = "HIERARCHY\n";
-  AppendJoint(joints, 0, "", text);
+  for (size_t j = 0; j < joints.size(); ++j) {
+    if (joints[j].parent < 0) AppendJoint(joints, j, "", text);
+  }
   text.append("MOTION\nFrames: ").append(std::to_string(frames)).append("\nFrame Time: ");
   AppendFixed(text, frame_s, kTimeDigits);
   text += '\n';

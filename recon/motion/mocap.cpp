@@ -65,30 +65,45 @@ class Loader {
     if (!options.mapping_file.empty()) mapping_ = ReadBoneMapping(options.mapping_file);
   }
 
-  MotionClip Load(const fs::path& path) {
-    const SourceMotion motion = Read(path);
-    const bool known = KindOf(path) == Kind::kHumanoid3d;  // its joints are ours
-    MotionClip clip =
-        Retarget(motion, FindBones(motion, known ? std::nullopt : mapping_), options_.frame_s);
-    clip.name = path.stem().string();
-    clip.subject = SubjectOf(clip.name);
-    return clip;
-  }
-
- private:
-  SourceMotion Read(const fs::path& path) {
+  /// The people of a file: of a BVH with several roots each is a clip.
+  std::vector<MotionClip> Load(const fs::path& path) {
     const std::string name = path.string();
     switch (KindOf(path)) {
       case Kind::kBvh:
-        return SourceOf(ReadBvh(path), name);
+        return LoadBvh(path);
       case Kind::kAmc:
-        return ParseAmc(ReadTextFile(path), name, SkeletonOf(path), 1.0 / options_.amc_hz);
+        return {MakeClip(
+            ParseAmc(ReadTextFile(path), name, SkeletonOf(path), 1.0 / options_.amc_hz), path)};
       case Kind::kHumanoid3d:
-        return ParseHumanoid3d(ReadTextFile(path), name);
+        return {MakeClip(ParseHumanoid3d(ReadTextFile(path), name), path)};
       case Kind::kOther:
         break;
     }
     throw InputError(name + ": expected a .bvh, .amc or humanoid3d_*.txt file");
+  }
+
+ private:
+  std::vector<MotionClip> LoadBvh(const fs::path& path) {
+    BvhFile bvh = ReadBvh(path);
+    const std::vector<std::string> warnings = bvh.warnings;
+    std::vector<MotionClip> clips;
+    for (BvhFile& root : SplitRoots(std::move(bvh))) {
+      MotionClip clip = MakeClip(SourceOf(std::move(root), path.string()), path);
+      if (!clips.empty()) clip.name.append("_").append(std::to_string(clips.size() + 1));
+      clips.push_back(std::move(clip));
+    }
+    auto& all = clips.front().warnings;
+    all.insert(all.begin(), warnings.begin(), warnings.end());
+    return clips;
+  }
+
+  MotionClip MakeClip(const SourceMotion& motion, const fs::path& path) const {
+    const bool ours = KindOf(path) == Kind::kHumanoid3d;  // its joints are known
+    const SourceBones bones = FindBones(motion, mapping_ && !ours ? &*mapping_ : nullptr);
+    MotionClip clip = Retarget(motion, bones, options_.frame_s);
+    clip.name = path.stem().string();
+    clip.subject = SubjectOf(clip.name);
+    return clip;
   }
 
   std::shared_ptr<const AcclaimSkeleton> SkeletonOf(const fs::path& amc) {
@@ -126,7 +141,7 @@ std::vector<MotionClip> LoadMocap(const std::vector<std::string>& sources,
         fs::is_directory(source) ? MotionFilesIn(source) : std::vector<fs::path>{source};
     for (const fs::path& file : files) {
       if (options.stop && options.stop()) break;
-      clips.push_back(loader.Load(file));
+      for (MotionClip& clip : loader.Load(file)) clips.push_back(std::move(clip));
     }
   }
   std::stable_sort(clips.begin(), clips.end(),

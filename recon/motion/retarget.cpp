@@ -4,9 +4,14 @@
 #include <array>
 #include <cmath>
 #include <numbers>
+#include <optional>
 
 #include "depth/base/error.h"
 #include "recon/body/standard_body.h"
+#include "recon/motion/agreement_check_internal.h"
+#include "recon/motion/reference_pose_internal.h"
+#include "recon/motion/upright_internal.h"
+#include "recon/smallest_turn.h"
 
 namespace ossa::recon {
 namespace {
@@ -14,7 +19,7 @@ namespace {
 using Eigen::Quaterniond;
 using Eigen::Vector3d;
 
-constexpr double kDegree = std::numbers::pi / 180.0;
+constexpr double kDegree = std::numbers::pi / 180.0;  // radians, by definition
 
 // Wrists bend less than about 70° any way; markers of the hand are few and jump. The angle between
 // forearm and hand is softly kept below this.
@@ -26,13 +31,12 @@ size_t Bone(std::string_view name) { return static_cast<size_t>(RigBone(name)); 
 /// turned by the bone's rotation bends forwards in a T-pose, an A-pose and with arms hanging, so
 /// the twist of different rest poses agrees; only an arm stretched forward has none to show.
 Eigen::Matrix3d BoneFrame(const Vector3d& direction) {
-  const Vector3d d = direction.normalized();
-  Vector3d front = Vector3d::UnitZ() - d.z() * d;
-  if (front.norm() < 0.1) front = Vector3d::UnitY() - d.y() * d;
-  front.normalize();
-  Eigen::Matrix3d frame;
-  frame << d, front, d.cross(front);
-  return frame;
+  return FrameAlong(direction, Vector3d::UnitZ());
+}
+
+/// Turns an axis of the file upright.
+Quaterniond Upright(const Vector3d& up) {
+  return up == Vector3d::UnitY() ? Quaterniond::Identity() : SmallestTurn(up, Vector3d::UnitY());
 }
 
 /// Rotation from the file's axes to ours (y up, facing +z, left +x), seen in the rest pose. Within
@@ -75,19 +79,29 @@ class Retargeter {
  public:
   Retargeter(const SourceMotion& motion, const SourceBones& bones)
       : motion_(motion), bones_(bones) {
-    SourceFrame rest;
+    SourceFrame& rest = rest_frame_;
+    std::optional<ReferencePose> reference;
     if (bones.rest_frame) {
       rest = motion.frame(*bones.rest_frame);
     } else {
       rest.position = ZeroPose(motion.joints);
       rest.rotation.assign(motion.joints.size(), Quaterniond::Identity());
     }
-    world_from_file_ = WorldFromFile(rest.position, bones, motion.source);
-    file_rest_ = rest.rotation;
-    for (Vector3d& p : rest.position) p = world_from_file_ * p;
-    rest_ = rest.position;
+    if (bones.rest_frame || IsRestPose(rest.position, bones)) {
+      FindAxes(rest.position);
+    } else {
+      const UpAxis up = FindUpAxis(motion, bones, std::nullopt);
+      doubt_ = up.doubt;
+      world_from_file_ = rest_from_file_ = Upright(up.axis);
+      reference = FindReferencePose(motion, bones, world_from_file_);
+      rest = reference->frame;
+    }
+    for (const Vector3d& p : rest.position) rest_.push_back(rest_from_file_ * p);
     MapTrunk();
     for (size_t s = 0; s < 2; ++s) MapSide(s);
+    for (size_t b = 0; reference && b < kRigBoneCount; ++b) {
+      sources_[b].source_from_rig = reference->world_from_rest[b];
+    }
     metres_per_unit_ = RigLegLength() / SourceLegLength();
   }
 
@@ -109,14 +123,33 @@ class Retargeter {
     return pose;
   }
 
+  /// Places of the source's joints in our axes.
+  std::vector<Vector3d> PlacesOf(const SourceFrame& frame) const {
+    std::vector<Vector3d> places = frame.position;
+    for (Vector3d& p : places) p = world_from_file_ * p;
+    return places;
+  }
+  const std::string& doubt() const { return doubt_; }
+
  private:
   Vector3d Rest(int joint) const { return rest_[static_cast<size_t>(joint)]; }
 
   /// World rotation of a source joint from its rest, in our axes.
   Quaterniond Turn(const SourceFrame& frame, int joint) const {
     const auto j = static_cast<size_t>(joint);
-    return world_from_file_ * frame.rotation[j] * file_rest_[j].conjugate() *
-           world_from_file_.conjugate();
+    return world_from_file_ * frame.rotation[j] * rest_frame_.rotation[j].conjugate() *
+           rest_from_file_.conjugate();
+  }
+
+  /// The file's axes as the rest pose has them, and as the motion: exporters may write a figure
+  /// that rests along z and stands along y.
+  void FindAxes(const std::vector<Vector3d>& rest) {
+    world_from_file_ = rest_from_file_ = WorldFromFile(rest, bones_, motion_.source);
+    const Vector3d rest_up = rest_from_file_.conjugate() * Vector3d::UnitY();
+    const UpAxis up = FindUpAxis(motion_, bones_, NearestAxis(rest_up));
+    doubt_ = up.doubt;
+    constexpr double kSame = 0.999;  // cosine, by hand: 2.5 degrees
+    if (up.by_motion && up.axis.dot(rest_up) < kSame) world_from_file_ = Upright(up.axis);
   }
 
   /// Spreads a chain of any number of joints over three rig bones by their place along it.
@@ -152,18 +185,9 @@ class Retargeter {
     sources_[Bone(name + "ToeBase")].joint = side.toe >= 0 ? side.toe : side.foot;
   }
 
-  /// Rest place of the far end of a joint's segment: the next joint or the first end site.
+  /// Rest place of the far end of a joint's segment.
   Vector3d EndOf(int joint, int next) const {
-    if (next >= 0) return Rest(next);
-    const auto& ends = motion_.joints[static_cast<size_t>(joint)].end_sites;
-    if (!ends.empty()) {
-      const Quaterniond& turn = file_rest_[static_cast<size_t>(joint)];
-      return Rest(joint) + world_from_file_ * (turn * ends.front());
-    }
-    for (size_t child = 0; child < motion_.joints.size(); ++child) {
-      if (motion_.joints[child].parent == joint) return rest_[child];
-    }
-    return Rest(joint);
+    return rest_from_file_ * FindEnd(motion_, rest_frame_, joint, next);
   }
 
   void MapLimb(const std::string& rig_bone, int joint, const Vector3d& end) {
@@ -230,12 +254,16 @@ class Retargeter {
 
   const SourceMotion& motion_;
   const SourceBones& bones_;
-  Quaterniond world_from_file_;
-  std::vector<Quaterniond> file_rest_;
-  std::vector<Vector3d> rest_;  // our axes, file units
+  Quaterniond world_from_file_;  // of the motion
+  Quaterniond rest_from_file_;   // of the rest pose
+  std::string doubt_;            // of which axis is up
+  SourceFrame rest_frame_;       // file axes
+  std::vector<Vector3d> rest_;   // our axes, file units
   std::array<BoneSource, kRigBoneCount> sources_;
   double metres_per_unit_ = 1.0;
 };
+
+constexpr size_t kCheckedFrames = 200;  // by hand, for speed
 
 double SmoothStep(double from, double to, double x) {
   const double t = std::clamp((x - from) / (to - from), 0.0, 1.0);
@@ -295,13 +323,20 @@ MotionClip Retarget(const SourceMotion& motion, const SourceBones& bones, double
   const Retargeter retargeter(motion, bones);
   MotionClip clip;
   clip.frame_s = frame_s;
+  if (!retargeter.doubt().empty()) clip.warnings.push_back(retargeter.doubt());
   const size_t count = ResampledFrameCount(motion, frame_s);
   const bool same_step = count == motion.frame_count;
   clip.frames.reserve(count);
+  AgreementCheck check(bones);
   for (size_t f = 0; f < count; ++f) {
-    clip.frames.push_back(retargeter.Pose(
-        same_step ? motion.frame(f) : FrameAt(motion, static_cast<double>(f) * frame_s)));
+    const SourceFrame frame =
+        same_step ? motion.frame(f) : FrameAt(motion, static_cast<double>(f) * frame_s);
+    clip.frames.push_back(retargeter.Pose(frame));
+    if (f % (1 + count / kCheckedFrames) == 0) {
+      check.Add(retargeter.PlacesOf(frame), StandardPosture(clip.frames.back()));
+    }
   }
+  check.Require(motion.source);
   SetOnFloor(clip);
   return clip;
 }

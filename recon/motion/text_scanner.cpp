@@ -1,7 +1,9 @@
+#include <algorithm>
 #include <charconv>
 #include <cmath>
 #include <fstream>
 #include <iterator>
+#include <optional>
 
 #include "depth/base/error.h"
 #include "depth/base/open_file.h"
@@ -19,6 +21,11 @@ constexpr size_t kQuotedCharacters = 40;
 
 bool IsBlank(char c) { return c == ' ' || c == '\t' || c == '\r' || c == '\f' || c == '\v'; }
 
+size_t CountDecimals(std::string_view number) {
+  const size_t point = number.find('.');
+  return point == std::string_view::npos ? 0 : number.size() - point - 1;
+}
+
 std::string Quoted(std::string_view found) {
   if (found.empty()) return "the end of the file";
   std::string shown;
@@ -32,6 +39,10 @@ TextScanner::TextScanner(std::string text, std::string source)
     : text_(std::move(text)), source_(std::move(source)) {
   // Some exporters begin with a UTF-8 byte order mark.
   if (text_.starts_with("\xEF\xBB\xBF")) at_ = 3;
+  // Others end lines with \r alone.
+  for (size_t at = text_.find('\r'); at != std::string::npos; at = text_.find('\r', at + 1)) {
+    if (at + 1 == text_.size() || text_[at + 1] != '\n') text_[at] = '\n';
+  }
 }
 
 void TextScanner::Fail(const std::string& expected, std::string_view found) const {
@@ -90,6 +101,27 @@ std::vector<std::string_view> TextScanner::LineOfWords() {
     if (AtEndOfLine()) return words;
     words.push_back(CutWord());
   }
+}
+
+bool TextScanner::IsCutInLastNumber() const {
+  const std::string_view text = text_;
+  if (text.empty() || text.back() == '\n' || IsBlank(text.back())) return false;
+  const size_t last_begin = text.rfind('\n') + 1;  // 0 without one
+  if (last_begin < 2) return false;
+  const size_t before_begin = text.rfind('\n', last_begin - 2) + 1;
+  std::optional<size_t> alike;
+  std::string_view before = text.substr(before_begin, last_begin - before_begin);
+  while (!before.empty()) {
+    const size_t begin = before.find_first_not_of(" \t\r\n");
+    if (begin == std::string_view::npos) break;
+    const size_t end = std::min(before.find_first_of(" \t\r\n", begin), before.size());
+    const size_t decimals = CountDecimals(before.substr(begin, end - begin));
+    if (decimals != alike.value_or(decimals)) return false;
+    alike = decimals;
+    before.remove_prefix(end);
+  }
+  const std::string_view last = text.substr(text.find_last_of(" \t\n") + 1);
+  return alike && CountDecimals(last) < *alike;
 }
 
 void TextScanner::Expect(std::string_view word) {

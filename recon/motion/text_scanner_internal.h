@@ -25,6 +25,10 @@ class TextScanner {
   double Number(const std::string& what);
   double ToNumber(std::string_view word, const std::string& what) const;
 
+  /// Whether the text ends without a line end in a number of fewer decimals than all numbers of the
+  /// line before have, which are alike: whoever wrote it did not come to its end.
+  bool IsCutInLastNumber() const;
+
   int line() const { return word_line_; }
   /// Nothing that is announced can be longer than what is left.
   size_t BytesLeft() const { return text_.size() - at_; }

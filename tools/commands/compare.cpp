@@ -9,7 +9,9 @@
 #include "depth/base/error.h"
 #include "tools/commands/command.h"
 #include "tools/commands/commands.h"
+#include "tools/commands/mapping_option.h"
 #include "tools/commands/outputs.h"
+#include "tools/commands/warnings.h"
 #include "tools/experiments/compare/comparison.h"
 #include "tools/experiments/experiment.h"
 
@@ -99,7 +101,8 @@ int Compare(int argc, char** argv) {
       ->allow_extra_args(false);
   app.add_option("--seed", options.seed, "of the bootstrap")->capture_default_str();
   app.add_flag("--quiet", quiet, "no tables on stdout");
-  app.footer(Formats());
+  AddMappingOption(app, options.reading.mapping_file, false);
+  app.footer(Formats() + "\n" + MappingHelp());
   Parse(app, argc, argv);
   ReadTimeAlignment(time, options.pairing);
   options.pairing.rigid = align == "rigid";
@@ -108,6 +111,7 @@ int Compare(int argc, char** argv) {
   const bool json_to_stdout = json_option->count() > 0 && (json.empty() || json == "-");
   std::vector<std::string> inputs = results;
   inputs.push_back(truth);
+  inputs.push_back(options.reading.mapping_file);
   CheckNotOtherKind("--json", json, ".json");
   CheckExtension("--report", report, ".html");
   CheckOutputs({json_to_stdout ? "" : json, report}, inputs);
@@ -115,6 +119,7 @@ int Compare(int argc, char** argv) {
   if (!report.empty()) AtomicFile::CheckWritable(report);
   options.stop = Interrupted;
   const tools::Comparison comparison = Compared(truth, results, options);
+  SayWarnings("compare", comparison.warnings);
   if (json_to_stdout) {
     fmt::print("{}", tools::ToJson(comparison));
   } else {

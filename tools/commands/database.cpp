@@ -15,6 +15,7 @@
 #include "tools/commands/commands.h"
 #include "tools/commands/mapping_option.h"
 #include "tools/commands/outputs.h"
+#include "tools/commands/warnings.h"
 
 namespace ossa::commands {
 namespace {
@@ -87,6 +88,7 @@ int Database(int argc, char** argv) {
   mocap_options.stop = Interrupted;
   const auto motions = recon::LoadMocap(mocap, mocap_options);
   if (Interrupted()) throw InputError("database: interrupted; nothing was written");
+  SayWarnings("database", motions);
   const auto clips = PosturesOf(motions, quiet);
   const auto database = recon::PostureDatabase::Build(clips, options, Interrupted);
   if (Interrupted()) throw InputError("database: interrupted; nothing was written");

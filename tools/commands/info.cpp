@@ -18,6 +18,7 @@
 #include "recon/refine/close_look.h"
 #include "tools/commands/command.h"
 #include "tools/commands/commands.h"
+#include "tools/commands/warnings.h"
 #include "tools/synth/dataset.h"
 
 namespace ossa::commands {
@@ -159,6 +160,7 @@ void ShowSkeletons(const fs::path& path) {
   recon::SkeletonReadOptions reading;
   reading.columns = "observed";
   auto clips = recon::ReadSkeletonClips(path, reading);
+  SayWarnings("info", clips);
   const auto may_have_another = [](const recon::SkeletonClip& clip) {
     return clip.sequence.columns == "observed";
   };

@@ -12,7 +12,9 @@
 #include "recon/models/learned_models.h"
 #include "tools/commands/command.h"
 #include "tools/commands/commands.h"
+#include "tools/commands/mapping_option.h"
 #include "tools/commands/outputs.h"
+#include "tools/commands/warnings.h"
 
 namespace ossa::commands {
 namespace {
@@ -31,13 +33,14 @@ class People {
 };
 
 /// Clips of both sides by name; a single file on each side belongs together whatever its name.
-void AddClips(const std::string& observed_path, const std::string& truth_path, People& people,
+void AddClips(const std::string& observed_path, const std::string& truth_path,
+              const recon::SkeletonReadOptions& reading, People& people,
               std::vector<recon::PosturePair>& pairs) {
-  recon::SkeletonReadOptions reading;
-  reading.stop = Interrupted;
   const auto observed = recon::ReadSkeletonClips(observed_path, reading);
   const auto truth = recon::ReadSkeletonClips(truth_path, reading);
   if (Interrupted()) throw InputError("learn: interrupted; nothing was written");
+  SayWarnings("learn", observed);
+  SayWarnings("learn", truth);
   const size_t before = pairs.size();
   if (observed.size() == 1 && truth.size() == 1) {
     recon::AddPairs(observed[0].sequence, truth[0].sequence, pairs, people.Of(observed_path, ""));
@@ -65,6 +68,8 @@ int Learn(int argc, char** argv) {
   std::vector<std::string> observed, truth;
   std::string out;
   recon::LearnOptions options;
+  recon::SkeletonReadOptions reading;
+  reading.stop = Interrupted;
   bool quiet = false, correction_only = false;
   app.add_option("--observed", observed, "what the sensor said: files, folders or archives")
       ->required();
@@ -83,6 +88,7 @@ int Learn(int argc, char** argv) {
   app.add_flag("--correction-only", correction_only,
                "only what best uses: quick to learn, a quarter of a megabyte");
   app.add_flag("--quiet", quiet, "no progress");
+  AddMappingOption(app, reading.mapping_file);
   Parse(app, argc, argv);
   if (observed.size() != truth.size()) {
     throw UsageError(fmt::format("learn: {} --observed but {} --truth; expected as many",
@@ -97,11 +103,14 @@ int Learn(int argc, char** argv) {
 
   std::vector<std::string> inputs = observed;
   inputs.insert(inputs.end(), truth.begin(), truth.end());
+  inputs.push_back(reading.mapping_file);
   CheckOutputs({out}, inputs);
   AtomicFile::CheckWritable(out);
   std::vector<recon::PosturePair> pairs;
   People people;
-  for (size_t i = 0; i < observed.size(); ++i) AddClips(observed[i], truth[i], people, pairs);
+  for (size_t i = 0; i < observed.size(); ++i) {
+    AddClips(observed[i], truth[i], reading, people, pairs);
+  }
   Progress progress("learn", quiet);
   const auto models = recon::LearnedModels::Learn(pairs, options, [&](int joint) {
     progress.Update(joint, recon::kJointCount, fmt::format("{} pairs", pairs.size()));

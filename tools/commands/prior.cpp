@@ -15,6 +15,7 @@
 #include "tools/commands/commands.h"
 #include "tools/commands/mapping_option.h"
 #include "tools/commands/outputs.h"
+#include "tools/commands/warnings.h"
 #include "tools/learning/learn_prior_network.h"
 
 namespace ossa::commands {
@@ -81,7 +82,9 @@ int Prior(int argc, char** argv) {
   AtomicFile::CheckWritable(out);
 
   mocap_options.stop = Interrupted;
-  const auto clips = ClipsOf(recon::LoadMocap(mocap, mocap_options), authored_weight);
+  const auto motions = recon::LoadMocap(mocap, mocap_options);
+  SayWarnings("prior", motions);
+  const auto clips = ClipsOf(motions, authored_weight);
   if (Interrupted()) throw InputError("prior: interrupted; nothing was written");
   auto prior = recon::PosturePrior::Learn(clips, options);
   if (network.hidden > 0) {

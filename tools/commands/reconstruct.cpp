@@ -17,10 +17,12 @@
 #include "tools/commands/checks.h"
 #include "tools/commands/command.h"
 #include "tools/commands/commands.h"
+#include "tools/commands/mapping_option.h"
 #include "tools/commands/mechanics_options.h"
 #include "tools/commands/method_options.h"
 #include "tools/commands/outputs.h"
 #include "tools/commands/process.h"
+#include "tools/commands/warnings.h"
 #include "tools/tracker/mechanics.h"
 #include "tools/tracker/shipped.h"
 
@@ -149,8 +151,11 @@ int Reconstruct(int argc, char** argv) {
       ->required();
   AddMethodOptions(app, a);
   AddMechanicsOptions(app, a.mechanics);
+  AddMappingOption(app, a.read.mapping_file, false);
   app.add_flag("--quiet", a.quiet, "no progress");
-  app.footer("Options that the method does not read are refused; of files it is said.");
+  app.footer(
+      std::string("Options that the method does not read are refused; of files it is said.\n") +
+      MappingHelp());
   Parse(app, argc, argv);
   recon::LocalPcaOptions& pca = a.options.local_pca;
   pca.use_reliability = !a.no_reliability;
@@ -165,7 +170,7 @@ int Reconstruct(int argc, char** argv) {
   a.bones.Check(a.options.method);
   a.mechanics.Check();
   CheckOneOf(a.options.method, a.database_file, a.prior_file);
-  CheckOutputs({a.out}, {a.skeletons});
+  CheckOutputs({a.out}, {a.skeletons, a.read.mapping_file});
   for (const double weight : a.weights) {
     if (!(weight >= 0))
       throw UsageError(fmt::format("--weights: expected numbers from 0 up, found {}", weight));
@@ -173,6 +178,7 @@ int Reconstruct(int argc, char** argv) {
   a.read.stop = Interrupted;
   const auto clips = recon::ReadSkeletonClips(a.skeletons, a.read);
   if (Interrupted()) throw InputError("reconstruct: interrupted; nothing was written");
+  SayWarnings("reconstruct", clips);
   const bool to_folder = GoesToFolder(a, clips);
   if (to_folder) {
     std::filesystem::create_directories(a.out);

@@ -12,6 +12,7 @@
 #include "tools/commands/command.h"
 #include "tools/commands/commands.h"
 #include "tools/commands/mapping_option.h"
+#include "tools/commands/warnings.h"
 #include "tools/synth/ranks.h"
 #include "tools/synth/render_dataset.h"
 #include "tools/synth/sequence.h"
@@ -157,6 +158,7 @@ int Render(int argc, char** argv) {
   mocap_options.seed = a.seed;
   mocap_options.mapping_file = a.mapping;
   const auto clips = recon::LoadMocap(a.mocap, mocap_options);
+  if (ranks.rank() == 0) SayWarnings("render", clips);
   const tools::PoseBankOptions bank = tools::BankOf(*tools::PosesFromName(a.poses));
   auto poses =
       a.sequence ? tools::SequencePoses(clips, a.frames, a.seed) : tools::MakePoseBank(clips, bank);

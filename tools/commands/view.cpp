@@ -15,6 +15,7 @@
 #include "tools/commands/method_options.h"
 #include "tools/commands/process.h"
 #include "tools/commands/source_options.h"
+#include "tools/commands/warnings.h"
 #include "tools/tracker/skeleton_record.h"
 #include "tools/tracker/tracker.h"
 #include "tools/viewer/viewer.h"
@@ -56,6 +57,7 @@ void SayWhere(const viewer::Viewer& viewer) {
 
 void ShowSkeletons(const ViewOptions& options) {
   const recon::SkeletonSequence sequence = recon::ReadSkeletons(options.source.name);
+  SayWarnings("view", sequence.warnings);
   viewer::Viewer viewer(options.port);
   SayWhere(viewer);
   depth::DepthFrame blank;

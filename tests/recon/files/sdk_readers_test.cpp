@@ -313,7 +313,7 @@ INSTANTIATE_TEST_SUITE_P(
         Wrong{"Labanotation", With(LabanText(2), "0.24", "inf", 400), "line 2"},
         Wrong{"LabanotationState", With(LabanText(2), ",2,2,", ",2,7,"), "state 0, 1 or 2"},
         Wrong{"Keraal", With(KeraalText(175) + KeraalText(175), "0.8", "x", 700), "line 2"},
-        Wrong{"Ntu", With(NtuText(), "0.3 2 277", "NaN 2 277"), "finite number"},
+        Wrong{"Ntu", With(NtuText(), "0.3 2 277", "inf 2 277"), "finite number"},
         Wrong{"Azure", With(AzureText(), "-600", "\"-600\""), "three finite numbers"},
         Wrong{"MsrConfidence", With(MsrText(1), "0.9", "9"), "confidence"}),
     NameOfCase);
@@ -325,20 +325,17 @@ INSTANTIATE_TEST_SUITE_P(
                     Wrong{"Ntu", NtuText() + std::string(2 << 20, '1'), "1 MiB"}),
     NameOfCase);
 
-// As of a recording of nobody, and where no point is named as a joint.
-TEST(C3d, WithoutAnyJointHoldsNobody) {
+TEST(C3d, OfWhichNoPointIsSeenHoldsNobody) {
   std::string unseen = C3dBytes();
   for (size_t point = 0; point < 6; ++point) Put<float>(unseen, 1024 + 16 * point + 12, -1.0f);
-  for (const std::string& bytes : {unseen, With(C3dBytes(), "HipCenter Head", "Ball      Hat ")}) {
-    const auto read = Read(bytes);
-    ASSERT_EQ(read.frames.size(), 3u);
-    for (const SkeletonFrame& frame : read.frames) EXPECT_TRUE(frame.bodies.empty());
-  }
+  const auto read = Read(unseen);
+  ASSERT_EQ(read.frames.size(), 3u);
+  for (const SkeletonFrame& frame : read.frames) EXPECT_TRUE(frame.bodies.empty());
 }
 
 TEST(C3d, OfAnotherProcessorIsRefusedByName) {
   std::string bytes = C3dBytes();
-  bytes[512 + 3] = 86;
+  bytes[512 + 3] = 99;
   EXPECT_NE(ComplaintAbout(bytes).find("processor type"), std::string::npos);
 }
 

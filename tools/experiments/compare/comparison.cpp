@@ -25,7 +25,7 @@ void StopIfAsked(const CompareOptions& options) {
 
 /// `columns`: of files that hold truth and estimate side by side, what is wanted unless said.
 std::vector<SkeletonClip> Chosen(const std::string& path, const CompareOptions& options,
-                                 const char* columns) {
+                                 const char* columns, std::vector<std::string>& warnings) {
   auto reading = options.reading;
   if (reading.columns.empty()) reading.columns = columns;
   reading.stop = options.stop;
@@ -36,6 +36,9 @@ std::vector<SkeletonClip> Chosen(const std::string& path, const CompareOptions& 
            (!options.only.empty() && !HoldsAny(clip.name, options.only));
   });
   if (clips.empty()) throw InputError(path + ": no clip is left by --only and --skip");
+  for (const SkeletonClip& clip : clips) {
+    warnings.insert(warnings.end(), clip.sequence.warnings.begin(), clip.sequence.warnings.end());
+  }
   return clips;
 }
 
@@ -57,10 +60,11 @@ void AddClip(ComparedResult& compared, const std::string& name, const SkeletonCl
 }
 
 ComparedResult CompareOne(const std::string& truth_name, const std::vector<SkeletonClip>& truth,
-                          const std::string& name, const CompareOptions& options) {
+                          const std::string& name, const CompareOptions& options,
+                          std::vector<std::string>& warnings) {
   ComparedResult compared;
   compared.name = name;
-  const auto results = Chosen(name, options, "observed");
+  const auto results = Chosen(name, options, "observed", warnings);
   std::map<std::string, const SkeletonClip*> by_name;
   for (const SkeletonClip& clip : results) by_name[clip.name] = &clip;
   const bool single = truth.size() == 1 && results.size() == 1;
@@ -143,9 +147,9 @@ Comparison Compare(const std::string& truth, const std::vector<std::string>& res
   comparison.truth = truth;
   comparison.rigid = options.pairing.rigid;
   comparison.found_only = options.pairing.found_only;
-  const auto clips = Chosen(truth, options, "truth");
+  const auto clips = Chosen(truth, options, "truth", comparison.warnings);
   for (const std::string& result : results) {
-    comparison.results.push_back(CompareOne(truth, clips, result, options));
+    comparison.results.push_back(CompareOne(truth, clips, result, options, comparison.warnings));
   }
   Label(comparison.results);
   if (results.size() > 1) {

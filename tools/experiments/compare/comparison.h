@@ -47,6 +47,7 @@ struct Comparison {
   bool found_only = false;
   std::vector<ComparedResult> results;
   std::vector<ComparedTest> tests;
+  std::vector<std::string> warnings;  // of reading, for people to see
 };
 
 /// Reads and compares. Clips are matched by name; a single clip on both sides needs no equal name.

@@ -1,0 +1,216 @@
+#include "recon/files/point_bodies_internal.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <map>
+
+#include "depth/base/error.h"
+#include "recon/files/joint_names_internal.h"
+#include "recon/files/marker_centres_internal.h"
+#include "recon/files/skeleton_formats_internal.h"
+#include "recon/motion/text_scanner_internal.h"
+
+namespace ossa::recon {
+namespace {
+
+/// The labels of one subject.
+struct Subject {
+  std::string name;
+  std::vector<size_t> points;
+  std::vector<std::string> labels;  // without the subject's name
+};
+
+std::vector<Subject> GroupBySubject(const std::vector<std::string>& labels) {
+  std::vector<Subject> subjects;
+  for (size_t p = 0; p < labels.size(); ++p) {
+    const size_t colon = labels[p].rfind(':');
+    const std::string name = colon == std::string::npos ? "" : labels[p].substr(0, colon);
+    auto subject = std::find_if(subjects.begin(), subjects.end(),
+                                [&](const Subject& s) { return s.name == name; });
+    if (subject == subjects.end()) {
+      subjects.push_back({name, {}, {}});
+      subject = std::prev(subjects.end());
+    }
+    subject->points.push_back(p);
+    subject->labels.emplace_back(
+        Trimmed(std::string_view(labels[p]).substr(colon == std::string::npos ? 0 : colon + 1)));
+  }
+  return subjects;
+}
+
+/// The points that a line of a mapping names: "LKNE + LKNEM" is the middle of two. Empty when the
+/// subject lacks one.
+std::vector<size_t> FindNamed(const Subject& subject, std::string_view names) {
+  constexpr std::string_view kAnd = " + ";
+  std::vector<size_t> points;
+  while (!names.empty()) {
+    const size_t end = names.find(kAnd);
+    const std::string_view name = Trimmed(names.substr(0, end));
+    const auto own = std::find_if(subject.labels.begin(), subject.labels.end(), [&](const auto& l) {
+      return l == name || subject.name + ":" + l == name;
+    });
+    if (own == subject.labels.end()) return {};
+    points.push_back(subject.points[static_cast<size_t>(own - subject.labels.begin())]);
+    names.remove_prefix(end == std::string_view::npos ? names.size() : end + kAnd.size());
+  }
+  return points;
+}
+
+bool HasJoints(const PointBody& body) {
+  return !body.markers.empty() || std::any_of(body.points.begin(), body.points.end(),
+                                              [](const auto& points) { return !points.empty(); });
+}
+
+PointBody FindMapped(const Subject& subject, const BoneMapping& mapping, const LabelPlace& place) {
+  PointBody body;
+  const MappingLine* missing = nullptr;
+  for (const MappingLine& line : mapping.lines) {
+    const std::vector<size_t> points = FindNamed(subject, line.joint);
+    if (points.empty() && missing == nullptr) missing = &line;
+    // Bones whose near end is no joint of ours, as collars, are for mocap.
+    const auto joint = JointOfBone(line.bone);
+    if (joint) body.points[static_cast<size_t>(Index(*joint))] = points;
+  }
+  if (HasJoints(body) && missing != nullptr) {
+    FailInMapping(mapping, *missing, "a point of " + place.file);
+  }
+  return body;
+}
+
+// LSHO, LELB, ... are markers on the skin: joint centres are worked out from all of them.
+bool IsSkinMarker(const std::string& label) {
+  return label.size() == 4 && (label.ends_with("SHO") || label.ends_with("ELB") ||
+                               label.ends_with("KNE") || label.ends_with("ANK"));
+}
+
+PointBody FindJointsByName(const Subject& subject, bool skin) {
+  PointBody body;
+  for (size_t p = 0; p < subject.points.size(); ++p) {
+    const auto joint = JointCalled(subject.labels[p]);
+    if (!joint || IsSkinMarker(subject.labels[p]) != skin) continue;
+    auto& points = body.points[static_cast<size_t>(Index(*joint))];
+    if (points.empty()) points.push_back(subject.points[p]);
+  }
+  return body;
+}
+
+PointBody FindMarkers(const Subject& subject) {
+  PointBody body;
+  const bool trunk = std::any_of(subject.labels.begin(), subject.labels.end(), IsTrunkMarker);
+  for (size_t p = 0; trunk && p < subject.points.size(); ++p) {
+    body.markers.emplace_back(subject.points[p], subject.labels[p]);
+  }
+  return body;
+}
+
+PointBody FindBody(const Subject& subject, const BoneMapping* mapping, const LabelPlace& place) {
+  if (mapping != nullptr) {
+    const PointBody mapped = FindMapped(subject, *mapping, place);
+    if (HasJoints(mapped)) return mapped;
+  }
+  PointBody body = FindJointsByName(subject, false);
+  if (!HasJoints(body)) body = FindMarkers(subject);
+  return HasJoints(body) ? body : FindJointsByName(subject, true);
+}
+
+std::string ListLabels(const std::vector<std::string>& labels) {
+  constexpr size_t kMostListed = 60;  // by hand: what fits a line
+  std::string list;
+  size_t named = 0;
+  for (const std::string& label : labels) {
+    if (label.empty() || ++named > kMostListed) continue;
+    list.append(named == 1 ? "" : ", ").append(Quoted(label));
+  }
+  if (named > kMostListed) list += fmt::format(" and {} more", named - kMostListed);
+  return named == 0 ? "none" : list;
+}
+
+// A handful of joints among many markers: somebody may believe that all were read.
+void WarnOfUnknown(const std::vector<PointBody>& bodies, const std::vector<std::string>& labels,
+                   const LabelPlace& place, std::vector<std::string>& warnings) {
+  constexpr size_t kFew = 6;  // by hand: a limb or two
+  size_t known = 0;
+  for (const PointBody& body : bodies) {
+    if (!body.markers.empty()) return;
+    for (const auto& points : body.points) known += points.size();
+  }
+  if (known >= kFew || known == labels.size()) return;
+  warnings.push_back(
+      fmt::format("{}: {}: only {} of the points are known as joints: {}; --mapping FILE names "
+                  "others, in lines such as ElbowLeft = {}",
+                  place.file, place.place, known, ListLabels(labels), labels.back()));
+}
+
+BodyRecord MakeBody(const PointBody& body, const std::vector<SeenPoint>& points) {
+  if (!body.markers.empty()) {
+    Markers markers;
+    for (const auto& [point, name] : body.markers) {
+      if (points[point]) markers[name] = *points[point];
+    }
+    return JointCentres(markers);
+  }
+  BodyRecord made;
+  for (size_t j = 0; j < kJointCount; ++j) {
+    Eigen::Vector3d sum = Eigen::Vector3d::Zero();
+    const auto seen = [&](size_t point) { return points[point].has_value(); };
+    if (body.points[j].empty() ||
+        !std::all_of(body.points[j].begin(), body.points[j].end(), seen)) {
+      continue;
+    }
+    for (const size_t point : body.points[j]) sum += *points[point];
+    PutJoint(made, static_cast<Joint>(j), sum / static_cast<double>(body.points[j].size()));
+  }
+  return made;
+}
+
+}  // namespace
+
+std::vector<PointBody> FindPointBodies(const std::vector<std::string>& labels,
+                                       const BoneMapping* mapping, const LabelPlace& place,
+                                       std::vector<std::string>& warnings) {
+  std::vector<PointBody> bodies;
+  for (const Subject& subject : GroupBySubject(labels)) {
+    PointBody body = FindBody(subject, mapping, place);
+    if (HasJoints(body)) bodies.push_back(std::move(body));
+  }
+  if (bodies.empty()) {
+    throw InputError(fmt::format(
+        "{}: {}: expected points named as joints (such as ElbowLeft, LElbow, LEJC) or Plug-in "
+        "Gait's markers, found {}: say in a file for --mapping which they are, in lines such as "
+        "ElbowLeft = {}",
+        place.file, place.place, ListLabels(labels), labels.empty() ? "name" : labels.front()));
+  }
+  WarnOfUnknown(bodies, labels, place, warnings);
+  return bodies;
+}
+
+SkeletonFrame MakeFrame(const std::vector<PointBody>& bodies, const std::vector<SeenPoint>& points,
+                        size_t index, double time_s) {
+  SkeletonFrame frame;
+  frame.frame = static_cast<int64_t>(index);
+  frame.time_s = time_s;
+  for (const PointBody& body : bodies) {
+    BodyRecord& record = frame.bodies.emplace_back(MakeBody(body, points));
+    record.id = static_cast<int>(frame.bodies.size());
+  }
+  return frame;
+}
+
+std::optional<double> MetresPerUnit(std::string_view unit) {
+  static const std::map<std::string, double, std::less<>> kUnits = {
+      {"mm", 1e-3},          {"millimeters", 1e-3},
+      {"millimetres", 1e-3}, {"millimeter", 1e-3},
+      {"cm", 1e-2},          {"centimeters", 1e-2},
+      {"centimetres", 1e-2}, {"centimeter", 1e-2},
+      {"dm", 1e-1},          {"m", 1.0},
+      {"meters", 1.0},       {"metres", 1.0},
+      {"meter", 1.0},        {"metre", 1.0},
+      {"in", 0.0254},        {"inch", 0.0254},
+      {"inches", 0.0254}};
+  const auto found = kUnits.find(Lower(unit));
+  if (found == kUnits.end()) return std::nullopt;
+  return found->second;
+}
+
+}  // namespace ossa::recon

@@ -1,0 +1,356 @@
+// Texts as programs really write them: line ends, tabs, counts, units, numbers that are none.
+#include <gtest/gtest.h>
+
+#include <fstream>
+
+#include "tests/recon/files/skeleton_examples.h"
+#include "tests/recon/files/skeleton_texts.h"
+#include "tests/recon/motion/figure.h"
+#include "tests/support/refused.h"
+#include "tests/support/temporary_folder.h"
+
+namespace ossa::recon {
+namespace {
+
+SkeletonSequence Read(const std::string& text, const SkeletonReadOptions& options = {}) {
+  std::istringstream stream(text);
+  return ReadSkeletonStream(stream, "file", options);
+}
+
+std::string Replaced(std::string text, const std::string& what, const std::string& by) {
+  for (size_t at = text.find(what); at != std::string::npos; at = text.find(what, at + by.size())) {
+    text.replace(at, what.size(), by);
+  }
+  return text;
+}
+
+/// Two markers and a third that is no joint, millimetres, three frames.
+const std::string kTrc =
+    "PathFileType\t4\t(X/Y/Z)\tx.trc\n"
+    "DataRate\tCameraRate\tNumFrames\tNumMarkers\tUnits\tOrigDataRate\tOrigDataStartFrame\t"
+    "OrigNumFrames\n"
+    "30\t30\t3\t2\tmm\t30\t1\t3\n"
+    "Frame#\tTime\tLKnee\t\t\tHead\t\t\n"
+    "\t\tX1\tY1\tZ1\tX2\tY2\tZ2\n\n"
+    "1\t0.00\t100.50\t500.25\t10.00\t0.00\t1600.00\t20.00\n"
+    "2\t0.03\t110.50\t500.25\t10.00\t0.00\t1600.00\t20.00\n"
+    "3\t0.06\t120.50\t500.25\t10.00\t0.00\t1600.00\t2.75\n";
+
+void ExpectKneeAndHead(const SkeletonSequence& read, double size = 1.0) {
+  ASSERT_EQ(read.frames.size(), 3u);
+  EXPECT_LT((At(read, 1, Joint::kKneeLeft) - size * Eigen::Vector3d(0.1105, 0.50025, 0.01)).norm(),
+            1e-9);
+  EXPECT_LT((At(read, 2, Joint::kHead) - size * Eigen::Vector3d(0, 1.6, 0.00275)).norm(), 1e-9);
+}
+
+struct OddTrc {
+  const char* name;
+  std::string text;
+  double size = 1.0;
+};
+
+void PrintTo(const OddTrc& odd, std::ostream* out) { *out << odd.name; }
+
+class OddTrcs : public testing::TestWithParam<OddTrc> {};
+
+TEST_P(OddTrcs, AreReadAsThePlainOne) {
+  const auto read = Read(GetParam().text);
+  ExpectKneeAndHead(read, GetParam().size);
+  EXPECT_TRUE(read.warnings.empty()) << read.warnings.front();
+}
+
+INSTANTIATE_TEST_SUITE_P(
+    All, OddTrcs,
+    testing::Values(
+        OddTrc{"Plain", kTrc}, OddTrc{"CrOnly", Replaced(kTrc, "\n", "\r")},
+        OddTrc{"CrLf", Replaced(kTrc, "\n", "\r\n")},
+        OddTrc{"ByteOrderMark", "\xEF\xBB\xBF" + kTrc},
+        OddTrc{"LabelsFromX5",
+               Replaced(Replaced(kTrc, "X1\tY1\tZ1", "X5\tY5\tZ5"), "X2\tY2\tZ2", "X6\tY6\tZ6")},
+        OddTrc{"LabelsFromX0",
+               Replaced(Replaced(kTrc, "X1\tY1\tZ1", "X0\tY0\tZ0"), "X2\tY2\tZ2", "X1\tY1\tZ1")},
+        OddTrc{"Centimetres", Replaced(kTrc, "\tmm\t", "\tcm\t"), 10.0},
+        OddTrc{"Metres", Replaced(kTrc, "\tmm\t", "\tm\t"), 1000.0},
+        OddTrc{"CapitalMillimetres", Replaced(kTrc, "\tmm\t", "\tMM\t")},
+        OddTrc{"MetersWritten", Replaced(kTrc, "\tmm\t", "\tMeters\t"), 1000.0},
+        OddTrc{"Subject", Replaced(Replaced(kTrc, "LKnee", "Ann:LKnee"), "Head", "Ann:Head")},
+        OddTrc{"DoubleTabsInTheKeys",
+               Replaced(kTrc, "CameraRate\tNumFrames", "CameraRate\t\tNumFrames")},
+        OddTrc{"DoubleTabsInTheValues", Replaced(kTrc, "30\t30\t3\t2\tmm", "30\t\t30\t\t3\t2\tmm")},
+        OddTrc{"DoubleTabsInTheNames",
+               Replaced(kTrc, "Time\tLKnee\t\t\tHead", "Time\t\tLKnee\t\t\t\tHead")},
+        OddTrc{"TabsAtTheEndOfRows", Replaced(kTrc, "20.00\n", "20.00\t\t\n")},
+        OddTrc{"NoLastLineEnd", kTrc.substr(0, kTrc.size() - 1)}),
+    [](const auto& info) { return std::string(info.param.name); });
+
+TEST(Trc, NanOfAnyProgramIsABlank) {
+  for (const char* nan : {"NaN", "nan", "-nan", "-nan(ind)", "1.#QNAN", ""}) {
+    const std::string gap = std::string(nan) + "\t" + nan + "\t" + nan;
+    const auto read = Read(Replaced(kTrc, "110.50\t500.25\t10.00", gap));
+    const auto& joints = read.frames.at(1).bodies.at(0).joints;
+    EXPECT_FALSE(joints[static_cast<size_t>(Index(Joint::kKneeLeft))].has_value()) << nan;
+    EXPECT_TRUE(joints[static_cast<size_t>(Index(Joint::kHead))].has_value()) << nan;
+  }
+}
+
+TEST(Trc, OfMoreOrFewerRowsThanItSaysIsWhatIsThereWithAWarning) {
+  for (const char* said : {"\t2\t2\tmm", "\t9\t2\tmm"}) {
+    const auto read = Read(Replaced(kTrc, "\t3\t2\tmm", said));
+    ExpectKneeAndHead(read);
+    ASSERT_EQ(read.warnings.size(), 1u) << said;
+    EXPECT_NE(read.warnings[0].find("the file has 3"), std::string::npos) << read.warnings[0];
+  }
+}
+
+// Wherever it was cut: the digits that are missing would be another place.
+TEST(Trc, CutInsideItsLastRowIsRefused) {
+  const size_t row = kTrc.find("3\t0.06");
+  for (size_t length = row + 1; length + 1 < kTrc.size(); ++length) {
+    EXPECT_NE(ComplaintAbout(kTrc.substr(0, length)), "") << kTrc.substr(row, length - row);
+  }
+  EXPECT_EQ(ComplaintAbout(kTrc.substr(0, kTrc.size() - 1)), "");
+}
+
+TEST(Trc, OfTwoSubjectsIsTwoBodies) {
+  const auto read = Read(Replaced(Replaced(kTrc, "LKnee", "Ann:LKnee"), "Head", "Bob:Head"));
+  ASSERT_EQ(read.frames[0].bodies.size(), 2u);
+  const auto has = [&](size_t body, Joint joint) {
+    return read.frames[0].bodies[body].joints[static_cast<size_t>(Index(joint))].has_value();
+  };
+  EXPECT_TRUE(has(0, Joint::kKneeLeft));
+  EXPECT_FALSE(has(0, Joint::kHead));
+  EXPECT_TRUE(has(1, Joint::kHead));
+}
+
+const std::string kUnknownTrc = Replaced(Replaced(kTrc, "LKnee", "M01"), "Head", "M02");
+
+TEST(Trc, WithoutKnownNamesSaysWhichItHasAndHowToMapThem) {
+  const std::string complaint = ComplaintAbout(kUnknownTrc);
+  EXPECT_NE(complaint.find("file: line 4: expected points named as joints"), std::string::npos);
+  EXPECT_NE(complaint.find("found 'M01', 'M02': say in a file for --mapping"), std::string::npos)
+      << complaint;
+  EXPECT_EQ(complaint.find('\n'), std::string::npos);
+}
+
+TEST(Trc, WithFewKnownNamesIsReadWithAWarningThatListsAll) {
+  const auto read = Read(Replaced(kTrc, "Head", "M02"));
+  ASSERT_EQ(read.warnings.size(), 1u);
+  EXPECT_NE(read.warnings[0].find("only 1 of the points are known"), std::string::npos);
+  EXPECT_NE(read.warnings[0].find("'M02'"), std::string::npos) << read.warnings[0];
+}
+
+class MappedPoints : public testing::Test {
+ protected:
+  SkeletonReadOptions Mapping(const std::string& text) {
+    std::ofstream(folder_ / "names.txt") << text;
+    SkeletonReadOptions options;
+    options.mapping_file = folder_ / "names.txt";
+    return options;
+  }
+  ossa::test::TemporaryFolder folder_;
+};
+
+TEST_F(MappedPoints, AreJointsOrBonesAndTheMiddleOfSeveral) {
+  ExpectKneeAndHead(Read(kUnknownTrc, Mapping("KneeLeft = M01\nHead=M02\n")));
+  ExpectKneeAndHead(Read(kUnknownTrc, Mapping("LeftLeg = M01\nHead = M02\n")));
+  const auto middle = Read(kUnknownTrc, Mapping("Spine = M01 + M02\n"));
+  EXPECT_LT((At(middle, 0, Joint::kSpine) - Eigen::Vector3d(0.05025, 1.050125, 0.015)).norm(),
+            1e-9);
+}
+
+TEST_F(MappedPoints, AreRefusedByTheLineThatNamesNone) {
+  const auto options = Mapping("# of ours\nKneeLeft = M01\nHead = M03\n");
+  ossa::test::ExpectRefused([&] { Read(kUnknownTrc, options); },
+                            "names.txt: line 3: expected a point of file, found 'M03'");
+}
+
+TEST_F(MappedPoints, OfAC3dAreReadLikewise) {
+  const std::string text = Replaced(C3dBytes(), "HipCenter Head", "Ball      Hat ");
+  const std::string complaint = ComplaintAbout(text);
+  EXPECT_NE(complaint.find("found 'Ball', 'Hat'"), std::string::npos) << complaint;
+  const auto read = Read(text, Mapping("HipCenter = Ball\nHead = Hat\n"));
+  EXPECT_LT((At(read, 0, Joint::kHead) - At(Read(C3dBytes()), 0, Joint::kHead)).norm(), 1e-12);
+}
+
+/// The number of the other processor's bytes for the same values.
+std::string ForMips(std::string bytes) {
+  const auto swap = [&](size_t at, size_t size) {
+    std::reverse(bytes.begin() + static_cast<std::ptrdiff_t>(at),
+                 bytes.begin() + static_cast<std::ptrdiff_t>(at + size));
+  };
+  for (const size_t word : {2, 6, 8, 16}) swap(word, 2);
+  for (const size_t real : {12, 20}) swap(real, 4);
+  for (size_t at = 1024; at + 4 <= 1024 + 3 * 2 * 16; at += 4) swap(at, 4);
+  for (const char* name : {"POINT", "LABELS", "UNITS"}) {
+    swap(bytes.find(name, 512) + std::string(name).size(), 2);
+  }
+  bytes[512 + 3] = 86;
+  return bytes;
+}
+
+std::string ForDec(std::string bytes) {
+  const auto convert = [&](size_t at) {
+    float value = 0;
+    std::memcpy(&value, bytes.data() + at, 4);
+    value *= 4;
+    std::memcpy(bytes.data() + at, &value, 4);
+    std::swap_ranges(bytes.begin() + static_cast<std::ptrdiff_t>(at),
+                     bytes.begin() + static_cast<std::ptrdiff_t>(at + 2),
+                     bytes.begin() + static_cast<std::ptrdiff_t>(at + 2));
+  };
+  for (const size_t real : {12, 20}) convert(real);
+  for (size_t at = 1024; at + 4 <= 1024 + 3 * 2 * 16; at += 4) convert(at);
+  bytes[512 + 3] = 85;
+  return bytes;
+}
+
+TEST(C3d, OfEveryProcessorIsTheSame) {
+  const auto intel = Read(C3dBytes());
+  for (const std::string& bytes : {ForMips(C3dBytes()), ForDec(C3dBytes())}) {
+    const auto read = Read(bytes);
+    ASSERT_EQ(read.frames.size(), intel.frames.size());
+    EXPECT_NEAR(read.frames[1].time_s, 0.02, 1e-9);
+    for (size_t f = 0; f < 2; ++f) {
+      for (const Joint joint : {Joint::kHipCenter, Joint::kHead}) {
+        EXPECT_LT((At(read, f, joint) - At(intel, f, joint)).norm(), 1e-9);
+      }
+    }
+    EXPECT_FALSE(read.frames[2].bodies[0].joints[3].has_value()) << "not seen";
+  }
+}
+
+TEST(C3d, NanIsNotSeen) {
+  std::string bytes = C3dBytes();
+  Put<float>(bytes, 1024 + 16, std::numeric_limits<float>::quiet_NaN());
+  EXPECT_FALSE(Read(bytes).frames[0].bodies[0].joints[3].has_value());
+}
+
+std::string OwnCsv() {
+  const ossa::test::TemporaryFolder folder;
+  WriteSkeletons(folder / "x.csv", ExampleSequence(3));
+  std::ifstream file(folder / "x.csv");
+  return {std::istreambuf_iterator<char>(file), {}};
+}
+
+/// As a spreadsheet in quotes: every field.
+std::string InQuotes(const std::string& text, char separator) {
+  std::string quoted = "\"";
+  for (const char c : text) {
+    if (c == separator || c == '\n') {
+      quoted.append("\"").append(1, c).append("\"");
+    } else {
+      quoted.push_back(c);
+    }
+  }
+  quoted.pop_back();
+  return quoted;
+}
+
+TEST(OwnCsv, AsSpreadsheetsSaveItIsTheSame) {
+  const std::string own = OwnCsv();
+  std::string european = Replaced(own, ",", ";");
+  european = Replaced(european, ".", ",");
+  for (const std::string& text :
+       {european, Replaced(own, ",", "\t"), InQuotes(own, ','), InQuotes(european, ';'),
+        "\xEF\xBB\xBF" + Replaced(european, "\n", "\r\n"), Replaced(own, "\n", ",,,\n"),
+        InQuotes(Replaced(Replaced(Replaced(own, ",", "|"), ".", ","), "\n", "|\n"), '|')}) {
+    const std::string table = Replaced(text, "|", ",");
+    const auto read = Read(table);
+    const auto plain = Read(own);
+    ASSERT_EQ(read.frames.size(), plain.frames.size());
+    for (size_t f = 0; f < 3; ++f) {
+      EXPECT_EQ(At(read, f, Joint::kHead), At(plain, f, Joint::kHead));
+      EXPECT_EQ(read.frames[f].time_s, plain.frames[f].time_s);
+    }
+  }
+}
+
+TEST(OwnCsv, CutInsideARowIsRefused) {
+  const std::string own = OwnCsv();
+  EXPECT_NE(ComplaintAbout(own.substr(0, own.rfind(','))), "");
+}
+
+TEST(Ntu, WithNanKeepsTheOtherJoints) {
+  const auto read = Read(Replaced(NtuText(), "0 0 3 277", "NaN NaN NaN 277"));
+  ASSERT_EQ(read.frames.size(), 2u);
+  size_t joints = 0;
+  for (const auto& joint : read.frames[1].bodies.at(0).joints) joints += joint ? 1 : 0;
+  EXPECT_GE(joints, 18u);
+}
+
+TEST(Ntu, WithWrongCountsKeepsWhatIsThereWithAWarning) {
+  const std::string good = NtuText();
+  for (const std::string& text :
+       {Replaced(good, "2\n0\n1\n", "7\n0\n1\n"), Replaced(good, "2\n0\n1\n", "1\n0\n1\n"),
+        Replaced(good, "2\n0\n1\n", "2\n0\n3\n"), Replaced(good, "2\n0\n1\n", "2\n2\n1\n"),
+        Replaced(good, "2\n0\n1\n", "2\n0\n0\n")}) {
+    const auto read = Read(text);
+    ASSERT_EQ(read.frames.size(), 2u);
+    EXPECT_TRUE(read.frames[0].bodies.empty());
+    EXPECT_EQ(read.frames[1].bodies.size(), 1u);
+    EXPECT_EQ(read.warnings.size(), 1u);
+  }
+}
+
+TEST(OddText, InUtf16IsRefusedByThatName) {
+  EXPECT_NE(ComplaintAbout(std::string("\xFF\xFE"
+                                       "f\0r\0",
+                                       6))
+                .find("found UTF-16"),
+            std::string::npos);
+}
+
+struct OddBvh {
+  const char* name;
+  std::string text;
+  const char* warning;  // "" for none
+};
+
+void PrintTo(const OddBvh& odd, std::ostream* out) { *out << odd.name; }
+
+class OddBvhs : public testing::TestWithParam<OddBvh> {};
+
+TEST_P(OddBvhs, AreReadAsThePlainOne) {
+  const auto plain = Read(test::FigureBvh());
+  const auto read = Read(GetParam().text);
+  ASSERT_EQ(read.frames.size(), plain.frames.size());
+  for (const size_t f : {size_t{0}, plain.frames.size() - 1}) {
+    EXPECT_EQ(At(read, f, Joint::kHandLeft), At(plain, f, Joint::kHandLeft));
+  }
+  const std::string warning = GetParam().warning;
+  ASSERT_EQ(read.warnings.empty(), warning.empty());
+  if (!warning.empty()) {
+    EXPECT_NE(read.warnings[0].find(warning), std::string::npos) << read.warnings[0];
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(
+    All, OddBvhs,
+    testing::Values(
+        OddBvh{"CrOnly", Replaced(test::FigureBvh(), "\n", "\r"), ""},
+        OddBvh{"CrLf", Replaced(test::FigureBvh(), "\n", "\r\n"), ""},
+        OddBvh{"ByteOrderMark", "\xEF\xBB\xBF" + test::FigureBvh(), ""},
+        OddBvh{"LowerCase", Replaced(test::FigureBvh(), "HIERARCHY", "hierarchy"), ""},
+        OddBvh{"NoSpaceAfterColons",
+               Replaced(Replaced(test::FigureBvh(), "Frames: ", "Frames:"), "Time: ", "Time:"), ""},
+        OddBvh{"SpaceBeforeColons", Replaced(test::FigureBvh(), "Frames:", "Frames :"), ""},
+        OddBvh{"EndSiteChannels0",
+               Replaced(test::FigureBvh(), "0.000000\n}", "0.000000\nCHANNELS 0\n}"), ""},
+        OddBvh{"MoreFramesSaid", Replaced(test::FigureBvh(), "Frames: 30", "Frames: 75"),
+               "the header says 75 frames, the file has 30"},
+        OddBvh{"FewerFramesSaid", Replaced(test::FigureBvh(), "Frames: 30", "Frames: 7"),
+               "the header says 7 frames, the file has 30"},
+        OddBvh{"NoLastLineEnd", test::FigureBvh().substr(0, test::FigureBvh().size() - 1), ""}),
+    [](const auto& info) { return std::string(info.param.name); });
+
+TEST(OddBvh, CutInsideItsLastRowIsRefused) {
+  const std::string whole = test::FigureBvh();
+  const size_t row = whole.rfind('\n', whole.size() - 2);
+  for (size_t length = row + 3; length + 1 < whole.size(); length += 7) {
+    EXPECT_NE(ComplaintAbout(whole.substr(0, length)), "") << length - row;
+  }
+  EXPECT_NE(ComplaintAbout(whole.substr(0, whole.size() - 2)), "") << "its last digit";
+}
+
+}  // namespace
+}  // namespace ossa::recon
