@@ -61,10 +61,10 @@ bool IsBone(const std::string& name) {
 
 }  // namespace
 
-BoneMapping ReadBoneMapping(const std::filesystem::path& path) {
-  TextScanner scan(ReadTextFile(path), path.string());
+BoneMapping ParseBoneMapping(std::string text, const std::string& file) {
+  TextScanner scan(std::move(text), file);
   BoneMapping mapping;
-  mapping.file = path.string();
+  mapping.file = file;
   for (auto words = scan.LineOfWords(); !words.empty(); words = scan.LineOfWords()) {
     const auto [bone, joint] = TakeApart(scan, words);
     if (bone.empty()) continue;
@@ -83,6 +83,10 @@ BoneMapping ReadBoneMapping(const std::filesystem::path& path) {
   }
   if (mapping.lines.empty()) scan.Fail("at least one line BONE = joint name", "");
   return mapping;
+}
+
+BoneMapping ReadBoneMapping(const std::filesystem::path& path) {
+  return ParseBoneMapping(ReadTextFile(path), path.string());
 }
 
 std::optional<Joint> JointOfBone(std::string_view bone) {

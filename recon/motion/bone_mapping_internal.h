@@ -28,7 +28,8 @@ struct BoneMapping {
   int rest_line = 0;
 };
 
-/// Throws InputError that names file and line.
+/// Throw InputError that names file and line. `file` stands for the text in messages.
+BoneMapping ParseBoneMapping(std::string text, const std::string& file);
 BoneMapping ReadBoneMapping(const std::filesystem::path& path);
 
 /// The SDK's joint where a bone of the rig begins ("LeftArm": ShoulderLeft), or of that name; none

@@ -3,6 +3,7 @@
 #include <string>
 #include <vector>
 
+#include "depth/base/error.h"
 #include "recon/body/standard_body.h"
 #include "recon/motion/upright_internal.h"
 #include "recon/smallest_turn.h"
@@ -37,6 +38,14 @@ double MeasureStretch(const SourceFrame& frame, const SourceBones& bones) {
     stretch -= trunk.dot((Of(frame, side.foot) - Of(frame, side.leg)).normalized());
   }
   return stretch;
+}
+
+void RequireTrunk(const SourceMotion& motion, const SourceBones& bones, const SourceFrame& frame) {
+  const SideBones &left = bones.side[0], &right = bones.side[1];
+  const double hips = (Of(frame, left.up_leg) - Of(frame, right.up_leg)).norm();
+  const double shoulders = (Of(frame, left.arm) - Of(frame, right.arm)).norm();
+  if (hips > 1e-9 && shoulders > 1e-9 && TrunkDirection(frame.position, bones).norm() > 0.5) return;
+  throw InputError(motion.source + ": hips or shoulders coincide, expected a person");
 }
 
 /// Which way the second of two bones leaves the first, in the axes of each bone's joint: where
@@ -199,6 +208,7 @@ ReferencePose FindReferencePose(const SourceMotion& motion, const SourceBones& b
   for (size_t f = 1; f < frames.size(); ++f) {
     if (MeasureStretch(frames[f], bones) > MeasureStretch(frames[best], bones)) best = f;
   }
+  RequireTrunk(motion, bones, frames[best]);
   ReferencePose pose{frames[best], {}};
   pose.world_from_rest = Layer(motion, bones, world_from_file, frames, frames[best]).Run();
   return pose;

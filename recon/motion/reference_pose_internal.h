@@ -19,7 +19,8 @@ struct ReferencePose {
 /// Trunk: hips and shoulders give left, the line between their middles up. Limbs: each bone lies
 /// along the source's, its turn about itself is that in which elbows and knees bend, seen over the
 /// whole motion (a limb that never bends faces as the trunk does). What places cannot tell, the
-/// turn of the head and the roll of the hands, is taken as neutral in that frame.
+/// turn of the head and the roll of the hands, is taken as neutral in that frame. Throws InputError
+/// where hips or shoulders coincide.
 ReferencePose FindReferencePose(const SourceMotion& motion, const SourceBones& bones,
                                 const Eigen::Quaterniond& world_from_file);
 

@@ -1,16 +1,21 @@
-// Motion capture as text: BVH, Acclaim ASF with AMC, pybullet's JSON. The first byte of an input
-// chooses which. What is accepted must also yield its frames.
+// Motion capture as text: BVH, Acclaim ASF with AMC, pybullet's JSON; mapping files. The first byte
+// of an input chooses which. What is accepted must also yield its frames, a BVH of a person its
+// motion on the body.
 #include <cmath>
 #include <cstdint>
 #include <memory>
 
 #include "recon/motion/acclaim_internal.h"
+#include "recon/motion/bone_names_internal.h"
 #include "recon/motion/bvh.h"
+#include "recon/motion/bvh_source_internal.h"
 #include "recon/motion/humanoid3d_internal.h"
+#include "recon/motion/retarget_internal.h"
 #include "tests/fuzz/outcome.h"
 #include "tests/fuzz/seeds.h"
 #include "tests/recon/motion/acclaim_texts.h"
 #include "tests/recon/motion/bvh_texts.h"
+#include "tests/recon/motion/figure.h"
 
 namespace {
 
@@ -31,6 +36,20 @@ void UseBvh(const std::string& text) {
   // What we write of it reads as the same.
   const BvhFile again = ParseBvh(FormatBvh(bvh), "again.bvh");
   if (again.joints.size() != bvh.joints.size() || again.values.size() != bvh.values.size()) abort();
+  for (BvhFile& root : SplitRoots(again)) {
+    const SourceMotion motion = SourceOf(std::move(root), "root.bvh");
+    if (motion.frame_count > 100) continue;  // of a hostile frame time, resampling makes millions
+    const MotionClip clip = Retarget(motion, FindBones(motion, nullptr), motion.frame_s);
+    for (const RigPose& pose : clip.frames) {
+      if (!pose.root_m.allFinite() || !pose.world_from_rest[0].coeffs().allFinite()) abort();
+    }
+  }
+}
+
+void UseMapping(const std::string& text) {
+  const BoneMapping mapping = ParseBoneMapping(text, "names.txt");
+  static const SourceMotion motion = SourceOf(ParseBvh(test::FigureBvh(), "x.bvh"), "x.bvh");
+  if (FindBones(motion, &mapping).hips < 0) abort();
 }
 
 void UseAsf(const std::string& text) {
@@ -55,21 +74,27 @@ std::vector<std::string> ossa::fuzz::Seeds() {
   std::string zeros;
   for (size_t i = 0; i < kTPoseChannels; ++i) zeros += "0 ";
   return {"b" + TPoseHierarchy() + "MOTION\nFrames: 1\nFrame Time: 0.05\n" + zeros + "\n",
-          "s" + TPoseAsf(), "m" + kAmc + "lowerback 1 2 3\n",
-          "h{\"Loop\":\"wrap\",\"Frames\":[" + frame + "," + frame + "]}"};
+          "b" + test::FigureBvh(),
+          "b" + test::FigureBvh({.bones_along_x = true}),
+          "pHips = Hips\nElbowLeft=LeftForeArm # ours\nrest = frame 3\n",
+          "s" + TPoseAsf(),
+          "m" + kAmc + "lowerback 1 2 3\n",
+          "j{\"Loop\":\"wrap\",\"Frames\":[" + frame + "," + frame + "]}"};
 }
 
 extern "C" int LLVMFuzzerTestOneInput(const uint8_t* data, size_t size) {
   if (size == 0) return 0;
   const std::string text(reinterpret_cast<const char*>(data) + 1, size - 1);
   ossa::fuzz::ExpectValueOrOneLine([&] {
-    switch (data[0] % 4) {
-      case 'b' % 4:
+    switch (data[0] % 5) {
+      case 'b' % 5:
         return UseBvh(text);
-      case 's' % 4:
+      case 's' % 5:
         return UseAsf(text);
-      case 'm' % 4:
+      case 'm' % 5:
         return UseAmc(text);
+      case 'p' % 5:
+        return UseMapping(text);
       default:
         return UseHumanoid(text);
     }

@@ -7,6 +7,7 @@
 #include "tests/fuzz/outcome.h"
 #include "tests/fuzz/seeds.h"
 #include "tests/recon/files/skeleton_texts.h"
+#include "tests/recon/motion/figure.h"
 
 namespace {
 
@@ -41,6 +42,9 @@ std::vector<std::string> ossa::fuzz::Seeds() {
     seeds.push_back('\0' + TakeFile(path));
   }
   for (const std::string& text : ForeignSkeletonTexts()) seeds.push_back('\0' + text);
+  seeds.push_back('\0' + test::FigureBvh({.frames = 2}));
+  seeds.push_back('\0' +
+                  test::FigureBvh({.units_per_cm = 0.01, .frames = 2, .bones_along_x = true}));
   return seeds;
 }
 
