@@ -27,7 +27,6 @@ recon::Posture HeldToImage(const recon::Posture& posture, const recon::TrackedPo
                            const recon::JointArray<double>& reliability) {
   recon::Posture held = posture;
   for (size_t j = 0; j < kJointCount; ++j) {
-    const int parent = recon::kJointParent[j];
     if (observed.state[j] != TrackingState::kNotTracked) {
       const Eigen::Vector3d& seen = observed.posture.position_m[j];
       const bool tracked = observed.state[j] == TrackingState::kTracked;
@@ -37,8 +36,8 @@ recon::Posture HeldToImage(const recon::Posture& posture, const recon::TrackedPo
       const Eigen::Vector3d off = posture.position_m[j] - seen;
       const double share = off.norm() > radius_m ? radius_m / off.norm() : 1.0;
       held.position_m[j] = seen + off * share;
-    } else if (parent >= 0) {
-      const auto p = static_cast<size_t>(parent);
+    } else if (j > 0) {
+      const size_t p = recon::ParentOf(j);
       held.position_m[j] = held.position_m[p] + (posture.position_m[j] - posture.position_m[p]);
     }
   }

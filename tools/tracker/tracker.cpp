@@ -45,7 +45,8 @@ std::shared_ptr<const recon::PostureDatabase> LoadDatabase(const TrackerOptions&
 // What best knows of the errors that a close look leaves in the shipped forest's joints is shipped
 // with them (tools/train_correction). Of other joints it is known that their forest was shown our
 // own bodies: bones are expected in the proportions of the standard body.
-std::shared_ptr<const recon::LearnedModels> LearnedOf(const TrackerOptions& options, bool looked) {
+std::shared_ptr<const recon::LearnedModels> LoadLearned(const TrackerOptions& options,
+                                                        bool looked) {
   if (looked && (options.model.empty() || IsShippedFile(options.model, "body.ossa"))) {
     return std::make_shared<recon::LearnedModels>(
         recon::LearnedModels::Load(ShippedFile("body.ossagp")));
@@ -110,7 +111,7 @@ struct Tracker::Impl {
       complete.reconstructor.learned =
           std::make_shared<recon::LearnedModels>(recon::LearnedModels::Load(o.learned));
     } else if (o.method == "best") {
-      complete.reconstructor.learned = LearnedOf(o, look != nullptr && !none);
+      complete.reconstructor.learned = LoadLearned(o, look != nullptr && !none);
     }
     complete.reconstructor.best.looked = look != nullptr;
     complete.reconstructor.seed = o.seed;

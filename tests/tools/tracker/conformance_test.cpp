@@ -156,7 +156,7 @@ TEST(SdkConformance, SeatedModeTracksTheTenUpperJoints) {
   const BodyFrame bodies = TrackOnce(options, Rendered({PersonAt(0, 2.5)}));
   ASSERT_EQ(bodies.bodies.size(), 1U);
   int upper = 0;
-  for (int j = 0; j < kJointCount; ++j) {
+  for (size_t j = 0; j < kJointCount; ++j) {
     const bool seated = IsSeatedJoint(static_cast<Joint>(j));
     upper += seated ? 1 : 0;
     if (!seated) {
