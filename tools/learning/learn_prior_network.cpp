@@ -25,7 +25,7 @@ using recon::kBoneDims;
 using recon::kJointCount;
 using recon::Posture;
 
-using Joints = JointArray<bool>;
+using Joints = recon::JointArray<bool>;
 
 constexpr size_t kEvery = 4;  // frames give an example: neighbours hardly differ
 constexpr size_t kShortest = 60, kLongest = 150;  // frames for which things stay as hidden as ever

@@ -33,7 +33,7 @@ double BoneCost(double length_m, double expected_m) {
 struct Option {
   const Proposal* proposal = nullptr;  // null: missing
   double cost = 0;                     // own, and of the best choice of all children
-  JointArray<int> child_choice{};
+  recon::JointArray<int> child_choice{};
 };
 
 // Exact minimum over the tree of joints: children before parents (Viterbi).
@@ -48,9 +48,9 @@ class Chooser {
     for (size_t j = kJointCount - 1; j > 0; --j) PassToParent(j);
   }
 
-  JointArray<const Proposal*> Best() const {
-    JointArray<const Proposal*> chosen{};
-    JointArray<int> index{};
+  recon::JointArray<const Proposal*> Best() const {
+    recon::JointArray<const Proposal*> chosen{};
+    recon::JointArray<int> index{};
     const auto& roots = options_[0];
     index[0] = static_cast<int>(
         std::min_element(roots.begin(), roots.end(),
@@ -99,7 +99,7 @@ class Chooser {
   }
 
   const ChoiceContext& context_;
-  JointArray<std::vector<Option>> options_;
+  recon::JointArray<std::vector<Option>> options_;
 };
 
 bool InImage(const depth::Camera& camera, const Eigen::Vector3d& p) {

@@ -59,8 +59,8 @@ struct Verdicts {
 };
 
 /// Median length of every bone; 0 where it was never seen.
-JointArray<double> MedianBones_m(const recon::SkeletonSequence& sequence) {
-  JointArray<double> medians{};
+recon::JointArray<double> MedianBones_m(const recon::SkeletonSequence& sequence) {
+  recon::JointArray<double> medians{};
   for (size_t j = 1; j < kJointCount; ++j) {
     std::vector<double> lengths;
     for (const auto& frame : sequence.frames) {

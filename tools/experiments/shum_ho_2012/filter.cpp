@@ -64,7 +64,7 @@ class Targets {
 
 /// Joints that the sensor has no name for are put where they must be: the centre of the hips
 /// between them, wrists and ankles most of the way from elbow to hand and from knee to foot.
-void FillUnnamed(const JointArray<bool>& named, Posture& target) {
+void FillUnnamed(const recon::JointArray<bool>& named, Posture& target) {
   constexpr double kMostOfTheWay = 0.75;  // share of a step
   if (!named[0]) {
     target[Joint::kHipCenter] = 0.5 * (target[Joint::kHipLeft] + target[Joint::kHipRight]);
@@ -77,7 +77,7 @@ void FillUnnamed(const JointArray<bool>& named, Posture& target) {
 }
 
 Targets::Targets(const std::vector<SparsePosture>& seen) {
-  JointArray<bool> named{};
+  recon::JointArray<bool> named{};
   for (const SparsePosture& s : seen) {
     for (size_t j = 0; j < kJointCount; ++j) named[j] = named[j] || s.present[j];
   }
