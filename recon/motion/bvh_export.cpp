@@ -69,9 +69,7 @@ ptrdiff_t ChildrenOf(size_t joint) {
   return std::count(kJointParent.begin(), kJointParent.end(), static_cast<int>(joint));
 }
 
-bool Branches(size_t joint) {
-  return ChildrenOf(joint) > 1;
-}
+bool Branches(size_t joint) { return ChildrenOf(joint) > 1; }
 
 /// The joint of the file that turns each bone (bone j ends in joint j): the bone's parent joint, or
 /// its own helper where bones branch.
@@ -92,7 +90,7 @@ Layout LayoutOf(const BoneLengths& lengths) {
   root.channels.insert(root.channels.end(), kTurns.begin(), kTurns.end());
   layout.joints.push_back(root);
   for (size_t j = 1; j < kJointCount; ++j) {
-    const auto parent = static_cast<size_t>(kJointParent[j]);
+    const auto parent = ParentOf(j);
     layout.turner[j] = layout.place[parent];
     if (Branches(parent)) {
       BvhJoint helper;
@@ -118,9 +116,8 @@ Layout LayoutOf(const BoneLengths& lengths) {
 
 /// Pelvis (or whole-body) frame: x from right to left hip, y as near to up the spine as can be.
 Quaterniond BodyFrame(const JointArray<Vector3d>& direction) {
-  Vector3d left = direction[static_cast<size_t>(Index(Joint::kHipLeft))] -
-                  direction[static_cast<size_t>(Index(Joint::kHipRight))];
-  const Vector3d up = direction[static_cast<size_t>(Index(Joint::kSpine))];
+  Vector3d left = direction[Index(Joint::kHipLeft)] - direction[Index(Joint::kHipRight)];
+  const Vector3d up = direction[Index(Joint::kSpine)];
   if (left.cross(up).norm() < 1e-3) left = up.unitOrthogonal();
   left.normalize();
   const Vector3d front = left.cross(up).normalized();
@@ -147,7 +144,7 @@ Vector3d ZxyDegrees(const Quaterniond& rotation) {
 /// Directions of the bones in a frame; what is missing stays as it was.
 void UpdateDirections(const Sighting& sighting, JointArray<Vector3d>& direction) {
   for (size_t j = 1; j < kJointCount; ++j) {
-    const auto& from = sighting.joint[static_cast<size_t>(kJointParent[j])];
+    const auto& from = sighting.joint[ParentOf(j)];
     const auto& to = sighting.joint[j];
     if (from && to && (*to - *from).norm() > 1e-4) direction[j] = (*to - *from).normalized();
   }
@@ -161,7 +158,7 @@ std::optional<Vector3d> RootOf(const Sighting& sighting, const BoneLengths& leng
   Vector3d sum = Vector3d::Zero();
   int seen = 0;
   for (size_t j = 0; j < kJointCount; ++j) {
-    if (j > 0) built[j] = built[static_cast<size_t>(kJointParent[j])] + lengths[j] * direction[j];
+    if (j > 0) built[j] = built[ParentOf(j)] + lengths[j] * direction[j];
     if (!sighting.joint[j]) continue;
     sum += *sighting.joint[j] - built[j];
     ++seen;

@@ -88,8 +88,8 @@ TEST(Trc, NanOfAnyProgramIsABlank) {
     const std::string gap = std::string(nan) + "\t" + nan + "\t" + nan;
     const auto read = Read(Replaced(kTrc, "110.50\t500.25\t10.00", gap));
     const auto& joints = read.frames.at(1).bodies.at(0).joints;
-    EXPECT_FALSE(joints[static_cast<size_t>(Index(Joint::kKneeLeft))].has_value()) << nan;
-    EXPECT_TRUE(joints[static_cast<size_t>(Index(Joint::kHead))].has_value()) << nan;
+    EXPECT_FALSE(joints[Index(Joint::kKneeLeft)].has_value()) << nan;
+    EXPECT_TRUE(joints[Index(Joint::kHead)].has_value()) << nan;
   }
 }
 
@@ -115,7 +115,7 @@ TEST(Trc, OfTwoSubjectsIsTwoBodies) {
   const auto read = Read(Replaced(Replaced(kTrc, "LKnee", "Ann:LKnee"), "Head", "Bob:Head"));
   ASSERT_EQ(read.frames[0].bodies.size(), 2u);
   const auto has = [&](size_t body, Joint joint) {
-    return read.frames[0].bodies[body].joints[static_cast<size_t>(Index(joint))].has_value();
+    return read.frames[0].bodies[body].joints[Index(joint)].has_value();
   };
   EXPECT_TRUE(has(0, Joint::kKneeLeft));
   EXPECT_FALSE(has(0, Joint::kHead));
