@@ -178,8 +178,8 @@ std::string ForMips(std::string bytes) {
     std::reverse(bytes.begin() + static_cast<std::ptrdiff_t>(at),
                  bytes.begin() + static_cast<std::ptrdiff_t>(at + size));
   };
-  for (const size_t word : {2, 6, 8, 16}) swap(word, 2);
-  for (const size_t real : {12, 20}) swap(real, 4);
+  for (const size_t word : {2U, 6U, 8U, 16U}) swap(word, 2);
+  for (const size_t real : {12U, 20U}) swap(real, 4);
   for (size_t at = 1024; at + 4 <= 1024 + 3 * 2 * 16; at += 4) swap(at, 4);
   for (const char* name : {"POINT", "LABELS", "UNITS"}) {
     swap(bytes.find(name, 512) + std::string(name).size(), 2);
@@ -198,7 +198,7 @@ std::string ForDec(std::string bytes) {
                      bytes.begin() + static_cast<std::ptrdiff_t>(at + 2),
                      bytes.begin() + static_cast<std::ptrdiff_t>(at + 2));
   };
-  for (const size_t real : {12, 20}) convert(real);
+  for (const size_t real : {12U, 20U}) convert(real);
   for (size_t at = 1024; at + 4 <= 1024 + 3 * 2 * 16; at += 4) convert(at);
   bytes[512 + 3] = 85;
   return bytes;

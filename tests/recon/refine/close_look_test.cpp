@@ -132,7 +132,7 @@ TEST(CloseLook, EachGlanceBeginsWhereTheOneBeforeItEnded) {
   constexpr int kMoved = 3 * kLookSamples + 3 * kJointCount;  // of the inputs: moves so far
   head.layers = {{Eigen::MatrixXf::Zero(3, kLookInputs), Eigen::VectorXf::Zero(3)}};
   for (int axis = 0; axis < 3; ++axis) {
-    head.layers[0].weight(axis, kMoved + 3 * Index(Joint::kHead) + axis) =
+    head.layers[0].weight(axis, kMoved + FirstCoordinate(Index(Joint::kHead)) + axis) =
         -1.0F / static_cast<float>(CloseLook::kStep_m);
   }
   const auto twice_m = JointsOf(Looker(look).Look(scene.input));
