@@ -30,10 +30,6 @@ struct SmoothingOptions {
 SmoothingOptions SmoothingPreset(std::string_view name);
 const std::vector<std::string>& SmoothingPresets();
 
-/// The preset that goes with a method of reconstruction when none is asked for: best filters
-/// already, a second filter would only lag; the others get the SDK's default.
-std::string_view UsualSmoothing(std::string_view method);
-
 /// State of one body's filter.
 struct SmoothingState {
   recon::Posture filtered, trend, raw;

@@ -15,6 +15,7 @@
 #include "recon/posture.h"
 #include "tools/people/decision.h"
 #include "tools/tracker/mechanics.h"
+#include "tools/tracker/model_set.h"
 #include "tools/tracker/smoothing.h"
 
 namespace ossa::depth {
@@ -103,15 +104,13 @@ enum class TrackingMode {
 };
 
 struct TrackerOptions {
-  std::string model;     // .ossa; "" = the shipped one
-  std::string database;  // .ossadb; "" = the shipped one, of best the shipped prior
-  std::string prior;     // .ossaprior, of best; "" = without a database the shipped one
-  std::string learned;   // .ossagp or none; "" = with best and the shipped model its own
-  std::string look;      // .ossalook or none; "" = with best and the shipped model the shipped one
-  std::string method = "best";  // one of recon::ReconstructionMethods()
-  bool physics = false;         // let the mechanical character follow the posture
-  MechanicsBuild mechanics;     // how that is built
-  SmoothingOptions smoothing = SmoothingPreset(UsualSmoothing("best"));
+  std::string method{recon::kDefaultMethod};  // one of recon::ReconstructionMethods()
+  std::optional<ModelSet> models;             // left out: ModelSet::Shipped(method)
+  bool physics = false;                       // let the mechanical character follow the posture
+  MechanicsBuild mechanics;                   // how that is built
+  /// Left out: what goes with the method (recon::MethodInfo::smoothing). One that is a filter
+  /// itself gets no second one, which would only lag.
+  std::optional<SmoothingOptions> smoothing;
   TrackingMode mode = TrackingMode::kStanding;
   bool near_range = false;  // the SDK's near mode: people from 0.4 to 3 m only
   int max_users = 6;
@@ -127,7 +126,8 @@ struct TrackerOptions {
 
 class Tracker {
  public:
-  /// Loads model and database. Throws InputError naming the file that is missing or damaged.
+  /// Loads the shipped models unless the options bring some. Throws InputError naming the file that
+  /// is missing or damaged, or what the method needs and the models lack.
   explicit Tracker(const TrackerOptions& options = {});
   ~Tracker();
   Tracker(Tracker&&) noexcept;
