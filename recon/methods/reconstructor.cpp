@@ -14,7 +14,7 @@ using Maker = std::unique_ptr<Reconstructor> (*)(const ReconstructorOptions&);
 
 #define OSSA_METHOD(file, maker, ...) maker,
 constexpr Maker kMakers[] = {
-    // in the order of MethodTable
+// in the order of MethodTable
 #include "recon/methods/methods.inc"
 };
 #undef OSSA_METHOD

@@ -17,18 +17,25 @@ using std::chrono::duration;
 using std::chrono::duration_cast;
 using std::chrono::milliseconds;
 
-constexpr double kLongestWait_s =
-    1e6;  // by hand: eleven days, far below where milliseconds overflow
+// Far beyond any use, by hand: a wait of eleven days, units of a micrometre.
+constexpr double kMost = 1e6;
+
+void RequireInRange(double value, const char* member) {
+  if (value >= 0 && value <= kMost) return;
+  throw std::invalid_argument("ossa_source_options." + std::string(member) +
+                              ": expected 0 to 1e6, found " + std::to_string(value));
+}
 
 ossa::depth::SourceOptions OptionsFrom(const ossa_source_options* given) {
   ossa::depth::SourceOptions options;
   if (given == nullptr) return options;
   const auto c = ossa::tracker::ReadStruct(*given, "ossa_source_options");
   if (c.camera != nullptr) options.camera = ossa::depth::ParseCamera(c.camera);
-  if (!(c.wait_s >= 0 && c.wait_s <= kLongestWait_s)) {
-    throw std::invalid_argument("ossa_source_options.wait_s: expected 0 to 1e6, found " +
-                                std::to_string(c.wait_s));
-  }
+  RequireInRange(c.depth_scale, "depth_scale");
+  RequireInRange(c.fps, "fps");
+  RequireInRange(c.wait_s, "wait_s");
+  if (c.depth_scale > 0) options.depth_scale = c.depth_scale;
+  if (c.fps > 0) options.fps = c.fps;
   options.device_wait = duration_cast<milliseconds>(duration<double>(c.wait_s));
   return options;
 }

@@ -21,6 +21,20 @@ using ossa::tracker::Guarded;
 using ossa::tracker::ReadStruct;
 using ossa::tracker::RequireNotNull;
 
+// A member added to a struct must lie behind all that older programs know of it, padding included.
+template <typename T, typename Last>
+constexpr bool EndsWith(size_t offset) {
+  return offset + sizeof(Last) == sizeof(T);
+}
+static_assert(EndsWith<ossa_options, const char*>(offsetof(ossa_options, database)));
+static_assert(EndsWith<ossa_source_options, double>(offsetof(ossa_source_options, wait_s)));
+static_assert(EndsWith<ossa_depth_image, double>(offsetof(ossa_depth_image, time_s)));
+static_assert(EndsWith<ossa_body, float[OSSA_JOINT_COUNT][3]>(offsetof(ossa_body,
+                                                                       reconstructed_m)));
+static_assert(EndsWith<ossa_frame, const uint8_t*>(offsetof(ossa_frame, users)));
+static_assert(EndsWith<ossa_smooth_parameters, float>(offsetof(ossa_smooth_parameters,
+                                                               max_deviation_radius_m)));
+
 static_assert(OSSA_JOINT_COUNT == ossa::recon::kJointCount);
 static_assert(OSSA_FOOT_RIGHT == static_cast<int>(ossa::recon::Joint::kFootRight));
 

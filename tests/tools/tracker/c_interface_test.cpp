@@ -86,7 +86,9 @@ TEST(CInterface, ACHeaderServesOtherLanguages) {
 // The C++ and the C interface say the same of the same image.
 TEST(CInterface, HasTheJointsOfTheCppInterface) {
   OSSA_NEEDS_MODEL();
-  WalkInC walk({sizeof(ossa_options)});
+  ossa_options options{};
+  options.struct_size = sizeof options;
+  WalkInC walk(options);
   Tracker tracker;
   const ossa_body c = walk.Next();
   const BodyFrame frame = tracker.Track(Rendered({PersonAt(0.0, 2.5)}).frame);
@@ -253,7 +255,9 @@ TEST(CInterface, ASourceIsReadToItsEnd) {
 
 TEST(CInterface, ACameraOfASourceMayBeNamed) {
   const std::string clip = test::SourceFolder() / "tests/golden/clips/one/depth";
-  ossa_source_options options{sizeof(ossa_source_options), "301,302,160,120", 0.0};
+  ossa_source_options options{};
+  options.struct_size = sizeof options;
+  options.camera = "301,302,160,120";
   ossa_source* source = ossa_source_open(clip.c_str(), &options);
   ASSERT_NE(source, nullptr) << ossa_last_error();
   ossa_depth_image image{};
@@ -261,6 +265,9 @@ TEST(CInterface, ACameraOfASourceMayBeNamed) {
   EXPECT_EQ(ossa_source_read(source, 1000, &image), OSSA_OK) << ossa_last_error();
   EXPECT_EQ(image.fx, 301.0);
   ossa_source_close(source);
+  options.depth_scale = -1.0;
+  EXPECT_EQ(ossa_source_open(clip.c_str(), &options), nullptr);
+  EXPECT_TRUE(Says("depth_scale")) << ossa_last_error();
   options.camera = "no-such-camera";
   EXPECT_EQ(ossa_source_open(clip.c_str(), &options), nullptr);
   EXPECT_TRUE(Says("no-such-camera")) << ossa_last_error();

@@ -78,7 +78,9 @@ typedef struct {
 typedef struct {
   uint32_t struct_size;
   const char* camera; /* a preset's name or "fx,fy,cx,cy", as `ossa track --camera`; NULL: what the
-                         source says, else kinect-v1 */
+                         source says, else by the images' size */
+  double depth_scale; /* units to the metre of its depths; 0: what it says, else millimetres */
+  double fps;         /* frames a second of a recording; 0: its own times */
   double wait_s;      /* for a device to be plugged in; 0: it must be there */
 } ossa_source_options;
 
