@@ -23,6 +23,7 @@ struct ReconstructionInput {
   std::optional<BoneLengths> bones_m = std::nullopt;
 };
 
+/// What a method makes of one person at one time.
 struct ReconstructedPosture {
   Posture posture;                                // camera space, all 20 joints finite
   std::array<double, kJointCount> reliability{};  // R_i in [0, 1] of the observed joint, eq. 8
@@ -107,6 +108,7 @@ struct BestOptions {
   BestConstants constants;
 };
 
+/// Which method, what it reads, and the settings of each.
 struct ReconstructorOptions {
   std::string method{kDefaultMethod};               // one of ReconstructionMethods()
   std::shared_ptr<const PostureDatabase> database;  // needed by the methods that look things up

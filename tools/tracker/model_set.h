@@ -47,10 +47,11 @@ struct ModelSet {
   static ModelSet Load(const ModelFiles& files, std::string_view method = recon::kDefaultMethod);
 };
 
-/// Of ModelFiles alone, for methods that run on skeletons: null where the method does not read it.
-/// Throw InputError.
+/// The prior of `files` alone, for methods that run on skeletons; null where the method reads none.
+/// Throws InputError.
 std::shared_ptr<const recon::PosturePrior> LoadPrior(const ModelFiles& files,
                                                      std::string_view method);
+/// The database of `files` alone, likewise.
 std::shared_ptr<const recon::PostureDatabase> LoadDatabase(const ModelFiles& files,
                                                            std::string_view method);
 

@@ -9,6 +9,7 @@
 
 namespace ossa::tracker {
 
+/// The filter that joints go through at the end.
 enum class SmoothingKind { kNone, kHolt, kOneEuro };
 
 /// The Kinect SDK's NUI_TRANSFORM_SMOOTH_PARAMETERS (Holt double exponential; Azimi, "Skeletal
@@ -28,6 +29,7 @@ struct SmoothingOptions {
 /// Published presets: none, default (0.5 0.5 0.5 0.05 0.04), smooth (0.5 0.1 0.5 0.1 0.1),
 /// verysmooth (0.7 0.3 1.0 1.0 1.0), one-euro. Throws InputError for another name.
 SmoothingOptions SmoothingPreset(std::string_view name);
+/// Their names.
 const std::vector<std::string>& SmoothingPresets();
 
 /// State of one body's filter.

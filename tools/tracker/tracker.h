@@ -35,6 +35,7 @@ enum ClippedEdge : unsigned {
   kClippedBottom = 8
 };
 
+/// How much is done for a body.
 enum class BodyState {
   kPositionOnly,  // known to be there; joints are not looked for
   kTracked,       // fully tracked
@@ -86,6 +87,7 @@ struct StageTimes {
   double segment = 0, classify = 0, propose = 0, reconstruct = 0, physics = 0, total = 0;
 };
 
+/// What the tracker says of one depth frame.
 struct BodyFrame {
   int64_t index = 0;
   double time_s = 0.0;
@@ -98,11 +100,13 @@ struct BodyFrame {
   StageTimes ms;
 };
 
+/// Which joints are tracked.
 enum class TrackingMode {
   kStanding,  // all 20 joints
   kSeated,    // the ten upper joints of the SDK's seated mode; the rest are not tracked
 };
 
+/// How a Tracker works; as it stands, what the command `ossa track` does without options.
 struct TrackerOptions {
   std::string method{recon::kDefaultMethod};  // one of recon::ReconstructionMethods()
   std::optional<ModelSet> models;             // left out: ModelSet::Shipped(method)
@@ -124,6 +128,8 @@ struct TrackerOptions {
   void Check() const;  // throws std::invalid_argument with name, value and range
 };
 
+/// Follows people from frame to frame. Used from one thread at a time; its own threads are those of
+/// TrackerOptions::threads.
 class Tracker {
  public:
   /// Loads the shipped models unless the options bring some. Throws InputError naming the file that
