@@ -1,14 +1,15 @@
-# How a target of ours is made: warnings are errors for our code and only ours. Not of GCC with
+# How a target of ours is made: warnings are errors for our code and only ours, and only where ossa is
+# what is built, not a part of another project with a compiler that we do not know. Not of GCC with
 # sanitizers, whose checks make it see uninitialised values where there are none.
 add_library(ossa_warnings INTERFACE)
 target_compile_options(ossa_warnings INTERFACE -Wall -Wextra -Wconversion)
-if(NOT OSSA_SANITIZE OR CMAKE_CXX_COMPILER_ID MATCHES "Clang")
+if(PROJECT_IS_TOP_LEVEL AND (NOT OSSA_SANITIZE OR CMAKE_CXX_COMPILER_ID MATCHES "Clang"))
   target_compile_options(ossa_warnings INTERFACE -Werror)
 endif()
 
 function(ossa_common target)
   target_link_libraries(${target} PRIVATE $<BUILD_INTERFACE:ossa_warnings>)
-  target_include_directories(${target} PRIVATE ${CMAKE_SOURCE_DIR})
+  target_include_directories(${target} PRIVATE ${ossa_SOURCE_DIR})
   if(OSSA_SANITIZE)
     target_compile_options(${target} PRIVATE -fsanitize=${OSSA_SANITIZE} -fno-omit-frame-pointer
                            -fno-sanitize-recover=all)
@@ -17,7 +18,8 @@ function(ossa_common target)
 endfunction()
 
 # ossa_library(NAME SOURCES ... HEADERS ... [PUBLIC targets...] [PRIVATE targets...])
-# makes ossa_NAME, known to users as ossa::NAME; HEADERS are the public ones and are installed.
+# makes ossa_NAME, known to users as ossa::NAME; HEADERS are the public ones and are installed. A library
+# without HEADERS serves the command alone: applications cannot link an installed one.
 function(ossa_library name)
   cmake_parse_arguments(ARG "" "" "SOURCES;HEADERS;PUBLIC;PRIVATE" ${ARGN})
   set(target ossa_${name})
@@ -28,12 +30,16 @@ function(ossa_library name)
   set_target_properties(${target} PROPERTIES EXPORT_NAME ${name} VERSION ${PROJECT_VERSION}
                         SOVERSION ${PROJECT_VERSION_MAJOR})
   target_include_directories(${target} PUBLIC
-    $<BUILD_INTERFACE:${CMAKE_SOURCE_DIR}> $<INSTALL_INTERFACE:${CMAKE_INSTALL_INCLUDEDIR}/ossa>)
+    $<BUILD_INTERFACE:${ossa_SOURCE_DIR}> $<INSTALL_INTERFACE:${CMAKE_INSTALL_INCLUDEDIR}/ossa>)
   target_compile_features(${target} PUBLIC cxx_std_20)
   target_link_libraries(${target} PUBLIC Eigen3::Eigen ${ARG_PUBLIC} PRIVATE ${ARG_PRIVATE})
-  install(TARGETS ${target} EXPORT ossaTargets)
+  if(ARG_HEADERS)
+    install(TARGETS ${target} EXPORT ossaTargets)
+  elseif(BUILD_SHARED_LIBS)
+    install(TARGETS ${target} LIBRARY NAMELINK_SKIP)
+  endif()
   foreach(header IN LISTS ARG_HEADERS)
-    cmake_path(RELATIVE_PATH CMAKE_CURRENT_SOURCE_DIR BASE_DIRECTORY ${CMAKE_SOURCE_DIR}
+    cmake_path(RELATIVE_PATH CMAKE_CURRENT_SOURCE_DIR BASE_DIRECTORY ${ossa_SOURCE_DIR}
                OUTPUT_VARIABLE room)
     cmake_path(GET header PARENT_PATH folder)
     install(FILES ${header} DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/ossa/${room}/${folder})

@@ -4,6 +4,7 @@
 #include "tools/commands/commands.h"
 #include "tools/commands/process.h"
 #include "tools/commands/study.h"
+#include "tools/tracker/version.h"
 
 namespace {
 
@@ -34,6 +35,6 @@ constexpr std::array kCommands = {
 
 int main(int argc, char** argv) {
   ossa::commands::PrepareProcess();
-  const int status = ossa::commands::RunOneOf(kCommands, OSSA_VERSION, argc, argv);
+  const int status = ossa::commands::RunOneOf(kCommands, ossa::tracker::Version(), argc, argv);
   return ossa::commands::EndOutput(status);
 }

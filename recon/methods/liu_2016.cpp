@@ -23,8 +23,8 @@ struct OffsetPrediction {
 /// Sec. 4.5 over any predictor of offsets.
 class OffsetReconstructor : public Reconstructor {
  public:
-  explicit OffsetReconstructor(const ReconstructorOptions& options)
-      : options_(options.gaussian_process), models_(LoadLearned(options)) {}
+  OffsetReconstructor(const ReconstructorOptions& options, bool (*holds)(const LearnedModels&))
+      : options_(options.gaussian_process), models_(LearnedThatHolds(options, holds)) {}
 
   ReconstructedPosture Step(const ReconstructionInput& input) override {
     const PreparedPosture prepared = person_.Prepare(input);
@@ -110,7 +110,11 @@ class OffsetReconstructor : public Reconstructor {
 
 class Liu2016 : public OffsetReconstructor {
  public:
-  using OffsetReconstructor::OffsetReconstructor;
+  explicit Liu2016(const ReconstructorOptions& options)
+      : OffsetReconstructor(options, [](const LearnedModels& learned) {
+          return std::any_of(learned.mixtures.begin(), learned.mixtures.end(),
+                             [](const LocalMixture& mixture) { return !mixture.empty(); });
+        }) {}
 
   void Reset() override {
     OffsetReconstructor::Reset();
@@ -151,7 +155,11 @@ class Liu2016 : public OffsetReconstructor {
 
 class FullGp : public OffsetReconstructor {
  public:
-  explicit FullGp(const ReconstructorOptions& options) : OffsetReconstructor(options) {}
+  explicit FullGp(const ReconstructorOptions& options)
+      : OffsetReconstructor(options, [](const LearnedModels& learned) {
+          return std::any_of(learned.full.begin(), learned.full.end(),
+                             [](const GaussianProcess& process) { return process.size() > 0; });
+        }) {}
 
  protected:
   OffsetPrediction Predict(const PreparedPosture& prepared, size_t joint) override {
@@ -165,7 +173,9 @@ class FullGp : public OffsetReconstructor {
 /// Mean offset of the nearest training pairs, weighed by their distance.
 class Exemplar : public OffsetReconstructor {
  public:
-  explicit Exemplar(const ReconstructorOptions& options) : OffsetReconstructor(options) {
+  explicit Exemplar(const ReconstructorOptions& options)
+      : OffsetReconstructor(
+            options, [](const LearnedModels& learned) { return !learned.exemplars.empty(); }) {
     postures_.resize(kPostureDims, static_cast<Eigen::Index>(models_->exemplars.size()));
     for (Eigen::Index i = 0; i < postures_.cols(); ++i) {
       postures_.col(i) = ToVector(models_->exemplars[static_cast<size_t>(i)].observed);

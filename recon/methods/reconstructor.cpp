@@ -1,8 +1,6 @@
 #include "recon/methods/reconstructor.h"
 
-#include <algorithm>
-#include <array>
-#include <string_view>
+#include <string>
 
 #include "depth/base/error.h"
 #include "recon/database/posture_database.h"
@@ -12,27 +10,14 @@
 namespace ossa::recon {
 namespace {
 
-struct Method {
-  const char* name;
-  bool needs_database;
-  bool needs_learned;
-  bool keeps_bones;
-  std::unique_ptr<Reconstructor> (*make)(const ReconstructorOptions&);
-};
+using Maker = std::unique_ptr<Reconstructor> (*)(const ReconstructorOptions&);
 
-constexpr std::array kMethods = {
-    Method{"none", false, false, false, MakeNone},
-    Method{"holt", false, false, false, MakeHolt},
-    Method{"one-euro", false, false, false, MakeOneEuro},
-    Method{"kalman", false, false, false, MakeKalman},
-    Method{"shum-ho-2012", true, false, true, MakeShumHo2012},
-    Method{"shum-2013", true, false, true, MakeShum2013},
-    Method{"plantard-2016", true, false, true, MakePlantard2016},
-    Method{"liu-2016", false, true, false, MakeLiu2016},
-    Method{"full-gp", false, true, false, MakeFullGp},
-    Method{"exemplar", false, true, false, MakeExemplar},
-    Method{"best", false, false, true, MakeBest},
+#define OSSA_METHOD(file, maker, ...) maker,
+constexpr Maker kMakers[] = {
+// in the order of MethodTable
+#include "recon/methods/methods.inc"
 };
+#undef OSSA_METHOD
 
 void CheckLocalPca(const LocalPcaOptions& o) {
   if (o.neighbours < 2 || o.dimensions < 1 || o.steps < 1 || o.samples < 1) {
@@ -45,35 +30,15 @@ void CheckLocalPca(const LocalPcaOptions& o) {
   }
 }
 
-/// A file may hold the correction of `best` alone.
-bool Holds(const LearnedModels& learned, std::string_view method) {
-  if (method == "liu-2016") {
-    return std::any_of(learned.mixtures.begin(), learned.mixtures.end(),
-                       [](const LocalMixture& mixture) { return !mixture.empty(); });
-  }
-  if (method == "full-gp") {
-    return std::any_of(learned.full.begin(), learned.full.end(),
-                       [](const GaussianProcess& process) { return process.size() > 0; });
-  }
-  return !learned.exemplars.empty();
-}
-
 void CheckLearned(const ReconstructorOptions& options) {
-  const auto learned = LoadLearned(options);
-  if (learned == nullptr) {
-    throw InputError("reconstruction: method " + options.method +
-                     " needs a learned file (.ossagp of `ossa learn`)");
-  }
-  if (Holds(*learned, options.method)) return;
-  const std::string file = options.learned_file.empty() ? "reconstruction" : options.learned_file;
-  throw InputError(file + ": expected what method " + options.method +
-                   " has learned, found only what best uses (`ossa learn` without "
-                   "--correction-only)");
+  if (options.learned || !options.learned_file.empty()) return;
+  throw InputError("reconstruction: method " + options.method +
+                   " needs a learned file (.ossagp of `ossa learn`)");
 }
 
-void CheckBones(const BoneLengths& lengths_m, const Method& method) {
+void CheckBones(const BoneLengths& lengths_m, const MethodInfo& method) {
   if (!method.keeps_bones) {
-    throw InputError(std::string("reconstruction: method ") + method.name +
+    throw InputError("reconstruction: method " + std::string(method.name) +
                      " moves joints alone, it cannot keep bones");
   }
   for (size_t i = 1; i < kJointCount; ++i) {
@@ -90,46 +55,25 @@ std::shared_ptr<const LearnedModels> LoadLearned(const ReconstructorOptions& opt
   return std::make_shared<const LearnedModels>(LearnedModels::Load(options.learned_file));
 }
 
-const std::vector<std::string>& ReconstructionMethods() {
-  static const std::vector<std::string> names = [] {
-    std::vector<std::string> list;
-    for (const Method& method : kMethods) list.emplace_back(method.name);
-    return list;
-  }();
-  return names;
-}
-
-bool NeedsDatabase(const std::string& method) {
-  return std::any_of(kMethods.begin(), kMethods.end(),
-                     [&](const Method& m) { return m.needs_database && m.name == method; });
-}
-
-bool NeedsLearned(const std::string& method) {
-  return std::any_of(kMethods.begin(), kMethods.end(),
-                     [&](const Method& m) { return m.needs_learned && m.name == method; });
-}
-
-bool KeepsBones(const std::string& method) {
-  return std::any_of(kMethods.begin(), kMethods.end(),
-                     [&](const Method& m) { return m.keeps_bones && m.name == method; });
+std::shared_ptr<const LearnedModels> LearnedThatHolds(const ReconstructorOptions& options,
+                                                      bool (*holds)(const LearnedModels&)) {
+  auto learned = LoadLearned(options);
+  if (learned != nullptr && holds(*learned)) return learned;
+  const std::string file = options.learned_file.empty() ? "reconstruction" : options.learned_file;
+  throw InputError(file + ": expected what method " + options.method +
+                   " has learned, found only what best uses (`ossa learn` without "
+                   "--correction-only)");
 }
 
 std::unique_ptr<Reconstructor> MakeReconstructor(const ReconstructorOptions& options) {
   CheckLocalPca(options.local_pca);
-  for (const Method& method : kMethods) {
-    if (options.method != method.name) continue;
-    if (method.needs_database && (!options.database || options.database->size() < 1)) {
-      throw InputError("reconstruction: method " + options.method + " needs a posture database");
-    }
-    if (method.needs_learned) CheckLearned(options);
-    if (options.bones_m) CheckBones(*options.bones_m, method);
-    return method.make(options);
+  const MethodInfo& method = MethodNamed(options.method);
+  if (method.database == Reads::kRequired && (!options.database || options.database->size() < 1)) {
+    throw InputError("reconstruction: method " + options.method + " needs a posture database");
   }
-  std::string known;
-  for (const std::string& name : ReconstructionMethods())
-    known += (known.empty() ? "" : ", ") + name;
-  throw InputError("reconstruction: unknown method '" + options.method + "', expected one of " +
-                   known);
+  if (method.learned == Reads::kRequired) CheckLearned(options);
+  if (options.bones_m) CheckBones(*options.bones_m, method);
+  return kMakers[&method - MethodTable().data()](options);
 }
 
 }  // namespace ossa::recon

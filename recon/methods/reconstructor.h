@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "depth/image/depth_frame.h"
+#include "recon/methods/method_table.h"
 #include "recon/posture.h"
 
 namespace ossa::recon {
@@ -22,6 +23,7 @@ struct ReconstructionInput {
   std::optional<BoneLengths> bones_m = std::nullopt;
 };
 
+/// What a method makes of one person at one time.
 struct ReconstructedPosture {
   Posture posture;                   // camera space, all 20 joints finite
   JointArray<double> reliability{};  // R_i in [0, 1] of the observed joint, eq. 8
@@ -109,33 +111,21 @@ struct BestOptions {
   BestConstants constants;
 };
 
+/// Which method, what it reads, and the settings of each.
 struct ReconstructorOptions {
-  std::string method = "best";                      // one of ReconstructionMethods()
+  std::string method{kDefaultMethod};               // one of ReconstructionMethods()
   std::shared_ptr<const PostureDatabase> database;  // needed by the methods that look things up
   std::string learned_file;  // .ossagp of `ossa learn`: liu-2016, full-gp, exemplar, best
   std::shared_ptr<const LearnedModels> learned;  // the same, already in memory; goes first
   std::shared_ptr<const PosturePrior> prior;     // best completes by it, else by the database
   /// The person's bones, where they were measured before: they stay from the first frame to the
-  /// last. Only for methods that keep bones (KeepsBones).
+  /// last. Only for methods that keep bones (MethodInfo).
   std::optional<BoneLengths> bones_m;
   uint64_t seed = 1;  // by hand
   LocalPcaOptions local_pca;
   GaussianProcessOptions gaussian_process;
   BestOptions best;
 };
-
-/// Names of all methods, in the order of `ossa track --help`.
-const std::vector<std::string>& ReconstructionMethods();
-
-/// Whether a method looks postures up in a database, and does not work without.
-bool NeedsDatabase(const std::string& method);
-
-/// Whether a method works by what `ossa learn` makes, and not without.
-bool NeedsLearned(const std::string& method);
-
-/// Whether a person's bones have the same lengths in all that a method makes; other methods move
-/// joints alone.
-bool KeepsBones(const std::string& method);
 
 /// Throws InputError for an unknown method, a missing database, missing learned models and bones
 /// that cannot be.

@@ -107,7 +107,7 @@ SkeletonSequence ReconstructSequence(const SkeletonSequence& sequence,
 BonesOfPeople MeasureBones(const SkeletonSequence& sequence, const ReconstructorOptions& options,
                            const std::function<bool(size_t)>& progress) {
   BonesOfPeople bones;
-  if (KeepsBones(options.method)) Run(sequence, options, progress, {}, &bones);
+  if (MethodNamed(options.method).keeps_bones) Run(sequence, options, progress, {}, &bones);
   return bones;
 }
 

@@ -13,6 +13,13 @@ namespace ossa::commands {
 /// Offline, of `ossa reconstruct` alone: no method of recon::Reconstructor.
 inline constexpr const char* kButterworth = "butterworth";
 
+/// What a method reads and keeps; butterworth, and what is no method, read nothing.
+inline const recon::MethodInfo& MethodInfoOf(const std::string& method) {
+  static constexpr recon::MethodInfo kReadsNothing{.name = kButterworth};
+  const recon::MethodInfo* info = recon::FindMethod(method);
+  return info != nullptr ? *info : kReadsNothing;
+}
+
 /// Names of the methods for which `holds` does, for messages.
 inline std::string MethodsThat(bool (*holds)(const std::string&)) {
   auto methods = recon::ReconstructionMethods();
@@ -31,22 +38,23 @@ struct MethodOption {
   bool is_file = false;  // something to use: whoever tries all methods gives it to all of them
 };
 
-inline bool IsBest(const std::string& method) { return method == "best"; }
 inline bool IsShum2013(const std::string& method) { return method == "shum-2013"; }
 inline bool IsButterworth(const std::string& method) { return method == kButterworth; }
 inline bool HasLocalPca(const std::string& method) {
   return method == "shum-2013" || method == "plantard-2016";
 }
-inline bool MayLookUp(const std::string& method) {
-  return recon::NeedsDatabase(method) || IsBest(method);
+inline bool ReadsDatabase(const std::string& method) {
+  return MethodInfoOf(method).database != recon::Reads::kNothing;
 }
-inline bool MayHaveLearned(const std::string& method) {
-  return recon::NeedsLearned(method) || IsBest(method);
+inline bool ReadsLearned(const std::string& method) {
+  return MethodInfoOf(method).learned != recon::Reads::kNothing;
 }
+inline bool ReadsPrior(const std::string& method) { return MethodInfoOf(method).prior; }
+inline bool KeepsBones(const std::string& method) { return MethodInfoOf(method).keeps_bones; }
 
-inline constexpr MethodOption kMethodOptions[] = {{"--database", MayLookUp, true},
-                                                  {"--prior", IsBest, true},
-                                                  {"--learned", MayHaveLearned, true},
+inline constexpr MethodOption kMethodOptions[] = {{"--database", ReadsDatabase, true},
+                                                  {"--prior", ReadsPrior, true},
+                                                  {"--learned", ReadsLearned, true},
                                                   {"--cutoff", IsButterworth},
                                                   {"--solver", HasLocalPca},
                                                   {"--neighbours", HasLocalPca},
@@ -81,17 +89,18 @@ inline void CheckRead(const CLI::App& app, const std::string& method, bool quiet
 
 /// Throws UsageError for a method that works by what was learned when --learned names nothing.
 inline void CheckLearned(const std::string& method, const std::string& learned) {
-  if (!recon::NeedsLearned(method) || (!learned.empty() && learned != "none")) return;
+  const bool is_needed = MethodInfoOf(method).learned == recon::Reads::kRequired;
+  if (!is_needed || (!learned.empty() && learned != "none")) return;
   throw UsageError(
       fmt::format("--method {}: expected --learned FILE.ossagp of 'ossa learn' with it, found {}",
                   method, learned.empty() ? "none" : "--learned none"));
 }
 
-/// Throws UsageError where best is given both to complete postures by.
+/// Throws UsageError where a method is given both to complete postures by.
 inline void CheckOneOf(const std::string& method, const std::string& database,
                        const std::string& prior) {
-  if (method != "best" || database.empty() || prior.empty()) return;
-  throw UsageError("--database and --prior: expected one of them, best completes by one");
+  if (!ReadsPrior(method) || database.empty() || prior.empty()) return;
+  throw UsageError("--database and --prior: expected one of them, " + method + " completes by one");
 }
 
 /// --bones: which frames tell how long a person's bones are.
@@ -107,10 +116,10 @@ struct BonesOption {
   }
   /// Throws UsageError for a method that moves joints alone.
   void Check(const std::string& method) const {
-    if (!of_recording() || recon::KeepsBones(method)) return;
+    if (!of_recording() || KeepsBones(method)) return;
     throw UsageError(
         fmt::format("--bones recording: expected a method that keeps bones ({}), found {}",
-                    MethodsThat(recon::KeepsBones), method));
+                    MethodsThat(KeepsBones), method));
   }
 };
 

@@ -25,13 +25,15 @@
 #include "tools/commands/process.h"
 #include "tools/commands/warnings.h"
 #include "tools/tracker/mechanics.h"
+#include "tools/tracker/model_set.h"
 #include "tools/tracker/shipped.h"
 
 namespace ossa::commands {
 namespace {
 
 struct ReconstructArguments {
-  std::string skeletons, out, database_file, prior_file, learned;
+  std::string skeletons, out;
+  tracker::ModelFiles files;  // those without images
   recon::ReconstructorOptions options;
   recon::SkeletonReadOptions read;
   MechanicsOptions mechanics;
@@ -41,17 +43,6 @@ struct ReconstructArguments {
   bool quiet = false;
   bool no_reliability = false;
 };
-
-/// The database the method looks things up in: the one named, else the shipped one.
-std::shared_ptr<const recon::PostureDatabase> DatabaseFor(const ReconstructArguments& a) {
-  const bool looks_up = recon::NeedsDatabase(a.options.method) ||
-                        (MayLookUp(a.options.method) && !a.database_file.empty());
-  if (!looks_up) return nullptr;
-  const std::filesystem::path file = a.database_file.empty()
-                                         ? tracker::ShippedFile("authored.ossadb")
-                                         : std::filesystem::path(a.database_file);
-  return std::make_shared<recon::PostureDatabase>(recon::PostureDatabase::Load(file));
-}
 
 /// A sensor whose errors are known.
 struct KnownSensor {
@@ -63,12 +54,13 @@ constexpr KnownSensor kKnownSensors[] = {
     {recon::kKinectV2, "a Kinect v2's skeletons", "kinect_v2.ossagp"},
     {recon::kCloseLook, "ossa's joints after a close look", "body.ossagp"}};
 
-/// What is learned of the recordings' sensor: the file that was named; else, for best, the shipped
-/// one of the sensor that all recordings are of.
+/// What is learned of the recordings' sensor: the file that was named; else, for methods that take
+/// a correction, the shipped one of the sensor that all recordings are of.
 std::string LearnedFor(const ReconstructArguments& a,
                        const std::vector<recon::SkeletonClip>& clips) {
-  if (a.learned == "none" || !MayHaveLearned(a.options.method)) return {};
-  if (!a.learned.empty() || a.options.method != "best") return a.learned;
+  if (a.files.learned == "none" || !ReadsLearned(a.options.method)) return {};
+  const bool is_correction = MethodInfoOf(a.options.method).learned == recon::Reads::kOptional;
+  if (!a.files.learned.empty() || !is_correction) return a.files.learned;
   for (const KnownSensor& sensor : kKnownSensors) {
     const bool all = std::all_of(clips.begin(), clips.end(), [&sensor](const auto& clip) {
       return clip.sequence.sensor == sensor.name;
@@ -104,11 +96,11 @@ void AddMethodOptions(CLI::App& app, ReconstructArguments& a) {
   app.add_option("--method", a.options.method, "how the postures are made whole")
       ->capture_default_str()
       ->check(CLI::IsMember(methods));
-  app.add_option("--database", a.database_file,
+  app.add_option("--database", a.files.database,
                  "posture database; without it the shipped one, of best the shipped prior");
-  app.add_option("--prior", a.prior_file, ".ossaprior of 'ossa prior', for best");
+  app.add_option("--prior", a.files.prior, ".ossaprior of 'ossa prior', for best");
   app.add_option(
-      "--learned", a.learned,
+      "--learned", a.files.learned,
       "what `ossa learn` wrote, .ossagp, or none; without it best takes off what is "
       "known of the errors of a Kinect v2 or a close look where the recording is theirs");
   app.add_option("--seed", a.options.seed, "of the stochastic search")->capture_default_str();
@@ -167,10 +159,10 @@ int Reconstruct(int argc, char** argv) {
   if (a.options.local_pca.solver == "ceres" && app.count("--samples") > 0) {
     throw UsageError("--samples is not read by --solver ceres: expected --solver stochastic");
   }
-  CheckLearned(a.options.method, a.learned);
+  CheckLearned(a.options.method, a.files.learned);
   a.bones.Check(a.options.method);
   a.mechanics.Check();
-  CheckOneOf(a.options.method, a.database_file, a.prior_file);
+  CheckOneOf(a.options.method, a.files.database, a.files.prior);
   CheckOutputs({a.out}, {a.skeletons, a.read.mapping_file});
   for (const double weight : a.weights) {
     if (!(weight >= 0))
@@ -187,8 +179,10 @@ int Reconstruct(int argc, char** argv) {
     CheckSkeletonName(a.out);
     AtomicFile::CheckWritable(a.out);
   }
-  a.options.database = DatabaseFor(a);
-  a.options.prior = tracker::PriorFor(a.options.method, a.prior_file, a.database_file);
+  if (a.options.method != kButterworth) {
+    a.options.database = tracker::LoadDatabase(a.files, a.options.method);
+    a.options.prior = tracker::LoadPrior(a.files, a.options.method);
+  }
   a.options.learned_file = LearnedFor(a, clips);
   Progress progress("reconstruct", a.quiet);
   const int rounds = 1 + (a.bones.of_recording() ? 1 : 0) + (a.mechanics.on() ? 1 : 0);

@@ -43,6 +43,7 @@ struct TrackOptions {
   std::string smoothing, posture = "final", mode = "standing";
   MechanicsOptions mechanics;
   BonesOption bones;
+  tracker::ModelFiles files;
   tracker::TrackerOptions tracker;
   int64_t frames = 0;
   int port = 8080;  // by convention, an HTTP port that needs no rights
@@ -52,23 +53,25 @@ struct TrackOptions {
 
 void AddTrackerOptions(CLI::App& app, TrackOptions& options) {
   tracker::TrackerOptions& t = options.tracker;
-  app.add_option("--model", t.model, "forest model, .ossa (default: the shipped one)");
-  app.add_option("--database", t.database,
+  tracker::ModelFiles& files = options.files;
+  app.add_option("--model", files.forest, "forest model, .ossa (default: the shipped one)");
+  app.add_option("--database", files.database,
                  "posture database, .ossadb (default: the shipped one, of best the shipped prior)");
-  app.add_option("--prior", t.prior,
+  app.add_option("--prior", files.prior,
                  ".ossaprior of 'ossa prior', for best (default: the shipped one)");
-  app.add_option("--learned", t.learned,
+  app.add_option("--learned", files.learned,
                  ".ossagp of 'ossa learn', for the methods that learn, or none (default: with best "
                  "and the shipped model the shipped one)");
-  app.add_option("--look", t.look,
+  app.add_option("--look", files.refinement,
                  ".ossalook of 'ossa look', for best and --posture looked, or none (default: with "
                  "best and the shipped model the shipped one)");
   app.add_option("--method", t.method, "how postures are completed (default best)")
       ->check(CLI::IsMember(recon::ReconstructionMethods()));
   AddMechanicsOptions(app, options.mechanics);
   options.bones.AddTo(app);
-  app.add_option("--smoothing", options.smoothing,
-                 "preset of the filter (default: none with best, else default)")
+  app.add_option(
+         "--smoothing", options.smoothing,
+         "preset of the filter (default: what goes with the method, none for those that filter)")
       ->check(CLI::IsMember(tracker::SmoothingPresets()));
   app.add_option("--mode", options.mode, "standing (20 joints) or seated (the upper ten)")
       ->check(CLI::IsMember({"standing", "seated"}));
@@ -81,18 +84,20 @@ void AddTrackerOptions(CLI::App& app, TrackOptions& options) {
 }
 
 // A look that was asked for is had with every method.
-void NeedLook(tracker::TrackerOptions& options) {
-  const bool is_shipped =
-      options.model.empty() || tracker::IsShippedFile(options.model, "body.ossa");
-  if (options.look == "none" || (options.look.empty() && !is_shipped)) {
+void NeedLook(tracker::ModelFiles& files) {
+  const bool is_shipped = tracker::IsShippedForest(files);
+  if (files.refinement == "none" || (files.refinement.empty() && !is_shipped)) {
     throw UsageError("--posture looked: expected --look FILE.ossalook of 'ossa look' with it");
   }
-  if (options.look.empty()) options.look = tracker::ShippedFile(recon::kShippedLook).string();
+  if (files.refinement.empty()) {
+    files.refinement = tracker::ShippedFile(recon::kShippedLook).string();
+  }
 }
 
 void CheckLookIsRead(const TrackOptions& options) {
-  const std::string& look = options.tracker.look;
-  if (look.empty() || look == "none" || IsBest(options.tracker.method) || options.quiet) return;
+  const std::string& look = options.files.refinement;
+  const bool is_read = MethodInfoOf(options.tracker.method).refined;
+  if (look.empty() || look == "none" || is_read || options.quiet) return;
   SayNotRead("--look", options.tracker.method);
 }
 
@@ -125,12 +130,12 @@ TrackOptions ParseOptions(int argc, char** argv) {
         "track: nothing to do: name --out, --picture, --pictures, --json-stats, --trace or --view");
   }
   CheckRead(app, options.tracker.method, options.quiet);
-  CheckLearned(options.tracker.method, options.tracker.learned);
+  CheckLearned(options.tracker.method, options.files.learned);
   options.bones.Check(options.tracker.method);
   options.mechanics.Check();
-  CheckOneOf(options.tracker.method, options.tracker.database, options.tracker.prior);
+  CheckOneOf(options.tracker.method, options.files.database, options.files.prior);
   if (options.posture == "looked") {
-    NeedLook(options.tracker);
+    NeedLook(options.files);
   } else {
     CheckLookIsRead(options);
   }
@@ -142,9 +147,9 @@ TrackOptions ParseOptions(int argc, char** argv) {
                {options.source.name});
   options.tracker.physics = options.mechanics.on();
   options.tracker.mechanics = options.mechanics.build;
-  options.tracker.smoothing = tracker::SmoothingPreset(
-      options.smoothing.empty() ? tracker::UsualSmoothing(options.tracker.method)
-                                : std::string_view(options.smoothing));
+  if (!options.smoothing.empty()) {
+    options.tracker.smoothing = tracker::SmoothingPreset(options.smoothing);
+  }
   if (options.mode == "seated") options.tracker.mode = tracker::TrackingMode::kSeated;
   options.tracker.trace = !options.trace.empty();
   options.tracker.keep_parts = !options.picture.empty() || !options.pictures.empty();
@@ -345,6 +350,7 @@ void Report(const TrackOptions& options, const Run& run) {
 
 int Track(int argc, char** argv) {
   TrackOptions options = ParseOptions(argc, argv);
+  options.tracker.models = tracker::ModelSet::Load(options.files, options.tracker.method);
   if (options.bones.of_recording()) options.tracker.bones_m = MeasureBones(options);
   tracker::Tracker tracker(options.tracker);  // first: a device's frames do not wait meanwhile
   const auto source = OpenSource(options.source, options.quiet);

@@ -27,6 +27,7 @@ using Clock = std::chrono::steady_clock;
 
 struct ViewOptions {
   SourceArguments source;
+  tracker::ModelFiles files;
   tracker::TrackerOptions tracker;
   int port = 8080;  // by convention, an HTTP port that needs no rights
   bool once = false;
@@ -76,7 +77,9 @@ void ShowSkeletons(const ViewOptions& options) {
 
 void ShowSource(const ViewOptions& options) {
   auto source = OpenSource(options.source, true);
-  tracker::Tracker tracker(options.tracker);
+  tracker::TrackerOptions with = options.tracker;
+  with.models = tracker::ModelSet::Load(options.files, with.method);
+  tracker::Tracker tracker(with);
   viewer::Viewer viewer(options.port);
   SayWhere(viewer);
   for (;;) {
@@ -104,16 +107,15 @@ int View(int argc, char** argv) {
   AddSourceOptions(app, options.source);
   app.add_option("--port", options.port, "on 127.0.0.1 (default 8080, 0: any free one)")
       ->check(CLI::Range(0, 65535));
-  app.add_option("--model", options.tracker.model,
-                 "forest model, .ossa (default: the shipped one)");
-  app.add_option("--database", options.tracker.database, "posture database, .ossadb");
+  app.add_option("--model", options.files.forest, "forest model, .ossa (default: the shipped one)");
+  app.add_option("--database", options.files.database, "posture database, .ossadb");
   app.add_option("--method", options.tracker.method, "how postures are completed (default best)")
       ->check(CLI::IsMember(recon::ReconstructionMethods()));
-  app.add_option("--learned", options.tracker.learned, ".ossagp, for the methods that learn");
+  app.add_option("--learned", options.files.learned, ".ossagp, for the methods that learn");
   app.add_flag("--once", options.once, "end with the recording instead of starting over");
   Parse(app, argc, argv);
   CheckRead(app, options.tracker.method, false);
-  CheckLearned(options.tracker.method, options.tracker.learned);
+  CheckLearned(options.tracker.method, options.files.learned);
   const std::string& what = options.source.name;
   if (what.starts_with("openni:") || std::filesystem::is_directory(what) ||
       depth::IsRecording(what)) {

@@ -128,8 +128,9 @@ void CompleteBody(const depth::DepthFrame& frame, const std::optional<Eigen::Vec
                   const CompleteOptions& options, Person& person, Body& body, StageTimes& ms) {
   const auto start = Clock::now();
   if (!person.reconstructor) person.reconstructor = MethodFor(body.id, options);
+  const recon::MethodInfo& method = recon::MethodNamed(options.reconstructor.method);
   recon::TrackedPosture seen = body.raw;
-  if (body.refined && options.reconstructor.method == "best") seen.posture = *body.refined;
+  if (body.refined && method.refined) seen.posture = *body.refined;
   const recon::TrackedPosture averaged = person.stationary.Step(seen, frame.time_s);
   const auto result =
       person.reconstructor->Step({averaged, frame.time_s, &frame, body.refined_bones_m});
@@ -147,7 +148,7 @@ void CompleteBody(const depth::DepthFrame& frame, const std::optional<Eigen::Vec
   const recon::Posture held = HeldToImage(posture, averaged, result.reliability);
   recon::Posture smoothed = Smooth(OutOfFreeSpace(held, averaged, frame, person), frame.time_s,
                                    options.smoothing, person.smoothing);
-  if (options.physics || recon::KeepsBones(options.reconstructor.method)) {
+  if (options.physics || method.keeps_bones) {
     smoothed = WithBonesOf(posture, smoothed, averaged, result.reliability);
   }
   body.joints = Estimates(smoothed, body.raw, result.reliability);

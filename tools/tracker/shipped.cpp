@@ -10,7 +10,6 @@
 #include <vector>
 
 #include "depth/base/error.h"
-#include "recon/models/posture_prior.h"
 
 namespace ossa::tracker {
 namespace {
@@ -64,14 +63,6 @@ bool IsShippedFile(const std::filesystem::path& path, std::string_view name) {
     return std::filesystem::is_regular_file(folder / name, error);
   });
   return first != folders.end() && std::filesystem::equivalent(path, *first / name, error);
-}
-
-std::shared_ptr<const recon::PosturePrior> PriorFor(const std::string& method,
-                                                    const std::string& prior,
-                                                    const std::string& database) {
-  if (method != "best" || (prior.empty() && !database.empty())) return nullptr;
-  return std::make_shared<recon::PosturePrior>(recon::PosturePrior::Load(
-      prior.empty() ? ShippedFile(recon::kShippedPrior) : std::filesystem::path(prior)));
 }
 
 }  // namespace ossa::tracker

@@ -1,12 +1,6 @@
 #pragma once
 #include <filesystem>
-#include <memory>
-#include <string>
 #include <string_view>
-
-namespace ossa::recon {
-struct PosturePrior;
-}
 
 namespace ossa::tracker {
 
@@ -19,11 +13,5 @@ std::filesystem::path ShippedFile(std::string_view name);
 
 /// Is `path` that very file? False as well when there is no such file.
 bool IsShippedFile(const std::filesystem::path& path, std::string_view name);
-
-/// What `method` completes postures by: null but for best; the prior that was named, else the
-/// shipped one, unless a database was named ("": it was not). Throws InputError.
-std::shared_ptr<const recon::PosturePrior> PriorFor(const std::string& method,
-                                                    const std::string& prior,
-                                                    const std::string& database);
 
 }  // namespace ossa::tracker

@@ -50,10 +50,6 @@ SmoothingOptions SmoothingPreset(std::string_view name) {
   return o;
 }
 
-std::string_view UsualSmoothing(std::string_view method) {
-  return method == "best" ? "none" : "default";
-}
-
 recon::Posture Smooth(const recon::Posture& raw, double time_s, const SmoothingOptions& options,
                       SmoothingState& state) {
   if (options.kind == SmoothingKind::kNone) return raw;

@@ -8,6 +8,7 @@
 
 namespace ossa::tracker {
 
+/// The filter that joints go through at the end.
 enum class SmoothingKind { kNone, kHolt, kOneEuro };
 
 /// A filter of each joint: as the Kinect SDK's (Holt), or One-Euro.
@@ -21,11 +22,8 @@ struct SmoothingOptions {
 /// Published presets: none, default (0.5 0.5 0.5 0.05 0.04), smooth (0.5 0.1 0.5 0.1 0.1),
 /// verysmooth (0.7 0.3 1.0 1.0 1.0), one-euro. Throws InputError for another name.
 SmoothingOptions SmoothingPreset(std::string_view name);
+/// Their names.
 const std::vector<std::string>& SmoothingPresets();
-
-/// The preset that goes with a method of reconstruction when none is asked for: best filters
-/// already, a second filter would only lag; the others get the SDK's default.
-std::string_view UsualSmoothing(std::string_view method);
 
 /// State of one body's filters.
 struct SmoothingState {

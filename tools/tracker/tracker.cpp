@@ -7,17 +7,13 @@
 #include <utility>
 
 #include "depth/base/error.h"
-#include "depth/base/large_pages.h"
 #include "depth/sensor/frame_source.h"
 #include "forest/forest.h"
-#include "recon/database/posture_database.h"
-#include "recon/models/learned_models.h"
 #include "recon/refine/close_look.h"
 #include "tools/people/detect_people.h"
 #include "tools/people/parallel.h"
 #include "tools/tracker/look_closely_internal.h"
 #include "tools/tracker/person_internal.h"
-#include "tools/tracker/shipped.h"
 
 namespace ossa::tracker {
 namespace {
@@ -30,41 +26,14 @@ double MillisecondsSince(Clock::time_point start) {
   return std::chrono::duration<double, std::milli>(Clock::now() - start).count();
 }
 
-std::string ModelPath(const TrackerOptions& options) {
-  return options.model.empty() ? ShippedFile("body.ossa").string() : options.model;
+SmoothingOptions SmoothingOf(const TrackerOptions& options) {
+  if (options.smoothing) return *options.smoothing;
+  return SmoothingPreset(recon::MethodNamed(options.method).smoothing);
 }
 
-// Methods that look postures up take the shipped database unless another is named.
-std::shared_ptr<const recon::PostureDatabase> LoadDatabase(const TrackerOptions& options) {
-  if (options.database.empty() && !recon::NeedsDatabase(options.method)) return nullptr;
-  const std::string path =
-      options.database.empty() ? ShippedFile("authored.ossadb").string() : options.database;
-  return std::make_shared<recon::PostureDatabase>(recon::PostureDatabase::Load(path));
-}
-
-// What best knows of the errors that a close look leaves in the shipped forest's joints is shipped
-// with them (tools/train_correction). Of other joints it is known that their forest was shown our
-// own bodies: bones are expected in the proportions of the standard body.
-std::shared_ptr<const recon::LearnedModels> LoadLearned(const TrackerOptions& options,
-                                                        bool looked) {
-  if (looked && (options.model.empty() || IsShippedFile(options.model, "body.ossa"))) {
-    return std::make_shared<recon::LearnedModels>(
-        recon::LearnedModels::Load(ShippedFile("body.ossagp")));
-  }
-  auto models = std::make_shared<recon::LearnedModels>();
-  models->correction.proportions.fill(1.0);
-  return models;
-}
-
-std::shared_ptr<const recon::Looker> LookOf(const TrackerOptions& options) {
-  const bool is_shipped = options.model.empty() || IsShippedFile(options.model, "body.ossa");
-  if (options.look == "none") return nullptr;
-  if (options.look.empty() && !(is_shipped && options.method == "best")) return nullptr;
-  auto look = std::make_shared<recon::Looker>(
-      recon::CloseLook::Load(options.look.empty() ? ShippedFile(recon::kShippedLook)
-                                                  : std::filesystem::path(options.look)));
-  ReturnFreedMemory();
-  return look;
+const forest::ForestModel& ForestOf(const ModelSet& models) {
+  if (models.forest) return *models.forest;
+  throw std::invalid_argument("TrackerOptions.models.forest = null, must be a forest");
 }
 
 unsigned FindClippedEdges(const depth::DepthFrame& frame, const std::vector<int32_t>& pixels) {
@@ -85,8 +54,8 @@ unsigned FindClippedEdges(const depth::DepthFrame& frame, const std::vector<int3
 
 struct Tracker::Impl {
   TrackerOptions options;
-  std::shared_ptr<const recon::Looker> look;  // before the forest: see ReturnFreedMemory
-  forest::ForestModel model;
+  ModelSet models;
+  const forest::ForestModel& model;  // of `models`
   people::JointTargets targets;
   CompleteOptions complete;
   people::PeopleOptions people_options;
@@ -96,24 +65,18 @@ struct Tracker::Impl {
 
   explicit Impl(const TrackerOptions& o)
       : options(o),
-        look(LookOf(o)),
-        model(forest::ReadForestModel(ModelPath(o), forest::ModelUse::kRunOnly)),
-        targets(people::FindJointTargets(model, o.model.empty() ? "body.ossa" : o.model)) {
+        models(o.models ? *o.models : ModelSet::Shipped(o.method)),
+        model(ForestOf(models)),
+        targets(people::FindJointTargets(model, models.forest_file)) {
     complete.physics = o.physics;
     complete.mechanics = o.mechanics;
-    complete.smoothing = o.smoothing;
+    complete.smoothing = SmoothingOf(o);
     complete.reconstructor.method = o.method;
-    complete.reconstructor.database = LoadDatabase(o);
-    complete.reconstructor.prior = PriorFor(o.method, o.prior, o.database);
-    const bool none = o.learned == "none";
-    if (!none && !o.learned.empty()) {
-      complete.reconstructor.learned_file = o.learned;  // for messages; it is read once
-      complete.reconstructor.learned =
-          std::make_shared<recon::LearnedModels>(recon::LearnedModels::Load(o.learned));
-    } else if (o.method == "best") {
-      complete.reconstructor.learned = LoadLearned(o, look != nullptr && !none);
-    }
-    complete.reconstructor.best.looked = look != nullptr;
+    complete.reconstructor.database = models.database;
+    complete.reconstructor.prior = models.prior;
+    complete.reconstructor.learned = models.learned;
+    complete.reconstructor.learned_file = models.learned_file;  // for messages
+    complete.reconstructor.best.looked = models.refinement != nullptr;
     complete.reconstructor.seed = o.seed;
     complete.bones_m = o.bones_m;
     recon::MakeReconstructor(complete.reconstructor);  // says now what is wrong with the options
@@ -122,7 +85,6 @@ struct Tracker::Impl {
     people_options.initiation.max_users = o.max_users;
     people_options.threads = o.threads;
     people_options.trace_surfaces = o.trace;
-    ReturnFreedMemory();
   }
 
   BodyFrame Track(const depth::DepthFrame& frame);
@@ -186,10 +148,10 @@ void Tracker::Impl::TrackBody(const depth::DepthFrame& frame,
   const bool recent = person.before && frame.time_s - person.before_s <= kRecent_s;
   context.before = recent ? &*person.before : nullptr;
   body.raw = ChoosePosture(model, targets, evidence.proposals, context);
-  if (look) {
+  if (models.refinement) {
     const auto start = Clock::now();
-    const auto looked = LookClosely(*look, frame, detection.candidate, evidence.proposals, targets,
-                                    body.raw, &person.bones);
+    const auto looked = LookClosely(*models.refinement, frame, detection.candidate,
+                                    evidence.proposals, targets, body.raw, &person.bones);
     if (looked) {
       body.refined = looked->joints_m;
       body.refined_bones_m = looked->bones_m;
@@ -256,7 +218,7 @@ void TrackerOptions::Check() const {
     throw std::invalid_argument("TrackerOptions.threads = " + std::to_string(threads) +
                                 ", must be in [1, 256]");
   }
-  smoothing.Check();
+  if (smoothing) smoothing->Check();
 }
 
 Tracker::Tracker(const TrackerOptions& options) {

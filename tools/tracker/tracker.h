@@ -14,6 +14,7 @@
 #include "recon/posture.h"
 #include "tools/people/decision.h"
 #include "tools/tracker/mechanics.h"
+#include "tools/tracker/model_set.h"
 #include "tools/tracker/smoothing.h"
 
 namespace ossa::depth {
@@ -33,6 +34,7 @@ enum ClippedEdge : unsigned {
   kClippedBottom = 8
 };
 
+/// How much is done for a body.
 enum class BodyState {
   kPositionOnly,  // known to be there; joints are not looked for
   kTracked,       // fully tracked
@@ -84,6 +86,7 @@ struct StageTimes {
   double segment = 0, classify = 0, propose = 0, reconstruct = 0, physics = 0, total = 0;
 };
 
+/// What the tracker says of one depth frame.
 struct BodyFrame {
   int64_t index = 0;
   double time_s = 0.0;
@@ -96,21 +99,21 @@ struct BodyFrame {
   StageTimes ms;
 };
 
+/// Which joints are tracked.
 enum class TrackingMode {
   kStanding,  // all 20 joints
   kSeated,    // the ten upper joints of the SDK's seated mode; the rest are not tracked
 };
 
+/// How a Tracker works; as it stands, what the command `ossa track` does without options.
 struct TrackerOptions {
-  std::string model;     // .ossa; "" = the shipped one
-  std::string database;  // .ossadb; "" = the shipped one, of best the shipped prior
-  std::string prior;     // .ossaprior, of best; "" = without a database the shipped one
-  std::string learned;   // .ossagp or none; "" = with best and the shipped model its own
-  std::string look;      // .ossalook or none; "" = with best and the shipped model the shipped one
-  std::string method = "best";  // one of recon::ReconstructionMethods()
-  bool physics = false;         // let the mechanical character follow the posture
-  MechanicsBuild mechanics;     // how that is built
-  SmoothingOptions smoothing = SmoothingPreset(UsualSmoothing("best"));
+  std::string method{recon::kDefaultMethod};  // one of recon::ReconstructionMethods()
+  std::optional<ModelSet> models;             // left out: ModelSet::Shipped(method)
+  bool physics = false;                       // let the mechanical character follow the posture
+  MechanicsBuild mechanics;                   // how that is built
+  /// Left out: what goes with the method (recon::MethodInfo::smoothing). One that is a filter
+  /// itself gets no second one, which would only lag.
+  std::optional<SmoothingOptions> smoothing;
   TrackingMode mode = TrackingMode::kStanding;
   bool near_range = false;  // the SDK's near mode: people from 0.4 to 3 m only
   int max_users = 6;
@@ -124,9 +127,12 @@ struct TrackerOptions {
   void Check() const;  // throws std::invalid_argument with name, value and range
 };
 
+/// Follows people from frame to frame. Used from one thread at a time; its own threads are those of
+/// TrackerOptions::threads.
 class Tracker {
  public:
-  /// Loads model and database. Throws InputError naming the file that is missing or damaged.
+  /// Loads the shipped models unless the options bring some. Throws InputError naming the file that
+  /// is missing or damaged, or what the method needs and the models lack.
   explicit Tracker(const TrackerOptions& options = {});
   ~Tracker();
   Tracker(Tracker&&) noexcept;

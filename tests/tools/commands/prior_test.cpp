@@ -80,9 +80,9 @@ TEST(PriorCommand, AnotherPriorIsUsedWhereItIsNamed) {
   EXPECT_EQ(bad.exit_status, 1);
   EXPECT_EQ(test::LineCount(bad.err), 1) << bad.err;
   EXPECT_NE(bad.err.find("in.jsonl"), std::string::npos) << bad.err;
-  tracker::TrackerOptions options;
-  options.prior = in;
-  EXPECT_THROW(tracker::Tracker{options}, InputError);
+  tracker::ModelFiles files;
+  files.prior = in;
+  EXPECT_THROW(tracker::ModelSet::Load(files), InputError);
 }
 
 TEST(PriorCommand, SaysWhatIsWrongInOneLine) {

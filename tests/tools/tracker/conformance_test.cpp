@@ -8,7 +8,6 @@
 
 #include "recon/orientation.h"
 #include "tests/tools/tracker/tracked_scenes.h"
-#include "tools/tracker/ossa_c.h"
 
 namespace ossa::tracker {
 namespace {
@@ -287,139 +286,18 @@ TEST(SdkConformance, TheSkeletonSpaceHasXToTheSensorsLeftAndYUp) {
   EXPECT_GT(depth::BackProject(camera, 320, 10, 1000).y(), 0);
 }
 
-TEST(SdkConformance, ACHeaderServesOtherLanguages) {
-  OSSA_NEEDS_MODEL();
-  ossa_options options{};
-  options.method = "none";
-  ossa_tracker* tracker = ossa_tracker_create(&options);
-  ASSERT_NE(tracker, nullptr) << ossa_last_error();
-  const CapsuleRender render = Rendered({PersonAt(0, 2.5)});
-  const depth::Camera& c = render.frame.camera;
-  const ossa_camera camera = {c.width, c.height, c.fx, c.fy, c.cx, c.cy};
-  ossa_frame frame;
-  ASSERT_EQ(ossa_tracker_push(tracker, render.frame.depth_mm.data(), &camera, 0.0, &frame), 0)
-      << ossa_last_error();
-  ASSERT_EQ(frame.body_count, 1);
-  EXPECT_EQ(frame.bodies[0].state, OSSA_FULLY_TRACKED);
-  EXPECT_EQ(frame.bodies[0].joints[recon::Index(Joint::kHead)].state, OSSA_TRACKED);
-  EXPECT_EQ(frame.has_floor, 1);
-  const int32_t nobody = 0;
-  EXPECT_EQ(ossa_tracker_choose_users(tracker, &nobody, 1), 0);
-  EXPECT_EQ(ossa_tracker_push(tracker, render.frame.depth_mm.data(), &camera, 0.1, &frame), 0);
-  EXPECT_EQ(frame.bodies[0].state, OSSA_POSITION_ONLY);
-  ossa_tracker_destroy(tracker);
-}
-
-/// A walk to the side, a frame a push, seen through the C interface.
-class WalkInC {
- public:
-  WalkInC() {
-    ossa_options options{};
-    options.method = "none";
-    options.smoothing = "none";
-    tracker = ossa_tracker_create(&options);
-  }
-  ~WalkInC() { ossa_tracker_destroy(tracker); }
-  WalkInC(const WalkInC&) = delete;
-  WalkInC& operator=(const WalkInC&) = delete;
-
-  ossa_joint Next(Joint joint) {
-    const CapsuleRender render = Rendered({PersonAt(0.03 * frames_, 2.5)}, frames_);
-    const depth::Camera& c = render.frame.camera;
-    const ossa_camera camera = {c.width, c.height, c.fx, c.fy, c.cx, c.cy};
-    ossa_frame frame;
-    EXPECT_EQ(ossa_tracker_push(tracker, render.frame.depth_mm.data(), &camera, render.frame.time_s,
-                                &frame),
-              0)
-        << ossa_last_error();
-    ++frames_;
-    EXPECT_EQ(frame.body_count, 1);
-    return frame.bodies[0].joints[recon::Index(joint)];
-  }
-  /// How far smoothing moved the head, metres.
-  float SmoothedBy_m() {
-    const ossa_joint head = Next(Joint::kHead);
-    return std::hypot(head.smoothed_m[0] - head.reconstructed_m[0],
-                      head.smoothed_m[1] - head.reconstructed_m[1],
-                      head.smoothed_m[2] - head.reconstructed_m[2]);
-  }
-  ossa_tracker* tracker = nullptr;
-
- private:
-  int frames_ = 0;
-};
-
-TEST(SdkConformance, InCModesAndSmoothingChangeWhileRunning) {
-  OSSA_NEEDS_MODEL();
-  WalkInC walk;
-  ASSERT_NE(walk.tracker, nullptr) << ossa_last_error();
-  EXPECT_NE(walk.Next(Joint::kSpine).state, OSSA_NOT_TRACKED);
-  EXPECT_EQ(ossa_tracker_set_seated(walk.tracker, 1), 0);
-  EXPECT_EQ(walk.Next(Joint::kSpine).state, OSSA_NOT_TRACKED);
-  EXPECT_EQ(ossa_tracker_set_seated(walk.tracker, 0), 0);
-  EXPECT_NE(walk.Next(Joint::kSpine).state, OSSA_NOT_TRACKED);
-  EXPECT_EQ(walk.SmoothedBy_m(), 0.0F);
-  EXPECT_EQ(ossa_tracker_set_smoothing(walk.tracker, "verysmooth"), 0);
-  walk.SmoothedBy_m();  // the filter starts with what it sees
-  EXPECT_GT(walk.SmoothedBy_m(), 1e-4F);
-  // The SDK's parameters: never farther off than the last of them (single precision).
-  const ossa_smooth_parameters near_raw = {0.7F, 0.3F, 1.0F, 1.0F, 0.001F};
-  EXPECT_EQ(ossa_tracker_set_smooth_parameters(walk.tracker, &near_raw), 0);
-  const float moved_m = walk.SmoothedBy_m();
-  EXPECT_GT(moved_m, 0.0F);
-  EXPECT_LT(moved_m, 0.00101F);
-  EXPECT_EQ(ossa_tracker_set_smoothing(walk.tracker, "none"), 0);
-  EXPECT_EQ(walk.SmoothedBy_m(), 0.0F);
-}
-
-TEST(SdkConformance, InCWrongModesAndSmoothingAreSaidInWords) {
-  OSSA_NEEDS_MODEL();
-  WalkInC walk;
-  const auto says = [](const char* what) {
-    return std::string(ossa_last_error()).find(what) != std::string::npos;
-  };
-  EXPECT_EQ(ossa_tracker_set_smoothing(walk.tracker, "treacle"), 1);
-  EXPECT_TRUE(says("treacle")) << ossa_last_error();
-  const ossa_smooth_parameters stuck = {1.0F, 0.5F, 0.5F, 0.05F, 0.04F};
-  EXPECT_EQ(ossa_tracker_set_smooth_parameters(walk.tracker, &stuck), 1);
-  EXPECT_TRUE(says("smoothing = 1")) << ossa_last_error();
-  walk.SmoothedBy_m();
-  EXPECT_EQ(walk.SmoothedBy_m(), 0.0F) << "as it was";
-  EXPECT_EQ(ossa_tracker_set_seated(nullptr, 1), 1);
-  EXPECT_EQ(ossa_tracker_set_smoothing(walk.tracker, nullptr), 1);
-  EXPECT_EQ(ossa_tracker_set_smooth_parameters(walk.tracker, nullptr), 1);
-  EXPECT_TRUE(says("ossa_tracker_set_smooth_parameters: expected no null"));
-}
-
 TEST(SdkConformance, ACameraThatCannotBeIsRefused) {
   OSSA_NEEDS_MODEL();
-  ossa_options options{};
-  options.method = "none";
-  ossa_tracker* by_c = ossa_tracker_create(&options);
   Tracker tracker(PlainOptions());
   depth::DepthFrame frame = Rendered({}).frame;
   constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
   for (const double f : {0.0, -287.5, kNan, std::numeric_limits<double>::infinity(), 1e-300}) {
     frame.camera.fx = f;
     EXPECT_THROW(tracker.Track(frame), InputError) << f;
-    const depth::Camera& c = frame.camera;
-    const ossa_camera camera = {c.width, c.height, c.fx, c.fy, c.cx, c.cy};
-    ossa_frame bodies;
-    EXPECT_EQ(ossa_tracker_push(by_c, frame.depth_mm.data(), &camera, 0.0, &bodies), 1) << f;
-    EXPECT_NE(std::string(ossa_last_error()).find("\"fx\""), std::string::npos);
   }
   frame.camera = depth::KinectV1Camera(320, 240);
   frame.camera.cy = kNan;
   EXPECT_THROW(tracker.Track(frame), InputError);
-  ossa_tracker_destroy(by_c);
-}
-
-TEST(SdkConformance, TheCHeaderReportsFailuresInWords) {
-  ossa_options options{};
-  options.model = "/nowhere/model.ossa";
-  EXPECT_EQ(ossa_tracker_create(&options), nullptr);
-  EXPECT_NE(std::string(ossa_last_error()).find("/nowhere/model.ossa"), std::string::npos);
-  EXPECT_EQ(ossa_tracker_push(nullptr, nullptr, nullptr, 0, nullptr), 1);
 }
 
 }  // namespace

@@ -52,10 +52,10 @@ TEST(LookedAt, JointsStandBesideTheRawOnesAndBestStartsFromThem) {
   OSSA_NEEDS_MODEL();
   const test::TemporaryFolder folder;
   const auto higher = [&](double by_m) {
-    TrackerOptions options;
-    options.look = folder / "head.ossalook";
-    HeadHigher(static_cast<float>(by_m)).Save(options.look);
-    return Tracked(options);
+    ModelFiles files;
+    files.refinement = folder / "head.ossalook";
+    HeadHigher(static_cast<float>(by_m)).Save(files.refinement);
+    return Tracked(OptionsWith(files));
   };
   const Body there = higher(0.0), up = higher(0.06);
   ASSERT_TRUE(there.refined && up.refined);
@@ -80,10 +80,11 @@ TEST(LookedAt, BestHasTheBonesThatTheLookJudges) {
     look.bones.input_scale = Eigen::VectorXf::Ones(recon::kBoneInputs);
     look.bones.layers = {{Eigen::MatrixXf::Zero(kBones, recon::kBoneInputs),
                           Eigen::VectorXf::Constant(kBones, std::log(longer) / 0.1F)}};
-    TrackerOptions options;
-    options.look = folder / "bones.ossalook";
-    look.Save(options.look);
-    return recon::MeasureBoneLengths(ToPosture(Tracked(options)))[recon::Index(Joint::kAnkleLeft)];
+    ModelFiles files;
+    files.refinement = folder / "bones.ossalook";
+    look.Save(files.refinement);
+    return recon::MeasureBoneLengths(
+        ToPosture(Tracked(OptionsWith(files))))[recon::Index(Joint::kAnkleLeft)];
   };
   EXPECT_NEAR(shin_m(1.5F) / shin_m(1.0F), 1.5, 0.01);  // in a file, weights are halves
 }
@@ -96,11 +97,11 @@ TEST(LookedAt, TheLookIsToldOfTheBonesOfAllFramesBefore) {
   recon::CloseLook look = HeadHigher(0.0F);
   MeasureByDistance(&look);
   const auto track = [&] {
-    TrackerOptions options;
-    options.look = folder / "told.ossalook";
-    look.Save(options.look);
+    ModelFiles files;
+    files.refinement = folder / "told.ossalook";
+    look.Save(files.refinement);
     std::vector<Body> frames;
-    Tracker tracker(options);
+    Tracker tracker(OptionsWith(files));
     for (int i = 0; i < 20; ++i) {
       const auto now = tracker.Track(Rendered({PersonAt(0, 2.3 + 0.02 * i)}, i).frame);
       if (!now.bodies.empty() && now.bodies[0].refined) frames.push_back(now.bodies[0]);
@@ -137,33 +138,33 @@ TEST(LookedAt, TheLookIsToldOfTheBonesOfAllFramesBefore) {
 TEST(LookedAt, OtherMethodsGoByTheRawJoints) {
   OSSA_NEEDS_MODEL();
   const test::TemporaryFolder folder;
-  TrackerOptions options = PlainOptions();
-  const Body without = Tracked(options);
+  const Body without = Tracked(OptionsWith({}, "none"));
   EXPECT_FALSE(without.refined);  // nobody asked
-  options.look = folder / "head.ossalook";
-  HeadHigher(0.06F).Save(options.look);
-  const Body with = Tracked(options);
+  ModelFiles files;
+  files.refinement = folder / "head.ossalook";
+  HeadHigher(0.06F).Save(files.refinement);
+  const Body with = Tracked(OptionsWith(files, "none"));
   EXPECT_TRUE(with.refined);
   EXPECT_EQ(with.joints[Joint::kHead].position_m, without.joints[Joint::kHead].position_m);
 }
 
 TEST(LookedAt, NoLookMayBeAskedFor) {
   OSSA_NEEDS_MODEL();
-  TrackerOptions options;
-  EXPECT_TRUE(Tracked(options).refined);
-  options.look = "none";
-  EXPECT_FALSE(Tracked(options).refined);
+  EXPECT_TRUE(Tracked({}).refined);
+  ModelFiles files;
+  files.refinement = "none";
+  EXPECT_FALSE(Tracked(OptionsWith(files)).refined);
 }
 
 TEST(LookedAt, AForestOfOnesOwnIsNotLookedAtUnasked) {
   OSSA_NEEDS_MODEL();
   const test::TemporaryFolder folder;
-  TrackerOptions options;
-  options.model = folder / "own.ossa";
-  std::filesystem::copy_file(ModelOrNothing(), options.model);
-  EXPECT_FALSE(Tracked(options).refined);
-  options.look = folder / "missing.ossalook";
-  EXPECT_THROW(Tracker{options}, InputError);
+  ModelFiles files;
+  files.forest = folder / "own.ossa";
+  std::filesystem::copy_file(ModelOrNothing(), files.forest);
+  EXPECT_FALSE(Tracked(OptionsWith(files)).refined);
+  files.refinement = folder / "missing.ossalook";
+  EXPECT_THROW(ModelSet::Load(files), InputError);
 }
 
 }  // namespace

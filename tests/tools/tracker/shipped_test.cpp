@@ -18,8 +18,9 @@ TEST(ShippedFile, IsItselfByAnyPathAndNoOtherFile) {
 // What is known of the shipped forest's errors corrects its joints, however it was named.
 TEST(ShippedFile, NamedByItsPathTracksAsUnnamed) {
   OSSA_NEEDS_MODEL();
-  TrackerOptions named;
-  named.model = ShippedFile("body.ossa").string();
+  ModelFiles files;
+  files.forest = ShippedFile("body.ossa").string();
+  const TrackerOptions named = OptionsWith(files);
   const auto render = Rendered({PersonAt(0.0, 2.5)});
   const BodyFrame a = Tracker(named).Track(render.frame);
   const BodyFrame b = Tracker().Track(render.frame);
@@ -35,10 +36,10 @@ TEST(ShippedFile, OfWhatIsKnownOfALooksErrorsNoneIsTakenOffWhereNoneIsWanted) {
   OSSA_NEEDS_MODEL();
   const auto render = Rendered({PersonAt(0.0, 2.5)});
   const auto tracked = [&render](const std::string& look, const std::string& learned) {
-    TrackerOptions options;
-    options.look = look;
-    options.learned = learned;
-    const BodyFrame frame = Tracker(options).Track(render.frame);
+    ModelFiles files;
+    files.refinement = look;
+    files.learned = learned;
+    const BodyFrame frame = Tracker(OptionsWith(files)).Track(render.frame);
     EXPECT_EQ(frame.bodies.size(), 1U);
     return frame.bodies.empty() ? recon::Posture() : frame.bodies[0].reconstructed;
   };

@@ -24,10 +24,20 @@ inline std::string ModelOrNothing() {
   GTEST_SKIP() << "no shipped model " \
                   "(tools/tracker/shipped/body.ossa)"
 
-/// Options that need the model only.
+/// Options that need the model only; joints come out as the forest and the image have them.
 inline TrackerOptions PlainOptions() {
   TrackerOptions options;
   options.method = "none";
+  options.smoothing = SmoothingPreset("none");
+  return options;
+}
+
+/// A method by files of one's own.
+inline TrackerOptions OptionsWith(const ModelFiles& files,
+                                  std::string_view method = recon::kDefaultMethod) {
+  TrackerOptions options;
+  options.method = method;
+  options.models = ModelSet::Load(files, method);
   return options;
 }
 

@@ -140,9 +140,11 @@ Split SplitOf(ExperimentContext& context) {
 
 tracker::TrackerOptions TrackerOf(ExperimentContext& context) {
   tracker::TrackerOptions how;
-  how.model = context.model.string();
-  how.database = context.database.string();
   how.method = context.parameters.Text("method", how.method);
+  tracker::ModelFiles files;
+  files.forest = context.model.string();
+  files.database = context.database.string();
+  how.models = tracker::ModelSet::Load(files, how.method);
   how.physics = context.parameters.Flag("physics", true);
   return how;
 }

@@ -190,7 +190,7 @@ MethodRun Liu2016Study::Run(const ExperimentContext& context, const std::string&
   run.options.seed = context.seed;
   if (method == "none") return run;
   run.options.learned_file = LearnWithout(context, recordings, mover, learn).string();
-  if (method == "best") {
+  if (recon::MethodNamed(method).prior) {
     run.options.database = DatabaseOf(context).postures;
     run.options.prior = prior;
   }

@@ -95,7 +95,7 @@ Study Prepare(ExperimentContext& context) {
     run.options.method = method;
     run.options.database = DatabaseOf(context).postures;
     run.options.seed = context.seed;
-    if (run.options.method == "best") {
+    if (recon::MethodNamed(method).prior) {
       run.options.prior = PriorOf(context);
       KnowObserver(observer, &run);
     }

@@ -182,8 +182,10 @@ std::vector<Table> RunReal(ExperimentContext& context) {
   if (context.shared.empty()) throw InputError("real: expected --shared FOLDER with real/ in it");
   const int most = context.parameters.Integer("frames", 0);
   tracker::TrackerOptions options;
-  options.model = context.model.string();
-  options.database = context.database.string();
+  tracker::ModelFiles files;
+  files.forest = context.model.string();
+  files.database = context.database.string();
+  options.models = tracker::ModelSet::Load(files, options.method);
   options.threads = context.threads;
   const auto sets = ReadRealSets(context.shared, most);
   const auto videos = ReadRealVideos(context.shared, most);

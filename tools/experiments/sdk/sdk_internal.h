@@ -71,11 +71,10 @@ recon::SkeletonSequence RunMethod(const recon::SkeletonSequence& observed,
 /// `best` with bones by the whole recording, of which each frame has the same: it looks ahead.
 inline constexpr const char* kBestOffline = "best-offline";
 
-/// best or best-offline.
-bool IsBest(const std::string& method);
-
-/// Methods that learn of pairs.
+/// Methods that learn of pairs; false as well of "raw" and "butterworth".
 bool Learns(const std::string& method);
+/// ... a correction only, without which they work, too.
+bool LearnsCorrection(const std::string& method);
 
 /// A row of the table of methods.
 std::vector<std::string> MethodRow(const std::string& data, const MethodScore& score);

@@ -48,6 +48,11 @@ ClipMetrics FromJson(const nlohmann::json& numbers) {
   return clip;
 }
 
+// Of the names that these tables have, kBestOffline is no method of its own.
+std::string MethodBehind(const std::string& method) {
+  return method == kBestOffline ? std::string(recon::kDefaultMethod) : method;
+}
+
 }  // namespace
 
 std::string DescriptionOfConstants(const recon::BestConstants& c) {
@@ -96,7 +101,7 @@ recon::ReconstructorOptions LearnFold(const Fold& fold, const std::string& metho
   recon::ReconstructorOptions with = options;
   if (!Learns(method)) return with;
   recon::LearnOptions learn;
-  learn.processes = !IsBest(method);
+  learn.processes = !LearnsCorrection(method);
   if (learn.processes) learn.correction.centres = 0;
   learn.mixture.seed = learn.correction.seed = options.seed;
   with.learned = std::make_shared<const recon::LearnedModels>(
@@ -137,10 +142,14 @@ std::vector<ClipMetrics> ClipsFromJson(const nlohmann::json& json) {
   return clips;
 }
 
-bool IsBest(const std::string& method) { return method == "best" || method == kBestOffline; }
-
 bool Learns(const std::string& method) {
-  return method == "liu-2016" || method == "full-gp" || method == "exemplar" || IsBest(method);
+  const recon::MethodInfo* info = recon::FindMethod(MethodBehind(method));
+  return info != nullptr && info->learned != recon::Reads::kNothing;
+}
+
+bool LearnsCorrection(const std::string& method) {
+  const recon::MethodInfo* info = recon::FindMethod(MethodBehind(method));
+  return info != nullptr && info->learned == recon::Reads::kOptional;
 }
 
 std::vector<Fold> LeaveOneSubjectOut(const std::vector<RecordedPair>& pairs,
@@ -192,7 +201,7 @@ recon::SkeletonSequence RunMethod(const recon::SkeletonSequence& observed,
   if (method == "raw") return observed;
   if (method == "butterworth") return recon::ButterworthSequence(observed);
   recon::ReconstructorOptions with = options;
-  with.method = IsBest(method) ? "best" : method;
+  with.method = MethodBehind(method);
   recon::BonesOfPeople bones;
   if (method == kBestOffline) bones = recon::MeasureBones(observed, with);
   return recon::ReconstructSequence(observed, with, {}, bones);

@@ -253,9 +253,11 @@ RecordedPair Studio::Record(const recon::MotionClip& clip, const StageOptions& o
     std::optional<tracker::Tracker> tracker;
     if (state_->observer == "forest") {
       tracker::TrackerOptions how;
-      how.model = state_->model_path.string();
-      how.look = state_->look_path.string();
       how.method = "none";
+      tracker::ModelFiles files;
+      files.forest = state_->model_path.string();
+      files.refinement = state_->look_path.string();
+      how.models = tracker::ModelSet::Load(files, how.method);
       how.smoothing = tracker::SmoothingPreset("none");
       how.threads = state_->context.threads;
       tracker.emplace(how);

@@ -1,0 +1,277 @@
+// The tracker through its C header.
+#include "ossa/ossa_c.h"
+
+#include <cmath>
+#include <cstring>
+#include <limits>
+
+#include "tests/support/places.h"
+#include "tests/tools/tracker/tracked_scenes.h"
+#include "tools/tracker/version.h"
+
+namespace ossa::tracker {
+namespace {
+
+using tests::CapsuleRender;
+
+ossa_depth_image ImageOf(const depth::DepthFrame& frame) {
+  const depth::Camera& c = frame.camera;
+  return {sizeof(ossa_depth_image), c.width,     c.height, c.fx, c.fy, c.cx, c.cy,
+          frame.depth_mm.data(),    frame.time_s};
+}
+
+ossa_options PlainOptionsInC() {
+  ossa_options options{};
+  options.struct_size = sizeof options;
+  options.method = "none";
+  options.smoothing = "none";
+  return options;
+}
+
+bool Says(const char* what) {
+  return std::string(ossa_last_error()).find(what) != std::string::npos;
+}
+
+/// A walk to the side, a frame a step, seen through the C interface.
+class WalkInC {
+ public:
+  explicit WalkInC(ossa_options options = PlainOptionsInC())
+      : tracker(ossa_tracker_create(&options)) {}
+  ~WalkInC() { ossa_tracker_destroy(tracker); }
+  WalkInC(const WalkInC&) = delete;
+  WalkInC& operator=(const WalkInC&) = delete;
+
+  ossa_body Next() {
+    const CapsuleRender render = Rendered({PersonAt(0.03 * frames_, 2.5)}, frames_);
+    const ossa_depth_image image = ImageOf(render.frame);
+    EXPECT_EQ(ossa_tracker_track(tracker, &image, &frame), OSSA_OK) << ossa_last_error();
+    ++frames_;
+    EXPECT_EQ(frame.body_count, 1);
+    ossa_body body{};
+    body.struct_size = sizeof body;
+    EXPECT_EQ(ossa_tracker_body(tracker, 0, &body), OSSA_OK) << ossa_last_error();
+    return body;
+  }
+  int32_t SpineState() { return Next().joints[OSSA_SPINE].state; }
+  /// How far smoothing moved the head, metres.
+  float SmoothedBy_m() {
+    const ossa_body body = Next();
+    const float* final_m = body.joints[OSSA_HEAD].position_m;
+    const float* before_m = body.reconstructed_m[OSSA_HEAD];
+    return std::hypot(final_m[0] - before_m[0], final_m[1] - before_m[1], final_m[2] - before_m[2]);
+  }
+
+  ossa_tracker* tracker = nullptr;
+  ossa_frame frame{sizeof(ossa_frame), 0, 0.0, 0, {}, 0.0F, nullptr};
+
+ private:
+  int frames_ = 0;
+};
+
+TEST(CInterface, ACHeaderServesOtherLanguages) {
+  OSSA_NEEDS_MODEL();
+  WalkInC walk;
+  ASSERT_NE(walk.tracker, nullptr) << ossa_last_error();
+  const ossa_body body = walk.Next();
+  EXPECT_EQ(body.state, OSSA_FULLY_TRACKED);
+  EXPECT_EQ(body.joints[OSSA_HEAD].state, OSSA_TRACKED);
+  EXPECT_EQ(walk.frame.has_floor, 1);
+  const auto* const users_end = walk.frame.users + 320 * 240;
+  EXPECT_NE(std::find(walk.frame.users, users_end, body.id), users_end);
+  const int32_t nobody = 0;
+  EXPECT_EQ(ossa_tracker_choose_users(walk.tracker, &nobody, 1), OSSA_OK);
+  EXPECT_EQ(walk.Next().state, OSSA_POSITION_ONLY);
+}
+
+// The C++ and the C interface say the same of the same image.
+TEST(CInterface, HasTheJointsOfTheCppInterface) {
+  OSSA_NEEDS_MODEL();
+  ossa_options options{};
+  options.struct_size = sizeof options;
+  WalkInC walk(options);
+  Tracker tracker;
+  const ossa_body c = walk.Next();
+  const BodyFrame frame = tracker.Track(Rendered({PersonAt(0.0, 2.5)}).frame);
+  ASSERT_EQ(frame.bodies.size(), 1U);
+  const Body& body = frame.bodies[0];
+  for (size_t j = 0; j < recon::kJointCount; ++j) {
+    for (int i = 0; i < 3; ++i) {
+      EXPECT_EQ(c.joints[j].position_m[i], static_cast<float>(body.joints[j].position_m[i]));
+      EXPECT_EQ(c.refined_m[j][i], static_cast<float>(body.refined->position_m[j][i]));
+    }
+    EXPECT_EQ(c.joints[j].orientation_wxyz[0], static_cast<float>(body.joints[j].orientation.w()));
+    EXPECT_EQ(c.joints[j].state, static_cast<int32_t>(body.joints[j].state));
+  }
+}
+
+TEST(CInterface, NamesJointsAndItsVersion) {
+  EXPECT_STREQ(ossa_joint_name(OSSA_WRIST_RIGHT), "WristRight");
+  EXPECT_EQ(ossa_joint_parent(OSSA_WRIST_RIGHT), OSSA_ELBOW_RIGHT);
+  EXPECT_EQ(ossa_joint_parent(OSSA_HIP_CENTER), -1);
+  EXPECT_EQ(ossa_joint_name(OSSA_JOINT_COUNT), nullptr);
+  EXPECT_STREQ(ossa_version(), Version());
+}
+
+TEST(CInterface, AResetForgetsWhoWasThere) {
+  OSSA_NEEDS_MODEL();
+  WalkInC walk;
+  walk.Next();
+  const CapsuleRender two = Rendered({PersonAt(-0.6, 2.5), PersonAt(0.6, 2.8)});
+  ossa_depth_image image = ImageOf(two.frame);
+  EXPECT_EQ(ossa_tracker_reset(walk.tracker), OSSA_OK);
+  ossa_body body{};
+  body.struct_size = sizeof body;
+  EXPECT_EQ(ossa_tracker_body(walk.tracker, 0, &body), OSSA_FAILED) << "nobody is left";
+  // Time goes back and two people are there at once, as at the beginning of any recording.
+  ASSERT_EQ(ossa_tracker_track(walk.tracker, &image, &walk.frame), OSSA_OK) << ossa_last_error();
+  EXPECT_EQ(walk.frame.body_count, 2);
+}
+
+TEST(CInterface, InCModesAndSmoothingChangeWhileRunning) {
+  OSSA_NEEDS_MODEL();
+  WalkInC walk;
+  ASSERT_NE(walk.tracker, nullptr) << ossa_last_error();
+  EXPECT_NE(walk.SpineState(), OSSA_NOT_TRACKED);
+  EXPECT_EQ(ossa_tracker_set_seated(walk.tracker, 1), OSSA_OK);
+  EXPECT_EQ(walk.SpineState(), OSSA_NOT_TRACKED);
+  EXPECT_EQ(ossa_tracker_set_seated(walk.tracker, 0), OSSA_OK);
+  EXPECT_NE(walk.SpineState(), OSSA_NOT_TRACKED);
+  EXPECT_EQ(walk.SmoothedBy_m(), 0.0F);
+  EXPECT_EQ(ossa_tracker_set_smoothing(walk.tracker, "verysmooth"), OSSA_OK);
+  walk.SmoothedBy_m();  // the filter starts with what it sees
+  EXPECT_GT(walk.SmoothedBy_m(), 1e-4F);
+  // The SDK's parameters: never farther off than the last of them (single precision).
+  const ossa_smooth_parameters near_raw = {
+      sizeof(ossa_smooth_parameters), 0.7F, 0.3F, 1.0F, 1.0F, 0.001F};
+  EXPECT_EQ(ossa_tracker_set_smooth_parameters(walk.tracker, &near_raw), OSSA_OK);
+  const float moved_m = walk.SmoothedBy_m();
+  EXPECT_GT(moved_m, 0.0F);
+  EXPECT_LT(moved_m, 0.00101F);
+  EXPECT_EQ(ossa_tracker_set_smoothing(walk.tracker, "none"), OSSA_OK);
+  EXPECT_EQ(walk.SmoothedBy_m(), 0.0F);
+}
+
+TEST(CInterface, WrongModesAndSmoothingAreSaidInWords) {
+  OSSA_NEEDS_MODEL();
+  WalkInC walk;
+  EXPECT_EQ(ossa_tracker_set_smoothing(walk.tracker, "treacle"), OSSA_FAILED);
+  EXPECT_TRUE(Says("treacle")) << ossa_last_error();
+  const ossa_smooth_parameters stuck = {
+      sizeof(ossa_smooth_parameters), 1.0F, 0.5F, 0.5F, 0.05F, 0.04F};
+  EXPECT_EQ(ossa_tracker_set_smooth_parameters(walk.tracker, &stuck), OSSA_FAILED);
+  EXPECT_TRUE(Says("smoothing = 1")) << ossa_last_error();
+  walk.SmoothedBy_m();
+  EXPECT_EQ(walk.SmoothedBy_m(), 0.0F) << "as it was";
+  EXPECT_EQ(ossa_tracker_set_seated(nullptr, 1), OSSA_FAILED);
+  EXPECT_EQ(ossa_tracker_set_smoothing(walk.tracker, nullptr), OSSA_FAILED);
+  EXPECT_EQ(ossa_tracker_set_smooth_parameters(walk.tracker, nullptr), OSSA_FAILED);
+  EXPECT_TRUE(Says("ossa_tracker_set_smooth_parameters: expected parameters, found NULL"));
+}
+
+TEST(CInterface, ACameraThatCannotBeIsRefused) {
+  OSSA_NEEDS_MODEL();
+  WalkInC walk;
+  depth::DepthFrame frame = Rendered({}).frame;
+  constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
+  for (const double f : {0.0, -287.5, kNan, std::numeric_limits<double>::infinity(), 1e-300}) {
+    frame.camera.fx = f;
+    const ossa_depth_image image = ImageOf(frame);
+    EXPECT_EQ(ossa_tracker_track(walk.tracker, &image, &walk.frame), OSSA_FAILED) << f;
+    EXPECT_TRUE(Says("\"fx\"")) << ossa_last_error();
+  }
+}
+
+TEST(CInterface, TheCHeaderReportsFailuresInWords) {
+  ossa_options options{};
+  options.struct_size = sizeof options;
+  options.model = "/nowhere/model.ossa";
+  EXPECT_EQ(ossa_tracker_create(&options), nullptr);
+  EXPECT_TRUE(Says("/nowhere/model.ossa")) << ossa_last_error();
+  EXPECT_EQ(ossa_tracker_track(nullptr, nullptr, nullptr), OSSA_FAILED);
+  EXPECT_EQ(ossa_source_open("/nowhere.oni", nullptr), nullptr);
+  EXPECT_TRUE(Says("/nowhere.oni")) << ossa_last_error();
+}
+
+TEST(CInterface, AStructSizeThatNoVersionHadIsRefused) {
+  for (const uint32_t size : {0U, 4U, static_cast<uint32_t>(sizeof(ossa_options) - 1)}) {
+    ossa_options options{};
+    options.struct_size = size;
+    EXPECT_EQ(ossa_tracker_create(&options), nullptr) << size;
+    EXPECT_TRUE(Says("ossa_options.struct_size: expected")) << ossa_last_error();
+  }
+}
+
+// What a program hands over that was compiled with a later version's header.
+template <typename T>
+struct Later {
+  T known{};
+  uint64_t added = 0;
+};
+
+TEST(CInterface, AMemberThatThisVersionDoesNotKnowMustBeZero) {
+  OSSA_NEEDS_MODEL();
+  Later<ossa_options> options{PlainOptionsInC(), 0};
+  options.known.struct_size = sizeof options;
+  ossa_tracker* tracker = ossa_tracker_create(&options.known);
+  EXPECT_NE(tracker, nullptr) << ossa_last_error();
+  ossa_tracker_destroy(tracker);
+  options.added = 1;
+  EXPECT_EQ(ossa_tracker_create(&options.known), nullptr);
+  EXPECT_TRUE(Says("ossa_options: a member behind byte")) << ossa_last_error();
+}
+
+TEST(CInterface, NothingIsWrittenBehindWhatThisVersionKnows) {
+  OSSA_NEEDS_MODEL();
+  WalkInC walk;
+  walk.Next();
+  Later<ossa_body> body{{}, 77};
+  body.known.struct_size = sizeof body;
+  EXPECT_EQ(ossa_tracker_body(walk.tracker, 0, &body.known), OSSA_OK) << ossa_last_error();
+  EXPECT_GT(body.known.joints[OSSA_HEAD].position_m[2], 1.0F);
+  EXPECT_EQ(body.known.struct_size, sizeof body);
+  EXPECT_EQ(body.added, 77U);
+}
+
+TEST(CInterface, ASourceIsReadToItsEnd) {
+  const std::string clip = test::SourceFolder() / "tests/golden/clips/one";
+  ossa_source* source = ossa_source_open(clip.c_str(), nullptr);
+  ASSERT_NE(source, nullptr) << ossa_last_error();
+  ossa_depth_image image{};
+  image.struct_size = sizeof image;
+  int frames = 0;
+  double time_s = -1.0;
+  ossa_status status = OSSA_OK;
+  while ((status = ossa_source_read(source, 1000, &image)) == OSSA_OK) {
+    ++frames;
+    EXPECT_GT(image.time_s, time_s);
+    time_s = image.time_s;
+    ASSERT_NE(image.depth_mm, nullptr);
+  }
+  EXPECT_EQ(status, OSSA_END) << ossa_last_error();
+  EXPECT_GT(frames, 10);
+  EXPECT_GT(image.fx, 100.0);
+  ossa_source_close(source);
+}
+
+TEST(CInterface, ACameraOfASourceMayBeNamed) {
+  const std::string clip = test::SourceFolder() / "tests/golden/clips/one/depth";
+  ossa_source_options options{};
+  options.struct_size = sizeof options;
+  options.camera = "301,302,160,120";
+  ossa_source* source = ossa_source_open(clip.c_str(), &options);
+  ASSERT_NE(source, nullptr) << ossa_last_error();
+  ossa_depth_image image{};
+  image.struct_size = sizeof image;
+  EXPECT_EQ(ossa_source_read(source, 1000, &image), OSSA_OK) << ossa_last_error();
+  EXPECT_EQ(image.fx, 301.0);
+  ossa_source_close(source);
+  options.depth_scale = -1.0;
+  EXPECT_EQ(ossa_source_open(clip.c_str(), &options), nullptr);
+  EXPECT_TRUE(Says("depth_scale")) << ossa_last_error();
+  options.camera = "no-such-camera";
+  EXPECT_EQ(ossa_source_open(clip.c_str(), &options), nullptr);
+  EXPECT_TRUE(Says("no-such-camera")) << ossa_last_error();
+}
+
+}  // namespace
+}  // namespace ossa::tracker

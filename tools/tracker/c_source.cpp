@@ -1,0 +1,88 @@
+// The sources of depth images behind ossa_c.h.
+#include <chrono>
+#include <memory>
+
+#include "depth/image/camera_io.h"
+#include "depth/sensor/frame_source.h"
+#include "tools/tracker/c_interface_internal.h"
+
+struct ossa_source {
+  std::unique_ptr<ossa::depth::FrameSource> frames;
+  ossa::depth::DepthFrame last;  // owns what the caller reads
+};
+
+namespace {
+
+using std::chrono::duration;
+using std::chrono::duration_cast;
+using std::chrono::milliseconds;
+
+// Far beyond any use, by hand: a wait of eleven days, units of a micrometre.
+constexpr double kMost = 1e6;
+
+void RequireInRange(double value, const char* member) {
+  if (value >= 0 && value <= kMost) return;
+  throw std::invalid_argument("ossa_source_options." + std::string(member) +
+                              ": expected 0 to 1e6, found " + std::to_string(value));
+}
+
+ossa::depth::SourceOptions OptionsFrom(const ossa_source_options* given) {
+  ossa::depth::SourceOptions options;
+  if (given == nullptr) return options;
+  const auto c = ossa::tracker::ReadStruct(*given, "ossa_source_options");
+  if (c.camera != nullptr) options.camera = ossa::depth::ParseCamera(c.camera);
+  RequireInRange(c.depth_scale, "depth_scale");
+  RequireInRange(c.fps, "fps");
+  RequireInRange(c.wait_s, "wait_s");
+  if (c.depth_scale > 0) options.depth_scale = c.depth_scale;
+  if (c.fps > 0) options.fps = c.fps;
+  options.device_wait = duration_cast<milliseconds>(duration<double>(c.wait_s));
+  return options;
+}
+
+ossa_depth_image ImageFrom(const ossa::depth::DepthFrame& frame) {
+  ossa_depth_image image{};
+  image.width = frame.camera.width;
+  image.height = frame.camera.height;
+  image.fx = frame.camera.fx;
+  image.fy = frame.camera.fy;
+  image.cx = frame.camera.cx;
+  image.cy = frame.camera.cy;
+  image.depth_mm = frame.depth_mm.data();
+  image.time_s = frame.time_s;
+  return image;
+}
+
+ossa_status StatusOf(ossa::depth::ReadStatus status) {
+  using ossa::depth::ReadStatus;
+  if (status == ReadStatus::kFrame) return OSSA_OK;
+  return status == ReadStatus::kEnd ? OSSA_END : OSSA_TIMEOUT;
+}
+
+}  // namespace
+
+ossa_source* ossa_source_open(const char* source, const ossa_source_options* options) {
+  ossa_source* opened = nullptr;
+  ossa::tracker::Guarded([&] {
+    ossa::tracker::RequireNotNull(source, "ossa_source_open", "a source");
+    opened = new ossa_source{ossa::depth::OpenSource(source, OptionsFrom(options)), {}};
+    return OSSA_OK;
+  });
+  return opened;
+}
+
+void ossa_source_close(ossa_source* source) { delete source; }
+
+ossa_status ossa_source_read(ossa_source* source, int32_t timeout_ms, ossa_depth_image* image) {
+  return ossa::tracker::Guarded([&] {
+    ossa::tracker::RequireNotNull(source, "ossa_source_read", "a source");
+    ossa::tracker::RequireNotNull(image, "ossa_source_read", "an image");
+    ossa::tracker::CheckSize(*image, "ossa_depth_image");  // before a frame is taken
+    auto read = source->frames->Read(milliseconds(std::max(0, timeout_ms)));
+    if (read.status == ossa::depth::ReadStatus::kFrame) {
+      source->last = std::move(read.frame);
+      ossa::tracker::FillStruct(ImageFrom(source->last), "ossa_depth_image", image);
+    }
+    return StatusOf(read.status);
+  });
+}

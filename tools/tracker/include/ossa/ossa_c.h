@@ -1,0 +1,187 @@
+#ifndef OSSA_OSSA_C_H
+#define OSSA_OSSA_C_H
+/* ossa for other languages: the tracker in plain C, no exceptions, no global state.
+
+   Depth images in, skeletons out. Positions are in camera space, metres: origin at the sensor, x to
+   the sensor's left, y up, z forward. Left and right of a body are the person's own. Quaternions
+   are w x y z.
+
+   Calls that can fail return an ossa_status; ossa_last_error says in one line why the calling
+   thread's last failed call failed. A tracker or a source is used from one thread at a time.
+
+   Structs grow at their ends from version to version. Whoever hands one over first sets its
+   struct_size to sizeof of it: `ossa_frame frame = {.struct_size = sizeof frame};`. Members that a
+   program was compiled without are left alone, and members that this library does not know must be
+   zero. A struct_size that no version had is refused. */
+#include <stdint.h>
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+typedef enum {
+  OSSA_OK = 0,
+  OSSA_FAILED = 1, /* see ossa_last_error */
+  OSSA_END = 2,    /* of ossa_source_read: the recording's last frame has been read */
+  OSSA_TIMEOUT = 3 /* of ossa_source_read: no frame came in time; read again */
+} ossa_status;
+
+/* The joints of the Kinect SDK 1.x, in its order. */
+typedef enum {
+  OSSA_HIP_CENTER,
+  OSSA_SPINE,
+  OSSA_SHOULDER_CENTER,
+  OSSA_HEAD,
+  OSSA_SHOULDER_LEFT,
+  OSSA_ELBOW_LEFT,
+  OSSA_WRIST_LEFT,
+  OSSA_HAND_LEFT,
+  OSSA_SHOULDER_RIGHT,
+  OSSA_ELBOW_RIGHT,
+  OSSA_WRIST_RIGHT,
+  OSSA_HAND_RIGHT,
+  OSSA_HIP_LEFT,
+  OSSA_KNEE_LEFT,
+  OSSA_ANKLE_LEFT,
+  OSSA_FOOT_LEFT,
+  OSSA_HIP_RIGHT,
+  OSSA_KNEE_RIGHT,
+  OSSA_ANKLE_RIGHT,
+  OSSA_FOOT_RIGHT,
+  OSSA_JOINT_COUNT
+} ossa_joint_id;
+
+enum { OSSA_MAX_BODIES = 6 };
+
+typedef enum { OSSA_NOT_TRACKED = 0, OSSA_INFERRED = 1, OSSA_TRACKED = 2 } ossa_joint_state;
+typedef enum { OSSA_POSITION_ONLY = 0, OSSA_FULLY_TRACKED = 1 } ossa_body_state;
+
+/* "0.1.0": of the library that runs, not of this header. */
+const char* ossa_version(void);
+/* Why the calling thread's last failed call failed; "" before the first. Valid until the next. */
+const char* ossa_last_error(void);
+/* "HipCenter" and so on, as skeleton files name joints; NULL for what is no joint. */
+const char* ossa_joint_name(int32_t joint);
+/* The joint at the other end of the bone that ends in this one; -1 for OSSA_HIP_CENTER. */
+int32_t ossa_joint_parent(int32_t joint);
+
+/* ---- depth images and where they come from ---- */
+
+typedef struct {
+  uint32_t struct_size;
+  int32_t width, height;    /* pixels */
+  double fx, fy, cx, cy;    /* pixels: u = cx - fx x/z, v = cy - fy y/z */
+  const uint16_t* depth_mm; /* width x height, row by row, millimetres, 0 = no reading */
+  double time_s;            /* when it was taken; any origin */
+} ossa_depth_image;
+
+typedef struct {
+  uint32_t struct_size;
+  const char* camera; /* a preset's name or "fx,fy,cx,cy", as `ossa track --camera`; NULL: what the
+                         source says, else by the images' size */
+  double depth_scale; /* units to the metre of its depths; 0: what it says, else millimetres */
+  double fps;         /* frames a second of a recording; 0: its own times */
+  double wait_s;      /* for a device to be plugged in; 0: it must be there */
+} ossa_source_options;
+
+typedef struct ossa_source ossa_source;
+
+/* Opens a SOURCE as `ossa track` does: "openni:" for the first device, a recording's file, a folder
+   of 16-bit PNGs. options may be NULL. NULL on failure. */
+ossa_source* ossa_source_open(const char* source, const ossa_source_options* options);
+void ossa_source_close(ossa_source* source);
+/* The next frame into *image, waiting at most timeout_ms. Its depth_mm is valid until the next read
+   of this source. A device that was unplugged times out until it is back. */
+ossa_status ossa_source_read(ossa_source* source, int32_t timeout_ms, ossa_depth_image* image);
+
+/* ---- the tracker ---- */
+
+typedef struct {
+  uint32_t struct_size;
+  int32_t physics;       /* not 0: a mechanical character follows the posture */
+  int32_t seated;        /* not 0: the ten upper joints */
+  int32_t near_range;    /* not 0: people from 0.4 to 3 m */
+  int32_t max_users;     /* 1 to 6; 0: 6 */
+  int32_t threads;       /* for several people; 0: 1 */
+  const char* method;    /* as `ossa track --method`; NULL: best */
+  const char* smoothing; /* as `ossa track --smoothing`; NULL: what goes with the method */
+  /* Files as of `ossa track`; NULL: those that ossa ships; "none": do without. */
+  const char *model, *refinement, *learned, *prior, *database;
+} ossa_options;
+
+/* One joint of a skeleton. This struct does not grow. */
+typedef struct {
+  float position_m[3];
+  float orientation_wxyz[4]; /* camera from bone: the y axis of the bone that ends here runs along
+                                it from the parent */
+  float confidence;          /* what was seen there, [0, 1] */
+  float reliability;         /* does it move and measure as a joint? [0, 1] */
+  int32_t state;             /* ossa_joint_state */
+} ossa_joint;
+
+typedef struct {
+  uint32_t struct_size;
+  int32_t id;                          /* the same from frame to frame, from 1 */
+  int32_t state;                       /* ossa_body_state; of position only, all below is 0 */
+  float position_m[3];                 /* middle of the seen surface */
+  uint32_t clipped_edges;              /* by the image: 1 right, 2 left, 4 top, 8 bottom */
+  ossa_joint joints[OSSA_JOINT_COUNT]; /* the skeleton, by ossa_joint_id */
+  /* Each bone's turn against its parent's, as the Kinect SDK's hierarchical orientations. */
+  float hierarchical_wxyz[OSSA_JOINT_COUNT][4];
+  /* What each stage before made of the joints: the forest; the refinement at the depth image, the
+     same again where there was none; the method. */
+  float raw_m[OSSA_JOINT_COUNT][3];
+  float refined_m[OSSA_JOINT_COUNT][3];
+  float reconstructed_m[OSSA_JOINT_COUNT][3];
+} ossa_body;
+
+typedef struct {
+  uint32_t struct_size;
+  int32_t body_count; /* at most OSSA_MAX_BODIES; see ossa_tracker_body */
+  double time_s;      /* the image's */
+  int32_t has_floor;
+  float floor[4];       /* a b c d of ax + by + cz + d = 0, unit normal up */
+  float tilt_down_rad;  /* of the sensor, from the floor */
+  const uint8_t* users; /* width x height, the id of the body each pixel belongs to, 0 nobody; valid
+                           until the tracker's next frame */
+} ossa_frame;
+
+/* NUI_TRANSFORM_SMOOTH_PARAMETERS of the Kinect SDK. */
+typedef struct {
+  uint32_t struct_size;
+  float smoothing;                               /* [0, 1) */
+  float correction;                              /* [0, 1] */
+  float prediction;                              /* frames, [0, 100) */
+  float jitter_radius_m, max_deviation_radius_m; /* above 0 */
+} ossa_smooth_parameters;
+
+typedef struct ossa_tracker ossa_tracker;
+
+/* Loads its files. options may be NULL. NULL on failure. */
+ossa_tracker* ossa_tracker_create(const ossa_options* options);
+void ossa_tracker_destroy(ossa_tracker* tracker);
+
+/* One depth image in, its people out; images in order of time. Fails for a camera that cannot be:
+   focal lengths of 0, NaN and the like. */
+ossa_status ossa_tracker_track(ossa_tracker* tracker, const ossa_depth_image* image,
+                               ossa_frame* frame);
+/* A body of the last frame, by its place from 0 to body_count - 1. */
+ossa_status ossa_tracker_body(const ossa_tracker* tracker, int32_t place, ossa_body* body);
+/* Forgets everybody and everything seen: another recording begins. */
+ossa_status ossa_tracker_reset(ossa_tracker* tracker);
+
+/* Track only these fully, the others by position; count < 0: all. */
+ossa_status ossa_tracker_choose_users(ossa_tracker* tracker, const int32_t* ids, int32_t count);
+/* From the next frame on. 0: standing, all 20 joints; else seated, the upper ten. */
+ossa_status ossa_tracker_set_seated(ossa_tracker* tracker, int32_t seated);
+/* From the next frame on: a preset by name, as `ossa track --smoothing`. */
+ossa_status ossa_tracker_set_smoothing(ossa_tracker* tracker, const char* preset);
+/* From the next frame on: the SDK's filter with these parameters. Fails outside their ranges, and
+   the smoothing stays as it was. */
+ossa_status ossa_tracker_set_smooth_parameters(ossa_tracker* tracker,
+                                               const ossa_smooth_parameters* parameters);
+
+#ifdef __cplusplus
+}
+#endif
+#endif

@@ -1,0 +1,101 @@
+#include "tools/tracker/model_set.h"
+
+#include "depth/base/large_pages.h"
+#include "forest/forest.h"
+#include "recon/database/posture_database.h"
+#include "recon/models/learned_models.h"
+#include "recon/models/posture_prior.h"
+#include "recon/refine/close_look.h"
+#include "tools/tracker/shipped.h"
+
+namespace ossa::tracker {
+namespace {
+
+using recon::MethodInfo;
+using recon::Reads;
+
+constexpr const char* kForest = "body.ossa";
+constexpr const char* kCorrection = "body.ossagp";
+constexpr const char* kDatabase = "authored.ossadb";
+constexpr const char* kWithout = "none";
+
+std::filesystem::path NamedOrShipped(const std::string& file, std::string_view shipped) {
+  return file.empty() ? ShippedFile(shipped) : std::filesystem::path(file);
+}
+
+// A file that a method can do without is read where it was named; one that it needs is always.
+bool IsRead(Reads reads, const std::string& file) {
+  if (file == kWithout || reads == Reads::kNothing) return false;
+  return reads == Reads::kRequired || !file.empty();
+}
+
+// A refinement that was named is had with every method: its joints may be what is wanted.
+std::shared_ptr<const recon::Looker> LoadRefinement(const ModelFiles& files,
+                                                    const MethodInfo& method) {
+  if (files.refinement == kWithout) return nullptr;
+  if (files.refinement.empty() && !(method.refined && IsShippedForest(files))) return nullptr;
+  auto refinement = std::make_shared<recon::Looker>(
+      recon::CloseLook::Load(NamedOrShipped(files.refinement, recon::kShippedLook)));
+  ReturnFreedMemory();
+  return refinement;
+}
+
+// What is known of the errors that a refinement leaves in the shipped forest's joints is shipped
+// with them (tools/train_correction). Of other joints it is known that their forest was shown our
+// own bodies: bones are expected in the proportions of the standard body.
+std::shared_ptr<const recon::LearnedModels> LoadLearned(const ModelFiles& files,
+                                                        const MethodInfo& method, bool refined) {
+  if (IsRead(method.learned, files.learned) && !files.learned.empty()) {
+    return std::make_shared<recon::LearnedModels>(recon::LearnedModels::Load(files.learned));
+  }
+  if (method.learned != Reads::kOptional) return nullptr;
+  if (files.learned.empty() && refined && IsShippedForest(files)) {
+    return std::make_shared<recon::LearnedModels>(
+        recon::LearnedModels::Load(ShippedFile(kCorrection)));
+  }
+  auto models = std::make_shared<recon::LearnedModels>();
+  models->correction.proportions.fill(1.0);
+  return models;
+}
+
+}  // namespace
+
+bool IsShippedForest(const ModelFiles& files) {
+  return files.forest.empty() || IsShippedFile(files.forest, kForest);
+}
+
+std::shared_ptr<const recon::PosturePrior> LoadPrior(const ModelFiles& files,
+                                                     std::string_view method) {
+  const MethodInfo& info = recon::MethodNamed(method);
+  const bool by_database = files.prior.empty() && IsRead(info.database, files.database);
+  if (!info.prior || files.prior == kWithout || by_database) return nullptr;
+  return std::make_shared<recon::PosturePrior>(
+      recon::PosturePrior::Load(NamedOrShipped(files.prior, recon::kShippedPrior)));
+}
+
+std::shared_ptr<const recon::PostureDatabase> LoadDatabase(const ModelFiles& files,
+                                                           std::string_view method) {
+  if (!IsRead(recon::MethodNamed(method).database, files.database)) return nullptr;
+  return std::make_shared<recon::PostureDatabase>(
+      recon::PostureDatabase::Load(NamedOrShipped(files.database, kDatabase)));
+}
+
+ModelSet ModelSet::Shipped(std::string_view method) { return Load({}, method); }
+
+ModelSet ModelSet::Load(const ModelFiles& files, std::string_view method) {
+  const MethodInfo& info = recon::MethodNamed(method);
+  ModelSet set;
+  set.refinement = LoadRefinement(files, info);  // before the forest: see ReturnFreedMemory
+  const auto forest = NamedOrShipped(files.forest, kForest);
+  set.forest_file = files.forest.empty() ? kForest : files.forest;
+  set.forest = std::make_shared<forest::ForestModel>(
+      forest::ReadForestModel(forest, forest::ModelUse::kRunOnly));
+  set.database = LoadDatabase(files, method);
+  set.prior = LoadPrior(files, method);
+  set.learned = LoadLearned(files, info, set.refinement != nullptr);
+  set.learned_file = files.learned;
+  ReturnFreedMemory();
+  return set;
+}
+
+}  // namespace ossa::tracker

@@ -1,0 +1,61 @@
+#pragma once
+#include <memory>
+#include <string>
+#include <string_view>
+
+#include "recon/methods/method_table.h"
+
+namespace ossa::forest {
+class ForestModel;  // forest/forest.h
+}
+namespace ossa::recon {
+class Looker;           // recon/refine/close_look.h
+class PostureDatabase;  // recon/database/posture_database.h
+struct LearnedModels;   // recon/models/learned_models.h
+struct PosturePrior;    // recon/models/posture_prior.h
+}  // namespace ossa::recon
+
+namespace ossa::tracker {
+
+/// The files of a ModelSet, each one a path; or "", what ossa ships where that belongs to the other
+/// files and to the method; or "none", do without. README.md says which command makes which file.
+struct ModelFiles {
+  std::string forest;      // .ossa; "": the shipped one
+  std::string refinement;  // .ossalook; "": the shipped one of the shipped forest, for methods that
+                           // start from refined joints
+  std::string learned;     // .ossagp; "": what is known of the errors that the shipped forest and a
+                           // refinement leave, for methods that take a correction
+  std::string prior;       // .ossaprior; "": the shipped one, for methods that complete by a prior
+                           // where no database is named
+  std::string database;    // .ossadb; "": the shipped one, for methods that need one
+};
+
+/// All that a tracker has learned, in memory. Read once, it serves any number of trackers, also at
+/// the same time; members may be exchanged for others.
+struct ModelSet {
+  std::shared_ptr<const forest::ForestModel> forest;       // body parts and joint proposals; needed
+  std::shared_ptr<const recon::Looker> refinement;         // moves its joints at the depth image
+  std::shared_ptr<const recon::LearnedModels> learned;     // the correction of systematic errors
+  std::shared_ptr<const recon::PosturePrior> prior;        // of postures: joints unseen from seen
+  std::shared_ptr<const recon::PostureDatabase> database;  // postures to look up
+  std::string forest_file, learned_file;                   // where those came from, for messages
+
+  /// What ossa ships for a method of reconstruction (recon::MethodTable). Throws InputError where a
+  /// file is missing or damaged, and for a method that does not exist.
+  static ModelSet Shipped(std::string_view method = recon::kDefaultMethod);
+  /// Named files. Those that the method does not read are not opened. Throws as Shipped does.
+  static ModelSet Load(const ModelFiles& files, std::string_view method = recon::kDefaultMethod);
+};
+
+/// The prior of `files` alone, for methods that run on skeletons; null where the method reads none.
+/// Throws InputError.
+std::shared_ptr<const recon::PosturePrior> LoadPrior(const ModelFiles& files,
+                                                     std::string_view method);
+/// The database of `files` alone, likewise.
+std::shared_ptr<const recon::PostureDatabase> LoadDatabase(const ModelFiles& files,
+                                                           std::string_view method);
+
+/// Whether the forest is the shipped one, by whichever path.
+bool IsShippedForest(const ModelFiles& files);
+
+}  // namespace ossa::tracker
