@@ -34,6 +34,7 @@ using JointOrientations = std::array<Eigen::Quaterniond, kJointCount>;
 /// Lengths of the 19 bones, metres; entry i is the bone that ends in joint i, entry 0 unused (0).
 using BoneLengths = std::array<double, kJointCount>;
 
+/// Distances from each joint to its parent, metres; 0 for the root.
 BoneLengths BoneLengthsOf(const Posture& posture);
 
 }  // namespace ossa::recon

@@ -46,9 +46,12 @@ inline constexpr std::array<std::string_view, kJointCount> kJointNames = {
 inline constexpr std::array<int, kJointCount> kMirroredJoint = {
     0, 1, 2, 3, 8, 9, 10, 11, 4, 5, 6, 7, 16, 17, 18, 19, 12, 13, 14, 15};
 
+/// The joint's number, 0 to 19.
 constexpr int Index(Joint joint) { return static_cast<int>(joint); }
+/// The SDK's name of a joint, "HipCenter"; and the joint of a name, none for unknown ones.
 constexpr std::string_view NameOf(Joint joint) { return kJointNames[static_cast<size_t>(joint)]; }
 
+/// The joint of an SDK name, none where there is no such joint.
 constexpr std::optional<Joint> JointFromName(std::string_view name) {
   for (int i = 0; i < kJointCount; ++i) {
     if (kJointNames[static_cast<size_t>(i)] == name) return static_cast<Joint>(i);

@@ -9,6 +9,8 @@
 
 namespace ossa::tracker {
 
+// Constants: Kinect SDK 1.8, TransformSmoothParameters; One-Euro's after Casiez 2012, by hand.
+
 /// The filter that joints go through at the end.
 enum class SmoothingKind { kNone, kHolt, kOneEuro };
 
@@ -16,8 +18,8 @@ enum class SmoothingKind { kNone, kHolt, kOneEuro };
 /// Joint Smoothing White Paper", Microsoft 2012), and One-Euro (Casiez et al. 2012).
 struct SmoothingOptions {
   SmoothingKind kind = SmoothingKind::kHolt;
-  double smoothing = 0.5;                // [0, 1): 0 = raw; 1 - alpha of the paper
-  double correction = 0.5;               // [0, 1]: trend gain gamma
+  double smoothing = 0.5;                // [0, 1): 0 = raw; 1 - alpha of the paper; share
+  double correction = 0.5;               // [0, 1]: trend gain gamma; share
   double prediction = 0.5;               // frames to predict into the future, >= 0
   double jitter_radius_m = 0.05;         // movements below are damped further, > 0
   double max_deviation_radius_m = 0.04;  // filtered never farther than this from raw, > 0
