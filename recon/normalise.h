@@ -13,6 +13,7 @@ using JointWeights = JointArray<double>;
 /// on y = 0: the joints of StandardPosture(RigPose{}). Its bones are the standard size to which
 /// databases and Gaussian processes retarget everyone.
 const Posture& StandardStance();
+/// Bone lengths of the standard body, metres, in the order of the joints they end in.
 const BoneLengths& StandardBoneLengths();
 
 /// Where a person stands and which way the person faces. camera = root + Ry(yaw) * normalised.

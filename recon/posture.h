@@ -39,6 +39,7 @@ using JointOrientations = JointArray<Eigen::Quaterniond>;
 /// Lengths of the 19 bones, metres; entry i is the bone that ends in joint i, entry 0 unused (0).
 using BoneLengths = JointArray<double>;
 
+/// Distances from each joint to its parent, metres; 0 for the root.
 BoneLengths MeasureBoneLengths(const Posture& posture);
 
 }  // namespace ossa::recon

@@ -62,8 +62,10 @@ inline constexpr JointArray<size_t> kMirroredJoint = {0, 1, 2,  3,  8,  9,  10, 
 constexpr size_t ParentOf(size_t joint) {
   return joint == 0 ? 0 : static_cast<size_t>(kJointParent[joint]);
 }
+/// The SDK's name of a joint, "HipCenter".
 constexpr std::string_view NameOf(Joint joint) { return kJointNames[joint]; }
 
+/// The joint of an SDK name, none where there is no such joint.
 constexpr std::optional<Joint> JointFromName(std::string_view name) {
   for (size_t i = 0; i < kJointCount; ++i) {
     if (kJointNames[i] == name) return static_cast<Joint>(i);

@@ -21,6 +21,7 @@ struct JointRecord {
   std::optional<bool> visible;                    // truth files only
 };
 
+/// One person in one frame of a recording.
 struct BodyRecord {
   int id = 0;
   JointArray<std::optional<JointRecord>> joints;  // absent joints are empty
@@ -28,6 +29,7 @@ struct BodyRecord {
   std::optional<BoneLengths> bones_m = std::nullopt;
 };
 
+/// One moment of a recording: everybody in it.
 struct SkeletonFrame {
   int64_t frame = 0;
   double time_s = 0.0;

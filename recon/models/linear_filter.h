@@ -77,6 +77,7 @@ size_t LearnedSideOf(size_t joint);
 /// are taken to be the mean of those after; a neighbour with too few moves as the joint does.
 Eigen::VectorXf FilterFeature(std::span<const Posture> window, const LinearFilter::Steps& steps,
                               double yaw_rad, size_t joint, bool mirrored);
+/// Numbers that the filter reads of a joint.
 Eigen::Index FilterFeatureSize(size_t joint);
 
 /// What other positions of a joint pull it by, of which `steps` up to the newest frame are known:
@@ -85,6 +86,7 @@ Eigen::Index FilterFeatureSize(size_t joint);
 /// cm (the influence function of Cauchy's distribution). 3 x regressors, in camera space.
 Eigen::Matrix3Xf PullFeature(std::span<const Posture> window, int steps, size_t joint,
                              LinearFilter::Output output);
+/// Numbers of a joint's influence features for that output.
 Eigen::Index PullFeatureSize(LinearFilter::Output output);
 
 }  // namespace ossa::recon

@@ -11,6 +11,8 @@
 namespace ossa::tracker {
 namespace {
 
+// Constants: chosen by hand.
+
 using Clock = std::chrono::steady_clock;
 using recon::kJointCount;
 using recon::TrackingState;
@@ -68,7 +70,7 @@ recon::Posture OutOfFreeSpace(recon::Posture posture, const recon::TrackedPostur
 recon::Posture WithBonesOf(const recon::Posture& whole, const recon::Posture& moved,
                            const recon::TrackedPosture& observed,
                            const recon::JointArray<double>& reliability) {
-  constexpr double kUnseen = 0.1, kLeast = 0.2;
+  constexpr double kUnseen = 0.1, kLeast = 0.2;  // weight
   recon::JointWeights weights;
   for (size_t j = 0; j < kJointCount; ++j) {
     const bool seen = observed.state[j] == TrackingState::kTracked;

@@ -8,6 +8,8 @@
 
 namespace ossa::tracker {
 
+// Constants: Kinect SDK 1.8, TransformSmoothParameters; One-Euro's after Casiez 2012, by hand.
+
 /// The filter that joints go through at the end.
 enum class SmoothingKind { kNone, kHolt, kOneEuro };
 

@@ -26,6 +26,8 @@ class FrameSource;
 /// from one thread at a time.
 namespace ossa::tracker {
 
+// Constants: of the Kinect SDK (six people); seed and threads by convention.
+
 /// The SDK's FrameEdges: which image borders cut the body off. Combined by |.
 enum ClippedEdge : unsigned {
   kClippedRight = 1,
