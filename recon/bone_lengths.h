@@ -15,6 +15,7 @@ enum class BoneStatistic {
   kMedian          // exact, of all measurements, which are kept
 };
 
+/// How bone lengths are estimated from one posture after another.
 struct BoneLengthOptions {
   BoneStatistic statistic = BoneStatistic::kMean;
   int memory = 600;          // measurements until what is older fades, > 0; by hand: 20 s at 30 Hz

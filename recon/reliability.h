@@ -11,7 +11,7 @@
 namespace ossa::recon {
 
 // Constants: Shum 2013 where an equation is said; ours chosen by hand on rendered people (`ossa
-// experiment shum-2013`).
+// experiment shum-2013`). Without another unit they are ratios.
 
 /// Shum et al. 2013, section IV: how far each joint of an observed posture may be believed.
 struct ReliabilityOptions {

@@ -44,6 +44,7 @@ class HoltFilter {
   Eigen::Vector3d trend_m_ = Eigen::Vector3d::Zero();
 };
 
+/// The two parameters of the One-Euro filter, and of which speed it hears.
 struct OneEuroOptions {
   double min_cutoff_hz =
       1.5;  // at rest, > 0; by hand, as Casiez 2012 says: until a still joint does not jitter

@@ -24,7 +24,7 @@ using Eigen::Vector3d;
 constexpr double kCentimetres = 100.0;  // of a metre; the unit most programs expect of BVH
 
 BoneLengths MedianLengths(const std::vector<Sighting>& sightings) {
-  constexpr double kShortest_m = 1e-3;  // a bone of no length has no direction in the file
+  constexpr double kShortest_m = 1e-3;  // a bone of no length has no direction in the file; by hand
   BoneLengthEstimator estimator(BoneLengthOptions::OfRecording());
   estimator.Start(MeasureBoneLengths(StandardPosture(RigPose())));
   for (const Sighting& s : sightings) {
