@@ -7,8 +7,24 @@ if(PROJECT_IS_TOP_LEVEL AND (NOT OSSA_SANITIZE OR CMAKE_CXX_COMPILER_ID MATCHES 
   target_compile_options(ossa_warnings INTERFACE -Werror)
 endif()
 
+# What hardens our code and only ours against what a hostile file makes of a mistake. Tables of
+# addresses are closed after loading, always; stacks whose overrun is seen, checked library calls and
+# containers are an option: docs/benchmarks/robustness.md says what they cost.
+option(OSSA_HARDEN "Compile our targets with stack protector, fortified calls and library assertions" OFF)
+add_library(ossa_hardening INTERFACE)
+target_link_options(ossa_hardening INTERFACE -Wl,-z,relro,-z,now)
+if(OSSA_HARDEN)
+  target_compile_options(ossa_hardening INTERFACE -fstack-protector-strong)
+  target_compile_definitions(ossa_hardening INTERFACE _GLIBCXX_ASSERTIONS)
+  if(NOT OSSA_SANITIZE)  # which check the calls themselves; needs an optimiser to see the sizes
+    target_compile_options(ossa_hardening INTERFACE
+      $<$<NOT:$<CONFIG:Debug>>:-U_FORTIFY_SOURCE> $<$<NOT:$<CONFIG:Debug>>:-D_FORTIFY_SOURCE=2>)
+  endif()
+endif()
+
 function(ossa_common target)
-  target_link_libraries(${target} PRIVATE $<BUILD_INTERFACE:ossa_warnings>)
+  target_link_libraries(${target} PRIVATE $<BUILD_INTERFACE:ossa_warnings>
+                        $<BUILD_INTERFACE:ossa_hardening>)
   target_include_directories(${target} PRIVATE ${ossa_SOURCE_DIR})
   if(OSSA_SANITIZE)
     target_compile_options(${target} PRIVATE -fsanitize=${OSSA_SANITIZE} -fno-omit-frame-pointer

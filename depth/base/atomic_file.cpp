@@ -1,140 +1,214 @@
 #include "depth/base/atomic_file.h"
 
 #include <fcntl.h>
-#include <signal.h>
 #include <sys/file.h>
+#include <sys/random.h>
 #include <unistd.h>
 
+#include <algorithm>
+#include <array>
 #include <cerrno>
-#include <charconv>
 #include <cstring>
 #include <system_error>
-#include <vector>
 
+#include "depth/base/descriptor_buffer_internal.h"
 #include "depth/base/error.h"
 
 namespace ossa {
 namespace {
 
+namespace fs = std::filesystem;
+
 constexpr const char* kPartial = ".partial-";
 
-// Two processes (MPI ranks, a second ossa) may write the same file: the name carries the process.
-std::filesystem::path TemporaryPathFor(const std::filesystem::path& final_path) {
-  std::filesystem::path path = final_path;
-  path += kPartial + std::to_string(getpid());
+// Nobody can know it before: in a folder that others may write to, nobody has put anything there.
+fs::path RandomNameFor(const fs::path& final_path) {
+  std::array<unsigned char, 6> random{};  // twelve digits: chance hits no name twice
+  if (getrandom(random.data(), random.size(), 0) != static_cast<ssize_t>(random.size())) {
+    throw std::system_error(errno, std::generic_category(), "random numbers");
+  }
+  fs::path path = final_path;
+  path += kPartial;
+  for (const unsigned char byte : random) {
+    constexpr const char* kDigits = "0123456789abcdef";
+    path += kDigits[byte / 16];
+    path += kDigits[byte % 16];
+  }
   return path;
 }
 
-// Whether a name ends in the number of a process that lives no more.
-bool IsOfTheDead(const std::string& name, size_t number_at) {
-  pid_t process = 0;
-  const auto [end, error] =
-      std::from_chars(name.data() + number_at, name.data() + name.size(), process);
-  const bool number = error == std::errc() && end == name.data() + name.size() && process > 0;
-  return number && kill(process, 0) != 0 && errno == ESRCH;
-}
-
-// Processes of another machine or container that share the folder have numbers that say nothing
-// here: what one of them writes is locked.
-void RemoveUnlessLocked(const std::filesystem::path& path) {
-  const int file = open(path.c_str(), O_WRONLY | O_NOFOLLOW | O_NONBLOCK | O_CLOEXEC);
-  if (file < 0) return;
-  if (flock(file, LOCK_EX | LOCK_NB) == 0) unlink(path.c_str());
-  close(file);
-}
-
-void RemoveLeftovers(const std::filesystem::path& final_path) {
-  const std::string begin = final_path.filename().string() + kPartial;
-  const auto folder = final_path.has_parent_path() ? final_path.parent_path() : ".";
-  std::vector<std::filesystem::path> leftovers;
-  std::error_code error;
-  for (auto it = std::filesystem::directory_iterator(folder, error);
-       !error && it != std::filesystem::directory_iterator(); it.increment(error)) {
-    const std::string name = it->path().filename().string();
-    if (name.starts_with(begin) && IsOfTheDead(name, begin.size())) leftovers.push_back(it->path());
+// A new file of nobody else's, locked; -1 with errno when there can be none.
+int OpenNew(const fs::path& final_path, fs::path* path) {
+  constexpr int kAttempts = 100;  // by hand: names that are taken are as rare as chance makes them
+  for (int k = 0; k < kAttempts; ++k) {
+    *path = RandomNameFor(final_path);
+    const int file = open(path->c_str(), O_RDWR | O_CREAT | O_EXCL | O_NOFOLLOW | O_CLOEXEC, 0666);
+    if (file < 0 && errno == EEXIST) continue;
+    if (file >= 0) flock(file, LOCK_EX | LOCK_NB);  // not every file system knows locks
+    return file;
   }
-  for (const auto& path : leftovers) RemoveUnlessLocked(path);
+  return -1;
+}
+
+// Whether nobody holds the lock of a file that was written under a temporary name.
+bool IsLeft(const fs::path& path) {
+  const int file = open(path.c_str(), O_RDONLY | O_NOFOLLOW | O_NONBLOCK | O_CLOEXEC);
+  if (file < 0) return false;
+  const bool free = flock(file, LOCK_SH | LOCK_NB) == 0;
+  close(file);
+  return free;
 }
 
 // Where a chain of symbolic links leads, also to where nothing is yet.
-std::filesystem::path EndOfLinks(std::filesystem::path path) {
+fs::path EndOfLinks(fs::path path) {
   constexpr int kMostLinks = 40;  // the kernel's own limit; by definition of MAXSYMLINKS
   std::error_code error;
-  for (int k = 0; std::filesystem::is_symlink(path, error); ++k) {
+  for (int k = 0; fs::is_symlink(path, error); ++k) {
     if (k == kMostLinks) {
       throw InputError(path.string() + ": cannot be written: " + std::strerror(ELOOP));
     }
-    path =
-        path.parent_path() / std::filesystem::read_symlink(path);  // an absolute one stands alone
+    path = path.parent_path() / fs::read_symlink(path);  // an absolute one stands alone
   }
   return path;
+}
+
+// Waits until the disk has a file or a folder; false with errno when it failed. Not every file
+// system knows how.
+bool Sync(int file) {
+  int status = fsync(file);
+  while (status != 0 && errno == EINTR) status = fsync(file);
+  return status == 0 || errno == EINVAL || errno == ENOSYS || errno == EOPNOTSUPP;
+}
+
+void SyncFolder(const fs::path& folder, const std::string& name) {
+  const int file = open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
+  if (file < 0) return;  // may be written to, but not read
+  const bool synced = Sync(file);
+  const int reason = errno;
+  close(file);
+  if (!synced) throw InputError(name + ": may not be on the disk: " + std::strerror(reason));
 }
 
 }  // namespace
 
-AtomicFile::AtomicFile(std::filesystem::path final_path)
-    : name_(final_path.string()),
-      final_path_(EndOfLinks(std::move(final_path))),
-      temporary_path_(TemporaryPathFor(final_path_)) {
+struct AtomicFile::Stream {
+  explicit Stream(int file) : buffer(file), stream(&buffer) {}
+  DescriptorBuffer buffer;
+  std::ostream stream;
+};
+
+AtomicFile::AtomicFile(fs::path final_path)
+    : name_(final_path.string()), final_path_(EndOfLinks(std::move(final_path))) {
   std::error_code unknown;
-  const auto there = std::filesystem::status(final_path_, unknown);
-  if (std::filesystem::exists(there) && !std::filesystem::is_regular_file(there)) {
+  const auto there = fs::status(final_path_, unknown);
+  if (fs::exists(there) && !fs::is_regular_file(there)) {
     throw InputError(name_ + ": cannot be written: expected a file or nothing, found " +
-                     (std::filesystem::is_directory(there) ? "a folder" : "a device"));
+                     (fs::is_directory(there) ? "a folder" : "a device"));
   }
   errno = 0;
-  if (std::filesystem::exists(there) && access(final_path_.c_str(), W_OK) != 0) {
+  if (fs::exists(there) && access(final_path_.c_str(), W_OK) != 0) {
     throw InputError(name_ + ": cannot be written: " + std::strerror(errno));
   }
-  stream_.open(temporary_path_, std::ios::binary | std::ios::trunc);
-  if (!stream_) {
-    throw InputError(name_ + ": cannot be written: " + std::strerror(errno));
-  }
-  lock_ = open(temporary_path_.c_str(), O_WRONLY | O_CLOEXEC);
-  if (lock_ >= 0) flock(lock_, LOCK_EX | LOCK_NB);  // not every file system knows locks
+  file_ = OpenNew(final_path_, &temporary_path_);
+  if (file_ < 0) throw InputError(name_ + ": cannot be written: " + std::strerror(errno));
+  stream_ = std::make_unique<Stream>(file_);
 }
 
 AtomicFile::~AtomicFile() {
-  if (!committed_) {
-    stream_.close();
-    std::error_code ignored;
-    std::filesystem::remove(temporary_path_, ignored);
-  }
-  if (lock_ >= 0) close(lock_);
+  if (!committed_) unlink(temporary_path_.c_str());
+  close(file_);
 }
 
-void AtomicFile::CheckWritable(const std::filesystem::path& final_path) {
-  const AtomicFile probe(final_path);
-  RemoveLeftovers(probe.final_path_);
+std::ostream& AtomicFile::stream() { return stream_->stream; }
+
+void AtomicFile::CheckWritable(const fs::path& final_path) { const AtomicFile probe(final_path); }
+
+std::vector<fs::path> AtomicFile::LeftoversOf(const fs::path& final_path) {
+  const fs::path end = EndOfLinks(final_path);
+  const std::string begin = end.filename().string() + kPartial;
+  std::vector<fs::path> left;
+  std::error_code error;
+  for (auto it = fs::directory_iterator(FolderOf(end), error);
+       !error && it != fs::directory_iterator(); it.increment(error)) {
+    const bool is_one = it->path().filename().string().starts_with(begin);
+    if (is_one && it->is_regular_file(error) && IsLeft(it->path())) left.push_back(it->path());
+  }
+  std::sort(left.begin(), left.end());
+  return left;
 }
 
 void AtomicFile::Check() {
-  if (!stream_) throw DiskFull(name_ + ": writing failed: is the disk full?");
+  if (!stream()) throw DiskFull(name_ + ": writing failed: is the disk full?");
+}
+
+void AtomicFile::Flush() {
+  stream().flush();
+  Check();
 }
 
 void AtomicFile::CutTo(uint64_t size) {
-  stream_.close();  // may still write something, which the cut takes away
-  stream_.clear();
-  std::error_code error;
-  if (std::filesystem::file_size(temporary_path_, error) < size || error) {
+  stream_->buffer.Discard();
+  stream().clear();
+  const off_t end = lseek(file_, 0, SEEK_END);
+  if (end < 0 || static_cast<uint64_t>(end) < size) {
     throw InputError(name_ + ": less was written than was thought: is the disk full?");
   }
-  std::filesystem::resize_file(temporary_path_, size, error);
-  if (error) throw InputError(name_ + ": cannot be cut shorter: " + error.message());
-  errno = 0;
-  stream_.open(temporary_path_, std::ios::binary | std::ios::in | std::ios::out | std::ios::ate);
-  if (!stream_) throw InputError(name_ + ": cannot be written: " + std::strerror(errno));
+  if (ftruncate(file_, static_cast<off_t>(size)) != 0 || lseek(file_, 0, SEEK_END) < 0) {
+    throw InputError(name_ + ": cannot be cut shorter: " + std::strerror(errno));
+  }
 }
 
-void AtomicFile::Commit() {
-  stream_.close();
-  Check();
-  std::error_code error;
-  std::filesystem::rename(temporary_path_, final_path_, error);
-  if (error) {
-    throw InputError(name_ + ": cannot be put in place: " + error.message());
+void AtomicFile::TakeOut(uint64_t begin, uint64_t count) {
+  Flush();
+  std::vector<char> bytes(size_t{1} << 20);
+  auto to = static_cast<off_t>(begin);
+  for (;;) {
+    const ssize_t got = pread(file_, bytes.data(), bytes.size(), to + static_cast<off_t>(count));
+    if (got == 0) break;
+    if (got < 0 || pwrite(file_, bytes.data(), static_cast<size_t>(got), to) != got) {
+      throw InputError(name_ + ": cannot be moved together: " + std::strerror(errno));
+    }
+    to += got;
   }
+  CutTo(static_cast<uint64_t>(to));
+}
+
+void AtomicFile::Rename() {
+  std::error_code error;
+  fs::rename(temporary_path_, final_path_, error);
+  if (error) throw InputError(name_ + ": cannot be put in place: " + error.message());
   committed_ = true;
+}
+
+// A machine that loses its power must not have the new name without the bytes, nor forget the name.
+void AtomicFile::Commit() {
+  Flush();
+  if (!Sync(file_)) throw DiskFull(name_ + ": writing failed: " + std::strerror(errno));
+  Rename();
+  SyncFolder(FolderOf(final_path_), name_);
+}
+
+void AtomicFile::CommitOneOfMany() {
+  Flush();
+  Rename();
+}
+
+fs::path FolderOf(const fs::path& path) {
+  return path.has_parent_path() ? path.parent_path() : fs::path(".");
+}
+
+void SyncFiles(const fs::path& folder) {
+  std::error_code error;
+  for (auto it = fs::recursive_directory_iterator(folder, error);
+       !error && it != fs::recursive_directory_iterator(); it.increment(error)) {
+    if (!it->is_regular_file(error)) continue;
+    const int file = open(it->path().c_str(), O_RDONLY | O_NOFOLLOW | O_CLOEXEC);
+    if (file < 0) continue;  // nothing that we just wrote
+    const bool synced = Sync(file);
+    const int reason = errno;
+    close(file);
+    if (!synced) throw DiskFull(it->path().string() + ": writing failed: " + std::strerror(reason));
+  }
 }
 
 }  // namespace ossa

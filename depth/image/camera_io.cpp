@@ -8,6 +8,7 @@
 
 #include "depth/base/atomic_file.h"
 #include "depth/base/error.h"
+#include "depth/base/json_nesting.h"
 #include "depth/base/open_file.h"
 #include "depth/image/depth_png.h"
 
@@ -33,6 +34,9 @@ std::string ReadText(const std::filesystem::path& path) {
 }
 
 json ParseJson(const std::string& text, const std::string& name) {
+  if (JsonNesting().IsTooDeep(text)) {
+    throw InputError(name + ": expected JSON that nests at most 32 deep");
+  }
   try {
     return json::parse(text);
   } catch (const json::parse_error& error) {

@@ -6,6 +6,7 @@
 
 #include "depth/base/atomic_file.h"
 #include "depth/base/error.h"
+#include "depth/base/naming_the_file.h"
 #include "depth/image/png_codec_internal.h"
 
 namespace ossa::depth {
@@ -31,19 +32,21 @@ std::vector<uint8_t> ReadBytes(const std::filesystem::path& path, size_t at_most
 
 template <typename T>
 Image<T> ReadGreyPng(const std::filesystem::path& path) {
-  std::vector<uint8_t> samples;
-  const ImageSize size =
-      DecodeGreyPng(ReadBytes(path, kLargestFile), 8 * sizeof(T), path.string(), &samples);
-  Image<T> image(size.width, size.height);
-  std::memcpy(image.data.data(), samples.data(), samples.size());
-  return image;
+  return NamingTheFile(path, [&] {
+    std::vector<uint8_t> samples;
+    const ImageSize size =
+        DecodeGreyPng(ReadBytes(path, kLargestFile), 8 * sizeof(T), path.string(), &samples);
+    Image<T> image(size.width, size.height);
+    std::memcpy(image.data.data(), samples.data(), samples.size());
+    return image;
+  });
 }
 
 void WriteBytes(const std::filesystem::path& path, const std::vector<uint8_t>& bytes) {
   AtomicFile file(path);
   file.stream().write(reinterpret_cast<const char*>(bytes.data()),
                       static_cast<std::streamsize>(bytes.size()));
-  file.Commit();
+  file.CommitOneOfMany();
 }
 
 }  // namespace

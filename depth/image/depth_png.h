@@ -7,7 +7,6 @@
 
 namespace ossa::depth {
 
-/// Size of an image in pixels.
 struct ImageSize {
   int width = 0;
   int height = 0;
@@ -25,7 +24,8 @@ ImageSize ReadDepthPngSize(const std::filesystem::path& path);
 /// A PNG with a sound header that is no depth image: colour, or of 8 bits.
 bool IsOtherPng(const std::filesystem::path& path);
 
-/// Writes atomically; the same image gives the same bytes.
+/// Writes atomically, one of many (AtomicFile::CommitOneOfMany); the same image gives the same
+/// bytes.
 void WriteDepthPng(const std::filesystem::path& path, const DepthView& depth);
 
 /// A label image file (part or user per pixel): PNG, one 8-bit grey channel. Throws as above.

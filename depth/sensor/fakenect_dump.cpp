@@ -62,7 +62,7 @@ void FakenectDump::Write(const DepthFrame& frame) {
     const RawTiltState level;
     AtomicFile file(folder_ / name);
     file.stream().write(reinterpret_cast<const char*>(&level), sizeof(level));
-    file.Commit();
+    file.CommitOneOfMany();
     index_ += name + "\n";
   }
   const std::string name = FileName('d', time_s, "pgm");
@@ -70,12 +70,13 @@ void FakenectDump::Write(const DepthFrame& frame) {
   file.stream() << "P5 640 480 65535\n";
   file.stream().write(reinterpret_cast<const char*>(frame.depth_mm.data()),
                       static_cast<std::streamsize>(frame.depth_mm.size() * sizeof(uint16_t)));
-  file.Commit();
+  file.CommitOneOfMany();
   index_ += name + "\n";
   ++frames_;
 }
 
 void FakenectDump::Finish() {
+  SyncFiles(folder_);
   AtomicFile file(folder_ / "INDEX.txt");
   file.stream() << index_;
   file.Commit();

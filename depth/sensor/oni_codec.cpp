@@ -74,6 +74,76 @@ class DifferenceStream {
   int run_ = 0;  // pairs of pixels equal to the one before, not yet written
 };
 
+// The same stream read: hostile bytes lead nowhere outside of it, of the table or of the image.
+class DifferenceReader {
+ public:
+  DifferenceReader(std::span<const uint8_t> data, std::span<const uint16_t> table, int position)
+      : data_(data), table_(table), position_(position) {}
+
+  // True when the stream holds so many pixels, and nothing else.
+  bool Read(size_t pixels, std::vector<uint16_t>* depth_mm) {
+    out_ = depth_mm;
+    pixels_ = pixels;
+    if (!PutPixel()) return false;
+    while (out_->size() < pixels_) {
+      if (!ReadCode()) return false;
+    }
+    return at_ == data_.size();
+  }
+
+ private:
+  bool ReadCode() {
+    if (at_ == data_.size()) return false;
+    const int high = data_[at_] >> 4, low = data_[at_] & 0x0f;
+    ++at_;
+    if (high == 0x0f) return low == 0x0f && Jump();
+    if (high == 0x0e) return Repeat(2 * low);
+    if (high > 12 || !Step(high)) return false;
+    if (low == 0x0d) return true;
+    if (low == 0x0f) return Jump();
+    return low <= 12 && Step(low);
+  }
+
+  bool PutPixel() {
+    if (position_ < 0 || static_cast<size_t>(position_) >= table_.size()) return false;
+    if (out_->size() == pixels_) return false;
+    out_->push_back(table_[static_cast<size_t>(position_)]);
+    return true;
+  }
+  bool Step(int half) {
+    position_ -= half - 6;
+    return PutPixel();
+  }
+  bool Repeat(int count) {
+    for (int i = 0; i < count; ++i) {
+      if (!PutPixel()) return false;
+    }
+    return count > 0;
+  }
+  bool Jump() {
+    if (at_ == data_.size()) return false;
+    const int byte = data_[at_++];
+    if ((byte & 0x80) != 0) {
+      position_ -= byte - 192;
+      return PutPixel();
+    }
+    if (at_ == data_.size()) return false;
+    position_ = byte << 8 | data_[at_++];
+    return PutPixel();
+  }
+
+  std::span<const uint8_t> data_;
+  std::span<const uint16_t> table_;
+  int position_;
+  size_t at_ = 0;
+  size_t pixels_ = 0;
+  std::vector<uint16_t>* out_ = nullptr;
+};
+
+uint16_t Value16(std::span<const uint8_t> data, size_t at) {
+  return static_cast<uint16_t>(data[at] | data[at + 1] << 8);
+}
+
 }  // namespace
 
 bool EncodeOniDepth(std::span<const uint16_t> depth_mm, std::vector<uint8_t>* out) {
@@ -104,6 +174,19 @@ bool EncodeOniDepth(std::span<const uint16_t> depth_mm, std::vector<uint8_t>* ou
   }
   stream.Finish();
   return true;
+}
+
+bool DecodeOniDepth(std::span<const uint8_t> data, size_t pixels, std::vector<uint16_t>* depth_mm) {
+  depth_mm->clear();
+  constexpr size_t kValue = sizeof(uint16_t);
+  if (data.size() < kValue) return false;
+  const size_t count = Value16(data, 0);
+  if (count > kLargestOniTable || data.size() < (count + 2) * kValue) return false;
+  std::vector<uint16_t> table(count);
+  for (size_t i = 0; i < count; ++i) table[i] = Value16(data, (i + 1) * kValue);
+  const int first = Value16(data, (count + 1) * kValue);
+  depth_mm->reserve(pixels);
+  return DifferenceReader(data.subspan((count + 2) * kValue), table, first).Read(pixels, depth_mm);
 }
 
 }  // namespace ossa::depth

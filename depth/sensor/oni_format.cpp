@@ -8,6 +8,7 @@
 #include "depth/base/error.h"
 #include "depth/base/open_file.h"
 #include "depth/sensor/oni_format_internal.h"
+#include "depth/sensor/oni_frames_internal.h"
 
 namespace ossa::depth {
 namespace {
@@ -67,6 +68,26 @@ std::vector<uint8_t> ReadStart(std::ifstream& file, size_t at_most) {
   return bytes;
 }
 
+constexpr size_t kLongestPreamble = 1 << 16;  // bytes, a bound by hand; ours is under 2 kB
+
+// By the names of our properties, wherever they stand: what else is damaged does not hide them.
+bool IsOurs(std::span<const uint8_t> start) {
+  const std::string_view text(reinterpret_cast<const char*>(start.data()), start.size());
+  return text.find(kOniCameraProperty) != text.npos || text.find(kOniSealProperty) != text.npos;
+}
+
+// Whether OniRecorder takes frames of such a camera.
+bool IsRecordable(const std::optional<Camera>& camera) {
+  return camera && int64_t{2} * camera->width * camera->height <= kLargestOniData;
+}
+
+bool SealHolds(std::ifstream& file, const OniPreamble& preamble, std::span<const uint8_t> start) {
+  std::vector<uint8_t> unsealed(start.begin(),
+                                start.begin() + static_cast<std::ptrdiff_t>(preamble.size));
+  std::memset(unsealed.data() + preamble.seal_at, 0, sizeof(uint64_t));
+  return OniSealOf(file, unsealed) == *preamble.seal;
+}
+
 }  // namespace
 
 OniPreamble ParseOniPreamble(std::span<const uint8_t> bytes) {
@@ -105,26 +126,32 @@ uint64_t OniSealOf(std::ifstream& file, std::span<const uint8_t> unsealed) {
   return XXH3_64bits_digest(state.get());
 }
 
-OniPreamble CheckOniFile(const std::filesystem::path& path) {
+OniFile CheckOniFile(const std::filesystem::path& path) {
   std::ifstream file = OpenFile(path);
   if (!file) {
     throw InputError(path.string() + ": expected an .oni recording, found no such file");
   }
-  constexpr size_t kLongestPreamble = 1 << 16;  // ours is under 2 kB; bytes, a bound; by hand
   std::vector<uint8_t> start = ReadStart(file, kLongestPreamble);
   if (start.size() < sizeof(OniFileHeader) || std::memcmp(start.data(), "NI10", 4) != 0) {
     throw InputError(path.string() + ": byte 0: expected an .oni recording (NI10), found " +
                      std::to_string(start.size()) + " bytes of something else");
   }
   const OniPreamble preamble = ParseOniPreamble(start);
-  if (!preamble.seal) return preamble;
-  start.resize(preamble.size);
-  std::memset(start.data() + preamble.seal_at, 0, sizeof(uint64_t));
-  if (OniSealOf(file, start) != *preamble.seal) {
+  if (!IsOurs(start)) return {preamble.camera, std::nullopt};
+  if (preamble.seal && SealHolds(file, preamble, start)) return {preamble.camera, std::nullopt};
+  OniFrames frames;
+  if (preamble.seal && IsRecordable(preamble.camera)) frames = FindOniFrames(file, preamble.size);
+  // A recorder writes its seal last.
+  const bool unsealed = frames.end == OniEnd::kWhole && preamble.seal == 0;
+  if (frames.end != OniEnd::kCut && !unsealed) {
     throw InputError(path.string() + ": byte " + std::to_string(preamble.seal_at) +
-                     ": checksum: the recording is damaged or cut short");
+                     ": checksum: the recording is damaged");
   }
-  return preamble;
+  if (frames.frames.empty()) {
+    throw InputError(path.string() + ": byte " + std::to_string(preamble.size) +
+                     ": expected a frame, found an unfinished recording without any");
+  }
+  return {preamble.camera, std::move(frames.frames)};
 }
 
 }  // namespace ossa::depth

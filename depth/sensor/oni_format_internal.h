@@ -76,7 +76,23 @@ OniPreamble ParseOniPreamble(std::span<const uint8_t> bytes);
 /// `unsealed`, the bytes before the first frame with the seal's value zeroed.
 uint64_t OniSealOf(std::ifstream& file, std::span<const uint8_t> unsealed);
 
-/// Throws InputError unless the file begins as an .oni does and its seal, if any, is unbroken.
-OniPreamble CheckOniFile(const std::filesystem::path& path);
+/// Where a frame's compressed depth lies in the file.
+struct OniFrameAt {
+  uint64_t timestamp_us = 0;
+  uint64_t data_at = 0;
+  uint32_t data_size = 0;
+};
+
+/// A recording before it is played.
+struct OniFile {
+  std::optional<Camera> camera;  // as ossa wrote it; none in other programs' files
+  /// Of a recording of ours that has no seal because its recorder was killed, or that was cut
+  /// short: the frames that are whole. What else is in them nothing can vouch for.
+  std::optional<std::vector<OniFrameAt>> unfinished;
+};
+
+/// Throws InputError unless the file begins as an .oni does, and if it carries any property of ours
+/// and is not merely unfinished, has its seal unbroken: it is damaged then.
+OniFile CheckOniFile(const std::filesystem::path& path);
 
 }  // namespace ossa::depth

@@ -168,12 +168,6 @@ struct OniRecorder::State {
     file.Check();
   }
 
-  // What was put is now in the file, to stay there if what follows does not fit.
-  void Flush() {
-    file.stream().flush();
-    file.Check();
-  }
-
   // What follows the frames.
   Totals PutEnd() {
     Put(Record(OniRecord::kNodeRemoved, {}, 0, sizeof(OniFileHeader)));
@@ -188,14 +182,14 @@ struct OniRecorder::State {
       Put(Bytes(entries, entries + table_size));
     }
     Put(Record(OniRecord::kEnd, {}));
-    Flush();
+    file.Flush();
     return totals;
   }
 
   void PutSealedPreamble(const Totals& totals) {
     file.stream().seekp(0);
     Put(Preamble(camera, frames_per_second, totals));
-    Flush();
+    file.Flush();
   }
 
   // The last frames, of so many bytes or more.
@@ -234,7 +228,7 @@ OniRecorder::OniRecorder(const std::filesystem::path& path, const Camera& camera
   }
   state_ = std::make_unique<State>(path, camera, frames_per_second);
   state_->Put(Preamble(camera, frames_per_second, {}));
-  state_->Flush();
+  state_->file.Flush();
   XXH3_64bits_reset(state_->hash.get());  // the seal begins at the first frame
 }
 
@@ -271,7 +265,7 @@ void OniRecorder::Write(const DepthFrame& frame) {
   Append(static_cast<uint32_t>(state_->seek_table.size()), &fields);
   state_->Put(Record(OniRecord::kNewData, fields, data.size(), state_->seek_table.back().position));
   state_->Put(data);
-  state_->Flush();
+  state_->file.Flush();
   state_->seek_table.push_back(entry);
   state_->frames_end = state_->position;
 }

@@ -18,11 +18,18 @@ std::string LowerCaseExtension(const std::filesystem::path& path) {
   return extension;
 }
 
+// NAME.oni, and what a recorder of it that was killed left: NAME.oni.partial-...
+bool IsOniName(const std::filesystem::path& path) {
+  constexpr const char* kPartial = ".partial-";
+  const bool is_left = path.extension().string().starts_with(kPartial);
+  return LowerCaseExtension(is_left ? path.stem() : path) == ".oni";
+}
+
 }  // namespace
 
 bool IsRecording(const std::filesystem::path& path) {
   if (!std::filesystem::is_directory(path)) {
-    return LowerCaseExtension(path) == ".oni" || IsPngName(path);
+    return IsOniName(path) || IsPngName(path);
   }
   const std::filesystem::directory_iterator entries(path);
   return std::any_of(begin(entries), end(entries), [](const auto& entry) {
@@ -45,7 +52,7 @@ std::unique_ptr<FrameSource> OpenSource(const std::string& source, const SourceO
                     IsDataSet(path) ? OpenDataSet(path, options) : OpenFolder(path, options),
                     UnitStated::kNo, options);
   }
-  if (LowerCaseExtension(path) == ".oni") {
+  if (IsOniName(path)) {
     return Prepared(source, OpenOniFile(path, options), UnitStated::kYes, options);
   }
   if (IsPngName(path) && std::filesystem::exists(path, error)) {

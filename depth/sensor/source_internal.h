@@ -4,6 +4,7 @@
 #include <string>
 
 #include "depth/sensor/frame_source.h"
+#include "depth/sensor/oni_format_internal.h"
 
 namespace ossa::depth {
 
@@ -39,6 +40,11 @@ enum class UnitStated { kNo, kYes };
 /// frames of a source that states no unit cannot be millimetres of people.
 std::unique_ptr<FrameSource> Prepared(const std::string& name, std::unique_ptr<FrameSource> source,
                                       UnitStated unit, const SourceOptions& options);
+
+/// One of ours without an end (OniFile::unfinished), of which the options' note is told: its whole
+/// frames. A frame whose bytes are damaged throws InputError; reading again goes on with the next.
+std::unique_ptr<FrameSource> OpenUnfinishedOni(const std::filesystem::path& path, OniFile recording,
+                                               const SourceOptions& options);
 
 /// A device; an empty URI means the first found.
 std::unique_ptr<FrameSource> OpenOpenNiDevice(const std::string& uri, const SourceOptions& options);

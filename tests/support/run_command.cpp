@@ -12,6 +12,8 @@
 #include <cstring>
 #include <stdexcept>
 
+#include "tests/support/places.h"
+
 namespace ossa::test {
 namespace {
 
@@ -114,7 +116,7 @@ CommandResult RunningCommand::Wait(std::chrono::milliseconds timeout) {
   return result_;
 }
 
-std::string OssaPath() { return OSSA_COMMAND; }
+std::string OssaPath() { return (BinaryFolder() / "bin/ossa").string(); }
 
 RunningCommand StartOssa(const std::vector<std::string>& arguments) {
   std::vector<std::string> argv = {OssaPath()};

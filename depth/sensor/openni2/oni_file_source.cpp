@@ -18,10 +18,10 @@ using std::chrono::milliseconds;
 
 class OniFileSource final : public FrameSource {
  public:
-  OniFileSource(const fs::path& path, const SourceOptions& options)
+  OniFileSource(const fs::path& path, const OniFile& recording, const SourceOptions& options)
       : name_(path.string()),
         patience_(options.player_patience),
-        preamble_(CheckOniFile(path)),
+        own_camera_(recording.camera),
         child_(OpenNiRuntimeFolder() / "reader/ossa_oni_reader", {fs::absolute(path).string()}) {
     OniPipeHello hello;
     OniPipeMessage message;  // an error may come in place of the hello: read what both begin with
@@ -36,7 +36,12 @@ class OniFileSource final : public FrameSource {
          sizeof(hello) - sizeof(hello.magic));
     whole_ = WholeCameraOf(hello, options);
     camera_ = CameraOfWindow(whole_, hello.window);
-    if (hello.frame_count >= 0) frame_count_ = hello.frame_count;
+    if (hello.frame_count >= 0) {
+      frame_count_ = hello.frame_count;
+    } else if (options.note) {
+      options.note(NoteKind::kWarning,
+                   name_ + ": its recorder did not finish it: frames are read as far as they go");
+    }
   }
 
   ReadResult Read(milliseconds timeout) override {
@@ -68,7 +73,7 @@ class OniFileSource final : public FrameSource {
                        "x" + std::to_string(height));
     }
     if (options.camera) return CameraForSize(*options.camera, width, height);
-    if (preamble_.camera) return CameraForSize(*preamble_.camera, width, height);
+    if (own_camera_) return CameraForSize(*own_camera_, width, height);
     return CameraFromFieldOfView(width, height, hello.horizontal_fov_rad, hello.vertical_fov_rad);
   }
 
@@ -119,7 +124,7 @@ class OniFileSource final : public FrameSource {
 
   std::string name_;
   milliseconds patience_;
-  OniPreamble preamble_;
+  std::optional<Camera> own_camera_;  // as ossa wrote it into the file
   ChildProcess child_;
   Camera whole_;   // of the whole image, of which frames may show a part
   Camera camera_;  // of the part
@@ -132,7 +137,9 @@ class OniFileSource final : public FrameSource {
 }  // namespace
 
 std::unique_ptr<FrameSource> OpenOniFile(const fs::path& path, const SourceOptions& options) {
-  return std::make_unique<OniFileSource>(path, options);
+  OniFile recording = CheckOniFile(path);
+  if (recording.unfinished) return OpenUnfinishedOni(path, std::move(recording), options);
+  return std::make_unique<OniFileSource>(path, recording, options);
 }
 
 }  // namespace ossa::depth

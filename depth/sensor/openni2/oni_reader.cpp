@@ -52,8 +52,17 @@ void EndWithTheParent(pid_t parent) {
   }).detach();
 }
 
+// Sanitizers' shadows of the address space alone are larger.
+#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
+#define OSSA_HAS_SHADOW
+#elif defined(__has_feature)
+#if __has_feature(address_sanitizer) || __has_feature(thread_sanitizer)
+#define OSSA_HAS_SHADOW
+#endif
+#endif
+
 void LimitMemory() {
-#ifndef __SANITIZE_ADDRESS__  // whose shadow of the address space alone is larger
+#ifndef OSSA_HAS_SHADOW
   constexpr rlim_t kMost = rlim_t{2} << 30;
   const rlimit limit{kMost, kMost};
   setrlimit(RLIMIT_AS, &limit);

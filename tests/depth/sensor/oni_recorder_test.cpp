@@ -1,7 +1,6 @@
 #include "depth/sensor/oni_recorder.h"
 
 #include <gtest/gtest.h>
-#include <signal.h>
 #include <sys/resource.h>
 
 #include <fstream>
@@ -12,6 +11,7 @@
 #include "depth/base/error.h"
 #include "depth/sensor/frame_source.h"
 #include "tests/support/depth_examples.h"
+#include "tests/support/full_disk.h"
 #include "tests/support/refused.h"
 #include "tests/support/temporary_folder.h"
 
@@ -151,30 +151,9 @@ TEST(OniRecorder, RefusesFramesNoPlayerHolds) {
   EXPECT_THROW(OniRecorder(folder / "no/folder/x.oni", KinectV1Camera(4, 3)), InputError);
 }
 
-// For this process, as long as it lives, no file grows beyond so many bytes: as on a full disk.
-class FullDisk {
- public:
-  explicit FullDisk(uint64_t bytes) : handler_before_(signal(SIGXFSZ, SIG_IGN)) {
-    getrlimit(RLIMIT_FSIZE, &before_);
-    rlimit now = before_;
-    now.rlim_cur = bytes;
-    setrlimit(RLIMIT_FSIZE, &now);
-  }
-  ~FullDisk() {
-    setrlimit(RLIMIT_FSIZE, &before_);
-    signal(SIGXFSZ, handler_before_);
-  }
-  FullDisk(const FullDisk&) = delete;
-  FullDisk& operator=(const FullDisk&) = delete;
-
- private:
-  rlimit before_{};
-  sighandler_t handler_before_;
-};
-
 // How many frames are kept of so many; none when there is no room even before the first.
 int64_t RecordWithin(uint64_t bytes, const std::filesystem::path& path, int frames) {
-  const FullDisk disk(bytes);
+  const test::FullDisk disk(bytes);
   std::optional<OniRecorder> recorder;
   try {
     recorder.emplace(path, ExampleFrame(0).camera);

@@ -1,0 +1,207 @@
+#include "depth/base/atomic_file.h"
+
+#include <fcntl.h>
+#include <gtest/gtest.h>
+#include <sys/file.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <fstream>
+#include <optional>
+
+#include "depth/base/folder_lock.h"
+#include "tests/support/full_disk.h"
+#include "tests/support/temporary_folder.h"
+
+namespace ossa {
+namespace {
+
+TEST(AtomicFile, LeavesNothingBehindWithoutCommit) {
+  const auto folder =
+      std::filesystem::temp_directory_path() / ("ossa_atomic_" + std::to_string(getpid()));
+  std::filesystem::create_directory(folder);
+  { AtomicFile(folder / "out.txt").stream() << "half"; }
+  EXPECT_TRUE(std::filesystem::is_empty(folder));
+  AtomicFile file(folder / "out.txt");
+  file.stream() << "whole";
+  EXPECT_FALSE(std::filesystem::exists(folder / "out.txt"));
+  file.Commit();
+  EXPECT_TRUE(std::filesystem::exists(folder / "out.txt"));
+  std::filesystem::remove_all(folder);
+}
+
+// A rename would put a file in the place of /dev/null.
+TEST(AtomicFile, TakesThePlaceOfAFileOnly) {
+  const test::TemporaryFolder folder;
+  std::filesystem::create_directory(folder / "folder");
+  ASSERT_EQ(mkfifo((folder / "pipe").c_str(), 0600), 0);
+  for (const char* name : {"folder", "pipe", "nowhere/file"}) {
+    EXPECT_THROW(AtomicFile::CheckWritable(folder / name), InputError) << name;
+  }
+  EXPECT_NO_THROW(AtomicFile::CheckWritable(folder / "new"));
+  EXPECT_FALSE(std::filesystem::exists(folder / "new"));
+}
+
+// Else the disk that a link leads away from would be filled.
+TEST(AtomicFile, ALinkStaysAndWhatItLeadsToIsWritten) {
+  const test::TemporaryFolder folder;
+  std::filesystem::create_directory(folder / "large_disk");
+  std::filesystem::create_symlink("large_disk/out", folder / "link");
+  std::filesystem::create_symlink(folder / "link", folder / "link_to_link");
+  std::filesystem::create_symlink("round", folder / "round");
+  for (const std::string text : {"new", "again"}) {
+    AtomicFile file(folder / "link_to_link");
+    file.stream() << text;
+    file.Commit();
+    EXPECT_TRUE(std::filesystem::is_symlink(folder / "link"));
+    EXPECT_TRUE(std::filesystem::is_symlink(folder / "link_to_link"));
+    std::string found;
+    std::ifstream(folder / "large_disk/out") >> found;
+    EXPECT_EQ(found, text);
+  }
+  EXPECT_THROW(AtomicFile::CheckWritable(folder / "round"), InputError);
+}
+
+TEST(AtomicFile, AFileThatMayNotBeWrittenIsNotReplaced) {
+  if (geteuid() == 0) GTEST_SKIP() << "root may write anything";
+  const test::TemporaryFolder folder;
+  std::ofstream(folder / "kept") << "as it is";
+  std::filesystem::permissions(folder / "kept", std::filesystem::perms::owner_read);
+  EXPECT_THROW(AtomicFile::CheckWritable(folder / "kept"), InputError);
+}
+
+std::string TextOf(const std::filesystem::path& path) {
+  std::ifstream file(path, std::ios::binary);
+  return {std::istreambuf_iterator<char>(file), {}};
+}
+
+// What is left is told of and stays: it may be somebody's only footage.
+TEST(AtomicFile, WhatTheKilledLeftIsKnownAndStays) {
+  const test::TemporaryFolder folder;
+  const auto leave = [&](const std::string& name) {
+    std::ofstream(folder / name) << "half";
+    return folder / name;
+  };
+  const auto left = leave("out.oni.partial-00c0ffee0000");
+  const auto old = leave("out.oni.partial-1234");  // by the process's number, as earlier ossas did
+  leave("out.oni");
+  leave("other.oni.partial-00c0ffee0000");
+  leave("out.oni2.partial-1234");
+  std::filesystem::create_symlink("out.oni", folder / "out.oni.partial-link");
+  const AtomicFile alive(folder / "out.oni");
+  const std::vector<std::filesystem::path> expected = {left, old};
+  EXPECT_EQ(AtomicFile::LeftoversOf(folder / "out.oni"), expected);
+  AtomicFile::CheckWritable(folder / "out.oni");
+  AtomicFile(folder / "out.oni").Commit();
+  EXPECT_EQ(TextOf(left), "half");
+  EXPECT_EQ(TextOf(old), "half");
+}
+
+// Two writers of one name, in one process or two: each has a file of its own, whole in the end.
+TEST(AtomicFile, OfTwoWritersTheLastOnesIsWhole) {
+  const test::TemporaryFolder folder;
+  AtomicFile first(folder / "out"), second(folder / "out");
+  EXPECT_NE(first.temporary_path(), second.temporary_path());
+  first.stream() << "the first one's";
+  second.stream() << "the second's";
+  second.Commit();
+  EXPECT_EQ(TextOf(folder / "out"), "the second's");
+  first.Commit();
+  EXPECT_EQ(TextOf(folder / "out"), "the first one's");
+}
+
+// In a folder that others may write to somebody puts a link in the file's place: what the link
+// leads to stays as it is.
+TEST(AtomicFile, NeverWritesThroughALinkThatWasPutInItsPlace) {
+  const test::TemporaryFolder folder;
+  std::ofstream(folder / "precious") << "precious";
+  AtomicFile file(folder / "out");
+  std::filesystem::remove(file.temporary_path());
+  std::filesystem::create_symlink("precious", file.temporary_path());
+  file.stream() << "new" << std::flush;
+  file.CutTo(0);
+  EXPECT_EQ(TextOf(folder / "precious"), "precious");
+}
+
+// Who finds it knows that somebody is writing it.
+TEST(AtomicFile, IsLockedWhileItIsWritten) {
+  const test::TemporaryFolder folder;
+  std::optional<AtomicFile> file(folder / "out");
+  const int other = open(file->temporary_path().c_str(), O_WRONLY);
+  EXPECT_NE(flock(other, LOCK_EX | LOCK_NB), 0);
+  file.reset();
+  EXPECT_EQ(flock(other, LOCK_EX | LOCK_NB), 0);
+  close(other);
+}
+
+TEST(AtomicFile, WhatIsCutOffIsGoneAndWritingGoesOnThere) {
+  const test::TemporaryFolder folder;
+  AtomicFile file(folder / "out");
+  file.stream() << "kept, gone" << std::flush;
+  file.stream().setstate(std::ios::badbit);
+  file.CutTo(4);
+  EXPECT_THROW(file.CutTo(5), InputError);
+  file.CutTo(4);
+  file.stream() << "!";
+  file.Commit();
+  std::string text;
+  std::getline(std::ifstream(folder / "out"), text);
+  EXPECT_EQ(text, "kept!");
+}
+
+TEST(AtomicFile, WhatIsTakenOutIsGoneAndTheRestMovesUp) {
+  const test::TemporaryFolder folder;
+  AtomicFile file(folder / "out");
+  const std::string rows(size_t{3} << 20, 'r');  // more than is moved at a time
+  file.stream() << "head....." << rows;
+  file.TakeOut(4, 5);
+  file.stream() << "end";
+  file.Commit();
+  EXPECT_EQ(TextOf(folder / "out"), "head" + rows + "end");
+}
+
+TEST(AtomicFile, HeadsAreWrittenOver) {
+  const test::TemporaryFolder folder;
+  AtomicFile file(folder / "out");
+  file.stream() << "0 rows\nrow\n";
+  file.stream().seekp(0);
+  file.stream() << "1";
+  file.Commit();
+  EXPECT_EQ(TextOf(folder / "out"), "1 rows\nrow\n");
+}
+
+TEST(AtomicFile, AFullDiskIsKnownBeforeTheEnd) {
+  const test::TemporaryFolder folder;
+  AtomicFile file(folder / "out");
+  EXPECT_NO_THROW(file.Check());
+  file.stream().setstate(std::ios::badbit);
+  EXPECT_THROW(file.Check(), InputError);
+}
+
+TEST(AtomicFile, OnAFullDiskTakesNoMoreAndSaysSo) {
+  const test::TemporaryFolder folder;
+  const test::FullDisk disk(10);
+  AtomicFile file(folder / "out");
+  file.stream() << "12345678";
+  EXPECT_NO_THROW(file.Flush());
+  file.stream() << "9abcdef";
+  EXPECT_THROW(file.Flush(), DiskFull);
+  file.CutTo(8);
+  file.Commit();
+  EXPECT_EQ(TextOf(folder / "out"), "12345678");
+}
+
+TEST(FolderLock, IsHeldByOneAndGivenBack) {
+  const test::TemporaryFolder folder;
+  {
+    const FolderLock first(folder / "a/b");
+    EXPECT_THROW(FolderLock(folder / "a/b"), InputError);
+    EXPECT_NO_THROW(FolderLock(folder / "a"));
+  }
+  EXPECT_NO_THROW(FolderLock(folder / "a/b"));
+  std::ofstream(folder / "file") << "no folder";
+  EXPECT_THROW(FolderLock(folder / "file"), InputError);
+}
+
+}  // namespace
+}  // namespace ossa
