@@ -5,6 +5,7 @@
 #include "depth/base/checksummed_container.h"
 #include "depth/base/compressed.h"
 #include "depth/base/error.h"
+#include "depth/base/naming_the_file.h"
 #include "forest/forest.h"
 #include "forest/prune.h"
 #include "forest/trees/tree_codec_internal.h"
@@ -177,7 +178,8 @@ std::vector<std::byte> Packed(const ForestData& data, int level) {
 
 ForestModel ReadForestModel(const std::filesystem::path& path, ModelUse use) {
   const ContainerFormat format = ReadContainerFormat(path, kFormat, kOldestVersion);
-  return Parse(ReadContainer(path, format), path.string(), format.version, use);
+  return NamingTheFile(
+      path, [&] { return Parse(ReadContainer(path, format), path.string(), format.version, use); });
 }
 
 ForestModel ReadForestModel(std::span<const std::byte> bytes, const std::string& name) {

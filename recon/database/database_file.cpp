@@ -4,6 +4,7 @@
 
 #include "depth/base/checksummed_container.h"
 #include "depth/base/error.h"
+#include "depth/base/naming_the_file.h"
 #include "recon/database/posture_database.h"
 
 namespace ossa::recon {
@@ -46,8 +47,8 @@ bool PostureDatabase::IsOne(const std::filesystem::path& path) {
 }
 
 PostureDatabase PostureDatabase::Load(const std::filesystem::path& path) {
-  const auto payload = ReadContainer(path, kFormat);
-  return FromBytes(payload, path.string());
+  return NamingTheFile(path,
+                       [&] { return FromBytes(ReadContainer(path, kFormat), path.string()); });
 }
 
 PostureDatabase PostureDatabase::FromBytes(std::span<const std::byte> bytes,

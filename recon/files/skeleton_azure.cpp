@@ -7,6 +7,7 @@
 #include <nlohmann/json.hpp>
 
 #include "depth/base/error.h"
+#include "depth/base/json_nesting.h"
 #include "recon/files/joint_names_internal.h"
 #include "recon/files/skeleton_formats_internal.h"
 
@@ -39,16 +40,12 @@ const Json& Need(const SkeletonInput& input, const Json& object, const char* key
 
 std::string ReadAll(SkeletonInput& input) {
   constexpr size_t kMostBytes = size_t{1} << 29;
-  constexpr int kDeepest = 32;
   std::string text;
   std::array<char, 1 << 16> block{};
-  int depth = 0;
+  JsonNesting nesting;
   while (input.stream.read(block.data(), block.size()) || input.stream.gcount() > 0) {
     const std::string_view part(block.data(), static_cast<size_t>(input.stream.gcount()));
-    for (const char c : part) {
-      depth += (c == '[' || c == '{' ? 1 : 0) - (c == ']' || c == '}' ? 1 : 0);
-      if (depth > kDeepest) Fail(input, "JSON", "nesting of at most 32");
-    }
+    if (nesting.IsTooDeep(part)) Fail(input, "JSON", "nesting of at most 32");
     text.append(part);
     if (text.size() > kMostBytes) Fail(input, "JSON", "at most 512 MiB");
   }

@@ -99,19 +99,18 @@ bool BelongsTo(const SkeletonFrame& frame, int64_t number, double time_s,
 
 }  // namespace
 
-void WriteSkeletonCsv(std::ostream& stream, const SkeletonSequence& sequence) {
-  stream << MakeHeader() << '\n';
-  for (const SkeletonFrame& frame : sequence.frames) {
-    const std::string begin = BeginOfRow(frame);
-    if (frame.bodies.empty()) {
-      stream << begin << std::string(kColumns - kLeading, ',') << '\n';
-    }
-    for (const BodyRecord& body : frame.bodies) {
-      std::string row = begin + std::to_string(body.id);
-      for (const auto& joint : body.joints) AppendJoint(row, joint);
-      stream << row << '\n';
-    }
+std::string SkeletonCsvHead() { return MakeHeader() + '\n'; }
+
+std::string SkeletonCsvRows(const SkeletonFrame& frame) {
+  const std::string begin = BeginOfRow(frame);
+  if (frame.bodies.empty()) return begin + std::string(kColumns - kLeading, ',') + '\n';
+  std::string rows;
+  for (const BodyRecord& body : frame.bodies) {
+    rows += begin + std::to_string(body.id);
+    for (const auto& joint : body.joints) AppendJoint(rows, joint);
+    rows += '\n';
   }
+  return rows;
 }
 
 SkeletonSequence ReadSkeletonCsv(SkeletonInput& input) {

@@ -66,7 +66,7 @@ inline void PutJoint(BodyRecord& body, Joint joint, const Eigen::Vector3d& posit
   JointRecord record;
   record.position_m = position_m;
   record.state = state;
-  body.joints[joint] = record;
+  body.joints[static_cast<size_t>(Index(joint))] = record;
 }
 
 /// A frame with one body, id 1.
@@ -88,10 +88,9 @@ void RequireFrames(const SkeletonSequence& sequence);
 
 // Our own formats beside JSONL.
 SkeletonSequence ReadSkeletonCsv(SkeletonInput& input);
-void WriteSkeletonCsv(std::ostream& stream, const SkeletonSequence& sequence);
+std::string SkeletonCsvHead();
+/// A row a body; a frame with nobody has one, too.
+std::string SkeletonCsvRows(const SkeletonFrame& frame);
 SkeletonSequence ReadTrc(SkeletonInput& input);
-/// The body `id` of every frame; markers are the 20 joints, camera space, millimetres.
-void WriteTrc(std::ostream& stream, const SkeletonSequence& sequence, int id,
-              const std::string& file_name);
 
 }  // namespace ossa::recon

@@ -9,6 +9,8 @@
 #include <sstream>
 
 #include "depth/base/error.h"
+#include "depth/base/naming_the_file.h"
+#include "recon/files/archive_bytes_internal.h"
 #include "recon/files/recording_names_internal.h"
 #include "recon/files/skeleton_formats_internal.h"
 #include "recon/files/skeleton_source_internal.h"
@@ -182,10 +184,12 @@ SkeletonSequence ReadText(const std::string& text, const std::string& name,
 
 SkeletonSequence ReadFile(const fs::path& path, const std::string& columns,
                           const SkeletonReadOptions& options) {
-  if (IsGzip(path)) return ReadText(ReadGzip(path), path.string(), columns, options, {});
-  std::ifstream file(path, std::ios::binary);
-  if (!file) throw InputError(path.string() + ": cannot be opened for reading");
-  return Read({file, path.string(), columns, options.frame_s, TextOfFile}, options);
+  return NamingTheFile(path, [&] {
+    if (IsGzip(path)) return ReadText(ReadGzip(path), path.string(), columns, options, {});
+    std::ifstream file(path, std::ios::binary);
+    if (!file) throw InputError(path.string() + ": cannot be opened for reading");
+    return Read({file, path.string(), columns, options.frame_s, TextOfFile}, options);
+  });
 }
 
 bool Stopped(const SkeletonReadOptions& options) { return options.stop && options.stop(); }
@@ -359,7 +363,7 @@ std::vector<SkeletonClip> ReadSkeletonClips(const fs::path& path,
   if (fs::is_directory(parts.path)) {
     clips = ReadFolderClips(parts, columns, options);
   } else if (IsArchive(parts.path)) {
-    clips = ReadArchiveClips(parts, columns, options);
+    clips = NamingTheFile(parts.path, [&] { return ReadArchiveClips(parts, columns, options); });
   } else if (parts.member.empty()) {
     clips.push_back({"", ReadFile(parts.path, columns, options)});
   } else {

@@ -11,6 +11,7 @@
 #include <stdexcept>
 
 #include "depth/base/error.h"
+#include "depth/base/json_nesting.h"
 #include "recon/files/text_lines_internal.h"
 #include "recon/motion/fixed_point_internal.h"
 
@@ -84,18 +85,6 @@ void AppendBody(std::string& text, const BodyRecord& body) {
   text.push_back('}');
 }
 
-// The JSON library prints recursively: a line of half a million brackets must not reach it.
-bool NestsDeeply(std::string_view line) {
-  constexpr int kDeepest = 32;  // ours nests five deep
-  int depth = 0;
-  for (const char c : line) {
-    if (c == '[' || c == '{') ++depth;
-    if (c == ']' || c == '}') --depth;
-    if (depth > kDeepest) return true;
-  }
-  return false;
-}
-
 }  // namespace
 
 std::string SkeletonJsonLine(const SkeletonFrame& frame) {
@@ -125,7 +114,8 @@ class SkeletonJsonlReader::Lines {
 
   bool Next(SkeletonFrame& frame) {
     if (!lines_.NextFilled()) return false;
-    if (NestsDeeply(lines_.line())) lines_.Fail("JSON nested at most 32 deep", lines_.line());
+    if (JsonNesting().IsTooDeep(lines_.line()))
+      lines_.Fail("JSON nested at most 32 deep", lines_.line());
     // The parser never throws here (third argument), so its own wording never reaches the user.
     const Json json = Json::parse(lines_.line(), nullptr, false);
     if (json.is_discarded()) FailWhereJsonStops();
@@ -227,7 +217,7 @@ class SkeletonJsonlReader::Lines {
     for (const auto& [name, joint] : joints.items()) {
       const auto known = JointFromName(name);
       if (!known) lines_.Fail("one of the 20 SDK joint names in \"joints\"", name);
-      body.joints[*known] = JointOf(joint, name);
+      body.joints[static_cast<size_t>(Index(*known))] = JointOf(joint, name);
     }
     if (const auto bones = json.find("bones"); bones != json.end()) body.bones_m = BonesOf(*bones);
     return body;

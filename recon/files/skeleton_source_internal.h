@@ -1,6 +1,5 @@
 #pragma once
 #include <filesystem>
-#include <map>
 #include <string>
 
 namespace ossa::recon {
@@ -17,18 +16,5 @@ SkeletonPath TakeApart(const std::filesystem::path& path);
 
 /// "truth" for truth, vicon, ...; "observed" for kinect, estimate, ...; "" for none of them.
 std::string ColumnsNamed(const std::string& word);
-
-/// True for .tar, .tar.gz, .tgz, .zip by content (a plain .gz is no archive).
-bool IsArchive(const std::filesystem::path& path);
-
-/// All members of an archive, or the one content of a .gz, by name. Bounded: 1 GiB in all, so that
-/// a small file that unfolds without end is refused. Throws InputError for a damaged one.
-std::map<std::string, std::string> ReadArchive(const std::filesystem::path& path);
-
-/// True when the file begins with the gzip magic.
-bool IsGzip(const std::filesystem::path& path);
-
-/// The whole content of a .gz that holds one file.
-std::string ReadGzip(const std::filesystem::path& path);
 
 }  // namespace ossa::recon

@@ -3,37 +3,11 @@
 
 #include <algorithm>
 
-#include "depth/base/one_line.h"
 #include "recon/files/point_bodies_internal.h"
 #include "recon/files/skeleton_formats_internal.h"
 
 namespace ossa::recon {
 namespace {
-
-constexpr double kMillimetresPerMetre = 1000.0;
-
-// The mean rate; OpenSim wants one even when frames were dropped (the Time column stays exact).
-double DataRate_Hz(const SkeletonSequence& sequence) {
-  constexpr double kUsualRate_Hz = 30.0;  // by convention, a Kinect SDK's rate
-  if (sequence.frames.size() < 2) return kUsualRate_Hz;
-  const double span_s = sequence.frames.back().time_s - sequence.frames.front().time_s;
-  return span_s > 0 ? static_cast<double>(sequence.frames.size() - 1) / span_s : kUsualRate_Hz;
-}
-
-void WriteHeader(std::ostream& stream, const SkeletonSequence& sequence,
-                 const std::string& file_name) {
-  const double rate_Hz = DataRate_Hz(sequence);
-  stream << "PathFileType\t4\t(X/Y/Z)\t" << OnOneLine(file_name) << '\n'
-         << "DataRate\tCameraRate\tNumFrames\tNumMarkers\tUnits\tOrigDataRate\t"
-            "OrigDataStartFrame\tOrigNumFrames\n"
-         << fmt::format("{0:.3f}\t{0:.3f}\t{1}\t{2}\tmm\t{0:.3f}\t1\t{1}\n", rate_Hz,
-                        sequence.frames.size(), kJointCount);
-  stream << "Frame#\tTime";
-  for (const std::string_view name : kJointNames) stream << '\t' << name << "\t\t";
-  stream << "\n\t";
-  for (int j = 1; j <= kJointCount; ++j) stream << fmt::format("\tX{0}\tY{0}\tZ{0}", j);
-  stream << "\n\n";
-}
 
 struct TrcHeader {
   double metres_per_unit = 0.0;
@@ -181,27 +155,6 @@ class TrcRows {
 };
 
 }  // namespace
-
-void WriteTrc(std::ostream& stream, const SkeletonSequence& sequence, int id,
-              const std::string& file_name) {
-  WriteHeader(stream, sequence, file_name);
-  for (size_t f = 0; f < sequence.frames.size(); ++f) {
-    const SkeletonFrame& frame = sequence.frames[f];
-    std::string row = fmt::format("{}\t{:.6f}", f + 1, frame.time_s);
-    const auto body = std::find_if(frame.bodies.begin(), frame.bodies.end(),
-                                   [&](const BodyRecord& b) { return b.id == id; });
-    for (size_t j = 0; j < kJointCount; ++j) {
-      if (body == frame.bodies.end() || !body->joints[j]) {
-        row += "\t\t\t";
-        continue;
-      }
-      for (const double value : body->joints[j]->position_m) {
-        row += fmt::format("\t{:.4f}", value * kMillimetresPerMetre);
-      }
-    }
-    stream << row << '\n';
-  }
-}
 
 SkeletonSequence ReadTrc(SkeletonInput& input) {
   TextLines lines(input.stream, input.name);

@@ -5,6 +5,7 @@
 
 #include "depth/base/checksummed_container.h"
 #include "depth/base/error.h"
+#include "depth/base/naming_the_file.h"
 #include "recon/database/posture_database.h"
 
 namespace ossa::recon {
@@ -159,10 +160,10 @@ void LearnedModels::Save(const std::filesystem::path& path) const {
   Eigen::MatrixXf observed(kPostureDims, n), residual(kPostureDims, n), known(kJointCount, n);
   for (Eigen::Index i = 0; i < n; ++i) {
     const PosturePair& pair = exemplars[static_cast<size_t>(i)];
-    observed.col(i) = ToVector(pair.observed);
-    residual.col(i) = ToVector(pair.residual);
-    for (size_t j = 0; j < kJointCount; ++j) {
-      known(static_cast<Eigen::Index>(j), i) = static_cast<float>(pair.known[j]);
+    observed.col(i) = VectorOf(pair.observed);
+    residual.col(i) = VectorOf(pair.residual);
+    for (int j = 0; j < kJointCount; ++j) {
+      known(j, i) = static_cast<float>(pair.known[static_cast<size_t>(j)]);
     }
   }
   for (const Eigen::MatrixXf* m : {&observed, &residual, &known}) PutMatrix(out, *m);
@@ -181,8 +182,8 @@ bool LearnedModels::IsOne(const std::filesystem::path& path) { return IsContaine
 
 LearnedModels LearnedModels::Load(const std::filesystem::path& path) {
   const ContainerFormat format = ReadContainerFormat(path, kFormat, kOldestVersion);
-  const auto payload = ReadContainer(path, format);
-  return FromBytes(payload, path.string(), format.version);
+  return NamingTheFile(
+      path, [&] { return FromBytes(ReadContainer(path, format), path.string(), format.version); });
 }
 
 LearnedModels LearnedModels::FromBytes(std::span<const std::byte> bytes, const std::string& name,
@@ -207,9 +208,9 @@ LearnedModels LearnedModels::FromBytes(std::span<const std::byte> bytes, const s
   }
   for (Eigen::Index i = 0; i < observed.cols(); ++i) {
     PosturePair& pair = out.exemplars.emplace_back();
-    pair.observed = ToPosture(observed.col(i));
-    pair.residual = ToPosture(residual.col(i));
-    for (size_t j = 0; j < kJointCount; ++j) pair.known[j] = known(static_cast<Eigen::Index>(j), i);
+    pair.observed = PostureOf(observed.col(i));
+    pair.residual = PostureOf(residual.col(i));
+    for (int j = 0; j < kJointCount; ++j) pair.known[static_cast<size_t>(j)] = known(j, i);
   }
   PoseCorrection& c = out.correction;
   c.centres = GetMatrix(in, "centres");

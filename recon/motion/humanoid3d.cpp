@@ -4,6 +4,7 @@
 #include <nlohmann/json.hpp>
 
 #include "depth/base/error.h"
+#include "depth/base/json_nesting.h"
 #include "recon/motion/humanoid3d_internal.h"
 
 namespace ossa::recon {
@@ -96,6 +97,9 @@ SourceFrame FrameOf(const Row& row) {
 }  // namespace
 
 SourceMotion ParseHumanoid3d(const std::string& text, const std::string& source) {
+  if (JsonNesting().IsTooDeep(text)) {
+    throw InputError(source + ": expected JSON that nests at most 32 deep");
+  }
   const auto json = nlohmann::json::parse(text, nullptr, false);
   if (!json.is_object() || !json.contains("Frames") || !json["Frames"].is_array() ||
       json["Frames"].empty()) {

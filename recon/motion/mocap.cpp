@@ -7,6 +7,7 @@
 #include <optional>
 
 #include "depth/base/error.h"
+#include "depth/base/naming_the_file.h"
 #include "recon/motion/acclaim_internal.h"
 #include "recon/motion/authored.h"
 #include "recon/motion/bone_names_internal.h"
@@ -141,7 +142,8 @@ std::vector<MotionClip> LoadMocap(const std::vector<std::string>& sources,
         fs::is_directory(source) ? MotionFilesIn(source) : std::vector<fs::path>{source};
     for (const fs::path& file : files) {
       if (options.stop && options.stop()) break;
-      for (MotionClip& clip : loader.Load(file)) clips.push_back(std::move(clip));
+      auto people = NamingTheFile(file, [&] { return loader.Load(file); });
+      for (MotionClip& clip : people) clips.push_back(std::move(clip));
     }
   }
   std::stable_sort(clips.begin(), clips.end(),

@@ -26,50 +26,78 @@ int MostSeenBody(const SkeletonSequence& sequence) {
   return most->first;
 }
 
-Sighting SightingIn(const BodyRecord& body, double time_s) {
-  Sighting sighting{time_s, {}};
+}  // namespace
+
+void SightingLog::Append(const BodyRecord& body, double time_s) {
+  if (size() > 0 && !(time_s > (*this)[size() - 1].time_s)) return;
+  Packed packed{time_s, 0, {}};
   for (size_t j = 0; j < kJointCount; ++j) {
     const auto& joint = body.joints[j];
-    if (joint && HasPlace(*joint)) sighting.joint[j] = joint->position_m;
+    if (!joint || !HasPlace(*joint)) continue;
+    packed.seen |= uint64_t{1} << j;
+    Eigen::Map<Vector3d>(&packed.position_m[3 * j]) = joint->position_m;
+  }
+  latest_.push_back(packed);
+  // The last one stays in memory: the next is compared with it.
+  if (latest_.size() <= kBlock) return;
+  if (!file_.is_open()) file_ = UnnamedFile(folder_);
+  file_.WriteAt(in_file_ * sizeof(Packed), latest_.data(), kBlock * sizeof(Packed));
+  latest_.erase(latest_.begin(), latest_.begin() + kBlock);
+  in_file_ += kBlock;
+}
+
+Sighting SightingLog::operator[](size_t index) const {
+  if (index >= in_file_) return Unpacked(latest_[index - in_file_]);
+  const size_t begin = index - index % kBlock;
+  if (block_.empty() || block_begin_ != begin) {
+    block_.resize(kBlock);
+    file_.ReadAt(begin * sizeof(Packed), block_.data(), kBlock * sizeof(Packed));
+    block_begin_ = begin;
+  }
+  return Unpacked(block_[index - begin]);
+}
+
+Sighting SightingLog::Unpacked(const Packed& packed) {
+  Sighting sighting{packed.time_s, {}};
+  for (size_t j = 0; j < kJointCount; ++j) {
+    if ((packed.seen >> j & 1U) == 0) continue;
+    sighting.joint[j] = Eigen::Map<const Vector3d>(&packed.position_m[3 * j]);
   }
   return sighting;
 }
 
-}  // namespace
-
-std::vector<Sighting> SightingsOf(const SkeletonSequence& sequence, std::optional<int> id) {
+SightingLog SightingsOf(const SkeletonSequence& sequence, std::optional<int> id,
+                        const std::filesystem::path& folder) {
   const int wanted = id ? *id : MostSeenBody(sequence);
-  std::vector<Sighting> sightings;
+  SightingLog sightings(folder);
   for (const SkeletonFrame& frame : sequence.frames) {
     for (const BodyRecord& body : frame.bodies) {
-      // Times must go forward; a repeated frame brings nothing new.
-      const bool later = sightings.empty() || frame.time_s > sightings.back().time_s;
-      if (body.id == wanted && later) sightings.push_back(SightingIn(body, frame.time_s));
+      if (body.id == wanted) sightings.Append(body, frame.time_s);
     }
   }
-  if (sightings.empty()) {
+  if (sightings.size() == 0) {
     throw InputError(sequence.source + ": expected body " + std::to_string(wanted) +
                      ", found no frame of it");
   }
   return sightings;
 }
 
-EvenSightings::EvenSightings(std::vector<Sighting> seen, double begin_s, double step_s)
+EvenSightings::EvenSightings(SightingLog seen, double begin_s, double step_s)
     : seen_(std::move(seen)), begin_s_(begin_s), step_s_(step_s) {}
 
 double EvenSightings::Count() const {
   // Times of six decimals are a few milliseconds short of the step's after an hour.
   constexpr double kRounded_steps = 0.1;
-  return std::floor((seen_.back().time_s - begin_s_) / step_s_ + kRounded_steps) + 1.0;
+  return std::floor((seen_[seen_.size() - 1].time_s - begin_s_) / step_s_ + kRounded_steps) + 1.0;
 }
 
 SightingGap EvenSightings::LongestGap() const {
   SightingGap longest;
   double last_s = begin_s_;
-  for (const Sighting& sighting : seen_) {
-    const double length_s = sighting.time_s - last_s;
-    if (length_s > longest.length_s) longest = {last_s, length_s};
-    last_s = sighting.time_s;
+  for (size_t i = 0; i < seen_.size(); ++i) {
+    const double time_s = seen_[i].time_s;
+    if (time_s - last_s > longest.length_s) longest = {last_s, time_s - last_s};
+    last_s = time_s;
   }
   return longest;
 }
@@ -77,8 +105,8 @@ SightingGap EvenSightings::LongestGap() const {
 Sighting EvenSightings::Next() {
   const double time_s = begin_s_ + static_cast<double>(step_++) * step_s_;
   while (after_ + 1 < seen_.size() && seen_[after_].time_s < time_s - kSameTime_s) ++after_;
-  const Sighting& next = seen_[after_];
-  const Sighting& last = seen_[after_ == 0 ? 0 : after_ - 1];
+  const Sighting next = seen_[after_];
+  const Sighting last = seen_[after_ == 0 ? 0 : after_ - 1];
   const double gap_s = next.time_s - last.time_s;
   const double mix = gap_s > 0 ? std::clamp((time_s - last.time_s) / gap_s, 0.0, 1.0) : 1.0;
   Sighting sighting{time_s, {}};

@@ -2,6 +2,7 @@
 
 #include "depth/base/checksummed_container.h"
 #include "depth/base/compressed.h"
+#include "depth/base/naming_the_file.h"
 #include "recon/refine/bone_measure.h"
 #include "recon/refine/close_look.h"
 
@@ -73,13 +74,15 @@ bool CloseLook::IsOne(const std::filesystem::path& path) { return IsContainer(pa
 
 CloseLook CloseLook::Load(const std::filesystem::path& path) {
   const ContainerFormat format = ReadContainerFormat(path, kFormat, kOldestVersion);
-  std::vector<std::byte> payload = ReadContainer(path, format);
-  std::string name = path.string();
-  if (format.version >= kFirstCompressed) {
-    payload = Decompress(payload, name, format.what);
-    name += " (unpacked)";
-  }
-  return FromBytes(payload, name, format.version);
+  return NamingTheFile(path, [&] {
+    std::vector<std::byte> payload = ReadContainer(path, format);
+    std::string name = path.string();
+    if (format.version >= kFirstCompressed) {
+      payload = Decompress(payload, name, format.what);
+      name += " (unpacked)";
+    }
+    return FromBytes(payload, name, format.version);
+  });
 }
 
 CloseLook CloseLook::FromBytes(std::span<const std::byte> bytes, const std::string& name,

@@ -1,0 +1,100 @@
+#include <algorithm>
+#include <array>
+
+#include "depth/base/atomic_file.h"
+#include "depth/base/error.h"
+#include "recon/files/skeleton_formats_internal.h"
+#include "recon/files/skeleton_io.h"
+#include "recon/files/skeleton_jsonl.h"
+#include "recon/files/skeleton_writer_internal.h"
+
+namespace ossa::recon {
+namespace {
+
+namespace fs = std::filesystem;
+
+// Formats whose lines say nothing of how many there are.
+class LineWriter final : public SkeletonWriter::Format {
+ public:
+  using LinesOf = std::string (*)(const SkeletonFrame&);
+
+  LineWriter(const fs::path& path, const std::string& head, LinesOf lines)
+      : file_(path), lines_(lines) {
+    Put(head);
+  }
+
+  void Write(const SkeletonFrame& frame) override {
+    Put(lines_(frame));
+    ++frames_;
+  }
+  void Finish() override { file_.Commit(); }
+  int64_t FinishWithWhatFits() override {
+    if (frames_ == 0) return 0;
+    file_.CutTo(end_);
+    file_.Commit();
+    return frames_;
+  }
+
+ private:
+  // Flushed: what is in the file then are whole lines, whatever follows.
+  void Put(const std::string& text) {
+    file_.stream() << text;
+    file_.Flush();
+    end_ += text.size();
+  }
+
+  AtomicFile file_;
+  LinesOf lines_;
+  uint64_t end_ = 0;  // of the last whole frame
+  int64_t frames_ = 0;
+};
+
+std::string JsonlLine(const SkeletonFrame& frame) { return SkeletonJsonLine(frame) + '\n'; }
+
+std::unique_ptr<SkeletonWriter::Format> NewWriter(const fs::path& path) {
+  CheckSkeletonExtension(path);
+  const fs::path extension = path.extension();
+  if (extension == ".trc") return NewTrcWriter(path);
+  if (extension == ".bvh") return NewBvhWriter(path);
+  if (extension == ".csv") {
+    return std::make_unique<LineWriter>(path, SkeletonCsvHead(), SkeletonCsvRows);
+  }
+  return std::make_unique<LineWriter>(path, "", JsonlLine);
+}
+
+}  // namespace
+
+SkeletonWriter::SkeletonWriter(const fs::path& path) : format_(NewWriter(path)) {}
+SkeletonWriter::~SkeletonWriter() = default;
+
+void SkeletonWriter::Write(const SkeletonFrame& frame) {
+  ++frame_count_;
+  format_->Write(frame);
+}
+
+void SkeletonWriter::Finish() { format_->Finish(); }
+
+int64_t SkeletonWriter::FinishWithWhatFits() { return format_->FinishWithWhatFits(); }
+
+fs::path PathForBody(const fs::path& path, size_t index, int id) {
+  if (index == 0) return path;
+  fs::path other = path;
+  other.replace_filename(path.stem().string() + "_" + std::to_string(id) +
+                         path.extension().string());
+  return other;
+}
+
+void CheckSkeletonExtension(const fs::path& path) {
+  static constexpr std::array kKnown = {".jsonl", ".csv", ".trc", ".bvh"};
+  if (std::find(kKnown.begin(), kKnown.end(), path.extension()) != kKnown.end()) return;
+  throw InputError(path.string() + ": expected a name in .jsonl, .csv, .trc or .bvh, found " +
+                   Quoted(path.extension().string()));
+}
+
+void WriteSkeletons(const fs::path& path, const SkeletonSequence& sequence) {
+  SkeletonWriter writer(path);
+  for (const SkeletonFrame& frame : sequence.frames) writer.Write(frame);
+  writer.Finish();
+}
+
+}  // namespace ossa::recon

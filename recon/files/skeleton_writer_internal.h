@@ -1,0 +1,22 @@
+#pragma once
+#include <string>
+
+#include "recon/files/skeleton_writer.h"
+
+namespace ossa::recon {
+
+class SkeletonWriter::Format {
+ public:
+  virtual ~Format() = default;
+  virtual void Write(const SkeletonFrame& frame) = 0;
+  virtual void Finish() = 0;
+  virtual int64_t FinishWithWhatFits() = 0;
+};
+
+/// `path`, of the first person (`index` 0) as it is, of another with `_ID` before the extension.
+std::filesystem::path PathForBody(const std::filesystem::path& path, size_t index, int id);
+
+std::unique_ptr<SkeletonWriter::Format> NewTrcWriter(const std::filesystem::path& path);
+std::unique_ptr<SkeletonWriter::Format> NewBvhWriter(const std::filesystem::path& path);
+
+}  // namespace ossa::recon

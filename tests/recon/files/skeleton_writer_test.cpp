@@ -1,0 +1,131 @@
+#include "recon/files/skeleton_writer.h"
+
+#include <gtest/gtest.h>
+
+#include <fstream>
+
+#include "depth/base/atomic_file.h"
+#include "recon/files/skeleton_io.h"
+#include "tests/recon/files/skeleton_examples.h"
+#include "tests/support/full_disk.h"
+#include "tests/support/temporary_folder.h"
+
+namespace ossa::recon {
+namespace {
+
+using test::FullDisk;
+using test::TemporaryFolder;
+
+std::string TextOf(const std::filesystem::path& path) {
+  std::ifstream file(path, std::ios::binary);
+  return {std::istreambuf_iterator<char>(file), {}};
+}
+
+std::filesystem::path OnlyFileIn(const std::filesystem::path& folder) {
+  std::filesystem::directory_iterator only(folder);
+  return only == std::filesystem::directory_iterator() ? "" : only->path();
+}
+
+class EveryFormat : public testing::TestWithParam<const char*> {
+ protected:
+  std::filesystem::path path() const { return folder_ / (std::string("x") + GetParam()); }
+  TemporaryFolder folder_;
+};
+
+TEST_P(EveryFormat, LeavesNothingWithoutFinish) {
+  {
+    SkeletonWriter writer(path());
+    for (const SkeletonFrame& frame : ExampleSequence(5).frames) writer.Write(frame);
+    EXPECT_EQ(writer.frame_count(), 5);
+  }
+  EXPECT_EQ(OnlyFileIn(folder_.path()), "");
+}
+
+long Resident_kB() {
+  std::ifstream status("/proc/self/status");
+  for (std::string word; status >> word;) {
+    if (word == "VmRSS:") return (status >> word, std::stol(word));
+  }
+  return 0;
+}
+
+// A person's frame is two and a half kilobytes.
+TEST_P(EveryFormat, TakesNoMemoryThatGrowsWithTheRecording) {
+  const auto frames = ExampleSequence(100).frames;
+  SkeletonWriter writer(path());
+  long before_kB = 0;
+  for (int f = 0; f < 20000; ++f) {  // eleven minutes
+    if (f == 1000) before_kB = Resident_kB();
+    SkeletonFrame frame = frames[static_cast<size_t>(f) % frames.size()];
+    frame.time_s = f / 30.0;
+    writer.Write(frame);
+  }
+  EXPECT_LT(Resident_kB() - before_kB, 4000);
+}
+
+INSTANTIATE_TEST_SUITE_P(SkeletonWriter, EveryFormat,
+                         testing::Values(".jsonl", ".csv", ".trc", ".bvh"));
+
+class LineFormats : public EveryFormat {};
+
+// What is kept is the file of as many frames as there was room for, byte for byte.
+TEST_P(LineFormats, OnAFullDiskKeepWholeFrames) {
+  const auto frames = ExampleSequence(6, 2).frames;
+  std::vector<std::string> whole;
+  for (size_t count = 0; count <= frames.size(); ++count) {
+    SkeletonSequence part{"x", {frames.begin(), frames.begin() + static_cast<long>(count)}};
+    WriteSkeletons(path(), part);
+    whole.push_back(TextOf(path()));
+  }
+  for (uint64_t room = 4000; room < whole.back().size() + 1000; room += 777) {
+    std::filesystem::remove(path());
+    const FullDisk disk(room);
+    SkeletonWriter writer(path());
+    try {
+      for (const SkeletonFrame& frame : frames) writer.Write(frame);
+      writer.Finish();
+      EXPECT_EQ(TextOf(path()), whole.back());
+    } catch (const DiskFull&) {
+      const auto kept = static_cast<size_t>(writer.FinishWithWhatFits());
+      EXPECT_LT(kept, frames.size());
+      EXPECT_EQ(TextOf(path()), kept > 0 ? whole.at(kept) : "") << room << " bytes";
+    }
+  }
+}
+
+// Under its temporary name, where it stays when the process is killed.
+TEST_P(LineFormats, CanBeReadBeforeTheyAreFinished) {
+  SkeletonWriter writer(path());
+  for (const SkeletonFrame& frame : ExampleSequence(7).frames) writer.Write(frame);
+  EXPECT_EQ(ReadSkeletons(OnlyFileIn(folder_.path())).frames.size(), 7U);
+}
+
+INSTANTIATE_TEST_SUITE_P(SkeletonWriter, LineFormats, testing::Values(".jsonl", ".csv", ".trc"));
+
+// A table begins with the recording, whoever comes later.
+TEST(SkeletonWriter, WhoComesLaterHasATableOfAllFrames) {
+  const TemporaryFolder folder;
+  SkeletonSequence sequence = ExampleSequence(9, 2);
+  for (size_t f = 0; f < 4; ++f) sequence.frames[f].bodies.clear();
+  sequence.frames[4].bodies.pop_back();
+  WriteSkeletons(folder / "x.trc", sequence);
+  for (const auto& [name, absent] : {std::pair("x.trc", 4U), std::pair("x_2.trc", 5U)}) {
+    const SkeletonSequence back = ReadSkeletons(folder / name);
+    ASSERT_EQ(back.frames.size(), 9U);
+    for (size_t f = 0; f < 9; ++f) {
+      const bool is_there = back.frames[f].bodies.at(0).joints[0].has_value();
+      EXPECT_EQ(is_there, f >= absent) << name << " " << f;
+    }
+  }
+}
+
+TEST(SkeletonWriter, ATableOfNobodyHasItsRows) {
+  const TemporaryFolder folder;
+  SkeletonSequence sequence = ExampleSequence(3);
+  for (SkeletonFrame& frame : sequence.frames) frame.bodies.clear();
+  WriteSkeletons(folder / "x.trc", sequence);
+  EXPECT_EQ(ReadSkeletons(folder / "x.trc").frames.size(), 3U);
+}
+
+}  // namespace
+}  // namespace ossa::recon
