@@ -8,6 +8,7 @@
 #include "depth/base/error.h"
 #include "recon/files/skeleton_io.h"
 #include "tools/commands/command.h"
+#include "tools/commands/process.h"
 
 namespace ossa::commands {
 namespace {
@@ -73,6 +74,33 @@ void CheckSkeletonName(const std::string& path) {
     recon::CheckSkeletonExtension(path);
   } catch (const InputError& error) {
     throw UsageError(error.what());
+  }
+}
+
+void SayLeftovers(const std::string& path) {
+  for (const fs::path& left : AtomicFile::LeftoversOf(path)) {
+    Say(fmt::format("ossa: {}: left by an ossa that was killed: it stays, and can be read\n",
+                    left.string()));
+  }
+}
+
+std::string FramesText(int64_t frames, std::optional<int64_t> of) {
+  return of ? fmt::format("{} of {} frames", frames, *of) : fmt::format("{} frames", frames);
+}
+
+InputError KeepWhatFits(const DiskFull& full, recon::SkeletonWriter& writer) {
+  const int64_t kept = writer.FinishWithWhatFits();
+  return InputError(
+      fmt::format("{} {} were kept", full.what(), FramesText(kept, writer.frame_count())));
+}
+
+void WriteSkeletonsThatFit(const std::string& path, const recon::SkeletonSequence& sequence) {
+  recon::SkeletonWriter writer(path);
+  try {
+    for (const recon::SkeletonFrame& frame : sequence.frames) writer.Write(frame);
+    writer.Finish();
+  } catch (const DiskFull& full) {
+    throw KeepWhatFits(full, writer);
   }
 }
 

@@ -1,6 +1,12 @@
 #pragma once
+#include <cstdint>
+#include <optional>
 #include <string>
 #include <vector>
+
+#include "depth/base/atomic_file.h"
+#include "depth/base/error.h"
+#include "recon/files/skeleton_writer.h"
 
 namespace ossa::commands {
 
@@ -23,5 +29,17 @@ void CheckNotOtherKind(const char* option, const std::string& path, const char* 
 
 /// Throws UsageError for a name whose extension is of no skeleton format that is written.
 void CheckSkeletonName(const std::string& path);
+
+/// Says of each file that an ossa that was killed left of this output that it is there, and stays.
+void SayLeftovers(const std::string& path);
+
+/// "27 of 150 frames"; "27 frames" where nobody knows of how many.
+std::string FramesText(int64_t frames, std::optional<int64_t> of);
+
+/// Ends a file that does not fit after its last whole frame; the failure says how many are kept.
+InputError KeepWhatFits(const DiskFull& full, recon::SkeletonWriter& writer);
+
+/// recon::WriteSkeletons that keeps what fits.
+void WriteSkeletonsThatFit(const std::string& path, const recon::SkeletonSequence& sequence);
 
 }  // namespace ossa::commands

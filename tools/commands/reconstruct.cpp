@@ -13,7 +13,6 @@
 #include "depth/base/error.h"
 #include "recon/database/posture_database.h"
 #include "recon/files/skeleton_io.h"
-#include "recon/filters/butterworth.h"
 #include "recon/methods/sequence.h"
 #include "tools/commands/checks.h"
 #include "tools/commands/command.h"
@@ -134,6 +133,13 @@ void AddMethodOptions(CLI::App& app, ReconstructArguments& a) {
   a.bones.AddTo(app);
 }
 
+InputError InterruptedEarly(const ReconstructArguments& a, size_t written, double total) {
+  if (written == 0) return InputError("reconstruct: interrupted; nothing was written");
+  return InputError(
+      fmt::format("{}: interrupted: {} are in {}", a.skeletons,
+                  FramesText(static_cast<int64_t>(written), static_cast<int64_t>(total)), a.out));
+}
+
 }  // namespace
 
 int Reconstruct(int argc, char** argv) {
@@ -188,7 +194,9 @@ int Reconstruct(int argc, char** argv) {
   const int rounds = 1 + (a.bones.of_recording() ? 1 : 0) + (a.mechanics.on() ? 1 : 0);
   double done = 0.0, total = 0.0;  // done: in all rounds
   for (const auto& clip : clips) total += static_cast<double>(clip.sequence.frames.size());
+  size_t ready = 0, written = 0;  // frames of the clip at hand, and of all
   const auto update = [&](size_t frames) {
+    ready = frames;
     progress.Update((done + static_cast<double>(frames)) / rounds, total);
     return !Interrupted();
   };
@@ -205,17 +213,23 @@ int Reconstruct(int argc, char** argv) {
                     : recon::ReconstructSequence(clip.sequence, a.options, update, bones);
     done += frames;
     if (a.mechanics.on()) {
+      ready = 0;
       tracker::FollowMechanically(made, a.mechanics.build, update);
       done += frames;
     }
-    if (Interrupted()) throw InputError("reconstruct: interrupted; nothing half-written is left");
+    if (Interrupted()) made.frames.resize(std::min(made.frames.size(), ready));
+    if (made.frames.empty() && Interrupted()) break;
     std::filesystem::path to = a.out;
     if (to_folder) {
       to = to / (clip.name + ".jsonl");
       std::filesystem::create_directories(to.parent_path());
     }
-    recon::WriteSkeletons(to, made);
+    WriteSkeletonsThatFit(to, made);
+    written += made.frames.size();
+    if (Interrupted()) break;
   }
+  if (Interrupted() && static_cast<double>(written) < total)
+    throw InterruptedEarly(a, written, total);
   return 0;
 }
 

@@ -1,7 +1,9 @@
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
+#include <algorithm>
 #include <chrono>
+#include <cmath>
 #include <optional>
 #include <string>
 
@@ -34,12 +36,13 @@ struct RecordOptions {
   bool quiet = false;
 };
 
-enum class Ending { kComplete, kUnplugged, kSilent };
+enum class Ending { kComplete, kUnplugged, kSilent, kInterrupted };
 
 struct Recorded {
   int64_t frames = 0;
   int64_t dropped = 0;
-  double seconds = 0.0;  // from the first frame's beginning to the last one's end
+  std::optional<int64_t> of;  // frames that are to be recorded
+  double seconds = 0.0;       // from the first frame's beginning to the last one's end
   Ending ending = Ending::kComplete;
 };
 
@@ -64,6 +67,14 @@ RecordOptions ParseOptions(int argc, char** argv) {
   return options;
 }
 
+std::optional<int64_t> FramesWanted(const depth::FrameSource& source,
+                                    const RecordOptions& options) {
+  const std::optional<int64_t> known = source.frame_count();
+  if (!(options.seconds > 0)) return known;
+  const int64_t asked = std::llround(options.seconds / kPeriod_s);
+  return std::min(asked, known.value_or(asked));
+}
+
 // Takes frames until the source ends, the time is up, Ctrl-C comes or a device is given up.
 template <typename Recorder>
 void RecordFrames(depth::FrameSource& source, const RecordOptions& options, Recorder& recorder,
@@ -71,11 +82,11 @@ void RecordFrames(depth::FrameSource& source, const RecordOptions& options, Reco
   Progress progress("recording", options.quiet);
   auto last_frame_at = Clock::now();
   std::optional<double> first_time_s;
-  const auto known = static_cast<double>(source.frame_count().value_or(0));
-  const double total = options.seconds > 0 ? options.seconds / kPeriod_s : known;
+  recorded.of = FramesWanted(source, options);
+  const auto total = static_cast<double>(recorded.of.value_or(0));
   while (!Interrupted()) {
     const depth::ReadResult result = source.Read(milliseconds(100));
-    if (result.status == depth::ReadStatus::kEnd) break;
+    if (result.status == depth::ReadStatus::kEnd) return;
     if (result.status == depth::ReadStatus::kFrame) {
       last_frame_at = Clock::now();
       if (!first_time_s) first_time_s = result.frame.time_s;
@@ -84,14 +95,16 @@ void RecordFrames(depth::FrameSource& source, const RecordOptions& options, Reco
       recorded.dropped += result.dropped;
       recorded.seconds = result.frame.time_s - *first_time_s + kPeriod_s;
       if (total > 0) progress.Update(static_cast<double>(recorded.frames), total, "frames");
-      if (options.seconds > 0 && recorded.seconds > options.seconds - kPeriod_s / 2) break;
+      if (options.seconds > 0 && recorded.seconds > options.seconds - kPeriod_s / 2) return;
     } else if (source.is_live() &&
                Clock::now() - last_frame_at > Milliseconds(options.source.patience_s)) {
       recorded.ending =
           result.status == depth::ReadStatus::kDisconnected ? Ending::kUnplugged : Ending::kSilent;
-      break;
+      return;
     }
   }
+  const bool has_end = !source.is_live() && recorded.frames != recorded.of;
+  if (has_end) recorded.ending = Ending::kInterrupted;
 }
 
 // A device that goes for good ends a recording; only one that was to be longer has failed then.
@@ -102,6 +115,10 @@ int Report(const RecordOptions& options, const Recorded& recorded) {
   const bool complete =
       recorded.ending == Ending::kComplete ||
       (recorded.ending == Ending::kUnplugged && recorded.seconds > options.seconds - kNearEnough_s);
+  if (recorded.ending == Ending::kInterrupted) {
+    throw InputError(fmt::format("{}: interrupted: {} are in {}", options.source.name,
+                                 FramesText(recorded.frames, recorded.of), options.out));
+  }
   if (!complete) {
     const char* what = recorded.ending == Ending::kUnplugged ? "unplugged" : "delivers no frames";
     throw InputError(fmt::format("{}: the device {} for {:g} s: the recording ends early ({})",
@@ -111,7 +128,7 @@ int Report(const RecordOptions& options, const Recorded& recorded) {
   return 0;
 }
 
-// What a device gave until a frame that cannot be recorded is kept: it gives it once.
+// What a source gave until a frame that cannot be read or recorded is kept.
 template <typename Recorder>
 int RecordTo(Recorder& recorder, depth::FrameSource& source, const RecordOptions& options) {
   Recorded recorded;
@@ -120,7 +137,7 @@ int RecordTo(Recorder& recorder, depth::FrameSource& source, const RecordOptions
   } catch (const DiskFull&) {
     throw;  // nothing more can be written
   } catch (const InputError& error) {
-    if (recorded.frames == 0 || !source.is_live()) throw;
+    if (recorded.frames == 0) throw;
     recorder.Finish();
     throw InputError(fmt::format("{}; the {} frames before it are in {}", error.what(),
                                  recorded.frames, options.out));
@@ -134,13 +151,14 @@ int RecordTo(Recorder& recorder, depth::FrameSource& source, const RecordOptions
 int RecordOni(const depth::Camera& camera, depth::FrameSource& source,
               const RecordOptions& options) {
   AtomicFile::CheckWritable(options.out);
+  SayLeftovers(options.out);
   depth::OniRecorder recorder(options.out, camera);
   try {
     return RecordTo(recorder, source, options);
   } catch (const DiskFull& full) {
     const int64_t frames = recorder.frame_count();
-    throw InputError(fmt::format("{} {} of {} frames were kept", full.what(),
-                                 recorder.FinishWithWhatFits(), frames));
+    throw InputError(fmt::format("{} {} were kept", full.what(),
+                                 FramesText(recorder.FinishWithWhatFits(), frames)));
   }
 }
 

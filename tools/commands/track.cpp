@@ -13,7 +13,7 @@
 #include "depth/base/error.h"
 #include "depth/sensor/frame_source.h"
 #include "recon/files/skeleton_io.h"
-#include "recon/files/skeleton_jsonl.h"
+#include "recon/files/skeleton_writer.h"
 #include "recon/methods/reconstructor.h"
 #include "recon/refine/close_look.h"
 #include "tools/commands/checks.h"
@@ -156,8 +156,7 @@ TrackOptions ParseOptions(int argc, char** argv) {
   return options;
 }
 
-// Skeletons on their way to the file: JSON lines stream out as they come, the other formats need
-// the whole recording. Either way the file appears only when complete.
+// Skeletons on their way to the file, which appears only when complete.
 class SkeletonOutput {
  public:
   explicit SkeletonOutput(const TrackOptions& options)
@@ -167,30 +166,25 @@ class SkeletonOutput {
     if (posture == "looked") kind_ = tracker::PostureKind::kRefined;
     if (posture == "reconstructed") kind_ = tracker::PostureKind::kReconstructed;
     if (path_.empty()) return;
-    AtomicFile::CheckWritable(path_);
-    if (path_.ends_with(".jsonl")) {
-      file_.emplace(path_);
-      writer_.emplace(file_->stream());
-    }
+    SayLeftovers(path_);
+    writer_.emplace(path_);
   }
   void Write(const tracker::BodyFrame& bodies) {
-    if (path_.empty()) return;
+    if (!writer_) return;
     recon::SkeletonFrame record = tracker::RecordOf(bodies, kind_);
     if (seated_) KeepSeatedJoints(record);
-    if (writer_) {
-      writer_->Write(record);
-      file_->Check();
-    } else {
-      sequence_.frames.push_back(std::move(record));
-    }
+    writer_->Write(record);
   }
   void Finish() {
-    if (path_.empty()) return;
-    if (file_) {
-      file_->Commit();
-    } else {
-      recon::WriteSkeletons(path_, sequence_);
+    try {
+      if (writer_) writer_->Finish();
+    } catch (const DiskFull& full) {
+      throw WithWhatFits(full);
     }
+  }
+  // Of what Write() threw: how much is kept.
+  InputError WithWhatFits(const DiskFull& full) {
+    return writer_ ? KeepWhatFits(full, *writer_) : InputError(full);
   }
 
  private:
@@ -206,9 +200,7 @@ class SkeletonOutput {
   std::string path_;
   bool seated_ = false;
   tracker::PostureKind kind_ = tracker::PostureKind::kFinal;
-  std::optional<AtomicFile> file_;
-  std::optional<recon::SkeletonJsonlWriter> writer_;
-  recon::SkeletonSequence sequence_;
+  std::optional<recon::SkeletonWriter> writer_;
 };
 
 size_t TrackedJoints(const tracker::BodyFrame& bodies) {
@@ -250,32 +242,39 @@ class Pictures {
   tracker::BodyFrame best_;
 };
 
-enum class Ending { kComplete, kUnplugged, kSilent };
+enum class Ending { kComplete, kUnplugged, kSilent, kInterrupted };
 
 struct Run {
   tracker::RunStats stats;
   int64_t dropped = 0;
-  int64_t lost_gaps = 0;  // times the device went away and came back
+  std::optional<int64_t> of;  // frames that are to be tracked
+  int64_t lost_gaps = 0;      // times the device went away and came back
   Ending ending = Ending::kComplete;
 };
 
-Run TrackAll(depth::FrameSource& source, tracker::Tracker& tracker, const TrackOptions& options,
-             SkeletonOutput& output, DecisionTrace& trace, Pictures& pictures,
-             viewer::Viewer* viewer) {
-  Run run;
+std::optional<int64_t> FramesWanted(const depth::FrameSource& source, const TrackOptions& options) {
+  const std::optional<int64_t> known = source.frame_count();
+  if (options.frames == 0) return known;
+  return std::min(options.frames, known.value_or(options.frames));
+}
+
+void TrackAll(depth::FrameSource& source, tracker::Tracker& tracker, const TrackOptions& options,
+              SkeletonOutput& output, DecisionTrace& trace, Pictures& pictures,
+              viewer::Viewer* viewer, Run& run) {
   Progress progress("tracking", options.quiet);
   const auto known = static_cast<double>(source.frame_count().value_or(0));
+  run.of = FramesWanted(source, options);
   auto last_frame_at = Clock::now();
   bool gone = false;
   while (!Interrupted()) {
     const depth::ReadResult read = source.Read(milliseconds(100));
-    if (read.status == depth::ReadStatus::kEnd) break;
+    if (read.status == depth::ReadStatus::kEnd) return;
     if (read.status != depth::ReadStatus::kFrame) {
       gone = gone || read.status == depth::ReadStatus::kDisconnected;
       const std::chrono::duration<double> silence = Clock::now() - last_frame_at;
       if (source.is_live() && silence.count() > options.source.patience_s) {
         run.ending = gone ? Ending::kUnplugged : Ending::kSilent;
-        break;
+        return;
       }
       continue;
     }
@@ -291,9 +290,10 @@ Run TrackAll(depth::FrameSource& source, tracker::Tracker& tracker, const TrackO
     if (viewer != nullptr) viewer->Show(read.frame, tracker::RecordOf(bodies));
     const auto frames = static_cast<double>(run.stats.frames());
     if (known > 0) progress.Update(frames, known, fmt::format("{} people", bodies.bodies.size()));
-    if (options.frames > 0 && run.stats.frames() >= options.frames) break;
+    if (options.frames > 0 && run.stats.frames() >= options.frames) return;
   }
-  return run;
+  const bool has_end = !source.is_live() && run.stats.frames() != run.of;
+  if (has_end) run.ending = Ending::kInterrupted;
 }
 
 // How long people's bones are by the whole recording, which is tracked for nothing else.
@@ -335,7 +335,7 @@ void Report(const TrackOptions& options, const Run& run) {
     file.stream() << run.stats.Json(run.dropped);
     file.Commit();
   }
-  if (run.ending != Ending::kComplete) {
+  if (run.ending == Ending::kUnplugged || run.ending == Ending::kSilent) {
     const char* what = run.ending == Ending::kUnplugged ? "unplugged" : "delivers no frames";
     Say(fmt::format("ossa track: {}: the device {} for {:g} s: ending after {} frames\n",
                     options.source.name, what, options.source.patience_s, run.stats.frames()));
@@ -344,6 +344,20 @@ void Report(const TrackOptions& options, const Run& run) {
     fmt::print("{} frames, {} dropped, {} reconnections\n", run.stats.frames(), run.dropped,
                run.lost_gaps);
   }
+}
+
+void CheckFrames(const TrackOptions& options, const Run& run) {
+  if (run.stats.frames() > 0) return;
+  if (Interrupted()) {
+    throw InputError("track: interrupted before the first frame; nothing was written");
+  }
+  throw InputError(options.source.name + ": no frame came");
+}
+
+InputError InterruptedEarly(const TrackOptions& options, const Run& run) {
+  const std::string where = options.out.empty() ? " were tracked" : " are in " + options.out;
+  return InputError(fmt::format("{}: interrupted: {}{}", options.source.name,
+                                FramesText(run.stats.frames(), run.of), where));
 }
 
 }  // namespace
@@ -364,15 +378,25 @@ int Track(int argc, char** argv) {
     viewer = std::make_unique<viewer::Viewer>(options.port);
     Say(fmt::format("watch at http://127.0.0.1:{}/\n", viewer->port()));
   }
-  const Run run = TrackAll(*source, tracker, options, output, trace, pictures, viewer.get());
-  if (run.stats.frames() == 0 && Interrupted()) {
-    throw InputError("track: interrupted before the first frame; nothing was written");
+  Run run;
+  std::string failure;
+  try {
+    TrackAll(*source, tracker, options, output, trace, pictures, viewer.get(), run);
+  } catch (const DiskFull& full) {
+    throw output.WithWhatFits(full);
+  } catch (const InputError& error) {
+    // What was tracked before the source failed stays.
+    if (run.stats.frames() == 0 || options.out.empty()) throw;
+    failure = fmt::format("{}; the {} before it are in {}", error.what(),
+                          FramesText(run.stats.frames(), run.of), options.out);
   }
-  if (run.stats.frames() == 0) throw InputError(options.source.name + ": no frame came");
+  CheckFrames(options, run);
+  output.Finish();
   pictures.Finish();
   Report(options, run);
   trace.Finish();
-  output.Finish();
+  if (!failure.empty()) throw InputError(failure);
+  if (run.ending == Ending::kInterrupted) throw InterruptedEarly(options, run);
   return 0;
 }
 

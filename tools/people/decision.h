@@ -64,9 +64,8 @@ struct Decision {
   int track = 0;            // id of the person; 0 nobody
 };
 
-/// Confirmed tracks are seen, lost ones are remembered.
-enum class TrackStatus { kConfirmed, kLost };
 /// Somebody who is followed.
+enum class TrackStatus { kConfirmed, kLost };
 struct TrackSummary {
   int id = 0;
   TrackStatus status = TrackStatus::kConfirmed;

@@ -4,6 +4,7 @@
 #include <nlohmann/json.hpp>
 
 #include "depth/base/error.h"
+#include "depth/base/json_nesting.h"
 #include "depth/base/open_file.h"
 #include "depth/image/camera_io.h"
 #include "tools/json/json_text.h"
@@ -98,7 +99,12 @@ DatasetManifest ReadManifest(const std::filesystem::path& folder) {
   const auto path = folder / "manifest.json";
   std::ifstream file = OpenFile(path);
   if (!file) throw InputError(path.string() + ": cannot be read: expected a data set's manifest");
-  const Json json = Json::parse(file, nullptr, false);
+  constexpr size_t kMostBytes = size_t{16} << 20;  // of a few kilobytes; a bound by hand
+  std::string text(kMostBytes, '\0');
+  file.read(text.data(), static_cast<std::streamsize>(text.size()));
+  text.resize(static_cast<size_t>(file.gcount()));
+  const Json json = JsonNesting().IsTooDeep(text) ? Json(Json::value_t::discarded)
+                                                  : Json::parse(text, nullptr, false);
   if (json.is_discarded()) throw InputError(path.string() + ": expected JSON, found other text");
   return ManifestFromJson(json, path);
 }
@@ -124,7 +130,8 @@ std::string TruthLine(const LabelledFrame& frame) {
 }
 
 void ParseTruthLine(const std::string& line, const std::string& place, LabelledFrame* frame) {
-  const Json json = Json::parse(line, nullptr, false);
+  const Json json = JsonNesting().IsTooDeep(line) ? Json(Json::value_t::discarded)
+                                                  : Json::parse(line, nullptr, false);
   if (json.is_discarded() || !json.is_object()) {
     throw InputError(place + ": expected a JSON object, found other text");
   }

@@ -195,6 +195,7 @@ void FinishDataset(const FrameStudio& studio, const RenderJob& job) {
     }
     truth.Commit();
   }
+  SyncFiles(job.out);  // the manifest says that all is there
   WriteText(job.out / "manifest.json", ManifestToJson(ManifestOf(studio, job)));
   std::error_code ignored;
   fs::remove_all(WorkFolder(job), ignored);

@@ -94,6 +94,18 @@ TEST(Memory, ThatIsUsedUpIsOneLine) {
   EXPECT_FALSE(std::filesystem::exists(folder / "x.ossadb"));
 }
 
+TEST(Memory, ThatAFileUsesUpNamesTheFile) {
+  if (kSanitized) GTEST_SKIP() << "the shadow of its memory alone takes more";
+  const TemporaryFolder folder;
+  const CommandResult result =
+      Shell(R"(yes '{"frame":0,"time_s":0,"bodies":[]}' | head -c 500000000 | gzip -1 > "$2/x.gz"
+         ulimit -v 400000; exec "$1" reconstruct "$2/x.gz" --out "$2/y.jsonl" --quiet)",
+            folder);
+  EXPECT_EQ(result.exit_status, 1);
+  const std::string file = (folder / "x.gz").string();
+  EXPECT_EQ(result.err, "ossa: " + file + ": out of memory: expected a file that fits into it\n");
+}
+
 // The first is noted, and as good as lost on who does not ask; one right behind it, as timeout(1)
 // sends, is the same; the next ends it.
 TEST(Interrupt, ASecondOneEndsWhatDoesNotListen) {

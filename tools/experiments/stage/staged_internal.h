@@ -30,7 +30,7 @@ class SimulatedSdk {
                          const Eigen::Vector3d& hips_m, JointMemory& memory);
 
   Random random_;
-  recon::JointArray<JointMemory> memory_;
+  std::array<JointMemory, recon::kJointCount> memory_;
 };
 
 }  // namespace ossa::tools

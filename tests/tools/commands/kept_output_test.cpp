@@ -1,0 +1,167 @@
+// What was made stays: of runs that are interrupted, of disks that are full, of sources that fail.
+#include <gtest/gtest.h>
+#include <signal.h>
+
+#include <fstream>
+#include <regex>
+
+#include "depth/image/depth_png.h"
+#include "depth/sensor/frame_source.h"
+#include "recon/files/skeleton_io.h"
+#include "tests/recon/files/skeleton_examples.h"
+#include "tests/support/depth_examples.h"
+#include "tests/support/run_command.h"
+#include "tests/support/temporary_folder.h"
+
+namespace ossa::commands {
+namespace {
+
+using test::CommandResult;
+using test::RunningCommand;
+using test::TemporaryFolder;
+
+constexpr int kMany = 5000;  // frames: more than any machine has done when the signal comes
+
+// One image under many names.
+void WriteLongFolder(const std::filesystem::path& folder) {
+  std::filesystem::create_directories(folder);
+  test::WriteExampleFolder(folder, 1, 320, 240);
+  for (int i = 1; i < kMany; ++i) {
+    std::filesystem::create_symlink("000000.png",
+                                    folder / (std::to_string(1000000 + i).substr(1) + ".png"));
+  }
+}
+
+// Of "27 of 5000 frames": 27; -1 when it says nothing of the kind.
+long Kept(const CommandResult& result) {
+  std::smatch found;
+  const std::regex words("([0-9]+) of " + std::to_string(kMany) + " frames");
+  return std::regex_search(result.err, found, words) ? std::stol(found[1]) : -1;
+}
+
+// Signals it as soon as it says that it works.
+CommandResult Interrupted(const std::vector<std::string>& arguments, int signal,
+                          const std::string& says) {
+  RunningCommand command = test::StartOssa(arguments);
+  EXPECT_TRUE(command.WaitForError(says, test::kCommandTimeout));
+  command.Signal(signal);
+  return command.Wait(test::kCommandTimeout);
+}
+
+long FramesIn(const std::filesystem::path& recording) {
+  const auto source = depth::OpenSource(recording.string());
+  long count = 0;
+  while (source->Read(test::kCommandTimeout).status == depth::ReadStatus::kFrame) ++count;
+  return count;
+}
+
+long SkeletonsIn(const std::filesystem::path& path) {
+  return static_cast<long>(recon::ReadSkeletons(path).frames.size());
+}
+
+TEST(KeptOutput, OfARecordingOfAFolderThatIsInterrupted) {
+  const TemporaryFolder folder;
+  WriteLongFolder(folder / "in");
+  const auto out = folder / "x.oni";
+  const CommandResult result =
+      Interrupted({"record", (folder / "in").string(), "--out", out.string()}, SIGTERM, "record");
+  EXPECT_EQ(result.exit_status, 1) << result.err;
+  EXPECT_GE(Kept(result), 1) << result.err;
+  EXPECT_EQ(FramesIn(out), Kept(result));
+}
+
+class InterruptedTrack : public testing::TestWithParam<const char*> {};
+
+TEST_P(InterruptedTrack, KeepsWhatThereIs) {
+  const TemporaryFolder folder;
+  WriteLongFolder(folder / "in");
+  const auto out = folder / (std::string("x") + GetParam());
+  const CommandResult result =
+      Interrupted({"track", (folder / "in").string(), "--out", out.string(), "--method", "none"},
+                  SIGINT, "tracking");
+  EXPECT_EQ(result.exit_status, 1) << result.err;
+  EXPECT_GE(Kept(result), 1) << result.err;
+  EXPECT_EQ(SkeletonsIn(out), Kept(result));
+}
+
+INSTANTIATE_TEST_SUITE_P(KeptOutput, InterruptedTrack, testing::Values(".jsonl", ".csv", ".trc"),
+                         [](const auto& info) { return std::string(info.param).substr(1); });
+
+TEST(KeptOutput, OfAReconstructionThatIsInterrupted) {
+  const TemporaryFolder folder;
+  recon::WriteSkeletons(folder / "in.jsonl", recon::ExampleSequence(kMany));
+  const auto out = folder / "x.jsonl";
+  const CommandResult result =
+      Interrupted({"reconstruct", (folder / "in.jsonl").string(), "--out", out.string()}, SIGINT,
+                  "reconstruct");
+  EXPECT_EQ(result.exit_status, 1) << result.err;
+  EXPECT_GE(Kept(result), 1) << result.err;
+  EXPECT_EQ(SkeletonsIn(out), Kept(result));
+}
+
+// `ulimit -f` counts kilobytes.
+CommandResult OnAFullDisk(const std::vector<std::string>& arguments) {
+  std::vector<std::string> argv = {"/bin/bash", "-c", R"(ulimit -f 4; exec "$@")", "shell",
+                                   test::OssaPath()};
+  argv.insert(argv.end(), arguments.begin(), arguments.end());
+  return test::RunProgram(argv);
+}
+
+TEST(KeptOutput, OfATrackedFolderThatDoesNotFit) {
+  const TemporaryFolder folder;
+  test::WriteExampleFolder(folder.path(), 200);
+  const auto out = folder / "x.jsonl";
+  const CommandResult result = OnAFullDisk(
+      {"track", folder.path().string(), "--out", out.string(), "--method", "none", "--quiet"});
+  EXPECT_EQ(result.exit_status, 1);
+  const std::string kept = std::to_string(SkeletonsIn(out));
+  const std::string begin =
+      "ossa: " + out.string() + ": writing failed: is the disk full? " + kept + " of ";
+  EXPECT_TRUE(result.err.starts_with(begin)) << result.err << begin;
+  EXPECT_EQ(test::LineCount(result.err), 1) << result.err;
+}
+
+TEST(KeptOutput, OfAReconstructionThatDoesNotFit) {
+  const TemporaryFolder folder;
+  recon::WriteSkeletons(folder / "in.jsonl", recon::ExampleSequence(50));
+  const auto out = folder / "x.csv";
+  const CommandResult result = OnAFullDisk({"reconstruct", (folder / "in.jsonl").string(), "--out",
+                                            out.string(), "--method", "one-euro", "--quiet"});
+  EXPECT_EQ(result.exit_status, 1);
+  EXPECT_NE(result.err.find(std::to_string(SkeletonsIn(out)) + " of "), std::string::npos)
+      << result.err;
+}
+
+// A damaged frame of a cut recording ends the run: the frame before it is not lost with it.
+TEST(KeptOutput, OfASourceThatFailsInTheMiddle) {
+  const TemporaryFolder folder;
+  depth::WriteDepthPng(folder / "a.png", test::ExampleFrame(0, 64, 48).view());
+  depth::WriteDepthPng(folder / "b.png", test::ExampleFrame(1, 32, 24).view());
+  const auto out = folder / "x.jsonl";
+  const CommandResult result =
+      test::RunOssa({"track", folder.path().string(), "--out", out.string(), "--quiet"});
+  if (result.exit_status == 0) GTEST_SKIP() << "such a frame is passed over: " << result.err;
+  EXPECT_NE(result.err.find("the 1 of 2 frames before it are in"), std::string::npos) << result.err;
+  EXPECT_EQ(SkeletonsIn(out), 1);
+}
+
+TEST(KeptOutput, OfARecorderThatWasKilledIsReadWithAWarning) {
+  const TemporaryFolder folder;
+  WriteLongFolder(folder / "in");
+  const std::string out = (folder / "x.oni").string();
+  EXPECT_EQ(Interrupted({"record", (folder / "in").string(), "--out", out}, SIGKILL, "record")
+                .exit_status,
+            128 + SIGKILL);
+  std::filesystem::remove_all(folder / "in");
+  const std::string left = std::filesystem::directory_iterator(folder.path())->path().string();
+  EXPECT_EQ(left.rfind(out + ".partial-", 0), 0U) << left;
+  const CommandResult saved = test::RunOssa({"record", left, "--out", out, "--quiet"});
+  EXPECT_EQ(saved.exit_status, 0) << saved.err;
+  EXPECT_NE(saved.err.find("the recording has no end"), std::string::npos) << saved.err;
+  EXPECT_NE(saved.err.find("left by an ossa that was killed"), std::string::npos) << saved.err;
+  EXPECT_GE(FramesIn(out), 1);
+  EXPECT_TRUE(std::filesystem::exists(left)) << "it stays";
+}
+
+}  // namespace
+}  // namespace ossa::commands

@@ -1,0 +1,117 @@
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <random>
+
+#include "tools/tracker/steady_internal.h"
+
+namespace ossa::tracker {
+namespace {
+
+using Eigen::Vector3d;
+
+/// A joint seen with white noise of so much on each axis.
+class NoisyJoint {
+ public:
+  explicit NoisyJoint(double noise_m) : noise_(0.0, noise_m) {}
+  Vector3d At(double x_m) {
+    // One by one: the order in which a call's arguments are drawn is the compiler's.
+    const double z_m = 3 + noise_(random_), y_m = noise_(random_);
+    return {x_m + noise_(random_), y_m, z_m};
+  }
+
+ private:
+  std::mt19937_64 random_{7};
+  std::normal_distribution<double> noise_;
+};
+
+TEST(SteadyJoint, AveragesWhatDoesNotMove) {
+  NoisyJoint joint(0.008);
+  SteadyJoint steady;
+  double square_m2 = 0;
+  constexpr int kSettled = 30, kFrames = 330;
+  for (int i = 0; i < kFrames; ++i) {
+    const Vector3d off = steady.Step(joint.At(0)) - Vector3d(0, 0, 3);
+    if (i >= kSettled) square_m2 += off.squaredNorm() / (kFrames - kSettled);
+  }
+  // Unfiltered it is 8 sqrt(3) = 14 mm; means of 16 frames and more are below 3.5, and one frame in
+  // 200 may pass as it is.
+  EXPECT_LT(std::sqrt(square_m2), 0.004);
+}
+
+TEST(SteadyJoint, LetsGoOfAStepInTheSameFrame) {
+  constexpr double kNoise_m = 0.004, kStep_m = 0.05;
+  NoisyJoint joint(kNoise_m);
+  SteadyJoint steady;
+  for (int i = 0; i < 90; ++i) steady.Step(joint.At(0));
+  ASSERT_TRUE(steady.held());
+  // Half a second later the new place is averaged; until then each observation passes unchanged.
+  for (int i = 0; i < 8; ++i) {
+    const Vector3d seen = joint.At(kStep_m);
+    EXPECT_EQ(steady.Step(seen), seen) << i << " frames after the step";
+  }
+}
+
+class SteadyRamp : public testing::TestWithParam<double> {};  // metres a second
+
+TEST_P(SteadyRamp, IsLetGoBeforeItIsNoticedAndThenDoesNotLag) {
+  constexpr double kNoise_m = 0.004;
+  NoisyJoint joint(kNoise_m);
+  SteadyJoint steady;
+  for (int i = 0; i < 90; ++i) steady.Step(joint.At(0));
+  const double step_m = GetParam() / 30;
+  for (int i = 1; i <= 60; ++i) {
+    const double x_m = i * step_m;
+    const Vector3d seen = joint.At(x_m), out = steady.Step(seen);
+    // While it is held the joint is off by no more than noise: three times that of one axis.
+    EXPECT_LT(std::abs(out.x() - x_m), std::max(3 * kNoise_m, std::abs(seen.x() - x_m) + 1e-12))
+        << "frame " << i;
+    // Beyond twice the noise, 14 mm of three axes, nothing is averaged any more.
+    if (x_m > 0.014) {
+      EXPECT_EQ(out, seen) << "frame " << i;
+    }
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(Speeds, SteadyRamp, testing::Values(0.1, 0.3, 1.0), [](const auto& info) {
+  return "cm" + std::to_string(std::lround(100 * info.param));
+});
+
+TEST(SteadyJoint, DriftsAlongWithASwayingPerson) {
+  // 2 cm to and fro in 10 seconds: never off by more than the noise of what is seen.
+  constexpr double kNoise_m = 0.008;
+  NoisyJoint joint(kNoise_m);
+  SteadyJoint steady;
+  for (int i = 0; i < 600; ++i) {
+    const double x_m = 0.01 * std::sin(2 * M_PI * i / 300);
+    const Vector3d out = steady.Step(joint.At(x_m));
+    if (steady.held()) {
+      EXPECT_LT(std::abs(out.x() - x_m), 1.5 * kNoise_m) << "frame " << i;
+    }
+  }
+}
+
+recon::TrackedPosture HeadSeenAt(const Vector3d& p) {
+  recon::TrackedPosture seen;
+  seen.state.fill(recon::TrackingState::kNotTracked);
+  const auto head = static_cast<size_t>(recon::Index(recon::Joint::kHead));
+  seen.state[head] = recon::TrackingState::kTracked;
+  seen.posture.position_m[head] = p;
+  return seen;
+}
+
+TEST(SteadyBody, StartsAnewAfterAGapAndKeepsStatesAsTheyAre) {
+  NoisyJoint joint(0.008);
+  SteadyBody steady;
+  for (int i = 0; i < 40; ++i) steady.Step(HeadSeenAt(joint.At(0)), i / 30.0);
+  const auto seen = HeadSeenAt(joint.At(0));
+  const auto held = steady.Step(seen, 40 / 30.0);
+  EXPECT_NE(held.posture[recon::Joint::kHead], seen.posture[recon::Joint::kHead]);
+  EXPECT_EQ(held.state, seen.state);
+  const auto later = HeadSeenAt(joint.At(0));
+  EXPECT_EQ(steady.Step(later, 5.0).posture[recon::Joint::kHead],
+            later.posture[recon::Joint::kHead]);
+}
+
+}  // namespace
+}  // namespace ossa::tracker
