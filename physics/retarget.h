@@ -11,6 +11,7 @@ namespace ossa::physics {
 /// character of the user's own size the errors are better shared.
 /// Gauss-Seidel over the bones (as in position-based dynamics); lengths are exact afterwards.
 recon::Posture FitBoneLengths(const recon::Posture& posture, const recon::BoneLengths& lengths,
-                              const recon::JointArray<double>& weight, int iterations = 8);
+                              const std::array<double, recon::kJointCount>& weight,
+                              int iterations = 8);
 
 }  // namespace ossa::physics

@@ -1,0 +1,38 @@
+#pragma once
+#include <cstddef>
+#include <filesystem>
+#include <functional>
+#include <string>
+
+namespace ossa::test {
+
+/// What reading a file came to: all that was read, as bytes, and whether a person was told that
+/// something is missing.
+struct Reading {
+  std::string content;
+  bool told = false;
+};
+
+/// A whole file of a format that carries a checksum, and how it is read.
+struct DamageSample {
+  std::string name;  // of the file: readers go by its extension
+  std::string bytes;
+  std::function<Reading(const std::filesystem::path&)> read;  // throws InputError
+};
+
+/// How damaged copies of a sample came out.
+struct DamageOutcomes {
+  size_t tried = 0;
+  size_t refused = 0;  // by an InputError
+  size_t same = 0;     // read as the whole one: what was damaged says nothing
+  size_t told = 0;     // less was read, with a note
+  size_t silent = 0;   // something else was read as if it were right
+  std::string first_silent;
+};
+
+/// Copies cut short to 0, `step`, 2 `step`, ... bytes.
+DamageOutcomes CutShort(const DamageSample& sample, size_t step);
+/// Copies of which the bits 0, `step`, 2 `step`, ... are flipped, one each.
+DamageOutcomes FlipBits(const DamageSample& sample, size_t step);
+
+}  // namespace ossa::test
