@@ -25,6 +25,7 @@ using LossGradient = std::function<RowMatrix(const RowMatrix& out, const RowMatr
 
 inline constexpr Eigen::Index kNetworkBatch = 128;
 
+/// How a network is trained by gradient descent.
 struct NetworkOptions {
   std::vector<Eigen::Index> hidden = {512};  // rectified units of each hidden layer
   Eigen::Index outputs = 0;

@@ -32,6 +32,7 @@ struct CharacterFilterOptions {
   void Check() const;  // throws std::invalid_argument with name, value and range
 };
 
+/// What the filter makes of one frame.
 struct FilteredPosture {
   recon::Posture posture;                // all finite; bone lengths exact
   recon::JointOrientations orientation;  // absolute, recon/orientation.h

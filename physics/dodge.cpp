@@ -3,6 +3,7 @@
 #include "physics/actor_internal.h"
 #include "recon/orientation.h"
 
+// Constants: by hand, on the scenes of Shum & Ho 2012 section 8.3.
 namespace ossa::physics {
 
 // Constants: chosen by hand.
@@ -27,8 +28,8 @@ std::optional<Threat> ThreatTo(const Vector3d& head_m, const Vector3d& head_velo
 }
 
 void RaiseForearms(const recon::BoneLengths& lengths, recon::Posture& target) {
-  const auto orientation = recon::OrientationsOf(target);
-  const auto& chest = orientation[static_cast<size_t>(Joint::kShoulderCenter)];
+  const auto orientation = recon::ComputeOrientations(target);
+  const auto& chest = orientation[Joint::kShoulderCenter];
   const Vector3d left = chest * Vector3d::UnitX();
   const Vector3d up = chest * Vector3d::UnitY();
   const Vector3d front = chest * Vector3d::UnitZ();

@@ -18,6 +18,7 @@ enum class Control {
   kMotor,  // a servo motor in every ball joint and one that carries the trunk
 };
 
+/// Gravity, floor and step of a world.
 struct WorldOptions {
   /// Simulation steps per 1/30 s; other time steps use as many as keep the step that short, so that
   /// stability does not depend on the frame rate. [5, 100]
@@ -28,6 +29,7 @@ struct WorldOptions {
   void Check() const;           // throws std::invalid_argument
 };
 
+/// How a character is built and controlled.
 struct CharacterOptions {
   Control control = Control::kPaper;
   ControlGains gains;
@@ -45,6 +47,7 @@ struct CharacterOptions {
   void Check(double step_s) const;
 };
 
+/// Where a character is and how it moves: joints in the world, metres.
 struct CharacterState {
   recon::Posture posture;                // bone lengths exact
   recon::JointOrientations orientation;  // recon/orientation.h
@@ -58,6 +61,7 @@ struct CharacterState {
 
 enum class Shape { kBox, kBall, kCapsule };
 
+/// A thing in the world: shape, mass, place.
 struct ObjectOptions {
   Shape shape = Shape::kBox;
   Eigen::Vector3d size_m = {0.2, 0.2,
@@ -72,6 +76,7 @@ struct ObjectOptions {
   void Check() const;
 };
 
+/// Where a thing is and how it moves, in the world.
 struct ObjectState {
   Eigen::Vector3d position_m;
   Eigen::Quaterniond orientation;

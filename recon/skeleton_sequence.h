@@ -21,13 +21,15 @@ struct JointRecord {
   std::optional<bool> visible;                    // truth files only
 };
 
+/// One person in one frame of a recording.
 struct BodyRecord {
   int id = 0;
-  std::array<std::optional<JointRecord>, kJointCount> joints;  // absent joints are empty
+  JointArray<std::optional<JointRecord>> joints;  // absent joints are empty
   /// As a close look judges them of this frame alone (ReconstructionInput::bones_m).
   std::optional<BoneLengths> bones_m = std::nullopt;
 };
 
+/// One moment of a recording: everybody in it.
 struct SkeletonFrame {
   int64_t frame = 0;
   double time_s = 0.0;
@@ -61,6 +63,6 @@ std::optional<int> RepeatedBody(const SkeletonFrame& frame);
 
 /// A body record as the trackers' type: absent joints are not tracked; a joint without a state
 /// counts as tracked; a joint without confidence gets 1 (tracked), 0.5 (inferred) or 0.
-TrackedPosture TrackedPostureOf(const BodyRecord& body);
+TrackedPosture ToTrackedPosture(const BodyRecord& body);
 
 }  // namespace ossa::recon

@@ -7,6 +7,7 @@
 
 namespace ossa::depth {
 
+/// Size of an image in pixels.
 struct ImageSize {
   int width = 0;
   int height = 0;

@@ -20,6 +20,7 @@ enum class ReadStatus {
   kDisconnected,  // the device was unplugged; the source keeps looking for it while it is read
 };
 
+/// What one Read gives: a frame, or why there is none.
 struct ReadResult {
   ReadStatus status = ReadStatus::kTimeout;
   DepthFrame frame;
@@ -57,6 +58,7 @@ enum class DepthFormat {
   kDisparity,  // raw shifts of a Kinect v1, 11 bits, 2047 for no reading
 };
 
+/// How a SOURCE is opened; what is left out is found in the source itself.
 struct SourceOptions {
   std::optional<CameraChoice> camera = {};   // overrides whatever the source says
   std::chrono::milliseconds device_wait{0};  // how long to wait for a device to appear

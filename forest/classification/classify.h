@@ -32,6 +32,7 @@ struct Classification {
 
 enum class InstructionSet { kBest, kScalar };
 
+/// How finely and with how many threads pixels are classified.
 struct ClassifyOptions {
   int threads = 1;
   /// What is known of the contexts beforehand (e.g. from the last frame), one value each, sum 1;

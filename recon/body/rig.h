@@ -10,6 +10,7 @@ namespace ossa::recon {
 
 /// The 31 bones of the MPFB rig `cmu_mb`, parents before children.
 inline constexpr int kRigBoneCount = 31;  // MPFB's format
+/// Names of the rig's bones, parents first.
 inline constexpr std::array<std::string_view, kRigBoneCount> kRigBoneNames = {
     "Hips",         "LHipJoint",      "LeftUpLeg",       "LeftLeg",         "LeftFoot",
     "LeftToeBase",  "RHipJoint",      "RightUpLeg",      "RightLeg",        "RightFoot",
@@ -18,6 +19,7 @@ inline constexpr std::array<std::string_view, kRigBoneCount> kRigBoneNames = {
     "LeftHand",     "LeftFingerBase", "LeftHandFinger1", "LThumb",          "RightShoulder",
     "RightArm",     "RightForeArm",   "RightHand",       "RightFingerBase", "RightHandFinger1",
     "RThumb"};
+/// Each bone's parent, -1 for the root.
 inline constexpr std::array<int, kRigBoneCount> kRigBoneParent = {
     -1, 0,  1,  2,  3,  4,  0,  6,  7,  8,  9,  0,  11, 12, 13, 14,
     15, 13, 17, 18, 19, 20, 21, 20, 13, 24, 25, 26, 27, 28, 26};

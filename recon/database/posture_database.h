@@ -15,10 +15,13 @@ namespace ossa::recon {
 /// 60 numbers: x y z of each joint in enum order, metres. Single precision: a tenth of a micrometre
 /// at body size, and half the memory to read in a search.
 inline constexpr int kPostureDims = 3 * kJointCount;
+/// A posture as 60 numbers, metres: x y z of each joint, in enum order.
 using PostureVector = Eigen::Matrix<float, kPostureDims, 1>;
 
-PostureVector VectorOf(const Posture& posture);
-Posture PostureOf(const PostureVector& vector);
+/// Joints in enum order, x y z each; and back.
+PostureVector ToVector(const Posture& posture);
+/// The posture of its 60 numbers.
+Posture ToPosture(const PostureVector& vector);
 
 /// A motion as the database takes it: postures of any size in any y-up frame facing anywhere.
 struct PostureClip {
@@ -27,12 +30,14 @@ struct PostureClip {
   std::vector<JointOrientations> orientations;  // world from bone; as many as postures, or none
 };
 
+/// Which distance tells postures apart when a database is filtered.
 enum class DatabaseFilter : uint32_t {
   kSumSquared = 0,  // root of the summed squared joint distances (Shum & Ho 2012 sec. 5.1, Shum
                     // 2013 sec. V-A; they put the threshold on the sum itself)
   kMaxJoint = 1,    // largest joint distance (Plantard 2016 eq. 1)
 };
 
+/// How postures are filtered and connected.
 struct DatabaseOptions {
   DatabaseFilter filter = DatabaseFilter::kMaxJoint;
   double threshold_m = 0.2;  // thres_1: postures nearer than this to a kept one are dropped, > 0;
@@ -64,7 +69,7 @@ class PostureDatabase {
   int size() const { return static_cast<int>(postures_.cols()); }
   /// Column i is posture i.
   const Eigen::Matrix<float, kPostureDims, Eigen::Dynamic>& postures() const { return postures_; }
-  Posture posture(int i) const { return PostureOf(postures_.col(i)); }
+  Posture posture(int i) const { return ToPosture(postures_.col(i)); }
   /// Normalised from bone; identity when the clip had none.
   JointOrientations orientations(int i) const;
   const PostureVector& mean() const { return mean_; }

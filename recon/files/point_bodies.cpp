@@ -70,7 +70,7 @@ PointBody FindMapped(const Subject& subject, const BoneMapping& mapping, const L
     if (points.empty() && missing == nullptr) missing = &line;
     // Bones whose near end is no joint of ours, as collars, are for mocap.
     const auto joint = JointOfBone(line.bone);
-    if (joint) body.points[static_cast<size_t>(Index(*joint))] = points;
+    if (joint) body.points[Index(*joint)] = points;
   }
   if (HasJoints(body) && missing != nullptr) {
     FailInMapping(mapping, *missing, "a point of " + place.file);
@@ -89,7 +89,7 @@ PointBody FindJointsByName(const Subject& subject, bool skin) {
   for (size_t p = 0; p < subject.points.size(); ++p) {
     const auto joint = JointCalled(subject.labels[p]);
     if (!joint || IsSkinMarker(subject.labels[p]) != skin) continue;
-    auto& points = body.points[static_cast<size_t>(Index(*joint))];
+    auto& points = body.points[Index(*joint)];
     if (points.empty()) points.push_back(subject.points[p]);
   }
   return body;

@@ -15,7 +15,7 @@ using SeenPoint = std::optional<Eigen::Vector3d>;
 /// How the points of a motion capture file (TRC, C3D) make one person.
 struct PointBody {
   /// The points whose mean each joint is; of a joint that no point is, none.
-  std::array<std::vector<size_t>, kJointCount> points;
+  JointArray<std::vector<size_t>> points;
   /// Joint centres are worked out from these Plug-in Gait markers instead: point, name.
   std::vector<std::pair<size_t, std::string>> markers;
 };

@@ -9,6 +9,7 @@
 
 namespace ossa::recon {
 
+/// How recorded skeletons are read: format and columns, where the file does not tell.
 struct SkeletonReadOptions {
   /// Files that hold two skeletons side by side (UI-PRMD derived K_ and G_ columns, ITOP G_ and
   /// P_): "truth" (also vicon) or "observed" (also kinect, estimate). Without it such a file is

@@ -134,6 +134,7 @@ class Liu2016 : public OffsetReconstructor {
   /// them, and models stop growing (LocalMixtureOptions): postures 30 times a second bring nothing
   /// new, and a frame has a millisecond.
   void Learn(const PreparedPosture& prepared, size_t joint, const OffsetPrediction& p) override {
+    // By hand, shares: of R_i, and of the noise's variance.
     constexpr double kReliable = 0.9, kSure = 0.5;
     if (!options_.incremental || MixtureOf(joint).empty()) return;
     if (prepared.reliability[joint] < kReliable || p.unsureness > kSure) return;
@@ -148,7 +149,7 @@ class Liu2016 : public OffsetReconstructor {
   }
 
   // This person's, of joints that have learned on: megabytes that somebody who passes by never has.
-  std::array<std::optional<LocalMixture>, kJointCount> own_;
+  JointArray<std::optional<LocalMixture>> own_;
   uint64_t sample_ = 0;
 };
 
@@ -177,14 +178,14 @@ class Exemplar : public OffsetReconstructor {
             options, [](const LearnedModels& learned) { return !learned.exemplars.empty(); }) {
     postures_.resize(kPostureDims, static_cast<Eigen::Index>(models_->exemplars.size()));
     for (Eigen::Index i = 0; i < postures_.cols(); ++i) {
-      postures_.col(i) = VectorOf(models_->exemplars[static_cast<size_t>(i)].observed);
+      postures_.col(i) = ToVector(models_->exemplars[static_cast<size_t>(i)].observed);
     }
   }
 
  protected:
   void BeginFrame(const PreparedPosture& prepared) override {
-    constexpr size_t kNearest = 10;
-    const PostureVector query = VectorOf(prepared.scaled);
+    constexpr size_t kNearest = 10;  // by hand; Shen et al. 2012 name none
+    const PostureVector query = ToVector(prepared.scaled);
     const Eigen::VectorXf d = (postures_.colwise() - query).colwise().squaredNorm().transpose();
     nearest_.clear();
     for (Eigen::Index i = 0; i < d.size(); ++i) nearest_.emplace_back(d[i], i);

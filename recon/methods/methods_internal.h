@@ -6,7 +6,7 @@
 namespace ossa::recon {
 
 /// What options.learned or options.learned_file hold; null when neither is given.
-std::shared_ptr<const LearnedModels> LearnedOf(const ReconstructorOptions& options);
+std::shared_ptr<const LearnedModels> LoadLearned(const ReconstructorOptions& options);
 
 /// The same, for a method that works by it: throws InputError where `holds` is false of it, as of a
 /// file that holds the correction of `best` alone.

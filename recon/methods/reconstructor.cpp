@@ -50,14 +50,14 @@ void CheckBones(const BoneLengths& lengths_m, const MethodInfo& method) {
 
 }  // namespace
 
-std::shared_ptr<const LearnedModels> LearnedOf(const ReconstructorOptions& options) {
+std::shared_ptr<const LearnedModels> LoadLearned(const ReconstructorOptions& options) {
   if (options.learned || options.learned_file.empty()) return options.learned;
   return std::make_shared<const LearnedModels>(LearnedModels::Load(options.learned_file));
 }
 
 std::shared_ptr<const LearnedModels> LearnedThatHolds(const ReconstructorOptions& options,
                                                       bool (*holds)(const LearnedModels&)) {
-  auto learned = LearnedOf(options);
+  auto learned = LoadLearned(options);
   if (learned != nullptr && holds(*learned)) return learned;
   const std::string file = options.learned_file.empty() ? "reconstruction" : options.learned_file;
   throw InputError(file + ": expected what method " + options.method +

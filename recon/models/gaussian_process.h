@@ -15,6 +15,7 @@ struct GaussianProcessParameters {
   double beta = 1e4;     // 1 / square metres: noise 1 cm
 };
 
+/// Mean and variance of a Gaussian process at one input.
 struct GaussianPrediction {
   Eigen::Vector3d mean = Eigen::Vector3d::Zero();  // eq. 8
   double variance = 0.0;                           // eq. 9, of each coordinate, without the noise

@@ -43,7 +43,7 @@ class LinearFilter {
   /// Of the newest frame, and of the one before it once the newest is known.
   enum Output { kNow = 0, kBefore = 1, kOutputs = 2 };
   /// Of each joint: so many steps, up to the newest frame, are believed.
-  using Steps = std::array<int, kJointCount>;
+  using Steps = JointArray<int>;
 
   static LinearFilter Learn(const std::vector<PosturePair>& pairs,
                             const LinearFilterOptions& options = {});
@@ -63,7 +63,7 @@ class LinearFilter {
   // Public for the file. Of joints of the left and the middle: of steps regressors x 3, of pulls
   // regressors x 1, empty: not learned.
   double step_s = 0.0;  // 0: nothing is known
-  std::array<std::array<Eigen::MatrixXf, kJointCount>, kOutputs> weights;
+  std::array<JointArray<Eigen::MatrixXf>, kOutputs> weights;
 
  private:
   const Eigen::MatrixXf& WeightsOf(Output output, size_t joint) const;
@@ -77,6 +77,7 @@ size_t LearnedSideOf(size_t joint);
 /// are taken to be the mean of those after; a neighbour with too few moves as the joint does.
 Eigen::VectorXf FilterFeature(std::span<const Posture> window, const LinearFilter::Steps& steps,
                               double yaw_rad, size_t joint, bool mirrored);
+/// Numbers that the filter reads of a joint.
 Eigen::Index FilterFeatureSize(size_t joint);
 
 /// What other positions of a joint pull it by, of which `steps` up to the newest frame are known:
@@ -85,6 +86,7 @@ Eigen::Index FilterFeatureSize(size_t joint);
 /// cm (the influence function of Cauchy's distribution). 3 x regressors, in camera space.
 Eigen::Matrix3Xf PullFeature(std::span<const Posture> window, int steps, size_t joint,
                              LinearFilter::Output output);
+/// Numbers of a joint's influence features for that output.
 Eigen::Index PullFeatureSize(LinearFilter::Output output);
 
 }  // namespace ossa::recon

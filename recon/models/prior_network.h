@@ -10,12 +10,14 @@ namespace ossa::recon {
 /// 57 numbers: x y z of each bone's vector from parent to joint, joints 1 to 19 in enum order,
 /// metres, of a normalised posture of the standard size.
 inline constexpr int kBoneDims = 3 * (kJointCount - 1);
+/// A posture as 57 numbers, metres: x y z of each bone, in the order of the joints they end in.
 using BoneVector = Eigen::Matrix<double, kBoneDims, 1>;
 
 /// What a PriorNetwork reads of a step of a PriorFilter, joints 1 to 19 in enum order, the standard
 /// body: the bones that are expected (57), how clearly each joint is seen (0 not at all, 1 exactly;
 /// 19), and how far from where it is expected it is seen (metres, 0 of joints that are not; 57).
 inline constexpr int kPriorInputs = 2 * kBoneDims + kJointCount - 1;
+/// What the prior's network reads.
 using PriorInput = Eigen::Matrix<float, kPriorInputs, 1>;
 
 /// How clearly a joint is seen whose place is known with that standard deviation; 0: not seen.

@@ -13,6 +13,7 @@ namespace ossa::recon {
 
 /// inputs -> rectified units, one layer or more -> outputs. The inputs are normalised first.
 struct RectifiedNetwork {
+  /// One layer: outputs = rectified(weights x inputs + bias).
   struct Layer {
     Eigen::MatrixXf weight;  // output x input
     Eigen::VectorXf bias;
@@ -30,6 +31,7 @@ struct RectifiedNetwork {
 
 /// The upper half of a float, rounded, and the float that it stands for.
 uint16_t HalfOf(float number);
+/// The value of an IEEE half-precision number.
 inline float OfHalf(uint16_t half) {
   return std::bit_cast<float>(static_cast<uint32_t>(half) << 16U);
 }

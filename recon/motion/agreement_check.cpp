@@ -41,7 +41,7 @@ AgreementCheck::AgreementCheck(const SourceBones& bones) {
 
 void AgreementCheck::AddSide(const SideBones& side, bool left) {
   const auto own = [left](Joint joint) {
-    return left ? joint : static_cast<Joint>(kMirroredJoint[static_cast<size_t>(Index(joint))]);
+    return left ? joint : static_cast<Joint>(kMirroredJoint[Index(joint)]);
   };
   const auto add = [&](const char* name, int from, int to, Joint our_from, Joint our_to) {
     pairs_.push_back({std::string(left ? "left " : "right ") + name,

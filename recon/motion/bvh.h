@@ -15,6 +15,7 @@ namespace ossa::recon {
 /// the order listed (first listed is outermost).
 enum class BvhChannel { kXposition, kYposition, kZposition, kXrotation, kYrotation, kZrotation };
 
+/// One joint of a BVH hierarchy.
 struct BvhJoint {
   std::string name;
   int parent = -1;                                   // -1 for a root; parents before children
@@ -40,6 +41,7 @@ struct BvhFramePose {
   std::vector<Eigen::Vector3d> position;
   std::vector<Eigen::Quaterniond> rotation;
 };
+/// The pose of one frame, 0 the first.
 BvhFramePose PoseOf(const BvhFile& bvh, size_t frame);
 
 /// Reads any legal file, and what programs write beside the rules: channel order per joint, 0 to 6
@@ -47,6 +49,7 @@ BvhFramePose PoseOf(const BvhFile& bvh, size_t frame);
 /// (those that are there, with a warning). Throws InputError naming the line, of a cut last row,
 /// too. `source` names the text in messages.
 BvhFile ParseBvh(std::string text, const std::string& source);
+/// Reads a BVH file in any channel order. Throws InputError naming file and line.
 BvhFile ReadBvh(const std::filesystem::path& path);
 
 /// The skeletons of a file of several roots, a file each; the file itself where there is one.
@@ -54,11 +57,13 @@ std::vector<BvhFile> SplitRoots(BvhFile bvh);
 
 /// Writes with the joint's own channel order; the file appears only when complete.
 std::string FormatBvh(const BvhFile& bvh);
+/// Writes a BVH file; it appears when it is complete.
 void WriteBvh(const BvhFile& bvh, const std::filesystem::path& path);
 
 /// Skeletons are read from a BVH of at most so many bytes: six hours of motion or more.
 inline constexpr size_t kMostBvhBytes = size_t{1} << 29;
 
+/// How skeletons are written as BVH.
 struct BvhExportOptions {
   std::optional<int> body_id;  // which body of the sequence; none: the one seen in most frames
   /// BVH needs a fixed step; the sequence is resampled to it by time, joints moving straight from

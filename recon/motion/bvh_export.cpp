@@ -9,6 +9,7 @@
 #include "depth/base/atomic_file.h"
 #include "depth/base/error.h"
 #include "recon/body/standard_body.h"
+#include "recon/bone_lengths.h"
 #include "recon/motion/bvh.h"
 #include "recon/motion/bvh_text_internal.h"
 #include "recon/motion/sightings_internal.h"
@@ -21,23 +22,20 @@ using Eigen::Quaterniond;
 using Eigen::Vector3d;
 
 constexpr double kCentimetres = 100.0;  // of a metre; the unit most programs expect of BVH
-constexpr size_t kJoints = kJointCount;
 
 BoneLengths MedianLengths(const SightingLog& sightings) {
-  const BoneLengths standard = BoneLengthsOf(StandardPosture(RigPose()));
-  BoneLengths lengths = standard;
-  for (size_t j = 1; j < kJoints; ++j) {
-    const auto parent = static_cast<size_t>(kJointParent[j]);
-    std::vector<double> seen;
-    for (size_t i = 0; i < sightings.size(); ++i) {
-      const Sighting s = sightings[i];
-      if (s.joint[j] && s.joint[parent]) seen.push_back((*s.joint[j] - *s.joint[parent]).norm());
+  constexpr double kShortest_m = 1e-3;  // a bone of no length has no direction in the file; by hand
+  BoneLengthEstimator estimator(BoneLengthOptions::OfRecording());
+  estimator.Start(MeasureBoneLengths(StandardPosture(RigPose())));
+  for (size_t i = 0; i < sightings.size(); ++i) {
+    const Sighting s = sightings[i];
+    for (size_t j = 1; j < kJointCount; ++j) {
+      const auto &end = s.joint[j], &begin = s.joint[ParentOf(j)];
+      if (end && begin) estimator.Add(j, (*end - *begin).norm());
     }
-    if (seen.empty()) continue;
-    const auto middle = seen.begin() + static_cast<std::ptrdiff_t>(seen.size() / 2);
-    std::nth_element(seen.begin(), middle, seen.end());
-    lengths[j] = std::max(*middle, 1e-3);
   }
+  BoneLengths lengths = estimator.lengths_m();
+  for (size_t j = 1; j < kJointCount; ++j) lengths[j] = std::max(lengths[j], kShortest_m);
   return lengths;
 }
 
@@ -68,16 +66,18 @@ Vector3d RestDirection(size_t joint) {
   }
 }
 
-bool Branches(size_t joint) {
-  return std::count(kJointParent.begin(), kJointParent.end(), static_cast<int>(joint)) > 1;
+ptrdiff_t ChildrenOf(size_t joint) {
+  return std::count(kJointParent.begin(), kJointParent.end(), static_cast<int>(joint));
 }
+
+bool Branches(size_t joint) { return ChildrenOf(joint) > 1; }
 
 /// The joint of the file that turns each bone (bone j ends in joint j): the bone's parent joint, or
 /// its own helper where bones branch.
 struct Layout {
   std::vector<BvhJoint> joints;
-  std::array<size_t, kJoints> place{};   // file joint at SDK joint j
-  std::array<size_t, kJoints> turner{};  // file joint that turns the bone ending in j
+  JointArray<size_t> place{};   // file joint at SDK joint j
+  JointArray<size_t> turner{};  // file joint that turns the bone ending in j
 };
 
 const std::vector<BvhChannel> kTurns = {BvhChannel::kZrotation, BvhChannel::kXrotation,
@@ -90,8 +90,8 @@ Layout LayoutOf(const BoneLengths& lengths) {
   root.channels = {BvhChannel::kXposition, BvhChannel::kYposition, BvhChannel::kZposition};
   root.channels.insert(root.channels.end(), kTurns.begin(), kTurns.end());
   layout.joints.push_back(root);
-  for (size_t j = 1; j < kJoints; ++j) {
-    const auto parent = static_cast<size_t>(kJointParent[j]);
+  for (size_t j = 1; j < kJointCount; ++j) {
+    const auto parent = ParentOf(j);
     layout.turner[j] = layout.place[parent];
     if (Branches(parent)) {
       BvhJoint helper;
@@ -106,7 +106,7 @@ Layout LayoutOf(const BoneLengths& lengths) {
     joint.parent = static_cast<int>(layout.turner[j]);
     joint.offset = kCentimetres * lengths[j] * RestDirection(j);
     joint.channels = kTurns;
-    if (std::count(kJointParent.begin(), kJointParent.end(), static_cast<int>(j)) == 0) {
+    if (ChildrenOf(j) == 0) {
       joint.end_sites.push_back(5.0 * RestDirection(j));
     }
     layout.place[j] = layout.joints.size();
@@ -116,10 +116,9 @@ Layout LayoutOf(const BoneLengths& lengths) {
 }
 
 /// Pelvis (or whole-body) frame: x from right to left hip, y as near to up the spine as can be.
-Quaterniond BodyFrame(const std::array<Vector3d, kJoints>& direction) {
-  Vector3d left = direction[static_cast<size_t>(Index(Joint::kHipLeft))] -
-                  direction[static_cast<size_t>(Index(Joint::kHipRight))];
-  const Vector3d up = direction[static_cast<size_t>(Index(Joint::kSpine))];
+Quaterniond BodyFrame(const JointArray<Vector3d>& direction) {
+  Vector3d left = direction[Index(Joint::kHipLeft)] - direction[Index(Joint::kHipRight)];
+  const Vector3d up = direction[Index(Joint::kSpine)];
   if (left.cross(up).norm() < 1e-3) left = up.unitOrthogonal();
   left.normalize();
   const Vector3d front = left.cross(up).normalized();
@@ -144,9 +143,9 @@ Vector3d ZxyDegrees(const Quaterniond& rotation) {
 }
 
 /// Directions of the bones in a frame; what is missing stays as it was.
-void UpdateDirections(const Sighting& sighting, std::array<Vector3d, kJoints>& direction) {
-  for (size_t j = 1; j < kJoints; ++j) {
-    const auto& from = sighting.joint[static_cast<size_t>(kJointParent[j])];
+void UpdateDirections(const Sighting& sighting, JointArray<Vector3d>& direction) {
+  for (size_t j = 1; j < kJointCount; ++j) {
+    const auto& from = sighting.joint[ParentOf(j)];
     const auto& to = sighting.joint[j];
     if (from && to && (*to - *from).norm() > 1e-4) direction[j] = (*to - *from).normalized();
   }
@@ -154,13 +153,13 @@ void UpdateDirections(const Sighting& sighting, std::array<Vector3d, kJoints>& d
 
 /// The root's place that puts the body of constant lengths nearest to the joints seen.
 std::optional<Vector3d> RootOf(const Sighting& sighting, const BoneLengths& lengths,
-                               const std::array<Vector3d, kJoints>& direction) {
-  std::array<Vector3d, kJoints> built;
+                               const JointArray<Vector3d>& direction) {
+  JointArray<Vector3d> built;
   built[0] = Vector3d::Zero();
   Vector3d sum = Vector3d::Zero();
   int seen = 0;
-  for (size_t j = 0; j < kJoints; ++j) {
-    if (j > 0) built[j] = built[static_cast<size_t>(kJointParent[j])] + lengths[j] * direction[j];
+  for (size_t j = 0; j < kJointCount; ++j) {
+    if (j > 0) built[j] = built[ParentOf(j)] + lengths[j] * direction[j];
     if (!sighting.joint[j]) continue;
     sum += *sighting.joint[j] - built[j];
     ++seen;
@@ -170,10 +169,10 @@ std::optional<Vector3d> RootOf(const Sighting& sighting, const BoneLengths& leng
 }
 
 void AppendFrame(const Layout& layout, const Vector3d& root_m,
-                 const std::array<Vector3d, kJoints>& direction, std::vector<double>& values) {
+                 const JointArray<Vector3d>& direction, std::vector<double>& values) {
   std::vector<Quaterniond> world(layout.joints.size(), Quaterniond::Identity());
   world[0] = BodyFrame(direction);
-  for (size_t j = 1; j < kJoints; ++j) {
+  for (size_t j = 1; j < kJointCount; ++j) {
     const size_t turner = layout.turner[j];
     if (turner != 0) {
       const Quaterniond& carried = world[static_cast<size_t>(layout.joints[turner].parent)];
@@ -205,7 +204,7 @@ class BvhBody {
         sightings_(std::move(sightings)),
         lengths_(MedianLengths(sightings_.seen())),
         layout_(LayoutOf(lengths_)) {
-    for (size_t j = 0; j < kJoints; ++j) direction_[j] = RestDirection(j);
+    for (size_t j = 0; j < kJointCount; ++j) direction_[j] = RestDirection(j);
     // What the first frames lack stands from the beginning as it is first seen.
     const SightingLog& seen = sightings_.seen();
     for (size_t i = seen.size(); i-- > 0;) Update(seen[i]);
@@ -252,7 +251,7 @@ class BvhBody {
   EvenSightings sightings_;
   BoneLengths lengths_;
   Layout layout_;
-  std::array<Vector3d, kJoints> direction_;
+  JointArray<Vector3d> direction_;
   Vector3d root_m_ = Vector3d::Zero();
 };
 

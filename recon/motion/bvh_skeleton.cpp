@@ -68,9 +68,7 @@ class Person {
   static Vector3d Of(const SourceFrame& frame, int joint) {
     return frame.position[static_cast<size_t>(joint)];
   }
-  static std::optional<Vector3d>& In(Places& places, Joint joint) {
-    return places[static_cast<size_t>(Index(joint))];
-  }
+  static std::optional<Vector3d>& In(Places& places, Joint joint) { return places[Index(joint)]; }
 
   void FindUnit() {
     const double leg = LegLength(motion_.frame(0).position, bones_);
@@ -120,8 +118,8 @@ class Person {
   /// As far along the line through hips, spine and neck as the standard body's Spine.
   Vector3d AlongSpine(const SourceFrame& frame, const Vector3d& neck) const {
     const BoneLengths& standard = StandardBoneLengths();
-    constexpr auto kSpine = static_cast<size_t>(Index(Joint::kSpine));
-    constexpr auto kNeck = static_cast<size_t>(Index(Joint::kShoulderCenter));
+    constexpr auto kSpine = Index(Joint::kSpine);
+    constexpr auto kNeck = Index(Joint::kShoulderCenter);
     const double share = standard[kSpine] / (standard[kSpine] + standard[kNeck]);
     std::vector<Vector3d> line = {Of(frame, bones_.hips)};
     for (const int joint : bones_.spine) line.push_back(Of(frame, joint));
@@ -157,8 +155,7 @@ class Person {
   static Vector3d Towards(const Vector3d& joint, const Vector3d& end, double length, Joint last,
                           Joint before) {
     const BoneLengths& standard = StandardBoneLengths();
-    const double share =
-        standard[static_cast<size_t>(Index(last))] / standard[static_cast<size_t>(Index(before))];
+    const double share = standard[Index(last)] / standard[Index(before)];
     return joint + share * length * (end - joint).normalized();
   }
 

@@ -15,7 +15,7 @@ namespace ossa::recon {
 /// What was seen of a body at one time; empty joints were not.
 struct Sighting {
   double time_s = 0.0;
-  std::array<std::optional<Eigen::Vector3d>, kJointCount> joint;
+  JointArray<std::optional<Eigen::Vector3d>> joint;
 };
 
 /// The sightings of one body, in order of their times, of which only the latest are in memory: an

@@ -25,20 +25,20 @@ using recon::kBoneDims;
 using recon::kJointCount;
 using recon::Posture;
 
-using Joints = std::array<bool, kJointCount>;
+using Joints = recon::JointArray<bool>;
 
 constexpr size_t kEvery = 4;  // frames give an example: neighbours hardly differ
 constexpr size_t kShortest = 60, kLongest = 150;  // frames for which things stay as hidden as ever
 
 /// What is seen in the setups of Shum 2013's table III, and of a person behind a table.
-constexpr std::array<std::initializer_list<int>, 6> kFewSeen = {{{7, 15},
-                                                                 {11, 19},
-                                                                 {7, 11},
-                                                                 {7, 11, 15, 19},
-                                                                 {5, 7, 9, 11, 13, 15, 17, 19},
-                                                                 {3, 7, 11, 15, 19}}};
+constexpr std::array<std::initializer_list<size_t>, 6> kFewSeen = {{{7, 15},
+                                                                    {11, 19},
+                                                                    {7, 11},
+                                                                    {7, 11, 15, 19},
+                                                                    {5, 7, 9, 11, 13, 15, 17, 19},
+                                                                    {3, 7, 11, 15, 19}}};
 /// What one thing hides: arms, legs, the trunk.
-constexpr std::array<std::initializer_list<int>, 5> kHiddenTogether = {
+constexpr std::array<std::initializer_list<size_t>, 5> kHiddenTogether = {
     {{5, 6, 7}, {9, 10, 11}, {13, 14, 15}, {17, 18, 19}, {1, 2, 3, 4, 8}}};
 
 /// True of joints that are seen; the root is no part of it.
@@ -47,14 +47,14 @@ Joints DrawSeen(Random& random) {
   const double kind = random.Uniform(0.0, 1.0);
   seen.fill(kind >= 0.4);
   if (kind < 0.4) {
-    for (const int joint : kFewSeen[random.Index(kFewSeen.size())]) {
-      seen[static_cast<size_t>(joint)] = true;
+    for (const size_t joint : kFewSeen[random.Index(kFewSeen.size())]) {
+      seen[joint] = true;
     }
   } else if (kind < 0.75) {
     const size_t groups = 1 + random.Index((size_t{1} << kHiddenTogether.size()) - 1);
     for (size_t g = 0; g < kHiddenTogether.size(); ++g) {
       if ((groups >> g & 1U) == 0) continue;
-      for (const int joint : kHiddenTogether[g]) seen[static_cast<size_t>(joint)] = false;
+      for (const size_t joint : kHiddenTogether[g]) seen[joint] = false;
     }
     const bool hips = random.Chance(0.7);
     seen[12] = hips;
@@ -87,13 +87,13 @@ Circumstances Draw(Random& random) {
   c.seen = DrawSeen(random);
   c.yaw_rad = random.Normal(0.0, 4.0 * std::numbers::pi / 180.0);
   const bool root_seen = random.Chance(0.8);
-  c.root_sd_m = recon::SoundSd_m(0.0) / (root_seen ? 1.0 : 0.3);
+  c.root_sd_m = recon::BaseSigma_m(0.0) / (root_seen ? 1.0 : 0.3);
   c.white_m = random.Uniform(0.0, 0.012);
   const double error_m = random.Uniform(0.0, 0.012);
   for (Eigen::Vector3d& error : c.error.position_m) error = DrawVector(random, error_m);
   c.error.position_m[0] = DrawVector(random, root_seen ? 0.5 * error_m : 0.05);
   for (size_t i = 0; i < kJointCount; ++i) {
-    const auto twin = static_cast<size_t>(recon::kMirroredJoint[i]);
+    const auto twin = recon::kMirroredJoint[i];
     const double ratio = std::exp(random.Normal(0.0, 0.03));
     c.lengths_m[i] = recon::StandardBoneLengths()[i] * ratio;
     if (twin < i) c.lengths_m[i] = c.lengths_m[twin];
@@ -111,7 +111,7 @@ recon::PriorObservation Observe(const Posture& truth, const Circumstances& c, bo
   for (size_t i = 1; i < kJointCount; ++i) {
     const Eigen::Vector3d white = DrawVector(random, c.white_m);
     out.seen.position_m[i] += c.error.position_m[0] + c.error.position_m[i] + white;
-    out.sd_m[i] = all || c.seen[i] ? recon::SoundSd_m(0.0) : 0.0;
+    out.sd_m[i] = all || c.seen[i] ? recon::BaseSigma_m(0.0) : 0.0;
   }
   return out;
 }

@@ -109,13 +109,13 @@ std::vector<Bone> ConnectBones(const JointTargets& targets, const ForestEvidence
                                double max_bone) {
   using recon::Joint;
   const recon::BoneLengths average_m =
-      recon::BoneLengthsOf(recon::StandardPosture(recon::RigPose{}));
-  std::array<const forest::Proposal*, recon::kJointCount> best{};
+      recon::MeasureBoneLengths(recon::StandardPosture(recon::RigPose{}));
+  recon::JointArray<const forest::Proposal*> best{};
   for (size_t j = 0; j < recon::kJointCount; ++j) {
     const auto& modes = evidence.proposals.at(static_cast<size_t>(targets[j]));
     best[j] = modes.empty() ? nullptr : &modes.front();
   }
-  std::array<bool, recon::kJointCount> reached{};
+  recon::JointArray<bool> reached{};
   std::vector<Bone> bones;
   const auto reach = [&](size_t from, size_t to, size_t bone) {
     if (best[from] == nullptr || best[to] == nullptr) return;
@@ -124,13 +124,13 @@ std::vector<Bone> ConnectBones(const JointTargets& targets, const ForestEvidence
     bones.push_back({best[from]->position_m.cast<float>(), best[to]->position_m.cast<float>()});
   };
   // The shoulders' middle is the surest; from there down to the hips, and parents before children.
-  constexpr auto kCentre = static_cast<size_t>(recon::Index(Joint::kShoulderCenter));
-  constexpr auto kSpine = static_cast<size_t>(recon::Index(Joint::kSpine));
+  constexpr auto kCentre = recon::Index(Joint::kShoulderCenter);
+  constexpr auto kSpine = recon::Index(Joint::kSpine);
   reached[kCentre] = best[kCentre] != nullptr;
   if (reached[kCentre]) reach(kCentre, kSpine, kCentre);
   if (reached[kSpine]) reach(kSpine, 0, kSpine);
   for (size_t j = kCentre + 1; j < recon::kJointCount; ++j) {
-    const auto parent = static_cast<size_t>(recon::kJointParent[j]);
+    const auto parent = recon::ParentOf(j);
     if (reached[parent]) reach(parent, j, j);
   }
   return bones;

@@ -64,8 +64,9 @@ struct Decision {
   int track = 0;            // id of the person; 0 nobody
 };
 
-/// Somebody who is followed.
+/// Confirmed tracks are seen, lost ones are remembered.
 enum class TrackStatus { kConfirmed, kLost };
+/// Somebody who is followed.
 struct TrackSummary {
   int id = 0;
   TrackStatus status = TrackStatus::kConfirmed;

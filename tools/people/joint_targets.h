@@ -8,7 +8,7 @@
 namespace ossa::people {
 
 /// Which of a forest's targets is which joint, in SDK order.
-using JointTargets = std::array<int, recon::kJointCount>;
+using JointTargets = recon::JointArray<int>;
 
 /// Throws InputError that names the model where it lacks a joint, or knows other classes than parts
 /// of the body.

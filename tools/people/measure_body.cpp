@@ -10,7 +10,7 @@ using recon::Joint;
 // The best proposal for a joint, if the forest is sure enough of it for a measure or a keypoint.
 const Eigen::Vector3d* FindSureJoint(const ForestEvidence& evidence, const JointTargets& targets,
                                      Joint joint, double min_confidence) {
-  const auto target = static_cast<size_t>(targets[static_cast<size_t>(recon::Index(joint))]);
+  const auto target = static_cast<size_t>(targets[recon::Index(joint)]);
   const auto& modes = evidence.proposals.at(target);
   return modes.empty() || modes.front().confidence < min_confidence ? nullptr
                                                                     : &modes.front().position_m;
@@ -19,9 +19,7 @@ const Eigen::Vector3d* FindSureJoint(const ForestEvidence& evidence, const Joint
 // Between two joints of the standard body at rest.
 double ComputeAverageDistance_m(Joint a, Joint b) {
   static const recon::Posture body = recon::StandardPosture(recon::RigPose{});
-  const auto at = [](Joint joint) {
-    return body.position_m[static_cast<size_t>(recon::Index(joint))];
-  };
+  const auto at = [](Joint joint) { return body.position_m[recon::Index(joint)]; };
   return (at(a) - at(b)).norm();
 }
 

@@ -222,13 +222,12 @@ void AddSurfaceFeatures(const depth::DepthFrame& frame, const Candidate& candida
 }
 
 void AddProposalFeatures(const std::vector<std::vector<forest::Proposal>>& proposals,
-                         const std::array<int, recon::kJointCount>& targets,
-                         PersonFeatures& features) {
+                         const recon::JointArray<int>& targets, PersonFeatures& features) {
   using recon::Joint;
   constexpr std::array kCore = {Joint::kShoulderCenter, Joint::kHead, Joint::kShoulderLeft,
                                 Joint::kShoulderRight, Joint::kSpine};
   const recon::BoneLengths average_m =
-      recon::BoneLengthsOf(recon::StandardPosture(recon::RigPose{}));
+      recon::MeasureBoneLengths(recon::StandardPosture(recon::RigPose{}));
   double core = 0, all = 0, bones = 0;
   const auto modes_of = [&](size_t j) -> const std::vector<forest::Proposal>& {
     return proposals[static_cast<size_t>(targets[j])];
@@ -236,12 +235,11 @@ void AddProposalFeatures(const std::vector<std::vector<forest::Proposal>>& propo
   for (size_t j = 0; j < recon::kJointCount; ++j) all += BestConfidence(modes_of(j));
   const auto& centre = modes_of(recon::Index(Joint::kShoulderCenter));
   for (const Joint joint : kCore) {
-    const auto& modes = modes_of(static_cast<size_t>(recon::Index(joint)));
+    const auto& modes = modes_of(recon::Index(joint));
     core += BestConfidence(modes);
     if (joint == Joint::kShoulderCenter || modes.empty() || centre.empty()) continue;
     // The bone from spine to shoulder centre is the centre's, the others' are their own.
-    const auto bone =
-        static_cast<size_t>(recon::Index(joint == Joint::kSpine ? Joint::kShoulderCenter : joint));
+    const auto bone = recon::Index(joint == Joint::kSpine ? Joint::kShoulderCenter : joint);
     const double length_m = (modes.front().position_m - centre.front().position_m).norm();
     bones += std::exp(-std::pow((length_m - average_m[bone]) / 0.07, 2));
   }

@@ -64,8 +64,7 @@ void AddSurfaceFeatures(const depth::DepthFrame& frame, const Candidate& candida
 
 /// Adds the others.
 void AddProposalFeatures(const std::vector<std::vector<forest::Proposal>>& proposals,
-                         const std::array<int, recon::kJointCount>& targets,
-                         PersonFeatures& features);
+                         const recon::JointArray<int>& targets, PersonFeatures& features);
 
 /// Probability that it is a person: before, and after proposals were made.
 double ComputeSurfaceScore(const PersonFeatures& features);

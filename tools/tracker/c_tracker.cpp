@@ -242,11 +242,11 @@ ossa_status ossa_tracker_set_smooth_parameters(ossa_tracker* tracker,
     const auto given = ReadStruct(*parameters, "ossa_smooth_parameters");
     ossa::tracker::SmoothingOptions options;
     options.kind = ossa::tracker::SmoothingKind::kHolt;
-    options.smoothing = static_cast<double>(given.smoothing);
-    options.correction = static_cast<double>(given.correction);
-    options.prediction = static_cast<double>(given.prediction);
-    options.jitter_radius_m = static_cast<double>(given.jitter_radius_m);
-    options.max_deviation_radius_m = static_cast<double>(given.max_deviation_radius_m);
+    options.holt.smoothing = static_cast<double>(given.smoothing);
+    options.holt.correction = static_cast<double>(given.correction);
+    options.holt.prediction = static_cast<double>(given.prediction);
+    options.holt.jitter_radius_m = static_cast<double>(given.jitter_radius_m);
+    options.holt.max_deviation_radius_m = static_cast<double>(given.max_deviation_radius_m);
     changed.SetSmoothing(options);
   });
 }

@@ -4,12 +4,14 @@
 #include <chrono>
 #include <cmath>
 
-#include "recon/hiding.h"
-#include "recon/methods/bone_projection.h"
+#include "recon/bone_projection.h"
 #include "recon/orientation.h"
+#include "recon/refine/free_space.h"
 
 namespace ossa::tracker {
 namespace {
+
+// Constants: chosen by hand.
 
 using Clock = std::chrono::steady_clock;
 using recon::kJointCount;
@@ -24,10 +26,9 @@ double MillisecondsSince(Clock::time_point start) {
 // 12 cm where the forest trusts them by 0.9 to 0 (rendered rooms), and may move by twice that.
 // Joints below them on the limb that are not seen move along, so that the limb keeps its shape.
 recon::Posture HeldToImage(const recon::Posture& posture, const recon::TrackedPosture& observed,
-                           const std::array<double, kJointCount>& reliability) {
+                           const recon::JointArray<double>& reliability) {
   recon::Posture held = posture;
   for (size_t j = 0; j < kJointCount; ++j) {
-    const int parent = recon::kJointParent[j];
     if (observed.state[j] != TrackingState::kNotTracked) {
       const Eigen::Vector3d& seen = observed.posture.position_m[j];
       const bool tracked = observed.state[j] == TrackingState::kTracked;
@@ -37,8 +38,8 @@ recon::Posture HeldToImage(const recon::Posture& posture, const recon::TrackedPo
       const Eigen::Vector3d off = posture.position_m[j] - seen;
       const double share = off.norm() > radius_m ? radius_m / off.norm() : 1.0;
       held.position_m[j] = seen + off * share;
-    } else if (parent >= 0) {
-      const auto p = static_cast<size_t>(parent);
+    } else if (j > 0) {
+      const size_t p = recon::ParentOf(j);
       held.position_m[j] = held.position_m[p] + (posture.position_m[j] - posture.position_m[p]);
     }
   }
@@ -47,18 +48,19 @@ recon::Posture HeldToImage(const recon::Posture& posture, const recon::TrackedPo
 
 // What is not seen is where the camera does not see it. The way there takes some frames, so that a
 // guess that wanders about does not flicker; what is seen is back at once.
-recon::Posture WithHiddenHidden(recon::Posture posture, const recon::TrackedPosture& observed,
-                                const depth::DepthFrame& frame, Person& person) {
+recon::Posture OutOfFreeSpace(recon::Posture posture, const recon::TrackedPosture& observed,
+                              const depth::DepthFrame& frame, Person& person) {
   constexpr double kWay_s = 0.05;
   const double share = 1.0 - std::exp(-std::max(0.0, frame.time_s - person.before_s) / kWay_s);
   for (size_t j = 0; j < kJointCount; ++j) {
     if (observed.state[j] == TrackingState::kTracked) {
-      person.aside_m[j].setZero();
+      person.occlusion_offset_m[j].setZero();
       continue;
     }
     Eigen::Vector3d& place = posture.position_m[j];
-    person.aside_m[j] += share * (recon::HiddenPlace(place, frame) - place - person.aside_m[j]);
-    place += person.aside_m[j];
+    person.occlusion_offset_m[j] +=
+        share * (recon::MoveOutOfFreeSpace(place, frame) - place - person.occlusion_offset_m[j]);
+    place += person.occlusion_offset_m[j];
   }
   return posture;
 }
@@ -67,20 +69,20 @@ recon::Posture WithHiddenHidden(recon::Posture posture, const recon::TrackedPost
 // the lengths again that they had in `whole`; what is not seen moves most.
 recon::Posture WithBonesOf(const recon::Posture& whole, const recon::Posture& moved,
                            const recon::TrackedPosture& observed,
-                           const std::array<double, kJointCount>& reliability) {
-  constexpr double kUnseen = 0.1, kLeast = 0.2;
+                           const recon::JointArray<double>& reliability) {
+  constexpr double kUnseen = 0.1, kLeast = 0.2;  // weight
   recon::JointWeights weights;
   for (size_t j = 0; j < kJointCount; ++j) {
     const bool seen = observed.state[j] == TrackingState::kTracked;
     weights[j] = seen ? kLeast + std::clamp(reliability[j], 0.0, 1.0) : kUnseen;
   }
-  return recon::WithBoneLengths(moved, recon::BoneLengthsOf(whole), weights);
+  return recon::WithBoneLengths(moved, recon::MeasureBoneLengths(whole), weights);
 }
 
 recon::JointArray<JointEstimate> Estimates(const recon::Posture& posture,
                                            const recon::TrackedPosture& observed,
-                                           const std::array<double, kJointCount>& reliability) {
-  const recon::JointOrientations orientation = recon::OrientationsOf(posture);
+                                           const recon::JointArray<double>& reliability) {
+  const recon::JointOrientations orientation = recon::ComputeOrientations(posture);
   recon::JointArray<JointEstimate> joints;
   for (size_t j = 0; j < kJointCount; ++j) {
     joints[j] = {posture.position_m[j], orientation[j], observed.state[j], observed.confidence[j],
@@ -91,7 +93,7 @@ recon::JointArray<JointEstimate> Estimates(const recon::Posture& posture,
 
 }  // namespace
 
-recon::Posture PostureOf(const Body& body) {
+recon::Posture ToPosture(const Body& body) {
   recon::Posture posture;
   for (size_t j = 0; j < kJointCount; ++j) posture.position_m[j] = body.joints[j].position_m;
   return posture;
@@ -100,7 +102,7 @@ recon::Posture PostureOf(const Body& body) {
 recon::JointOrientations HierarchicalOrientationsOf(const Body& body) {
   recon::JointOrientations absolute;
   for (size_t j = 0; j < kJointCount; ++j) absolute[j] = body.joints[j].orientation;
-  return recon::HierarchicalOf(absolute);
+  return recon::ToHierarchical(absolute);
 }
 
 bool IsSeatedJoint(recon::Joint joint) {
@@ -131,9 +133,9 @@ void CompleteBody(const depth::DepthFrame& frame, const std::optional<Eigen::Vec
   const recon::MethodInfo& method = recon::MethodNamed(options.reconstructor.method);
   recon::TrackedPosture seen = body.raw;
   if (body.refined && method.refined) seen.posture = *body.refined;
-  const recon::TrackedPosture steady = person.steady.Step(seen, frame.time_s);
+  const recon::TrackedPosture averaged = person.stationary.Step(seen, frame.time_s);
   const auto result =
-      person.reconstructor->Step({steady, frame.time_s, &frame, body.refined_bones_m});
+      person.reconstructor->Step({averaged, frame.time_s, &frame, body.refined_bones_m});
   body.reconstructed = result.posture;
   body.bones_m = person.reconstructor->Bones();
   ms.reconstruct += MillisecondsSince(start);
@@ -145,11 +147,11 @@ void CompleteBody(const depth::DepthFrame& frame, const std::optional<Eigen::Vec
     if (made) posture = made->posture;
     ms.physics += MillisecondsSince(physics_start);
   }
-  const recon::Posture held = HeldToImage(posture, steady, result.reliability);
-  recon::Posture smoothed = Smooth(WithHiddenHidden(held, steady, frame, person), frame.time_s,
+  const recon::Posture held = HeldToImage(posture, averaged, result.reliability);
+  recon::Posture smoothed = Smooth(OutOfFreeSpace(held, averaged, frame, person), frame.time_s,
                                    options.smoothing, person.smoothing);
   if (options.physics || method.keeps_bones) {
-    smoothed = WithBonesOf(posture, smoothed, steady, result.reliability);
+    smoothed = WithBonesOf(posture, smoothed, averaged, result.reliability);
   }
   body.joints = Estimates(smoothed, body.raw, result.reliability);
 }

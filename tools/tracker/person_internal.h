@@ -4,11 +4,11 @@
 #include <optional>
 #include <vector>
 
+#include "recon/filters/stationary_average.h"
 #include "recon/methods/reconstructor.h"
 #include "recon/refine/bone_measure.h"
 #include "tools/tracker/choose_posture_internal.h"
 #include "tools/tracker/mechanics_internal.h"
-#include "tools/tracker/steady_internal.h"
 #include "tools/tracker/tracker.h"
 
 namespace ossa::tracker {
@@ -21,14 +21,14 @@ struct Person {
   recon::BoneLengths lengths_m = AverageBoneLengths();
   recon::JudgedBones bones;                     // by close looks until now
   std::optional<recon::TrackedPosture> before;  // of the last frame it was tracked in
-  SteadyBody steady;
+  recon::StationaryPosture stationary;          // averages what stands still
   std::unique_ptr<recon::Reconstructor> reconstructor;
   std::unique_ptr<Mechanics> mechanics;
-  std::array<Eigen::Vector3d, recon::kJointCount> aside_m = NoMoves();  // out of the camera's sight
+  recon::JointArray<Eigen::Vector3d> occlusion_offset_m = NoMoves();  // out of free space
   SmoothingState smoothing;
 
-  static std::array<Eigen::Vector3d, recon::kJointCount> NoMoves() {
-    std::array<Eigen::Vector3d, recon::kJointCount> none;
+  static recon::JointArray<Eigen::Vector3d> NoMoves() {
+    recon::JointArray<Eigen::Vector3d> none;
     none.fill(Eigen::Vector3d::Zero());
     return none;
   }

@@ -20,6 +20,8 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
+// Constants: chosen by hand.
+
 constexpr double kRecent_s = 0.2;  // what was seen longer ago says nothing about now
 
 double MillisecondsSince(Clock::time_point start) {

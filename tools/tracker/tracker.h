@@ -11,7 +11,6 @@
 
 #include "depth/image/depth_frame.h"
 #include "depth/image/image.h"
-#include "recon/joint_array.h"
 #include "recon/posture.h"
 #include "tools/people/decision.h"
 #include "tools/tracker/mechanics.h"
@@ -26,6 +25,8 @@ class FrameSource;
 /// gave, for any depth camera. No global state; several trackers may run in one process, each used
 /// from one thread at a time.
 namespace ossa::tracker {
+
+// Constants: of the Kinect SDK (six people); seed and threads by convention.
 
 /// The SDK's FrameEdges: which image borders cut the body off. Combined by |.
 enum ClippedEdge : unsigned {
@@ -76,7 +77,7 @@ struct Body {
 };
 
 /// Positions of the skeleton, in enum order.
-recon::Posture PostureOf(const Body& body);
+recon::Posture ToPosture(const Body& body);
 
 /// Each bone's turn against its parent's, as the Kinect SDK's hierarchical orientations.
 recon::JointOrientations HierarchicalOrientationsOf(const Body& body);

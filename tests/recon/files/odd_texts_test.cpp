@@ -88,8 +88,8 @@ TEST(Trc, NanOfAnyProgramIsABlank) {
     const std::string gap = std::string(nan) + "\t" + nan + "\t" + nan;
     const auto read = Read(Replaced(kTrc, "110.50\t500.25\t10.00", gap));
     const auto& joints = read.frames.at(1).bodies.at(0).joints;
-    EXPECT_FALSE(joints[static_cast<size_t>(Index(Joint::kKneeLeft))].has_value()) << nan;
-    EXPECT_TRUE(joints[static_cast<size_t>(Index(Joint::kHead))].has_value()) << nan;
+    EXPECT_FALSE(joints[Index(Joint::kKneeLeft)].has_value()) << nan;
+    EXPECT_TRUE(joints[Index(Joint::kHead)].has_value()) << nan;
   }
 }
 
@@ -115,7 +115,7 @@ TEST(Trc, OfTwoSubjectsIsTwoBodies) {
   const auto read = Read(Replaced(Replaced(kTrc, "LKnee", "Ann:LKnee"), "Head", "Bob:Head"));
   ASSERT_EQ(read.frames[0].bodies.size(), 2u);
   const auto has = [&](size_t body, Joint joint) {
-    return read.frames[0].bodies[body].joints[static_cast<size_t>(Index(joint))].has_value();
+    return read.frames[0].bodies[body].joints[Index(joint)].has_value();
   };
   EXPECT_TRUE(has(0, Joint::kKneeLeft));
   EXPECT_FALSE(has(0, Joint::kHead));
@@ -178,8 +178,8 @@ std::string ForMips(std::string bytes) {
     std::reverse(bytes.begin() + static_cast<std::ptrdiff_t>(at),
                  bytes.begin() + static_cast<std::ptrdiff_t>(at + size));
   };
-  for (const size_t word : {2, 6, 8, 16}) swap(word, 2);
-  for (const size_t real : {12, 20}) swap(real, 4);
+  for (const size_t word : {2U, 6U, 8U, 16U}) swap(word, 2);
+  for (const size_t real : {12U, 20U}) swap(real, 4);
   for (size_t at = 1024; at + 4 <= 1024 + 3 * 2 * 16; at += 4) swap(at, 4);
   for (const char* name : {"POINT", "LABELS", "UNITS"}) {
     swap(bytes.find(name, 512) + std::string(name).size(), 2);
@@ -198,7 +198,7 @@ std::string ForDec(std::string bytes) {
                      bytes.begin() + static_cast<std::ptrdiff_t>(at + 2),
                      bytes.begin() + static_cast<std::ptrdiff_t>(at + 2));
   };
-  for (const size_t real : {12, 20}) convert(real);
+  for (const size_t real : {12U, 20U}) convert(real);
   for (size_t at = 1024; at + 4 <= 1024 + 3 * 2 * 16; at += 4) convert(at);
   bytes[512 + 3] = 85;
   return bytes;

@@ -106,8 +106,7 @@ TEST(SharedCaseOf, AChildOf112CentimetresIsOfItsSize) {
   for (size_t j = 1; j < kJointCount; ++j) {
     const auto bone = [&](const SkeletonSequence& of) {
       const auto& joints = of.frames[30].bodies[0].joints;
-      return (joints[j]->position_m - joints[static_cast<size_t>(kJointParent[j])]->position_m)
-          .norm();
+      return (joints[j]->position_m - joints[ParentOf(j)]->position_m).norm();
     };
     EXPECT_NEAR(bone(child) / bone(adult), 0.62, 1e-4) << kJointNames[j];
   }

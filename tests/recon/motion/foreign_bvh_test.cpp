@@ -234,7 +234,7 @@ TEST(ForeignBvh, ThatStandsAlongZIsTurnedUprightWithAWarning) {
 TEST(ForeignBvh, HandsAndSpineLieWhereTheStandardBodyHasThem) {
   const auto read = Read(FigureBvh());
   const auto& joints = read.frames[0].bodies[0].joints;
-  const auto at = [&](Joint j) { return joints[static_cast<size_t>(Index(j))]->position_m; };
+  const auto at = [&](Joint j) { return joints[Index(j)]->position_m; };
   const Eigen::Vector3d fore_arm = at(Joint::kWristLeft) - at(Joint::kElbowLeft);
   const Eigen::Vector3d hand = at(Joint::kHandLeft) - at(Joint::kWristLeft);
   EXPECT_LT(hand.normalized().cross(fore_arm.normalized()).norm(), 1e-5) << "straight on";

@@ -53,7 +53,7 @@ TEST_F(PersonWithABox, LosesTheBoxWhenAllBonesAreKnown) {
 
 TEST_F(PersonWithABox, KeepsItWhenAnArmIsNotSeen) {  // it may be the arm
   const auto before = Held();
-  detection_.evidence.proposals[static_cast<size_t>(recon::Index(Joint::kHandRight))].clear();
+  detection_.evidence.proposals[recon::Index(Joint::kHandRight)].clear();
   CropToBody(OneTargetPerJoint(), render_.frame, scene_, {}, detection_);
   EXPECT_EQ(Held(), before);
 }

@@ -12,7 +12,7 @@ namespace {
 using recon::Joint;
 
 TEST(MeasureBody, LeavesOutLimbsThatNobodyHas) {
-  recon::Posture joints = tests::JointsOf(tests::CapsulePose{});
+  recon::Posture joints = tests::ComputeJoints(tests::CapsulePose{});
   const auto thigh_m = [&] {
     const auto body = MeasureBody(MakeSureEvidence(joints), OneTargetPerJoint(), std::nullopt);
     return body[static_cast<size_t>(Measure::kThigh)];

@@ -80,7 +80,7 @@ TEST(SdkConformance, TwentyJointsHaveStatesAndSeenOnesLieOnTheBody) {
   ASSERT_EQ(bodies.bodies.size(), 1U);
   const recon::TrackedPosture& raw = bodies.bodies[0].raw;
   for (const Joint joint : {Joint::kHead, Joint::kShoulderCenter, Joint::kSpine}) {
-    const auto j = static_cast<size_t>(recon::Index(joint));
+    const auto j = recon::Index(joint);
     EXPECT_EQ(raw.state[j], TrackingState::kTracked) << recon::NameOf(joint);
     // The forest knows bodies of flesh: a capsule figure's joints are 15 cm right at best.
     EXPECT_LT((raw.posture[joint] - render.joints[0][joint]).norm(), 0.15) << recon::NameOf(joint);
@@ -111,9 +111,9 @@ TEST(SdkConformance, BoneOrientationsAreAbsoluteAndHierarchical) {
   const BodyFrame bodies = TrackOnce(options, Rendered({PersonAt(0, 2.5)}));
   ASSERT_EQ(bodies.bodies.size(), 1U);
   const Body& body = bodies.bodies[0];
-  const auto absolute = recon::AbsoluteOf(HierarchicalOrientationsOf(body));
+  const auto absolute = recon::ToAbsolute(HierarchicalOrientationsOf(body));
   for (size_t j = 1; j < kJointCount; ++j) {
-    const auto parent = static_cast<size_t>(recon::kJointParent[j]);
+    const auto parent = recon::ParentOf(j);
     const Eigen::Vector3d bone =
         (body.joints[j].position_m - body.joints[parent].position_m).normalized();
     // The SDK's convention: the bone is the y axis. Doubles through one product: 1e-9.
@@ -155,7 +155,7 @@ TEST(SdkConformance, SeatedModeTracksTheTenUpperJoints) {
   const BodyFrame bodies = TrackOnce(options, Rendered({PersonAt(0, 2.5)}));
   ASSERT_EQ(bodies.bodies.size(), 1U);
   int upper = 0;
-  for (int j = 0; j < kJointCount; ++j) {
+  for (size_t j = 0; j < kJointCount; ++j) {
     const bool seated = IsSeatedJoint(static_cast<Joint>(j));
     upper += seated ? 1 : 0;
     if (!seated) {

@@ -1,6 +1,6 @@
 #include <array>
 
-#include "recon/filters/joint_filters_internal.h"
+#include "recon/filters/joint_filters.h"
 #include "recon/methods/methods_internal.h"
 #include "recon/methods/person_internal.h"
 
@@ -34,7 +34,7 @@ class FilterReconstructor : public Reconstructor {
  private:
   StepFilter step_;
   Person person_;
-  std::array<Filter, kJointCount> filters_;
+  JointArray<Filter> filters_;
 };
 
 template <typename Filter, typename StepFilter>
