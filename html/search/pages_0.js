@@ -1,4 +1,0 @@
-var searchData=
-[
-  ['architecture_0',['Architecture',['../index.html',1,'']]]
-];
