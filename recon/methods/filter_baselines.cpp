@@ -3,6 +3,7 @@
 #include "recon/filters/joint_filters.h"
 #include "recon/methods/methods_internal.h"
 #include "recon/methods/person_internal.h"
+#include "recon/methods/reach_internal.h"
 
 namespace ossa::recon {
 
@@ -21,6 +22,12 @@ class FilterReconstructor : public Reconstructor {
     ReconstructedPosture out{prepared.in_camera, prepared.reliability};
     for (size_t i = 0; i < kJointCount; ++i) {
       out.posture.position_m[i] = step_(filters_[i], prepared, i);
+    }
+    JointWeights present = prepared.present;
+    for (size_t i = 0; i < kJointCount; ++i) present[i] += prepared.interpolated[i];
+    // A filter that goes on with a velocity leads away from the joints that are seen.
+    if (IsTrunkUnseen(present)) {
+      PullIntoReach(out.posture, present, person_.size().lengths_m());
     }
     person_.Remember(out.posture, prepared);
     return out;

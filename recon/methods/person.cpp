@@ -2,6 +2,7 @@
 #include <cmath>
 
 #include "recon/methods/person_internal.h"
+#include "recon/methods/reach_internal.h"
 
 namespace ossa::recon {
 namespace {
@@ -77,6 +78,10 @@ Posture Completed(const Posture& in_camera, const JointWeights& present_in, cons
   for (const InterpolatedJoint& line : kInterpolatedJoints) Interpolate(out, present, line);
   for (size_t i = 0; interpolated != nullptr && i < kJointCount; ++i) {
     (*interpolated)[i] = present[i] - present_in[i];
+  }
+  if (IsTrunkUnseen(present)) {
+    PlaceFromPresent(out, present, model);
+    return out;
   }
   if (present[0] == 0.0) out.position_m[0] = model.position_m[0] + offset;
   for (size_t i = 1; i < kJointCount; ++i) {

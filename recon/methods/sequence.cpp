@@ -11,6 +11,10 @@
 namespace ossa::recon {
 namespace {
 
+// What a method has moved farther is no longer where it was measured, and not tracked: more than
+// any sensor's systematic error, which is taken off. By hand.
+constexpr double kMeasured_m = 0.15;
+
 BodyRecord Reconstructed(const BodyRecord& body, const TrackedPosture& observed,
                          const ReconstructedPosture& made) {
   BodyRecord out;
@@ -18,7 +22,9 @@ BodyRecord Reconstructed(const BodyRecord& body, const TrackedPosture& observed,
   for (size_t i = 0; i < kJointCount; ++i) {
     JointRecord joint;
     joint.position_m = made.posture.position_m[i];
-    const bool tracked = observed.state[i] == TrackingState::kTracked && made.reliability[i] > 0.5;
+    const bool tracked = observed.state[i] == TrackingState::kTracked &&
+                         made.reliability[i] > 0.5 &&
+                         (joint.position_m - observed.posture.position_m[i]).norm() < kMeasured_m;
     joint.state = tracked ? TrackingState::kTracked : TrackingState::kInferred;
     joint.confidence = observed.confidence[i];
     joint.reliability = made.reliability[i];
