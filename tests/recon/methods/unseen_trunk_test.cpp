@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <vector>
 
+#include "recon/methods/method_table.h"
 #include "recon/methods/reconstructor.h"
 #include "recon/methods/sequence.h"
 #include "recon/skeleton_sequence.h"
@@ -36,8 +37,8 @@ const Measured kSubsets[] = {
 
 std::vector<std::string> MethodsWithoutLearning() {
   std::vector<std::string> names;
-  for (const std::string& name : ReconstructionMethods()) {
-    if (!NeedsLearned(name)) names.push_back(name);
+  for (const MethodInfo& method : MethodTable()) {
+    if (method.learned != Reads::kRequired) names.emplace_back(method.name);
   }
   return names;
 }
