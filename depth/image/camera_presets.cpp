@@ -57,6 +57,12 @@ Camera PresetCamera(std::string_view name, int width, int height) {
 }
 
 CameraGuess GuessCamera(int width, int height) {
+  if (height > width) {  // maybe one that lies on its side, whichever
+    const CameraGuess lying = GuessCamera(height, width);
+    const double f = lying.camera.fx;
+    if (lying.sizes_match)
+      return {lying.preset, true, {width, height, f, f, width / 2.0, height / 2.0}};
+  }
   const auto guess = [&](std::string_view name, bool match = true) {
     return CameraGuess{name, match, PresetCamera(name, width, height)};
   };

@@ -75,6 +75,33 @@ void AddSourceOptions(CLI::App& app, SourceArguments& arguments) {
       ->check(CLI::Range(1e-3, 1e4));
 }
 
+void AddRotateOption(CLI::App& app, SourceArguments& arguments) {
+  app.add_option("--rotate", arguments.rotate,
+                 "degrees by which the images must be turned clockwise for people to stand in "
+                 "them, or auto (default); what comes out stays in the camera's own space")
+      ->check(CLI::IsMember({"auto", "0", "90", "180", "270"}));
+}
+
+tracker::Turn TurnOf(const SourceArguments& arguments) {
+  if (arguments.rotate == "auto") return tracker::Turn::kAuto;
+  constexpr int kQuarter_deg = 90;  // by definition
+  return static_cast<tracker::Turn>(std::stoi(arguments.rotate) / kQuarter_deg);
+}
+
+void FindUpright(tracker::Tracker& tracker, const depth::FrameSource& source,
+                 const SourceArguments& arguments, bool quiet) {
+  if (arguments.rotate != "auto" || source.is_live()) return;
+  try {
+    tracker.FindUpright(*OpenSource(arguments, true), [] { return !Interrupted(); });
+  } catch (const InputError&) {  // told of when its turn comes
+  }
+  if (tracker.quarter_turns() == 0 || quiet) return;
+  Say(
+      fmt::format("{}: people stand in its images once these are turned by {} degrees clockwise: "
+                  "--rotate says otherwise\n",
+                  OnOneLine(arguments.name), 90 * tracker.quarter_turns()));
+}
+
 void AddDeviceOptions(CLI::App& app, SourceArguments& arguments) {
   app.add_option("--wait", arguments.wait_s,
                  "wait so many seconds for a device to be plugged in (default 0)")

@@ -5,6 +5,7 @@
 #include <string>
 
 #include "depth/sensor/frame_source.h"
+#include "tools/tracker/tracker.h"
 
 namespace CLI {
 class App;
@@ -17,6 +18,7 @@ struct SourceArguments {
   std::string name, camera, depth_format = "plain";
   double depth_scale = 0.0;  // units to the metre; 0: not said
   double fps = 0.0;          // 0: not said
+  std::string rotate = "auto";
   std::shared_ptr<std::set<std::string>> said = std::make_shared<std::set<std::string>>();
   double wait_s = 0.0;
   double patience_s = 5.0;
@@ -24,6 +26,13 @@ struct SourceArguments {
 
 /// SOURCE, --camera, --depth-scale, --depth-format and --fps.
 void AddSourceOptions(CLI::App& app, SourceArguments& arguments);
+/// --rotate, for what looks for people.
+void AddRotateOption(CLI::App& app, SourceArguments& arguments);
+tracker::Turn TurnOf(const SourceArguments& arguments);
+/// With --rotate auto, before a recording (`source`, which it does not read) is tracked: finds
+/// which way up its camera is, and says so unless it stands.
+void FindUpright(tracker::Tracker& tracker, const depth::FrameSource& source,
+                 const SourceArguments& arguments, bool quiet);
 /// --wait and --patience, for what a device may do.
 void AddDeviceOptions(CLI::App& app, SourceArguments& arguments);
 

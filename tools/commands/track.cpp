@@ -105,6 +105,7 @@ TrackOptions ParseOptions(int argc, char** argv) {
   CLI::App app("Follow the people in any SOURCE and write their skeletons");
   TrackOptions options;
   AddSourceOptions(app, options.source);
+  AddRotateOption(app, options.source);
   app.add_option("--out", options.out, "skeletons: FILE.jsonl, .bvh, .trc or .csv");
   app.add_option("--posture", options.posture,
                  "what --out gets: final, reconstructed, looked (raw after a close look) or raw")
@@ -145,6 +146,7 @@ TrackOptions ParseOptions(int argc, char** argv) {
   CheckExtension("--trace", options.trace, ".jsonl");
   CheckOutputs({options.out, options.json_stats, options.picture, options.pictures, options.trace},
                {options.source.name});
+  options.tracker.turn = TurnOf(options.source);
   options.tracker.physics = options.mechanics.on();
   options.tracker.mechanics = options.mechanics.build;
   if (!options.smoothing.empty()) {
@@ -306,6 +308,7 @@ std::map<int, recon::BoneLengths> MeasureBones(const TrackOptions& options) {
   tracker::TrackerOptions measuring = options.tracker;
   measuring.keep_parts = measuring.trace = false;
   tracker::Tracker tracker(measuring);
+  FindUpright(tracker, *source, options.source, options.quiet);
   Progress progress("measuring bones", options.quiet);
   const auto known = static_cast<double>(source->frame_count().value_or(0));
   std::map<int, recon::BoneLengths> bones_m;
@@ -368,6 +371,7 @@ int Track(int argc, char** argv) {
   if (options.bones.of_recording()) options.tracker.bones_m = MeasureBones(options);
   tracker::Tracker tracker(options.tracker);  // first: a device's frames do not wait meanwhile
   const auto source = OpenSource(options.source, options.quiet);
+  FindUpright(tracker, *source, options.source, options.quiet);
   SkeletonOutput output(options);
   DecisionTrace trace(options.trace);
   Pictures pictures(options);

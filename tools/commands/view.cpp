@@ -76,10 +76,11 @@ void ShowSkeletons(const ViewOptions& options) {
 }
 
 void ShowSource(const ViewOptions& options) {
-  auto source = OpenSource(options.source, true);
+  auto source = OpenSource(options.source, false);
   tracker::TrackerOptions with = options.tracker;
   with.models = tracker::ModelSet::Load(options.files, with.method);
   tracker::Tracker tracker(with);
+  FindUpright(tracker, *source, options.source, false);
   viewer::Viewer viewer(options.port);
   SayWhere(viewer);
   for (;;) {
@@ -105,6 +106,7 @@ int View(int argc, char** argv) {
       "machine");
   ViewOptions options;
   AddSourceOptions(app, options.source);
+  AddRotateOption(app, options.source);
   app.add_option("--port", options.port, "on 127.0.0.1 (default 8080, 0: any free one)")
       ->check(CLI::Range(0, 65535));
   app.add_option("--model", options.files.forest, "forest model, .ossa (default: the shipped one)");
@@ -116,6 +118,7 @@ int View(int argc, char** argv) {
   Parse(app, argc, argv);
   CheckRead(app, options.tracker.method, false);
   CheckLearned(options.tracker.method, options.files.learned);
+  options.tracker.turn = TurnOf(options.source);
   const std::string& what = options.source.name;
   if (what.starts_with("openni:") || std::filesystem::is_directory(what) ||
       depth::IsRecording(what)) {

@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "depth/base/error.h"
+#include "depth/image/turn.h"
 #include "depth/sensor/frame_source.h"
 #include "forest/forest.h"
 #include "recon/refine/close_look.h"
@@ -14,6 +15,7 @@
 #include "tools/people/parallel.h"
 #include "tools/tracker/look_closely_internal.h"
 #include "tools/tracker/person_internal.h"
+#include "tools/tracker/upright.h"
 
 namespace ossa::tracker {
 namespace {
@@ -64,6 +66,7 @@ struct Tracker::Impl {
   people::PeopleState people_state;
   std::map<int, Person> persons;  // by id
   std::optional<std::vector<int>> chosen_ids;
+  UprightFinder upright;
 
   explicit Impl(const TrackerOptions& o)
       : options(o),
@@ -90,6 +93,12 @@ struct Tracker::Impl {
   }
 
   BodyFrame Track(const depth::DepthFrame& frame);
+  int QuarterTurns() const {
+    return options.turn == Turn::kAuto ? upright.quarters() : static_cast<int>(options.turn);
+  }
+  double ScorePeople(const depth::DepthFrame& frame) const;
+  void LookUpright(const depth::DepthFrame& frame);
+  void ForgetAll();
   Body MakeBody(const depth::DepthFrame& frame, const people::Person& person) const;
   std::vector<Person*> RememberPersons(const std::vector<Body>& bodies, double time_s);
   void Introduce(int id, Person& person) const;
@@ -97,6 +106,29 @@ struct Tracker::Impl {
                  const people::Detection& detection, Person& person, Body& body,
                  StageTimes& ms) const;
 };
+
+// How surely somebody is in a frame that nothing is known about.
+double Tracker::Impl::ScorePeople(const depth::DepthFrame& frame) const {
+  people::PeopleState nothing;
+  double best = 0.0;
+  for (const people::Person& person :
+       people::DetectPeople(frame, {model, targets}, nothing, people_options).people) {
+    best = std::max(best, person.detection.score);
+  }
+  return best;
+}
+
+void Tracker::Impl::LookUpright(const depth::DepthFrame& frame) {
+  const bool changed = upright.Look(frame, [this](const depth::DepthFrame& looked, int quarters) {
+    return ScorePeople(depth::Turned(looked, quarters));
+  });
+  if (changed) ForgetAll();
+}
+
+void Tracker::Impl::ForgetAll() {
+  persons.clear();
+  people_state = {};
+}
 
 // What is known of a person without their joints.
 Body Tracker::Impl::MakeBody(const depth::DepthFrame& frame, const people::Person& person) const {
@@ -240,8 +272,30 @@ BodyFrame Tracker::Track(const depth::DepthFrame& frame) {
                      std::to_string(frame.camera.height) + " depth values, found " +
                      std::to_string(pixels));
   }
-  return impl_->Track(frame);
+  const bool is_auto = impl_->options.turn == Turn::kAuto;
+  if (is_auto) impl_->LookUpright(frame);
+  const int quarters = impl_->QuarterTurns();
+  BodyFrame result =
+      quarters == 0 ? impl_->Track(frame) : impl_->Track(depth::Turned(frame, quarters));
+  TurnBack(result, quarters);
+  if (!result.bodies.empty()) impl_->upright.Followed(frame.time_s);
+  return result;
 }
+
+void Tracker::FindUpright(depth::FrameSource& source, const std::function<bool()>& idle) {
+  constexpr double kLongest_s = 20.0;  // by hand: people come into view before
+  std::optional<double> first_s;
+  while (impl_->options.turn == Turn::kAuto && !impl_->upright.is_sure() && (!idle || idle())) {
+    const depth::ReadResult read = source.Read(std::chrono::milliseconds(100));
+    if (read.status == depth::ReadStatus::kEnd) break;
+    if (read.status != depth::ReadStatus::kFrame) continue;
+    if (!first_s) first_s = read.frame.time_s;
+    if (read.frame.time_s - *first_s > kLongest_s) break;
+    impl_->LookUpright(read.frame);
+  }
+}
+
+int Tracker::quarter_turns() const { return impl_->QuarterTurns(); }
 
 int64_t Tracker::Run(depth::FrameSource& source,
                      const std::function<bool(const BodyFrame&)>& on_bodies,
@@ -264,9 +318,6 @@ void Tracker::SetSmoothing(const SmoothingOptions& smoothing) {
   smoothing.Check();
   impl_->complete.smoothing = smoothing;
 }
-void Tracker::Reset() {
-  impl_->persons.clear();
-  impl_->people_state = {};
-}
+void Tracker::Reset() { impl_->ForgetAll(); }
 
 }  // namespace ossa::tracker

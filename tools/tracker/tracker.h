@@ -107,6 +107,15 @@ enum class TrackingMode {
   kSeated,    // the ten upper joints of the SDK's seated mode; the rest are not tracked
 };
 
+/// How far a camera's images must be turned, clockwise, for people to stand upright in them.
+enum class Turn {
+  kNone,
+  kQuarter,
+  kHalf,
+  kThreeQuarters,
+  kAuto,  // as people are seen: where nobody is followed, all four are tried about once a second
+};
+
 /// How a Tracker works; as it stands, what the command `ossa track` does without options.
 struct TrackerOptions {
   std::string method{recon::kDefaultMethod};  // one of recon::ReconstructionMethods()
@@ -117,6 +126,8 @@ struct TrackerOptions {
   /// itself gets no second one, which would only lag.
   std::optional<SmoothingOptions> smoothing;
   TrackingMode mode = TrackingMode::kStanding;
+  /// Of a camera that lies on its side or hangs upside down. All results stay in its own space.
+  Turn turn = Turn::kNone;
   bool near_range = false;  // the SDK's near mode: people from 0.4 to 3 m only
   int max_users = 6;
   /// By body id, of people whose bones are known (Body::bones_m of a run before over the same
@@ -148,6 +159,13 @@ class Tracker {
   /// times a second while no frame comes: false ends the run. Returns frames lost by the device.
   int64_t Run(depth::FrameSource& source, const std::function<bool(const BodyFrame&)>& on_bodies,
               const std::function<bool()>& idle = {});
+
+  /// With Turn::kAuto: looks through the beginning of a recording, up to 20 s, for which way up its
+  /// camera is, so that its first frames are tracked the right way, too. Follows nobody.
+  /// `idle` is asked after every frame: false ends the look.
+  void FindUpright(depth::FrameSource& source, const std::function<bool()>& idle = {});
+  /// By how many quarters, clockwise, frames are turned now.
+  int quarter_turns() const;
 
   /// Track only these users fully, the others by position (the SDK's AppChoosesSkeletons).
   void ChooseUsers(std::vector<int> ids);

@@ -34,6 +34,12 @@ INSTANTIATE_TEST_SUITE_P(
                     Size{512, 512, "azure-wfov", 252}, Size{1280, 720, "d435", 640},
                     Size{848, 480, "d435", 424}));
 
+TEST(ImageSizes, StandingOnEndAreOfACameraOnItsSide) {
+  const CameraGuess guess = GuessCamera(424, 512);
+  EXPECT_EQ(guess.preset, "kinect-v2");
+  EXPECT_EQ(guess.camera, (Camera{424, 512, 366, 366, 212, 256}));
+}
+
 TEST(ImageSizes, OfNoKnownCameraAreAKinectV1s) {
   const CameraGuess guess = GuessCamera(100, 100);
   EXPECT_FALSE(guess.sizes_match);

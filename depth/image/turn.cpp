@@ -1,0 +1,41 @@
+#include "depth/image/turn.h"
+
+#include <cstdlib>
+
+namespace ossa::depth {
+
+Camera Turned(const Camera& camera, int quarters) {
+  const double right = camera.width - 1 - camera.cx, below = camera.height - 1 - camera.cy;
+  const Camera& c = camera;
+  switch (quarters) {
+    case 1:
+      return {c.height, c.width, c.fy, c.fx, below, c.cx};
+    case 2:
+      return {c.width, c.height, c.fx, c.fy, right, below};
+    case 3:
+      return {c.height, c.width, c.fy, c.fx, c.cy, right};
+    default:
+      return camera;
+  }
+}
+
+DepthFrame Turned(const DepthFrame& frame, int quarters) {
+  if (quarters == 0) return frame;
+  Image<uint16_t> image(frame.camera.width, frame.camera.height);
+  image.data = frame.depth_mm;
+  return {Turned(image, quarters).data, Turned(frame.camera, quarters), frame.time_s, frame.index};
+}
+
+// A pixel's offsets from the centre are -x and -y: what lies below the centre, at -y, comes to lie
+// left of it, at x.
+Eigen::Matrix3d CameraFromTurned(int quarters) {
+  Eigen::Matrix3d quarter;
+  quarter << 0, 1, 0,  //
+      -1, 0, 0,        //
+      0, 0, 1;
+  Eigen::Matrix3d turn = Eigen::Matrix3d::Identity();
+  for (int i = 0; i < quarters; ++i) turn = turn * quarter;
+  return turn;
+}
+
+}  // namespace ossa::depth

@@ -1,0 +1,152 @@
+#include "tools/tracker/upright.h"
+
+#include <gtest/gtest.h>
+
+#include <utility>
+#include <vector>
+
+#include "depth/image/turn.h"
+#include "depth/sensor/frame_source.h"
+#include "tests/tools/tracker/tracked_scenes.h"
+
+namespace ossa::tracker {
+namespace {
+
+// What a camera sees that must be turned by so many quarters.
+depth::DepthFrame OfTurnedCamera(const depth::DepthFrame& upright, int quarters) {
+  return depth::Turned(upright, (4 - quarters) % 4);
+}
+
+// A person who walks sideways, upright.
+const std::vector<depth::DepthFrame>& Walk() {
+  static const std::vector<depth::DepthFrame> frames = [] {
+    std::vector<depth::DepthFrame> made;
+    for (int i = 0; i < 6; ++i) made.push_back(Rendered({PersonAt(-0.2 + 0.03 * i, 2.6)}, i).frame);
+    return made;
+  }();
+  return frames;
+}
+
+class Frames final : public depth::FrameSource {
+ public:
+  explicit Frames(std::vector<depth::DepthFrame> frames) : frames_(std::move(frames)) {}
+  depth::ReadResult Read(std::chrono::milliseconds) override {
+    depth::ReadResult result{.status = depth::ReadStatus::kEnd, .frame = {}};
+    if (next_ == frames_.size()) return result;
+    result.status = depth::ReadStatus::kFrame;
+    result.frame = frames_[next_++];
+    return result;
+  }
+  const depth::Camera& camera() const override { return frames_.front().camera; }
+  bool is_live() const override { return false; }
+  std::optional<int64_t> frame_count() const override { return std::nullopt; }
+
+ private:
+  std::vector<depth::DepthFrame> frames_;
+  size_t next_ = 0;
+};
+
+BodyFrame LastOf(Tracker& tracker, int quarters) {
+  BodyFrame last;
+  for (const depth::DepthFrame& frame : Walk()) {
+    last = tracker.Track(OfTurnedCamera(frame, quarters));
+  }
+  return last;
+}
+
+class TurnedCamera : public testing::TestWithParam<int> {};
+
+TEST_P(TurnedCamera, SeesTheSamePeopleInItsOwnSpace) {
+  OSSA_NEEDS_MODEL();
+  TrackerOptions options = PlainOptions();
+  Tracker standing(options);
+  const BodyFrame upright = LastOf(standing, 0);
+  options.turn = static_cast<Turn>(GetParam());
+  Tracker lying(options);
+  const BodyFrame turned = LastOf(lying, GetParam());
+  ASSERT_EQ(upright.bodies.size(), 1u);
+  ASSERT_EQ(turned.bodies.size(), 1u);
+  const Eigen::Matrix3d back = depth::CameraFromTurned(GetParam());
+  const Eigen::Quaterniond rotation(back);
+  for (size_t j = 0; j < recon::kJointCount; ++j) {
+    const JointEstimate &a = upright.bodies[0].joints[j], &b = turned.bodies[0].joints[j];
+    EXPECT_TRUE(b.position_m.isApprox(back * a.position_m, 1e-9)) << j;
+    EXPECT_LT(b.orientation.angularDistance(rotation * a.orientation), 1e-6) << j;
+  }
+  EXPECT_TRUE(turned.floor->head<3>().isApprox(back * upright.floor->head<3>(), 1e-9));
+  EXPECT_EQ(turned.users.data, depth::Turned(upright.users, (4 - GetParam()) % 4).data);
+}
+
+TEST_P(TurnedCamera, IsFoundOutBeforeTheFirstFrameIsTracked) {
+  OSSA_NEEDS_MODEL();
+  TrackerOptions options = PlainOptions();
+  options.turn = Turn::kAuto;
+  Tracker tracker(options);
+  std::vector<depth::DepthFrame> frames;
+  for (const auto& frame : Walk()) frames.push_back(OfTurnedCamera(frame, GetParam()));
+  Frames source(frames);
+  tracker.FindUpright(source);
+  EXPECT_EQ(tracker.quarter_turns(), GetParam());
+}
+
+INSTANTIATE_TEST_SUITE_P(All, TurnedCamera, testing::Values(0, 1, 2, 3));
+
+TEST(TurnBack, BordersGoBackToo) {
+  BodyFrame frame;
+  frame.bodies.resize(1);
+  frame.bodies[0].clipped_edges = kClippedTop | kClippedRight;
+  TurnBack(frame, 1);  // what is above now was left before
+  EXPECT_EQ(frame.bodies[0].clipped_edges, kClippedLeft | kClippedTop);
+}
+
+// Looks at frames a second apart, in which people are seen as these scores say.
+int TurnsAfter(UprightFinder& finder, int frames, std::vector<double> scores, double from_s = 0) {
+  for (int i = 0; i < frames; ++i) {
+    depth::DepthFrame frame;
+    frame.time_s = from_s + 1.5 * i;
+    finder.Look(frame, [&](const depth::DepthFrame&, int turn) {
+      return scores[static_cast<size_t>(turn)];
+    });
+  }
+  return finder.quarters();
+}
+
+TEST(UprightFinder, ThreeLooksThatAgreeTurnTheImages) {
+  UprightFinder finder;
+  EXPECT_EQ(TurnsAfter(finder, 2, {0, 0, 0.9, 0}), 0);
+  EXPECT_EQ(TurnsAfter(finder, 1, {0, 0, 0.9, 0}, 9), 2);
+}
+
+TEST(UprightFinder, WhoStandsUprightDecides) {
+  UprightFinder finder;
+  EXPECT_EQ(TurnsAfter(finder, 9, {0.85, 0.99, 0, 0}), 0);
+  EXPECT_TRUE(finder.is_sure());
+}
+
+TEST(UprightFinder, NothingIsDecidedByWhoIsHardlyOne) {
+  UprightFinder finder;
+  EXPECT_EQ(TurnsAfter(finder, 9, {0, 0.7, 0, 0}), 0);
+  EXPECT_EQ(TurnsAfter(finder, 9, {0.75, 0.85, 0, 0}, 20), 0);
+  EXPECT_FALSE(finder.is_sure());
+}
+
+TEST(UprightFinder, AWrongTurnIsTakenBackWhenSomebodyStandsUpright) {
+  UprightFinder finder;
+  EXPECT_EQ(TurnsAfter(finder, 3, {0, 0.9, 0, 0}), 1);
+  EXPECT_EQ(TurnsAfter(finder, 3, {0.9, 0, 0, 0}, 20), 0);
+}
+
+TEST(UprightFinder, AsksNothingWhileSomebodyIsFollowed) {
+  UprightFinder finder;
+  int asked = 0;
+  for (int i = 0; i < 60; ++i) {
+    depth::DepthFrame frame;
+    frame.time_s = i / 30.0;
+    finder.Followed(frame.time_s);
+    finder.Look(frame, [&](const depth::DepthFrame&, int) { return ++asked, 0.0; });
+  }
+  EXPECT_EQ(asked, 0);
+}
+
+}  // namespace
+}  // namespace ossa::tracker

@@ -1,0 +1,97 @@
+#include "tools/tracker/upright.h"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "depth/image/turn.h"
+
+namespace ossa::tracker {
+namespace {
+
+// Constants: by hand, between people upright and the same clips turned (tests/tools/tracker/
+// upright_test.cpp).
+constexpr double kSure = 0.8;      // score, [0, 1], of somebody who is there
+constexpr double kClearly = 0.15;  // by which another turn must score more than the present one
+constexpr double kEvery_s = 1.0;   // between looks while nobody is followed
+constexpr int kAgreeing = 3;       // looks
+
+// The borders of an image, clockwise from above.
+constexpr std::array<unsigned, 4> kBorders = {kClippedTop, kClippedRight, kClippedBottom,
+                                              kClippedLeft};
+
+unsigned EdgesBefore(unsigned edges, int quarters) {
+  unsigned before = 0;
+  for (size_t i = 0; i < kBorders.size(); ++i) {
+    const size_t turned = (i + static_cast<size_t>(quarters)) % kBorders.size();
+    if ((edges & kBorders[turned]) != 0) before |= kBorders[i];
+  }
+  return before;
+}
+
+void TurnBack(recon::Posture& posture, const Eigen::Matrix3d& turn) {
+  for (Eigen::Vector3d& position_m : posture.position_m) position_m = turn * position_m;
+}
+
+void TurnBack(Body& body, const Eigen::Matrix3d& turn, int quarters) {
+  const Eigen::Quaterniond rotation(turn);
+  body.position_m = turn * body.position_m;
+  for (JointEstimate& joint : body.joints) {
+    joint.position_m = turn * joint.position_m;
+    joint.orientation = rotation * joint.orientation;
+  }
+  TurnBack(body.raw.posture, turn);
+  if (body.refined) TurnBack(*body.refined, turn);
+  TurnBack(body.reconstructed, turn);
+  body.clipped_edges = EdgesBefore(body.clipped_edges, quarters);
+}
+
+}  // namespace
+
+void TurnBack(BodyFrame& frame, int quarters) {
+  if (quarters == 0) return;
+  const Eigen::Matrix3d turn = depth::CameraFromTurned(quarters);
+  for (Body& body : frame.bodies) TurnBack(body, turn, quarters);
+  if (frame.floor) frame.floor->head<3>() = turn * frame.floor->head<3>();
+  for (people::Decision& decision : frame.decisions.candidates) {
+    decision.place_m = turn * decision.place_m;
+    decision.size_m = (turn * decision.size_m).cwiseAbs();
+  }
+  frame.users = depth::Turned(frame.users, 4 - quarters);
+  frame.parts = depth::Turned(frame.parts, 4 - quarters);
+}
+
+int UprightFinder::BestTurn(const depth::DepthFrame& frame, const ScoreOfTurn& score) const {
+  std::array<double, 4> scores{};
+  scores[static_cast<size_t>(quarters_)] = score(frame, quarters_);
+  if (scores[static_cast<size_t>(quarters_)] >= kSure) return quarters_;
+  for (int turn = 0; turn < 4; ++turn) {
+    if (turn != quarters_) scores[static_cast<size_t>(turn)] = score(frame, turn);
+  }
+  const auto best =
+      static_cast<int>(std::max_element(scores.begin(), scores.end()) - scores.begin());
+  const double most = scores[static_cast<size_t>(best)];
+  return most >= kSure && most > scores[static_cast<size_t>(quarters_)] + kClearly ? best : -1;
+}
+
+bool UprightFinder::Look(const depth::DepthFrame& frame, const ScoreOfTurn& score) {
+  const double since_s = frame.time_s - looked_s_, alone_s = frame.time_s - followed_s_;
+  const bool in_doubt = agreeing_ > 0 || !std::isfinite(since_s);
+  if ((alone_s >= 0 && alone_s < kEvery_s) || (!in_doubt && since_s >= 0 && since_s < kEvery_s)) {
+    return false;
+  }
+  looked_s_ = frame.time_s;
+  const int best = BestTurn(frame, score);
+  agreeing_ = best >= 0 && (agreeing_ == 0 || best == candidate_) ? agreeing_ + 1 : 0;
+  candidate_ = best;
+  if (best == quarters_) {
+    sure_ = true;
+    agreeing_ = 0;
+  }
+  if (agreeing_ < kAgreeing) return false;
+  agreeing_ = 0;
+  sure_ = true;
+  return std::exchange(quarters_, best) != best;
+}
+
+}  // namespace ossa::tracker

@@ -1,0 +1,44 @@
+#pragma once
+#include <array>
+#include <functional>
+#include <limits>
+
+#include "tools/tracker/tracker.h"
+
+namespace ossa::tracker {
+
+/// What was found in the turned image, in the camera's own space and image: positions, floor,
+/// orientations, users and parts, and the borders that cut bodies off.
+void TurnBack(BodyFrame& frame, int quarters);
+
+/// How surely somebody stands upright in the frame once it is turned clockwise by so many quarters;
+/// 0: nobody is found.
+using ScoreOfTurn = std::function<double(const depth::DepthFrame& frame, int quarters)>;
+
+/// Finds out how far a camera's images must be turned for people to stand in them. As long as
+/// somebody is followed nothing is asked and nothing changes. Else, about once a second, one frame
+/// is looked at in all four ways; three looks that agree turn the images. An upright camera wins
+/// whenever somebody sure is seen upright.
+class UprightFinder {
+ public:
+  int quarters() const { return quarters_; }
+  /// Whether somebody was surely seen the way it is: no other need be tried.
+  bool is_sure() const { return sure_; }
+
+  /// Looks if it is time to; true if the turn changed, so that all that is followed is void.
+  bool Look(const depth::DepthFrame& frame, const ScoreOfTurn& score);
+  void Followed(double time_s) { followed_s_ = time_s; }
+
+ private:
+  int BestTurn(const depth::DepthFrame& frame, const ScoreOfTurn& score) const;
+
+  static constexpr double kNever = -std::numeric_limits<double>::infinity();
+  int quarters_ = 0;
+  bool sure_ = false;
+  int candidate_ = 0;  // the turn that the last looks were for
+  int agreeing_ = 0;   // so many of them
+  double looked_s_ = kNever;
+  double followed_s_ = kNever;
+};
+
+}  // namespace ossa::tracker
