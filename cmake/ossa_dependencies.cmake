@@ -18,6 +18,8 @@ pkg_check_modules(xxhash REQUIRED IMPORTED_TARGET libxxhash)
 pkg_check_modules(archive REQUIRED IMPORTED_TARGET libarchive)
 pkg_check_modules(zstd REQUIRED IMPORTED_TARGET libzstd)
 pkg_check_modules(freenect QUIET IMPORTED_TARGET libfreenect)
+pkg_check_modules(libav QUIET IMPORTED_TARGET libavformat libavcodec libavutil)  # .mkv
+include(ossa_rosbag)
 if(OSSA_MPI)
   find_package(MPI QUIET COMPONENTS CXX)
 endif()

@@ -75,12 +75,14 @@ struct SourceOptions {
   std::function<void(NoteKind, const std::string&)> note = {};
 };
 
-/// A file of depth images by its name, in capitals or not (FILE.oni, FILE.png), or a folder of the
-/// latter. A folder that cannot be read throws std::filesystem::filesystem_error.
+/// A file of depth images by its name, in capitals or not (FILE.oni, FILE.mkv, FILE.bag, FILE.png),
+/// or a folder of the latter. A folder that cannot be read throws
+/// std::filesystem::filesystem_error.
 bool IsRecording(const std::filesystem::path& path);
 
-/// Opens SOURCE: "openni:", "openni:URI", "FILE.oni", a folder of 16-bit PNGs, or a DATASET folder;
-/// or one such PNG, a still (docs/sources.md). Throws InputError naming it and what was expected.
+/// Opens SOURCE: "openni:", "openni:URI", "FILE.oni", "FILE.mkv", "FILE.bag", "FILE.bag#/topic", a
+/// folder of 16-bit PNGs, or a DATASET folder; or one such PNG, a still (docs/sources.md). Throws
+/// InputError naming it and what was expected.
 std::unique_ptr<FrameSource> OpenSource(const std::string& source,
                                         const SourceOptions& options = {});
 

@@ -1,6 +1,9 @@
 #include <algorithm>
+#include <array>
 #include <cctype>
+#include <string_view>
 #include <system_error>
+#include <utility>
 
 #include "depth/base/error.h"
 #include "depth/sensor/folder_listing_internal.h"
@@ -25,11 +28,48 @@ bool IsOniName(const std::filesystem::path& path) {
   return LowerCaseExtension(is_left ? path.stem() : path) == ".oni";
 }
 
+// FILE.bag or FILE.bag#/topic.
+struct BagName {
+  std::filesystem::path file;
+  std::string topic;
+  explicit BagName(const std::string& source) : file(source) {
+    const size_t mark = source.rfind(".bag#");
+    if (mark == std::string::npos) return;
+    file = source.substr(0, mark + 4);
+    topic = source.substr(mark + 5);
+  }
+};
+
+// Recordings that ossa does not read, and what makes ones of them that it does; null of others.
+const char* HowToConvert(const std::string& extension) {
+  constexpr const char* kXef =
+      "a Kinect Studio recording: extract its depth to 16-bit PNGs, by KinectXEFTools or by "
+      "playing it into a recorder on Windows, and read that folder";
+  constexpr const char* kVideo =
+      "a video, which holds colours and no distances; one of 16-bit greys becomes a folder to read "
+      "by 'ffmpeg -i FILE -pix_fmt gray16be FOLDER/%06d.png'";
+  constexpr const char* kRos2 = "a ROS 2 bag: 'rosbags-convert' makes a ROS 1 .bag of it";
+  constexpr std::array<std::pair<std::string_view, const char*>, 9> kHow = {{{".xef", kXef},
+                                                                             {".mp4", kVideo},
+                                                                             {".avi", kVideo},
+                                                                             {".mov", kVideo},
+                                                                             {".webm", kVideo},
+                                                                             {".m4v", kVideo},
+                                                                             {".wmv", kVideo},
+                                                                             {".db3", kRos2},
+                                                                             {".mcap", kRos2}}};
+  const auto found = std::find_if(kHow.begin(), kHow.end(),
+                                  [&](const auto& how) { return how.first == extension; });
+  return found == kHow.end() ? nullptr : found->second;
+}
+
 }  // namespace
 
 bool IsRecording(const std::filesystem::path& path) {
   if (!std::filesystem::is_directory(path)) {
-    return IsOniName(path) || IsPngName(path);
+    const std::string extension = LowerCaseExtension(BagName(path.string()).file);
+    return IsOniName(path) || extension == ".mkv" || extension == ".bag" || IsPngName(path) ||
+           HowToConvert(extension) != nullptr;
   }
   const std::filesystem::directory_iterator entries(path);
   return std::any_of(begin(entries), end(entries), [](const auto& entry) {
@@ -55,12 +95,21 @@ std::unique_ptr<FrameSource> OpenSource(const std::string& source, const SourceO
   if (IsOniName(path)) {
     return Prepared(source, OpenOniFile(path, options), UnitStated::kYes, options);
   }
+  const BagName bag(source);
+  const std::string extension = LowerCaseExtension(bag.file);
+  if (std::filesystem::exists(bag.file, error)) {
+    if (extension == ".mkv") return OpenMkvFile(path, options);
+    if (extension == ".bag") return OpenBagFile(bag.file, bag.topic, options);
+    if (const char* how = HowToConvert(extension)) {
+      throw InputError(source + ": expected depth images, found " + how);
+    }
+  }
   if (IsPngName(path) && std::filesystem::exists(path, error)) {
     return Prepared(source, OpenStill(path, options), UnitStated::kNo, options);
   }
   throw InputError(source +
-                   ": expected openni:, openni:URI, FILE.oni, a 16-bit PNG or a folder of them, or "
-                   "a data set, found no such thing");
+                   ": expected openni:, openni:URI, FILE.oni, FILE.mkv, FILE.bag, a 16-bit PNG or "
+                   "a folder of them, or a data set, found no such thing");
 }
 
 }  // namespace ossa::depth

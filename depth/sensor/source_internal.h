@@ -29,6 +29,15 @@ std::unique_ptr<FrameSource> OpenDataSet(const std::filesystem::path& folder,
 std::unique_ptr<FrameSource> OpenOniFile(const std::filesystem::path& path,
                                          const SourceOptions& options);
 
+/// An Azure Kinect's or a Femto's recording: depth undistorted by the calibration in it. Read by
+/// libavformat in a child process.
+std::unique_ptr<FrameSource> OpenMkvFile(const std::filesystem::path& path,
+                                         const SourceOptions& options);
+
+/// A ROS 1 bag; topic "": the one named after depth. Read by rosbag_storage in a child process.
+std::unique_ptr<FrameSource> OpenBagFile(const std::filesystem::path& path,
+                                         const std::string& topic, const SourceOptions& options);
+
 /// The camera whose images have this size; says in a note which was taken for whose.
 Camera CameraByImageSize(const std::string& name, int width, int height,
                          const SourceOptions& options);

@@ -1,0 +1,83 @@
+#include <sys/resource.h>
+#include <unistd.h>
+
+#include <chrono>
+#include <cstring>
+#include <exception>
+#include <string>
+#include <thread>
+#include <vector>
+
+#include "depth/sensor/readers/reader_pipe_internal.h"
+
+namespace ossa::depth {
+namespace {
+
+void WriteAll(const void* data, size_t size) {
+  const char* at = static_cast<const char*>(data);
+  while (size > 0) {
+    const ssize_t written = write(STDOUT_FILENO, at, size);
+    if (written <= 0) _exit(0);  // nobody reads any more
+    at += written;
+    size -= static_cast<size_t>(written);
+  }
+}
+
+// A library may spin on a file that ends badly: no orphan may do so for ever.
+void EndWithTheParent(pid_t parent) {
+  std::thread([parent] {
+    while (getppid() == parent) std::this_thread::sleep_for(std::chrono::seconds(1));
+    _exit(0);
+  }).detach();
+}
+
+void LimitMemory() {
+#ifndef __SANITIZE_ADDRESS__                 // whose shadow of the address space alone is larger
+  constexpr rlim_t kMost = rlim_t{2} << 30;  // bytes, by hand: a hundred frames of the largest
+  const rlimit limit{kMost, kMost};
+  setrlimit(RLIMIT_AS, &limit);
+#endif
+  const rlimit no_core{0, 0};
+  setrlimit(RLIMIT_CORE, &no_core);
+}
+
+}  // namespace
+
+void Send(ReaderKind kind, std::span<const std::byte> contents) {
+  ReaderMessage message;
+  message.kind = kind;
+  message.size = contents.size();
+  WriteAll(&message, sizeof(message));
+  WriteAll(contents.data(), contents.size());
+}
+
+void SendText(ReaderKind kind, const std::string& text) {
+  Send(kind, std::as_bytes(std::span(text)));
+}
+
+void SendHello(const ReaderHello& hello) {
+  Send(ReaderKind::kHello, std::as_bytes(std::span(&hello, 1)));
+}
+
+void SendFrame(const ReaderFrame& frame, std::span<const uint16_t> depth) {
+  ReaderMessage message;
+  message.kind = ReaderKind::kFrame;
+  message.size = sizeof(frame) + depth.size_bytes();
+  WriteAll(&message, sizeof(message));
+  WriteAll(&frame, sizeof(frame));
+  WriteAll(depth.data(), depth.size_bytes());
+}
+
+void RunReader(const std::function<void()>& read) {
+  LimitMemory();
+  EndWithTheParent(getppid());
+  try {
+    read();
+    Send(ReaderKind::kEnd);
+  } catch (const std::exception& error) {
+    SendText(ReaderKind::kError, error.what());
+  }
+  _exit(0);
+}
+
+}  // namespace ossa::depth

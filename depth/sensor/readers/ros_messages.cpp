@@ -1,0 +1,128 @@
+#include "depth/sensor/readers/ros_messages.h"
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+#include <cstring>
+
+#include "depth/base/error.h"
+#include "depth/image/camera.h"
+
+namespace ossa::depth {
+namespace {
+
+static_assert(std::endian::native == std::endian::little, "ROS's byte order is taken for ours");
+
+// What is left of a message.
+class Message {
+ public:
+  explicit Message(std::span<const uint8_t> bytes) : bytes_(bytes) {}
+
+  std::span<const uint8_t> Bytes(size_t size) {
+    if (size > bytes_.size()) {
+      throw InputError("a message: expected " + std::to_string(size) + " more bytes, found " +
+                       std::to_string(bytes_.size()));
+    }
+    const auto taken = bytes_.first(size);
+    bytes_ = bytes_.subspan(size);
+    return taken;
+  }
+  template <typename T>
+  T Value() {
+    T value{};
+    std::memcpy(&value, Bytes(sizeof(T)).data(), sizeof(T));
+    return value;
+  }
+  std::span<const uint8_t> Array(size_t element_size) {
+    return Bytes(size_t{Value<uint32_t>()} * element_size);
+  }
+  std::string Text() {
+    const auto text = Array(1);
+    return {reinterpret_cast<const char*>(text.data()), text.size()};
+  }
+  /// std_msgs/Header: its stamp.
+  double Header() {
+    constexpr double kSecondsPerNanosecond = 1e-9;
+    Value<uint32_t>();  // seq
+    const auto seconds = Value<uint32_t>(), nanoseconds = Value<uint32_t>();
+    Text();  // frame_id
+    return seconds + kSecondsPerNanosecond * nanoseconds;
+  }
+
+ private:
+  std::span<const uint8_t> bytes_;
+};
+
+template <typename Sample>
+std::vector<Sample> SamplesOf(const RosImage& image) {
+  const size_t row = sizeof(Sample) * image.width;
+  const size_t needed = size_t{image.step} * image.height;
+  if (image.width > kLargestImageSide || image.height > kLargestImageSide || image.step < row ||
+      image.data.size() < needed) {
+    throw InputError("expected an image of " + std::to_string(image.width) + "x" +
+                     std::to_string(image.height) + " " + image.encoding + ", found " +
+                     std::to_string(image.data.size()) + " bytes");
+  }
+  std::vector<Sample> samples(size_t{image.width} * image.height);
+  for (size_t v = 0; v < image.height && row > 0; ++v) {
+    std::memcpy(samples.data() + v * image.width, image.data.data() + v * image.step, row);
+  }
+  auto* bytes = reinterpret_cast<uint8_t*>(samples.data());
+  for (size_t i = 0; i < samples.size() && image.is_bigendian; ++i) {
+    std::reverse(bytes + i * sizeof(Sample), bytes + (i + 1) * sizeof(Sample));
+  }
+  return samples;
+}
+
+uint16_t Millimetres(double metres) {
+  constexpr double kMillimetresPerMetre = 1000.0;
+  const double mm = std::round(metres * kMillimetresPerMetre);
+  return mm > 0 && mm < 65536 ? static_cast<uint16_t>(mm) : uint16_t{0};  // NaN: no reading
+}
+
+}  // namespace
+
+RosImage ParseRosImage(std::span<const uint8_t> bytes) {
+  Message message(bytes);
+  RosImage image;
+  image.time_s = message.Header();
+  image.height = message.Value<uint32_t>();
+  image.width = message.Value<uint32_t>();
+  image.encoding = message.Text();
+  image.is_bigendian = message.Value<uint8_t>() != 0;
+  image.step = message.Value<uint32_t>();
+  image.data = message.Array(1);
+  return image;
+}
+
+std::array<double, 9> ParseRosIntrinsics(std::span<const uint8_t> bytes) {
+  Message message(bytes);
+  message.Header();
+  message.Value<uint32_t>();      // height
+  message.Value<uint32_t>();      // width
+  message.Text();                 // distortion model
+  message.Array(sizeof(double));  // D
+  return message.Value<std::array<double, 9>>();
+}
+
+float ParseRosFloat(std::span<const uint8_t> bytes) { return Message(bytes).Value<float>(); }
+
+RosDepth DepthEncodingOf(const RosImage& image) {
+  if (image.encoding == "16UC1" || image.encoding == "mono16") return RosDepth::k16Bits;
+  return image.encoding == "32FC1" ? RosDepth::kMetres : RosDepth::kNone;
+}
+
+std::vector<uint16_t> DepthsOf(const RosImage& image, double metres_per_unit) {
+  std::vector<uint16_t> depths;
+  if (DepthEncodingOf(image) == RosDepth::kMetres) {
+    for (const float metres : SamplesOf<float>(image)) depths.push_back(Millimetres(metres));
+    return depths;
+  }
+  depths = SamplesOf<uint16_t>(image);
+  for (uint16_t& depth : depths) {
+    if (metres_per_unit > 0) depth = Millimetres(depth * metres_per_unit);
+  }
+  return depths;
+}
+
+}  // namespace ossa::depth

@@ -1,0 +1,42 @@
+#pragma once
+#include <array>
+#include <cstdint>
+#include <span>
+#include <string>
+#include <vector>
+
+namespace ossa::depth {
+
+// ROS 1 messages as they lie in a bag (wiki.ros.org/msg, little-endian, strings and arrays with
+// their length before them). Parsers throw InputError for bytes that are cut short.
+
+/// sensor_msgs/Image.
+struct RosImage {
+  double time_s = 0.0;  // header.stamp; 0: not stamped
+  uint32_t height = 0, width = 0;
+  std::string encoding;
+  bool is_bigendian = false;
+  uint32_t step = 0;              // bytes from one row to the next
+  std::span<const uint8_t> data;  // within the message
+};
+RosImage ParseRosImage(std::span<const uint8_t> message);
+
+/// sensor_msgs/CameraInfo's K: fx 0 cx 0 fy cy 0 0 1, pixels; all 0 of a camera without
+/// calibration.
+std::array<double, 9> ParseRosIntrinsics(std::span<const uint8_t> message);
+
+/// std_msgs/Float32.
+float ParseRosFloat(std::span<const uint8_t> message);
+
+enum class RosDepth {
+  kNone,
+  k16Bits,  // 16UC1 or mono16
+  kMetres,  // 32FC1
+};
+RosDepth DepthEncodingOf(const RosImage& image);
+
+/// Depths, row-major, height × width; of metres millimetres, and of 16 bits if metres_per_unit > 0,
+/// else the numbers themselves. Throws InputError for an image that holds too few bytes.
+std::vector<uint16_t> DepthsOf(const RosImage& image, double metres_per_unit);
+
+}  // namespace ossa::depth

@@ -1,0 +1,51 @@
+#pragma once
+#include <cstdint>
+#include <cstring>
+#include <string>
+#include <vector>
+
+namespace ossa::test {
+
+/// Little-endian, as ROS 1 has its messages.
+class RosBytes {
+ public:
+  template <typename T>
+  RosBytes& Add(const T& value) {
+    const auto* at = reinterpret_cast<const uint8_t*>(&value);
+    bytes.insert(bytes.end(), at, at + sizeof(T));
+    return *this;
+  }
+  RosBytes& AddText(const std::string& text) {
+    Add(static_cast<uint32_t>(text.size()));
+    bytes.insert(bytes.end(), text.begin(), text.end());
+    return *this;
+  }
+  /// seq, stamp, frame_id.
+  RosBytes& AddHeader(uint32_t seconds, uint32_t nanoseconds) {
+    return Add(uint32_t{7}).Add(seconds).Add(nanoseconds).AddText("camera");
+  }
+  std::vector<uint8_t> bytes;
+};
+
+template <typename Sample = uint16_t>
+std::vector<uint8_t> RosImageBytes(const std::string& encoding, uint32_t width, uint32_t height,
+                                   const std::vector<Sample>& samples, uint32_t step,
+                                   bool is_bigendian = false, uint32_t seconds = 100) {
+  RosBytes message;
+  message.AddHeader(seconds, 250'000'000).Add(height).Add(width).AddText(encoding);
+  message.Add(static_cast<uint8_t>(is_bigendian)).Add(step);
+  message.Add(static_cast<uint32_t>(samples.size() * sizeof(Sample)));
+  for (const Sample sample : samples) message.Add(sample);
+  return message.bytes;
+}
+
+/// Only what is read of it, and what stands before.
+inline std::vector<uint8_t> RosCameraInfo(double f, double cy) {
+  RosBytes message;
+  message.AddHeader(100, 0).Add(uint32_t{424}).Add(uint32_t{512}).AddText("plumb_bob");
+  message.Add(uint32_t{1}).Add(0.0);
+  for (const double k : {f, 0.0, 256.0, 0.0, f, cy, 0.0, 0.0, 1.0}) message.Add(k);
+  return message.bytes;
+}
+
+}  // namespace ossa::test

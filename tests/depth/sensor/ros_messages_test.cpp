@@ -1,0 +1,84 @@
+#include "depth/sensor/readers/ros_messages.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <limits>
+
+#include "depth/sensor/readers/bag_topics.h"
+#include "tests/depth/sensor/ros_bytes.h"
+#include "tests/support/refused.h"
+
+namespace ossa::depth {
+namespace {
+
+using test::RosCameraInfo;
+using test::RosImageBytes;
+
+TEST(RosImage, ItsRowsBecomeDepths) {
+  const auto bytes =
+      RosImageBytes("16UC1", 2, 2, {1, 2, 0xEE, 3, 4, 0xEE}, 6);  // a pixel of padding
+  const RosImage image = ParseRosImage(bytes);
+  EXPECT_DOUBLE_EQ(image.time_s, 100.25);
+  EXPECT_EQ(DepthEncodingOf(image), RosDepth::k16Bits);
+  EXPECT_EQ(DepthsOf(image, 0), (std::vector<uint16_t>{1, 2, 3, 4}));
+  EXPECT_EQ(DepthsOf(image, 0.01), (std::vector<uint16_t>{10, 20, 30, 40}));
+}
+
+TEST(RosImage, BytesInTheOtherOrderAreExchanged) {
+  const auto bytes = RosImageBytes("mono16", 2, 1, {0x0100, 0x0002}, 4, true);
+  EXPECT_EQ(DepthsOf(ParseRosImage(bytes), 0), (std::vector<uint16_t>{1, 0x0200}));
+}
+
+TEST(RosImage, MetresBecomeMillimetresAndWhatIsNoneNothing) {
+  const float nan = std::numeric_limits<float>::quiet_NaN();
+  const auto bytes = RosImageBytes("32FC1", 4, 1, std::vector<float>{1.5F, nan, -1.0F, 100.0F}, 16);
+  EXPECT_EQ(DepthsOf(ParseRosImage(bytes), 0), (std::vector<uint16_t>{1500, 0, 0, 0}));
+}
+
+TEST(RosImage, CutShortAnywhereItIsRefused) {
+  const auto bytes = RosImageBytes("16UC1", 2, 1, {1, 2}, 4);
+  for (size_t size = 0; size < bytes.size(); ++size) {
+    test::ExpectRefused([&] { ParseRosImage(std::span(bytes).first(size)); }, "more bytes");
+  }
+}
+
+TEST(RosImage, OneOfMorePixelsThanBytesIsRefused) {
+  const auto bytes = RosImageBytes("16UC1", 2, 3, {1, 2}, 4);
+  test::ExpectRefused([&] { DepthsOf(ParseRosImage(bytes), 0); }, "2x3");
+}
+
+TEST(RosCameraInfo, HasTheMatrix) {
+  const auto k = ParseRosIntrinsics(RosCameraInfo(366, 212));
+  EXPECT_EQ(k[0], 366);
+  EXPECT_EQ(k[5], 212);
+}
+
+const std::vector<BagTopic> kRealSense = {
+    {"/device_0/sensor_0/Depth_0/image/data", "sensor_msgs/Image"},
+    {"/device_0/sensor_0/Depth_0/info/camera_info", "sensor_msgs/CameraInfo"},
+    {"/device_0/sensor_1/Color_0/info/camera_info", "sensor_msgs/CameraInfo"},
+    {"/device_0/sensor_0/option/Depth_Units/value", "std_msgs/Float32"}};
+
+TEST(BagTopics, OfTheRealSenseViewerAreKnown) {
+  const BagChoice choice = ChooseDepthTopic({kRealSense[0].name}, kRealSense, "");
+  EXPECT_EQ(choice.image, kRealSense[0].name);
+  EXPECT_EQ(choice.camera_info, kRealSense[1].name);
+  EXPECT_EQ(choice.unit, kRealSense[3].name);
+  EXPECT_EQ(choice.note, "");
+}
+
+TEST(BagTopics, OneNamedAfterDepthGoesFirstAndTheOthersAreNamed) {
+  const BagChoice choice = ChooseDepthTopic({"/ir", "/camera/depth/image", "/b/depth"}, {}, "");
+  EXPECT_EQ(choice.image, "/b/depth");
+  EXPECT_NE(choice.note.find("/camera/depth/image"), std::string::npos) << choice.note;
+  EXPECT_EQ(ChooseDepthTopic({"/ir", "/b/depth"}, {}, "/ir").image, "/ir");
+}
+
+TEST(BagTopics, OneThatIsNotThereIsRefusedWithThoseThatAre) {
+  test::ExpectRefused([] { ChooseDepthTopic({"/depth"}, {}, "/x"); }, "(/depth)");
+  test::ExpectRefused([] { ChooseDepthTopic({}, {{"/scan", "x"}}, ""); }, "found /scan");
+}
+
+}  // namespace
+}  // namespace ossa::depth
