@@ -62,7 +62,7 @@ std::array<double, 14> ParametersOf(const json& camera) {
 }  // namespace
 
 LensCamera ReadK4aCalibration(const std::string& text, int width, int height) {
-  constexpr double kUsualRadius = 1.7;  // where none is stated, by the Azure Kinect SDK
+  constexpr double kUsualRadius = 1.7;  // x/z and y/z, a ratio; where none is stated, by the SDK
   const json calibration = json::parse(text, nullptr, false);
   if (calibration.is_discarded()) Fail("JSON");
   const json camera = DepthCameraOf(calibration);
