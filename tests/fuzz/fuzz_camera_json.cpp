@@ -28,6 +28,7 @@ std::vector<std::string> ossa::fuzz::Seeds() {
 extern "C" int LLVMFuzzerTestOneInput(const uint8_t* data, size_t size) {
   const std::string text(reinterpret_cast<const char*>(data), size);
   ExpectCameraOrInputError([&] { return ossa::depth::CameraFromJson(text, "camera.json"); });
-  ExpectCameraOrInputError([&] { return ossa::depth::ParseCamera(text); });
+  ExpectCameraOrInputError(
+      [&] { return ossa::depth::CameraForSize(ossa::depth::ParseCamera(text), 640, 480); });
   return 0;
 }
