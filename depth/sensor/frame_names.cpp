@@ -4,7 +4,6 @@
 #include <charconv>
 #include <cmath>
 #include <optional>
-#include <ranges>
 
 // Constants: by hand, between the clocks that recorders put into names; in each unit depth cameras'
 // steps, of 5 ms to 2 s, are far from the next unit's.
@@ -82,7 +81,8 @@ std::vector<double> Seconds(const std::vector<NumberedName>& names,
     std::from_chars(text.data(), text.data() + text.size(), fraction);
     times_s.push_back(static_cast<double>(whole[i] - whole[0]) + fraction);
   }
-  for (double& time_s : times_s | std::views::reverse) time_s -= times_s.front();
+  const double first_s = times_s.empty() ? 0.0 : times_s.front();
+  for (double& time_s : times_s) time_s -= first_s;
   return times_s;
 }
 
