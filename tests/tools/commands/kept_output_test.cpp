@@ -32,11 +32,16 @@ void WriteLongFolder(const std::filesystem::path& folder) {
   }
 }
 
-// Of "27 of 5000 frames": 27; -1 when it says nothing of the kind.
+// Of "27 of 5000 frames": 27; -1 when it says nothing of the kind. What is kept is said last, after
+// the progress.
 long Kept(const CommandResult& result) {
-  std::smatch found;
   const std::regex words("([0-9]+) of " + std::to_string(kMany) + " frames");
-  return std::regex_search(result.err, found, words) ? std::stol(found[1]) : -1;
+  long kept = -1;
+  for (std::sregex_iterator found(result.err.begin(), result.err.end(), words), end; found != end;
+       ++found) {
+    kept = std::stol((*found)[1]);
+  }
+  return kept;
 }
 
 // Signals it as soon as it says that it works.
