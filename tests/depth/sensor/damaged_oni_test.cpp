@@ -104,7 +104,7 @@ TEST(ForeignOni, FlippedBitsInItsHeaderNeverReachUs) {
   std::string whole = Recording(folder / "x.oni");
   Unseal(&whole);
   // Positions found to crash, hang or confuse OpenNI2 2.2.0.33, and some harmless ones.
-  for (const size_t at : {8, 20, 28, 32, 36, 56, 61, 120, 400, 600, 1100}) {
+  for (const size_t at : {8u, 20u, 28u, 32u, 36u, 56u, 61u, 120u, 400u, 600u, 1100u}) {
     std::string bytes = whole;
     bytes[at] ^= 0x40;
     const Outcome outcome = Play(folder / "x.oni", bytes);
