@@ -5,7 +5,7 @@
 #include "recon/database/posture_database.h"
 #include "recon/models/learned_models.h"
 #include "recon/models/posture_prior.h"
-#include "recon/refine/close_look.h"
+#include "recon/refine/refinement_cascade.h"
 #include "tools/tracker/shipped.h"
 
 namespace ossa::tracker {
@@ -30,12 +30,12 @@ bool IsRead(Reads reads, const std::string& file) {
 }
 
 // A refinement that was named is had with every method: its joints may be what is wanted.
-std::shared_ptr<const recon::Looker> LoadRefinement(const ModelFiles& files,
-                                                    const MethodInfo& method) {
+std::shared_ptr<const recon::JointRefiner> LoadRefinement(const ModelFiles& files,
+                                                          const MethodInfo& method) {
   if (files.refinement == kWithout) return nullptr;
   if (files.refinement.empty() && !(method.refined && IsShippedForest(files))) return nullptr;
-  auto refinement = std::make_shared<recon::Looker>(
-      recon::CloseLook::Load(NamedOrShipped(files.refinement, recon::kShippedLook)));
+  auto refinement = std::make_shared<recon::JointRefiner>(
+      recon::RefinementCascade::Load(NamedOrShipped(files.refinement, recon::kShippedRefinement)));
   ReturnFreedMemory();
   return refinement;
 }
