@@ -12,7 +12,6 @@ namespace {
 using Eigen::Vector3d;
 using Eigen::Vector4d;
 using recon::kJointCount;
-using recon::kJointParent;
 using recon::Posture;
 
 recon::BoneLengths Checked(recon::BoneLengths lengths) {
@@ -60,7 +59,7 @@ Actor::Actor(OdeWorld& ode, const recon::BoneLengths& bone_lengths,
              const CharacterOptions& character_options, int tag)
     : lengths(Checked(bone_lengths)),
       options(character_options),
-      character(ode, SegmentsOf(lengths, options.stature_m, options.mass_kg),
+      character(ode, ComputeSegments(lengths, options.stature_m, options.mass_kg),
                 {options.control, options.hinges, tag}) {
   if (options.joint_limits) limits = std::make_unique<JointLimits>(ode, character);
   weight.fill(1.0);
@@ -71,11 +70,11 @@ Actor::Actor(OdeWorld& ode, const recon::BoneLengths& bone_lengths,
 }
 
 double Actor::SoleHeight() const {
-  return character.segments()[static_cast<size_t>(recon::Joint::kFootLeft)].radius_m;
+  return character.segments()[recon::Index(recon::Joint::kFootLeft)].radius_m;
 }
 
 void Actor::Place(const Posture& posture, const std::optional<Vector4d>& floor) {
-  std::array<double, kJointCount> even;
+  recon::JointArray<double> even;
   even.fill(1.0);
   aim = FitBoneLengths(posture, lengths, even);
   if (floor) {
@@ -90,7 +89,7 @@ void Actor::Place(const Posture& posture, const std::optional<Vector4d>& floor) 
   aim_velocity_m_s.fill(Vector3d::Zero());
   mean_velocity_m_s.fill(Vector3d::Zero());
   mean_speed_m_s.fill(0.0);
-  character.Place(aim, recon::OrientationsOf(aim));
+  character.Place(aim, recon::ComputeOrientations(aim));
   for (FootPin& pin : foot_pin) pin.Clear();
   hard_constraint.clear();
 }
@@ -108,14 +107,14 @@ void Actor::SetTarget(const Posture& target, std::span<const double> joint_weigh
     } else if (i == 0) {
       wanted.position_m[i] = now.position_m[i];
     } else {
-      const auto parent = static_cast<size_t>(kJointParent[i]);
+      const auto parent = recon::ParentOf(i);
       wanted.position_m[i] = wanted.position_m[parent] + now.position_m[i] - now.position_m[parent];
     }
   }
 }
 
 /// Where to go this frame: what was asked for, what the user insists on, what the floor allows.
-Posture Actor::Goal(std::array<double, kJointCount>& trust) const {
+Posture Actor::Goal(recon::JointArray<double>& trust) const {
   Posture goal = wanted;
   for (const auto& [joint, place] : soft_constraint) {
     goal.position_m[joint] = place;
@@ -131,7 +130,7 @@ Posture Actor::Goal(std::array<double, kJointCount>& trust) const {
 
 void Actor::Prepare(OdeWorld& ode, const std::optional<Vector4d>& floor, double dt_s) {
   const double sole_m = SoleHeight();
-  std::array<double, kJointCount> trust = weight;
+  recon::JointArray<double> trust = weight;
   Posture goal = Goal(trust);
   LiftOntoFloor(floor, sole_m, goal);
   if (options.pin_feet) {
@@ -146,7 +145,7 @@ void Actor::Prepare(OdeWorld& ode, const std::optional<Vector4d>& floor, double 
   aim = FitBoneLengths(goal, lengths, trust);
   if (limits != nullptr) aim = WithinRanges(aim);
   if (LiftOntoFloor(floor, sole_m, aim)) aim = FitBoneLengths(aim, lengths, trust);
-  aim_orientation = recon::OrientationsOf(aim);
+  aim_orientation = recon::ComputeOrientations(aim);
   for (size_t i = 0; i < kJointCount; ++i) {
     SetLead(i, floor, sole_m, dt_s);
     control.stiffness[i] =
@@ -154,7 +153,7 @@ void Actor::Prepare(OdeWorld& ode, const std::optional<Vector4d>& floor, double 
   }
   for (size_t i = 1; i < kJointCount; ++i) {
     // A bone turns by what its ends' velocities differ across it.
-    const auto parent = static_cast<size_t>(kJointParent[i]);
+    const auto parent = recon::ParentOf(i);
     const Vector3d bone = aim.position_m[i] - aim.position_m[parent];
     control.turning_rad_s[i] =
         bone.cross(aim_velocity_m_s[i] - aim_velocity_m_s[parent]) / bone.squaredNorm();

@@ -73,11 +73,11 @@ struct Actor {
   std::unique_ptr<JointLimits> limits;  // with CharacterOptions::joint_limits
   bool controlled = true;
   recon::Posture wanted;  // as SetTarget was told, made finite
-  std::array<double, recon::kJointCount> weight{};
-  recon::Posture aim, last_aim;  // with bone lengths, above the floor
-  std::array<Eigen::Vector3d, recon::kJointCount> mean_velocity_m_s;  // of the aim, see Lead
-  std::array<double, recon::kJointCount> mean_speed_m_s{};
-  std::array<Eigen::Vector3d, recon::kJointCount> aim_velocity_m_s;
+  recon::JointArray<double> weight{};
+  recon::Posture aim, last_aim;                          // with bone lengths, above the floor
+  recon::JointArray<Eigen::Vector3d> mean_velocity_m_s;  // of the aim, see Lead
+  recon::JointArray<double> mean_speed_m_s{};
+  recon::JointArray<Eigen::Vector3d> aim_velocity_m_s;
   recon::JointOrientations aim_orientation;
   ControlTarget control;
   std::array<FootPin, 2> foot_pin = {FootPin(15), FootPin(19)};
@@ -90,7 +90,7 @@ struct Actor {
 
  private:
   double SoleHeight() const;
-  recon::Posture Goal(std::array<double, recon::kJointCount>& trust) const;
+  recon::Posture Goal(recon::JointArray<double>& trust) const;
   void SetLead(size_t joint, const std::optional<Eigen::Vector4d>& floor, double sole_m,
                double dt_s);
   Eigen::Vector3d Lead(size_t joint, const Eigen::Vector3d& velocity_m_s, double dt_s);

@@ -98,16 +98,16 @@ Segment MakeSegment(const Row& row, double length_m, double stature_m, double ma
 
 }  // namespace
 
-double StatureOf(const recon::BoneLengths& lengths) {
-  const auto at = [&](Joint joint) { return lengths[static_cast<size_t>(joint)]; };
-  const double legs = 0.5 * (at(Joint::kKneeLeft) + at(Joint::kKneeRight) + at(Joint::kAnkleLeft) +
-                             at(Joint::kAnkleRight));
-  const double trunk = at(Joint::kSpine) + at(Joint::kShoulderCenter) + at(Joint::kHead);
+double EstimateStature(const recon::BoneLengths& lengths) {
+  const double legs = 0.5 * (lengths[Joint::kKneeLeft] + lengths[Joint::kKneeRight] +
+                             lengths[Joint::kAnkleLeft] + lengths[Joint::kAnkleRight]);
+  const double trunk =
+      lengths[Joint::kSpine] + lengths[Joint::kShoulderCenter] + lengths[Joint::kHead];
   return std::clamp((legs + trunk) / (1.0 - 0.039 - 0.065), 0.4, 2.6);
 }
 
-Segments SegmentsOf(const recon::BoneLengths& lengths, double stature_m, double mass_kg) {
-  if (stature_m <= 0.0) stature_m = StatureOf(lengths);
+Segments ComputeSegments(const recon::BoneLengths& lengths, double stature_m, double mass_kg) {
+  if (stature_m <= 0.0) stature_m = EstimateStature(lengths);
   if (mass_kg <= 0.0) mass_kg = kBodyMassIndex_kg_m2 * stature_m * stature_m;
   double table_sum = 0.0;
   for (size_t i = 1; i < kJointCount; ++i) table_sum += RowOf(i).mass_fraction;
@@ -118,10 +118,10 @@ Segments SegmentsOf(const recon::BoneLengths& lengths, double stature_m, double 
   return segments;
 }
 
-std::array<double, kJointCount> LumpedMasses(const Segments& segments) {
-  std::array<double, kJointCount> lumped{};
+recon::JointArray<double> LumpedMasses(const Segments& segments) {
+  recon::JointArray<double> lumped{};
   for (size_t i = 1; i < kJointCount; ++i) {
-    const auto parent = static_cast<size_t>(recon::kJointParent[i]);
+    const auto parent = recon::ParentOf(i);
     lumped[i] += 0.5 * segments[i].mass_kg;
     lumped[parent] += 0.5 * segments[i].mass_kg;
   }

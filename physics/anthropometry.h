@@ -17,11 +17,11 @@ struct Segment {
 };
 
 /// Entry i is the bone that ends in joint i; entry 0 is unused.
-using Segments = std::array<Segment, recon::kJointCount>;
+using Segments = recon::JointArray<Segment>;
 
 /// Stature from bone lengths: legs, trunk and head bones plus what lies beyond them (the foot's
 /// height 0.039 H and half the head 0.065 H, Drillis & Contini 1966 as printed in Winter 2009).
-double StatureOf(const recon::BoneLengths& lengths);
+double EstimateStature(const recon::BoneLengths& lengths);
 
 /// Masses and radii of gyration of P. de Leva, "Adjustments to Zatsiorsky-Seluyanov's segment
 /// inertia parameters", J. Biomechanics 29(9), 1996, table 4 (mean of men and women), on the
@@ -35,12 +35,12 @@ double StatureOf(const recon::BoneLengths& lengths);
 /// a bone's weight hangs in equal halves on its two joints, which gravity compensation and the
 /// control's derivation use.
 ///
-/// `stature_m` and `mass_kg` of 0 are estimated: StatureOf, and a body mass index of 22.
-Segments SegmentsOf(const recon::BoneLengths& lengths, double stature_m = 0.0,
-                    double mass_kg = 0.0);
+/// `stature_m` and `mass_kg` of 0 are estimated: EstimateStature, and a body mass index of 22.
+Segments ComputeSegments(const recon::BoneLengths& lengths, double stature_m = 0.0,
+                         double mass_kg = 0.0);
 
 /// Mass hanging on each joint when every bone gives half of its own to each end. Sums to the
 /// body's.
-std::array<double, recon::kJointCount> LumpedMasses(const Segments& segments);
+recon::JointArray<double> LumpedMasses(const Segments& segments);
 
 }  // namespace ossa::physics

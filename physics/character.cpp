@@ -11,7 +11,6 @@ namespace {
 using Eigen::Quaterniond;
 using Eigen::Vector3d;
 using recon::kJointCount;
-using recon::kJointParent;
 
 Vector3d AxisOf(dBodyID body) {
   const dReal* r = dBodyGetRotation(body);  // row-major 3 x 4
@@ -114,7 +113,7 @@ double Character::OffsetOfJoint(size_t joint) const {
 
 void Character::Place(const recon::Posture& posture, const recon::JointOrientations& orientation) {
   for (size_t bone = 1; bone < kJointCount; ++bone) {
-    const auto parent = static_cast<size_t>(kJointParent[bone]);
+    const auto parent = recon::ParentOf(bone);
     const Vector3d middle = 0.5 * (posture.position_m[bone] + posture.position_m[parent]);
     dBodySetPosition(body_[bone], middle.x(), middle.y(), middle.z());
     SetRotation(body_[bone], orientation[bone]);
@@ -125,7 +124,7 @@ void Character::Place(const recon::Posture& posture, const recon::JointOrientati
   SetVelocity(Vector3d::Zero());
   // A ball joint remembers its place in both bodies from the moment the anchor is set.
   for (size_t bone = 2; bone < kJointCount; ++bone) {
-    const Vector3d anchor = posture.position_m[static_cast<size_t>(kJointParent[bone])];
+    const Vector3d anchor = posture.position_m[recon::ParentOf(bone)];
     if (IsHinge(ball_[bone])) {
       const Vector3d axis = orientation[bone] * Vector3d::UnitX();  // recon/orientation.h
       dJointSetHingeAnchor(ball_[bone], anchor.x(), anchor.y(), anchor.z());
@@ -170,7 +169,7 @@ recon::Posture Character::posture() const {
   Vector3d drift = Vector3d::Zero();  // mass-weighted, of the rebuilt bones from the bodies
   posture.position_m[0] = JointPosition(0);
   for (size_t bone = 1; bone < kJointCount; ++bone) {
-    const Vector3d& start = posture.position_m[static_cast<size_t>(kJointParent[bone])];
+    const Vector3d& start = posture.position_m[recon::ParentOf(bone)];
     const Vector3d along = segments_[bone].length_m * AxisOf(body_[bone]).normalized();
     posture.position_m[bone] = start + along;
     drift +=
@@ -204,7 +203,7 @@ double Character::MaxAnchorGap() const {
 void Character::Reconnect() {
   const recon::Posture whole = posture();
   for (size_t bone = 1; bone < kJointCount; ++bone) {
-    const auto parent = static_cast<size_t>(kJointParent[bone]);
+    const auto parent = recon::ParentOf(bone);
     const Vector3d middle = 0.5 * (whole.position_m[bone] + whole.position_m[parent]);
     dBodySetPosition(body_[bone], middle.x(), middle.y(), middle.z());
   }

@@ -62,7 +62,7 @@ Posture TPose(const recon::BoneLengths& lengths) {
   };
   Posture posture;
   for (size_t i = 1; i < kJointCount; ++i) {
-    const auto parent = static_cast<size_t>(recon::kJointParent[i]);
+    const auto parent = recon::ParentOf(i);
     posture.position_m[i] = posture.position_m[parent] + lengths[i] * direction(i);
   }
   return posture;
@@ -125,7 +125,7 @@ void CharacterFilter::Impl::PlaceAt(const Posture& target) {
       if (start.position_m[i].allFinite() && start.position_m[i].cwiseAbs().maxCoeff() <= 1000.0) {
         continue;
       }
-      const auto parent = static_cast<size_t>(recon::kJointParent[i]);
+      const auto parent = recon::ParentOf(i);
       start.position_m[i] =
           i == 0 ? now.position_m[0]
                  : start.position_m[parent] + now.position_m[i] - now.position_m[parent];

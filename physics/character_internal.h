@@ -24,13 +24,13 @@ constexpr double kContactMargin_m = 0.025;
 
 /// Where the controller pulls the character during one simulation step.
 struct ControlTarget {
-  std::array<Eigen::Vector3d, recon::kJointCount> position_m;
-  std::array<Eigen::Vector3d, recon::kJointCount> velocity_m_s;
+  recon::JointArray<Eigen::Vector3d> position_m;
+  recon::JointArray<Eigen::Vector3d> velocity_m_s;
   recon::JointOrientations orientation;
   /// World, of the bone that ends in the joint, without its turn about itself.
-  std::array<Eigen::Vector3d, recon::kJointCount> turning_rad_s;
+  recon::JointArray<Eigen::Vector3d> turning_rad_s;
   /// Scales w per joint, [0, 1]; 0 lets go of the joint (and of its weight).
-  std::array<double, recon::kJointCount> stiffness{};
+  recon::JointArray<double> stiffness{};
 };
 
 /// 19 capsules and 18 ball joints, or 14 and 4 hinges, in an ODE world. Body i (1..19) is the bone
@@ -86,21 +86,21 @@ class Character {
   void CarryWeight(const ControlTarget& target, const Eigen::Vector3d& gravity_m_s2);
 
   Segments segments_;
-  std::array<double, recon::kJointCount> lumped_kg_;
+  recon::JointArray<double> lumped_kg_;
   double total_mass_kg_ = 0.0;
-  std::array<dBodyID, recon::kJointCount> body_{};
-  std::array<dGeomID, recon::kJointCount> geom_{};
-  std::array<dJointID, recon::kJointCount> ball_{};   // or hinge
-  std::array<dJointID, recon::kJointCount> motor_{};  // kMotor only
-  dJointID root_motor_ = nullptr;                     // linear, kMotor only
+  recon::JointArray<dBodyID> body_{};
+  recon::JointArray<dGeomID> geom_{};
+  recon::JointArray<dJointID> ball_{};   // or hinge
+  recon::JointArray<dJointID> motor_{};  // kMotor only
+  dJointID root_motor_ = nullptr;        // linear, kMotor only
 };
 
 /// Which body is the other side of bone i's ball joint; 0 for the root bone. The spine bone stands
 /// for the pelvis too: the hip bones hang on its start.
 constexpr size_t BodyParentOf(size_t bone) {
   if (bone == 1) return 0;
-  const int parent = recon::kJointParent[bone];
-  return parent == 0 ? 1 : static_cast<size_t>(parent);
+  const size_t parent = recon::ParentOf(bone);
+  return parent == 0 ? 1 : parent;
 }
 
 /// Pairs of a character's own bones that may touch. Neighbours never do; nor do pairs that a

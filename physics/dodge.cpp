@@ -27,8 +27,8 @@ std::optional<Threat> ThreatTo(const Vector3d& head_m, const Vector3d& head_velo
 }
 
 void RaiseForearms(const recon::BoneLengths& lengths, recon::Posture& target) {
-  const auto orientation = recon::OrientationsOf(target);
-  const auto& chest = orientation[static_cast<size_t>(Joint::kShoulderCenter)];
+  const auto orientation = recon::ComputeOrientations(target);
+  const auto& chest = orientation[Joint::kShoulderCenter];
   const Vector3d left = chest * Vector3d::UnitX();
   const Vector3d up = chest * Vector3d::UnitY();
   const Vector3d front = chest * Vector3d::UnitZ();

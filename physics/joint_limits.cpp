@@ -91,10 +91,10 @@ namespace {
 
 /// Turns the bone that ends in `bone` about its start, and all that hangs on it.
 void Turn(recon::Posture& posture, size_t bone, const Eigen::Quaterniond& by) {
-  std::array<bool, recon::kJointCount> moves{};
-  const Vector3d pivot = posture.position_m[static_cast<size_t>(recon::kJointParent[bone])];
+  recon::JointArray<bool> moves{};
+  const Vector3d pivot = posture.position_m[recon::ParentOf(bone)];
   for (size_t j = bone; j < recon::kJointCount; ++j) {
-    moves[j] = j == bone || moves[static_cast<size_t>(std::max(0, recon::kJointParent[j]))];
+    moves[j] = j == bone || moves[recon::ParentOf(j)];
     if (moves[j]) posture.position_m[j] = pivot + by * (posture.position_m[j] - pivot);
   }
 }
@@ -115,12 +115,12 @@ Vector3d NearestBend(const Eigen::Quaterniond& upper, const Excess& excess, doub
 }  // namespace
 
 recon::Posture WithinRanges(recon::Posture posture) {
-  recon::JointOrientations orientation = recon::OrientationsOf(posture);
+  recon::JointOrientations orientation = recon::ComputeOrientations(posture);
   for (const JointRange& range : JointRanges()) {  // parents before children
     const Excess swing = SwingExcess(range, orientation);
     if (swing.angle_rad > 0.0) {
       Turn(posture, range.bone, Eigen::Quaterniond(Eigen::AngleAxisd(swing.angle_rad, swing.axis)));
-      orientation = recon::OrientationsOf(posture);
+      orientation = recon::ComputeOrientations(posture);
     }
     const bool arm = range.bone == 5 || range.bone == 9;
     if (!arm && range.bone != 13 && range.bone != 17) continue;  // no hinge tells their turn
@@ -130,7 +130,7 @@ recon::Posture WithinRanges(recon::Posture posture) {
     const Vector3d to =
         NearestBend(orientation[range.bone], twist, arm ? 1.0 : -1.0, lower.normalized());
     Turn(posture, range.bone + 1, recon::SmallestTurn(lower, to));
-    orientation = recon::OrientationsOf(posture);
+    orientation = recon::ComputeOrientations(posture);
   }
   return posture;
 }

@@ -28,7 +28,7 @@ Excess TwistExcess(const JointRange& range, const recon::JointOrientations& orie
 
 /// The posture with every bone turned into its range, what hangs on it going along; lengths stay. A
 /// knee that is to bend forwards is stretched: to turn the thigh instead until it bends backwards,
-/// as the frames of OrientationsOf suggest, would contort the hip for the knee's sake.
+/// as the frames of ComputeOrientations suggest, would contort the hip for the knee's sake.
 recon::Posture WithinRanges(recon::Posture posture);
 
 /// Keeps a character's joints within their ranges: a motor per range, about whatever axes lead

@@ -9,7 +9,6 @@ namespace {
 
 using Eigen::Vector3d;
 using recon::kJointCount;
-using recon::kJointParent;
 using recon::Posture;
 
 constexpr double kTinyLength_m = 1e-6;  // a bound, against division by 0
@@ -17,11 +16,11 @@ constexpr double kTinyLength_m = 1e-6;  // a bound, against division by 0
 }  // namespace
 
 Posture FitBoneLengths(const Posture& posture, const recon::BoneLengths& lengths,
-                       const std::array<double, kJointCount>& weight, int iterations) {
+                       const recon::JointArray<double>& weight, int iterations) {
   Posture fitted = posture;
   for (int round = 0; round < iterations; ++round) {
     for (size_t i = 1; i < kJointCount; ++i) {
-      const auto parent = static_cast<size_t>(kJointParent[i]);
+      const auto parent = recon::ParentOf(i);
       const Vector3d bone = fitted.position_m[i] - fitted.position_m[parent];
       const double length = bone.norm();
       if (length < kTinyLength_m) continue;

@@ -11,7 +11,6 @@ namespace ossa::physics {
 /// character of the user's own size the errors are better shared.
 /// Gauss-Seidel over the bones (as in position-based dynamics); lengths are exact afterwards.
 recon::Posture FitBoneLengths(const recon::Posture& posture, const recon::BoneLengths& lengths,
-                              const std::array<double, recon::kJointCount>& weight,
-                              int iterations = 8);
+                              const recon::JointArray<double>& weight, int iterations = 8);
 
 }  // namespace ossa::physics

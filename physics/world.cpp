@@ -137,7 +137,7 @@ void World::SetVelocity(int character, const Vector3d& velocity_m_s) {
 
 void World::Constrain(int character, recon::Joint joint, const Vector3d& place_m, bool hard) {
   Actor& actor = *impl_->actors.at(static_cast<size_t>(character));
-  const auto index = static_cast<size_t>(joint);
+  const auto index = recon::Index(joint);
   Unconstrain(character, joint);
   if (!place_m.allFinite()) throw std::invalid_argument("Constrain: place must be finite");
   constexpr double kStiffness_n_m = 2e4;
@@ -151,21 +151,21 @@ void World::Constrain(int character, recon::Joint joint, const Vector3d& place_m
 
 void World::Unconstrain(int character, recon::Joint joint) {
   Actor& actor = *impl_->actors.at(static_cast<size_t>(character));
-  actor.soft_constraint.erase(static_cast<size_t>(joint));
-  actor.hard_constraint.erase(static_cast<size_t>(joint));
+  actor.soft_constraint.erase(recon::Index(joint));
+  actor.hard_constraint.erase(recon::Index(joint));
 }
 
 void World::Push(int character, recon::Joint joint, const Vector3d& impulse_ns) {
   if (!impulse_ns.allFinite()) throw std::invalid_argument("Push: impulse must be finite");
   impl_->actors.at(static_cast<size_t>(character))
-      ->pushes.emplace_back(static_cast<size_t>(joint), impulse_ns);
+      ->pushes.emplace_back(recon::Index(joint), impulse_ns);
 }
 
 void World::Impl::WatchThreats(double dt_s) {
   for (const auto& actor : actors) {
     if (!actor->options.dodge) continue;
     actor->dodge_left_s = std::max(0.0, actor->dodge_left_s - dt_s);
-    const auto head = static_cast<size_t>(recon::Joint::kHead);
+    const auto head = recon::Index(recon::Joint::kHead);
     for (const Thing& thing : things) {
       if (thing.held != nullptr) continue;
       const ObjectState state = {ToEigen(dBodyGetPosition(thing.body)),
@@ -218,7 +218,7 @@ CharacterState World::StateOf(int character) const {
   CharacterState state;
   state.posture = actor.character.posture();
   state.orientation = actor.character.orientation();
-  state.orientation[0] = recon::OrientationsOf(state.posture)[0];
+  state.orientation[0] = recon::ComputeOrientations(state.posture)[0];
   state.left_foot_pinned = actor.foot_pin[0].pin() != nullptr;
   state.right_foot_pinned = actor.foot_pin[1].pin() != nullptr;
   state.dodging = actor.dodge_left_s > 0.0;

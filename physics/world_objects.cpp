@@ -60,7 +60,7 @@ void World::Hold(int character, recon::Joint joint, int object, bool rigid) {
   Impl& w = *impl_;
   const Character& hand = w.actors.at(static_cast<size_t>(character))->character;
   Thing& thing = w.things.at(static_cast<size_t>(object));
-  const auto index = static_cast<size_t>(joint);
+  const auto index = Index(joint);
   const dBodyID body = hand.body(hand.BodyOfJoint(index));
   thing.held =
       rigid ? dJointCreateFixed(w.ode.world, nullptr) : dJointCreateBall(w.ode.world, nullptr);

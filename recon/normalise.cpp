@@ -52,17 +52,16 @@ const Posture& StandardStance() {
 }
 
 const BoneLengths& StandardBoneLengths() {
-  static const BoneLengths lengths = BoneLengthsOf(StandardStance());
+  static const BoneLengths lengths = MeasureBoneLengths(StandardStance());
   return lengths;
 }
 
-Placement PlacementOf(const Posture& in_camera, const JointWeights& weights,
-                      double previous_yaw_rad) {
+Placement EstimatePlacement(const Posture& in_camera, const JointWeights& weights,
+                            double previous_yaw_rad) {
   Eigen::Vector3d left = Eigen::Vector3d::Zero();
   const auto add = [&](Joint l, Joint r) {
-    const auto li = static_cast<size_t>(Index(l)), ri = static_cast<size_t>(Index(r));
     const Eigen::Vector3d across = in_camera[l] - in_camera[r];
-    if (across.allFinite()) left += std::min(weights[li], weights[ri]) * across;
+    if (across.allFinite()) left += std::min(weights[l], weights[r]) * across;
   };
   add(Joint::kHipLeft, Joint::kHipRight);
   add(Joint::kShoulderLeft, Joint::kShoulderRight);
@@ -93,7 +92,7 @@ Posture Placed(const Posture& normalised, const Placement& camera_from_normalise
 Posture Mirrored(const Posture& normalised) {
   Posture out;
   for (size_t i = 0; i < kJointCount; ++i) {
-    out.position_m[i] = normalised.position_m[static_cast<size_t>(kMirroredJoint[i])];
+    out.position_m[i] = normalised.position_m[kMirroredJoint[i]];
     out.position_m[i].x() *= -1.0;
   }
   return out;
@@ -110,7 +109,7 @@ Posture Retargeted(const Posture& posture, const BoneLengths& lengths_m) {
   Posture out;
   out.position_m[0] = posture.position_m[0];
   for (size_t i = 1; i < kJointCount; ++i) {
-    const auto parent = static_cast<size_t>(kJointParent[i]);
+    const auto parent = ParentOf(i);
     Eigen::Vector3d direction = posture.position_m[i] - posture.position_m[parent];  // eq. 3
     if (!direction.allFinite() || direction.norm() < 1e-6) {
       direction = stance.position_m[i] - stance.position_m[parent];
@@ -126,11 +125,11 @@ BoneLengths ScaledBoneLengths(double scale) {
   return lengths;
 }
 
-double BodyScaleOf(const BoneLengths& lengths_m, const JointWeights& weights) {
+double EstimateBodyScale(const BoneLengths& lengths_m, const JointWeights& weights) {
   std::vector<std::pair<double, double>> ratios;  // ratio, weight
   double total = 0.0;
   for (size_t i = 1; i < kJointCount; ++i) {
-    const double weight = std::min(weights[i], weights[static_cast<size_t>(kJointParent[i])]);
+    const double weight = std::min(weights[i], weights[ParentOf(i)]);
     // Longer bones say more of a body's size than short ones, whose ends' errors weigh as much.
     const double trust = weight * StandardBoneLengths()[i];
     if (!(trust > 0.0) || !std::isfinite(lengths_m[i]) || lengths_m[i] < 1e-3) continue;

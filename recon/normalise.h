@@ -7,7 +7,7 @@
 namespace ossa::recon {
 
 /// Joints as the rest of recon weighs them: one value per Joint.
-using JointWeights = std::array<double, kJointCount>;
+using JointWeights = JointArray<double>;
 
 /// The standard adult (1.66 m) standing with arms lowered to the sides, facing +z, left = +x, feet
 /// on y = 0: the joints of StandardPosture(RigPose{}). Its bones are the standard size to which
@@ -24,8 +24,8 @@ struct Placement {
 
 /// Placement of a posture in camera space. The heading is that of the hip line and the shoulder
 /// line, each weighed by its joints' weights; where neither can tell, `previous_yaw_rad`.
-Placement PlacementOf(const Posture& in_camera, const JointWeights& weights,
-                      double previous_yaw_rad);
+Placement EstimatePlacement(const Posture& in_camera, const JointWeights& weights,
+                            double previous_yaw_rad);
 
 /// Removes global translation and the rotation about the vertical (Shum & Ho 2012 sec. 5.1).
 Posture Normalised(const Posture& in_camera, const Placement& camera_from_normalised);
@@ -47,6 +47,6 @@ BoneLengths ScaledBoneLengths(double scale);
 
 /// The one factor by which the standard body best explains the bones whose both ends are trusted:
 /// the weighted median of the ratios, kept within people of 0.9 m and 2.2 m. 1 when nothing is.
-double BodyScaleOf(const BoneLengths& lengths_m, const JointWeights& weights);
+double EstimateBodyScale(const BoneLengths& lengths_m, const JointWeights& weights);
 
 }  // namespace ossa::recon

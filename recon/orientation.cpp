@@ -36,10 +36,10 @@ JointOrientations MakeRest() {
   const Quaterniond foot = FrameFrom(forward, forward.cross(Vector3d::UnitY()));
   JointOrientations rest;
   rest.fill(Quaterniond::Identity());
-  for (const int bone : {4, 5, 6, 7, 12}) rest[static_cast<size_t>(bone)] = left;
-  for (const int bone : {8, 9, 10, 11, 16}) rest[static_cast<size_t>(bone)] = right;
-  for (const int bone : {13, 14, 17, 18}) rest[static_cast<size_t>(bone)] = down;
-  for (const int bone : {15, 19}) rest[static_cast<size_t>(bone)] = foot;
+  for (const size_t bone : {4U, 5U, 6U, 7U, 12U}) rest[bone] = left;
+  for (const size_t bone : {8U, 9U, 10U, 11U, 16U}) rest[bone] = right;
+  for (const size_t bone : {13U, 14U, 17U, 18U}) rest[bone] = down;
+  for (const size_t bone : {15U, 19U}) rest[bone] = foot;
   return rest;
 }
 
@@ -65,14 +65,14 @@ class Solver {
 
  private:
   Vector3d Bone(size_t bone) const {
-    const auto parent = static_cast<size_t>(kJointParent[bone]);
+    const auto parent = ParentOf(bone);
     return posture_.position_m[bone] - posture_.position_m[parent];
   }
   Vector3d Across(Joint right, Joint left) const { return posture_[left] - posture_[right]; }
   static bool Usable(const Vector3d& v) { return v.allFinite() && v.norm() > kTinyLength_m; }
 
   void SolvePlayer() {
-    const Vector3d up = Bone(static_cast<size_t>(Joint::kSpine));
+    const Vector3d up = Bone(Index(Joint::kSpine));
     const Vector3d left = Across(Joint::kHipRight, Joint::kHipLeft);
     if (Usable(up) && Usable(left)) {
       // The hips' line is the firmer of the two: it keeps its direction and `up` gives way.
@@ -93,7 +93,7 @@ class Solver {
   }
 
   void SolveBone(size_t bone) {
-    const auto parent = static_cast<size_t>(kJointParent[bone]);
+    const auto parent = ParentOf(bone);
     const JointOrientations& rest = RestOrientations();
     const Quaterniond carried = result_[parent] * rest[parent].conjugate() * rest[bone];
     const Vector3d y = Bone(bone);
@@ -143,21 +143,21 @@ const JointOrientations& RestOrientations() {
   return rest;
 }
 
-JointOrientations OrientationsOf(const Posture& posture) { return Solver(posture).Run(); }
+JointOrientations ComputeOrientations(const Posture& posture) { return Solver(posture).Run(); }
 
-JointOrientations HierarchicalOf(const JointOrientations& absolute) {
+JointOrientations ToHierarchical(const JointOrientations& absolute) {
   JointOrientations relative = absolute;
   for (size_t i = 1; i < kJointCount; ++i) {
-    const auto parent = static_cast<size_t>(kJointParent[i]);
+    const auto parent = ParentOf(i);
     relative[i] = (absolute[parent].conjugate() * absolute[i]).normalized();
   }
   return relative;
 }
 
-JointOrientations AbsoluteOf(const JointOrientations& hierarchical) {
+JointOrientations ToAbsolute(const JointOrientations& hierarchical) {
   JointOrientations absolute = hierarchical;
   for (size_t i = 1; i < kJointCount; ++i) {
-    const auto parent = static_cast<size_t>(kJointParent[i]);
+    const auto parent = ParentOf(i);
     absolute[i] = (absolute[parent] * hierarchical[i]).normalized();
   }
   return absolute;

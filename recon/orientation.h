@@ -19,14 +19,14 @@ namespace ossa::recon {
 ///    too, blended over 10-30 degrees of flexion so that nothing jumps.
 ///
 /// Bones of zero length or with non-finite ends keep their parent's turn.
-JointOrientations OrientationsOf(const Posture& posture);
+JointOrientations ComputeOrientations(const Posture& posture);
 
 /// The orientation of each bone at rest, as described above.
 const JointOrientations& RestOrientations();
 
 /// The SDK's second form: each bone relative to its parent bone; HipCenter stays absolute.
-JointOrientations HierarchicalOf(const JointOrientations& absolute);
-/// Inverse of HierarchicalOf.
-JointOrientations AbsoluteOf(const JointOrientations& hierarchical);
+JointOrientations ToHierarchical(const JointOrientations& absolute);
+/// Inverse of ToHierarchical.
+JointOrientations ToAbsolute(const JointOrientations& hierarchical);
 
 }  // namespace ossa::recon

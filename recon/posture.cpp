@@ -2,10 +2,10 @@
 
 namespace ossa::recon {
 
-BoneLengths BoneLengthsOf(const Posture& posture) {
+BoneLengths MeasureBoneLengths(const Posture& posture) {
   BoneLengths lengths{};
   for (size_t i = 1; i < kJointCount; ++i) {
-    const auto parent = static_cast<size_t>(kJointParent[i]);
+    const auto parent = ParentOf(i);
     lengths[i] = (posture.position_m[i] - posture.position_m[parent]).norm();
   }
   return lengths;

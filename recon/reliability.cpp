@@ -34,7 +34,7 @@ bool IsReferencePosture(const Posture& p) {
   if (!(TiltFromUp(p, Joint::kHipCenter, Joint::kShoulderCenter) <= kUpright_deg)) return false;
   for (const auto& [hip, shoulder] : {std::pair{Joint::kHipLeft, Joint::kShoulderLeft},
                                       std::pair{Joint::kHipRight, Joint::kShoulderRight}}) {
-    const auto next = [](Joint j, int n) { return static_cast<Joint>(Index(j) + n); };
+    const auto next = [](Joint j, size_t n) { return static_cast<Joint>(Index(j) + n); };
     if (!(TiltFromUp(p, next(hip, 1), hip) <= kUpright_deg)) return false;
     if (!(TiltFromUp(p, next(hip, 2), next(hip, 1)) <= kUpright_deg)) return false;
     const double upper = TiltFromUp(p, shoulder, next(shoulder, 1));
@@ -47,7 +47,7 @@ bool IsReferencePosture(const Posture& p) {
 }
 
 void ReferenceLengths::Observe(const Posture& in_camera, const JointWeights& trust) {
-  const BoneLengths lengths = BoneLengthsOf(in_camera);
+  const BoneLengths lengths = MeasureBoneLengths(in_camera);
   // "All body parts tracked" are all those that this sensor has: UI-PRMD's Kinect has no hands.
   int known_joints = 0;
   bool all = true;
@@ -68,11 +68,11 @@ void ReferenceLengths::FromReferencePosture(const BoneLengths& lengths, const Jo
   // body of this size has is an error of the frame, not a feature of the person; so is one far from
   // what an earlier reference posture showed, while the size stayed the same: of that person's
   // postures the mean of some ten holds.
-  const double scale = BodyScaleOf(lengths, trust);
+  const double scale = EstimateBodyScale(lengths, trust);
   const bool same_size = from_posture_ && std::abs(scale / scale_ - 1.0) < 0.2;
   for (size_t i = 1; i < kJointCount; ++i) {
     const double standard = scale * StandardBoneLengths()[i];
-    if (std::min(trust[i], trust[static_cast<size_t>(kJointParent[i])]) < 0.99) {
+    if (std::min(trust[i], trust[ParentOf(i)]) < 0.99) {
       if (!same_size) lengths_m_[i] = standard;
     } else if (!same_size) {
       lengths_m_[i] = std::clamp(lengths[i], kShortest * standard, kLongest * standard);
@@ -94,17 +94,17 @@ void ReferenceLengths::FromAnyPosture(const BoneLengths& lengths, const JointWei
   constexpr int kMemory = 30;  // frames
   const auto seen = std::count_if(trust.begin(), trust.end(), [](double t) { return t > 0.5; });
   if (seen < kFewestJoints) {  // fewer joints do not fix a size
-    if (!known_) lengths_m_ = ScaledBoneLengths(BodyScaleOf(lengths, trust));
+    if (!known_) lengths_m_ = ScaledBoneLengths(EstimateBodyScale(lengths, trust));
     return;
   }
-  if (!known_) scale_ = BodyScaleOf(lengths, trust);
+  if (!known_) scale_ = EstimateBodyScale(lengths, trust);
   known_ = true;
   for (size_t i = 1; i < kJointCount; ++i) {
     const double standard = scale_ * StandardBoneLengths()[i];
     if (measured_[i] == 0) lengths_m_[i] = standard;
     const bool midline = i <= 3, hand_or_foot = !midline && i % 4 == 3;
     if (!midline && !hand_or_foot) continue;
-    const double both = std::min(trust[i], trust[static_cast<size_t>(kJointParent[i])]);
+    const double both = std::min(trust[i], trust[ParentOf(i)]);
     if (both <= 0.5 || !std::isfinite(lengths[i])) continue;
     const double length = std::clamp(lengths[i], kShortest * standard, kLongest * standard);
     measured_[i] = std::min(measured_[i] + 1, kMemory);
@@ -181,9 +181,9 @@ JointWeights ReliabilityEstimator::Kinematics(const Posture& posture,
   rk.fill(1.0);
   if (!options_.use_kinematics || !reference_.known()) return rk;
   JointWeights sum{}, count{};
-  const BoneLengths lengths = BoneLengthsOf(posture);
+  const BoneLengths lengths = MeasureBoneLengths(posture);
   for (size_t i = 1; i < kJointCount; ++i) {
-    const auto parent = static_cast<size_t>(kJointParent[i]);
+    const auto parent = ParentOf(i);
     if (seen[i] * seen[parent] == 0.0) continue;
     const double reference = std::max(reference_.lengths_m()[i], 1e-3);
     const double d = std::min(std::abs(lengths[i] - reference) / reference, 1.0);  // eq. 5

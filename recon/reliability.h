@@ -59,11 +59,11 @@ class ReferenceLengths {
   void FromAnyPosture(const BoneLengths& lengths, const JointWeights& trust);
 
   BoneLengths lengths_m_{};
-  std::array<bool, kJointCount> had_{};      // joints that were ever tracked
-  std::array<int, kJointCount> measured_{};  // frames in the mean of a bone without posture
-  double scale_ = 1.0;                       // of the last reference posture, or of the first frame
-  bool known_ = false;         // some frame was good enough to measure at least the size
-  bool from_posture_ = false;  // a reference posture was seen
+  JointArray<bool> had_{};      // joints that were ever tracked
+  JointArray<int> measured_{};  // frames in the mean of a bone without posture
+  double scale_ = 1.0;          // of the last reference posture, or of the first frame
+  bool known_ = false;          // some frame was good enough to measure at least the size
+  bool from_posture_ = false;   // a reference posture was seen
 };
 
 /// True for the two reference postures of fig. 2: upright trunk and legs, arms level or hanging.
@@ -83,7 +83,7 @@ class SpeedTerm {
   Eigen::Vector3d BodyMoved(const Posture& posture, const JointWeights& seen) const;
 
   Posture believed_;  // where each joint was, or would be now had it stayed on its bone
-  std::array<double, kJointCount> unbelieved_s_{};  // for how long; < 0: it was never believed
+  JointArray<double> unbelieved_s_{};  // for how long; < 0: it was never believed
 };
 
 /// One person's reliability, frame by frame. Joints that are not finite count as not tracked.

@@ -1,5 +1,6 @@
 #pragma once
 #include <array>
+#include <cstddef>
 #include <optional>
 #include <string_view>
 
@@ -30,28 +31,42 @@ enum class Joint {
 };
 inline constexpr int kJointCount = 20;  // the Kinect SDK's
 
+/// Place of a joint in an array of all joints.
+constexpr size_t Index(Joint joint) { return static_cast<size_t>(joint); }
+
+/// One T for each joint, by the joint or by its index.
+template <typename T>
+struct JointArray : std::array<T, kJointCount> {
+  using std::array<T, kJointCount>::operator[];
+  constexpr T& operator[](Joint joint) { return (*this)[Index(joint)]; }
+  constexpr const T& operator[](Joint joint) const { return (*this)[Index(joint)]; }
+};
+
 /// Parent of each joint, parents before children; the root's is -1. The 19 others are the bones:
 /// bone of joint i runs from kJointParent[i] to i.
-inline constexpr std::array<int, kJointCount> kJointParent = {-1, 0,  1, 2,  2,  4,  5, 6,  2,  8,
-                                                              9,  10, 0, 12, 13, 14, 0, 16, 17, 18};
+inline constexpr JointArray<int> kJointParent = {-1, 0,  1, 2,  2,  4,  5, 6,  2,  8,
+                                                 9,  10, 0, 12, 13, 14, 0, 16, 17, 18};
 
 /// SDK names, e.g. "HipCenter", in enum order: the keys of skeleton files.
-inline constexpr std::array<std::string_view, kJointCount> kJointNames = {
+inline constexpr JointArray<std::string_view> kJointNames = {
     "HipCenter",  "Spine",     "ShoulderCenter", "Head",          "ShoulderLeft",
     "ElbowLeft",  "WristLeft", "HandLeft",       "ShoulderRight", "ElbowRight",
     "WristRight", "HandRight", "HipLeft",        "KneeLeft",      "AnkleLeft",
     "FootLeft",   "HipRight",  "KneeRight",      "AnkleRight",    "FootRight"};
 
 /// The joint on the other side of the body; joints on the midline map to themselves.
-inline constexpr std::array<int, kJointCount> kMirroredJoint = {
-    0, 1, 2, 3, 8, 9, 10, 11, 4, 5, 6, 7, 16, 17, 18, 19, 12, 13, 14, 15};
+inline constexpr JointArray<size_t> kMirroredJoint = {0, 1, 2,  3,  8,  9,  10, 11, 4,  5,
+                                                      6, 7, 16, 17, 18, 19, 12, 13, 14, 15};
 
-constexpr int Index(Joint joint) { return static_cast<int>(joint); }
-constexpr std::string_view NameOf(Joint joint) { return kJointNames[static_cast<size_t>(joint)]; }
+/// Index of a joint's parent; the root counts as its own.
+constexpr size_t ParentOf(size_t joint) {
+  return joint == 0 ? 0 : static_cast<size_t>(kJointParent[joint]);
+}
+constexpr std::string_view NameOf(Joint joint) { return kJointNames[joint]; }
 
 constexpr std::optional<Joint> JointFromName(std::string_view name) {
-  for (int i = 0; i < kJointCount; ++i) {
-    if (kJointNames[static_cast<size_t>(i)] == name) return static_cast<Joint>(i);
+  for (size_t i = 0; i < kJointCount; ++i) {
+    if (kJointNames[i] == name) return static_cast<Joint>(i);
   }
   return std::nullopt;
 }

@@ -26,7 +26,7 @@ std::optional<int> RepeatedBody(const SkeletonFrame& frame) {
   return std::nullopt;
 }
 
-TrackedPosture TrackedPostureOf(const BodyRecord& body) {
+TrackedPosture ToTrackedPosture(const BodyRecord& body) {
   TrackedPosture tracked;
   for (size_t j = 0; j < kJointCount; ++j) {
     const auto& joint = body.joints[j];

@@ -23,7 +23,7 @@ struct JointRecord {
 
 struct BodyRecord {
   int id = 0;
-  std::array<std::optional<JointRecord>, kJointCount> joints;  // absent joints are empty
+  JointArray<std::optional<JointRecord>> joints;  // absent joints are empty
   /// As a close look judges them of this frame alone (ReconstructionInput::bones_m).
   std::optional<BoneLengths> bones_m = std::nullopt;
 };
@@ -59,6 +59,6 @@ std::optional<int> RepeatedBody(const SkeletonFrame& frame);
 
 /// A body record as the trackers' type: absent joints are not tracked; a joint without a state
 /// counts as tracked; a joint without confidence gets 1 (tracked), 0.5 (inferred) or 0.
-TrackedPosture TrackedPostureOf(const BodyRecord& body);
+TrackedPosture ToTrackedPosture(const BodyRecord& body);
 
 }  // namespace ossa::recon

@@ -13,7 +13,7 @@ Spectrum<typename Matrix::Scalar> Solve(const Matrix& symmetric) {
 
 }  // namespace
 
-Spectrum<float> SpectrumOf(const Eigen::MatrixXf& symmetric) { return Solve(symmetric); }
-Spectrum<double> SpectrumOf(const Eigen::MatrixXd& symmetric) { return Solve(symmetric); }
+Spectrum<float> DecomposeSymmetric(const Eigen::MatrixXf& symmetric) { return Solve(symmetric); }
+Spectrum<double> DecomposeSymmetric(const Eigen::MatrixXd& symmetric) { return Solve(symmetric); }
 
 }  // namespace ossa::recon

@@ -12,7 +12,7 @@ struct Spectrum {
 };
 
 /// Reads the lower triangle. Compiled once: Eigen's solver costs each source that calls it seconds.
-Spectrum<float> SpectrumOf(const Eigen::MatrixXf& symmetric);
-Spectrum<double> SpectrumOf(const Eigen::MatrixXd& symmetric);
+Spectrum<float> DecomposeSymmetric(const Eigen::MatrixXf& symmetric);
+Spectrum<double> DecomposeSymmetric(const Eigen::MatrixXd& symmetric);
 
 }  // namespace ossa::recon

@@ -28,20 +28,17 @@ JointWeights SpeedTerm::Step(const Posture& posture, const JointWeights& seen, d
   speed.fill(1.0);
   const Eigen::Vector3d body = BodyMoved(posture, seen);
   const Posture before = believed_;
-  std::array<bool, kJointCount> sound{};  // believed now and before
+  JointArray<bool> sound{};  // believed now and before
   for (size_t i = 0; i < kJointCount; ++i) {
     if (seen[i] == 0.0) {
       unbelieved_s_[i] = -1.0;
       continue;
     }
-    int above = kJointParent[i];
-    while (above >= 0 && !sound[static_cast<size_t>(above)]) {
-      above = kJointParent[static_cast<size_t>(above)];
-    }
+    size_t above = ParentOf(i);
+    while (above != 0 && !sound[above]) above = ParentOf(above);
     Eigen::Vector3d along = body;
-    if (above >= 0) {
-      const auto a = static_cast<size_t>(above);
-      along = posture.position_m[a] - before.position_m[a];
+    if (i != 0 && sound[above]) {
+      along = posture.position_m[above] - before.position_m[above];
     }
     const bool first = unbelieved_s_[i] < 0.0;
     if (!first) {

@@ -220,12 +220,12 @@ std::array<Eigen::Vector3d, kRigBoneCount> PosedBoneHeads(const ShapedBody& body
   return heads;
 }
 
-Posture JointsOf(const ShapedBody& body, const RigPose& pose) {
+Posture ComputeJoints(const ShapedBody& body, const RigPose& pose) {
   const auto heads = PosedBoneHeads(body, pose);
   const auto& anchors = StandardJointAnchors();  // the same bones carry them on every body
   Posture posture;
   for (size_t j = 0; j < kJointCount; ++j) {
-    const auto bone = static_cast<size_t>(anchors[j].bone);
+    const size_t bone = anchors[j].bone;
     posture.position_m[j] =
         heads[bone] + pose.world_from_rest[bone] * (body.joint_m[j] - body.bone_head_m[bone]);
   }

@@ -31,8 +31,8 @@ struct ShapedBody {
   std::vector<Eigen::Vector3f> rest_m;   // BodyModel::vertex_count() entries
   std::vector<Eigen::Vector3f> normals;  // unit, outwards
   std::array<Eigen::Vector3d, kRigBoneCount> bone_head_m;
-  std::array<Eigen::Vector3d, kJointCount> joint_m;  // the SDK's joints at rest
-  double height_m = 0.0;                             // of the body, without hair and shoes
+  JointArray<Eigen::Vector3d> joint_m;  // the SDK's joints at rest
+  double height_m = 0.0;                // of the body, without hair and shoes
   double root_scale = 1.0;  // its hips' height over the average body's: scales RigPose::root_m
   /// Axes about which fingers and thumb bend towards the palm: left fingers, left thumb, right ...
   std::array<Eigen::Vector3d, 4> flexion_axis;
@@ -109,7 +109,7 @@ bool BodyIsFetched(const std::filesystem::path& folder);
 std::array<Eigen::Vector3d, kRigBoneCount> PosedBoneHeads(const ShapedBody& body,
                                                           const RigPose& pose);
 /// The SDK's 20 joints of a posed body, world, metres.
-Posture JointsOf(const ShapedBody& body, const RigPose& pose);
+Posture ComputeJoints(const ShapedBody& body, const RigPose& pose);
 
 /// Bends fingers and thumbs: 0 as at rest (open), 1 a fist.
 void CloseHands(const ShapedBody& body, double left, double right, RigPose* pose);

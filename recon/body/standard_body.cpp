@@ -62,42 +62,38 @@ RigRest MakeRest() {
   return rest;
 }
 
-void AnchorLimbs(const RigRest& rest, bool left, std::array<JointAnchor, kJointCount>& anchors) {
+void AnchorLimbs(const RigRest& rest, bool left, JointArray<JointAnchor>& anchors) {
   const std::string side = left ? "Left" : "Right";
-  const int arm = RigBone(side + "Arm"), fore_arm = RigBone(side + "ForeArm");
-  const int hand = RigBone(side + "Hand"), up_leg = RigBone(side + "UpLeg");
-  const int leg = RigBone(side + "Leg"), foot = RigBone(side + "Foot");
-  const auto head = [&](int bone) { return rest.head_m[static_cast<size_t>(bone)]; };
+  const size_t arm = RigBone(side + "Arm"), fore_arm = RigBone(side + "ForeArm");
+  const size_t hand = RigBone(side + "Hand"), up_leg = RigBone(side + "UpLeg");
+  const size_t leg = RigBone(side + "Leg"), foot = RigBone(side + "Foot");
+  const auto head = [&](size_t bone) { return rest.head_m[bone]; };
   Eigen::Vector3d knuckle = Vector(kMiddleKnuckle_m);
   if (!left) knuckle.x() = -knuckle.x();
 
-  const auto first =
-      static_cast<size_t>(Index(left ? Joint::kShoulderLeft : Joint::kShoulderRight));
+  const auto first = Index(left ? Joint::kShoulderLeft : Joint::kShoulderRight);
   anchors[first] = {arm, head(arm)};
   anchors[first + 1] = {fore_arm, head(fore_arm)};
   anchors[first + 2] = {hand, head(hand)};
   anchors[first + 3] = {hand, 0.5 * (head(hand) + knuckle)};
-  const auto hip = static_cast<size_t>(Index(left ? Joint::kHipLeft : Joint::kHipRight));
+  const auto hip = Index(left ? Joint::kHipLeft : Joint::kHipRight);
   anchors[hip] = {up_leg, head(up_leg)};
   anchors[hip + 1] = {leg, head(leg)};
   anchors[hip + 2] = {foot, head(foot)};
-  anchors[hip + 3] = {foot, rest.tail_m[static_cast<size_t>(foot)]};
+  anchors[hip + 3] = {foot, rest.tail_m[foot]};
 }
 
-std::array<JointAnchor, kJointCount> MakeAnchors() {
+JointArray<JointAnchor> MakeAnchors() {
   const RigRest& rest = StandardRigRest();
-  std::array<JointAnchor, kJointCount> anchors;
-  const auto middle = [&](int bone) -> Eigen::Vector3d {
-    return 0.5 * (rest.head_m[static_cast<size_t>(bone)] + rest.tail_m[static_cast<size_t>(bone)]);
+  JointArray<JointAnchor> anchors;
+  const auto middle = [&](size_t bone) -> Eigen::Vector3d {
+    return 0.5 * (rest.head_m[bone] + rest.tail_m[bone]);
   };
-  const auto at = [&](Joint joint) -> JointAnchor& {
-    return anchors[static_cast<size_t>(Index(joint))];
-  };
-  const int hips = RigBone("Hips"), spine = RigBone("Spine"), neck = RigBone("Neck");
-  at(Joint::kHipCenter) = {hips, middle(hips)};
-  at(Joint::kSpine) = {spine, rest.head_m[static_cast<size_t>(spine)]};
-  at(Joint::kShoulderCenter) = {neck, rest.head_m[static_cast<size_t>(neck)]};
-  at(Joint::kHead) = {RigBone("Head"), middle(RigBone("Head"))};
+  const size_t hips = RigBone("Hips"), spine = RigBone("Spine"), neck = RigBone("Neck");
+  anchors[Joint::kHipCenter] = {hips, middle(hips)};
+  anchors[Joint::kSpine] = {spine, rest.head_m[spine]};
+  anchors[Joint::kShoulderCenter] = {neck, rest.head_m[neck]};
+  anchors[Joint::kHead] = {RigBone("Head"), middle(RigBone("Head"))};
   AnchorLimbs(rest, true, anchors);
   AnchorLimbs(rest, false, anchors);
   return anchors;
@@ -105,9 +101,9 @@ std::array<JointAnchor, kJointCount> MakeAnchors() {
 
 }  // namespace
 
-int RigBone(std::string_view name) {
-  for (int b = 0; b < kRigBoneCount; ++b) {
-    if (kRigBoneNames[static_cast<size_t>(b)] == name) return b;
+size_t RigBone(std::string_view name) {
+  for (size_t b = 0; b < kRigBoneCount; ++b) {
+    if (kRigBoneNames[b] == name) return b;
   }
   throw std::logic_error("the rig has no bone " + std::string(name));
 }
@@ -117,8 +113,8 @@ const RigRest& StandardRigRest() {
   return rest;
 }
 
-const std::array<JointAnchor, kJointCount>& StandardJointAnchors() {
-  static const std::array<JointAnchor, kJointCount> anchors = MakeAnchors();
+const JointArray<JointAnchor>& StandardJointAnchors() {
+  static const JointArray<JointAnchor> anchors = MakeAnchors();
   return anchors;
 }
 
@@ -140,14 +136,14 @@ Posture StandardPosture(const RigPose& pose) {
   const RigRest& rest = StandardRigRest();
   Posture posture;
   for (size_t j = 0; j < anchors.size(); ++j) {
-    const auto bone = static_cast<size_t>(anchors[j].bone);
+    const size_t bone = anchors[j].bone;
     posture.position_m[j] =
         heads[bone] + pose.world_from_rest[bone] * (anchors[j].rest_m - rest.head_m[bone]);
   }
   return posture;
 }
 
-Eigen::Quaterniond HeadingOf(const RigPose& pose) {
+Eigen::Quaterniond EstimateHeading(const RigPose& pose) {
   // The pelvis' left axis stays level when a person bends or sits, the forward axis does not; only
   // for a body lying on its side is it the other way round.
   const Eigen::Vector3d left = pose.world_from_rest[0] * Eigen::Vector3d::UnitX();
@@ -158,7 +154,7 @@ Eigen::Quaterniond HeadingOf(const RigPose& pose) {
 }
 
 RigPose WithoutHeading(const RigPose& pose) {
-  const Eigen::Quaterniond unturn = HeadingOf(pose).conjugate();
+  const Eigen::Quaterniond unturn = EstimateHeading(pose).conjugate();
   RigPose out = pose;
   out.root_m = Eigen::Vector3d(0.0, pose.root_m.y(), 0.0);
   for (auto& rotation : out.world_from_rest) rotation = unturn * rotation;

@@ -15,7 +15,7 @@ struct RigRest {
 
 /// Where a joint of the SDK sits: carried by a bone, at a place given in the rest pose.
 struct JointAnchor {
-  int bone = 0;
+  size_t bone = 0;
   Eigen::Vector3d rest_m = Eigen::Vector3d::Zero();
 };
 
@@ -27,7 +27,7 @@ const RigRest& StandardRigRest();
 /// The 20 joints on the rig. HipCenter: halfway up bone Hips, 5 cm above the hip joints. Spine:
 /// head of bone Spine, mid-torso. ShoulderCenter: base of the neck. Head: halfway up bone Head.
 /// Hand: halfway from the wrist to the middle finger's knuckle. Foot: root of the middle toe.
-const std::array<JointAnchor, kJointCount>& StandardJointAnchors();
+const JointArray<JointAnchor>& StandardJointAnchors();
 
 /// World position of every bone's head on the standard body, parents composed before children.
 std::array<Eigen::Vector3d, kRigBoneCount> StandardBoneHeads(const RigPose& pose);
@@ -36,11 +36,11 @@ std::array<Eigen::Vector3d, kRigBoneCount> StandardBoneHeads(const RigPose& pose
 Posture StandardPosture(const RigPose& pose);
 
 /// Number of the bone by its rig name; a name the rig does not have is a broken promise of ours.
-int RigBone(std::string_view name);
+size_t RigBone(std::string_view name);
 
 /// Rotation about the vertical that turns a body facing +z to where the pelvis faces; upside-down
 /// and lying bodies take the nearest sensible one.
-Eigen::Quaterniond HeadingOf(const RigPose& pose);
+Eigen::Quaterniond EstimateHeading(const RigPose& pose);
 
 /// The pose turned to face +z with its root above the origin (height kept).
 RigPose WithoutHeading(const RigPose& pose);

@@ -8,8 +8,8 @@ namespace {
 
 PostureVector Expanded(const JointWeights& weights) {
   PostureVector out;
-  for (int i = 0; i < kJointCount; ++i) {
-    out.segment<3>(3 * i).setConstant(static_cast<float>(weights[static_cast<size_t>(i)]));
+  for (size_t i = 0; i < kJointCount; ++i) {
+    out.segment<3>(FirstCoordinate(i)).setConstant(static_cast<float>(weights[i]));
   }
   return out;
 }

@@ -50,10 +50,10 @@ std::vector<ClipPosture> FilterIntraPoses(const PostureClip& clip, const Databas
   double yaw_rad = 0.0;
   for (size_t frame = 0; frame < clip.postures.size(); ++frame) {
     if (!IsFinite(clip.postures[frame])) continue;
-    const Placement placement = PlacementOf(clip.postures[frame], all, yaw_rad);
+    const Placement placement = EstimatePlacement(clip.postures[frame], all, yaw_rad);
     yaw_rad = placement.yaw_rad;
     const PostureVector vector =
-        VectorOf(Retargeted(Normalised(clip.postures[frame], placement), StandardBoneLengths()));
+        ToVector(Retargeted(Normalised(clip.postures[frame], placement), StandardBoneLengths()));
     const auto distance_from_last = [&](DatabaseFilter filter) {
       constexpr float kFar_m = 100.0F;  // a bound: farther than any posture
       return FilterDistance(kept.back().vector.data(), vector.data(), filter, kFar_m);
@@ -69,18 +69,18 @@ std::vector<ClipPosture> FilterIntraPoses(const PostureClip& clip, const Databas
 
 }  // namespace
 
-PostureVector VectorOf(const Posture& posture) {
+PostureVector ToVector(const Posture& posture) {
   PostureVector vector;
-  for (int i = 0; i < kJointCount; ++i) {
-    vector.segment<3>(3 * i) = posture.position_m[static_cast<size_t>(i)].cast<float>();
+  for (size_t i = 0; i < kJointCount; ++i) {
+    vector.segment<3>(FirstCoordinate(i)) = posture.position_m[i].cast<float>();
   }
   return vector;
 }
 
-Posture PostureOf(const PostureVector& vector) {
+Posture ToPosture(const PostureVector& vector) {
   Posture posture;
-  for (int i = 0; i < kJointCount; ++i) {
-    posture.position_m[static_cast<size_t>(i)] = vector.segment<3>(3 * i).cast<double>();
+  for (size_t i = 0; i < kJointCount; ++i) {
+    posture.position_m[i] = vector.segment<3>(FirstCoordinate(i)).cast<double>();
   }
   return posture;
 }
@@ -162,7 +162,7 @@ PostureDatabase PostureDatabase::With(const PostureVector& posture, const std::s
   PostureDatabase db = *this;
   db.postures_.conservativeResize(Eigen::NoChange, postures_.cols() + 1);
   db.postures_.col(postures_.cols()) = posture;
-  for (int j = 0; j < kJointCount; ++j) {
+  for (size_t j = 0; j < kJointCount; ++j) {
     db.quaternions_.insert(db.quaternions_.end(), {1.0F, 0.0F, 0.0F, 0.0F});
   }
   if (db.clip_names_.empty() || db.clip_names_.back() != clip) db.clip_names_.push_back(clip);

@@ -17,8 +17,8 @@ namespace ossa::recon {
 inline constexpr int kPostureDims = 3 * kJointCount;
 using PostureVector = Eigen::Matrix<float, kPostureDims, 1>;
 
-PostureVector VectorOf(const Posture& posture);
-Posture PostureOf(const PostureVector& vector);
+PostureVector ToVector(const Posture& posture);
+Posture ToPosture(const PostureVector& vector);
 
 /// A motion as the database takes it: postures of any size in any y-up frame facing anywhere.
 struct PostureClip {
@@ -64,7 +64,7 @@ class PostureDatabase {
   int size() const { return static_cast<int>(postures_.cols()); }
   /// Column i is posture i.
   const Eigen::Matrix<float, kPostureDims, Eigen::Dynamic>& postures() const { return postures_; }
-  Posture posture(int i) const { return PostureOf(postures_.col(i)); }
+  Posture posture(int i) const { return ToPosture(postures_.col(i)); }
   /// Normalised from bone; identity when the clip had none.
   JointOrientations orientations(int i) const;
   const PostureVector& mean() const { return mean_; }

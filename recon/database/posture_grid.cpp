@@ -11,8 +11,8 @@ namespace {
 constexpr std::array<int, 4> kAxes = {3 * 7, 3 * 7 + 1, 3 * 11 + 1, 3 * 15 + 2};
 
 // Extremities first: they differ most, so that a difference shows early.
-constexpr std::array<int, kJointCount> kJointOrder = {11, 7,  15, 19, 10, 6, 14, 18, 9,  5,
-                                                      13, 17, 3,  8,  4,  2, 1,  12, 16, 0};
+constexpr JointArray<int> kJointOrder = {11, 7,  15, 19, 10, 6, 14, 18, 9,  5,
+                                         13, 17, 3,  8,  4,  2, 1,  12, 16, 0};
 
 uint64_t Key(const std::array<int, 4>& cell) {
   uint64_t key = 0;

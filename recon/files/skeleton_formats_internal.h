@@ -64,7 +64,7 @@ inline void PutJoint(BodyRecord& body, Joint joint, const Eigen::Vector3d& posit
   JointRecord record;
   record.position_m = position_m;
   record.state = state;
-  body.joints[static_cast<size_t>(Index(joint))] = record;
+  body.joints[joint] = record;
 }
 
 /// A frame with one body, id 1.

@@ -227,7 +227,7 @@ class SkeletonJsonlReader::Lines {
     for (const auto& [name, joint] : joints.items()) {
       const auto known = JointFromName(name);
       if (!known) lines_.Fail("one of the 20 SDK joint names in \"joints\"", name);
-      body.joints[static_cast<size_t>(Index(*known))] = JointOf(joint, name);
+      body.joints[*known] = JointOf(joint, name);
     }
     if (const auto bones = json.find("bones"); bones != json.end()) body.bones_m = BonesOf(*bones);
     return body;

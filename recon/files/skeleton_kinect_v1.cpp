@@ -56,7 +56,7 @@ SkeletonSequence ReadKinectGait(SkeletonInput& input) {
     const auto joint = JointCalled(fields[0]);
     if (!joint) lines.Fail("the name of one of the 20 SDK joints", fields[0]);
     if (!first) first = joint;
-    auto& record = body.joints[static_cast<size_t>(Index(*joint))];
+    auto& record = body.joints[*joint];
     if (record && joint == first) finish();
     if (record) lines.Fail("each joint once a frame", fields[0]);
     PutJoint(body, *joint,
@@ -70,7 +70,7 @@ SkeletonSequence ReadKinectGait(SkeletonInput& input) {
 
 // --- MSR Action3D ("Real3D" files): `x y z confidence`, 20 lines a frame, in an order of its own.
 
-constexpr std::array<Joint, kJointCount> kMsrOrder = {
+constexpr JointArray<Joint> kMsrOrder = {
     Joint::kShoulderRight, Joint::kShoulderLeft, Joint::kShoulderCenter, Joint::kSpine,
     Joint::kHipRight,      Joint::kHipLeft,      Joint::kHipCenter,      Joint::kElbowRight,
     Joint::kElbowLeft,     Joint::kWristRight,   Joint::kWristLeft,      Joint::kHandRight,
@@ -101,7 +101,7 @@ SkeletonSequence ReadMsrAction3D(SkeletonInput& input) {
       }
       if (!IsSeen(position)) continue;
       PutJoint(body, kMsrOrder[row], position);
-      body.joints[static_cast<size_t>(Index(kMsrOrder[row]))]->confidence = numbers[3];
+      body.joints[Index(kMsrOrder[row])]->confidence = numbers[3];
     }
     const size_t index = sequence.frames.size();
     sequence.frames.push_back(OneBodyFrame(index, static_cast<double>(index) * step_s, body));

@@ -96,7 +96,7 @@ SkeletonSequence ReadKeraal(SkeletonInput& input) {
       // End joints have no orientation in SDK 2: all zero. So have the seated recordings.
       constexpr double kUnit = 1e-2;  // share of the length
       if (std::abs(q.norm() - 1) < kUnit) {
-        body.joints[static_cast<size_t>(Index(*joint))]->orientation = q.normalized();
+        body.joints[*joint]->orientation = q.normalized();
       }
     }
     const size_t index = sequence.frames.size();

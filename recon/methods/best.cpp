@@ -35,7 +35,7 @@ class Best : public Reconstructor {
         constants_(options.best.constants),
         plausibility_(constants_.slack_m) {
     LinearFilter linear;
-    if (const auto learned = LearnedOf(options)) {
+    if (const auto learned = LoadLearned(options)) {
       correction_ = learned->correction;
       linear = learned->filter;
     }
@@ -152,10 +152,8 @@ class Best : public Reconstructor {
                  (options_.repair ? plausibility_.joint_trust()[i] : 1.0) * doubt;
     }
     for (const BetweenTwo& line : kBetweenTwo) {
-      const auto at = [](Joint joint) { return static_cast<size_t>(Index(joint)); };
-      if (!OnLine(prepared, at(line.joint))) continue;
-      const double ends = std::min({trust[at(line.a)], trust[at(line.b)], 1.0});
-      trust[at(line.joint)] = kBetween * ends;
+      if (!OnLine(prepared, Index(line.joint))) continue;
+      trust[line.joint] = kBetween * std::min({trust[line.a], trust[line.b], 1.0});
     }
     return trust;
   }
@@ -163,8 +161,7 @@ class Best : public Reconstructor {
   /// Whether an absent joint is taken from the line of the two around it. An ankle only of a sensor
   /// that never has one, whose foot is where others have the ankle; a foot beside it stands out.
   bool OnLine(const PreparedPosture& prepared, size_t joint) const {
-    const bool ankle = joint == static_cast<size_t>(Index(Joint::kAnkleLeft)) ||
-                       joint == static_cast<size_t>(Index(Joint::kAnkleRight));
+    const bool ankle = joint == Index(Joint::kAnkleLeft) || joint == Index(Joint::kAnkleRight);
     return prepared.between[joint] > 0.0 && !(ankle && lost_[joint]);
   }
 
@@ -280,8 +277,6 @@ class Best : public Reconstructor {
     return filter_.Step(target, prepared.placement.yaw_rad, prepared.dt_s, heard);
   }
 
-  static size_t ParentOf(size_t joint) { return static_cast<size_t>(kJointParent[joint]); }
-
   /// From a joint up to one of its ancestors.
   static double AlongBones(const Posture& posture, size_t joint, size_t ancestor) {
     double way_m = 0.0;
@@ -315,13 +310,11 @@ class Best : public Reconstructor {
   static Eigen::Vector3d Hung(const Posture& posture, size_t joint, const Posture& target,
                               const PreparedPosture& prepared) {
     if (joint == 0) return prepared.in_camera.position_m[0];
-    const auto parent = static_cast<size_t>(kJointParent[joint]);
+    const auto parent = ParentOf(joint);
     return target.position_m[parent] + posture.position_m[joint] - posture.position_m[parent];
   }
 
-  static bool InTrunk(size_t joint) {
-    return joint <= static_cast<size_t>(Index(Joint::kShoulderCenter));
-  }
+  static bool InTrunk(size_t joint) { return joint <= Index(Joint::kShoulderCenter); }
 
   /// Beyond shoulder or hip.
   static bool InLimb(size_t joint) { return joint > 0 && !InTrunk(ParentOf(joint)); }
@@ -389,8 +382,8 @@ class Best : public Reconstructor {
   double offsets_s_ = 0.0;  // for how long it was averaged
   std::optional<Moment> last_;
   std::optional<ReconstructedPosture> revised_;
-  std::array<bool, kJointCount> had_{};   // joints that were ever seen
-  std::array<bool, kJointCount> lost_{};  // of those: absent now, see FindLost
+  JointArray<bool> had_{};   // joints that were ever seen
+  JointArray<bool> lost_{};  // of those: absent now, see FindLost
 };
 
 }  // namespace

@@ -8,7 +8,7 @@ namespace ossa::recon {
 JointOrientations TurnedOntoBones(const PostureDatabase& database, std::span<const int> postures,
                                   std::span<const double> weights, const Posture& in_camera,
                                   double yaw_rad) {
-  std::array<Eigen::Vector4d, kJointCount> sum;
+  JointArray<Eigen::Vector4d> sum;
   sum.fill(Eigen::Vector4d::Zero());
   for (size_t k = 0; k < postures.size(); ++k) {
     const JointOrientations turns = database.orientations(postures[k]);
@@ -25,7 +25,7 @@ JointOrientations TurnedOntoBones(const PostureDatabase& database, std::span<con
     if (sum[i].norm() > 1e-9) mean.coeffs() = sum[i].normalized();
     out[i] = turn * mean;
     if (i == 0) continue;
-    const auto parent = static_cast<size_t>(kJointParent[i]);
+    const auto parent = ParentOf(i);
     const Eigen::Vector3d bone = in_camera.position_m[i] - in_camera.position_m[parent];
     if (!(bone.norm() > 1e-6)) continue;
     const Eigen::Vector3d now = out[i] * Eigen::Vector3d::UnitY();

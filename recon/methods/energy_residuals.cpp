@@ -42,14 +42,14 @@ void EnergyResiduals::Evaluate(const Eigen::VectorXd& q, Eigen::VectorXd& residu
   if (jacobian != nullptr) jacobian->topRows(kPostureDims) = control_weight_.asDiagonal() * basis_;
 
   Eigen::Index row = kPostureDims;
-  for (int i = 1; i < kJointCount; ++i, ++row) {  // eq. 12
-    const int parent = kJointParent[static_cast<size_t>(i)];
-    const Eigen::Vector3d bone = x.segment<3>(3 * i) - x.segment<3>(3 * parent);
+  for (size_t i = 1; i < kJointCount; ++i, ++row) {  // eq. 12
+    const Eigen::Index end = FirstCoordinate(i), begin = FirstCoordinate(ParentOf(i));
+    const Eigen::Vector3d bone = x.segment<3>(end) - x.segment<3>(begin);
     const double length = std::max(bone.norm(), 1e-9);
-    residuals[row] = kinematics_weight_ * (length - lengths_m_[static_cast<size_t>(i)]);
+    residuals[row] = kinematics_weight_ * (length - lengths_m_[i]);
     if (jacobian == nullptr) continue;
     jacobian->row(row) = kinematics_weight_ / length * bone.transpose() *
-                         (basis_.middleRows<3>(3 * i) - basis_.middleRows<3>(3 * parent));
+                         (basis_.middleRows<3>(end) - basis_.middleRows<3>(begin));
   }
 
   residuals.segment(row, kPostureDims) = continuity_weight_ * (x - continuity_target_);  // eq. 14

@@ -34,7 +34,7 @@ class FilterReconstructor : public Reconstructor {
  private:
   StepFilter step_;
   Person person_;
-  std::array<Filter, kJointCount> filters_;
+  JointArray<Filter> filters_;
 };
 
 template <typename Filter, typename StepFilter>

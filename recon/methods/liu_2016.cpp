@@ -24,7 +24,7 @@ struct OffsetPrediction {
 class OffsetReconstructor : public Reconstructor {
  public:
   explicit OffsetReconstructor(const ReconstructorOptions& options)
-      : options_(options.gaussian_process), models_(LearnedOf(options)) {}
+      : options_(options.gaussian_process), models_(LoadLearned(options)) {}
 
   ReconstructedPosture Step(const ReconstructionInput& input) override {
     const PreparedPosture prepared = person_.Prepare(input);
@@ -144,7 +144,7 @@ class Liu2016 : public OffsetReconstructor {
   }
 
   // This person's, of joints that have learned on: megabytes that somebody who passes by never has.
-  std::array<std::optional<LocalMixture>, kJointCount> own_;
+  JointArray<std::optional<LocalMixture>> own_;
   uint64_t sample_ = 0;
 };
 
@@ -167,14 +167,14 @@ class Exemplar : public OffsetReconstructor {
   explicit Exemplar(const ReconstructorOptions& options) : OffsetReconstructor(options) {
     postures_.resize(kPostureDims, static_cast<Eigen::Index>(models_->exemplars.size()));
     for (Eigen::Index i = 0; i < postures_.cols(); ++i) {
-      postures_.col(i) = VectorOf(models_->exemplars[static_cast<size_t>(i)].observed);
+      postures_.col(i) = ToVector(models_->exemplars[static_cast<size_t>(i)].observed);
     }
   }
 
  protected:
   void BeginFrame(const PreparedPosture& prepared) override {
     constexpr size_t kNearest = 10;
-    const PostureVector query = VectorOf(prepared.scaled);
+    const PostureVector query = ToVector(prepared.scaled);
     const Eigen::VectorXf d = (postures_.colwise() - query).colwise().squaredNorm().transpose();
     nearest_.clear();
     for (Eigen::Index i = 0; i < d.size(); ++i) nearest_.emplace_back(d[i], i);

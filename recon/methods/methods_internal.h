@@ -6,7 +6,7 @@
 namespace ossa::recon {
 
 /// What options.learned or options.learned_file hold; null when neither is given.
-std::shared_ptr<const LearnedModels> LearnedOf(const ReconstructorOptions& options);
+std::shared_ptr<const LearnedModels> LoadLearned(const ReconstructorOptions& options);
 
 // One maker a method; each lives in the file of its name.
 std::unique_ptr<Reconstructor> MakeNone(const ReconstructorOptions& options);

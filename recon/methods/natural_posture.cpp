@@ -29,7 +29,7 @@ ReconstructedPosture NaturalPostureMethod::Step(const ReconstructionInput& input
   before_last_ = last_;
   last_ = space.Posture(found.q);
   const PostureVector shown = options_.keep_reliable ? WithReliableJoints(*last_, energy) : *last_;
-  ReconstructedPosture out{person_.InCamera(PostureOf(shown), prepared), prepared.reliability};
+  ReconstructedPosture out{person_.InCamera(ToPosture(shown), prepared), prepared.reliability};
   const auto weights = InverseDistances(*database_, selected_, *last_, energy.reliability);
   out.orientation =
       TurnedOntoBones(*database_, selected_, weights, out.posture, prepared.placement.yaw_rad);
@@ -47,7 +47,7 @@ void NaturalPostureMethod::Reset() {
 
 EnergyInputs NaturalPostureMethod::Inputs(const PreparedPosture& prepared) const {
   EnergyInputs energy;
-  energy.observed = VectorOf(prepared.normalised);
+  energy.observed = ToVector(prepared.normalised);
   // Method B of Shum 2013: all joints seen count alike.
   energy.reliability = options_.use_reliability ? prepared.reliability : prepared.present;
   energy.lengths_m = database_->bone_lengths_m();

@@ -6,8 +6,6 @@
 namespace ossa::recon {
 namespace {
 
-size_t At(Joint joint) { return static_cast<size_t>(Index(joint)); }
-
 /// The standard stance, facing the camera, two metres away: what is said of a person of whom
 /// nothing was ever seen.
 Posture StanceInCamera(const BoneLengths& lengths) {
@@ -42,13 +40,13 @@ Posture RetargetedAsSeen(const Posture& own, const JointWeights& present,
   const BoneLengths& standard = StandardBoneLengths();
   Posture out = Retargeted(own, standard);
   for (size_t i = 1; i < kJointCount; ++i) {
-    const auto parent = static_cast<size_t>(kJointParent[i]);
+    const auto parent = ParentOf(i);
     size_t ancestor = parent;
     double chain_m = own_lengths[i], standard_chain_m = standard[i];
     while (ancestor != 0 && present[ancestor] == 0.0) {
       chain_m += own_lengths[ancestor];
       standard_chain_m += standard[ancestor];
-      ancestor = static_cast<size_t>(kJointParent[ancestor]);
+      ancestor = ParentOf(ancestor);
     }
     if (present[i] == 0.0 || ancestor == parent || !(chain_m > 0.0)) {
       Eigen::Vector3d bone = own.position_m[i] - own.position_m[parent];
@@ -64,9 +62,9 @@ Posture RetargetedAsSeen(const Posture& own, const JointWeights& present,
 }
 
 void PutBetween(Posture& p, JointWeights& present, const BetweenTwo& line) {
-  if (present[At(line.joint)] > 0.0 || present[At(line.a)] * present[At(line.b)] == 0.0) return;
+  if (present[line.joint] > 0.0 || present[line.a] * present[line.b] == 0.0) return;
   p[line.joint] = (1.0 - line.share) * p[line.a] + line.share * p[line.b];
-  present[At(line.joint)] = 1.0;
+  present[line.joint] = 1.0;
 }
 
 }  // namespace
@@ -83,7 +81,7 @@ Posture Completed(const Posture& in_camera, const JointWeights& present_in, cons
   if (present[0] == 0.0) out.position_m[0] = model.position_m[0] + offset;
   for (size_t i = 1; i < kJointCount; ++i) {
     if (present[i] > 0.0) continue;
-    const auto parent = static_cast<size_t>(kJointParent[i]);
+    const auto parent = ParentOf(i);
     out.position_m[i] = out.position_m[parent] + model.position_m[i] - model.position_m[parent];
   }
   return out;
@@ -97,10 +95,10 @@ void BodySize::TypicalBones::Add(const BoneLengths& measured, const JointWeights
   constexpr int kMemory_frames = 600;
   ++frames;
   for (size_t i = 1; i < kJointCount; ++i) {
-    const double w = std::min(trust[i], trust[static_cast<size_t>(kJointParent[i])]);
+    const double w = std::min(trust[i], trust[ParentOf(i)]);
     if (!std::isfinite(measured[i]) || w <= 0.5) continue;
     // Left and right are one bone.
-    const size_t bone = std::min(i, static_cast<size_t>(kMirroredJoint[i]));
+    const size_t bone = std::min(i, kMirroredJoint[i]);
     int& n = samples[bone];
     n = std::min(n + 1, kMemory_frames);
     if (n <= 2) {
@@ -115,8 +113,8 @@ void BodySize::Observe(const Posture& in_camera, const JointWeights& trust, doub
                        const std::optional<BoneLengths>& judged) {
   if (known_) return;
   const auto good = std::count_if(trust.begin(), trust.end(), [](double t) { return t > 0.5; });
-  const BoneLengths measured = BoneLengthsOf(in_camera);
-  const double scale = BodyScaleOf(measured, trust);
+  const BoneLengths measured = MeasureBoneLengths(in_camera);
+  const double scale = EstimateBodyScale(measured, trust);
   expected_scale_ = expected_scale;
   if (locked_) {
     Grow();
@@ -146,7 +144,7 @@ void BodySize::Know(const BoneLengths& lengths_m) {
   JointWeights all;
   all.fill(1.0);
   lengths_m_ = lengths_m;
-  scale_ = BodyScaleOf(lengths_m, all);
+  scale_ = EstimateBodyScale(lengths_m, all);
   grown_frames_ = kGrow_frames;
   known_ = locked_ = true;
 }
@@ -188,7 +186,7 @@ void BodySize::Grow() {
 BoneLengths BodySize::Taken() const {
   BoneLengths lengths = ScaledBoneLengths(scale_);
   for (size_t i = 1; i < kJointCount; ++i) {
-    const size_t bone = std::min(i, static_cast<size_t>(kMirroredJoint[i]));
+    const size_t bone = std::min(i, kMirroredJoint[i]);
     double length = typical_.samples[bone] > 0 ? typical_.length_m[bone] : lengths[i];
     if (judged_.frames > 0) {
       length = judged_.mean_m[i];
@@ -236,7 +234,7 @@ PreparedPosture Person::Prepare(const ReconstructionInput& input) {
   out.in_camera = Completed(input.observed.posture, out.present, model, &out.between);
   JointWeights heading = out.reliability;
   for (size_t i = 0; i < kJointCount; ++i) heading[i] += 0.1 * out.present[i];
-  out.placement = PlacementOf(out.in_camera, heading, last_yaw_rad_);
+  out.placement = EstimatePlacement(out.in_camera, heading, last_yaw_rad_);
   out.normalised =
       RetargetedAsSeen(Normalised(out.in_camera, out.placement), out.present, size_.lengths_m());
   out.scale = size_.scale();

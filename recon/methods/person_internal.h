@@ -51,7 +51,7 @@ class BodySize {
   struct TypicalBones {
     void Add(const BoneLengths& measured, const JointWeights& trust);
     BoneLengths length_m{};
-    std::array<int, kJointCount> samples{};
+    JointArray<int> samples{};
     int frames = 0;
   };
 

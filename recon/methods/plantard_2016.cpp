@@ -68,7 +68,7 @@ class Plantard2016 : public NaturalPostureMethod {
   /// metres per unit of reliability. Eqs. 6 and Sc are read as mean weighted distances.
   double KeepBest(std::vector<int>& candidates, const EnergyInputs& energy,
                   const std::optional<PostureVector>& predicted) const {
-    std::array<float, kJointCount> r;
+    JointArray<float> r;
     float trust = 1e-6F;
     for (size_t i = 0; i < kJointCount; ++i) {
       r[i] = static_cast<float>(energy.reliability[i]);
@@ -82,7 +82,7 @@ class Plantard2016 : public NaturalPostureMethod {
       float similar = 0.0F, continuous = 0.0F;
       for (size_t i = 0; i < kJointCount; ++i) {
         const Eigen::Map<const Eigen::Vector3f> joint(p + 3 * i);
-        const auto at = static_cast<Eigen::Index>(3 * i);
+        const auto at = FirstCoordinate(i);
         if (r[i] > 0.0F) similar += r[i] * (energy.observed.segment<3>(at) - joint).norm();
         if (predicted && r[i] < 1.0F) {
           continuous += (1.0F - r[i]) * (predicted->segment<3>(at) - joint).norm();

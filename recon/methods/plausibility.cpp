@@ -25,7 +25,7 @@ bool Seen(const TrackedPosture& observed, size_t i) {
 TrackedPosture SidesExchanged(const TrackedPosture& observed) {
   TrackedPosture out = observed;
   for (size_t i = 0; i < kJointCount; ++i) {
-    const auto m = static_cast<size_t>(kMirroredJoint[i]);
+    const auto m = kMirroredJoint[i];
     out.posture.position_m[i] = observed.posture.position_m[m];
     out.state[i] = observed.state[m];
     out.confidence[i] = observed.confidence[m];
@@ -123,10 +123,10 @@ void Plausibility::JudgeJoints(const TrackedPosture& observed, const Posture& pr
 
 /// Whether what is seen has the bones of the person seen until now: half of them within a tenth.
 bool Plausibility::SameBones(const TrackedPosture& observed) const {
-  const BoneLengths now = BoneLengthsOf(observed.posture), before = BoneLengthsOf(*last_);
+  const BoneLengths now = MeasureBoneLengths(observed.posture), before = MeasureBoneLengths(*last_);
   std::vector<double> off;
   for (size_t i = 1; i < kJointCount; ++i) {
-    if (!Seen(observed, i) || !Seen(observed, static_cast<size_t>(kJointParent[i]))) continue;
+    if (!Seen(observed, i) || !Seen(observed, ParentOf(i))) continue;
     off.push_back(std::abs(now[i] / before[i] - 1.0));
   }
   if (off.size() < 6) return false;
@@ -137,7 +137,7 @@ bool Plausibility::SameBones(const TrackedPosture& observed) const {
 /// What else speaks against a joint that jumped: its bone has not the length it had, or it lies on
 /// its counterpart of the other side, where it did not lie before.
 bool Plausibility::LooksWrong(const TrackedPosture& observed, size_t i) const {
-  const auto m = static_cast<size_t>(kMirroredJoint[i]);
+  const auto m = kMirroredJoint[i];
   const auto distance = [](const Posture& p, size_t a, size_t b) {
     return (p.position_m[a] - p.position_m[b]).norm();
   };
@@ -145,8 +145,8 @@ bool Plausibility::LooksWrong(const TrackedPosture& observed, size_t i) const {
       distance(*last_, i, m) > 2.0 * kSamePlace_m) {
     return true;
   }
-  if (kJointParent[i] < 0) return false;
-  const auto parent = static_cast<size_t>(kJointParent[i]);
+  if (i == 0) return false;
+  const auto parent = ParentOf(i);
   if (!Seen(observed, parent)) return false;
   const double before = distance(*last_, i, parent);
   return std::abs(distance(observed.posture, i, parent) - before) > kWrongBone * before;

@@ -30,8 +30,8 @@ class Plausibility {
 
   double slack_m_;  // sensors are off by as much without failing
   std::optional<Posture> last_, before_last_;
-  Posture suspect_;                             // where each jumped joint was last said to be
-  std::array<double, kJointCount> jumped_s_{};  // for how long; 0: it did not
+  Posture suspect_;                // where each jumped joint was last said to be
+  JointArray<double> jumped_s_{};  // for how long; 0: it did not
   JointWeights joint_trust_{};
   double body_jumped_s_ = 0.0, exchanged_s_ = 0.0;
   bool elsewhere_ = false;

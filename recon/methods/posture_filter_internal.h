@@ -10,9 +10,9 @@ namespace ossa::recon {
 
 /// What is known of the joints of a frame that is to be filtered.
 struct Heard {
-  JointWeights weights{};                    // in (0, 1]: they divide a measurement's variance
-  std::array<bool, kJointCount> believed{};  // it is where it was seen
-  std::array<bool, kJointCount> seen{};      // believed or not, it is not merely held
+  JointWeights weights{};       // in (0, 1]: they divide a measurement's variance
+  JointArray<bool> believed{};  // it is where it was seen
+  JointArray<bool> seen{};      // believed or not, it is not merely held
 };
 
 /// The filter of `best`: all joints of a person, now without lag and once more a frame later.
@@ -44,7 +44,7 @@ class PostureFilter {
 
   LagFilter lag_;
   LinearFilter linear_;
-  std::array<LagFilter, kJointCount> filters_;
+  JointArray<LagFilter> filters_;
   std::vector<Posture> window_;  // frames in the learned step, the newest last
   LinearFilter::Steps steps_{};  // believed, up to the newest frame; -1: it is not
   LinearFilter::Steps seen_{};   // the same of what was seen

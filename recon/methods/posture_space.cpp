@@ -10,8 +10,8 @@ namespace ossa::recon {
 
 PostureVector CoordinateWeights(const JointWeights& weights) {
   PostureVector out;
-  for (int i = 0; i < kJointCount; ++i) {
-    out.segment<3>(3 * i).setConstant(static_cast<float>(weights[static_cast<size_t>(i)]));
+  for (size_t i = 0; i < kJointCount; ++i) {
+    out.segment<3>(FirstCoordinate(i)).setConstant(static_cast<float>(weights[i]));
   }
   return out;
 }
@@ -93,18 +93,18 @@ Eigen::ArrayXf Energies(const PostureSpace& space, const EnergyInputs& inputs,
   PostureVector expected = PostureVector::Zero();
   if (history) expected = 2.0F * *inputs.last - *inputs.before_last;
   Eigen::ArrayXXf d(samples, 3);
-  for (int i = 0; i < kJointCount; ++i) {
-    const auto xi = x.middleCols<3>(3 * i);
-    const auto weight = static_cast<float>(inputs.reliability[static_cast<size_t>(i)]);
-    d = (xi.rowwise() - inputs.observed.segment<3>(3 * i).transpose()).array();
+  for (size_t i = 0; i < kJointCount; ++i) {
+    const auto xi = x.middleCols<3>(FirstCoordinate(i));
+    const auto weight = static_cast<float>(inputs.reliability[i]);
+    d = (xi.rowwise() - inputs.observed.segment<3>(FirstCoordinate(i)).transpose()).array();
     control += weight * SquaredNorm(d);  // eqs. 9-10
     if (history) {
-      d = (xi.rowwise() - expected.segment<3>(3 * i).transpose()).array();
+      d = (xi.rowwise() - expected.segment<3>(FirstCoordinate(i)).transpose()).array();
       continuity += SquaredNorm(d);  // eq. 14
     }
     if (i == 0) continue;
-    d = (xi - x.middleCols<3>(3 * kJointParent[static_cast<size_t>(i)])).array();
-    const auto length = static_cast<float>(inputs.lengths_m[static_cast<size_t>(i)]);
+    d = (xi - x.middleCols<3>(FirstCoordinate(ParentOf(i)))).array();
+    const auto length = static_cast<float>(inputs.lengths_m[i]);
     kinematics += (SquaredNorm(d).sqrt() - length).square();  // eq. 12
   }
   // Eq. 11 in the space: |x - p_n|^2 = |q - q_n|^2 + what of p_n lies outside the space.

@@ -59,7 +59,7 @@ bool Holds(const LearnedModels& learned, std::string_view method) {
 }
 
 void CheckLearned(const ReconstructorOptions& options) {
-  const auto learned = LearnedOf(options);
+  const auto learned = LoadLearned(options);
   if (learned == nullptr) {
     throw InputError("reconstruction: method " + options.method +
                      " needs a learned file (.ossagp of `ossa learn`)");
@@ -85,7 +85,7 @@ void CheckBones(const BoneLengths& lengths_m, const Method& method) {
 
 }  // namespace
 
-std::shared_ptr<const LearnedModels> LearnedOf(const ReconstructorOptions& options) {
+std::shared_ptr<const LearnedModels> LoadLearned(const ReconstructorOptions& options) {
   if (options.learned || options.learned_file.empty()) return options.learned;
   return std::make_shared<const LearnedModels>(LearnedModels::Load(options.learned_file));
 }

@@ -23,8 +23,8 @@ struct ReconstructionInput {
 };
 
 struct ReconstructedPosture {
-  Posture posture;                                // camera space, all 20 joints finite
-  std::array<double, kJointCount> reliability{};  // R_i in [0, 1] of the observed joint, eq. 8
+  Posture posture;                   // camera space, all 20 joints finite
+  JointArray<double> reliability{};  // R_i in [0, 1] of the observed joint, eq. 8
   /// Camera from bone, for methods that take axial rotations from a database; else empty.
   std::optional<JointOrientations> orientation = std::nullopt;
 };

@@ -89,8 +89,8 @@ std::optional<Eigen::Vector3d> TrueJoint(const TrueMoment& moment, int id, size_
 
 /// What was observed of a body in one frame beside what was true. Nothing where too few joints are
 /// known.
-std::optional<PosturePair> PairOf(const PreparedPosture& prepared, const TrueMoment& moment,
-                                  int id) {
+std::optional<PosturePair> MakePair(const PreparedPosture& prepared, const TrueMoment& moment,
+                                    int id) {
   constexpr double kFewest = 4.0;
   Posture truth_in_camera = prepared.in_camera;
   PosturePair pair;
@@ -135,8 +135,8 @@ size_t AddPairs(const SkeletonSequence& observed, const SkeletonSequence& truth,
     for (const BodyRecord& body : observed.frames[f].bodies) {
       Observed& one = people[body.id];
       const PreparedPosture prepared =
-          one.person.Prepare({TrackedPostureOf(body), time_s, nullptr});
-      auto pair = PairOf(prepared, moments[f], body.id);
+          one.person.Prepare({ToTrackedPosture(body), time_s, nullptr});
+      auto pair = MakePair(prepared, moments[f], body.id);
       if (!pair) continue;
       pair->group = group;
       pair->time_s = time_s;

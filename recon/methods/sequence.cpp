@@ -74,7 +74,7 @@ double MedianStep_s(const SkeletonSequence& sequence) {
 
 /// Every joint of every person, anew after an absence of a few frames: what comes after it is not
 /// the next sample of what was before.
-std::vector<Track> TracksOf(SkeletonSequence& sequence) {
+std::vector<Track> CollectTracks(SkeletonSequence& sequence) {
   constexpr double kGap_frames = 3.5;
   const double gap_s = kGap_frames * MedianStep_s(sequence);
   std::vector<Track> tracks;
@@ -111,8 +111,8 @@ std::unique_ptr<Reconstructor> MethodFor(int person, const ReconstructorOptions&
 SkeletonSequence Run(const SkeletonSequence& sequence, ReconstructorOptions options,
                      const std::function<bool(size_t)>& progress, const BonesOfPeople& bones,
                      BonesOfPeople* measured) {
-  options.learned = LearnedOf(options);  // read once, not for each person
-  MakeReconstructor(options);            // complain before any work
+  options.learned = LoadLearned(options);  // read once, not for each person
+  MakeReconstructor(options);              // complain before any work
   std::map<int, Follower> people;
   const auto tell_bones = [&](int id, const Follower& person) {
     const auto lengths_m = person.method->Bones();
@@ -135,7 +135,7 @@ SkeletonSequence Run(const SkeletonSequence& sequence, ReconstructorOptions opti
     for (const BodyRecord& body : frame.bodies) {
       Follower& person = people[body.id];
       if (!person.method) person.method = MethodFor(body.id, options, bones);
-      const TrackedPosture observed = TrackedPostureOf(body);
+      const TrackedPosture observed = ToTrackedPosture(body);
       const auto now = person.method->Step({observed, frame.time_s, nullptr, body.bones_m});
       if (const auto revised = person.method->Revised()) {
         BodyRecord& written = out.frames[person.frame].bodies[person.body];
@@ -172,7 +172,7 @@ BonesOfPeople MeasureBones(const SkeletonSequence& sequence, const Reconstructor
 
 SkeletonSequence ButterworthSequence(const SkeletonSequence& sequence, double cutoff_hz) {
   SkeletonSequence out = sequence;
-  for (Track& track : TracksOf(out)) {
+  for (Track& track : CollectTracks(out)) {
     const size_t n = track.joints.size();
     if (n < 3 || !(track.time_s.back() > track.time_s.front())) continue;
     const double step_s = (track.time_s.back() - track.time_s.front()) / static_cast<double>(n - 1);

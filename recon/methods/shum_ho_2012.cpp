@@ -25,7 +25,7 @@ ReducedDatabase Reduce(const PostureDatabase& database) {
   const Eigen::MatrixXf covariance =
       centred * centred.transpose() / static_cast<float>(database.size());
   ReducedDatabase reduced;
-  reduced.projection = SpectrumOf(covariance).vectors.rightCols(kReducedDims);
+  reduced.projection = DecomposeSymmetric(covariance).vectors.rightCols(kReducedDims);
   reduced.postures = reduced.projection.transpose() * centred;
   return reduced;
 }
@@ -46,7 +46,7 @@ class ShumHo2012 : public Reconstructor {
     const Posture matched = database_->posture(match);
     for (size_t i = 1; i < kJointCount; ++i) {
       if (prepared.present[i] > 0.0) continue;
-      const auto parent = static_cast<size_t>(kJointParent[i]);
+      const auto parent = ParentOf(i);
       merged.position_m[i] =
           merged.position_m[parent] + matched.position_m[i] - matched.position_m[parent];
     }
@@ -68,9 +68,9 @@ class ShumHo2012 : public Reconstructor {
   /// Sec. 5.2: the posture nearest in the reduced space; a joint that the sensor does not have in
   /// this frame counts as the mean. The paper knows no reliability: inferred joints are there.
   int BestMatch(const PreparedPosture& prepared) const {
-    PostureVector difference = VectorOf(prepared.normalised) - database_->mean();
-    for (int i = 0; i < kJointCount; ++i) {
-      if (prepared.present[static_cast<size_t>(i)] == 0.0) difference.segment<3>(3 * i).setZero();
+    PostureVector difference = ToVector(prepared.normalised) - database_->mean();
+    for (size_t i = 0; i < kJointCount; ++i) {
+      if (prepared.present[i] == 0.0) difference.segment<3>(FirstCoordinate(i)).setZero();
     }
     const Reduced query = reduced_.projection.transpose().lazyProduct(difference);
     Eigen::Index best = 0;

@@ -307,7 +307,7 @@ class Learner {
                const Posture& is) const {
     if (before.clip != now.clip || !filter_.IsStep(now.time_s - before.time_s)) return false;
     constexpr double kElsewhere_m = 0.2;  // in the median joint: another body, or a cut
-    std::array<double, kJointCount> moved{};
+    JointArray<double> moved{};
     for (size_t i = 0; i < kJointCount; ++i)
       moved[i] = (is.position_m[i] - was.position_m[i]).norm();
     std::nth_element(moved.begin(), moved.begin() + kJointCount / 2, moved.end());
@@ -323,7 +323,7 @@ class Learner {
       return;
     }
     sums += StepSums(stretch, joint, side != joint);
-    const bool middle = kMirroredJoint[joint] == static_cast<int>(joint);
+    const bool middle = kMirroredJoint[joint] == joint;
     if (middle) sums += StepSums(stretch, joint, true);
   }
 
@@ -406,8 +406,8 @@ class Learner {
   bool pulls_;  // of one person: what is to hold for others must have few weights
   LinearFilter filter_;
   static constexpr int kFolds = 7;
-  std::array<std::array<Sums, kJointCount>, kFolds> sums_;
-  std::array<Sums, kJointCount> between_;  // of pairs in no fold
+  std::array<JointArray<Sums>, kFolds> sums_;
+  JointArray<Sums> between_;  // of pairs in no fold
 };
 
 }  // namespace

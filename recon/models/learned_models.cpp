@@ -159,10 +159,10 @@ void LearnedModels::Save(const std::filesystem::path& path) const {
   Eigen::MatrixXf observed(kPostureDims, n), residual(kPostureDims, n), known(kJointCount, n);
   for (Eigen::Index i = 0; i < n; ++i) {
     const PosturePair& pair = exemplars[static_cast<size_t>(i)];
-    observed.col(i) = VectorOf(pair.observed);
-    residual.col(i) = VectorOf(pair.residual);
-    for (int j = 0; j < kJointCount; ++j) {
-      known(j, i) = static_cast<float>(pair.known[static_cast<size_t>(j)]);
+    observed.col(i) = ToVector(pair.observed);
+    residual.col(i) = ToVector(pair.residual);
+    for (size_t j = 0; j < kJointCount; ++j) {
+      known(static_cast<Eigen::Index>(j), i) = static_cast<float>(pair.known[j]);
     }
   }
   for (const Eigen::MatrixXf* m : {&observed, &residual, &known}) PutMatrix(out, *m);
@@ -207,9 +207,9 @@ LearnedModels LearnedModels::FromBytes(std::span<const std::byte> bytes, const s
   }
   for (Eigen::Index i = 0; i < observed.cols(); ++i) {
     PosturePair& pair = out.exemplars.emplace_back();
-    pair.observed = PostureOf(observed.col(i));
-    pair.residual = PostureOf(residual.col(i));
-    for (int j = 0; j < kJointCount; ++j) pair.known[static_cast<size_t>(j)] = known(j, i);
+    pair.observed = ToPosture(observed.col(i));
+    pair.residual = ToPosture(residual.col(i));
+    for (size_t j = 0; j < kJointCount; ++j) pair.known[j] = known(static_cast<Eigen::Index>(j), i);
   }
   PoseCorrection& c = out.correction;
   c.centres = GetMatrix(in, "centres");

@@ -29,8 +29,8 @@ struct LearnOptions {
 /// local mixture (liu-2016) and the full process (full-gp), the pairs themselves (exemplar), the
 /// correction of the whole posture and the filter (best).
 struct LearnedModels {
-  std::array<LocalMixture, kJointCount> mixtures;
-  std::array<GaussianProcess, kJointCount> full;
+  JointArray<LocalMixture> mixtures;
+  JointArray<GaussianProcess> full;
   std::vector<PosturePair> exemplars;
   PoseCorrection correction;
   LinearFilter filter;

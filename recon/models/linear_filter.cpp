@@ -15,10 +15,10 @@ constexpr Eigen::Index kWays = 1 + Eigen::Index{kReaches_m.size()};
 /// The joint, its parent, its children.
 const std::vector<size_t>& Neighbourhood(size_t joint) {
   static const auto kAll = [] {
-    std::array<std::vector<size_t>, kJointCount> all;
+    JointArray<std::vector<size_t>> all;
     for (size_t i = 0; i < kJointCount; ++i) {
       all[i].push_back(i);
-      if (kJointParent[i] >= 0) all[i].push_back(static_cast<size_t>(kJointParent[i]));
+      if (i > 0) all[i].push_back(ParentOf(i));
       for (size_t k = i + 1; k < kJointCount; ++k) {
         if (kJointParent[k] == static_cast<int>(i)) all[i].push_back(k);
       }
@@ -30,9 +30,7 @@ const std::vector<size_t>& Neighbourhood(size_t joint) {
 
 }  // namespace
 
-size_t LearnedSideOf(size_t joint) {
-  return std::min(joint, static_cast<size_t>(kMirroredJoint[joint]));
-}
+size_t LearnedSideOf(size_t joint) { return std::min(joint, kMirroredJoint[joint]); }
 
 Eigen::Index FilterFeatureSize(size_t joint) {
   return 3 * LinearFilter::kSteps * static_cast<Eigen::Index>(Neighbourhood(joint).size());
@@ -40,7 +38,7 @@ Eigen::Index FilterFeatureSize(size_t joint) {
 
 Eigen::VectorXf FilterFeature(std::span<const Posture> window, const LinearFilter::Steps& steps,
                               double yaw_rad, size_t joint, bool mirrored) {
-  const auto own = [&](size_t i) { return mirrored ? static_cast<size_t>(kMirroredJoint[i]) : i; };
+  const auto own = [&](size_t i) { return mirrored ? kMirroredJoint[i] : i; };
   const double c = std::cos(yaw_rad), s = std::sin(yaw_rad), side = mirrored ? -1.0 : 1.0;
   const size_t newest = window.size() - 1;
   Eigen::VectorXf feature(FilterFeatureSize(joint));

@@ -43,7 +43,7 @@ class LinearFilter {
   /// Of the newest frame, and of the one before it once the newest is known.
   enum Output { kNow = 0, kBefore = 1, kOutputs = 2 };
   /// Of each joint: so many steps, up to the newest frame, are believed.
-  using Steps = std::array<int, kJointCount>;
+  using Steps = JointArray<int>;
 
   static LinearFilter Learn(const std::vector<PosturePair>& pairs,
                             const LinearFilterOptions& options = {});
@@ -63,7 +63,7 @@ class LinearFilter {
   // Public for the file. Of joints of the left and the middle: of steps regressors x 3, of pulls
   // regressors x 1, empty: not learned.
   double step_s = 0.0;  // 0: nothing is known
-  std::array<std::array<Eigen::MatrixXf, kJointCount>, kOutputs> weights;
+  std::array<JointArray<Eigen::MatrixXf>, kOutputs> weights;
 
  private:
   const Eigen::MatrixXf& WeightsOf(Output output, size_t joint) const;

@@ -55,20 +55,20 @@ PosturePair Mirrored(const PosturePair& pair) {
   out.observed = Mirrored(pair.observed);
   out.residual = Mirrored(pair.residual);
   for (size_t i = 0; i < kJointCount; ++i) {
-    out.known[i] = pair.known[static_cast<size_t>(kMirroredJoint[i])];
+    out.known[i] = pair.known[kMirroredJoint[i]];
   }
   return out;
 }
 
 Eigen::VectorXd JointFeature(const Posture& scaled, size_t joint) {
   std::vector<size_t> joints = {joint};
-  if (kJointParent[joint] >= 0) joints.push_back(static_cast<size_t>(kJointParent[joint]));
+  if (joint > 0) joints.push_back(ParentOf(joint));
   for (size_t i = 0; i < kJointCount; ++i) {
-    if (kJointParent[i] == static_cast<int>(joint)) joints.push_back(i);
+    if (i > 0 && ParentOf(i) == joint) joints.push_back(i);
   }
   Eigen::VectorXd feature(3 * static_cast<Eigen::Index>(joints.size()));
   for (size_t k = 0; k < joints.size(); ++k) {
-    feature.segment<3>(3 * static_cast<Eigen::Index>(k)) = scaled.position_m[joints[k]];
+    feature.segment<3>(FirstCoordinate(k)) = scaled.position_m[joints[k]];
   }
   return feature;
 }

@@ -138,12 +138,12 @@ BoneLengths TrueProportions(const std::vector<PosturePair>& pairs) {
   BoneLengths sum{}, count{};
   for (const PosturePair& pair : pairs) {
     for (size_t i = 1; i < kJointCount; ++i) {
-      const auto parent = static_cast<size_t>(kJointParent[i]);
+      const auto parent = ParentOf(i);
       if (pair.known[i] == 0.0 || pair.known[parent] == 0.0) continue;
       const Eigen::Vector3d bone = pair.observed.position_m[i] + pair.residual.position_m[i] -
                                    pair.observed.position_m[parent] -
                                    pair.residual.position_m[parent];
-      for (const size_t side : {i, static_cast<size_t>(kMirroredJoint[i])}) {
+      for (const size_t side : {i, kMirroredJoint[i]}) {
         sum[side] += bone.norm() / StandardBoneLengths()[i];
         count[side] += 1.0;
       }
@@ -208,7 +208,7 @@ JointWeights GainsOf(const std::vector<PosturePair>& pairs, const std::vector<in
     }
   }
   for (size_t j = 0; j < kJointCount; ++j) {
-    const auto m = static_cast<size_t>(kMirroredJoint[j]);
+    const auto m = kMirroredJoint[j];
     const double total = square[j] + square[m];
     const double held = total > 0.0 ? (agree[j] + agree[m]) / total : 0.0;
     // What holds by less than half differs between people more than it is theirs in common.
@@ -244,7 +244,7 @@ PoseCorrection::Samples PoseCorrection::SamplesOf(std::vector<PosturePair> pairs
   s.residual.resize(n, kPostureDims);
   for (Eigen::Index i = 0; i < n; ++i) {
     s.features.col(i) = CorrectionFeature(pairs[static_cast<size_t>(i)].observed);
-    s.residual.row(i) = VectorOf(pairs[static_cast<size_t>(i)].residual).transpose();
+    s.residual.row(i) = ToVector(pairs[static_cast<size_t>(i)].residual).transpose();
   }
   s.pairs = std::move(pairs);
   s.centres = Centres(s.features, options.centres, options.seed);
@@ -270,13 +270,13 @@ PoseCorrection PoseCorrection::Fit(const Samples& samples, double width, double 
     const Eigen::MatrixXf residual = MaskedRows(samples.residual, mask);
     Eigen::MatrixXf targets(k.rows(), 3 * static_cast<Eigen::Index>(joints.size()));
     for (size_t j = 0; j < joints.size(); ++j) {
-      targets.middleCols<3>(3 * static_cast<Eigen::Index>(j)) =
-          residual.middleCols<3>(3 * static_cast<Eigen::Index>(joints[j]));
+      targets.middleCols<3>(FirstCoordinate(j)) =
+          residual.middleCols<3>(FirstCoordinate(joints[j]));
     }
     const auto [mean, solved] = RobustFit(k, targets, prior, options.reweighings);
     for (size_t j = 0; j < joints.size(); ++j) {
-      const auto to = 3 * static_cast<Eigen::Index>(joints[j]);
-      const auto from = 3 * static_cast<Eigen::Index>(j);
+      const auto to = FirstCoordinate(joints[j]);
+      const auto from = FirstCoordinate(j);
       out.weights.middleCols<3>(to) = solved.middleCols<3>(from);
       out.mean.segment<3>(to) = mean.segment<3>(from).transpose();
     }
@@ -340,8 +340,8 @@ PoseCorrection PoseCorrection::Learn(const std::vector<PosturePair>& all_pairs,
   out.proportions = TrueProportions(pairs);
   for (size_t j = 0; j < kJointCount; ++j) {
     const auto gain = static_cast<float>(best->gains[j]);
-    out.weights.middleCols<3>(3 * static_cast<Eigen::Index>(j)) *= gain;
-    out.mean.segment<3>(3 * static_cast<Eigen::Index>(j)) *= gain;
+    out.weights.middleCols<3>(FirstCoordinate(j)) *= gain;
+    out.mean.segment<3>(FirstCoordinate(j)) *= gain;
   }
   return out;
 }
@@ -351,7 +351,7 @@ Posture PoseCorrection::Offsets(const Posture& scaled) const {
   const Eigen::VectorXf feature = CorrectionFeature(scaled);
   const Eigen::RowVectorXf k = Regressors(centres, feature, width);
   const PostureVector offsets = mean + weights.transpose() * k.transpose();
-  return PostureOf(offsets);
+  return ToPosture(offsets);
 }
 
 }  // namespace ossa::recon

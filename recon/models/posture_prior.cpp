@@ -56,10 +56,10 @@ void Add(const std::vector<BoneVector>& run, size_t lag, double weight, Sums& su
 /// Left and right exchanged: x changes its sign, bones their places.
 BoneMatrix Mirror() {
   BoneMatrix mirror = BoneMatrix::Zero();
-  for (int i = 1; i < kJointCount; ++i) {
-    const int other = kMirroredJoint[static_cast<size_t>(i)];
+  for (size_t i = 1; i < kJointCount; ++i) {
+    const Eigen::Index from = FirstCoordinate(i - 1), to = FirstCoordinate(kMirroredJoint[i] - 1);
     for (int axis = 0; axis < 3; ++axis) {
-      mirror(3 * (i - 1) + axis, 3 * (other - 1) + axis) = axis == 0 ? -1.0 : 1.0;
+      mirror(from + axis, to + axis) = axis == 0 ? -1.0 : 1.0;
     }
   }
   return mirror;
@@ -108,7 +108,7 @@ std::vector<std::vector<BoneVector>> NormalisedRuns(const PriorClip& clip) {
       if (!runs.back().empty()) runs.emplace_back();
       continue;
     }
-    const Placement placement = PlacementOf(posture, all, yaw_rad);
+    const Placement placement = EstimatePlacement(posture, all, yaw_rad);
     yaw_rad = placement.yaw_rad;
     const Posture own = Normalised(posture, placement);
     runs.back().push_back(BonesOf(Retargeted(own, StandardBoneLengths())));
@@ -118,18 +118,18 @@ std::vector<std::vector<BoneVector>> NormalisedRuns(const PriorClip& clip) {
 
 BoneVector BonesOf(const Posture& posture) {
   BoneVector bones_m;
-  for (int i = 1; i < kJointCount; ++i) {
-    const auto joint = static_cast<size_t>(i), parent = static_cast<size_t>(kJointParent[joint]);
-    bones_m.segment<3>(3 * (i - 1)) = posture.position_m[joint] - posture.position_m[parent];
+  for (size_t i = 1; i < kJointCount; ++i) {
+    bones_m.segment<3>(FirstCoordinate(i - 1)) =
+        posture.position_m[i] - posture.position_m[ParentOf(i)];
   }
   return bones_m;
 }
 
 Posture PostureOfBones(const BoneVector& bones_m) {
   Posture posture;
-  for (int i = 1; i < kJointCount; ++i) {
-    const auto joint = static_cast<size_t>(i), parent = static_cast<size_t>(kJointParent[joint]);
-    posture.position_m[joint] = posture.position_m[parent] + bones_m.segment<3>(3 * (i - 1));
+  for (size_t i = 1; i < kJointCount; ++i) {
+    posture.position_m[i] =
+        posture.position_m[ParentOf(i)] + bones_m.segment<3>(FirstCoordinate(i - 1));
   }
   return posture;
 }

@@ -18,14 +18,13 @@ struct JointModel {
 };
 
 /// Every bone as long as the person's; parents before children.
-std::array<JointModel, kJointCount> ModelsOf(const PosturePrior& prior,
-                                             const BoneLengths& lengths_m) {
-  std::array<JointModel, kJointCount> models;
+JointArray<JointModel> ModelsOf(const PosturePrior& prior, const BoneLengths& lengths_m) {
+  JointArray<JointModel> models;
   models[0].of_modes.setZero(3, prior.modes_m.cols());
   for (size_t i = 1; i < kJointCount; ++i) {
-    const JointModel& parent = models[static_cast<size_t>(kJointParent[i])];
+    const JointModel& parent = models[ParentOf(i)];
     const double ratio = lengths_m[i] / StandardBoneLengths()[i];
-    const auto row = static_cast<Eigen::Index>(3 * (i - 1));
+    const auto row = FirstCoordinate(i - 1);
     models[i].at_m = parent.at_m + ratio * prior.mean_m.segment<3>(row);
     models[i].of_modes = parent.of_modes + ratio * prior.modes_m.middleRows<3>(row);
     models[i].rest_m2 = parent.rest_m2 + ratio * ratio * prior.rest_m2.segment<3>(row);
@@ -142,7 +141,7 @@ PriorInput PriorFilter::Input() const {
 double PriorFilter::Uncertainty_m(Joint joint) const {
   const Eigen::Index modes = prior_->time_s.size();
   const auto models = ModelsOf(*prior_, StandardBoneLengths());
-  const JointModel& model = models[static_cast<size_t>(Index(joint))];
+  const JointModel& model = models[joint];
   const Eigen::Matrix3d spread =
       model.of_modes * covariance_.topLeftCorner(modes, modes) * model.of_modes.transpose();
   return std::sqrt(std::max(0.0, spread.trace() + model.rest_m2.sum()));

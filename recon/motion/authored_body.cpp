@@ -38,14 +38,19 @@ struct Bones {
 
 const Bones& RigBones() {
   static const Bones bones = [] {
-    const auto at = [](const std::string& name) { return static_cast<size_t>(RigBone(name)); };
-    Bones b{at("LowerBack"), at("Spine"), at("Spine1"), at("Neck"), at("Neck1"), at("Head"), {}};
+    Bones b{RigBone("LowerBack"),
+            RigBone("Spine"),
+            RigBone("Spine1"),
+            RigBone("Neck"),
+            RigBone("Neck1"),
+            RigBone("Head"),
+            {}};
     for (size_t s = 0; s < 2; ++s) {
       const std::string n = s == 0 ? "Left" : "Right", i = s == 0 ? "L" : "R";
-      b.side[s] = {at(n + "Shoulder"), at(n + "Arm"),        at(n + "ForeArm"),
-                   at(n + "Hand"),     at(n + "FingerBase"), at(n + "HandFinger1"),
-                   at(i + "Thumb"),    at(i + "HipJoint"),   at(n + "UpLeg"),
-                   at(n + "Leg"),      at(n + "Foot"),       at(n + "ToeBase")};
+      b.side[s] = {RigBone(n + "Shoulder"), RigBone(n + "Arm"),        RigBone(n + "ForeArm"),
+                   RigBone(n + "Hand"),     RigBone(n + "FingerBase"), RigBone(n + "HandFinger1"),
+                   RigBone(i + "Thumb"),    RigBone(i + "HipJoint"),   RigBone(n + "UpLeg"),
+                   RigBone(n + "Leg"),      RigBone(n + "Foot"),       RigBone(n + "ToeBase")};
     }
     return b;
   }();

@@ -24,13 +24,12 @@ using Eigen::Quaterniond;
 using Eigen::Vector3d;
 
 constexpr double kCentimetres = 100.0;  // of a metre; the unit most programs expect of BVH
-constexpr size_t kJoints = kJointCount;
 
 BoneLengths MedianLengths(const std::vector<Sighting>& sightings) {
-  const BoneLengths standard = BoneLengthsOf(StandardPosture(RigPose()));
+  const BoneLengths standard = MeasureBoneLengths(StandardPosture(RigPose()));
   BoneLengths lengths = standard;
-  for (size_t j = 1; j < kJoints; ++j) {
-    const auto parent = static_cast<size_t>(kJointParent[j]);
+  for (size_t j = 1; j < kJointCount; ++j) {
+    const auto parent = ParentOf(j);
     std::vector<double> seen;
     for (const Sighting& s : sightings) {
       if (s.joint[j] && s.joint[parent]) seen.push_back((*s.joint[j] - *s.joint[parent]).norm());
@@ -70,16 +69,18 @@ Vector3d RestDirection(size_t joint) {
   }
 }
 
-bool Branches(size_t joint) {
-  return std::count(kJointParent.begin(), kJointParent.end(), static_cast<int>(joint)) > 1;
+ptrdiff_t ChildrenOf(size_t joint) {
+  return std::count(kJointParent.begin(), kJointParent.end(), static_cast<int>(joint));
 }
+
+bool Branches(size_t joint) { return ChildrenOf(joint) > 1; }
 
 /// The joint of the file that turns each bone (bone j ends in joint j): the bone's parent joint, or
 /// its own helper where bones branch.
 struct Layout {
   std::vector<BvhJoint> joints;
-  std::array<size_t, kJoints> place{};   // file joint at SDK joint j
-  std::array<size_t, kJoints> turner{};  // file joint that turns the bone ending in j
+  JointArray<size_t> place{};   // file joint at SDK joint j
+  JointArray<size_t> turner{};  // file joint that turns the bone ending in j
 };
 
 const std::vector<BvhChannel> kTurns = {BvhChannel::kZrotation, BvhChannel::kXrotation,
@@ -92,8 +93,8 @@ Layout LayoutOf(const BoneLengths& lengths) {
   root.channels = {BvhChannel::kXposition, BvhChannel::kYposition, BvhChannel::kZposition};
   root.channels.insert(root.channels.end(), kTurns.begin(), kTurns.end());
   layout.joints.push_back(root);
-  for (size_t j = 1; j < kJoints; ++j) {
-    const auto parent = static_cast<size_t>(kJointParent[j]);
+  for (size_t j = 1; j < kJointCount; ++j) {
+    const auto parent = ParentOf(j);
     layout.turner[j] = layout.place[parent];
     if (Branches(parent)) {
       BvhJoint helper;
@@ -108,7 +109,7 @@ Layout LayoutOf(const BoneLengths& lengths) {
     joint.parent = static_cast<int>(layout.turner[j]);
     joint.offset = kCentimetres * lengths[j] * RestDirection(j);
     joint.channels = kTurns;
-    if (std::count(kJointParent.begin(), kJointParent.end(), static_cast<int>(j)) == 0) {
+    if (ChildrenOf(j) == 0) {
       joint.end_sites.push_back(5.0 * RestDirection(j));
     }
     layout.place[j] = layout.joints.size();
@@ -118,10 +119,9 @@ Layout LayoutOf(const BoneLengths& lengths) {
 }
 
 /// Pelvis (or whole-body) frame: x from right to left hip, y as near to up the spine as can be.
-Quaterniond BodyFrame(const std::array<Vector3d, kJoints>& direction) {
-  Vector3d left = direction[static_cast<size_t>(Index(Joint::kHipLeft))] -
-                  direction[static_cast<size_t>(Index(Joint::kHipRight))];
-  const Vector3d up = direction[static_cast<size_t>(Index(Joint::kSpine))];
+Quaterniond BodyFrame(const JointArray<Vector3d>& direction) {
+  Vector3d left = direction[Joint::kHipLeft] - direction[Joint::kHipRight];
+  const Vector3d up = direction[Joint::kSpine];
   if (left.cross(up).norm() < 1e-3) left = up.unitOrthogonal();
   left.normalize();
   const Vector3d front = left.cross(up).normalized();
@@ -146,9 +146,9 @@ Vector3d ZxyDegrees(const Quaterniond& rotation) {
 }
 
 /// Directions of the bones in a frame; what is missing stays as it was.
-void UpdateDirections(const Sighting& sighting, std::array<Vector3d, kJoints>& direction) {
-  for (size_t j = 1; j < kJoints; ++j) {
-    const auto& from = sighting.joint[static_cast<size_t>(kJointParent[j])];
+void UpdateDirections(const Sighting& sighting, JointArray<Vector3d>& direction) {
+  for (size_t j = 1; j < kJointCount; ++j) {
+    const auto& from = sighting.joint[ParentOf(j)];
     const auto& to = sighting.joint[j];
     if (from && to && (*to - *from).norm() > 1e-4) direction[j] = (*to - *from).normalized();
   }
@@ -156,13 +156,13 @@ void UpdateDirections(const Sighting& sighting, std::array<Vector3d, kJoints>& d
 
 /// The root's place that puts the body of constant lengths nearest to the joints seen.
 std::optional<Vector3d> RootOf(const Sighting& sighting, const BoneLengths& lengths,
-                               const std::array<Vector3d, kJoints>& direction) {
-  std::array<Vector3d, kJoints> built;
+                               const JointArray<Vector3d>& direction) {
+  JointArray<Vector3d> built;
   built[0] = Vector3d::Zero();
   Vector3d sum = Vector3d::Zero();
   int seen = 0;
-  for (size_t j = 0; j < kJoints; ++j) {
-    if (j > 0) built[j] = built[static_cast<size_t>(kJointParent[j])] + lengths[j] * direction[j];
+  for (size_t j = 0; j < kJointCount; ++j) {
+    if (j > 0) built[j] = built[ParentOf(j)] + lengths[j] * direction[j];
     if (!sighting.joint[j]) continue;
     sum += *sighting.joint[j] - built[j];
     ++seen;
@@ -172,10 +172,10 @@ std::optional<Vector3d> RootOf(const Sighting& sighting, const BoneLengths& leng
 }
 
 void AppendFrame(const Layout& layout, const Vector3d& root_m,
-                 const std::array<Vector3d, kJoints>& direction, std::vector<double>& values) {
+                 const JointArray<Vector3d>& direction, std::vector<double>& values) {
   std::vector<Quaterniond> world(layout.joints.size(), Quaterniond::Identity());
   world[0] = BodyFrame(direction);
-  for (size_t j = 1; j < kJoints; ++j) {
+  for (size_t j = 1; j < kJointCount; ++j) {
     const size_t turner = layout.turner[j];
     if (turner != 0) {
       const Quaterniond& carried = world[static_cast<size_t>(layout.joints[turner].parent)];
@@ -206,7 +206,7 @@ MotionClip AtItsOwnRate(BvhFile bvh, const std::string& source) {
 
 SkeletonFrame FrameOf(const Posture& posture, size_t frame, double frame_s) {
   BodyRecord body;
-  for (size_t j = 0; j < kJoints; ++j) {
+  for (size_t j = 0; j < kJointCount; ++j) {
     JointRecord record;
     record.position_m = posture.position_m[j];
     body.joints[j] = record;
@@ -235,7 +235,7 @@ class BvhBody {
         sightings_(EvenSightingsOf(sequence, options)),
         lengths_(MedianLengths(sightings_.seen())),
         layout_(LayoutOf(lengths_)) {
-    for (size_t j = 0; j < kJoints; ++j) direction_[j] = RestDirection(j);
+    for (size_t j = 0; j < kJointCount; ++j) direction_[j] = RestDirection(j);
     // What the first frames lack stands from the beginning as it is first seen.
     const auto& seen = sightings_.seen();
     for (auto s = seen.rbegin(); s != seen.rend(); ++s) Update(*s);
@@ -282,7 +282,7 @@ class BvhBody {
   EvenSightings sightings_;
   BoneLengths lengths_;
   Layout layout_;
-  std::array<Vector3d, kJoints> direction_;
+  JointArray<Vector3d> direction_;
   Vector3d root_m_ = Vector3d::Zero();
 };
 
@@ -327,14 +327,14 @@ SkeletonSequence SkeletonOfBvh(BvhFile bvh, const std::string& source) {
     }
     return sequence;
   }
-  std::array<size_t, kJoints> at{};
-  for (size_t j = 0; j < kJoints; ++j) {
+  JointArray<size_t> at{};
+  for (size_t j = 0; j < kJointCount; ++j) {
     while (bvh.joints[at[j]].name != kJointNames[j]) ++at[j];
   }
   for (size_t f = 0; f < bvh.FrameCount(); ++f) {
     const BvhFramePose pose = PoseOf(bvh, f);
     Posture posture;
-    for (size_t j = 0; j < kJoints; ++j)
+    for (size_t j = 0; j < kJointCount; ++j)
       posture.position_m[j] = pose.position[at[j]] / kCentimetres;
     sequence.frames.push_back(FrameOf(posture, f, bvh.frame_s));
   }

@@ -20,8 +20,6 @@ constexpr double kDegree = std::numbers::pi / 180.0;
 // forearm and hand is softly kept below this.
 constexpr double kWristLimit_rad = 50.0 * kDegree;  // anthropometry, with a margin; by hand
 
-size_t Bone(std::string_view name) { return static_cast<size_t>(RigBone(name)); }
-
 /// Axes of a bone: its direction, and how far it can be kept, the front of the body (+z). An elbow
 /// turned by the bone's rotation bends forwards in a T-pose, an A-pose and with arms hanging, so
 /// the twist of different rest poses agrees; only an arm stretched forward has none to show.
@@ -124,7 +122,7 @@ class Retargeter {
     for (size_t k = 0; k < names.size(); ++k) {
       const double place = static_cast<double>((k + 1) * chain.size()) / 3.0;  // in (0, size]
       const auto below = static_cast<size_t>(std::ceil(place - 1e-9)) - 1;
-      BoneSource& bone = sources_[Bone(names[k])];
+      BoneSource& bone = sources_[RigBone(names[k])];
       bone.joint = below == 0 ? base : chain[below - 1];
       bone.next_joint = chain[below];
       bone.mix = place - static_cast<double>(below);
@@ -132,7 +130,7 @@ class Retargeter {
   }
 
   void MapTrunk() {
-    sources_[Bone("Hips")].joint = bones_.hips;
+    sources_[RigBone("Hips")].joint = bones_.hips;
     MapChain(bones_.hips, bones_.spine, {"LowerBack", "Spine", "Spine1"});
     std::vector<int> neck = bones_.neck;
     if (!neck.empty()) MapChain(bones_.spine.back(), neck, {"Neck", "Neck1", "Head"});
@@ -141,15 +139,16 @@ class Retargeter {
   void MapSide(size_t s) {
     const SideBones& side = bones_.side[s];
     const std::string name = s == 0 ? "Left" : "Right";
-    sources_[Bone(s == 0 ? "LHipJoint" : "RHipJoint")].joint = bones_.hips;
-    sources_[Bone(name + "Shoulder")].joint = side.collar >= 0 ? side.collar : bones_.spine.back();
+    sources_[RigBone(s == 0 ? "LHipJoint" : "RHipJoint")].joint = bones_.hips;
+    sources_[RigBone(name + "Shoulder")].joint =
+        side.collar >= 0 ? side.collar : bones_.spine.back();
     MapLimb(name + "Arm", side.arm, EndOf(side.arm, side.fore_arm));
     MapLimb(name + "ForeArm", side.fore_arm, EndOf(side.fore_arm, side.hand));
     MapLimb(name + "UpLeg", side.up_leg, EndOf(side.up_leg, side.leg));
     MapLimb(name + "Leg", side.leg, EndOf(side.leg, side.foot));
     // Soles are flat on the floor in every rest pose: the feet need no alignment.
-    sources_[Bone(name + "Foot")].joint = side.foot;
-    sources_[Bone(name + "ToeBase")].joint = side.toe >= 0 ? side.toe : side.foot;
+    sources_[RigBone(name + "Foot")].joint = side.foot;
+    sources_[RigBone(name + "ToeBase")].joint = side.toe >= 0 ? side.toe : side.foot;
   }
 
   /// Rest place of the far end of a joint's segment: the next joint or the first end site.
@@ -167,7 +166,7 @@ class Retargeter {
   }
 
   void MapLimb(const std::string& rig_bone, int joint, const Vector3d& end) {
-    const size_t b = Bone(rig_bone);
+    const size_t b = RigBone(rig_bone);
     const RigRest& rig = StandardRigRest();
     const Vector3d direction = end - Rest(joint);
     if (direction.norm() < 1e-9) {
@@ -184,10 +183,10 @@ class Retargeter {
     for (size_t s = 0; s < 2; ++s) {
       const std::string name = s == 0 ? "Left" : "Right";
       const SideBones& side = bones_.side[s];
-      const Quaterniond fore_arm = pose.world_from_rest[Bone(name + "ForeArm")];
+      const Quaterniond fore_arm = pose.world_from_rest[RigBone(name + "ForeArm")];
       Quaterniond hand = fore_arm;
       if (side.hand >= 0) {
-        const Quaterniond& lay = sources_[Bone(name + "ForeArm")].source_from_rig;
+        const Quaterniond& lay = sources_[RigBone(name + "ForeArm")].source_from_rig;
         Eigen::AngleAxisd bend(fore_arm.conjugate() * Turn(frame, side.hand) * lay);
         double angle = std::remainder(bend.angle(), 2.0 * std::numbers::pi);
         angle = kWristLimit_rad * std::tanh(angle / kWristLimit_rad);
@@ -196,7 +195,7 @@ class Retargeter {
       const std::string initial = s == 0 ? "L" : "R";
       for (const std::string& bone :
            {name + "Hand", name + "FingerBase", name + "HandFinger1", initial + "Thumb"}) {
-        pose.world_from_rest[Bone(bone)] = hand;
+        pose.world_from_rest[RigBone(bone)] = hand;
       }
     }
   }
@@ -212,7 +211,7 @@ class Retargeter {
 
   static double RigLegLength() {
     const RigRest& rest = StandardRigRest();
-    const auto head = [&](const char* name) { return rest.head_m[Bone(name)]; };
+    const auto head = [&](const char* name) { return rest.head_m[RigBone(name)]; };
     return 2.0 * ((head("LeftUpLeg") - head("LeftLeg")).norm() +
                   (head("LeftLeg") - head("LeftFoot")).norm());
   }
@@ -224,7 +223,7 @@ class Retargeter {
         world_from_file_ * (0.5 * (at(bones_.side[0].up_leg) + at(bones_.side[1].up_leg)));
     const RigRest& rig = StandardRigRest();
     const Vector3d rig_hips =
-        0.5 * (rig.head_m[Bone("LeftUpLeg")] + rig.head_m[Bone("RightUpLeg")]);
+        0.5 * (rig.head_m[RigBone("LeftUpLeg")] + rig.head_m[RigBone("RightUpLeg")]);
     return metres_per_unit_ * hips - pose.world_from_rest[0] * (rig_hips - rig.head_m[0]);
   }
 
@@ -246,10 +245,10 @@ double SmoothStep(double from, double to, double x) {
 
 void FollowArmsWithCollars(RigPose& pose) {
   const RigRest& rest = StandardRigRest();
-  const Quaterniond chest = pose.world_from_rest[Bone("Spine1")];
+  const Quaterniond chest = pose.world_from_rest[RigBone("Spine1")];
   for (const double side : {1.0, -1.0}) {
     const std::string name = side > 0 ? "Left" : "Right";
-    const size_t arm = Bone(name + "Arm");
+    const size_t arm = RigBone(name + "Arm");
     const Vector3d arm_rest = (rest.tail_m[arm] - rest.head_m[arm]).normalized();
     const Vector3d direction = chest.conjugate() * (pose.world_from_rest[arm] * arm_rest);
     // The clavicle's lift reaches 30° with the arm upright, and its pull forwards 20° with the arm
@@ -261,7 +260,7 @@ void FollowArmsWithCollars(RigPose& pose) {
     const double pull = level * kDegree * (front > 0 ? 20.0 * front : 10.0 * front);
     const Quaterniond wanted = Quaterniond(Eigen::AngleAxisd(-side * pull, Vector3d::UnitY())) *
                                Eigen::AngleAxisd(side * lift, Vector3d::UnitZ());
-    Quaterniond& collar = pose.world_from_rest[Bone(name + "Shoulder")];
+    Quaterniond& collar = pose.world_from_rest[RigBone(name + "Shoulder")];
     const Quaterniond own = chest.conjugate() * collar;
     if (own.angularDistance(Quaterniond::Identity()) <
         wanted.angularDistance(Quaterniond::Identity())) {

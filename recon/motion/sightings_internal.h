@@ -12,7 +12,7 @@ namespace ossa::recon {
 /// What was seen of a body at one time; empty joints were not.
 struct Sighting {
   double time_s = 0.0;
-  std::array<std::optional<Eigen::Vector3d>, kJointCount> joint;
+  JointArray<std::optional<Eigen::Vector3d>> joint;
 };
 
 /// Of the body `id`, without `id` of the one in most frames; their times grow. Throws InputError

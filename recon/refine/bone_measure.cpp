@@ -6,12 +6,6 @@
 #include "recon/normalise.h"
 
 namespace ossa::recon {
-namespace {
-
-size_t At(Joint joint) { return static_cast<size_t>(Index(joint)); }
-
-}  // namespace
-
 Eigen::VectorXf BoneNumbersOf(const ProposedPerson& person) {
   constexpr double kLeast_m = 0.01, kMost_m = 2.0;
   Eigen::VectorXf numbers(kBoneInputs);
@@ -20,7 +14,7 @@ Eigen::VectorXf BoneNumbersOf(const ProposedPerson& person) {
     const Eigen::Vector3f from_m = place_m.cast<float>();
     next = std::copy(from_m.begin(), from_m.end(), next);
   }
-  const BoneLengths lengths_m = BoneLengthsOf(person.place);
+  const BoneLengths lengths_m = MeasureBoneLengths(person.place);
   for (size_t i = 1; i < kJointCount; ++i) {
     *next++ = static_cast<float>(std::log(std::clamp(lengths_m[i], kLeast_m, kMost_m)));
   }
@@ -34,7 +28,7 @@ Eigen::VectorXf BoneNumbersOf(const ProposedPerson& person) {
 Eigen::VectorXf BoneOutputsOf(const BoneLengths& lengths_m) {
   Eigen::VectorXf outputs(static_cast<Eigen::Index>(kMeasuredBones.size()));
   for (size_t b = 0; b < kMeasuredBones.size(); ++b) {
-    const size_t left = At(kMeasuredBones[b]), right = static_cast<size_t>(kMirroredJoint[left]);
+    const size_t left = Index(kMeasuredBones[b]), right = kMirroredJoint[left];
     const double length_m = (lengths_m[left] + lengths_m[right]) / 2.0;
     outputs[static_cast<Eigen::Index>(b)] =
         static_cast<float>(std::log(length_m / StandardBoneLengths()[left]) / kBoneStep);
@@ -50,7 +44,7 @@ BoneLengths MeasuredBones(const NetworkRunner& network, const ProposedPerson& pe
   const Eigen::VectorXd said = network.Run(numbers).cast<double>().rowwise().mean();
   BoneLengths lengths_m = StandardBoneLengths();
   for (size_t b = 0; b < kMeasuredBones.size(); ++b) {
-    const size_t left = At(kMeasuredBones[b]), right = static_cast<size_t>(kMirroredJoint[left]);
+    const size_t left = Index(kMeasuredBones[b]), right = kMirroredJoint[left];
     const double over = kBoneStep * said[static_cast<Eigen::Index>(b)];
     lengths_m[left] *= std::exp(std::clamp(over, -kFarthest, kFarthest));
     lengths_m[right] = lengths_m[left];

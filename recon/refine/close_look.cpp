@@ -84,7 +84,7 @@ ProposedPerson ProposedPerson::Mirrored() const {
   out.middle_m = mirror.cwiseProduct(middle_m);
   out.frame_from_camera = mirror.asDiagonal() * frame_from_camera * mirror.asDiagonal();
   for (size_t j = 0; j < kJointCount; ++j) {
-    const auto other = static_cast<size_t>(kMirroredJoint[j]);
+    const auto other = kMirroredJoint[j];
     out.place.position_m[other] = mirror.cwiseProduct(place.position_m[j]);
     out.moved.position_m[other] = mirror.cwiseProduct(moved.position_m[j]);
     out.confidence[other] = confidence[j];
@@ -108,7 +108,7 @@ std::optional<LookDescription> LookDescription::Of(const LookInput& input,
 LookDescription LookDescription::Mirrored() const {
   LookDescription out{ProposedPerson::Mirrored()};
   for (size_t j = 0; j < kJointCount; ++j) {
-    const auto other = static_cast<size_t>(kMirroredJoint[j]);
+    const auto other = kMirroredJoint[j];
     for (size_t row = 0; row < kLookSamples; row += kLookGrid) {
       std::reverse_copy(samples[j].begin() + static_cast<std::ptrdiff_t>(row),
                         samples[j].begin() + static_cast<std::ptrdiff_t>(row + kLookGrid),
@@ -121,7 +121,7 @@ LookDescription LookDescription::Mirrored() const {
 Eigen::VectorXf NumbersOf(const LookDescription& description, Joint joint) {
   Eigen::VectorXf numbers(kLookInputs);
   float* next = numbers.data();
-  const auto& samples = description.samples[static_cast<size_t>(Index(joint))];
+  const auto& samples = description.samples[joint];
   for (const LookSample& sample : samples) {
     *next++ = 1e-3F * sample.surface() * static_cast<float>(sample.behind_mm());
   }
@@ -168,8 +168,8 @@ Posture Looker::Moved(Networks of_joints, const LookInput& input, const LookDesc
   const Eigen::Matrix3d camera_from_frame = seen.frame_from_camera.transpose();
   for (size_t k = 0; k < kLookJoints.size(); ++k) {
     const Joint joint = kLookJoints[k];
-    const auto index = static_cast<size_t>(Index(joint));
-    const auto other = static_cast<size_t>(kMirroredJoint[index]);
+    const auto index = Index(joint);
+    const auto other = kMirroredJoint[index];
     const bool one = looked_at[index], two = other != index && looked_at[other];
     if (!one && !two) continue;
     Eigen::MatrixXf numbers(input.bones_m ? kToldInputs : kLookInputs, one && two ? 2 : 1);

@@ -22,10 +22,10 @@ inline constexpr const char* kShippedLook = "body.ossalook";
 
 /// A person whose joints were proposed, and the image they are seen in.
 struct LookInput {
-  Posture proposed;                              // camera space, metres
-  std::array<double, kJointCount> confidence{};  // of each joint, [0, 1]
-  std::array<bool, kJointCount> seen{};          // false: inferred from the other joints
-  const depth::DepthFrame* depth = nullptr;      // the whole image; borrowed
+  Posture proposed;                          // camera space, metres
+  JointArray<double> confidence{};           // of each joint, [0, 1]
+  JointArray<bool> seen{};                   // false: inferred from the other joints
+  const depth::DepthFrame* depth = nullptr;  // the whole image; borrowed
   std::span<const uint8_t> is_person;  // of each of its pixels, row-major: 1 for this person's
   Posture moved;  // from the forest's proposals to `proposed`, by earlier glances; metres
   std::optional<BoneLengths> bones_m;  // the person's, where earlier frames have told them
@@ -40,8 +40,8 @@ struct ProposedPerson {
   Eigen::Matrix3d frame_from_camera = Eigen::Matrix3d::Identity();
   Eigen::Vector3d middle_m = Eigen::Vector3d::Zero();  // of the person, camera space
   Posture place;                                       // proposed, from the middle, these axes
-  std::array<double, kJointCount> confidence{};
-  std::array<bool, kJointCount> seen{};
+  JointArray<double> confidence{};
+  JointArray<bool> seen{};
   Posture moved;  // by earlier glances, these axes
 
   /// Nothing where a proposal is not finite or the image has not a pixel for each of `is_person`.
@@ -51,7 +51,7 @@ struct ProposedPerson {
 };
 
 /// Of each joint, whether it is looked at.
-using JointSet = std::array<bool, kJointCount>;
+using JointSet = JointArray<bool>;
 inline constexpr JointSet kAllJoints = [] {
   JointSet all{};
   all.fill(true);
@@ -61,7 +61,7 @@ inline constexpr JointSet kAllJoints = [] {
 /// A person as a close look sees them.
 struct LookDescription : ProposedPerson {
   /// Of each joint; see SurfaceSampler::Around.
-  std::array<std::array<LookSample, kLookSamples>, kJointCount> samples{};
+  JointArray<std::array<LookSample, kLookSamples>> samples{};
 
   /// Nothing where ProposedPerson has nothing. Of joints that are not looked at no surface is
   /// sampled.

@@ -141,7 +141,7 @@ Posture Mirrored(int frame) {
   if (frame % 2 == 0) return p;
   Posture m;
   for (size_t i = 0; i < recon::kJointCount; ++i) {
-    m.position_m[i] = p.position_m[static_cast<size_t>(recon::kMirroredJoint[i])];
+    m.position_m[i] = p.position_m[recon::kMirroredJoint[i]];
   }
   return m;
 }
@@ -158,7 +158,7 @@ INSTANTIATE_TEST_SUITE_P(Nasty, BadTargets,
 TEST(CharacterFilter, JointsOfNoWeightAreAsGoodAsMissing) {
   CharacterFilter filter(Lengths());
   filter.Step(StandingPerson(), {}, Ground(), kFrame_s);
-  std::array<double, recon::kJointCount> weight;
+  recon::JointArray<double> weight;
   weight.fill(1.0);
   Posture target = StandingPerson();
   for (const size_t joint : {5U, 6U, 7U}) {

@@ -55,7 +55,7 @@ class Contortions : public testing::TestWithParam<Contortion> {
     const Vector3d bone = target.position_m[c.bone] - target.position_m[c.parent];
     const Vector3d by = bone.norm() * c.direction.normalized() - bone;
     for (size_t j = c.bone; j < recon::kJointCount; ++j) {
-      if (j == c.bone || recon::kJointParent[j] == static_cast<int>(c.bone)) {
+      if (j == c.bone || recon::ParentOf(j) == c.bone) {
         target.position_m[j] += by;
       }
     }
@@ -154,10 +154,10 @@ TEST(Orientations, AreThoseOfTheSdkConventionOnceSettled) {
   CharacterFilterOptions options;
   options.pin_feet = false;
   const auto out = Settled(goal, options);
-  const auto wanted = recon::OrientationsOf(out.posture);
+  const auto wanted = recon::ComputeOrientations(out.posture);
   for (size_t bone = 1; bone < recon::kJointCount; ++bone) {
     // y runs along the bone from parent to joint: exact, the bodies carry it.
-    const auto parent = static_cast<size_t>(recon::kJointParent[bone]);
+    const auto parent = recon::ParentOf(bone);
     const Vector3d along = out.posture.position_m[bone] - out.posture.position_m[parent];
     EXPECT_LT(AngleBetween(Axis(out, bone, Vector3d::UnitY()), along), 0.01) << bone;
     // The turn about it is controlled (eq. 17) and has settled.

@@ -118,7 +118,7 @@ TEST(Mechanics, APushedCharacterReturns) {
 }
 
 TEST(Anthropometry, MassesSumToTheBodyAndHangOnTheJoints) {
-  const auto segments = SegmentsOf(Lengths(), 1.75, 70.0);
+  const auto segments = ComputeSegments(Lengths(), 1.75, 70.0);
   double sum = 0.0, lumped = 0.0;
   for (const auto& segment : segments) sum += segment.mass_kg;
   for (const double m : LumpedMasses(segments)) lumped += m;
@@ -128,7 +128,7 @@ TEST(Anthropometry, MassesSumToTheBodyAndHangOnTheJoints) {
 
 TEST(Anthropometry, NoBoneTurnsHarderThanTwoMassesAtItsEnds) {
   // The premise of the damping derivation in control.h: rho >= 1, and <= 3.65.
-  const auto segments = SegmentsOf(Lengths());
+  const auto segments = ComputeSegments(Lengths());
   for (size_t i = 1; i < recon::kJointCount; ++i) {
     const auto& s = segments[i];
     const double rho = 0.25 * s.mass_kg * s.length_m * s.length_m / s.transverse_inertia_kgm2;
@@ -137,7 +137,9 @@ TEST(Anthropometry, NoBoneTurnsHarderThanTwoMassesAtItsEnds) {
   }
 }
 
-TEST(Anthropometry, StatureComesOutOfTheBones) { EXPECT_NEAR(StatureOf(Lengths()), 1.75, 0.1); }
+TEST(Anthropometry, StatureComesOutOfTheBones) {
+  EXPECT_NEAR(EstimateStature(Lengths()), 1.75, 0.1);
+}
 
 }  // namespace
 }  // namespace ossa::physics

@@ -15,9 +15,8 @@ inline recon::Posture StandingPerson() {
   p[Joint::kShoulderCenter] = {0.0, 1.43, 0.0};
   p[Joint::kHead] = {0.0, 1.63, 0.02};
   for (const double side : {1.0, -1.0}) {
-    const auto at = [&](int joint) -> Eigen::Vector3d& {
-      const int mirrored = side > 0 ? joint : recon::kMirroredJoint[static_cast<size_t>(joint)];
-      return p.position_m[static_cast<size_t>(mirrored)];
+    const auto at = [&](size_t joint) -> Eigen::Vector3d& {
+      return p.position_m[side > 0 ? joint : recon::kMirroredJoint[joint]];
     };
     at(4) = {0.18 * side, 1.40, 0.0};
     at(5) = {0.28 * side, 1.14, -0.02};
@@ -58,11 +57,11 @@ inline recon::Posture DancingPerson(double time_s) {
 constexpr double kFrame_s = 1.0 / 30.0;
 
 /// Of the standing person.
-inline recon::BoneLengths Lengths() { return recon::BoneLengthsOf(StandingPerson()); }
+inline recon::BoneLengths Lengths() { return recon::MeasureBoneLengths(StandingPerson()); }
 
 /// Largest relative error of a bone's length against the standing person's.
 inline double LargestLengthError(const recon::Posture& posture) {
-  const auto now = recon::BoneLengthsOf(posture), wanted = Lengths();
+  const auto now = recon::MeasureBoneLengths(posture), wanted = Lengths();
   double largest = 0.0;
   for (size_t i = 1; i < recon::kJointCount; ++i) {
     largest = std::max(largest, std::abs(now[i] / wanted[i] - 1.0));

@@ -19,7 +19,7 @@ TEST(Normalise, UndoesPlacementAndTurn) {
   const Posture person = test::Gesture(0.4, 1.2, 0.5);
   for (const double yaw : {-3.0, -1.0, 0.0, 0.7, 3.1}) {
     const Posture seen = Placed(person, {{0.3, -0.2, 2.2}, yaw});
-    const Placement placement = PlacementOf(seen, Ones(), 0.0);
+    const Placement placement = EstimatePlacement(seen, Ones(), 0.0);
     // The gesture's own hips and shoulders lie exactly across: rounding only.
     EXPECT_LT(test::MeanDistance_m(Normalised(seen, placement), person), 1e-12) << yaw;
   }
@@ -28,23 +28,23 @@ TEST(Normalise, UndoesPlacementAndTurn) {
 TEST(Normalise, APersonFacingTheCameraHasTheLeftHandAtNegativeX) {
   const Posture seen = test::InFrontOfCamera(test::Gesture(1.5, 1.5, 0.0));
   EXPECT_LT(seen[Joint::kHandLeft].x(), seen[Joint::kHandRight].x());
-  EXPECT_NEAR(std::abs(PlacementOf(seen, Ones(), 0.0).yaw_rad), 3.1, 1e-9);
+  EXPECT_NEAR(std::abs(EstimatePlacement(seen, Ones(), 0.0).yaw_rad), 3.1, 1e-9);
 }
 
 TEST(Normalise, KeepsTheLastHeadingWhenNothingTells) {
   Posture seen;  // all joints at one point
-  EXPECT_DOUBLE_EQ(PlacementOf(seen, Ones(), 1.25).yaw_rad, 1.25);
+  EXPECT_DOUBLE_EQ(EstimatePlacement(seen, Ones(), 1.25).yaw_rad, 1.25);
 }
 
 TEST(Retarget, KeepsDirectionsAndGivesEveryBoneItsLength) {
   const Posture person = test::Gesture(0.4, 1.2, 0.5, 0.3);
   for (const double scale : {0.9 / 1.66, 1.0, 2.2 / 1.66}) {
     const Posture other = Retargeted(person, ScaledBoneLengths(scale));
-    const BoneLengths lengths = BoneLengthsOf(other);
+    const BoneLengths lengths = MeasureBoneLengths(other);
     for (size_t i = 1; i < kJointCount; ++i) {
       EXPECT_NEAR(lengths[i], scale * StandardBoneLengths()[i], 1e-12);
     }
-    EXPECT_LT(test::MeanDistance_m(Retargeted(other, BoneLengthsOf(person)), person), 1e-12);
+    EXPECT_LT(test::MeanDistance_m(Retargeted(other, MeasureBoneLengths(person)), person), 1e-12);
   }
 }
 
@@ -60,7 +60,7 @@ TEST(BodyScale, IsThatOfThePersonDespiteAWrongBone) {
   for (const double scale : {0.6, 1.0, 1.3}) {
     Posture person = Retargeted(test::Gesture(0.2, 0.3, 0.1), ScaledBoneLengths(scale));
     person[Joint::kHandLeft] += Eigen::Vector3d(0.8, 0.0, 0.0);
-    EXPECT_NEAR(BodyScaleOf(BoneLengthsOf(person), Ones()), scale, 1e-9);
+    EXPECT_NEAR(EstimateBodyScale(MeasureBoneLengths(person), Ones()), scale, 1e-9);
   }
 }
 

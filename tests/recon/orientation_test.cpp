@@ -17,7 +17,7 @@ using Eigen::Vector3d;
 Posture RestPosture() {
   Posture posture;
   for (size_t i = 1; i < kJointCount; ++i) {
-    const auto parent = static_cast<size_t>(kJointParent[i]);
+    const auto parent = ParentOf(i);
     posture.position_m[i] =
         posture.position_m[parent] + 0.25 * (RestOrientations()[i] * Vector3d::UnitY());
   }
@@ -41,7 +41,7 @@ Posture RandomPosture(unsigned seed) {
 constexpr double kExact = 1e-9;  // a dozen roundings
 
 TEST(Orientation, AtRestIsTheRestPose) {
-  const auto orientation = OrientationsOf(RestPosture());
+  const auto orientation = ComputeOrientations(RestPosture());
   for (size_t i = 0; i < kJointCount; ++i) {
     EXPECT_LT(orientation[i].angularDistance(RestOrientations()[i]), kExact) << kJointNames[i];
   }
@@ -59,10 +59,9 @@ TEST(Orientation, RestAxesAreThoseOfTheConvention) {
 TEST(Orientation, YRunsAlongTheBone) {
   for (unsigned seed = 0; seed < 50; ++seed) {
     const Posture posture = RandomPosture(seed);
-    const auto orientation = OrientationsOf(posture);
+    const auto orientation = ComputeOrientations(posture);
     for (size_t i = 1; i < kJointCount; ++i) {
-      const Vector3d bone =
-          posture.position_m[i] - posture.position_m[static_cast<size_t>(kJointParent[i])];
+      const Vector3d bone = posture.position_m[i] - posture.position_m[ParentOf(i)];
       EXPECT_LT((orientation[i] * Vector3d::UnitY() - bone.normalized()).norm(), kExact);
     }
   }
@@ -72,7 +71,8 @@ TEST(Orientation, TurnsWithThePerson) {
   for (unsigned seed = 0; seed < 50; ++seed) {
     const Posture posture = RandomPosture(seed);
     const Quaterniond turn(AngleAxisd(0.1 * seed, Vector3d(1, 2, -1).normalized()));
-    const auto before = OrientationsOf(posture), after = OrientationsOf(Rotated(posture, turn));
+    const auto before = ComputeOrientations(posture),
+               after = ComputeOrientations(Rotated(posture, turn));
     for (size_t i = 0; i < kJointCount; ++i) {
       // Looser than exact: a blend between nearly opposite axes magnifies roundings.
       EXPECT_LT(after[i].angularDistance(turn * before[i]), 1e-6) << kJointNames[i];
@@ -95,7 +95,7 @@ TEST(Orientation, APositiveTurnAboutXFlexesAnElbowAndANegativeOneAKnee) {
     Posture posture = RestPosture();
     posture[c.lower] = posture[c.upper] + 0.25 * c.flexed;
     posture[c.end] = posture[c.lower] + 0.25 * c.flexed;
-    const auto relative = HierarchicalOf(OrientationsOf(posture));
+    const auto relative = ToHierarchical(ComputeOrientations(posture));
     const AngleAxisd bend(relative[static_cast<size_t>(c.lower)]);
     EXPECT_NEAR(bend.angle(), 0.5 * M_PI, kExact) << NameOf(c.lower);
     EXPECT_NEAR(bend.axis().x(), c.sign, kExact) << NameOf(c.lower);
@@ -103,8 +103,8 @@ TEST(Orientation, APositiveTurnAboutXFlexesAnElbowAndANegativeOneAKnee) {
 }
 
 TEST(Orientation, HierarchicalAndAbsoluteAreInverse) {
-  const auto absolute = OrientationsOf(RandomPosture(7));
-  const auto again = AbsoluteOf(HierarchicalOf(absolute));
+  const auto absolute = ComputeOrientations(RandomPosture(7));
+  const auto again = ToAbsolute(ToHierarchical(absolute));
   for (size_t i = 0; i < kJointCount; ++i) {
     EXPECT_LT(absolute[i].angularDistance(again[i]), 1e-7);  // acos near 1
   }
@@ -116,7 +116,7 @@ TEST(Orientation, IsAUnitQuaternionWhateverComes) {
   posture[Joint::kKneeRight] = posture[Joint::kHipRight];
   posture[Joint::kSpine] = posture[Joint::kHipCenter];
   for (const Posture& p : {posture, Posture()}) {
-    for (const auto& q : OrientationsOf(p)) EXPECT_NEAR(q.norm(), 1.0, kExact);
+    for (const auto& q : ComputeOrientations(p)) EXPECT_NEAR(q.norm(), 1.0, kExact);
   }
 }
 

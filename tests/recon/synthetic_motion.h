@@ -14,9 +14,8 @@ namespace ossa::recon::test {
 inline Posture Gesture(double left_rad, double right_rad, double elbow_rad, double knee_rad = 0.0) {
   Posture p = StandardStance();
   const auto chain = [&](Joint from, const Eigen::Vector3d& direction) {
-    const auto i = static_cast<size_t>(Index(from));
-    p.position_m[i] = p.position_m[static_cast<size_t>(kJointParent[i])] +
-                      StandardBoneLengths()[i] * direction.normalized();
+    const auto i = Index(from);
+    p.position_m[i] = p.position_m[ParentOf(i)] + StandardBoneLengths()[i] * direction.normalized();
   };
   const auto arm = [&](Joint elbow, double side, double lift_rad) {
     const Eigen::Vector3d upper(side * std::sin(lift_rad), -std::cos(lift_rad), 0.0);

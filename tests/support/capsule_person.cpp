@@ -69,7 +69,7 @@ double HitBox(const Vector3d& direction, const Box& box) {
 }
 
 std::vector<Capsule> CapsulesOf(const CapsulePose& pose) {
-  const recon::Posture p = JointsOf(pose);
+  const recon::Posture p = ComputeJoints(pose);
   const double s = pose.height_m / 1.75;
   const Axes axes = AxesOf(pose);
   const auto at = [&](Joint j) { return p[j]; };
@@ -84,7 +84,7 @@ std::vector<Capsule> CapsulesOf(const CapsulePose& pose) {
       {at(Joint::kSpine), belly, 0.13 * s, 20, 21}};
   const auto pair = [&](Joint a, Joint b, double radius, int label) {
     const auto mirrored = [](Joint j) {
-      return static_cast<Joint>(recon::kMirroredJoint[static_cast<size_t>(j)]);
+      return static_cast<Joint>(recon::kMirroredJoint[recon::Index(j)]);
     };
     const auto left = static_cast<uint8_t>(label), right = static_cast<uint8_t>(label + 1);
     capsules.push_back({at(a), at(b), radius * s, left, left});
@@ -164,7 +164,7 @@ void DrawRoom(Canvas& canvas, const depth::Camera& camera, const CapsuleScene& s
 
 }  // namespace
 
-recon::Posture JointsOf(const CapsulePose& pose) {
+recon::Posture ComputeJoints(const CapsulePose& pose) {
   const double h = pose.height_m;
   const auto [left, up, forward] = AxesOf(pose);
   recon::Posture p;
@@ -205,7 +205,7 @@ CapsuleRender Render(const CapsuleScene& scene, const depth::Camera& camera) {
   canvas.z_m.assign(canvas.render.part.data.size(), kMiss);
   DrawRoom(canvas, camera, scene);
   for (size_t i = 0; i < scene.people.size(); ++i) {
-    canvas.render.joints.push_back(JointsOf(scene.people[i]));
+    canvas.render.joints.push_back(ComputeJoints(scene.people[i]));
     const Vector3d middle = canvas.render.joints.back()[Joint::kHipCenter];
     for (const Capsule& capsule : CapsulesOf(scene.people[i])) {
       DrawCapsule(canvas, camera, capsule, middle, AxesOf(scene.people[i]).left,

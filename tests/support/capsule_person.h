@@ -23,7 +23,7 @@ struct CapsulePose {
 };
 
 /// The 20 joints of the pose in camera space.
-recon::Posture JointsOf(const CapsulePose& pose);
+recon::Posture ComputeJoints(const CapsulePose& pose);
 
 /// A sphere-swept segment with the part label of its surface; label 0 stands for furniture.
 struct Capsule {

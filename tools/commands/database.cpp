@@ -21,17 +21,17 @@ namespace {
 
 /// The bone of the SDK's joint j turns with the rig bone that carries its parent joint; its y axis
 /// lies along the bone (recon/posture.h).
-recon::JointOrientations OrientationsOf(const recon::RigPose& pose) {
+recon::JointOrientations ComputeOrientations(const recon::RigPose& pose) {
   const auto& anchors = recon::StandardJointAnchors();
   static const recon::Posture rest = recon::StandardPosture(recon::RigPose{});
   recon::JointOrientations out;
   out.fill(Eigen::Quaterniond::Identity());
-  out[0] = pose.world_from_rest[static_cast<size_t>(anchors[0].bone)];
+  out[0] = pose.world_from_rest[anchors[0].bone];
   for (size_t j = 1; j < recon::kJointCount; ++j) {
-    const auto parent = static_cast<size_t>(recon::kJointParent[j]);
+    const auto parent = recon::ParentOf(j);
     const Eigen::Vector3d along = rest.position_m[j] - rest.position_m[parent];
     const auto rest_from_bone = recon::SmallestTurn(Eigen::Vector3d::UnitY(), along);
-    const auto bone = static_cast<size_t>(anchors[parent].bone);
+    const size_t bone = anchors[parent].bone;
     out[j] = (pose.world_from_rest[bone] * rest_from_bone).normalized();
   }
   return out;
@@ -46,7 +46,7 @@ std::vector<recon::PostureClip> PosturesOf(const std::vector<recon::MotionClip>&
     made.name = clip.name;
     for (const recon::RigPose& pose : clip.frames) {
       made.postures.push_back(recon::StandardPosture(pose));
-      made.orientations.push_back(OrientationsOf(pose));
+      made.orientations.push_back(ComputeOrientations(pose));
     }
     progress.Update(static_cast<double>(out.size()), static_cast<double>(clips.size()));
   }

@@ -27,10 +27,10 @@ struct EvaluationTotals {
   std::array<int64_t, recon::kLabelCount> pixels{};
   std::array<int64_t, recon::kLabelCount> right{};
   std::array<int64_t, recon::kLabelCount> right_first{};  // before Relabel
-  std::array<std::vector<RatedProposal>, recon::kJointCount> rated;
-  std::array<std::vector<RatedProposal>, recon::kJointCount> rated_visible;
-  std::array<int64_t, recon::kJointCount> joints{};
-  std::array<int64_t, recon::kJointCount> joints_visible{};
+  recon::JointArray<std::vector<RatedProposal>> rated;
+  recon::JointArray<std::vector<RatedProposal>> rated_visible;
+  recon::JointArray<int64_t> joints{};
+  recon::JointArray<int64_t> joints_visible{};
   std::array<int64_t, kCommonPartCount> common_pixels{};
   std::array<int64_t, kCommonPartCount> common_right{};
   Calibration seen_joints, inferred_joints;

@@ -28,8 +28,8 @@ forest::NetworkExamples ExamplesOf(const std::vector<LookExample>& examples, rec
   forest::NetworkExamples out{
       forest::RowMatrix(rows, told ? recon::kToldInputs : recon::kLookInputs),
       forest::RowMatrix(rows, 3)};
-  const auto index = static_cast<size_t>(recon::Index(joint));
-  const auto other = static_cast<size_t>(recon::kMirroredJoint[index]);
+  const auto index = recon::Index(joint);
+  const auto other = recon::kMirroredJoint[index];
   const auto want = [&out](Eigen::Index row, const Eigen::Vector3f& offset_m) {
     const bool is_near = offset_m.norm() < kFarthest_m;
     for (Eigen::Index axis = 0; axis < 3; ++axis) {

@@ -25,20 +25,20 @@ using recon::kBoneDims;
 using recon::kJointCount;
 using recon::Posture;
 
-using Joints = std::array<bool, kJointCount>;
+using Joints = JointArray<bool>;
 
 constexpr size_t kEvery = 4;  // frames give an example: neighbours hardly differ
 constexpr size_t kShortest = 60, kLongest = 150;  // frames for which things stay as hidden as ever
 
 /// What is seen in the setups of Shum 2013's table III, and of a person behind a table.
-constexpr std::array<std::initializer_list<int>, 6> kFewSeen = {{{7, 15},
-                                                                 {11, 19},
-                                                                 {7, 11},
-                                                                 {7, 11, 15, 19},
-                                                                 {5, 7, 9, 11, 13, 15, 17, 19},
-                                                                 {3, 7, 11, 15, 19}}};
+constexpr std::array<std::initializer_list<size_t>, 6> kFewSeen = {{{7, 15},
+                                                                    {11, 19},
+                                                                    {7, 11},
+                                                                    {7, 11, 15, 19},
+                                                                    {5, 7, 9, 11, 13, 15, 17, 19},
+                                                                    {3, 7, 11, 15, 19}}};
 /// What one thing hides: arms, legs, the trunk.
-constexpr std::array<std::initializer_list<int>, 5> kHiddenTogether = {
+constexpr std::array<std::initializer_list<size_t>, 5> kHiddenTogether = {
     {{5, 6, 7}, {9, 10, 11}, {13, 14, 15}, {17, 18, 19}, {1, 2, 3, 4, 8}}};
 
 /// True of joints that are seen; the root is no part of it.
@@ -47,14 +47,14 @@ Joints DrawSeen(Random& random) {
   const double kind = random.Uniform(0.0, 1.0);
   seen.fill(kind >= 0.4);
   if (kind < 0.4) {
-    for (const int joint : kFewSeen[random.Index(kFewSeen.size())]) {
-      seen[static_cast<size_t>(joint)] = true;
+    for (const size_t joint : kFewSeen[random.Index(kFewSeen.size())]) {
+      seen[joint] = true;
     }
   } else if (kind < 0.75) {
     const size_t groups = 1 + random.Index((size_t{1} << kHiddenTogether.size()) - 1);
     for (size_t g = 0; g < kHiddenTogether.size(); ++g) {
       if ((groups >> g & 1U) == 0) continue;
-      for (const int joint : kHiddenTogether[g]) seen[static_cast<size_t>(joint)] = false;
+      for (const size_t joint : kHiddenTogether[g]) seen[joint] = false;
     }
     const bool hips = random.Chance(0.7);
     seen[12] = hips;
@@ -93,7 +93,7 @@ Circumstances Draw(Random& random) {
   for (Eigen::Vector3d& error : c.error.position_m) error = DrawVector(random, error_m);
   c.error.position_m[0] = DrawVector(random, root_seen ? 0.5 * error_m : 0.05);
   for (size_t i = 0; i < kJointCount; ++i) {
-    const auto twin = static_cast<size_t>(recon::kMirroredJoint[i]);
+    const auto twin = recon::kMirroredJoint[i];
     const double ratio = std::exp(random.Normal(0.0, 0.03));
     c.lengths_m[i] = recon::StandardBoneLengths()[i] * ratio;
     if (twin < i) c.lengths_m[i] = c.lengths_m[twin];

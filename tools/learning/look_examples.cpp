@@ -55,7 +55,7 @@ class Gatherer {
     const auto proposed = Propose(frame, body.id, &is_person);
     if (!proposed) return {};
     Random random(options_.seed, index);
-    auto input = Glanced(*proposed, recon::BoneLengthsOf(body.joints_m), random);
+    auto input = Glanced(*proposed, recon::MeasureBoneLengths(body.joints_m), random);
     std::vector<LookExample> examples;
     if (!input || !AddExample(*input, body.joints_m, &examples)) return {};
     const Posture put_m = input->proposed;
@@ -78,7 +78,7 @@ class Gatherer {
     const auto description = LookDescription::Of(input);
     if (!description) return false;
     LookExample& example =
-        examples->emplace_back(LookExample{*description, {}, recon::BoneLengthsOf(true_m)});
+        examples->emplace_back(LookExample{*description, {}, recon::MeasureBoneLengths(true_m)});
     example.told_m = input.bones_m.value_or(example.bones_m);
     for (size_t j = 0; j < kJointCount; ++j) {
       const Eigen::Vector3d offset_m = true_m.position_m[j] - input.proposed.position_m[j];

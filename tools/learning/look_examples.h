@@ -16,7 +16,7 @@ namespace ossa::tools {
 /// already would be told of them.
 struct LookExample {
   recon::LookDescription description;
-  std::array<Eigen::Vector3f, recon::kJointCount> offset_m{};
+  recon::JointArray<Eigen::Vector3f> offset_m{};
   recon::BoneLengths bones_m{};
   recon::BoneLengths told_m{};  // the true ones where nothing judges them yet
 };

@@ -115,7 +115,7 @@ forest::TrainingImage Mirrored(const forest::TrainingImage& image) {
   }
   mirrored.context = static_cast<uint8_t>((kFacingSectors - image.context) % kFacingSectors);
   for (size_t j = 0; j < recon::kJointCount; ++j) {
-    const auto other = static_cast<size_t>(recon::kMirroredJoint[j]);
+    const auto other = recon::kMirroredJoint[j];
     mirrored.target_m[j] = image.target_m[other].cwiseProduct(Eigen::Vector3f(-1, 1, 1));
     mirrored.target_visible[j] = image.target_visible[other];
   }

@@ -20,7 +20,7 @@ struct TruthBody {
   int id = 1;               // the person's value in LabelledFrame::users
   recon::Posture joints_m;  // camera space, inside the body, all 20 known
   /// True where surface of the joint's own body part, or near it, is seen by the sensor.
-  std::array<bool, recon::kJointCount> visible{};
+  recon::JointArray<bool> visible{};
 };
 
 /// A depth image with the label of each pixel. From packed shards it is cropped to the people with

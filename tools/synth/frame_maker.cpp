@@ -138,7 +138,7 @@ recon::Posture FrameMaker::State::Pose(const recon::RigPose& pose, size_t person
   const Dressed& wearer = wearers[person];
   auto& posed = posed_m[person];
   studio.model.Skin(wearer.body, wearer.rest_m, pose, camera_from_world, posed);
-  recon::Posture joints = recon::JointsOf(wearer.body, pose);
+  recon::Posture joints = recon::ComputeJoints(wearer.body, pose);
   for (auto& joint_m : joints.position_m) joint_m = camera_from_world * joint_m;
   const Eigen::Vector3f inside_m = joints[recon::Joint::kHipCenter].cast<float>();
   studio.wardrobe.HideUnworn(wearer.clothing, inside_m, posed);
@@ -174,7 +174,7 @@ std::vector<Prop> FrameMaker::State::DrawProps(const recon::Posture& joints_in_c
   for (auto& joint_m : joints_in_world.position_m) joint_m = world_from_camera * joint_m;
   if (options.sequence && path_in_world.empty()) {
     for (const recon::RigPose& pose : studio.poses) {
-      path_in_world.push_back(recon::JointsOf(wearers[0].body, Turned(pose, view.facing_rad)));
+      path_in_world.push_back(recon::ComputeJoints(wearers[0].body, Turned(pose, view.facing_rad)));
     }
   }
   std::vector<Prop> props;

@@ -44,7 +44,7 @@ std::vector<recon::RigPose> SequencePoses(const std::vector<recon::MotionClip>& 
   const recon::MotionClip& clip = fitting.empty() ? *best : *fitting[random.Index(fitting.size())];
   const size_t count = std::min(clip.frames.size(), static_cast<size_t>(frames));
   const Extent extent = ExtentOf(clip, count);
-  const Eigen::Quaterniond unturn = recon::HeadingOf(clip.frames[0]).conjugate();
+  const Eigen::Quaterniond unturn = recon::EstimateHeading(clip.frames[0]).conjugate();
   Eigen::Vector3d middle = 0.5 * (extent.low + extent.high);
   middle.y() = 0;
   std::vector<recon::RigPose> poses(clip.frames.begin(),

@@ -40,7 +40,7 @@ void Actor::Enter(depth::Renderer& renderer) {
 
 recon::Posture Actor::Take(const recon::RigPose& pose, const Eigen::Isometry3d& camera_from_world) {
   model_->Skin(body_, rest_m_, pose, camera_from_world, posed_m_);
-  recon::Posture joints = recon::JointsOf(body_, pose);
+  recon::Posture joints = recon::ComputeJoints(body_, pose);
   for (auto& joint_m : joints.position_m) joint_m = camera_from_world * joint_m;
   wardrobe_->HideUnworn(clothing_, joints[recon::Joint::kHipCenter].cast<float>(), posed_m_);
   const Eigen::Isometry3d world_from_camera = camera_from_world.inverse();

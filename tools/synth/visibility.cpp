@@ -50,7 +50,7 @@ void MarkVisibleJoints(LabelledFrame* frame) {
   static const JointsOfPart joints_of_part = MakeJointsOfPart();
   const depth::Camera& camera = frame->depth.camera;
   struct Seen {
-    std::array<double, recon::kJointCount> area_m2{}, pixels{};
+    recon::JointArray<double> area_m2{}, pixels{};
   };
   std::vector<Seen> seen(frame->bodies.size());
   size_t i = 0;

@@ -34,33 +34,32 @@ double BoneCost(double length_m, double expected_m) {
 struct Option {
   const Proposal* proposal = nullptr;  // null: missing
   double cost = 0;                     // own, and of the best choice of all children
-  std::array<int, kJointCount> child_choice{};
+  JointArray<int> child_choice{};
 };
 
 // Exact minimum over the tree of joints: children before parents (Viterbi).
 class Chooser {
  public:
-  Chooser(const std::vector<std::vector<Proposal>>& proposals,
-          const std::array<int, kJointCount>& targets, const ChoiceContext& context)
+  Chooser(const std::vector<std::vector<Proposal>>& proposals, const JointArray<int>& targets,
+          const ChoiceContext& context)
       : context_(context) {
-    for (int j = 0; j < kJointCount; ++j) {
-      AddOptions(j, proposals[static_cast<size_t>(targets[static_cast<size_t>(j)])]);
+    for (size_t j = 0; j < kJointCount; ++j) {
+      AddOptions(j, proposals[static_cast<size_t>(targets[j])]);
     }
-    for (int j = kJointCount - 1; j > 0; --j) PassToParent(j);
+    for (size_t j = kJointCount - 1; j > 0; --j) PassToParent(j);
   }
 
-  std::array<const Proposal*, kJointCount> Best() const {
-    std::array<const Proposal*, kJointCount> chosen{};
-    std::array<int, kJointCount> index{};
+  JointArray<const Proposal*> Best() const {
+    JointArray<const Proposal*> chosen{};
+    JointArray<int> index{};
     const auto& roots = options_[0];
     index[0] = static_cast<int>(
         std::min_element(roots.begin(), roots.end(),
                          [](const Option& a, const Option& b) { return a.cost < b.cost; }) -
         roots.begin());
     for (size_t j = 0; j < kJointCount; ++j) {
-      const int parent = recon::kJointParent[j];
-      if (parent >= 0) {
-        const auto p = static_cast<size_t>(parent);
+      if (j > 0) {
+        const size_t p = recon::ParentOf(j);
         index[j] = options_[p][static_cast<size_t>(index[p])].child_choice[j];
       }
       chosen[j] = options_[j][static_cast<size_t>(index[j])].proposal;
@@ -69,26 +68,23 @@ class Chooser {
   }
 
  private:
-  void AddOptions(int joint, const std::vector<Proposal>& modes) {
-    auto& options = options_[static_cast<size_t>(joint)];
+  void AddOptions(size_t joint, const std::vector<Proposal>& modes) {
+    auto& options = options_[joint];
     options.push_back({nullptr, kMissing, {}});
     for (const Proposal& mode : modes) {
       if (options.size() > kModes || !mode.position_m.allFinite()) break;
       double cost = -std::log(std::max(mode.confidence, 1e-3));
       if (context_.before != nullptr &&
-          context_.before->state[static_cast<size_t>(joint)] == recon::TrackingState::kTracked) {
-        const double jump =
-            (mode.position_m - context_.before->posture.position_m[static_cast<size_t>(joint)])
-                .norm();
+          context_.before->state[joint] == recon::TrackingState::kTracked) {
+        const double jump = (mode.position_m - context_.before->posture.position_m[joint]).norm();
         cost += std::min(0.5 * std::pow(jump / kJumpScale_m, 2), kWorstJump);
       }
       options.push_back({&mode, cost, {}});
     }
   }
 
-  void PassToParent(int joint) {
-    const auto j = static_cast<size_t>(joint);
-    for (Option& parent : options_[static_cast<size_t>(recon::kJointParent[j])]) {
+  void PassToParent(size_t j) {
+    for (Option& parent : options_[recon::ParentOf(j)]) {
       double best = std::numeric_limits<double>::infinity();
       for (size_t i = 0; i < options_[j].size(); ++i) {
         const Option& child = options_[j][i];
@@ -104,7 +100,7 @@ class Chooser {
   }
 
   const ChoiceContext& context_;
-  std::array<std::vector<Option>, kJointCount> options_;
+  JointArray<std::vector<Option>> options_;
 };
 
 bool InImage(const depth::Camera& camera, const Eigen::Vector3d& p) {
@@ -126,7 +122,7 @@ recon::TrackingState StateOf(const Proposal& proposal, const forest::ProposalTar
 // One surface cannot be both hands, or both knees: of two of a pair at one place the weaker goes.
 void DropDoubles(recon::TrackedPosture& posture) {
   for (size_t j = 0; j < kJointCount; ++j) {
-    const auto m = static_cast<size_t>(recon::kMirroredJoint[j]);
+    const auto m = recon::kMirroredJoint[j];
     if (m <= j || posture.state[j] == recon::TrackingState::kNotTracked ||
         posture.state[m] == recon::TrackingState::kNotTracked) {
       continue;
@@ -145,7 +141,7 @@ void DoubtHipsWithoutLegs(double leg_area_m2, recon::TrackedPosture& posture) {
   constexpr double kThigh_m2 = 0.04;  // 12 cm x 35 cm
   if (leg_area_m2 >= kThigh_m2) return;
   for (size_t j = 0; j < kJointCount; ++j) {
-    const bool lower = j == 0 || j >= static_cast<size_t>(recon::Index(recon::Joint::kHipLeft));
+    const bool lower = j == 0 || j >= recon::Index(recon::Joint::kHipLeft);
     if (lower && posture.state[j] == recon::TrackingState::kTracked)
       posture.state[j] = recon::TrackingState::kInferred;
   }
@@ -153,21 +149,20 @@ void DoubtHipsWithoutLegs(double leg_area_m2, recon::TrackedPosture& posture) {
 
 }  // namespace
 
-std::array<int, kJointCount> JointTargets(const forest::ForestModel& model,
-                                          const std::string& model_name) {
+JointArray<int> JointTargets(const forest::ForestModel& model, const std::string& model_name) {
   if (model.class_count() > recon::kLabelCount) {
     throw InputError(
         fmt::format("{}: expected at most {} classes, the labels of body parts, found {}",
                     model_name, recon::kLabelCount, model.class_count()));
   }
   const auto named = forest::TargetsNamed(model, recon::kJointNames, model_name);
-  std::array<int, kJointCount> targets{};
+  JointArray<int> targets{};
   for (size_t j = 0; j < kJointCount; ++j) targets[j] = static_cast<int>(named[j]);
   return targets;
 }
 
 recon::TrackedPosture ChoosePosture(const forest::ForestModel& model,
-                                    const std::array<int, kJointCount>& targets,
+                                    const JointArray<int>& targets,
                                     const std::vector<std::vector<Proposal>>& proposals,
                                     const ChoiceContext& context) {
   const auto chosen = Chooser(proposals, targets, context).Best();
@@ -185,14 +180,14 @@ recon::TrackedPosture ChoosePosture(const forest::ForestModel& model,
 }
 
 recon::BoneLengths AverageBoneLengths() {
-  return recon::BoneLengthsOf(recon::StandardPosture(recon::RigPose{}));
+  return recon::MeasureBoneLengths(recon::StandardPosture(recon::RigPose{}));
 }
 
 void LearnBoneLengths(const recon::TrackedPosture& observed, recon::BoneLengths& lengths_m) {
   const recon::BoneLengths average = AverageBoneLengths();
-  const recon::BoneLengths seen = recon::BoneLengthsOf(observed.posture);
+  const recon::BoneLengths seen = recon::MeasureBoneLengths(observed.posture);
   for (size_t j = 1; j < kJointCount; ++j) {
-    const auto parent = static_cast<size_t>(recon::kJointParent[j]);
+    const auto parent = recon::ParentOf(j);
     if (observed.state[j] != recon::TrackingState::kTracked ||
         observed.state[parent] != recon::TrackingState::kTracked) {
       continue;

@@ -15,8 +15,8 @@
 namespace ossa::tracker {
 
 /// Which target of the model is which joint; throws InputError when the model lacks one.
-std::array<int, recon::kJointCount> JointTargets(const forest::ForestModel& model,
-                                                 const std::string& model_name);
+recon::JointArray<int> JointTargets(const forest::ForestModel& model,
+                                    const std::string& model_name);
 
 struct ChoiceContext {
   const depth::Camera* camera = nullptr;
@@ -28,7 +28,7 @@ struct ChoiceContext {
 /// The tracked posture that the proposals speak for: one mode per joint, chosen together so that
 /// bones have the person's lengths and nothing jumps; states from the model's thresholds.
 recon::TrackedPosture ChoosePosture(const forest::ForestModel& model,
-                                    const std::array<int, recon::kJointCount>& targets,
+                                    const recon::JointArray<int>& targets,
                                     const std::vector<std::vector<forest::Proposal>>& proposals,
                                     const ChoiceContext& context);
 

@@ -112,16 +112,16 @@ void JoinParts(const Eyes& eyes, const depth::DepthFrame& frame, const depth::Sc
 
 // Bones between the best proposals of neighbouring joints, as far as they hang together from the
 // trunk outwards and have about a body's lengths.
-std::vector<depth::Bone> BonesOf(const std::array<int, recon::kJointCount>& targets,
+std::vector<depth::Bone> BonesOf(const recon::JointArray<int>& targets,
                                  const Perception& perception) {
   using recon::Joint;
   const recon::BoneLengths average_m = AverageBoneLengths();
-  std::array<const forest::Proposal*, recon::kJointCount> best{};
+  recon::JointArray<const forest::Proposal*> best{};
   for (size_t j = 0; j < recon::kJointCount; ++j) {
     const auto& modes = perception.proposals.at(static_cast<size_t>(targets[j]));
     best[j] = modes.empty() ? nullptr : &modes.front();
   }
-  std::array<bool, recon::kJointCount> reached{};
+  recon::JointArray<bool> reached{};
   std::vector<depth::Bone> bones;
   const auto reach = [&](size_t from, size_t to, size_t bone) {
     if (best[from] == nullptr || best[to] == nullptr) return;
@@ -131,13 +131,13 @@ std::vector<depth::Bone> BonesOf(const std::array<int, recon::kJointCount>& targ
     bones.push_back({best[from]->position_m.cast<float>(), best[to]->position_m.cast<float>()});
   };
   // The shoulders' middle is the surest; from there down to the hips, and parents before children.
-  constexpr auto kCentre = static_cast<size_t>(recon::Index(Joint::kShoulderCenter));
-  constexpr auto kSpine = static_cast<size_t>(recon::Index(Joint::kSpine));
+  constexpr auto kCentre = recon::Index(Joint::kShoulderCenter);
+  constexpr auto kSpine = recon::Index(Joint::kSpine);
   reached[kCentre] = best[kCentre] != nullptr;
   if (reached[kCentre]) reach(kCentre, kSpine, kCentre);
   if (reached[kSpine]) reach(kSpine, 0, kSpine);
   for (size_t j = kCentre + 1; j < recon::kJointCount; ++j) {
-    const auto parent = static_cast<size_t>(recon::kJointParent[j]);
+    const auto parent = recon::ParentOf(j);
     if (reached[parent]) reach(parent, j, j);
   }
   return bones;
@@ -178,7 +178,7 @@ bool MayBeTwo(const Found& whole, const FindOptions& options) {
          whole.candidate.region.area_m2 > options.grown_share * whole.full_m2;
 }
 
-void TrimToBody(const std::array<int, recon::kJointCount>& targets, const depth::DepthFrame& frame,
+void TrimToBody(const recon::JointArray<int>& targets, const depth::DepthFrame& frame,
                 const depth::Scene& scene, Found& found) {
   constexpr float kReach_m = 0.3F;    // half a stout trunk, and what proposals may be off,
   constexpr float kFar_m = 0.4F;      // ... and more than they ever are

@@ -55,7 +55,7 @@ struct Known {
 /// What candidates are looked at with.
 struct Eyes {
   const forest::ForestModel& model;
-  const std::array<int, recon::kJointCount>& targets;
+  const recon::JointArray<int>& targets;
   /// What is known of a candidate's person from before.
   std::function<Known(const depth::Candidate&)> known;
 };
@@ -129,7 +129,7 @@ bool MayBeTwo(const Found& whole, const FindOptions& options);
 /// What hangs on to a person and is not near any of their bones is furniture: it is taken off where
 /// more is held than a person has, or where all bones are known and something reaches far beyond
 /// them. `targets` as in Eyes.
-void TrimToBody(const std::array<int, recon::kJointCount>& targets, const depth::DepthFrame& frame,
+void TrimToBody(const recon::JointArray<int>& targets, const depth::DepthFrame& frame,
                 const depth::Scene& scene, Found& found);
 
 /// The people among the scene's candidates, known ones first. Candidates with two heads are cut;

@@ -17,7 +17,7 @@ const forest::Proposal* ProposalAt(const std::vector<forest::Proposal>& best_fir
 std::optional<recon::Looked> LookClosely(
     const recon::Looker& look, const depth::DepthFrame& frame, const depth::Candidate& candidate,
     const std::vector<std::vector<forest::Proposal>>& proposals,
-    const std::array<int, recon::kJointCount>& targets, const recon::TrackedPosture& chosen,
+    const recon::JointArray<int>& targets, const recon::TrackedPosture& chosen,
     recon::JudgedBones* bones) {
   recon::LookInput input;
   if (bones->frames > 0) input.bones_m = bones->mean_m;

@@ -16,7 +16,7 @@ namespace ossa::tracker {
 std::optional<recon::Looked> LookClosely(
     const recon::Looker& look, const depth::DepthFrame& frame, const depth::Candidate& candidate,
     const std::vector<std::vector<forest::Proposal>>& proposals,
-    const std::array<int, recon::kJointCount>& targets, const recon::TrackedPosture& chosen,
+    const recon::JointArray<int>& targets, const recon::TrackedPosture& chosen,
     recon::JudgedBones* bones);
 
 }  // namespace ossa::tracker

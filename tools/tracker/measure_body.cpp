@@ -8,10 +8,10 @@ namespace {
 using recon::Joint;
 
 // The best proposal for a joint, if the forest is sure enough of it for a measure or a mark.
-const Eigen::Vector3d* Seen(const Perception& perception,
-                            const std::array<int, recon::kJointCount>& targets, Joint joint) {
+const Eigen::Vector3d* Seen(const Perception& perception, const recon::JointArray<int>& targets,
+                            Joint joint) {
   constexpr double kSure = 0.3;
-  const auto target = static_cast<size_t>(targets[static_cast<size_t>(recon::Index(joint))]);
+  const auto target = static_cast<size_t>(targets[joint]);
   const auto& modes = perception.proposals.at(target);
   return modes.empty() || modes.front().confidence < kSure ? nullptr : &modes.front().position_m;
 }
@@ -19,16 +19,13 @@ const Eigen::Vector3d* Seen(const Perception& perception,
 // Between two joints of the standard body at rest.
 double AverageDistance_m(Joint a, Joint b) {
   static const recon::Posture body = recon::StandardPosture(recon::RigPose{});
-  const auto at = [](Joint joint) {
-    return body.position_m[static_cast<size_t>(recon::Index(joint))];
-  };
+  const auto at = [](Joint joint) { return body.position_m[joint]; };
   return (at(a) - at(b)).norm();
 }
 
 }  // namespace
 
-depth::MeasuredBody MeasureBody(const Perception& perception,
-                                const std::array<int, recon::kJointCount>& targets,
+depth::MeasuredBody MeasureBody(const Perception& perception, const recon::JointArray<int>& targets,
                                 const std::optional<depth::FloorPlane>& floor) {
   // Of the average body: shorter than a child's or longer than anybody's are the limbs of people
   // half hidden.
@@ -63,8 +60,7 @@ depth::MeasuredBody MeasureBody(const Perception& perception,
   return body;
 }
 
-depth::Marks SureJoints(const Perception& perception,
-                        const std::array<int, recon::kJointCount>& targets) {
+depth::Marks SureJoints(const Perception& perception, const recon::JointArray<int>& targets) {
   depth::Marks marks_m(recon::kJointCount);
   for (size_t j = 0; j < recon::kJointCount; ++j) {
     const Eigen::Vector3d* seen_m = Seen(perception, targets, static_cast<Joint>(j));

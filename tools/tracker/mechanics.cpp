@@ -15,14 +15,14 @@ using recon::kJointCount;
 
 /// The posture's bones; the standard ones, at the size of the others, where they cannot be had.
 recon::BoneLengths BonesOf(const recon::Posture& posture) {
-  recon::BoneLengths lengths_m = recon::BoneLengthsOf(posture);
+  recon::BoneLengths lengths_m = recon::MeasureBoneLengths(posture);
   recon::JointWeights sane{};
   for (size_t i = 1; i < kJointCount; ++i) {
     sane[i] = lengths_m[i] > 0.01 && lengths_m[i] < 2.0 ? 1.0 : 0.0;
     if (sane[i] == 0.0) lengths_m[i] = recon::StandardBoneLengths()[i];
   }
   sane[0] = 1.0;
-  const double scale = recon::BodyScaleOf(lengths_m, sane);
+  const double scale = recon::EstimateBodyScale(lengths_m, sane);
   for (size_t i = 1; i < kJointCount; ++i) {
     if (sane[i] == 0.0) lengths_m[i] *= scale;
   }

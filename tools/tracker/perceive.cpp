@@ -44,8 +44,7 @@ std::vector<Eigen::Vector3d> HeadsOfPeople(const std::vector<Head>& heads) {
 
 }  // namespace
 
-Perception Perceive(const forest::ForestModel& model,
-                    const std::array<int, recon::kJointCount>& targets,
+Perception Perceive(const forest::ForestModel& model, const recon::JointArray<int>& targets,
                     const depth::DepthFrame& frame, const depth::Candidate& candidate,
                     const PerceiveOptions& options) {
   Perception perception;

@@ -29,8 +29,7 @@ struct PerceiveOptions {
   int threads = 1;
 };
 
-Perception Perceive(const forest::ForestModel& model,
-                    const std::array<int, recon::kJointCount>& targets,
+Perception Perceive(const forest::ForestModel& model, const recon::JointArray<int>& targets,
                     const depth::DepthFrame& frame, const depth::Candidate& candidate,
                     const PerceiveOptions& options);
 

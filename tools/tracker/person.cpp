@@ -24,7 +24,7 @@ double MillisecondsSince(Clock::time_point start) {
 // 12 cm where the forest trusts them by 0.9 to 0 (rendered rooms), and may move by twice that.
 // Joints below them on the limb that are not seen move along, so that the limb keeps its shape.
 recon::Posture HeldToImage(const recon::Posture& posture, const recon::TrackedPosture& observed,
-                           const std::array<double, kJointCount>& reliability) {
+                           const JointArray<double>& reliability) {
   recon::Posture held = posture;
   for (size_t j = 0; j < kJointCount; ++j) {
     const int parent = recon::kJointParent[j];
@@ -67,20 +67,20 @@ recon::Posture WithHiddenHidden(recon::Posture posture, const recon::TrackedPost
 // the lengths again that they had in `whole`; what is not seen moves most.
 recon::Posture WithBonesOf(const recon::Posture& whole, const recon::Posture& moved,
                            const recon::TrackedPosture& observed,
-                           const std::array<double, kJointCount>& reliability) {
+                           const JointArray<double>& reliability) {
   constexpr double kUnseen = 0.1, kLeast = 0.2;
   recon::JointWeights weights;
   for (size_t j = 0; j < kJointCount; ++j) {
     const bool seen = observed.state[j] == TrackingState::kTracked;
     weights[j] = seen ? kLeast + std::clamp(reliability[j], 0.0, 1.0) : kUnseen;
   }
-  return recon::WithBoneLengths(moved, recon::BoneLengthsOf(whole), weights);
+  return recon::WithBoneLengths(moved, recon::MeasureBoneLengths(whole), weights);
 }
 
 recon::JointArray<JointEstimate> Estimates(const recon::Posture& posture,
                                            const recon::TrackedPosture& observed,
-                                           const std::array<double, kJointCount>& reliability) {
-  const recon::JointOrientations orientation = recon::OrientationsOf(posture);
+                                           const JointArray<double>& reliability) {
+  const recon::JointOrientations orientation = recon::ComputeOrientations(posture);
   recon::JointArray<JointEstimate> joints;
   for (size_t j = 0; j < kJointCount; ++j) {
     joints[j] = {posture.position_m[j], orientation[j], observed.state[j], observed.confidence[j],
@@ -91,7 +91,7 @@ recon::JointArray<JointEstimate> Estimates(const recon::Posture& posture,
 
 }  // namespace
 
-recon::Posture PostureOf(const Body& body) {
+recon::Posture ToPosture(const Body& body) {
   recon::Posture posture;
   for (size_t j = 0; j < kJointCount; ++j) posture.position_m[j] = body.joints[j].position_m;
   return posture;
@@ -100,7 +100,7 @@ recon::Posture PostureOf(const Body& body) {
 recon::JointOrientations HierarchicalOrientationsOf(const Body& body) {
   recon::JointOrientations absolute;
   for (size_t j = 0; j < kJointCount; ++j) absolute[j] = body.joints[j].orientation;
-  return recon::HierarchicalOf(absolute);
+  return recon::ToHierarchical(absolute);
 }
 
 bool IsSeatedJoint(recon::Joint joint) {

@@ -27,11 +27,11 @@ struct Person {
   SteadyBody steady;
   std::unique_ptr<recon::Reconstructor> reconstructor;
   std::unique_ptr<Mechanics> mechanics;
-  std::array<Eigen::Vector3d, recon::kJointCount> aside_m = NoMoves();  // out of the camera's sight
+  recon::JointArray<Eigen::Vector3d> aside_m = NoMoves();  // out of the camera's sight
   SmoothingState smoothing;
 
-  static std::array<Eigen::Vector3d, recon::kJointCount> NoMoves() {
-    std::array<Eigen::Vector3d, recon::kJointCount> none;
+  static recon::JointArray<Eigen::Vector3d> NoMoves() {
+    recon::JointArray<Eigen::Vector3d> none;
     none.fill(Eigen::Vector3d::Zero());
     return none;
   }

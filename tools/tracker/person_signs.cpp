@@ -9,7 +9,7 @@ namespace ossa::tracker {
 
 struct SignCollector::State {
   forest::ForestModel model;
-  std::array<int, recon::kJointCount> targets;
+  recon::JointArray<int> targets;
 };
 
 std::span<const std::string_view> PersonSignNames() { return kSignNames; }

@@ -77,7 +77,7 @@ void DrawJoints(cv::Mat& panel, const depth::Camera& camera, const recon::Postur
            (all || body.joints[j].state != TrackingState::kNotTracked);
   };
   for (size_t j = 1; bones && j < kJointCount; ++j) {
-    const auto parent = static_cast<size_t>(recon::kJointParent[j]);
+    const auto parent = recon::ParentOf(j);
     if (!shown(j) || !shown(parent)) continue;
     const bool seen = body.joints[j].state == TrackingState::kTracked;
     cv::line(panel, PixelOf(camera, posture.position_m[parent]),
@@ -88,8 +88,8 @@ void DrawJoints(cv::Mat& panel, const depth::Camera& camera, const recon::Postur
     if (!shown(j)) continue;
     const bool seen = body.joints[j].state == TrackingState::kTracked;
     // The person's left is drawn in red, the right in blue, the middle in white.
-    const bool middle = recon::kMirroredJoint[j] == static_cast<int>(j);
-    const bool left = recon::kMirroredJoint[j] > static_cast<int>(j);
+    const bool middle = recon::kMirroredJoint[j] == j;
+    const bool left = recon::kMirroredJoint[j] > j;
     const cv::Scalar colour = middle ? cv::Scalar(255, 255, 255)
                                      : (left ? cv::Scalar(60, 60, 255) : cv::Scalar(255, 140, 40));
     cv::circle(panel, PixelOf(camera, posture.position_m[j]), 2 * thick, colour,
@@ -101,7 +101,7 @@ cv::Mat SkeletonPanel(const depth::DepthFrame& frame, const BodyFrame& bodies, b
   cv::Mat panel = 0.6 * DepthPanel(frame);
   for (const Body& body : bodies.bodies) {
     if (body.state != BodyState::kTracked) continue;
-    DrawJoints(panel, frame.camera, raw ? body.raw.posture : PostureOf(body), body, !raw, !raw);
+    DrawJoints(panel, frame.camera, raw ? body.raw.posture : ToPosture(body), body, !raw, !raw);
   }
   return panel;
 }

@@ -214,7 +214,7 @@ void LookAtSurface(const depth::DepthFrame& frame, const depth::Candidate& candi
 }
 
 void LookAtProposals(const std::vector<std::vector<forest::Proposal>>& proposals,
-                     const std::array<int, recon::kJointCount>& targets, Signs& sign) {
+                     const recon::JointArray<int>& targets, Signs& sign) {
   using recon::Joint;
   constexpr std::array kCore = {Joint::kShoulderCenter, Joint::kHead, Joint::kShoulderLeft,
                                 Joint::kShoulderRight, Joint::kSpine};
@@ -226,12 +226,11 @@ void LookAtProposals(const std::vector<std::vector<forest::Proposal>>& proposals
   for (size_t j = 0; j < recon::kJointCount; ++j) all += Confidence(modes_of(j));
   const auto& centre = modes_of(recon::Index(Joint::kShoulderCenter));
   for (const Joint joint : kCore) {
-    const auto& modes = modes_of(static_cast<size_t>(recon::Index(joint)));
+    const auto& modes = modes_of(recon::Index(joint));
     core += Confidence(modes);
     if (joint == Joint::kShoulderCenter || modes.empty() || centre.empty()) continue;
     // The bone from spine to shoulder centre is the centre's, the others' are their own.
-    const auto bone =
-        static_cast<size_t>(recon::Index(joint == Joint::kSpine ? Joint::kShoulderCenter : joint));
+    const auto bone = recon::Index(joint == Joint::kSpine ? Joint::kShoulderCenter : joint);
     const double length_m = (modes.front().position_m - centre.front().position_m).norm();
     bones += std::exp(-std::pow((length_m - average_m[bone]) / 0.07, 2));
   }

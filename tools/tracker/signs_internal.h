@@ -61,7 +61,7 @@ void LookAtSurface(const depth::DepthFrame& frame, const depth::Candidate& candi
 
 /// The others.
 void LookAtProposals(const std::vector<std::vector<forest::Proposal>>& proposals,
-                     const std::array<int, recon::kJointCount>& targets, Signs& sign);
+                     const recon::JointArray<int>& targets, Signs& sign);
 
 /// Probability that it is a person: before, and after proposals were made.
 double SurfaceScore(const Signs& sign);

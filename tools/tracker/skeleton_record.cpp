@@ -8,16 +8,16 @@ bool IsOfTheImage(PostureKind kind) {
   return kind == PostureKind::kRaw || kind == PostureKind::kRefined;
 }
 
-recon::Posture PostureOf(const Body& body, PostureKind kind) {
+recon::Posture ToPosture(const Body& body, PostureKind kind) {
   if (kind == PostureKind::kRefined && body.refined) return *body.refined;
   if (IsOfTheImage(kind)) return body.raw.posture;
-  return kind == PostureKind::kReconstructed ? body.reconstructed : PostureOf(body);
+  return kind == PostureKind::kReconstructed ? body.reconstructed : ToPosture(body);
 }
 
 recon::BodyRecord RecordOf(const Body& body, PostureKind kind) {
   recon::BodyRecord record;
   record.id = body.id;
-  const recon::Posture posture = PostureOf(body, kind);
+  const recon::Posture posture = ToPosture(body, kind);
   for (size_t j = 0; j < recon::kJointCount; ++j) {
     const bool absent =
         IsOfTheImage(kind) && body.joints[j].state == recon::TrackingState::kNotTracked;

@@ -42,7 +42,7 @@ class SteadyBody {
   recon::TrackedPosture Step(const recon::TrackedPosture& seen, double time_s);
 
  private:
-  std::array<SteadyJoint, recon::kJointCount> joints_;
+  recon::JointArray<SteadyJoint> joints_;
   double time_s_ = 0.0;
 };
 

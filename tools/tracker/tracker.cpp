@@ -49,7 +49,8 @@ std::shared_ptr<const recon::PostureDatabase> LoadDatabase(const TrackerOptions&
 // What best knows of the errors that a close look leaves in the shipped forest's joints is shipped
 // with them (tools/train_correction). Of other joints it is known that their forest was shown our
 // own bodies: bones are expected in the proportions of the standard body.
-std::shared_ptr<const recon::LearnedModels> LearnedOf(const TrackerOptions& options, bool looked) {
+std::shared_ptr<const recon::LearnedModels> LoadLearned(const TrackerOptions& options,
+                                                        bool looked) {
   if (looked && (options.model.empty() || IsShippedFile(options.model, "body.ossa"))) {
     return std::make_shared<recon::LearnedModels>(
         recon::LearnedModels::Load(ShippedFile("body.ossagp")));
@@ -90,7 +91,7 @@ struct Tracker::Impl {
   TrackerOptions options;
   std::shared_ptr<const recon::Looker> look;  // before the forest: see ReturnFreedMemory
   forest::ForestModel model;
-  std::array<int, recon::kJointCount> targets;
+  recon::JointArray<int> targets;
   CompleteOptions complete;
   depth::SceneOptions scene_options;
   depth::SceneState scene_state;
@@ -115,7 +116,7 @@ struct Tracker::Impl {
       complete.reconstructor.learned =
           std::make_shared<recon::LearnedModels>(recon::LearnedModels::Load(o.learned));
     } else if (o.method == "best") {
-      complete.reconstructor.learned = LearnedOf(o, look != nullptr && !none);
+      complete.reconstructor.learned = LoadLearned(o, look != nullptr && !none);
     }
     complete.reconstructor.best.looked = look != nullptr;
     complete.reconstructor.seed = o.seed;

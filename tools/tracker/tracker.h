@@ -11,7 +11,6 @@
 
 #include "depth/image/depth_frame.h"
 #include "depth/image/image.h"
-#include "recon/joint_array.h"
 #include "recon/posture.h"
 #include "tools/tracker/mechanics.h"
 #include "tools/tracker/smoothing.h"
@@ -73,7 +72,7 @@ struct Body {
 };
 
 /// Positions of the skeleton, in enum order.
-recon::Posture PostureOf(const Body& body);
+recon::Posture ToPosture(const Body& body);
 
 /// Each bone's turn against its parent's, as the Kinect SDK's hierarchical orientations.
 recon::JointOrientations HierarchicalOrientationsOf(const Body& body);

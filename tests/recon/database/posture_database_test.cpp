@@ -156,7 +156,7 @@ TEST(NearestPostures, AreThoseOfBruteForceWithAndWithoutHints) {
   for (size_t i = 0; i < kJointCount; ++i) weights[i] = static_cast<double>(i % 3) / 2.0;
   std::vector<int> hints;
   for (double t = 0.0; t < 3.0; t += 0.1) {
-    const PostureVector query = VectorOf(test::Motion(t));
+    const PostureVector query = ToVector(test::Motion(t));
     std::vector<double> all;
     for (int i = 0; i < db.size(); ++i) {
       all.push_back(WeightedDistance(db.postures().col(i), query, weights));

@@ -35,7 +35,7 @@ Markers Pelvis(double heading_rad) {
 
 /// From the ASIS of its side to the hip's centre.
 Vector3d ToHip(const BodyRecord& body, Joint joint, const Vector3d& asis) {
-  return body.joints[static_cast<size_t>(Index(joint))].value().position_m - asis;
+  return body.joints[joint].value().position_m - asis;
 }
 
 // Bell et al. 1990, of the distance between the ASIS: 30 % down, 19 % back, 14 % inwards. Noise of
@@ -61,7 +61,7 @@ TEST(MarkerCentres, HipsLieBelowThePelvisWhereverThePersonFaces) {
 
 double LongestStep_m(const SkeletonSequence& sequence, Joint joint) {
   double longest_m = 0.0;
-  const auto j = static_cast<size_t>(Index(joint));
+  const auto j = Index(joint);
   for (size_t f = 1; f < sequence.frames.size(); ++f) {
     const auto& before = sequence.frames[f - 1].bodies.at(0).joints[j];
     const auto& now = sequence.frames[f].bodies.at(0).joints[j];

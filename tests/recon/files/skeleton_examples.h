@@ -20,13 +20,14 @@ inline SkeletonSequence ExampleSequence(int frames, int bodies = 1) {
     for (int b = 0; b < bodies; ++b) {
       BodyRecord body;
       body.id = b + 1;
-      for (int j = 0; j < kJointCount; ++j) {
+      for (size_t j = 0; j < kJointCount; ++j) {
         if (j == 7) continue;
         JointRecord joint;
-        joint.position_m = {0.05 * j + b, 0.1 * std::sin(0.2 * f + j), 2.0 + 0.01 * f};
+        const auto n = static_cast<double>(j);
+        joint.position_m = {0.05 * n + b, 0.1 * std::sin(0.2 * f + n), 2.0 + 0.01 * f};
         joint.state = static_cast<TrackingState>(j % 3);
         joint.confidence = 0.5;
-        body.joints[static_cast<size_t>(j)] = joint;
+        body.joints[j] = joint;
       }
       frame.bodies.push_back(body);
     }
@@ -49,11 +50,7 @@ inline std::string ComplaintAbout(const std::string& text, const SkeletonReadOpt
 
 /// Position of a joint of the first body of a frame.
 inline Eigen::Vector3d At(const SkeletonSequence& sequence, size_t frame, Joint joint) {
-  return sequence.frames.at(frame)
-      .bodies.at(0)
-      .joints[static_cast<size_t>(Index(joint))]
-      .value()
-      .position_m;
+  return sequence.frames.at(frame).bodies.at(0).joints[joint].value().position_m;
 }
 
 }  // namespace ossa::recon

@@ -25,7 +25,7 @@ TEST(SkeletonJsonl, WritesExactlyTheDocumentedLine) {
   head.reliability = 0.88;
   head.orientation = Eigen::Quaterniond(0.5, -0.5, 0.5, 0.5);
   head.visible = false;
-  body.joints[static_cast<size_t>(Index(Joint::kHead))] = head;
+  body.joints[Joint::kHead] = head;
   frame.bodies.push_back(body);
   EXPECT_EQ(SkeletonJsonLine(frame),
             R"({"frame":3,"time_s":0.1,"floor":[0,1,0,0.75],"bodies":[{"id":2,"joints":{"Head":)"
@@ -134,7 +134,7 @@ TEST(TrackedPostureOfABody, FillsStatesAndConfidencesAsDocumented) {
   body.joints[1]->state = TrackingState::kInferred;
   body.joints[2] = JointRecord{};
   body.joints[2]->confidence = 0.3;
-  const TrackedPosture tracked = TrackedPostureOf(body);
+  const TrackedPosture tracked = ToTrackedPosture(body);
   EXPECT_EQ(tracked.state[0], TrackingState::kTracked);
   EXPECT_EQ(tracked.confidence[0], 1.0);
   EXPECT_EQ(tracked.confidence[1], 0.5);

@@ -93,7 +93,7 @@ TEST(Best, FollowsAGuessLittleThatNoDepthImageWasHeldAgainst) {
   const auto method = MakeBestOne();
   const double t = SeenWell(*method);
   TrackedPosture observed = test::AllTracked(At(t));
-  const auto hand = static_cast<size_t>(Index(Joint::kHandLeft));
+  const auto hand = Index(Joint::kHandLeft);
   observed.state[hand] = TrackingState::kInferred;
   observed.posture.position_m[hand].x() += 0.1;
   const auto made = StepOn(*method, observed, t);
@@ -106,7 +106,7 @@ TEST(Best, BelievesACloseLookBehindWhatHides) {
   depth::DepthFrame wall;
   wall.camera = depth::KinectV1Camera(320, 240);
   wall.depth_mm.assign(320 * 240, 1000);
-  const auto hand = static_cast<size_t>(Index(Joint::kHandLeft));
+  const auto hand = Index(Joint::kHandLeft);
   const auto off_m = [&](bool looked) {
     const auto method = MakeBestOne(looked);
     const double t = SeenWell(*method);
@@ -145,7 +145,7 @@ TEST(Best, DoesNotCollapseWithBonesOfNoLength) {
   const double t = SeenWell(*method);
   TrackedPosture observed = test::AllTracked(At(t));
   for (auto& p : observed.posture.position_m) p = observed.posture.position_m[0];
-  const BoneLengths lengths = BoneLengthsOf(StepOn(*method, observed, t).posture);
+  const BoneLengths lengths = MeasureBoneLengths(StepOn(*method, observed, t).posture);
   for (size_t i = 1; i < kJointCount; ++i) EXPECT_GT(lengths[i], 0.02) << i;
 }
 
@@ -183,7 +183,7 @@ TEST(Best, UndoesSidesThatAreExchanged) {
   const double t = SeenWell(*method);
   TrackedPosture observed = test::AllTracked(At(t));
   for (size_t i = 0; i < kJointCount; ++i) {
-    observed.posture.position_m[i] = At(t).position_m[static_cast<size_t>(kMirroredJoint[i])];
+    observed.posture.position_m[i] = At(t).position_m[kMirroredJoint[i]];
   }
   const auto made = StepOn(*method, observed, t);
   EXPECT_LT(test::MeanDistance_m(made.posture, At(t)), 0.05);
@@ -197,7 +197,7 @@ TEST(Best, BelievesSidesThatStayExchanged) {
   ReconstructedPosture made;
   for (int f = 0; f < 30; ++f, t += kStep_s) {
     for (size_t i = 0; i < kJointCount; ++i) {
-      turned.position_m[i] = At(t).position_m[static_cast<size_t>(kMirroredJoint[i])];
+      turned.position_m[i] = At(t).position_m[kMirroredJoint[i]];
     }
     made = StepOn(*method, test::AllTracked(turned), t);
   }
@@ -229,7 +229,7 @@ double HiddenError_m(const std::vector<Joint>& hidden, Joint measured) {
   for (int f = 0; f < kFrames; ++f, t += kStep_s) {
     TrackedPosture observed = test::AllTracked(At(t));
     for (const Joint joint : hidden) {
-      observed.state[static_cast<size_t>(Index(joint))] = TrackingState::kNotTracked;
+      observed.state[joint] = TrackingState::kNotTracked;
     }
     const auto made = StepOn(*method, observed, t);
     sum_m += (made.posture[measured] - At(t)[measured]).norm();
@@ -271,7 +271,7 @@ TEST(Best, HoldsAHandThatSnapsToTheOther) {
   const double t = SeenWell(*method);
   TrackedPosture observed = test::AllTracked(At(t));
   for (const size_t i : {size_t{6}, size_t{7}}) {
-    observed.posture.position_m[i] = At(t).position_m[static_cast<size_t>(kMirroredJoint[i])];
+    observed.posture.position_m[i] = At(t).position_m[kMirroredJoint[i]];
   }
   const auto made = StepOn(*method, observed, t);
   const double off_m = (made.posture.position_m[7] - At(t).position_m[7]).norm();
@@ -297,9 +297,9 @@ TEST(Best, DoubtsAndHoldsAForearmThatIsElsewhereForOneFrame) {
 TEST(Best, AnElbowIsNotPulledAlongByAForearmSeenTooLong) {
   const auto method = MakeBestOne();
   const double t = SeenWell(*method);
-  const auto elbow = static_cast<size_t>(Index(Joint::kElbowLeft));
-  const auto wrist = static_cast<size_t>(Index(Joint::kWristLeft));
-  const auto hand = static_cast<size_t>(Index(Joint::kHandLeft));
+  const auto elbow = Index(Joint::kElbowLeft);
+  const auto wrist = Index(Joint::kWristLeft);
+  const auto hand = Index(Joint::kHandLeft);
   Posture seen = At(t);
   const Eigen::Vector3d forearm = seen.position_m[wrist] - seen.position_m[elbow];
   constexpr double kTooLong_m = 0.05;
@@ -336,7 +336,7 @@ TEST(WithBoneLengths, GivesExactLengthsAndMovesLessThanRetargeting) {
     Posture noisy = test::Motion(0.3 * trial);
     test::AddNoise(noisy, 0.03, rng);
     const Posture moved = WithBoneLengths(noisy, wanted, weights);
-    const BoneLengths lengths = BoneLengthsOf(moved);
+    const BoneLengths lengths = MeasureBoneLengths(moved);
     for (size_t i = 1; i < kJointCount; ++i) EXPECT_NEAR(lengths[i], wanted[i], 1e-8);
     EXPECT_LT(test::MeanDistance_m(moved, noisy),
               0.8 * test::MeanDistance_m(Retargeted(noisy, wanted), noisy));

@@ -80,7 +80,7 @@ TEST(BestWithPrior, MirrorsWhatItIsShownMirrored) {
   const auto mirrored = [](const TrackedPosture& seen) {
     TrackedPosture out = seen;
     for (size_t i = 0; i < kJointCount; ++i) {
-      const auto other = static_cast<size_t>(kMirroredJoint[i]);
+      const auto other = kMirroredJoint[i];
       out.posture.position_m[i] = seen.posture.position_m[other];
       out.posture.position_m[i].x() *= -1.0;
       out.state[i] = seen.state[other];

@@ -102,7 +102,7 @@ TEST_P(EveryMethod, SurvivesWhatNoSensorShouldSay) {
   for (auto& p : point.posture.position_m) p = {0.0, 0.0, 2.0};
   for (auto& p : huge.posture.position_m) p *= 1e30;
   for (size_t i = 0; i < kJointCount; ++i) {
-    swapped.posture.position_m[i] = good.posture.position_m[static_cast<size_t>(kMirroredJoint[i])];
+    swapped.posture.position_m[i] = good.posture.position_m[kMirroredJoint[i]];
   }
   double t = 0.0;
   for (const TrackedPosture* observed :
@@ -159,7 +159,7 @@ TEST_P(MethodWithBones, KeepsBoneLengthsConstant) {
     Posture seen = test::InFrontOfCamera(test::Motion(f / 30.0), 1.1);
     test::AddNoise(seen, 0.01, rng);
     const auto lengths =
-        BoneLengthsOf(method->Step({test::AllTracked(seen), f / 30.0, nullptr}).posture);
+        MeasureBoneLengths(method->Step({test::AllTracked(seen), f / 30.0, nullptr}).posture);
     if (f == 0) first = lengths;
     for (size_t i = 1; i < kJointCount; ++i) {
       EXPECT_NEAR(lengths[i], first[i], 0.001 * first[i]) << f << " " << i;
@@ -180,7 +180,7 @@ TEST_P(MethodWithBones, KeepsBonesThatAreKnown) {
     test::AddNoise(seen, 0.01, rng);
     if (f == 30) method->Reset();
     const auto lengths =
-        BoneLengthsOf(method->Step({test::AllTracked(seen), f / 30.0, nullptr}).posture);
+        MeasureBoneLengths(method->Step({test::AllTracked(seen), f / 30.0, nullptr}).posture);
     for (size_t i = 1; i < kJointCount; ++i) {
       ASSERT_NEAR(lengths[i], known[i], 1e-5) << f << " " << i;
     }

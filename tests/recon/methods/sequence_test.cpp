@@ -38,8 +38,8 @@ SkeletonSequence Recording(int frames, const std::vector<int>& ids) {
 std::vector<double> Forearms_m(const SkeletonSequence& sequence, size_t body) {
   std::vector<double> lengths_m;
   for (const SkeletonFrame& frame : sequence.frames) {
-    const Posture posture = TrackedPostureOf(frame.bodies.at(body)).posture;
-    lengths_m.push_back(BoneLengthsOf(posture)[kForearm]);
+    const Posture posture = ToTrackedPosture(frame.bodies.at(body)).posture;
+    lengths_m.push_back(MeasureBoneLengths(posture)[kForearm]);
   }
   return lengths_m;
 }
@@ -51,7 +51,7 @@ TEST(ReconstructSequence, WritesTheRevisedPosturesAndTheLastOneAsItIs) {
   ReconstructedPosture last;
   for (size_t f = 0; f < 10; ++f) {
     last = method->Step(
-        {TrackedPostureOf(sequence.frames[f].bodies[0]), sequence.frames[f].time_s, nullptr});
+        {ToTrackedPosture(sequence.frames[f].bodies[0]), sequence.frames[f].time_s, nullptr});
     if (f == 0) continue;
     const auto& written = made.frames[f - 1].bodies.at(0).joints[kHand]->position_m;
     EXPECT_EQ(written, method->Revised()->posture.position_m[kHand]) << f;
@@ -81,7 +81,7 @@ TEST(MeasureBones, OfARecordingAreKeptFromItsFirstFrameOn) {
   }
   const BonesOfPeople bones = MeasureBones(sequence, {});
   ASSERT_EQ(bones.size(), 2U);
-  const double truth_m = BoneLengthsOf(At(0.0))[kForearm];
+  const double truth_m = MeasureBoneLengths(At(0.0))[kForearm];
   EXPECT_NEAR(bones.at(9)[kForearm], truth_m, 0.02);
   EXPECT_GT(Forearms_m(ReconstructSequence(sequence, {}), 1).front(), truth_m + 0.04);
   for (const double m : Forearms_m(ReconstructSequence(sequence, {}, {}, bones), 1))

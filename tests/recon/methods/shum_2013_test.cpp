@@ -20,14 +20,14 @@ struct Problem {
 Problem MakeProblem(double t_s, bool history) {
   static const auto db = PostureDatabase::Build(test::GestureClips(), {});
   Problem p;
-  p.inputs.observed = VectorOf(test::Motion(t_s));
+  p.inputs.observed = ToVector(test::Motion(t_s));
   p.inputs.reliability.fill(1.0);
   p.inputs.reliability[7] = 0.0;
   p.inputs.reliability[9] = 0.4;
   p.inputs.lengths_m = db.bone_lengths_m();
   if (history) {
-    p.inputs.last = VectorOf(test::Motion(t_s - 1.0 / 30));
-    p.inputs.before_last = VectorOf(test::Motion(t_s - 2.0 / 30));
+    p.inputs.last = ToVector(test::Motion(t_s - 1.0 / 30));
+    p.inputs.before_last = ToVector(test::Motion(t_s - 2.0 / 30));
   }
   std::vector<int> neighbours;
   for (const auto& n : NearestPostures(db, p.inputs.observed, p.inputs.reliability, 30)) {
@@ -40,7 +40,7 @@ Problem MakeProblem(double t_s, bool history) {
 // Sec. VII-B: w_n = 1 / sum over i of R_i (p_i - p_i^n)^2, eq. 9.
 TEST(InverseDistances, AreThoseOfEquation9) {
   const auto db = PostureDatabase::Build(test::GestureClips(), {});
-  const PostureVector made = VectorOf(test::Motion(0.7));
+  const PostureVector made = ToVector(test::Motion(0.7));
   JointWeights reliability;
   for (size_t i = 0; i < kJointCount; ++i) reliability[i] = 0.05 * static_cast<double>(i);
   const int neighbours[] = {0, 5, 17};
@@ -49,7 +49,7 @@ TEST(InverseDistances, AreThoseOfEquation9) {
     const Posture other = db.posture(neighbours[n]);
     double d = 0.0;
     for (size_t i = 0; i < kJointCount; ++i) {
-      const Eigen::Vector3d p = PostureOf(made).position_m[i];
+      const Eigen::Vector3d p = ToPosture(made).position_m[i];
       d += reliability[i] * (p - other.position_m[i]).squaredNorm();
     }
     EXPECT_NEAR(weights[n] * (d + 1e-4), 1.0, 1e-4);  // single precision
@@ -69,7 +69,7 @@ PostureSpace SpaceOf(const PostureDatabase& db, int k) {
   JointWeights all;
   all.fill(1.0);
   std::vector<int> neighbours;
-  for (const auto& n : NearestPostures(db, VectorOf(test::Motion(1.0)), all, k)) {
+  for (const auto& n : NearestPostures(db, ToVector(test::Motion(1.0)), all, k)) {
     neighbours.push_back(n.index);
   }
   return MakePostureSpace(db, neighbours, 20);

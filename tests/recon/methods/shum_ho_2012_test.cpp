@@ -16,12 +16,12 @@ int MatchWithoutLeftArm(const PostureDatabase& database, const Posture& seen) {
   const Eigen::MatrixXd postures = database.postures().cast<double>();
   const Eigen::VectorXd mean = postures.rowwise().mean();
   const Eigen::MatrixXd centred = postures.colwise() - mean;
-  const Eigen::MatrixXd projection = SpectrumOf(Eigen::MatrixXd(centred * centred.transpose()))
-                                         .vectors.rightCols(kDimensions)
-                                         .transpose();
-  Eigen::VectorXd query = VectorOf(seen).cast<double>() - mean;
-  for (const size_t joint : kLeftArm)
-    query.segment<3>(3 * static_cast<Eigen::Index>(joint)).setZero();
+  const Eigen::MatrixXd projection =
+      DecomposeSymmetric(Eigen::MatrixXd(centred * centred.transpose()))
+          .vectors.rightCols(kDimensions)
+          .transpose();
+  Eigen::VectorXd query = ToVector(seen).cast<double>() - mean;
+  for (const size_t joint : kLeftArm) query.segment<3>(FirstCoordinate(joint)).setZero();
   int best = 0;
   double least = std::numeric_limits<double>::infinity();
   for (int i = 0; i < database.size(); ++i) {

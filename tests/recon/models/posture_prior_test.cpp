@@ -176,8 +176,8 @@ BoneVector BruteForce(const PosturePrior& prior, const std::vector<double>& time
       for (int axis = 0; axis < 3; ++axis) {
         Eigen::RowVectorXd row = Eigen::RowVectorXd::Zero(moments * d);
         double mean = 0.0, rest = o.sd_m[j] * o.sd_m[j];
-        for (size_t i = j; i != 0; i = static_cast<size_t>(kJointParent[i])) {
-          const auto at = static_cast<Eigen::Index>(3 * (i - 1)) + axis;
+        for (size_t i = j; i != 0; i = ParentOf(i)) {
+          const auto at = FirstCoordinate(i - 1) + axis;
           row.segment(m * d, d) += prior.modes_m.row(at);
           mean += prior.mean_m[at];
           rest += prior.rest_m2[at];
@@ -270,7 +270,7 @@ TEST(PriorFilter, MirrorsWhatItIsShownMirrored) {
     PriorObservation mirrored = observation;
     mirrored.seen = Mirrored(observation.seen);
     for (size_t j = 0; j < kJointCount; ++j) {
-      mirrored.sd_m[j] = observation.sd_m[static_cast<size_t>(kMirroredJoint[j])];
+      mirrored.sd_m[j] = observation.sd_m[kMirroredJoint[j]];
     }
     const Posture a = Mirrored(one.Step(kFrame_s, observation));
     EXPECT_LT(test::MeanDistance_m(a, other.Step(kFrame_s, mirrored)), 1e-6) << f;
@@ -300,7 +300,7 @@ TEST(PriorFilter, GivesEveryoneTheirOwnBones) {
     Posture made;
     for (int f = 0; f < 5; ++f) made = filter.Step(kFrame_s, observation);
     EXPECT_LT(test::MeanDistance_m(made, observation.seen), 0.01);
-    EXPECT_NEAR(BoneLengthsOf(made)[9], observation.lengths_m[9], 1e-9);
+    EXPECT_NEAR(MeasureBoneLengths(made)[9], observation.lengths_m[9], 1e-9);
   }
 }
 

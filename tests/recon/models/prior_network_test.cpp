@@ -49,7 +49,7 @@ PriorObservation Seeing(const Posture& posture) {
   PriorObservation observation;
   observation.seen = posture;
   observation.sd_m.fill(0.02);
-  observation.sd_m[Index(Joint::kHandLeft)] = 0.0;
+  observation.sd_m[Joint::kHandLeft] = 0.0;
   observation.lengths_m = StandardBoneLengths();
   observation.root_sd_m = 1e-6;
   return observation;
@@ -86,12 +86,13 @@ TEST(PriorNetwork, IsToldWhatIsSeenHowClearlyAndHowFarFromWhereItIsExpected) {
   const PriorInput input = filter.Input();
   const Posture expected = PostureOfBones(filter.Bones_m());
   EXPECT_TRUE(input.head<kBoneDims>().isApprox(filter.Bones_m().cast<float>(), 1e-5F));
-  for (int i = 1; i < kJointCount; ++i) {
-    const auto joint = static_cast<size_t>(i);
-    const bool hidden = observation.sd_m[joint] == 0.0;
-    EXPECT_FLOAT_EQ(input[kBoneDims + i - 1], hidden ? 0.0F : Clearness(0.02)) << i;
-    const Eigen::Vector3d off_m = seen.position_m[joint] - expected.position_m[joint];
-    const Eigen::Vector3f told_m = input.tail<kBoneDims>().segment<3>(3 * (i - 1));
+  for (size_t i = 1; i < kJointCount; ++i) {
+    const bool hidden = observation.sd_m[i] == 0.0;
+    EXPECT_FLOAT_EQ(input[kBoneDims + static_cast<Eigen::Index>(i - 1)],
+                    hidden ? 0.0F : Clearness(0.02))
+        << i;
+    const Eigen::Vector3d off_m = seen.position_m[i] - expected.position_m[i];
+    const Eigen::Vector3f told_m = input.tail<kBoneDims>().segment<3>(FirstCoordinate(i - 1));
     EXPECT_LT((told_m.cast<double>() - (hidden ? Eigen::Vector3d::Zero() : off_m)).norm(), 1e-4)
         << i;
   }

@@ -26,7 +26,7 @@ class AcclaimTest : public testing::Test {
     Write("05_01.amc", amc);
     return LoadMocap({folder_.path().string()}).at(0);
   }
-  Posture PostureOf(const std::string& bones) {
+  Posture ToPosture(const std::string& bones) {
     return StandardPosture(Load(kHeader + kStanding + bones).frames.at(0));
   }
   std::string Refusal(const std::string& amc, const std::string& asf = TPoseAsf()) {
@@ -50,7 +50,7 @@ void ExpectAlong(const Eigen::Vector3d& direction, const Eigen::Vector3d& expect
 }
 
 TEST_F(AcclaimTest, TheZeroPoseOfATPoseSkeletonIsATPose) {
-  const Posture p = PostureOf("");
+  const Posture p = ToPosture("");
   ExpectAlong(Direction(p, Joint::kShoulderLeft, Joint::kWristLeft), {1, 0, 0});
   ExpectAlong(Direction(p, Joint::kShoulderRight, Joint::kWristRight), {-1, 0, 0});
   ExpectAlong(Direction(p, Joint::kHipRight, Joint::kAnkleRight), {0, -1, 0});
@@ -59,7 +59,7 @@ TEST_F(AcclaimTest, TheZeroPoseOfATPoseSkeletonIsATPose) {
 
 TEST_F(AcclaimTest, BonesTurnAboutTheirOwnAxes) {
   // C M C^-1 with C = 30 degrees about z: the elbow turns about y tilted by 30 degrees.
-  const Posture p = PostureOf("lradius 0 -90 0\nrtibia 90 0 0\n");
+  const Posture p = ToPosture("lradius 0 -90 0\nrtibia 90 0 0\n");
   const double tilt = 30.0 * std::numbers::pi / 180.0;
   const Eigen::Vector3d axis(-std::sin(tilt), std::cos(tilt), 0.0);
   const Eigen::Vector3d turned =
@@ -71,7 +71,7 @@ TEST_F(AcclaimTest, BonesTurnAboutTheirOwnAxes) {
 
 TEST_F(AcclaimTest, DegreesOfFreedomTurnInTheirOrderFirstInnermost) {
   // rx then rz about fixed axes: the shin goes back by rx, rz leaves it in the y-z plane's image.
-  const Posture p = PostureOf("lhumerus 0 0 90\nltibia 90 0 90\n");
+  const Posture p = ToPosture("lhumerus 0 0 90\nltibia 90 0 90\n");
   ExpectAlong(Direction(p, Joint::kShoulderLeft, Joint::kElbowLeft), {0, 1, 0});
   ExpectAlong(Direction(p, Joint::kKneeLeft, Joint::kAnkleLeft), {0, 0, -1});
 }

@@ -128,9 +128,8 @@ TEST(AuthoredClips, BendElbowsAndKneesOnlyAsFarAsPeopleCan) {
 TEST(AuthoredClips, KneesBendBackwards) {
   ForEveryPosture([](const std::string& where, const Posture& p, const MotionClip& clip, size_t f) {
     for (const Joint hip : {Joint::kHipLeft, Joint::kHipRight}) {
-      const auto at = [&](int i) { return p.position_m[static_cast<size_t>(Index(hip) + i)]; };
-      const auto leg =
-          static_cast<size_t>(RigBone(hip == Joint::kHipLeft ? "LeftLeg" : "RightLeg"));
+      const auto at = [&](size_t i) { return p.position_m[Index(hip) + i]; };
+      const auto leg = RigBone(hip == Joint::kHipLeft ? "LeftLeg" : "RightLeg");
       // The knee lies before the line from hip to ankle, seen along the shin's own front.
       const Eigen::Vector3d front = clip.frames[f].world_from_rest[leg] * Eigen::Vector3d::UnitZ();
       const Eigen::Vector3d knee = at(1) - 0.5 * (at(0) + at(2));
@@ -207,7 +206,7 @@ TEST(AuthoredClips, TheTPoseReallyIsOne) {
       double worst = 0.0;
       for (const Joint shoulder : {Joint::kShoulderLeft, Joint::kShoulderRight}) {
         const auto wrist = static_cast<Joint>(Index(shoulder) + 2);
-        Eigen::Vector3d out = HeadingOf(pose) * Eigen::Vector3d::UnitX();
+        Eigen::Vector3d out = EstimateHeading(pose) * Eigen::Vector3d::UnitX();
         if (shoulder == Joint::kShoulderRight) out = -out;
         const double cosine = (p[wrist] - p[shoulder]).normalized().dot(out);
         worst = std::max(worst, std::acos(std::clamp(cosine, -1.0, 1.0)) * 180 / std::numbers::pi);

@@ -14,7 +14,7 @@ namespace {
 SkeletonSequence RandomMotion(int frames, uint64_t seed) {
   std::mt19937_64 random(seed);
   std::normal_distribution<double> normal;
-  const BoneLengths lengths = BoneLengthsOf(StandardPosture(RigPose()));
+  const BoneLengths lengths = MeasureBoneLengths(StandardPosture(RigPose()));
   SkeletonSequence sequence{"random.jsonl", {}};
   for (int f = 0; f < frames; ++f) {
     SkeletonFrame frame;
@@ -27,8 +27,8 @@ SkeletonSequence RandomMotion(int frames, uint64_t seed) {
       joint.position_m = Eigen::Vector3d(0.1 * f, 0.5, 2.0);
       if (j > 0) {
         const Eigen::Vector3d direction(normal(random), normal(random), normal(random));
-        joint.position_m = body.joints[static_cast<size_t>(kJointParent[j])]->position_m +
-                           lengths[j] * direction.normalized();
+        joint.position_m =
+            body.joints[ParentOf(j)]->position_m + lengths[j] * direction.normalized();
       }
       body.joints[j] = joint;
     }
@@ -71,7 +71,7 @@ TEST(BvhOfSkeleton, HasConstantBoneLengthsWhateverTheTrackerSaw) {
   const SkeletonSequence back = SkeletonOfBvh(BvhOfSkeleton(noisy), "back");
   std::optional<BoneLengths> first;
   for (const SkeletonFrame& frame : back.frames) {
-    const BoneLengths lengths = BoneLengthsOf(TrackedPostureOf(frame.bodies[0]).posture);
+    const BoneLengths lengths = MeasureBoneLengths(ToTrackedPosture(frame.bodies[0]).posture);
     if (!first) first = lengths;
     for (size_t j = 1; j < kJointCount; ++j) EXPECT_NEAR(lengths[j], (*first)[j], 1e-9);
   }
@@ -82,10 +82,10 @@ TEST(BvhOfSkeleton, HasConstantBoneLengthsWhateverTheTrackerSaw) {
 
 TEST(BvhOfSkeleton, MissingJointsHoldTheirLastDirection) {
   SkeletonSequence sequence = RandomMotion(3, 8);
-  sequence.frames[1].bodies[0].joints[static_cast<size_t>(Index(Joint::kHandLeft))].reset();
+  sequence.frames[1].bodies[0].joints[Joint::kHandLeft].reset();
   const SkeletonSequence back = SkeletonOfBvh(BvhOfSkeleton(sequence), "back");
   const auto hand = [&](const SkeletonSequence& s, size_t f) {
-    const Posture p = TrackedPostureOf(s.frames[f].bodies[0]).posture;
+    const Posture p = ToTrackedPosture(s.frames[f].bodies[0]).posture;
     return Eigen::Vector3d((p[Joint::kHandLeft] - p[Joint::kWristLeft]).normalized());
   };
   EXPECT_LT((hand(back, 1) - hand(sequence, 0)).norm(), 1e-6);

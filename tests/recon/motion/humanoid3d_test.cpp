@@ -37,7 +37,7 @@ std::string Text(const std::vector<std::vector<double>>& rows) {
   return text.str();
 }
 
-Posture PostureOf(const std::vector<double>& row) {
+Posture ToPosture(const std::vector<double>& row) {
   test::TemporaryFolder folder;
   std::ofstream(folder.path() / "humanoid3d_test.txt") << Text({row});
   return StandardPosture(LoadMocap({folder.path().string()}).at(0).frames.at(0));
@@ -51,7 +51,7 @@ Eigen::Vector3d Direction(const Posture& p, Joint from, Joint to) {
 constexpr double kPrinted = 1e-9;
 
 TEST(Humanoid3d, StandsWithHangingArmsFacingOurFront) {
-  const Posture p = PostureOf(Row());
+  const Posture p = ToPosture(Row());
   EXPECT_LT(
       (Direction(p, Joint::kShoulderLeft, Joint::kWristLeft) - Eigen::Vector3d(0, -1, 0)).norm(),
       kPrinted);
@@ -65,7 +65,7 @@ TEST(Humanoid3d, KneesBendBackwardsAndElbowsForwards) {
   auto row = Row();
   row[20] = -0.5 * std::numbers::pi;  // right knee
   row[43] = 0.5 * std::numbers::pi;   // left elbow
-  const Posture p = PostureOf(row);
+  const Posture p = ToPosture(row);
   EXPECT_LT(
       (Direction(p, Joint::kKneeRight, Joint::kAnkleRight) - Eigen::Vector3d(0, 0, -1)).norm(),
       kPrinted);
@@ -119,7 +119,8 @@ TEST(Humanoid3d, FetchedClipsLoadAndStandUpright) {
       const Posture p = StandardPosture(pose);
       EXPECT_GT(p[Joint::kHead].y(), 1.4);
       EXPECT_LT(p[Joint::kFootLeft].y(), 0.4);
-      EXPECT_GT((HeadingOf(pose) * Eigen::Vector3d::UnitZ()).z(), 0.8) << "walks where it faces";
+      EXPECT_GT((EstimateHeading(pose) * Eigen::Vector3d::UnitZ()).z(), 0.8)
+          << "walks where it faces";
     }
     EXPECT_GT(clip.frames.back().root_m.z() - clip.frames.front().root_m.z(), 0.8);
   }

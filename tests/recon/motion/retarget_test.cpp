@@ -41,7 +41,7 @@ class RetargetTest : public testing::Test {
     std::ofstream(folder_.path() / "07_01.bvh") << text;
     return LoadMocap({folder_.path().string()}, options).at(0);
   }
-  Posture PostureOf(const std::vector<double>& frame) {
+  Posture ToPosture(const std::vector<double>& frame) {
     return StandardPosture(Load(BvhText({frame})).frames.at(0));
   }
   test::TemporaryFolder folder_;
@@ -55,7 +55,7 @@ Eigen::Vector3d Direction(const Posture& p, Joint from, Joint to) {
 constexpr double kPrinted = 1e-5;
 
 TEST_F(RetargetTest, ATPoseOfTheSourceIsATPoseOfTheRig) {
-  const Posture p = PostureOf(Zeros());
+  const Posture p = ToPosture(Zeros());
   for (const auto& [from, to, axis] :
        {std::tuple{Joint::kShoulderLeft, Joint::kElbowLeft, Eigen::Vector3d(1, 0, 0)},
         std::tuple{Joint::kElbowLeft, Joint::kWristLeft, Eigen::Vector3d(1, 0, 0)},
@@ -71,8 +71,8 @@ TEST_F(RetargetTest, PalmsFaceDownInATPoseAndThumbsForward) {
   const RigPose pose = Load(BvhText({Zeros()})).frames.at(0);
   const RigRest& rest = StandardRigRest();
   for (const char* side : {"L", "R"}) {
-    const auto hand = static_cast<size_t>(RigBone(side[0] == 'L' ? "LeftHand" : "RightHand"));
-    const auto thumb = static_cast<size_t>(RigBone(std::string(side) + "Thumb"));
+    const auto hand = RigBone(side[0] == 'L' ? "LeftHand" : "RightHand");
+    const auto thumb = RigBone(std::string(side) + "Thumb");
     const Eigen::Vector3d towards =
         pose.world_from_rest[hand] * (rest.tail_m[thumb] - rest.head_m[hand]);
     EXPECT_GT(towards.normalized().z(), 0.4) << side;
@@ -82,7 +82,7 @@ TEST_F(RetargetTest, PalmsFaceDownInATPoseAndThumbsForward) {
 TEST_F(RetargetTest, AnElbowBendsAsInTheSource) {
   auto frame = Zeros();
   frame[FirstRotation("lForeArm") + 2] = -90.0;  // about -y: the left forearm points forwards
-  const Posture p = PostureOf(frame);
+  const Posture p = ToPosture(frame);
   EXPECT_LT((Direction(p, Joint::kElbowLeft, Joint::kWristLeft) - Eigen::Vector3d(0, 0, 1)).norm(),
             kPrinted);
 }
@@ -90,7 +90,7 @@ TEST_F(RetargetTest, AnElbowBendsAsInTheSource) {
 TEST_F(RetargetTest, AKneeBendsBackwardsAndOnlyOnItsSide) {
   auto frame = Zeros();
   frame[FirstRotation("rShin") + 1] = 90.0;  // about x: the right shin points backwards
-  const Posture p = PostureOf(frame);
+  const Posture p = ToPosture(frame);
   EXPECT_LT(
       (Direction(p, Joint::kKneeRight, Joint::kAnkleRight) - Eigen::Vector3d(0, 0, -1)).norm(),
       kPrinted);
@@ -103,7 +103,7 @@ TEST_F(RetargetTest, ChildrenAreCarriedByTheirParents) {
   frame[FirstRotation("hip") + 1] = 90.0;        // turns to face +x
   frame[FirstRotation("lShldr")] = 90.0;         // left arm up
   frame[FirstRotation("lForeArm") + 2] = -90.0;  // forearm forwards, that is +x
-  const Posture p = PostureOf(frame);
+  const Posture p = ToPosture(frame);
   EXPECT_LT(
       (Direction(p, Joint::kShoulderLeft, Joint::kElbowLeft) - Eigen::Vector3d(0, 1, 0)).norm(),
       kPrinted);
@@ -114,7 +114,7 @@ TEST_F(RetargetTest, ChildrenAreCarriedByTheirParents) {
 }
 
 TEST_F(RetargetTest, UnitsDoNotMatterAndFeetStandOnTheFloor) {
-  const Posture p = PostureOf(Zeros());
+  const Posture p = ToPosture(Zeros());
   // The source's soles are at 90 - 82 - 4 cm: close enough to be set on the floor exactly.
   const double sole =
       StandardPosture(RigPose())[Joint::kFootLeft].y() + StandardRigRest().head_m[0].y();
@@ -124,10 +124,10 @@ TEST_F(RetargetTest, UnitsDoNotMatterAndFeetStandOnTheFloor) {
 }
 
 TEST_F(RetargetTest, ALiftedArmLiftsItsClavicle) {
-  const Posture low = PostureOf(Zeros());
+  const Posture low = ToPosture(Zeros());
   auto frame = Zeros();
   frame[FirstRotation("lShldr")] = 80.0;
-  const Posture high = PostureOf(frame);
+  const Posture high = ToPosture(frame);
   EXPECT_GT(high[Joint::kShoulderLeft].y(), low[Joint::kShoulderLeft].y() + 0.01);
   EXPECT_NEAR(high[Joint::kShoulderRight].y(), low[Joint::kShoulderRight].y(), kPrinted);
 }
@@ -137,7 +137,7 @@ TEST_F(RetargetTest, IsResampledToThirtyFramesASecondBySlerp) {
   second[FirstRotation("lShldr")] = 60.0;
   const MotionClip clip = Load(BvhText({first, second, second}, 0.1));
   ASSERT_EQ(clip.frames.size(), 7u);
-  const auto arm = static_cast<size_t>(RigBone("LeftArm"));
+  const auto arm = RigBone("LeftArm");
   const double turned =
       clip.frames[1].world_from_rest[arm].angularDistance(clip.frames[0].world_from_rest[arm]);
   EXPECT_NEAR(turned, 20.0 * std::numbers::pi / 180.0, 1e-5);

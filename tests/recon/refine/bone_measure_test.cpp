@@ -24,7 +24,7 @@ TEST(BoneMeasure, ReadsThePersonAndSaysLogarithmsOverTheStandardBones) {
   EXPECT_TRUE(BoneNumbersOf(*person).allFinite());
   BoneLengths lengths_m = StandardBoneLengths();
   EXPECT_LT(BoneOutputsOf(lengths_m).norm(), 1e-6F);
-  const auto shin = static_cast<size_t>(Index(Joint::kAnkleLeft));
+  const auto shin = Index(Joint::kAnkleLeft);
   lengths_m[shin] *= 1.2;  // of the left one only: half of it for the pair
   const Eigen::VectorXf outputs = BoneOutputsOf(lengths_m);
   EXPECT_NEAR(outputs.cwiseAbs().maxCoeff(), std::log(1.1) / kBoneStep, 1e-4);
@@ -42,12 +42,12 @@ TEST(BoneMeasure, IsTheMeanOfThePersonAndTheMirrorImage) {
   look.bones.layers[0].bias[0] = 1.0F;
   look.bones.layers[0].bias[1] = 1000.0F;
   for (const Joint hand : {Joint::kHandLeft, Joint::kHandRight}) {
-    look.bones.layers[0].weight.col(3 * Index(hand)).setConstant(1.0F);
+    look.bones.layers[0].weight.col(FirstCoordinate(Index(hand))).setConstant(1.0F);
   }
   const auto looked = Looker(look).Look(scene.input);
   ASSERT_TRUE(looked && looked->bones_m);
   const auto over = [&](Joint joint) {
-    const auto j = static_cast<size_t>(Index(joint));
+    const auto j = Index(joint);
     return (*looked->bones_m)[j] / StandardBoneLengths()[j];
   };
   EXPECT_NEAR(over(Joint::kSpine), std::exp(kBoneStep), 1e-4);
@@ -71,13 +71,13 @@ TEST(CloseLook, GlancesAfterTheBonesAreToldOfThem) {
     return (looked->joints_m[Joint::kHead] - scene.input.proposed[Joint::kHead]).norm();
   };
   BoneLengths tall_m = StandardBoneLengths();
-  tall_m[Index(Joint::kSpine)] *= std::exp(2.0 * kBoneStep);
+  tall_m[Joint::kSpine] *= std::exp(2.0 * kBoneStep);
   EXPECT_NEAR(rise_m(tall_m), 2.0 * CloseLook::kStep_m, 1e-4);
   EXPECT_NEAR(rise_m(std::nullopt), 0.0, 1e-6);  // what is judged of this frame
   look.bones.layers[0].bias[0] = 1.0F;
   EXPECT_NEAR(rise_m(std::nullopt), CloseLook::kStep_m, 1e-4);
   for (const double odd_m : {0.0, -1.0, std::nan(""), 1e300}) {
-    tall_m[Index(Joint::kHandRight)] = odd_m;
+    tall_m[Joint::kHandRight] = odd_m;
     EXPECT_NEAR(rise_m(tall_m), CloseLook::kStep_m, 1e-4) << odd_m;
   }
 }

@@ -37,7 +37,7 @@ TEST(CloseLook, SeesHowFarBehindTheJointSurfaceLies) {
 TEST(CloseLook, TellsWhatIsBesideAndWhatIsHidden) {
   Scene scene;
   const auto centre = [&] {
-    return LookDescription::Of(scene.input)->samples[Index(Joint::kHead)][kCentre];
+    return LookDescription::Of(scene.input)->samples[Joint::kHead][kCentre];
   };
   std::fill(scene.is_person.begin(), scene.is_person.end(), uint8_t{0});
   const auto all = [&](double depth_m) {
@@ -60,8 +60,8 @@ TEST(CloseLook, OfTheMirrorImageIsTheMirrorImage) {
   Scene scene;
   scene.frame.camera.cx = (kWidth - 1) / 2.0;
   scene.input.proposed[Joint::kHandLeft] += Eigen::Vector3d(0.1, 0.3, -0.2);
-  scene.input.confidence[Index(Joint::kKneeRight)] = 0.1;
-  scene.input.seen[Index(Joint::kFootLeft)] = false;
+  scene.input.confidence[Joint::kKneeRight] = 0.1;
+  scene.input.seen[Joint::kFootLeft] = false;
   for (int v = 0; v < kHeight; ++v) {
     for (int u = 0; u < kWidth; ++u) {
       const auto i = static_cast<size_t>(v * kWidth + u);
@@ -72,7 +72,7 @@ TEST(CloseLook, OfTheMirrorImageIsTheMirrorImage) {
   Scene mirror;
   mirror.frame.camera = scene.frame.camera;
   for (size_t j = 0; j < kJointCount; ++j) {
-    const auto other = static_cast<size_t>(kMirroredJoint[j]);
+    const auto other = kMirroredJoint[j];
     mirror.input.proposed.position_m[other] =
         scene.input.proposed.position_m[j].cwiseProduct(Eigen::Vector3d(-1, 1, 1));
     mirror.input.confidence[other] = scene.input.confidence[j];

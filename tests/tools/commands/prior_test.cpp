@@ -41,15 +41,15 @@ std::string LosingAnArm() {
     lines += fmt::format("{{\"frame\":{},\"time_s\":{},\"bodies\":[{{\"id\":1,\"joints\":{{", i,
                          i / 30.0);
     const recon::Posture posture = recon::StandardPosture({});
-    for (int j = 0; j < recon::kJointCount; ++j) {
+    for (size_t j = 0; j < recon::kJointCount; ++j) {
       const auto joint = static_cast<recon::Joint>(j);
       const Eigen::Vector3d p = posture[joint] + Eigen::Vector3d(0, 0, 2.5);
       const bool seen =
           i < 10 || (joint != recon::Joint::kHandLeft && joint != recon::Joint::kWristLeft &&
                      joint != recon::Joint::kElbowLeft);
       lines += fmt::format("{}\"{}\":{{\"p\":[{},{},{}],\"state\":\"{}\",\"confidence\":{}}}",
-                           j == 0 ? "" : ",", recon::kJointNames[static_cast<size_t>(j)], p.x(),
-                           p.y(), p.z(), seen ? "tracked" : "not_tracked", seen ? 1 : 0);
+                           j == 0 ? "" : ",", recon::kJointNames[j], p.x(), p.y(), p.z(),
+                           seen ? "tracked" : "not_tracked", seen ? 1 : 0);
     }
     lines += "}}]}\n";
   }

@@ -56,7 +56,8 @@ double BoneDrift(const recon::SkeletonSequence& sequence) {
   double worst = 0.0;
   recon::BoneLengths first{};
   for (const auto& frame : sequence.frames) {
-    const auto lengths = recon::BoneLengthsOf(recon::TrackedPostureOf(frame.bodies.at(0)).posture);
+    const auto lengths =
+        recon::MeasureBoneLengths(recon::ToTrackedPosture(frame.bodies.at(0)).posture);
     if (&frame == &sequence.frames.front()) first = lengths;
     for (size_t i = 1; i < kJointCount; ++i) {
       worst = std::max(worst, std::abs(lengths[i] / first[i] - 1.0));
@@ -144,7 +145,7 @@ TEST_F(ReconstructCommand, TakesOffWhatACloseLookLeavesAndSaysSo) {
 // A guess of a look is the mean of what may be; one of a sensor is where what hides the joint is.
 TEST_F(ReconstructCommand, TrustsGuessesOfACloseLookMore) {
   const std::string in = folder_ / "guessed.jsonl", out = folder_ / "out.jsonl";
-  const auto hand = static_cast<size_t>(recon::Index(recon::Joint::kHandLeft));
+  const auto hand = recon::Index(recon::Joint::kHandLeft);
   const auto moved_m = [&](bool is_looked) {
     auto guessed = Recording();
     for (auto& frame : guessed.frames) {
@@ -263,8 +264,8 @@ TEST_F(ReconstructCommand, BonesByTheWholeRecordingAreTheSameInEveryFrame) {
     recording.frames[0].bodies[0].joints[joint]->position_m.y() -= 0.15;
   recon::WriteSkeletons(in_, recording);
   const auto forearm_m = [](const recon::SkeletonSequence& sequence) {
-    return recon::BoneLengthsOf(
-        recon::TrackedPostureOf(sequence.frames.front().bodies.at(0)).posture)[6];
+    return recon::MeasureBoneLengths(
+        recon::ToTrackedPosture(sequence.frames.front().bodies.at(0)).posture)[6];
   };
   const auto so_far = Made({"--bones", "so-far"}, "a.jsonl");
   EXPECT_EQ(MeanDistance(Made({}, "b.jsonl"), so_far), 0.0);

@@ -282,7 +282,8 @@ TEST(TrackCommand, BonesByTheWholeRecordingAreTheSameInEveryFrame) {
     std::optional<recon::BoneLengths> first;
     for (const auto& frame : recon::ReadSkeletons(out.string()).frames) {
       if (frame.bodies.empty()) continue;
-      const auto lengths_m = recon::BoneLengthsOf(recon::TrackedPostureOf(frame.bodies[0]).posture);
+      const auto lengths_m =
+          recon::MeasureBoneLengths(recon::ToTrackedPosture(frame.bodies[0]).posture);
       if (!first) first = lengths_m;
       for (size_t i = 1; i < recon::kJointCount; ++i)
         worst = std::max(worst, std::abs(lengths_m[i] / (*first)[i] - 1.0));

@@ -27,7 +27,7 @@ recon::SkeletonSequence Still(int frames) {
 }
 
 recon::JointRecord& At(recon::SkeletonSequence& sequence, size_t frame, Joint joint) {
-  return *sequence.frames[frame].bodies[0].joints[static_cast<size_t>(Index(joint))];
+  return *sequence.frames[frame].bodies[0].joints[joint];
 }
 
 TEST(GrossFailures, OfAPersonStandingStillAreNone) {

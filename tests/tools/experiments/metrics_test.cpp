@@ -113,7 +113,7 @@ TEST(Metrics, CountFramesWhoseParentRelativeErrorIsTwentyCentimetres) {
   // Every joint 21 cm further from its parent than it is: eq. 13 is 21 cm in three frames of ten.
   const auto result = Changed(truth, [](size_t f, Joint j, auto& joint) {
     if (f >= 3) return;
-    for (int i = recon::Index(j); i > 0; i = recon::kJointParent[static_cast<size_t>(i)]) {
+    for (size_t i = recon::Index(j); i > 0; i = recon::ParentOf(i)) {
       joint->position_m.x() += 0.21;
     }
   });
@@ -130,7 +130,7 @@ TEST(Metrics, AMissingJointIsNotFoundButNoError) {
   EXPECT_EQ(*m.mean_joint_error_cm, 0);
   EXPECT_NEAR(*m.fraction_joints_missing, 15.0 / 200, kExact);
   EXPECT_NEAR(*m.fraction_joints_within_10cm, 185.0 / 200, kExact);
-  EXPECT_NEAR(*m.ap_10cm[static_cast<size_t>(recon::Index(Joint::kHead))], 0.5, kExact);
+  EXPECT_NEAR(*m.ap_10cm[Joint::kHead], 0.5, kExact);
   // Without the spine the shoulders' centre is compared relative to the hips' centre.
   EXPECT_EQ(*m.parent_relative_error_cm, 0);
 }

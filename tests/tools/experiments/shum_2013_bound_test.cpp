@@ -57,7 +57,7 @@ TEST(BoundOf, IsLargerWhereThePartsGivenDoNotTell) {
   const Posture stance = recon::StandardStance(), raised = Raised();
   double wanted_cm = 0.0;  // eq. 18
   for (size_t i = 1; i < recon::kJointCount; ++i) {
-    const auto parent = static_cast<size_t>(recon::kJointParent[i]);
+    const auto parent = recon::ParentOf(i);
     wanted_cm += 100.0 / 19.0 *
                  ((stance.position_m[i] - stance.position_m[parent]) -
                   (raised.position_m[i] - raised.position_m[parent]))

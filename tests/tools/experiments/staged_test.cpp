@@ -45,9 +45,7 @@ TEST_F(Staged, PersonFacesTheSensorWithTheLeftHandAtTheImageRight) {
   const auto frames = studio.Film(clip_, options_);
   ASSERT_EQ(frames.size(), 4u);
   const auto& joints = frames[0].truth.bodies.at(0).joints;
-  const auto at = [&](recon::Joint joint) {
-    return joints[static_cast<size_t>(recon::Index(joint))]->position_m;
-  };
+  const auto at = [&](recon::Joint joint) { return joints[joint]->position_m; };
   // Camera space has x to the sensor's left: the left of who faces it is at negative x.
   EXPECT_LT(at(recon::Joint::kShoulderLeft).x(), at(recon::Joint::kShoulderRight).x());
   EXPECT_GT(at(recon::Joint::kHead).y(), at(recon::Joint::kHipCenter).y());
@@ -65,9 +63,7 @@ TEST_F(Staged, FromTheRightSeesTheRightSideNearer) {
   Studio studio(context_, "simulated");
   const auto frames = studio.Film(clip_, options_);
   const auto& joints = frames[0].truth.bodies.at(0).joints;
-  const auto depth_of = [&](recon::Joint joint) {
-    return joints[static_cast<size_t>(recon::Index(joint))]->position_m.z();
-  };
+  const auto depth_of = [&](recon::Joint joint) { return joints[joint]->position_m.z(); };
   EXPECT_LT(depth_of(recon::Joint::kShoulderRight), depth_of(recon::Joint::kShoulderLeft));
 }
 

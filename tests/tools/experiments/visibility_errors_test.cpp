@@ -23,7 +23,7 @@ RecordedPair OneFrame(double off_m) {
     body.joints[j] = record;
   }
   pair.truth.frames.push_back({0, 0.0, {}, {body}});
-  body.joints[static_cast<size_t>(recon::Index(Joint::kHandLeft))]->position_m.x() += off_m;
+  body.joints[Joint::kHandLeft]->position_m.x() += off_m;
   pair.observed.frames.push_back({0, 0.0, {}, {body}});
   return pair;
 }

@@ -8,8 +8,8 @@
 namespace ossa::tools {
 namespace {
 
-constexpr auto kHandLeft = static_cast<size_t>(recon::Joint::kHandLeft);
-constexpr auto kHead = static_cast<size_t>(recon::Joint::kHead);
+constexpr auto kHandLeft = recon::Index(recon::Joint::kHandLeft);
+constexpr auto kHead = recon::Index(recon::Joint::kHead);
 
 // One person of whom every joint is found, but only the head and the left hand are seen.
 EvaluationTotals OnePerson() {

@@ -15,7 +15,7 @@ forest::TrainingImage SmallImage() {
   image.depth_mm = {0, 1500, 0, 0, 1600, 0, 0, 0};
   image.label = {0, 16, 0, 0, 30, 0, 0, 0};
   image.context = 2;
-  for (int j = 0; j < recon::kJointCount; ++j) {
+  for (size_t j = 0; j < recon::kJointCount; ++j) {
     image.target_m.emplace_back(0.1F * static_cast<float>(j), 1.0F, 2.0F);
     image.target_visible.push_back(j % 3 == 0 ? 1 : 0);
   }
@@ -28,8 +28,8 @@ TEST(Mirrored, SwapsLeftAndRight) {
   EXPECT_EQ(mirrored.depth_mm, (std::vector<uint16_t>{0, 0, 1500, 0, 0, 0, 0, 1600}));
   EXPECT_EQ(mirrored.label, (std::vector<uint8_t>{0, 0, 17, 0, 0, 0, 0, 31}));
   EXPECT_EQ(mirrored.context, kFacingSectors - 2);
-  const auto left = static_cast<size_t>(recon::Index(recon::Joint::kHandLeft));
-  const auto right = static_cast<size_t>(recon::Index(recon::Joint::kHandRight));
+  const auto left = recon::Index(recon::Joint::kHandLeft);
+  const auto right = recon::Index(recon::Joint::kHandRight);
   EXPECT_EQ(mirrored.target_m[left].x(), -image.target_m[right].x());
   EXPECT_EQ(mirrored.target_visible[left], image.target_visible[right]);
 }

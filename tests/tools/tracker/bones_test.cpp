@@ -44,7 +44,7 @@ double WorstDrift(const CompleteOptions& options, int settled = 0) {
     StageTimes ms;
     CompleteBody(render.frame, std::nullopt, options, person, body, ms);
     person.before_s = render.frame.time_s;
-    const recon::BoneLengths lengths = recon::BoneLengthsOf(PostureOf(body));
+    const recon::BoneLengths lengths = recon::MeasureBoneLengths(ToPosture(body));
     if (f == settled) first = lengths;
     for (size_t j = 1; f > settled && j < kJointCount; ++j) {
       worst = std::max(worst, std::abs(lengths[j] / first[j] - 1.0));

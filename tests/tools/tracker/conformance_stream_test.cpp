@@ -12,7 +12,7 @@ namespace {
 using recon::Joint;
 using recon::kJointCount;
 
-size_t At(Joint joint) { return static_cast<size_t>(recon::Index(joint)); }
+size_t At(Joint joint) { return recon::Index(joint); }
 
 TEST(SdkConformance, FramesCarryNumberAndTimeOfTheDepthFrameTheyWereMadeFrom) {
   OSSA_NEEDS_MODEL();
@@ -110,7 +110,7 @@ TEST(SdkConformance, AHierarchicalOrientationIsTheBonesTurnAgainstItsParent) {
   EXPECT_LT((player * Eigen::Vector3d::UnitZ()).z(), -0.94);
   EXPECT_GT((player * Eigen::Vector3d::UnitY()).y(), 0.94);
   for (size_t j = 1; j < kJointCount; ++j) {
-    const auto parent = static_cast<size_t>(recon::kJointParent[j]);
+    const auto parent = recon::ParentOf(j);
     const Eigen::Quaterniond turn =
         body.joints[parent].orientation.conjugate() * body.joints[j].orientation;
     // Unit quaternions through one product; arc cosines near 1 lose half the digits.

@@ -64,7 +64,7 @@ TEST(SdkConformance, TwentyJointsHaveStatesAndSeenOnesLieOnTheBody) {
   ASSERT_EQ(bodies.bodies.size(), 1U);
   const recon::TrackedPosture& raw = bodies.bodies[0].raw;
   for (const Joint joint : {Joint::kHead, Joint::kShoulderCenter, Joint::kSpine}) {
-    const auto j = static_cast<size_t>(recon::Index(joint));
+    const auto j = recon::Index(joint);
     EXPECT_EQ(raw.state[j], TrackingState::kTracked) << recon::NameOf(joint);
     // The forest knows bodies of flesh: a capsule figure's joints are 15 cm right at best.
     EXPECT_LT((raw.posture[joint] - render.joints[0][joint]).norm(), 0.15) << recon::NameOf(joint);
@@ -95,9 +95,9 @@ TEST(SdkConformance, BoneOrientationsAreAbsoluteAndHierarchical) {
   const BodyFrame bodies = TrackOnce(options, Rendered({PersonAt(0, 2.5)}));
   ASSERT_EQ(bodies.bodies.size(), 1U);
   const Body& body = bodies.bodies[0];
-  const auto absolute = recon::AbsoluteOf(HierarchicalOrientationsOf(body));
+  const auto absolute = recon::ToAbsolute(HierarchicalOrientationsOf(body));
   for (size_t j = 1; j < kJointCount; ++j) {
-    const auto parent = static_cast<size_t>(recon::kJointParent[j]);
+    const auto parent = recon::ParentOf(j);
     const Eigen::Vector3d bone =
         (body.joints[j].position_m - body.joints[parent].position_m).normalized();
     // The SDK's convention: the bone is the y axis. Doubles through one product: 1e-9.
@@ -284,7 +284,7 @@ TEST(SdkConformance, ACHeaderServesOtherLanguages) {
       << ossa_last_error();
   ASSERT_EQ(frame.body_count, 1);
   EXPECT_EQ(frame.bodies[0].state, OSSA_FULLY_TRACKED);
-  EXPECT_EQ(frame.bodies[0].joints[recon::Index(Joint::kHead)].state, OSSA_TRACKED);
+  EXPECT_EQ(frame.bodies[0].joints[Joint::kHead].state, OSSA_TRACKED);
   EXPECT_EQ(frame.has_floor, 1);
   const int32_t nobody = 0;
   EXPECT_EQ(ossa_tracker_choose_users(tracker, &nobody, 1), 0);
@@ -317,7 +317,7 @@ class WalkInC {
         << ossa_last_error();
     ++frames_;
     EXPECT_EQ(frame.body_count, 1);
-    return frame.bodies[0].joints[recon::Index(joint)];
+    return frame.bodies[0].joints[joint];
   }
   /// How far smoothing moved the head, metres.
   float SmoothedBy_m() {

@@ -6,7 +6,7 @@
 namespace ossa::tracker {
 namespace {
 
-constexpr auto kHand = static_cast<size_t>(recon::Index(recon::Joint::kHandLeft));
+constexpr auto kHand = recon::Index(recon::Joint::kHandLeft);
 
 // Somebody whose left hand is said to be 30 cm before the body, where the camera looks through it
 // at the wall.

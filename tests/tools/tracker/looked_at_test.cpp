@@ -65,7 +65,7 @@ TEST(LookedAt, JointsStandBesideTheRawOnesAndBestStartsFromThem) {
   EXPECT_NEAR(moved_m(there.raw.posture, up.raw.posture), 0.0, 1e-9);
   EXPECT_NEAR(moved_m(there.raw.posture, *there.refined), 0.0, 1e-9);
   EXPECT_NEAR(moved_m(up.raw.posture, *up.refined), 0.06, 0.005);
-  EXPECT_GT(moved_m(PostureOf(there), PostureOf(up)), 0.02);  // bones are kept, so not all of it
+  EXPECT_GT(moved_m(ToPosture(there), ToPosture(up)), 0.02);  // bones are kept, so not all of it
 }
 
 // Bones that the look judges half as long again are so in what best makes of the joints.
@@ -83,7 +83,7 @@ TEST(LookedAt, BestHasTheBonesThatTheLookJudges) {
     TrackerOptions options;
     options.look = folder / "bones.ossalook";
     look.Save(options.look);
-    return recon::BoneLengthsOf(PostureOf(Tracked(options)))[recon::Index(Joint::kAnkleLeft)];
+    return recon::MeasureBoneLengths(ToPosture(Tracked(options)))[recon::Index(Joint::kAnkleLeft)];
   };
   EXPECT_NEAR(shin_m(1.5F) / shin_m(1.0F), 1.5, 0.01);  // in a file, weights are halves
 }

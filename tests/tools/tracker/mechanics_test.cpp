@@ -13,10 +13,9 @@ TEST(Mechanics, AFootNobodySeesStaysWhereTheReconstructionPutIt) {
   // Two metres before the sensor, and the feet stretched out, which a hanging foot would not be.
   recon::Posture standing = recon::StandardPosture(recon::RigPose{});
   for (auto& p : standing.position_m) p.z() += 2.0;
-  std::array<double, recon::kJointCount> trust;
+  recon::JointArray<double> trust;
   trust.fill(1.0);
-  for (const Joint foot : {Joint::kFootLeft, Joint::kFootRight})
-    trust[static_cast<size_t>(recon::Index(foot))] = 0.0;
+  for (const Joint foot : {Joint::kFootLeft, Joint::kFootRight}) trust[foot] = 0.0;
   Mechanics mechanics{MechanicsBuild{}};
   std::optional<physics::FilteredPosture> made;
   for (int i = 1; i <= 60; ++i) made = mechanics.Follow(standing, trust, std::nullopt, i / 30.0);
@@ -31,8 +30,8 @@ TEST(Mechanics, AFootNobodySeesStaysWhereTheReconstructionPutIt) {
 /// frame, each frame by another `unsteady` more or less, over that of the first frame.
 double ShinAfter(double longer, double unsteady) {
   recon::BoneLengths bones_m = recon::StandardBoneLengths();
-  const auto shin = static_cast<size_t>(recon::Index(Joint::kAnkleLeft));
-  std::array<double, recon::kJointCount> trust;
+  const auto shin = recon::Index(Joint::kAnkleLeft);
+  recon::JointArray<double> trust;
   trust.fill(1.0);
   Mechanics mechanics{MechanicsBuild{}};
   std::optional<physics::FilteredPosture> made;
@@ -42,7 +41,8 @@ double ShinAfter(double longer, double unsteady) {
     made = mechanics.Follow(recon::Retargeted(recon::StandardStance(), bones_m), trust,
                             std::nullopt, (i + 1) / 30.0);
   }
-  return made ? recon::BoneLengthsOf(made->posture)[shin] / recon::StandardBoneLengths()[shin] : 0;
+  return made ? recon::MeasureBoneLengths(made->posture)[shin] / recon::StandardBoneLengths()[shin]
+              : 0;
 }
 
 TEST(Mechanics, TheCharacterGetsTheBonesThatThePosturesComeToKeep) {
@@ -55,7 +55,7 @@ TEST(Mechanics, TheCharacterGetsTheBonesThatThePosturesComeToKeep) {
 /// when so high a floor is said to be there, one height after another, a second each.
 double FootOn(std::initializer_list<double> floors_m) {
   const recon::Posture standing = recon::StandardStance();
-  std::array<double, recon::kJointCount> trust;
+  recon::JointArray<double> trust;
   trust.fill(1.0);
   Mechanics mechanics{MechanicsBuild{}};
   std::optional<physics::FilteredPosture> made;

@@ -13,8 +13,8 @@ namespace {
 
 using recon::Joint;
 
-std::array<int, recon::kJointCount> OneTargetPerJoint() {
-  std::array<int, recon::kJointCount> targets;
+recon::JointArray<int> OneTargetPerJoint() {
+  recon::JointArray<int> targets;
   std::iota(targets.begin(), targets.end(), 0);
   return targets;
 }
@@ -74,7 +74,7 @@ TEST_F(PersonWithABox, LosesTheBoxWhenAllBonesAreKnown) {
 
 TEST_F(PersonWithABox, KeepsItWhenAnArmIsNotSeen) {  // it may be the arm
   const auto before = Held();
-  found_.perception.proposals[static_cast<size_t>(recon::Index(Joint::kHandRight))].clear();
+  found_.perception.proposals[Joint::kHandRight].clear();
   TrimToBody(OneTargetPerJoint(), render_.frame, scene_, found_);
   EXPECT_EQ(Held(), before);
 }
@@ -137,7 +137,7 @@ TEST_F(Halves, AreStackedAlsoBeforeASensorThatLooksDown) {
 }
 
 TEST(MeasureBody, LeavesOutLimbsThatNobodyHas) {
-  recon::Posture joints = tests::JointsOf(PersonAt(0, 2.5));
+  recon::Posture joints = tests::ComputeJoints(PersonAt(0, 2.5));
   const auto thigh_m = [&] {
     const auto body = MeasureBody(SureOf(joints), OneTargetPerJoint(), std::nullopt);
     return body[static_cast<size_t>(depth::Measure::kThigh)];

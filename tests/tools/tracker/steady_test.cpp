@@ -94,7 +94,7 @@ TEST(SteadyJoint, DriftsAlongWithASwayingPerson) {
 recon::TrackedPosture HeadSeenAt(const Vector3d& p) {
   recon::TrackedPosture seen;
   seen.state.fill(recon::TrackingState::kNotTracked);
-  const auto head = static_cast<size_t>(recon::Index(recon::Joint::kHead));
+  const auto head = recon::Index(recon::Joint::kHead);
   seen.state[head] = recon::TrackingState::kTracked;
   seen.posture.position_m[head] = p;
   return seen;

@@ -14,7 +14,7 @@ using Json = nlohmann::ordered_json;
 
 Json OrNull(const std::optional<double>& value) { return value ? Json(*value) : Json(nullptr); }
 
-Json ByJoint(const std::array<std::optional<double>, recon::kJointCount>& values) {
+Json ByJoint(const recon::JointArray<std::optional<double>>& values) {
   Json json = Json::object();
   for (size_t j = 0; j < values.size(); ++j) {
     if (values[j]) json[std::string(recon::kJointNames[j])] = *values[j];

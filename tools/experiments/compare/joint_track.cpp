@@ -22,7 +22,6 @@ using recon::SkeletonSequence;
 
 constexpr double kLongestGap_s = 0.2;  // truth is not interpolated across more
 constexpr double kSameTime_s = 2e-3;   // nearer than this, a time is the same time
-constexpr size_t kJoints = recon::kJointCount;
 
 double MedianStep_s(const std::vector<double>& time_s) {
   std::vector<double> steps;
@@ -76,7 +75,7 @@ std::vector<double> TimesOf(const std::map<int, JointTrack>& tracks) {
 
 SparsePosture Between(const SparsePosture& a, const SparsePosture& b, double share) {
   SparsePosture between;
-  for (size_t j = 0; j < kJoints; ++j) {
+  for (size_t j = 0; j < recon::kJointCount; ++j) {
     between.present[j] = a.present[j] && b.present[j];
     between.position_m[j] = (1 - share) * a.position_m[j] + share * b.position_m[j];
     between.confidence[j] = std::min(a.confidence[j], b.confidence[j]);
@@ -100,7 +99,7 @@ std::optional<SparsePosture> At(const JointTrack& track, double time_s) {
 double MeanDistance(const SparsePosture& a, const SparsePosture& b) {
   double sum = 0;
   int count = 0;
-  for (size_t j = 0; j < kJoints; ++j) {
+  for (size_t j = 0; j < recon::kJointCount; ++j) {
     if (!a.present[j] || !b.present[j]) continue;
     sum += (a.position_m[j] - b.position_m[j]).norm();
     ++count;
@@ -125,14 +124,14 @@ bool FrameTimesAgree(const JointTrack& truth, const JointTrack& result) {
 // are kept apart: their sum over a whole body is nearly constant in many motions and would say
 // little about time.
 struct Speeds {
-  std::array<std::vector<double>, kJoints> speed;
-  std::array<std::vector<bool>, kJoints> known;
+  recon::JointArray<std::vector<double>> speed;
+  recon::JointArray<std::vector<bool>> known;
 };
 
 Speeds SpeedsOf(const JointTrack& track, double start_s, double step_s, size_t count) {
   constexpr double kHalf_s = 0.05;  // speeds over a tenth of a second: above the sensor's jitter
   Speeds speeds;
-  for (size_t j = 0; j < kJoints; ++j) {
+  for (size_t j = 0; j < recon::kJointCount; ++j) {
     speeds.speed[j].assign(count, 0.0);
     speeds.known[j].assign(count, false);
   }
@@ -140,7 +139,7 @@ Speeds SpeedsOf(const JointTrack& track, double start_s, double step_s, size_t c
     const double time_s = start_s + static_cast<double>(i) * step_s;
     const auto before = At(track, time_s - kHalf_s);
     const auto after = At(track, time_s + kHalf_s);
-    for (size_t j = 0; before && after && j < kJoints; ++j) {
+    for (size_t j = 0; before && after && j < recon::kJointCount; ++j) {
       if (!before->present[j] || !after->present[j]) continue;
       speeds.known[j][i] = true;
       speeds.speed[j][i] = (after->position_m[j] - before->position_m[j]).norm();
@@ -158,7 +157,7 @@ double Correlation(const Speeds& a, const Speeds& b, long shift, long fewest) {
   double variance_a = 0;
   double variance_b = 0;
   long shared = 0;
-  for (size_t j = 0; j < kJoints; ++j) {
+  for (size_t j = 0; j < recon::kJointCount; ++j) {
     double n = 0, x = 0, y = 0, xx = 0, yy = 0, xy = 0;
     for (long i = std::max(0L, shift); i < count + std::min(0L, shift); ++i) {
       const auto at_a = static_cast<size_t>(i);
@@ -199,7 +198,7 @@ void AlignRigidly(PairedTracks& pair) {
   std::vector<Eigen::Vector3d> from;
   std::vector<Eigen::Vector3d> to;
   for (size_t f = 0; f < pair.truth.size(); ++f) {
-    for (size_t j = 0; j < kJoints; ++j) {
+    for (size_t j = 0; j < recon::kJointCount; ++j) {
       if (!pair.truth[f].present[j] || !pair.result[f].present[j]) continue;
       from.push_back(pair.result[f].position_m[j]);
       to.push_back(pair.truth[f].position_m[j]);
@@ -334,8 +333,8 @@ void PairFrames(const std::map<int, JointTrack>& truths, const std::vector<Skele
 
 SparsePosture SparsePostureOf(const BodyRecord& body) {
   SparsePosture sparse;
-  const recon::TrackedPosture tracked = recon::TrackedPostureOf(body);
-  for (size_t j = 0; j < kJoints; ++j) {
+  const recon::TrackedPosture tracked = recon::ToTrackedPosture(body);
+  for (size_t j = 0; j < recon::kJointCount; ++j) {
     sparse.present[j] = body.joints[j] && recon::HasPlace(*body.joints[j]);
     sparse.position_m[j] = tracked.posture.position_m[j];
     sparse.confidence[j] = tracked.confidence[j];

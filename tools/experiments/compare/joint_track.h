@@ -11,9 +11,9 @@ namespace ossa::tools {
 /// Joints of one person at one time. What a sensor does not track is not there; what a method has
 /// placed unseen is (recon::HasPlace): it answers for it as for any other joint.
 struct SparsePosture {
-  std::array<Eigen::Vector3d, recon::kJointCount> position_m;
-  std::array<bool, recon::kJointCount> present{};
-  std::array<double, recon::kJointCount> confidence{};
+  recon::JointArray<Eigen::Vector3d> position_m;
+  recon::JointArray<bool> present{};
+  recon::JointArray<double> confidence{};
 
   SparsePosture() { position_m.fill(Eigen::Vector3d::Zero()); }
 };

@@ -7,7 +7,6 @@
 namespace ossa::tools {
 namespace {
 
-constexpr size_t kJoints = recon::kJointCount;
 constexpr double kCentimetres = 100.0;   // in a metre, by definition
 constexpr double kGrossError_cm = 20.0;  // Plantard 2016, section 8.2
 constexpr double kHit_cm = 10.0;         // Shotton 2011, section 4
@@ -37,12 +36,10 @@ double Error_cm(const PairedTracks& pair, size_t frame, size_t joint) {
 // One term of eq. 18: |(p1 - p1') - (p2 - p2')|, the primes the parent.
 std::optional<double> RelativeError_cm(const PairedTracks& pair, size_t frame, size_t joint) {
   if (!Both(pair, frame, joint)) return std::nullopt;
-  int parent = recon::kJointParent[joint];
-  while (parent >= 0 && !Both(pair, frame, static_cast<size_t>(parent))) {
-    parent = recon::kJointParent[static_cast<size_t>(parent)];
-  }
-  if (parent < 0) return std::nullopt;
-  const auto p = static_cast<size_t>(parent);
+  if (joint == 0) return std::nullopt;
+  size_t p = recon::ParentOf(joint);
+  while (p != 0 && !Both(pair, frame, p)) p = recon::ParentOf(p);
+  if (!Both(pair, frame, p)) return std::nullopt;
   const SparsePosture& truth = pair.truth[frame];
   const SparsePosture& result = pair.result[frame];
   return kCentimetres * ((result.position_m[joint] - result.position_m[p]) -
@@ -65,13 +62,13 @@ std::optional<double> Percentile(std::vector<double> values, double share) {
 
 void MeasureErrors(const PairedTracks& pair, ClipMetrics& metrics) {
   Mean all;
-  std::array<Mean, kJoints> by_joint;
+  recon::JointArray<Mean> by_joint;
   Mean relative;
   Mean within;
   Mean missing;
   for (size_t f = 0; f < pair.truth.size(); ++f) {
     bool any = false;
-    for (size_t j = 0; j < kJoints; ++j) {
+    for (size_t j = 0; j < recon::kJointCount; ++j) {
       if (!pair.truth[f].present[j]) continue;
       missing.Add(pair.result[f].present[j] ? 0.0 : 1.0);
       if (!pair.result[f].present[j]) {
@@ -91,12 +88,12 @@ void MeasureErrors(const PairedTracks& pair, ClipMetrics& metrics) {
   metrics.parent_relative_error_cm = relative.Value();
   metrics.fraction_joints_within_10cm = within.Value();
   metrics.fraction_joints_missing = missing.Value();
-  for (size_t j = 0; j < kJoints; ++j) metrics.per_joint_cm[j] = by_joint[j].Value();
+  for (size_t j = 0; j < recon::kJointCount; ++j) metrics.per_joint_cm[j] = by_joint[j].Value();
 }
 
 void MeasureOffsetRemoved(const PairedTracks& pair, ClipMetrics& metrics) {
   Mean all;
-  for (size_t j = 0; j < kJoints; ++j) {
+  for (size_t j = 0; j < recon::kJointCount; ++j) {
     Eigen::Vector3d sum = Eigen::Vector3d::Zero();
     std::vector<Eigen::Vector3d> differences;
     for (size_t f = 0; f < pair.truth.size(); ++f) {
@@ -123,7 +120,7 @@ void MeasureAcceleration(const PairedTracks& pair, ClipMetrics& metrics) {
   Mean all;
   for (size_t f = 2; f < pair.time_s.size(); ++f) {
     if (steps[f - 1] > longest_s || steps[f - 2] > longest_s) continue;
-    for (size_t j = 0; j < kJoints; ++j) {
+    for (size_t j = 0; j < recon::kJointCount; ++j) {
       if (!Both(pair, f, j) || !Both(pair, f - 1, j) || !Both(pair, f - 2, j)) continue;
       const auto difference = [&](size_t frame) -> Eigen::Vector3d {
         return pair.result[frame].position_m[j] - pair.truth[frame].position_m[j];
@@ -136,8 +133,8 @@ void MeasureAcceleration(const PairedTracks& pair, ClipMetrics& metrics) {
 
 void MeasureBones(const PairedTracks& pair, ClipMetrics& metrics) {
   Mean variation;
-  for (size_t j = 1; j < kJoints; ++j) {
-    const auto parent = static_cast<size_t>(recon::kJointParent[j]);
+  for (size_t j = 1; j < recon::kJointCount; ++j) {
+    const auto parent = recon::ParentOf(j);
     std::vector<double> lengths;
     for (const SparsePosture& posture : pair.result) {
       if (!posture.present[j] || !posture.present[parent]) continue;
@@ -187,7 +184,7 @@ FrameErrors ErrorsByFrame(const PairedTracks& pair) {
   for (size_t f = 0; f < pair.truth.size(); ++f) {
     Mean absolute;
     Mean relative;
-    for (size_t j = 0; j < kJoints; ++j) {
+    for (size_t j = 0; j < recon::kJointCount; ++j) {
       if (Both(pair, f, j)) absolute.Add(Error_cm(pair, f, j));
       if (const auto error = RelativeError_cm(pair, f, j)) relative.Add(*error);
     }
@@ -200,7 +197,7 @@ FrameErrors ErrorsByFrame(const PairedTracks& pair) {
 std::vector<double> JointErrors_cm(const PairedTracks& pair) {
   std::vector<double> errors;
   for (size_t f = 0; f < pair.truth.size(); ++f) {
-    for (size_t j = 0; j < kJoints; ++j) {
+    for (size_t j = 0; j < recon::kJointCount; ++j) {
       if (Both(pair, f, j)) errors.push_back(Error_cm(pair, f, j));
     }
   }
@@ -225,7 +222,7 @@ ClipMetrics Measure(const PairedTracks& pair) {
   }
   metrics.fraction_frames_over_20cm = over.Value();
   Mean precision;
-  for (size_t j = 0; j < kJoints; ++j) {
+  for (size_t j = 0; j < recon::kJointCount; ++j) {
     metrics.ap_10cm[j] = AveragePrecision(pair, j);
     if (metrics.ap_10cm[j]) precision.Add(*metrics.ap_10cm[j]);
   }
@@ -251,7 +248,7 @@ ClipMetrics MeanOverClips(const std::string& name, const std::vector<ClipMetrics
         &ClipMetrics::p95_cm, &ClipMetrics::p99_cm, &ClipMetrics::fraction_joints_missing}) {
     average(member);
   }
-  for (size_t j = 0; j < kJoints; ++j) {
+  for (size_t j = 0; j < recon::kJointCount; ++j) {
     Mean error;
     Mean precision;
     for (const ClipMetrics& clip : clips) {

@@ -39,8 +39,8 @@ struct ClipMetrics {
   std::optional<double> p99_cm;
   /// True joints that the result does not have.
   std::optional<double> fraction_joints_missing;
-  std::array<std::optional<double>, recon::kJointCount> per_joint_cm;
-  std::array<std::optional<double>, recon::kJointCount> ap_10cm;
+  recon::JointArray<std::optional<double>> per_joint_cm;
+  recon::JointArray<std::optional<double>> ap_10cm;
 };
 
 ClipMetrics Measure(const PairedTracks& pair);

@@ -13,7 +13,6 @@ namespace {
 
 // Constants: sizes of the page's plots, pixels, by eye.
 
-constexpr size_t kJoints = recon::kJointCount;
 
 constexpr const char* kHead = R"(<!DOCTYPE html>
 <html lang="en"><head><meta charset="utf-8"><title>ossa compare</title><style>
@@ -165,7 +164,7 @@ std::string JointBars(const Comparison& comparison) {
   std::vector<std::vector<std::optional<double>>> values(comparison.results.size());
   std::vector<std::string> names;
   for (const ComparedResult& result : comparison.results) names.push_back(result.label);
-  for (size_t j = 0; j < kJoints; ++j) {
+  for (size_t j = 0; j < recon::kJointCount; ++j) {
     const bool any =
         std::any_of(comparison.results.begin(), comparison.results.end(),
                     [&](const ComparedResult& r) { return r.mean.per_joint_cm[j].has_value(); });
@@ -190,16 +189,14 @@ std::string Bones(const SparsePosture& posture, const Eigen::Vector3d& centre, b
     return std::pair{kCentreX + (side ? p.z() + 170 : -p.x()), kCentreY - p.y()};
   };
   std::string svg;
-  for (size_t j = 0; j < kJoints; ++j) {
+  for (size_t j = 0; j < recon::kJointCount; ++j) {
     if (!posture.present[j]) continue;
     const auto [x, y] = point(j);
     svg += fmt::format("<circle cx=\"{:.1f}\" cy=\"{:.1f}\" r=\"2.2\" fill=\"{}\"/>", x, y, colour);
-    int parent = recon::kJointParent[j];
-    while (parent >= 0 && !posture.present[static_cast<size_t>(parent)]) {
-      parent = recon::kJointParent[static_cast<size_t>(parent)];
-    }
-    if (parent < 0) continue;
-    const auto [px, py] = point(static_cast<size_t>(parent));
+    size_t parent = recon::ParentOf(j);
+    while (parent != 0 && !posture.present[parent]) parent = recon::ParentOf(parent);
+    if (j == 0 || !posture.present[parent]) continue;
+    const auto [px, py] = point(parent);
     svg += fmt::format(
         "<line x1=\"{:.1f}\" y1=\"{:.1f}\" x2=\"{:.1f}\" y2=\"{:.1f}\" stroke=\"{}\" "
         "stroke-width=\"2\"/>",
@@ -211,7 +208,7 @@ std::string Bones(const SparsePosture& posture, const Eigen::Vector3d& centre, b
 Eigen::Vector3d CentreOf(const SparsePosture& posture) {
   Eigen::Vector3d sum = Eigen::Vector3d::Zero();
   double count = 0;
-  for (size_t j = 0; j < kJoints; ++j) {
+  for (size_t j = 0; j < recon::kJointCount; ++j) {
     if (!posture.present[j]) continue;
     sum += posture.position_m[j];
     ++count;

@@ -25,7 +25,7 @@ std::string ExerciseOf(const std::string& clip) {
 std::optional<double> NearestDistance_cm(const recon::PostureDatabase& database,
                                          const recon::BodyRecord& body, double& yaw_rad) {
   constexpr double kFewest = 10.0;  // joints of 20, half of them; by hand
-  recon::Posture seen = recon::TrackedPostureOf(body).posture;
+  recon::Posture seen = recon::ToTrackedPosture(body).posture;
   recon::JointWeights there{};
   double count = 0.0;
   for (size_t j = 0; j < recon::kJointCount; ++j) {
@@ -35,18 +35,19 @@ std::optional<double> NearestDistance_cm(const recon::PostureDatabase& database,
       continue;
     }
     // An absent joint counts for nothing; its children hang on its parent.
-    if (j > 0) seen.position_m[j] = seen.position_m[static_cast<size_t>(recon::kJointParent[j])];
+    if (j > 0) seen.position_m[j] = seen.position_m[recon::ParentOf(j)];
   }
   if (count < kFewest || there[0] == 0.0) return std::nullopt;
-  const recon::Placement place = recon::PlacementOf(seen, there, yaw_rad);
+  const recon::Placement place = recon::EstimatePlacement(seen, there, yaw_rad);
   yaw_rad = place.yaw_rad;
-  const recon::PostureVector query = recon::VectorOf(
+  const recon::PostureVector query = recon::ToVector(
       recon::Retargeted(recon::Normalised(seen, place), recon::StandardBoneLengths()));
   const int nearest = recon::NearestPostures(database, query, there, 1).at(0).index;
   double sum_cm = 0.0;
-  for (int j = 0; j < recon::kJointCount; ++j) {
-    const auto off = query.segment<3>(3 * j) - database.postures().col(nearest).segment<3>(3 * j);
-    sum_cm += 100.0 * there[static_cast<size_t>(j)] * static_cast<double>(off.norm());
+  for (size_t j = 0; j < recon::kJointCount; ++j) {
+    const auto off = query.segment<3>(recon::FirstCoordinate(j)) -
+                     database.postures().col(nearest).segment<3>(recon::FirstCoordinate(j));
+    sum_cm += 100.0 * there[j] * static_cast<double>(off.norm());
   }
   return sum_cm / count;
 }

@@ -12,7 +12,7 @@
 namespace ossa::tools {
 namespace {
 
-constexpr auto kHand = static_cast<size_t>(recon::Joint::kHandLeft);
+constexpr auto kHand = recon::Index(recon::Joint::kHandLeft);
 
 // Inputs and outputs of one joint's regression.
 struct Samples {

@@ -49,8 +49,8 @@ recon::SkeletonSequence Facing(recon::SkeletonSequence sequence) {
   double yaw_rad = std::numbers::pi;
   for (auto& frame : sequence.frames) {
     for (auto& body : frame.bodies) {
-      const recon::Posture posture = recon::TrackedPostureOf(body).posture;
-      recon::Placement placement = recon::PlacementOf(posture, all, yaw_rad);
+      const recon::Posture posture = recon::ToTrackedPosture(body).posture;
+      recon::Placement placement = recon::EstimatePlacement(posture, all, yaw_rad);
       yaw_rad = placement.yaw_rad;
       const recon::Posture own = recon::Normalised(posture, placement);
       placement.yaw_rad = std::numbers::pi;

@@ -24,7 +24,7 @@ using Directions = std::array<Eigen::Vector3f, kBones>;
 Directions DirectionsOf(const Posture& posture) {
   Directions out;
   for (size_t i = 1; i < kJointCount; ++i) {
-    const auto parent = static_cast<size_t>(recon::kJointParent[i]);
+    const auto parent = recon::ParentOf(i);
     const Eigen::Vector3d bone = posture.position_m[i] - posture.position_m[parent];
     out[i - 1] = bone.normalized().cast<float>();
   }
@@ -57,22 +57,22 @@ std::optional<DatabaseBound> BoundOf(const recon::PostureDatabase& database,
   JointWeights all, given{};
   all.fill(1.0);
   given[0] = 1.0;
-  for (const recon::Joint part : parts) given[static_cast<size_t>(Index(part))] = 1.0;
+  for (const recon::Joint part : parts) given[part] = 1.0;
   DatabaseBound bound;
   double frames = 0.0, yaw_rad = std::numbers::pi;
   for (const auto& frame : truth.frames) {
     if (!IsWhole(frame)) continue;
-    const Posture seen = recon::TrackedPostureOf(frame.bodies[0]).posture;
-    const recon::Placement place = recon::PlacementOf(seen, all, yaw_rad);
+    const Posture seen = recon::ToTrackedPosture(frame.bodies[0]).posture;
+    const recon::Placement place = recon::EstimatePlacement(seen, all, yaw_rad);
     yaw_rad = place.yaw_rad;
     const Posture own = recon::Normalised(seen, place);
-    const BoneLengths lengths_m = recon::BoneLengthsOf(own);
+    const BoneLengths lengths_m = recon::MeasureBoneLengths(own);
     const Directions wanted = DirectionsOf(own);
     double nearest_cm = 1e9;
     for (const Directions& node : nodes) {
       nearest_cm = std::min(nearest_cm, Error_cm(wanted, node, lengths_m));
     }
-    const auto query = recon::VectorOf(recon::Retargeted(own, recon::StandardBoneLengths()));
+    const auto query = recon::ToVector(recon::Retargeted(own, recon::StandardBoneLengths()));
     const int by_parts = recon::NearestPostures(database, query, given, 1).at(0).index;
     bound.nearest_cm += nearest_cm;
     bound.by_parts_cm += Error_cm(wanted, nodes[static_cast<size_t>(by_parts)], lengths_m);
@@ -91,7 +91,7 @@ Eigen::Vector3d ErrorByLimbs_cm(const recon::SkeletonSequence& truth,
     const auto& a = truth.frames[f].bodies[0].joints;
     const auto& b = made.frames[f].bodies[0].joints;
     for (size_t i = 1; i < kJointCount; ++i) {
-      const auto parent = static_cast<size_t>(recon::kJointParent[i]);
+      const auto parent = recon::ParentOf(i);
       const Eigen::Index limb = i < 4 ? 0 : i < 12 ? 1 : 2;
       sum_cm[limb] += 100.0 * ((a[i]->position_m - a[parent]->position_m) -
                                (b[i]->position_m - b[parent]->position_m))

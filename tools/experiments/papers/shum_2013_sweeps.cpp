@@ -105,14 +105,14 @@ Table FigureNine(const Shum2013Study& study) {
   recon::ReliabilityEstimator reliability;
   const double reliability_ms = MillisecondsOf(
       [&](size_t i) {
-        reliability.Step(recon::TrackedPostureOf(clip.frames[i].bodies.at(0)), nullptr);
+        reliability.Step(recon::ToTrackedPosture(clip.frames[i].bodies.at(0)), nullptr);
       },
       clip.frames.size());
   physics::CharacterFilter character(recon::StandardBoneLengths());
   const double physics_ms = MillisecondsOf(
       [&](size_t i) {
         const auto& body = study.furniture[0].truth.frames[i].bodies.at(0);
-        character.Step(recon::TrackedPostureOf(body).posture, {}, std::nullopt, 1.0 / 30);
+        character.Step(recon::ToTrackedPosture(body).posture, {}, std::nullopt, 1.0 / 30);
       },
       std::min<size_t>(60, clip.frames.size()));
   const double total_ms = whole_ms + physics_ms;

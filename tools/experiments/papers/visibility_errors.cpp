@@ -40,7 +40,7 @@ VisibilityErrors ErrorsByVisibility(const std::vector<RecordedPair>& clips,
     for (size_t f = 0; f < pair.truth.size(); ++f) {
       const recon::BodyRecord* body = BodyAt(clips[c].truth, pair.time_s[f]);
       for (size_t j = 1; body != nullptr && j < recon::kJointCount; ++j) {
-        const auto parent = static_cast<size_t>(recon::kJointParent[j]);
+        const auto parent = recon::ParentOf(j);
         const SparsePosture &truth = pair.truth[f], &made = pair.result[f];
         if (!truth.present[j] || !truth.present[parent]) continue;
         if (!made.present[j] || !made.present[parent]) continue;

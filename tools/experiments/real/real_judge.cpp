@@ -28,7 +28,7 @@ JointErrors ErrorsOfBody(const RealSet& set, const RealStill& still, const Stage
   JointErrors errors;
   for (size_t j = 0; j < set.joints.size(); ++j) {
     errors.push_back(ErrorAgainst(still.truth[j], still.frame.camera,
-                                  joints[static_cast<size_t>(recon::Index(set.joints[j]))]));
+                                  joints[recon::Index(set.joints[j])]));
   }
   return errors;
 }

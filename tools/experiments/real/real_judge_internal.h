@@ -14,7 +14,7 @@ inline constexpr std::array kRealStages = {RealStage::kRaw, RealStage::kRefined,
 std::string_view StageName(RealStage stage);
 
 /// Where one stage puts the 20 joints; empty where it says nothing of a joint.
-using StageJoints = std::array<std::optional<Eigen::Vector3d>, recon::kJointCount>;
+using StageJoints = recon::JointArray<std::optional<Eigen::Vector3d>>;
 StageJoints JointsAtStage(const tracker::Body& body, RealStage stage);
 
 /// Error of each joint of one still: estimate minus truth, camera axes, metres; across the line of

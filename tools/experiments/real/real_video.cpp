@@ -28,7 +28,7 @@ struct Sample {
 struct Sums {
   std::map<RealStage, double> jitter_squares;
   std::map<RealStage, int64_t> jitter_count;
-  std::map<RealStage, std::array<std::vector<double>, recon::kJointCount>> bones_m;
+  std::map<RealStage, recon::JointArray<std::vector<double>>> bones_m;
   int64_t pixels = 0, explained = 0;
 };
 
@@ -61,7 +61,7 @@ void AddJitter(const Window& window, Sums& sums) {
 void AddBones(const Sample& sample, Sums& sums) {
   for (const auto& [stage, joints] : sample.joints) {
     for (size_t j = 1; j < recon::kJointCount; ++j) {
-      const auto parent = static_cast<size_t>(recon::kJointParent[j]);
+      const auto parent = recon::ParentOf(j);
       if (joints[j] && joints[parent]) {
         sums.bones_m[stage][j].push_back((*joints[j] - *joints[parent]).norm());
       }
@@ -85,7 +85,7 @@ void AddExplained(const depth::DepthFrame& frame, const tracker::BodyFrame& answ
     if (!joints[j]) return;
     posture.position_m[j] = *joints[j];
   }
-  const physics::Segments segments = physics::SegmentsOf(recon::BoneLengthsOf(posture));
+  const physics::Segments segments = physics::ComputeSegments(recon::MeasureBoneLengths(posture));
   size_t nth = 0;
   for (size_t i = 0; i < answer.users.data.size(); ++i) {
     if (answer.users.data[i] != body.id || frame.depth_mm[i] == 0) continue;
@@ -96,7 +96,7 @@ void AddExplained(const depth::DepthFrame& frame, const tracker::BodyFrame& answ
                            static_cast<double>(i / width), frame.depth_mm[i]);
     bool near = false;
     for (size_t j = 1; j < recon::kJointCount && !near; ++j) {
-      const auto parent = static_cast<size_t>(recon::kJointParent[j]);
+      const auto parent = recon::ParentOf(j);
       near = DistanceToSegment(point, posture.position_m[parent], posture.position_m[j]) <
              segments[j].radius_m + kExplained_m;
     }
@@ -121,7 +121,7 @@ int64_t CountBreaks(const tracker::BodyFrame& before, const tracker::BodyFrame& 
 }
 
 // Per cent of the mean, averaged over the bones that were seen in two frames or more.
-double VariationOf(const std::array<std::vector<double>, recon::kJointCount>& bones_m) {
+double VariationOf(const recon::JointArray<std::vector<double>>& bones_m) {
   double sum = 0;
   int count = 0;
   for (const std::vector<double>& lengths : bones_m) {

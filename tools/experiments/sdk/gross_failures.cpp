@@ -59,13 +59,13 @@ struct Verdicts {
 };
 
 /// Median length of every bone; 0 where it was never seen.
-std::array<double, kJointCount> MedianBones_m(const recon::SkeletonSequence& sequence) {
-  std::array<double, kJointCount> medians{};
+JointArray<double> MedianBones_m(const recon::SkeletonSequence& sequence) {
+  JointArray<double> medians{};
   for (size_t j = 1; j < kJointCount; ++j) {
     std::vector<double> lengths;
     for (const auto& frame : sequence.frames) {
       for (const BodyRecord& body : frame.bodies) {
-        const auto bone = Between(body, static_cast<size_t>(recon::kJointParent[j]), j);
+        const auto bone = Between(body, recon::ParentOf(j), j);
         if (bone) lengths.push_back(bone->norm());
       }
     }
@@ -88,7 +88,7 @@ void CountDoubts(const BodyRecord* judged, GrossFailures& out) {
 void CountJumps(const BodyRecord& now, const BodyRecord& before, const Verdicts& judged,
                 GrossFailures& out) {
   for (size_t j = 1; j < kJointCount; ++j) {
-    const auto parent = static_cast<size_t>(recon::kJointParent[j]);
+    const auto parent = recon::ParentOf(j);
     const auto here = Between(now, parent, j), there = Between(before, parent, j);
     if (!here || !there || (*here - *there).norm() < kJump_m) continue;
     ++out.jumps;
@@ -141,7 +141,7 @@ GrossFailures CountGrossFailures(const recon::SkeletonSequence& sequence,
       ++out.frames;
       CountDoubts(BodyOf(verdict(f), now.id), out);
       for (size_t j = 1; j < kJointCount; ++j) {
-        const auto bone = Between(now, static_cast<size_t>(recon::kJointParent[j]), j);
+        const auto bone = Between(now, recon::ParentOf(j), j);
         if (bone && medians[j] > 0.0 &&
             std::abs(bone->norm() - medians[j]) > kWrongBone * medians[j]) {
           ++out.wrong_bones;

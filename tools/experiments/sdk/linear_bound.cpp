@@ -18,7 +18,7 @@ namespace {
 constexpr int kAhead = 1, kBack = 12, kTaps = kAhead + 1 + kBack;
 using Taps = Eigen::Matrix<double, kTaps, 1>;
 using Positions = Eigen::Matrix3Xd;  // one column a frame
-using JointTaps = std::array<Taps, recon::kJointCount>;
+using JointTaps = recon::JointArray<Taps>;
 
 /// What is to be small on the people learned from: the error without its mean, in position, and
 /// `acceleration` times the error in second differences.
@@ -96,7 +96,7 @@ struct Regression {
 constexpr Eigen::Index kFewestFrames = kTaps;
 
 JointTaps FiltersOf(const std::vector<const RecordedPair*>& recordings, const Goal& goal) {
-  std::array<Regression, recon::kJointCount> regressions;
+  recon::JointArray<Regression> regressions;
   for (const RecordedPair* recorded : recordings) {
     for (const PairedTracks& pair : PairUp(recorded->truth, recorded->observed)) {
       for (size_t j = 0; j < recon::kJointCount; ++j) {

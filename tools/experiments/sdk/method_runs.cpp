@@ -123,7 +123,7 @@ double MedianStep_ms(const MethodRun& run, const recon::SkeletonSequence& observ
   std::vector<double> times_ms;
   for (const recon::SkeletonFrame& frame : observed.frames) {
     if (frame.bodies.empty()) continue;
-    const recon::TrackedPosture posture = recon::TrackedPostureOf(frame.bodies[0]);
+    const recon::TrackedPosture posture = recon::ToTrackedPosture(frame.bodies[0]);
     const auto start = std::chrono::steady_clock::now();
     method->Step({posture, frame.time_s, nullptr});
     const std::chrono::duration<double, std::milli> taken =

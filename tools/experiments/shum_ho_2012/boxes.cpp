@@ -33,7 +33,7 @@ Vector3d ElbowOf(const Vector3d& shoulder, const Vector3d& wrist, double upper_m
 /// Both hands, wrists too, at the sides of something `half_m` wide: user constraints of sec. 6.1.
 /// The clip's own elbows know nothing of the box: theirs go where the wrists want them.
 void PutHands(Stage& stage, int person, const Vector3d& middle, double half_m, Posture& body) {
-  const recon::BoneLengths lengths = recon::BoneLengthsOf(body);
+  const recon::BoneLengths lengths = recon::MeasureBoneLengths(body);
   for (const double side : {1.0, -1.0}) {
     const size_t hand = static_cast<size_t>(side > 0 ? Joint::kHandLeft : Joint::kHandRight);
     // A little above the middle: the box hangs.

@@ -27,7 +27,7 @@ Cost CostOf(const std::vector<Posture>& motion, int people, physics::Control con
   physics::CharacterFilterOptions options;
   options.control = control;
   for (int k = 0; k < people; ++k) {
-    filters.emplace_back(recon::BoneLengthsOf(motion[0]), options);
+    filters.emplace_back(recon::MeasureBoneLengths(motion[0]), options);
   }
   const Eigen::Vector4d floor(0.0, 1.0, 0.0, 0.0);
   std::vector<double> ms;
@@ -59,7 +59,7 @@ class EnduranceRun {
  public:
   EnduranceRun(const Posture& first, uint64_t seed) : random_(seed), before_(first) {
     world_.SetFloor(Eigen::Vector4d(0.0, 1.0, 0.0, 0.0));
-    person_ = world_.AddCharacter(recon::BoneLengthsOf(first), first);
+    person_ = world_.AddCharacter(recon::MeasureBoneLengths(first), first);
   }
 
   void Play(const std::vector<Posture>& clip, int64_t most_frames) {

@@ -64,7 +64,7 @@ class Targets {
 
 /// Joints that the sensor has no name for are put where they must be: the centre of the hips
 /// between them, wrists and ankles most of the way from elbow to hand and from knee to foot.
-void FillUnnamed(const std::array<bool, kJointCount>& named, Posture& target) {
+void FillUnnamed(const JointArray<bool>& named, Posture& target) {
   constexpr double kMostOfTheWay = 0.75;  // share of a step
   if (!named[0]) {
     target[Joint::kHipCenter] = 0.5 * (target[Joint::kHipLeft] + target[Joint::kHipRight]);
@@ -77,7 +77,7 @@ void FillUnnamed(const std::array<bool, kJointCount>& named, Posture& target) {
 }
 
 Targets::Targets(const std::vector<SparsePosture>& seen) {
-  std::array<bool, kJointCount> named{};
+  JointArray<bool> named{};
   for (const SparsePosture& s : seen) {
     for (size_t j = 0; j < kJointCount; ++j) named[j] = named[j] || s.present[j];
   }
@@ -99,7 +99,7 @@ recon::BoneLengths Targets::MedianLengths() const {
   for (size_t i = 1; i < kJointCount; ++i) {
     std::vector<double> all;
     for (const Posture& p : postures_) {
-      const double length = recon::BoneLengthsOf(p)[i];
+      const double length = recon::MeasureBoneLengths(p)[i];
       if (std::isfinite(length)) all.push_back(length);
     }
     const auto middle = all.begin() + std::ssize(all) / 2;
@@ -114,8 +114,8 @@ recon::BoneLengths Targets::MedianLengths() const {
 class FootMeter {
  public:
   void See(const physics::FilteredPosture& out, const FilterCase& c, size_t f) {
-    Foot(0, out.left_foot_pinned, static_cast<size_t>(Joint::kFootLeft), out, c, f);
-    Foot(1, out.right_foot_pinned, static_cast<size_t>(Joint::kFootRight), out, c, f);
+    Foot(0, out.left_foot_pinned, Index(Joint::kFootLeft), out, c, f);
+    Foot(1, out.right_foot_pinned, Index(Joint::kFootRight), out, c, f);
   }
   void NextCase() { pinned_ = {}; }
   double largest_m() const { return largest_m_; }
@@ -184,7 +184,7 @@ void Run(const FilterCase& c, const physics::CharacterFilterOptions& options, Me
     m.depth_m = std::max(m.depth_m, out.floor_depth_m);
     m.gap_m = std::max(m.gap_m, out.max_anchor_gap_m);
     m.feet.See(out, c, f);
-    const auto now = recon::BoneLengthsOf(out.posture);
+    const auto now = recon::MeasureBoneLengths(out.posture);
     for (size_t i = 1; i < kJointCount; ++i) {
       m.length_error = std::max(m.length_error, std::abs(now[i] / lengths[i] - 1.0));
     }

@@ -41,8 +41,8 @@ recon::PostureDatabase AuthoredDatabase(uint64_t seed, double threshold_m) {
 PostureVector Query(const Posture& in_camera) {
   recon::JointWeights even;
   even.fill(1.0);
-  const recon::Placement placement = recon::PlacementOf(in_camera, even, 0.0);
-  return recon::VectorOf(
+  const recon::Placement placement = recon::EstimatePlacement(in_camera, even, 0.0);
+  return recon::ToVector(
       recon::Retargeted(recon::Normalised(in_camera, placement), recon::StandardBoneLengths()));
 }
 
@@ -56,7 +56,7 @@ std::vector<PostureVector> Queries(const ExperimentContext& context) {
     for (size_t k = 0; k < pairs.size() && queries.size() < kFrames; k += 61) {
       for (const recon::SkeletonFrame& frame : pairs[k].observed.frames) {
         if (frame.bodies.empty() || queries.size() >= kFrames) continue;
-        Posture p = recon::TrackedPostureOf(frame.bodies[0]).posture;
+        Posture p = recon::ToTrackedPosture(frame.bodies[0]).posture;
         for (const size_t hand : {7U, 11U}) {  // UI-PRMD has no hands
           p.position_m[hand] = 1.3 * p.position_m[hand - 1] - 0.3 * p.position_m[hand - 2];
         }
@@ -117,7 +117,7 @@ Table DimensionStudy(ExperimentContext& context) {
   const Eigen::VectorXf mean = postures.rowwise().mean();
   const Eigen::MatrixXf centred = postures.colwise() - mean;
   const auto pca =
-      recon::SpectrumOf(Eigen::MatrixXd((centred * centred.transpose()).cast<double>()));
+      recon::DecomposeSymmetric(Eigen::MatrixXd((centred * centred.transpose()).cast<double>()));
   const std::vector<PostureVector> queries = Queries(context);
   const auto match = [&](int dims) {
     const Eigen::MatrixXf basis = pca.vectors.rightCols(dims).cast<float>();

@@ -36,7 +36,7 @@ FilterCase Noisy(const std::vector<Posture>& truth, double sigma_m, uint64_t see
   std::normal_distribution<double> normal;
   std::uniform_real_distribution<double> uniform;
   const auto draw = [&] { return Vector3d(normal(random), normal(random), normal(random)); };
-  std::array<Vector3d, kJointCount> wander;
+  JointArray<Vector3d> wander;
   wander.fill(Vector3d::Zero());
   for (const Posture& t : truth) {
     Posture p = t;

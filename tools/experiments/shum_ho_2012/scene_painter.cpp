@@ -96,9 +96,9 @@ void AddLimb(Painter& painter, std::vector<Piece>& pieces, const Vector3d& from,
 
 void AddCharacter(Painter& painter, std::vector<Piece>& pieces, const recon::Posture& posture,
                   const cv::Scalar& colour) {
-  const auto segments = physics::SegmentsOf(recon::BoneLengthsOf(posture));
+  const auto segments = physics::ComputeSegments(recon::MeasureBoneLengths(posture));
   for (size_t i = 1; i < recon::kJointCount; ++i) {
-    const Vector3d from = posture.position_m[static_cast<size_t>(recon::kJointParent[i])];
+    const Vector3d from = posture.position_m[recon::ParentOf(i)];
     const Vector3d bone = posture.position_m[i] - from;
     AddLimb(painter, pieces, from + segments[i].capsule_from * bone,
             from + segments[i].capsule_to * bone, segments[i].radius_m, colour);
@@ -174,8 +174,7 @@ Picture Paint(const physics::World& world, const SceneView& view, const SceneOve
   for (const Piece& piece : pieces) piece.draw();
   for (const recon::Posture& target : overlay.targets) {
     for (size_t i = 1; i < recon::kJointCount; ++i) {
-      painter.Line(target.position_m[static_cast<size_t>(recon::kJointParent[i])],
-                   target.position_m[i], kTarget, 1.0);
+      painter.Line(target.position_m[recon::ParentOf(i)], target.position_m[i], kTarget, 1.0);
     }
   }
   cv::putText(image, overlay.caption, {6, 14}, cv::FONT_HERSHEY_SIMPLEX, 0.4,

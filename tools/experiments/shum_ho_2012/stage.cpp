@@ -79,7 +79,7 @@ Stage::Stage(uint64_t seed, const SceneView& view, bool filmed)
 }
 
 int Stage::AddPerson(const Posture& start, const physics::CharacterOptions& options) {
-  return world.AddCharacter(recon::BoneLengthsOf(start), start, options);
+  return world.AddCharacter(recon::MeasureBoneLengths(start), start, options);
 }
 
 bool Stage::Struck(int person, const std::vector<size_t>& bones, int object) const {

@@ -122,7 +122,7 @@ std::vector<Prop> Set::Props(Occluders kind) const {
   if (poses_.empty()) return {};
   std::vector<recon::Posture> path_in_world;
   for (const recon::RigPose& pose : poses_)
-    path_in_world.push_back(recon::JointsOf(actors_[0].body(), pose));
+    path_in_world.push_back(recon::ComputeJoints(actors_[0].body(), pose));
   Random random(options_.seed, 2);
   return SampleLastingProps(kind, path_in_world, camera_from_world_, random);
 }
@@ -130,7 +130,7 @@ std::vector<Prop> Set::Props(Occluders kind) const {
 LabelledFrame Set::Sense(size_t index, const recon::Posture& joints) {
   std::vector<int> held;
   if (!held_.empty()) {
-    recon::Posture first = recon::JointsOf(actors_[0].body(), poses_[0]);
+    recon::Posture first = recon::ComputeJoints(actors_[0].body(), poses_[0]);
     for (auto& joint_m : first.position_m) joint_m = camera_from_world_ * joint_m;
     for (const Prop& prop : held_)
       held.push_back(renderer_.AddMesh(Carried(prop, first, joints).mesh_in_cam, false));

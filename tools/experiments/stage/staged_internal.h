@@ -30,7 +30,7 @@ class SimulatedSdk {
                          const Eigen::Vector3d& hips_m, JointMemory& memory);
 
   Random random_;
-  std::array<JointMemory, recon::kJointCount> memory_;
+  recon::JointArray<JointMemory> memory_;
 };
 
 }  // namespace ossa::tools
