@@ -10,8 +10,6 @@
 namespace ossa::recon {
 namespace {
 
-// Constants: chosen by hand, where no source is said.
-
 double AngleBetween(const Eigen::Vector3d& a, const Eigen::Vector3d& b) {
   return std::atan2(a.cross(b).norm(), a.dot(b));
 }
@@ -21,26 +19,23 @@ double TiltFromUp(const Posture& posture, Joint from, Joint to) {
   return AngleBetween(posture[to] - posture[from], Eigen::Vector3d::UnitY()) * 180.0 / M_PI;
 }
 
-// Over the standard body's bones at the person's size: joints are defined differently by every
-// sensor, but not by more.
-constexpr double kShortest = 0.5, kLongest = 2.0;  // ratio
-constexpr int kFewestJoints = 8;
-
 }  // namespace
 
-bool IsReferencePosture(const Posture& p) {
-  constexpr double kUpright_deg = 20.0;  // of trunk and legs
+bool IsReferencePosture(const Posture& p, const ReferenceLengthOptions& options) {
+  constexpr double kLevel_deg = 90.0;
+  const double upright_deg = options.upright_deg, arms_deg = options.level_arms_deg;
   // Comparisons this way round: what is not finite is not upright.
-  if (!(TiltFromUp(p, Joint::kHipCenter, Joint::kShoulderCenter) <= kUpright_deg)) return false;
+  if (!(TiltFromUp(p, Joint::kHipCenter, Joint::kShoulderCenter) <= upright_deg)) return false;
   for (const auto& [hip, shoulder] : {std::pair{Joint::kHipLeft, Joint::kShoulderLeft},
                                       std::pair{Joint::kHipRight, Joint::kShoulderRight}}) {
     const auto next = [](Joint j, size_t n) { return static_cast<Joint>(Index(j) + n); };
-    if (!(TiltFromUp(p, next(hip, 1), hip) <= kUpright_deg)) return false;
-    if (!(TiltFromUp(p, next(hip, 2), next(hip, 1)) <= kUpright_deg)) return false;
+    if (!(TiltFromUp(p, next(hip, 1), hip) <= upright_deg)) return false;
+    if (!(TiltFromUp(p, next(hip, 2), next(hip, 1)) <= upright_deg)) return false;
     const double upper = TiltFromUp(p, shoulder, next(shoulder, 1));
     const double lower = TiltFromUp(p, next(shoulder, 1), next(shoulder, 2));
-    const bool level = std::abs(upper - 90.0) < 25.0 && std::abs(lower - 90.0) < 25.0;
-    const bool hanging = upper > 145.0 && lower > 130.0;
+    const bool level =
+        std::abs(upper - kLevel_deg) < arms_deg && std::abs(lower - kLevel_deg) < arms_deg;
+    const bool hanging = upper > options.hanging_upper_deg && lower > options.hanging_lower_deg;
     if (!level && !hanging) return false;
   }
   return true;
@@ -52,11 +47,11 @@ void ReferenceLengths::Observe(const Posture& in_camera, const JointWeights& tru
   int known_joints = 0;
   bool all = true;
   for (size_t i = 0; i < kJointCount; ++i) {
-    had_[i] = had_[i] || trust[i] >= 0.99;
+    had_[i] = had_[i] || trust[i] >= options_.tracked;
     known_joints += had_[i] ? 1 : 0;
-    all = all && (!had_[i] || trust[i] >= 0.99);
+    all = all && (!had_[i] || trust[i] >= options_.tracked);
   }
-  if (all && known_joints >= kFewestJoints && IsReferencePosture(in_camera)) {
+  if (all && known_joints >= options_.fewest_joints && IsReferencePosture(in_camera, options_)) {
     FromReferencePosture(lengths, trust);
   } else if (!from_posture_) {
     FromAnyPosture(lengths, trust);
@@ -69,15 +64,16 @@ void ReferenceLengths::FromReferencePosture(const BoneLengths& lengths, const Jo
   // what an earlier reference posture showed, while the size stayed the same: of that person's
   // postures the mean of some ten holds.
   const double scale = EstimateBodyScale(lengths, trust);
-  const bool same_size = from_posture_ && std::abs(scale / scale_ - 1.0) < 0.2;
+  const bool same_size = from_posture_ && std::abs(scale / scale_ - 1.0) < options_.other_size;
   for (size_t i = 1; i < kJointCount; ++i) {
     const double standard = scale * StandardBoneLengths()[i];
-    if (std::min(trust[i], trust[ParentOf(i)]) < 0.99) {
-      if (!same_size) lengths_m_[i] = standard;
+    if (std::min(trust[i], trust[ParentOf(i)]) < options_.tracked) {
+      if (!same_size) of_reference_.Start(i, standard);
     } else if (!same_size) {
-      lengths_m_[i] = std::clamp(lengths[i], kShortest * standard, kLongest * standard);
-    } else if (std::abs(lengths[i] / lengths_m_[i] - 1.0) < 0.15) {
-      lengths_m_[i] = 0.9 * lengths_m_[i] + 0.1 * lengths[i];
+      of_reference_.Start(
+          i, std::clamp(lengths[i], options_.shortest * standard, options_.longest * standard));
+    } else if (std::abs(lengths[i] / of_reference_.length_m(i) - 1.0) < options_.other_length) {
+      of_reference_.Add(i, lengths[i]);
     }
   }
   scale_ = scale;
@@ -91,24 +87,20 @@ void ReferenceLengths::FromReferencePosture(const BoneLengths& lengths, const Jo
 /// foot is (a Kinect v2's hand lies twice as far from the wrist); the other joints the other way
 /// round.
 void ReferenceLengths::FromAnyPosture(const BoneLengths& lengths, const JointWeights& trust) {
-  constexpr int kMemory = 30;  // frames
-  const auto seen = std::count_if(trust.begin(), trust.end(), [](double t) { return t > 0.5; });
-  if (seen < kFewestJoints) {  // fewer joints do not fix a size
-    if (!known_) lengths_m_ = ScaledBoneLengths(EstimateBodyScale(lengths, trust));
-    return;
-  }
+  const auto seen =
+      std::count_if(trust.begin(), trust.end(), [this](double t) { return t > options_.present; });
+  if (seen < options_.fewest_joints) return;
   if (!known_) scale_ = EstimateBodyScale(lengths, trust);
   known_ = true;
   for (size_t i = 1; i < kJointCount; ++i) {
     const double standard = scale_ * StandardBoneLengths()[i];
-    if (measured_[i] == 0) lengths_m_[i] = standard;
+    if (before_reference_.measurements(i) == 0) before_reference_.Start(i, standard);
     const bool midline = i <= 3, hand_or_foot = !midline && i % 4 == 3;
     if (!midline && !hand_or_foot) continue;
     const double both = std::min(trust[i], trust[ParentOf(i)]);
-    if (both <= 0.5 || !std::isfinite(lengths[i])) continue;
-    const double length = std::clamp(lengths[i], kShortest * standard, kLongest * standard);
-    measured_[i] = std::min(measured_[i] + 1, kMemory);
-    lengths_m_[i] += (length - lengths_m_[i]) / measured_[i];
+    if (both <= options_.present || !std::isfinite(lengths[i])) continue;
+    before_reference_.Add(
+        i, std::clamp(lengths[i], options_.shortest * standard, options_.longest * standard));
   }
 }
 
@@ -185,7 +177,7 @@ JointWeights ReliabilityEstimator::Kinematics(const Posture& posture,
   for (size_t i = 1; i < kJointCount; ++i) {
     const auto parent = ParentOf(i);
     if (seen[i] * seen[parent] == 0.0) continue;
-    const double reference = std::max(reference_.lengths_m()[i], 1e-3);
+    const double reference = std::max(reference_.length_m(i), 1e-3);
     const double d = std::min(std::abs(lengths[i] - reference) / reference, 1.0);  // eq. 5
     for (const size_t end : {i, parent}) {
       sum[end] += d;

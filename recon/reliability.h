@@ -4,6 +4,7 @@
 #include <optional>
 
 #include "depth/image/depth_frame.h"
+#include "recon/bone_lengths.h"
 #include "recon/normalise.h"
 #include "recon/posture.h"
 
@@ -46,28 +47,48 @@ struct Reliability {
   JointWeights rate{};        // R_i of eq. 8
 };
 
+/// Limits of the reference lengths; anthropometry and sensors' definitions of joints, with a
+/// margin.
+struct ReferenceLengthOptions {
+  // Over the standard body's bones at the person's size: joints are defined differently by every
+  // sensor, but not by more.
+  double shortest = 0.5, longest = 2.0;
+  int fewest_joints = 8;         // fewer do not fix a size
+  double tracked = 0.99;         // a joint with so much trust is tracked, [0, 1]
+  double present = 0.5;          // ... with more than that is there
+  double other_size = 0.2;       // relative: a body of that other size is another person's
+  double other_length = 0.15;    // relative: a length so far from the reference is an error
+  double upright_deg = 20.0;     // of trunk and legs in a reference posture
+  double level_arms_deg = 25.0;  // of arms from the horizontal in a T-pose
+  // Of hanging arms, from pointing up: upper arms hang, forearms may be bent forward.
+  double hanging_upper_deg = 145.0, hanging_lower_deg = 130.0;
+};
+
 /// Reference bone lengths of eq. 5: taken whenever a T-pose or a standing posture is seen with
 /// every joint tracked that the sensor has; until then the mean of what was seen.
 class ReferenceLengths {
  public:
   void Observe(const Posture& in_camera, const JointWeights& trust);
-  const BoneLengths& lengths_m() const { return lengths_m_; }
+  double length_m(size_t bone) const {
+    return from_posture_ ? of_reference_.length_m(bone) : before_reference_.length_m(bone);
+  }
   bool known() const { return known_; }
 
  private:
   void FromReferencePosture(const BoneLengths& lengths, const JointWeights& trust);
   void FromAnyPosture(const BoneLengths& lengths, const JointWeights& trust);
 
-  BoneLengths lengths_m_{};
-  JointArray<bool> had_{};      // joints that were ever tracked
-  JointArray<int> measured_{};  // frames in the mean of a bone without posture
-  double scale_ = 1.0;          // of the last reference posture, or of the first frame
-  bool known_ = false;          // some frame was good enough to measure at least the size
-  bool from_posture_ = false;   // a reference posture was seen
+  ReferenceLengthOptions options_;
+  BoneLengthEstimator before_reference_{BoneLengthOptions::BeforeReference()};
+  BoneLengthEstimator of_reference_{BoneLengthOptions::OfReference()};
+  JointArray<bool> had_{};     // joints that were ever tracked
+  double scale_ = 1.0;         // of the last reference posture, or of the first frame
+  bool known_ = false;         // some frame was good enough to measure at least the size
+  bool from_posture_ = false;  // a reference posture was seen
 };
 
 /// True for the two reference postures of fig. 2: upright trunk and legs, arms level or hanging.
-bool IsReferencePosture(const Posture& in_camera);
+bool IsReferencePosture(const Posture& in_camera, const ReferenceLengthOptions& options = {});
 
 /// Ours: which joints move as a person's can about the next joint up that does, or about the whole
 /// body, since they were last believed to. What stays where it jumped to is believed once a limb

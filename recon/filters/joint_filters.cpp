@@ -1,62 +1,71 @@
-#include "recon/filters/joint_filters_internal.h"
+#include "recon/filters/joint_filters.h"
 
+#include <algorithm>
 #include <cmath>
+#include <numbers>
 
 namespace ossa::recon {
+namespace {
 
-// Constants: of Holt's filter, the Kinect SDK's defaults; of One-Euro, Casiez 2012.
-
-Eigen::Vector3d HoltFilter::Step(const Eigen::Vector3d& value) {
-  constexpr double kSmoothing = 0.5, kCorrection = 0.5, kJitter_m = 0.05,
-                   kDeviation_m = 0.04;  // shares
-  if (count_ == 0) {
-    level_ = value;
-    trend_.setZero();
-    ++count_;
-    return value;
-  }
-  // Moves within the jitter radius are damped before they enter.
-  Eigen::Vector3d damped = value;
-  const double moved = (value - level_).norm();
-  if (moved <= kJitter_m) {
-    damped = value * (moved / kJitter_m) + level_ * (1.0 - moved / kJitter_m);
-  }
-  const Eigen::Vector3d before = level_;
-  level_ = damped * (1.0 - kSmoothing) + (level_ + trend_) * kSmoothing;
-  trend_ = (level_ - before) * kCorrection + trend_ * (1.0 - kCorrection);
-  Eigen::Vector3d out = level_;
-  const double deviation = (out - value).norm();
-  if (deviation > kDeviation_m) out = value + (out - value) * (kDeviation_m / deviation);
-  return out;
+/// Share of a new value that a first-order low pass takes.
+double LowPassShare(double cutoff_hz, double dt_s) {
+  const double tau_s = 1.0 / (2.0 * std::numbers::pi * cutoff_hz);
+  return 1.0 / (1.0 + tau_s / dt_s);
 }
 
-Eigen::Vector3d OneEuroFilter::Step(const Eigen::Vector3d& value, double dt_s) {
-  const auto alpha = [dt_s](double cutoff_hz) {
-    const double tau_s = 1.0 / (2.0 * M_PI * cutoff_hz);
-    return 1.0 / (1.0 + tau_s / dt_s);
-  };
+}  // namespace
+
+Eigen::Vector3d HoltFilter::Step(const Eigen::Vector3d& value_m) {
+  const HoltOptions& o = options_;
+  const Eigen::Vector3d before_m = level_m_;
+  if (count_ == 0) {
+    level_m_ = value_m;
+    trend_m_.setZero();
+  } else {
+    if (count_ == 1 && o.averages_second) {
+      level_m_ = 0.5 * (value_m + last_m_);
+    } else {
+      // Moves within the jitter radius are damped before they enter.
+      const double share = std::min(1.0, (value_m - before_m).norm() / o.jitter_radius_m);
+      const Eigen::Vector3d damped_m = value_m * share + before_m * (1.0 - share);
+      level_m_ = damped_m * (1.0 - o.smoothing) + (before_m + trend_m_) * o.smoothing;
+    }
+    trend_m_ = (level_m_ - before_m) * o.correction + trend_m_ * (1.0 - o.correction);
+  }
+  last_m_ = value_m;
+  ++count_;
+  const Eigen::Vector3d predicted_m = level_m_ + o.prediction * trend_m_;
+  const double off_m = (predicted_m - value_m).norm();
+  if (off_m <= o.max_deviation_radius_m) return predicted_m;
+  return value_m + (predicted_m - value_m) * (o.max_deviation_radius_m / off_m);
+}
+
+Eigen::Vector3d OneEuroFilter::Step(const Eigen::Vector3d& value_m, double dt_s) {
+  constexpr double kVelocityCutoff_hz = 1.0;  // of the paper
   if (!started_) {
     started_ = true;
-    value_ = value;
-    velocity_.setZero();
-    return value;
+    last_m_ = value_m_ = value_m;
+    return value_m;
   }
-  constexpr double kVelocityCutoff_hz = 1.0;
-  const double a_velocity = alpha(kVelocityCutoff_hz);
-  velocity_ += a_velocity * ((value - value_) / dt_s - velocity_);
-  const double a = alpha(min_cutoff_hz_ + beta_per_m_ * velocity_.norm());
-  value_ += a * (value - value_);
-  return value_;
+  const Eigen::Vector3d& from_m = options_.speed_of_measurements ? last_m_ : value_m_;
+  velocity_m_s_ +=
+      LowPassShare(kVelocityCutoff_hz, dt_s) * ((value_m - from_m) / dt_s - velocity_m_s_);
+  last_m_ = value_m;
+  const double cutoff_hz = options_.min_cutoff_hz + options_.beta_per_m * velocity_m_s_.norm();
+  value_m_ += LowPassShare(cutoff_hz, dt_s) * (value_m - value_m_);
+  return value_m_;
 }
 
-Eigen::Vector3d VelocityKalman::Step(const Eigen::Vector3d& value, double dt_s, double trust) {
+Eigen::Vector3d VelocityKalman::Step(const Eigen::Vector3d& value_m, double dt_s, double trust) {
+  constexpr double kRest_s = 0.2;  // while nothing is known: at rest within a few frames
+  constexpr double kFirstVariance_m2_s2 = 1.0;  // of the velocity: people move at 1 m/s
   const double r = noise_m_ * noise_m_;
   if (!started_) {
     started_ = true;
-    position_ = value;
+    position_ = value_m;
     velocity_.setZero();
-    covariance_ << r, 0.0, 0.0, 1.0;  // 1 m/s: people move
-    return value;
+    covariance_ << r, 0.0, 0.0, kFirstVariance_m2_s2;
+    return value_m;
   }
   position_ += dt_s * velocity_;
   Eigen::Matrix2d f;
@@ -66,11 +75,11 @@ Eigen::Vector3d VelocityKalman::Step(const Eigen::Vector3d& value, double dt_s, 
   noise << q * t2 * t2 / 4.0, q * t2 * dt_s / 2.0, q * t2 * dt_s / 2.0, q * t2;
   covariance_ = f * covariance_ * f.transpose() + noise;
   if (trust <= 0.0) {
-    velocity_ *= std::exp(-dt_s / 0.2);  // nothing is known: come to rest within a few frames
+    velocity_ *= std::exp(-dt_s / kRest_s);
     return position_;
   }
   const Eigen::Vector2d gain = covariance_.col(0) / (covariance_(0, 0) + r / trust);
-  const Eigen::Vector3d innovation = value - position_;
+  const Eigen::Vector3d innovation = value_m - position_;
   position_ += gain[0] * innovation;
   velocity_ += gain[1] * innovation;
   covariance_ -= gain * covariance_.row(0).eval();

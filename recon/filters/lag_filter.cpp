@@ -4,21 +4,6 @@
 #include <cmath>
 
 namespace ossa::recon {
-namespace {
-
-// Constants: chosen by hand.
-
-constexpr double kVelocityMemory_s = 0.3;
-// Second differences of real moves stay below a centimetre a frame squared; sensors without any
-// smoothing of their own have five and more.
-constexpr double kSteady_m = 0.015, kJumpy_m = 0.04;
-constexpr double kMostJitter_m = 0.2;  // one gross error says little about the usual jitter
-constexpr double kJitterMemory_s = 1.0;
-// How far One-Euro's estimate of the step before follows its next one.
-constexpr double kOneEuroBack = 0.3;  // share
-
-}  // namespace
-
 Eigen::Vector3d LagFilter::Step(const Eigen::Vector3d& value_m, double dt_s, double trust) {
   Measure(value_m, dt_s, trust);
   const Eigen::Vector3d euro_last = one_euro_value_;
@@ -28,7 +13,8 @@ Eigen::Vector3d LagFilter::Step(const Eigen::Vector3d& value_m, double dt_s, dou
                   : Eigen::Vector3d(euro_last + std::min(1.0, trust) * (value_m - euro_last));
   one_euro_value_ = one_euro_.Step(entering, dt_s);
   StepKalman(value_m, dt_s, trust);
-  const double jumpy = std::clamp((jitter_m_ - kSteady_m) / (kJumpy_m - kSteady_m), 0.0, 1.0);
+  const double range_m = options_.jumpy_sensor_m - options_.smooth_sensor_m;
+  const double jumpy = std::clamp((jitter_m_ - options_.smooth_sensor_m) / range_m, 0.0, 1.0);
   if (steps_++ == 0) {
     before_ = value_m;
     return value_m;
@@ -37,31 +23,32 @@ Eigen::Vector3d LagFilter::Step(const Eigen::Vector3d& value_m, double dt_s, dou
   const double left =
       moved > 1e-9 ? std::clamp((value_m - one_euro_value_).norm() / moved, 0.0, 1.0) : 0.0;
   const Eigen::Vector3d euro_before =
-      euro_last + kOneEuroBack * left * (one_euro_value_ - euro_last);
+      euro_last + options_.one_euro_back * left * (one_euro_value_ - euro_last);
   before_ = (1.0 - jumpy) * kalman_before_ + jumpy * euro_before;
   return (1.0 - jumpy) * position_ + jumpy * one_euro_value_;
 }
 
 void LagFilter::Measure(const Eigen::Vector3d& value_m, double dt_s, double trust) {
   if (steps_ >= 2 && trust > 0.5) {
-    const double jump_m = std::min((value_m - 2.0 * last_ + before_last_).norm(), kMostJitter_m);
-    jitter_m_ += (1.0 - std::exp(-dt_s / kJitterMemory_s)) * (jump_m - jitter_m_);
+    const double jump_m =
+        std::min((value_m - 2.0 * last_ + before_last_).norm(), options_.most_jitter_m);
+    jitter_m_ += (1.0 - std::exp(-dt_s / options_.jitter_memory_s)) * (jump_m - jitter_m_);
   }
   before_last_ = last_;
   last_ = value_m;
 }
 
 void LagFilter::StepKalman(const Eigen::Vector3d& value_m, double dt_s, double trust) {
-  const double r = noise_m_ * noise_m_ / trust;
+  const double r = options_.noise_m * options_.noise_m / trust;
   if (steps_ == 0) {
     position_ = value_m;
     velocity_.setZero();
-    p00_ = r, p01_ = 0.0, p11_ = 0.3;
+    p00_ = r, p01_ = 0.0, p11_ = options_.first_variance;
     return;
   }
   // x' = F x with F = [1, dt phi; 0, phi]: the velocity fades.
-  const double phi = std::exp(-dt_s / kVelocityMemory_s), f = dt_s * phi;
-  const double q = acceleration_ * acceleration_, t2 = dt_s * dt_s;
+  const double phi = std::exp(-dt_s / options_.velocity_memory_s), f = dt_s * phi;
+  const double q = options_.acceleration * options_.acceleration, t2 = dt_s * dt_s;
   const Eigen::Vector3d predicted = position_ + f * velocity_, faded = phi * velocity_;
   const double n00 = p00_ + 2.0 * f * p01_ + f * f * p11_ + q * t2 * t2 / 4.0;
   const double n01 = phi * (p01_ + f * p11_) + q * t2 * dt_s / 2.0;

@@ -1,23 +1,36 @@
 #pragma once
 #include <Eigen/Core>
 
-#include "recon/filters/joint_filters_internal.h"
+#include "recon/filters/joint_filters.h"
 
 namespace ossa::recon {
+
+/// Constants of LagFilter. Within a factor of two of the first two nothing moves by more than 2 %
+/// on UI-PRMD; `ossa experiment sdk` with data = ["nested"] chooses them anew.
+struct LagFilterOptions {
+  double noise_m = 0.02;           // of one measurement, standard deviation, > 0
+  double acceleration = 10.0;      // of a joint, m/s^2, standard deviation, > 0
+  double velocity_memory_s = 0.3;  // a velocity fades with this time constant, > 0
+  double first_variance = 0.3;     // of the velocity, m^2/s^2, before anything is known
+  // Second differences of real moves stay below a centimetre a frame squared; sensors without any
+  // smoothing of their own have five and more. Between these two filters are mixed.
+  double smooth_sensor_m = 0.015, jumpy_sensor_m = 0.04;
+  double most_jitter_m = 0.2;    // one gross error says little about the usual jitter
+  double jitter_memory_s = 1.0;  // of the mean jitter
+  double one_euro_back = 0.3;    // share of its next step that One-Euro's last estimate follows
+};
 
 /// The filter of `best`: one joint, now without lag and once more a frame later, when the next
 /// measurement has told which way the joint went.
 ///
 /// Two filters run beside each other, because sensors are of two kinds. One that jitters by
 /// millimetres is followed by a Kalman filter whose velocity comes to rest by itself; its second
-/// word is the fixed-interval smoother's (Rauch, Tung and Striebel 1965) over one frame. One that
-/// jitters by centimetres has no velocity to speak of, and One-Euro serves it better. The measured
-/// jitter, of this joint over the last second, says which of the two is heard.
+/// estimate is the fixed-interval smoother's (Rauch, Tung and Striebel 1965) over one frame. One
+/// that jitters by centimetres has no velocity to speak of, and One-Euro serves it better. The
+/// measured jitter, of this joint over the last second, says which of the two is taken.
 class LagFilter {
  public:
-  /// Standard deviations of one measurement, metres, and of a joint's acceleration, m/s^2.
-  explicit LagFilter(double noise_m = 0.02, double acceleration = 10.0)
-      : noise_m_(noise_m), acceleration_(acceleration) {}
+  explicit LagFilter(const LagFilterOptions& options = {}) : options_(options) {}
   /// trust in (0, 1] divides the measurement's variance. The estimate for now.
   Eigen::Vector3d Step(const Eigen::Vector3d& value_m, double dt_s, double trust);
   /// What is now thought of the step before.
@@ -27,7 +40,7 @@ class LagFilter {
   void StepKalman(const Eigen::Vector3d& value_m, double dt_s, double trust);
   void Measure(const Eigen::Vector3d& value_m, double dt_s, double trust);
 
-  double noise_m_, acceleration_;
+  LagFilterOptions options_;
   int steps_ = 0;
   Eigen::Vector3d position_ = Eigen::Vector3d::Zero(), velocity_ = Eigen::Vector3d::Zero();
   Eigen::Vector3d kalman_before_ = Eigen::Vector3d::Zero(), before_ = Eigen::Vector3d::Zero();

@@ -31,10 +31,10 @@ Eigen::Vector3d OffsetTo(const Posture& model, const Posture& seen, const JointW
   return offset;
 }
 
-/// Shum & Ho 2012 eqs. 3-4 where some joints were not seen: a joint whose parent is missing hangs
-/// on its nearest ancestor that is there, at the distance it was seen, in proportion to the bones
-/// between. Departure: the paper goes from joint to joint, which keeps of a hand whose arm is
-/// hidden no more than the direction of its last bone from a guessed wrist.
+/// Shum & Ho 2012 eqs. 3-4 where some joints were not seen: a joint whose parent is missing is
+/// placed from its nearest ancestor that is there, at the distance it was seen, in proportion to
+/// the bones between. Departure: the paper goes from joint to joint, which keeps of a hand whose
+/// arm is hidden no more than the direction of its last bone from a guessed wrist.
 Posture RetargetedAsSeen(const Posture& own, const JointWeights& present,
                          const BoneLengths& own_lengths) {
   const BoneLengths& standard = StandardBoneLengths();
@@ -61,7 +61,7 @@ Posture RetargetedAsSeen(const Posture& own, const JointWeights& present,
   return out;
 }
 
-void PutBetween(Posture& p, JointWeights& present, const BetweenTwo& line) {
+void Interpolate(Posture& p, JointWeights& present, const InterpolatedJoint& line) {
   if (present[line.joint] > 0.0 || present[line.a] * present[line.b] == 0.0) return;
   p[line.joint] = (1.0 - line.share) * p[line.a] + line.share * p[line.b];
   present[line.joint] = 1.0;
@@ -70,13 +70,13 @@ void PutBetween(Posture& p, JointWeights& present, const BetweenTwo& line) {
 }  // namespace
 
 Posture Completed(const Posture& in_camera, const JointWeights& present_in, const Posture& model,
-                  JointWeights* between) {
+                  JointWeights* interpolated) {
   Posture out = in_camera;
   JointWeights present = present_in;
   const Eigen::Vector3d offset = OffsetTo(model, in_camera, present);
-  for (const BetweenTwo& line : kBetweenTwo) PutBetween(out, present, line);
-  for (size_t i = 0; between != nullptr && i < kJointCount; ++i) {
-    (*between)[i] = present[i] - present_in[i];
+  for (const InterpolatedJoint& line : kInterpolatedJoints) Interpolate(out, present, line);
+  for (size_t i = 0; interpolated != nullptr && i < kJointCount; ++i) {
+    (*interpolated)[i] = present[i] - present_in[i];
   }
   if (present[0] == 0.0) out.position_m[0] = model.position_m[0] + offset;
   for (size_t i = 1; i < kJointCount; ++i) {
@@ -85,123 +85,6 @@ Posture Completed(const Posture& in_camera, const JointWeights& present_in, cons
     out.position_m[i] = out.position_m[parent] + model.position_m[i] - model.position_m[parent];
   }
   return out;
-}
-
-// Robbins and Monro 1951, for the median: each sample moves it a step up or down, the n-th by 1/n.
-// Half of a body's lengths may be wrong without moving it far, as they are of somebody seen from
-// the side.
-void BodySize::TypicalBones::Add(const BoneLengths& measured, const JointWeights& trust) {
-  constexpr double kStep = 0.5;
-  constexpr int kMemory_frames = 600;
-  ++frames;
-  for (size_t i = 1; i < kJointCount; ++i) {
-    const double w = std::min(trust[i], trust[ParentOf(i)]);
-    if (!std::isfinite(measured[i]) || w <= 0.5) continue;
-    // Left and right are one bone.
-    const size_t bone = std::min(i, kMirroredJoint[i]);
-    int& n = samples[bone];
-    n = std::min(n + 1, kMemory_frames);
-    if (n <= 2) {
-      length_m[bone] += (measured[i] - length_m[bone]) / n;
-    } else {
-      length_m[bone] *= 1.0 + std::copysign(kStep / n, measured[i] - length_m[bone]);
-    }
-  }
-}
-
-void BodySize::Observe(const Posture& in_camera, const JointWeights& trust, double expected_scale,
-                       const std::optional<BoneLengths>& judged) {
-  if (known_) return;
-  const auto good = std::count_if(trust.begin(), trust.end(), [](double t) { return t > 0.5; });
-  const BoneLengths measured = MeasureBoneLengths(in_camera);
-  const double scale = EstimateBodyScale(measured, trust);
-  expected_scale_ = expected_scale;
-  if (locked_) {
-    Grow();
-    const bool other_size = good >= 12 && std::abs(scale / scale_ - 1.0) > 0.25;
-    other_size_frames_ = other_size ? other_size_frames_ + 1 : 0;
-    if (other_size_frames_ < kPatience_frames) {
-      if (good < 12 || other_size) return;
-      typical_.Add(measured, trust);
-      if (judged) judged_.Add(*judged);
-      Reconsider();
-      return;
-    }
-    judged_ = {};  // of somebody else
-  }
-  scale_ = good >= 4 ? scale : 1.0;
-  typical_ = {};
-  next_look_ = kFirstLook_frames;
-  typical_.Add(measured, trust);
-  if (judged) judged_.Add(*judged);
-  lengths_m_ = Taken();
-  grown_frames_ = kGrow_frames;
-  locked_ = good >= 12;
-  other_size_frames_ = 0;
-}
-
-void BodySize::Know(const BoneLengths& lengths_m) {
-  JointWeights all;
-  all.fill(1.0);
-  lengths_m_ = lengths_m;
-  scale_ = EstimateBodyScale(lengths_m, all);
-  grown_frames_ = kGrow_frames;
-  known_ = locked_ = true;
-}
-
-// What is judged settles in the first second. After 3.5 seconds, seven, fourteen, ...: bones that
-// are typically others than they were then are taken anew. A body whose bones are seen as they are
-// is left alone.
-void BodySize::Reconsider() {
-  const bool settles = judged_.frames > 0 && judged_.frames <= kSettled_frames;
-  const bool looks = typical_.frames >= next_look_;
-  if (!settles && !looks) return;
-  if (looks) next_look_ *= 2;
-  const BoneLengths taken = Taken();
-  if (settles) {
-    lengths_m_ = taken;
-    return;
-  }
-  constexpr double kOther = 0.05;  // the median of that many frames is no more than 1 % off
-  for (size_t i = 1; i < kJointCount; ++i) {
-    if (std::abs(taken[i] / lengths_m_[i] - 1.0) <= kOther) continue;
-    grow_from_m_ = lengths_m_;
-    grow_to_m_ = taken;
-    grown_frames_ = 0;
-    return;
-  }
-}
-
-void BodySize::Grow() {
-  if (grown_frames_ == kGrow_frames) return;
-  ++grown_frames_;
-  const double part = static_cast<double>(grown_frames_) / kGrow_frames;
-  const double share = part * part * (3.0 - 2.0 * part);  // begins and ends at rest
-  for (size_t i = 0; i < kJointCount; ++i) {
-    lengths_m_[i] = (1.0 - share) * grow_from_m_[i] + share * grow_to_m_[i];
-  }
-}
-
-/// The lengths that what was judged tells; if nothing was, what is typical.
-BoneLengths BodySize::Taken() const {
-  BoneLengths lengths = ScaledBoneLengths(scale_);
-  for (size_t i = 1; i < kJointCount; ++i) {
-    const size_t bone = std::min(i, kMirroredJoint[i]);
-    double length = typical_.samples[bone] > 0 ? typical_.length_m[bone] : lengths[i];
-    if (judged_.frames > 0) {
-      length = judged_.mean_m[i];
-    } else if (proportions_[i] > 0.0) {
-      const double size = expected_scale_ > 0.0 ? expected_scale_ : scale_;
-      const double expected_m = size * proportions_[i] * StandardBoneLengths()[i];
-      length += expected_ * (expected_m - length);
-    }
-    // Where trunk joints lie is each sensor's own definition; limbs differ between people only.
-    const bool trunk = i <= 4 || i == 8 || i == 12 || i == 16;
-    const double shortest = as_measured_ ? 0.1 : trunk ? 0.5 : 0.75;
-    const double longest = as_measured_ || trunk ? 2.0 : 1.25;
-    lengths[i] = std::clamp(length, shortest * lengths[i], longest * lengths[i]);
-  }
-  return lengths;
 }
 
 BodySize Person::FreshSize() const {
@@ -231,7 +114,7 @@ PreparedPosture Person::Prepare(const ReconstructionInput& input) {
   }
   if (!size_.locked() || started_) size_.Observe(input.observed.posture, out.reliability);
   const Posture model = last_in_camera_ ? *last_in_camera_ : StanceInCamera(size_.lengths_m());
-  out.in_camera = Completed(input.observed.posture, out.present, model, &out.between);
+  out.in_camera = Completed(input.observed.posture, out.present, model, &out.interpolated);
   JointWeights heading = out.reliability;
   for (size_t i = 0; i < kJointCount; ++i) heading[i] += 0.1 * out.present[i];
   out.placement = EstimatePlacement(out.in_camera, heading, last_yaw_rad_);

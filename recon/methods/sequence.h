@@ -28,9 +28,4 @@ SkeletonSequence ReconstructSequence(const SkeletonSequence& sequence,
 BonesOfPeople MeasureBones(const SkeletonSequence& sequence, const ReconstructorOptions& options,
                            const std::function<bool(size_t)>& progress = {});
 
-/// Offline, for comparison only: second-order Butterworth low pass run forwards and backwards over
-/// every joint (zero phase), anew after an absence. Joints that have no place (HasPlace) come out
-/// absent.
-SkeletonSequence ButterworthSequence(const SkeletonSequence& sequence, double cutoff_hz = 6.0);
-
 }  // namespace ossa::recon

@@ -43,7 +43,7 @@ double Sum(const BoneLengths& lengths_m) {
 
 }  // namespace
 
-double SoundSd_m(double share_of_guesses) {
+double BaseSigma_m(double share_of_guesses) {
   // Of 0, 0.2, 0.5 and 1 the best two on ten scenarios of Plantard 2016 with motion of validation
   // subjects.
   constexpr double kAmongGuesses_m = 0.5;

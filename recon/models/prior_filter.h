@@ -18,7 +18,7 @@ struct PriorObservation {
 
 /// Standard deviation of a joint that is fully trusted, metres; of one trusted by half it is twice
 /// that. A person of whom the sensor only guesses a share of the joints is seen badly as a whole.
-double SoundSd_m(double share_of_guesses);
+double BaseSigma_m(double share_of_guesses);
 
 /// The posture that is to be expected of what was seen up to now (Kalman filter of a PosturePrior,
 /// exact for it). What is hidden moves with what is seen, as far as it usually does; what is not

@@ -9,6 +9,7 @@
 #include "depth/base/atomic_file.h"
 #include "depth/base/error.h"
 #include "recon/body/standard_body.h"
+#include "recon/bone_lengths.h"
 #include "recon/motion/bone_names_internal.h"
 #include "recon/motion/bvh.h"
 #include "recon/motion/bvh_source_internal.h"
@@ -26,19 +27,17 @@ using Eigen::Vector3d;
 constexpr double kCentimetres = 100.0;  // of a metre; the unit most programs expect of BVH
 
 BoneLengths MedianLengths(const std::vector<Sighting>& sightings) {
-  const BoneLengths standard = MeasureBoneLengths(StandardPosture(RigPose()));
-  BoneLengths lengths = standard;
-  for (size_t j = 1; j < kJointCount; ++j) {
-    const auto parent = ParentOf(j);
-    std::vector<double> seen;
-    for (const Sighting& s : sightings) {
-      if (s.joint[j] && s.joint[parent]) seen.push_back((*s.joint[j] - *s.joint[parent]).norm());
+  constexpr double kShortest_m = 1e-3;  // a bone of no length has no direction in the file
+  BoneLengthEstimator estimator(BoneLengthOptions::OfRecording());
+  estimator.Start(MeasureBoneLengths(StandardPosture(RigPose())));
+  for (const Sighting& s : sightings) {
+    for (size_t j = 1; j < kJointCount; ++j) {
+      const auto &end = s.joint[j], &begin = s.joint[ParentOf(j)];
+      if (end && begin) estimator.Add(j, (*end - *begin).norm());
     }
-    if (seen.empty()) continue;
-    const auto middle = seen.begin() + static_cast<std::ptrdiff_t>(seen.size() / 2);
-    std::nth_element(seen.begin(), middle, seen.end());
-    lengths[j] = std::max(*middle, 1e-3);
   }
+  BoneLengths lengths = estimator.lengths_m();
+  for (size_t j = 1; j < kJointCount; ++j) lengths[j] = std::max(lengths[j], kShortest_m);
   return lengths;
 }
 

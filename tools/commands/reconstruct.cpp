@@ -13,6 +13,7 @@
 #include "depth/base/error.h"
 #include "recon/database/posture_database.h"
 #include "recon/files/skeleton_io.h"
+#include "recon/filters/butterworth.h"
 #include "recon/methods/sequence.h"
 #include "tools/commands/checks.h"
 #include "tools/commands/command.h"

@@ -87,7 +87,7 @@ Circumstances Draw(Random& random) {
   c.seen = DrawSeen(random);
   c.yaw_rad = random.Normal(0.0, 4.0 * std::numbers::pi / 180.0);
   const bool root_seen = random.Chance(0.8);
-  c.root_sd_m = recon::SoundSd_m(0.0) / (root_seen ? 1.0 : 0.3);
+  c.root_sd_m = recon::BaseSigma_m(0.0) / (root_seen ? 1.0 : 0.3);
   c.white_m = random.Uniform(0.0, 0.012);
   const double error_m = random.Uniform(0.0, 0.012);
   for (Eigen::Vector3d& error : c.error.position_m) error = DrawVector(random, error_m);
@@ -111,7 +111,7 @@ recon::PriorObservation Observe(const Posture& truth, const Circumstances& c, bo
   for (size_t i = 1; i < kJointCount; ++i) {
     const Eigen::Vector3d white = DrawVector(random, c.white_m);
     out.seen.position_m[i] += c.error.position_m[0] + c.error.position_m[i] + white;
-    out.sd_m[i] = all || c.seen[i] ? recon::SoundSd_m(0.0) : 0.0;
+    out.sd_m[i] = all || c.seen[i] ? recon::BaseSigma_m(0.0) : 0.0;
   }
   return out;
 }

@@ -4,9 +4,9 @@
 #include <chrono>
 #include <cmath>
 
-#include "recon/hiding.h"
-#include "recon/methods/bone_projection.h"
+#include "recon/bone_projection.h"
 #include "recon/orientation.h"
+#include "recon/refine/free_space.h"
 
 namespace ossa::tracker {
 namespace {
@@ -57,7 +57,8 @@ recon::Posture WithHiddenHidden(recon::Posture posture, const recon::TrackedPost
       continue;
     }
     Eigen::Vector3d& place = posture.position_m[j];
-    person.aside_m[j] += share * (recon::HiddenPlace(place, frame) - place - person.aside_m[j]);
+    person.aside_m[j] +=
+        share * (recon::MoveOutOfFreeSpace(place, frame) - place - person.aside_m[j]);
     place += person.aside_m[j];
   }
   return posture;

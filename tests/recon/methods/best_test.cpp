@@ -8,8 +8,8 @@
 #include <vector>
 
 #include "depth/image/depth_frame.h"
+#include "recon/bone_projection.h"
 #include "recon/filters/lag_filter_internal.h"
-#include "recon/methods/bone_projection.h"
 #include "recon/methods/reconstructor.h"
 #include "tests/recon/synthetic_motion.h"
 

@@ -37,7 +37,7 @@ Posture WithHips(double factor) {
 
 // A person who comes in sideways: the first frame has the hips in one another.
 TEST(BodySize, TakesBonesAnewThatAreTypicallyOthersThanInTheFirstFrame) {
-  BodySize size(true);
+  BodySize size({.as_measured = true});
   JointWeights all;
   all.fill(1.0);
   size.Observe(WithHips(0.5), all);
@@ -54,7 +54,7 @@ TEST(BodySize, TakesBonesAnewThatAreTypicallyOthersThanInTheFirstFrame) {
 
 // Of bones seen with noise the lengths of the first frame stay, to the bit.
 TEST(BodySize, LeavesBonesAloneThatAreSeenAsTheyAre) {
-  BodySize size(true);
+  BodySize size({.as_measured = true});
   JointWeights all;
   all.fill(1.0);
   size.Observe(WithHips(1.0), all);
@@ -70,7 +70,7 @@ TEST(BodySize, LeavesBonesAloneThatAreSeenAsTheyAre) {
 
 // The first second's mean of what a look judges, whatever lies between the joints; then no more.
 TEST(BodySize, OfBonesThatAreJudgedSettlesInASecond) {
-  BodySize size(true);
+  BodySize size({.as_measured = true});
   JointWeights all;
   all.fill(1.0);
   const Posture seen = WithHips(1.5);
@@ -92,7 +92,7 @@ TEST(BodySize, OfBonesThatAreJudgedSettlesInASecond) {
   EXPECT_EQ(size.lengths_m()[hip] / StandardBoneLengths()[hip], settled);
   for (int i = 0; i < 200; ++i) judged(1.40);
   EXPECT_GT(judged(1.40), 1.20);
-  BodySize absurd(true);
+  BodySize absurd({.as_measured = true});
   BoneLengths long_m;
   long_m.fill(1.9);  // a hand, too
   absurd.Observe(seen, all, 0.0, long_m);
@@ -100,7 +100,7 @@ TEST(BodySize, OfBonesThatAreJudgedSettlesInASecond) {
 }
 
 TEST(BodySize, IsMeasuredAnewForAnotherSizeAfterASecond) {
-  BodySize size(true);
+  BodySize size({.as_measured = true});
   JointWeights all;
   all.fill(1.0);
   for (int f = 0; f < 60; ++f) size.Observe(WithHips(1.0), all);

@@ -1,5 +1,6 @@
 // Whole recordings: several people, bones by all frames, what is absent.
 #include "recon/methods/sequence.h"
+#include "recon/filters/butterworth.h"
 
 #include <gtest/gtest.h>
 

@@ -70,8 +70,8 @@ double AnkleError_m(const recon::PosturePrior& prior) {
                    {recon::StandardStance().position_m[0], 0.0});
     recon::PriorObservation observation;
     observation.seen = truth;
-    observation.sd_m[Joint::kHandLeft] = recon::SoundSd_m(0.0);
-    observation.sd_m[Joint::kHandRight] = recon::SoundSd_m(0.0);
+    observation.sd_m[Joint::kHandLeft] = recon::BaseSigma_m(0.0);
+    observation.sd_m[Joint::kHandRight] = recon::BaseSigma_m(0.0);
     observation.root_sd_m = 0.02;
     observation.lengths_m = recon::StandardBoneLengths();
     const Posture got = filter.Step(kFrame_s, observation);

@@ -1,4 +1,4 @@
-#include "recon/hiding.h"
+#include "recon/refine/free_space.h"
 #include "tests/support/capsule_person.h"
 #include "tests/tools/tracker/tracked_scenes.h"
 #include "tools/tracker/person_internal.h"
@@ -40,8 +40,8 @@ struct HandInTheAir {
 TEST(HiddenJoints, AreNotLeftWhereTheCameraLooksThroughThem) {
   HandInTheAir scene(recon::TrackingState::kInferred);
   const Eigen::Vector3d said = scene.body.raw.posture.position_m[kHand];
-  ASSERT_TRUE(recon::IsInTheAir(said, scene.render.frame));
-  EXPECT_FALSE(recon::IsInTheAir(scene.Hand(10), scene.render.frame));
+  ASSERT_TRUE(recon::IsInFreeSpace(said, scene.render.frame));
+  EXPECT_FALSE(recon::IsInFreeSpace(scene.Hand(10), scene.render.frame));
   EXPECT_EQ(scene.body.raw.posture.position_m[kHand], said) << "raw is what was inferred";
 }
 

@@ -6,6 +6,7 @@
 #include <nlohmann/json.hpp>
 
 #include "recon/database/posture_database.h"
+#include "recon/filters/butterworth.h"
 #include "recon/methods/recorded_pairs.h"
 #include "recon/methods/sequence.h"
 #include "recon/models/posture_prior.h"

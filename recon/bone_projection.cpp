@@ -2,7 +2,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "recon/methods/bone_projection.h"
+#include "recon/bone_projection.h"
 
 namespace ossa::recon {
 namespace {

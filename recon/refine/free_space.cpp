@@ -1,4 +1,4 @@
-#include "recon/hiding.h"
+#include "recon/refine/free_space.h"
 
 #include <algorithm>
 #include <cmath>
@@ -9,8 +9,8 @@
 namespace ossa::recon {
 namespace {
 
-// A joint's own breadth: noise at an outline must not put a limb into the air.
-constexpr double kBreadth_m = 0.02;  // by hand
+// A joint's own breadth: noise at a silhouette must not put a limb into free space.
+constexpr double kBreadth_m = 0.02;
 
 // The image around one joint: how far what is seen at a pixel lies behind it.
 class Surroundings {
@@ -44,7 +44,7 @@ class Surroundings {
   double pixels_per_m_;
 };
 
-bool Hides(const std::optional<double>& gap_m, const HidingOptions& options) {
+bool Hides(const std::optional<double>& gap_m, const FreeSpaceOptions& options) {
   return gap_m && *gap_m <= options.before_m;
 }
 
@@ -56,12 +56,12 @@ struct Cover {
 };
 
 // How far a joint must go back to be behind what has this gap to it.
-double WayBehind(double gap_m, const HidingOptions& options) {
+double WayBehind(double gap_m, const FreeSpaceOptions& options) {
   return std::max(0.0, gap_m + options.skin_m);
 }
 
 // The nearest place that hides the joint, on circles around it: beside it, or farther back.
-Cover NearestCover(const Surroundings& around, const HidingOptions& options) {
+Cover NearestCover(const Surroundings& around, const FreeSpaceOptions& options) {
   const double step_m = around.step_m();
   Cover best;
   for (double radius_m = 0.0; radius_m <= std::min(options.reach_m, best.way_m);
@@ -83,8 +83,8 @@ Cover NearestCover(const Surroundings& around, const HidingOptions& options) {
 
 }  // namespace
 
-bool IsInTheAir(const Eigen::Vector3d& joint_in_camera, const depth::DepthFrame& depth,
-                const HidingOptions& options) {
+bool IsInFreeSpace(const Eigen::Vector3d& joint_in_camera, const depth::DepthFrame& depth,
+                   const FreeSpaceOptions& options) {
   if (!joint_in_camera.allFinite() || joint_in_camera.z() < 0.1) return false;
   const Surroundings around(joint_in_camera, depth);
   for (const auto& [x, y] : {std::pair{0.0, 0.0}, std::pair{-1.0, 0.0}, std::pair{1.0, 0.0},
@@ -95,9 +95,10 @@ bool IsInTheAir(const Eigen::Vector3d& joint_in_camera, const depth::DepthFrame&
   return true;
 }
 
-Eigen::Vector3d HiddenPlace(const Eigen::Vector3d& joint_in_camera, const depth::DepthFrame& depth,
-                            const HidingOptions& options) {
-  if (!IsInTheAir(joint_in_camera, depth, options)) return joint_in_camera;
+Eigen::Vector3d MoveOutOfFreeSpace(const Eigen::Vector3d& joint_in_camera,
+                                   const depth::DepthFrame& depth,
+                                   const FreeSpaceOptions& options) {
+  if (!IsInFreeSpace(joint_in_camera, depth, options)) return joint_in_camera;
   const Surroundings around(joint_in_camera, depth);
   Cover cover = NearestCover(around, options);
   if (cover.way_m > options.reach_m) return joint_in_camera;

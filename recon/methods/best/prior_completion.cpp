@@ -1,6 +1,6 @@
 #include <algorithm>
 
-#include "recon/methods/prior_completion_internal.h"
+#include "recon/methods/best/prior_completion_internal.h"
 
 namespace ossa::recon {
 namespace {
@@ -32,7 +32,7 @@ Posture PriorCompletion::Step(const PreparedPosture& prepared, const JointWeight
     filter_.Reset();
     if (before && !prepared.restarted) {
       observation.seen = Normalised(*before, {before->position_m[0], prepared.placement.yaw_rad});
-      observation.sd_m.fill(SoundSd_m(0.0));
+      observation.sd_m.fill(BaseSigma_m(0.0));
       filter_.Step(0.0, observation);
     }
     doubting_ = true;
@@ -40,13 +40,13 @@ Posture PriorCompletion::Step(const PreparedPosture& prepared, const JointWeight
   observation.seen = Normalised(prepared.in_camera, prepared.placement);
   const double share_of_guesses = ShareOfGuesses(prepared, trust);
   observation.guesses = share_of_guesses > 0.0;
-  const double sound_m = SoundSd_m(share_of_guesses);
+  const double base_sigma_m = BaseSigma_m(share_of_guesses);
   for (size_t i = 0; i < kJointCount; ++i) {
     const bool seen = prepared.present[i] > 0.0 && trust[i] > kLeastTrust;
-    observation.sd_m[i] = seen ? sound_m / std::min(1.0, trust[i]) : 0.0;
+    observation.sd_m[i] = seen ? base_sigma_m / std::min(1.0, trust[i]) : 0.0;
   }
-  observation.root_sd_m = prepared.present[0] + prepared.between[0] > 0.0
-                              ? SoundSd_m(0.0) / std::clamp(trust[0], kLeastTrust, 1.0)
+  observation.root_sd_m = prepared.present[0] + prepared.interpolated[0] > 0.0
+                              ? BaseSigma_m(0.0) / std::clamp(trust[0], kLeastTrust, 1.0)
                               : kGuessedRoot_m;
   return Placed(filter_.Step(prepared.dt_s, observation), prepared.placement);
 }

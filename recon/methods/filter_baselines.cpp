@@ -1,6 +1,6 @@
 #include <array>
 
-#include "recon/filters/joint_filters_internal.h"
+#include "recon/filters/joint_filters.h"
 #include "recon/methods/methods_internal.h"
 #include "recon/methods/person_internal.h"
 

@@ -1,4 +1,4 @@
-#include "recon/hiding.h"
+#include "recon/refine/free_space.h"
 
 #include <gtest/gtest.h>
 
@@ -23,52 +23,53 @@ depth::DepthFrame BoardBeforeWall() {
   return frame;
 }
 
-TEST(HiddenPlace, OfWhatIsHiddenOrSeenIsItsOwn) {
+TEST(MoveOutOfFreeSpace, OfWhatIsHiddenOrSeenIsItsOwn) {
   const depth::DepthFrame frame = BoardBeforeWall();
   for (const Eigen::Vector3d& place :
        {Eigen::Vector3d(0.2, 0.0, 2.03), Eigen::Vector3d(0.2, 0.0, 2.8),
         Eigen::Vector3d(0.2, 0.0, 1.95), Eigen::Vector3d(-1.0, 0.0, 4.05)}) {
-    EXPECT_FALSE(IsInTheAir(place, frame));
-    EXPECT_EQ(HiddenPlace(place, frame), place);
+    EXPECT_FALSE(IsInFreeSpace(place, frame));
+    EXPECT_EQ(MoveOutOfFreeSpace(place, frame), place);
   }
 }
 
 // 20 cm beside the board, as far as the board: the nearest place is its edge, and 3 cm within.
-TEST(HiddenPlace, OfAJointInTheAirIsTheNearestOutlineAndALimbsBreadthWithin) {
+TEST(MoveOutOfFreeSpace, OfAJointInTheAirIsTheNearestOutlineAndALimbsBreadthWithin) {
   const depth::DepthFrame frame = BoardBeforeWall();
   const Eigen::Vector3d floating(-0.2, 0.1, 2.0);
-  ASSERT_TRUE(IsInTheAir(floating, frame));
-  const Eigen::Vector3d hidden = HiddenPlace(floating, frame);
-  EXPECT_FALSE(IsInTheAir(hidden, frame));
+  ASSERT_TRUE(IsInFreeSpace(floating, frame));
+  const Eigen::Vector3d hidden = MoveOutOfFreeSpace(floating, frame);
+  EXPECT_FALSE(IsInFreeSpace(hidden, frame));
   // A pixel is 7 mm there and a step of the search a centimetre.
   const double across_m = (hidden - floating).head<2>().norm();
-  EXPECT_NEAR(across_m, 0.2 + HidingOptions{}.inwards_m, 0.02);
+  EXPECT_NEAR(across_m, 0.2 + FreeSpaceOptions{}.inwards_m, 0.02);
   EXPECT_GT(hidden.x(), 0.0);
-  EXPECT_NEAR(hidden.z(), 2.0 + HidingOptions{}.skin_m, 1e-6);
+  EXPECT_NEAR(hidden.z(), 2.0 + FreeSpaceOptions{}.skin_m, 1e-6);
 }
 
 // Behind the board's depth it goes straight behind the board, no deeper than it was.
-TEST(HiddenPlace, KeepsTheDepthOfWhatIsFartherThanItsCover) {
-  const Eigen::Vector3d hidden = HiddenPlace({-0.1, 0.0, 2.5}, BoardBeforeWall());
+TEST(MoveOutOfFreeSpace, KeepsTheDepthOfWhatIsFartherThanItsCover) {
+  const Eigen::Vector3d hidden = MoveOutOfFreeSpace({-0.1, 0.0, 2.5}, BoardBeforeWall());
   EXPECT_NEAR(hidden.z(), 2.5, 1e-9);
   EXPECT_GT(hidden.x(), 0.0);
 }
 
-TEST(HiddenPlace, OfWhatFloatsBeforeSomethingIsBehindItsSurface) {
-  const Eigen::Vector3d hidden = HiddenPlace({0.2, 0.0, 1.7}, BoardBeforeWall());
-  EXPECT_NEAR(hidden.z(), 2.0 + HidingOptions{}.skin_m, 1e-6);
+TEST(MoveOutOfFreeSpace, OfWhatFloatsBeforeSomethingIsBehindItsSurface) {
+  const Eigen::Vector3d hidden = MoveOutOfFreeSpace({0.2, 0.0, 1.7}, BoardBeforeWall());
+  EXPECT_NEAR(hidden.z(), 2.0 + FreeSpaceOptions{}.skin_m, 1e-6);
   EXPECT_NEAR(hidden.x() / hidden.z(), 0.2 / 1.7, 1e-9) << "along its line of sight";
 }
 
-TEST(HiddenPlace, IsUnknownOutsideTheImageWithoutReadingAndOutOfReach) {
+TEST(MoveOutOfFreeSpace, IsUnknownOutsideTheImageWithoutReadingAndOutOfReach) {
   depth::DepthFrame frame = BoardBeforeWall();
   const double nan = std::numeric_limits<double>::quiet_NaN();
   const Eigen::Vector3d far_off(-0.6, 0.0, 2.0), outside(9.0, 0.0, 2.0), behind(0.0, 0.0, -1.0);
-  EXPECT_TRUE(IsInTheAir(far_off, frame));
-  for (const auto& place : {far_off, outside, behind}) EXPECT_EQ(HiddenPlace(place, frame), place);
-  EXPECT_TRUE(std::isnan(HiddenPlace({nan, 0.0, 2.0}, frame).x()));
+  EXPECT_TRUE(IsInFreeSpace(far_off, frame));
+  for (const auto& place : {far_off, outside, behind})
+    EXPECT_EQ(MoveOutOfFreeSpace(place, frame), place);
+  EXPECT_TRUE(std::isnan(MoveOutOfFreeSpace({nan, 0.0, 2.0}, frame).x()));
   frame.depth_mm.assign(frame.depth_mm.size(), 0);
-  EXPECT_EQ(HiddenPlace({-0.2, 0.1, 2.0}, frame), Eigen::Vector3d(-0.2, 0.1, 2.0));
+  EXPECT_EQ(MoveOutOfFreeSpace({-0.2, 0.1, 2.0}, frame), Eigen::Vector3d(-0.2, 0.1, 2.0));
 }
 
 }  // namespace

@@ -2,20 +2,10 @@
 #include <cmath>
 #include <vector>
 
-#include "recon/methods/plausibility_internal.h"
+#include "recon/methods/best/gross_failures_internal.h"
 
 namespace ossa::recon {
 namespace {
-
-constexpr double kPatience_s = 0.1;       // a jump that stays as long is believed after all
-constexpr double kOwnPatience_s = 0.04;   // ... of a body with the person's own bones
-constexpr double kSidesPatience_s = 0.6;  // sides exchanged for longer: the person turned, unseen
-constexpr double kBodySpeed = 5.0;        // m/s of a whole body
-constexpr double kCutSpeed = 4.5;         // m/s of half of all joints: rather a cut than a move
-constexpr double kLimbSpeed = 8.0;        // m/s of a hand
-constexpr double kJumpTrust = 0.05;
-constexpr double kWrongBone = 0.35;   // a bone off by a third
-constexpr double kSamePlace_m = 0.1;  // a hand within this of the other one has snapped to it
 
 bool Seen(const TrackedPosture& observed, size_t i) {
   return observed.state[i] != TrackingState::kNotTracked &&
@@ -48,7 +38,7 @@ std::optional<double> MedianDistance(const TrackedPosture& observed, const Postu
 
 }  // namespace
 
-double Plausibility::Repair(ReconstructionInput& input) {
+double GrossFailures::Repair(ReconstructionInput& input) {
   joint_trust_.fill(1.0);
   elsewhere_ = false;
   const std::optional<double> step = steps_.To(input.time_s);
@@ -72,26 +62,30 @@ double Plausibility::Repair(ReconstructionInput& input) {
   const auto straight = MedianDistance(input.observed, predicted);
   const TrackedPosture exchanged = SidesExchanged(input.observed);
   const auto mirrored = MedianDistance(exchanged, predicted);
-  const bool sides = straight && mirrored && *straight > slack_m_ && *mirrored < 0.4 * *straight;
+  const bool sides = straight && mirrored && *straight > options_.slack_m &&
+                     *mirrored < options_.mirrored_ratio * *straight;
   exchanged_s_ = sides ? exchanged_s_ + step_s : 0.0;
   if (sides) {
-    if (exchanged_s_ > kSidesPatience_s) return BelieveAfterAll();
+    if (exchanged_s_ > options_.sides_patience_s) return AcceptAfterAll();
     input.observed = exchanged;
     doubt = 0.5;
-  } else if (straight && *straight > slack_m_ + 0.1 + kBodySpeed * step_s) {
+  } else if (straight &&
+             *straight > options_.slack_m + options_.body_slack_m + options_.body_speed * step_s) {
     body_jumped_s_ += step_s;
-    if (body_jumped_s_ < (SameBones(input.observed) ? kOwnPatience_s : kPatience_s)) return 0.0;
-    return BelieveAfterAll();
+    if (body_jumped_s_ <
+        (SameBones(input.observed) ? options_.own_patience_s : options_.patience_s))
+      return 0.0;
+    return AcceptAfterAll();
   }
   body_jumped_s_ = 0.0;
   const auto moved = MedianDistance(input.observed, *last_);
-  elsewhere_ = moved && *moved > kCutSpeed * std::max(step_s, 1.0 / 30.0);
+  elsewhere_ = moved && *moved > options_.cut_speed * std::max(step_s, 1.0 / 30.0);
   JudgeJoints(input.observed, predicted, step_s);
   return doubt;
 }
 
 /// It stays so: the past was wrong, or is over.
-double Plausibility::BelieveAfterAll() {
+double GrossFailures::AcceptAfterAll() {
   elsewhere_ = true;
   last_.reset();
   before_last_.reset();
@@ -99,15 +93,15 @@ double Plausibility::BelieveAfterAll() {
   return 0.5;
 }
 
-void Plausibility::JudgeJoints(const TrackedPosture& observed, const Posture& predicted,
-                               double dt_s) {
+void GrossFailures::JudgeJoints(const TrackedPosture& observed, const Posture& predicted,
+                                double dt_s) {
   for (size_t i = 0; i < kJointCount; ++i) {
     if (!Seen(observed, i)) {
       jumped_s_[i] = 0.0;
       continue;
     }
     const Eigen::Vector3d& p = observed.posture.position_m[i];
-    const double allowed = slack_m_ + kLimbSpeed * std::min(dt_s, 0.1) * 0.5;
+    const double allowed = options_.slack_m + options_.limb_speed * std::min(dt_s, 0.1) * 0.5;
     if ((p - predicted.position_m[i]).norm() <= allowed) {
       jumped_s_[i] = 0.0;
       continue;
@@ -117,12 +111,13 @@ void Plausibility::JudgeJoints(const TrackedPosture& observed, const Posture& pr
     jumped_s_[i] = stays ? jumped_s_[i] + dt_s : dt_s;
     suspect_.position_m[i] = p;
     // A jump without any other sign of an error is a fast move or a lost frame.
-    if (jumped_s_[i] < kPatience_s && LooksWrong(observed, i)) joint_trust_[i] = kJumpTrust;
+    if (jumped_s_[i] < options_.patience_s && LooksWrong(observed, i))
+      joint_trust_[i] = options_.jump_trust;
   }
 }
 
 /// Whether what is seen has the bones of the person seen until now: half of them within a tenth.
-bool Plausibility::SameBones(const TrackedPosture& observed) const {
+bool GrossFailures::SameBones(const TrackedPosture& observed) const {
   const BoneLengths now = MeasureBoneLengths(observed.posture), before = MeasureBoneLengths(*last_);
   std::vector<double> off;
   for (size_t i = 1; i < kJointCount; ++i) {
@@ -131,28 +126,28 @@ bool Plausibility::SameBones(const TrackedPosture& observed) const {
   }
   if (off.size() < 6) return false;
   std::nth_element(off.begin(), off.begin() + static_cast<ptrdiff_t>(off.size() / 2), off.end());
-  return off[off.size() / 2] < 0.1;
+  return off[off.size() / 2] < options_.same_bone;
 }
 
 /// What else speaks against a joint that jumped: its bone has not the length it had, or it lies on
 /// its counterpart of the other side, where it did not lie before.
-bool Plausibility::LooksWrong(const TrackedPosture& observed, size_t i) const {
+bool GrossFailures::LooksWrong(const TrackedPosture& observed, size_t i) const {
   const auto m = kMirroredJoint[i];
   const auto distance = [](const Posture& p, size_t a, size_t b) {
     return (p.position_m[a] - p.position_m[b]).norm();
   };
-  if (m != i && Seen(observed, m) && distance(observed.posture, i, m) < kSamePlace_m &&
-      distance(*last_, i, m) > 2.0 * kSamePlace_m) {
+  if (m != i && Seen(observed, m) && distance(observed.posture, i, m) < options_.same_place_m &&
+      distance(*last_, i, m) > 2.0 * options_.same_place_m) {
     return true;
   }
   if (i == 0) return false;
   const auto parent = ParentOf(i);
   if (!Seen(observed, parent)) return false;
   const double before = distance(*last_, i, parent);
-  return std::abs(distance(observed.posture, i, parent) - before) > kWrongBone * before;
+  return std::abs(distance(observed.posture, i, parent) - before) > options_.wrong_bone * before;
 }
 
-void Plausibility::Remember(const Posture& made, double dt_s) {
+void GrossFailures::Remember(const Posture& made, double dt_s) {
   before_last_ = last_;
   last_ = made;
   last_dt_s_ = dt_s;

@@ -1,0 +1,89 @@
+#pragma once
+#include <Eigen/Core>
+
+namespace ossa::recon {
+
+// Filters of one joint's position, metres and seconds. Each starts at its first value.
+
+/// The Kinect SDK's NUI_TRANSFORM_SMOOTH_PARAMETERS (Azimi, "Skeletal Joint Smoothing White Paper",
+/// Microsoft 2012).
+struct HoltOptions {
+  double smoothing = 0.5;                // [0, 1): 0 = raw; 1 - alpha of the paper
+  double correction = 0.5;               // [0, 1]: trend gain gamma
+  double prediction = 0.5;               // frames to predict into the future, >= 0
+  double jitter_radius_m = 0.05;         // moves below are damped further, > 0
+  double max_deviation_radius_m = 0.04;  // filtered never farther than this from raw, > 0
+  /// The white paper's code begins with the mean of the first two values, before it smooths.
+  bool averages_second = true;
+
+  /// The SDK's defaults: 0.5 0.5 0.5 0.05 0.04.
+  static HoltOptions Default() { return {}; }
+  /// The white paper's second and third recommendation: smoother, later.
+  static HoltOptions Smooth() { return {0.5, 0.1, 0.5, 0.1, 0.1}; }
+  static HoltOptions VerySmooth() { return {0.7, 0.3, 1.0, 1.0, 1.0}; }
+  /// Of the method holt: it predicts nothing, so that what it says is of the frame itself.
+  static HoltOptions WithoutPrediction() { return {0.5, 0.5, 0.0, 0.05, 0.04, false}; }
+};
+
+/// Double exponential smoothing (C. C. Holt 1957) as the SDK does it: jitter damping, level, trend,
+/// prediction, limit of the deviation.
+class HoltFilter {
+ public:
+  explicit HoltFilter(const HoltOptions& options = HoltOptions::WithoutPrediction())
+      : options_(options) {}
+  Eigen::Vector3d Step(const Eigen::Vector3d& value_m);
+
+ private:
+  HoltOptions options_;
+  int count_ = 0;
+  Eigen::Vector3d last_m_ = Eigen::Vector3d::Zero();
+  Eigen::Vector3d level_m_ = Eigen::Vector3d::Zero();
+  Eigen::Vector3d trend_m_ = Eigen::Vector3d::Zero();
+};
+
+struct OneEuroOptions {
+  double min_cutoff_hz = 1.5;  // at rest, > 0
+  double beta_per_m = 4.0;     // the cut-off grows by this per m/s, >= 0
+  /// The speed is that of the measurements. False: from the last estimate to the new measurement.
+  bool speed_of_measurements = true;
+
+  /// Of `ossa track --smoothing one-euro`.
+  static OneEuroOptions Default() { return {}; }
+  /// Of the methods one-euro and best.
+  static OneEuroOptions OfMethods() { return {1.5, 3.0, false}; }
+};
+
+/// Casiez, Roussel, Vogel, 1 Euro filter, CHI 2012.
+class OneEuroFilter {
+ public:
+  explicit OneEuroFilter(const OneEuroOptions& options = OneEuroOptions::OfMethods())
+      : options_(options) {}
+  /// `dt_s` > 0.
+  Eigen::Vector3d Step(const Eigen::Vector3d& value_m, double dt_s);
+
+ private:
+  OneEuroOptions options_;
+  bool started_ = false;
+  Eigen::Vector3d last_m_ = Eigen::Vector3d::Zero();
+  Eigen::Vector3d value_m_ = Eigen::Vector3d::Zero();
+  Eigen::Vector3d velocity_m_s_ = Eigen::Vector3d::Zero();
+};
+
+/// Kalman filter of constant velocity with white acceleration; the axes share one covariance.
+class VelocityKalman {
+ public:
+  /// acceleration: standard deviation of the acceleration, m/s^2; noise of one measurement, metres.
+  explicit VelocityKalman(double acceleration = 6.0, double noise_m = 0.02)
+      : acceleration_(acceleration), noise_m_(noise_m) {}
+  /// trust in (0, 1] divides the measurement's variance; 0: prediction only.
+  Eigen::Vector3d Step(const Eigen::Vector3d& value_m, double dt_s, double trust);
+
+ private:
+  double acceleration_, noise_m_;
+  bool started_ = false;
+  Eigen::Vector3d position_ = Eigen::Vector3d::Zero();
+  Eigen::Vector3d velocity_ = Eigen::Vector3d::Zero();
+  Eigen::Matrix2d covariance_ = Eigen::Matrix2d::Identity();
+};
+
+}  // namespace ossa::recon
