@@ -3,6 +3,7 @@
 #include "physics/actor_internal.h"
 #include "recon/orientation.h"
 
+// Constants: by hand, on the scenes of Shum & Ho 2012 section 8.3.
 namespace ossa::physics {
 
 // Constants: chosen by hand.

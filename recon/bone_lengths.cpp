@@ -9,7 +9,8 @@ namespace {
 /// Moves a running median by one measurement, the n-th. The first two make a mean: a step of a
 /// share of the length would be a long way from where it begins.
 double MoveMedian(double median_m, double length_m, int n) {
-  constexpr double kFirstStep = 0.5;  // of the length, divided by n; chosen with the memory of 20 s
+  constexpr double kFirstStep =
+      0.5;  // of the length, divided by n; by hand, with the memory of 20 s
   if (n <= 2) return median_m + (length_m - median_m) / n;
   return median_m * (1.0 + std::copysign(kFirstStep / n, length_m - median_m));
 }

@@ -17,8 +17,8 @@ enum class BoneStatistic {
 
 struct BoneLengthOptions {
   BoneStatistic statistic = BoneStatistic::kMean;
-  int memory = 600;          // measurements after which what is older fades, > 0; 20 s at 30 Hz
-  double share = 0.1;        // of kExponential, in (0, 1]
+  int memory = 600;          // measurements until what is older fades, > 0; by hand: 20 s at 30 Hz
+  double share = 0.1;        // weight of kExponential, in (0, 1]; by hand
   bool sides_alike = false;  // left and right are one bone
 
   /// Of eq. 5 of Shum 2013 before any reference posture: the first second.

@@ -60,8 +60,8 @@ bool HasDirections(const Posture& p) {
 
 Posture WithBoneLengths(const Posture& posture, const BoneLengths& lengths_m,
                         const JointWeights& weights) {
-  constexpr int kMostSteps = 8;
-  constexpr double kExact_m = 1e-9;
+  constexpr int kMostSteps = 8;      // by hand
+  constexpr double kExact_m = 1e-9;  // rounding
   JointWeights give;
   for (size_t i = 0; i < kJointCount; ++i) give[i] = 1.0 / weights[i];
   Posture p = HasDirections(posture) ? posture : Retargeted(posture, lengths_m);

@@ -22,7 +22,7 @@ double TiltFromUp(const Posture& posture, Joint from, Joint to) {
 }  // namespace
 
 bool IsReferencePosture(const Posture& p, const ReferenceLengthOptions& options) {
-  constexpr double kLevel_deg = 90.0;
+  constexpr double kLevel_deg = 90.0;  // definition
   const double upright_deg = options.upright_deg, arms_deg = options.level_arms_deg;
   // Comparisons this way round: what is not finite is not upright.
   if (!(TiltFromUp(p, Joint::kHipCenter, Joint::kShoulderCenter) <= upright_deg)) return false;

@@ -41,10 +41,10 @@ double MedianStep_s(const SkeletonSequence& sequence) {
   return *middle;
 }
 
-/// Every joint of every person, anew after an absence of a few frames: what comes after it is not
-/// the next sample of what was before.
+/// Every joint of every person, anew after an absence of a few frames (by hand): what comes after
+/// it is not the next sample of what was before.
 std::vector<Track> CollectTracks(SkeletonSequence& sequence) {
-  constexpr double kGap_frames = 3.5;
+  constexpr double kGap_frames = 3.5;  // by hand
   const double gap_s = kGap_frames * MedianStep_s(sequence);
   std::vector<Track> tracks;
   std::map<std::pair<int, size_t>, size_t> latest;
@@ -70,7 +70,7 @@ std::vector<Track> CollectTracks(SkeletonSequence& sequence) {
 }  // namespace
 
 SkeletonSequence ButterworthSequence(const SkeletonSequence& sequence, double cutoff_hz) {
-  constexpr double kMostRatio = 0.45;  // of the frame rate: at 0.5 nothing is filtered
+  constexpr double kMostRatio = 0.45;  // of the frame rate; a bound: at 0.5 nothing is filtered
   SkeletonSequence out = sequence;
   for (Track& track : CollectTracks(out)) {
     const size_t n = track.joints.size();

@@ -57,8 +57,9 @@ Eigen::Vector3d OneEuroFilter::Step(const Eigen::Vector3d& value_m, double dt_s)
 }
 
 Eigen::Vector3d VelocityKalman::Step(const Eigen::Vector3d& value_m, double dt_s, double trust) {
-  constexpr double kRest_s = 0.2;  // while nothing is known: at rest within a few frames
-  constexpr double kFirstVariance_m2_s2 = 1.0;  // of the velocity: people move at 1 m/s
+  constexpr double kRest_s = 0.2;  // by hand: while nothing is known, at rest within a few frames
+  constexpr double kFirstVariance_m2_s2 =
+      1.0;  // of the velocity; anthropometry: people move at 1 m/s
   const double r = noise_m_ * noise_m_;
   if (!started_) {
     started_ = true;

@@ -8,11 +8,12 @@ namespace ossa::recon {
 /// The Kinect SDK's NUI_TRANSFORM_SMOOTH_PARAMETERS (Azimi, "Skeletal Joint Smoothing White Paper",
 /// Microsoft 2012).
 struct HoltOptions {
-  double smoothing = 0.5;                // [0, 1): 0 = raw; 1 - alpha of the paper
-  double correction = 0.5;               // [0, 1]: trend gain gamma
-  double prediction = 0.5;               // frames to predict into the future, >= 0
-  double jitter_radius_m = 0.05;         // moves below are damped further, > 0
-  double max_deviation_radius_m = 0.04;  // filtered never farther than this from raw, > 0
+  // The defaults are the SDK's own.
+  double smoothing = 0.5;                // weight, [0, 1): 0 = raw; 1 - alpha of the SDK's paper
+  double correction = 0.5;               // weight, [0, 1]: trend gain gamma of the SDK's paper
+  double prediction = 0.5;               // frames to predict into the future, >= 0; the SDK's
+  double jitter_radius_m = 0.05;         // moves below are damped further, > 0; the SDK's
+  double max_deviation_radius_m = 0.04;  // never farther than this from raw, > 0; the SDK's
   /// The white paper's code begins with the mean of the first two values, before it smooths.
   bool averages_second = true;
 
@@ -42,8 +43,9 @@ class HoltFilter {
 };
 
 struct OneEuroOptions {
-  double min_cutoff_hz = 1.5;  // at rest, > 0
-  double beta_per_m = 4.0;     // the cut-off grows by this per m/s, >= 0
+  double min_cutoff_hz =
+      1.5;  // at rest, > 0; by hand, as Casiez 2012 says: until a still joint does not jitter
+  double beta_per_m = 4.0;  // Hz more per m/s, >= 0; by hand, until a fast one does not lag
   /// The speed is that of the measurements. False: from the last estimate to the new measurement.
   bool speed_of_measurements = true;
 

@@ -3,10 +3,13 @@
 
 #include "recon/filters/joint_filters.h"
 
+// Constants: chosen on UI-PRMD by `ossa experiment sdk`, which with data = ["nested"] chooses the
+// first two anew, each on people other than those it is tested on. Within a factor of two of these
+// nothing moves by more than 2 %.
+
 namespace ossa::recon {
 
-/// Constants of LagFilter. Within a factor of two of the first two nothing moves by more than 2 %
-/// on UI-PRMD; `ossa experiment sdk` with data = ["nested"] chooses them anew.
+/// Settings of LagFilter.
 struct LagFilterOptions {
   double noise_m = 0.02;           // of one measurement, standard deviation, > 0
   double acceleration = 10.0;      // of a joint, m/s^2, standard deviation, > 0

@@ -6,20 +6,22 @@
 
 namespace ossa::recon {
 
+// Constants: by hand, from anthropometry where it is named; weights and shares where no unit is.
+
 /// When bones are measured, and what a measured length may be. Frames are a thirtieth of a second;
 /// checked on UI-PRMD (`ossa experiment sdk`) and rendered clips.
 struct BodySizeOptions {
   /// Bones may be as far from the standard ones as they like; a foot may end in the ankle where a
   /// sensor has only one of the two.
   bool as_measured = false;
-  // Another size, by that much, for so long is another person.
+  // Another size, by that share, for so long is another person.
   double other_size = 0.25;
   int other_size_frames = 30;
   int settling_frames = 30;       // judged bones are the mean of so many
   int first_review_frames = 105;  // sooner, a pose is taken for a body
-  double other_length = 0.05;  // relative: the median of that many frames is no more than 1 % off
-  int growing_frames = 15;     // a bone that grew at once would throw its joints
-  double trusted = 0.5;        // a joint with more trust is measured, [0, 1]
+  double other_length = 0.05;     // share: the median of that many frames errs by no more than 1 %
+  int growing_frames = 15;        // a bone that grew at once would throw its joints
+  double trusted = 0.5;           // weight from which on a joint is measured, [0, 1]
   int whole_body = 12, fewest = 4;  // trusted joints that fix bones for good, that fix the size
   // Lengths over the standard ones at the person's size. Where trunk joints lie is each sensor's
   // own definition; limbs differ between people only (anthropometry: by less than a quarter).

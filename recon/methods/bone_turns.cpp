@@ -37,7 +37,7 @@ JointOrientations TurnedOntoBones(const PostureDatabase& database, std::span<con
 std::vector<double> InverseDistances(const PostureDatabase& database,
                                      std::span<const int> neighbours, const PostureVector& made,
                                      const JointWeights& reliability) {
-  constexpr double kLeast_m2 = 1e-4;
+  constexpr double kLeast_m2 = 1e-4;  // by hand
   std::vector<double> weights;
   for (const int n : neighbours) {
     const double d = WeightedDistance(database.postures().col(n), made, reliability);

@@ -24,9 +24,9 @@ class FrameSteps {
   }
 
  private:
-  static constexpr double kLongestGap_s = 0.5;
-  static constexpr double kJitter_s = 0.005;  // a sixth of a frame
-  static constexpr double kUsual_s = 1.0 / 30.0;
+  static constexpr double kLongestGap_s = 0.5;    // by hand: 15 frames
+  static constexpr double kJitter_s = 0.005;      // by hand: a sixth of a frame
+  static constexpr double kUsual_s = 1.0 / 30.0;  // of a Kinect v1
   double last_time_s_ = -std::numeric_limits<double>::infinity();
   double step_s_ = kUsual_s;
 };

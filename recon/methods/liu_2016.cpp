@@ -130,6 +130,7 @@ class Liu2016 : public OffsetReconstructor {
   /// them, and models stop growing (LocalMixtureOptions): postures 30 times a second bring nothing
   /// new, and a frame has a millisecond.
   void Learn(const PreparedPosture& prepared, size_t joint, const OffsetPrediction& p) override {
+    // By hand, shares: of R_i, and of the noise's variance.
     constexpr double kReliable = 0.9, kSure = 0.5;
     if (!options_.incremental || MixtureOf(joint).empty()) return;
     if (prepared.reliability[joint] < kReliable || p.unsureness > kSure) return;
@@ -173,7 +174,7 @@ class Exemplar : public OffsetReconstructor {
 
  protected:
   void BeginFrame(const PreparedPosture& prepared) override {
-    constexpr size_t kNearest = 10;
+    constexpr size_t kNearest = 10;  // by hand; Shen et al. 2012 name none
     const PostureVector query = ToVector(prepared.scaled);
     const Eigen::VectorXf d = (postures_.colwise() - query).colwise().squaredNorm().transpose();
     nearest_.clear();

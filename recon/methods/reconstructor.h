@@ -55,10 +55,10 @@ struct LocalPcaOptions {
   int dimensions = 20;                // of the natural posture space, table V
   int steps = 20;                     // of the local stochastic search, table V
   int samples = 100;                  // per step, table V
-  double control = 1.0;               // w_c, eq. 15
-  double style = 0.5;                 // w_s
-  double kinematics = 1.5;            // w_k
-  double continuity = 0.25;           // w_m
+  double control = 1.0;               // weight w_c, eq. 15
+  double style = 0.5;                 // weight w_s, eq. 15
+  double kinematics = 1.5;            // weight w_k, eq. 15
+  double continuity = 0.25;           // weight w_m, eq. 15
   std::string solver = "stochastic";  // or "ceres": the same energy by Levenberg-Marquardt
   bool use_reliability = true;        // false: the paper's method B, every joint seen counts fully
   bool extend_database = false;       // sec. IX: reliable postures join a private copy at run time
@@ -71,25 +71,28 @@ struct LocalPcaOptions {
 /// Settings of the Gaussian-process energy: liu-2016, full-gp.
 struct GaussianProcessOptions {
   int nearby_models = 9;     // L, Liu 2016 sec. 4.2.2
-  double spatial = 0.6;      // w_S, eq. 22
-  double temporal = 0.2;     // w_T
-  double reliability = 0.2;  // w_R
+  double spatial = 0.6;      // weight w_S, eq. 22
+  double temporal = 0.2;     // weight w_T, eq. 22
+  double reliability = 0.2;  // weight w_R, eq. 22
   bool incremental = true;   // algorithm 2: reliable samples of low variance join the local models
 };
 
 /// What of `best` was chosen on recordings. `ossa experiment sdk` with data = ["nested"] chooses
 /// each on people other than those it is then tested on.
 struct BestConstants {
-  // Of the filter: within a factor of two of each nothing moves by more than 2 %.
+  // Of the filter; chosen on UI-PRMD: within a factor of two of each nothing moves by more than 2
+  // %.
   double noise_m = 0.02;       // of one measurement, standard deviation
   double acceleration = 10.0;  // of a joint, m/s^2, standard deviation
-  // Share taken of what the learned correction changes with the posture.
+  // Chosen on UI-PRMD: share taken of what the learned correction changes with the posture.
   double of_posture = 0.6;
-  // How firm a joint of a limb is, over its parent, when bones get their lengths.
+  // Chosen on UI-PRMD, a ratio: how firm a joint of a limb is, over its parent, when bones get
+  // their lengths.
   double outwards = 0.5;
-  // Share of what is expected of a body of this size in a bone's length, beside what is measured.
+  // Chosen on UI-PRMD: share of what is expected of a body of this size in a bone's length, beside
+  // what is measured.
   double expected = 0.3;
-  // A joint may be so far from where it was expected without having failed, metres.
+  // Chosen on UI-PRMD: a joint may be so far from where it was expected without having failed.
   double slack_m = 0.12;
 };
 
@@ -115,7 +118,7 @@ struct ReconstructorOptions {
   /// The person's bones, where they were measured before: they stay from the first frame to the
   /// last. Only for methods that keep bones (KeepsBones).
   std::optional<BoneLengths> bones_m;
-  uint64_t seed = 1;
+  uint64_t seed = 1;  // by hand
   LocalPcaOptions local_pca;
   GaussianProcessOptions gaussian_process;
   BestOptions best;

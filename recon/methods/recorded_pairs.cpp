@@ -11,6 +11,8 @@
 namespace ossa::recon {
 namespace {
 
+// Constants: by hand.
+
 constexpr double kSameTime_s = 0.02;
 // Nobody knows what a limb did between frames farther apart.
 constexpr double kLongestStep_s = 0.1;
@@ -91,7 +93,7 @@ std::optional<Eigen::Vector3d> TrueJoint(const TrueMoment& moment, int id, size_
 /// known.
 std::optional<PosturePair> MakePair(const PreparedPosture& prepared, const TrueMoment& moment,
                                     int id) {
-  constexpr double kFewest = 4.0;
+  constexpr double kFewest = 4.0;  // joints, weights of 1
   Posture truth_in_camera = prepared.in_camera;
   PosturePair pair;
   double known = 0.0;

@@ -36,8 +36,8 @@ class Shum2013 : public NaturalPostureMethod {
   /// Sec. IX: a posture of which every joint is reliable and tracked, and which the database does
   /// not have, joins a private copy of it.
   void Extend(const EnergyInputs& energy, const ReconstructionInput& input) {
-    constexpr int kMostAdded = 2000;
-    constexpr double kReliable = 0.9;
+    constexpr int kMostAdded = 2000;   // by hand: a copy of the database per posture
+    constexpr double kReliable = 0.9;  // R_i, a share; by hand
     const bool good = std::all_of(energy.reliability.begin(), energy.reliability.end(),
                                   [](double r) { return r > kReliable; }) &&
                       std::all_of(input.observed.state.begin(), input.observed.state.end(),

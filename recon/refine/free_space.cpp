@@ -9,7 +9,7 @@
 namespace ossa::recon {
 namespace {
 
-// A joint's own breadth: noise at a silhouette must not put a limb into free space.
+// By hand, a joint's own breadth: noise at a silhouette must not put a limb into free space.
 constexpr double kBreadth_m = 0.02;
 
 // The image around one joint: how far what is seen at a pixel lies behind it.

@@ -25,8 +25,8 @@
 namespace ossa::recon {
 namespace {
 
-// Where nothing is completed, a joint in doubt enters its filter as a measurement of at most twice
-// the variance.
+// By hand: where nothing is completed, a joint in doubt enters its filter as a measurement of at
+// most twice the variance.
 constexpr double kLeastFilterWeight = 0.5;
 
 class Best : public Reconstructor {

@@ -103,7 +103,7 @@ Posture Completion::Complete(const CompletionInput& input) {
 }
 
 bool Completion::HasExpectation(const PreparedPosture& prepared) const {
-  constexpr int kFewest = 4;  // joints: fewer tell no posture of a database from another
+  constexpr int kFewest = 4;  // joints; by hand: fewer tell no posture of a database from another
   const auto seen = std::count(prepared.present.begin(), prepared.present.end(), 1.0);
   return prior_ ? seen > 0 : plantard_ && seen >= kFewest;
 }
@@ -117,7 +117,7 @@ Posture Completion::Expect(const CompletionInput& input) {
 /// missing joints above follow, each by its share of the way from the shoulder.
 void Completion::StretchToSeenEnds(const JointWeights& seen, const Posture& propagated,
                                    Posture& target) const {
-  constexpr double kLeastChain_m = 1e-3;  // shorter, it has no shares
+  constexpr double kLeastChain_m = 1e-3;  // by hand: a shorter one has no shares
   for (size_t end = 0; end < kJointCount; ++end) {
     if (!IsInLimb(end) || seen[end] == 0.0) continue;
     size_t fixed = ParentOf(end);

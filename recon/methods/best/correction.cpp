@@ -6,7 +6,7 @@ namespace ossa::recon {
 
 void Correction::Observe(const Posture& in_camera, const FrameState& frame, double dt_s) {
   if (learned_.empty()) return;
-  constexpr double kMemory_s = 20.0;  // what is older fades: people turn, and walk elsewhere
+  constexpr double kMemory_s = 20.0;  // by hand: people turn, and walk elsewhere
   averaged_s_ = std::min(averaged_s_ + dt_s, kMemory_s);
   const Posture now = Predict(in_camera, frame);
   for (size_t i = 0; i < kJointCount; ++i) {

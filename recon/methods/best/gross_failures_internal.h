@@ -7,6 +7,8 @@
 
 namespace ossa::recon {
 
+// Constants: by hand, from limits of human motion with a margin.
+
 /// What a body does between two frames: limits of human motion with a margin, checked on the
 /// recordings whose jumps and snapped hands `ossa experiment sdk` counts (KinectGait, KERAAL,
 /// Microsoft's).
@@ -19,11 +21,11 @@ struct GrossFailureOptions {
   double body_speed = 5.0;        // m/s of a whole body
   double cut_speed = 4.5;         // m/s of half of all joints: rather a cut than a move
   double limb_speed = 8.0;        // m/s of a hand: a thrower's
-  double mirrored_ratio = 0.4;    // sides are exchanged if mirrored the body is so much nearer, < 1
-  double jump_trust = 0.05;       // in a joint that just jumped, [0, 1]
-  double wrong_bone = 0.35;       // relative error of a bone that no measurement error explains
-  double same_bone = 0.1;         // ... of a bone that is the person's own
-  double same_place_m = 0.1;      // a hand within this of the other one has snapped to it
+  double mirrored_ratio = 0.4;  // sides are exchanged if the mirrored body is nearer by this factor
+  double jump_trust = 0.05;     // weight of a joint that just jumped, [0, 1]
+  double wrong_bone = 0.35;     // share of a bone by which no measurement errs
+  double same_bone = 0.1;       // share by which the person's own does
+  double same_place_m = 0.1;    // a hand within this of the other one has snapped to it
 };
 
 /// Stage 1 of `best`. Gross failures, told from motion: what no body does between two frames.

@@ -5,9 +5,11 @@
 namespace ossa::recon {
 namespace {
 
-constexpr double kGuess = 0.5;        // trusted no more than that
-constexpr double kLeastTrust = 0.02;  // a metre: as good as not seen
-// Where no hip is seen, the root's place is a guess from the joints that are.
+// By hand. Weights in [0, 1]: what is trusted no more is a guess, and as good as not seen (a
+// metre).
+constexpr double kGuess = 0.5;
+constexpr double kLeastTrust = 0.02;
+// By hand: where no hip is seen, the root's place is a guess from the joints that are.
 constexpr double kGuessedRoot_m = 0.3;
 
 /// Share of the joints the sensor tells of that are guesses.

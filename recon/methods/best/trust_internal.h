@@ -4,7 +4,9 @@
 
 namespace ossa::recon {
 
-/// Thresholds of the trust in a joint; all in [0, 1].
+// Constants: by hand where nothing else is said.
+
+/// Thresholds of the trust in a joint; all weights in [0, 1].
 struct TrustOptions {
   // Trust in a limb's joint rises from 0 to 1 over a range of its kinematic term from the least on
   // (Shum 2013, eq. 6): bones of real sensors are off by up to a third in the course of a move; by
@@ -13,7 +15,7 @@ struct TrustOptions {
   double trusted = 0.5;       // from this trust on a joint stays where it is seen
   double interpolated = 0.6;  // share of its ends' trust for a joint on the line between two
   // The bones of joints that the sensor does not have are measured by the joints around them: they
-  // count, as little as what counts at all, where so many joints are trusted.
+  // count, with the least weight that counts at all, where so many joints are trusted.
   double interpolated_bones = 0.51;
   int fewest_trusted = 8;
 };
