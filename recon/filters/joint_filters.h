@@ -30,9 +30,11 @@ struct HoltOptions {
 /// prediction, limit of the deviation.
 class HoltFilter {
  public:
-  explicit HoltFilter(const HoltOptions& options = HoltOptions::WithoutPrediction())
-      : options_(options) {}
+  HoltFilter() : HoltFilter(HoltOptions::WithoutPrediction()) {}
+  explicit HoltFilter(const HoltOptions& options) : options_(options) {}
   Eigen::Vector3d Step(const Eigen::Vector3d& value_m);
+  /// What was filtered until now stays.
+  void Change(const HoltOptions& options) { options_ = options; }
 
  private:
   HoltOptions options_;
@@ -58,10 +60,12 @@ struct OneEuroOptions {
 /// Casiez, Roussel, Vogel, 1 Euro filter, CHI 2012.
 class OneEuroFilter {
  public:
-  explicit OneEuroFilter(const OneEuroOptions& options = OneEuroOptions::OfMethods())
-      : options_(options) {}
+  OneEuroFilter() : OneEuroFilter(OneEuroOptions::OfMethods()) {}
+  explicit OneEuroFilter(const OneEuroOptions& options) : options_(options) {}
   /// `dt_s` > 0.
   Eigen::Vector3d Step(const Eigen::Vector3d& value_m, double dt_s);
+  /// What was filtered until now stays.
+  void Change(const OneEuroOptions& options) { options_ = options; }
 
  private:
   OneEuroOptions options_;

@@ -168,11 +168,11 @@ int ossa_tracker_set_smooth_parameters(ossa_tracker* tracker,
       throw std::invalid_argument("ossa_tracker_set_smooth_parameters: expected no null argument");
     ossa::tracker::SmoothingOptions options;
     options.kind = ossa::tracker::SmoothingKind::kHolt;
-    options.smoothing = static_cast<double>(parameters->smoothing);
-    options.correction = static_cast<double>(parameters->correction);
-    options.prediction = static_cast<double>(parameters->prediction);
-    options.jitter_radius_m = static_cast<double>(parameters->jitter_radius_m);
-    options.max_deviation_radius_m = static_cast<double>(parameters->max_deviation_radius_m);
+    options.holt.smoothing = static_cast<double>(parameters->smoothing);
+    options.holt.correction = static_cast<double>(parameters->correction);
+    options.holt.prediction = static_cast<double>(parameters->prediction);
+    options.holt.jitter_radius_m = static_cast<double>(parameters->jitter_radius_m);
+    options.holt.max_deviation_radius_m = static_cast<double>(parameters->max_deviation_radius_m);
     tracker->tracker.SetSmoothing(options);
   });
 }

@@ -24,7 +24,7 @@ double MillisecondsSince(Clock::time_point start) {
 // 12 cm where the forest trusts them by 0.9 to 0 (rendered rooms), and may move by twice that.
 // Joints below them on the limb that are not seen move along, so that the limb keeps its shape.
 recon::Posture HeldToImage(const recon::Posture& posture, const recon::TrackedPosture& observed,
-                           const JointArray<double>& reliability) {
+                           const recon::JointArray<double>& reliability) {
   recon::Posture held = posture;
   for (size_t j = 0; j < kJointCount; ++j) {
     const int parent = recon::kJointParent[j];
@@ -47,19 +47,19 @@ recon::Posture HeldToImage(const recon::Posture& posture, const recon::TrackedPo
 
 // What is not seen is where the camera does not see it. The way there takes some frames, so that a
 // guess that wanders about does not flicker; what is seen is back at once.
-recon::Posture WithHiddenHidden(recon::Posture posture, const recon::TrackedPosture& observed,
-                                const depth::DepthFrame& frame, Person& person) {
+recon::Posture OutOfFreeSpace(recon::Posture posture, const recon::TrackedPosture& observed,
+                              const depth::DepthFrame& frame, Person& person) {
   constexpr double kWay_s = 0.05;
   const double share = 1.0 - std::exp(-std::max(0.0, frame.time_s - person.before_s) / kWay_s);
   for (size_t j = 0; j < kJointCount; ++j) {
     if (observed.state[j] == TrackingState::kTracked) {
-      person.aside_m[j].setZero();
+      person.occlusion_offset_m[j].setZero();
       continue;
     }
     Eigen::Vector3d& place = posture.position_m[j];
-    person.aside_m[j] +=
-        share * (recon::MoveOutOfFreeSpace(place, frame) - place - person.aside_m[j]);
-    place += person.aside_m[j];
+    person.occlusion_offset_m[j] +=
+        share * (recon::MoveOutOfFreeSpace(place, frame) - place - person.occlusion_offset_m[j]);
+    place += person.occlusion_offset_m[j];
   }
   return posture;
 }
@@ -68,7 +68,7 @@ recon::Posture WithHiddenHidden(recon::Posture posture, const recon::TrackedPost
 // the lengths again that they had in `whole`; what is not seen moves most.
 recon::Posture WithBonesOf(const recon::Posture& whole, const recon::Posture& moved,
                            const recon::TrackedPosture& observed,
-                           const JointArray<double>& reliability) {
+                           const recon::JointArray<double>& reliability) {
   constexpr double kUnseen = 0.1, kLeast = 0.2;
   recon::JointWeights weights;
   for (size_t j = 0; j < kJointCount; ++j) {
@@ -80,7 +80,7 @@ recon::Posture WithBonesOf(const recon::Posture& whole, const recon::Posture& mo
 
 recon::JointArray<JointEstimate> Estimates(const recon::Posture& posture,
                                            const recon::TrackedPosture& observed,
-                                           const JointArray<double>& reliability) {
+                                           const recon::JointArray<double>& reliability) {
   const recon::JointOrientations orientation = recon::ComputeOrientations(posture);
   recon::JointArray<JointEstimate> joints;
   for (size_t j = 0; j < kJointCount; ++j) {
@@ -131,9 +131,9 @@ void CompleteBody(const depth::DepthFrame& frame, const std::optional<Eigen::Vec
   if (!person.reconstructor) person.reconstructor = MethodFor(body.id, options);
   recon::TrackedPosture seen = body.raw;
   if (body.refined && options.reconstructor.method == "best") seen.posture = *body.refined;
-  const recon::TrackedPosture steady = person.steady.Step(seen, frame.time_s);
+  const recon::TrackedPosture averaged = person.stationary.Step(seen, frame.time_s);
   const auto result =
-      person.reconstructor->Step({steady, frame.time_s, &frame, body.refined_bones_m});
+      person.reconstructor->Step({averaged, frame.time_s, &frame, body.refined_bones_m});
   body.reconstructed = result.posture;
   body.bones_m = person.reconstructor->Bones();
   ms.reconstruct += MillisecondsSince(start);
@@ -145,11 +145,11 @@ void CompleteBody(const depth::DepthFrame& frame, const std::optional<Eigen::Vec
     if (made) posture = made->posture;
     ms.physics += MillisecondsSince(physics_start);
   }
-  const recon::Posture held = HeldToImage(posture, steady, result.reliability);
-  recon::Posture smoothed = Smooth(WithHiddenHidden(held, steady, frame, person), frame.time_s,
+  const recon::Posture held = HeldToImage(posture, averaged, result.reliability);
+  recon::Posture smoothed = Smooth(OutOfFreeSpace(held, averaged, frame, person), frame.time_s,
                                    options.smoothing, person.smoothing);
   if (options.physics || recon::KeepsBones(options.reconstructor.method)) {
-    smoothed = WithBonesOf(posture, smoothed, steady, result.reliability);
+    smoothed = WithBonesOf(posture, smoothed, averaged, result.reliability);
   }
   body.joints = Estimates(smoothed, body.raw, result.reliability);
 }

@@ -4,11 +4,11 @@
 #include <optional>
 #include <vector>
 
+#include "recon/filters/stationary_average.h"
 #include "recon/methods/reconstructor.h"
 #include "recon/refine/bone_measure.h"
 #include "tools/tracker/choose_posture_internal.h"
 #include "tools/tracker/mechanics_internal.h"
-#include "tools/tracker/steady_internal.h"
 #include "tools/tracker/tracker.h"
 
 namespace ossa::tracker {
@@ -24,10 +24,10 @@ struct Person {
   recon::JudgedBones bones;                     // by close looks until now
   std::optional<recon::TrackedPosture> before;  // of the last frame it was tracked in
   std::vector<float> context;                   // facing, as the forest saw it
-  SteadyBody steady;
+  recon::StationaryPosture stationary;          // averages what stands still
   std::unique_ptr<recon::Reconstructor> reconstructor;
   std::unique_ptr<Mechanics> mechanics;
-  recon::JointArray<Eigen::Vector3d> aside_m = NoMoves();  // out of the camera's sight
+  recon::JointArray<Eigen::Vector3d> occlusion_offset_m = NoMoves();  // out of free space
   SmoothingState smoothing;
 
   static recon::JointArray<Eigen::Vector3d> NoMoves() {

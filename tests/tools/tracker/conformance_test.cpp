@@ -284,7 +284,7 @@ TEST(SdkConformance, ACHeaderServesOtherLanguages) {
       << ossa_last_error();
   ASSERT_EQ(frame.body_count, 1);
   EXPECT_EQ(frame.bodies[0].state, OSSA_FULLY_TRACKED);
-  EXPECT_EQ(frame.bodies[0].joints[Joint::kHead].state, OSSA_TRACKED);
+  EXPECT_EQ(frame.bodies[0].joints[recon::Index(Joint::kHead)].state, OSSA_TRACKED);
   EXPECT_EQ(frame.has_floor, 1);
   const int32_t nobody = 0;
   EXPECT_EQ(ossa_tracker_choose_users(tracker, &nobody, 1), 0);
@@ -317,7 +317,7 @@ class WalkInC {
         << ossa_last_error();
     ++frames_;
     EXPECT_EQ(frame.body_count, 1);
-    return frame.bodies[0].joints[joint];
+    return frame.bodies[0].joints[recon::Index(joint)];
   }
   /// How far smoothing moved the head, metres.
   float SmoothedBy_m() {

@@ -31,11 +31,11 @@ class SdkPresets : public testing::TestWithParam<Preset> {};
 TEST_P(SdkPresets, HaveThePublishedValues) {
   const SmoothingOptions o = SmoothingPreset(GetParam().name);
   EXPECT_EQ(o.kind, SmoothingKind::kHolt);
-  EXPECT_EQ(o.smoothing, GetParam().smoothing);
-  EXPECT_EQ(o.correction, GetParam().correction);
-  EXPECT_EQ(o.prediction, GetParam().prediction);
-  EXPECT_EQ(o.jitter_radius_m, GetParam().jitter_m);
-  EXPECT_EQ(o.max_deviation_radius_m, GetParam().deviation_m);
+  EXPECT_EQ(o.holt.smoothing, GetParam().smoothing);
+  EXPECT_EQ(o.holt.correction, GetParam().correction);
+  EXPECT_EQ(o.holt.prediction, GetParam().prediction);
+  EXPECT_EQ(o.holt.jitter_radius_m, GetParam().jitter_m);
+  EXPECT_EQ(o.holt.max_deviation_radius_m, GetParam().deviation_m);
 }
 
 INSTANTIATE_TEST_SUITE_P(SdkConformance, SdkPresets,
@@ -47,8 +47,7 @@ INSTANTIATE_TEST_SUITE_P(SdkConformance, SdkPresets,
 TEST(SdkConformance, HoltSmoothingTakesTheSdksFiveParameters) {
   // By hand: level and trend of the double exponential without jitter damping or clamping.
   SmoothingOptions o;
-  o.smoothing = 0.5, o.correction = 0.25, o.prediction = 2.0;
-  o.jitter_radius_m = 1e-9, o.max_deviation_radius_m = 100;
+  o.holt = {0.5, 0.25, 2.0, 1e-9, 100};
   SmoothingState state;
   EXPECT_DOUBLE_EQ(Smooth(HeadAt(0), 0.0, o, state)[Joint::kHead].x(), 0.0);
   // Second frame: level 0.5 (0 + 1), trend 0.25 * 0.5.
@@ -65,7 +64,7 @@ TEST(SdkConformance, FilteredJointsStayWithinTheDeviationRadius) {
   for (int i = 0; i < 200; ++i) {
     const double x_m = static_cast<double>(random() % 1000) / 500.0;
     const double off = Smooth(HeadAt(x_m), i / 30.0, o, state)[Joint::kHead].x() - x_m;
-    EXPECT_LE(std::abs(off), o.max_deviation_radius_m + 1e-12);
+    EXPECT_LE(std::abs(off), o.holt.max_deviation_radius_m + 1e-12);
   }
 }
 
@@ -92,7 +91,7 @@ TEST(Smoothing, StartsAnewAfterAGap) {
 
 TEST(Smoothing, NamesWhatIsOutOfRange) {
   SmoothingOptions o;
-  o.smoothing = 1.0;
+  o.holt.smoothing = 1.0;
   try {
     o.Check();
     FAIL() << "accepted";

@@ -4,7 +4,7 @@
 
 #include "recon/posture.h"
 
-namespace ossa::tracker {
+namespace ossa::recon {
 
 /// One joint, averaged while it does not move.
 ///
@@ -14,18 +14,18 @@ namespace ossa::tracker {
 /// observations all agree, within that noise, with the mean of the time before; then the mean of
 /// all is where it is. The first observation beyond the noise lets go: what moves passes unchanged
 /// and without lag.
-class SteadyJoint {
+class StationaryAverage {
  public:
   Eigen::Vector3d Step(const Eigen::Vector3d& seen_m);
   void Forget() { *this = {}; }
   bool held() const { return frames_ > 0; }
 
  private:
-  static constexpr int kWindow = 16;  // half a second
+  static constexpr int kWindow = 16;  // half a second, by hand
 
   const Eigen::Vector3d& Before(int frames) const;
   void LearnNoise();
-  bool Agree(int last, const Eigen::Vector3d& mean_m, int frames) const;
+  bool IsSamePlace(int last, const Eigen::Vector3d& mean_m, int frames) const;
   bool StaysAtMean() const;
   bool HasComeToRest() const;
 
@@ -37,13 +37,13 @@ class SteadyJoint {
 };
 
 /// The joints of one body; what is not tracked is left alone and forgotten.
-class SteadyBody {
+class StationaryPosture {
  public:
-  recon::TrackedPosture Step(const recon::TrackedPosture& seen, double time_s);
+  TrackedPosture Step(const TrackedPosture& seen, double time_s);
 
  private:
-  recon::JointArray<SteadyJoint> joints_;
+  JointArray<StationaryAverage> joints_;
   double time_s_ = 0.0;
 };
 
-}  // namespace ossa::tracker
+}  // namespace ossa::recon

@@ -3,9 +3,9 @@
 #include <cmath>
 #include <random>
 
-#include "tools/tracker/steady_internal.h"
+#include "recon/filters/stationary_average.h"
 
-namespace ossa::tracker {
+namespace ossa::recon {
 namespace {
 
 using Eigen::Vector3d;
@@ -25,13 +25,13 @@ class NoisyJoint {
   std::normal_distribution<double> noise_;
 };
 
-TEST(SteadyJoint, AveragesWhatDoesNotMove) {
+TEST(StationaryAverage, AveragesWhatDoesNotMove) {
   NoisyJoint joint(0.008);
-  SteadyJoint steady;
+  StationaryAverage average;
   double square_m2 = 0;
   constexpr int kSettled = 30, kFrames = 330;
   for (int i = 0; i < kFrames; ++i) {
-    const Vector3d off = steady.Step(joint.At(0)) - Vector3d(0, 0, 3);
+    const Vector3d off = average.Step(joint.At(0)) - Vector3d(0, 0, 3);
     if (i >= kSettled) square_m2 += off.squaredNorm() / (kFrames - kSettled);
   }
   // Unfiltered it is 8 sqrt(3) = 14 mm; means of 16 frames and more are below 3.5, and one frame in
@@ -39,30 +39,30 @@ TEST(SteadyJoint, AveragesWhatDoesNotMove) {
   EXPECT_LT(std::sqrt(square_m2), 0.004);
 }
 
-TEST(SteadyJoint, LetsGoOfAStepInTheSameFrame) {
+TEST(StationaryAverage, LetsGoOfAStepInTheSameFrame) {
   constexpr double kNoise_m = 0.004, kStep_m = 0.05;
   NoisyJoint joint(kNoise_m);
-  SteadyJoint steady;
-  for (int i = 0; i < 90; ++i) steady.Step(joint.At(0));
-  ASSERT_TRUE(steady.held());
+  StationaryAverage average;
+  for (int i = 0; i < 90; ++i) average.Step(joint.At(0));
+  ASSERT_TRUE(average.held());
   // Half a second later the new place is averaged; until then each observation passes unchanged.
   for (int i = 0; i < 8; ++i) {
     const Vector3d seen = joint.At(kStep_m);
-    EXPECT_EQ(steady.Step(seen), seen) << i << " frames after the step";
+    EXPECT_EQ(average.Step(seen), seen) << i << " frames after the step";
   }
 }
 
-class SteadyRamp : public testing::TestWithParam<double> {};  // metres a second
+class StationaryRamp : public testing::TestWithParam<double> {};  // metres a second
 
-TEST_P(SteadyRamp, IsLetGoBeforeItIsNoticedAndThenDoesNotLag) {
+TEST_P(StationaryRamp, IsLetGoBeforeItIsNoticedAndThenDoesNotLag) {
   constexpr double kNoise_m = 0.004;
   NoisyJoint joint(kNoise_m);
-  SteadyJoint steady;
-  for (int i = 0; i < 90; ++i) steady.Step(joint.At(0));
+  StationaryAverage average;
+  for (int i = 0; i < 90; ++i) average.Step(joint.At(0));
   const double step_m = GetParam() / 30;
   for (int i = 1; i <= 60; ++i) {
     const double x_m = i * step_m;
-    const Vector3d seen = joint.At(x_m), out = steady.Step(seen);
+    const Vector3d seen = joint.At(x_m), out = average.Step(seen);
     // While it is held the joint is off by no more than noise: three times that of one axis.
     EXPECT_LT(std::abs(out.x() - x_m), std::max(3 * kNoise_m, std::abs(seen.x() - x_m) + 1e-12))
         << "frame " << i;
@@ -73,45 +73,45 @@ TEST_P(SteadyRamp, IsLetGoBeforeItIsNoticedAndThenDoesNotLag) {
   }
 }
 
-INSTANTIATE_TEST_SUITE_P(Speeds, SteadyRamp, testing::Values(0.1, 0.3, 1.0), [](const auto& info) {
-  return "cm" + std::to_string(std::lround(100 * info.param));
-});
+INSTANTIATE_TEST_SUITE_P(Speeds, StationaryRamp, testing::Values(0.1, 0.3, 1.0),
+                         [](const auto& info) {
+                           return "cm" + std::to_string(std::lround(100 * info.param));
+                         });
 
-TEST(SteadyJoint, DriftsAlongWithASwayingPerson) {
+TEST(StationaryAverage, DriftsAlongWithASwayingPerson) {
   // 2 cm to and fro in 10 seconds: never off by more than the noise of what is seen.
   constexpr double kNoise_m = 0.008;
   NoisyJoint joint(kNoise_m);
-  SteadyJoint steady;
+  StationaryAverage average;
   for (int i = 0; i < 600; ++i) {
     const double x_m = 0.01 * std::sin(2 * M_PI * i / 300);
-    const Vector3d out = steady.Step(joint.At(x_m));
-    if (steady.held()) {
+    const Vector3d out = average.Step(joint.At(x_m));
+    if (average.held()) {
       EXPECT_LT(std::abs(out.x() - x_m), 1.5 * kNoise_m) << "frame " << i;
     }
   }
 }
 
-recon::TrackedPosture HeadSeenAt(const Vector3d& p) {
-  recon::TrackedPosture seen;
-  seen.state.fill(recon::TrackingState::kNotTracked);
-  const auto head = recon::Index(recon::Joint::kHead);
-  seen.state[head] = recon::TrackingState::kTracked;
+TrackedPosture HeadSeenAt(const Vector3d& p) {
+  TrackedPosture seen;
+  seen.state.fill(TrackingState::kNotTracked);
+  const auto head = Index(Joint::kHead);
+  seen.state[head] = TrackingState::kTracked;
   seen.posture.position_m[head] = p;
   return seen;
 }
 
-TEST(SteadyBody, StartsAnewAfterAGapAndKeepsStatesAsTheyAre) {
+TEST(StationaryPosture, StartsAnewAfterAGapAndKeepsStatesAsTheyAre) {
   NoisyJoint joint(0.008);
-  SteadyBody steady;
-  for (int i = 0; i < 40; ++i) steady.Step(HeadSeenAt(joint.At(0)), i / 30.0);
+  StationaryPosture average;
+  for (int i = 0; i < 40; ++i) average.Step(HeadSeenAt(joint.At(0)), i / 30.0);
   const auto seen = HeadSeenAt(joint.At(0));
-  const auto held = steady.Step(seen, 40 / 30.0);
-  EXPECT_NE(held.posture[recon::Joint::kHead], seen.posture[recon::Joint::kHead]);
+  const auto held = average.Step(seen, 40 / 30.0);
+  EXPECT_NE(held.posture[Joint::kHead], seen.posture[Joint::kHead]);
   EXPECT_EQ(held.state, seen.state);
   const auto later = HeadSeenAt(joint.At(0));
-  EXPECT_EQ(steady.Step(later, 5.0).posture[recon::Joint::kHead],
-            later.posture[recon::Joint::kHead]);
+  EXPECT_EQ(average.Step(later, 5.0).posture[Joint::kHead], later.posture[Joint::kHead]);
 }
 
 }  // namespace
-}  // namespace ossa::tracker
+}  // namespace ossa::recon

@@ -1,15 +1,17 @@
+#include "recon/filters/stationary_average.h"
+
 #include <algorithm>
 
-#include "tools/tracker/steady_internal.h"
-
-namespace ossa::tracker {
+namespace ossa::recon {
 namespace {
 
 using Eigen::Vector3d;
 
+// Constants: by hand, checked on people who stand still in rendered clips.
+
 // Squared distance of two means that agree, in variances: a still joint is let go by mistake about
 // once in 200 frames, and is back a frame later.
-constexpr double kAgree = 7.0;
+constexpr double kSamePlace = 7.0;
 constexpr int kLongest = 60;           // frames a mean is of: people sway
 constexpr double kNoiseMemory = 0.05;  // share of a new observation in the noise
 constexpr double kGrossNoise = 4.0;    // times the usual: a jump, which says little about noise
@@ -18,13 +20,13 @@ constexpr double kGap_s = 0.5;
 
 }  // namespace
 
-const Vector3d& SteadyJoint::Before(int frames) const {
+const Vector3d& StationaryAverage::Before(int frames) const {
   return seen_m_[static_cast<size_t>((count_ - 1 - frames) % kWindow)];
 }
 
 // White noise has second differences of six times its variance; of the motion itself they hold
 // only the acceleration, millimetres a frame squared.
-void SteadyJoint::LearnNoise() {
+void StationaryAverage::LearnNoise() {
   if (count_ < 3) return;
   const double now_m2 = (Before(0) - 2 * Before(1) + Before(2)).squaredNorm() / 6;
   const int pairs = count_ - 2;
@@ -38,32 +40,33 @@ void SteadyJoint::LearnNoise() {
 }
 
 // Whether the mean of the last observations is the same place as another mean of so many frames.
-bool SteadyJoint::Agree(int last, const Vector3d& mean_m, int frames) const {
+bool StationaryAverage::IsSamePlace(int last, const Vector3d& mean_m, int frames) const {
   Vector3d sum = Vector3d::Zero();
   for (int i = 0; i < last; ++i) sum += Before(i);
   const double noise_m2 = std::max(variance_m2_, kLeastNoise_m * kLeastNoise_m);
   return (sum / last - mean_m).squaredNorm() <
-         kAgree * noise_m2 * (1.0 / static_cast<double>(last) + 1.0 / static_cast<double>(frames));
+         kSamePlace * noise_m2 *
+             (1.0 / static_cast<double>(last) + 1.0 / static_cast<double>(frames));
 }
 
-bool SteadyJoint::StaysAtMean() const {
+bool StationaryAverage::StaysAtMean() const {
   for (int last = 1; last <= kWindow; last *= 2) {
-    if (!Agree(last, mean_m_, frames_)) return false;
+    if (!IsSamePlace(last, mean_m_, frames_)) return false;
   }
   return true;
 }
 
-bool SteadyJoint::HasComeToRest() const {
+bool StationaryAverage::HasComeToRest() const {
   if (count_ < kWindow) return false;
   for (int last = 1; last <= kWindow / 2; last *= 2) {
     Vector3d sum = Vector3d::Zero();
     for (int i = last; i < kWindow; ++i) sum += Before(i);
-    if (!Agree(last, sum / (kWindow - last), kWindow - last)) return false;
+    if (!IsSamePlace(last, sum / (kWindow - last), kWindow - last)) return false;
   }
   return true;
 }
 
-Vector3d SteadyJoint::Step(const Vector3d& seen_m) {
+Vector3d StationaryAverage::Step(const Vector3d& seen_m) {
   ++count_;
   seen_m_[static_cast<size_t>((count_ - 1) % kWindow)] = seen_m;
   if (held() && StaysAtMean()) {
@@ -80,19 +83,19 @@ Vector3d SteadyJoint::Step(const Vector3d& seen_m) {
   return held() ? mean_m_ : seen_m;
 }
 
-recon::TrackedPosture SteadyBody::Step(const recon::TrackedPosture& seen, double time_s) {
+TrackedPosture StationaryPosture::Step(const TrackedPosture& seen, double time_s) {
   const double dt_s = time_s - time_s_;
   if (dt_s <= 0 || dt_s > kGap_s) *this = {};
   time_s_ = time_s;
-  recon::TrackedPosture steady = seen;
-  for (size_t j = 0; j < recon::kJointCount; ++j) {
-    if (seen.state[j] == recon::TrackingState::kNotTracked) {
+  TrackedPosture averaged = seen;
+  for (size_t j = 0; j < kJointCount; ++j) {
+    if (seen.state[j] == TrackingState::kNotTracked) {
       joints_[j].Forget();
     } else {
-      steady.posture.position_m[j] = joints_[j].Step(seen.posture.position_m[j]);
+      averaged.posture.position_m[j] = joints_[j].Step(seen.posture.position_m[j]);
     }
   }
-  return steady;
+  return averaged;
 }
 
-}  // namespace ossa::tracker
+}  // namespace ossa::recon
