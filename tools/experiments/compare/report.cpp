@@ -13,7 +13,6 @@ namespace {
 
 // Constants: sizes of the page's plots, pixels, by eye.
 
-
 constexpr const char* kHead = R"(<!DOCTYPE html>
 <html lang="en"><head><meta charset="utf-8"><title>ossa compare</title><style>
 body{font:15px/1.45 system-ui,sans-serif;color:#222;max-width:920px;margin:2em auto;padding:0 1em}

@@ -27,8 +27,8 @@ std::optional<Eigen::Vector3d> ErrorAgainst(const RealTruth& truth, const depth:
 JointErrors ErrorsOfBody(const RealSet& set, const RealStill& still, const StageJoints& joints) {
   JointErrors errors;
   for (size_t j = 0; j < set.joints.size(); ++j) {
-    errors.push_back(ErrorAgainst(still.truth[j], still.frame.camera,
-                                  joints[recon::Index(set.joints[j])]));
+    errors.push_back(
+        ErrorAgainst(still.truth[j], still.frame.camera, joints[recon::Index(set.joints[j])]));
   }
   return errors;
 }
