@@ -104,8 +104,9 @@ void ReferenceLengths::FromAnyPosture(const BoneLengths& lengths, const JointWei
   }
 }
 
-Reliability ReliabilityEstimator::Step(const TrackedPosture& observed,
-                                       const depth::DepthFrame* depth, double dt_s) {
+Reliability ReliabilityEstimator::Step(
+    const TrackedPosture& observed, const depth::DepthFrame* depth, double dt_s,
+    const std::optional<Eigen::Isometry3d>& camera_from_observed) {
   Reliability r;
   JointWeights seen{};
   for (size_t i = 0; i < kJointCount; ++i) {
@@ -123,7 +124,11 @@ Reliability ReliabilityEstimator::Step(const TrackedPosture& observed,
 
   r.surface.fill(1.0);
   if (options_.use_depth && depth != nullptr) {
-    r.surface = SurfaceReliability(observed.posture, *depth, options_);
+    Posture in_camera = observed.posture;
+    if (camera_from_observed) {
+      for (auto& p : in_camera.position_m) p = *camera_from_observed * p;
+    }
+    r.surface = SurfaceReliability(in_camera, *depth, options_);
   }
   reference_.Observe(observed.posture, r.state);
   r.behaviour = Behaviour();
@@ -141,6 +146,13 @@ Reliability ReliabilityEstimator::Step(const TrackedPosture& observed,
 }
 
 void ReliabilityEstimator::Reset() { *this = ReliabilityEstimator(options_); }
+
+void ReliabilityEstimator::ForgetMotion() {
+  postures_.clear();
+  seen_.clear();
+  instant_.clear();
+  speed_ = SpeedTerm();
+}
 
 // Eqs. 1-4. Departure: eq. 3 prints the cosine where the text and the limits in degrees of eq. 4
 // mean the angle itself; the angle it is. The sums of eqs. 4 and 8 are over f_b and f_total terms:

@@ -24,7 +24,9 @@ Posture ToPosture(const PostureVector& vector);
 struct PostureClip {
   std::string name;
   std::vector<Posture> postures;
-  std::vector<JointOrientations> orientations;  // world from bone; as many as postures, or none
+  /// World from bone (recon/orientation.h); as many as postures, or none: then what the joints
+  /// tell.
+  std::vector<JointOrientations> orientations;
 };
 
 enum class DatabaseFilter : uint32_t {
@@ -45,6 +47,9 @@ struct DatabaseOptions {
 /// the filtered pose graph between them. Immutable; share it between reconstructors.
 class PostureDatabase {
  public:
+  /// Of the file: 2. Version 1, which is read too, has other orientations (database_file.cpp).
+  static constexpr uint32_t kVersion = 2;
+
   /// Normalises, retargets, filters within clips then between clips (Plantard 2016 algs. 1-4; with
   /// kSumSquared the same screening under Shum's distance) and connects. Departure: algorithm 2 as
   /// printed keeps a posture that is far from any one other; the text's "same process" is meant,
@@ -56,7 +61,8 @@ class PostureDatabase {
 
   /// .ossadb: reads refuse damaged, truncated and hostile files by name and byte.
   static PostureDatabase Load(const std::filesystem::path& path);
-  static PostureDatabase FromBytes(std::span<const std::byte> bytes, const std::string& name);
+  static PostureDatabase FromBytes(std::span<const std::byte> bytes, const std::string& name,
+                                   uint32_t version = kVersion);
   void Save(const std::filesystem::path& path) const;
   /// True when the file says that it is one; it may still be damaged.
   static bool IsOne(const std::filesystem::path& path);
@@ -65,7 +71,7 @@ class PostureDatabase {
   /// Column i is posture i.
   const Eigen::Matrix<float, kPostureDims, Eigen::Dynamic>& postures() const { return postures_; }
   Posture posture(int i) const { return ToPosture(postures_.col(i)); }
-  /// Normalised from bone; identity when the clip had none.
+  /// Normalised from bone, in the convention of recon/orientation.h.
   JointOrientations orientations(int i) const;
   const PostureVector& mean() const { return mean_; }
   const BoneLengths& bone_lengths_m() const { return bone_lengths_m_; }
@@ -79,7 +85,8 @@ class PostureDatabase {
   int64_t source_postures() const { return source_postures_; }   // before the filters
 
   /// A copy with one more normalised posture of the standard size, unconnected to the graph.
-  PostureDatabase With(const PostureVector& posture, const std::string& clip) const;
+  PostureDatabase With(const PostureVector& posture, const JointOrientations& orientations,
+                       const std::string& clip) const;
 
   /// For ablations: filtered once more with a larger thres_1, and with fewer edges a node.
   PostureDatabase Filtered(double threshold_m) const;

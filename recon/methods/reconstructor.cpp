@@ -6,6 +6,7 @@
 
 #include "depth/base/error.h"
 #include "recon/database/posture_database.h"
+#include "recon/methods/level_internal.h"
 #include "recon/methods/methods_internal.h"
 #include "recon/models/learned_models.h"
 
@@ -123,7 +124,7 @@ std::unique_ptr<Reconstructor> MakeReconstructor(const ReconstructorOptions& opt
     }
     if (method.needs_learned) CheckLearned(options);
     if (options.bones_m) CheckBones(*options.bones_m, method);
-    return method.make(options);
+    return MakeLevelled(method.make(options));
   }
   std::string known;
   for (const std::string& name : ReconstructionMethods())

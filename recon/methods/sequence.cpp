@@ -7,12 +7,15 @@
 #include "depth/base/error.h"
 #include "recon/methods/methods_internal.h"
 #include "recon/models/learned_models.h"
+#include "recon/orientation.h"
 
 namespace ossa::recon {
 namespace {
 
 BodyRecord Reconstructed(const BodyRecord& body, const TrackedPosture& observed,
                          const ReconstructedPosture& made) {
+  const JointOrientations orientations =
+      made.orientation ? *made.orientation : ComputeOrientations(made.posture);
   BodyRecord out;
   out.id = body.id;
   for (size_t i = 0; i < kJointCount; ++i) {
@@ -22,7 +25,7 @@ BodyRecord Reconstructed(const BodyRecord& body, const TrackedPosture& observed,
     joint.state = tracked ? TrackingState::kTracked : TrackingState::kInferred;
     joint.confidence = observed.confidence[i];
     joint.reliability = made.reliability[i];
-    if (made.orientation) joint.orientation = (*made.orientation)[i];
+    joint.orientation = orientations[i];
     out.joints[i] = joint;
   }
   return out;
@@ -77,7 +80,8 @@ SkeletonSequence Run(const SkeletonSequence& sequence, ReconstructorOptions opti
       Follower& person = people[body.id];
       if (!person.method) person.method = MethodFor(body.id, options, bones);
       const TrackedPosture observed = ToTrackedPosture(body);
-      const auto now = person.method->Step({observed, frame.time_s, nullptr, body.bones_m});
+      const auto now =
+          person.method->Step({observed, frame.time_s, nullptr, body.bones_m, frame.floor});
       if (const auto revised = person.method->Revised()) {
         BodyRecord& written = out.frames[person.frame].bodies[person.body];
         written = Reconstructed(written, person.observed, *revised);

@@ -5,6 +5,7 @@
 #include "recon/database/nearest.h"
 #include "recon/methods/methods_internal.h"
 #include "recon/methods/natural_posture_internal.h"
+#include "recon/orientation.h"
 
 namespace ossa::recon {
 namespace {
@@ -46,7 +47,8 @@ class Shum2013 : public NaturalPostureMethod {
     const auto nearest = NearestPostures(*database_, energy.observed, energy.reliability, 1);
     const double threshold = database_->options().threshold_m;
     if (nearest[0].distance < threshold * threshold) return;
-    database_ = std::make_shared<PostureDatabase>(database_->With(energy.observed, "observed"));
+    database_ = std::make_shared<PostureDatabase>(database_->With(
+        energy.observed, ComputeOrientations(ToPosture(energy.observed)), "observed"));
     ++added_;
   }
 

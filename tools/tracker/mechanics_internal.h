@@ -17,10 +17,11 @@ class Mechanics {
   explicit Mechanics(const MechanicsBuild& build) : build_(build) {}
   /// What the character makes of `target`; nothing where it cannot say: time that stands still or
   /// runs backwards, a character that came to grief. Joints that are not finite lead it nowhere.
-  std::optional<physics::FilteredPosture> Follow(const recon::Posture& target,
-                                                 std::span<const double> trust,
-                                                 const std::optional<Eigen::Vector4d>& floor,
-                                                 double time_s);
+  /// `orientation`: how the bones are turned about themselves, where that is known.
+  std::optional<physics::FilteredPosture> Follow(
+      const recon::Posture& target, std::span<const double> trust,
+      const std::optional<Eigen::Vector4d>& floor, double time_s,
+      const std::optional<recon::JointOrientations>& orientation = std::nullopt);
 
  private:
   /// The floor, if it can be the one that the person stands on.

@@ -78,10 +78,13 @@ recon::Posture WithBonesOf(const recon::Posture& whole, const recon::Posture& mo
   return recon::WithBoneLengths(moved, recon::MeasureBoneLengths(whole), weights);
 }
 
+// `turns`: of the bones about themselves, where the method or the character knows them.
 recon::JointArray<JointEstimate> Estimates(const recon::Posture& posture,
+                                           const std::optional<recon::JointOrientations>& turns,
                                            const recon::TrackedPosture& observed,
                                            const recon::JointArray<double>& reliability) {
-  const recon::JointOrientations orientation = recon::ComputeOrientations(posture);
+  const recon::JointOrientations orientation =
+      turns ? recon::AlignToBones(*turns, posture) : recon::ComputeOrientations(posture);
   recon::JointArray<JointEstimate> joints;
   for (size_t j = 0; j < kJointCount; ++j) {
     joints[j] = {posture.position_m[j], orientation[j], observed.state[j], observed.confidence[j],
@@ -133,16 +136,21 @@ void CompleteBody(const depth::DepthFrame& frame, const std::optional<Eigen::Vec
   if (body.refined && options.reconstructor.method == "best") seen.posture = *body.refined;
   const recon::TrackedPosture averaged = person.stationary.Step(seen, frame.time_s);
   const auto result =
-      person.reconstructor->Step({averaged, frame.time_s, &frame, body.refined_bones_m});
+      person.reconstructor->Step({averaged, frame.time_s, &frame, body.refined_bones_m, floor});
   body.reconstructed = result.posture;
   body.bones_m = person.reconstructor->Bones();
   ms.reconstruct += MillisecondsSince(start);
   recon::Posture posture = body.reconstructed;
+  std::optional<recon::JointOrientations> turns = result.orientation;
   if (options.physics) {
     const auto physics_start = Clock::now();
     if (!person.mechanics) person.mechanics = std::make_unique<Mechanics>(options.mechanics);
-    const auto made = person.mechanics->Follow(posture, result.reliability, floor, frame.time_s);
-    if (made) posture = made->posture;
+    const auto made = person.mechanics->Follow(posture, result.reliability, floor, frame.time_s,
+                                               result.orientation);
+    if (made) {
+      posture = made->posture;
+      turns = made->orientation;
+    }
     ms.physics += MillisecondsSince(physics_start);
   }
   const recon::Posture held = HeldToImage(posture, averaged, result.reliability);
@@ -151,7 +159,7 @@ void CompleteBody(const depth::DepthFrame& frame, const std::optional<Eigen::Vec
   if (options.physics || recon::KeepsBones(options.reconstructor.method)) {
     smoothed = WithBonesOf(posture, smoothed, averaged, result.reliability);
   }
-  body.joints = Estimates(smoothed, body.raw, result.reliability);
+  body.joints = Estimates(smoothed, turns, body.raw, result.reliability);
 }
 
 }  // namespace ossa::tracker

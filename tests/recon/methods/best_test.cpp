@@ -11,7 +11,9 @@
 #include "recon/bone_projection.h"
 #include "recon/filters/lag_filter_internal.h"
 #include "recon/methods/reconstructor.h"
+#include "recon/models/posture_prior.h"
 #include "tests/recon/synthetic_motion.h"
+#include "tests/support/places.h"
 
 namespace ossa::recon {
 namespace {
@@ -19,10 +21,11 @@ namespace {
 constexpr double kStep_s = 1.0 / 30.0;
 
 std::unique_ptr<Reconstructor> MakeBestOne(bool looked = false) {
-  static const auto db =
-      std::make_shared<PostureDatabase>(PostureDatabase::Build(test::GestureClips(), {}));
+  // As it is shipped.
+  static const auto prior = std::make_shared<PosturePrior>(
+      PosturePrior::Load(test::SourceFolder() / "tools/tracker/shipped" / kShippedPrior));
   ReconstructorOptions options;
-  options.database = db;
+  options.prior = prior;
   options.best.looked = looked;
   return MakeReconstructor(options);
 }
