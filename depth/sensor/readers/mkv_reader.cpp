@@ -154,7 +154,9 @@ void Read(const std::string& path) {
   for (;;) {
     const int got = av_read_frame(file.get(), packet.get());
     if (got < 0 && got != AVERROR_EOF) throw InputError("cut short: " + ErrorText(got));
-    if (got >= 0 && packet->stream_index != track.index) {
+    const bool is_cut = got >= 0 && (packet->flags & AV_PKT_FLAG_CORRUPT) != 0;
+    if (is_cut) SendText(ReaderKind::kWarning, "it is cut short: its last frame is not whole");
+    if (is_cut || (got >= 0 && packet->stream_index != track.index)) {
       av_packet_unref(packet.get());
       continue;
     }
