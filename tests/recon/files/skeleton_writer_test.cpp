@@ -8,6 +8,7 @@
 #include "recon/files/skeleton_io.h"
 #include "tests/recon/files/skeleton_examples.h"
 #include "tests/support/full_disk.h"
+#include "tests/support/sanitized.h"
 #include "tests/support/temporary_folder.h"
 
 namespace ossa::recon {
@@ -51,6 +52,7 @@ long Resident_kB() {
 
 // A person's frame is two and a half kilobytes.
 TEST_P(EveryFormat, TakesNoMemoryThatGrowsWithTheRecording) {
+  if (test::kSanitized) GTEST_SKIP() << "memory is the sanitizer's";
   const auto frames = ExampleSequence(100).frames;
   SkeletonWriter writer(path());
   long before_kB = 0;

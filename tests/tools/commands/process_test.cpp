@@ -7,18 +7,11 @@
 #include "depth/base/folder_lock.h"
 #include "tests/support/depth_examples.h"
 #include "tests/support/run_command.h"
+#include "tests/support/sanitized.h"
 #include "tests/support/temporary_folder.h"
 
 namespace ossa::commands {
 namespace {
-
-#if defined(__SANITIZE_ADDRESS__)
-constexpr bool kSanitized = true;
-#elif defined(__has_feature)
-constexpr bool kSanitized = __has_feature(address_sanitizer);
-#else
-constexpr bool kSanitized = false;
-#endif
 
 using test::CommandResult;
 using test::TemporaryFolder;
@@ -84,7 +77,7 @@ TEST(Files, ThatMayGrowNoMoreAreOneLineAndNothingIsLeft) {
 }
 
 TEST(Memory, ThatIsUsedUpIsOneLine) {
-  if (kSanitized) GTEST_SKIP() << "the shadow of its memory alone takes more";
+  if (test::kSanitized) GTEST_SKIP() << "the shadow of its memory alone takes more";
   const TemporaryFolder folder;
   const CommandResult result =
       Shell(R"(ulimit -v 400000; exec "$1" database --mocap authored --out "$2/x.ossadb" --quiet)",
@@ -95,7 +88,7 @@ TEST(Memory, ThatIsUsedUpIsOneLine) {
 }
 
 TEST(Memory, ThatAFileUsesUpNamesTheFile) {
-  if (kSanitized) GTEST_SKIP() << "the shadow of its memory alone takes more";
+  if (test::kSanitized) GTEST_SKIP() << "the shadow of its memory alone takes more";
   const TemporaryFolder folder;
   const CommandResult result =
       Shell(R"(yes '{"frame":0,"time_s":0,"bodies":[]}' | head -c 500000000 | gzip -1 > "$2/x.gz"

@@ -1,0 +1,14 @@
+#pragma once
+
+namespace ossa::test {
+
+/// True where memory is watched by AddressSanitizer, which keeps what is freed and takes its own.
+#if defined(__SANITIZE_ADDRESS__)
+inline constexpr bool kSanitized = true;
+#elif defined(__has_feature)
+inline constexpr bool kSanitized = __has_feature(address_sanitizer);
+#else
+inline constexpr bool kSanitized = false;
+#endif
+
+}  // namespace ossa::test
