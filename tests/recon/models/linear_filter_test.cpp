@@ -9,6 +9,7 @@
 #include "depth/base/error.h"
 #include "recon/filters/lag_filter_internal.h"
 #include "tests/recon/noisy_sensor.h"
+#include "tests/support/temporary_folder.h"
 
 namespace ossa::recon {
 namespace {
@@ -188,7 +189,6 @@ TEST(LinearFilter, ANeighbourThatIsNotBelievedDoesNotMoveTheJoint) {
 class FilterFile : public testing::Test {
  protected:
   FilterFile() { models_.filter = LearnedOfThree(); }
-  ~FilterFile() override { std::filesystem::remove(path_); }
 
   std::string Refusal() const {
     try {
@@ -201,8 +201,8 @@ class FilterFile : public testing::Test {
 
   static constexpr std::array<char, 8> kMagic = {'O', 'S', 'S', 'A', 'G', 'P', '0', '0'};
   LearnedModels models_;
-  std::filesystem::path path_ =
-      std::filesystem::temp_directory_path() / "ossa_linear_filter_test.ossagp";
+  ossa::test::TemporaryFolder folder_;  // tests run side by side
+  std::filesystem::path path_ = folder_ / "filter.ossagp";
 };
 
 TEST_F(FilterFile, GivesTheSameWeightsBack) {

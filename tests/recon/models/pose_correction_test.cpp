@@ -7,6 +7,7 @@
 #include "depth/base/error.h"
 #include "recon/models/learned_models.h"
 #include "tests/recon/synthetic_motion.h"
+#include "tests/support/temporary_folder.h"
 
 namespace ossa::recon {
 namespace {
@@ -103,7 +104,8 @@ TEST(LearnedModels, AreTheSameAfterTheFileAndRefusedWhenCutShort) {
   LearnOptions options;
   options.processes = false;
   const LearnedModels made = LearnedModels::Learn(Pairs(true), options);
-  const auto path = std::filesystem::temp_directory_path() / "ossa_learned_models_test.ossagp";
+  const ossa::test::TemporaryFolder folder;
+  const auto path = folder / "models.ossagp";
   made.Save(path);
   const LearnedModels read = LearnedModels::Load(path);
   const Posture at = test::Motion(0.7);
@@ -111,7 +113,6 @@ TEST(LearnedModels, AreTheSameAfterTheFileAndRefusedWhenCutShort) {
   EXPECT_EQ(made.correction.proportions, read.correction.proportions);
   std::filesystem::resize_file(path, std::filesystem::file_size(path) - 1);
   EXPECT_THROW(LearnedModels::Load(path), InputError);
-  std::filesystem::remove(path);
 }
 
 }  // namespace

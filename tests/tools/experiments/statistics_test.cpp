@@ -1,5 +1,6 @@
 #include "tools/experiments/compare/statistics.h"
 #include "tests/support/places.h"
+#include "tests/support/temporary_folder.h"
 
 #include <gtest/gtest.h>
 
@@ -154,7 +155,8 @@ TEST(GoldenNumbers, AreWhatScipyGivesToday) {
   if (std::system("/usr/bin/python3 -c 'import scipy.stats' 2>/dev/null") != 0) {
     GTEST_SKIP() << "python3-scipy is not installed";
   }
-  const std::string out = testing::TempDir() + "ossa_golden_statistics.txt";
+  const test::TemporaryFolder folder;
+  const std::string out = (folder / "statistics.txt").string();
   ASSERT_EQ(std::system(("/usr/bin/python3 " + script + " > " + out + " 2>/dev/null").c_str()), 0);
   std::ifstream file(out);
   const auto fresh = ParseGolden(file);
