@@ -16,6 +16,7 @@ extern "C" {
 
 #include "depth/base/error.h"
 #include "depth/sensor/readers/k4a_calibration.h"
+#include "depth/sensor/readers/matroska_length.h"
 #include "depth/sensor/readers/reader_pipe_internal.h"
 
 namespace ossa::depth {
@@ -143,6 +144,7 @@ class DepthTrack {
 void Read(const std::string& path) {
   av_log_set_level(AV_LOG_QUIET);
   const auto file = Open(path);
+  if (const auto warning = WarningOfCut(path)) SendText(ReaderKind::kWarning, *warning);
   AVStream& track = FindDepthTrack(*file);
   for (unsigned i = 0; i < file->nb_streams; ++i) {
     if (file->streams[i] != &track) file->streams[i]->discard = AVDISCARD_ALL;
@@ -154,7 +156,8 @@ void Read(const std::string& path) {
   for (;;) {
     const int got = av_read_frame(file.get(), packet.get());
     if (got < 0 && got != AVERROR_EOF) throw InputError("cut short: " + ErrorText(got));
-    if (got >= 0 && packet->stream_index != track.index) {
+    const bool is_cut = got >= 0 && (packet->flags & AV_PKT_FLAG_CORRUPT) != 0;
+    if (is_cut || (got >= 0 && packet->stream_index != track.index)) {
       av_packet_unref(packet.get());
       continue;
     }

@@ -12,7 +12,7 @@
 
 namespace ossa::depth {
 
-enum class ReaderKind : uint32_t { kHello = 1, kFrame, kEnd, kError, kNote };
+enum class ReaderKind : uint32_t { kHello = 1, kFrame, kEnd, kError, kNote, kWarning };
 
 /// Before every message, whose contents follow: a ReaderHello; a ReaderFrame and its width × height
 /// uint16; nothing; or text.

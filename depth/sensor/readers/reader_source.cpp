@@ -87,11 +87,14 @@ class ReaderSource final : public FrameSource {
       if (message.kind == ReaderKind::kEnd) return message;
       if (message.kind == wanted && message.size == size) return message;
       const std::string text = TakeText(message.size);
-      if (message.kind != ReaderKind::kNote) {
+      const bool is_warning = message.kind == ReaderKind::kWarning;
+      if (message.kind != ReaderKind::kNote && !is_warning) {
         ended_ = true;
         throw InputError(Place() + text);
       }
-      if (options_.note) options_.note(NoteKind::kInfo, name_ + ": " + text);
+      if (options_.note) {
+        options_.note(is_warning ? NoteKind::kWarning : NoteKind::kInfo, name_ + ": " + text);
+      }
     }
   }
 
