@@ -3,6 +3,7 @@
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <array>
+#include <chrono>
 #include <filesystem>
 #include <string>
 
@@ -18,6 +19,7 @@
 #include "recon/refine/close_look.h"
 #include "tools/commands/command.h"
 #include "tools/commands/commands.h"
+#include "tools/commands/source_options.h"
 #include "tools/commands/warnings.h"
 #include "tools/synth/dataset.h"
 
@@ -132,13 +134,31 @@ void ShowLook(const fs::path& path) {
              look.told.empty() ? "" : fmt::format("; {} told of them", count(look.told)));
 }
 
-void ShowDepthRecording(const fs::path& path) {
-  const auto source = depth::OpenSource(path.string());
+// Its frames are read through: many a recording does not know how many it has, or what is broken.
+void ShowDepthRecording(const SourceArguments& arguments) {
+  const auto source = OpenSource(arguments, false);
+  int frames = 0;
+  double first_s = 0.0, last_s = 0.0;
+  for (;;) {
+    const depth::ReadResult read = source->Read(std::chrono::seconds(1));
+    if (read.status == depth::ReadStatus::kEnd) break;
+    if (read.status != depth::ReadStatus::kFrame) continue;
+    last_s = read.frame.time_s;
+    if (frames++ == 0) first_s = last_s;
+  }
   const depth::Camera& camera = source->camera();
-  const auto count = source->frame_count();
-  fmt::print("depth images, {} of {} x {}, fx {:.2f} fy {:.2f} cx {:.2f} cy {:.2f}\n",
-             count ? std::to_string(*count) + " frames" : "frames", camera.width, camera.height,
-             camera.fx, camera.fy, camera.cx, camera.cy);
+  fmt::print(
+      "depth images, {} frames of {} x {}, {:.2f} s, fx {:.2f} fy {:.2f} cx {:.2f} cy {:.2f}\n",
+      frames, camera.width, camera.height, last_s - first_s, camera.fx, camera.fy, camera.cx,
+      camera.cy);
+}
+
+// Which way up, where that is asked.
+void ShowUpright(const SourceArguments& arguments) {
+  tracker::Tracker tracker;
+  FindUpright(tracker, *OpenSource(arguments, true), arguments, true);
+  fmt::print("people stand in its images once these are turned by {} degrees clockwise\n",
+             90 * tracker.quarter_turns());
 }
 
 bool HoldsAnything(const fs::path& path) { return !fs::is_directory(path) || !fs::is_empty(path); }
@@ -175,7 +195,8 @@ void ShowSkeletons(const fs::path& path) {
   for (const recon::SkeletonClip& clip : clips) ShowSkeletonClip(clip);
 }
 
-// The first kind that knows the file by its content, or by its extension, shows it.
+// The first kind that knows the file by its content, or by its extension, shows it; of others depth
+// images go before skeletons.
 constexpr std::array kKinds = {
     FileKind{forest::IsForestModel, ShowModel, ".ossa"},
     FileKind{recon::PostureDatabase::IsOne, ShowDatabase, ".ossadb"},
@@ -183,35 +204,47 @@ constexpr std::array kKinds = {
     FileKind{recon::PosturePrior::IsOne, ShowPrior, ".ossaprior"},
     FileKind{recon::CloseLook::IsOne, ShowLook, ".ossalook"},
     FileKind{tools::IsDataset, ShowDataset},
-    FileKind{depth::IsRecording, ShowDepthRecording},
-    FileKind{HoldsAnything, ShowSkeletons},
 };
+
+// FILE#truth, FILE.bag#/topic and the like are files, too.
+void ExpectIsThere(const std::string& file) {
+  const bool is_there = fs::exists(file) || fs::exists(recon::SkeletonFileOf(file)) ||
+                        (depth::IsRecording(file) && fs::exists(file.substr(0, file.rfind('#'))));
+  if (!is_there) throw InputError(file + ": no such file or folder");
+}
+
+void Show(const SourceArguments& arguments, bool is_depth) {
+  const fs::path path = arguments.name;
+  for (const FileKind& kind : kKinds) {
+    const bool is_named_so = kind.extension != nullptr && arguments.name.ends_with(kind.extension);
+    if (is_depth || (!is_named_so && !kind.is(path))) continue;
+    return kind.show(path);
+  }
+  if (is_depth || depth::IsRecording(path)) return ShowDepthRecording(arguments);
+  if (HoldsAnything(path)) return ShowSkeletons(path);
+  throw InputError(arguments.name +
+                   ": expected a DATASET, a folder of PNGs or one of skeleton files");
+}
 
 }  // namespace
 
 int Info(int argc, char** argv) {
   CLI::App app("Say what a file holds: a model's card, a database's clips, a data set's origin");
-  std::string file;
-  app.add_option(
-         "FILE", file,
-         "a .ossa, .ossadb, .ossagp, .ossaprior, .ossalook, .oni or skeleton file, a 16-bit PNG, "
-         "a folder of PNGs or of skeleton files, or a DATASET")
-      ->required();
+  SourceArguments file;
+  AddSourceOptions(app, file);
+  AddRotateOption(app, file);
+  app.get_option("SOURCE")->description(
+      "a .ossa, .ossadb, .ossagp, .ossaprior, .ossalook or skeleton file, FILE#truth, a DATASET, a "
+      "folder of skeleton files, or depth images: .oni, .mkv, .bag, FILE.bag#/topic, a 16-bit PNG "
+      "or "
+      "a folder of them. The options say how depth images are read");
   Parse(app, argc, argv);
-  if (!fs::exists(file)) {
-    if (!fs::exists(recon::SkeletonFileOf(file))) {
-      throw InputError(file + ": no such file or folder");
-    }
-    ShowSkeletons(file);  // FILE#truth and the like
-    return 0;
-  }
-  for (const FileKind& kind : kKinds) {
-    const bool is_named_so = kind.extension != nullptr && file.ends_with(kind.extension);
-    if (!is_named_so && !kind.is(file)) continue;
-    kind.show(file);
-    return 0;
-  }
-  throw InputError(file + ": expected a DATASET, a folder of PNGs or one of skeleton files");
+  ExpectIsThere(file.name);
+  // Who says how depths are read wants to see them so, a DATASET's, too.
+  const bool is_depth = app.count_all() > 2;
+  Show(file, is_depth);
+  if (app.count("--rotate") > 0 && file.rotate == "auto") ShowUpright(file);
+  return 0;
 }
 
 }  // namespace ossa::commands

@@ -74,6 +74,28 @@ TEST(InfoCommand, ShowsWhatAFolderOfDepthImagesHolds) {
   ExpectShown(folder.path(), "depth images, 3 frames of ");
 }
 
+TEST(InfoCommand, ReadsDepthImagesAsItsOptionsSay) {
+  const TemporaryFolder folder;
+  test::WriteExampleFolder(folder.path(), 3, 160, 120);
+  const auto show = [&](const std::vector<std::string>& options) {
+    std::vector<std::string> command = {"info", folder.path().string()};
+    command.insert(command.end(), options.begin(), options.end());
+    return RunOssa(command).out;
+  };
+  EXPECT_NE(show({"--fps", "10"}).find(", 0.20 s, "), std::string::npos);
+  EXPECT_NE(show({"--camera", "100,101,80,60"}).find("fx 100.00 fy 101.00"), std::string::npos);
+  EXPECT_NE(show({"--depth-scale", "2000"}).find("3 frames"), std::string::npos);
+  EXPECT_NE(show({"--rotate", "auto"}).find("turned by 0 degrees"), std::string::npos);
+  EXPECT_EQ(RunOssa({"info", folder.path().string(), "--depth-scale", "0"}).exit_status, 2);
+}
+
+TEST(InfoCommand, ShowsTheDepthTopicOfABagThatIsAskedFor) {
+  const TemporaryFolder folder;
+  ExpectRefused(folder / "none.bag#/depth", "no such file");
+  std::ofstream(folder / "x.bag") << "#ROSBAG V2.0\nthen nothing";
+  ExpectRefused(folder.path().string() + "/x.bag#/depth", "#/depth: ");
+}
+
 TEST(InfoCommand, ShowsWhatASkeletonFileHolds) {
   const TemporaryFolder folder;
   std::ofstream(folder / "x.jsonl")
