@@ -182,6 +182,7 @@ void DepthCensus::Add(const DepthView& image) {
       steps_of_8_ += (here - before) % 8 == 0 ? 1 : 0;
     }
   }
+  bend_.Add(image);
 }
 
 bool DepthCensus::IsEnough() const { return SpreadOf(count_).readings >= kEnoughReadings; }
@@ -195,7 +196,12 @@ std::optional<DepthSuspicion> DepthCensus::Judge() const {
   const double share =
       steps_ < kEnoughSteps ? 0.0 : static_cast<double>(steps_of_8_) / static_cast<double>(steps_);
   if (auto found = JudgeMultiples(count_, spread, share)) return found;
-  return JudgeRange(spread);
+  if (auto found = JudgeRange(spread)) return found;
+  if (!bend_.IsWrongWayRound()) return std::nullopt;
+  return DepthSuspicion{
+      "distances taken from some largest one, so that the nearest are the largest: "
+      "floors and walls bend the wrong way",
+      ""};
 }
 
 }  // namespace ossa::depth

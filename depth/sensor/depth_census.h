@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "depth/image/depth_frame.h"
+#include "depth/sensor/surface_bend.h"
 
 namespace ossa::depth {
 
@@ -16,7 +17,7 @@ struct DepthSuspicion {
 
 /// Counts the numbers in depth images that state no unit and says whether they can be millimetres
 /// of people. Only what no depth camera makes is evidence: remainders, bytes, a range where no
-/// sensor sees and no room ends.
+/// sensor sees and no room ends, surfaces that bend the wrong way.
 class DepthCensus {
  public:
   void Add(const DepthView& image);
@@ -29,6 +30,7 @@ class DepthCensus {
   std::vector<int64_t> count_ = std::vector<int64_t>(65536, 0);  // of each number
   int64_t steps_ = 0;       // pairs of neighbours in a row that differ,
   int64_t steps_of_8_ = 0;  // ... by a multiple of 8
+  SurfaceBend bend_;
 };
 
 }  // namespace ossa::depth
