@@ -8,6 +8,7 @@
 #include "recon/database/posture_database.h"
 #include "recon/methods/methods_internal.h"
 #include "recon/methods/person_internal.h"
+#include "recon/methods/reach_internal.h"
 #include "recon/models/learned_models.h"
 
 namespace ossa::recon {
@@ -33,12 +34,15 @@ class OffsetReconstructor : public Reconstructor {
     expected_ = Expected(prepared);
     BeginFrame(prepared);
     for (size_t i = 0; i < kJointCount; ++i) {
-      const OffsetPrediction p = Predict(prepared, i);
+      const OffsetPrediction p = IsSeen(prepared, i) ? Predict(prepared, i) : OffsetPrediction{};
       made.position_m[i] += MinimisingOffset(p, prepared, i);
       Learn(prepared, i, p);
     }
     ReconstructedPosture out{Placed(Scaled(made, prepared.scale), prepared.placement),
                              prepared.reliability};
+    JointWeights seen{};
+    for (size_t i = 0; i < kJointCount; ++i) seen[i] = IsSeen(prepared, i) ? 1.0 : 0.0;
+    if (IsTrunkUnseen(seen)) PullIntoReach(out.posture, seen, person_.size().lengths_m());
     before_last_ = last_;
     last_ = out.posture;
     last_dt_s_ = prepared.dt_s;
@@ -61,6 +65,12 @@ class OffsetReconstructor : public Reconstructor {
   std::shared_ptr<const LearnedModels> models_;
 
  private:
+  /// What is absent has no error of a sensor's: it is placed by the posture made before, whose
+  /// offset is off already, and would drift by another one a frame.
+  static bool IsSeen(const PreparedPosture& prepared, size_t joint) {
+    return prepared.present[joint] + prepared.interpolated[joint] > 0.0;
+  }
+
   /// 2 M_{t-1} - M_{t-2} of eq. 20 in this frame's normalised space. Departure: the two postures
   /// are kept in the camera's space: normalised ones would turn and jump with every error of the
   /// hips that the frame is made of, and the temporal term would carry that on.

@@ -7,6 +7,7 @@
 namespace ossa::depth {
 namespace {
 
+// Identities of elements, by definition.
 constexpr uint64_t kEbmlHead = 0x1A45DFA3, kSegment = 0x18538067;
 
 // A number of EBML: the noughts before its first set bit say how many bytes follow the first.
