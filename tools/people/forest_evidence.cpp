@@ -78,18 +78,19 @@ ForestEvidence ClassifyCandidate(const PersonClassifier& classifier, const Depth
   return evidence;
 }
 
-void LabelParts(const forest::ForestModel& model, const DepthFrame& frame,
-                const Candidate& candidate, const ForestEvidence& evidence,
-                depth::Image<uint8_t>& parts) {
+forest::Classification LabelParts(const forest::ForestModel& model, const DepthFrame& frame,
+                                  const Candidate& candidate, const ForestEvidence& evidence,
+                                  depth::Image<uint8_t>& parts) {
   forest::ClassifyOptions options;
   options.context_prior = evidence.classification.context;
-  const forest::Classification seen =
+  forest::Classification seen =
       forest::Classify(model, frame.view(), frame.camera, candidate.pixels, options);
   const std::vector<uint8_t> labels =
       forest::Relabel(model, frame.view(), frame.camera, seen, evidence.proposals);
   for (size_t i = 0; i < labels.size(); ++i) {
     parts.data[static_cast<size_t>(seen.pixel[i])] = labels[i];
   }
+  return seen;
 }
 
 }  // namespace ossa::people

@@ -37,8 +37,9 @@ ForestEvidence ClassifyCandidate(const PersonClassifier& classifier, const Depth
 
 /// Labels of the candidate's pixels into an image of the frame's size: classified once more at full
 /// resolution, with the facing and the joints in mind that are known by then (forest::Relabel).
-void LabelParts(const forest::ForestModel& model, const DepthFrame& frame,
-                const Candidate& candidate, const ForestEvidence& evidence,
-                depth::Image<uint8_t>& parts);
+/// Returns what the trees alone say of them.
+forest::Classification LabelParts(const forest::ForestModel& model, const DepthFrame& frame,
+                                  const Candidate& candidate, const ForestEvidence& evidence,
+                                  depth::Image<uint8_t>& parts);
 
 }  // namespace ossa::people

@@ -1,11 +1,15 @@
 #include "tools/tracker/model_set.h"
 
+#include <algorithm>
+#include <array>
+
 #include "depth/base/large_pages.h"
 #include "forest/forest.h"
 #include "recon/database/posture_database.h"
 #include "recon/models/learned_models.h"
 #include "recon/models/posture_prior.h"
 #include "recon/refine/close_look.h"
+#include "recon/skeleton_sequence.h"
 #include "tools/tracker/shipped.h"
 
 namespace ossa::tracker {
@@ -18,6 +22,9 @@ constexpr const char* kForest = "body.ossa";
 constexpr const char* kCorrection = "body.ossagp";
 constexpr const char* kDatabase = "authored.ossadb";
 constexpr const char* kWithout = "none";
+constexpr std::array<KnownSensor, 2> kKnownSensors = {
+    {{recon::kKinectV2, "a Kinect v2's skeletons", "kinect_v2.ossagp"},
+     {recon::kCloseLook, "ossa's joints after a close look", kCorrection}}};
 
 std::filesystem::path NamedOrShipped(const std::string& file, std::string_view shipped) {
   return file.empty() ? ShippedFile(shipped) : std::filesystem::path(file);
@@ -59,6 +66,12 @@ std::shared_ptr<const recon::LearnedModels> LoadLearned(const ModelFiles& files,
 }
 
 }  // namespace
+
+const KnownSensor* FindKnownSensor(std::string_view sensor) {
+  const auto* const known = std::find_if(kKnownSensors.begin(), kKnownSensors.end(),
+                                         [&](const KnownSensor& k) { return k.sensor == sensor; });
+  return known == kKnownSensors.end() ? nullptr : &*known;
+}
 
 bool IsShippedForest(const ModelFiles& files) {
   return files.forest.empty() || IsShippedFile(files.forest, kForest);

@@ -55,6 +55,14 @@ std::shared_ptr<const recon::PosturePrior> LoadPrior(const ModelFiles& files,
 std::shared_ptr<const recon::PostureDatabase> LoadDatabase(const ModelFiles& files,
                                                            std::string_view method);
 
+/// A sensor whose errors are known: its name (recon::SkeletonSequence::sensor), whose skeletons
+/// those are, for messages, and the shipped file that takes them off (ShippedFile).
+struct KnownSensor {
+  std::string_view sensor, whose, correction;
+};
+/// Null of a sensor that is not known.
+const KnownSensor* FindKnownSensor(std::string_view sensor);
+
 /// Whether the forest is the shipped one, by whichever path.
 bool IsShippedForest(const ModelFiles& files);
 

@@ -33,7 +33,8 @@ std::vector<std::filesystem::path> Folders() {
   for (const auto& binary : {OwnBinary(), std::filesystem::path("/proc/self/exe")}) {
     const auto real = std::filesystem::canonical(binary, error);
     if (error) continue;
-    for (const char* data : {OSSA_DATA_FROM_LIB, OSSA_DATA_FROM_BIN}) {
+    // The last is that of the Python package, which has everything in one folder.
+    for (const char* data : {OSSA_DATA_FROM_LIB, OSSA_DATA_FROM_BIN, "share"}) {
       auto folder = (real.parent_path() / data / "ossa").lexically_normal();
       if (folders.empty() || folders.back() != folder) folders.push_back(std::move(folder));
     }

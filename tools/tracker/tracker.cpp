@@ -54,6 +54,31 @@ unsigned FindClippedEdges(const depth::DepthFrame& frame, const std::vector<int3
   return edges;
 }
 
+PartProbabilities NobodyIn(const depth::DepthFrame& frame, const forest::ForestModel& model) {
+  const auto pixels = static_cast<size_t>(frame.camera.width * frame.camera.height);
+  return {frame.camera.width, frame.camera.height, model.class_count(),
+          std::vector<float>(pixels * static_cast<size_t>(model.class_count()))};
+}
+
+void AddProbabilities(const forest::Classification& seen, PartProbabilities& probabilities) {
+  const auto classes = static_cast<size_t>(probabilities.classes);
+  for (size_t i = 0; i < seen.pixel.size(); ++i) {
+    float* const of_pixel = &probabilities.data[static_cast<size_t>(seen.pixel[i]) * classes];
+    for (size_t c = 0; c < classes; ++c) of_pixel[c] = seen.Probability(i, c);
+  }
+}
+
+recon::JointArray<std::vector<JointProposal>> ProposalsOf(const people::ForestEvidence& evidence,
+                                                          const people::JointTargets& targets) {
+  recon::JointArray<std::vector<JointProposal>> proposals;
+  for (size_t j = 0; j < recon::kJointCount; ++j) {
+    for (const forest::Proposal& p : evidence.proposals[static_cast<size_t>(targets[j])]) {
+      proposals[j].push_back({p.position_m, p.confidence, p.seen});
+    }
+  }
+  return proposals;
+}
+
 }  // namespace
 
 struct Tracker::Impl {
@@ -81,6 +106,9 @@ struct Tracker::Impl {
     complete.reconstructor.prior = models.prior;
     complete.reconstructor.learned = models.learned;
     complete.reconstructor.learned_file = models.learned_file;  // for messages
+    complete.reconstructor.local_pca = o.local_pca;
+    complete.reconstructor.gaussian_process = o.gaussian_process;
+    complete.reconstructor.best = o.best;
     complete.reconstructor.best.looked = models.refinement != nullptr;
     complete.reconstructor.seed = o.seed;
     complete.bones_m = o.bones_m;
@@ -96,6 +124,7 @@ struct Tracker::Impl {
   int QuarterTurns() const {
     return options.turn == Turn::kAuto ? upright.quarters() : static_cast<int>(options.turn);
   }
+  bool KeepsParts() const { return options.keep_parts || options.keep_probabilities; }
   double ScorePeople(const depth::DepthFrame& frame) const;
   void LookUpright(const depth::DepthFrame& frame);
   void ForgetAll();
@@ -219,16 +248,19 @@ BodyFrame Tracker::Impl::Track(const depth::DepthFrame& frame) {
   result.decisions = std::move(seen.decisions);
   for (const people::Person& person : seen.people) result.bodies.push_back(MakeBody(frame, person));
   const std::vector<Person*> in_view = RememberPersons(result.bodies, frame.time_s);
-  if (options.keep_parts)
-    result.parts = depth::Image<uint8_t>(frame.camera.width, frame.camera.height);
+  if (KeepsParts()) result.parts = depth::Image<uint8_t>(frame.camera.width, frame.camera.height);
+  if (options.keep_probabilities) result.probabilities = NobodyIn(frame, model);
   std::vector<StageTimes> times(result.bodies.size());
   people::ParallelFor(result.bodies.size(), options.threads, [&](size_t i) {
     Body& body = result.bodies[i];
     if (body.state == BodyState::kPositionOnly) return;
     const people::Detection& detection = seen.people[i].detection;
     TrackBody(frame, result.floor, detection, *in_view[i], body, times[i]);
-    if (options.keep_parts)
-      people::LabelParts(model, frame, detection.candidate, detection.evidence, result.parts);
+    if (options.keep_proposals) body.proposals = ProposalsOf(detection.evidence, targets);
+    if (!KeepsParts()) return;
+    const auto classes =
+        people::LabelParts(model, frame, detection.candidate, detection.evidence, result.parts);
+    if (options.keep_probabilities) AddProbabilities(classes, result.probabilities);
   });
   result.ms.segment = seen.segment_ms;
   result.ms.classify = seen.classify_ms;
@@ -314,6 +346,11 @@ int64_t Tracker::Run(depth::FrameSource& source,
 void Tracker::ChooseUsers(std::vector<int> ids) { impl_->chosen_ids = std::move(ids); }
 void Tracker::ChooseAllUsers() { impl_->chosen_ids.reset(); }
 void Tracker::SetMode(TrackingMode mode) { impl_->options.mode = mode; }
+void Tracker::SetTurn(Turn turn) {
+  if (std::exchange(impl_->options.turn, turn) == turn) return;
+  impl_->upright = {};
+  impl_->ForgetAll();
+}
 void Tracker::SetSmoothing(const SmoothingOptions& smoothing) {
   smoothing.Check();
   impl_->complete.smoothing = smoothing;

@@ -11,6 +11,7 @@
 
 #include "depth/image/depth_frame.h"
 #include "depth/image/image.h"
+#include "recon/methods/reconstructor.h"
 #include "recon/posture.h"
 #include "tools/people/decision.h"
 #include "tools/tracker/mechanics.h"
@@ -56,6 +57,20 @@ struct JointEstimate {
   double reliability = 0.0;  // R_i of Shum 2013, eq. 8: does it move and measure as a joint? [0, 1]
 };
 
+/// A place where a joint may be, as the forest sees it: a mode of its density estimate.
+struct JointProposal {
+  Eigen::Vector3d position_m = Eigen::Vector3d::Zero();  // camera space, inside the body
+  double confidence = 0.0;                               // [0, 1]
+  bool seen = true;  // false: no surface of its own voted; inferred from the other joints
+};
+
+/// Of every pixel how likely it shows each of the forest's classes: label 0 is the background, 1
+/// to 31 are the parts of recon/body/parts.h, of the shipped forest.
+struct PartProbabilities {
+  int width = 0, height = 0, classes = 0;
+  std::vector<float> data;  // height x width x classes, row-major; 0 where nobody is
+};
+
 /// One person. `joints` is the skeleton; below it stands what each stage before it made of the
 /// person, for who compares or debugs stages. Camera space, metres.
 struct Body {
@@ -68,6 +83,7 @@ struct Body {
 
   /// Stage 1, the forest: the joints chosen among its proposals, in this frame alone.
   recon::TrackedPosture raw;
+  recon::JointArray<std::vector<JointProposal>> proposals;  // best first; empty unless asked for
   /// Stage 2, the refinement cascade at the depth image: the raw joints moved; absent without one.
   std::optional<recon::Posture> refined;
   std::optional<recon::BoneLengths> refined_bones_m;  // as it judges them in this frame alone
@@ -97,6 +113,7 @@ struct BodyFrame {
   std::vector<Body> bodies;              // by id
   depth::Image<uint8_t> users;           // id of the body each pixel belongs to, 0 nobody
   depth::Image<uint8_t> parts;           // body part per pixel; empty unless asked for
+  PartProbabilities probabilities;       // by the trees alone; empty unless asked for
   people::FrameDecisions decisions;      // why whoever is here was found, or not
   StageTimes ms;
 };
@@ -122,6 +139,9 @@ struct TrackerOptions {
   std::optional<ModelSet> models;             // left out: ModelSet::Shipped(method)
   bool physics = false;                       // let the mechanical character follow the posture
   MechanicsBuild mechanics;                   // how that is built
+  recon::LocalPcaOptions local_pca;           // of shum-2013 and plantard-2016
+  recon::GaussianProcessOptions gaussian_process;  // of liu-2016 and full-gp
+  recon::BestOptions best;                         // of best; `looked` follows the models
   /// Left out: what goes with the method (recon::MethodInfo::smoothing). One that is a filter
   /// itself gets no second one, which would only lag.
   std::optional<SmoothingOptions> smoothing;
@@ -133,7 +153,9 @@ struct TrackerOptions {
   /// By body id, of people whose bones are known (Body::bones_m of a run before over the same
   /// recording): they stay from the first frame to the last. Only for methods that keep bones.
   std::map<int, recon::BoneLengths> bones_m;
-  bool keep_parts = false;  // fill BodyFrame::parts
+  bool keep_parts = false;          // fill BodyFrame::parts
+  bool keep_probabilities = false;  // fill BodyFrame::probabilities, and parts
+  bool keep_proposals = false;      // fill Body::proposals
   bool trace = false;  // BodyFrame::decisions also names the surfaces that nobody is looked for in
   int threads = 1;
   uint64_t seed = 1;
@@ -171,6 +193,8 @@ class Tracker {
   void ChooseUsers(std::vector<int> ids);
   void ChooseAllUsers();  // as at the start
   void SetMode(TrackingMode mode);
+  /// For a camera that was mounted anew; forgets everybody where it is another turn.
+  void SetTurn(Turn turn);
   void SetSmoothing(const SmoothingOptions& smoothing);
   /// Forgets everybody.
   void Reset();

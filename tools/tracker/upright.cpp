@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 #include <utility>
 
 #include "depth/image/turn.h"
@@ -41,9 +42,26 @@ void TurnBack(Body& body, const Eigen::Matrix3d& turn, int quarters) {
     joint.orientation = rotation * joint.orientation;
   }
   TurnBack(body.raw.posture, turn);
+  for (auto& proposals : body.proposals) {
+    for (JointProposal& proposal : proposals) proposal.position_m = turn * proposal.position_m;
+  }
   if (body.refined) TurnBack(*body.refined, turn);
   TurnBack(body.reconstructed, turn);
   body.clipped_edges = EdgesBefore(body.clipped_edges, quarters);
+}
+
+void TurnBack(PartProbabilities& probabilities, int quarters) {
+  depth::Image<int32_t> from(probabilities.width, probabilities.height);
+  std::iota(from.data.begin(), from.data.end(), 0);
+  from = depth::Turned(from, 4 - quarters);
+  const auto classes = static_cast<size_t>(probabilities.classes);
+  PartProbabilities turned{from.width, from.height, probabilities.classes, {}};
+  turned.data.reserve(probabilities.data.size());
+  for (const int32_t pixel : from.data) {
+    const float* const of_pixel = probabilities.data.data() + static_cast<size_t>(pixel) * classes;
+    turned.data.insert(turned.data.end(), of_pixel, of_pixel + classes);
+  }
+  probabilities = std::move(turned);
 }
 
 }  // namespace
@@ -59,6 +77,7 @@ void TurnBack(BodyFrame& frame, int quarters) {
   }
   frame.users = depth::Turned(frame.users, 4 - quarters);
   frame.parts = depth::Turned(frame.parts, 4 - quarters);
+  TurnBack(frame.probabilities, quarters);
 }
 
 int UprightFinder::BestTurn(const depth::DepthFrame& frame, const ScoreOfTurn& score) const {
