@@ -1,64 +1,26 @@
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
-#include <map>
 #include <string>
 #include <vector>
 
 #include "depth/base/atomic_file.h"
 #include "depth/base/error.h"
 #include "recon/files/skeleton_io.h"
-#include "recon/methods/recorded_pairs.h"
 #include "recon/models/learned_models.h"
 #include "tools/commands/command.h"
 #include "tools/commands/commands.h"
 #include "tools/commands/mapping_option.h"
 #include "tools/commands/outputs.h"
 #include "tools/commands/warnings.h"
+#include "tools/learning/pair_recordings.h"
 
 namespace ossa::commands {
 namespace {
 
-/// Numbers people: recordings of one --observed whose names begin with the same folder (or archive)
-/// are of one person.
-class People {
- public:
-  int Of(const std::string& observed_path, const std::string& clip) {
-    const std::string name = observed_path + "\n" + clip.substr(0, clip.find('/'));
-    return numbers_.try_emplace(name, static_cast<int>(numbers_.size())).first->second;
-  }
-
- private:
-  std::map<std::string, int> numbers_;
-};
-
-/// Clips of both sides by name; a single file on each side belongs together whatever its name.
-void AddClips(const std::string& observed_path, const std::string& truth_path,
-              const recon::SkeletonReadOptions& reading, People& people,
-              std::vector<recon::PosturePair>& pairs) {
-  const auto observed = recon::ReadSkeletonClips(observed_path, reading);
-  const auto truth = recon::ReadSkeletonClips(truth_path, reading);
-  if (Interrupted()) throw InputError("learn: interrupted; nothing was written");
-  SayWarnings("learn", observed);
-  SayWarnings("learn", truth);
-  const size_t before = pairs.size();
-  if (observed.size() == 1 && truth.size() == 1) {
-    recon::AddPairs(observed[0].sequence, truth[0].sequence, pairs, people.Of(observed_path, ""));
-  }
-  std::map<std::string, const recon::SkeletonClip*> by_name;
-  for (const auto& clip : truth) by_name[clip.name] = &clip;
-  for (const auto& clip : observed) {
-    const auto it = by_name.find(clip.name);
-    if (it == by_name.end() || (observed.size() == 1 && truth.size() == 1)) continue;
-    recon::AddPairs(clip.sequence, it->second->sequence, pairs,
-                    people.Of(observed_path, clip.name));
-  }
-  if (pairs.size() == before) {
-    throw InputError(observed_path + ": no frame matches one of " + truth_path +
-                     "; expected recordings of the same names, the same frame numbers or times, "
-                     "and at least 4 common joints less than 0.5 m apart (of other axes and "
-                     "places nothing is learned)");
-  }
+bool SayWarningsOf(const std::vector<recon::SkeletonClip>& clips) {
+  SayWarnings("learn", clips);
+  return !Interrupted();
 }
 
 }  // namespace
@@ -106,11 +68,8 @@ int Learn(int argc, char** argv) {
   inputs.push_back(reading.mapping_file);
   CheckOutputs({out}, inputs);
   AtomicFile::CheckWritable(out);
-  std::vector<recon::PosturePair> pairs;
-  People people;
-  for (size_t i = 0; i < observed.size(); ++i) {
-    AddClips(observed[i], truth[i], reading, people, pairs);
-  }
+  const auto pairs = tools::PairRecordings(observed, truth, reading, SayWarningsOf);
+  if (Interrupted()) throw InputError("learn: interrupted; nothing was written");
   Progress progress("learn", quiet);
   const auto models = recon::LearnedModels::Learn(pairs, options, [&](int joint) {
     progress.Update(joint, recon::kJointCount, fmt::format("{} pairs", pairs.size()));

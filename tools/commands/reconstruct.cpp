@@ -44,16 +44,6 @@ struct ReconstructArguments {
   bool no_reliability = false;
 };
 
-/// A sensor whose errors are known.
-struct KnownSensor {
-  const char* name;
-  const char* whose;  // skeletons
-  const char* file;   // shipped
-};
-constexpr KnownSensor kKnownSensors[] = {
-    {recon::kKinectV2, "a Kinect v2's skeletons", "kinect_v2.ossagp"},
-    {recon::kCloseLook, "ossa's joints after a close look", "body.ossagp"}};
-
 /// What is learned of the recordings' sensor: the file that was named; else, for methods that take
 /// a correction, the shipped one of the sensor that all recordings are of.
 std::string LearnedFor(const ReconstructArguments& a,
@@ -61,20 +51,19 @@ std::string LearnedFor(const ReconstructArguments& a,
   if (a.files.learned == "none" || !ReadsLearned(a.options.method)) return {};
   const bool is_correction = MethodInfoOf(a.options.method).learned == recon::Reads::kOptional;
   if (!a.files.learned.empty() || !is_correction) return a.files.learned;
-  for (const KnownSensor& sensor : kKnownSensors) {
-    const bool all = std::all_of(clips.begin(), clips.end(), [&sensor](const auto& clip) {
-      return clip.sequence.sensor == sensor.name;
-    });
-    if (!all) continue;
-    if (!a.quiet) {
-      Say(
-          fmt::format("reconstruct: {}: their known errors are taken off ({}; --learned none "
-                      "leaves them)\n",
-                      sensor.whose, sensor.file));
-    }
-    return tracker::ShippedFile(sensor.file).string();
+  const std::string sensor = clips.empty() ? "" : clips.front().sequence.sensor;
+  const tracker::KnownSensor* known = tracker::FindKnownSensor(sensor);
+  const bool all = std::all_of(clips.begin(), clips.end(), [&sensor](const auto& clip) {
+    return clip.sequence.sensor == sensor;
+  });
+  if (known == nullptr || !all) return {};
+  if (!a.quiet) {
+    Say(
+        fmt::format("reconstruct: {}: their known errors are taken off ({}; --learned none "
+                    "leaves them)\n",
+                    known->whose, known->correction));
   }
-  return {};
+  return tracker::ShippedFile(known->correction).string();
 }
 
 /// Whether --out is a folder: of several recordings, and of one that is in a folder or archive
