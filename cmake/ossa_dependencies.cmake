@@ -20,6 +20,16 @@ pkg_check_modules(zstd REQUIRED IMPORTED_TARGET libzstd)
 pkg_check_modules(freenect QUIET IMPORTED_TARGET libfreenect)
 pkg_check_modules(libav QUIET IMPORTED_TARGET libavformat libavcodec libavutil)  # .mkv
 include(ossa_rosbag)
+if(OSSA_PYTHON AND NOT OSSA_SANITIZE)  # a sanitizer must be in the interpreter first
+  if(NOT SKBUILD AND NOT Python_EXECUTABLE AND EXISTS /usr/bin/python3)
+    set(Python_EXECUTABLE /usr/bin/python3)  # Debian's own, which has Debian's packages
+  endif()
+  find_package(Python 3.9 QUIET COMPONENTS Interpreter Development.Module)
+  find_package(pybind11 2.10 QUIET CONFIG)
+  if(NOT Python_FOUND OR NOT pybind11_FOUND)
+    message(STATUS "The Python package is left out: python3-dev or pybind11-dev is not installed")
+  endif()
+endif()
 if(OSSA_MPI)
   find_package(MPI QUIET COMPONENTS CXX)
 endif()

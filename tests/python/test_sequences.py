@@ -1,0 +1,143 @@
+"""ossa.Sequence, its files, methods over it, and judging it."""
+
+import json
+import subprocess
+import sys
+
+import numpy as np
+import pytest
+
+import ossa
+
+
+@pytest.fixture
+def truth(clip):
+    return ossa.read_skeletons(clip / "truth.jsonl")
+
+
+@pytest.fixture
+def seen(frames):
+    return ossa.Sequence.from_frames(frames)
+
+
+def two_people():
+    joints = np.zeros((3, 20, 3))
+    joints[:, :, 1] = np.arange(20) * 0.05
+    joints[:, :, 2] = 2
+    joints[1, 3] = np.nan
+    return ossa.Sequence([0, 0, 0.1], joints, ids=[1, 2, 1])
+
+
+def test_reading_gives_a_row_for_each_body_of_each_frame(truth):
+    assert len(truth) == 24 and truth.joints.shape == (24, 20, 3) and truth.people == [1]
+    assert truth.times[1] == pytest.approx(1 / 30, abs=1e-3)
+
+
+@pytest.mark.parametrize("extension", ["jsonl", "csv"])
+def test_what_is_written_is_read_again(extension, tmp_path):
+    made = two_people()
+    ossa.write_skeletons(made, tmp_path / f"a.{extension}")
+    read = ossa.read_skeletons(tmp_path / f"a.{extension}")
+    assert np.allclose(read.joints, made.joints, atol=1e-4, equal_nan=True)
+    assert list(read.ids) == [1, 2, 1] and list(read.frames) == [0, 0, 1]
+
+
+def test_files_keep_all_that_the_tracker_says(seen, tmp_path):
+    ossa.write_skeletons(seen, tmp_path / "a.jsonl")
+    read = ossa.read_skeletons(tmp_path / "a.jsonl")
+    assert (read.states == seen.states).all()
+    for name in ("joints", "times", "confidence", "reliability", "orientations", "floor"):
+        # Files hold six digits.
+        assert np.allclose(getattr(read, name), getattr(seen, name), atol=1e-5), name
+
+
+def test_a_person_and_a_stretch_are_cut_out():
+    made = two_people()
+    assert list(made.person(1).times) == [0, 0.1]
+    assert len(made[1:]) == 2 and made[1:].people == [1, 2]
+    with pytest.raises(ossa.InputError, match="expected one of"):
+        made.person(3)
+
+
+def test_frames_without_bodies_are_kept(tmp_path):
+    joints = np.full((2, 20, 3), np.nan)
+    ossa.write_skeletons(ossa.Sequence([0, 1], joints, ids=[-1, -1]), tmp_path / "a.jsonl")
+    assert (tmp_path / "a.jsonl").read_text().count('"bodies":[]') == 2
+
+
+@pytest.mark.parametrize("method", ["none", "best", "kalman", "shum-2013"])
+def test_reconstructs_as_the_command(method, seen, command, tmp_path):
+    ossa.write_skeletons(seen, tmp_path / "seen.jsonl")
+    command("reconstruct", tmp_path / "seen.jsonl", "--method", method, "--out",
+            tmp_path / "command.jsonl", "--quiet")  # fmt: skip
+    read = ossa.read_skeletons(tmp_path / "seen.jsonl")
+    ossa.write_skeletons(ossa.reconstruct(read, method), tmp_path / "python.jsonl")
+    assert (tmp_path / "python.jsonl").read_bytes() == (tmp_path / "command.jsonl").read_bytes()
+
+
+def test_absent_joints_are_made_up_and_say_so(truth):
+    truth.joints[:, ossa.Joint.HandLeft] = np.nan
+    made = ossa.reconstruct(truth)
+    assert np.isfinite(made.joints).all()
+    assert (made.states[:, ossa.Joint.HandLeft] == "inferred").all()
+
+
+def test_butterworth_and_bones_of_the_recording_are_had(truth):
+    assert len(ossa.reconstruct(truth, "butterworth", cutoff_hz=3)) == 24
+    made = ossa.reconstruct(truth, bones="recording")
+    arm = np.linalg.norm(made.joints[:, 5] - made.joints[:, 4], axis=1)
+    assert np.ptp(arm) < 1e-6
+
+
+def test_compares_with_the_fields_of_the_command(clip, seen, command, tmp_path):
+    ossa.write_skeletons(seen, tmp_path / "seen.jsonl")
+    by_command = json.loads(
+        command("compare", clip / "truth.jsonl", tmp_path / "seen.jsonl", "--json", "-")
+    )
+    by_python = ossa.compare(clip / "truth.jsonl", tmp_path / "seen.jsonl")
+    assert by_python == by_command
+    in_memory = ossa.compare(ossa.read_skeletons(clip / "truth.jsonl"), seen)
+    assert in_memory["results"][0]["name"] == "result"
+    ours, theirs = in_memory["results"][0], by_command["results"][0]
+    assert ours["mean_joint_error_cm"] == pytest.approx(theirs["mean_joint_error_cm"])
+
+
+def test_evaluates_with_the_fields_of_the_command(clip, command):
+    model = clip.parents[3] / "tools/tracker/shipped/body.ossa"
+    by_command = json.loads(command("evaluate", model, clip, "--every", 8, "--quiet"))
+    by_python = ossa.evaluate(model, clip, every=8)
+    assert by_python.keys() == by_command.keys()
+    assert by_python["pixel_accuracy"] == by_command["pixel_accuracy"]
+
+
+def test_learns_a_file_that_reconstruct_reads(truth, seen, tmp_path):
+    learned = ossa.learn(seen, truth, tmp_path / "own.ossagp", correction_only=True)
+    assert learned["pairs"] == 24
+    made = ossa.reconstruct(seen, learned=tmp_path / "own.ossagp")
+    assert np.abs(made.joints - ossa.reconstruct(seen, learned="none").joints).max() > 1e-6
+
+
+def test_methods_that_learn_need_their_file(seen):
+    with pytest.raises(ossa.InputError, match="learned: expected the .ossagp file"):
+        ossa.reconstruct(seen, "liu-2016")
+
+
+def test_tables_are_had_where_pandas_is(seen, frames, truth):
+    pytest.importorskip("pandas")
+    table = seen.to_pandas()
+    assert len(table) == 24 * 20 and set(table["joint"]) == set(ossa.JOINTS)
+    assert len(frames[0].to_pandas()) == 20
+    assert ossa.compare(truth, seen).to_pandas()["mean_joint_error_cm"][0] > 0
+
+
+def test_without_pandas_it_is_named(tmp_path):
+    (tmp_path / "pandas.py").write_text("raise ImportError")
+    code = "import ossa, numpy; ossa.Sequence([0], numpy.zeros((1, 20, 3))).to_pandas()"
+    environment = {"PYTHONPATH": f"{tmp_path}:{':'.join(sys.path)}"}
+    done = subprocess.run([sys.executable, "-c", code], env=environment, capture_output=True)
+    assert b"needs the package pandas" in done.stderr
+
+
+def test_importing_imports_numpy_alone():
+    code = "import sys, ossa; print([m for m in ('pandas', 'cv2', 'rerun') if m in sys.modules])"
+    assert subprocess.check_output([sys.executable, "-c", code]).strip() == b"[]"

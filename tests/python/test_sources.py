@@ -1,0 +1,91 @@
+"""ossa.open and ossa.Camera."""
+
+import numpy as np
+import pytest
+
+import ossa
+
+
+def test_a_data_set_gives_its_images_cameras_and_times(clip):
+    with ossa.open(clip) as source:
+        assert source.frame_count == 24 and not source.is_live
+        images = list(source)
+    assert len(images) == 24
+    depth_mm, camera, time_s = images[1]
+    assert depth_mm.dtype == np.uint16 and depth_mm.shape == (240, 320)
+    assert depth_mm.flags.c_contiguous and depth_mm.flags.writeable
+    assert (camera.width, camera.height) == (320, 240) and camera.rotate == "auto"
+    assert time_s == pytest.approx(1 / 30, abs=1e-3)
+
+
+def test_images_outlive_their_source(clip):
+    source = ossa.open(clip)
+    depth_mm = next(source).depth_mm
+    kept = depth_mm.copy()
+    source.close()
+    del source
+    assert (depth_mm == kept).all()
+
+
+def test_a_closed_source_says_so(clip):
+    source = ossa.open(clip)
+    source.close()
+    with pytest.raises(ossa.InputError, match="closed"):
+        next(source)
+
+
+def test_what_is_assumed_is_noted(clip, tmp_path):
+    (tmp_path / "000000.png").write_bytes((clip / "depth/000000.png").read_bytes())
+    source = ossa.open(tmp_path)
+    next(source)
+    assert any("kinect-v1" in note for note in source.notes)
+
+
+@pytest.mark.parametrize("camera", ["xtion", "575,575,160,120", ossa.Camera(575, 575, 160, 120)])
+def test_a_camera_goes_before_the_source_s_own(camera, clip):
+    assert ossa.open(clip, camera=camera).camera.fx != ossa.open(clip).camera.fx
+
+
+def test_depth_scale_and_fps_are_those_asked_for(clip):
+    plain = next(ossa.open(clip / "depth", camera="kinect-v1")).depth_mm
+    scaled = next(ossa.open(clip / "depth", camera="kinect-v1", depth_scale=2000)).depth_mm
+    assert np.abs(scaled.astype(int) - plain // 2).max() <= 1
+    images = list(ossa.open(clip / "depth", fps=10))
+    assert images[1].time_s - images[0].time_s == pytest.approx(0.1)
+
+
+def test_a_missing_source_is_named_in_one_line():
+    with pytest.raises(ossa.InputError, match="nowhere.oni") as caught:
+        ossa.open("nowhere.oni")
+    assert "\n" not in str(caught.value)
+    assert isinstance(caught.value, ValueError)
+
+
+@pytest.mark.parametrize("name", ossa.CAMERA_PRESETS)
+def test_presets_are_cameras(name):
+    camera = ossa.Camera.preset(name)
+    assert camera.fx > 100 and camera.width > 0
+    assert ossa.Camera.preset(name, 320, 240).width == 320
+
+
+def test_a_preset_fits_itself_to_the_sensor_s_other_modes():
+    # A RealSense crops: its focal length in 640x480 is not that of 848x480 scaled by width.
+    assert ossa.Camera.preset("d435").for_size(640, 480) == ossa.Camera.preset("d435", 640, 480)
+
+
+def test_points_are_the_inverse_of_project():
+    camera = ossa.Camera(570, 575, 158, 119, 320, 240)
+    depth_mm = np.full((240, 320), 2000, np.uint16)
+    depth_mm[0, 0] = 0
+    points = camera.points(depth_mm)
+    assert np.isnan(points[0, 0]).all()
+    assert np.allclose(camera.project(points[200, 100]), (100, 200))
+    assert points[200, 100, 0] > 0 and points[200, 100, 1] < 0  # left of the sensor, below
+
+
+def test_recordings_of_other_programs_are_read(shared):
+    recording = shared / "real/recordings/azure_kinect.mkv"
+    if not recording.is_file():
+        pytest.skip(f"{recording} is not there")
+    image = next(ossa.open(recording))
+    assert image.depth_mm.any() and image.camera.fx > 200

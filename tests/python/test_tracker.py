@@ -1,0 +1,247 @@
+"""ossa.Tracker: the command's skeletons as plain arrays, in any thread."""
+
+import gc
+import threading
+import time
+
+import numpy as np
+import pytest
+
+import ossa
+
+
+def skeletons_of(tracker, images):
+    return [tracker.track(*image).bodies[0].joints for image in images]
+
+
+@pytest.mark.parametrize("method", ["best", "holt", "shum-2013"])
+def test_gives_the_bytes_of_the_command(method, clip, command, tmp_path):
+    command("track", clip, "--method", method, "--out", tmp_path / "command.jsonl", "--quiet")
+    tracked = ossa.Tracker(method).run(clip)
+    ossa.write_skeletons(ossa.Sequence.from_frames(tracked), tmp_path / "python.jsonl")
+    assert (tmp_path / "python.jsonl").read_bytes() == (tmp_path / "command.jsonl").read_bytes()
+
+
+def test_a_body_has_every_field_in_its_shape_and_type(frames):
+    body = frames[-1].bodies[0]
+    for name, shape in {
+        "position": (3,), "joints": (20, 3), "confidence": (20,), "reliability": (20,),
+        "orientations": (20, 4), "hierarchical_orientations": (20, 4), "raw": (20, 3),
+        "refined": (20, 3), "reconstructed": (20, 3), "bones_m": (20,),
+    }.items():  # fmt: skip
+        assert getattr(body, name).shape == shape, name
+        assert getattr(body, name).dtype == np.float64, name
+    assert body.states.shape == (20,)
+    assert set(body.states) <= set(ossa.STATES)
+    assert np.allclose(np.linalg.norm(body.orientations, axis=1), 1)
+    assert ((0 <= body.confidence) & (body.confidence <= 1)).all()
+    assert len(body.proposals) == 20
+
+
+def test_a_frame_has_every_field_in_its_shape_and_type(frames):
+    frame = frames[-1]
+    assert frame.users.shape == frame.parts.shape == (240, 320)
+    assert frame.users.dtype == frame.parts.dtype == np.uint8
+    assert set(np.unique(frame.users)) == {0, frame.bodies[0].id}
+    assert frame.floor.shape == (4,) and np.isclose(np.linalg.norm(frame.floor[:3]), 1)
+    assert frame.probabilities.shape == (240, 320, len(ossa.PARTS))
+    assert frame.probabilities.dtype == np.float32
+    seen = frame.parts > 0
+    assert np.allclose(frame.probabilities.sum(-1)[seen], 1, atol=1e-3)
+    assert not frame.probabilities[frame.users == 0].any()
+
+
+def test_the_best_proposal_of_a_tracked_joint_lies_near_the_raw_joint(frames):
+    body = frames[-1].bodies[0]
+    head = body.proposals[ossa.Joint.Head]
+    assert len(head) == len(head.confidence) == len(head.seen) >= 1
+    assert list(head.confidence) == sorted(head.confidence, reverse=True)
+    assert np.abs(head.positions - body.raw[ossa.Joint.Head]).max(axis=1).min() < 1e-9
+
+
+def test_what_was_not_asked_for_is_not_made(images, models):
+    frame = ossa.Tracker(models=models).track(*images[0])
+    assert frame.parts is None and frame.probabilities is None
+    assert all(body.proposals is None for body in frame.bodies)
+
+
+def test_joints_are_had_by_name_and_by_index(frames):
+    body = frames[-1].bodies[0]
+    assert (body["Head"] == body.joints[ossa.JOINTS.index("Head")]).all()
+    assert (body[ossa.Joint.Head] == body["Head"]).all()
+    assert [j.name for j in ossa.Joint] == list(ossa.JOINTS)
+
+
+def test_results_outlive_the_tracker_and_the_next_frame(images, models):
+    tracker = ossa.Tracker(models=models)
+    frame = tracker.track(*images[0])
+    joints, users = frame.bodies[0].joints, frame.users
+    kept = joints.copy(), users.copy()
+    tracker.track(*images[1])
+    del tracker, frame
+    gc.collect()
+    assert (joints == kept[0]).all() and (users == kept[1]).all()
+
+
+def test_trackers_in_threads_give_what_one_alone_gives(images, models):
+    alone = skeletons_of(ossa.Tracker(models=models), images)
+    made = {}
+
+    def work(number):
+        made[number] = skeletons_of(ossa.Tracker(models=models), images)
+
+    threads = [threading.Thread(target=work, args=(i,)) for i in range(4)]
+    for thread in threads:
+        thread.start()
+    for thread in threads:
+        thread.join()
+    for number in range(4):
+        assert np.array_equal(made[number], alone)
+
+
+def test_one_tracker_in_two_threads_takes_turns(images, models):
+    tracker = ossa.Tracker(models=models)
+    failures = []
+
+    def work():
+        try:
+            for image in images:
+                tracker.track(*image)
+                tracker.mode = "standing"
+        except BaseException as error:
+            failures.append(error)
+
+    threads = [threading.Thread(target=work) for _ in range(2)]
+    for thread in threads:
+        thread.start()
+    for thread in threads:
+        thread.join()
+    assert not failures
+
+
+def test_other_threads_run_while_it_tracks(images, models):
+    tracker = ossa.Tracker(models=models, parts=True)
+    thread = threading.Thread(target=skeletons_of, args=(tracker, images))
+    thread.start()
+    turns = 0
+    while thread.is_alive():
+        time.sleep(0.0005)  # wakes only where the interpreter is free
+        turns += 1
+    # An image takes 5 ms and more. With the interpreter held there is a turn or two between images.
+    assert turns > 4 * len(images)
+
+
+def test_a_part_of_an_image_is_tracked_as_its_copy(images, models):
+    depth_mm, camera, _ = images[0]
+    part = depth_mm[20:220, 10:310]
+    assert not part.flags.c_contiguous
+    cut = ossa.Camera(camera.fx, camera.fy, camera.cx - 10, camera.cy - 20)
+    as_view = ossa.Tracker(models=models).track(part, cut)
+    as_copy = ossa.Tracker(models=models).track(part.copy(), cut)
+    assert len(as_view.bodies) == 1
+    assert np.array_equal(as_view.bodies[0].joints, as_copy.bodies[0].joints)
+
+
+def test_users_not_chosen_have_a_position_only(images, models):
+    tracker = ossa.Tracker(models=models)
+    tracker.choose_users([77])
+    body = tracker.track(*images[0]).bodies[0]
+    assert not body.tracked and np.isnan(body.joints).all() and np.isfinite(body.position).all()
+    assert set(body.states) == {"not_tracked"}
+    tracker.choose_users()
+    assert tracker.track(*images[1]).bodies[0].tracked
+
+
+def test_seated_mode_can_be_set_while_it_runs(images, models):
+    tracker = ossa.Tracker(models=models)
+    standing = tracker.track(*images[0]).bodies[0]
+    tracker.mode = "seated"
+    seated = tracker.track(*images[1]).bodies[0]
+    knee = ossa.Joint.KneeRight
+    assert standing.states[knee] == "tracked" and seated.states[knee] == "not_tracked"
+    assert tracker.mode == "seated"
+
+
+def test_smoothing_can_be_set_while_it_runs(images, models):
+    rough, smooth = ossa.Tracker(models=models), ossa.Tracker(models=models)
+    smooth.smoothing = ossa.Holt(smoothing=0.9, prediction=0.0, max_deviation_radius_m=1.0)
+    differences = [
+        np.abs(a - b).max()
+        for a, b in zip(skeletons_of(rough, images), skeletons_of(smooth, images))
+    ]
+    assert max(differences) > 1e-3
+    smooth.smoothing = None
+    assert smooth.smoothing is None
+
+
+@pytest.mark.parametrize("smoothing", [*ossa.SMOOTHINGS, ossa.Holt(), ossa.OneEuro()])
+def test_every_smoothing_is_taken(smoothing, images, models):
+    assert ossa.Tracker(models=models, smoothing=smoothing).track(*images[0]).bodies
+
+
+@pytest.mark.parametrize("method", ["none", "one-euro", "kalman", "shum-ho-2012", "plantard-2016"])
+def test_every_method_is_had_by_name(method, images):
+    assert ossa.Tracker(method).track(*images[0]).bodies[0].tracked
+
+
+def test_options_of_a_method_reach_it(images):
+    few = skeletons_of(ossa.Tracker("shum-2013", neighbours=3, steps=2), images[:6])
+    many = skeletons_of(ossa.Tracker("shum-2013"), images[:6])
+    assert np.abs(np.array(few) - many).max() > 1e-4
+
+
+def test_an_option_that_the_method_does_not_read_is_refused():
+    with pytest.raises(ossa.InputError, match="neighbours.*shum-2013.*found 'holt'"):
+        ossa.Tracker("holt", neighbours=3)
+
+
+def test_physics_moves_joints(images, models):
+    plain = skeletons_of(ossa.Tracker(models=models), images[:10])
+    physical = skeletons_of(ossa.Tracker(models=models, physics=True), images[:10])
+    assert np.abs(np.array(plain) - physical).max() > 1e-4
+
+
+def test_bones_of_a_run_before_stay(images, models, frames):
+    known = {1: frames[-1].bodies[0].bones_m}
+    tracker = ossa.Tracker(models=models, bones_m=known)
+    made = [tracker.track(*image).bodies[0].bones_m for image in images[:3]]
+    assert np.allclose(made, known[1])
+
+
+def test_a_camera_on_its_side_gives_results_in_its_own_space(images, models):
+    upright = ossa.Tracker(models=models, parts=True)
+    lying = ossa.Tracker(models=models, parts=True, probabilities=True, proposals=True)
+    for depth_mm, camera, time_s in images[:3]:
+        a = upright.track(depth_mm, camera, time_s)
+        turned = np.ascontiguousarray(np.rot90(depth_mm))  # by 90 degrees counter-clockwise
+        on_side = ossa.Camera(camera.fy, camera.fx, camera.cy, 319 - camera.cx, rotate=90)
+        b = lying.track(turned, on_side, time_s)
+    assert lying.rotation == 90
+    assert (np.rot90(a.users) == b.users).mean() > 0.99
+    assert (b.probabilities.argmax(-1)[b.users == 0] == 0).all()
+    assert b.probabilities.shape == turned.shape + (33,)
+    x, y, z = a.bodies[0]["Head"]
+    assert np.allclose(b.bodies[0]["Head"], (-y, x, z), atol=0.05) or np.allclose(
+        b.bodies[0]["Head"], (y, -x, z), atol=0.05
+    )
+    head = b.bodies[0].proposals[ossa.Joint.Head].positions[0]
+    assert np.allclose(head, b.bodies[0].raw[ossa.Joint.Head], atol=1e-9)
+
+
+def test_time_left_out_goes_on_by_a_thirtieth_of_a_second(images, models):
+    tracker = ossa.Tracker(models=models)
+    times = [tracker.track(image.depth_mm, image.camera).time_s for image in images[:3]]
+    assert np.allclose(times, [0, 1 / 30, 2 / 30])
+
+
+def test_reset_forgets_everybody(images, models):
+    tracker = ossa.Tracker(models=models)
+    first = tracker.track(*images[0])
+    tracker.reset()
+    again = tracker.track(*images[0])
+    assert np.array_equal(first.bodies[0].joints, again.bodies[0].joints)
+
+
+def test_models_of_another_method_are_refused(models):
+    with pytest.raises(ossa.InputError, match="models: expected those of method 'holt'"):
+        ossa.Tracker("holt", models=models)

@@ -1,0 +1,102 @@
+// ossa.compare, ossa.evaluate and ossa.learn: JSON texts as the commands write them.
+#include <pybind11/stl.h>
+
+#include <string>
+#include <vector>
+
+#include "depth/base/error.h"
+#include "forest/forest.h"
+#include "recon/models/learned_models.h"
+#include "tools/experiments/compare/comparison.h"
+#include "tools/experiments/experiment.h"
+#include "tools/learning/evaluate.h"
+#include "tools/learning/pair_recordings.h"
+#include "tools/python/native/native.h"
+
+namespace ossa::python {
+namespace {
+
+tools::CompareOptions CompareOptionsFrom(const py::dict& given) {
+  tools::CompareOptions options;
+  options.pairing.rigid = given["align"].cast<std::string>() == "rigid";
+  options.pairing.found_only = given["joints"].cast<std::string>() == "found";
+  options.pairing.max_offset_s = given["max_offset_s"].cast<double>();
+  const py::object time = given["time"];
+  if (!py::isinstance<py::str>(time)) {
+    options.pairing.time = tools::TimeAlignment::kFixed;
+    options.pairing.offset_s = time.cast<double>();
+  } else if (time.cast<std::string>() == "none") {
+    options.pairing.time = tools::TimeAlignment::kNone;
+  } else if (time.cast<std::string>() == "correlate") {
+    options.pairing.time = tools::TimeAlignment::kCorrelate;
+  }
+  options.reading.mapping_file = given["mapping"].cast<std::string>();
+  options.reading.format = given["format"].cast<std::string>();
+  options.only = given["only"].cast<std::vector<std::string>>();
+  options.skip = given["skip"].cast<std::vector<std::string>>();
+  options.seed = given["seed"].cast<uint64_t>();
+  options.stop = [] { return !GoesOn(); };
+  return options;
+}
+
+// (JSON, warnings)
+py::tuple Compare(const std::string& truth, const std::vector<std::string>& results,
+                  const py::dict& given) {
+  const tools::CompareOptions options = CompareOptionsFrom(given);
+  tools::Comparison comparison;
+  try {
+    const py::gil_scoped_release free;
+    comparison = tools::Compare(truth, results, options);
+  } catch (const tools::Interruption&) {
+    ThrowIfInterrupted();
+  }
+  return py::make_tuple(tools::ToJson(comparison), comparison.warnings);
+}
+
+std::string Evaluate(const std::string& path, const std::string& dataset, int64_t every) {
+  std::string json;
+  {
+    const py::gil_scoped_release free;
+    const forest::ForestModel model = forest::ReadForestModel(path);
+    const tools::DatasetReader reader{std::filesystem::path(dataset)};
+    json = tools::EvaluationJson(
+        tools::Evaluate(model, path, reader, every, [](int64_t, int64_t) { return GoesOn(); }));
+  }
+  ThrowIfInterrupted();
+  return json;
+}
+
+// The number of pairs.
+size_t Learn(const std::vector<std::string>& observed, const std::vector<std::string>& truth,
+             const std::string& out, const py::dict& given) {
+  recon::LearnOptions options;
+  options.mixture.seed = options.correction.seed = given["seed"].cast<uint64_t>();
+  options.mixture.regions = given["regions"].cast<int>();
+  options.mixture.samples = given["samples"].cast<int>();
+  options.most_pairs = given["pairs"].cast<size_t>();
+  options.processes = !given["correction_only"].cast<bool>();
+  recon::SkeletonReadOptions reading;
+  reading.mapping_file = given["mapping"].cast<std::string>();
+  size_t count = 0;
+  {
+    const py::gil_scoped_release free;
+    const auto pairs =
+        tools::PairRecordings(observed, truth, reading, [](const auto&) { return GoesOn(); });
+    const auto models = recon::LearnedModels::Learn(pairs, options, [](int) { return GoesOn(); });
+    if (GoesOn()) models.Save(out);
+    count = pairs.size();
+  }
+  ThrowIfInterrupted();
+  return count;
+}
+
+}  // namespace
+
+void AddLearning(py::module_& module) {
+  module.def("compare", &Compare, py::arg("truth"), py::arg("results"), py::arg("options"));
+  module.def("evaluate", &Evaluate, py::arg("model"), py::arg("dataset"), py::arg("every"));
+  module.def("learn", &Learn, py::arg("observed"), py::arg("truth"), py::arg("out"),
+             py::arg("options"));
+}
+
+}  // namespace ossa::python

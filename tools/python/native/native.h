@@ -1,0 +1,44 @@
+#pragma once
+#include <pybind11/pybind11.h>
+
+#include <string>
+
+#include "depth/sensor/frame_source.h"
+#include "recon/methods/reconstructor.h"
+#include "tools/tracker/mechanics.h"
+#include "tools/tracker/model_set.h"
+
+/// The extension module ossa._native: what the package's Python files are written over. Its
+/// functions take and give plain arrays, numbers, texts and dicts; the Python files check types,
+/// name things and explain them.
+namespace ossa::python {
+
+namespace py = pybind11;
+
+void AddSources(py::module_& module);
+void AddTracker(py::module_& module);
+void AddForest(py::module_& module);
+void AddSkeletons(py::module_& module);
+void AddLearning(py::module_& module);
+
+/// Whether a long run goes on: false once Python has a signal to act on (Ctrl-C). Called without
+/// the GIL.
+bool GoesOn();
+/// Throws what Python raised meanwhile.
+void ThrowIfInterrupted();
+
+/// The options of single methods by their keywords (ossa/_method_options.py).
+struct MethodOptions {
+  recon::LocalPcaOptions local_pca;
+  recon::GaussianProcessOptions gaussian_process;
+  recon::BestOptions best;
+};
+MethodOptions ReadMethodOptions(const py::dict& given);
+/// forest, refinement, learned, prior, database.
+tracker::ModelFiles ReadModelFiles(const py::dict& given);
+/// camera, depth_scale, depth_format, fps, wait_s.
+depth::SourceOptions ReadSourceOptions(const py::dict& given);
+/// motors, hinges, joint_limits.
+tracker::MechanicsBuild ReadMechanics(const py::dict& given);
+
+}  // namespace ossa::python

@@ -1,0 +1,166 @@
+// Cameras by name, and the frames of a SOURCE.
+#include "depth/sensor/frame_source.h"
+
+#include <pybind11/stl.h>
+
+#include <mutex>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "depth/base/error.h"
+#include "depth/image/camera_io.h"
+#include "depth/sensor/depth_coding.h"
+#include "tools/python/native/arrays.h"
+#include "tools/python/native/native.h"
+
+namespace ossa::python {
+namespace {
+
+using std::chrono::milliseconds;
+using Notes = std::vector<std::pair<std::string, std::string>>;  // "info" or "warning", text
+
+// Readers tell of what they assume while the GIL is released, from whichever thread.
+class NoteBook {
+ public:
+  void Add(depth::NoteKind kind, const std::string& text) {
+    const std::lock_guard lock(mutex_);
+    notes_.emplace_back(kind == depth::NoteKind::kWarning ? "warning" : "info", text);
+  }
+  Notes Take() {
+    const std::lock_guard lock(mutex_);
+    return std::exchange(notes_, {});
+  }
+
+ private:
+  std::mutex mutex_;
+  Notes notes_;
+};
+
+const char* NameOf(depth::ReadStatus status) {
+  switch (status) {
+    case depth::ReadStatus::kFrame:
+      return "frame";
+    case depth::ReadStatus::kTimeout:
+      return "timeout";
+    case depth::ReadStatus::kEnd:
+      return "end";
+    case depth::ReadStatus::kDisconnected:
+      return "disconnected";
+  }
+  return "";
+}
+
+}  // namespace
+
+depth::SourceOptions ReadSourceOptions(const py::dict& given) {
+  depth::SourceOptions options;
+  if (given.contains("camera")) {
+    const auto camera = given["camera"];
+    if (py::isinstance<py::str>(camera)) {
+      options.camera = depth::ParseCamera(camera.cast<std::string>());
+    } else {
+      const auto c = camera.cast<std::tuple<double, double, double, double, int, int>>();
+      options.camera = depth::Camera{std::get<4>(c), std::get<5>(c), std::get<0>(c),
+                                     std::get<1>(c), std::get<2>(c), std::get<3>(c)};
+    }
+  }
+  if (given.contains("depth_scale")) options.depth_scale = given["depth_scale"].cast<double>();
+  if (given.contains("fps")) options.fps = given["fps"].cast<double>();
+  options.depth_format = depth::ParseDepthFormat(given["depth_format"].cast<std::string>());
+  options.device_wait = milliseconds(static_cast<int64_t>(1000.0 * given["wait_s"].cast<double>()));
+  options.keep_waiting = GoesOn;
+  return options;
+}
+
+namespace {
+
+/// A SOURCE that one thread at a time reads; others wait.
+class Source {
+  depth::FrameSource& Opened() {
+    if (!frames_) throw InputError("source: expected one that is open, found it closed");
+    return *frames_;
+  }
+  template <typename Ask>
+  auto Locked(const Ask& ask) {
+    const py::gil_scoped_release free;
+    const std::lock_guard lock(mutex_);
+    return ask(Opened());
+  }
+
+ public:
+  Source(const std::string& name, const py::dict& given) {
+    depth::SourceOptions options = ReadSourceOptions(given);
+    options.note = [this](depth::NoteKind kind, const std::string& text) {
+      notes_.Add(kind, text);
+    };
+    const py::gil_scoped_release free;
+    frames_ = depth::OpenSource(name, options);
+  }
+
+  /// (status, depth_mm | None, camera, time_s, dropped)
+  py::tuple Read(int timeout_ms) {
+    depth::ReadResult read;
+    {
+      const py::gil_scoped_release free;
+      const std::lock_guard lock(mutex_);
+      read = Opened().Read(milliseconds(timeout_ms));
+    }
+    if (read.status != depth::ReadStatus::kFrame) {
+      return py::make_tuple(NameOf(read.status), py::none(), py::none(), 0.0, 0);
+    }
+    const depth::Camera& camera = read.frame.camera;
+    return py::make_tuple(NameOf(read.status),
+                          ToArray(std::move(read.frame.depth_mm), {camera.height, camera.width}),
+                          ToTuple(camera), read.frame.time_s, read.dropped);
+  }
+
+  void Close() {
+    const py::gil_scoped_release free;
+    const std::lock_guard lock(mutex_);
+    frames_.reset();
+  }
+  py::tuple Camera() {
+    return ToTuple(Locked([](auto& frames) { return frames.camera(); }));
+  }
+  bool IsLive() {
+    return Locked([](auto& frames) { return frames.is_live(); });
+  }
+  std::optional<int64_t> FrameCount() {
+    return Locked([](auto& frames) { return frames.frame_count(); });
+  }
+  Notes TakeNotes() { return notes_.Take(); }
+
+ private:
+  NoteBook notes_;  // before what writes into it
+  std::mutex mutex_;
+  std::unique_ptr<depth::FrameSource> frames_;
+};
+
+}  // namespace
+
+void AddSources(py::module_& module) {
+  module.def(
+      "preset_camera",
+      [](const std::string& name, int width, int height) {
+        return ToTuple(depth::PresetCamera(name, width, height));
+      },
+      py::arg("name"), py::arg("width"), py::arg("height"));
+  module.def(
+      "parse_camera",
+      [](const std::string& text, int width, int height) {
+        return ToTuple(depth::CameraForSize(depth::ParseCamera(text), width, height));
+      },
+      py::arg("text"), py::arg("width"), py::arg("height"));
+  py::class_<Source>(module, "Source")
+      .def(py::init<const std::string&, const py::dict&>(), py::arg("name"), py::arg("options"))
+      .def("read", &Source::Read, py::arg("timeout_ms"))
+      .def("close", &Source::Close)
+      .def("camera", &Source::Camera)
+      .def("is_live", &Source::IsLive)
+      .def("frame_count", &Source::FrameCount)
+      .def("take_notes", &Source::TakeNotes);
+}
+
+}  // namespace ossa::python

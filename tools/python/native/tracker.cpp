@@ -1,0 +1,280 @@
+// ossa.Tracker.
+#include "tools/tracker/tracker.h"
+
+#include <pybind11/stl.h>
+
+#include <algorithm>
+#include <map>
+#include <mutex>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "depth/sensor/frame_source.h"
+#include "tools/python/native/arrays.h"
+#include "tools/python/native/native.h"
+
+namespace ossa::python {
+namespace {
+
+using tracker::Body;
+using tracker::BodyFrame;
+
+py::object TextOrNone(const py::dict& given, const char* key) {
+  return given.contains(key) ? py::object(given[key]) : py::none();
+}
+
+tracker::SmoothingOptions SmoothingFrom(const py::object& given, const std::string& method) {
+  if (given.is_none()) return tracker::SmoothingPreset(recon::MethodNamed(method).smoothing);
+  if (py::isinstance<py::str>(given)) return tracker::SmoothingPreset(given.cast<std::string>());
+  const auto values = given.cast<py::dict>();
+  const auto number = [&](const char* key) { return values[key].cast<double>(); };
+  tracker::SmoothingOptions options;
+  if (values.contains("min_cutoff_hz")) {
+    options.kind = tracker::SmoothingKind::kOneEuro;
+    options.one_euro.min_cutoff_hz = number("min_cutoff_hz");
+    options.one_euro.beta_per_m = number("beta_per_m");
+    return options;
+  }
+  options.holt.smoothing = number("smoothing");
+  options.holt.correction = number("correction");
+  options.holt.prediction = number("prediction");
+  options.holt.jitter_radius_m = number("jitter_radius_m");
+  options.holt.max_deviation_radius_m = number("max_deviation_radius_m");
+  return options;
+}
+
+tracker::TrackerOptions OptionsFrom(const py::dict& given) {
+  tracker::TrackerOptions options;
+  const auto flag = [&](const char* key) { return given[key].cast<bool>(); };
+  options.method = given["method"].cast<std::string>();
+  options.physics = flag("physics");
+  options.mechanics = ReadMechanics(given["mechanics"].cast<py::dict>());
+  const MethodOptions of_method = ReadMethodOptions(given["method_options"].cast<py::dict>());
+  options.local_pca = of_method.local_pca;
+  options.gaussian_process = of_method.gaussian_process;
+  options.best = of_method.best;
+  options.smoothing = SmoothingFrom(TextOrNone(given, "smoothing"), options.method);
+  if (flag("seated")) options.mode = tracker::TrackingMode::kSeated;
+  options.near_range = flag("near");
+  options.max_users = given["max_users"].cast<int>();
+  options.threads = given["threads"].cast<int>();
+  options.seed = given["seed"].cast<uint64_t>();
+  options.keep_parts = flag("parts");
+  options.keep_probabilities = flag("probabilities");
+  options.keep_proposals = flag("proposals");
+  for (const auto& [id, lengths] : given["bones_m"].cast<std::map<int, std::vector<double>>>()) {
+    recon::BoneLengths bones{};
+    std::copy_n(lengths.begin(), bones.size(), bones.begin());
+    options.bones_m[id] = bones;
+  }
+  return options;
+}
+
+/// All that was learned, in memory: of any number of trackers.
+struct Models {
+  tracker::ModelSet set;
+  std::string method;
+};
+
+Models LoadModels(const py::dict& files, const std::string& method) {
+  const tracker::ModelFiles named = ReadModelFiles(files);
+  const py::gil_scoped_release free;
+  return {tracker::ModelSet::Load(named, method), method};
+}
+
+// float64 [n, 5]: x y z, confidence, seen.
+py::array_t<double> ToArray(const std::vector<tracker::JointProposal>& proposals) {
+  std::vector<double> values;
+  for (const tracker::JointProposal& p : proposals) {
+    values.insert(values.end(), p.position_m.begin(), p.position_m.end());
+    values.insert(values.end(), {p.confidence, p.seen ? 1.0 : 0.0});
+  }
+  return python::ToArray(std::move(values), {static_cast<py::ssize_t>(proposals.size()), 5});
+}
+
+py::object ToArray(const std::optional<recon::BoneLengths>& bones_m) {
+  return bones_m ? py::object(python::ToArray(*bones_m)) : py::none();
+}
+
+recon::JointArray<double> ConfidenceOf(const Body& body) {
+  recon::JointArray<double> confidence;
+  for (size_t j = 0; j < confidence.size(); ++j) confidence[j] = body.joints[j].confidence;
+  return confidence;
+}
+
+// What a tracked body has beyond a place and an id.
+void AddSkeleton(const Body& body, bool with_proposals, py::dict& made) {
+  recon::JointArray<recon::TrackingState> states;
+  recon::JointArray<double> reliability;
+  recon::JointOrientations orientations;
+  for (size_t j = 0; j < recon::kJointCount; ++j) {
+    states[j] = body.joints[j].state;
+    reliability[j] = body.joints[j].reliability;
+    orientations[j] = body.joints[j].orientation;
+  }
+  made["joints"] = python::ToArray(tracker::ToPosture(body));
+  made["states"] = python::ToArray(states);
+  made["confidence"] = python::ToArray(ConfidenceOf(body));
+  made["reliability"] = python::ToArray(reliability);
+  made["orientations"] = python::ToArray(orientations);
+  made["hierarchical_orientations"] = python::ToArray(tracker::HierarchicalOrientationsOf(body));
+  made["raw"] = python::ToArray(body.raw.posture);
+  made["refined"] = body.refined ? py::object(python::ToArray(*body.refined)) : py::none();
+  made["reconstructed"] = python::ToArray(body.reconstructed);
+  made["bones_m"] = ToArray(body.bones_m);
+  if (!with_proposals) return;
+  py::list proposals;
+  for (const auto& of_joint : body.proposals) proposals.append(ToArray(of_joint));
+  made["proposals"] = proposals;
+}
+
+py::dict ToDict(const Body& body, bool with_proposals) {
+  py::dict made;
+  made["id"] = body.id;
+  made["tracked"] = body.state == tracker::BodyState::kTracked;
+  made["position"] =
+      python::ToArray(std::vector<double>(body.position_m.begin(), body.position_m.end()), {3});
+  made["clipped_edges"] = body.clipped_edges;
+  made["person_score"] = body.person_score;
+  if (body.state == tracker::BodyState::kTracked) AddSkeleton(body, with_proposals, made);
+  return made;
+}
+
+py::object ToArray(depth::Image<uint8_t> image) {
+  if (image.data.empty()) return py::none();
+  return python::ToArray(std::move(image.data), {image.height, image.width});
+}
+
+py::dict ToDict(const tracker::StageTimes& ms) {
+  py::dict made;
+  made["segment"] = ms.segment;
+  made["classify"] = ms.classify;
+  made["propose"] = ms.propose;
+  made["reconstruct"] = ms.reconstruct;
+  made["physics"] = ms.physics;
+  made["total"] = ms.total;
+  return made;
+}
+
+py::dict ToDict(BodyFrame frame, bool with_proposals) {
+  py::dict made;
+  py::list bodies;
+  for (const Body& body : frame.bodies) bodies.append(ToDict(body, with_proposals));
+  made["index"] = frame.index;
+  made["time_s"] = frame.time_s;
+  made["bodies"] = bodies;
+  made["users"] = ToArray(std::move(frame.users));
+  made["parts"] = ToArray(std::move(frame.parts));
+  tracker::PartProbabilities& p = frame.probabilities;
+  made["probabilities"] = p.data.empty()
+                              ? py::object(py::none())
+                              : python::ToArray(std::move(p.data), {p.height, p.width, p.classes});
+  made["floor"] = frame.floor
+                      ? py::object(python::ToArray(
+                            std::vector<double>(frame.floor->begin(), frame.floor->end()), {4}))
+                      : py::none();
+  made["tilt_down_rad"] = frame.tilt_down_rad;
+  made["ms"] = ToDict(frame.ms);
+  return made;
+}
+
+/// A tracker that one thread at a time uses; others wait.
+class Tracker {
+ public:
+  Tracker(const py::dict& given, const Models& models) : method_(models.method) {
+    tracker::TrackerOptions options = OptionsFrom(given);
+    options.models = models.set;
+    with_proposals_ = options.keep_proposals;
+    const py::gil_scoped_release free;
+    tracker_.emplace(options);
+  }
+
+  py::dict Track(const py::array& depth_mm, const py::tuple& camera, double time_s, int turn) {
+    const depth::DepthView view = ViewOf(depth_mm);
+    const depth::Camera seen_by = CameraOf(camera, view);
+    BodyFrame bodies;
+    {
+      const py::gil_scoped_release free;
+      const std::lock_guard lock(mutex_);
+      tracker_->SetTurn(static_cast<tracker::Turn>(turn));
+      frame_.camera = seen_by;
+      frame_.time_s = time_s;
+      frame_.depth_mm.clear();
+      for (int v = 0; v < view.height; ++v) {
+        const uint16_t* const row = view.data_mm + static_cast<ptrdiff_t>(v) * view.stride;
+        frame_.depth_mm.insert(frame_.depth_mm.end(), row, row + view.width);
+      }
+      bodies = tracker_->Track(frame_);
+      ++frame_.index;
+    }
+    return ToDict(std::move(bodies), with_proposals_);
+  }
+
+  /// Looks through the beginning of a recording for which way up its camera is.
+  int FindUpright(const std::string& source, const py::dict& given) {
+    const depth::SourceOptions options = ReadSourceOptions(given);
+    const py::gil_scoped_release free;
+    const std::lock_guard lock(mutex_);
+    tracker_->SetTurn(tracker::Turn::kAuto);
+    tracker_->FindUpright(*depth::OpenSource(source, options), GoesOn);
+    return tracker_->quarter_turns();
+  }
+
+  void ChooseUsers(const std::optional<std::vector<int>>& ids) {
+    Locked([&](tracker::Tracker& t) { ids ? t.ChooseUsers(*ids) : t.ChooseAllUsers(); });
+  }
+  void SetSeated(bool seated) {
+    using tracker::TrackingMode;
+    Locked([&](tracker::Tracker& t) {
+      t.SetMode(seated ? TrackingMode::kSeated : TrackingMode::kStanding);
+    });
+  }
+  void SetSmoothing(const py::object& given) {
+    const tracker::SmoothingOptions options = SmoothingFrom(given, method_);
+    Locked([&](tracker::Tracker& t) { t.SetSmoothing(options); });
+  }
+  int QuarterTurns() {
+    int turns = 0;
+    Locked([&](tracker::Tracker& t) { turns = t.quarter_turns(); });
+    return turns;
+  }
+  void Reset() {
+    Locked([&](tracker::Tracker& t) { t.Reset(); });
+  }
+
+ private:
+  template <typename Change>
+  void Locked(const Change& change) {
+    const py::gil_scoped_release free;
+    const std::lock_guard lock(mutex_);
+    change(*tracker_);
+  }
+
+  std::mutex mutex_;
+  std::string method_;
+  bool with_proposals_ = false;
+  depth::DepthFrame frame_;  // its memory serves frame after frame
+  std::optional<tracker::Tracker> tracker_;
+};
+
+}  // namespace
+
+void AddTracker(py::module_& module) {
+  py::class_<Models>(module, "Models")
+      .def(py::init(&LoadModels), py::arg("files"), py::arg("method"))
+      .def_readonly("method", &Models::method);
+  py::class_<Tracker>(module, "Tracker")
+      .def(py::init<const py::dict&, const Models&>(), py::arg("options"), py::arg("models"))
+      .def("track", &Tracker::Track, py::arg("depth_mm"), py::arg("camera"), py::arg("time_s"),
+           py::arg("turn"))
+      .def("find_upright", &Tracker::FindUpright, py::arg("source"), py::arg("options"))
+      .def("choose_users", &Tracker::ChooseUsers, py::arg("ids"))
+      .def("set_seated", &Tracker::SetSeated, py::arg("seated"))
+      .def("set_smoothing", &Tracker::SetSmoothing, py::arg("smoothing"))
+      .def("quarter_turns", &Tracker::QuarterTurns)
+      .def("reset", &Tracker::Reset);
+}
+
+}  // namespace ossa::python

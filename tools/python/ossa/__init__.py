@@ -1,0 +1,78 @@
+"""ossa: depth images in, human skeletons out, as NumPy arrays.
+
+    import ossa
+    tracker = ossa.Tracker()
+    for depth_mm, camera, time_s in ossa.open("recording.oni"):
+        frame = tracker.track(depth_mm, camera, time_s)
+        for body in frame.bodies:
+            print(time_s, body.id, body["Head"])
+
+Tracker           depth images to bodies; Frame, Body, Proposals are what it gives
+Camera            intrinsics of a depth camera; Camera.preset("kinect-v2")
+open              whatever `ossa track SOURCE` opens: devices, .oni, .mkv, .bag, PNG folders
+Forest            one image's body parts and probabilities
+Sequence          recorded skeletons: read_skeletons, read_recordings, write_skeletons
+reconstruct       methods that make recorded skeletons complete and plausible
+compare           results against truth; evaluate: forests; learn: a sensor's errors
+JOINTS, PARENTS, PARTS, METHODS, STATES, CAMERA_PRESETS, SMOOTHINGS, SKELETON_FORMATS: names
+
+Camera space is metres, right-handed, origin at the sensor, x to the sensor's left, y up, z forward.
+Depth is uint16 [height, width] in millimetres, 0 = no reading. Quaternions are w x y z. Left is the
+person's left. Whatever argument cannot be raises ossa.InputError, a ValueError, in one line.
+help(ossa.Tracker) and so on tell every argument.
+"""
+
+from ._camera import Camera
+from ._forest import Forest
+from ._judge import Comparison, compare, evaluate, learn
+from ._names import (
+    CAMERA_PRESETS,
+    JOINTS,
+    METHODS,
+    PARENTS,
+    PARTS,
+    SKELETON_FORMATS,
+    SMOOTHINGS,
+    STATES,
+    Joint,
+)
+from ._native import InputError
+from ._native import version as __version__
+from ._sequences import Sequence, read_recordings, read_skeletons, reconstruct, write_skeletons
+from ._sources import DepthImage, Source, open
+from ._tracker import Body, Frame, Holt, Models, OneEuro, Proposals, Tracker
+
+__all__ = [
+    "Body",
+    "CAMERA_PRESETS",
+    "Camera",
+    "Comparison",
+    "DepthImage",
+    "Forest",
+    "Frame",
+    "Holt",
+    "InputError",
+    "JOINTS",
+    "Joint",
+    "METHODS",
+    "Models",
+    "OneEuro",
+    "PARENTS",
+    "PARTS",
+    "Proposals",
+    "SKELETON_FORMATS",
+    "SMOOTHINGS",
+    "STATES",
+    "Sequence",
+    "Source",
+    "Tracker",
+    "__version__",
+    "compare",
+    "evaluate",
+    "learn",
+    "open",
+    "read_recordings",
+    "read_skeletons",
+    "reconstruct",
+    "write_skeletons",
+]

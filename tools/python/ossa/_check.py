@@ -1,0 +1,121 @@
+"""What arguments must be: each function returns its value as the extension takes it, or raises
+InputError in one line that names the argument, what was expected and what was found."""
+
+from __future__ import annotations
+
+import math
+import os
+from typing import Any, Iterable, Sequence
+
+import numpy as np
+
+from ._native import InputError as InputError
+
+_LONGEST = 60  # characters of a value that a message quotes
+
+
+def found(value: object) -> str:
+    """A value as messages show it: short, on one line, without running code of its own."""
+    if isinstance(value, np.ndarray):
+        return f"{value.dtype} {list(value.shape)}"
+    if value is None or type(value) in (str, bool, int, float):
+        text = ascii(value)
+        return text if len(text) <= _LONGEST else text[:_LONGEST] + "..."
+    return type(value).__name__
+
+
+def refuse(name: str, expected: str, value: object) -> InputError:
+    """The error to raise."""
+    return InputError(f"{name}: expected {expected}, found {found(value)}")
+
+
+def number(name: str, value: Any, least: float, most: float) -> float:
+    """A finite number from `least` to `most`."""
+    expected = f"a number from {least:g} to {most:g}"
+    if isinstance(value, (bool, np.bool_)) or not isinstance(value, (int, float, np.number)):
+        raise refuse(name, expected, value)
+    try:
+        real = float(value)
+    except (OverflowError, TypeError):
+        raise refuse(name, expected, value) from None
+    if not (math.isfinite(real) and least <= real <= most):
+        raise refuse(name, expected, real)
+    return real
+
+
+def whole(name: str, value: Any, least: int, most: int) -> int:
+    """A whole number from `least` to `most`."""
+    is_whole = isinstance(value, (int, np.integer)) and not isinstance(value, bool)
+    if not is_whole or not least <= int(value) <= most:
+        raise refuse(name, f"a whole number from {least} to {most}", value)
+    return int(value)
+
+
+def flag(name: str, value: Any) -> bool:
+    """True or False."""
+    if not isinstance(value, (bool, np.bool_)):
+        raise refuse(name, "True or False", value)
+    return bool(value)
+
+
+def one_of(name: str, value: Any, allowed: Iterable[Any]) -> Any:
+    """One of a few words or numbers."""
+    values = list(allowed)
+    if isinstance(value, (str, int)) and not isinstance(value, bool) and value in values:
+        return value
+    raise refuse(name, "one of " + ", ".join(str(v) for v in values), value)
+
+
+def text(name: str, value: Any) -> str:
+    """A str that can be written as UTF-8."""
+    if isinstance(value, str):
+        try:
+            value.encode()
+            return str(value)
+        except UnicodeEncodeError:
+            pass
+    raise refuse(name, "a text", value)
+
+
+def texts(name: str, value: Any) -> list[str]:
+    """One text or several."""
+    if isinstance(value, str):
+        return [text(name, value)]
+    if not isinstance(value, (list, tuple)):
+        raise refuse(name, "a text or a list of texts", value)
+    return [text(name, v) for v in value]
+
+
+def path(name: str, value: Any) -> str:
+    """A path, not empty: str or os.PathLike."""
+    if isinstance(value, (str, os.PathLike)):
+        written = os.fspath(value)
+        if isinstance(written, str) and written and "\0" not in written:
+            return text(name, written)
+    raise refuse(name, "a path", value)
+
+
+def optional_path(name: str, value: Any) -> str:
+    """A path, or "" for None."""
+    return "" if value is None else path(name, value)
+
+
+def image(depth_mm: Any) -> Any:
+    """A NumPy array; the extension checks the rest of it."""
+    if type(depth_mm) is not np.ndarray:
+        raise refuse("depth_mm", "a NumPy array, uint16 [height, width]", depth_mm)
+    return depth_mm
+
+
+def array(name: str, value: Any, shape: Sequence[int | None], dtype: Any) -> Any:
+    """An array of this shape (None: any length) and type, made from whatever holds such numbers."""
+    sides = ", ".join("any" if side is None else str(side) for side in shape)
+    expected = f"{np.dtype(dtype).name} [{sides}]"
+    try:
+        made = np.array(value, dtype=dtype)
+    except (TypeError, ValueError, OverflowError):
+        raise refuse(name, expected, value) from None
+    fits = made.ndim == len(shape) and all(s in (None, n) for s, n in zip(shape, made.shape))
+    if not fits:
+        raise refuse(name, expected, made)
+    return made

@@ -1,0 +1,102 @@
+"""ossa.Forest: which pixel shows which part of the body."""
+
+from __future__ import annotations
+
+import json
+from typing import Any, Optional
+
+import numpy as np
+import numpy.typing as npt
+
+from . import _check, _native
+from ._camera import Camera, native_camera
+from ._sources import PathLike
+from ._tracker import Proposals, proposals_from
+
+
+def _mask_option(mask: Any) -> Any:
+    if mask is not None and type(mask) is not np.ndarray:
+        raise _check.refuse("mask", "a NumPy array, bool or uint8 [height, width]", mask)
+    return mask
+
+
+class Forest:
+    """A body part forest (Shotton et al. 2011): pixels to class probabilities to places of joints.
+
+    Knows one image at a time and nobody in it: the pixels that it is given are taken for one
+    person. ossa.Tracker finds people.
+
+    Parameters
+    ----------
+    path : path, optional
+        .ossa of `ossa train`. Left out: the shipped forest.
+    """
+
+    def __init__(self, path: Optional[PathLike] = None) -> None:
+        self._native = _native.Forest(_check.optional_path("path", path))
+
+    @property
+    def classes(self) -> list[str]:
+        """Names of the C classes; 0 is the background. Of the shipped forest ossa.PARTS."""
+        return self._native.classes()
+
+    @property
+    def targets(self) -> list[str]:
+        """What it proposes places of; of the shipped forest the 20 joints."""
+        return self._native.targets()
+
+    @property
+    def card(self) -> dict[str, Any]:
+        """What it was trained on and how well it does, as `ossa info` shows it."""
+        card = json.loads(self._native.card() or "{}")
+        return dict(card)
+
+    def classify(
+        self,
+        depth_mm: npt.NDArray[np.uint16],
+        camera: Camera,
+        mask: Optional[npt.NDArray[Any]] = None,
+    ) -> tuple[npt.NDArray[np.uint8], npt.NDArray[np.float32]]:
+        """Parts of one person's pixels.
+
+        Parameters
+        ----------
+        depth_mm : uint16 [H, W]
+            Millimetres along the optical axis, 0 = no reading; C order. It is not copied.
+        camera : ossa.Camera
+            What it was taken by.
+        mask : bool or uint8 [H, W], optional
+            The person: where it is not 0, as `frame.users == body.id`. Left out: all pixels with a
+            reading; the image then shows one person and nothing else.
+
+        Returns
+        -------
+        parts : uint8 [H, W]
+            The likeliest class, once it is known where the joints are; 0 outside of the person.
+        probabilities : float32 [H, W, C]
+            Of each class by the trees alone; they sum to 1, and are 0 outside of the person.
+        """
+        image = _check.image(depth_mm)
+        return self._native.classify(image, native_camera(camera, image), _mask_option(mask))
+
+    def propose(
+        self,
+        depth_mm: npt.NDArray[np.uint16],
+        camera: Camera,
+        mask: Optional[npt.NDArray[Any]] = None,
+    ) -> dict[str, Proposals]:
+        """Where one person's joints may be: the modes of each target's density estimate.
+
+        Parameters
+        ----------
+        depth_mm, camera, mask
+            As of classify.
+
+        Returns
+        -------
+        dict of str to Proposals
+            By name of the target, each best first; camera space, metres.
+        """
+        image = _check.image(depth_mm)
+        made = self._native.propose(image, native_camera(camera, image), _mask_option(mask))
+        return {name: proposals_from(rows) for name, rows in made.items()}

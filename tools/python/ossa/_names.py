@@ -1,0 +1,57 @@
+"""Names of joints, parts and methods."""
+
+from __future__ import annotations
+
+import enum
+
+from . import _native
+
+JOINTS: tuple[str, ...] = _native.joints
+"""Names of the 20 joints in the Kinect SDK's order: index j of every array of joints."""
+
+PARENTS: tuple[int, ...] = _native.parents
+"""Index of each joint's parent, -1 of the root; the 19 others are the bones."""
+
+PARTS: tuple[str, ...] = _native.parts
+"""Names of the labels of part images: 0 background, 1 to 31 body parts, 32 any object held."""
+
+METHODS: tuple[str, ...] = tuple(str(row["name"]) for row in _native.methods)
+"""Methods of reconstruction that Tracker and reconstruct take by name."""
+
+CAMERA_PRESETS: tuple[str, ...] = _native.camera_presets
+"""Cameras that Camera.preset knows."""
+
+SMOOTHINGS: tuple[str, ...] = _native.smoothing_presets
+"""Presets of the filter that joints go through at the end."""
+
+SKELETON_FORMATS: tuple[str, ...] = _native.skeleton_formats
+"""Formats that read_skeletons tells by content."""
+
+STATES: tuple[str, ...] = ("not_tracked", "inferred", "tracked")
+"""States of a joint: seen in the image (tracked), guessed from what is seen around it (inferred),
+or merely plausible for the rest of the body (not_tracked)."""
+
+
+class Joint(enum.IntEnum):
+    """The 20 joints by name, for indexing: body.joints[ossa.Joint.Head]. Left is the person's."""
+
+    HipCenter = 0
+    Spine = 1
+    ShoulderCenter = 2
+    Head = 3
+    ShoulderLeft = 4
+    ElbowLeft = 5
+    WristLeft = 6
+    HandLeft = 7
+    ShoulderRight = 8
+    ElbowRight = 9
+    WristRight = 10
+    HandRight = 11
+    HipLeft = 12
+    KneeLeft = 13
+    AnkleLeft = 14
+    FootLeft = 15
+    HipRight = 16
+    KneeRight = 17
+    AnkleRight = 18
+    FootRight = 19

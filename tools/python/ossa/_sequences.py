@@ -1,0 +1,423 @@
+"""ossa.Sequence: recorded skeletons, their files, and methods over them."""
+
+from __future__ import annotations
+
+from typing import Any, Iterable, Optional
+
+import numpy as np
+import numpy.typing as npt
+
+from . import _check, _method_options, _native
+from ._names import METHODS, SKELETON_FORMATS, STATES
+from ._sources import PathLike
+from ._tracker import Frame, mechanics_option
+
+Floats = npt.NDArray[np.float64]
+
+_NOBODY = -1  # id of a row that stands for a frame without bodies
+_UNSAID = -1  # of a state, in the extension
+_WORDS = np.array(("",) + STATES)  # by state + 1
+_COLUMNS = {  # name: shape of a row, what it is where nothing is said
+    "floor": ((4,), np.nan),
+    "confidence": ((20,), np.nan),
+    "reliability": ((20,), np.nan),
+    "orientations": ((20, 4), np.nan),
+    "bones_m": ((20,), np.nan),
+}
+
+
+def _states_option(states: Any, rows: int) -> npt.NDArray[np.int8]:
+    if states is None:
+        return np.full((rows, 20), _UNSAID, dtype=np.int8)
+    words = _check.array("states", states, (rows, 20), np.str_)
+    codes = np.full(words.shape, -2, dtype=np.int8)
+    for code, word in enumerate(_WORDS.tolist()):
+        codes[words == word] = code - 1
+    if (codes == -2).any():
+        raise _check.refuse("states", ", ".join(STATES) + " or ''", str(words[codes == -2][0]))
+    return codes
+
+
+class Sequence:
+    """A recording of skeletons: R rows, one for each body of each frame, in order of time.
+
+    Of a recording of one person R is its number of frames F. A frame without bodies is a row of its
+    own, with id -1 and NaN joints. Index j of an array of joints is ossa.JOINTS[j].
+
+    Parameters (each is also an attribute)
+    ----------
+    times : float64 [R]
+        Seconds, not falling. Rows of one frame have one time.
+    joints : float64 [R, 20, 3]
+        Camera space (x to the sensor's left, y up, z forward), metres; NaN: an absent joint.
+    states : str [R, 20], optional
+        "tracked", "inferred", "not_tracked", or "" where the file says nothing.
+    ids : int64 [R], optional
+        Whose row it is, 0 or more; -1 nobody's. Left out: all of one person, 1.
+    frames : int64 [R], optional
+        Numbers of the frames. Left out: a new one with each new time.
+    confidence, reliability : float64 [R, 20], optional
+        In [0, 1]; NaN where nothing is said.
+    orientations : float64 [R, 20, 4], optional
+        Quaternions w x y z, camera from bone; NaN where nothing is said.
+    floor : float64 [R, 4], optional
+        a b c d of a x + b y + c z + d = 0, metres, normal up; NaN where none is known.
+    bones_m : float64 [R, 20], optional
+        Metres: bones as a refinement judges them in this frame alone; NaN where there was none.
+    sensor : str
+        "Kinect v2" and "close look" have errors that ossa knows.
+
+    Attributes
+    ----------
+    source : str
+        The file it came from.
+    warnings : list of str
+        What was odd in the file and how it was read.
+    visible : int8 [R, 20]
+        Of truth files: 1 visible, 0 hidden; -1 where nothing is said.
+
+    Raises
+    ------
+    ossa.InputError
+        Naming the argument, the shape expected and what was found.
+    """
+
+    def __init__(
+        self,
+        times: npt.ArrayLike,
+        joints: npt.ArrayLike,
+        states: Optional[npt.ArrayLike] = None,
+        *,
+        ids: Optional[npt.ArrayLike] = None,
+        frames: Optional[npt.ArrayLike] = None,
+        confidence: Optional[npt.ArrayLike] = None,
+        reliability: Optional[npt.ArrayLike] = None,
+        orientations: Optional[npt.ArrayLike] = None,
+        floor: Optional[npt.ArrayLike] = None,
+        bones_m: Optional[npt.ArrayLike] = None,
+        sensor: str = "",
+    ) -> None:
+        self.times: Floats = _check.array("times", times, (None,), np.float64)
+        rows = len(self.times)
+        if not np.isfinite(self.times).all():
+            raise _check.refuse("times", "finite seconds", float("nan"))
+        self.joints: Floats = _check.array("joints", joints, (rows, 20, 3), np.float64)
+        if np.isinf(self.joints).any():
+            raise _check.refuse("joints", "metres, or NaN for an absent joint", float("inf"))
+        self._codes = _states_option(states, rows)
+        everyone = np.ones(rows, dtype=np.int64)
+        given = everyone if ids is None else ids
+        self.ids: npt.NDArray[np.int64] = _check.array("ids", given, (rows,), np.int64)
+        if ((self.ids < _NOBODY) | (self.ids > 2**31 - 1)).any():
+            raise _check.refuse("ids", "0 to 2147483647, or -1 for nobody", int(self.ids.min()))
+        steps = np.concatenate([[0], np.cumsum(np.diff(self.times) != 0)]) if rows else []
+        numbers = steps if frames is None else frames
+        self.frames: npt.NDArray[np.int64] = _check.array("frames", numbers, (rows,), np.int64)
+        optional = (floor, confidence, reliability, orientations, bones_m)
+        for (name, (shape, nothing)), value in zip(_COLUMNS.items(), optional):
+            filled = np.full((rows,) + shape, nothing) if value is None else value
+            setattr(self, name, _check.array(name, filled, (rows,) + shape, np.float64))
+        self.visible: npt.NDArray[np.int8] = np.full((rows, 20), _UNSAID, dtype=np.int8)
+        self.sensor = _check.text("sensor", sensor)
+        self.source = ""
+        self.columns = ""
+        self.warnings: list[str] = []
+
+    floor: Floats
+    confidence: Floats
+    reliability: Floats
+    orientations: Floats
+    bones_m: Floats
+
+    @property
+    def states(self) -> npt.NDArray[np.str_]:
+        """str [R, 20]: "tracked", "inferred", "not_tracked", or "" where nothing is said."""
+        words: npt.NDArray[np.str_] = _WORDS[self._codes + 1]
+        return words
+
+    @property
+    def people(self) -> list[int]:
+        """The ids that occur."""
+        return [int(i) for i in np.unique(self.ids) if i != _NOBODY]
+
+    def person(self, id: int) -> Sequence:
+        """The rows of one person alone."""
+        wanted = _check.whole("id", id, 0, 2**31 - 1)
+        if wanted not in self.people:
+            raise _check.refuse("id", f"one of {self.people}", wanted)
+        return self[self.ids == wanted]
+
+    def __len__(self) -> int:
+        return len(self.times)
+
+    def __getitem__(self, rows: Any) -> Sequence:
+        """Some rows: a slice, a bool [R], or indices."""
+        try:
+            chosen = np.arange(len(self))[rows]
+        except (IndexError, TypeError, ValueError):
+            raise _check.refuse("rows", "a slice, a bool [R] or indices of rows", rows) from None
+        chosen = np.atleast_1d(chosen)
+        return _from_native({k: v[chosen] if k in _ROWS else v for k, v in _to_native(self).items()})
+
+    def __repr__(self) -> str:
+        return f"<ossa.Sequence of {len(self)} rows, {len(self.people)} people>"
+
+    def to_pandas(self) -> Any:
+        """A pandas.DataFrame, a row for each joint of each body of each frame: frame, time_s, id,
+        joint, x, y, z (metres), state, confidence, reliability. Raises ImportError without
+        pandas."""
+        from ._tables import table_of_joints
+
+        some = self.ids != _NOBODY
+        return table_of_joints(
+            self.frames[some], self.times[some], self.ids[some], self.joints[some],
+            self.states[some], self.confidence[some], self.reliability[some],
+        )  # fmt: skip
+
+    @staticmethod
+    def from_frames(frames: Iterable[Frame]) -> Sequence:
+        """The skeletons of what Tracker.track or Tracker.run gave, for files and methods."""
+        return _sequence_of(frames)
+
+
+_ROWS = ("frames", "ids", "times", "joints", "states", "visible") + tuple(_COLUMNS)
+
+
+def _to_native(sequence: Sequence) -> dict[str, Any]:
+    if not isinstance(sequence, Sequence):
+        raise _check.refuse("sequence", "an ossa.Sequence", sequence)
+    made = {name: getattr(sequence, name) for name in _ROWS if name != "states"}
+    made["states"] = sequence._codes
+    for name in ("source", "sensor", "columns", "warnings"):
+        made[name] = getattr(sequence, name)
+    checked = Sequence(made["times"], made["joints"], **{k: made[k] for k in ("ids", "frames")},
+                       **{k: made[k] for k in _COLUMNS}, sensor=made["sensor"])  # fmt: skip
+    made.update({name: getattr(checked, name) for name in ("times", "joints", "ids", "frames")})
+    made.update({name: getattr(checked, name) for name in _COLUMNS})
+    return made
+
+
+def _from_native(made: dict[str, Any]) -> Sequence:
+    sequence = Sequence(
+        made["times"], made["joints"], ids=made["ids"], frames=made["frames"],
+        **{name: made[name] for name in _COLUMNS}, sensor=made["sensor"],
+    )  # fmt: skip
+    sequence._codes = made["states"]
+    sequence.visible = made["visible"]
+    sequence.source = made["source"]
+    sequence.columns = made["columns"]
+    sequence.warnings = list(made["warnings"])
+    return sequence
+
+
+def _sequence_of(frames: Iterable[Frame]) -> Sequence:
+    rows: list[tuple[Frame, Any]] = []
+    for frame in frames:
+        if not isinstance(frame, Frame):
+            raise _check.refuse("frames", "frames of ossa.Tracker", frame)
+        bodies = [body for body in frame.bodies if body.tracked]
+        rows += [(frame, body) for body in bodies] or [(frame, None)]
+
+    def column(name: str, shape: tuple[int, ...]) -> Floats:
+        nothing = np.full(shape, np.nan)
+        values = [nothing if body is None else getattr(body, name) for _, body in rows]
+        return np.array(values, dtype=np.float64).reshape((len(rows),) + shape)
+
+    unsaid = np.full(20, "")
+    floors = [np.full(4, np.nan) if frame.floor is None else frame.floor for frame, _ in rows]
+    return Sequence(
+        [frame.time_s for frame, _ in rows],
+        column("joints", (20, 3)),
+        np.array([unsaid if b is None else b.states for _, b in rows], np.str_).reshape(-1, 20),
+        ids=[_NOBODY if body is None else body.id for _, body in rows],
+        frames=[frame.index for frame, _ in rows],
+        confidence=column("confidence", (20,)),
+        reliability=column("reliability", (20,)),
+        orientations=column("orientations", (20, 4)),
+        floor=np.array(floors, dtype=np.float64).reshape(-1, 4),
+    )
+
+
+def _reading(format: Any, columns: Any, mapping: Any, frame_s: Any) -> dict[str, Any]:
+    return {
+        "format": "" if format is None else _check.one_of("format", format, SKELETON_FORMATS),
+        "columns": ""
+        if columns is None
+        else _check.one_of("columns", columns, ("truth", "observed")),
+        "mapping": _check.optional_path("mapping", mapping),
+        "frame_s": 0.0 if frame_s is None else _check.number("frame_s", frame_s, 1e-6, 1e3),
+    }
+
+
+def read_skeletons(
+    path: PathLike,
+    format: Optional[str] = None,
+    columns: Optional[str] = None,
+    mapping: Optional[PathLike] = None,
+    frame_s: Optional[float] = None,
+) -> Sequence:
+    """Reads one recording of skeletons: ossa's own, an SDK's, or motion capture, told by content.
+
+    Parameters
+    ----------
+    path : path
+        A file, "FILE#truth" or "FILE#observed" of a file that holds both, or "FOLDER#NAME" and
+        "ARCHIVE#NAME" of one recording among several.
+    format : str, optional
+        One of ossa.SKELETON_FORMATS, where the content does not tell.
+    columns : "truth" or "observed", optional
+        Of files that hold two skeletons side by side.
+    mapping : path, optional
+        Text file of joints' names that are none of those known (docs/files.md).
+    frame_s : float, optional
+        Seconds from frame to frame, of formats that carry no time.
+
+    Returns
+    -------
+    Sequence
+        In camera space and metres, whatever the file's axes and units.
+    """
+    options = _reading(format, columns, mapping, frame_s)
+    return _from_native(_native.read_skeletons(_check.path("path", path), options))
+
+
+def read_recordings(
+    path: PathLike,
+    format: Optional[str] = None,
+    columns: Optional[str] = None,
+    mapping: Optional[PathLike] = None,
+    frame_s: Optional[float] = None,
+) -> dict[str, Sequence]:
+    """All recordings of a folder (searched through), an archive (.tar .tar.gz .zip) or a file.
+
+    Parameters
+    ----------
+    path, format, columns, mapping, frame_s
+        As of read_skeletons.
+
+    Returns
+    -------
+    dict of str to Sequence
+        By path inside the folder or archive; "" of a single file.
+    """
+    options = _reading(format, columns, mapping, frame_s)
+    clips = _native.read_clips(_check.path("path", path), options)
+    return {name: _from_native(made) for name, made in clips}
+
+
+def write_skeletons(sequence: Sequence, path: PathLike) -> None:
+    """Writes skeletons in the format that the extension names: .jsonl, .csv, .trc or .bvh.
+
+    TRC and BVH hold one person a file: the first goes to `path`, each other to `path` with _ID
+    before the extension. The file appears under its name only when complete.
+
+    Parameters
+    ----------
+    sequence : Sequence
+        What to write.
+    path : path
+        Where to.
+    """
+    _native.write_skeletons(_to_native(sequence), _check.path("path", path))
+
+
+def reconstruct(
+    sequence: Sequence,
+    method: str = "best",
+    *,
+    database: Optional[PathLike] = None,
+    prior: Optional[PathLike] = None,
+    learned: Optional[PathLike] = None,
+    bones: str = "so-far",
+    physics: bool = False,
+    control: str = "pd",
+    hinges: bool = False,
+    joint_limits: bool = False,
+    cutoff_hz: Optional[float] = None,
+    seed: int = 1,
+    neighbours: Optional[int] = None,
+    dimensions: Optional[int] = None,
+    steps: Optional[int] = None,
+    samples: Optional[int] = None,
+    solver: Optional[str] = None,
+    control_weight: Optional[float] = None,
+    style: Optional[float] = None,
+    kinematics: Optional[float] = None,
+    continuity: Optional[float] = None,
+    use_reliability: Optional[bool] = None,
+    keep_reliable: Optional[bool] = None,
+    extend_database: Optional[bool] = None,
+    nearby_models: Optional[int] = None,
+    incremental: Optional[bool] = None,
+    spatial: Optional[float] = None,
+    temporal: Optional[float] = None,
+    reliability: Optional[float] = None,
+    repair: Optional[bool] = None,
+    complete: Optional[bool] = None,
+    correct: Optional[bool] = None,
+    filter: Optional[bool] = None,
+    constant_bones: Optional[bool] = None,
+) -> Sequence:
+    """Makes recorded skeletons complete and plausible, as `ossa reconstruct` does.
+
+    Parameters
+    ----------
+    sequence : Sequence
+        What was seen. Absent joints and those not tracked are made up.
+    method : str
+        One of ossa.METHODS, or "butterworth": a low pass over the whole recording, for comparison.
+    database : path, optional
+        .ossadb of `ossa database`. Left out: the shipped one; of best the shipped prior.
+    prior : path, optional
+        .ossaprior of `ossa prior`, for best. Left out: the shipped one.
+    learned : path or "none", optional
+        .ossagp of ossa.learn, which liu-2016, full-gp and exemplar need. Left out: best takes off
+        what is known of the errors of the sequence's sensor.
+    bones : "so-far" or "recording"
+        How long a person's bones are by: the frames until then, or all frames (the same lengths in
+        each of them; of methods that keep bones).
+    physics : bool
+        Let a mechanical character follow the result (Shum 2013, sec. VII).
+    control : "pd" or "motor"
+        With physics: what drives the character.
+    hinges, joint_limits : bool
+        With physics: elbows and knees bend about one axis; joints keep to people's ranges.
+    cutoff_hz : float, optional
+        Of butterworth, Hz (6).
+    seed : int
+        Of the methods that draw samples.
+    METHOD_OPTIONS
+
+    Returns
+    -------
+    Sequence
+        All 20 joints in every row with a body, each with its reliability; "tracked" stays, all that
+        was made up is "inferred".
+
+    Raises
+    ------
+    ossa.InputError
+        Naming the argument, or the file that is missing or damaged.
+    """
+    given = dict(locals())
+    _check.one_of("method", method, METHODS + ("butterworth",))
+    _check.one_of("bones", bones, ("so-far", "recording"))
+    files = {name: _check.optional_path(name, given[name]) for name in ("database", "prior", "learned")}
+    _method_options.check_files(method, files)
+    _method_options.check_keeps_bones(method, bones)
+    if cutoff_hz is not None and method != "butterworth":
+        raise _check.refuse("cutoff_hz", "method 'butterworth', which reads it", method)
+    options = {
+        "method": method,
+        "files": files,
+        "bones": bones,
+        "physics": _check.flag("physics", physics),
+        "mechanics": mechanics_option(physics, control, hinges, joint_limits),
+        "cutoff_hz": 6.0 if cutoff_hz is None else _check.number("cutoff_hz", cutoff_hz, 1e-3, 1e3),
+        "seed": _check.whole("seed", seed, 0, 2**63 - 1),
+        "method_options": _method_options.checked(method, _method_options.of(given)),
+    }
+    return _from_native(_native.reconstruct(_to_native(sequence), options))
+
+
+reconstruct.__doc__ = (reconstruct.__doc__ or "").replace("METHOD_OPTIONS", _method_options.HELP)

@@ -1,0 +1,210 @@
+"""ossa.open: depth images of devices and recordings."""
+
+from __future__ import annotations
+
+import logging
+import time
+from types import TracebackType
+from typing import Any, Iterator, NamedTuple, Optional, Union
+
+import numpy as np
+import numpy.typing as npt
+
+from . import _check, _native
+from ._camera import ROTATIONS, Camera
+from ._names import CAMERA_PRESETS
+
+_LOG = logging.getLogger("ossa")
+_WAIT_MS = 100  # between looks for Ctrl-C
+_LONGEST_S = 1e6  # eleven days
+
+PathLike = Any  # str or os.PathLike
+
+
+class DepthImage(NamedTuple):
+    """One image of a source."""
+
+    depth_mm: npt.NDArray[np.uint16]
+    """uint16 [H, W], millimetres along the optical axis, 0 = no reading."""
+    camera: Camera
+    """What it was taken by."""
+    time_s: float
+    """The sensor's or recording's clock, seconds."""
+
+
+class Source(Iterator[DepthImage]):
+    """An open SOURCE: iterate over it, or use it in a `with` block. Made by ossa.open.
+
+    What the source had to assume (a camera by the images' size, say) or lost is in `notes`, and is
+    logged by the logger "ossa".
+    """
+
+    def __init__(self, name: str, options: dict[str, Any], rotate: Any, patience_s: float) -> None:
+        self._name = name
+        self._options = options
+        self._rotate = rotate
+        self._patience_s = patience_s
+        self._dropped = 0
+        self._last_camera: tuple[Any, Optional[Camera]] = (None, None)
+        self.notes: list[str] = []
+        self._native = _native.Source(name, options)
+        self._take_notes()
+
+    def __iter__(self) -> Source:
+        return self
+
+    def __next__(self) -> DepthImage:
+        last_frame_s = time.monotonic()
+        while True:
+            status, depth_mm, camera, time_s, dropped = self._native.read(_WAIT_MS)
+            self._take_notes()
+            if status == "end":
+                raise StopIteration
+            if depth_mm is not None:
+                self._dropped += dropped
+                return DepthImage(depth_mm, self._camera_of(camera), time_s)
+            silent_s = time.monotonic() - last_frame_s
+            if silent_s > self._patience_s and self._native.is_live():
+                raise _native.InputError(f"{self._name}: no image came for {silent_s:.1f} s")
+
+    def __enter__(self) -> Source:
+        return self
+
+    def __exit__(
+        self,
+        kind: Optional[type[BaseException]],
+        error: Optional[BaseException],
+        trace: Optional[TracebackType],
+    ) -> None:
+        self.close()
+
+    def __repr__(self) -> str:
+        return f"ossa.open({self._name!r})"
+
+    @property
+    def name(self) -> str:
+        """The SOURCE as it was given."""
+        return self._name
+
+    @property
+    def camera(self) -> Camera:
+        """That of the images to come."""
+        return self._camera_of(self._native.camera())
+
+    @property
+    def is_live(self) -> bool:
+        """True of devices, whose images are lost when they are not read in time."""
+        return self._native.is_live()
+
+    @property
+    def frame_count(self) -> Optional[int]:
+        """Number of images of a recording; None of devices and of files that do not know."""
+        return self._native.frame_count()
+
+    @property
+    def dropped(self) -> int:
+        """Images that a device lost until now."""
+        return self._dropped
+
+    def close(self) -> None:
+        """Lets go of the device or file. Reading on raises InputError."""
+        self._native.close()
+
+    def _camera_of(self, numbers: Any) -> Camera:
+        if self._last_camera[0] != numbers or self._last_camera[1] is None:
+            fx, fy, cx, cy, width, height = numbers
+            self._last_camera = (numbers, Camera(fx, fy, cx, cy, width, height, self._rotate))
+        made = self._last_camera[1]
+        assert made is not None
+        return made
+
+    def _take_notes(self) -> None:
+        for kind, note in self._native.take_notes():
+            self.notes.append(note)
+            _LOG.log(logging.WARNING if kind == "warning" else logging.INFO, "%s", note)
+
+
+def _camera_option(camera: Any) -> Union[str, tuple[Any, ...]]:
+    if isinstance(camera, Camera):
+        if camera._preset is not None:
+            return camera._preset
+        numbers = (float(camera.fx), float(camera.fy), float(camera.cx), float(camera.cy))
+        return numbers + (camera.width or 0, camera.height or 0)
+    if isinstance(camera, str):
+        name = _check.text("camera", camera)
+        _native.parse_camera(name, 640, 480)
+        return name
+    presets = ", ".join(CAMERA_PRESETS)
+    raise _check.refuse("camera", f"an ossa.Camera, {presets} or 'fx,fy,cx,cy'", camera)
+
+
+def open(  # noqa: A001 - as the command's SOURCE is opened
+    source: PathLike,
+    camera: Union[Camera, str, None] = None,
+    depth_scale: Optional[float] = None,
+    fps: Optional[float] = None,
+    rotate: Union[int, str] = "auto",
+    *,
+    depth_format: str = "plain",
+    wait_s: float = 0.0,
+    patience_s: float = 5.0,
+) -> Source:
+    """Opens whatever `ossa track SOURCE` opens and iterates over its depth images.
+
+    Parameters
+    ----------
+    source : str or path
+        "openni:" (first device), "openni:URI", FILE.oni, FILE.mkv (Azure Kinect, Femto), FILE.bag
+        or "FILE.bag#/topic" (ROS 1, RealSense), a 16-bit PNG or a folder of them, or a data set of
+        `ossa render`.
+    camera : ossa.Camera or str, optional
+        A preset's name or "fx,fy,cx,cy" in pixels. Left out: the source's own, else a preset by
+        the images' size, which `notes` then tells.
+    depth_scale : float, optional
+        Units to the metre of a recording's depths, 1e-3 to 1e6. Left out: its own, else 1000,
+        millimetres.
+    fps : float, optional
+        Images a second of a recording, whatever it says of its times. Left out: its own times,
+        else 30.
+    rotate : 0, 90, 180, 270 or "auto"
+        Degrees by which the images must be turned clockwise for people to stand in them. The images
+        come as they are; their cameras say it to the tracker, see Camera.
+    depth_format : "plain", "swapped", "inverted" or "disparity"
+        What the 16-bit numbers of a recording are: lengths; with their bytes exchanged; subtracted
+        from 65535; raw shifts of a Kinect v1.
+    wait_s : float
+        Seconds to wait for a device to be plugged in.
+    patience_s : float
+        Seconds without an image after which a device is given up.
+
+    Returns
+    -------
+    Source
+        Iterator of DepthImage: (depth_mm uint16 [H, W], camera, time_s).
+
+    Raises
+    ------
+    ossa.InputError
+        Naming the source and what was expected; while iterating, for a damaged file or a device
+        that is gone.
+
+    Examples
+    --------
+    >>> for depth_mm, camera, time_s in ossa.open("recording.oni"):
+    ...     frame = tracker.track(depth_mm, camera, time_s)
+    """
+    options: dict[str, Any] = {
+        "depth_format": _check.one_of(
+            "depth_format", depth_format, ("plain", "swapped", "inverted", "disparity")
+        ),
+        "wait_s": _check.number("wait_s", wait_s, 0.0, _LONGEST_S),
+    }
+    if camera is not None:
+        options["camera"] = _camera_option(camera)
+    if depth_scale is not None:
+        options["depth_scale"] = _check.number("depth_scale", depth_scale, 1e-3, 1e6)
+    if fps is not None:
+        options["fps"] = _check.number("fps", fps, 1e-3, 1e4)
+    _check.one_of("rotate", rotate, ROTATIONS)
+    patience = _check.number("patience_s", patience_s, 1e-3, _LONGEST_S)
+    return Source(_check.path("source", source), options, rotate, patience)

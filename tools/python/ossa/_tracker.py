@@ -1,0 +1,612 @@
+"""ossa.Tracker: depth images in, bodies out."""
+
+from __future__ import annotations
+
+import dataclasses
+from typing import Any, Iterator, Mapping, Optional, Sequence, Union
+
+import numpy as np
+import numpy.typing as npt
+
+from . import _check, _method_options, _native
+from ._camera import ROTATIONS, Camera, native_camera
+from ._names import JOINTS, METHODS, SMOOTHINGS, STATES, Joint
+from ._sources import PathLike, Source
+from ._sources import open as open_source
+
+Floats = npt.NDArray[np.float64]
+
+_STATES = np.array(STATES)
+_STEP_S = 1.0 / 30.0  # between frames that say no time
+_EDGES = {"right": 1, "left": 2, "top": 4, "bottom": 8}
+
+
+@dataclasses.dataclass(frozen=True)
+class Holt:
+    """The Kinect SDK's filter of joints (NUI_TRANSFORM_SMOOTH_PARAMETERS) with own numbers.
+
+    Parameters
+    ----------
+    smoothing : float
+        Weight in [0, 1); 0 leaves joints as they are.
+    correction : float
+        Weight in [0, 1]: how fast it follows.
+    prediction : float
+        Frames to predict into the future, 0 or more.
+    jitter_radius_m, max_deviation_radius_m : float
+        Metres, above 0: below the first, moves are damped further; no joint ends farther from where
+        it was than the second.
+    """
+
+    smoothing: float = 0.5
+    correction: float = 0.5
+    prediction: float = 0.5
+    jitter_radius_m: float = 0.05
+    max_deviation_radius_m: float = 0.04
+
+
+@dataclasses.dataclass(frozen=True)
+class OneEuro:
+    """The 1 Euro filter of joints (Casiez 2012) with own numbers.
+
+    Parameters
+    ----------
+    min_cutoff_hz : float
+        Hz, above 0: of a joint at rest.
+    beta_per_m : float
+        Hz more per m/s, 0 or more.
+    """
+
+    min_cutoff_hz: float = 1.5
+    beta_per_m: float = 4.0
+
+
+Smoothing = Union[str, Holt, OneEuro, None]
+
+
+@dataclasses.dataclass(frozen=True)
+class Proposals:
+    """Where one joint may be, as the forest sees it: the modes of its density estimate, best first.
+
+    Attributes
+    ----------
+    positions : float64 [n, 3]
+        Camera space, metres, inside the body.
+    confidence : float64 [n]
+        In [0, 1].
+    seen : bool [n]
+        False: no surface of its own voted; inferred from the other joints.
+    """
+
+    positions: Floats
+    confidence: Floats
+    seen: npt.NDArray[np.bool_]
+
+    def __len__(self) -> int:
+        return len(self.positions)
+
+
+def proposals_from(rows: Floats) -> Proposals:
+    """Of the extension's float64 [n, 5]."""
+    return Proposals(rows[:, :3].copy(), rows[:, 3].copy(), rows[:, 4] > 0.5)
+
+
+@dataclasses.dataclass(frozen=True, repr=False)
+class Body:
+    """One person in a Frame. Index j of an array of joints is ossa.JOINTS[j]; body["Head"] is the
+    position of that joint. Positions are of camera space, metres.
+
+    Attributes
+    ----------
+    id : int
+        The same from frame to frame for as long as the person is followed, from 1.
+    tracked : bool
+        False: only `position` is known (see Tracker.choose_users); joints are NaN, not_tracked.
+    position : float64 [3]
+        Middle of the person's visible surface.
+    joints : float64 [20, 3]
+        The skeleton.
+    states : str [20]
+        "tracked" (seen in the image), "inferred" (guessed from what is seen around it) or
+        "not_tracked" (the position is what is plausible for the rest of the body).
+    confidence : float64 [20]
+        The forest's own trust in what it saw, [0, 1].
+    reliability : float64 [20]
+        R_i of Shum 2013, eq. 8: does it move and measure as a joint? [0, 1]
+    orientations : float64 [20, 4]
+        Quaternions w x y z, camera from bone: the bone that ends in the joint has its y axis along
+        the way from its parent (the SDK's absolute orientations).
+    hierarchical_orientations : float64 [20, 4]
+        The same, each bone's turn against its parent's.
+    raw : float64 [20, 3]
+        What the forest alone found, in this image alone.
+    refined : float64 [20, 3] or None
+        The raw joints moved by the refinement at the depth image, where there is one.
+    reconstructed : float64 [20, 3]
+        What the method of reconstruction made of them, before physics and smoothing.
+    bones_m : float64 [20] or None
+        Length of the bone that ends in each joint, metres (0 of the root), by all frames until now;
+        of methods that keep bones.
+    clipped : frozenset of str
+        Which borders of the image cut the person off: "left", "right", "top", "bottom".
+    person_score : float
+        How sure the forest is that this is a person, [0, 1].
+    proposals : tuple of 20 Proposals, or None
+        With Tracker(proposals=True).
+    """
+
+    id: int
+    tracked: bool
+    position: Floats
+    joints: Floats
+    states: npt.NDArray[np.str_]
+    confidence: Floats
+    reliability: Floats
+    orientations: Floats
+    hierarchical_orientations: Floats
+    raw: Floats
+    refined: Optional[Floats]
+    reconstructed: Floats
+    bones_m: Optional[Floats]
+    clipped: frozenset[str]
+    person_score: float
+    proposals: Optional[tuple[Proposals, ...]]
+
+    def __getitem__(self, joint: Union[str, int, Joint]) -> Floats:
+        """float64 [3], metres: the joint's position by name or index."""
+        if isinstance(joint, str):
+            _check.one_of("joint", joint, JOINTS)
+            return np.asarray(self.joints[JOINTS.index(joint)])
+        return np.asarray(self.joints[_check.whole("joint", joint, 0, len(JOINTS) - 1)])
+
+    def __repr__(self) -> str:
+        count = int((self.states == "tracked").sum())
+        return f"<ossa.Body {self.id}: {count} joints tracked>"
+
+
+@dataclasses.dataclass(frozen=True, repr=False)
+class Frame:
+    """What the tracker says of one depth image.
+
+    Attributes
+    ----------
+    bodies : list of Body
+        By id.
+    users : uint8 [H, W]
+        Id of the body that each pixel belongs to, 0 nobody.
+    parts : uint8 [H, W] or None
+        Label of each pixel, ossa.PARTS; with Tracker(parts=True).
+    probabilities : float32 [H, W, C] or None
+        How likely the pixel shows each part, by the trees alone; with Tracker(probabilities=True).
+        Of the shipped forest c is the index in ossa.PARTS; 0 where nobody is.
+    floor : float64 [4] or None
+        a b c d of the floor a x + b y + c z + d = 0, metres, (a, b, c) of length 1 and upwards.
+    tilt_down_rad : float or None
+        How far the sensor looks down, by the floor.
+    time_s : float
+        Seconds.
+    index : int
+        Number of the frame, from 0.
+    ms : dict
+        Milliseconds spent on "segment", "classify", "propose", "reconstruct", "physics", "total".
+    """
+
+    bodies: list[Body]
+    users: npt.NDArray[np.uint8]
+    parts: Optional[npt.NDArray[np.uint8]]
+    probabilities: Optional[npt.NDArray[np.float32]]
+    floor: Optional[Floats]
+    tilt_down_rad: Optional[float]
+    time_s: float
+    index: int
+    ms: Mapping[str, float]
+
+    def __repr__(self) -> str:
+        return f"<ossa.Frame {self.index} at {self.time_s:.3f} s: {len(self.bodies)} bodies>"
+
+    def to_pandas(self) -> Any:
+        """A pandas.DataFrame, a row for each joint of each tracked body: frame, time_s, id, joint,
+        x, y, z (metres), state, confidence, reliability. Raises ImportError without pandas."""
+        from ._tables import table_of_joints
+
+        bodies = [body for body in self.bodies if body.tracked]
+        return table_of_joints(
+            frames=[self.index] * len(bodies),
+            times=[self.time_s] * len(bodies),
+            ids=[body.id for body in bodies],
+            joints=[body.joints for body in bodies],
+            states=[body.states for body in bodies],
+            confidence=[body.confidence for body in bodies],
+            reliability=[body.reliability for body in bodies],
+        )
+
+
+def _body_from(made: dict[str, Any]) -> Body:
+    edges = frozenset(name for name, bit in _EDGES.items() if made["clipped_edges"] & bit)
+    known = (made["id"], made["tracked"], made["position"])
+    if not made["tracked"]:
+        unknown = np.full((20, 3), np.nan)
+        turns = np.full((20, 4), np.nan)
+        zeros = np.zeros(20)
+        return Body(
+            *known, unknown, _STATES[np.zeros(20, int)], zeros, zeros.copy(), turns, turns.copy(),
+            unknown.copy(), None, unknown.copy(), None, edges, made["person_score"], None,
+        )  # fmt: skip
+    proposals = made.get("proposals")
+    return Body(
+        *known,
+        joints=made["joints"],
+        states=_STATES[made["states"]],
+        confidence=made["confidence"],
+        reliability=made["reliability"],
+        orientations=made["orientations"],
+        hierarchical_orientations=made["hierarchical_orientations"],
+        raw=made["raw"],
+        refined=made["refined"],
+        reconstructed=made["reconstructed"],
+        bones_m=made["bones_m"],
+        clipped=edges,
+        person_score=made["person_score"],
+        proposals=None if proposals is None else tuple(proposals_from(p) for p in proposals),
+    )
+
+
+def _smoothing_option(smoothing: Any) -> Any:
+    if smoothing is None:
+        return None
+    if isinstance(smoothing, (Holt, OneEuro)):
+        name = type(smoothing).__name__
+        values = dataclasses.asdict(smoothing)
+        return {k: _check.number(f"{name}: {k}", v, 0.0, 1e6) for k, v in values.items()}
+    if isinstance(smoothing, str):
+        return _check.one_of("smoothing", smoothing, SMOOTHINGS)
+    expected = f"one of {', '.join(SMOOTHINGS)}, an ossa.Holt or an ossa.OneEuro"
+    raise _check.refuse("smoothing", expected, smoothing)
+
+
+def _bones_option(bones_m: Any) -> dict[int, list[float]]:
+    if bones_m is None:
+        return {}
+    if not isinstance(bones_m, Mapping):
+        raise _check.refuse("bones_m", "a dict of float64 [20] by body id", bones_m)
+    return {
+        _check.whole("bones_m: id", k, 1, 255): _check.array("bones_m", v, (20,), float).tolist()
+        for k, v in bones_m.items()
+    }
+
+
+class Models:
+    """All that a tracker has learned, in memory: read once, it serves any number of trackers, also
+    at the same time in several threads.
+
+    Parameters
+    ----------
+    method : str
+        The method of the trackers, which decides what is read; one of ossa.METHODS.
+    model : path, optional
+        Forest, .ossa of `ossa train`. Left out: the shipped one.
+    refinement : path or "none", optional
+        Refinement at the depth image. Left out: the shipped one where it belongs to forest and
+        method.
+    learned : path or "none", optional
+        .ossagp of ossa.learn, for methods that learn. Left out: with best and the shipped forest
+        the shipped one.
+    prior : path or "none", optional
+        .ossaprior of `ossa prior`, for best. Left out: the shipped one.
+    database : path or "none", optional
+        .ossadb of `ossa database`. Left out: the shipped one, for methods that need one.
+    """
+
+    def __init__(
+        self,
+        method: str = "best",
+        model: Optional[PathLike] = None,
+        refinement: Optional[PathLike] = None,
+        learned: Optional[PathLike] = None,
+        prior: Optional[PathLike] = None,
+        database: Optional[PathLike] = None,
+    ) -> None:
+        _check.one_of("method", method, METHODS)
+        files = {
+            "forest": _check.optional_path("model", model),
+            "refinement": _check.optional_path("refinement", refinement),
+            "learned": _check.optional_path("learned", learned),
+            "prior": _check.optional_path("prior", prior),
+            "database": _check.optional_path("database", database),
+        }
+        _method_options.check_files(method, files)
+        self._native = _native.Models(files, method)
+
+    @property
+    def method(self) -> str:
+        """The method that these were read for."""
+        return self._native.method
+
+
+def _models_for(method: str, given: Any, files: dict[str, Any]) -> Models:
+    if given is None:
+        return Models(method, **files)
+    if not isinstance(given, Models):
+        raise _check.refuse("models", "an ossa.Models", given)
+    if given.method != method:
+        raise _check.refuse("models", f"those of method {method!r}", given.method)
+    named = [name for name, file in files.items() if file is not None]
+    if named:
+        raise _check.InputError(f"models, {named[0]}: expected one of them, found both")
+    return given
+
+
+class Tracker:
+    """Follows people from depth image to depth image: everything that the Kinect SDK's skeleton
+    stream gave, for any depth camera.
+
+    Several trackers may run at once, each in a thread of its own: the GIL is released while they
+    work. A tracker that two threads use at once does one after the other. What it returns are plain
+    arrays of their own.
+
+    Parameters
+    ----------
+    method : str
+        How postures are made complete, one of ossa.METHODS: "none", "holt", "one-euro", "kalman",
+        "shum-ho-2012", "shum-2013", "plantard-2016", "liu-2016", "full-gp", "exemplar", "best".
+    physics : bool
+        Let a mechanical character follow the posture (Shum 2013, sec. VII).
+    model : path, optional
+        Forest, .ossa of `ossa train`. Left out: the shipped one.
+    smoothing : str, ossa.Holt, ossa.OneEuro, optional
+        Filter of joints at the end: "none", "default", "smooth", "verysmooth" (the Kinect SDK's),
+        "one-euro", or one with own numbers. Left out: what goes with the method; methods that
+        filter themselves get none.
+    max_users : int
+        Most people at a time, 1 to 6.
+    threads : int
+        Threads for several people, 1 to 256. The results do not depend on it.
+    seated : bool
+        Only the ten upper joints are looked for (the SDK's seated mode); see `mode`.
+    near : bool
+        Near range: people within 3 m only.
+    parts, probabilities, proposals : bool
+        Fill Frame.parts; Frame.probabilities; Body.proposals. They cost time and memory
+        (probabilities 128 bytes a pixel).
+    refinement, learned, prior, database : path or "none", optional
+        Other models' files, as of ossa.Models.
+    models : ossa.Models, optional
+        Models in memory that trackers share, in place of files.
+    bones_m : dict of int to float64 [20], optional
+        Metres, Body.bones_m by Body.id of a run before over the same recording: they stay from the
+        first frame to the last. Only for methods that keep bones.
+    control : "pd" or "motor"
+        With physics: what drives the character.
+    hinges, joint_limits : bool
+        With physics: elbows and knees bend about one axis; joints keep to people's ranges.
+    seed : int
+        Of the methods that draw samples.
+    METHOD_OPTIONS
+
+    Raises
+    ------
+    ossa.InputError
+        Naming the argument, or the file that is missing or damaged.
+
+    Examples
+    --------
+    >>> tracker = ossa.Tracker()
+    >>> frame = tracker.track(depth_mm, ossa.Camera.preset("kinect-v2"))
+    >>> for body in frame.bodies:
+    ...     print(body.id, body["Head"])
+    """
+
+    def __init__(
+        self,
+        method: str = "best",
+        physics: bool = False,
+        model: Optional[PathLike] = None,
+        smoothing: Smoothing = None,
+        max_users: int = 6,
+        threads: int = 1,
+        seated: bool = False,
+        *,
+        near: bool = False,
+        parts: bool = False,
+        probabilities: bool = False,
+        proposals: bool = False,
+        refinement: Optional[PathLike] = None,
+        learned: Optional[PathLike] = None,
+        prior: Optional[PathLike] = None,
+        database: Optional[PathLike] = None,
+        models: Optional[Models] = None,
+        bones_m: Optional[Mapping[int, npt.ArrayLike]] = None,
+        control: str = "pd",
+        hinges: bool = False,
+        joint_limits: bool = False,
+        seed: int = 1,
+        neighbours: Optional[int] = None,
+        dimensions: Optional[int] = None,
+        steps: Optional[int] = None,
+        samples: Optional[int] = None,
+        solver: Optional[str] = None,
+        control_weight: Optional[float] = None,
+        style: Optional[float] = None,
+        kinematics: Optional[float] = None,
+        continuity: Optional[float] = None,
+        use_reliability: Optional[bool] = None,
+        keep_reliable: Optional[bool] = None,
+        extend_database: Optional[bool] = None,
+        nearby_models: Optional[int] = None,
+        incremental: Optional[bool] = None,
+        spatial: Optional[float] = None,
+        temporal: Optional[float] = None,
+        reliability: Optional[float] = None,
+        repair: Optional[bool] = None,
+        complete: Optional[bool] = None,
+        correct: Optional[bool] = None,
+        filter: Optional[bool] = None,
+        constant_bones: Optional[bool] = None,
+    ) -> None:
+        given = dict(locals())
+        _check.one_of("method", method, METHODS)
+        files = {name: given[name] for name in ("model", "refinement", "learned", "prior", "database")}
+        options = {
+            "method": method,
+            "physics": _check.flag("physics", physics),
+            "mechanics": mechanics_option(physics, control, hinges, joint_limits),
+            "method_options": _method_options.checked(method, _method_options.of(given)),
+            "seated": _check.flag("seated", seated),
+            "near": _check.flag("near", near),
+            "parts": _check.flag("parts", parts),
+            "probabilities": _check.flag("probabilities", probabilities),
+            "proposals": _check.flag("proposals", proposals),
+            "max_users": _check.whole("max_users", max_users, 1, 6),
+            "threads": _check.whole("threads", threads, 1, 256),
+            "seed": _check.whole("seed", seed, 0, 2**63 - 1),
+            "bones_m": _bones_option(bones_m),
+        }
+        chosen = _smoothing_option(smoothing)
+        if chosen is not None:
+            options["smoothing"] = chosen
+        self._models = _models_for(method, models, files)
+        self._native = _native.Tracker(options, self._models._native)
+        self._mode = "seated" if seated else "standing"
+        self._smoothing = smoothing
+        self._time_s: Optional[float] = None
+
+    def track(
+        self,
+        depth_mm: npt.NDArray[np.uint16],
+        camera: Camera,
+        time_s: Optional[float] = None,
+    ) -> Frame:
+        """One depth image in, its bodies out.
+
+        Parameters
+        ----------
+        depth_mm : uint16 [H, W]
+            Millimetres along the optical axis, 0 = no reading. Rows of neighbouring pixels (C
+            order); a part cut out of a larger image is one. It is read where it lies.
+        camera : ossa.Camera
+            What it was taken by.
+        time_s : float, optional
+            Seconds, by any clock that goes on from image to image. Left out: a thirtieth of a
+            second after the image before.
+
+        Returns
+        -------
+        Frame
+
+        Raises
+        ------
+        ossa.InputError
+            For another type, shape or order, a camera that cannot be, a time that is no number.
+        """
+        image = _check.image(depth_mm)
+        numbers = native_camera(camera, image)
+        if time_s is None:
+            seconds = 0.0 if self._time_s is None else self._time_s + _STEP_S
+        else:
+            seconds = _check.number("time_s", time_s, -1e12, 1e12)
+        made = self._native.track(image, numbers, seconds, ROTATIONS.index(camera.rotate))
+        self._time_s = seconds
+        return Frame(
+            bodies=[_body_from(body) for body in made["bodies"]],
+            users=made["users"],
+            parts=made["parts"],
+            probabilities=made["probabilities"],
+            floor=made["floor"],
+            tilt_down_rad=made["tilt_down_rad"],
+            time_s=seconds,
+            index=made["index"],
+            ms=made["ms"],
+        )
+
+    def run(self, source: Union[PathLike, Source]) -> Iterator[Frame]:
+        """Tracks a whole source, frame by frame, as `ossa track SOURCE` does.
+
+        Of a recording whose cameras' rotate is "auto" the beginning is looked through first for
+        which way up the camera is.
+
+        Parameters
+        ----------
+        source : path or Source
+            What ossa.open takes, or what it has opened.
+        """
+        opened = source if isinstance(source, Source) else open_source(source)
+        return self._run(opened)
+
+    def _run(self, source: Source) -> Iterator[Frame]:
+        if source._rotate == "auto" and not source.is_live:
+            try:
+                self._native.find_upright(source.name, source._options)
+            except _native.InputError:
+                pass  # told of when its turn comes
+        for depth_mm, camera, time_s in source:
+            yield self.track(depth_mm, camera, time_s)
+
+    def choose_users(self, ids: Union[int, Sequence[int], None] = None) -> None:
+        """Track only these people fully, the others by position (the SDK's AppChoosesSkeletons).
+
+        Parameters
+        ----------
+        ids : int or sequence of int, optional
+            Body.id of each. None: everybody, as at the start.
+        """
+        if ids is None:
+            self._native.choose_users(None)
+            return
+        if isinstance(ids, (int, np.integer)):
+            ids = [int(ids)]
+        if not isinstance(ids, (list, tuple, set, frozenset, range, np.ndarray)):
+            raise _check.refuse("ids", "body ids, or None for everybody", ids)
+        self._native.choose_users([_check.whole("ids", i, 0, 2**31 - 1) for i in ids])
+
+    @property
+    def mode(self) -> str:
+        """"standing" (all 20 joints) or "seated" (the ten upper ones). May be set between frames."""
+        return self._mode
+
+    @mode.setter
+    def mode(self, mode: str) -> None:
+        chosen = _check.one_of("mode", mode, ("standing", "seated"))
+        self._native.set_seated(chosen == "seated")
+        self._mode = chosen
+
+    @property
+    def smoothing(self) -> Smoothing:
+        """The filter of joints at the end, as given to Tracker. May be set between frames; None is
+        what goes with the method."""
+        return self._smoothing
+
+    @smoothing.setter
+    def smoothing(self, smoothing: Smoothing) -> None:
+        self._native.set_smoothing(_smoothing_option(smoothing))
+        self._smoothing = smoothing
+
+    @property
+    def method(self) -> str:
+        """The method of reconstruction."""
+        return self._models.method
+
+    @property
+    def rotation(self) -> int:
+        """Degrees by which images are turned now, clockwise, before people are looked for."""
+        return 90 * self._native.quarter_turns()
+
+    def reset(self) -> None:
+        """Forgets everybody."""
+        self._native.reset()
+        self._time_s = None
+
+
+def mechanics_option(physics: Any, control: Any, hinges: Any, joint_limits: Any) -> dict[str, bool]:
+    """How the mechanical character is built; one that is described and not asked for is refused."""
+    _check.flag("physics", physics)
+    build = {
+        "motors": _check.one_of("control", control, ("pd", "motor")) == "motor",
+        "hinges": _check.flag("hinges", hinges),
+        "joint_limits": _check.flag("joint_limits", joint_limits),
+    }
+    if any(build.values()) and not physics:
+        raise _check.InputError("control, hinges, joint_limits: expected physics=True with them")
+    return build
+
+
+Tracker.__doc__ = (Tracker.__doc__ or "").replace("METHOD_OPTIONS", _method_options.HELP)
