@@ -8,17 +8,9 @@
 
 #include "depth/image/camera.h"
 #include "depth/sensor/image_window_internal.h"
+#include "depth/sensor/openni2/openni_session.h"
 
 namespace ossa::depth {
-
-/// Between OpenNI::initialize and OpenNI::shutdown; OpenNI2 counts them itself.
-class OpenNiSession {
- public:
-  OpenNiSession();  // throws InputError when OpenNI2 or its drivers cannot be loaded
-  ~OpenNiSession();
-  OpenNiSession(const OpenNiSession&) = delete;
-  OpenNiSession& operator=(const OpenNiSession&) = delete;
-};
 
 /// OpenNI2's account of its last error, as one line.
 std::string OpenNiError();

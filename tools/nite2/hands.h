@@ -1,0 +1,71 @@
+#pragma once
+#include <NiteCTypes.h>
+
+#include <array>
+#include <map>
+#include <optional>
+#include <set>
+#include <vector>
+
+#include "tools/nite2/gestures.h"
+#include "tools/tracker/tracker.h"
+
+namespace ossa::nite2 {
+
+/// A hand that is in view: whose, and where.
+struct SeenHand {
+  int body_id = 0;
+  bool left = false;
+  HandSample sample;  // camera space
+};
+
+/// The hands of everybody in the frame that are seen or can be told from what is seen.
+std::vector<SeenHand> HandsOf(const tracker::BodyFrame& frame);
+
+/// What is done with hands; by hand.
+struct HandOptions {
+  double near_m = 0.3;      // how far from where it was asked for a hand may be
+  double patience_s = 0.5;  // how long a hand may be out of sight before it is lost
+  double border = 0.05;     // part of the image's width from its border on that counts as touching
+};
+
+/// Hands that are followed by id, as a program asked for them.
+class FollowedHands {
+ public:
+  /// An id for a hand about there, in camera space; the next step looks for it.
+  NiteHandId Start(const Eigen::Vector3d& place_m);
+  void Stop(NiteHandId id) { hands_.erase(id); }
+  void StopAll() { hands_.clear(); }
+
+  /// All of them after a frame; one that is lost is told of once. `smoothing`: part of the last
+  /// place in the next, [0, 1].
+  std::vector<NiteHandData> Step(const std::vector<SeenHand>& seen, double time_s,
+                                 const depth::Camera& camera, float smoothing, bool mirrored);
+
+ private:
+  struct Hand {
+    Eigen::Vector3d place_m;
+    std::optional<int> body_id;  // none: not met yet
+    bool left = false;
+    double seen_s = 0.0;
+  };
+  const SeenHand* Find(const Hand& hand, const std::vector<SeenHand>& seen) const;
+  int Follow(Hand& hand, const std::vector<SeenHand>& seen, double time_s,
+             const depth::Camera& camera, double smoothing) const;
+
+  HandOptions options_;
+  std::map<NiteHandId, Hand> hands_;
+  NiteHandId last_id_ = 0;
+};
+
+/// The gestures of all hands in view.
+class GestureWatch {
+ public:
+  std::vector<NiteGestureData> Step(const std::vector<SeenHand>& seen,
+                                    const std::set<NiteGestureType>& wanted, bool mirrored);
+
+ private:
+  std::map<std::tuple<int, bool, NiteGestureType>, GestureDetector> detectors_;
+};
+
+}  // namespace ossa::nite2

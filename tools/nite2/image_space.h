@@ -1,0 +1,26 @@
+#pragma once
+#include <NiteCTypes.h>
+
+#include "tools/tracker/tracker.h"
+
+/// What ossa::tracker says, in NiTE's words: pure functions from values to values.
+namespace ossa::nite2 {
+
+/// Camera space (metres, x to the sensor's left) as millimetres with x to the right of the image as
+/// it is delivered: where that is mirrored, the right of the image is the sensor's left.
+NitePoint3f ToNite(const Eigen::Vector3d& camera_m, bool mirrored);
+/// The inverse.
+Eigen::Vector3d FromNite(const NitePoint3f& point, bool mirrored);
+
+/// A rotation of camera space, in the axes of ToNite.
+NiteQuaternion TurnToNite(const Eigen::Quaterniond& rotation, bool mirrored);
+
+/// The floor's plane, and the point of it nearest to the sensor.
+NitePlane FloorToNite(const Eigen::Vector4d& floor, bool mirrored);
+
+/// The 15 joints of a body that is fully tracked. Confidence is 1 for what is seen, 0.5 for what is
+/// guessed from around it, 0 for what is merely plausible. Orientations are turns away from a
+/// T-pose that faces the sensor.
+void FillJoints(const tracker::Body& body, bool mirrored, NiteSkeletonJoint* joints);
+
+}  // namespace ossa::nite2

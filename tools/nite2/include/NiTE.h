@@ -1,0 +1,418 @@
+#pragma once
+// The C++ interface of NiTE 2 by its names, over the C interface of ossa's libNiTE2.so: programs
+// that were written against NiTE.h compile unchanged. Everything here is inline.
+#include <OpenNI.h>
+
+#include "NiteCAPI.h"
+#include "NiteEnums.h"
+
+namespace nite {
+
+using UserId = NiteUserId;
+using HandId = NiteHandId;
+
+/// Millimetres.
+class Point3f : public NitePoint3f {
+ public:
+  Point3f() { set(0.0F, 0.0F, 0.0F); }
+  Point3f(float px, float py, float pz) { set(px, py, pz); }
+  Point3f(const NitePoint3f& other) { set(other.x, other.y, other.z); }
+
+  void set(float px, float py, float pz) {
+    x = px;
+    y = py;
+    z = pz;
+  }
+  bool operator==(const Point3f& other) const {
+    return x == other.x && y == other.y && z == other.z;
+  }
+  bool operator!=(const Point3f& other) const { return !(*this == other); }
+};
+
+class Quaternion : public NiteQuaternion {
+ public:
+  Quaternion() : NiteQuaternion{0.0F, 0.0F, 0.0F, 1.0F} {}
+  Quaternion(float qw, float qx, float qy, float qz) : NiteQuaternion{qx, qy, qz, qw} {}
+
+  bool operator==(const Quaternion& other) const {
+    return w == other.w && x == other.x && y == other.y && z == other.z;
+  }
+  bool operator!=(const Quaternion& other) const { return !(*this == other); }
+};
+
+using Plane = NitePlane;
+using BoundingBox = NiteBoundingBox;
+using Version = NiteVersion;
+
+/// So many T in a row that somebody else owns.
+template <class T>
+class Array {
+ public:
+  Array() = default;
+  Array(const Array&) = delete;
+  Array& operator=(const Array&) = delete;
+
+  int getSize() const { return size_; }
+  bool isEmpty() const { return size_ == 0; }
+  const T& operator[](int index) const { return data_[index]; }
+
+  void _setData(int size, const T* data) {
+    size_ = size;
+    data_ = data;
+  }
+
+ private:
+  int size_ = 0;
+  const T* data_ = nullptr;
+};
+
+class PoseData : protected NitePoseData {
+ public:
+  PoseType getType() const { return static_cast<PoseType>(type); }
+  bool isHeld() const { return (state & (NITE_POSE_STATE_IN_POSE | NITE_POSE_STATE_ENTER)) != 0; }
+  bool isEntered() const { return (state & NITE_POSE_STATE_ENTER) != 0; }
+  bool isExited() const { return (state & NITE_POSE_STATE_EXIT) != 0; }
+};
+
+class SkeletonJoint : private NiteSkeletonJoint {
+ public:
+  JointType getType() const { return static_cast<JointType>(jointType); }
+  const Point3f& getPosition() const { return static_cast<const Point3f&>(position); }
+  float getPositionConfidence() const { return positionConfidence; }
+  const Quaternion& getOrientation() const { return static_cast<const Quaternion&>(orientation); }
+  float getOrientationConfidence() const { return orientationConfidence; }
+};
+
+class Skeleton : private NiteSkeleton {
+ public:
+  const SkeletonJoint& getJoint(JointType type) const {
+    return reinterpret_cast<const SkeletonJoint&>(joints[type]);
+  }
+  SkeletonState getState() const { return static_cast<SkeletonState>(state); }
+};
+
+class UserData : private NiteUserData {
+ public:
+  UserId getId() const { return id; }
+  const BoundingBox& getBoundingBox() const { return boundingBox; }
+  const Point3f& getCenterOfMass() const { return static_cast<const Point3f&>(centerOfMass); }
+  bool isNew() const { return state == NITE_USER_STATE_NEW; }
+  bool isVisible() const { return (state & NITE_USER_STATE_VISIBLE) != 0; }
+  bool isLost() const { return (state & NITE_USER_STATE_LOST) != 0; }
+  const Skeleton& getSkeleton() const { return reinterpret_cast<const Skeleton&>(skeleton); }
+  const PoseData& getPose(PoseType type) const {
+    return reinterpret_cast<const PoseData&>(poses[type]);
+  }
+};
+
+class GestureData : protected NiteGestureData {
+ public:
+  GestureType getType() const { return static_cast<GestureType>(type); }
+  const Point3f& getCurrentPosition() const { return static_cast<const Point3f&>(currentPosition); }
+  bool isComplete() const { return (state & NITE_GESTURE_STATE_COMPLETED) != 0; }
+  bool isInProgress() const { return (state & NITE_GESTURE_STATE_IN_PROGRESS) != 0; }
+};
+
+class HandData : protected NiteHandData {
+ public:
+  HandId getId() const { return id; }
+  const Point3f& getPosition() const { return static_cast<const Point3f&>(position); }
+  bool isNew() const { return (state & NITE_HAND_STATE_NEW) != 0; }
+  bool isLost() const { return state == NITE_HAND_STATE_LOST; }
+  bool isTracking() const { return (state & NITE_HAND_STATE_TRACKED) != 0; }
+  bool isTouchingFov() const { return (state & NITE_HAND_STATE_TOUCHING_FOV) != 0; }
+};
+
+class UserMap : private NiteUserMap {
+ public:
+  UserMap() : NiteUserMap() {}
+  explicit UserMap(const NiteUserMap& map) : NiteUserMap(map) {}
+  const UserId* getPixels() const { return pixels; }
+  int getWidth() const { return width; }
+  int getHeight() const { return height; }
+  int getStride() const { return stride; }
+};
+
+/// Shares one frame; the last one gives it back.
+class UserTrackerFrameRef {
+ public:
+  UserTrackerFrameRef() = default;
+  ~UserTrackerFrameRef() { release(); }
+  UserTrackerFrameRef(const UserTrackerFrameRef& other) { *this = other; }
+  UserTrackerFrameRef& operator=(const UserTrackerFrameRef& other) {
+    if (this == &other) return *this;
+    if (other.isValid()) niteUserTrackerFrameAddRef(other.handle_, other.frame_);
+    setReference(other.handle_, other.frame_);
+    return *this;
+  }
+
+  bool isValid() const { return frame_ != nullptr; }
+  void release() { setReference(nullptr, nullptr); }
+
+  const Array<UserData>& getUsers() const { return users_; }
+  const UserData* getUserById(UserId id) const {
+    for (int i = 0; i < users_.getSize(); ++i) {
+      if (users_[i].getId() == id) return &users_[i];
+    }
+    return nullptr;
+  }
+  UserMap getUserMap() const { return UserMap(frame_->userMap); }
+  const Plane& getFloor() const { return frame_->floor; }
+  float getFloorConfidence() const { return frame_->floorConfidence; }
+  openni::VideoFrameRef getDepthFrame() const {
+    openni::VideoFrameRef frame;
+    if (isValid()) frame._setFrame(frame_->pDepthFrame);
+    return frame;
+  }
+  uint64_t getTimestamp() const { return frame_->timestamp; }
+  int getFrameIndex() const { return frame_->frameIndex; }
+
+ private:
+  friend class UserTracker;
+
+  void setReference(NiteUserTrackerHandle handle, NiteUserTrackerFrame* frame) {
+    if (isValid()) niteUserTrackerFrameRelease(handle_, frame_);
+    handle_ = handle;
+    frame_ = frame;
+    users_._setData(frame == nullptr ? 0 : frame->userCount,
+                    frame == nullptr ? nullptr : reinterpret_cast<const UserData*>(frame->pUser));
+  }
+
+  NiteUserTrackerFrame* frame_ = nullptr;
+  NiteUserTrackerHandle handle_ = nullptr;
+  Array<UserData> users_;
+};
+
+/// Who is in view, and their skeletons.
+class UserTracker {
+ public:
+  /// Told when there is a frame to read; may read it.
+  class NewFrameListener {
+   public:
+    NewFrameListener() { callbacks_.readyForNextFrame = &NewFrameListener::onReady; }
+    virtual ~NewFrameListener() = default;
+    virtual void onNewFrame(UserTracker& tracker) = 0;
+
+   private:
+    friend class UserTracker;
+    static void ONI_CALLBACK_TYPE onReady(void* cookie) {
+      auto* listener = static_cast<NewFrameListener*>(cookie);
+      if (listener->tracker_ != nullptr) listener->onNewFrame(*listener->tracker_);
+    }
+    NiteUserTrackerCallbacks callbacks_{};
+    UserTracker* tracker_ = nullptr;
+  };
+
+  UserTracker() = default;
+  ~UserTracker() { destroy(); }
+  UserTracker(const UserTracker&) = delete;
+  UserTracker& operator=(const UserTracker&) = delete;
+
+  /// On the first device there is, or on an open one.
+  Status create(openni::Device* device = nullptr) {
+    destroy();
+    return static_cast<Status>(device == nullptr
+                                   ? niteInitializeUserTracker(&handle_)
+                                   : niteInitializeUserTrackerByDevice(device, &handle_));
+  }
+  void destroy() {
+    if (isValid()) niteShutdownUserTracker(handle_);
+    handle_ = nullptr;
+  }
+  bool isValid() const { return handle_ != nullptr; }
+
+  Status readFrame(UserTrackerFrameRef* frame) {
+    NiteUserTrackerFrame* read = nullptr;
+    const NiteStatus status = niteReadUserTrackerFrame(handle_, &read);
+    if (status == NITE_STATUS_OK) frame->setReference(handle_, read);
+    return static_cast<Status>(status);
+  }
+
+  Status startSkeletonTracking(UserId id) {
+    return static_cast<Status>(niteStartSkeletonTracking(handle_, id));
+  }
+  void stopSkeletonTracking(UserId id) { niteStopSkeletonTracking(handle_, id); }
+  bool isSkeletonTracking(UserId id) const { return niteIsSkeletonTracking(handle_, id); }
+  Status setSkeletonSmoothingFactor(float factor) {
+    return static_cast<Status>(niteSetSkeletonSmoothing(handle_, factor));
+  }
+  float getSkeletonSmoothingFactor() const {
+    float factor = 0.0F;
+    return niteGetSkeletonSmoothing(handle_, &factor) == NITE_STATUS_OK ? factor : 0.0F;
+  }
+
+  Status startPoseDetection(UserId id, PoseType type) {
+    return static_cast<Status>(
+        niteStartPoseDetection(handle_, id, static_cast<NitePoseType>(type)));
+  }
+  void stopPoseDetection(UserId id, PoseType type) {
+    niteStopPoseDetection(handle_, id, static_cast<NitePoseType>(type));
+  }
+  void stopAllPoseDetection(UserId id) { niteStopAllPoseDetection(handle_, id); }
+
+  Status convertJointCoordinatesToDepth(float x, float y, float z, float* px, float* py) const {
+    return static_cast<Status>(niteConvertJointCoordinatesToDepth(handle_, x, y, z, px, py));
+  }
+  Status convertDepthCoordinatesToJoint(int x, int y, int z, float* px, float* py) const {
+    return static_cast<Status>(niteConvertDepthCoordinatesToJoint(handle_, x, y, z, px, py));
+  }
+
+  void addNewFrameListener(NewFrameListener* listener) {
+    listener->tracker_ = this;
+    niteRegisterUserTrackerCallbacks(handle_, &listener->callbacks_, listener);
+  }
+  void removeNewFrameListener(NewFrameListener* listener) {
+    niteUnregisterUserTrackerCallbacks(handle_, &listener->callbacks_);
+    listener->tracker_ = nullptr;
+  }
+
+ private:
+  NiteUserTrackerHandle handle_ = nullptr;
+};
+
+/// Shares one frame; the last one gives it back.
+class HandTrackerFrameRef {
+ public:
+  HandTrackerFrameRef() = default;
+  ~HandTrackerFrameRef() { release(); }
+  HandTrackerFrameRef(const HandTrackerFrameRef& other) { *this = other; }
+  HandTrackerFrameRef& operator=(const HandTrackerFrameRef& other) {
+    if (this == &other) return *this;
+    if (other.isValid()) niteHandTrackerFrameAddRef(other.handle_, other.frame_);
+    setReference(other.handle_, other.frame_);
+    return *this;
+  }
+
+  bool isValid() const { return frame_ != nullptr; }
+  void release() { setReference(nullptr, nullptr); }
+
+  const Array<HandData>& getHands() const { return hands_; }
+  const Array<GestureData>& getGestures() const { return gestures_; }
+  openni::VideoFrameRef getDepthFrame() const {
+    openni::VideoFrameRef frame;
+    if (isValid()) frame._setFrame(frame_->pDepthFrame);
+    return frame;
+  }
+  uint64_t getTimestamp() const { return frame_->timestamp; }
+  int getFrameIndex() const { return frame_->frameIndex; }
+
+ private:
+  friend class HandTracker;
+
+  void setReference(NiteHandTrackerHandle handle, NiteHandTrackerFrame* frame) {
+    if (isValid()) niteHandTrackerFrameRelease(handle_, frame_);
+    handle_ = handle;
+    frame_ = frame;
+    hands_._setData(frame == nullptr ? 0 : frame->handCount,
+                    frame == nullptr ? nullptr : reinterpret_cast<const HandData*>(frame->pHands));
+    gestures_._setData(
+        frame == nullptr ? 0 : frame->gestureCount,
+        frame == nullptr ? nullptr : reinterpret_cast<const GestureData*>(frame->pGestures));
+  }
+
+  NiteHandTrackerFrame* frame_ = nullptr;
+  NiteHandTrackerHandle handle_ = nullptr;
+  Array<HandData> hands_;
+  Array<GestureData> gestures_;
+};
+
+/// Hands that are followed by id, and gestures that ask for it.
+class HandTracker {
+ public:
+  /// Told when there is a frame to read; may read it.
+  class NewFrameListener {
+   public:
+    NewFrameListener() { callbacks_.readyForNextFrame = &NewFrameListener::onReady; }
+    virtual ~NewFrameListener() = default;
+    virtual void onNewFrame(HandTracker& tracker) = 0;
+
+   private:
+    friend class HandTracker;
+    static void ONI_CALLBACK_TYPE onReady(void* cookie) {
+      auto* listener = static_cast<NewFrameListener*>(cookie);
+      if (listener->tracker_ != nullptr) listener->onNewFrame(*listener->tracker_);
+    }
+    NiteHandTrackerCallbacks callbacks_{};
+    HandTracker* tracker_ = nullptr;
+  };
+
+  HandTracker() = default;
+  ~HandTracker() { destroy(); }
+  HandTracker(const HandTracker&) = delete;
+  HandTracker& operator=(const HandTracker&) = delete;
+
+  /// On the first device there is, or on an open one.
+  Status create(openni::Device* device = nullptr) {
+    destroy();
+    return static_cast<Status>(device == nullptr
+                                   ? niteInitializeHandTracker(&handle_)
+                                   : niteInitializeHandTrackerByDevice(device, &handle_));
+  }
+  void destroy() {
+    if (isValid()) niteShutdownHandTracker(handle_);
+    handle_ = nullptr;
+  }
+  bool isValid() const { return handle_ != nullptr; }
+
+  Status readFrame(HandTrackerFrameRef* frame) {
+    NiteHandTrackerFrame* read = nullptr;
+    const NiteStatus status = niteReadHandTrackerFrame(handle_, &read);
+    if (status == NITE_STATUS_OK) frame->setReference(handle_, read);
+    return static_cast<Status>(status);
+  }
+
+  Status setSmoothingFactor(float factor) {
+    return static_cast<Status>(niteSetHandSmoothingFactor(handle_, factor));
+  }
+  float getSmoothingFactor() const {
+    float factor = 0.0F;
+    return niteGetHandSmoothingFactor(handle_, &factor) == NITE_STATUS_OK ? factor : 0.0F;
+  }
+
+  Status startHandTracking(const Point3f& position, HandId* id) {
+    return static_cast<Status>(niteStartHandTracking(handle_, &position, id));
+  }
+  void stopHandTracking(HandId id) { niteStopHandTracking(handle_, id); }
+  void stopAllHandTracking() { niteStopAllHandTracking(handle_); }
+
+  Status startGestureDetection(GestureType type) {
+    return static_cast<Status>(
+        niteStartGestureDetection(handle_, static_cast<NiteGestureType>(type)));
+  }
+  void stopGestureDetection(GestureType type) {
+    niteStopGestureDetection(handle_, static_cast<NiteGestureType>(type));
+  }
+  void stopAllGestureDetection() { niteStopAllGestureDetection(handle_); }
+
+  Status convertHandCoordinatesToDepth(float x, float y, float z, float* px, float* py) const {
+    return static_cast<Status>(niteConvertHandCoordinatesToDepth(handle_, x, y, z, px, py));
+  }
+  Status convertDepthCoordinatesToHand(int x, int y, int z, float* px, float* py) const {
+    return static_cast<Status>(niteConvertDepthCoordinatesToHand(handle_, x, y, z, px, py));
+  }
+
+  void addNewFrameListener(NewFrameListener* listener) {
+    listener->tracker_ = this;
+    niteRegisterHandTrackerCallbacks(handle_, &listener->callbacks_, listener);
+  }
+  void removeNewFrameListener(NewFrameListener* listener) {
+    niteUnregisterHandTrackerCallbacks(handle_, &listener->callbacks_);
+    listener->tracker_ = nullptr;
+  }
+
+ private:
+  NiteHandTrackerHandle handle_ = nullptr;
+};
+
+/// The library as a whole.
+class NiTE {
+ public:
+  static Status initialize() { return static_cast<Status>(niteInitialize()); }
+  static void shutdown() { niteShutdown(); }
+  static Version getVersion() { return niteGetVersion(); }
+
+ private:
+  NiTE() = default;
+};
+
+}  // namespace nite

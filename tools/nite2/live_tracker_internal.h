@@ -1,0 +1,59 @@
+#pragma once
+#include <NiteCTypes.h>
+
+#include <atomic>
+#include <memory>
+#include <mutex>
+#include <vector>
+
+#include "tools/nite2/depth_camera_internal.h"
+#include "tools/tracker/tracker.h"
+
+namespace ossa::nite2 {
+
+/// A program's callbacks; all NiTE trackers have the same one.
+struct Callback {
+  const void* key = nullptr;  // the program's structure
+  OniGeneralCallback ready = nullptr;
+  void* cookie = nullptr;
+};
+
+/// What user and hand trackers share: a camera, people in its images, and whom to tell of frames.
+/// Frames are read by whoever asks for one, on that thread. All members may be called from any
+/// thread, also from a callback.
+class LiveTracker : public std::enable_shared_from_this<LiveTracker> {
+ public:
+  LiveTracker(OniDeviceHandle device, const tracker::ModelSet& models);
+  virtual ~LiveTracker();
+  LiveTracker(const LiveTracker&) = delete;
+  LiveTracker& operator=(const LiveTracker&) = delete;
+
+  /// Reads that wait end, and new ones fail.
+  void Close();
+  /// Waits until no tracker's camera is being closed on a thread of its own.
+  static void WaitForClosing();
+  bool AddCallback(const Callback& callback);
+  /// Returns when the callback is not running, unless it is the one that asks.
+  void RemoveCallback(const void* key);
+  const DepthCamera& camera() const { return *camera_; }
+
+ protected:
+  /// Waits for the next frame; none where there was none for two seconds, the device is gone, or
+  /// the tracker is closed. Under `reading_`.
+  std::optional<CameraFrame> NextFrame();
+
+  std::mutex reading_;  // held while a frame is read and worked on
+  tracker::Tracker people_;
+
+ private:
+  void TellAll();
+
+  std::unique_ptr<DepthCamera> camera_;
+  std::atomic<bool> closing_ = false;
+  std::recursive_mutex telling_;  // held while callbacks run; guards `callbacks_`
+  std::vector<Callback> callbacks_;
+  std::mutex watching_;  // guards `told_`
+  bool told_ = false;    // whether the camera tells of frames
+};
+
+}  // namespace ossa::nite2

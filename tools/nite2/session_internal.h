@@ -1,0 +1,88 @@
+#pragma once
+#include <NiteCTypes.h>
+
+#include <map>
+#include <memory>
+#include <mutex>
+#include <optional>
+
+#include "depth/sensor/openni2/openni_session.h"
+#include "tools/nite2/hand_tracker_internal.h"
+#include "tools/nite2/user_tracker_internal.h"
+
+namespace ossa::nite2 {
+
+/// The trackers of one kind that a program has open, by handles that are never used again: an old
+/// one is told from a new one.
+template <typename Tracker>
+class OpenTrackers {
+ public:
+  using Handle = typename Tracker::Handle;
+
+  Handle Add(std::shared_ptr<Tracker> tracker) {
+    const std::lock_guard lock(mutex_);
+    last_ += kStep;
+    open_[last_] = std::move(tracker);
+    return reinterpret_cast<Handle>(last_);
+  }
+  /// null where nothing is open by this handle.
+  std::shared_ptr<Tracker> Find(Handle handle) const {
+    const std::lock_guard lock(mutex_);
+    const auto found = open_.find(reinterpret_cast<uintptr_t>(handle));
+    return found == open_.end() ? nullptr : found->second;
+  }
+  bool Close(Handle handle) {
+    std::shared_ptr<Tracker> tracker;
+    {
+      const std::lock_guard lock(mutex_);
+      const auto found = open_.find(reinterpret_cast<uintptr_t>(handle));
+      if (found == open_.end()) return false;
+      tracker = std::move(found->second);
+      open_.erase(found);
+    }
+    tracker->Close();
+    return true;
+  }
+  void CloseAll() {
+    std::map<uintptr_t, std::shared_ptr<Tracker>> open;
+    {
+      const std::lock_guard lock(mutex_);
+      open.swap(open_);
+    }
+    for (const auto& [handle, tracker] : open) tracker->Close();
+  }
+
+ private:
+  static constexpr uintptr_t kStep = 16;  // looks like an address
+  mutable std::mutex mutex_;
+  std::map<uintptr_t, std::shared_ptr<Tracker>> open_;
+  uintptr_t last_ = 0;
+};
+
+/// The library between niteInitialize and niteShutdown. One a process, as OpenNI2 itself is; it is
+/// never destroyed, since programs call in while they end.
+class Session {
+ public:
+  static Session& Instance();
+
+  /// Counted. Throws InputError where OpenNI2 or a shipped model is missing.
+  void Begin();
+  /// The last one closes all that is open.
+  void End();
+  /// Throws InputError before Begin, and where there is no such camera.
+  NiteUserTrackerHandle OpenUserTracker(OniDeviceHandle device);
+  NiteHandTrackerHandle OpenHandTracker(OniDeviceHandle device);
+
+  OpenTrackers<UserTracker> users;
+  OpenTrackers<HandTracker> hands;
+
+ private:
+  const tracker::ModelSet& Models() const;
+
+  std::mutex mutex_;  // guards what follows
+  int begun_ = 0;
+  std::optional<depth::OpenNiSession> openni_;
+  std::optional<tracker::ModelSet> models_;
+};
+
+}  // namespace ossa::nite2

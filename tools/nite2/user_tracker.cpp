@@ -1,0 +1,121 @@
+#include <algorithm>
+
+#include "tools/nite2/image_space.h"
+#include "tools/nite2/user_tracker_internal.h"
+
+namespace ossa::nite2 {
+
+NiteStatus UserTracker::Read(Frame** frame) {
+  const std::lock_guard lock(reading_);
+  std::optional<CameraFrame> seen = NextFrame();
+  if (!seen) return NITE_STATUS_ERROR;
+  *frame = frames.Add(Make(std::move(*seen)));
+  return NITE_STATUS_OK;
+}
+
+std::unique_ptr<UserTracker::Stored> UserTracker::Make(CameraFrame seen) {
+  UserWishes wishes;
+  {
+    const std::lock_guard lock(wishing_);
+    wishes = wishes_;
+  }
+  people_.ChooseUsers(users_.BodiesWanted(wishes));
+  const tracker::BodyFrame bodies = people_.Track(seen.image);
+  auto stored = std::make_unique<Stored>();
+  stored->users = users_.Step(bodies, seen.image.depth_mm, wishes, seen.mirrored);
+  stored->map = MapOf(bodies.users, seen.mirrored);
+  Frame& frame = stored->frame;
+  frame.userCount = static_cast<int>(stored->users.size());
+  frame.pUser = stored->users.data();
+  frame.userMap = {stored->map.data(), bodies.users.width, bodies.users.height,
+                   static_cast<int>(sizeof(NiteUserId)) * bodies.users.width};
+  frame.pDepthFrame = seen.delivered.get();
+  frame.timestamp = seen.delivered->timestamp;
+  frame.frameIndex = seen.delivered->frameIndex;
+  if (bodies.floor) {
+    frame.floorConfidence = 1.0F;
+    frame.floor = FloorToNite(*bodies.floor, seen.mirrored);
+  }
+  stored->delivered = std::move(seen.delivered);
+  const std::lock_guard lock(wishing_);
+  known_.clear();
+  for (const NiteUserData& user : stored->users) {
+    if (user.state != NITE_USER_STATE_LOST) {
+      known_.insert(user.id);
+      continue;
+    }
+    wishes_.skeletons.erase(user.id);  // whoever gets the id next has not been asked for
+    wishes_.poses.erase(user.id);
+  }
+  return stored;
+}
+
+std::vector<NiteUserId> UserTracker::MapOf(const depth::Image<uint8_t>& users,
+                                           bool mirrored) const {
+  std::vector<NiteUserId> map(users.data.size());
+  std::array<NiteUserId, 256> user_of{};
+  for (size_t body = 1; body < user_of.size(); ++body) {
+    user_of[body] = users_.UserOf(static_cast<int>(body));
+  }
+  std::transform(users.data.begin(), users.data.end(), map.begin(),
+                 [&](uint8_t body) { return user_of[body]; });
+  for (int v = 0; mirrored && v < users.height; ++v) {
+    const auto row = map.begin() + static_cast<ptrdiff_t>(v) * users.width;
+    std::reverse(row, row + users.width);
+  }
+  return map;
+}
+
+bool UserTracker::Knows(NiteUserId id) const { return known_.count(id) > 0; }
+
+NiteStatus UserTracker::StartSkeleton(NiteUserId id) {
+  const std::lock_guard lock(wishing_);
+  if (!Knows(id)) return NITE_STATUS_BAD_USER_ID;
+  wishes_.skeletons.insert(id);
+  return NITE_STATUS_OK;
+}
+
+void UserTracker::StopSkeleton(NiteUserId id) {
+  const std::lock_guard lock(wishing_);
+  wishes_.skeletons.erase(id);
+}
+
+bool UserTracker::IsTracking(NiteUserId id) const {
+  const std::lock_guard lock(wishing_);
+  return wishes_.skeletons.count(id) > 0;
+}
+
+NiteStatus UserTracker::StartPose(NiteUserId id, NitePoseType type) {
+  if (type != NITE_POSE_PSI && type != NITE_POSE_CROSSED_HANDS) return NITE_STATUS_ERROR;
+  const std::lock_guard lock(wishing_);
+  if (!Knows(id)) return NITE_STATUS_BAD_USER_ID;
+  wishes_.poses[id].insert(type);
+  return NITE_STATUS_OK;
+}
+
+void UserTracker::StopPose(NiteUserId id, NitePoseType type) {
+  const std::lock_guard lock(wishing_);
+  const auto found = wishes_.poses.find(id);
+  if (found == wishes_.poses.end()) return;
+  found->second.erase(type);
+  if (found->second.empty()) wishes_.poses.erase(found);
+}
+
+void UserTracker::StopPoses(NiteUserId id) {
+  const std::lock_guard lock(wishing_);
+  wishes_.poses.erase(id);
+}
+
+bool UserTracker::SetSmoothing(float factor) {
+  if (!(factor >= 0.0F && factor <= 1.0F)) return false;
+  const std::lock_guard lock(wishing_);
+  wishes_.smoothing = factor;
+  return true;
+}
+
+float UserTracker::smoothing() const {
+  const std::lock_guard lock(wishing_);
+  return wishes_.smoothing;
+}
+
+}  // namespace ossa::nite2
