@@ -82,7 +82,7 @@ NiteStatus GetFactor(auto handle, float* factor) {
 NiteStatus ToPixel(auto handle, NitePoint3f point, float* x, float* y) {
   if (x == nullptr || y == nullptr) return NITE_STATUS_ERROR;
   return With(handle, [&](auto& tracker) {
-    return StatusOf(tracker.camera().ToPixel(point.x, point.y, point.z, x, y));
+    return StatusOf(tracker.ToPixel(point.x, point.y, point.z, x, y));
   });
 }
 
@@ -93,7 +93,7 @@ struct Pixel {
 NiteStatus ToPoint(auto handle, Pixel pixel, float* x, float* y) {
   if (x == nullptr || y == nullptr) return NITE_STATUS_ERROR;
   return With(handle, [&](auto& tracker) {
-    return StatusOf(tracker.camera().ToPoint(pixel.x, pixel.y, pixel.depth_mm, x, y));
+    return StatusOf(tracker.ToPoint(pixel.x, pixel.y, pixel.depth_mm, x, y));
   });
 }
 

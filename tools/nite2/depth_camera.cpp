@@ -6,6 +6,8 @@
 #include "depth/base/error.h"
 #include "depth/image/camera.h"
 #include "tools/nite2/depth_camera_internal.h"
+#include "tools/nite2/frame_reader_internal.h"
+#include "tools/nite2/oni_thread_internal.h"
 
 namespace ossa::nite2 {
 namespace {
@@ -25,29 +27,23 @@ float FieldOfView(OniStreamHandle stream, int property) {
                                                                                     : 0.0F;
 }
 
-// The pinhole camera that OpenNI2's own conversions use, of the window that the frame shows and as
-// it is before mirroring.
-depth::Camera CameraOf(OniStreamHandle stream, const OniFrame& frame, bool mirrored) {
-  constexpr float kLeast_rad = 0.01F, kMost_rad = 3.1F;  // by hand: a field of view at all
-  const float across = FieldOfView(stream, ONI_STREAM_PROPERTY_HORIZONTAL_FOV);
-  const float down = FieldOfView(stream, ONI_STREAM_PROPERTY_VERTICAL_FOV);
-  const int width = frame.videoMode.resolutionX, height = frame.videoMode.resolutionY;
-  depth::Camera camera = depth::KinectV1Camera(width, height);
-  if (std::min(across, down) > kLeast_rad && std::max(across, down) < kMost_rad) {
-    camera = {width,
-              height,
-              width / (2 * std::tan(across / 2.0)),
-              height / (2 * std::tan(down / 2.0)),
-              width / 2.0,
-              height / 2.0};
-  }
+bool AskMirrored(OniStreamHandle stream) {
+  OniBool mirrored = FALSE;
+  int size = sizeof(mirrored);
+  return oniStreamGetProperty(stream, ONI_STREAM_PROPERTY_MIRRORING, &mirrored, &size) ==
+             ONI_STATUS_OK &&
+         mirrored != FALSE;
+}
+
+// The pinhole camera of the window that the frame shows, as it is before mirroring.
+depth::Camera CameraOf(const DepthCamera::Geometry& geometry, const OniFrame& frame) {
+  depth::Camera camera{frame.width,        frame.height,         geometry.focal_x(),
+                       geometry.focal_y(), geometry.width / 2.0, geometry.height / 2.0};
   if (frame.croppingEnabled) {
     camera.cx -= frame.cropOriginX;
     camera.cy -= frame.cropOriginY;
   }
-  camera.width = frame.width;
-  camera.height = frame.height;
-  if (mirrored) camera.cx = camera.width - camera.cx;
+  if (geometry.mirrored) camera.cx = camera.width - camera.cx;
   return camera;
 }
 
@@ -76,16 +72,23 @@ std::vector<uint16_t> MillimetresOf(const OniFrame& frame, bool mirrored) {
 
 }  // namespace
 
+double DepthCamera::Geometry::focal_x() const { return width / (2 * std::tan(across_rad / 2)); }
+double DepthCamera::Geometry::focal_y() const { return height / (2 * std::tan(down_rad / 2)); }
+
 DepthCamera::DepthCamera(OniDeviceHandle device) {
-  try {
-    Open(device);
-  } catch (...) {
-    Close();
-    throw;
-  }
+  OniThread::Instance().Run([&] {
+    try {
+      Open(device);
+    } catch (...) {
+      Close();
+      throw;
+    }
+  });
 }
 
-DepthCamera::~DepthCamera() { Close(); }
+DepthCamera::~DepthCamera() {
+  OniThread::Instance().Run([this] { Close(); });
+}
 
 void DepthCamera::Open(OniDeviceHandle device) {
   if (device == nullptr) {
@@ -102,6 +105,7 @@ void DepthCamera::Open(OniDeviceHandle device) {
   Require(oniRegisterDeviceCallbacks(&device_callbacks_, this, &device_callback_),
           "watching the device");
   Require(oniDeviceCreateStream(device_, ONI_SENSOR_DEPTH, &stream_), "opening its depth stream");
+  LookAtGeometry();
   Require(oniStreamStart(stream_), "starting its depth stream");
 }
 
@@ -129,27 +133,33 @@ void ONI_CALLBACK_TYPE DepthCamera::OnFrame(OniStreamHandle, void* camera) {
 
 bool DepthCamera::InCall() const { return in_call_of == this; }
 
-WaitResult DepthCamera::Wait(std::chrono::milliseconds timeout) {
-  OniStreamHandle streams[] = {stream_};
-  int ready = -1;
-  // A frame that is there is given even when the device has just gone.
-  const OniStatus status =
-      oniWaitForAnyStream(streams, 1, &ready, static_cast<int>(timeout.count()));
-  if (status == ONI_STATUS_OK) return WaitResult::kFrame;
-  return gone_ ? WaitResult::kGone : WaitResult::kTimeout;
+void DepthCamera::LookAtGeometry() {
+  constexpr float kLeast_rad = 0.01F, kMost_rad = 3.1F;  // by hand: a field of view at all
+  OniVideoMode mode{};
+  int size = sizeof(mode);
+  Require(oniStreamGetProperty(stream_, ONI_STREAM_PROPERTY_VIDEO_MODE, &mode, &size),
+          "asking for the video mode");
+  Geometry seen{mode.resolutionX, mode.resolutionY,
+                FieldOfView(stream_, ONI_STREAM_PROPERTY_HORIZONTAL_FOV),
+                FieldOfView(stream_, ONI_STREAM_PROPERTY_VERTICAL_FOV), AskMirrored(stream_)};
+  if (std::min(seen.across_rad, seen.down_rad) < kLeast_rad ||
+      std::max(seen.across_rad, seen.down_rad) > kMost_rad) {
+    const depth::Camera kinect = depth::KinectV1Camera(seen.width, seen.height);
+    seen.across_rad = 2 * std::atan(kinect.width / (2 * kinect.fx));
+    seen.down_rad = 2 * std::atan(kinect.height / (2 * kinect.fy));
+  }
+  const std::lock_guard lock(looking_);
+  geometry_ = seen;
 }
 
-bool DepthCamera::IsMirrored() const {
-  OniBool mirrored = FALSE;
-  int size = sizeof(mirrored);
-  const OniStatus status =
-      oniStreamGetProperty(stream_, ONI_STREAM_PROPERTY_MIRRORING, &mirrored, &size);
-  return status == ONI_STATUS_OK && mirrored != FALSE;
+DepthCamera::Geometry DepthCamera::geometry() const {
+  const std::lock_guard lock(looking_);
+  return geometry_;
 }
 
 // Seconds that never run backwards, as those of a recording do that begins anew.
 double DepthCamera::TimeOf(const OniFrame& frame) {
-  constexpr double kPeriod_s = 1.0 / 30.0;  // of the usual camera
+  constexpr double kPeriod_s = 1.0 / 30.0;  // of the usual camera, by convention
   const double sensor_s = static_cast<double>(frame.timestamp) * kMicrosecond;
   if (frames_ > 0 && frame.timestamp < last_us_) {
     offset_s_ += static_cast<double>(last_us_ - frame.timestamp) * kMicrosecond + kPeriod_s;
@@ -158,14 +168,23 @@ double DepthCamera::TimeOf(const OniFrame& frame) {
   return sensor_s + offset_s_;
 }
 
-CameraFrame DepthCamera::Read() {
-  OniFrame* delivered = nullptr;
-  Require(oniStreamReadFrame(stream_, &delivered), "reading a frame");
+std::optional<CameraFrame> DepthCamera::Next(std::chrono::milliseconds timeout) {
+  bool known = true;
+  OniFrame* delivered = FrameReader::Instance().Read(stream_, timeout, [&] {
+    try {
+      LookAtGeometry();
+    } catch (const InputError&) {
+      known = false;
+    }
+  });
+  if (delivered == nullptr) return std::nullopt;
   CameraFrame frame;
   frame.delivered.reset(delivered);
-  frame.mirrored = IsMirrored();
-  frame.image.depth_mm = MillimetresOf(*delivered, frame.mirrored);
-  frame.image.camera = CameraOf(stream_, *delivered, frame.mirrored);
+  if (!known) throw InputError("OpenNI2: a stream that does not know its video mode");
+  const Geometry seen = geometry();
+  frame.mirrored = seen.mirrored;
+  frame.image.depth_mm = MillimetresOf(*delivered, seen.mirrored);
+  frame.image.camera = CameraOf(seen, *delivered);
   frame.image.time_s = TimeOf(*delivered);
   frame.image.index = frames_++;
   return frame;
@@ -174,27 +193,20 @@ CameraFrame DepthCamera::Read() {
 void DepthCamera::TellOfFrames(std::function<void()> on_frame) {
   StopTelling();
   on_frame_ = std::move(on_frame);
-  Require(oniStreamRegisterNewFrameCallback(stream_, &DepthCamera::OnFrame, this, &frame_callback_),
-          "asking to be told of frames");
+  OniThread::Instance().Run([this] {
+    Require(
+        oniStreamRegisterNewFrameCallback(stream_, &DepthCamera::OnFrame, this, &frame_callback_),
+        "asking to be told of frames");
+  });
 }
 
 void DepthCamera::StopTelling() {
-  if (frame_callback_ == nullptr || InCall()) return;
-  oniStreamUnregisterNewFrameCallback(stream_, frame_callback_);
-  frame_callback_ = nullptr;
-}
-
-bool DepthCamera::ToPixel(float x, float y, float z, float* pixel_x, float* pixel_y) const {
-  float depth = 0.0F;
-  return z > 0.0F && oniCoordinateConverterWorldToDepth(stream_, x, y, z, pixel_x, pixel_y,
-                                                        &depth) == ONI_STATUS_OK;
-}
-
-bool DepthCamera::ToPoint(int pixel_x, int pixel_y, int z, float* x, float* y) const {
-  float depth = 0.0F;
-  return oniCoordinateConverterDepthToWorld(stream_, static_cast<float>(pixel_x),
-                                            static_cast<float>(pixel_y), static_cast<float>(z), x,
-                                            y, &depth) == ONI_STATUS_OK;
+  if (InCall()) return;
+  OniThread::Instance().Run([this] {
+    if (frame_callback_ == nullptr) return;
+    oniStreamUnregisterNewFrameCallback(stream_, frame_callback_);
+    frame_callback_ = nullptr;
+  });
 }
 
 }  // namespace ossa::nite2

@@ -6,6 +6,7 @@
 #include <functional>
 #include <memory>
 #include <mutex>
+#include <optional>
 #include <string>
 
 #include "depth/image/depth_frame.h"
@@ -25,11 +26,8 @@ struct CameraFrame {
   bool mirrored = false;    // whether `delivered` is
 };
 
-/// What a wait for a frame ended with.
-enum class WaitResult { kFrame, kTimeout, kGone };
-
 /// A depth stream of our own on an OpenNI2 device. The device is held open for it, whatever the
-/// program does with its own handle. Wait and Read: one thread at a time.
+/// program does with its own handle. Next: one thread at a time.
 class DepthCamera {
  public:
   /// null: the first device there is. Throws InputError where there is none, or none with depths.
@@ -38,9 +36,10 @@ class DepthCamera {
   DepthCamera(const DepthCamera&) = delete;
   DepthCamera& operator=(const DepthCamera&) = delete;
 
-  WaitResult Wait(std::chrono::milliseconds timeout);
-  /// The frame that was waited for; throws InputError where it cannot be read.
-  CameraFrame Read();
+  /// The next frame; none after `timeout`. Throws InputError where it is none of depths.
+  std::optional<CameraFrame> Next(std::chrono::milliseconds timeout);
+  /// Whether the device was unplugged.
+  bool is_gone() const { return gone_; }
 
   /// Called on a thread of OpenNI2 for every frame that comes, until the next call or StopTelling.
   void TellOfFrames(std::function<void()> on_frame);
@@ -49,14 +48,21 @@ class DepthCamera {
   /// Whether this thread is in such a call: OpenNI2 cannot end that thread from itself.
   bool InCall() const;
 
-  /// Between millimetres and pixels, as OpenNI2 does it; false where it cannot.
-  bool ToPixel(float x, float y, float z, float* pixel_x, float* pixel_y) const;
-  bool ToPoint(int pixel_x, int pixel_y, int z, float* x, float* y) const;
+  /// What OpenNI2's own conversions between millimetres and pixels go by.
+  struct Geometry {
+    int width = 0, height = 0;                // of the whole image
+    double across_rad = 0.0, down_rad = 0.0;  // fields of view
+    bool mirrored = false;
+    double focal_x() const;  // pixels
+    double focal_y() const;
+  };
+  /// That of the newest frame. Any thread.
+  Geometry geometry() const;
 
  private:
   void Open(OniDeviceHandle device);
   void Close();
-  bool IsMirrored() const;
+  void LookAtGeometry();
   double TimeOf(const OniFrame& frame);
   static void ONI_CALLBACK_TYPE OnGone(const OniDeviceInfo* info, void* camera);
   static void ONI_CALLBACK_TYPE OnFrame(OniStreamHandle stream, void* camera);
@@ -68,6 +74,8 @@ class DepthCamera {
   OniDeviceCallbacks device_callbacks_{};
   std::string uri_;
   std::atomic<bool> gone_ = false;
+  mutable std::mutex looking_;  // guards `geometry_`
+  Geometry geometry_;
   std::function<void()> on_frame_;
   int64_t frames_ = 0;
   uint64_t last_us_ = 0;

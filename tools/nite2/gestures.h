@@ -7,6 +7,8 @@
 
 namespace ossa::nite2 {
 
+// Constants: by hand.
+
 /// One hand at one time. Camera space, metres.
 struct HandSample {
   double time_s = 0.0;

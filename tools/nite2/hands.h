@@ -12,6 +12,8 @@
 
 namespace ossa::nite2 {
 
+// Constants: by hand.
+
 /// A hand that is in view: whose, and where.
 struct SeenHand {
   int body_id = 0;
@@ -26,7 +28,7 @@ std::vector<SeenHand> HandsOf(const tracker::BodyFrame& frame);
 struct HandOptions {
   double near_m = 0.3;      // how far from where it was asked for a hand may be
   double patience_s = 0.5;  // how long a hand may be out of sight before it is lost
-  double border = 0.05;     // part of the image's width from its border on that counts as touching
+  double border = 0.05;  // fraction of the image's width from its border on that counts as touching
 };
 
 /// Hands that are followed by id, as a program asked for them.

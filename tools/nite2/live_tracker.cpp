@@ -2,7 +2,8 @@
 
 #include <algorithm>
 #include <chrono>
-#include <thread>
+
+#include "tools/nite2/oni_thread_internal.h"
 
 namespace ossa::nite2 {
 namespace {
@@ -20,8 +21,7 @@ tracker::TrackerOptions OptionsOf(const tracker::ModelSet& models) {
   return options;
 }
 
-// Cameras that are being closed on threads of their own.
-std::atomic<int> closing_cameras = 0;
+thread_local int callbacks_deep = 0;
 
 }  // namespace
 
@@ -32,16 +32,11 @@ LiveTracker::~LiveTracker() {
   Close();
   if (!camera_->InCall()) return;
   // Closed by its own callback, on the camera's thread: that must come to its end first.
-  ++closing_cameras;
-  std::thread([camera = std::move(camera_)]() mutable {
-    camera.reset();
-    --closing_cameras;
-  }).detach();
+  OniThread::Instance().Post(
+      [camera = std::shared_ptr<DepthCamera>(std::move(camera_))]() mutable { camera.reset(); });
 }
 
-void LiveTracker::WaitForClosing() {
-  while (closing_cameras > 0) std::this_thread::sleep_for(milliseconds(1));
-}
+bool LiveTracker::InCallback() { return callbacks_deep > 0; }
 
 void LiveTracker::Close() {
   closing_ = true;
@@ -81,18 +76,36 @@ void LiveTracker::TellAll() {
   for (const Callback& callback : callbacks) {
     const bool still_there = std::any_of(callbacks_.begin(), callbacks_.end(),
                                          [&](const Callback& c) { return c.key == callback.key; });
-    if (still_there && !closing_) callback.ready(callback.cookie);
+    if (!still_there || closing_) continue;
+    ++callbacks_deep;
+    callback.ready(callback.cookie);
+    --callbacks_deep;
   }
 }
 
 std::optional<CameraFrame> LiveTracker::NextFrame() {
   const auto deadline = std::chrono::steady_clock::now() + kPatience;
   while (!closing_ && std::chrono::steady_clock::now() < deadline) {
-    const WaitResult result = camera_->Wait(kSlice);
-    if (result == WaitResult::kFrame) return camera_->Read();
-    if (result == WaitResult::kGone) break;
+    std::optional<CameraFrame> frame = camera_->Next(kSlice);
+    // A frame that is there is given even when the device has just gone.
+    if (frame || camera_->is_gone()) return frame;
   }
   return std::nullopt;
+}
+
+bool LiveTracker::ToPixel(float x, float y, float z, float* pixel_x, float* pixel_y) const {
+  if (!(z > 0.0F)) return false;
+  const DepthCamera::Geometry seen = camera_->geometry();
+  *pixel_x = static_cast<float>(seen.width / 2.0 + seen.focal_x() * x / z);
+  *pixel_y = static_cast<float>(seen.height / 2.0 - seen.focal_y() * y / z);
+  return true;
+}
+
+bool LiveTracker::ToPoint(int pixel_x, int pixel_y, int z, float* x, float* y) const {
+  const DepthCamera::Geometry seen = camera_->geometry();
+  *x = static_cast<float>((pixel_x - seen.width / 2.0) * z / seen.focal_x());
+  *y = static_cast<float>((seen.height / 2.0 - pixel_y) * z / seen.focal_y());
+  return true;
 }
 
 }  // namespace ossa::nite2

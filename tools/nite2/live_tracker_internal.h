@@ -30,12 +30,14 @@ class LiveTracker : public std::enable_shared_from_this<LiveTracker> {
 
   /// Reads that wait end, and new ones fail.
   void Close();
-  /// Waits until no tracker's camera is being closed on a thread of its own.
-  static void WaitForClosing();
+  /// Whether this thread is in a callback of any tracker.
+  static bool InCallback();
   bool AddCallback(const Callback& callback);
   /// Returns when the callback is not running, unless it is the one that asks.
   void RemoveCallback(const void* key);
-  const DepthCamera& camera() const { return *camera_; }
+  /// Between millimetres and pixels of the whole image, as OpenNI2 does it; false where it cannot.
+  bool ToPixel(float x, float y, float z, float* pixel_x, float* pixel_y) const;
+  bool ToPoint(int pixel_x, int pixel_y, int z, float* x, float* y) const;
 
  protected:
   /// Waits for the next frame; none where there was none for two seconds, the device is gone, or

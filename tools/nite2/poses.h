@@ -5,6 +5,8 @@
 
 namespace ossa::nite2 {
 
+// Constants: by hand.
+
 /// Bounds of the poses, by hand: wide enough for people who do not know them exactly.
 struct PoseOptions {
   double tilt_rad = 0.61;  // 35 degrees: of psi's upper arms from level, forearms from upright

@@ -1,6 +1,7 @@
 #include "tools/nite2/session_internal.h"
 
 #include "depth/base/error.h"
+#include "tools/nite2/oni_thread_internal.h"
 
 namespace ossa::nite2 {
 
@@ -13,19 +14,27 @@ void Session::Begin() {
   const std::lock_guard lock(mutex_);
   if (begun_ == 0) {
     if (!models_) models_ = tracker::ModelSet::Shipped();
-    openni_.emplace();
+    OniThread::Instance().Run([this] { openni_ = std::make_unique<depth::OpenNiSession>(); });
   }
   ++begun_;
 }
 
 void Session::End() {
-  const std::lock_guard lock(mutex_);
-  if (begun_ == 0 || --begun_ > 0) return;
+  std::shared_ptr<depth::OpenNiSession> session;
+  {
+    const std::lock_guard lock(mutex_);
+    if (begun_ == 0 || --begun_ > 0) return;
+    session = std::move(openni_);
+    models_.reset();
+  }
   users.CloseAll();
   hands.CloseAll();
-  LiveTracker::WaitForClosing();
-  openni_.reset();
-  models_.reset();
+  // After what is still being closed; which a callback must not wait for, being waited for itself.
+  if (LiveTracker::InCallback()) {
+    OniThread::Instance().Post([session = std::move(session)]() mutable { session.reset(); });
+  } else {
+    OniThread::Instance().Run([&session] { session.reset(); });
+  }
 }
 
 const tracker::ModelSet& Session::Models() const {

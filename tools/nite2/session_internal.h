@@ -81,7 +81,7 @@ class Session {
 
   std::mutex mutex_;  // guards what follows
   int begun_ = 0;
-  std::optional<depth::OpenNiSession> openni_;
+  std::unique_ptr<depth::OpenNiSession> openni_;
   std::optional<tracker::ModelSet> models_;
 };
 

@@ -9,7 +9,7 @@ namespace {
 
 using recon::Joint;
 
-constexpr double kForget_s = 10.0;  // as NiTE does
+constexpr double kForget_s = 10.0;  // as NiTE does, by convention
 
 NiteBoundingBox EmptyBox() { return {{1e6F, 1e6F, 1e6F}, {-1.0F, -1.0F, -1.0F}}; }
 

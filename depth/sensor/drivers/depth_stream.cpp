@@ -6,8 +6,15 @@
 
 namespace ossa::depth {
 
-DepthStream::DepthStream(const Camera& camera, int fps, int max_value, bool mirrored)
-    : camera_(camera), max_value_(max_value), mirrored_(mirrored) {
+OniVideoMode HalfOf(OniVideoMode mode) {
+  mode.resolutionX /= 2;
+  mode.resolutionY /= 2;
+  return mode;
+}
+
+DepthStream::DepthStream(const Camera& camera, int fps, int max_value, bool mirrored,
+                         bool offers_half)
+    : camera_(camera), offers_half_(offers_half), max_value_(max_value), mirrored_(mirrored) {
   mode_.pixelFormat = ONI_PIXEL_FORMAT_DEPTH_1_MM;
   mode_.resolutionX = camera.width;
   mode_.resolutionY = camera.height;
@@ -29,16 +36,17 @@ OniStatus DepthStream::getProperty(int id, void* data, int* size) {
     case ONI_STREAM_PROPERTY_MIN_VALUE:
       return AnswerProperty(int{0}, data, size);
     case ONI_STREAM_PROPERTY_STRIDE:
-      return AnswerProperty(camera_.width * 2, data, size);
+      return AnswerProperty(mode_.resolutionX * 2, data, size);
     case ONI_STREAM_PROPERTY_MIRRORING:
       return AnswerProperty(OniBool{mirrored_ ? TRUE : FALSE}, data, size);
     case ONI_STREAM_PROPERTY_CROPPING:  // without an answer, recordings play back no frame
       return AnswerProperty(OniCropping{FALSE, 0, 0, 0, 0}, data, size);
     case kCameraProperty:
-      return AnswerProperty(std::array<double, 6>{static_cast<double>(camera_.width),
-                                                  static_cast<double>(camera_.height), camera_.fx,
-                                                  camera_.fy, camera_.cx, camera_.cy},
-                            data, size);
+      return AnswerProperty(
+          std::array<double, 6>{static_cast<double>(mode_.resolutionX),
+                                static_cast<double>(mode_.resolutionY), camera_.fx / step_,
+                                camera_.fy / step_, camera_.cx / step_, camera_.cy / step_},
+          data, size);
     default:
       return ONI_STATUS_NOT_SUPPORTED;
   }
@@ -50,14 +58,30 @@ OniStatus DepthStream::setProperty(int id, const void* data, int size) {
     return ONI_STATUS_OK;
   }
   if (id == ONI_STREAM_PROPERTY_VIDEO_MODE && size == static_cast<int>(sizeof(OniVideoMode))) {
-    const bool same = std::memcmp(data, &mode_, sizeof(mode_)) == 0;
-    return same ? ONI_STATUS_OK : ONI_STATUS_NOT_SUPPORTED;
+    return SetVideoMode(*static_cast<const OniVideoMode*>(data));
   }
   if (id == ONI_STREAM_PROPERTY_CROPPING && size == static_cast<int>(sizeof(OniCropping))) {
     const bool off = static_cast<const OniCropping*>(data)->enabled == FALSE;
     return off ? ONI_STATUS_OK : ONI_STATUS_NOT_SUPPORTED;
   }
   return ONI_STATUS_NOT_SUPPORTED;
+}
+
+OniStatus DepthStream::SetVideoMode(const OniVideoMode& mode) {
+  const auto is = [&](const OniVideoMode& other) {
+    return std::memcmp(&mode, &other, sizeof(mode)) == 0;
+  };
+  if (is(mode_)) return ONI_STATUS_OK;
+  OniVideoMode whole = mode_;
+  whole.resolutionX = camera_.width;
+  whole.resolutionY = camera_.height;
+  const bool half = is(HalfOf(whole));
+  if (!offers_half_ || (!half && !is(whole))) return ONI_STATUS_NOT_SUPPORTED;
+  if (delivered_) return ONI_STATUS_OUT_OF_FLOW;
+  mode_ = mode;
+  step_ = half ? 2 : 1;
+  raisePropertyChanged(ONI_STREAM_PROPERTY_VIDEO_MODE, &mode_, sizeof(mode_));
+  return ONI_STATUS_OK;
 }
 
 OniBool DepthStream::isPropertySupported(int id) {
@@ -76,15 +100,20 @@ OniBool DepthStream::isPropertySupported(int id) {
   }
 }
 
-int DepthStream::getRequiredFrameSize() { return camera_.width * camera_.height * 2; }
+int DepthStream::getRequiredFrameSize() { return mode_.resolutionX * mode_.resolutionY * 2; }
 
 void DepthStream::Deliver(const uint16_t* depth_mm, int frame_index, uint64_t timestamp_us) {
+  delivered_ = true;
   OniFrame* frame = getServices().acquireFrame();
   if (frame == nullptr) return;
-  const auto width = static_cast<size_t>(camera_.width);
-  const auto height = static_cast<size_t>(camera_.height);
+  const auto width = static_cast<size_t>(mode_.resolutionX);
+  const auto height = static_cast<size_t>(mode_.resolutionY);
+  const auto step = static_cast<size_t>(step_);
   auto* pixels = static_cast<uint16_t*>(frame->data);
-  std::memcpy(pixels, depth_mm, width * height * sizeof(uint16_t));
+  for (size_t v = 0; v < height; ++v) {
+    const uint16_t* row = depth_mm + v * step * static_cast<size_t>(camera_.width);
+    for (size_t u = 0; u < width; ++u) pixels[v * width + u] = row[u * step];
+  }
   if (mirrored_) {
     for (size_t v = 0; v < height; ++v) {
       std::reverse(pixels + v * width, pixels + (v + 1) * width);
@@ -95,9 +124,9 @@ void DepthStream::Deliver(const uint16_t* depth_mm, int frame_index, uint64_t ti
   frame->timestamp = timestamp_us;
   frame->sensorType = ONI_SENSOR_DEPTH;
   frame->videoMode = mode_;
-  frame->width = camera_.width;
-  frame->height = camera_.height;
-  frame->stride = camera_.width * 2;
+  frame->width = mode_.resolutionX;
+  frame->height = mode_.resolutionY;
+  frame->stride = mode_.resolutionX * 2;
   frame->croppingEnabled = FALSE;
   frame->cropOriginX = 0;
   frame->cropOriginY = 0;

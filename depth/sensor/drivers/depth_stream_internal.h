@@ -10,10 +10,15 @@
 
 namespace ossa::depth {
 
+/// The mode of every second pixel of every second row.
+OniVideoMode HalfOf(OniVideoMode mode);
+
 class DepthStream : public oni::driver::StreamBase {
  public:
   /// `max_value`: strictly above every depth the stream gives (OpenNI2's recorder relies on it).
-  DepthStream(const Camera& camera, int fps, int max_value, bool mirrored);
+  /// Streams that offer half the size do so until they deliver.
+  DepthStream(const Camera& camera, int fps, int max_value, bool mirrored,
+              bool offers_half = false);
 
   OniStatus getProperty(int id, void* data, int* size) override;
   OniStatus setProperty(int id, const void* data, int size) override;
@@ -21,15 +26,20 @@ class DepthStream : public oni::driver::StreamBase {
   int getRequiredFrameSize() override;
 
  protected:
-  /// Copies an image, which must be of the stream's size, out to whoever listens; called on the
-  /// driver's thread.
+  /// Copies an image, which must be of the camera's size, out to whoever listens, in the size that
+  /// they chose; called on the driver's thread.
   void Deliver(const uint16_t* depth_mm, int frame_index, uint64_t timestamp_us);
 
  private:
-  Camera camera_;
+  OniStatus SetVideoMode(const OniVideoMode& mode);
+
+  Camera camera_;  // whole
   OniVideoMode mode_{};
+  bool offers_half_;
+  int step_ = 1;  // every so many pixels of a row, and rows, are delivered
   int max_value_;
   std::atomic<bool> mirrored_;
+  std::atomic<bool> delivered_ = false;  // the size stays
 };
 
 }  // namespace ossa::depth

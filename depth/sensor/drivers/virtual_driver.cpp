@@ -1,6 +1,7 @@
 // libossa_virtual.so.0: an OpenNI2 driver module that plays any recording of ours as a live depth
 // camera, so that everything behind a camera runs without one, in ossa and in any OpenNI2 program.
 #include <algorithm>
+#include <array>
 #include <condition_variable>
 #include <cstdlib>
 #include <map>
@@ -116,10 +117,14 @@ class UnplugHandler {
   virtual void Unplug(VirtualCamera& camera, bool comes_back) = 0;
 };
 
+// Half of it has whole pixels.
+bool IsEven(const Camera& camera) { return camera.width % 2 == 0 && camera.height % 2 == 0; }
+
 class VirtualStream final : public DepthStream {
  public:
   VirtualStream(VirtualCamera& camera, UnplugHandler& driver)
-      : DepthStream(camera.camera(), camera.fps(), kMaxValue, camera.options().mirror),
+      : DepthStream(camera.camera(), camera.fps(), kMaxValue, camera.options().mirror,
+                    IsEven(camera.camera())),
         camera_(camera),
         driver_(driver) {}
   ~VirtualStream() override { stop(); }
@@ -191,9 +196,10 @@ class VirtualStream final : public DepthStream {
 class VirtualDevice final : public oni::driver::DeviceBase {
  public:
   VirtualDevice(VirtualCamera& camera, UnplugHandler& driver) : camera_(camera), driver_(driver) {
-    mode_ = {ONI_PIXEL_FORMAT_DEPTH_1_MM, camera.camera().width, camera.camera().height,
-             camera.fps()};
-    sensor_ = {ONI_SENSOR_DEPTH, 1, &mode_};
+    modes_[0] = {ONI_PIXEL_FORMAT_DEPTH_1_MM, camera.camera().width, camera.camera().height,
+                 camera.fps()};
+    modes_[1] = HalfOf(modes_[0]);
+    sensor_ = {ONI_SENSOR_DEPTH, IsEven(camera.camera()) ? 2 : 1, modes_.data()};
   }
 
   OniStatus getSensorInfoList(OniSensorInfo** sensors, int* count) override {
@@ -217,7 +223,7 @@ class VirtualDevice final : public oni::driver::DeviceBase {
  private:
   VirtualCamera& camera_;
   UnplugHandler& driver_;
-  OniVideoMode mode_{};
+  std::array<OniVideoMode, 2> modes_{};
   OniSensorInfo sensor_{};
 };
 
