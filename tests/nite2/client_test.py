@@ -204,4 +204,4 @@ def rotated(q, v):
 
 
 if __name__ == "__main__":
-    unittest.main()
+    clients.main()

@@ -3,8 +3,10 @@ import json
 import math
 import os
 import pathlib
+import shutil
 import subprocess
 import sys
+import unittest
 
 BUILD = pathlib.Path(os.environ["OSSA_BUILD"])
 WORK = pathlib.Path(os.environ["OSSA_WORK"])  # of this test alone
@@ -23,6 +25,12 @@ PLACES = {0: "Head", 1: "ShoulderCenter", 2: "ShoulderLeft", 3: "ShoulderRight",
           6: "HandLeft", 7: "HandRight", 9: "HipLeft", 10: "HipRight", 11: "KneeLeft", 12: "KneeRight",
           13: "AnkleLeft", 14: "AnkleRight"}
 LEFT_HAND, RIGHT_HAND = 6, 7
+
+
+def main():
+    """Runs the tests of the program in a fresh folder."""
+    shutil.rmtree(WORK, ignore_errors=True)
+    unittest.main()
 
 
 def start():

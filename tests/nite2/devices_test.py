@@ -22,7 +22,7 @@ def status_of(call, *arguments):
         return int(error.args[0])
 
 
-def track(device, seconds=2.5):
+def track(device, seconds=1.5):
     """Frames of whoever is there, with a skeleton: (frame index, joints in NiTE's millimetres)."""
     tracker, seen = nite2.UserTracker(device), []
     end = time.monotonic() + seconds
@@ -394,4 +394,4 @@ def run_python(code, **environment):
 
 
 if __name__ == "__main__":
-    unittest.main()
+    clients.main()

@@ -72,6 +72,21 @@ std::vector<uint16_t> MillimetresOf(const OniFrame& frame, bool mirrored) {
 
 }  // namespace
 
+OniFrameReleaser::OniFrameReleaser(const OniFrame& frame)
+    : data_(frame.data),
+      index_(frame.frameIndex),
+      timestamp_us_(frame.timestamp),
+      generation_(OniThread::Instance().generation()) {}
+
+void OniFrameReleaser::operator()(OniFrame* frame) const {
+  OniThread::Instance().Post([frame, self = *this] {
+    if (self.generation_ != OniThread::Instance().generation()) return;
+    const bool same = frame->data == self.data_ && frame->frameIndex == self.index_ &&
+                      frame->timestamp == self.timestamp_us_;
+    if (same) oniFrameRelease(frame);
+  });
+}
+
 double DepthCamera::Geometry::focal_x() const { return width / (2 * std::tan(across_rad / 2)); }
 double DepthCamera::Geometry::focal_y() const { return height / (2 * std::tan(down_rad / 2)); }
 
@@ -91,6 +106,7 @@ DepthCamera::~DepthCamera() {
 }
 
 void DepthCamera::Open(OniDeviceHandle device) {
+  generation_ = OniThread::Instance().generation();
   if (device == nullptr) {
     Require(oniDeviceOpen(nullptr, &device_), "opening a device");
   } else {
@@ -110,6 +126,7 @@ void DepthCamera::Open(OniDeviceHandle device) {
 }
 
 void DepthCamera::Close() {
+  if (generation_ != OniThread::Instance().generation()) return;
   StopTelling();
   if (stream_ != nullptr) {
     oniStreamStop(stream_);
@@ -179,7 +196,7 @@ std::optional<CameraFrame> DepthCamera::Next(std::chrono::milliseconds timeout) 
   });
   if (delivered == nullptr) return std::nullopt;
   CameraFrame frame;
-  frame.delivered.reset(delivered);
+  frame.delivered = OniFramePtr(delivered, OniFrameReleaser(*delivered));
   if (!known) throw InputError("OpenNI2: a stream that does not know its video mode");
   const Geometry seen = geometry();
   frame.mirrored = seen.mirrored;

@@ -13,9 +13,20 @@
 
 namespace ossa::nite2 {
 
-/// Gives an OniFrame back to OpenNI2.
-struct OniFrameReleaser {
-  void operator()(OniFrame* frame) const { oniFrameRelease(frame); }
+/// Gives an OniFrame back to OpenNI2, unless somebody else has done so: the PyPI package openni
+/// releases depth frames that it holds no reference to.
+class OniFrameReleaser {
+ public:
+  OniFrameReleaser() = default;
+  explicit OniFrameReleaser(const OniFrame& frame);
+  void operator()(OniFrame* frame) const;
+
+ private:
+  // What tells the frame from another one in its place.
+  const void* data_ = nullptr;
+  int index_ = 0;
+  uint64_t timestamp_us_ = 0;
+  int generation_ = 0;
 };
 using OniFramePtr = std::unique_ptr<OniFrame, OniFrameReleaser>;
 
@@ -69,6 +80,7 @@ class DepthCamera {
 
   OniDeviceHandle device_ = nullptr;
   OniStreamHandle stream_ = nullptr;
+  int generation_ = 0;
   OniCallbackHandle device_callback_ = nullptr;
   OniCallbackHandle frame_callback_ = nullptr;
   OniDeviceCallbacks device_callbacks_{};

@@ -1,4 +1,5 @@
 #pragma once
+#include <atomic>
 #include <condition_variable>
 #include <deque>
 #include <functional>
@@ -16,6 +17,9 @@ class OniThread {
 
   /// Does it there and waits; throws what it throws.
   void Run(const std::function<void()>& task);
+  /// How often OpenNI2 was shut down: what is older is gone with it. To be compared on the thread.
+  int generation() const { return generation_; }
+  void EndGeneration() { ++generation_; }
   /// Does it there some time, after what was asked for before.
   void Post(std::function<void()> task);
 
@@ -27,6 +31,7 @@ class OniThread {
   std::condition_variable changed_;
   std::deque<std::function<void()>> tasks_;
   std::thread::id id_;
+  std::atomic<int> generation_ = 0;
 };
 
 }  // namespace ossa::nite2

@@ -1,9 +1,26 @@
 #include "tools/nite2/session_internal.h"
 
+#include <chrono>
+#include <thread>
+
 #include "depth/base/error.h"
 #include "tools/nite2/oni_thread_internal.h"
 
 namespace ossa::nite2 {
+namespace {
+
+// A read that waits ends within a tenth of a second.
+void WaitForEndOf(const std::vector<std::weak_ptr<LiveTracker>>& trackers) {
+  constexpr std::chrono::seconds kLongest{5};  // by hand
+  const auto deadline = std::chrono::steady_clock::now() + kLongest;
+  for (const auto& tracker : trackers) {
+    while (!tracker.expired() && std::chrono::steady_clock::now() < deadline) {
+      std::this_thread::sleep_for(std::chrono::milliseconds(1));
+    }
+  }
+}
+
+}  // namespace
 
 Session& Session::Instance() {
   static auto* instance = new Session;
@@ -20,21 +37,24 @@ void Session::Begin() {
 }
 
 void Session::End() {
-  std::shared_ptr<depth::OpenNiSession> session;
+  const auto session = std::make_shared<std::unique_ptr<depth::OpenNiSession>>();
   {
     const std::lock_guard lock(mutex_);
     if (begun_ == 0 || --begun_ > 0) return;
-    session = std::move(openni_);
+    *session = std::move(openni_);
     models_.reset();
   }
-  users.CloseAll();
-  hands.CloseAll();
+  std::vector<std::weak_ptr<LiveTracker>> closed;
+  users.CloseAll(closed);
+  hands.CloseAll(closed);
+  const auto end = [session] {
+    session->reset();
+    OniThread::Instance().EndGeneration();
+  };
   // After what is still being closed; which a callback must not wait for, being waited for itself.
-  if (LiveTracker::InCallback()) {
-    OniThread::Instance().Post([session = std::move(session)]() mutable { session.reset(); });
-  } else {
-    OniThread::Instance().Run([&session] { session.reset(); });
-  }
+  if (LiveTracker::InCallback()) return OniThread::Instance().Post(end);
+  WaitForEndOf(closed);
+  OniThread::Instance().Run(end);
 }
 
 const tracker::ModelSet& Session::Models() const {

@@ -5,6 +5,7 @@
 #include <memory>
 #include <mutex>
 #include <optional>
+#include <vector>
 
 #include "depth/sensor/openni2/openni_session.h"
 #include "tools/nite2/hand_tracker_internal.h"
@@ -43,13 +44,17 @@ class OpenTrackers {
     tracker->Close();
     return true;
   }
-  void CloseAll() {
+  /// Adds them to `closed`: others may be in them still.
+  void CloseAll(std::vector<std::weak_ptr<LiveTracker>>& closed) {
     std::map<uintptr_t, std::shared_ptr<Tracker>> open;
     {
       const std::lock_guard lock(mutex_);
       open.swap(open_);
     }
-    for (const auto& [handle, tracker] : open) tracker->Close();
+    for (const auto& [handle, tracker] : open) {
+      tracker->Close();
+      closed.push_back(tracker);
+    }
   }
 
  private:
