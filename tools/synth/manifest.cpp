@@ -75,6 +75,15 @@ TruthBody ParseBody(const Json& json, const std::string& place) {
   return body;
 }
 
+Json JsonOf(const std::string& text, const std::string& place) {
+  if (JsonNesting().IsTooDeep(text)) {
+    throw InputError(place + ": expected JSON that nests at most 32 deep");
+  }
+  Json json = Json::parse(text, nullptr, false);
+  if (!json.is_object()) throw InputError(place + ": expected a JSON object, found other text");
+  return json;
+}
+
 }  // namespace
 
 std::string ManifestToJson(const DatasetManifest& manifest) {
@@ -103,10 +112,7 @@ DatasetManifest ReadManifest(const std::filesystem::path& folder) {
   std::string text(kMostBytes, '\0');
   file.read(text.data(), static_cast<std::streamsize>(text.size()));
   text.resize(static_cast<size_t>(file.gcount()));
-  const Json json = JsonNesting().IsTooDeep(text) ? Json(Json::value_t::discarded)
-                                                  : Json::parse(text, nullptr, false);
-  if (json.is_discarded()) throw InputError(path.string() + ": expected JSON, found other text");
-  return ManifestFromJson(json, path);
+  return ManifestFromJson(JsonOf(text, path.string()), path);
 }
 
 std::string TruthLine(const LabelledFrame& frame) {
@@ -130,11 +136,7 @@ std::string TruthLine(const LabelledFrame& frame) {
 }
 
 void ParseTruthLine(const std::string& line, const std::string& place, LabelledFrame* frame) {
-  const Json json = JsonNesting().IsTooDeep(line) ? Json(Json::value_t::discarded)
-                                                  : Json::parse(line, nullptr, false);
-  if (json.is_discarded() || !json.is_object()) {
-    throw InputError(place + ": expected a JSON object, found other text");
-  }
+  const Json json = JsonOf(line, place);
   frame->depth.index = Field<int64_t>(json, place, "frame");
   frame->depth.time_s = Field<double>(json, place, "time_s");
   if (json.contains("floor")) {

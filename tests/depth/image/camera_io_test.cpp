@@ -10,6 +10,7 @@
 #include <future>
 
 #include "depth/base/error.h"
+#include "tests/support/refused.h"
 #include "tests/support/temporary_folder.h"
 
 namespace ossa::depth {
@@ -60,6 +61,12 @@ INSTANTIATE_TEST_SUITE_P(
         std::pair(R"({"width":64,"height":48,"fx":1,"fy":"1","cx":0,"cy":0})", "\"fy\""),
         std::pair(R"({"width":64,"height":48,"fx":1,"fy":1,"cx":1e9,"cy":0})", "\"cx\""),
         std::pair(R"({"width":64,"height":48,"fx":1,"fy":1,"cx":1})", "\"cy\"")));
+
+TEST(CameraJson, ThatNestsDeepIsRefusedBeforeItIsParsed) {
+  const std::string deep = "{\"width\":" + std::string(100'000, '[') + "1";
+  test::ExpectRefused([&] { CameraFromJson(deep, "camera.json"); },
+                      "camera.json: expected JSON that nests at most 32 deep");
+}
 
 TEST(ManifestCamera, IsTheCameraObject) {
   const TemporaryFolder folder;

@@ -135,5 +135,14 @@ TEST(Archives, OfTooManyMembersAreRefused) {
   ExpectRefused([&] { ReadSkeletonClips(folder / "x.tar"); }, "at most 100000 members");
 }
 
+// Its table counts them in 16 bits, and any more pass for another archive's.
+TEST(Archives, AZipOfTooManyMembersIsRefused) {
+  const TemporaryFolder folder;
+  std::vector<std::pair<std::string, std::string>> members;
+  for (int m = 0; m <= 100000; ++m) members.emplace_back(std::to_string(m), "");
+  Put(folder / "x.zip", Zip(members));
+  ExpectRefused([&] { ReadSkeletonClips(folder / "x.zip"); }, "members");
+}
+
 }  // namespace
 }  // namespace ossa::recon

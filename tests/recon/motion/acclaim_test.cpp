@@ -148,6 +148,24 @@ TEST_F(AcclaimTest, DamagedSkeletonsAreRefusedByFileAndLine) {
             std::string::npos);
 }
 
+// A frame of twenty bytes stands for the thousands of numbers that stay as they were.
+TEST_F(AcclaimTest, FramesTimesDegreesOfFreedomAreBounded) {
+  std::string bones, names, frames;
+  for (int b = 0; b < 1900; ++b) {
+    const std::string name = "extra" + std::to_string(b);
+    names += " " + name;
+    bones += "  begin\n    id " + std::to_string(100 + b) + "\n    name " + name +
+             "\n    direction 0 1 0\n    length 1\n    axis 0 0 0 XYZ\n    dof rx ry rz\n  end\n";
+  }
+  for (int f = 1; f < 12000; ++f) frames += std::to_string(f) + "\nroot 0 15 0 0 0 0\n";
+  std::string asf = TPoseAsf();
+  asf.insert(asf.find(":hierarchy"), bones);
+  asf.insert(asf.find("root lowerback") + 4, names);
+  EXPECT_EQ(
+      Refusal(kHeader + frames, asf),
+      "05_01.amc: expected at most 67108864 numbers (frames x degrees of freedom), found more");
+}
+
 TEST_F(AcclaimTest, EveryTruncationIsRefusedOrReadWithoutCrashing) {
   const std::string asf = TPoseAsf();
   for (size_t length = 0; length < asf.size(); length += 7) {

@@ -125,6 +125,19 @@ TEST(InfoCommand, ShowsBothSkeletonsOfAFileThatHoldsTwoSideBySide) {
                 "skeletons two#truth" + rest);
 }
 
+TEST(InfoCommand, RefusesJsonThatNestsDeepByItsFile) {
+  const TemporaryFolder folder;
+  test::WriteExampleFolder(folder.path(), 1);
+  std::filesystem::create_directory(folder / "depth");
+  std::ofstream(folder / "truth.jsonl");
+  std::ofstream(folder / "manifest.json") << "{\"command\":" + std::string(100'000, '[');
+  ExpectRefused(folder.path(), "manifest.json: expected JSON that nests at most 32 deep");
+  std::filesystem::remove(folder / "manifest.json");
+  std::filesystem::remove(folder / "truth.jsonl");
+  std::ofstream(folder / "camera.json") << std::string(100'000, '{');
+  ExpectRefused(folder.path(), "camera.json: expected JSON that nests at most 32 deep");
+}
+
 TEST(InfoCommand, RefusesWhatIsDamagedUnknownOrNotThere) {
   const TemporaryFolder folder;
   TwoPostures().Save(folder / "cut.ossadb");

@@ -99,6 +99,17 @@ TEST(Memory, ThatAFileUsesUpNamesTheFile) {
   EXPECT_EQ(result.err, "ossa: " + file + ": out of memory: expected a file that fits into it\n");
 }
 
+TEST(Memory, ThatMotionUsesUpNamesTheFile) {
+  if (test::kSanitized) GTEST_SKIP() << "the shadow of its memory alone takes more";
+  const TemporaryFolder folder;
+  const CommandResult result = Shell(R"(echo HIERARCHY > "$2/x.bvh"; truncate -s 1G "$2/x.bvh"
+         ulimit -v 400000; exec "$1" database --mocap "$2/x.bvh" --out "$2/y.ossadb" --quiet)",
+                                     folder);
+  EXPECT_EQ(result.exit_status, 1);
+  const std::string file = (folder / "x.bvh").string();
+  EXPECT_EQ(result.err, "ossa: " + file + ": out of memory: expected a file that fits into it\n");
+}
+
 // The first is noted, and as good as lost on who does not ask; one right behind it, as timeout(1)
 // sends, is the same; the next ends it.
 TEST(Interrupt, ASecondOneEndsWhatDoesNotListen) {
