@@ -46,6 +46,12 @@ class Trial {
 
 }  // namespace
 
+void AppendFrame(const depth::DepthFrame& frame, std::string* content) {
+  content->append(reinterpret_cast<const char*>(frame.depth_mm.data()),
+                  frame.depth_mm.size() * sizeof(uint16_t));
+  *content += std::to_string(frame.time_s) + " " + std::to_string(frame.camera.fx);
+}
+
 DamageOutcomes CutShort(const DamageSample& sample, size_t step) {
   Trial trial(sample);
   for (size_t size = 0; size < sample.bytes.size(); size += step) {

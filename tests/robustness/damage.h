@@ -4,6 +4,8 @@
 #include <functional>
 #include <string>
 
+#include "depth/image/depth_frame.h"
+
 namespace ossa::test {
 
 /// What reading a file came to: all that was read, as bytes, and whether a person was told that
@@ -13,7 +15,10 @@ struct Reading {
   bool told = false;
 };
 
-/// A whole file of a format that carries a checksum, and how it is read.
+/// Appends all that is read of a frame.
+void AppendFrame(const depth::DepthFrame& frame, std::string* content);
+
+/// A whole file and how it is read.
 struct DamageSample {
   std::string name;  // of the file: readers go by its extension
   std::string bytes;

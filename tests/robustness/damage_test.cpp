@@ -8,6 +8,7 @@
 #include <cstdlib>
 #include <string_view>
 
+#include "tests/robustness/recordings.h"
 #include "tests/robustness/samples.h"
 
 namespace ossa::test {
@@ -49,6 +50,35 @@ TEST_P(Damage, OfAFlippedBitIsNoticed) {
 }
 
 INSTANTIATE_TEST_SUITE_P(EachFormat, Damage, testing::Range<size_t>(0, 11));
+
+// A program of its own reads each copy: a hundredth of a second.
+class PlainDamage : public testing::TestWithParam<size_t> {
+ protected:
+  void SetUp() override {
+    static const std::vector<DamageSample> samples = PlainRecordings();
+    if (GetParam() >= samples.size()) GTEST_SKIP() << "built without its reader";
+    sample_ = &samples[GetParam()];
+  }
+  static size_t Step(size_t places, size_t copies) {
+    constexpr size_t kFull = 1000;
+    return places / (IsFull() ? kFull : copies) | 1;
+  }
+  const DamageSample* sample_ = nullptr;
+};
+
+TEST_P(PlainDamage, OfAnEndThatIsMissingIsNoticed) {
+  const DamageOutcomes outcomes = CutShort(*sample_, Step(sample_->bytes.size(), 30));
+  Print("cut short", *sample_, outcomes);
+  EXPECT_EQ(outcomes.silent, 0U) << sample_->name << ": " << outcomes.first_silent;
+}
+
+TEST_P(PlainDamage, OfAFlippedBitEndsNothing) {
+  const DamageOutcomes outcomes = FlipBits(*sample_, Step(8 * sample_->bytes.size(), 50));
+  Print("a bit flipped", *sample_, outcomes);
+  EXPECT_GT(outcomes.refused + outcomes.same, 0U);
+}
+
+INSTANTIATE_TEST_SUITE_P(EachFormat, PlainDamage, testing::Range<size_t>(0, 4));
 
 TEST(DamageSamples, AreAsManyAsAreTried) { EXPECT_EQ(ChecksummedSamples().size(), 11U); }
 

@@ -6,7 +6,6 @@
 #include <sstream>
 
 #include "depth/image/depth_png.h"
-#include "depth/sensor/frame_source.h"
 #include "depth/sensor/oni_recorder.h"
 #include "forest/forest.h"
 #include "recon/database/posture_database.h"
@@ -18,6 +17,7 @@
 #include "tests/recon/files/tar_bytes.h"
 #include "tests/recon/files/zip_bytes.h"
 #include "tests/recon/synthetic_motion.h"
+#include "tests/robustness/recordings.h"
 #include "tests/support/depth_examples.h"
 #include "tests/support/temporary_folder.h"
 #include "tools/synth/shard_internal.h"
@@ -117,26 +117,6 @@ DamageSample Prior() {
   return SampleOf("x.ossaprior", prior);
 }
 
-void Append(const depth::DepthFrame& frame, std::string* content) {
-  content->append(reinterpret_cast<const char*>(frame.depth_mm.data()),
-                  frame.depth_mm.size() * sizeof(uint16_t));
-  *content += std::to_string(frame.time_s) + " " + std::to_string(frame.camera.fx);
-}
-
-Reading ReadRecording(const fs::path& path) {
-  Reading reading;
-  depth::SourceOptions options;
-  options.note = [&reading](depth::NoteKind kind, const std::string&) {
-    reading.told = reading.told || kind == depth::NoteKind::kWarning;
-  };
-  const auto source = depth::OpenSource(path.string(), options);
-  for (;;) {
-    const depth::ReadResult result = source->Read(std::chrono::minutes(1));
-    if (result.status != depth::ReadStatus::kFrame) return reading;
-    Append(result.frame, &reading.content);
-  }
-}
-
 DamageSample Recording() {
   const auto save = [](const fs::path& path) {
     depth::OniRecorder recorder(path, ExampleFrame(0, 4, 3).camera);
@@ -207,7 +187,7 @@ DamageSample PackedShard() {
   return {"x.shard", Saved("x.shard", save), [](const fs::path& path) {
             const tools::LabelledFrame read = tools::UnpackFrame(tools::ReadShard(path, 0, 1), 0);
             Reading reading;
-            Append(read.depth, &reading.content);
+            AppendFrame(read.depth, &reading.content);
             reading.content.append(read.parts.data.begin(), read.parts.data.end());
             reading.content.append(read.users.data.begin(), read.users.data.end());
             return reading;

@@ -1,0 +1,75 @@
+#include "tests/robustness/recordings.h"
+
+#include <fstream>
+#include <iterator>
+
+#include "depth/sensor/frame_source.h"
+#include "tests/depth/sensor/mkv_writer.h"
+#include "tests/support/depth_examples.h"
+#include "tests/support/places.h"
+#include "tests/support/temporary_folder.h"
+#ifdef OSSA_TEST_ROSBAG
+#include "tests/depth/sensor/bag_writer.h"
+#include "tests/depth/sensor/ros_bytes.h"
+#endif
+
+namespace ossa::test {
+namespace {
+
+bool HasReader(const char* program) {
+  return std::filesystem::exists(BinaryFolder() / "lib/openni2/reader" / program);
+}
+
+#ifdef OSSA_TEST_ROSBAG
+DamageSample Bag(const std::string& name, rosbag::compression::CompressionType compression) {
+  const TemporaryFolder folder;
+  rosbag::Bag bag;
+  bag.open(folder / name, rosbag::bagmode::Write);
+  bag.setCompression(compression);
+  for (uint32_t i = 0; i < 3; ++i) {
+    const uint32_t second = 100 + i;
+    const depth::DepthFrame frame = ExampleFrame(static_cast<int>(i), 4, 3);
+    const auto bytes = RosImageBytes("16UC1", 4, 3, frame.depth_mm, 8, false, second);
+    bag.write("/depth/image", ros::Time(second, 0), RawMessage{"sensor_msgs/Image", bytes});
+    bag.write("/depth/camera_info", ros::Time(second, 0),
+              RawMessage{"sensor_msgs/CameraInfo", RosCameraInfo(366, 1.5)});
+  }
+  bag.close();
+  std::ifstream file(folder / name, std::ios::binary);
+  return {name, {std::istreambuf_iterator<char>(file), {}}, ReadRecording};
+}
+#endif
+
+}  // namespace
+
+Reading ReadRecording(const std::filesystem::path& path) {
+  Reading reading;
+  depth::SourceOptions options;
+  options.note = [&reading](depth::NoteKind kind, const std::string&) {
+    reading.told = reading.told || kind == depth::NoteKind::kWarning;
+  };
+  const auto source = depth::OpenSource(path.string(), options);
+  for (;;) {
+    const depth::ReadResult result = source->Read(std::chrono::minutes(1));
+    if (result.status != depth::ReadStatus::kFrame) return reading;
+    AppendFrame(result.frame, &reading.content);
+  }
+}
+
+std::vector<DamageSample> PlainRecordings() {
+  std::vector<DamageSample> samples;
+  if (HasReader("ossa_mkv_reader")) {
+    const std::vector<depth::DepthFrame> frames = {ExampleFrame(0, 4, 3), ExampleFrame(1, 4, 3),
+                                                   ExampleFrame(2, 4, 3)};
+    samples.push_back({"x.mkv", MkvBytes(frames), ReadRecording});
+  }
+#ifdef OSSA_TEST_ROSBAG
+  using rosbag::compression::CompressionType;
+  samples.push_back(Bag("x.bag", CompressionType::Uncompressed));
+  samples.push_back(Bag("bz2.bag", CompressionType::BZ2));
+  samples.push_back(Bag("lz4.bag", CompressionType::LZ4));
+#endif
+  return samples;
+}
+
+}  // namespace ossa::test
