@@ -1,19 +1,23 @@
 // What others' recordings say in text and messages: lists and names of frames, calibrations, ROS 1
-// messages. Any bytes are a value or an InputError of one line.
+// messages, a Matroska file's length. Any bytes are a value or an InputError of one line.
 #include <cmath>
 #include <cstdint>
 #include <cstdlib>
 #include <span>
+#include <sstream>
 #include <string>
 #include <vector>
 
 #include "depth/sensor/depth_list.h"
 #include "depth/sensor/frame_names.h"
 #include "depth/sensor/readers/k4a_calibration.h"
+#include "depth/sensor/readers/matroska_length.h"
 #include "depth/sensor/readers/ros_messages.h"
+#include "tests/depth/sensor/mkv_writer.h"
 #include "tests/depth/sensor/ros_bytes.h"
 #include "tests/fuzz/outcome.h"
 #include "tests/fuzz/seeds.h"
+#include "tests/support/depth_examples.h"
 
 namespace {
 
@@ -56,6 +60,7 @@ std::vector<std::string> ossa::fuzz::Seeds() {
   const auto info = test::RosCameraInfo(366, 212);
   return {"# t f\n1305031102.175304 depth/1305031102.175304.png\n1305031102.275304 depth/b.png\n",
           "img_2\nimg_10",
+          test::MkvBytes({test::ExampleFrame(0, 4, 3)}),
           "100\n200\n300",
           R"({"CalibrationInformation":{"Cameras":[{"Purpose":"CALIBRATION_CameraPurposeDepth",)"
           R"("Intrinsics":{"ModelParameters":[0.5,0.5,0.5,0.5,0.1,0,0,0,0,0,0,0,0,0]}}]}})",
@@ -72,5 +77,7 @@ extern "C" int LLVMFuzzerTestOneInput(const uint8_t* data, size_t size) {
   ossa::fuzz::ExpectValueOrOneLine([&] { DepthsOf(ParseRosImage(bytes), 0.001); });
   ossa::fuzz::ExpectValueOrOneLine([&] { ParseRosIntrinsics(bytes); });
   ossa::fuzz::ExpectValueOrOneLine([&] { ParseRosFloat(bytes); });
+  std::istringstream file(text);
+  WarningOfCut(file);
   return 0;
 }

@@ -45,6 +45,7 @@ DamageSample Bag(const std::string& name, rosbag::compression::CompressionType c
 Reading ReadRecording(const std::filesystem::path& path) {
   Reading reading;
   depth::SourceOptions options;
+  options.player_patience = std::chrono::seconds(5);
   options.note = [&reading](depth::NoteKind kind, const std::string&) {
     reading.told = reading.told || kind == depth::NoteKind::kWarning;
   };

@@ -10,6 +10,7 @@ extern "C" {
 #include <array>
 #include <bit>
 #include <cstring>
+#include <fstream>
 #include <memory>
 #include <optional>
 #include <string>
@@ -144,7 +145,8 @@ class DepthTrack {
 void Read(const std::string& path) {
   av_log_set_level(AV_LOG_QUIET);
   const auto file = Open(path);
-  if (const auto warning = WarningOfCut(path)) SendText(ReaderKind::kWarning, *warning);
+  std::ifstream bytes(path, std::ios::binary);
+  if (const auto warning = WarningOfCut(bytes)) SendText(ReaderKind::kWarning, *warning);
   AVStream& track = FindDepthTrack(*file);
   for (unsigned i = 0; i < file->nb_streams; ++i) {
     if (file->streams[i] != &track) file->streams[i]->discard = AVDISCARD_ALL;
