@@ -2,21 +2,19 @@
 // output. A program of its own so that a file that crashes, hangs or bloats the OpenNI2 library
 // ends this process and not the one that wants the frames.
 #include <fcntl.h>
-#include <sys/resource.h>
 #include <unistd.h>
 
 #include <algorithm>
 #include <cerrno>
-#include <chrono>
 #include <climits>
 #include <cstdlib>
 #include <cstring>
 #include <string>
-#include <thread>
 
 #include "depth/base/error.h"
 #include "depth/sensor/oni_pipe_internal.h"
 #include "depth/sensor/openni2/openni_depth_internal.h"
+#include "depth/sensor/reader_limits_internal.h"
 
 namespace ossa::depth {
 namespace {
@@ -42,33 +40,6 @@ void SendError(const std::string& text) {
   message.size = static_cast<uint32_t>(text.size());
   WriteAll(&message, sizeof(message));
   WriteAll(text.data(), text.size());
-}
-
-// The player spins when the file ends badly: no orphan may do so for ever.
-void EndWithTheParent(pid_t parent) {
-  std::thread([parent] {
-    while (getppid() == parent) std::this_thread::sleep_for(std::chrono::seconds(1));
-    _exit(0);
-  }).detach();
-}
-
-// Sanitizers' shadows of the address space alone are larger.
-#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
-#define OSSA_HAS_SHADOW
-#elif defined(__has_feature)
-#if __has_feature(address_sanitizer) || __has_feature(thread_sanitizer)
-#define OSSA_HAS_SHADOW
-#endif
-#endif
-
-void LimitMemory() {
-#ifndef OSSA_HAS_SHADOW
-  constexpr rlim_t kMost = rlim_t{2} << 30;
-  const rlimit limit{kMost, kMost};
-  setrlimit(RLIMIT_AS, &limit);
-#endif
-  const rlimit no_core{0, 0};
-  setrlimit(RLIMIT_CORE, &no_core);
 }
 
 void SendFrame(const openni::VideoFrameRef& frame, bool mirrored, int64_t index) {

@@ -1,13 +1,11 @@
-#include <sys/resource.h>
 #include <unistd.h>
 
-#include <chrono>
 #include <cstring>
 #include <exception>
 #include <string>
-#include <thread>
 #include <vector>
 
+#include "depth/sensor/reader_limits_internal.h"
 #include "depth/sensor/readers/reader_pipe_internal.h"
 
 namespace ossa::depth {
@@ -21,24 +19,6 @@ void WriteAll(const void* data, size_t size) {
     at += written;
     size -= static_cast<size_t>(written);
   }
-}
-
-// A library may spin on a file that ends badly: no orphan may do so for ever.
-void EndWithTheParent(pid_t parent) {
-  std::thread([parent] {
-    while (getppid() == parent) std::this_thread::sleep_for(std::chrono::seconds(1));
-    _exit(0);
-  }).detach();
-}
-
-void LimitMemory() {
-#ifndef __SANITIZE_ADDRESS__                 // whose shadow of the address space alone is larger
-  constexpr rlim_t kMost = rlim_t{2} << 30;  // bytes, by hand: a hundred frames of the largest
-  const rlimit limit{kMost, kMost};
-  setrlimit(RLIMIT_AS, &limit);
-#endif
-  const rlimit no_core{0, 0};
-  setrlimit(RLIMIT_CORE, &no_core);
 }
 
 }  // namespace

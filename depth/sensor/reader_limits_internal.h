@@ -1,0 +1,38 @@
+#pragma once
+// What a program that reads a file for another one may do to the machine.
+#include <sys/resource.h>
+#include <unistd.h>
+
+#include <chrono>
+#include <thread>
+
+namespace ossa::depth {
+
+/// A library may spin on a file that ends badly: no orphan may do so for ever.
+inline void EndWithTheParent(pid_t parent) {
+  std::thread([parent] {
+    while (getppid() == parent) std::this_thread::sleep_for(std::chrono::seconds(1));
+    _exit(0);
+  }).detach();
+}
+
+// Sanitizers' shadows of the address space alone are larger than the limit.
+#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
+inline constexpr bool kHasShadow = true;
+#elif defined(__has_feature)
+inline constexpr bool kHasShadow =
+    __has_feature(address_sanitizer) || __has_feature(thread_sanitizer);
+#else
+inline constexpr bool kHasShadow = false;
+#endif
+
+/// Address space to a bound by hand, a hundred frames of the largest, and no core dumps.
+inline void LimitMemory() {
+  constexpr rlim_t kMost = rlim_t{2} << 30;  // bytes
+  const rlimit limit{kMost, kMost};
+  if (!kHasShadow) setrlimit(RLIMIT_AS, &limit);
+  const rlimit no_core{0, 0};
+  setrlimit(RLIMIT_CORE, &no_core);
+}
+
+}  // namespace ossa::depth
