@@ -15,7 +15,8 @@ constexpr float kSmoothing = 3.0F;  // entry weights (of 127) by which a leaf's 
                                     // stands in where a context was hardly seen
 
 // A leaf's weights, told by context and class. Few of the cells are anything but 0: Load clears
-// those of the leaf before instead of all.
+// those of the leaf before instead of all. Half of the time that a model takes to load is spent
+// here and in SharesOf: hence the plain pointers, which no library's assertions check.
 class LeafCells {
  public:
   LeafCells(size_t classes, size_t contexts)
@@ -25,22 +26,27 @@ class LeafCells {
 
   void Load(const Tree& tree, size_t leaf) {
     Clear();
+    const size_t classes = class_weight_.size();
+    float *class_weight = class_weight_.data(), *cells = weight_.data();
     float total = 0.0F;
-    for (uint32_t i = tree.entry_begin[leaf]; i < tree.entry_begin[leaf + 1]; ++i) {
-      const size_t cell = tree.entries[i] & 511U;
-      const size_t c = cell % class_weight_.size();
-      const auto weight = static_cast<float>(tree.entries[i] >> 9U);
-      if (class_weight_[c] == 0.0F) seen_classes.push_back(c);
-      weight_[cell] += weight;
-      class_weight_[c] += weight;
-      context_weight[cell / class_weight_.size()] += weight;
+    const uint16_t* entry = tree.entries.data() + tree.entry_begin[leaf];
+    const uint16_t* end = tree.entries.data() + tree.entry_begin[leaf + 1];
+    for (; entry < end; ++entry) {
+      const size_t cell = *entry & 511U;
+      const size_t c = cell % classes;
+      const auto weight = static_cast<float>(*entry >> 9U);
+      if (class_weight[c] == 0.0F) seen_classes.push_back(c);
+      cells[cell] += weight;
+      class_weight[c] += weight;
+      context_weight[cell / classes] += weight;
       total += weight;
     }
-    for (const size_t c : seen_classes) share_of_seen.push_back(class_weight_[c] / total);
+    for (const size_t c : seen_classes) share_of_seen.push_back(class_weight[c] / total);
   }
 
-  float Weight(size_t context, size_t c) const {
-    return weight_[context * class_weight_.size() + c];
+  /// One for each class.
+  const float* Weights(size_t context) const {
+    return weight_.data() + context * class_weight_.size();
   }
 
   std::vector<size_t> seen_classes;   // in no order
@@ -49,11 +55,11 @@ class LeafCells {
 
  private:
   void Clear() {
+    const size_t classes = class_weight_.size(), all = weight_.size();
+    float *class_weight = class_weight_.data(), *cells = weight_.data();
     for (const size_t c : seen_classes) {
-      class_weight_[c] = 0.0F;
-      for (size_t k = 0; k < context_weight.size(); ++k) {
-        weight_[k * class_weight_.size() + c] = 0.0F;
-      }
+      class_weight[c] = 0.0F;
+      for (size_t cell = c; cell < all; cell += classes) cells[cell] = 0.0F;
     }
     std::fill(context_weight.begin(), context_weight.end(), 0.0F);
     seen_classes.clear();
@@ -80,9 +86,9 @@ class LogRatios {
   }
 
   float Of(float weight, size_t context) const {
-    const std::vector<float>& ratio = table_[context];
-    if (weight < static_cast<float>(ratio.size())) return ratio[static_cast<size_t>(weight)];
-    return Compute(weight, prior_[context]);
+    const std::vector<float>& ratio = table_.data()[context];
+    if (weight < static_cast<float>(ratio.size())) return ratio.data()[static_cast<size_t>(weight)];
+    return Compute(weight, prior_.data()[context]);
   }
 
  private:
@@ -98,12 +104,13 @@ class LogRatios {
 // The rows of one leaf, centred, so that sums stay small.
 void FillEvidence(const LeafCells& cells, const LogRatios& log_ratios, int16_t* evidence) {
   const size_t contexts = cells.context_weight.size();
+  const float* weight = cells.context_weight.data();
   float mean = 0.0F;
   for (size_t k = 0; k < contexts; ++k) {
-    mean += log_ratios.Of(cells.context_weight[k], k) / static_cast<float>(contexts);
+    mean += log_ratios.Of(weight[k], k) / static_cast<float>(contexts);
   }
   for (size_t k = 0; k < contexts; ++k) {
-    const float value = log_ratios.Of(cells.context_weight[k], k) - mean;
+    const float value = log_ratios.Of(weight[k], k) - mean;
     evidence[k] = static_cast<int16_t>(std::lround(256.0F * value));
   }
 }
@@ -112,9 +119,11 @@ void FillEvidence(const LeafCells& cells, const LogRatios& log_ratios, int16_t* 
 ShareRow SharesOf(const LeafCells& cells, size_t context) {
   std::array<std::pair<float, uint8_t>, kMostShares> most{};  // (-p, column), ascending
   const float whole = cells.context_weight[context] + kSmoothing;
-  for (size_t i = 0; i < cells.seen_classes.size(); ++i) {
-    const size_t c = cells.seen_classes[i];
-    const float p = (cells.Weight(context, c) + kSmoothing * cells.share_of_seen[i]) / whole;
+  const float *weights = cells.Weights(context), *share_of_seen = cells.share_of_seen.data();
+  const size_t *seen = cells.seen_classes.data(), count = cells.seen_classes.size();
+  for (size_t i = 0; i < count; ++i) {
+    const size_t c = seen[i];
+    const float p = (weights[c] + kSmoothing * share_of_seen[i]) / whole;
     if (p <= 0.004F) continue;
     std::pair<float, uint8_t> share{-p, static_cast<uint8_t>(c - 1)};
     if (!(share < most.back())) continue;
@@ -133,9 +142,11 @@ ShareRow SharesOf(const LeafCells& cells, size_t context) {
 // The rows of one leaf. All contexts in which it was never seen have one row.
 void FillShares(const LeafCells& cells, size_t leaf, size_t leaf_count, ShareRow* shares) {
   const ShareRow* unseen = nullptr;
-  for (size_t k = 0; k < cells.context_weight.size(); ++k) {
+  const size_t contexts = cells.context_weight.size();
+  const float* weight = cells.context_weight.data();
+  for (size_t k = 0; k < contexts; ++k) {
     ShareRow& row = shares[k * leaf_count + leaf];
-    const bool is_seen = cells.context_weight[k] > 0.0F;
+    const bool is_seen = weight[k] > 0.0F;
     row = is_seen || unseen == nullptr ? SharesOf(cells, k) : *unseen;
     if (!is_seen) unseen = &row;
   }

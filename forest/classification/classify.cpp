@@ -129,7 +129,8 @@ std::vector<ActiveContext> ActiveContexts(std::span<const float> posterior) {
 [[gnu::always_inline]] inline void FetchRows(const ForestModel& model, size_t context,
                                              const int32_t* leaf) {
   for (const LeafTables& tables : model.tables().leaves) {
-    __builtin_prefetch(&tables.shares[context * tables.leaf_count() + static_cast<size_t>(*leaf)]);
+    __builtin_prefetch(tables.shares.data() + context * tables.leaf_count() +
+                       static_cast<size_t>(*leaf));
     ++leaf;
   }
 }
@@ -150,14 +151,15 @@ OSSA_CPU_DISPATCH void ToMasses(const uint32_t* sum, const uint32_t* total, size
   }
 }
 
-// Adds what a sample's leaves say; returns how much it is.
+// Adds what a sample's leaves say; returns how much it is. By plain pointers, which no library's
+// assertions check: it is done for every sample.
 uint32_t AddLeaves(const ForestModel& model, std::span<const ActiveContext> active,
                    const int32_t* leaf, uint32_t* sum) {
   uint32_t total = 0;
   for (const LeafTables& tables : model.tables().leaves) {
     const auto row_number = static_cast<size_t>(*leaf++);
     for (const ActiveContext& context : active) {
-      const ShareRow& row = tables.shares[context.index * tables.leaf_count() + row_number];
+      const ShareRow& row = tables.shares.data()[context.index * tables.leaf_count() + row_number];
       for (size_t s = 0; s < kMostShares; ++s) {
         const uint32_t mass = context.share * row.share[s];
         sum[row.column[s]] += mass;
@@ -180,9 +182,9 @@ void MixLeaves(const ForestModel& model, std::span<const ActiveContext> active,
     for (size_t i = 0; i < count; ++i) {
       const size_t next = std::min(first + i + kAhead, range[1] - 1);
       for (const ActiveContext& context : active) {
-        FetchRows(model, context.index, &walked->leaf[next * trees]);
+        FetchRows(model, context.index, walked->leaf.data() + next * trees);
       }
-      total[i] = AddLeaves(model, active, &walked->leaf[(first + i) * trees],
+      total[i] = AddLeaves(model, active, walked->leaf.data() + (first + i) * trees,
                            sum.data() + i * walked->stride);
     }
     ToMasses(sum.data(), total.data(), count, walked->stride,

@@ -59,7 +59,7 @@ PackedNode Pack(const Node& node, int offset_step) {
 
 class Placer {
  public:
-  explicit Placer(const std::vector<Node>& nodes) : nodes_(nodes) {
+  explicit Placer(const std::vector<Node>& nodes) : nodes_(nodes.data()) {
     tree.offset_step = OffsetStep(nodes);
     const std::vector<size_t> inner = InnerNodes(nodes);
     const size_t above = (kLevelsOfLine - inner.size() % kLevelsOfLine) % kLevelsOfLine;
@@ -112,7 +112,7 @@ class Placer {
   }
 
   static constexpr int32_t kNowhere = -1;
-  const std::vector<Node>& nodes_;
+  const Node* nodes_;
   std::vector<int32_t> waiting_;  // roots of lines behind the first; those before the one at hand
                                   // are placed
 };
