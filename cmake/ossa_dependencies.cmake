@@ -20,6 +20,10 @@ pkg_check_modules(zstd REQUIRED IMPORTED_TARGET libzstd)
 pkg_check_modules(freenect QUIET IMPORTED_TARGET libfreenect)
 pkg_check_modules(libav QUIET IMPORTED_TARGET libavformat libavcodec libavutil)  # .mkv
 include(ossa_rosbag)
+find_library(OSCPACK_LIBRARY oscpack)  # live output to avatars' programs
+if(NOT OSCPACK_LIBRARY)
+  message(STATUS "--send vmc:// and vrchat:// are left out: liboscpack-dev is not installed")
+endif()
 if(OSSA_PYTHON AND NOT OSSA_SANITIZE)  # a sanitizer must be in the interpreter first
   if(NOT SKBUILD AND NOT Python_EXECUTABLE AND EXISTS /usr/bin/python3)
     set(Python_EXECUTABLE /usr/bin/python3)  # Debian's own, which has Debian's packages

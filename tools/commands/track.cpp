@@ -25,6 +25,7 @@
 #include "tools/commands/outputs.h"
 #include "tools/commands/process.h"
 #include "tools/commands/source_options.h"
+#include "tools/stream/sender.h"
 #include "tools/tracker/picture.h"
 #include "tools/tracker/run_stats.h"
 #include "tools/tracker/shipped.h"
@@ -46,7 +47,9 @@ struct TrackOptions {
   tracker::ModelFiles files;
   tracker::TrackerOptions tracker;
   int64_t frames = 0;
-  int port = 8080;  // by convention, an HTTP port that needs no rights
+  std::vector<std::string> send;
+  std::vector<stream::Target> targets;  // of `send`
+  int port = 8080;                      // by convention, an HTTP port that needs no rights
   bool view = false;
   bool quiet = false;
 };
@@ -101,6 +104,16 @@ void CheckLookIsRead(const TrackOptions& options) {
   SayNotRead("--look", options.tracker.method);
 }
 
+std::vector<stream::Target> TargetsOf(const std::vector<std::string>& urls) {
+  std::vector<stream::Target> targets;
+  try {
+    for (const std::string& url : urls) targets.push_back(stream::ParseTarget(url));
+  } catch (const InputError& error) {
+    throw UsageError(std::string("track: ") + error.what());
+  }
+  return targets;
+}
+
 TrackOptions ParseOptions(int argc, char** argv) {
   CLI::App app("Follow the people in any SOURCE and write their skeletons");
   TrackOptions options;
@@ -121,15 +134,21 @@ TrackOptions ParseOptions(int argc, char** argv) {
   app.add_option("--picture", options.picture,
                  "FILE.png of one frame: depth, parts, joints, skeleton");
   app.add_option("--pictures", options.pictures, "folder for such a picture of every frame");
+  app.add_option("--send", options.send,
+                 "live, to vmc://HOST:PORT (avatars), vrchat://HOST:PORT[?scale=X] or "
+                 "udp://HOST:PORT (JSONL); repeat for more")
+      ->allow_extra_args(false);
   app.add_flag("--view", options.view, "show it in a browser while it runs (127.0.0.1)");
   app.add_option("--port", options.port, "of --view (default 8080)")->check(CLI::Range(0, 65535));
   app.add_flag("--quiet", options.quiet, "no progress");
   Parse(app, argc, argv);
   if (options.out.empty() && options.picture.empty() && options.pictures.empty() && !options.view &&
-      options.json_stats.empty() && options.trace.empty()) {
+      options.json_stats.empty() && options.trace.empty() && options.send.empty()) {
     throw UsageError(
-        "track: nothing to do: name --out, --picture, --pictures, --json-stats, --trace or --view");
+        "track: nothing to do: name --out, --picture, --pictures, --json-stats, --trace, --send or "
+        "--view");
   }
+  options.targets = TargetsOf(options.send);
   CheckRead(app, options.tracker.method, options.quiet);
   CheckLearned(options.tracker.method, options.files.learned);
   options.bones.Check(options.tracker.method);
@@ -262,7 +281,7 @@ std::optional<int64_t> FramesWanted(const depth::FrameSource& source, const Trac
 
 void TrackAll(depth::FrameSource& source, tracker::Tracker& tracker, const TrackOptions& options,
               SkeletonOutput& output, DecisionTrace& trace, Pictures& pictures,
-              viewer::Viewer* viewer, Run& run) {
+              viewer::Viewer* viewer, stream::Sender& sender, Run& run) {
   Progress progress("tracking", options.quiet);
   const auto known = static_cast<double>(source.frame_count().value_or(0));
   run.of = FramesWanted(source, options);
@@ -286,6 +305,7 @@ void TrackAll(depth::FrameSource& source, tracker::Tracker& tracker, const Track
     run.dropped += read.dropped;
     const tracker::BodyFrame bodies = tracker.Track(read.frame);
     run.stats.Add(bodies.ms);
+    sender.Send(bodies);  // first: it is waited for
     output.Write(bodies);
     trace.Write(bodies);
     pictures.Take(read.frame, bodies);
@@ -382,10 +402,11 @@ int Track(int argc, char** argv) {
     viewer = std::make_unique<viewer::Viewer>(options.port);
     Say(fmt::format("watch at http://127.0.0.1:{}/\n", viewer->port()));
   }
+  stream::Sender sender(options.targets);
   Run run;
   std::string failure;
   try {
-    TrackAll(*source, tracker, options, output, trace, pictures, viewer.get(), run);
+    TrackAll(*source, tracker, options, output, trace, pictures, viewer.get(), sender, run);
   } catch (const DiskFull& full) {
     throw output.WithWhatFits(full);
   } catch (const InputError& error) {

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <chrono>
+#include <condition_variable>
 #include <future>
 #include <mutex>
 #include <nlohmann/json.hpp>
@@ -22,6 +23,9 @@ namespace {
 // Half the usual image each way: 77 kB a frame to the browser.
 constexpr int kThinning = 2;
 
+// Each holds a thread of the eight: the page must have some, too.
+constexpr int kMostListeners = 4;
+
 // Near is bright; 0 where nothing was measured.
 std::string GreyImage(const depth::DepthFrame& frame) {
   constexpr int kNear_mm = 500, kFar_mm = 5000;
@@ -35,6 +39,18 @@ std::string GreyImage(const depth::DepthFrame& frame) {
     }
   }
   return grey;
+}
+
+// A page of this machine, such as one under development, may read events; one from elsewhere may
+// not.
+void AllowPagesOfThisMachine(const httplib::Request& request, httplib::Response& response) {
+  const std::string origin = request.get_header_value("Origin");
+  for (const char* host : {"http://localhost", "http://127.0.0.1"}) {
+    const std::string_view rest = std::string_view(origin).substr(
+        origin.starts_with(host) ? std::string_view(host).size() : 0);
+    if (!origin.starts_with(host) || (!rest.empty() && rest.front() != ':')) continue;
+    response.set_header("Access-Control-Allow-Origin", origin);
+  }
 }
 
 // Pages elsewhere can make a browser ask this machine under a name of theirs (DNS rebinding).
@@ -73,6 +89,55 @@ struct Viewer::Impl {
   std::string frame_json = R"({"number":-1})";
   std::string grey;
   int64_t number = 0;
+  std::condition_variable changed;  // `number`, or `stopping`
+  std::string skeletons_json;       // the newest frame's
+  int listeners = 0;                // of events
+  bool stopping = false;
+
+  // What an event stream gets next: the newest skeletons once they are others than `seen`, or a
+  // comment after a second of none, which tells whether anybody is there. False at the end.
+  bool NextEvent(int64_t& seen, std::string& event) {
+    std::unique_lock lock(mutex);
+    const bool is_new =
+        changed.wait_for(lock, std::chrono::seconds(1), [&] { return stopping || number != seen; });
+    if (stopping) return false;
+    event = is_new ? "data: " + skeletons_json + "\n\n" : ": \n\n";
+    seen = number;
+    return true;
+  }
+
+  // Server-sent events (HTML standard, 9.2): a line of skeleton JSONL each. A slow reader misses
+  // frames, not time.
+  void ServeSkeletons(const httplib::Request& request, httplib::Response& response) {
+    AllowPagesOfThisMachine(request, response);
+    {
+      const std::lock_guard lock(mutex);
+      if (listeners == kMostListeners) {
+        response.status = 503;
+        return;
+      }
+      ++listeners;
+    }
+    response.set_chunked_content_provider(
+        "text/event-stream",
+        [this, seen = int64_t{0}](size_t, httplib::DataSink& sink) mutable {
+          std::string event;
+          return NextEvent(seen, event) && sink.write(event.data(), event.size());
+        },
+        [this](bool) {
+          const std::lock_guard lock(mutex);
+          --listeners;
+        });
+  }
+
+  void Stop() {
+    {
+      const std::lock_guard lock(mutex);
+      stopping = true;
+    }
+    changed.notify_all();
+    server.stop();
+  }
 
   void Serve() {
     server.Get("/", [](const httplib::Request&, httplib::Response& response) {
@@ -85,6 +150,9 @@ struct Viewer::Impl {
     server.Get("/depth", [this](const httplib::Request&, httplib::Response& response) {
       const std::lock_guard lock(mutex);
       response.set_content(grey, "application/octet-stream");
+    });
+    server.Get("/skeletons", [this](const httplib::Request& request, httplib::Response& response) {
+      ServeSkeletons(request, response);
     });
     thread = std::thread([this] {
       server.listen_after_bind();
@@ -113,7 +181,7 @@ Viewer::Viewer(int port) : impl_(std::make_unique<Impl>()) {
 }
 
 Viewer::~Viewer() {
-  impl_->server.stop();
+  impl_->Stop();
   if (impl_->ended.get_future().wait_for(std::chrono::seconds(2)) == std::future_status::ready) {
     impl_->thread.join();
     return;
@@ -137,12 +205,15 @@ void Viewer::Show(const depth::DepthFrame& frame, const recon::SkeletonFrame& sk
                            {"fy", camera.fy},
                            {"cx", camera.cx},
                            {"cy", camera.cy}}}};
-  json["skeletons"] = nlohmann::json::parse(recon::SkeletonJsonLine(skeletons));
+  std::string line = recon::SkeletonJsonLine(skeletons);
+  json["skeletons"] = nlohmann::json::parse(line);
   std::string grey = GreyImage(frame);
   const std::lock_guard lock(impl_->mutex);
   json["number"] = impl_->number++;
   impl_->frame_json = json.dump();
   impl_->grey = std::move(grey);
+  impl_->skeletons_json = std::move(line);
+  impl_->changed.notify_all();
 }
 
 }  // namespace ossa::viewer

@@ -7,7 +7,9 @@
 namespace ossa::viewer {
 
 /// A small web page on 127.0.0.1 that shows the newest depth image and its skeletons, from the
-/// front and from above. Serves from threads of its own; nobody outside this machine sees it.
+/// front and from above; /skeletons are the skeletons alone as server-sent events, a line of
+/// skeleton JSONL each, for other programs. Serves from threads of its own; nobody outside this
+/// machine sees it.
 class Viewer {
  public:
   /// Port 0 takes any free one. Throws InputError when the port is taken.

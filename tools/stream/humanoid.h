@@ -1,0 +1,79 @@
+#pragma once
+#include <Eigen/Core>
+#include <Eigen/Geometry>
+#include <array>
+#include <optional>
+#include <string_view>
+
+#include "tools/tracker/tracker.h"
+
+namespace ossa::stream {
+
+/// The bones of Unity's humanoid that a depth image tells of, parents before children.
+enum class HumanBone {
+  kHips,
+  kSpine,
+  kChest,
+  kNeck,
+  kHead,
+  kLeftShoulder,
+  kLeftUpperArm,
+  kLeftLowerArm,
+  kLeftHand,
+  kRightShoulder,
+  kRightUpperArm,
+  kRightLowerArm,
+  kRightHand,
+  kLeftUpperLeg,
+  kLeftLowerLeg,
+  kLeftFoot,
+  kLeftToes,
+  kRightUpperLeg,
+  kRightLowerLeg,
+  kRightFoot,
+  kRightToes,
+};
+inline constexpr size_t kHumanBoneCount = 21;
+
+/// What is known of a bone: its name as HumanBodyBones has it, its parent (-1: none), the joint
+/// that it begins in, and the joint that ends the bone of ossa which turns it.
+struct HumanBoneInfo {
+  std::string_view name;
+  int parent;
+  recon::Joint place;
+  recon::Joint turner;
+};
+extern const std::array<HumanBoneInfo, kHumanBoneCount> kHumanBones;
+
+/// A place and a rotation in Unity's axes: left-handed, x right, y up, z forward; metres.
+struct UnityTransform {
+  Eigen::Vector3d position_m = Eigen::Vector3d::Zero();
+  Eigen::Quaterniond rotation = Eigen::Quaterniond::Identity();
+};
+using Humanoid = std::array<UnityTransform, kHumanBoneCount>;
+
+/// From camera space to a room in Unity's axes: the floor is y = 0 below the sensor, up is off the
+/// floor, and who faces the sensor faces +z. Remembers the floor.
+class UnityRoom {
+ public:
+  /// Takes the frame's floor into account, if there is one. Until one is seen the camera is taken
+  /// to be level, and the lowest foot to stand on the floor.
+  void See(const tracker::BodyFrame& frame);
+
+  Eigen::Vector3d Place(const Eigen::Vector3d& camera_m) const;
+  /// A rotation of camera space.
+  Eigen::Quaterniond Turn(const Eigen::Quaterniond& rotation) const;
+
+ private:
+  std::optional<Eigen::Vector4d> floor_;  // mean of those seen
+  int floors_ = 0;
+  double height_m_ = 0.0;  // of the sensor, while no floor is seen
+  Eigen::Quaterniond level_from_camera_ = Eigen::Quaterniond::Identity();
+};
+
+/// Places of a body's bones and how they are turned from a T-pose that faces +z, in the room.
+Humanoid PoseOf(const tracker::Body& body, const UnityRoom& room);
+/// The same, each bone as its parent sees it: what a hierarchy of transforms holds.
+Humanoid LocalOf(const Humanoid& world);
+
+}  // namespace ossa::stream

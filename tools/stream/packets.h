@@ -1,0 +1,22 @@
+#pragma once
+#include <string>
+
+#include "tools/stream/humanoid.h"
+
+namespace ossa::stream {
+
+/// One moment of one person for a VMC receiver, an OSC bundle: available, time, root, and every
+/// bone as its parent sees it.
+std::string VmcPacket(const Humanoid& world, double time_s);
+
+/// One moment of one person as VRChat's trackers 1 to 8 (hip, chest, left and right foot, knee,
+/// elbow) and head, an OSC bundle: metres times `scale`, Euler degrees in Unity's order.
+std::string VrchatPacket(const Humanoid& world, double scale);
+
+/// Throws InputError where ossa was built without OSC.
+void CheckHasOsc();
+
+/// Unity's Euler angles in degrees: about z, then x, then y.
+Eigen::Vector3d EulerDegrees(const Eigen::Quaterniond& rotation);
+
+}  // namespace ossa::stream

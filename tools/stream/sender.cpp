@@ -1,0 +1,82 @@
+#include "tools/stream/sender.h"
+
+#include <algorithm>
+#include <array>
+
+#include "recon/files/skeleton_jsonl.h"
+#include "tools/stream/humanoid.h"
+#include "tools/stream/packets.h"
+#include "tools/stream/udp_socket_internal.h"
+#include "tools/tracker/skeleton_record.h"
+
+namespace ossa::stream {
+namespace {
+
+constexpr size_t kMostPeople = 6;  // by definition of the tracker
+
+}  // namespace
+
+struct Sender::Impl {
+  struct Line {
+    Target target;
+    UdpSocket socket;
+  };
+  std::vector<Line> lines;
+  UnityRoom room;
+  std::array<int, kMostPeople> people{};  // body ids by port; 0: free
+
+  void Seat(const tracker::BodyFrame& frame);
+  void SendPerson(const tracker::Body& body, size_t seat, double time_s);
+};
+
+Sender::Sender(const std::vector<Target>& targets) : impl_(std::make_unique<Impl>()) {
+  for (const Target& target : targets) {
+    if (target.protocol != Protocol::kJsonl) CheckHasOsc();
+    impl_->lines.push_back({target, UdpSocket(target)});
+  }
+}
+Sender::~Sender() = default;
+Sender::Sender(Sender&&) noexcept = default;
+Sender& Sender::operator=(Sender&&) noexcept = default;
+
+// Whoever left frees a seat, whoever came takes the first.
+void Sender::Impl::Seat(const tracker::BodyFrame& frame) {
+  for (int& id : people) {
+    const bool here = std::any_of(frame.bodies.begin(), frame.bodies.end(),
+                                  [&](const tracker::Body& body) { return body.id == id; });
+    if (!here) id = 0;
+  }
+  for (const tracker::Body& body : frame.bodies) {
+    if (std::find(people.begin(), people.end(), body.id) != people.end()) continue;
+    const auto seat = std::find(people.begin(), people.end(), 0);
+    if (seat != people.end()) *seat = body.id;
+  }
+}
+
+void Sender::Impl::SendPerson(const tracker::Body& body, size_t seat, double time_s) {
+  const Humanoid world = PoseOf(body, room);
+  for (Line& line : lines) {
+    if (line.target.protocol == Protocol::kVmc) {
+      line.socket.Send(VmcPacket(world, time_s), static_cast<int>(seat));
+    }
+    if (line.target.protocol == Protocol::kVrchat && seat == 0) {
+      line.socket.Send(VrchatPacket(world, line.target.scale), 0);
+    }
+  }
+}
+
+void Sender::Send(const tracker::BodyFrame& frame) {
+  impl_->room.See(frame);
+  impl_->Seat(frame);
+  for (const tracker::Body& body : frame.bodies) {
+    const auto seat = std::find(impl_->people.begin(), impl_->people.end(), body.id);
+    if (seat == impl_->people.end() || body.state != tracker::BodyState::kTracked) continue;
+    impl_->SendPerson(body, static_cast<size_t>(seat - impl_->people.begin()), frame.time_s);
+  }
+  for (Impl::Line& line : impl_->lines) {
+    if (line.target.protocol != Protocol::kJsonl) continue;
+    line.socket.Send(recon::SkeletonJsonLine(tracker::RecordOf(frame)), 0);
+  }
+}
+
+}  // namespace ossa::stream

@@ -1,0 +1,29 @@
+#pragma once
+#include <sys/socket.h>
+
+#include <string>
+
+#include "tools/stream/target.h"
+
+namespace ossa::stream {
+
+/// Sends datagrams to a target and its next ports without ever waiting.
+class UdpSocket {
+ public:
+  /// Throws InputError where the host has no address.
+  explicit UdpSocket(const Target& target);
+  ~UdpSocket();
+  UdpSocket(UdpSocket&& other) noexcept;
+  UdpSocket& operator=(UdpSocket&&) = delete;
+
+  /// To the target's port plus `offset`. What cannot leave at once is dropped.
+  void Send(const std::string& bytes, int offset) const;
+
+ private:
+  int descriptor_ = -1;
+  int port_ = 0;
+  sockaddr_storage address_{};
+  socklen_t address_size_ = 0;
+};
+
+}  // namespace ossa::stream
