@@ -33,7 +33,7 @@ enum class HumanBone {
   kRightFoot,
   kRightToes,
 };
-inline constexpr size_t kHumanBoneCount = 21;
+inline constexpr size_t kHumanBoneCount = 21;  // by definition, of those above
 
 /// What is known of a bone: its name as HumanBodyBones has it, its parent (-1: none), the joint
 /// that it begins in, and the joint that ends the bone of ossa which turns it.
