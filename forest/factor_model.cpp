@@ -134,16 +134,16 @@ void TakeOut(const Site& site, const Eigen::Vector3d& mean_m, Eigen::Matrix3d* c
 
 }  // namespace
 
-FactorModel::FactorModel(const Arrangement& arrangement)
-    : targets_(arrangement.noise_m.size()),
-      factors_(arrangement.loading_m.size() / std::max<size_t>(1, 3 * targets_) + 3),
+FactorModel::FactorModel(const PosePrior& prior)
+    : targets_(prior.noise_m.size()),
+      factors_(prior.loading_m.size() / std::max<size_t>(1, 3 * targets_) + 3),
       row_stride_(FilledUp(factors_)),
       axis_stride_(FilledUp(targets_)),
       rows_(3 * targets_ * row_stride_),
       columns_(factors_ * 3 * axis_stride_) {
   for (size_t t = 0; t < targets_; ++t) {
     for (size_t axis = 0; axis < 3; ++axis) {
-      const float* loading_m = arrangement.loading_m.data() + (3 * t + axis) * (factors_ - 3);
+      const float* loading_m = prior.loading_m.data() + (3 * t + axis) * (factors_ - 3);
       for (size_t f = 0; f < factors_; ++f) {
         const bool is_place = f >= factors_ - 3;
         const double place_m = f - (factors_ - 3) == axis ? kPlaceSpread_m : 0.0;
@@ -152,9 +152,9 @@ FactorModel::FactorModel(const Arrangement& arrangement)
         columns_[(3 * f + axis) * axis_stride_ + t] = value;
       }
     }
-    const float* mean_m = arrangement.mean_m.data() + 3 * t;
+    const float* mean_m = prior.mean_m.data() + 3 * t;
     mean_m_.emplace_back(mean_m[0], mean_m[1], mean_m[2]);
-    const double noise_m = arrangement.noise_m[t];
+    const double noise_m = prior.noise_m[t];
     variance_m2_.push_back(noise_m * noise_m);
   }
 }

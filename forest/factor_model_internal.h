@@ -19,11 +19,11 @@ struct Prediction {
   Eigen::Matrix3d covariance_m2 = Eigen::Matrix3d::Identity();
 };
 
-/// An arrangement (forest.h), the common place as three more factors, laid out for prediction. The
+/// A pose prior (forest.h), the common place as three more factors, laid out for prediction. The
 /// same bits on every machine.
 class FactorModel {
  public:
-  explicit FactorModel(const Arrangement& arrangement);
+  explicit FactorModel(const PosePrior& prior);
 
   /// One site and one prediction a target: the posterior of the factors given all sites, each
   /// target's own site taken out again.

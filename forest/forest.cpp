@@ -13,7 +13,7 @@ namespace {
 constexpr size_t kMaxCells = 512;
 constexpr size_t kMaxFactors = 64;
 constexpr size_t kMaxLayers = 4;
-constexpr size_t kMaxLayerWidth = 4096;
+constexpr Eigen::Index kMaxLayerWidth = 4096;
 
 [[noreturn]] void Refuse(const std::string& name, const std::string& reason) {
   throw InputError(name + ": forest model: " + reason);
@@ -128,40 +128,42 @@ void CheckTarget(const ForestData& data, const ProposalTarget& target, const std
   CheckLogistic(target.apart, where);
 }
 
-bool AllWithin(const std::vector<float>& values, float low, float high) {
-  return std::all_of(values.begin(), values.end(),
+// Of a vector or a matrix.
+template <typename Numbers>
+bool AllWithin(const Numbers& values, float low, float high) {
+  return std::all_of(values.data(), values.data() + values.size(),
                      [&](float value) { return value >= low && value <= high; });
 }
 
-void CheckArrangements(const ForestData& data, const std::string& name) {
-  if (data.arrangements.empty()) return;
-  if (data.arrangements.size() != data.context_names.size()) {
-    Refuse(name, "arrangements: expected " + std::to_string(data.context_names.size()) +
-                     ", one a context, found " + std::to_string(data.arrangements.size()));
+void CheckPosePriors(const ForestData& data, const std::string& name) {
+  if (data.pose_priors.empty()) return;
+  if (data.pose_priors.size() != data.context_names.size()) {
+    Refuse(name, "pose priors: expected " + std::to_string(data.context_names.size()) +
+                     ", one a context, found " + std::to_string(data.pose_priors.size()));
   }
   constexpr float kFar_m = 100.0F;
   const size_t rows = 3 * data.targets.size();
-  const size_t size = data.arrangements.front().loading_m.size();
-  for (const Arrangement& a : data.arrangements) {
+  const size_t size = data.pose_priors.front().loading_m.size();
+  for (const PosePrior& a : data.pose_priors) {
     if (a.mean_m.size() != rows || a.noise_m.size() != data.targets.size() ||
         a.loading_m.size() != size || size % std::max<size_t>(rows, 1) != 0 ||
         size > kMaxFactors * rows) {
-      Refuse(name, "arrangements: sizes do not match the number of targets");
+      Refuse(name, "pose priors: sizes do not match the number of targets");
     }
     if (!AllWithin(a.mean_m, -kFar_m, kFar_m) || !AllWithin(a.loading_m, -kFar_m, kFar_m) ||
         !AllWithin(a.noise_m, 1e-3F, kFar_m)) {
-      Refuse(name, "arrangements: expected lengths within 100 m, noise of at least 1 mm");
+      Refuse(name, "pose priors: expected lengths within 100 m, noise of at least 1 mm");
     }
   }
 }
 
 void CheckRefinement(const ForestData& data, const std::string& name) {
-  const Refinement& refinement = data.refinement;
-  if (refinement.layers.empty()) return;
-  if (data.arrangements.empty()) Refuse(name, "refinement: expected arrangements beside it");
+  const Perceptron& refinement = data.refinement;
+  if (refinement.empty()) return;
+  if (data.pose_priors.empty()) Refuse(name, "refinement: expected pose priors beside it");
   if (refinement.layers.size() > kMaxLayers) Refuse(name, "refinement: more than 4 layers");
-  size_t inputs =
-      DescriptionSize(data.targets.size(), data.class_names.size(), data.context_names.size());
+  auto inputs = static_cast<Eigen::Index>(
+      JointFeatureCount(data.targets.size(), data.class_names.size(), data.context_names.size()));
   if (refinement.input_mean.size() != inputs || refinement.input_scale.size() != inputs) {
     Refuse(name, "refinement: expected " + std::to_string(inputs) + " inputs, found " +
                      std::to_string(refinement.input_mean.size()) + " and " +
@@ -170,32 +172,34 @@ void CheckRefinement(const ForestData& data, const std::string& name) {
   constexpr float kMost = 1e6F;
   bool sane = AllWithin(refinement.input_mean, -kMost, kMost) &&
               AllWithin(refinement.input_scale, 0.0F, kMost);
-  for (const NetworkLayer& layer : refinement.layers) {
-    const size_t outputs = layer.bias.size();
-    if (outputs > kMaxLayerWidth || layer.weight.size() != inputs * outputs) {
+  for (const PerceptronLayer& layer : refinement.layers) {
+    const Eigen::Index outputs = layer.bias.size();
+    if (outputs > kMaxLayerWidth || layer.weight.rows() != inputs ||
+        layer.weight.cols() != outputs) {
       Refuse(name, "refinement: a layer's weights do not match its inputs and outputs");
     }
     sane = sane && AllWithin(layer.weight, -kMost, kMost) && AllWithin(layer.bias, -kMost, kMost);
     inputs = outputs;
   }
-  if (inputs != 4 * data.targets.size()) Refuse(name, "refinement: expected 4 outputs a target");
+  if (inputs != 4 * static_cast<Eigen::Index>(data.targets.size()))
+    Refuse(name, "refinement: expected 4 outputs a target");
   if (!sane) Refuse(name, "refinement: expected numbers of at most a million");
 }
 
-void CheckPartPrior(const ForestData& data, const std::string& name) {
-  const PartPrior& prior = data.part_prior;
+void CheckRelabelling(const ForestData& data, const std::string& name) {
+  const Relabelling& prior = data.relabelling;
   if (prior.bias.empty() && prior.weight.empty()) return;
   const size_t classes = data.class_names.size() - 1;
-  const size_t weights = 2 * kNearnessScales * data.targets.size() * classes;
+  const size_t weights = 2 * kRadialBasisScales * data.targets.size() * classes;
   if (prior.bias.size() != classes || prior.weight.size() != weights) {
-    Refuse(name, "part prior: expected " + std::to_string(weights) + " weights and " +
+    Refuse(name, "relabelling: expected " + std::to_string(weights) + " weights and " +
                      std::to_string(classes) + " biases, found " +
                      std::to_string(prior.weight.size()) + " and " +
                      std::to_string(prior.bias.size()));
   }
   constexpr float kMost = 1e4F;
   if (!AllWithin(prior.weight, -kMost, kMost) || !AllWithin(prior.bias, -kMost, kMost)) {
-    Refuse(name, "part prior: expected numbers of at most ten thousand");
+    Refuse(name, "relabelling: expected numbers of at most ten thousand");
   }
 }
 
@@ -206,9 +210,9 @@ ForestModel::ForestModel(ForestData data, const std::string& name, ModelUse use)
   if (data.trees.empty() || data.trees.size() > 64) Refuse(name, "expected 1 to 64 trees");
   for (size_t t = 0; t < data.trees.size(); ++t) CheckTree(data, t, name);
   for (const ProposalTarget& target : data.targets) CheckTarget(data, target, name);
-  CheckArrangements(data, name);
+  CheckPosePriors(data, name);
   CheckRefinement(data, name);
-  CheckPartPrior(data, name);
+  CheckRelabelling(data, name);
   tables_ = std::make_shared<const RuntimeTables>(MakeRuntimeTables(&data, use));
   data_ = std::make_shared<const ForestData>(std::move(data));
 }

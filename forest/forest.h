@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "forest/network.h"
+#include "depth/base/perceptron/perceptron.h"
 #include "forest/trees/tree.h"
 
 namespace ossa::forest {
@@ -20,8 +20,8 @@ struct Logistic {
   std::array<float, N> weight{};
   float bias = 0.0F;
 };
-using Confidence = Logistic<5>;  // of a mode, from what mean shift saw there
-using Agreement = Logistic<8>;   // of a place, from how it fits those of the other targets
+using ModeConfidence = Logistic<5>;   // of a mode, from what mean shift saw there
+using PlaceConfidence = Logistic<8>;  // of a place, from how it fits those of the other targets
 
 /// How one 3D target (a joint) is found among classified pixels. Learned on held-out frames.
 struct ProposalTarget {
@@ -35,37 +35,29 @@ struct ProposalTarget {
   float vote_sharpness_m = 0.06F;       // votes of wider spread count less
   float tracked_confidence = 0.5F;      // at least: tracked
   float inferred_confidence = 0.15F;    // at least: inferred; less: not tracked
-  Confidence correct;                   // P(within 10 cm of the truth)
-  Confidence visible;                   // P(its surface is seen)
+  ModeConfidence correct;               // P(within 10 cm of the truth)
+  ModeConfidence visible;               // P(its surface is seen)
   float mode_noise_m = 0.03F;           // of modes against what the other targets predict
-  Agreement fused;                      // P(within 10 cm), where modes and other targets meet
-  Agreement apart;                      // the same, of a mode that does not fit the others
+  PlaceConfidence fused;                // P(within 10 cm), where modes and other targets meet
+  PlaceConfidence apart;                // the same, of a mode that does not fit the others
 };
 
-/// How the targets of an object seen in one context lie to each other: factors of a normal
-/// distribution around a common place, x = place + mean + loading · z + noise, z ~ N(0, I).
-struct Arrangement {
+/// The pose prior of objects seen in one context: factor analysis of how the targets lie to each
+/// other, x = place + mean + loading · z + noise, z ~ N(0, I), about a common place that is free.
+struct PosePrior {
   std::vector<float> mean_m;     // target × 3, camera axes
   std::vector<float> loading_m;  // target × 3 × factor, row-major
   std::vector<float> noise_m;    // a target: what the factors leave, each axis
 };
 
-/// The second stage: a network that corrects the places of all targets of an object at once, from
-/// what the first stage found of all of them (forest/joint_features_internal.h says what goes in
-/// and out). Learned on images that the trees have not seen.
-struct Refinement {
-  std::vector<float> input_mean;
-  std::vector<float> input_scale;    // 1 / standard deviation
-  std::vector<NetworkLayer> layers;  // rectified between; empty: places stay as they are
-};
-
-/// How classes lie to the targets (forest/proposals/relabel.cpp): the second look at labels.
-struct PartPrior {
+/// Joint-conditioned relabelling (forest/proposals/relabel.cpp): how classes lie to the proposed
+/// targets, as multinomial logistic regression on radial bases.
+struct Relabelling {
   std::vector<float> weight;  // 2 × scale × target × class from 1 on; the second half of them is
                               // multiplied with the targets' confidences
   std::vector<float> bias;    // of each class from 1 on; empty: labels stay as the trees give them
 };
-inline constexpr size_t kNearnessScales = 3;
+inline constexpr size_t kRadialBasisScales = 3;
 
 /// Everything a model file holds.
 struct ForestData {
@@ -76,10 +68,14 @@ struct ForestData {
   uint16_t background_mm = 10000;
   std::vector<Tree> trees;
   std::vector<ProposalTarget> targets;
-  std::vector<Arrangement> arrangements;  // one a context; or empty: targets are found singly
-  Refinement refinement;                  // of the targets; or without layers
-  PartPrior part_prior;                   // of the labels; or without biases
-  std::string manifest;                   // JSON text: the model's card
+  std::vector<PosePrior> pose_priors;  // one a context; or empty: targets are found singly
+  /// The second stage of joints, cascaded pose regression
+  /// (depth/base/perceptron/pose_regression.h): moves the places of all targets at once.
+  /// forest/joint_features_internal.h says what goes in, forest/proposals/refinement.cpp what comes
+  /// out; empty: places stay as they are. Learned on images that the trees have not seen.
+  Perceptron refinement;
+  Relabelling relabelling;  // of the labels; or without biases
+  std::string manifest;     // JSON text: the model's card
 };
 
 struct RuntimeTables;  // forest/runtime_tables_internal.h

@@ -13,8 +13,9 @@
 namespace ossa::forest {
 namespace {
 
-// Version 2 added arrangements and what agreement with them says; models of version 1 lack them.
-// Version 3 packs trees more tightly. Version 4 added the refinement, version 5 the part prior.
+// Version 2 added pose priors and the place confidences that rest on them; models of version 1 lack
+// them. Version 3 packs trees more tightly. Version 4 added the refinement, version 5 the
+// relabelling.
 constexpr ContainerFormat kFormat{{'o', 's', 's', 'a', 'f', 'r', 's', 't'}, 5, "forest model"};
 constexpr uint32_t kOldestVersion = 1;  // that is still read
 constexpr int kCompressionLevel = 19;
@@ -49,53 +50,70 @@ void PutAgreement(PayloadWriter* writer, const ForestData& data) {
     writer->Put(target.fused);
     writer->Put(target.apart);
   }
-  writer->Put<uint32_t>(static_cast<uint32_t>(data.arrangements.size()));
-  for (const Arrangement& arrangement : data.arrangements) {
-    writer->PutVector(arrangement.mean_m);
-    writer->PutVector(arrangement.loading_m);
-    writer->PutVector(arrangement.noise_m);
+  writer->Put<uint32_t>(static_cast<uint32_t>(data.pose_priors.size()));
+  for (const PosePrior& prior : data.pose_priors) {
+    writer->PutVector(prior.mean_m);
+    writer->PutVector(prior.loading_m);
+    writer->PutVector(prior.noise_m);
   }
 }
 
 void GetAgreement(PayloadReader* reader, ForestData* data) {
   for (ProposalTarget& target : data->targets) {
     target.mode_noise_m = reader->Get<float>("target mode noise");
-    target.fused = reader->Get<Agreement>("target agreement");
-    target.apart = reader->Get<Agreement>("target agreement of modes apart");
+    target.fused = reader->Get<PlaceConfidence>("target confidence of fused places");
+    target.apart = reader->Get<PlaceConfidence>("target confidence of modes apart");
   }
-  const auto count = reader->Get<uint32_t>("number of arrangements");
-  if (count > data->context_names.size()) reader->Fail("number of arrangements", "too many");
+  const auto count = reader->Get<uint32_t>("number of pose priors");
+  if (count > data->context_names.size()) reader->Fail("number of pose priors", "too many");
   for (uint32_t i = 0; i < count; ++i) {
-    Arrangement arrangement;
-    arrangement.mean_m = reader->GetVector<float>("arrangement means");
-    arrangement.loading_m = reader->GetVector<float>("arrangement loadings");
-    arrangement.noise_m = reader->GetVector<float>("arrangement noise");
-    data->arrangements.push_back(std::move(arrangement));
+    PosePrior prior;
+    prior.mean_m = reader->GetVector<float>("pose prior means");
+    prior.loading_m = reader->GetVector<float>("pose prior loadings");
+    prior.noise_m = reader->GetVector<float>("pose prior noise");
+    data->pose_priors.push_back(std::move(prior));
   }
 }
 
-void PutRefinement(PayloadWriter* writer, const Refinement& refinement) {
-  writer->PutVector(refinement.input_mean);
-  writer->PutVector(refinement.input_scale);
+// The numbers of a matrix as they lie.
+template <typename Matrix>
+std::vector<float> ToVector(const Matrix& numbers) {
+  return {numbers.data(), numbers.data() + numbers.size()};
+}
+
+Eigen::RowVectorXf ToRow(const std::vector<float>& numbers) {
+  return Eigen::Map<const Eigen::RowVectorXf>(numbers.data(),
+                                              static_cast<Eigen::Index>(numbers.size()));
+}
+
+void PutRefinement(PayloadWriter* writer, const Perceptron& refinement) {
+  writer->PutVector(ToVector(refinement.input_mean));
+  writer->PutVector(ToVector(refinement.input_scale));
   writer->Put<uint32_t>(static_cast<uint32_t>(refinement.layers.size()));
-  for (const NetworkLayer& layer : refinement.layers) {
-    PutPlanes(writer, layer.weight);
-    writer->PutVector(layer.bias);
+  for (const PerceptronLayer& layer : refinement.layers) {
+    PutPlanes(writer, ToVector(layer.weight));
+    writer->PutVector(ToVector(layer.bias));
   }
 }
 
-Refinement GetRefinement(PayloadReader* reader) {
-  Refinement refinement;
-  refinement.input_mean = reader->GetVector<float>("refinement input means");
-  refinement.input_scale = reader->GetVector<float>("refinement input scales");
+Perceptron GetRefinement(PayloadReader* reader) {
+  Perceptron refinement;
+  refinement.input_mean = ToRow(reader->GetVector<float>("refinement input means"));
+  refinement.input_scale = ToRow(reader->GetVector<float>("refinement input scales"));
   const auto layers = reader->Get<uint32_t>("refinement layers");
   constexpr uint32_t kMost = 64;  // the model itself allows fewer
   if (layers > kMost) reader->Fail("refinement layers", "more than 64");
+  Eigen::Index inputs = refinement.input_mean.size();
   for (uint32_t i = 0; i < layers; ++i) {
-    NetworkLayer layer;
-    layer.weight = GetPlanes<float>(reader, "refinement weights");
-    layer.bias = reader->GetVector<float>("refinement biases");
-    refinement.layers.push_back(std::move(layer));
+    const auto weight = GetPlanes<float>(reader, "refinement weights");
+    PerceptronLayer& layer = refinement.layers.emplace_back();
+    layer.bias = ToRow(reader->GetVector<float>("refinement biases"));
+    const Eigen::Index outputs = layer.bias.size();
+    if (weight.size() != static_cast<size_t>(inputs) * static_cast<size_t>(outputs)) {
+      reader->Fail("refinement weights", "a layer's weights do not match its inputs and outputs");
+    }
+    layer.weight = Eigen::Map<const RowMatrix>(weight.data(), inputs, outputs);
+    inputs = outputs;
   }
   return refinement;
 }
@@ -113,8 +131,8 @@ ProposalTarget GetTarget(PayloadReader* reader) {
   target.vote_sharpness_m = numbers[5];
   target.tracked_confidence = numbers[6];
   target.inferred_confidence = numbers[7];
-  target.correct = reader->Get<Confidence>("target confidence");
-  target.visible = reader->Get<Confidence>("target visibility");
+  target.correct = reader->Get<ModeConfidence>("target confidence");
+  target.visible = reader->Get<ModeConfidence>("target visibility");
   return target;
 }
 
@@ -137,8 +155,8 @@ ForestData ParseForest(std::span<const std::byte> payload, const std::string& na
   if (version >= 2) GetAgreement(&reader, &data);
   if (version >= 4) data.refinement = GetRefinement(&reader);
   if (version >= 5) {
-    data.part_prior.weight = GetPlanes<float>(&reader, "part prior weights");
-    data.part_prior.bias = reader.GetVector<float>("part prior biases");
+    data.relabelling.weight = GetPlanes<float>(&reader, "relabelling weights");
+    data.relabelling.bias = reader.GetVector<float>("relabelling biases");
   }
   reader.ExpectEnd();
   return data;
@@ -169,8 +187,8 @@ std::vector<std::byte> Packed(const ForestData& data, int level) {
   for (const Tree& tree : data.trees) PutTree(&writer, tree);
   PutAgreement(&writer, data);
   PutRefinement(&writer, data.refinement);
-  PutPlanes(&writer, data.part_prior.weight);
-  writer.PutVector(data.part_prior.bias);
+  PutPlanes(&writer, data.relabelling.weight);
+  writer.PutVector(data.relabelling.bias);
   return Compress(writer.bytes(), level);
 }
 

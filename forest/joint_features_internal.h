@@ -12,7 +12,7 @@ inline constexpr size_t kNumbersOfClass = 7;
 inline constexpr size_t kNumbersOfObject = 10;  // without the contexts
 
 /// Numbers that describe an object of so many targets, classes (background counts) and contexts.
-inline constexpr size_t DescriptionSize(size_t targets, size_t classes, size_t contexts) {
+inline constexpr size_t JointFeatureCount(size_t targets, size_t classes, size_t contexts) {
   return contexts + kNumbersOfObject + targets * (kNumbersOfTarget + kModes * kNumbersOfMode) +
          (classes - 1) * kNumbersOfClass;
 }

@@ -116,7 +116,7 @@ void FillEvidence(const LeafCells& cells, const LogRatios& log_ratios, int16_t* 
 }
 
 // P(class | leaf, context), smoothed by P(class | leaf), as the largest shares of 255.
-ShareRow SharesOf(const LeafCells& cells, size_t context) {
+ShareRow ComputeShares(const LeafCells& cells, size_t context) {
   std::array<std::pair<float, uint8_t>, kMostShares> most{};  // (-p, column), ascending
   const float whole = cells.context_weight[context] + kSmoothing;
   const float *weights = cells.Weights(context), *share_of_seen = cells.share_of_seen.data();
@@ -147,7 +147,7 @@ void FillShares(const LeafCells& cells, size_t leaf, size_t leaf_count, ShareRow
   for (size_t k = 0; k < contexts; ++k) {
     ShareRow& row = shares[k * leaf_count + leaf];
     const bool is_seen = weight[k] > 0.0F;
-    row = is_seen || unseen == nullptr ? SharesOf(cells, k) : *unseen;
+    row = is_seen || unseen == nullptr ? ComputeShares(cells, k) : *unseen;
     if (!is_seen) unseen = &row;
   }
 }
@@ -161,22 +161,22 @@ void PreferLargePages(const std::vector<T>& table) {
 // Variance of the difference of two targets' positions, summed over contexts and axes.
 float LooseJoint(const ForestData& data, size_t a, size_t b) {
   float sum = 0.0F;
-  for (const Arrangement& arrangement : data.arrangements) {
-    const size_t factors = arrangement.loading_m.size() / (3 * data.targets.size());
+  for (const PosePrior& prior : data.pose_priors) {
+    const size_t factors = prior.loading_m.size() / (3 * data.targets.size());
     for (size_t i = 0; i < 3 * factors; ++i) {
       const float difference =
-          arrangement.loading_m[a * 3 * factors + i] - arrangement.loading_m[b * 3 * factors + i];
+          prior.loading_m[a * 3 * factors + i] - prior.loading_m[b * 3 * factors + i];
       sum += difference * difference;
     }
-    sum += 3.0F * arrangement.noise_m[a] * arrangement.noise_m[a];
-    sum += 3.0F * arrangement.noise_m[b] * arrangement.noise_m[b];
+    sum += 3.0F * prior.noise_m[a] * prior.noise_m[a];
+    sum += 3.0F * prior.noise_m[b] * prior.noise_m[b];
   }
   return sum;
 }
 
 std::vector<std::vector<uint32_t>> Neighbours(const ForestData& data) {
   constexpr size_t kMost = 2;
-  if (data.arrangements.empty()) return {};
+  if (data.pose_priors.empty()) return {};
   std::vector<std::vector<uint32_t>> neighbours(data.targets.size());
   for (size_t t = 0; t < data.targets.size(); ++t) {
     std::vector<std::pair<float, uint32_t>> others;
@@ -260,7 +260,7 @@ RuntimeTables MakeRuntimeTables(ForestData* data, ModelUse use) {
       ReturnFreedMemory();  // before the next tree's tables are made
     }
   }
-  for (const Arrangement& each : data->arrangements) tables.factor_models.emplace_back(each);
+  for (const PosePrior& each : data->pose_priors) tables.factor_models.emplace_back(each);
   tables.neighbours = Neighbours(*data);
   return tables;
 }

@@ -33,8 +33,8 @@ struct LeafTables {
 struct RuntimeTables {
   std::vector<LinedTree> trees;
   std::vector<LeafTables> leaves;          // one a tree
-  std::vector<FactorModel> factor_models;  // one an arrangement
-  /// Of each target, the two others that move with it most; empty without arrangements.
+  std::vector<FactorModel> factor_models;  // one a pose prior
+  /// Of each target, the two others that move with it most; empty without pose priors.
   std::vector<std::vector<uint32_t>> neighbours;
 };
 

@@ -6,8 +6,8 @@
 
 namespace ossa::forest {
 
-std::vector<size_t> TargetsNamed(const ForestModel& model, std::span<const std::string_view> names,
-                                 const std::string& model_name) {
+std::vector<size_t> FindTargets(const ForestModel& model, std::span<const std::string_view> names,
+                                const std::string& model_name) {
   std::vector<size_t> targets;
   for (const std::string_view name : names) {
     const auto found =

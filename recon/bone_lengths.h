@@ -26,7 +26,7 @@ struct BoneLengthOptions {
   static BoneLengthOptions BeforeReference() { return {BoneStatistic::kMean, 30}; }
   /// ... and once there was one: the mean of some ten reference postures.
   static BoneLengthOptions OfReference() { return {BoneStatistic::kExponential, 600, 0.1}; }
-  /// Of what the network for bones judges frame by frame (recon/refine/bone_measure.h).
+  /// Of what the network for bones judges frame by frame (recon/refine/bone_estimation.h).
   static BoneLengthOptions OfJudged() { return {BoneStatistic::kMean, 600}; }
   /// Of what lies between joints, which is wrong for half of a body that is seen from the side.
   static BoneLengthOptions OfTypical() { return {BoneStatistic::kRunningMedian, 600, 0.1, true}; }

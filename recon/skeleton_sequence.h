@@ -25,7 +25,7 @@ struct JointRecord {
 struct BodyRecord {
   int id = 0;
   JointArray<std::optional<JointRecord>> joints;  // absent joints are empty
-  /// As a close look judges them of this frame alone (ReconstructionInput::bones_m).
+  /// As cascaded refinement estimates them of this frame alone (ReconstructionInput::bones_m).
   std::optional<BoneLengths> bones_m = std::nullopt;
 };
 
@@ -41,7 +41,7 @@ struct SkeletonFrame {
 struct SkeletonSequence {
   std::string source;  // file it came from, for messages
   std::vector<SkeletonFrame> frames;
-  std::string sensor{};  // kKinectV2 or kCloseLook where the file tells; else empty
+  std::string sensor{};  // kKinectV2 or kRefinedJoints where the file tells; else empty
   /// Of a file that holds two skeletons side by side which one this is, truth or observed; else
   /// empty.
   std::string columns{};
@@ -51,8 +51,9 @@ struct SkeletonSequence {
 
 /// The Kinect SDK 2's skeleton, of Kinect v2 (Xbox One).
 constexpr const char* kKinectV2 = "Kinect v2";
-/// ossa's own joints after a close look, `ossa track --posture looked`: nothing else judges bones.
-constexpr const char* kCloseLook = "close look";
+/// ossa's own joints after the refinement cascade, `ossa track --posture refined`: nothing else
+/// estimates bones.
+constexpr const char* kRefinedJoints = "refined joints";
 
 /// Whether the joint's position says something. What a sensor does not see lies anywhere, at the
 /// camera as a rule; where a method has then placed it there is a reliability.

@@ -83,20 +83,20 @@ std::vector<float> ContextPosterior(const ForestModel& model, const Walked& walk
   const size_t pixels = walked.leaf.size() / trees;
   const size_t step = std::max<size_t>(1, pixels / kPixels);
   std::vector<int32_t> sum(contexts, 0);  // of at most twice kPixels for each tree: it fits
-  size_t heard = 0;
+  size_t walked_leaves = 0;
   const auto evidence_of = [&](size_t i, size_t t) {
     return model.tables().leaves[t].evidence.data() +
            static_cast<size_t>(walked.leaf[i * trees + t]) * contexts;
   };
   for (size_t i = 0; i < pixels; i += step) {
     const size_t next = std::min(i + kAhead * step, pixels - 1);
-    for (size_t t = 0; t < trees; ++t, ++heard) {
+    for (size_t t = 0; t < trees; ++t, ++walked_leaves) {
       __builtin_prefetch(evidence_of(next, t));
       AddTo(evidence_of(i, t), contexts, sum.data());
     }
   }
   std::vector<float> log_posterior(contexts);
-  const auto count = static_cast<float>(std::max<size_t>(heard, 1));
+  const auto count = static_cast<float>(std::max<size_t>(walked_leaves, 1));
   for (size_t k = 0; k < contexts; ++k) {
     const float mean = static_cast<float>(sum[k]) * kEvidenceUnit / count;
     log_posterior[k] = model.data().evidence_scale * mean + std::log(std::max(prior[k], 1e-4F));
@@ -200,7 +200,7 @@ OSSA_CPU_DISPATCH void ToScales(const uint16_t* mass, size_t samples, size_t str
   }
 }
 
-std::vector<float> ScalesOf(const std::vector<uint16_t>& mass, size_t stride) {
+std::vector<float> ComputeScales(const std::vector<uint16_t>& mass, size_t stride) {
   std::vector<float> scale(mass.size() / stride);
   ToScales(mass.data(), scale.size(), stride, scale.data());
   return scale;
@@ -216,7 +216,7 @@ double Pitch_m(const ObjectImage& image, const depth::Camera& camera, int backgr
   return 1e-3 * static_cast<double>(all_mm - around) / static_cast<double>(pixels) / camera.fx;
 }
 
-std::span<const float> PriorOf(const ForestModel& model, const ClassifyOptions& options) {
+std::span<const float> GetContextPrior(const ForestModel& model, const ClassifyOptions& options) {
   const bool known = options.context_prior.size() == static_cast<size_t>(model.context_count());
   return known ? options.context_prior : std::span(model.data().context_prior);
 }
@@ -262,7 +262,7 @@ Classification Classify(const ForestModel& model, const depth::DepthView& depth,
            walked.leaf.data() + first * trees + t, trees);
     }
   });
-  result.context = ContextPosterior(model, walked, PriorOf(model, options));
+  result.context = ContextPosterior(model, walked, GetContextPrior(model, options));
   const std::vector<ActiveContext> active = ActiveContexts(result.context);
   walked.mass = std::make_unique_for_overwrite<uint8_t[]>(walkers * walked.stride);
   ForRanges(walkers, options.threads, [&](size_t first, size_t last) {
@@ -274,7 +274,7 @@ Classification Classify(const ForestModel& model, const depth::DepthView& depth,
   result.label = LabelPixels(image, position, sparse, smooth);
   result.mass = std::move(smooth.mass);
   result.mass_stride = walked.stride;
-  result.mass_scale = ScalesOf(result.mass, walked.stride);
+  result.mass_scale = ComputeScales(result.mass, walked.stride);
   result.leaf = std::move(walked.leaf);
   result.sample = std::move(sparse.from);
   return result;

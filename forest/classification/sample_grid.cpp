@@ -33,7 +33,7 @@ struct Cell {
   int centre = -1;  // the one nearest to the cell's middle; -1: it lies off the box
 };
 
-std::vector<Cell> CellsOf(const std::vector<Between>& places) {
+std::vector<Cell> FindCells(const std::vector<Between>& places) {
   std::vector<Cell> cells;
   for (size_t i = 0; i < places.size(); ++i) {
     const int pixel = static_cast<int>(i);
@@ -50,7 +50,7 @@ bool IsObject(const ObjectImage& image, int x, int y) {
 }
 
 // The pixel of a cell that is to be its sample: the one in its middle, else the first; or kNone.
-int32_t PixelOf(const ObjectImage& image, const Cell& column, const Cell& row) {
+int32_t ChoosePixel(const ObjectImage& image, const Cell& column, const Cell& row) {
   if (column.centre >= 0 && row.centre >= 0 && IsObject(image, column.centre, row.centre)) {
     return row.centre << 16 | column.centre;
   }
@@ -65,15 +65,15 @@ int32_t PixelOf(const ObjectImage& image, const Cell& column, const Cell& row) {
 // Chooses each cell's sample, tile by tile.
 void ChooseOfEachCell(const ObjectImage& image, SparsePixels* sparse) {
   ObjectImage& grid = sparse->grid;
-  const std::vector<Cell> columns = CellsOf(sparse->column);
-  const std::vector<Cell> rows = CellsOf(sparse->row);
+  const std::vector<Cell> columns = FindCells(sparse->column);
+  const std::vector<Cell> rows = FindCells(sparse->row);
   for (int y0 = 0; y0 < grid.height; y0 += kTileRows) {
     for (int x0 = 0; x0 < grid.width; x0 += kTileColumns) {
       for (int y = y0; y < std::min(grid.height, y0 + kTileRows); ++y) {
         int32_t* row = &sparse->sample[static_cast<size_t>(y) * static_cast<size_t>(grid.width)];
         for (int x = x0; x < std::min(grid.width, x0 + kTileColumns); ++x) {
           const int32_t p =
-              PixelOf(image, columns[static_cast<size_t>(x)], rows[static_cast<size_t>(y)]);
+              ChoosePixel(image, columns[static_cast<size_t>(x)], rows[static_cast<size_t>(y)]);
           if (p == SparsePixels::kNone) continue;
           row[x] = static_cast<int32_t>(sparse->position.size());
           grid.depth_mm[grid.At(x, y)] = static_cast<uint16_t>(DepthAt(image, p));

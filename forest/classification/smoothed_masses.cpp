@@ -87,7 +87,7 @@ OSSA_CPU_DISPATCH void AverageRun(const uint16_t* sum, int radius, int32_t first
 }
 
 // The first of a row's largest columns + 1; 0 where there is no mass.
-[[gnu::always_inline]] inline uint8_t LabelOf(const uint16_t* mass, size_t stride) {
+[[gnu::always_inline]] inline uint8_t ChooseLabel(const uint16_t* mass, size_t stride) {
   constexpr uint32_t kColumns = 255;
   uint32_t best = 0;
   for (size_t c = 0; c < stride; ++c) {
@@ -121,7 +121,7 @@ OSSA_CPU_DISPATCH void Conclude(const Ring& ring, std::span<const Window> window
       high -= low;
       std::memcpy(out + b, &high, sizeof(Block));
     }
-    label[window.sample] = LabelOf(out, stride);
+    label[window.sample] = ChooseLabel(out, stride);
   }
 }
 
@@ -144,7 +144,7 @@ int32_t NeighbourAbove(const ObjectImage& grid, const Raster& raster, int x, int
   return SameSurface(grid.depth_mm[grid.At(x, y)], grid.depth_mm[grid.At(x, y - 1)]) ? up : kNone;
 }
 
-Raster RasterOf(const SparsePixels& sparse) {
+Raster MakeRaster(const SparsePixels& sparse) {
   const ObjectImage& grid = sparse.grid;
   Raster raster;
   raster.index.assign(sparse.sample.size(), kNone);
@@ -191,7 +191,7 @@ class Smoother {
       : masses_(masses),
         grid_(masses.sparse->grid),
         radius_(radius),
-        raster_(RasterOf(*masses.sparse)),
+        raster_(MakeRaster(*masses.sparse)),
         ring_(MostHeld(raster_.row_begin, radius), masses.stride),
         sum_(static_cast<size_t>(grid_.width + 1) * masses.stride) {
     const size_t samples = masses.sparse->position.size();
@@ -250,7 +250,7 @@ class Smoother {
       for (size_t c = 0; c < masses_.stride; ++c) {
         to[c] = static_cast<uint16_t>(4 * masses_.mass[sample * masses_.stride + c]);
       }
-      result_.label[sample] = LabelOf(to, masses_.stride);
+      result_.label[sample] = ChooseLabel(to, masses_.stride);
     }
   }
 

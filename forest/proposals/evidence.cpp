@@ -25,8 +25,8 @@ size_t DrawContext(const std::vector<float>& posterior, size_t i) {
 
 // The votes of each sampled pixel's leaf, one a target; null where the tree has none. Trees take
 // turns. Two passes: what either reads is a cache miss, and the misses of a pass overlap.
-std::vector<const Vote*> VotesOf(const ForestModel& model, const Classification& classification,
-                                 std::span<const size_t> pixels) {
+std::vector<const Vote*> GatherVotes(const ForestModel& model, const Classification& classification,
+                                     std::span<const size_t> pixels) {
   const size_t trees = model.data().trees.size();
   const size_t contexts = model.data().context_names.size();
   std::vector<const int32_t*> row(pixels.size());
@@ -71,7 +71,7 @@ Evidence GatherEvidence(const ForestModel& model, const depth::DepthView& depth,
   const size_t step = std::max<size_t>(1, pixel_count / kSampledPixels);
   std::vector<size_t> pixels;
   for (size_t i = step / 2; i < pixel_count; i += step) pixels.push_back(i);
-  const std::vector<const Vote*> votes = VotesOf(model, classification, pixels);
+  const std::vector<const Vote*> votes = GatherVotes(model, classification, pixels);
   const auto classes = static_cast<size_t>(classification.class_count);
   const size_t targets = model.targets().size();
   Evidence evidence = EmptyEvidence(pixels.size(), classes, targets);

@@ -6,8 +6,8 @@
 #include <cmath>
 
 #include "depth/base/cpu_dispatch.h"
+#include "depth/base/lanes.h"
 #include "forest/joint_features_internal.h"
-#include "forest/lanes_internal.h"
 #include "forest/proposals/refinement_internal.h"
 
 namespace ossa::forest {
@@ -49,9 +49,9 @@ OSSA_CPU_DISPATCH void FindNearest(const Surface& surface, const float* place, c
   NearestOfLanes near = *out;
   for (size_t i = 0; i < surface.x.size(); i += kLanes) {
     Lanes x, y, z;
-    Load(surface.x.data() + i, &x);
-    Load(surface.y.data() + i, &y);
-    Load(surface.z.data() + i, &z);
+    LoadLanes(surface.x.data() + i, &x);
+    LoadLanes(surface.y.data() + i, &y);
+    LoadLanes(surface.z.data() + i, &z);
     x -= place[0];
     y -= place[1];
     z -= place[2];
@@ -87,10 +87,11 @@ Nearest NearestTo(const Surface& surface, const Eigen::Vector3f& place_m,
   return nearest;
 }
 
-class Describer {
+class FeatureBuilder {
  public:
-  Describer(const depth::Camera& camera, const Evidence& evidence, Description* out)
-      : camera_(camera), evidence_(evidence), out_(*out) {
+  FeatureBuilder(const depth::Camera& camera, const Evidence& evidence,
+                 const JointFeatures& features)
+      : camera_(camera), evidence_(evidence), features_(features) {
     for (size_t i = 0; i < evidence.count; ++i) {
       const Eigen::Vector3f p_m = InFrame(evidence.surface_m(i).cast<double>());
       surface_.Add(p_m);
@@ -101,39 +102,39 @@ class Describer {
     while (surface_.x.size() % kLanes != 0) surface_.Add(Eigen::Vector3f::Constant(kNowhere_m));
   }
 
-  void AddObject(std::span<const float> context_posterior, const Beliefs& beliefs) {
-    out_.value.insert(out_.value.end(), context_posterior.begin(), context_posterior.end());
+  void AddObject(std::span<const float> context_posterior, const PoseMarginals& marginals) {
+    value_.insert(value_.end(), context_posterior.begin(), context_posterior.end());
     Add(surface_.area_m2);
     Add(surface_.centre_m);
-    Add(static_cast<float>(beliefs.margin));
-    Add(static_cast<float>(beliefs.mean_confidence));
-    Add(static_cast<float>(beliefs.mean_support));
-    Add(static_cast<float>(out_.root_m.norm()));
-    Add(static_cast<float>(out_.root_m.x() / out_.root_m.z()));
-    Add(static_cast<float>(out_.root_m.y() / out_.root_m.z()));
+    Add(static_cast<float>(marginals.margin));
+    Add(static_cast<float>(marginals.mean_confidence));
+    Add(static_cast<float>(marginals.mean_support));
+    Add(static_cast<float>(features_.frame.middle_m.norm()));
+    Add(static_cast<float>(features_.frame.middle_m.x() / features_.frame.middle_m.z()));
+    Add(static_cast<float>(features_.frame.middle_m.y() / features_.frame.middle_m.z()));
   }
 
-  void AddTarget(size_t t, const Beliefs& beliefs) {
-    const Belief& belief = beliefs.target[t];
-    Add(InFrame(out_.place_m[t]));
-    Add(FromPlace(t, belief.predicted_m));
-    Add(static_cast<float>(0.5 * std::log(belief.covariance_m2.trace() / 3.0)));
-    Add(static_cast<float>(belief.support()));
-    Add(static_cast<float>(beliefs.neighbour_support[t]));
-    AddBorders(out_.place_m[t]);
-    AddNearestSurface(InFrame(out_.place_m[t]));
+  void AddTarget(size_t t, const PoseMarginals& marginals) {
+    const TargetMarginal& marginal = marginals.target[t];
+    Add(InFrame(features_.place_m[t]));
+    Add(FromPlace(t, marginal.predicted_m));
+    Add(static_cast<float>(0.5 * std::log(marginal.covariance_m2.trace() / 3.0)));
+    Add(static_cast<float>(marginal.support()));
+    Add(static_cast<float>(marginals.neighbour_support[t]));
+    AddBorders(features_.place_m[t]);
+    AddNearestSurface(InFrame(features_.place_m[t]));
   }
 
   void AddModes(size_t t, const ProposalTarget& target, const std::vector<Mode>& modes,
-                const Belief& belief) {
+                const TargetMarginal& marginal) {
     for (size_t m = 0; m < kModes; ++m) {
       if (m >= modes.size()) {
-        out_.value.insert(out_.value.end(), kNumbersOfMode, 0.0F);
+        value_.insert(value_.end(), kNumbersOfMode, 0.0F);
         continue;
       }
       Add(FromPlace(t, modes[m].position_m.cast<double>()));
-      Add(static_cast<float>(belief.confidence[m]));
-      Add(static_cast<float>(belief.weight[m]));
+      Add(static_cast<float>(marginal.confidence[m]));
+      Add(static_cast<float>(marginal.weight[m]));
       Add(static_cast<float>(Evaluate(target.visible, modes[m].feature)));
       Add(modes[m].feature[0]);  // surface of the target's classes
       Add(modes[m].feature[1]);  // votes
@@ -145,18 +146,21 @@ class Describer {
     for (size_t c = 1; c < static_cast<size_t>(evidence_.class_count); ++c) AddClass(c);
   }
 
+  Eigen::RowVectorXf values() const {
+    return Eigen::Map<const Eigen::RowVectorXf>(value_.data(),
+                                                static_cast<Eigen::Index>(value_.size()));
+  }
+
  private:
   Eigen::Vector3f InFrame(const Eigen::Vector3d& p_m) const {
-    return (out_.frame_from_camera * (p_m - out_.root_m)).cast<float>();
+    return (features_.frame.frame_from_camera * (p_m - features_.frame.middle_m)).cast<float>();
   }
   Eigen::Vector3f FromPlace(size_t t, const Eigen::Vector3d& p_m) const {
-    const Eigen::Vector3d offset = out_.frame_from_camera * (p_m - out_.place_m[t]);
+    const Eigen::Vector3d offset = features_.frame.frame_from_camera * (p_m - features_.place_m[t]);
     return offset.cast<float>().cwiseMax(-kFar_m).cwiseMin(kFar_m);
   }
-  void Add(float value) { out_.value.push_back(value); }
-  void Add(const Eigen::Vector3f& v) {
-    out_.value.insert(out_.value.end(), v.data(), v.data() + 3);
-  }
+  void Add(float value) { value_.push_back(value); }
+  void Add(const Eigen::Vector3f& v) { value_.insert(value_.end(), v.data(), v.data() + 3); }
 
   void AddClass(size_t c) {
     constexpr float kLeastProbability = 0.01F;
@@ -204,50 +208,47 @@ class Describer {
 
   // In the frame's axes.
   Eigen::Vector3f RootFromCamera() const {
-    return {0.0F, 0.0F, static_cast<float>(out_.root_m.norm())};
+    return {0.0F, 0.0F, static_cast<float>(features_.frame.middle_m.norm())};
   }
 
   const depth::Camera& camera_;
   const Evidence& evidence_;
-  Description& out_;
+  const JointFeatures& features_;
+  std::vector<float> value_;
   Surface surface_;
   std::vector<uint32_t> picked_;  // samples of the class at hand
 };
 
-// The root is the mean of the places, those of little support less.
-void PlaceFrame(const Beliefs& beliefs, Description* out) {
-  constexpr double kLeastSupport = 0.05;
-  double whole = 0;
-  for (size_t t = 0; t < out->place_m.size(); ++t) {
-    const double weight = std::max(beliefs.target[t].support(), kLeastSupport);
-    out->root_m += weight * out->place_m[t];
-    whole += weight;
-  }
-  out->root_m /= whole;
-  const Eigen::Vector3d z = out->root_m.normalized();
-  const Eigen::Vector3d x = Eigen::Vector3d::UnitY().cross(z).normalized();
-  out->frame_from_camera << x.transpose(), z.cross(x).transpose(), z.transpose();
+// About the mean of the places, those of little support less.
+ViewFrame PlaceFrame(const std::vector<Eigen::Vector3d>& places_m, const PoseMarginals& marginals) {
+  constexpr double kLeastSupport = 0.05;  // by hand; part of every shipped model
+  std::vector<double> weights;
+  for (const TargetMarginal& target : marginals.target) weights.push_back(target.support());
+  const Eigen::Vector3d middle_m = ComputeMiddle(places_m, weights, kLeastSupport);
+  return MakeViewFrame(middle_m).value_or(ViewFrame{Eigen::Matrix3d::Identity(), middle_m});
 }
 
 }  // namespace
 
-Description Describe(const ForestModel& model, const depth::Camera& camera,
-                     const Evidence& evidence, std::span<const float> context_posterior,
-                     const ModesOfTargets& modes, const Beliefs& beliefs) {
-  Description description;
+JointFeatures ComputeJointFeatures(const ForestModel& model, const depth::Camera& camera,
+                                   const Evidence& evidence,
+                                   std::span<const float> context_posterior,
+                                   const TargetModes& modes, const PoseMarginals& marginals) {
+  JointFeatures features;
   for (size_t t = 0; t < modes.size(); ++t) {
-    description.place_m.push_back(
-        Fuse(beliefs.target[t], modes[t], model.targets()[t].mode_noise_m));
+    features.place_m.push_back(
+        Fuse(marginals.target[t], modes[t], model.targets()[t].mode_noise_m));
   }
-  PlaceFrame(beliefs, &description);
-  Describer describer(camera, evidence, &description);
-  describer.AddObject(context_posterior, beliefs);
+  features.frame = PlaceFrame(features.place_m, marginals);
+  FeatureBuilder builder(camera, evidence, features);
+  builder.AddObject(context_posterior, marginals);
   for (size_t t = 0; t < modes.size(); ++t) {
-    describer.AddTarget(t, beliefs);
-    describer.AddModes(t, model.targets()[t], modes[t], beliefs.target[t]);
+    builder.AddTarget(t, marginals);
+    builder.AddModes(t, model.targets()[t], modes[t], marginals.target[t]);
   }
-  describer.AddClasses();
-  return description;
+  builder.AddClasses();
+  features.value = builder.values();
+  return features;
 }
 
 }  // namespace ossa::forest

@@ -1,5 +1,5 @@
 #include "depth/base/cpu_dispatch.h"
-#include "forest/lanes_internal.h"
+#include "depth/base/lanes.h"
 #include "forest/proposals/modes_internal.h"
 
 // Every clone adds in the same eight lanes, and none may contract a product and a sum, so that each
@@ -22,10 +22,10 @@ template <bool kMoment>
   LaneSums sums;
   for (size_t i = 0; i < points.size(); i += kLanes) {
     Lanes px, py, pz, weight;
-    Load(points.x_m.data() + i, &px);
-    Load(points.y_m.data() + i, &py);
-    Load(points.z_m.data() + i, &pz);
-    Load(points.weight.data() + i, &weight);
+    LoadLanes(points.x_m.data() + i, &px);
+    LoadLanes(points.y_m.data() + i, &py);
+    LoadLanes(points.z_m.data() + i, &pz);
+    LoadLanes(points.weight.data() + i, &weight);
     const Lanes dx = px - at[0];
     const Lanes dy = py - at[1];
     const Lanes dz = pz - at[2];

@@ -4,8 +4,8 @@
 #include <cmath>
 #include <vector>
 
+#include "depth/base/lanes.h"
 #include "forest/forest.h"
-#include "forest/lanes_internal.h"
 #include "forest/proposals/propose.h"
 
 namespace ossa::forest {
@@ -67,13 +67,14 @@ struct TargetPoints {
   WeightedPoints surface;  // the class part of them, weights in reference areas
   float vote_total = 0.0F;
 };
-TargetPoints PointsOf(const Evidence& evidence, const ProposalTarget& target, size_t target_index);
+TargetPoints GatherPoints(const Evidence& evidence, const ProposalTarget& target,
+                          size_t target_index);
 
 /// A mode with what its confidence is computed from.
 struct Mode {
   Eigen::Vector3f position_m = Eigen::Vector3f::Zero();
   float density = 0.0F;
-  std::array<float, Confidence::kFeatures> feature{};
+  std::array<float, ModeConfidence::kFeatures> feature{};
 };
 /// Modes of a target's density, densest first; none without evidence.
 std::vector<Mode> FindModes(const Evidence& evidence, const ProposalTarget& target,

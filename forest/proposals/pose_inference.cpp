@@ -26,7 +26,7 @@ constexpr double kApart_m = 0.08;    // modes nearer to the fused place are part
 constexpr double kMostMargin = 6;
 constexpr double kMostDistance = 8;  // standard deviations
 
-// An object's modes about their own centre, in the form that all arrangements are tried on.
+// An object's modes about their own centre, in the form that all pose priors are tried on.
 struct Observed {
   Eigen::Vector3d centre_m = Eigen::Vector3d::Zero();
   std::vector<std::vector<Eigen::Vector3d>> position_m;  // target, mode
@@ -34,7 +34,7 @@ struct Observed {
   std::vector<double> stray_trust;                       // that none is right
 };
 
-Observed Observe(const ForestModel& model, const ModesOfTargets& modes) {
+Observed Observe(const ForestModel& model, const TargetModes& modes) {
   Observed observed;
   double whole = 0;
   for (size_t t = 0; t < modes.size(); ++t) {
@@ -64,8 +64,8 @@ Observed Observe(const ForestModel& model, const ModesOfTargets& modes) {
   return observed;
 }
 
-Site SiteOf(const Observed& observed, size_t t, const std::vector<double>& weight,
-            double model_variance) {
+Site MakeSite(const Observed& observed, size_t t, const std::vector<double>& weight,
+              double model_variance) {
   Site site;
   double sum = 0;
   for (size_t m = 0; m < weight.size(); ++m) {
@@ -79,42 +79,42 @@ Site SiteOf(const Observed& observed, size_t t, const std::vector<double>& weigh
 }
 
 // Weighs a target's modes by its prediction; returns log of their likelihood.
-double Weigh(const Observed& observed, size_t t, Belief* belief) {
+double Weigh(const Observed& observed, size_t t, TargetMarginal* marginal) {
   const Eigen::Matrix3d spread =
-      belief->covariance_m2 + kModeNoise_m * kModeNoise_m * Eigen::Matrix3d::Identity();
+      marginal->covariance_m2 + kModeNoise_m * kModeNoise_m * Eigen::Matrix3d::Identity();
   const Eigen::Matrix3d inverse = spread.inverse();
   const double two_pi = 2.0 * std::numbers::pi;
   const double scale = 1.0 / std::sqrt(two_pi * two_pi * two_pi * spread.determinant());
   double whole = observed.stray_trust[t] * kStrayDensity;
-  for (size_t m = 0; m < belief->weight.size(); ++m) {
-    const Eigen::Vector3d off = observed.position_m[t][m] - belief->predicted_m;
-    belief->weight[m] = observed.trust[t][m] * scale * std::exp(-0.5 * off.dot(inverse * off));
-    whole += belief->weight[m];
+  for (size_t m = 0; m < marginal->weight.size(); ++m) {
+    const Eigen::Vector3d off = observed.position_m[t][m] - marginal->predicted_m;
+    marginal->weight[m] = observed.trust[t][m] * scale * std::exp(-0.5 * off.dot(inverse * off));
+    whole += marginal->weight[m];
   }
-  for (double& weight : belief->weight) weight /= whole;
+  for (double& weight : marginal->weight) weight /= whole;
   return std::log(whole);
 }
 
-// Beliefs under one arrangement; `log_likelihood` receives how well the modes fit it.
-std::vector<Belief> BeliefsUnder(const FactorModel& model, const Observed& observed,
-                                 double* log_likelihood) {
-  std::vector<Belief> beliefs(observed.trust.size());
-  std::vector<Site> sites(beliefs.size());
-  for (size_t t = 0; t < beliefs.size(); ++t) {
-    beliefs[t].weight = beliefs[t].confidence = observed.trust[t];
+// PoseMarginals under one prior; `log_likelihood` receives how well the modes fit it.
+std::vector<TargetMarginal> InferUnder(const FactorModel& model, const Observed& observed,
+                                       double* log_likelihood) {
+  std::vector<TargetMarginal> marginals(observed.trust.size());
+  std::vector<Site> sites(marginals.size());
+  for (size_t t = 0; t < marginals.size(); ++t) {
+    marginals[t].weight = marginals[t].confidence = observed.trust[t];
   }
   for (int round = 0; round < kRounds; ++round) {
-    for (size_t t = 0; t < beliefs.size(); ++t) {
-      sites[t] = SiteOf(observed, t, beliefs[t].weight, model.variance_m2(t));
+    for (size_t t = 0; t < marginals.size(); ++t) {
+      sites[t] = MakeSite(observed, t, marginals[t].weight, model.variance_m2(t));
     }
     const std::vector<Prediction> predictions = model.Predict(sites);
     *log_likelihood = 0;
-    for (size_t t = 0; t < beliefs.size(); ++t) {
-      static_cast<Prediction&>(beliefs[t]) = predictions[t];
-      *log_likelihood += Weigh(observed, t, &beliefs[t]);
+    for (size_t t = 0; t < marginals.size(); ++t) {
+      static_cast<Prediction&>(marginals[t]) = predictions[t];
+      *log_likelihood += Weigh(observed, t, &marginals[t]);
     }
   }
-  return beliefs;
+  return marginals;
 }
 
 float Logit(double p) {
@@ -123,116 +123,119 @@ float Logit(double p) {
 }
 
 // The numbers that say how much of a person agrees.
-void Summarise(const ForestModel& model, const ModesOfTargets& modes, Beliefs* beliefs) {
-  const size_t targets = beliefs->target.size();
+void Summarise(const ForestModel& model, const TargetModes& modes, PoseMarginals* marginals) {
+  const size_t targets = marginals->target.size();
   std::vector<double> trusted(targets, 0.0);
   for (size_t t = 0; t < targets; ++t) {
-    const Belief& belief = beliefs->target[t];
-    if (!modes[t].empty()) beliefs->mean_confidence += belief.confidence.front();
-    beliefs->mean_support += belief.support();
-    for (const double p : belief.confidence) trusted[t] = std::max(trusted[t], p);
-    trusted[t] *= belief.support();
+    const TargetMarginal& marginal = marginals->target[t];
+    if (!modes[t].empty()) marginals->mean_confidence += marginal.confidence.front();
+    marginals->mean_support += marginal.support();
+    for (const double p : marginal.confidence) trusted[t] = std::max(trusted[t], p);
+    trusted[t] *= marginal.support();
   }
-  beliefs->mean_confidence /= static_cast<double>(targets);
-  beliefs->mean_support /= static_cast<double>(targets);
+  marginals->mean_confidence /= static_cast<double>(targets);
+  marginals->mean_support /= static_cast<double>(targets);
   for (const std::vector<uint32_t>& near : model.tables().neighbours) {
     double sum = 0;
     for (const uint32_t t : near) sum += trusted[t];
-    beliefs->neighbour_support.push_back(near.empty() ? 0.0
-                                                      : sum / static_cast<double>(near.size()));
+    marginals->neighbour_support.push_back(near.empty() ? 0.0
+                                                        : sum / static_cast<double>(near.size()));
   }
 }
 
 }  // namespace
 
-double Belief::support() const {
+double TargetMarginal::support() const {
   double sum = 0;
   for (const double w : weight) sum += w;
   return std::min(sum, 1.0);
 }
 
-Beliefs Agree(const ForestModel& model, std::span<const float> context_posterior,
-              const ModesOfTargets& modes) {
+PoseMarginals InferPose(const ForestModel& model, std::span<const float> context_posterior,
+                        const TargetModes& modes) {
   const Observed observed = Observe(model, modes);
   const float top = *std::max_element(context_posterior.begin(), context_posterior.end());
-  Beliefs best;
+  PoseMarginals best;
   double best_score = -1e300;
   double next_score = -1e300;
   for (size_t k = 0; k < context_posterior.size(); ++k) {
     const double log_prior = std::log(std::max(static_cast<double>(context_posterior[k]), 1e-6));
     if (log_prior < std::log(static_cast<double>(top)) - kContextRange) continue;
     double fit = 0;
-    std::vector<Belief> beliefs = BeliefsUnder(model.tables().factor_models[k], observed, &fit);
+    std::vector<TargetMarginal> marginals =
+        InferUnder(model.tables().factor_models[k], observed, &fit);
     const double score = fit + log_prior;
     next_score = std::max(next_score, std::min(score, best_score));
     if (score <= best_score) continue;
     best_score = score;
-    best.target = std::move(beliefs);
+    best.target = std::move(marginals);
   }
-  for (Belief& belief : best.target) belief.predicted_m += observed.centre_m;
+  for (TargetMarginal& marginal : best.target) marginal.predicted_m += observed.centre_m;
   best.margin = std::min(best_score - next_score, kMostMargin);
   Summarise(model, modes, &best);
   return best;
 }
 
-Eigen::Vector3d Fuse(const Belief& belief, const std::vector<Mode>& modes, double mode_noise_m) {
-  Eigen::Matrix3d whole = belief.covariance_m2.inverse();
-  Eigen::Vector3d pull = whole * belief.predicted_m;
+Eigen::Vector3d Fuse(const TargetMarginal& marginal, const std::vector<Mode>& modes,
+                     double mode_noise_m) {
+  Eigen::Matrix3d whole = marginal.covariance_m2.inverse();
+  Eigen::Vector3d pull = whole * marginal.predicted_m;
   const size_t heaviest = static_cast<size_t>(
-      std::max_element(belief.weight.begin(), belief.weight.end()) - belief.weight.begin());
+      std::max_element(marginal.weight.begin(), marginal.weight.end()) - marginal.weight.begin());
   for (size_t m = 0; m < modes.size(); ++m) {
     // Modes far apart are alternatives: between them lies nothing.
     if ((modes[m].position_m - modes[heaviest].position_m).norm() > kApart_m) continue;
-    const double weight = belief.weight[m] / (mode_noise_m * mode_noise_m);
+    const double weight = marginal.weight[m] / (mode_noise_m * mode_noise_m);
     whole += weight * Eigen::Matrix3d::Identity();
     pull += weight * modes[m].position_m.cast<double>();
   }
   return whole.inverse() * pull;
 }
 
-std::vector<PlaceCandidate> Candidates(const ProposalTarget& target, const Beliefs& beliefs,
+std::vector<PlaceCandidate> Candidates(const ProposalTarget& target, const PoseMarginals& marginals,
                                        size_t target_index, const std::vector<Mode>& modes,
                                        const RefinedPlace* refined) {
-  const Belief& belief = beliefs.target[target_index];
+  const TargetMarginal& marginal = marginals.target[target_index];
   std::vector<PlaceCandidate> candidates(1);
   candidates[0].is_fused = true;
-  candidates[0].position_m = Fuse(belief, modes, target.mode_noise_m);
+  candidates[0].position_m = Fuse(marginal, modes, target.mode_noise_m);
   if (refined != nullptr) {
     candidates[0].position_m = refined->position_m;
     candidates[0].refined_confidence = refined->confidence;
   }
-  std::vector<std::array<double, 2>> own = {{0.0, belief.support()}};  // confidence, weight
+  std::vector<std::array<double, 2>> own = {{0.0, marginal.support()}};  // confidence, weight
   double heaviest = 0.05;  // below, no mode has a say worth naming
   for (size_t m = 0; m < modes.size(); ++m) {
-    own[0][0] += belief.weight[m] * belief.confidence[m] / std::max(belief.support(), 1e-6);
-    if (belief.weight[m] > heaviest) {
-      heaviest = belief.weight[m];
+    own[0][0] += marginal.weight[m] * marginal.confidence[m] / std::max(marginal.support(), 1e-6);
+    if (marginal.weight[m] > heaviest) {
+      heaviest = marginal.weight[m];
       candidates[0].mode = static_cast<int>(m);
     }
     const Eigen::Vector3d position_m = modes[m].position_m.cast<double>();
     if ((position_m - candidates[0].position_m).norm() <= kApart_m) continue;
     candidates.push_back({position_m, {}, false, static_cast<int>(m), {}});
-    own.push_back({belief.confidence[m], belief.weight[m]});
+    own.push_back({marginal.confidence[m], marginal.weight[m]});
   }
   const Eigen::Matrix3d inverse =
-      (belief.covariance_m2 + kModeNoise_m * kModeNoise_m * Eigen::Matrix3d::Identity()).inverse();
-  const double spread_m = std::sqrt(belief.covariance_m2.trace() / 3.0);
+      (marginal.covariance_m2 + kModeNoise_m * kModeNoise_m * Eigen::Matrix3d::Identity())
+          .inverse();
+  const double spread_m = std::sqrt(marginal.covariance_m2.trace() / 3.0);
   for (size_t i = 0; i < candidates.size(); ++i) {
-    const Eigen::Vector3d off = candidates[i].position_m - belief.predicted_m;
+    const Eigen::Vector3d off = candidates[i].position_m - marginal.predicted_m;
     const double distance = std::min(std::sqrt(off.dot(inverse * off)), kMostDistance);
     candidates[i].feature = {Logit(own[i][0]),
                              static_cast<float>(own[i][1]),
                              static_cast<float>(distance),
                              static_cast<float>(std::log(spread_m)),
-                             static_cast<float>(beliefs.mean_confidence),
-                             static_cast<float>(beliefs.mean_support),
-                             static_cast<float>(beliefs.margin),
-                             static_cast<float>(beliefs.neighbour_support[target_index])};
+                             static_cast<float>(marginals.mean_confidence),
+                             static_cast<float>(marginals.mean_support),
+                             static_cast<float>(marginals.margin),
+                             static_cast<float>(marginals.neighbour_support[target_index])};
   }
   return candidates;
 }
 
-double ConfidenceOf(const ProposalTarget& target, const PlaceCandidate& candidate) {
+double ComputeConfidence(const ProposalTarget& target, const PlaceCandidate& candidate) {
   if (candidate.refined_confidence) return *candidate.refined_confidence;
   return Evaluate(candidate.is_fused ? target.fused : target.apart, candidate.feature);
 }

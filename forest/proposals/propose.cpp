@@ -96,7 +96,7 @@ Proposal ProposalAt(const ProposalTarget& target, const Mode& mode) {
 }
 
 std::vector<std::vector<Proposal>> ProposeSingly(const ForestModel& model,
-                                                 const ModesOfTargets& modes) {
+                                                 const TargetModes& modes) {
   std::vector<std::vector<Proposal>> proposals(modes.size());
   for (size_t t = 0; t < modes.size(); ++t) {
     for (const Mode& mode : modes[t]) {
@@ -107,14 +107,15 @@ std::vector<std::vector<Proposal>> ProposeSingly(const ForestModel& model,
 }
 
 // What modes and other targets agree on, and modes that stand apart from it.
-std::vector<std::vector<Proposal>> ProposeTogether(const ForestModel& model, const Beliefs& beliefs,
-                                                   const ModesOfTargets& modes,
+std::vector<std::vector<Proposal>> ProposeTogether(const ForestModel& model,
+                                                   const PoseMarginals& marginals,
+                                                   const TargetModes& modes,
                                                    const std::vector<RefinedPlace>& refined) {
   std::vector<std::vector<Proposal>> proposals(modes.size());
   for (size_t t = 0; t < modes.size(); ++t) {
     const ProposalTarget& target = model.targets()[t];
     const RefinedPlace* place = refined.empty() ? nullptr : &refined[t];
-    for (const PlaceCandidate& candidate : Candidates(target, beliefs, t, modes[t], place)) {
+    for (const PlaceCandidate& candidate : Candidates(target, marginals, t, modes[t], place)) {
       Proposal proposal;
       if (candidate.mode >= 0) {
         proposal = ProposalAt(target, modes[t][static_cast<size_t>(candidate.mode)]);
@@ -122,7 +123,7 @@ std::vector<std::vector<Proposal>> ProposeTogether(const ForestModel& model, con
         proposal.seen = false;  // the other targets alone speak
       }
       proposal.position_m = candidate.position_m;
-      proposal.confidence = ConfidenceOf(target, candidate);
+      proposal.confidence = ComputeConfidence(target, candidate);
       proposals[t].push_back(proposal);
     }
     std::stable_sort(
@@ -136,7 +137,7 @@ std::vector<std::vector<Proposal>> ProposeTogether(const ForestModel& model, con
 
 std::vector<Mode> FindModes(const Evidence& evidence, const ProposalTarget& target,
                             size_t target_index) {
-  const TargetPoints points = PointsOf(evidence, target, target_index);
+  const TargetPoints points = GatherPoints(evidence, target, target_index);
   if (points.points.size() == 0) return {};
   std::vector<Mode> modes;
   for (const Eigen::Vector3f& start : StartPoints(points.points, target.bandwidth_m)) {
@@ -151,20 +152,21 @@ std::vector<std::vector<Proposal>> Propose(const ForestModel& model, const depth
                                            const depth::Camera& camera,
                                            const Classification& classification) {
   const Evidence evidence = GatherEvidence(model, depth, camera, classification);
-  ModesOfTargets modes;
+  TargetModes modes;
   for (size_t t = 0; t < model.targets().size(); ++t) {
     modes.push_back(FindModes(evidence, model.targets()[t], t));
   }
   const bool is_blank = std::all_of(modes.begin(), modes.end(),
                                     [](const std::vector<Mode>& list) { return list.empty(); });
-  if (is_blank || model.data().arrangements.empty()) return ProposeSingly(model, modes);
-  const Beliefs beliefs = Agree(model, classification.context, modes);
+  if (is_blank || model.data().pose_priors.empty()) return ProposeSingly(model, modes);
+  const PoseMarginals marginals = InferPose(model, classification.context, modes);
   std::vector<RefinedPlace> refined;
-  if (!model.data().refinement.layers.empty()) {
-    refined = Refine(model.data().refinement,
-                     Describe(model, camera, evidence, classification.context, modes, beliefs));
+  if (!model.data().refinement.empty()) {
+    refined = Refine(
+        model.data().refinement,
+        ComputeJointFeatures(model, camera, evidence, classification.context, modes, marginals));
   }
-  return ProposeTogether(model, beliefs, modes, refined);
+  return ProposeTogether(model, marginals, modes, refined);
 }
 
 }  // namespace ossa::forest

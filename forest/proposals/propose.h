@@ -15,7 +15,7 @@ struct Proposal {
 };
 
 /// Proposals for every target of the model (index = target), each list best first. With
-/// arrangements in the model a target without evidence of its own is proposed where the others say,
+/// pose priors in the model a target without evidence of its own is proposed where the others say,
 /// not `seen`; without them its list is empty, as all lists are of an object without evidence.
 /// Shotton et al. 2011, sec. 3.3.
 std::vector<std::vector<Proposal>> Propose(const ForestModel& model, const depth::DepthView& depth,

@@ -3,36 +3,31 @@
 #include <span>
 #include <vector>
 
+#include "depth/base/perceptron/perceptron.h"
+#include "depth/base/perceptron/pose_regression.h"
 #include "depth/image/camera.h"
-#include "forest/dense_internal.h"
 #include "forest/forest.h"
 #include "forest/proposals/modes_internal.h"
 #include "forest/proposals/pose_inference_internal.h"
 
 namespace ossa::forest {
 
-/// What the refinement knows of an object, and where it knows it from.
-struct Description {
-  Eigen::Vector3d root_m = Eigen::Vector3d::Zero();                 // amid the places
-  Eigen::Matrix3d frame_from_camera = Eigen::Matrix3d::Identity();  // z along the ray to the root
+/// What the refinement reads of an object, and the places that it moves.
+struct JointFeatures {
+  ViewFrame frame;                       // about the places' middle
   std::vector<Eigen::Vector3d> place_m;  // of each target, camera axes: modes and prediction fused
-  std::vector<float> value;              // DescriptionSize numbers
+  Eigen::RowVectorXf value;              // JointFeatureCount numbers
 };
 
 /// All that earlier stages found of one object, as numbers in a frame that stands in it.
-Description Describe(const ForestModel& model, const depth::Camera& camera,
-                     const Evidence& evidence, std::span<const float> context_posterior,
-                     const ModesOfTargets& modes, const Beliefs& beliefs);
+JointFeatures ComputeJointFeatures(const ForestModel& model, const depth::Camera& camera,
+                                   const Evidence& evidence,
+                                   std::span<const float> context_posterior,
+                                   const TargetModes& modes, const PoseMarginals& marginals);
 
-/// Rows of outputs for rows of normalised inputs: per target an offset in steps of
-/// kRefinementStep_m, then for all targets the logit of the confidence.
-RowMatrix RunLayers(const Refinement& refinement, RowMatrix rows);
-inline constexpr double kRefinementStep_m = 0.1;
-
-/// A description as the layers want it: about its mean, in standard deviations, outliers cut off.
-RowMatrix Normalised(const Refinement& refinement, std::span<const float> description);
-
-/// The places as the refinement says, one a target. Precondition: it has layers.
-std::vector<RefinedPlace> Refine(const Refinement& refinement, const Description& description);
+/// The places as the refinement moves them, one a target. Its outputs: per target an offset
+/// (OffsetScale's default), then for all targets the logit of the confidence. Precondition: it has
+/// layers.
+std::vector<RefinedPlace> Refine(const Perceptron& refinement, const JointFeatures& features);
 
 }  // namespace ossa::forest

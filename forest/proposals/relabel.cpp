@@ -76,8 +76,8 @@ Spots ChooseSpots(const depth::DepthView& depth, const depth::Camera& camera,
   return spots;
 }
 
-OSSA_CPU_DISPATCH void NearnessOf(const Anchors& anchors, const Eigen::Vector3f& point_m,
-                                  float* out) {
+OSSA_CPU_DISPATCH void EvaluateRadialBasis(const Anchors& anchors, const Eigen::Vector3f& point_m,
+                                           float* out) {
   constexpr float kPerSquare = 1.0F / (kReach_m * kReach_m);
   const size_t targets = anchors.x.size();
   const float px = point_m.x(), py = point_m.y(), pz = point_m.z();
@@ -111,9 +111,9 @@ OSSA_CPU_DISPATCH void ToFactors(float* score, size_t count) {
 }
 
 // The scores' weights for these anchors: point nearness × class.
-RowMatrix WeightsFor(const PartPrior& prior, const Anchors& anchors, Eigen::Index classes) {
+RowMatrix ComputeWeights(const Relabelling& prior, const Anchors& anchors, Eigen::Index classes) {
   const auto targets = static_cast<Eigen::Index>(anchors.x.size());
-  const Eigen::Index rows = targets * static_cast<Eigen::Index>(kNearnessScales);
+  const Eigen::Index rows = targets * static_cast<Eigen::Index>(kRadialBasisScales);
   const Eigen::Map<const RowMatrix> given(prior.weight.data(), 2 * rows, classes);
   RowMatrix weight = given.topRows(rows);
   for (Eigen::Index i = 0; i < rows; ++i) {
@@ -123,14 +123,14 @@ RowMatrix WeightsFor(const PartPrior& prior, const Anchors& anchors, Eigen::Inde
 }
 
 // Spot × stride: what the trees' probabilities are multiplied with; columns beyond the classes: 0.
-RowMatrix FactorsAt(const PartPrior& prior, const Anchors& anchors, const Spots& spots,
-                    Eigen::Index stride) {
+RowMatrix ComputeFactors(const Relabelling& prior, const Anchors& anchors, const Spots& spots,
+                         Eigen::Index stride) {
   constexpr float kLog2OfE = 1.44269504F;
   const auto classes = static_cast<Eigen::Index>(prior.bias.size());
   RowMatrix weight =
-      RowMatrix::Zero(static_cast<Eigen::Index>(anchors.x.size() * kNearnessScales), stride);
-  weight.leftCols(classes) = kLog2OfE * WeightsFor(prior, anchors, classes);
-  RowMatrix factor = Product(Nearness(anchors, spots.point_m), weight);
+      RowMatrix::Zero(static_cast<Eigen::Index>(anchors.x.size() * kRadialBasisScales), stride);
+  weight.leftCols(classes) = kLog2OfE * ComputeWeights(prior, anchors, classes);
+  RowMatrix factor = Multiply(ComputeRadialBasis(anchors, spots.point_m), weight);
   factor.leftCols(classes).rowwise() +=
       kLog2OfE * Eigen::Map<const Eigen::RowVectorXf>(prior.bias.data(), classes);
   for (Eigen::Index i = 0; i < factor.rows(); ++i) {
@@ -170,11 +170,11 @@ Anchors::Anchors(const std::vector<std::vector<Proposal>>& proposals) {
   }
 }
 
-RowMatrix Nearness(const Anchors& anchors, const std::vector<Eigen::Vector3f>& points_m) {
+RowMatrix ComputeRadialBasis(const Anchors& anchors, const std::vector<Eigen::Vector3f>& points_m) {
   RowMatrix near(static_cast<Eigen::Index>(points_m.size()),
-                 static_cast<Eigen::Index>(anchors.x.size() * kNearnessScales));
+                 static_cast<Eigen::Index>(anchors.x.size() * kRadialBasisScales));
   for (size_t i = 0; i < points_m.size(); ++i) {
-    NearnessOf(anchors, points_m[i], near.row(static_cast<Eigen::Index>(i)).data());
+    EvaluateRadialBasis(anchors, points_m[i], near.row(static_cast<Eigen::Index>(i)).data());
   }
   return near;
 }
@@ -182,13 +182,13 @@ RowMatrix Nearness(const Anchors& anchors, const std::vector<Eigen::Vector3f>& p
 std::vector<uint8_t> Relabel(const ForestModel& model, const depth::DepthView& depth,
                              const depth::Camera& camera, const Classification& classification,
                              const std::vector<std::vector<Proposal>>& proposals) {
-  const PartPrior& prior = model.data().part_prior;
+  const Relabelling& prior = model.data().relabelling;
   std::vector<uint8_t> label = classification.label;
   if (prior.bias.empty() || label.empty()) return label;
   const Anchors anchors(proposals);
   const Spots spots = ChooseSpots(depth, camera, classification.pixel);
   const size_t stride = classification.mass_stride;
-  const RowMatrix factor = FactorsAt(prior, anchors, spots, static_cast<Eigen::Index>(stride));
+  const RowMatrix factor = ComputeFactors(prior, anchors, spots, static_cast<Eigen::Index>(stride));
   // Pixels that share sample and spot share the label: each sample knows its last.
   struct Last {
     uint32_t spot = ~0U;

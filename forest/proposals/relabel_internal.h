@@ -3,7 +3,7 @@
 #include <cstddef>
 #include <vector>
 
-#include "forest/dense_internal.h"
+#include "depth/base/perceptron/matrix_product.h"
 #include "forest/proposals/propose.h"
 
 namespace ossa::forest {
@@ -17,9 +17,9 @@ struct Anchors {
   explicit Anchors(const std::vector<std::vector<Proposal>>& proposals);
 };
 
-/// How near points (a row each) are to the anchors: point × (scale · target), kNearnessScales of
+/// How near points (a row each) are to the anchors: point × (scale · target), kRadialBasisScales of
 /// them (forest.h), all in [0, 1].
-RowMatrix Nearness(const Anchors& anchors, const std::vector<Eigen::Vector3f>& points_m);
+RowMatrix ComputeRadialBasis(const Anchors& anchors, const std::vector<Eigen::Vector3f>& points_m);
 
 /// Added to probabilities of the trees: a class that no leaf gave a pixel is not impossible.
 inline constexpr float kLeastLeafProbability = 1e-3F;

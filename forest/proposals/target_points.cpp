@@ -7,7 +7,7 @@
 #include <limits>
 
 #include "depth/base/cpu_dispatch.h"
-#include "forest/lanes_internal.h"
+#include "depth/base/lanes.h"
 #include "forest/proposals/modes_internal.h"
 
 namespace ossa::forest {
@@ -38,7 +38,7 @@ OSSA_CPU_DISPATCH void WeighVotes(const Vote* vote, const float* area_m2, size_t
     const Lanes relative = 0.01F * __builtin_convertvector(spread_cm, Lanes) / sharpness_m;
     const Lanes softness = 1.0F + relative * relative;
     Lanes area;
-    Load(area_m2 + i, &area);
+    LoadLanes(area_m2 + i, &area);
     const IntLanes counts = (spread_cm != Vote::kNone) & (x * x + (y * y + z * z) <= longest_m2);
     const Lanes w = counts ? area / (softness * softness) : Lanes{} + kNoVote;
     std::memcpy(weight + i, &w, sizeof(w));
@@ -62,7 +62,7 @@ float LargestSquare(float root) {
 }
 
 // Probability of the target's classes.
-std::vector<float> ProbabilityOf(const Evidence& evidence, const ProposalTarget& target) {
+std::vector<float> SumProbabilities(const Evidence& evidence, const ProposalTarget& target) {
   std::vector<float> sum(evidence.stride(), 0.0F);
   for (const uint8_t c : target.classes) {
     AddRow(evidence.probability_of(c), evidence.stride(), sum.data());
@@ -76,7 +76,7 @@ struct Votes {
   float total = 0.0F;            // of all weights
 };
 
-Votes VotesFor(const Evidence& evidence, const ProposalTarget& target, size_t index) {
+Votes CountVotes(const Evidence& evidence, const ProposalTarget& target, size_t index) {
   Votes votes;
   votes.weight.resize(evidence.stride());
   WeighVotes(evidence.votes_for(index), evidence.area_m2.data(), evidence.stride(),
@@ -97,12 +97,13 @@ Votes VotesFor(const Evidence& evidence, const ProposalTarget& target, size_t in
 
 }  // namespace
 
-TargetPoints PointsOf(const Evidence& evidence, const ProposalTarget& target, size_t target_index) {
-  const std::vector<float> probability = ProbabilityOf(evidence, target);
+TargetPoints GatherPoints(const Evidence& evidence, const ProposalTarget& target,
+                          size_t target_index) {
+  const std::vector<float> probability = SumProbabilities(evidence, target);
   std::vector<uint32_t> seen(evidence.count);
   seen.resize(
       PickAtLeast(target.probability_threshold, probability.data(), evidence.count, seen.data()));
-  const Votes votes = VotesFor(evidence, target, target_index);
+  const Votes votes = CountVotes(evidence, target, target_index);
   TargetPoints points{WeightedPoints(target.class_weight > 0 ? seen.size() + votes.picked.size()
                                                              : votes.picked.size()),
                       WeightedPoints(seen.size()), votes.total};

@@ -4,9 +4,11 @@
 
 #include <algorithm>
 #include <atomic>
-#include <chrono>
 #include <numeric>
 
+#include "depth/base/error.h"
+#include "depth/base/stopwatch.h"
+#include "depth/base/train_interrupted.h"
 #include "forest/training/grow_internal.h"
 
 namespace ossa::forest {
@@ -14,10 +16,6 @@ namespace {
 
 constexpr size_t kBlock = 64;       // candidates whose histograms are filled at once
 constexpr int kContextLevels = 12;  // below, nodes split for the class only
-
-double Now_s() {
-  return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
-}
 
 // The side of a split that a sample takes.
 int32_t Child(const Node& node, const ObjectImage& image, const PixelSample& sample) {
@@ -32,7 +30,7 @@ int32_t Child(const Node& node, const ObjectImage& image, const PixelSample& sam
 }
 
 uint64_t SampleHash(uint64_t seed, size_t image, uint32_t sample) {
-  return Random(seed ^ (static_cast<uint64_t>(image) << 20U) ^ sample).Next() >> 32U;
+  return Random(seed ^ (static_cast<uint64_t>(image) << 20U) ^ sample).Bits() >> 32U;
 }
 
 }  // namespace
@@ -287,7 +285,7 @@ void TreeGrower::Settle(const Split& split, Task* task) {
 }
 
 LevelReport TreeGrower::GrowLevel(GrowingTree* tree) {
-  const double start_s = Now_s();
+  const Stopwatch watch;
   const uint64_t evaluations_before = evaluations_;
   SortSamples(*tree);
   std::vector<Task> tasks = MakeTasks(*tree);
@@ -314,7 +312,7 @@ LevelReport TreeGrower::GrowLevel(GrowingTree* tree) {
   Route(*tree);
   report.mean_gain_bits = pixels > 0 ? weighted_gain / static_cast<double>(pixels) : 0.0;
   report.evaluations = evaluations_ - evaluations_before;
-  report.seconds = Now_s() - start_s;
+  report.seconds = watch.seconds();
   return report;
 }
 

@@ -3,8 +3,9 @@
 #include <algorithm>
 
 #include "depth/base/error.h"
+#include "depth/base/random.h"
+#include "depth/base/train_interrupted.h"
 #include "forest/training/images_internal.h"
-#include "forest/training/random_internal.h"
 
 namespace ossa::forest {
 namespace {
@@ -47,7 +48,7 @@ size_t FairShare(const std::vector<std::vector<PixelSample>>& by_class, size_t p
   return low;
 }
 
-size_t BytesOf(const StoredImage& image) {
+size_t CountBytes(const StoredImage& image) {
   return sizeof(StoredImage) + image.image.depth_mm.size() * sizeof(uint16_t) +
          image.samples.size() * sizeof(PixelSample) + image.target_m.size() * 12;
 }
@@ -107,7 +108,7 @@ ImageParts::ImageParts(const TrainingSource& source, const TrainOptions& options
     const size_t count = std::min(kReadBatch, mine.size() - first);
     for (StoredImage& image : ReadPart({begin, begin + static_cast<ptrdiff_t>(count)})) {
       if (image.samples.empty()) continue;
-      const size_t size = BytesOf(image);
+      const size_t size = CountBytes(image);
       if (bytes + size > options.memory_bytes && !part.empty()) {
         parts_.push_back(std::move(part));
         part.clear();

@@ -11,46 +11,49 @@ namespace {
 constexpr double kTrackedPrecision = 0.90;
 constexpr double kInferredPrecision = 0.50;
 
-// What was heard of an image, and where the refinement, if there is one, puts the targets.
-struct HeardImage : Heard {
+// What was inferred of an image, and where the refinement, if there is one, puts the targets.
+struct InferredImage : FirstStage {
   std::vector<RefinedPlace> refined;
 
-  const RefinedPlace* RefinedOf(size_t t) const { return refined.empty() ? nullptr : &refined[t]; }
+  const RefinedPlace* refined_place(size_t t) const {
+    return refined.empty() ? nullptr : &refined[t];
+  }
 };
 
-std::vector<HeardImage> HearAll(const ForestModel& model,
-                                const std::vector<ValidationImage>& images) {
-  std::vector<HeardImage> heard(images.size());
-  const Refinement& refinement = model.data().refinement;
+std::vector<InferredImage> InferAll(const ForestModel& model,
+                                    const std::vector<ValidationImage>& images) {
+  std::vector<InferredImage> inferred(images.size());
+  const Perceptron& refinement = model.data().refinement;
   oneapi::tbb::parallel_for(size_t{0}, images.size(), [&](size_t i) {
     const ValidationImage& image = images[i];
-    HeardImage& one = heard[i];
-    static_cast<Heard&>(one) = Hear(model, image);
-    if (refinement.layers.empty()) return;
-    one.refined = Refine(refinement, Describe(model, image.camera, image.evidence, image.context,
-                                              one.modes, one.beliefs));
+    InferredImage& one = inferred[i];
+    static_cast<FirstStage&>(one) = RunFirstStage(model, image);
+    if (refinement.empty()) return;
+    one.refined = Refine(refinement, ComputeJointFeatures(model, image.camera, image.evidence,
+                                                          image.context, one.modes, one.marginals));
   });
-  return heard;
+  return inferred;
 }
 
 // Hits within 10 cm, and half as much for being within 5 cm as well.
-double Score(const std::vector<ValidationImage>& images, const std::vector<HeardImage>& heard,
+double Score(const std::vector<ValidationImage>& images, const std::vector<InferredImage>& inferred,
              size_t t, double noise_m) {
   double score = 0;
   for (size_t i = 0; i < images.size(); ++i) {
     if (!images[i].target_m[t].allFinite()) continue;
-    const Eigen::Vector3d place = Fuse(heard[i].beliefs.target[t], heard[i].modes[t], noise_m);
+    const Eigen::Vector3d place =
+        Fuse(inferred[i].marginals.target[t], inferred[i].modes[t], noise_m);
     const double error_m = (place - images[i].target_m[t].cast<double>()).norm();
     score += (error_m < kHitRadius_m ? 1.0 : 0.0) + (error_m < kHitRadius_m / 2 ? 0.5 : 0.0);
   }
   return score;
 }
 
-void TuneNoise(const std::vector<ValidationImage>& images, const std::vector<HeardImage>& heard,
-               size_t t, ProposalTarget* target) {
+void TuneNoise(const std::vector<ValidationImage>& images,
+               const std::vector<InferredImage>& inferred, size_t t, ProposalTarget* target) {
   double best = -1;
   for (const float noise_m : {0.003F, 0.01F, 0.02F, 0.03F, 0.045F, 0.065F, 0.09F}) {
-    const double score = Score(images, heard, t, noise_m);
+    const double score = Score(images, inferred, t, noise_m);
     if (score <= best) continue;
     best = score;
     target->mode_noise_m = noise_m;
@@ -66,15 +69,15 @@ struct JudgedCandidate {
 };
 
 std::vector<JudgedCandidate> JudgeCandidates(const std::vector<ValidationImage>& images,
-                                             const std::vector<HeardImage>& heard,
+                                             const std::vector<InferredImage>& inferred,
                                              const ProposalTarget& target, size_t t) {
   std::vector<JudgedCandidate> judged;
   for (size_t i = 0; i < images.size(); ++i) {
     if (!images[i].target_m[t].allFinite()) continue;
     const Eigen::Vector3d truth_m = images[i].target_m[t].cast<double>();
-    const std::vector<Mode>& modes = heard[i].modes[t];
+    const std::vector<Mode>& modes = inferred[i].modes[t];
     for (const PlaceCandidate& candidate :
-         Candidates(target, heard[i].beliefs, t, modes, heard[i].RefinedOf(t))) {
+         Candidates(target, inferred[i].marginals, t, modes, inferred[i].refined_place(t))) {
       const bool seen =
           candidate.mode >= 0 &&
           Evaluate(target.visible, modes[static_cast<size_t>(candidate.mode)].feature) >= 0.5;
@@ -86,8 +89,8 @@ std::vector<JudgedCandidate> JudgeCandidates(const std::vector<ValidationImage>&
 }
 
 // P(within 10 cm) of the candidates that are fused, or of those that stand apart.
-Agreement FitAgreement(const std::vector<JudgedCandidate>& judged, bool is_fused) {
-  using Example = Judged<Agreement::kFeatures>;
+PlaceConfidence FitAgreement(const std::vector<JudgedCandidate>& judged, bool is_fused) {
+  using Example = Judged<PlaceConfidence::kFeatures>;
   std::vector<Example> examples;
   for (const JudgedCandidate& one : judged) {
     if (one.candidate.is_fused != is_fused) continue;
@@ -97,7 +100,7 @@ Agreement FitAgreement(const std::vector<JudgedCandidate>& judged, bool is_fused
 }
 
 // The least confidence from which on (by all of at least as much) the wanted share is right.
-float ThresholdFor(std::vector<std::pair<double, bool>> rated, double precision) {
+float FindThreshold(std::vector<std::pair<double, bool>> rated, double precision) {
   std::sort(rated.begin(), rated.end(),
             [](const auto& a, const auto& b) { return a.first > b.first; });
   double right = 0;
@@ -113,13 +116,13 @@ float ThresholdFor(std::vector<std::pair<double, bool>> rated, double precision)
 
 }  // namespace
 
-Heard Hear(const ForestModel& model, const ValidationImage& image) {
-  Heard heard;
+FirstStage RunFirstStage(const ForestModel& model, const ValidationImage& image) {
+  FirstStage inferred;
   for (size_t t = 0; t < model.targets().size(); ++t) {
-    heard.modes.push_back(FindModes(image.evidence, model.targets()[t], t));
+    inferred.modes.push_back(FindModes(image.evidence, model.targets()[t], t));
   }
-  heard.beliefs = Agree(model, image.context, heard.modes);
-  return heard;
+  inferred.marginals = InferPose(model, image.context, inferred.modes);
+  return inferred;
 }
 
 void SetThresholds(const std::vector<RatedPlace>& rated, ProposalTarget* target) {
@@ -129,26 +132,28 @@ void SetThresholds(const std::vector<RatedPlace>& rated, ProposalTarget* target)
     all.emplace_back(place.confidence, place.is_near);
     if (place.seen) seen.emplace_back(place.confidence, place.is_near && place.visible);
   }
-  target->inferred_confidence = ThresholdFor(all, kInferredPrecision);
+  target->inferred_confidence = FindThreshold(all, kInferredPrecision);
   target->tracked_confidence =
-      std::max(target->inferred_confidence, ThresholdFor(seen, kTrackedPrecision));
+      std::max(target->inferred_confidence, FindThreshold(seen, kTrackedPrecision));
 }
 
-ForestModel LearnAgreement(const ForestModel& model, const std::vector<ValidationImage>& images) {
-  const std::vector<HeardImage> heard = HearAll(model, images);
+ForestModel LearnPoseInference(const ForestModel& model,
+                               const std::vector<ValidationImage>& images) {
+  const std::vector<InferredImage> inferred = InferAll(model, images);
   ForestData data = model.data();
   oneapi::tbb::parallel_for(size_t{0}, data.targets.size(), [&](size_t t) {
     ProposalTarget& target = data.targets[t];
     // The refinement was learned with the noise as it is, and tells fused places' confidence
     // itself.
-    const bool is_refined = !data.refinement.layers.empty();
-    if (!is_refined) TuneNoise(images, heard, t, &target);
-    const std::vector<JudgedCandidate> judged = JudgeCandidates(images, heard, target, t);
+    const bool is_refined = !data.refinement.empty();
+    if (!is_refined) TuneNoise(images, inferred, t, &target);
+    const std::vector<JudgedCandidate> judged = JudgeCandidates(images, inferred, target, t);
     if (!is_refined) target.fused = FitAgreement(judged, true);
     target.apart = FitAgreement(judged, false);
     std::vector<RatedPlace> rated;
     for (const JudgedCandidate& one : judged) {
-      rated.push_back({ConfidenceOf(target, one.candidate), one.is_near, one.visible, one.seen});
+      rated.push_back(
+          {ComputeConfidence(target, one.candidate), one.is_near, one.visible, one.seen});
     }
     SetThresholds(rated, &target);
   });

@@ -8,7 +8,7 @@
 #include <optional>
 
 #include "depth/base/error.h"
-#include "forest/thread_limit.h"
+#include "depth/base/threads.h"
 #include "forest/training/train.h"
 
 namespace ossa::forest {
@@ -24,7 +24,7 @@ struct Example {
   Eigen::VectorXd position;  // target · 3, about their mean
 };
 
-std::optional<Example> ExampleOf(const TrainingImage& image, size_t targets) {
+std::optional<Example> MakeExample(const TrainingImage& image, size_t targets) {
   if (image.target_m.size() != targets) return std::nullopt;
   Example example;
   example.context = image.context;
@@ -46,7 +46,7 @@ std::vector<std::optional<Example>> ReadExamples(const TrainingSource& source, s
   const size_t count = std::min(source.size(), max_images);
   std::vector<std::optional<Example>> examples(count);
   oneapi::tbb::parallel_for(size_t{0}, count, [&](size_t i) {
-    examples[i] = ExampleOf(source.Read(i * source.size() / count), targets);
+    examples[i] = MakeExample(source.Read(i * source.size() / count), targets);
   });
   std::erase_if(examples, [](const auto& example) { return !example.has_value(); });
   return examples;
@@ -72,7 +72,7 @@ struct Moments {
   }
 };
 
-Arrangement Analyse(const Moments& moments) {
+PosePrior Analyse(const Moments& moments) {
   const Eigen::VectorXd mean = moments.sum / moments.count;
   const Eigen::MatrixXd covariance = moments.square / moments.count - mean * mean.transpose();
   const Eigen::Index size = mean.size();
@@ -91,21 +91,21 @@ Arrangement Analyse(const Moments& moments) {
       noise.segment<3>(t).setConstant(variance);
     }
   }
-  Arrangement arrangement;
+  PosePrior prior;
   for (Eigen::Index i = 0; i < size; ++i) {
-    arrangement.mean_m.push_back(static_cast<float>(mean[i]));
+    prior.mean_m.push_back(static_cast<float>(mean[i]));
     for (Eigen::Index f = 0; f < factors; ++f) {
-      arrangement.loading_m.push_back(static_cast<float>(loading(i, f)));
+      prior.loading_m.push_back(static_cast<float>(loading(i, f)));
     }
-    if (i % 3 == 0) arrangement.noise_m.push_back(static_cast<float>(std::sqrt(noise[i])));
+    if (i % 3 == 0) prior.noise_m.push_back(static_cast<float>(std::sqrt(noise[i])));
   }
-  return arrangement;
+  return prior;
 }
 
 }  // namespace
 
-ForestModel LearnArrangements(const ForestModel& model, const TrainingSource& source,
-                              size_t max_images, int threads) {
+ForestModel LearnPosePriors(const ForestModel& model, const TrainingSource& source,
+                            size_t max_images, int threads) {
   const ThreadLimit limit(threads);
   const size_t targets = model.targets().size();
   const auto contexts = static_cast<size_t>(model.context_count());
@@ -120,11 +120,11 @@ ForestModel LearnArrangements(const ForestModel& model, const TrainingSource& so
     if (example->context < contexts) of_context[example->context].Add(example->position);
   }
   ForestData data = model.data();
-  data.arrangements.clear();
-  data.refinement = Refinement();  // was learned on the old ones
+  data.pose_priors.clear();
+  data.refinement = Perceptron();  // was learned on the old ones
   for (Moments& moments : of_context) {
     moments.Borrow(whole, kBorrowed);
-    data.arrangements.push_back(Analyse(moments));
+    data.pose_priors.push_back(Analyse(moments));
   }
   return ForestModel(std::move(data));
 }

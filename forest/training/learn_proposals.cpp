@@ -8,15 +8,15 @@
 #include <cmath>
 
 #include "depth/base/error.h"
+#include "depth/base/threads.h"
 #include "forest/classification/classify.h"
-#include "forest/thread_limit.h"
 #include "forest/training/train.h"
 #include "forest/training/validation_internal.h"
 
 namespace ossa::forest {
 namespace {
 
-depth::DepthView ViewOf(const TrainingImage& image) {
+depth::DepthView MakeView(const TrainingImage& image) {
   const int width = image.camera.width;
   return {image.depth_mm.data(), width, image.camera.height, width};
 }
@@ -160,13 +160,13 @@ Classification ClassifyImage(const ForestModel& model, const TrainingImage& imag
   for (size_t i = 0; i < image.label.size(); ++i) {
     if (image.label[i] != 0) pixels.push_back(static_cast<int32_t>(i));
   }
-  return Classify(model, ViewOf(image), image.camera, pixels);
+  return Classify(model, MakeView(image), image.camera, pixels);
 }
 
 ValidationImage GatherImage(const ForestModel& model, const TrainingImage& image) {
   const Classification result = ClassifyImage(model, image);
-  return {image.camera, GatherEvidence(model, ViewOf(image), image.camera, result), result.context,
-          image.target_m, image.target_visible};
+  return {image.camera, GatherEvidence(model, MakeView(image), image.camera, result),
+          result.context, image.target_m, image.target_visible};
 }
 
 ForestModel LearnProposals(const ForestModel& model, const TrainingSource& validation,
@@ -182,13 +182,14 @@ ForestModel LearnProposals(const ForestModel& model, const TrainingSource& valid
     LearnConfidence(JudgeModes(images, data.targets[t], t), &data.targets[t]);
   });
   const ForestModel single{std::move(data)};
-  return single.data().arrangements.empty() ? single : LearnAgreement(single, images);
+  return single.data().pose_priors.empty() ? single : LearnPoseInference(single, images);
 }
 
 ForestModel LearnConfidences(const ForestModel& model, const TrainingSource& validation,
                              size_t max_images, int threads) {
   const ThreadLimit limit(threads);
-  return LearnAgreement(model, GatherAll(model, validation, ChooseImages(validation, max_images)));
+  return LearnPoseInference(model,
+                            GatherAll(model, validation, ChooseImages(validation, max_images)));
 }
 
 }  // namespace ossa::forest

@@ -7,10 +7,11 @@
 #include <cmath>
 
 #include "depth/base/error.h"
+#include "depth/base/perceptron/train_perceptron.h"
+#include "depth/base/threads.h"
+#include "depth/base/train_interrupted.h"
 #include "forest/joint_features_internal.h"
-#include "forest/network.h"
 #include "forest/proposals/refinement_internal.h"
-#include "forest/thread_limit.h"
 #include "forest/training/validation_internal.h"
 
 namespace ossa::forest {
@@ -22,27 +23,23 @@ constexpr float kSoft_m = 0.02F;    // errors below pull less
 constexpr float kConfidenceShare = 0.5F;
 
 // What is known of images, a row each, and what the network should say. Input: image ×
-// DescriptionSize; wanted: image × target · 3, offsets in refinement steps, NaN: not known.
-using Examples = NetworkExamples;
+// JointFeatureCount; wanted: image × target · 3, offsets in refinement steps, NaN: not known.
+using Examples = PerceptronExamples;
 
 // False when nothing is seen.
 bool AddExample(const ForestModel& model, const TrainingImage& image, Eigen::Index row,
                 Examples* out) {
   const ValidationImage gathered = GatherImage(model, image);
-  const Heard heard = Hear(model, gathered);
-  const bool is_blank = std::all_of(heard.modes.begin(), heard.modes.end(),
+  const FirstStage first = RunFirstStage(model, gathered);
+  const bool is_blank = std::all_of(first.modes.begin(), first.modes.end(),
                                     [](const std::vector<Mode>& modes) { return modes.empty(); });
   if (is_blank) return false;
-  const Description description = Describe(model, image.camera, gathered.evidence, gathered.context,
-                                           heard.modes, heard.beliefs);
-  for (size_t i = 0; i < description.value.size(); ++i) {
-    out->input(row, static_cast<Eigen::Index>(i)) = description.value[i];
-  }
+  const JointFeatures features = ComputeJointFeatures(
+      model, image.camera, gathered.evidence, gathered.context, first.modes, first.marginals);
+  out->input.row(row) = features.value;
   for (size_t t = 0; t < image.target_m.size(); ++t) {
-    const Eigen::Vector3d offset_m =
-        description.frame_from_camera * (image.target_m[t].cast<double>() - description.place_m[t]);
-    out->wanted.block<1, 3>(row, static_cast<Eigen::Index>(3 * t)) =
-        (offset_m / kRefinementStep_m).cast<float>().transpose();
+    out->wanted.block<1, 3>(row, static_cast<Eigen::Index>(3 * t)) = EncodeOffset(
+        features.place_m[t], image.target_m[t].cast<double>(), features.frame, OffsetScale());
   }
   return true;
 }
@@ -51,8 +48,8 @@ Examples GatherExamples(const ForestModel& model, const TrainingSource& source,
                         const RefinementOptions& options) {
   const size_t targets = model.targets().size();
   const auto size =
-      static_cast<Eigen::Index>(DescriptionSize(targets, static_cast<size_t>(model.class_count()),
-                                                static_cast<size_t>(model.context_count())));
+      static_cast<Eigen::Index>(JointFeatureCount(targets, static_cast<size_t>(model.class_count()),
+                                                  static_cast<size_t>(model.context_count())));
   const auto count = static_cast<Eigen::Index>(source.size());
   Examples examples{RowMatrix(count, size),
                     RowMatrix(count, static_cast<Eigen::Index>(3 * targets))};
@@ -74,33 +71,11 @@ Examples GatherExamples(const ForestModel& model, const TrainingSource& source,
   return examples;
 }
 
-// Means and scales of the inputs, which are then normalised in place.
-Refinement NormaliseInputs(RowMatrix* input) {
-  constexpr double kLeastDeviation = 1e-4;
-  const Eigen::RowVectorXd mean =
-      input->cast<double>().colwise().sum() / static_cast<double>(input->rows());
-  Eigen::RowVectorXd square = Eigen::RowVectorXd::Zero(input->cols());
-  for (Eigen::Index i = 0; i < input->rows(); ++i) {
-    square += (input->row(i).cast<double>() - mean).cwiseAbs2();
-  }
-  Refinement refinement;
-  for (Eigen::Index i = 0; i < input->cols(); ++i) {
-    const double deviation = std::sqrt(square[i] / static_cast<double>(input->rows()));
-    refinement.input_mean.push_back(static_cast<float>(mean[i]));
-    refinement.input_scale.push_back(static_cast<float>(1.0 / (deviation + kLeastDeviation)));
-  }
-  for (Eigen::Index i = 0; i < input->rows(); ++i) {
-    const std::span<const float> row(input->row(i).data(), static_cast<size_t>(input->cols()));
-    input->row(i) = Normalised(refinement, row).row(0);
-  }
-  return refinement;
-}
-
 // Gradient of the loss by the outputs. An error e costs 1 - exp(-e² / 2 w²), which counts misses,
 // and a little of its length, which draws places that are farther off than any window; the
 // confidence costs the cross entropy with whether the place is within 10 cm.
-RowMatrix GradientOfLoss(const RowMatrix& out, const RowMatrix& wanted) {
-  const auto step_m = static_cast<float>(kRefinementStep_m);
+RowMatrix ComputeGradient(const RowMatrix& out, const RowMatrix& wanted) {
+  const auto step_m = static_cast<float>(OffsetScale().step_m);
   const Eigen::Index targets = wanted.cols() / 3;
   RowMatrix gradient = RowMatrix::Zero(out.rows(), out.cols());
   for (Eigen::Index i = 0; i < out.rows(); ++i) {
@@ -125,24 +100,25 @@ RowMatrix GradientOfLoss(const RowMatrix& out, const RowMatrix& wanted) {
 ForestModel LearnRefinement(const ForestModel& model, const TrainingSource& source,
                             const RefinementOptions& options) {
   const ThreadLimit limit(options.threads);
-  if (model.data().arrangements.empty()) {
-    throw InputError("refinement: the model has no arrangements to start from");
+  if (model.data().pose_priors.empty()) {
+    throw InputError("refinement: the model has no pose priors to start from");
   }
   Examples examples = GatherExamples(model, source, options);
-  if (examples.input.rows() < kNetworkBatch) {
-    throw InputError("refinement: expected at least " + std::to_string(kNetworkBatch) +
+  if (examples.input.rows() < kPerceptronBatch) {
+    throw InputError("refinement: expected at least " + std::to_string(kPerceptronBatch) +
                      " images that show something, found " + std::to_string(examples.input.rows()));
   }
   ForestData data = model.data();
-  data.refinement = NormaliseInputs(&examples.input);
-  NetworkOptions network;
+  PerceptronTraining network;
   network.hidden = {options.hidden};
   network.outputs = 4 * static_cast<Eigen::Index>(model.targets().size());
   network.epochs = options.epochs;
+  network.least_deviation = 1e-4;  // units of the inputs; by hand: small shares say something
+  network.clip_inputs = true;
   network.seed = options.seed;
   network.progress = options.progress;
   network.stop = options.stop;
-  data.refinement.layers = LearnNetwork(examples, GradientOfLoss, network);
+  data.refinement = TrainPerceptron(&examples, ComputeGradient, network);
   return ForestModel(std::move(data));
 }
 

@@ -9,12 +9,12 @@
 #include <cmath>
 
 #include "depth/base/error.h"
+#include "depth/base/perceptron/perceptron_trainer.h"
+#include "depth/base/random.h"
+#include "depth/base/threads.h"
 #include "forest/classification/classify.h"
 #include "forest/proposals/propose.h"
 #include "forest/proposals/relabel_internal.h"
-#include "forest/thread_limit.h"
-#include "forest/training/network_trainer_internal.h"
-#include "forest/training/random_internal.h"
 #include "forest/training/validation_internal.h"
 
 namespace ossa::forest {
@@ -57,7 +57,7 @@ LabelledPixels Sample(const ForestModel& model, const TrainingImage& image) {
       out.offset(static_cast<Eigen::Index>(k), c) = std::log(probability + kLeastLeafProbability);
     }
   }
-  const RowMatrix near = Nearness(anchors, points_m);
+  const RowMatrix near = ComputeRadialBasis(anchors, points_m);
   out.near.resize(rows, 2 * near.cols());
   out.near.leftCols(near.cols()) = near;
   const auto targets = static_cast<Eigen::Index>(anchors.confidence.size());
@@ -77,7 +77,7 @@ LabelledPixels Gather(const ForestModel& model, const TrainingSource& source) {
   for (const LabelledPixels& part : parts) rows += part.column.size();
   const auto targets = static_cast<Eigen::Index>(model.targets().size());
   all.near.resize(static_cast<Eigen::Index>(rows),
-                  2 * static_cast<Eigen::Index>(kNearnessScales) * targets);
+                  2 * static_cast<Eigen::Index>(kRadialBasisScales) * targets);
   all.offset.resize(static_cast<Eigen::Index>(rows), model.class_count() - 1);
   for (LabelledPixels& part : parts) {
     const auto first = static_cast<Eigen::Index>(all.column.size());
@@ -92,7 +92,7 @@ LabelledPixels Gather(const ForestModel& model, const TrainingSource& source) {
 }
 
 // Classes count alike however many pixels they have: what is measured is the mean of the classes.
-std::vector<float> WeightOfClasses(const std::vector<int>& column, Eigen::Index classes) {
+std::vector<float> ComputeClassWeights(const std::vector<int>& column, Eigen::Index classes) {
   std::vector<double> count(static_cast<size_t>(classes), 0.0);
   for (const int c : column) count[static_cast<size_t>(c)] += 1.0;
   std::vector<float> weight;
@@ -105,8 +105,9 @@ std::vector<float> WeightOfClasses(const std::vector<int>& column, Eigen::Index 
 }
 
 // Of the weighted cross entropy by the scores, a row a pixel.
-RowMatrix LossGradient(const RowMatrix& score, const LabelledPixels& pixels,
-                       const std::vector<Eigen::Index>& chosen, const std::vector<float>& weight) {
+RowMatrix ComputeGradient(const RowMatrix& score, const LabelledPixels& pixels,
+                          const std::vector<Eigen::Index>& chosen,
+                          const std::vector<float>& weight) {
   RowMatrix gradient(score.rows(), score.cols());
   for (Eigen::Index i = 0; i < score.rows(); ++i) {
     const Eigen::Index row = chosen[static_cast<size_t>(i)];
@@ -121,10 +122,10 @@ RowMatrix LossGradient(const RowMatrix& score, const LabelledPixels& pixels,
   return gradient;
 }
 
-PartPrior Fit(const LabelledPixels& pixels, uint64_t seed) {
+Relabelling Fit(const LabelledPixels& pixels, uint64_t seed) {
   const Eigen::Index classes = pixels.offset.cols();
-  const std::vector<float> weight = WeightOfClasses(pixels.column, classes);
-  NetworkTrainer regression({pixels.near.cols(), classes}, {.decay = kDecay}, seed);
+  const std::vector<float> weight = ComputeClassWeights(pixels.column, classes);
+  PerceptronTrainer regression({pixels.near.cols(), classes}, {.decay = kDecay}, seed);
   Random random(MixSeed(seed, 0x9a57));
   const auto count = static_cast<uint32_t>(pixels.column.size());
   const int64_t steps = kEpochs * static_cast<int64_t>(count) / kBatch + 1;
@@ -137,21 +138,22 @@ PartPrior Fit(const LabelledPixels& pixels, uint64_t seed) {
     }
     const RowMatrix& score = regression.Forward(batch);
     const float left = 1.0F - static_cast<float>(step) / static_cast<float>(steps);
-    regression.Step(LossGradient(score, pixels, chosen, weight), kRate * left);
+    regression.Step(ComputeGradient(score, pixels, chosen, weight), kRate * left);
   }
-  const NetworkLayer layer = regression.Layers().front();
-  return {layer.weight, layer.bias};
+  const PerceptronLayer layer = regression.Layers().front();
+  return {{layer.weight.data(), layer.weight.data() + layer.weight.size()},
+          {layer.bias.data(), layer.bias.data() + layer.bias.size()}};
 }
 
 }  // namespace
 
-ForestModel LearnPartPrior(const ForestModel& model, const TrainingSource& source, uint64_t seed,
-                           int threads) {
+ForestModel LearnRelabelling(const ForestModel& model, const TrainingSource& source, uint64_t seed,
+                             int threads) {
   const ThreadLimit limit(threads);
   const LabelledPixels pixels = Gather(model, source);
-  if (pixels.column.empty()) throw InputError("part prior: no image shows anything");
+  if (pixels.column.empty()) throw InputError("relabelling: no image shows anything");
   ForestData data = model.data();
-  data.part_prior = Fit(pixels, seed);
+  data.relabelling = Fit(pixels, seed);
   return ForestModel(std::move(data));
 }
 

@@ -6,8 +6,8 @@
 #include <atomic>
 #include <cmath>
 
+#include "depth/base/random.h"
 #include "forest/runtime_tables_internal.h"
-#include "forest/training/random_internal.h"
 
 namespace ossa::forest {
 namespace {
@@ -35,7 +35,7 @@ void Add(int64_t* to, int64_t value) {
 }
 
 // Leaf of each sample of an image, in one tree.
-std::vector<int32_t> LeavesOf(const LinedTree& tree, const StoredImage& image, size_t step) {
+std::vector<int32_t> FindLeaves(const LinedTree& tree, const StoredImage& image, size_t step) {
   std::vector<int32_t> position;
   for (size_t i = 0; i < image.samples.size(); i += step) {
     position.push_back((image.samples[i].y << 16) | image.samples[i].x);
@@ -77,8 +77,8 @@ void CountCells(const Tree& tree, const ImageParts& parts, size_t class_count,
   parts.Visit([&](size_t, const std::vector<StoredImage>& images) {
     oneapi::tbb::parallel_for(size_t{0}, images.size(), [&](size_t i) {
       const StoredImage& image = images[i];
-      if (Random(MixSeed(kSeed, image.index)).Next() >> 32U >= shares[image.context]) return;
-      const std::vector<int32_t> leaf = LeavesOf(lined, image, 1);
+      if (Random(MixSeed(kSeed, image.index)).Bits() >> 32U >= shares[image.context]) return;
+      const std::vector<int32_t> leaf = FindLeaves(lined, image, 1);
       for (size_t s = 0; s < leaf.size(); ++s) {
         const size_t cell = static_cast<size_t>(leaf[s]) * cells + image.context * class_count +
                             image.samples[s].label;
@@ -148,7 +148,7 @@ void SumVotes(const Tree& tree, const std::vector<int32_t>& row_of_leaf, const I
   parts.Visit([&](size_t, const std::vector<StoredImage>& images) {
     oneapi::tbb::parallel_for(size_t{0}, images.size(), [&](size_t i) {
       const StoredImage& image = images[i];
-      const std::vector<int32_t> leaf = LeavesOf(lined, image, kVoteEvery);
+      const std::vector<int32_t> leaf = FindLeaves(lined, image, kVoteEvery);
       const size_t contexts = pass.contexts;
       for (size_t s = 0; s < leaf.size(); ++s) {
         const PixelSample& pixel = image.samples[s * kVoteEvery];

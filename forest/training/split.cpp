@@ -79,7 +79,7 @@ CandidateSet DrawCandidates(const TrainOptions& options, uint64_t seed, uint64_t
   return set;
 }
 
-int16_t ThresholdOf(const Candidate& candidate, int bins, int bin) {
+int16_t ComputeThreshold(const Candidate& candidate, int bins, int bin) {
   // bin(f) > bin  <=>  (f + jitter) >> shift >= bin + 1 - half  <=>  f > this.
   const int edge = (bin + 1 - bins / 2) * (1 << candidate.shift);
   return static_cast<int16_t>(edge - candidate.jitter_mm - 1);
@@ -225,7 +225,7 @@ Node MakeNode(const CandidateSet& set, const Split& split) {
   Node node;
   node.u = offset(candidate.first);
   node.v = offset(candidate.second);
-  node.threshold_mm = ThresholdOf(candidate, set.bins, split.bin);
+  node.threshold_mm = ComputeThreshold(candidate, set.bins, split.bin);
   return node;
 }
 

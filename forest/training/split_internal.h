@@ -3,9 +3,9 @@
 #include <span>
 #include <vector>
 
+#include "depth/base/random.h"
 #include "forest/forest.h"
 #include "forest/training/images_internal.h"
-#include "forest/training/random_internal.h"
 
 namespace ossa::forest {
 
@@ -28,7 +28,7 @@ struct CandidateSet {
 CandidateSet DrawCandidates(const TrainOptions& options, uint64_t seed, uint64_t node_pixels);
 
 /// f <= this goes left when the split is after `bin`.
-int16_t ThresholdOf(const Candidate& candidate, int bins, int bin);
+int16_t ComputeThreshold(const Candidate& candidate, int bins, int bin);
 
 /// A sample with the image it belongs to.
 struct SampleRef {

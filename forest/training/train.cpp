@@ -3,21 +3,17 @@
 #include <algorithm>
 #include <array>
 #include <charconv>
-#include <chrono>
 #include <optional>
 
 #include "depth/base/error.h"
-#include "forest/thread_limit.h"
+#include "depth/base/stopwatch.h"
+#include "depth/base/threads.h"
 #include "forest/training/checkpoint_internal.h"
 #include "forest/training/grow_internal.h"
 #include "forest/training/leaves_internal.h"
 
 namespace ossa::forest {
 namespace {
-
-double Now_s() {
-  return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
-}
 
 void Require(bool holds, const std::string& name, double value, const std::string& range) {
   if (holds) return;
@@ -27,30 +23,30 @@ void Require(bool holds, const std::string& name, double value, const std::strin
 
 // The shortest text that stands for the number.
 template <typename Number>
-std::string TextOf(Number number) {
+std::string ToText(Number number) {
   std::array<char, 32> text{};
   const auto [end, error] = std::to_chars(text.data(), text.data() + text.size(), number);
   return {text.data(), end};
 }
 
 // Everything that decides the bytes of the model: neither threads, memory nor ranks.
-std::vector<Setting> SettingsOf(const TrainOptions& o, const TrainingSource& source) {
+std::vector<Setting> MakeSettings(const TrainOptions& o, const TrainingSource& source) {
   return {{"data", o.fingerprint},
-          {"images", TextOf(source.size())},
-          {"trees", TextOf(o.trees)},
-          {"depth", TextOf(o.depth)},
-          {"candidates", TextOf(o.candidates)},
-          {"thresholds", TextOf(o.thresholds)},
-          {"pixels", TextOf(o.pixels)},
-          {"refill-pixels", TextOf(o.refill_pixels)},
-          {"offsets", TextOf(o.offsets)},
-          {"box", TextOf(o.box_pixel_m)},
-          {"node-pixels", TextOf(o.node_pixels)},
-          {"min-node-pixels", TextOf(o.min_node_pixels)},
-          {"min-gain", TextOf(o.min_gain_bits)},
-          {"context-share", TextOf(o.context_share)},
-          {"vote-depth", TextOf(o.vote_depth)},
-          {"seed", TextOf(o.seed)}};
+          {"images", ToText(source.size())},
+          {"trees", ToText(o.trees)},
+          {"depth", ToText(o.depth)},
+          {"candidates", ToText(o.candidates)},
+          {"thresholds", ToText(o.thresholds)},
+          {"pixels", ToText(o.pixels)},
+          {"refill-pixels", ToText(o.refill_pixels)},
+          {"offsets", ToText(o.offsets)},
+          {"box", ToText(o.box_pixel_m)},
+          {"node-pixels", ToText(o.node_pixels)},
+          {"min-node-pixels", ToText(o.min_node_pixels)},
+          {"min-gain", ToText(o.min_gain_bits)},
+          {"context-share", ToText(o.context_share)},
+          {"vote-depth", ToText(o.vote_depth)},
+          {"seed", ToText(o.seed)}};
 }
 
 // One training run: what the levels have in common.
@@ -59,7 +55,7 @@ class Run {
   Run(const TrainingSource& source, const TrainingVocabulary& vocabulary,
       const TrainOptions& options, const Reducer& reducer, TrainSummary* summary)
       : vocabulary_(vocabulary), options_(options), reducer_(reducer), summary_(summary) {
-    checkpoint_.settings = SettingsOf(options, source);
+    checkpoint_.settings = MakeSettings(options, source);
     if (options.resume && !options.checkpoint.empty() &&
         std::filesystem::exists(options.checkpoint)) {
       checkpoint_ = ReadCheckpoint(options.checkpoint, checkpoint_.settings);
@@ -204,7 +200,7 @@ void TrainOptions::Check() const {
 ForestModel Train(const TrainingSource& source, const TrainingVocabulary& vocabulary,
                   const TrainOptions& options, const Reducer& reducer, TrainSummary* summary) {
   options.Check();
-  const double start_s = Now_s();
+  const Stopwatch watch;
   const ThreadLimit limit(options.threads);
   Run run(source, vocabulary, options, reducer, summary);
   ForestData data;
@@ -218,7 +214,7 @@ ForestModel Train(const TrainingSource& source, const TrainingVocabulary& vocabu
   ForestModel model(std::move(data));
   if (summary != nullptr) {
     summary->images = static_cast<uint64_t>(run.image_count());
-    summary->total_seconds = Now_s() - start_s;
+    summary->total_seconds = watch.seconds();
   }
   return model;
 }

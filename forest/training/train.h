@@ -75,15 +75,10 @@ struct TrainOptions {
   bool resume = false;               // go on from the checkpoint if it is there
   std::string fingerprint;           // of the data, for the checkpoint
   std::function<void(const TrainProgress&)> progress;
-  std::function<bool()> stop;  // true: end with Interrupted as soon as possible
+  std::function<bool()> stop;  // true: end with TrainInterrupted soon, the checkpoint kept
 
   /// Throws std::invalid_argument with name, value and range.
   void Check() const;
-};
-
-/// Thrown when TrainOptions::stop said so. The checkpoint, if any, is there.
-struct TrainInterrupted : std::runtime_error {
-  using std::runtime_error::runtime_error;
 };
 
 /// Totals of a training run, for the card and for benchmarks.
@@ -104,10 +99,10 @@ ForestModel Train(const TrainingSource& source, const TrainingVocabulary& vocabu
                   TrainSummary* summary = nullptr);
 
 /// Learns how the targets lie to each other in each context, on training truth: the model with
-/// arrangements, and with the parameters of agreement as they were. As it was when the images of
-/// known targets are too few.
-ForestModel LearnArrangements(const ForestModel& model, const TrainingSource& source,
-                              size_t max_images, int threads);
+/// pose priors, and with the parameters of their inference as they were. As it was when the images
+/// of known targets are too few.
+ForestModel LearnPosePriors(const ForestModel& model, const TrainingSource& source,
+                            size_t max_images, int threads);
 
 /// Learns evidence scale, proposal parameters and confidences on images never trained on.
 ForestModel LearnProposals(const ForestModel& model, const TrainingSource& validation,
@@ -124,14 +119,14 @@ struct RefinementOptions {
 
 /// Learns the second stage on images of training subjects that no tree has seen: the model with a
 /// refinement. Its thresholds are those of the model before; LearnConfidences sets them again.
-/// Throws InputError when the model has no arrangements, or the images are too few.
+/// Throws InputError when the model has no pose priors, or the images are too few.
 ForestModel LearnRefinement(const ForestModel& model, const TrainingSource& source,
                             const RefinementOptions& options);
 
-/// Learns the second look at labels (Relabel) on images that neither trees nor refinement have
+/// Learns joint-conditioned relabelling (Relabel) on images that neither trees nor refinement have
 /// seen. Throws InputError when they show nothing.
-ForestModel LearnPartPrior(const ForestModel& model, const TrainingSource& source, uint64_t seed,
-                           int threads);
+ForestModel LearnRelabelling(const ForestModel& model, const TrainingSource& source, uint64_t seed,
+                             int threads);
 
 /// Learns again, on images never trained on, from which confidence on targets are tracked and
 /// inferred, and how likely modes are right that stand apart from where a refinement puts them.

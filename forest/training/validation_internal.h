@@ -28,11 +28,11 @@ Classification ClassifyImage(const ForestModel& model, const TrainingImage& imag
 ValidationImage GatherImage(const ForestModel& model, const TrainingImage& image);
 
 /// What the stages before the refinement make of an image.
-struct Heard {
-  ModesOfTargets modes;
-  Beliefs beliefs;
+struct FirstStage {
+  TargetModes modes;
+  PoseMarginals marginals;
 };
-Heard Hear(const ForestModel& model, const ValidationImage& image);
+FirstStage RunFirstStage(const ForestModel& model, const ValidationImage& image);
 
 /// A mode or a place with its features and what is true of it.
 template <size_t N>
@@ -41,7 +41,7 @@ struct Judged {
   bool is_near = false;  // to the target's true position
   bool visible = false;  // the target
 };
-using JudgedMode = Judged<Confidence::kFeatures>;
+using JudgedMode = Judged<ModeConfidence::kFeatures>;
 
 /// Logistic regression by Newton's method with a small ridge.
 template <size_t N>
@@ -86,7 +86,8 @@ struct RatedPlace {
 /// Confidences from which on a target is tracked (nine of ten are right) and inferred (half are).
 void SetThresholds(const std::vector<RatedPlace>& rated, ProposalTarget* target);
 
-/// Fits what the model says where modes and other targets meet. Precondition: it has arrangements.
-ForestModel LearnAgreement(const ForestModel& model, const std::vector<ValidationImage>& images);
+/// Fits what the model says where modes and other targets meet. Precondition: it has pose priors.
+ForestModel LearnPoseInference(const ForestModel& model,
+                               const std::vector<ValidationImage>& images);
 
 }  // namespace ossa::forest

@@ -19,7 +19,7 @@ struct NodeColumns {
   std::array<std::vector<int16_t>, kNodeColumns> inner;  // u, v, threshold of inner nodes
 };
 
-NodeColumns ColumnsOf(const std::vector<Node>& nodes) {
+NodeColumns MakeColumns(const std::vector<Node>& nodes) {
   NodeColumns columns;
   for (const Node& node : nodes) {
     columns.is_leaf.push_back(node.is_leaf() ? 1 : 0);
@@ -32,7 +32,7 @@ NodeColumns ColumnsOf(const std::vector<Node>& nodes) {
 }
 
 // Breadth-first: the n-th inner node has children 1 + 2n and 2 + 2n, the n-th leaf number n.
-std::vector<Node> NodesOf(const NodeColumns& columns, const PayloadReader& reader) {
+std::vector<Node> DecodeNodes(const NodeColumns& columns, const PayloadReader& reader) {
   std::vector<Node> nodes;
   nodes.reserve(columns.is_leaf.size());
   size_t inner = 0;
@@ -107,7 +107,7 @@ void GetLeaves(PayloadReader* reader, Tree* tree) {
 }  // namespace
 
 void PutTree(PayloadWriter* writer, const Tree& tree) {
-  const NodeColumns columns = ColumnsOf(tree.nodes);
+  const NodeColumns columns = MakeColumns(tree.nodes);
   writer->PutVector(columns.is_leaf);
   for (const auto& column : columns.inner) PutPlanes(writer, column);
   PutLeaves(writer, tree);
@@ -120,7 +120,7 @@ Tree GetTree(PayloadReader* reader) {
   columns.is_leaf = reader->GetVector<uint8_t>("nodes");
   for (auto& column : columns.inner) column = GetPlanes<int16_t>(reader, "node parameters");
   Tree tree;
-  tree.nodes = NodesOf(columns, *reader);
+  tree.nodes = DecodeNodes(columns, *reader);
   GetLeaves(reader, &tree);
   tree.vote_depth = reader->Get<int32_t>("vote depth");
   tree.votes = GetPlanes<Vote>(reader, "votes");
@@ -133,7 +133,7 @@ Tree GetTreeOfVersion2(PayloadReader* reader) {
   reader->GetVector<int32_t>("leaf numbers");  // breadth-first, as we number them
   for (auto& column : columns.inner) column = reader->GetVector<int16_t>("node parameters");
   Tree tree;
-  tree.nodes = NodesOf(columns, *reader);
+  tree.nodes = DecodeNodes(columns, *reader);
   tree.entry_begin.push_back(0);
   for (const uint16_t count : reader->GetVector<uint16_t>("leaf entry counts")) {
     tree.entry_begin.push_back(tree.entry_begin.back() + count);

@@ -112,7 +112,7 @@ void CheckBodies(const SkeletonSequence& sequence, const std::string& name) {
   }
 }
 
-bool IsOfACloseLook(const SkeletonSequence& sequence) {
+bool AreRefinedJoints(const SkeletonSequence& sequence) {
   return std::any_of(sequence.frames.begin(), sequence.frames.end(), [](const auto& frame) {
     return std::any_of(frame.bodies.begin(), frame.bodies.end(),
                        [](const BodyRecord& body) { return body.bones_m.has_value(); });
@@ -153,7 +153,7 @@ SkeletonSequence Read(SkeletonInput input, const SkeletonReadOptions& options) {
   CheckPlaces(sequence, input.name);
   CheckTimes(sequence, input.name);
   if (IsKinectV2(format.name, input.columns)) sequence.sensor = kKinectV2;
-  if (IsOfACloseLook(sequence)) sequence.sensor = kCloseLook;
+  if (AreRefinedJoints(sequence)) sequence.sensor = kRefinedJoints;
   return sequence;
 }
 

@@ -31,7 +31,7 @@ struct BodySizeOptions {
 
 /// The person's bone lengths, kept constant from the first good frame on: the standing or T-posed
 /// person that tracking starts with (Shum 2013 fig. 2), left and right averaged. Where a network
-/// judges them in each frame (recon/refine/bone_measure.h), they settle in the first second.
+/// judges them in each frame (recon/refine/bone_estimation.h), they settle in the first second.
 /// Measured anew when the body has another size for a second, which is another person; and, at
 /// reviews that become rarer, when the bones seen until then are typically others: to these they
 /// grow in half a second. Bones that are known stay.

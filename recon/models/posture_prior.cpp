@@ -11,6 +11,7 @@
 #include "depth/base/checksummed_container.h"
 #include "depth/base/error.h"
 #include "depth/base/naming_the_file.h"
+#include "depth/base/perceptron/perceptron_file.h"
 
 namespace ossa::recon {
 namespace {
@@ -202,7 +203,7 @@ void PosturePrior::Save(const std::filesystem::path& path) const {
     format.version = kVersionOfNetwork - 1;  // what older programs read
   } else {
     out.Put(static_cast<uint32_t>(network.layers.front().bias.size()));
-    PutNetwork(out, network);
+    PutPerceptron(out, network);
   }
   WriteContainer(path, format, out.bytes());
 }
@@ -254,7 +255,7 @@ PosturePrior PosturePrior::FromBytes(std::span<const std::byte> bytes, const std
   out.modes_m.resize(kBoneDims, out.time_s.size());
   if (version >= kVersionOfNetwork) {
     const Eigen::Index units = GetUnits(in);
-    out.network = {GetNetwork(in, {kPriorInputs, units, kBoneDims})};
+    out.network = {GetPerceptron(in, {kPriorInputs, units, kBoneDims})};
   }
   in.ExpectEnd();
   return out;

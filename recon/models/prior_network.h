@@ -1,7 +1,7 @@
 #pragma once
 #include <Eigen/Core>
 
-#include "recon/models/rectified_network.h"
+#include "depth/base/perceptron/perceptron.h"
 #include "recon/normalise.h"
 #include "recon/posture.h"
 
@@ -27,12 +27,12 @@ float Clearness(double sd_m);
 /// bends down holds the hands otherwise than who squats. A network that knows how far the bones lie
 /// from where a PriorFilter expects them: kPriorInputs -> kBoneDims, in kBoneStep_m. No size of its
 /// own: it is learned for one PosturePrior, which it is part of.
-struct PriorNetwork : RectifiedNetwork {
-  static constexpr double kBoneStep_m = 0.1;  // a unit of the network's inputs, by hand
+struct PriorNetwork : Perceptron {
+  static constexpr double kBoneStep_m = 0.1;  // a unit of the network's outputs, by hand
 
   /// To be added to the bones that were expected.
   BoneVector Correction_m(const PriorInput& input) const {
-    return kBoneStep_m * Run(input).cast<double>();
+    return kBoneStep_m * Run(input.transpose()).row(0).transpose().cast<double>();
   }
 };
 

@@ -13,23 +13,23 @@ constexpr float kNearer_mm = 30.0F;  // by so much, something that is not the pe
 constexpr float kNearest_m = 0.2F;   // what is nearer is beside the sensor
 
 template <typename T>
-using OfSamples = std::array<T, kLookSamples>;
+using OfSamples = std::array<T, kSurfaceSamples>;
 
 // Where on the two grids one tap of each sample is.
 struct Grids {
   OfSamples<float> x_m{}, y_m{};
 };
 
-constexpr std::array<Grids, kLookTaps> MakeGrids() {
-  constexpr double kAside[kLookTaps] = {-0.25, 0.25, -0.25, 0.25};  // of a cell
-  constexpr double kDown[kLookTaps] = {-0.25, -0.25, 0.25, 0.25};
-  std::array<Grids, kLookTaps> grids;
-  for (size_t tap = 0; tap < kLookTaps; ++tap) {
+constexpr std::array<Grids, kSampleTaps> MakeGrids() {
+  constexpr double kAside[kSampleTaps] = {-0.25, 0.25, -0.25, 0.25};  // of a cell
+  constexpr double kDown[kSampleTaps] = {-0.25, -0.25, 0.25, 0.25};
+  std::array<Grids, kSampleTaps> grids;
+  for (size_t tap = 0; tap < kSampleTaps; ++tap) {
     size_t next = 0;
-    for (const double step_m : kLookSteps_m) {
-      for (int row = 0; row < kLookGrid; ++row) {
-        for (int column = 0; column < kLookGrid; ++column, ++next) {
-          constexpr int kMiddle = kLookGrid / 2;
+    for (const double step_m : kSurfaceGridSteps_m) {
+      for (int row = 0; row < kSurfaceGrid; ++row) {
+        for (int column = 0; column < kSurfaceGrid; ++column, ++next) {
+          constexpr int kMiddle = kSurfaceGrid / 2;
           grids[tap].x_m[next] = static_cast<float>((column - kMiddle + kAside[tap]) * step_m);
           grids[tap].y_m[next] = static_cast<float>((row - kMiddle + kDown[tap]) * step_m);
         }
@@ -39,7 +39,7 @@ constexpr std::array<Grids, kLookTaps> MakeGrids() {
   return grids;
 }
 
-constexpr std::array<Grids, kLookTaps> kGrids = MakeGrids();
+constexpr std::array<Grids, kSampleTaps> kGrids = MakeGrids();
 
 // One tap of each sample, as the camera has it.
 struct Taps {
@@ -68,7 +68,7 @@ OSSA_CPU_DISPATCH void Project(const depth::Camera& camera, const Eigen::Vector3
   const auto cx = static_cast<float>(camera.cx), cy = static_cast<float>(camera.cy);
   const int width = camera.width, height = camera.height;
   const auto right_end = static_cast<float>(width), bottom = static_cast<float>(height);
-  for (size_t i = 0; i < kLookSamples; ++i) {
+  for (size_t i = 0; i < kSurfaceSamples; ++i) {
     const float right_m = grids.x_m[i], down_m = grids.y_m[i];
     const float z = z_m + zx * right_m + zy * down_m;
     const float per_z = std::clamp(1.0F / z, 0.0F, 1.0F / kNearest_m);
@@ -88,7 +88,7 @@ OSSA_CPU_DISPATCH void Project(const depth::Camera& camera, const Eigen::Vector3
 
 // Without branches, all numbers of one width: several samples at a time.
 OSSA_CPU_DISPATCH void Add(const Taps& taps, Sums* sums) {
-  for (size_t i = 0; i < kLookSamples; ++i) {
+  for (size_t i = 0; i < kSurfaceSamples; ++i) {
     const int32_t outside = taps.pixel[i] == kOutside ? 1 : 0;
     const int32_t read = taps.depth_mm[i] != 0 ? 1 : 0;
     const int32_t person = read & (taps.is_person[i] != 0 ? 1 : 0);
@@ -101,8 +101,8 @@ OSSA_CPU_DISPATCH void Add(const Taps& taps, Sums* sums) {
   }
 }
 
-OSSA_CPU_DISPATCH void Mean(const Sums& sums, OfSamples<LookSample>* samples) {
-  for (size_t i = 0; i < kLookSamples; ++i) {
+OSSA_CPU_DISPATCH void Mean(const Sums& sums, OfSamples<SurfaceSample>* samples) {
+  for (size_t i = 0; i < kSurfaceSamples; ++i) {
     const int32_t surface = sums.surface[i];
     const float mean_mm = sums.behind_mm[i] / static_cast<float>(std::max(1, surface));
     const auto from_nearest = static_cast<int32_t>(mean_mm + (kMostBehind_mm + 0.5F));
@@ -113,19 +113,19 @@ OSSA_CPU_DISPATCH void Mean(const Sums& sums, OfSamples<LookSample>* samples) {
 
 }  // namespace
 
-OfSamples<LookSample> SurfaceSampler::Around(const Eigen::Vector3d& joint_m) const {
+OfSamples<SurfaceSample> SurfaceSampler::Around(const Eigen::Vector3d& joint_m) const {
   Taps taps;
   Sums sums;
   for (const Grids& grids : kGrids) {
     Project(frame_.camera, joint_m.cast<float>(), camera_from_frame_, grids, &taps);
-    for (size_t i = 0; i < kLookSamples; ++i) {
+    for (size_t i = 0; i < kSurfaceSamples; ++i) {
       const int32_t pixel = taps.pixel[i];
       taps.depth_mm[i] = pixel == kOutside ? 0 : frame_.depth_mm[static_cast<size_t>(pixel)];
       taps.is_person[i] = pixel == kOutside ? 0 : is_person_[static_cast<size_t>(pixel)];
     }
     Add(taps, &sums);
   }
-  OfSamples<LookSample> samples;
+  OfSamples<SurfaceSample> samples;
   Mean(sums, &samples);
   return samples;
 }

@@ -9,20 +9,21 @@
 namespace ossa::recon {
 
 /// Around each joint surface is sampled on two square grids across the line of sight.
-inline constexpr int kLookGrid = 9;  // samples a side
-inline constexpr std::array<double, 2> kLookSteps_m = {0.025, 0.07};
-inline constexpr int kLookSamples = static_cast<int>(kLookSteps_m.size()) * kLookGrid * kLookGrid;
+inline constexpr int kSurfaceGrid = 9;  // samples a side
+inline constexpr std::array<double, 2> kSurfaceGridSteps_m = {0.025, 0.07};
+inline constexpr int kSurfaceSamples =
+    static_cast<int>(kSurfaceGridSteps_m.size()) * kSurfaceGrid * kSurfaceGrid;
 /// Each sample is the mean of so many pixels, in the middles of its cell's quarters: which of two
 /// neighbours a single one happens to be, at an outline, and how far off the sensor has it, chance
 /// decides.
-inline constexpr int kLookTaps = 4;
+inline constexpr int kSampleTaps = 4;
 
 /// What is seen in a cell of a grid.
-class LookSample {
+class SurfaceSample {
  public:
-  LookSample() = default;
-  /// `surface` + `hidden` <= kLookTaps; the others are beside. `behind_mm` within 500.
-  LookSample(int behind_mm, int surface, int hidden)
+  SurfaceSample() = default;
+  /// `surface` + `hidden` <= kSampleTaps; the others are beside. `behind_mm` within 500.
+  SurfaceSample(int behind_mm, int surface, int hidden)
       : bits_(static_cast<uint16_t>((behind_mm + kNought) << 6 | surface << 3 | hidden)) {}
 
   /// How much farther than the joint the person's surface lies there; 0 where none is.
@@ -30,12 +31,12 @@ class LookSample {
   /// Shares of the cell, [0, 1]: where the person's surface is; where the sensor looks past it;
   /// where something nearer is, or the image ends.
   float surface() const { return Share(bits_ >> 3 & 7); }
-  float beside() const { return Share(kLookTaps - (bits_ >> 3 & 7) - (bits_ & 7)); }
+  float beside() const { return Share(kSampleTaps - (bits_ >> 3 & 7) - (bits_ & 7)); }
   float hidden() const { return Share(bits_ & 7); }
 
  private:
   static constexpr int kNought = 512;
-  static float Share(int taps) { return static_cast<float>(taps) / kLookTaps; }
+  static float Share(int taps) { return static_cast<float>(taps) / kSampleTaps; }
 
   uint16_t bits_ = kNought << 6;  // half a million people are held in memory to learn of
 };
@@ -51,7 +52,7 @@ class SurfaceSampler {
         camera_from_frame_(frame_from_camera.transpose().cast<float>()) {}
 
   /// By grid, row and column (x). `joint_m` in camera space.
-  std::array<LookSample, kLookSamples> Around(const Eigen::Vector3d& joint_m) const;
+  std::array<SurfaceSample, kSurfaceSamples> Around(const Eigen::Vector3d& joint_m) const;
 
  private:
   const depth::DepthFrame& frame_;

@@ -114,7 +114,7 @@ std::vector<int32_t> ObjectPixels(const TrainingImage& image) {
   return pixels;
 }
 
-std::vector<char> BytesOf(const ForestModel& model) {
+std::vector<char> ToBytes(const ForestModel& model) {
   const ossa::test::TemporaryFolder folder;
   WriteForestModel(folder / "model.ossa", model);
   std::ifstream file(folder / "model.ossa", std::ios::binary);

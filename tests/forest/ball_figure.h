@@ -35,11 +35,11 @@ const ForestModel& BallModel();
 std::vector<int32_t> ObjectPixels(const TrainingImage& image);
 
 /// Depth view of a training image.
-inline depth::DepthView ViewOf(const TrainingImage& image) {
+inline depth::DepthView MakeView(const TrainingImage& image) {
   return {image.depth_mm.data(), image.camera.width, image.camera.height, image.camera.width};
 }
 
 /// What a model file of this model holds, byte by byte.
-std::vector<char> BytesOf(const ForestModel& model);
+std::vector<char> ToBytes(const ForestModel& model);
 
 }  // namespace ossa::forest::test

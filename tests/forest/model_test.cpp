@@ -44,18 +44,18 @@ std::string RefusalOfData(ForestData data) {
 }
 
 TEST(ForestModelFile, ComesBackAsItWas) {
-  const std::vector<char> bytes = test::BytesOf(BallModel());
+  const std::vector<char> bytes = test::ToBytes(BallModel());
   const ForestModel read = ReadForestModel(std::as_bytes(std::span(bytes)), "body.ossa");
-  EXPECT_EQ(test::BytesOf(read), bytes);
+  EXPECT_EQ(test::ToBytes(read), bytes);
 }
 
-TEST(TargetsNamed, AreInTheOrderOfTheNamesOrRefused) {
+TEST(FindTargets, AreInTheOrderOfTheNamesOrRefused) {
   const ForestModel model = BallModel();
   ASSERT_GE(model.targets().size(), 2U);
   const std::array<std::string_view, 2> names = {model.targets()[1].name, model.targets()[0].name};
-  EXPECT_EQ(TargetsNamed(model, names, "body.ossa"), (std::vector<size_t>{1, 0}));
+  EXPECT_EQ(FindTargets(model, names, "body.ossa"), (std::vector<size_t>{1, 0}));
   const std::array<std::string_view, 1> missing = {"Tail"};
-  EXPECT_EQ(Refusal([&] { TargetsNamed(model, missing, "body.ossa"); }),
+  EXPECT_EQ(Refusal([&] { FindTargets(model, missing, "body.ossa"); }),
             "body.ossa: targets: expected one named 'Tail', found none");
 }
 
@@ -67,7 +67,7 @@ TEST(ForestModelFile, ReadToRunOnlyItRunsAsEver) {
   EXPECT_TRUE(to_run.data().trees.front().entries.empty());
   const TrainingImage image = BallFigures(1, 9).Read(0);
   const auto classify = [&](const ForestModel& model) {
-    return Classify(model, test::ViewOf(image), image.camera, test::ObjectPixels(image));
+    return Classify(model, test::MakeView(image), image.camera, test::ObjectPixels(image));
   };
   EXPECT_EQ(classify(to_run).label, classify(BallModel()).label);
   EXPECT_EQ(classify(to_run).mass, classify(BallModel()).mass);
@@ -75,7 +75,7 @@ TEST(ForestModelFile, ReadToRunOnlyItRunsAsEver) {
 }
 
 TEST(ForestModelFile, EveryTruncationIsRefusedByName) {
-  const std::vector<char> whole = test::BytesOf(BallModel());
+  const std::vector<char> whole = test::ToBytes(BallModel());
   for (const size_t size : {size_t{0}, size_t{5}, size_t{30}, whole.size() / 2, whole.size() - 1}) {
     const std::vector<char> part(whole.begin(), whole.begin() + static_cast<ptrdiff_t>(size));
     EXPECT_NE(RefusalOfBytes(part).find("body.ossa"), std::string::npos) << size << " bytes";
@@ -83,7 +83,7 @@ TEST(ForestModelFile, EveryTruncationIsRefusedByName) {
 }
 
 TEST(ForestModelFile, AFlippedBitAnywhereIsRefused) {
-  const std::vector<char> whole = test::BytesOf(BallModel());
+  const std::vector<char> whole = test::ToBytes(BallModel());
   for (size_t at = 0; at < whole.size(); at += whole.size() / 40) {
     std::vector<char> damaged = whole;
     damaged[at] = static_cast<char>(damaged[at] ^ 4);
@@ -92,7 +92,7 @@ TEST(ForestModelFile, AFlippedBitAnywhereIsRefused) {
 }
 
 TEST(ForestModelFile, AnotherVersionIsRefusedAsSuch) {
-  std::vector<char> other = test::BytesOf(BallModel());
+  std::vector<char> other = test::ToBytes(BallModel());
   constexpr size_t kVersionAt = 12;  // after magic and byte-order mark
   other[kVersionAt] = 77;
   EXPECT_NE(RefusalOfBytes(other).find("version"), std::string::npos);
@@ -134,7 +134,7 @@ TEST(ForestModelFile, TreesOfOlderVersionsAreRead) {
   EXPECT_EQ(tree.entry_begin, (std::vector<uint32_t>{0, 2, 3}));
 }
 
-// Older files end sooner: the payload of version 4 before the part prior (five empty arrays, their
+// Older files end sooner: the payload of version 4 before the relabelling (five empty arrays, their
 // counts of 8 bytes each), that of version 3 before the refinement as well (two empty arrays and
 // the number of layers).
 class OlderFile : public testing::TestWithParam<std::pair<uint32_t, size_t>> {};
@@ -149,7 +149,7 @@ TEST_P(OlderFile, IsReadWithoutWhatItLacks) {
       Decompress(ReadContainer(path, {magic, 5, "forest model"}), "model", "forest model");
   payload.resize(payload.size() - missing_bytes);
   WriteContainer(path, {magic, version, "forest model"}, Compress(payload, 3));
-  EXPECT_EQ(test::BytesOf(ReadForestModel(path)), test::BytesOf(BallModel()));
+  EXPECT_EQ(test::ToBytes(ReadForestModel(path)), test::ToBytes(BallModel()));
 }
 INSTANTIATE_TEST_SUITE_P(ForestModelFile, OlderFile,
                          testing::Values(std::pair(4U, size_t{40}), std::pair(3U, size_t{60})));
@@ -188,13 +188,13 @@ TEST(ForestModel, RefusesBackgroundInALeaf) {
 
 TEST(FitInto, LeavesAModelThatFitsAlone) {
   const ForestModel fitted = FitInto(BallModel(), FileSize(BallModel().data()));
-  EXPECT_EQ(test::BytesOf(fitted), test::BytesOf(BallModel()));
+  EXPECT_EQ(test::ToBytes(fitted), test::ToBytes(BallModel()));
 }
 
 TEST(FitInto, LeavesRareEntriesOutUntilTheFileFits) {
   const uint64_t limit = FileSize(BallModel().data()) * 97 / 100;
   const ForestModel fitted = FitInto(BallModel(), limit);
-  EXPECT_LE(test::BytesOf(fitted).size(), limit);
+  EXPECT_LE(test::ToBytes(fitted).size(), limit);
   for (size_t t = 0; t < fitted.data().trees.size(); ++t) {
     const std::vector<uint32_t>& kept = fitted.data().trees[t].entry_begin;
     const std::vector<uint32_t>& whole = BallModel().data().trees[t].entry_begin;
@@ -216,7 +216,7 @@ TEST(Classify, GivesTheSameBitsOnEveryPathAndThreadCount) {
       ClassifyOptions options;
       options.instructions = instructions;
       options.threads = threads;
-      return Classify(BallModel(), test::ViewOf(image), image.camera, test::ObjectPixels(image),
+      return Classify(BallModel(), test::MakeView(image), image.camera, test::ObjectPixels(image),
                       options);
     };
     const Classification best = classify(InstructionSet::kBest, 1);
@@ -228,7 +228,7 @@ TEST(Classify, GivesTheSameBitsOnEveryPathAndThreadCount) {
 TEST(Classify, ProbabilitiesOfAPixelSumToOne) {
   const TrainingImage image = BallFigures(1, 9).Read(0);
   const Classification result =
-      Classify(BallModel(), test::ViewOf(image), image.camera, test::ObjectPixels(image));
+      Classify(BallModel(), test::MakeView(image), image.camera, test::ObjectPixels(image));
   const auto classes = static_cast<size_t>(result.class_count);
   for (size_t i = 0; i < result.pixel.size(); ++i) {
     float sum = 0;
@@ -245,7 +245,7 @@ TEST(Classify, SmoothingTakesScatteredErrorsOut) {
       const TrainingImage image = unseen.Read(i);
       ClassifyOptions options;
       options.smoothing_m = smoothing_m;
-      const Classification result = Classify(BallModel(), test::ViewOf(image), image.camera,
+      const Classification result = Classify(BallModel(), test::MakeView(image), image.camera,
                                              test::ObjectPixels(image), options);
       for (size_t p = 0; p < result.pixel.size(); ++p) {
         wrong += result.label[p] != image.label[static_cast<size_t>(result.pixel[p])] ? 1 : 0;
@@ -259,7 +259,7 @@ TEST(Classify, SmoothingTakesScatteredErrorsOut) {
 
 TEST(Classify, NoPixelsGiveNoLabels) {
   const TrainingImage image = BallFigures(1, 9).Read(0);
-  EXPECT_TRUE(Classify(BallModel(), test::ViewOf(image), image.camera, {}).label.empty());
+  EXPECT_TRUE(Classify(BallModel(), test::MakeView(image), image.camera, {}).label.empty());
 }
 
 }  // namespace

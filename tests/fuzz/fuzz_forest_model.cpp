@@ -34,13 +34,13 @@ ForestModel SmallModel() {
   data.trees = {tree};
   data.targets = {{.name = "Head", .classes = {1, 2}, .correct = {}, .visible = {}}};
   data.manifest = "{}";
-  data.arrangements = {{{0, 0, 0}, {0.1F, 0, 0}, {0.02F}}};
-  constexpr size_t kInputs = 64;  // that describe an object of one target, three classes
-  data.refinement = {std::vector<float>(kInputs, 0.0F),
-                     std::vector<float>(kInputs, 1.0F),
-                     {{std::vector<float>(kInputs * 4, 0.0F), std::vector<float>(4, 0.5F)}}};
-  data.part_prior = {std::vector<float>(2 * ossa::forest::kNearnessScales * 2, 0.25F),
-                     {0.0F, 1.0F}};
+  data.pose_priors = {{{0, 0, 0}, {0.1F, 0, 0}, {0.02F}}};
+  constexpr Eigen::Index kInputs = 64;  // that describe an object of one target, three classes
+  data.refinement = {Eigen::RowVectorXf::Zero(kInputs),
+                     Eigen::RowVectorXf::Ones(kInputs),
+                     {{ossa::RowMatrix::Zero(kInputs, 4), Eigen::RowVectorXf::Constant(4, 0.5F)}}};
+  data.relabelling = {std::vector<float>(2 * ossa::forest::kRadialBasisScales * 2, 0.25F),
+                      {0.0F, 1.0F}};
   return ForestModel(data);
 }
 

@@ -20,11 +20,11 @@ std::vector<std::string> ossa::fuzz::Seeds() {
   const std::string path = ScratchPath("prior");
   prior.Save(path);
   const std::string without = TakePayload(path);
-  prior.network.input_mean = Eigen::VectorXf::Zero(recon::kPriorInputs);
-  prior.network.input_scale = Eigen::VectorXf::Ones(recon::kPriorInputs);
+  prior.network.input_mean = Eigen::RowVectorXf::Zero(recon::kPriorInputs);
+  prior.network.input_scale = Eigen::RowVectorXf::Ones(recon::kPriorInputs);
   prior.network.layers = {
-      {Eigen::MatrixXf::Ones(1, recon::kPriorInputs), Eigen::VectorXf::Zero(1)},
-      {Eigen::MatrixXf::Ones(recon::kBoneDims, 1), Eigen::VectorXf::Zero(recon::kBoneDims)}};
+      {ossa::RowMatrix::Ones(recon::kPriorInputs, 1), Eigen::RowVectorXf::Zero(1)},
+      {ossa::RowMatrix::Ones(1, recon::kBoneDims), Eigen::RowVectorXf::Zero(recon::kBoneDims)}};
   prior.Save(path);
   return {without, TakePayload(path)};
 }

@@ -13,7 +13,7 @@
 #include "recon/files/skeleton_jsonl.h"
 #include "recon/models/learned_models.h"
 #include "recon/models/posture_prior.h"
-#include "recon/refine/close_look.h"
+#include "recon/refine/refinement_cascade.h"
 #include "tests/recon/files/tar_bytes.h"
 #include "tests/recon/files/zip_bytes.h"
 #include "tests/recon/synthetic_motion.h"
@@ -94,19 +94,17 @@ DamageSample Learned() {
   return SampleOf("x.ossagp", models);
 }
 
-recon::RectifiedNetwork Plain(Eigen::Index inputs, Eigen::Index outputs) {
-  recon::RectifiedNetwork network;
-  network.input_mean = Eigen::VectorXf::Zero(inputs);
-  network.input_scale = Eigen::VectorXf::Ones(inputs);
-  network.layers = {{Eigen::MatrixXf::Ones(outputs, inputs), Eigen::VectorXf::Zero(outputs)}};
-  return network;
+Perceptron Plain(Eigen::Index inputs, Eigen::Index outputs) {
+  return {Eigen::RowVectorXf::Zero(inputs),
+          Eigen::RowVectorXf::Ones(inputs),
+          {{RowMatrix::Ones(inputs, outputs), Eigen::RowVectorXf::Zero(outputs)}}};
 }
 
 DamageSample Refinement() {
-  recon::CloseLook look;
-  look.people = 1;
-  look.glances.emplace_back().fill(Plain(recon::kLookInputs, 3));
-  return SampleOf("x.ossalook", look);
+  recon::RefinementCascade cascade;
+  cascade.people = 1;
+  cascade.stages.emplace_back().fill(Plain(recon::kStageFeatures, 3));
+  return SampleOf("x.ossalook", cascade);
 }
 
 DamageSample Prior() {

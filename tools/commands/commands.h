@@ -8,7 +8,7 @@ int Compare(int argc, char** argv);
 int Experiment(int argc, char** argv);
 int Database(int argc, char** argv);
 int Learn(int argc, char** argv);
-int Look(int argc, char** argv);
+int Refine(int argc, char** argv);
 int Prior(int argc, char** argv);
 int Reconstruct(int argc, char** argv);
 int Info(int argc, char** argv);

@@ -15,8 +15,8 @@
 #include "recon/files/skeleton_io.h"
 #include "recon/models/learned_models.h"
 #include "recon/models/posture_prior.h"
-#include "recon/refine/bone_measure.h"
-#include "recon/refine/close_look.h"
+#include "recon/refine/bone_estimation.h"
+#include "recon/refine/refinement_cascade.h"
 #include "tools/commands/command.h"
 #include "tools/commands/commands.h"
 #include "tools/commands/source_options.h"
@@ -117,21 +117,24 @@ void ShowPrior(const fs::path& path) {
       prior.network.empty() ? 0 : prior.network.layers.front().bias.size());
 }
 
-void ShowLook(const fs::path& path) {
-  const auto look = recon::CloseLook::Load(path);
-  // How many people earlier glances were learned from the file does not keep.
-  const bool is_one = look.glances.size() + look.told.size() == 1;
-  const auto count = [](const std::vector<recon::Glance>& glances) {
-    return glances.size() == 1 ? "1 glance" : fmt::format("{} glances", glances.size());
+void ShowRefinement(const fs::path& path) {
+  const auto cascade = recon::RefinementCascade::Load(path);
+  // How many people earlier stages were learned from the file does not keep.
+  const bool is_one = cascade.stages.size() + cascade.bone_conditioned.size() == 1;
+  const auto count = [](const std::vector<recon::RefinementStage>& stages, const char* kind) {
+    return fmt::format("{} {}stage{}", stages.size(), kind, stages.size() == 1 ? "" : "s");
   };
   fmt::print(
-      "close look at a forest's joints, {} of {} networks, {}learned from {} people, {:.1f} MB\n",
-      count(look.glances), recon::kLookJoints.size(), is_one ? "" : "the last made ", look.people,
-      static_cast<double>(fs::file_size(path)) * 1e-6);
-  if (look.bones.empty()) return;
-  fmt::print("and a measure of {} bones, learned from {} people{}\n", recon::kMeasuredBones.size(),
-             look.measured,
-             look.told.empty() ? "" : fmt::format("; {} told of them", count(look.told)));
+      "refinement cascade for a forest's joints, {} of {} networks, {}learned from {} people, "
+      "{:.1f} MB\n",
+      count(cascade.stages, ""), recon::kStageJoints.size(), is_one ? "" : "the last made ",
+      cascade.people, static_cast<double>(fs::file_size(path)) * 1e-6);
+  if (cascade.bones.empty()) return;
+  fmt::print("and an estimate of {} bones, learned from {} people{}\n",
+             recon::kEstimatedBones.size(), cascade.measured,
+             cascade.bone_conditioned.empty()
+                 ? ""
+                 : "; " + count(cascade.bone_conditioned, "bone-conditioned "));
 }
 
 // Its frames are read through: many a recording does not know how many it has, or what is broken.
@@ -202,7 +205,7 @@ constexpr std::array kKinds = {
     FileKind{recon::PostureDatabase::IsOne, ShowDatabase, ".ossadb"},
     FileKind{recon::LearnedModels::IsOne, ShowLearned, ".ossagp"},
     FileKind{recon::PosturePrior::IsOne, ShowPrior, ".ossaprior"},
-    FileKind{recon::CloseLook::IsOne, ShowLook, ".ossalook"},
+    FileKind{recon::RefinementCascade::IsFile, ShowRefinement, ".ossarefine"},
     FileKind{tools::IsDataset, ShowDataset},
 };
 
@@ -234,7 +237,8 @@ int Info(int argc, char** argv) {
   AddSourceOptions(app, file);
   AddRotateOption(app, file);
   app.get_option("SOURCE")->description(
-      "a .ossa, .ossadb, .ossagp, .ossaprior, .ossalook or skeleton file, FILE#truth, a DATASET, a "
+      "a .ossa, .ossadb, .ossagp, .ossaprior, .ossarefine or skeleton file, FILE#truth, a DATASET, "
+      "a "
       "folder of skeleton files, or depth images: .oni, .mkv, .bag, FILE.bag#/topic, a 16-bit PNG "
       "or "
       "a folder of them. The options say how depth images are read");

@@ -63,8 +63,8 @@ void CheckExtension(const char* option, const std::string& path, const char* ext
 }
 
 void CheckNotOtherKind(const char* option, const std::string& path, const char* extension) {
-  for (const char* other : {".ossa", ".ossadb", ".ossaprior", ".ossagp", ".ossalook", ".oni",
-                            ".jsonl", ".json", ".bvh", ".trc", ".csv", ".png", ".html"}) {
+  for (const char* other : {".ossa", ".ossadb", ".ossaprior", ".ossagp", ".ossarefine", ".ossalook",
+                            ".oni", ".jsonl", ".json", ".bvh", ".trc", ".csv", ".png", ".html"}) {
     if (path.ends_with(other)) CheckExtension(option, path, extension);
   }
 }

@@ -6,6 +6,7 @@
 
 #include "depth/base/atomic_file.h"
 #include "depth/base/error.h"
+#include "depth/base/train_interrupted.h"
 #include "forest/training/train.h"
 #include "recon/body/standard_body.h"
 #include "recon/models/posture_prior.h"
@@ -96,7 +97,7 @@ int Prior(int argc, char** argv) {
     };
     try {
       prior.network = tools::LearnPriorNetwork(prior, clips, network);
-    } catch (const forest::TrainInterrupted&) {
+    } catch (const TrainInterrupted&) {
       throw InputError("prior: interrupted; nothing was written");
     }
   }

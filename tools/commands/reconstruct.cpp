@@ -91,7 +91,7 @@ void AddMethodOptions(CLI::App& app, ReconstructArguments& a) {
   app.add_option(
       "--learned", a.files.learned,
       "what `ossa learn` wrote, .ossagp, or none; without it best takes off what is "
-      "known of the errors of a Kinect v2 or a close look where the recording is theirs");
+      "known of the errors of a Kinect v2 or the refinement cascade where the recording is theirs");
   app.add_option("--seed", a.options.seed, "of the stochastic search")->capture_default_str();
   app.add_option("--cutoff", a.cutoff_hz, "of butterworth, Hz")
       ->capture_default_str()
@@ -192,7 +192,7 @@ int Reconstruct(int argc, char** argv) {
   };
   for (const auto& clip : clips) {
     const auto frames = static_cast<double>(clip.sequence.frames.size());
-    a.options.best.looked = clip.sequence.sensor == recon::kCloseLook;
+    a.options.best.looked = clip.sequence.sensor == recon::kRefinedJoints;
     recon::BonesOfPeople bones;
     if (a.bones.of_recording()) {
       bones = recon::MeasureBones(clip.sequence, a.options, update);

@@ -22,6 +22,9 @@ std::string HelpText(std::span<const Command> commands) {
   return text + "\n'ossa COMMAND --help' says everything about one.\n";
 }
 
+// What a command was called in versions before.
+std::string_view NameToday(std::string_view name) { return name == "look" ? "refine" : name; }
+
 int Complain(const std::string& reason, int status) {
   Say("ossa: " + OnOneLine(reason) + "\n");
   return status;
@@ -41,7 +44,7 @@ int RunOneOf(std::span<const Command> commands, const std::string& version, int 
     return 0;
   }
   for (const Command& command : commands) {
-    if (command.name == name) return command.run(argc - 1, argv + 1);
+    if (command.name == NameToday(name)) return command.run(argc - 1, argv + 1);
   }
   if (!name.empty()) Complain(fmt::format("unknown command '{}'", name), 2);
   Say(HelpText(commands));

@@ -15,7 +15,7 @@
 #include "recon/files/skeleton_io.h"
 #include "recon/files/skeleton_writer.h"
 #include "recon/methods/reconstructor.h"
-#include "recon/refine/close_look.h"
+#include "recon/refine/refinement_cascade.h"
 #include "tools/commands/checks.h"
 #include "tools/commands/command.h"
 #include "tools/commands/commands.h"
@@ -65,9 +65,9 @@ void AddTrackerOptions(CLI::App& app, TrackOptions& options) {
   app.add_option("--learned", files.learned,
                  ".ossagp of 'ossa learn', for the methods that learn, or none (default: with best "
                  "and the shipped model the shipped one)");
-  app.add_option("--look", files.refinement,
-                 ".ossalook of 'ossa look', for best and --posture looked, or none (default: with "
-                 "best and the shipped model the shipped one)");
+  app.add_option("--refinement,--look", files.refinement,
+                 ".ossarefine of 'ossa refine', for best and --posture refined, or none (default: "
+                 "with best and the shipped model the shipped one)");
   app.add_option("--method", t.method, "how postures are completed (default best)")
       ->check(CLI::IsMember(recon::ReconstructionMethods()));
   AddMechanicsOptions(app, options.mechanics);
@@ -86,22 +86,26 @@ void AddTrackerOptions(CLI::App& app, TrackOptions& options) {
   app.add_option("--seed", t.seed, "of the methods that draw samples (default 1)");
 }
 
-// A look that was asked for is had with every method.
-void NeedLook(tracker::ModelFiles& files) {
+// What --posture called them in versions before.
+const std::map<std::string, std::string> kOldPostures = {{"looked", "refined"}};
+
+// Refined joints that were asked for are had with every method.
+void NeedRefinement(tracker::ModelFiles& files) {
   const bool is_shipped = tracker::IsShippedForest(files);
   if (files.refinement == "none" || (files.refinement.empty() && !is_shipped)) {
-    throw UsageError("--posture looked: expected --look FILE.ossalook of 'ossa look' with it");
+    throw UsageError(
+        "--posture refined: expected --refinement FILE.ossarefine of 'ossa refine' with it");
   }
   if (files.refinement.empty()) {
-    files.refinement = tracker::ShippedFile(recon::kShippedLook).string();
+    files.refinement = tracker::ShippedFile(recon::kShippedRefinement).string();
   }
 }
 
-void CheckLookIsRead(const TrackOptions& options) {
+void CheckRefinementIsRead(const TrackOptions& options) {
   const std::string& look = options.files.refinement;
   const bool is_read = MethodInfoOf(options.tracker.method).refined;
   if (look.empty() || look == "none" || is_read || options.quiet) return;
-  SayNotRead("--look", options.tracker.method);
+  SayNotRead("--refinement", options.tracker.method);
 }
 
 std::vector<stream::Target> TargetsOf(const std::vector<std::string>& urls) {
@@ -120,9 +124,12 @@ TrackOptions ParseOptions(int argc, char** argv) {
   AddSourceOptions(app, options.source);
   AddRotateOption(app, options.source);
   app.add_option("--out", options.out, "skeletons: FILE.jsonl, .bvh, .trc or .csv");
-  app.add_option("--posture", options.posture,
-                 "what --out gets: final, reconstructed, looked (raw after a close look) or raw")
-      ->check(CLI::IsMember({"final", "reconstructed", "looked", "raw"}));
+  app.add_option(
+         "--posture", options.posture,
+         "what --out gets: final, reconstructed, refined (raw after the refinement cascade) or "
+         "raw")
+      ->transform(CLI::Transformer(kOldPostures).description(""))
+      ->check(CLI::IsMember({"final", "reconstructed", "refined", "raw"}));
   AddTrackerOptions(app, options);
   app.add_option("--frames", options.frames, "stop after so many frames")->check(Positive());
   AddDeviceOptions(app, options.source);
@@ -154,10 +161,10 @@ TrackOptions ParseOptions(int argc, char** argv) {
   options.bones.Check(options.tracker.method);
   options.mechanics.Check();
   CheckOneOf(options.tracker.method, options.files.database, options.files.prior);
-  if (options.posture == "looked") {
-    NeedLook(options.files);
+  if (options.posture == "refined") {
+    NeedRefinement(options.files);
   } else {
-    CheckLookIsRead(options);
+    CheckRefinementIsRead(options);
   }
   if (!options.out.empty()) CheckSkeletonName(options.out);
   CheckExtension("--picture", options.picture, ".png");
@@ -184,7 +191,7 @@ class SkeletonOutput {
       : path_(options.out), seated_(options.mode == "seated") {
     const std::string& posture = options.posture;
     if (posture == "raw") kind_ = tracker::PostureKind::kRaw;
-    if (posture == "looked") kind_ = tracker::PostureKind::kRefined;
+    if (posture == "refined") kind_ = tracker::PostureKind::kRefined;
     if (posture == "reconstructed") kind_ = tracker::PostureKind::kReconstructed;
     if (path_.empty()) return;
     SayLeftovers(path_);

@@ -8,6 +8,8 @@
 
 #include "depth/base/atomic_file.h"
 #include "depth/base/error.h"
+#include "depth/base/perceptron/train_perceptron.h"
+#include "depth/base/train_interrupted.h"
 #include "forest/import_pcl.h"
 #include "forest/prune.h"
 #include "forest/training/mpi_reducer.h"
@@ -250,7 +252,7 @@ forest::ForestModel Refined(const TrainArguments& a, const forest::ForestModel& 
       forest::LearnRefinement(model, tools::MirroredSource(fresh), options);
   const forest::ForestModel sure =
       forest::LearnConfidences(refined, held_out, a.validation_images, a.options.threads);
-  return forest::LearnPartPrior(sure, fresher, a.options.seed, a.options.threads);
+  return forest::LearnRelabelling(sure, fresher, a.options.seed, a.options.threads);
 }
 
 // Hours before they are needed.
@@ -258,10 +260,10 @@ void CheckRefinement(const TrainArguments& a) {
   if (a.refinement.empty()) return;
   const tools::PersonSource fresh(a.refinement, {kForLabels, 100}, tools::Extent::kWholeImage);
   const auto images = static_cast<Eigen::Index>(2 * fresh.size());  // mirrored, too
-  if (images >= forest::kNetworkBatch) return;
+  if (images >= kPerceptronBatch) return;
   throw InputError(fmt::format("{}: expected at least {} images for --refinement, found {}",
                                a.refinement.front().string(),
-                               forest::kNetworkBatch * 100 / (2 * (100 - kForLabels)) + 1,
+                               kPerceptronBatch * 100 / (2 * (100 - kForLabels)) + 1,
                                fresh.size() * 100 / (100 - kForLabels)));
 }
 
@@ -270,7 +272,7 @@ forest::ForestModel LearnJoints(const TrainArguments& a, const forest::ForestMod
                                 const tools::PersonSource& held_out) {
   const int threads = a.options.threads;
   const forest::ForestModel arranged =
-      forest::LearnArrangements(model, source, kArrangedImages, threads);
+      forest::LearnPosePriors(model, source, kArrangedImages, threads);
   if (held_out.size() == 0) return arranged;
   const forest::ForestModel proposing =
       forest::LearnProposals(arranged, held_out, a.validation_images, threads);
@@ -372,7 +374,7 @@ int Train(int argc, char** argv) {
   arguments.options.memory_bytes = ParseMemory(arguments.memory);
   try {
     return TrainOnData(&arguments, *reducer);
-  } catch (const forest::TrainInterrupted& interruption) {
+  } catch (const TrainInterrupted& interruption) {
     const fs::path checkpoint = arguments.out.string() + ".checkpoint";
     if (!fs::exists(checkpoint)) throw;
     throw InputError(fmt::format("train: {}: the same command with --resume goes on from {}",

@@ -127,7 +127,7 @@ void AddPerson(const forest::ForestModel& model, const LabelledFrame& frame, con
 Meaning MeaningOf(const forest::ForestModel& model, const std::string& name) {
   const std::vector<std::string>& names = model.data().class_names;
   Meaning meaning;
-  meaning.target_of_joint = forest::TargetsNamed(model, recon::kJointNames, name);
+  meaning.target_of_joint = forest::FindTargets(model, recon::kJointNames, name);
   meaning.has_our_parts =
       std::equal(names.begin(), names.end(), recon::kPartNames.begin(), recon::kPartNames.end());
   const auto common = CommonPartsOfModel(names);

@@ -9,12 +9,12 @@
 #include <numbers>
 
 #include "depth/base/error.h"
-#include "forest/network.h"
-#include "forest/thread_limit.h"
+#include "depth/base/perceptron/train_perceptron.h"
+#include "depth/base/random.h"
+#include "depth/base/threads.h"
+#include "depth/base/train_interrupted.h"
 #include "forest/training/train.h"
 #include "recon/models/prior_filter.h"
-#include "tools/learning/learn_rectified_network.h"
-#include "tools/synth/random.h"
 
 namespace ossa::tools {
 namespace {
@@ -135,7 +135,7 @@ struct Walk {
 };
 
 void Take(const Walk& walk, const std::shared_ptr<const recon::PosturePrior>& prior, uint64_t seed,
-          forest::NetworkExamples* out) {
+          PerceptronExamples* out) {
   Random random(seed, walk.number);
   recon::PriorFilter filter(prior);
   Circumstances now;
@@ -168,7 +168,7 @@ void Take(const Walk& walk, const std::shared_ptr<const recon::PosturePrior>& pr
 recon::PriorNetwork LearnPriorNetwork(const recon::PosturePrior& prior,
                                       const std::vector<recon::PriorClip>& clips,
                                       const PriorNetworkOptions& options) {
-  const forest::ThreadLimit limit(options.threads);
+  const ThreadLimit limit(options.threads);
   auto gaussian = std::make_shared<recon::PosturePrior>(prior);
   gaussian->network = {};
   std::vector<std::vector<std::vector<BoneVector>>> runs;
@@ -184,16 +184,15 @@ recon::PriorNetwork LearnPriorNetwork(const recon::PosturePrior& prior,
       }
     }
   }
-  if (rows < forest::kNetworkBatch) {
+  if (rows < kPerceptronBatch) {
     throw InputError("posture prior: the motions are too short to learn a network of");
   }
-  forest::NetworkExamples examples{forest::RowMatrix(rows, recon::kPriorInputs),
-                                   forest::RowMatrix(rows, kBoneDims)};
+  PerceptronExamples examples{RowMatrix(rows, recon::kPriorInputs), RowMatrix(rows, kBoneDims)};
   oneapi::tbb::parallel_for(size_t{0}, walks.size(), [&](size_t i) {
     if (!options.stop || !options.stop()) Take(walks[i], gaussian, options.seed, &examples);
   });
-  if (options.stop && options.stop()) throw forest::TrainInterrupted("interrupted");
-  forest::NetworkOptions learning;
+  if (options.stop && options.stop()) throw TrainInterrupted("interrupted");
+  PerceptronTraining learning;
   learning.hidden = {options.hidden};
   learning.outputs = kBoneDims;
   learning.epochs = options.epochs;
@@ -201,7 +200,7 @@ recon::PriorNetwork LearnPriorNetwork(const recon::PosturePrior& prior,
   learning.progress = options.progress;
   learning.stop = options.stop;
   constexpr float kSoft = 0.05F;  // steps
-  return {LearnRectifiedNetwork(&examples, GradientOfLengths(kSoft), learning)};
+  return {TrainPerceptron(&examples, PointDistanceGradient(kSoft), learning)};
 }
 
 }  // namespace ossa::tools

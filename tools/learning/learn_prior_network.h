@@ -14,7 +14,7 @@ struct PriorNetworkOptions {
   uint64_t seed = 1;
   int threads = 0;                                 // 0: all; they do not change the network
   std::function<void(int64_t, int64_t)> progress;  // steps done, steps in all
-  std::function<bool()> stop;                      // true: end with forest::TrainInterrupted
+  std::function<bool()> stop;                      // true: end with TrainInterrupted
 };
 
 /// Learns what no Gaussian says of how people hold themselves (recon::PriorNetwork): the prior's

@@ -4,9 +4,9 @@
 #include <cmath>
 #include <iterator>
 
+#include "depth/base/threads.h"
 #include "recon/body/standard_body.h"
 #include "tools/people/occlusion_merge.h"
-#include "tools/people/parallel.h"
 
 namespace ossa::people {
 namespace {

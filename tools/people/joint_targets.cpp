@@ -14,7 +14,7 @@ JointTargets FindJointTargets(const forest::ForestModel& model, const std::strin
         fmt::format("{}: expected at most {} classes, the labels of body parts, found {}",
                     model_name, recon::kLabelCount, model.class_count()));
   }
-  const auto named = forest::TargetsNamed(model, recon::kJointNames, model_name);
+  const auto named = forest::FindTargets(model, recon::kJointNames, model_name);
   JointTargets targets{};
   for (size_t j = 0; j < targets.size(); ++j) targets[j] = static_cast<int>(named[j]);
   return targets;

@@ -12,7 +12,7 @@ bool IsTestShape(const recon::BodyShape& shape) {
   };
   const uint64_t key =
       (cell(shape.muscle, 0.1) * 64 + cell(shape.weight, 0.1)) * 64 + cell(shape.height, 0.04);
-  return Random(key).Index(5) == 0;
+  return Random(key, 0).Index(5) == 0;
 }
 
 recon::BodyShape DrawShape(Random& random) {

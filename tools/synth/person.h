@@ -2,9 +2,9 @@
 #include <Eigen/Core>
 #include <vector>
 
+#include "depth/base/random.h"
 #include "recon/body/body_model.h"
 #include "recon/body/clothing.h"
-#include "tools/synth/random.h"
 #include "tools/synth/view_sampler.h"
 
 namespace ossa::tools {

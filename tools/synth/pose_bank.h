@@ -3,8 +3,8 @@
 #include <string_view>
 #include <vector>
 
+#include "depth/base/random.h"
 #include "recon/body/rig.h"
-#include "tools/synth/random.h"
 
 namespace ossa::tools {
 

@@ -5,9 +5,9 @@
 #include <string_view>
 #include <vector>
 
+#include "depth/base/random.h"
 #include "depth/render/renderer.h"
 #include "recon/posture.h"
-#include "tools/synth/random.h"
 
 namespace ossa::tools {
 

@@ -2,8 +2,8 @@
 
 #include <algorithm>
 
+#include "depth/base/random.h"
 #include "recon/body/standard_body.h"
-#include "tools/synth/random.h"
 
 namespace ossa::tools {
 namespace {

@@ -27,7 +27,7 @@ bool IsTestPlacement(const Placement& place) {
   };
   const uint64_t key = (cell(place.height_m, 0.1) * 4096 + cell(place.distance_m, 0.1)) * 4096 +
                        cell(place.facing_rad, 10 * kDegree);
-  return Random(key).Index(5) == 0;
+  return Random(key, 0).Index(5) == 0;
 }
 
 Placement DrawFront(double person_m, Random& random) {

@@ -3,8 +3,8 @@
 #include <optional>
 #include <string_view>
 
+#include "depth/base/random.h"
 #include "depth/image/camera.h"
-#include "tools/synth/random.h"
 
 namespace ossa::tools {
 

@@ -8,7 +8,7 @@
 #include "recon/database/posture_database.h"
 #include "recon/models/learned_models.h"
 #include "recon/models/posture_prior.h"
-#include "recon/refine/close_look.h"
+#include "recon/refine/refinement_cascade.h"
 #include "recon/skeleton_sequence.h"
 #include "tools/tracker/shipped.h"
 
@@ -24,7 +24,7 @@ constexpr const char* kDatabase = "authored.ossadb";
 constexpr const char* kWithout = "none";
 constexpr std::array<KnownSensor, 2> kKnownSensors = {
     {{recon::kKinectV2, "a Kinect v2's skeletons", "kinect_v2.ossagp"},
-     {recon::kCloseLook, "ossa's joints after a close look", kCorrection}}};
+     {recon::kRefinedJoints, "ossa's joints after the refinement cascade", kCorrection}}};
 
 std::filesystem::path NamedOrShipped(const std::string& file, std::string_view shipped) {
   return file.empty() ? ShippedFile(shipped) : std::filesystem::path(file);
@@ -37,12 +37,12 @@ bool IsRead(Reads reads, const std::string& file) {
 }
 
 // A refinement that was named is had with every method: its joints may be what is wanted.
-std::shared_ptr<const recon::Looker> LoadRefinement(const ModelFiles& files,
-                                                    const MethodInfo& method) {
+std::shared_ptr<const recon::JointRefiner> LoadRefinement(const ModelFiles& files,
+                                                          const MethodInfo& method) {
   if (files.refinement == kWithout) return nullptr;
   if (files.refinement.empty() && !(method.refined && IsShippedForest(files))) return nullptr;
-  auto refinement = std::make_shared<recon::Looker>(
-      recon::CloseLook::Load(NamedOrShipped(files.refinement, recon::kShippedLook)));
+  auto refinement = std::make_shared<recon::JointRefiner>(
+      recon::RefinementCascade::Load(NamedOrShipped(files.refinement, recon::kShippedRefinement)));
   ReturnFreedMemory();
   return refinement;
 }

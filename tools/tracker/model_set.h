@@ -9,7 +9,7 @@ namespace ossa::forest {
 class ForestModel;  // forest/forest.h
 }
 namespace ossa::recon {
-class Looker;           // recon/refine/close_look.h
+class JointRefiner;     // recon/refine/refinement_cascade.h
 class PostureDatabase;  // recon/database/posture_database.h
 struct LearnedModels;   // recon/models/learned_models.h
 struct PosturePrior;    // recon/models/posture_prior.h
@@ -34,7 +34,7 @@ struct ModelFiles {
 /// the same time; members may be exchanged for others.
 struct ModelSet {
   std::shared_ptr<const forest::ForestModel> forest;       // body parts and joint proposals; needed
-  std::shared_ptr<const recon::Looker> refinement;         // moves its joints at the depth image
+  std::shared_ptr<const recon::JointRefiner> refinement;   // moves its joints at the depth image
   std::shared_ptr<const recon::LearnedModels> learned;     // the correction of systematic errors
   std::shared_ptr<const recon::PosturePrior> prior;        // of postures: joints unseen from seen
   std::shared_ptr<const recon::PostureDatabase> database;  // postures to look up

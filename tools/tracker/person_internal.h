@@ -6,7 +6,7 @@
 
 #include "recon/filters/stationary_average.h"
 #include "recon/methods/reconstructor.h"
-#include "recon/refine/bone_measure.h"
+#include "recon/refine/bone_estimation.h"
 #include "tools/tracker/choose_posture_internal.h"
 #include "tools/tracker/mechanics_internal.h"
 #include "tools/tracker/tracker.h"
@@ -19,7 +19,7 @@ struct Person {
   double seen_s = 0.0;
   double before_s = -1e9;  // time of `before`
   recon::BoneLengths lengths_m = AverageBoneLengths();
-  recon::JudgedBones bones;                     // by close looks until now
+  recon::MeanBoneLengths bones;                 // as the cascade estimated them until now
   std::optional<recon::TrackedPosture> before;  // of the last frame it was tracked in
   recon::StationaryPosture stationary;          // averages what stands still
   std::unique_ptr<recon::Reconstructor> reconstructor;

@@ -7,14 +7,14 @@
 #include <utility>
 
 #include "depth/base/error.h"
+#include "depth/base/threads.h"
 #include "depth/image/turn.h"
 #include "depth/sensor/frame_source.h"
 #include "forest/forest.h"
-#include "recon/refine/close_look.h"
+#include "recon/refine/refinement_cascade.h"
 #include "tools/people/detect_people.h"
-#include "tools/people/parallel.h"
-#include "tools/tracker/look_closely_internal.h"
 #include "tools/tracker/person_internal.h"
+#include "tools/tracker/refine_joints_internal.h"
 #include "tools/tracker/upright.h"
 
 namespace ossa::tracker {
@@ -173,7 +173,8 @@ Body Tracker::Impl::MakeBody(const depth::DepthFrame& frame, const people::Perso
   return body;
 }
 
-// Of somebody new: what is known already. A look judges the bones that the method ends with.
+// Of somebody new: what is known already. The refinement cascade estimates the bones that the
+// method ends with.
 void Tracker::Impl::Introduce(int id, Person& person) const {
   constexpr int kFrames = 600;  // what is judged now changes little
   person.id = id;
@@ -213,11 +214,11 @@ void Tracker::Impl::TrackBody(const depth::DepthFrame& frame,
   body.raw = ChoosePosture(model, targets, evidence.proposals, context);
   if (models.refinement) {
     const auto start = Clock::now();
-    const auto looked = LookClosely(*models.refinement, frame, detection.candidate,
-                                    evidence.proposals, targets, body.raw, &person.bones);
-    if (looked) {
-      body.refined = looked->joints_m;
-      body.refined_bones_m = looked->bones_m;
+    const auto refined = RefineJoints(*models.refinement, frame, detection.candidate,
+                                      evidence.proposals, targets, body.raw, &person.bones);
+    if (refined) {
+      body.refined = refined->joints_m;
+      body.refined_bones_m = refined->bones_m;
     }
     ms.reconstruct += MillisecondsSince(start);
   }
@@ -251,7 +252,7 @@ BodyFrame Tracker::Impl::Track(const depth::DepthFrame& frame) {
   if (KeepsParts()) result.parts = depth::Image<uint8_t>(frame.camera.width, frame.camera.height);
   if (options.keep_probabilities) result.probabilities = NobodyIn(frame, model);
   std::vector<StageTimes> times(result.bodies.size());
-  people::ParallelFor(result.bodies.size(), options.threads, [&](size_t i) {
+  ParallelFor(result.bodies.size(), options.threads, [&](size_t i) {
     Body& body = result.bodies[i];
     if (body.state == BodyState::kPositionOnly) return;
     const people::Detection& detection = seen.people[i].detection;

@@ -20,7 +20,7 @@ using test::BallFigures;
 using test::BallModel;
 
 Classification ClassifyFigure(const TrainingImage& image, const ClassifyOptions& options) {
-  return Classify(BallModel(), test::ViewOf(image), image.camera, test::ObjectPixels(image),
+  return Classify(BallModel(), test::MakeView(image), image.camera, test::ObjectPixels(image),
                   options);
 }
 
@@ -94,7 +94,7 @@ TEST(ForRows, TheLastRowOfTheLargestBoxOverflowsNothing) {
 // A figure cut out, with the whole box as positions: its border and pixels off the object as well.
 ObjectImage CutFigure(std::vector<int32_t>* position) {
   const TrainingImage image = BallFigures(1, 8).Read(0);
-  const ObjectImage cut = CutOut(test::ViewOf(image), image.camera, test::ObjectPixels(image),
+  const ObjectImage cut = CutOut(test::MakeView(image), image.camera, test::ObjectPixels(image),
                                  BallModel().data().background_mm);
   for (int i = 0; i < cut.width * cut.height; ++i) {
     position->push_back(i / cut.width << 16 | i % cut.width);

@@ -16,15 +16,15 @@ namespace {
 using test::BallFigures;
 using test::BallModel;
 
-// The ball model with proposals and arrangements learned.
+// The ball model with proposals and pose priors learned.
 const ForestModel& Arranged() {
   static const ForestModel model = LearnProposals(
-      LearnArrangements(BallModel(), BallFigures(300, 9), 300, 0), BallFigures(100, 5), 100, 0);
+      LearnPosePriors(BallModel(), BallFigures(300, 9), 300, 0), BallFigures(100, 5), 100, 0);
   return model;
 }
 
 const ForestModel& WithPrior() {
-  static const ForestModel model = LearnPartPrior(Arranged(), BallFigures(400, 41), 1, 0);
+  static const ForestModel model = LearnRelabelling(Arranged(), BallFigures(400, 41), 1, 0);
   return model;
 }
 
@@ -34,9 +34,9 @@ struct Labels {
 
 Labels LabelsOf(const ForestModel& model, const TrainingImage& image) {
   const Classification result = ClassifyImage(model, image);
-  const auto proposals = Propose(model, test::ViewOf(image), image.camera, result);
+  const auto proposals = Propose(model, test::MakeView(image), image.camera, result);
   Labels labels{
-      result.label, Relabel(model, test::ViewOf(image), image.camera, result, proposals), {}};
+      result.label, Relabel(model, test::MakeView(image), image.camera, result, proposals), {}};
   for (const int32_t p : result.pixel) labels.truth.push_back(image.label[static_cast<size_t>(p)]);
   return labels;
 }
@@ -55,16 +55,16 @@ TEST(Relabel, ErrsLessThanTheTreesAlone) {
   EXPECT_LT(second_wrong, first_wrong);
 }
 
-TEST(Relabel, LeavesLabelsAloneWithoutAPrior) {
+TEST(Relabel, LeavesLabelsAloneWhereNoneWasLearned) {
   const Labels labels = LabelsOf(Arranged(), BallFigures(4, 1).Read(2));
   EXPECT_EQ(labels.first, labels.second);
 }
 
-TEST(Relabel, BelievesAPriorThatIsSure) {
+TEST(Relabel, BelievesWeightsThatAreSure) {
   ForestData data = WithPrior().data();
-  data.part_prior.weight.assign(data.part_prior.weight.size(), 0.0F);
-  data.part_prior.bias.assign(data.part_prior.bias.size(), 0.0F);
-  data.part_prior.bias[3] = 100.0F;  // e^100: more than any leaf can say against it
+  data.relabelling.weight.assign(data.relabelling.weight.size(), 0.0F);
+  data.relabelling.bias.assign(data.relabelling.bias.size(), 0.0F);
+  data.relabelling.bias[3] = 100.0F;  // e^100: more than any leaf can say against it
   const ForestModel model{std::move(data)};
   const Labels labels = LabelsOf(model, BallFigures(4, 1).Read(2));
   EXPECT_EQ(labels.second, std::vector<uint8_t>(labels.second.size(), 4));
@@ -73,11 +73,11 @@ TEST(Relabel, BelievesAPriorThatIsSure) {
 TEST(Relabel, GivesNothingForNoPixels) {
   const TrainingImage image = BallFigures(1, 1).Read(0);
   EXPECT_TRUE(
-      Relabel(WithPrior(), test::ViewOf(image), image.camera, Classification(), {{}, {}, {}})
+      Relabel(WithPrior(), test::MakeView(image), image.camera, Classification(), {{}, {}, {}})
           .empty());
 }
 
-TEST(Nearness, IsTheSameBitByBitOnEveryPath) {
+TEST(RadialBasis, IsTheSameBitByBitOnEveryPath) {
   std::vector<std::vector<Proposal>> proposals(11);
   for (size_t t = 1; t < proposals.size(); ++t) {
     const double d = 0.1 * static_cast<double>(t);
@@ -85,7 +85,7 @@ TEST(Nearness, IsTheSameBitByBitOnEveryPath) {
   }
   const Anchors anchors(proposals);
   const Eigen::Vector3f point_m(0.21F, -0.33F, 2.17F);
-  const RowMatrix near = Nearness(anchors, {point_m});
+  const RowMatrix near = ComputeRadialBasis(anchors, {point_m});
   for (size_t t = 0; t < proposals.size(); ++t) {
     // volatile: the compiler may neither reorder nor fuse
     const volatile float x = point_m.x() - anchors.x[t];
@@ -101,33 +101,33 @@ TEST(Nearness, IsTheSameBitByBitOnEveryPath) {
   EXPECT_LT(near(0, 0), 1e-6F) << "what was not proposed is near nothing";
 }
 
-TEST(LearnPartPrior, GivesTheSameBytesForAnyNumberOfThreads) {
+TEST(LearnRelabelling, GivesTheSameBytesForAnyNumberOfThreads) {
   const BallFigures figures(80, 21);
-  EXPECT_EQ(test::BytesOf(LearnPartPrior(Arranged(), figures, 1, 1)),
-            test::BytesOf(LearnPartPrior(Arranged(), figures, 1, 3)));
+  EXPECT_EQ(test::ToBytes(LearnRelabelling(Arranged(), figures, 1, 1)),
+            test::ToBytes(LearnRelabelling(Arranged(), figures, 1, 3)));
 }
 
-TEST(LearnPartPrior, RefusesImagesThatShowNothing) {
-  EXPECT_THROW(LearnPartPrior(Arranged(), BallFigures(0, 1), 1, 1), InputError);
+TEST(LearnRelabelling, RefusesImagesThatShowNothing) {
+  EXPECT_THROW(LearnRelabelling(Arranged(), BallFigures(0, 1), 1, 1), InputError);
 }
 
-TEST(ForestModelFile, APartPriorComesBackAsItWas) {
-  const std::vector<char> bytes = test::BytesOf(WithPrior());
+TEST(ForestModelFile, ARelabellingComesBackAsItWas) {
+  const std::vector<char> bytes = test::ToBytes(WithPrior());
   const ForestModel read = ReadForestModel(std::as_bytes(std::span(bytes)), "body.ossa");
-  EXPECT_EQ(read.data().part_prior.weight, WithPrior().data().part_prior.weight);
-  EXPECT_EQ(read.data().part_prior.bias, WithPrior().data().part_prior.bias);
+  EXPECT_EQ(read.data().relabelling.weight, WithPrior().data().relabelling.weight);
+  EXPECT_EQ(read.data().relabelling.bias, WithPrior().data().relabelling.bias);
 }
 
-TEST(ForestModel, RefusesAPartPriorThatDoesNotFit) {
+TEST(ForestModel, RefusesARelabellingThatDoesNotFit) {
   const auto refused = [](const auto& damage) {
     ForestData data = WithPrior().data();
-    damage(&data.part_prior);
+    damage(&data.relabelling);
     EXPECT_THROW(ForestModel(std::move(data), "body.ossa"), InputError);
   };
-  refused([](PartPrior* prior) { prior->weight.pop_back(); });
-  refused([](PartPrior* prior) { prior->bias.clear(); });
-  refused([](PartPrior* prior) { prior->weight[3] = std::nanf(""); });
-  refused([](PartPrior* prior) { prior->bias[1] = 1e9F; });
+  refused([](Relabelling* prior) { prior->weight.pop_back(); });
+  refused([](Relabelling* prior) { prior->bias.clear(); });
+  refused([](Relabelling* prior) { prior->weight[3] = std::nanf(""); });
+  refused([](Relabelling* prior) { prior->bias[1] = 1e9F; });
 }
 
 }  // namespace

@@ -45,7 +45,7 @@ ProposalTarget Target(float vote_radius_m) {
   return target;
 }
 
-TEST(PointsOf, AddsUpTheVotesThatAreNotTooLong) {
+TEST(GatherPoints, AddsUpTheVotesThatAreNotTooLong) {
   const Evidence evidence = SomeEvidence();
   float total = 0.0F;
   for (size_t i = 0; i < kSamples - 1; ++i) {
@@ -54,7 +54,7 @@ TEST(PointsOf, AddsUpTheVotesThatAreNotTooLong) {
     const float relative = 0.01F * static_cast<float>(vote.spread_cm) / 0.06F;
     total += evidence.area_m2[i] / std::pow(1.0F + relative * relative, 2.0F);
   }
-  const TargetPoints points = PointsOf(evidence, Target(0.7F), 0);
+  const TargetPoints points = GatherPoints(evidence, Target(0.7F), 0);
   EXPECT_NEAR(points.vote_total, total, 1e-9F);  // rounding of seven floats below 1e-3
   // Each of them says the same place.
   ASSERT_GT(points.points.size(), 0U);
@@ -63,25 +63,25 @@ TEST(PointsOf, AddsUpTheVotesThatAreNotTooLong) {
   EXPECT_NEAR(points.points.at(0).z(), 2.0F, 1e-6F);
 }
 
-TEST(PointsOf, HearsAVoteAsLongAsTheRadius) {
+TEST(GatherPoints, HearsAVoteAsLongAsTheRadius) {
   Evidence evidence = SomeEvidence();
   for (Vote& vote : evidence.votes) vote = {{0, 0, 0}, Vote::kNone};
   evidence.votes[4] = {{0, 0, 70}, 2};
   const float length_m = 0.01F * 70.0F;  // as votes are read
-  EXPECT_EQ(PointsOf(evidence, Target(length_m), 0).points.size(), 1U);
-  EXPECT_EQ(PointsOf(evidence, Target(std::nextafter(length_m, 0.0F)), 0).points.size(), 0U);
+  EXPECT_EQ(GatherPoints(evidence, Target(length_m), 0).points.size(), 1U);
+  EXPECT_EQ(GatherPoints(evidence, Target(std::nextafter(length_m, 0.0F)), 0).points.size(), 0U);
 }
 
-TEST(PointsOf, HearsNoVotesWithinANegativeRadius) {
-  EXPECT_EQ(PointsOf(SomeEvidence(), Target(-1.0F), 0).points.size(), 0U);
+TEST(GatherPoints, HearsNoVotesWithinANegativeRadius) {
+  EXPECT_EQ(GatherPoints(SomeEvidence(), Target(-1.0F), 0).points.size(), 0U);
 }
 
-TEST(PointsOf, TakesSurfaceOfItsClassesAndPushesItIntoTheBody) {
+TEST(GatherPoints, TakesSurfaceOfItsClassesAndPushesItIntoTheBody) {
   ProposalTarget target = Target(0.0F);
   target.class_weight = 0.5F;
   target.probability_threshold = 0.5F;
   target.push_back_m = 0.04F;
-  const TargetPoints points = PointsOf(SomeEvidence(), target, 0);
+  const TargetPoints points = GatherPoints(SomeEvidence(), target, 0);
   ASSERT_EQ(points.surface.size(), 6U);  // samples 7 to 12 of 13
   const Eigen::Vector3f seen(0.7F, 0.0F, 2.0F);
   EXPECT_NEAR((points.surface.at(0) - seen).norm(), 0.04F, 1e-6F);

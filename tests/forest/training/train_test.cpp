@@ -6,6 +6,7 @@
 #include <memory>
 
 #include "depth/base/error.h"
+#include "depth/base/train_interrupted.h"
 #include "forest/classification/classify.h"
 #include "forest/proposals/propose.h"
 #include "tests/forest/ball_figure.h"
@@ -17,8 +18,8 @@ namespace {
 using test::BallFigures;
 using test::BallModel;
 using test::BallVocabulary;
-using test::BytesOf;
 using test::QuickOptions;
+using test::ToBytes;
 
 // Share of right pixels on figures never seen.
 double Accuracy(const ForestModel& model) {
@@ -28,7 +29,7 @@ double Accuracy(const ForestModel& model) {
   for (size_t i = 0; i < unseen.size(); ++i) {
     const TrainingImage image = unseen.Read(i);
     const Classification result =
-        Classify(model, test::ViewOf(image), image.camera, test::ObjectPixels(image));
+        Classify(model, test::MakeView(image), image.camera, test::ObjectPixels(image));
     for (size_t p = 0; p < result.pixel.size(); ++p) {
       right += result.label[p] == image.label[static_cast<size_t>(result.pixel[p])] ? 1 : 0;
       ++all;
@@ -48,7 +49,7 @@ TEST(Train, TellsFrontFromBackByTheWholeFigure) {
   for (size_t i = 0; i < unseen.size(); ++i) {
     const TrainingImage image = unseen.Read(i);
     const Classification result =
-        Classify(BallModel(), test::ViewOf(image), image.camera, test::ObjectPixels(image));
+        Classify(BallModel(), test::MakeView(image), image.camera, test::ObjectPixels(image));
     right += result.context[image.context] > 0.5F ? 1 : 0;
   }
   EXPECT_GE(right, 57);  // the nose is 2 to 6 pixels; in 5 % of views a hand's edge looks like it
@@ -60,8 +61,8 @@ TEST(Train, ProposesCentresOfBalls) {
   for (size_t i = 0; i < unseen.size(); ++i) {
     const TrainingImage image = unseen.Read(i);
     const Classification result =
-        Classify(BallModel(), test::ViewOf(image), image.camera, test::ObjectPixels(image));
-    const auto proposals = Propose(BallModel(), test::ViewOf(image), image.camera, result);
+        Classify(BallModel(), test::MakeView(image), image.camera, test::ObjectPixels(image));
+    const auto proposals = Propose(BallModel(), test::MakeView(image), image.camera, result);
     for (size_t t = 0; t < proposals.size(); ++t) {
       if (proposals[t].empty()) continue;
       const auto error = (proposals[t][0].position_m.cast<float>() - image.target_m[t]).norm();
@@ -79,8 +80,8 @@ TEST(LearnProposals, MakesConfidencesThatSortRightFromWrong) {
   for (size_t i = 0; i < unseen.size(); ++i) {
     const TrainingImage image = unseen.Read(i);
     const Classification result =
-        Classify(model, test::ViewOf(image), image.camera, test::ObjectPixels(image));
-    const auto proposals = Propose(model, test::ViewOf(image), image.camera, result);
+        Classify(model, test::MakeView(image), image.camera, test::ObjectPixels(image));
+    const auto proposals = Propose(model, test::MakeView(image), image.camera, result);
     for (size_t t = 0; t < proposals.size(); ++t) {
       for (const Proposal& proposal : proposals[t]) {
         const bool hit = (proposal.position_m.cast<float>() - image.target_m[t]).norm() < 0.1F;
@@ -98,9 +99,9 @@ TEST(Train, GivesTheSameBytesForAnyNumberOfThreads) {
   TrainOptions options = QuickOptions();
   options.threads = 1;
   const BallFigures figures(60, 3);
-  const auto one = BytesOf(Train(figures, BallVocabulary(), options));
+  const auto one = ToBytes(Train(figures, BallVocabulary(), options));
   options.threads = 4;
-  EXPECT_EQ(one, BytesOf(Train(figures, BallVocabulary(), options)));
+  EXPECT_EQ(one, ToBytes(Train(figures, BallVocabulary(), options)));
 }
 
 TEST(Train, GivesTheSameBytesWhenImagesStreamInParts) {
@@ -108,9 +109,9 @@ TEST(Train, GivesTheSameBytesWhenImagesStreamInParts) {
   options.trees = 1;
   options.depth = 5;
   const BallFigures figures(200, 3);
-  const auto whole = BytesOf(Train(figures, BallVocabulary(), options));
+  const auto whole = ToBytes(Train(figures, BallVocabulary(), options));
   options.memory_bytes = uint64_t{1} << 20U;  // 200 images take 3 MB
-  EXPECT_EQ(whole, BytesOf(Train(figures, BallVocabulary(), options)));
+  EXPECT_EQ(whole, ToBytes(Train(figures, BallVocabulary(), options)));
 }
 
 // Options under which training ends after a number of levels; they own their counter.
@@ -125,14 +126,14 @@ TEST(Train, ResumesToTheSameBytes) {
   const ossa::test::TemporaryFolder folder;
   const BallFigures figures(60, 3);
   TrainOptions options = QuickOptions();
-  const auto unbroken = BytesOf(Train(figures, BallVocabulary(), options));
+  const auto unbroken = ToBytes(Train(figures, BallVocabulary(), options));
   options.checkpoint = folder / "checkpoint";
   options.resume = true;
   for (int levels = 3; levels <= 5; ++levels) {
     const TrainOptions broken_off = StoppingAfter(levels, options);
     EXPECT_THROW(Train(figures, BallVocabulary(), broken_off), TrainInterrupted);
   }
-  EXPECT_EQ(unbroken, BytesOf(Train(figures, BallVocabulary(), options)));
+  EXPECT_EQ(unbroken, ToBytes(Train(figures, BallVocabulary(), options)));
 }
 
 TEST(Train, RefusesTheCheckpointOfAnotherRun) {

@@ -10,6 +10,7 @@
 #include "recon/models/posture_prior.h"
 #include "recon/models/prior_filter.h"
 #include "tests/recon/synthetic_motion.h"
+#include "tests/support/perceptrons.h"
 #include "tests/support/refused.h"
 #include "tests/support/temporary_folder.h"
 
@@ -30,12 +31,7 @@ PosturePrior Learned() {
 
 /// As many units, none of which says anything.
 PriorNetwork Silent(Eigen::Index units) {
-  PriorNetwork network;
-  network.input_mean = Eigen::VectorXf::Zero(kPriorInputs);
-  network.input_scale = Eigen::VectorXf::Ones(kPriorInputs);
-  network.layers = {{Eigen::MatrixXf::Zero(units, kPriorInputs), Eigen::VectorXf::Zero(units)},
-                    {Eigen::MatrixXf::Zero(kBoneDims, units), Eigen::VectorXf::Zero(kBoneDims)}};
-  return network;
+  return {ossa::test::SilentPerceptron({kPriorInputs, units, kBoneDims})};
 }
 
 /// Whatever is seen, the head is to be that much farther forward.
@@ -59,11 +55,11 @@ TEST(PriorNetwork, IsOneRectifiedLayerOfNormalisedInputs) {
   PriorNetwork network = Silent(2);
   network.input_mean[4] = 1.0F;
   network.input_scale[4] = 2.0F;
-  network.layers[0].weight(0, 4) = 1.0F;
-  network.layers[0].weight(1, 4) = -1.0F;
+  network.layers[0].weight(4, 0) = 1.0F;
+  network.layers[0].weight(4, 1) = -1.0F;
   network.layers[0].bias[0] = 0.5F;
-  network.layers[1].weight(7, 0) = 3.0F;
-  network.layers[1].weight(8, 1) = 1.0F;
+  network.layers[1].weight(0, 7) = 3.0F;
+  network.layers[1].weight(1, 8) = 1.0F;
   network.layers[1].bias[7] = 0.25F;
   const auto said = [&](float x) {
     PriorInput input = PriorInput::Zero();
@@ -153,14 +149,14 @@ TEST(PriorNetwork, IsKeptInThePriorsFile) {
   EXPECT_TRUE(PosturePrior::Load(folder / "without.ossaprior").network.empty());
   prior.network = HeadForward(0.05);
   prior.network.input_mean[2] = 0.123F;
-  prior.network.layers[0].weight(0, 3) = -1.5F;
+  prior.network.layers[0].weight(3, 0) = -1.5F;
   prior.Save(folder / "with.ossaprior");
   constexpr size_t kVersionAt = 12;                      // of a checksummed container
   EXPECT_EQ(bytes("without.ossaprior")[kVersionAt], 1);  // as before there were networks
   EXPECT_EQ(bytes("with.ossaprior")[kVersionAt], 2);
   const PriorNetwork read = PosturePrior::Load(folder / "with.ossaprior").network;
   EXPECT_EQ(read.input_mean[2], 0.123F);
-  EXPECT_EQ(read.layers[0].weight(0, 3), -1.5F);
+  EXPECT_EQ(read.layers[0].weight(3, 0), -1.5F);
   EXPECT_NEAR(read.layers[1].bias[kHead + 2], 0.5F, 0.5F / 128.0F);  // 8 bits of it
   PosturePrior::Load(folder / "with.ossaprior").Save(folder / "again.ossaprior");
   EXPECT_EQ(bytes("with.ossaprior"), bytes("again.ossaprior"));
@@ -177,9 +173,9 @@ TEST(PriorNetwork, WithOddNumbersIsRefused) {
   };
   constexpr float kInfinity = std::numeric_limits<float>::infinity();
   refused([](PriorNetwork& n) { n.input_scale[5] = std::nanf(""); }, "input scales");
-  refused([](PriorNetwork& n) { n.layers[0].weight(0, 5) = kInfinity; }, "unit weights");
+  refused([](PriorNetwork& n) { n.layers[0].weight(5, 0) = kInfinity; }, "unit weights");
   refused([](PriorNetwork& n) { n.layers[0].bias.setZero(1 << 15); }, "units");
-  refused([](PriorNetwork& n) { n.layers[1].weight.setZero(kBoneDims, 2); }, "output weights");
+  refused([](PriorNetwork& n) { n.layers[1].weight.setZero(2, kBoneDims); }, "output weights");
   refused([](PriorNetwork& n) { n.layers[1].bias[0] = 1e9F; }, "output biases");
 }
 

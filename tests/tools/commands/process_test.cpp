@@ -139,7 +139,7 @@ TEST(Interrupt, ATerminalThatGoesAwayEndsARecordingWithAWholeFile) {
 TEST(AnyName, IsGoodForOutputsOfOneFormat) {
   const TemporaryFolder folder;
   for (const char* words :
-       {"learn --observed a --truth b --out x", "prior --mocap a --out x.bin", "look a --out x",
+       {"learn --observed a --truth b --out x", "prior --mocap a --out x.bin", "refine a --out x",
         "train a --out x", "database --mocap a --out x.bin", "evaluate a b --json x.txt",
         "evaluate a b --json -", "compare a b --json x.txt", "compare a b --json -",
         "track /nowhere --json-stats x.txt", "track /nowhere --json-stats -"}) {
@@ -173,7 +173,7 @@ TEST(WrongUsage, OfOutputs) {
                             "prior --mocap authored --out x.ossadb",
                             "database --mocap authored --out x.ossa",
                             "train a --out x.jsonl",
-                            "train a --out x.ossalook",
+                            "train a --out x.ossarefine",
                             "track /nowhere --out x.jsonl --json-stats x.html"}) {
     const CommandResult result = Shell(std::string("cd \"$2\" && \"$1\" ") + words, folder);
     EXPECT_EQ(result.exit_status, 2) << words << ": " << result.err;

@@ -128,7 +128,7 @@ TEST_F(ReconstructCommand, TakesOffWhatACloseLookLeavesAndSaysSo) {
   auto looked = Recording();
   for (auto& frame : looked.frames) frame.bodies[0].bones_m = recon::StandardBoneLengths();
   recon::WriteSkeletons(in, looked);
-  EXPECT_EQ(recon::ReadSkeletons(in).sensor, recon::kCloseLook);
+  EXPECT_EQ(recon::ReadSkeletons(in).sensor, recon::kRefinedJoints);
   const auto corrected = RunOssa({"reconstruct", in, "--out", out});
   ASSERT_EQ(corrected.exit_status, 0) << corrected.err;
   EXPECT_NE(corrected.err.find("body.ossagp"), std::string::npos) << corrected.err;

@@ -324,12 +324,12 @@ TEST(TrackCommand, SaysWhichFilesTheMethodDoesNotRead) {
     return result.err.find(options[options.size() - 2] + " is not read by --method kalman") !=
            std::string::npos;
   };
-  for (const char* option : {"--look", "--learned", "--prior", "--database"})
+  for (const char* option : {"--refinement", "--learned", "--prior", "--database"})
     EXPECT_TRUE(said({option, "x.file"})) << option;
   // Where there is none of it nothing is lost, and raw joints may be looked at again.
-  EXPECT_FALSE(said({"--look", "none"}));
+  EXPECT_FALSE(said({"--refinement", "none"}));
   EXPECT_FALSE(said({"--learned", "none"}));
-  EXPECT_FALSE(said({"--posture", "looked", "--look", "/no.look"}));
+  EXPECT_FALSE(said({"--posture", "refined", "--refinement", "/no.refine"}));
 }
 
 TEST(TrackCommand, BonesByTheWholeRecordingAreTheSameInEveryFrame) {

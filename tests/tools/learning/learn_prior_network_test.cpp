@@ -7,6 +7,7 @@
 #include <numbers>
 
 #include "depth/base/error.h"
+#include "depth/base/train_interrupted.h"
 #include "forest/training/train.h"
 #include "recon/models/prior_filter.h"
 
@@ -111,7 +112,7 @@ TEST(LearnPriorNetwork, NeedsMotionAndMayBeStopped) {
   EXPECT_THROW(LearnPriorNetwork(prior, Leans(0.1), Small()), InputError);
   PriorNetworkOptions stopped = Small();
   stopped.stop = [] { return true; };
-  EXPECT_THROW(LearnPriorNetwork(prior, Leans(20.0), stopped), forest::TrainInterrupted);
+  EXPECT_THROW(LearnPriorNetwork(prior, Leans(20.0), stopped), TrainInterrupted);
 }
 
 }  // namespace

@@ -30,7 +30,7 @@ TEST(PoseBank, VariesNaturalPosesLittle) {
     variation.mirror_share = 0.0;
     double farthest = 0.0;
     for (uint64_t i = 0; i < 200; ++i) {
-      Random random(i);
+      Random random(i, 0);
       const recon::RigPose& pose = bank[(i * 37) % bank.size()];
       const auto wrist = [](const recon::RigPose& of) {
         return recon::StandardPosture(of)[recon::Joint::kWristLeft];

@@ -11,7 +11,7 @@ namespace {
 constexpr double kPi = std::numbers::pi;
 
 TEST(ViewSampler, FrontViewsFaceTheCameraAndHaveThePersonInTheImage) {
-  Random random(1);
+  Random random(1, 0);
   int whole = 0;
   for (int i = 0; i < 500; ++i) {
     const ViewSample sample = SampleView({.view = View::kFront}, random);
@@ -30,7 +30,7 @@ TEST(ViewSampler, FrontViewsFaceTheCameraAndHaveThePersonInTheImage) {
 }
 
 TEST(ViewSampler, TheWorldsUpIsUpInTheImageAndThePersonsLeftIsImageRightWhenFacing) {
-  Random random(2);
+  Random random(2, 0);
   const ViewSample sample = SampleView({.view = View::kFront}, random);
   const auto pixel = [&](double x, double y) {
     return Project(sample.camera, sample.camera_from_world * Eigen::Vector3d(x, y, 0));
@@ -42,7 +42,7 @@ TEST(ViewSampler, TheWorldsUpIsUpInTheImageAndThePersonsLeftIsImageRightWhenFaci
 }
 
 TEST(ViewSampler, AnyCoversEverySideAndDistance) {
-  Random random(3);
+  Random random(3, 0);
   int backs = 0;
   int far = 0;
   for (int i = 0; i < 400; ++i) {

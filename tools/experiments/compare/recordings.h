@@ -13,7 +13,7 @@ struct RecordedPair {
   std::string subject;  // who; learning must leave the tested one out
   recon::SkeletonSequence observed;
   recon::SkeletonSequence truth;
-  /// `observed` after a close look at the depth images; without frames where there was none.
+  /// `observed` after cascaded refinement at the depth images; without frames where there was none.
   recon::SkeletonSequence looked{};
 };
 

@@ -10,7 +10,7 @@
 #include "depth/render/shapes.h"
 #include "recon/body/body_model.h"
 #include "recon/body/clothing.h"
-#include "recon/refine/close_look.h"
+#include "recon/refine/refinement_cascade.h"
 #include "tools/experiments/compare/sequence_text.h"
 #include "tools/experiments/stage/staged_internal.h"
 #include "tools/synth/dataset.h"
@@ -231,7 +231,7 @@ Studio::Studio(const ExperimentContext& context, std::string observer)
     : state_(std::make_unique<State>(context, std::move(observer))) {
   if (state_->observer == "forest") {
     state_->model_path = context.model.empty() ? tracker::ShippedFile("body.ossa") : context.model;
-    if (context.model.empty()) state_->look_path = tracker::ShippedFile(recon::kShippedLook);
+    if (context.model.empty()) state_->look_path = tracker::ShippedFile(recon::kShippedRefinement);
   } else if (state_->observer != "simulated") {
     throw InputError("observer '" + state_->observer + "': expected forest or simulated");
   }

@@ -1,8 +1,8 @@
 #pragma once
 #include <array>
 
+#include "depth/base/random.h"
 #include "tools/experiments/stage/staged.h"
-#include "tools/synth/random.h"
 
 namespace ossa::tools {
 

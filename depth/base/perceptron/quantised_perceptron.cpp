@@ -1,0 +1,142 @@
+#include "depth/base/perceptron/quantised_perceptron.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstring>
+#include <limits>
+#include <utility>
+#include <vector>
+
+#include "depth/base/cpu_dispatch.h"
+#include "depth/base/large_pages.h"
+#include "depth/base/perceptron/perceptron_file.h"
+#include "depth/base/perceptron/weight_sums_internal.h"
+
+namespace ossa {
+namespace {
+
+size_t CountPairs(Eigen::Index inputs) { return (static_cast<size_t>(inputs) + 1) / 2; }
+
+// How often a line is filled by the weights of a pair of inputs.
+size_t CountBlocks(Eigen::Index units) {
+  return (static_cast<size_t>(units) + WeightLine::kUnits - 1) / WeightLine::kUnits;
+}
+
+// So many quanta at most is a factor: then sums of all of them times a byte each stay below 2^31.
+float MostQuanta(size_t factors) {
+  constexpr size_t kMostSum = std::numeric_limits<int32_t>::max();
+  constexpr size_t kMostWeight = std::numeric_limits<int8_t>::max();
+  constexpr size_t kMost = std::numeric_limits<int16_t>::max();
+  return static_cast<float>(std::min(kMost, kMostSum / (kMostWeight * factors)));
+}
+
+// To the nearest whole numbers.
+OSSA_CPU_DISPATCH void Round(const float* numbers, float times, size_t count, int16_t* rounded) {
+  for (size_t i = 0; i < count; ++i) {
+    rounded[i] = static_cast<int16_t>(std::rint(numbers[i] * times));
+  }
+}
+
+// Quantises an example's factors, and returns how much a quantum is.
+template <size_t kExamples>
+float Quantise(const Eigen::RowVectorXf& factors, size_t example,
+               std::vector<PairFactors<kExamples>>* pairs) {
+  const auto count = static_cast<size_t>(factors.size());
+  const float most = MostQuanta(count);
+  const float largest = factors.cwiseAbs().maxCoeff();
+  if (!(largest / most > std::numeric_limits<float>::min())) return 0.0F;  // all are nought
+  std::vector<int16_t> rounded(2 * pairs->size());  // the last pair may be half of one
+  Round(factors.data(), most / largest, count, rounded.data());
+  for (size_t pair = 0; pair < pairs->size(); ++pair) {
+    std::memcpy(&(*pairs)[pair][example], &rounded[2 * pair], sizeof((*pairs)[pair][example]));
+  }
+  return largest / most;
+}
+
+}  // namespace
+
+QuantisedPerceptron::QuantisedPerceptron(const Perceptron& perceptron)
+    : QuantisedPerceptron(std::move(Pack({&perceptron}).front())) {}
+
+std::vector<QuantisedPerceptron> QuantisedPerceptron::Pack(
+    const std::vector<const Perceptron*>& perceptrons) {
+  size_t count = 0;
+  for (const Perceptron* perceptron : perceptrons) {
+    for (const PerceptronLayer& layer : perceptron->layers) {
+      count += CountBlocks(layer.weight.cols()) * CountPairs(layer.weight.rows());
+    }
+  }
+  auto lines = std::make_shared<std::vector<WeightLine>>();
+  lines->reserve(count);
+  PreferLargePages(lines->data(), lines->capacity() * sizeof(WeightLine));  // before it has pages
+  std::vector<QuantisedPerceptron> packed(perceptrons.size());
+  for (size_t n = 0; n < perceptrons.size(); ++n) {
+    packed[n].Add(*perceptrons[n], lines.get());
+    packed[n].lines_ = lines;
+  }
+  return packed;
+}
+
+void QuantisedPerceptron::Add(const Perceptron& perceptron, std::vector<WeightLine>* lines) {
+  normaliser_.input_mean = perceptron.input_mean;
+  normaliser_.input_scale = perceptron.input_scale;
+  for (const PerceptronLayer& layer : perceptron.layers) {
+    const auto inputs = static_cast<size_t>(layer.weight.rows());
+    const auto units = static_cast<size_t>(layer.weight.cols());
+    const size_t blocks = CountBlocks(layer.weight.cols());
+    const size_t pairs = CountPairs(layer.weight.rows());
+    const WeightBytes rounded = RoundToBytes(layer.weight);
+    layers_.push_back({lines->size(), blocks, rounded.step, layer.bias});
+    lines->resize(lines->size() + blocks * pairs);
+    WeightLine* const first = lines->data() + layers_.back().first_line;
+    for (size_t i = 0; i < inputs; ++i) {
+      for (size_t unit = 0; unit < units; ++unit) {
+        WeightLine& line = first[unit / WeightLine::kUnits * pairs + i / 2];
+        line.weights[unit % WeightLine::kUnits][i % 2] =
+            rounded.bytes(static_cast<Eigen::Index>(i), static_cast<Eigen::Index>(unit));
+      }
+    }
+  }
+}
+
+template <size_t kExamples>
+void QuantisedPerceptron::RunSideBySide(const RowMatrix& normalised, Eigen::Index first,
+                                        RowMatrix* outputs) const {
+  std::array<Eigen::RowVectorXf, kExamples> values;
+  for (size_t e = 0; e < kExamples; ++e) {
+    values[e] = normalised.row(first + static_cast<Eigen::Index>(e));
+  }
+  std::vector<PairFactors<kExamples>> factors;
+  std::array<std::vector<int32_t>, kExamples> sums;
+  for (const Layer& layer : layers_) {
+    factors.assign(CountPairs(layer.step.size()), {});
+    std::array<float, kExamples> quantum;
+    WeightSums<kExamples> of{
+        .factors = factors, .lines = lines_->data() + layer.first_line, .blocks = layer.blocks};
+    for (size_t e = 0; e < kExamples; ++e) {
+      if (&layer != &layers_.front()) values[e] = values[e].cwiseMax(0.0F).eval();
+      quantum[e] = Quantise<kExamples>(values[e].cwiseProduct(layer.step), e, &factors);
+      sums[e].resize(layer.blocks * WeightLine::kUnits);
+      of.sums[e] = sums[e].data();
+    }
+    AddWeights(of);
+    for (size_t e = 0; e < kExamples; ++e) {
+      const Eigen::Map<const Eigen::RowVectorXi> sum(sums[e].data(), layer.bias.size());
+      values[e] = layer.bias + quantum[e] * sum.cast<float>();
+    }
+  }
+  for (size_t e = 0; e < kExamples; ++e) {
+    outputs->row(first + static_cast<Eigen::Index>(e)) = values[e];
+  }
+}
+
+RowMatrix QuantisedPerceptron::Run(const Eigen::Ref<const RowMatrix>& inputs) const {
+  const RowMatrix normalised = normaliser_.Normalise(inputs);
+  RowMatrix outputs(inputs.rows(), layers_.back().bias.size());
+  Eigen::Index e = 0;
+  for (; e + 1 < inputs.rows(); e += 2) RunSideBySide<2>(normalised, e, &outputs);
+  if (e < inputs.rows()) RunSideBySide<1>(normalised, e, &outputs);
+  return outputs;
+}
+
+}  // namespace ossa

@@ -1,0 +1,57 @@
+#pragma once
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <numbers>
+
+namespace ossa {
+
+/// A small seeded generator, SplitMix64 (Steele, Lea and Flood 2014): the same numbers on every
+/// machine and library, which the standard distributions do not promise.
+class Random {
+ public:
+  explicit Random(uint64_t seed) : state_(seed) {}
+  /// Stream number `stream` of a seed: frame i of a data set draws from Random(seed, i) alone.
+  Random(uint64_t seed, uint64_t stream) : state_(seed) {
+    state_ = Bits() ^ (stream * 0xd1342543de82ef95ULL);
+    Bits();
+  }
+
+  uint64_t Bits() {
+    state_ += 0x9e3779b97f4a7c15ULL;
+    uint64_t z = state_;
+    z = (z ^ (z >> 30U)) * 0xbf58476d1ce4e5b9ULL;
+    z = (z ^ (z >> 27U)) * 0x94d049bb133111ebULL;
+    return z ^ (z >> 31U);
+  }
+  /// In [0, 1).
+  double Unit() { return static_cast<double>(Bits() >> 11U) * 0x1.0p-53; }
+  /// In [low, high).
+  double Uniform(double low, double high) { return low + (high - low) * Unit(); }
+  /// In [0, bound), bound > 0; the bias of 2^-32 · bound is of no matter here.
+  uint32_t Below(uint32_t bound) { return static_cast<uint32_t>(((Bits() >> 32U) * bound) >> 32U); }
+  /// In [0, count); count > 0. Not the numbers of Below.
+  size_t Index(size_t count) {
+    return static_cast<size_t>(Uniform(0.0, static_cast<double>(count)));
+  }
+  /// True in that share of draws.
+  bool Chance(double share) { return Unit() < share; }
+  /// Normally distributed, by Box and Muller.
+  double Normal(double mean, double deviation) {
+    const double radius = std::sqrt(-2.0 * std::log(1.0 - Unit()));
+    return mean + deviation * radius * std::cos(Uniform(0.0, 2.0 * std::numbers::pi));
+  }
+
+ private:
+  uint64_t state_;
+};
+
+/// One seed out of several numbers.
+inline uint64_t MixSeed(uint64_t a, uint64_t b, uint64_t c = 0, uint64_t d = 0) {
+  uint64_t mixed = Random(a).Bits();
+  mixed = Random(mixed ^ b).Bits();
+  mixed = Random(mixed ^ c).Bits();
+  return Random(mixed ^ d).Bits();
+}
+
+}  // namespace ossa

@@ -1,0 +1,11 @@
+#pragma once
+#include <stdexcept>
+
+namespace ossa {
+
+/// Thrown by training that its caller asked to stop.
+struct TrainInterrupted : std::runtime_error {
+  using std::runtime_error::runtime_error;
+};
+
+}  // namespace ossa

@@ -1,0 +1,207 @@
+#include "recon/refine/refinement_cascade.h"
+
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
+#include "recon/refine/bone_estimation.h"
+
+namespace ossa::recon {
+namespace {
+
+bool CanBeRefined(const RefinementInput& input) {
+  const depth::DepthFrame* frame = input.depth;
+  if (frame == nullptr || frame->camera.width <= 0 || frame->camera.height <= 0 ||
+      input.is_person.size() != frame->depth_mm.size() ||
+      frame->depth_mm.size() !=
+          static_cast<size_t>(frame->camera.width) * static_cast<size_t>(frame->camera.height)) {
+    return false;
+  }
+  constexpr double kFarthest_m = 100.0;
+  for (size_t j = 0; j < kJointCount; ++j) {
+    if (!(input.proposed.position_m[j].norm() < kFarthest_m)) return false;
+    if (!(input.moved.position_m[j].norm() < kFarthest_m)) return false;
+    if (!(input.confidence[j] >= 0.0 && input.confidence[j] <= 1.0)) return false;
+  }
+  return true;
+}
+
+// Of a body at all, however small or large.
+bool AreBones(const BoneLengths& lengths_m) {
+  constexpr double kShortest_m = 1e-3, kLongest_m = 10.0;
+  return std::all_of(lengths_m.begin() + 1, lengths_m.end(), [](double length_m) {
+    return length_m >= kShortest_m && length_m <= kLongest_m;
+  });
+}
+
+}  // namespace
+
+RefinementInput RefinementInput::MovedTo(const Posture& joints_m) const {
+  RefinementInput out = *this;
+  for (size_t j = 0; j < kJointCount; ++j) {
+    out.moved.position_m[j] += joints_m.position_m[j] - proposed.position_m[j];
+  }
+  out.proposed = joints_m;
+  return out;
+}
+
+std::optional<ProposedPerson> ProposedPerson::Locate(const RefinementInput& input) {
+  constexpr double kLeastConfidence = 0.05;  // by hand; part of every cascade
+  if (!CanBeRefined(input)) return std::nullopt;
+  const auto frame =
+      MakeViewFrame(ComputeMiddle(input.proposed.position_m, input.confidence, kLeastConfidence));
+  if (!frame) return std::nullopt;
+  ProposedPerson out;
+  static_cast<ViewFrame&>(out) = *frame;
+  for (size_t j = 0; j < kJointCount; ++j) {
+    const Eigen::Vector3d& joint_m = input.proposed.position_m[j];
+    out.place.position_m[j] = out.frame_from_camera * (joint_m - out.middle_m);
+    out.moved.position_m[j] = out.frame_from_camera * input.moved.position_m[j];
+  }
+  out.confidence = input.confidence;
+  out.seen = input.seen;
+  return out;
+}
+
+ProposedPerson ProposedPerson::Mirrored() const {
+  const Eigen::Vector3d mirror(-1.0, 1.0, 1.0);
+  ProposedPerson out = *this;
+  out.middle_m = mirror.cwiseProduct(middle_m);
+  out.frame_from_camera = mirror.asDiagonal() * frame_from_camera * mirror.asDiagonal();
+  for (size_t j = 0; j < kJointCount; ++j) {
+    const auto other = kMirroredJoint[j];
+    out.place.position_m[other] = mirror.cwiseProduct(place.position_m[j]);
+    out.moved.position_m[other] = mirror.cwiseProduct(moved.position_m[j]);
+    out.confidence[other] = confidence[j];
+    out.seen[other] = seen[j];
+  }
+  return out;
+}
+
+std::optional<SampledPerson> SampledPerson::Sample(const RefinementInput& input,
+                                                   const JointSet& chosen) {
+  const auto person = ProposedPerson::Locate(input);
+  if (!person) return std::nullopt;
+  SampledPerson out{*person};
+  const SurfaceSampler sampler(*input.depth, input.is_person, out.frame_from_camera);
+  for (size_t j = 0; j < kJointCount; ++j) {
+    if (chosen[j]) out.samples[j] = sampler.Around(input.proposed.position_m[j]);
+  }
+  return out;
+}
+
+SampledPerson SampledPerson::Mirrored() const {
+  SampledPerson out{ProposedPerson::Mirrored()};
+  for (size_t j = 0; j < kJointCount; ++j) {
+    const auto other = kMirroredJoint[j];
+    for (size_t row = 0; row < kSurfaceSamples; row += kSurfaceGrid) {
+      std::reverse_copy(samples[j].begin() + static_cast<std::ptrdiff_t>(row),
+                        samples[j].begin() + static_cast<std::ptrdiff_t>(row + kSurfaceGrid),
+                        out.samples[other].begin() + static_cast<std::ptrdiff_t>(row));
+    }
+  }
+  return out;
+}
+
+Eigen::RowVectorXf ComputeStageFeatures(const SampledPerson& person, Joint joint) {
+  Eigen::RowVectorXf numbers(kStageFeatures);
+  float* next = numbers.data();
+  const auto& samples = person.samples[joint];
+  for (const SurfaceSample& sample : samples) {
+    *next++ = 1e-3F * sample.surface() * static_cast<float>(sample.behind_mm());
+  }
+  for (const SurfaceSample& sample : samples) *next++ = sample.beside();
+  for (const SurfaceSample& sample : samples) *next++ = sample.hidden();
+  for (const Eigen::Vector3d& place_m : person.place.position_m) {
+    const Eigen::Vector3f from_m = (place_m - person.place[joint]).cast<float>();
+    next = std::copy(from_m.begin(), from_m.end(), next);
+  }
+  for (const Eigen::Vector3d& moved_m : person.moved.position_m) {
+    const Eigen::Vector3f by_m = moved_m.cast<float>();
+    next = std::copy(by_m.begin(), by_m.end(), next);
+  }
+  for (const double confidence : person.confidence) *next++ = static_cast<float>(confidence);
+  for (const bool seen : person.seen) *next++ = seen ? 1.0F : 0.0F;
+  const Eigen::Vector3f middle_m = person.middle_m.cast<float>();
+  std::copy(middle_m.begin(), middle_m.end(), next);
+  return numbers;
+}
+
+JointRefiner::JointRefiner(const RefinementCascade& cascade) {
+  std::vector<const Perceptron*> networks;
+  const auto add = [&networks](const std::vector<RefinementStage>& stages) {
+    for (const RefinementStage& stage : stages) {
+      for (const Perceptron& network : stage) networks.push_back(&network);
+    }
+  };
+  add(cascade.stages);
+  before_bones_ = networks.size();
+  if (!cascade.bones.empty()) {
+    networks.push_back(&cascade.bones);
+    add(cascade.bone_conditioned);
+  }
+  networks_ = QuantisedPerceptron::Pack(networks);
+}
+
+// Each chosen joint, moved by what its network says of it; of a pair both at once, the right one
+// mirrored.
+Posture JointRefiner::RunStage(Networks of_joints, const RefinementInput& input,
+                               const SampledPerson& seen, const JointSet& chosen) {
+  Posture joints_m = input.proposed;
+  const SampledPerson mirrored = seen.Mirrored();
+  for (size_t k = 0; k < kStageJoints.size(); ++k) {
+    const Joint joint = kStageJoints[k];
+    const auto index = Index(joint);
+    const auto other = kMirroredJoint[index];
+    std::vector<RegressedPoints> rows;
+    if (chosen[index]) rows.push_back({std::span(&index, 1), false});
+    if (other != index && chosen[other]) rows.push_back({std::span(&other, 1), true});
+    if (rows.empty()) continue;
+    RowMatrix features(static_cast<Eigen::Index>(rows.size()),
+                       input.bones_m ? kBoneConditionedFeatures : kStageFeatures);
+    for (size_t r = 0; r < rows.size(); ++r) {
+      features.row(static_cast<Eigen::Index>(r)).head(kStageFeatures) =
+          ComputeStageFeatures(rows[r].mirrored ? mirrored : seen, joint);
+    }
+    if (input.bones_m) {
+      features.rightCols(kBoneConditionedFeatures - kStageFeatures).rowwise() =
+          EncodeBoneLengths(*input.bones_m);
+    }
+    Regress(of_joints[k], features, rows, seen, RefinementCascade::kOffsets, joints_m.position_m);
+  }
+  return joints_m;
+}
+
+// As far as there is something to see.
+RefinementInput JointRefiner::RunStages(Networks networks, RefinementInput input) {
+  JointSet chosen = kAllJoints;
+  for (size_t first = 0; first < networks.size(); first += kStageJoints.size()) {
+    const auto seen = SampledPerson::Sample(input, chosen);
+    if (!seen) break;
+    const Networks of_joints = networks.subspan(first, kStageJoints.size());
+    const Posture next_m = RunStage(of_joints, input, *seen, chosen);
+    for (size_t j = 0; j < kJointCount; ++j) {
+      const double moved_m = (next_m.position_m[j] - input.proposed.position_m[j]).norm();
+      if (moved_m < RefinementCascade::kAtRest_m) chosen[j] = false;
+    }
+    input = input.MovedTo(next_m);
+  }
+  return input;
+}
+
+std::optional<RefinedPerson> JointRefiner::Refine(const RefinementInput& input) const {
+  if (!ProposedPerson::Locate(input)) return std::nullopt;
+  const Networks all = networks_;
+  RefinementInput now = input;
+  now.bones_m.reset();
+  now = RunStages(all.first(before_bones_), std::move(now));
+  RefinedPerson out{now.proposed, std::nullopt};
+  const auto person = ProposedPerson::Locate(now);
+  if (all.size() == before_bones_ || !person) return out;
+  out.bones_m = EstimateBones(all[before_bones_], *person);
+  now.bones_m = input.bones_m && AreBones(*input.bones_m) ? input.bones_m : out.bones_m;
+  out.joints_m = RunStages(all.subspan(before_bones_ + 1), std::move(now)).proposed;
+  return out;
+}
+
+}  // namespace ossa::recon

@@ -1,0 +1,166 @@
+// The tracker's joints after the refinement cascade: made-up networks, the shipped forest.
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "recon/refine/bone_estimation.h"
+#include "recon/refine/refinement_cascade.h"
+#include "tests/support/perceptrons.h"
+#include "tests/support/temporary_folder.h"
+#include "tests/tools/tracker/tracked_scenes.h"
+
+namespace ossa::tracker {
+namespace {
+
+using recon::Joint;
+
+// Whatever is seen, the head is higher up.
+recon::RefinementCascade HeadHigher(float by_m) {
+  recon::RefinementCascade look;
+  recon::RefinementStage& stage = look.stages.emplace_back();
+  for (size_t k = 0; k < stage.size(); ++k) {
+    Perceptron& network = stage[k];
+    network = test::SilentPerceptron({recon::kStageFeatures, 3});
+    if (recon::kStageJoints[k] == Joint::kHead) {
+      network.layers[0].bias[1] =
+          by_m / static_cast<float>(recon::RefinementCascade::kOffsets.step_m);
+    }
+  }
+  return look;
+}
+
+// All bones longer by as many steps as the person's middle is metres farther than two, times five.
+void MeasureByDistance(recon::RefinementCascade* look) {
+  look->measured = 1;
+  look->bones = test::SilentPerceptron({recon::kBoneFeatures, recon::kEstimatedBones.size()});
+  look->bones.layers[0].bias.setConstant(-10.0F);
+  look->bones.layers[0].weight.bottomRows(1).setConstant(5.0F);
+}
+
+Body Tracked(const TrackerOptions& options) {
+  Tracker tracker(options);
+  BodyFrame result;
+  for (int i = 0; i < 15; ++i) result = tracker.Track(Rendered({PersonAt(0, 2.5)}, i).frame);
+  EXPECT_EQ(result.bodies.size(), 1U);
+  return result.bodies.empty() ? Body{} : result.bodies[0];
+}
+
+TEST(RefinedJoints, JointsStandBesideTheRawOnesAndBestStartsFromThem) {
+  OSSA_NEEDS_MODEL();
+  const test::TemporaryFolder folder;
+  const auto higher = [&](double by_m) {
+    ModelFiles files;
+    files.refinement = folder / "head.ossalook";
+    HeadHigher(static_cast<float>(by_m)).Save(files.refinement);
+    return Tracked(OptionsWith(files));
+  };
+  const Body there = higher(0.0), up = higher(0.06);
+  ASSERT_TRUE(there.refined && up.refined);
+  const auto moved_m = [](const recon::Posture& a, const recon::Posture& b) {
+    return (b[Joint::kHead] - a[Joint::kHead]).y();
+  };
+  EXPECT_NEAR(moved_m(there.raw.posture, up.raw.posture), 0.0, 1e-9);
+  EXPECT_NEAR(moved_m(there.raw.posture, *there.refined), 0.0, 1e-9);
+  EXPECT_NEAR(moved_m(up.raw.posture, *up.refined), 0.06, 0.005);
+  EXPECT_GT(moved_m(ToPosture(there), ToPosture(up)), 0.02);  // bones are kept, so not all of it
+}
+
+// Bones that the cascade estimates half as long again are so in what best makes of the joints.
+TEST(RefinedJoints, BestHasTheBonesThatTheCascadeEstimates) {
+  OSSA_NEEDS_MODEL();
+  const test::TemporaryFolder folder;
+  const auto shin_m = [&](float longer) {
+    recon::RefinementCascade look = HeadHigher(0.0F);
+    look.measured = 1;
+    look.bones = test::SilentPerceptron({recon::kBoneFeatures, recon::kEstimatedBones.size()});
+    look.bones.layers[0].bias.setConstant(std::log(longer) / 0.1F);
+    ModelFiles files;
+    files.refinement = folder / "bones.ossalook";
+    look.Save(files.refinement);
+    return recon::MeasureBoneLengths(
+        ToPosture(Tracked(OptionsWith(files))))[recon::Index(Joint::kAnkleLeft)];
+  };
+  EXPECT_NEAR(shin_m(1.5F) / shin_m(1.0F), 1.5, 0.01);  // in a file, weights are halves
+}
+
+// Who walks away is measured longer and longer; the head rises by a step for each step of the spine
+// that the stage reads, which is the mean of the frames before.
+TEST(RefinedJoints, BoneConditionedStagesReadTheMeanOfAllFramesBefore) {
+  OSSA_NEEDS_MODEL();
+  const test::TemporaryFolder folder;
+  recon::RefinementCascade look = HeadHigher(0.0F);
+  MeasureByDistance(&look);
+  const auto track = [&] {
+    ModelFiles files;
+    files.refinement = folder / "told.ossalook";
+    look.Save(files.refinement);
+    std::vector<Body> frames;
+    Tracker tracker(OptionsWith(files));
+    for (int i = 0; i < 20; ++i) {
+      const auto now = tracker.Track(Rendered({PersonAt(0, 2.3 + 0.02 * i)}, i).frame);
+      if (!now.bodies.empty() && now.bodies[0].refined) frames.push_back(now.bodies[0]);
+    }
+    return frames;
+  };
+  const std::vector<Body> without = track();
+  recon::RefinementStage& stage = look.bone_conditioned.emplace_back();
+  for (size_t k = 0; k < stage.size(); ++k) {
+    stage[k] = test::SilentPerceptron({recon::kBoneConditionedFeatures, 3});
+    const bool head = recon::kStageJoints[k] == Joint::kHead;
+    if (head) stage[k].layers[0].weight(recon::kStageFeatures, 1) = 1.0F;
+  }
+  const std::vector<Body> with = track();
+  ASSERT_EQ(with.size(), without.size());
+  ASSERT_GT(with.size(), 10U);
+  recon::MeanBoneLengths before;
+  for (size_t f = 0; f < with.size(); ++f) {
+    const recon::BoneLengths judged_m = *with[f].refined_bones_m;
+    const recon::BoneLengths told_m = f == 0 ? judged_m : before.mean_m;
+    const double rise_m =
+        ((*with[f].refined)[Joint::kHead] - (*without[f].refined)[Joint::kHead]).norm();
+    EXPECT_NEAR(
+        rise_m,
+        recon::RefinementCascade::kOffsets.step_m * std::abs(recon::EncodeBoneLengths(told_m)[0]),
+        0.001)
+        << f;
+    before.Add(judged_m);
+  }
+  const double last = recon::EncodeBoneLengths(*with.back().refined_bones_m)[0];
+  EXPECT_GT(last - recon::EncodeBoneLengths(before.mean_m)[0],
+            0.5);  // the mean is not the last one
+}
+
+TEST(RefinedJoints, OtherMethodsGoByTheRawJoints) {
+  OSSA_NEEDS_MODEL();
+  const test::TemporaryFolder folder;
+  const Body without = Tracked(OptionsWith({}, "none"));
+  EXPECT_FALSE(without.refined);  // nobody asked
+  ModelFiles files;
+  files.refinement = folder / "head.ossalook";
+  HeadHigher(0.06F).Save(files.refinement);
+  const Body with = Tracked(OptionsWith(files, "none"));
+  EXPECT_TRUE(with.refined);
+  EXPECT_EQ(with.joints[Joint::kHead].position_m, without.joints[Joint::kHead].position_m);
+}
+
+TEST(RefinedJoints, NoCascadeMayBeAskedFor) {
+  OSSA_NEEDS_MODEL();
+  EXPECT_TRUE(Tracked({}).refined);
+  ModelFiles files;
+  files.refinement = "none";
+  EXPECT_FALSE(Tracked(OptionsWith(files)).refined);
+}
+
+TEST(RefinedJoints, AForestOfOnesOwnIsNotRefinedUnasked) {
+  OSSA_NEEDS_MODEL();
+  const test::TemporaryFolder folder;
+  ModelFiles files;
+  files.forest = folder / "own.ossa";
+  std::filesystem::copy_file(ModelOrNothing(), files.forest);
+  EXPECT_FALSE(Tracked(OptionsWith(files)).refined);
+  files.refinement = folder / "missing.ossalook";
+  EXPECT_THROW(ModelSet::Load(files), InputError);
+}
+
+}  // namespace
+}  // namespace ossa::tracker

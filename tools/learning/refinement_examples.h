@@ -1,0 +1,38 @@
+#pragma once
+#include <Eigen/Core>
+#include <array>
+#include <filesystem>
+#include <vector>
+
+#include "depth/base/perceptron/train_perceptron.h"
+#include "forest/forest.h"
+#include "recon/refine/refinement_cascade.h"
+#include "tools/learning/learn_refinement_stage.h"
+
+namespace ossa::tools {
+
+/// A person where the forest and the stages known already put the joints; how far from there the
+/// joints are; the person's true bones, and what the stages known
+/// already would read of them.
+struct RefinementExample {
+  recon::SampledPerson person;
+  recon::JointArray<Eigen::RowVector3f> offset{};  // as a stage is to say it
+  recon::BoneLengths bones_m{};
+  recon::BoneLengths given_bones_m{};  // the true ones where nothing judges them yet
+};
+
+struct RefinementExamples {
+  std::vector<RefinementExample> all;  // of each person as it is, then from shifted places
+  size_t people = 0;
+};
+
+/// One person of each frame of the data sets of whom enough is seen, in order. Throws InputError
+/// where there are too few to learn from.
+RefinementExamples GatherRefinementExamples(const forest::ForestModel& model,
+                                            const std::vector<std::filesystem::path>& datasets,
+                                            const RefinementStageOptions& options);
+
+/// How a network is learned from them: two layers, large batches, no dropout.
+PerceptronTraining MakeNetworkOptions(const RefinementStageOptions& options, Eigen::Index outputs);
+
+}  // namespace ossa::tools

@@ -1,0 +1,41 @@
+#include "tools/tracker/refine_joints_internal.h"
+
+namespace ossa::tracker {
+namespace {
+
+// The proposal that a joint was put on, or the likeliest one; null without any.
+const forest::Proposal* ProposalAt(const std::vector<forest::Proposal>& best_first,
+                                   const Eigen::Vector3d& place_m) {
+  for (const forest::Proposal& proposal : best_first) {
+    if (proposal.position_m == place_m) return &proposal;
+  }
+  return best_first.empty() ? nullptr : &best_first.front();
+}
+
+}  // namespace
+
+std::optional<recon::RefinedPerson> RefineJoints(
+    const recon::JointRefiner& refiner, const depth::DepthFrame& frame,
+    const people::Candidate& candidate, const std::vector<std::vector<forest::Proposal>>& proposals,
+    const people::JointTargets& targets, const recon::TrackedPosture& chosen,
+    recon::MeanBoneLengths* bones) {
+  recon::RefinementInput input;
+  if (bones->frames > 0) input.bones_m = bones->mean_m;
+  for (size_t j = 0; j < recon::kJointCount; ++j) {
+    const forest::Proposal* proposal =
+        ProposalAt(proposals[static_cast<size_t>(targets[j])], chosen.posture.position_m[j]);
+    if (proposal == nullptr) return std::nullopt;
+    input.proposed.position_m[j] = proposal->position_m;
+    input.confidence[j] = proposal->confidence;
+    input.seen[j] = proposal->seen;
+  }
+  std::vector<uint8_t> is_person(frame.depth_mm.size(), 0);
+  for (const int32_t pixel : candidate.pixels) is_person[static_cast<size_t>(pixel)] = 1;
+  input.depth = &frame;
+  input.is_person = is_person;
+  auto refined = refiner.Refine(input);
+  if (refined && refined->bones_m) bones->Add(*refined->bones_m);
+  return refined;
+}
+
+}  // namespace ossa::tracker
