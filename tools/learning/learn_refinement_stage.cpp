@@ -20,10 +20,13 @@ using recon::kStageJoints;
 // What the network of a joint is to say of where it is put; nothing of what is off by more than a
 // stage may move it: that was mistaken for something else, and nothing near the proposal tells of
 // it.
-Eigen::RowVector3f Wanted(const Eigen::RowVector3f& offset) {
+void WriteWanted(const Eigen::RowVector3f& offset, PerceptronExamples& out, Eigen::Index row) {
   constexpr OffsetScale kOffsets = recon::RefinementCascade::kOffsets;
-  if (kOffsets.step_m * offset.cast<double>().norm() < kOffsets.farthest_m) return offset;
-  return Eigen::RowVector3f::Constant(std::numeric_limits<float>::quiet_NaN());
+  const bool in_reach = kOffsets.step_m * offset.cast<double>().norm() < kOffsets.farthest_m;
+  // Value by value: GCC 12 sees a packet read past a row of three.
+  for (Eigen::Index axis = 0; axis < 3; ++axis) {
+    out.wanted(row, axis) = in_reach ? offset[axis] : std::numeric_limits<float>::quiet_NaN();
+  }
 }
 
 // Two rows an example: as it is, and mirrored.
@@ -44,10 +47,10 @@ PerceptronExamples MakeExamples(const std::vector<RefinementExample>& examples, 
           recon::EncodeBoneLengths(example.given_bones_m);
     };
     put(row, example.person);
-    out.wanted.row(row) = Wanted(example.offset[index]);
+    WriteWanted(example.offset[index], out, row);
     put(row + 1, example.person.Mirrored());
-    out.wanted.row(row + 1) =
-        Wanted(example.offset[other].cwiseProduct(Eigen::RowVector3f(-1.0F, 1.0F, 1.0F)));
+    WriteWanted(example.offset[other].cwiseProduct(Eigen::RowVector3f(-1.0F, 1.0F, 1.0F)), out,
+                row + 1);
   }
   return out;
 }
