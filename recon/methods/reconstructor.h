@@ -19,7 +19,8 @@ struct ReconstructionInput {
   /// The depth image, when there is one: whether a surface lies where a joint is said to be tells
   /// an occluded joint from a wrong one. Borrowed for the call.
   const depth::DepthFrame* depth = nullptr;
-  /// The person's bones as cascaded refinement estimates them in this frame (recon/refine/bone_estimation.h).
+  /// The person's bones as cascaded refinement estimates them in this frame
+  /// (recon/refine/bone_estimation.h).
   std::optional<BoneLengths> bones_m = std::nullopt;
 };
 
@@ -103,7 +104,7 @@ struct BestOptions {
   /// What is observed are joints after cascaded refinement (recon/refine/refinement_cascade.h): the
   /// trunk's are the surest, and those of hidden joints are no longer where the surface is that
   /// hides them.
-  bool looked = false;
+  bool refined_joints = false;
   bool repair = true;    // gross failures are told from motion
   bool complete = true;  // joints in doubt come from the posture space
   bool correct = true;   // learned systematic errors are taken off

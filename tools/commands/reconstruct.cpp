@@ -192,7 +192,7 @@ int Reconstruct(int argc, char** argv) {
   };
   for (const auto& clip : clips) {
     const auto frames = static_cast<double>(clip.sequence.frames.size());
-    a.options.best.looked = clip.sequence.sensor == recon::kRefinedJoints;
+    a.options.best.refined_joints = clip.sequence.sensor == recon::kRefinedJoints;
     recon::BonesOfPeople bones;
     if (a.bones.of_recording()) {
       bones = recon::MeasureBones(clip.sequence, a.options, update);

@@ -109,7 +109,7 @@ struct Tracker::Impl {
     complete.reconstructor.local_pca = o.local_pca;
     complete.reconstructor.gaussian_process = o.gaussian_process;
     complete.reconstructor.best = o.best;
-    complete.reconstructor.best.looked = models.refinement != nullptr;
+    complete.reconstructor.best.refined_joints = models.refinement != nullptr;
     complete.reconstructor.seed = o.seed;
     complete.bones_m = o.bones_m;
     recon::MakeReconstructor(complete.reconstructor);  // says now what is wrong with the options
@@ -179,7 +179,7 @@ void Tracker::Impl::Introduce(int id, Person& person) const {
   constexpr int kFrames = 600;  // what is judged now changes little
   person.id = id;
   const auto known = options.bones_m.find(id);
-  if (known != options.bones_m.end() && complete.reconstructor.best.looked) {
+  if (known != options.bones_m.end() && complete.reconstructor.best.refined_joints) {
     person.bones = {known->second, kFrames};
   }
 }

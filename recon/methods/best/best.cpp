@@ -49,7 +49,7 @@ class Best : public Reconstructor {
 
   ReconstructedPosture Step(const ReconstructionInput& raw) override {
     ReconstructionInput input = raw;
-    sensor_ = ChooseTraits(options_.looked, input.depth != nullptr);
+    sensor_ = ChooseTraits(options_.refined_joints, input.depth != nullptr);
     const double body_trust = options_.repair ? failures_.Repair(input) : 1.0;  // 1.
     const PreparedPosture prepared = person_.Prepare(input);
     if (prepared.restarted) filter_.Restart();

@@ -18,12 +18,12 @@ namespace {
 
 constexpr double kStep_s = 1.0 / 30.0;
 
-std::unique_ptr<Reconstructor> MakeBestOne(bool looked = false) {
+std::unique_ptr<Reconstructor> MakeBestOne(bool refined_joints = false) {
   static const auto db =
       std::make_shared<PostureDatabase>(PostureDatabase::Build(test::GestureClips(), {}));
   ReconstructorOptions options;
   options.database = db;
-  options.best.looked = looked;
+  options.best.refined_joints = refined_joints;
   return MakeReconstructor(options);
 }
 

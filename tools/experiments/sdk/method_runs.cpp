@@ -29,7 +29,7 @@ std::string KeyOf(const ExperimentContext& context, const MethodRun& run) {
       KeyOfCode(), o.method, o.seed, pca.neighbours, pca.dimensions, pca.steps, pca.samples,
       pca.control, pca.style, pca.kinematics, pca.continuity, pca.solver, pca.use_reliability,
       pca.extend_database, pca.keep_reliable, gp.nearby_models, gp.spatial, gp.temporal,
-      gp.reliability, gp.incremental, best.looked, best.repair, best.correct, best.bones,
+      gp.reliability, gp.incremental, best.refined_joints, best.repair, best.correct, best.bones,
       best.complete, best.filter, DescriptionOfConstants(best.constants));
   if (o.database) {
     key.append(" ").append(run.database_key.empty() ? KeyOfFile(DatabaseOf(context).path)
@@ -100,9 +100,9 @@ std::vector<PairedTracks> RunOverClips(const ExperimentContext& context, const M
   for (const RecordedPair& clip : clips) {
     context.StopIfAsked();
     MethodRun with = run;
-    with.options.best.looked = run.looks && !clip.looked.frames.empty();
+    with.options.best.refined_joints = run.looks && !clip.looked.frames.empty();
     const auto made =
-        RunMethod(context, with, with.options.best.looked ? clip.looked : clip.observed);
+        RunMethod(context, with, with.options.best.refined_joints ? clip.looked : clip.observed);
     pairs.push_back(PairClip(clip.clip, clip.truth, made));
     if (context.progress) {
       context.progress(static_cast<double>(pairs.size()), static_cast<double>(clips.size()),

@@ -236,7 +236,7 @@ recon::ReconstructorOptions OptionsFrom(const py::dict& given,
   options.local_pca = of_method.local_pca;
   options.gaussian_process = of_method.gaussian_process;
   options.best = of_method.best;
-  options.best.looked = sequence.sensor == recon::kRefinedJoints;
+  options.best.refined_joints = sequence.sensor == recon::kRefinedJoints;
   options.database = tracker::LoadDatabase(files, options.method);
   options.prior = tracker::LoadPrior(files, options.method);
   options.learned_file = LearnedFile(files.learned, sequence, recon::MethodNamed(options.method));

@@ -65,7 +65,7 @@ class Sequence:
     bones_m : float64 [R, 20], optional
         Metres: bones as a refinement judges them in this frame alone; NaN where there was none.
     sensor : str
-        "Kinect v2" and "close look" have errors that ossa knows.
+        "Kinect v2" and "refined joints" have errors that ossa knows.
 
     Attributes
     ----------
