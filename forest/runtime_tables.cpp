@@ -16,7 +16,7 @@ constexpr float kSmoothing = 3.0F;  // entry weights (of 127) by which a leaf's 
 
 // A leaf's weights, told by context and class. Few of the cells are anything but 0: Load clears
 // those of the leaf before instead of all. Half of the time that a model takes to load is spent
-// here and in SharesOf: hence the plain pointers, which no library's assertions check.
+// here and in ComputeShares: hence the plain pointers, which no library's assertions check.
 class LeafCells {
  public:
   LeafCells(size_t classes, size_t contexts)
