@@ -15,6 +15,8 @@
 namespace ossa::forest {
 namespace {
 
+// Constants: sizes of vector registers; the spread by hand.
+
 constexpr size_t kWide = 4;  // numbers side by side; sums over them are never taken
 using Wide = double __attribute__((vector_size(kWide * sizeof(double))));
 constexpr double kPlaceSpread_m = 2;  // of the common place: free

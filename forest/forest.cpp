@@ -10,6 +10,8 @@
 namespace ossa::forest {
 namespace {
 
+// Constants: bounds of the format, against damaged files.
+
 constexpr size_t kMaxCells = 512;
 constexpr size_t kMaxFactors = 64;
 constexpr size_t kMaxLayers = 4;
@@ -169,7 +171,7 @@ void CheckRefinement(const ForestData& data, const std::string& name) {
                      std::to_string(refinement.input_mean.size()) + " and " +
                      std::to_string(refinement.input_scale.size()));
   }
-  constexpr float kMost = 1e6F;
+  constexpr float kMost = 1e6F;  // no unit
   bool sane = AllWithin(refinement.input_mean, -kMost, kMost) &&
               AllWithin(refinement.input_scale, 0.0F, kMost);
   for (const PerceptronLayer& layer : refinement.layers) {
@@ -197,7 +199,7 @@ void CheckRelabelling(const ForestData& data, const std::string& name) {
                      std::to_string(prior.weight.size()) + " and " +
                      std::to_string(prior.bias.size()));
   }
-  constexpr float kMost = 1e4F;
+  constexpr float kMost = 1e4F;  // no unit
   if (!AllWithin(prior.weight, -kMost, kMost) || !AllWithin(prior.bias, -kMost, kMost)) {
     Refuse(name, "relabelling: expected numbers of at most ten thousand");
   }

@@ -57,7 +57,7 @@ struct Relabelling {
                               // multiplied with the targets' confidences
   std::vector<float> bias;    // of each class from 1 on; empty: labels stay as the trees give them
 };
-inline constexpr size_t kRadialBasisScales = 3;
+inline constexpr size_t kRadialBasisScales = 3;  // of the format
 
 /// Everything a model file holds.
 struct ForestData {

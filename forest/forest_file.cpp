@@ -18,6 +18,8 @@ namespace {
 // relabelling.
 constexpr ContainerFormat kFormat{{'o', 's', 's', 'a', 'f', 'r', 's', 't'}, 5, "forest model"};
 constexpr uint32_t kOldestVersion = 1;  // that is still read
+// Constants: of the format (zstd levels) and bounds against damaged files.
+
 constexpr int kCompressionLevel = 19;
 constexpr int kQuickLevel = 3;
 
@@ -214,8 +216,8 @@ void WriteForestModel(const std::filesystem::path& path, const ForestModel& mode
 }
 
 uint64_t FileSize(const ForestData& data, Packing packing) {
-  constexpr uint64_t kContainerHeader =
-      40;  // of a checksummed container: magic, version, checksum, length
+  // Of a checksummed container: magic, version, checksum, length
+  constexpr uint64_t kContainerHeader = 40;
   const bool tight = packing == Packing::kFile;
   return Packed(data, tight ? kCompressionLevel : kQuickLevel).size() + kContainerHeader;
 }

@@ -18,6 +18,8 @@ constexpr std::array kPclNames = {
     "Lfoot", "Lleg",   "Lknee",  "Lthigh", "Rfoot",    "Rleg",   "Rknee", "Rthigh", "Rhips",
     "Lhips", "Neck",   "Rarm",   "Relbow", "Rforearm", "Rhand",  "Larm",  "Lelbow", "Lforearm",
     "Lhand", "FaceLB", "FaceRB", "FaceLT", "FaceRT",   "Rchest", "Lchest"};
+// Constants: of PCL's format.
+
 constexpr uint16_t kPclBackground_mm = 32767;
 // PCL: offset in pixels = du · f / depth_mm, so du is in millimetres at any f; ours is in 1/16
 // pixel·metre at f = 575.

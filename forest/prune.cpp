@@ -7,7 +7,7 @@
 namespace ossa::forest {
 namespace {
 
-constexpr unsigned kTopWeight = 127;
+constexpr unsigned kTopWeight = 127;  // of the format
 
 Tree Thinned(const Tree& tree, unsigned least_weight) {
   Tree thin = tree;

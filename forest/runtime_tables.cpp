@@ -11,6 +11,8 @@
 namespace ossa::forest {
 namespace {
 
+// Constants: chosen by hand; weights are the format's.
+
 constexpr float kSmoothing = 3.0F;  // entry weights (of 127) by which a leaf's own mix of classes
                                     // stands in where a context was hardly seen
 

@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 """Every numeric constant says its unit and its origin.
 
-Usage: check_constants.py [--list] [--write] [FILE...]   (all sources of the rooms without FILE)
+Usage: check_constants.py [--list] [FILE...]   (all sources of the rooms without FILE)
 
 A constant is `constexpr TYPE kName = ...;` of an arithmetic type, or a numeric default member of a
 struct named *Options, *Constants, *Traits, *Parameters or *Thresholds. Free of the rule are 0 and
@@ -19,9 +19,6 @@ Origin   a word of ORIGINS in the comment: a paper with its year or an equation,
          A comment that begins with "Constants:" holds for all constants of its file, its unit and its
          origin for those that name none. Names that end in Version, Magic or Signature are of a format, names like
          kMetresPerMillimetre are definitions and need neither.
-
-tests/constants_allowed.txt counts, for each room, the constants that do not comply yet. It may only
-shrink: --write lowers it. --list prints every constant that does not comply.
 """
 import pathlib
 import re
@@ -29,7 +26,6 @@ import subprocess
 import sys
 
 ROOMS = ("depth", "forest", "recon", "physics", "tools")
-ALLOWED = "tests/constants_allowed.txt"
 
 WHOLE = r"(?:unsigned(?: int| long)?|int|long|size_t|std::size_t|(?:std::)?u?int\d+_t|std::streamoff|(?:std::)?ptrdiff_t)"
 NUMBER = rf"(?:{WHOLE}|float|double|auto)"
@@ -152,14 +148,10 @@ def faults_of(lines):
             yield number, name, " and ".join(missing)
 
 
-def read_allowed(path):
-    return {room: int(count) for count, room in (line.split() for line in path.read_text().splitlines())} if path.exists() else {}
-
-
 def main():
     top = pathlib.Path(__file__).resolve().parent.parent
     options = {argument for argument in sys.argv[1:] if argument.startswith("--")}
-    if options - {"--list", "--write"}:
+    if options - {"--list"}:
         print(__doc__)
         return 2
     named = [argument for argument in sys.argv[1:] if not argument.startswith("--")]
@@ -178,21 +170,15 @@ def main():
         print("\n".join(line for room in sorted(found) for line in found[room]))
     if named:
         return 1 if found else 0
-    allowed = read_allowed(top / ALLOWED)
     counts = {room: len(found.get(room, [])) for room in ROOMS}
     if "--list" in options:
         print(f"{sum(counts.values())} of {total} constants do not comply: {counts}")
-    if "--write" in options:
-        lowered = {room: min(counts[room], allowed.get(room, counts[room])) for room in ROOMS}
-        (top / ALLOWED).write_text("".join(f"{count} {room}\n" for room, count in lowered.items() if count))
-        allowed = lowered
-    worse = [room for room in ROOMS if counts[room] > allowed.get(room, 0)]
-    for room in worse:
-        print(f"{room}: {counts[room]} constants say no unit or origin, at most {allowed.get(room, 0)} may "
-              f"(see tests/check_constants.py and its --list)")
+    for room in ROOMS:
+        if counts[room]:
+            print(f"{room}: {counts[room]} constants say no unit or origin (see tests/check_constants.py and its --list)")
     if total < 100:
         print(f"expected the project's constants, found {total}")
-    return 1 if worse or total < 100 else 0
+    return 1 if any(counts.values()) or total < 100 else 0
 
 
 if __name__ == "__main__":

@@ -24,7 +24,9 @@
 namespace ossa::forest {
 namespace {
 
-constexpr float kEvidenceUnit = 1.0F / 256.0F;  // of LeafTables::evidence
+// Constants: chosen by hand, for speed where a count of pixels is said.
+
+constexpr float kEvidenceUnit = 1.0F / 256.0F;  // of LeafTables::evidence; share
 constexpr uint32_t kContextUnits = 64;          // the posterior in integer shares, exact sums
 constexpr size_t kPixelsPerTask = 2048;
 

@@ -7,6 +7,9 @@
 
 namespace ossa::forest {
 
+// Constants: chosen on validation subjects (`ossa evaluate`), where a comparison is said; seed and
+// threads by convention.
+
 class ForestModel;  // forest/forest.h
 
 /// Classes of one object's (person's) pixels. Neighbouring pixels may share a sample: one of them

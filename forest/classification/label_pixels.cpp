@@ -8,7 +8,8 @@
 namespace ossa::forest {
 namespace {
 
-constexpr uint8_t kMixed = 255;  // more labels than one; a class of this number merely costs time
+// More labels than one; a class of this number merely costs time; by convention
+constexpr uint8_t kMixed = 255;
 
 // Between the cells (x, y), (x + 1, y), (x, y + 1), (x + 1, y + 1) for x, y >= -1: the one label
 // of all samples there, or kMixed.

@@ -9,6 +9,8 @@
 namespace ossa::forest {
 namespace {
 
+// Constants: sizes of tiles, for speed.
+
 // Tiles of 16 × 8 cells, as many samples as walk at once.
 constexpr int kTileColumns = 16;
 constexpr int kTileRows = 8;

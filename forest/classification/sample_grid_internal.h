@@ -8,6 +8,8 @@
 
 namespace ossa::forest {
 
+// Constants: chosen by hand.
+
 /// Where a column (row) of pixels lies on a coarser grid.
 struct Between {
   int32_t cell = 0;        // that holds it
@@ -42,7 +44,7 @@ inline bool SameSurface(int a_mm, int b_mm) {
   return a_mm - b_mm <= kSurfaceGap_mm && b_mm - a_mm <= kSurfaceGap_mm;
 }
 
-inline constexpr double kMostSparse = 8.0;
+inline constexpr double kMostSparse = 8.0;  // pixels
 
 /// Chooses samples `spacing` pixels apart, from 1 to kMostSparse; at 1 every pixel is a sample.
 /// Those on the grid stand tile by tile: neighbours meet the same nodes, and walk together.

@@ -16,6 +16,8 @@
 namespace ossa::forest {
 namespace {
 
+// Constants: of vector registers and of 8 bits.
+
 constexpr size_t kBlock = 16;  // masses that the vector units take at once
 constexpr int32_t kNone = SparsePixels::kNone;
 

@@ -8,7 +8,7 @@
 
 namespace ossa::forest {
 
-inline constexpr int kMaxSmoothRadius = 31;  // windows of 63: their sums fit 16 bits
+inline constexpr int kMaxSmoothRadius = 31;  // windows of 63: their sums fit 16 bits; derived
 
 /// Class masses of one object's samples, as the trees gave them.
 struct MassImage {

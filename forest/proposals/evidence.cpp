@@ -9,11 +9,14 @@
 namespace ossa::forest {
 namespace {
 
+// Constants: for speed, by hand.
+
 constexpr size_t kSampledPixels = 640;  // more do not move the modes by a millimetre worth having
 
 // Pixel i's context: over many pixels each is drawn as often as it is likely, without chance.
 size_t DrawContext(const std::vector<float>& posterior, size_t i) {
-  constexpr double kGolden = 0.6180339887498949;  // multiples spread evenly over the unit interval
+  constexpr double kGolden = 0.6180339887498949;  // multiples spread evenly over the unit interval;
+                                                  // no unit; by definition (sqrt 5 - 1) / 2
   double left = static_cast<double>(i) * kGolden;
   left -= std::trunc(left);
   for (size_t k = 0; k < posterior.size(); ++k) {

@@ -13,6 +13,8 @@
 namespace ossa::forest {
 namespace {
 
+// Constants: chosen by hand; part of every shipped model.
+
 constexpr float kFar_m = 1.0F;           // of modes and predictions from the place
 constexpr double kBorderReach_m = 0.5;   // farther borders of the image do not matter
 constexpr float kSurfaceReach_m = 0.6F;  // nor surface
@@ -163,7 +165,7 @@ class FeatureBuilder {
   void Add(const Eigen::Vector3f& v) { value_.insert(value_.end(), v.data(), v.data() + 3); }
 
   void AddClass(size_t c) {
-    constexpr float kLeastProbability = 0.01F;
+    constexpr float kLeastProbability = 0.01F;  // probability
     constexpr float kLeastArea_m2 = 1e-4F;
     const float* probability = evidence_.probability_of(c);
     picked_.resize(evidence_.count);
@@ -221,7 +223,7 @@ class FeatureBuilder {
 
 // About the mean of the places, those of little support less.
 ViewFrame PlaceFrame(const std::vector<Eigen::Vector3d>& places_m, const PoseMarginals& marginals) {
-  constexpr double kLeastSupport = 0.05;  // by hand; part of every shipped model
+  constexpr double kLeastSupport = 0.05;  // by hand; part of every shipped model; share
   std::vector<double> weights;
   for (const TargetMarginal& target : marginals.target) weights.push_back(target.support());
   const Eigen::Vector3d middle_m = ComputeMiddle(places_m, weights, kLeastSupport);

@@ -16,15 +16,17 @@
 namespace ossa::forest {
 namespace {
 
+// Constants: chosen by hand on validation subjects (`ossa evaluate`).
+
 constexpr int kRounds = 4;  // the first with the modes' own confidences
 constexpr double kModeNoise_m = 0.03;
-constexpr double kStrayDensity = 4;  // of modes that are not the target's, a cubic metre
-constexpr double kMostTrust = 0.97;  // of all modes of a target together
-constexpr double kLeastTrust = 1e-3;
-constexpr double kContextRange = 4;  // nats below the likeliest context: not looked at
-constexpr double kApart_m = 0.08;    // modes nearer to the fused place are part of it
-constexpr double kMostMargin = 6;
-constexpr double kMostDistance = 8;  // standard deviations
+constexpr double kStrayDensity = 4;   // of modes that are not the target's, a cubic metre
+constexpr double kMostTrust = 0.97;   // of all modes of a target together; probability
+constexpr double kLeastTrust = 1e-3;  // probability
+constexpr double kContextRange = 4;   // nats below the likeliest context: not looked at; no unit
+constexpr double kApart_m = 0.08;     // modes nearer to the fused place are part of it
+constexpr double kMostMargin = 6;     // no unit: nats
+constexpr double kMostDistance = 8;   // standard deviations
 
 // An object's modes about their own centre, in the form that all pose priors are tried on.
 struct Observed {

@@ -16,6 +16,8 @@
 namespace ossa::forest {
 namespace {
 
+// Constants: chosen by hand, for speed.
+
 constexpr size_t kStarts = 12;
 constexpr size_t kClimbs = 3;
 constexpr int kMaxSteps = 20;

@@ -18,6 +18,8 @@
 namespace ossa::forest {
 namespace {
 
+// Constants: chosen by hand; part of every shipped model.
+
 constexpr float kReach_m = 0.4F;  // where the slowest nearness has fallen to a half
 // Scores change slowly: pixels so close together share them, those of one surface at least.
 constexpr double kSpot_m = 0.04;
@@ -78,7 +80,7 @@ Spots ChooseSpots(const depth::DepthView& depth, const depth::Camera& camera,
 
 OSSA_CPU_DISPATCH void EvaluateRadialBasis(const Anchors& anchors, const Eigen::Vector3f& point_m,
                                            float* out) {
-  constexpr float kPerSquare = 1.0F / (kReach_m * kReach_m);
+  constexpr float kPerSquare = 1.0F / (kReach_m * kReach_m);  // per square metre, no unit
   const size_t targets = anchors.x.size();
   const float px = point_m.x(), py = point_m.y(), pz = point_m.z();
   for (size_t t = 0; t < targets; ++t) {
@@ -125,7 +127,7 @@ RowMatrix ComputeWeights(const Relabelling& prior, const Anchors& anchors, Eigen
 // Spot × stride: what the trees' probabilities are multiplied with; columns beyond the classes: 0.
 RowMatrix ComputeFactors(const Relabelling& prior, const Anchors& anchors, const Spots& spots,
                          Eigen::Index stride) {
-  constexpr float kLog2OfE = 1.44269504F;
+  constexpr float kLog2OfE = 1.44269504F;  // no unit; by definition
   const auto classes = static_cast<Eigen::Index>(prior.bias.size());
   RowMatrix weight =
       RowMatrix::Zero(static_cast<Eigen::Index>(anchors.x.size() * kRadialBasisScales), stride);

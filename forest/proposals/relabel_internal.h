@@ -22,6 +22,6 @@ struct Anchors {
 RowMatrix ComputeRadialBasis(const Anchors& anchors, const std::vector<Eigen::Vector3f>& points_m);
 
 /// Added to probabilities of the trees: a class that no leaf gave a pixel is not impossible.
-inline constexpr float kLeastLeafProbability = 1e-3F;
+inline constexpr float kLeastLeafProbability = 1e-3F;  // by hand
 
 }  // namespace ossa::forest

@@ -13,6 +13,8 @@
 namespace ossa::forest {
 namespace {
 
+// Constants: chosen by hand.
+
 constexpr float kReferenceArea_m2 = 0.004F;  // A0: about the seen surface of an elbow
 constexpr float kNoVote = -1.0F;             // a weight
 

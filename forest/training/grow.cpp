@@ -14,6 +14,8 @@
 namespace ossa::forest {
 namespace {
 
+// Constants: chosen by hand, for speed.
+
 constexpr size_t kBlock = 64;       // candidates whose histograms are filled at once
 constexpr int kContextLevels = 12;  // below, nodes split for the class only
 

@@ -10,7 +10,7 @@
 namespace ossa::forest {
 namespace {
 
-constexpr size_t kReadBatch = 64;
+constexpr size_t kReadBatch = 64;  // for speed
 
 void CheckImage(const TrainingImage& image, size_t index, size_t class_count) {
   const auto pixels =

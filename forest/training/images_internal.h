@@ -55,6 +55,6 @@ class ImageParts {
   std::vector<uint64_t> context_counts_;
 };
 
-inline constexpr uint16_t kBackground_mm = 10000;
+inline constexpr uint16_t kBackground_mm = 10000;  // by hand: farther than any person
 
 }  // namespace ossa::forest

@@ -8,8 +8,10 @@
 namespace ossa::forest {
 namespace {
 
-constexpr double kTrackedPrecision = 0.90;
-constexpr double kInferredPrecision = 0.50;
+// Constants: precisions asked for, by hand.
+
+constexpr double kTrackedPrecision = 0.90;   // share
+constexpr double kInferredPrecision = 0.50;  // share
 
 // What was inferred of an image, and where the refinement, if there is one, puts the targets.
 struct InferredImage : FirstStage {

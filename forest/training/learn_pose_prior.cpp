@@ -15,9 +15,12 @@ namespace ossa::forest {
 namespace {
 
 constexpr Eigen::Index kFactors = 24;  // of 60 numbers of a person: 32 find no more joints, 16 less
+// Constants: chosen by hand.
+
 constexpr int kRounds = 8;
 constexpr double kLeastNoise_m = 0.014;  // of a target about what the factors say
-constexpr double kBorrowed = 5;  // images' worth of all contexts' mean in each: some are rare
+// Images' worth of all contexts' mean in each: some are rare; times an image's weight
+constexpr double kBorrowed = 5;
 
 struct Example {
   size_t context = 0;

@@ -20,12 +20,14 @@
 namespace ossa::forest {
 namespace {
 
+// Constants: chosen by hand on validation subjects (`ossa evaluate`).
+
 constexpr size_t kPixels = 60;  // of an image: more are much alike
 constexpr Eigen::Index kBatch = 2048;
 constexpr int kEpochs = 5;
-constexpr float kRate = 0.02F;    // of Adam, at its highest
+constexpr float kRate = 0.02F;    // of Adam, at its highest; no unit
 constexpr float kDecay = 0.02F;   // of weights, a unit of the rate
-constexpr double kRarest = 1e-3;  // classes rarer than that count as if they were not
+constexpr double kRarest = 1e-3;  // classes rarer than that count as if they were not; share
 
 // Pixels of one image or of all, a row each.
 struct LabelledPixels {

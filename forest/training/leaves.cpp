@@ -12,6 +12,8 @@
 namespace ossa::forest {
 namespace {
 
+// Constants: of the format, the rest by hand.
+
 constexpr size_t kMaxEntries = 24;                    // a leaf; the rest is noise of a few pixels
 constexpr uint32_t kTopWeight = 127;                  // 7 bits
 constexpr double kWeightStep = 0.5458;                // 127 to 1 in eight equal ratios

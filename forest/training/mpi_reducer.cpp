@@ -39,7 +39,7 @@ class MpiReducer final : public Reducer {
  private:
   template <typename T>
   static void SumAs(std::span<T> values, MPI_Datatype type) {
-    constexpr size_t kMost = size_t{1} << 28U;  // counts are int in MPI-3
+    constexpr size_t kMost = size_t{1} << 28U;  // counts are int in MPI-3; a bound
     for (size_t first = 0; first < values.size(); first += kMost) {
       const size_t count = std::min(kMost, values.size() - first);
       MPI_Allreduce(MPI_IN_PLACE, values.data() + first, static_cast<int>(count), type, MPI_SUM,

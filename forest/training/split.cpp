@@ -9,6 +9,8 @@
 namespace ossa::forest {
 namespace {
 
+// Constants: chosen by hand, for speed.
+
 constexpr size_t kTile = 32;  // samples probed before their depths are written out by rows
 
 // Positions of all probes of one sample.

@@ -9,7 +9,8 @@
 
 namespace ossa::forest {
 
-inline constexpr size_t kBinStride = 64;  // bins a candidate and label in a histogram
+// Bins a candidate and label in a histogram; of cache lines
+inline constexpr size_t kBinStride = 64;
 
 /// A feature to try: probe[first] - probe[second], binned as ((f + jitter) >> shift) + bins / 2.
 struct Candidate {

@@ -157,7 +157,7 @@ class Run {
     if (report.seconds > 0) {
       progress.evaluations_per_s = static_cast<double>(report.evaluations) / report.seconds;
     }
-    constexpr int kCheapLevels = 9;
+    constexpr int kCheapLevels = 9;  // for speed
     const int costly = std::max(1, options_.depth - kCheapLevels);
     const int left = std::max(0, options_.depth - 1 - std::max(level, kCheapLevels - 1)) +
                      costly * (options_.trees - 1 - progress.tree);

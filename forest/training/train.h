@@ -13,6 +13,9 @@
 
 namespace ossa::forest {
 
+// Constants: Shotton 2011, section 3.3, where it has them (trees, depth, pixels, candidates,
+// thresholds), else chosen by hand on validation subjects.
+
 /// One labelled object, cut out of a depth image.
 struct TrainingImage {
   depth::Camera camera;            // of the cut: width, height and principal point shifted

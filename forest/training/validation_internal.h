@@ -46,8 +46,9 @@ using JudgedMode = Judged<ModeConfidence::kFeatures>;
 /// Logistic regression by Newton's method with a small ridge.
 template <size_t N>
 Logistic<N> FitLogistic(const std::vector<Judged<N>>& judged, bool Judged<N>::*outcome) {
-  constexpr auto kSize = static_cast<Eigen::Index>(N) + 1;
-  constexpr double kRidge = 0.5;  // half an example's worth: matters only where one outcome rules
+  constexpr auto kSize = static_cast<Eigen::Index>(N) + 1;  // no unit; by definition
+  // Half an example's worth: matters only where one outcome rules; by hand
+  constexpr double kRidge = 0.5;
   using Vector = Eigen::Matrix<double, kSize, 1>;
   using Square = Eigen::Matrix<double, kSize, kSize>;
   Vector w = Vector::Zero();

@@ -43,7 +43,7 @@ void ForRows(std::span<const int32_t> place, int32_t row_length, const Function&
   }
 }
 
-inline constexpr int32_t kPositionRow = 1 << 16;  // positions are y << 16 | x
+inline constexpr int32_t kPositionRow = 1 << 16;  // positions are y << 16 | x; of the format
 
 /// Of a position y << 16 | x.
 inline int DepthAt(const ObjectImage& image, int32_t position) {

@@ -11,6 +11,8 @@
 namespace ossa::forest {
 namespace {
 
+// Constants: of cache lines.
+
 // Inner nodes of each level.
 std::vector<size_t> InnerNodes(const std::vector<Node>& nodes) {
   std::vector<size_t> count;

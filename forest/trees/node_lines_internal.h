@@ -18,6 +18,8 @@ struct PackedNode {
                                 (word[3] & 15) << 12);
   }
 };
+// Constants: of cache lines and of a packed node's bits.
+
 inline constexpr int kMostPackedOffset = 2047;
 
 inline constexpr size_t kLevelsOfLine = 3;

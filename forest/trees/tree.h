@@ -32,7 +32,7 @@ static_assert(sizeof(Node) == 16);
 /// surface point, camera axes, centimetres, and their spread (root mean square distance to the
 /// mean). Girshick et al. 2011, sec. 3.2, with one vote a target.
 struct Vote {
-  static constexpr uint8_t kNone = 255;
+  static constexpr uint8_t kNone = 255;  // by convention
   std::array<int8_t, 3> offset_cm{};
   uint8_t spread_cm = kNone;  // kNone: no vote
 

@@ -10,6 +10,8 @@
 namespace ossa::forest {
 namespace {
 
+// Constants: of the format.
+
 constexpr unsigned kCodeBits = 9;  // of an entry; the weight stands above
 constexpr unsigned kCodes = 1U << kCodeBits;
 constexpr size_t kNodeColumns = 5;

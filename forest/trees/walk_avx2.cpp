@@ -16,6 +16,8 @@ namespace ossa::forest {
 
 namespace {
 
+// Constants: of AVX2 registers and cache lines.
+
 constexpr size_t kLanes = 8;
 constexpr size_t kGroups = 16;  // 128 pixels: a tile of ChooseSparse
 constexpr int kCachedLines = 3;

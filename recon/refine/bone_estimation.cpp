@@ -7,6 +7,8 @@
 
 namespace ossa::recon {
 
+// Constants: bounds, by hand.
+
 Eigen::RowVectorXf ComputeBoneFeatures(const ProposedPerson& person) {
   constexpr double kLeast_m = 0.01, kMost_m = 2.0;
   Eigen::RowVectorXf numbers(kBoneFeatures);
@@ -38,7 +40,8 @@ Eigen::RowVectorXf EncodeBoneLengths(const BoneLengths& lengths_m) {
 }
 
 BoneLengths EstimateBones(const QuantisedPerceptron& network, const ProposedPerson& person) {
-  constexpr double kFarthest = 1.0;  // logarithm: whatever the network says, nobody is a giant
+  // Logarithm: whatever the network says, nobody is a giant; logarithm of a ratio
+  constexpr double kFarthest = 1.0;
   RowMatrix features(2, kBoneFeatures);
   features.row(0) = ComputeBoneFeatures(person);
   features.row(1) = ComputeBoneFeatures(person.Mirrored());

@@ -9,6 +9,8 @@
 namespace ossa::recon {
 namespace {
 
+// Constants: bounds, by hand.
+
 bool CanBeRefined(const RefinementInput& input) {
   const depth::DepthFrame* frame = input.depth;
   if (frame == nullptr || frame->camera.width <= 0 || frame->camera.height <= 0 ||
@@ -46,7 +48,7 @@ RefinementInput RefinementInput::MovedTo(const Posture& joints_m) const {
 }
 
 std::optional<ProposedPerson> ProposedPerson::Locate(const RefinementInput& input) {
-  constexpr double kLeastConfidence = 0.05;  // by hand; part of every cascade
+  constexpr double kLeastConfidence = 0.05;  // by hand; part of every cascade; confidence
   if (!CanBeRefined(input)) return std::nullopt;
   const auto frame =
       MakeViewFrame(ComputeMiddle(input.proposed.position_m, input.confidence, kLeastConfidence));

@@ -18,6 +18,9 @@
 
 namespace ossa::recon {
 
+// Constants: chosen on validation subjects, between time and error; see
+// docs/benchmarks/refinement.md.
+
 /// The shipped refinement cascade: learned at the shipped forest's joints.
 inline constexpr const char* kShippedRefinement = "body.ossalook";
 

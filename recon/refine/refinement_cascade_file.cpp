@@ -12,6 +12,8 @@ namespace {
 
 constexpr ContainerFormat kFormat = {
     {'O', 'S', 'S', 'A', 'L', 'K', '0', '0'}, RefinementCascade::kVersion, "refinement cascade"};
+// Constants: of the format (zstd level), and bounds against damaged files.
+
 constexpr uint32_t kFirstBoneConditioned = 5;  // version that has such stages
 constexpr uint32_t kFirstCompressed = 6;       // version that is
 constexpr int kCompressionLevel = 19;

@@ -8,6 +8,8 @@
 namespace ossa::recon {
 namespace {
 
+// Constants: chosen by hand; part of every cascade.
+
 constexpr float kMostBehind_mm = 300.0F;
 constexpr float kNearer_mm = 30.0F;  // by so much, something that is not the person is before it
 constexpr float kNearest_m = 0.2F;   // what is nearer is beside the sensor

@@ -8,6 +8,9 @@
 
 namespace ossa::recon {
 
+// Constants: chosen on validation subjects, see docs/benchmarks/refinement.md; part of every
+// cascade.
+
 /// Around each joint surface is sampled on two square grids across the line of sight.
 inline constexpr int kSurfaceGrid = 9;  // samples a side
 inline constexpr std::array<double, 2> kSurfaceGridSteps_m = {0.025, 0.07};

@@ -231,6 +231,8 @@ int ImportPcl(const TrainArguments& a) {
   return 0;
 }
 
+// Constants: chosen by hand.
+
 constexpr size_t kArrangedImages = 40000;  // 60 numbers in 8 contexts ask for no more
 
 constexpr int kForLabels = 10;  // of each 100 fresh frames; the refinement has the others

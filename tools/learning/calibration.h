@@ -14,7 +14,7 @@ class Calibration {
     int64_t hits = 0;
     double mean_confidence = 0.0;
   };
-  static constexpr size_t kBins = 10;
+  static constexpr size_t kBins = 10;  // by convention, tenths
 
   /// `confidence` in [0, 1]; what lies beyond counts as the nearest of both.
   void Count(double confidence, bool is_hit);

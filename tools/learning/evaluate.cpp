@@ -18,6 +18,8 @@
 namespace ossa::tools {
 namespace {
 
+// Constants: Shotton 2011, section 4, the turn by hand.
+
 constexpr double kHit_m = 0.1;
 constexpr double kTurned_rad = std::numbers::pi / 3;
 

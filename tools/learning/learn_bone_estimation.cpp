@@ -37,7 +37,7 @@ recon::RefinementCascade LearnBoneEstimation(const forest::ForestModel& model,
   PerceptronTraining learning = MakeNetworkOptions(options, kBones);
   learning.decay = 0.02F;
   learning.progress = options.progress;
-  constexpr float kSoft = 0.2F;  // steps: errors below 2 % pull less
+  constexpr float kSoft = 0.2F;  // steps: errors below 2 % pull less; by hand
   cascade.measured = found.people;
   cascade.bones = TrainPerceptron(&examples, AbsoluteErrorGradient(kSoft), learning);
   return cascade;

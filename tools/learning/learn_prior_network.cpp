@@ -27,6 +27,8 @@ using recon::Posture;
 
 using Joints = recon::JointArray<bool>;
 
+// Constants: chosen by hand.
+
 constexpr size_t kEvery = 4;  // frames give an example: neighbours hardly differ
 constexpr size_t kShortest = 60, kLongest = 150;  // frames for which things stay as hidden as ever
 
@@ -199,7 +201,7 @@ recon::PriorNetwork LearnPriorNetwork(const recon::PosturePrior& prior,
   learning.seed = options.seed;
   learning.progress = options.progress;
   learning.stop = options.stop;
-  constexpr float kSoft = 0.05F;  // steps
+  constexpr float kSoft = 0.05F;  // steps; no unit
   return {TrainPerceptron(&examples, PointDistanceGradient(kSoft), learning)};
 }
 

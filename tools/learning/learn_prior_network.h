@@ -7,6 +7,9 @@
 
 namespace ossa::tools {
 
+// Constants: chosen on validation subjects (`ossa experiment shum-2013 --seed 11`), seed by
+// convention.
+
 struct PriorNetworkOptions {
   int hidden = 512;  // rectified units, 1..1024
   int epochs = 12;   // times that every example is looked at

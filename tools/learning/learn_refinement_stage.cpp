@@ -15,6 +15,8 @@
 namespace ossa::tools {
 namespace {
 
+// Constants: chosen by hand.
+
 using recon::kStageJoints;
 
 // What the network of a joint is to say of where it is put; nothing of what is off by more than a

@@ -10,6 +10,8 @@
 
 namespace ossa::tools {
 
+// Constants: chosen on validation subjects, see docs/benchmarks/refinement.md; seed by convention.
+
 struct RefinementStageOptions {
   recon::RefinementCascade after;        // whose stages come first
   std::string model_name = "the model";  // in errors
@@ -17,7 +19,7 @@ struct RefinementStageOptions {
   int epochs = 12;   // times that every person is read, as is and from each shifted place
   int shifted = 1;   // times that joints start from places at random near where they are put
   double shift_m = 0.025;  // of such a place, standard deviation along each axis
-  double rate = 1e-3;      // of learning, at its highest
+  double rate = 1e-3;      // of learning, at its highest; no unit
   uint64_t seed = 1;
   int threads = 0;                                 // 0: all; they do not change the network
   std::function<void(int64_t, int64_t)> progress;  // steps done, steps in all

@@ -11,7 +11,7 @@ namespace ossa::tools {
 
 /// Facing sectors: the yaw of a person against the line of sight, in steps of 45°; sector 0 faces
 /// the camera, 4 shows its back. They are the contexts of a body model.
-inline constexpr int kFacingSectors = 8;
+inline constexpr int kFacingSectors = 8;  // by hand
 
 /// Yaw against the line of sight to the person, radians; 0 faces the camera, positive when the
 /// person's left side comes nearer.

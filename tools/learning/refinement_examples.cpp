@@ -20,6 +20,8 @@
 namespace ossa::tools {
 namespace {
 
+// Constants: chosen by hand.
+
 using recon::kJointCount;
 using recon::Posture;
 using recon::SampledPerson;
@@ -127,7 +129,7 @@ class Gatherer {
   std::optional<recon::RefinementInput> RunStages(recon::RefinementInput input,
                                                   const recon::BoneLengths& true_m,
                                                   Random& random) const {
-    constexpr double kLeastLeft = 0.5;
+    constexpr double kLeastLeft = 0.5;  // share
     auto refined = refiner_.Refine(input);
     if (refined && refined->bones_m) {
       const double left = random.Uniform(kLeastLeft, 1.0);

@@ -10,6 +10,8 @@
 namespace ossa::tools {
 namespace {
 
+// Constants: of the Kinect v1's range.
+
 // As far as the tracker's regions reach over what was not measured: depth::kStepsOverGaps.
 constexpr int kCellsOver = 2;
 
