@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 #include <xxhash.h>
 
-#include <algorithm>
 #include <fstream>
 #include <nlohmann/json.hpp>
 #include <set>
@@ -44,43 +43,7 @@ std::string KeyOfLoadedCode() {
   return key;
 }
 
-// Width on a terminal: bytes that continue a UTF-8 character take no place.
-size_t WidthOf(const std::string& text) {
-  return static_cast<size_t>(std::count_if(text.begin(), text.end(), [](char c) {
-    return (static_cast<unsigned char>(c) & 0xC0u) != 0x80u;
-  }));
-}
-
-std::string Padded(const std::string& text, size_t width) {
-  return text + std::string(width - std::min(width, WidthOf(text)), ' ');
-}
-
 }  // namespace
-
-std::string ToMarkdown(const Table& table) {
-  std::vector<size_t> widths;
-  for (const std::string& column : table.columns) {
-    widths.push_back(std::max<size_t>(3, WidthOf(column)));
-  }
-  for (const auto& row : table.rows) {
-    for (size_t c = 0; c < row.size() && c < widths.size(); ++c) {
-      widths[c] = std::max(widths[c], WidthOf(row[c]));
-    }
-  }
-  const auto line = [&](const std::vector<std::string>& cells) {
-    std::string text = "|";
-    for (size_t c = 0; c < widths.size(); ++c) {
-      text += fmt::format(" {} |", Padded(c < cells.size() ? cells[c] : "", widths[c]));
-    }
-    return text + "\n";
-  };
-  std::string text = "### " + table.title + "\n\n" + line(table.columns) + "|";
-  for (const size_t width : widths) text += std::string(width + 2, '-') + "|";
-  text += "\n";
-  for (const auto& row : table.rows) text += line(row);
-  if (!table.note.empty()) text += "\n" + table.note + "\n";
-  return text;
-}
 
 void ExperimentContext::StopIfAsked() const {
   if (interrupted && interrupted()) throw Interruption{};
