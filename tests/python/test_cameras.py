@@ -1,0 +1,160 @@
+"""The examples for cameras through their makers' wheels, over what plays a camera without one."""
+
+import importlib
+import itertools
+import pathlib
+import subprocess
+import sys
+import time
+
+import numpy as np
+import pytest
+
+import ossa
+
+FOLDER = pathlib.Path(__file__).resolve().parents[2] / "tools/python/cameras"
+EXAMPLES = sorted(FOLDER.glob("*.py"))
+
+
+def example(name, *wheels):
+    """The example as a module, where its maker's wheel can be had."""
+    for wheel in wheels:
+        pytest.importorskip(wheel)
+    sys.path.insert(0, str(FOLDER))
+    try:
+        return importlib.import_module(name)
+    finally:
+        sys.path.remove(str(FOLDER))
+
+
+def run(name, *arguments):
+    """What the example prints as a program."""
+    return subprocess.run(
+        [sys.executable, FOLDER / f"{name}.py", *map(str, arguments)],
+        check=True, capture_output=True, text=True, timeout=120,
+    ).stdout  # fmt: skip
+
+
+@pytest.mark.parametrize("path", EXAMPLES, ids=lambda path: path.stem)
+def test_an_example_is_short_and_compiles(path):
+    text = path.read_text()
+    assert text.count("\n") < 40
+    compile(text, str(path), "exec")
+
+
+def realsense_lens(rs, image):
+    lens = rs.intrinsics()
+    lens.height, lens.width = image.depth_mm.shape
+    camera = image.camera
+    lens.fx, lens.fy, lens.ppx, lens.ppy = camera.fx, camera.fy, camera.cx, camera.cy
+    return lens
+
+
+def record_realsense(rs, images, path):
+    """Plays the images on a RealSense that is software, and lets pyrealsense2 record it."""
+    lens = realsense_lens(rs, images[0])
+    device = rs.software_device()
+    sensor = device.add_sensor("Depth")
+    sensor.add_read_only_option(rs.option.depth_units, 0.001)
+    stream = rs.video_stream()
+    stream.type, stream.fmt, stream.bpp, stream.fps = rs.stream.depth, rs.format.z16, 2, 30
+    stream.width, stream.height, stream.intrinsics = lens.width, lens.height, lens
+    profile = sensor.add_video_stream(stream)
+    recorder = rs.recorder(str(path), device)
+    recorded = recorder.query_sensors()[0]
+    queue = rs.frame_queue(len(images))
+    recorded.open(recorded.get_stream_profiles()[0])
+    recorded.start(queue)
+    for number, image in enumerate(images):
+        frame = rs.software_video_frame()
+        frame.pixels, frame.stride, frame.bpp = image.depth_mm.copy(), 2 * lens.width, 2
+        frame.timestamp, frame.frame_number = 1000 * image.time_s, number + 1
+        frame.domain, frame.depth_units = rs.timestamp_domain.hardware_clock, 0.001
+        frame.profile = profile.as_video_stream_profile()
+        sensor.on_video_frame(frame)
+        time.sleep(0.01)  # for the recorder's thread
+    recorded.stop()
+    recorded.close()
+    return [queue.poll_for_frame() for _ in images]
+
+
+def test_realsense_reads_a_bag_that_a_software_device_recorded(images, tmp_path):
+    realsense = example("realsense", "pyrealsense2")
+    rs = realsense.rs
+    played = record_realsense(rs, images, tmp_path / "made.bag")
+    first = np.asanyarray(played[0].as_depth_frame().get_data())
+    assert np.array_equal(first, images[0].depth_mm)
+
+    config, pipeline = rs.config(), rs.pipeline()
+    config.enable_device_from_file(str(tmp_path / "made.bag"), repeat_playback=False)
+    config.enable_stream(rs.stream.depth)
+    pipeline.start(config)
+    read = list(realsense.images(pipeline))
+    assert len(read) >= 20  # a player may drop some
+    assert any(np.array_equal(read[0][0], image.depth_mm) for image in images[:4])
+    assert read[0][1].fx == pytest.approx(images[0].camera.fx)
+    assert len(ossa.Tracker().track(*read[0]).bodies) == 1
+
+
+def test_realsense_runs_as_a_program(images, tmp_path):
+    realsense = example("realsense", "pyrealsense2")
+    record_realsense(realsense.rs, images, tmp_path / "made.bag")
+    assert run("realsense", tmp_path / "made.bag").count("\n") >= 12
+
+
+def test_what_a_realsense_recorded_is_a_source_too(images, tmp_path):
+    realsense = example("realsense", "pyrealsense2")
+    record_realsense(realsense.rs, images, tmp_path / "made.bag")
+    try:
+        read = next(ossa.open(tmp_path / "made.bag"))
+    except ossa.InputError as error:
+        if "built without" in str(error):
+            pytest.skip(str(error))
+        raise
+    assert any(np.array_equal(read.depth_mm, image.depth_mm) for image in images)
+
+
+def test_azure_kinect_reads_a_recording(shared):
+    recording = shared / "real/recordings/azure_kinect.mkv"
+    if not recording.is_file():
+        pytest.skip(f"{recording} is not there")
+    run("azure_kinect", recording)  # nobody is in it
+
+
+def test_azure_kinect_imports_pyk4a():
+    pytest.importorskip("pyk4a")
+    assert example("azure_kinect").images
+
+
+def test_orbbec_reads_a_frame_of_the_sdk(images):
+    orbbec = example("orbbec", "pyorbbecsdk")
+    ob = orbbec.ob
+    image = images[0]
+    height, width = image.depth_mm.shape
+    frame = ob.Frame.create_video_frame(
+        ob.OBFrameType.DEPTH_FRAME, ob.OBFormat.Y16, width, height, 0
+    ).as_depth_frame()
+    frame.update_data(image.depth_mm.reshape(-1).view(np.uint8))
+    lens = ob.OBCameraIntrinsic()
+    lens.fx, lens.fy, lens.cx, lens.cy = 287.5, 287.5, 160.0, 120.0
+    lens.width, lens.height = width, height
+    frame.get_stream_profile().as_video_stream_profile().set_intrinsic(lens)
+    depth_mm, camera, _ = orbbec.image_of(frame)
+    assert np.array_equal(depth_mm, image.depth_mm) and camera.fx == pytest.approx(287.5)
+
+
+def test_kinect_v1_imports_freenect():
+    assert example("kinect_v1", "freenect").images
+
+
+def test_openni2_reads_a_recording(shared):
+    recording = shared / "real/recordings/kinect_v1_openni1.oni"
+    if not recording.is_file():
+        pytest.skip(f"{recording} is not there")
+    openni = example("openni2", "openni")
+    openni.openni2.initialize(openni.LIBRARIES)
+    device = openni.openni2.Device(str(recording).encode())
+    depth_mm, camera, _ = next(openni.images(device, 1))
+    assert depth_mm.shape == (480, 640) and camera.fx == pytest.approx(575.8, abs=1)
+    first = itertools.islice(ossa.open(recording), 10)  # a player starts with one of these
+    assert any(np.array_equal(depth_mm, image.depth_mm) for image in first)
