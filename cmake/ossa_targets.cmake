@@ -47,6 +47,9 @@ function(ossa_library name)
                         SOVERSION ${PROJECT_VERSION_MAJOR})
   target_include_directories(${target} PUBLIC
     $<BUILD_INTERFACE:${ossa_SOURCE_DIR}> $<INSTALL_INTERFACE:${CMAKE_INSTALL_INCLUDEDIR}/ossa>)
+  if(NOT BUILD_SHARED_LIBS)  # compiled as for shared ones, so that a compiler cache serves both
+    target_compile_definitions(${target} PRIVATE ${target}_EXPORTS)
+  endif()
   target_compile_features(${target} PUBLIC cxx_std_20)
   target_link_libraries(${target} PUBLIC Eigen3::Eigen ${ARG_PUBLIC} PRIVATE ${ARG_PRIVATE})
   if(ARG_HEADERS)

@@ -100,7 +100,13 @@ class Camera:
         return Camera(fx, fy, cx, cy, w, h, rotate, name if width is None else None)
 
     def for_size(self, width: int, height: int) -> Camera:
-        """This camera's numbers for images of that size, pixels."""
+        """This camera's numbers for images of another size.
+
+        Parameters
+        ----------
+        width, height : int
+            Pixels.
+        """
         w = _check.whole("width", width, 1, 8192)
         h = _check.whole("height", height, 1, 8192)
         if self._preset is not None:

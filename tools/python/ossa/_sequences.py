@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import Any, Iterable, Optional
+from typing import Any, Iterable, NamedTuple, Optional
 
 import numpy as np
 import numpy.typing as npt
@@ -10,7 +10,7 @@ import numpy.typing as npt
 from . import _check, _method_options, _native
 from ._names import METHODS, SKELETON_FORMATS, STATES
 from ._sources import PathLike
-from ._tracker import Frame, mechanics_option
+from ._tracker import Body, Frame, mechanics_option
 
 Floats = npt.NDArray[np.float64]
 
@@ -141,7 +141,13 @@ class Sequence:
         return [int(i) for i in np.unique(self.ids) if i != _NOBODY]
 
     def person(self, id: int) -> Sequence:
-        """The rows of one person alone."""
+        """The rows of one person alone.
+
+        Parameters
+        ----------
+        id : int
+            One of `people`.
+        """
         wanted = _check.whole("id", id, 0, 2**31 - 1)
         if wanted not in self.people:
             raise _check.refuse("id", f"one of {self.people}", wanted)
@@ -176,7 +182,13 @@ class Sequence:
 
     @staticmethod
     def from_frames(frames: Iterable[Frame]) -> Sequence:
-        """The skeletons of what Tracker.track or Tracker.run gave, for files and methods."""
+        """Skeletons for files and methods.
+
+        Parameters
+        ----------
+        frames : iterable of Frame
+            What Tracker.track or Tracker.run gave.
+        """
         return _sequence_of(frames)
 
 
@@ -210,31 +222,41 @@ def _from_native(made: dict[str, Any]) -> Sequence:
     return sequence
 
 
+class _Row(NamedTuple):
+    """What is kept of a frame, whose images are not."""
+
+    frame: int
+    time_s: float
+    floor: Floats
+    body: Optional[Body]
+
+
 def _sequence_of(frames: Iterable[Frame]) -> Sequence:
-    rows: list[tuple[Frame, Any]] = []
+    rows: list[_Row] = []
     for frame in frames:
         if not isinstance(frame, Frame):
             raise _check.refuse("frames", "frames of ossa.Tracker", frame)
-        bodies = [body for body in frame.bodies if body.tracked]
-        rows += [(frame, body) for body in bodies] or [(frame, None)]
+        floor = np.full(4, np.nan) if frame.floor is None else frame.floor
+        bodies: list[Optional[Body]] = [body for body in frame.bodies if body.tracked]
+        rows += [_Row(frame.index, frame.time_s, floor, body) for body in bodies or [None]]
 
     def column(name: str, shape: tuple[int, ...]) -> Floats:
         nothing = np.full(shape, np.nan)
-        values = [nothing if body is None else getattr(body, name) for _, body in rows]
+        values = [nothing if row.body is None else getattr(row.body, name) for row in rows]
         return np.array(values, dtype=np.float64).reshape((len(rows),) + shape)
 
     unsaid = np.full(20, "")
-    floors = [np.full(4, np.nan) if frame.floor is None else frame.floor for frame, _ in rows]
+    states = [unsaid if row.body is None else row.body.states for row in rows]
     return Sequence(
-        [frame.time_s for frame, _ in rows],
+        [row.time_s for row in rows],
         column("joints", (20, 3)),
-        np.array([unsaid if b is None else b.states for _, b in rows], np.str_).reshape(-1, 20),
-        ids=[_NOBODY if body is None else body.id for _, body in rows],
-        frames=[frame.index for frame, _ in rows],
+        np.array(states, np.str_).reshape(-1, 20),
+        ids=[_NOBODY if row.body is None else row.body.id for row in rows],
+        frames=[row.frame for row in rows],
         confidence=column("confidence", (20,)),
         reliability=column("reliability", (20,)),
         orientations=column("orientations", (20, 4)),
-        floor=np.array(floors, dtype=np.float64).reshape(-1, 4),
+        floor=np.array([row.floor for row in rows], dtype=np.float64).reshape(-1, 4),
     )
 
 

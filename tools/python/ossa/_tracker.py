@@ -538,8 +538,10 @@ class Tracker:
                 self._native.find_upright(source.name, source._options)
             except _native.InputError:
                 pass  # told of when its turn comes
-        for depth_mm, camera, time_s in source:
-            yield self.track(depth_mm, camera, time_s)
+        for image in source:
+            frame = self.track(*image)
+            del image  # its memory serves the next one
+            yield frame
 
     def choose_users(self, ids: Union[int, Sequence[int], None] = None) -> None:
         """Track only these people fully, the others by position (the SDK's AppChoosesSkeletons).

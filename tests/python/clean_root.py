@@ -1,0 +1,25 @@
+"""What must work of a wheel where nothing else of ossa is."""
+
+import pathlib
+
+import numpy as np
+
+import ossa
+
+libraries = pathlib.Path("/usr/lib/x86_64-linux-gnu")
+assert not [name for name in ("OpenNI2", "ode", "glog", "tbb", "png16") if [*libraries.glob(f"lib{name}*")]]
+frames = list(ossa.Tracker(parts=True).run("/clip"))
+assert len(frames) == 24 and len(frames[-1].bodies) == 1
+sequence = ossa.Sequence.from_frames(frames)
+ossa.write_skeletons(sequence, "/seen.jsonl")
+assert ossa.compare("/clip/truth.jsonl", "/seen.jsonl")["results"][0]["mean_joint_error_cm"] < 6
+for method in ("shum-2013", "plantard-2016", "kalman"):
+    assert np.isfinite(ossa.reconstruct(sequence[:5], method).joints).all()
+assert ossa.Tracker(physics=True).track(*next(ossa.open("/clip"))).bodies
+model = pathlib.Path(ossa.__file__).parent / "share/ossa/body.ossa"
+assert ossa.evaluate(model, "/clip", every=12)["pixel_accuracy"] > 0.5
+try:
+    ossa.open("openni:")
+except ossa.InputError as error:
+    assert "device" in str(error), error
+print("ossa", ossa.__version__, "tracks in a clean root")
