@@ -80,8 +80,9 @@ class Placer {
 
   // The line with this node of the tree at this place in it.
   void PlaceLine(int32_t root, size_t at) {
-    std::array<int32_t, kNodes + kExitsOfLine> node;  // of the tree, in each place and way out
-    node.fill(kNowhere);
+    std::array<int32_t, kNodes + kExitsOfLine> places;  // of nodes, and ways out
+    places.fill(kNowhere);
+    int32_t* node = places.data();  // of the tree, in each
     node[at] = root;
     NodeLine line;
     for (size_t i = at; i < kNodes; ++i) {

@@ -58,6 +58,11 @@ struct Sums {
   OfSamples<int32_t> surface{}, hidden{};
 };
 
+// As std::clamp, whose assertion of its bounds would keep samples from going side by side.
+[[gnu::always_inline]] inline float Within(float value, float least, float most) {
+  return std::min(std::max(value, least), most);
+}
+
 // As depth::Project, side by side.
 OSSA_CPU_DISPATCH void Project(const depth::Camera& camera, const Eigen::Vector3f& joint_m,
                                const Eigen::Matrix3f& camera_from_frame, const Grids& grids,
@@ -73,12 +78,12 @@ OSSA_CPU_DISPATCH void Project(const depth::Camera& camera, const Eigen::Vector3
   for (size_t i = 0; i < kSurfaceSamples; ++i) {
     const float right_m = grids.x_m[i], down_m = grids.y_m[i];
     const float z = z_m + zx * right_m + zy * down_m;
-    const float per_z = std::clamp(1.0F / z, 0.0F, 1.0F / kNearest_m);
+    const float per_z = Within(1.0F / z, 0.0F, 1.0F / kNearest_m);
     const float tangent_x = (x_m + xx * right_m + xy * down_m) * per_z;
     const float tangent_y = (y_m + yx * right_m + yy * down_m) * per_z;
     // Bounded: a place far aside is a number that no int holds.
-    const float u = std::clamp(cx - fx * tangent_x + 0.5F, 0.0F, right_end);
-    const float v = std::clamp(cy - fy * tangent_y + 0.5F, 0.0F, bottom);
+    const float u = Within(cx - fx * tangent_x + 0.5F, 0.0F, right_end);
+    const float v = Within(cy - fy * tangent_y + 0.5F, 0.0F, bottom);
     const auto column = static_cast<int32_t>(u), row = static_cast<int32_t>(v);
     const bool inside =
         (z >= kNearest_m) & (u > 0.0F) & (column < width) & (v > 0.0F) & (row < height);

@@ -80,10 +80,11 @@ TEST(OtherRecordings, SayHowToConvertThem) {
   const test::TemporaryFolder folder;
   const std::vector<std::pair<const char*, const char*>> cases = {
       {"a.xef", "KinectXEFTools"}, {"a.MP4", "ffmpeg"}, {"a.mcap", "rosbags-convert"}};
-  for (const auto& [name, how] : cases) {
-    std::ofstream(folder / name) << "x";
-    EXPECT_TRUE(IsRecording(folder / name));
-    test::ExpectRefused([&] { OpenSource(folder / name); }, how);
+  for (const auto& each : cases) {
+    const auto path = folder / each.first;
+    std::ofstream(path) << "x";
+    EXPECT_TRUE(IsRecording(path));
+    test::ExpectRefused([&] { OpenSource(path); }, each.second);
   }
 }
 
