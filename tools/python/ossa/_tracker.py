@@ -482,7 +482,7 @@ class Tracker:
         ----------
         depth_mm : uint16 [H, W]
             Millimetres along the optical axis, 0 = no reading. Rows of neighbouring pixels (C
-            order); a part cut out of a larger image is one. It is read where it lies.
+            order); a part cut out of a larger image is one. The tracker copies its pixels once.
         camera : ossa.Camera
             What it was taken by.
         time_s : float, optional
