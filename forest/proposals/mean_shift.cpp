@@ -2,8 +2,8 @@
 #include "depth/base/lanes.h"
 #include "forest/proposals/modes_internal.h"
 
-// Every clone adds in the same eight lanes, and none may contract a product and a sum, so that each
-// machine gives the same bits.
+// Every dispatched variant adds in the same eight lanes, and none may contract a product and a sum,
+// so that each machine gives the same bits.
 namespace ossa::forest {
 namespace {
 

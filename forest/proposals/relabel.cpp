@@ -34,14 +34,14 @@ struct Spots {
 
 int SpotSize_px(const depth::DepthView& depth, const depth::Camera& camera,
                 const std::vector<int32_t>& pixels) {
-  constexpr size_t kLooks = 256;  // their mean is good enough
-  const size_t step = std::max<size_t>(1, pixels.size() / kLooks);
+  constexpr size_t kSamples = 256;  // their mean is good enough
+  const size_t step = std::max<size_t>(1, pixels.size() / kSamples);
   int64_t sum_mm = 0;
-  int64_t looks = 0;
-  for (size_t i = 0; i < pixels.size(); i += step, ++looks) {
+  int64_t samples = 0;
+  for (size_t i = 0; i < pixels.size(); i += step, ++samples) {
     sum_mm += depth.at(pixels[i] % depth.width, pixels[i] / depth.width);
   }
-  const double mean_m = 1e-3 * static_cast<double>(sum_mm) / static_cast<double>(looks);
+  const double mean_m = 1e-3 * static_cast<double>(sum_mm) / static_cast<double>(samples);
   return std::clamp(static_cast<int>(kSpot_m * camera.fx / mean_m), 1, kMostSpot_px);
 }
 

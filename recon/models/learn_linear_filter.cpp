@@ -191,10 +191,10 @@ Sums StepSums(const Stretch& stretch, size_t joint, bool mirrored) {
   return sums;
 }
 
-/// Pulls have the same weight in all axes: these are summed. x: a frame a row, a column a regressor
-/// and axis, axis by axis; y: a column an axis; `weights`: of the frames.
-void PutPulls(const Eigen::MatrixXd& x, const Eigen::MatrixXd& y, const Eigen::VectorXd& weights,
-              size_t part, Products* pulls) {
+/// Influences have the same weight in all axes: these are summed. x: a frame a row, a column a
+/// regressor and axis, axis by axis; y: a column an axis; `weights`: of the frames.
+void AddInfluences(const Eigen::MatrixXd& x, const Eigen::MatrixXd& y,
+                   const Eigen::VectorXd& weights, size_t part, Products* pulls) {
   const Eigen::Index n = x.cols() / 3;
   pulls->xx[part] = Eigen::MatrixXd::Zero(n, n);
   pulls->xy[part] = Eigen::MatrixXd::Zero(n, 1);
@@ -236,8 +236,8 @@ Sums PullSums(const Stretch& stretch, size_t joint) {
     for (size_t o = 0; o < LinearFilter::kOutputs; ++o) {
       const Eigen::MatrixXd xs = Part(x[o], part);
       const Eigen::MatrixXd of_output = ys.middleCols<3>(3 * static_cast<Eigen::Index>(o));
-      PutPulls(xs, of_output, same, part, &sums.of[o]);
-      PutPulls(xs, of_output, robust, part, &sums.of[LinearFilter::kOutputs + o]);
+      AddInfluences(xs, of_output, same, part, &sums.of[o]);
+      AddInfluences(xs, of_output, robust, part, &sums.of[LinearFilter::kOutputs + o]);
     }
   }
   return sums;
@@ -296,7 +296,7 @@ class Learner {
   /// Held-out squared errors of one joint: of position, of second differences.
   using Left = std::array<double, kParts>;
 
-  /// Pulls learn what to make of gross errors too.
+  /// Influences learn what to make of gross errors too.
   bool Usable(const PosturePair& pair, size_t joint) const {
     constexpr double kGross_m = 0.3;  // another limb, perhaps
     return pair.known[joint] > 0.0 &&

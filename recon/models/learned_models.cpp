@@ -174,7 +174,7 @@ void LearnedModels::Save(const std::filesystem::path& path) const {
   out.Put(correction.proportions);
   PutFilter(out, filter);
   ContainerFormat format = kFormat;
-  if (!filter.HasPulls()) format.version = kVersionOfSteps;  // what older programs read
+  if (!filter.HasInfluences()) format.version = kVersionOfSteps;  // what older programs read
   WriteContainer(path, format, out.bytes());
 }
 

@@ -81,14 +81,14 @@ Eigen::Matrix3Xf PullFeature(std::span<const Posture> window, int steps, size_t 
   return feature;
 }
 
-bool LinearFilter::Pulls(Output output, size_t joint) const {
+bool LinearFilter::Influences(Output output, size_t joint) const {
   return WeightsOf(output, joint).cols() == 1;
 }
 
-bool LinearFilter::HasPulls() const {
+bool LinearFilter::HasInfluences() const {
   for (const Output output : {kNow, kBefore}) {
     for (size_t joint = 0; joint < kJointCount; ++joint) {
-      if (Pulls(output, joint)) return true;
+      if (Influences(output, joint)) return true;
     }
   }
   return false;

@@ -51,8 +51,8 @@ class LinearFilter {
   bool empty() const { return step_s == 0.0; }
   bool Knows(Output output, size_t joint) const { return WeightsOf(output, joint).size() > 0; }
   /// Whether its weights are of pulls, which need a joint in the window but not believed there.
-  bool Pulls(Output output, size_t joint) const;
-  bool HasPulls() const;  // of any joint
+  bool Influences(Output output, size_t joint) const;
+  bool HasInfluences() const;  // of any joint
   /// Whether the step from frame to frame is the one that was learned of.
   bool IsStep(double dt_s) const { return std::abs(dt_s / step_s - 1.0) < 0.25; }
   /// Where the joint is, of each output that is known. `window`: postures in camera space, the

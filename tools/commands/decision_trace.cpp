@@ -23,13 +23,13 @@ ordered_json MakeCandidate(const people::Decision& decision) {
                        {"area_m2", RoundToMillimetres(decision.area_m2)}};
   if (decision.classified) {
     json["score"] = RoundToMillimetres(decision.score);
-    // No score is enough: the rule asks for more looks.
+    // No score is enough: the rule asks for more observations.
     json["needed_score"] =
         decision.needed_score > 1 ? ordered_json() : ordered_json(decision.needed_score);
   }
-  if (decision.looks > 0) {
+  if (decision.observations > 0) {
     json["mean_score"] = RoundToMillimetres(decision.mean_score);
-    json["looks"] = decision.looks;
+    json["observations"] = decision.observations;
   }
   if (decision.track > 0) json["track"] = decision.track;
   return json;

@@ -14,7 +14,7 @@ std::vector<Table> RunReal(ExperimentContext& context);
 /// Every method on every real recording, the SDK's own skeletons as the baseline.
 std::vector<Table> RunSdk(ExperimentContext& context);
 /// Fits the weights in tools/people/person_classifier_weights.inc.
-std::vector<Table> RunPersonSigns(ExperimentContext& context);
+std::vector<Table> RunPersonClassifier(ExperimentContext& context);
 /// One to six people in rendered indoor scenes: who is found, cut in two, invented, mixed up.
 std::vector<Table> RunIndoorScenes(ExperimentContext& context);
 /// Shum & Ho 2012: scenes with objects, the character as a filter, dimensions of a posture search.

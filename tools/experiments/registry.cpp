@@ -9,7 +9,8 @@ namespace {
 constexpr Experiment kExperiments[] = {
     {"body", "pictures of the 31 parts and of motions on the body", RunBody},
     {"sensor", "the simulated depth sensor beside a Kinect's frames", RunSensor},
-    {"person-signs", "fits what the tracker tells people from furniture by", RunPersonSigns},
+    {"person-classifier", "fits what the tracker tells people from furniture by",
+     RunPersonClassifier},
     {"indoor-scenes",
      "the tracker in rendered indoor scenes: people found, cut, invented, mixed up; joints",
      RunIndoorScenes},
@@ -32,6 +33,7 @@ std::span<const Experiment> Experiments() { return kExperiments; }
 
 const Experiment* FindExperiment(std::string_view name) {
   if (name == "rooms") name = "indoor-scenes";
+  if (name == "person-signs") name = "person-classifier";
   const auto found = std::ranges::find(kExperiments, name, &Experiment::name);
   return found == std::end(kExperiments) ? nullptr : &*found;
 }

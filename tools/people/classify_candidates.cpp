@@ -175,7 +175,7 @@ Decision DescribeDetection(const Detection& detection, Rule rule, double needed_
   decision.score = detection.evidence.score;
   decision.mean_score = detection.score;
   decision.needed_score = needed_score;
-  decision.looks = detection.age;
+  decision.observations = detection.age;
   return decision;
 }
 

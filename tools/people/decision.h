@@ -20,7 +20,7 @@ enum class Rule {
   // Not, or not yet, a person.
   kPlanar,
   kFirstLook,
-  kFewLooks,
+  kFewObservations,
   kLowMeanScore,
   kTrackLowScore,
   kPieceLowScore,
@@ -30,7 +30,7 @@ enum class Rule {
   kFreshScene,
   kReturning,
   kEntered,
-  kEnoughLooks,
+  kEnoughObservations,
   kPieceWithHead,
   kCount
 };
@@ -58,9 +58,9 @@ struct Decision {
   double area_m2 = 0;                                 // of the surface, as seen frontally
   bool classified = false;                            // what follows was computed
   double score = 0;         // that it is a person by the forest, this look alone, [0, 1]
-  double mean_score = 0;    // ... and all looks
+  double mean_score = 0;    // ... and all observations
   double needed_score = 0;  // that the rule asks for; above 1: no score is enough
-  int looks = 0;            // detections of the track, or looks at the tentative one
+  int observations = 0;     // detections of the track, or observations of the tentative one
   int track = 0;            // id of the person; 0 nobody
 };
 

@@ -37,7 +37,7 @@ void PaintUser(int id, const Candidate& candidate, depth::Image<uint8_t>& users)
     users.data[static_cast<size_t>(pixel)] = static_cast<uint8_t>(id);
 }
 
-// The time of the looks, wasted ones too, shared out as the people's own stages stand.
+// The time of the observations, wasted ones too, shared out as the people's own stages stand.
 void ShareOutTime(double frame_ms, double look_ms, PeopleInFrame& result) {
   double classify_ms = 1e-6, propose_ms = 0;
   for (const Person& person : result.people) {

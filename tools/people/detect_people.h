@@ -29,7 +29,7 @@ struct PeopleInFrame {
   std::vector<Person> people;
   depth::Image<uint8_t> users;  // id of the person each pixel belongs to, 0 nobody
   FrameDecisions decisions;     // on every candidate
-  double segment_ms = 0, classify_ms = 0, propose_ms = 0;  // wasted looks included
+  double segment_ms = 0, classify_ms = 0, propose_ms = 0;  // wasted observations included
 };
 
 /// One frame's way from depth to people, each step with what the ones before it made: geometry,

@@ -154,17 +154,19 @@ struct ClassificationOptions {
 };
 
 /// What score, [0, 1], a candidate needs to become or stay a person. Thresholds of a logistic
-/// regression whose single looks pass 96 % of the people and 0.8 % of other things at 0.6 (`ossa
-/// experiment person-signs`).
+/// regression whose single observations pass 96 % of the people and 0.8 % of other things at 0.6
+/// (`ossa experiment person-classifier`).
 struct InitiationOptions {
   // A new track with a head's shape in a fresh scene, where there is one look only, or as the mean
-  // of a few looks at what moved; other new tracks in a fresh scene, and as the mean of a few looks
-  // at what stands still; and somebody tracked a moment ago: hysteresis keeps who turns away.
+  // of a few observations at what moved; other new tracks in a fresh scene, and as the mean of a
+  // few observations at what stands still; and somebody tracked a moment ago: hysteresis keeps who
+  // turns away.
   double new_person = 0.6;
   double sure_person = 0.93;
   double known_person = 0.25;
-  int tentative_looks = 4;
-  int standing_looks = 3;  // of what has not moved, unbroken: scraps of furniture come and go
+  int tentative_observations = 4;
+  int standing_observations =
+      3;  // of what has not moved, unbroken: scraps of furniture come and go
   // What stands before the background: furniture does not come by itself. At the first look; and,
   // where something nearer hides part of it, so that little is seen, as the mean of a few; and once
   // it was accepted, while it moves.
@@ -175,21 +177,22 @@ struct InitiationOptions {
   // rest it may be: only people walk.
   double walked_m = 0.5;
   double walked_person = 0.02;  // score
-  // Somebody accepted a few looks ago: what was a person by luck is none on average.
+  // Somebody accepted a few observations ago: what was a person by luck is none on average.
   double early_person = 0.4;  // score
   int early_age = 12;
-  // What has not moved at all after so many looks: most likely furniture. Of somebody accepted less
-  // is asked, for who sits behind a thing that does not move seems not to move, either.
+  // What has not moved at all after so many observations: most likely furniture. Of somebody
+  // accepted less is asked, for who sits behind a thing that does not move seems not to move,
+  // either.
   double still_person = 0.75;  // score
   double still_known = 0.7;    // score
   int still_age = 10;
   int mature_age = 30;           // detections; who bends down then was somebody before
   double occluded_share = 0.12;  // share of the silhouette: some of it may be out of sight
   double forget_s = 2.0;         // a tentative track that is not seen
-  int max_looks = 8;             // that a tentative track's mean is of
+  int max_observations = 8;      // that a tentative track's mean is of
   double unbroken_s = 0.12;      // three frames at 30 Hz: single ones may be missed
   double same_place = 0.6;       // cells of the larger in common: the same thing as before
-  float step_m = 0.25F;          // what came moves so far between two looks,
+  float step_m = 0.25F;          // what came moves so far between two observations,
   double step_s = 0.2;           // ... which are so near in time
   int max_users = 6;             // most people at a time, >= 1; the SDK's
 };
@@ -229,7 +232,7 @@ struct ReidentifyOptions {
   double new_occluded_per_m2 = 0.004;
   double other_way = 0.3;  // likelihood of who went behind somebody to come back elsewhere, or v.v.
   float border_m = 0.3F;   // to the image's border, or to somebody nearer: what a walker covers
-                           // during the first looks
+                           // during the first observations
   float occluder_m = 0.1F;  // sensor: somebody so much nearer occludes
 };
 

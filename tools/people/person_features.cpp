@@ -18,7 +18,7 @@ constexpr int kLastHeadLabel = 4;
 constexpr int kFirstTorsoLabel = 18, kLastTorsoLabel = 21;
 
 // Logistic regressions of "is a person" over the features and their products, written by
-// `ossa experiment person-signs`: kSurfaceWeights, kPersonWeights.
+// `ossa experiment person-classifier`: kSurfaceWeights, kPersonWeights.
 #include "tools/people/person_classifier_weights.inc"
 
 struct Cluster {

@@ -1,4 +1,4 @@
-// Who is taken for a person at once, who after a few looks, and who no longer.
+// Who is taken for a person at once, who after a few observations, and who no longer.
 #include "tools/people/track_initiation.h"
 
 #include <algorithm>
@@ -73,10 +73,10 @@ TentativeTrack StartTentative(const Detection& detection, double time_s) {
 void UpdateTentative(const Detection& detection, double time_s, const InitiationOptions& options,
                      TentativeTrack& track) {
   const Region& region = detection.candidate.region;
-  track.looks = std::min(track.looks + 1, options.max_looks);
-  track.unbroken_looks =
-      time_s - track.last_seen_s < options.unbroken_s ? track.unbroken_looks + 1 : 1;
-  track.mean_score += (detection.score - track.mean_score) / track.looks;
+  track.observations = std::min(track.observations + 1, options.max_observations);
+  track.unbroken_observations =
+      time_s - track.last_seen_s < options.unbroken_s ? track.unbroken_observations + 1 : 1;
+  track.mean_score += (detection.score - track.mean_score) / track.observations;
   track.last_seen_s = time_s;
   track.cells = region.cells;
   track.mean_m = region.mean_m;
@@ -126,7 +126,7 @@ Requirement RequireAtFirst(const Candidate& candidate, bool fresh_scene,
   return {Rule::kEntered, IsForeground(candidate) ? options.foreground_first : kNeverAtOnce};
 }
 
-// What a new person needs as the mean of several looks.
+// What a new person needs as the mean of several observations.
 double RequireInTheMean(const TentativeTrack& track, const Candidate& candidate,
                         const InitiationOptions& options) {
   const bool little_seen = track.is_foreground && MayBeOccluded(candidate, options);
@@ -143,7 +143,7 @@ Decision DescribeTentative(const Detection& detection, const TentativeTrack& tra
                            double needed) {
   const bool planar = FindOutcome(rule) != Outcome::kConfirmed && detection.candidate.plane;
   Decision decision = DescribeDetection(detection, planar ? Rule::kPlanar : rule, needed);
-  decision.looks = track.looks;
+  decision.observations = track.observations;
   decision.mean_score = track.mean_score;
   return decision;
 }
@@ -163,14 +163,15 @@ Decision DecideNew(bool fresh_scene, double time_s, const InitiationOptions& opt
     return DescribeTentative(detection, tentative.back(), Rule::kFirstLook, first.score);
   }
   UpdateTentative(detection, time_s, options, *before);
-  const bool often = before->moved ? before->looks >= options.tentative_looks
-                                   : before->unbroken_looks >= options.standing_looks;
+  const bool often = before->moved ? before->observations >= options.tentative_observations
+                                   : before->unbroken_observations >= options.standing_observations;
   const double needed = RequireInTheMean(*before, candidate, options);
-  if (!often) return DescribeTentative(detection, *before, Rule::kFewLooks, needed);
+  if (!often) return DescribeTentative(detection, *before, Rule::kFewObservations, needed);
   if (before->mean_score < needed)
     return DescribeTentative(detection, *before, Rule::kLowMeanScore, needed);
   detection.score = before->mean_score;
-  const Decision decision = DescribeTentative(detection, *before, Rule::kEnoughLooks, needed);
+  const Decision decision =
+      DescribeTentative(detection, *before, Rule::kEnoughObservations, needed);
   tentative.erase(tentative.begin() + (before - tentative.data()));
   return decision;
 }
@@ -200,7 +201,7 @@ std::vector<Candidate> SelectCandidates(std::vector<Candidate> candidates, bool 
     if (rejected && time_s - before->last_seen_s < options.classification.retry_s) {
       Decision decision = DescribeRegion(candidate.region, Rule::kRejectedBefore);
       decision.mean_score = before->mean_score;
-      decision.looks = before->looks;
+      decision.observations = before->observations;
       decided.push_back(decision);
       continue;
     }

@@ -5,8 +5,8 @@
 
 namespace ossa::people {
 
-/// What was classified and is no person, so far: judged by all looks together, for noise makes
-/// single ones vary; what scores low is not classified again in every frame.
+/// What was classified and is no person, so far: judged by all observations together, for noise
+/// makes single ones vary; what scores low is not classified again in every frame.
 struct TentativeTrack {
   std::vector<int> cells;                                  // of the last look, ascending
   Eigen::Vector3f mean_m = Eigen::Vector3f::Zero();        // of the last look
@@ -16,11 +16,11 @@ struct TentativeTrack {
   double walked_m = 0.0;                                   // ... so far over the floor
   double last_seen_s = 0.0;
   double mean_score = 0.0;
-  int looks = 1;
-  int unbroken_looks = 1;       // of them without a gap
-  bool was_rejected = false;    // it was a person, but did not stay one or never moved
-  bool was_foreground = false;  // any of it was seen before a known background
-  bool is_foreground = false;   // most of it is, and goes on moving
+  int observations = 1;
+  int unbroken_observations = 1;  // of them without a gap
+  bool was_rejected = false;      // it was a person, but did not stay one or never moved
+  bool was_foreground = false;    // any of it was seen before a known background
+  bool is_foreground = false;     // most of it is, and goes on moving
 };
 
 /// The candidates that are worth classifying, in their order. What is not goes to `decided`; what
@@ -31,7 +31,7 @@ std::vector<Candidate> SelectCandidates(std::vector<Candidate> candidates, bool 
                                         std::vector<Decision>& decided);
 
 /// Whether a detection is a person, and by which rule (`detection.decision`). Of a new person
-/// `score` becomes the mean of all looks. Who is none is remembered.
+/// `score` becomes the mean of all observations. Who is none is remembered.
 bool DecidePerson(bool fresh_scene, double time_s, const InitiationOptions& options,
                   std::vector<TentativeTrack>& tentative, Detection& detection);
 

@@ -141,7 +141,7 @@ struct TrackerOptions {
   MechanicsBuild mechanics;                   // how that is built
   recon::LocalPcaOptions local_pca;           // of shum-2013 and plantard-2016
   recon::GaussianProcessOptions gaussian_process;  // of liu-2016 and full-gp
-  recon::BestOptions best;                         // of best; `looked` follows the models
+  recon::BestOptions best;                         // of best; `refined_joints` follows the models
   /// Left out: what goes with the method (recon::MethodInfo::smoothing). One that is a filter
   /// itself gets no second one, which would only lag.
   std::optional<SmoothingOptions> smoothing;

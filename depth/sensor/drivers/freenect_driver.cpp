@@ -11,8 +11,8 @@
 #include <cstdlib>
 #include <utility>
 
-#include "depth/sensor/drivers/announcer_internal.h"
 #include "depth/sensor/drivers/depth_stream_internal.h"
+#include "depth/sensor/drivers/event_queue_internal.h"
 #include "depth/sensor/drivers/freenect_camera_internal.h"
 #include "depth/sensor/drivers/kinect_properties.h"
 
@@ -177,7 +177,7 @@ class FreenectDriver final : public oni::driver::DriverBase {
       const OniDeviceInfo info = InfoOf(serial);
       deviceConnected(&info);
     }
-    announcer_ = std::make_unique<Announcer>();
+    events_ = std::make_unique<EventQueue>();
     thread_ = std::thread([this] { Run(); });
     return ONI_STATUS_OK;
   }
@@ -208,7 +208,7 @@ class FreenectDriver final : public oni::driver::DriverBase {
   void shutdown() override {
     stopping_ = true;
     if (thread_.joinable()) thread_.join();
-    announcer_.reset();
+    events_.reset();
     if (context_ != nullptr) freenect_shutdown(context_);
     context_ = nullptr;
   }
@@ -258,7 +258,7 @@ class FreenectDriver final : public oni::driver::DriverBase {
   }
 
   void AnnounceLost(const std::string& serial) {
-    announcer_->Now([this, info = InfoOf(serial)] { deviceDisconnected(&info); });
+    events_->Now([this, info = InfoOf(serial)] { deviceDisconnected(&info); });
   }
 
   void FindDevices() {
@@ -276,7 +276,7 @@ class FreenectDriver final : public oni::driver::DriverBase {
     }
     for (const std::string& serial : now) {
       if (has(before, serial)) continue;
-      announcer_->Now([this, info = InfoOf(serial)] { deviceConnected(&info); });
+      events_->Now([this, info = InfoOf(serial)] { deviceConnected(&info); });
     }
   }
 
@@ -285,7 +285,7 @@ class FreenectDriver final : public oni::driver::DriverBase {
   std::vector<std::string> known_;
   std::atomic<int> open_ = 0;
   std::atomic<bool> stopping_ = false;
-  std::unique_ptr<Announcer> announcer_;
+  std::unique_ptr<EventQueue> events_;
   std::thread thread_;
 };
 

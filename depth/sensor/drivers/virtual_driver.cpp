@@ -12,8 +12,8 @@
 #include <utility>
 
 #include "depth/base/error.h"
-#include "depth/sensor/drivers/announcer_internal.h"
 #include "depth/sensor/drivers/depth_stream_internal.h"
+#include "depth/sensor/drivers/event_queue_internal.h"
 #include "depth/sensor/drivers/virtual_uri.h"
 #include "depth/sensor/frame_source.h"
 
@@ -236,7 +236,7 @@ class VirtualDriver final : public oni::driver::DriverBase, public UnplugHandler
                        oni::driver::DeviceDisconnectedCallback disconnected,
                        oni::driver::DeviceStateChangedCallback changed, void* cookie) override {
     DriverBase::initialize(connected, disconnected, changed, cookie);
-    announcer_ = std::make_unique<Announcer>();
+    events_ = std::make_unique<EventQueue>();
     const char* uri = std::getenv("OSSA_VIRTUAL_DEVICE");
     if (uri != nullptr && *uri != '\0') tryDevice(uri);
     return ONI_STATUS_OK;
@@ -269,7 +269,7 @@ class VirtualDriver final : public oni::driver::DriverBase, public UnplugHandler
   void deviceClose(oni::driver::DeviceBase* device) override { delete device; }
 
   void shutdown() override {
-    announcer_.reset();
+    events_.reset();
     cameras_.clear();
   }
 
@@ -279,9 +279,9 @@ class VirtualDriver final : public oni::driver::DriverBase, public UnplugHandler
       camera.plugged = false;
       --camera.unplugs_left;
     }
-    announcer_->Now([this, &camera] { deviceDisconnected(&camera.info()); });
+    events_->Now([this, &camera] { deviceDisconnected(&camera.info()); });
     if (!comes_back) return;
-    announcer_->At(Clock::now() + camera.options().replug_after, [this, &camera] {
+    events_->At(Clock::now() + camera.options().replug_after, [this, &camera] {
       {
         const std::lock_guard lock(mutex_);
         camera.plugged = true;
@@ -304,7 +304,7 @@ class VirtualDriver final : public oni::driver::DriverBase, public UnplugHandler
 
   std::mutex mutex_;
   std::map<std::string, std::unique_ptr<VirtualCamera>, std::less<>> cameras_;
-  std::unique_ptr<Announcer> announcer_;
+  std::unique_ptr<EventQueue> events_;
 };
 
 }  // namespace

@@ -37,7 +37,7 @@ Posture PostureFilter::Step(const Posture& in_camera, double yaw_rad, double dt_
     before_.position_m[i] = filters_[i].before_m();
     std::optional<std::array<Eigen::Vector3d, LinearFilter::kOutputs>> better_m;
     const auto estimate = [&](LinearFilter::Output output, Eigen::Vector3d& position_m) {
-      const int steps = linear_.Pulls(output, i) ? observed_[i] : trusted_[i];
+      const int steps = linear_.Influences(output, i) ? observed_[i] : trusted_[i];
       const int ready = steps - LinearFilter::kFewest + 1;
       if (ready < 1 || !linear_.Knows(output, i)) return;
       if (!better_m) better_m = linear_.Estimate(i, window_, trusted_, yaw_rad);

@@ -37,7 +37,8 @@ class PostureFilter {
   void Restart();
   /// Whether a joint's estimate came from learned weights of influence in the last step.
   bool UsedInfluence(size_t joint) const {
-    return observed_[joint] >= LinearFilter::kFewest && linear_.Pulls(LinearFilter::kNow, joint);
+    return observed_[joint] >= LinearFilter::kFewest &&
+           linear_.Influences(LinearFilter::kNow, joint);
   }
 
  private:

@@ -16,7 +16,7 @@ TEST(Rules, HaveNamesOfTheirOwnAndTexts) {
   }
   EXPECT_EQ(names.size(), static_cast<size_t>(Rule::kCount));
   EXPECT_EQ(NameOutcome(FindOutcome(Rule::kTooSmall)), "excluded");
-  EXPECT_EQ(NameOutcome(FindOutcome(Rule::kEnoughLooks)), "confirmed");
+  EXPECT_EQ(NameOutcome(FindOutcome(Rule::kEnoughObservations)), "confirmed");
 }
 
 // The decisions that geometry makes about a thing that stands free in an empty room.

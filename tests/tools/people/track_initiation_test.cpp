@@ -1,4 +1,5 @@
-// Who is taken for a person at once, who after a few looks: looks are made up, no forest is needed.
+// Who is taken for a person at once, who after a few observations: looks are made up, no forest is
+// needed.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -122,7 +123,7 @@ TEST_F(NewPerson, OfWhomLittleIsSeenIsTentativeByTheRuleThatSaysWhatIsMissing) {
   EXPECT_EQ(AcceptedIn(1, false, [](int) { return Look{0.95}; }), -1);
   EXPECT_EQ(rule_, Rule::kFirstLook);
   EXPECT_EQ(AcceptedIn(2, false, [](int) { return Look{0.95}; }), -1);
-  EXPECT_EQ(rule_, Rule::kFewLooks);
+  EXPECT_EQ(rule_, Rule::kFewObservations);
   EXPECT_EQ(AcceptedIn(20, false, [](int) { return Look{0.7}; }), -1);
   EXPECT_EQ(rule_, Rule::kLowMeanScore);
 }

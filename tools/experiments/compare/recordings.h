@@ -14,7 +14,7 @@ struct RecordedPair {
   recon::SkeletonSequence observed;
   recon::SkeletonSequence truth;
   /// `observed` after cascaded refinement at the depth images; without frames where there was none.
-  recon::SkeletonSequence looked{};
+  recon::SkeletonSequence refined{};
 };
 
 /// The real recordings with truth in a shared data folder (DIR of `--shared DIR`). Each throws

@@ -66,7 +66,7 @@ std::shared_ptr<const recon::PosturePrior> PriorOf(ExperimentContext& context) {
 void KnowObserver(const std::string& observer, MethodRun* best) {
   if (observer != "forest") return;
   best->options.learned_file = tracker::ShippedFile("body.ossagp");
-  best->looks = true;
+  best->refines = true;
 }
 
 recon::SkeletonSequence RunMethod(const ExperimentContext& context, const MethodRun& run,
@@ -100,9 +100,9 @@ std::vector<PairedTracks> RunOverClips(const ExperimentContext& context, const M
   for (const RecordedPair& clip : clips) {
     context.StopIfAsked();
     MethodRun with = run;
-    with.options.best.refined_joints = run.looks && !clip.looked.frames.empty();
+    with.options.best.refined_joints = run.refines && !clip.refined.frames.empty();
     const auto made =
-        RunMethod(context, with, with.options.best.refined_joints ? clip.looked : clip.observed);
+        RunMethod(context, with, with.options.best.refined_joints ? clip.refined : clip.observed);
     pairs.push_back(PairClip(clip.clip, clip.truth, made));
     if (context.progress) {
       context.progress(static_cast<double>(pairs.size()), static_cast<double>(clips.size()),

@@ -28,10 +28,10 @@ struct MethodRun {
   std::string label;  // in tables
   recon::ReconstructorOptions options;
   std::string database_key;  // of a database that is not DatabaseOf(context): for the cache
-  bool looks = false;        // over clips it starts from RecordedPair::looked, and best knows it
+  bool refines = false;      // over clips it starts from RecordedPair::refined, and best knows it
 };
 
-/// best as `ossa track` runs it: the shipped forest's joints are looked at again, closely, and it
+/// best as `ossa track` runs it: the shipped forest's joints are refined at the depth image, and it
 /// knows their systematic errors.
 /// `observer` is a study's: "forest" or "simulated".
 void KnowObserver(const std::string& observer, MethodRun* best);

@@ -210,7 +210,7 @@ void BeginWhenFound(RecordedPair& pair) {
                           sequence.frames.begin() + static_cast<std::ptrdiff_t>(first));
   };
   drop(pair.observed);
-  drop(pair.looked);
+  drop(pair.refined);
   drop(pair.truth);
 }
 
@@ -264,7 +264,7 @@ RecordedPair Studio::Record(const recon::MotionClip& clip, const StageOptions& o
     }
     SimulatedSdk sdk(options.seed);
     recon::SkeletonSequence observed;
-    recon::SkeletonSequence looked;
+    recon::SkeletonSequence refined;
     recon::SkeletonSequence truth;
     for (size_t f = 0; f < set.size(); ++f) {
       state_->context.StopIfAsked();
@@ -276,14 +276,14 @@ RecordedPair Studio::Record(const recon::MotionClip& clip, const StageOptions& o
         };
         observed.frames.push_back(person(tracker::PostureKind::kRaw));
         if (!state_->look_path.empty()) {
-          looked.frames.push_back(person(tracker::PostureKind::kRefined));
+          refined.frames.push_back(person(tracker::PostureKind::kRefined));
         }
       } else {
         observed.frames.push_back(sdk.Observe(frame));
       }
       truth.frames.push_back(frame.truth);
     }
-    std::string text = TextOf(observed).append(kSequenceEnd).append(TextOf(looked));
+    std::string text = TextOf(observed).append(kSequenceEnd).append(TextOf(refined));
     return text.append(kSequenceEnd).append(TextOf(truth));
   };
   std::string key =
@@ -292,16 +292,16 @@ RecordedPair Studio::Record(const recon::MotionClip& clip, const StageOptions& o
     if (!path.empty()) key.append(" ").append(KeyOfFile(path));
   }
   const std::string text = state_->context.Cached(key, compute);
-  const size_t end = text.find(kSequenceEnd), looked = end + kSequenceEnd.size();
-  const size_t looked_end = text.find(kSequenceEnd, looked);
+  const size_t end = text.find(kSequenceEnd), refined = end + kSequenceEnd.size();
+  const size_t refined_end = text.find(kSequenceEnd, refined);
   RecordedPair pair;
   pair.clip = options.name;
   pair.subject = clip.subject.empty() ? clip.name : clip.subject;
   pair.observed = SequenceOf(text.substr(0, end), options.name);
-  if (looked_end > looked) {
-    pair.looked = SequenceOf(text.substr(looked, looked_end - looked), options.name);
+  if (refined_end > refined) {
+    pair.refined = SequenceOf(text.substr(refined, refined_end - refined), options.name);
   }
-  pair.truth = SequenceOf(text.substr(looked_end + kSequenceEnd.size()), options.name);
+  pair.truth = SequenceOf(text.substr(refined_end + kSequenceEnd.size()), options.name);
   BeginWhenFound(pair);
   return pair;
 }

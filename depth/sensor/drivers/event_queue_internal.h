@@ -10,18 +10,18 @@ namespace ossa::depth {
 
 /// Tells OpenNI2 of devices that come and go, on a thread of its own: OpenNI2 takes its locks for
 /// that, which neither a stream's thread (joined under them) nor libfreenect's may wait for.
-class Announcer {
+class EventQueue {
  public:
   using Clock = std::chrono::steady_clock;
 
-  Announcer();
-  ~Announcer();  // what was not announced by then never is
-  Announcer(const Announcer&) = delete;
-  Announcer& operator=(const Announcer&) = delete;
+  EventQueue();
+  ~EventQueue();  // events not yet due are dropped
+  EventQueue(const EventQueue&) = delete;
+  EventQueue& operator=(const EventQueue&) = delete;
 
-  /// Announcements are made at their times, those of one time in the order they came.
-  void At(Clock::time_point when, std::function<void()> announce);
-  void Now(std::function<void()> announce) { At(Clock::now(), std::move(announce)); }
+  /// Events run at their times, those of one time in the order they came.
+  void At(Clock::time_point when, std::function<void()> event);
+  void Now(std::function<void()> event) { At(Clock::now(), std::move(event)); }
 
  private:
   void Run();

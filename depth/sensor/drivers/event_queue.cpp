@@ -1,11 +1,11 @@
-#include "depth/sensor/drivers/announcer_internal.h"
+#include "depth/sensor/drivers/event_queue_internal.h"
 #include "depth/sensor/shutdown_gate_internal.h"
 
 namespace ossa::depth {
 
-Announcer::Announcer() : thread_([this] { Run(); }) {}
+EventQueue::EventQueue() : thread_([this] { Run(); }) {}
 
-Announcer::~Announcer() {
+EventQueue::~EventQueue() {
   {
     const std::lock_guard lock(mutex_);
     stopping_ = true;
@@ -14,15 +14,15 @@ Announcer::~Announcer() {
   thread_.join();
 }
 
-void Announcer::At(Clock::time_point when, std::function<void()> announce) {
+void EventQueue::At(Clock::time_point when, std::function<void()> event) {
   {
     const std::lock_guard lock(mutex_);
-    due_.emplace(when, std::move(announce));
+    due_.emplace(when, std::move(event));
   }
   wake_.notify_all();
 }
 
-void Announcer::Run() {
+void EventQueue::Run() {
   // A shutdown that closes the gate may be that of another user of OpenNI2, after which it is open
   // again: what was held up is tried anew.
   constexpr std::chrono::milliseconds kAgainAfter{5};
@@ -37,9 +37,9 @@ void Announcer::Run() {
       wake_.wait_until(lock, first->first);
       continue;
     }
-    const std::function<void()> announce = first->second;
+    const std::function<void()> event = first->second;
     lock.unlock();
-    const bool announced = AnnounceUnlessShuttingDown(announce);
+    const bool announced = AnnounceUnlessShuttingDown(event);
     lock.lock();
     if (announced) {
       due_.erase(first);  // iterators of a map survive what was added meanwhile

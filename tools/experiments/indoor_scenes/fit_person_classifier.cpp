@@ -1,4 +1,4 @@
-// `ossa experiment person-signs`: fits what tells people from furniture
+// `ossa experiment person-classifier`: fits what tells people from furniture
 // (tools/people/person_classifier_weights.inc).
 #include <fmt/format.h>
 
@@ -227,7 +227,7 @@ void AddRows(const std::string& what, const VectorXd& weights, size_t count,
 
 }  // namespace
 
-std::vector<Table> RunPersonSigns(ExperimentContext& context) {
+std::vector<Table> RunPersonClassifier(ExperimentContext& context) {
   const std::string train = context.parameters.Text("mocap", "authored");
   const std::string check = context.parameters.Text("check_mocap", "authored");
   const int performances = context.parameters.Integer("performances", context.full ? 60 : 8, 2);
@@ -239,12 +239,12 @@ std::vector<Table> RunPersonSigns(ExperimentContext& context) {
   const size_t all = people::PersonFeatureNames().size(), surface = people::CountSurfaceFeatures();
   const VectorXd surface_weights = Fit(fitted, surface, prior), weights = Fit(fitted, all, prior);
   AtomicFile file(context.out / "person_classifier_weights.inc");
-  file.stream() << "// Written by `ossa experiment person-signs`.\n"
+  file.stream() << "// Written by `ossa experiment person-classifier`.\n"
                 << ArrayText("kSurfaceWeights", surface_weights)
                 << ArrayText("kPersonWeights", weights);
   file.Commit();
   Table table;
-  table.title = "People and other things, single looks";
+  table.title = "People and other things, single observations";
   table.columns = {"what", "threshold", "people passed, %", "others passed"};
   AddRows("fitted on, surface", surface_weights, surface, fitted, table);
   AddRows("fitted on", weights, all, fitted, table);
