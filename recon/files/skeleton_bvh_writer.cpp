@@ -20,7 +20,10 @@ bool IsSomewhere(const BodyRecord& body) {
 // The head holds the bones' lengths, medians over all frames: files are made at the end.
 class BvhWriter final : public SkeletonWriter::Format {
  public:
-  explicit BvhWriter(fs::path path) : path_(std::move(path)) { AtomicFile::CheckWritable(path_); }
+  BvhWriter(fs::path path, BvhNames names) : path_(std::move(path)) {
+    options_.names = names;
+    AtomicFile::CheckWritable(path_);
+  }
 
   void Write(const SkeletonFrame& frame) override {
     if (!begin_s_) begin_s_ = frame.time_s;
@@ -42,7 +45,7 @@ class BvhWriter final : public SkeletonWriter::Format {
     for (size_t i = 0; i < ids_.size(); ++i) {
       SightingLog& seen = seen_.at(ids_[i]);
       const double begin_s = std::min(*begin_s_, seen[0].time_s);
-      WriteBvhOfSightings(std::move(seen), begin_s, PathForBody(path_, i, ids_[i]), {});
+      WriteBvhOfSightings(std::move(seen), begin_s, PathForBody(path_, i, ids_[i]), options_);
     }
   }
 
@@ -50,6 +53,7 @@ class BvhWriter final : public SkeletonWriter::Format {
 
  private:
   fs::path path_;
+  BvhExportOptions options_;
   std::optional<double> begin_s_;  // the first frame's, whoever is in it
   std::vector<int> ids_;           // of those who were somewhere, as they appeared
   std::map<int, SightingLog> seen_;
@@ -57,8 +61,8 @@ class BvhWriter final : public SkeletonWriter::Format {
 
 }  // namespace
 
-std::unique_ptr<SkeletonWriter::Format> NewBvhWriter(const fs::path& path) {
-  return std::make_unique<BvhWriter>(path);
+std::unique_ptr<SkeletonWriter::Format> NewBvhWriter(const fs::path& path, BvhNames names) {
+  return std::make_unique<BvhWriter>(path, names);
 }
 
 }  // namespace ossa::recon

@@ -51,11 +51,11 @@ class LineWriter final : public SkeletonWriter::Format {
 
 std::string JsonlLine(const SkeletonFrame& frame) { return SkeletonJsonLine(frame) + '\n'; }
 
-std::unique_ptr<SkeletonWriter::Format> NewWriter(const fs::path& path) {
+std::unique_ptr<SkeletonWriter::Format> NewWriter(const fs::path& path, BvhNames names) {
   CheckSkeletonExtension(path);
   const fs::path extension = path.extension();
   if (extension == ".trc") return NewTrcWriter(path);
-  if (extension == ".bvh") return NewBvhWriter(path);
+  if (extension == ".bvh") return NewBvhWriter(path, names);
   if (extension == ".csv") {
     return std::make_unique<LineWriter>(path, SkeletonCsvHead(), SkeletonCsvRows);
   }
@@ -64,7 +64,8 @@ std::unique_ptr<SkeletonWriter::Format> NewWriter(const fs::path& path) {
 
 }  // namespace
 
-SkeletonWriter::SkeletonWriter(const fs::path& path) : format_(NewWriter(path)) {}
+SkeletonWriter::SkeletonWriter(const fs::path& path, BvhNames names)
+    : format_(NewWriter(path, names)) {}
 SkeletonWriter::~SkeletonWriter() = default;
 
 void SkeletonWriter::Write(const SkeletonFrame& frame) {

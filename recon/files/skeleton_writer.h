@@ -3,6 +3,7 @@
 #include <filesystem>
 #include <memory>
 
+#include "recon/motion/bvh.h"
 #include "recon/skeleton_sequence.h"
 
 namespace ossa::recon {
@@ -16,8 +17,9 @@ namespace ossa::recon {
 /// was written until then stays under the temporary name (AtomicFile): whole lines.
 class SkeletonWriter {
  public:
-  /// Throws InputError for another extension and for a place that cannot be written.
-  explicit SkeletonWriter(const std::filesystem::path& path);
+  /// `names`: of a .bvh. Throws InputError for another extension and for a place that cannot be
+  /// written.
+  explicit SkeletonWriter(const std::filesystem::path& path, BvhNames names = BvhNames::kSdk);
   ~SkeletonWriter();
 
   /// Throws DiskFull when it does not fit.

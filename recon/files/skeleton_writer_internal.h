@@ -17,6 +17,7 @@ class SkeletonWriter::Format {
 std::filesystem::path PathForBody(const std::filesystem::path& path, size_t index, int id);
 
 std::unique_ptr<SkeletonWriter::Format> NewTrcWriter(const std::filesystem::path& path);
-std::unique_ptr<SkeletonWriter::Format> NewBvhWriter(const std::filesystem::path& path);
+std::unique_ptr<SkeletonWriter::Format> NewBvhWriter(const std::filesystem::path& path,
+                                                     BvhNames names);
 
 }  // namespace ossa::recon

@@ -63,8 +63,18 @@ void WriteBvh(const BvhFile& bvh, const std::filesystem::path& path);
 /// Skeletons are read from a BVH of at most so many bytes: six hours of motion or more.
 inline constexpr size_t kMostBvhBytes = size_t{1} << 29;
 
+/// Whose names and hierarchy the joints of a written BVH have.
+enum class BvhNames {
+  kSdk,  // the SDK's 20 joints, with a helper wherever bones branch: nothing is lost
+  // A humanoid that retargeting tools map by themselves, at rest in a T-pose that faces +z:
+  kCmu,     // Hips, Spine, LeftUpLeg ...
+  kMixamo,  // the same with mixamorig: before them
+  kVrm,     // hips, spine, leftUpperLeg ...
+};
+
 /// How skeletons are written as BVH.
 struct BvhExportOptions {
+  BvhNames names = BvhNames::kSdk;
   std::optional<int> body_id;  // which body of the sequence; none: the one seen in most frames
   /// BVH needs a fixed step; the sequence is resampled to it by time, joints moving straight from
   /// frame to frame.
@@ -79,10 +89,11 @@ struct BvhExportOptions {
 /// joints (least squares). A missing joint holds its bone's last direction; one that is not tracked
 /// is missing unless it has a reliability: then a method has placed it. Where bones branch,
 /// each has a joint of its own, without length, named after both ends ("HipCenter-Spine"), so that
-/// it can turn alone. It begins with the sequence's first frame, whoever is in it, and stands until
-/// the body is first seen: those of several people are in step with each other and the recording.
-/// Throws InputError when no frame has the body, or its text would surely exceed the options'
-/// bytes.
+/// it can turn alone. A humanoid (BvhNames) has 21 joints and no such helpers: its thighs hang from
+/// the hips where they do in the mean, and hands end in end sites. It begins with the sequence's
+/// first frame, whoever is in it, and stands until the body is first seen: those of several people
+/// are in step with each other and the recording. Throws InputError when no frame has the body, or
+/// its text would surely exceed the options' bytes.
 BvhFile BvhOfSkeleton(const SkeletonSequence& sequence, const BvhExportOptions& options = {});
 /// The same into a file, without ever holding more than a frame of it; the file appears only when
 /// complete.

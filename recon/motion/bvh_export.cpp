@@ -11,6 +11,7 @@
 #include "recon/body/standard_body.h"
 #include "recon/bone_lengths.h"
 #include "recon/motion/bvh.h"
+#include "recon/motion/bvh_layout_internal.h"
 #include "recon/motion/bvh_text_internal.h"
 #include "recon/motion/sightings_internal.h"
 #include "recon/smallest_turn.h"
@@ -20,8 +21,6 @@ namespace {
 
 using Eigen::Quaterniond;
 using Eigen::Vector3d;
-
-constexpr double kCentimetres = 100.0;  // of a metre; the unit most programs expect of BVH
 
 BoneLengths MedianLengths(const SightingLog& sightings) {
   constexpr double kShortest_m = 1e-3;  // a bone of no length has no direction in the file; by hand
@@ -39,7 +38,8 @@ BoneLengths MedianLengths(const SightingLog& sightings) {
   return lengths;
 }
 
-/// Bone directions of the file's rest pose: a T-pose facing +z.
+}  // namespace
+
 Vector3d RestDirection(size_t joint) {
   switch (static_cast<Joint>(joint)) {
     case Joint::kSpine:
@@ -66,29 +66,21 @@ Vector3d RestDirection(size_t joint) {
   }
 }
 
+namespace {
+
 ptrdiff_t ChildrenOf(size_t joint) {
   return std::count(kJointParent.begin(), kJointParent.end(), static_cast<int>(joint));
 }
 
 bool Branches(size_t joint) { return ChildrenOf(joint) > 1; }
 
-/// The joint of the file that turns each bone (bone j ends in joint j): the bone's parent joint, or
-/// its own helper where bones branch.
-struct Layout {
-  std::vector<BvhJoint> joints;
-  JointArray<size_t> place{};   // file joint at SDK joint j
-  JointArray<size_t> turner{};  // file joint that turns the bone ending in j
-};
-
-const std::vector<BvhChannel> kTurns = {BvhChannel::kZrotation, BvhChannel::kXrotation,
-                                        BvhChannel::kYrotation};
-
-Layout LayoutOf(const BoneLengths& lengths) {
-  Layout layout;
+BvhLayout SdkLayout(const BoneLengths& lengths) {
+  const std::vector<BvhChannel> turns = BvhTurns();
+  BvhLayout layout;
   BvhJoint root;
   root.name = NameOf(Joint::kHipCenter);
   root.channels = {BvhChannel::kXposition, BvhChannel::kYposition, BvhChannel::kZposition};
-  root.channels.insert(root.channels.end(), kTurns.begin(), kTurns.end());
+  root.channels.insert(root.channels.end(), turns.begin(), turns.end());
   layout.joints.push_back(root);
   for (size_t j = 1; j < kJointCount; ++j) {
     const auto parent = ParentOf(j);
@@ -97,18 +89,16 @@ Layout LayoutOf(const BoneLengths& lengths) {
       BvhJoint helper;
       helper.name.append(kJointNames[parent]).append("-").append(kJointNames[j]);
       helper.parent = static_cast<int>(layout.place[parent]);
-      helper.channels = kTurns;
+      helper.channels = turns;
       layout.turner[j] = layout.joints.size();
       layout.joints.push_back(helper);
     }
     BvhJoint joint;
     joint.name = kJointNames[j];
     joint.parent = static_cast<int>(layout.turner[j]);
-    joint.offset = kCentimetres * lengths[j] * RestDirection(j);
-    joint.channels = kTurns;
-    if (ChildrenOf(j) == 0) {
-      joint.end_sites.push_back(5.0 * RestDirection(j));
-    }
+    joint.offset = kBvhCentimetres * lengths[j] * RestDirection(j);
+    joint.channels = turns;
+    if (ChildrenOf(j) == 0) joint.end_sites.push_back(kBvhEnd_cm * RestDirection(j));
     layout.place[j] = layout.joints.size();
     layout.joints.push_back(joint);
   }
@@ -125,6 +115,35 @@ Quaterniond BodyFrame(const JointArray<Vector3d>& direction) {
   Eigen::Matrix3d frame;
   frame << left, front.cross(left), front;
   return Quaterniond(frame);
+}
+
+/// Where the thighs hang from the hips, in the hips' own frame: the mean of what was seen.
+std::array<Vector3d, 2> HipOffsets(const SightingLog& seen) {
+  std::array<Vector3d, 2> sum = {Vector3d::Zero(), Vector3d::Zero()};
+  int count = 0;
+  for (size_t i = 0; i < seen.size(); ++i) {
+    const auto& joint = Sighting(seen[i]).joint;
+    const auto at = [&](Joint j) { return joint[Index(j)]; };
+    if (!at(Joint::kHipCenter) || !at(Joint::kHipLeft) || !at(Joint::kHipRight) ||
+        !at(Joint::kSpine))
+      continue;
+    const Vector3d centre = *at(Joint::kHipCenter);
+    JointArray<Vector3d> direction;
+    direction[Joint::kHipLeft] = (*at(Joint::kHipLeft) - centre).normalized();
+    direction[Joint::kHipRight] = (*at(Joint::kHipRight) - centre).normalized();
+    direction[Joint::kSpine] = (*at(Joint::kSpine) - centre).normalized();
+    const Quaterniond hips = BodyFrame(direction).conjugate();
+    sum[0] += hips * (*at(Joint::kHipLeft) - centre);
+    sum[1] += hips * (*at(Joint::kHipRight) - centre);
+    ++count;
+  }
+  for (Vector3d& offset : sum) offset /= std::max(count, 1);
+  return sum;
+}
+
+BvhLayout LayoutOf(BvhNames names, const BoneLengths& lengths, const SightingLog& seen) {
+  return names == BvhNames::kSdk ? SdkLayout(lengths)
+                                 : HumanoidLayout(names, lengths, HipOffsets(seen));
 }
 
 /// Angles of R = Rz Rx Ry, degrees.
@@ -168,7 +187,7 @@ std::optional<Vector3d> RootOf(const Sighting& sighting, const BoneLengths& leng
   return sum / seen;
 }
 
-void AppendFrame(const Layout& layout, const Vector3d& root_m,
+void AppendFrame(const BvhLayout& layout, const Vector3d& root_m,
                  const JointArray<Vector3d>& direction, std::vector<double>& values) {
   std::vector<Quaterniond> world(layout.joints.size(), Quaterniond::Identity());
   world[0] = BodyFrame(direction);
@@ -178,9 +197,9 @@ void AppendFrame(const Layout& layout, const Vector3d& root_m,
       const Quaterniond& carried = world[static_cast<size_t>(layout.joints[turner].parent)];
       world[turner] = SmallestTurn(carried * RestDirection(j), direction[j]) * carried;
     }
-    world[layout.place[j]] = world[turner];
+    if (layout.place[j] != kNoBvhJoint) world[layout.place[j]] = world[turner];
   }
-  for (const double place : root_m) values.push_back(kCentimetres * place);
+  for (const double place : root_m) values.push_back(kBvhCentimetres * place);
   for (size_t i = 0; i < layout.joints.size(); ++i) {
     const Quaterniond local =
         i == 0 ? world[0]
@@ -203,7 +222,7 @@ class BvhBody {
         options_(options),
         sightings_(std::move(sightings)),
         lengths_(MedianLengths(sightings_.seen())),
-        layout_(LayoutOf(lengths_)) {
+        layout_(LayoutOf(options.names, lengths_, sightings_.seen())) {
     for (size_t j = 0; j < kJointCount; ++j) direction_[j] = RestDirection(j);
     // What the first frames lack stands from the beginning as it is first seen.
     const SightingLog& seen = sightings_.seen();
@@ -250,7 +269,7 @@ class BvhBody {
   BvhExportOptions options_;
   EvenSightings sightings_;
   BoneLengths lengths_;
-  Layout layout_;
+  BvhLayout layout_;
   JointArray<Vector3d> direction_;
   Vector3d root_m_ = Vector3d::Zero();
 };

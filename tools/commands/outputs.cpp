@@ -94,8 +94,26 @@ InputError KeepWhatFits(const DiskFull& full, recon::SkeletonWriter& writer) {
       fmt::format("{} {} were kept", full.what(), FramesText(kept, writer.frame_count())));
 }
 
-void WriteSkeletonsThatFit(const std::string& path, const recon::SkeletonSequence& sequence) {
-  recon::SkeletonWriter writer(path);
+void BvhNamesOption::AddTo(CLI::App& app) {
+  app.add_option(
+         "--bvh-names", name,
+         "of a .bvh: sdk (default), or a humanoid that other programs map by themselves: cmu, "
+         "mixamo, vrm")
+      ->check(CLI::IsMember({"sdk", "cmu", "mixamo", "vrm"}));
+}
+
+recon::BvhNames BvhNamesOption::NamesFor(const std::string& out) const {
+  if (name != "sdk" && fs::path(out).extension() != ".bvh") {
+    throw UsageError("--bvh-names " + name + ": expected --out FILE.bvh with it");
+  }
+  if (name == "cmu") return recon::BvhNames::kCmu;
+  if (name == "mixamo") return recon::BvhNames::kMixamo;
+  return name == "vrm" ? recon::BvhNames::kVrm : recon::BvhNames::kSdk;
+}
+
+void WriteSkeletonsThatFit(const std::string& path, const recon::SkeletonSequence& sequence,
+                           recon::BvhNames names) {
+  recon::SkeletonWriter writer(path, names);
   try {
     for (const recon::SkeletonFrame& frame : sequence.frames) writer.Write(frame);
     writer.Finish();

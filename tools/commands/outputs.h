@@ -1,4 +1,5 @@
 #pragma once
+#include <CLI/CLI.hpp>
 #include <cstdint>
 #include <optional>
 #include <string>
@@ -7,6 +8,7 @@
 #include "depth/base/atomic_file.h"
 #include "depth/base/error.h"
 #include "recon/files/skeleton_writer.h"
+#include "recon/motion/bvh.h"
 
 namespace ossa::commands {
 
@@ -39,7 +41,16 @@ std::string FramesText(int64_t frames, std::optional<int64_t> of);
 /// Ends a file that does not fit after its last whole frame; the failure says how many are kept.
 InputError KeepWhatFits(const DiskFull& full, recon::SkeletonWriter& writer);
 
+/// The option --bvh-names: whose names the joints of a written .bvh have.
+struct BvhNamesOption {
+  std::string name = "sdk";
+  void AddTo(CLI::App& app);
+  /// Throws UsageError where it was given and `out` is no .bvh.
+  recon::BvhNames NamesFor(const std::string& out) const;
+};
+
 /// recon::WriteSkeletons that keeps what fits.
-void WriteSkeletonsThatFit(const std::string& path, const recon::SkeletonSequence& sequence);
+void WriteSkeletonsThatFit(const std::string& path, const recon::SkeletonSequence& sequence,
+                           recon::BvhNames names = recon::BvhNames::kSdk);
 
 }  // namespace ossa::commands

@@ -38,6 +38,7 @@ struct ReconstructArguments {
   recon::SkeletonReadOptions read;
   MechanicsOptions mechanics;
   BonesOption bones;
+  BvhNamesOption bvh_names;
   std::vector<double> weights;
   double cutoff_hz = 6.0;
   bool quiet = false;
@@ -138,6 +139,7 @@ int Reconstruct(int argc, char** argv) {
   app.add_option("SKELETONS", a.skeletons, "skeleton JSONL or a recording of an SDK")->required();
   app.add_option("--out", a.out, "result: .jsonl .bvh .trc .csv, or a folder for many recordings")
       ->required();
+  a.bvh_names.AddTo(app);
   AddMethodOptions(app, a);
   AddMechanicsOptions(app, a.mechanics);
   AddMappingOption(app, a.read.mapping_file, false);
@@ -157,6 +159,7 @@ int Reconstruct(int argc, char** argv) {
   }
   CheckLearned(a.options.method, a.files.learned);
   a.bones.Check(a.options.method);
+  const recon::BvhNames names = a.bvh_names.NamesFor(a.out);
   a.mechanics.Check();
   CheckOneOf(a.options.method, a.files.database, a.files.prior);
   CheckOutputs({a.out}, {a.skeletons, a.read.mapping_file});
@@ -214,7 +217,7 @@ int Reconstruct(int argc, char** argv) {
       to = to / (clip.name + ".jsonl");
       std::filesystem::create_directories(to.parent_path());
     }
-    WriteSkeletonsThatFit(to, made);
+    WriteSkeletonsThatFit(to, made, names);
     written += made.frames.size();
     if (Interrupted()) break;
   }

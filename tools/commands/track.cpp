@@ -44,6 +44,7 @@ struct TrackOptions {
   std::string smoothing, posture = "final", mode = "standing";
   MechanicsOptions mechanics;
   BonesOption bones;
+  BvhNamesOption bvh_names;
   tracker::ModelFiles files;
   tracker::TrackerOptions tracker;
   int64_t frames = 0;
@@ -130,6 +131,7 @@ TrackOptions ParseOptions(int argc, char** argv) {
          "raw")
       ->transform(CLI::Transformer(kOldPostures).description(""))
       ->check(CLI::IsMember({"final", "reconstructed", "refined", "raw"}));
+  options.bvh_names.AddTo(app);
   AddTrackerOptions(app, options);
   app.add_option("--frames", options.frames, "stop after so many frames")->check(Positive());
   AddDeviceOptions(app, options.source);
@@ -167,6 +169,7 @@ TrackOptions ParseOptions(int argc, char** argv) {
     CheckRefinementIsRead(options);
   }
   if (!options.out.empty()) CheckSkeletonName(options.out);
+  options.bvh_names.NamesFor(options.out);
   CheckExtension("--picture", options.picture, ".png");
   CheckNotOtherKind("--json-stats", options.json_stats, ".json");
   CheckExtension("--trace", options.trace, ".jsonl");
@@ -195,7 +198,7 @@ class SkeletonOutput {
     if (posture == "reconstructed") kind_ = tracker::PostureKind::kReconstructed;
     if (path_.empty()) return;
     SayLeftovers(path_);
-    writer_.emplace(path_);
+    writer_.emplace(path_, options.bvh_names.NamesFor(path_));
   }
   void Write(const tracker::BodyFrame& bodies) {
     if (!writer_) return;
