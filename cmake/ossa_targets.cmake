@@ -7,24 +7,40 @@ if(PROJECT_IS_TOP_LEVEL AND (NOT OSSA_SANITIZE OR CMAKE_CXX_COMPILER_ID MATCHES 
   target_compile_options(ossa_warnings INTERFACE -Werror)
 endif()
 
-# What hardens our code and only ours against what a hostile file makes of a mistake. Tables of
-# addresses are closed after loading, always; stacks whose overrun is seen, checked library calls and
-# containers are an option: docs/benchmarks/robustness.md says what they cost.
-option(OSSA_HARDEN "Compile our targets with stack protector, fortified calls and library assertions" OFF)
+# What hardens our code and only ours against what a hostile file makes of a mistake: stacks whose
+# overrun is seen, checked library calls and containers, tables of addresses that are closed after
+# loading. Tests need none of it, and sanitizers see more than any of it.
+# docs/benchmarks/robustness.md says what they cost.
+set(OSSA_HARDEN ON CACHE STRING "ON, OFF or a list: stack, fortify, assertions, relro")
+set(hardened ${OSSA_HARDEN})
+if(OSSA_SANITIZE)
+  set(hardened relro)
+elseif(OSSA_HARDEN STREQUAL "ON")
+  set(hardened stack fortify assertions relro)
+endif()
 add_library(ossa_hardening INTERFACE)
-target_link_options(ossa_hardening INTERFACE -Wl,-z,relro,-z,now)
-if(OSSA_HARDEN)
+if("relro" IN_LIST hardened)
+  target_link_options(ossa_hardening INTERFACE -Wl,-z,relro,-z,now)
+endif()
+if("stack" IN_LIST hardened)
   target_compile_options(ossa_hardening INTERFACE -fstack-protector-strong)
+endif()
+if("assertions" IN_LIST hardened)
   target_compile_definitions(ossa_hardening INTERFACE _GLIBCXX_ASSERTIONS)
-  if(NOT OSSA_SANITIZE)  # which check the calls themselves; needs an optimiser to see the sizes
-    target_compile_options(ossa_hardening INTERFACE
-      $<$<NOT:$<CONFIG:Debug>>:-U_FORTIFY_SOURCE> $<$<NOT:$<CONFIG:Debug>>:-D_FORTIFY_SOURCE=2>)
-  endif()
+endif()
+if("fortify" IN_LIST hardened)  # by an optimiser, which sees the sizes
+  target_compile_options(ossa_hardening INTERFACE
+    $<$<NOT:$<CONFIG:Debug>>:-U_FORTIFY_SOURCE> $<$<NOT:$<CONFIG:Debug>>:-D_FORTIFY_SOURCE=2>)
 endif()
 
+# ossa_common(TARGET), of what people run; ossa_plain(TARGET), of what only tries that.
 function(ossa_common target)
-  target_link_libraries(${target} PRIVATE $<BUILD_INTERFACE:ossa_warnings>
-                        $<BUILD_INTERFACE:ossa_hardening>)
+  ossa_plain(${target})
+  target_link_libraries(${target} PRIVATE $<BUILD_INTERFACE:ossa_hardening>)
+endfunction()
+
+function(ossa_plain target)
+  target_link_libraries(${target} PRIVATE $<BUILD_INTERFACE:ossa_warnings>)
   target_include_directories(${target} PRIVATE ${ossa_SOURCE_DIR})
   if(OSSA_SANITIZE)
     target_compile_options(${target} PRIVATE -fsanitize=${OSSA_SANITIZE} -fno-omit-frame-pointer
@@ -70,7 +86,7 @@ endfunction()
 function(ossa_test name)
   cmake_parse_arguments(ARG "" "" "SOURCES;LIBS;LABELS" ${ARGN})
   add_executable(${name} ${ARG_SOURCES})
-  ossa_common(${name})
+  ossa_plain(${name})
   ossa_precompile(${name} ossa_test_headers)
   # What a test spends its time on is in the libraries: a better optimiser only costs building time.
   # With -O1 GCC 12 takes copies of an empty std::optional for reads of what it does not hold.
