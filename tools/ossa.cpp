@@ -22,6 +22,7 @@ constexpr std::array kCommands = {
     Command{"refine", "learn a stage that refines a forest's joints at the depth image",
             ossa::commands::Refine},
     Command{"prior", "learn from motion capture how people move", ossa::commands::Prior},
+    Command{"surface", "make the body that the surface fit poses", ossa::commands::Surface},
     Command{"reconstruct", "make recorded skeletons complete and plausible",
             ossa::commands::Reconstruct},
     Command{"info", "say what a file of ossa's holds", ossa::commands::Info},

@@ -59,6 +59,8 @@ class BodyModel {
   const std::vector<BodyLayer>& vertex_layer() const { return vertex_layer_; }
   /// Part label of each vertex (that of one of its triangles).
   const std::vector<uint8_t>& vertex_part() const { return vertex_part_; }
+  /// Number of the rig's bone that moves the vertex most.
+  size_t MainBone(size_t vertex) const { return influence_[vertex].bone[0]; }
   /// The neutral position of each vertex, metres: to say where on the body a vertex is.
   const std::vector<Eigen::Vector3f>& base_m() const { return base_m_; }
 

@@ -10,6 +10,7 @@ int Database(int argc, char** argv);
 int Learn(int argc, char** argv);
 int Refine(int argc, char** argv);
 int Prior(int argc, char** argv);
+int Surface(int argc, char** argv);
 int Reconstruct(int argc, char** argv);
 int Info(int argc, char** argv);
 int Record(int argc, char** argv);

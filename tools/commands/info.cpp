@@ -13,6 +13,7 @@
 #include "forest/forest.h"
 #include "recon/database/posture_database.h"
 #include "recon/files/skeleton_io.h"
+#include "recon/fit/body_surface.h"
 #include "recon/models/learned_models.h"
 #include "recon/models/posture_prior.h"
 #include "recon/refine/bone_estimation.h"
@@ -117,6 +118,13 @@ void ShowPrior(const fs::path& path) {
       prior.network.empty() ? 0 : prior.network.layers.front().bias.size());
 }
 
+void ShowSurface(const fs::path& path) {
+  const auto surface = recon::BodySurface::Load(path);
+  fmt::print("body surface, {} points, {} components of shape, mean stature {:.2f} m, {:.1f} kB\n",
+             surface.points.size(), recon::kShapeCount, surface.stature_mean_m,
+             static_cast<double>(fs::file_size(path)) * 1e-3);
+}
+
 void ShowRefinement(const fs::path& path) {
   const auto cascade = recon::RefinementCascade::Load(path);
   // How many people earlier stages were learned from the file does not keep.
@@ -205,6 +213,7 @@ constexpr std::array kKinds = {
     FileKind{recon::PostureDatabase::IsOne, ShowDatabase, ".ossadb"},
     FileKind{recon::LearnedModels::IsOne, ShowLearned, ".ossagp"},
     FileKind{recon::PosturePrior::IsOne, ShowPrior, ".ossaprior"},
+    FileKind{recon::BodySurface::IsOne, ShowSurface, ".ossasurface"},
     FileKind{recon::RefinementCascade::IsFile, ShowRefinement, ".ossarefine"},
     FileKind{tools::IsDataset, ShowDataset},
 };
@@ -237,11 +246,10 @@ int Info(int argc, char** argv) {
   AddSourceOptions(app, file);
   AddRotateOption(app, file);
   app.get_option("SOURCE")->description(
-      "a .ossa, .ossadb, .ossagp, .ossaprior, .ossarefine or skeleton file, FILE#truth, a DATASET, "
-      "a "
-      "folder of skeleton files, or depth images: .oni, .mkv, .bag, FILE.bag#/topic, a 16-bit PNG "
-      "or "
-      "a folder of them. The options say how depth images are read");
+      "a .ossa, .ossadb, .ossagp, .ossaprior, .ossarefine, .ossasurface or skeleton file, "
+      "FILE#truth, a DATASET, a folder of skeleton files, or depth images: .oni, .mkv, .bag, "
+      "FILE.bag#/topic, a 16-bit PNG or a folder of them. The options say how depth images are "
+      "read");
   Parse(app, argc, argv);
   ExpectIsThere(file.name);
   // Who says how depths are read wants to see them so, a DATASET's, too.

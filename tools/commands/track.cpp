@@ -41,7 +41,7 @@ using std::chrono::milliseconds;
 struct TrackOptions {
   SourceArguments source;
   std::string out, json_stats, picture, pictures, trace;
-  std::string smoothing, posture = "final", mode = "standing";
+  std::string smoothing, posture = "final", mode = "standing", fit = "off";
   MechanicsOptions mechanics;
   BonesOption bones;
   BvhNamesOption bvh_names;
@@ -69,6 +69,12 @@ void AddTrackerOptions(CLI::App& app, TrackOptions& options) {
   app.add_option("--refinement,--look", files.refinement,
                  ".ossarefine of 'ossa refine', for best and --posture refined, or none (default: "
                  "with best and the shipped model the shipped one)");
+  app.add_option("--surface", files.surface,
+                 ".ossasurface of 'ossa surface', for --fit (default: the shipped one)");
+  app.add_option("--fit", options.fit,
+                 "on: fit the body's surface to the depth image, from the refined joints on "
+                 "(default off)")
+      ->check(CLI::IsMember({"on", "off"}));
   app.add_option("--method", t.method, "how postures are completed (default best)")
       ->check(CLI::IsMember(recon::ReconstructionMethods()));
   AddMechanicsOptions(app, options.mechanics);
@@ -176,6 +182,11 @@ TrackOptions ParseOptions(int argc, char** argv) {
   CheckOutputs({options.out, options.json_stats, options.picture, options.pictures, options.trace},
                {options.source.name});
   options.tracker.turn = TurnOf(options.source);
+  if (options.fit == "on" && options.files.surface == "none") {
+    throw UsageError(
+        "--fit on: expected --surface FILE.ossasurface of 'ossa surface' with it, found none");
+  }
+  if (options.fit == "on") options.tracker.fit = recon::SurfaceFitOptions{};
   options.tracker.physics = options.mechanics.on();
   options.tracker.mechanics = options.mechanics.build;
   if (!options.smoothing.empty()) {

@@ -11,6 +11,7 @@ std::vector<Table> RunBody(ExperimentContext& context);
 std::vector<Table> RunSensor(ExperimentContext& context);
 /// Real depth: each stage of the tracker on every real set, with truth and without.
 std::vector<Table> RunReal(ExperimentContext& context);
+std::vector<Table> RunFit(ExperimentContext& context);
 /// Every method on every real recording, the SDK's own skeletons as the baseline.
 std::vector<Table> RunSdk(ExperimentContext& context);
 /// Fits the weights in tools/people/person_classifier_weights.inc.

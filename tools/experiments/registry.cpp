@@ -16,6 +16,7 @@ constexpr Experiment kExperiments[] = {
      RunIndoorScenes},
     {"real", "real depth: each stage of the tracker on every real set, with truth and without",
      RunReal},
+    {"fit", "the surface fit on real stills, with each of its terms and without", RunFit},
     {"sdk", "every method on every real recording; the SDK's skeletons as the baseline", RunSdk},
     {"shum-ho-2012", "the physical character: the paper's scenes, the filter, fig. 5",
      RunShumHo2012},

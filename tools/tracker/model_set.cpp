@@ -6,6 +6,7 @@
 #include "depth/base/large_pages.h"
 #include "forest/forest.h"
 #include "recon/database/posture_database.h"
+#include "recon/fit/body_surface.h"
 #include "recon/models/learned_models.h"
 #include "recon/models/posture_prior.h"
 #include "recon/refine/refinement_cascade.h"
@@ -45,6 +46,12 @@ std::shared_ptr<const recon::JointRefiner> LoadRefinement(const ModelFiles& file
       recon::RefinementCascade::Load(NamedOrShipped(files.refinement, recon::kShippedRefinement)));
   ReturnFreedMemory();
   return refinement;
+}
+
+std::shared_ptr<const recon::BodySurface> LoadSurface(const ModelFiles& files) {
+  if (files.surface == kWithout) return nullptr;
+  return std::make_shared<recon::BodySurface>(
+      recon::BodySurface::Load(NamedOrShipped(files.surface, recon::kShippedSurface)));
 }
 
 // What is known of the errors that a refinement leaves in the shipped forest's joints is shipped
@@ -103,6 +110,7 @@ ModelSet ModelSet::Load(const ModelFiles& files, std::string_view method) {
   set.forest_file = files.forest.empty() ? kForest : files.forest;
   set.forest = std::make_shared<forest::ForestModel>(
       forest::ReadForestModel(forest, forest::ModelUse::kRunOnly));
+  set.surface = LoadSurface(files);
   set.database = LoadDatabase(files, method);
   set.prior = LoadPrior(files, method);
   set.learned = LoadLearned(files, info, set.refinement != nullptr);

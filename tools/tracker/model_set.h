@@ -11,6 +11,7 @@ class ForestModel;  // forest/forest.h
 namespace ossa::recon {
 class JointRefiner;     // recon/refine/refinement_cascade.h
 class PostureDatabase;  // recon/database/posture_database.h
+struct BodySurface;     // recon/fit/body_surface.h
 struct LearnedModels;   // recon/models/learned_models.h
 struct PosturePrior;    // recon/models/posture_prior.h
 }  // namespace ossa::recon
@@ -23,6 +24,7 @@ struct ModelFiles {
   std::string forest;      // .ossa; "": the shipped one
   std::string refinement;  // .ossalook; "": the shipped one of the shipped forest, for methods that
                            // start from refined joints
+  std::string surface;     // .ossasurface; "": the shipped one
   std::string learned;     // .ossagp; "": what is known of the errors that the shipped forest and a
                            // refinement leave, for methods that take a correction
   std::string prior;       // .ossaprior; "": the shipped one, for methods that complete by a prior
@@ -35,6 +37,7 @@ struct ModelFiles {
 struct ModelSet {
   std::shared_ptr<const forest::ForestModel> forest;       // body parts and joint proposals; needed
   std::shared_ptr<const recon::JointRefiner> refinement;   // moves its joints at the depth image
+  std::shared_ptr<const recon::BodySurface> surface;       // whose fit explains the depth
   std::shared_ptr<const recon::LearnedModels> learned;     // the correction of systematic errors
   std::shared_ptr<const recon::PosturePrior> prior;        // of postures: joints unseen from seen
   std::shared_ptr<const recon::PostureDatabase> database;  // postures to look up

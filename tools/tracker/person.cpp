@@ -91,6 +91,22 @@ recon::JointArray<JointEstimate> Estimates(const recon::Posture& posture,
   return joints;
 }
 
+// What the method of reconstruction starts from: the joints that the latest stage says. A body's
+// fit says all of them, also of joints that are not seen.
+recon::TrackedPosture Observed(const Body& body, bool refined) {
+  constexpr double kOfFit = 0.3;  // confidence; by hand, that of a poor guess
+  recon::TrackedPosture seen = body.raw;
+  if (body.refined && refined) seen.posture = *body.refined;
+  if (!body.fit) return seen;
+  seen.posture = body.fit->joints_m;
+  for (size_t j = 0; j < kJointCount; ++j) {
+    if (seen.state[j] != TrackingState::kNotTracked) continue;
+    seen.state[j] = TrackingState::kInferred;
+    seen.confidence[j] = kOfFit;
+  }
+  return seen;
+}
+
 }  // namespace
 
 recon::Posture ToPosture(const Body& body) {
@@ -131,11 +147,11 @@ void CompleteBody(const depth::DepthFrame& frame, const std::optional<Eigen::Vec
   const auto start = Clock::now();
   if (!person.reconstructor) person.reconstructor = MethodFor(body.id, options);
   const recon::MethodInfo& method = recon::MethodNamed(options.reconstructor.method);
-  recon::TrackedPosture seen = body.raw;
-  if (body.refined && method.refined) seen.posture = *body.refined;
+  const recon::TrackedPosture seen = Observed(body, method.refined);
   const recon::TrackedPosture averaged = person.stationary.Step(seen, frame.time_s);
-  const auto result =
-      person.reconstructor->Step({averaged, frame.time_s, &frame, body.refined_bones_m});
+  std::optional<recon::BoneLengths> bones_m = body.refined_bones_m;
+  if (body.fit) bones_m = recon::MeasureBoneLengths(body.fit->joints_m);
+  const auto result = person.reconstructor->Step({averaged, frame.time_s, &frame, bones_m});
   body.reconstructed = result.posture;
   body.bones_m = person.reconstructor->Bones();
   ms.reconstruct += MillisecondsSince(start);

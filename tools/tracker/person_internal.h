@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "recon/filters/stationary_average.h"
+#include "recon/fit/surface_fit.h"
 #include "recon/methods/reconstructor.h"
 #include "recon/refine/bone_estimation.h"
 #include "tools/tracker/choose_posture_internal.h"
@@ -22,6 +23,8 @@ struct Person {
   recon::MeanBoneLengths bones;                 // as the cascade estimated them until now
   std::optional<recon::TrackedPosture> before;  // of the last frame it was tracked in
   recon::StationaryPosture stationary;          // averages what stands still
+  std::unique_ptr<recon::SurfaceFitter> fitter;
+  recon::PersonShape shape;  // by surface fits until now
   std::unique_ptr<recon::Reconstructor> reconstructor;
   std::unique_ptr<Mechanics> mechanics;
   recon::JointArray<Eigen::Vector3d> occlusion_offset_m = NoMoves();  // out of free space

@@ -13,6 +13,7 @@
 #include "forest/forest.h"
 #include "recon/refine/refinement_cascade.h"
 #include "tools/people/detect_people.h"
+#include "tools/tracker/fit_surface_internal.h"
 #include "tools/tracker/person_internal.h"
 #include "tools/tracker/refine_joints_internal.h"
 #include "tools/tracker/upright.h"
@@ -114,6 +115,9 @@ struct Tracker::Impl {
     complete.bones_m = o.bones_m;
     recon::MakeReconstructor(complete.reconstructor);  // says now what is wrong with the options
     for (const auto& [id, lengths_m] : o.bones_m) MethodFor(id, complete);
+    if (o.fit && !models.surface) {
+      throw std::invalid_argument("TrackerOptions.models.surface = null, must be one for a fit");
+    }
     people_options.scene.max_depth_m = o.near_range ? 3.0F : 6.0F;
     people_options.initiation.max_users = o.max_users;
     people_options.threads = o.threads;
@@ -222,6 +226,15 @@ void Tracker::Impl::TrackBody(const depth::DepthFrame& frame,
     }
     ms.reconstruct += MillisecondsSince(start);
   }
+  if (options.fit) {
+    const auto start = Clock::now();
+    if (!person.fitter) {
+      person.fitter = std::make_unique<recon::SurfaceFitter>(*models.surface, *options.fit);
+    }
+    body.fit = FitSurface(frame, detection, body, person);
+    ms.fit = MillisecondsSince(start);
+    ms.reconstruct += ms.fit;
+  }
   for (size_t j = 0; j < recon::kJointCount; ++j) {
     if (options.mode == TrackingMode::kStanding || IsSeatedJoint(static_cast<recon::Joint>(j)))
       continue;
@@ -269,6 +282,7 @@ BodyFrame Tracker::Impl::Track(const depth::DepthFrame& frame) {
   for (const StageTimes& t : times) {
     result.ms.reconstruct += t.reconstruct;
     result.ms.physics += t.physics;
+    result.ms.fit += t.fit;
   }
   std::sort(result.bodies.begin(), result.bodies.end(),
             [](const Body& a, const Body& b) { return a.id < b.id; });
@@ -286,6 +300,7 @@ void TrackerOptions::Check() const {
                                 ", must be in [1, 256]");
   }
   if (smoothing) smoothing->Check();
+  if (fit) fit->Check();
 }
 
 Tracker::Tracker(const TrackerOptions& options) {

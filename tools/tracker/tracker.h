@@ -11,6 +11,7 @@
 
 #include "depth/image/depth_frame.h"
 #include "depth/image/image.h"
+#include "recon/fit/surface_fit.h"
 #include "recon/methods/reconstructor.h"
 #include "recon/posture.h"
 #include "tools/people/decision.h"
@@ -87,7 +88,10 @@ struct Body {
   /// Stage 2, the refinement cascade at the depth image: the raw joints moved; absent without one.
   std::optional<recon::Posture> refined;
   std::optional<recon::BoneLengths> refined_bones_m;  // as it judges them in this frame alone
-  /// Stage 3, the method of reconstruction: made complete, plausible and steady.
+  /// Stage 3, the body whose surface explains the depth: with TrackerOptions::fit, where the image
+  /// shows enough of the person.
+  std::optional<recon::SurfaceFit> fit;
+  /// Stage 4, the method of reconstruction: made complete, plausible and steady.
   recon::Posture reconstructed;
   std::optional<recon::BoneLengths> bones_m;  // by all frames until now, of methods that keep bones
 };
@@ -102,6 +106,7 @@ recon::JointOrientations HierarchicalOrientationsOf(const Body& body);
 /// than the sum. Looks at furniture count with the stages.
 struct StageTimes {
   double segment = 0, classify = 0, propose = 0, reconstruct = 0, physics = 0, total = 0;
+  double fit = 0;  // of the surface, within `reconstruct`
 };
 
 /// What the tracker says of one depth frame.
@@ -138,8 +143,11 @@ struct TrackerOptions {
   std::string method{recon::kDefaultMethod};  // one of recon::ReconstructionMethods()
   std::optional<ModelSet> models;             // left out: ModelSet::Shipped(method)
   bool physics = false;                       // let the mechanical character follow the posture
-  MechanicsBuild mechanics;                   // how that is built
-  recon::LocalPcaOptions local_pca;           // of shum-2013 and plantard-2016
+  /// Fit the body's surface to the depth image, from the refined joints on, and let the method
+  /// start from the fitted body's joints. Left out: no fit.
+  std::optional<recon::SurfaceFitOptions> fit;
+  MechanicsBuild mechanics;                        // how that is built
+  recon::LocalPcaOptions local_pca;                // of shum-2013 and plantard-2016
   recon::GaussianProcessOptions gaussian_process;  // of liu-2016 and full-gp
   recon::BestOptions best;                         // of best; `refined_joints` follows the models
   /// Left out: what goes with the method (recon::MethodInfo::smoothing). One that is a filter

@@ -92,11 +92,13 @@ StillResult JudgeStill(const RealSet& set, const RealStill& still, tracker::Trac
   tracker.Reset();
   const tracker::BodyFrame answer = tracker.Track(still.frame);
   result.bodies = answer.bodies.size();
+  result.fit_ms = answer.ms.fit;
   double nearest = std::numeric_limits<double>::infinity();
   for (const tracker::Body& body : answer.bodies) {
     const JointErrors raw = ErrorsOfBody(set, still, JointsAtStage(body, RealStage::kRaw));
     if (!(MeanLength(raw) < nearest)) continue;
     nearest = MeanLength(raw);
+    result.fit = body.fit;
     for (const RealStage stage : kRealStages) {
       result.errors[stage] = ErrorsOfBody(set, still, JointsAtStage(body, stage));
     }

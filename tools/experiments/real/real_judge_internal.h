@@ -24,7 +24,9 @@ using JointErrors = std::vector<std::optional<Eigen::Vector3d>>;
 struct StillResult {
   size_t bodies = 0;
   std::map<RealStage, JointErrors> errors;
-  std::vector<bool> has_truth;  // by joint
+  std::vector<bool> has_truth;             // by joint
+  std::optional<recon::SurfaceFit> fit{};  // of the judged body, with TrackerOptions::fit
+  double fit_ms = 0.0;                     // of all bodies
 };
 
 /// A still, seen alone: the tracker is reset first. Of several bodies the one whose raw joints are

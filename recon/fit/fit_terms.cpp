@@ -1,0 +1,185 @@
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "recon/body/parts.h"
+#include "recon/fit/fit_terms_internal.h"
+
+namespace ossa::recon {
+namespace {
+
+using PartTable = std::array<std::array<bool, kPartCount + 1>, kPartCount + 1>;
+
+// By the part labels of Shotton et al. 2011 (recon/body/parts.h).
+constexpr std::array<std::array<uint8_t, 2>, 40> kTouching = {
+    {{1, 2},   {1, 3},   {2, 4},   {3, 4},   {3, 5},   {4, 5},   {5, 6},   {5, 7},
+     {5, 18},  {5, 19},  {6, 8},   {6, 18},  {8, 12},  {12, 10}, {10, 14}, {14, 16},
+     {7, 9},   {7, 19},  {9, 13},  {13, 11}, {11, 15}, {15, 17}, {18, 19}, {18, 20},
+     {19, 21}, {20, 21}, {20, 22}, {21, 23}, {22, 23}, {22, 26}, {26, 24}, {24, 28},
+     {28, 30}, {23, 27}, {27, 25}, {25, 29}, {29, 31}, {8, 18},  {9, 19},  {16, 14}}};
+
+constexpr PartTable kAdjacent = [] {
+  PartTable table{};
+  for (size_t i = 0; i < table.size(); ++i) table[i][i] = true;
+  for (const auto& [a, b] : kTouching) table[a][b] = table[b][a] = true;
+  return table;
+}();
+
+// Geman and McClure 1987: the weight of a residual of this square.
+double RobustWeight(double squared, double scale) {
+  const double share = scale * scale / (scale * scale + squared);
+  return share * share;
+}
+
+// Two directions across a unit vector, and across each other.
+std::array<Eigen::Vector3d, 2> Across(const Eigen::Vector3d& unit) {
+  const Eigen::Vector3d a = unit.unitOrthogonal();
+  return {a, unit.cross(a)};
+}
+
+}  // namespace
+
+bool AreAdjacentParts(uint8_t a, uint8_t b) { return kAdjacent[a][b]; }
+
+void FacingPoints::Gather(const PosedSurface& posed) {
+  points_.clear();
+  place_m_.clear();
+  runs_.clear();
+  const auto& points = posed.surface().points;
+  for (size_t i = 0; i < points.size(); ++i) {
+    if (!posed.FacesCamera(i)) continue;
+    if (runs_.empty() || runs_.back().part != points[i].part) {
+      runs_.push_back({points_.size(), 0, points[i].part, Eigen::Vector3d::Zero(), 0.0});
+    }
+    points_.push_back(static_cast<uint32_t>(i));
+    place_m_.push_back(posed.at_m()[i]);
+    runs_.back().end = points_.size();
+    runs_.back().middle_m += posed.at_m()[i];
+  }
+  for (Run& run : runs_) {
+    run.middle_m /= static_cast<double>(run.end - run.begin);
+    for (size_t k = run.begin; k < run.end; ++k) {
+      run.radius_m = std::max(run.radius_m, (place_m_[k] - run.middle_m).norm());
+    }
+  }
+}
+
+int FacingPoints::Nearest(const SeenPerson::Pixel& pixel, const SurfaceFitOptions& options) const {
+  double least = std::numeric_limits<double>::infinity();
+  int nearest = -1;
+  const auto search = [&](const Run& run) {
+    double more = 0.0;
+    if (pixel.part != 0 && pixel.part != run.part) {
+      more = kAdjacent[pixel.part][run.part] ? options.adjacent_part_m : options.other_part_m;
+    }
+    more *= more;
+    const double away_m = std::max(0.0, (run.middle_m - pixel.at_m).norm() - run.radius_m);
+    if (away_m * away_m + more >= least) return;
+    for (size_t k = run.begin; k < run.end; ++k) {
+      const double distance2 = (place_m_[k] - pixel.at_m).squaredNorm() + more;
+      if (distance2 < least) least = distance2, nearest = static_cast<int>(points_[k]);
+    }
+  };
+  // The pixel's own part first: what is found there spares most of the others.
+  for (const Run& run : runs_) {
+    if (run.part == pixel.part) search(run);
+  }
+  for (const Run& run : runs_) {
+    if (run.part != pixel.part) search(run);
+  }
+  return nearest;
+}
+
+void AddPixels(const PosedSurface& posed, const FacingPoints& facing, const SeenPerson& seen,
+               const SurfaceFitOptions& options, NormalEquations& equations) {
+  for (const SeenPerson::Pixel& pixel : seen.pixels()) {
+    const int found = facing.Nearest(pixel, options);
+    if (found < 0) return;
+    const auto i = static_cast<size_t>(found);
+    const SurfacePoint& point = posed.surface().points[i];
+    const Eigen::Vector3d &at_m = posed.at_m()[i], &normal = posed.normal()[i];
+    const Eigen::Vector3d off_m = at_m - pixel.at_m;
+    const double weight =
+        seen.pixel_share() * pixel.weight * RobustWeight(off_m.squaredNorm(), options.robust_m);
+    const auto add = [&](const Eigen::Vector3d& along, double share) {
+      equations.Add(point.segment,
+                    RowOfPlace(posed, point.segment, at_m, along, point.place.by_shape_m),
+                    off_m.dot(along), share * weight);
+    };
+    add(normal, 1.0 + options.along_share);
+    for (const Eigen::Vector3d& along : Across(normal)) add(along, options.along_share);
+  }
+}
+
+void AddSilhouette(const PosedSurface& posed, const SeenPerson& seen,
+                   const SurfaceFitOptions& options, NormalEquations& equations) {
+  using Sight = SeenPerson::Sight;
+  const auto& points = posed.surface().points;
+  const double share =
+      static_cast<double>(options.most_pixels) / static_cast<double>(points.size());
+  const double full = share / (options.silhouette_m * options.silhouette_m);
+  for (size_t i = 0; i < points.size(); ++i) {
+    const Eigen::Vector3d& at_m = posed.at_m()[i];
+    const SeenPerson::SightAt at = seen.At(at_m);
+    Eigen::Vector3d along = Eigen::Vector3d::UnitZ();
+    double off_m = 0.0, weight = full;
+    if (at.sight == Sight::kPerson) {
+      if (!options.free_space || !posed.FacesCamera(i) || at.behind_m < options.free_space_m) {
+        continue;
+      }
+      off_m = 0.5 * options.free_space_m - at.behind_m;
+      weight *= options.free_space_share;
+    } else if (at.sight == Sight::kBeside || at.sight == Sight::kNoReading) {
+      off_m = -at.way_m.norm();
+      if (!options.silhouette || off_m == 0.0) continue;
+      along = at.way_m / -off_m;
+      if (at.sight == Sight::kNoReading) weight *= options.no_reading_share;
+    } else {
+      continue;
+    }
+    const size_t s = points[i].segment;
+    equations.Add(s, RowOfPlace(posed, s, at_m, along, points[i].place.by_shape_m), off_m,
+                  weight * RobustWeight(off_m * off_m, options.silhouette_robust_m));
+  }
+}
+
+void AddJoints(const PosedSurface& posed, const SurfaceFitInput& input,
+               const SurfaceFitOptions& options, NormalEquations& equations) {
+  for (size_t j = 0; j < kJointCount; ++j) {
+    if (!input.confidence[j]) continue;
+    const size_t s = posed.surface().landmark_segment[j];
+    const Eigen::Vector3d at_m = posed.LandmarkAt(j);
+    const Eigen::Vector3d off_m = at_m - input.joints_m.position_m[j];
+    const double doubt = options.doubt * (1.0 - std::clamp(*input.confidence[j], 0.0, 1.0));
+    const double sigma_m = options.joint_m * (1.0 + doubt);
+    const double weight =
+        RobustWeight(off_m.squaredNorm(), options.joint_robust_m) / (sigma_m * sigma_m);
+    const ShapeBasis& by_shape_m = posed.surface().landmark[j].by_shape_m;
+    for (int axis = 0; axis < 3; ++axis) {
+      FitRow row = RowOfPlace(posed, s, at_m, Eigen::Vector3d::Unit(axis), by_shape_m);
+      row.tail<kShapeCount>() *= options.joint_shapes;
+      equations.Add(s, row, off_m[axis], weight);
+    }
+  }
+}
+
+void AddPriors(const PosedSurface& posed, const SurfaceFitInput& input,
+               const SurfaceFitOptions& options, NormalEquations& equations) {
+  constexpr double kMostFrames =
+      20.0;  // by hand, frames: a person may be taken for another for a while
+  const BodySurface& surface = posed.surface();
+  for (size_t s = 1; s < kSegmentCount; ++s) {
+    // A turn in the camera's axes changes the rotation vector by about the turn in the parent's.
+    const Eigen::Matrix3d& camera_from = posed.camera_from(ParentSegment(s));
+    const Eigen::Vector3d to_rad =
+        surface.turn_mean[s] - RotationVectorOf(posed.pose().parent_from_segment[s]);
+    equations.AddTurn(
+        s,
+        options.turn_weight * camera_from * surface.turn_information[s] * camera_from.transpose(),
+        camera_from * to_rad);
+  }
+  const double frames = std::min(kMostFrames, static_cast<double>(input.shape_frames));
+  equations.AddShape(options.shape_weight * (1.0 + frames), input.shape - posed.pose().shape);
+}
+
+}  // namespace ossa::recon

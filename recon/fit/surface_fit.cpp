@@ -1,0 +1,220 @@
+#include "recon/fit/surface_fit.h"
+
+#include <fmt/format.h>
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <cmath>
+#include <stdexcept>
+#include <vector>
+
+#include "recon/fit/fit_terms_internal.h"
+#include "recon/fit/normal_equations.h"
+#include "recon/fit/pose_from_joints.h"
+#include "recon/fit/seen_person_internal.h"
+
+namespace ossa::recon {
+namespace {
+
+// Constants: chosen by hand.
+
+constexpr double kExplained_m = 0.03;    // a pixel this near to the surface is explained by it
+constexpr double kFarAside_m = 0.06;     // a point farther off than this explains no pixel
+constexpr double kSeenThrough_m = 0.08;  // a surface this far behind a point is seen through it
+constexpr double kUnexplained_m = 1.0;   // said of a pixel that nothing explains
+
+void CheckPositive(const char* name, double value) {
+  if (value > 0.0 && std::isfinite(value)) return;
+  throw std::invalid_argument(
+      fmt::format("SurfaceFitOptions.{} = {}, must be positive", name, value));
+}
+
+bool IsUsable(const SurfaceFitInput& input) {
+  for (const Eigen::Vector3d& joint_m : input.joints_m.position_m) {
+    if (!joint_m.allFinite()) return false;
+  }
+  return true;
+}
+
+void CheckPixels(const char* name, std::span<const int32_t> pixels, const depth::DepthFrame& in) {
+  const auto count = static_cast<int64_t>(in.depth_mm.size());
+  for (const int32_t pixel : pixels) {
+    if (pixel >= 0 && pixel < count) continue;
+    throw std::invalid_argument(
+        fmt::format("SurfaceFitInput.{}: {} of an image of {}", name, pixel, count));
+  }
+}
+
+void CheckInput(const SurfaceFitInput& input) {
+  if (input.depth == nullptr) throw std::invalid_argument("SurfaceFitInput.depth = null");
+  if (input.parts.size() != input.samples.size() || input.sample_step < 1) {
+    throw std::invalid_argument(fmt::format("SurfaceFitInput.parts: {} labels of {} pixels",
+                                            input.parts.size(), input.samples.size()));
+  }
+  CheckPixels("pixels", input.pixels, *input.depth);
+  CheckPixels("samples", input.samples, *input.depth);
+}
+
+}  // namespace
+
+void SurfaceFitOptions::Check() const {
+  CheckPositive("pixel_m", pixel_m);
+  CheckPositive("robust_m", robust_m);
+  CheckPositive("silhouette_m", silhouette_m);
+  CheckPositive("silhouette_robust_m", silhouette_robust_m);
+  CheckPositive("joint_m", joint_m);
+  CheckPositive("joint_robust_m", joint_robust_m);
+  CheckPositive("retry_joint_m", retry_joint_m);
+  CheckPositive("retry_robust_m", retry_robust_m);
+  CheckPositive("most_pixels", static_cast<double>(most_pixels));
+}
+
+struct SurfaceFitter::Impl {
+  SurfaceFitOptions options;
+  PosedSurface posed;
+  SeenPerson seen;
+  FacingPoints facing;
+  NormalEquations equations;
+  std::vector<double> distances_m;
+
+  Impl(const BodySurface& surface, const SurfaceFitOptions& o) : options(o), posed(surface) {}
+
+  void Pose(const SurfacePose& pose) {
+    posed.PoseSegments(pose);
+    posed.PosePoints();
+    facing.Gather(posed);
+  }
+  void StartFrom(const SurfaceFitInput& input);
+  void Iterate(const SurfaceFitInput& input, const SurfaceFitOptions& with, int times);
+  void Retry(const SurfaceFitInput& input, SurfaceFit& fit);
+  void Judge(SurfaceFit& fit);
+  double SeenThroughShare() const;
+};
+
+void SurfaceFitter::Impl::StartFrom(const SurfaceFitInput& input) {
+  SurfacePose pose = PoseFromJoints(posed.surface(), input.joints_m);
+  pose.shape = input.shape;
+  posed.PoseSegments(pose);
+  for (int i = 0; i < options.start_iterations; ++i) {
+    equations.Clear();
+    AddJoints(posed, input, options, equations);
+    equations.Assemble(posed);
+    AddPriors(posed, input, options, equations);
+    posed.PoseSegments(Moved(posed, equations.Solve(options.damping), options.most_turn_rad));
+  }
+  Pose(posed.pose());
+}
+
+void SurfaceFitter::Impl::Iterate(const SurfaceFitInput& input, const SurfaceFitOptions& with,
+                                  int times) {
+  for (int i = 0; i < times; ++i) {
+    equations.Clear();
+    AddJoints(posed, input, with, equations);
+    if (with.pixels) AddPixels(posed, facing, seen, with, equations);
+    if (with.silhouette || with.free_space) AddSilhouette(posed, seen, with, equations);
+    equations.Assemble(posed);
+    AddPriors(posed, input, with, equations);
+    Pose(Moved(posed, equations.Solve(with.damping), with.most_turn_rad));
+  }
+}
+
+// Of the points that face the camera.
+double SurfaceFitter::Impl::SeenThroughShare() const {
+  size_t seen_count = 0, through = 0;
+  for (const uint32_t i : facing.points()) {
+    const SeenPerson::SightAt at = seen.At(posed.at_m()[i]);
+    using Sight = SeenPerson::Sight;
+    if (at.sight == Sight::kNothing) continue;
+    ++seen_count;
+    const bool on_something = at.sight == Sight::kPerson || at.sight == Sight::kBeside;
+    through += on_something && at.behind_m > kSeenThrough_m;
+  }
+  return seen_count == 0 ? 1.0 : static_cast<double>(through) / static_cast<double>(seen_count);
+}
+
+void SurfaceFitter::Impl::Judge(SurfaceFit& fit) {
+  std::array<double, kSegmentCount> sum{};
+  std::array<size_t, kSegmentCount> count{};
+  distances_m.clear();
+  size_t explained = 0;
+  for (const SeenPerson::Pixel& pixel : seen.pixels()) {
+    double distance_m = kUnexplained_m;
+    const int found = facing.Nearest({pixel.at_m, 0, 0.0}, options);  // of whichever part
+    if (found >= 0) {
+      const auto i = static_cast<size_t>(found);
+      const Eigen::Vector3d off_m = posed.at_m()[i] - pixel.at_m;
+      const size_t s = posed.surface().points[i].segment;
+      sum[s] += off_m.squaredNorm(), ++count[s];
+      const double along_m = std::abs(off_m.dot(posed.normal()[i]));
+      if (off_m.squaredNorm() < kFarAside_m * kFarAside_m) distance_m = along_m;
+    }
+    explained += distance_m < kExplained_m;
+    distances_m.push_back(distance_m);
+  }
+  const auto middle = distances_m.begin() + static_cast<std::ptrdiff_t>(distances_m.size() / 2);
+  std::nth_element(distances_m.begin(), middle, distances_m.end());
+  fit.median_residual_m = *middle;
+  fit.explained = static_cast<double>(explained) / static_cast<double>(distances_m.size());
+  fit.score = fit.explained - SeenThroughShare();
+  for (size_t s = 0; s < kSegmentCount; ++s) {
+    fit.residual_m[s].reset();
+    if (count[s] > 0) fit.residual_m[s] = std::sqrt(sum[s] / static_cast<double>(count[s]));
+  }
+  fit.pose = posed.pose();
+}
+
+void SurfaceFitter::Impl::Retry(const SurfaceFitInput& input, SurfaceFit& fit) {
+  SurfaceFitOptions bold = options;
+  bold.joint_m = options.retry_joint_m;
+  bold.robust_m = bold.silhouette_robust_m = options.retry_robust_m;
+  Iterate(input, bold, options.retry_iterations);
+  bold.robust_m = options.robust_m;
+  bold.silhouette_robust_m = options.silhouette_robust_m;
+  Iterate(input, bold, options.iterations);
+  SurfaceFit second;
+  Judge(second);
+  if (second.score > fit.score + options.least_gain) {
+    fit = second;
+    fit.retried = true;
+  } else {
+    posed.PoseSegments(fit.pose);
+  }
+}
+
+SurfaceFitter::SurfaceFitter(const BodySurface& surface, const SurfaceFitOptions& options) {
+  options.Check();
+  impl_ = std::make_unique<Impl>(surface, options);
+}
+SurfaceFitter::~SurfaceFitter() = default;
+SurfaceFitter::SurfaceFitter(SurfaceFitter&&) noexcept = default;
+SurfaceFitter& SurfaceFitter::operator=(SurfaceFitter&&) noexcept = default;
+
+std::optional<SurfaceFit> SurfaceFitter::Fit(const SurfaceFitInput& input) {
+  CheckInput(input);
+  if (!IsUsable(input) || input.pixels.empty()) return std::nullopt;
+  Impl& m = *impl_;
+  m.seen.Look(input, m.options);
+  if (m.seen.pixels().size() < m.options.fewest_pixels) return std::nullopt;
+  m.StartFrom(input);
+  m.Iterate(input, m.options, m.options.iterations);
+  SurfaceFit fit;
+  m.Judge(fit);
+  if (m.options.retry && fit.score < m.options.poor_score) m.Retry(input, fit);
+  fit.joints_m = m.posed.Landmarks();
+  for (size_t s = 0; s < kSegmentCount; ++s) {
+    fit.camera_from_segment[s] = Eigen::Quaterniond(m.posed.camera_from(s));
+  }
+  fit.stature_m = m.posed.surface().Stature_m(fit.pose.shape);
+  return fit;
+}
+
+void PersonShape::Add(const SurfaceFit& fit) {
+  constexpr double kMostWeight = 600.0;  // by hand, frames: what is known changes little
+  const double vote = std::max(0.0, fit.score);
+  if (!(vote > 0.0)) return;
+  weight = std::min(kMostWeight, weight + vote);
+  shape += vote / weight * (fit.pose.shape - shape);
+  ++frames;
+}
+
+}  // namespace ossa::recon

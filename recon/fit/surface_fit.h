@@ -1,0 +1,135 @@
+#pragma once
+#include <Eigen/Core>
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <span>
+
+#include "depth/image/depth_frame.h"
+#include "recon/fit/body_surface.h"
+#include "recon/fit/posed_surface.h"
+#include "recon/posture.h"
+
+namespace ossa::recon {
+
+// Constants: chosen on rendered people in motion of another corpus (bandai_validation) and on the
+// dev stills of `ossa experiment real`, where nothing else is said; `ossa experiment fit` prints
+// what each term brings.
+
+/// How the surface fit weighs what it is told. A weight is one over a variance.
+struct SurfaceFitOptions {
+  int start_iterations = 3;  // on joints alone
+  int iterations = 5;        // on joints and image
+  size_t most_pixels = 400;
+  size_t fewest_pixels = 30;  // fewer say nothing: there is no fit
+
+  // Image to model: each pixel is explained by the nearest point of the surface that faces the
+  // camera.
+  bool pixels = true;
+  double pixel_m = 0.02;          // standard deviation along the normal, > 0 ...
+  double footprint = 2.0;         // ... and so many times the pixel's own size at its distance
+  double along_share = 0.5;       // weight of the distance along the surface, against the normal's
+  double robust_m = 0.08;         // scale of Geman and McClure's weights, > 0
+  double adjacent_part_m = 0.08;  // how much farther a point of an adjacent part counts to be
+  double other_part_m = 0.3;      // and one of any other part
+
+  // Model to image: no point lies beside the silhouette, unless something hides it, and none before
+  // what is seen.
+  bool silhouette = true;
+  double silhouette_m = 0.06;         // standard deviation, > 0
+  double silhouette_robust_m = 0.12;  // > 0
+  double no_reading_share = 0.3;      // weight where the sensor has no reading
+  bool free_space = true;
+  double free_space_share = 0.3;  // weight against the silhouette's
+  double free_space_m = 0.04;     // a surface farther behind a point than this is seen through it
+
+  // Joints as proposed and refined.
+  double joint_m = 0.03;         // standard deviation of one of confidence 1, > 0
+  double doubt = 1.0;            // of one of confidence 0: 1 + doubt times that
+  double joint_robust_m = 0.15;  // > 0
+  double joint_shapes = 0.6;     // share to which joints say what shape the person has
+
+  double turn_weight = 1.0;    // a factor, of how people hold themselves
+  double shape_weight = 5.0;   // a factor, of the mean shape or what is known of the person's
+  double damping = 1e-3;       // of Levenberg and Marquardt, share of the diagonal
+  double most_turn_rad = 0.6;  // of a joint in one iteration
+
+  // Where the fit is poor it is tried again from where it ended, with joints that say little and
+  // pixels that pull from far off.
+  bool retry = true;
+  double poor_score = 0.7;      // score below which it is poor, see SurfaceFit::score
+  double least_gain = 0.06;     // of score, for the second fit to be taken
+  int retry_iterations = 6;     // count
+  double retry_joint_m = 0.15;  // > 0
+  double retry_robust_m = 0.3;  // > 0
+
+  void Check() const;  // throws std::invalid_argument with name, value and range
+};
+
+/// A person and the image they are seen in.
+struct SurfaceFitInput {
+  Posture joints_m;                              // as refined, camera space
+  JointArray<std::optional<double>> confidence;  // [0, 1]; none: nothing is known of the joint
+  const depth::DepthFrame* depth = nullptr;      // the whole image; borrowed
+  std::span<const int32_t> pixels;               // the person's, v * width + u, ascending
+  /// Of `pixels` those in rows and columns that are multiples of `sample_step` whose part is known,
+  /// and their parts: 1..31, 0: not known, 32 or more: something else, which is left out. Empty: no
+  /// part is known.
+  std::span<const int32_t> samples;
+  std::span<const uint8_t> parts;
+  int sample_step = 1;
+  /// What earlier frames told of the person's shape, and how many they were.
+  ShapeVector shape = ShapeVector::Zero();
+  int shape_frames = 0;
+};
+
+/// The body whose surface explains the depth.
+struct SurfaceFit {
+  SurfacePose pose;
+  Posture joints_m;                                                   // camera space
+  std::array<Eigen::Quaterniond, kSegmentCount> camera_from_segment;  // from the rest pose's axes
+  double stature_m = 0.0;
+  /// Share of the person's pixels within 3 cm of the surface, along its normal.
+  double explained = 0.0;
+  /// `explained` less the share of the surface's points through which the camera sees: 1 is
+  /// perfect.
+  double score = 0.0;
+  double median_residual_m = 0.0;
+  /// Root mean square distance of each segment's pixels from it, metres; none without pixels.
+  std::array<std::optional<double>, kSegmentCount> residual_m{};
+  bool retried = false;  // the second of two fits was the better one
+};
+
+/// Fits the body's surface to a depth image: articulated iterative closest points by damped
+/// Gauss-Newton, as Ganapathi et al. 2012, Ye and Yang 2014 and Taylor et al. 2016 do, started from
+/// the refined joints. The same result every time; no allocation after the first frames. One object
+/// fits one person at a time.
+class SurfaceFitter {
+ public:
+  /// Borrows the surface. Throws std::invalid_argument for options out of range.
+  explicit SurfaceFitter(const BodySurface& surface, const SurfaceFitOptions& options = {});
+  ~SurfaceFitter();
+  SurfaceFitter(SurfaceFitter&&) noexcept;
+  SurfaceFitter& operator=(SurfaceFitter&&) noexcept;
+
+  /// None where a joint is not finite or too few of the pixels have a reading. Throws
+  /// std::invalid_argument where `parts` and `samples` differ in number or a pixel is not in the
+  /// image.
+  std::optional<SurfaceFit> Fit(const SurfaceFitInput& input);
+
+ private:
+  struct Impl;
+  std::unique_ptr<Impl> impl_;
+};
+
+/// A person's shape as frames vote on it: the mean of fits, each by how well it explained.
+struct PersonShape {
+  ShapeVector shape = ShapeVector::Zero();
+  double weight = 0.0;  // sum of the votes
+  int frames = 0;
+  void Add(const SurfaceFit& fit);
+};
+
+}  // namespace ossa::recon

@@ -1,0 +1,82 @@
+#include "recon/fit/normal_equations.h"
+
+#include "tests/recon/fit/posed_person.h"
+
+namespace ossa::recon {
+namespace {
+
+PosedSurface PosedAt(const SurfacePose& pose) {
+  PosedSurface posed(Surface());
+  posed.PoseSegments(pose);
+  posed.PosePoints();
+  return posed;
+}
+
+// The gradient of one residual of weight 1 and value 1 is its derivative by every unknown: against
+// central differences of the place itself, moved by steps of 1e-5 rad, m and standard deviations.
+TEST(NormalEquations, DerivativeOfAPlaceIsThatOfItsMotion) {
+  constexpr double kStep = 1e-5, kTolerance = 1e-7;  // of second order in the step
+  for (unsigned seed = 1; seed <= 3; ++seed) {
+    const PosedSurface posed = PosedAt(RandomPose(seed));
+    for (size_t i = 0; i < posed.at_m().size(); i += 61) {
+      const SurfacePoint& point = Surface().points[i];
+      const Eigen::Vector3d along = Eigen::Vector3d(1, 2, -3).normalized();
+      NormalEquations equations;
+      equations.Clear();
+      equations.Add(
+          point.segment,
+          RowOfPlace(posed, point.segment, posed.at_m()[i], along, point.place.by_shape_m), 1.0,
+          1.0);
+      equations.Assemble(posed);
+      for (int k = 0; k < kFitUnknowns; ++k) {
+        const FitStep step = kStep * FitStep::Unit(k);
+        const double ahead = PosedAt(Moved(posed, step, 1.0)).at_m()[i].dot(along);
+        const double back = PosedAt(Moved(posed, -step, 1.0)).at_m()[i].dot(along);
+        EXPECT_NEAR(equations.gradient()[k], (ahead - back) / (2 * kStep), kTolerance)
+            << "point " << i << ", unknown " << k;
+      }
+    }
+  }
+}
+
+// A residual's square has the outer product of its derivative as matrix.
+TEST(NormalEquations, MatrixIsTheOuterProductOfTheDerivative) {
+  const PosedSurface posed = PosedAt(RandomPose(4));
+  const size_t i = posed.at_m().size() - 1;
+  const SurfacePoint& point = Surface().points[i];
+  NormalEquations equations;
+  equations.Clear();
+  equations.Add(point.segment,
+                RowOfPlace(posed, point.segment, posed.at_m()[i], Eigen::Vector3d::UnitX(),
+                           point.place.by_shape_m),
+                1.0, 1.0);
+  equations.Assemble(posed);
+  const FitStep& derivative = equations.gradient();
+  for (int r = 0; r < kFitUnknowns; ++r) {
+    for (int c = 0; c <= r; ++c) {
+      EXPECT_NEAR(equations.matrix()(r, c), derivative[r] * derivative[c], 1e-12);
+    }
+  }
+}
+
+// Three rows fix a place: the step takes it there, to first order.
+TEST(NormalEquations, StepTakesAPlaceWhereItIsWanted) {
+  const PosedSurface posed = PosedAt(RandomPose(6));
+  const size_t i = 17;
+  const SurfacePoint& point = Surface().points[i];
+  const Eigen::Vector3d off_m(0.004, -0.003, 0.002);
+  NormalEquations equations;
+  equations.Clear();
+  for (int axis = 0; axis < 3; ++axis) {
+    equations.Add(point.segment,
+                  RowOfPlace(posed, point.segment, posed.at_m()[i], Eigen::Vector3d::Unit(axis),
+                             point.place.by_shape_m),
+                  -off_m[axis], 1e4);
+  }
+  equations.Assemble(posed);
+  const PosedSurface moved = PosedAt(Moved(posed, equations.Solve(0.0), 1.0));
+  EXPECT_LT((moved.at_m()[i] - posed.at_m()[i] - off_m).norm(), 1e-4);
+}
+
+}  // namespace
+}  // namespace ossa::recon

@@ -1,0 +1,137 @@
+#include "recon/fit/surface_fit.h"
+
+#include "tests/recon/fit/posed_person.h"
+
+namespace ossa::recon {
+namespace {
+
+bool IsFinite(const SurfaceFit& fit) {
+  for (const Eigen::Vector3d& joint : fit.joints_m.position_m) {
+    if (!joint.allFinite()) return false;
+  }
+  return std::isfinite(fit.score) && fit.pose.shape.allFinite();
+}
+
+// The image is the model's own: joints end nearer to the truth than a third of where they started.
+TEST(SurfaceFit, FindsTheBodyFromDisturbedJoints) {
+  SurfaceFitter fitter(Surface());
+  double before_m = 0.0, after_m = 0.0;
+  for (unsigned seed = 1; seed <= 8; ++seed) {
+    const SeenSurface seen(RandomPose(seed));
+    const Posture start_m = Disturbed(seen.joints_m, 0.05, seed);
+    const auto fit = fitter.Fit(seen.Input(start_m));
+    ASSERT_TRUE(fit);
+    before_m += MeanDistance_m(start_m, seen.joints_m);
+    after_m += MeanDistance_m(fit->joints_m, seen.joints_m);
+    EXPECT_GT(fit->explained, 0.9) << seed;
+  }
+  EXPECT_LT(after_m, 0.45 * before_m);
+}
+
+TEST(SurfaceFit, OfAJointThatNothingIsKnownOfIsWhereTheSurfaceIs) {
+  const SeenSurface seen(RandomPose(3));
+  Posture start_m = seen.joints_m;
+  start_m[Joint::kHandLeft] += Eigen::Vector3d(0.3, 0.2, 0.0);
+  SurfaceFitInput input = seen.Input(start_m);
+  input.confidence[Joint::kHandLeft].reset();
+  SurfaceFitter fitter(Surface());
+  const auto fit = fitter.Fit(input);
+  ASSERT_TRUE(fit);
+  EXPECT_LT((fit->joints_m[Joint::kHandLeft] - seen.joints_m[Joint::kHandLeft]).norm(), 0.08);
+}
+
+TEST(SurfaceFit, IsTheSameWhateverWasFittedBefore) {
+  const SeenSurface first(RandomPose(1)), second(RandomPose(2));
+  SurfaceFitter fresh(Surface()), used(Surface());
+  used.Fit(second.Input(second.joints_m));
+  const auto a = fresh.Fit(first.Input(first.joints_m)), b = used.Fit(first.Input(first.joints_m));
+  ASSERT_TRUE(a && b);
+  for (size_t j = 0; j < kJointCount; ++j) {
+    EXPECT_EQ(a->joints_m.position_m[j], b->joints_m.position_m[j]);
+  }
+}
+
+TEST(SurfaceFit, KeepsTheShapeThatManyFramesAgreedOn) {
+  const SurfacePose pose = RandomPose(5);
+  const SeenSurface seen(pose);
+  SurfaceFitInput input = seen.Input(Disturbed(seen.joints_m, 0.03, 5));
+  SurfaceFitter fitter(Surface());
+  const auto alone = fitter.Fit(input);
+  input.shape = pose.shape;
+  input.shape_frames = 100;
+  const auto known = fitter.Fit(input);
+  ASSERT_TRUE(alone && known);
+  EXPECT_LT((known->pose.shape - pose.shape).norm(), (alone->pose.shape - pose.shape).norm());
+}
+
+TEST(SurfaceFit, IsNoneOfTenPixels) {
+  const SeenSurface seen(RandomPose(1));
+  SurfaceFitInput input = seen.Input(seen.joints_m);
+  input.pixels = input.pixels.first(10);
+  input.samples = input.samples.first(10);
+  input.parts = input.parts.first(10);
+  SurfaceFitter fitter(Surface());
+  EXPECT_FALSE(fitter.Fit(input));
+}
+
+TEST(SurfaceFit, IsNoneWhereAJointIsNotFinite) {
+  const SeenSurface seen(RandomPose(1));
+  SurfaceFitInput input = seen.Input(seen.joints_m);
+  input.joints_m[Joint::kHead].x() = std::nan("");
+  SurfaceFitter fitter(Surface());
+  EXPECT_FALSE(fitter.Fit(input));
+}
+
+TEST(SurfaceFit, OfAWallTakenForAPersonIsFiniteAndPoor) {
+  SeenSurface seen(RandomPose(1));
+  seen.pixels.clear();
+  seen.parts.clear();
+  for (int32_t p = 0; p < 320 * 240; ++p) seen.pixels.push_back(p), seen.parts.push_back(18);
+  SurfaceFitter fitter(Surface());
+  const auto fit = fitter.Fit(seen.Input(seen.joints_m));
+  ASSERT_TRUE(fit);
+  EXPECT_TRUE(IsFinite(*fit));
+  EXPECT_LT(fit->score, 0.5);
+}
+
+TEST(SurfaceFit, OfTwoPeopleInOneMaskIsFinite) {
+  SurfacePose left = RandomPose(1), right = RandomPose(2);
+  left.pelvis_m.x() = 0.5;
+  right.pelvis_m.x() = -0.5;
+  const SeenSurface first(left);
+  SeenSurface both(right);
+  for (size_t i = 0; i < first.pixels.size(); ++i) {
+    const auto pixel = static_cast<size_t>(first.pixels[i]);
+    both.frame.depth_mm[pixel] = std::min(both.frame.depth_mm[pixel], first.frame.depth_mm[pixel]);
+    if (std::find(both.pixels.begin(), both.pixels.end(), first.pixels[i]) == both.pixels.end()) {
+      both.pixels.push_back(first.pixels[i]);
+      both.parts.push_back(first.parts[i]);
+    }
+  }
+  SurfaceFitter fitter(Surface());
+  const auto fit = fitter.Fit(both.Input(both.joints_m));
+  ASSERT_TRUE(fit);
+  EXPECT_TRUE(IsFinite(*fit));
+  EXPECT_LT(fit->score, 0.9);
+}
+
+TEST(SurfaceFit, RefusesAPixelThatTheImageDoesNotHave) {
+  SeenSurface seen(RandomPose(1));
+  seen.pixels.back() = 320 * 240;
+  SurfaceFitter fitter(Surface());
+  EXPECT_THROW(fitter.Fit(seen.Input(seen.joints_m)), std::invalid_argument);
+}
+
+TEST(SurfaceFitOptions, NamesWhatIsOutOfRange) {
+  SurfaceFitOptions options;
+  options.pixel_m = 0.0;
+  try {
+    options.Check();
+    FAIL();
+  } catch (const std::invalid_argument& error) {
+    EXPECT_NE(std::string(error.what()).find("pixel_m = 0"), std::string::npos);
+  }
+}
+
+}  // namespace
+}  // namespace ossa::recon

@@ -1,0 +1,62 @@
+// The tracker with a surface fit: the shipped body, the shipped forest.
+#include <gtest/gtest.h>
+
+#include "tests/tools/tracker/tracked_scenes.h"
+
+namespace ossa::tracker {
+namespace {
+
+BodyFrame LastOf(const TrackerOptions& options, const std::vector<tests::CapsulePose>& people) {
+  Tracker tracker(options);
+  BodyFrame result;
+  for (int i = 0; i < 15; ++i) result = tracker.Track(Rendered(people, i).frame);
+  return result;
+}
+
+TrackerOptions Fitting(int threads = 1) {
+  TrackerOptions options;
+  options.fit = recon::SurfaceFitOptions{};
+  options.threads = threads;
+  return options;
+}
+
+TEST(TrackedSurface, StandsBesideTheOtherStagesAndExplainsThePerson) {
+  OSSA_NEEDS_MODEL();
+  const BodyFrame seen = LastOf(Fitting(), {PersonAt(0, 2.5)});
+  ASSERT_EQ(seen.bodies.size(), 1U);
+  ASSERT_TRUE(seen.bodies[0].fit);
+  EXPECT_GT(seen.bodies[0].fit->explained, 0.6);
+  EXPECT_GT(seen.ms.fit, 0.0);
+}
+
+TEST(TrackedSurface, IsNoneUnlessAskedFor) {
+  OSSA_NEEDS_MODEL();
+  const BodyFrame seen = LastOf({}, {PersonAt(0, 2.5)});
+  ASSERT_EQ(seen.bodies.size(), 1U);
+  EXPECT_FALSE(seen.bodies[0].fit);
+}
+
+TEST(TrackedSurface, IsTheSameOnAnyNumberOfThreads) {
+  OSSA_NEEDS_MODEL();
+  const std::vector<tests::CapsulePose> people = {PersonAt(-0.7, 2.5), PersonAt(0.7, 2.8)};
+  const BodyFrame one = LastOf(Fitting(1), people), two = LastOf(Fitting(2), people);
+  ASSERT_EQ(one.bodies.size(), two.bodies.size());
+  for (size_t i = 0; i < one.bodies.size(); ++i) {
+    ASSERT_TRUE(one.bodies[i].fit && two.bodies[i].fit);
+    for (size_t j = 0; j < recon::kJointCount; ++j) {
+      EXPECT_EQ(one.bodies[i].joints[j].position_m, two.bodies[i].joints[j].position_m);
+    }
+  }
+}
+
+TEST(TrackedSurface, NeedsABody) {
+  OSSA_NEEDS_MODEL();
+  ModelFiles files;
+  files.surface = "none";
+  TrackerOptions options = OptionsWith(files);
+  options.fit = recon::SurfaceFitOptions{};
+  EXPECT_THROW(Tracker{options}, std::invalid_argument);
+}
+
+}  // namespace
+}  // namespace ossa::tracker

@@ -1,0 +1,132 @@
+// `ossa experiment fit`: what the surface fit does to the tracker's final joints on real stills,
+// and what each of its terms brings.
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "depth/base/error.h"
+#include "tools/experiments/experiments_internal.h"
+#include "tools/experiments/real/real_judge_internal.h"
+
+namespace ossa::tools {
+namespace {
+
+using recon::SurfaceFitOptions;
+
+struct Variant {
+  std::string name;
+  std::optional<SurfaceFitOptions> options;  // none: without a fit
+};
+
+template <typename Change>
+Variant With(const std::string& name, const Change& change) {
+  SurfaceFitOptions options;
+  change(options);
+  return {name, options};
+}
+
+// By hand, factors: of what is switched off so little is left that the system can be solved.
+constexpr double kHardly = 0.01;
+
+std::vector<Variant> Variants() {
+  return {
+      {"off", std::nullopt},
+      {"on", SurfaceFitOptions{}},
+      With("joints alone",
+           [](auto& o) { o.pixels = o.silhouette = o.free_space = o.retry = false; }),
+      With("without pixels", [](auto& o) { o.pixels = false; }),
+      With("without parts", [](auto& o) { o.adjacent_part_m = o.other_part_m = 0.0; }),
+      With("without distance along", [](auto& o) { o.along_share = 0.0; }),
+      With("without silhouette", [](auto& o) { o.silhouette = false; }),
+      With("without free space", [](auto& o) { o.free_space = false; }),
+      With("joints hardly count", [](auto& o) { o.joint_m /= kHardly; }),
+      With("without how people turn", [](auto& o) { o.turn_weight *= kHardly; }),
+      With("any shape", [](auto& o) { o.shape_weight *= kHardly; }),
+      With("mean shape only", [](auto& o) { o.shape_weight /= kHardly * kHardly; }),
+      With("without a second fit", [](auto& o) { o.retry = false; }),
+      With("2 iterations", [](auto& o) { o.iterations = 2; }),
+      With("15 iterations", [](auto& o) { o.iterations = 15; }),
+  };
+}
+
+/// What fits say of the stills of a set.
+struct FitFigures {
+  std::vector<double> explained, residual_m, ms;
+  void Add(const StillResult& result) {
+    if (!result.fit) return;
+    explained.push_back(result.fit->explained);
+    residual_m.push_back(result.fit->median_residual_m);
+    ms.push_back(result.fit_ms);
+  }
+};
+
+std::string Median(std::vector<double> values, double scale, const char* form) {
+  if (values.empty()) return "-";
+  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
+  std::nth_element(values.begin(), middle, values.end());
+  return fmt::format(fmt::runtime(form), scale * *middle);
+}
+
+Table FitTable() {
+  return {
+      .title = "The surface fit on real stills: final joints, offset removed",
+      .columns = {"fit", "set", "stills", "mean, cm", "within 5 cm, %", "within 10 cm, %",
+                  "explained, %", "residual, mm", "ms"},
+      .rows = {},
+      .note =
+          "Final: what an application gets; sets and offsets as of `ossa experiment real`. "
+          "Explained: share of the person's pixels within 3 cm of the fitted surface, median "
+          "over the stills. Residual: distance of a person's pixels from it, median of medians. "
+          "ms: of the fit alone, median, on this machine."};
+}
+
+void AddRow(const Variant& variant, const RealSet& set, const std::vector<StillResult>& results,
+            Table& table) {
+  FitFigures figures;
+  for (const StillResult& result : results) figures.Add(result);
+  const std::vector<bool> all(set.joints.size(), true);
+  const StageScore score = ScoreStage(set, results, RealStage::kFinal, true, all);
+  table.rows.push_back(
+      {variant.name, set.name, std::to_string(results.size()), fmt::format("{:.2f}", score.mean_cm),
+       fmt::format("{:.1f}", 100 * score.within_5cm),
+       fmt::format("{:.1f}", 100 * score.within_10cm), Median(figures.explained, 100, "{:.1f}"),
+       Median(figures.residual_m, 1000, "{:.1f}"), Median(figures.ms, 1, "{:.2f}")});
+}
+
+}  // namespace
+
+std::vector<Table> RunFit(ExperimentContext& context) {
+  if (context.shared.empty()) throw InputError("fit: expected --shared FOLDER with real/ in it");
+  const auto sets = ReadRealSets(context.shared, context.parameters.Integer("frames", 0));
+  if (sets.empty()) {
+    throw InputError(fmt::format("{}: expected real/depth_frames or real/itop_depth in it",
+                                 context.shared.string()));
+  }
+  tracker::TrackerOptions options;
+  tracker::ModelFiles files;
+  files.forest = context.model.string();
+  files.database = context.database.string();
+  options.models = tracker::ModelSet::Load(files, options.method);
+  options.threads = context.threads;
+  Table table = FitTable();
+  const auto variants = Variants();
+  for (const Variant& variant : variants) {
+    options.fit = variant.options;
+    tracker::Tracker tracker(options);
+    for (const RealSet& set : sets) {
+      std::vector<StillResult> results;
+      for (const RealStill& still : set.stills) {
+        context.StopIfAsked();
+        results.push_back(JudgeStill(set, still, tracker));
+      }
+      AddRow(variant, set, results, table);
+    }
+    if (context.progress) {
+      context.progress(static_cast<double>(&variant - variants.data() + 1),
+                       static_cast<double>(variants.size()), variant.name);
+    }
+  }
+  return {table};
+}
+
+}  // namespace ossa::tools

@@ -1,0 +1,17 @@
+#pragma once
+#include <optional>
+
+#include "depth/image/depth_frame.h"
+#include "recon/fit/surface_fit.h"
+#include "tools/people/detection.h"
+#include "tools/tracker/person_internal.h"
+
+namespace ossa::tracker {
+
+/// The body whose surface explains the person's pixels, from the refined joints in `body` on, else
+/// from the raw ones; the person's shape gets its vote. None where the image shows too little.
+std::optional<recon::SurfaceFit> FitSurface(const depth::DepthFrame& frame,
+                                            const people::Detection& detection, const Body& body,
+                                            Person& person);
+
+}  // namespace ossa::tracker
