@@ -72,11 +72,11 @@ TEST(LinearFilter, KnowsDelayAndJitterOfASensorOnSomebodyElse) {
 }
 
 TEST(LinearFilter, OfSeveralPeopleIsOfStepsOfOneOfPulls) {
-  EXPECT_FALSE(LearnedOfThree().HasPulls());
-  EXPECT_TRUE(LearnedOfOne().Pulls(LinearFilter::kNow, kHand));
+  EXPECT_FALSE(LearnedOfThree().HasInfluences());
+  EXPECT_TRUE(LearnedOfOne().Influences(LinearFilter::kNow, kHand));
   for (const auto output : {LinearFilter::kNow, LinearFilter::kBefore}) {
     for (size_t i = 0; i < kJointCount; ++i) {
-      EXPECT_EQ(LearnedOfOne().Knows(output, i), LearnedOfOne().Pulls(output, i)) << i;
+      EXPECT_EQ(LearnedOfOne().Knows(output, i), LearnedOfOne().Influences(output, i)) << i;
     }
   }
 }
