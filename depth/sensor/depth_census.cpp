@@ -196,12 +196,12 @@ std::optional<DepthSuspicion> DepthCensus::Judge() const {
   const double share =
       steps_ < kEnoughSteps ? 0.0 : static_cast<double>(steps_of_8_) / static_cast<double>(steps_);
   if (auto found = JudgeMultiples(count_, spread, share)) return found;
-  if (auto found = JudgeRange(spread)) return found;
-  if (!bend_.IsWrongWayRound()) return std::nullopt;
+  const auto range = JudgeRange(spread);
+  if ((range && !range->option.empty()) || !bend_.IsWrongWayRound()) return range;
   return DepthSuspicion{
       "distances taken from some largest one, so that the nearest are the largest: "
-      "floors and walls bend the wrong way",
-      ""};
+      "floors and walls bend the wrong way; where FROM is the number that stands for 0 mm",
+      "--depth-format inverted:FROM"};
 }
 
 }  // namespace ossa::depth

@@ -1,7 +1,9 @@
 #include "depth/sensor/depth_coding.h"
 
 #include <algorithm>
+#include <charconv>
 #include <cmath>
+#include <optional>
 #include <string>
 
 #include "depth/base/error.h"
@@ -12,26 +14,42 @@ namespace {
 
 constexpr uint32_t kNumbers = 65536;  // that 16 bits hold, by definition
 
-uint32_t Plain(DepthFormat format, uint32_t number) {
-  switch (format) {
+// 0 where a number is no distance.
+uint32_t Plain(const DepthCoding& coding, uint32_t number) {
+  switch (coding.format) {
     case DepthFormat::kSwapped:
       return (number & 0xFF) << 8 | number >> 8;
     case DepthFormat::kInverted:
-      return kNumbers - 1 - number;
+      return static_cast<uint32_t>(std::max(0, coding.inverted_from - static_cast<int>(number)));
     default:
       return number;
   }
 }
 
+std::optional<int> ParseFrom(std::string_view text) {
+  int from = 0;
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), from);
+  const bool whole = error == std::errc() && end == text.data() + text.size();
+  if (!whole || from < 1 || from >= static_cast<int>(kNumbers)) return std::nullopt;
+  return from;
+}
+
 }  // namespace
 
-DepthFormat ParseDepthFormat(std::string_view name) {
-  if (name == "plain") return DepthFormat::kPlain;
-  if (name == "swapped") return DepthFormat::kSwapped;
-  if (name == "inverted") return DepthFormat::kInverted;
-  if (name == "disparity") return DepthFormat::kDisparity;
-  throw InputError("--depth-format: expected plain, swapped, inverted or disparity, found '" +
-                   std::string(name) + "'");
+DepthCoding ParseDepthFormat(std::string_view name) {
+  constexpr std::string_view kInvertedFrom = "inverted:";
+  if (name == "plain") return {};
+  if (name == "swapped") return {.format = DepthFormat::kSwapped};
+  if (name == "inverted") return {.format = DepthFormat::kInverted};
+  if (name == "disparity") return {.format = DepthFormat::kDisparity};
+  if (name.starts_with(kInvertedFrom)) {
+    const auto from = ParseFrom(name.substr(kInvertedFrom.size()));
+    if (from) return {.format = DepthFormat::kInverted, .inverted_from = *from};
+  }
+  throw InputError(
+      "--depth-format: expected plain, swapped, inverted, inverted:FROM (1 to 65535) or disparity, "
+      "found '" +
+      std::string(name) + "'");
 }
 
 std::vector<uint16_t> MillimetreTable(const DepthCoding& coding) {
@@ -42,7 +60,7 @@ std::vector<uint16_t> MillimetreTable(const DepthCoding& coding) {
     return table;
   }
   for (uint32_t number = 1; number < kNumbers; ++number) {
-    const double mm = std::round(Plain(coding.format, number) * 1000.0 / coding.units_per_metre);
+    const double mm = std::round(Plain(coding, number) * 1000.0 / coding.units_per_metre);
     if (mm < kNumbers) table[number] = static_cast<uint16_t>(mm);
   }
   return table;

@@ -7,15 +7,17 @@
 
 namespace ossa::depth {
 
-/// `plain`, `swapped`, `inverted` or `disparity`; throws InputError for anything else.
-DepthFormat ParseDepthFormat(std::string_view name);
-
 /// How 16-bit numbers become millimetres.
 struct DepthCoding {
   DepthFormat format = DepthFormat::kPlain;
   double units_per_metre = 1000.0;  // of all but kDisparity, > 0
+  int inverted_from = 65535;        // of kInverted
   bool IsMillimetres() const { return format == DepthFormat::kPlain && units_per_metre == 1000.0; }
 };
+
+/// `plain`, `swapped`, `inverted` (from 65535), `inverted:FROM` (1 to 65535) or `disparity`; throws
+/// InputError for anything else.
+DepthCoding ParseDepthFormat(std::string_view name);
 
 /// Millimetres of each of the 65536 numbers: rounded; 0, no reading, for 0 and for what
 /// lies beyond 65.535 m.

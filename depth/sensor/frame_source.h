@@ -54,7 +54,7 @@ enum class NoteKind {
 enum class DepthFormat {
   kPlain,      // lengths, SourceOptions::depth_scale to the metre
   kSwapped,    // the same, with the bytes of each exchanged
-  kInverted,   // the same, subtracted from 65535
+  kInverted,   // the same, subtracted from SourceOptions::inverted_from
   kDisparity,  // raw shifts of a Kinect v1, 11 bits, 2047 for no reading
 };
 
@@ -70,6 +70,7 @@ struct SourceOptions {
   // that state none and cannot be millimetres of people are refused.
   std::optional<double> depth_scale = {};
   DepthFormat depth_format = DepthFormat::kPlain;
+  int inverted_from = 65535;       // the number that stands for a distance of nought, 1 to 65535
   std::optional<double> fps = {};  // frames a second, whatever the recording says of its times
   // One line for the user each; empty: nobody is told.
   std::function<void(NoteKind, const std::string&)> note = {};

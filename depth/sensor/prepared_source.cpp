@@ -16,7 +16,8 @@ class PreparedSource final : public FrameSource {
   PreparedSource(std::string name, std::unique_ptr<FrameSource> source,
                  const SourceOptions& options)
       : name_(std::move(name)), source_(std::move(source)), fps_(options.fps) {
-    const DepthCoding coding{options.depth_format, options.depth_scale.value_or(1000.0)};
+    const DepthCoding coding{options.depth_format, options.depth_scale.value_or(1000.0),
+                             options.inverted_from};
     if (!coding.IsMillimetres()) table_ = MillimetreTable(coding);
   }
 

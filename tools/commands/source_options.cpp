@@ -37,7 +37,9 @@ depth::SourceOptions DepthOptions(const SourceArguments& arguments, bool quiet) 
   depth::SourceOptions options;
   try {
     if (!arguments.camera.empty()) options.camera = depth::ParseCamera(arguments.camera);
-    options.depth_format = depth::ParseDepthFormat(arguments.depth_format);
+    const depth::DepthCoding coding = depth::ParseDepthFormat(arguments.depth_format);
+    options.depth_format = coding.format;
+    options.inverted_from = coding.inverted_from;
   } catch (const InputError& error) {
     throw UsageError(error.what());
   }
@@ -68,8 +70,8 @@ void AddSourceOptions(CLI::App& app, SourceArguments& arguments) {
                  "millimetres)")
       ->check(CLI::Range(1e-3, 1e6));
   app.add_option("--depth-format", arguments.depth_format,
-                 "what the numbers are: plain, swapped (bytes), inverted (65535 is nearest) or "
-                 "disparity (Kinect v1, 11 bits)");
+                 "what the numbers are: plain, swapped (bytes), inverted (65535 stands for 0), "
+                 "inverted:FROM (FROM does) or disparity (Kinect v1, 11 bits)");
   app.add_option("--fps", arguments.fps,
                  "frames a second of a recording (default: its own times, else 30)")
       ->check(CLI::Range(1e-3, 1e4));

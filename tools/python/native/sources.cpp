@@ -68,7 +68,9 @@ depth::SourceOptions ReadSourceOptions(const py::dict& given) {
   }
   if (given.contains("depth_scale")) options.depth_scale = given["depth_scale"].cast<double>();
   if (given.contains("fps")) options.fps = given["fps"].cast<double>();
-  options.depth_format = depth::ParseDepthFormat(given["depth_format"].cast<std::string>());
+  const auto coding = depth::ParseDepthFormat(given["depth_format"].cast<std::string>());
+  options.depth_format = coding.format;
+  options.inverted_from = coding.inverted_from;
   options.device_wait = milliseconds(static_cast<int64_t>(1000.0 * given["wait_s"].cast<double>()));
   options.keep_waiting = GoesOn;
   return options;

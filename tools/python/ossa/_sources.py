@@ -169,9 +169,9 @@ def open(  # noqa: A001 - as the command's SOURCE is opened
     rotate : 0, 90, 180, 270 or "auto"
         Degrees by which the images must be turned clockwise for people to stand in them. The images
         come as they are; their cameras say it to the tracker, see Camera.
-    depth_format : "plain", "swapped", "inverted" or "disparity"
+    depth_format : "plain", "swapped", "inverted", "inverted:FROM" or "disparity"
         What the 16-bit numbers of a recording are: lengths; with their bytes exchanged; subtracted
-        from 65535; raw shifts of a Kinect v1.
+        from 65535 or from FROM; raw shifts of a Kinect v1.
     wait_s : float
         Seconds to wait for a device to be plugged in.
     patience_s : float
@@ -194,9 +194,7 @@ def open(  # noqa: A001 - as the command's SOURCE is opened
     ...     frame = tracker.track(depth_mm, camera, time_s)
     """
     options: dict[str, Any] = {
-        "depth_format": _check.one_of(
-            "depth_format", depth_format, ("plain", "swapped", "inverted", "disparity")
-        ),
+        "depth_format": _check.text("depth_format", depth_format),
         "wait_s": _check.number("wait_s", wait_s, 0.0, _LONGEST_S),
     }
     if camera is not None:
