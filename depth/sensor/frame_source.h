@@ -70,7 +70,7 @@ struct SourceOptions {
   // that state none and cannot be millimetres of people are refused.
   std::optional<double> depth_scale = {};
   DepthFormat depth_format = DepthFormat::kPlain;
-  int inverted_from = 65535;       // the number that stands for a distance of nought, 1 to 65535
+  int inverted_from = 65535;       // that stands for 0 mm, 1 to 65535; by definition the largest
   std::optional<double> fps = {};  // frames a second, whatever the recording says of its times
   // One line for the user each; empty: nobody is told.
   std::function<void(NoteKind, const std::string&)> note = {};
