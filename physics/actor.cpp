@@ -89,13 +89,15 @@ void Actor::Place(const Posture& posture, const std::optional<Vector4d>& floor) 
   aim_velocity_m_s.fill(Vector3d::Zero());
   mean_velocity_m_s.fill(Vector3d::Zero());
   mean_speed_m_s.fill(0.0);
-  character.Place(aim, recon::ComputeOrientations(aim));
+  character.Place(aim, OrientAim());
   for (FootPin& pin : foot_pin) pin.Clear();
-  hard_constraint.clear();
+  pushes.clear();
 }
 
-void Actor::SetTarget(const Posture& target, std::span<const double> joint_weight) {
+void Actor::SetTarget(const Posture& target, std::span<const double> joint_weight,
+                      const std::optional<recon::JointOrientations>& orientation) {
   controlled = true;
+  wanted_orientation = orientation;
   const Posture now = character.posture();
   for (size_t i = 0; i < kJointCount; ++i) {
     const double w = joint_weight.empty() ? 1.0 : joint_weight[i];
@@ -111,6 +113,11 @@ void Actor::SetTarget(const Posture& target, std::span<const double> joint_weigh
       wanted.position_m[i] = wanted.position_m[parent] + now.position_m[i] - now.position_m[parent];
     }
   }
+}
+
+recon::JointOrientations Actor::OrientAim() const {
+  if (!wanted_orientation) return recon::ComputeOrientations(aim);
+  return recon::AlignToBones(*wanted_orientation, aim);
 }
 
 /// Where to go this frame: what was asked for, what the user insists on, what the floor allows.
@@ -145,7 +152,7 @@ void Actor::Prepare(OdeWorld& ode, const std::optional<Vector4d>& floor, double 
   aim = FitBoneLengths(goal, lengths, trust);
   if (limits != nullptr) aim = WithinRanges(aim);
   if (LiftOntoFloor(floor, sole_m, aim)) aim = FitBoneLengths(aim, lengths, trust);
-  aim_orientation = recon::ComputeOrientations(aim);
+  aim_orientation = OrientAim();
   for (size_t i = 0; i < kJointCount; ++i) {
     SetLead(i, floor, sole_m, dt_s);
     control.stiffness[i] =

@@ -61,7 +61,8 @@ struct Actor {
   Actor(OdeWorld& ode, const recon::BoneLengths& lengths, const CharacterOptions& options, int tag);
 
   void Place(const recon::Posture& posture, const std::optional<Eigen::Vector4d>& floor);
-  void SetTarget(const recon::Posture& target, std::span<const double> weight);
+  void SetTarget(const recon::Posture& target, std::span<const double> weight,
+                 const std::optional<recon::JointOrientations>& orientation);
   /// Once per frame: floor, feet, constraints; fills `from`, `aim` and the stiffness.
   void Prepare(OdeWorld& ode, const std::optional<Eigen::Vector4d>& floor, double dt_s);
   /// Once per substep, `left_s` before the end of the frame.
@@ -72,7 +73,8 @@ struct Actor {
   Character character;
   std::unique_ptr<JointLimits> limits;  // with CharacterOptions::joint_limits
   bool controlled = true;
-  recon::Posture wanted;  // as SetTarget was told, made finite
+  recon::Posture wanted;                                       // as SetTarget was told, made finite
+  std::optional<recon::JointOrientations> wanted_orientation;  // none: as the joints tell
   recon::JointArray<double> weight{};
   recon::Posture aim, last_aim;                          // with bone lengths, above the floor
   recon::JointArray<Eigen::Vector3d> mean_velocity_m_s;  // of the aim, see Lead
@@ -90,6 +92,7 @@ struct Actor {
 
  private:
   double SoleHeight() const;
+  recon::JointOrientations OrientAim() const;
   recon::Posture Goal(recon::JointArray<double>& trust) const;
   void SetLead(size_t joint, const std::optional<Eigen::Vector4d>& floor, double sole_m,
                double dt_s);

@@ -117,7 +117,6 @@ void Character::Place(const recon::Posture& posture, const recon::JointOrientati
     const Vector3d middle = 0.5 * (posture.position_m[bone] + posture.position_m[parent]);
     dBodySetPosition(body_[bone], middle.x(), middle.y(), middle.z());
     SetRotation(body_[bone], orientation[bone]);
-    dBodySetAngularVel(body_[bone], 0, 0, 0);
     dBodySetForce(body_[bone], 0, 0, 0);
     dBodySetTorque(body_[bone], 0, 0, 0);
   }
@@ -137,6 +136,7 @@ void Character::Place(const recon::Posture& posture, const recon::JointOrientati
 
 void Character::SetVelocity(const Vector3d& velocity_m_s) {
   for (size_t bone = 1; bone < kJointCount; ++bone) {
+    dBodySetAngularVel(body_[bone], 0, 0, 0);
     dBodySetLinearVel(body_[bone], velocity_m_s.x(), velocity_m_s.y(), velocity_m_s.z());
   }
 }

@@ -40,7 +40,7 @@ struct CharacterFilter::Impl {
   Impl(const recon::BoneLengths& bone_lengths, const CharacterFilterOptions& filter_options);
 
   bool MustPlace(const Posture& target, double dt_s);
-  void PlaceAt(const Posture& target);
+  void PlaceAt(const Posture& target, const std::optional<recon::JointOrientations>& orientation);
 
   CharacterFilterOptions options;
   World world;
@@ -117,7 +117,8 @@ bool CharacterFilter::Impl::MustPlace(const Posture& target, double dt_s) {
 }
 
 /// Puts the character on its target; joints that are unknown keep their bones' directions.
-void CharacterFilter::Impl::PlaceAt(const Posture& target) {
+void CharacterFilter::Impl::PlaceAt(const Posture& target,
+                                    const std::optional<recon::JointOrientations>& orientation) {
   Posture start = target;
   if (!Complete(target)) {
     const Posture now = world.StateOf(character).posture;
@@ -131,7 +132,7 @@ void CharacterFilter::Impl::PlaceAt(const Posture& target) {
                  : start.position_m[parent] + now.position_m[i] - now.position_m[parent];
     }
   }
-  world.Place(character, start);
+  world.Place(character, start, orientation);
   alive = true;
   far_frames = 0;
 }
@@ -144,7 +145,8 @@ CharacterFilter::CharacterFilter(CharacterFilter&&) noexcept = default;
 CharacterFilter& CharacterFilter::operator=(CharacterFilter&&) noexcept = default;
 
 FilteredPosture CharacterFilter::Step(const Posture& seen, std::span<const double> weight,
-                                      const std::optional<Eigen::Vector4d>& floor, double dt_s) {
+                                      const std::optional<Eigen::Vector4d>& floor, double dt_s,
+                                      const std::optional<recon::JointOrientations>& orientation) {
   Impl& f = *impl_;
   Posture target = seen;
   // What nobody trusts may not say where the person is either.
@@ -155,10 +157,10 @@ FilteredPosture CharacterFilter::Step(const Posture& seen, std::span<const doubl
   FilteredPosture result;
   result.placed = f.MustPlace(target, dt_s);
   if (result.placed) {
-    f.PlaceAt(target);
+    f.PlaceAt(target, orientation);
     dt_s = 1.0 / 30.0;
   }
-  f.world.SetTarget(f.character, target, weight);
+  f.world.SetTarget(f.character, target, weight, orientation);
   f.world.Step(dt_s);
   const CharacterState state = f.world.StateOf(f.character);
   result.posture = state.posture;

@@ -58,9 +58,10 @@ class CharacterFilter {
 
   /// `target`: camera space or any other right-handed frame, the floor in the same. `weight`: trust
   /// per joint in [0, 1], empty = all 1. NaN joints are allowed. `dt_s` since the last step; after
-  /// a gap of more than 0.25 s the character starts anew.
+  /// a gap of more than 0.25 s the character starts anew. `orientation`: World::SetTarget.
   FilteredPosture Step(const recon::Posture& target, std::span<const double> weight,
-                       const std::optional<Eigen::Vector4d>& floor, double dt_s);
+                       const std::optional<Eigen::Vector4d>& floor, double dt_s,
+                       const std::optional<recon::JointOrientations>& orientation = std::nullopt);
   /// Forgets where the character is; the next Step places it.
   void Reset();
 

@@ -1,4 +1,5 @@
 #pragma once
+#include <algorithm>
 #include <array>
 #include <vector>
 
@@ -70,6 +71,9 @@ class Character {
   void AddForceAtJoint(size_t joint, const Eigen::Vector3d& force_n);
 
   dBodyID body(size_t bone) const { return body_[bone]; }
+  bool Owns(dBodyID body) const {
+    return std::find(body_.begin() + 1, body_.end(), body) != body_.end();
+  }
   dGeomID geom(size_t bone) const { return geom_[bone]; }
   const Segments& segments() const { return segments_; }
   /// Body whose end (or, for the hip centre, start) is the joint, and the joint's place in it.

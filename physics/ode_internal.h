@@ -17,6 +17,22 @@ inline void SetRotation(dBodyID body, const Eigen::Quaterniond& q) {
   dBodySetQuaternion(body, quaternion);
 }
 
+inline Eigen::Isometry3d PoseOf(dBodyID body) {
+  Eigen::Isometry3d pose(QuaternionToEigen(dBodyGetQuaternion(body)));
+  pose.pretranslate(ToEigen(dBodyGetPosition(body)));
+  return pose;
+}
+/// Puts a body there, at rest.
+inline void SetPoseAtRest(dBodyID body, const Eigen::Isometry3d& pose) {
+  const Eigen::Vector3d at = pose.translation();
+  dBodySetPosition(body, at.x(), at.y(), at.z());
+  SetRotation(body, Eigen::Quaterniond(pose.linear()));
+  dBodySetLinearVel(body, 0, 0, 0);
+  dBodySetAngularVel(body, 0, 0, 0);
+  dBodySetForce(body, 0, 0, 0);
+  dBodySetTorque(body, 0, 0, 0);
+}
+
 /// Makes ODE ready for the calling thread: once per process, once per thread. ODE stays open for
 /// the life of the process.
 void PrepareOde();

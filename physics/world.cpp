@@ -115,24 +115,52 @@ int World::AddCharacter(const recon::BoneLengths& lengths, const recon::Posture&
   return static_cast<int>(actors.size()) - 1;
 }
 
-void World::SetTarget(int character, const recon::Posture& target, std::span<const double> weight) {
+void World::SetTarget(int character, const recon::Posture& target, std::span<const double> weight,
+                      const std::optional<recon::JointOrientations>& orientation) {
   if (!weight.empty() && weight.size() != recon::kJointCount) {
     throw std::invalid_argument("SetTarget: " + std::to_string(weight.size()) +
                                 " weights, must be 20 or none");
   }
-  impl_->actors.at(static_cast<size_t>(character))->SetTarget(target, weight);
+  impl_->actors.at(static_cast<size_t>(character))->SetTarget(target, weight, orientation);
 }
 
 void World::LetGo(int character) {
   impl_->actors.at(static_cast<size_t>(character))->controlled = false;
 }
 
-void World::Place(int character, const recon::Posture& posture) {
-  impl_->actors.at(static_cast<size_t>(character))->Place(posture, impl_->floor);
+void World::Place(int character, const recon::Posture& posture,
+                  const std::optional<recon::JointOrientations>& orientation) {
+  Actor& actor = *impl_->actors.at(static_cast<size_t>(character));
+  actor.wanted_orientation = orientation;
+  impl_->Place(actor, posture);
+}
+
+void World::Impl::Place(Actor& actor, const recon::Posture& posture) {
+  struct Carried {
+    Thing* thing;
+    Eigen::Isometry3d in_hand;
+  };
+  std::vector<Carried> carried;
+  for (Thing& thing : things) {
+    if (thing.hand == nullptr || !actor.character.Owns(thing.hand)) continue;
+    // As it is held now; where nothing is known of now, as it was when it was taken.
+    const Eigen::Isometry3d now = PoseOf(thing.hand).inverse() * PoseOf(thing.body);
+    carried.push_back({&thing, now.matrix().allFinite() ? now : thing.in_hand});
+  }
+  actor.Place(posture, floor);
+  for (const auto& [thing, in_hand] : carried) {
+    SetPoseAtRest(thing->body, PoseOf(thing->hand) * in_hand);
+  }
 }
 
 void World::SetVelocity(int character, const Vector3d& velocity_m_s) {
-  impl_->actors.at(static_cast<size_t>(character))->character.SetVelocity(velocity_m_s);
+  Character& moved = impl_->actors.at(static_cast<size_t>(character))->character;
+  moved.SetVelocity(velocity_m_s);
+  for (const Thing& thing : impl_->things) {
+    if (thing.hand == nullptr || !moved.Owns(thing.hand)) continue;
+    dBodySetLinearVel(thing.body, velocity_m_s.x(), velocity_m_s.y(), velocity_m_s.z());
+    dBodySetAngularVel(thing.body, 0, 0, 0);
+  }
 }
 
 void World::Constrain(int character, recon::Joint joint, const Vector3d& place_m, bool hard) {
@@ -209,7 +237,7 @@ void World::Step(double dt_s) {
     // Bounded forces keep this from happening; should it, the character stands up at its target.
     if (actor->character.IsFinite()) continue;
     ++actor->rescued;
-    actor->Place(actor->aim, w.floor);
+    w.Place(*actor, actor->aim);
   }
 }
 

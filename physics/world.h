@@ -116,12 +116,18 @@ class World {
                    const CharacterOptions& options = {});
   /// Where the character shall be at the end of the next Step. `weight` has one entry per joint in
   /// [0, 1] or is empty (all 1): small ones are followed more softly. Non-finite joints and joints
-  /// of weight 0 keep their bone's present direction.
-  void SetTarget(int character, const recon::Posture& target, std::span<const double> weight = {});
+  /// of weight 0 keep their bone's present direction. `orientation`: how the bones shall be turned
+  /// about themselves (recon/orientation.h), where that is known; else as the joints tell.
+  void SetTarget(int character, const recon::Posture& target, std::span<const double> weight = {},
+                 const std::optional<recon::JointOrientations>& orientation = std::nullopt);
   /// Lets the character fall: no control until the next SetTarget.
   void LetGo(int character);
-  /// Stands the character still in the posture.
-  void Place(int character, const recon::Posture& posture);
+  /// Stands the character still in the posture. What it holds goes along in its hand and stands
+  /// still, too; constraints stay where they are and pull from there; impulses not yet spent are
+  /// forgotten. `orientation` as in SetTarget.
+  void Place(int character, const recon::Posture& posture,
+             const std::optional<recon::JointOrientations>& orientation = std::nullopt);
+  /// Of the whole character and of what it holds; nothing turns.
   void SetVelocity(int character, const Eigen::Vector3d& velocity_m_s);
   /// Sec. 6.1: this joint goes to this place, whatever the target says. `hard`: by a virtual joint
   /// (a stiff bounded spring: constraints that contradict each other are met half way).

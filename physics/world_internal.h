@@ -8,7 +8,9 @@ struct Thing {
   ObjectOptions info;
   dBodyID body = nullptr;
   dGeomID geom = nullptr;
-  dJointID held = nullptr;   // virtual joint to a hand or to the world
+  dJointID held = nullptr;  // virtual joint to a hand or to the world
+  dBodyID hand = nullptr;   // the bone that holds it
+  Eigen::Isometry3d in_hand = Eigen::Isometry3d::Identity();  // bone from object, when it was taken
   dBodyID beside = nullptr;  // the bone before the hand that holds it
 };
 
@@ -34,6 +36,8 @@ struct World::Impl {
     bool self = false;      // limbs of one character
   };
 
+  /// Stands a character still in a posture, with what it holds.
+  void Place(Actor& actor, const recon::Posture& posture);
   void Substep(double left_s, double h_s);
   void WatchThreats(double dt_s);
   // contact.cpp

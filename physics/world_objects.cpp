@@ -65,6 +65,8 @@ void World::Hold(int character, recon::Joint joint, int object, bool rigid) {
   thing.held =
       rigid ? dJointCreateFixed(w.ode.world, nullptr) : dJointCreateBall(w.ode.world, nullptr);
   dJointAttach(thing.held, body, thing.body);
+  thing.hand = body;
+  thing.in_hand = PoseOf(body).inverse() * PoseOf(thing.body);
   thing.beside = hand.body(BodyParentOf(hand.BodyOfJoint(index)));
   if (rigid) {
     dJointSetFixed(thing.held);
@@ -78,6 +80,7 @@ void World::Release(int object) {
   Thing& thing = impl_->things.at(static_cast<size_t>(object));
   if (thing.held != nullptr) dJointDestroy(thing.held);
   thing.held = nullptr;
+  thing.hand = nullptr;
   thing.beside = nullptr;
 }
 

@@ -145,6 +145,17 @@ const JointOrientations& RestOrientations() {
 
 JointOrientations ComputeOrientations(const Posture& posture) { return Solver(posture).Run(); }
 
+JointOrientations AlignToBones(const JointOrientations& orientations, const Posture& posture) {
+  JointOrientations out = orientations;
+  out[0] = ComputeOrientations(posture)[0];
+  for (size_t i = 1; i < kJointCount; ++i) {
+    const Vector3d bone = posture.position_m[i] - posture.position_m[ParentOf(i)];
+    if (!(bone.allFinite() && bone.norm() > kTinyLength_m)) continue;
+    out[i] = (SmallestTurn(out[i] * Vector3d::UnitY(), bone) * out[i]).normalized();
+  }
+  return out;
+}
+
 JointOrientations ToHierarchical(const JointOrientations& absolute) {
   JointOrientations relative = absolute;
   for (size_t i = 1; i < kJointCount; ++i) {

@@ -21,6 +21,11 @@ namespace ossa::recon {
 /// Bones of zero length or with non-finite ends keep their parent's turn.
 JointOrientations ComputeOrientations(const Posture& posture);
 
+/// Orientations that are known otherwise (of a rig, a database, a physical character) brought onto
+/// a posture: each turned by the smallest rotation onto its bone, which keeps its turn about the
+/// bone. Where the bone has no direction it stays as it is. Entry 0 is what hips and spine tell.
+JointOrientations AlignToBones(const JointOrientations& orientations, const Posture& posture);
+
 /// The orientation of each bone at rest, as described above.
 const JointOrientations& RestOrientations();
 
