@@ -142,15 +142,7 @@ void Character::SetVelocity(const Vector3d& velocity_m_s) {
 }
 
 bool Character::IsFinite() const {
-  for (size_t bone = 1; bone < kJointCount; ++bone) {
-    const dReal* q = dBodyGetQuaternion(body_[bone]);
-    const Vector3d p = ToEigen(dBodyGetPosition(body_[bone]));
-    const Vector3d v = ToEigen(dBodyGetLinearVel(body_[bone]));
-    const Vector3d w = ToEigen(dBodyGetAngularVel(body_[bone]));
-    if (!p.allFinite() || !v.allFinite() || !w.allFinite()) return false;
-    if (!std::isfinite(q[0] + q[1] + q[2] + q[3]) || p.norm() > 1e4) return false;
-  }
-  return true;
+  return std::all_of(body_.begin() + 1, body_.end(), IsFiniteAndNear);
 }
 
 Vector3d Character::JointPosition(size_t joint) const {

@@ -22,6 +22,17 @@ inline Eigen::Isometry3d PoseOf(dBodyID body) {
   pose.pretranslate(ToEigen(dBodyGetPosition(body)));
   return pose;
 }
+/// Whether a body's motion is one of numbers, within 10 km of the origin. Collision detection knows
+/// places up to some 1e8 m.
+inline bool IsFiniteAndNear(dBodyID body) {
+  // By hand: further than any room, near enough for contacts to a micrometre
+  constexpr double kFarthest_m = 1e4;
+  const Eigen::Quaterniond q = QuaternionToEigen(dBodyGetQuaternion(body));
+  const Eigen::Vector3d p = ToEigen(dBodyGetPosition(body));
+  return p.allFinite() && p.norm() <= kFarthest_m && q.coeffs().allFinite() &&
+         ToEigen(dBodyGetLinearVel(body)).allFinite() &&
+         ToEigen(dBodyGetAngularVel(body)).allFinite();
+}
 /// Puts a body there, at rest.
 inline void SetPoseAtRest(dBodyID body, const Eigen::Isometry3d& pose) {
   const Eigen::Vector3d at = pose.translation();

@@ -212,10 +212,25 @@ void World::Impl::Substep(double left_s, double h_s) {
   Collide(h_s);
   SeededQuickStep(ode.world, h_s, options.seed + 0x9e3779b9U * ++steps);
   dJointGroupEmpty(ode.contacts);
+  RescueLost();
   for (const auto& actor : actors) {
     actor->max_gap_m = std::max(actor->max_gap_m, actor->character.MaxAnchorGap());
     actor->character.Reconnect();
     if (floor) actor->character.LiftOutOf(*floor, kDeepest_m);
+  }
+}
+
+/// Bounded forces keep motion finite; an absurd impulse may not. A character whose motion is lost
+/// stands up at its target with what it holds, a thing rests where it was before the step. At once:
+/// ODE ends the process when it is to look for contacts of what is nowhere.
+void World::Impl::RescueLost() {
+  for (const auto& actor : actors) {
+    if (actor->character.IsFinite()) continue;
+    ++actor->rescued;
+    Place(*actor, actor->aim);
+  }
+  for (Thing& thing : things) {
+    if (!IsFiniteAndNear(thing.body)) SetPoseAtRest(thing.body, thing.before);
   }
 }
 
@@ -232,13 +247,8 @@ void World::Step(double dt_s) {
       std::max(1, static_cast<int>(std::ceil(dt_s / kFrame_s * w.options.substeps - 1e-6)));
   const double h = dt_s / count;
   w.contacts = {};
+  for (Thing& thing : w.things) thing.before = PoseOf(thing.body);
   for (int k = 0; k < count; ++k) w.Substep(dt_s - (k + 1) * h, h);
-  for (const auto& actor : w.actors) {
-    // Bounded forces keep this from happening; should it, the character stands up at its target.
-    if (actor->character.IsFinite()) continue;
-    ++actor->rescued;
-    w.Place(*actor, actor->aim);
-  }
 }
 
 CharacterState World::StateOf(int character) const {

@@ -12,6 +12,7 @@ struct Thing {
   dBodyID hand = nullptr;   // the bone that holds it
   Eigen::Isometry3d in_hand = Eigen::Isometry3d::Identity();  // bone from object, when it was taken
   dBodyID beside = nullptr;  // the bone before the hand that holds it
+  Eigen::Isometry3d before = Eigen::Isometry3d::Identity();  // pose when the present Step began
 };
 
 /// Characters carry the tag index + 1 in their geoms, things -(index + 1), the floor 0.
@@ -39,6 +40,7 @@ struct World::Impl {
   /// Stands a character still in a posture, with what it holds.
   void Place(Actor& actor, const recon::Posture& posture);
   void Substep(double left_s, double h_s);
+  void RescueLost();
   void WatchThreats(double dt_s);
   // contact.cpp
   void Collide(double h_s);
