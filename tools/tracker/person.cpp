@@ -1,25 +1,20 @@
 #include "tools/tracker/person_internal.h"
 
 #include <algorithm>
-#include <chrono>
 #include <cmath>
 
 #include "recon/bone_projection.h"
 #include "recon/orientation.h"
 #include "recon/refine/free_space.h"
+#include "tools/tracker/skeleton_stages_internal.h"
 
 namespace ossa::tracker {
 namespace {
 
 // Constants: chosen by hand.
 
-using Clock = std::chrono::steady_clock;
 using recon::kJointCount;
 using recon::TrackingState;
-
-double MillisecondsSince(Clock::time_point start) {
-  return std::chrono::duration<double, std::milli>(Clock::now() - start).count();
-}
 
 // Neither reconstruction nor mechanics may drag a joint away from where it is seen: tracked joints
 // keep within 2 cm of the image, 6 cm when their reliability is nil. Inferred ones are off by 3 to
@@ -135,41 +130,50 @@ void ForgetGone(const std::vector<int>& in_view, double time_s, double forget_s,
   });
 }
 
-std::unique_ptr<recon::Reconstructor> MethodFor(int id, const CompleteOptions& options) {
+std::unique_ptr<recon::Reconstructor> MethodFor(int id, const SkeletonOptions& options) {
   recon::ReconstructorOptions with = options.reconstructor;
   const auto known = options.bones_m.find(id);
   if (known != options.bones_m.end()) with.bones_m = known->second;
   return recon::MakeReconstructor(with);
 }
 
-void CompleteBody(const depth::DepthFrame& frame, const std::optional<Eigen::Vector4d>& floor,
-                  const CompleteOptions& options, Person& person, Body& body, StageTimes& ms) {
-  const auto start = Clock::now();
-  if (!person.reconstructor) person.reconstructor = MethodFor(body.id, options);
-  const recon::MethodInfo& method = recon::MethodNamed(options.reconstructor.method);
-  const recon::TrackedPosture seen = Observed(body, method.refined);
-  const recon::TrackedPosture averaged = person.stationary.Step(seen, frame.time_s);
+void AverageStationary(SkeletonWork& work) {
+  const recon::MethodInfo& method = recon::MethodNamed(work.options.reconstructor.method);
+  work.observed =
+      work.person.stationary.Step(Observed(work.body, method.refined), work.frame.time_s);
+}
+
+void Reconstruct(SkeletonWork& work) {
+  auto& method = work.person.reconstructor;
+  Body& body = work.body;
+  if (!method) method = MethodFor(body.id, work.options);
   std::optional<recon::BoneLengths> bones_m = body.refined_bones_m;
   if (body.fit) bones_m = recon::MeasureBoneLengths(body.fit->joints_m);
-  const auto result = person.reconstructor->Step({averaged, frame.time_s, &frame, bones_m});
-  body.reconstructed = result.posture;
-  body.bones_m = person.reconstructor->Bones();
-  ms.reconstruct += MillisecondsSince(start);
-  recon::Posture posture = body.reconstructed;
-  if (options.physics) {
-    const auto physics_start = Clock::now();
-    if (!person.mechanics) person.mechanics = std::make_unique<Mechanics>(options.mechanics);
-    const auto made = person.mechanics->Follow(posture, result.reliability, floor, frame.time_s);
-    if (made) posture = made->posture;
-    ms.physics += MillisecondsSince(physics_start);
+  work.reconstructed = method->Step({work.observed, work.frame.time_s, &work.frame, bones_m});
+  body.reconstructed = work.reconstructed.posture;
+  body.bones_m = method->Bones();
+  work.posture = body.reconstructed;
+}
+
+void Simulate(SkeletonWork& work) {
+  if (!work.options.physics) return;
+  auto& mechanics = work.person.mechanics;
+  if (!mechanics) mechanics = std::make_unique<Mechanics>(work.options.mechanics);
+  const auto made = mechanics->Follow(work.posture, work.reconstructed.reliability, work.floor,
+                                      work.frame.time_s);
+  if (made) work.posture = made->posture;
+}
+
+void Finish(SkeletonWork& work) {
+  const auto& reliability = work.reconstructed.reliability;
+  const recon::Posture held = HeldToImage(work.posture, work.observed, reliability);
+  recon::Posture smoothed =
+      Smooth(OutOfFreeSpace(held, work.observed, work.frame, work.person), work.frame.time_s,
+             work.options.smoothing, work.person.smoothing);
+  if (work.options.physics || recon::MethodNamed(work.options.reconstructor.method).keeps_bones) {
+    smoothed = WithBonesOf(work.posture, smoothed, work.observed, reliability);
   }
-  const recon::Posture held = HeldToImage(posture, averaged, result.reliability);
-  recon::Posture smoothed = Smooth(OutOfFreeSpace(held, averaged, frame, person), frame.time_s,
-                                   options.smoothing, person.smoothing);
-  if (options.physics || method.keeps_bones) {
-    smoothed = WithBonesOf(posture, smoothed, averaged, result.reliability);
-  }
-  body.joints = Estimates(smoothed, body.raw, result.reliability);
+  work.body.joints = Estimates(smoothed, work.body.raw, reliability);
 }
 
 }  // namespace ossa::tracker

@@ -8,6 +8,8 @@
 #include "recon/fit/surface_fit.h"
 #include "recon/methods/reconstructor.h"
 #include "recon/refine/bone_estimation.h"
+#include "recon/refine/refinement_cascade.h"
+#include "tools/people/joint_targets.h"
 #include "tools/tracker/choose_posture_internal.h"
 #include "tools/tracker/mechanics_internal.h"
 #include "tools/tracker/tracker.h"
@@ -43,7 +45,14 @@ struct Person {
 void ForgetGone(const std::vector<int>& in_view, double time_s, double forget_s,
                 std::map<int, Person>& people);
 
-struct CompleteOptions {
+/// What the stages from a detection to the skeleton read, the same for every person and frame.
+struct SkeletonOptions {
+  const forest::ForestModel* forest = nullptr;      // of choosing among proposals,
+  people::JointTargets targets{};                   // ... and what it calls joints
+  const recon::JointRefiner* refinement = nullptr;  // null: none
+  const recon::BodySurface* surface = nullptr;      // of `fit`
+  std::optional<recon::SurfaceFitOptions> fit;      // nothing: no fit
+  TrackingMode mode = TrackingMode::kStanding;
   bool physics = false;
   MechanicsBuild mechanics;
   SmoothingOptions smoothing;
@@ -52,10 +61,6 @@ struct CompleteOptions {
 };
 
 /// The person's own method, which has the bones where they are known.
-std::unique_ptr<recon::Reconstructor> MethodFor(int id, const CompleteOptions& options);
-
-/// From the raw and refined postures in `body` to the reconstructed one and to its joints.
-void CompleteBody(const depth::DepthFrame& frame, const std::optional<Eigen::Vector4d>& floor,
-                  const CompleteOptions& options, Person& person, Body& body, StageTimes& ms);
+std::unique_ptr<recon::Reconstructor> MethodFor(int id, const SkeletonOptions& options);
 
 }  // namespace ossa::tracker

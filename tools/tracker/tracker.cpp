@@ -7,33 +7,38 @@
 #include <utility>
 
 #include "depth/base/error.h"
+#include "depth/base/stopwatch.h"
 #include "depth/base/threads.h"
 #include "depth/image/turn.h"
 #include "depth/sensor/frame_source.h"
 #include "forest/forest.h"
 #include "recon/refine/refinement_cascade.h"
 #include "tools/people/detect_people.h"
-#include "tools/tracker/fit_surface_internal.h"
 #include "tools/tracker/person_internal.h"
-#include "tools/tracker/refine_joints_internal.h"
+#include "tools/tracker/skeleton_stages_internal.h"
 #include "tools/tracker/upright.h"
 
 namespace ossa::tracker {
 namespace {
 
-using Clock = std::chrono::steady_clock;
-
-// Constants: chosen by hand.
-
-constexpr double kRecent_s = 0.2;  // what was seen longer ago says nothing about now
-
-double MillisecondsSince(Clock::time_point start) {
-  return std::chrono::duration<double, std::milli>(Clock::now() - start).count();
-}
-
 SmoothingOptions SmoothingOf(const TrackerOptions& options) {
   if (options.smoothing) return *options.smoothing;
   return SmoothingPreset(recon::MethodNamed(options.method).smoothing);
+}
+
+recon::ReconstructorOptions MethodOptions(const TrackerOptions& options, const ModelSet& models) {
+  recon::ReconstructorOptions method;
+  method.method = options.method;
+  method.database = models.database;
+  method.prior = models.prior;
+  method.learned = models.learned;
+  method.learned_file = models.learned_file;  // for messages
+  method.local_pca = options.local_pca;
+  method.gaussian_process = options.gaussian_process;
+  method.best = options.best;
+  method.best.refined_joints = models.refinement != nullptr;
+  method.seed = options.seed;
+  return method;
 }
 
 const forest::ForestModel& ForestOf(const ModelSet& models) {
@@ -87,7 +92,7 @@ struct Tracker::Impl {
   ModelSet models;
   const forest::ForestModel& model;  // of `models`
   people::JointTargets targets;
-  CompleteOptions complete;
+  SkeletonOptions skeleton;
   people::PeopleOptions people_options;
   people::PeopleState people_state;
   std::map<int, Person> persons;  // by id
@@ -99,22 +104,19 @@ struct Tracker::Impl {
         models(o.models ? *o.models : ModelSet::Shipped(o.method)),
         model(ForestOf(models)),
         targets(people::FindJointTargets(model, models.forest_file)) {
-    complete.physics = o.physics;
-    complete.mechanics = o.mechanics;
-    complete.smoothing = SmoothingOf(o);
-    complete.reconstructor.method = o.method;
-    complete.reconstructor.database = models.database;
-    complete.reconstructor.prior = models.prior;
-    complete.reconstructor.learned = models.learned;
-    complete.reconstructor.learned_file = models.learned_file;  // for messages
-    complete.reconstructor.local_pca = o.local_pca;
-    complete.reconstructor.gaussian_process = o.gaussian_process;
-    complete.reconstructor.best = o.best;
-    complete.reconstructor.best.refined_joints = models.refinement != nullptr;
-    complete.reconstructor.seed = o.seed;
-    complete.bones_m = o.bones_m;
-    recon::MakeReconstructor(complete.reconstructor);  // says now what is wrong with the options
-    for (const auto& [id, lengths_m] : o.bones_m) MethodFor(id, complete);
+    skeleton.forest = &model;
+    skeleton.targets = targets;
+    skeleton.refinement = models.refinement.get();
+    skeleton.surface = models.surface.get();
+    skeleton.fit = o.fit;
+    skeleton.mode = o.mode;
+    skeleton.physics = o.physics;
+    skeleton.mechanics = o.mechanics;
+    skeleton.smoothing = SmoothingOf(o);
+    skeleton.bones_m = o.bones_m;
+    skeleton.reconstructor = MethodOptions(o, models);
+    recon::MakeReconstructor(skeleton.reconstructor);  // says now what is wrong with the options
+    for (const auto& [id, lengths_m] : o.bones_m) MethodFor(id, skeleton);
     if (o.fit && !models.surface) {
       throw std::invalid_argument("TrackerOptions.models.surface = null, must be one for a fit");
     }
@@ -135,9 +137,6 @@ struct Tracker::Impl {
   Body MakeBody(const depth::DepthFrame& frame, const people::Person& person) const;
   std::vector<Person*> RememberPersons(const std::vector<Body>& bodies, double time_s);
   void Introduce(int id, Person& person) const;
-  void TrackBody(const depth::DepthFrame& frame, const std::optional<Eigen::Vector4d>& floor,
-                 const people::Detection& detection, Person& person, Body& body,
-                 StageTimes& ms) const;
 };
 
 // How surely somebody is in a frame that nothing is known about.
@@ -180,10 +179,10 @@ Body Tracker::Impl::MakeBody(const depth::DepthFrame& frame, const people::Perso
 // Of somebody new: what is known already. The refinement cascade estimates the bones that the
 // method ends with.
 void Tracker::Impl::Introduce(int id, Person& person) const {
-  constexpr int kFrames = 600;  // what is judged now changes little
+  constexpr int kFrames = 600;  // by hand: what is judged now changes little
   person.id = id;
   const auto known = options.bones_m.find(id);
-  if (known != options.bones_m.end() && complete.reconstructor.best.refined_joints) {
+  if (known != options.bones_m.end() && skeleton.reconstructor.best.refined_joints) {
     person.bones = {known->second, kFrames};
   }
 }
@@ -203,52 +202,8 @@ std::vector<Person*> Tracker::Impl::RememberPersons(const std::vector<Body>& bod
   return in_view;
 }
 
-// From pixels to all three postures of one person.
-void Tracker::Impl::TrackBody(const depth::DepthFrame& frame,
-                              const std::optional<Eigen::Vector4d>& floor,
-                              const people::Detection& detection, Person& person, Body& body,
-                              StageTimes& ms) const {
-  const people::ForestEvidence& evidence = detection.evidence;
-  ChoiceContext context;
-  context.camera = &frame.camera;
-  context.expected_m = person.lengths_m;
-  context.leg_area_m2 = evidence.leg_area_m2;
-  const bool recent = person.before && frame.time_s - person.before_s <= kRecent_s;
-  context.before = recent ? &*person.before : nullptr;
-  body.raw = ChoosePosture(model, targets, evidence.proposals, context);
-  if (models.refinement) {
-    const auto start = Clock::now();
-    const auto refined = RefineJoints(*models.refinement, frame, detection.candidate,
-                                      evidence.proposals, targets, body.raw, &person.bones);
-    if (refined) {
-      body.refined = refined->joints_m;
-      body.refined_bones_m = refined->bones_m;
-    }
-    ms.reconstruct += MillisecondsSince(start);
-  }
-  if (options.fit) {
-    const auto start = Clock::now();
-    if (!person.fitter) {
-      person.fitter = std::make_unique<recon::SurfaceFitter>(*models.surface, *options.fit);
-    }
-    body.fit = FitSurface(frame, detection, body, person);
-    ms.fit = MillisecondsSince(start);
-    ms.reconstruct += ms.fit;
-  }
-  for (size_t j = 0; j < recon::kJointCount; ++j) {
-    if (options.mode == TrackingMode::kStanding || IsSeatedJoint(static_cast<recon::Joint>(j)))
-      continue;
-    body.raw.state[j] = recon::TrackingState::kNotTracked;
-    body.raw.confidence[j] = 0;
-  }
-  LearnBoneLengths(body.raw, person.lengths_m);
-  CompleteBody(frame, floor, complete, person, body, ms);
-  person.before = body.raw;
-  person.before_s = frame.time_s;
-}
-
 BodyFrame Tracker::Impl::Track(const depth::DepthFrame& frame) {
-  const auto start = Clock::now();
+  const Stopwatch watch;
   BodyFrame result;
   result.index = frame.index;
   result.time_s = frame.time_s;
@@ -269,7 +224,8 @@ BodyFrame Tracker::Impl::Track(const depth::DepthFrame& frame) {
     Body& body = result.bodies[i];
     if (body.state == BodyState::kPositionOnly) return;
     const people::Detection& detection = seen.people[i].detection;
-    TrackBody(frame, result.floor, detection, *in_view[i], body, times[i]);
+    SkeletonWork work{skeleton, frame, result.floor, &detection, *in_view[i], body};
+    TrackSkeleton(work, times[i]);
     if (options.keep_proposals) body.proposals = ProposalsOf(detection.evidence, targets);
     if (!KeepsParts()) return;
     const auto classes =
@@ -280,13 +236,14 @@ BodyFrame Tracker::Impl::Track(const depth::DepthFrame& frame) {
   result.ms.classify = seen.classify_ms;
   result.ms.propose = seen.propose_ms;
   for (const StageTimes& t : times) {
+    result.ms.propose += t.propose;
     result.ms.reconstruct += t.reconstruct;
     result.ms.physics += t.physics;
     result.ms.fit += t.fit;
   }
   std::sort(result.bodies.begin(), result.bodies.end(),
             [](const Body& a, const Body& b) { return a.id < b.id; });
-  result.ms.total = MillisecondsSince(start);
+  result.ms.total = watch.milliseconds();
   return result;
 }
 
@@ -361,7 +318,7 @@ int64_t Tracker::Run(depth::FrameSource& source,
 
 void Tracker::ChooseUsers(std::vector<int> ids) { impl_->chosen_ids = std::move(ids); }
 void Tracker::ChooseAllUsers() { impl_->chosen_ids.reset(); }
-void Tracker::SetMode(TrackingMode mode) { impl_->options.mode = mode; }
+void Tracker::SetMode(TrackingMode mode) { impl_->skeleton.mode = mode; }
 void Tracker::SetTurn(Turn turn) {
   if (std::exchange(impl_->options.turn, turn) == turn) return;
   impl_->upright = {};
@@ -369,7 +326,7 @@ void Tracker::SetTurn(Turn turn) {
 }
 void Tracker::SetSmoothing(const SmoothingOptions& smoothing) {
   smoothing.Check();
-  impl_->complete.smoothing = smoothing;
+  impl_->skeleton.smoothing = smoothing;
 }
 void Tracker::Reset() { impl_->ForgetAll(); }
 

@@ -9,7 +9,7 @@
 #include "recon/normalise.h"
 #include "tests/support/capsule_person.h"
 #include "tests/tools/tracker/tracked_scenes.h"
-#include "tools/tracker/person_internal.h"
+#include "tools/tracker/skeleton_stages_internal.h"
 
 namespace ossa::tracker {
 namespace {
@@ -20,7 +20,7 @@ using recon::TrackingState;
 // How far, of all frames and bones, a final bone is from what it was at first, as a share of it,
 // when the joints of somebody who stands are seen centimetres off and the left arm only guessed.
 // Where bones are judged, each frame's by a hundredth or two otherwise, `settled` is the first.
-double WorstDrift(const CompleteOptions& options, int settled = 0) {
+double WorstDrift(const SkeletonOptions& options, int settled = 0) {
   tests::CapsuleRender render = Rendered({PersonAt(0.0, 2.5)});
   std::mt19937_64 random(3);
   std::normal_distribution<double> off_m(0.0, 0.04), over(1.05, 0.015);
@@ -42,7 +42,9 @@ double WorstDrift(const CompleteOptions& options, int settled = 0) {
     }
     render.frame.time_s = f / 30.0;
     StageTimes ms;
-    CompleteBody(render.frame, std::nullopt, options, person, body, ms);
+    const std::optional<Eigen::Vector4d> floor;
+    SkeletonWork work{options, render.frame, floor, nullptr, person, body};
+    CompleteSkeleton(work, ms);
     person.before_s = render.frame.time_s;
     const recon::BoneLengths lengths = recon::MeasureBoneLengths(ToPosture(body));
     if (f == settled) first = lengths;
@@ -53,8 +55,8 @@ double WorstDrift(const CompleteOptions& options, int settled = 0) {
   return worst;
 }
 
-CompleteOptions Unsmoothed(const std::string& method) {
-  CompleteOptions options;
+SkeletonOptions Unsmoothed(const std::string& method) {
+  SkeletonOptions options;
   options.reconstructor.method = method;
   options.smoothing = SmoothingPreset("none");
   return options;
@@ -65,13 +67,13 @@ TEST(FinalBones, KeepTheirLengthsWhereJointsAreHeldToTheImage) {
 }
 
 TEST(FinalBones, AreThoseOfTheMechanicalCharacter) {
-  CompleteOptions options = Unsmoothed("best");
+  SkeletonOptions options = Unsmoothed("best");
   options.physics = true;
   EXPECT_LT(WorstDrift(options), 0.001);
 }
 
 TEST(FinalBones, KeepTheLengthsInWhichTheySettleWhereTheyAreJudged) {
-  CompleteOptions options = Unsmoothed("best");
+  SkeletonOptions options = Unsmoothed("best");
   EXPECT_GT(WorstDrift(options, 1), 0.001);
   // Later than in a second: frames with too many odd joints count for nothing.
   EXPECT_LT(WorstDrift(options, 60), 0.001);
@@ -80,7 +82,7 @@ TEST(FinalBones, KeepTheLengthsInWhichTheySettleWhereTheyAreJudged) {
 }
 
 TEST(FinalBones, KeepTheirLengthsWhereJointsAreSmoothed) {
-  CompleteOptions options = Unsmoothed("best");
+  SkeletonOptions options = Unsmoothed("best");
   options.smoothing = SmoothingPreset("verysmooth");
   EXPECT_LT(WorstDrift(options), 0.001);
 }

@@ -1,7 +1,7 @@
 #include "recon/refine/free_space.h"
 #include "tests/support/capsule_person.h"
 #include "tests/tools/tracker/tracked_scenes.h"
-#include "tools/tracker/person_internal.h"
+#include "tools/tracker/skeleton_stages_internal.h"
 
 namespace ossa::tracker {
 namespace {
@@ -13,7 +13,7 @@ constexpr auto kHand = recon::Index(recon::Joint::kHandLeft);
 struct HandInTheAir {
   tests::CapsuleRender render = Rendered({PersonAt(0.0, 2.5)});
   Body body;
-  CompleteOptions options;
+  SkeletonOptions options;
   Person person;
 
   explicit HandInTheAir(recon::TrackingState state) {
@@ -28,9 +28,11 @@ struct HandInTheAir {
 
   const Eigen::Vector3d& Hand(int frames) {
     StageTimes ms;
+    const std::optional<Eigen::Vector4d> floor;
     for (int f = 0; f < frames; ++f) {
       render.frame.time_s = f / 30.0;
-      CompleteBody(render.frame, std::nullopt, options, person, body, ms);
+      SkeletonWork work{options, render.frame, floor, nullptr, person, body};
+      CompleteSkeleton(work, ms);
       person.before_s = render.frame.time_s;
     }
     return body.joints[kHand].position_m;

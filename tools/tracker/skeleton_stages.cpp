@@ -1,0 +1,100 @@
+#include "tools/tracker/skeleton_stages_internal.h"
+
+#include <array>
+#include <span>
+
+#include "depth/base/stopwatch.h"
+#include "tools/tracker/choose_posture_internal.h"
+#include "tools/tracker/fit_surface_internal.h"
+#include "tools/tracker/refine_joints_internal.h"
+
+namespace ossa::tracker {
+namespace {
+
+constexpr double kRecent_s = 0.2;  // by hand: what was seen longer ago says nothing about now
+
+struct Stage {
+  void (*run)(SkeletonWork&);
+  double StageTimes::*ms;  // where its time counts
+};
+
+// docs/pipeline.md says what each does and what it is worth.
+constexpr std::array kStages = {
+    Stage{ChooseRaw, &StageTimes::propose},
+    Stage{Refine, &StageTimes::reconstruct},
+    Stage{Fit, &StageTimes::fit},
+    Stage{ApplyMode, &StageTimes::propose},
+    Stage{AverageStationary, &StageTimes::reconstruct},
+    Stage{Reconstruct, &StageTimes::reconstruct},
+    Stage{Simulate, &StageTimes::physics},
+    Stage{Finish, &StageTimes::reconstruct},
+};
+constexpr size_t kObserving = 4;  // by definition: the stages before those of CompleteSkeleton
+
+void RunStages(std::span<const Stage> stages, SkeletonWork& work, StageTimes& ms) {
+  for (const Stage& stage : stages) {
+    const Stopwatch watch;
+    stage.run(work);
+    ms.*stage.ms += watch.milliseconds();
+  }
+}
+
+}  // namespace
+
+void TrackSkeleton(SkeletonWork& work, StageTimes& ms) {
+  RunStages(kStages, work, ms);
+  ms.reconstruct += ms.fit;
+  work.person.before = work.body.raw;
+  work.person.before_s = work.frame.time_s;
+}
+
+void CompleteSkeleton(SkeletonWork& work, StageTimes& ms) {
+  RunStages(std::span(kStages).subspan(kObserving), work, ms);
+}
+
+void ChooseRaw(SkeletonWork& work) {
+  const Person& person = work.person;
+  const people::ForestEvidence& evidence = work.detection->evidence;
+  ChoiceContext context;
+  context.camera = &work.frame.camera;
+  context.expected_m = person.lengths_m;
+  context.leg_area_m2 = evidence.leg_area_m2;
+  const bool recent = person.before && work.frame.time_s - person.before_s <= kRecent_s;
+  context.before = recent ? &*person.before : nullptr;
+  work.body.raw =
+      ChoosePosture(*work.options.forest, work.options.targets, evidence.proposals, context);
+}
+
+void Refine(SkeletonWork& work) {
+  if (work.options.refinement == nullptr) return;
+  const people::Detection& detection = *work.detection;
+  const auto refined = RefineJoints(*work.options.refinement, work.frame, detection.candidate,
+                                    detection.evidence.proposals, work.options.targets,
+                                    work.body.raw, &work.person.bones);
+  if (!refined) return;
+  work.body.refined = refined->joints_m;
+  work.body.refined_bones_m = refined->bones_m;
+}
+
+void Fit(SkeletonWork& work) {
+  if (!work.options.fit) return;
+  auto& fitter = work.person.fitter;
+  if (!fitter) {
+    fitter = std::make_unique<recon::SurfaceFitter>(*work.options.surface, *work.options.fit);
+  }
+  work.body.fit = FitSurface(work.frame, *work.detection, work.body, work.person);
+}
+
+void ApplyMode(SkeletonWork& work) {
+  recon::TrackedPosture& raw = work.body.raw;
+  for (size_t j = 0; j < recon::kJointCount; ++j) {
+    const bool followed =
+        work.options.mode == TrackingMode::kStanding || IsSeatedJoint(static_cast<recon::Joint>(j));
+    if (followed) continue;
+    raw.state[j] = recon::TrackingState::kNotTracked;
+    raw.confidence[j] = 0;
+  }
+  LearnBoneLengths(raw, work.person.lengths_m);
+}
+
+}  // namespace ossa::tracker
