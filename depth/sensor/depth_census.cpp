@@ -39,7 +39,7 @@ int Percentile(const Counts& count, int64_t readings, double share) {
   return 0;
 }
 
-Spread SpreadOf(const Counts& count) {
+Spread MeasureSpread(const Counts& count) {
   Spread spread;
   spread.noughts = count[0];
   for (int number = 1; number < 65536; ++number) {
@@ -83,7 +83,7 @@ bool AreBytesExchanged(const Counts& count, const Spread& spread) {
   }
   const auto fits = [](int number) { return (number & 0xFF) <= kMostHighByte; };
   return Share(count, spread, fits) > 0.995 && low_bytes.count() >= kManyBytes &&
-         MayBeDistance(SpreadOf(exchanged).median);
+         MayBeDistance(MeasureSpread(exchanged).median);
 }
 
 // Shifts end at 1090, infinitely far; no reading is 2047. Where everything was seen, nothing tells
@@ -185,12 +185,12 @@ void DepthCensus::Add(const DepthView& image) {
   bend_.Add(image);
 }
 
-bool DepthCensus::IsEnough() const { return SpreadOf(count_).readings >= kEnoughReadings; }
+bool DepthCensus::IsEnough() const { return MeasureSpread(count_).readings >= kEnoughReadings; }
 
 std::optional<DepthSuspicion> DepthCensus::Judge() const {
   constexpr int64_t kEnoughSteps = 300;
   constexpr int kFewNumbers = 10;  // a wall, or nothing
-  const Spread spread = SpreadOf(count_);
+  const Spread spread = MeasureSpread(count_);
   if (spread.readings < kEnoughReadings || spread.distinct < kFewNumbers) return std::nullopt;
   if (auto found = JudgeFormat(count_, spread)) return found;
   const double share =

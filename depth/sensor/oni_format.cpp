@@ -85,7 +85,7 @@ bool SealHolds(std::ifstream& file, const OniPreamble& preamble, std::span<const
   std::vector<uint8_t> unsealed(start.begin(),
                                 start.begin() + static_cast<std::ptrdiff_t>(preamble.size));
   std::memset(unsealed.data() + preamble.seal_at, 0, sizeof(uint64_t));
-  return OniSealOf(file, unsealed) == *preamble.seal;
+  return ComputeOniSeal(file, unsealed) == *preamble.seal;
 }
 
 }  // namespace
@@ -112,7 +112,7 @@ OniPreamble ParseOniPreamble(std::span<const uint8_t> bytes) {
   return preamble;
 }
 
-uint64_t OniSealOf(std::ifstream& file, std::span<const uint8_t> unsealed) {
+uint64_t ComputeOniSeal(std::ifstream& file, std::span<const uint8_t> unsealed) {
   const std::unique_ptr<XXH3_state_t, decltype(&XXH3_freeState)> state(XXH3_createState(),
                                                                        XXH3_freeState);
   XXH3_64bits_reset(state.get());

@@ -74,7 +74,7 @@ OniPreamble ParseOniPreamble(std::span<const uint8_t> bytes);
 
 /// What the seal is to be: the XXH3 of the file's bytes from where `unsealed` ends, then of
 /// `unsealed`, the bytes before the first frame with the seal's value zeroed.
-uint64_t OniSealOf(std::ifstream& file, std::span<const uint8_t> unsealed);
+uint64_t ComputeOniSeal(std::ifstream& file, std::span<const uint8_t> unsealed);
 
 /// Where a frame's compressed depth lies in the file.
 struct OniFrameAt {

@@ -293,7 +293,8 @@ int64_t OniRecorder::FinishWithWhatFits() {
       Totals totals = state.PutEnd();
       // The hash that ran along has seen what was cut off.
       std::ifstream written = OpenFile(state.file.temporary_path());
-      totals.seal = OniSealOf(written, Preamble(state.camera, state.frames_per_second, totals));
+      totals.seal =
+          ComputeOniSeal(written, Preamble(state.camera, state.frames_per_second, totals));
       state.PutSealedPreamble(totals);
       state.file.Commit();
       return frame_count();

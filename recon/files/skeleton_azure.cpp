@@ -78,8 +78,8 @@ Eigen::Vector3d PositionOf(const SkeletonInput& input, const Json& json, const s
   return kMetresPerMillimetre * Eigen::Vector3d(-position.x(), -position.y(), position.z());
 }
 
-BodyRecord BodyOf(const SkeletonInput& input, const Json& json,
-                  const std::vector<std::optional<Joint>>& joints, const std::string& where) {
+BodyRecord ParseBody(const SkeletonInput& input, const Json& json,
+                     const std::vector<std::optional<Joint>>& joints, const std::string& where) {
   BodyRecord body;
   const Json& id = Need(input, json, "body_id", where);
   if (!id.is_number_integer()) Fail(input, where, "a whole number as body_id");
@@ -119,7 +119,7 @@ SkeletonSequence ReadAzure(SkeletonInput& input) {
     frame.time_s = time_s - *first;
     const Json& bodies = Need(input, frames[f], "bodies", where);
     if (!bodies.is_array()) Fail(input, where, "a list of bodies");
-    for (const Json& body : bodies) frame.bodies.push_back(BodyOf(input, body, joints, where));
+    for (const Json& body : bodies) frame.bodies.push_back(ParseBody(input, body, joints, where));
     sequence.frames.push_back(std::move(frame));
   }
   RequireFrames(sequence);

@@ -40,7 +40,7 @@ bool FirstLineHas(const SkeletonSample& sample, char separator, size_t numbers) 
   return !sample.lines.empty() && CountOfNumbers(sample.lines[0], separator) == numbers;
 }
 
-TrackingState StateOf(const TextLines& lines, double number) {
+TrackingState ParseState(const TextLines& lines, double number) {
   if (number != 0 && number != 1 && number != 2) {
     lines.Fail("a tracking state 0, 1 or 2", fmt::format("{}", number));
   }
@@ -65,7 +65,7 @@ SkeletonSequence ReadLabanotation(SkeletonInput& input) {
     for (size_t j = 0; j < kV2Joints; ++j) {
       const auto joint = JointOfV2(j);
       const double* values = &numbers[1 + 4 * j];
-      const TrackingState state = StateOf(lines, values[3]);
+      const TrackingState state = ParseState(lines, values[3]);
       if (joint) PutJoint(body, *joint, Eigen::Vector3d(values), state);
     }
     const double time_s = (numbers[0] - *first) * kSecondsPerTick;
@@ -176,7 +176,7 @@ BodyRecord ReadNtuBody(TextLines& lines, const std::string& id, std::map<std::st
     // All may be NaN where nothing was seen; pixels and quaternions are not used.
     const auto place = PlaceIn(lines, {fields[0], fields[1], fields[2]}, "x, y or z");
     if (!place || IsNan(fields[11])) continue;
-    PutJoint(body, *joint, *place, StateOf(lines, NumberIn(lines, fields[11], "the state")));
+    PutJoint(body, *joint, *place, ParseState(lines, NumberIn(lines, fields[11], "the state")));
   }
   return body;
 }

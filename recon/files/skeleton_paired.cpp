@@ -50,8 +50,9 @@ std::string PrefixOf(const SkeletonInput& input, const PairedFormat& format) {
                   input.name, input.name, input.name));
 }
 
-std::vector<JointColumns> ColumnsOf(const TextLines& lines, const std::vector<std::string>& header,
-                                    const std::string& prefix) {
+std::vector<JointColumns> FindColumns(const TextLines& lines,
+                                      const std::vector<std::string>& header,
+                                      const std::string& prefix) {
   std::vector<JointColumns> columns;
   for (size_t c = 0; c + 2 < header.size(); ++c) {
     if (!header[c].starts_with(prefix) || !header[c].ends_with("_x")) continue;
@@ -74,7 +75,7 @@ SkeletonSequence ReadPaired(SkeletonInput& input, const PairedFormat& format) {
   lines.Expect("a header line");
   const CsvFields csv(lines.line());
   const std::vector<std::string> header = ReadCsvHeader(lines.line());
-  const auto columns = ColumnsOf(lines, header, prefix);
+  const auto columns = FindColumns(lines, header, prefix);
   SkeletonSequence sequence{input.name, {}};
   sequence.columns = input.columns;
   RowTimes times;

@@ -130,7 +130,7 @@ Seen SeenIn(const Stretch& stretch, size_t frame) {
 }
 
 /// Both outputs' errors in frames from kFewest on, in the body's frame now.
-Eigen::MatrixXd ErrorsOf(const Stretch& stretch, size_t joint, bool mirrored) {
+Eigen::MatrixXd ComputeErrors(const Stretch& stretch, size_t joint, bool mirrored) {
   Eigen::MatrixXd y(static_cast<Eigen::Index>(stretch.seen.size()) - LinearFilter::kFewest,
                     kColumns);
   for (Eigen::Index r = 0; r < y.rows(); ++r) {
@@ -170,7 +170,7 @@ double WeightOf(const Eigen::MatrixXd& y) {
 }
 
 Sums StepSums(const Stretch& stretch, size_t joint, bool mirrored) {
-  const Eigen::MatrixXd y = ErrorsOf(stretch, joint, mirrored);
+  const Eigen::MatrixXd y = ComputeErrors(stretch, joint, mirrored);
   Eigen::MatrixXd x(y.rows(), FilterFeatureSize(joint));
   for (Eigen::Index r = 0; r < x.rows(); ++r) {
     const auto frame = static_cast<size_t>(r) + LinearFilter::kFewest;
@@ -208,7 +208,7 @@ void AddInfluences(const Eigen::MatrixXd& x, const Eigen::MatrixXd& y,
 
 /// In camera space.
 Sums PullSums(const Stretch& stretch, size_t joint) {
-  Eigen::MatrixXd y = ErrorsOf(stretch, joint, false);
+  Eigen::MatrixXd y = ComputeErrors(stretch, joint, false);
   std::array<Eigen::MatrixXd, LinearFilter::kOutputs> x;
   for (const auto output : {LinearFilter::kNow, LinearFilter::kBefore}) {
     x[output].resize(y.rows(), 3 * PullFeatureSize(output));
@@ -261,7 +261,7 @@ class Learner {
   Learner(const std::vector<PosturePair>& pairs, const LinearFilterOptions& options)
       : options_(options), pulls_(OfOnePerson(pairs)) {
     filter_.step_s = UsualStep_s(pairs);
-    const std::vector<int> fold = FoldsOf(pairs, kFolds);
+    const std::vector<int> fold = AssignFolds(pairs, kFolds);
     std::vector<Posture> seen;
     for (const PosturePair& pair : pairs) seen.push_back(InCamera(pair));
     for (size_t joint = 0; joint < kJointCount; ++joint) {

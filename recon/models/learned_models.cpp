@@ -97,7 +97,7 @@ struct JointSamples {
   Eigen::MatrixXd inputs, outputs;
 };
 
-JointSamples SamplesOf(const std::vector<PosturePair>& pairs, size_t joint) {
+JointSamples CollectSamples(const std::vector<PosturePair>& pairs, size_t joint) {
   JointSamples s;
   const auto known = std::count_if(pairs.begin(), pairs.end(),
                                    [joint](const PosturePair& p) { return p.known[joint] > 0.0; });
@@ -135,7 +135,7 @@ LearnedModels LearnedModels::Learn(const std::vector<PosturePair>& pairs,
   constexpr int kFewest = 10;  // fewer pairs of a joint teach nothing
   for (size_t joint = 0; joint < kJointCount; ++joint) {
     if (progress && !progress(static_cast<int>(joint))) return out;
-    const JointSamples s = SamplesOf(out.exemplars, joint);
+    const JointSamples s = CollectSamples(out.exemplars, joint);
     if (s.inputs.rows() < kFewest) continue;
     out.mixtures[joint] = LocalMixture::Learn(s.inputs, s.outputs, options.mixture);
     constexpr Eigen::Index kForParameters = 200;

@@ -12,7 +12,8 @@ namespace ossa::recon {
 // Constants: chosen by hand, where no comparison is said.
 
 struct LinearFilterOptions {
-  // Tried in turn for each joint; those that hold best for what is left out (FoldsOf) are taken.
+  // Tried in turn for each joint; those that hold best for what is left out (AssignFolds) are
+  // taken.
   std::vector<double> ridges = {1e-4, 1e-3, 1e-2, 1e-1,
                                 1.0};  // over the mean square of a regressor
   // Squared error of second differences over squared error of position, in what is minimised.

@@ -8,7 +8,7 @@ namespace {
 
 // Constants: chosen by hand, where nothing else is said.
 
-std::vector<int> BlocksOf(size_t count, int most) {
+std::vector<int> SplitIntoBlocks(size_t count, int most) {
   // Few and long: half a minute of a recording of two minutes, in which somebody else may come.
   constexpr int kBlocks = 4;
   constexpr double kGap = 0.05;  // of a block, at either end: seconds, not frames
@@ -37,8 +37,8 @@ bool OfOnePerson(const std::vector<PosturePair>& pairs) {
                      [&](const PosturePair& pair) { return pair.group == pairs[0].group; });
 }
 
-std::vector<int> FoldsOf(const std::vector<PosturePair>& pairs, int most) {
-  if (OfOnePerson(pairs)) return BlocksOf(pairs.size(), most);
+std::vector<int> AssignFolds(const std::vector<PosturePair>& pairs, int most) {
+  if (OfOnePerson(pairs)) return SplitIntoBlocks(pairs.size(), most);
   std::map<int, int> people;
   for (const PosturePair& pair : pairs) {
     people.try_emplace(pair.group, static_cast<int>(people.size()));

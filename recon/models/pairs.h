@@ -30,7 +30,7 @@ std::vector<PosturePair> Thinned(const std::vector<PosturePair>& pairs, size_t m
 /// pair, from 0. Several people: each with all of its pairs, by turns, in at most so many folds. Of
 /// one person, or where nobody was told apart: long blocks of time, because neighbours in time are
 /// nearly the same, and others may come into view; between two blocks pairs are in no fold.
-std::vector<int> FoldsOf(const std::vector<PosturePair>& pairs, int most);
+std::vector<int> AssignFolds(const std::vector<PosturePair>& pairs, int most);
 constexpr int kNoFold = -1;  // by convention
 /// Whether nobody can be left out.
 bool OfOnePerson(const std::vector<PosturePair>& pairs);

@@ -196,8 +196,8 @@ std::vector<PosturePair> Sound(const std::vector<PosturePair>& pairs, double gro
 
 /// The gain of each joint that is best on pairs left out: of least squares, g = sum(y o) / sum(o
 /// o), weighed by the inverse of each error, so that a few gross ones do not decide.
-JointWeights GainsOf(const std::vector<PosturePair>& pairs, const std::vector<int>& fold,
-                     const std::vector<Posture>& offsets) {
+JointWeights ComputeGains(const std::vector<PosturePair>& pairs, const std::vector<int>& fold,
+                          const std::vector<Posture>& offsets) {
   JointWeights agree{}, square{}, gains{};
   for (size_t i = 0; i < pairs.size(); ++i) {
     for (size_t j = 0; j < kJointCount; ++j) {
@@ -297,7 +297,7 @@ PoseCorrection::HeldOut PoseCorrection::LeaveOut(const std::vector<PosturePair>&
     }
   }
   HeldOut out;
-  out.gains = GainsOf(pairs, fold, offsets);
+  out.gains = ComputeGains(pairs, fold, offsets);
   // What holds from block to block of one person may be the person's own: half of it is believed.
   constexpr double kOfOnePerson = 0.5;
   if (OfOnePerson(pairs)) {
@@ -315,7 +315,7 @@ PoseCorrection PoseCorrection::Learn(const std::vector<PosturePair>& all_pairs,
   const std::vector<PosturePair> some = Thinned(pairs, kForChoice);
   PoseCorrectionOptions quick = options;
   quick.centres = std::min(options.centres, 100);
-  const std::vector<int> fold = FoldsOf(some, options.folds);
+  const std::vector<int> fold = AssignFolds(some, options.folds);
   std::map<int, Samples> rest;  // of each fold left out
   for (int held = 0; held < options.folds; ++held) {
     std::vector<PosturePair> others;

@@ -18,7 +18,7 @@ struct PoseCorrectionOptions {
   int reweighings = 2;        // of the pairs, by their error in the fit before
   double gross_m = 0.3;       // a frame with a joint this far off shows another limb: left out
   size_t most_pairs = 15000;  // used, evenly spread; each also mirrored
-  int folds = 7;              // at most, left out in turn, see FoldsOf
+  int folds = 7;              // at most, left out in turn, see AssignFolds
   uint64_t seed = 1;
 };
 

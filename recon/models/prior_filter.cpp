@@ -18,7 +18,7 @@ struct JointModel {
 };
 
 /// Every bone as long as the person's; parents before children.
-JointArray<JointModel> ModelsOf(const PosturePrior& prior, const BoneLengths& lengths_m) {
+JointArray<JointModel> MakeJointModels(const PosturePrior& prior, const BoneLengths& lengths_m) {
   JointArray<JointModel> models;
   models[0].of_modes.setZero(3, prior.modes_m.cols());
   for (size_t i = 1; i < kJointCount; ++i) {
@@ -87,7 +87,7 @@ double PriorFilter::NetworkShare(double dt_s) {
 Posture PriorFilter::Step(double dt_s, const PriorObservation& observation) {
   Predict(dt_s, observation.root_sd_m);
   const Eigen::Index modes = prior_->time_s.size();
-  const auto models = ModelsOf(*prior_, observation.lengths_m);
+  const auto models = MakeJointModels(*prior_, observation.lengths_m);
   Eigen::Matrix<double, 3, Eigen::Dynamic> h(3, modes + 3);
   h.rightCols<3>().setIdentity();
   for (size_t i = 1; i < kJointCount; ++i) {
@@ -117,7 +117,7 @@ BoneVector PriorFilter::Bones_m() const {
 }
 
 PriorInput PriorFilter::Input() const {
-  const auto models = ModelsOf(*prior_, last_.lengths_m);
+  const auto models = MakeJointModels(*prior_, last_.lengths_m);
   const Eigen::VectorXd modes = mean_.head(prior_->time_s.size());
   const double standard_from_person = Sum(StandardBoneLengths()) / Sum(last_.lengths_m);
   PriorInput input;
@@ -140,7 +140,7 @@ PriorInput PriorFilter::Input() const {
 
 double PriorFilter::Uncertainty_m(Joint joint) const {
   const Eigen::Index modes = prior_->time_s.size();
-  const auto models = ModelsOf(*prior_, StandardBoneLengths());
+  const auto models = MakeJointModels(*prior_, StandardBoneLengths());
   const JointModel& model = models[joint];
   const Eigen::Matrix3d spread =
       model.of_modes * covariance_.topLeftCorner(modes, modes) * model.of_modes.transpose();

@@ -255,7 +255,7 @@ Vector3d CentreOfMass(const RigPose& pose) {
   return sum / mass;
 }
 
-Vector3d SupportOf(const BodyKey& key, const Feet& feet) {
+Vector3d FindSupport(const BodyKey& key, const Feet& feet) {
   std::array<Vector3d, 2> middle;
   for (size_t s = 0; s < 2; ++s) {
     // Weight rests before the ankle; on the ball when the heel is up.
@@ -270,7 +270,7 @@ Vector3d SupportOf(const BodyKey& key, const Feet& feet) {
 void Balance(const BodyKey& key, const Feet& feet, RigPose& pose) {
   if (key.balance <= 0.0) return;
   const Vector3d lean = Turn(key.heading, kY) * Vector3d(key.lean_left_m, 0.0, key.lean_front_m);
-  const Vector3d support = SupportOf(key, feet) + lean;
+  const Vector3d support = FindSupport(key, feet) + lean;
   // The legs' mass moves less than the pelvis: a few rounds settle it.
   for (int round = 0; round < 4; ++round) {
     pose.root_m.y() = key.pelvis_m.y();
@@ -342,7 +342,7 @@ BodyKey Mirrored(const BodyKey& key) {
   return m;
 }
 
-RigPose PoseOf(const BodyKey& key) {
+RigPose ComputePose(const BodyKey& key) {
   RigPose pose;
   pose.root_m = key.pelvis_m;
   PoseTrunk(key, pose);
@@ -387,7 +387,7 @@ void ReachForInWorld(BodyKey& key, size_t side, const Vector3d& place_m) {
   const Bones& b = RigBones();
   // The arms' weight moves the pelvis a little: a few rounds settle it.
   for (int round = 0; round < 3; ++round) {
-    const RigPose pose = PoseOf(key);
+    const RigPose pose = ComputePose(key);
     const Vector3d from_neck =
         pose.world_from_rest[b.spine1].conjugate() * (place_m - StandardBoneHeads(pose)[b.neck]);
     ReachFor(key, side, {SideSign(side) * from_neck.x(), from_neck.y(), from_neck.z()});

@@ -171,8 +171,8 @@ void UpdateDirections(const Sighting& sighting, JointArray<Vector3d>& direction)
 }
 
 /// The root's place that puts the body of constant lengths nearest to the joints seen.
-std::optional<Vector3d> RootOf(const Sighting& sighting, const BoneLengths& lengths,
-                               const JointArray<Vector3d>& direction) {
+std::optional<Vector3d> EstimateRoot(const Sighting& sighting, const BoneLengths& lengths,
+                                     const JointArray<Vector3d>& direction) {
   JointArray<Vector3d> built;
   built[0] = Vector3d::Zero();
   Vector3d sum = Vector3d::Zero();
@@ -253,7 +253,7 @@ class BvhBody {
  private:
   void Update(const Sighting& sighting) {
     UpdateDirections(sighting, direction_);
-    root_m_ = RootOf(sighting, lengths_, direction_).value_or(root_m_);
+    root_m_ = EstimateRoot(sighting, lengths_, direction_).value_or(root_m_);
   }
 
   /// What is surely too long is refused before anything is made of it.
@@ -277,7 +277,8 @@ class BvhBody {
 }  // namespace
 
 BvhFile BvhOfSkeleton(const SkeletonSequence& sequence, const BvhExportOptions& options) {
-  SightingLog seen = SightingsOf(sequence, options.body_id, std::filesystem::temp_directory_path());
+  SightingLog seen =
+      CollectSightings(sequence, options.body_id, std::filesystem::temp_directory_path());
   const double begin_s = BeginOf(sequence, seen);
   BvhBody body(EvenSightings(std::move(seen), begin_s, options.frame_s), options, sequence.source);
   BvhFile bvh;
@@ -308,7 +309,7 @@ void WriteBvhOfSightings(SightingLog seen, double begin_s, const std::filesystem
 
 void WriteBvhOfSkeleton(const SkeletonSequence& sequence, const std::filesystem::path& path,
                         const BvhExportOptions& options) {
-  SightingLog seen = SightingsOf(sequence, options.body_id, FolderOf(path));
+  SightingLog seen = CollectSightings(sequence, options.body_id, FolderOf(path));
   const double begin_s = BeginOf(sequence, seen);
   WriteBvhOfSightings(std::move(seen), begin_s, path, options);
 }

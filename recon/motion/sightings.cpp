@@ -66,8 +66,8 @@ Sighting SightingLog::Unpacked(const Packed& packed) {
   return sighting;
 }
 
-SightingLog SightingsOf(const SkeletonSequence& sequence, std::optional<int> id,
-                        const std::filesystem::path& folder) {
+SightingLog CollectSightings(const SkeletonSequence& sequence, std::optional<int> id,
+                             const std::filesystem::path& folder) {
   const int wanted = id ? *id : MostSeenBody(sequence);
   SightingLog sightings(folder);
   for (const SkeletonFrame& frame : sequence.frames) {

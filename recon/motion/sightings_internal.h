@@ -52,8 +52,8 @@ class SightingLog {
 };
 
 /// Of the body `id`, without `id` of the one in most frames. Throws InputError when there is none.
-SightingLog SightingsOf(const SkeletonSequence& sequence, std::optional<int> id,
-                        const std::filesystem::path& folder);
+SightingLog CollectSightings(const SkeletonSequence& sequence, std::optional<int> id,
+                             const std::filesystem::path& folder);
 
 /// The longest time without a sighting.
 struct SightingGap {

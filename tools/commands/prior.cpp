@@ -22,8 +22,8 @@
 namespace ossa::commands {
 namespace {
 
-std::vector<recon::PriorClip> ClipsOf(const std::vector<recon::MotionClip>& motions,
-                                      double authored_weight) {
+std::vector<recon::PriorClip> ToPriorClips(const std::vector<recon::MotionClip>& motions,
+                                           double authored_weight) {
   std::vector<recon::PriorClip> clips;
   for (const recon::MotionClip& motion : motions) {
     recon::PriorClip& clip = clips.emplace_back();
@@ -85,7 +85,7 @@ int Prior(int argc, char** argv) {
   mocap_options.stop = Interrupted;
   const auto motions = recon::LoadMocap(mocap, mocap_options);
   SayWarnings("prior", motions);
-  const auto clips = ClipsOf(motions, authored_weight);
+  const auto clips = ToPriorClips(motions, authored_weight);
   if (Interrupted()) throw InputError("prior: interrupted; nothing was written");
   auto prior = recon::PosturePrior::Learn(clips, options);
   if (network.hidden > 0) {

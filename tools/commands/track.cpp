@@ -213,7 +213,7 @@ class SkeletonOutput {
   }
   void Write(const tracker::BodyFrame& bodies) {
     if (!writer_) return;
-    recon::SkeletonFrame record = tracker::RecordOf(bodies, kind_);
+    recon::SkeletonFrame record = tracker::ToRecord(bodies, kind_);
     if (seated_) KeepSeatedJoints(record);
     writer_->Write(record);
   }
@@ -330,7 +330,7 @@ void TrackAll(depth::FrameSource& source, tracker::Tracker& tracker, const Track
     output.Write(bodies);
     trace.Write(bodies);
     pictures.Take(read.frame, bodies);
-    if (viewer != nullptr) viewer->Show(read.frame, tracker::RecordOf(bodies));
+    if (viewer != nullptr) viewer->Show(read.frame, tracker::ToRecord(bodies));
     const auto frames = static_cast<double>(run.stats.frames());
     if (known > 0) progress.Update(frames, known, fmt::format("{} people", bodies.bodies.size()));
     if (options.frames > 0 && run.stats.frames() >= options.frames) return;

@@ -90,7 +90,7 @@ void ShowSource(const ViewOptions& options) {
       if (read.status == depth::ReadStatus::kEnd) break;
       if (read.status != depth::ReadStatus::kFrame) continue;
       if (!source->is_live()) clockwork.WaitFor(read.frame.time_s);
-      viewer.Show(read.frame, tracker::RecordOf(tracker.Track(read.frame)));
+      viewer.Show(read.frame, tracker::ToRecord(tracker.Track(read.frame)));
     }
     if (options.once || Interrupted()) return;
     clockwork.ShowTheLast();

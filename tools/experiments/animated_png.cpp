@@ -29,7 +29,7 @@ Bytes EncodePng(const Patch& patch) {
 
 /// What must be drawn over `before` (null: nothing is there yet) to get `frame`: the smallest
 /// rectangle around all that changed, at least a pixel.
-Patch PatchOf(const Picture& frame, const Picture* before) {
+Patch FindPatch(const Picture& frame, const Picture* before) {
   const auto changed = [&](int x, int y) {
     const size_t at = 3 * static_cast<size_t>(y * frame.width + x);
     return before == nullptr || !std::equal(&frame.rgb[at], &frame.rgb[at] + 3, &before->rgb[at]);
@@ -129,7 +129,7 @@ void WritePicture(const std::filesystem::path& path, const Picture& picture) {
 void WriteAnimation(const std::filesystem::path& path, const std::vector<Picture>& frames,
                     int frame_ms) {
   if (frames.empty()) throw std::invalid_argument("WriteAnimation: no frames");
-  const Bytes first = EncodePng(PatchOf(frames[0], nullptr));
+  const Bytes first = EncodePng(FindPatch(frames[0], nullptr));
   Bytes file(first.begin(),
              first.begin() + static_cast<std::ptrdiff_t>(kSignatureBytes + kHeaderChunkBytes));
   Bytes animation;
@@ -141,7 +141,7 @@ void WriteAnimation(const std::filesystem::path& path, const std::vector<Picture
     if (frames[i].width != frames[0].width || frames[i].height != frames[0].height) {
       throw std::invalid_argument("WriteAnimation: frames differ in size");
     }
-    const Patch patch = PatchOf(frames[i], i == 0 ? nullptr : &frames[i - 1]);
+    const Patch patch = FindPatch(frames[i], i == 0 ? nullptr : &frames[i - 1]);
     AppendChunk(file, "fcTL", FrameControl(sequence++, patch, frame_ms));
     const Bytes pixels = PixelData(i == 0 ? first : EncodePng(patch));
     if (i == 0) {

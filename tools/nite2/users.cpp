@@ -19,8 +19,8 @@ void Include(float u, float v, float z, NiteBoundingBox& box) {
 }
 
 // By body id: pixels of the image as it is delivered, millimetres of depth.
-std::map<int, NiteBoundingBox> BoxesOf(const depth::Image<uint8_t>& users,
-                                       const std::vector<uint16_t>& depth_mm, bool mirrored) {
+std::map<int, NiteBoundingBox> FindBoxes(const depth::Image<uint8_t>& users,
+                                         const std::vector<uint16_t>& depth_mm, bool mirrored) {
   std::map<int, NiteBoundingBox> boxes;
   for (int v = 0; v < users.height; ++v) {
     for (int u = 0; u < users.width; ++u) {
@@ -141,7 +141,7 @@ std::vector<NiteUserData> Users::Step(const tracker::BodyFrame& frame,
   }
   mirrored_ = mirrored;
   Meet(frame);
-  const auto boxes = BoxesOf(frame.users, depth_mm, mirrored);
+  const auto boxes = FindBoxes(frame.users, depth_mm, mirrored);
   const Eigen::Vector3d up =
       frame.floor ? frame.floor->head<3>().eval() : Eigen::Vector3d(0.0, 1.0, 0.0);
   for (const tracker::Body& body : frame.bodies) {

@@ -88,7 +88,7 @@ Humanoid PoseOf(const tracker::Body& body, const UnityRoom& room) {
   return pose;
 }
 
-Humanoid LocalOf(const Humanoid& world) {
+Humanoid ToLocal(const Humanoid& world) {
   Humanoid local = world;
   for (size_t b = 0; b < kHumanBoneCount; ++b) {
     if (kHumanBones[b].parent < 0) continue;

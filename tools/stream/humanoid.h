@@ -74,6 +74,6 @@ class UnityRoom {
 /// Places of a body's bones and how they are turned from a T-pose that faces +z, in the room.
 Humanoid PoseOf(const tracker::Body& body, const UnityRoom& room);
 /// The same, each bone as its parent sees it: what a hierarchy of transforms holds.
-Humanoid LocalOf(const Humanoid& world);
+Humanoid ToLocal(const Humanoid& world);
 
 }  // namespace ossa::stream

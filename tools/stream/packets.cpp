@@ -49,7 +49,7 @@ std::string VmcPacket(const Humanoid& world, double time_s) {
   stream << osc::BeginMessage("/VMC/Ext/OK") << osc::int32{1} << osc::EndMessage;
   stream << osc::BeginMessage("/VMC/Ext/T") << static_cast<float>(time_s) << osc::EndMessage;
   AddTransform(stream, "/VMC/Ext/Root/Pos", "root", {});
-  const Humanoid local = LocalOf(world);
+  const Humanoid local = ToLocal(world);
   for (size_t b = 0; b < kHumanBoneCount; ++b) {
     AddTransform(stream, "/VMC/Ext/Bone/Pos", kHumanBones[b].name, local[b]);
   }

@@ -75,7 +75,7 @@ void Sender::Send(const tracker::BodyFrame& frame) {
   }
   for (Impl::Line& line : impl_->lines) {
     if (line.target.protocol != Protocol::kJsonl) continue;
-    line.socket.Send(recon::SkeletonJsonLine(tracker::RecordOf(frame)), 0);
+    line.socket.Send(recon::SkeletonJsonLine(tracker::ToRecord(frame)), 0);
   }
 }
 

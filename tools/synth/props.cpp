@@ -138,7 +138,7 @@ struct Grasp {
   Vector3f place_m, along;
 };
 
-Grasp GraspOf(Grip grip, const recon::Posture& joints) {
+Grasp ComputeGrasp(Grip grip, const recon::Posture& joints) {
   const auto at = [&](Joint joint) -> Vector3f { return joints[joint].cast<float>(); };
   switch (grip) {
     case Grip::kLeftHand:
@@ -154,7 +154,7 @@ Grasp GraspOf(Grip grip, const recon::Posture& joints) {
   return {Vector3f::Zero(), Vector3f::Zero()};
 }
 
-Eigen::AlignedBox2f GroundOf(const depth::TriangleMesh& mesh) {
+Eigen::AlignedBox2f ProjectOnGround(const depth::TriangleMesh& mesh) {
   Eigen::AlignedBox2f ground;
   for (const auto& vertex_m : mesh.vertices_m)
     ground.extend(Eigen::Vector2f(vertex_m.x(), vertex_m.z()));
@@ -162,7 +162,7 @@ Eigen::AlignedBox2f GroundOf(const depth::TriangleMesh& mesh) {
 }
 
 /// Over the floor, everything that the person of the path may touch.
-Eigen::AlignedBox2f GroundOf(std::span<const recon::Posture> path_in_world) {
+Eigen::AlignedBox2f ProjectOnGround(std::span<const recon::Posture> path_in_world) {
   constexpr float kFlesh_m = 0.2F;  // from a joint to the skin and a little air; by hand
   Eigen::AlignedBox2f ground;
   for (const recon::Posture& posture : path_in_world) {
@@ -215,8 +215,8 @@ std::vector<Prop> SampleProps(Occluders kind, const recon::Posture& joints_in_wo
 
 Prop Carried(Prop prop, const recon::Posture& then_in_cam, const recon::Posture& now_in_cam) {
   if (prop.grip == Grip::kNone) return prop;
-  const Grasp then = GraspOf(prop.grip, then_in_cam);
-  const Grasp now = GraspOf(prop.grip, now_in_cam);
+  const Grasp then = ComputeGrasp(prop.grip, then_in_cam);
+  const Grasp now = ComputeGrasp(prop.grip, now_in_cam);
   const auto turn = Eigen::Quaternionf::FromTwoVectors(then.along, now.along);
   prop.mesh_in_cam = depth::Moved(std::move(prop.mesh_in_cam),
                                   Eigen::Translation3f(now.place_m) * turn *
@@ -254,7 +254,7 @@ std::vector<Prop> SampleRoom(const Eigen::Isometry3d& camera_from_world, Random&
   auto before_m = static_cast<float>(camera_m.z()) + Draw(random, 0.3, 1.0);
   float width_m = Draw(random, 2.5, 6.0);
   float shift_m = Draw(random, -0.3, 0.3) * width_m;
-  const Eigen::AlignedBox2f path = GroundOf(path_in_world);
+  const Eigen::AlignedBox2f path = ProjectOnGround(path_in_world);
   if (!path.isEmpty()) {
     const float low_m = std::min(shift_m - width_m / 2, path.min().x());
     const float high_m = std::max(shift_m + width_m / 2, path.max().x());
@@ -279,7 +279,7 @@ std::vector<Prop> SampleRoom(const Eigen::Isometry3d& camera_from_world, Random&
         Eigen::AngleAxisf(static_cast<float>(random.Normal(0, 0.3)), Vector3f::UnitY());
     depth::TriangleMesh furniture = depth::Moved(
         SampleFurniture(random), Eigen::Translation3f(place_m) * turn * Affine3f::Identity());
-    if (path.isEmpty() || !path.intersects(GroundOf(furniture)))
+    if (path.isEmpty() || !path.intersects(ProjectOnGround(furniture)))
       props.push_back({std::move(furniture), false});
   }
   MoveToCamera(camera_from_world, props);

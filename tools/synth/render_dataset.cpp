@@ -50,7 +50,7 @@ std::string ReadText(const fs::path& path) {
   return text.str();
 }
 
-DatasetManifest ManifestOf(const FrameStudio& studio, const RenderJob& job) {
+DatasetManifest MakeManifest(const FrameStudio& studio, const RenderJob& job) {
   DatasetManifest manifest;
   manifest.frames = job.frames;
   manifest.camera = depth::KinectV1Camera(studio.options.width, studio.options.height);
@@ -138,7 +138,7 @@ bool RenderChunk(const RenderJob& job, const depth::Camera& whole, int64_t chunk
 }  // namespace
 
 RenderEnd RenderShare(const FrameStudio& studio, const RenderJob& job) {
-  const DatasetManifest manifest = ManifestOf(studio, job);
+  const DatasetManifest manifest = MakeManifest(studio, job);
   PrepareFolder(job, ManifestToJson(manifest));
   if (fs::exists(job.out / "manifest.json")) return RenderEnd::kDone;
   std::vector<int64_t> chunks;
@@ -196,7 +196,7 @@ void FinishDataset(const FrameStudio& studio, const RenderJob& job) {
     truth.Commit();
   }
   SyncFiles(job.out);  // the manifest says that all is there
-  WriteText(job.out / "manifest.json", ManifestToJson(ManifestOf(studio, job)));
+  WriteText(job.out / "manifest.json", ManifestToJson(MakeManifest(studio, job)));
   std::error_code ignored;
   fs::remove_all(WorkFolder(job), ignored);
 }

@@ -16,7 +16,7 @@ struct Extent {
   double size_m() const { return std::max(high.x() - low.x(), high.z() - low.z()); }
 };
 
-Extent ExtentOf(const recon::MotionClip& clip, size_t count) {
+Extent MeasureExtent(const recon::MotionClip& clip, size_t count) {
   Extent extent{clip.frames[0].root_m, clip.frames[0].root_m};
   for (size_t i = 0; i < count; ++i) {
     extent.low = extent.low.cwiseMin(clip.frames[i].root_m);
@@ -35,7 +35,7 @@ std::vector<recon::RigPose> SequencePoses(const std::vector<recon::MotionClip>& 
     if (clip.frames.empty()) continue;
     if (best == nullptr || clip.frames.size() > best->frames.size()) best = &clip;
     const auto count = static_cast<size_t>(frames);
-    if (clip.frames.size() >= count && ExtentOf(clip, count).size_m() < kRoomToMove_m) {
+    if (clip.frames.size() >= count && MeasureExtent(clip, count).size_m() < kRoomToMove_m) {
       fitting.push_back(&clip);
     }
   }
@@ -43,7 +43,7 @@ std::vector<recon::RigPose> SequencePoses(const std::vector<recon::MotionClip>& 
   Random random(seed, 77);
   const recon::MotionClip& clip = fitting.empty() ? *best : *fitting[random.Index(fitting.size())];
   const size_t count = std::min(clip.frames.size(), static_cast<size_t>(frames));
-  const Extent extent = ExtentOf(clip, count);
+  const Extent extent = MeasureExtent(clip, count);
   const Eigen::Quaterniond unturn = recon::EstimateHeading(clip.frames[0]).conjugate();
   Eigen::Vector3d middle = 0.5 * (extent.low + extent.high);
   middle.y() = 0;

@@ -108,8 +108,8 @@ bool InImage(const depth::Camera& camera, const Eigen::Vector3d& p) {
   return pixel.x() >= 0 && pixel.y() >= 0 && pixel.x() < camera.width && pixel.y() < camera.height;
 }
 
-recon::TrackingState StateOf(const Proposal& proposal, const forest::ProposalTarget& target,
-                             const depth::Camera& camera) {
+recon::TrackingState DecideState(const Proposal& proposal, const forest::ProposalTarget& target,
+                                 const depth::Camera& camera) {
   if (proposal.confidence < static_cast<double>(target.inferred_confidence)) {
     return recon::TrackingState::kNotTracked;
   }
@@ -159,7 +159,7 @@ recon::TrackedPosture ChoosePosture(const forest::ForestModel& model,
     const auto& target = model.targets()[static_cast<size_t>(targets[j])];
     result.posture.position_m[j] = chosen[j]->position_m;
     result.confidence[j] = chosen[j]->confidence;
-    result.state[j] = StateOf(*chosen[j], target, *context.camera);
+    result.state[j] = DecideState(*chosen[j], target, *context.camera);
   }
   DropDoubles(result);
   DoubtHipsWithoutLegs(context.leg_area_m2, result);

@@ -14,7 +14,7 @@ namespace {
 using recon::kJointCount;
 
 /// The posture's bones; the standard ones, at the size of the others, where they cannot be had.
-recon::BoneLengths BonesOf(const recon::Posture& posture) {
+recon::BoneLengths MeasureSaneBones(const recon::Posture& posture) {
   recon::BoneLengths lengths_m = recon::MeasureBoneLengths(posture);
   recon::JointWeights sane{};
   for (size_t i = 1; i < kJointCount; ++i) {
@@ -109,7 +109,7 @@ bool Mechanics::MeasuredAnew(const recon::BoneLengths& bones_m) {
 std::optional<physics::FilteredPosture> Mechanics::Follow(
     const recon::Posture& target, std::span<const double> trust,
     const std::optional<Eigen::Vector4d>& floor, double time_s) {
-  const recon::BoneLengths bones_m = BonesOf(target);
+  const recon::BoneLengths bones_m = MeasureSaneBones(target);
   if (!character_) last_s_ = time_s - 1.0 / 30.0;
   if (!character_ || MeasuredAnew(bones_m)) Make(bones_m);
   const double dt_s = time_s - last_s_;

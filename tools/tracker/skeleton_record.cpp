@@ -14,7 +14,7 @@ recon::Posture ToPosture(const Body& body, PostureKind kind) {
   return kind == PostureKind::kReconstructed ? body.reconstructed : ToPosture(body);
 }
 
-recon::BodyRecord RecordOf(const Body& body, PostureKind kind) {
+recon::BodyRecord ToRecord(const Body& body, PostureKind kind) {
   recon::BodyRecord record;
   record.id = body.id;
   const recon::Posture posture = ToPosture(body, kind);
@@ -36,13 +36,13 @@ recon::BodyRecord RecordOf(const Body& body, PostureKind kind) {
 
 }  // namespace
 
-recon::SkeletonFrame RecordOf(const BodyFrame& frame, PostureKind kind) {
+recon::SkeletonFrame ToRecord(const BodyFrame& frame, PostureKind kind) {
   recon::SkeletonFrame record;
   record.frame = frame.index;
   record.time_s = frame.time_s;
   record.floor = frame.floor;
   for (const Body& body : frame.bodies) {
-    if (body.state == BodyState::kTracked) record.bodies.push_back(RecordOf(body, kind));
+    if (body.state == BodyState::kTracked) record.bodies.push_back(ToRecord(body, kind));
   }
   return record;
 }

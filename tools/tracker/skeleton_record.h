@@ -10,6 +10,6 @@ enum class PostureKind { kFinal, kReconstructed, kRefined, kRaw };
 /// The bodies of a frame as skeleton files hold them. Not-tracked joints keep the reconstruction's
 /// position and say not_tracked; in raw and refined records they are absent. Refined records are
 /// raw ones where there was no refinement. Bodies known by position only are left out.
-recon::SkeletonFrame RecordOf(const BodyFrame& frame, PostureKind kind = PostureKind::kFinal);
+recon::SkeletonFrame ToRecord(const BodyFrame& frame, PostureKind kind = PostureKind::kFinal);
 
 }  // namespace ossa::tracker

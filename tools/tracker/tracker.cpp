@@ -74,8 +74,8 @@ void AddProbabilities(const forest::Classification& seen, PartProbabilities& pro
   }
 }
 
-recon::JointArray<std::vector<JointProposal>> ProposalsOf(const people::ForestEvidence& evidence,
-                                                          const people::JointTargets& targets) {
+recon::JointArray<std::vector<JointProposal>> CollectProposals(
+    const people::ForestEvidence& evidence, const people::JointTargets& targets) {
   recon::JointArray<std::vector<JointProposal>> proposals;
   for (size_t j = 0; j < recon::kJointCount; ++j) {
     for (const forest::Proposal& p : evidence.proposals[static_cast<size_t>(targets[j])]) {
@@ -226,7 +226,7 @@ BodyFrame Tracker::Impl::Track(const depth::DepthFrame& frame) {
     const people::Detection& detection = seen.people[i].detection;
     SkeletonWork work{skeleton, frame, result.floor, &detection, *in_view[i], body};
     TrackSkeleton(work, times[i]);
-    if (options.keep_proposals) body.proposals = ProposalsOf(detection.evidence, targets);
+    if (options.keep_proposals) body.proposals = CollectProposals(detection.evidence, targets);
     if (!KeepsParts()) return;
     const auto classes =
         people::LabelParts(model, frame, detection.candidate, detection.evidence, result.parts);

@@ -22,7 +22,7 @@ namespace {
 
 using Bytes = std::vector<uint8_t>;
 
-std::vector<BagTopic> TopicsOf(const rosbag::Bag& bag) {
+std::vector<BagTopic> ListTopics(const rosbag::Bag& bag) {
   rosbag::View view(bag);
   std::set<std::pair<std::string, std::string>> topics;
   for (const rosbag::ConnectionInfo* connection : view.getConnections()) {
@@ -85,7 +85,7 @@ ReaderHello HelloOf(const rosbag::Bag& bag, const BagChoice& choice, const RosIm
 void Read(const std::string& path, const std::string& asked) {
   rosbag::Bag bag;
   bag.open(path, rosbag::bagmode::Read);
-  const std::vector<BagTopic> topics = TopicsOf(bag);
+  const std::vector<BagTopic> topics = ListTopics(bag);
   const BagChoice choice = ChooseDepthTopic(DepthTopics(bag, topics), topics, asked);
   if (!choice.note.empty()) SendText(ReaderKind::kNote, choice.note);
   const Bytes first_bytes = FirstOf(bag, choice.image);
@@ -104,7 +104,7 @@ void Read(const std::string& path, const std::string& asked) {
       throw InputError(choice.image + ": expected images that are all alike");
     }
     const double time_s = image.time_s > 0 ? image.time_s : message.getTime().toSec();
-    SendFrame({hello.camera.width, hello.camera.height, time_s}, DepthsOf(image, unit_m));
+    SendFrame({hello.camera.width, hello.camera.height, time_s}, DecodeDepths(image, unit_m));
   }
 }
 

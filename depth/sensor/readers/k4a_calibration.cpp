@@ -44,7 +44,7 @@ json DepthCameraOf(const json& calibration) {
 }
 
 // cx cy fx fy k1 ... k6 codx cody p2 p1; the first four as shares of the sensor's size.
-std::array<double, 14> ParametersOf(const json& camera) {
+std::array<double, 14> ReadParameters(const json& camera) {
   const json::json_pointer place("/Intrinsics/ModelParameters");
   std::array<double, 14> parameters{};
   if (!camera.contains(place) || !camera.at(place).is_array() ||
@@ -72,7 +72,7 @@ LensCamera ReadK4aCalibration(const std::string& text, int width, int height) {
   if (mode == kModes.end()) {
     Fail("a depth mode of " + std::to_string(width) + "x" + std::to_string(height) + " pixels");
   }
-  const auto p = ParametersOf(camera);
+  const auto p = ReadParameters(camera);
   LensCamera lens;
   // There the corner of the first pixel is the origin, here its centre is.
   lens.pinhole = {width,

@@ -54,7 +54,7 @@ class Message {
 };
 
 template <typename Sample>
-std::vector<Sample> SamplesOf(const RosImage& image) {
+std::vector<Sample> DecodeSamples(const RosImage& image) {
   const size_t row = sizeof(Sample) * image.width;
   const size_t needed = size_t{image.step} * image.height;
   if (image.width > kLargestImageSide || image.height > kLargestImageSide || image.step < row ||
@@ -112,13 +112,13 @@ RosDepth DepthEncodingOf(const RosImage& image) {
   return image.encoding == "32FC1" ? RosDepth::kMetres : RosDepth::kNone;
 }
 
-std::vector<uint16_t> DepthsOf(const RosImage& image, double metres_per_unit) {
+std::vector<uint16_t> DecodeDepths(const RosImage& image, double metres_per_unit) {
   std::vector<uint16_t> depths;
   if (DepthEncodingOf(image) == RosDepth::kMetres) {
-    for (const float metres : SamplesOf<float>(image)) depths.push_back(Millimetres(metres));
+    for (const float metres : DecodeSamples<float>(image)) depths.push_back(Millimetres(metres));
     return depths;
   }
-  depths = SamplesOf<uint16_t>(image);
+  depths = DecodeSamples<uint16_t>(image);
   for (uint16_t& depth : depths) {
     if (metres_per_unit > 0) depth = Millimetres(depth * metres_per_unit);
   }

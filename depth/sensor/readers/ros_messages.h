@@ -37,6 +37,6 @@ RosDepth DepthEncodingOf(const RosImage& image);
 
 /// Depths, row-major, height × width; of metres millimetres, and of 16 bits if metres_per_unit > 0,
 /// else the numbers themselves. Throws InputError for an image that holds too few bytes.
-std::vector<uint16_t> DepthsOf(const RosImage& image, double metres_per_unit);
+std::vector<uint16_t> DecodeDepths(const RosImage& image, double metres_per_unit);
 
 }  // namespace ossa::depth

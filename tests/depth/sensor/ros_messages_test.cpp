@@ -21,19 +21,19 @@ TEST(RosImage, ItsRowsBecomeDepths) {
   const RosImage image = ParseRosImage(bytes);
   EXPECT_DOUBLE_EQ(image.time_s, 100.25);
   EXPECT_EQ(DepthEncodingOf(image), RosDepth::k16Bits);
-  EXPECT_EQ(DepthsOf(image, 0), (std::vector<uint16_t>{1, 2, 3, 4}));
-  EXPECT_EQ(DepthsOf(image, 0.01), (std::vector<uint16_t>{10, 20, 30, 40}));
+  EXPECT_EQ(DecodeDepths(image, 0), (std::vector<uint16_t>{1, 2, 3, 4}));
+  EXPECT_EQ(DecodeDepths(image, 0.01), (std::vector<uint16_t>{10, 20, 30, 40}));
 }
 
 TEST(RosImage, BytesInTheOtherOrderAreExchanged) {
   const auto bytes = RosImageBytes("mono16", 2, 1, {0x0100, 0x0002}, 4, true);
-  EXPECT_EQ(DepthsOf(ParseRosImage(bytes), 0), (std::vector<uint16_t>{1, 0x0200}));
+  EXPECT_EQ(DecodeDepths(ParseRosImage(bytes), 0), (std::vector<uint16_t>{1, 0x0200}));
 }
 
 TEST(RosImage, MetresBecomeMillimetresAndWhatIsNoneNothing) {
   const float nan = std::numeric_limits<float>::quiet_NaN();
   const auto bytes = RosImageBytes("32FC1", 4, 1, std::vector<float>{1.5F, nan, -1.0F, 100.0F}, 16);
-  EXPECT_EQ(DepthsOf(ParseRosImage(bytes), 0), (std::vector<uint16_t>{1500, 0, 0, 0}));
+  EXPECT_EQ(DecodeDepths(ParseRosImage(bytes), 0), (std::vector<uint16_t>{1500, 0, 0, 0}));
 }
 
 TEST(RosImage, CutShortAnywhereItIsRefused) {
@@ -45,7 +45,7 @@ TEST(RosImage, CutShortAnywhereItIsRefused) {
 
 TEST(RosImage, OneOfMorePixelsThanBytesIsRefused) {
   const auto bytes = RosImageBytes("16UC1", 2, 3, {1, 2}, 4);
-  test::ExpectRefused([&] { DepthsOf(ParseRosImage(bytes), 0); }, "2x3");
+  test::ExpectRefused([&] { DecodeDepths(ParseRosImage(bytes), 0); }, "2x3");
 }
 
 TEST(RosCameraInfo, HasTheMatrix) {

@@ -17,9 +17,9 @@ std::vector<PosturePair> PairsOf(const std::vector<int>& people, int each) {
   return pairs;
 }
 
-TEST(FoldsOf, LeavesAPersonOutWithAllPairs) {
+TEST(AssignFolds, LeavesAPersonOutWithAllPairs) {
   const auto pairs = PairsOf({4, 9, 4, 2}, 10);
-  const std::vector<int> fold = FoldsOf(pairs, 7);
+  const std::vector<int> fold = AssignFolds(pairs, 7);
   ASSERT_EQ(fold.size(), pairs.size());
   EXPECT_FALSE(OfOnePerson(pairs));
   for (size_t i = 0; i < pairs.size(); ++i) {
@@ -29,15 +29,15 @@ TEST(FoldsOf, LeavesAPersonOutWithAllPairs) {
   }
 }
 
-TEST(FoldsOf, TakesMorePeopleThanFoldsByTurns) {
-  const std::vector<int> fold = FoldsOf(PairsOf({0, 1, 2, 3, 4}, 1), 2);
+TEST(AssignFolds, TakesMorePeopleThanFoldsByTurns) {
+  const std::vector<int> fold = AssignFolds(PairsOf({0, 1, 2, 3, 4}, 1), 2);
   EXPECT_EQ(fold, (std::vector<int>{0, 1, 0, 1, 0}));
 }
 
-TEST(FoldsOf, OnePersonIsFourBlocksOfTimeWithGapsBetween) {
+TEST(AssignFolds, OnePersonIsFourBlocksOfTimeWithGapsBetween) {
   const auto pairs = PairsOf({3}, 400);
   EXPECT_TRUE(OfOnePerson(pairs));
-  const std::vector<int> fold = FoldsOf(pairs, 7);
+  const std::vector<int> fold = AssignFolds(pairs, 7);
   // A block of 100 gives 5 pairs at either end to the gap there.
   for (const auto& [pair, expected] : {std::pair{0, 0},
                                        {94, 0},
@@ -53,9 +53,9 @@ TEST(FoldsOf, OnePersonIsFourBlocksOfTimeWithGapsBetween) {
   EXPECT_EQ(std::set<int>(fold.begin(), fold.end()), (std::set<int>{kNoFold, 0, 1, 2, 3}));
 }
 
-TEST(FoldsOf, FewPairsAreStillInOrder) {
+TEST(AssignFolds, FewPairsAreStillInOrder) {
   for (size_t count = 0; count < 9; ++count) {
-    std::vector<int> fold = FoldsOf(PairsOf({0}, static_cast<int>(count)), 7);
+    std::vector<int> fold = AssignFolds(PairsOf({0}, static_cast<int>(count)), 7);
     EXPECT_EQ(fold.size(), count);
     std::erase(fold, kNoFold);
     EXPECT_TRUE(std::is_sorted(fold.begin(), fold.end())) << count;

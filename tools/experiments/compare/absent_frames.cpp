@@ -72,7 +72,7 @@ void AddDue(const KnownTruth& truth, const Gap& gap, std::vector<double>* absent
 }
 
 // In order: before the result's first frame, between its frames, after its last.
-std::vector<Gap> GapsOf(const std::vector<double>& time_s, const FramesDue& due) {
+std::vector<Gap> FindGaps(const std::vector<double>& time_s, const FramesDue& due) {
   const double step_s = StepAt(time_s, 0.25);
   // Where the truth's frames are farther apart than the result's, a step as long as theirs is none.
   const double shortest_gap_s = 1.5 * std::max(step_s, StepAt(due.truth_s, 0.5));
@@ -104,7 +104,7 @@ void AddAbsentFrames(const FramesDue& due, std::vector<SkeletonFrame>* frames) {
   }
   if (time_s.back() < due.truth_s.front() || time_s.front() > due.truth_s.back()) return;
   std::vector<double> absent_s;
-  for (const Gap& gap : GapsOf(time_s, due)) AddDue(KnownTruth(due), gap, &absent_s);
+  for (const Gap& gap : FindGaps(time_s, due)) AddDue(KnownTruth(due), gap, &absent_s);
   for (const double absent : absent_s) {
     SkeletonFrame frame;
     frame.time_s = absent;

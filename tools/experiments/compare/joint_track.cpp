@@ -41,14 +41,14 @@ std::vector<SkeletonFrame> InOrder(std::vector<SkeletonFrame> frames) {
 
 // Every person of a sequence as a track. Frames out of order are put in order; of frames with the
 // same time the first counts.
-std::map<int, JointTrack> TracksOf(const SkeletonSequence& sequence) {
+std::map<int, JointTrack> CollectTracks(const SkeletonSequence& sequence) {
   std::map<int, JointTrack> tracks;
   for (const SkeletonFrame& frame : InOrder(sequence.frames)) {
     for (const BodyRecord& body : frame.bodies) {
       JointTrack& track = tracks[body.id];
       if (!track.time_s.empty() && track.time_s.back() == frame.time_s) continue;
       track.time_s.push_back(frame.time_s);
-      track.postures.push_back(SparsePostureOf(body));
+      track.postures.push_back(ToSparsePosture(body));
     }
   }
   return tracks;
@@ -67,7 +67,7 @@ std::vector<SkeletonFrame> FoundOnly(std::vector<SkeletonFrame> frames) {
 }
 
 // When any of them is there.
-std::vector<double> TimesOf(const std::map<int, JointTrack>& tracks) {
+std::vector<double> CollectTimes(const std::map<int, JointTrack>& tracks) {
   std::set<double> times;
   for (const auto& [id, track] : tracks) times.insert(track.time_s.begin(), track.time_s.end());
   return {times.begin(), times.end()};
@@ -128,7 +128,7 @@ struct Speeds {
   recon::JointArray<std::vector<bool>> known;
 };
 
-Speeds SpeedsOf(const JointTrack& track, double start_s, double step_s, size_t count) {
+Speeds ComputeSpeeds(const JointTrack& track, double start_s, double step_s, size_t count) {
   constexpr double kHalf_s = 0.05;  // speeds over a tenth of a second: above the sensor's jitter
   Speeds speeds;
   for (size_t j = 0; j < recon::kJointCount; ++j) {
@@ -255,7 +255,7 @@ JointTrack OnlyTrack(const SkeletonSequence& result) {
                                          return frames_of.at(a.id) < frames_of.at(b.id);
                                        });
     only.time_s.push_back(frame.time_s);
-    only.postures.push_back(main == frame.bodies.end() ? SparsePosture{} : SparsePostureOf(*main));
+    only.postures.push_back(main == frame.bodies.end() ? SparsePosture{} : ToSparsePosture(*main));
   }
   return only;
 }
@@ -271,7 +271,7 @@ PairedTracks ClockOf(const std::map<int, JointTrack>& truths, const SkeletonSequ
     FindOffset(truths.begin()->second, OnlyTrack(result), options, clock);
     return clock;
   }
-  const auto results = TracksOf(result);
+  const auto results = CollectTracks(result);
   const JointTrack* main = MainTrack(results);
   if (options.time == TimeAlignment::kAuto || main == nullptr) return clock;
   FindOffset(*MainTrack(truths), *main, options, clock);
@@ -318,7 +318,7 @@ void PairFrames(const std::map<int, JointTrack>& truths, const std::vector<Skele
     Postures there;
     for (const auto& [id, track] : truths) there.push_back(At(track, frame.time_s));
     std::vector<SparsePosture> bodies;
-    for (const BodyRecord& body : frame.bodies) bodies.push_back(SparsePostureOf(body));
+    for (const BodyRecord& body : frame.bodies) bodies.push_back(ToSparsePosture(body));
     const auto taken = TakenBodies(there, bodies);
     for (size_t t = 0; t < there.size(); ++t) {
       if (!there[t]) continue;
@@ -331,7 +331,7 @@ void PairFrames(const std::map<int, JointTrack>& truths, const std::vector<Skele
 
 }  // namespace
 
-SparsePosture SparsePostureOf(const BodyRecord& body) {
+SparsePosture ToSparsePosture(const BodyRecord& body) {
   SparsePosture sparse;
   const recon::TrackedPosture tracked = recon::ToTrackedPosture(body);
   for (size_t j = 0; j < recon::kJointCount; ++j) {
@@ -365,8 +365,8 @@ double TimeOffset_s(const JointTrack& truth, const JointTrack& result, double ma
   const double start_s = std::min(truth.time_s.front(), result.time_s.front());
   const double end_s = std::max(truth.time_s.back(), result.time_s.back());
   const auto count = static_cast<size_t>(std::min((end_s - start_s) / kStep_s + 1, 2e5));
-  const Speeds a = SpeedsOf(truth, start_s, kStep_s, count);
-  const Speeds b = SpeedsOf(result, start_s, kStep_s, count);
+  const Speeds a = ComputeSpeeds(truth, start_s, kStep_s, count);
+  const Speeds b = ComputeSpeeds(result, start_s, kStep_s, count);
   const long reach = std::lround(max_offset_s / kStep_s);
   std::vector<double> score;
   const long fewest = FewestShared(a, b);
@@ -388,13 +388,13 @@ double TimeOffset_s(const JointTrack& truth, const JointTrack& result, double ma
 
 std::vector<PairedTracks> PairUp(const SkeletonSequence& truth, const SkeletonSequence& result,
                                  const PairOptions& options) {
-  const auto truths = TracksOf(truth);
+  const auto truths = CollectTracks(truth);
   if (truths.empty()) return {};
   const PairedTracks clock = ClockOf(truths, result, options);
   std::vector<SkeletonFrame> frames = InOrder(result.frames);
   if (options.found_only) frames = FoundOnly(std::move(frames));
   for (SkeletonFrame& frame : frames) frame.time_s += clock.offset_s;
-  AddAbsentFrames({TimesOf(truths), kLongestGap_s, clock.same_clock}, &frames);
+  AddAbsentFrames({CollectTimes(truths), kLongestGap_s, clock.same_clock}, &frames);
   std::vector<PairedTracks> pairs(truths.size(), clock);
   PairFrames(truths, frames, pairs);
   for (size_t t = 0; const auto& [id, track] : truths) {

@@ -24,7 +24,7 @@ struct JointTrack {
   std::vector<SparsePosture> postures;  // as many
 };
 
-SparsePosture SparsePostureOf(const recon::BodyRecord& body);
+SparsePosture ToSparsePosture(const recon::BodyRecord& body);
 
 /// Truth and result of the same person at the same times, frame by frame.
 struct PairedTracks {

@@ -233,7 +233,7 @@ struct WorstFrame {
 };
 
 // The worst frames, at least half a second apart: neighbours show the same failure.
-std::vector<WorstFrame> WorstOf(const ComparedResult& result) {
+std::vector<WorstFrame> FindWorst(const ComparedResult& result) {
   constexpr size_t kShown = 4;
   constexpr double kApart_s = 0.5;
   std::vector<WorstFrame> all;
@@ -264,7 +264,7 @@ std::string WorstFrames(const Comparison& comparison) {
       "truth.</p>";
   for (size_t r = 0; r < comparison.results.size(); ++r) {
     html += fmt::format("<h3>{}</h3><div class=\"frames\">", Escaped(comparison.results[r].label));
-    for (const WorstFrame& worst : WorstOf(comparison.results[r])) {
+    for (const WorstFrame& worst : FindWorst(comparison.results[r])) {
       html += DrawnFrame(*worst.pair, worst.frame, r, worst.error_cm);
     }
     html += "</div>";

@@ -84,7 +84,7 @@ struct Ranks {
   double tie_sum = 0;        // sum of t^3 - t over groups of t equal values
 };
 
-Ranks RanksOf(std::span<const double> values) {
+Ranks ComputeRanks(std::span<const double> values) {
   std::vector<size_t> order(values.size());
   std::iota(order.begin(), order.end(), size_t{0});
   std::sort(order.begin(), order.end(), [&](size_t i, size_t j) { return values[i] < values[j]; });
@@ -213,7 +213,7 @@ std::optional<TestResult> Wilcoxon(std::span<const double> a, std::span<const do
   }
   const size_t n = sizes.size();
   if (n == 0) return std::nullopt;
-  const Ranks ranks = RanksOf(sizes);
+  const Ranks ranks = ComputeRanks(sizes);
   double plus = 0;
   for (size_t i = 0; i < n; ++i) plus += positive[i] ? ranks.rank[i] : 0;
   const auto count = static_cast<double>(n);
@@ -250,7 +250,7 @@ std::optional<TestResult> Friedman(const std::vector<std::vector<double>>& value
   for (size_t unit = 0; unit < n; ++unit) {
     std::vector<double> block;
     for (const auto& method : values) block.push_back(method[unit]);
-    const Ranks ranks = RanksOf(block);
+    const Ranks ranks = ComputeRanks(block);
     for (size_t m = 0; m < k; ++m) sums[m] += ranks.rank[m];
     ties += ranks.tie_sum;
   }

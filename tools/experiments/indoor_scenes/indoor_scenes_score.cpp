@@ -24,7 +24,7 @@ struct Overlaps {
   }
 };
 
-Overlaps OverlapsOf(const LabelledFrame& truth, const tracker::BodyFrame& answer) {
+Overlaps CountOverlaps(const LabelledFrame& truth, const tracker::BodyFrame& answer) {
   const size_t bodies = answer.bodies.size(), people = truth.bodies.size();
   Overlaps o;
   o.common.assign(bodies, std::vector<double>(people, 0));
@@ -104,8 +104,8 @@ void IndoorScore::Add(const IndoorScore& other) {
 void IndoorJudge::SeePerson(const TruthBody& truth, const tracker::BodyFrame& answer, int body,
                             double time_s) {
   const auto joints = [&](tracker::PostureKind kind) {
-    const auto record = tracker::RecordOf(answer, kind);
-    return body < 0 ? SparsePosture{} : SparsePostureOf(record.bodies[static_cast<size_t>(body)]);
+    const auto record = tracker::ToRecord(answer, kind);
+    return body < 0 ? SparsePosture{} : ToSparsePosture(record.bodies[static_cast<size_t>(body)]);
   };
   for (const auto& [track, kind] : {std::pair(&score.raw, tracker::PostureKind::kRaw),
                                     {&score.final, tracker::PostureKind::kFinal}}) {
@@ -124,7 +124,7 @@ void IndoorJudge::SeePerson(const TruthBody& truth, const tracker::BodyFrame& an
 }
 
 void IndoorJudge::See(const LabelledFrame& truth, const tracker::BodyFrame& answer) {
-  const Overlaps o = OverlapsOf(truth, answer);
+  const Overlaps o = CountOverlaps(truth, answer);
   const std::vector<int> body_of = Match(o);
   ++score.frames;
   for (size_t p = 0; p < truth.bodies.size(); ++p) {

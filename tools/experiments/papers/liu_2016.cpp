@@ -149,7 +149,7 @@ Liu2016Study::Liu2016Study(ExperimentContext& context) {
              "Motions: ossa's authored actions by {} movers, {} frames each, {} of them "
              "tested with the others learned from. ",
              movers, frames, tested);
-  prior = PriorOf(context);
+  prior = LoadPrior(context);
   Studio studio(context, observer);
   const auto clips = AuthoredMotions(context, AllActions(), movers);
   std::set<std::string> names;
@@ -191,7 +191,7 @@ MethodRun Liu2016Study::Run(const ExperimentContext& context, const std::string&
   if (method == "none") return run;
   run.options.learned_file = LearnWithout(context, recordings, mover, learn).string();
   if (recon::MethodNamed(method).prior) {
-    run.options.database = DatabaseOf(context).postures;
+    run.options.database = LoadDatabase(context).postures;
     run.options.prior = prior;
   }
   return run;

@@ -93,10 +93,10 @@ Study Prepare(ExperimentContext& context) {
   for (const char* method : {"none", "shum-2013", "plantard-2016", "best"}) {
     MethodRun run{std::string(method) == "none" ? "raw" : method, {}, {}};
     run.options.method = method;
-    run.options.database = DatabaseOf(context).postures;
+    run.options.database = LoadDatabase(context).postures;
     run.options.seed = context.seed;
     if (recon::MethodNamed(method).prior) {
-      run.options.prior = PriorOf(context);
+      run.options.prior = LoadPrior(context);
       KnowObserver(observer, &run);
     }
     study.pairs.push_back(RunOverClips(context, run, study.scenarios));

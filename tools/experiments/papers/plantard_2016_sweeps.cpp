@@ -10,7 +10,7 @@ Table FigureNineOfPlantard2016(const ExperimentContext& context, const MethodRun
   Table table;
   table.title = "Figure 9: error and time by parameter (plantard-2016, scenarios 4-10)";
   table.columns = {"parameter", "value", "eq. 13, cm", "ms a frame"};
-  const OpenDatabase database = DatabaseOf(context);
+  const OpenDatabase database = LoadDatabase(context);
   const auto add = [&](const char* parameter, const std::string& value, const MethodRun& run) {
     const auto mean = MeanOverClips(run.label, MeasureAll(RunOverClips(context, run, hard)));
     table.rows.push_back({parameter, value, Cell(mean.parent_relative_error_cm),

@@ -126,7 +126,7 @@ Table BoundsOfTableThree(const ExperimentContext& context, const Shum2013Study& 
     double worst_cm = 0.0;
     for (const RecordedPair& clip : study.clean) {
       const auto truth = Facing(clip.truth);
-      const auto bound = BoundOf(*DatabaseOf(context).postures, truth, setup.used);
+      const auto bound = BoundOf(*LoadDatabase(context).postures, truth, setup.used);
       if (!bound) continue;
       nearest_cm += bound->nearest_cm / static_cast<double>(study.clean.size());
       by_parts_cm += bound->by_parts_cm / static_cast<double>(study.clean.size());
@@ -227,7 +227,7 @@ void AddCoverage(const ExperimentContext& context, std::vector<Table>& tables) {
   std::vector<RecordedPair> some;
   auto all = LoadUiPrmd(context.shared, false);
   for (size_t i = 0; i < all.size(); i += kEveryNthClip) some.push_back(std::move(all[i]));
-  tables.push_back(CoverageTable(*DatabaseOf(context).postures, some));
+  tables.push_back(CoverageTable(*LoadDatabase(context).postures, some));
 }
 
 }  // namespace
@@ -282,7 +282,7 @@ Shum2013Study::Shum2013Study(ExperimentContext& context, bool occluded) {
   const auto method = [&](const char* label, const char* name) {
     MethodRun run{label, {}, {}};
     run.options.method = name;
-    run.options.database = DatabaseOf(context).postures;
+    run.options.database = LoadDatabase(context).postures;
     run.options.seed = context.seed;
     return run;
   };
@@ -294,7 +294,7 @@ Shum2013Study::Shum2013Study(ExperimentContext& context, bool occluded) {
   kept = method("shum-2013, reliable kept", "shum-2013");
   kept.options.local_pca.keep_reliable = true;
   best = method("best", "best");
-  best.options.prior = PriorOf(context);
+  best.options.prior = LoadPrior(context);
   best_of_truth = best;
   KnowObserver(observer, &best);
 }

@@ -21,7 +21,7 @@ using recon::Posture;
 constexpr size_t kBones = kJointCount - 1;
 using Directions = std::array<Eigen::Vector3f, kBones>;
 
-Directions DirectionsOf(const Posture& posture) {
+Directions ComputeDirections(const Posture& posture) {
   Directions out;
   for (size_t i = 1; i < kJointCount; ++i) {
     const auto parent = recon::ParentOf(i);
@@ -53,7 +53,7 @@ std::optional<DatabaseBound> BoundOf(const recon::PostureDatabase& database,
                                      const recon::SkeletonSequence& truth,
                                      const std::vector<recon::Joint>& parts) {
   std::vector<Directions> nodes;
-  for (int n = 0; n < database.size(); ++n) nodes.push_back(DirectionsOf(database.posture(n)));
+  for (int n = 0; n < database.size(); ++n) nodes.push_back(ComputeDirections(database.posture(n)));
   JointWeights all, given{};
   all.fill(1.0);
   given[0] = 1.0;
@@ -67,7 +67,7 @@ std::optional<DatabaseBound> BoundOf(const recon::PostureDatabase& database,
     yaw_rad = place.yaw_rad;
     const Posture own = recon::Normalised(seen, place);
     const BoneLengths lengths_m = recon::MeasureBoneLengths(own);
-    const Directions wanted = DirectionsOf(own);
+    const Directions wanted = ComputeDirections(own);
     double nearest_cm = 1e9;
     for (const Directions& node : nodes) {
       nearest_cm = std::min(nearest_cm, Error_cm(wanted, node, lengths_m));

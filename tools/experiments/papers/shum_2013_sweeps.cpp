@@ -60,7 +60,7 @@ Table FigureEight(ExperimentContext& context, const Shum2013Study& study) {
     Series line{"eq. 18, cm", {}, {}};
     for (const double value : sweep.values) {
       MethodRun run = study.shum;
-      run.database_key = KeyOfFile(DatabaseOf(context).path);
+      run.database_key = KeyOfFile(LoadDatabase(context).path);
       sweep.set(run, value);
       run.label = fmt::format("{} = {}", sweep.name, value);
       const auto mean =

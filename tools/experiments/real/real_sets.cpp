@@ -58,7 +58,7 @@ constexpr depth::Camera kSeatedCamera{
     .width = 474, .height = 490, .fx = 585, .fy = 585, .cx = 154, .cy = 245};
 constexpr double kKinectFrame_s = 1.0 / 30.0;  // of a Kinect v1, by its data sheet
 
-std::vector<fs::path> PngsOf(const fs::path& folder) {
+std::vector<fs::path> ListPngs(const fs::path& folder) {
   std::vector<fs::path> files;
   if (!fs::is_directory(folder)) return files;
   for (const auto& entry : fs::directory_iterator(folder)) {
@@ -118,7 +118,7 @@ std::multimap<std::string, Mark> ParseMarks(std::istream& in, const std::string&
   return marks;
 }
 
-std::multimap<std::string, Mark> MarksOf(const fs::path& folder) {
+std::multimap<std::string, Mark> ReadMarks(const fs::path& folder) {
   const fs::path beside = folder / "marks.txt";
   if (std::ifstream file(beside); file) return ParseMarks(file, beside.string());
   if (folder.filename() != "skeltrack_v1") return {};
@@ -134,7 +134,7 @@ RealSet MarkedSet(const fs::path& folder, const std::multimap<std::string, Mark>
       set.joint_names.emplace_back(recon::NameOf(mark.joint));
     }
   }
-  for (const fs::path& png : Spread(PngsOf(folder), most)) {
+  for (const fs::path& png : Spread(ListPngs(folder), most)) {
     RealStill still{.name = png.filename().string(), .frame = ReadFrame(png, std::nullopt, 0.0)};
     still.truth.resize(set.joints.size());
     const auto [first, last] = marks.equal_range(still.name);
@@ -243,7 +243,7 @@ std::vector<fs::path> FoldersIn(const fs::path& folder) {
 // A video's frames are named by their numbers at the Kinect's 30 a second, some left out.
 RealVideo SeatedVideo(const fs::path& folder, int most) {
   RealVideo video{.name = "kinect_v1_seated_video", .frames = {}};
-  auto files = PngsOf(folder / "depth");
+  auto files = ListPngs(folder / "depth");
   if (most > 0 && files.size() > static_cast<size_t>(most)) files.resize(static_cast<size_t>(most));
   for (const fs::path& png : files) {
     int number = 0;
@@ -256,7 +256,7 @@ RealVideo SeatedVideo(const fs::path& folder, int most) {
 
 RealVideo StillsWithoutTruth(const fs::path& folder, int most) {
   RealVideo video{.name = folder.filename().string(), .frames = {}, .stills = true};
-  for (const fs::path& png : Spread(PngsOf(folder), most)) {
+  for (const fs::path& png : Spread(ListPngs(folder), most)) {
     video.frames.push_back(ReadFrame(png, std::nullopt, 0.0));
   }
   return video;
@@ -278,7 +278,7 @@ RealVideo Recording(const fs::path& path, int most) {
 std::vector<RealSet> ReadRealSets(const fs::path& shared, int most) {
   std::vector<RealSet> sets;
   for (const fs::path& folder : FoldersIn(shared / "real/depth_frames")) {
-    const auto marks = MarksOf(folder);
+    const auto marks = ReadMarks(folder);
     if (!marks.empty()) sets.push_back(MarkedSet(folder, marks, most));
   }
   const fs::path itop = shared / "real/itop_depth";
@@ -293,7 +293,7 @@ std::vector<RealVideo> ReadRealVideos(const fs::path& shared, int most) {
   std::vector<RealVideo> videos;
   videos.push_back(SeatedVideo(shared / "real/kinect_v1_seated_video", most));
   for (const fs::path& folder : FoldersIn(shared / "real/depth_frames")) {
-    if (MarksOf(folder).empty()) videos.push_back(StillsWithoutTruth(folder, most));
+    if (ReadMarks(folder).empty()) videos.push_back(StillsWithoutTruth(folder, most));
   }
   const fs::path recordings = shared / "real/recordings";
   if (fs::is_directory(recordings)) {

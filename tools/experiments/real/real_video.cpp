@@ -121,7 +121,7 @@ int64_t CountBreaks(const tracker::BodyFrame& before, const tracker::BodyFrame& 
 }
 
 // Per cent of the mean, averaged over the bones that were seen in two frames or more.
-double VariationOf(const recon::JointArray<std::vector<double>>& bones_m) {
+double MeasureVariation(const recon::JointArray<std::vector<double>>& bones_m) {
   double sum = 0;
   int count = 0;
   for (const std::vector<double>& lengths : bones_m) {
@@ -145,7 +145,7 @@ void Finish(const Sums& sums, bool stills, VideoScore& score) {
     }
     const auto bones = sums.bones_m.find(stage);
     if (!stills && bones != sums.bones_m.end())
-      score.bone_variation[stage] = VariationOf(bones->second);
+      score.bone_variation[stage] = MeasureVariation(bones->second);
   }
   if (sums.pixels > 0) {
     score.explained = static_cast<double>(sums.explained) / static_cast<double>(sums.pixels);

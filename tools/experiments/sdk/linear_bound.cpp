@@ -95,7 +95,7 @@ struct Regression {
 
 constexpr Eigen::Index kFewestFrames = kTaps;
 
-JointTaps FiltersOf(const std::vector<const RecordedPair*>& recordings, const Goal& goal) {
+JointTaps LearnFilters(const std::vector<const RecordedPair*>& recordings, const Goal& goal) {
   recon::JointArray<Regression> regressions;
   for (const RecordedPair* recorded : recordings) {
     for (const PairedTracks& pair : PairUp(recorded->truth, recorded->observed)) {
@@ -130,7 +130,7 @@ void AddLinearBound(const std::string& data, const std::vector<Fold>& folds, Tab
   for (const Goal& goal : kGoals) {
     std::vector<ClipMetrics> clips;
     for (const Fold& fold : folds) {
-      const JointTaps taps = FiltersOf(fold.train, goal);
+      const JointTaps taps = LearnFilters(fold.train, goal);
       for (const RecordedPair* recorded : fold.test) {
         for (PairedTracks& pair : PairUp(recorded->truth, recorded->observed)) {
           clips.push_back(Measure(Filtered(std::move(pair), taps)));

@@ -32,7 +32,7 @@ std::string KeyOf(const ExperimentContext& context, const MethodRun& run) {
       gp.reliability, gp.incremental, best.refined_joints, best.repair, best.correct, best.bones,
       best.complete, best.filter, DescriptionOfConstants(best.constants));
   if (o.database) {
-    key.append(" ").append(run.database_key.empty() ? KeyOfFile(DatabaseOf(context).path)
+    key.append(" ").append(run.database_key.empty() ? KeyOfFile(LoadDatabase(context).path)
                                                     : run.database_key);
   }
   if (o.prior) key.append(" ").append(KeyOfFile(tracker::ShippedFile(recon::kShippedPrior)));
@@ -42,7 +42,7 @@ std::string KeyOf(const ExperimentContext& context, const MethodRun& run) {
 
 }  // namespace
 
-OpenDatabase DatabaseOf(const ExperimentContext& context) {
+OpenDatabase LoadDatabase(const ExperimentContext& context) {
   OpenDatabase database;
   database.path =
       context.database.empty() ? tracker::ShippedFile("authored.ossadb") : context.database;
@@ -55,7 +55,7 @@ OpenDatabase DatabaseOf(const ExperimentContext& context) {
   return database;
 }
 
-std::shared_ptr<const recon::PosturePrior> PriorOf(ExperimentContext& context) {
+std::shared_ptr<const recon::PosturePrior> LoadPrior(ExperimentContext& context) {
   const bool wanted = context.parameters.Integer("best_prior", 1) != 0;
   if (!wanted || !context.database.empty()) return nullptr;
   static const auto kShipped = std::make_shared<const recon::PosturePrior>(

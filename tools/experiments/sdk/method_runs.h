@@ -18,16 +18,16 @@ struct OpenDatabase {
   std::shared_ptr<const recon::PostureDatabase> postures;
 };
 /// --database of the study, else the shipped one.
-OpenDatabase DatabaseOf(const ExperimentContext& context);
+OpenDatabase LoadDatabase(const ExperimentContext& context);
 /// What best completes postures by: the shipped prior, or nothing where the study names a database
 /// or says best_prior = 0, so that it is the database's postures.
-std::shared_ptr<const recon::PosturePrior> PriorOf(ExperimentContext& context);
+std::shared_ptr<const recon::PosturePrior> LoadPrior(ExperimentContext& context);
 
 /// A method with its settings, as a study compares it.
 struct MethodRun {
   std::string label;  // in tables
   recon::ReconstructorOptions options;
-  std::string database_key;  // of a database that is not DatabaseOf(context): for the cache
+  std::string database_key;  // of a database that is not LoadDatabase(context): for the cache
   bool refines = false;      // over clips it starts from RecordedPair::refined, and best knows it
 };
 

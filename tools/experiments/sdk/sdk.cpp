@@ -81,8 +81,8 @@ std::vector<Table> RunSdk(ExperimentContext& context) {
   const int every = context.parameters.Integer("every_nth_clip", 1, 1);
   recon::ReconstructorOptions options;
   options.seed = context.seed;
-  options.database = DatabaseOf(context).postures;
-  options.prior = PriorOf(context);
+  options.database = LoadDatabase(context).postures;
+  options.prior = LoadPrior(context);
   options.best.repair = context.parameters.Integer("best_repair", 1) != 0;
   options.best.complete = context.parameters.Integer("best_complete", 1) != 0;
   options.best.correct = context.parameters.Integer("best_correct", 1) != 0;

@@ -28,7 +28,7 @@ std::vector<Fold> LeaveOneSubjectOut(const std::vector<RecordedPair>& pairs,
 RecordedPair Part(const RecordedPair& pair, size_t begin, size_t end, const std::string& subject);
 
 /// The postures that both have, to learn from; evenly thinned.
-std::vector<recon::PosturePair> PairsOf(const std::vector<const RecordedPair*>& recordings);
+std::vector<recon::PosturePair> CollectPairs(const std::vector<const RecordedPair*>& recordings);
 
 /// One method over the tested clips of all folds.
 struct MethodScore {

@@ -63,7 +63,7 @@ std::string DescriptionOfConstants(const recon::BestConstants& c) {
 namespace {
 
 /// Of what the recordings hold, frame by frame.
-std::map<const RecordedPair*, std::string> KeysOf(const std::vector<RecordedPair>& pairs) {
+std::map<const RecordedPair*, std::string> MakeKeys(const std::vector<RecordedPair>& pairs) {
   std::map<const RecordedPair*, std::string> keys;
   for (const RecordedPair& pair : pairs)
     keys[&pair] = ContentHash(TextOf(pair.observed) + TextOf(pair.truth));
@@ -91,7 +91,7 @@ std::string KeyOfOptions(const ExperimentContext& context, const recon::Reconstr
       o.local_pca.continuity, o.local_pca.solver, o.local_pca.use_reliability,
       o.gaussian_process.incremental, o.gaussian_process.nearby_models, o.best.repair,
       o.best.complete, o.best.correct, o.best.filter, o.best.bones,
-      o.database ? KeyOfFile(DatabaseOf(context).path) : "",
+      o.database ? KeyOfFile(LoadDatabase(context).path) : "",
       o.prior ? KeyOfFile(tracker::ShippedFile(recon::kShippedPrior)) : "",
       DescriptionOfConstants(o.best.constants));
 }
@@ -105,7 +105,7 @@ recon::ReconstructorOptions LearnFold(const Fold& fold, const std::string& metho
   if (learn.processes) learn.correction.centres = 0;
   learn.mixture.seed = learn.correction.seed = options.seed;
   with.learned = std::make_shared<const recon::LearnedModels>(
-      recon::LearnedModels::Learn(PairsOf(fold.train), learn));
+      recon::LearnedModels::Learn(CollectPairs(fold.train), learn));
   return with;
 }
 
@@ -165,7 +165,7 @@ std::vector<Fold> LeaveOneSubjectOut(const std::vector<RecordedPair>& pairs,
       }
     }
   }
-  const auto keys = KeysOf(pairs);
+  const auto keys = MakeKeys(pairs);
   std::vector<Fold> list;
   for (auto& [subject, fold] : folds) {
     fold.key = KeyOf(fold, keys);
@@ -185,7 +185,7 @@ RecordedPair Part(const RecordedPair& pair, size_t begin, size_t end, const std:
   return part;
 }
 
-std::vector<recon::PosturePair> PairsOf(const std::vector<const RecordedPair*>& recordings) {
+std::vector<recon::PosturePair> CollectPairs(const std::vector<const RecordedPair*>& recordings) {
   std::vector<recon::PosturePair> pairs;
   std::map<std::string, int> groups;
   for (const RecordedPair* recorded : recordings) {

@@ -22,7 +22,7 @@ struct Cost {
   double median_ms, mean_ms;
 };
 
-Cost CostOf(const std::vector<Posture>& motion, int people, physics::Control control) {
+Cost MeasureCost(const std::vector<Posture>& motion, int people, physics::Control control) {
   std::vector<physics::CharacterFilter> filters;
   physics::CharacterFilterOptions options;
   options.control = control;
@@ -163,7 +163,7 @@ Table CostStudy(ExperimentContext& context, const Actors& actors) {
   };
   for (const auto& [name, control] :
        {std::pair("pd", physics::Control::kPaper), {"motor", physics::Control::kMotor}}) {
-    const Cost one = CostOf(motion, 1, control), six = CostOf(motion, 6, control);
+    const Cost one = MeasureCost(motion, 1, control), six = MeasureCost(motion, 6, control);
     const auto text = [](const Cost& c) {
       return fmt::format("{:.2f} ms median, {:.2f} mean", c.median_ms, c.mean_ms);
     };

@@ -236,7 +236,7 @@ Table FilterStudy(ExperimentContext& context, const Actors& actors) {
   physics::CharacterFilterOptions paper, plain, motor;
   plain.lead = 0.0;
   motor.control = physics::Control::kMotor;
-  for (const FilterData& data : FilterDataOf(context, actors, table.note)) {
+  for (const FilterData& data : MakeFilterData(context, actors, table.note)) {
     context.StopIfAsked();
     AddRow(table, data, "pd", paper);
     AddRow(table, data, "pd, lead 0", plain);

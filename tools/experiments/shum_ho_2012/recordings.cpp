@@ -131,8 +131,8 @@ FilterData Rendered(ExperimentContext& context, std::string& note) {
 
 }  // namespace
 
-std::vector<FilterData> FilterDataOf(ExperimentContext& context, const Actors& actors,
-                                     std::string& note) {
+std::vector<FilterData> MakeFilterData(ExperimentContext& context, const Actors& actors,
+                                       std::string& note) {
   const double stride = std::max(1.0, context.parameters.Number("filter_stride", 16));
   const bool rendered = context.parameters.Flag("rendered", true);
   std::vector<FilterData> all;

@@ -272,7 +272,7 @@ RecordedPair Studio::Record(const recon::MotionClip& clip, const StageOptions& o
       if (tracker) {
         const tracker::BodyFrame bodies = tracker->Track(frame.depth);
         const auto person = [&](tracker::PostureKind kind) {
-          return PersonOf(tracker::RecordOf(bodies, kind), frame.truth);
+          return PersonOf(tracker::ToRecord(bodies, kind), frame.truth);
         };
         observed.frames.push_back(person(tracker::PostureKind::kRaw));
         if (!state_->look_path.empty()) {
