@@ -74,7 +74,7 @@ extern "C" int LLVMFuzzerTestOneInput(const uint8_t* data, size_t size) {
   CheckList(text);
   CheckNames(LinesOf(text));
   ossa::fuzz::ExpectValueOrOneLine([&] { UndistortionMap(ReadK4aCalibration(text, 320, 288)); });
-  ossa::fuzz::ExpectValueOrOneLine([&] { DepthsOf(ParseRosImage(bytes), 0.001); });
+  ossa::fuzz::ExpectValueOrOneLine([&] { DecodeDepths(ParseRosImage(bytes), 0.001); });
   ossa::fuzz::ExpectValueOrOneLine([&] { ParseRosIntrinsics(bytes); });
   ossa::fuzz::ExpectValueOrOneLine([&] { ParseRosFloat(bytes); });
   std::istringstream file(text);
