@@ -342,7 +342,7 @@ BodyKey Mirrored(const BodyKey& key) {
   return m;
 }
 
-RigPose ComputePose(const BodyKey& key) {
+RigPose PoseOf(const BodyKey& key) {
   RigPose pose;
   pose.root_m = key.pelvis_m;
   PoseTrunk(key, pose);
@@ -387,7 +387,7 @@ void ReachForInWorld(BodyKey& key, size_t side, const Vector3d& place_m) {
   const Bones& b = RigBones();
   // The arms' weight moves the pelvis a little: a few rounds settle it.
   for (int round = 0; round < 3; ++round) {
-    const RigPose pose = ComputePose(key);
+    const RigPose pose = PoseOf(key);
     const Vector3d from_neck =
         pose.world_from_rest[b.spine1].conjugate() * (place_m - StandardBoneHeads(pose)[b.neck]);
     ReachFor(key, side, {SideSign(side) * from_neck.x(), from_neck.y(), from_neck.z()});
