@@ -11,6 +11,7 @@ find_package(nlohmann_json 3.11 REQUIRED)
 find_package(fmt REQUIRED)
 find_package(Threads REQUIRED)
 find_package(ZLIB REQUIRED)
+find_package(Boost 1.74 REQUIRED)  # Beast and Asio: headers alone
 find_package(PkgConfig REQUIRED)
 pkg_check_modules(openni2 REQUIRED IMPORTED_TARGET libopenni2)
 pkg_check_modules(ode REQUIRED IMPORTED_TARGET ode)

@@ -23,7 +23,7 @@ TOOLS = {
 # Inside public headers only Eigen and the standard library appear.
 HIDDEN = re.compile(
     r"^(opencv|ceres/|ode/|embree|OpenNI|OniC|Driver/Oni|nlohmann/|fmt/|spdlog/|CLI/|tbb/|oneapi/|hwy/|mpi\.h|"
-    r"zstd|zlib|xxhash|httplib|nanoflann|libfreenect|toml)"
+    r"zstd|zlib|xxhash|boost|nanoflann|libfreenect|toml)"
 )
 # tools/commands is the command itself, no library: nobody includes it from outside. NiTE's headers
 # show OpenNI2, as NiTE's programs expect.

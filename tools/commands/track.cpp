@@ -25,6 +25,7 @@
 #include "tools/commands/outputs.h"
 #include "tools/commands/process.h"
 #include "tools/commands/source_options.h"
+#include "tools/commands/view_options.h"
 #include "tools/stream/sender.h"
 #include "tools/tracker/picture.h"
 #include "tools/tracker/run_stats.h"
@@ -50,7 +51,7 @@ struct TrackOptions {
   int64_t frames = 0;
   std::vector<std::string> send;
   std::vector<stream::Target> targets;  // of `send`
-  int port = 8080;                      // by convention, an HTTP port that needs no rights
+  PageArguments page;                   // of `view`
   bool view = false;
   bool quiet = false;
 };
@@ -153,8 +154,8 @@ TrackOptions ParseOptions(int argc, char** argv) {
                  "live, to vmc://HOST:PORT (avatars), vrchat://HOST:PORT[?scale=X] or "
                  "udp://HOST:PORT (JSONL); repeat for more")
       ->allow_extra_args(false);
-  app.add_flag("--view", options.view, "show it in a browser while it runs (127.0.0.1)");
-  app.add_option("--port", options.port, "of --view (default 8080)")->check(CLI::Range(0, 65535));
+  app.add_flag("--view", options.view, "show it in browsers while it runs");
+  AddPageOptions(app, options.page);
   app.add_flag("--quiet", options.quiet, "no progress");
   Parse(app, argc, argv);
   if (options.out.empty() && options.picture.empty() && options.pictures.empty() && !options.view &&
@@ -194,7 +195,8 @@ TrackOptions ParseOptions(int argc, char** argv) {
   }
   if (options.mode == "seated") options.tracker.mode = tracker::TrackingMode::kSeated;
   options.tracker.trace = !options.trace.empty();
-  options.tracker.keep_parts = !options.picture.empty() || !options.pictures.empty();
+  options.tracker.keep_parts =
+      options.view || !options.picture.empty() || !options.pictures.empty();
   return options;
 }
 
@@ -330,7 +332,12 @@ void TrackAll(depth::FrameSource& source, tracker::Tracker& tracker, const Track
     output.Write(bodies);
     trace.Write(bodies);
     pictures.Take(read.frame, bodies);
-    if (viewer != nullptr) viewer->Show(read.frame, tracker::ToRecord(bodies));
+    if (viewer != nullptr) {
+      viewer::Moment moment = viewer::MomentOf(read.frame, bodies);
+      moment.dropped = run.dropped;
+      moment.latency_ms = bodies.ms.total;
+      viewer->Show(std::move(moment));
+    }
     const auto frames = static_cast<double>(run.stats.frames());
     if (known > 0) progress.Update(frames, known, fmt::format("{} people", bodies.bodies.size()));
     if (options.frames > 0 && run.stats.frames() >= options.frames) return;
@@ -420,8 +427,10 @@ int Track(int argc, char** argv) {
     AtomicFile::CheckWritable(options.json_stats);
   std::unique_ptr<viewer::Viewer> viewer;
   if (options.view) {
-    viewer = std::make_unique<viewer::Viewer>(options.port);
-    Say(fmt::format("watch at http://127.0.0.1:{}/\n", viewer->port()));
+    viewer::ViewerOptions page = PageOptions(options.page);
+    page.name = options.source.name;
+    viewer = std::make_unique<viewer::Viewer>(page);
+    SayWhere(*viewer);
   }
   stream::Sender sender(options.targets);
   Run run;

@@ -4,9 +4,13 @@
 #include <chrono>
 #include <filesystem>
 #include <memory>
+#include <optional>
 #include <string>
 #include <thread>
+#include <utility>
+#include <vector>
 
+#include "depth/base/error.h"
 #include "depth/sensor/frame_source.h"
 #include "recon/files/skeleton_io.h"
 #include "recon/methods/reconstructor.h"
@@ -15,8 +19,9 @@
 #include "tools/commands/method_options.h"
 #include "tools/commands/process.h"
 #include "tools/commands/source_options.h"
+#include "tools/commands/view_options.h"
 #include "tools/commands/warnings.h"
-#include "tools/tracker/skeleton_record.h"
+#include "tools/tracker/smoothing.h"
 #include "tools/tracker/tracker.h"
 #include "tools/viewer/viewer.h"
 
@@ -24,16 +29,20 @@ namespace ossa::commands {
 namespace {
 
 using Clock = std::chrono::steady_clock;
+using std::chrono::milliseconds;
 
 struct ViewOptions {
   SourceArguments source;
   tracker::ModelFiles files;
   tracker::TrackerOptions tracker;
-  int port = 8080;  // by convention, an HTTP port that needs no rights
+  PageArguments page;
+  viewer::Settings settings;
+  std::vector<std::string> over;
+  std::string record_to;
   bool once = false;
 };
 
-// Shows a recording at its own speed: waits until the time of the frame has come.
+// A recording at its own speed: waits until the time of the frame has come.
 class Clockwork {
  public:
   void WaitFor(double time_s) {
@@ -41,7 +50,7 @@ class Clockwork {
     last_s_ = time_s;
     std::this_thread::sleep_until(start_ + Seconds(time_s));
   }
-  // For a frame's time, as every other; a recording of one frame would begin anew without end.
+  // For a frame's time, as every other.
   static void ShowTheLast() { std::this_thread::sleep_for(Seconds(1.0 / 30.0)); }
 
  private:
@@ -52,77 +61,188 @@ class Clockwork {
   double last_s_ = -1e9;
 };
 
-void SayWhere(const viewer::Viewer& viewer) {
-  Say(fmt::format("watch at http://127.0.0.1:{}/ (Ctrl-C ends)\n", viewer.port()));
+bool IsSource(const std::string& what) {
+  return what.starts_with("openni:") || std::filesystem::is_directory(what) ||
+         depth::IsRecording(what);
+}
+
+// Those that work with the files that were given.
+std::vector<std::string> MethodsToChoose(const tracker::ModelFiles& files) {
+  std::vector<std::string> methods = recon::ReconstructionMethods();
+  std::erase_if(methods, [&](const std::string& method) {
+    return MethodInfoOf(method).learned == recon::Reads::kRequired && files.learned.empty();
+  });
+  return methods;
+}
+
+viewer::ViewerOptions ViewerOptionsOf(const ViewOptions& options) {
+  viewer::ViewerOptions with = PageOptions(options.page);
+  with.name = std::filesystem::path(options.source.name).filename().string();
+  if (with.name.empty()) with.name = options.source.name;
+  for (const std::string& path : options.over) {
+    recon::SkeletonSequence sequence = recon::ReadSkeletons(path);
+    SayWarnings("view", sequence.warnings);
+    with.overlays.push_back({std::filesystem::path(path).filename().string(), sequence});
+  }
+  return with;
+}
+
+tracker::Tracker MakeTracker(const ViewOptions& options, const viewer::Settings& settings) {
+  tracker::TrackerOptions with = options.tracker;
+  with.method = settings.method;
+  with.models = tracker::ModelSet::Load(options.files, with.method);
+  if (!settings.smoothing.empty()) with.smoothing = tracker::SmoothingPreset(settings.smoothing);
+  with.mode = settings.seated ? tracker::TrackingMode::kSeated : tracker::TrackingMode::kStanding;
+  with.near_range = settings.near_range;
+  with.max_users = settings.users;
+  with.keep_parts = true;
+  return tracker::Tracker(with);
+}
+
+void WaitUntilInterrupted() {
+  while (!Interrupted()) std::this_thread::sleep_for(milliseconds(100));
 }
 
 void ShowSkeletons(const ViewOptions& options) {
   const recon::SkeletonSequence sequence = recon::ReadSkeletons(options.source.name);
   SayWarnings("view", sequence.warnings);
-  viewer::Viewer viewer(options.port);
+  viewer::ViewerOptions with = ViewerOptionsOf(options);
+  with.keeps = true;
+  with.expected_frames = static_cast<int64_t>(sequence.frames.size());
+  viewer::Viewer viewer(with);
   SayWhere(viewer);
-  depth::DepthFrame blank;
-  blank.depth_mm.assign(
-      static_cast<size_t>(blank.camera.width) * static_cast<size_t>(blank.camera.height), 0);
   Clockwork clockwork;
-  do {
-    for (const recon::SkeletonFrame& frame : sequence.frames) {
-      if (Interrupted()) return;
-      clockwork.WaitFor(frame.time_s);
-      viewer.Show(blank, frame);
-    }
-    clockwork.ShowTheLast();
-  } while (!options.once && !Interrupted());
+  for (const recon::SkeletonFrame& frame : sequence.frames) {
+    if (Interrupted()) return;
+    if (options.once) clockwork.WaitFor(frame.time_s);
+    viewer.Show(viewer::MomentOf(frame));
+  }
+  viewer.Complete();
+  if (options.once) return Clockwork::ShowTheLast();
+  WaitUntilInterrupted();
 }
 
-void ShowSource(const ViewOptions& options) {
-  auto source = OpenSource(options.source, false);
-  tracker::TrackerOptions with = options.tracker;
-  with.models = tracker::ModelSet::Load(options.files, with.method);
-  tracker::Tracker tracker(with);
-  FindUpright(tracker, *source, options.source, false);
-  viewer::Viewer viewer(options.port);
-  SayWhere(viewer);
-  for (;;) {
-    Clockwork clockwork;
-    while (!Interrupted()) {
-      const depth::ReadResult read = source->Read(std::chrono::milliseconds(100));
-      if (read.status == depth::ReadStatus::kEnd) break;
-      if (read.status != depth::ReadStatus::kFrame) continue;
-      if (!source->is_live()) clockwork.WaitFor(read.frame.time_s);
-      viewer.Show(read.frame, tracker::ToRecord(tracker.Track(read.frame)));
-    }
-    if (options.once || Interrupted()) return;
-    clockwork.ShowTheLast();
-    source = OpenSource(options.source, true);
+// The tracker of a page: its frames go there, and what is chosen there it does.
+class PageTracker {
+ public:
+  explicit PageTracker(const ViewOptions& options)
+      : options_(options),
+        source_(OpenSource(options.source, false)),
+        settings_(options.settings),
+        tracker_(MakeTracker(options, settings_)) {
+    FindUpright(tracker_, *source_, options_.source, false);
+    viewer::ViewerOptions with = ViewerOptionsOf(options);
+    with.keeps = !source_->is_live();
+    with.expected_frames = source_->frame_count();
+    with.settings = settings_;
+    with.methods = MethodsToChoose(options.files);
+    with.smoothings = tracker::SmoothingPresets();
+    if (source_->is_live()) with.recordings = options.record_to;
+    viewer_ = std::make_unique<viewer::Viewer>(with);
+    SayWhere(*viewer_);
   }
+
+  void Run() {
+    while (!Interrupted()) {
+      if (TakesSettings() && !source_->is_live()) Rewind();
+      const depth::ReadResult read = source_->Read(milliseconds(100));
+      if (read.status == depth::ReadStatus::kFrame) Show(read);
+      if (read.status != depth::ReadStatus::kEnd) continue;
+      viewer_->Complete();
+      if (options_.once) return Clockwork::ShowTheLast();
+      WaitForSettings();
+    }
+  }
+
+ private:
+  void Show(const depth::ReadResult& read) {
+    const Clock::time_point arrived = Clock::now();
+    dropped_ += read.dropped;
+    if (options_.once && !source_->is_live()) clockwork_.WaitFor(read.frame.time_s);
+    viewer::Moment moment = viewer::MomentOf(read.frame, tracker_.Track(read.frame));
+    moment.dropped = dropped_;
+    moment.latency_ms = std::chrono::duration<double, std::milli>(Clock::now() - arrived).count();
+    viewer_->Show(std::move(moment));
+  }
+
+  bool TakesSettings() {
+    const std::optional<viewer::Settings> asked =
+        next_settings_ ? std::exchange(next_settings_, {}) : viewer_->TakeSettings();
+    if (!asked) return false;
+    try {
+      tracker_ = MakeTracker(options_, *asked);
+      settings_ = *asked;
+      return true;
+    } catch (const InputError& error) {
+      viewer_->Refuse(settings_, error.what());
+      return false;
+    }
+  }
+
+  void WaitForSettings() {
+    while (!Interrupted() && !next_settings_) {
+      std::this_thread::sleep_for(milliseconds(100));
+      next_settings_ = viewer_->TakeSettings();
+    }
+  }
+
+  void Rewind() {
+    source_ = OpenSource(options_.source, true);
+    FindUpright(tracker_, *source_, options_.source, true);
+    viewer_->Clear();
+    dropped_ = 0;
+  }
+
+  const ViewOptions& options_;
+  std::unique_ptr<depth::FrameSource> source_;
+  viewer::Settings settings_;
+  std::optional<viewer::Settings> next_settings_;
+  tracker::Tracker tracker_;
+  std::unique_ptr<viewer::Viewer> viewer_;
+  Clockwork clockwork_;
+  int64_t dropped_ = 0;
+};
+
+void AddTrackingOptions(CLI::App& app, ViewOptions& options) {
+  app.add_option("--model", options.files.forest, "forest model, .ossa (default: the shipped one)");
+  app.add_option("--database", options.files.database, "posture database, .ossadb");
+  app.add_option("--method", options.settings.method, "how postures are completed (default best)")
+      ->check(CLI::IsMember(recon::ReconstructionMethods()));
+  app.add_option("--learned", options.files.learned, ".ossagp, for the methods that learn");
+  app.add_option("--smoothing", options.settings.smoothing,
+                 "preset of the filter (default: what goes with the method)")
+      ->check(CLI::IsMember(tracker::SmoothingPresets()));
+  app.add_flag("--seated", options.settings.seated, "look for the ten upper joints only");
+  app.add_flag("--near", options.settings.near_range, "near range: people within 3 m only");
+  app.add_option("--users", options.settings.users, "most people at a time, 1 to 6 (default 6)")
+      ->check(CLI::Range(1, 6));
 }
 
 }  // namespace
 
 int View(int argc, char** argv) {
   CLI::App app(
-      "Show a SOURCE being tracked, or a skeleton file given as SOURCE, in a browser on this "
-      "machine");
+      "Show a SOURCE being tracked, or a skeleton file given as SOURCE, in browsers: depth, parts "
+      "and skeletons in 3D, a recording with its time line");
   ViewOptions options;
+  options.settings.method = recon::kDefaultMethod;
   AddSourceOptions(app, options.source);
   AddRotateOption(app, options.source);
-  app.add_option("--port", options.port, "on 127.0.0.1 (default 8080, 0: any free one)")
-      ->check(CLI::Range(0, 65535));
-  app.add_option("--model", options.files.forest, "forest model, .ossa (default: the shipped one)");
-  app.add_option("--database", options.files.database, "posture database, .ossadb");
-  app.add_option("--method", options.tracker.method, "how postures are completed (default best)")
-      ->check(CLI::IsMember(recon::ReconstructionMethods()));
-  app.add_option("--learned", options.files.learned, ".ossagp, for the methods that learn");
-  app.add_flag("--once", options.once, "end with the recording instead of starting over");
+  AddPageOptions(app, options.page);
+  AddTrackingOptions(app, options);
+  app.add_option("--over", options.over,
+                 "skeletons to see over those that are shown, with the distance between them; "
+                 "repeat for more")
+      ->allow_extra_args(false);
+  app.add_option("--record-to", options.record_to,
+                 "folder for what the page's record button records of a camera (default: here)");
+  app.add_flag("--once", options.once, "play a recording once at its own speed, and end with it");
   Parse(app, argc, argv);
-  CheckRead(app, options.tracker.method, false);
-  CheckLearned(options.tracker.method, options.files.learned);
+  CheckRead(app, options.settings.method, false);
+  CheckLearned(options.settings.method, options.files.learned);
   options.tracker.turn = TurnOf(options.source);
-  const std::string& what = options.source.name;
-  if (what.starts_with("openni:") || std::filesystem::is_directory(what) ||
-      depth::IsRecording(what)) {
-    ShowSource(options);
+  if (IsSource(options.source.name)) {
+    PageTracker(options).Run();
   } else {
     ShowSkeletons(options);
   }

@@ -61,7 +61,9 @@ TEST(ViewCommand, ARecordingOfOneFrameIsShownAtItsLeisure) {
 TEST(ViewCommand, APortThatIsTakenIsOneLine) {
   const TemporaryFolder folder;
   WriteSkeletons(folder / "x.jsonl");
-  const viewer::Viewer taken(0);
+  viewer::ViewerOptions any;
+  any.port = 0;
+  const viewer::Viewer taken(any);
   const CommandResult result = RunOssa(
       {"view", (folder / "x.jsonl").string(), "--once", "--port", std::to_string(taken.port())});
   EXPECT_EQ(result.exit_status, 1);

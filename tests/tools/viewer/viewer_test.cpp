@@ -1,116 +1,303 @@
 #include "tools/viewer/viewer.h"
 
-#include <arpa/inet.h>
 #include <gtest/gtest.h>
-#include <sys/socket.h>
-#include <unistd.h>
 
 #include <algorithm>
 #include <atomic>
 #include <chrono>
+#include <fstream>
 #include <memory>
 #include <string>
 #include <thread>
 #include <vector>
 
+#include "depth/base/error.h"
+#include "depth/sensor/frame_source.h"
 #include "tests/support/depth_examples.h"
+#include "tests/support/temporary_folder.h"
+#include "tests/tools/viewer/web_client.h"
 
 namespace ossa::viewer {
 namespace {
 
 using std::chrono::milliseconds;
 
-/// A client of the viewer that says what it likes.
-class Client {
- public:
-  explicit Client(int port) : socket_(socket(AF_INET, SOCK_STREAM, 0)) {
-    sockaddr_in address{};
-    address.sin_family = AF_INET;
-    address.sin_port = htons(static_cast<uint16_t>(port));
-    address.sin_addr.s_addr = htonl(INADDR_LOOPBACK);
-    const timeval patience{10, 0};
-    setsockopt(socket_, SOL_SOCKET, SO_RCVTIMEO, &patience, sizeof(patience));
-    EXPECT_EQ(connect(socket_, reinterpret_cast<sockaddr*>(&address), sizeof(address)), 0);
-  }
-  Client(const Client&) = delete;
-  ~Client() { close(socket_); }
-  void Say(const std::string& text) const { send(socket_, text.data(), text.size(), MSG_NOSIGNAL); }
-  /// The first line of what comes back; empty when nothing does.
-  std::string Answer() const {
-    std::string text(4096, '\0');
-    const ssize_t size = recv(socket_, text.data(), text.size(), 0);
-    text.resize(static_cast<size_t>(std::max<ssize_t>(size, 0)));
-    return text.substr(0, text.find('\r'));
-  }
+constexpr const char* kStateRequest = "GET /state HTTP/1.1\r\nHost: localhost";
 
- private:
-  int socket_;
-};
+ViewerOptions AnyPort(bool keeps = false) {
+  ViewerOptions options;
+  options.port = 0;
+  options.keeps = keeps;
+  return options;
+}
 
-std::string AnswerTo(int port, const std::string& request) {
-  const Client client(port);
-  client.Say(request + "\r\n\r\n");
-  return client.Answer();
+// Frame and skeletons say which one they are: depth by ExampleFrame, skeletons by a joint's place.
+Moment ExampleMoment(int index) {
+  Moment moment;
+  moment.depth = test::ExampleFrame(index);
+  const size_t pixels = moment.depth.depth_mm.size();
+  moment.users = {32, 24, static_cast<uint8_t>(index % 6 + 1)};
+  moment.parts.data.assign(pixels, static_cast<uint8_t>(index % 31 + 1));
+  recon::BodyRecord body;
+  body.id = 1;
+  body.joints[3].emplace().position_m = {0.001 * index, 0.5, 2.0};
+  moment.layers[0].frame = index;
+  moment.layers[0].time_s = index / 30.0;
+  moment.layers[0].bodies = {body};
+  return moment;
+}
+
+std::string DepthBytes(int index) {
+  const std::vector<uint16_t> mm = test::ExampleFrame(index).depth_mm;
+  return {reinterpret_cast<const char*>(mm.data()), mm.size() * sizeof(uint16_t)};
 }
 
 TEST(Viewer, AnswersThisMachineAndNoPageElsewhere) {
-  const Viewer viewer(0);
+  const Viewer viewer(AnyPort());
   for (const char* host : {"127.0.0.1", "localhost", "localhost:9000", "[::1]:9000"}) {
-    const auto request = std::string("GET /frame HTTP/1.1\r\nHost: ") + host;
+    const auto request = std::string("GET /state HTTP/1.1\r\nHost: ") + host;
     EXPECT_EQ(AnswerTo(viewer.port(), request), "HTTP/1.1 200 OK") << host;
   }
-  EXPECT_EQ(AnswerTo(viewer.port(), "GET /depth HTTP/1.1\r\nHost: evil.example"),
-            "HTTP/1.1 403 Forbidden");
+  for (const char* host : {"evil.example", "192.168.1.7", "[fe80::1]:80"}) {
+    const auto request = std::string("GET /state HTTP/1.1\r\nHost: ") + host;
+    EXPECT_EQ(AnswerTo(viewer.port(), request), "HTTP/1.1 403 Forbidden") << host;
+  }
 }
 
 TEST(Viewer, TakesNoLargeRequest) {
-  const Viewer viewer(0);
+  const Viewer viewer(AnyPort());
   EXPECT_EQ(AnswerTo(viewer.port(),
-                     "POST /frame HTTP/1.1\r\nHost: localhost\r\nContent-Length: 1200000000"),
+                     "GET /state HTTP/1.1\r\nHost: localhost\r\nContent-Length: 1200000000"),
             "HTTP/1.1 413 Payload Too Large");
+  EXPECT_EQ(AnswerTo(viewer.port(), "GET /" + std::string(20000, 'x') + " HTTP/1.1"),
+            "HTTP/1.1 431 Request Header Fields Too Large");
+  EXPECT_EQ(AnswerTo(viewer.port(), "\x16\x03\x01 no HTTP"), "HTTP/1.1 400 Bad Request");
 }
 
-// Browsers hold connections in store. One a thread, and two more; some send a byte now and then.
-TEST(Viewer, NeitherServesNorEndsLateForClientsThatStall) {
+TEST(Viewer, OtherMachinesNeedTheToken) {
+  ViewerOptions options = AnyPort();
+  options.address = "0.0.0.0";
+  EXPECT_THROW(Viewer{options}, InputError);
+  options.token = "s3cret";
+  const Viewer viewer(options);
+  const std::string get = "GET ", rest = " HTTP/1.1\r\nHost: 192.168.1.7:8080";
+  EXPECT_EQ(AnswerTo(viewer.port(), get + "/state" + rest), "HTTP/1.1 401 Unauthorized");
+  EXPECT_EQ(AnswerTo(viewer.port(), get + "/state?token=s3creT" + rest),
+            "HTTP/1.1 401 Unauthorized");
+  EXPECT_EQ(AnswerTo(viewer.port(), get + "/state?token=s3cret" + rest), "HTTP/1.1 200 OK");
+  EXPECT_EQ(AnswerTo(viewer.port(), get + "/state" + rest + "\r\nCookie: a=b; ossa_token=s3cret"),
+            "HTTP/1.1 200 OK");
+  EXPECT_EQ(AnswerTo(viewer.port(), get + "/state?token=s3cret HTTP/1.1\r\nHost: evil.example"),
+            "HTTP/1.1 403 Forbidden");
+  EXPECT_NE(viewer.urls().front().find("?token=s3cret"), std::string::npos);
+}
+
+TEST(Viewer, OpensNoSocketForAPageOfAnotherPlace) {
+  const Viewer viewer(AnyPort());
+  const std::string upgrade =
+      "GET /socket HTTP/1.1\r\nHost: localhost\r\nConnection: Upgrade\r\nUpgrade: websocket\r\n"
+      "Sec-WebSocket-Version: 13\r\nSec-WebSocket-Key: dGhlIHNhbXBsZSBub25jZQ==\r\nOrigin: ";
+  EXPECT_EQ(AnswerTo(viewer.port(), upgrade + "http://evil.example"), "HTTP/1.1 403 Forbidden");
+  EXPECT_EQ(AnswerTo(viewer.port(), upgrade + "http://localhost"),
+            "HTTP/1.1 101 Switching Protocols");
+}
+
+TEST(Viewer, GivesEveryFrameOfARecordingWithItsOwnSkeletons) {
+  Viewer viewer(AnyPort(true));
+  for (int f = 0; f < 12; ++f) viewer.Show(ExampleMoment(f));
+  viewer.Complete();
+  PageClient page(viewer.port());
+  for (const int f : {7, 0, 11, 3}) {
+    const std::string message = page.Ask("{\"frame\":" + std::to_string(f) + "}");
+    ASSERT_TRUE(page.heard_binary());
+    const nlohmann::json header = HeaderOf(message);
+    EXPECT_EQ(header["number"], f);
+    EXPECT_EQ(header["layers"]["final"]["frame"], f);
+    EXPECT_EQ(PicturesOf(message).substr(0, DepthBytes(f).size()), DepthBytes(f));
+    EXPECT_EQ(PicturesOf(message).back(), static_cast<char>(f % 31 + 1)) << "of its parts";
+  }
+  const auto state = nlohmann::json::parse(page.Ask(R"({"frame":12})"));
+  EXPECT_EQ(state["frames"], 12) << "there is no such frame: the state says how many there are";
+  EXPECT_EQ(state["complete"], true);
+}
+
+// To a phone every second pixel is sent.
+TEST(Viewer, SendsFewerPixelsWhereThatIsAsked) {
+  Viewer viewer(AnyPort());
+  viewer.Show(ExampleMoment(5));
+  PageClient page(viewer.port());
+  const std::string message = page.Ask(R"({"after":-1,"step":2})");
+  EXPECT_EQ(HeaderOf(message)["width"], 16);
+  const std::string pictures = PicturesOf(message);
+  ASSERT_EQ(pictures.size(), 16u * 12 * 4);
+  EXPECT_EQ(pictures.substr(2, 2), DepthBytes(5).substr(4, 2)) << "the third pixel is the second";
+}
+
+TEST(Viewer, OfACameraTheNewestIsGivenOnceItIsAnother) {
+  Viewer viewer(AnyPort());
+  viewer.Show(ExampleMoment(0));
+  viewer.Show(ExampleMoment(1));
+  PageClient page(viewer.port());
+  EXPECT_EQ(HeaderOf(page.Ask(R"({"after":-1})"))["number"], 1);
+  page.Say(R"({"after":1})");
+  std::this_thread::sleep_for(milliseconds(50));
+  viewer.Show(ExampleMoment(2));
+  EXPECT_EQ(HeaderOf(page.Hear())["layers"]["final"]["frame"], 2);
+  const auto state = nlohmann::json::parse(page.Ask(R"({"after":2})"));
+  EXPECT_EQ(state["frames"], 3) << "nothing came within a second";
+}
+
+TEST(Viewer, WhatCannotBeWishedForIsSaid) {
+  ViewerOptions options = AnyPort();
+  options.settings = Settings{.method = "best", .smoothing = ""};
+  options.methods = {"best", "holt"};
+  Viewer viewer(options);
+  PageClient page(viewer.port());
+  for (const char* wish :
+       {"", "[]", "{", R"({"frame":-1})", R"({"frame":1.5})", R"({"after":"x"})", R"({"step":9})",
+        R"({"settings":{"method":"magic"}})", R"({"settings":{"users":0}})", R"({"settings":[]})",
+        R"({"record":1})"}) {
+    EXPECT_TRUE(nlohmann::json::parse(page.Ask(wish)).contains("error")) << wish;
+  }
+  EXPECT_FALSE(viewer.TakeSettings());
+}
+
+TEST(Viewer, SettingsAreTakenOnce) {
+  ViewerOptions options = AnyPort();
+  options.settings = Settings{.method = "best", .smoothing = ""};
+  options.methods = {"best", "holt"};
+  Viewer viewer(options);
+  PageClient page(viewer.port());
+  const auto state =
+      nlohmann::json::parse(page.Ask(R"({"settings":{"method":"holt","seated":true,"users":2}})"));
+  EXPECT_EQ(state["settings"]["method"], "holt");
+  const std::optional<Settings> taken = viewer.TakeSettings();
+  ASSERT_TRUE(taken);
+  EXPECT_EQ(taken->method, "holt");
+  EXPECT_TRUE(taken->seated);
+  EXPECT_EQ(taken->users, 2);
+  EXPECT_FALSE(viewer.TakeSettings());
+  viewer.Refuse(Settings{.method = "best", .smoothing = ""}, "no such file");
+  EXPECT_EQ(nlohmann::json::parse(page.Ask(R"({"state":true})"))["refused"], "no such file");
+}
+
+TEST(Viewer, TheRecordButtonRecords) {
+  const test::TemporaryFolder folder;
+  ViewerOptions options = AnyPort();
+  options.recordings = folder.path();
+  Viewer viewer(options);
+  PageClient page(viewer.port());
+  page.Ask(R"({"record":true})");
+  for (int f = 0; f < 3; ++f) viewer.Show(ExampleMoment(f));
+  const auto state = nlohmann::json::parse(page.Ask(R"({"record":false})"));
+  viewer.Show(ExampleMoment(3));
+  const std::string name = state["recording"]["said"];
+  const auto source = depth::OpenSource((folder.path() / name).string());
+  EXPECT_EQ(source->frame_count(), 3);
+  EXPECT_EQ(source->Read(milliseconds(5000)).frame.depth_mm, test::ExampleFrame(0).depth_mm);
+}
+
+TEST(Viewer, ASpanIsExportedInEveryFormat) {
+  Viewer viewer(AnyPort(true));
+  for (int f = 0; f < 9; ++f) viewer.Show(ExampleMoment(f));
+  const std::string lines = Get(viewer.port(), "/export?format=jsonl&from=2&to=4");
+  EXPECT_EQ(std::count(lines.begin(), lines.end(), '\n'), 3) << lines;
+  EXPECT_EQ(nlohmann::json::parse(lines.substr(0, lines.find('\n')))["frame"], 2);
+  EXPECT_TRUE(Get(viewer.port(), "/export?format=csv&from=2&to=4").find("Head") !=
+              std::string::npos);
+  EXPECT_NE(Get(viewer.port(), "/export?format=exe&from=2&to=4").find("expected jsonl"),
+            std::string::npos);
+  EXPECT_NE(Get(viewer.port(), "/export?format=csv&from=x").find("whole number"),
+            std::string::npos);
+}
+
+TEST(Viewer, OverlaysAreGivenLineByLine) {
+  ViewerOptions options = AnyPort(true);
+  recon::SkeletonSequence sequence;
+  for (int f = 0; f < 3; ++f) sequence.frames.push_back(ExampleMoment(f).layers[0]);
+  options.overlays.push_back({"truth", sequence});
+  const Viewer viewer(options);
+  const std::string lines = Get(viewer.port(), "/lines?layer=0&from=1");
+  EXPECT_EQ(std::count(lines.begin(), lines.end(), '\n'), 2);
+  EXPECT_EQ(Get(viewer.port(), "/lines?layer=1"), "");
+}
+
+// Browsers hold connections in store; some send a byte now and then.
+TEST(Viewer, TwoHundredSlowConnectionsDoNotStopThePage) {
+  constexpr size_t kSlow = 200;
   const auto started = std::chrono::steady_clock::now();
   {
-    const Viewer viewer(0);
+    const Viewer viewer(AnyPort());
     std::vector<std::unique_ptr<Client>> stalling;
-    for (int i = 0; i < 10; ++i) stalling.push_back(std::make_unique<Client>(viewer.port()));
-    std::atomic<bool> done = false;
-    std::thread dripping([&] {
-      while (!done) {
-        for (const auto& client : stalling) client->Say("G");
-        std::this_thread::sleep_for(milliseconds(500));
-      }
-    });
-    EXPECT_EQ(AnswerTo(viewer.port(), "GET /frame HTTP/1.1\r\nHost: localhost"), "HTTP/1.1 200 OK");
-    done = true;
-    dripping.join();
+    for (size_t i = 0; i < kSlow; ++i) stalling.push_back(std::make_unique<Client>(viewer.port()));
+    for (int round = 0; round < 5; ++round) {
+      for (const auto& client : stalling) client->Say("G");
+      EXPECT_EQ(AnswerTo(viewer.port(), kStateRequest), "HTTP/1.1 200 OK");
+    }
   }
-  EXPECT_LT(std::chrono::steady_clock::now() - started, std::chrono::seconds(15));
+  EXPECT_LT(std::chrono::steady_clock::now() - started, std::chrono::seconds(5));
+}
+
+double ResidentMegabytes() {
+  long size = 0, resident = 0;
+  std::ifstream("/proc/self/statm") >> size >> resident;
+  return static_cast<double>(resident) * static_cast<double>(sysconf(_SC_PAGESIZE)) / 1e6;
+}
+
+// More than are held at a time, each with a request that it does not end; the page works on.
+TEST(Viewer, AFloodTakesNoMemoryForLong) {
+  Viewer viewer(AnyPort());
+  const double before = ResidentMegabytes();
+  for (int i = 0; i < 2000; ++i) {
+    const Client client(viewer.port());
+    client.Say("GET /" + std::string(7000, 'x'));
+  }
+  EXPECT_EQ(AnswerTo(viewer.port(), kStateRequest), "HTTP/1.1 200 OK");
+  constexpr double kMost_mb = 30;  // 2000 times 16 kB would be 32; held are 256 at most
+  EXPECT_LT(ResidentMegabytes() - before, kMost_mb);
+}
+
+// It asks and never reads: its line is full, and nobody waits for it.
+TEST(Viewer, ABrowserThatReadsNothingHoldsNobodyUp) {
+  Viewer viewer(AnyPort());
+  viewer.Show(ExampleMoment(0));
+  PageClient stuck(viewer.port()), page(viewer.port());
+  for (int i = 0; i < 50; ++i) stuck.Say(R"({"after":-1})");
+  for (int f = 1; f < 20; ++f) {
+    viewer.Show(ExampleMoment(f));
+    EXPECT_EQ(HeaderOf(page.Ask(R"({"after":-1})"))["number"], f);
+  }
 }
 
 // Frames come from one thread while browsers ask from others.
 TEST(Viewer, ShowsWhileItIsAsked) {
-  Viewer viewer(0);
+  Viewer viewer(AnyPort(true));
   std::atomic<bool> done = false;
   std::thread asking([&] {
+    PageClient page(viewer.port());
     while (!done) {
-      for (const char* what : {"/frame", "/depth"}) {
-        const std::string request = std::string("GET ") + what + " HTTP/1.1\r\nHost: localhost";
-        EXPECT_EQ(AnswerTo(viewer.port(), request), "HTTP/1.1 200 OK") << what;
-      }
+      EXPECT_EQ(AnswerTo(viewer.port(), kStateRequest), "HTTP/1.1 200 OK");
+      page.Ask(R"({"frame":3})");
     }
   });
   for (int f = 0; f < 30; ++f) {
-    recon::SkeletonFrame skeletons;
-    skeletons.frame = f;
-    viewer.Show(test::ExampleFrame(f), skeletons);
+    viewer.Show(ExampleMoment(f));
+    if (f == 15) viewer.Clear();
     std::this_thread::sleep_for(milliseconds(5));
   }
   done = true;
   asking.join();
+}
+
+TEST(Viewer, ThePageNamesNothingOfElsewhere) {
+  const Viewer viewer(AnyPort());
+  const Client client(viewer.port());
+  client.Say("GET / HTTP/1.1\r\nHost: localhost\r\nConnection: close\r\n\r\n");
+  const std::string all = client.Rest();
+  EXPECT_NE(all.find("Content-Security-Policy: default-src 'self'"), std::string::npos);
+  EXPECT_NE(all.find("Content-Encoding: gzip"), std::string::npos);
+  EXPECT_EQ(AnswerTo(viewer.port(), "GET /page/../viewer.cpp HTTP/1.1\r\nHost: localhost"),
+            "HTTP/1.1 404 Not Found");
 }
 
 }  // namespace

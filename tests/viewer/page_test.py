@@ -1,0 +1,237 @@
+"""`ossa view` as people see it, in a headless Chromium. With --pictures FOLDER the pictures of docs/viewer.md are
+written there; without, beside the test."""
+import json
+import pathlib
+import shutil
+import sys
+import time
+import unittest
+import urllib.request
+
+import browser
+from browser import CLIP, WORK, Command, Page, numpy
+
+PICTURES = WORK / "pictures"
+CAMERA = f"openni:ossa://{CLIP}?loop=1"
+# A colour of the palette is on the screen as it was sent, but for edges that are smoothed.
+LEAST_LIKENESS = 40
+PERSON_1 = (0x56, 0xb4, 0xe9)
+
+
+def near_colour(picture, colour, x, y, radius):
+    """Whether a pixel around x, y has about that colour."""
+    part = picture[max(0, y - radius):y + radius + 1, max(0, x - radius):x + radius + 1]
+    return bool((abs(part - numpy.array(colour)).max(axis=2) < LEAST_LIKENESS).any())
+
+
+def share_of_other_colours(picture):
+    """The share of pixels that are not the colour of the lower right corner, which is the background: 0 of a blank
+    canvas."""
+    return float((picture != picture[-1, -1]).any(axis=2).mean())
+
+
+class InBrowser(unittest.TestCase):
+    driver = None  # one for all: starting one takes seconds
+
+    def serve(self, *arguments):
+        command = Command(*arguments)
+        self.addCleanup(command.end)
+        return command
+
+    def open(self, command):
+        self.addCleanup(self.driver.get, "about:blank")  # before its command ends: a page says that it lost it
+        self.page = Page(self.driver, command.url)
+        self.page.run("localStorage.setItem('theme', 'dark'); page.theme('dark')")
+        return self.page
+
+    def tearDown(self):
+        self.assertEqual([entry["message"] for entry in self.page.console_errors()], [])
+
+
+class OfARecording(InBrowser):
+    @classmethod
+    def setUpClass(cls):
+        cls.command = Command("view", CLIP, "--over", CLIP / "truth.jsonl")
+        cls.addClassCleanup(cls.command.end)
+
+    def setUp(self):
+        page = self.open(self.command)
+        page.wait("return page.state.complete && page.track.length === page.state.frames"
+                  " && page.overlays[0].length > 0", "the whole recording")
+        page.click("#play")  # now it stands
+        page.run("page.jump(0)")
+        page.wait_for_frame(0)
+
+    def test_scrubbing_lands_on_the_frame_asked_for(self):
+        page, frames = self.page, self.page.run("return page.total")
+        left, top, width, height = page.box("#strip")
+        for frame in (17, 3, frames - 1):
+            x = left + (frame + 0.5) / frames * width
+            mouse = browser.webdriver.ActionChains(self.driver)
+            strip = self.driver.find_element("css selector", "#strip")
+            mouse.move_to_element_with_offset(strip, round(x - left - width / 2), 0).click().perform()
+            page.wait_for_frame(frame)
+            # Picture and skeletons are of that frame: the files say which those are.
+            truth = json.loads((CLIP / "truth.jsonl").read_text().splitlines()[frame])
+            shown = page.run("return page.overlays[0].at(page.moment.layers.final.time_s).bodies.get(1).Head.p")
+            self.assertEqual(shown, truth["bodies"][0]["joints"]["Head"]["p"])
+            depth = numpy.array(browser.Image.open(sorted((CLIP / "depth").iterdir())[frame]))
+            self.assertEqual(page.run("return [...page.moment.depth.slice(0, 60000)]"),
+                             list(depth.astype("<u2").tobytes()[:60000]))
+
+    def test_a_joint_is_where_projection_says(self):
+        page = self.page
+        page.run("page.jump(12)")
+        page.wait_for_frame(12)
+        page.click("[data-view=camera]")
+        page.click("[data-layer=cloud]")  # nothing else has a person's colour
+        self.assertGreater(share_of_other_colours(page.picture_of("#stage")), 0.01)
+        camera, joints = page.run("return [page.moment.camera, page.moment.layers.final.bodies[0].joints]")
+        picture = page.picture_of("#stage")
+        height, width = picture.shape[:2]
+        scale = min(width / camera["width"], height / camera["height"])
+        for name in ("HandRight", "KneeLeft", "HipCenter"):
+            x, y, z = joints[name]["p"]
+            u, v = camera["cx"] - camera["fx"] * x / z, camera["cy"] - camera["fy"] * y / z
+            at = width / 2 + (u - camera["width"] / 2) * scale, height / 2 + (v - camera["height"] / 2) * scale
+            self.assertTrue(near_colour(picture, PERSON_1, *map(round, at), 2), f"{name} at {at}")
+            self.assertFalse(near_colour(picture, PERSON_1, round(at[0]) + 150, round(at[1]), 2), "nobody is there")
+
+    def test_layers_switch(self):
+        page = self.page
+        page.run("page.jump(12)")
+        page.wait_for_frame(12)
+        with_points = share_of_other_colours(page.picture_of("#stage"))
+        page.press("p")
+        without = share_of_other_colours(page.picture_of("#stage"))
+        self.assertGreater(with_points, without + 0.2)
+        for key, layer in (("s", "final"), ("r", "refined"), ("w", "raw"), ("f", "floor"), ("l", "trails")):
+            before = page.picture_of("#stage")
+            page.press(key)
+            changed = (page.picture_of("#stage") != before).any()
+            self.assertTrue(changed, f"{layer} is to be seen, or not any more")
+        page.press("p")
+        seen = set()
+        for _ in range(3):
+            page.press("c")
+            seen.add(page.picture_of("#stage").tobytes())
+        self.assertEqual(len(seen), 3, "by depth, person and part")
+
+    def test_worst_frames_are_a_click_away(self):
+        page = self.page
+        page.wait("return document.querySelectorAll('#worst button').length > 0", "worst frames")
+        self.assertIn("cm", page.run("return document.querySelector('#worst button').innerText"))
+        frame = int(page.run("return document.querySelector('#worst button').innerText.match(/frame (\\d+)/)[1]"))
+        page.run("document.querySelector('#worst button').click()")
+        page.wait_for_frame(frame)
+        for quantity in ("left elbow", "speed", "error", "confidence"):
+            page.run("const q = document.getElementById('quantity'); q.value = arguments[0]; q.onchange()", quantity)
+            self.assertRegex(page.run("return document.getElementById('value').innerText"), r"\d", quantity)
+
+    def test_it_plays_and_pauses_and_steps(self):
+        page = self.page
+        page.press(".")
+        page.wait_for_frame(1)
+        page.press(",")
+        page.wait_for_frame(0)
+        page.press(" ")
+        page.wait("return page.moment.number > 3", "it plays")
+        page.press(" ")
+        self.assertFalse(page.run("return page.player.playing"))
+        page.press("?")
+        self.assertIn("play, pause", page.run("return document.getElementById('keys').innerText"))
+
+    def test_a_span_is_saved(self):
+        page, downloads = self.page, WORK / "downloads"
+        page.run("document.getElementById('export_panel').open = true;"
+                 "document.getElementById('from').value = 2; document.getElementById('to').value = 9")
+        for name in ("skeletons.jsonl", "skeletons.bvh", "skeletons.csv", "frames_2_9.png"):
+            page.click("#strip_png" if name.endswith("png") else f"[data-export={name.split('.')[1]}]")
+            until = time.monotonic() + browser.PATIENCE_S
+            while not (downloads / name).exists() and time.monotonic() < until:
+                time.sleep(0.05)
+            self.assertTrue((downloads / name).exists(), name)
+        self.assertEqual(len((downloads / "skeletons.jsonl").read_text().splitlines()), 8)
+
+    def test_other_settings_track_it_anew(self):
+        page = self.page
+        page.run("page.settings.inputs.find(i => i.dataset.setting === 'method').value = 'holt';"
+                 "page.settings.inputs.find(i => i.dataset.setting === 'method').onchange()")
+        page.wait("return page.state.generation === 1 && page.state.complete", "it was tracked again")
+        self.assertEqual(page.run("return page.state.settings.method"), "holt")
+        page.run("page.player.tell({settings: {method: 'best'}})")
+        page.wait("return page.state.generation === 2 && page.state.complete", "and again")
+
+    def test_pictures_of_the_documentation(self):
+        page = self.page
+        self.driver.set_window_size(1280, 1060)
+        self.addCleanup(self.driver.set_window_size, *browser.WINDOW)
+        page.run("page.jump(19)")
+        page.wait_for_frame(19)
+        page.click("[data-layer=trails]")
+        page.click("#live summary")
+        page.save("viewer_recording.png", PICTURES)
+        page.click("#theme")
+        page.click("[data-view=side]")
+        page.run("document.getElementById('colour').value = 2; document.getElementById('colour').onchange()")
+        page.save("viewer_side.png", PICTURES)
+
+
+class OfACamera(InBrowser):
+    def test_it_is_live_and_records(self):
+        page = self.open(self.serve("view", CAMERA, "--record-to", WORK))
+        self.assertFalse(page.run("return page.state.kept"))
+        first = page.run("return page.moment.number")
+        page.wait(f"return page.moment.number > {first + 3}", "frames go on")
+        self.assertGreater(share_of_other_colours(page.picture_of("#stage")), 0.1)
+        self.assertRegex(page.run("return document.getElementById('flow').innerText"), r"dropped, latency \d+ ms")
+        page.click("#record")
+        page.wait("return page.state.recording.said", "it records")
+        before = page.run("return page.moment.number")
+        page.wait(f"return page.moment.number > {before + 3}", "frames go on")
+        page.click("#record")
+        page.wait("return !page.state.recording.on", "it records no more")
+        name = page.run("return page.state.recording.said")
+        page.wait(f"return page.moment.number > {before + 8}", "the file is ended")
+        self.assertTrue((WORK / name).exists(), name)
+
+    def test_on_a_phone(self):
+        self.driver.set_window_size(420, 860)
+        self.addCleanup(self.driver.set_window_size, *browser.WINDOW)
+        page = self.open(self.serve("view", CAMERA))
+        self.assertLessEqual(page.run("return document.documentElement.scrollWidth - innerWidth"), 0, "nothing sticks out")
+        self.assertEqual(page.run("return page.moment.step"), 2, "fewer pixels")
+        page.wait("return page.moment.layers.final.bodies.length > 0", "somebody")
+        page.save("viewer_phone.png", PICTURES)
+
+
+class OfASkeletonFile(InBrowser):
+    def test_it_is_shown_without_pictures(self):
+        page = self.open(self.serve("view", CLIP / "truth.jsonl"))
+        self.assertTrue(page.run("return document.getElementById('pictures').hidden"))
+        self.assertGreater(share_of_other_colours(page.picture_of("#stage")), 0.01)
+
+
+class Elsewhere(InBrowser):
+    def test_a_token_opens_the_page_to_other_machines(self):
+        command = self.serve("view", CLIP / "truth.jsonl", "--listen", "0.0.0.0")
+        page = self.open(command)
+        self.assertIn("token=", command.url)
+        with self.assertRaises(urllib.error.HTTPError) as refused:
+            urllib.request.urlopen(command.url.split("?")[0])
+        self.assertEqual(refused.exception.code, 401)
+        page.wait("return page.moment", "a frame, by the cookie")
+
+
+if __name__ == "__main__":
+    if "--pictures" in sys.argv:
+        at = sys.argv.index("--pictures")
+        PICTURES = pathlib.Path(sys.argv[at + 1]).resolve()
+        del sys.argv[at:at + 2]
+    shutil.rmtree(WORK, ignore_errors=True)
+    (WORK / "downloads").mkdir(parents=True)
+    InBrowser.driver = browser.start_browser()
+    try:
+        unittest.main()
+    finally:
+        InBrowser.driver.quit()

@@ -1,0 +1,43 @@
+#include "tools/commands/view_options.h"
+
+#include <fmt/format.h>
+
+#include <CLI/CLI.hpp>
+
+#include "tools/commands/process.h"
+
+namespace ossa::commands {
+
+void AddPageOptions(CLI::App& app, PageArguments& arguments) {
+  app.add_option("--port", arguments.port, "of the page (default 8080, 0: any free one)")
+      ->check(CLI::Range(0, 65535));
+  app.add_option("--listen", arguments.listen,
+                 "an IP address of this machine at which others reach the page, 0.0.0.0: all "
+                 "(default: this machine alone)");
+  app.add_option("--token", arguments.token,
+                 "what whoever looks must know, letters and digits (default: with --listen a "
+                 "random one)")
+      ->check([](const std::string& text) {
+        const bool plain = !text.empty() && text.find_first_not_of(
+                                                "0123456789"
+                                                "abcdefghijklmnopqrstuvwxyz"
+                                                "ABCDEFGHIJKLMNOPQRSTUVWXYZ") == std::string::npos;
+        return plain ? std::string() : "expected letters and digits, found '" + text + "'";
+      });
+}
+
+viewer::ViewerOptions PageOptions(const PageArguments& arguments) {
+  viewer::ViewerOptions options;
+  options.port = arguments.port;
+  options.token = arguments.token;
+  if (arguments.listen.empty()) return options;
+  options.address = arguments.listen;
+  if (options.token.empty()) options.token = viewer::RandomToken();
+  return options;
+}
+
+void SayWhere(const viewer::Viewer& viewer) {
+  for (const std::string& url : viewer.urls()) Say(fmt::format("watch at {}\n", url));
+}
+
+}  // namespace ossa::commands

@@ -1,0 +1,120 @@
+#include <stdlib.h>
+
+#include <algorithm>
+#include <charconv>
+#include <filesystem>
+#include <fstream>
+#include <sstream>
+
+#include "depth/base/error.h"
+#include "recon/files/skeleton_io.h"
+#include "recon/files/skeleton_jsonl.h"
+#include "tools/viewer/answer_internal.h"
+#include "tools/viewer/page_files_internal.h"
+
+namespace ossa::viewer {
+namespace {
+
+int64_t Number(std::string_view target, std::string_view key, int64_t otherwise) {
+  const std::string text = QueryValue(target, key);
+  if (text.empty()) return otherwise;
+  int64_t value = 0;
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+  if (error != std::errc() || end != text.data() + text.size() || value < 0) {
+    throw InputError(std::string(key) + "=" + text + ": expected a whole number of 0 or more");
+  }
+  return value;
+}
+
+Answer Lines(std::string_view target, const Desk& desk) {
+  constexpr int64_t kMostLines = 500;  // count: 1.5 MB of one person, by hand
+  const int64_t count = std::min(Number(target, "count", kMostLines), kMostLines);
+  return {
+      .type = "application/x-ndjson",
+      .body = desk.SkeletonLines(QueryValue(target, "layer"), Number(target, "from", 0), count)};
+}
+
+// A folder of its own that goes with the object.
+class ScratchFolder {
+ public:
+  ScratchFolder() {
+    std::string name = (std::filesystem::temp_directory_path() / "ossa-export-XXXXXX").string();
+    if (mkdtemp(name.data()) == nullptr) {
+      throw InputError(name + ": expected a folder for temporary files (TMPDIR)");
+    }
+    path_ = name;
+  }
+  ~ScratchFolder() {
+    std::error_code ignored;
+    std::filesystem::remove_all(path_, ignored);
+  }
+  ScratchFolder(const ScratchFolder&) = delete;
+  ScratchFolder& operator=(const ScratchFolder&) = delete;
+  const std::filesystem::path& path() const { return path_; }
+
+ private:
+  std::filesystem::path path_;
+};
+
+std::string ContentOf(const std::filesystem::path& path) {
+  std::ifstream file(path, std::ios::binary);
+  std::ostringstream text;
+  text << file.rdbuf();
+  return text.str();
+}
+
+// TRC and BVH hold one person a file: the first is given.
+Answer Export(std::string_view target, const Desk& desk) {
+  constexpr int64_t kMostFrames = 36000;  // count: 20 minutes at 30 Hz, by hand
+  const std::string format = QueryValue(target, "format");
+  const std::vector<std::string> formats = {"jsonl", "csv", "trc", "bvh"};
+  if (std::find(formats.begin(), formats.end(), format) == formats.end()) {
+    throw InputError("format=" + format + ": expected jsonl, csv, trc or bvh");
+  }
+  const int64_t from = Number(target, "from", 0), to = Number(target, "to", kMostFrames);
+  const int64_t count = std::min(to - from + 1, kMostFrames);
+  std::istringstream lines(desk.SkeletonLines("final", from, count));
+  const recon::SkeletonSequence sequence = recon::ReadSkeletonJsonl(lines, "the span");
+  const ScratchFolder folder;
+  const std::string name = "skeletons." + format;
+  recon::WriteSkeletons(folder.path() / name, sequence);
+  return {.type = "application/octet-stream",
+          .body = ContentOf(folder.path() / name),
+          .file_name = name};
+}
+
+Answer File(std::string_view path) {
+  const PageFile* file = FindPageFile(path == "/" ? "/page/index.html" : path);
+  if (file == nullptr) return {.status = 404, .body = "not here\n"};
+  return {.type = std::string(file->type), .body = std::string(file->gzipped), .gzipped = true};
+}
+
+}  // namespace
+
+std::string QueryValue(std::string_view target, std::string_view key) {
+  size_t at = target.find('?');
+  while (at != std::string_view::npos) {
+    target.remove_prefix(at + 1);
+    at = target.find('&');
+    const std::string_view pair = target.substr(0, at);
+    const size_t equals = pair.find('=');
+    if (pair.substr(0, equals) == key && equals != std::string_view::npos) {
+      return std::string(pair.substr(equals + 1));
+    }
+  }
+  return {};
+}
+
+Answer AnswerTo(std::string_view target, const Desk& desk) {
+  const std::string_view path = target.substr(0, target.find('?'));
+  try {
+    if (path == "/state") return {.type = "application/json", .body = desk.StateJson()};
+    if (path == "/lines") return Lines(target, desk);
+    if (path == "/export") return Export(target, desk);
+    return File(path);
+  } catch (const InputError& error) {
+    return {.status = 400, .body = std::string(error.what()) + "\n"};
+  }
+}
+
+}  // namespace ossa::viewer

@@ -1,0 +1,31 @@
+#pragma once
+#include <optional>
+#include <string>
+#include <string_view>
+
+#include "tools/viewer/desk_internal.h"
+
+namespace ossa::viewer {
+
+/// What a request is answered with.
+struct Answer {
+  unsigned status = 200;  // of HTTP
+  std::string type = "text/plain; charset=utf-8";
+  std::string body = {};
+  bool gzipped = false;
+  std::string file_name = {};  // under which a browser saves it; empty: it shows it
+};
+
+/// The value of `key` in the query of a request's target; empty where there is none. Nothing is
+/// decoded: all values that ossa reads are plain words and numbers.
+std::string QueryValue(std::string_view target, std::string_view key);
+
+/// Answers GET `target`:
+///   /, /page/NAME, /three/...       the page and what it loads
+///   /state                          the state as JSON
+///   /lines?layer=L&from=N&count=M   skeletons, "final" or the number of an overlay: JSONL
+///   /export?format=F&from=N&to=M    the final skeletons of frames N to M: jsonl, csv, trc or bvh
+/// 404 for the rest, 400 with one line for what cannot be read.
+Answer AnswerTo(std::string_view target, const Desk& desk);
+
+}  // namespace ossa::viewer

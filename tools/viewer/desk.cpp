@@ -1,0 +1,106 @@
+#include <algorithm>
+#include <nlohmann/json.hpp>
+
+#include "recon/files/skeleton_jsonl.h"
+#include "tools/viewer/desk_internal.h"
+
+namespace ossa::viewer {
+namespace {
+
+std::vector<std::vector<std::string>> LinesOf(const std::vector<Overlay>& overlays) {
+  std::vector<std::vector<std::string>> all;
+  for (const Overlay& overlay : overlays) {
+    std::vector<std::string>& lines = all.emplace_back();
+    for (const recon::SkeletonFrame& frame : overlay.sequence.frames) {
+      lines.push_back(recon::SkeletonJsonLine(frame));
+    }
+  }
+  return all;
+}
+
+nlohmann::json JsonOf(const Settings& settings) {
+  return {{"method", settings.method},
+          {"smoothing", settings.smoothing},
+          {"seated", settings.seated},
+          {"near", settings.near_range},
+          {"users", settings.users}};
+}
+
+}  // namespace
+
+Desk::Desk(const ViewerOptions& with)
+    : options(with),
+      store(with.keeps),
+      recorder(with.recordings),
+      overlay_lines_(LinesOf(with.overlays)),
+      settings_(with.settings) {}
+
+std::string Desk::StateJson() const {
+  const FrameStore::Count count = store.count();
+  nlohmann::json json = {
+      {"name", options.name},
+      {"kept", store.keeps()},
+      {"frames", count.frames},
+      {"generation", count.generation},
+      {"complete", count.complete},
+      {"expected", nullptr},
+      {"overlays", nlohmann::json::array()},
+      {"methods", options.methods},
+      {"smoothings", options.smoothings},
+      {"settings", nullptr},
+      {"recording",
+       {{"possible", recorder.possible()}, {"on", recorder.asked()}, {"said", recorder.said()}}}};
+  if (options.expected_frames) json["expected"] = *options.expected_frames;
+  for (size_t i = 0; i < overlay_lines_.size(); ++i) {
+    json["overlays"].push_back(
+        {{"name", options.overlays[i].name}, {"frames", overlay_lines_[i].size()}});
+  }
+  const std::lock_guard lock(mutex_);
+  if (settings_) json["settings"] = JsonOf(*settings_);
+  json["refused"] = refused_;
+  return json.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace);
+}
+
+// `layer` is "final" or the number of an overlay.
+std::string Desk::SkeletonLines(const std::string& layer, int64_t from, int64_t count) const {
+  std::string text;
+  const bool is_final = layer == "final";
+  const auto overlay = static_cast<size_t>(std::atoi(layer.c_str()));
+  if (!is_final && overlay >= overlay_lines_.size()) return text;
+  const int64_t frames = is_final ? (store.keeps() ? store.count().frames : 0)
+                                  : static_cast<int64_t>(overlay_lines_[overlay].size());
+  const int64_t end = std::min(frames, from + count);
+  for (int64_t i = from; i < end; ++i) {
+    text += is_final ? store.Line(i) : overlay_lines_[overlay][static_cast<size_t>(i)];
+    text += '\n';
+  }
+  return text;
+}
+
+void Desk::ChangeSettings(const Settings& settings) {
+  const std::lock_guard lock(mutex_);
+  refused_.clear();
+  if (!settings_ || *settings_ == settings) return;
+  settings_ = settings;
+  changed_ = true;
+}
+
+std::optional<Settings> Desk::TakeSettings() {
+  const std::lock_guard lock(mutex_);
+  if (!changed_) return std::nullopt;
+  changed_ = false;
+  return settings_;
+}
+
+void Desk::Refuse(const Settings& still, const std::string& why) {
+  const std::lock_guard lock(mutex_);
+  settings_ = still;
+  refused_ = why;
+}
+
+std::optional<Settings> Desk::settings() const {
+  const std::lock_guard lock(mutex_);
+  return settings_;
+}
+
+}  // namespace ossa::viewer

@@ -1,0 +1,38 @@
+#pragma once
+#include <mutex>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "tools/viewer/frame_store_internal.h"
+#include "tools/viewer/recorder_internal.h"
+#include "tools/viewer/viewer.h"
+
+namespace ossa::viewer {
+
+/// What pages are told and may ask for: the one place where browsers and the tracker's thread meet.
+struct Desk {
+  explicit Desk(const ViewerOptions& options);
+
+  const ViewerOptions options;
+  FrameStore store;
+  Recorder recorder;
+
+  /// The state as JSON: what is shown, how many frames there are, settings, recording.
+  std::string StateJson() const;
+  std::string SkeletonLines(const std::string& layer, int64_t from, int64_t count) const;
+
+  void ChangeSettings(const Settings& settings);
+  std::optional<Settings> TakeSettings();
+  void Refuse(const Settings& still, const std::string& why);
+  std::optional<Settings> settings() const;
+
+ private:
+  const std::vector<std::vector<std::string>> overlay_lines_;  // one per overlay, one per frame
+  mutable std::mutex mutex_;                                   // guards all below
+  std::optional<Settings> settings_;
+  bool changed_ = false;
+  std::string refused_;  // why the last ones could not be had
+};
+
+}  // namespace ossa::viewer

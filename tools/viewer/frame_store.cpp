@@ -1,0 +1,87 @@
+#include <utility>
+
+#include "recon/files/skeleton_jsonl.h"
+#include "tools/viewer/frame_store_internal.h"
+
+namespace ossa::viewer {
+
+FrameStore::FrameStore(bool keeps) : spools_(keeps ? std::make_unique<Spools>() : nullptr) {}
+
+void FrameStore::Add(Moment moment) {
+  if (!keeps()) {
+    auto newest = std::make_shared<const Moment>(std::move(moment));
+    const std::lock_guard lock(mutex_);
+    newest_.swap(newest);
+    packed_.reset();
+    ++count_.frames;
+    return;
+  }
+  const PackedMoment packed = Pack(moment);
+  const std::string line = recon::SkeletonJsonLine(moment.skeletons());
+  const std::lock_guard lock(mutex_);
+  spools_->moments.Append(packed.members + packed.pictures);
+  spools_->lines.Append(line);
+  spools_->kept.push_back({packed.width, packed.height, packed.planes, packed.members.size(),
+                           moment.skeletons().time_s});
+  ++count_.frames;
+}
+
+void FrameStore::Complete() {
+  const std::lock_guard lock(mutex_);
+  count_.complete = true;
+}
+
+void FrameStore::Clear() {
+  const std::lock_guard lock(mutex_);
+  count_ = {.frames = 0, .generation = count_.generation + 1, .complete = false};
+  newest_.reset();
+  packed_.reset();
+  if (!keeps()) return;
+  spools_->moments.Clear();
+  spools_->lines.Clear();
+  spools_->kept.clear();
+}
+
+FrameStore::Count FrameStore::count() const {
+  const std::lock_guard lock(mutex_);
+  return count_;
+}
+
+std::shared_ptr<const PackedMoment> FrameStore::ReadKept(int64_t number) const {
+  const auto i = static_cast<size_t>(number);
+  const Kept& kept = spools_->kept[i];
+  auto packed = std::make_shared<PackedMoment>();
+  packed->width = kept.width;
+  packed->height = kept.height;
+  packed->planes = kept.planes;
+  std::string record = spools_->moments.Read(i);
+  packed->pictures = record.substr(kept.members);
+  record.resize(kept.members);
+  packed->members = std::move(record);
+  return packed;
+}
+
+std::shared_ptr<const PackedMoment> FrameStore::At(int64_t& number) const {
+  const std::lock_guard lock(mutex_);
+  if (keeps()) {
+    return number >= 0 && number < count_.frames ? ReadKept(number) : nullptr;
+  }
+  number = count_.frames - 1;
+  if (!packed_ && newest_) packed_ = std::make_shared<const PackedMoment>(Pack(*newest_));
+  return packed_;
+}
+
+std::string FrameStore::Line(int64_t number) const {
+  const std::lock_guard lock(mutex_);
+  if (!keeps()) return newest_ ? recon::SkeletonJsonLine(newest_->skeletons()) : std::string();
+  if (number < 0 || number >= count_.frames) return {};
+  return spools_->lines.Read(static_cast<size_t>(number));
+}
+
+double FrameStore::TimeOf(int64_t number) const {
+  const std::lock_guard lock(mutex_);
+  const bool known = keeps() && number >= 0 && number < count_.frames;
+  return known ? spools_->kept[static_cast<size_t>(number)].time_s : 0.0;
+}
+
+}  // namespace ossa::viewer

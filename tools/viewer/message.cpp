@@ -1,0 +1,103 @@
+#include <fmt/format.h>
+
+#include <cstring>
+
+#include "recon/files/skeleton_jsonl.h"
+#include "tools/viewer/message_internal.h"
+
+namespace ossa::viewer {
+namespace {
+
+std::string CameraJson(const depth::Camera& camera) {
+  return fmt::format(R"({{"width":{},"height":{},"fx":{},"fy":{},"cx":{},"cy":{}}})", camera.width,
+                     camera.height, camera.fx, camera.fy, camera.cx, camera.cy);
+}
+
+std::string StagesJson(const tracker::StageTimes& ms) {
+  return fmt::format(
+      R"({{"segment":{:.2f},"classify":{:.2f},"propose":{:.2f},"reconstruct":{:.2f},"physics":{:.2f},"total":{:.2f}}})",
+      ms.segment, ms.classify, ms.propose, ms.reconstruct, ms.physics, ms.total);
+}
+
+std::string LayersJson(const Moment& moment) {
+  std::string text = "{";
+  for (size_t i = 0; i < kLayerNames.size(); ++i) {
+    text += fmt::format(R"({}"{}":{})", i == 0 ? "" : ",", kLayerNames[i],
+                        recon::SkeletonJsonLine(moment.layers[i]));
+  }
+  return text + "}";
+}
+
+// Users and parts are labels of the depth image's pixels, or not there.
+bool HasLabels(const Moment& moment) {
+  const size_t pixels = moment.depth.depth_mm.size();
+  return moment.users.data.size() == pixels && moment.parts.data.size() == pixels;
+}
+
+template <typename T>
+void Append(std::string& bytes, const std::vector<T>& values) {
+  bytes.append(reinterpret_cast<const char*>(values.data()), values.size() * sizeof(T));
+}
+
+// Every step-th pixel of every step-th row of an image of `size` bytes a pixel.
+void AppendThinned(std::string& bytes, const char* image, int width, int height, size_t size,
+                   int step) {
+  const auto row = static_cast<size_t>(width) * size;
+  for (int v = 0; v < height; v += step) {
+    const char* at = image + static_cast<size_t>(v) * row;
+    if (step == 1) {
+      bytes.append(at, row);
+      continue;
+    }
+    for (int u = 0; u < width; u += step) bytes.append(at + static_cast<size_t>(u) * size, size);
+  }
+}
+
+void AppendPictures(std::string& bytes, const PackedMoment& moment, int step) {
+  const auto pixels = static_cast<size_t>(moment.width) * static_cast<size_t>(moment.height);
+  const char* image = moment.pictures.data();
+  for (int plane = 0; plane < moment.planes; ++plane) {
+    const size_t size = plane == 0 ? 2 : 1;
+    AppendThinned(bytes, image, moment.width, moment.height, size, step);
+    image += pixels * size;
+  }
+}
+
+}  // namespace
+
+PackedMoment Pack(const Moment& moment) {
+  const depth::Camera& camera = moment.depth.camera;
+  PackedMoment packed;
+  packed.members = fmt::format(
+      R"("frame":{},"time_s":{},"camera":{},"layers":{},"ms":{},"dropped":{},"latency_ms":{:.2f})",
+      moment.skeletons().frame, moment.skeletons().time_s, CameraJson(camera), LayersJson(moment),
+      StagesJson(moment.ms), moment.dropped, moment.latency_ms);
+  if (moment.depth.depth_mm.empty()) return packed;
+  packed.width = camera.width;
+  packed.height = camera.height;
+  packed.planes = HasLabels(moment) ? 3 : 1;
+  packed.pictures.reserve(moment.depth.depth_mm.size() * 4);
+  Append(packed.pictures, moment.depth.depth_mm);
+  if (packed.planes == 1) return packed;
+  Append(packed.pictures, moment.users.data);
+  Append(packed.pictures, moment.parts.data);
+  return packed;
+}
+
+std::string MessageOf(const PackedMoment& moment, int64_t number, int step,
+                      std::string_view state) {
+  std::string header =
+      fmt::format(R"({{"number":{},"step":{},"width":{},"height":{},"planes":{},{},"state":{}}})",
+                  number, step, (moment.width + step - 1) / step, (moment.height + step - 1) / step,
+                  moment.planes, moment.members, state);
+  header.resize((header.size() + 3) / 4 * 4, ' ');
+  const auto length = static_cast<uint32_t>(header.size());
+  std::string bytes;
+  bytes.reserve(4 + header.size() + moment.pictures.size() / static_cast<size_t>(step));
+  for (int shift = 0; shift < 32; shift += 8) bytes.push_back(static_cast<char>(length >> shift));
+  bytes += header;
+  AppendPictures(bytes, moment, step);
+  return bytes;
+}
+
+}  // namespace ossa::viewer

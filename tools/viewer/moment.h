@@ -1,0 +1,36 @@
+#pragma once
+#include <array>
+#include <cstdint>
+#include <string_view>
+
+#include "depth/image/depth_frame.h"
+#include "depth/image/image.h"
+#include "recon/skeleton_sequence.h"
+#include "tools/tracker/tracker.h"
+
+namespace ossa::viewer {
+
+/// The skeletons of one moment, a layer of the page for each stage that made some.
+enum class Layer { kFinal, kRefined, kRaw };
+inline constexpr std::array<std::string_view, 3> kLayerNames = {"final", "refined", "raw"};
+
+/// One moment as the page shows it: pictures and skeletons that belong together.
+struct Moment {
+  depth::DepthFrame depth;      // without pixels: the moment of a skeleton file
+  depth::Image<uint8_t> users;  // body id of each pixel, 0 nobody; empty: not known
+  depth::Image<uint8_t> parts;  // body part of each pixel, 0 none; empty: not known
+  std::array<recon::SkeletonFrame, kLayerNames.size()> layers;  // by Layer; camera space, metres
+  tracker::StageTimes ms;   // as the tracker measured them; all 0: nobody measured
+  int64_t dropped = 0;      // frames that the device lost since the start
+  double latency_ms = 0.0;  // from the frame's arrival until it is shown
+
+  const recon::SkeletonFrame& skeletons() const { return layers[0]; }
+};
+
+/// What the tracker made of a frame.
+Moment MomentOf(depth::DepthFrame frame, tracker::BodyFrame bodies);
+
+/// A frame of a skeleton file: no pictures.
+Moment MomentOf(recon::SkeletonFrame skeletons);
+
+}  // namespace ossa::viewer

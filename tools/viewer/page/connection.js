@@ -1,0 +1,56 @@
+// The WebSocket: one question, one answer, in turn. A slow browser asks less often and so gets fewer frames.
+
+// A binary message: length of the header, header (JSON), depth (16 bit), persons and parts (8 bit each).
+function readMoment(buffer) {
+  const length = new DataView(buffer).getUint32(0, true);
+  const header = JSON.parse(new TextDecoder().decode(new Uint8Array(buffer, 4, length)));
+  const pixels = header.width * header.height;
+  const begin = 4 + length;
+  header.depth = header.planes > 0 ? new Uint8Array(buffer, begin, pixels * 2) : null;
+  header.users = header.planes > 1 ? new Uint8Array(buffer, begin + pixels * 2, pixels) : null;
+  header.parts = header.planes > 1 ? new Uint8Array(buffer, begin + pixels * 3, pixels) : null;
+  return header;
+}
+
+function readAnswer(data) {
+  if (data instanceof ArrayBuffer) {
+    const moment = readMoment(data);
+    return {moment, state: moment.state};
+  }
+  const json = JSON.parse(data);
+  return json.error ? {error: json.error} : {state: json};
+}
+
+export class Connection {
+  constructor() {
+    this.waiting = [];
+    this.open();
+  }
+
+  open() {
+    this.socket = new WebSocket(`ws://${location.host}/socket`);
+    this.socket.binaryType = 'arraybuffer';
+    this.ready = new Promise(resolve => { this.socket.onopen = () => resolve(true); });
+    this.socket.onmessage = event => this.waiting.shift()?.(readAnswer(event.data));
+    this.socket.onclose = () => this.lose();
+  }
+
+  lose() {
+    this.waiting.splice(0).forEach(answer => answer({lost: true}));
+    setTimeout(() => this.open(), 1000);
+  }
+
+  // {moment, state}, {state}, {error} or {lost: true}.
+  async ask(wish) {
+    await this.ready;
+    if (this.socket.readyState !== WebSocket.OPEN) return this.later();
+    return new Promise(resolve => {
+      this.waiting.push(resolve);
+      this.socket.send(JSON.stringify(wish));
+    });
+  }
+
+  later() {
+    return new Promise(resolve => setTimeout(() => resolve({lost: true}), 500));
+  }
+}

@@ -1,0 +1,86 @@
+#include "tools/viewer/server_internal.h"
+
+#include <boost/asio/post.hpp>
+#include <string>
+#include <utility>
+
+#include "depth/base/error.h"
+#include "tools/viewer/session_internal.h"
+
+namespace ossa::viewer {
+
+namespace asio = boost::asio;
+using asio::ip::tcp;
+
+Server::Server(Desk& desk, Access access) : desk_(desk), access_(std::move(access)) {
+  ToldOrSecond();
+}
+
+void Server::Listen(const tcp::endpoint& at) {
+  boost::system::error_code error;
+  acceptor_.open(at.protocol());
+  acceptor_.set_option(tcp::acceptor::reuse_address(true));
+  acceptor_.bind(at, error);
+  if (!error) acceptor_.listen(asio::socket_base::max_listen_connections, error);
+  if (error) {
+    throw InputError("port " + std::to_string(at.port()) + ": expected a free port on " +
+                     at.address().to_string() + ", it is taken (" + error.message() + ")");
+  }
+  Accept();
+}
+
+int Server::port() const { return acceptor_.local_endpoint().port(); }
+
+void Server::Accept() {
+  acceptor_.async_accept([this](const boost::system::error_code& error, tcp::socket socket) {
+    if (error == asio::error::operation_aborted) return;
+    if (!error) {
+      boost::system::error_code ignored;
+      socket.set_option(tcp::no_delay(true), ignored);
+      Adopt(Socket(std::move(socket)));
+    }
+    Accept();
+  });
+}
+
+void Server::Adopt(Socket socket) { StartHttp(*this, std::move(socket)); }
+
+void Server::Ring() {
+  asio::post(context_, [this] { CallWaiting(); });
+}
+
+void Server::WaitForBell(std::function<void()> then) { waiting_.push_back(std::move(then)); }
+
+void Server::CallWaiting() {
+  std::vector<std::function<void()>> now;
+  now.swap(waiting_);
+  for (const auto& then : now) then();
+}
+
+void Server::ToldOrSecond() {
+  second_.expires_after(std::chrono::seconds(1));
+  second_.async_wait([this](const boost::system::error_code& error) {
+    if (error) return;
+    CallWaiting();
+    ToldOrSecond();
+  });
+}
+
+void Server::Register(const std::shared_ptr<Connection>& connection) {
+  // Count; a browser opens six, and a descriptor each is taken of the usual 1024. By hand.
+  constexpr size_t kMostConnections = 256;
+  connections_.push_back(connection);
+  if (connections_.size() <= kMostConnections) return;
+  const std::shared_ptr<Connection> oldest = connections_.front().lock();
+  connections_.pop_front();
+  if (oldest) oldest->Close();
+}
+
+void Server::Forget(const Connection* connection) {
+  connections_.remove_if([&](const std::weak_ptr<Connection>& one) {
+    const std::shared_ptr<Connection> alive = one.lock();
+    return !alive || alive.get() == connection;
+  });
+}
+
+}  // namespace ossa::viewer
