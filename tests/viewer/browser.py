@@ -28,7 +28,7 @@ if not CHROMIUM or not DRIVER:
     sys.exit(SKIPPED)
 
 PATIENCE_S = 60
-WINDOW = (1280, 860)
+WINDOW = (1000, 720)  # small, as the picture is computed without a graphics card
 
 
 class Command:

@@ -30,6 +30,13 @@ def share_of_other_colours(picture):
     return float((picture != picture[-1, -1]).any(axis=2).mean())
 
 
+def wait_for_file(path):
+    until = time.monotonic() + browser.PATIENCE_S
+    while not path.exists():
+        assert time.monotonic() < until, f"{path} did not appear"
+        time.sleep(0.05)
+
+
 class InBrowser(unittest.TestCase):
     driver = None  # one for all: starting one takes seconds
 
@@ -147,10 +154,7 @@ class OfARecording(InBrowser):
                  "document.getElementById('from').value = 2; document.getElementById('to').value = 9")
         for name in ("skeletons.jsonl", "skeletons.bvh", "skeletons.csv", "frames_2_9.png"):
             page.click("#strip_png" if name.endswith("png") else f"[data-export={name.split('.')[1]}]")
-            until = time.monotonic() + browser.PATIENCE_S
-            while not (downloads / name).exists() and time.monotonic() < until:
-                time.sleep(0.05)
-            self.assertTrue((downloads / name).exists(), name)
+            wait_for_file(downloads / name)
         self.assertEqual(len((downloads / "skeletons.jsonl").read_text().splitlines()), 8)
 
     def test_other_settings_track_it_anew(self):
@@ -192,8 +196,7 @@ class OfACamera(InBrowser):
         page.click("#record")
         page.wait("return !page.state.recording.on", "it records no more")
         name = page.run("return page.state.recording.said")
-        page.wait(f"return page.moment.number > {before + 8}", "the file is ended")
-        self.assertTrue((WORK / name).exists(), name)
+        wait_for_file(WORK / name)
 
     def test_on_a_phone(self):
         self.driver.set_window_size(420, 860)

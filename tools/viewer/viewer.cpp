@@ -59,11 +59,22 @@ struct Viewer::Impl {
         desk(options),
         server(desk, {.loopback = address.is_loopback(), .token = options.token}) {
     server.Listen({address, static_cast<uint16_t>(options.port)});
-    thread = std::thread([this] { server.context().run(); });
+    thread = std::thread([this] { Serve(); });
   }
   ~Impl() {
     server.context().stop();
     if (thread.joinable()) thread.join();
+  }
+
+  // What cannot be answered, as when memory or the disk is full, costs its connection alone.
+  void Serve() {
+    while (!server.context().stopped()) {
+      try {
+        server.context().run();
+      } catch (const std::exception&) {
+        continue;
+      }
+    }
   }
 
   const ip::address address;
