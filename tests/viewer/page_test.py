@@ -16,6 +16,7 @@ CAMERA = f"openni:ossa://{CLIP}?loop=1"
 # A colour of the palette is on the screen as it was sent, but for edges that are smoothed.
 LEAST_LIKENESS = 40
 PERSON_1 = (0x56, 0xb4, 0xe9)
+BACKGROUND = (0x14, 0x16, 0x1a)  # of the dark page
 
 
 def near_colour(picture, colour, x, y, radius):
@@ -25,9 +26,8 @@ def near_colour(picture, colour, x, y, radius):
 
 
 def share_of_other_colours(picture):
-    """The share of pixels that are not the colour of the lower right corner, which is the background: 0 of a blank
-    canvas."""
-    return float((picture != picture[-1, -1]).any(axis=2).mean())
+    """The share of pixels that are not the background: 0 of a blank canvas."""
+    return float((picture != numpy.array(BACKGROUND)).any(axis=2).mean())
 
 
 def wait_for_file(path):
