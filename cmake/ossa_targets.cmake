@@ -49,11 +49,15 @@ function(ossa_plain target)
   endif()
 endfunction()
 
-# ossa_library(NAME SOURCES ... HEADERS ... [PUBLIC targets...] [PRIVATE targets...])
+# ossa_library(NAME [COMPONENT tools] SOURCES ... HEADERS ... [PUBLIC targets...] [PRIVATE targets...])
 # makes ossa_NAME, known to users as ossa::NAME; HEADERS are the public ones and are installed. A library
-# without HEADERS serves the command alone: applications cannot link an installed one.
+# without HEADERS serves the command alone: applications cannot link an installed one. COMPONENT says which
+# package it is of: `tools`, which brings Embree and MPI, or `runtime`.
 function(ossa_library name)
-  cmake_parse_arguments(ARG "" "" "SOURCES;HEADERS;PUBLIC;PRIVATE" ${ARGN})
+  cmake_parse_arguments(ARG "" "COMPONENT" "SOURCES;HEADERS;PUBLIC;PRIVATE" ${ARGN})
+  if(NOT ARG_COMPONENT)
+    set(ARG_COMPONENT runtime)
+  endif()
   set(target ossa_${name})
   add_library(${target} ${ARG_SOURCES})
   add_library(ossa::${name} ALIAS ${target})
@@ -69,15 +73,16 @@ function(ossa_library name)
   target_compile_features(${target} PUBLIC cxx_std_20)
   target_link_libraries(${target} PUBLIC Eigen3::Eigen ${ARG_PUBLIC} PRIVATE ${ARG_PRIVATE})
   if(ARG_HEADERS)
-    install(TARGETS ${target} EXPORT ossaTargets)
+    install(TARGETS ${target} EXPORT ossaTargets ARCHIVE COMPONENT dev
+            LIBRARY COMPONENT ${ARG_COMPONENT} NAMELINK_COMPONENT dev)
   elseif(BUILD_SHARED_LIBS)
-    install(TARGETS ${target} LIBRARY NAMELINK_SKIP)
+    install(TARGETS ${target} LIBRARY COMPONENT ${ARG_COMPONENT} NAMELINK_SKIP)
   endif()
   foreach(header IN LISTS ARG_HEADERS)
     cmake_path(RELATIVE_PATH CMAKE_CURRENT_SOURCE_DIR BASE_DIRECTORY ${ossa_SOURCE_DIR}
                OUTPUT_VARIABLE room)
     cmake_path(GET header PARENT_PATH folder)
-    install(FILES ${header} DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/ossa/${room}/${folder})
+    install(FILES ${header} DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/ossa/${room}/${folder} COMPONENT dev)
   endforeach()
 endfunction()
 

@@ -1,23 +1,21 @@
 #include "tools/commands/command.h"
 
 #include <fmt/format.h>
-#include <unistd.h>
 
 #include <CLI/CLI.hpp>
 #include <charconv>
-#include <chrono>
 #include <cmath>
 #include <cstdlib>
 #include <string>
+#include <vector>
 
-#include "tools/commands/process.h"
+#include "tools/commands/closest_word.h"
+#include "tools/commands/default_options.h"
+#include "tools/commands/describe.h"
+#include "tools/commands/examples.h"
 
 namespace ossa::commands {
 namespace {
-
-double Now_s() {
-  return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
-}
 
 template <typename T>
 bool IsWhole(const std::string& text) {
@@ -51,43 +49,47 @@ void CheckValues(const CLI::App& app) {
   }
 }
 
+// The option that was most likely meant by the first word that is none.
+std::string MeantOption(const CLI::App& app) {
+  std::vector<std::string> names;
+  for (const CLI::Option* option : app.get_options()) {
+    for (const std::string& name : option->get_lnames()) names.push_back("--" + name);
+  }
+  for (const std::string& word : app.remaining()) {
+    if (!word.starts_with('-')) continue;
+    const std::string meant = ClosestWord(word.substr(0, word.find('=')), names);
+    return meant.empty() ? "" : fmt::format("is {} meant? ", meant);
+  }
+  return {};
+}
+
+void AddExamples(CLI::App& app, std::string_view command) {
+  const std::string notes = app.get_footer();
+  app.footer(ExamplesText(command) + (notes.empty() ? "" : "\n\n" + notes));
+}
+
 }  // namespace
 
 void Parse(CLI::App& app, int argc, char** argv) {
-  app.name(fmt::format("ossa {}", argv[0]));
+  const std::string command = argv[0];
+  app.name("ossa " + command);
+  if (argc == 2 && std::string_view(argv[1]) == "--describe") {
+    fmt::print("{}\n", Describe(app, command));
+    throw HelpShown{};
+  }
+  AddExamples(app, command);
   try {
     app.parse(argc, argv);
+    ApplyDefaults(app, command);
     CheckValues(app);
   } catch (const CLI::CallForHelp&) {
     fmt::print("{}", app.help());
     throw HelpShown{};
+  } catch (const CLI::ExtrasError& error) {
+    throw UsageError(
+        fmt::format("{} ({}see 'ossa {} --help')", error.what(), MeantOption(app), command));
   } catch (const CLI::ParseError& error) {
-    throw UsageError(fmt::format("{} (see 'ossa {} --help')", error.what(), argv[0]));
-  }
-}
-
-Progress::Progress(std::string label, bool quiet)
-    : label_(std::move(label)), quiet_(quiet), terminal_(isatty(STDERR_FILENO) != 0) {}
-
-Progress::~Progress() {
-  if (open_line_) Say("\n");
-}
-
-void Progress::Update(double done, double total, const std::string& note) {
-  const double now_s = Now_s();
-  const bool last = total > 0 && done >= total;
-  const double interval_s = terminal_ ? 0.1 : 5.0;
-  if (quiet_ || (now_s - last_s_ < interval_s && !last)) return;
-  last_s_ = now_s;
-  const double share = total > 0 ? done / total : 0.0;
-  if (terminal_) {
-    constexpr int kWidth = 30;  // characters, by eye
-    const int filled = static_cast<int>(share * kWidth);
-    Say(fmt::format("\r{} [{:#<{}}{:.<{}}] {:3.0f} % {}\033[K", label_, "", filled, "",
-                    kWidth - filled, 100 * share, note));
-    open_line_ = true;
-  } else {
-    Say(fmt::format("{}: {:.0f} of {:.0f} {}\n", label_, done, total, note));
+    throw UsageError(fmt::format("{} (see 'ossa {} --help')", error.what(), command));
   }
 }
 

@@ -28,14 +28,16 @@ struct UsageError : std::runtime_error {
 /// Thrown after --help was printed: exit status 0.
 struct HelpShown {};
 
-/// Parses the arguments of a subcommand. Throws UsageError or HelpShown.
+/// Parses the arguments of a subcommand; what they leave open the user's file of defaults may say.
+/// Throws UsageError, HelpShown (also after `--describe`, see describe.h), or InputError for that
+/// file.
 void Parse(CLI::App& app, int argc, char** argv);
 
 /// True once Ctrl-C or SIGTERM came. Long loops ask it, stop, and leave no half-written file.
 bool Interrupted();
 
-/// Progress on stderr: one line rewritten in place on a terminal, a plain line about every five
-/// seconds otherwise, nothing when quiet.
+/// Progress on stderr with the time left: one line rewritten in place on a terminal, a plain line
+/// about every five seconds otherwise, nothing when quiet.
 class Progress {
  public:
   Progress(std::string label, bool quiet);
@@ -47,6 +49,7 @@ class Progress {
   bool quiet_;
   bool terminal_;
   bool open_line_ = false;
+  double start_s_;
   double last_s_ = -1e9;
 };
 

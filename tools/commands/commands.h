@@ -6,6 +6,7 @@ namespace ossa::commands {
 int Evaluate(int argc, char** argv);
 int Compare(int argc, char** argv);
 int Experiment(int argc, char** argv);
+int Study(int argc, char** argv);
 int Database(int argc, char** argv);
 int Learn(int argc, char** argv);
 int Refine(int argc, char** argv);
@@ -13,10 +14,15 @@ int Prior(int argc, char** argv);
 int Surface(int argc, char** argv);
 int Reconstruct(int argc, char** argv);
 int Info(int argc, char** argv);
+int Doctor(int argc, char** argv);
 int Record(int argc, char** argv);
 int Track(int argc, char** argv);
 int View(int argc, char** argv);
 int Train(int argc, char** argv);
 int Render(int argc, char** argv);
+
+/// The commands of the package ossa-tools: the program ossa-tools beside this one goes on in its
+/// place. Throws InputError that names the package where it is not installed.
+int RunTools(int argc, char** argv);
 
 }  // namespace ossa::commands

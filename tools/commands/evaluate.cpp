@@ -58,7 +58,10 @@ int Evaluate(int argc, char** argv) {
   app.add_option("DATASET", dataset_path, "a folder made by ossa render")->required();
   app.add_option("--json", json_path,
                  "write the numbers here, FILE.json (they are printed in any case)");
-  app.add_option("--report", report_path, "write a page with tables here, FILE.html");
+  app.add_option(
+      "--report", report_path,
+      "write a page here, FILE.html: accuracy by part and joint, confusion matrix, calibration, "
+      "worst frames");
   app.add_option("--card", card_name,
                  "note the numbers in the model's card under this name (rewrites MODEL)");
   app.add_option("--every", step, "look at every N-th frame")

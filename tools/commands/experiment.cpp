@@ -3,11 +3,12 @@
 #include <CLI/CLI.hpp>
 #include <string>
 
+#include "depth/base/atomic_file.h"
 #include "depth/base/error.h"
 #include "tools/commands/command.h"
 #include "tools/commands/commands.h"
-#include "tools/commands/study.h"
 #include "tools/experiments/experiment.h"
+#include "tools/experiments/page/page.h"
 
 namespace ossa::commands {
 namespace {
@@ -37,8 +38,12 @@ int RunAndPrint(const std::string& name, tools::ExperimentContext& context, bool
   context.interrupted = Interrupted;
   try {
     const auto tables = tools::RunExperiment(name, context);
+    AtomicFile page(context.out / "index.html");
+    page.stream() << tools::ExperimentPage(name, tables, context.out);
+    page.Commit();
     fmt::print("ossa experiment {}, seed {}\n\n", name, context.seed);
     for (const tools::Table& table : tables) fmt::print("{}\n", tools::ToMarkdown(table));
+    fmt::print("With plots: {}\n\n", (context.out / "index.html").string());
     fmt::print("Parameters (also in {}):\n{}", (context.out / "parameters.toml").string(),
                context.parameters.Used());
   } catch (const tools::Interruption&) {
@@ -62,7 +67,8 @@ int Experiment(int argc, char** argv) {
   bool quiet = false;
   app.add_option("NAME", name, "which study")->required();
   app.add_option("--out", context.out,
-                 "folder for TABLE.md, summary.json, figures and the cache that lets it resume")
+                 "folder for index.html (tables and plots), TABLE.md, summary.json, figures and the "
+                 "cache that lets it resume")
       ->required();
   app.add_option("--shared", context.shared, "folder of real recordings (real/, mocap/, papers/)");
   app.add_option("--parameters", parameters, "TOML file of the study's parameters");

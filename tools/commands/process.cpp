@@ -7,6 +7,7 @@
 #include <csignal>
 #include <cstdint>
 #include <cstdio>
+#include <cstdlib>
 #include <cstring>
 #include <ctime>
 #include <string>
@@ -63,6 +64,17 @@ void PrepareProcess() {
 void Say(const std::string& text) {
   std::fwrite(text.data(), 1, text.size(), stderr);
   std::fflush(stderr);
+}
+
+bool CanMoveCursor() {
+  const char* terminal = std::getenv("TERM");
+  const bool is_dumb = terminal != nullptr && std::strcmp(terminal, "dumb") == 0;
+  return isatty(STDERR_FILENO) != 0 && !is_dumb;
+}
+
+bool HasColours() {
+  const char* without = std::getenv("NO_COLOR");
+  return CanMoveCursor() && (without == nullptr || *without == '\0');
 }
 
 int EndOutput(int status, int error_number) {

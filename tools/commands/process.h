@@ -17,6 +17,13 @@ void PrepareProcess();
 /// or closed is no reason to end hours of work.
 void Say(const std::string& text);
 
+/// Whether stderr is a terminal on which a line can be written anew (TERM is not dumb).
+bool CanMoveCursor();
+
+/// Whether what is said may have colours: on such a terminal, unless NO_COLOR says otherwise
+/// (https://no-color.org).
+bool HasColours();
+
 /// Runs the command that the arguments name, or shows the commands or the version. The exit status:
 /// 0; 2 for wrong usage; 1 for any other failure, of which stderr says one line.
 int RunOneOf(std::span<const Command> commands, const std::string& version, int argc, char** argv);

@@ -4,10 +4,13 @@
 #include <exception>
 #include <filesystem>
 #include <new>
+#include <string>
 #include <string_view>
 #include <system_error>
+#include <vector>
 
 #include "depth/base/one_line.h"
+#include "tools/commands/closest_word.h"
 #include "tools/commands/command.h"
 #include "tools/commands/process.h"
 
@@ -26,8 +29,25 @@ std::string HelpText(std::span<const Command> commands) {
 std::string_view NameToday(std::string_view name) { return name == "look" ? "refine" : name; }
 
 int Complain(const std::string& reason, int status) {
-  Say("ossa: " + OnOneLine(reason) + "\n");
+  const char* who = HasColours() ? "\033[1;31mossa:\033[0m " : "ossa: ";  // bold red
+  Say(who + OnOneLine(reason) + "\n");
   return status;
+}
+
+std::string UnknownCommand(std::span<const Command> commands, std::string_view name) {
+  std::vector<std::string> names;
+  for (const Command& command : commands) names.emplace_back(command.name);
+  const std::string meant = ClosestWord(name, names);
+  return fmt::format("unknown command '{}'{}", name,
+                     meant.empty() ? "" : fmt::format(": is '{}' meant?", meant));
+}
+
+// For programs: `ossa NAME --describe` says the rest.
+int ListCommands(std::span<const Command> commands) {
+  for (const Command& command : commands) {
+    fmt::print("{}\t{}\n", command.name, command.summary);
+  }
+  return 0;
 }
 
 }  // namespace
@@ -46,7 +66,8 @@ int RunOneOf(std::span<const Command> commands, const std::string& version, int 
   for (const Command& command : commands) {
     if (command.name == NameToday(name)) return command.run(argc - 1, argv + 1);
   }
-  if (!name.empty()) Complain(fmt::format("unknown command '{}'", name), 2);
+  if (name == "--describe") return ListCommands(commands);
+  if (!name.empty()) Complain(UnknownCommand(commands, name), 2);
   Say(HelpText(commands));
   return 2;
 } catch (const HelpShown&) {

@@ -13,6 +13,7 @@
 #include "recon/body/parts.h"
 #include "tools/learning/common_parts.h"
 #include "tools/learning/evaluation_totals.h"
+#include "tools/learning/labels_picture.h"
 #include "tools/learning/person_source.h"
 
 namespace ossa::tools {
@@ -45,6 +46,7 @@ void CountPixels(const forest::TrainingImage& image, const forest::Classificatio
     const uint8_t truth = image.label[static_cast<size_t>(result.pixel[i])];
     const uint8_t label = labels[i];
     ++totals->pixels[truth];
+    ++totals->confusion[truth][std::min<size_t>(label, recon::kLabelCount - 1)];
     totals->right[truth] += truth == label ? 1 : 0;
     totals->right_first[truth] += truth == result.label[i] ? 1 : 0;
     if (recon::kMirroredPart[truth] == truth) continue;
@@ -141,6 +143,21 @@ Meaning MeaningOf(const forest::ForestModel& model, const std::string& name) {
   return meaning;
 }
 
+// Of the 31 parts so far.
+struct PixelCount {
+  int64_t all = 0;
+  int64_t right = 0;
+};
+
+PixelCount PartPixels(const EvaluationTotals& totals) {
+  PixelCount count;
+  for (size_t part = 1; part <= recon::kPartCount; ++part) {
+    count.all += totals.pixels[part];
+    count.right += totals.right[part];
+  }
+  return count;
+}
+
 }  // namespace
 
 Evaluation Evaluate(const forest::ForestModel& model, const std::string& name,
@@ -151,12 +168,24 @@ Evaluation Evaluate(const forest::ForestModel& model, const std::string& name,
   for (int64_t i = 0; i < dataset.frame_count(); i += step) {
     if (progress && !progress(i, dataset.frame_count())) break;
     const LabelledFrame frame = Uncropped(dataset.Read(i), dataset.manifest().camera);
+    const auto before = PartPixels(totals);
     for (const TruthBody& body : frame.bodies) {
       AddPerson(model, frame, body, meaning, &totals);
     }
+    const auto now = PartPixels(totals);
+    if (now.all > before.all) {
+      totals.by_frame.push_back({i,
+                                 static_cast<double>(now.right - before.right) /
+                                     static_cast<double>(now.all - before.all),
+                                 {}});
+    }
     ++totals.frames;
   }
-  return Summarise(std::move(totals));
+  Evaluation evaluation = Summarise(std::move(totals));
+  for (Evaluation::Frame& frame : evaluation.worst_frames) {
+    frame.png = PictureOf(model, Uncropped(dataset.Read(frame.index), dataset.manifest().camera));
+  }
+  return evaluation;
 }
 
 }  // namespace ossa::tools

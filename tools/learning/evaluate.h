@@ -14,6 +14,12 @@ namespace ossa::tools {
 /// What `ossa evaluate` reports (docs/architecture.md, "Reports"). NaN stands for what nothing in
 /// the data says: the accuracy of a class or the average precision of a joint that does not occur.
 struct Evaluation {
+  /// A frame by what is wrong in it, to look at.
+  struct Frame {
+    int64_t index = 0;
+    double pixel_accuracy = 1.0;
+    std::vector<uint8_t> png;  // depth | true parts | the model's
+  };
   int64_t frames = 0;
   int64_t people = 0;
   double pixel_accuracy = 0.0;  // over pixels of the 31 parts; NaN for a model of PCL's classes
@@ -35,6 +41,8 @@ struct Evaluation {
   double classify_ms = 0.0;                // a person
   double propose_ms = 0.0;
   double relabel_ns_per_pixel = 0.0;
+  std::vector<std::vector<int64_t>> confusion;  // pixels, by true label and by the model's
+  std::vector<Frame> worst_frames;              // of fewest pixels right first
 };
 
 /// `step` > 1 looks at every step-th frame. `progress(done, total)` returns false to stop early.
@@ -44,7 +52,8 @@ Evaluation Evaluate(const forest::ForestModel& model, const std::string& name,
                     const std::function<bool(int64_t, int64_t)>& progress);
 
 std::string EvaluationJson(const Evaluation& evaluation);
-/// One page that stands by itself: the table and bars of accuracy by class and joint.
+/// One page that stands by itself: bars of accuracy by class and joint, which part is taken for
+/// which, how far confidences are to be trusted, and the worst frames.
 std::string EvaluationHtml(const Evaluation& evaluation, const std::string& title);
 
 }  // namespace ossa::tools

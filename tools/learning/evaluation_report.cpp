@@ -2,9 +2,13 @@
 
 #include <cmath>
 #include <nlohmann/json.hpp>
+#include <numeric>
+#include <string_view>
 
 #include "recon/body/parts.h"
 #include "recon/skeleton.h"
+#include "tools/experiments/compare/svg_plot.h"
+#include "tools/json/base64.h"
 #include "tools/learning/common_parts.h"
 #include "tools/learning/evaluate.h"
 
@@ -58,6 +62,57 @@ std::string CalibrationTable(const std::string& heading, const Calibration& cali
   return html + "</table>\n";
 }
 
+// A confidence that is what it says lies on the diagonal.
+std::string CalibrationPlot(const Evaluation& e) {
+  std::vector<Series> lines = {{"as often right as it says", {0, 100}, {0.0, 100.0}}};
+  const auto add = [&](const char* name, const Calibration& calibration) {
+    Series line{name, {}, {}};
+    for (const Calibration::Bin& bin : calibration.Bins()) {
+      if (bin.joints == 0) continue;
+      line.x.push_back(100 * bin.mean_confidence);
+      line.y.emplace_back(100.0 * static_cast<double>(bin.hits) / static_cast<double>(bin.joints));
+    }
+    if (!line.x.empty()) lines.push_back(std::move(line));
+  };
+  add("joints that are seen", e.seen_joints);
+  add("joints that are inferred", e.inferred_joints);
+  return "<h2>How far a confidence is to be trusted</h2>\n" +
+         LinePlot(lines, {"confidence, %", "within 10 cm, %", 100.0, 100.0});
+}
+
+// A row a true part, a column the model's: the darker, the larger the share of the row.
+std::string ConfusionMatrix(const std::vector<std::vector<int64_t>>& confusion) {
+  std::string html = "<h2>Which part is taken for which</h2>\n<table class=\"confusion\">\n";
+  for (size_t truth = 1; truth < confusion.size(); ++truth) {
+    const auto& row = confusion[truth];
+    const auto all = static_cast<double>(std::accumulate(row.begin(), row.end(), int64_t{0}));
+    if (all == 0) continue;
+    html += fmt::format("<tr><th>{}</th>", recon::kPartNames[truth]);
+    for (size_t label = 1; label < row.size(); ++label) {
+      const double share = static_cast<double>(row[label]) / all;
+      html += fmt::format(
+          "<td style=\"background:rgba(58,124,165,{:.3f})\" title=\"{} as {}: {:.1f} %\"></td>",
+          share, recon::kPartNames[truth], recon::kPartNames[label], 100 * share);
+    }
+    html += "</tr>\n";
+  }
+  return html + "</table>\n<p>Columns stand in the order of the rows.</p>\n";
+}
+
+std::string WorstFrames(const std::vector<Evaluation::Frame>& frames) {
+  if (frames.empty()) return {};
+  std::string html = "<h2>Worst frames: depth, true parts, the model's</h2>\n";
+  for (const Evaluation::Frame& frame : frames) {
+    const std::string_view bytes(reinterpret_cast<const char*>(frame.png.data()), frame.png.size());
+    html += fmt::format(
+        "<figure><img alt=\"frame {0}\" src=\"data:image/png;base64,{1}\"><figcaption>frame {0}: "
+        "{2:.1f} % "
+        "of its pixels right</figcaption></figure>\n",
+        frame.index, Base64(bytes), 100 * frame.pixel_accuracy);
+  }
+  return html;
+}
+
 template <typename Names>
 std::string Bars(const std::string& heading, const std::vector<double>& values, const Names& names,
                  size_t first) {
@@ -108,7 +163,13 @@ std::string EvaluationHtml(const Evaluation& e, const std::string& title) {
   std::string html = fmt::format(
       "<!doctype html>\n<html lang=\"en\"><head><meta charset=\"utf-8\"><title>{0}</title>\n"
       "<style>body{{font:15px sans-serif;max-width:46em;margin:2em auto}}td{{padding:1px 8px}}"
-      ".bar{{background:#3a7ca5;height:11px}}</style></head><body>\n<h1>{0}</h1>\n",
+      ".bar{{background:#3a7ca5;height:11px}}.confusion "
+      "td{{width:12px;height:12px;padding:0;border:1px solid #eee}}"
+      ".confusion th{{font-weight:normal;text-align:right}}img{{max-width:100%}}figure{{margin:1em "
+      "0}}"
+      "svg text{{font:11px "
+      "sans-serif}}.grid{{stroke:#e4e4e4}}.plot{{width:100%}}</style></head><body>\n"
+      "<h1>{0}</h1>\n",
       escaped);
   html += fmt::format(
       "<p>{} frames, {} people. Pixels right: {} %. Mean of the classes: {} %. Joint mAP at "
@@ -120,6 +181,9 @@ std::string EvaluationHtml(const Evaluation& e, const std::string& title) {
       Shown(e.swapped_left_right_turned, 100, 1), e.ns_per_pixel, e.classify_ms, e.propose_ms);
   html += Bars("Pixels right by part, %", e.class_accuracy, recon::kPartNames, 1);
   html += Bars("Average precision by joint, %", e.ap_10cm, recon::kJointNames, 0);
+  html += ConfusionMatrix(e.confusion);
+  html += WorstFrames(e.worst_frames);
+  html += CalibrationPlot(e);
   html += CalibrationTable("Confidence of joints that are seen", e.seen_joints);
   html += CalibrationTable("Confidence of joints that are inferred", e.inferred_joints);
   return html + "</body></html>\n";

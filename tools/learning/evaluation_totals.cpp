@@ -102,7 +102,14 @@ double AveragePrecision(std::vector<RatedProposal> proposals, int64_t positives)
 }
 
 Evaluation Summarise(EvaluationTotals totals) {
+  constexpr size_t kWorst = 12;  // frames, by eye: what one looks at
   Evaluation e;
+  for (const auto& row : totals.confusion) e.confusion.emplace_back(row.begin(), row.end());
+  std::stable_sort(
+      totals.by_frame.begin(), totals.by_frame.end(),
+      [](const auto& a, const auto& b) { return a.pixel_accuracy < b.pixel_accuracy; });
+  totals.by_frame.resize(std::min(kWorst, totals.by_frame.size()));
+  e.worst_frames = std::move(totals.by_frame);
   e.frames = totals.frames;
   e.people = totals.people;
   SummarisePixels(totals, &e);

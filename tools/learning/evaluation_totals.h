@@ -31,6 +31,9 @@ struct EvaluationTotals {
   recon::JointArray<std::vector<RatedProposal>> rated_visible;
   recon::JointArray<int64_t> joints{};
   recon::JointArray<int64_t> joints_visible{};
+  std::array<std::array<int64_t, recon::kLabelCount>, recon::kLabelCount>
+      confusion{};  // truth × label
+  std::vector<Evaluation::Frame> by_frame;
   std::array<int64_t, kCommonPartCount> common_pixels{};
   std::array<int64_t, kCommonPartCount> common_right{};
   Calibration seen_joints, inferred_joints;

@@ -26,8 +26,10 @@ struct Reader {
 fs::path ProgramOf(const Reader& reader, const std::string& name) {
   const fs::path program = OpenNiRuntimeFolder() / "reader" / reader.program;
   if (fs::exists(program)) return program;
-  throw InputError(name + ": this ossa was built without " + reader.library +
-                   ", which reads such files");
+  throw InputError(
+      name + ": expected " + program.string() +
+      " to read it, found none: install the Debian package ossa-readers (built without " +
+      reader.library + " it has none)");
 }
 
 class ReaderSource final : public FrameSource {

@@ -63,6 +63,27 @@ TEST(EvaluationTotals, WhatDoesNotOccurIsLeftOutOfTheJson) {
   EXPECT_TRUE(json["mean_common_accuracy"].is_null());
 }
 
+TEST(EvaluationTotals, TheWorstFramesComeFirst) {
+  EvaluationTotals totals = OnePerson();
+  for (const double accuracy : {0.9, 0.2, 0.5}) {
+    totals.by_frame.push_back({static_cast<int64_t>(10 * accuracy), accuracy, {}});
+  }
+  const Evaluation e = Summarise(totals);
+  ASSERT_EQ(e.worst_frames.size(), 3U);
+  EXPECT_EQ(e.worst_frames[0].index, 2);
+  EXPECT_EQ(e.worst_frames[2].index, 9);
+}
+
+TEST(EvaluationTotals, ThePageShowsWhatIsTakenForWhat) {
+  EvaluationTotals totals = OnePerson();
+  totals.confusion[1] = {};
+  totals.confusion[1][1] = 3;
+  totals.confusion[1][2] = 1;
+  const std::string page = EvaluationHtml(Summarise(totals), "one");
+  EXPECT_NE(page.find("LU head as LU head: 75.0 %"), std::string::npos);
+  EXPECT_NE(page.find("LU head as RU head: 25.0 %"), std::string::npos);
+}
+
 TEST(EvaluationTotals, ThePageHasADashWhereNothingOccurs) {
   const std::string page = EvaluationHtml(Summarise({}), "nobody");
   EXPECT_EQ(page.find("nan"), std::string::npos) << page;

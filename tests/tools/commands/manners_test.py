@@ -1,0 +1,289 @@
+#!/usr/bin/env python3
+"""Manners of the command: help, suggestions, defaults, colours, completion, manual pages, doctor.
+
+Usage: manners_test.py OSSA MANUAL    (MANUAL: the folder that tools/manual/make_manual wrote)
+"""
+import gzip
+import json
+import os
+import pathlib
+import pty
+import shutil
+import subprocess
+import sys
+import tempfile
+import unittest
+
+OSSA, MANUAL = pathlib.Path(sys.argv.pop(1)).resolve(), pathlib.Path(sys.argv.pop(1)).resolve()
+CLIP = pathlib.Path(__file__).resolve().parents[2] / "golden" / "clips" / "one"
+
+
+def run(*arguments, **environment):
+    settings = {**os.environ, "OSSA_CONFIG": "", **environment}
+    return subprocess.run([OSSA, *map(str, arguments)], capture_output=True, text=True, env=settings, timeout=120)
+
+
+def said_on_a_terminal(arguments, **environment):
+    """What appears on stderr where that is a terminal."""
+    ours, theirs = pty.openpty()
+    settings = {**os.environ, "OSSA_CONFIG": "", "TERM": "xterm", **environment}
+    child = subprocess.Popen([OSSA, *arguments], stderr=theirs, stdout=subprocess.DEVNULL, env=settings)
+    os.close(theirs)
+    said = b""
+    try:
+        while more := os.read(ours, 65536):
+            said += more
+    except OSError:  # the other end is closed
+        pass
+    child.wait()
+    os.close(ours)
+    return said.decode()
+
+
+def commands():
+    return [line.split("\t")[0] for line in run("--describe").stdout.splitlines()]
+
+
+def described(command):
+    return json.loads(run(command, "--describe").stdout)
+
+
+class Help(unittest.TestCase):
+    def test_every_command_shows_examples_of_options_that_exist(self):
+        known = {name: described(name) for name in commands()}
+        self.assertGreaterEqual(len(known), 17)
+        for name, said in known.items():
+            self.assertIn("Examples:\n  ", run(name, "--help").stdout, name)
+            self.assertGreaterEqual(len(said["examples"]), 2, name)
+            for example in said["examples"]:
+                self.check_example(example["line"], known)
+
+    def check_example(self, line, known):
+        words = line.split("&&")[0].split()
+        words = words[words.index("ossa") + 1:]
+        options = {name: option for option in known[words[0]]["options"] for name in option["names"]}
+        for word, value in zip(words, words[1:] + [""]):
+            if word.startswith("-") and word != "-":
+                self.assertIn(word, options, line)
+                choices = options[word]["choices"]
+                self.assertTrue(not choices or value in choices, line)
+
+    def test_version_is_one_line(self):
+        self.assertRegex(run("--version").stdout, r"^ossa \d+\.\d+\.\d+\n$")
+
+
+class Suggestions(unittest.TestCase):
+    def test_a_mistyped_command(self):
+        for typed, meant in {"trak": "track", "recrod": "record", "reconstuct": "reconstruct", "exp": "experiment"}.items():
+            result = run(typed)
+            self.assertEqual(result.returncode, 2)
+            self.assertIn(f"unknown command '{typed}': is '{meant}' meant?\n", result.stderr)
+        self.assertNotIn("meant", run("xylophone").stderr)
+
+    def test_a_mistyped_option(self):
+        for typed, meant in {"--metod": "--method", "--fsp=30": "--fps", "--smothing": "--smoothing"}.items():
+            result = run("track", "x", typed, "y")
+            self.assertEqual(result.returncode, 2)
+            self.assertIn(f"is {meant} meant?", result.stderr)
+            self.assertEqual(result.stderr.count("\n"), 1)
+        self.assertNotIn("meant", run("track", "x", "--xylophone").stderr)
+
+
+class Colours(unittest.TestCase):
+    def test_only_on_a_terminal_that_wants_them(self):
+        self.assertIn("\x1b[", said_on_a_terminal(["nosuch"]))
+        self.assertNotIn("\x1b[", said_on_a_terminal(["nosuch"], NO_COLOR="1"))
+        self.assertNotIn("\x1b[", said_on_a_terminal(["nosuch"], TERM="dumb"))
+        self.assertNotIn("\x1b[", run("nosuch").stderr)
+
+
+class TimeLeft(unittest.TestCase):
+    def test_is_said_while_work_goes_on(self):
+        with tempfile.TemporaryDirectory() as folder:
+            said = said_on_a_terminal(["database", *["--mocap", "authored"] * 3, "--out", folder + "/a.ossadb"])
+        self.assertRegex(said, r"\d:\d\d left")
+
+
+class Defaults(unittest.TestCase):
+    def setUp(self):
+        self.temporary = tempfile.TemporaryDirectory()
+        self.addCleanup(self.temporary.cleanup)
+        self.folder = pathlib.Path(self.temporary.name)
+        self.file = self.folder / "ossa" / "config.toml"
+        self.file.parent.mkdir()
+
+    def track(self, config, *options):
+        self.file.write_text(config)
+        out = self.folder / "out.jsonl"
+        environment = {**os.environ, "XDG_CONFIG_HOME": str(self.folder)}
+        environment.pop("OSSA_CONFIG", None)
+        result = subprocess.run([OSSA, "track", CLIP, "--frames", "1", "--quiet", "--out", out, *options],
+                                capture_output=True, text=True, env=environment, timeout=120)
+        return result, out.read_bytes() if result.returncode == 0 else None
+
+    def test_say_what_the_command_line_leaves_open(self):
+        best, none = self.track("")[1], self.track("", "--method", "none")[1]
+        self.assertNotEqual(best, none)
+        self.assertEqual(self.track("# mine\n[track]\nmethod = \"none\"  # fast\nusers = 2\n")[1], none)
+        self.assertEqual(self.track("[track]\nmethod = 'none'\n", "--method", "best")[1], best)
+        self.assertEqual(self.track("[view]\nmethod = \"none\"\n")[1], best)
+
+    def test_are_refused_by_name_and_line(self):
+        for config, line, named in (("[track]\n\nmetod = \"none\"\n", 3, "found 'metod' (is 'method' meant?)"),
+                                    ("[trak]\nmethod = \"none\"\n", 1, "found 'trak'"),
+                                    ("method = \"none\"\n", 1, "[COMMAND]"),
+                                    ("[track]\nmethod = none\n", 2, "\"text\""),
+                                    ("[track]\nmethod = \"none\n", 2, "ends in this line"),
+                                    ("[track]\nmethod \"none\"\n", 2, "name = value"),
+                                    ("[track]\nusers = 9\n", 2, "users"),
+                                    ("[track]\nnear = 1\n", 2, "true or false"),
+                                    ("[track]\nusers = 1\nusers = 2\n", 3, "each option once"),
+                                    ("[track]\nhelp = true\n", 2, "found 'help'")):
+            result, _ = self.track(config)
+            self.assertEqual(result.returncode, 1, config)
+            self.assertIn(f"{self.file}: line {line}: ", result.stderr, config)
+            self.assertIn(named, result.stderr, config)
+            self.assertEqual(result.stderr.count("\n"), 1, config)
+
+    def test_are_not_read_where_a_script_says_so(self):
+        self.file.write_text("[track]\nmetod = 1\n")
+        result = run("track", CLIP, "--frames", 1, "--quiet", "--out", self.folder / "a.jsonl",
+                     XDG_CONFIG_HOME=str(self.folder))
+        self.assertEqual(result.returncode, 0, result.stderr)
+        result = run("track", CLIP, "--json-stats", "-", OSSA_CONFIG=str(self.folder / "nosuch.toml"))
+        self.assertEqual(result.returncode, 1)
+        self.assertIn("nosuch.toml: cannot be read", result.stderr)
+
+
+class Completion(unittest.TestCase):
+    def in_bash(self, *words):
+        script = f"source {MANUAL}/bash/ossa; COMP_WORDS=(\"$@\"); COMP_CWORD=$(($# - 1)); _ossa; echo \"${{COMPREPLY[@]}}\""
+        return subprocess.run(["bash", "-c", script, "bash", *words], capture_output=True, text=True,
+                              check=True).stdout.split()
+
+    def test_in_bash(self):
+        self.assertEqual(set(self.in_bash("ossa", "")), {*commands(), "--help", "--version"})
+        self.assertEqual(self.in_bash("ossa", "track", "--meth"), ["--method"])
+        self.assertEqual(self.in_bash("ossa", "track", "x", "--mode", "s"), ["standing", "seated"])
+        self.assertEqual(self.in_bash("ossa", "track", "clip"), [])  # files, as readline knows them
+
+    @unittest.skipUnless(shutil.which("fish"), "fish is not installed")
+    def test_in_fish(self):
+        def complete(line):
+            said = subprocess.run(["fish", "--no-config", "-c", f"source {MANUAL}/fish/ossa.fish; complete -C '{line}'"],
+                                  capture_output=True, text=True, check=True, env={**os.environ, "HOME": "/nonexistent"})
+            return [option.split("\t")[0] for option in said.stdout.splitlines()]
+        self.assertEqual(complete("ossa tr"), ["track", "train"])
+        self.assertEqual(complete("ossa track --mode s"), ["seated", "standing"])
+        self.assertIn("--method", complete("ossa track --me"))
+
+    @unittest.skipUnless(shutil.which("zsh"), "zsh is not installed")
+    def test_in_zsh(self):
+        """The completion system's own words for what it offers, by a stand-in of _arguments and _describe."""
+        script = f"""_describe() {{ print -l $commands }}; _arguments() {{ print -l -- $@ }}
+            ossa_completion() {{ {(MANUAL / 'zsh' / '_ossa').read_text()} }}
+            words=(ossa track x); CURRENT=3; ossa_completion; words=(ossa t); CURRENT=2; ossa_completion"""
+        said = subprocess.run(["zsh", "-f", "-c", script], capture_output=True, text=True, check=True)
+        self.assertEqual(said.stderr, "")
+        self.assertRegex(said.stdout, r"--mode\[.*\]:value:\(standing seated\)")
+        self.assertIn("\ntrack:follow people", said.stdout)
+
+
+class ManualPages(unittest.TestCase):
+    def test_name_every_option(self):
+        for name in commands():
+            page = gzip.decompress((MANUAL / "man" / "man1" / f"ossa-{name}.1.gz").read_bytes()).decode()
+            for option in described(name)["options"]:
+                for word in option["names"]:
+                    self.assertIn("\\fB" + word.replace("-", "\\-") + "\\fR", page, name)
+        page = gzip.decompress((MANUAL / "man" / "man1" / "ossa.1.gz").read_bytes()).decode()
+        for word in (*commands(), "NO_COLOR", "config.toml"):
+            self.assertIn(word, page)
+
+    @unittest.skipUnless(shutil.which("man") and shutil.which("groff"), "man-db is not installed")
+    def test_are_well_formed(self):
+        for page in (MANUAL / "man" / "man1").iterdir():
+            said = subprocess.run(["man", "--warnings", "-l", page], capture_output=True, text=True,
+                                  env={**os.environ, "MANWIDTH": "80", "LC_ALL": "C.UTF-8"})
+            self.assertEqual(said.stderr, "", page.name)
+
+
+class ToolsThatAreMissing(unittest.TestCase):
+    def test_are_named_with_their_package(self):
+        with tempfile.TemporaryDirectory() as folder:
+            alone = shutil.copy(OSSA, folder)
+            said = subprocess.run([alone, "render", "--help"], capture_output=True, text=True,
+                                  env={**os.environ, "LD_LIBRARY_PATH": str(OSSA.parent.parent / "lib")})
+        self.assertEqual(said.returncode, 1)
+        self.assertIn("apt install ossa-tools", said.stderr)
+        self.assertEqual(said.stderr.count("\n"), 1)
+
+
+class Doctor(unittest.TestCase):
+    def setUp(self):
+        self.temporary = tempfile.TemporaryDirectory()
+        self.addCleanup(self.temporary.cleanup)
+        self.root = pathlib.Path(self.temporary.name)
+
+    def plug_in(self, port, identity, number, node=True):
+        folder = self.root / "sys/bus/usb/devices" / port
+        folder.mkdir(parents=True)
+        vendor, product = identity.split(":")
+        for name, text in {"idVendor": vendor, "idProduct": product, "busnum": "1", "devnum": str(number)}.items():
+            (folder / name).write_text(text + "\n")
+        if node:
+            file = self.root / f"dev/bus/usb/001/{number:03}"
+            file.parent.mkdir(parents=True, exist_ok=True)
+            file.touch()
+
+    def hold(self, port, driver):
+        interface = self.root / "sys/bus/usb/devices" / (port + ":1.0")
+        interface.mkdir()
+        (interface / "driver").symlink_to("../../../../bus/usb/drivers/" + driver)
+
+    def test_finds_nothing_wrong_with_a_camera_that_works(self):
+        self.plug_in("1-1", "045e:02ae", 7)
+        self.plug_in("1-2", "1d6b:0002", 8)  # a hub of the machine's own
+        result = run("doctor", "--root", self.root)
+        self.assertEqual(result.returncode, 0, result.stdout)
+        self.assertIn("ok Kinect for Xbox 360 (045e:02ae)", result.stdout)
+        self.assertIn("ok libossa_virtual.so.0", result.stdout)
+        self.assertEqual(run("doctor", "--root", self.root, "--quiet").stdout, "")
+
+    def test_says_what_is_in_the_way(self):
+        self.plug_in("1-1", "045e:02ae", 7)
+        self.hold("1-1", "gspca_kinect")
+        self.plug_in("1-3", "1d27:0601", 9, node=False)
+        self.plug_in("1-4", "8086:0b07", 10)
+        result = run("doctor", "--root", self.root)
+        self.assertEqual(result.returncode, 1)
+        self.assertIn("sudo modprobe -r gspca_kinect", result.stdout)
+        self.assertIn("dev/bus/usb/001/009 is absent", result.stdout)
+        self.assertIn("!! RealSense D435 (8086:0b07)", result.stdout)
+
+    @unittest.skipIf(os.getuid() == 0, "root may open everything")
+    def test_says_whose_rights_are_missing(self):
+        self.plug_in("1-1", "1d27:0601", 7)
+        (self.root / "dev/bus/usb/001/007").chmod(0)
+        result = run("doctor", "--root", self.root)
+        self.assertEqual(result.returncode, 1)
+        self.assertIn("usermod -aG video", result.stdout)
+
+    def test_knows_a_kinect_without_its_power_supply(self):
+        self.plug_in("1-1", "045e:02b0", 7)
+        result = run("doctor", "--root", self.root)
+        self.assertEqual(result.returncode, 1)
+        self.assertIn("plug in its power supply", result.stdout)
+
+    def test_says_where_models_were_looked_for(self):
+        (self.root / "body.ossa").write_text("no model")
+        result = run("doctor", "--root", self.root, "--quiet", OSSA_SHARE=str(self.root))
+        self.assertEqual(result.returncode, 1)
+        self.assertIn(f"!! {self.root}/body.ossa", result.stdout)
+
+    def test_runs_without_usb(self):
+        self.assertEqual(run("doctor", "--root", self.root).returncode, 0)
+
+
+if __name__ == "__main__":
+    unittest.main()

@@ -1,0 +1,67 @@
+#include "tools/commands/describe.h"
+
+#include <CLI/CLI.hpp>
+#include <nlohmann/json.hpp>
+#include <sstream>
+#include <vector>
+
+#include "tools/commands/examples.h"
+
+namespace ossa::commands {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+// "TEXT:{on,off}=on" is a type, what the value may be, and a default.
+std::string TypeOf(const CLI::Option& option) {
+  const std::string name = option.get_type_name();
+  return name.substr(0, name.find(':'));
+}
+
+std::vector<std::string> ChoicesOf(const CLI::Option& option) {
+  const std::string name = option.get_type_name();
+  const size_t begin = name.find('{'), end = name.find('}');
+  std::vector<std::string> choices;
+  if (begin == std::string::npos || end == std::string::npos) return choices;
+  std::istringstream listed(name.substr(begin + 1, end - begin - 1));
+  for (std::string choice; std::getline(listed, choice, ',');) choices.push_back(choice);
+  return choices;
+}
+
+Json NamesOf(const CLI::Option& option) {
+  Json names = Json::array();
+  for (const std::string& name : option.get_snames()) names.push_back("-" + name);
+  for (const std::string& name : option.get_lnames()) names.push_back("--" + name);
+  return names;
+}
+
+Json DescribeOption(const CLI::Option& option) {
+  const bool is_flag = option.get_items_expected_max() == 0;
+  return {{"names", NamesOf(option)},
+          {"value", is_flag ? "" : TypeOf(option)},
+          {"choices", ChoicesOf(option)},
+          {"help", option.get_description()}};
+}
+
+}  // namespace
+
+std::string Describe(const CLI::App& app, std::string_view command) {
+  Json positionals = Json::array(), options = Json::array(), examples = Json::array();
+  for (const CLI::Option* option : app.get_options()) {
+    if (option->get_positional()) {
+      positionals.push_back(
+          {{"name", option->get_name(true)}, {"help", option->get_description()}});
+    } else {
+      options.push_back(DescribeOption(*option));
+    }
+  }
+  for (const Example& example : ExamplesOf(command)) {
+    examples.push_back({{"line", example.line}, {"purpose", example.purpose}});
+  }
+  const Json all = {{"command", command},         {"description", app.get_description()},
+                    {"positionals", positionals}, {"options", options},
+                    {"notes", app.get_footer()},  {"examples", examples}};
+  return all.dump();
+}
+
+}  // namespace ossa::commands

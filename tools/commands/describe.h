@@ -1,0 +1,17 @@
+#pragma once
+#include <string>
+#include <string_view>
+
+namespace CLI {
+class App;
+}
+
+namespace ossa::commands {
+
+/// What a subcommand takes, as one line of JSON: {"command", "description", "positionals":
+/// [{"name", "help"}], "options": [{"names", "value" ("" of a flag), "choices", "help"}], "notes",
+/// "examples": [{"line", "purpose"}]}. Manual pages and the completion of shells are made of it
+/// (`ossa COMMAND --describe`).
+std::string Describe(const CLI::App& app, std::string_view command);
+
+}  // namespace ossa::commands

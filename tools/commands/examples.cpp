@@ -1,0 +1,105 @@
+#include "tools/commands/examples.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+
+namespace ossa::commands {
+namespace {
+
+struct CommandExamples {
+  std::string_view command;
+  std::array<Example, 3> examples;
+};
+
+constexpr CommandExamples kExamples[] = {
+    {"track",
+     {{{"ossa track openni: --out me.jsonl --view", "the first camera; watch it in a browser"},
+       {"ossa track recording.oni --out me.bvh --bones recording", "a recording, for Blender"},
+       {"ossa track stills --out me.jsonl --picture me.png", "a folder of 16-bit PNGs"}}}},
+    {"view",
+     {{{"ossa view openni:", "the first camera, tracked, in a browser"},
+       {"ossa view me.jsonl", "skeletons that were written before"},
+       {"ossa view recording.oni --once --port 8081", "a recording, to its end"}}}},
+    {"record",
+     {{{"ossa record openni: --out me.oni --seconds 20", "twenty seconds of the first camera"},
+       {"ossa record azure.mkv --out azure.oni", "another recording, for every OpenNI2 program"},
+       {"ossa record openni: --out me.oni --wait 60", "once a camera is plugged in"}}}},
+    {"reconstruct",
+     {{{"ossa reconstruct sdk.csv --out better.jsonl", "skeletons of an SDK, mended"},
+       {"ossa reconstruct me.jsonl --out me.bvh --physics on", "such that mechanics allow it"},
+       {"ossa reconstruct me.jsonl --out me.trc --method one-euro", "only smoothed"}}}},
+    {"compare",
+     {{{"ossa compare truth.jsonl me.jsonl", "how far the joints are off"},
+       {"ossa compare truth.jsonl raw.jsonl best.jsonl --report r.html", "two results, as a page"},
+       {"ossa compare truth.jsonl me.jsonl --joints found --json -", "numbers for a program"}}}},
+    {"info",
+     {{{"ossa info recording.oni", "frames, size and camera of a recording"},
+       {"ossa info body.ossa", "a model's card"},
+       {"ossa info azure.mkv --rotate auto", "which way up its people stand"}}}},
+    {"doctor",
+     {{{"ossa doctor", "cameras, rights, drivers and models of this machine"},
+       {"ossa doctor --quiet && ossa view openni:", "go on only if nothing is in the way"},
+       {"ossa doctor --root image", "the same of a machine whose files lie in image/"}}}},
+    {"evaluate",
+     {{{"ossa evaluate body.ossa unseen", "accuracy of parts and joints"},
+       {"ossa evaluate body.ossa unseen --report report.html", "the same as a page"},
+       {"ossa evaluate body.ossa unseen --every 10 --json n.json", "every tenth frame"}}}},
+    {"experiment",
+     {{{"ossa experiment shum-2013 --out out/shum-2013", "a paper's tables beside ours"},
+       {"ossa experiment real --shared recordings --out out/real", "on real depth"},
+       {"ossa experiment sdk --shared recordings --out out/sdk --threads 2", "on two cores"}}}},
+    {"study",
+     {{{"ossa study study.toml", "an experiment as a file describes it"},
+       {"ossa study study.toml --quiet", "without progress"},
+       {"nice ossa study study.toml", "beside other work; the same command resumes it"}}}},
+    {"database",
+     {{{"ossa database --mocap authored --out all.ossadb", "of the clips that ossa brings"},
+       {"ossa database --mocap cmu --out cmu.ossadb", "of a folder of BVH or AMC files"},
+       {"ossa database --mocap cmu --out s.ossadb --threshold 0.1", "with more postures kept"}}}},
+    {"learn",
+     {{{"ossa learn --observed sdk.csv --truth vicon.csv --out sensor.ossagp", "one recording"},
+       {"ossa learn --observed a.csv b.csv --truth c.csv d.csv --out s.ossagp", "several"},
+       {"ossa learn --observed o.jsonl --truth t.jsonl --out s.ossagp --pairs 500", "a sample"}}}},
+    {"refine",
+     {{{"ossa refine more --model body.ossa --out body.ossarefine", "a first stage"},
+       {"ossa refine m --model b.ossa --after one.ossarefine --out two.ossarefine", "a second"},
+       {"ossa refine more --model body.ossa --out body.ossarefine --epochs 20", "a quick one"}}}},
+    {"prior",
+     {{{"ossa prior --mocap authored --out all.ossaprior", "of the clips that ossa brings"},
+       {"ossa prior --mocap cmu --mocap authored --out cmu.ossaprior", "of folders besides"},
+       {"ossa track clip --out me.jsonl --prior cmu.ossaprior", "what it is good for"}}}},
+    {"surface",
+     {{{"ossa surface --mocap authored --out body.ossasurface", "of the clips that ossa brings"},
+       {"ossa surface --mocap authored --out b.ossasurface --points 400", "a coarser one"},
+       {"ossa track clip --out me.jsonl --fit on --surface body.ossasurface", "what it is for"}}}},
+    {"train",
+     {{{"ossa train data --out body.ossa", "a forest of a data set of ossa render"},
+       {"ossa train data --out body.ossa --resume", "go on where it stopped"},
+       {"mpirun -np 4 ossa train data --out body.ossa", "four processes share the work"}}}},
+    {"render",
+     {{{"ossa render --mocap authored --out data --frames 10000 --view any", "to train on"},
+       {"ossa render --mocap authored --out clip --frames 90 --sequence", "somebody who moves"},
+       {"mpirun -np 4 ossa render --mocap cmu --out data --frames 50000", "shared"}}}},
+};
+
+}  // namespace
+
+std::span<const Example> ExamplesOf(std::string_view command) {
+  const auto is_it = [&](const CommandExamples& of) { return of.command == command; };
+  const auto* found = std::find_if(std::begin(kExamples), std::end(kExamples), is_it);
+  if (found == std::end(kExamples)) return {};
+  return found->examples;
+}
+
+std::string ExamplesText(std::string_view command) {
+  std::string text;
+  for (const Example& example : ExamplesOf(command)) {
+    text += fmt::format("{}  {}\n      {}", text.empty() ? "Examples:\n" : "\n", example.line,
+                        example.purpose);
+  }
+  return text;
+}
+
+}  // namespace ossa::commands
