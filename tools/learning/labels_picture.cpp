@@ -10,7 +10,7 @@
 namespace ossa::tools {
 namespace {
 
-constexpr size_t kPanels = 3;
+constexpr size_t kPanels = 3;  // depth, truth, model: by definition
 
 // Three images of one size in a row, black at first.
 class Panels {
