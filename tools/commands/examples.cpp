@@ -37,7 +37,7 @@ constexpr CommandExamples kExamples[] = {
     {"info",
      {{{"ossa info recording.oni", "frames, size and camera of a recording"},
        {"ossa info body.ossa", "a model's card"},
-       {"ossa info azure.mkv --rotate auto", "which way up its people stand"}}}},
+       {"ossa info recording.oni --picture sheet.png", "twelve of its frames at a glance"}}}},
     {"doctor",
      {{{"ossa doctor", "cameras, rights, drivers and models of this machine"},
        {"ossa doctor --quiet && ossa view openni:", "go on only if nothing is in the way"},

@@ -20,6 +20,7 @@
 #include "recon/refine/refinement_cascade.h"
 #include "tools/commands/command.h"
 #include "tools/commands/commands.h"
+#include "tools/commands/info_picture.h"
 #include "tools/commands/source_options.h"
 #include "tools/commands/warnings.h"
 #include "tools/synth/dataset.h"
@@ -250,10 +251,15 @@ int Info(int argc, char** argv) {
       "FILE#truth, a DATASET, a folder of skeleton files, or depth images: .oni, .mkv, .bag, "
       "FILE.bag#/topic, a 16-bit PNG or a folder of them. The options say how depth images are "
       "read");
+  std::string picture;
+  app.add_option("--picture", picture,
+                 "look instead of read: a contact sheet of depth images or of a DATASET, FILE.png, "
+                 "or the card of a forest model, FILE.html");
   Parse(app, argc, argv);
   ExpectIsThere(file.name);
+  if (!picture.empty()) WriteInfoPicture(file, picture);
   // Who says how depths are read wants to see them so, a DATASET's, too.
-  const bool is_depth = app.count_all() > 2;
+  const bool is_depth = app.count_all() > (picture.empty() ? 2U : 3U);
   Show(file, is_depth);
   if (app.count("--rotate") > 0 && file.rotate == "auto") ShowUpright(file);
   return 0;

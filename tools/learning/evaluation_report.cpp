@@ -96,7 +96,9 @@ std::string ConfusionMatrix(const std::vector<std::vector<int64_t>>& confusion) 
     }
     html += "</tr>\n";
   }
-  return html + "</table>\n<p>Columns stand in the order of the rows.</p>\n";
+  return html +
+         "</table>\n<p>Columns: the parts in their order, also those of which no pixel is true. "
+         "Cells say their names.</p>\n";
 }
 
 std::string WorstFrames(const std::vector<Evaluation::Frame>& frames) {

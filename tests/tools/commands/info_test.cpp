@@ -152,5 +152,53 @@ TEST(InfoCommand, RefusesWhatIsDamagedUnknownOrNotThere) {
   ExpectRefused(folder / "empty", "expected a DATASET, a folder of PNGs or one of skeleton files");
 }
 
+std::string Bytes(const std::filesystem::path& path) {
+  std::ifstream file(path, std::ios::binary);
+  return {std::istreambuf_iterator<char>(file), {}};
+}
+
+// Width and height as a PNG says them, big-endian after its signature and the header's name.
+std::pair<int, int> SizeOfPng(const std::string& png) {
+  const auto number = [&](size_t at) {
+    int value = 0;
+    for (size_t i = at; i < at + 4; ++i) value = 256 * value + static_cast<uint8_t>(png.at(i));
+    return value;
+  };
+  return {number(16), number(20)};
+}
+
+TEST(InfoPicture, OfDepthImagesIsASheetOfTwelve) {
+  const TemporaryFolder folder;
+  test::WriteExampleFolder(folder.path(), 30);
+  const auto sheet = folder / "sheet.png";
+  const std::string few = (test::SourceFolder() / "tests/golden/clips/one").string();
+  ASSERT_EQ(RunOssa({"info", folder.path().string(), "--picture", sheet.string()}).exit_status, 0);
+  EXPECT_EQ(SizeOfPng(Bytes(sheet)), std::pair(4 * 240, 3 * 180));
+  ASSERT_EQ(RunOssa({"info", few, "--picture", sheet.string()}).exit_status, 0);
+  EXPECT_EQ(SizeOfPng(Bytes(sheet)), std::pair(4 * 240, 3 * 180));
+}
+
+TEST(InfoPicture, OfAModelIsItsCard) {
+  const TemporaryFolder folder;
+  const std::string model = (test::SourceFolder() / "tools/tracker/shipped/body.ossa").string();
+  const auto card = folder / "card.html";
+  ASSERT_EQ(RunOssa({"info", model, "--picture", card.string()}).exit_status, 0);
+  EXPECT_NE(Bytes(card).find("<title>Head front: 97.31</title>"), std::string::npos);
+}
+
+TEST(InfoPicture, OfAnythingElseIsRefused) {
+  const TemporaryFolder folder;
+  std::ofstream(folder / "me.jsonl") << R"({"frame":0,"time_s":0,"bodies":[]})";
+  const std::string file = (folder / "me.jsonl").string(), clip = folder.path().string();
+  for (const std::vector<std::string>& words :
+       {std::vector<std::string>{"info", file, "--picture", (folder / "x.png").string()},
+        {"info", clip, "--picture", (folder / "x.jpg").string()}}) {
+    const CommandResult result = RunOssa(words);
+    EXPECT_EQ(result.exit_status, 2) << result.err;
+    EXPECT_EQ(LineCount(result.err), 1) << result.err;
+  }
+  EXPECT_FALSE(std::filesystem::exists(folder / "x.png"));
+}
+
 }  // namespace
 }  // namespace ossa::commands
