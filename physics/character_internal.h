@@ -107,8 +107,7 @@ constexpr size_t BodyParentOf(size_t bone) {
   return parent == 0 ? 1 : parent;
 }
 
-/// Pairs of a character's own bones that may touch. Neighbours never do; nor do pairs that a
-/// healthy posture brings closer than the capsules are thick (hands together, arms along thighs).
+/// Pairs of a character's own bones that may touch. Neighbours never do.
 const std::vector<std::array<size_t, 2>>& SelfCollisionPairs();
 
 }  // namespace ossa::physics

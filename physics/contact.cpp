@@ -16,7 +16,9 @@ namespace {
 // substep.
 constexpr double kStiffness_n_m = 4e6;
 constexpr double kDamping_ns_m = 12000.0;
-/// Own limbs are softer: the target rules, the capsules only keep it from the absurd.
+/// Own limbs have a soft skin, where the target rules: bodies are softer and slimmer than capsules,
+/// and sensors put folded arms a little into the chest. Deeper nothing gets.
+constexpr double kSkin_m = 0.03;
 constexpr double kSelfStiffness_n_m = 3e3;
 constexpr double kSelfDamping_ns_m = 60.0;
 /// Gaps below this are contacts at once: control can close them within a substep (250 m/s^2 x h^2).
@@ -42,13 +44,17 @@ double Approach(dGeomID a, dGeomID b, const dContact& c) {
 const std::vector<std::array<size_t, 2>>& SelfCollisionPairs() {
   static const std::vector<std::array<size_t, 2>> pairs = [] {
     std::vector<std::array<size_t, 2>> list;
-    for (const size_t arm : {6U, 7U, 10U, 11U}) {
-      for (const size_t trunk : {1U, 2U, 3U}) list.push_back({arm, trunk});
-    }
-    for (const size_t left : {14U, 15U}) {
-      for (const size_t right : {18U, 19U}) list.push_back({left, right});
-    }
-    list.push_back({6, 10});
+    const auto add_all = [&list](std::initializer_list<size_t> some,
+                                 std::initializer_list<size_t> others) {
+      for (const size_t a : some) {
+        for (const size_t b : others) list.push_back({a, b});
+      }
+    };
+    add_all({6, 7, 10, 11}, {1, 2, 3});                 // forearms, hands; trunk, head
+    add_all({6, 7}, {9, 10, 11});                       // the other arm
+    add_all({10, 11}, {5});                             // and the other way round
+    add_all({13, 14, 15}, {17, 18, 19});                // leg and leg
+    add_all({6, 7, 10, 11}, {13, 14, 15, 17, 18, 19});  // forearms, hands; legs
     return list;
   }();
   return pairs;
@@ -56,7 +62,11 @@ const std::vector<std::array<size_t, 2>>& SelfCollisionPairs() {
 
 void World::Impl::Note(dGeomID a, dGeomID b, double depth_m) {
   const int ta = TagOf(a), tb = TagOf(b);
-  if (ta > 0 && tb > 0) return;
+  if (ta > 0 && tb > 0) {
+    double& deepest = ta == tb ? contacts.self_depth_m : contacts.character_depth_m;
+    deepest = std::max(deepest, depth_m);
+    return;
+  }
   if (ta <= 0 && tb <= 0) {
     contacts.object_depth_m = std::max(contacts.object_depth_m, depth_m);
     return;
@@ -102,8 +112,7 @@ World::Impl::Surface World::Impl::SurfaceOf(int ta, int tb) const {
   surface.self = ta == tb && ta > 0;
   surface.margin_m = ((ta > 0 ? 1 : 0) + (tb > 0 ? 1 : 0)) * kContactMargin_m;
   if (std::min(ta, tb) == 0) surface.margin_m += kFloorLook_m;
-  surface.soft = surface.self ? SpringDamper(kSelfStiffness_n_m, kSelfDamping_ns_m, step_s)
-                              : SpringDamper(kStiffness_n_m, kDamping_ns_m, step_s);
+  surface.soft = SpringDamper(kStiffness_n_m, kDamping_ns_m, step_s);
   surface.friction = surface.self ? 0.0 : options.floor_friction;
   for (const int tag : {ta, tb}) {
     if (tag >= 0) continue;
@@ -123,27 +132,47 @@ void World::Impl::CollidePair(dGeomID a, dGeomID b) {
   const Surface surface = SurfaceOf(TagOf(a), TagOf(b));
   for (int i = 0; i < count; ++i) {
     dContact& c = contact[static_cast<size_t>(i)];
-    // Limbs' geoms are larger than the limbs by the margin. Within it a contact lets them approach
-    // as far as the gap allows in this substep and no further, so that a fast ball does not end up
-    // inside the limb before anything resists.
     const double depth = c.geom.depth - surface.margin_m;
-    const double closing = Approach(a, b, c) * step_s;
-    if (depth < 0.0 && (surface.self || depth + closing + kSlop_m < 0.0)) continue;
-    if (depth + closing > -kTouching_m) Note(a, b, std::max(depth, 0.0));
-    c.geom.depth = std::max(depth, 0.0);
-    c.surface.mode = dContactApprox1 | dContactSoftERP | dContactSoftCFM | dContactMotionN;
-    c.surface.motionN = std::min(depth, 0.0) / step_s;
-    c.surface.mu = surface.friction;
-    c.surface.soft_erp = surface.soft.erp;
-    c.surface.soft_cfm = surface.soft.cfm;
-    if (surface.bounce > 0.0) {
-      c.surface.mode |= dContactBounce;
-      c.surface.bounce = surface.bounce;
-      c.surface.bounce_vel = 0.2;
+    if (!surface.self) {
+      Touch(a, b, c, surface, depth);
+      continue;
     }
-    dJointAttach(dJointCreateContact(ode.world, ode.contacts, &c), dGeomGetBody(a),
-                 dGeomGetBody(b));
+    if (depth > 0.0) Press(a, b, c, depth);
+    Touch(a, b, c, surface, depth - kSkin_m);
   }
+}
+
+/// Limbs' geoms are larger than the limbs by the margin. Within it a contact lets them approach as
+/// far as the gap allows in this substep and no further, so that a fast ball does not end up inside
+/// the limb before anything resists.
+void World::Impl::Touch(dGeomID a, dGeomID b, dContact c, const Surface& surface, double depth_m) {
+  const double closing = Approach(a, b, c) * step_s;
+  if (depth_m < 0.0 && depth_m + closing + kSlop_m < 0.0) return;
+  if (depth_m + closing > -kTouching_m && !surface.self) Note(a, b, std::max(depth_m, 0.0));
+  c.geom.depth = std::max(depth_m, 0.0);
+  c.surface.mode = dContactApprox1 | dContactSoftERP | dContactSoftCFM | dContactMotionN;
+  c.surface.motionN = std::min(depth_m, 0.0) / step_s;
+  c.surface.mu = surface.friction;
+  c.surface.soft_erp = surface.soft.erp;
+  c.surface.soft_cfm = surface.soft.cfm;
+  if (surface.bounce > 0.0) {
+    c.surface.mode |= dContactBounce;
+    c.surface.bounce = surface.bounce;
+    c.surface.bounce_vel = 0.2;
+  }
+  dJointAttach(dJointCreateContact(ode.world, ode.contacts, &c), dGeomGetBody(a), dGeomGetBody(b));
+}
+
+/// The skin of a character's own limbs.
+void World::Impl::Press(dGeomID a, dGeomID b, dContact c, double depth_m) {
+  const SoftConstraint soft = SpringDamper(kSelfStiffness_n_m, kSelfDamping_ns_m, step_s);
+  Note(a, b, depth_m);
+  c.geom.depth = depth_m;
+  c.surface.mode = dContactApprox1 | dContactSoftERP | dContactSoftCFM;
+  c.surface.mu = 0.0;
+  c.surface.soft_erp = soft.erp;
+  c.surface.soft_cfm = soft.cfm;
+  dJointAttach(dJointCreateContact(ode.world, ode.contacts, &c), dGeomGetBody(a), dGeomGetBody(b));
 }
 
 void World::Impl::OnNearPair(void* self, dGeomID a, dGeomID b) {

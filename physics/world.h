@@ -38,6 +38,8 @@ struct CharacterOptions {
   /// target's derivative in eq. 1, but noise comes through.
   double lead = 0.0;
   bool pin_feet = true;
+  /// Forearms, hands and legs go neither through each other nor through trunk and head. 3 cm of a
+  /// limb are soft, as bodies are: a sensor's folded arms lie a little in the chest.
   bool self_collision = true;
   bool hinges = false;        // elbows and knees are hinges instead of ball joints (sec. 4)
   bool joint_limits = false;  // joints keep to the ranges that people's have
@@ -95,6 +97,8 @@ struct ContactSummary {
   double character_object_depth_m = 0.0;
   double object_depth_m = 0.0;        // objects among themselves and with the floor
   double floor_depth_m = 0.0;         // characters in the floor
+  double character_depth_m = 0.0;     // of two characters
+  double self_depth_m = 0.0;          // a character's limbs in its trunk and each other
   int character_object_contacts = 0;  // summed over the substeps
   std::vector<Strike> struck;
 };

@@ -45,6 +45,8 @@ struct World::Impl {
   // contact.cpp
   void Collide(double h_s);
   void CollidePair(dGeomID a, dGeomID b);
+  void Touch(dGeomID a, dGeomID b, dContact contact, const Surface& surface, double depth_m);
+  void Press(dGeomID a, dGeomID b, dContact contact, double depth_m);
   void CollideFloor();
   int CapsuleEndsOnBox(dGeomID a, dGeomID b, dContact* contact);
   Surface SurfaceOf(int tag_a, int tag_b) const;

@@ -97,10 +97,11 @@ TEST(Contacts, TwoPeopleCannotStandInOnePlace) {
     world.SetTarget(b, Moved(right, {in, 0.0, 0.0}));
     world.Step(kFrame_s);
   }
-  // Targets 10 cm apart; two trunks touch at 2 x 10.8 cm (Winter's chest depth).
-  const Vector3d apart = world.StateOf(a).posture[Joint::kShoulderCenter] -
-                         world.StateOf(b).posture[Joint::kShoulderCenter];
-  EXPECT_GT(std::hypot(apart.x(), apart.z()), 0.2);
+  // Targets 10 cm apart; two trunks touch at 2 x 10.8 cm (Winter's chest depth). They lean.
+  const Vector3d apart =
+      world.StateOf(a).posture[Joint::kSpine] - world.StateOf(b).posture[Joint::kSpine];
+  EXPECT_GT(std::hypot(apart.x(), apart.z()), 0.18);
+  EXPECT_LT(world.Contacts().character_depth_m, 0.03);
   EXPECT_TRUE(world.IsFinite(a) && world.IsFinite(b));
 }
 
@@ -121,6 +122,42 @@ TEST(SelfCollision, KeepsAForearmOutOfTheChest) {
   };
   EXPECT_LT(hand_depth(false), 0.05);  // without it the wrist goes where it is told
   EXPECT_GT(hand_depth(true), 0.08);
+}
+
+/// The deepest overlap of own limbs while the target goes from standing to `goal` within a second.
+double DeepestOnTheWayTo(const Posture& goal) {
+  Scene scene;
+  double deepest_m = 0.0;
+  for (int f = 0; f <= 60; ++f) {
+    const double share = std::min(1.0, f / 30.0);
+    Posture target;
+    for (size_t j = 0; j < recon::kJointCount; ++j) {
+      target.position_m[j] =
+          (1.0 - share) * StandingPerson().position_m[j] + share * goal.position_m[j];
+    }
+    scene.world.SetTarget(scene.person, target);
+    scene.Run(1);
+    deepest_m = std::max(deepest_m, scene.world.Contacts().self_depth_m);
+  }
+  return deepest_m;
+}
+
+TEST(SelfCollision, KeepsLegsFromPassingThroughEachOther) {
+  Posture crossed = StandingPerson();
+  for (const size_t j : {13U, 14U, 15U, 17U, 18U, 19U}) crossed.position_m[j].x() *= -1.0;
+  EXPECT_LT(DeepestOnTheWayTo(crossed), 0.035);  // 3 cm of skin
+}
+
+TEST(SelfCollision, KeepsHandsFromPassingThroughEachOther) {
+  Posture crossed = StandingPerson();
+  for (const double side : {1.0, -1.0}) {
+    const auto at = [&](size_t joint) -> Vector3d& {
+      return crossed.position_m[side > 0 ? joint : recon::kMirroredJoint[joint]];
+    };
+    at(6) = {-0.05 * side, 1.2, 0.35};
+    at(7) = {-0.12 * side, 1.2, 0.38};
+  }
+  EXPECT_LT(DeepestOnTheWayTo(crossed), 0.035);
 }
 
 TEST(Hold, KeepsAnObjectAtTheHandAndItsWeightOnTheArm) {

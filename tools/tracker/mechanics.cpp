@@ -87,6 +87,7 @@ void Mechanics::Make(const recon::BoneLengths& bones_m) {
   if (build_.motors) options.control = physics::Control::kMotor;
   options.hinges = build_.hinges;
   options.joint_limits = build_.joint_limits;
+  options.gains.rate_rad_s = rate_rad_s_;
   character_ = std::make_unique<physics::CharacterFilter>(bones_m, options);
   bones_m_ = bones_m;
 }

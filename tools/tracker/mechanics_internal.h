@@ -14,7 +14,10 @@ namespace ossa::tracker {
 /// the postures that follow. Made anew when they come to have other bones, and keep those.
 class Mechanics {
  public:
-  explicit Mechanics(const MechanicsBuild& build) : build_(build) {}
+  /// `rate_rad_s`: physics::ControlGains::rate_rad_s, how fast postures are followed.
+  explicit Mechanics(const MechanicsBuild& build,
+                     double rate_rad_s = physics::ControlGains{}.rate_rad_s)
+      : build_(build), rate_rad_s_(rate_rad_s) {}
   /// What the character makes of `target`; nothing where it cannot say: time that stands still or
   /// runs backwards, a character that came to grief. Joints that are not finite lead it nowhere.
   std::optional<physics::FilteredPosture> Follow(const recon::Posture& target,
@@ -31,6 +34,7 @@ class Mechanics {
   bool MeasuredAnew(const recon::BoneLengths& bones_m);
 
   MechanicsBuild build_;
+  double rate_rad_s_;
   std::unique_ptr<physics::CharacterFilter> character_;
   recon::BoneLengths bones_m_{};   // the character's
   recon::BoneLengths latest_m_{};  // of the last posture

@@ -42,9 +42,11 @@ void ApplyMode(SkeletonWork& work);
 void AverageStationary(SkeletonWork& work);
 /// The method of reconstruction: body.reconstructed.
 void Reconstruct(SkeletonWork& work);
+/// Holds joints to the image, moves them out of free space, smooths, keeps bones: `posture`.
+void Settle(SkeletonWork& work);
 /// The physical character, where it is on: `posture`.
 void Simulate(SkeletonWork& work);
-/// Holds joints to the image, moves them out of free space, smooths, keeps bones: body.joints.
+/// What leaves: body.joints.
 void Finish(SkeletonWork& work);
 
 }  // namespace ossa::tracker

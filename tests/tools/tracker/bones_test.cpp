@@ -91,5 +91,38 @@ TEST(FinalBones, AreAsSeenWhereNothingIsReconstructed) {
   EXPECT_GT(WorstDrift(Unsmoothed("none")), 0.1);
 }
 
+// What leaves the character does not go back into the floor or the chest, however surely joints are
+// seen there.
+TEST(Physics, FloorAndChestHoldInWhatLeaves) {
+  tests::CapsuleRender render = Rendered({PersonAt(0.0, 2.5)});
+  SkeletonOptions options = Unsmoothed("none");
+  options.physics = true;
+  const std::optional<Eigen::Vector4d> floor = Eigen::Vector4d(0.0, 1.0, 0.0, 1.0);
+  Person person;
+  Body body;
+  for (int f = 0; f < 60; ++f) {
+    body = {};
+    body.raw.posture = render.joints.front();
+    body.raw.state.fill(TrackingState::kTracked);
+    body.raw.confidence.fill(1.0);
+    for (const auto joint : {recon::Joint::kAnkleLeft, recon::Joint::kFootLeft}) {
+      body.raw.posture[joint].y() -= 0.12;
+    }
+    const Eigen::Vector3d chest = 0.5 * (body.raw.posture[recon::Joint::kSpine] +
+                                         body.raw.posture[recon::Joint::kShoulderCenter]);
+    body.raw.posture[recon::Joint::kWristRight] = chest;
+    render.frame.time_s = f / 30.0;
+    StageTimes ms;
+    SkeletonWork work{options, render.frame, floor, nullptr, person, body};
+    CompleteSkeleton(work, ms);
+    person.before_s = render.frame.time_s;
+  }
+  const recon::Posture out = ToPosture(body);
+  for (const Eigen::Vector3d& p : out.position_m) EXPECT_GT(p.y(), -1.0 + 0.02);  // a sole's height
+  const Eigen::Vector3d trunk = (out[recon::Joint::kShoulderCenter] - out[recon::Joint::kSpine]);
+  const Eigen::Vector3d wrist = out[recon::Joint::kWristRight] - out[recon::Joint::kSpine];
+  EXPECT_GT(wrist.cross(trunk.normalized()).norm(), 0.1);  // chest and forearm less 3 cm of skin
+}
+
 }  // namespace
 }  // namespace ossa::tracker
