@@ -59,9 +59,14 @@ Actor::Actor(OdeWorld& ode, const recon::BoneLengths& bone_lengths,
              const CharacterOptions& character_options, int tag)
     : lengths(Checked(bone_lengths)),
       options(character_options),
+      made(ode.made++),
       character(ode, ComputeSegments(lengths, options.stature_m, options.mass_kg),
                 {options.control, options.hinges, tag}) {
   if (options.joint_limits) limits = std::make_unique<JointLimits>(ode, character);
+  Forget();
+}
+
+void Actor::Forget() {
   weight.fill(1.0);
   aim_velocity_m_s.fill(Vector3d::Zero());
   control.turning_rad_s.fill(Vector3d::Zero());
@@ -92,6 +97,7 @@ void Actor::Place(const Posture& posture, const std::optional<Vector4d>& floor) 
   character.Place(aim, OrientAim());
   for (FootPin& pin : foot_pin) pin.Clear();
   pushes.clear();
+  pulls.clear();
 }
 
 void Actor::SetTarget(const Posture& target, std::span<const double> joint_weight,
@@ -124,7 +130,7 @@ recon::JointOrientations Actor::OrientAim() const {
 Posture Actor::Goal(recon::JointArray<double>& trust) const {
   Posture goal = wanted;
   for (const auto& [joint, place] : soft_constraint) {
-    goal.position_m[joint] = place;
+    goal.position_m[joint] = place.Now();
     trust[joint] = kConstrainedWeight;
   }
   for (const auto& [joint, pin] : hard_constraint) {
@@ -217,6 +223,7 @@ void Actor::Drive(const Vector3d& gravity_m_s2, double left_s, double h_s) {
   if (limits != nullptr) limits->Update(h_s);
   for (const auto& [joint, impulse] : pushes) character.AddForceAtJoint(joint, impulse / h_s);
   pushes.clear();
+  for (const auto& [joint, force] : pulls) character.AddForceAtJoint(joint, force);
   for (FootPin& foot : foot_pin) {
     if (foot.pin() != nullptr) foot.pin()->Update(h_s);
   }

@@ -9,11 +9,12 @@
 
 namespace ossa::physics {
 
-/// A pin between the end of a bone and a point of the world: a ball joint with the compliance of a
-/// stiff spring, so that what contradicts it bends it instead of tearing the character apart.
+/// A pin between the end of a bone and a point of the world or of an object: a ball joint with the
+/// compliance of a stiff spring, so that what contradicts it bends it instead of tearing the
+/// character apart.
 class Pin {
  public:
-  Pin(OdeWorld& ode, Character& character, size_t joint, const Eigen::Vector3d& place_m,
+  Pin(OdeWorld& ode, Character& character, size_t joint, const Anchor& anchor,
       double stiffness_n_m);
   ~Pin();
   Pin(const Pin&) = delete;
@@ -21,15 +22,27 @@ class Pin {
 
   /// Before each substep: the anchor is at most `kReach_m` from the joint, which bounds the force.
   void Update(double h_s);
-  const Eigen::Vector3d& place_m() const { return place_m_; }
-  void MoveTo(const Eigen::Vector3d& place_m) { place_m_ = place_m; }
+  Eigen::Vector3d place_m() const { return anchor_.Now(); }
+  const Anchor& anchor() const { return anchor_; }
+  uint64_t made() const { return made_; }
 
  private:
   Character& character_;
   size_t joint_;
-  Eigen::Vector3d place_m_;
+  Anchor anchor_;
   double stiffness_n_m_;
   dJointID ball_;
+  uint64_t made_;  // OdeWorld::made
+};
+
+/// What a foot's pin remembers from frame to frame.
+struct FootPinMemory {
+  std::optional<Eigen::Vector3d> smooth_m;  // the target, smoothed
+  std::vector<Eigen::Vector3d> last_m;      // the last two targets
+  double noise_m = 0.0;                     // standard deviation of the target, per axis
+  double still_s = 0.0;                     // for how long the target has not moved
+  double away_s = 0.0;                      // for how long it has been away from the pin
+  double beside_s = 0.0;                    // for how long it has rested a little beside the pin
 };
 
 /// Decides when a foot carries the body, from where its target goes (Shum & Ho 2012, sec. 6.1).
@@ -39,39 +52,22 @@ class FootPin {
   void Update(OdeWorld& ode, Character& character, const std::optional<Eigen::Vector4d>& floor,
               const Eigen::Vector3d& target_m, double dt_s);
   void Clear();
+  /// As it was, on a pin where it had one.
+  void Restore(OdeWorld& ode, Character& character, const std::optional<Eigen::Vector3d>& place_m);
   Pin* pin() { return pin_.get(); }
   const Pin* pin() const { return pin_.get(); }
   size_t joint() const { return joint_; }
+  FootPinMemory memory;
 
  private:
   void HearNoise(const Eigen::Vector3d& target_m, double dt_s);
 
   size_t joint_;
   std::unique_ptr<Pin> pin_;
-  std::optional<Eigen::Vector3d> smooth_m_;  // the target, smoothed
-  std::vector<Eigen::Vector3d> last_m_;      // the last two targets
-  double noise_m_ = 0.0;                     // standard deviation of the target, per axis
-  double still_s_ = 0.0;                     // for how long the target has not moved
-  double away_s_ = 0.0;                      // for how long it has been away from the pin
-  double beside_s_ = 0.0;                    // for how long it has rested a little beside the pin
 };
 
-/// A character with what it wants and what holds it.
-struct Actor {
-  Actor(OdeWorld& ode, const recon::BoneLengths& lengths, const CharacterOptions& options, int tag);
-
-  void Place(const recon::Posture& posture, const std::optional<Eigen::Vector4d>& floor);
-  void SetTarget(const recon::Posture& target, std::span<const double> weight,
-                 const std::optional<recon::JointOrientations>& orientation);
-  /// Once per frame: floor, feet, constraints; fills `from`, `aim` and the stiffness.
-  void Prepare(OdeWorld& ode, const std::optional<Eigen::Vector4d>& floor, double dt_s);
-  /// Once per substep, `left_s` before the end of the frame.
-  void Drive(const Eigen::Vector3d& gravity_m_s2, double left_s, double h_s);
-
-  recon::BoneLengths lengths;
-  CharacterOptions options;
-  Character character;
-  std::unique_ptr<JointLimits> limits;  // with CharacterOptions::joint_limits
+/// What a character wants, from frame to frame.
+struct ActorMemory {
   bool controlled = true;
   recon::Posture wanted;                                       // as SetTarget was told, made finite
   std::optional<recon::JointOrientations> wanted_orientation;  // none: as the joints tell
@@ -82,13 +78,35 @@ struct Actor {
   recon::JointArray<Eigen::Vector3d> aim_velocity_m_s;
   recon::JointOrientations aim_orientation;
   ControlTarget control;
-  std::array<FootPin, 2> foot_pin = {FootPin(15), FootPin(19)};
-  std::map<size_t, Eigen::Vector3d> soft_constraint;
-  std::map<size_t, std::unique_ptr<Pin>> hard_constraint;
-  std::vector<std::pair<size_t, Eigen::Vector3d>> pushes;  // impulses for the next step
+  std::vector<std::pair<size_t, Eigen::Vector3d>> pushes;  // impulses for the next substep
+  std::vector<std::pair<size_t, Eigen::Vector3d>> pulls;   // forces for the next step
   double max_gap_m = 0.0;     // between anchors, before Reconnect, since the frame began
   int rescued = 0;            // how often it was not finite
   double dodge_left_s = 0.0;  // raised arms stay up for a moment after the threat has passed
+};
+
+/// A character with what it wants and what holds it.
+struct Actor : ActorMemory {
+  Actor(OdeWorld& ode, const recon::BoneLengths& lengths, const CharacterOptions& options, int tag);
+
+  void Forget();  // all motion and trust, as at first
+  void Place(const recon::Posture& posture, const std::optional<Eigen::Vector4d>& floor);
+  void SetTarget(const recon::Posture& target, std::span<const double> weight,
+                 const std::optional<recon::JointOrientations>& orientation);
+  /// Once per frame: floor, feet, constraints; fills `from`, `aim` and the stiffness.
+  void Prepare(OdeWorld& ode, const std::optional<Eigen::Vector4d>& floor, double dt_s);
+  /// Once per substep, `left_s` before the end of the frame.
+  void Drive(const Eigen::Vector3d& gravity_m_s2, double left_s, double h_s);
+
+  recon::BoneLengths lengths;
+  CharacterOptions options;
+  uint64_t made;  // OdeWorld::made
+  Character character;
+  std::unique_ptr<JointLimits> limits;  // with CharacterOptions::joint_limits
+  recon::Posture first;                 // as it was added
+  std::array<FootPin, 2> foot_pin = {FootPin(15), FootPin(19)};
+  std::map<size_t, Anchor> soft_constraint;
+  std::map<size_t, std::unique_ptr<Pin>> hard_constraint;
 
  private:
   double SoleHeight() const;

@@ -2,7 +2,6 @@
 #include <cmath>
 
 #include "physics/character_internal.h"
-#include "physics/world.h"
 #include "recon/smallest_turn.h"
 
 namespace ossa::physics {
@@ -69,6 +68,7 @@ void Character::MakeBody(OdeWorld& ode, size_t bone, int tag) {
   // The explicit gyroscopic term gains energy in thin bodies; a limb's is far below control forces.
   dBodySetGyroscopicMode(body, 0);
   dBodySetAutoDisableFlag(body, 0);
+  dBodySetData(body, reinterpret_cast<void*>(static_cast<intptr_t>(bone)));
   dBodySetMaxAngularSpeed(body, 100.0);
   total_mass_kg_ += segment.mass_kg;
 
@@ -112,6 +112,8 @@ double Character::OffsetOfJoint(size_t joint) const {
 }
 
 void Character::Place(const recon::Posture& posture, const recon::JointOrientations& orientation) {
+  placed_ = posture;
+  placed_orientation_ = orientation;
   for (size_t bone = 1; bone < kJointCount; ++bone) {
     const auto parent = recon::ParentOf(bone);
     const Vector3d middle = 0.5 * (posture.position_m[bone] + posture.position_m[parent]);

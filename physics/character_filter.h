@@ -14,8 +14,8 @@ namespace ossa::physics {
 
 struct CharacterFilterOptions {
   int substeps = 10;                  // per 1/30 s, [5, 100]
-  Control control = Control::kPaper;  // world.h
-  ControlGains gains;                 // control.h
+  Control control = Control::kPaper;  // character.h
+  ControlGains gains;                 // character.h
   double lead = 1.0;                  // CharacterOptions::lead; share
   bool floor = true;                  // use the floor when one is given
   bool pin_feet = true;

@@ -4,13 +4,11 @@
 #include <vector>
 
 #include "physics/anthropometry.h"
-#include "physics/control.h"
+#include "physics/control_internal.h"
 #include "physics/ode_internal.h"
 #include "recon/posture.h"
 
 namespace ossa::physics {
-
-enum class Control;
 
 /// How a character is built.
 struct CharacterBuild {
@@ -76,6 +74,9 @@ class Character {
   }
   dGeomID geom(size_t bone) const { return geom_[bone]; }
   const Segments& segments() const { return segments_; }
+  /// The last Place: where the joints' anchors in the bodies were taken from.
+  const recon::Posture& placed() const { return placed_; }
+  const recon::JointOrientations& placed_orientation() const { return placed_orientation_; }
   /// Body whose end (or, for the hip centre, start) is the joint, and the joint's place in it.
   size_t BodyOfJoint(size_t joint) const { return joint == 0 ? 1 : joint; }
   double OffsetOfJoint(size_t joint) const;
@@ -90,6 +91,8 @@ class Character {
   void CarryWeight(const ControlTarget& target, const Eigen::Vector3d& gravity_m_s2);
 
   Segments segments_;
+  recon::Posture placed_;
+  recon::JointOrientations placed_orientation_;
   recon::JointArray<double> lumped_kg_;
   double total_mass_kg_ = 0.0;
   recon::JointArray<dBodyID> body_{};

@@ -60,32 +60,6 @@ const std::vector<std::array<size_t, 2>>& SelfCollisionPairs() {
   return pairs;
 }
 
-void World::Impl::Note(dGeomID a, dGeomID b, double depth_m) {
-  const int ta = TagOf(a), tb = TagOf(b);
-  if (ta > 0 && tb > 0) {
-    double& deepest = ta == tb ? contacts.self_depth_m : contacts.character_depth_m;
-    deepest = std::max(deepest, depth_m);
-    return;
-  }
-  if (ta <= 0 && tb <= 0) {
-    contacts.object_depth_m = std::max(contacts.object_depth_m, depth_m);
-    return;
-  }
-  const int character = std::max(ta, tb);
-  if (std::min(ta, tb) == 0) {
-    contacts.floor_depth_m = std::max(contacts.floor_depth_m, depth_m);
-    return;
-  }
-  contacts.character_object_depth_m = std::max(contacts.character_object_depth_m, depth_m);
-  ++contacts.character_object_contacts;
-  const dGeomID limb = ta > 0 ? a : b;
-  const Actor& actor = *actors[static_cast<size_t>(character - 1)];
-  for (size_t bone = 1; bone < recon::kJointCount; ++bone) {
-    if (actor.character.geom(bone) == limb)
-      contacts.struck.push_back({character - 1, bone, -std::min(ta, tb) - 1});
-  }
-}
-
 /// ODE finds one point between a capsule and a box, about which the box turns freely. A hand that
 /// grips and a forearm that carries lie along the box: the ends of the capsule count too.
 int World::Impl::CapsuleEndsOnBox(dGeomID a, dGeomID b, dContact* contact) {
@@ -116,7 +90,7 @@ World::Impl::Surface World::Impl::SurfaceOf(int ta, int tb) const {
   surface.friction = surface.self ? 0.0 : options.floor_friction;
   for (const int tag : {ta, tb}) {
     if (tag >= 0) continue;
-    const ObjectOptions& info = things[static_cast<size_t>(-tag - 1)].info;
+    const ObjectOptions& info = things.at(-tag - 1).info;
     surface.friction = info.friction;
     surface.bounce = std::max(surface.bounce, info.bounce);
   }
@@ -160,7 +134,7 @@ void World::Impl::Touch(dGeomID a, dGeomID b, dContact c, const Surface& surface
     c.surface.bounce = surface.bounce;
     c.surface.bounce_vel = 0.2;
   }
-  dJointAttach(dJointCreateContact(ode.world, ode.contacts, &c), dGeomGetBody(a), dGeomGetBody(b));
+  Join(a, b, c, depth_m);
 }
 
 /// The skin of a character's own limbs.
@@ -172,24 +146,72 @@ void World::Impl::Press(dGeomID a, dGeomID b, dContact c, double depth_m) {
   c.surface.mu = 0.0;
   c.surface.soft_erp = soft.erp;
   c.surface.soft_cfm = soft.cfm;
-  dJointAttach(dJointCreateContact(ode.world, ode.contacts, &c), dGeomGetBody(a), dGeomGetBody(b));
+  Join(a, b, c, depth_m);
 }
 
-void World::Impl::OnNearPair(void* self, dGeomID a, dGeomID b) {
-  const int ta = TagOf(a), tb = TagOf(b);
-  if (ta == tb) return;  // a character's own pairs are listed, not found
-  const dBodyID body_a = dGeomGetBody(a), body_b = dGeomGetBody(b);
-  if (dAreConnectedExcluding(body_a, body_b, dJointTypeContact) != 0) return;
-  World::Impl& world = *static_cast<World::Impl*>(self);
-  for (const auto& [thing, limb] : {std::pair(ta, body_b), std::pair(tb, body_a)}) {
-    if (thing < 0 && world.things[static_cast<size_t>(-thing - 1)].beside == limb) return;
+void World::Impl::Join(dGeomID a, dGeomID b, const dContact& contact, double depth_m) {
+  const dJointID joint = dJointCreateContact(ode.world, ode.contacts, &contact);
+  dJointAttach(joint, dGeomGetBody(a), dGeomGetBody(b));
+  pressing.push_back({PartyOf(a),
+                      PartyOf(b),
+                      ToEigen(contact.geom.pos),
+                      ToEigen(contact.geom.normal),
+                      depth_m,
+                      {}});
+  dJointSetFeedback(joint, &pressing.back().feedback);
+}
+
+bool World::Impl::MayMeet(dGeomID a, dGeomID b) const {
+  const Party side[] = {PartyOf(a), PartyOf(b)};
+  // A character's own pairs are listed, not found; an object's own parts are one.
+  if (side[0].kind == side[1].kind && side[0].id == side[1].id) return false;
+  uint32_t groups[2], meets[2];
+  bool moved = false;
+  for (size_t k = 0; k < 2; ++k) {
+    const bool is_object = side[k].kind == Party::Kind::kObject;
+    const Thing* const thing = is_object ? &things.at(side[k].id) : nullptr;
+    moved |= !is_object || thing->IsMoved();
+    groups[k] = is_object ? thing->info.groups : actors.at(side[k].id)->options.groups;
+    meets[k] = is_object ? thing->info.collides_with : actors.at(side[k].id)->options.collides_with;
+    // Neither the bone that holds a thing nor the one before it hits it.
+    if (is_object && thing->grip && thing->grip->beside == dGeomGetBody(k == 0 ? b : a))
+      return false;
   }
-  world.CollidePair(a, b);
+  if (!moved || (groups[0] & meets[1]) == 0 || (groups[1] & meets[0]) == 0) return false;
+  if (dAreConnectedExcluding(dGeomGetBody(a), dGeomGetBody(b), dJointTypeContact) != 0)
+    return false;
+  return !callbacks.may_meet || callbacks.may_meet(side[0], side[1]);
+}
+
+/// Pairs that the space finds, in an order of their own: the space's depends on what moved when.
+void World::Impl::CollideNear() {
+  near.clear();
+  dSpaceCollide(ode.space, this, [](void* self, dGeomID a, dGeomID b) {
+    static_cast<World::Impl*>(self)->near.emplace_back(a, b);
+  });
+  const auto key = [this](dGeomID geom) {
+    const Party party = PartyOf(geom);
+    size_t part = party.bone;
+    if (party.kind == Party::Kind::kObject) {
+      const auto& geoms = things.at(party.id).geoms;
+      part = static_cast<size_t>(std::find(geoms.begin(), geoms.end(), geom) - geoms.begin());
+    }
+    return std::pair(TagOf(geom), part);
+  };
+  for (auto& [a, b] : near) {
+    if (key(b) < key(a)) std::swap(a, b);
+  }
+  std::sort(near.begin(), near.end(), [&key](const auto& x, const auto& y) {
+    return std::pair(key(x.first), key(x.second)) < std::pair(key(y.first), key(y.second));
+  });
+  for (const auto& [a, b] : near) {
+    if (MayMeet(a, b)) CollidePair(a, b);
+  }
 }
 
 void World::Impl::CollideFloor() {
   if (!floor) return;
-  for (const auto& actor : actors) {
+  for (const auto& [id, actor] : actors) {
     for (size_t bone = 1; bone < recon::kJointCount; ++bone) {
       const Segment& segment = actor->character.segments()[bone];
       const double height =
@@ -200,19 +222,23 @@ void World::Impl::CollideFloor() {
       }
     }
   }
-  for (const Thing& thing : things) CollidePair(thing.geom, floor_geom);
+  for (const auto& [id, thing] : things) {
+    if (!thing.IsMoved()) continue;
+    for (const dGeomID geom : thing.geoms) CollidePair(geom, floor_geom);
+  }
 }
 
 void World::Impl::Collide(double h_s) {
   step_s = h_s;
+  pressing.clear();
   CollideFloor();
-  for (const auto& actor : actors) {
+  for (const auto& [id, actor] : actors) {
     if (!actor->options.self_collision) continue;
     for (const auto& [a, b] : SelfCollisionPairs()) {
       CollidePair(actor->character.geom(a), actor->character.geom(b));
     }
   }
-  if (actors.size() > 1 || !things.empty()) dSpaceCollide(ode.space, this, &OnNearPair);
+  if (actors.size() > 1 || !things.empty()) CollideNear();
 }
 
 }  // namespace ossa::physics

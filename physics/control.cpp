@@ -1,11 +1,11 @@
-#include "physics/control.h"
+#include "physics/control_internal.h"
 
 #include <algorithm>
 
 namespace ossa::physics {
 
 double LargestStableRate(double h_s) {
-  // No unit; half of the bound of the discrete system, see control.h
+  // No unit; half of the bound of the discrete system, see character.h
   constexpr double kLargestRateTimesStep = 0.25;
   return kLargestRateTimesStep / h_s;
 }

@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <mutex>
 
 #include "physics/ode_internal.h"
@@ -26,6 +27,28 @@ void SeededQuickStep(dWorldID world, double h_s, uint64_t seed) {
   const std::scoped_lock lock(OdeMutex());
   dRandSetSeed(static_cast<unsigned long>(seed & 0xffffffffU));
   dWorldQuickStep(world, h_s);
+}
+
+BodyMemory Remember(dBodyID body) {
+  BodyMemory memory;
+  std::copy_n(dBodyGetPosition(body), 3, memory.position.begin());
+  std::copy_n(dBodyGetLinearVel(body), 3, memory.velocity.begin());
+  std::copy_n(dBodyGetAngularVel(body), 3, memory.turning.begin());
+  std::copy_n(dBodyGetQuaternion(body), 4, memory.quaternion.begin());
+  std::copy_n(dBodyGetRotation(body), 12, memory.rotation.begin());
+  return memory;
+}
+
+void Recall(dBodyID body, const BodyMemory& memory) {
+  const auto& [p, v, w, q, r] = memory;
+  // ODE's own setter normalises, which is not the same bits. The pointers are into the body.
+  std::copy(q.begin(), q.end(), const_cast<dReal*>(dBodyGetQuaternion(body)));
+  std::copy(r.begin(), r.end(), const_cast<dReal*>(dBodyGetRotation(body)));
+  dBodySetPosition(body, p[0], p[1], p[2]);
+  dBodySetLinearVel(body, v[0], v[1], v[2]);
+  dBodySetAngularVel(body, w[0], w[1], w[2]);
+  dBodySetForce(body, 0, 0, 0);
+  dBodySetTorque(body, 0, 0, 0);
 }
 
 OdeWorld::OdeWorld() {

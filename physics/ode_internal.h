@@ -3,6 +3,7 @@
 
 #include <Eigen/Core>
 #include <Eigen/Geometry>
+#include <array>
 #include <cstdint>
 
 namespace ossa::physics {
@@ -44,6 +45,23 @@ inline void SetPoseAtRest(dBodyID body, const Eigen::Isometry3d& pose) {
   dBodySetTorque(body, 0, 0, 0);
 }
 
+/// A body's motion to the last bit.
+struct BodyMemory {
+  std::array<dReal, 3> position{}, velocity{}, turning{};
+  std::array<dReal, 4> quaternion{};
+  std::array<dReal, 12> rotation{};
+};
+BodyMemory Remember(dBodyID body);
+void Recall(dBodyID body, const BodyMemory& memory);
+
+/// A point of the world or of a body that moves.
+struct Anchor {
+  Eigen::Vector3d point_m;  // of the world, or in the body's frame
+  dBodyID body = nullptr;
+  int object = -1;  // whose body that is
+  Eigen::Vector3d Now() const { return body == nullptr ? point_m : PoseOf(body) * point_m; }
+};
+
 /// Makes ODE ready for the calling thread: once per process, once per thread. ODE stays open for
 /// the life of the process.
 void PrepareOde();
@@ -63,6 +81,9 @@ class OdeWorld {
   dWorldID world;
   dSpaceID space;          // everything that any body may hit
   dJointGroupID contacts;  // of the current step
+  /// How much was made until now: a snapshot is made anew in the same order, which the solver's
+  /// rows keep.
+  uint64_t made = 0;
 };
 
 /// Stiffness and damping as ODE's error reduction and constraint force mixing for a step of h

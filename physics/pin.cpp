@@ -47,11 +47,15 @@ struct Thresholds {
 
 }  // namespace
 
-Pin::Pin(OdeWorld& ode, Character& character, size_t joint, const Vector3d& place_m,
+Pin::Pin(OdeWorld& ode, Character& character, size_t joint, const Anchor& anchor,
          double stiffness_n_m)
-    : character_(character), joint_(joint), place_m_(place_m), stiffness_n_m_(stiffness_n_m) {
+    : character_(character),
+      joint_(joint),
+      anchor_(anchor),
+      stiffness_n_m_(stiffness_n_m),
+      made_(ode.made++) {
   ball_ = dJointCreateBall(ode.world, nullptr);
-  dJointAttach(ball_, character.body(character.BodyOfJoint(joint)), nullptr);
+  dJointAttach(ball_, character.body(character.BodyOfJoint(joint)), anchor.body);
 }
 
 Pin::~Pin() { dJointDestroy(ball_); }
@@ -59,9 +63,11 @@ Pin::~Pin() { dJointDestroy(ball_); }
 void Pin::Update(double h_s) {
   const Vector3d now = character_.JointPosition(joint_);
   dJointSetBallAnchor(ball_, now.x(), now.y(), now.z());
-  Vector3d pull = place_m_ - now;
+  Vector3d pull = anchor_.Now() - now;
   if (pull.norm() > kReach_m) pull *= kReach_m / pull.norm();
-  const Vector3d anchor = now + pull;
+  // ODE takes the second anchor in the other body's frame.
+  const Vector3d anchor = anchor_.body == nullptr ? Vector3d(now + pull)
+                                                  : PoseOf(anchor_.body).inverse() * (now + pull);
   dJointSetBallAnchor2(ball_, anchor.x(), anchor.y(), anchor.z());
   const auto soft =
       SpringDamper(stiffness_n_m_, 2.0 * std::sqrt(stiffness_n_m_ * kPinnedMass_kg), h_s);
@@ -71,22 +77,26 @@ void Pin::Update(double h_s) {
 
 void FootPin::Clear() {
   pin_.reset();
-  smooth_m_.reset();
-  last_m_.clear();
-  noise_m_ = still_s_ = away_s_ = beside_s_ = 0.0;
+  memory = {};
+}
+
+void FootPin::Restore(OdeWorld& ode, Character& character, const std::optional<Vector3d>& place_m) {
+  pin_ = place_m
+             ? std::make_unique<Pin>(ode, character, joint_, Anchor{*place_m}, kFootStiffness_n_m)
+             : nullptr;
 }
 
 /// Standard deviation of the target's noise along an axis, from its second differences: for white
 /// noise their mean square is 6 x 3 sigma^2; a standing foot's own motion is not in them.
 void FootPin::HearNoise(const Vector3d& target_m, double dt_s) {
   constexpr double kMemory_s = 0.5, kMost_m = 0.05;
-  if (last_m_.size() == 2) {
-    const double second_m = (target_m - 2.0 * last_m_[1] + last_m_[0]).norm();
+  if (memory.last_m.size() == 2) {
+    const double second_m = (target_m - 2.0 * memory.last_m[1] + memory.last_m[0]).norm();
     const double share = 1.0 - std::exp(-dt_s / kMemory_s);
-    noise_m_ += share * (std::min(second_m / std::sqrt(18.0), kMost_m) - noise_m_);
-    last_m_.erase(last_m_.begin());
+    memory.noise_m += share * (std::min(second_m / std::sqrt(18.0), kMost_m) - memory.noise_m);
+    memory.last_m.erase(memory.last_m.begin());
   }
-  last_m_.push_back(target_m);
+  memory.last_m.push_back(target_m);
 }
 
 void FootPin::Update(OdeWorld& ode, Character& character, const std::optional<Vector4d>& floor,
@@ -96,32 +106,32 @@ void FootPin::Update(OdeWorld& ode, Character& character, const std::optional<Ve
     return;
   }
   HearNoise(target_m, dt_s);
-  const Thresholds limit(noise_m_);
-  const Vector3d before = smooth_m_.value_or(target_m);
+  const Thresholds limit(memory.noise_m);
+  const Vector3d before = memory.smooth_m.value_or(target_m);
   const double share = 1.0 - std::exp(-dt_s / limit.smoothing_s);
-  smooth_m_ = before + share * (target_m - before);
-  const double speed = (*smooth_m_ - before).norm() / dt_s;
+  memory.smooth_m = before + share * (target_m - before);
+  const double speed = (*memory.smooth_m - before).norm() / dt_s;
   const double sole_m = character.segments()[joint_].radius_m;
-  const double height = HeightAbove(*floor, *smooth_m_) - sole_m;
+  const double height = HeightAbove(*floor, *memory.smooth_m) - sole_m;
   if (pin_ == nullptr) {
     const bool still = height < limit.stand_m && speed < limit.still_m_s;
-    still_s_ = still ? still_s_ + dt_s : 0.0;
-    if (still_s_ < kStillTime_s) return;
+    memory.still_s = still ? memory.still_s + dt_s : 0.0;
+    if (memory.still_s < kStillTime_s) return;
     Vector3d place = character.JointPosition(joint_);
     const double below = sole_m - HeightAbove(*floor, place);
     if (below > 0.0) place += below * floor->head<3>();
-    pin_ = std::make_unique<Pin>(ode, character, joint_, place, kFootStiffness_n_m);
-    away_s_ = beside_s_ = 0.0;
+    pin_ = std::make_unique<Pin>(ode, character, joint_, Anchor{place}, kFootStiffness_n_m);
+    memory.away_s = memory.beside_s = 0.0;
     return;
   }
   const double distance = (target_m - pin_->place_m()).norm();
-  away_s_ = distance > limit.away_m ? away_s_ + dt_s : 0.0;
-  const bool beside = (*smooth_m_ - pin_->place_m()).norm() > limit.beside_m;
-  beside_s_ = beside ? beside_s_ + dt_s : 0.0;
-  if (height > limit.lift_m || away_s_ > kAwayTime_s || distance > 2.0 * limit.away_m ||
-      beside_s_ > kBesideTime_s) {
+  memory.away_s = distance > limit.away_m ? memory.away_s + dt_s : 0.0;
+  const bool beside = (*memory.smooth_m - pin_->place_m()).norm() > limit.beside_m;
+  memory.beside_s = beside ? memory.beside_s + dt_s : 0.0;
+  if (height > limit.lift_m || memory.away_s > kAwayTime_s || distance > 2.0 * limit.away_m ||
+      memory.beside_s > kBesideTime_s) {
     pin_.reset();
-    still_s_ = 0.0;
+    memory.still_s = 0.0;
   }
 }
 

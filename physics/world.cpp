@@ -6,7 +6,6 @@
 #include <string>
 
 #include "physics/world_internal.h"
-#include "recon/orientation.h"
 
 namespace ossa::physics {
 namespace {
@@ -24,9 +23,7 @@ void Require(bool good, const std::string& name, double value, const std::string
 
 constexpr double kFrame_s = 1.0 / 30.0;
 constexpr double kDodgeHold_s = 0.3;
-/// Of the constraint solver. Servo motors have twice the rows; fewer iterations keep them below the
-/// 0.6 ms a frame and their pinned feet still within 5 mm (3.5 mm at 30, 4.7 at 26, 5.2 at 24).
-constexpr int kIterations = 30, kMotorIterations = 26;
+constexpr int kIterations = 30;       // of the constraint solver; fewer with motors, see MakeActor
 constexpr double kDeepest_m = 0.004;  // nobody stands deeper in the floor
 
 }  // namespace
@@ -52,8 +49,12 @@ void CharacterOptions::Check(double step_s) const {
 }
 
 void ObjectOptions::Check() const {
-  Require(size_m.allFinite() && size_m.minCoeff() >= 0.005 && size_m.maxCoeff() <= 100.0, "size_m",
-          size_m.minCoeff(), "[0.005, 100]");
+  const auto check_size = [](const Vector3d& size_m) {
+    Require(size_m.allFinite() && size_m.minCoeff() >= 0.005 && size_m.maxCoeff() <= 100.0,
+            "size_m", size_m.minCoeff(), "[0.005, 100]");
+  };
+  check_size(size_m);
+  for (const ObjectPart& part : parts) check_size(part.size_m);
   Require(mass_kg >= 1e-3 && mass_kg <= 1e5, "mass_kg", mass_kg, "[0.001, 1e5]");
   Require(friction >= 0.0 && friction <= 10.0, "friction", friction, "[0, 10]");
   Require(bounce >= 0.0 && bounce < 1.0, "bounce", bounce, "[0, 1)");
@@ -70,11 +71,8 @@ World::Impl::Impl(const WorldOptions& world_options)
 }
 
 World::Impl::~Impl() {
-  for (Thing& thing : things) {
-    if (thing.held != nullptr) dJointDestroy(thing.held);
-    dGeomDestroy(thing.geom);
-    dBodyDestroy(thing.body);
-  }
+  for (auto& [id, actor] : actors) actor->hard_constraint.clear();  // before the things they pull
+  for (auto& [id, thing] : things) DestroyThing(thing);
   for (const dGeomID geom : {floor_geom, limb_floor_geom, probe}) dGeomDestroy(geom);
 }
 
@@ -102,100 +100,13 @@ void World::SetFloor(const std::optional<Vector4d>& floor) {
   dWorldSetGravity(w.ode.world, w.gravity_m_s2.x(), w.gravity_m_s2.y(), w.gravity_m_s2.z());
 }
 
-int World::AddCharacter(const recon::BoneLengths& lengths, const recon::Posture& start,
-                        const CharacterOptions& options) {
-  options.Check(kFrame_s / impl_->options.substeps);
-  if (options.control == Control::kMotor) {
-    dWorldSetQuickStepNumIterations(impl_->ode.world, kMotorIterations);
-  }
-  auto& actors = impl_->actors;
-  actors.push_back(
-      std::make_unique<Actor>(impl_->ode, lengths, options, static_cast<int>(actors.size()) + 1));
-  actors.back()->Place(start, impl_->floor);
-  return static_cast<int>(actors.size()) - 1;
-}
-
-void World::SetTarget(int character, const recon::Posture& target, std::span<const double> weight,
-                      const std::optional<recon::JointOrientations>& orientation) {
-  if (!weight.empty() && weight.size() != recon::kJointCount) {
-    throw std::invalid_argument("SetTarget: " + std::to_string(weight.size()) +
-                                " weights, must be 20 or none");
-  }
-  impl_->actors.at(static_cast<size_t>(character))->SetTarget(target, weight, orientation);
-}
-
-void World::LetGo(int character) {
-  impl_->actors.at(static_cast<size_t>(character))->controlled = false;
-}
-
-void World::Place(int character, const recon::Posture& posture,
-                  const std::optional<recon::JointOrientations>& orientation) {
-  Actor& actor = *impl_->actors.at(static_cast<size_t>(character));
-  actor.wanted_orientation = orientation;
-  impl_->Place(actor, posture);
-}
-
-void World::Impl::Place(Actor& actor, const recon::Posture& posture) {
-  struct Carried {
-    Thing* thing;
-    Eigen::Isometry3d in_hand;
-  };
-  std::vector<Carried> carried;
-  for (Thing& thing : things) {
-    if (thing.hand == nullptr || !actor.character.Owns(thing.hand)) continue;
-    // As it is held now; where nothing is known of now, as it was when it was taken.
-    const Eigen::Isometry3d now = PoseOf(thing.hand).inverse() * PoseOf(thing.body);
-    carried.push_back({&thing, now.matrix().allFinite() ? now : thing.in_hand});
-  }
-  actor.Place(posture, floor);
-  for (const auto& [thing, in_hand] : carried) {
-    SetPoseAtRest(thing->body, PoseOf(thing->hand) * in_hand);
-  }
-}
-
-void World::SetVelocity(int character, const Vector3d& velocity_m_s) {
-  Character& moved = impl_->actors.at(static_cast<size_t>(character))->character;
-  moved.SetVelocity(velocity_m_s);
-  for (const Thing& thing : impl_->things) {
-    if (thing.hand == nullptr || !moved.Owns(thing.hand)) continue;
-    dBodySetLinearVel(thing.body, velocity_m_s.x(), velocity_m_s.y(), velocity_m_s.z());
-    dBodySetAngularVel(thing.body, 0, 0, 0);
-  }
-}
-
-void World::Constrain(int character, recon::Joint joint, const Vector3d& place_m, bool hard) {
-  Actor& actor = *impl_->actors.at(static_cast<size_t>(character));
-  const auto index = recon::Index(joint);
-  Unconstrain(character, joint);
-  if (!place_m.allFinite()) throw std::invalid_argument("Constrain: place must be finite");
-  constexpr double kStiffness_n_m = 2e4;
-  if (hard) {
-    actor.hard_constraint[index] =
-        std::make_unique<Pin>(impl_->ode, actor.character, index, place_m, kStiffness_n_m);
-  } else {
-    actor.soft_constraint[index] = place_m;
-  }
-}
-
-void World::Unconstrain(int character, recon::Joint joint) {
-  Actor& actor = *impl_->actors.at(static_cast<size_t>(character));
-  actor.soft_constraint.erase(recon::Index(joint));
-  actor.hard_constraint.erase(recon::Index(joint));
-}
-
-void World::Push(int character, recon::Joint joint, const Vector3d& impulse_ns) {
-  if (!impulse_ns.allFinite()) throw std::invalid_argument("Push: impulse must be finite");
-  impl_->actors.at(static_cast<size_t>(character))
-      ->pushes.emplace_back(recon::Index(joint), impulse_ns);
-}
-
 void World::Impl::WatchThreats(double dt_s) {
-  for (const auto& actor : actors) {
+  for (const auto& [id, actor] : actors) {
     if (!actor->options.dodge) continue;
     actor->dodge_left_s = std::max(0.0, actor->dodge_left_s - dt_s);
     const auto head = recon::Index(recon::Joint::kHead);
-    for (const Thing& thing : things) {
-      if (thing.held != nullptr) continue;
+    for (const auto& [number, thing] : things) {
+      if (thing.grip) continue;
       const ObjectState state = {ToEigen(dBodyGetPosition(thing.body)),
                                  Eigen::Quaterniond::Identity(),
                                  ToEigen(dBodyGetLinearVel(thing.body))};
@@ -208,12 +119,22 @@ void World::Impl::WatchThreats(double dt_s) {
 }
 
 void World::Impl::Substep(double left_s, double h_s) {
-  for (const auto& actor : actors) actor->Drive(gravity_m_s2, left_s, h_s);
+  if (callbacks.before_substep) callbacks.before_substep(h_s);
+  for (const auto& [id, actor] : actors) actor->Drive(gravity_m_s2, left_s, h_s);
+  for (const auto& [id, thing] : things) {
+    for (const Load& load : thing.loads) {
+      const auto& [f, t, at] = load;
+      dBodyAddForceAtRelPos(thing.body, f.x(), f.y(), f.z(), at.x(), at.y(), at.z());
+      dBodyAddTorque(thing.body, t.x(), t.y(), t.z());
+    }
+  }
   Collide(h_s);
   SeededQuickStep(ode.world, h_s, options.seed + 0x9e3779b9U * ++steps);
+  GatherImpulses(h_s);
+  BreakHolds();
   dJointGroupEmpty(ode.contacts);
   RescueLost();
-  for (const auto& actor : actors) {
+  for (const auto& [id, actor] : actors) {
     actor->max_gap_m = std::max(actor->max_gap_m, actor->character.MaxAnchorGap());
     actor->character.Reconnect();
     if (floor) actor->character.LiftOutOf(*floor, kDeepest_m);
@@ -224,13 +145,60 @@ void World::Impl::Substep(double left_s, double h_s) {
 /// stands up at its target with what it holds, a thing rests where it was before the step. At once:
 /// ODE ends the process when it is to look for contacts of what is nowhere.
 void World::Impl::RescueLost() {
-  for (const auto& actor : actors) {
+  for (const auto& [id, actor] : actors) {
     if (actor->character.IsFinite()) continue;
     ++actor->rescued;
     Place(*actor, actor->aim);
   }
-  for (Thing& thing : things) {
+  for (auto& [id, thing] : things) {
     if (!IsFiniteAndNear(thing.body)) SetPoseAtRest(thing.body, thing.before);
+  }
+}
+
+void World::Impl::BreakHolds() {
+  for (auto& [id, thing] : things) {
+    if (!thing.grip || !thing.grip->feedback) continue;
+    if (ToEigen(thing.grip->feedback->f1).norm() <= thing.grip->strength_n) continue;
+    Release(thing);
+    contacts.broken.push_back(id);
+  }
+}
+
+/// Kinematic things set out so as to arrive after dt.
+void World::Impl::MoveKinematic(double dt_s) {
+  for (auto& [id, thing] : things) {
+    thing.before = PoseOf(thing.body);
+    if (!thing.goal) continue;
+    const Eigen::AngleAxisd turn(thing.goal->linear() * thing.before.linear().transpose());
+    const Vector3d v = (thing.goal->translation() - thing.before.translation()) / dt_s;
+    const Vector3d w = turn.angle() / dt_s * turn.axis();
+    dBodySetLinearVel(thing.body, v.x(), v.y(), v.z());
+    dBodySetAngularVel(thing.body, w.x(), w.y(), w.z());
+  }
+}
+
+/// What lasted for the step is over, and what happened in it is told.
+void World::Impl::FinishStep(const std::vector<Contact>& before) {
+  for (auto& [id, actor] : actors) actor->pulls.clear();
+  for (auto& [id, thing] : things) {
+    thing.loads.clear();
+    if (thing.goal) SetPoseAtRest(thing.body, *thing.goal);
+    thing.goal.reset();
+  }
+  for (auto& [key, contact] : touching) {
+    contact.began = std::none_of(before.begin(), before.end(), [&contact](const Contact& other) {
+      return other.a == contact.a && other.b == contact.b;
+    });
+    contacts.contacts.push_back(std::move(contact));
+  }
+  touching.clear();
+  if (callbacks.on_first_contact) {
+    for (const Contact& contact : contacts.contacts) {
+      if (contact.began) callbacks.on_first_contact(contact);
+    }
+  }
+  if (callbacks.on_broken_hold) {
+    for (const int object : contacts.broken) callbacks.on_broken_hold(object);
   }
 }
 
@@ -239,40 +207,22 @@ void World::Step(double dt_s) {
   PrepareOde();
   Impl& w = *impl_;
   w.WatchThreats(dt_s);
-  for (const auto& actor : w.actors) {
+  for (const auto& [id, actor] : w.actors) {
     actor->max_gap_m = 0.0;
     actor->Prepare(w.ode, w.floor, dt_s);
   }
   const int count =
       std::max(1, static_cast<int>(std::ceil(dt_s / kFrame_s * w.options.substeps - 1e-6)));
   const double h = dt_s / count;
+  const std::vector<Contact> before = std::move(w.contacts.contacts);
   w.contacts = {};
-  for (Thing& thing : w.things) thing.before = PoseOf(thing.body);
+  w.MoveKinematic(dt_s);
   for (int k = 0; k < count; ++k) w.Substep(dt_s - (k + 1) * h, h);
-}
-
-CharacterState World::StateOf(int character) const {
-  const Actor& actor = *impl_->actors.at(static_cast<size_t>(character));
-  CharacterState state;
-  state.posture = actor.character.posture();
-  state.orientation = actor.character.orientation();
-  state.orientation[0] = recon::ComputeOrientations(state.posture)[0];
-  state.left_foot_pinned = actor.foot_pin[0].pin() != nullptr;
-  state.right_foot_pinned = actor.foot_pin[1].pin() != nullptr;
-  state.dodging = actor.dodge_left_s > 0.0;
-  state.max_anchor_gap_m = actor.character.MaxAnchorGap();
-  state.max_solver_gap_m = actor.max_gap_m;
-  state.rescued = actor.rescued;
-  state.momentum_kg_m_s = actor.character.Momentum();
-  return state;
+  w.FinishStep(before);
 }
 
 const ContactSummary& World::Contacts() const { return impl_->contacts; }
-bool World::IsFinite(int character) const {
-  return impl_->actors.at(static_cast<size_t>(character))->character.IsFinite();
-}
-int World::CharacterCount() const { return static_cast<int>(impl_->actors.size()); }
-int World::ObjectCount() const { return static_cast<int>(impl_->things.size()); }
 std::optional<Vector4d> World::Floor() const { return impl_->floor; }
+void World::SetCallbacks(WorldCallbacks callbacks) { impl_->callbacks = std::move(callbacks); }
 
 }  // namespace ossa::physics

@@ -2,21 +2,17 @@
 #include <Eigen/Core>
 #include <Eigen/Geometry>
 #include <cstdint>
+#include <functional>
+#include <limits>
 #include <memory>
 #include <optional>
 #include <span>
 #include <vector>
 
-#include "physics/control.h"
+#include "physics/character.h"
 #include "recon/posture.h"
 
 namespace ossa::physics {
-
-/// How a character follows its target.
-enum class Control {
-  kPaper,  // bounded PD forces on the joints and a bounded PD torque about each bone (the papers)
-  kMotor,  // a servo motor in every ball joint and one that carries the trunk
-};
 
 /// Gravity, floor and step of a world.
 struct WorldOptions {
@@ -29,52 +25,41 @@ struct WorldOptions {
   void Check() const;           // throws std::invalid_argument
 };
 
-/// How a character is built and controlled.
-struct CharacterOptions {
-  Control control = Control::kPaper;
-  ControlGains gains;
-  /// Share of the target's velocity that the controller is told, [0, 1]. 0: a spring towards the
-  /// newest posture as if that stood still, smoothest. 1: no lag behind steady motion, as with the
-  /// target's derivative in eq. 1, but noise comes through.
-  double lead = 0.0;
-  bool pin_feet = true;
-  /// Forearms, hands and legs go neither through each other nor through trunk and head. 3 cm of a
-  /// limb are soft, as bodies are: a sensor's folded arms lie a little in the chest.
-  bool self_collision = true;
-  bool hinges = false;        // elbows and knees are hinges instead of ball joints (sec. 4)
-  bool joint_limits = false;  // joints keep to the ranges that people's have
-  bool dodge = false;  // raise the forearms around the head when something flies at it (sec. 8.2)
-  double stature_m = 0.0;  // 0: from the bones
-  double mass_kg = 0.0;    // 0: from the stature
-  void Check(double step_s) const;
-};
-
-/// Where a character is and how it moves: joints in the world, metres.
-struct CharacterState {
-  recon::Posture posture;                // bone lengths exact
-  recon::JointOrientations orientation;  // recon/orientation.h
-  bool left_foot_pinned = false, right_foot_pinned = false;
-  bool dodging = false;
-  double max_anchor_gap_m = 0.0;  // between the two sides of a ball joint, now
-  double max_solver_gap_m = 0.0;  // the same as the solver left it, largest of the last Step
-  Eigen::Vector3d momentum_kg_m_s = Eigen::Vector3d::Zero();
-  int rescued = 0;  // how often it was put back because its motion was not finite; 0 is wanted
-};
-
 enum class Shape { kBox, kBall, kCapsule };
 
-/// A thing in the world: shape, mass, place.
+/// What moves an object.
+enum class BodyKind {
+  kDynamic,    // forces, gravity and contacts
+  kKinematic,  // the application, by SetObjectVelocity and MoveTo; it pushes and is not pushed
+  kStatic,     // nothing
+};
+
+/// A further part of an object of several, fixed to the first; place and turn in the object's
+/// frame.
+struct ObjectPart {
+  Shape shape = Shape::kBox;
+  Eigen::Vector3d size_m = {0.2, 0.2, 0.2};  // as ObjectOptions::size_m
+  Eigen::Vector3d position_m = Eigen::Vector3d::Zero();
+  Eigen::Quaterniond orientation = Eigen::Quaterniond::Identity();
+};
+
+/// A thing in the world: shape, mass, place. Air takes 14 % of its speed a second.
 struct ObjectOptions {
   Shape shape = Shape::kBox;
   Eigen::Vector3d size_m = {0.2, 0.2,
                             0.2};  // box: edges; ball: x = diameter; capsule: x = diameter,
                                    // y = length between the centres of its caps, along y
-  double mass_kg = 1.0;            // by hand
+  double mass_kg = 1.0;            // by hand; of all parts, which are of one density
   double friction = 0.8;           // Coulomb's coefficient, no unit; by hand: rubber on wood
   double bounce = 0.0;             // restitution, [0, 1)
-  Eigen::Vector3d position_m = Eigen::Vector3d::Zero();
+  Eigen::Vector3d position_m = Eigen::Vector3d::Zero();  // of the object's frame: shape's middle
   Eigen::Quaterniond orientation = Eigen::Quaterniond::Identity();
-  Eigen::Vector3d velocity_m_s = Eigen::Vector3d::Zero();
+  Eigen::Vector3d velocity_m_s = Eigen::Vector3d::Zero();  // of the centre of mass
+  Eigen::Vector3d turning_rad_s = Eigen::Vector3d::Zero();
+  BodyKind kind = BodyKind::kDynamic;
+  std::vector<ObjectPart> parts;
+  /// Bit masks, by convention: two meet if each is in a group the other collides with.
+  uint32_t groups = 1, collides_with = ~0U;
   void Check() const;
 };
 
@@ -82,7 +67,8 @@ struct ObjectOptions {
 struct ObjectState {
   Eigen::Vector3d position_m;
   Eigen::Quaterniond orientation;
-  Eigen::Vector3d velocity_m_s;
+  Eigen::Vector3d velocity_m_s;  // of the centre of mass
+  Eigen::Vector3d turning_rad_s = Eigen::Vector3d::Zero();
 };
 
 /// A limb and an object that touched.
@@ -90,6 +76,30 @@ struct Strike {
   int character;
   size_t bone;  // the joint at its end
   int object;
+};
+
+/// One side of a contact.
+struct Party {
+  enum class Kind { kFloor, kCharacter, kObject } kind = Kind::kFloor;
+  int id = 0;       // of the character or object
+  size_t bone = 0;  // of a character: the joint at its end
+  bool operator==(const Party&) const = default;
+};
+
+/// Where two parties press on each other.
+struct ContactPoint {
+  Eigen::Vector3d position_m;  // world
+  Eigen::Vector3d normal;      // unit, from b into a
+  double depth_m = 0.0;        // overlap; below 0: not quite there yet
+  Eigen::Vector3d impulse_ns;  // on a, in one substep
+};
+
+/// Two parties that pressed on each other in the last Step.
+struct Contact {
+  Party a, b;
+  std::vector<ContactPoint> points;                      // of the last substep in which they did
+  Eigen::Vector3d impulse_ns = Eigen::Vector3d::Zero();  // on a, of the whole Step
+  bool began = false;                                    // they had not in the Step before
 };
 
 /// What touched what in the last Step. Depths are the deepest overlap of any of its substeps.
@@ -101,10 +111,35 @@ struct ContactSummary {
   double self_depth_m = 0.0;          // a character's limbs in its trunk and each other
   int character_object_contacts = 0;  // summed over the substeps
   std::vector<Strike> struck;
+  std::vector<Contact> contacts;  // in a fixed order; a character's own limbs among them
+  std::vector<int> broken;        // objects whose hold broke
+};
+
+/// What a world asks and tells while it steps. Any may be empty; none may call the world's Step,
+/// Restore or what removes something. An exception leaves Step in between two substeps.
+struct WorldCallbacks {
+  /// Whether two that are near may meet; asked of all but the floor and a character's own limbs.
+  std::function<bool(const Party&, const Party&)> may_meet;
+  std::function<void(double h_s)> before_substep;        // h_s: how long it is
+  std::function<void(const Contact&)> on_first_contact;  // at the end of the Step
+  std::function<void(int object)> on_broken_hold;        // at the end of the Step
+};
+
+/// All of a world at one moment, see World::Save. A value: copies are cheap and last.
+class WorldSnapshot {
+ public:
+  struct Data;
+
+ private:
+  friend class World;
+  std::shared_ptr<const Data> data_;
 };
 
 /// A floor, characters and things that obey mechanics (Shum & Ho 2012, secs. 4 and 6). Metres,
-/// seconds, any right-handed frame. Same calls, same seed: same bytes, in any thread.
+/// seconds, any right-handed frame. Same calls, same seed: same bytes, in any thread. Worlds share
+/// nothing: each may be used in a thread of its own, one world in one thread at a time. Numbers of
+/// characters and objects count up from 0 and are never given again; std::out_of_range is thrown
+/// for those that are not (or no longer) there.
 class World {
  public:
   explicit World(const WorldOptions& options = {});
@@ -114,10 +149,15 @@ class World {
 
   /// a b c d of ax + by + cz + d = 0, unit normal up; none removes the floor. Sets gravity.
   void SetFloor(const std::optional<Eigen::Vector4d>& floor);
+  void SetCallbacks(WorldCallbacks callbacks);
 
   /// Bone lengths in (0, 2] m; shorter than 1 cm is simulated as 1 cm. Throws InputError.
   int AddCharacter(const recon::BoneLengths& lengths, const recon::Posture& start,
                    const CharacterOptions& options = {});
+  /// What it holds falls.
+  void RemoveCharacter(int character);
+  /// Back to its first posture, at rest, without constraints; what it holds falls.
+  void ResetCharacter(int character);
   /// Where the character shall be at the end of the next Step. `weight` has one entry per joint in
   /// [0, 1] or is empty (all 1): small ones are followed more softly. Non-finite joints and joints
   /// of weight 0 keep their bone's present direction. `orientation`: how the bones shall be turned
@@ -136,20 +176,48 @@ class World {
   /// Sec. 6.1: this joint goes to this place, whatever the target says. `hard`: by a virtual joint
   /// (a stiff bounded spring: constraints that contradict each other are met half way).
   void Constrain(int character, recon::Joint joint, const Eigen::Vector3d& place_m, bool hard);
+  /// The same with a point of an object's frame, which may move; hard ones pull the object, too.
+  void ConstrainTo(int character, recon::Joint joint, int object, const Eigen::Vector3d& point_m,
+                   bool hard);
   void Unconstrain(int character, recon::Joint joint);
   /// An impulse at a joint, spent in the first substep of the next Step.
   void Push(int character, recon::Joint joint, const Eigen::Vector3d& impulse_ns);
+  /// A force at a joint for the whole of the next Step.
+  void Pull(int character, recon::Joint joint, const Eigen::Vector3d& force_n);
 
   int AddObject(const ObjectOptions& options);
+  void RemoveObject(int object);
+  /// Back to where and how it was added; nobody holds it.
+  void ResetObject(int object);
+  /// Puts the object there; nobody holds it any more. Velocities stay.
+  void SetPose(int object, const Eigen::Vector3d& position_m,
+               const Eigen::Quaterniond& orientation);
+  void SetObjectVelocity(int object, const Eigen::Vector3d& velocity_m_s,
+                         const Eigen::Vector3d& turning_rad_s = Eigen::Vector3d::Zero());
+  /// A kinematic object arrives there at the end of the next Step, and stays.
+  void MoveTo(int object, const Eigen::Vector3d& position_m, const Eigen::Quaterniond& orientation);
+  /// A force at a point of the world, a torque, for the whole of the next Step.
+  void PullObject(int object, const Eigen::Vector3d& force_n, const Eigen::Vector3d& at_m,
+                  const Eigen::Vector3d& torque_nm = Eigen::Vector3d::Zero());
+  /// An impulse at a point of the world, at once.
+  void PushObject(int object, const Eigen::Vector3d& impulse_ns, const Eigen::Vector3d& at_m);
+
   /// A virtual joint between the end of a joint's bone and the object: `rigid` or free to turn
   /// about the joint. Neither that bone nor the one before it collides with the object meanwhile.
-  void Hold(int character, recon::Joint joint, int object, bool rigid);
+  /// Breaks where it would have to pull harder than `strength_n`.
+  void Hold(int character, recon::Joint joint, int object, bool rigid,
+            double strength_n = std::numeric_limits<double>::infinity());
   void Release(int object);
   /// Hangs the object on a point of the world.
   void Hang(int object, const Eigen::Vector3d& point_m);
 
   /// dt in (0, 0.25] s.
   void Step(double dt_s);
+
+  /// Everything but the callbacks. Restored, in this or another world, the same calls give the same
+  /// bytes.
+  WorldSnapshot Save() const;
+  void Restore(const WorldSnapshot& snapshot);
 
   CharacterState StateOf(int character) const;
   ObjectState ObjectOf(int object) const;
@@ -158,6 +226,8 @@ class World {
   bool IsFinite(int character) const;
   int CharacterCount() const;
   int ObjectCount() const;
+  std::vector<int> Characters() const;  // numbers of those that are there, ascending
+  std::vector<int> Objects() const;
   std::optional<Eigen::Vector4d> Floor() const;
 
  private:

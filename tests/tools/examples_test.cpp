@@ -54,6 +54,16 @@ TEST(Examples, TheLiveTrackersInCppAndCSeeTheSameHeads) {
   }
 }
 
+// The ball's fall ends with its impulse on the table's top; a pull of 400 N breaks a grip of 150 N.
+TEST(Examples, ThePhysicalWorldTellsWhatHappensInIt) {
+  const auto run = RunProgram({BinaryFolder() / "bin" / "physical_world"});
+  EXPECT_EQ(run.exit_status, 0) << run.err;
+  EXPECT_NE(run.out.find("an object touches an object"), std::string::npos) << run.out;
+  EXPECT_NE(run.out.find("the ball lies at 0.78 m"), std::string::npos) << run.out;
+  EXPECT_NE(run.out.find("object 2 is torn off"), std::string::npos) << run.out;
+  EXPECT_NE(run.out.find("the mace is 0.3"), std::string::npos) << run.out;
+}
+
 TEST(Examples, SayInOneLineWhatIsWrong) {
   for (const char* example : {"live_tracker", "live_tracker_c"}) {
     const auto run = RunProgram({BinaryFolder() / "bin" / example, "/nowhere.oni"});
