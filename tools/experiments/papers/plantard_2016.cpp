@@ -38,7 +38,7 @@ Scenario ScenarioOf(size_t index) {
 
 struct Study {
   std::vector<RecordedPair> scenarios;
-  std::vector<MethodRun> methods;                // raw, shum-2013, plantard-2016, best
+  std::vector<MethodRun> methods;  // raw, shum-2013, plantard-2016, best, plantard-2016 + physics
   std::vector<std::vector<PairedTracks>> pairs;  // [method][scenario]
   std::vector<std::vector<ClipMetrics>> clips;   // the same, measured
   std::vector<std::vector<ClipMetrics>> seen;    // of these the frames in which somebody was seen
@@ -90,6 +90,15 @@ Study Prepare(ExperimentContext& context) {
     }
     study.scenarios.push_back(studio.Record(clip, stage));
   }
+  const auto add = [&](MethodRun run) {
+    study.pairs.push_back(RunOverClips(context, run, study.scenarios));
+    study.clips.push_back(MeasureAll(study.pairs.back()));
+    auto& seen = study.seen.emplace_back();
+    for (size_t s = 0; s < study.scenarios.size(); ++s) {
+      seen.push_back(Measure(WhereSeen(study.scenarios[s], study.pairs.back()[s])));
+    }
+    study.methods.push_back(std::move(run));
+  };
   for (const char* method : {"none", "shum-2013", "plantard-2016", "best"}) {
     MethodRun run{std::string(method) == "none" ? "raw" : method, {}, {}};
     run.options.method = method;
@@ -99,14 +108,9 @@ Study Prepare(ExperimentContext& context) {
       run.options.prior = LoadPrior(context);
       KnowObserver(observer, &run);
     }
-    study.pairs.push_back(RunOverClips(context, run, study.scenarios));
-    study.clips.push_back(MeasureAll(study.pairs.back()));
-    auto& seen = study.seen.emplace_back();
-    for (size_t s = 0; s < study.scenarios.size(); ++s) {
-      seen.push_back(Measure(WhereSeen(study.scenarios[s], study.pairs.back()[s])));
-    }
-    study.methods.push_back(std::move(run));
+    add(std::move(run));
   }
+  add(WithPhysics(study.methods[2]));
   return study;
 }
 

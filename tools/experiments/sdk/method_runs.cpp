@@ -13,6 +13,7 @@
 #include "recon/models/posture_prior.h"
 #include "tools/experiments/compare/sequence_text.h"
 #include "tools/experiments/sdk/sdk_internal.h"
+#include "tools/tracker/mechanics.h"
 #include "tools/tracker/shipped.h"
 
 namespace ossa::tools {
@@ -37,6 +38,7 @@ std::string KeyOf(const ExperimentContext& context, const MethodRun& run) {
   }
   if (o.prior) key.append(" ").append(KeyOfFile(tracker::ShippedFile(recon::kShippedPrior)));
   if (!o.learned_file.empty()) key.append(" ").append(KeyOfFile(o.learned_file));
+  if (run.physics) key.append(" physics");
   return key;
 }
 
@@ -69,14 +71,23 @@ void KnowObserver(const std::string& observer, MethodRun* best) {
   best->refines = true;
 }
 
+MethodRun WithPhysics(MethodRun run) {
+  run.label += " + physics";
+  run.physics = true;
+  return run;
+}
+
 recon::SkeletonSequence RunMethod(const ExperimentContext& context, const MethodRun& run,
                                   const recon::SkeletonSequence& observed) {
   const std::string key = KeyOf(context, run) + " on " + ContentHash(TextOf(observed));
   const std::string text = context.Cached(key, [&] {
-    return TextOf(recon::ReconstructSequence(observed, run.options, [&](size_t) {
+    const auto go_on = [&](size_t) {
       context.StopIfAsked();
       return true;
-    }));
+    };
+    auto made = recon::ReconstructSequence(observed, run.options, go_on);
+    if (run.physics) tracker::FollowMechanically(made, {}, go_on);
+    return TextOf(made);
   });
   return SequenceOf(text, observed.source);
 }

@@ -29,12 +29,16 @@ struct MethodRun {
   recon::ReconstructorOptions options;
   std::string database_key;  // of a database that is not LoadDatabase(context): for the cache
   bool refines = false;      // over clips it starts from RecordedPair::refined, and best knows it
+  bool physics = false;      // then the physical character follows, as --physics on
 };
 
 /// best as `ossa track` runs it: the shipped forest's joints are refined at the depth image, and it
 /// knows their systematic errors.
 /// `observer` is a study's: "forest" or "simulated".
 void KnowObserver(const std::string& observer, MethodRun* best);
+
+/// The same, and the physical character follows: the last stage of all four papers.
+MethodRun WithPhysics(MethodRun run);
 
 /// The method over one recording; cached by content.
 recon::SkeletonSequence RunMethod(const ExperimentContext& context, const MethodRun& run,

@@ -18,6 +18,9 @@ namespace {
 std::vector<std::string> AllMethods() {
   std::vector<std::string> methods = {"raw", "butterworth"};
   for (const std::string& name : recon::ReconstructionMethods()) methods.push_back(name);
+  for (const char* name : {"raw", "shum-ho-2012", "shum-2013", "plantard-2016", "best"}) {
+    methods.push_back(std::string(name).append(kPlusPhysics));
+  }
   return methods;
 }
 
@@ -54,7 +57,8 @@ Table EmptyTable() {
       "(one of its people is in both, by a hundred frames). ms: processor time, of the run that "
       "the cache keeps. "
       "butterworth looks into the future and is here for comparison only; so does best-offline, "
-      "best with the bones of the whole recording. Bones: standard deviation of a bone's length "
+      "best with the bones of the whole recording. +physics: the physical character follows. "
+      "Bones: standard deviation of a bone's length "
       "over the clip.";
   return table;
 }

@@ -70,6 +70,8 @@ recon::SkeletonSequence RunMethod(const recon::SkeletonSequence& observed,
 
 /// `best` with bones by the whole recording, of which each frame has the same: it looks ahead.
 inline constexpr const char* kBestOffline = "best-offline";
+/// What the name of a method ends with that the physical character follows, the papers' last stage.
+inline constexpr std::string_view kPlusPhysics = "+physics";
 
 /// Methods that learn of pairs; false as well of "raw" and "butterworth".
 bool Learns(const std::string& method);

@@ -14,6 +14,7 @@
 #include "tools/experiments/sdk/method_runs.h"
 #include "tools/experiments/sdk/sdk_internal.h"
 #include "tools/experiments/stage/jobs.h"
+#include "tools/tracker/mechanics.h"
 #include "tools/tracker/shipped.h"
 
 namespace ossa::tools {
@@ -49,7 +50,8 @@ ClipMetrics FromJson(const nlohmann::json& numbers) {
 }
 
 // Of the names that these tables have, kBestOffline is no method of its own.
-std::string MethodBehind(const std::string& method) {
+std::string MethodBehind(std::string method) {
+  if (method.ends_with(kPlusPhysics)) method.resize(method.size() - kPlusPhysics.size());
   return method == kBestOffline ? std::string(recon::kDefaultMethod) : method;
 }
 
@@ -198,6 +200,12 @@ std::vector<recon::PosturePair> CollectPairs(const std::vector<const RecordedPai
 recon::SkeletonSequence RunMethod(const recon::SkeletonSequence& observed,
                                   const std::string& method,
                                   const recon::ReconstructorOptions& options) {
+  if (method.ends_with(kPlusPhysics)) {
+    const std::string behind = method.substr(0, method.size() - kPlusPhysics.size());
+    auto made = RunMethod(observed, behind, options);
+    tracker::FollowMechanically(made, {});
+    return made;
+  }
   if (method == "raw") return observed;
   if (method == "butterworth") return recon::ButterworthSequence(observed);
   recon::ReconstructorOptions with = options;
