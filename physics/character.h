@@ -54,7 +54,7 @@ struct CharacterOptions {
   bool dodge = false;  // raise the forearms around the head when something flies at it (sec. 8.2)
   double stature_m = 0.0;  // 0: from the bones
   double mass_kg = 0.0;    // 0: from the stature
-  /// Bit masks: two meet if each is in a group that the other collides with.
+  /// Bit masks, by convention: two meet if each is in a group the other collides with.
   uint32_t groups = 1, collides_with = ~0U;
   void Check(double step_s) const;
 };
@@ -70,5 +70,47 @@ struct CharacterState {
   Eigen::Vector3d momentum_kg_m_s = Eigen::Vector3d::Zero();
   int rescued = 0;  // how often it was put back because its motion was not finite; 0 is wanted
 };
+
+/// How somebody stood at one time, for ComputeDynamics. Any right-handed frame, metres.
+struct BodyPose {
+  double time_s = 0.0;
+  recon::Posture posture;                // bones of one length throughout, as of a character
+  recon::JointOrientations orientation;  // recon/orientation.h
+};
+
+/// Of whom, on what floor, and how smoothly ComputeDynamics takes derivatives.
+struct DynamicsOptions {
+  double stature_m = 0.0, mass_kg = 0.0;         // as of CharacterOptions
+  double gravity_m_s2 = 9.81;                    // Earth, by definition; along the normal
+  Eigen::Vector4d floor = {0.0, 1.0, 0.0, 0.0};  // a b c d, normal up
+  /// Velocities and accelerations are of the parabola through all frames so near, at least three:
+  /// longer is smoother and blunter. 0.1 s takes 3 % off the acceleration of a swing of 1 Hz.
+  // By hand, [0, 1]; biomechanics' usual 6 Hz low-pass blunts as much
+  double window_s = 0.1;
+};
+
+/// What moved somebody at one moment. Newton and newton metres, in the frame of the postures.
+struct Dynamics {
+  /// What the muscles turn the bone that ends in the joint with, about its other end: of kAnkleLeft
+  /// the knee's torque, of kKneeLeft the hip's, of kWristLeft the elbow's. Of the spine, with which
+  /// the chain ends, what is left over: nothing, but in the air.
+  recon::JointArray<Eigen::Vector3d> torque_nm;
+  recon::JointArray<Eigen::Vector3d> force_n;  // on that bone at that end, by the bone before it
+  Eigen::Vector3d ground_force_n = Eigen::Vector3d::Zero();
+  std::array<Eigen::Vector3d, 2> foot_force_n = {Eigen::Vector3d::Zero(),
+                                                 Eigen::Vector3d::Zero()};  // left, right
+  std::optional<Eigen::Vector3d> centre_of_pressure_m;  // on the floor; of nobody in the air
+  double free_moment_nm = 0.0;                          // of the ground, about the floor's normal
+  Eigen::Vector3d centre_of_mass_m = Eigen::Vector3d::Zero();
+};
+
+/// Inverse dynamics of a recording (Winter 2009, chs. 5, 7): frames in order of time, three or
+/// more. Masses are of physics' own table (de Leva 1996), centres of mass in the middle of the
+/// bones. The ground presses on the feet alone; two feet that stand share it as the centre of
+/// pressure divides the way between them, which is an assumption, as without force plates it must
+/// be. Throws InputError for frames, std::invalid_argument for options.
+std::vector<Dynamics> ComputeDynamics(const recon::BoneLengths& lengths,
+                                      std::span<const BodyPose> motion,
+                                      const DynamicsOptions& options = {});
 
 }  // namespace ossa::physics

@@ -18,12 +18,14 @@
 #include "tools/commands/checks.h"
 #include "tools/commands/command.h"
 #include "tools/commands/commands.h"
+#include "tools/commands/floor_option.h"
 #include "tools/commands/mapping_option.h"
 #include "tools/commands/mechanics_options.h"
 #include "tools/commands/method_options.h"
 #include "tools/commands/outputs.h"
 #include "tools/commands/process.h"
 #include "tools/commands/warnings.h"
+#include "tools/tracker/dynamics.h"
 #include "tools/tracker/mechanics.h"
 #include "tools/tracker/model_set.h"
 #include "tools/tracker/shipped.h"
@@ -37,6 +39,9 @@ struct ReconstructArguments {
   recon::ReconstructorOptions options;
   recon::SkeletonReadOptions read;
   MechanicsOptions mechanics;
+  FloorOption floor;
+  std::string dynamics;  // file of inverse dynamics
+  double mass_kg = 0.0;
   BonesOption bones;
   BvhNamesOption bvh_names;
   std::vector<double> weights;
@@ -124,6 +129,32 @@ void AddMethodOptions(CLI::App& app, ReconstructArguments& a) {
   a.bones.AddTo(app);
 }
 
+void AddDynamicsOptions(CLI::App& app, ReconstructArguments& a) {
+  a.floor.AddTo(app);
+  app.add_option("--dynamics", a.dynamics,
+                 "inverse dynamics of the character as CSV: torques of joints, forces of the "
+                 "ground, centre of pressure (needs --physics on and a floor)");
+  app.add_option("--mass", a.mass_kg, "of the person, kg, for --dynamics; by the bones if left out")
+      ->check(CLI::Range(3.0, 400.0));
+}
+
+void CheckDynamics(const ReconstructArguments& a) {
+  if (a.dynamics.empty() && a.mass_kg > 0.0)
+    throw UsageError("--mass: expected --dynamics with it");
+  if (!a.dynamics.empty() && !a.mechanics.on()) {
+    throw UsageError("--dynamics: expected --physics on with it");
+  }
+}
+
+/// Before hours of work: one file holds one recording.
+void CheckDynamicsOf(const ReconstructArguments& a, size_t recordings) {
+  if (a.dynamics.empty()) return;
+  if (recordings > 1) {
+    throw UsageError(fmt::format("--dynamics: expected one recording, found {}", recordings));
+  }
+  AtomicFile::CheckWritable(a.dynamics);
+}
+
 InputError InterruptedEarly(const ReconstructArguments& a, size_t written, double total) {
   if (written == 0) return InputError("reconstruct: interrupted; nothing was written");
   return InputError(
@@ -142,6 +173,7 @@ int Reconstruct(int argc, char** argv) {
   a.bvh_names.AddTo(app);
   AddMethodOptions(app, a);
   AddMechanicsOptions(app, a.mechanics);
+  AddDynamicsOptions(app, a);
   AddMappingOption(app, a.read.mapping_file, false);
   app.add_flag("--quiet", a.quiet, "no progress");
   app.footer(
@@ -161,16 +193,20 @@ int Reconstruct(int argc, char** argv) {
   a.bones.Check(a.options.method);
   const recon::BvhNames names = a.bvh_names.NamesFor(a.out);
   a.mechanics.Check();
+  a.floor.Check();
+  CheckDynamics(a);
   CheckOneOf(a.options.method, a.files.database, a.files.prior);
-  CheckOutputs({a.out}, {a.skeletons, a.read.mapping_file});
+  CheckOutputs({a.out, a.dynamics}, {a.skeletons, a.read.mapping_file});
   for (const double weight : a.weights) {
     if (!(weight >= 0))
       throw UsageError(fmt::format("--weights: expected numbers from 0 up, found {}", weight));
   }
   a.read.stop = Interrupted;
-  const auto clips = recon::ReadSkeletonClips(a.skeletons, a.read);
+  auto clips = recon::ReadSkeletonClips(a.skeletons, a.read);
   if (Interrupted()) throw InputError("reconstruct: interrupted; nothing was written");
   SayWarnings("reconstruct", clips);
+  CheckDynamicsOf(a, clips.size());
+  for (auto& clip : clips) a.floor.Apply(clip.sequence, a.quiet);
   const bool to_folder = GoesToFolder(a, clips);
   if (to_folder) {
     std::filesystem::create_directories(a.out);
@@ -209,6 +245,9 @@ int Reconstruct(int argc, char** argv) {
       ready = 0;
       tracker::FollowMechanically(made, a.mechanics.build, update);
       done += frames;
+      if (!a.dynamics.empty() && !Interrupted()) {
+        tracker::WriteDynamics(a.dynamics, made, a.mass_kg);
+      }
     }
     if (Interrupted()) made.frames.resize(std::min(made.frames.size(), ready));
     if (made.frames.empty() && Interrupted()) break;
