@@ -23,6 +23,9 @@ struct RenderedImage {
   Image<int16_t> mesh;      // id from AddMesh; -1 where nothing was hit
   Image<float> incidence;   // |cos| of the angle between ray and surface normal
   Image<uint8_t> lit;       // 1 where the projector reaches the surface (RenderOptions::projector)
+  /// Share of the infrared light that the surface sends back, [0, 1]; empty: as usual everywhere.
+  /// Not filled in by the renderer, which knows no materials.
+  Image<float> reflectance{};
 };
 
 struct RenderOptions {

@@ -2,8 +2,8 @@
 #include <cstdint>
 
 #include "depth/image/camera.h"
-#include "depth/image/image.h"
 #include "depth/render/renderer.h"
+#include "depth/render/sensor_image.h"
 
 namespace ossa::depth {
 
@@ -40,20 +40,10 @@ struct StructuredLightOptions {
   int whole_width_px = 0;
 };
 
-struct SensorImage {
-  Image<uint16_t> depth_mm;  // 0 = no reading
-  /// v * width + u of the rendered pixel whose surface was measured, so that labels can follow it;
-  /// -1 where there is no reading.
-  Image<int32_t> source;
-};
-
 /// The rendered image as the sensor delivers it. `rendered` must have been made with
 /// RenderOptions::projector on: where nothing is lit, nothing is read. Every pixel's noise depends
 /// on (seed, pixel) only.
 SensorImage SimulateStructuredLight(const RenderedImage& rendered, const Camera& camera,
                                     const StructuredLightOptions& options, uint64_t seed);
-
-/// The rendered image in whole millimetres, nothing lost.
-SensorImage PerfectSensor(const RenderedImage& rendered);
 
 }  // namespace ossa::depth

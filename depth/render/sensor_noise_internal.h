@@ -1,0 +1,64 @@
+#pragma once
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+namespace ossa::depth {
+
+// Noise of simulated sensors: it depends on the seed and the place, not on the order of evaluation.
+
+/// SplitMix64 of a counter: noise that depends on the place, not on the order of evaluation.
+inline uint64_t Hash(uint64_t seed, uint64_t place) {
+  uint64_t x = seed + (place + 1) * 0x9E3779B97F4A7C15ULL;
+  x = (x ^ (x >> 30)) * 0xBF58476D1CE4E5B9ULL;
+  x = (x ^ (x >> 27)) * 0x94D049BB133111EBULL;
+  return x ^ (x >> 31);
+}
+
+/// 16 bits of a hash as a number in [0, 1).
+inline float Uniform(uint64_t hash, int lane) {
+  return static_cast<float>((hash >> (16 * lane)) & 0xFFFF) * (1.0F / 65536.0F);
+}
+
+/// Nearly standard normal: the sum of four uniforms (Irwin-Hall), variance 4 / 12.
+inline float Normal(uint64_t hash) {
+  const float sum = Uniform(hash, 0) + Uniform(hash, 1) + Uniform(hash, 2) + Uniform(hash, 3);
+  return (sum - 2.0F) * 1.7320508F;
+}
+
+inline int Rounded(float value) { return static_cast<int>(std::floor(value + 0.5F)); }
+
+/// Normal noise that neighbours share: a coarse grid, interpolated between its nodes.
+class WavyNoise {
+ public:
+  WavyNoise(int width, int height, float cell_px, uint64_t seed)
+      : columns_(static_cast<int>(static_cast<float>(width) / cell_px) + 2),
+        scale_(1.0F / cell_px) {
+    const int rows = static_cast<int>(static_cast<float>(height) / cell_px) + 2;
+    for (int i = 0; i < columns_ * rows; ++i) {
+      nodes_.push_back(Normal(Hash(seed, static_cast<uint64_t>(i))));
+    }
+  }
+  float At(int u, int v) const {
+    // Between nodes the variance is 4/9 of theirs on average; factor; derived: sqrt(9/4)
+    constexpr float kRestore = 1.5F;
+    const float x = static_cast<float>(u) * scale_;
+    const float y = static_cast<float>(v) * scale_;
+    const int column = static_cast<int>(x);
+    const int row = static_cast<int>(y);
+    const float fx = x - static_cast<float>(column);
+    const float fy = y - static_cast<float>(row);
+    const float* node = nodes_.data() + static_cast<ptrdiff_t>(row) * columns_ + column;
+    const float top = node[0] + fx * (node[1] - node[0]);
+    const float bottom = node[columns_] + fx * (node[columns_ + 1] - node[columns_]);
+    return kRestore * (top + fy * (bottom - top));
+  }
+
+ private:
+  int columns_;
+  float scale_;
+  std::vector<float> nodes_;
+};
+
+}  // namespace ossa::depth
