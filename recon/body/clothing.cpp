@@ -68,7 +68,72 @@ constexpr float kFringe_m = 1.60f, kEars_m = 0.06f;
 constexpr float kForehead_m = 1.60f;  // and above this also in front
 constexpr float kWaist_m = 1.00f, kCrotch_m = 0.80f;
 constexpr float kKnee_m = 0.475f;
+constexpr uint8_t kNeckPart = 5;
 constexpr float kHiddenScale = 0.01f;  // of what is not worn; factor; by hand
+
+constexpr float kNeutralHeight_m = 1.66f;
+constexpr float kChest_m = 1.28f;  // cloth hangs from there and from the shoulder blades
+
+/// Where round the body, radians.
+float Around(const Eigen::Vector3f& p) { return std::atan2(p.x(), p.z()); }
+
+/// Folds run down from where cloth hangs and are deepest at its hem (`down` = 1).
+Eigen::Vector3f FoldOf(const Clothing& clothing, const Eigen::Vector3f& p, float down) {
+  constexpr uint64_t kFewest = 5, kKinds = 9;  // folds round the body; by hand
+  const auto count = static_cast<float>(kFewest + clothing.pattern % kKinds);
+  const float phase = static_cast<float>(clothing.pattern >> 8 & 0xFFU) * 0.0245f;  // 0 to 2 pi
+  const float wave = std::sin(count * Around(p) + phase + 3.0f * p.y());
+  const Eigen::Vector3f out = Eigen::Vector3f(p.x(), 0, p.z()).normalized();
+  return static_cast<float>(clothing.fold_m) * down * wave * out;
+}
+
+/// How far from the body's axis cloth hangs, by height and direction: as far out as what it touches
+/// above, less what it falls back towards the body on its way down.
+class Curtain {
+ public:
+  Curtain(float scale, float hang) : step_m_(scale * kTop_m / kRows), hang_(hang) {}
+
+  void Touch(const Eigen::Vector3f& p) {
+    float& reach_m = reach_m_[Row(p)][Column(p)];
+    reach_m = std::max(reach_m, Radius(p));
+  }
+  void Fall() {
+    constexpr float kFallsBack = 0.12f;  // of its way down; share; by hand
+    for (size_t row = kRows - 1; row-- > 0;) {
+      for (size_t column = 0; column < kColumns; ++column) {
+        // A fold's neighbours carry it: the mean of three directions.
+        const auto& above = reach_m_[row + 1];
+        const float mean_m = (above[(column + kColumns - 1) % kColumns] + above[column] +
+                              above[(column + 1) % kColumns]) /
+                             3.0f;
+        const float hung_m = hang_ * (mean_m - kFallsBack * step_m_);
+        reach_m_[row][column] = std::max(reach_m_[row][column], hung_m);
+      }
+    }
+  }
+  /// The place moved out to where the cloth hangs.
+  Eigen::Vector3f Outside(const Eigen::Vector3f& p) const {
+    const float radius_m = Radius(p);
+    const float out = radius_m > 0 ? std::max(1.0f, reach_m_[Row(p)][Column(p)] / radius_m) : 1.0f;
+    return {p.x() * out, p.y(), p.z() * out};
+  }
+
+ private:
+  static constexpr float kTop_m = 1.5f;  // of the neutral body; by hand
+  static constexpr size_t kRows = 60, kColumns = 40;
+
+  static float Radius(const Eigen::Vector3f& p) { return std::hypot(p.x(), p.z()); }
+  size_t Row(const Eigen::Vector3f& p) const {
+    return static_cast<size_t>(std::clamp(p.y() / step_m_, 0.0f, kRows - 1.0f));
+  }
+  static size_t Column(const Eigen::Vector3f& p) {
+    const float turns = Around(p) / (2.0f * std::numbers::pi_v<float>)+0.5f;
+    return static_cast<size_t>(turns * kColumns) % kColumns;
+  }
+
+  float step_m_, hang_;
+  std::array<std::array<float, kColumns>, kRows> reach_m_{};
+};
 
 }  // namespace
 
@@ -88,6 +153,8 @@ Wardrobe::Wardrobe(const BodyModel& model) {
       const bool skull = p.y() > kForehead_m || (p.y() > kSkullFrom_m && p.z() < 0.05f);
       place.region = skull ? Region::kSkull : Region::kNone;
       place.along = std::min(1.0f, (p.y() - kSkullFrom_m) / 0.05f);  // thins out at the edge
+    } else if (part == kNeckPart) {
+      place.region = Region::kNeck;
     } else if (IsPart(part, 18) || IsPart(part, 20)) {
       place.region = Region::kTorso;
       place.along = (kWaist_m - p.y()) / (kWaist_m - kCrotch_m);
@@ -137,7 +204,10 @@ std::vector<Eigen::Vector3f> Wardrobe::Dress(const ShapedBody& body,
         thickness_m = clothing.shoe_m;
         break;
       case Region::kSkull:
-        thickness_m = clothing.hair_m * std::max(0.0f, place.along);
+        thickness_m = std::max(clothing.hair_m * std::max(0.0f, place.along), clothing.hood_m);
+        break;
+      case Region::kNeck:
+        thickness_m = clothing.hood_m;
         break;
       case Region::kSkirt:
         if (clothing.skirt_end > 0) {
@@ -147,6 +217,7 @@ std::vector<Eigen::Vector3f> Wardrobe::Dress(const ShapedBody& body,
               1.0f + static_cast<float>(clothing.skirt_flare) * down * (1.0f + 0.3f * waves.At(p));
           p.x() *= widen;
           p.z() *= widen;
+          if (clothing.fold_m > 0) p += FoldOf(clothing, p, down);
         }
         continue;
       case Region::kLongHair:
@@ -163,7 +234,25 @@ std::vector<Eigen::Vector3f> Wardrobe::Dress(const ShapedBody& body,
     const float share = std::max(0.2f, 1.0f + wrinkle * waves.At(body.rest_m[i]));
     p += static_cast<float>(thickness_m) * share * body.normals[i];
   }
+  if (clothing.hang > 0) LetHang(body, clothing, &dressed);
   return dressed;
+}
+
+void Wardrobe::LetHang(const ShapedBody& body, const Clothing& clothing,
+                       std::vector<Eigen::Vector3f>* dressed_m) const {
+  const auto scale = static_cast<float>(body.height_m / kNeutralHeight_m);
+  Curtain curtain(scale, static_cast<float>(clothing.hang));
+  for (size_t i = 0; i < place_.size(); ++i) {
+    if (place_[i].region == Region::kTorso) curtain.Touch((*dressed_m)[i]);
+  }
+  curtain.Fall();
+  for (size_t i = 0; i < place_.size(); ++i) {
+    if (place_[i].region != Region::kTorso || place_[i].along > 1) continue;
+    Eigen::Vector3f& p = (*dressed_m)[i];
+    const float down =
+        std::clamp((scale * kChest_m - p.y()) / (scale * (kChest_m - kCrotch_m)), 0.0f, 1.0f);
+    p = curtain.Outside(p) + FoldOf(clothing, p, down);
+  }
 }
 
 void Wardrobe::HideUnworn(const Clothing& clothing, const Eigen::Vector3f& inside_m,

@@ -21,6 +21,9 @@ struct Clothing {
   double long_hair_end = 0.0;  // how far hair hangs down: 0 none, 1 to the middle of the back
   double skirt_end = 0.0;      // 0 none, 1 to the knee, 1.5 at most
   double skirt_flare = 0.0;    // widening of the hem, share of its width
+  double hang = 0.0;           // 0: the shirt fits; 1: it hangs straight down from chest and back
+  double fold_m = 0.0;         // depth of the folds that what hangs falls into, at its hem
+  double hood_m = 0.0;         // a hood's distance from skull, hair and neck; 0: none
   uint64_t pattern = 1;        // seed of the wrinkles
 };
 
@@ -38,12 +41,25 @@ class Wardrobe {
                   std::span<Eigen::Vector3f> posed_m) const;
 
  private:
-  enum class Region : uint8_t { kNone, kTorso, kArm, kLeg, kFoot, kSkull, kSkirt, kLongHair };
+  enum class Region : uint8_t {
+    kNone,
+    kTorso,
+    kArm,
+    kLeg,
+    kFoot,
+    kSkull,
+    kNeck,
+    kSkirt,
+    kLongHair
+  };
   struct Place {
     Region region = Region::kNone;
     float along = 0;  // arms, legs: 0, 1, 2 at the three joints; torso: 1 at the hips' height
     bool before_face = false;  // of long hair
   };
+  void LetHang(const ShapedBody& body, const Clothing& clothing,
+               std::vector<Eigen::Vector3f>* dressed_m) const;
+
   std::vector<Place> place_;
 };
 

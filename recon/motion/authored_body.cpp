@@ -116,24 +116,6 @@ Vector3d ElbowPole(const Vector3d& direction, double sign, double swivel) {
   return Turn(sign * swivel, direction) * pole;
 }
 
-void PoseArm(const ArmKey& arm, size_t side, RigPose& pose) {
-  const LimbBones& b = RigBones().side[side];
-  const Vector3d upper = RestBone(b.arm), lower = RestBone(b.fore_arm);
-  const Vector3d direction = ArmDirection(arm, side);
-  const TwoBones solved =
-      SolveTwoBones(direction * (arm.reach * (upper.norm() + lower.norm())),
-                    ElbowPole(direction, SideSign(side), arm.swivel), upper.norm(), lower.norm());
-  const Vector3d rest_hinge = upper.cross(lower);
-  const Quaterniond chest = pose.world_from_rest[RigBones().spine1];
-  pose.world_from_rest[b.collar] = chest;
-  pose.world_from_rest[b.arm] = chest * FrameTurn(upper, rest_hinge, solved.upper, solved.hinge);
-  const Quaterniond hand = chest * Turn(SideSign(side) * arm.pronate, solved.lower) *
-                           FrameTurn(lower, rest_hinge, solved.lower, solved.hinge);
-  for (const size_t bone : {b.fore_arm, b.hand, b.finger_base, b.finger, b.thumb}) {
-    pose.world_from_rest[bone] = hand;
-  }
-}
-
 /// World place of the ankle: the foot turns about its ball with the heel up, about the heel with
 /// the toes up.
 Vector3d AnkleOf(const LegKey& leg, size_t side, double heading, Quaterniond& foot) {
@@ -207,24 +189,6 @@ void PoseLegs(const BodyKey& key, const Feet& feet, RigPose& pose) {
   }
 }
 
-/// Rotation of a part `share` of the trunk's or neck's bend.
-Quaterniond Bend(double forwards, double left, double turn, double share) {
-  return Turn(turn * share, kY) * Turn(forwards * share, kX) * Turn(-left * share, kZ);
-}
-
-void PoseTrunk(const BodyKey& key, RigPose& pose) {
-  const Bones& b = RigBones();
-  auto& r = pose.world_from_rest;
-  r[0] = Turn(key.heading + key.twist, kY) * Turn(key.pitch, kX) * Turn(key.roll, kZ);
-  // The lumbar spine bends forwards most, the chest turns most (White & Panjabi 1990).
-  r[b.lower_back] = r[0] * Turn(key.turn * 0.2, kY) * Bend(key.bend, key.side, 0.0, 0.38);
-  r[b.spine] = r[b.lower_back] * Turn(key.turn * 0.35, kY) * Bend(key.bend, key.side, 0.0, 0.34);
-  r[b.spine1] = r[b.spine] * Turn(key.turn * 0.45, kY) * Bend(key.bend, key.side, 0.0, 0.28);
-  r[b.neck] = r[b.spine1] * Bend(key.nod, key.tilt, key.look, 0.3);
-  r[b.neck1] = r[b.neck] * Bend(key.nod, key.tilt, key.look, 0.3);
-  r[b.head] = r[b.neck1] * Bend(key.nod, key.tilt, key.look, 0.4);
-}
-
 /// Centre of mass from the joints; parts of the body mass after Winter 2009, table 4.1.
 Vector3d CentreOfMass(const RigPose& pose) {
   const Posture p = StandardPosture(pose);
@@ -283,7 +247,43 @@ void Balance(const BodyKey& key, const Feet& feet, RigPose& pose) {
   pose.root_m.y() = key.pelvis_m.y();
 }
 
+/// Rotation of a part `share` of the trunk's or neck's bend.
+Quaterniond Bend(double forwards, double left, double turn, double share) {
+  return Turn(turn * share, kY) * Turn(forwards * share, kX) * Turn(-left * share, kZ);
+}
+
 }  // namespace
+
+void PoseArm(const ArmKey& arm, size_t side, RigPose& pose) {
+  const LimbBones& b = RigBones().side[side];
+  const Vector3d upper = RestBone(b.arm), lower = RestBone(b.fore_arm);
+  const Vector3d direction = ArmDirection(arm, side);
+  const TwoBones solved =
+      SolveTwoBones(direction * (arm.reach * (upper.norm() + lower.norm())),
+                    ElbowPole(direction, SideSign(side), arm.swivel), upper.norm(), lower.norm());
+  const Vector3d rest_hinge = upper.cross(lower);
+  const Quaterniond chest = pose.world_from_rest[RigBones().spine1];
+  pose.world_from_rest[b.collar] = chest;
+  pose.world_from_rest[b.arm] = chest * FrameTurn(upper, rest_hinge, solved.upper, solved.hinge);
+  const Quaterniond hand = chest * Turn(SideSign(side) * arm.pronate, solved.lower) *
+                           FrameTurn(lower, rest_hinge, solved.lower, solved.hinge);
+  for (const size_t bone : {b.fore_arm, b.hand, b.finger_base, b.finger, b.thumb}) {
+    pose.world_from_rest[bone] = hand;
+  }
+}
+
+void PoseTrunk(const BodyKey& key, RigPose& pose) {
+  const Bones& b = RigBones();
+  auto& r = pose.world_from_rest;
+  r[0] = Turn(key.heading + key.twist, kY) * Turn(key.pitch, kX) * Turn(key.roll, kZ);
+  // The lumbar spine bends forwards most, the chest turns most (White & Panjabi 1990).
+  r[b.lower_back] = r[0] * Turn(key.turn * 0.2, kY) * Bend(key.bend, key.side, 0.0, 0.38);
+  r[b.spine] = r[b.lower_back] * Turn(key.turn * 0.35, kY) * Bend(key.bend, key.side, 0.0, 0.34);
+  r[b.spine1] = r[b.spine] * Turn(key.turn * 0.45, kY) * Bend(key.bend, key.side, 0.0, 0.28);
+  r[b.neck] = r[b.spine1] * Bend(key.nod, key.tilt, key.look, 0.3);
+  r[b.neck1] = r[b.neck] * Bend(key.nod, key.tilt, key.look, 0.3);
+  r[b.head] = r[b.neck1] * Bend(key.nod, key.tilt, key.look, 0.4);
+}
 
 BodyKey::BodyKey() {
   for (size_t s = 0; s < 2; ++s) {

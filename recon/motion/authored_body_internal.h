@@ -62,6 +62,10 @@ BodyKey Mirrored(const BodyKey& key);
 /// until the feet are reached and moved until the body is balanced.
 RigPose PoseOf(const BodyKey& key);
 
+/// Parts of PoseOf: pelvis, spine, neck and head; an arm, after the trunk. The root stays.
+void PoseTrunk(const BodyKey& key, RigPose& pose);
+void PoseArm(const ArmKey& arm, size_t side, RigPose& pose);
+
 /// Sets flex, abduct and reach of an arm so that the wrist comes to `target_m`: outwards, up and
 /// forwards from the base of the neck, in the chest's axes.
 void ReachFor(BodyKey& key, size_t side, const Eigen::Vector3d& target_m);

@@ -10,6 +10,7 @@
 #include "depth/base/naming_the_file.h"
 #include "recon/motion/acclaim_internal.h"
 #include "recon/motion/authored.h"
+#include "recon/motion/authored_floor.h"
 #include "recon/motion/bone_names_internal.h"
 #include "recon/motion/bvh.h"
 #include "recon/motion/bvh_source_internal.h"
@@ -128,11 +129,12 @@ std::vector<MotionClip> LoadMocap(const std::vector<std::string>& sources,
   Loader loader(options);
   std::vector<MotionClip> clips;
   for (const std::string& source : sources) {
-    if (source == "authored") {
+    if (source == "authored" || source == "authored-floor") {
       AuthoredOptions authored;
       authored.seed = options.seed;
       authored.frame_s = options.frame_s;
-      for (MotionClip& clip : AuthoredClips(authored)) clips.push_back(std::move(clip));
+      auto own = source == "authored" ? AuthoredClips(authored) : AuthoredFloorClips(authored);
+      for (MotionClip& clip : own) clips.push_back(std::move(clip));
       continue;
     }
     if (!fs::exists(source)) {

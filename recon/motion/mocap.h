@@ -20,7 +20,8 @@ struct MocapOptions {
 };
 
 /// Loads every clip of the sources: a folder of BVH, of AMC beside their ASF, of pybullet humanoid
-/// JSON texts, or the word "authored" (key postures with seeded variation, ossa's own). Clips come
+/// JSON texts, or the words "authored" and "authored-floor" (key postures with seeded variation,
+/// ossa's own: upright, and lying, kneeling, crawling and the like). Clips come
 /// sorted by name, so the same input gives the same list. Throws InputError naming file and line.
 std::vector<MotionClip> LoadMocap(const std::vector<std::string>& sources,
                                   const MocapOptions& options = {});
