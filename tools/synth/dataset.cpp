@@ -156,7 +156,8 @@ LabelledFrame DatasetReader::Read(int64_t index) const {
   return frame;
 }
 
-LabelledFrame Uncropped(const LabelledFrame& frame, const depth::Camera& whole) {
+LabelledFrame Uncropped(const LabelledFrame& frame, const depth::Camera& of_data_set) {
+  const depth::Camera& whole = frame.whole ? *frame.whole : of_data_set;
   const depth::Camera& crop = frame.depth.camera;
   if (crop.width > whole.width || crop.height > whole.height) return frame;
   const auto offset = [](double whole_centre, double crop_centre, int slack) {

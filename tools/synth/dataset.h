@@ -31,6 +31,7 @@ struct LabelledFrame {
   depth::Image<uint8_t> users;  // 0 nobody, else TruthBody::id; an `other` pixel has its person's
   std::vector<TruthBody> bodies;
   std::optional<Eigen::Vector4d> floor;  // a b c d of ax + by + cz + d = 0, camera space
+  std::optional<depth::Camera> whole;    // of the uncropped image, where it is not the data set's
 };
 
 /// What manifest.json says of a data set.
@@ -40,7 +41,7 @@ struct DatasetManifest {
   uint64_t seed = 0;
   std::string command;               // made by
   std::string split;                 // "train" or "test"
-  std::string view;                  // "front", "any" or "near"
+  std::string view;                  // "front", "any", "near" or "ceiling"
   std::vector<std::string> sources;  // motion
   std::vector<std::string> terms;    // where motion and bodies come from and their licences
   bool png = true;                   // depth/, parts/, users/ and truth.jsonl are there
@@ -72,9 +73,9 @@ class DatasetReader {
   std::unique_ptr<State> state_;
 };
 
-/// The frame in an image of its data set's size, with nothing where the crop was cut off: where an
-/// image ends says much about what is not seen. (Where a camera was drawn anew for each frame, its
+/// The frame in an image of its own whole size, else of its data set's, with nothing where the crop
+/// was cut off: where an image ends says much about what is not seen. (Of `--camera generic` the
 /// optical centre is taken for the data set's: a few pixels off.)
-LabelledFrame Uncropped(const LabelledFrame& frame, const depth::Camera& whole);
+LabelledFrame Uncropped(const LabelledFrame& frame, const depth::Camera& of_data_set);
 
 }  // namespace ossa::tools

@@ -5,11 +5,15 @@
 #include <limits>
 
 #include "depth/render/renderer.h"
-#include "depth/render/structured_light.h"
 #include "recon/body/parts.h"
+#include "tools/synth/materials.h"
+#include "tools/synth/nobodies.h"
 #include "tools/synth/person.h"
+#include "tools/synth/shrunk_frame.h"
 #include "tools/synth/stage.h"
+#include "tools/synth/staging.h"
 #include "tools/synth/visibility_internal.h"
+#include "tools/synth/worn.h"
 
 namespace ossa::tools {
 namespace {
@@ -23,7 +27,13 @@ constexpr double kRoomShare = 0.8;  // of frames: edges against a wall, else aga
 constexpr double kTrustedGap_m = 0.25;  // feet farther off the floor than this are a jump
 
 // Streams of random numbers: what is drawn for one purpose must not shift what follows.
-enum Stream : uint64_t { kBodyStream = 1, kSceneStream = 2, kNoiseStream = 3 };
+enum Stream : uint64_t {
+  kBodyStream = 1,
+  kSceneStream = 2,
+  kNoiseStream = 3,
+  kThingStream = 4,
+  kSensorStream = 5
+};
 
 Random StreamOf(uint64_t seed, Stream purpose, int64_t index, int extra) {
   return Random(seed * 8 + purpose,
@@ -79,6 +89,7 @@ struct Dressed {
   int64_t key = -1;
   recon::ShapedBody body;
   recon::Clothing clothing;
+  Worn worn;
   std::vector<Eigen::Vector3f> rest_m;
 };
 
@@ -111,9 +122,12 @@ struct FrameMaker::State {
   recon::RigPose DrawPose(int64_t index, Random& random) const;
   std::vector<Prop> DrawProps(const recon::Posture& joints_in_cam, const ViewSample& view,
                               Random& random);
+  std::vector<Prop> DrawThings(Staging staging, const recon::Posture& joints_in_cam,
+                               const ViewSample& view, Random& random) const;
   std::optional<LabelledFrame> Try(int64_t index, int attempt);
+  depth::SensorModel DrawSensor(int64_t index) const;
   LabelledFrame Shoot(const ViewSample& view, const std::vector<Prop>& props, const Box& box,
-                      uint64_t noise_seed);
+                      int64_t index, uint64_t noise_seed);
 };
 
 void FrameMaker::State::Dress(int64_t index, int person) {
@@ -122,8 +136,11 @@ void FrameMaker::State::Dress(int64_t index, int person) {
   if (wearer.key == key) return;
   Random random = StreamOf(options.seed, kBodyStream, key, person);
   if (options.random_bodies) {
-    wearer.body = studio.model.Shape(SampleShape(options.split, random));
-    wearer.clothing = SampleClothing(random);
+    wearer.body = studio.model.Shape(options.ends ? SampleAnyShape(options.split, random)
+                                                  : SampleShape(options.split, random));
+    wearer.clothing =
+        options.hanging_clothes ? SampleHangingClothing(random) : SampleClothing(random);
+    if (options.hanging_clothes) wearer.worn = SampleWorn(random);
   } else {
     wearer.body = studio.model.Shape({});
     wearer.clothing = {};
@@ -188,16 +205,37 @@ std::vector<Prop> FrameMaker::State::DrawProps(const recon::Posture& joints_in_c
   } else {
     props = SampleProps(options.occluders, joints_in_world, view.camera_from_world, random);
   }
-  if (options.background == Background::kRoom || random.Chance(kRoomShare)) {
+  if (options.background != Background::kNone || random.Chance(kRoomShare)) {
     for (Prop& prop : SampleRoom(view.camera_from_world, random, path_in_world))
       props.push_back(std::move(prop));
   }
   return props;
 }
 
+// What the person holds up, leans on or what hangs on the wall behind, besides DrawProps.
+std::vector<Prop> FrameMaker::State::DrawThings(Staging staging,
+                                                const recon::Posture& joints_in_cam,
+                                                const ViewSample& view, Random& random) const {
+  const Eigen::Isometry3d world_from_camera = view.camera_from_world.inverse();
+  recon::Posture joints_in_world = joints_in_cam;
+  for (auto& joint_m : joints_in_world.position_m) joint_m = world_from_camera * joint_m;
+  std::vector<Prop> props = StagedProps(staging, joints_in_world, view.camera_from_world, random);
+  if (options.background == Background::kLivedIn) {
+    for (Prop& prop : SampleNobodies(view.camera_from_world, random))
+      props.push_back(std::move(prop));
+  }
+  return props;
+}
+
+depth::SensorModel FrameMaker::State::DrawSensor(int64_t index) const {
+  if (options.sensors.size() == 1) return depth::ModelOf(options.sensors[0]);
+  Random random = StreamOf(options.seed, kSensorStream, options.sequence ? 0 : index, 0);
+  return depth::ModelOf(options.sensors[random.Index(options.sensors.size())]);
+}
+
 // Renders, senses, labels. The image is the crop `box` of the view.
 LabelledFrame FrameMaker::State::Shoot(const ViewSample& view, const std::vector<Prop>& props,
-                                       const Box& box, uint64_t noise_seed) {
+                                       const Box& box, int64_t index, uint64_t noise_seed) {
   std::vector<int> prop_mesh;
   for (const Prop& prop : props) prop_mesh.push_back(renderer.AddMesh(prop.mesh_in_cam, false));
   depth::Camera crop = view.camera;
@@ -205,13 +243,16 @@ LabelledFrame FrameMaker::State::Shoot(const ViewSample& view, const std::vector
   crop.height = box.v1 - box.v0 + 1;
   crop.cx -= box.u0;
   crop.cy -= box.v0;
-  const bool noisy = options.sensor == SensorKind::kKinectV1;
-  const depth::RenderedImage seen = renderer.Render(crop, {.projector = noisy});
+  const depth::SensorModel sensor = DrawSensor(index);
+  depth::RenderedImage seen = renderer.Render(crop, depth::RaysFor(sensor));
   for (const int mesh : prop_mesh) renderer.RemoveMesh(mesh);
-  depth::StructuredLightOptions sensor;
-  sensor.whole_width_px = view.camera.width;
-  depth::SensorImage sensed = noisy ? depth::SimulateStructuredLight(seen, crop, sensor, noise_seed)
-                                    : depth::PerfectSensor(seen);
+  if (std::holds_alternative<depth::TimeOfFlightOptions>(sensor)) {
+    const int64_t body = options.sequence ? 0 : index / kFramesPerBody;
+    seen.reflectance =
+        DrawReflectance(seen, studio.model, mesh_of_person,
+                        MixSeed(options.seed, kSensorStream, static_cast<uint64_t>(body)));
+  }
+  depth::SensorImage sensed = depth::Simulate(sensor, seen, crop, view.camera, noise_seed);
 
   LabelledFrame frame;
   frame.depth.camera = crop;
@@ -219,16 +260,21 @@ LabelledFrame FrameMaker::State::Shoot(const ViewSample& view, const std::vector
   for (size_t i = 0; i < sensed.source.data.size(); ++i) {
     if (sensed.source.data[i] < 0 || frame.users.data[i] != 0) continue;
     const int mesh = seen.mesh.data[static_cast<size_t>(sensed.source.data[i])];
-    const auto prop = std::find(prop_mesh.begin(), prop_mesh.end(), mesh);
-    if (prop != prop_mesh.end() &&
-        props[static_cast<size_t>(prop - prop_mesh.begin())].counts_as_other) {
-      frame.parts.data[i] = recon::kOtherPart;
-      frame.users.data[i] = 1;
+    const auto at = std::find(prop_mesh.begin(), prop_mesh.end(), mesh);
+    const Prop* prop =
+        at != prop_mesh.end() ? &props[static_cast<size_t>(at - prop_mesh.begin())] : nullptr;
+    if (prop != nullptr && prop->counts_as_other) {
+      frame.parts.data[i] = prop->part;
+      frame.users.data[i] = prop->user;
     } else if (options.background == Background::kNone) {
       sensed.depth_mm.data[i] = 0;
     }
   }
   frame.depth.depth_mm = std::move(sensed.depth_mm.data);
+  if (view.shrink > 1.0) {
+    frame = ShrunkFrame(frame, box.u0, box.v0, view.shrink, ShrunkCamera(view.camera, view.shrink));
+  }
+  if (options.cameras == Cameras::kAny) frame.whole = ShrunkCamera(view.camera, view.shrink);
   return frame;
 }
 
@@ -241,15 +287,22 @@ std::optional<LabelledFrame> FrameMaker::State::Try(int64_t index, int attempt) 
                                       .width = options.width,
                                       .height = options.height,
                                       .person_height_m = wearers[0].body.height_m,
-                                      .generic_cameras = options.generic_cameras},
+                                      .cameras = options.cameras,
+                                      .fov_deg = options.fov_deg,
+                                      .shrink = options.shrink},
                                      random);
   const auto places = SamplePlaces(options.people, random);
+  Random thing = StreamOf(options.seed, kThingStream, options.sequence ? 0 : index, attempt);
+  Staging staging = DrawStaging(options.occluders, thing);
+  std::vector<Prop> things;
   std::vector<TruthBody> bodies;
   Box box;
   for (size_t person = 0; person < places.size(); ++person) {
     const double heading_rad =
         person == 0 ? view.facing_rad : view.facing_rad + random.Uniform(-1.5, 1.5);
-    recon::RigPose pose = Turned(DrawPose(index, random), heading_rad);
+    recon::RigPose pose = DrawPose(index, random);
+    if (person == 0) staging = Arrange(staging, &pose, thing);
+    pose = Turned(pose, heading_rad);
     if (!options.sequence) {
       const double right = random.Uniform(0, 1), left = random.Uniform(0, 1);
       recon::CloseHands(wearers[person].body, left, right, &pose);
@@ -257,19 +310,30 @@ std::optional<LabelledFrame> FrameMaker::State::Try(int64_t index, int attempt) 
     pose.root_m += places[person] / wearers[person].body.root_scale;
     bodies.push_back(
         {static_cast<int>(person) + 1, Pose(pose, person, view.camera_from_world), {}});
+    for (Prop& prop : WornProps(wearers[person].worn, pose, bodies.back().joints_m,
+                                wearers[person].body.height_m, view.camera_from_world,
+                                static_cast<uint8_t>(person + 1))) {
+      things.push_back(std::move(prop));
+    }
     renderer.UpdateVertices(mesh_of_person[person], posed_m[person]);
     box = Union(box, Cover(posed_m[person], view.camera));
   }
   // Nobody in view: another view is tried, but a sequence keeps its own.
   const bool unseen = box.u1 - box.u0 < 2 || box.v1 - box.v0 < 2;
-  if (options.background == Background::kRoom || (unseen && options.sequence)) {
+  const bool room = options.background != Background::kNone;
+  if (unseen && !options.sequence && !room) return std::nullopt;
+
+  for (Prop& prop : DrawThings(staging, bodies[0].joints_m, view, thing)) {
+    things.push_back(std::move(prop));
+  }
+  for (const Prop& prop : things) box = Union(box, Cover(prop.mesh_in_cam.vertices_m, view.camera));
+  if (room || (unseen && options.sequence)) {
     box = {0, 0, view.camera.width - 1, view.camera.height - 1};
   }
-  if (unseen && !options.sequence && options.background != Background::kRoom) return std::nullopt;
-
-  const std::vector<Prop> props = DrawProps(bodies[0].joints_m, view, random);
+  std::vector<Prop> props = DrawProps(bodies[0].joints_m, view, random);
+  for (Prop& prop : things) props.push_back(std::move(prop));
   Random noise = StreamOf(options.seed, kNoiseStream, index, attempt);
-  LabelledFrame frame = Shoot(view, props, box, noise.Bits());
+  LabelledFrame frame = Shoot(view, props, box, index, noise.Bits());
   frame.bodies = std::move(bodies);
   frame.depth.index = index;
   frame.depth.time_s = static_cast<double>(index) / 30.0;
@@ -282,7 +346,15 @@ std::optional<LabelledFrame> FrameMaker::State::Try(int64_t index, int attempt) 
 
 namespace {
 
-bool ShowsEnough(const LabelledFrame& frame, int width) {
+// Of the data set's width, or where each frame has its own camera as wide as that would be at a
+// Kinect's field of view.
+double WidthOf(const LabelledFrame& frame, const FrameOptions& options) {
+  constexpr double kWidthOverFocal = 640.0 / 575.0;  // of a Kinect v1; factor; derived
+  if (options.cameras != Cameras::kAny && options.fov_deg == 0.0) return options.width;
+  return kWidthOverFocal * frame.depth.camera.fx;
+}
+
+bool ShowsEnough(const LabelledFrame& frame, double width) {
   constexpr double kLeastPixels = 900;  // of a 640-pixel-wide image: half a head at 2 m; pixels
   constexpr int kLeastJoints = 5;
   const auto pixels = static_cast<double>(
@@ -295,6 +367,14 @@ bool ShowsEnough(const LabelledFrame& frame, int width) {
 
 }  // namespace
 
+depth::Camera CameraOf(const FrameOptions& options) {
+  const ViewRequest request{.width = options.width,
+                            .height = options.height,
+                            .fov_deg = options.fov_deg,
+                            .shrink = options.shrink};
+  return ShrunkCamera(PlainCamera(request), options.shrink);
+}
+
 FrameMaker::FrameMaker(const FrameStudio& studio) : state_(std::make_unique<State>(studio)) {}
 FrameMaker::~FrameMaker() = default;
 
@@ -304,7 +384,7 @@ LabelledFrame FrameMaker::Make(int64_t index) {
     auto next = state_->Try(index, attempt);
     if (!next) continue;
     frame = std::move(next);
-    if (state_->options.sequence || ShowsEnough(*frame, state_->options.width)) break;
+    if (state_->options.sequence || ShowsEnough(*frame, WidthOf(*frame, state_->options))) break;
   }
   if (!frame) throw std::runtime_error("no view of frame " + std::to_string(index));
   return std::move(*frame);

@@ -3,6 +3,7 @@
 #include <memory>
 #include <vector>
 
+#include "depth/render/sensor_model.h"
 #include "recon/body/body_model.h"
 #include "recon/body/clothing.h"
 #include "tools/synth/dataset.h"
@@ -14,8 +15,7 @@ namespace ossa::tools {
 
 // Constants: the sensor's own image is a Kinect v1's; people and seed by convention.
 
-enum class SensorKind { kExact, kKinectV1 };
-enum class Background { kNone, kRoom };
+enum class Background { kNone, kRoom, kLivedIn };
 
 struct FrameOptions {
   int width = 640;
@@ -23,16 +23,25 @@ struct FrameOptions {
   View view = View::kFront;
   Split split = Split::kTrain;
   Occluders occluders = Occluders::kNone;
-  SensorKind sensor = SensorKind::kKinectV1;
-  /// kNone: pixels of nobody read 0, as after a perfect segmentation.
+  /// One of them in each frame, drawn where there are several.
+  std::vector<depth::SensorKind> sensors = {depth::SensorKind::kKinectV1};
+  /// kNone: pixels of nobody read 0, as after a perfect segmentation. kLivedIn: a room with
+  /// shelves, coats on hooks, door frames and plants.
   Background background = Background::kNone;
   bool random_bodies = true;     // else everybody is the average body, lightly clothed
-  bool generic_cameras = false;  // besides the Kinect's intrinsics, others
-  bool sequence = false;         // the poses are consecutive frames of one clip before one camera
+  bool ends = false;             // random bodies also from the ends of the range
+  bool hanging_clothes = false;  // what hangs and folds, hats and bags, too
+  Cameras cameras = Cameras::kKinectV1;
+  double fov_deg = 0.0;   // horizontal field of view; 0: the Kinect's
+  double shrink = 1.0;    // factor by definition: so much larger, then shrunk by nearest pixel
+  bool sequence = false;  // the poses are consecutive frames of one clip before one camera
   int people = 1;
   uint64_t seed = 1;
   PoseVariation variation;
 };
+
+/// The camera of the options' images where none is drawn for each frame, shrunk if they are.
+depth::Camera CameraOf(const FrameOptions& options);
 
 /// What all threads share while rendering.
 struct FrameStudio {

@@ -39,11 +39,26 @@ recon::BodyShape DrawShape(Random& random) {
   return shape;
 }
 
+recon::BodyShape DrawAnyShape(Random& random) {
+  recon::BodyShape shape = DrawShape(random);
+  if (!random.Chance(1.0 / 3)) return shape;
+  shape.weight = random.Chance(0.5) ? random.Uniform(0.0, 0.15) : random.Uniform(0.85, 1.0);
+  shape.height = random.Chance(0.5) ? random.Uniform(0.2, 0.38) : random.Uniform(0.6, 0.8);
+  shape.muscle = random.Unit();
+  return shape;
+}
+
 }  // namespace
 
 recon::BodyShape SampleShape(Split split, Random& random) {
   recon::BodyShape shape = DrawShape(random);
   while (IsTestShape(shape) != (split == Split::kTest)) shape = DrawShape(random);
+  return shape;
+}
+
+recon::BodyShape SampleAnyShape(Split split, Random& random) {
+  recon::BodyShape shape = DrawAnyShape(random);
+  while (IsTestShape(shape) != (split == Split::kTest)) shape = DrawAnyShape(random);
   return shape;
 }
 
@@ -76,6 +91,30 @@ recon::Clothing SampleClothing(Random& random) {
     wear.skirt_flare = random.Uniform(0.0, 0.35);
   }
   wear.pattern = random.Bits();
+  return wear;
+}
+
+recon::Clothing SampleHangingClothing(Random& random) {
+  recon::Clothing wear = SampleClothing(random);
+  if (random.Chance(0.5)) return wear;
+  wear.hang = random.Uniform(0.85, 1.0);
+  wear.fold_m = random.Uniform(0.003, 0.03);
+  const double kind = random.Unit();
+  if (kind < 0.5) {  // a T-shirt or a loose pullover
+    wear.sleeve_end = random.Chance(0.6) ? random.Uniform(0.35, 0.8) : random.Uniform(1.7, 2.0);
+    wear.sleeve_m = random.Uniform(0.008, 0.03);
+  } else if (kind < 0.8) {  // a coat: over the hips it is the skirt layer
+    wear.shirt_m = random.Uniform(0.015, 0.04);
+    wear.sleeve_m = random.Uniform(0.012, 0.03);
+    wear.sleeve_end = random.Uniform(1.8, 2.0);
+    wear.skirt_end = random.Uniform(0.4, 1.5);
+    wear.skirt_flare = random.Uniform(0.0, 0.25);
+  } else {  // a skirt
+    wear.skirt_end = random.Uniform(0.5, 1.5);
+    wear.skirt_flare = random.Uniform(0.1, 0.5);
+  }
+  if (random.Chance(0.2)) wear.hood_m = random.Uniform(0.015, 0.05);
+  if (random.Chance(0.25)) wear.long_hair_end = random.Uniform(0.3, 1.0);
   return wear;
 }
 

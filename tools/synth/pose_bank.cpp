@@ -7,6 +7,7 @@
 
 #include "recon/body/standard_body.h"
 #include "recon/smallest_turn.h"
+#include "tools/synth/random_posture.h"
 
 namespace ossa::tools {
 namespace {
@@ -67,7 +68,17 @@ Vector3d RestDirection(size_t bone) {
   return (rest.head_m[bone + 1] - rest.head_m[bone]).normalized();
 }
 
-// An arm anywhere it can go: the upper arm in the half space outside of the trunk and in front, the
+void TurnHands(double sigma_rad, recon::RigPose* pose, Random& random) {
+  for (const Chain& arm : kArms) {
+    const Vector3d forearm = pose->world_from_rest[arm.first + 1] * RestDirection(arm.first + 1);
+    const Quaterniond twist(AngleAxisd(random.Normal(0, 1.5 * sigma_rad), forearm));
+    TurnBones(arm.first + 2, arm.count - 2, twist * SmallTurn(sigma_rad, random), pose);
+  }
+}
+
+}  // namespace
+
+// The upper arm in the half space outside of the trunk and in front, the
 // elbow bent 0-145 degrees to a side that the shoulder's twist allows.
 void RandomArm(size_t side, recon::RigPose* pose, Random& random) {
   const Chain arm = kArms[side];
@@ -92,16 +103,6 @@ void RandomArm(size_t side, recon::RigPose* pose, Random& random) {
   const Quaterniond whole = recon::SmallestTurn(RestDirection(arm.first), direction);
   pose->world_from_rest[kCollar[side]] = trunk * Quaterniond::Identity().slerp(0.25, whole);
 }
-
-void TurnHands(double sigma_rad, recon::RigPose* pose, Random& random) {
-  for (const Chain& arm : kArms) {
-    const Vector3d forearm = pose->world_from_rest[arm.first + 1] * RestDirection(arm.first + 1);
-    const Quaterniond twist(AngleAxisd(random.Normal(0, 1.5 * sigma_rad), forearm));
-    TurnBones(arm.first + 2, arm.count - 2, twist * SmallTurn(sigma_rad, random), pose);
-  }
-}
-
-}  // namespace
 
 recon::RigPose Mirrored(const recon::RigPose& pose) {
   recon::RigPose mirrored = pose;
@@ -151,20 +152,25 @@ std::vector<recon::RigPose> MakePoseBank(const std::vector<recon::MotionClip>& c
 std::optional<Poses> PosesFromName(std::string_view name) {
   if (name == "spread") return Poses::kSpread;
   if (name == "natural") return Poses::kNatural;
+  if (name == "any") return Poses::kAny;
   return std::nullopt;
 }
 
 PoseBankOptions BankOf(Poses poses) {
-  if (poses == Poses::kSpread) return {};
+  if (poses != Poses::kNatural) return {};
   return {.least_distance_m = 0.0, .most_alike = std::numeric_limits<int>::max()};
 }
 
 PoseVariation VariationOf(Poses poses) {
   if (poses == Poses::kSpread) return {};
+  if (poses == Poses::kAny) return {.random_posture_share = 0.25};
   return {.random_arm_share = 0.0, .perturbation_rad = 0.04};
 }
 
 recon::RigPose Varied(const recon::RigPose& from, const PoseVariation& variation, Random& random) {
+  if (variation.random_posture_share > 0.0 && random.Chance(variation.random_posture_share)) {
+    return RandomPosture(random);
+  }
   recon::RigPose pose = random.Chance(variation.mirror_share) ? Mirrored(from) : from;
   const double sigma_rad = variation.perturbation_rad;
   for (size_t side = 0; side < 2; ++side) {

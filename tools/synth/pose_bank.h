@@ -24,15 +24,17 @@ std::vector<recon::RigPose> MakePoseBank(const std::vector<recon::MotionClip>& c
 
 struct PoseVariation {
   double mirror_share = 0.5;
-  double random_arm_share = 0.25;  // of frames: one or both arms anywhere within their limits
-  double perturbation_rad = 0.08;  // of each limb, standard deviation
-  double wrist_rad = 0.35;         // of the hand against the forearm, which mocap lacks
+  double random_arm_share = 0.25;     // of frames: one or both arms anywhere within their limits
+  double perturbation_rad = 0.08;     // of each limb, standard deviation
+  double wrist_rad = 0.35;            // of the hand against the forearm, which mocap lacks
+  double random_posture_share = 0.0;  // of frames: all joints anywhere within their limits
 };
 
 /// How often poses are had.
 enum class Poses {
   kSpread,   // what people do seldom nearly as often as what they do all the time
   kNatural,  // as often as people take them: a pose is as likely as another of the clips
+  kAny,      // as spread; one in four frames any posture that joints can take
 };
 std::optional<Poses> PosesFromName(std::string_view name);
 PoseBankOptions BankOf(Poses poses);
@@ -43,6 +45,10 @@ recon::RigPose Mirrored(const recon::RigPose& pose);
 
 /// A pose like the given one, as another person would take it.
 recon::RigPose Varied(const recon::RigPose& pose, const PoseVariation& variation, Random& random);
+
+/// One arm anywhere it can go, 0 left and 1 right: in the half space outside of the trunk and
+/// before it.
+void RandomArm(size_t side, recon::RigPose* pose, Random& random);
 
 /// The pose turned about the vertical through the origin.
 recon::RigPose Turned(const recon::RigPose& pose, double angle_rad);

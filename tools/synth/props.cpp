@@ -183,6 +183,9 @@ std::optional<Occluders> OccludersFromName(std::string_view name) {
   if (name == "held") return Occluders::kHeld;
   if (name == "scene") return Occluders::kScene;
   if (name == "any") return Occluders::kAny;
+  if (name == "held-up") return Occluders::kHeldUp;
+  if (name == "desk") return Occluders::kDesk;
+  if (name == "all") return Occluders::kAll;
   return std::nullopt;
 }
 
@@ -250,6 +253,7 @@ std::vector<Prop> SampleRoom(const Eigen::Isometry3d& camera_from_world, Random&
   const Eigen::Vector3d camera_m = camera_from_world.inverse().translation();
   // The person stands over the origin and the camera looks along -z: the wall behind the person is
   // at -behind, the camera is inside the room too.
+  constexpr float kLowCeiling_m = 2.4F, kAir_m = 0.05F;  // over the camera; by hand
   float behind_m = Draw(random, 0.5, 3.0);
   auto before_m = static_cast<float>(camera_m.z()) + Draw(random, 0.3, 1.0);
   float width_m = Draw(random, 2.5, 6.0);
@@ -264,8 +268,11 @@ std::vector<Prop> SampleRoom(const Eigen::Isometry3d& camera_from_world, Random&
     before_m = std::max(before_m, path.max().y());
   }
   std::vector<Prop> props;
+  float high_m = Draw(random, 2.3, 3.0);
+  const auto camera_height_m = static_cast<float>(camera_m.y());
+  if (camera_height_m > kLowCeiling_m) high_m = std::max(high_m, camera_height_m + kAir_m);
   props.push_back(
-      {depth::Moved(depth::MakeRoom({width_m, Draw(random, 2.3, 3.0), behind_m + before_m}),
+      {depth::Moved(depth::MakeRoom({width_m, high_m, behind_m + before_m}),
                     Affine3f(Eigen::Translation3f(shift_m, 0, (before_m - behind_m) / 2))),
        false});
   const size_t count = random.Index(4);

@@ -7,12 +7,13 @@
 
 #include "depth/base/random.h"
 #include "depth/render/renderer.h"
+#include "recon/body/parts.h"
 #include "recon/posture.h"
 
 namespace ossa::tools {
 
 /// The values of `ossa render --occluders`.
-enum class Occluders { kNone, kHeld, kScene, kAny };
+enum class Occluders { kNone, kHeld, kScene, kAny, kHeldUp, kDesk, kAll };
 std::optional<Occluders> OccludersFromName(std::string_view name);
 
 /// What a thing goes along with.
@@ -21,10 +22,12 @@ enum class Grip { kNone, kLeftHand, kRightHand, kBothHands };
 /// A thing in the picture that is not a person.
 struct Prop {
   depth::TriangleMesh mesh_in_cam;
-  /// True: held by or standing close before the person, part label 32 `other`, and one of the
-  /// person's pixels to a segmenter. False: background, label 0.
+  /// True: held by, worn by or standing close before the person, and one of the person's pixels to
+  /// a segmenter. False: background, label 0.
   bool counts_as_other = true;
   Grip grip = Grip::kNone;
+  uint8_t part = recon::kOtherPart;  // its label, when it counts: of a hat the head's
+  uint8_t user = 1;                  // whose it is
 };
 
 /// Things to hold (boxes, balls, sticks, boards, bags) and things that stand before a person

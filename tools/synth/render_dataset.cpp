@@ -53,13 +53,11 @@ std::string ReadText(const fs::path& path) {
 DatasetManifest MakeManifest(const FrameStudio& studio, const RenderJob& job) {
   DatasetManifest manifest;
   manifest.frames = job.frames;
-  manifest.camera = depth::KinectV1Camera(studio.options.width, studio.options.height);
+  manifest.camera = CameraOf(studio.options);
   manifest.seed = studio.options.seed;
   manifest.command = job.command;
   manifest.split = studio.options.split == Split::kTest ? "test" : "train";
-  manifest.view = studio.options.view == View::kFront  ? "front"
-                  : studio.options.view == View::kNear ? "near"
-                                                       : "any";
+  manifest.view = NameOf(studio.options.view);
   manifest.sources = job.sources;
   manifest.terms = job.terms;
   manifest.png = job.png;

@@ -18,6 +18,8 @@ constexpr int kCropBorder = 4;        // pixels of background kept around the la
 constexpr int kCompressionLevel = 1;  // the fastest; higher levels save under a tenth; of zstd
 constexpr uint64_t kLargestFrame_bytes = uint64_t{1} << 28;
 constexpr int kLargestSide = 8192;
+// Bits of a byte of the format: what of a frame is not in all of them.
+constexpr uint8_t kHasFloor = 1, kHasWhole = 2;
 
 struct ContextDeleter {
   void operator()(ZSTD_CCtx* context) const { ZSTD_freeCCtx(context); }
@@ -117,7 +119,8 @@ LabelledFrame ParseFrame(std::span<const std::byte> bytes, const std::string& na
   }
   frame.depth.time_s = reader.Get<double>("time");
   const auto floor = reader.Get<std::array<double, 4>>("floor");
-  if (reader.Get<uint8_t>("has floor") != 0) frame.floor = Eigen::Vector4d(floor.data());
+  const auto has = reader.Get<uint8_t>("what there is");
+  if ((has & kHasFloor) != 0) frame.floor = Eigen::Vector4d(floor.data());
   frame.bodies = GetBodies(reader);
   const auto pixels = static_cast<size_t>(camera.width) * static_cast<size_t>(camera.height);
   const auto planes = reader.GetVector<uint8_t>("depth");
@@ -128,6 +131,10 @@ LabelledFrame ParseFrame(std::span<const std::byte> bytes, const std::string& na
     image->height = camera.height;
     image->data = reader.GetVector<uint8_t>("labels");
     if (image->data.size() != pixels) reader.Fail("labels", "not of the image's size");
+  }
+  if ((has & kHasWhole) != 0) {
+    frame.whole = reader.Get<depth::Camera>("whole camera");
+    depth::CheckCamera(*frame.whole, name + ": whole camera");
   }
   reader.ExpectEnd();
   return frame;
@@ -158,6 +165,7 @@ LabelledFrame Cropped(const LabelledFrame& frame, int u0, int v0, int width, int
   crop.users.data = CropPixels(frame.users.data, stride, u0, v0, width, height);
   crop.bodies = frame.bodies;
   crop.floor = frame.floor;
+  crop.whole = frame.whole;
   return crop;
 }
 
@@ -168,11 +176,12 @@ std::vector<uint8_t> PackFrame(const LabelledFrame& whole) {
   writer.Put(frame.depth.time_s);
   const Eigen::Vector4d floor = frame.floor.value_or(Eigen::Vector4d::Zero());
   writer.Put(std::array{floor[0], floor[1], floor[2], floor[3]});
-  writer.Put(static_cast<uint8_t>(frame.floor ? 1 : 0));
+  writer.Put(static_cast<uint8_t>((frame.floor ? kHasFloor : 0) | (frame.whole ? kHasWhole : 0)));
   PutBodies(writer, frame.bodies);
   writer.PutVector(DepthPlanes(frame.depth.depth_mm));
   writer.PutVector(frame.parts.data);
   writer.PutVector(frame.users.data);
+  if (frame.whole) writer.Put(*frame.whole);
 
   const auto& raw = writer.bytes();
   std::vector<uint8_t> blob(ZSTD_compressBound(raw.size()));

@@ -2,10 +2,13 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <numbers>
 
 namespace ossa::tools {
 namespace {
+
+// Constants: chosen by hand, where nothing else is said.
 
 constexpr double kDegree = std::numbers::pi / 180.0;  // radians, by definition
 
@@ -17,6 +20,7 @@ struct Placement {
   double aside_rad = 0.0;     // turns the person off the centre of the image
   double roll_rad = 0.0;
   double facing_rad = 0.0;
+  double aim_ahead_m = 0.0;  // of the person's axis, towards the camera
 };
 
 /// Test placements are one in five cells of a grid over height, distance and heading; training
@@ -64,29 +68,65 @@ Placement DrawAny(double person_m, Random& random) {
   return place;
 }
 
+/// Above the person or somewhat aside, looking down.
+Placement DrawCeiling(double person_m, Random& random) {
+  constexpr double kLeastAside_m = 0.05;  // straight down has no heading; by hand
+  Placement place;
+  place.height_m = random.Uniform(2.2, 4.0);
+  place.distance_m = random.Uniform(kLeastAside_m, 1.8);
+  place.aim_height_m = person_m * random.Uniform(0.3, 1.0);
+  place.aim_ahead_m = random.Uniform(-0.4, 0.4) * place.distance_m;
+  place.aside_rad = random.Uniform(-12, 12) * kDegree;
+  place.facing_rad = random.Uniform(-180, 180) * kDegree;
+  return place;
+}
+
 Placement Draw(View view, double person_m, Random& random) {
-  Placement place = view == View::kFront  ? DrawFront(person_m, random)
-                    : view == View::kNear ? DrawNear(person_m, random)
-                                          : DrawAny(person_m, random);
+  Placement place = view == View::kFront     ? DrawFront(person_m, random)
+                    : view == View::kNear    ? DrawNear(person_m, random)
+                    : view == View::kCeiling ? DrawCeiling(person_m, random)
+                                             : DrawAny(person_m, random);
   place.roll_rad = random.Normal(0.0, 2.0 * kDegree);
   return place;
 }
 
-depth::Camera DrawCamera(const ViewRequest& request, Random& random) {
-  depth::Camera camera = depth::KinectV1Camera(request.width, request.height);
-  if (!request.generic_cameras || random.Chance(0.5)) return camera;
+/// Of any sensor: its size, shape and field of view, and whether somebody shrunk its images.
+void DrawAnyCamera(ViewSample* sample, Random& random) {
+  constexpr double kLeast_px = 100.0, kMost_px = 1280.0;
+  constexpr double kNarrow_deg = 45.0, kWide_deg = 120.0;
+  constexpr double kShapes[] = {3.0 / 4, 3.0 / 4, 1.0, 9.0 / 16, 0.9};  // height over width
+  constexpr double kShrunkShare = 0.4, kMostShrunk = 4.0;               // of images; factor
+  const double width_px = kLeast_px * std::pow(kMost_px / kLeast_px, random.Unit());
+  const double shape = kShapes[random.Index(std::size(kShapes))];
+  const double fov_deg = random.Uniform(kNarrow_deg, kWide_deg);
+  const bool shrunk = random.Chance(kShrunkShare);
+  const double shrink = random.Uniform(1.0, kMostShrunk);
+  sample->shrink = shrunk ? std::min(shrink, kMost_px / width_px) : 1.0;
+  ViewRequest request;
+  request.width = static_cast<int>(width_px);
+  request.height = static_cast<int>(width_px * shape);
+  request.fov_deg = fov_deg;
+  request.shrink = sample->shrink;
+  sample->camera = PlainCamera(request);
+}
+
+void DrawCamera(const ViewRequest& request, ViewSample* sample, Random& random) {
+  if (request.cameras == Cameras::kAny) return DrawAnyCamera(sample, random);
+  depth::Camera& camera = sample->camera;
+  camera = PlainCamera(request);
+  sample->shrink = request.shrink;
+  if (request.cameras == Cameras::kKinectV1 || random.Chance(0.5)) return;
   const double zoom = random.Uniform(0.85, 1.15);
   camera.fx *= zoom;
   camera.fy *= zoom * random.Uniform(0.99, 1.01);
-  camera.cx += random.Normal(0.0, 0.01) * request.width;
-  camera.cy += random.Normal(0.0, 0.01) * request.height;
-  return camera;
+  camera.cx += random.Normal(0.0, 0.01) * camera.width;
+  camera.cy += random.Normal(0.0, 0.01) * camera.height;
 }
 
 /// The camera stands on the person's +z side and looks at the aim, turned aside and rolled.
 Eigen::Isometry3d CameraFromWorld(const Placement& place) {
   const Eigen::Vector3d position_m(0.0, place.height_m, place.distance_m);
-  const Eigen::Vector3d aim_m(0.0, place.aim_height_m, 0.0);
+  const Eigen::Vector3d aim_m(0.0, place.aim_height_m, place.aim_ahead_m);
   const Eigen::Vector3d forward = (aim_m - position_m).normalized();
   const Eigen::Vector3d left = Eigen::Vector3d::UnitY().cross(forward).normalized();
   Eigen::Matrix3d world_from_camera;
@@ -106,7 +146,54 @@ std::optional<View> ViewFromName(std::string_view name) {
   if (name == "front") return View::kFront;
   if (name == "near") return View::kNear;
   if (name == "any") return View::kAny;
+  if (name == "ceiling") return View::kCeiling;
   return std::nullopt;
+}
+
+std::string_view NameOf(View view) {
+  switch (view) {
+    case View::kFront:
+      return "front";
+    case View::kNear:
+      return "near";
+    case View::kCeiling:
+      return "ceiling";
+    case View::kAny:
+      break;
+  }
+  return "any";
+}
+
+std::optional<Cameras> CamerasFromName(std::string_view name) {
+  if (name == "kinect-v1") return Cameras::kKinectV1;
+  if (name == "generic") return Cameras::kGeneric;
+  if (name == "any") return Cameras::kAny;
+  return std::nullopt;
+}
+
+depth::Camera PlainCamera(const ViewRequest& request) {
+  const auto larger = [&](int side) {
+    return static_cast<int>(std::lround(side * request.shrink));
+  };
+  depth::Camera camera = depth::KinectV1Camera(larger(request.width), larger(request.height));
+  if (request.fov_deg > 0.0) {
+    camera.fx = camera.fy = 0.5 * camera.width / std::tan(0.5 * request.fov_deg * kDegree);
+  }
+  return camera;
+}
+
+depth::Camera ShrunkCamera(const depth::Camera& camera, double shrink) {
+  if (shrink == 1.0) return camera;
+  const auto smaller = [&](int side) {
+    return std::max(1, static_cast<int>(std::lround(side / shrink)));
+  };
+  // Pixel u shows what pixel (u + 1/2) shrink - 1/2 showed, on average over the rounding.
+  return {.width = smaller(camera.width),
+          .height = smaller(camera.height),
+          .fx = camera.fx / shrink,
+          .fy = camera.fy / shrink,
+          .cx = (camera.cx + 0.5) / shrink - 0.5,
+          .cy = (camera.cy + 0.5) / shrink - 0.5};
 }
 
 std::optional<Split> SplitFromName(std::string_view name) {
@@ -120,7 +207,11 @@ ViewSample SampleView(const ViewRequest& request, Random& random) {
   while (IsTestPlacement(place) != (request.split == Split::kTest)) {
     place = Draw(request.view, request.person_height_m, random);
   }
-  return {DrawCamera(request, random), CameraFromWorld(place), place.facing_rad};
+  ViewSample sample;
+  DrawCamera(request, &sample, random);
+  sample.camera_from_world = CameraFromWorld(place);
+  sample.facing_rad = place.facing_rad;
+  return sample;
 }
 
 }  // namespace ossa::tools

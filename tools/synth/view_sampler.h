@@ -9,13 +9,20 @@
 namespace ossa::tools {
 
 /// `ossa render --view`: front: facing the camera within 60°, whole body mostly in view, 1.5-4
-/// m; near: 0.7-1.7 m, cropped by the image; any: every side, height, distance and crop.
-enum class View { kFront, kNear, kAny };
+/// m; near: 0.7-1.7 m, cropped by the image; any: every side, height, distance and crop; ceiling:
+/// from 2.2 to 4 m above the floor, looking down.
+enum class View { kFront, kNear, kAny, kCeiling };
 std::optional<View> ViewFromName(std::string_view name);
+std::string_view NameOf(View view);
 
 /// Train and test draw from disjoint sets of camera placements (and of body shapes).
 enum class Split { kTrain, kTest };
 std::optional<Split> SplitFromName(std::string_view name);
+
+/// `ossa render --camera`: the Kinect v1's intrinsics; besides them others of like field of view;
+/// or images of 100 to 1280 pixels, 45° to 120° wide, of several shapes, some of them shrunk.
+enum class Cameras { kKinectV1, kGeneric, kAny };
+std::optional<Cameras> CamerasFromName(std::string_view name);
 
 struct ViewRequest {
   View view = View::kAny;
@@ -23,12 +30,19 @@ struct ViewRequest {
   int width = 640;
   int height = 480;
   double person_height_m = 1.7;
-  bool generic_cameras = true;  // besides the Kinect's intrinsics, others of like field of view
+  Cameras cameras = Cameras::kGeneric;
+  double fov_deg = 0.0;  // horizontal field of view of Cameras::kKinectV1; 0: the Kinect's
+  double shrink = 1.0;   // >= 1: the image is made so much larger and shrunk by nearest neighbour
 };
+
+/// The camera of Cameras::kKinectV1 before shrinking, and after.
+depth::Camera PlainCamera(const ViewRequest& request);
+depth::Camera ShrunkCamera(const depth::Camera& camera, double shrink);
 
 /// A camera and a person before it. World: y up, floor at y = 0, the person stands over the origin.
 struct ViewSample {
-  depth::Camera camera;
+  depth::Camera camera;  // before shrinking
+  double shrink = 1.0;
   Eigen::Isometry3d camera_from_world = Eigen::Isometry3d::Identity();
   /// Heading of the person, radians about y: 0 faces the camera, positive turns to the person's
   /// left.

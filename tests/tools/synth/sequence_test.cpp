@@ -21,7 +21,7 @@ class Sequence : public ::testing::TestWithParam<Occluders> {
     options.width = 160;
     options.height = 120;
     options.sequence = true;
-    options.sensor = SensorKind::kExact;
+    options.sensors = {depth::SensorKind::kNone};
     options.background = Background::kRoom;
     options.occluders = occluders;
     options.seed = seed;

@@ -66,5 +66,51 @@ TEST(ViewSampler, TrainAndTestNeverShareAPlacement) {
   }
 }
 
+TEST(ViewSampler, TheCeilingIsHighAndLooksDownAtThePerson) {
+  Random random(5, 0);
+  int steep = 0;
+  for (int i = 0; i < 300; ++i) {
+    const ViewSample sample = SampleView({.view = View::kCeiling}, random);
+    const Eigen::Isometry3d world_from_camera = sample.camera_from_world.inverse();
+    EXPECT_GE(world_from_camera.translation().y(), 2.2);
+    EXPECT_LE(world_from_camera.translation().y(), 4.0);
+    const double down = -world_from_camera.linear().col(2).y();
+    EXPECT_GT(down, 0.2) << "the optical axis points down";
+    steep += down > 0.7 ? 1 : 0;
+    const Eigen::Vector3d chest = sample.camera_from_world * Eigen::Vector3d(0, 1.2, 0);
+    EXPECT_GT(chest.z(), 0.5);
+  }
+  EXPECT_GT(steep, 150);
+}
+
+TEST(ViewSampler, AnyCameraIsOfEverySizeAndFieldOfView) {
+  Random random(6, 0);
+  int small = 0, large = 0, wide = 0, shrunk = 0;
+  for (int i = 0; i < 400; ++i) {
+    const ViewSample sample = SampleView({.cameras = Cameras::kAny}, random);
+    const depth::Camera camera = ShrunkCamera(sample.camera, sample.shrink);
+    const double fov_deg = 2 * std::atan(0.5 * camera.width / camera.fx) * 180 / kPi;
+    ASSERT_GE(camera.width, 99);
+    ASSERT_LE(sample.camera.width, 1281);
+    ASSERT_GT(fov_deg, 44);
+    ASSERT_LT(fov_deg, 121);
+    small += camera.width < 160 ? 1 : 0;
+    large += camera.width > 800 ? 1 : 0;
+    wide += fov_deg > 100 ? 1 : 0;
+    shrunk += sample.shrink > 1 ? 1 : 0;
+  }
+  for (const int count : {small, large, wide, shrunk}) EXPECT_GT(count, 40);
+}
+
+TEST(ViewSampler, AShrunkCameraSeesAPointWhereItsPixelWasTakenFrom) {
+  const depth::Camera large{
+      .width = 240, .height = 240, .fx = 285.7, .fy = 285.7, .cx = 119.5, .cy = 119.5};
+  const depth::Camera small = ShrunkCamera(large, 2.4);
+  EXPECT_EQ(small.width, 100);
+  const Eigen::Vector3d point_m(0.3, -0.4, 2.0);
+  const Eigen::Vector2d in_large = Project(large, point_m), in_small = Project(small, point_m);
+  EXPECT_NEAR((in_small.x() + 0.5) * 2.4 - 0.5, in_large.x(), 1e-9);
+}
+
 }  // namespace
 }  // namespace ossa::tools

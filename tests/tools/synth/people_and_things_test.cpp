@@ -1,0 +1,89 @@
+// What is worn, what stands about, postures nobody was recorded in.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "recon/body/standard_body.h"
+#include "tools/synth/nobodies.h"
+#include "tools/synth/random_posture.h"
+#include "tools/synth/worn.h"
+
+namespace ossa::tools {
+namespace {
+
+using recon::Joint;
+
+TEST(Worn, AHatIsTheUpperHeadsLeftAndRightHalfAndABagIsAnObject) {
+  recon::RigPose pose;
+  pose.root_m = recon::StandardRigRest().head_m[0];
+  const recon::Posture joints = recon::StandardPosture(pose);
+  Worn worn;
+  worn.hat = Worn::Hat::kBrimmed;
+  worn.bag = Worn::Bag::kRucksack;
+  const auto props = WornProps(worn, pose, joints, 1.66, Eigen::Isometry3d::Identity(), 2);
+  ASSERT_EQ(props.size(), 3u);
+  const double middle_m = joints[Joint::kHead].x();
+  for (const auto& p : props[0].mesh_in_cam.vertices_m) EXPECT_GE(p.x(), middle_m - 1e-5);
+  for (const auto& p : props[1].mesh_in_cam.vertices_m) EXPECT_LE(p.x(), middle_m + 1e-5);
+  EXPECT_EQ(props[0].part, 1);
+  EXPECT_EQ(props[1].part, 2);
+  EXPECT_EQ(props[2].part, recon::kOtherPart);
+  for (const Prop& prop : props) EXPECT_EQ(prop.user, 2);
+  // A rucksack is on the back.
+  float farthest_back_m = 0;
+  for (const auto& p : props[2].mesh_in_cam.vertices_m) {
+    farthest_back_m = std::min(farthest_back_m, p.z());
+  }
+  EXPECT_LT(farthest_back_m, joints[Joint::kSpine].z() - 0.2);
+}
+
+TEST(Nobodies, AreBackgroundAndLeaveThePersonsPlaceFree) {
+  for (uint64_t seed = 0; seed < 30; ++seed) {
+    Random random(seed, 1);
+    const auto props = SampleNobodies(Eigen::Isometry3d::Identity(), random);
+    EXPECT_GE(props.size(), 2u);
+    for (const Prop& prop : props) {
+      EXPECT_FALSE(prop.counts_as_other);
+      float highest_m = 0;
+      for (const auto& p : prop.mesh_in_cam.vertices_m) {
+        highest_m = std::max(highest_m, p.y());
+        EXPECT_GT(std::hypot(p.x(), p.z()), 0.05F);
+      }
+      EXPECT_GT(highest_m, 0.3F) << "as large as a part of a person";
+      EXPECT_LT(highest_m, 3.0F);
+    }
+  }
+}
+
+TEST(RandomPosture, KeepsToTheLimitsOfElbowsAndKneesAndStandsOnTheFloor) {
+  for (uint64_t seed = 0; seed < 300; ++seed) {
+    Random random(seed, 1);
+    const recon::Posture p = recon::StandardPosture(RandomPosture(random));
+    const auto bend = [&](Joint a, Joint b, Joint c) {
+      const Eigen::Vector3d u = (p[b] - p[a]).normalized(), v = (p[c] - p[b]).normalized();
+      return std::acos(std::clamp(u.dot(v), -1.0, 1.0)) * 180 / 3.14159265;
+    };
+    EXPECT_LT(bend(Joint::kHipLeft, Joint::kKneeLeft, Joint::kAnkleLeft), 145);
+    EXPECT_LT(bend(Joint::kShoulderRight, Joint::kElbowRight, Joint::kWristRight), 155);
+    double lowest_m = 1e9;
+    for (const auto& joint_m : p.position_m) lowest_m = std::min(lowest_m, joint_m.y());
+    EXPECT_NEAR(lowest_m, 0.06, 1e-9);
+  }
+}
+
+TEST(RandomPosture, StandsBendsAndLies) {
+  int upright = 0, lying = 0;
+  for (uint64_t seed = 0; seed < 400; ++seed) {
+    Random random(seed, 1);
+    const recon::Posture p = recon::StandardPosture(RandomPosture(random));
+    const double up = (p[Joint::kShoulderCenter] - p[Joint::kHipCenter]).normalized().y();
+    upright += up > 0.7 ? 1 : 0;
+    lying += std::abs(up) < 0.4 ? 1 : 0;
+  }
+  EXPECT_GT(upright, 120);
+  EXPECT_GT(lying, 80);
+}
+
+}  // namespace
+}  // namespace ossa::tools
