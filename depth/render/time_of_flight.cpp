@@ -100,10 +100,11 @@ class Sensor {
       const float one_m = rendered_.depth_m.at(u + du, v + dv);
       const float other_m = rendered_.depth_m.at(u - du, v - dv);
       if (one_m <= 0.0F || other_m <= 0.0F) continue;
-      // Not across a gap to something else that stands before it.
-      const float most_m = 2.0F * Float(options_.corner_reach_m);
-      if (std::abs(one_m - depth_m) > most_m || std::abs(other_m - depth_m) > most_m) continue;
-      deepest_m = std::max(deepest_m, depth_m - 0.5F * (one_m + other_m));
+      // Less and less from beyond a gap: what stands before the surface is no wall of its corner.
+      const float most_m = 3.0F * Float(options_.corner_reach_m);
+      const float near = std::max(0.0F, 1.0F - std::abs(one_m - depth_m) / most_m) *
+                         std::max(0.0F, 1.0F - std::abs(other_m - depth_m) / most_m);
+      deepest_m = std::max(deepest_m, near * (depth_m - 0.5F * (one_m + other_m)));
     }
     return Float(options_.corner_filling) * deepest_m;
   }

@@ -28,9 +28,10 @@ struct TimeOfFlightOptions {
   double found_out = 0.6;  // share
   /// Neighbours that differ by more than this share of their depth lie on two surfaces.
   double edge_share = 0.03;  // share
-  /// Light that comes by way of a neighbouring surface: inner corners are read as if filled with
-  /// this share of what they lie behind the surface around them, within this reach.
-  double corner_filling = 0.35;  // share
+  /// Light that comes by way of a neighbouring surface: inner corners are read as if filled with up
+  /// to this share of what they lie behind the surface around them, within this reach; the less the
+  /// farther that surface is away.
+  double corner_filling = 0.6;  // share
   double corner_reach_m = 0.06;
   /// The light falls off from the optical axis with this power of the cosine. Kinect v2: by hand,
   /// so that corners of the image have a third of the middle's light.

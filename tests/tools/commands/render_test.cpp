@@ -1,0 +1,58 @@
+// `ossa render` from the outside: which options go together, and what the data set says of them.
+#include <gtest/gtest.h>
+
+#include <fstream>
+#include <nlohmann/json.hpp>
+#include <string>
+#include <vector>
+
+#include "recon/body/body_model.h"
+#include "tests/support/run_command.h"
+#include "tests/support/temporary_folder.h"
+
+namespace ossa::commands {
+namespace {
+
+using test::RunOssa;
+
+struct Refused {
+  std::vector<std::string> words;
+  std::string said;
+};
+
+TEST(RenderCommand, RefusesWhatDoesNotGoTogetherAsWrongUsage) {
+  const test::TemporaryFolder folder;
+  const std::vector<Refused> cases = {
+      {{"--camera", "any"}, "--format packed"},
+      {{"--camera", "any", "--format", "packed", "--fov", "60"}, "leave --fov"},
+      {{"--camera", "any", "--format", "packed", "--sequence"}, "--sequence"},
+      {{"--occluders", "desk", "--sequence"}, "--occluders desk"},
+      {{"--poses", "any", "--sequence"}, "--poses any"},
+      {{"--noise", "kinect-v3"}, "kinect-v2"},
+      {{"--shrink", "0.5"}, "--shrink"}};
+  for (const Refused& refused : cases) {
+    std::vector<std::string> words = {"render", "--mocap", "authored",    "--frames",
+                                      "1",      "--out",   folder / "set"};
+    words.insert(words.end(), refused.words.begin(), refused.words.end());
+    const auto run = RunOssa(words);
+    EXPECT_EQ(run.exit_status, 2) << refused.said;
+    EXPECT_NE(run.err.find(refused.said), std::string::npos) << run.err;
+  }
+}
+
+TEST(RenderCommand, AShrunkImagesCameraIsInTheManifest) {
+  if (!recon::BodyIsFetched(recon::BodyFolder())) GTEST_SKIP() << "no body: tools/fetch_body";
+  const test::TemporaryFolder folder;
+  const auto run = RunOssa({"render", "--mocap", "authored-floor", "--frames", "2", "--out",
+                            folder / "set", "--size", "100x100", "--fov", "45.6", "--shrink", "2.4",
+                            "--noise", "xtion", "--quiet"});
+  ASSERT_EQ(run.exit_status, 0) << run.err;
+  const auto manifest = nlohmann::json::parse(std::ifstream(folder / "set/manifest.json"));
+  EXPECT_EQ(manifest["camera"]["width"], 100);
+  // 50 / tan(22.8°); ITOP's, as its makers shrunk it, is 119.05.
+  EXPECT_NEAR(manifest["camera"]["fx"].get<double>(), 118.9, 0.1);
+  EXPECT_NE(manifest["command"].get<std::string>().find("--shrink 2.4"), std::string::npos);
+}
+
+}  // namespace
+}  // namespace ossa::commands

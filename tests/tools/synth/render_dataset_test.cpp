@@ -1,0 +1,67 @@
+// Rendering stops and goes on under every new option, with one thread or two: the same bytes.
+#include "tools/synth/render_dataset.h"
+
+#include <gtest/gtest.h>
+
+#include <atomic>
+#include <fstream>
+#include <iterator>
+
+#include "recon/motion/mocap.h"
+#include "tests/support/temporary_folder.h"
+#include "tools/synth/stage.h"
+
+namespace ossa::tools {
+namespace {
+
+namespace fs = std::filesystem;
+
+FrameOptions EverythingAtOnce() {
+  FrameOptions options;
+  options.sensors = {depth::SensorKind::kXtion, depth::SensorKind::kAzure,
+                     depth::SensorKind::kD4xx};
+  options.cameras = Cameras::kAny;
+  options.occluders = Occluders::kAll;
+  options.hanging_clothes = options.ends = true;
+  options.variation = VariationOf(Poses::kAny);
+  options.view = View::kCeiling;
+  options.width = 64;
+  options.height = 48;
+  return options;
+}
+
+std::string Bytes(const fs::path& path) {
+  std::ifstream file(path, std::ios::binary);
+  return {std::istreambuf_iterator<char>(file), {}};
+}
+
+TEST(RenderDataset, GoesOnWhereItWasStoppedWithTheSameBytes) {
+  if (!recon::BodyIsFetched(recon::BodyFolder())) GTEST_SKIP() << "no body: tools/fetch_body";
+  const test::TemporaryFolder folder;
+  const FrameStudio studio(LoadFetchedBody(), MakePoseBank(recon::LoadMocap({"authored-floor"})),
+                           EverythingAtOnce());
+  RenderJob job;
+  job.frames = 80;  // two shards
+  job.png = false;
+  job.packed = true;
+  job.command = "test";
+  job.threads = 2;
+  job.out = folder / "once";
+  ASSERT_EQ(RenderShare(studio, job), RenderEnd::kDone);
+  FinishDataset(studio, job);
+  job.threads = 1;
+  job.out = folder / "twice";
+  std::atomic<int> asked = 0;
+  job.interrupted = [&] { return ++asked > 70; };
+  ASSERT_EQ(RenderShare(studio, job), RenderEnd::kInterrupted);
+  job.interrupted = [] { return false; };
+  ASSERT_EQ(RenderShare(studio, job), RenderEnd::kDone);
+  FinishDataset(studio, job);
+  for (const char* file : {"manifest.json", "shards/000000.shard", "shards/000001.shard"}) {
+    EXPECT_FALSE(Bytes(fs::path(folder / "once") / file).empty());
+    EXPECT_EQ(Bytes(fs::path(folder / "once") / file), Bytes(fs::path(folder / "twice") / file));
+  }
+}
+
+}  // namespace
+}  // namespace ossa::tools
