@@ -185,7 +185,8 @@ void World::Impl::FinishStep(const std::vector<Contact>& before) {
     if (thing.goal) SetPoseAtRest(thing.body, *thing.goal);
     thing.goal.reset();
   }
-  for (auto& [key, contact] : touching) {
+  for (auto& touched : touching) {
+    Contact& contact = touched.second;
     contact.began = std::none_of(before.begin(), before.end(), [&contact](const Contact& other) {
       return other.a == contact.a && other.b == contact.b;
     });
