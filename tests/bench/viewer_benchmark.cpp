@@ -72,9 +72,10 @@ void Track_640x480_ms(benchmark::State& state) {
   static const std::vector<depth::DepthFrame> frames = Frames();
   const bool has_page = state.range(0) >= 0;
   tracker::TrackerOptions options;
-  options.keep_parts = has_page;
+  options.models = tracker::ModelSet::Shipped(options.method);
   tracker::Tracker tracker(options);
   ViewerOptions any;
+  any.forest = options.models->forest;
   any.port = 0;
   const auto viewer = has_page ? std::make_unique<Viewer>(any) : nullptr;
   std::vector<std::unique_ptr<Browser>> browsers;
@@ -100,7 +101,7 @@ BENCHMARK(Track_640x480_ms)
     ->Arg(1)
     ->Arg(2)
     ->Unit(benchmark::kMillisecond)
-    ->MinTime(3);
+    ->Iterations(400);
 
 }  // namespace
 }  // namespace ossa::viewer

@@ -195,8 +195,7 @@ TrackOptions ParseOptions(int argc, char** argv) {
   }
   if (options.mode == "seated") options.tracker.mode = tracker::TrackingMode::kSeated;
   options.tracker.trace = !options.trace.empty();
-  options.tracker.keep_parts =
-      options.view || !options.picture.empty() || !options.pictures.empty();
+  options.tracker.keep_parts = !options.picture.empty() || !options.pictures.empty();
   return options;
 }
 
@@ -335,6 +334,7 @@ void TrackAll(depth::FrameSource& source, tracker::Tracker& tracker, const Track
     if (viewer != nullptr) {
       viewer::Moment moment = viewer::MomentOf(read.frame, bodies);
       moment.dropped = run.dropped;
+      moment.is_upright = tracker.quarter_turns() == 0;
       moment.latency_ms = bodies.ms.total;
       viewer->Show(std::move(moment));
     }
@@ -429,6 +429,7 @@ int Track(int argc, char** argv) {
   if (options.view) {
     viewer::ViewerOptions page = PageOptions(options.page);
     page.name = options.source.name;
+    page.forest = options.tracker.models->forest;
     viewer = std::make_unique<viewer::Viewer>(page);
     SayWhere(*viewer);
   }

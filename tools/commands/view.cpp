@@ -87,7 +87,8 @@ viewer::ViewerOptions ViewerOptionsOf(const ViewOptions& options) {
   return with;
 }
 
-tracker::Tracker MakeTracker(const ViewOptions& options, const viewer::Settings& settings) {
+tracker::Tracker MakeTracker(const ViewOptions& options, const viewer::Settings& settings,
+                             bool is_live) {
   tracker::TrackerOptions with = options.tracker;
   with.method = settings.method;
   with.models = tracker::ModelSet::Load(options.files, with.method);
@@ -95,7 +96,7 @@ tracker::Tracker MakeTracker(const ViewOptions& options, const viewer::Settings&
   with.mode = settings.seated ? tracker::TrackingMode::kSeated : tracker::TrackingMode::kStanding;
   with.near_range = settings.near_range;
   with.max_users = settings.users;
-  with.keep_parts = true;
+  with.keep_parts = !is_live;  // of a camera the page finds them, for who looks
   return tracker::Tracker(with);
 }
 
@@ -129,7 +130,7 @@ class PageTracker {
       : options_(options),
         source_(OpenSource(options.source, false)),
         settings_(options.settings),
-        tracker_(MakeTracker(options, settings_)) {
+        tracker_(MakeTracker(options, settings_, source_->is_live())) {
     FindUpright(tracker_, *source_, options_.source, false);
     viewer::ViewerOptions with = ViewerOptionsOf(options);
     with.keeps = !source_->is_live();
@@ -137,7 +138,10 @@ class PageTracker {
     with.settings = settings_;
     with.methods = MethodsToChoose(options.files);
     with.smoothings = tracker::SmoothingPresets();
-    if (source_->is_live()) with.recordings = options.record_to;
+    if (source_->is_live()) {
+      with.recordings = options.record_to;
+      with.forest = tracker::ModelSet::Load(options.files, settings_.method).forest;
+    }
     viewer_ = std::make_unique<viewer::Viewer>(with);
     SayWhere(*viewer_);
   }
@@ -161,6 +165,7 @@ class PageTracker {
     if (options_.once && !source_->is_live()) clockwork_.WaitFor(read.frame.time_s);
     viewer::Moment moment = viewer::MomentOf(read.frame, tracker_.Track(read.frame));
     moment.dropped = dropped_;
+    moment.is_upright = tracker_.quarter_turns() == 0;
     moment.latency_ms = std::chrono::duration<double, std::milli>(Clock::now() - arrived).count();
     viewer_->Show(std::move(moment));
   }
@@ -170,7 +175,7 @@ class PageTracker {
         next_settings_ ? std::exchange(next_settings_, {}) : viewer_->TakeSettings();
     if (!asked) return false;
     try {
-      tracker_ = MakeTracker(options_, *asked);
+      tracker_ = MakeTracker(options_, *asked, source_->is_live());
       settings_ = *asked;
       return true;
     } catch (const InputError& error) {

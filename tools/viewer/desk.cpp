@@ -30,7 +30,7 @@ nlohmann::json JsonOf(const Settings& settings) {
 
 Desk::Desk(const ViewerOptions& with)
     : options(with),
-      store(with.keeps),
+      store(with.keeps, with.forest),
       recorder(with.recordings),
       overlay_lines_(LinesOf(with.overlays)),
       settings_(with.settings) {}

@@ -2,10 +2,12 @@
 
 #include "recon/files/skeleton_jsonl.h"
 #include "tools/viewer/frame_store_internal.h"
+#include "tools/viewer/parts_internal.h"
 
 namespace ossa::viewer {
 
-FrameStore::FrameStore(bool keeps) : spools_(keeps ? std::make_unique<Spools>() : nullptr) {}
+FrameStore::FrameStore(bool keeps, std::shared_ptr<const forest::ForestModel> forest)
+    : forest_(std::move(forest)), spools_(keeps ? std::make_unique<Spools>() : nullptr) {}
 
 void FrameStore::Add(Moment moment) {
   if (!keeps()) {
@@ -61,14 +63,29 @@ std::shared_ptr<const PackedMoment> FrameStore::ReadKept(int64_t number) const {
   return packed;
 }
 
+PackedMoment FrameStore::PackWithParts(const Moment& moment) const {
+  const bool are_wanted = forest_ && moment.is_upright && moment.parts.data.empty() &&
+                          moment.users.data.size() == moment.depth.depth_mm.size();
+  if (!are_wanted) return Pack(moment);
+  Moment with = moment;
+  with.parts = FindParts(*forest_, moment.depth, moment.users);
+  return Pack(with);
+}
+
 std::shared_ptr<const PackedMoment> FrameStore::At(int64_t& number) const {
-  const std::lock_guard lock(mutex_);
-  if (keeps()) {
-    return number >= 0 && number < count_.frames ? ReadKept(number) : nullptr;
+  std::shared_ptr<const Moment> newest;
+  {
+    const std::lock_guard lock(mutex_);
+    if (keeps()) return number >= 0 && number < count_.frames ? ReadKept(number) : nullptr;
+    number = count_.frames - 1;
+    if (packed_ || !newest_) return packed_;
+    newest = newest_;
   }
-  number = count_.frames - 1;
-  if (!packed_ && newest_) packed_ = std::make_shared<const PackedMoment>(Pack(*newest_));
-  return packed_;
+  // Not under the lock: the tracker would wait for it with its next frame.
+  auto packed = std::make_shared<const PackedMoment>(PackWithParts(*newest));
+  const std::lock_guard lock(mutex_);
+  if (newest == newest_) packed_ = packed;
+  return packed;
 }
 
 std::string FrameStore::Line(int64_t number) const {

@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "forest/forest.h"
 #include "tools/viewer/message_internal.h"
 #include "tools/viewer/moment.h"
 #include "tools/viewer/spool_internal.h"
@@ -16,7 +17,9 @@ namespace ossa::viewer {
 /// from any thread.
 class FrameStore {
  public:
-  explicit FrameStore(bool keeps);
+  /// `forest`: of a camera finds the parts of moments that are asked for and have none; may be
+  /// null.
+  FrameStore(bool keeps, std::shared_ptr<const forest::ForestModel> forest);
 
   void Add(Moment moment);
   /// Of a recording: nothing more comes.
@@ -52,6 +55,9 @@ class FrameStore {
     std::vector<Kept> kept;
   };
   std::shared_ptr<const PackedMoment> ReadKept(int64_t number) const;
+  PackedMoment PackWithParts(const Moment& moment) const;
+
+  const std::shared_ptr<const forest::ForestModel> forest_;
 
   mutable std::mutex mutex_;  // guards all below
   Count count_;

@@ -22,6 +22,7 @@ struct Moment {
   std::array<recon::SkeletonFrame, kLayerNames.size()> layers;  // by Layer; camera space, metres
   tracker::StageTimes ms;   // as the tracker measured them; all 0: nobody measured
   int64_t dropped = 0;      // frames that the device lost since the start
+  bool is_upright = true;   // people stand in the image, as the camera is mounted
   double latency_ms = 0.0;  // from the frame's arrival until it is shown
 
   const recon::SkeletonFrame& skeletons() const { return layers[0]; }

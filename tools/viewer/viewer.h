@@ -10,6 +10,10 @@
 #include "recon/skeleton_sequence.h"
 #include "tools/viewer/moment.h"
 
+namespace ossa::forest {
+class ForestModel;  // forest/forest.h
+}
+
 namespace ossa::viewer {
 
 // Constants: ports and addresses by convention.
@@ -41,6 +45,9 @@ struct ViewerOptions {
   std::optional<int64_t> expected_frames = {};  // of a recording that knows
   std::string name;                             // of what is shown, for people to read
   std::vector<Overlay> overlays;
+  /// Finds body parts for frames that come without, on the page's thread and only for frames that
+  /// somebody looks at. Null: none are found.
+  std::shared_ptr<const forest::ForestModel> forest;
   /// Left out: nothing can be changed.
   std::optional<Settings> settings = {};
   std::vector<std::string> methods, smoothings;
