@@ -1,6 +1,5 @@
 // The strip of who is there, and the curves: plain 2D canvases.
 import {OVERLAYS, personColour} from './colours.js';
-import {meanOf} from './track.js';
 
 export function prepare(canvas) {
   const ratio = window.devicePixelRatio, {clientWidth, clientHeight} = canvas;
@@ -24,13 +23,14 @@ export function drawStrip(canvas, track, total, index, span) {
   context.fillRect(x(span[0]), height - 4, x(span[1] + 1) - x(span[0]), 4);
   const people = track.people();
   const row = (height - 6) / Math.max(1, people.length);
-  track.frames.forEach((frame, i) => {
-    for (const [id, joints] of frame.bodies) {
+  const stride = Math.max(1, Math.floor(total / width));  // a long recording has more frames than the strip pixels
+  for (let i = 0; i < track.length; i += stride) {
+    for (const [id, reliability] of track.frames[i].reliability) {
       context.fillStyle = personColour(id);
-      context.globalAlpha = 0.15 + 0.85 * (meanOf(joints, 'reliability') || 0.5);
-      context.fillRect(x(i), people.indexOf(id) * row + 1, Math.max(1, x(i + 1) - x(i) + 0.3), row - 2);
+      context.globalAlpha = 0.15 + 0.85 * (reliability || 0.5);
+      context.fillRect(x(i), people.indexOf(id) * row + 1, Math.max(1, x(i + stride) - x(i) + 0.3), row - 2);
     }
-  });
+  }
   context.globalAlpha = 1;
   context.fillStyle = colour('text');
   people.forEach((id, k) => context.fillText(`person ${id}`, 4, (k + 0.5) * row + 4));

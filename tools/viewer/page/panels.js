@@ -93,11 +93,21 @@ export class CurvesPanel {
     fillSelect($('person'), track.people().map(String));
     const id = Number($('person').value), joint = $('joint').value, quantity = QUANTITIES[$('quantity').value];
     $('joint').disabled = !quantity.ofJoint;
-    const line = track.frames.map((_, i) => quantity.value(track, i, id, joint, overlays[0]));
-    const lines = [line, ...(quantity.needsOverlay ? [] : overlays.map(overlay => this.overlayLine(track, overlay, quantity, joint)))];
+    const lines = this.lines(track, overlays, quantity, id, joint);
     drawCurves($('curves'), lines, [personColour(id), ...overlays.map((_, i) => overlayColour(i))], total, index, quantity.unit);
-    const value = line[index];
+    const value = lines[0][index];
     $('value').textContent = Number.isFinite(value) ? `${value.toFixed(3)} ${quantity.unit} at frame ${index}` : ' ';
+  }
+
+  // Computed anew only where something else is asked or there is more: it looks at every frame.
+  lines(track, overlays, quantity, id, joint) {
+    const key = JSON.stringify([$('quantity').value, id, joint, track.frames.at(-1)?.time_s, track.length, overlays.map(overlay => overlay.length)]);
+    if (key !== this.key || track !== this.track) {
+      const line = track.frames.map((_, i) => quantity.value(track, i, id, joint, overlays[0]));
+      const others = quantity.needsOverlay ? [] : overlays.map(overlay => this.overlayLine(track, overlay, quantity, joint));
+      Object.assign(this, {key, track, kept: [line, ...others]});
+    }
+    return this.kept;
   }
 
   // Of the overlay's first person, at the times of the track.

@@ -6,14 +6,16 @@ const LIVE_FRAMES = 900;  // half a minute at 30 a second is kept of a camera
 export class Track {
   constructor(name) {
     this.name = name;
-    this.frames = [];  // {time_s, bodies: Map of id to joints by name}
+    this.frames = [];  // {time_s, bodies: Map of id to joints by name, reliability: Map of id to its mean}
   }
 
   get length() { return this.frames.length; }
   get times() { return this.frames.map(frame => frame.time_s); }
 
   add(line) {
-    this.frames.push({time_s: line.time_s, bodies: new Map(line.bodies.map(body => [body.id, body.joints]))});
+    const bodies = new Map(line.bodies.map(body => [body.id, body.joints]));
+    const reliability = new Map(line.bodies.map(body => [body.id, meanOf(body.joints, 'reliability')]));
+    this.frames.push({time_s: line.time_s, bodies, reliability});
   }
 
   addLive(line) {
