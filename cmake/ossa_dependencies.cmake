@@ -21,6 +21,14 @@ pkg_check_modules(zstd REQUIRED IMPORTED_TARGET libzstd)
 pkg_check_modules(freenect QUIET IMPORTED_TARGET libfreenect)
 pkg_check_modules(libav QUIET IMPORTED_TARGET libavformat libavcodec libavutil)  # .mkv
 include(ossa_rosbag)
+find_package(TinyGLTF QUIET CONFIG)  # skinned people in motion
+if(NOT TinyGLTF_FOUND)
+  message(STATUS "--out FILE.glb is left out: libtinygltf-dev is not installed")
+endif()
+find_package(meshoptimizer QUIET CONFIG)  # the skin of `ossa surface --mesh`
+if(NOT meshoptimizer_FOUND)
+  message(STATUS "ossa surface --mesh is left out: libmeshoptimizer-dev is not installed")
+endif()
 find_library(OSCPACK_LIBRARY oscpack)  # live output to avatars' programs
 if(NOT OSCPACK_LIBRARY)
   message(STATUS "--send vmc:// and vrchat:// are left out: liboscpack-dev is not installed")

@@ -61,6 +61,12 @@ class BodyModel {
   const std::vector<uint8_t>& vertex_part() const { return vertex_part_; }
   /// Number of the rig's bone that moves the vertex most.
   size_t MainBone(size_t vertex) const { return influence_[vertex].bone[0]; }
+  /// The bones that move a vertex, by falling weights; the weights' sum is 1.
+  struct Influence {
+    std::array<uint8_t, 4> bone{};
+    std::array<float, 4> weight{};
+  };
+  const Influence& InfluenceOn(size_t vertex) const { return influence_[vertex]; }
   /// The neutral position of each vertex, metres: to say where on the body a vertex is.
   const std::vector<Eigen::Vector3f>& base_m() const { return base_m_; }
 
@@ -82,10 +88,6 @@ class BodyModel {
     std::vector<uint16_t> index;
     std::vector<std::array<int16_t, 3>> delta;         // 1/1000 dm, the files' own precision
     std::vector<std::array<float, 3>> point_delta_dm;  // kPointCount
-  };
-  struct Influence {
-    std::array<uint8_t, 4> bone{};
-    std::array<float, 4> weight{};
   };
 
   const Target& Find(const std::string& name) const;

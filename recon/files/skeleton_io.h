@@ -62,10 +62,11 @@ std::vector<SkeletonClip> ReadSkeletonClips(const std::filesystem::path& path,
 SkeletonSequence ReadSkeletonStream(std::istream& stream, const std::string& name,
                                     const SkeletonReadOptions& options = {});
 
-/// Writes by extension: .jsonl, .csv, .trc, .bvh. TRC and BVH hold one person a file: of several,
-/// the first goes to `path` and each other to `path` with `_ID` before the extension; all begin
-/// with the sequence's first frame. The file appears under its name only when complete. Throws
-/// InputError for a BVH that would be too long to be read: a gap in a recording is filled there.
+/// Writes by extension: .jsonl, .csv, .trc, .bvh, .glb (skeleton_writer.h). TRC and BVH hold one
+/// person a file: of several, the first goes to `path` and each other to `path` with `_ID` before
+/// the extension; all begin with the sequence's first frame. The file appears under its name only
+/// when complete. Throws InputError for a BVH that would be too long to be read: a gap in a
+/// recording is filled there.
 void WriteSkeletons(const std::filesystem::path& path, const SkeletonSequence& sequence);
 
 /// Throws InputError when WriteSkeletons would refuse the extension: ask before a long run.

@@ -51,11 +51,13 @@ class LineWriter final : public SkeletonWriter::Format {
 
 std::string JsonlLine(const SkeletonFrame& frame) { return SkeletonJsonLine(frame) + '\n'; }
 
-std::unique_ptr<SkeletonWriter::Format> NewWriter(const fs::path& path, BvhNames names) {
+std::unique_ptr<SkeletonWriter::Format> NewWriter(const fs::path& path,
+                                                  const SkeletonWriteOptions& options) {
   CheckSkeletonExtension(path);
   const fs::path extension = path.extension();
   if (extension == ".trc") return NewTrcWriter(path);
-  if (extension == ".bvh") return NewBvhWriter(path, names);
+  if (extension == ".bvh") return NewBvhWriter(path, options.names);
+  if (extension == ".glb") return NewGltfWriter(path, options);
   if (extension == ".csv") {
     return std::make_unique<LineWriter>(path, SkeletonCsvHead(), SkeletonCsvRows);
   }
@@ -64,14 +66,16 @@ std::unique_ptr<SkeletonWriter::Format> NewWriter(const fs::path& path, BvhNames
 
 }  // namespace
 
-SkeletonWriter::SkeletonWriter(const fs::path& path, BvhNames names)
-    : format_(NewWriter(path, names)) {}
+SkeletonWriter::SkeletonWriter(const fs::path& path, const SkeletonWriteOptions& options)
+    : format_(NewWriter(path, options)) {}
 SkeletonWriter::~SkeletonWriter() = default;
 
 void SkeletonWriter::Write(const SkeletonFrame& frame) {
   ++frame_count_;
   format_->Write(frame);
 }
+
+void SkeletonWriter::SetShape(int id, const ShapeVector& shape) { format_->SetShape(id, shape); }
 
 void SkeletonWriter::Finish() { format_->Finish(); }
 
@@ -86,14 +90,19 @@ fs::path PathForBody(const fs::path& path, size_t index, int id) {
 }
 
 void CheckSkeletonExtension(const fs::path& path) {
-  static constexpr std::array kKnown = {".jsonl", ".csv", ".trc", ".bvh"};
+  static constexpr std::array kKnown = {".jsonl", ".csv", ".trc", ".bvh", ".glb"};
   if (std::find(kKnown.begin(), kKnown.end(), path.extension()) != kKnown.end()) return;
-  throw InputError(path.string() + ": expected a name in .jsonl, .csv, .trc or .bvh, found " +
+  throw InputError(path.string() + ": expected a name in .jsonl, .csv, .trc, .bvh or .glb, found " +
                    Quoted(path.extension().string()));
 }
 
 void WriteSkeletons(const fs::path& path, const SkeletonSequence& sequence) {
-  SkeletonWriter writer(path);
+  WriteSkeletons(path, sequence, {});
+}
+
+void WriteSkeletons(const fs::path& path, const SkeletonSequence& sequence,
+                    const SkeletonWriteOptions& options) {
+  SkeletonWriter writer(path, options);
   for (const SkeletonFrame& frame : sequence.frames) writer.Write(frame);
   writer.Finish();
 }

@@ -4,41 +4,20 @@
 #include <array>
 #include <cmath>
 #include <numbers>
-#include <optional>
 
 #include "depth/base/atomic_file.h"
 #include "depth/base/error.h"
-#include "recon/body/standard_body.h"
-#include "recon/bone_lengths.h"
 #include "recon/motion/bvh.h"
 #include "recon/motion/bvh_layout_internal.h"
 #include "recon/motion/bvh_text_internal.h"
+#include "recon/motion/held_body_internal.h"
 #include "recon/motion/sightings_internal.h"
 #include "recon/smallest_turn.h"
 
 namespace ossa::recon {
-namespace {
 
 using Eigen::Quaterniond;
 using Eigen::Vector3d;
-
-BoneLengths MedianLengths(const SightingLog& sightings) {
-  constexpr double kShortest_m = 1e-3;  // a bone of no length has no direction in the file; by hand
-  BoneLengthEstimator estimator(BoneLengthOptions::OfRecording());
-  estimator.Start(MeasureBoneLengths(StandardPosture(RigPose())));
-  for (size_t i = 0; i < sightings.size(); ++i) {
-    const Sighting s = sightings[i];
-    for (size_t j = 1; j < kJointCount; ++j) {
-      const auto &end = s.joint[j], &begin = s.joint[ParentOf(j)];
-      if (end && begin) estimator.Add(j, (*end - *begin).norm());
-    }
-  }
-  BoneLengths lengths = estimator.lengths_m();
-  for (size_t j = 1; j < kJointCount; ++j) lengths[j] = std::max(lengths[j], kShortest_m);
-  return lengths;
-}
-
-}  // namespace
 
 Vector3d RestDirection(size_t joint) {
   switch (static_cast<Joint>(joint)) {
@@ -161,32 +140,6 @@ Vector3d ZxyDegrees(const Quaterniond& rotation) {
   return Vector3d(z, x, y) * (180.0 / std::numbers::pi);
 }
 
-/// Directions of the bones in a frame; what is missing stays as it was.
-void UpdateDirections(const Sighting& sighting, JointArray<Vector3d>& direction) {
-  for (size_t j = 1; j < kJointCount; ++j) {
-    const auto& from = sighting.joint[ParentOf(j)];
-    const auto& to = sighting.joint[j];
-    if (from && to && (*to - *from).norm() > 1e-4) direction[j] = (*to - *from).normalized();
-  }
-}
-
-/// The root's place that puts the body of constant lengths nearest to the joints seen.
-std::optional<Vector3d> EstimateRoot(const Sighting& sighting, const BoneLengths& lengths,
-                                     const JointArray<Vector3d>& direction) {
-  JointArray<Vector3d> built;
-  built[0] = Vector3d::Zero();
-  Vector3d sum = Vector3d::Zero();
-  int seen = 0;
-  for (size_t j = 0; j < kJointCount; ++j) {
-    if (j > 0) built[j] = built[ParentOf(j)] + lengths[j] * direction[j];
-    if (!sighting.joint[j]) continue;
-    sum += *sighting.joint[j] - built[j];
-    ++seen;
-  }
-  if (seen == 0) return std::nullopt;
-  return sum / seen;
-}
-
 void AppendFrame(const BvhLayout& layout, const Vector3d& root_m,
                  const JointArray<Vector3d>& direction, std::vector<double>& values) {
   std::vector<Quaterniond> world(layout.joints.size(), Quaterniond::Identity());
@@ -221,12 +174,8 @@ class BvhBody {
       : name_(std::move(name)),
         options_(options),
         sightings_(std::move(sightings)),
-        lengths_(MedianLengths(sightings_.seen())),
-        layout_(LayoutOf(options.names, lengths_, sightings_.seen())) {
-    for (size_t j = 0; j < kJointCount; ++j) direction_[j] = RestDirection(j);
-    // What the first frames lack stands from the beginning as it is first seen.
-    const SightingLog& seen = sightings_.seen();
-    for (size_t i = seen.size(); i-- > 0;) Update(seen[i]);
+        body_(sightings_.seen()),
+        layout_(LayoutOf(options.names, body_.lengths_m(), sightings_.seen())) {
     CheckLength();
   }
 
@@ -235,8 +184,8 @@ class BvhBody {
 
   /// Appends the channels' values of the next frame.
   void Next(std::vector<double>& values) {
-    Update(sightings_.Next());
-    AppendFrame(layout_, root_m_, direction_, values);
+    body_.Update(sightings_.Next());
+    AppendFrame(layout_, body_.root_m(), body_.direction(), values);
   }
 
   [[noreturn]] void FailTooLong() const {
@@ -251,11 +200,6 @@ class BvhBody {
   }
 
  private:
-  void Update(const Sighting& sighting) {
-    UpdateDirections(sighting, direction_);
-    root_m_ = EstimateRoot(sighting, lengths_, direction_).value_or(root_m_);
-  }
-
   /// What is surely too long is refused before anything is made of it.
   void CheckLength() const {
     constexpr double kLeastBytes = 2.0;  // a digit and what follows it; bytes
@@ -268,10 +212,8 @@ class BvhBody {
   std::string name_;
   BvhExportOptions options_;
   EvenSightings sightings_;
-  BoneLengths lengths_;
+  HeldBody body_;
   BvhLayout layout_;
-  JointArray<Vector3d> direction_;
-  Vector3d root_m_ = Vector3d::Zero();
 };
 
 }  // namespace

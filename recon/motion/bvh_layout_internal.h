@@ -1,6 +1,7 @@
 #pragma once
 #include <array>
 #include <limits>
+#include <string>
 #include <vector>
 
 #include "recon/motion/bvh.h"
@@ -26,6 +27,10 @@ Eigen::Vector3d RestDirection(size_t joint);
 inline std::vector<BvhChannel> BvhTurns() {
   return {BvhChannel::kZrotation, BvhChannel::kXrotation, BvhChannel::kYrotation};
 }
+
+struct HumanBoneInfo;
+/// The bone's name; of kSdk, which has none, VRM's.
+std::string HumanBoneName(const HumanBoneInfo& bone, BvhNames names);
 
 /// The 21 joints of a humanoid by these names. `hip_offsets_m`: of left and right thigh from the
 /// hips, in the hips' frame.

@@ -79,6 +79,30 @@ class OnePerson(unittest.TestCase):
             for bone, (_, joint, _, _) in BONES.items():
                 self.assertLess(math.dist(world[bone][0], joints[joint]), MOST_M, bone)
 
+    def test_every_bone_of_unity_s_humanoid_is_sent(self):
+        """55 of HumanBodyBones: what is not seen is at rest, as long as the person's hands and head are."""
+        for packet, _, joints in self.moments(self.vmc):
+            bones = {v[0]: v[1:] for a, v in packet if a == "/VMC/Ext/Bone/Pos"}
+            self.assertEqual(len(bones), 55)
+            fingers = {f"{s}{f}{p}" for s in ("Left", "Right") for f in ("Thumb", "Index", "Middle", "Ring", "Little")
+                       for p in ("Proximal", "Intermediate", "Distal")}
+            rest = fingers | {"UpperChest", "LeftEye", "RightEye", "Jaw"}
+            self.assertEqual(set(bones) - set(BONES), rest)
+            self.assertTrue(all(bones[name][3:] == [0, 0, 0, 1] for name in rest))
+            self.assertEqual(bones["UpperChest"][:3], [0, 0, 0])  # the neck's place is told from the chest
+            forearm = math.dist(joints["ElbowLeft"], joints["WristLeft"])
+            knuckle = bones["LeftMiddleProximal"][:3]
+            self.assertTrue(0.3 * forearm < -knuckle[0] < 0.5 * forearm, (knuckle, forearm))
+            self.assertLess(bones["LeftThumbProximal"][0], 0)
+            self.assertGreater(bones["RightThumbProximal"][0], 0)
+            self.assertGreater(bones["LeftThumbProximal"][2], 0)  # palms are down, thumbs forwards
+
+    def test_bones_that_are_not_seen_can_be_left_to_others(self):
+        vmc = receivers.Receiver()
+        track(ONE, WORK / "seen.jsonl", f"vmc://127.0.0.1:{vmc.port}?bones=seen")
+        for datagram in vmc.finish()[0]:
+            self.assertEqual({v[0] for a, v in messages(datagram) if a == "/VMC/Ext/Bone/Pos"}, set(BONES))
+
     def test_rotations_alone_turn_a_t_pose_into_the_pose_left_on_the_left(self):
         for packet, _, joints in self.moments(self.vmc):
             world, _ = rebuilt(packet)
@@ -167,7 +191,8 @@ class Sending(unittest.TestCase):
         self.assertEqual(sent.read_bytes(), alone.read_bytes())
 
     def test_wrong_targets_are_refused(self):
-        for wrong in ("udp://127.0.0.1", "vmc://:1", "tcp://h:1", "vmc://h:70000", "vrchat://h?scale=0", "vmc://h?scale=2"):
+        for wrong in ("udp://127.0.0.1", "vmc://:1", "tcp://h:1", "vmc://h:70000", "vrchat://h?scale=0", "vmc://h?scale=2",
+                      "vrchat://h?bones=all", "vmc://h?bones=some"):
             self.assertIn(f"--send {wrong}: expected", track(ONE, WORK / "x.jsonl", wrong, expect=2).stderr)
         self.assertIn("expected a host", track(ONE, WORK / "x.jsonl", "udp://no-such-host.invalid:1", expect=1).stderr)
 

@@ -13,7 +13,7 @@
 #include "forest/forest.h"
 #include "recon/database/posture_database.h"
 #include "recon/files/skeleton_io.h"
-#include "recon/fit/body_surface.h"
+#include "recon/fit/body_mesh.h"
 #include "recon/models/learned_models.h"
 #include "recon/models/posture_prior.h"
 #include "recon/refine/bone_estimation.h"
@@ -24,6 +24,7 @@
 #include "tools/commands/source_options.h"
 #include "tools/commands/warnings.h"
 #include "tools/synth/dataset.h"
+#include "tools/tracker/shipped.h"
 
 namespace ossa::commands {
 namespace {
@@ -126,6 +127,14 @@ void ShowSurface(const fs::path& path) {
              static_cast<double>(fs::file_size(path)) * 1e-3);
 }
 
+void ShowMesh(const fs::path& path) {
+  const auto surface = recon::BodySurface::Load(tracker::ShippedFile(recon::kShippedSurface));
+  const auto mesh = recon::BodyMesh::Load(path, surface);
+  fmt::print("body mesh of the shipped surface, {} vertices, {} triangles, {:.1f} kB\n",
+             mesh.vertices.size(), mesh.triangles.size(),
+             static_cast<double>(fs::file_size(path)) * 1e-3);
+}
+
 void ShowRefinement(const fs::path& path) {
   const auto cascade = recon::RefinementCascade::Load(path);
   // How many people earlier stages were learned from the file does not keep.
@@ -215,6 +224,7 @@ constexpr std::array kKinds = {
     FileKind{recon::LearnedModels::IsOne, ShowLearned, ".ossagp"},
     FileKind{recon::PosturePrior::IsOne, ShowPrior, ".ossaprior"},
     FileKind{recon::BodySurface::IsOne, ShowSurface, ".ossasurface"},
+    FileKind{recon::BodyMesh::IsOne, ShowMesh, ".ossamesh"},
     FileKind{recon::RefinementCascade::IsFile, ShowRefinement, ".ossarefine"},
     FileKind{tools::IsDataset, ShowDataset},
 };
@@ -247,7 +257,8 @@ int Info(int argc, char** argv) {
   AddSourceOptions(app, file);
   AddRotateOption(app, file);
   app.get_option("SOURCE")->description(
-      "a .ossa, .ossadb, .ossagp, .ossaprior, .ossarefine, .ossasurface or skeleton file, "
+      "a .ossa, .ossadb, .ossagp, .ossaprior, .ossarefine, .ossasurface, .ossamesh or skeleton "
+      "file, "
       "FILE#truth, a DATASET, a folder of skeleton files, or depth images: .oni, .mkv, .bag, "
       "FILE.bag#/topic, a 16-bit PNG or a folder of them. The options say how depth images are "
       "read");

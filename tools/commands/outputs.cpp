@@ -3,12 +3,14 @@
 #include <fmt/format.h>
 
 #include <filesystem>
+#include <map>
 #include <system_error>
 
 #include "depth/base/error.h"
 #include "recon/files/skeleton_io.h"
 #include "tools/commands/command.h"
 #include "tools/commands/process.h"
+#include "tools/tracker/body_mesh_file.h"
 
 namespace ossa::commands {
 namespace {
@@ -63,8 +65,9 @@ void CheckExtension(const char* option, const std::string& path, const char* ext
 }
 
 void CheckNotOtherKind(const char* option, const std::string& path, const char* extension) {
-  for (const char* other : {".ossa", ".ossadb", ".ossaprior", ".ossagp", ".ossarefine", ".ossalook",
-                            ".oni", ".jsonl", ".json", ".bvh", ".trc", ".csv", ".png", ".html"}) {
+  for (const char* other :
+       {".ossa", ".ossadb", ".ossaprior", ".ossagp", ".ossarefine", ".ossalook", ".ossasurface",
+        ".ossamesh", ".oni", ".jsonl", ".json", ".bvh", ".trc", ".csv", ".glb", ".png", ".html"}) {
     if (path.ends_with(other)) CheckExtension(option, path, extension);
   }
 }
@@ -94,26 +97,47 @@ InputError KeepWhatFits(const DiskFull& full, recon::SkeletonWriter& writer) {
       fmt::format("{} {} were kept", full.what(), FramesText(kept, writer.frame_count())));
 }
 
-void BvhNamesOption::AddTo(CLI::App& app) {
+void WriteOptions::AddTo(CLI::App& app) {
   app.add_option(
-         "--bvh-names", name,
+         "--bvh-names", names,
          "of a .bvh: sdk (default), or a humanoid that other programs map by themselves: cmu, "
-         "mixamo, vrm")
+         "mixamo, vrm; of a .glb: vrm (default), cmu or mixamo")
       ->check(CLI::IsMember({"sdk", "cmu", "mixamo", "vrm"}));
+  app.add_option("--mesh", mesh,
+                 ".ossamesh of 'ossa surface', the skin of a .glb, or none (default: the shipped "
+                 "one)");
 }
 
-recon::BvhNames BvhNamesOption::NamesFor(const std::string& out) const {
-  if (name != "sdk" && fs::path(out).extension() != ".bvh") {
-    throw UsageError("--bvh-names " + name + ": expected --out FILE.bvh with it");
+void WriteOptions::Check(const std::string& out) const {
+  const bool is_glb = fs::path(out).extension() == ".glb";
+  if (!names.empty() && !is_glb && fs::path(out).extension() != ".bvh") {
+    throw UsageError("--bvh-names " + names + ": expected --out FILE.bvh or FILE.glb with it");
   }
-  if (name == "cmu") return recon::BvhNames::kCmu;
-  if (name == "mixamo") return recon::BvhNames::kMixamo;
-  return name == "vrm" ? recon::BvhNames::kVrm : recon::BvhNames::kSdk;
+  if (names == "sdk" && is_glb) {
+    throw UsageError("--bvh-names sdk: expected vrm, cmu or mixamo with --out FILE.glb");
+  }
+  if (!mesh.empty() && !is_glb) {
+    throw UsageError("--mesh " + mesh + ": expected --out FILE.glb with it");
+  }
+}
+
+recon::SkeletonWriteOptions WriteOptions::For(const std::string& out,
+                                              const std::string& surface_file) const {
+  static const std::map<std::string, recon::BvhNames> kNames = {
+      {"cmu", recon::BvhNames::kCmu},
+      {"mixamo", recon::BvhNames::kMixamo},
+      {"vrm", recon::BvhNames::kVrm}};
+  recon::SkeletonWriteOptions options;
+  if (const auto known = kNames.find(names); known != kNames.end()) options.names = known->second;
+  if (fs::path(out).extension() == ".glb" && mesh != "none") {
+    options.body = tracker::LoadBodyMesh(surface_file, mesh);
+  }
+  return options;
 }
 
 void WriteSkeletonsThatFit(const std::string& path, const recon::SkeletonSequence& sequence,
-                           recon::BvhNames names) {
-  recon::SkeletonWriter writer(path, names);
+                           const recon::SkeletonWriteOptions& options) {
+  recon::SkeletonWriter writer(path, options);
   try {
     for (const recon::SkeletonFrame& frame : sequence.frames) writer.Write(frame);
     writer.Finish();

@@ -8,7 +8,6 @@
 #include "depth/base/atomic_file.h"
 #include "depth/base/error.h"
 #include "recon/files/skeleton_writer.h"
-#include "recon/motion/bvh.h"
 
 namespace ossa::commands {
 
@@ -41,16 +40,20 @@ std::string FramesText(int64_t frames, std::optional<int64_t> of);
 /// Ends a file that does not fit after its last whole frame; the failure says how many are kept.
 InputError KeepWhatFits(const DiskFull& full, recon::SkeletonWriter& writer);
 
-/// The option --bvh-names: whose names the joints of a written .bvh have.
-struct BvhNamesOption {
-  std::string name = "sdk";
+/// The options --bvh-names and --mesh: how skeletons are written.
+struct WriteOptions {
+  std::string names, mesh;
   void AddTo(CLI::App& app);
-  /// Throws UsageError where it was given and `out` is no .bvh.
-  recon::BvhNames NamesFor(const std::string& out) const;
+  /// Throws UsageError where one was given that `out` does not read.
+  void Check(const std::string& out) const;
+  /// Loads what a .glb's people wear: the skin of the surface in `surface_file` ("": the shipped
+  /// one). Throws InputError.
+  recon::SkeletonWriteOptions For(const std::string& out,
+                                  const std::string& surface_file = "") const;
 };
 
 /// recon::WriteSkeletons that keeps what fits.
 void WriteSkeletonsThatFit(const std::string& path, const recon::SkeletonSequence& sequence,
-                           recon::BvhNames names = recon::BvhNames::kSdk);
+                           const recon::SkeletonWriteOptions& options = {});
 
 }  // namespace ossa::commands

@@ -43,7 +43,7 @@ struct ReconstructArguments {
   std::string dynamics;  // file of inverse dynamics
   double mass_kg = 0.0;
   BonesOption bones;
-  BvhNamesOption bvh_names;
+  WriteOptions write;
   std::vector<double> weights;
   double cutoff_hz = 6.0;
   bool quiet = false;
@@ -77,7 +77,7 @@ std::string LearnedFor(const ReconstructArguments& a,
 bool GoesToFolder(const ReconstructArguments& a, const std::vector<recon::SkeletonClip>& clips) {
   const std::filesystem::path out(a.out);
   if (clips.size() == 1) return out.extension().empty() && !clips[0].name.empty();
-  for (const char* one : {".jsonl", ".bvh", ".trc", ".csv"}) {
+  for (const char* one : {".jsonl", ".bvh", ".glb", ".trc", ".csv"}) {
     if (out.extension() != one) continue;
     throw UsageError(fmt::format("{}: expected a folder for {} recordings, as {} and {}", a.out,
                                  clips.size(), clips[0].name, clips[1].name));
@@ -168,9 +168,10 @@ int Reconstruct(int argc, char** argv) {
   CLI::App app("Make recorded skeletons complete and plausible");
   ReconstructArguments a;
   app.add_option("SKELETONS", a.skeletons, "skeleton JSONL or a recording of an SDK")->required();
-  app.add_option("--out", a.out, "result: .jsonl .bvh .trc .csv, or a folder for many recordings")
+  app.add_option("--out", a.out,
+                 "result: .jsonl .bvh .glb .trc .csv, or a folder for many recordings")
       ->required();
-  a.bvh_names.AddTo(app);
+  a.write.AddTo(app);
   AddMethodOptions(app, a);
   AddMechanicsOptions(app, a.mechanics);
   AddDynamicsOptions(app, a);
@@ -191,7 +192,7 @@ int Reconstruct(int argc, char** argv) {
   }
   CheckLearned(a.options.method, a.files.learned);
   a.bones.Check(a.options.method);
-  const recon::BvhNames names = a.bvh_names.NamesFor(a.out);
+  a.write.Check(a.out);
   a.mechanics.Check();
   a.floor.Check();
   CheckDynamics(a);
@@ -219,6 +220,7 @@ int Reconstruct(int argc, char** argv) {
     a.options.prior = tracker::LoadPrior(a.files, a.options.method);
   }
   a.options.learned_file = LearnedFor(a, clips);
+  const recon::SkeletonWriteOptions write = a.write.For(a.out);
   Progress progress("reconstruct", a.quiet);
   const int rounds = 1 + (a.bones.of_recording() ? 1 : 0) + (a.mechanics.on() ? 1 : 0);
   double done = 0.0, total = 0.0;  // done: in all rounds
@@ -256,7 +258,7 @@ int Reconstruct(int argc, char** argv) {
       to = to / (clip.name + ".jsonl");
       std::filesystem::create_directories(to.parent_path());
     }
-    WriteSkeletonsThatFit(to, made, names);
+    WriteSkeletonsThatFit(to, made, write);
     written += made.frames.size();
     if (Interrupted()) break;
   }

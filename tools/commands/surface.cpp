@@ -21,11 +21,15 @@ namespace ossa::commands {
 int Surface(int argc, char** argv) {
   CLI::App app("Make the body that the surface fit poses: of MPFB shapes, clothes and motion");
   std::vector<std::string> mocap;
-  std::string out;
+  std::string out, mesh;
   tools::BodySurfaceOptions options;
   recon::MocapOptions mocap_options;
   app.add_option("--mocap", mocap, "folders of BVH or AMC files, or the word authored")->required();
   app.add_option("--out", out, "the .ossasurface file to write")->required();
+  app.add_option("--mesh", mesh, "the .ossamesh file to write: its skin as triangles, for .glb");
+  app.add_option("--triangles", options.triangles, "of --mesh, about")
+      ->capture_default_str()
+      ->check(CLI::Range(200, 20000));
   app.add_option("--points", options.points, "places on the skin")
       ->capture_default_str()
       ->check(CLI::Range(size_t{50}, recon::BodySurface::kMostPoints));
@@ -36,20 +40,27 @@ int Surface(int argc, char** argv) {
   AddMappingOption(app, mocap_options.mapping_file);
   Parse(app, argc, argv);
   CheckNotOtherKind("--out", out, ".ossasurface");
+  CheckNotOtherKind("--mesh", mesh, ".ossamesh");
   std::vector<std::string> inputs = mocap;
   inputs.push_back(mocap_options.mapping_file);
-  CheckOutputs({out}, inputs);
+  CheckOutputs({out, mesh}, inputs);
   AtomicFile::CheckWritable(out);
+  if (!mesh.empty()) AtomicFile::CheckWritable(mesh);
 
   mocap_options.stop = Interrupted;
   const auto motion = recon::LoadMocap(mocap, mocap_options);
   SayWarnings("surface", motion);
   if (Interrupted()) throw InputError("surface: interrupted; nothing was written");
   const auto model = recon::BodyModel::Load(recon::BodyFolder());
-  const recon::BodySurface surface = tools::LearnBodySurface(model, motion, options);
-  surface.Save(out);
-  fmt::print("{}: {} points of {} people, turns of {} clips\n", out, surface.points.size(),
+  const recon::BodyMesh body = tools::LearnBody(model, motion, !mesh.empty(), options);
+  body.surface.Save(out);
+  fmt::print("{}: {} points of {} people, turns of {} clips\n", out, body.surface.points.size(),
              options.people, motion.size());
+  if (!mesh.empty()) {
+    body.Save(mesh);
+    fmt::print("{}: {} vertices, {} triangles\n", mesh, body.vertices.size(),
+               body.triangles.size());
+  }
   return 0;
 }
 

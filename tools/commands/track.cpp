@@ -45,7 +45,7 @@ struct TrackOptions {
   std::string smoothing, posture = "final", mode = "standing", fit = "off";
   MechanicsOptions mechanics;
   BonesOption bones;
-  BvhNamesOption bvh_names;
+  WriteOptions write;
   tracker::ModelFiles files;
   tracker::TrackerOptions tracker;
   int64_t frames = 0;
@@ -131,14 +131,15 @@ TrackOptions ParseOptions(int argc, char** argv) {
   TrackOptions options;
   AddSourceOptions(app, options.source);
   AddRotateOption(app, options.source);
-  app.add_option("--out", options.out, "skeletons: FILE.jsonl, .bvh, .trc or .csv");
+  app.add_option("--out", options.out,
+                 "skeletons: FILE.jsonl, .bvh, .trc or .csv; .glb: people in motion, skinned");
   app.add_option(
          "--posture", options.posture,
          "what --out gets: final, reconstructed, refined (raw after the refinement cascade) or "
          "raw")
       ->transform(CLI::Transformer(kOldPostures).description(""))
       ->check(CLI::IsMember({"final", "reconstructed", "refined", "raw"}));
-  options.bvh_names.AddTo(app);
+  options.write.AddTo(app);
   AddTrackerOptions(app, options);
   app.add_option("--frames", options.frames, "stop after so many frames")->check(Positive());
   AddDeviceOptions(app, options.source);
@@ -151,7 +152,7 @@ TrackOptions ParseOptions(int argc, char** argv) {
                  "FILE.png of one frame: depth, parts, joints, skeleton");
   app.add_option("--pictures", options.pictures, "folder for such a picture of every frame");
   app.add_option("--send", options.send,
-                 "live, to vmc://HOST:PORT (avatars), vrchat://HOST:PORT[?scale=X] or "
+                 "live, to vmc://HOST:PORT[?bones=seen] (avatars), vrchat://HOST:PORT[?scale=X] or "
                  "udp://HOST:PORT (JSONL); repeat for more")
       ->allow_extra_args(false);
   app.add_flag("--view", options.view, "show it in browsers while it runs");
@@ -176,7 +177,7 @@ TrackOptions ParseOptions(int argc, char** argv) {
     CheckRefinementIsRead(options);
   }
   if (!options.out.empty()) CheckSkeletonName(options.out);
-  options.bvh_names.NamesFor(options.out);
+  options.write.Check(options.out);
   CheckExtension("--picture", options.picture, ".png");
   CheckNotOtherKind("--json-stats", options.json_stats, ".json");
   CheckExtension("--trace", options.trace, ".jsonl");
@@ -210,10 +211,18 @@ class SkeletonOutput {
     if (posture == "reconstructed") kind_ = tracker::PostureKind::kReconstructed;
     if (path_.empty()) return;
     SayLeftovers(path_);
-    writer_.emplace(path_, options.bvh_names.NamesFor(path_));
+    writer_.emplace(
+        path_,
+        options.write.For(path_, options.files.surface == "none" ? "" : options.files.surface));
   }
   void Write(const tracker::BodyFrame& bodies) {
     if (!writer_) return;
+    for (const tracker::Body& body : bodies.bodies) {
+      if (!body.fit) continue;
+      recon::PersonShape& shape = shapes_[body.id];
+      shape.Add(*body.fit);
+      writer_->SetShape(body.id, shape.shape);
+    }
     recon::SkeletonFrame record = tracker::ToRecord(bodies, kind_);
     if (seated_) KeepSeatedJoints(record);
     writer_->Write(record);
@@ -244,6 +253,7 @@ class SkeletonOutput {
   bool seated_ = false;
   tracker::PostureKind kind_ = tracker::PostureKind::kFinal;
   std::optional<recon::SkeletonWriter> writer_;
+  std::map<int, recon::PersonShape> shapes_;  // of who was fitted
 };
 
 size_t TrackedJoints(const tracker::BodyFrame& bodies) {

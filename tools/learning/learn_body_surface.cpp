@@ -11,6 +11,8 @@
 #include "recon/body/clothing.h"
 #include "recon/body/standard_body.h"
 #include "recon/fit/posed_surface.h"
+#include "recon/motion/humanoid.h"
+#include "tools/learning/simplify_skin.h"
 #include "tools/synth/person.h"
 
 namespace ossa::tools {
@@ -29,6 +31,10 @@ constexpr std::array<size_t, kSegmentCount> kJointBone = {0,  11, 12, 14, 17, 18
                                                           25, 26, 27, 2,  3,  4,  7,  8,  9};
 constexpr std::array<size_t, kSegmentCount> kTurnBone = {0,  11, 13, 16, 17, 18, 19, 20, 24,
                                                          25, 26, 27, 2,  3,  4,  7,  8,  9};
+// The bone of a humanoid (kHumanBones) that each bone of the rig belongs to.
+constexpr std::array<uint8_t, kRigBoneCount> kHumanBoneOfBone = {
+    0, 0, 13, 14, 15, 16, 0, 17, 18, 19, 20, 1,  2,  2,  3, 3,
+    4, 5, 6,  7,  8,  8,  8, 8,  9,  10, 11, 12, 12, 12, 12};
 // By hand, radians: people turn their joints a little more than those who were recorded.
 constexpr double kMoreTurn_rad = 0.1;
 // By hand, a factor: joints count more than points in what a component of shape is.
@@ -58,14 +64,37 @@ std::vector<size_t> SpreadVertices(const BodyModel& model, size_t count) {
   return chosen;
 }
 
-// All that shape moves, as one vector a person: points, joints, landmarks, stature.
+// The bones of a humanoid that carry a vertex, each once.
+MeshVertex CarriedVertex(const BodyModel::Influence& influence) {
+  MeshVertex vertex;
+  size_t count = 0;
+  for (size_t k = 0; k < influence.bone.size(); ++k) {
+    if (influence.weight[k] == 0.0F) continue;
+    const uint8_t bone = kHumanBoneOfBone[influence.bone[k]];
+    const auto end = vertex.bone.begin() + static_cast<ptrdiff_t>(count);
+    const auto known = std::find(vertex.bone.begin(), end, bone);
+    const auto place = static_cast<size_t>(known - vertex.bone.begin());
+    vertex.bone[place] = bone;
+    vertex.weight[place] += influence.weight[k];
+    count += known == end;
+  }
+  return vertex;
+}
+
+// All that shape moves, as one vector a person: points, joints, landmarks, stature. The mesh's
+// vertices are moved along.
 class ShapeSamples {
  public:
-  ShapeSamples(const BodyModel& model, std::vector<size_t> vertices, const BodySurfaceOptions& o)
-      : model_(model), vertices_(std::move(vertices)), normals_(vertices_.size()) {
+  ShapeSamples(const BodyModel& model, std::vector<size_t> vertices, const BodySurfaceOptions& o,
+               std::vector<size_t> mesh_vertices)
+      : model_(model),
+        vertices_(std::move(vertices)),
+        mesh_vertices_(std::move(mesh_vertices)),
+        normals_(vertices_.size()) {
     for (Eigen::Vector3d& normal : normals_) normal.setZero();
     const auto rows = static_cast<Eigen::Index>(3 * places() + 1);
     values_.resize(rows, static_cast<Eigen::Index>(o.people));
+    mesh_values_.resize(static_cast<Eigen::Index>(3 * mesh_vertices_.size()), values_.cols());
     const Wardrobe wardrobe(model);
     for (size_t k = 0; k < o.people; ++k) {
       Random random(o.seed, k);
@@ -73,18 +102,20 @@ class ShapeSamples {
       Add(body, wardrobe.Dress(body, SampleClothing(random)), static_cast<Eigen::Index>(k));
     }
   }
-  void Learn(BodySurface& surface);
+  void Learn(BodyMesh& body);
 
  private:
   size_t places() const { return vertices_.size() + kSegmentCount + kJointCount; }
   size_t SegmentOf(size_t vertex) const { return kSegmentOfBone[model_.MainBone(vertex)]; }
   void Add(const ShapedBody& body, const std::vector<Eigen::Vector3f>& rest_m, Eigen::Index person);
   Eigen::MatrixXd Components();
+  void LearnVertices(std::vector<MeshVertex>& vertices);
 
   const BodyModel& model_;
-  std::vector<size_t> vertices_;
+  std::vector<size_t> vertices_, mesh_vertices_;
   std::vector<Eigen::Vector3d> normals_;
-  Eigen::MatrixXd values_;  // a column a person, metres
+  Eigen::MatrixXd values_, mesh_values_;  // a column a person, metres
+  Eigen::MatrixXd votes_;  // a column a component: how much of it is each person's deviation
 };
 
 void ShapeSamples::Add(const ShapedBody& body, const std::vector<Eigen::Vector3f>& rest_m,
@@ -107,6 +138,10 @@ void ShapeSamples::Add(const ShapedBody& body, const std::vector<Eigen::Vector3f
     put(body.joint_m[j] - joint(kSegmentOfBone[anchors[j].bone]));
   }
   values_(row, person) = body.height_m;
+  for (size_t i = 0; i < mesh_vertices_.size(); ++i) {
+    mesh_values_.block<3, 1>(FirstCoordinate(i), person) =
+        rest_m[mesh_vertices_[i]].cast<double>() - joint(0);
+  }
 }
 
 // Principal components by the people's Gram matrix, each times its standard deviation; with the
@@ -119,15 +154,32 @@ Eigen::MatrixXd ShapeSamples::Components() {
   const Eigen::MatrixXd weighted = weight.asDiagonal() * values_;
   const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> solver(weighted.transpose() * weighted);
   Eigen::MatrixXd components(values_.rows(), kShapeCount);
+  votes_ = solver.eigenvectors().rightCols(kShapeCount).rowwise().reverse() / std::sqrt(people);
   for (Eigen::Index c = 0; c < kShapeCount; ++c) {
     components.col(c) =
         values_ * solver.eigenvectors().col(values_.cols() - 1 - c) / std::sqrt(people);
-    if (components(values_.rows() - 1, c) < 0.0) components.col(c) *= -1.0;
+    if (components(values_.rows() - 1, c) < 0.0) {
+      components.col(c) *= -1.0;
+      votes_.col(c) *= -1.0;
+    }
   }
   return components;
 }
 
-void ShapeSamples::Learn(BodySurface& surface) {
+// By Components()' votes.
+void ShapeSamples::LearnVertices(std::vector<MeshVertex>& vertices) {
+  const Eigen::VectorXd mean = mesh_values_.rowwise().mean();
+  const Eigen::MatrixXd components = (mesh_values_.colwise() - mean) * votes_;
+  for (size_t i = 0; i < mesh_vertices_.size(); ++i) {
+    MeshVertex vertex = CarriedVertex(model_.InfluenceOn(mesh_vertices_[i]));
+    vertex.place.mean_m = mean.segment<3>(FirstCoordinate(i));
+    vertex.place.by_shape_m = components.middleRows<3>(FirstCoordinate(i));
+    vertices.push_back(vertex);
+  }
+}
+
+void ShapeSamples::Learn(BodyMesh& body) {
+  BodySurface& surface = body.surface;
   const Eigen::VectorXd mean = values_.rowwise().mean();
   values_.colwise() -= mean;
   const Eigen::MatrixXd components = Components();
@@ -151,6 +203,7 @@ void ShapeSamples::Learn(BodySurface& surface) {
   }
   surface.stature_mean_m = mean[row];
   surface.stature_by_shape_m = components.row(row).transpose();
+  LearnVertices(body.vertices);
 }
 
 void LearnTurns(const std::vector<MotionClip>& motion, size_t step, BodySurface& surface) {
@@ -183,17 +236,20 @@ void LearnTurns(const std::vector<MotionClip>& motion, size_t step, BodySurface&
 
 }  // namespace
 
-recon::BodySurface LearnBodySurface(const recon::BodyModel& model,
-                                    const std::vector<recon::MotionClip>& motion,
-                                    const BodySurfaceOptions& options) {
+recon::BodyMesh LearnBody(const recon::BodyModel& model,
+                          const std::vector<recon::MotionClip>& motion, bool with_mesh,
+                          const BodySurfaceOptions& options) {
   if (options.points < 1 || options.points > BodySurface::kMostPoints ||
       options.people < kShapeCount || options.frame_step < 1) {
     throw std::invalid_argument("BodySurfaceOptions: out of range");
   }
-  BodySurface surface;
-  ShapeSamples(model, SpreadVertices(model, options.points), options).Learn(surface);
-  LearnTurns(motion, options.frame_step, surface);
-  return surface;
+  SimplifiedSkin skin;
+  if (with_mesh) skin = SimplifySkin(model, options.triangles);
+  BodyMesh body;
+  body.triangles = skin.triangles;
+  ShapeSamples(model, SpreadVertices(model, options.points), options, skin.vertices).Learn(body);
+  LearnTurns(motion, options.frame_step, body.surface);
+  return body;
 }
 
 }  // namespace ossa::tools

@@ -22,30 +22,6 @@ Quaterniond Unity(const Quaterniond& level) {
 
 }  // namespace
 
-const std::array<HumanBoneInfo, kHumanBoneCount> kHumanBones = {{
-    {"Hips", -1, Joint::kHipCenter, Joint::kHipCenter},
-    {"Spine", 0, Joint::kHipCenter, Joint::kSpine},
-    {"Chest", 1, Joint::kSpine, Joint::kShoulderCenter},
-    {"Neck", 2, Joint::kShoulderCenter, Joint::kHead},
-    {"Head", 3, Joint::kHead, Joint::kHead},
-    {"LeftShoulder", 2, Joint::kShoulderCenter, Joint::kShoulderLeft},
-    {"LeftUpperArm", 5, Joint::kShoulderLeft, Joint::kElbowLeft},
-    {"LeftLowerArm", 6, Joint::kElbowLeft, Joint::kWristLeft},
-    {"LeftHand", 7, Joint::kWristLeft, Joint::kHandLeft},
-    {"RightShoulder", 2, Joint::kShoulderCenter, Joint::kShoulderRight},
-    {"RightUpperArm", 9, Joint::kShoulderRight, Joint::kElbowRight},
-    {"RightLowerArm", 10, Joint::kElbowRight, Joint::kWristRight},
-    {"RightHand", 11, Joint::kWristRight, Joint::kHandRight},
-    {"LeftUpperLeg", 0, Joint::kHipLeft, Joint::kKneeLeft},
-    {"LeftLowerLeg", 13, Joint::kKneeLeft, Joint::kAnkleLeft},
-    {"LeftFoot", 14, Joint::kAnkleLeft, Joint::kFootLeft},
-    {"LeftToes", 15, Joint::kFootLeft, Joint::kFootLeft},
-    {"RightUpperLeg", 0, Joint::kHipRight, Joint::kKneeRight},
-    {"RightLowerLeg", 17, Joint::kKneeRight, Joint::kAnkleRight},
-    {"RightFoot", 18, Joint::kAnkleRight, Joint::kFootRight},
-    {"RightToes", 19, Joint::kFootRight, Joint::kFootRight},
-}};
-
 void UnityRoom::See(const tracker::BodyFrame& frame) {
   if (frame.floor) {
     constexpr int kMost = 300;  // by hand, frames: ten seconds, then a moved camera is followed
@@ -79,7 +55,7 @@ Humanoid PoseOf(const tracker::Body& body, const UnityRoom& room) {
   const Quaterniond facing(0.0, 0.0, 1.0, 0.0);
   Humanoid pose;
   for (size_t b = 0; b < kHumanBoneCount; ++b) {
-    const HumanBoneInfo& bone = kHumanBones[b];
+    const recon::HumanBoneInfo& bone = kHumanBones[b];
     const Quaterniond now = body.joints[bone.turner].orientation;
     const Quaterniond rest = facing * recon::RestOrientations()[bone.turner];
     pose[b].position_m = room.Place(body.joints[bone.place].position_m);

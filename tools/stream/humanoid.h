@@ -3,47 +3,15 @@
 #include <Eigen/Geometry>
 #include <array>
 #include <optional>
-#include <string_view>
 
+#include "recon/motion/humanoid.h"
 #include "tools/tracker/tracker.h"
 
 namespace ossa::stream {
 
-/// The bones of Unity's humanoid that a depth image tells of, parents before children.
-enum class HumanBone {
-  kHips,
-  kSpine,
-  kChest,
-  kNeck,
-  kHead,
-  kLeftShoulder,
-  kLeftUpperArm,
-  kLeftLowerArm,
-  kLeftHand,
-  kRightShoulder,
-  kRightUpperArm,
-  kRightLowerArm,
-  kRightHand,
-  kLeftUpperLeg,
-  kLeftLowerLeg,
-  kLeftFoot,
-  kLeftToes,
-  kRightUpperLeg,
-  kRightLowerLeg,
-  kRightFoot,
-  kRightToes,
-};
-inline constexpr size_t kHumanBoneCount = 21;  // by definition, of those above
-
-/// What is known of a bone: its name as HumanBodyBones has it, its parent (-1: none), the joint
-/// that it begins in, and the joint that ends the bone of ossa which turns it.
-struct HumanBoneInfo {
-  std::string_view name;
-  int parent;
-  recon::Joint place;
-  recon::Joint turner;
-};
-extern const std::array<HumanBoneInfo, kHumanBoneCount> kHumanBones;
+using recon::HumanBone;
+using recon::kHumanBoneCount;
+using recon::kHumanBones;
 
 /// A place and a rotation in Unity's axes: left-handed, x right, y up, z forward; metres.
 struct UnityTransform {

@@ -8,10 +8,12 @@
 #include <numbers>
 #include <vector>
 
+#include "tools/stream/rest_bones.h"
+
 namespace ossa::stream {
 namespace {
 
-// More than the largest bundle: 24 messages of 80 bytes; derived.
+// More than the largest bundle: 58 messages of 88 bytes; derived.
 constexpr size_t kMostBytes = 8192;
 
 osc::OutboundPacketStream& operator<<(osc::OutboundPacketStream& stream, const Eigen::Vector3d& v) {
@@ -42,7 +44,7 @@ constexpr std::array<VrchatTracker, 9> kVrchatTrackers = {{{"1", HumanBone::kHip
 
 }  // namespace
 
-std::string VmcPacket(const Humanoid& world, double time_s) {
+std::string VmcPacket(const Humanoid& world, double time_s, bool seen_only) {
   std::vector<char> buffer(kMostBytes);
   osc::OutboundPacketStream stream(buffer.data(), buffer.size());
   stream << osc::BeginBundleImmediate;
@@ -51,7 +53,12 @@ std::string VmcPacket(const Humanoid& world, double time_s) {
   AddTransform(stream, "/VMC/Ext/Root/Pos", "root", {});
   const Humanoid local = ToLocal(world);
   for (size_t b = 0; b < kHumanBoneCount; ++b) {
-    AddTransform(stream, "/VMC/Ext/Bone/Pos", kHumanBones[b].name, local[b]);
+    AddTransform(stream, "/VMC/Ext/Bone/Pos", kHumanBones[b].unity, local[b]);
+  }
+  if (!seen_only) {
+    for (const RestBone& bone : RestBonesOf(world)) {
+      AddTransform(stream, "/VMC/Ext/Bone/Pos", bone.name, {bone.position_m});
+    }
   }
   stream << osc::EndBundle;
   return {stream.Data(), stream.Size()};

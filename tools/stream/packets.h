@@ -6,8 +6,8 @@
 namespace ossa::stream {
 
 /// One moment of one person for a VMC receiver, an OSC bundle: available, time, root, and every
-/// bone as its parent sees it.
-std::string VmcPacket(const Humanoid& world, double time_s);
+/// bone of HumanBodyBones as its parent sees it; with `seen_only` none of RestBonesOf.
+std::string VmcPacket(const Humanoid& world, double time_s, bool seen_only = false);
 
 /// One moment of one person as VRChat's trackers 1 to 8 (hip, chest, left and right foot, knee,
 /// elbow) and head, an OSC bundle: metres times `scale`, Euler degrees in Unity's order.

@@ -11,7 +11,7 @@ namespace {
 
 }  // namespace
 
-std::string VmcPacket(const Humanoid&, double) { Refuse(); }
+std::string VmcPacket(const Humanoid&, double, bool) { Refuse(); }
 std::string VrchatPacket(const Humanoid&, double) { Refuse(); }
 void CheckHasOsc() { Refuse(); }
 

@@ -57,7 +57,7 @@ void Sender::Impl::SendPerson(const tracker::Body& body, size_t seat, double tim
   const Humanoid world = PoseOf(body, room);
   for (Line& line : lines) {
     if (line.target.protocol == Protocol::kVmc) {
-      line.socket.Send(VmcPacket(world, time_s), static_cast<int>(seat));
+      line.socket.Send(VmcPacket(world, time_s, line.target.seen_only), static_cast<int>(seat));
     }
     if (line.target.protocol == Protocol::kVrchat && seat == 0) {
       line.socket.Send(VrchatPacket(world, line.target.scale), 0);

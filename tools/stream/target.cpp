@@ -45,16 +45,24 @@ int PortOf(const Target& target, const std::string& text) {
 
 double ScaleOf(const Target& target, const std::string& text) {
   if (text.empty()) return 1.0;
+  if (target.protocol != Protocol::kVrchat) Refuse(target.url, "no scale but for vrchat://");
   const auto scale = NumberIn<double>(text);
   if (!scale || !std::isfinite(*scale) || *scale <= 0) Refuse(target.url, "a scale above 0");
   return *scale;
+}
+
+bool IsSeenOnly(const Target& target, const std::string& text) {
+  if (text.empty()) return false;
+  if (target.protocol != Protocol::kVmc) Refuse(target.url, "no bones but for vmc://");
+  if (text != "all" && text != "seen") Refuse(target.url, "bones=all or bones=seen");
+  return text == "seen";
 }
 
 }  // namespace
 
 Target ParseTarget(const std::string& url) {
   static const std::regex form(
-      R"((vmc|vrchat|udp)://(\[[0-9A-Fa-f:.%]+\]|[^\[\]:/?#\s]+)(?::([^?/#]*))?/?(?:\?scale=(.*))?)");
+      R"((vmc|vrchat|udp)://(\[[0-9A-Fa-f:.%]+\]|[^\[\]:/?#\s]+)(?::([^?/#]*))?/?(?:\?(?:scale=(.+)|bones=(.+)))?)");
   std::smatch part;
   if (!std::regex_match(url, part, form)) {
     Refuse(url, "vmc://HOST:PORT, vrchat://HOST:PORT or udp://HOST:PORT");
@@ -66,9 +74,7 @@ Target ParseTarget(const std::string& url) {
   if (target.host.front() == '[') target.host = target.host.substr(1, target.host.size() - 2);
   target.port = PortOf(target, part[3]);
   target.scale = ScaleOf(target, part[4]);
-  if (part[4].matched && target.protocol != Protocol::kVrchat) {
-    Refuse(url, "no scale but for vrchat://");
-  }
+  target.seen_only = IsSeenOnly(target, part[5]);
   return target;
 }
 

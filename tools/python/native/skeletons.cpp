@@ -11,12 +11,14 @@
 #include "depth/base/error.h"
 #include "recon/database/posture_database.h"
 #include "recon/files/skeleton_io.h"
+#include "recon/files/skeleton_writer.h"
 #include "recon/filters/butterworth.h"
 #include "recon/methods/sequence.h"
 #include "recon/models/learned_models.h"
 #include "recon/models/posture_prior.h"
 #include "tools/python/native/arrays.h"
 #include "tools/python/native/native.h"
+#include "tools/tracker/body_mesh_file.h"
 #include "tools/tracker/mechanics.h"
 #include "tools/tracker/shipped.h"
 
@@ -210,11 +212,20 @@ py::dict ReadOne(const std::string& path, const py::dict& given) {
   return ToDict(sequence);
 }
 
-void Write(const py::dict& given, const std::string& path) {
+recon::BvhNames NamesFrom(const std::string& names) {
+  if (names == "cmu") return recon::BvhNames::kCmu;
+  if (names == "mixamo") return recon::BvhNames::kMixamo;
+  return names == "vrm" ? recon::BvhNames::kVrm : recon::BvhNames::kSdk;
+}
+
+void Write(const py::dict& given, const std::string& path, const std::string& names) {
   recon::CheckSkeletonExtension(path);
   const recon::SkeletonSequence sequence = SequenceFrom(given);
   const py::gil_scoped_release free;
-  recon::WriteSkeletons(path, sequence);
+  recon::SkeletonWriteOptions options;
+  options.names = NamesFrom(names);
+  if (path.ends_with(".glb")) options.body = tracker::LoadBodyMesh();
+  recon::WriteSkeletons(path, sequence, options);
 }
 
 // Of a correction the shipped one where the recording is of a sensor whose errors are known.
@@ -277,7 +288,7 @@ py::dict Reconstruct(const py::dict& rows, const py::dict& given) {
 void AddSkeletons(py::module_& module) {
   module.def("read_skeletons", &ReadOne, py::arg("path"), py::arg("options"));
   module.def("read_clips", &ReadClips, py::arg("path"), py::arg("options"));
-  module.def("write_skeletons", &Write, py::arg("sequence"), py::arg("path"));
+  module.def("write_skeletons", &Write, py::arg("sequence"), py::arg("path"), py::arg("names"));
   module.def("reconstruct", &Reconstruct, py::arg("sequence"), py::arg("options"));
 }
 

@@ -4,7 +4,9 @@
 #include <pybind11/stl.h>
 
 #include <algorithm>
+#include <limits>
 #include <map>
+#include <memory>
 #include <mutex>
 #include <optional>
 #include <string>
@@ -14,6 +16,7 @@
 #include "depth/sensor/frame_source.h"
 #include "tools/python/native/arrays.h"
 #include "tools/python/native/native.h"
+#include "tools/tracker/body_mesh_file.h"
 
 namespace ossa::python {
 namespace {
@@ -50,6 +53,7 @@ tracker::TrackerOptions OptionsFrom(const py::dict& given) {
   const auto flag = [&](const char* key) { return given[key].cast<bool>(); };
   options.method = given["method"].cast<std::string>();
   options.physics = flag("physics");
+  if (flag("fit")) options.fit = recon::SurfaceFitOptions{};
   options.mechanics = ReadMechanics(given["mechanics"].cast<py::dict>());
   const MethodOptions of_method = ReadMethodOptions(given["method_options"].cast<py::dict>());
   options.local_pca = of_method.local_pca;
@@ -104,6 +108,44 @@ recon::JointArray<double> ConfidenceOf(const Body& body) {
   return confidence;
 }
 
+py::dict ToDict(const recon::SurfaceFit& fit, const recon::BodyMesh& mesh) {
+  constexpr py::ssize_t kSegments = recon::kSegmentCount;
+  std::vector<double> turns, residuals_m, vertices_m;
+  for (const Eigen::Quaterniond& q : fit.camera_from_segment) {
+    turns.insert(turns.end(), {q.w(), q.x(), q.y(), q.z()});
+  }
+  for (const auto& residual_m : fit.residual_m) {
+    residuals_m.push_back(residual_m.value_or(std::numeric_limits<double>::quiet_NaN()));
+  }
+  const std::vector<Eigen::Vector3d> places_m = recon::PoseMesh(mesh, fit.pose);
+  for (const Eigen::Vector3d& place : places_m) {
+    vertices_m.insert(vertices_m.end(), place.begin(), place.end());
+  }
+  const auto& shape = fit.pose.shape;
+  py::dict made;
+  made["joints"] = python::ToArray(fit.joints_m);
+  made["shape"] =
+      python::ToArray(std::vector<double>(shape.begin(), shape.end()), {recon::kShapeCount});
+  made["stature_m"] = fit.stature_m;
+  made["explained"] = fit.explained;
+  made["score"] = fit.score;
+  made["median_residual_m"] = fit.median_residual_m;
+  made["residuals_m"] = python::ToArray(std::move(residuals_m), {kSegments});
+  made["orientations"] = python::ToArray(std::move(turns), {kSegments, 4});
+  made["vertices"] =
+      python::ToArray(std::move(vertices_m), {static_cast<py::ssize_t>(places_m.size()), 3});
+  return made;
+}
+
+// Corner numbers, int32 [f, 3].
+py::array_t<int32_t> ToArray(const std::vector<recon::MeshTriangle>& triangles) {
+  std::vector<int32_t> corners;
+  for (const recon::MeshTriangle& triangle : triangles) {
+    for (const uint32_t corner : triangle) corners.push_back(static_cast<int32_t>(corner));
+  }
+  return python::ToArray(std::move(corners), {static_cast<py::ssize_t>(triangles.size()), 3});
+}
+
 // What a tracked body has beyond a place and an id.
 void AddSkeleton(const Body& body, bool with_proposals, py::dict& made) {
   recon::JointArray<recon::TrackingState> states;
@@ -130,7 +172,7 @@ void AddSkeleton(const Body& body, bool with_proposals, py::dict& made) {
   made["proposals"] = proposals;
 }
 
-py::dict ToDict(const Body& body, bool with_proposals) {
+py::dict ToDict(const Body& body, bool with_proposals, const recon::BodyMesh* mesh) {
   py::dict made;
   made["id"] = body.id;
   made["tracked"] = body.state == tracker::BodyState::kTracked;
@@ -139,6 +181,7 @@ py::dict ToDict(const Body& body, bool with_proposals) {
   made["clipped_edges"] = body.clipped_edges;
   made["person_score"] = body.person_score;
   if (body.state == tracker::BodyState::kTracked) AddSkeleton(body, with_proposals, made);
+  if (body.fit && mesh != nullptr) made["fit"] = ToDict(*body.fit, *mesh);
   return made;
 }
 
@@ -154,14 +197,15 @@ py::dict ToDict(const tracker::StageTimes& ms) {
   made["propose"] = ms.propose;
   made["reconstruct"] = ms.reconstruct;
   made["physics"] = ms.physics;
+  made["fit"] = ms.fit;
   made["total"] = ms.total;
   return made;
 }
 
-py::dict ToDict(BodyFrame frame, bool with_proposals) {
+py::dict ToDict(BodyFrame frame, bool with_proposals, const recon::BodyMesh* mesh) {
   py::dict made;
   py::list bodies;
-  for (const Body& body : frame.bodies) bodies.append(ToDict(body, with_proposals));
+  for (const Body& body : frame.bodies) bodies.append(ToDict(body, with_proposals, mesh));
   made["index"] = frame.index;
   made["time_s"] = frame.time_s;
   made["bodies"] = bodies;
@@ -189,6 +233,7 @@ class Tracker {
     with_proposals_ = options.keep_proposals;
     const py::gil_scoped_release free;
     tracker_.emplace(options);
+    if (options.fit) mesh_ = tracker::LoadBodyMesh();
   }
 
   py::dict Track(const py::array& depth_mm, const py::tuple& camera, double time_s, int turn) {
@@ -209,7 +254,12 @@ class Tracker {
       bodies = tracker_->Track(frame_);
       ++frame_.index;
     }
-    return ToDict(std::move(bodies), with_proposals_);
+    return ToDict(std::move(bodies), with_proposals_, mesh_.get());
+  }
+
+  /// Of the mesh; none without a fit.
+  py::object Faces() const {
+    return mesh_ ? py::object(ToArray(mesh_->triangles)) : py::object(py::none());
   }
 
   /// Looks through the beginning of a recording for which way up its camera is.
@@ -255,7 +305,8 @@ class Tracker {
   std::mutex mutex_;
   std::string method_;
   bool with_proposals_ = false;
-  depth::DepthFrame frame_;  // its memory serves frame after frame
+  std::shared_ptr<const recon::BodyMesh> mesh_;  // where bodies are fitted
+  depth::DepthFrame frame_;                      // its memory serves frame after frame
   std::optional<tracker::Tracker> tracker_;
 };
 
@@ -269,6 +320,7 @@ void AddTracker(py::module_& module) {
       .def(py::init<const py::dict&, const Models&>(), py::arg("options"), py::arg("models"))
       .def("track", &Tracker::Track, py::arg("depth_mm"), py::arg("camera"), py::arg("time_s"),
            py::arg("turn"))
+      .def("faces", &Tracker::Faces)
       .def("find_upright", &Tracker::FindUpright, py::arg("source"), py::arg("options"))
       .def("choose_users", &Tracker::ChooseUsers, py::arg("ids"))
       .def("set_seated", &Tracker::SetSeated, py::arg("seated"))

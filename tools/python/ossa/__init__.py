@@ -7,14 +7,15 @@
         for body in frame.bodies:
             print(time_s, body.id, body["Head"])
 
-Tracker           depth images to bodies; Frame, Body, Proposals are what it gives
+Tracker           depth images to bodies; Frame, Body, Fit, Mesh, Proposals are what it gives
 Camera            intrinsics of a depth camera; Camera.preset("kinect-v2")
 open              whatever `ossa track SOURCE` opens: devices, .oni, .mkv, .bag, PNG folders
 Forest            one image's body parts and probabilities
 Sequence          recorded skeletons: read_skeletons, read_recordings, write_skeletons
 reconstruct       methods that make recorded skeletons complete and plausible
 compare           results against truth; evaluate: forests; learn: a sensor's errors
-JOINTS, PARENTS, PARTS, METHODS, STATES, CAMERA_PRESETS, SMOOTHINGS, SKELETON_FORMATS: names
+JOINTS, PARENTS, PARTS, SEGMENTS, METHODS, STATES, CAMERA_PRESETS, SMOOTHINGS, SKELETON_FORMATS:
+    names
 
 Camera space is metres, right-handed, origin at the sensor, x to the sensor's left, y up, z forward.
 Depth is uint16 [height, width] in millimetres, 0 = no reading. Quaternions are w x y z. Left is the
@@ -31,6 +32,7 @@ from ._names import (
     METHODS,
     PARENTS,
     PARTS,
+    SEGMENTS,
     SKELETON_FORMATS,
     SMOOTHINGS,
     STATES,
@@ -40,7 +42,7 @@ from ._native import InputError
 from ._native import version as __version__
 from ._sequences import Sequence, read_recordings, read_skeletons, reconstruct, write_skeletons
 from ._sources import DepthImage, Source, open
-from ._tracker import Body, Frame, Holt, Models, OneEuro, Proposals, Tracker
+from ._tracker import Body, Fit, Frame, Holt, Mesh, Models, OneEuro, Proposals, Tracker
 
 __all__ = [
     "Body",
@@ -48,6 +50,7 @@ __all__ = [
     "Camera",
     "Comparison",
     "DepthImage",
+    "Fit",
     "Forest",
     "Frame",
     "Holt",
@@ -55,11 +58,13 @@ __all__ = [
     "JOINTS",
     "Joint",
     "METHODS",
+    "Mesh",
     "Models",
     "OneEuro",
     "PARENTS",
     "PARTS",
     "Proposals",
+    "SEGMENTS",
     "SKELETON_FORMATS",
     "SMOOTHINGS",
     "STATES",

@@ -32,6 +32,15 @@ STATES: tuple[str, ...] = ("not_tracked", "inferred", "tracked")
 or merely plausible for the rest of the body (not_tracked)."""
 
 
+SEGMENTS: tuple[str, ...] = (
+    "Pelvis", "Abdomen", "Chest", "Head",
+    "CollarLeft", "UpperArmLeft", "ForearmLeft", "HandLeft",
+    "CollarRight", "UpperArmRight", "ForearmRight", "HandRight",
+    "ThighLeft", "ShankLeft", "FootLeft", "ThighRight", "ShankRight", "FootRight",
+)  # fmt: skip
+"""The rigid pieces of the body that is fitted to the depth image."""
+
+
 class Joint(enum.IntEnum):
     """The 20 joints by name, for indexing: body.joints[ossa.Joint.Head]. Left is the person's."""
 

@@ -327,11 +327,12 @@ def read_recordings(
     return {name: _from_native(made) for name, made in clips}
 
 
-def write_skeletons(sequence: Sequence, path: PathLike) -> None:
-    """Writes skeletons in the format that the extension names: .jsonl, .csv, .trc or .bvh.
+def write_skeletons(sequence: Sequence, path: PathLike, names: Optional[str] = None) -> None:
+    """Writes skeletons in the format that the extension names: .jsonl, .csv, .trc, .bvh or .glb.
 
     TRC and BVH hold one person a file: the first goes to `path`, each other to `path` with _ID
-    before the extension. The file appears under its name only when complete.
+    before the extension. A .glb (glTF 2.0) shows everybody's body in motion. The file appears under
+    its name only when complete.
 
     Parameters
     ----------
@@ -339,8 +340,17 @@ def write_skeletons(sequence: Sequence, path: PathLike) -> None:
         What to write.
     path : path
         Where to.
+    names : "sdk", "cmu", "mixamo" or "vrm", optional
+        Whose names the bones of a .bvh or .glb have. Left out: the SDK's joints of a .bvh, VRM's
+        bones of a .glb.
     """
-    _native.write_skeletons(_to_native(sequence), _check.path("path", path))
+    to = _check.path("path", path)
+    if names is not None:
+        _check.one_of("names", names, ("sdk", "cmu", "mixamo", "vrm"))
+        if not to.endswith((".bvh", ".glb")) or (names == "sdk" and to.endswith(".glb")):
+            expected = "a .bvh, or a .glb and names other than sdk"
+            raise _check.refuse(f"names {names!r}", expected, to)
+    _native.write_skeletons(_to_native(sequence), to, names or "")
 
 
 def reconstruct(

@@ -92,6 +92,66 @@ def proposals_from(rows: Floats) -> Proposals:
 
 
 @dataclasses.dataclass(frozen=True, repr=False)
+class Mesh:
+    """The skin of a fitted body as triangles.
+
+    Attributes
+    ----------
+    vertices : float64 [V, 3]
+        Camera space, metres.
+    faces : int32 [F, 3]
+        Vertices of each triangle, counter-clockwise from outside; the same of all bodies.
+    """
+
+    vertices: Floats
+    faces: npt.NDArray[np.int32]
+
+    def __repr__(self) -> str:
+        return f"<ossa.Mesh: {len(self.vertices)} vertices, {len(self.faces)} faces>"
+
+
+@dataclasses.dataclass(frozen=True, repr=False)
+class Fit:
+    """A body whose surface explains the depth image, with Tracker(fit=True).
+
+    Attributes
+    ----------
+    joints : float64 [20, 3]
+        The joints of that body, camera space, metres.
+    shape : float64 [10]
+        Components of what the person is like and wears, standard deviations from the mean body.
+    stature_m : float
+        Body height, metres, by the shape of this frame alone.
+    explained : float
+        Share of the person's pixels within 3 cm of the surface, [0, 1].
+    score : float
+        The same less the share of the surface through which the camera sees; 1 is perfect.
+    median_residual_m : float
+        Of the pixels' distances from the surface, metres.
+    residuals_m : float64 [18]
+        Root mean square distance of each segment's pixels (ossa.SEGMENTS), metres; NaN without.
+    orientations : float64 [18, 4]
+        Quaternions w x y z, camera from segment: how each is turned from a body that stands facing
+        +z with its left at +x.
+    mesh : Mesh
+        Its skin.
+    """
+
+    joints: Floats
+    shape: Floats
+    stature_m: float
+    explained: float
+    score: float
+    median_residual_m: float
+    residuals_m: Floats
+    orientations: Floats
+    mesh: Mesh
+
+    def __repr__(self) -> str:
+        return f"<ossa.Fit: {self.stature_m:.2f} m tall, {self.explained:.0%} explained>"
+
+
+@dataclasses.dataclass(frozen=True, repr=False)
 class Body:
     """One person in a Frame. Index j of an array of joints is ossa.JOINTS[j]; body["Head"] is the
     position of that joint. Positions are of camera space, metres.
@@ -133,6 +193,10 @@ class Body:
         How sure the forest is that this is a person, [0, 1].
     proposals : tuple of 20 Proposals, or None
         With Tracker(proposals=True).
+    fit : Fit or None
+        The body fitted to the depth image, with Tracker(fit=True) where enough of the person shows.
+    mesh : Mesh or None
+        Its skin.
     """
 
     id: int
@@ -151,6 +215,13 @@ class Body:
     clipped: frozenset[str]
     person_score: float
     proposals: Optional[tuple[Proposals, ...]]
+    fit: Optional[Fit]
+
+    @property
+    def mesh(self) -> Optional[Mesh]:
+        """The fitted body's skin: vertices float64 [V, 3], camera space, metres, and faces int32
+        [F, 3]; None without a fit."""
+        return None if self.fit is None else self.fit.mesh
 
     def __getitem__(self, joint: Union[str, int, Joint]) -> Floats:
         """float64 [3], metres: the joint's position by name or index."""
@@ -188,7 +259,7 @@ class Frame:
     index : int
         Number of the frame, from 0.
     ms : dict
-        Milliseconds spent on "segment", "classify", "propose", "reconstruct", "physics", "total".
+        Milliseconds spent on "segment", "classify", "propose", "reconstruct", "physics", "total", and on "fit", a part of "reconstruct".
     """
 
     bodies: list[Body]
@@ -221,7 +292,13 @@ class Frame:
         )
 
 
-def _body_from(made: dict[str, Any]) -> Body:
+def _fit_from(made: Optional[dict[str, Any]], faces: Any) -> Optional[Fit]:
+    if made is None:
+        return None
+    return Fit(mesh=Mesh(made.pop("vertices"), faces.copy()), **made)
+
+
+def _body_from(made: dict[str, Any], faces: Any) -> Body:
     edges = frozenset(name for name, bit in _EDGES.items() if made["clipped_edges"] & bit)
     known = (made["id"], made["tracked"], made["position"])
     if not made["tracked"]:
@@ -230,7 +307,7 @@ def _body_from(made: dict[str, Any]) -> Body:
         zeros = np.zeros(20)
         return Body(
             *known, unknown, _STATES[np.zeros(20, int)], zeros, zeros.copy(), turns, turns.copy(),
-            unknown.copy(), None, unknown.copy(), None, edges, made["person_score"], None,
+            unknown.copy(), None, unknown.copy(), None, edges, made["person_score"], None, None,
         )  # fmt: skip
     proposals = made.get("proposals")
     return Body(
@@ -248,6 +325,7 @@ def _body_from(made: dict[str, Any]) -> Body:
         clipped=edges,
         person_score=made["person_score"],
         proposals=None if proposals is None else tuple(proposals_from(p) for p in proposals),
+        fit=_fit_from(made.get("fit"), faces),
     )
 
 
@@ -368,6 +446,9 @@ class Tracker:
     parts, probabilities, proposals : bool
         Fill Frame.parts; Frame.probabilities; Body.proposals. They cost time and memory
         (probabilities 128 bytes a pixel).
+    fit : bool
+        Fit a body's surface to the depth image, from the refined joints on (Body.fit, Body.mesh);
+        the method starts from the fitted body's joints. The shipped body.
     refinement, learned, prior, database : path or "none", optional
         Other models' files, as of ossa.Models.
     models : ossa.Models, optional
@@ -410,6 +491,7 @@ class Tracker:
         parts: bool = False,
         probabilities: bool = False,
         proposals: bool = False,
+        fit: bool = False,
         refinement: Optional[PathLike] = None,
         learned: Optional[PathLike] = None,
         prior: Optional[PathLike] = None,
@@ -456,6 +538,7 @@ class Tracker:
             "parts": _check.flag("parts", parts),
             "probabilities": _check.flag("probabilities", probabilities),
             "proposals": _check.flag("proposals", proposals),
+            "fit": _check.flag("fit", fit),
             "max_users": _check.whole("max_users", max_users, 1, 6),
             "threads": _check.whole("threads", threads, 1, 256),
             "seed": _check.whole("seed", seed, 0, 2**63 - 1),
@@ -466,6 +549,7 @@ class Tracker:
             options["smoothing"] = chosen
         self._models = _models_for(method, models, files)
         self._native = _native.Tracker(options, self._models._native)
+        self._faces = self._native.faces()
         self._mode = "seated" if seated else "standing"
         self._smoothing = smoothing
         self._time_s: Optional[float] = None
@@ -507,7 +591,7 @@ class Tracker:
         made = self._native.track(image, numbers, seconds, ROTATIONS.index(camera.rotate))
         self._time_s = seconds
         return Frame(
-            bodies=[_body_from(body) for body in made["bodies"]],
+            bodies=[_body_from(body, self._faces) for body in made["bodies"]],
             users=made["users"],
             parts=made["parts"],
             probabilities=made["probabilities"],

@@ -1,0 +1,48 @@
+#pragma once
+#include <cstdint>
+#include <filesystem>
+#include <map>
+#include <optional>
+#include <vector>
+
+#include "recon/motion/sightings_internal.h"
+#include "recon/skeleton_sequence.h"
+
+namespace ossa::recon {
+
+/// A time in which somebody was in view.
+struct Stay {
+  double from_s = 0.0;
+  std::optional<double> gone_s;  // of the first frame without them; none: here to the end
+};
+
+/// Everybody's sightings of a recording, for formats whose head needs all of it.
+class PeopleLog {
+ public:
+  /// `folder`: on whose disk most of it is.
+  explicit PeopleLog(std::filesystem::path folder) : folder_(std::move(folder)) {}
+
+  /// Throws DiskFull.
+  void Append(const SkeletonFrame& frame);
+
+  /// Those who were somewhere, as they appeared: of a body that has no joint in any frame a posture
+  /// would be made up.
+  const std::vector<int>& ids() const { return ids_; }
+  /// The first frame's time, whoever is in it; of a recording that goes back, a person's first.
+  double BeginFor(int id) const;
+  const std::vector<Stay>& StaysOf(int id) const { return stays_.at(id); }
+  /// Hands them out, once.
+  SightingLog Take(int id) { return std::move(seen_.at(id)); }
+  const SightingLog& SightingsOf(int id) const { return seen_.at(id); }
+
+ private:
+  void NoteStays(const SkeletonFrame& frame);
+
+  std::filesystem::path folder_;
+  std::optional<double> begin_s_;
+  std::vector<int> ids_;
+  std::map<int, SightingLog> seen_;
+  std::map<int, std::vector<Stay>> stays_;
+};
+
+}  // namespace ossa::recon
