@@ -180,8 +180,10 @@ class GltfWriter final : public SkeletonWriter::Format {
 
   /// What readers cannot hold is refused before it is made.
   void CheckLength(size_t bytes, size_t keys) const {
-    constexpr size_t kMost = size_t{1} << 30;  // by hand; the format itself ends at four times
-    constexpr size_t kKeyBytes = 4 + 23 * (12 + 16);  // of a time, and all nodes' places and turns
+    // Bytes, by hand; the format itself ends at four times that.
+    constexpr size_t kMost = size_t{1} << 30;
+    // Derived, bytes: of a time, and of all nodes' places and turns.
+    constexpr size_t kKeyBytes = sizeof(float) * (1 + kPersonNodes * (3 + 4));
     if (bytes + keys * kKeyBytes <= kMost) return;
     throw InputError(path_.string() + ": expected a .glb of at most 1 GiB, found " +
                      std::to_string(keys) + " frames of one person: .jsonl has no such limit");

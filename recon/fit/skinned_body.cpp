@@ -74,7 +74,7 @@ Matrix3d Growth(const Vector3d& along, double stretch, double girth) {
 class Fitting {
  public:
   Fitting(const Posture& from, const BoneLengths& lengths_m) : from_(from) {
-    // By hand: a length that was measured wrongly shall not tear the skin.
+    // Factors, by hand: a length that was measured wrongly shall not tear the skin.
     constexpr double kLeast = 0.5, kMost = 2.0;
     const BoneLengths own_m = MeasureBoneLengths(from);
     double wanted_m = 0.0, sum_m = 0.0;

@@ -7,9 +7,12 @@ namespace {
 
 using Eigen::Vector3d;
 
-// Of the hands: joint cubes of MPFB's base mesh, from the wrist on, each from the one before; along
-// the hand, up, towards the thumb; unit: kHandOfForearm of the forearm's length there.
+// Factor of the forearm's length: our hand joint's distance from the wrist. Derived from the
+// joint cubes of MPFB's base mesh.
 constexpr double kHandOfForearm = 0.213;
+
+// Fingers by the same cubes: from the wrist on, each joint from the one before; along the hand, up,
+// towards the thumb; unit: the hand joint's distance from the wrist.
 struct Finger {
   const char* name;
   std::array<std::array<double, 3>, 3> joints;

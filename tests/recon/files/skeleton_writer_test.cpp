@@ -66,7 +66,7 @@ TEST_P(EveryFormat, TakesNoMemoryThatGrowsWithTheRecording) {
 }
 
 INSTANTIATE_TEST_SUITE_P(SkeletonWriter, EveryFormat,
-                         testing::Values(".jsonl", ".csv", ".trc", ".bvh"));
+                         testing::Values(".jsonl", ".csv", ".trc", ".bvh", ".glb"));
 
 class LineFormats : public EveryFormat {};
 

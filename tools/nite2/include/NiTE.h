@@ -133,15 +133,63 @@ class UserMap : private NiteUserMap {
   int getStride() const { return stride; }
 };
 
+/// What trackers of users and of hands have in common. `C`: the C interface of one of them.
+namespace shared {
+
+struct UserInterface {
+  using Handle = NiteUserTrackerHandle;
+  using Frame = NiteUserTrackerFrame;
+  using Callbacks = NiteUserTrackerCallbacks;
+  static NiteStatus open(Handle* handle) { return niteInitializeUserTracker(handle); }
+  static NiteStatus open(void* device, Handle* handle) {
+    return niteInitializeUserTrackerByDevice(device, handle);
+  }
+  static void close(Handle handle) { niteShutdownUserTracker(handle); }
+  static NiteStatus read(Handle handle, Frame** frame) {
+    return niteReadUserTrackerFrame(handle, frame);
+  }
+  static void addRef(Handle handle, Frame* frame) { niteUserTrackerFrameAddRef(handle, frame); }
+  static void release(Handle handle, Frame* frame) { niteUserTrackerFrameRelease(handle, frame); }
+  static void listen(Handle handle, Callbacks* callbacks, void* cookie) {
+    niteRegisterUserTrackerCallbacks(handle, callbacks, cookie);
+  }
+  static void unlisten(Handle handle, Callbacks* callbacks) {
+    niteUnregisterUserTrackerCallbacks(handle, callbacks);
+  }
+};
+
+struct HandInterface {
+  using Handle = NiteHandTrackerHandle;
+  using Frame = NiteHandTrackerFrame;
+  using Callbacks = NiteHandTrackerCallbacks;
+  static NiteStatus open(Handle* handle) { return niteInitializeHandTracker(handle); }
+  static NiteStatus open(void* device, Handle* handle) {
+    return niteInitializeHandTrackerByDevice(device, handle);
+  }
+  static void close(Handle handle) { niteShutdownHandTracker(handle); }
+  static NiteStatus read(Handle handle, Frame** frame) {
+    return niteReadHandTrackerFrame(handle, frame);
+  }
+  static void addRef(Handle handle, Frame* frame) { niteHandTrackerFrameAddRef(handle, frame); }
+  static void release(Handle handle, Frame* frame) { niteHandTrackerFrameRelease(handle, frame); }
+  static void listen(Handle handle, Callbacks* callbacks, void* cookie) {
+    niteRegisterHandTrackerCallbacks(handle, callbacks, cookie);
+  }
+  static void unlisten(Handle handle, Callbacks* callbacks) {
+    niteUnregisterHandTrackerCallbacks(handle, callbacks);
+  }
+};
+
 /// Shares one frame; the last one gives it back.
-class UserTrackerFrameRef {
+template <class C>
+class FrameRef {
  public:
-  UserTrackerFrameRef() = default;
-  ~UserTrackerFrameRef() { release(); }
-  UserTrackerFrameRef(const UserTrackerFrameRef& other) { *this = other; }
-  UserTrackerFrameRef& operator=(const UserTrackerFrameRef& other) {
+  FrameRef() = default;
+  ~FrameRef() { release(); }
+  FrameRef(const FrameRef& other) { *this = other; }
+  FrameRef& operator=(const FrameRef& other) {
     if (this == &other) return *this;
-    if (other.isValid()) niteUserTrackerFrameAddRef(other.handle_, other.frame_);
+    if (other.isValid()) C::addRef(other.handle_, other.frame_);
     setReference(other.handle_, other.frame_);
     return *this;
   }
@@ -149,16 +197,6 @@ class UserTrackerFrameRef {
   bool isValid() const { return frame_ != nullptr; }
   void release() { setReference(nullptr, nullptr); }
 
-  const Array<UserData>& getUsers() const { return users_; }
-  const UserData* getUserById(UserId id) const {
-    for (int i = 0; i < users_.getSize(); ++i) {
-      if (users_[i].getId() == id) return &users_[i];
-    }
-    return nullptr;
-  }
-  UserMap getUserMap() const { return UserMap(frame_->userMap); }
-  const Plane& getFloor() const { return frame_->floor; }
-  float getFloorConfidence() const { return frame_->floorConfidence; }
   openni::VideoFrameRef getDepthFrame() const {
     openni::VideoFrameRef frame;
     if (isValid()) frame._setFrame(frame_->pDepthFrame);
@@ -167,67 +205,128 @@ class UserTrackerFrameRef {
   uint64_t getTimestamp() const { return frame_->timestamp; }
   int getFrameIndex() const { return frame_->frameIndex; }
 
- private:
-  friend class UserTracker;
-
-  void setReference(NiteUserTrackerHandle handle, NiteUserTrackerFrame* frame) {
-    if (isValid()) niteUserTrackerFrameRelease(handle_, frame_);
+  /// Of trackers: takes over the reference that the C interface gave.
+  void setReference(typename C::Handle handle, typename C::Frame* frame) {
+    if (isValid()) C::release(handle_, frame_);
     handle_ = handle;
     frame_ = frame;
-    users_._setData(frame == nullptr ? 0 : frame->userCount,
-                    frame == nullptr ? nullptr : reinterpret_cast<const UserData*>(frame->pUser));
   }
 
-  NiteUserTrackerFrame* frame_ = nullptr;
-  NiteUserTrackerHandle handle_ = nullptr;
-  Array<UserData> users_;
+ protected:
+  const typename C::Frame* frame() const { return frame_; }
+
+ private:
+  typename C::Frame* frame_ = nullptr;
+  typename C::Handle handle_ = nullptr;
 };
 
-/// Who is in view, and their skeletons.
-class UserTracker {
+template <class C, class Tracker>
+class TrackerOf;
+
+/// Told when there is a frame to read; may read it.
+template <class C, class Tracker>
+class NewFrameListener {
  public:
-  /// Told when there is a frame to read; may read it.
-  class NewFrameListener {
-   public:
-    NewFrameListener() { callbacks_.readyForNextFrame = &NewFrameListener::onReady; }
-    virtual ~NewFrameListener() = default;
-    virtual void onNewFrame(UserTracker& tracker) = 0;
+  NewFrameListener() { callbacks_.readyForNextFrame = &NewFrameListener::onReady; }
+  virtual ~NewFrameListener() = default;
+  virtual void onNewFrame(Tracker& tracker) = 0;
 
-   private:
-    friend class UserTracker;
-    static void ONI_CALLBACK_TYPE onReady(void* cookie) {
-      auto* listener = static_cast<NewFrameListener*>(cookie);
-      if (listener->tracker_ != nullptr) listener->onNewFrame(*listener->tracker_);
-    }
-    NiteUserTrackerCallbacks callbacks_{};
-    UserTracker* tracker_ = nullptr;
-  };
+ private:
+  friend class TrackerOf<C, Tracker>;
+  static void ONI_CALLBACK_TYPE onReady(void* cookie) {
+    auto* listener = static_cast<NewFrameListener*>(cookie);
+    if (listener->tracker_ != nullptr) listener->onNewFrame(*listener->tracker_);
+  }
+  typename C::Callbacks callbacks_{};
+  Tracker* tracker_ = nullptr;
+};
 
-  UserTracker() = default;
-  ~UserTracker() { destroy(); }
-  UserTracker(const UserTracker&) = delete;
-  UserTracker& operator=(const UserTracker&) = delete;
+/// What `Tracker` is over the C interface.
+template <class C, class Tracker>
+class TrackerOf {
+ public:
+  using NewFrameListener = shared::NewFrameListener<C, Tracker>;
+
+  TrackerOf() = default;
+  ~TrackerOf() { destroy(); }
+  TrackerOf(const TrackerOf&) = delete;
+  TrackerOf& operator=(const TrackerOf&) = delete;
 
   /// On the first device there is, or on an open one.
   Status create(openni::Device* device = nullptr) {
     destroy();
-    return static_cast<Status>(device == nullptr
-                                   ? niteInitializeUserTracker(&handle_)
-                                   : niteInitializeUserTrackerByDevice(device, &handle_));
+    return static_cast<Status>(device == nullptr ? C::open(&handle_) : C::open(device, &handle_));
   }
   void destroy() {
-    if (isValid()) niteShutdownUserTracker(handle_);
+    if (isValid()) C::close(handle_);
     handle_ = nullptr;
   }
   bool isValid() const { return handle_ != nullptr; }
 
-  Status readFrame(UserTrackerFrameRef* frame) {
-    NiteUserTrackerFrame* read = nullptr;
-    const NiteStatus status = niteReadUserTrackerFrame(handle_, &read);
+  Status readFrame(FrameRef<C>* frame) {
+    typename C::Frame* read = nullptr;
+    const NiteStatus status = C::read(handle_, &read);
     if (status == NITE_STATUS_OK) frame->setReference(handle_, read);
     return static_cast<Status>(status);
   }
 
+  void addNewFrameListener(NewFrameListener* listener) {
+    listener->tracker_ = static_cast<Tracker*>(this);
+    C::listen(handle_, &listener->callbacks_, listener);
+  }
+  void removeNewFrameListener(NewFrameListener* listener) {
+    C::unlisten(handle_, &listener->callbacks_);
+    listener->tracker_ = nullptr;
+  }
+
+ protected:
+  typename C::Handle handle_ = nullptr;
+};
+
+/// The array that a frame hands out; it is the frame's own, and not copied with it.
+template <class T>
+class Shown {
+ public:
+  Shown() = default;
+  Shown(const Shown&) {}
+  Shown& operator=(const Shown&) { return *this; }
+
+  /// `count` of the C interface's structures, which a T is.
+  template <class From>
+  const Array<T>& of(int count, const From* from) const {
+    array_._setData(count, reinterpret_cast<const T*>(from));
+    return array_;
+  }
+
+ private:
+  mutable Array<T> array_;
+};
+
+}  // namespace shared
+
+class UserTrackerFrameRef : public shared::FrameRef<shared::UserInterface> {
+ public:
+  const Array<UserData>& getUsers() const {
+    return isValid() ? users_.of(frame()->userCount, frame()->pUser) : users_.of(0, frame());
+  }
+  const UserData* getUserById(UserId id) const {
+    const Array<UserData>& users = getUsers();
+    for (int i = 0; i < users.getSize(); ++i) {
+      if (users[i].getId() == id) return &users[i];
+    }
+    return nullptr;
+  }
+  UserMap getUserMap() const { return UserMap(frame()->userMap); }
+  const Plane& getFloor() const { return frame()->floor; }
+  float getFloorConfidence() const { return frame()->floorConfidence; }
+
+ private:
+  shared::Shown<UserData> users_;
+};
+
+/// Who is in view, and their skeletons.
+class UserTracker : public shared::TrackerOf<shared::UserInterface, UserTracker> {
+ public:
   Status startSkeletonTracking(UserId id) {
     return static_cast<Status>(niteStartSkeletonTracking(handle_, id));
   }
@@ -256,111 +355,26 @@ class UserTracker {
   Status convertDepthCoordinatesToJoint(int x, int y, int z, float* px, float* py) const {
     return static_cast<Status>(niteConvertDepthCoordinatesToJoint(handle_, x, y, z, px, py));
   }
-
-  void addNewFrameListener(NewFrameListener* listener) {
-    listener->tracker_ = this;
-    niteRegisterUserTrackerCallbacks(handle_, &listener->callbacks_, listener);
-  }
-  void removeNewFrameListener(NewFrameListener* listener) {
-    niteUnregisterUserTrackerCallbacks(handle_, &listener->callbacks_);
-    listener->tracker_ = nullptr;
-  }
-
- private:
-  NiteUserTrackerHandle handle_ = nullptr;
 };
 
-/// Shares one frame; the last one gives it back.
-class HandTrackerFrameRef {
+class HandTrackerFrameRef : public shared::FrameRef<shared::HandInterface> {
  public:
-  HandTrackerFrameRef() = default;
-  ~HandTrackerFrameRef() { release(); }
-  HandTrackerFrameRef(const HandTrackerFrameRef& other) { *this = other; }
-  HandTrackerFrameRef& operator=(const HandTrackerFrameRef& other) {
-    if (this == &other) return *this;
-    if (other.isValid()) niteHandTrackerFrameAddRef(other.handle_, other.frame_);
-    setReference(other.handle_, other.frame_);
-    return *this;
+  const Array<HandData>& getHands() const {
+    return isValid() ? hands_.of(frame()->handCount, frame()->pHands) : hands_.of(0, frame());
   }
-
-  bool isValid() const { return frame_ != nullptr; }
-  void release() { setReference(nullptr, nullptr); }
-
-  const Array<HandData>& getHands() const { return hands_; }
-  const Array<GestureData>& getGestures() const { return gestures_; }
-  openni::VideoFrameRef getDepthFrame() const {
-    openni::VideoFrameRef frame;
-    if (isValid()) frame._setFrame(frame_->pDepthFrame);
-    return frame;
+  const Array<GestureData>& getGestures() const {
+    return isValid() ? gestures_.of(frame()->gestureCount, frame()->pGestures)
+                     : gestures_.of(0, frame());
   }
-  uint64_t getTimestamp() const { return frame_->timestamp; }
-  int getFrameIndex() const { return frame_->frameIndex; }
 
  private:
-  friend class HandTracker;
-
-  void setReference(NiteHandTrackerHandle handle, NiteHandTrackerFrame* frame) {
-    if (isValid()) niteHandTrackerFrameRelease(handle_, frame_);
-    handle_ = handle;
-    frame_ = frame;
-    hands_._setData(frame == nullptr ? 0 : frame->handCount,
-                    frame == nullptr ? nullptr : reinterpret_cast<const HandData*>(frame->pHands));
-    gestures_._setData(
-        frame == nullptr ? 0 : frame->gestureCount,
-        frame == nullptr ? nullptr : reinterpret_cast<const GestureData*>(frame->pGestures));
-  }
-
-  NiteHandTrackerFrame* frame_ = nullptr;
-  NiteHandTrackerHandle handle_ = nullptr;
-  Array<HandData> hands_;
-  Array<GestureData> gestures_;
+  shared::Shown<HandData> hands_;
+  shared::Shown<GestureData> gestures_;
 };
 
 /// Hands that are followed by id, and gestures that ask for it.
-class HandTracker {
+class HandTracker : public shared::TrackerOf<shared::HandInterface, HandTracker> {
  public:
-  /// Told when there is a frame to read; may read it.
-  class NewFrameListener {
-   public:
-    NewFrameListener() { callbacks_.readyForNextFrame = &NewFrameListener::onReady; }
-    virtual ~NewFrameListener() = default;
-    virtual void onNewFrame(HandTracker& tracker) = 0;
-
-   private:
-    friend class HandTracker;
-    static void ONI_CALLBACK_TYPE onReady(void* cookie) {
-      auto* listener = static_cast<NewFrameListener*>(cookie);
-      if (listener->tracker_ != nullptr) listener->onNewFrame(*listener->tracker_);
-    }
-    NiteHandTrackerCallbacks callbacks_{};
-    HandTracker* tracker_ = nullptr;
-  };
-
-  HandTracker() = default;
-  ~HandTracker() { destroy(); }
-  HandTracker(const HandTracker&) = delete;
-  HandTracker& operator=(const HandTracker&) = delete;
-
-  /// On the first device there is, or on an open one.
-  Status create(openni::Device* device = nullptr) {
-    destroy();
-    return static_cast<Status>(device == nullptr
-                                   ? niteInitializeHandTracker(&handle_)
-                                   : niteInitializeHandTrackerByDevice(device, &handle_));
-  }
-  void destroy() {
-    if (isValid()) niteShutdownHandTracker(handle_);
-    handle_ = nullptr;
-  }
-  bool isValid() const { return handle_ != nullptr; }
-
-  Status readFrame(HandTrackerFrameRef* frame) {
-    NiteHandTrackerFrame* read = nullptr;
-    const NiteStatus status = niteReadHandTrackerFrame(handle_, &read);
-    if (status == NITE_STATUS_OK) frame->setReference(handle_, read);
-    return static_cast<Status>(status);
-  }
-
   Status setSmoothingFactor(float factor) {
     return static_cast<Status>(niteSetHandSmoothingFactor(handle_, factor));
   }
@@ -390,18 +404,6 @@ class HandTracker {
   Status convertDepthCoordinatesToHand(int x, int y, int z, float* px, float* py) const {
     return static_cast<Status>(niteConvertDepthCoordinatesToHand(handle_, x, y, z, px, py));
   }
-
-  void addNewFrameListener(NewFrameListener* listener) {
-    listener->tracker_ = this;
-    niteRegisterHandTrackerCallbacks(handle_, &listener->callbacks_, listener);
-  }
-  void removeNewFrameListener(NewFrameListener* listener) {
-    niteUnregisterHandTrackerCallbacks(handle_, &listener->callbacks_);
-    listener->tracker_ = nullptr;
-  }
-
- private:
-  NiteHandTrackerHandle handle_ = nullptr;
 };
 
 /// The library as a whole.

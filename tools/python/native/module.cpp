@@ -2,6 +2,8 @@
 
 #include <filesystem>
 #include <stdexcept>
+#include <string>
+#include <utility>
 
 #include "depth/base/error.h"
 #include "depth/base/one_line.h"
@@ -111,13 +113,15 @@ MethodOptions ReadMethodOptions(const py::dict& given) {
 }
 
 tracker::ModelFiles ReadModelFiles(const py::dict& given) {
-  const Reader read{given};
-  tracker::ModelFiles files;
-  read("forest", files.forest);
-  read("refinement", files.refinement);
-  read("learned", files.learned);
-  read("prior", files.prior);
-  read("database", files.database);
+  using Files = tracker::ModelFiles;
+  static constexpr std::pair<const char*, std::string Files::*> kFiles[] = {
+      {"forest", &Files::forest},
+      {"refinement", &Files::refinement},
+      {"learned", &Files::learned},
+      {"prior", &Files::prior},
+      {"database", &Files::database}};
+  Files files;
+  for (const auto& [name, file] : kFiles) Reader{given}(name, files.*file);
   return files;
 }
 

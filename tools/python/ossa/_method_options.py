@@ -2,9 +2,12 @@
 
 from __future__ import annotations
 
-from typing import Any, Callable, Mapping
+import inspect
+from typing import Any, Callable, Mapping, Optional, TypedDict, TypeVar
 
 from . import _check, _native
+
+_Function = TypeVar("_Function", bound=Callable[..., Any])
 
 _LOCAL_PCA = ("shum-2013", "plantard-2016")
 _PROCESSES = ("liu-2016", "full-gp")
@@ -29,6 +32,33 @@ def _weight(name: str, value: Any) -> float:
 
 def _solver(name: str, value: Any) -> str:
     return str(_check.one_of(name, value, ("stochastic", "ceres")))
+
+
+class MethodOptions(TypedDict, total=False):
+    """The options by name, for who types them; HELP explains them."""
+
+    neighbours: Optional[int]
+    dimensions: Optional[int]
+    steps: Optional[int]
+    samples: Optional[int]
+    solver: Optional[str]
+    control_weight: Optional[float]
+    style: Optional[float]
+    kinematics: Optional[float]
+    continuity: Optional[float]
+    use_reliability: Optional[bool]
+    keep_reliable: Optional[bool]
+    extend_database: Optional[bool]
+    nearby_models: Optional[int]
+    incremental: Optional[bool]
+    spatial: Optional[float]
+    temporal: Optional[float]
+    reliability: Optional[float]
+    repair: Optional[bool]
+    complete: Optional[bool]
+    correct: Optional[bool]
+    filter: Optional[bool]
+    constant_bones: Optional[bool]
 
 
 # What each option must be, and which methods read it.
@@ -80,9 +110,19 @@ HELP = """neighbours, dimensions, steps, samples : int, optional
         joints in doubt come from the pose prior; learned systematic errors are taken off; each
         joint is filtered; bones keep their lengths."""
 
-def of(arguments: Mapping[str, Any]) -> dict[str, Any]:
-    """Those of a function's arguments that are options of methods."""
-    return {name: arguments[name] for name in _OPTIONS}
+
+def takes_method_options(function: _Function) -> _Function:
+    """For functions that end in **method_options: help() shows each of them."""
+    signature = inspect.signature(function)
+    own = [p for p in signature.parameters.values() if p.kind is not p.VAR_KEYWORD]
+    options = [
+        inspect.Parameter(
+            name, inspect.Parameter.KEYWORD_ONLY, default=None, annotation=kind.__forward_arg__
+        )
+        for name, kind in MethodOptions.__annotations__.items()
+    ]
+    function.__signature__ = signature.replace(parameters=own + options)  # type: ignore[attr-defined]
+    return function
 
 
 def checked(method: str, given: Mapping[str, Any]) -> dict[str, Any]:
@@ -90,6 +130,8 @@ def checked(method: str, given: Mapping[str, Any]) -> dict[str, Any]:
     would be without what was asked for."""
     chosen = {}
     for name, value in given.items():
+        if name not in _OPTIONS:
+            raise TypeError(f"got an unexpected keyword argument {name!r}")
         if value is None:
             continue
         read, methods = _OPTIONS[name]

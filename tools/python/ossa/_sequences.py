@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import Any, Iterable, NamedTuple, Optional
+from typing import TYPE_CHECKING, Any, Iterable, NamedTuple, Optional
 
 import numpy as np
 import numpy.typing as npt
@@ -11,6 +11,9 @@ from . import _check, _method_options, _native
 from ._names import METHODS, SKELETON_FORMATS, STATES
 from ._sources import PathLike
 from ._tracker import Body, Frame, mechanics_option
+
+if TYPE_CHECKING:
+    from typing_extensions import Unpack
 
 Floats = npt.NDArray[np.float64]
 
@@ -353,6 +356,7 @@ def write_skeletons(sequence: Sequence, path: PathLike, names: Optional[str] = N
     _native.write_skeletons(_to_native(sequence), to, names or "")
 
 
+@_method_options.takes_method_options
 def reconstruct(
     sequence: Sequence,
     method: str = "best",
@@ -367,28 +371,7 @@ def reconstruct(
     joint_limits: bool = False,
     cutoff_hz: Optional[float] = None,
     seed: int = 1,
-    neighbours: Optional[int] = None,
-    dimensions: Optional[int] = None,
-    steps: Optional[int] = None,
-    samples: Optional[int] = None,
-    solver: Optional[str] = None,
-    control_weight: Optional[float] = None,
-    style: Optional[float] = None,
-    kinematics: Optional[float] = None,
-    continuity: Optional[float] = None,
-    use_reliability: Optional[bool] = None,
-    keep_reliable: Optional[bool] = None,
-    extend_database: Optional[bool] = None,
-    nearby_models: Optional[int] = None,
-    incremental: Optional[bool] = None,
-    spatial: Optional[float] = None,
-    temporal: Optional[float] = None,
-    reliability: Optional[float] = None,
-    repair: Optional[bool] = None,
-    complete: Optional[bool] = None,
-    correct: Optional[bool] = None,
-    filter: Optional[bool] = None,
-    constant_bones: Optional[bool] = None,
+    **method_options: Unpack[_method_options.MethodOptions],
 ) -> Sequence:
     """Makes recorded skeletons complete and plausible, as `ossa reconstruct` does.
 
@@ -447,7 +430,7 @@ def reconstruct(
         "mechanics": mechanics_option(physics, control, hinges, joint_limits),
         "cutoff_hz": 6.0 if cutoff_hz is None else _check.number("cutoff_hz", cutoff_hz, 1e-3, 1e3),
         "seed": _check.whole("seed", seed, 0, 2**63 - 1),
-        "method_options": _method_options.checked(method, _method_options.of(given)),
+        "method_options": _method_options.checked(method, method_options),
     }
     return _from_native(_native.reconstruct(_to_native(sequence), options))
 

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import dataclasses
-from typing import Any, Iterator, Mapping, Optional, Sequence, Union
+from typing import TYPE_CHECKING, Any, Iterator, Mapping, Optional, Sequence, Union
 
 import numpy as np
 import numpy.typing as npt
@@ -13,6 +13,9 @@ from ._camera import ROTATIONS, Camera, native_camera
 from ._names import JOINTS, METHODS, SMOOTHINGS, STATES, Joint
 from ._sources import PathLike, Source
 from ._sources import open as open_source
+
+if TYPE_CHECKING:
+    from typing_extensions import Unpack
 
 Floats = npt.NDArray[np.float64]
 
@@ -477,6 +480,7 @@ class Tracker:
     ...     print(body.id, body["Head"])
     """
 
+    @_method_options.takes_method_options
     def __init__(
         self,
         method: str = "best",
@@ -502,28 +506,7 @@ class Tracker:
         hinges: bool = False,
         joint_limits: bool = False,
         seed: int = 1,
-        neighbours: Optional[int] = None,
-        dimensions: Optional[int] = None,
-        steps: Optional[int] = None,
-        samples: Optional[int] = None,
-        solver: Optional[str] = None,
-        control_weight: Optional[float] = None,
-        style: Optional[float] = None,
-        kinematics: Optional[float] = None,
-        continuity: Optional[float] = None,
-        use_reliability: Optional[bool] = None,
-        keep_reliable: Optional[bool] = None,
-        extend_database: Optional[bool] = None,
-        nearby_models: Optional[int] = None,
-        incremental: Optional[bool] = None,
-        spatial: Optional[float] = None,
-        temporal: Optional[float] = None,
-        reliability: Optional[float] = None,
-        repair: Optional[bool] = None,
-        complete: Optional[bool] = None,
-        correct: Optional[bool] = None,
-        filter: Optional[bool] = None,
-        constant_bones: Optional[bool] = None,
+        **method_options: Unpack[_method_options.MethodOptions],
     ) -> None:
         given = dict(locals())
         _check.one_of("method", method, METHODS)
@@ -532,7 +515,7 @@ class Tracker:
             "method": method,
             "physics": _check.flag("physics", physics),
             "mechanics": mechanics_option(physics, control, hinges, joint_limits),
-            "method_options": _method_options.checked(method, _method_options.of(given)),
+            "method_options": _method_options.checked(method, method_options),
             "seated": _check.flag("seated", seated),
             "near": _check.flag("near", near),
             "parts": _check.flag("parts", parts),

@@ -1,0 +1,66 @@
+// What tests/python/test_gltf.py does not ask of readers that are not ours.
+#include <gtest/gtest.h>
+
+#include <fstream>
+
+#include "recon/files/skeleton_writer.h"
+#include "tests/recon/files/skeleton_examples.h"
+#include "tests/support/full_disk.h"
+#include "tests/support/refused.h"
+#include "tests/support/temporary_folder.h"
+
+namespace ossa::recon {
+namespace {
+
+std::string TextOf(const std::filesystem::path& path) {
+  std::ifstream file(path, std::ios::binary);
+  return {std::istreambuf_iterator<char>(file), {}};
+}
+
+TEST(GltfWriter, WithoutABodyThereAreBonesAlone) {
+  const test::TemporaryFolder folder;
+  WriteSkeletons(folder / "x.glb", ExampleSequence(5), {});
+  const std::string text = TextOf(folder / "x.glb");
+  EXPECT_EQ(text.substr(0, 4), "glTF");
+  EXPECT_NE(text.find("leftUpperArm"), std::string::npos);
+  EXPECT_EQ(text.find("\"skin\""), std::string::npos);
+}
+
+TEST(GltfWriter, BonesAreNamedAsAsked) {
+  const test::TemporaryFolder folder;
+  SkeletonWriteOptions options;
+  options.names = BvhNames::kMixamo;
+  WriteSkeletons(folder / "x.glb", ExampleSequence(5), options);
+  EXPECT_NE(TextOf(folder / "x.glb").find("mixamorig:LeftForeArm"), std::string::npos);
+}
+
+TEST(GltfWriter, SaysTheSameEveryTime) {
+  const test::TemporaryFolder folder;
+  WriteSkeletons(folder / "a.glb", ExampleSequence(5, 2), {});
+  WriteSkeletons(folder / "b.glb", ExampleSequence(5, 2), {});
+  EXPECT_EQ(TextOf(folder / "a.glb"), TextOf(folder / "b.glb"));
+}
+
+TEST(GltfWriter, ARecordingOfNobodyIsRefused) {
+  const test::TemporaryFolder folder;
+  SkeletonSequence nobody = ExampleSequence(3);
+  for (SkeletonFrame& frame : nobody.frames) frame.bodies.clear();
+  test::ExpectRefused([&] { WriteSkeletons(folder / "x.glb", nobody, {}); },
+                      "expected somebody whose motion a .glb can hold");
+  EXPECT_FALSE(std::filesystem::exists(folder / "x.glb"));
+}
+
+TEST(GltfWriter, OnAFullDiskLeavesNothing) {
+  const test::TemporaryFolder folder;
+  {
+    const test::FullDisk disk(5000);
+    SkeletonWriter writer(folder / "x.glb");
+    for (const SkeletonFrame& frame : ExampleSequence(40).frames) writer.Write(frame);
+    EXPECT_THROW(writer.Finish(), DiskFull);
+    EXPECT_EQ(writer.FinishWithWhatFits(), 0);
+  }
+  EXPECT_TRUE(std::filesystem::is_empty(folder.path()));
+}
+
+}  // namespace
+}  // namespace ossa::recon
