@@ -40,7 +40,7 @@ bool IsTurned(size_t node) {
 }
 
 /// A T-pose of bones alone.
-Posture StraightTPose(const BoneLengths& lengths_m) {
+Posture BuildStraightTPose(const BoneLengths& lengths_m) {
   Posture rest;
   for (size_t j = 1; j < kJointCount; ++j) {
     rest.position_m[j] = rest.position_m[ParentOf(j)] + lengths_m[j] * RestDirection(j);
@@ -50,7 +50,7 @@ Posture StraightTPose(const BoneLengths& lengths_m) {
   return rest;
 }
 
-std::vector<RestNode> RestNodes(const Posture& rest, BvhNames names) {
+std::vector<RestNode> BuildRestNodes(const Posture& rest, BvhNames names) {
   std::vector<RestNode> nodes(kPersonNodes);
   for (size_t i = 0; i < kPersonNodes; ++i) {
     nodes[i].parent = ParentOfNode(i);
@@ -165,8 +165,8 @@ class GltfWriter final : public SkeletonWriter::Format {
     CheckLength(scene.Bytes(), seen.size());
     HeldBody held(seen);
     std::optional<SkinnedBody> body;
-    if (options_.body) body = TPosedBody(*options_.body, shapes_[id], held.lengths_m());
-    const Posture rest = body ? body->joints_m : StraightTPose(held.lengths_m());
+    if (options_.body) body = BuildTPosedBody(*options_.body, shapes_[id], held.lengths_m());
+    const Posture rest = body ? body->joints_m : BuildStraightTPose(held.lengths_m());
     NodeMotion motion(rest);
     for (size_t i = 0; i < seen.size(); ++i) {
       const Sighting now = seen[i];
@@ -174,7 +174,7 @@ class GltfWriter final : public SkeletonWriter::Format {
       motion.Add(now.time_s - begin_s, held.WholePosture(now));
     }
     AddPresence(people_.StaysOf(id), begin_s, motion.tracks());
-    scene.AddPerson(fmt::format("person {}", id), RestNodes(rest, options_.names),
+    scene.AddPerson(fmt::format("person {}", id), BuildRestNodes(rest, options_.names),
                     body ? &*body : nullptr, options_.body.get(), motion.tracks());
   }
 

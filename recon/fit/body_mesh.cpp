@@ -21,7 +21,7 @@ constexpr double kWeightStep = 255;  // of a weight's byte, by definition
 constexpr int kLevel = 19;           // of zstd; by hand: the smallest files
 
 /// The numbers of a surface by which its mesh knows it: joints and landmarks, as they are stored.
-std::vector<float> OutlineOf(const BodySurface& surface) {
+std::vector<float> CollectOutline(const BodySurface& surface) {
   std::vector<float> outline;
   const auto add = [&](const ShapedPlace& place) {
     for (const double value : place.mean_m) outline.push_back(static_cast<float>(value));
@@ -71,7 +71,7 @@ BodyMesh FromPayload(std::span<const std::byte> payload, const std::string& name
   PayloadReader in(payload, name);
   BodyMesh mesh;
   mesh.surface = surface;
-  if (in.GetVector<float>("surface") != OutlineOf(surface)) {
+  if (in.GetVector<float>("surface") != CollectOutline(surface)) {
     throw InputError(name + ": expected the mesh of the body surface in use, found another one's");
   }
   const auto vertices = in.Get<uint32_t>("vertices");
@@ -99,7 +99,7 @@ BodyMesh FromPayload(std::span<const std::byte> payload, const std::string& name
 
 void BodyMesh::Save(const std::filesystem::path& path) const {
   PayloadWriter out;
-  out.PutVector(OutlineOf(surface));
+  out.PutVector(CollectOutline(surface));
   out.Put(static_cast<uint32_t>(vertices.size()));
   for (const MeshVertex& vertex : vertices) {
     for (size_t k = 0; k < vertex.bone.size(); ++k) {

@@ -45,7 +45,7 @@ size_t EndOf(Segment segment) {
 }
 
 /// Each segment turned from the rest pose with the least turn; trunk and feet not at all.
-SurfacePose TPose(const BodySurface& surface, const ShapeVector& shape) {
+SurfacePose ComputeTPose(const BodySurface& surface, const ShapeVector& shape) {
   PosedSurface rest(surface);
   SurfacePose pose;
   pose.shape = shape;
@@ -114,7 +114,7 @@ class Fitting {
   double girth_ = 1.0;
 };
 
-std::vector<Vector3d> NormalsOf(const BodyMesh& mesh, const std::vector<Vector3d>& at_m) {
+std::vector<Vector3d> ComputeNormals(const BodyMesh& mesh, const std::vector<Vector3d>& at_m) {
   std::vector<Vector3d> normals(at_m.size(), Vector3d::Zero());
   for (const auto& [a, b, c] : mesh.triangles) {
     const Vector3d normal = (at_m[b] - at_m[a]).cross(at_m[c] - at_m[a]);  // by area
@@ -128,9 +128,9 @@ std::vector<Vector3d> NormalsOf(const BodyMesh& mesh, const std::vector<Vector3d
 
 }  // namespace
 
-SkinnedBody TPosedBody(const BodyMesh& mesh, const ShapeVector& shape,
-                       const BoneLengths& lengths_m) {
-  const SurfacePose pose = TPose(mesh.surface, shape);
+SkinnedBody BuildTPosedBody(const BodyMesh& mesh, const ShapeVector& shape,
+                            const BoneLengths& lengths_m) {
+  const SurfacePose pose = ComputeTPose(mesh.surface, shape);
   PosedSurface posed(mesh.surface);
   posed.PoseSegments(pose);
   const Fitting fitting(posed.Landmarks(), lengths_m);
@@ -146,7 +146,7 @@ SkinnedBody TPosedBody(const BodyMesh& mesh, const ShapeVector& shape,
   const Vector3d up_m = -lowest->y() * Vector3d::UnitY();
   for (Vector3d& vertex : body.vertices_m) vertex += up_m;
   for (Vector3d& joint : body.joints_m.position_m) joint += up_m;
-  body.normals = NormalsOf(mesh, body.vertices_m);
+  body.normals = ComputeNormals(mesh, body.vertices_m);
   return body;
 }
 

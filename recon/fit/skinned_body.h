@@ -17,7 +17,7 @@ struct SkinnedBody {
 /// The body of a shape in a T-pose, arms to the sides and legs straight down; trunk, shoulders and
 /// feet as it stands. Stretched along each bone to the person's own lengths, and in girth as its
 /// bones are longer or shorter on the whole.
-SkinnedBody TPosedBody(const BodyMesh& mesh, const ShapeVector& shape,
-                       const BoneLengths& lengths_m);
+SkinnedBody BuildTPosedBody(const BodyMesh& mesh, const ShapeVector& shape,
+                            const BoneLengths& lengths_m);
 
 }  // namespace ossa::recon

@@ -10,7 +10,7 @@ namespace {
 
 using Eigen::Vector3d;
 
-BoneLengths MedianLengths(const SightingLog& sightings) {
+BoneLengths ComputeMedianLengths(const SightingLog& sightings) {
   constexpr double kShortest_m = 1e-3;  // a bone of no length has no direction in the file; by hand
   BoneLengthEstimator estimator(BoneLengthOptions::OfRecording());
   estimator.Start(MeasureBoneLengths(StandardPosture(RigPose())));
@@ -36,8 +36,8 @@ void UpdateDirections(const Sighting& sighting, JointArray<Vector3d>& direction)
 }
 
 /// The root's place that puts the body of constant lengths nearest to the joints seen.
-std::optional<Vector3d> RootOf(const Sighting& sighting, const BoneLengths& lengths,
-                               const JointArray<Vector3d>& direction) {
+std::optional<Vector3d> EstimateRoot(const Sighting& sighting, const BoneLengths& lengths,
+                                     const JointArray<Vector3d>& direction) {
   JointArray<Vector3d> built;
   built[0] = Vector3d::Zero();
   Vector3d sum = Vector3d::Zero();
@@ -54,14 +54,14 @@ std::optional<Vector3d> RootOf(const Sighting& sighting, const BoneLengths& leng
 
 }  // namespace
 
-HeldBody::HeldBody(const SightingLog& seen) : lengths_m_(MedianLengths(seen)) {
+HeldBody::HeldBody(const SightingLog& seen) : lengths_m_(ComputeMedianLengths(seen)) {
   for (size_t j = 0; j < kJointCount; ++j) direction_[j] = RestDirection(j);
   for (size_t i = seen.size(); i-- > 0;) Update(seen[i]);
 }
 
 void HeldBody::Update(const Sighting& sighting) {
   UpdateDirections(sighting, direction_);
-  root_m_ = RootOf(sighting, lengths_m_, direction_).value_or(root_m_);
+  root_m_ = EstimateRoot(sighting, lengths_m_, direction_).value_or(root_m_);
 }
 
 Posture HeldBody::WholePosture(const Sighting& sighting) const {

@@ -1,5 +1,7 @@
 """libNiTE2.so on devices as programs set them, and misused as programs do: the PyPI package `openni` is the client."""
 import ctypes
+import pathlib
+import re
 import subprocess
 import sys
 import threading
@@ -42,12 +44,24 @@ def place_of(joint):
     return nite2.Point3f(joint.position.x, joint.position.y, joint.position.z)
 
 
-class Devices(unittest.TestCase):
+class WithAClip(unittest.TestCase):
+    """The package is started, and there is a clip by these arguments of make_clip."""
+
+    CLIP = ("asking",)
+
     @classmethod
     def setUpClass(cls):
         clients.start()
         cls.addClassCleanup(clients.stop)
-        cls.clip = clients.make_clip("large", "640x480")
+        cls.clip = clients.make_clip(*cls.CLIP)
+
+
+class Devices(WithAClip):
+    CLIP = ("large", "640x480")
+
+    @classmethod
+    def setUpClass(cls):
+        super().setUpClass()
         cls.truth = clients.truth_of(cls.clip)
 
     def check_left_is_left(self, seen, mirrored=False, truth=None):
@@ -147,14 +161,8 @@ class Devices(unittest.TestCase):
         self.assertEqual(result.stdout, "True\n", result.stderr)
 
 
-class Asking(unittest.TestCase):
+class Asking(WithAClip):
     """What programs ask of a tracker beside its frames."""
-
-    @classmethod
-    def setUpClass(cls):
-        clients.start()
-        cls.addClassCleanup(clients.stop)
-        cls.clip = clients.make_clip("asking")
 
     def setUp(self):
         self.device = clients.camera(self.clip, "?loop=1")
@@ -258,12 +266,16 @@ class Asking(unittest.TestCase):
                 tracker.close()
 
 
-class Misuse(unittest.TestCase):
-    @classmethod
-    def setUpClass(cls):
-        clients.start()
-        cls.addClassCleanup(clients.stop)
-        cls.clip = clients.make_clip("misuse")
+class Misuse(WithAClip):
+    CLIP = ("misuse",)
+
+    def test_every_function_that_the_package_declares_is_exported_and_has_its_row(self):
+        declared = set(re.findall(r"\bnite[A-Z]\w+", pathlib.Path(_nite2.__file__).read_text()))
+        table = set(re.findall(r"\bnite[A-Z]\w+", (clients.HERE.parents[1] / "docs" / "nite2.md").read_text()))
+        self.assertEqual(len(declared), 39)
+        self.assertEqual(declared - table, set())
+        library = ctypes.CDLL(str(clients.BUILD / "lib" / "ossa" / "nite2" / "libNiTE2.so"))
+        self.assertEqual([name for name in declared if not hasattr(library, name)], [])
 
     def test_it_loads_again_after_it_was_unloaded(self):
         for _ in range(3):

@@ -12,6 +12,10 @@ frames = list(ossa.Tracker(parts=True).run("/clip"))
 assert len(frames) == 24 and len(frames[-1].bodies) == 1
 sequence = ossa.Sequence.from_frames(frames)
 ossa.write_skeletons(sequence, "/seen.jsonl")
+ossa.write_skeletons(sequence, "/seen.glb")
+assert pathlib.Path("/seen.glb").read_bytes()[:4] == b"glTF"
+fitted = ossa.Tracker(fit=True).track(*next(ossa.open("/clip"))).bodies[0]
+assert fitted.mesh is not None and np.isfinite(fitted.mesh.vertices).all()
 assert ossa.compare("/clip/truth.jsonl", "/seen.jsonl")["results"][0]["mean_joint_error_cm"] < 6
 for method in ("shum-2013", "plantard-2016", "kalman"):
     assert np.isfinite(ossa.reconstruct(sequence[:5], method).joints).all()

@@ -65,7 +65,7 @@ std::vector<size_t> SpreadVertices(const BodyModel& model, size_t count) {
 }
 
 // The bones of a humanoid that carry a vertex, each once.
-MeshVertex CarriedVertex(const BodyModel::Influence& influence) {
+MeshVertex FindCarriers(const BodyModel::Influence& influence) {
   MeshVertex vertex;
   size_t count = 0;
   for (size_t k = 0; k < influence.bone.size(); ++k) {
@@ -171,7 +171,7 @@ void ShapeSamples::LearnVertices(std::vector<MeshVertex>& vertices) {
   const Eigen::VectorXd mean = mesh_values_.rowwise().mean();
   const Eigen::MatrixXd components = (mesh_values_.colwise() - mean) * votes_;
   for (size_t i = 0; i < mesh_vertices_.size(); ++i) {
-    MeshVertex vertex = CarriedVertex(model_.InfluenceOn(mesh_vertices_[i]));
+    MeshVertex vertex = FindCarriers(model_.InfluenceOn(mesh_vertices_[i]));
     vertex.place.mean_m = mean.segment<3>(FirstCoordinate(i));
     vertex.place.by_shape_m = components.middleRows<3>(FirstCoordinate(i));
     vertices.push_back(vertex);

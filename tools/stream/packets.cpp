@@ -56,7 +56,7 @@ std::string VmcPacket(const Humanoid& world, double time_s, bool seen_only) {
     AddTransform(stream, "/VMC/Ext/Bone/Pos", kHumanBones[b].unity, local[b]);
   }
   if (!seen_only) {
-    for (const RestBone& bone : RestBonesOf(world)) {
+    for (const RestBone& bone : MakeRestBones(world)) {
       AddTransform(stream, "/VMC/Ext/Bone/Pos", bone.name, {bone.position_m});
     }
   }

@@ -6,7 +6,7 @@
 namespace ossa::stream {
 
 /// One moment of one person for a VMC receiver, an OSC bundle: available, time, root, and every
-/// bone of HumanBodyBones as its parent sees it; with `seen_only` none of RestBonesOf.
+/// bone of HumanBodyBones as its parent sees it; with `seen_only` none of MakeRestBones.
 std::string VmcPacket(const Humanoid& world, double time_s, bool seen_only = false);
 
 /// One moment of one person as VRChat's trackers 1 to 8 (hip, chest, left and right foot, knee,

@@ -48,7 +48,7 @@ void AddFingers(const std::string& side_name, double side, double unit_m,
 
 }  // namespace
 
-std::vector<RestBone> RestBonesOf(const Humanoid& world) {
+std::vector<RestBone> MakeRestBones(const Humanoid& world) {
   using recon::Index;
   const auto length_m = [&](HumanBone from, HumanBone to) {
     return (world[Index(to)].position_m - world[Index(from)].position_m).norm();

@@ -16,6 +16,6 @@ struct RestBone {
 /// The 34 bones that PoseOf leaves out, for who expects all of HumanBodyBones: upper chest (where
 /// the chest is, since the neck's place is told from there), eyes, jaw, and fingers stretched out
 /// in the size of the person's hands and head.
-std::vector<RestBone> RestBonesOf(const Humanoid& world);
+std::vector<RestBone> MakeRestBones(const Humanoid& world);
 
 }  // namespace ossa::stream

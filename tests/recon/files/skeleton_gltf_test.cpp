@@ -3,6 +3,7 @@
 
 #include <fstream>
 
+#include "depth/base/atomic_file.h"
 #include "recon/files/skeleton_writer.h"
 #include "tests/recon/files/skeleton_examples.h"
 #include "tests/support/full_disk.h"

@@ -87,7 +87,7 @@ TEST(SkinnedBody, StandsInATPoseWithThePersonsOwnBones) {
   BoneLengths lengths_m = MeasureBoneLengths(PosedSurface(Surface()).Landmarks());
   for (double& length : lengths_m) length *= 0.8;  // a child
   lengths_m[Index(Joint::kElbowLeft)] *= 1.1;
-  const SkinnedBody body = TPosedBody(Shipped(), ShapeVector::Zero(), lengths_m);
+  const SkinnedBody body = BuildTPosedBody(Shipped(), ShapeVector::Zero(), lengths_m);
   const BoneLengths made_m = MeasureBoneLengths(body.joints_m);
   for (size_t j = 1; j < kJointCount; ++j) EXPECT_NEAR(made_m[j], lengths_m[j], 1e-9);
   const auto along = [&](Joint from, Joint to) {
@@ -101,7 +101,7 @@ TEST(SkinnedBody, StandsInATPoseWithThePersonsOwnBones) {
 
 TEST(SkinnedBody, SkinIsAroundItsJointsAndStandsOnTheGround) {
   const BoneLengths lengths_m = MeasureBoneLengths(PosedSurface(Surface()).Landmarks());
-  const SkinnedBody body = TPosedBody(Shipped(), ShapeVector::Zero(), lengths_m);
+  const SkinnedBody body = BuildTPosedBody(Shipped(), ShapeVector::Zero(), lengths_m);
   double lowest = 1.0, highest = 0.0;
   for (size_t i = 0; i < body.vertices_m.size(); ++i) {
     lowest = std::min(lowest, body.vertices_m[i].y());
