@@ -8,7 +8,8 @@
 namespace ossa::tools {
 
 SimplifiedSkin SimplifySkin(const recon::BodyModel& model, size_t triangles) {
-  constexpr float kMostError = 0.05F;  // of the body's extent, by hand: the number ends it before
+  constexpr float kMostError =
+      0.05F;  // share of the body's extent, by hand: the number ends it before
   std::vector<unsigned> corners;
   const auto is_skin = [&](uint32_t vertex) {
     return model.vertex_layer()[vertex] == recon::BodyLayer::kSkin;
