@@ -143,6 +143,22 @@ Posture StandardPosture(const RigPose& pose) {
   return posture;
 }
 
+const JointOrientations& StandardOrientations() {
+  static const JointOrientations rest = ComputeOrientations(StandardPosture(RigPose{}));
+  return rest;
+}
+
+// The bone of joint j turns with the rig bone that carries its parent joint.
+JointOrientations ComputeOrientations(const RigPose& pose) {
+  const auto& anchors = StandardJointAnchors();
+  JointOrientations out;
+  for (size_t j = 0; j < kJointCount; ++j) {
+    const size_t bone = anchors[ParentOf(j)].bone;
+    out[j] = (pose.world_from_rest[bone] * StandardOrientations()[j]).normalized();
+  }
+  return out;
+}
+
 Eigen::Quaterniond EstimateHeading(const RigPose& pose) {
   // The pelvis' left axis stays level when a person bends or sits, the forward axis does not; only
   // for a body lying on its side is it the other way round.

@@ -3,6 +3,7 @@
 #include <array>
 
 #include "recon/body/rig.h"
+#include "recon/orientation.h"
 #include "recon/posture.h"
 
 namespace ossa::recon {
@@ -34,6 +35,13 @@ std::array<Eigen::Vector3d, kRigBoneCount> StandardBoneHeads(const RigPose& pose
 
 /// The 20 joints of the standard body in the pose, in the pose's own world.
 Posture StandardPosture(const RigPose& pose);
+
+/// Orientations of the SDK's bones when the rig is posed so, world from bone, in the convention of
+/// recon/orientation.h: at rest those of the standing person, from there turned as the rig's bones
+/// are, which turn about themselves as no joint tells.
+JointOrientations ComputeOrientations(const RigPose& pose);
+/// ... at rest.
+const JointOrientations& StandardOrientations();
 
 /// Number of the bone by its rig name; a name the rig does not have is a broken promise of ours.
 size_t RigBone(std::string_view name);

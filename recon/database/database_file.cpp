@@ -5,18 +5,49 @@
 #include "depth/base/checksummed_container.h"
 #include "depth/base/error.h"
 #include "depth/base/naming_the_file.h"
+#include "recon/body/standard_body.h"
 #include "recon/database/posture_database.h"
+#include "recon/smallest_turn.h"
 
 namespace ossa::recon {
 namespace {
 
 constexpr ContainerFormat kFormat = {
-    {'O', 'S', 'S', 'A', 'D', 'B', '0', '0'}, 1, "posture database"};
+    {'O', 'S', 'S', 'A', 'D', 'B', '0', '0'}, PostureDatabase::kVersion, "posture database"};
+constexpr uint32_t kStanceVersion = 1;  // of the file format
 
 void ExpectFinite(const PayloadReader& reader, std::span<const float> values, float limit,
                   std::string_view field) {
   for (const float v : values) {
     if (!(std::abs(v) <= limit)) reader.Fail(field, "expected finite numbers of human size");
+  }
+}
+
+/// Version 1 counts the turn of a bone from the standing person with hanging arms, where each
+/// bone's frame is the world's, turned by the smallest rotation onto the bone. In the convention of
+/// recon/orientation.h the frames of that stance are others, by the same turn in every posture.
+JointArray<Eigen::Quaterniond> TurnsFromStance() {
+  const Posture stance = StandardPosture(RigPose{});
+  JointArray<Eigen::Quaterniond> turns;
+  for (size_t i = 0; i < kJointCount; ++i) {
+    Eigen::Quaterniond frame = Eigen::Quaterniond::Identity();
+    if (i > 0) {
+      const Eigen::Vector3d bone = stance.position_m[i] - stance.position_m[ParentOf(i)];
+      frame = SmallestTurn(Eigen::Vector3d(Eigen::Vector3d::UnitY()), bone);
+    }
+    turns[i] = frame.conjugate() * StandardOrientations()[i];
+  }
+  return turns;
+}
+
+/// `quaternions`: w x y z of each joint of each posture.
+void TurnFromStance(std::span<float> quaternions) {
+  const auto turns = TurnsFromStance();
+  for (size_t k = 0; k + 3 < quaternions.size(); k += 4) {
+    float* q = &quaternions[k];
+    const Eigen::Quaterniond old(q[0], q[1], q[2], q[3]);
+    const Eigen::Quaternionf now = (old * turns[k / 4 % kJointCount]).normalized().cast<float>();
+    q[0] = now.w(), q[1] = now.x(), q[2] = now.y(), q[3] = now.z();
   }
 }
 
@@ -35,7 +66,7 @@ void PostureDatabase::Save(const std::filesystem::path& path) const {
   out.Put<uint64_t>(clip_names_.size());
   for (const std::string& name : clip_names_) out.PutString(name);
   out.PutVector(clip_of_);
-  out.PutArray(std::span<const float>(postures_.data(), static_cast<size_t>(postures_.size())));
+  out.PutArray(std::span<const float>(postures_.data(), static_cast<size_t>(postures().size())));
   out.PutVector(quaternions_);
   out.PutVector(edge_begin_);
   out.PutVector(edges_);
@@ -47,12 +78,13 @@ bool PostureDatabase::IsOne(const std::filesystem::path& path) {
 }
 
 PostureDatabase PostureDatabase::Load(const std::filesystem::path& path) {
-  return NamingTheFile(path,
-                       [&] { return FromBytes(ReadContainer(path, kFormat), path.string()); });
+  const ContainerFormat format = ReadContainerFormat(path, kFormat, kStanceVersion);
+  return NamingTheFile(
+      path, [&] { return FromBytes(ReadContainer(path, format), path.string(), format.version); });
 }
 
 PostureDatabase PostureDatabase::FromBytes(std::span<const std::byte> bytes,
-                                           const std::string& name) {
+                                           const std::string& name, uint32_t version) {
   PayloadReader in(bytes, name);
   PostureDatabase db;
   if (in.Get<uint32_t>("joint count") != kJointCount) in.Fail("joint count", "expected 20");
@@ -94,6 +126,7 @@ PostureDatabase PostureDatabase::FromBytes(std::span<const std::byte> bytes,
     in.Fail("rotations", "expected 80 numbers a posture");
   }
   ExpectFinite(in, db.quaternions_, 1.01F, "rotations");
+  if (version == kStanceVersion) TurnFromStance(db.quaternions_);
   db.edge_begin_ = in.GetVector<int64_t>("edge offsets");
   db.edges_ = in.GetVector<int32_t>("edges");
   if (db.edge_begin_.size() != n + 1 || db.edge_begin_.front() != 0 ||

@@ -7,6 +7,7 @@
 
 #include "depth/base/error.h"
 #include "recon/database/posture_grid_internal.h"
+#include "recon/orientation.h"
 
 namespace ossa::recon {
 namespace {
@@ -16,18 +17,18 @@ bool IsFinite(const Posture& posture) {
                      [](const Eigen::Vector3d& p) { return p.allFinite() && p.norm() < 1e4; });
 }
 
+using Quaternions = std::array<float, 4 * kJointCount>;  // w x y z of each joint
+
 struct ClipPosture {
   PostureVector vector;
-  std::array<float, 4 * kJointCount> quaternions;
+  Quaternions quaternions;
 };
 
-std::array<float, 4 * kJointCount> QuaternionsOf(const PostureClip& clip, size_t frame,
-                                                 double yaw_rad) {
+Quaternions ToQuaternions(const JointOrientations& orientations, double yaw_rad) {
   const Eigen::Quaterniond unturn(Eigen::AngleAxisd(-yaw_rad, Eigen::Vector3d::UnitY()));
-  std::array<float, 4 * kJointCount> out;
+  Quaternions out;
   for (size_t i = 0; i < kJointCount; ++i) {
-    Eigen::Quaterniond q = Eigen::Quaterniond::Identity();
-    if (frame < clip.orientations.size()) q = (unturn * clip.orientations[frame][i]).normalized();
+    const Eigen::Quaterniond q = (unturn * orientations[i]).normalized();
     out[4 * i] = static_cast<float>(q.w());
     out[4 * i + 1] = static_cast<float>(q.x());
     out[4 * i + 2] = static_cast<float>(q.y());
@@ -62,7 +63,10 @@ std::vector<ClipPosture> FilterIntraPoses(const PostureClip& clip, const Databas
       if (distance_from_last(options.filter) <= threshold) continue;
       connections.push_back(distance_from_last(DatabaseFilter::kMaxJoint));
     }
-    kept.push_back({vector, QuaternionsOf(clip, frame, yaw_rad)});
+    const bool has_turns = frame < clip.orientations.size();
+    kept.push_back({vector, ToQuaternions(has_turns ? clip.orientations[frame]
+                                                    : ComputeOrientations(clip.postures[frame]),
+                                          yaw_rad)});
   }
   return kept;
 }
@@ -158,17 +162,26 @@ std::span<const int32_t> PostureDatabase::neighbours(int i) const {
   return std::span(edges_).subspan(begin, static_cast<size_t>(edge_begin_[n + 1]) - begin);
 }
 
-PostureDatabase PostureDatabase::With(const PostureVector& posture, const std::string& clip) const {
-  PostureDatabase db = *this;
-  db.postures_.conservativeResize(Eigen::NoChange, postures_.cols() + 1);
-  db.postures_.col(postures_.cols()) = posture;
-  for (size_t j = 0; j < kJointCount; ++j) {
-    db.quaternions_.insert(db.quaternions_.end(), {1.0F, 0.0F, 0.0F, 0.0F});
+bool PostureDatabase::Has(const PostureVector& posture) const {
+  const auto threshold = static_cast<float>(options_.threshold_m);
+  const Postures kept = postures();
+  for (int i = 0; i < size(); ++i) {
+    const float* other = kept.data() + static_cast<size_t>(i) * kPostureDims;
+    if (FilterDistance(other, posture.data(), options_.filter, threshold) <= threshold) return true;
   }
-  if (db.clip_names_.empty() || db.clip_names_.back() != clip) db.clip_names_.push_back(clip);
-  db.clip_of_.push_back(static_cast<uint32_t>(db.clip_names_.size() - 1));
-  db.edge_begin_.push_back(db.edge_begin_.back());
-  return db;
+  return false;
+}
+
+void PostureDatabase::Add(const PostureVector& posture, const JointOrientations& orientations,
+                          const std::string& clip) {
+  const Eigen::Index n = size();
+  if (n == postures_.cols()) postures_.conservativeResize(Eigen::NoChange, 2 * n);
+  postures_.col(n) = posture;
+  const Quaternions quaternions = ToQuaternions(orientations, 0.0);
+  quaternions_.insert(quaternions_.end(), quaternions.begin(), quaternions.end());
+  if (clip_names_.empty() || clip_names_.back() != clip) clip_names_.push_back(clip);
+  clip_of_.push_back(static_cast<uint32_t>(clip_names_.size() - 1));
+  edge_begin_.push_back(edge_begin_.back());
 }
 
 PostureDatabase PostureDatabase::Filtered(double threshold_m) const {

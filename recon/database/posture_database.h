@@ -27,7 +27,9 @@ Posture ToPosture(const PostureVector& vector);
 struct PostureClip {
   std::string name;
   std::vector<Posture> postures;
-  std::vector<JointOrientations> orientations;  // world from bone; as many as postures, or none
+  /// World from bone (recon/orientation.h); as many as postures, or none: then what the joints
+  /// tell.
+  std::vector<JointOrientations> orientations;
 };
 
 /// Which distance tells postures apart when a database is filtered.
@@ -47,9 +49,13 @@ struct DatabaseOptions {
 };
 
 /// Normalised postures of the standard size, filtered, with where they came from and the edges of
-/// the filtered pose graph between them. Immutable; share it between reconstructors.
+/// the filtered pose graph between them. Share it between reconstructors; who adds to it has a
+/// copy.
 class PostureDatabase {
  public:
+  /// Of the file: 2. Version 1, which is read too, has other orientations (database_file.cpp).
+  static constexpr uint32_t kVersion = 2;
+
   /// Normalises, retargets, filters within clips then between clips (Plantard 2016 algs. 1-4; with
   /// kSumSquared the same screening under Shum's distance) and connects. Departure: algorithm 2 as
   /// printed keeps a posture that is far from any one other; the text's "same process" is meant,
@@ -61,16 +67,19 @@ class PostureDatabase {
 
   /// .ossadb: reads refuse damaged, truncated and hostile files by name and byte.
   static PostureDatabase Load(const std::filesystem::path& path);
-  static PostureDatabase FromBytes(std::span<const std::byte> bytes, const std::string& name);
+  static PostureDatabase FromBytes(std::span<const std::byte> bytes, const std::string& name,
+                                   uint32_t version = kVersion);
   void Save(const std::filesystem::path& path) const;
   /// True when the file says that it is one; it may still be damaged.
   static bool IsOne(const std::filesystem::path& path);
 
-  int size() const { return static_cast<int>(postures_.cols()); }
-  /// Column i is posture i.
-  const Eigen::Matrix<float, kPostureDims, Eigen::Dynamic>& postures() const { return postures_; }
+  int size() const { return static_cast<int>(clip_of_.size()); }
+  /// 60 x size(): column i is posture i. Until the next Add.
+  using Postures =
+      Eigen::Map<const Eigen::Matrix<float, kPostureDims, Eigen::Dynamic>, Eigen::Aligned16>;
+  Postures postures() const { return {postures_.data(), kPostureDims, size()}; }
   Posture posture(int i) const { return ToPosture(postures_.col(i)); }
-  /// Normalised from bone; identity when the clip had none.
+  /// Normalised from bone, in the convention of recon/orientation.h.
   JointOrientations orientations(int i) const;
   const PostureVector& mean() const { return mean_; }
   const BoneLengths& bone_lengths_m() const { return bone_lengths_m_; }
@@ -83,8 +92,13 @@ class PostureDatabase {
   double edge_threshold_m() const { return edge_threshold_m_; }  // thres_2, Plantard 2016 eq. 2
   int64_t source_postures() const { return source_postures_; }   // before the filters
 
-  /// A copy with one more normalised posture of the standard size, unconnected to the graph.
-  PostureDatabase With(const PostureVector& posture, const std::string& clip) const;
+  /// Whether a kept posture is so near to the normalised posture of the standard size that the
+  /// filter, which the database was built with, would drop the latter.
+  bool Has(const PostureVector& posture) const;
+  /// One more normalised posture of the standard size and its orientations, unconnected to the
+  /// graph; the mean stays. Copies no other posture, but for one time in so many as there are.
+  void Add(const PostureVector& posture, const JointOrientations& orientations,
+           const std::string& clip);
 
   /// For ablations: filtered once more with a larger thres_1, and with fewer edges a node.
   PostureDatabase Filtered(double threshold_m) const;
@@ -96,7 +110,7 @@ class PostureDatabase {
 
   DatabaseOptions options_;
   BoneLengths bone_lengths_m_{};
-  Eigen::Matrix<float, kPostureDims, Eigen::Dynamic> postures_;
+  Eigen::Matrix<float, kPostureDims, Eigen::Dynamic> postures_;  // and room for more to come
   PostureVector mean_ = PostureVector::Zero();
   std::vector<float> quaternions_;  // 80 a posture: 20 x (w x y z)
   std::vector<std::string> clip_names_;

@@ -2,10 +2,13 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <map>
 #include <numbers>
 #include <utility>
 #include <vector>
+
+#include "recon/orientation.h"
 
 namespace ossa::recon {
 namespace {
@@ -67,6 +70,21 @@ std::vector<Track> CollectTracks(SkeletonSequence& sequence) {
   return tracks;
 }
 
+/// The bones' orientations, as the filtered joints tell them.
+void Orient(BodyRecord& body) {
+  Posture posture;
+  for (size_t i = 0; i < kJointCount; ++i) {
+    const auto& joint = body.joints[i];
+    posture.position_m[i] =
+        joint ? joint->position_m
+              : Eigen::Vector3d::Constant(std::numeric_limits<double>::quiet_NaN());
+  }
+  const JointOrientations orientations = ComputeOrientations(posture);
+  for (size_t i = 0; i < kJointCount; ++i) {
+    if (body.joints[i]) body.joints[i]->orientation = orientations[i];
+  }
+}
+
 }  // namespace
 
 SkeletonSequence ButterworthSequence(const SkeletonSequence& sequence, double cutoff_hz) {
@@ -83,6 +101,9 @@ SkeletonSequence ButterworthSequence(const SkeletonSequence& sequence, double cu
     std::reverse(x.begin(), x.end());
     x = LowPass(x, ratio);
     for (size_t t = 0; t < n; ++t) track.joints[t]->position_m = x[n - 1 - t];
+  }
+  for (SkeletonFrame& frame : out.frames) {
+    for (BodyRecord& body : frame.bodies) Orient(body);
   }
   return out;
 }

@@ -1,7 +1,7 @@
 #include "recon/methods/bone_turns_internal.h"
 
 #include "recon/database/nearest.h"
-#include "recon/smallest_turn.h"
+#include "recon/orientation.h"
 
 namespace ossa::recon {
 
@@ -24,14 +24,8 @@ JointOrientations TurnedOntoBones(const PostureDatabase& database, std::span<con
     Eigen::Quaterniond mean = Eigen::Quaterniond::Identity();
     if (sum[i].norm() > 1e-9) mean.coeffs() = sum[i].normalized();
     out[i] = turn * mean;
-    if (i == 0) continue;
-    const auto parent = ParentOf(i);
-    const Eigen::Vector3d bone = in_camera.position_m[i] - in_camera.position_m[parent];
-    if (!(bone.norm() > 1e-6)) continue;
-    const Eigen::Vector3d now = out[i] * Eigen::Vector3d::UnitY();
-    out[i] = (SmallestTurn(now, bone) * out[i]).normalized();
   }
-  return out;
+  return AlignToBones(out, in_camera);
 }
 
 std::vector<double> InverseDistances(const PostureDatabase& database,

@@ -7,7 +7,8 @@ namespace ossa::recon {
 
 /// Shum 2013 sec. VII-B: the orientation of each bone as the weighted mean of those of the database
 /// postures, turned by the smallest rotation onto the bone's direction in the posture made: axial
-/// rotation from the database, direction from the posture. Camera from bone.
+/// rotation from the database, direction from the posture. Camera from bone, in the convention of
+/// recon/orientation.h.
 JointOrientations TurnedOntoBones(const PostureDatabase& database, std::span<const int> postures,
                                   std::span<const double> weights, const Posture& in_camera,
                                   double yaw_rad);

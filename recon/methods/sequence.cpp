@@ -7,6 +7,7 @@
 #include "depth/base/error.h"
 #include "recon/methods/methods_internal.h"
 #include "recon/models/learned_models.h"
+#include "recon/orientation.h"
 
 namespace ossa::recon {
 namespace {
@@ -17,6 +18,8 @@ constexpr double kMeasured_m = 0.15;
 
 BodyRecord Reconstructed(const BodyRecord& body, const TrackedPosture& observed,
                          const ReconstructedPosture& made) {
+  const JointOrientations orientations =
+      made.orientation ? *made.orientation : ComputeOrientations(made.posture);
   BodyRecord out;
   out.id = body.id;
   for (size_t i = 0; i < kJointCount; ++i) {
@@ -28,7 +31,7 @@ BodyRecord Reconstructed(const BodyRecord& body, const TrackedPosture& observed,
     joint.state = tracked ? TrackingState::kTracked : TrackingState::kInferred;
     joint.confidence = observed.confidence[i];
     joint.reliability = made.reliability[i];
-    if (made.orientation) joint.orientation = (*made.orientation)[i];
+    joint.orientation = orientations[i];
     out.joints[i] = joint;
   }
   return out;

@@ -13,11 +13,13 @@ using BonesOfPeople = std::map<int, BoneLengths>;
 
 /// Runs one Reconstructor a person (by body id) over a recording, frame by frame in its order. A
 /// frame holds what the method thinks of it a frame later, where the method revises.
-/// Frames without bodies stay empty; who was away for a minute is somebody new. Each joint comes
-/// out with a position, its reliability and a state: tracked stays, everything that was made up is
-/// inferred. `progress` (may be empty) is called with the number of frames done and returns false
-/// to stop. `bones`: of the people whose bones are known, in place of options.bones_m. Throws
-/// InputError as MakeReconstructor does, and where a frame has two bodies of one id.
+/// Frames without bodies stay empty; each bone has an orientation (recon/orientation.h), its turn
+/// about itself the method's own where it has one; who was away for a minute is somebody new. Each
+/// joint comes out with a position, its reliability and a state: tracked stays, everything that was
+/// made up is inferred. `progress` (may be empty) is called with the number of frames done and
+/// returns false to stop. `bones`: of the people whose bones are known, in place of
+/// options.bones_m. Throws InputError as MakeReconstructor does, and where a frame has two bodies
+/// of one id.
 SkeletonSequence ReconstructSequence(const SkeletonSequence& sequence,
                                      const ReconstructorOptions& options,
                                      const std::function<bool(size_t)>& progress = {},

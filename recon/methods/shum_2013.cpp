@@ -5,6 +5,8 @@
 #include "recon/database/nearest.h"
 #include "recon/methods/methods_internal.h"
 #include "recon/methods/natural_posture_internal.h"
+#include "recon/normalise.h"
+#include "recon/orientation.h"
 
 namespace ossa::recon {
 namespace {
@@ -12,19 +14,26 @@ namespace {
 class Shum2013 : public NaturalPostureMethod {
  public:
   explicit Shum2013(const ReconstructorOptions& options)
-      : NaturalPostureMethod(options), given_(database_) {}
+      : NaturalPostureMethod(options), given_(database_) {
+    TakeOwnCopy();
+  }
 
   void Reset() override {
     NaturalPostureMethod::Reset();
-    database_ = given_;
-    added_ = 0;
+    TakeOwnCopy();
   }
 
  private:
+  void TakeOwnCopy() {
+    if (!options_.extend_database) return;
+    own_ = std::make_shared<PostureDatabase>(*given_);
+    database_ = own_;
+  }
+
   /// Sec. V-B: the K nearest of all postures under eq. 9.
-  std::vector<int> Select(const EnergyInputs& energy, const PreparedPosture&,
+  std::vector<int> Select(const EnergyInputs& energy, const PreparedPosture& prepared,
                           const ReconstructionInput& input, std::vector<int> hints) override {
-    if (options_.extend_database) Extend(energy, input);
+    if (own_) Extend(prepared, input);
     std::vector<int> selected;
     for (const Neighbour& n : NearestPostures(*database_, energy.observed, energy.reliability,
                                               options_.neighbours, hints)) {
@@ -33,25 +42,24 @@ class Shum2013 : public NaturalPostureMethod {
     return selected;
   }
 
-  /// Sec. IX: a posture of which every joint is reliable and tracked, and which the database does
-  /// not have, joins a private copy of it.
-  void Extend(const EnergyInputs& energy, const ReconstructionInput& input) {
-    constexpr int kMostAdded = 2000;   // by hand: a copy of the database per posture
+  /// Sec. IX: a posture of which every joint is reliable and tracked, and which the database's own
+  /// filter would have kept, joins the person's copy of it.
+  void Extend(const PreparedPosture& prepared, const ReconstructionInput& input) {
+    constexpr int kMostAdded = 2000;   // by hand: a minute of postures that are all new
     constexpr double kReliable = 0.9;  // R_i, a share; by hand
-    const bool good = std::all_of(energy.reliability.begin(), energy.reliability.end(),
+    const bool good = std::all_of(prepared.reliability.begin(), prepared.reliability.end(),
                                   [](double r) { return r > kReliable; }) &&
                       std::all_of(input.observed.state.begin(), input.observed.state.end(),
                                   [](TrackingState s) { return s == TrackingState::kTracked; });
-    if (!good || added_ >= kMostAdded) return;
-    const auto nearest = NearestPostures(*database_, energy.observed, energy.reliability, 1);
-    const double threshold = database_->options().threshold_m;
-    if (nearest[0].distance < threshold * threshold) return;
-    database_ = std::make_shared<PostureDatabase>(database_->With(energy.observed, "observed"));
-    ++added_;
+    if (!good || own_->size() >= given_->size() + kMostAdded) return;
+    const Posture standard = Retargeted(prepared.normalised, own_->bone_lengths_m());
+    const PostureVector vector = ToVector(standard);
+    if (own_->Has(vector)) return;
+    own_->Add(vector, ComputeOrientations(standard), "observed");
   }
 
   std::shared_ptr<const PostureDatabase> given_;  // without what was added
-  int added_ = 0;
+  std::shared_ptr<PostureDatabase> own_;          // with it; none while nothing shall be added
 };
 
 }  // namespace

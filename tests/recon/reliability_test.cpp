@@ -34,6 +34,20 @@ TEST(Reliability, OfAJointThatVibratesFalls) {  // eqs. 1-4: 180 degree turns ex
   EXPECT_NEAR(r.behaviour[11], 1.0, 1e-12);
 }
 
+// Eqs. 1-4 in numbers: steps of 5 cm that turn by 120, 100 and 110 degrees are a mean turn of 110,
+// twenty of the 45 degrees from the floor to the roof.
+TEST(Reliability, OfTurnsOf110DegreesIsFiveNinths) {
+  ReliabilityEstimator estimator;
+  Posture seen = test::InFrontOfCamera(test::Gesture(0.1, 0.1, 0.1));
+  Reliability r = estimator.Step(test::AllTracked(seen), nullptr);
+  for (const double direction_deg : {0.0, 120.0, 220.0, 330.0}) {
+    const double rad = direction_deg * M_PI / 180.0;
+    seen.position_m[kHandLeft] += 0.05 * Eigen::Vector3d(std::cos(rad), std::sin(rad), 0.0);
+    r = estimator.Step(test::AllTracked(seen), nullptr);
+  }
+  EXPECT_NEAR(r.behaviour[kHandLeft], 5.0 / 9.0, 1e-9);
+}
+
 TEST(Reliability, IgnoresVibrationBelowThreeCentimetres) {
   ReliabilityEstimator estimator;
   Reliability r;
@@ -124,6 +138,20 @@ TEST(Reliability, RecoversWithinTheGaussianWindow) {  // eq. 8: six frames
     last = rate;
   }
   EXPECT_NEAR(estimator.Step(seen, nullptr).rate[3], 1.0, 1e-12);
+}
+
+// Eq. 8 in numbers: w(f) = exp(-f^2 / 8) of the frames back to f = 5 are 1, 0.8825, 0.6065, 0.3247,
+// 0.1353 and 0.0439, their sum 2.9930; without those of f = 1 and f = 3, 1.7858.
+TEST(Reliability, IsTheWeightedMeanOfSixFrames) {
+  ReliabilityEstimator estimator;
+  TrackedPosture seen = test::AllTracked(test::InFrontOfCamera(test::Gesture(0.1, 0.1, 0.1)));
+  double rate = 0.0;
+  for (const int back : {7, 6, 5, 4, 3, 2, 1, 0}) {
+    const bool guessed = back == 7 || back == 3 || back == 1;  // the first is out of the window
+    seen.state[3] = guessed ? TrackingState::kInferred : TrackingState::kTracked;
+    rate = estimator.Step(seen, nullptr).rate[3];
+  }
+  EXPECT_NEAR(rate, 0.59667, 1e-5);
 }
 
 ReliabilityEstimator WithSpeed() {

@@ -9,7 +9,6 @@
 #include "recon/body/standard_body.h"
 #include "recon/database/posture_database.h"
 #include "recon/motion/mocap.h"
-#include "recon/smallest_turn.h"
 #include "tools/commands/checks.h"
 #include "tools/commands/command.h"
 #include "tools/commands/commands.h"
@@ -20,24 +19,6 @@
 namespace ossa::commands {
 namespace {
 
-/// The bone of the SDK's joint j turns with the rig bone that carries its parent joint; its y axis
-/// lies along the bone (recon/posture.h).
-recon::JointOrientations ComputeOrientations(const recon::RigPose& pose) {
-  const auto& anchors = recon::StandardJointAnchors();
-  static const recon::Posture rest = recon::StandardPosture(recon::RigPose{});
-  recon::JointOrientations out;
-  out.fill(Eigen::Quaterniond::Identity());
-  out[0] = pose.world_from_rest[anchors[0].bone];
-  for (size_t j = 1; j < recon::kJointCount; ++j) {
-    const auto parent = recon::ParentOf(j);
-    const Eigen::Vector3d along = rest.position_m[j] - rest.position_m[parent];
-    const auto rest_from_bone = recon::SmallestTurn(Eigen::Vector3d::UnitY(), along);
-    const size_t bone = anchors[parent].bone;
-    out[j] = (pose.world_from_rest[bone] * rest_from_bone).normalized();
-  }
-  return out;
-}
-
 std::vector<recon::PostureClip> PosturesOf(const std::vector<recon::MotionClip>& clips,
                                            bool quiet) {
   Progress progress("postures", quiet);
@@ -47,7 +28,7 @@ std::vector<recon::PostureClip> PosturesOf(const std::vector<recon::MotionClip>&
     made.name = clip.name;
     for (const recon::RigPose& pose : clip.frames) {
       made.postures.push_back(recon::StandardPosture(pose));
-      made.orientations.push_back(ComputeOrientations(pose));
+      made.orientations.push_back(recon::ComputeOrientations(pose));
     }
     progress.Update(static_cast<double>(out.size()), static_cast<double>(clips.size()));
   }

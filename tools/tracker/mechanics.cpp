@@ -45,6 +45,16 @@ bool AllFinite(const recon::Posture& posture) {
                      [](const Eigen::Vector3d& p) { return p.allFinite(); });
 }
 
+/// Of a body all of whose bones have one.
+std::optional<recon::JointOrientations> FindOrientations(const recon::BodyRecord& body) {
+  recon::JointOrientations orientations;
+  for (size_t i = 0; i < kJointCount; ++i) {
+    if (!body.joints[i] || !body.joints[i]->orientation) return std::nullopt;
+    orientations[i] = *body.joints[i]->orientation;
+  }
+  return orientations;
+}
+
 void FollowBody(const recon::SkeletonFrame& frame, Mechanics& mechanics, recon::BodyRecord& body) {
   recon::Posture target;
   recon::JointWeights trust{};
@@ -55,7 +65,8 @@ void FollowBody(const recon::SkeletonFrame& frame, Mechanics& mechanics, recon::
               : Eigen::Vector3d::Constant(std::numeric_limits<double>::quiet_NaN());
     trust[i] = joint ? joint->reliability.value_or(1.0) : 0.0;
   }
-  const auto made = mechanics.Follow(target, trust, frame.floor, frame.time_s);
+  const auto made =
+      mechanics.Follow(target, trust, frame.floor, frame.time_s, FindOrientations(body));
   if (!made) return;
   for (size_t i = 0; i < kJointCount; ++i) {
     auto& joint = body.joints[i];
@@ -109,7 +120,8 @@ bool Mechanics::MeasuredAnew(const recon::BoneLengths& bones_m) {
 
 std::optional<physics::FilteredPosture> Mechanics::Follow(
     const recon::Posture& target, std::span<const double> trust,
-    const std::optional<Eigen::Vector4d>& floor, double time_s) {
+    const std::optional<Eigen::Vector4d>& floor, double time_s,
+    const std::optional<recon::JointOrientations>& orientation) {
   const recon::BoneLengths bones_m = MeasureSaneBones(target);
   if (!character_) last_s_ = time_s - 1.0 / 30.0;
   if (!character_ || MeasuredAnew(bones_m)) Make(bones_m);
@@ -120,7 +132,7 @@ std::optional<physics::FilteredPosture> Mechanics::Follow(
   for (size_t i = 0; i < held.size(); ++i) {
     if (target.position_m[i].allFinite()) held[i] = std::max(held[i], kCompleted);
   }
-  const auto filtered = character_->Step(target, held, OwnFloor(target, floor), dt_s);
+  const auto filtered = character_->Step(target, held, OwnFloor(target, floor), dt_s, orientation);
   if (!AllFinite(filtered.posture)) return std::nullopt;
   return filtered;
 }

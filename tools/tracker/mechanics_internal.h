@@ -20,10 +20,11 @@ class Mechanics {
       : build_(build), rate_rad_s_(rate_rad_s) {}
   /// What the character makes of `target`; nothing where it cannot say: time that stands still or
   /// runs backwards, a character that came to grief. Joints that are not finite lead it nowhere.
-  std::optional<physics::FilteredPosture> Follow(const recon::Posture& target,
-                                                 std::span<const double> trust,
-                                                 const std::optional<Eigen::Vector4d>& floor,
-                                                 double time_s);
+  /// `orientation`: how the bones are turned about themselves, where that is known.
+  std::optional<physics::FilteredPosture> Follow(
+      const recon::Posture& target, std::span<const double> trust,
+      const std::optional<Eigen::Vector4d>& floor, double time_s,
+      const std::optional<recon::JointOrientations>& orientation = std::nullopt);
 
  private:
   /// The floor, if it can be the one that the person stands on.

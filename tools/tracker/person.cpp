@@ -74,10 +74,13 @@ recon::Posture WithBonesOf(const recon::Posture& whole, const recon::Posture& mo
   return recon::WithBoneLengths(moved, recon::MeasureBoneLengths(whole), weights);
 }
 
+// `turns`: of the bones about themselves, where the method or the character knows them.
 recon::JointArray<JointEstimate> Estimates(const recon::Posture& posture,
+                                           const std::optional<recon::JointOrientations>& turns,
                                            const recon::TrackedPosture& observed,
                                            const recon::JointArray<double>& reliability) {
-  const recon::JointOrientations orientation = recon::ComputeOrientations(posture);
+  const recon::JointOrientations orientation =
+      turns ? recon::AlignToBones(*turns, posture) : recon::ComputeOrientations(posture);
   recon::JointArray<JointEstimate> joints;
   for (size_t j = 0; j < kJointCount; ++j) {
     joints[j] = {posture.position_m[j], orientation[j], observed.state[j], observed.confidence[j],
@@ -158,6 +161,7 @@ void Reconstruct(SkeletonWork& work) {
   body.reconstructed = work.reconstructed.posture;
   body.bones_m = method->Bones();
   work.posture = body.reconstructed;
+  work.orientations = work.reconstructed.orientation;
 }
 
 void Settle(SkeletonWork& work) {
@@ -180,12 +184,15 @@ void Simulate(SkeletonWork& work) {
     mechanics = std::make_unique<Mechanics>(work.options.mechanics, kFollowing_rad_s);
   }
   const auto made = mechanics->Follow(work.posture, work.reconstructed.reliability, work.floor,
-                                      work.frame.time_s);
-  if (made) work.posture = made->posture;
+                                      work.frame.time_s, work.orientations);
+  if (!made) return;
+  work.posture = made->posture;
+  work.orientations = made->orientation;
 }
 
 void Finish(SkeletonWork& work) {
-  work.body.joints = Estimates(work.posture, work.body.raw, work.reconstructed.reliability);
+  work.body.joints =
+      Estimates(work.posture, work.orientations, work.body.raw, work.reconstructed.reliability);
 }
 
 }  // namespace ossa::tracker

@@ -20,7 +20,9 @@ struct SkeletonWork {
   Body& body;                          // raw, refined, fit, reconstructed, joints, as they are made
   recon::TrackedPosture observed = {};             // what the method starts from
   recon::ReconstructedPosture reconstructed = {};  // what it made of that,
-  recon::Posture posture = {};                     // ... and the stages after it
+  recon::Posture posture = {};                     // ... and the stages after it,
+  // ... how its bones are turned about themselves, where the method or the character knows.
+  std::optional<recon::JointOrientations> orientations = {};
 };
 
 /// From a detection to the skeleton: all stages, in the order of docs/pipeline.md. Adds the time of

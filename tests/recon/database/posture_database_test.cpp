@@ -7,6 +7,7 @@
 
 #include "depth/base/error.h"
 #include "recon/database/nearest.h"
+#include "recon/orientation.h"
 #include "tests/recon/synthetic_motion.h"
 #include "tests/support/temporary_folder.h"
 
@@ -112,6 +113,41 @@ TEST(PostureDatabase, IsFilteredOnceMoreAndKeepsItsNearestEdges) {
     const auto all = db.neighbours(i), two = few.neighbours(i);
     ASSERT_EQ(two.size(), std::min<size_t>(2, all.size()));
     for (size_t k = 0; k < two.size(); ++k) EXPECT_EQ(two[k], all[k]);
+  }
+}
+
+TEST(PostureDatabase, HasWhatItsOwnFilterWouldDrop) {
+  for (const DatabaseFilter filter : {DatabaseFilter::kMaxJoint, DatabaseFilter::kSumSquared}) {
+    DatabaseOptions options;
+    options.filter = filter;
+    const auto db = PostureDatabase::Build(test::GestureClips(), options);
+    PostureVector moved = db.postures().col(7);
+    EXPECT_TRUE(db.Has(moved));
+    // Three joints by 15 cm each: 15 cm by the one distance, 26 by the other.
+    for (const Joint joint : {Joint::kHead, Joint::kFootLeft, Joint::kFootRight}) {
+      moved[FirstCoordinate(Index(joint)) + 2] -= 0.15F;
+    }
+    EXPECT_EQ(db.Has(moved), filter == DatabaseFilter::kMaxJoint);
+  }
+}
+
+TEST(PostureDatabase, TakesPosturesInWithoutMovingTheOthers) {
+  auto db = PostureDatabase::Build(test::GestureClips(), {});
+  const auto before = db;
+  PostureVector bowed = db.postures().col(0);
+  bowed[FirstCoordinate(Index(Joint::kHead)) + 2] += 0.3F;
+  const JointOrientations turns = ComputeOrientations(ToPosture(bowed));
+  db.Add(bowed, turns, "observed");
+  const float* place = db.postures().data();
+  for (int i = 1; i < before.size(); ++i) db.Add(bowed, turns, "observed");
+  EXPECT_EQ(db.postures().data(), place);
+  ASSERT_EQ(db.size(), 2 * before.size());
+  EXPECT_EQ(db.postures().leftCols(before.size()), before.postures());
+  EXPECT_EQ(db.postures().col(before.size()), bowed);
+  EXPECT_EQ(db.clip_of(before.size()), "observed");
+  EXPECT_TRUE(db.neighbours(before.size()).empty());
+  for (size_t j = 0; j < kJointCount; ++j) {
+    EXPECT_LT(db.orientations(before.size())[j].angularDistance(turns[j]), 1e-3);
   }
 }
 

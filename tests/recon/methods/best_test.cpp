@@ -11,7 +11,9 @@
 #include "recon/bone_projection.h"
 #include "recon/filters/lag_filter_internal.h"
 #include "recon/methods/reconstructor.h"
+#include "recon/models/posture_prior.h"
 #include "tests/recon/synthetic_motion.h"
+#include "tests/support/places.h"
 
 namespace ossa::recon {
 namespace {
@@ -19,11 +21,20 @@ namespace {
 constexpr double kStep_s = 1.0 / 30.0;
 
 std::unique_ptr<Reconstructor> MakeBestOne(bool refined_joints = false) {
-  static const auto db =
-      std::make_shared<PostureDatabase>(PostureDatabase::Build(test::GestureClips(), {}));
+  // As it is shipped.
+  static const auto prior = std::make_shared<PosturePrior>(
+      PosturePrior::Load(ossa::test::SourceFolder() / "tools/tracker/shipped" / kShippedPrior));
   ReconstructorOptions options;
-  options.database = db;
+  options.prior = prior;
   options.best.refined_joints = refined_joints;
+  return MakeReconstructor(options);
+}
+
+/// Whose hidden joints come from a database that knows the motion, which the prior does not.
+std::unique_ptr<Reconstructor> MakeBestByDatabase() {
+  ReconstructorOptions options;
+  options.database =
+      std::make_shared<PostureDatabase>(PostureDatabase::Build(test::GestureClips(), {}));
   return MakeReconstructor(options);
 }
 
@@ -205,7 +216,7 @@ TEST(Best, BelievesSidesThatStayExchanged) {
 }
 
 TEST(Best, MakesAHiddenLegUpFromTheOtherAndLeavesWhatIsSeen) {
-  const auto method = MakeBestOne();
+  const auto method = MakeBestByDatabase();
   double t = SeenWell(*method);
   double hidden_m = 0.0, seen_m = 0.0;
   for (int f = 0; f < 60; ++f, t += kStep_s) {

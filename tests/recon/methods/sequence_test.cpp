@@ -1,6 +1,5 @@
 // Whole recordings: several people, bones by all frames, what is absent.
 #include "recon/methods/sequence.h"
-#include "recon/filters/butterworth.h"
 
 #include <gtest/gtest.h>
 
@@ -8,6 +7,7 @@
 #include <limits>
 
 #include "depth/base/error.h"
+#include "recon/filters/butterworth.h"
 #include "tests/recon/synthetic_motion.h"
 
 namespace ossa::recon {
@@ -43,6 +43,44 @@ std::vector<double> Forearms_m(const SkeletonSequence& sequence, size_t body) {
     lengths_m.push_back(MeasureBoneLengths(posture)[kForearm]);
   }
   return lengths_m;
+}
+
+class OrientationsOf : public testing::TestWithParam<std::string> {};
+
+TEST_P(OrientationsOf, EveryMethodAreWrittenAlongTheBones) {
+  ReconstructorOptions options;
+  options.method = GetParam();
+  options.database =
+      std::make_shared<PostureDatabase>(PostureDatabase::Build(test::GestureClips(), {}));
+  const auto made = ReconstructSequence(Recording(8, {3}), options);
+  for (const SkeletonFrame& frame : made.frames) {
+    const auto& joints = frame.bodies.at(0).joints;
+    for (size_t i = 1; i < kJointCount; ++i) {
+      ASSERT_TRUE(joints[i]->orientation) << kJointNames[i];
+      const Eigen::Vector3d bone = joints[i]->position_m - joints[ParentOf(i)]->position_m;
+      const Eigen::Vector3d y = *joints[i]->orientation * Eigen::Vector3d::UnitY();
+      EXPECT_LT((y - bone.normalized()).norm(), 1e-6) << kJointNames[i];
+    }
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(Methods, OrientationsOf,
+                         testing::Values("none", "kalman", "shum-ho-2012", "shum-2013", "best"),
+                         [](const auto& info) {
+                           std::string name = info.param;
+                           std::erase(name, '-');
+                           return name;
+                         });
+
+TEST(ButterworthSequence, WritesOrientationsAlongTheBones) {
+  const auto made = ButterworthSequence(Recording(8, {3}));
+  const auto& joints = made.frames[4].bodies.at(0).joints;
+  for (size_t i = 1; i < kJointCount; ++i) {
+    ASSERT_TRUE(joints[i]->orientation) << kJointNames[i];
+    const Eigen::Vector3d bone = joints[i]->position_m - joints[ParentOf(i)]->position_m;
+    const Eigen::Vector3d y = *joints[i]->orientation * Eigen::Vector3d::UnitY();
+    EXPECT_LT((y - bone.normalized()).norm(), 1e-6) << kJointNames[i];
+  }
 }
 
 TEST(ReconstructSequence, WritesTheRevisedPosturesAndTheLastOneAsItIs) {

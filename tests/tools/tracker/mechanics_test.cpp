@@ -2,6 +2,7 @@
 
 #include "recon/body/standard_body.h"
 #include "recon/normalise.h"
+#include "recon/orientation.h"
 #include "tools/tracker/mechanics_internal.h"
 
 namespace ossa::tracker {
@@ -23,6 +24,33 @@ TEST(Mechanics, AFootNobodySeesStaysWhereTheReconstructionPutIt) {
   for (const Joint foot : {Joint::kFootLeft, Joint::kFootRight}) {
     // A quarter of the foot's length: the character is pulled, not placed.
     EXPECT_LT((made->posture[foot] - standing[foot]).norm(), 0.04) << recon::NameOf(foot);
+  }
+}
+
+// Physics on or off: bones are turned about themselves as the method has them.
+TEST(Mechanics, KeepsTheTurnsOfTheBones) {
+  constexpr double kTwist_rad = 0.7;
+  recon::SkeletonSequence sequence;
+  recon::Posture standing = recon::StandardStance();
+  for (auto& p : standing.position_m) p.z() += 2.0;
+  const recon::JointOrientations plain = recon::ComputeOrientations(standing);
+  for (int f = 0; f < 30; ++f) {
+    recon::SkeletonFrame& frame = sequence.frames.emplace_back();
+    frame.time_s = f / 30.0;
+    recon::BodyRecord& body = frame.bodies.emplace_back();
+    for (size_t i = 0; i < recon::kJointCount; ++i) {
+      auto& joint = body.joints[i].emplace();
+      joint.position_m = standing.position_m[i];
+      joint.orientation =
+          plain[i] * Eigen::AngleAxisd(i == 0 ? 0.0 : kTwist_rad, Eigen::Vector3d::UnitY());
+    }
+  }
+  recon::SkeletonSequence followed = sequence;
+  FollowMechanically(followed, MechanicsBuild{}, {});
+  for (const size_t bone : {6U, 10U, 14U, 15U, 18U, 19U}) {  // forearms, shins, feet
+    const auto& before = *sequence.frames.back().bodies[0].joints[bone]->orientation;
+    const auto& after = *followed.frames.back().bodies[0].joints[bone]->orientation;
+    EXPECT_LT(before.angularDistance(after), 0.2) << recon::kJointNames[bone];
   }
 }
 
