@@ -142,6 +142,13 @@ Reliability ReliabilityEstimator::Step(const TrackedPosture& observed,
 
 void ReliabilityEstimator::Reset() { *this = ReliabilityEstimator(options_); }
 
+void ReliabilityEstimator::ForgetMotion() {
+  postures_.clear();
+  seen_.clear();
+  instant_.clear();
+  speed_ = SpeedTerm();
+}
+
 // Eqs. 1-4. Departure: eq. 3 prints the cosine where the text and the limits in degrees of eq. 4
 // mean the angle itself; the angle it is. The sums of eqs. 4 and 8 are over f_b and f_total terms:
 // their printed limits, from 0 to f_b, would make four angles of which the mean is a third.

@@ -113,7 +113,10 @@ class ReliabilityEstimator {
   explicit ReliabilityEstimator(const ReliabilityOptions& options = {}) : options_(options) {}
   Reliability Step(const TrackedPosture& observed, const depth::DepthFrame* depth,
                    double dt_s = 1.0 / 30.0);
+  /// Forgets the person.
   void Reset();
+  /// Forgets how the person moved, not the reference lengths: after a gap it is the same person.
+  void ForgetMotion();
   const ReferenceLengths& reference() const { return reference_; }
 
  private:

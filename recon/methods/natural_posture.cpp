@@ -1,5 +1,7 @@
 #include "recon/methods/natural_posture_internal.h"
 
+#include <algorithm>
+
 #include "recon/methods/bone_turns_internal.h"
 
 namespace ossa::recon {
@@ -10,6 +12,20 @@ namespace {
 PostureVector WithReliableJoints(const PostureVector& posture, const EnergyInputs& energy) {
   const PostureVector r = CoordinateWeights(energy.reliability);
   return posture + r.cwiseProduct(energy.observed - posture);
+}
+
+/// Departure: without any reliable joint eq. 9 finds all postures alike, and eq. 14 alone would
+/// carry the last motion on and on.
+bool IsNothingReliable(const JointWeights& reliability) {
+  constexpr double kLeast = 0.05;  // R_i, a share; by hand
+  return std::none_of(reliability.begin(), reliability.end(), [](double r) { return r > kLeast; });
+}
+
+/// The last posture in place of what is observed: its neighbours are those to go on with, at rest.
+void HoldLast(EnergyInputs& energy) {
+  energy.observed = *energy.last;
+  energy.before_last = energy.last;
+  energy.reliability.fill(1.0);
 }
 
 }  // namespace
@@ -53,6 +69,7 @@ EnergyInputs NaturalPostureMethod::Inputs(const PreparedPosture& prepared) const
   energy.lengths_m = database_->bone_lengths_m();
   energy.last = last_;
   energy.before_last = before_last_;
+  if (last_ && IsNothingReliable(energy.reliability)) HoldLast(energy);
   return energy;
 }
 

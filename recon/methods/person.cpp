@@ -104,7 +104,7 @@ PreparedPosture Person::Prepare(const ReconstructionInput& input) {
   out.restarted = !step_s;
   if (step_s) out.dt_s = std::max(*step_s, 0.005);
   if (out.restarted) {
-    estimator_.Reset();  // displacements across a gap are no vibration
+    estimator_.ForgetMotion();  // displacements across a gap are no vibration
     if (!started_) size_ = FreshSize();
   }
   const Reliability r = estimator_.Step(input.observed, input.depth, out.dt_s);

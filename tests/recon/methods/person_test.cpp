@@ -113,6 +113,23 @@ TEST(BodySize, IsMeasuredAnewForAnotherSizeAfterASecond) {
   EXPECT_NEAR(size.lengths_m()[13], 0.6 * StandardBoneLengths()[13], 1e-6);
 }
 
+/// Somebody with long upper arms, who stands or raises them.
+TrackedPosture LongArmed(double lift_rad) {
+  BoneLengths lengths = StandardBoneLengths();
+  for (const Joint elbow : {Joint::kElbowLeft, Joint::kElbowRight}) lengths[Index(elbow)] *= 1.35;
+  return test::AllTracked(
+      Placed(Retargeted(test::Gesture(lift_rad, lift_rad, 0.1), lengths), {{0.1, 0.2, 2.5}, 3.1}));
+}
+
+// Reference lengths are the person's: those of standing postures from before a gap hold after it.
+TEST(Person, KeepsReferenceLengthsOverAGap) {
+  Person person;
+  for (int f = 0; f < 10; ++f) person.Prepare({LongArmed(0.2), f / 30.0, nullptr});
+  const auto after = person.Prepare({LongArmed(1.2), 2.0, nullptr});  // no reference posture
+  ASSERT_TRUE(after.restarted);
+  EXPECT_GT(after.terms.kinematics[Index(Joint::kElbowLeft)], 0.98);
+}
+
 TEST(Person, IsForgottenAfterAGapAndWhenTimeRunsBackNotWhenATimeRepeats) {
   Person person;
   const TrackedPosture seen = test::AllTracked(test::InFrontOfCamera(test::Gesture(0.2, 0.2, 0.1)));

@@ -38,6 +38,36 @@ Problem MakeProblem(double t_s, bool history) {
   return p;
 }
 
+/// Mean error over a second in which the sensor only guesses, and guesses ever worse, of somebody
+/// who stands still, after two seconds seen well.
+double ErrorWhileAllIsGuessed_m(const std::string& name) {
+  ReconstructorOptions options;
+  options.method = name;
+  options.database =
+      std::make_shared<PostureDatabase>(PostureDatabase::Build(test::GestureClips(), {}));
+  const auto method = MakeReconstructor(options);
+  const auto truth = [](int f) {
+    return test::InFrontOfCamera(test::Motion(std::min(f, 60) / 30.0));
+  };
+  double sum_m = 0.0;
+  for (int f = 0; f < 90; ++f) {
+    TrackedPosture seen = test::AllTracked(truth(f));
+    if (f >= 60) {
+      seen.state.fill(TrackingState::kInferred);
+      for (size_t i = 4; i < 12; ++i) seen.posture.position_m[i].y() += 0.01 * (f - 60);
+    }
+    const auto made = method->Step({seen, f / 30.0, nullptr});
+    if (f >= 75) sum_m += test::MeanDistance_m(made.posture, truth(f)) / 15;
+  }
+  return sum_m;
+}
+
+TEST(Shum2013, HoldsThePostureWhileNothingIsReliable) {
+  // As good as the database is: postures every 20 cm of the fastest joint.
+  EXPECT_LT(ErrorWhileAllIsGuessed_m("shum-2013"), 0.06);
+  EXPECT_LT(ErrorWhileAllIsGuessed_m("plantard-2016"), 0.06);
+}
+
 // Sec. VII-B: w_n = 1 / sum over i of R_i (p_i - p_i^n)^2, eq. 9.
 TEST(InverseDistances, AreThoseOfEquation9) {
   const auto db = PostureDatabase::Build(test::GestureClips(), {});
