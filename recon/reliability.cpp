@@ -104,8 +104,9 @@ void ReferenceLengths::FromAnyPosture(const BoneLengths& lengths, const JointWei
   }
 }
 
-Reliability ReliabilityEstimator::Step(const TrackedPosture& observed,
-                                       const depth::DepthFrame* depth, double dt_s) {
+Reliability ReliabilityEstimator::Step(
+    const TrackedPosture& observed, const depth::DepthFrame* depth, double dt_s,
+    const std::optional<Eigen::Isometry3d>& camera_from_observed) {
   Reliability r;
   JointWeights seen{};
   for (size_t i = 0; i < kJointCount; ++i) {
@@ -123,7 +124,11 @@ Reliability ReliabilityEstimator::Step(const TrackedPosture& observed,
 
   r.surface.fill(1.0);
   if (options_.use_depth && depth != nullptr) {
-    r.surface = SurfaceReliability(observed.posture, *depth, options_);
+    Posture in_camera = observed.posture;
+    if (camera_from_observed) {
+      for (auto& p : in_camera.position_m) p = *camera_from_observed * p;
+    }
+    r.surface = SurfaceReliability(in_camera, *depth, options_);
   }
   reference_.Observe(observed.posture, r.state);
   r.behaviour = Behaviour();

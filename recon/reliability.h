@@ -111,8 +111,10 @@ class SpeedTerm {
 class ReliabilityEstimator {
  public:
   explicit ReliabilityEstimator(const ReliabilityOptions& options = {}) : options_(options) {}
+  /// `camera_from_observed`: from the observed joints' space to that of `depth`, if another.
   Reliability Step(const TrackedPosture& observed, const depth::DepthFrame* depth,
-                   double dt_s = 1.0 / 30.0);
+                   double dt_s = 1.0 / 30.0,
+                   const std::optional<Eigen::Isometry3d>& camera_from_observed = std::nullopt);
   /// Forgets the person.
   void Reset();
   /// Forgets how the person moved, not the reference lengths: after a gap it is the same person.

@@ -107,7 +107,8 @@ PreparedPosture Person::Prepare(const ReconstructionInput& input) {
     estimator_.ForgetMotion();  // displacements across a gap are no vibration
     if (!started_) size_ = FreshSize();
   }
-  const Reliability r = estimator_.Step(input.observed, input.depth, out.dt_s);
+  const Reliability r =
+      estimator_.Step(input.observed, input.depth, out.dt_s, input.camera_from_observed);
   out.reliability = r.rate;
   out.terms = r;
   for (size_t i = 0; i < kJointCount; ++i) {

@@ -4,6 +4,7 @@
 
 #include "depth/base/error.h"
 #include "recon/database/posture_database.h"
+#include "recon/methods/level_internal.h"
 #include "recon/methods/methods_internal.h"
 #include "recon/models/learned_models.h"
 
@@ -73,7 +74,7 @@ std::unique_ptr<Reconstructor> MakeReconstructor(const ReconstructorOptions& opt
   }
   if (method.learned == Reads::kRequired) CheckLearned(options);
   if (options.bones_m) CheckBones(*options.bones_m, method);
-  return kMakers[&method - MethodTable().data()](options);
+  return MakeLevelled(kMakers[&method - MethodTable().data()](options));
 }
 
 }  // namespace ossa::recon

@@ -1,5 +1,6 @@
 #pragma once
 #include <Eigen/Core>
+#include <Eigen/Geometry>
 #include <array>
 #include <memory>
 #include <optional>
@@ -22,13 +23,19 @@ struct ReconstructionInput {
   /// The person's bones as cascaded refinement estimates them in this frame
   /// (recon/refine/bone_estimation.h).
   std::optional<BoneLengths> bones_m = std::nullopt;
+  /// a b c d of ax + by + cz + d = 0, unit normal up, camera space: which way is up. Without one,
+  /// somebody who stands tells.
+  std::optional<Eigen::Vector4d> floor = std::nullopt;
+  /// Takes the observed joints to the space of the depth image, where they are in another.
+  std::optional<Eigen::Isometry3d> camera_from_observed = std::nullopt;
 };
 
 /// What a method makes of one person at one time.
 struct ReconstructedPosture {
   Posture posture;                   // camera space, all 20 joints finite
   JointArray<double> reliability{};  // R_i in [0, 1] of the observed joint, eq. 8
-  /// Camera from bone, for methods that take axial rotations from a database; else empty.
+  /// Camera from bone (recon/orientation.h), of methods that know how bones are turned about
+  /// themselves, from a database; else empty: what joints tell of it, ComputeOrientations says.
   std::optional<JointOrientations> orientation = std::nullopt;
 };
 

@@ -86,7 +86,8 @@ SkeletonSequence Run(const SkeletonSequence& sequence, ReconstructorOptions opti
       Follower& person = people[body.id];
       if (!person.method) person.method = MethodFor(body.id, options, bones);
       const TrackedPosture observed = ToTrackedPosture(body);
-      const auto now = person.method->Step({observed, frame.time_s, nullptr, body.bones_m});
+      const auto now =
+          person.method->Step({observed, frame.time_s, nullptr, body.bones_m, frame.floor});
       if (const auto revised = person.method->Revised()) {
         BodyRecord& written = out.frames[person.frame].bodies[person.body];
         written = Reconstructed(written, person.observed, *revised);

@@ -157,7 +157,8 @@ void Reconstruct(SkeletonWork& work) {
   if (!method) method = MethodFor(body.id, work.options);
   std::optional<recon::BoneLengths> bones_m = body.refined_bones_m;
   if (body.fit) bones_m = recon::MeasureBoneLengths(body.fit->joints_m);
-  work.reconstructed = method->Step({work.observed, work.frame.time_s, &work.frame, bones_m});
+  work.reconstructed =
+      method->Step({work.observed, work.frame.time_s, &work.frame, bones_m, work.floor});
   body.reconstructed = work.reconstructed.posture;
   body.bones_m = method->Bones();
   work.posture = body.reconstructed;

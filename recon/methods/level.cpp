@@ -1,0 +1,161 @@
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <utility>
+
+#include "recon/methods/level_internal.h"
+#include "recon/smallest_turn.h"
+
+namespace ossa::recon {
+namespace {
+
+using Eigen::Isometry3d;
+using Eigen::Vector3d;
+
+double AngleBetween_deg(const Vector3d& a, const Vector3d& b) {
+  return std::atan2(a.cross(b).norm(), a.dot(b)) * 180.0 / std::numbers::pi;
+}
+
+bool IsSeen(const TrackedPosture& observed, Joint joint) {
+  return observed.state[Index(joint)] == TrackingState::kTracked &&
+         observed.posture[joint].allFinite();
+}
+
+/// From the ankles to the shoulders of somebody who stands straight; nothing of others.
+std::optional<Vector3d> FindStandingUp(const TrackedPosture& observed, double straight_deg) {
+  const Posture& p = observed.posture;
+  for (const Joint joint :
+       {Joint::kShoulderCenter, Joint::kHipLeft, Joint::kKneeLeft, Joint::kAnkleLeft,
+        Joint::kHipRight, Joint::kKneeRight, Joint::kAnkleRight}) {
+    if (!IsSeen(observed, joint)) return std::nullopt;
+  }
+  const Vector3d feet = 0.5 * (p[Joint::kAnkleLeft] + p[Joint::kAnkleRight]);
+  const Vector3d hips = 0.5 * (p[Joint::kHipLeft] + p[Joint::kHipRight]);
+  const Vector3d knees = 0.5 * (p[Joint::kKneeLeft] + p[Joint::kKneeRight]);
+  const Vector3d up = p[Joint::kShoulderCenter] - feet;
+  for (const Vector3d& part : {Vector3d(p[Joint::kShoulderCenter] - hips), Vector3d(hips - knees),
+                               Vector3d(knees - feet)}) {
+    if (!(AngleBetween_deg(part, up) <= straight_deg)) return std::nullopt;
+  }
+  return up.normalized();
+}
+
+class Levelled : public Reconstructor {
+ public:
+  explicit Levelled(std::unique_ptr<Reconstructor> method) : method_(std::move(method)) {}
+
+  ReconstructedPosture Step(const ReconstructionInput& input) override {
+    const std::optional<Isometry3d> before = level_from_camera_;
+    level_from_camera_ = level_.Update(input.observed, input.floor);
+    const bool is_new = level_from_camera_.has_value() != before.has_value() ||
+                        (before && !before->isApprox(*level_from_camera_));
+    if (is_new && started_) cut_s_ += kCut_s;
+    started_ = true;
+    ReconstructionInput levelled = input;
+    levelled.time_s += cut_s_;
+    if (level_from_camera_) {
+      levelled.observed.posture = Moved(input.observed.posture, *level_from_camera_);
+      levelled.camera_from_observed = level_from_camera_->inverse();
+    }
+    ReconstructedPosture made = InCamera(method_->Step(levelled));
+    revised_ = method_->Revised();
+    if (revised_) revised_ = InCamera(*revised_);  // empty after a cut: of the same level
+    return made;
+  }
+
+  std::optional<ReconstructedPosture> Revised() const override { return revised_; }
+  std::optional<BoneLengths> Bones() const override { return method_->Bones(); }
+
+  void Reset() override {
+    method_->Reset();
+    level_.Reset();
+    level_from_camera_.reset();
+    revised_.reset();
+    cut_s_ = 0.0;
+    started_ = false;
+  }
+
+ private:
+  static constexpr double kCut_s = 10.0;  // by hand: longer than the gaps that methods bridge
+
+  ReconstructedPosture InCamera(ReconstructedPosture made) const {
+    if (!level_from_camera_) return made;
+    const Isometry3d camera_from_level = level_from_camera_->inverse();
+    made.posture = Moved(made.posture, camera_from_level);
+    if (made.orientation) {
+      const Eigen::Quaterniond turn(camera_from_level.linear());
+      for (Eigen::Quaterniond& q : *made.orientation) q = (turn * q).normalized();
+    }
+    return made;
+  }
+
+  std::unique_ptr<Reconstructor> method_;
+  LevelEstimator level_;
+  std::optional<Isometry3d> level_from_camera_;
+  std::optional<ReconstructedPosture> revised_;
+  double cut_s_ = 0.0;  // later than it is: the cuts
+  bool started_ = false;
+};
+
+}  // namespace
+
+Posture Moved(const Posture& posture, const Isometry3d& to_from) {
+  Posture out;
+  for (size_t i = 0; i < kJointCount; ++i) out.position_m[i] = to_from * posture.position_m[i];
+  return out;
+}
+
+const std::optional<Isometry3d>& LevelEstimator::Update(
+    const TrackedPosture& observed, const std::optional<Eigen::Vector4d>& floor) {
+  if (floor && floor->head<3>().norm() > 0.0) {
+    const Vector3d up = floor->head<3>().normalized();
+    if (Confirm(up)) Level(up, options_.floor_least_deg, observed.posture);
+    return level_from_camera_;
+  }
+  floor_frames_ = 0;
+  if (floor_confirmed_) return level_from_camera_;  // a body knows it less well
+  Observe(observed);
+  if (standing_frames_ >= options_.fewest_frames)
+    Level(standing_up_.normalized(), options_.body_least_deg, observed.posture);
+  return level_from_camera_;
+}
+
+bool LevelEstimator::Confirm(const Vector3d& up) {
+  const bool alike = AngleBetween_deg(up, floor_up_) <= options_.change_deg;
+  floor_frames_ = alike ? std::min(floor_frames_ + 1, options_.floor_frames) : 1;
+  floor_up_ = up;
+  if (floor_frames_ < options_.floor_frames) return false;
+  floor_confirmed_ = true;
+  return true;
+}
+
+void LevelEstimator::Observe(const TrackedPosture& observed) {
+  const auto up = FindStandingUp(observed, options_.straight_deg);
+  if (!up || AngleBetween_deg(*up, Vector3d::UnitY()) > options_.most_deg) return;
+  standing_frames_ = std::min(standing_frames_ + 1, options_.memory_frames);
+  standing_up_ += (*up - standing_up_) / standing_frames_;
+}
+
+void LevelEstimator::Level(const Vector3d& up, double least_deg, const Posture& observed) {
+  const double tilt_deg = AngleBetween_deg(up, Vector3d::UnitY());
+  if (!(tilt_deg <= options_.most_deg)) return;
+  if (AngleBetween_deg(up, up_) <= (level_from_camera_ ? options_.change_deg : least_deg)) return;
+  up_ = up;
+  if (tilt_deg <= least_deg) {
+    level_from_camera_.reset();
+    up_ = Vector3d::UnitY();
+    return;
+  }
+  // About the person, who then stays where people are for the methods' eyes.
+  const Vector3d& root = observed.position_m[0];
+  const Vector3d pivot = root.allFinite() ? root : Vector3d::Zero();
+  level_from_camera_ = Eigen::Translation3d(pivot) *
+                       Isometry3d(SmallestTurn(up, Vector3d(Vector3d::UnitY()))) *
+                       Eigen::Translation3d(-pivot);
+}
+
+std::unique_ptr<Reconstructor> MakeLevelled(std::unique_ptr<Reconstructor> method) {
+  return std::make_unique<Levelled>(std::move(method));
+}
+
+}  // namespace ossa::recon

@@ -1,0 +1,173 @@
+// A tilted camera: every method does as well as with a level one.
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "recon/methods/level_internal.h"
+#include "recon/orientation.h"
+#include "tests/recon/synthetic_motion.h"
+
+namespace ossa::recon {
+namespace {
+
+using Eigen::AngleAxisd;
+using Eigen::Isometry3d;
+using Eigen::Vector3d;
+
+constexpr double kStep_s = 1.0 / 30.0;
+constexpr double kDegree = M_PI / 180.0;
+
+/// Of a camera that looks down by so much: from a level camera's space to its own.
+Isometry3d TiltedBy(double tilt_deg) {
+  return Isometry3d(AngleAxisd(-tilt_deg * kDegree, Vector3d::UnitX()));
+}
+
+/// The floor 1.2 m below the camera.
+Eigen::Vector4d FloorOf(const Isometry3d& tilt) {
+  const Vector3d up = tilt * Vector3d::UnitY();
+  return {up.x(), up.y(), up.z(), 1.2};
+}
+
+Posture At(int frame) {
+  // A second of standing straight, then the move.
+  constexpr int kStanding = 30;
+  if (frame < kStanding) return test::InFrontOfCamera(test::Gesture(0.9, 0.9, 0.7));
+  return test::InFrontOfCamera(test::Motion((frame - kStanding) * kStep_s));
+}
+
+bool IsLeg(size_t joint) { return joint > Index(Joint::kHipLeft) && joint != 16; }
+
+std::unique_ptr<Reconstructor> Make(const std::string& name) {
+  static const auto db =
+      std::make_shared<PostureDatabase>(PostureDatabase::Build(test::GestureClips(), {}));
+  ReconstructorOptions options;
+  options.method = name;
+  options.database = db;
+  return MakeReconstructor(options);
+}
+
+/// Mean error of two seconds without legs, after the second of standing.
+double MeanError_m(const std::string& name, double tilt_deg, bool with_floor) {
+  const auto method = Make(name);
+  const Isometry3d tilt = TiltedBy(tilt_deg);
+  double sum_m = 0.0;
+  constexpr int kFrom = 40, kTo = 100;
+  for (int f = 0; f < kTo; ++f) {
+    const Posture truth = Moved(At(f), tilt);
+    TrackedPosture seen = test::AllTracked(truth);
+    for (size_t i = 0; i < kJointCount && f >= kFrom; ++i) {
+      if (IsLeg(i)) seen.state[i] = TrackingState::kNotTracked;
+    }
+    ReconstructionInput input{seen, f * kStep_s, nullptr};
+    if (with_floor) input.floor = FloorOf(tilt);
+    const auto made = method->Step(input);
+    if (f >= kFrom) sum_m += test::MeanDistance_m(made.posture, truth) / (kTo - kFrom);
+  }
+  return sum_m;
+}
+
+class TiltedCamera : public testing::TestWithParam<std::string> {};
+
+TEST_P(TiltedCamera, WithAFloorIsAsGoodAsALevelOne) {
+  const double level_m = MeanError_m(GetParam(), 0.0, true);
+  for (const double tilt_deg : {10.0, 20.0, 27.0}) {
+    EXPECT_NEAR(MeanError_m(GetParam(), tilt_deg, true), level_m, 0.01) << tilt_deg;
+  }
+}
+
+TEST_P(TiltedCamera, WithoutAFloorIsLevelledByWhoStands) {
+  const double level_m = MeanError_m(GetParam(), 0.0, false);
+  EXPECT_NEAR(MeanError_m(GetParam(), 27.0, false), level_m, 0.01);
+}
+
+INSTANTIATE_TEST_SUITE_P(Methods, TiltedCamera,
+                         testing::Values("none", "one-euro", "shum-ho-2012", "shum-2013",
+                                         "plantard-2016", "best"),
+                         [](const auto& info) {
+                           std::string name = info.param;
+                           std::erase(name, '-');
+                           return name;
+                         });
+
+TEST(LevelEstimator, LeavesALevelCameraAlone) {
+  LevelEstimator level;
+  for (int f = 0; f < 60; ++f) {
+    // Somebody who leans by five degrees is no tilt of the camera.
+    const Posture leaning = Moved(At(0), TiltedBy(5.0));
+    EXPECT_FALSE(level.Update(test::AllTracked(leaning), std::nullopt)) << f;
+  }
+}
+
+TEST(LevelEstimator, DoesNotTakeSomebodyWhoLiesForSomebodyWhoStands) {
+  LevelEstimator level;
+  const Posture lying = Moved(At(0), TiltedBy(80.0));
+  for (int f = 0; f < 60; ++f) {
+    EXPECT_FALSE(level.Update(test::AllTracked(lying), std::nullopt)) << f;
+  }
+}
+
+/// The level after a floor was seen for `frames`.
+std::optional<Isometry3d> LevelByFloor(LevelEstimator& level, double tilt_deg, int frames) {
+  std::optional<Isometry3d> made;
+  for (int f = 0; f < frames; ++f) {
+    made = level.Update(test::AllTracked(At(f)), FloorOf(TiltedBy(tilt_deg)));
+  }
+  return made;
+}
+
+TEST(LevelEstimator, StaysTheSameWhileTheFloorTrembles) {
+  LevelEstimator level;
+  const auto first = LevelByFloor(level, 20.0, 9);
+  ASSERT_TRUE(first);
+  const auto later = LevelByFloor(level, 21.5, 9);
+  ASSERT_TRUE(later);
+  EXPECT_TRUE(first->isApprox(*later));
+}
+
+TEST(LevelEstimator, DoesNotTakeATableForTheFloorAtOnce) {
+  LevelEstimator level;
+  EXPECT_FALSE(LevelByFloor(level, 35.0, 2));
+  const auto first = LevelByFloor(level, 20.0, 9);
+  ASSERT_TRUE(first);
+  EXPECT_TRUE(first->isApprox(*LevelByFloor(level, 35.0, 2)));
+}
+
+TEST(LevelEstimator, FollowsACameraThatIsTiltedAnew) {
+  LevelEstimator level;
+  const auto first = LevelByFloor(level, 20.0, 9);
+  const auto later = LevelByFloor(level, 10.0, 9);
+  ASSERT_TRUE(first && later);
+  const Vector3d up = later->linear() * (TiltedBy(10.0) * Vector3d::UnitY());
+  EXPECT_LT((up - Vector3d::UnitY()).norm(), 1e-6);
+}
+
+TEST(LevelEstimator, StaysTheSameWhereTheFloorIsGoneForAWhile) {
+  LevelEstimator level;
+  const auto first = LevelByFloor(level, 20.0, 9);
+  ASSERT_TRUE(first);
+  const Posture leaning = Moved(At(0), TiltedBy(10.0));
+  for (int f = 0; f < 60; ++f) {
+    const auto later = level.Update(test::AllTracked(leaning), std::nullopt);
+    ASSERT_TRUE(later);
+    EXPECT_TRUE(first->isApprox(*later)) << f;
+  }
+}
+
+TEST(Levelled, OrientationsAreInCameraSpace) {
+  const auto method = Make("shum-2013");
+  const Isometry3d tilt = TiltedBy(25.0);
+  ReconstructedPosture made;
+  for (int f = 0; f < 9; ++f) {
+    ReconstructionInput input{test::AllTracked(Moved(At(f), tilt)), f * kStep_s, nullptr};
+    input.floor = FloorOf(tilt);
+    made = method->Step(input);
+  }
+  ASSERT_TRUE(made.orientation);
+  for (size_t i = 1; i < kJointCount; ++i) {
+    const Vector3d bone = made.posture.position_m[i] - made.posture.position_m[ParentOf(i)];
+    EXPECT_LT(((*made.orientation)[i] * Vector3d::UnitY() - bone.normalized()).norm(), 1e-6) << i;
+  }
+}
+
+}  // namespace
+}  // namespace ossa::recon
