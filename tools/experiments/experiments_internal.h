@@ -21,7 +21,7 @@ std::vector<Table> RunIndoorScenes(ExperimentContext& context);
 /// Shum & Ho 2012: scenes with objects, the character as a filter, dimensions of a posture search.
 std::vector<Table> RunShumHo2012(ExperimentContext& context);
 
-/// Shum et al. 2013: tables III and IV, figures 8 and 9.
+/// Shum et al. 2013: tables I to IV, figures 8 and 9, tilted cameras.
 std::vector<Table> RunShum2013(ExperimentContext& context);
 /// Plantard et al. 2016: ten occluded scenarios, figures 5 to 7 and 9, tests of section 8.2.
 std::vector<Table> RunPlantard2016(ExperimentContext& context);

@@ -1,5 +1,5 @@
 // Shum, Ho, Jiang, Takagi: Real-time posture reconstruction for Microsoft Kinect (2013): tables III
-// and IV; figures 8 and 9 are in shum_2013_sweeps.cpp.
+// and IV; tables I and II are in shum_2013_data.cpp, figures 8 and 9 in shum_2013_sweeps.cpp.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -262,10 +262,15 @@ void AddCoverage(const ExperimentContext& context, std::vector<Table>& tables) {
 }  // namespace
 
 std::vector<Table> RunShum2013(ExperimentContext& context) {
-  const auto parts = context.parameters.Some("parts", {"table-3", "table-4", "ablations"});
+  const auto parts =
+      context.parameters.Some("parts", {"data", "table-3", "table-4", "tilt", "ablations"});
   const bool occluded = parts.contains("table-4") || parts.contains("ablations");
   Shum2013Study study(context, occluded);
   std::vector<Table> tables;
+  if (parts.contains("data")) {
+    tables.push_back(TableOne(context));
+    tables.push_back(TableTwo(study));
+  }
   if (parts.contains("table-3")) {
     tables.push_back(TableThree(context, study));
     tables.push_back(BoundsOfTableThree(context, study));
@@ -275,6 +280,7 @@ std::vector<Table> RunShum2013(ExperimentContext& context) {
     tables.push_back(TableFourWithPhysics(context, study));
     tables.push_back(ByVisibility(context, study));
   }
+  if (parts.contains("tilt")) tables.push_back(TiltTable(context, study));
   if (!parts.contains("ablations")) return tables;
   for (Table& table : SweepsOfShum2013(context, study)) tables.push_back(std::move(table));
   AddCoverage(context, tables);

@@ -15,6 +15,13 @@ struct Shum2013Study {
   std::string note;
 };
 
+/// The database, and the test data.
+Table TableOne(const ExperimentContext& context);
+Table TableTwo(const Shum2013Study& study);
+
+/// Every method before a tilted camera.
+Table TiltTable(const ExperimentContext& context, const Shum2013Study& study);
+
 /// What each term brings; figures 8 and 9.
 std::vector<Table> SweepsOfShum2013(ExperimentContext& context, const Shum2013Study& study);
 
