@@ -19,6 +19,7 @@ namespace {
 struct OffsetPrediction {
   Eigen::Vector3d offset = Eigen::Vector3d::Zero();
   double unsureness = 1e9;
+  double deviation_m = 1e9;  // root of that variance
 };
 
 /// Sec. 4.5 over any predictor of offsets.
@@ -35,8 +36,9 @@ class OffsetReconstructor : public Reconstructor {
     BeginFrame(prepared);
     for (size_t i = 0; i < kJointCount; ++i) {
       const OffsetPrediction p = IsSeen(prepared, i) ? Predict(prepared, i) : OffsetPrediction{};
-      made.position_m[i] += MinimisingOffset(p, prepared, i);
-      Learn(prepared, i, p);
+      const Eigen::Vector3d offset = MinimisingOffset(p, prepared, i);
+      made.position_m[i] += offset;
+      Learn(prepared, i, {offset, p.unsureness, p.deviation_m});
     }
     ReconstructedPosture out{Placed(Scaled(made, prepared.scale), prepared.placement),
                              prepared.reliability};
@@ -59,7 +61,8 @@ class OffsetReconstructor : public Reconstructor {
  protected:
   virtual void BeginFrame(const PreparedPosture&) {}
   virtual OffsetPrediction Predict(const PreparedPosture& prepared, size_t joint) = 0;
-  virtual void Learn(const PreparedPosture&, size_t, const OffsetPrediction&) {}
+  /// `made`: the offset that minimises eq. 22, and how unsure the prediction was.
+  virtual void Learn(const PreparedPosture&, size_t, const OffsetPrediction& /*made*/) {}
 
   GaussianProcessOptions options_;
   std::shared_ptr<const LearnedModels> models_;
@@ -129,7 +132,7 @@ class Liu2016 : public OffsetReconstructor {
   void Reset() override {
     OffsetReconstructor::Reset();
     own_.fill(std::nullopt);
-    sample_ = 0;
+    seen_.fill(0);
   }
 
  protected:
@@ -137,20 +140,26 @@ class Liu2016 : public OffsetReconstructor {
     const LocalMixture& mixture = MixtureOf(joint);
     if (mixture.empty()) return {};
     const auto p = mixture.Predict(JointFeature(prepared.scaled, joint), options_.nearby_models);
-    return {p.mean, p.variance / std::max(mixture.noise(), 1e-12)};
+    return {p.mean, p.variance / std::max(p.noise, 1e-12), std::sqrt(p.variance)};
   }
 
-  /// Algorithm 2: samples of reliable joints whose prediction is sure. Departure: every 67th of
-  /// them, and models stop growing (LocalMixtureOptions): postures 30 times a second bring nothing
-  /// new, and a frame has a millisecond.
-  void Learn(const PreparedPosture& prepared, size_t joint, const OffsetPrediction& p) override {
-    // By hand, shares: of R_i, and of the noise's variance.
-    constexpr double kReliable = 0.9, kSure = 0.5;
-    if (!options_.incremental || MixtureOf(joint).empty()) return;
-    if (prepared.reliability[joint] < kReliable || p.unsureness > kSure) return;
-    if (sample_++ % 67 != 0) return;
+  /// Algorithm 2, of the posture that minimises eq. 22: what the spatial term alone predicts is
+  /// known to it already. Samples are of reliable joints, and sure where a model is near; where
+  /// none is, no prediction is sure, and a model is opened. Departure: one of kEvery frames,
+  /// because postures 30 times a second bring nothing new.
+  void Learn(const PreparedPosture& prepared, size_t joint, const OffsetPrediction& made) override {
+    // By hand: shares of R_i and of the noise's variance, and what is sure whatever the noise.
+    constexpr double kReliable = 0.9, kSure = 0.5, kSure_m = 0.02;
+    constexpr uint64_t kEvery = 10;  // frames of a joint; by hand, three samples a second
+    const LocalMixture& mixture = MixtureOf(joint);
+    if (!options_.incremental || mixture.empty()) return;
+    if (prepared.reliability[joint] < kReliable || ++seen_[joint] % kEvery != 0) return;
+    const LocalMixtureOptions options;
+    const Eigen::VectorXd feature = JointFeature(prepared.scaled, joint);
+    const bool is_near = mixture.Similarity(feature) > options.w_similar;
+    if (is_near && made.unsureness > kSure && made.deviation_m > kSure_m) return;
     if (!own_[joint]) own_[joint] = models_->mixtures[joint];
-    own_[joint]->Update(JointFeature(prepared.scaled, joint), p.offset, {});
+    own_[joint]->Update(feature, made.offset, options);
   }
 
  private:
@@ -160,7 +169,7 @@ class Liu2016 : public OffsetReconstructor {
 
   // This person's, of joints that have learned on: megabytes that somebody who passes by never has.
   JointArray<std::optional<LocalMixture>> own_;
-  uint64_t sample_ = 0;
+  JointArray<uint64_t> seen_{};  // frames in which it was reliable
 };
 
 class FullGp : public OffsetReconstructor {
@@ -176,7 +185,7 @@ class FullGp : public OffsetReconstructor {
     const GaussianProcess& model = models_->full[joint];
     if (model.size() == 0) return {};
     const auto p = model.Predict(JointFeature(prepared.scaled, joint));
-    return {p.mean, p.variance * model.parameters().beta};
+    return {p.mean, p.variance / p.noise};
   }
 };
 

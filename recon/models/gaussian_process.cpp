@@ -51,6 +51,7 @@ GaussianPrediction GaussianProcess::Predict(const Eigen::VectorXd& input) const 
   out.mean = alpha_.transpose() * k;
   const Eigen::VectorXd v = factor_.triangularView<Eigen::Lower>().solve(k);
   out.variance = std::max(parameters_.theta0 + parameters_.theta1 - v.squaredNorm(), 0.0);  // eq. 9
+  out.noise = 1.0 / parameters_.beta;
   return out;
 }
 

@@ -19,6 +19,7 @@ struct GaussianProcessParameters {
 struct GaussianPrediction {
   Eigen::Vector3d mean = Eigen::Vector3d::Zero();  // eq. 8
   double variance = 0.0;                           // eq. 9, of each coordinate, without the noise
+  double noise = 0.0;  // variance of the samples' noise in those that predicted, square metres
 };
 
 /// Gaussian-process regression from a feature to an offset in space; the three coordinates share

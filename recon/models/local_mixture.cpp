@@ -114,34 +114,44 @@ GaussianPrediction LocalMixture::Predict(const Eigen::VectorXd& input, int nearb
     const GaussianPrediction local = models_[similar[k].second].Predict(input);
     out.mean += weight * local.mean;
     out.variance += weight * local.variance;
+    out.noise += weight * local.noise;
     total += weight;
   }
-  if (total > 0.0) out.mean /= total, out.variance /= total;
+  if (total > 0.0) out.mean /= total, out.variance /= total, out.noise /= total;
   return out;
+}
+
+size_t LocalMixture::MostSimilar(const Eigen::VectorXd& input) const {
+  size_t best = 0;
+  for (size_t q = 1; q < models_.size(); ++q) {
+    if (LogSimilarity(q, input) > LogSimilarity(best, input)) best = q;
+  }
+  return best;
+}
+
+double LocalMixture::Similarity(const Eigen::VectorXd& input) const {
+  return models_.empty() ? 0.0 : std::exp(LogSimilarity(MostSimilar(input), input));
 }
 
 void LocalMixture::Update(const Eigen::VectorXd& input, const Eigen::Vector3d& output,
                           const LocalMixtureOptions& options) {
   if (models_.empty()) return;
-  size_t best = 0;
-  for (size_t q = 1; q < models_.size(); ++q) {
-    if (LogSimilarity(q, input) > LogSimilarity(best, input)) best = q;
-  }
+  const size_t best = MostSimilar(input);
   if (std::exp(LogSimilarity(best, input)) <= options.w_similar) {
     if (static_cast<int>(models_.size()) >= options.most_models) return;
     models_.emplace_back(models_[best].parameters(), input.transpose(), output.transpose());
     centres_.push_back(input);
     return;
   }
-  if (models_[best].size() >= options.most_samples) return;
-  models_[best].Add(input, output);
-  centres_[best] = models_[best].inputs().colwise().mean().transpose();
-}
-
-double LocalMixture::noise() const {
-  double sum = 0.0;
-  for (const GaussianProcess& model : models_) sum += 1.0 / model.parameters().beta;
-  return models_.empty() ? 0.0 : sum / static_cast<double>(models_.size());
+  GaussianProcess& model = models_[best];
+  model.Add(input, output);
+  if (model.size() > options.most_samples) {
+    const int keep = std::max(1, options.most_samples * 9 / 10);
+    const auto kept = BudgetedSamples(model.parameters(), model.inputs(), model.outputs(), keep);
+    model = GaussianProcess(model.parameters(), Rows(model.inputs(), kept),
+                            Rows(model.outputs(), kept));
+  }
+  centres_[best] = model.inputs().colwise().mean().transpose();
 }
 
 }  // namespace ossa::recon

@@ -15,7 +15,9 @@ struct LocalMixtureOptions {
   uint64_t seed = 1;       // of K-means
   double w_similar = 0.1;  // algorithm 2: below it a new local model is made; the paper gives none;
                            // no unit, in (0, 1]
-  int most_samples = 100;  // a local model stops growing here, to stay within the frame's time
+  /// A local model that has learned more than so many on is budgeted (sec. 3.2) down to nine in ten
+  /// of them, at once, because a removal costs as much as ten: its parameters' kernel is inverted.
+  int most_samples = 100;
   int most_models = 60;
 };
 
@@ -31,20 +33,23 @@ class LocalMixture {
 
   /// Algorithm 1, online part: eq. 13 over the `nearby` most similar models (eq. 10).
   GaussianPrediction Predict(const Eigen::VectorXd& input, int nearby) const;
-  /// Algorithm 2. A new model has the parameters of the most similar one (the paper names none).
+  /// Algorithm 2: the sample joins the most similar model, or opens one where none is similar. A
+  /// new model has the parameters of the most similar one (the paper names none).
   void Update(const Eigen::VectorXd& input, const Eigen::Vector3d& output,
               const LocalMixtureOptions& options);
 
+  /// Eq. 10 of the most similar model, in (0, 1]; 0 without models.
+  double Similarity(const Eigen::VectorXd& input) const;
+
   bool empty() const { return models_.empty(); }
   const std::vector<GaussianProcess>& models() const { return models_; }
-  /// Mean noise variance of the local models, square metres.
-  double noise() const;
 
  private:
   /// Logarithm of eq. 10. Its W has no index of a model, as in the local processes of
   /// Nguyen-Tuong 2008 that the paper follows: one width for all. With each model's own, the model
   /// of the widest kernel is similar to everything and speaks everywhere.
   double LogSimilarity(size_t model, const Eigen::VectorXd& input) const;
+  size_t MostSimilar(const Eigen::VectorXd& input) const;
 
   std::vector<GaussianProcess> models_;
   // C_q: the mean of the model's samples, as algorithm 2 keeps it. Departure: also before the first

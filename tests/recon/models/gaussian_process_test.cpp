@@ -158,5 +158,34 @@ TEST(LocalMixture, FollowsTheFunctionAndOpensAModelWhereNothingIsSimilar) {
   EXPECT_EQ(mixture.models().back().size(), 2);
 }
 
+// Sec. 4.2.3: online, too, posture budgeting keeps a model small, and it goes on learning.
+TEST(LocalMixture, IsBudgetedWhileItLearns) {
+  const Samples s = MakeSamples(60);
+  LocalMixtureOptions options;
+  options.regions = 1;
+  options.most_samples = 40;
+  LocalMixture mixture = LocalMixture::Learn(s.x, s.y, options);
+  const Eigen::VectorXd at = s.x.row(0).transpose();
+  const Eigen::Vector3d other(0.3, 0.2, 0.1);
+  const double before = (mixture.Predict(at, 1).mean - other).norm();
+  for (int i = 0; i < 100; ++i) {
+    const Eigen::VectorXd near = at + Eigen::Vector2d(1e-3 * i, 1e-3 * (i % 7));
+    mixture.Update(near, other, options);
+    EXPECT_LE(mixture.models()[0].size(), options.most_samples);
+  }
+  EXPECT_LT((mixture.Predict(at, 1).mean - other).norm(), 0.5 * before);
+}
+
+TEST(LocalMixture, CountsTheNoiseOfThoseThatPredict) {
+  const Samples s = MakeSamples(40);
+  GaussianProcessParameters quiet, loud;
+  quiet.beta = 1e6, loud.beta = 1e2;
+  const Eigen::MatrixXd far = s.x.bottomRows(20).array() + 9.0;
+  const LocalMixture mixture(
+      {{quiet, s.x.topRows(20), s.y.topRows(20)}, {loud, far, s.y.bottomRows(20)}});
+  EXPECT_NEAR(mixture.Predict(s.x.row(3).transpose(), 2).noise, 1e-6, 1e-9);
+  EXPECT_NEAR(mixture.Predict(far.row(3).transpose(), 2).noise, 1e-2, 1e-6);
+}
+
 }  // namespace
 }  // namespace ossa::recon
