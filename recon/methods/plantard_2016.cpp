@@ -4,12 +4,10 @@
 // printed, one minus the mean cosine, calls a joint that moves straight on unreliable; the angle of
 // the text is taken.
 #include <algorithm>
-#include <cmath>
-#include <limits>
-#include <numeric>
 
 #include "recon/methods/methods_internal.h"
 #include "recon/methods/natural_posture_internal.h"
+#include "recon/methods/pose_graph_search_internal.h"
 
 namespace ossa::recon {
 namespace {
@@ -29,22 +27,24 @@ LocalPcaOptions WithMeanControl(LocalPcaOptions options) {
 
 class Plantard2016 : public NaturalPostureMethod {
  public:
-  explicit Plantard2016(const ReconstructorOptions& options) : NaturalPostureMethod(options) {
+  explicit Plantard2016(const ReconstructorOptions& options)
+      : NaturalPostureMethod(options), search_(database_) {
     options_ = WithMeanControl(options_);
   }
 
  private:
   /// Sec. 6.2: the K best of the nodes connected to those used last (each is connected to itself,
-  /// algorithm 3); all nodes when there is no last frame, or when the best of those no longer
+  /// algorithm 3); of all nodes when there is no last frame, or when the best of those no longer
   /// resembles what is seen.
   std::vector<int> Select(const EnergyInputs& energy, const PreparedPosture& prepared,
                           const ReconstructionInput&, std::vector<int> before) override {
-    std::optional<PostureVector> predicted = energy.last;
+    PoseQuery query{energy.observed, energy.reliability, energy.last};
     if (energy.last && energy.before_last) {
       const auto share = static_cast<float>(prepared.dt_s / last_dt_s_);
-      *predicted += (*energy.last - *energy.before_last) * share;
+      *query.predicted += (*energy.last - *energy.before_last) * share;
     }
     last_dt_s_ = prepared.dt_s;
+    const auto k = static_cast<size_t>(options_.neighbours);
     std::vector<int> candidates = before;
     if (!before.empty()) {
       for (const int node : before) {
@@ -56,48 +56,14 @@ class Plantard2016 : public NaturalPostureMethod {
       // Lost: the graph's neighbourhood is a whole edge farther off than a node of the graph can
       // be from any posture it covers. Departure: the paper searches fully on the first frame only.
       const double lost_m = 0.5 * database_->edge_threshold_m() + 0.1;
-      if (KeepBest(candidates, energy, predicted) < lost_m) return candidates;
+      PoseSelection connected = search_.BestOf(candidates, query, k);
+      if (connected.similarity_m < lost_m) return connected.nodes;
+      candidates = std::move(connected.nodes);
     }
-    candidates.resize(static_cast<size_t>(database_->size()));
-    std::iota(candidates.begin(), candidates.end(), 0);
-    KeepBest(candidates, energy, predicted);
-    return candidates;
+    return search_.BestOfAll(query, k, candidates).nodes;
   }
 
-  /// Keeps the K of lowest score S = Ss + Sc (eqs. 6-7); returns the similarity Ss of the best in
-  /// metres per unit of reliability. Eqs. 6 and Sc are read as mean weighted distances.
-  double KeepBest(std::vector<int>& candidates, const EnergyInputs& energy,
-                  const std::optional<PostureVector>& predicted) const {
-    JointArray<float> r;
-    float trust = 1e-6F;
-    for (size_t i = 0; i < kJointCount; ++i) {
-      r[i] = static_cast<float>(energy.reliability[i]);
-      trust += r[i];
-    }
-    std::vector<std::pair<float, int>> scored;
-    scored.reserve(candidates.size());
-    float best_similarity = std::numeric_limits<float>::max();
-    for (const int node : candidates) {
-      const float* p = database_->postures().data() + static_cast<size_t>(node) * kPostureDims;
-      float similar = 0.0F, continuous = 0.0F;
-      for (size_t i = 0; i < kJointCount; ++i) {
-        const Eigen::Map<const Eigen::Vector3f> joint(p + 3 * i);
-        const auto at = FirstCoordinate(i);
-        if (r[i] > 0.0F) similar += r[i] * (energy.observed.segment<3>(at) - joint).norm();
-        if (predicted && r[i] < 1.0F) {
-          continuous += (1.0F - r[i]) * (predicted->segment<3>(at) - joint).norm();
-        }
-      }
-      best_similarity = std::min(best_similarity, similar / trust);
-      scored.emplace_back((similar + continuous) / kJointCount, node);
-    }
-    const size_t keep = std::min(scored.size(), static_cast<size_t>(options_.neighbours));
-    std::partial_sort(scored.begin(), scored.begin() + static_cast<ptrdiff_t>(keep), scored.end());
-    candidates.clear();
-    for (size_t k = 0; k < keep; ++k) candidates.push_back(scored[k].second);
-    return static_cast<double>(best_similarity);
-  }
-
+  PoseGraphSearch search_;
   double last_dt_s_ = 1.0 / 30.0;
 };
 

@@ -3,8 +3,10 @@
 // graph; learning from pairs.
 #include <benchmark/benchmark.h>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
+#include <ctime>
 #include <map>
 
 #include "recon/methods/reconstructor.h"
@@ -110,6 +112,45 @@ BENCHMARK(Plantard2016PerFrame)
     ->Arg(100000)
     ->Arg(1000000)
     ->Iterations(300)
+    ->Unit(benchmark::kMillisecond);
+
+/// Motion that no database here holds: trunk and arms lean to the side, and every second somebody
+/// stands elsewhere, so that the track is lost.
+Posture UnknownMotion(int64_t frame) {
+  const auto second = static_cast<double>(frame / 30);
+  const double t_s = static_cast<double>(frame) / 30.0 + 17.3 * second;
+  Posture p = test::Motion(t_s);
+  const double lean_rad = 0.3 + 0.3 * std::sin(2.9 * second + t_s);
+  const Eigen::AngleAxisd lean(lean_rad, Eigen::Vector3d::UnitZ());
+  for (size_t j = 1; j < 12; ++j) p.position_m[j] = lean * p.position_m[j];
+  return p;
+}
+
+/// Half and 99 of 100 frames take no longer than the counters say, milliseconds of processor time.
+void Plantard2016Lost(benchmark::State& state) {
+  ReconstructorOptions options;
+  options.method = "plantard-2016";
+  options.database = Database(static_cast<int>(state.range(0)));
+  const auto method = MakeReconstructor(options);
+  std::vector<double> ms;
+  for (auto _ : state) {
+    const auto frame = static_cast<int64_t>(ms.size());
+    const TrackedPosture seen = test::AllTracked(test::InFrontOfCamera(UnknownMotion(frame)));
+    const std::clock_t start = std::clock();
+    benchmark::DoNotOptimize(method->Step({seen, static_cast<double>(frame) / 30.0, nullptr}));
+    ms.push_back(1000.0 * static_cast<double>(std::clock() - start) / CLOCKS_PER_SEC);
+  }
+  std::sort(ms.begin(), ms.end());
+  state.counters["postures"] = options.database->size();
+  state.counters["p50_ms"] = ms[ms.size() / 2];
+  state.counters["p99_ms"] = ms[ms.size() * 99 / 100];
+}
+BENCHMARK(Plantard2016Lost)
+    ->Arg(3600)
+    ->Arg(10000)
+    ->Arg(100000)
+    ->Arg(1000000)
+    ->Iterations(900)
     ->Unit(benchmark::kMillisecond);
 
 /// By K, the neighbours that span the natural posture space.
