@@ -24,6 +24,7 @@ struct MethodInfo {
   bool prior = false;  // completes by a pose prior, recon/models/posture_prior.h, where it has one
   bool refined = false;      // starts from joints refined at the depth image where there are any
   bool keeps_bones = false;  // a person's bones have the same lengths in all that comes out
+  bool smoothed_in_files = false;  // of recordings, by the frames after each, unless asked not to
   std::string_view smoothing = "default";  // preset that goes with it: a filter needs no second one
 };
 

@@ -89,6 +89,16 @@ def test_butterworth_and_bones_of_the_recording_are_had(truth):
     assert np.ptp(arm) < 1e-6
 
 
+def test_a_whole_recording_is_smoothed_where_nothing_else_is_asked(seen):
+    rough, usual, whole = (ossa.reconstruct(seen, lag=lag) for lag in (0, None, "whole"))
+    assert np.array_equal(usual.joints, whole.joints)
+    jumps = [np.abs(np.diff(s.joints, 2, axis=0)).mean() for s in (rough, whole)]
+    assert jumps[1] < jumps[0]
+    for wrong in (3, -1, "half"):
+        with pytest.raises(ossa.InputError):
+            ossa.reconstruct(seen, lag=wrong)
+
+
 def test_compares_with_the_fields_of_the_command(clip, seen, command, tmp_path):
     ossa.write_skeletons(seen, tmp_path / "seen.jsonl")
     by_command = json.loads(

@@ -228,6 +228,25 @@ def test_a_camera_on_its_side_gives_results_in_its_own_space(images, models):
     assert np.allclose(head, b.bodies[0].raw[ossa.Joint.Head], atol=1e-9)
 
 
+@pytest.mark.parametrize("lag", [0, 1, 2])
+def test_with_lag_every_frame_comes_once_at_its_time(lag, clip):
+    now = list(ossa.Tracker(smoothing="none").run(clip))
+    late = list(ossa.Tracker(smoothing="none", lag=lag).run(clip))
+    assert [f.time_s for f in late] == [f.time_s for f in now]
+    assert [f.index for f in late] == [f.index for f in now]
+    differs = [not np.array_equal(a.bodies[0].joints, b.bodies[0].joints) for a, b in zip(now, late)]
+    assert any(differs) == (lag > 0)
+
+
+def test_a_late_frame_is_none_until_its_time_has_come(images, models):
+    tracker = ossa.Tracker(models=models, lag=2)
+    frames = [tracker.track_late(*image) for image in images[:3]]
+    assert [frame is None for frame in frames] == [True, True, False]
+    held = [tracker.take_held() for _ in range(3)]
+    assert [frame.index for frame in frames[2:] + held[:2]] == [0, 1, 2]
+    assert held[2] is None
+
+
 def test_time_left_out_goes_on_by_a_thirtieth_of_a_second(images, models):
     tracker = ossa.Tracker(models=models)
     times = [tracker.track(image.depth_mm, image.camera).time_s for image in images[:3]]

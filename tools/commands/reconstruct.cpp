@@ -14,6 +14,7 @@
 #include "recon/database/posture_database.h"
 #include "recon/files/skeleton_io.h"
 #include "recon/filters/butterworth.h"
+#include "recon/filters/lag_smoothing.h"
 #include "recon/methods/sequence.h"
 #include "tools/commands/checks.h"
 #include "tools/commands/command.h"
@@ -46,6 +47,7 @@ struct ReconstructArguments {
   WriteOptions write;
   std::vector<double> weights;
   double cutoff_hz = 6.0;
+  std::string lag;  // as --lag says, "" what goes with the method
   bool quiet = false;
   bool no_reliability = false;
 };
@@ -127,6 +129,18 @@ void AddMethodOptions(CLI::App& app, ReconstructArguments& a) {
   app.add_flag("--extend", pca.extend_database,
                "of shum-2013: reliable postures join the database (sec. IX)");
   a.bones.AddTo(app);
+  app.add_option("--lag", a.lag,
+                 "frames after each that smooth it: 0 to 2, or whole, as many before and after as "
+                 "help (default: whole with best, else 0)")
+      ->check(CLI::IsMember({"0", "1", "2", "whole"}));
+}
+
+/// How the result is smoothed: bones that have constant lengths keep them.
+recon::LagOptions LagFor(const ReconstructArguments& a) {
+  const std::string usual = MethodInfoOf(a.options.method).smoothed_in_files ? "whole" : "0";
+  const std::string& lag = a.lag.empty() ? usual : a.lag;
+  return recon::LagOptions::Of(lag == "whole" ? recon::kWholeRecording : std::stoi(lag),
+                               KeepsBones(a.options.method));
 }
 
 void AddDynamicsOptions(CLI::App& app, ReconstructArguments& a) {
@@ -243,6 +257,7 @@ int Reconstruct(int argc, char** argv) {
                     ? recon::ButterworthSequence(clip.sequence, a.cutoff_hz)
                     : recon::ReconstructSequence(clip.sequence, a.options, update, bones);
     done += frames;
+    made = recon::SmoothSequence(made, LagFor(a));  // before: the character keeps the floor
     if (a.mechanics.on()) {
       ready = 0;
       tracker::FollowMechanically(made, a.mechanics.build, update);

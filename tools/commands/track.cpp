@@ -3,11 +3,13 @@
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <chrono>
+#include <deque>
 #include <filesystem>
 #include <map>
 #include <memory>
 #include <optional>
 #include <string>
+#include <utility>
 
 #include "depth/base/atomic_file.h"
 #include "depth/base/error.h"
@@ -84,6 +86,10 @@ void AddTrackerOptions(CLI::App& app, TrackOptions& options) {
          "--smoothing", options.smoothing,
          "preset of the filter (default: what goes with the method, none for those that filter)")
       ->check(CLI::IsMember(tracker::SmoothingPresets()));
+  app.add_option("--lag", t.lag,
+                 "frames that may come before a frame's bodies are told, smoothed by them: 0 "
+                 "(live) to 2 (default 0)")
+      ->check(CLI::Range(0, 2));
   app.add_option("--mode", options.mode, "standing (20 joints) or seated (the upper ten)")
       ->check(CLI::IsMember({"standing", "seated"}));
   app.add_flag("--near", t.near_range, "near range: people within 3 m only");
@@ -303,6 +309,7 @@ struct Run {
   std::optional<int64_t> of;  // frames that are to be tracked
   int64_t lost_gaps = 0;      // times the device went away and came back
   Ending ending = Ending::kComplete;
+  std::string failure;  // of the source; what was tracked before it stays
 };
 
 std::optional<int64_t> FramesWanted(const depth::FrameSource& source, const TrackOptions& options) {
@@ -311,16 +318,43 @@ std::optional<int64_t> FramesWanted(const depth::FrameSource& source, const Trac
   return std::min(options.frames, known.value_or(options.frames));
 }
 
-void TrackAll(depth::FrameSource& source, tracker::Tracker& tracker, const TrackOptions& options,
-              SkeletonOutput& output, DecisionTrace& trace, Pictures& pictures,
-              viewer::Viewer* viewer, stream::Sender& sender, Run& run) {
+/// Where what is tracked goes. Images wait for their bodies, which are late by the lag.
+struct Destinations {
+  const tracker::Tracker& tracker;
+  SkeletonOutput& output;
+  DecisionTrace& trace;
+  Pictures& pictures;
+  stream::Sender& sender;
+  viewer::Viewer* viewer = nullptr;
+  std::deque<depth::DepthFrame> waiting{};
+
+  void Deliver(const tracker::BodyFrame& bodies, Run& run) {
+    run.stats.Add(bodies.ms);
+    sender.Send(bodies);  // first: it is waited for
+    output.Write(bodies);
+    trace.Write(bodies);
+    pictures.Take(waiting.front(), bodies);
+    if (viewer != nullptr) {
+      viewer::Moment moment = viewer::MomentOf(waiting.front(), bodies);
+      moment.dropped = run.dropped;
+      moment.is_upright = tracker.quarter_turns() == 0;
+      moment.latency_ms = bodies.ms.total;
+      viewer->Show(std::move(moment));
+    }
+    waiting.pop_front();
+  }
+};
+
+void TrackToEnd(depth::FrameSource& source, tracker::Tracker& tracker, const TrackOptions& options,
+                Destinations& to, Run& run) {
   Progress progress("tracking", options.quiet);
   const auto known = static_cast<double>(source.frame_count().value_or(0));
   run.of = FramesWanted(source, options);
   auto last_frame_at = Clock::now();
   bool gone = false;
+  int64_t tracked = 0;
   while (!Interrupted()) {
-    const depth::ReadResult read = source.Read(milliseconds(100));
+    depth::ReadResult read = source.Read(milliseconds(100));
     if (read.status == depth::ReadStatus::kEnd) return;
     if (read.status != depth::ReadStatus::kFrame) {
       gone = gone || read.status == depth::ReadStatus::kDisconnected;
@@ -335,25 +369,31 @@ void TrackAll(depth::FrameSource& source, tracker::Tracker& tracker, const Track
     run.lost_gaps += gone ? 1 : 0;
     gone = false;
     run.dropped += read.dropped;
-    const tracker::BodyFrame bodies = tracker.Track(read.frame);
-    run.stats.Add(bodies.ms);
-    sender.Send(bodies);  // first: it is waited for
-    output.Write(bodies);
-    trace.Write(bodies);
-    pictures.Take(read.frame, bodies);
-    if (viewer != nullptr) {
-      viewer::Moment moment = viewer::MomentOf(read.frame, bodies);
-      moment.dropped = run.dropped;
-      moment.is_upright = tracker.quarter_turns() == 0;
-      moment.latency_ms = bodies.ms.total;
-      viewer->Show(std::move(moment));
+    const auto bodies = tracker.TrackLate(read.frame);
+    ++tracked;
+    to.waiting.push_back(std::move(read.frame));
+    if (bodies) to.Deliver(*bodies, run);
+    if (known > 0 && bodies) {
+      progress.Update(static_cast<double>(tracked), known,
+                      fmt::format("{} people", bodies->bodies.size()));
     }
-    const auto frames = static_cast<double>(run.stats.frames());
-    if (known > 0) progress.Update(frames, known, fmt::format("{} people", bodies.bodies.size()));
-    if (options.frames > 0 && run.stats.frames() >= options.frames) return;
+    if (options.frames > 0 && tracked >= options.frames) return;
   }
-  const bool has_end = !source.is_live() && run.stats.frames() != run.of;
+  const bool has_end = !source.is_live() && tracked != run.of;
   if (has_end) run.ending = Ending::kInterrupted;
+}
+
+/// Frames that are held when the source ends, or fails, are delivered all the same.
+void TrackAll(depth::FrameSource& source, tracker::Tracker& tracker, const TrackOptions& options,
+              Destinations& to, Run& run) {
+  try {
+    TrackToEnd(source, tracker, options, to, run);
+  } catch (const DiskFull&) {
+    throw;
+  } catch (const InputError& error) {
+    run.failure = error.what();
+  }
+  while (const auto held = tracker.TakeHeld()) to.Deliver(*held, run);
 }
 
 // How long people's bones are by the whole recording, which is tracked for nothing else.
@@ -444,24 +484,25 @@ int Track(int argc, char** argv) {
     SayWhere(*viewer);
   }
   stream::Sender sender(options.targets);
+  Destinations destinations{tracker, output, trace, pictures, sender, viewer.get()};
   Run run;
-  std::string failure;
   try {
-    TrackAll(*source, tracker, options, output, trace, pictures, viewer.get(), sender, run);
+    TrackAll(*source, tracker, options, destinations, run);
   } catch (const DiskFull& full) {
     throw output.WithWhatFits(full);
-  } catch (const InputError& error) {
-    // What was tracked before the source failed stays.
-    if (run.stats.frames() == 0 || options.out.empty()) throw;
-    failure = fmt::format("{}; the {} before it are in {}", error.what(),
-                          FramesText(run.stats.frames(), run.of), options.out);
+  }
+  if (!run.failure.empty() && (run.stats.frames() == 0 || options.out.empty())) {
+    throw InputError(run.failure);
   }
   CheckFrames(options, run);
   output.Finish();
   pictures.Finish();
   Report(options, run);
   trace.Finish();
-  if (!failure.empty()) throw InputError(failure);
+  if (!run.failure.empty()) {
+    throw InputError(fmt::format("{}; the {} before it are in {}", run.failure,
+                                 FramesText(run.stats.frames(), run.of), options.out));
+  }
   if (run.ending == Ending::kInterrupted) throw InterruptedEarly(options, run);
   return 0;
 }

@@ -14,6 +14,7 @@
 #include "forest/forest.h"
 #include "recon/refine/refinement_cascade.h"
 #include "tools/people/detect_people.h"
+#include "tools/tracker/lagged_bodies_internal.h"
 #include "tools/tracker/person_internal.h"
 #include "tools/tracker/skeleton_stages_internal.h"
 #include "tools/tracker/upright.h"
@@ -98,12 +99,14 @@ struct Tracker::Impl {
   std::map<int, Person> persons;  // by id
   std::optional<std::vector<int>> chosen_ids;
   UprightFinder upright;
+  LaggedBodies lagged;
 
   explicit Impl(const TrackerOptions& o)
       : options(o),
         models(o.models ? *o.models : ModelSet::Shipped(o.method)),
         model(ForestOf(models)),
-        targets(people::FindJointTargets(model, models.forest_file)) {
+        targets(people::FindJointTargets(model, models.forest_file)),
+        lagged(recon::LagOptions::Of(o.lag, recon::MethodNamed(o.method).keeps_bones)) {
     skeleton.forest = &model;
     skeleton.targets = targets;
     skeleton.refinement = models.refinement.get();
@@ -256,6 +259,10 @@ void TrackerOptions::Check() const {
     throw std::invalid_argument("TrackerOptions.threads = " + std::to_string(threads) +
                                 ", must be in [1, 256]");
   }
+  if (lag < 0 || lag > 2) {
+    throw std::invalid_argument("TrackerOptions.lag = " + std::to_string(lag) +
+                                ", must be in [0, 2]");
+  }
   if (smoothing) smoothing->Check();
   if (fit) fit->Check();
 }
@@ -287,6 +294,12 @@ BodyFrame Tracker::Track(const depth::DepthFrame& frame) {
   return result;
 }
 
+std::optional<BodyFrame> Tracker::TrackLate(const depth::DepthFrame& frame) {
+  return impl_->lagged.Add(Track(frame));
+}
+
+std::optional<BodyFrame> Tracker::TakeHeld() { return impl_->lagged.TakeHeld(); }
+
 void Tracker::FindUpright(depth::FrameSource& source, const std::function<bool()>& idle) {
   constexpr double kLongest_s = 20.0;  // by hand: people come into view before
   std::optional<double> first_s;
@@ -311,7 +324,11 @@ int64_t Tracker::Run(depth::FrameSource& source,
     if (read.status == depth::ReadStatus::kEnd) break;
     if (read.status != depth::ReadStatus::kFrame) continue;
     dropped += read.dropped;
-    if (!on_bodies(Track(read.frame))) break;
+    const auto bodies = TrackLate(read.frame);
+    if (bodies && !on_bodies(*bodies)) return dropped;
+  }
+  while (const auto held = TakeHeld()) {
+    if (!on_bodies(*held)) break;
   }
   return dropped;
 }

@@ -154,6 +154,8 @@ struct TrackerOptions {
   /// itself gets no second one, which would only lag.
   std::optional<SmoothingOptions> smoothing;
   TrackingMode mode = TrackingMode::kStanding;
+  /// Of TrackLate and Run: bodies so many frames later and steadier, 0 (live) to 2.
+  int lag = 0;
   /// Of a camera that lies on its side or hangs upside down. All results stay in its own space.
   Turn turn = Turn::kNone;
   bool near_range = false;  // the SDK's near mode: people from 0.4 to 3 m only
@@ -185,7 +187,15 @@ class Tracker {
   /// when pixels and camera do not agree in number.
   BodyFrame Track(const depth::DepthFrame& frame);
 
-  /// Reads a source to its end, or until the callback returns false. `idle` is asked about ten
+  /// The same with TrackerOptions::lag: one frame in, the bodies of the frame so many before out,
+  /// their joints smoothed by what came after; nothing until so many came.
+  std::optional<BodyFrame> TrackLate(const depth::DepthFrame& frame);
+  /// After TrackLate, at the end of a stream: the bodies that are still held, the oldest first;
+  /// nothing when all are out.
+  std::optional<BodyFrame> TakeHeld();
+
+  /// Reads a source to its end, or until the callback returns false. With TrackerOptions::lag the
+  /// callback gets bodies late, and at the end those that are still held. `idle` is asked about ten
   /// times a second while no frame comes: false ends the run. Returns frames lost by the device.
   int64_t Run(depth::FrameSource& source, const std::function<bool(const BodyFrame&)>& on_bodies,
               const std::function<bool()>& idle = {});

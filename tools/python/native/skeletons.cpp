@@ -13,6 +13,7 @@
 #include "recon/files/skeleton_io.h"
 #include "recon/files/skeleton_writer.h"
 #include "recon/filters/butterworth.h"
+#include "recon/filters/lag_smoothing.h"
 #include "recon/methods/sequence.h"
 #include "recon/models/learned_models.h"
 #include "recon/models/posture_prior.h"
@@ -263,6 +264,13 @@ recon::SkeletonSequence Reconstructed(const recon::SkeletonSequence& sequence,
   return recon::ReconstructSequence(sequence, options, goes_on, bones);
 }
 
+recon::LagOptions LagFrom(const py::object& lag, const std::string& method, bool offline) {
+  static constexpr recon::MethodInfo kOffline{};
+  const recon::MethodInfo& info = offline ? kOffline : recon::MethodNamed(method);
+  const int usual = info.smoothed_in_files ? recon::kWholeRecording : 0;
+  return recon::LagOptions::Of(lag.is_none() ? usual : lag.cast<int>(), info.keeps_bones);
+}
+
 py::dict Reconstruct(const py::dict& rows, const py::dict& given) {
   const recon::SkeletonSequence sequence = SequenceFrom(rows);
   const bool offline = given["method"].cast<std::string>() == "butterworth";
@@ -272,11 +280,13 @@ py::dict Reconstruct(const py::dict& rows, const py::dict& given) {
   const tracker::MechanicsBuild build = ReadMechanics(given["mechanics"].cast<py::dict>());
   recon::ReconstructorOptions options;
   if (!offline) options = OptionsFrom(given, sequence);
+  const recon::LagOptions lag = LagFrom(given["lag"], options.method, offline);
   recon::SkeletonSequence made;
   {
     const py::gil_scoped_release free;
     made = offline ? recon::ButterworthSequence(sequence, cutoff_hz)
                    : Reconstructed(sequence, options, bones_of_recording);
+    made = recon::SmoothSequence(made, lag);
     if (physics) tracker::FollowMechanically(made, build, [](size_t) { return GoesOn(); });
   }
   ThrowIfInterrupted();

@@ -62,6 +62,7 @@ tracker::TrackerOptions OptionsFrom(const py::dict& given) {
   options.smoothing = SmoothingFrom(TextOrNone(given, "smoothing"), options.method);
   if (flag("seated")) options.mode = tracker::TrackingMode::kSeated;
   options.near_range = flag("near");
+  options.lag = given["lag"].cast<int>();
   options.max_users = given["max_users"].cast<int>();
   options.threads = given["threads"].cast<int>();
   options.seed = given["seed"].cast<uint64_t>();
@@ -237,29 +238,29 @@ class Tracker {
   }
 
   py::dict Track(const py::array& depth_mm, const py::tuple& camera, double time_s, int turn) {
-    const depth::DepthView view = ViewOf(depth_mm);
-    const depth::Camera seen_by = CameraOf(camera, view);
     BodyFrame bodies;
-    {
-      const py::gil_scoped_release free;
-      const std::lock_guard lock(mutex_);
-      tracker_->SetTurn(static_cast<tracker::Turn>(turn));
-      frame_.camera = seen_by;
-      frame_.time_s = time_s;
-      frame_.depth_mm.clear();
-      for (int v = 0; v < view.height; ++v) {
-        const uint16_t* const row = view.data_mm + static_cast<ptrdiff_t>(v) * view.stride;
-        frame_.depth_mm.insert(frame_.depth_mm.end(), row, row + view.width);
-      }
-      bodies = tracker_->Track(frame_);
-      ++frame_.index;
-    }
+    WithFrame(depth_mm, camera, time_s, turn, [&] { bodies = tracker_->Track(frame_); });
     return ToDict(std::move(bodies), with_proposals_, mesh_.get());
   }
 
   /// Of the mesh; none without a fit.
   py::object Faces() const {
     return mesh_ ? py::object(ToArray(mesh_->triangles)) : py::object(py::none());
+  }
+
+  /// None until as many images came as the lag has frames.
+  py::object TrackLate(const py::array& depth_mm, const py::tuple& camera, double time_s,
+                       int turn) {
+    std::optional<BodyFrame> bodies;
+    WithFrame(depth_mm, camera, time_s, turn, [&] { bodies = tracker_->TrackLate(frame_); });
+    return OrNone(std::move(bodies));
+  }
+
+  /// None when nothing is held.
+  py::object TakeHeld() {
+    std::optional<BodyFrame> bodies;
+    Locked([&](tracker::Tracker& t) { bodies = t.TakeHeld(); });
+    return OrNone(std::move(bodies));
   }
 
   /// Looks through the beginning of a recording for which way up its camera is.
@@ -295,6 +296,31 @@ class Tracker {
   }
 
  private:
+  py::object OrNone(std::optional<BodyFrame> bodies) const {
+    if (!bodies) return py::none();
+    return ToDict(std::move(*bodies), with_proposals_, mesh_.get());
+  }
+
+  /// Makes the image frame_ and does `track` with it.
+  template <typename Track>
+  void WithFrame(const py::array& depth_mm, const py::tuple& camera, double time_s, int turn,
+                 const Track& track) {
+    const depth::DepthView view = ViewOf(depth_mm);
+    const depth::Camera seen_by = CameraOf(camera, view);
+    const py::gil_scoped_release free;
+    const std::lock_guard lock(mutex_);
+    tracker_->SetTurn(static_cast<tracker::Turn>(turn));
+    frame_.camera = seen_by;
+    frame_.time_s = time_s;
+    frame_.depth_mm.clear();
+    for (int v = 0; v < view.height; ++v) {
+      const uint16_t* const row = view.data_mm + static_cast<ptrdiff_t>(v) * view.stride;
+      frame_.depth_mm.insert(frame_.depth_mm.end(), row, row + view.width);
+    }
+    track();
+    ++frame_.index;
+  }
+
   template <typename Change>
   void Locked(const Change& change) {
     const py::gil_scoped_release free;
@@ -321,6 +347,9 @@ void AddTracker(py::module_& module) {
       .def("track", &Tracker::Track, py::arg("depth_mm"), py::arg("camera"), py::arg("time_s"),
            py::arg("turn"))
       .def("faces", &Tracker::Faces)
+      .def("track_late", &Tracker::TrackLate, py::arg("depth_mm"), py::arg("camera"),
+           py::arg("time_s"), py::arg("turn"))
+      .def("take_held", &Tracker::TakeHeld)
       .def("find_upright", &Tracker::FindUpright, py::arg("source"), py::arg("options"))
       .def("choose_users", &Tracker::ChooseUsers, py::arg("ids"))
       .def("set_seated", &Tracker::SetSeated, py::arg("seated"))

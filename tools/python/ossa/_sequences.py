@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Any, Iterable, NamedTuple, Optional
+from typing import TYPE_CHECKING, Any, Iterable, NamedTuple, Optional, Union
 
 import numpy as np
 import numpy.typing as npt
@@ -356,6 +356,15 @@ def write_skeletons(sequence: Sequence, path: PathLike, names: Optional[str] = N
     _native.write_skeletons(_to_native(sequence), to, names or "")
 
 
+def _lag_option(lag: Any) -> Optional[int]:
+    if lag is None:
+        return None
+    if isinstance(lag, str):
+        _check.one_of("lag", lag, ("whole",))
+        return -1
+    return _check.whole("lag", lag, 0, 2)
+
+
 @_method_options.takes_method_options
 def reconstruct(
     sequence: Sequence,
@@ -370,6 +379,7 @@ def reconstruct(
     hinges: bool = False,
     joint_limits: bool = False,
     cutoff_hz: Optional[float] = None,
+    lag: Union[int, str, None] = None,
     seed: int = 1,
     **method_options: Unpack[_method_options.MethodOptions],
 ) -> Sequence:
@@ -399,6 +409,9 @@ def reconstruct(
         With physics: elbows and knees bend about one axis; joints keep to people's ranges.
     cutoff_hz : float, optional
         Of butterworth, Hz (6).
+    lag : int or "whole", optional
+        Frames after each that smooth it, 0 to 2, or "whole": as many before and after as help. Left
+        out: "whole" with best, else 0.
     seed : int
         Of the methods that draw samples.
     METHOD_OPTIONS
@@ -429,6 +442,7 @@ def reconstruct(
         "physics": _check.flag("physics", physics),
         "mechanics": mechanics_option(physics, control, hinges, joint_limits),
         "cutoff_hz": 6.0 if cutoff_hz is None else _check.number("cutoff_hz", cutoff_hz, 1e-3, 1e3),
+        "lag": _lag_option(lag),
         "seed": _check.whole("seed", seed, 0, 2**63 - 1),
         "method_options": _method_options.checked(method, method_options),
     }

@@ -332,6 +332,22 @@ def _body_from(made: dict[str, Any], faces: Any) -> Body:
     )
 
 
+def _frame_from(
+    made: dict[str, Any], faces: Optional[npt.NDArray[np.int32]]
+) -> Frame:
+    return Frame(
+        bodies=[_body_from(body, faces) for body in made["bodies"]],
+        users=made["users"],
+        parts=made["parts"],
+        probabilities=made["probabilities"],
+        floor=made["floor"],
+        tilt_down_rad=made["tilt_down_rad"],
+        time_s=made["time_s"],
+        index=made["index"],
+        ms=made["ms"],
+    )
+
+
 def _smoothing_option(smoothing: Any) -> Any:
     if smoothing is None:
         return None
@@ -446,6 +462,8 @@ class Tracker:
         Only the ten upper joints are looked for (the SDK's seated mode); see `mode`.
     near : bool
         Near range: people within 3 m only.
+    lag : int
+        Of track_late and run: bodies so many frames later and steadier, 0 (live) to 2.
     parts, probabilities, proposals : bool
         Fill Frame.parts; Frame.probabilities; Body.proposals. They cost time and memory
         (probabilities 128 bytes a pixel).
@@ -492,6 +510,7 @@ class Tracker:
         seated: bool = False,
         *,
         near: bool = False,
+        lag: int = 0,
         parts: bool = False,
         probabilities: bool = False,
         proposals: bool = False,
@@ -518,6 +537,7 @@ class Tracker:
             "method_options": _method_options.checked(method, method_options),
             "seated": _check.flag("seated", seated),
             "near": _check.flag("near", near),
+            "lag": _check.whole("lag", lag, 0, 2),
             "parts": _check.flag("parts", parts),
             "probabilities": _check.flag("probabilities", probabilities),
             "proposals": _check.flag("proposals", proposals),
@@ -565,25 +585,37 @@ class Tracker:
         ossa.InputError
             For another type, shape or order, a camera that cannot be, a time that is no number.
         """
+        made = self._native.track(*self._checked(depth_mm, camera, time_s))
+        return _frame_from(made, self._faces)
+
+    def track_late(
+        self,
+        depth_mm: npt.NDArray[np.uint16],
+        camera: Camera,
+        time_s: Optional[float] = None,
+    ) -> Optional[Frame]:
+        """As track, with the tracker's `lag`: the frame so many images before, its joints smoothed
+        by what came after. None until so many came."""
+        made = self._native.track_late(*self._checked(depth_mm, camera, time_s))
+        return None if made is None else _frame_from(made, self._faces)
+
+    def take_held(self) -> Optional[Frame]:
+        """After track_late, at the end of a stream: the oldest frame that is still held; None when
+        all are out."""
+        made = self._native.take_held()
+        return None if made is None else _frame_from(made, self._faces)
+
+    def _checked(
+        self, depth_mm: Any, camera: Camera, time_s: Optional[float]
+    ) -> tuple[npt.NDArray[np.uint16], tuple[Any, ...], float, int]:
         image = _check.image(depth_mm)
         numbers = native_camera(camera, image)
         if time_s is None:
             seconds = 0.0 if self._time_s is None else self._time_s + _STEP_S
         else:
             seconds = _check.number("time_s", time_s, -1e12, 1e12)
-        made = self._native.track(image, numbers, seconds, ROTATIONS.index(camera.rotate))
         self._time_s = seconds
-        return Frame(
-            bodies=[_body_from(body, self._faces) for body in made["bodies"]],
-            users=made["users"],
-            parts=made["parts"],
-            probabilities=made["probabilities"],
-            floor=made["floor"],
-            tilt_down_rad=made["tilt_down_rad"],
-            time_s=seconds,
-            index=made["index"],
-            ms=made["ms"],
-        )
+        return image, numbers, seconds, ROTATIONS.index(camera.rotate)
 
     def run(self, source: Union[PathLike, Source]) -> Iterator[Frame]:
         """Tracks a whole source, frame by frame, as `ossa track SOURCE` does.
@@ -606,9 +638,12 @@ class Tracker:
             except _native.InputError:
                 pass  # told of when its turn comes
         for image in source:
-            frame = self.track(*image)
+            frame = self.track_late(*image)
             del image  # its memory serves the next one
-            yield frame
+            if frame is not None:
+                yield frame
+        while (held := self.take_held()) is not None:
+            yield held
 
     def choose_users(self, ids: Union[int, Sequence[int], None] = None) -> None:
         """Track only these people fully, the others by position (the SDK's AppChoosesSkeletons).
