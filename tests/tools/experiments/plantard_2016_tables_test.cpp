@@ -49,6 +49,30 @@ TEST(FigureFive, HasDashesWhereNothingCanBeCompared) {
   for (const size_t column : {1u, 3u, 5u}) EXPECT_EQ(table.rows[2][column], "-");
 }
 
+/// A head and a shoulder centre, the head off by so many centimetres in each frame.
+PairedTracks HeadOffBy(const std::vector<double>& off_cm) {
+  PairedTracks pair;
+  for (size_t f = 0; f < off_cm.size(); ++f) {
+    SparsePosture truth;
+    truth.present[2] = truth.present[3] = true;
+    truth.position_m[3].y() = 0.2;
+    pair.time_s.push_back(0.1 * static_cast<double>(f));
+    pair.truth.push_back(truth);
+    pair.result.push_back(truth);
+    pair.result.back().position_m[3].x() = off_cm[f] / 100.0;
+  }
+  return pair;
+}
+
+TEST(FigureEight, HasTheWorstFrameOfEachScenarioByRaw) {
+  const std::vector<std::vector<PairedTracks>> pairs = {
+      {HeadOffBy({1, 9, 2}), HeadOffBy({30, 3, 3})}, {HeadOffBy({1, 4, 8}), HeadOffBy({5, 9, 9})}};
+  const Table table = FigureEightOfPlantard2016({"raw", "ours"}, pairs);
+  ASSERT_EQ(table.rows.size(), 2u);
+  EXPECT_EQ(table.rows[0], (std::vector<std::string>{"2", "0.00", "30.00", "5.00"}));
+  EXPECT_EQ(table.rows[1], (std::vector<std::string>{"1", "0.10", "9.00", "4.00"}));
+}
+
 // Raw sees nobody in the last scenario: no zero that would turn the tests round.
 TEST(PaperTests, LeaveOutScenariosOfNothingComparable) {
   auto clips = Clips(9);

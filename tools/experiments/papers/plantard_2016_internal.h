@@ -13,13 +13,18 @@ Table FigureFiveOfPlantard2016(const std::vector<std::string>& labels,
                                const std::vector<std::vector<ClipMetrics>>& clips,
                                const std::vector<std::vector<ClipMetrics>>& seen);
 
+/// Figure 8: the four frames, each of another performance, in which raw is worst, eq. 13 of
+/// pairs[method][scenario], methods as labelled; where the sensor saw nobody no frame counts.
+Table FigureEightOfPlantard2016(const std::vector<std::string>& labels,
+                                const std::vector<std::vector<PairedTracks>>& pairs);
+
 /// Section 8.2: tests between the first three methods.
 Table TestsOfPlantard2016(const std::vector<std::string>& labels,
                           const std::vector<std::vector<ClipMetrics>>& clips);
 
 /// Figure 9: `method` (plantard-2016) over the hard scenarios, one parameter of the graph changed
-/// at a time.
-Table FigureNineOfPlantard2016(const ExperimentContext& context, const MethodRun& method,
+/// at a time. Parameter `database_mocap`: what the database was made of.
+Table FigureNineOfPlantard2016(ExperimentContext& context, const MethodRun& method,
                                const std::vector<RecordedPair>& hard);
 
 }  // namespace ossa::tools

@@ -80,6 +80,41 @@ Table FigureFiveOfPlantard2016(const std::vector<std::string>& labels,
   return table;
 }
 
+Table FigureEightOfPlantard2016(const std::vector<std::string>& labels,
+                                const std::vector<std::vector<PairedTracks>>& pairs) {
+  constexpr size_t kPoses = 4;  // figure 8
+  struct Pose {
+    double raw_cm;
+    size_t scenario, frame;
+  };
+  std::vector<Pose> worst;  // of each scenario
+  for (size_t s = 0; s < pairs.at(0).size(); ++s) {
+    const auto errors = ErrorsByFrame(pairs[0][s]).parent_relative_cm;
+    Pose pose{-1.0, s, 0};
+    for (size_t f = 0; f < errors.size(); ++f) {
+      if (errors[f] && *errors[f] > pose.raw_cm) pose = {*errors[f], s, f};
+    }
+    if (pose.raw_cm >= 0.0) worst.push_back(pose);
+  }
+  std::sort(worst.begin(), worst.end(),
+            [](const Pose& a, const Pose& b) { return a.raw_cm > b.raw_cm; });
+  worst.resize(std::min(worst.size(), kPoses));
+  Table table;
+  table.title = "Figure 8: challenging poses, eq. 13, cm";
+  table.columns = {"scenario", "second"};
+  table.columns.insert(table.columns.end(), labels.begin(), labels.end());
+  for (const Pose& pose : worst) {
+    const double second = pairs[0][pose.scenario].time_s[pose.frame];
+    table.rows.push_back({std::to_string(pose.scenario + 1), fmt::format("{:.2f}", second)});
+    for (const auto& of_method : pairs) {
+      const auto errors = ErrorsByFrame(of_method[pose.scenario]).parent_relative_cm;
+      table.rows.back().push_back(pose.frame < errors.size() ? Cell(errors[pose.frame]) : "-");
+    }
+  }
+  table.note = "The frames in which raw is worst, each of another scenario.";
+  return table;
+}
+
 Table TestsOfPlantard2016(const std::vector<std::string>& labels,
                           const std::vector<std::vector<ClipMetrics>>& clips) {
   Table table;

@@ -187,6 +187,7 @@ std::vector<Table> RunReal(ExperimentContext& context) {
   files.database = context.database.string();
   options.models = tracker::ModelSet::Load(files, options.method);
   options.threads = context.threads;
+  options.lag = context.parameters.Integer("lag", 0, 0, 2);
   if (context.parameters.Flag("fit", false)) options.fit = recon::SurfaceFitOptions{};
   const auto sets = ReadRealSets(context.shared, most);
   const auto videos = ReadRealVideos(context.shared, most);

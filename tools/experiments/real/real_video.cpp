@@ -159,10 +159,7 @@ VideoScore JudgeVideo(const RealVideo& video, tracker::Tracker& tracker) {
   Sums sums;
   std::map<int, Window> windows;  // by body
   tracker::BodyFrame before;
-  tracker.Reset();
-  for (const depth::DepthFrame& frame : video.frames) {
-    if (video.stills) tracker.Reset();
-    tracker::BodyFrame answer = tracker.Track(frame);
+  const auto judge = [&](const depth::DepthFrame& frame, tracker::BodyFrame answer) {
     ++score.frames;
     score.bodies += static_cast<int64_t>(answer.bodies.size());
     score.one_body += answer.bodies.size() == 1;
@@ -180,7 +177,23 @@ VideoScore JudgeVideo(const RealVideo& video, tracker::Tracker& tracker) {
     }
     windows = std::move(next);
     before = std::move(answer);
+  };
+  std::deque<const depth::DepthFrame*> waiting;  // for their bodies, which are late by the lag
+  const auto judge_first = [&](tracker::BodyFrame answer) {
+    judge(*waiting.front(), std::move(answer));
+    waiting.pop_front();
+  };
+  tracker.Reset();
+  for (const depth::DepthFrame& frame : video.frames) {
+    if (video.stills) {
+      tracker.Reset();
+      judge(frame, tracker.Track(frame));
+      continue;
+    }
+    waiting.push_back(&frame);
+    if (auto answer = tracker.TrackLate(frame)) judge_first(std::move(*answer));
   }
+  while (auto held = tracker.TakeHeld()) judge_first(std::move(*held));
   Finish(sums, video.stills, score);
   return score;
 }

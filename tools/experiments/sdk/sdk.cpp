@@ -1,7 +1,9 @@
 // Every method on every real recording; the SDK's own skeletons are the baseline. Whatever learns
 // has never seen the people it is tested on. More tables when asked for: data = ["correct",
-// "nested"], constants of best chosen without the person tested; "linear-bound", the best that any
-// filter of fixed weights does; "hardest", where the last of the methods is farthest off.
+// "nested"], constants of best chosen without the person tested; "lag", frames of lag;
+// "incremental", liu-2016 while it learns; "linear-bound", the best that any filter of fixed
+// weights does; "hardest", where the last of the methods is farthest off; "honest", without
+// what says little of a sensor.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -57,7 +59,8 @@ Table EmptyTable() {
       "(one of its people is in both, by a hundred frames). ms: processor time, of the run that "
       "the cache keeps. "
       "butterworth looks into the future and is here for comparison only; so does best-offline, "
-      "best with the bones of the whole recording. +physics: the physical character follows. "
+      "best with the bones of the whole recording, smoothed; best-lag-N knows N frames more. "
+      "+physics: the physical character follows. "
       "Bones: standard deviation of a bone's length "
       "over the clip.";
   return table;
@@ -70,10 +73,13 @@ std::vector<Table> RunSdk(ExperimentContext& context) {
   const auto all = AllMethods();
   auto known_methods = all;
   known_methods.emplace_back(kBestOffline);
+  known_methods.emplace_back(kBestUnlearned);
+  known_methods.insert(known_methods.end(), kBestLater.begin(), kBestLater.end());
+  known_methods.insert(known_methods.end(), kRawLater.begin(), kRawLater.end());
   const auto methods = context.parameters.Some("methods", known_methods, all);
   const std::vector<std::string> recordings = {"correct", "incorrect", "itop", "failures"};
   std::vector<std::string> known = recordings;
-  known.insert(known.end(), {"nested", "linear-bound", "hardest"});
+  known.insert(known.end(), {"nested", "lag", "incremental", "linear-bound", "hardest", "honest"});
   const auto sets = context.parameters.Some("data", known, recordings);
   const auto wanted = [&](const std::string& name) {
     return std::find(sets.begin(), sets.end(), name) != sets.end();
@@ -99,6 +105,9 @@ std::vector<Table> RunSdk(ExperimentContext& context) {
     if (bound) AddLinearBound(data, folds, &linear);
     if (wanted("nested") && folds.size() > 2)
       tables.push_back(RunNested(context, data, folds, options, &table));
+    if (wanted("lag") && folds.size() > 2) tables.push_back(RunLag(context, data, folds, options));
+    if (wanted("incremental") && folds.size() > 2)
+      tables.push_back(RunIncremental(context, folds, options));
     std::vector<MethodScore> scores;
     for (const std::string& method : methods) {
       scores.push_back(RunFolds(context, data, folds, method, options));
@@ -106,6 +115,8 @@ std::vector<Table> RunSdk(ExperimentContext& context) {
     }
     if (wanted("hardest") && data.starts_with("UI-PRMD"))
       tables.push_back(HardestTable(data, scores));
+    if (wanted("honest") && data.starts_with("UI-PRMD"))
+      tables.push_back(HonestTable(data, scores));
   };
   if (wanted("correct") || wanted("incorrect")) {
     auto pairs = LoadUiPrmd(context.shared, false);

@@ -69,9 +69,8 @@ Table GrossFailureTable(const ExperimentContext& context, const std::vector<std:
       for (const recon::SkeletonSequence& clip : clips) {
         MethodRun run{method, options, {}};
         run.options.method = method;
-        const bool ours = method == "raw" || method == "butterworth" || method == kBestOffline ||
-                          method.ends_with(kPlusPhysics);
-        const auto result = ours ? RunMethod(clip, method, options) : RunMethod(context, run, clip);
+        const auto result = recon::FindMethod(method) == nullptr ? RunMethod(clip, method, options)
+                                                                 : RunMethod(context, run, clip);
         raw += CountGrossFailures(clip, result, clip);
         made += CountGrossFailures(result, result, clip);
       }

@@ -1,4 +1,5 @@
 #pragma once
+#include <array>
 #include <functional>
 #include <nlohmann/json_fwd.hpp>
 #include <string>
@@ -68,10 +69,17 @@ recon::SkeletonSequence RunMethod(const recon::SkeletonSequence& observed,
                                   const std::string& method,
                                   const recon::ReconstructorOptions& options);
 
-/// `best` with bones by the whole recording, of which each frame has the same: it looks ahead.
+/// `best` by who has the whole recording: each frame has the same bones, and is smoothed by those
+/// around it.
 inline constexpr const char* kBestOffline = "best-offline";
 /// What the name of a method ends with that the physical character follows, the papers' last stage.
 inline constexpr std::string_view kPlusPhysics = "+physics";
+/// `best` one and two frames later.
+inline constexpr std::array kBestLater = {"best-lag-1", "best-lag-2"};
+/// `best` with nothing learned of the sensor: what holds for any (`--learned none`).
+inline constexpr const char* kBestUnlearned = "best-learned-none";
+/// What was seen one and two frames before: a gain over raw that delay has, too, is none.
+inline constexpr std::array kRawLater = {"raw-1-late", "raw-2-late"};
 
 /// Methods that learn of pairs; false as well of "raw" and "butterworth".
 bool Learns(const std::string& method);
@@ -81,14 +89,30 @@ bool LearnsCorrection(const std::string& method);
 /// A row of the table of methods.
 std::vector<std::string> MethodRow(const std::string& data, const MethodScore& score);
 
+/// Learned without either, tested on both.
+Fold WithoutBoth(const Fold& a, const Fold& b);
+
 /// sdk_nested.cpp: `best` with constants chosen without the person tested. Adds a row to the table
 /// of methods; returns what was chosen for whom.
 Table RunNested(ExperimentContext& context, const std::string& data, const std::vector<Fold>& folds,
                 const recon::ReconstructorOptions& options, Table* methods);
 
+/// sdk_lag.cpp: `best` with frames of lag, the low pass with its best cut-off, widths chosen
+/// without the person tested. Of a long study all widths, too.
+Table RunLag(ExperimentContext& context, const std::string& data, const std::vector<Fold>& folds,
+             const recon::ReconstructorOptions& options);
+
+/// sdk_incremental.cpp: what liu-2016 learns while it runs, of people and movements unknown to it.
+Table RunIncremental(ExperimentContext& context, const std::vector<Fold>& folds,
+                     const recon::ReconstructorOptions& options);
+
 /// sdk_hardest.cpp: eq. 18 of each person and exercise of UI-PRMD in which the last of the methods
 /// is 10 cm off and more, and of all others together.
 Table HardestTable(const std::string& data, const std::vector<MethodScore>& scores);
+
+/// sdk_hardest.cpp: all clips of UI-PRMD, and without the person whose truth is aligned worst and
+/// the clips in which sensor and markers disagree.
+Table HonestTable(const std::string& data, const std::vector<MethodScore>& scores);
 
 /// linear_bound.cpp: what the best filter of fixed weights leaves.
 Table EmptyLinearBound();

@@ -12,6 +12,16 @@
 #include "tools/experiments/sdk/sdk_internal.h"
 
 namespace ossa::tools {
+
+Fold WithoutBoth(const Fold& a, const Fold& b) {
+  Fold both{a.name + " " + b.name, {}, a.test, "without " + a.key + " " + b.key};
+  both.test.insert(both.test.end(), b.test.begin(), b.test.end());
+  for (const RecordedPair* recorded : a.train) {
+    if (recorded->subject != b.name) both.train.push_back(recorded);
+  }
+  return both;
+}
+
 namespace {
 
 struct Choice {
@@ -69,16 +79,6 @@ ClipsBySetting TryAll(ExperimentContext& context, const Fold& fold,
     clips.push_back(ClipsFromJson(of_setting));
   }
   return clips;
-}
-
-/// Learned without either, tested on both.
-Fold WithoutBoth(const Fold& a, const Fold& b) {
-  Fold both{a.name + " " + b.name, {}, a.test, "without " + a.key + " " + b.key};
-  both.test.insert(both.test.end(), b.test.begin(), b.test.end());
-  for (const RecordedPair* recorded : a.train) {
-    if (recorded->subject != b.name) both.train.push_back(recorded);
-  }
-  return both;
 }
 
 /// Of each fold: what the settings make of the other people.

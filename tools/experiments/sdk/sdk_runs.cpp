@@ -7,6 +7,7 @@
 
 #include "recon/database/posture_database.h"
 #include "recon/filters/butterworth.h"
+#include "recon/filters/lag_smoothing.h"
 #include "recon/methods/recorded_pairs.h"
 #include "recon/methods/sequence.h"
 #include "recon/models/posture_prior.h"
@@ -49,10 +50,27 @@ ClipMetrics FromJson(const nlohmann::json& numbers) {
   return clip;
 }
 
-// Of the names that these tables have, kBestOffline is no method of its own.
+/// Frames of lag of a method by the name that these tables have.
+int LagOf(const std::string& method) {
+  if (method == kBestOffline) return recon::kWholeRecording;
+  const auto* const later = std::find(kBestLater.begin(), kBestLater.end(), method);
+  return later == kBestLater.end() ? 0 : 1 + static_cast<int>(later - kBestLater.begin());
+}
+
+// Of these names some are no methods of their own.
 std::string MethodBehind(std::string method) {
   if (method.ends_with(kPlusPhysics)) method.resize(method.size() - kPlusPhysics.size());
-  return method == kBestOffline ? std::string(recon::kDefaultMethod) : method;
+  const bool is_best = LagOf(method) != 0 || method == kBestUnlearned;
+  return is_best ? std::string(recon::kDefaultMethod) : method;
+}
+
+/// Each frame's bodies as they were some frames before; the first frames as they are.
+recon::SkeletonSequence Delayed(const recon::SkeletonSequence& observed, size_t frames) {
+  recon::SkeletonSequence late = observed;
+  for (size_t f = frames; f < late.frames.size(); ++f) {
+    late.frames[f].bodies = observed.frames[f - frames].bodies;
+  }
+  return late;
 }
 
 }  // namespace
@@ -145,6 +163,7 @@ std::vector<ClipMetrics> ClipsFromJson(const nlohmann::json& json) {
 }
 
 bool Learns(const std::string& method) {
+  if (method == kBestUnlearned) return false;
   const recon::MethodInfo* info = recon::FindMethod(MethodBehind(method));
   return info != nullptr && info->learned != recon::Reads::kNothing;
 }
@@ -208,11 +227,15 @@ recon::SkeletonSequence RunMethod(const recon::SkeletonSequence& observed,
   }
   if (method == "raw") return observed;
   if (method == "butterworth") return recon::ButterworthSequence(observed);
+  for (size_t k = 0; k < kRawLater.size(); ++k) {
+    if (method == kRawLater[k]) return Delayed(observed, k + 1);
+  }
   recon::ReconstructorOptions with = options;
   with.method = MethodBehind(method);
   recon::BonesOfPeople bones;
   if (method == kBestOffline) bones = recon::MeasureBones(observed, with);
-  return recon::ReconstructSequence(observed, with, {}, bones);
+  return recon::SmoothSequence(recon::ReconstructSequence(observed, with, {}, bones),
+                               recon::LagOptions::Of(LagOf(method), true));
 }
 
 MethodScore RunFolds(ExperimentContext& context, const std::string& data,

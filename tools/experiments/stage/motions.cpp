@@ -15,6 +15,11 @@ namespace {
 // swordplay, washing, turning dances.
 const std::vector<std::string> kHeldOutClips = {"02_05", "02_06", "02_07", "02_08", "02_09",
                                                 "02_10", "60_01", "60_05", "60_10", "60_14"};
+// Two CMU subjects, and the actor of another corpus, whose bones a file beside it names.
+const std::vector<std::string> kOfCmu = {"02_05", "02_07", "02_08", "02_10",
+                                         "60_06", "60_11", "60_12"};
+const std::vector<std::string> kOfBandai = {
+    "dataset-1_byebye_tired_001", "dataset-1_kick_normal_001", "dataset-1_slash_normal_001"};
 // Constants: chosen by hand, where nothing else is said.
 
 constexpr uint64_t kOtherMovers = 7919;  // added to the seed: not the shipped database's movers
@@ -40,6 +45,50 @@ std::vector<recon::MotionClip> Spread(std::vector<recon::MotionClip> clips, size
 }
 
 }  // namespace
+
+namespace {
+
+/// The named clips of a folder, those that last.
+std::vector<recon::MotionClip> Named(const std::filesystem::path& folder,
+                                     const std::vector<std::string>& names,
+                                     const recon::MocapOptions& options, int frames) {
+  std::vector<recon::MotionClip> found;
+  if (!std::filesystem::exists(folder)) return found;
+  for (recon::MotionClip& clip : recon::LoadMocap({folder.string()}, options)) {
+    const bool wanted = std::any_of(names.begin(), names.end(), [&](const std::string& name) {
+      return clip.name.find(name) != std::string::npos;
+    });
+    if (wanted && clip.frames.size() >= static_cast<size_t>(frames) / 2) {
+      found.push_back(std::move(clip));
+    }
+  }
+  return found;
+}
+
+}  // namespace
+
+StudyMotion TenPerformances(ExperimentContext& context, int frames) {
+  const auto mocap = context.shared / "mocap";
+  recon::MocapOptions options;
+  auto of_cmu = Named(mocap / "cmu30", kOfCmu, options, frames);
+  options.mapping_file = (mocap / "bandai_validation" / "mapping.txt").string();
+  auto others = Named(mocap / "bandai_validation", kOfBandai, options, frames);
+  const bool has_all = of_cmu.size() == kOfCmu.size() && others.size() == kOfBandai.size();
+  const bool other_asked = !context.parameters.Text("motion", "").empty();
+  if (context.shared.empty() || !has_all || other_asked) {
+    return StudyMotions(context, kOfCmu.size() + kOfBandai.size(), frames);
+  }
+  StudyMotion motion;
+  for (size_t i = 0; i < 4; ++i) {  // by turns of the three people
+    motion.clips.push_back(std::move(of_cmu[i]));
+    if (i < 3) motion.clips.push_back(std::move(of_cmu[4 + i]));
+    if (i < 3) motion.clips.push_back(std::move(others[i]));
+  }
+  motion.note =
+      "Motions: ten performances of three people, none of them in the shipped database or forest "
+      "(settings of best were chosen on one of them). ";
+  return motion;
+}
 
 StudyMotion StudyMotions(ExperimentContext& context, size_t count, int frames) {
   const auto mocap = context.shared / "mocap" / "cmu30";

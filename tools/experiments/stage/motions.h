@@ -18,6 +18,11 @@ struct StudyMotion {
 /// spread over those there are.
 StudyMotion StudyMotions(ExperimentContext& context, size_t count, int frames);
 
+/// Ten performances, no two alike, of three people that nothing shipped was made from, in an order
+/// in which neighbours are different people; where --shared lacks them or the study names a
+/// `motion`, what StudyMotions has.
+StudyMotion TenPerformances(ExperimentContext& context, int frames);
+
 /// Authored clips of the given actions, `variations` movers each, with a seed of the study's own.
 std::vector<recon::MotionClip> AuthoredMotions(const ExperimentContext& context,
                                                const std::vector<std::string>& actions,

@@ -1,0 +1,294 @@
+// How much do frames that come later help, and is their Gaussian fitted to the people it is tested
+// on? For each person left out the widths are chosen on the others, nothing learned of the one that
+// they are tried on (two people left out at a time), as in sdk_nested.cpp. The low pass of
+// laboratories gets its best cut-off in the same way.
+#include <fmt/format.h>
+
+#include <limits>
+#include <map>
+#include <nlohmann/json.hpp>
+
+#include "recon/filters/butterworth.h"
+#include "recon/filters/lag_smoothing.h"
+#include "tools/experiments/sdk/method_runs.h"
+#include "tools/experiments/sdk/sdk_internal.h"
+#include "tools/experiments/stage/jobs.h"
+
+namespace ossa::tools {
+namespace {
+
+// Constants: by hand; they define the table.
+
+constexpr double kFast_m_per_s = 1.0;  // what is smeared by smoothing shows in joints faster
+constexpr double kAllowed = 1.005;     // positions count as unchanged up to half a per cent
+
+/// One way to smooth: a low pass over what was seen, or a Gaussian over what best makes of it.
+struct Smoothing {
+  recon::LagOptions lag;
+  double cutoff_hz = 0.0;  // of a low pass
+};
+
+/// Smoothings among which one is chosen; the first is what positions are held against.
+struct Family {
+  std::string name;
+  std::vector<Smoothing> smoothings;
+};
+
+Smoothing LowPass(double cutoff_hz) { return {{.frames = 0}, cutoff_hz}; }
+
+Family Gaussians(const std::string& name, int frames) {
+  Family family{name, {{{.frames = 0}, 0.0}}};
+  for (const double sigma_s : {0.03, 0.05, 0.08, 0.12}) {
+    for (const double alike_m : {0.02, 0.05}) {  // more smears a jump of 40 cm by centimetres
+      family.smoothings.push_back({{frames, sigma_s, alike_m, true}, 0.0});
+    }
+  }
+  return family;
+}
+
+std::vector<Family> Families() {
+  Family butterworth{"butterworth, over what was seen", {LowPass(1000.0)}};
+  for (const double hz : {1.0, 1.5, 2.0, 3.0, 4.0, 6.0, 10.0}) {
+    butterworth.smoothings.push_back(LowPass(hz));
+  }
+  return {butterworth, Gaussians("best, one frame of lag", 1),
+          Gaussians("best, two frames of lag", 2),
+          Gaussians("best, whole recording", recon::kWholeRecording)};
+}
+
+/// Error, offset removed, of joints in frames in which they are fast.
+struct FastError {
+  double sum_cm = 0.0;
+  int64_t count = 0;
+};
+
+/// What a smoothing leaves.
+struct Left {
+  std::vector<ClipMetrics> clips;
+  std::vector<FastError> fast;  // of each clip
+};
+
+double MeanFast_cm(const Left& left) {
+  FastError sum;
+  for (const FastError& of_clip : left.fast) {
+    sum.sum_cm += of_clip.sum_cm;
+    sum.count += of_clip.count;
+  }
+  return sum.count > 0 ? sum.sum_cm / static_cast<double>(sum.count) : 0.0;
+}
+
+FastError FastErrorOf(const PairedTracks& pair) {
+  FastError fast;
+  const size_t n = pair.truth.size();
+  for (size_t j = 0; j < recon::kJointCount; ++j) {
+    std::vector<std::optional<Eigen::Vector3d>> error_m(n);
+    Eigen::Vector3d offset_m = Eigen::Vector3d::Zero();
+    double count = 0.0;
+    for (size_t f = 0; f < n; ++f) {
+      if (!pair.truth[f].present[j] || !pair.result[f].present[j]) continue;
+      error_m[f] = pair.result[f].position_m[j] - pair.truth[f].position_m[j];
+      offset_m += *error_m[f], count += 1.0;
+    }
+    for (size_t f = 1; f < n; ++f) {
+      if (!error_m[f] || !error_m[f - 1]) continue;
+      const double step_s = pair.time_s[f] - pair.time_s[f - 1];
+      const double moved_m = (pair.truth[f].position_m[j] - pair.truth[f - 1].position_m[j]).norm();
+      if (moved_m < kFast_m_per_s * step_s) continue;
+      fast.sum_cm += 100.0 * (*error_m[f] - offset_m / count).norm();
+      ++fast.count;
+    }
+  }
+  return fast;
+}
+
+recon::SkeletonSequence Smoothed(const Smoothing& smoothing, const recon::SkeletonSequence& seen,
+                                 const recon::SkeletonSequence& made) {
+  if (smoothing.cutoff_hz > 0.0) return recon::ButterworthSequence(seen, smoothing.cutoff_hz);
+  return recon::SmoothSequence(made, smoothing.lag);
+}
+
+nlohmann::json ToJson(const std::vector<Left>& lefts) {
+  auto json = nlohmann::json::array();
+  for (const Left& left : lefts) {
+    auto fast = nlohmann::json::array();
+    for (const FastError& of_clip : left.fast) fast.push_back({of_clip.sum_cm, of_clip.count});
+    json.push_back({ClipsToJson(left.clips), fast});
+  }
+  return json;
+}
+
+std::vector<Left> FromJson(const nlohmann::json& json) {
+  std::vector<Left> lefts;
+  for (const auto& one : json) {
+    Left& left = lefts.emplace_back();
+    left.clips = ClipsFromJson(one.at(0));
+    for (const auto& fast : one.at(1)) {
+      left.fast.push_back({fast.at(0).get<double>(), fast.at(1).get<int64_t>()});
+    }
+  }
+  return lefts;
+}
+
+void AddLeft(const Left& one, Left& sum) {
+  sum.clips.insert(sum.clips.end(), one.clips.begin(), one.clips.end());
+  sum.fast.insert(sum.fast.end(), one.fast.begin(), one.fast.end());
+}
+
+/// The smoothings over the fold's tested clips, learned without whoever is in them. Cached.
+std::vector<Left> TryAll(ExperimentContext& context, const Fold& fold,
+                         const std::vector<Smoothing>& smoothings,
+                         const recon::ReconstructorOptions& options) {
+  std::string key =
+      fmt::format("lag {} {} {}", KeyOfCode(), fold.key, KeyOfOptions(context, options));
+  for (const Smoothing& s : smoothings) {
+    key += fmt::format(" {} {} {} {}", s.lag.frames, s.lag.sigma_s, s.lag.alike_m, s.cutoff_hz);
+  }
+  const std::string text = context.Cached(key, [&] {
+    if (context.progress) context.progress(0, 0, "lag, without " + fold.name);
+    const auto with = LearnFold(fold, "best", options);
+    std::vector<std::vector<Left>> by_clip(fold.test.size());
+    RunJobs(fold.test.size(), context.threads, [&](size_t i) {
+      const RecordedPair& recorded = *fold.test[i];
+      const auto made = RunMethod(recorded.observed, "best", with);
+      for (const Smoothing& smoothing : smoothings) {
+        Left& left = by_clip[i].emplace_back();
+        for (const PairedTracks& pair :
+             PairUp(recorded.truth, Smoothed(smoothing, recorded.observed, made))) {
+          left.clips.push_back(Measure(pair));
+          left.clips.back().name = recorded.clip;
+          left.fast.push_back(FastErrorOf(pair));
+        }
+      }
+    });
+    std::vector<Left> lefts(smoothings.size());
+    for (const auto& of_clip : by_clip) {
+      for (size_t s = 0; s < lefts.size(); ++s) AddLeft(of_clip[s], lefts[s]);
+    }
+    return ToJson(lefts).dump();
+  });
+  return FromJson(nlohmann::json::parse(text));
+}
+
+/// Of each person: what the smoothings make of the others, every `every`-th clip.
+std::map<std::string, std::vector<Left>> TryOnOthers(ExperimentContext& context,
+                                                     const std::vector<Fold>& folds,
+                                                     const std::vector<Smoothing>& smoothings,
+                                                     const recon::ReconstructorOptions& options,
+                                                     size_t every) {
+  std::map<std::string, std::vector<Left>> others;
+  for (const Fold& fold : folds) others[fold.name].resize(smoothings.size());
+  for (size_t a = 0; a < folds.size(); ++a) {
+    for (size_t b = a + 1; b < folds.size(); ++b) {
+      Fold both = WithoutBoth(folds[a], folds[b]);
+      std::vector<const RecordedPair*> some;
+      for (size_t i = 0; i < both.test.size(); i += every) some.push_back(both.test[i]);
+      both.test = std::move(some);
+      both.key += fmt::format(" every {}", every);
+      const auto lefts = TryAll(context, both, smoothings, options);
+      for (size_t s = 0; s < lefts.size(); ++s) {
+        for (size_t c = 0; c < lefts[s].clips.size(); ++c) {
+          const bool of_a = lefts[s].clips[c].name.starts_with(folds[a].name + "/");
+          Left& of_other = others[folds[of_a ? b : a].name][s];
+          of_other.clips.push_back(lefts[s].clips[c]);
+          of_other.fast.push_back(lefts[s].fast[c]);
+        }
+      }
+    }
+  }
+  return others;
+}
+
+/// The smoothing with the least acceleration error among those that leave positions, those of fast
+/// joints, too, as they are; the first one where none does.
+size_t ChosenOf(const std::vector<Left>& lefts, size_t begin, size_t end) {
+  const auto of = [&](size_t s, std::optional<double> ClipMetrics::*member) {
+    return Average(lefts[s].clips, member).value_or(std::numeric_limits<double>::infinity());
+  };
+  size_t chosen = begin;
+  for (size_t s = begin + 1; s < end; ++s) {
+    bool unchanged = MeanFast_cm(lefts[s]) <= kAllowed * MeanFast_cm(lefts[begin]);
+    for (const auto member :
+         {&ClipMetrics::parent_relative_error_cm, &ClipMetrics::offset_removed_error_cm}) {
+      unchanged = unchanged && of(s, member) <= kAllowed * of(begin, member);
+    }
+    const auto acceleration = &ClipMetrics::acceleration_error_cm_per_frame2;
+    if (unchanged && of(s, acceleration) < of(chosen, acceleration)) chosen = s;
+  }
+  return chosen;
+}
+
+std::string TextOf(const Smoothing& s) {
+  if (s.cutoff_hz > 0.0) return fmt::format("{:g} Hz", s.cutoff_hz);
+  if (s.lag.frames == 0) return "none";
+  return fmt::format("{:g} ms, {:g} cm", 1000.0 * s.lag.sigma_s, 100.0 * s.lag.alike_m);
+}
+
+std::vector<std::string> RowOf(const std::string& name, const Left& left, double of_raw,
+                               const std::string& chosen) {
+  const auto member = &ClipMetrics::acceleration_error_cm_per_frame2;
+  const double change = 100.0 * (Average(left.clips, member).value_or(0.0) / of_raw - 1.0);
+  return {name,
+          MeanAndMedian(left.clips, &ClipMetrics::mean_joint_error_cm),
+          MeanAndMedian(left.clips, &ClipMetrics::parent_relative_error_cm),
+          MeanAndMedian(left.clips, &ClipMetrics::offset_removed_error_cm),
+          fmt::format("{:.2f}", MeanFast_cm(left)),
+          MeanAndMedian(left.clips, member),
+          fmt::format("{:+.0f}", change),
+          chosen};
+}
+
+}  // namespace
+
+Table RunLag(ExperimentContext& context, const std::string& data, const std::vector<Fold>& folds,
+             const recon::ReconstructorOptions& options) {
+  const auto every = static_cast<size_t>(context.parameters.Integer("lag_every_nth_clip", 5, 1));
+  const std::vector<Family> families = Families();
+  std::vector<Smoothing> smoothings;
+  for (const Family& family : families) {
+    smoothings.insert(smoothings.end(), family.smoothings.begin(), family.smoothings.end());
+  }
+  const auto others = TryOnOthers(context, folds, smoothings, options, every);
+  std::vector<Left> all(smoothings.size()), nested(families.size());
+  std::vector<std::map<std::string, int>> chosen(families.size());
+  for (const Fold& fold : folds) {
+    const auto lefts = TryAll(context, fold, smoothings, options);
+    for (size_t s = 0; s < smoothings.size(); ++s) AddLeft(lefts[s], all[s]);
+    size_t begin = 0;
+    for (size_t k = 0; k < families.size(); ++k) {
+      const size_t end = begin + families[k].smoothings.size();
+      const size_t best = ChosenOf(others.at(fold.name), begin, end);
+      AddLeft(lefts[best], nested[k]);
+      ++chosen[k][TextOf(smoothings[best])];
+      begin = end;
+    }
+  }
+  Table table;
+  table.title = "Frames of lag, widths chosen on the other people, " + data;
+  table.columns = {"method",      "mean error",   "eq. 18",    "offset removed",
+                   "fast joints", "acceleration", "change, %", "chosen for how many people"};
+  const double of_raw =
+      Average(all[0].clips, &ClipMetrics::acceleration_error_cm_per_frame2).value_or(1.0);
+  size_t begin = 0;
+  for (size_t k = 0; k < families.size(); ++k) {
+    if (k < 2) table.rows.push_back(RowOf(k == 0 ? "raw" : "best, no lag", all[begin], of_raw, ""));
+    std::string texts;
+    for (const auto& [text, people] : chosen[k]) {
+      texts += fmt::format("{}{}: {}", texts.empty() ? "" : "; ", text, people);
+    }
+    table.rows.push_back(RowOf(families[k].name, nested[k], of_raw, texts));
+    for (size_t s = begin + 1; context.full && s < begin + families[k].smoothings.size(); ++s) {
+      table.rows.push_back(
+          RowOf(families[k].name + " " + TextOf(smoothings[s]), all[s], of_raw, "fixed"));
+    }
+    begin += families[k].smoothings.size();
+  }
+  table.note = fmt::format(
+      "Least acceleration error on every {}th clip of the other people, among widths that raise "
+      "eq. 18, offset removed and fast joints by half a per cent at most. Fast joints: offset "
+      "removed, where "
+      "the true joint moves at {:g} m/s and more. Change: of acceleration against raw.",
+      every, kFast_m_per_s);
+  return table;
+}
+
+}  // namespace ossa::tools
