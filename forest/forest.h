@@ -92,6 +92,10 @@ class ForestModel {
   explicit ForestModel(ForestData data, const std::string& name = "model",
                        ModelUse use = ModelUse::kAny);
 
+  /// Of parts that belonged to a checked model before (forest/kept_tables.h).
+  ForestModel(std::shared_ptr<const ForestData> data, std::shared_ptr<const RuntimeTables> tables)
+      : data_(std::move(data)), tables_(std::move(tables)) {}
+
   const ForestData& data() const { return *data_; }
   int class_count() const { return static_cast<int>(data_->class_names.size()); }
   int context_count() const { return static_cast<int>(data_->context_names.size()); }

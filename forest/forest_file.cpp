@@ -7,6 +7,7 @@
 #include "depth/base/error.h"
 #include "depth/base/naming_the_file.h"
 #include "forest/forest.h"
+#include "forest/forest_file_internal.h"
 #include "forest/prune.h"
 #include "forest/trees/tree_codec_internal.h"
 
@@ -138,8 +139,8 @@ ProposalTarget GetTarget(PayloadReader* reader) {
   return target;
 }
 
-ForestData ParseForest(std::span<const std::byte> payload, const std::string& name,
-                       uint32_t version) {
+ForestData ParseVersion(std::span<const std::byte> payload, const std::string& name,
+                        uint32_t version) {
   PayloadReader reader(payload, name);
   ForestData data;
   data.manifest = reader.GetString("manifest");
@@ -170,12 +171,18 @@ ForestModel Parse(std::vector<std::byte> compressed, const std::string& name, ui
   std::vector<std::byte> payload = Decompress(compressed, name, kFormat.what);
   std::vector<std::byte>().swap(compressed);
   const std::string where = name + " (unpacked)";
-  ForestData data = ParseForest(payload, where, version);
+  ForestData data = ParseVersion(payload, where, version);
   std::vector<std::byte>().swap(payload);
   return ForestModel(std::move(data), where, use);
 }
 
 std::vector<std::byte> Packed(const ForestData& data, int level) {
+  return Compress(PackForest(data), level);
+}
+
+}  // namespace
+
+std::vector<std::byte> PackForest(const ForestData& data) {
   PayloadWriter writer;
   writer.PutString(data.manifest);
   PutNames(&writer, data.class_names);
@@ -191,10 +198,12 @@ std::vector<std::byte> Packed(const ForestData& data, int level) {
   PutRefinement(&writer, data.refinement);
   PutPlanes(&writer, data.relabelling.weight);
   writer.PutVector(data.relabelling.bias);
-  return Compress(writer.bytes(), level);
+  return {writer.bytes().begin(), writer.bytes().end()};
 }
 
-}  // namespace
+ForestData ParseForest(std::span<const std::byte> payload, const std::string& name) {
+  return ParseVersion(payload, name, kFormat.version);
+}
 
 ForestModel ReadForestModel(const std::filesystem::path& path, ModelUse use) {
   const ContainerFormat format = ReadContainerFormat(path, kFormat, kOldestVersion);

@@ -243,6 +243,11 @@ std::vector<int32_t> VoteRows(const Tree& tree, size_t* row_count) {
   return row_of_leaf;
 }
 
+void AddPriorTables(const ForestData& data, RuntimeTables* tables) {
+  for (const PosePrior& each : data.pose_priors) tables->factor_models.emplace_back(each);
+  tables->neighbours = Neighbours(data);
+}
+
 RuntimeTables MakeRuntimeTables(ForestData* data, ModelUse use) {
   RuntimeTables tables;
   const LogRatios log_ratios(*data);
@@ -262,8 +267,7 @@ RuntimeTables MakeRuntimeTables(ForestData* data, ModelUse use) {
       ReturnFreedMemory();  // before the next tree's tables are made
     }
   }
-  for (const PosePrior& each : data->pose_priors) tables.factor_models.emplace_back(each);
-  tables.neighbours = Neighbours(*data);
+  AddPriorTables(*data, &tables);
   return tables;
 }
 

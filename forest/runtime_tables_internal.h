@@ -42,6 +42,9 @@ struct RuntimeTables {
 /// turn. Precondition: no tree has more than LinedTree::kMostLeaves leaves.
 RuntimeTables MakeRuntimeTables(ForestData* data, ModelUse use);
 
+/// What follows from the pose priors: factor models and neighbours.
+void AddPriorTables(const ForestData& data, RuntimeTables* tables);
+
 /// The row of votes of each leaf: rows are given out breadth-first to the nodes at the tree's
 /// vote_depth and to the leaves above it. `row_count` receives their number.
 std::vector<int32_t> VoteRows(const Tree& tree, size_t* row_count);

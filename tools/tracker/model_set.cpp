@@ -5,6 +5,7 @@
 
 #include "depth/base/large_pages.h"
 #include "forest/forest.h"
+#include "forest/kept_tables.h"
 #include "recon/database/posture_database.h"
 #include "recon/fit/body_surface.h"
 #include "recon/models/learned_models.h"
@@ -46,6 +47,22 @@ std::shared_ptr<const recon::JointRefiner> LoadRefinement(const ModelFiles& file
       recon::RefinementCascade::Load(NamedOrShipped(files.refinement, recon::kShippedRefinement)));
   ReturnFreedMemory();
   return refinement;
+}
+
+// From the tables that an earlier start left; null where there are none.
+std::shared_ptr<const forest::ForestModel> KeptForest(const ModelFiles& files,
+                                                      const std::filesystem::path& path) {
+  if (!IsShippedForest(files)) return nullptr;
+  auto model = forest::ReadKeptTables(path);
+  return model ? std::make_shared<forest::ForestModel>(std::move(*model)) : nullptr;
+}
+
+std::shared_ptr<const forest::ForestModel> LoadForest(const ModelFiles& files,
+                                                      const std::filesystem::path& path) {
+  auto model = std::make_shared<forest::ForestModel>(
+      forest::ReadForestModel(path, forest::ModelUse::kRunOnly));
+  if (IsShippedForest(files)) forest::KeepTables(path, *model);
+  return model;
 }
 
 std::shared_ptr<const recon::BodySurface> LoadSurface(const ModelFiles& files) {
@@ -105,11 +122,11 @@ ModelSet ModelSet::Shipped(std::string_view method) { return Load({}, method); }
 ModelSet ModelSet::Load(const ModelFiles& files, std::string_view method) {
   const MethodInfo& info = recon::MethodNamed(method);
   ModelSet set;
-  set.refinement = LoadRefinement(files, info);  // before the forest: see ReturnFreedMemory
   const auto forest = NamedOrShipped(files.forest, kForest);
+  set.refinement = LoadRefinement(files, info);  // before the forest: see ReturnFreedMemory
   set.forest_file = files.forest.empty() ? kForest : files.forest;
-  set.forest = std::make_shared<forest::ForestModel>(
-      forest::ReadForestModel(forest, forest::ModelUse::kRunOnly));
+  set.forest = KeptForest(files, forest);
+  if (set.forest == nullptr) set.forest = LoadForest(files, forest);
   set.surface = LoadSurface(files);
   set.database = LoadDatabase(files, method);
   set.prior = LoadPrior(files, method);

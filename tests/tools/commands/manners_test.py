@@ -219,6 +219,55 @@ class ToolsThatAreMissing(unittest.TestCase):
         self.assertEqual(said.stderr.count("\n"), 1)
 
 
+class Start(unittest.TestCase):
+    """The tables of the shipped forest that a first start leaves."""
+
+    def setUp(self):
+        self.temporary = tempfile.TemporaryDirectory()
+        self.addCleanup(self.temporary.cleanup)
+        self.folder = pathlib.Path(self.temporary.name)
+        self.cache = self.folder / "cache"
+
+    def track(self, cache):
+        out = self.folder / "out.jsonl"
+        result = run("track", CLIP, "--frames", 1, "--quiet", "--out", out, OSSA_CACHE=cache)
+        self.assertEqual(result.returncode, 0, result.stderr)
+        self.assertEqual(result.stderr, "")
+        return out.read_bytes()
+
+    def test_is_quick_and_small_with_them_and_the_same(self):
+        made = self.track("")
+        self.assertFalse(self.cache.exists())
+        self.assertEqual(self.track(str(self.cache)), made)
+        child = os.fork()
+        if child == 0:
+            os.execve(OSSA, ["ossa", "track", str(CLIP), "--frames", "1", "--quiet", "--out", str(self.folder / "out.jsonl")],
+                      {**os.environ, "OSSA_CONFIG": "", "OSSA_CACHE": str(self.cache)})
+        _, status, used = os.wait4(child, 0)
+        self.assertEqual(status, 0)
+        self.assertEqual((self.folder / "out.jsonl").read_bytes(), made)
+        self.assertLess(used.ru_utime + used.ru_stime, 0.3)  # seconds of processor time: load says nothing
+        self.assertLess(used.ru_maxrss, 165 * 1024)  # KiB; 148 MiB measured, other machines have other threads
+
+    def test_does_not_take_damaged_ones(self):
+        made = self.track(str(self.cache))
+        tables, = self.cache.glob("*.tables")
+        head, = self.cache.glob("*.head")
+        for file, place in ((tables, 1000), (tables, -1), (head, 0), (head, -1)):
+            whole = file.read_bytes()
+            damaged = bytearray(whole)
+            damaged[place] ^= 1
+            file.write_bytes(damaged)
+            self.assertEqual(self.track(str(self.cache)), made)
+            self.assertEqual(file.read_bytes(), whole)  # made anew
+        tables.write_bytes(tables.read_bytes()[:-64])
+        self.assertEqual(self.track(str(self.cache)), made)
+
+    def test_does_without_where_they_cannot_be_kept(self):
+        self.cache.write_text("a file, no folder")
+        self.track(str(self.cache / "below"))
+
+
 class Doctor(unittest.TestCase):
     def setUp(self):
         self.temporary = tempfile.TemporaryDirectory()

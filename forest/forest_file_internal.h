@@ -1,0 +1,16 @@
+#pragma once
+#include <cstddef>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "forest/forest.h"
+
+namespace ossa::forest {
+
+/// What a file of today's version holds, not compressed.
+std::vector<std::byte> PackForest(const ForestData& data);
+/// Throws InputError that names `name` and the field.
+ForestData ParseForest(std::span<const std::byte> payload, const std::string& name);
+
+}  // namespace ossa::forest
