@@ -4,9 +4,11 @@
 #include <algorithm>
 #include <cmath>
 
+#include "recon/body/clothing.h"
 #include "recon/body/standard_body.h"
 #include "tools/synth/nobodies.h"
 #include "tools/synth/random_posture.h"
+#include "tools/synth/stage.h"
 #include "tools/synth/worn.h"
 
 namespace ossa::tools {
@@ -83,6 +85,31 @@ TEST(RandomPosture, StandsBendsAndLies) {
   }
   EXPECT_GT(upright, 120);
   EXPECT_GT(lying, 80);
+}
+
+TEST(HangingClothes, StandOffFromTheWaistAndLeaveTheRestAsItWas) {
+  if (!recon::BodyIsFetched(recon::BodyFolder())) GTEST_SKIP() << "no body: tools/fetch_body";
+  const recon::BodyModel model = LoadFetchedBody();
+  const recon::Wardrobe wardrobe(model);
+  const recon::ShapedBody body = model.Shape({});
+  recon::Clothing fitting, hanging;
+  hanging.hang = 1.0;
+  const auto close = wardrobe.Dress(body, fitting), loose = wardrobe.Dress(body, hanging);
+  double out_m = 0;
+  int waist = 0;
+  for (size_t i = 0; i < close.size(); ++i) {
+    const uint8_t part = model.vertex_part()[i];
+    const bool torso = part >= 18 && part <= 21;
+    const double off_m =
+        std::hypot(loose[i].x(), loose[i].z()) - std::hypot(close[i].x(), close[i].z());
+    ASSERT_GE(off_m, -1e-5) << "cloth goes into nobody";
+    ASSERT_TRUE(torso || loose[i] == close[i]);
+    if (!torso || loose[i].y() < 0.95 || loose[i].y() > 1.1) continue;
+    out_m += off_m;
+    ++waist;
+  }
+  ASSERT_GT(waist, 100);
+  EXPECT_GT(out_m / waist, 0.005) << "a waist is narrower than chest and back";
 }
 
 }  // namespace
