@@ -37,12 +37,15 @@ std::vector<Detection> ClassifyEach(const Classifying& with, std::vector<Candida
 }
 
 // Whether the whole of two pieces is one person: it looks more like a person than either piece, or
-// about as much when one is above the other, and has one head.
+// about as much when one is above the other, and has one head. What looks like a second head is a
+// lifted hand where one of the pieces is no person, and the whole is one the more.
 bool IsOnePerson(const Detection& whole, const Detection& a, const Detection& b, bool stacked,
-                 const ClassificationOptions& options) {
-  const double best =
-      std::max(a.evidence.score, b.evidence.score) - (stacked ? options.stacked_loss : 0.0);
-  return whole.evidence.score >= best && whole.evidence.heads_m.size() <= 1;
+                 const PeopleOptions& options) {
+  const auto [less, more] = std::minmax(a.evidence.score, b.evidence.score);
+  const double score = whole.evidence.score;
+  if (whole.evidence.heads_m.size() > 1)
+    return less < options.initiation.new_person && score >= more;
+  return score >= more - (stacked ? options.classification.stacked_loss : 0.0);
 }
 
 // Two pieces as one person, if that is what they are. People tracked for long are left as they are.
@@ -61,7 +64,7 @@ std::optional<Detection> TryAsOne(const Classifying& with, const Detection& a, c
   const Candidate& first = a_first ? a.candidate : b.candidate;
   const Candidate& second = a_first ? b.candidate : a.candidate;
   Detection whole = Classify(with, MergeCandidates(with.scene, with.frame, first, second));
-  if (!IsOnePerson(whole, a, b, stacked, options)) return {};
+  if (!IsOnePerson(whole, a, b, stacked, with.options)) return {};
   return whole;
 }
 
@@ -103,31 +106,33 @@ std::vector<Detection> CutAtHeads(const Classifying& with, const Detection& whol
   return pieces;
 }
 
-// Bones between the best proposals of neighbouring joints, as far as they hang together from the
-// trunk outwards and have about a body's lengths.
+// Bones between proposals of neighbouring joints, as far as they hang together from the trunk
+// outwards: of each joint the best proposal at about a bone's length from the one before.
 std::vector<Bone> ConnectBones(const JointTargets& targets, const ForestEvidence& evidence,
                                double max_bone) {
   using recon::Joint;
   const recon::BoneLengths average_m =
       recon::MeasureBoneLengths(recon::StandardPosture(recon::RigPose{}));
-  recon::JointArray<const forest::Proposal*> best{};
-  for (size_t j = 0; j < recon::kJointCount; ++j) {
-    const auto& modes = evidence.proposals.at(static_cast<size_t>(targets[j]));
-    best[j] = modes.empty() ? nullptr : &modes.front();
-  }
-  recon::JointArray<bool> reached{};
+  const auto modes_of = [&](size_t j) -> const std::vector<forest::Proposal>& {
+    return evidence.proposals.at(static_cast<size_t>(targets[j]));
+  };
+  recon::JointArray<const forest::Proposal*> reached{};
   std::vector<Bone> bones;
   const auto reach = [&](size_t from, size_t to, size_t bone) {
-    if (best[from] == nullptr || best[to] == nullptr) return;
-    if ((best[from]->position_m - best[to]->position_m).norm() > max_bone * average_m[bone]) return;
-    reached[to] = true;
-    bones.push_back({best[from]->position_m.cast<float>(), best[to]->position_m.cast<float>()});
+    const Eigen::Vector3d& from_m = reached[from]->position_m;
+    for (const forest::Proposal& mode : modes_of(to)) {
+      if ((mode.position_m - from_m).norm() > max_bone * average_m[bone]) continue;
+      reached[to] = &mode;
+      bones.push_back({from_m.cast<float>(), mode.position_m.cast<float>()});
+      return;
+    }
   };
   // The shoulders' middle is the surest; from there down to the hips, and parents before children.
   constexpr auto kCentre = recon::Index(Joint::kShoulderCenter);
   constexpr auto kSpine = recon::Index(Joint::kSpine);
-  reached[kCentre] = best[kCentre] != nullptr;
-  if (reached[kCentre]) reach(kCentre, kSpine, kCentre);
+  if (modes_of(kCentre).empty()) return bones;
+  reached[kCentre] = &modes_of(kCentre).front();
+  reach(kCentre, kSpine, kCentre);
   if (reached[kSpine]) reach(kSpine, 0, kSpine);
   for (size_t j = kCentre + 1; j < recon::kJointCount; ++j) {
     const auto parent = recon::ParentOf(j);
