@@ -143,6 +143,15 @@ void AddSilhouette(const PosedSurface& posed, const SeenPerson& seen,
   }
 }
 
+double ComputeJointVariance_m2(const SurfaceFitInput& input, const SurfaceFitOptions& options,
+                               size_t joint) {
+  const double confidence = std::clamp(input.confidence[joint].value_or(0.0), 0.0, 1.0);
+  const double sigma_m = options.joint_m * (1.0 + options.doubt * (1.0 - confidence));
+  const double away_m = std::max(0.0, input.joints_m.position_m[joint].z());
+  const double size_m = options.footprint * away_m / input.depth->camera.fx;
+  return sigma_m * sigma_m + size_m * size_m;
+}
+
 void AddJoints(const PosedSurface& posed, const SurfaceFitInput& input,
                const SurfaceFitOptions& options, NormalEquations& equations) {
   for (size_t j = 0; j < kJointCount; ++j) {
@@ -150,15 +159,12 @@ void AddJoints(const PosedSurface& posed, const SurfaceFitInput& input,
     const size_t s = posed.surface().landmark_segment[j];
     const Eigen::Vector3d at_m = posed.LandmarkAt(j);
     const Eigen::Vector3d off_m = at_m - input.joints_m.position_m[j];
-    const double doubt = options.doubt * (1.0 - std::clamp(*input.confidence[j], 0.0, 1.0));
-    const double sigma_m = options.joint_m * (1.0 + doubt);
-    const double weight =
-        RobustWeight(off_m.squaredNorm(), options.joint_robust_m) / (sigma_m * sigma_m);
+    const double weight = RobustWeight(off_m.squaredNorm(), options.joint_robust_m) /
+                          ComputeJointVariance_m2(input, options, j);
     const ShapeBasis& by_shape_m = posed.surface().landmark[j].by_shape_m;
     for (int axis = 0; axis < 3; ++axis) {
-      FitRow row = RowOfPlace(posed, s, at_m, Eigen::Vector3d::Unit(axis), by_shape_m);
-      row.tail<kShapeCount>() *= options.joint_shapes;
-      equations.Add(s, row, off_m[axis], weight);
+      equations.Add(s, RowOfPlace(posed, s, at_m, Eigen::Vector3d::Unit(axis), by_shape_m),
+                    off_m[axis], weight);
     }
   }
 }

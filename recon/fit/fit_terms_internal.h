@@ -36,6 +36,10 @@ void AddPixels(const PosedSurface& posed, const FacingPoints& facing, const Seen
                const SurfaceFitOptions& options, NormalEquations& equations);
 void AddSilhouette(const PosedSurface& posed, const SeenPerson& seen,
                    const SurfaceFitOptions& options, NormalEquations& equations);
+/// How far off a joint that the fit starts from is expected to be, along each axis: by its
+/// confidence (none counts as 0) and by the size of a pixel there.
+double ComputeJointVariance_m2(const SurfaceFitInput& input, const SurfaceFitOptions& options,
+                               size_t joint);
 void AddJoints(const PosedSurface& posed, const SurfaceFitInput& input,
                const SurfaceFitOptions& options, NormalEquations& equations);
 /// After NormalEquations::Assemble.

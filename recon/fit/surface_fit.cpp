@@ -30,6 +30,8 @@ void CheckPositive(const char* name, double value) {
 }
 
 bool IsUsable(const SurfaceFitInput& input) {
+  const depth::Camera& camera = input.depth->camera;
+  if (!(camera.fx > 0.0 && camera.fy > 0.0 && std::isfinite(camera.cx + camera.cy))) return false;
   for (const Eigen::Vector3d& joint_m : input.joints_m.position_m) {
     if (!joint_m.allFinite()) return false;
   }
@@ -64,6 +66,10 @@ void SurfaceFitOptions::Check() const {
   CheckPositive("silhouette_robust_m", silhouette_robust_m);
   CheckPositive("joint_m", joint_m);
   CheckPositive("joint_robust_m", joint_robust_m);
+  if (!(fitted_m >= 0.0)) {
+    throw std::invalid_argument(
+        fmt::format("SurfaceFitOptions.fitted_m = {}, must not be negative", fitted_m));
+  }
   CheckPositive("retry_joint_m", retry_joint_m);
   CheckPositive("retry_robust_m", retry_robust_m);
   CheckPositive("most_pixels", static_cast<double>(most_pixels));
@@ -88,6 +94,7 @@ struct SurfaceFitter::Impl {
   void Iterate(const SurfaceFitInput& input, const SurfaceFitOptions& with, int times);
   void Retry(const SurfaceFitInput& input, SurfaceFit& fit);
   void Judge(SurfaceFit& fit);
+  Posture Blend(const SurfaceFitInput& input) const;
   double SeenThroughShare() const;
 };
 
@@ -181,6 +188,18 @@ void SurfaceFitter::Impl::Retry(const SurfaceFitInput& input, SurfaceFit& fit) {
   }
 }
 
+Posture SurfaceFitter::Impl::Blend(const SurfaceFitInput& input) const {
+  Posture blended = posed.Landmarks();
+  for (size_t j = 0; j < kJointCount; ++j) {
+    if (!input.confidence[j]) continue;
+    const double variance_m2 = ComputeJointVariance_m2(input, options, j);
+    const double share = variance_m2 / (variance_m2 + options.fitted_m * options.fitted_m);
+    const Eigen::Vector3d& start_m = input.joints_m.position_m[j];
+    blended.position_m[j] = start_m + share * (blended.position_m[j] - start_m);
+  }
+  return blended;
+}
+
 SurfaceFitter::SurfaceFitter(const BodySurface& surface, const SurfaceFitOptions& options) {
   options.Check();
   impl_ = std::make_unique<Impl>(surface, options);
@@ -201,6 +220,7 @@ std::optional<SurfaceFit> SurfaceFitter::Fit(const SurfaceFitInput& input) {
   m.Judge(fit);
   if (m.options.retry && fit.score < m.options.poor_score) m.Retry(input, fit);
   fit.joints_m = m.posed.Landmarks();
+  fit.blended_m = m.Blend(input);
   for (size_t s = 0; s < kSegmentCount; ++s) {
     fit.camera_from_segment[s] = Eigen::Quaterniond(m.posed.camera_from(s));
   }

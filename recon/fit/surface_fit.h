@@ -41,18 +41,20 @@ struct SurfaceFitOptions {
   double silhouette_m = 0.06;         // standard deviation, > 0
   double silhouette_robust_m = 0.12;  // > 0
   double no_reading_share = 0.3;      // weight where the sensor has no reading
-  bool free_space = true;
+  // Off: alone it says what other terms say already, and pulls limbs that the image blurs.
+  bool free_space = false;
   double free_space_share = 0.3;  // weight against the silhouette's
   double free_space_m = 0.04;     // a surface farther behind a point than this is seen through it
 
-  // Joints as proposed and refined.
-  double joint_m = 0.03;         // standard deviation of one of confidence 1, > 0
+  // Joints as proposed and refined. They are no surer than the image: `footprint` counts, too.
+  double joint_m = 0.02;         // standard deviation of one of confidence 1, > 0: what refined
+                                 // joints are off by on rendered people (docs/benchmarks)
   double doubt = 1.0;            // of one of confidence 0: 1 + doubt times that
   double joint_robust_m = 0.15;  // > 0
-  double joint_shapes = 0.6;     // share to which joints say what shape the person has
+  double fitted_m = 0.02;        // of a joint of the fitted body, for SurfaceFit::blended_m, >= 0
 
   double turn_weight = 1.0;    // a factor, of how people hold themselves
-  double shape_weight = 5.0;   // a factor, of the mean shape or what is known of the person's
+  double shape_weight = 1.0;   // a factor, of the mean shape or what is known of the person's
   double damping = 1e-3;       // of Levenberg and Marquardt, share of the diagonal
   double most_turn_rad = 0.6;  // of a joint in one iteration
 
@@ -88,7 +90,11 @@ struct SurfaceFitInput {
 /// The body whose surface explains the depth.
 struct SurfaceFit {
   SurfacePose pose;
-  Posture joints_m;                                                   // camera space
+  Posture joints_m;  // camera space
+  /// Mean of those and the joints that the fit started from, each by its variance: a fit knows
+  /// bones and surface, a detector of joints what no surface tells. Of joints of unknown confidence
+  /// the fit's.
+  Posture blended_m;
   std::array<Eigen::Quaterniond, kSegmentCount> camera_from_segment;  // from the rest pose's axes
   double stature_m = 0.0;
   /// Share of the person's pixels within 3 cm of the surface, along its normal.
@@ -114,7 +120,7 @@ class SurfaceFitter {
   SurfaceFitter(SurfaceFitter&&) noexcept;
   SurfaceFitter& operator=(SurfaceFitter&&) noexcept;
 
-  /// None where a joint is not finite or too few of the pixels have a reading. Throws
+  /// None where a joint or the camera is not finite or too few of the pixels have a reading. Throws
   /// std::invalid_argument where `parts` and `samples` differ in number or a pixel is not in the
   /// image.
   std::optional<SurfaceFit> Fit(const SurfaceFitInput& input);

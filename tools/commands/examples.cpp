@@ -73,7 +73,7 @@ constexpr CommandExamples kExamples[] = {
     {"surface",
      {{{"ossa surface --mocap authored --out body.ossasurface", "of the clips that ossa brings"},
        {"ossa surface --mocap authored --out b.ossasurface --points 400", "a coarser one"},
-       {"ossa track clip --out me.jsonl --fit on --surface body.ossasurface", "what it is for"}}}},
+       {"ossa track clip --out me.jsonl --surface body.ossasurface", "what it is for"}}}},
     {"train",
      {{{"ossa train data --out body.ossa", "a forest of a data set of ossa render"},
        {"ossa train data --out body.ossa --resume", "go on where it stopped"},

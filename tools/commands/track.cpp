@@ -44,7 +44,7 @@ using std::chrono::milliseconds;
 struct TrackOptions {
   SourceArguments source;
   std::string out, json_stats, picture, pictures, trace;
-  std::string smoothing, posture = "final", mode = "standing", fit = "off";
+  std::string smoothing, posture = "final", mode = "standing", fit;
   MechanicsOptions mechanics;
   BonesOption bones;
   WriteOptions write;
@@ -75,8 +75,8 @@ void AddTrackerOptions(CLI::App& app, TrackOptions& options) {
   app.add_option("--surface", files.surface,
                  ".ossasurface of 'ossa surface', for --fit (default: the shipped one)");
   app.add_option("--fit", options.fit,
-                 "on: fit the body's surface to the depth image, from the refined joints on "
-                 "(default off)")
+                 "fit the body's surface to the depth image, from the refined joints on: on or off "
+                 "(default: on where there are refined joints)")
       ->check(CLI::IsMember({"on", "off"}));
   app.add_option("--method", t.method, "how postures are completed (default best)")
       ->check(CLI::IsMember(recon::ReconstructionMethods()));
@@ -112,6 +112,21 @@ void NeedRefinement(tracker::ModelFiles& files) {
   }
   if (files.refinement.empty()) {
     files.refinement = tracker::ShippedFile(recon::kShippedRefinement).string();
+  }
+}
+
+// A fit that was asked for has a body, and joints to start from.
+void CheckFit(const TrackOptions& options) {
+  if (options.files.surface == "none") {
+    throw UsageError(
+        "--fit on: expected --surface FILE.ossasurface of 'ossa surface' with it, found none");
+  }
+  const std::string& refinement = options.files.refinement;
+  const bool is_shipped =
+      MethodInfoOf(options.tracker.method).refined && tracker::IsShippedForest(options.files);
+  if (refinement == "none" || (refinement.empty() && !is_shipped)) {
+    throw UsageError(
+        "--fit on: expected --refinement FILE.ossarefine of 'ossa refine' with it, found none");
   }
 }
 
@@ -190,11 +205,8 @@ TrackOptions ParseOptions(int argc, char** argv) {
   CheckOutputs({options.out, options.json_stats, options.picture, options.pictures, options.trace},
                {options.source.name});
   options.tracker.turn = TurnOf(options.source);
-  if (options.fit == "on" && options.files.surface == "none") {
-    throw UsageError(
-        "--fit on: expected --surface FILE.ossasurface of 'ossa surface' with it, found none");
-  }
-  if (options.fit == "on") options.tracker.fit = recon::SurfaceFitOptions{};
+  if (options.fit == "on") CheckFit(options);
+  if (options.fit == "off") options.tracker.fit.reset();
   options.tracker.physics = options.mechanics.on();
   options.tracker.mechanics = options.mechanics.build;
   if (!options.smoothing.empty()) {

@@ -41,9 +41,11 @@ std::optional<recon::SurfaceFit> FitSurface(const depth::DepthFrame& frame,
   const Labelled labelled = LabelledPixels(frame, detection);
   recon::SurfaceFitInput input;
   input.joints_m = body.refined ? *body.refined : body.raw.posture;
+  // Of joints that the forest does not find the refinement says where they are all the same.
   for (size_t j = 0; j < recon::kJointCount; ++j) {
-    if (body.raw.state[j] == recon::TrackingState::kNotTracked) continue;
-    input.confidence[j] = body.raw.confidence[j];
+    const bool found = body.raw.state[j] != recon::TrackingState::kNotTracked;
+    if (found) input.confidence[j] = body.raw.confidence[j];
+    if (!found && body.refined) input.confidence[j] = 0.0;
   }
   input.depth = &frame;
   input.pixels = detection.candidate.pixels;

@@ -94,14 +94,14 @@ recon::JointArray<JointEstimate> Estimates(const recon::Posture& posture,
 // off the truth and accelerations 1.48, 1.67, 1.80, 1.91 cm/frame^2, no character 5.87 and 3.33.
 constexpr double kFollowing_rad_s = 60.0;
 
-// What the method of reconstruction starts from: the joints that the latest stage says. A body's
-// fit says all of them, also of joints that are not seen.
+// What the method of reconstruction starts from: the joints that the latest stage says. With a
+// body's fit all of them are told, also joints that are not seen.
 recon::TrackedPosture Observed(const Body& body, bool refined) {
   constexpr double kOfFit = 0.3;  // confidence; by hand, that of a poor guess
   recon::TrackedPosture seen = body.raw;
   if (body.refined && refined) seen.posture = *body.refined;
   if (!body.fit) return seen;
-  seen.posture = body.fit->joints_m;
+  seen.posture = body.fit->blended_m;
   for (size_t j = 0; j < kJointCount; ++j) {
     if (seen.state[j] != TrackingState::kNotTracked) continue;
     seen.state[j] = TrackingState::kInferred;

@@ -111,7 +111,7 @@ struct Tracker::Impl {
     skeleton.targets = targets;
     skeleton.refinement = models.refinement.get();
     skeleton.surface = models.surface.get();
-    skeleton.fit = o.fit;
+    if (models.refinement && models.surface) skeleton.fit = o.fit;
     skeleton.mode = o.mode;
     skeleton.physics = o.physics;
     skeleton.mechanics = o.mechanics;
@@ -120,9 +120,6 @@ struct Tracker::Impl {
     skeleton.reconstructor = MethodOptions(o, models);
     recon::MakeReconstructor(skeleton.reconstructor);  // says now what is wrong with the options
     for (const auto& [id, lengths_m] : o.bones_m) MethodFor(id, skeleton);
-    if (o.fit && !models.surface) {
-      throw std::invalid_argument("TrackerOptions.models.surface = null, must be one for a fit");
-    }
     people_options.scene.max_depth_m = o.near_range ? 3.0F : 6.0F;
     people_options.initiation.max_users = o.max_users;
     people_options.threads = o.threads;

@@ -88,8 +88,8 @@ struct Body {
   /// Stage 2, the refinement cascade at the depth image: the raw joints moved; absent without one.
   std::optional<recon::Posture> refined;
   std::optional<recon::BoneLengths> refined_bones_m;  // as it judges them in this frame alone
-  /// Stage 3, the body whose surface explains the depth: with TrackerOptions::fit, where the image
-  /// shows enough of the person.
+  /// Stage 3, the body whose surface explains the depth: with TrackerOptions::fit, where there are
+  /// refined joints and the image shows enough of the person.
   std::optional<recon::SurfaceFit> fit;
   /// Stage 4, the method of reconstruction: made complete, plausible and steady.
   recon::Posture reconstructed;
@@ -144,8 +144,8 @@ struct TrackerOptions {
   std::optional<ModelSet> models;             // left out: ModelSet::Shipped(method)
   bool physics = false;                       // let the mechanical character follow the posture
   /// Fit the body's surface to the depth image, from the refined joints on, and let the method
-  /// start from the fitted body's joints. Left out: no fit.
-  std::optional<recon::SurfaceFitOptions> fit;
+  /// start from both. Nothing, or models without a refinement or a surface: no fit.
+  std::optional<recon::SurfaceFitOptions> fit = recon::SurfaceFitOptions{};
   MechanicsBuild mechanics;                        // how that is built
   recon::LocalPcaOptions local_pca;                // of shum-2013 and plantard-2016
   recon::GaussianProcessOptions gaussian_process;  // of liu-2016 and full-gp

@@ -40,6 +40,31 @@ TEST(SurfaceFit, OfAJointThatNothingIsKnownOfIsWhereTheSurfaceIs) {
   EXPECT_LT((fit->joints_m[Joint::kHandLeft] - seen.joints_m[Joint::kHandLeft]).norm(), 0.08);
 }
 
+TEST(SurfaceFit, BlendsMoreOfTheStartTheSurerThatIs) {
+  const SeenSurface seen(RandomPose(3));
+  const Posture start_m = Disturbed(seen.joints_m, 0.05, 3);
+  SurfaceFitInput sure = seen.Input(start_m), unsure = sure;
+  sure.confidence.fill(1.0);
+  unsure.confidence.fill(0.0);
+  unsure.confidence[Joint::kHead].reset();
+  SurfaceFitter fitter(Surface());
+  const auto of_sure = fitter.Fit(sure), of_unsure = fitter.Fit(unsure);
+  ASSERT_TRUE(of_sure && of_unsure);
+  const auto share = [&](const SurfaceFit& fit, size_t j) {
+    return (fit.blended_m.position_m[j] - fit.joints_m.position_m[j]).norm() /
+           (start_m.position_m[j] - fit.joints_m.position_m[j]).norm();
+  };
+  for (size_t j = 0; j < kJointCount; ++j) EXPECT_GT(share(*of_sure, j), share(*of_unsure, j)) << j;
+  EXPECT_EQ(of_unsure->blended_m[Joint::kHead], of_unsure->joints_m[Joint::kHead]);
+}
+
+TEST(SurfaceFit, IsNoneWhereTheCameraIsNotFinite) {
+  SeenSurface seen(RandomPose(1));
+  seen.frame.camera.fx = std::nan("");
+  SurfaceFitter fitter(Surface());
+  EXPECT_FALSE(fitter.Fit(seen.Input(seen.joints_m)));
+}
+
 TEST(SurfaceFit, IsTheSameWhateverWasFittedBefore) {
   const SeenSurface first(RandomPose(1)), second(RandomPose(2));
   SurfaceFitter fresh(Surface()), used(Surface());

@@ -15,7 +15,6 @@ BodyFrame LastOf(const TrackerOptions& options, const std::vector<tests::Capsule
 
 TrackerOptions Fitting(int threads = 1) {
   TrackerOptions options;
-  options.fit = recon::SurfaceFitOptions{};
   options.threads = threads;
   return options;
 }
@@ -29,9 +28,11 @@ TEST(TrackedSurface, StandsBesideTheOtherStagesAndExplainsThePerson) {
   EXPECT_GT(seen.ms.fit, 0.0);
 }
 
-TEST(TrackedSurface, IsNoneUnlessAskedFor) {
+TEST(TrackedSurface, IsNoneWhereItIsSwitchedOff) {
   OSSA_NEEDS_MODEL();
-  const BodyFrame seen = LastOf({}, {PersonAt(0, 2.5)});
+  TrackerOptions options;
+  options.fit.reset();
+  const BodyFrame seen = LastOf(options, {PersonAt(0, 2.5)});
   ASSERT_EQ(seen.bodies.size(), 1U);
   EXPECT_FALSE(seen.bodies[0].fit);
 }
@@ -49,13 +50,16 @@ TEST(TrackedSurface, IsTheSameOnAnyNumberOfThreads) {
   }
 }
 
-TEST(TrackedSurface, NeedsABody) {
+TEST(TrackedSurface, IsNoneWithoutABodyOrRefinedJoints) {
   OSSA_NEEDS_MODEL();
-  ModelFiles files;
-  files.surface = "none";
-  TrackerOptions options = OptionsWith(files);
-  options.fit = recon::SurfaceFitOptions{};
-  EXPECT_THROW(Tracker{options}, std::invalid_argument);
+  ModelFiles bodiless, unrefined;
+  bodiless.surface = "none";
+  unrefined.refinement = "none";
+  for (const ModelFiles& files : {bodiless, unrefined}) {
+    const BodyFrame seen = LastOf(OptionsWith(files), {PersonAt(0, 2.5)});
+    ASSERT_EQ(seen.bodies.size(), 1U);
+    EXPECT_FALSE(seen.bodies[0].fit);
+  }
 }
 
 }  // namespace

@@ -188,7 +188,7 @@ std::vector<Table> RunReal(ExperimentContext& context) {
   options.models = tracker::ModelSet::Load(files, options.method);
   options.threads = context.threads;
   options.lag = context.parameters.Integer("lag", 0, 0, 2);
-  if (context.parameters.Flag("fit", false)) options.fit = recon::SurfaceFitOptions{};
+  if (!context.parameters.Flag("fit", true)) options.fit.reset();
   const auto sets = ReadRealSets(context.shared, most);
   const auto videos = ReadRealVideos(context.shared, most);
   if (sets.empty() && videos.empty()) {
