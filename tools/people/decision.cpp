@@ -39,6 +39,8 @@ constexpr std::array<RuleEntry, static_cast<size_t>(Rule::kCount)> kRules = {{
     {Rule::kPieceLowScore, "piece_low_score", Outcome::kRejected,
      "a piece cut off around another head, and the score is too low"},
     {Rule::kUserLimit, "user_limit", Outcome::kRejected, "more people than are followed at a time"},
+    {Rule::kUnlikeABody, "unlike_a_body", Outcome::kRejected,
+     "accepted at the first look, but no body's surface explains what is seen of it"},
     {Rule::kTrackContinued, "track_continued", Outcome::kConfirmed,
      "it was a person a moment ago, and the mean score is high enough"},
     {Rule::kFreshScene, "fresh_scene", Outcome::kConfirmed,

@@ -25,6 +25,7 @@ enum class Rule {
   kTrackLowScore,
   kPieceLowScore,
   kUserLimit,
+  kUnlikeABody,
   // A person.
   kTrackContinued,
   kFreshScene,

@@ -1,5 +1,6 @@
 #include "tools/people/detect_people.h"
 
+#include <algorithm>
 #include <chrono>
 
 #include "tools/people/classify_candidates.h"
@@ -105,6 +106,24 @@ PeopleInFrame DetectPeople(const DepthFrame& frame, const PersonClassifier& clas
   result.decisions.tracks = SummarizeTracks(tracks, time_s);
   ShareOutTime(MillisecondsSince(start), look_ms, result);
   return result;
+}
+
+bool IsDoubtfulAtFirst(const Detection& detection, const InitiationOptions& options) {
+  const Rule rule = detection.decision.rule;
+  const bool first = rule == Rule::kFreshScene || rule == Rule::kPieceWithHead;
+  return first && detection.age <= 1 && detection.score < options.sure_person;
+}
+
+void Withdraw(int id, PeopleState& state, depth::Image<uint8_t>& users, FrameDecisions& decisions) {
+  const auto is_theirs = [id](const auto& entry) { return entry.id == id; };
+  std::erase_if(state.tracks.tracks, is_theirs);
+  std::erase_if(decisions.tracks, is_theirs);
+  for (Decision& decision : decisions.candidates) {
+    if (decision.track != id) continue;
+    decision.rule = Rule::kUnlikeABody;
+    decision.track = 0;
+  }
+  std::replace(users.data.begin(), users.data.end(), static_cast<uint8_t>(id), uint8_t{0});
 }
 
 }  // namespace ossa::people

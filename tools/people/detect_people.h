@@ -38,4 +38,10 @@ struct PeopleInFrame {
 PeopleInFrame DetectPeople(const DepthFrame& frame, const PersonClassifier& classifier,
                            PeopleState& state, const PeopleOptions& options = {});
 
+/// Whether a person accepted at the first look is to be held against a body's surface.
+bool IsDoubtfulAtFirst(const Detection& detection, const InitiationOptions& options);
+
+/// Takes back that somebody accepted in this frame is a person: they have no track, no pixels.
+void Withdraw(int id, PeopleState& state, depth::Image<uint8_t>& users, FrameDecisions& decisions);
+
 }  // namespace ossa::people

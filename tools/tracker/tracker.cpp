@@ -135,6 +135,7 @@ struct Tracker::Impl {
   void LookUpright(const depth::DepthFrame& frame);
   void ForgetAll();
   Body MakeBody(const depth::DepthFrame& frame, const people::Person& person) const;
+  void WithdrawUnlikeBodies(const std::vector<people::Person>& seen, BodyFrame& result);
   std::vector<Person*> RememberPersons(const std::vector<Body>& bodies, double time_s);
   void Introduce(int id, Person& person) const;
 };
@@ -202,6 +203,26 @@ std::vector<Person*> Tracker::Impl::RememberPersons(const std::vector<Body>& bod
   return in_view;
 }
 
+// A second opinion on who was accepted at the first look: furniture may look like a person once,
+// but no body's surface explains it. `seen` and result.bodies are of the same order.
+void Tracker::Impl::WithdrawUnlikeBodies(const std::vector<people::Person>& seen,
+                                         BodyFrame& result) {
+  const people::InitiationOptions& initiation = people_options.initiation;
+  for (size_t i = seen.size(); i-- > 0;) {
+    const Body& body = result.bodies[i];
+    if (!body.fit || body.fit->score >= initiation.least_body ||
+        !people::IsDoubtfulAtFirst(seen[i].detection, initiation)) {
+      continue;
+    }
+    for (size_t p = 0; p < result.parts.data.size(); ++p) {
+      if (result.users.data[p] == body.id) result.parts.data[p] = 0;
+    }
+    people::Withdraw(body.id, people_state, result.users, result.decisions);
+    persons.erase(body.id);
+    result.bodies.erase(result.bodies.begin() + static_cast<std::ptrdiff_t>(i));
+  }
+}
+
 BodyFrame Tracker::Impl::Track(const depth::DepthFrame& frame) {
   const Stopwatch watch;
   BodyFrame result;
@@ -232,6 +253,7 @@ BodyFrame Tracker::Impl::Track(const depth::DepthFrame& frame) {
         people::LabelParts(model, frame, detection.candidate, detection.evidence, result.parts);
     if (options.keep_probabilities) AddProbabilities(classes, result.probabilities);
   });
+  WithdrawUnlikeBodies(seen.people, result);
   result.ms.segment = seen.segment_ms;
   result.ms.classify = seen.classify_ms;
   result.ms.propose = seen.propose_ms;

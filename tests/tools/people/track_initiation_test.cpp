@@ -4,6 +4,7 @@
 
 #include <cmath>
 
+#include "tools/people/detect_people.h"
 #include "tools/people/track_initiation.h"
 
 namespace ossa::people {
@@ -188,6 +189,40 @@ TEST(SelectCandidates, TheLargestAreClassifiedWhereThereAreTooMany) {
   EXPECT_EQ(selected[0].region.cells, large.region.cells);
   ASSERT_EQ(decided.size(), 1U);
   EXPECT_EQ(decided[0].rule, Rule::kCandidateLimit);
+}
+
+TEST_F(NewPerson, IsHeldAgainstABodyWhereOneLookLeavesDoubt) {
+  std::vector<TentativeTrack> tentative;
+  const auto is_doubtful = [&](const Look& look, bool fresh) {
+    Detection detection = Detect(look);
+    DecidePerson(fresh, 0.0, options_, tentative, detection);
+    return IsDoubtfulAtFirst(detection, options_);
+  };
+  EXPECT_TRUE(is_doubtful(Look{0.7}, true));
+  EXPECT_FALSE(is_doubtful(Look{0.97}, true));
+  EXPECT_FALSE(is_doubtful(Look{0.7, 0, 1.0}, false));  // it entered a known room
+}
+
+TEST(Withdrawal, LeavesNoTrackAndNoPixels) {
+  PeopleState state;
+  state.tracks.tracks.resize(2);
+  state.tracks.tracks[0].id = 1;
+  state.tracks.tracks[1].id = 2;
+  depth::Image<uint8_t> users(3, 1);
+  users.data = {1, 2, 0};
+  FrameDecisions decisions;
+  decisions.candidates.resize(1);
+  decisions.candidates[0].track = 2;
+  decisions.tracks.resize(2);
+  decisions.tracks[0].id = 1;
+  decisions.tracks[1].id = 2;
+  Withdraw(2, state, users, decisions);
+  ASSERT_EQ(state.tracks.tracks.size(), 1U);
+  EXPECT_EQ(state.tracks.tracks[0].id, 1);
+  EXPECT_EQ(users.data, (std::vector<uint8_t>{1, 0, 0}));
+  EXPECT_EQ(decisions.candidates[0].rule, Rule::kUnlikeABody);
+  EXPECT_EQ(decisions.candidates[0].track, 0);
+  EXPECT_EQ(decisions.tracks.size(), 1U);
 }
 
 }  // namespace
