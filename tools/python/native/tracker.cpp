@@ -53,7 +53,7 @@ tracker::TrackerOptions OptionsFrom(const py::dict& given) {
   const auto flag = [&](const char* key) { return given[key].cast<bool>(); };
   options.method = given["method"].cast<std::string>();
   options.physics = flag("physics");
-  if (flag("fit")) options.fit = recon::SurfaceFitOptions{};
+  if (!flag("fit")) options.fit.reset();
   options.mechanics = ReadMechanics(given["mechanics"].cast<py::dict>());
   const MethodOptions of_method = ReadMethodOptions(given["method_options"].cast<py::dict>());
   options.local_pca = of_method.local_pca;

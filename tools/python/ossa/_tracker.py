@@ -115,7 +115,7 @@ class Mesh:
 
 @dataclasses.dataclass(frozen=True, repr=False)
 class Fit:
-    """A body whose surface explains the depth image, with Tracker(fit=True).
+    """A body whose surface explains the depth image, unless Tracker(fit=False).
 
     Attributes
     ----------
@@ -197,7 +197,7 @@ class Body:
     proposals : tuple of 20 Proposals, or None
         With Tracker(proposals=True).
     fit : Fit or None
-        The body fitted to the depth image, with Tracker(fit=True) where enough of the person shows.
+        The body fitted to the depth image, unless Tracker(fit=False), where enough of the person shows.
     mesh : Mesh or None
         Its skin.
     """
@@ -468,8 +468,8 @@ class Tracker:
         Fill Frame.parts; Frame.probabilities; Body.proposals. They cost time and memory
         (probabilities 128 bytes a pixel).
     fit : bool
-        Fit a body's surface to the depth image, from the refined joints on (Body.fit, Body.mesh);
-        the method starts from the fitted body's joints. The shipped body.
+        Fit the shipped body's surface to the depth image where there are refined joints (Body.fit,
+        Body.mesh), as `ossa track` does; the method starts from what it and they say.
     refinement, learned, prior, database : path or "none", optional
         Other models' files, as of ossa.Models.
     models : ossa.Models, optional
@@ -514,7 +514,7 @@ class Tracker:
         parts: bool = False,
         probabilities: bool = False,
         proposals: bool = False,
-        fit: bool = False,
+        fit: bool = True,
         refinement: Optional[PathLike] = None,
         learned: Optional[PathLike] = None,
         prior: Optional[PathLike] = None,
@@ -594,8 +594,23 @@ class Tracker:
         camera: Camera,
         time_s: Optional[float] = None,
     ) -> Optional[Frame]:
-        """As track, with the tracker's `lag`: the frame so many images before, its joints smoothed
-        by what came after. None until so many came."""
+        """As track, later and steadier: the frame as many images before as the tracker's `lag`
+        says, its joints smoothed by what came after.
+
+        Parameters
+        ----------
+        depth_mm : uint16 [H, W]
+            As of track.
+        camera : ossa.Camera
+            What it was taken by.
+        time_s : float, optional
+            As of track.
+
+        Returns
+        -------
+        Frame or None
+            None until so many images came; take_held gives the last ones.
+        """
         made = self._native.track_late(*self._checked(depth_mm, camera, time_s))
         return None if made is None else _frame_from(made, self._faces)
 
