@@ -37,7 +37,9 @@ void MeasureByDistance(recon::RefinementCascade* look) {
   look->bones.layers[0].weight.bottomRows(1).setConstant(5.0F);
 }
 
-Body Tracked(const TrackerOptions& options) {
+// By the cascade alone, without the body's surface.
+Body Tracked(TrackerOptions options) {
+  options.fit.reset();
   Tracker tracker(options);
   BodyFrame result;
   for (int i = 0; i < 15; ++i) result = tracker.Track(Rendered({PersonAt(0, 2.5)}, i).frame);
