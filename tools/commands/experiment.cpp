@@ -66,9 +66,10 @@ int Experiment(int argc, char** argv) {
   tools::ExperimentContext context;
   bool quiet = false;
   app.add_option("NAME", name, "which study")->required();
-  app.add_option("--out", context.out,
-                 "folder for index.html (tables and plots), TABLE.md, summary.json, figures and the "
-                 "cache that lets it resume")
+  app.add_option(
+         "--out", context.out,
+         "folder for index.html (tables and plots), TABLE.md, summary.json, figures and the "
+         "cache that lets it resume")
       ->required();
   app.add_option("--shared", context.shared, "folder of real recordings (real/, mocap/, papers/)");
   app.add_option("--parameters", parameters, "TOML file of the study's parameters");
