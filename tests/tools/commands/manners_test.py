@@ -100,7 +100,7 @@ class Colours(unittest.TestCase):
 class TimeLeft(unittest.TestCase):
     def test_is_said_while_work_goes_on(self):
         with tempfile.TemporaryDirectory() as folder:
-            said = said_on_a_terminal(["database", *["--mocap", "authored"] * 3, "--out", folder + "/a.ossadb"])
+            said = said_on_a_terminal(["database", *["--mocap", "authored"] * 5, "--out", folder + "/a.ossadb"])
         self.assertRegex(said, r"\d:\d\d left")
 
 
