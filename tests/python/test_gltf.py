@@ -3,6 +3,7 @@ Khronos' validator (npm), Blender (PyPI's bpy; skipped where it was not installe
 
 import json
 import os
+import pickle
 import shutil
 import subprocess
 import sys
@@ -136,6 +137,13 @@ def test_a_fitted_body_has_its_mesh_in_python(images, models):
     assert body.fit.shape.shape == (10,) and body.fit.residuals_m.shape == (len(ossa.SEGMENTS),)
     assert body.fit.joints.shape == (20, 3) and body.fit.orientations.shape == (18, 4)
     assert np.abs(body.fit.joints - body.joints).max() < 0.15
+
+
+def test_a_fit_keeps_its_mesh_when_it_is_pickled(images, models):
+    fit = ossa.Tracker(models=models).track(*images[0]).bodies[0].fit
+    again = pickle.loads(pickle.dumps(fit))
+    assert (again.mesh.vertices == fit.mesh.vertices).all() and again.mesh.faces.any()
+    assert fit.mesh is fit.mesh
 
 
 def test_without_a_fit_there_is_no_mesh(images, models):

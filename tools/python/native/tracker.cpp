@@ -109,18 +109,25 @@ recon::JointArray<double> ConfidenceOf(const Body& body) {
   return confidence;
 }
 
-py::dict ToDict(const recon::SurfaceFit& fit, const recon::BodyMesh& mesh) {
+using MeshPointer = std::shared_ptr<const recon::BodyMesh>;
+
+py::array VerticesOf(const recon::BodyMesh& mesh, const recon::SurfacePose& pose) {
+  std::vector<double> vertices_m;
+  for (const Eigen::Vector3d& place_m : recon::PoseMesh(mesh, pose)) {
+    vertices_m.insert(vertices_m.end(), place_m.begin(), place_m.end());
+  }
+  const auto count = static_cast<py::ssize_t>(vertices_m.size() / 3);
+  return python::ToArray(std::move(vertices_m), {count, 3});
+}
+
+py::dict ToDict(const recon::SurfaceFit& fit, const MeshPointer& mesh) {
   constexpr py::ssize_t kSegments = recon::kSegmentCount;
-  std::vector<double> turns, residuals_m, vertices_m;
+  std::vector<double> turns, residuals_m;
   for (const Eigen::Quaterniond& q : fit.camera_from_segment) {
     turns.insert(turns.end(), {q.w(), q.x(), q.y(), q.z()});
   }
   for (const auto& residual_m : fit.residual_m) {
     residuals_m.push_back(residual_m.value_or(std::numeric_limits<double>::quiet_NaN()));
-  }
-  const std::vector<Eigen::Vector3d> places_m = recon::PoseMesh(mesh, fit.pose);
-  for (const Eigen::Vector3d& place : places_m) {
-    vertices_m.insert(vertices_m.end(), place.begin(), place.end());
   }
   const auto& shape = fit.pose.shape;
   py::dict made;
@@ -133,8 +140,8 @@ py::dict ToDict(const recon::SurfaceFit& fit, const recon::BodyMesh& mesh) {
   made["median_residual_m"] = fit.median_residual_m;
   made["residuals_m"] = python::ToArray(std::move(residuals_m), {kSegments});
   made["orientations"] = python::ToArray(std::move(turns), {kSegments, 4});
-  made["vertices"] =
-      python::ToArray(std::move(vertices_m), {static_cast<py::ssize_t>(places_m.size()), 3});
+  // The skin of a body is posed for who asks for it.
+  made["_vertices"] = py::cpp_function([mesh, pose = fit.pose] { return VerticesOf(*mesh, pose); });
   return made;
 }
 
@@ -173,7 +180,7 @@ void AddSkeleton(const Body& body, bool with_proposals, py::dict& made) {
   made["proposals"] = proposals;
 }
 
-py::dict ToDict(const Body& body, bool with_proposals, const recon::BodyMesh* mesh) {
+py::dict ToDict(const Body& body, bool with_proposals, const MeshPointer& mesh) {
   py::dict made;
   made["id"] = body.id;
   made["tracked"] = body.state == tracker::BodyState::kTracked;
@@ -182,7 +189,7 @@ py::dict ToDict(const Body& body, bool with_proposals, const recon::BodyMesh* me
   made["clipped_edges"] = body.clipped_edges;
   made["person_score"] = body.person_score;
   if (body.state == tracker::BodyState::kTracked) AddSkeleton(body, with_proposals, made);
-  if (body.fit && mesh != nullptr) made["fit"] = ToDict(*body.fit, *mesh);
+  if (body.fit && mesh) made["fit"] = ToDict(*body.fit, mesh);
   return made;
 }
 
@@ -203,7 +210,7 @@ py::dict ToDict(const tracker::StageTimes& ms) {
   return made;
 }
 
-py::dict ToDict(BodyFrame frame, bool with_proposals, const recon::BodyMesh* mesh) {
+py::dict ToDict(BodyFrame frame, bool with_proposals, const MeshPointer& mesh) {
   py::dict made;
   py::list bodies;
   for (const Body& body : frame.bodies) bodies.append(ToDict(body, with_proposals, mesh));
@@ -240,7 +247,7 @@ class Tracker {
   py::dict Track(const py::array& depth_mm, const py::tuple& camera, double time_s, int turn) {
     BodyFrame bodies;
     WithFrame(depth_mm, camera, time_s, turn, [&] { bodies = tracker_->Track(frame_); });
-    return ToDict(std::move(bodies), with_proposals_, mesh_.get());
+    return ToDict(std::move(bodies), with_proposals_, mesh_);
   }
 
   /// Of the mesh; none without a fit.
@@ -298,7 +305,7 @@ class Tracker {
  private:
   py::object OrNone(std::optional<BodyFrame> bodies) const {
     if (!bodies) return py::none();
-    return ToDict(std::move(*bodies), with_proposals_, mesh_.get());
+    return ToDict(std::move(*bodies), with_proposals_, mesh_);
   }
 
   /// Makes the image frame_ and does `track` with it.

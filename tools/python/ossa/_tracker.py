@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import dataclasses
-from typing import TYPE_CHECKING, Any, Iterator, Mapping, Optional, Sequence, Union
+from typing import TYPE_CHECKING, Any, Callable, Iterator, Mapping, Optional, Sequence, Union
 
 import numpy as np
 import numpy.typing as npt
@@ -148,7 +148,21 @@ class Fit:
     median_residual_m: float
     residuals_m: Floats
     orientations: Floats
-    mesh: Mesh
+    _vertices: Optional[Callable[[], Floats]]  # poses the skin; None once that is done
+    _faces: npt.NDArray[np.int32]
+    _mesh: Optional[Mesh] = None
+
+    @property
+    def mesh(self) -> Mesh:
+        """Its skin, posed when it is first asked for."""
+        if self._mesh is None:
+            assert self._vertices is not None
+            object.__setattr__(self, "_mesh", Mesh(self._vertices(), self._faces.copy()))
+        assert self._mesh is not None
+        return self._mesh
+
+    def __getstate__(self) -> dict[str, Any]:
+        return {**self.__dict__, "_mesh": self.mesh, "_vertices": None}
 
     def __repr__(self) -> str:
         return f"<ossa.Fit: {self.stature_m:.2f} m tall, {self.explained:.0%} explained>"
@@ -298,7 +312,7 @@ class Frame:
 def _fit_from(made: Optional[dict[str, Any]], faces: Any) -> Optional[Fit]:
     if made is None:
         return None
-    return Fit(mesh=Mesh(made.pop("vertices"), faces.copy()), **made)
+    return Fit(**made, _faces=faces)
 
 
 def _body_from(made: dict[str, Any], faces: Any) -> Body:
