@@ -25,6 +25,7 @@ help(ossa.Tracker) and so on tell every argument.
 
 from ._camera import Camera
 from ._forest import Forest
+from ._frames import Body, Fit, Frame, Mesh, Proposals
 from ._judge import Comparison, compare, evaluate, learn
 from ._names import (
     CAMERA_PRESETS,
@@ -42,7 +43,7 @@ from ._native import InputError
 from ._native import version as __version__
 from ._sequences import Sequence, read_recordings, read_skeletons, reconstruct, write_skeletons
 from ._sources import DepthImage, Source, open
-from ._tracker import Body, Fit, Frame, Holt, Mesh, Models, OneEuro, Proposals, Tracker
+from ._tracker import Holt, Models, OneEuro, Tracker
 
 __all__ = [
     "Body",

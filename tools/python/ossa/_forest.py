@@ -11,7 +11,7 @@ import numpy.typing as npt
 from . import _check, _native
 from ._camera import Camera, native_camera
 from ._sources import PathLike
-from ._tracker import Proposals, proposals_from
+from ._frames import Proposals, proposals_from
 
 
 def _mask_option(mask: Any) -> Any:

@@ -10,7 +10,8 @@ import numpy.typing as npt
 from . import _check, _method_options, _native
 from ._names import METHODS, SKELETON_FORMATS, STATES
 from ._sources import PathLike
-from ._tracker import Body, Frame, mechanics_option
+from ._frames import Body, Frame
+from ._tracker import mechanics_option
 
 if TYPE_CHECKING:
     from typing_extensions import Unpack

@@ -3,25 +3,22 @@
 from __future__ import annotations
 
 import dataclasses
-from typing import TYPE_CHECKING, Any, Callable, Iterator, Mapping, Optional, Sequence, Union
+from typing import TYPE_CHECKING, Any, Iterator, Mapping, Optional, Sequence, Union
 
 import numpy as np
 import numpy.typing as npt
 
 from . import _check, _method_options, _native
 from ._camera import ROTATIONS, Camera, native_camera
-from ._names import JOINTS, METHODS, SMOOTHINGS, STATES, Joint
+from ._frames import Frame, frame_from
+from ._names import METHODS, SMOOTHINGS
 from ._sources import PathLike, Source
 from ._sources import open as open_source
 
 if TYPE_CHECKING:
     from typing_extensions import Unpack
 
-Floats = npt.NDArray[np.float64]
-
-_STATES = np.array(STATES)
 _STEP_S = 1.0 / 30.0  # between frames that say no time
-_EDGES = {"right": 1, "left": 2, "top": 4, "bottom": 8}
 
 
 @dataclasses.dataclass(frozen=True)
@@ -65,301 +62,6 @@ class OneEuro:
 
 
 Smoothing = Union[str, Holt, OneEuro, None]
-
-
-@dataclasses.dataclass(frozen=True)
-class Proposals:
-    """Where one joint may be, as the forest sees it: the modes of its density estimate, best first.
-
-    Attributes
-    ----------
-    positions : float64 [n, 3]
-        Camera space, metres, inside the body.
-    confidence : float64 [n]
-        In [0, 1].
-    seen : bool [n]
-        False: no surface of its own voted; inferred from the other joints.
-    """
-
-    positions: Floats
-    confidence: Floats
-    seen: npt.NDArray[np.bool_]
-
-    def __len__(self) -> int:
-        return len(self.positions)
-
-
-def proposals_from(rows: Floats) -> Proposals:
-    """Of the extension's float64 [n, 5]."""
-    return Proposals(rows[:, :3].copy(), rows[:, 3].copy(), rows[:, 4] > 0.5)
-
-
-@dataclasses.dataclass(frozen=True, repr=False)
-class Mesh:
-    """The skin of a fitted body as triangles.
-
-    Attributes
-    ----------
-    vertices : float64 [V, 3]
-        Camera space, metres.
-    faces : int32 [F, 3]
-        Vertices of each triangle, counter-clockwise from outside; the same of all bodies.
-    """
-
-    vertices: Floats
-    faces: npt.NDArray[np.int32]
-
-    def __repr__(self) -> str:
-        return f"<ossa.Mesh: {len(self.vertices)} vertices, {len(self.faces)} faces>"
-
-
-@dataclasses.dataclass(frozen=True, repr=False)
-class Fit:
-    """A body whose surface explains the depth image, unless Tracker(fit=False).
-
-    Attributes
-    ----------
-    joints : float64 [20, 3]
-        The joints of that body, camera space, metres.
-    shape : float64 [10]
-        Components of what the person is like and wears, standard deviations from the mean body.
-    stature_m : float
-        Body height, metres, by the shape of this frame alone.
-    explained : float
-        Share of the person's pixels within 3 cm of the surface, [0, 1].
-    score : float
-        The same less the share of the surface through which the camera sees; 1 is perfect.
-    median_residual_m : float
-        Of the pixels' distances from the surface, metres.
-    residuals_m : float64 [18]
-        Root mean square distance of each segment's pixels (ossa.SEGMENTS), metres; NaN without.
-    orientations : float64 [18, 4]
-        Quaternions w x y z, camera from segment: how each is turned from a body that stands facing
-        +z with its left at +x.
-    mesh : Mesh
-        Its skin.
-    """
-
-    joints: Floats
-    shape: Floats
-    stature_m: float
-    explained: float
-    score: float
-    median_residual_m: float
-    residuals_m: Floats
-    orientations: Floats
-    _vertices: Optional[Callable[[], Floats]]  # poses the skin; None once that is done
-    _faces: npt.NDArray[np.int32]
-    _mesh: Optional[Mesh] = None
-
-    @property
-    def mesh(self) -> Mesh:
-        """Its skin, posed when it is first asked for."""
-        if self._mesh is None:
-            assert self._vertices is not None
-            object.__setattr__(self, "_mesh", Mesh(self._vertices(), self._faces.copy()))
-        assert self._mesh is not None
-        return self._mesh
-
-    def __getstate__(self) -> dict[str, Any]:
-        return {**self.__dict__, "_mesh": self.mesh, "_vertices": None}
-
-    def __repr__(self) -> str:
-        return f"<ossa.Fit: {self.stature_m:.2f} m tall, {self.explained:.0%} explained>"
-
-
-@dataclasses.dataclass(frozen=True, repr=False)
-class Body:
-    """One person in a Frame. Index j of an array of joints is ossa.JOINTS[j]; body["Head"] is the
-    position of that joint. Positions are of camera space, metres.
-
-    Attributes
-    ----------
-    id : int
-        The same from frame to frame for as long as the person is followed, from 1.
-    tracked : bool
-        False: only `position` is known (see Tracker.choose_users); joints are NaN, not_tracked.
-    position : float64 [3]
-        Middle of the person's visible surface.
-    joints : float64 [20, 3]
-        The skeleton.
-    states : str [20]
-        "tracked" (seen in the image), "inferred" (guessed from what is seen around it) or
-        "not_tracked" (the position is what is plausible for the rest of the body).
-    confidence : float64 [20]
-        The forest's own trust in what it saw, [0, 1].
-    reliability : float64 [20]
-        R_i of Shum 2013, eq. 8: does it move and measure as a joint? [0, 1]
-    orientations : float64 [20, 4]
-        Quaternions w x y z, camera from bone: the bone that ends in the joint has its y axis along
-        the way from its parent (the SDK's absolute orientations).
-    hierarchical_orientations : float64 [20, 4]
-        The same, each bone's turn against its parent's.
-    raw : float64 [20, 3]
-        What the forest alone found, in this image alone.
-    refined : float64 [20, 3] or None
-        The raw joints moved by the refinement at the depth image, where there is one.
-    reconstructed : float64 [20, 3]
-        What the method of reconstruction made of them, before physics and smoothing.
-    bones_m : float64 [20] or None
-        Length of the bone that ends in each joint, metres (0 of the root), by all frames until now;
-        of methods that keep bones.
-    clipped : frozenset of str
-        Which borders of the image cut the person off: "left", "right", "top", "bottom".
-    person_score : float
-        How sure the forest is that this is a person, [0, 1].
-    proposals : tuple of 20 Proposals, or None
-        With Tracker(proposals=True).
-    fit : Fit or None
-        The body fitted to the depth image, unless Tracker(fit=False), where enough of the person shows.
-    mesh : Mesh or None
-        Its skin.
-    """
-
-    id: int
-    tracked: bool
-    position: Floats
-    joints: Floats
-    states: npt.NDArray[np.str_]
-    confidence: Floats
-    reliability: Floats
-    orientations: Floats
-    hierarchical_orientations: Floats
-    raw: Floats
-    refined: Optional[Floats]
-    reconstructed: Floats
-    bones_m: Optional[Floats]
-    clipped: frozenset[str]
-    person_score: float
-    proposals: Optional[tuple[Proposals, ...]]
-    fit: Optional[Fit]
-
-    @property
-    def mesh(self) -> Optional[Mesh]:
-        """The fitted body's skin: vertices float64 [V, 3], camera space, metres, and faces int32
-        [F, 3]; None without a fit."""
-        return None if self.fit is None else self.fit.mesh
-
-    def __getitem__(self, joint: Union[str, int, Joint]) -> Floats:
-        """float64 [3], metres: the joint's position by name or index."""
-        if isinstance(joint, str):
-            _check.one_of("joint", joint, JOINTS)
-            return np.asarray(self.joints[JOINTS.index(joint)])
-        return np.asarray(self.joints[_check.whole("joint", joint, 0, len(JOINTS) - 1)])
-
-    def __repr__(self) -> str:
-        count = int((self.states == "tracked").sum())
-        return f"<ossa.Body {self.id}: {count} joints tracked>"
-
-
-@dataclasses.dataclass(frozen=True, repr=False)
-class Frame:
-    """What the tracker says of one depth image.
-
-    Attributes
-    ----------
-    bodies : list of Body
-        By id.
-    users : uint8 [H, W]
-        Id of the body that each pixel belongs to, 0 nobody.
-    parts : uint8 [H, W] or None
-        Label of each pixel, ossa.PARTS; with Tracker(parts=True).
-    probabilities : float32 [H, W, C] or None
-        How likely the pixel shows each part, by the trees alone; with Tracker(probabilities=True).
-        Of the shipped forest c is the index in ossa.PARTS; 0 where nobody is.
-    floor : float64 [4] or None
-        a b c d of the floor a x + b y + c z + d = 0, metres, (a, b, c) of length 1 and upwards.
-    tilt_down_rad : float or None
-        How far the sensor looks down, by the floor.
-    time_s : float
-        Seconds.
-    index : int
-        Number of the frame, from 0.
-    ms : dict
-        Milliseconds spent on "segment", "classify", "propose", "reconstruct", "physics", "total", and on "fit", a part of "reconstruct".
-    """
-
-    bodies: list[Body]
-    users: npt.NDArray[np.uint8]
-    parts: Optional[npt.NDArray[np.uint8]]
-    probabilities: Optional[npt.NDArray[np.float32]]
-    floor: Optional[Floats]
-    tilt_down_rad: Optional[float]
-    time_s: float
-    index: int
-    ms: Mapping[str, float]
-
-    def __repr__(self) -> str:
-        return f"<ossa.Frame {self.index} at {self.time_s:.3f} s: {len(self.bodies)} bodies>"
-
-    def to_pandas(self) -> Any:
-        """A pandas.DataFrame, a row for each joint of each tracked body: frame, time_s, id, joint,
-        x, y, z (metres), state, confidence, reliability. Raises ImportError without pandas."""
-        from ._tables import table_of_joints
-
-        bodies = [body for body in self.bodies if body.tracked]
-        return table_of_joints(
-            frames=[self.index] * len(bodies),
-            times=[self.time_s] * len(bodies),
-            ids=[body.id for body in bodies],
-            joints=[body.joints for body in bodies],
-            states=[body.states for body in bodies],
-            confidence=[body.confidence for body in bodies],
-            reliability=[body.reliability for body in bodies],
-        )
-
-
-def _fit_from(made: Optional[dict[str, Any]], faces: Any) -> Optional[Fit]:
-    if made is None:
-        return None
-    return Fit(**made, _faces=faces)
-
-
-def _body_from(made: dict[str, Any], faces: Any) -> Body:
-    edges = frozenset(name for name, bit in _EDGES.items() if made["clipped_edges"] & bit)
-    known = (made["id"], made["tracked"], made["position"])
-    if not made["tracked"]:
-        unknown = np.full((20, 3), np.nan)
-        turns = np.full((20, 4), np.nan)
-        zeros = np.zeros(20)
-        return Body(
-            *known, unknown, _STATES[np.zeros(20, int)], zeros, zeros.copy(), turns, turns.copy(),
-            unknown.copy(), None, unknown.copy(), None, edges, made["person_score"], None, None,
-        )  # fmt: skip
-    proposals = made.get("proposals")
-    return Body(
-        *known,
-        joints=made["joints"],
-        states=_STATES[made["states"]],
-        confidence=made["confidence"],
-        reliability=made["reliability"],
-        orientations=made["orientations"],
-        hierarchical_orientations=made["hierarchical_orientations"],
-        raw=made["raw"],
-        refined=made["refined"],
-        reconstructed=made["reconstructed"],
-        bones_m=made["bones_m"],
-        clipped=edges,
-        person_score=made["person_score"],
-        proposals=None if proposals is None else tuple(proposals_from(p) for p in proposals),
-        fit=_fit_from(made.get("fit"), faces),
-    )
-
-
-def _frame_from(
-    made: dict[str, Any], faces: Optional[npt.NDArray[np.int32]]
-) -> Frame:
-    return Frame(
-        bodies=[_body_from(body, faces) for body in made["bodies"]],
-        users=made["users"],
-        parts=made["parts"],
-        probabilities=made["probabilities"],
-        floor=made["floor"],
-        tilt_down_rad=made["tilt_down_rad"],
-        time_s=made["time_s"],
-        index=made["index"],
-        ms=made["ms"],
-    )
 
 
 def _smoothing_option(smoothing: Any) -> Any:
@@ -600,7 +302,7 @@ class Tracker:
             For another type, shape or order, a camera that cannot be, a time that is no number.
         """
         made = self._native.track(*self._checked(depth_mm, camera, time_s))
-        return _frame_from(made, self._faces)
+        return frame_from(made, self._faces)
 
     def track_late(
         self,
@@ -626,13 +328,13 @@ class Tracker:
             None until so many images came; take_held gives the last ones.
         """
         made = self._native.track_late(*self._checked(depth_mm, camera, time_s))
-        return None if made is None else _frame_from(made, self._faces)
+        return None if made is None else frame_from(made, self._faces)
 
     def take_held(self) -> Optional[Frame]:
         """After track_late, at the end of a stream: the oldest frame that is still held; None when
         all are out."""
         made = self._native.take_held()
-        return None if made is None else _frame_from(made, self._faces)
+        return None if made is None else frame_from(made, self._faces)
 
     def _checked(
         self, depth_mm: Any, camera: Camera, time_s: Optional[float]
