@@ -1,6 +1,5 @@
 #include <fmt/format.h>
 
-#include <CLI/CLI.hpp>
 #include <algorithm>
 #include <chrono>
 #include <deque>
@@ -27,6 +26,7 @@
 #include "tools/commands/outputs.h"
 #include "tools/commands/process.h"
 #include "tools/commands/source_options.h"
+#include "tools/commands/track_options.h"
 #include "tools/commands/view_options.h"
 #include "tools/stream/sender.h"
 #include "tools/tracker/picture.h"
@@ -40,183 +40,6 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 using std::chrono::milliseconds;
-
-struct TrackOptions {
-  SourceArguments source;
-  std::string out, json_stats, picture, pictures, trace;
-  std::string smoothing, posture = "final", mode = "standing", fit;
-  MechanicsOptions mechanics;
-  BonesOption bones;
-  WriteOptions write;
-  tracker::ModelFiles files;
-  tracker::TrackerOptions tracker;
-  int64_t frames = 0;
-  std::vector<std::string> send;
-  std::vector<stream::Target> targets;  // of `send`
-  PageArguments page;                   // of `view`
-  bool view = false;
-  bool quiet = false;
-};
-
-void AddTrackerOptions(CLI::App& app, TrackOptions& options) {
-  tracker::TrackerOptions& t = options.tracker;
-  tracker::ModelFiles& files = options.files;
-  app.add_option("--model", files.forest, "forest model, .ossa (default: the shipped one)");
-  app.add_option("--database", files.database,
-                 "posture database, .ossadb (default: the shipped one, of best the shipped prior)");
-  app.add_option("--prior", files.prior,
-                 ".ossaprior of 'ossa prior', for best (default: the shipped one)");
-  app.add_option("--learned", files.learned,
-                 ".ossagp of 'ossa learn', for the methods that learn, or none (default: with best "
-                 "and the shipped model the shipped one)");
-  app.add_option("--refinement,--look", files.refinement,
-                 ".ossarefine of 'ossa refine', for best and --posture refined, or none (default: "
-                 "with best and the shipped model the shipped one)");
-  app.add_option("--surface", files.surface,
-                 ".ossasurface of 'ossa surface', for --fit (default: the shipped one)");
-  app.add_option("--fit", options.fit,
-                 "fit the body's surface to the depth image, from the refined joints on: on or off "
-                 "(default: on where there are refined joints)")
-      ->check(CLI::IsMember({"on", "off"}));
-  app.add_option("--method", t.method, "how postures are completed (default best)")
-      ->check(CLI::IsMember(recon::ReconstructionMethods()));
-  AddMechanicsOptions(app, options.mechanics);
-  options.bones.AddTo(app);
-  app.add_option(
-         "--smoothing", options.smoothing,
-         "preset of the filter (default: what goes with the method, none for those that filter)")
-      ->check(CLI::IsMember(tracker::SmoothingPresets()));
-  app.add_option("--lag", t.lag,
-                 "frames that may come before a frame's bodies are told, smoothed by them: 0 "
-                 "(live) to 2 (default 0)")
-      ->check(CLI::Range(0, 2));
-  app.add_option("--mode", options.mode, "standing (20 joints) or seated (the upper ten)")
-      ->check(CLI::IsMember({"standing", "seated"}));
-  app.add_flag("--near", t.near_range, "near range: people within 3 m only");
-  app.add_option("--users", t.max_users, "most people at a time, 1 to 6 (default 6)")
-      ->check(CLI::Range(1, 6));
-  app.add_option("--threads", t.threads, "threads for several people (default 1)")
-      ->check(CLI::Range(1, 256));
-  app.add_option("--seed", t.seed, "of the methods that draw samples (default 1)");
-}
-
-// What --posture called them in versions before.
-const std::map<std::string, std::string> kOldPostures = {{"looked", "refined"}};
-
-// Refined joints that were asked for are had with every method.
-void NeedRefinement(tracker::ModelFiles& files) {
-  const bool is_shipped = tracker::IsShippedForest(files);
-  if (files.refinement == "none" || (files.refinement.empty() && !is_shipped)) {
-    throw UsageError(
-        "--posture refined: expected --refinement FILE.ossarefine of 'ossa refine' with it");
-  }
-  if (files.refinement.empty()) {
-    files.refinement = tracker::ShippedFile(recon::kShippedRefinement).string();
-  }
-}
-
-// A fit that was asked for has a body, and joints to start from.
-void CheckFit(const TrackOptions& options) {
-  if (options.files.surface == "none") {
-    throw UsageError(
-        "--fit on: expected --surface FILE.ossasurface of 'ossa surface' with it, found none");
-  }
-  const std::string& refinement = options.files.refinement;
-  const bool is_shipped =
-      MethodInfoOf(options.tracker.method).refined && tracker::IsShippedForest(options.files);
-  if (refinement == "none" || (refinement.empty() && !is_shipped)) {
-    throw UsageError(
-        "--fit on: expected --refinement FILE.ossarefine of 'ossa refine' with it, found none");
-  }
-}
-
-void CheckRefinementIsRead(const TrackOptions& options) {
-  const std::string& look = options.files.refinement;
-  const bool is_read = MethodInfoOf(options.tracker.method).refined;
-  if (look.empty() || look == "none" || is_read || options.quiet) return;
-  SayNotRead("--refinement", options.tracker.method);
-}
-
-std::vector<stream::Target> TargetsOf(const std::vector<std::string>& urls) {
-  std::vector<stream::Target> targets;
-  try {
-    for (const std::string& url : urls) targets.push_back(stream::ParseTarget(url));
-  } catch (const InputError& error) {
-    throw UsageError(std::string("track: ") + error.what());
-  }
-  return targets;
-}
-
-TrackOptions ParseOptions(int argc, char** argv) {
-  CLI::App app("Follow the people in any SOURCE and write their skeletons");
-  TrackOptions options;
-  AddSourceOptions(app, options.source);
-  AddRotateOption(app, options.source);
-  app.add_option("--out", options.out,
-                 "skeletons: FILE.jsonl, .bvh, .trc or .csv; .glb: people in motion, skinned");
-  app.add_option(
-         "--posture", options.posture,
-         "what --out gets: final, reconstructed, refined (raw after the refinement cascade) or "
-         "raw")
-      ->transform(CLI::Transformer(kOldPostures).description(""))
-      ->check(CLI::IsMember({"final", "reconstructed", "refined", "raw"}));
-  options.write.AddTo(app);
-  AddTrackerOptions(app, options);
-  app.add_option("--frames", options.frames, "stop after so many frames")->check(Positive());
-  AddDeviceOptions(app, options.source);
-  app.add_option("--json-stats", options.json_stats,
-                 "milliseconds a stage, frames a second, memory, FILE.json ('-': stdout)");
-  app.add_option("--trace", options.trace,
-                 "FILE.jsonl: a line a frame with every piece of the scene, and the rule that "
-                 "decided whether it is a person");
-  app.add_option("--picture", options.picture,
-                 "FILE.png of one frame: depth, parts, joints, skeleton");
-  app.add_option("--pictures", options.pictures, "folder for such a picture of every frame");
-  app.add_option("--send", options.send,
-                 "live, to vmc://HOST:PORT[?bones=seen] (avatars), vrchat://HOST:PORT[?scale=X] or "
-                 "udp://HOST:PORT (JSONL); repeat for more")
-      ->allow_extra_args(false);
-  app.add_flag("--view", options.view, "show it in browsers while it runs");
-  AddPageOptions(app, options.page);
-  app.add_flag("--quiet", options.quiet, "no progress");
-  Parse(app, argc, argv);
-  if (options.out.empty() && options.picture.empty() && options.pictures.empty() && !options.view &&
-      options.json_stats.empty() && options.trace.empty() && options.send.empty()) {
-    throw UsageError(
-        "track: nothing to do: name --out, --picture, --pictures, --json-stats, --trace, --send or "
-        "--view");
-  }
-  options.targets = TargetsOf(options.send);
-  CheckRead(app, options.tracker.method, options.quiet);
-  CheckLearned(options.tracker.method, options.files.learned);
-  options.bones.Check(options.tracker.method);
-  options.mechanics.Check();
-  CheckOneOf(options.tracker.method, options.files.database, options.files.prior);
-  if (options.posture == "refined") {
-    NeedRefinement(options.files);
-  } else {
-    CheckRefinementIsRead(options);
-  }
-  if (!options.out.empty()) CheckSkeletonName(options.out);
-  options.write.Check(options.out);
-  CheckExtension("--picture", options.picture, ".png");
-  CheckNotOtherKind("--json-stats", options.json_stats, ".json");
-  CheckExtension("--trace", options.trace, ".jsonl");
-  CheckOutputs({options.out, options.json_stats, options.picture, options.pictures, options.trace},
-               {options.source.name});
-  options.tracker.turn = TurnOf(options.source);
-  if (options.fit == "on") CheckFit(options);
-  if (options.fit == "off") options.tracker.fit.reset();
-  options.tracker.physics = options.mechanics.on();
-  options.tracker.mechanics = options.mechanics.build;
-  if (!options.smoothing.empty()) {
-    options.tracker.smoothing = tracker::SmoothingPreset(options.smoothing);
-  }
-  if (options.mode == "seated") options.tracker.mode = tracker::TrackingMode::kSeated;
-  options.tracker.trace = !options.trace.empty();
-  options.tracker.keep_parts = !options.picture.empty() || !options.pictures.empty();
-  return options;
-}
 
 // Skeletons on their way to the file, which appears only when complete.
 class SkeletonOutput {
@@ -476,7 +299,7 @@ InputError InterruptedEarly(const TrackOptions& options, const Run& run) {
 }  // namespace
 
 int Track(int argc, char** argv) {
-  TrackOptions options = ParseOptions(argc, argv);
+  TrackOptions options = ParseTrackOptions(argc, argv);
   options.tracker.models = tracker::ModelSet::Load(options.files, options.tracker.method);
   if (options.bones.of_recording()) options.tracker.bones_m = MeasureBones(options);
   tracker::Tracker tracker(options.tracker);  // first: a device's frames do not wait meanwhile

@@ -53,7 +53,7 @@ class MappingOption : public testing::TestWithParam<Use> {
     std::string text = recon::TPoseHierarchy();
     text.replace(text.find("lForeArm"), 8, "Elle");
     text += "MOTION\nFrames: 120\nFrame Time: 0.0333333\n";
-    for (int frame = 0; frame < 120; ++frame) {
+    for (size_t frame = 0; frame < 120; ++frame) {
       for (size_t i = 0; i < recon::kTPoseChannels; ++i)
         text += std::to_string(i % 7 * frame) + " ";
       text += "\n";

@@ -365,7 +365,8 @@ TEST(TrackCommand, OfSomebodySeatedHasTheUpperTenJoints) {
     const CommandResult result =
         TrackTo(folder / "in", folder / name, {"--mode", "seated"}, "best");
     ASSERT_EQ(result.exit_status, 0) << result.err;
-    const auto& frame = recon::ReadSkeletons((folder / name).string()).frames.back();
+    const recon::SkeletonSequence written = recon::ReadSkeletons((folder / name).string());
+    const auto& frame = written.frames.back();
     ASSERT_FALSE(frame.bodies.empty());
     const auto& joints = frame.bodies[0].joints;
     EXPECT_EQ(std::count_if(joints.begin(), joints.end(), [](const auto& j) { return bool(j); }),

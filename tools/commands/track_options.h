@@ -1,0 +1,38 @@
+#pragma once
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "tools/commands/checks.h"
+#include "tools/commands/mechanics_options.h"
+#include "tools/commands/method_options.h"
+#include "tools/commands/outputs.h"
+#include "tools/commands/source_options.h"
+#include "tools/commands/view_options.h"
+#include "tools/stream/sender.h"
+#include "tools/tracker/tracker.h"
+
+namespace ossa::commands {
+
+/// What `ossa track` was asked for.
+struct TrackOptions {
+  SourceArguments source;
+  std::string out, json_stats, picture, pictures, trace;
+  std::string smoothing, posture = "final", mode = "standing", fit;
+  MechanicsOptions mechanics;
+  BonesOption bones;
+  WriteOptions write;
+  tracker::ModelFiles files;
+  tracker::TrackerOptions tracker;
+  int64_t frames = 0;
+  std::vector<std::string> send;
+  std::vector<stream::Target> targets;  // of `send`
+  PageArguments page;                   // of `view`
+  bool view = false;
+  bool quiet = false;
+};
+
+/// Throws UsageError for what cannot be.
+TrackOptions ParseTrackOptions(int argc, char** argv);
+
+}  // namespace ossa::commands
