@@ -1,5 +1,6 @@
 #include "recon/motion/authored.h"
 
+#include "recon/motion/authored_clip_internal.h"
 #include "recon/motion/authored_moves_internal.h"
 
 namespace ossa::recon {
@@ -32,22 +33,9 @@ std::vector<std::string> AuthoredActions() {
 }
 
 std::vector<MotionClip> AuthoredClips(const AuthoredOptions& options) {
-  std::vector<MotionClip> clips;
-  const auto actions = AllActions();
-  for (size_t a = 0; a < actions.size(); ++a) {
-    for (int v = 0; v < options.variations; ++v) {
-      Moves moves(ClipSeed(options.seed, a, static_cast<uint64_t>(v)));
-      actions[a].perform(moves);
-      MotionClip clip;
-      clip.name.append("authored/").append(actions[a].name).append("/");
-      clip.name.append(v < 10 ? "0" : "").append(std::to_string(v));
-      clip.subject = "authored";
-      clip.frame_s = options.frame_s;
-      clip.frames = moves.Play(options.frame_s);
-      clips.push_back(std::move(clip));
-    }
-  }
-  return clips;
+  return PlayActions<Moves>("authored", AllActions(), options, [&](uint64_t action, uint64_t v) {
+    return ClipSeed(options.seed, action, v);
+  });
 }
 
 }  // namespace ossa::recon

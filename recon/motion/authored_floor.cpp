@@ -10,6 +10,7 @@
 #include "depth/base/random.h"
 #include "recon/body/standard_body.h"
 #include "recon/motion/authored_body_internal.h"
+#include "recon/motion/authored_clip_internal.h"
 #include "recon/motion/retarget_internal.h"
 
 namespace ossa::recon {
@@ -406,21 +407,9 @@ std::vector<std::string> AuthoredFloorActions() {
 }
 
 std::vector<MotionClip> AuthoredFloorClips(const AuthoredOptions& options) {
-  std::vector<MotionClip> clips;
-  for (size_t a = 0; a < kActions.size(); ++a) {
-    for (int v = 0; v < options.variations; ++v) {
-      FloorMoves moves(MixSeed(options.seed, a, static_cast<uint64_t>(v)));
-      kActions[a].perform(moves);
-      MotionClip clip;
-      clip.name.append("authored-floor/").append(kActions[a].name).append("/");
-      clip.name.append(v < 10 ? "0" : "").append(std::to_string(v));
-      clip.subject = "authored";
-      clip.frame_s = options.frame_s;
-      clip.frames = moves.Play(options.frame_s);
-      clips.push_back(std::move(clip));
-    }
-  }
-  return clips;
+  return PlayActions<FloorMoves>(
+      "authored-floor", kActions, options,
+      [&](uint64_t action, uint64_t v) { return MixSeed(options.seed, action, v); });
 }
 
 }  // namespace ossa::recon
