@@ -9,9 +9,11 @@ import os
 import pathlib
 import pty
 import shutil
+import signal
 import subprocess
 import sys
 import tempfile
+import time
 import unittest
 
 OSSA, MANUAL = pathlib.Path(sys.argv.pop(1)).resolve(), pathlib.Path(sys.argv.pop(1)).resolve()
@@ -23,8 +25,9 @@ def run(*arguments, **environment):
     return subprocess.run([OSSA, *map(str, arguments)], capture_output=True, text=True, env=settings, timeout=120)
 
 
-def said_on_a_terminal(arguments, **environment):
-    """What appears on stderr where that is a terminal."""
+def said_on_a_terminal(arguments, paused_s=0.0, **environment):
+    """What appears on stderr where that is a terminal. With paused_s > 0 the command is held up for so long, once,
+    when its first words have come: then its work takes that long on the fastest machine."""
     ours, theirs = pty.openpty()
     settings = {**os.environ, "OSSA_CONFIG": "", "TERM": "xterm", **environment}
     child = subprocess.Popen([OSSA, *arguments], stderr=theirs, stdout=subprocess.DEVNULL, env=settings)
@@ -32,6 +35,10 @@ def said_on_a_terminal(arguments, **environment):
     said = b""
     try:
         while more := os.read(ours, 65536):
+            if paused_s and not said:
+                child.send_signal(signal.SIGSTOP)
+                time.sleep(paused_s)
+                child.send_signal(signal.SIGCONT)
             said += more
     except OSError:  # the other end is closed
         pass
@@ -100,7 +107,8 @@ class Colours(unittest.TestCase):
 class TimeLeft(unittest.TestCase):
     def test_is_said_while_work_goes_on(self):
         with tempfile.TemporaryDirectory() as folder:
-            said = said_on_a_terminal(["database", *["--mocap", "authored"] * 5, "--out", folder + "/a.ossadb"])
+            said = said_on_a_terminal(["database", *["--mocap", "authored"] * 5, "--out", folder + "/a.ossadb"],
+                                      paused_s=0.8)
         self.assertRegex(said, r"\d:\d\d left")
 
 
