@@ -3,7 +3,7 @@
 
 #include "depth/base/error.h"
 #include "physics/actor_internal.h"
-#include "physics/retarget.h"
+#include "physics/fit_bone_lengths.h"
 #include "recon/orientation.h"
 
 namespace ossa::physics {

@@ -36,13 +36,13 @@ struct Surface {
 // What lies nearest to a place: at all, and across the line of sight.
 struct Nearest {
   float square_m2 = kSurfaceReach_m * kSurfaceReach_m;
-  float aside_m2 = square_m2;
+  float perpendicular_m2 = square_m2;
   float behind_m = 0.0F;  // of the place, along the line of sight
 };
 
 // The same for each lane's share of the points.
 struct NearestOfLanes {
-  Lanes square_m2, aside_m2, behind_m;
+  Lanes square_m2, perpendicular_m2, behind_m;
   IntLanes number;  // of the point that is nearest across the line of sight
 };
 
@@ -59,11 +59,11 @@ OSSA_CPU_DISPATCH void FindNearest(const Surface& surface, const float* place, c
     z -= place[2];
     const Lanes along = x * ray[0] + (y * ray[1] + z * ray[2]);
     const Lanes square = x * x + (y * y + z * z);
-    Lanes aside = square - along * along;
-    aside = aside > 0.0F ? aside : Lanes{};
+    Lanes perpendicular = square - along * along;
+    perpendicular = perpendicular > 0.0F ? perpendicular : Lanes{};
     near.square_m2 = square < near.square_m2 ? square : near.square_m2;
-    const IntLanes nearer = aside < near.aside_m2;
-    near.aside_m2 = nearer ? aside : near.aside_m2;
+    const IntLanes nearer = perpendicular < near.perpendicular_m2;
+    near.perpendicular_m2 = nearer ? perpendicular : near.perpendicular_m2;
     near.behind_m = nearer ? along : near.behind_m;
     near.number = nearer ? IntLanes{} + static_cast<int32_t>(i) : near.number;
   }
@@ -74,15 +74,16 @@ OSSA_CPU_DISPATCH void FindNearest(const Surface& surface, const float* place, c
 Nearest NearestTo(const Surface& surface, const Eigen::Vector3f& place_m,
                   const Eigen::Vector3f& ray) {
   Nearest nearest;
-  NearestOfLanes lanes{Lanes{} + nearest.square_m2, Lanes{} + nearest.aside_m2, Lanes{},
+  NearestOfLanes lanes{Lanes{} + nearest.square_m2, Lanes{} + nearest.perpendicular_m2, Lanes{},
                        IntLanes{}};
   FindNearest(surface, place_m.data(), ray.data(), &lanes);
   int32_t number = 0;
   for (size_t l = 0; l < kLanes; ++l) {
     nearest.square_m2 = std::min(nearest.square_m2, lanes.square_m2[l]);
-    if (lanes.aside_m2[l] > nearest.aside_m2) continue;
-    if (lanes.aside_m2[l] == nearest.aside_m2 && lanes.number[l] >= number) continue;
-    nearest.aside_m2 = lanes.aside_m2[l];
+    if (lanes.perpendicular_m2[l] > nearest.perpendicular_m2) continue;
+    if (lanes.perpendicular_m2[l] == nearest.perpendicular_m2 && lanes.number[l] >= number)
+      continue;
+    nearest.perpendicular_m2 = lanes.perpendicular_m2[l];
     nearest.behind_m = lanes.behind_m[l];
     number = lanes.number[l];
   }
@@ -204,7 +205,7 @@ class FeatureBuilder {
     const Eigen::Vector3f ray = (place_m + RootFromCamera()).normalized();
     const Nearest nearest = NearestTo(surface_, place_m, ray);
     Add(std::sqrt(nearest.square_m2));
-    Add(std::sqrt(nearest.aside_m2));
+    Add(std::sqrt(nearest.perpendicular_m2));
     Add(std::clamp(nearest.behind_m, -kSurfaceReach_m, kSurfaceReach_m));
   }
 

@@ -2,7 +2,7 @@
 
 #include "recon/filters/joint_filters.h"
 #include "recon/methods/methods_internal.h"
-#include "recon/methods/person_internal.h"
+#include "recon/methods/prepared_posture_internal.h"
 #include "recon/methods/reach_internal.h"
 
 namespace ossa::recon {

@@ -7,7 +7,7 @@
 
 #include "recon/database/posture_database.h"
 #include "recon/methods/methods_internal.h"
-#include "recon/methods/person_internal.h"
+#include "recon/methods/prepared_posture_internal.h"
 #include "recon/methods/reach_internal.h"
 #include "recon/models/learned_models.h"
 

@@ -6,7 +6,7 @@
 #include <map>
 #include <optional>
 
-#include "recon/methods/person_internal.h"
+#include "recon/methods/prepared_posture_internal.h"
 
 namespace ossa::recon {
 namespace {

@@ -3,7 +3,7 @@
 
 #include "recon/methods/bone_turns_internal.h"
 #include "recon/methods/methods_internal.h"
-#include "recon/methods/person_internal.h"
+#include "recon/methods/prepared_posture_internal.h"
 #include "recon/spectrum.h"
 
 namespace ossa::recon {

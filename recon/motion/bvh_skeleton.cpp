@@ -8,7 +8,7 @@
 #include "recon/motion/bone_names_internal.h"
 #include "recon/motion/bvh.h"
 #include "recon/motion/bvh_source_internal.h"
-#include "recon/motion/upright_internal.h"
+#include "recon/motion/up_axis_internal.h"
 #include "recon/normalise.h"
 
 namespace ossa::recon {

@@ -5,7 +5,7 @@
 
 #include "depth/base/error.h"
 #include "recon/body/standard_body.h"
-#include "recon/motion/upright_internal.h"
+#include "recon/motion/up_axis_internal.h"
 #include "recon/smallest_turn.h"
 
 namespace ossa::recon {

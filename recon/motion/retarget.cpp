@@ -10,7 +10,7 @@
 #include "recon/body/standard_body.h"
 #include "recon/motion/agreement_check_internal.h"
 #include "recon/motion/reference_pose_internal.h"
-#include "recon/motion/upright_internal.h"
+#include "recon/motion/up_axis_internal.h"
 #include "recon/smallest_turn.h"
 
 namespace ossa::recon {

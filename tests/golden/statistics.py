@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Golden numbers of tests/tools/experiments/statistics_test.cpp, from scipy.
+"""Golden numbers of tests/tools/experiments/significance_test.cpp, from scipy.
 
 Run: /usr/bin/python3 tests/golden/statistics.py > tests/golden/statistics.txt
 (Debian package python3-scipy.) The test runs it again where scipy is installed and compares.

@@ -15,7 +15,7 @@
 #include "recon/files/skeleton_io.h"
 #include "recon/filters/butterworth.h"
 #include "recon/filters/lag_smoothing.h"
-#include "recon/methods/sequence.h"
+#include "recon/methods/reconstruct_sequence.h"
 #include "tools/commands/checks.h"
 #include "tools/commands/command.h"
 #include "tools/commands/commands.h"

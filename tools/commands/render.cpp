@@ -15,7 +15,7 @@
 #include "tools/commands/warnings.h"
 #include "tools/synth/ranks.h"
 #include "tools/synth/render_dataset.h"
-#include "tools/synth/sequence.h"
+#include "tools/synth/sequence_poses.h"
 
 namespace ossa::commands {
 namespace {

@@ -13,7 +13,7 @@
 #include "recon/fit/posed_surface.h"
 #include "recon/motion/humanoid.h"
 #include "tools/learning/simplify_skin.h"
-#include "tools/synth/person.h"
+#include "tools/synth/sample_person.h"
 
 namespace ossa::tools {
 namespace {

@@ -4,7 +4,7 @@
 
 #include <exception>
 
-#include "tools/nite2/session_internal.h"
+#include "tools/nite2/open_trackers_internal.h"
 
 namespace {
 

@@ -121,7 +121,7 @@ void DepthCamera::Open(OniDeviceHandle device) {
   Require(oniRegisterDeviceCallbacks(&device_callbacks_, this, &device_callback_),
           "watching the device");
   Require(oniDeviceCreateStream(device_, ONI_SENSOR_DEPTH, &stream_), "opening its depth stream");
-  LookAtGeometry();
+  ReadGeometry();
   Require(oniStreamStart(stream_), "starting its depth stream");
 }
 
@@ -150,7 +150,7 @@ void ONI_CALLBACK_TYPE DepthCamera::OnFrame(OniStreamHandle, void* camera) {
 
 bool DepthCamera::InCall() const { return in_call_of == this; }
 
-void DepthCamera::LookAtGeometry() {
+void DepthCamera::ReadGeometry() {
   constexpr float kLeast_rad = 0.01F, kMost_rad = 3.1F;  // by hand: a field of view at all
   OniVideoMode mode{};
   int size = sizeof(mode);
@@ -189,7 +189,7 @@ std::optional<CameraFrame> DepthCamera::Next(std::chrono::milliseconds timeout) 
   bool known = true;
   OniFrame* delivered = FrameReader::Instance().Read(stream_, timeout, [&] {
     try {
-      LookAtGeometry();
+      ReadGeometry();
     } catch (const InputError&) {
       known = false;
     }

@@ -73,7 +73,7 @@ class DepthCamera {
  private:
   void Open(OniDeviceHandle device);
   void Close();
-  void LookAtGeometry();
+  void ReadGeometry();
   double TimeOf(const OniFrame& frame);
   static void ONI_CALLBACK_TYPE OnGone(const OniDeviceInfo* info, void* camera);
   static void ONI_CALLBACK_TYPE OnFrame(OniStreamHandle stream, void* camera);

@@ -3,8 +3,8 @@
 #include <set>
 #include <vector>
 
-#include "tools/nite2/frame_store_internal.h"
 #include "tools/nite2/hands.h"
+#include "tools/nite2/held_frames_internal.h"
 #include "tools/nite2/live_tracker_internal.h"
 
 namespace ossa::nite2 {
@@ -32,7 +32,7 @@ class HandTracker final : public LiveTracker {
     std::vector<NiteHandData> hands;
     std::vector<NiteGestureData> gestures;
   };
-  FrameStore<Stored> frames;
+  HeldFrames<Stored> frames;
 
  private:
   std::unique_ptr<Stored> Make(CameraFrame seen);

@@ -1,4 +1,4 @@
-#include "tools/nite2/session_internal.h"
+#include "tools/nite2/open_trackers_internal.h"
 
 #include <chrono>
 #include <thread>

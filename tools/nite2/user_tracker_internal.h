@@ -2,7 +2,7 @@
 #include <memory>
 #include <vector>
 
-#include "tools/nite2/frame_store_internal.h"
+#include "tools/nite2/held_frames_internal.h"
 #include "tools/nite2/live_tracker_internal.h"
 #include "tools/nite2/users.h"
 
@@ -31,7 +31,7 @@ class UserTracker final : public LiveTracker {
     std::vector<NiteUserData> users;
     std::vector<NiteUserId> map;
   };
-  FrameStore<Stored> frames;
+  HeldFrames<Stored> frames;
 
  private:
   std::unique_ptr<Stored> Make(CameraFrame seen);

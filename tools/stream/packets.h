@@ -1,7 +1,7 @@
 #pragma once
 #include <string>
 
-#include "tools/stream/humanoid.h"
+#include "tools/stream/unity_humanoid.h"
 
 namespace ossa::stream {
 

@@ -2,7 +2,7 @@
 #include <string>
 #include <vector>
 
-#include "tools/stream/humanoid.h"
+#include "tools/stream/unity_humanoid.h"
 
 namespace ossa::stream {
 

@@ -4,9 +4,9 @@
 #include <array>
 
 #include "recon/files/skeleton_jsonl.h"
-#include "tools/stream/humanoid.h"
 #include "tools/stream/packets.h"
 #include "tools/stream/udp_socket_internal.h"
+#include "tools/stream/unity_humanoid.h"
 #include "tools/tracker/skeleton_record.h"
 
 namespace ossa::stream {

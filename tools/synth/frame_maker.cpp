@@ -6,11 +6,11 @@
 
 #include "depth/render/renderer.h"
 #include "recon/body/parts.h"
+#include "tools/synth/clothed_actor.h"
 #include "tools/synth/materials.h"
 #include "tools/synth/nobodies.h"
-#include "tools/synth/person.h"
+#include "tools/synth/sample_person.h"
 #include "tools/synth/shrunk_frame.h"
-#include "tools/synth/stage.h"
 #include "tools/synth/staging.h"
 #include "tools/synth/visibility_internal.h"
 #include "tools/synth/worn.h"

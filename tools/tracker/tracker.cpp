@@ -132,7 +132,7 @@ struct Tracker::Impl {
   }
   bool KeepsParts() const { return options.keep_parts || options.keep_probabilities; }
   double ScorePeople(const depth::DepthFrame& frame) const;
-  void LookUpright(const depth::DepthFrame& frame);
+  void FindUpright(const depth::DepthFrame& frame);
   void ForgetAll();
   Body MakeBody(const depth::DepthFrame& frame, const people::Person& person) const;
   void WithdrawUnlikeBodies(const std::vector<people::Person>& seen, BodyFrame& result);
@@ -151,7 +151,7 @@ double Tracker::Impl::ScorePeople(const depth::DepthFrame& frame) const {
   return best;
 }
 
-void Tracker::Impl::LookUpright(const depth::DepthFrame& frame) {
+void Tracker::Impl::FindUpright(const depth::DepthFrame& frame) {
   const bool changed = upright.Look(frame, [this](const depth::DepthFrame& looked, int quarters) {
     return ScorePeople(depth::Turned(looked, quarters));
   });
@@ -304,7 +304,7 @@ BodyFrame Tracker::Track(const depth::DepthFrame& frame) {
                      std::to_string(pixels));
   }
   const bool is_auto = impl_->options.turn == Turn::kAuto;
-  if (is_auto) impl_->LookUpright(frame);
+  if (is_auto) impl_->FindUpright(frame);
   const int quarters = impl_->QuarterTurns();
   BodyFrame result =
       quarters == 0 ? impl_->Track(frame) : impl_->Track(depth::Turned(frame, quarters));
@@ -328,7 +328,7 @@ void Tracker::FindUpright(depth::FrameSource& source, const std::function<bool()
     if (read.status != depth::ReadStatus::kFrame) continue;
     if (!first_s) first_s = read.frame.time_s;
     if (read.frame.time_s - *first_s > kLongest_s) break;
-    impl_->LookUpright(read.frame);
+    impl_->FindUpright(read.frame);
   }
 }
 

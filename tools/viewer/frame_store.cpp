@@ -1,8 +1,8 @@
 #include <utility>
 
 #include "recon/files/skeleton_jsonl.h"
+#include "tools/viewer/find_parts_internal.h"
 #include "tools/viewer/frame_store_internal.h"
-#include "tools/viewer/parts_internal.h"
 
 namespace ossa::viewer {
 

@@ -1,5 +1,5 @@
 #pragma once
-#include "recon/methods/person_internal.h"
+#include "recon/methods/prepared_posture_internal.h"
 
 namespace ossa::recon {
 

@@ -2,7 +2,7 @@
 #include <memory>
 #include <optional>
 
-#include "recon/methods/person_internal.h"
+#include "recon/methods/prepared_posture_internal.h"
 #include "recon/models/prior_filter.h"
 
 namespace ossa::recon {

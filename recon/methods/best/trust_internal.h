@@ -1,6 +1,6 @@
 #pragma once
 #include "recon/methods/best/sensor_traits_internal.h"
-#include "recon/methods/person_internal.h"
+#include "recon/methods/prepared_posture_internal.h"
 
 namespace ossa::recon {
 

@@ -2,7 +2,7 @@
 
 #include <cmath>
 
-#include "recon/methods/person_internal.h"
+#include "recon/methods/prepared_posture_internal.h"
 #include "tests/recon/synthetic_motion.h"
 
 namespace ossa::recon {

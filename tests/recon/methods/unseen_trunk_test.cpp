@@ -7,8 +7,8 @@
 
 #include "recon/files/skeleton_io.h"
 #include "recon/methods/method_table.h"
+#include "recon/methods/reconstruct_sequence.h"
 #include "recon/methods/reconstructor.h"
-#include "recon/methods/sequence.h"
 #include "recon/models/learned_models.h"
 #include "recon/skeleton_sequence.h"
 #include "tests/recon/synthetic_motion.h"

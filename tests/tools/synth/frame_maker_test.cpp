@@ -8,8 +8,8 @@
 #include <functional>
 
 #include "recon/motion/mocap.h"
+#include "tools/synth/clothed_actor.h"
 #include "tools/synth/shard_internal.h"
-#include "tools/synth/stage.h"
 
 namespace ossa::tools {
 namespace {

@@ -6,9 +6,9 @@
 
 #include "recon/body/clothing.h"
 #include "recon/body/standard_body.h"
+#include "tools/synth/clothed_actor.h"
 #include "tools/synth/nobodies.h"
 #include "tools/synth/random_posture.h"
-#include "tools/synth/stage.h"
 #include "tools/synth/worn.h"
 
 namespace ossa::tools {

@@ -3,7 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "depth/render/shapes.h"
-#include "tools/synth/stage.h"
+#include "tools/synth/clothed_actor.h"
 
 namespace ossa::tools {
 namespace {

@@ -9,7 +9,7 @@
 
 #include "recon/motion/mocap.h"
 #include "tests/support/temporary_folder.h"
-#include "tools/synth/stage.h"
+#include "tools/synth/clothed_actor.h"
 
 namespace ossa::tools {
 namespace {

@@ -6,7 +6,7 @@
 
 #include "recon/files/skeleton_io.h"
 #include "tools/experiments/compare/metrics.h"
-#include "tools/experiments/compare/statistics.h"
+#include "tools/experiments/compare/significance.h"
 
 namespace ossa::tools {
 

@@ -9,7 +9,7 @@
 #include "recon/body/rig.h"
 #include "tools/experiments/compare/joint_track.h"
 #include "tools/experiments/experiment.h"
-#include "tools/synth/stage.h"
+#include "tools/synth/clothed_actor.h"
 #include "tools/synth/view_sampler.h"
 #include "tools/tracker/tracker.h"
 

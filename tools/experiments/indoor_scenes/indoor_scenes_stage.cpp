@@ -7,10 +7,10 @@
 
 #include "depth/render/shapes.h"
 #include "tools/experiments/indoor_scenes/indoor_scenes_internal.h"
-#include "tools/synth/person.h"
 #include "tools/synth/pose_bank.h"
 #include "tools/synth/props.h"
-#include "tools/synth/sequence.h"
+#include "tools/synth/sample_person.h"
+#include "tools/synth/sequence_poses.h"
 #include "tools/synth/visibility_internal.h"
 
 namespace ossa::tools {

@@ -7,7 +7,7 @@
 #include <cmath>
 #include <optional>
 
-#include "tools/experiments/compare/statistics.h"
+#include "tools/experiments/compare/significance.h"
 #include "tools/experiments/papers/plantard_2016_internal.h"
 
 namespace ossa::tools {

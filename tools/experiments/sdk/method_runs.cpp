@@ -8,8 +8,8 @@
 
 #include "depth/base/error.h"
 #include "recon/database/posture_database.h"
+#include "recon/methods/reconstruct_sequence.h"
 #include "recon/methods/recorded_pairs.h"
-#include "recon/methods/sequence.h"
 #include "recon/models/posture_prior.h"
 #include "tools/experiments/compare/sequence_text.h"
 #include "tools/experiments/sdk/sdk_internal.h"

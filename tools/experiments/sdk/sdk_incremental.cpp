@@ -6,7 +6,7 @@
 #include <map>
 #include <nlohmann/json.hpp>
 
-#include "recon/methods/sequence.h"
+#include "recon/methods/reconstruct_sequence.h"
 #include "tools/experiments/sdk/method_runs.h"
 #include "tools/experiments/sdk/sdk_internal.h"
 #include "tools/experiments/stage/jobs.h"

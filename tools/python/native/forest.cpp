@@ -24,61 +24,62 @@ forest::ForestModel ReadForest(const std::string& path) {
 }
 
 /// What a forest says of one image.
-struct Looked {
+struct ForestOutput {
   std::vector<uint8_t> parts;
   std::vector<float> probabilities;
   std::vector<std::vector<forest::Proposal>> proposals;
 };
 
-Looked Look(const forest::ForestModel& model, const depth::DepthView& view,
-            const depth::Camera& camera, const std::vector<int32_t>& pixels, bool propose) {
+ForestOutput RunForest(const forest::ForestModel& model, const depth::DepthView& view,
+                       const depth::Camera& camera, const std::vector<int32_t>& pixels,
+                       bool propose) {
   const auto size = static_cast<size_t>(view.width) * static_cast<size_t>(view.height);
   const auto classes = static_cast<size_t>(model.class_count());
-  Looked looked;
+  ForestOutput output;
   const forest::Classification seen = forest::Classify(model, view, camera, pixels);
-  looked.proposals = forest::Propose(model, view, camera, seen);
-  if (propose) return looked;
-  const std::vector<uint8_t> labels = forest::Relabel(model, view, camera, seen, looked.proposals);
-  looked.parts.assign(size, 0);
-  looked.probabilities.assign(size * classes, 0.0F);
+  output.proposals = forest::Propose(model, view, camera, seen);
+  if (propose) return output;
+  const std::vector<uint8_t> labels = forest::Relabel(model, view, camera, seen, output.proposals);
+  output.parts.assign(size, 0);
+  output.probabilities.assign(size * classes, 0.0F);
   for (size_t i = 0; i < seen.pixel.size(); ++i) {
     const auto pixel = static_cast<size_t>(seen.pixel[i]);
-    looked.parts[pixel] = labels[i];
-    float* const of_pixel = &looked.probabilities[pixel * classes];
+    output.parts[pixel] = labels[i];
+    float* const of_pixel = &output.probabilities[pixel * classes];
     for (size_t c = 0; c < classes; ++c) of_pixel[c] = seen.Probability(i, c);
   }
-  return looked;
+  return output;
 }
 
-Looked LookAt(const forest::ForestModel& model, const py::array& depth_mm, const py::tuple& camera,
-              const py::object& mask, bool propose) {
+ForestOutput RunForestOn(const forest::ForestModel& model, const py::array& depth_mm,
+                         const py::tuple& camera, const py::object& mask, bool propose) {
   const depth::DepthView view = ViewOf(depth_mm);
   const depth::Camera seen_by = CameraOf(camera, view);
   const std::vector<int32_t> pixels = PixelsOf(view, mask);
   const py::gil_scoped_release free;
-  return Look(model, view, seen_by, pixels, propose);
+  return RunForest(model, view, seen_by, pixels, propose);
 }
 
 py::tuple Classify(const forest::ForestModel& model, const py::array& depth_mm,
                    const py::tuple& camera, const py::object& mask) {
-  Looked looked = LookAt(model, depth_mm, camera, mask, false);
+  ForestOutput output = RunForestOn(model, depth_mm, camera, mask, false);
   const py::ssize_t h = depth_mm.shape(0), w = depth_mm.shape(1);
-  return py::make_tuple(ToArray(std::move(looked.parts), {h, w}),
-                        ToArray(std::move(looked.probabilities), {h, w, model.class_count()}));
+  return py::make_tuple(ToArray(std::move(output.parts), {h, w}),
+                        ToArray(std::move(output.probabilities), {h, w, model.class_count()}));
 }
 
 // {target: float64 [n, 5]: x y z, confidence, seen}
 py::dict Propose(const forest::ForestModel& model, const py::array& depth_mm,
                  const py::tuple& camera, const py::object& mask) {
-  const Looked looked = LookAt(model, depth_mm, camera, mask, true);
+  const ForestOutput output = RunForestOn(model, depth_mm, camera, mask, true);
   py::dict proposals;
-  for (size_t t = 0; t < looked.proposals.size(); ++t) {
+  for (size_t t = 0; t < output.proposals.size(); ++t) {
     std::vector<double> values;
-    for (const forest::Proposal& p : looked.proposals[t]) {
+    for (const forest::Proposal& p : output.proposals[t]) {
       values.insert(values.end(), p.position_m.begin(), p.position_m.end());
       values.insert(values.end(), {p.confidence, p.seen ? 1.0 : 0.0});
     }
-    const auto count = static_cast<py::ssize_t>(looked.proposals[t].size());
+    const auto count = static_cast<py::ssize_t>(output.proposals[t].size());
     proposals[py::str(model.targets()[t].name)] = ToArray(std::move(values), {count, 5});
   }
   return proposals;

@@ -14,7 +14,7 @@
 #include "recon/files/skeleton_writer.h"
 #include "recon/filters/butterworth.h"
 #include "recon/filters/lag_smoothing.h"
-#include "recon/methods/sequence.h"
+#include "recon/methods/reconstruct_sequence.h"
 #include "recon/models/learned_models.h"
 #include "recon/models/posture_prior.h"
 #include "tools/python/native/arrays.h"

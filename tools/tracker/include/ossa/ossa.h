@@ -14,14 +14,14 @@
 /// ossa::tracker  the tracker
 /// Rarer needs have headers of their own: forest/ (train and run body part forests), physics/ (the
 /// mechanical character), recon/.
-#include "depth/base/error.h"               // InputError: what is wrong with a file, in one line
-#include "depth/image/camera_io.h"          // cameras by name, from files
-#include "depth/image/depth_frame.h"        // DepthFrame and its Camera
-#include "depth/sensor/frame_source.h"      // OpenSource
-#include "recon/files/skeleton_io.h"        // skeleton files in many formats
-#include "recon/methods/sequence.h"         // methods over recorded skeletons
-#include "recon/skeleton_sequence.h"        // a recording of skeletons
-#include "tools/tracker/model_set.h"        // ModelSet: everything learned
-#include "tools/tracker/skeleton_record.h"  // from BodyFrame to skeleton files
-#include "tools/tracker/tracker.h"          // Tracker
-#include "tools/tracker/version.h"          // of the library
+#include "depth/base/error.h"           // InputError: what is wrong with a file, in one line
+#include "depth/image/camera_io.h"      // cameras by name, from files
+#include "depth/image/depth_frame.h"    // DepthFrame and its Camera
+#include "depth/sensor/frame_source.h"  // OpenSource
+#include "recon/files/skeleton_io.h"    // skeleton files in many formats
+#include "recon/methods/reconstruct_sequence.h"  // methods over recorded skeletons
+#include "recon/skeleton_sequence.h"             // a recording of skeletons
+#include "tools/tracker/model_set.h"             // ModelSet: everything learned
+#include "tools/tracker/skeleton_record.h"       // from BodyFrame to skeleton files
+#include "tools/tracker/tracker.h"               // Tracker
+#include "tools/tracker/version.h"               // of the library

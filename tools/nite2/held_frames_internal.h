@@ -21,7 +21,7 @@ inline constexpr size_t kHalfHeld = 120;  // frames that were released too seldo
 /// released at least once stays only among the newest kHalfHeld of its kind, or memory would run
 /// out within minutes.
 template <typename Stored>
-class FrameStore {
+class HeldFrames {
  public:
   using Frame = decltype(Stored::frame);
 

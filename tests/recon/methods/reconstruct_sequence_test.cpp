@@ -1,5 +1,5 @@
 // Whole recordings: several people, bones by all frames, what is absent.
-#include "recon/methods/sequence.h"
+#include "recon/methods/reconstruct_sequence.h"
 
 #include <gtest/gtest.h>
 

@@ -2,7 +2,7 @@
 #include <vector>
 
 #include "forest/classification/classify.h"
-#include "tools/viewer/parts_internal.h"
+#include "tools/viewer/find_parts_internal.h"
 
 namespace ossa::viewer {
 

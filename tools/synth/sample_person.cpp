@@ -1,4 +1,4 @@
-#include "tools/synth/person.h"
+#include "tools/synth/sample_person.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,4 +1,4 @@
-#include "recon/methods/sequence.h"
+#include "recon/methods/reconstruct_sequence.h"
 
 #include <fmt/format.h>
 

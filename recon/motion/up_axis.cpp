@@ -1,4 +1,4 @@
-#include "recon/motion/upright_internal.h"
+#include "recon/motion/up_axis_internal.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,4 +1,4 @@
-#include "tools/synth/sequence.h"
+#include "tools/synth/sequence_poses.h"
 
 #include <algorithm>
 

@@ -1,4 +1,4 @@
-#include "physics/retarget.h"
+#include "physics/fit_bone_lengths.h"
 
 #include <algorithm>
 

@@ -1,4 +1,4 @@
-#include "tools/synth/stage.h"
+#include "tools/synth/clothed_actor.h"
 
 #include <algorithm>
 #include <limits>

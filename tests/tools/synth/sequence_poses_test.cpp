@@ -1,10 +1,10 @@
-#include "tools/synth/sequence.h"
+#include "tools/synth/sequence_poses.h"
 
 #include <gtest/gtest.h>
 
 #include "recon/motion/mocap.h"
+#include "tools/synth/clothed_actor.h"
 #include "tools/synth/frame_maker.h"
-#include "tools/synth/stage.h"
 
 namespace ossa::tools {
 namespace {

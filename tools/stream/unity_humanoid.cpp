@@ -1,4 +1,4 @@
-#include "tools/stream/humanoid.h"
+#include "tools/stream/unity_humanoid.h"
 
 #include <algorithm>
 

@@ -1,4 +1,4 @@
-#include "tools/experiments/compare/statistics.h"
+#include "tools/experiments/compare/significance.h"
 #include "tests/support/places.h"
 #include "tests/support/temporary_folder.h"
 

@@ -1,7 +1,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "recon/methods/person_internal.h"
+#include "recon/methods/prepared_posture_internal.h"
 #include "recon/methods/reach_internal.h"
 
 namespace ossa::recon {
