@@ -112,7 +112,7 @@ class OfARecording(InBrowser):
         page.press("p")
         without = share_of_other_colours(page.picture_of("#stage"))
         self.assertGreater(with_points, without + 0.2)
-        for key, layer in (("s", "final"), ("r", "refined"), ("w", "raw"), ("f", "floor"), ("l", "trails")):
+        for key, layer in (("s", "final"), ("r", "refined"), ("w", "raw"), ("m", "mesh"), ("f", "floor"), ("l", "trails")):
             before = page.picture_of("#stage")
             page.press(key)
             changed = (page.picture_of("#stage") != before).any()
@@ -123,6 +123,27 @@ class OfARecording(InBrowser):
             page.press("c")
             seen.add(page.picture_of("#stage").tobytes())
         self.assertEqual(len(seen), 3, "by depth, person and part")
+
+    def test_a_fitted_body_lies_where_its_person_is_seen(self):
+        page = self.page
+        page.run("page.jump(12)")
+        page.wait_for_frame(12)
+        page.wait("return page.scene.meshes.triangles && page.scene.meshes.triangles.count === 3 * 4000", "its triangles")
+        camera, (mesh,), mask = page.run(
+            "const m = page.moment; return [m.camera, m.meshes.map(one => ({id: one.id, corners: [...one.corners]})), [...m.users]]")
+        corners = numpy.array(mesh["corners"]).reshape(-1, 3)
+        u = numpy.round(camera["cx"] - camera["fx"] * corners[:, 0] / corners[:, 2]).astype(int)
+        v = numpy.round(camera["cy"] - camera["fy"] * corners[:, 1] / corners[:, 2]).astype(int)
+        users = numpy.array(mask).reshape(camera["height"], camera["width"])
+        inside = (u >= 0) & (u < camera["width"]) & (v >= 0) & (v < camera["height"])
+        self.assertGreater((users[v[inside], u[inside]] == mesh["id"]).mean(), 0.7, "its corners lie on the person's pixels")
+        page.click("[data-view=camera]")
+        for name in ("cloud", "final", "floor"):
+            page.click(f"[data-layer={name}]")
+        nothing = page.picture_of("#stage")
+        page.press("m")
+        body = (page.picture_of("#stage") != nothing).any(axis=2)
+        self.assertGreater(body.sum(), 1000)
 
     def test_worst_frames_are_a_click_away(self):
         page = self.page
@@ -152,10 +173,15 @@ class OfARecording(InBrowser):
         page, downloads = self.page, WORK / "downloads"
         page.run("document.getElementById('export_panel').open = true;"
                  "document.getElementById('from').value = 2; document.getElementById('to').value = 9")
-        for name in ("skeletons.jsonl", "skeletons.bvh", "skeletons.csv", "frames_2_9.png"):
+        for name in ("skeletons.jsonl", "skeletons.bvh", "skeletons.csv", "skeletons.glb", "frames_2_9.png"):
             page.click("#strip_png" if name.endswith("png") else f"[data-export={name.split('.')[1]}]")
             wait_for_file(downloads / name)
         self.assertEqual(len((downloads / "skeletons.jsonl").read_text().splitlines()), 8)
+        glb = (downloads / "skeletons.glb").read_bytes()
+        length = int.from_bytes(glb[12:16], "little")
+        scene = json.loads(glb[20:20 + length])
+        self.assertEqual(glb[:4], b"glTF")
+        self.assertEqual((len(scene["skins"]), len(scene["meshes"])), (1, 1), "a person in their skin")
 
     def test_other_settings_track_it_anew(self):
         page = self.page
@@ -173,6 +199,7 @@ class OfARecording(InBrowser):
         page.run("page.jump(19)")
         page.wait_for_frame(19)
         page.click("[data-layer=trails]")
+        page.press("m")
         page.click("#live summary")
         page.save("viewer_recording.png", PICTURES)
         page.click("#theme")
@@ -207,6 +234,25 @@ class OfACamera(InBrowser):
         page.wait("return page.moment.layers.final.bodies.length > 0 && page.moment.parts.some(part => part > 0)",
                   "somebody, and the parts")
         page.save("viewer_phone.png", PICTURES)
+
+
+class OfPhysics(InBrowser):
+    def test_the_character_stands_where_its_person_does(self):
+        page = self.open(self.serve("view", CLIP, "--physics", "on"))
+        page.wait("return page.state.complete && page.track.length === page.state.frames", "the whole recording")
+        page.click("#play")
+        page.run("page.jump(12)")
+        page.wait_for_frame(12)
+        solids, joints = page.run("return [page.moment.solids, page.moment.layers.final.bodies[0].joints]")
+        self.assertEqual([solid["shape"] for solid in solids], ["capsule"] * 19)
+        thigh = numpy.array(joints["HipLeft"]["p"]) / 2 + numpy.array(joints["KneeLeft"]["p"]) / 2
+        gap_m = min(numpy.abs(numpy.array(solid["at"]) - thigh).max() for solid in solids)
+        self.assertLess(gap_m, 0.05, "a capsule around the thigh")
+        page.click("[data-layer=cloud]")
+        page.save("viewer_physics.png", PICTURES)
+        before = page.picture_of("#stage")
+        page.press("b")
+        self.assertGreater((page.picture_of("#stage") != before).any(axis=2).sum(), 1000, "its capsules are to be seen")
 
 
 class OfASkeletonFile(InBrowser):

@@ -155,6 +155,7 @@ std::optional<int64_t> FramesWanted(const depth::FrameSource& source, const Trac
 
 /// Where what is tracked goes. Images wait for their bodies, which are late by the lag.
 struct Destinations {
+  const TrackOptions& options;
   const tracker::Tracker& tracker;
   SkeletonOutput& output;
   DecisionTrace& trace;
@@ -174,6 +175,7 @@ struct Destinations {
       moment.dropped = run.dropped;
       moment.is_upright = tracker.quarter_turns() == 0;
       moment.latency_ms = bodies.ms.total;
+      if (options.mechanics.on()) moment.solids = viewer::CapsulesOf(bodies);
       viewer->Show(std::move(moment));
     }
     waiting.pop_front();
@@ -315,11 +317,12 @@ int Track(int argc, char** argv) {
     viewer::ViewerOptions page = PageOptions(options.page);
     page.name = options.source.name;
     page.forest = options.tracker.models->forest;
+    page.body = SkinOf(options.files);
     viewer = std::make_unique<viewer::Viewer>(page);
     SayWhere(*viewer);
   }
   stream::Sender sender(options.targets);
-  Destinations destinations{tracker, output, trace, pictures, sender, viewer.get()};
+  Destinations destinations{options, tracker, output, trace, pictures, sender, viewer.get()};
   Run run;
   try {
     TrackAll(*source, tracker, options, destinations, run);

@@ -16,6 +16,7 @@
 #include "recon/methods/reconstructor.h"
 #include "tools/commands/command.h"
 #include "tools/commands/commands.h"
+#include "tools/commands/mechanics_options.h"
 #include "tools/commands/method_options.h"
 #include "tools/commands/process.h"
 #include "tools/commands/source_options.h"
@@ -36,6 +37,7 @@ struct ViewOptions {
   tracker::ModelFiles files;
   tracker::TrackerOptions tracker;
   PageArguments page;
+  MechanicsOptions mechanics;
   viewer::Settings settings;
   std::vector<std::string> over;
   std::string record_to;
@@ -96,6 +98,8 @@ tracker::Tracker MakeTracker(const ViewOptions& options, const viewer::Settings&
   with.mode = settings.seated ? tracker::TrackingMode::kSeated : tracker::TrackingMode::kStanding;
   with.near_range = settings.near_range;
   with.max_users = settings.users;
+  with.physics = options.mechanics.on();
+  with.mechanics = options.mechanics.build;
   with.keep_parts = !is_live;  // of a camera the page finds them, for who looks
   return tracker::Tracker(with);
 }
@@ -134,6 +138,7 @@ class PageTracker {
     FindUpright(tracker_, *source_, options_.source, false);
     viewer::ViewerOptions with = ViewerOptionsOf(options);
     with.keeps = !source_->is_live();
+    with.body = SkinOf(options.files);
     with.expected_frames = source_->frame_count();
     with.settings = settings_;
     with.methods = MethodsToChoose(options.files);
@@ -163,7 +168,11 @@ class PageTracker {
     const Clock::time_point arrived = Clock::now();
     dropped_ += read.dropped;
     if (options_.once && !source_->is_live()) clockwork_.WaitFor(read.frame.time_s);
-    viewer::Moment moment = viewer::MomentOf(read.frame, tracker_.Track(read.frame));
+    tracker::BodyFrame bodies = tracker_.Track(read.frame);
+    std::vector<viewer::Solid> solids;
+    if (options_.mechanics.on()) solids = viewer::CapsulesOf(bodies);
+    viewer::Moment moment = viewer::MomentOf(read.frame, std::move(bodies));
+    moment.solids = std::move(solids);
     moment.dropped = dropped_;
     moment.is_upright = tracker_.quarter_turns() == 0;
     moment.latency_ms = std::chrono::duration<double, std::milli>(Clock::now() - arrived).count();
@@ -217,6 +226,7 @@ void AddTrackingOptions(CLI::App& app, ViewOptions& options) {
   app.add_option("--smoothing", options.settings.smoothing,
                  "preset of the filter (default: what goes with the method)")
       ->check(CLI::IsMember(tracker::SmoothingPresets()));
+  AddMechanicsOptions(app, options.mechanics);
   app.add_flag("--seated", options.settings.seated, "look for the ten upper joints only");
   app.add_flag("--near", options.settings.near_range, "near range: people within 3 m only");
   app.add_option("--users", options.settings.users, "most people at a time, 1 to 6 (default 6)")
@@ -245,6 +255,7 @@ int View(int argc, char** argv) {
   Parse(app, argc, argv);
   CheckRead(app, options.settings.method, false);
   CheckLearned(options.settings.method, options.files.learned);
+  options.mechanics.Check();
   options.tracker.turn = TurnOf(options.source);
   if (IsSource(options.source.name)) {
     PageTracker(options).Run();

@@ -5,6 +5,7 @@
 #include <CLI/CLI.hpp>
 
 #include "tools/commands/process.h"
+#include "tools/tracker/body_mesh_file.h"
 
 namespace ossa::commands {
 
@@ -34,6 +35,10 @@ viewer::ViewerOptions PageOptions(const PageArguments& arguments) {
   options.address = arguments.listen;
   if (options.token.empty()) options.token = viewer::RandomToken();
   return options;
+}
+
+std::shared_ptr<const recon::BodyMesh> SkinOf(const tracker::ModelFiles& files) {
+  return files.surface.empty() ? tracker::LoadBodyMesh() : nullptr;
 }
 
 void SayWhere(const viewer::Viewer& viewer) {

@@ -1,6 +1,8 @@
 #pragma once
+#include <memory>
 #include <string>
 
+#include "tools/tracker/model_set.h"
 #include "tools/viewer/viewer.h"
 
 namespace CLI {
@@ -21,6 +23,10 @@ void AddPageOptions(CLI::App& app, PageArguments& arguments);
 
 /// What they mean for a viewer.
 viewer::ViewerOptions PageOptions(const PageArguments& arguments);
+
+/// The skin of bodies that are fitted with these models: of the shipped surface; of others, whose
+/// mesh nobody named, and without one null. Throws InputError.
+std::shared_ptr<const recon::BodyMesh> SkinOf(const tracker::ModelFiles& files);
 
 /// Where browsers find the page, on stderr.
 void SayWhere(const viewer::Viewer& viewer);

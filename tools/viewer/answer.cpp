@@ -7,8 +7,9 @@
 #include <sstream>
 
 #include "depth/base/error.h"
-#include "recon/files/skeleton_io.h"
 #include "recon/files/skeleton_jsonl.h"
+#include "recon/files/skeleton_writer.h"
+#include "recon/fit/body_mesh.h"
 #include "tools/viewer/answer_internal.h"
 #include "tools/viewer/page_files_internal.h"
 
@@ -63,13 +64,21 @@ std::string ContentOf(const std::filesystem::path& path) {
   return text.str();
 }
 
+void WriteSpan(const std::filesystem::path& path, const recon::SkeletonSequence& sequence,
+               const Desk& desk) {
+  recon::SkeletonWriter writer(path, {.body = desk.options.body});
+  for (const auto& [id, shape] : desk.store.shapes()) writer.SetShape(id, shape);
+  for (const recon::SkeletonFrame& frame : sequence.frames) writer.Write(frame);
+  writer.Finish();
+}
+
 // TRC and BVH hold one person a file: the first is given.
 Answer Export(std::string_view target, const Desk& desk) {
   constexpr int64_t kMostFrames = 36000;  // count: 20 minutes at 30 Hz, by hand
   const std::string format = QueryValue(target, "format");
-  const std::vector<std::string> formats = {"jsonl", "csv", "trc", "bvh"};
+  const std::vector<std::string> formats = {"jsonl", "csv", "trc", "bvh", "glb"};
   if (std::find(formats.begin(), formats.end(), format) == formats.end()) {
-    throw InputError("format=" + format + ": expected jsonl, csv, trc or bvh");
+    throw InputError("format=" + format + ": expected jsonl, csv, trc, bvh or glb");
   }
   const int64_t from = Number(target, "from", 0), to = Number(target, "to", kMostFrames);
   const int64_t count = std::min(to - from + 1, kMostFrames);
@@ -77,10 +86,23 @@ Answer Export(std::string_view target, const Desk& desk) {
   const recon::SkeletonSequence sequence = recon::ReadSkeletonJsonl(lines, "the span");
   const ScratchFolder folder;
   const std::string name = "skeletons." + format;
-  recon::WriteSkeletons(folder.path() / name, sequence);
+  WriteSpan(folder.path() / name, sequence, desk);
   return {.type = "application/octet-stream",
           .body = ContentOf(folder.path() / name),
           .file_name = name};
+}
+
+Answer Mesh(const Desk& desk) {
+  Answer answer{.type = "application/octet-stream"};
+  if (!desk.options.body) return answer;
+  for (const recon::MeshTriangle& triangle : desk.options.body->triangles) {
+    for (const uint32_t corner : triangle) {
+      for (int shift = 0; shift < 32; shift += 8) {
+        answer.body.push_back(static_cast<char>(corner >> shift));
+      }
+    }
+  }
+  return answer;
 }
 
 Answer File(std::string_view path) {
@@ -110,6 +132,7 @@ Answer AnswerTo(std::string_view target, const Desk& desk) {
   try {
     if (path == "/state") return {.type = "application/json", .body = desk.StateJson()};
     if (path == "/lines") return Lines(target, desk);
+    if (path == "/mesh") return Mesh(desk);
     if (path == "/export") return Export(target, desk);
     return File(path);
   } catch (const InputError& error) {

@@ -24,7 +24,10 @@ std::string QueryValue(std::string_view target, std::string_view key);
 ///   /, /page/NAME, /three/...       the page and what it loads
 ///   /state                          the state as JSON
 ///   /lines?layer=L&from=N&count=M   skeletons, "final" or the number of an overlay: JSONL
-///   /export?format=F&from=N&to=M    the final skeletons of frames N to M: jsonl, csv, trc or bvh
+///   /export?format=F&from=N&to=M    the final skeletons of frames N to M: jsonl, csv, trc, bvh or
+///                                   glb
+///   /mesh                           the corners of fitted bodies' triangles: three uint32 each,
+///                                   little-endian; nothing where no bodies are shown
 /// 404 for the rest, 400 with one line for what cannot be read.
 Answer AnswerTo(std::string_view target, const Desk& desk);
 

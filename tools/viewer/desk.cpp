@@ -30,7 +30,7 @@ nlohmann::json JsonOf(const Settings& settings) {
 
 Desk::Desk(const ViewerOptions& with)
     : options(with),
-      store(with.keeps, with.forest),
+      store(with.keeps, with.forest, with.body),
       recorder(with.recordings),
       overlay_lines_(LinesOf(with.overlays)),
       settings_(with.settings) {}

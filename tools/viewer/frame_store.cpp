@@ -6,8 +6,11 @@
 
 namespace ossa::viewer {
 
-FrameStore::FrameStore(bool keeps, std::shared_ptr<const forest::ForestModel> forest)
-    : forest_(std::move(forest)), spools_(keeps ? std::make_unique<Spools>() : nullptr) {}
+FrameStore::FrameStore(bool keeps, std::shared_ptr<const forest::ForestModel> forest,
+                       std::shared_ptr<const recon::BodyMesh> body)
+    : forest_(std::move(forest)),
+      body_(std::move(body)),
+      spools_(keeps ? std::make_unique<Spools>() : nullptr) {}
 
 void FrameStore::Add(Moment moment) {
   if (!keeps()) {
@@ -18,13 +21,14 @@ void FrameStore::Add(Moment moment) {
     ++count_.frames;
     return;
   }
-  const PackedMoment packed = Pack(moment);
+  const PackedMoment packed = Pack(moment, body_.get());
   const std::string line = recon::SkeletonJsonLine(moment.skeletons());
   const std::lock_guard lock(mutex_);
-  spools_->moments.Append(packed.members + packed.pictures);
+  spools_->moments.Append(packed.members + packed.pictures + packed.meshes);
   spools_->lines.Append(line);
   spools_->kept.push_back({packed.width, packed.height, packed.planes, packed.members.size(),
-                           moment.skeletons().time_s});
+                           packed.pictures.size(), moment.skeletons().time_s});
+  for (const FittedBody& fit : moment.fits) shapes_[fit.id] = fit.pose.shape;
   ++count_.frames;
 }
 
@@ -38,6 +42,7 @@ void FrameStore::Clear() {
   count_ = {.frames = 0, .generation = count_.generation + 1, .complete = false};
   newest_.reset();
   packed_.reset();
+  shapes_.clear();
   if (!keeps()) return;
   spools_->moments.Clear();
   spools_->lines.Clear();
@@ -57,7 +62,8 @@ std::shared_ptr<const PackedMoment> FrameStore::ReadKept(int64_t number) const {
   packed->height = kept.height;
   packed->planes = kept.planes;
   std::string record = spools_->moments.Read(i);
-  packed->pictures = record.substr(kept.members);
+  packed->pictures = record.substr(kept.members, kept.pictures);
+  packed->meshes = record.substr(kept.members + kept.pictures);
   record.resize(kept.members);
   packed->members = std::move(record);
   return packed;
@@ -66,10 +72,10 @@ std::shared_ptr<const PackedMoment> FrameStore::ReadKept(int64_t number) const {
 PackedMoment FrameStore::PackWithParts(const Moment& moment) const {
   const bool are_wanted = forest_ && moment.is_upright && moment.parts.data.empty() &&
                           moment.users.data.size() == moment.depth.depth_mm.size();
-  if (!are_wanted) return Pack(moment);
+  if (!are_wanted) return Pack(moment, body_.get());
   Moment with = moment;
   with.parts = FindParts(*forest_, moment.depth, moment.users);
-  return Pack(with);
+  return Pack(with, body_.get());
 }
 
 std::shared_ptr<const PackedMoment> FrameStore::At(int64_t& number) const {
@@ -93,6 +99,11 @@ std::string FrameStore::Line(int64_t number) const {
   if (!keeps()) return newest_ ? recon::SkeletonJsonLine(newest_->skeletons()) : std::string();
   if (number < 0 || number >= count_.frames) return {};
   return spools_->lines.Read(static_cast<size_t>(number));
+}
+
+std::map<int, recon::ShapeVector> FrameStore::shapes() const {
+  const std::lock_guard lock(mutex_);
+  return shapes_;
 }
 
 double FrameStore::TimeOf(int64_t number) const {

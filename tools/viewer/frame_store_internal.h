@@ -1,5 +1,6 @@
 #pragma once
 #include <cstdint>
+#include <map>
 #include <memory>
 #include <mutex>
 #include <optional>
@@ -7,6 +8,7 @@
 #include <vector>
 
 #include "forest/forest.h"
+#include "recon/fit/body_mesh.h"
 #include "tools/viewer/message_internal.h"
 #include "tools/viewer/moment.h"
 #include "tools/viewer/spool_internal.h"
@@ -17,9 +19,10 @@ namespace ossa::viewer {
 /// from any thread.
 class FrameStore {
  public:
-  /// `forest`: of a camera finds the parts of moments that are asked for and have none; may be
-  /// null.
-  FrameStore(bool keeps, std::shared_ptr<const forest::ForestModel> forest);
+  /// `forest`: of a camera finds the parts of moments that are asked for and have none; `body`: the
+  /// skin of fitted bodies. Each may be null.
+  FrameStore(bool keeps, std::shared_ptr<const forest::ForestModel> forest,
+             std::shared_ptr<const recon::BodyMesh> body);
 
   void Add(Moment moment);
   /// Of a recording: nothing more comes.
@@ -41,13 +44,15 @@ class FrameStore {
   /// The final skeletons of a frame as a line of skeleton JSONL without its end; of a camera those
   /// of the newest. Empty where there are none.
   std::string Line(int64_t number) const;
+  /// What is known of people's shapes, by body id: the last fit's.
+  std::map<int, recon::ShapeVector> shapes() const;
   /// Seconds of a kept frame, on the recording's clock.
   double TimeOf(int64_t number) const;
 
  private:
   struct Kept {
     int width = 0, height = 0, planes = 0;
-    size_t members = 0;  // bytes of the record that are PackedMoment::members
+    size_t members = 0, pictures = 0;  // bytes of the record, which come before the meshes
     double time_s = 0.0;
   };
   struct Spools {
@@ -58,11 +63,13 @@ class FrameStore {
   PackedMoment PackWithParts(const Moment& moment) const;
 
   const std::shared_ptr<const forest::ForestModel> forest_;
+  const std::shared_ptr<const recon::BodyMesh> body_;
 
   mutable std::mutex mutex_;  // guards all below
   Count count_;
   std::unique_ptr<Spools> spools_;
   std::shared_ptr<const Moment> newest_;
+  std::map<int, recon::ShapeVector> shapes_;
   mutable std::shared_ptr<const PackedMoment> packed_;  // of the newest, once it was asked for
 };
 

@@ -1,5 +1,8 @@
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <array>
+#include <cmath>
 #include <cstring>
 
 #include "recon/files/skeleton_jsonl.h"
@@ -17,6 +20,28 @@ std::string StagesJson(const tracker::StageTimes& ms) {
   return fmt::format(
       R"({{"segment":{:.2f},"classify":{:.2f},"propose":{:.2f},"reconstruct":{:.2f},"physics":{:.2f},"total":{:.2f}}})",
       ms.segment, ms.classify, ms.propose, ms.reconstruct, ms.physics, ms.total);
+}
+
+std::string MeshesJson(const std::vector<FittedBody>& fits, size_t vertices) {
+  std::string text = "[";
+  for (const FittedBody& fit : fits) {
+    text +=
+        fmt::format(R"({}{{"id":{},"vertices":{}}})", text.size() > 1 ? "," : "", fit.id, vertices);
+  }
+  return text + "]";
+}
+
+void AppendMesh(std::string& bytes, const recon::BodyMesh& body, const recon::SurfacePose& pose) {
+  constexpr double kUnits = 2000.0;  // a metre, of the format: to 16 m
+  constexpr double kMost = 32767.0;  // count, largest of an int16: by definition
+  for (const Eigen::Vector3d& vertex_m : recon::PoseMesh(body, pose)) {
+    for (const double x_m : vertex_m) {
+      const double units = std::clamp(std::round(x_m * kUnits), -kMost, kMost);
+      const auto whole = static_cast<uint16_t>(static_cast<int16_t>(units));
+      bytes.push_back(static_cast<char>(whole));
+      bytes.push_back(static_cast<char>(whole >> 8));
+    }
+  }
 }
 
 std::string LayersJson(const Moment& moment) {
@@ -65,13 +90,19 @@ void AppendPictures(std::string& bytes, const PackedMoment& moment, int step) {
 
 }  // namespace
 
-PackedMoment Pack(const Moment& moment) {
+PackedMoment Pack(const Moment& moment, const recon::BodyMesh* body) {
   const depth::Camera& camera = moment.depth.camera;
   PackedMoment packed;
   packed.members = fmt::format(
-      R"("frame":{},"time_s":{},"camera":{},"layers":{},"ms":{},"dropped":{},"latency_ms":{:.2f})",
+      R"("frame":{},"time_s":{},"camera":{},"layers":{},"ms":{},"dropped":{},"latency_ms":{:.2f},)"
+      R"("meshes":{},"solids":{})",
       moment.skeletons().frame, moment.skeletons().time_s, CameraJson(camera), LayersJson(moment),
-      StagesJson(moment.ms), moment.dropped, moment.latency_ms);
+      StagesJson(moment.ms), moment.dropped, moment.latency_ms,
+      body != nullptr ? MeshesJson(moment.fits, body->vertices.size()) : "[]",
+      SolidsJson(moment.solids));
+  if (body != nullptr) {
+    for (const FittedBody& fit : moment.fits) AppendMesh(packed.meshes, *body, fit.pose);
+  }
   if (moment.depth.depth_mm.empty()) return packed;
   packed.width = camera.width;
   packed.height = camera.height;
@@ -93,11 +124,12 @@ std::string MessageOf(const PackedMoment& moment, int64_t number, int step,
   header.resize((header.size() + 3) / 4 * 4, ' ');
   const auto length = static_cast<uint32_t>(header.size());
   std::string bytes;
-  bytes.reserve(4 + header.size() + moment.pictures.size() / static_cast<size_t>(step));
+  bytes.reserve(4 + header.size() + moment.pictures.size() / static_cast<size_t>(step) +
+                moment.meshes.size());
   for (int shift = 0; shift < 32; shift += 8) bytes.push_back(static_cast<char>(length >> shift));
   bytes += header;
   AppendPictures(bytes, moment, step);
-  return bytes;
+  return bytes += moment.meshes;
 }
 
 }  // namespace ossa::viewer

@@ -3,6 +3,7 @@
 #include <string>
 #include <string_view>
 
+#include "recon/fit/body_mesh.h"
 #include "tools/viewer/moment.h"
 
 namespace ossa::viewer {
@@ -14,14 +15,18 @@ struct PackedMoment {
   int width = 0, height = 0;
   int planes = 0;        // 0: no pictures, 1: depth, 3: depth, users and parts
   std::string pictures;  // depth, two bytes a pixel, little-endian mm; users and parts, one byte
+  /// Of each of the members' "meshes" the corners of its skin one behind the other: x, y, z in
+  /// camera space, each a little-endian int16 of half millimetres.
+  std::string meshes;
 };
 
-PackedMoment Pack(const Moment& moment);
+/// Fitted bodies wear the skin of `body`; null: they are not shown.
+PackedMoment Pack(const Moment& moment, const recon::BodyMesh* body = nullptr);
 
 /// The binary message of a moment: the length of the header (4 bytes, little-endian), the header
 /// (JSON, filled up with spaces to a multiple of four bytes), the pictures, of which every `step`th
-/// pixel and row. `number` is its place in the recording, or how many were shown before it; `state`
-/// is a JSON object that goes into the header.
+/// pixel and row, the meshes. `number` is its place in the recording, or how many were shown before
+/// it; `state` is a JSON object that goes into the header.
 std::string MessageOf(const PackedMoment& moment, int64_t number, int step, std::string_view state);
 
 }  // namespace ossa::viewer

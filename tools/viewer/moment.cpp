@@ -15,6 +15,9 @@ Moment MomentOf(depth::DepthFrame frame, tracker::BodyFrame bodies) {
   moment.users = std::move(bodies.users);
   moment.parts = std::move(bodies.parts);
   moment.ms = bodies.ms;
+  for (const tracker::Body& body : bodies.bodies) {
+    if (body.fit) moment.fits.push_back({body.id, body.fit->pose});
+  }
   return moment;
 }
 

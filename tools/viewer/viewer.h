@@ -13,6 +13,9 @@
 namespace ossa::forest {
 class ForestModel;  // forest/forest.h
 }
+namespace ossa::recon {
+struct BodyMesh;  // recon/fit/body_mesh.h
+}
 
 namespace ossa::viewer {
 
@@ -48,6 +51,8 @@ struct ViewerOptions {
   /// Finds body parts for frames that come without, on the page's thread and only for frames that
   /// somebody looks at. Null: none are found.
   std::shared_ptr<const forest::ForestModel> forest;
+  /// The skin of fitted bodies, and of an exported .glb. Null: bodies are not shown.
+  std::shared_ptr<const recon::BodyMesh> body;
   /// Left out: nothing can be changed.
   std::optional<Settings> settings = {};
   std::vector<std::string> methods, smoothings;

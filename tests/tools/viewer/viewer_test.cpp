@@ -212,6 +212,36 @@ TEST(Viewer, ASpanIsExportedInEveryFormat) {
             std::string::npos);
 }
 
+TEST(Viewer, SolidsAreGivenWithTheirMoment) {
+  Viewer viewer(AnyPort(true));
+  Moment moment = ExampleMoment(0);
+  moment.solids.push_back(
+      {.shape = physics::Shape::kBall, .size_m = {0.5, 0.0, 0.0}, .position_m = {1.0, 0.25, 3.0}});
+  viewer.Show(std::move(moment));
+  PageClient page(viewer.port());
+  const auto solid = HeaderOf(page.Ask("{\"frame\":0}"))["solids"][0];
+  EXPECT_EQ(solid["shape"], "ball");
+  EXPECT_EQ(solid["size"][0], 0.5);
+  EXPECT_EQ(solid["at"][2], 3.0);
+  EXPECT_EQ(solid["person"], 0);
+}
+
+// Upright along y, a metre long: what the page draws is where the bones are.
+TEST(Viewer, ACapsuleLiesAlongItsBone) {
+  recon::Posture posture;
+  for (size_t j = 0; j < recon::kJointCount; ++j) {
+    posture.position_m[j] = {0.0, 0.1 * static_cast<double>(j), 2.0};
+  }
+  const std::vector<Solid> capsules = CapsulesOf(posture, 4);
+  ASSERT_EQ(capsules.size(), recon::kJointCount - 1);
+  for (const Solid& capsule : capsules) {
+    EXPECT_EQ(capsule.person, 4);
+    const Eigen::Vector3d along = capsule.orientation * Eigen::Vector3d::UnitY();
+    EXPECT_NEAR(std::abs(along.y()), 1.0, 1e-9);
+    EXPECT_NEAR(capsule.position_m.z(), 2.0, 1e-9);
+  }
+}
+
 TEST(Viewer, OverlaysAreGivenLineByLine) {
   ViewerOptions options = AnyPort(true);
   recon::SkeletonSequence sequence;

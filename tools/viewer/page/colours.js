@@ -3,6 +3,7 @@
 // People, told apart by the colour-blind, too (Okabe and Ito 2008), by id.
 export const PEOPLE = ['#56b4e9', '#e69f00', '#009e73', '#f0e442', '#cc79a7', '#d55e00'];
 export const OVERLAYS = ['#ff5ccd', '#7fc31c', '#c9b18a'];
+export const THINGS = '#b0a08a';  // of a scene
 export const LAYERS = {refined: '#a47cf0', raw: '#9aa0a8'};
 export const NEAR_MM = 500;
 export const FAR_MM = 5000;

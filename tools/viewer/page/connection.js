@@ -1,6 +1,15 @@
 // The WebSocket: one question, one answer, in turn. A slow browser asks less often and so gets fewer frames.
 
-// A binary message: length of the header, header (JSON), depth (16 bit), persons and parts (8 bit each).
+// A binary message: length of the header, header (JSON), depth (16 bit), persons and parts (8 bit each),
+// corners of fitted bodies (16 bit, half millimetres).
+function readMeshes(buffer, begin, meshes) {
+  return meshes.map(({id, vertices}) => {
+    const corners = Float32Array.from(new Int16Array(buffer, begin, 3 * vertices), x => x / 2000);
+    begin += 6 * vertices;
+    return {id, corners};
+  });
+}
+
 function readMoment(buffer) {
   const length = new DataView(buffer).getUint32(0, true);
   const header = JSON.parse(new TextDecoder().decode(new Uint8Array(buffer, 4, length)));
@@ -9,6 +18,8 @@ function readMoment(buffer) {
   header.depth = header.planes > 0 ? new Uint8Array(buffer, begin, pixels * 2) : null;
   header.users = header.planes > 1 ? new Uint8Array(buffer, begin + pixels * 2, pixels) : null;
   header.parts = header.planes > 1 ? new Uint8Array(buffer, begin + pixels * 3, pixels) : null;
+  const bytes = header.planes > 1 ? 4 : header.planes > 0 ? 2 : 0;
+  header.meshes = readMeshes(buffer, begin + pixels * bytes, header.meshes);
   return header;
 }
 

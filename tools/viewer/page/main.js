@@ -51,12 +51,18 @@ class Page {
     const time_s = moment.layers.final.time_s;
     const over = this.overlays.map(overlay => [...overlay.at(time_s)?.bodies ?? []].map(([id, joints]) => ({id, joints})));
     this.scene.show(moment, this.track, this.index, over);
+    for (const [name, what] of [['mesh', moment.meshes], ['solids', moment.solids]]) this.offer(name, what.length > 0);
     showPictures($('depth'), $('parts'), moment);
     $('pictures').hidden = !moment.depth;
     $('parts_figure').hidden = !moment.parts;
     this.say();
     this.drawCharts();
     this.onShown?.(moment.number);
+  }
+
+  // A layer that is not always there may be chosen from when it first is.
+  offer(name, isThere) {
+    if (isThere) document.querySelector(`[data-layer=${name}]`).parentElement.hidden = false;
   }
 
   say() {
@@ -136,6 +142,7 @@ class Page {
 
   switchLayer(box) {
     this.scene.layers[box.dataset.layer].visible = box.checked;
+    if (box.dataset.layer === 'mesh') this.scene.showMeshes();
     this.scene.draw();
     if (this.moment) this.drawLegend();
   }
@@ -204,6 +211,7 @@ class Page {
       [['p'], 'points', () => this.toggle('[data-layer=cloud]')],
       [['c'], 'colour: depth, person, part', () => this.nextColour()],
       [['s', 'r', 'w'], 'skeleton: final, refined, raw', key => this.toggle(`[data-layer=${{s: 'final', r: 'refined', w: 'raw'}[key]}]`)],
+      [['m', 'b'], 'fitted body, bodies of physics', key => this.toggle(`[data-layer=${{m: 'mesh', b: 'solids'}[key]}]`)],
       [['l'], 'trails', () => this.toggle('[data-layer=trails]')],
       [['f'], 'floor', () => this.toggle('[data-layer=floor]')],
       [['['], 'the span to export begins here', () => this.setSpan('from')],

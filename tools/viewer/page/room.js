@@ -10,6 +10,13 @@ export function makeFloor() {
   return grid;
 }
 
+// For what has a surface: from above, and some from the camera's side.
+export function addLight(scene) {
+  const sun = new THREE.DirectionalLight(0xffffff, 0.6);
+  sun.position.set(-1, 2, -2);
+  scene.add(new THREE.HemisphereLight(0xffffff, 0x555560, 0.6), sun);
+}
+
 // Corners of the image at a distance, in camera space.
 function corners(camera, z) {
   const place = (u, v) => new THREE.Vector3((camera.cx - u) * z / camera.fx, (camera.cy - v) * z / camera.fy, z);

@@ -4,7 +4,9 @@ import {OrbitControls} from '/three/examples/jsm/controls/OrbitControls.js';
 import {Cloud} from './cloud.js';
 import {LAYERS, OVERLAYS, personColour} from './colours.js';
 import {Figures, Trails} from './figures.js';
-import {Frustum, makeFloor} from './room.js';
+import {Meshes} from './meshes.js';
+import {Frustum, addLight, makeFloor} from './room.js';
+import {Solids} from './solids.js';
 
 const UP = new THREE.Vector3(0, 1, 0);
 const EYE_HEIGHT_M = 1;  // of a camera that sees no floor
@@ -37,14 +39,18 @@ export class Scene {
     this.trails = new Trails();
     this.floor = makeFloor();
     this.figures = {final: new Figures(0.035, 0.014), refined: new Figures(0.022, 0.006), raw: new Figures(0.026, 0.003)};
+    this.meshes = new Meshes(() => this.showMeshes());
+    this.solids = new Solids();
     this.overlays = [];
+    addLight(this.scene);
     this.scene.add(this.floor);
-    this.world.add(this.cloud.points, this.frustum.lines);
+    this.world.add(this.cloud.points, this.frustum.lines, this.meshes.group, this.solids.group);
     this.frontWorld.add(this.trails.group);
     for (const figures of Object.values(this.figures)) this.frontWorld.add(figures.group);
-    this.layers = {cloud: this.cloud.points, frustum: this.frustum.lines, trails: this.trails.group, floor: this.floor};
+    this.layers = {cloud: this.cloud.points, frustum: this.frustum.lines, trails: this.trails.group, floor: this.floor,
+      mesh: this.meshes.group, solids: this.solids.group};
     for (const [name, figures] of Object.entries(this.figures)) this.layers[name] = figures.group;
-    for (const name of ['refined', 'raw', 'trails']) this.layers[name].visible = false;
+    for (const name of ['refined', 'raw', 'trails', 'mesh']) this.layers[name].visible = false;
   }
 
   addOverlay(i) {
@@ -79,12 +85,20 @@ export class Scene {
     this.frontWorld.quaternion.copy(this.world.quaternion);
   }
 
+  showMeshes() {
+    if (!this.moment) return;
+    this.meshes.show(this.moment.meshes);
+    this.draw();
+  }
+
   // moment: as connection.js reads it; overlays: bodies of each.
   show(moment, track, index, overlays) {
     this.moment = moment;
     this.stand(moment.layers.final.floor);
     this.cloud.show(moment);
     this.frustum.show(moment.camera);
+    if (this.layers.mesh.visible) this.meshes.show(moment.meshes);
+    this.solids.show(moment.solids);
     for (const [name, figures] of Object.entries(this.figures)) {
       figures.show(moment.layers[name].bodies, name === 'final' ? personColour : () => LAYERS[name]);
     }
