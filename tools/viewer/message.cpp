@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 #include <cstring>
+#include <limits>
 
 #include "recon/files/skeleton_jsonl.h"
 #include "tools/viewer/message_internal.h"
@@ -33,7 +34,7 @@ std::string MeshesJson(const std::vector<FittedBody>& fits, size_t vertices) {
 
 void AppendMesh(std::string& bytes, const recon::BodyMesh& body, const recon::SurfacePose& pose) {
   constexpr double kUnits = 2000.0;  // a metre, of the format: to 16 m
-  constexpr double kMost = 32767.0;  // count, largest of an int16: by definition
+  constexpr double kMost = std::numeric_limits<int16_t>::max();
   for (const Eigen::Vector3d& vertex_m : recon::PoseMesh(body, pose)) {
     for (const double x_m : vertex_m) {
       const double units = std::clamp(std::round(x_m * kUnits), -kMost, kMost);
