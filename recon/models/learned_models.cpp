@@ -6,6 +6,7 @@
 #include "depth/base/checksummed_container.h"
 #include "depth/base/error.h"
 #include "depth/base/naming_the_file.h"
+#include "depth/base/perceptron/perceptron_file.h"
 #include "recon/database/posture_database.h"
 
 namespace ossa::recon {
@@ -15,7 +16,7 @@ constexpr ContainerFormat kFormat = {
     {'O', 'S', 'S', 'A', 'G', 'P', '0', '0'}, LearnedModels::kVersion, "learned reconstruction"};
 // Constants: versions of the format; counts by hand.
 
-constexpr uint32_t kOldestVersion = 2, kVersionOfSteps = 3;
+constexpr uint32_t kOldestVersion = 2, kVersionOfSteps = 3, kVersionOfPulls = 4;
 
 // More than any honest file holds; a damaged count is refused before it costs memory or time.
 constexpr uint64_t kMostModels = LearnOptions::kMostRegions;
@@ -91,6 +92,29 @@ LinearFilter GetFilter(PayloadReader& in) {
   return filter;
 }
 
+void PutWindow(PayloadWriter& out, const WindowCorrection& window) {
+  out.Put<uint32_t>(static_cast<uint32_t>(window.network.layers.front().bias.size()));
+  PutPerceptron(out, window.network);
+  out.Put(window.gains);
+}
+
+WindowCorrection GetWindow(PayloadReader& in) {
+  WindowCorrection window;
+  const Eigen::Index hidden = GetUnits(in);
+  window.network = GetPerceptron(in, {WindowSize(), hidden, kPostureDims});
+  window.gains = in.Get<JointWeights>("gains");
+  for (const double gain : window.gains) {
+    if (!(gain >= 0.0 && gain <= 1.0)) in.Fail("gains", "expected 0 to 1");
+  }
+  return window;
+}
+
+/// The oldest that holds it: what older programs read stays what they read.
+uint32_t VersionFor(const LearnedModels& models) {
+  if (!models.window.empty()) return LearnedModels::kVersion;
+  return models.filter.HasInfluences() ? kVersionOfPulls : kVersionOfSteps;
+}
+
 Eigen::Index FeatureSize(size_t joint) { return JointFeature(Posture(), joint).size(); }
 
 struct JointSamples {
@@ -128,6 +152,7 @@ LearnedModels LearnedModels::Learn(const std::vector<PosturePair>& pairs,
   out.pair_count = pairs.size();
   if (options.correction.centres > 0) {
     out.correction = PoseCorrection::Learn(pairs, options.correction);
+    out.window = WindowCorrection::Learn(pairs, options.window);
     out.filter = LinearFilter::Learn(pairs, options.filter);
   }
   if (!options.processes) return out;
@@ -174,7 +199,8 @@ void LearnedModels::Save(const std::filesystem::path& path) const {
   out.Put(correction.proportions);
   PutFilter(out, filter);
   ContainerFormat format = kFormat;
-  if (!filter.HasInfluences()) format.version = kVersionOfSteps;  // what older programs read
+  format.version = VersionFor(*this);
+  if (format.version == kVersion) PutWindow(out, window);
   WriteContainer(path, format, out.bytes());
 }
 
@@ -231,6 +257,7 @@ LearnedModels LearnedModels::FromBytes(std::span<const std::byte> bytes, const s
   }
   c.mean = Eigen::Map<const Eigen::VectorXf>(mean.data(), mean.size());
   if (version >= kVersionOfSteps) out.filter = GetFilter(in);
+  if (version > kVersionOfPulls) out.window = GetWindow(in);
   in.ExpectEnd();
   return out;
 }

@@ -7,6 +7,7 @@
 #include "recon/models/linear_filter.h"
 #include "recon/models/local_mixture.h"
 #include "recon/models/pose_correction.h"
+#include "recon/models/window_correction.h"
 
 namespace ossa::recon {
 
@@ -19,6 +20,7 @@ struct LearnOptions {
   bool processes = true;  // false: the correction alone, for `best`
   LocalMixtureOptions mixture;
   PoseCorrectionOptions correction;
+  WindowCorrectionOptions window;
   LinearFilterOptions filter;
   size_t most_pairs = 2500;  // for the mixtures, the full processes and the exemplars
   int full_samples = 350;    // of each joint's full Gaussian process: its variance costs their
@@ -27,12 +29,13 @@ struct LearnOptions {
 
 /// What `ossa learn` makes of pairs and the .ossagp file holds: for each joint with known truth the
 /// local mixture (liu-2016) and the full process (full-gp), the pairs themselves (exemplar), the
-/// correction of the whole posture and the filter (best).
+/// corrections of the whole posture and the filter (best).
 struct LearnedModels {
   JointArray<LocalMixture> mixtures;
   JointArray<GaussianProcess> full;
   std::vector<PosturePair> exemplars;
   PoseCorrection correction;
+  WindowCorrection window;
   LinearFilter filter;
   uint64_t pair_count = 0;  // learned from
 
@@ -46,8 +49,8 @@ struct LearnedModels {
   /// Of a payload; older versions are still read, without what they lack.
   static LearnedModels FromBytes(std::span<const std::byte> bytes, const std::string& name,
                                  uint32_t version = kVersion);
-  /// Version 3 added the filter, 4 its pulls.
-  static constexpr uint32_t kVersion = 4;
+  /// Version 3 added the filter, 4 its pulls, 5 the correction by a window of time.
+  static constexpr uint32_t kVersion = 5;
 };
 
 }  // namespace ossa::recon

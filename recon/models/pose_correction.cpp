@@ -8,6 +8,7 @@
 #include <optional>
 
 #include "recon/database/posture_database.h"
+#include "recon/models/error_gains_internal.h"
 #include "recon/models/local_mixture.h"
 
 namespace ossa::recon {
@@ -185,53 +186,6 @@ LinearFit RobustFit(const Eigen::MatrixXf& k, const Eigen::MatrixXf& targets,
   return fit;
 }
 
-/// Pairs without a gross error; all of them where hardly any is left.
-std::vector<PosturePair> Sound(const std::vector<PosturePair>& pairs, double gross_m) {
-  std::vector<PosturePair> sound;
-  for (const PosturePair& pair : pairs) {
-    if (pair.worst_m < gross_m) sound.push_back(pair);
-  }
-  return sound.size() >= 10 ? sound : pairs;
-}
-
-/// The gain of each joint that is best on pairs left out: of least squares, g = sum(y o) / sum(o
-/// o), weighed by the inverse of each error, so that a few gross ones do not decide.
-JointWeights ComputeGains(const std::vector<PosturePair>& pairs, const std::vector<int>& fold,
-                          const std::vector<Posture>& offsets) {
-  JointWeights agree{}, square{}, gains{};
-  for (size_t i = 0; i < pairs.size(); ++i) {
-    for (size_t j = 0; j < kJointCount; ++j) {
-      if (pairs[i].known[j] == 0.0 || fold[i] == kNoFold) continue;
-      const Eigen::Vector3d& offset = offsets[i].position_m[j];
-      agree[j] += offset.dot(pairs[i].residual.position_m[j]);
-      square[j] += offset.squaredNorm();
-    }
-  }
-  for (size_t j = 0; j < kJointCount; ++j) {
-    const auto m = kMirroredJoint[j];
-    const double total = square[j] + square[m];
-    const double held = total > 0.0 ? (agree[j] + agree[m]) / total : 0.0;
-    // What holds by less than half differs between people more than it is theirs in common.
-    constexpr double kLeastGain = 0.5;
-    gains[j] = held < kLeastGain ? 0.0 : std::min(held, 1.0);
-  }
-  return gains;
-}
-
-/// Mean distance of the known joints from the truth, after offsets times gains.
-double ErrorLeft(const std::vector<PosturePair>& pairs, const std::vector<int>& fold,
-                 const std::vector<Posture>& offsets, const JointWeights& gains) {
-  double sum_m = 0.0, count = 0.0;
-  for (size_t i = 0; i < pairs.size(); ++i) {
-    for (size_t j = 0; j < kJointCount; ++j) {
-      if (pairs[i].known[j] == 0.0 || fold[i] == kNoFold) continue;
-      sum_m += (pairs[i].residual.position_m[j] - gains[j] * offsets[i].position_m[j]).norm();
-      count += 1.0;
-    }
-  }
-  return sum_m / std::max(count, 1.0);
-}
-
 }  // namespace
 
 PoseCorrection::Samples PoseCorrection::SamplesOf(std::vector<PosturePair> pairs,
@@ -310,7 +264,7 @@ PoseCorrection::HeldOut PoseCorrection::LeaveOut(const std::vector<PosturePair>&
 PoseCorrection PoseCorrection::Learn(const std::vector<PosturePair>& all_pairs,
                                      const PoseCorrectionOptions& options) {
   const std::vector<PosturePair> pairs =
-      Thinned(Sound(all_pairs, options.gross_m), options.most_pairs);
+      Thinned(WithoutGrossErrors(all_pairs, options.gross_m), options.most_pairs);
   constexpr size_t kForChoice = 2000;  // a few numbers: that many pairs fix them
   const std::vector<PosturePair> some = Thinned(pairs, kForChoice);
   PoseCorrectionOptions quick = options;

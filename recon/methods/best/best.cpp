@@ -41,7 +41,8 @@ class Best : public Reconstructor {
       proportions_ = learned->correction.proportions;
       learned_filter = learned->filter;
       if (options_.correct)
-        correction_ = Correction(learned->correction, options_.constants.of_posture);
+        correction_ =
+            Correction(learned->correction, learned->window, options_.constants.of_posture);
     }
     filter_ = PostureFilter(options_.constants, learned_filter);
     MeasureAnew();
@@ -102,6 +103,7 @@ class Best : public Reconstructor {
     FrameState frame;
     frame.placement = prepared.placement;
     frame.scale = prepared.scale;
+    frame.time_s = input.time_s;
     frame.trust = ComputeTrust(prepared, input.observed, sensor_, inputs);
     for (size_t i = 0; i < kJointCount; ++i)
       frame.reliability[i] = std::min(prepared.reliability[i], frame.trust[i]);

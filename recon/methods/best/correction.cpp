@@ -3,6 +3,13 @@
 #include "recon/methods/best/correction_internal.h"
 
 namespace ossa::recon {
+namespace {
+
+Posture ScaledOf(const Posture& in_camera, const FrameState& frame) {
+  return Scaled(Normalised(in_camera, frame.placement), 1.0 / frame.scale);
+}
+
+}  // namespace
 
 void Correction::Observe(const Posture& in_camera, const FrameState& frame, double dt_s) {
   if (learned_.empty()) return;
@@ -13,6 +20,8 @@ void Correction::Observe(const Posture& in_camera, const FrameState& frame, doub
     mean_offset_.position_m[i] +=
         dt_s / averaged_s_ * (now.position_m[i] - mean_offset_.position_m[i]);
   }
+  if (!of_window_.empty())
+    history_.Add(frame.time_s, CorrectionFeature(ScaledOf(in_camera, frame)));
 }
 
 Posture Correction::Apply(const Posture& in_camera, const FrameState& frame) const {
@@ -30,12 +39,20 @@ Posture Correction::Apply(const Posture& in_camera, const FrameState& frame) con
 }
 
 Posture Correction::Predict(const Posture& in_camera, const FrameState& frame) const {
-  return learned_.Offsets(Scaled(Normalised(in_camera, frame.placement), 1.0 / frame.scale));
+  const Posture scaled = ScaledOf(in_camera, frame);
+  const Posture by_posture = learned_.Offsets(scaled);
+  if (of_window_.empty()) return by_posture;
+  Posture mean = of_window_.Offsets(history_.WindowAt(frame.time_s, CorrectionFeature(scaled)));
+  for (size_t i = 0; i < kJointCount; ++i) {
+    mean.position_m[i] = 0.5 * (mean.position_m[i] + by_posture.position_m[i]);
+  }
+  return mean;
 }
 
 void Correction::Reset() {
   mean_offset_ = Posture();
   averaged_s_ = 0.0;
+  history_.Clear();
 }
 
 }  // namespace ossa::recon

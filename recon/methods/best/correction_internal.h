@@ -1,6 +1,7 @@
 #pragma once
 #include "recon/methods/best/frame_state_internal.h"
 #include "recon/models/pose_correction.h"
+#include "recon/models/window_correction.h"
 
 namespace ossa::recon {
 
@@ -11,8 +12,10 @@ class Correction {
  public:
   Correction() = default;
   /// `posture_share`: share taken of what changes with the posture, in [0, 1].
-  Correction(PoseCorrection learned, double posture_share)
-      : learned_(std::move(learned)), posture_share_(posture_share) {}
+  Correction(PoseCorrection learned, WindowCorrection of_window, double posture_share)
+      : learned_(std::move(learned)),
+        of_window_(std::move(of_window)),
+        posture_share_(posture_share) {}
 
   /// Averages this frame's offsets into the person's.
   void Observe(const Posture& in_camera, const FrameState& frame, double dt_s);
@@ -25,6 +28,8 @@ class Correction {
   Posture Predict(const Posture& in_camera, const FrameState& frame) const;
 
   PoseCorrection learned_;
+  WindowCorrection of_window_;  // may be empty
+  FeatureHistory history_;
   double posture_share_ = 0.0;
   Posture mean_offset_;      // of this person, normalised and scaled
   double averaged_s_ = 0.0;  // for how long
