@@ -1,5 +1,6 @@
 #include "depth/sensor/depth_census.h"
 
+#include <algorithm>
 #include <array>
 #include <bitset>
 #include <cmath>
@@ -13,7 +14,7 @@
 namespace ossa::depth {
 namespace {
 
-constexpr int64_t kEnoughReadings = 2000;
+constexpr int64_t kEnoughReadings = 400;
 
 // Where people are followed, and some.
 constexpr double kNearest_mm = 300.0, kFarthest_mm = 12000.0;
@@ -115,6 +116,26 @@ std::optional<DepthSuspicion> JudgeFormat(const Counts& count, const Spread& spr
   return std::nullopt;
 }
 
+// Share of the numbers that occur, however often, for which something holds: a wall seen from
+// straight ahead is one number.
+template <typename Holds>
+double ShareOfNumbers(const Counts& count, const Spread& spread, const Holds& holds) {
+  int sum = 0;
+  for (int number = 1; number < 65536; ++number) {
+    if (count[static_cast<size_t>(number)] > 0 && holds(number)) ++sum;
+  }
+  return static_cast<double>(sum) / spread.distinct;
+}
+
+// Share of the readings that have one of the three most common remainders by eight: player bits are
+// 0 and one number a person, a sensor's readings have all eight.
+double ShareOfThreeRemainders(const Counts& count, const Spread& spread) {
+  std::array<int64_t, 8> of{};
+  for (size_t number = 1; number < count.size(); ++number) of[number % 8] += count[number];
+  std::sort(of.rbegin(), of.rend());
+  return static_cast<double>(of[0] + of[1] + of[2]) / static_cast<double>(spread.readings);
+}
+
 struct Unit {
   int of_mm;  // so many to the millimetre
   const char* looks;
@@ -122,6 +143,7 @@ struct Unit {
 
 // Whole millimetres times so many: sensors' readings have every remainder. What did not fit into 16
 // bits has any, or is 65535.
+// The bits of eight say who is there: it is the steps from pixel to pixel that have none.
 std::optional<DepthSuspicion> JudgeMultiples(const Counts& count, const Spread& spread,
                                              double share_of_steps_of_8) {
   constexpr std::array<Unit, 4> kUnits = {{{10, "tenths of a millimetre"},
@@ -130,14 +152,19 @@ std::optional<DepthSuspicion> JudgeMultiples(const Counts& count, const Spread& 
                                            {4, "quarters of a millimetre"}}};
   constexpr int kManyNumbers = 16, kSaturated = 65535;
   constexpr double kNearlyAll = 0.8;  // share of the readings
+  constexpr double kAll = 0.99;
+  constexpr double kMost = 0.6;  // of the numbers: by chance half of fours are eights
   if (spread.distinct < kManyNumbers) return std::nullopt;
+  const bool of_4 = Share(count, spread, [](int number) { return number % 4 == 0; }) > kNearlyAll;
+  const bool has_players =
+      share_of_steps_of_8 > 0.95 || (!of_4 && ShareOfThreeRemainders(count, spread) > kAll);
   for (const Unit& unit : kUnits) {
     const auto is_multiple = [&](int number) {
       return number % unit.of_mm == 0 || number == kSaturated;
     };
-    // The bits of eight say who is there: it is the steps from pixel to pixel that have none.
-    const bool all = Share(count, spread, is_multiple) > kNearlyAll ||
-                     (unit.of_mm == 8 && share_of_steps_of_8 > 0.95);
+    const bool all = (Share(count, spread, is_multiple) > kNearlyAll &&
+                      ShareOfNumbers(count, spread, is_multiple) > kMost) ||
+                     (unit.of_mm == 8 && has_players);
     // A sensor that rounds to centimetres is none of tenths, and sees people within 5 m.
     const double least_mm = unit.of_mm == 10 ? 500.0 : kNearest_mm;
     const double median_mm = static_cast<double>(spread.median) / unit.of_mm;
@@ -183,9 +210,13 @@ void DepthCensus::Add(const DepthView& image) {
     }
   }
   bend_.Add(image);
+  bulge_.Add(image);
+  bulge_of_centimetres_.Add(image);
 }
 
-bool DepthCensus::IsEnough() const { return MeasureSpread(count_).readings >= kEnoughReadings; }
+bool DepthCensus::IsEnough() const {
+  return MeasureSpread(count_).readings >= kEnoughReadings && bulge_.IsEnough();
+}
 
 std::optional<DepthSuspicion> DepthCensus::Judge() const {
   constexpr int64_t kEnoughSteps = 300;
@@ -196,12 +227,17 @@ std::optional<DepthSuspicion> DepthCensus::Judge() const {
   const double share =
       steps_ < kEnoughSteps ? 0.0 : static_cast<double>(steps_of_8_) / static_cast<double>(steps_);
   if (auto found = JudgeMultiples(count_, spread, share)) return found;
-  const auto range = JudgeRange(spread);
-  if ((range && !range->option.empty()) || !bend_.IsWrongWayRound()) return range;
-  return DepthSuspicion{
+  const DepthSuspicion inverted{
       "distances taken from some largest one, so that the nearest are the largest: "
-      "floors and walls bend the wrong way; where FROM is the number that stands for 0 mm",
+      "floors, walls or bodies bend the wrong way; where FROM is the number that stands for 0 mm",
       "--depth-format inverted:FROM"};
+  const auto range = JudgeRange(spread);
+  const bool centimetres = range && !range->option.empty();
+  // The numbers of somebody cut out whose farthest point stands for 0 are as small as centimetres.
+  if (centimetres && bulge_of_centimetres_.IsRound()) return range;
+  if (bulge_.IsHollow()) return inverted;
+  if (centimetres) return range;
+  return bend_.IsWrongWayRound() && !bulge_.IsRound() ? inverted : range;
 }
 
 }  // namespace ossa::depth

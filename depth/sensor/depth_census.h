@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "depth/image/depth_frame.h"
+#include "depth/sensor/body_bulge.h"
 #include "depth/sensor/surface_bend.h"
 
 namespace ossa::depth {
@@ -17,7 +18,7 @@ struct DepthSuspicion {
 
 /// Counts the numbers in depth images that state no unit and says whether they can be millimetres
 /// of people. Only what no depth camera makes is evidence: remainders, bytes, a range where no
-/// sensor sees and no room ends, surfaces that bend the wrong way.
+/// sensor sees and no room ends, surfaces and bodies that bend the wrong way.
 class DepthCensus {
  public:
   void Add(const DepthView& image);
@@ -31,6 +32,7 @@ class DepthCensus {
   int64_t steps_ = 0;       // pairs of neighbours in a row that differ,
   int64_t steps_of_8_ = 0;  // ... by a multiple of 8
   SurfaceBend bend_;
+  BodyBulge bulge_, bulge_of_centimetres_{0.1};
 };
 
 }  // namespace ossa::depth

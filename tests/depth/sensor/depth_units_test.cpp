@@ -8,6 +8,7 @@
 
 #include "depth/base/error.h"
 #include "depth/image/depth_png.h"
+#include "depth/sensor/body_bulge.h"
 #include "depth/sensor/depth_census.h"
 #include "depth/sensor/depth_coding.h"
 #include "depth/sensor/frame_source.h"
@@ -108,8 +109,8 @@ TEST(DepthCensus, DepthsThatNoCameraSeesAreRefusedWithoutAnOption) {
 
 TEST(DepthCensus, TooLittleIsNotJudged) {
   DepthFrame frame = Changed([](int mm) { return mm / 10; });
-  frame.depth_mm.resize(160 * 10);
-  frame.camera.height = 10;
+  frame.depth_mm.resize(160 * 2);
+  frame.camera.height = 2;
   EXPECT_FALSE(Judged(frame).has_value());
 }
 
@@ -167,6 +168,114 @@ INSTANTIATE_TEST_SUITE_P(FromPlaces, TurnedRound,
                                          Place{1.2, 3.5, 0.1, 0.0015}, Place{2.4, 6.0, 0.5, 0.001},
                                          Place{1.8, 3.0, 0.6, 0.001}, Place{1.0, 7.0, 0.1, 0.0},
                                          Place{0.9, 5.5, 0.0, 0.001}));
+
+// Somebody with no floor in view: cut out, or before a wall that is seen from straight ahead.
+struct Person {
+  double away_m, noise_m;
+  int width;
+  bool wall;
+};
+
+DepthFrame PersonFrom(const Person& person) {
+  tests::CapsuleScene scene;
+  scene.people.push_back({});
+  scene.people[0].feet_m = {0.0, -1.0, person.away_m};
+  if (person.wall) scene.planes = {{-Eigen::Vector3d::UnitZ(), person.away_m + 0.7}};
+  scene.noise_m = person.noise_m;
+  return tests::Render(scene, KinectV1Camera(person.width, person.width * 3 / 4)).frame;
+}
+
+class WithoutAFloor : public testing::TestWithParam<Person> {};
+
+TEST_P(WithoutAFloor, SomebodyTurnedRoundIsKnownByTheBodysRoundness) {
+  const DepthFrame person = PersonFrom(GetParam());
+  EXPECT_FALSE(Judged(person).has_value());
+  const auto [least, most] = NearestAndFarthest(person);
+  for (const int from_mm : {most, most + least, 8000}) {
+    const auto suspicion = Judged(TakenFrom(person, from_mm));
+    ASSERT_TRUE(suspicion.has_value()) << from_mm;
+    EXPECT_EQ(suspicion->option, "--depth-format inverted:FROM") << from_mm;
+  }
+}
+
+TEST_P(WithoutAFloor, CentimetresAreNotTakenForTurnedRound) {
+  DepthFrame person = PersonFrom(GetParam());
+  for (uint16_t& depth : person.depth_mm) depth = static_cast<uint16_t>((depth + 5) / 10);
+  const auto suspicion = Judged(person);
+  ASSERT_TRUE(suspicion.has_value());
+  EXPECT_EQ(suspicion->option, "--depth-scale 100");
+}
+
+INSTANTIATE_TEST_SUITE_P(
+    Somebody, WithoutAFloor,
+    testing::Values(Person{2.5, 0.0, 320, false}, Person{2.5, 0.0015, 320, false},
+                    Person{3.0, 0.0015, 320, false}, Person{1.5, 0.0015, 160, false},
+                    Person{2.5, 0.0, 160, false}, Person{2.5, 0.0015, 320, true},
+                    Person{3.0, 0.0, 160, true}));
+
+TEST(DepthCensus, TwoPlayersBitsAreKnownOfPeopleCutOutToo) {
+  DepthFrame person = PersonFrom({2.5, 0.0015, 320, false});
+  for (size_t i = 0; i < person.depth_mm.size(); ++i) {
+    uint16_t& depth = person.depth_mm[i];  // a player left and another right of the middle
+    if (depth > 0) depth = static_cast<uint16_t>(depth << 3 | (i % 320 < 160 ? 1 : 6));
+  }
+  const auto suspicion = Judged(person);
+  ASSERT_TRUE(suspicion.has_value());
+  EXPECT_EQ(suspicion->option, "--depth-scale 8000");
+}
+
+// What a camera sees of an upright cylinder of 10 cm radius at 2 m, or of the groove that a mould
+// of it is.
+DepthFrame Cylinder(bool is_groove) {
+  DepthFrame frame;
+  frame.camera = KinectV1Camera(160, 120);
+  frame.depth_mm.assign(160 * 120, 0);
+  constexpr int kRadius = 7;  // pixels
+  for (int v = 20; v < 100; ++v) {
+    for (int u = 80 - kRadius; u <= 80 + kRadius; ++u) {
+      const double across = (u - 80.0) / (kRadius + 0.5);
+      const double bulge_mm = 100.0 * std::sqrt(1.0 - across * across);
+      frame.depth_mm[static_cast<size_t>(v * 160 + u)] =
+          static_cast<uint16_t>(is_groove ? 1900.0 + bulge_mm : 2000.0 - bulge_mm);
+    }
+  }
+  return frame;
+}
+
+TEST(BodyBulge, ACylinderIsRoundAndItsMouldHollow) {
+  BodyBulge cylinder, mould;
+  cylinder.Add(Cylinder(false).view());
+  mould.Add(Cylinder(true).view());
+  EXPECT_TRUE(cylinder.IsRound() && !cylinder.IsHollow());
+  EXPECT_TRUE(mould.IsHollow() && !mould.IsRound());
+}
+
+TEST(BodyBulge, AFlatBoardIsNeither) {
+  DepthFrame board = Cylinder(false);
+  for (uint16_t& depth : board.depth_mm) depth = static_cast<uint16_t>(depth > 0 ? 2000 : 0);
+  BodyBulge bulge;
+  bulge.Add(board.view());
+  EXPECT_FALSE(bulge.IsRound() || bulge.IsHollow() || bulge.IsEnough());
+}
+
+TEST(DepthUnits, RenderedPeopleCutOutAndTurnedRoundAreRefused) {
+  for (const char* clip : {"one", "two"}) {
+    const auto clips = test::SourceFolder() / "tests/golden/clips";
+    const test::TemporaryFolder folder;
+    const auto source = OpenSource((clips / clip).string());
+    for (int i = 0; i < 3; ++i) {
+      DepthFrame frame = source->Read(std::chrono::seconds(1)).frame;
+      const std::string name = "00000" + std::to_string(i) + ".png";
+      const auto users = ReadLabelPng(clips / clip / "users" / name);
+      for (size_t k = 0; k < frame.depth_mm.size(); ++k) {
+        if (users.data[k] == 0) frame.depth_mm[k] = 0;
+      }
+      const int most = NearestAndFarthest(frame).second;
+      WriteDepthPng(folder / name, TakenFrom(frame, most).view());
+    }
+    test::ExpectRefused([&] { OpenSource(folder.path().string()); }, "inverted:FROM reads them");
+  }
+}
 
 TEST(DepthUnits, RenderedClipsTurnedRoundAreRefused) {
   for (const char* clip : {"one", "two"}) {
