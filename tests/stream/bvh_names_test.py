@@ -1,5 +1,5 @@
 """`--bvh-names`: humanoids as readers that are not ours see them, PyPI's `bvh` and, with `blender` as first argument,
-Blender's own importer of PyPI's `bpy` (300 MB, of Python 3.11; skipped where it is not installed)."""
+Blender's own importer of PyPI's `bpy` (tests/support/pypi.py fetches it; skipped where it is not there)."""
 import math
 import subprocess
 import sys
@@ -130,11 +130,11 @@ class Blender(Names):
 if __name__ == "__main__":
     if sys.argv[1:2] == ["blender"]:
         del sys.argv[1]
-        try:
-            import bpy
-        except ImportError as error:
-            print(f"SKIPPED: no Blender: {error}")
+        reason = receivers.pypi.find_blender()
+        if reason is not None:
+            print(f"SKIPPED: {reason}")
             sys.exit(receivers.pypi.SKIPPED)
+        import bpy
     else:
         del Blender
     receivers.main()
