@@ -13,7 +13,9 @@ NiteStatus HandTracker::Read(Frame** frame) {
 
 std::unique_ptr<HandTracker::Stored> HandTracker::Make(CameraFrame seen) {
   const tracker::BodyFrame bodies = people_.Track(seen.image);
-  const std::vector<SeenHand> hands = HandsOf(bodies);
+  std::vector<SeenHand> hands = HandsOf(bodies);
+  const std::vector<SeenHand> lone = lone_.Step(seen.image, bodies, hands, WaitedFor());
+  hands.insert(hands.end(), lone.begin(), lone.end());
   auto stored = std::make_unique<Stored>();
   {
     const std::lock_guard lock(wishing_);
@@ -31,6 +33,11 @@ std::unique_ptr<HandTracker::Stored> HandTracker::Make(CameraFrame seen) {
   frame.frameIndex = seen.delivered->frameIndex;
   stored->delivered = std::move(seen.delivered);
   return stored;
+}
+
+std::vector<Eigen::Vector3d> HandTracker::WaitedFor() const {
+  const std::lock_guard lock(wishing_);
+  return followed_.WaitedFor();
 }
 
 NiteHandId HandTracker::StartHand(const NitePoint3f& place) {

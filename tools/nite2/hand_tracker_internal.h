@@ -6,10 +6,11 @@
 #include "tools/nite2/hands.h"
 #include "tools/nite2/held_frames_internal.h"
 #include "tools/nite2/live_tracker_internal.h"
+#include "tools/nite2/lone_hands.h"
 
 namespace ossa::nite2 {
 
-/// A NiteHandTracker: the hands of whole bodies.
+/// A NiteHandTracker: the hands of bodies, and those of which no body is in view.
 class HandTracker final : public LiveTracker {
  public:
   using Frame = NiteHandTrackerFrame;
@@ -36,7 +37,9 @@ class HandTracker final : public LiveTracker {
 
  private:
   std::unique_ptr<Stored> Make(CameraFrame seen);
+  std::vector<Eigen::Vector3d> WaitedFor() const;
 
+  LoneHands lone_;              // under `reading_`
   mutable std::mutex wishing_;  // guards what follows
   FollowedHands followed_;
   GestureWatch watch_;

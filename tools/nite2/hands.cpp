@@ -44,14 +44,24 @@ NiteHandId FollowedHands::Start(const Eigen::Vector3d& place_m) {
   return last_id_;
 }
 
+std::vector<Eigen::Vector3d> FollowedHands::WaitedFor() const {
+  std::vector<Eigen::Vector3d> places_m;
+  for (const auto& [id, hand] : hands_) {
+    if (!hand.body_id) places_m.push_back(hand.place_m);
+  }
+  return places_m;
+}
+
+// The same one; else the nearest, as a body comes into view behind a lone hand or goes. A body's
+// hand is never taken for another body's or for its other one.
 const SeenHand* FollowedHands::Find(const Hand& hand, const std::vector<SeenHand>& seen) const {
   const SeenHand* found = nullptr;
   double nearest_m = options_.near_m;
   for (const SeenHand& one : seen) {
-    if (hand.body_id && (*hand.body_id != one.body_id || hand.left != one.left)) continue;
+    if (hand.body_id == one.body_id && hand.left == one.left) return &one;
     const double distance_m = (one.sample.hand_m - hand.place_m).norm();
-    if (hand.body_id) return &one;
-    if (distance_m > nearest_m) continue;
+    const bool of_bodies = hand.body_id && *hand.body_id > 0 && one.body_id > 0;
+    if (of_bodies || distance_m > nearest_m) continue;
     nearest_m = distance_m;
     found = &one;
   }
@@ -95,6 +105,7 @@ std::vector<NiteGestureData> GestureWatch::Step(const std::vector<SeenHand>& see
   std::vector<NiteGestureData> all;
   decltype(detectors_) still_there;  // what a hand did before it was away says nothing
   for (const SeenHand& hand : seen) {
+    if (!hand.moves_count) continue;
     for (const NiteGestureType type : wanted) {
       const auto key = std::make_tuple(hand.body_id, hand.left, type);
       auto known = detectors_.find(key);

@@ -16,9 +16,10 @@ namespace ossa::nite2 {
 
 /// A hand that is in view: whose, and where.
 struct SeenHand {
-  int body_id = 0;
-  bool left = false;
-  HandSample sample;  // camera space
+  int body_id = 0;          // below 0: one without a body
+  bool left = false;        // unknown and false without a body
+  HandSample sample;        // camera space
+  bool moves_count = true;  // whether its way makes gestures
 };
 
 /// The hands of everybody in the frame that are seen or can be told from what is seen.
@@ -38,6 +39,8 @@ class FollowedHands {
   NiteHandId Start(const Eigen::Vector3d& place_m);
   void Stop(NiteHandId id) { hands_.erase(id); }
   void StopAll() { hands_.clear(); }
+  /// Where hands are that were asked for and not met yet, camera space.
+  std::vector<Eigen::Vector3d> WaitedFor() const;
 
   /// All of them after a frame; one that is lost is told of once. `smoothing`: part of the last
   /// place in the next, [0, 1].
