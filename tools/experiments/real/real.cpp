@@ -26,6 +26,17 @@ bool IsFoot(recon::Joint joint) {
   return joint == recon::Joint::kFootLeft || joint == recon::Joint::kFootRight;
 }
 
+// ITOP's feet held against our ankles: NiTE's foot, whose 15 joints ITOP's are, is the ankle. What
+// a foot's own direction adds is no constant offset.
+RealSet WithAnklesForFeet(RealSet set) {
+  set.name += "_ankles";
+  for (recon::Joint& joint : set.joints) {
+    if (joint == recon::Joint::kFootLeft) joint = recon::Joint::kAnkleLeft;
+    if (joint == recon::Joint::kFootRight) joint = recon::Joint::kAnkleRight;
+  }
+  return set;
+}
+
 ScoredSet ScoreSet(const RealSet& set, const std::vector<StillResult>& results, bool feet) {
   ScoredSet scored{.name = set.name + (feet ? "" : "_without_feet"), .scores = {}};
   scored.frames = static_cast<int64_t>(results.size());
@@ -210,6 +221,11 @@ std::vector<Table> RunReal(ExperimentContext& context) {
     const ScoredSet without = ScoreSet(set, results, false);
     AddRows(set, without, stills);
     for (const json& row : JsonOfSet(set, without)) report["sets"].push_back(row);
+    if (set.peer.empty()) continue;
+    const RealSet ankles = WithAnklesForFeet(set);
+    const ScoredSet of_ankles = ScoreSet(ankles, JudgeAll(ankles, tracker, context), true);
+    AddRows(ankles, of_ankles, stills);
+    for (const json& row : JsonOfSet(ankles, of_ankles)) report["sets"].push_back(row);
   }
   for (const RealVideo& video : videos) {
     context.StopIfAsked();
