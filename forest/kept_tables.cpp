@@ -76,6 +76,8 @@ void ForEachTable(Data& data, Tables& tables, const Visit& visit) {
     visit(tables.trees[t].lines);
     visit(tables.leaves[t].evidence);
     visit(tables.leaves[t].shares);
+    visit(tables.leaves[t].first_shares);
+    visit(tables.leaves[t].shares_of);
     visit(tables.leaves[t].vote_row);
     visit(data.trees[t].votes);
   }

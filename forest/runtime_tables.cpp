@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <array>
+#include <bit>
 #include <cmath>
 
 #include "depth/base/large_pages.h"
@@ -16,31 +17,54 @@ namespace {
 constexpr float kSmoothing = 3.0F;  // entry weights (of 127) by which a leaf's own mix of classes
                                     // stands in where a context was hardly seen
 
+constexpr size_t kCells = 512;  // that an entry can tell, of the format
+
+// Of each cell of context and class which they are: spares millions of divisions.
+class CellPlaces {
+ public:
+  explicit CellPlaces(size_t classes) {
+    for (size_t cell = 0; cell < kCells; ++cell) {
+      class_[cell] = static_cast<uint16_t>(cell % classes);
+      context_[cell] = static_cast<uint16_t>(cell / classes);
+    }
+  }
+  size_t ClassOf(size_t cell) const { return class_[cell]; }
+  size_t ContextOf(size_t cell) const { return context_[cell]; }
+
+ private:
+  std::array<uint16_t, kCells> class_{}, context_{};
+};
+
+// As std::lround, which is a call.
+int Round(float value) {
+  return static_cast<int>(static_cast<double>(value) + (value < 0.0F ? -0.5 : 0.5));
+}
+
 // A leaf's weights, told by context and class. Few of the cells are anything but 0: Load clears
 // those of the leaf before instead of all. Half of the time that a model takes to load is spent
 // here and in ComputeShares: hence the plain pointers, which no library's assertions check.
 class LeafCells {
  public:
-  LeafCells(size_t classes, size_t contexts)
+  LeafCells(const CellPlaces& places, size_t classes, size_t contexts)
       : context_weight(contexts, 0.0F),
+        places_(places),
         class_weight_(classes, 0.0F),
         weight_(contexts * classes, 0.0F) {}
 
   void Load(const Tree& tree, size_t leaf) {
     Clear();
-    const size_t classes = class_weight_.size();
     float *class_weight = class_weight_.data(), *cells = weight_.data();
     float total = 0.0F;
     const uint16_t* entry = tree.entries.data() + tree.entry_begin[leaf];
     const uint16_t* end = tree.entries.data() + tree.entry_begin[leaf + 1];
     for (; entry < end; ++entry) {
-      const size_t cell = *entry & 511U;
-      const size_t c = cell % classes;
+      const size_t cell = *entry & (kCells - 1);
+      const size_t c = places_.ClassOf(cell);
       const auto weight = static_cast<float>(*entry >> 9U);
       if (class_weight[c] == 0.0F) seen_classes.push_back(c);
       cells[cell] += weight;
       class_weight[c] += weight;
-      context_weight[cell / classes] += weight;
+      context_weight[places_.ContextOf(cell)] += weight;
       total += weight;
     }
     for (const size_t c : seen_classes) share_of_seen.push_back(class_weight[c] / total);
@@ -68,6 +92,7 @@ class LeafCells {
     share_of_seen.clear();
   }
 
+  const CellPlaces& places_;
   std::vector<float> class_weight_;
   std::vector<float> weight_;  // context × class
 };
@@ -107,13 +132,14 @@ class LogRatios {
 void FillEvidence(const LeafCells& cells, const LogRatios& log_ratios, int16_t* evidence) {
   const size_t contexts = cells.context_weight.size();
   const float* weight = cells.context_weight.data();
+  std::array<float, kCells> ratio;  // of each context
   float mean = 0.0F;
   for (size_t k = 0; k < contexts; ++k) {
-    mean += log_ratios.Of(weight[k], k) / static_cast<float>(contexts);
+    ratio[k] = log_ratios.Of(weight[k], k);
+    mean += ratio[k] / static_cast<float>(contexts);
   }
   for (size_t k = 0; k < contexts; ++k) {
-    const float value = log_ratios.Of(weight[k], k) - mean;
-    evidence[k] = static_cast<int16_t>(std::lround(256.0F * value));
+    evidence[k] = static_cast<int16_t>(Round(256.0F * (ratio[k] - mean)));
   }
 }
 
@@ -136,28 +162,50 @@ ShareRow ComputeShares(const LeafCells& cells, size_t context) {
   ShareRow row;
   for (size_t i = 0; i < kMostShares; ++i) {
     row.column[i] = most[i].second;
-    row.share[i] = static_cast<uint8_t>(std::lround(-most[i].first * 255.0F));
+    row.share[i] = static_cast<uint8_t>(Round(-most[i].first * 255.0F));
   }
   return row;
 }
 
 // The rows of one leaf. All contexts in which it was never seen have one row.
-void FillShares(const LeafCells& cells, size_t leaf, size_t leaf_count, ShareRow* shares) {
-  const ShareRow* unseen = nullptr;
+void FillShares(const LeafCells& cells, uint8_t* shares_of, ShareRow* shares) {
+  constexpr int kNone = -1;
+  int unseen = kNone, rows = 0;
   const size_t contexts = cells.context_weight.size();
   const float* weight = cells.context_weight.data();
   for (size_t k = 0; k < contexts; ++k) {
-    ShareRow& row = shares[k * leaf_count + leaf];
     const bool is_seen = weight[k] > 0.0F;
-    row = is_seen || unseen == nullptr ? ComputeShares(cells, k) : *unseen;
-    if (!is_seen) unseen = &row;
+    if (!is_seen && unseen != kNone) {
+      shares_of[k] = static_cast<uint8_t>(unseen);
+      continue;
+    }
+    shares[rows] = ComputeShares(cells, k);
+    if (!is_seen) unseen = rows;
+    shares_of[k] = static_cast<uint8_t>(rows++);
   }
 }
 
-// Trees and tables are read at random places.
+// How many rows FillShares makes of a leaf.
+size_t CountShares(const Tree& tree, size_t leaf, const CellPlaces& places, size_t contexts) {
+  std::array<uint64_t, kCells / 64> is_seen{};  // a bit a context
+  const uint16_t* entries = tree.entries.data();
+  for (uint32_t e = tree.entry_begin[leaf]; e < tree.entry_begin[leaf + 1]; ++e) {
+    const size_t context = places.ContextOf(entries[e] & (kCells - 1));
+    if (entries[e] >> 9U != 0) is_seen[context / 64] |= uint64_t{1} << (context % 64);
+  }
+  size_t seen = 0;
+  for (const uint64_t bits : is_seen) seen += static_cast<size_t>(std::popcount(bits));
+  return std::min(seen + 1, contexts);
+}
+
+// Cleared in large pages from the beginning: tables are read at random places.
 template <typename T>
-void PreferLargePages(const std::vector<T>& table) {
-  ossa::PreferLargePages(table.data(), table.size() * sizeof(T));
+std::vector<T> MakeTable(size_t count) {
+  std::vector<T> table;
+  table.reserve(count);
+  PreferLargePages(table.data(), count * sizeof(T));
+  table.resize(count);
+  return table;
 }
 
 // Variance of the difference of two targets' positions, summed over contexts and axes.
@@ -198,26 +246,40 @@ LeafTables MakeLeafTables(const Tree& tree, const std::vector<int32_t>& order, s
                           size_t contexts, const LogRatios& log_ratios) {
   LeafTables leaves;
   const size_t count = tree.leaf_count();
-  leaves.shares.resize(contexts * count);
-  leaves.evidence.resize(contexts * count);
+  const CellPlaces places(classes);
+  uint32_t rows_of_shares = 0;
+  leaves.first_shares = MakeTable<uint32_t>(count);
+  for (size_t leaf = 0; leaf < count; ++leaf) {
+    leaves.first_shares[leaf] = rows_of_shares;
+    rows_of_shares += static_cast<uint32_t>(
+        CountShares(tree, static_cast<size_t>(order[leaf]), places, contexts));
+  }
+  leaves.shares = MakeTable<ShareRow>(rows_of_shares);
+  leaves.shares_of = MakeTable<uint8_t>(contexts * count);
+  leaves.evidence = MakeTable<int16_t>(contexts * count);
   constexpr size_t kAtOnce = 4096;
   using Leaves = oneapi::tbb::blocked_range<size_t>;
   oneapi::tbb::parallel_for(Leaves(0, count, kAtOnce), [&](const Leaves& some) {
-    LeafCells cells(classes, contexts);
+    LeafCells cells(places, classes, contexts);
     for (size_t leaf = some.begin(); leaf < some.end(); ++leaf) {
       cells.Load(tree, static_cast<size_t>(order[leaf]));
       FillEvidence(cells, log_ratios, &leaves.evidence[leaf * contexts]);
-      FillShares(cells, leaf, count, leaves.shares.data());
+      FillShares(cells, &leaves.shares_of[leaf * contexts],
+                 leaves.shares.data() + leaves.first_shares[leaf]);
     }
   });
-  size_t rows = 0;
-  const std::vector<int32_t> vote_row = VoteRows(tree, &rows);
-  for (const int32_t leaf : order) {
-    leaves.vote_row.push_back(tree.votes.empty() ? -1 : vote_row[static_cast<size_t>(leaf)]);
-  }
-  PreferLargePages(leaves.shares);
-  PreferLargePages(leaves.evidence);
   return leaves;
+}
+
+// Of each leaf, in that order.
+std::vector<int32_t> MakeVoteRows(const Tree& tree, const std::vector<int32_t>& order) {
+  if (tree.votes.empty()) return std::vector<int32_t>(order.size(), -1);
+  size_t rows = 0;
+  const std::vector<int32_t> row_of = VoteRows(tree, &rows);
+  std::vector<int32_t> vote_row;
+  vote_row.reserve(order.size());
+  for (const int32_t leaf : order) vote_row.push_back(row_of[static_cast<size_t>(leaf)]);
+  return vote_row;
 }
 
 }  // namespace
@@ -253,19 +315,21 @@ RuntimeTables MakeRuntimeTables(ForestData* data, ModelUse use) {
   const LogRatios log_ratios(*data);
   for (Tree& tree : data->trees) {
     LinedTree lined = LayOutInLines(tree.nodes);
+    std::vector<int32_t> vote_row = MakeVoteRows(tree, lined.leaf);
+    if (use == ModelUse::kRunOnly) {
+      std::vector<Node>().swap(tree.nodes);
+      ReturnFreedMemory();  // before the tree's tables are made
+    }
     tables.leaves.push_back(MakeLeafTables(tree, lined.leaf, data->class_names.size(),
                                            data->context_names.size(), log_ratios));
+    tables.leaves.back().vote_row = std::move(vote_row);
     std::vector<int32_t>().swap(lined.leaf);
     if (use == ModelUse::kRunOnly) {
       std::vector<uint32_t>().swap(tree.entry_begin);
       std::vector<uint16_t>().swap(tree.entries);
     }
-    PreferLargePages(lined.lines);
+    PreferLargePages(lined.lines.data(), lined.lines.size() * sizeof(NodeLine));
     tables.trees.push_back(std::move(lined));
-    if (use == ModelUse::kRunOnly) {
-      std::vector<Node>().swap(tree.nodes);
-      ReturnFreedMemory();  // before the next tree's tables are made
-    }
   }
   AddPriorTables(*data, &tables);
   return tables;

@@ -23,8 +23,16 @@ struct alignas(8) ShareRow {
 /// One tree's leaves as classification wants them, in the order of LinedTree.
 struct LeafTables {
   std::vector<int16_t> evidence;  // leaf × context: log P(leaf | context) - mean, 1/256 nat
-  std::vector<ShareRow> shares;   // context × leaf: one context's rows stand together
-  std::vector<int32_t> vote_row;  // of each leaf; -1 where the tree has no votes
+  /// Each leaf's rows one behind the other: one a context in which it was seen, and one for all
+  /// others. Half of a deep tree's leaves were seen in few.
+  std::vector<ShareRow> shares;
+  std::vector<uint32_t> first_shares;  // of each leaf: its first row
+  std::vector<uint8_t> shares_of;      // leaf × context: which of the leaf's rows
+  std::vector<int32_t> vote_row;       // of each leaf; -1 where the tree has no votes
+
+  const ShareRow& SharesOf(size_t leaf, size_t context, size_t contexts) const {
+    return shares.data()[first_shares.data()[leaf] + shares_of.data()[leaf * contexts + context]];
+  }
 
   size_t leaf_count() const { return vote_row.size(); }
 };

@@ -130,10 +130,20 @@ std::vector<ActiveContext> ActiveContexts(std::span<const float> posterior) {
 // calls out.
 [[gnu::always_inline]] inline void FetchRows(const ForestModel& model, size_t context,
                                              const int32_t* leaf) {
+  const auto contexts = static_cast<size_t>(model.context_count());
   for (const LeafTables& tables : model.tables().leaves) {
-    __builtin_prefetch(tables.shares.data() + context * tables.leaf_count() +
-                       static_cast<size_t>(*leaf));
+    __builtin_prefetch(&tables.SharesOf(static_cast<size_t>(*leaf), context, contexts));
     ++leaf;
+  }
+}
+
+// Where those rows are, which is asked for as far ahead of them.
+[[gnu::always_inline]] inline void FetchPlaces(const ForestModel& model, const int32_t* leaf) {
+  const auto contexts = static_cast<size_t>(model.context_count());
+  for (const LeafTables& tables : model.tables().leaves) {
+    const auto at = static_cast<size_t>(*leaf++);
+    __builtin_prefetch(tables.first_shares.data() + at);
+    __builtin_prefetch(tables.shares_of.data() + at * contexts);
   }
 }
 
@@ -158,10 +168,11 @@ OSSA_CPU_DISPATCH void ToMasses(const uint32_t* sum, const uint32_t* total, size
 uint32_t AddLeaves(const ForestModel& model, std::span<const ActiveContext> active,
                    const int32_t* leaf, uint32_t* sum) {
   uint32_t total = 0;
+  const auto contexts = static_cast<size_t>(model.context_count());
   for (const LeafTables& tables : model.tables().leaves) {
-    const auto row_number = static_cast<size_t>(*leaf++);
+    const auto at = static_cast<size_t>(*leaf++);
     for (const ActiveContext& context : active) {
-      const ShareRow& row = tables.shares.data()[context.index * tables.leaf_count() + row_number];
+      const ShareRow& row = tables.SharesOf(at, context.index, contexts);
       for (size_t s = 0; s < kMostShares; ++s) {
         const uint32_t mass = context.share * row.share[s];
         sum[row.column[s]] += mass;
@@ -183,6 +194,8 @@ void MixLeaves(const ForestModel& model, std::span<const ActiveContext> active,
     std::fill(sum.begin(), sum.end(), 0U);
     for (size_t i = 0; i < count; ++i) {
       const size_t next = std::min(first + i + kAhead, range[1] - 1);
+      const size_t after_next = std::min(first + i + 2 * kAhead, range[1] - 1);
+      FetchPlaces(model, walked->leaf.data() + after_next * trees);
       for (const ActiveContext& context : active) {
         FetchRows(model, context.index, walked->leaf.data() + next * trees);
       }
