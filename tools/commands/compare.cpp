@@ -11,6 +11,7 @@
 #include "tools/commands/commands.h"
 #include "tools/commands/mapping_option.h"
 #include "tools/commands/outputs.h"
+#include "tools/commands/process.h"
 #include "tools/commands/warnings.h"
 #include "tools/experiments/compare/comparison.h"
 #include "tools/experiments/experiment.h"
@@ -39,7 +40,11 @@ void ReadTimeAlignment(const std::string& word, tools::PairOptions& options) {
 }
 
 tools::Comparison Compared(const std::string& truth, const std::vector<std::string>& results,
-                           const tools::CompareOptions& options) {
+                           tools::CompareOptions options, bool quiet) {
+  Progress progress("comparing", quiet || !CanMoveCursor());  // for who watches alone
+  options.progress = [&](size_t done, size_t of) {
+    progress.Update(static_cast<double>(done), static_cast<double>(of));
+  };
   try {
     return tools::Compare(truth, results, options);
   } catch (const tools::Interruption&) {
@@ -118,7 +123,7 @@ int Compare(int argc, char** argv) {
   if (!json.empty() && !json_to_stdout) AtomicFile::CheckWritable(json);
   if (!report.empty()) AtomicFile::CheckWritable(report);
   options.stop = Interrupted;
-  const tools::Comparison comparison = Compared(truth, results, options);
+  const tools::Comparison comparison = Compared(truth, results, options, quiet);
   SayWarnings("compare", comparison.warnings);
   if (json_to_stdout) {
     fmt::print("{}", tools::ToJson(comparison));

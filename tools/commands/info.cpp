@@ -21,6 +21,7 @@
 #include "tools/commands/command.h"
 #include "tools/commands/commands.h"
 #include "tools/commands/info_picture.h"
+#include "tools/commands/process.h"
 #include "tools/commands/source_options.h"
 #include "tools/commands/warnings.h"
 #include "tools/synth/dataset.h"
@@ -158,6 +159,8 @@ void ShowRefinement(const fs::path& path) {
 // Its frames are read through: many a recording does not know how many it has, or what is broken.
 void ShowDepthRecording(const SourceArguments& arguments) {
   const auto source = OpenSource(arguments, false);
+  Progress progress("reading", !CanMoveCursor());  // for who watches alone
+  const auto known = static_cast<double>(source->frame_count().value_or(0));
   int frames = 0;
   double first_s = 0.0, last_s = 0.0;
   for (;;) {
@@ -166,6 +169,7 @@ void ShowDepthRecording(const SourceArguments& arguments) {
     if (read.status != depth::ReadStatus::kFrame) continue;
     last_s = read.frame.time_s;
     if (frames++ == 0) first_s = last_s;
+    if (known > 0) progress.Update(frames, known);
   }
   const depth::Camera& camera = source->camera();
   fmt::print(

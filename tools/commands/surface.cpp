@@ -52,6 +52,10 @@ int Surface(int argc, char** argv) {
   SayWarnings("surface", motion);
   if (Interrupted()) throw InputError("surface: interrupted; nothing was written");
   const auto model = recon::BodyModel::Load(recon::BodyFolder());
+  Progress progress("dressing people", false);
+  options.progress = [&](size_t done) {
+    progress.Update(static_cast<double>(done), static_cast<double>(options.people));
+  };
   const recon::BodyMesh body = tools::LearnBody(model, motion, !mesh.empty(), options);
   body.surface.Save(out);
   fmt::print("{}: {} points of {} people, turns of {} clips\n", out, body.surface.points.size(),

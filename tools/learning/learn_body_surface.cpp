@@ -100,6 +100,7 @@ class ShapeSamples {
       Random random(o.seed, k);
       const ShapedBody body = model.Shape(SampleShape(Split::kTrain, random));
       Add(body, wardrobe.Dress(body, SampleClothing(random)), static_cast<Eigen::Index>(k));
+      if (o.progress) o.progress(k + 1);
     }
   }
   void Learn(BodyMesh& body);

@@ -111,6 +111,12 @@ class TimeLeft(unittest.TestCase):
                                       paused_s=0.8)
         self.assertRegex(said, r"\d:\d\d left")
 
+    def test_info_and_compare_say_how_far_they_are(self):
+        truth = str(CLIP / "truth.jsonl")
+        self.assertRegex(said_on_a_terminal(["info", str(CLIP / "depth")]), r"reading \[#{30}\] 100 %")
+        self.assertRegex(said_on_a_terminal(["compare", truth, truth]), r"comparing \[\.{30}\]   0 %")
+        self.assertNotIn("reading", run("info", CLIP / "depth").stderr)
+
 
 class Defaults(unittest.TestCase):
     def setUp(self):

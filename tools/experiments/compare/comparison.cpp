@@ -61,6 +61,7 @@ void AddClip(ComparedResult& compared, const std::string& name, const SkeletonCl
 
 ComparedResult CompareOne(const std::string& truth_name, const std::vector<SkeletonClip>& truth,
                           const std::string& name, const CompareOptions& options,
+                          const std::function<void()>& on_clip,
                           std::vector<std::string>& warnings) {
   ComparedResult compared;
   compared.name = name;
@@ -69,6 +70,7 @@ ComparedResult CompareOne(const std::string& truth_name, const std::vector<Skele
   for (const SkeletonClip& clip : results) by_name[clip.name] = &clip;
   const bool single = truth.size() == 1 && results.size() == 1;
   for (const SkeletonClip& clip : truth) {
+    on_clip();
     const auto found = by_name.find(clip.name);
     if (!single && found == by_name.end()) {
       compared.missing_clips.push_back(clip.name);
@@ -148,8 +150,14 @@ Comparison Compare(const std::string& truth, const std::vector<std::string>& res
   comparison.rigid = options.pairing.rigid;
   comparison.found_only = options.pairing.found_only;
   const auto clips = Chosen(truth, options, "truth", comparison.warnings);
+  size_t begun = 0;
+  const auto on_clip = [&] {
+    if (options.progress) options.progress(begun, clips.size() * results.size());
+    ++begun;
+  };
   for (const std::string& result : results) {
-    comparison.results.push_back(CompareOne(truth, clips, result, options, comparison.warnings));
+    comparison.results.push_back(
+        CompareOne(truth, clips, result, options, on_clip, comparison.warnings));
   }
   Label(comparison.results);
   if (results.size() > 1) {

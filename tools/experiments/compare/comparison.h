@@ -17,6 +17,8 @@ struct CompareOptions {
   std::vector<std::string> skip;  // but none whose name holds one of these
   uint64_t seed = 1;              // of the bootstrap; by convention
   std::function<bool()> stop;     // asked before each clip; true: ends by throwing Interruption
+  /// Told how many of all clips, of all results, were compared; may be empty.
+  std::function<void(size_t done, size_t of)> progress;
 };
 
 /// One result against the truth, over all clips that both have.
