@@ -33,6 +33,17 @@ if("fortify" IN_LIST hardened)  # by an optimiser, which sees the sizes
     $<$<NOT:$<CONFIG:Debug>>:-U_FORTIFY_SOURCE> $<$<NOT:$<CONFIG:Debug>>:-D_FORTIFY_SOURCE=2>)
 endif()
 
+# On 64-bit ARM the same bytes as on x86-64: no product is fused with the sum that it goes into, Eigen sums in
+# the same order, and a char has a sign.
+add_library(ossa_arithmetic INTERFACE)
+if(CMAKE_SYSTEM_PROCESSOR MATCHES "^(aarch64|arm64)$")
+  find_path(SIMDE_INCLUDE simde/x86/sse2.h REQUIRED)  # libsimde-dev
+  target_link_libraries(ossa_arithmetic INTERFACE Eigen3::Eigen)
+  target_include_directories(ossa_arithmetic SYSTEM INTERFACE ${PROJECT_SOURCE_DIR}/cmake/arm64)
+  target_compile_options(ossa_arithmetic INTERFACE -ffp-contract=off -fsigned-char
+    "$<$<COMPILE_LANGUAGE:CXX>:SHELL:-include ${PROJECT_SOURCE_DIR}/cmake/arm64/eigen_as_sse2.h>")
+endif()
+
 # ossa_common(TARGET), of what people run; ossa_plain(TARGET), of what only tries that.
 function(ossa_common target)
   ossa_plain(${target})
@@ -40,7 +51,7 @@ function(ossa_common target)
 endfunction()
 
 function(ossa_plain target)
-  target_link_libraries(${target} PRIVATE $<BUILD_INTERFACE:ossa_warnings>)
+  target_link_libraries(${target} PRIVATE $<BUILD_INTERFACE:ossa_warnings> $<BUILD_INTERFACE:ossa_arithmetic>)
   target_include_directories(${target} PRIVATE ${ossa_SOURCE_DIR})
   if(OSSA_SANITIZE)
     target_compile_options(${target} PRIVATE -fsanitize=${OSSA_SANITIZE} -fno-omit-frame-pointer
