@@ -1,9 +1,10 @@
 #pragma once
 // Included before everything else of ossa's own sources on 64-bit ARM (cmake/ossa_targets.cmake).
 //
-// Eigen's NEON code sums in another order than its SSE2 code, and rounds a product and its sum once instead of
-// twice. Here it compiles its SSE2 code, whose instructions SIMDe spells in NEON, so that both processors compute
-// the same bytes. What compilers fuse by themselves -ffp-contract=off forbids.
+// Eigen's NEON code sums in another order than its SSE2 code, and rounds a product and its sum once
+// instead of twice. Here it compiles its SSE2 code, whose instructions SIMDe spells in NEON, so
+// that both processors compute the same bytes. What compilers fuse by themselves -ffp-contract=off
+// forbids.
 #define SIMDE_ENABLE_NATIVE_ALIASES
 #include <simde/x86/sse2.h>
 
