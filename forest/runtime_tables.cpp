@@ -143,9 +143,16 @@ void FillEvidence(const LeafCells& cells, const LogRatios& log_ratios, int16_t* 
   }
 }
 
+// A share and its column as one number: the larger the share, the smaller; of equals the smaller
+// column first. Positive floats are in order of their bits.
+uint64_t PackShare(float p, size_t column) {
+  return uint64_t{~std::bit_cast<uint32_t>(p)} << 8U | column;
+}
+
 // P(class | leaf, context), smoothed by P(class | leaf), as the largest shares of 255.
 ShareRow ComputeShares(const LeafCells& cells, size_t context) {
-  std::array<std::pair<float, uint8_t>, kMostShares> most{};  // (-p, column), ascending
+  std::array<uint64_t, kMostShares> most;  // ascending
+  most.fill(PackShare(0.0F, 0));
   const float whole = cells.context_weight[context] + kSmoothing;
   const float *weights = cells.Weights(context), *share_of_seen = cells.share_of_seen.data();
   const size_t *seen = cells.seen_classes.data(), count = cells.seen_classes.size();
@@ -153,16 +160,18 @@ ShareRow ComputeShares(const LeafCells& cells, size_t context) {
     const size_t c = seen[i];
     const float p = (weights[c] + kSmoothing * share_of_seen[i]) / whole;
     if (p <= 0.004F) continue;
-    std::pair<float, uint8_t> share{-p, static_cast<uint8_t>(c - 1)};
-    if (!(share < most.back())) continue;
-    for (auto& larger : most) {
-      if (share < larger) std::swap(share, larger);
+    uint64_t share = PackShare(p, c - 1);
+    for (uint64_t& larger : most) {
+      const uint64_t smaller = std::max(share, larger);
+      larger = std::min(share, larger);
+      share = smaller;
     }
   }
   ShareRow row;
   for (size_t i = 0; i < kMostShares; ++i) {
-    row.column[i] = most[i].second;
-    row.share[i] = static_cast<uint8_t>(Round(-most[i].first * 255.0F));
+    const auto p = std::bit_cast<float>(~static_cast<uint32_t>(most[i] >> 8U));
+    row.column[i] = static_cast<uint8_t>(most[i]);
+    row.share[i] = static_cast<uint8_t>(Round(p * 255.0F));
   }
   return row;
 }

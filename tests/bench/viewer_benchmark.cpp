@@ -2,10 +2,16 @@
 // open, and with browsers that take every frame they can get.
 //   taskset -c 0,1 build/bin/viewer_benchmark
 // `CPU` is that of the tracker's thread, `Time` the frame's; the counter says how many frames a
-// browser got for each one tracked.
+// browser got for each one tracked. TwoBrowsers tracks by turns with nobody looking and with two
+// browsers, so that what else the machine does meets both: what the page costs, in percent, of the
+// thread's CPU time and of the frames a second, at full speed and at a camera's 30 a second.
 #include <benchmark/benchmark.h>
 
+#include <time.h>
+
+#include <array>
 #include <atomic>
+#include <chrono>
 #include <cmath>
 #include <memory>
 #include <thread>
@@ -102,6 +108,71 @@ BENCHMARK(Track_640x480_ms)
     ->Arg(2)
     ->Unit(benchmark::kMillisecond)
     ->Iterations(400);
+
+double ThreadTime_s() {
+  timespec now{};
+  clock_gettime(CLOCK_THREAD_CPUTIME_ID, &now);
+  return static_cast<double>(now.tv_sec) + 1e-9 * static_cast<double>(now.tv_nsec);
+}
+
+// Of some frames: the tracker's thread's CPU time, and all time without waiting for a camera.
+struct Spent {
+  double cpu_s = 0.0, wall_s = 0.0;
+};
+
+// The tracker, its page with two browsers, and the frame's number.
+class Watched {
+ public:
+  Watched() {
+    tracker::TrackerOptions options;
+    options.models = tracker::ModelSet::Shipped(options.method);
+    tracker_ = std::make_unique<tracker::Tracker>(options);
+    ViewerOptions any;
+    any.forest = options.models->forest;
+    any.port = 0;
+    viewer_ = std::make_unique<Viewer>(any);
+    for (auto& browser : browsers_) browser = std::make_unique<Browser>(viewer_->port());
+  }
+
+  // `period_s`: how far frames of the camera lie apart; 0: it never has to be waited for.
+  void Run(int frames, bool is_shown, double period_s, Spent& spent) {
+    static const std::vector<depth::DepthFrame> made = Frames();
+    for (int f = 0; f < frames; ++f) {
+      const auto begin = std::chrono::steady_clock::now();
+      const double cpu_s = ThreadTime_s();
+      depth::DepthFrame frame = made[static_cast<size_t>(number_ % kFrames)];
+      frame.time_s = static_cast<double>(number_++) / 30.0;
+      tracker::BodyFrame bodies = tracker_->Track(frame);
+      if (is_shown) viewer_->Show(MomentOf(std::move(frame), std::move(bodies)));
+      spent.cpu_s += ThreadTime_s() - cpu_s;
+      const std::chrono::duration<double> took = std::chrono::steady_clock::now() - begin;
+      spent.wall_s += took.count();
+      std::this_thread::sleep_until(begin + std::chrono::duration<double>(period_s));
+    }
+  }
+
+ private:
+  std::unique_ptr<tracker::Tracker> tracker_;
+  std::unique_ptr<Viewer> viewer_;
+  std::array<std::unique_ptr<Browser>, 2> browsers_;
+  int64_t number_ = 0;
+};
+
+// frames a second of the camera; 0: as many as are tracked
+void TwoBrowsers_640x480(benchmark::State& state) {
+  constexpr int kBlock = 30;
+  const double period_s = state.range(0) > 0 ? 1.0 / static_cast<double>(state.range(0)) : 0.0;
+  Watched watched;
+  Spent ignored, alone, shown;
+  watched.Run(kBlock, true, 0.0, ignored);
+  for (auto _ : state) {
+    watched.Run(kBlock, false, period_s, alone);
+    watched.Run(kBlock, true, period_s, shown);
+  }
+  state.counters["cpu_cost_percent"] = 100.0 * (shown.cpu_s / alone.cpu_s - 1.0);
+  state.counters["rate_cost_percent"] = 100.0 * (1.0 - alone.wall_s / shown.wall_s);
+}
+BENCHMARK(TwoBrowsers_640x480)->Arg(0)->Arg(30)->Unit(benchmark::kMillisecond)->Iterations(12);
 
 }  // namespace
 }  // namespace ossa::viewer

@@ -248,7 +248,9 @@ class OfPhysics(InBrowser):
         thigh = numpy.array(joints["HipLeft"]["p"]) / 2 + numpy.array(joints["KneeLeft"]["p"]) / 2
         gap_m = min(numpy.abs(numpy.array(solid["at"]) - thigh).max() for solid in solids)
         self.assertLess(gap_m, 0.05, "a capsule around the thigh")
-        page.click("[data-layer=cloud]")
+        for name in ("cloud", "final", "frustum"):
+            page.click(f"[data-layer={name}]")
+        page.click("[data-view=follow]")
         page.save("viewer_physics.png", PICTURES)
         before = page.picture_of("#stage")
         page.press("b")
