@@ -8,6 +8,8 @@
 
 namespace ossa::nite2 {
 
+// Constants: by hand.
+
 /// What of the image may be a hand without a body; by hand.
 struct LoneHandOptions {
   int across = 160;          // cells from the image's left to its right that are looked at
