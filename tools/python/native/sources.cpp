@@ -14,29 +14,14 @@
 #include "depth/sensor/depth_coding.h"
 #include "tools/python/native/arrays.h"
 #include "tools/python/native/native.h"
+#include "tools/python/native/source.h"
 
 namespace ossa::python {
 namespace {
 
 using std::chrono::milliseconds;
-using Notes = std::vector<std::pair<std::string, std::string>>;  // "info" or "warning", text
 
-// Readers tell of what they assume while the GIL is released, from whichever thread.
-class NoteBook {
- public:
-  void Add(depth::NoteKind kind, const std::string& text) {
-    const std::lock_guard lock(mutex_);
-    notes_.emplace_back(kind == depth::NoteKind::kWarning ? "warning" : "info", text);
-  }
-  Notes Take() {
-    const std::lock_guard lock(mutex_);
-    return std::exchange(notes_, {});
-  }
-
- private:
-  std::mutex mutex_;
-  Notes notes_;
-};
+}  // namespace
 
 const char* NameOf(depth::ReadStatus status) {
   switch (status) {
@@ -51,8 +36,6 @@ const char* NameOf(depth::ReadStatus status) {
   }
   return "";
 }
-
-}  // namespace
 
 depth::SourceOptions ReadSourceOptions(const py::dict& given) {
   depth::SourceOptions options;
@@ -76,71 +59,53 @@ depth::SourceOptions ReadSourceOptions(const py::dict& given) {
   return options;
 }
 
-namespace {
+void NoteBook::Add(depth::NoteKind kind, const std::string& text) {
+  const std::lock_guard lock(mutex_);
+  notes_.emplace_back(kind == depth::NoteKind::kWarning ? "warning" : "info", text);
+}
 
-/// A SOURCE that one thread at a time reads; others wait.
-class Source {
-  depth::FrameSource& Opened() {
-    if (!frames_) throw InputError("source: expected one that is open, found it closed");
-    return *frames_;
-  }
-  template <typename Ask>
-  auto Locked(const Ask& ask) {
+Notes NoteBook::Take() {
+  const std::lock_guard lock(mutex_);
+  return std::exchange(notes_, {});
+}
+
+Source::Source(const std::string& name, const py::dict& given) {
+  depth::SourceOptions options = ReadSourceOptions(given);
+  options.note = [this](depth::NoteKind kind, const std::string& text) { notes_.Add(kind, text); };
+  const py::gil_scoped_release free;
+  frames_ = depth::OpenSource(name, options);
+}
+
+depth::FrameSource& Source::Opened() {
+  if (!frames_) throw InputError("source: expected one that is open, found it closed");
+  return *frames_;
+}
+
+depth::ReadResult Source::Next(int timeout_ms) {
+  const std::lock_guard lock(mutex_);
+  return Opened().Read(milliseconds(timeout_ms));
+}
+
+py::tuple Source::Read(int timeout_ms) {
+  depth::ReadResult read;
+  {
     const py::gil_scoped_release free;
-    const std::lock_guard lock(mutex_);
-    return ask(Opened());
+    read = Next(timeout_ms);
   }
+  if (read.status != depth::ReadStatus::kFrame) {
+    return py::make_tuple(NameOf(read.status), py::none(), py::none(), 0.0, 0);
+  }
+  const depth::Camera& camera = read.frame.camera;
+  return py::make_tuple(NameOf(read.status),
+                        ToArray(std::move(read.frame.depth_mm), {camera.height, camera.width}),
+                        ToTuple(camera), read.frame.time_s, read.dropped);
+}
 
- public:
-  Source(const std::string& name, const py::dict& given) {
-    depth::SourceOptions options = ReadSourceOptions(given);
-    options.note = [this](depth::NoteKind kind, const std::string& text) {
-      notes_.Add(kind, text);
-    };
-    const py::gil_scoped_release free;
-    frames_ = depth::OpenSource(name, options);
-  }
-
-  /// (status, depth_mm | None, camera, time_s, dropped)
-  py::tuple Read(int timeout_ms) {
-    depth::ReadResult read;
-    {
-      const py::gil_scoped_release free;
-      const std::lock_guard lock(mutex_);
-      read = Opened().Read(milliseconds(timeout_ms));
-    }
-    if (read.status != depth::ReadStatus::kFrame) {
-      return py::make_tuple(NameOf(read.status), py::none(), py::none(), 0.0, 0);
-    }
-    const depth::Camera& camera = read.frame.camera;
-    return py::make_tuple(NameOf(read.status),
-                          ToArray(std::move(read.frame.depth_mm), {camera.height, camera.width}),
-                          ToTuple(camera), read.frame.time_s, read.dropped);
-  }
-
-  void Close() {
-    const py::gil_scoped_release free;
-    const std::lock_guard lock(mutex_);
-    frames_.reset();
-  }
-  py::tuple Camera() {
-    return ToTuple(Locked([](auto& frames) { return frames.camera(); }));
-  }
-  bool IsLive() {
-    return Locked([](auto& frames) { return frames.is_live(); });
-  }
-  std::optional<int64_t> FrameCount() {
-    return Locked([](auto& frames) { return frames.frame_count(); });
-  }
-  Notes TakeNotes() { return notes_.Take(); }
-
- private:
-  NoteBook notes_;  // before what writes into it
-  std::mutex mutex_;
-  std::unique_ptr<depth::FrameSource> frames_;
-};
-
-}  // namespace
+void Source::Close() {
+  const py::gil_scoped_release free;
+  const std::lock_guard lock(mutex_);
+  frames_.reset();
+}
 
 void AddSources(py::module_& module) {
   module.def(

@@ -16,6 +16,7 @@
 #include "depth/sensor/frame_source.h"
 #include "tools/python/native/arrays.h"
 #include "tools/python/native/native.h"
+#include "tools/python/native/source.h"
 #include "tools/tracker/body_mesh_file.h"
 
 namespace ossa::python {
@@ -263,6 +264,26 @@ class Tracker {
     return OrNone(std::move(bodies));
   }
 
+  /// The next image of a source, tracked where it was read: (status, None or as TrackLate, time_s,
+  /// dropped).
+  py::tuple TrackNext(Source& source, int timeout_ms, int turn) {
+    depth::ReadResult read;
+    std::optional<BodyFrame> bodies;
+    {
+      const py::gil_scoped_release free;
+      read = source.Next(timeout_ms);
+      if (read.status == depth::ReadStatus::kFrame) {
+        const std::lock_guard lock(mutex_);
+        tracker_->SetTurn(static_cast<tracker::Turn>(turn));
+        read.frame.index = frame_.index;
+        bodies = tracker_->TrackLate(read.frame);
+        ++frame_.index;
+      }
+    }
+    return py::make_tuple(NameOf(read.status), OrNone(std::move(bodies)), read.frame.time_s,
+                          read.dropped);
+  }
+
   /// None when nothing is held.
   py::object TakeHeld() {
     std::optional<BodyFrame> bodies;
@@ -356,6 +377,8 @@ void AddTracker(py::module_& module) {
       .def("faces", &Tracker::Faces)
       .def("track_late", &Tracker::TrackLate, py::arg("depth_mm"), py::arg("camera"),
            py::arg("time_s"), py::arg("turn"))
+      .def("track_next", &Tracker::TrackNext, py::arg("source"), py::arg("timeout_ms"),
+           py::arg("turn"))
       .def("take_held", &Tracker::TakeHeld)
       .def("find_upright", &Tracker::FindUpright, py::arg("source"), py::arg("options"))
       .def("choose_users", &Tracker::ChooseUsers, py::arg("ids"))

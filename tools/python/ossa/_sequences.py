@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Any, Iterable, NamedTuple, Optional, Union
+from typing import TYPE_CHECKING, Any, Iterable, Iterator, NamedTuple, Optional, Union
 
 import numpy as np
 import numpy.typing as npt
@@ -10,7 +10,7 @@ import numpy.typing as npt
 from . import _check, _method_options, _native
 from ._names import METHODS, SKELETON_FORMATS, STATES
 from ._sources import PathLike
-from ._frames import Body, Frame
+from ._frames import Frame
 from ._tracker import mechanics_option
 
 if TYPE_CHECKING:
@@ -226,13 +226,29 @@ def _from_native(made: dict[str, Any]) -> Sequence:
     return sequence
 
 
+_OF_BODIES = {"joints": (20, 3), "confidence": (20,), "reliability": (20,), "orientations": (20, 4)}
+
+
 class _Row(NamedTuple):
-    """What is kept of a frame, whose images are not."""
+    """What is kept of a frame and one of its bodies: neither images nor fits."""
 
     frame: int
     time_s: float
     floor: Floats
-    body: Optional[Body]
+    id: int
+    states: npt.NDArray[np.str_]
+    values: tuple[Floats, ...]  # as _OF_BODIES
+
+
+def _rows_of(frame: Frame) -> Iterator[_Row]:
+    floor = np.full(4, np.nan) if frame.floor is None else frame.floor
+    bodies = [body for body in frame.bodies if body.tracked]
+    for body in bodies:
+        values = tuple(getattr(body, name) for name in _OF_BODIES)
+        yield _Row(frame.index, frame.time_s, floor, body.id, body.states, values)
+    if not bodies:
+        nothing = tuple(np.full(shape, np.nan) for shape in _OF_BODIES.values())
+        yield _Row(frame.index, frame.time_s, floor, _NOBODY, np.full(20, ""), nothing)
 
 
 def _sequence_of(frames: Iterable[Frame]) -> Sequence:
@@ -240,26 +256,20 @@ def _sequence_of(frames: Iterable[Frame]) -> Sequence:
     for frame in frames:
         if not isinstance(frame, Frame):
             raise _check.refuse("frames", "frames of ossa.Tracker", frame)
-        floor = np.full(4, np.nan) if frame.floor is None else frame.floor
-        bodies: list[Optional[Body]] = [body for body in frame.bodies if body.tracked]
-        rows += [_Row(frame.index, frame.time_s, floor, body) for body in bodies or [None]]
-
-    def column(name: str, shape: tuple[int, ...]) -> Floats:
-        nothing = np.full(shape, np.nan)
-        values = [nothing if row.body is None else getattr(row.body, name) for row in rows]
-        return np.array(values, dtype=np.float64).reshape((len(rows),) + shape)
-
-    unsaid = np.full(20, "")
-    states = [unsaid if row.body is None else row.body.states for row in rows]
+        rows += _rows_of(frame)
+    columns = {
+        name: np.array([row.values[i] for row in rows], dtype=np.float64).reshape((-1,) + shape)
+        for i, (name, shape) in enumerate(_OF_BODIES.items())
+    }
     return Sequence(
         [row.time_s for row in rows],
-        column("joints", (20, 3)),
-        np.array(states, np.str_).reshape(-1, 20),
-        ids=[_NOBODY if row.body is None else row.body.id for row in rows],
+        columns["joints"],
+        np.array([row.states for row in rows], np.str_).reshape(-1, 20),
+        ids=[row.id for row in rows],
         frames=[row.frame for row in rows],
-        confidence=column("confidence", (20,)),
-        reliability=column("reliability", (20,)),
-        orientations=column("orientations", (20, 4)),
+        confidence=columns["confidence"],
+        reliability=columns["reliability"],
+        orientations=columns["orientations"],
         floor=np.array([row.floor for row in rows], dtype=np.float64).reshape(-1, 4),
     )
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 import logging
 import time
 from types import TracebackType
-from typing import Any, Iterator, NamedTuple, Optional, Union
+from typing import Any, Callable, Iterator, NamedTuple, Optional, Union
 
 import numpy as np
 import numpy.typing as npt
@@ -54,15 +54,23 @@ class Source(Iterator[DepthImage]):
         return self
 
     def __next__(self) -> DepthImage:
+        seen = self._wait_for(self._native.read)
+        if seen is None:
+            raise StopIteration
+        _, depth_mm, camera, time_s, dropped = seen
+        self._dropped += dropped
+        return DepthImage(depth_mm, self._camera_of(camera), time_s)
+
+    def _wait_for(self, read: Callable[[int], tuple[Any, ...]]) -> Optional[tuple[Any, ...]]:
+        """What `read` gives of the next image, its status first; None at the end."""
         last_frame_s = time.monotonic()
         while True:
-            status, depth_mm, camera, time_s, dropped = self._native.read(_WAIT_MS)
+            seen = read(_WAIT_MS)
             self._take_notes()
-            if status == "end":
-                raise StopIteration
-            if depth_mm is not None:
-                self._dropped += dropped
-                return DepthImage(depth_mm, self._camera_of(camera), time_s)
+            if seen[0] == "end":
+                return None
+            if seen[0] == "frame":
+                return seen
             silent_s = time.monotonic() - last_frame_s
             if silent_s > self._patience_s and self._native.is_live():
                 raise _native.InputError(f"{self._name}: no image came for {silent_s:.1f} s")

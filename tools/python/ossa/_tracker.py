@@ -368,11 +368,12 @@ class Tracker:
                 self._native.find_upright(source.name, source._options)
             except _native.InputError:
                 pass  # told of when its turn comes
-        for image in source:
-            frame = self.track_late(*image)
-            del image  # its memory serves the next one
-            if frame is not None:
-                yield frame
+        turn = ROTATIONS.index(source._rotate)
+        while (seen := source._wait_for(lambda ms: self._native.track_next(source._native, ms, turn))) is not None:
+            _, made, self._time_s, dropped = seen
+            source._dropped += dropped
+            if made is not None:
+                yield frame_from(made, self._faces)
         while (held := self.take_held()) is not None:
             yield held
 
