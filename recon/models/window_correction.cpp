@@ -14,7 +14,7 @@ namespace {
 
 constexpr float kStep_m = 0.1F;   // an output of 1: about the largest systematic error; by hand
 constexpr float kSoft = 0.1F;     // of kStep_m: a centimetre, below which errors are noise; by hand
-constexpr double kKept_s = 0.75;  // seconds of history: the longest lag and a frame or two
+constexpr double kKept_s = 0.75;  // the longest lag and some frames more; by hand
 
 /// A network learns from whole recordings: pairs of a clip, windows cut from those before.
 PerceptronExamples MakeExamples(const std::vector<PosturePair>& pairs, size_t most) {
