@@ -121,6 +121,13 @@ py::array VerticesOf(const recon::BodyMesh& mesh, const recon::SurfacePose& pose
   return python::ToArray(std::move(vertices_m), {count, 3});
 }
 
+// The skin of a body, posed for who asks for it. An object, because a function of its own costs
+// more than the whole rest of a fit.
+struct Skin {
+  MeshPointer mesh;
+  recon::SurfacePose pose;
+};
+
 py::dict ToDict(const recon::SurfaceFit& fit, const MeshPointer& mesh) {
   constexpr py::ssize_t kSegments = recon::kSegmentCount;
   std::vector<double> turns, residuals_m;
@@ -141,8 +148,7 @@ py::dict ToDict(const recon::SurfaceFit& fit, const MeshPointer& mesh) {
   made["median_residual_m"] = fit.median_residual_m;
   made["residuals_m"] = python::ToArray(std::move(residuals_m), {kSegments});
   made["orientations"] = python::ToArray(std::move(turns), {kSegments, 4});
-  // The skin of a body is posed for who asks for it.
-  made["_vertices"] = py::cpp_function([mesh, pose = fit.pose] { return VerticesOf(*mesh, pose); });
+  made["_skin"] = Skin{mesh, fit.pose};
   return made;
 }
 
@@ -370,6 +376,9 @@ void AddTracker(py::module_& module) {
   py::class_<Models>(module, "Models")
       .def(py::init(&LoadModels), py::arg("files"), py::arg("method"))
       .def_readonly("method", &Models::method);
+  py::class_<Skin>(module, "Skin").def("vertices", [](const Skin& skin) {
+    return VerticesOf(*skin.mesh, skin.pose);
+  });
   py::class_<Tracker>(module, "Tracker")
       .def(py::init<const py::dict&, const Models&>(), py::arg("options"), py::arg("models"))
       .def("track", &Tracker::Track, py::arg("depth_mm"), py::arg("camera"), py::arg("time_s"),

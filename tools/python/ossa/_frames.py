@@ -3,12 +3,12 @@
 from __future__ import annotations
 
 import dataclasses
-from typing import Any, Callable, Mapping, Optional, Union
+from typing import Any, Mapping, Optional, Union
 
 import numpy as np
 import numpy.typing as npt
 
-from . import _check
+from . import _check, _native
 from ._names import JOINTS, STATES, Joint
 
 Floats = npt.NDArray[np.float64]
@@ -98,7 +98,7 @@ class Fit:
     median_residual_m: float
     residuals_m: Floats
     orientations: Floats
-    _vertices: Optional[Callable[[], Floats]]  # poses the skin; None once that is done
+    _skin: Optional[_native.Skin]  # to be posed; None once that is done
     _faces: npt.NDArray[np.int32]
     _mesh: Optional[Mesh] = None
 
@@ -106,13 +106,13 @@ class Fit:
     def mesh(self) -> Mesh:
         """Its skin, posed when it is first asked for."""
         if self._mesh is None:
-            assert self._vertices is not None
-            object.__setattr__(self, "_mesh", Mesh(self._vertices(), self._faces.copy()))
+            assert self._skin is not None
+            object.__setattr__(self, "_mesh", Mesh(self._skin.vertices(), self._faces.copy()))
         assert self._mesh is not None
         return self._mesh
 
     def __getstate__(self) -> dict[str, Any]:
-        return {**self.__dict__, "_mesh": self.mesh, "_vertices": None}
+        return {**self.__dict__, "_mesh": self.mesh, "_skin": None}
 
     def __repr__(self) -> str:
         return f"<ossa.Fit: {self.stature_m:.2f} m tall, {self.explained:.0%} explained>"

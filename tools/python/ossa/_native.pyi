@@ -37,6 +37,9 @@ class Models:
     @property
     def method(self) -> str: ...
 
+class Skin:
+    def vertices(self) -> npt.NDArray[np.float64]: ...
+
 class Tracker:
     def __init__(self, options: dict[str, Any], models: Models) -> None: ...
     def track(
