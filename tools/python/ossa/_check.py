@@ -11,6 +11,9 @@ import numpy as np
 
 from ._native import InputError as InputError
 
+InputError.__doc__ = """What was given is wrong: an argument, a file, a device. A ValueError whose text is one
+line that names it, what was expected and what was found."""
+
 _LONGEST = 60  # characters of a value that a message quotes
 
 
