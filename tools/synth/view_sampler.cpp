@@ -21,6 +21,7 @@ struct Placement {
   double roll_rad = 0.0;
   double facing_rad = 0.0;
   double aim_ahead_m = 0.0;  // of the person's axis, towards the camera
+  double beside_m = 0.0;     // camera and aim, to the person's left
 };
 
 /// Test placements are one in five cells of a grid over height, distance and heading; training
@@ -68,15 +69,23 @@ Placement DrawAny(double person_m, Random& random) {
   return place;
 }
 
-/// Above the person or somewhat aside, looking down.
+/// Under the ceiling, straight down or tilted, the person anywhere in the image. A camera that
+/// looks all but straight down hangs there turned anyhow; a tilted one has the far side up.
 Placement DrawCeiling(double person_m, Random& random) {
-  constexpr double kLeastAside_m = 0.05;  // straight down has no heading; by hand
+  constexpr double kMostTilt_deg = 35.0, kTurnedAnyhow_deg = 10.0;  // off straight down
+  constexpr double kMiddle = 0.55;                // of the body, share of its height
+  constexpr double kAcross = 0.38, kDown = 0.32;  // half the image over its distance, nearly
+  constexpr double kLeastAside_m = 0.01;          // straight down has no heading
   Placement place;
   place.height_m = random.Uniform(2.2, 4.0);
-  place.distance_m = random.Uniform(kLeastAside_m, 1.8);
-  place.aim_height_m = person_m * random.Uniform(0.3, 1.0);
-  place.aim_ahead_m = random.Uniform(-0.4, 0.4) * place.distance_m;
-  place.aside_rad = random.Uniform(-12, 12) * kDegree;
+  const double tilt_deg = random.Uniform(0.0, kMostTilt_deg);
+  place.aim_height_m = person_m * kMiddle;
+  const double reach_m = place.height_m - place.aim_height_m;
+  place.beside_m = reach_m * random.Uniform(-kAcross, kAcross);
+  place.aim_ahead_m = reach_m * random.Uniform(-kDown, kDown);
+  place.distance_m =
+      place.aim_ahead_m + std::max(kLeastAside_m, reach_m * std::tan(tilt_deg * kDegree));
+  place.roll_rad = tilt_deg < kTurnedAnyhow_deg ? random.Uniform(-180, 180) * kDegree : 0.0;
   place.facing_rad = random.Uniform(-180, 180) * kDegree;
   return place;
 }
@@ -86,7 +95,7 @@ Placement Draw(View view, double person_m, Random& random) {
                     : view == View::kNear    ? DrawNear(person_m, random)
                     : view == View::kCeiling ? DrawCeiling(person_m, random)
                                              : DrawAny(person_m, random);
-  place.roll_rad = random.Normal(0.0, 2.0 * kDegree);
+  place.roll_rad += random.Normal(0.0, 2.0 * kDegree);
   return place;
 }
 
@@ -123,10 +132,10 @@ void DrawCamera(const ViewRequest& request, ViewSample* sample, Random& random) 
   camera.cy += random.Normal(0.0, 0.01) * camera.height;
 }
 
-/// The camera stands on the person's +z side and looks at the aim, turned aside and rolled.
+/// The camera stands on the person's +z side, looks at the aim, and is turned aside and rolled.
 Eigen::Isometry3d CameraFromWorld(const Placement& place) {
-  const Eigen::Vector3d position_m(0.0, place.height_m, place.distance_m);
-  const Eigen::Vector3d aim_m(0.0, place.aim_height_m, place.aim_ahead_m);
+  const Eigen::Vector3d position_m(place.beside_m, place.height_m, place.distance_m);
+  const Eigen::Vector3d aim_m(place.beside_m, place.aim_height_m, place.aim_ahead_m);
   const Eigen::Vector3d forward = (aim_m - position_m).normalized();
   const Eigen::Vector3d left = Eigen::Vector3d::UnitY().cross(forward).normalized();
   Eigen::Matrix3d world_from_camera;
