@@ -45,14 +45,22 @@ const std::vector<JointParts>& PartsOfJoints() {
   return table;
 }
 
+// From right to left, shoulders and hips together.
+Eigen::Vector3d LeftOf(const recon::Posture& joints_m) {
+  return joints_m[Joint::kShoulderLeft] - joints_m[Joint::kShoulderRight] +
+         (joints_m[Joint::kHipLeft] - joints_m[Joint::kHipRight]);
+}
+
+uint8_t SectorOf(double angle_rad) {
+  const double turns = angle_rad / (2.0 * std::numbers::pi);
+  const auto sector = static_cast<int>(std::lround(turns * kFacingSectors)) + kFacingSectors;
+  return static_cast<uint8_t>(sector % kFacingSectors);
+}
+
 }  // namespace
 
 double YawAgainstSight(const recon::Posture& joints_m) {
-  const auto left_of = [&](Joint left, Joint right) -> Eigen::Vector3d {
-    return joints_m[left] - joints_m[right];
-  };
-  Eigen::Vector3d left = left_of(Joint::kShoulderLeft, Joint::kShoulderRight) +
-                         left_of(Joint::kHipLeft, Joint::kHipRight);
+  Eigen::Vector3d left = LeftOf(joints_m);
   Eigen::Vector3d sight = joints_m[Joint::kHipCenter] + joints_m[Joint::kShoulderCenter];
   left.y() = 0;
   sight.y() = 0;
@@ -62,10 +70,12 @@ double YawAgainstSight(const recon::Posture& joints_m) {
   return std::atan2(towards.cross(facing).y(), towards.dot(facing));
 }
 
-uint8_t FacingSector(const recon::Posture& joints_m) {
-  const double turns = YawAgainstSight(joints_m) / (2.0 * std::numbers::pi);
-  const auto sector = static_cast<int>(std::lround(turns * kFacingSectors)) + kFacingSectors;
-  return static_cast<uint8_t>(sector % kFacingSectors);
+uint8_t FacingSector(const recon::Posture& joints_m) { return SectorOf(YawAgainstSight(joints_m)); }
+
+uint8_t HeadingSector(const recon::Posture& joints_m) {
+  // Up is towards the camera; x grows to the image's left.
+  const Eigen::Vector3d facing = LeftOf(joints_m).cross(-Eigen::Vector3d::UnitZ());
+  return SectorOf(std::atan2(-facing.x(), facing.y()));
 }
 
 forest::TrainingVocabulary BodyVocabulary() {
@@ -156,7 +166,10 @@ forest::TrainingImage PersonSource::Read(size_t index) const {
     none.target_visible.assign(recon::kJointCount, 0);
     return none;
   }
-  return PersonImage(frame, frame.bodies[static_cast<size_t>(place.frame) % frame.bodies.size()]);
+  const TruthBody& body = frame.bodies[static_cast<size_t>(place.frame) % frame.bodies.size()];
+  forest::TrainingImage image = PersonImage(frame, body);
+  if (reader.manifest().view == "ceiling") image.context = HeadingSector(body.joints_m);
+  return image;
 }
 
 }  // namespace ossa::tools

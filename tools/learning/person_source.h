@@ -17,6 +17,9 @@ inline constexpr int kFacingSectors = 8;  // by hand
 /// person's left side comes nearer.
 double YawAgainstSight(const recon::Posture& joints_m);
 uint8_t FacingSector(const recon::Posture& joints_m);
+/// From the ceiling, where there is no line of sight to face: the heading in the image, clockwise
+/// in steps of 45°; sector 0 faces its upper border.
+uint8_t HeadingSector(const recon::Posture& joints_m);
 
 /// What a forest for people is trained to tell: 31 parts and `other`, facing sectors, SDK joints.
 forest::TrainingVocabulary BodyVocabulary();

@@ -22,6 +22,23 @@ forest::TrainingImage SmallImage() {
   return image;
 }
 
+// Shoulders and hips of somebody below the camera whose left is there.
+recon::Posture Below(const Eigen::Vector3d& left) {
+  recon::Posture joints_m;
+  joints_m.position_m.fill({0.0, 0.0, 1.5});
+  for (const auto joint : {recon::Joint::kShoulderLeft, recon::Joint::kHipLeft})
+    joints_m.position_m[recon::Index(joint)] += 0.2 * left;
+  return joints_m;
+}
+
+TEST(HeadingSector, IsZeroUpTheImageAndGrowsClockwise) {
+  // x grows to the image's left: who has the left there faces up the image.
+  EXPECT_EQ(HeadingSector(Below(Eigen::Vector3d::UnitX())), 0);
+  EXPECT_EQ(HeadingSector(Below(Eigen::Vector3d::UnitY())), 2);  // faces right
+  EXPECT_EQ(HeadingSector(Below(-Eigen::Vector3d::UnitX())), 4);
+  EXPECT_EQ(HeadingSector(Below(-Eigen::Vector3d::UnitY())), 6);
+}
+
 TEST(Mirrored, SwapsLeftAndRight) {
   const forest::TrainingImage image = SmallImage();
   const forest::TrainingImage mirrored = Mirrored(image);
