@@ -71,21 +71,23 @@ Fit Score(const std::vector<Measured>& points, const Vector4f& plane) {
 }
 
 bool Allowed(const Vector4f& plane, const FloorOptions& options) {
-  return plane[1] > std::cos(options.max_tilt_rad) &&
+  return plane.head<3>().dot(options.up.cast<float>()) > std::cos(options.max_tilt_rad) &&
          plane[3] > static_cast<float>(options.min_height_m) &&
          plane[3] < static_cast<float>(options.max_height_m);
 }
 
-std::optional<Vector4f> PlaneThrough(const Vector3f& a, const Vector3f& b, const Vector3f& c) {
+std::optional<Vector4f> PlaneThrough(const Vector3f& a, const Vector3f& b, const Vector3f& c,
+                                     const Vector3f& up) {
   Vector3f normal = (b - a).cross(c - a);
   if (normal.norm() < 1e-3F) return std::nullopt;
   normal.normalize();
-  if (normal.y() < 0) normal = -normal;
+  if (normal.dot(up) < 0) normal = -normal;
   return Vector4f(normal.x(), normal.y(), normal.z(), -normal.dot(a));
 }
 
 // Least squares through the inliers: the normal is the direction of least spread.
-Vector4f Refine(const std::vector<Measured>& points, const Vector4f& plane) {
+Vector4f Refine(const std::vector<Measured>& points, const Vector4f& plane,
+                const FloorOptions& options) {
   Eigen::Vector3d mean = Eigen::Vector3d::Zero();
   std::vector<Eigen::Vector3d> inliers;
   for (const Measured& p : points) {
@@ -99,17 +101,25 @@ Vector4f Refine(const std::vector<Measured>& points, const Vector4f& plane) {
   for (const auto& p : inliers) scatter += (p - mean) * (p - mean).transpose();
   Eigen::Vector3d normal =
       Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>(scatter).eigenvectors().col(0);
-  if (normal.y() < 0) normal = -normal;
+  if (normal.dot(options.up) < 0) normal = -normal;
   return Eigen::Vector4d(normal.x(), normal.y(), normal.z(), -normal.dot(mean)).cast<float>();
 }
 
+// Whether up is rather against the line of sight than up the image.
+bool LooksDown(const FloorOptions& options) {
+  return std::abs(options.up.z()) > std::abs(options.up.y());
+}
+
 // Whether something was measured in enough squares of 10 cm of the plane.
-bool IsVisible(const std::vector<Measured>& points, const Vector4f& plane, double min_area_m2) {
+bool IsVisible(const std::vector<Measured>& points, const Vector4f& plane,
+               const FloorOptions& options) {
+  const double min_area_m2 = options.min_area_m2;
+  const int ahead = LooksDown(options) ? 1 : 2;  // the axis over the floor beside x
   std::set<std::pair<int, int>> squares;
   for (const Measured& p : points) {
     if (!OnPlane(plane, p.at_m)) continue;
     squares.insert({static_cast<int>(std::floor(10 * p.at_m.x())),
-                    static_cast<int>(std::floor(10 * p.at_m.z()))});
+                    static_cast<int>(std::floor(10 * p.at_m[ahead]))});
     if (0.01 * static_cast<double>(squares.size()) >= min_area_m2) return true;
   }
   return min_area_m2 <= 0;
@@ -124,12 +134,13 @@ Fit Search(const std::vector<Measured>& low, const std::vector<Measured>& sample
   // strip at the image's lower border. One of a tenth of the sample is missed once in 700
   // (1 - 0.4^3)^100 where it would be missed four times in five (1 - 0.1^3)^200.
   constexpr size_t kLowest = 4;  // by hand, one part in so many
+  const Vector3f up = options.up.cast<float>();
   std::mt19937_64 random(options.seed);
   Fit best;
   for (int trial = 0; trial < kTrials; ++trial) {
     const size_t from = trial % 2 == 0 ? 0 : low.size() - low.size() / kLowest;
     const auto pick = [&] { return low[from + random() % (low.size() - from)].at_m; };
-    const auto plane = PlaneThrough(pick(), pick(), pick());
+    const auto plane = PlaneThrough(pick(), pick(), pick(), up);
     if (!plane || !Allowed(*plane, options)) continue;
     const Fit fit = Score(sample, *plane);
     if (fit.below > static_cast<int>(options.max_share_below * static_cast<double>(sample.size())))
@@ -141,11 +152,11 @@ Fit Search(const std::vector<Measured>& low, const std::vector<Measured>& sample
 
 std::optional<FloorPlane> Confirmed(const std::vector<Measured>& points, Vector4f plane,
                                     const FloorOptions& options) {
-  plane = Refine(points, Refine(points, plane));
+  plane = Refine(points, Refine(points, plane, options), options);
   if (!Allowed(plane, options)) return std::nullopt;
   const Fit fit = Score(points, plane);
   if (fit.below > options.max_share_below * static_cast<double>(points.size())) return std::nullopt;
-  if (!IsVisible(points, plane, options.min_area_m2)) return std::nullopt;
+  if (!IsVisible(points, plane, options)) return std::nullopt;
   return FloorPlane{plane.cast<double>()};
 }
 
@@ -161,17 +172,27 @@ Vector3f UpImage(const PointGrid& grid, int x, int y) {
 
 }  // namespace
 
+FloorOptions FloorOptionsFromAbove() {
+  FloorOptions options;
+  options.up = -Eigen::Vector3d::UnitZ();
+  options.max_tilt_rad = 0.66;
+  options.min_height_m = 2.0;
+  options.max_height_m = 4.3;
+  return options;
+}
+
 double FloorPlane::TiltDown_rad() const { return std::atan2(-coefficients[2], coefficients[1]); }
 
 std::optional<FloorPlane> FindFloor(const PointGrid& grid, FloorState& state,
                                     const FloorOptions& options) {
+  const bool anywhere = LooksDown(options);  // no row of the image is lower than another
   std::vector<Measured> points, low;
   for (int y = 0; y < grid.height; y += 2) {
     for (int x = y / 2 % 2; x < grid.width; x += 2) {
       const int cell = grid.cell(x, y);
       if (!grid.valid(cell)) continue;
       points.push_back({grid.at(cell), UpImage(grid, x, y)});
-      if (y > grid.height / 3) low.push_back(points.back());
+      if (anywhere || y > grid.height / 3) low.push_back(points.back());
     }
   }
   std::optional<FloorPlane> found;

@@ -20,6 +20,7 @@ struct FloorPlane {
 
 /// Constants: set by hand for the sensors of people's rooms: on shelves, tables and tripods.
 struct FloorOptions {
+  Eigen::Vector3d up = Eigen::Vector3d::UnitY();  // about; unit vector, camera space
   double max_tilt_rad = 0.79;  // the sensor's tilt and roll stay below 45 degrees
   double min_height_m = 0.25;  // of the sensor over the floor
   double max_height_m = 3.5;
@@ -29,6 +30,10 @@ struct FloorOptions {
   uint64_t seed = 1;
 };
 
+/// Of a sensor under the ceiling that looks down by 52 degrees or more. By hand; no sensor is
+/// higher than a room of 4 m.
+FloorOptions FloorOptionsFromAbove();
+
 /// What is remembered between frames.
 struct FloorState {
   std::optional<FloorPlane> plane;
@@ -36,7 +41,8 @@ struct FloorState {
 };
 
 /// The floor of this frame, or nothing when it is not seen with confidence. Random sample consensus
-/// with the prior that gravity points down the image; the plane before is tried first.
+/// with the prior of FloorOptions::up, where gravity points down the image; the plane before is
+/// tried first.
 std::optional<FloorPlane> FindFloor(const PointGrid& grid, FloorState& state,
                                     const FloorOptions& options = {});
 

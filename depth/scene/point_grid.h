@@ -34,7 +34,10 @@ struct PointGrid {
   /// Where a point is over the floor, to the left and ahead: head and feet of one person are about
   /// at one place, also before a sensor that looks down.
   Eigen::Vector2f OnFloor(const Eigen::Vector3f& p_m) const {
-    const Eigen::Vector3f left = up.cross(Eigen::Vector3f::UnitZ()).normalized();
+    constexpr float kStraightDown = 0.8F;  // cosine; by hand: then down the image is ahead
+    const bool down = up.z() < -kStraightDown;
+    const Eigen::Vector3f ahead = down ? Eigen::Vector3f::UnitY() : Eigen::Vector3f::UnitZ();
+    const Eigen::Vector3f left = up.cross(ahead).normalized();
     return {left.dot(p_m), left.cross(up).dot(p_m)};
   }
   /// Area of one cell's patch seen frontally, square metres.

@@ -182,6 +182,11 @@ struct Destinations {
   }
 };
 
+void SayMount() {
+  Say("ossa track: the camera looks down from the ceiling: people are found by their heads, joints "
+      "by body_ceiling.ossa (--mount level: it does not)\n");
+}
+
 void TrackToEnd(depth::FrameSource& source, tracker::Tracker& tracker, const TrackOptions& options,
                 Destinations& to, Run& run) {
   Progress progress("tracking", options.quiet);
@@ -189,6 +194,7 @@ void TrackToEnd(depth::FrameSource& source, tracker::Tracker& tracker, const Tra
   run.of = FramesWanted(source, options);
   auto last_frame_at = Clock::now();
   bool gone = false;
+  bool hangs = options.tracker.mount == tracker::Mount::kCeiling;
   int64_t tracked = 0;
   while (!Interrupted()) {
     depth::ReadResult read = source.Read(milliseconds(100));
@@ -207,6 +213,7 @@ void TrackToEnd(depth::FrameSource& source, tracker::Tracker& tracker, const Tra
     gone = false;
     run.dropped += read.dropped;
     const auto bodies = tracker.TrackLate(read.frame);
+    if (!std::exchange(hangs, tracker.mount() == tracker::Mount::kCeiling) && hangs) SayMount();
     ++tracked;
     to.waiting.push_back(std::move(read.frame));
     if (bodies) to.Deliver(*bodies, run);

@@ -46,6 +46,10 @@ void AddTrackerOptions(CLI::App& app, TrackOptions& options) {
       ->check(CLI::Range(0, 2));
   app.add_option("--mode", options.mode, "standing (20 joints) or seated (the upper ten)")
       ->check(CLI::IsMember({"standing", "seated"}));
+  app.add_option("--mount", options.mount,
+                 "where the camera is: level, ceiling (2.2 to 4 m up, looking down) or auto "
+                 "(default: auto)")
+      ->check(CLI::IsMember({"auto", "level", "ceiling"}));
   app.add_flag("--near", t.near_range, "near range: people within 3 m only");
   app.add_option("--users", t.max_users, "most people at a time, 1 to 6 (default 6)")
       ->check(CLI::Range(1, 6));
@@ -168,6 +172,8 @@ TrackOptions ParseTrackOptions(int argc, char** argv) {
   if (!options.smoothing.empty()) {
     options.tracker.smoothing = tracker::SmoothingPreset(options.smoothing);
   }
+  if (options.mount == "level") options.tracker.mount = tracker::Mount::kLevel;
+  if (options.mount == "ceiling") options.tracker.mount = tracker::Mount::kCeiling;
   if (options.mode == "seated") options.tracker.mode = tracker::TrackingMode::kSeated;
   options.tracker.trace = !options.trace.empty();
   options.tracker.keep_parts = !options.picture.empty() || !options.pictures.empty();

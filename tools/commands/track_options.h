@@ -18,7 +18,7 @@ namespace ossa::commands {
 struct TrackOptions {
   SourceArguments source;
   std::string out, json_stats, picture, pictures, trace;
-  std::string smoothing, posture = "final", mode = "standing", fit;
+  std::string smoothing, posture = "final", mode = "standing", mount = "auto", fit;
   MechanicsOptions mechanics;
   BonesOption bones;
   WriteOptions write;

@@ -223,6 +223,8 @@ std::vector<Detection> ClassifyCandidates(const Classifying& with,
                                           std::vector<Candidate> candidates,
                                           std::vector<Decision>& decided) {
   std::vector<Detection> detections = ClassifyEach(with, std::move(candidates));
+  // From above the shape says all that can be said of who belongs together.
+  if (with.options.candidates.overhead) return detections;
   MergeParts(with, detections, decided);
   std::vector<Detection> result;
   for (Detection& detection : detections) {

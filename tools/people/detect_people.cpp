@@ -108,6 +108,19 @@ PeopleInFrame DetectPeople(const DepthFrame& frame, const PersonClassifier& clas
   return result;
 }
 
+PeopleOptions PeopleOptionsFromAbove() {
+  // Lengths: anthropometry, over the surface from the top of the head. By hand on rendered people.
+  PeopleOptions options;
+  options.scene.floor = depth::FloorOptionsFromAbove();
+  options.candidates.overhead = OverheadOptions{};
+  options.candidates.seeds.sideways = 1.0F;
+  options.candidates.seeds.jump_cost_m = 0.0F;
+  options.candidates.seeds.max_reach_m = 2.2F;
+  options.candidates.seeds.one_person_m2 = 0.7F;
+  options.initiation.least_body = 0.0;  // a surface that hides most of itself explains too little
+  return options;
+}
+
 bool IsDoubtfulAtFirst(const Detection& detection, const InitiationOptions& options) {
   const Rule rule = detection.decision.rule;
   const bool first = rule == Rule::kFreshScene || rule == Rule::kPieceWithHead;

@@ -1,5 +1,6 @@
 #pragma once
 #include <cstddef>
+#include <optional>
 
 #include "depth/scene/scene.h"
 
@@ -30,6 +31,20 @@ struct HeadOptions {
   float shoulders_below_m = 0.32F;  // anthropometry: centre of the head to the shoulders' row,
   float shoulders_half_m = 0.17F;   // ... and half their width
   float occluder_m = 0.1F;          // sensor: what is so much nearer occludes the shoulders
+};
+
+/// People and their heads before a camera under the ceiling. Heights are over the floor.
+struct OverheadOptions {
+  float foot_m = 0.12F;          // sensor: what is lower is the floor, and feet on it
+  float min_head_m = 0.5F;       // anthropometry: of a child, or of who sits on the floor,
+  float max_head_m = 2.3F;       // ... and of a tall person on heels
+  float inner_radius_m = 0.07F;  // anthropometry: well inside any head
+  float outer_radius_m = 0.20F;  // anthropometry: well outside any head, on the shoulders
+  float level_m = 0.08F;         // of points on top of one head
+  float lower_m = 0.10F;         // anthropometry: shoulders and neck are so much lower
+  float min_disc = 0.75F;        // share of the disc that is level
+  float min_score = 0.85F;       // share of the disc x lower share of the ring
+  float min_distance_m = 0.35F;  // between two heads, over the floor
 };
 
 /// How a connected region is cut into one piece a person.
@@ -103,6 +118,7 @@ struct CandidateOptions {
   // and from their nearer side, over the floor.
   float rest_m = 0.45F, beside_m = 0.7F;
   HeadOptions heads;
+  std::optional<OverheadOptions> overhead;  // instead, where the camera is under the ceiling
   SeedOptions seeds;
   MergeOptions merge;
   OcclusionOptions occlusion;
@@ -273,5 +289,8 @@ struct PeopleOptions {
   int threads = 1;              // candidates are classified on, >= 1; the result is the same
   bool trace_surfaces = false;  // PeopleInFrame::decisions also holds furniture and background
 };
+
+/// Of a camera under the ceiling that looks down.
+PeopleOptions PeopleOptionsFromAbove();
 
 }  // namespace ossa::people

@@ -7,6 +7,7 @@
 #include "depth/scene/silhouette.h"
 #include "tools/people/merge_regions.h"
 #include "tools/people/occlusion_merge.h"
+#include "tools/people/overhead.h"
 #include "tools/people/planar_occluder.h"
 #include "tools/people/split_regions.h"
 #include "tools/people/track_prediction.h"
@@ -51,6 +52,11 @@ void KeepTracksOutOfBackground(const Scene& scene, const std::vector<Track>& tra
 std::vector<Region> FindRegions(const Scene& scene, const std::vector<Track>& tracks, double time_s,
                                 CellFacts& facts, const CandidateOptions& options) {
   const PointGrid& grid = scene.grid;
+  if (options.overhead) {
+    if (!scene.floor) return {};  // without it nothing is known of heights
+    return FindRegionsFromAbove(grid, *scene.floor, facts.ignored, options.speck_m2,
+                                *options.overhead);
+  }
   auto regions = FindConnectedRegions(grid, facts.ignored, options.speck_m2);
   regions =
       MergePieces(grid, std::move(regions), scene.surfaces, facts.owner, tracks.size(), options);
@@ -77,6 +83,12 @@ Candidate MakeCandidate(const DepthFrame& frame, const Scene& scene, Region piec
   return candidate;
 }
 
+std::vector<HeadBlob> HeadsOf(const Scene& scene, const Region& region,
+                              const CandidateOptions& options) {
+  return options.overhead ? FindHeadsFromAbove(scene.grid, *scene.floor, region, *options.overhead)
+                          : FindHeads(scene.grid, region, options.heads);
+}
+
 // A connected region as pieces that may be one person each.
 void CutIntoCandidates(const DepthFrame& frame, const Scene& scene, const CellFacts& facts,
                        size_t tracks, const Region& region, int region_index,
@@ -89,7 +101,8 @@ void CutIntoCandidates(const DepthFrame& frame, const Scene& scene, const CellFa
     result.excluded.push_back(DescribeRegion(region, Rule::kTooSmall));
     return;
   }
-  const auto seeds = FindSeeds(scene.grid, region, facts.owner, tracks, facts.background, options);
+  const auto seeds = FindSeeds(scene.grid, region, HeadsOf(scene, region, options), facts.owner,
+                               tracks, facts.background, options);
   for (Region& piece : CutAtSeeds(scene.grid, region, seeds, options)) {
     if (!is_large_enough(piece)) {
       if (!piece.cells.empty()) result.excluded.push_back(DescribeRegion(piece, Rule::kTooSmall));

@@ -7,7 +7,6 @@
 #include <queue>
 #include <span>
 
-#include "tools/people/head_detector.h"
 #include "tools/people/track_prediction.h"
 
 namespace ossa::people {
@@ -115,8 +114,8 @@ bool IsForegroundPersonSized(const Region& region, const std::vector<uint8_t>& f
 }
 
 std::vector<Seed> FindSeeds(const PointGrid& grid, const Region& region,
-                            const std::vector<int>& owner, size_t tracks,
-                            const std::vector<uint8_t>& background,
+                            std::span<const HeadBlob> heads, const std::vector<int>& owner,
+                            size_t tracks, const std::vector<uint8_t>& background,
                             const CandidateOptions& options) {
   std::vector<Seed> seeds;
   for (auto& cells : CollectOverlaps(region, owner, tracks)) {
@@ -125,7 +124,7 @@ std::vector<Seed> FindSeeds(const PointGrid& grid, const Region& region,
   }
   const size_t known = seeds.size();
   std::vector<uint8_t> has_head(known, 0);
-  for (const HeadBlob& head : FindHeads(grid, region, options.heads)) {
+  for (const HeadBlob& head : heads) {
     const int mine =
         FindOwnerOfHead(grid, head, std::span(seeds).first(known), options.seeds.owner_step_m);
     // A person has one head, and it moves: the best head at a track is that track's. More heads are

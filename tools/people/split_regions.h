@@ -1,8 +1,10 @@
 #pragma once
 #include <cstdint>
+#include <span>
 #include <vector>
 
 #include "tools/people/geometry.h"
+#include "tools/people/head_detector.h"
 #include "tools/people/options.h"
 
 // How a connected region is cut into pieces that may be one person each.
@@ -26,10 +28,11 @@ std::vector<int> CollectHeadCells(const PointGrid& grid, const Region& region,
                                   const Eigen::Vector3f& head_m, const SeedOptions& options = {});
 
 /// Who is in one region: tracks by the cells they held (`owner`, an index or -1 a cell), others by
-/// their heads. Tracks do not grow into `background` cells (1 = yes), which the result refers to.
+/// the heads, best first. Tracks do not grow into `background` cells (1 = yes), which the result
+/// refers to.
 std::vector<Seed> FindSeeds(const PointGrid& grid, const Region& region,
-                            const std::vector<int>& owner, size_t tracks,
-                            const std::vector<uint8_t>& background,
+                            std::span<const HeadBlob> heads, const std::vector<int>& owner,
+                            size_t tracks, const std::vector<uint8_t>& background,
                             const CandidateOptions& options);
 
 /// One piece per person. A seed whose piece could not be a person was no head: its piece goes back

@@ -21,6 +21,7 @@ using recon::MethodInfo;
 using recon::Reads;
 
 constexpr const char* kForest = "body.ossa";
+constexpr const char* kCeilingForest = "body_ceiling.ossa";
 constexpr const char* kCorrection = "body.ossagp";
 constexpr const char* kDatabase = "authored.ossadb";
 constexpr const char* kWithout = "none";
@@ -71,6 +72,13 @@ std::shared_ptr<const recon::BodySurface> LoadSurface(const ModelFiles& files) {
       recon::BodySurface::Load(NamedOrShipped(files.surface, recon::kShippedSurface)));
 }
 
+// Of a forest that was shown our own bodies: bones have the proportions of the standard body.
+std::shared_ptr<const recon::LearnedModels> ProportionsAlone() {
+  auto models = std::make_shared<recon::LearnedModels>();
+  models->correction.proportions.fill(1.0);
+  return models;
+}
+
 // What is known of the errors that a refinement leaves in the shipped forest's joints is shipped
 // with them (tools/train_correction). Of other joints it is known that their forest was shown our
 // own bodies: bones are expected in the proportions of the standard body.
@@ -84,9 +92,7 @@ std::shared_ptr<const recon::LearnedModels> LoadLearned(const ModelFiles& files,
     return std::make_shared<recon::LearnedModels>(
         recon::LearnedModels::Load(ShippedFile(kCorrection)));
   }
-  auto models = std::make_shared<recon::LearnedModels>();
-  models->correction.proportions.fill(1.0);
-  return models;
+  return ProportionsAlone();
 }
 
 }  // namespace
@@ -132,7 +138,23 @@ ModelSet ModelSet::Load(const ModelFiles& files, std::string_view method) {
   set.prior = LoadPrior(files, method);
   set.learned = LoadLearned(files, info, set.refinement != nullptr);
   set.learned_file = files.learned;
+  set.from_ceiling = !files.forest.empty() && IsShippedFile(files.forest, kCeilingForest);
+  if (IsShippedForest(files)) set.ceiling_file = kCeilingForest;
   ReturnFreedMemory();
+  return set;
+}
+
+ModelSet FromCeiling(const ModelSet& models) {
+  ModelSet set = models;
+  set.ceiling_file.clear();
+  set.from_ceiling = true;
+  set.forest_file = models.ceiling_file;
+  const bool is_shipped = models.ceiling_file == kCeilingForest;
+  set.forest = std::make_shared<forest::ForestModel>(forest::ReadForestModel(
+      is_shipped ? ShippedFile(kCeilingForest) : std::filesystem::path(models.ceiling_file),
+      forest::ModelUse::kRunOnly));
+  set.refinement = nullptr;
+  if (set.learned && set.learned_file.empty()) set.learned = ProportionsAlone();
   return set;
 }
 

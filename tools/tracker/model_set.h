@@ -42,6 +42,9 @@ struct ModelSet {
   std::shared_ptr<const recon::PosturePrior> prior;        // of postures: joints unseen from seen
   std::shared_ptr<const recon::PostureDatabase> database;  // postures to look up
   std::string forest_file, learned_file;                   // where those came from, for messages
+  /// The forest of a camera that looks down from the ceiling, read when one is met; "": none.
+  std::string ceiling_file;
+  bool from_ceiling = false;  // `forest` is one for such cameras
 
   /// What ossa ships for a method of reconstruction (recon::MethodTable). Throws InputError where a
   /// file is missing or damaged, and for a method that does not exist.
@@ -49,6 +52,10 @@ struct ModelSet {
   /// Named files. Those that the method does not read are not opened. Throws as Shipped does.
   static ModelSet Load(const ModelFiles& files, std::string_view method = recon::kDefaultMethod);
 };
+
+/// The set for a camera under the ceiling: its own forest, read now, and nothing that was learned
+/// on the errors of the other one. Throws InputError where the file is missing or damaged.
+ModelSet FromCeiling(const ModelSet& models);
 
 /// The prior of `files` alone, for methods that run on skeletons; null where the method reads none.
 /// Throws InputError.

@@ -53,6 +53,7 @@ struct SkeletonOptions {
   const recon::BodySurface* surface = nullptr;      // of `fit`
   std::optional<recon::SurfaceFitOptions> fit;      // nothing: no fit
   TrackingMode mode = TrackingMode::kStanding;
+  bool from_above = false;  // the camera hangs under the ceiling
   bool physics = false;
   MechanicsBuild mechanics;
   SmoothingOptions smoothing;

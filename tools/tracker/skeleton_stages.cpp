@@ -27,6 +27,7 @@ constexpr std::array kStages = {
     Stage{AverageStationary, &StageTimes::reconstruct},
     Stage{Reconstruct, &StageTimes::reconstruct},
     Stage{Settle, &StageTimes::reconstruct},
+    Stage{StandOnFloor, &StageTimes::reconstruct},
     Stage{Simulate, &StageTimes::physics},
     Stage{Finish, &StageTimes::reconstruct},
 };

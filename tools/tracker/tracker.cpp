@@ -15,6 +15,7 @@
 #include "recon/refine/refinement_cascade.h"
 #include "tools/people/detect_people.h"
 #include "tools/tracker/lagged_bodies_internal.h"
+#include "tools/tracker/mount_finder_internal.h"
 #include "tools/tracker/person_internal.h"
 #include "tools/tracker/skeleton_stages_internal.h"
 #include "tools/tracker/upright.h"
@@ -42,6 +43,12 @@ recon::ReconstructorOptions MethodOptions(const TrackerOptions& options, const M
   return method;
 }
 
+ModelSet ModelsOf(const TrackerOptions& options) {
+  ModelSet models = options.models ? *options.models : ModelSet::Shipped(options.method);
+  const bool exchanged = options.mount == Mount::kCeiling && !models.ceiling_file.empty();
+  return exchanged ? FromCeiling(models) : models;
+}
+
 const forest::ForestModel& ForestOf(const ModelSet& models) {
   if (models.forest) return *models.forest;
   throw std::invalid_argument("TrackerOptions.models.forest = null, must be a forest");
@@ -59,6 +66,18 @@ unsigned FindClippedEdges(const depth::DepthFrame& frame, const std::vector<int3
     edges |= v >= frame.camera.height - margin ? kClippedBottom : 0U;
   }
   return edges;
+}
+
+// How surely somebody is in a frame that nothing is known about.
+double ScorePeople(const depth::DepthFrame& frame, const people::PersonClassifier& classifier,
+                   const people::PeopleOptions& options) {
+  people::PeopleState nothing;
+  double best = 0.0;
+  for (const people::Person& person :
+       people::DetectPeople(frame, classifier, nothing, options).people) {
+    best = std::max(best, person.detection.score);
+  }
+  return best;
 }
 
 PartProbabilities NobodyIn(const depth::DepthFrame& frame, const forest::ForestModel& model) {
@@ -99,11 +118,13 @@ struct Tracker::Impl {
   std::map<int, Person> persons;  // by id
   std::optional<std::vector<int>> chosen_ids;
   UprightFinder upright;
+  MountFinder mount_finder;
+  std::optional<ModelSet> above;  // read when a ceiling was suspected
   LaggedBodies lagged;
 
   explicit Impl(const TrackerOptions& o)
       : options(o),
-        models(o.models ? *o.models : ModelSet::Shipped(o.method)),
+        models(ModelsOf(o)),
         model(ForestOf(models)),
         targets(people::FindJointTargets(model, models.forest_file)),
         lagged(recon::LagOptions::Of(o.lag, recon::MethodNamed(o.method).keeps_bones)) {
@@ -111,7 +132,8 @@ struct Tracker::Impl {
     skeleton.targets = targets;
     skeleton.refinement = models.refinement.get();
     skeleton.surface = models.surface.get();
-    if (models.refinement && models.surface) skeleton.fit = o.fit;
+    if (models.surface && (models.refinement || IsUnderCeiling())) skeleton.fit = o.fit;
+    skeleton.from_above = IsUnderCeiling();
     skeleton.mode = o.mode;
     skeleton.physics = o.physics;
     skeleton.mechanics = o.mechanics;
@@ -120,6 +142,7 @@ struct Tracker::Impl {
     skeleton.reconstructor = MethodOptions(o, models);
     recon::MakeReconstructor(skeleton.reconstructor);  // says now what is wrong with the options
     for (const auto& [id, lengths_m] : o.bones_m) MethodFor(id, skeleton);
+    if (IsUnderCeiling()) people_options = people::PeopleOptionsFromAbove();
     people_options.scene.max_depth_m = o.near_range ? 3.0F : 6.0F;
     people_options.initiation.max_users = o.max_users;
     people_options.threads = o.threads;
@@ -127,11 +150,21 @@ struct Tracker::Impl {
   }
 
   BodyFrame Track(const depth::DepthFrame& frame);
+  bool IsUnderCeiling() const {
+    return options.mount == Mount::kCeiling ||
+           (options.mount == Mount::kAuto && models.from_ceiling);
+  }
+  // What the application asked another one for.
+  void TakeWishes(const Impl& other) {
+    chosen_ids = other.chosen_ids;
+    skeleton.mode = other.skeleton.mode;
+    skeleton.smoothing = other.skeleton.smoothing;
+  }
+  bool ShowsCeilingView(const depth::DepthFrame& frame, const BodyFrame& tracked);
   int QuarterTurns() const {
     return options.turn == Turn::kAuto ? upright.quarters() : static_cast<int>(options.turn);
   }
   bool KeepsParts() const { return options.keep_parts || options.keep_probabilities; }
-  double ScorePeople(const depth::DepthFrame& frame) const;
   void FindUpright(const depth::DepthFrame& frame);
   void ForgetAll();
   Body MakeBody(const depth::DepthFrame& frame, const people::Person& person) const;
@@ -140,20 +173,26 @@ struct Tracker::Impl {
   void Introduce(int id, Person& person) const;
 };
 
-// How surely somebody is in a frame that nothing is known about.
-double Tracker::Impl::ScorePeople(const depth::DepthFrame& frame) const {
-  people::PeopleState nothing;
-  double best = 0.0;
-  for (const people::Person& person :
-       people::DetectPeople(frame, {model, targets}, nothing, people_options).people) {
-    best = std::max(best, person.detection.score);
-  }
-  return best;
+// Whether a frame that was tracked as a level camera's is one from the ceiling: it has the floor
+// and a head high over it, and the forest for ceilings is sure of a body. What the level one says
+// of such frames counts for nothing: of half of the real ones it is sure, too, and wrong.
+bool Tracker::Impl::ShowsCeilingView(const depth::DepthFrame& frame, const BodyFrame& tracked) {
+  constexpr double kSure = 0.8;         // score, [0, 1]; by hand: real level stills reach 0.7
+  constexpr float kLeastHead_m = 1.0F;  // anthropometry: of who sits; a wall has lower bumps
+  if (options.mount != Mount::kAuto || models.ceiling_file.empty()) return false;
+  if (!mount_finder.IsDue(tracked)) return false;
+  people::PeopleOptions from_above = people::PeopleOptionsFromAbove();
+  from_above.candidates.overhead->min_head_m = kLeastHead_m;
+  if (!MayBeFromAbove(frame, from_above)) return mount_finder.Confirm(false);
+  if (!above) above = FromCeiling(models);
+  const auto above_targets = people::FindJointTargets(*above->forest, above->forest_file);
+  return mount_finder.Confirm(ScorePeople(frame, {*above->forest, above_targets}, from_above) >=
+                              kSure);
 }
 
 void Tracker::Impl::FindUpright(const depth::DepthFrame& frame) {
   const bool changed = upright.Look(frame, [this](const depth::DepthFrame& looked, int quarters) {
-    return ScorePeople(depth::Turned(looked, quarters));
+    return ScorePeople(depth::Turned(looked, quarters), {model, targets}, people_options);
   });
   if (changed) ForgetAll();
 }
@@ -303,6 +342,13 @@ BodyFrame Tracker::Track(const depth::DepthFrame& frame) {
                      std::to_string(frame.camera.height) + " depth values, found " +
                      std::to_string(pixels));
   }
+  BodyFrame result = TrackTurned(frame);
+  if (!impl_->ShowsCeilingView(frame, result)) return result;
+  HangUnderCeiling();
+  return TrackTurned(frame);
+}
+
+BodyFrame Tracker::TrackTurned(const depth::DepthFrame& frame) {
   const bool is_auto = impl_->options.turn == Turn::kAuto;
   if (is_auto) impl_->FindUpright(frame);
   const int quarters = impl_->QuarterTurns();
@@ -313,8 +359,22 @@ BodyFrame Tracker::Track(const depth::DepthFrame& frame) {
   return result;
 }
 
+// Everything anew but for what the application asked for meanwhile.
+void Tracker::HangUnderCeiling() {
+  TrackerOptions options = impl_->options;
+  options.models = impl_->above;
+  options.mount = Mount::kCeiling;
+  auto hung = std::make_unique<Impl>(options);
+  hung->lagged = impl_->lagged;
+  hung->TakeWishes(*impl_);
+  level_ = std::exchange(impl_, std::move(hung));
+}
+
+Mount Tracker::mount() const { return impl_->IsUnderCeiling() ? Mount::kCeiling : Mount::kLevel; }
+
 std::optional<BodyFrame> Tracker::TrackLate(const depth::DepthFrame& frame) {
-  return impl_->lagged.Add(Track(frame));
+  BodyFrame bodies = Track(frame);  // first: it may exchange impl_
+  return impl_->lagged.Add(std::move(bodies));
 }
 
 std::optional<BodyFrame> Tracker::TakeHeld() { return impl_->lagged.TakeHeld(); }
@@ -364,6 +424,13 @@ void Tracker::SetSmoothing(const SmoothingOptions& smoothing) {
   smoothing.Check();
   impl_->skeleton.smoothing = smoothing;
 }
-void Tracker::Reset() { impl_->ForgetAll(); }
+void Tracker::Reset() {
+  if (level_) {
+    level_->TakeWishes(*impl_);
+    impl_ = std::move(level_);
+  }
+  impl_->mount_finder = {};
+  impl_->ForgetAll();
+}
 
 }  // namespace ossa::tracker

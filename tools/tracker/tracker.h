@@ -138,6 +138,13 @@ enum class Turn {
   kAuto,  // as people are seen: where nobody is followed, all four are tried about once a second
 };
 
+/// Where the camera is.
+enum class Mount {
+  kAuto,     // level, until a floor far below and a body on it say that it hangs under the ceiling
+  kLevel,    // on a shelf, a table, a tripod: it looks down by less than 45 degrees
+  kCeiling,  // 2.2 to 4 m above the floor; it looks down by more than some 55 degrees
+};
+
 /// How a Tracker works; as it stands, what the command `ossa track` does without options.
 struct TrackerOptions {
   std::string method{recon::kDefaultMethod};  // one of recon::ReconstructionMethods()
@@ -158,7 +165,8 @@ struct TrackerOptions {
   int lag = 0;
   /// Of a camera that lies on its side or hangs upside down. All results stay in its own space.
   Turn turn = Turn::kNone;
-  bool near_range = false;  // the SDK's near mode: people from 0.4 to 3 m only
+  Mount mount = Mount::kAuto;  // automatic only with models that have a forest for the ceiling
+  bool near_range = false;     // the SDK's near mode: people from 0.4 to 3 m only
   int max_users = 6;
   /// By body id, of people whose bones are known (Body::bones_m of a run before over the same
   /// recording): they stay from the first frame to the last. Only for methods that keep bones.
@@ -207,6 +215,9 @@ class Tracker {
   /// By how many quarters, clockwise, frames are turned now.
   int quarter_turns() const;
 
+  /// Level or under the ceiling, as far as is known now.
+  Mount mount() const;
+
   /// Track only these users fully, the others by position (the SDK's AppChoosesSkeletons).
   void ChooseUsers(std::vector<int> ids);
   void ChooseAllUsers();  // as at the start
@@ -214,12 +225,16 @@ class Tracker {
   /// For a camera that was mounted anew; forgets everybody where it is another turn.
   void SetTurn(Turn turn);
   void SetSmoothing(const SmoothingOptions& smoothing);
-  /// Forgets everybody.
+  /// Forgets everybody, and with Mount::kAuto where the camera is.
   void Reset();
 
  private:
+  BodyFrame TrackTurned(const depth::DepthFrame& frame);
+  void HangUnderCeiling();
+
   struct Impl;
   std::unique_ptr<Impl> impl_;
+  std::unique_ptr<Impl> level_;  // while impl_ is that of a ceiling: what was before
 };
 
 /// The SDK's seated joints: shoulders and up, arms and hands.

@@ -1,0 +1,41 @@
+#include <algorithm>
+
+#include "depth/scene/scene.h"
+#include "tools/people/propose_candidates.h"
+#include "tools/tracker/mount_finder_internal.h"
+
+namespace ossa::tracker {
+
+bool MountFinder::IsDue(const BodyFrame& tracked) {
+  constexpr double kEvery_s = 1.0;  // by hand: a look costs some milliseconds
+  if (tracked.floor) is_level_ = true;
+  const double since_s = tracked.time_s - looked_s_;
+  if (is_level_ || (since_s >= 0 && since_s < kEvery_s)) return false;
+  looked_s_ = tracked.time_s;
+  return true;
+}
+
+bool MountFinder::Confirm(bool looks_down) {
+  constexpr int kAgreeing = 3;  // looks; by hand, as of UprightFinder
+  agreeing_ = looks_down ? agreeing_ + 1 : 0;
+  return ++looks_ == 1 ? looks_down : agreeing_ >= kAgreeing;
+}
+
+bool MayBeFromAbove(const depth::DepthFrame& frame, const people::PeopleOptions& above) {
+  constexpr double kLeastFloor = 0.25;  // share of what is measured; by hand on real stills
+  depth::SceneState nothing;
+  const depth::Scene scene = depth::MeasureScene(frame, nothing, above.scene);
+  if (!scene.floor) return false;
+  int valid = 0, floor = 0;
+  for (int cell = 0; cell < scene.grid.cells(); ++cell) {
+    valid += scene.grid.valid(cell) ? 1 : 0;
+    floor += scene.surfaces.floor[static_cast<size_t>(cell)] != 0 ? 1 : 0;
+  }
+  if (floor < kLeastFloor * valid) return false;
+  const auto proposed =
+      people::ProposeCandidates(frame, scene, {}, above.association.reidentify, above.candidates);
+  return std::any_of(proposed.candidates.begin(), proposed.candidates.end(),
+                     [](const people::Candidate& candidate) { return candidate.has_head; });
+}
+
+}  // namespace ossa::tracker

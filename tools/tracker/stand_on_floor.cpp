@@ -1,0 +1,67 @@
+// From the ceiling a body hides its own legs. Whose are not seen stands on the floor.
+#include <algorithm>
+#include <cmath>
+
+#include "tools/tracker/skeleton_stages_internal.h"
+
+namespace ossa::tracker {
+namespace {
+
+using Eigen::Vector3d;
+using recon::Joint;
+
+constexpr double kAnkle_m = 0.08;  // anthropometry: of a standing ankle over the floor
+
+struct Leg {
+  Joint hip, knee, ankle, foot;
+};
+constexpr std::array kLegs = {
+    Leg{Joint::kHipLeft, Joint::kKneeLeft, Joint::kAnkleLeft, Joint::kFootLeft},
+    Leg{Joint::kHipRight, Joint::kKneeRight, Joint::kAnkleRight, Joint::kFootRight}};
+
+// Level, to where the body faces; zero where it does not say.
+Vector3d FacingOf(const recon::Posture& posture, const Vector3d& up) {
+  const Vector3d left = posture[Joint::kHipLeft] - posture[Joint::kHipRight] +
+                        (posture[Joint::kShoulderLeft] - posture[Joint::kShoulderRight]);
+  const Vector3d facing = left.cross(up);
+  return facing.norm() > 1e-3 ? Vector3d(facing.normalized()) : Vector3d::Zero();
+}
+
+// The ankle on the floor below the hip, as far as the leg reaches; the knee before the line between
+// them where the leg is longer.
+void Stand(const Leg& leg, const Vector3d& up, double height_m, const Vector3d& facing,
+           recon::Posture& posture) {
+  const Vector3d hip = posture[leg.hip];
+  const double thigh_m = (posture[leg.knee] - hip).norm();
+  const double shin_m = (posture[leg.ankle] - posture[leg.knee]).norm();
+  const double foot_m = (posture[leg.foot] - posture[leg.ankle]).norm();
+  const double reach_m = std::clamp(height_m - kAnkle_m, std::abs(thigh_m - shin_m) + 1e-3,
+                                    std::max(thigh_m + shin_m, 2e-3));
+  const double below_m =
+      (thigh_m * thigh_m - shin_m * shin_m + reach_m * reach_m) / (2.0 * reach_m);
+  const double ahead_m = std::sqrt(std::max(0.0, thigh_m * thigh_m - below_m * below_m));
+  posture.position_m[recon::Index(leg.knee)] = hip - below_m * up + ahead_m * facing;
+  posture.position_m[recon::Index(leg.ankle)] = hip - reach_m * up;
+  const double drop_m = std::min(kAnkle_m, 0.5 * foot_m);
+  posture.position_m[recon::Index(leg.foot)] =
+      hip - (reach_m + drop_m) * up +
+      std::sqrt(std::max(0.0, foot_m * foot_m - drop_m * drop_m)) * facing;
+}
+
+}  // namespace
+
+void StandOnFloor(SkeletonWork& work) {
+  if (!work.options.from_above || !work.floor) return;
+  const Vector3d up = work.floor->head<3>();
+  const Vector3d facing = FacingOf(work.posture, up);
+  const auto is_seen = [&](Joint joint) {
+    return work.body.raw.state[recon::Index(joint)] == recon::TrackingState::kTracked;
+  };
+  for (const Leg& leg : kLegs) {
+    if (is_seen(leg.knee) || is_seen(leg.ankle)) continue;
+    Stand(leg, up, up.dot(work.posture[leg.hip]) + (*work.floor)[3], facing, work.posture);
+    work.orientations.reset();  // joints say how bones lie now
+  }
+}
+
+}  // namespace ossa::tracker
