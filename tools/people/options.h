@@ -33,7 +33,8 @@ struct HeadOptions {
   float occluder_m = 0.1F;          // sensor: what is so much nearer occludes the shoulders
 };
 
-/// People and their heads before a camera under the ceiling. Heights are over the floor.
+/// People and their heads before a camera under the ceiling. Heights are over the floor. Set by
+/// hand on the dev stills of `ossa experiment real` (itop_top), whose heads score 0.88 to 1.
 struct OverheadOptions {
   float foot_m = 0.12F;          // sensor: what is lower is the floor, and feet on it
   float min_head_m = 0.5F;       // anthropometry: of a child, or of who sits on the floor,
