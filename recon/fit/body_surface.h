@@ -50,6 +50,7 @@ constexpr size_t ParentSegment(size_t segment) {
 inline constexpr int kShapeCount = 10;
 /// Standard deviations from the mean body along each component.
 using ShapeVector = Eigen::Matrix<double, kShapeCount, 1>;
+using ShapeMatrix = Eigen::Matrix<double, kShapeCount, kShapeCount>;
 using ShapeBasis = Eigen::Matrix<double, 3, kShapeCount>;
 
 /// A place that depends on shape, metres, linearly.

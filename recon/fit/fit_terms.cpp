@@ -90,17 +90,21 @@ int FacingPoints::Nearest(const SeenPerson::Pixel& pixel, const SurfaceFitOption
   return nearest;
 }
 
-void AddPixels(const PosedSurface& posed, const FacingPoints& facing, const SeenPerson& seen,
-               const SurfaceFitOptions& options, NormalEquations& equations) {
+double AddPixels(const PosedSurface& posed, const FacingPoints& facing, const SeenPerson& seen,
+                 const SurfaceFitOptions& options, NormalEquations& equations) {
+  double squares = 0.0, shares = 0.0;
   for (const SeenPerson::Pixel& pixel : seen.pixels()) {
     const int found = facing.Nearest(pixel, options);
-    if (found < 0) return;
+    if (found < 0) return 0.0;
     const auto i = static_cast<size_t>(found);
     const SurfacePoint& point = posed.surface().points[i];
     const Eigen::Vector3d &at_m = posed.at_m()[i], &normal = posed.normal()[i];
     const Eigen::Vector3d off_m = at_m - pixel.at_m;
-    const double weight =
-        seen.pixel_share() * pixel.weight * RobustWeight(off_m.squaredNorm(), options.robust_m);
+    const double trust = RobustWeight(off_m.squaredNorm(), options.robust_m);
+    const double weight = seen.pixel_share() * pixel.weight * trust;
+    const double along_m = off_m.dot(normal);
+    squares += trust * pixel.weight * along_m * along_m;
+    shares += trust;
     const auto add = [&](const Eigen::Vector3d& along, double share) {
       equations.Add(point.segment,
                     RowOfPlace(posed, point.segment, at_m, along, point.place.by_shape_m),
@@ -109,6 +113,7 @@ void AddPixels(const PosedSurface& posed, const FacingPoints& facing, const Seen
     add(normal, 1.0 + options.along_share);
     for (const Eigen::Vector3d& along : Across(normal)) add(along, options.along_share);
   }
+  return shares > 0.0 ? squares / shares : 0.0;
 }
 
 void AddSilhouette(const PosedSurface& posed, const SeenPerson& seen,
@@ -169,10 +174,15 @@ void AddJoints(const PosedSurface& posed, const SurfaceFitInput& input,
   }
 }
 
-void AddPriors(const PosedSurface& posed, const SurfaceFitInput& input,
-               const SurfaceFitOptions& options, NormalEquations& equations) {
+double ComputeShapeWeight(const SurfaceFitInput& input, const SurfaceFitOptions& options) {
   constexpr double kMostFrames =
       20.0;  // by hand, frames: a person may be taken for another for a while
+  const double frames = std::min(kMostFrames, static_cast<double>(input.shape_frames));
+  return options.shape_weight * (1.0 + frames);
+}
+
+void AddPriors(const PosedSurface& posed, const SurfaceFitInput& input,
+               const SurfaceFitOptions& options, NormalEquations& equations) {
   const BodySurface& surface = posed.surface();
   for (size_t s = 1; s < kSegmentCount; ++s) {
     // A turn in the camera's axes changes the rotation vector by about the turn in the parent's.
@@ -184,8 +194,7 @@ void AddPriors(const PosedSurface& posed, const SurfaceFitInput& input,
         options.turn_weight * camera_from * surface.turn_information[s] * camera_from.transpose(),
         camera_from * to_rad);
   }
-  const double frames = std::min(kMostFrames, static_cast<double>(input.shape_frames));
-  equations.AddShape(options.shape_weight * (1.0 + frames), input.shape - posed.pose().shape);
+  equations.AddShape(ComputeShapeWeight(input, options), input.shape - posed.pose().shape);
 }
 
 }  // namespace ossa::recon

@@ -32,8 +32,10 @@ class FacingPoints {
 /// Whether two parts, 1..31, are one or touch.
 bool AreAdjacentParts(uint8_t a, uint8_t b);
 
-void AddPixels(const PosedSurface& posed, const FacingPoints& facing, const SeenPerson& seen,
-               const SurfaceFitOptions& options, NormalEquations& equations);
+/// The mean of the pixels' weighted squares along the normal: 1 where they are as far off as was
+/// expected of them; 0 without pixels.
+double AddPixels(const PosedSurface& posed, const FacingPoints& facing, const SeenPerson& seen,
+                 const SurfaceFitOptions& options, NormalEquations& equations);
 void AddSilhouette(const PosedSurface& posed, const SeenPerson& seen,
                    const SurfaceFitOptions& options, NormalEquations& equations);
 /// How far off a joint that the fit starts from is expected to be, along each axis: by its
@@ -42,6 +44,8 @@ double ComputeJointVariance_m2(const SurfaceFitInput& input, const SurfaceFitOpt
                                size_t joint);
 void AddJoints(const PosedSurface& posed, const SurfaceFitInput& input,
                const SurfaceFitOptions& options, NormalEquations& equations);
+/// How much the shape that is known counts, against a component's variance.
+double ComputeShapeWeight(const SurfaceFitInput& input, const SurfaceFitOptions& options);
 /// After NormalEquations::Assemble.
 void AddPriors(const PosedSurface& posed, const SurfaceFitInput& input,
                const SurfaceFitOptions& options, NormalEquations& equations);

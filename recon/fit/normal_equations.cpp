@@ -97,6 +97,42 @@ FitStep NormalEquations::Solve(double damping) {
   return step.allFinite() ? step : FitStep::Zero();
 }
 
+bool NormalEquations::Factor() {
+  factor_ = matrix_;
+  return Eigen::LLT<Eigen::Ref<Matrix>>(factor_).info() == Eigen::Success;
+}
+
+Eigen::Matrix3d NormalEquations::CovarianceOf(const PosedSurface& posed, size_t segment,
+                                              const Eigen::Vector3d& at_m,
+                                              const ShapeBasis& by_shape_m) const {
+  Eigen::Matrix<double, kFitUnknowns, 3> derivative;
+  derivative.setZero();
+  for (int axis = 0; axis < 3; ++axis) {
+    const FitRow row = RowOfPlace(posed, segment, at_m, Eigen::Vector3d::Unit(axis), by_shape_m);
+    derivative.col(axis).head<6>() = row.head<6>();
+    derivative.col(axis).tail<kShapeCount>() = row.tail<kShapeCount>();
+  }
+  for (size_t s = segment; s > 0; s = ParentSegment(s)) {
+    derivative.middleRows<3>(TurnAt(s)) =
+        MotionOfTurnAbout(posed.joint_m(s)).transpose() * derivative.topRows<6>();
+  }
+  factor_.triangularView<Eigen::Lower>().solveInPlace(derivative);
+  return derivative.transpose() * derivative;
+}
+
+ShapeMatrix NormalEquations::ShapeInformation() const {
+  const ShapeMatrix lower =
+      factor_.bottomRightCorner<kShapeCount, kShapeCount>().triangularView<Eigen::Lower>();
+  return lower * lower.transpose();
+}
+
+ShapeVector NormalEquations::ShapeGradient() const {
+  FitStep reduced = gradient_;
+  factor_.triangularView<Eigen::Lower>().solveInPlace(reduced);
+  return factor_.bottomRightCorner<kShapeCount, kShapeCount>().triangularView<Eigen::Lower>() *
+         reduced.tail<kShapeCount>();
+}
+
 SurfacePose Moved(const PosedSurface& posed, const FitStep& step, double most_rad) {
   constexpr double kFarthest = 3.0;  // standard deviations of shape; by hand
   SurfacePose pose = posed.pose();

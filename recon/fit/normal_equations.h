@@ -39,6 +39,15 @@ class NormalEquations {
   /// The step that minimises the sum; zero where it cannot be told.
   FitStep Solve(double damping);
 
+  /// Factors the matrix as it is, for what is told below; false where the system cannot be solved.
+  bool Factor();
+  /// Of a place as in RowOfPlace, camera axes: J inverse(matrix) J'.
+  Eigen::Matrix3d CovarianceOf(const PosedSurface& posed, size_t segment,
+                               const Eigen::Vector3d& at_m, const ShapeBasis& by_shape_m) const;
+  /// Of shape whatever the pose is (the Schur complement), and the gradient there.
+  ShapeMatrix ShapeInformation() const;
+  ShapeVector ShapeGradient() const;
+
   using Matrix = Eigen::Matrix<double, kFitUnknowns, kFitUnknowns>;
   const Matrix& matrix() const { return matrix_; }  // its lower triangle
   const FitStep& gradient() const { return gradient_; }

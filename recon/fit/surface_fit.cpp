@@ -22,6 +22,11 @@ constexpr double kExplained_m = 0.03;    // a pixel this near to the surface is 
 constexpr double kFarAside_m = 0.06;     // a point farther off than this explains no pixel
 constexpr double kSeenThrough_m = 0.08;  // a surface this far behind a point is seen through it
 constexpr double kUnexplained_m = 1.0;   // said of a pixel that nothing explains
+constexpr double kUnknown_m2 = 1.0;      // variance of a joint that nothing is known of
+// Standard deviation along each axis of what no pixel tells: where in a body that is made of rigid
+// pieces the joints are. On rendered people of train shapes (`ossa experiment fit`,
+// docs/benchmarks).
+constexpr double kModel_m = 0.008;
 
 void CheckPositive(const char* name, double value) {
   if (value > 0.0 && std::isfinite(value)) return;
@@ -91,9 +96,12 @@ struct SurfaceFitter::Impl {
     facing.Gather(posed);
   }
   void StartFrom(const SurfaceFitInput& input);
+  // All terms; how far off pixels are, see AddPixels.
+  double AddAll(const SurfaceFitInput& input, const SurfaceFitOptions& with);
   void Iterate(const SurfaceFitInput& input, const SurfaceFitOptions& with, int times);
   void Retry(const SurfaceFitInput& input, SurfaceFit& fit);
   void Judge(SurfaceFit& fit);
+  void TellErrors(const SurfaceFitInput& input, SurfaceFit& fit);
   Posture Blend(const SurfaceFitInput& input) const;
   double SeenThroughShare() const;
 };
@@ -112,15 +120,21 @@ void SurfaceFitter::Impl::StartFrom(const SurfaceFitInput& input) {
   Pose(posed.pose());
 }
 
+double SurfaceFitter::Impl::AddAll(const SurfaceFitInput& input, const SurfaceFitOptions& with) {
+  double off = 0.0;
+  equations.Clear();
+  AddJoints(posed, input, with, equations);
+  if (with.pixels) off = AddPixels(posed, facing, seen, with, equations);
+  if (with.silhouette || with.free_space) AddSilhouette(posed, seen, with, equations);
+  equations.Assemble(posed);
+  AddPriors(posed, input, with, equations);
+  return off;
+}
+
 void SurfaceFitter::Impl::Iterate(const SurfaceFitInput& input, const SurfaceFitOptions& with,
                                   int times) {
   for (int i = 0; i < times; ++i) {
-    equations.Clear();
-    AddJoints(posed, input, with, equations);
-    if (with.pixels) AddPixels(posed, facing, seen, with, equations);
-    if (with.silhouette || with.free_space) AddSilhouette(posed, seen, with, equations);
-    equations.Assemble(posed);
-    AddPriors(posed, input, with, equations);
+    AddAll(input, with);
     Pose(Moved(posed, equations.Solve(with.damping), with.most_turn_rad));
   }
 }
@@ -184,8 +198,30 @@ void SurfaceFitter::Impl::Retry(const SurfaceFitInput& input, SurfaceFit& fit) {
     fit = second;
     fit.retried = true;
   } else {
-    posed.PoseSegments(fit.pose);
+    Pose(fit.pose);
   }
+}
+
+// At the end of the fit. Pixels that are farther off than was expected make everything less sure;
+// nearer ones make nothing surer, for most of what a fit does not know they do not tell, either.
+void SurfaceFitter::Impl::TellErrors(const SurfaceFitInput& input, SurfaceFit& fit) {
+  const double scale = std::max(1.0, AddAll(input, options));
+  const bool solvable = equations.Factor();
+  const BodySurface& surface = posed.surface();
+  for (size_t j = 0; j < kJointCount; ++j) {
+    fit.covariance_m2[j] = kUnknown_m2 * Eigen::Matrix3d::Identity();
+    if (!solvable) continue;
+    fit.covariance_m2[j] =
+        kModel_m * kModel_m * Eigen::Matrix3d::Identity() +
+        scale * equations.CovarianceOf(posed, surface.landmark_segment[j], posed.LandmarkAt(j),
+                                       surface.landmark[j].by_shape_m);
+  }
+  if (!solvable) return;
+  const double known = ComputeShapeWeight(input, options);
+  const ShapeMatrix information = equations.ShapeInformation();
+  fit.shape_information = (information - known * ShapeMatrix::Identity()) / scale;
+  fit.shape_vote =
+      (information * fit.pose.shape - equations.ShapeGradient() - known * input.shape) / scale;
 }
 
 Posture SurfaceFitter::Impl::Blend(const SurfaceFitInput& input) const {
@@ -219,6 +255,7 @@ std::optional<SurfaceFit> SurfaceFitter::Fit(const SurfaceFitInput& input) {
   SurfaceFit fit;
   m.Judge(fit);
   if (m.options.retry && fit.score < m.options.poor_score) m.Retry(input, fit);
+  m.TellErrors(input, fit);
   fit.joints_m = m.posed.Landmarks();
   fit.blended_m = m.Blend(input);
   for (size_t s = 0; s < kSegmentCount; ++s) {
@@ -226,15 +263,6 @@ std::optional<SurfaceFit> SurfaceFitter::Fit(const SurfaceFitInput& input) {
   }
   fit.stature_m = m.posed.surface().Stature_m(fit.pose.shape);
   return fit;
-}
-
-void PersonShape::Add(const SurfaceFit& fit) {
-  constexpr double kMostWeight = 600.0;  // by hand, frames: what is known changes little
-  const double vote = std::max(0.0, fit.score);
-  if (!(vote > 0.0)) return;
-  weight = std::min(kMostWeight, weight + vote);
-  shape += vote / weight * (fit.pose.shape - shape);
-  ++frames;
 }
 
 }  // namespace ossa::recon

@@ -3,9 +3,11 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <filesystem>
 #include <memory>
 #include <optional>
 #include <span>
+#include <string>
 
 #include "depth/image/depth_frame.h"
 #include "recon/fit/body_surface.h"
@@ -82,7 +84,7 @@ struct SurfaceFitInput {
   std::span<const int32_t> samples;
   std::span<const uint8_t> parts;
   int sample_step = 1;
-  /// What earlier frames told of the person's shape, and how many they were.
+  /// What earlier frames told of the person's shape (PersonShape), and how many they were.
   ShapeVector shape = ShapeVector::Zero();
   int shape_frames = 0;
 };
@@ -97,6 +99,13 @@ struct SurfaceFit {
   Posture blended_m;
   std::array<Eigen::Quaterniond, kSegmentCount> camera_from_segment;  // from the rest pose's axes
   double stature_m = 0.0;
+  /// How far `joints_m` may be off: covariance of each, camera axes, by the Gauss-Newton Hessian at
+  /// the end, scaled by how far off the pixels are. What it is worth: docs/benchmarks/fit.md.
+  JointArray<Eigen::Matrix3d> covariance_m2;
+  /// What this image alone tells of shape, without what was known of it before: the inverse of the
+  /// covariance, and that times the likeliest shape.
+  ShapeMatrix shape_information = ShapeMatrix::Zero();
+  ShapeVector shape_vote = ShapeVector::Zero();
   /// Share of the person's pixels within 3 cm of the surface, along its normal.
   double explained = 0.0;
   /// `explained` less the share of the surface's points through which the camera sees: 1 is
@@ -130,12 +139,37 @@ class SurfaceFitter {
   std::unique_ptr<Impl> impl_;
 };
 
-/// A person's shape as frames vote on it: the mean of fits, each by how well it explained.
+/// A person's shape as frames vote on it, each by how well it explained the image.
 struct PersonShape {
-  ShapeVector shape = ShapeVector::Zero();
+  ShapeVector shape = ShapeVector::Zero();  // mean of the fits', what the next fit begins with
+  /// What they told by themselves, summed up, see SurfaceFit: a frame in which legs are hidden
+  /// tells nothing of their length.
+  ShapeMatrix information = ShapeMatrix::Zero();
+  ShapeVector vote = ShapeVector::Zero();
   double weight = 0.0;  // sum of the votes
   int frames = 0;
   void Add(const SurfaceFit& fit);
+  /// The likeliest shape by all that was told, and its covariance. Frames of one person are wrong
+  /// alike, so that many say hardly more than one.
+  ShapeVector Likeliest() const;
+  ShapeMatrix Covariance() const;
+
+  /// A person file, .ossaperson: what is kept of somebody for the next time. It is of the body that
+  /// it was measured with; reading throws InputError by name for damaged files and those of another
+  /// body.
+  static PersonShape Load(const std::filesystem::path& path, const BodySurface& surface);
+  static PersonShape FromBytes(std::span<const std::byte> bytes, const std::string& name,
+                               const BodySurface& surface);
+  void Save(const std::filesystem::path& path, const BodySurface& surface) const;
+  /// True when the file says that it is one; it may still be damaged.
+  static bool IsOne(const std::filesystem::path& path);
 };
+
+/// Body height, metres, and its standard deviation: barefoot, without hair.
+struct Stature {
+  double stature_m = 0.0;
+  double sigma_m = 0.0;
+};
+Stature MeasureStature(const PersonShape& person, const BodySurface& surface);
 
 }  // namespace ossa::recon

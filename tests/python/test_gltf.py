@@ -141,6 +141,7 @@ def test_a_fitted_body_has_its_mesh_in_python(images, models):
     assert body.fit.shape.shape == (10,) and body.fit.residuals_m.shape == (len(ossa.SEGMENTS),)
     assert body.fit.joints.shape == (20, 3) and body.fit.orientations.shape == (18, 4)
     assert np.abs(body.fit.joints - body.joints).max() < 0.15
+    assert (np.linalg.eigvalsh(body.fit.covariance_m2) > 0).all()
 
 
 def test_a_fit_keeps_its_mesh_when_it_is_pickled(images, models):

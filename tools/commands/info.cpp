@@ -14,6 +14,7 @@
 #include "recon/database/posture_database.h"
 #include "recon/files/skeleton_io.h"
 #include "recon/fit/body_mesh.h"
+#include "recon/fit/surface_fit.h"
 #include "recon/models/learned_models.h"
 #include "recon/models/posture_prior.h"
 #include "recon/refine/bone_estimation.h"
@@ -128,6 +129,15 @@ void ShowSurface(const fs::path& path) {
              static_cast<double>(fs::file_size(path)) * 1e-3);
 }
 
+void ShowPersonFile(const fs::path& path) {
+  const auto surface = recon::BodySurface::Load(tracker::ShippedFile(recon::kShippedSurface));
+  const auto person = recon::PersonShape::Load(path, surface);
+  const recon::Stature stature = recon::MeasureStature(person, surface);
+  fmt::print(
+      "a person of the shipped surface, {:.2f} m tall, give or take {:.0f} cm, by {} frames\n",
+      stature.stature_m, 100.0 * stature.sigma_m, person.frames);
+}
+
 void ShowMesh(const fs::path& path) {
   const auto surface = recon::BodySurface::Load(tracker::ShippedFile(recon::kShippedSurface));
   const auto mesh = recon::BodyMesh::Load(path, surface);
@@ -228,6 +238,7 @@ constexpr std::array kKinds = {
     FileKind{recon::LearnedModels::IsOne, ShowLearned, ".ossagp"},
     FileKind{recon::PosturePrior::IsOne, ShowPrior, ".ossaprior"},
     FileKind{recon::BodySurface::IsOne, ShowSurface, ".ossasurface"},
+    FileKind{recon::PersonShape::IsOne, ShowPersonFile, ".ossaperson"},
     FileKind{recon::BodyMesh::IsOne, ShowMesh, ".ossamesh"},
     FileKind{recon::RefinementCascade::IsFile, ShowRefinement, ".ossarefine"},
     FileKind{tools::IsDataset, ShowDataset},

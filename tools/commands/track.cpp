@@ -59,10 +59,7 @@ class SkeletonOutput {
   void Write(const tracker::BodyFrame& bodies) {
     if (!writer_) return;
     for (const tracker::Body& body : bodies.bodies) {
-      if (!body.fit) continue;
-      recon::PersonShape& shape = shapes_[body.id];
-      shape.Add(*body.fit);
-      writer_->SetShape(body.id, shape.shape);
+      if (body.shape) writer_->SetShape(body.id, body.shape->shape);
     }
     recon::SkeletonFrame record = tracker::ToRecord(bodies, kind_);
     if (seated_) KeepSeatedJoints(record);
@@ -94,7 +91,6 @@ class SkeletonOutput {
   bool seated_ = false;
   tracker::PostureKind kind_ = tracker::PostureKind::kFinal;
   std::optional<recon::SkeletonWriter> writer_;
-  std::map<int, recon::PersonShape> shapes_;  // of who was fitted
 };
 
 size_t TrackedJoints(const tracker::BodyFrame& bodies) {
@@ -136,6 +132,46 @@ class Pictures {
   tracker::BodyFrame best_;
 };
 
+// Of whom --save-person keeps what.
+class PersonKeeper {
+ public:
+  explicit PersonKeeper(const TrackOptions& options) : path_(options.save_person) {
+    if (!path_.empty()) AtomicFile::CheckWritable(path_);
+  }
+  void Take(const tracker::BodyFrame& bodies) {
+    for (const tracker::Body& body : bodies.bodies) {
+      if (!body.shape) continue;
+      Kept& kept = kept_[body.id];
+      kept.shape = *body.shape;
+      kept.fits += body.fit ? 1 : 0;
+    }
+  }
+  /// Throws InputError where nobody was fitted.
+  void Finish(const recon::BodySurface& surface, bool quiet) const {
+    if (path_.empty()) return;
+    const auto most = std::max_element(
+        kept_.begin(), kept_.end(),
+        [](const auto& a, const auto& b) { return a.second.fits < b.second.fits; });
+    if (most == kept_.end() || most->second.fits == 0) {
+      throw InputError(path_ + ": expected a person in the recording, found none; not written");
+    }
+    const recon::PersonShape& shape = most->second.shape;
+    shape.Save(path_, surface);
+    const recon::Stature stature = recon::MeasureStature(shape, surface);
+    if (quiet) return;
+    fmt::print("{}: person {}, {:.2f} m tall, give or take {:.0f} cm, by {} frames\n", path_,
+               most->first, stature.stature_m, 100.0 * stature.sigma_m, shape.frames);
+  }
+
+ private:
+  struct Kept {
+    recon::PersonShape shape;
+    int64_t fits = 0;
+  };
+  std::string path_;
+  std::map<int, Kept> kept_;
+};
+
 enum class Ending { kComplete, kUnplugged, kSilent, kInterrupted };
 
 struct Run {
@@ -160,6 +196,7 @@ struct Destinations {
   SkeletonOutput& output;
   DecisionTrace& trace;
   Pictures& pictures;
+  PersonKeeper& person;
   stream::Sender& sender;
   viewer::Viewer* viewer = nullptr;
   std::deque<depth::DepthFrame> waiting{};
@@ -168,6 +205,7 @@ struct Destinations {
     run.stats.Add(bodies.ms);
     sender.Send(bodies);  // first: it is waited for
     output.Write(bodies);
+    person.Take(bodies);
     trace.Write(bodies);
     pictures.Take(waiting.front(), bodies);
     if (viewer != nullptr) {
@@ -310,6 +348,10 @@ InputError InterruptedEarly(const TrackOptions& options, const Run& run) {
 int Track(int argc, char** argv) {
   TrackOptions options = ParseTrackOptions(argc, argv);
   options.tracker.models = tracker::ModelSet::Load(options.files, options.tracker.method);
+  for (size_t i = 0; i < options.people.size(); ++i) {
+    options.tracker.shapes[static_cast<int>(i) + 1] =
+        recon::PersonShape::Load(options.people[i], *options.tracker.models->surface);
+  }
   if (options.bones.of_recording()) options.tracker.bones_m = MeasureBones(options);
   tracker::Tracker tracker(options.tracker);  // first: a device's frames do not wait meanwhile
   const auto source = OpenSource(options.source, options.quiet);
@@ -317,6 +359,7 @@ int Track(int argc, char** argv) {
   SkeletonOutput output(options);
   DecisionTrace trace(options.trace);
   Pictures pictures(options);
+  PersonKeeper person(options);
   if (!options.json_stats.empty() && options.json_stats != "-")
     AtomicFile::CheckWritable(options.json_stats);
   std::unique_ptr<viewer::Viewer> viewer;
@@ -329,7 +372,8 @@ int Track(int argc, char** argv) {
     SayWhere(*viewer);
   }
   stream::Sender sender(options.targets);
-  Destinations destinations{options, tracker, output, trace, pictures, sender, viewer.get()};
+  Destinations destinations{options,  tracker, output, trace,
+                            pictures, person,  sender, viewer.get()};
   Run run;
   try {
     TrackAll(*source, tracker, options, destinations, run);
@@ -344,6 +388,7 @@ int Track(int argc, char** argv) {
   pictures.Finish();
   Report(options, run);
   trace.Finish();
+  if (!options.save_person.empty()) person.Finish(*options.tracker.models->surface, options.quiet);
   if (!run.failure.empty()) {
     throw InputError(fmt::format("{}; the {} before it are in {}", run.failure,
                                  FramesText(run.stats.frames(), run.of), options.out));

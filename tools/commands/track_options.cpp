@@ -1,5 +1,7 @@
 #include "tools/commands/track_options.h"
 
+#include <fmt/format.h>
+
 #include <CLI/CLI.hpp>
 #include <map>
 
@@ -32,6 +34,13 @@ void AddTrackerOptions(CLI::App& app, TrackOptions& options) {
                  "fit the body's surface to the depth image, from the refined joints on: on or off "
                  "(default: on where there are refined joints)")
       ->check(CLI::IsMember({"on", "off"}));
+  app.add_option("--person", options.people,
+                 "FILE.ossaperson of --save-person: the shape of the first person who comes into "
+                 "view (id 1) is known from the first frame on; given again, of the next")
+      ->allow_extra_args(false);
+  app.add_option("--save-person", options.save_person,
+                 "FILE.ossaperson: at the end, the shape of the person who was fitted in most "
+                 "frames, with what --person told of them");
   app.add_option("--method", t.method, "how postures are completed (default best)")
       ->check(CLI::IsMember(recon::ReconstructionMethods()));
   AddMechanicsOptions(app, options.mechanics);
@@ -70,6 +79,23 @@ void NeedRefinement(tracker::ModelFiles& files) {
   }
   if (files.refinement.empty()) {
     files.refinement = tracker::ShippedFile(recon::kShippedRefinement).string();
+  }
+}
+
+// A person's shape is told to a fit, and told by one.
+void CheckPeople(const TrackOptions& options) {
+  const bool has_any = !options.people.empty() || !options.save_person.empty();
+  const char* option = options.people.empty() ? "--save-person" : "--person";
+  if (has_any && options.fit == "off") {
+    throw UsageError(fmt::format("{}: expected a surface fit, found --fit off", option));
+  }
+  if (has_any && options.files.surface == "none") {
+    throw UsageError(fmt::format("{}: expected a body surface, found --surface none", option));
+  }
+  const auto most = static_cast<size_t>(options.tracker.max_users);
+  if (options.people.size() > most) {
+    throw UsageError(fmt::format("--person: expected at most {} files, as --users says, found {}",
+                                 most, options.people.size()));
   }
 }
 
@@ -141,10 +167,11 @@ TrackOptions ParseTrackOptions(int argc, char** argv) {
   app.add_flag("--quiet", options.quiet, "no progress");
   Parse(app, argc, argv);
   if (options.out.empty() && options.picture.empty() && options.pictures.empty() && !options.view &&
-      options.json_stats.empty() && options.trace.empty() && options.send.empty()) {
+      options.json_stats.empty() && options.trace.empty() && options.send.empty() &&
+      options.save_person.empty()) {
     throw UsageError(
-        "track: nothing to do: name --out, --picture, --pictures, --json-stats, --trace, --send or "
-        "--view");
+        "track: nothing to do: name --out, --picture, --pictures, --json-stats, --trace, --send, "
+        "--save-person or --view");
   }
   options.targets = TargetsOf(options.send);
   CheckRead(app, options.tracker.method, options.quiet);
@@ -162,7 +189,11 @@ TrackOptions ParseTrackOptions(int argc, char** argv) {
   CheckExtension("--picture", options.picture, ".png");
   CheckNotOtherKind("--json-stats", options.json_stats, ".json");
   CheckExtension("--trace", options.trace, ".jsonl");
-  CheckOutputs({options.out, options.json_stats, options.picture, options.pictures, options.trace},
+  CheckNotOtherKind("--save-person", options.save_person, ".ossaperson");
+  CheckPeople(options);
+  // A person file may be written over what was read of the same person.
+  CheckOutputs({options.out, options.json_stats, options.picture, options.pictures, options.trace,
+                options.save_person},
                {options.source.name});
   options.tracker.turn = TurnOf(options.source);
   if (options.fit == "on") CheckFit(options);

@@ -18,6 +18,8 @@ namespace ossa::commands {
 struct TrackOptions {
   SourceArguments source;
   std::string out, json_stats, picture, pictures, trace;
+  std::vector<std::string> people;  // person files, of the ids from 1 on
+  std::string save_person;
   std::string smoothing, posture = "final", mode = "standing", mount = "auto", fit;
   MechanicsOptions mechanics;
   BonesOption bones;

@@ -85,6 +85,7 @@ void Fit(SkeletonWork& work) {
     fitter = std::make_unique<recon::SurfaceFitter>(*work.options.surface, *work.options.fit);
   }
   work.body.fit = FitSurface(work.frame, *work.detection, work.body, work.person);
+  if (work.person.shape.frames > 0) work.body.shape = work.person.shape;
 }
 
 void ApplyMode(SkeletonWork& work) {

@@ -91,6 +91,9 @@ struct Body {
   /// Stage 3, the body whose surface explains the depth: with TrackerOptions::fit, where there are
   /// refined joints and the image shows enough of the person.
   std::optional<recon::SurfaceFit> fit;
+  /// The person's shape by all fits until now, of which recon::MeasureStature tells their height;
+  /// absent before the first.
+  std::optional<recon::PersonShape> shape;
   /// Stage 4, the method of reconstruction: made complete, plausible and steady.
   recon::Posture reconstructed;
   std::optional<recon::BoneLengths> bones_m;  // by all frames until now, of methods that keep bones
@@ -171,6 +174,10 @@ struct TrackerOptions {
   /// By body id, of people whose bones are known (Body::bones_m of a run before over the same
   /// recording): they stay from the first frame to the last. Only for methods that keep bones.
   std::map<int, recon::BoneLengths> bones_m;
+  /// By body id, of people whose shape is known (Body::shape of a run before, or a person file):
+  /// whoever gets that id is fitted with it from the first frame on. Ids count who comes into view,
+  /// from 1: of several who are there at first the nearest to the camera need not be 1.
+  std::map<int, recon::PersonShape> shapes;
   bool keep_parts = false;          // fill BodyFrame::parts
   bool keep_probabilities = false;  // fill BodyFrame::probabilities, and parts
   bool keep_proposals = false;      // fill Body::proposals

@@ -1,5 +1,7 @@
 #include "recon/fit/normal_equations.h"
 
+#include <Eigen/LU>
+
 #include "tests/recon/fit/posed_person.h"
 
 namespace ossa::recon {
@@ -76,6 +78,63 @@ TEST(NormalEquations, StepTakesAPlaceWhereItIsWanted) {
   equations.Assemble(posed);
   const PosedSurface moved = PosedAt(Moved(posed, equations.Solve(0.0), 1.0));
   EXPECT_LT((moved.at_m()[i] - posed.at_m()[i] - off_m).norm(), 1e-4);
+}
+
+// All that is told of a surface's points and turns, as a fit has it.
+NormalEquations EquationsOf(const PosedSurface& posed) {
+  NormalEquations equations;
+  equations.Clear();
+  for (size_t i = 0; i < posed.at_m().size(); i += 7) {
+    const SurfacePoint& point = Surface().points[i];
+    equations.Add(point.segment,
+                  RowOfPlace(posed, point.segment, posed.at_m()[i], posed.normal()[i],
+                             point.place.by_shape_m),
+                  0.01, 400.0);
+  }
+  equations.Assemble(posed);
+  for (size_t s = 1; s < kSegmentCount; ++s) {
+    equations.AddTurn(s, 10.0 * Eigen::Matrix3d::Identity(), Eigen::Vector3d(0.1, 0.0, 0.0));
+  }
+  equations.AddShape(1.0, ShapeVector::Ones());
+  return equations;
+}
+
+// Against the dense inverse and the derivative by differences.
+TEST(NormalEquations, CovarianceOfAPlaceIsThatOfItsUnknowns) {
+  const PosedSurface posed = PosedAt(RandomPose(8));
+  NormalEquations equations = EquationsOf(posed);
+  const NormalEquations::Matrix inverse =
+      NormalEquations::Matrix(equations.matrix().selfadjointView<Eigen::Lower>()).inverse();
+  ASSERT_TRUE(equations.Factor());
+  const size_t i = posed.at_m().size() - 1;
+  const SurfacePoint& point = Surface().points[i];
+  constexpr double kStep = 1e-5;
+  Eigen::Matrix<double, 3, kFitUnknowns> derivative;
+  for (int k = 0; k < kFitUnknowns; ++k) {
+    const FitStep step = kStep * FitStep::Unit(k);
+    derivative.col(k) =
+        (PosedAt(Moved(posed, step, 1.0)).at_m()[i] - PosedAt(Moved(posed, -step, 1.0)).at_m()[i]) /
+        (2 * kStep);
+  }
+  const Eigen::Matrix3d expected = derivative * inverse * derivative.transpose();
+  const Eigen::Matrix3d told =
+      equations.CovarianceOf(posed, point.segment, posed.at_m()[i], point.place.by_shape_m);
+  EXPECT_LT((told - expected).norm(), 1e-5 * expected.norm());
+}
+
+// The inverse of shape's block of the inverse; and the step of shape is that of the whole system.
+TEST(NormalEquations, InformationOfShapeHasThePoseIntegratedOut) {
+  const PosedSurface posed = PosedAt(RandomPose(8));
+  NormalEquations equations = EquationsOf(posed);
+  const NormalEquations::Matrix inverse =
+      NormalEquations::Matrix(equations.matrix().selfadjointView<Eigen::Lower>()).inverse();
+  const ShapeVector step = -(inverse * equations.gradient()).tail<kShapeCount>();
+  ASSERT_TRUE(equations.Factor());
+  const ShapeMatrix covariance = inverse.bottomRightCorner<kShapeCount, kShapeCount>();
+  const ShapeMatrix information = equations.ShapeInformation();
+  EXPECT_LT((information * covariance - ShapeMatrix::Identity()).norm(), 1e-6);
+  EXPECT_LT((information * step + equations.ShapeGradient()).norm(),
+            1e-6 * equations.ShapeGradient().norm());
 }
 
 }  // namespace

@@ -63,6 +63,53 @@ CommandResult TrackTo(const std::filesystem::path& source, const std::filesystem
   return RunOssa(arguments);
 }
 
+TEST(TrackCommand, SavesThePersonAndTakesThemAgain) {
+  OSSA_NEEDS_MODEL();
+  const TemporaryFolder folder;
+  WriteWalk(folder / "in", 6);
+  const std::string source = (folder / "in").string(), me = (folder / "me.ossaperson").string();
+  const CommandResult first = RunOssa({"track", source, "--save-person", me});
+  ASSERT_EQ(first.exit_status, 0) << first.err;
+  EXPECT_NE(first.out.find("person 1, "), std::string::npos) << first.out;
+  const CommandResult again =
+      RunOssa({"track", source, "--person", me, "--save-person", me, "--json-stats", "-"});
+  ASSERT_EQ(again.exit_status, 0) << again.err;
+  const CommandResult info = RunOssa({"info", me});
+  EXPECT_NE(info.out.find("m tall"), std::string::npos) << info.out;
+}
+
+TEST(TrackCommand, RefusesAPersonFileThatIsDamaged) {
+  OSSA_NEEDS_MODEL();
+  const TemporaryFolder folder;
+  WriteWalk(folder / "in", 1);
+  const std::string me = (folder / "me.ossaperson").string();
+  std::ofstream(me) << "no person";
+  const CommandResult result =
+      RunOssa({"track", (folder / "in").string(), "--json-stats", "-", "--person", me});
+  EXPECT_EQ(result.exit_status, 1);
+  EXPECT_NE(result.err.find(me + ": "), std::string::npos) << result.err;
+  EXPECT_EQ(LineCount(result.err), 1);
+}
+
+TEST(TrackCommand, SaysWhereNobodyIsThereWhoCouldBeSaved) {
+  OSSA_NEEDS_MODEL();
+  const TemporaryFolder folder;
+  WriteFlat(folder / "wall", 2000, 2);
+  const std::string me = (folder / "me.ossaperson").string();
+  const CommandResult result =
+      RunOssa({"track", (folder / "wall").string(), "--save-person", me, "--quiet"});
+  EXPECT_EQ(result.exit_status, 1);
+  EXPECT_NE(result.err.find(me + ": expected a person"), std::string::npos) << result.err;
+  EXPECT_FALSE(std::filesystem::exists(me));
+}
+
+TEST(TrackCommand, TakesNoPersonFileWithoutAFit) {
+  const CommandResult result =
+      RunOssa({"track", "in", "--out", "x.jsonl", "--fit", "off", "--person", "me.ossaperson"});
+  EXPECT_EQ(result.exit_status, 2);
+  EXPECT_NE(result.err.find("--person: expected a surface fit"), std::string::npos) << result.err;
+}
+
 class OutputFormats : public testing::TestWithParam<const char*> {};
 
 TEST_P(OutputFormats, AreReadBackByTheReadersOfCompare) {

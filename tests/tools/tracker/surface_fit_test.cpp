@@ -50,6 +50,20 @@ TEST(TrackedSurface, IsTheSameOnAnyNumberOfThreads) {
   }
 }
 
+TEST(TrackedSurface, OfSomebodyWhoseShapeIsKnownBeginsWithIt) {
+  OSSA_NEEDS_MODEL();
+  TrackerOptions options = Fitting();
+  const auto told = LastOf(options, {PersonAt(0, 2.5)}).bodies.at(0).shape;
+  ASSERT_TRUE(told);
+  options.shapes[1] = *told;
+  Tracker tracker(options);
+  const BodyFrame first = tracker.Track(Rendered({PersonAt(0, 2.5)}, 0).frame);
+  ASSERT_EQ(first.bodies.size(), 1U);
+  ASSERT_TRUE(first.bodies[0].shape);
+  EXPECT_EQ(first.bodies[0].shape->frames, told->frames + 1);
+  EXPECT_LT((first.bodies[0].shape->shape - told->shape).norm(), 0.1 * told->shape.norm());
+}
+
 TEST(TrackedSurface, IsNoneWithoutABodyOrRefinedJoints) {
   OSSA_NEEDS_MODEL();
   ModelFiles bodiless, unrefined;

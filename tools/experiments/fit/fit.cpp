@@ -6,6 +6,7 @@
 
 #include "depth/base/error.h"
 #include "tools/experiments/experiments_internal.h"
+#include "tools/experiments/fit/filmed_people_internal.h"
 #include "tools/experiments/real/real_judge_internal.h"
 
 namespace ossa::tools {
@@ -94,9 +95,7 @@ void AddRow(const Variant& variant, const RealSet& set, const std::vector<StillR
        Median(figures.residual_m, 1000, "{:.1f}"), Median(figures.ms, 1, "{:.2f}")});
 }
 
-}  // namespace
-
-std::vector<Table> RunFit(ExperimentContext& context) {
+std::vector<Table> FitTerms(ExperimentContext& context) {
   if (context.shared.empty()) throw InputError("fit: expected --shared FOLDER with real/ in it");
   const auto sets = ReadRealSets(context.shared, context.parameters.Integer("frames", 0));
   if (sets.empty()) {
@@ -128,6 +127,20 @@ std::vector<Table> RunFit(ExperimentContext& context) {
     }
   }
   return {table};
+}
+
+}  // namespace
+
+std::vector<Table> RunFit(ExperimentContext& context) {
+  const auto parts = context.parameters.Some("parts", {"terms", "people"});
+  std::vector<Table> tables;
+  const auto add = [&](const char* part, std::vector<Table> (*run)(ExperimentContext&)) {
+    if (parts.count(part) == 0) return;
+    for (Table& table : run(context)) tables.push_back(std::move(table));
+  };
+  add("terms", FitTerms);
+  add("people", FitPeople);
+  return tables;
 }
 
 }  // namespace ossa::tools

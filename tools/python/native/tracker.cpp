@@ -143,6 +143,12 @@ py::dict ToDict(const recon::SurfaceFit& fit, const MeshPointer& mesh) {
   made["shape"] =
       python::ToArray(std::vector<double>(shape.begin(), shape.end()), {recon::kShapeCount});
   made["stature_m"] = fit.stature_m;
+  std::vector<double> covariance_m2;
+  for (const Eigen::Matrix3d& of_joint : fit.covariance_m2) {
+    covariance_m2.insert(covariance_m2.end(), of_joint.data(), of_joint.data() + of_joint.size());
+  }
+  made["covariance_m2"] = python::ToArray(
+      std::move(covariance_m2), {static_cast<py::ssize_t>(recon::kJointCount), 3, 3});
   made["explained"] = fit.explained;
   made["score"] = fit.score;
   made["median_residual_m"] = fit.median_residual_m;

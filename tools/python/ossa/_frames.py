@@ -86,6 +86,8 @@ class Fit:
     orientations : float64 [18, 4]
         Quaternions w x y z, camera from segment: how each is turned from a body that stands facing
         +z with its left at +x.
+    covariance_m2 : float64 [20, 3, 3]
+        How far `joints` may be off: covariance of each, camera axes, square metres.
     mesh : Mesh
         Its skin.
     """
@@ -98,6 +100,7 @@ class Fit:
     median_residual_m: float
     residuals_m: Floats
     orientations: Floats
+    covariance_m2: Floats
     _skin: Optional[_native.Skin]  # to be posed; None once that is done
     _faces: npt.NDArray[np.int32]
     _mesh: Optional[Mesh] = None

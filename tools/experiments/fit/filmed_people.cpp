@@ -1,0 +1,89 @@
+#include <algorithm>
+#include <cmath>
+
+#include "depth/render/shapes.h"
+#include "recon/body/clothing.h"
+#include "tools/experiments/fit/filmed_people_internal.h"
+#include "tools/experiments/stage/motions.h"
+#include "tools/synth/clothed_actor.h"
+#include "tools/synth/sample_person.h"
+#include "tools/synth/sequence_poses.h"
+
+namespace ossa::tools {
+namespace {
+
+// Constants: of what is rendered, by hand.
+
+constexpr double kLeast_m = 1.1, kStep_m = 0.1;  // 1.1 to 2.1 m, as the question is asked
+constexpr size_t kHeights = 11;
+constexpr uint64_t kDraws = 1500;  // of shapes, among which each height has some
+
+// Of the drawn people those nearest to each height.
+std::vector<FilmedPerson> ChoosePeople(const recon::BodyModel& model, Split split, int per_height,
+                                       uint64_t seed) {
+  std::vector<FilmedPerson> drawn, chosen;
+  for (uint64_t k = 0; k < kDraws; ++k) {
+    Random random(seed, k);
+    const recon::BodyShape shape = SampleAnyShape(split, random);
+    drawn.push_back({0.0, shape, model.Shape(shape).height_m, k});
+  }
+  for (size_t h = 0; h < kHeights; ++h) {
+    const double target_m = kLeast_m + kStep_m * static_cast<double>(h);
+    std::stable_sort(drawn.begin(), drawn.end(), [&](const auto& a, const auto& b) {
+      return std::abs(a.stature_m - target_m) < std::abs(b.stature_m - target_m);
+    });
+    for (size_t i = 0; i < static_cast<size_t>(per_height); ++i) {
+      chosen.push_back(drawn[i]);
+      chosen.back().target_m = target_m;
+    }
+  }
+  return chosen;
+}
+
+}  // namespace
+
+struct PeopleFilm::Stage {
+  recon::BodyModel model = LoadFetchedBody();
+  recon::Wardrobe wardrobe{model};
+  std::vector<recon::MotionClip> clips;
+};
+
+PeopleFilm::PeopleFilm(ExperimentContext& context, int per_height, bool train_shapes)
+    : stage_(std::make_unique<Stage>()) {
+  stage_->clips =
+      AuthoredMotions(context, {"stand", "walk", "wave", "talk", "squat", "raise_arms"}, 2);
+  people_ = ChoosePeople(stage_->model, train_shapes ? Split::kTrain : Split::kTest, per_height,
+                         context.seed);
+}
+PeopleFilm::~PeopleFilm() = default;
+
+std::vector<LabelledFrame> PeopleFilm::Film(const FilmedPerson& person, bool loose) const {
+  constexpr double kHeight_m = 1.0, kNearest_m = 3.0, kFarthest_m = 3.8, kAside_rad = 0.6;
+  Random random(person.seed, 7);
+  recon::Clothing clothing = SampleClothing(random);
+  while (loose && clothing.hang == 0.0) clothing = SampleHangingClothing(random);
+  const double away_m = random.Uniform(kNearest_m, kFarthest_m);
+  const double azimuth_rad = random.Uniform(-kAside_rad, kAside_rad);
+  const Eigen::Isometry3d camera_from_world = LookAt(
+      {away_m * std::sin(azimuth_rad), kHeight_m, away_m * std::cos(azimuth_rad)}, {0.0, 0.9, 0.0});
+  const recon::MotionClip& clip = stage_->clips[person.seed % stage_->clips.size()];
+  std::vector<Actor> actors;
+  actors.emplace_back(stage_->model, stage_->wardrobe, person.shape, clothing);
+  depth::Renderer renderer;
+  actors[0].Enter(renderer);
+  const Eigen::Affine3f to_camera(camera_from_world.matrix().cast<float>());
+  renderer.AddMesh(depth::Moved(depth::MakeRoom({7.0F, 3.0F, 8.0F}), to_camera), false);
+  std::vector<LabelledFrame> frames;
+  for (const recon::RigPose& pose : SequencePoses({clip}, kFrames, person.seed)) {
+    const recon::Posture joints_m = actors[0].Take(pose, camera_from_world);
+    actors[0].Show(renderer);
+    frames.push_back(SenseActors(renderer, depth::KinectV1Camera(320, 240), stage_->model, actors,
+                                 person.seed * 1000003 + frames.size()));
+    frames.back().depth.index = static_cast<int64_t>(frames.size() - 1);
+    frames.back().depth.time_s = static_cast<double>(frames.size() - 1) / 30.0;
+    frames.back().bodies.push_back({1, joints_m, {}});
+  }
+  return frames;
+}
+
+}  // namespace ossa::tools

@@ -1,0 +1,47 @@
+#pragma once
+#include <cstdint>
+#include <functional>
+#include <memory>
+#include <vector>
+
+#include "recon/body/body_model.h"
+#include "recon/body/rig.h"
+#include "tools/experiments/experiment.h"
+#include "tools/synth/dataset.h"
+
+namespace ossa::tools {
+
+/// Somebody who is rendered: of the shapes kept for tests, from 1.1 to 2.1 m tall.
+struct FilmedPerson {
+  double target_m = 0.0;  // of the row in tables
+  recon::BodyShape shape;
+  double stature_m = 0.0;  // barefoot, without hair
+  uint64_t seed = 0;       // of clothes, place and noise
+};
+
+/// Renders people of known stature in motion before a simulated Kinect v1 in an empty room.
+class PeopleFilm {
+ public:
+  static constexpr int kFrames = 90;  // by definition of the question that is asked: 3 s at 30 Hz
+
+  /// `per_height` people about 1.1, 1.2, ... 2.1 m tall. Throws InputError where the body was not
+  /// fetched.
+  PeopleFilm(ExperimentContext& context, int per_height, bool train_shapes);
+  ~PeopleFilm();
+
+  const std::vector<FilmedPerson>& people() const { return people_; }
+  /// The person's frames with the true joints and parts; `loose`: in a coat, a skirt or what hangs.
+  std::vector<LabelledFrame> Film(const FilmedPerson& person, bool loose) const;
+
+ private:
+  struct Stage;
+  std::unique_ptr<Stage> stage_;
+  std::vector<FilmedPerson> people_;
+};
+
+/// Stature; joints' error bars; loose clothes; wrong shapes.
+std::vector<Table> FitPeople(ExperimentContext& context);
+/// Starts at random about the true joints.
+std::vector<Table> FitStarts(ExperimentContext& context);
+
+}  // namespace ossa::tools
