@@ -124,6 +124,10 @@ SkeletonSequence ReadSkeletonCsv(SkeletonInput& input) {
   RowTimes times;
   while (lines.NextFilled()) {
     const std::vector<std::string> fields = csv.SplitRow(lines.line(), kColumns);
+    // Separators alone are what spreadsheets leave of rows that were emptied.
+    if (std::all_of(fields.begin(), fields.end(), [](const auto& f) { return f.empty(); })) {
+      continue;
+    }
     if (fields.size() != kColumns) {
       lines.Fail(fmt::format("{} columns", kColumns), fmt::format("{} columns", fields.size()));
     }

@@ -3,6 +3,7 @@
 #include <cmath>
 #include <memory>
 #include <numbers>
+#include <sstream>
 #include <string_view>
 
 #include "depth/base/error.h"
@@ -139,6 +140,17 @@ class Parser {
     }
   }
 
+  /// Frames a second where seconds a frame belong: nobody moves in steps of more than a second.
+  void WarnOfARate() {
+    constexpr double kSlowest_s = 1.0;  // by hand
+    if (bvh_.frame_s <= kSlowest_s) return;
+    std::ostringstream said;
+    said << scan_.source() << ": Frame Time says " << bvh_.frame_s
+         << " s a frame, and is read so (should it be " << bvh_.frame_s
+         << " frames a second, write " << 1.0 / bvh_.frame_s << ")";
+    bvh_.warnings.push_back(said.str());
+  }
+
   void ReadMotion() {
     const double frames = NumberAfter("Frames", "the number of frames");
     if (frames < 0 || frames != std::floor(frames)) {
@@ -148,6 +160,7 @@ class Parser {
     if (bvh_.frame_s < 1e-4 || bvh_.frame_s > 60.0) {
       scan_.Fail("a frame time between 0.0001 and 60 s", std::to_string(bvh_.frame_s));
     }
+    WarnOfARate();
     const size_t channels = bvh_.ChannelCount();
     if (channels == 0) scan_.Fail("at least one channel in the file", "none");
     // A number takes a digit and what ends it: a header that lies does not fill the memory.

@@ -265,6 +265,13 @@ TEST(OwnCsv, AsSpreadsheetsSaveItIsTheSame) {
   }
 }
 
+TEST(OwnCsv, RowsOfSeparatorsAloneArePassedOver) {
+  const std::string own = OwnCsv();
+  for (const char* rows : {",,,,\n", ",\n,\n"}) {
+    EXPECT_EQ(Read(own + rows).frames.size(), Read(own).frames.size());
+  }
+}
+
 TEST(OwnCsv, CutInsideARowIsRefused) {
   const std::string own = OwnCsv();
   EXPECT_NE(ComplaintAbout(own.substr(0, own.rfind(','))), "");
@@ -340,6 +347,8 @@ INSTANTIATE_TEST_SUITE_P(
                "the header says 75 frames, the file has 30"},
         OddBvh{"FewerFramesSaid", Replaced(test::FigureBvh(), "Frames: 30", "Frames: 7"),
                "the header says 7 frames, the file has 30"},
+        OddBvh{"FramesASecondForATime", Replaced(test::FigureBvh(), "0.0333333", "30"),
+               "Frame Time says 30 s a frame"},
         OddBvh{"NoLastLineEnd", test::FigureBvh().substr(0, test::FigureBvh().size() - 1), ""}),
     [](const auto& info) { return std::string(info.param.name); });
 
