@@ -129,6 +129,7 @@ recon::JointOrientations Actor::OrientAim() const {
 /// Where to go this frame: what was asked for, what the user insists on, what the floor allows.
 Posture Actor::Goal(recon::JointArray<double>& trust) const {
   Posture goal = wanted;
+  if (!lean_rad.isZero()) LeanBy(lean_rad, goal);
   for (const auto& [joint, place] : soft_constraint) {
     goal.position_m[joint] = place.Now();
     trust[joint] = kConstrainedWeight;
@@ -141,9 +142,23 @@ Posture Actor::Goal(recon::JointArray<double>& trust) const {
   return goal;
 }
 
+void Actor::WatchFor(const ObjectState& thing, double radius_m, const Vector3d& gravity_m_s2) {
+  constexpr double kRoom_m = 0.25;  // a head's radius, and as much again
+  constexpr double kHold_s = 0.3;   // until it is past
+  for (const recon::Joint joint : {recon::Joint::kHead, recon::Joint::kShoulderCenter}) {
+    // Where they would stand: who leans already is out of the way.
+    const auto way = EscapeFrom(thing, wanted[joint], kRoom_m + radius_m, gravity_m_s2);
+    if (!way) continue;
+    if (lean_left_s <= 0.0) escape = *way;
+    lean_left_s = kHold_s;
+    return;
+  }
+}
+
 void Actor::Prepare(OdeWorld& ode, const std::optional<Vector4d>& floor, double dt_s) {
   const double sole_m = SoleHeight();
   recon::JointArray<double> trust = weight;
+  SetLean(floor, dt_s);
   Posture goal = Goal(trust);
   LiftOntoFloor(floor, sole_m, goal);
   if (options.pin_feet) {
@@ -171,6 +186,19 @@ void Actor::Prepare(OdeWorld& ode, const std::optional<Vector4d>& floor, double 
     control.turning_rad_s[i] =
         bone.cross(aim_velocity_m_s[i] - aim_velocity_m_s[parent]) / bone.squaredNorm();
   }
+}
+
+/// Who leans does it at once, but not in one frame.
+void Actor::SetLean(const std::optional<Vector4d>& floor, double dt_s) {
+  constexpr double kLean_rad = 0.65;     // puts a head 0.4 m aside
+  constexpr double kWay_s = 0.07;        // time constant
+  constexpr double kUpright_rad = 1e-3;  // what nobody sees
+  const Vector3d up = floor ? Vector3d(floor->head<3>()) : Vector3d::UnitY();
+  const Vector3d wanted_rad =
+      lean_left_s > 0.0 ? Vector3d(kLean_rad * up.cross(escape)) : Vector3d::Zero();
+  lean_rad += (1.0 - std::exp(-dt_s / kWay_s)) * (wanted_rad - lean_rad);
+  if (wanted_rad.isZero() && lean_rad.norm() < kUpright_rad) lean_rad.setZero();
+  lean_left_s = std::max(0.0, lean_left_s - dt_s);
 }
 
 void Actor::SetLead(size_t joint, const std::optional<Vector4d>& floor, double sole_m,

@@ -83,6 +83,9 @@ struct ActorMemory {
   double max_gap_m = 0.0;     // between anchors, before Reconnect, since the frame began
   int rescued = 0;            // how often it was not finite
   double dodge_left_s = 0.0;  // raised arms stay up for a moment after the threat has passed
+  double lean_left_s = 0.0;   // and who leans aside stays so
+  Eigen::Vector3d escape = Eigen::Vector3d::Zero();    // the way they lean, a unit vector
+  Eigen::Vector3d lean_rad = Eigen::Vector3d::Zero();  // how far they do, as a turn
 };
 
 /// A character with what it wants and what holds it.
@@ -93,6 +96,8 @@ struct Actor : ActorMemory {
   void Place(const recon::Posture& posture, const std::optional<Eigen::Vector4d>& floor);
   void SetTarget(const recon::Posture& target, std::span<const double> weight,
                  const std::optional<recon::JointOrientations>& orientation);
+  /// Whether to lean, and which way, before what flies: once per frame and thing.
+  void WatchFor(const ObjectState& thing, double radius_m, const Eigen::Vector3d& gravity_m_s2);
   /// Once per frame: floor, feet, constraints; fills `from`, `aim` and the stiffness.
   void Prepare(OdeWorld& ode, const std::optional<Eigen::Vector4d>& floor, double dt_s);
   /// Once per substep, `left_s` before the end of the frame.
@@ -112,6 +117,7 @@ struct Actor : ActorMemory {
   double SoleHeight() const;
   recon::JointOrientations OrientAim() const;
   recon::Posture Goal(recon::JointArray<double>& trust) const;
+  void SetLean(const std::optional<Eigen::Vector4d>& floor, double dt_s);
   void SetLead(size_t joint, const std::optional<Eigen::Vector4d>& floor, double sole_m,
                double dt_s);
   Eigen::Vector3d Lead(size_t joint, const Eigen::Vector3d& velocity_m_s, double dt_s);
@@ -129,6 +135,14 @@ struct Threat {
 };
 std::optional<Threat> ThreatTo(const Eigen::Vector3d& head_m, const Eigen::Vector3d& head_velocity,
                                const ObjectState& object);
+
+/// Which way something that flies leaves most room beside `place_m`: a unit vector at right angles
+/// to `gravity_m_s2`; none where it passes at `near_m` or more. A throw's curve is foreseen.
+std::optional<Eigen::Vector3d> EscapeFrom(const ObjectState& thing, const Eigen::Vector3d& place_m,
+                                          double near_m, const Eigen::Vector3d& gravity_m_s2);
+
+/// Turns head, trunk and arms about the hips.
+void LeanBy(const Eigen::Vector3d& turn_rad, recon::Posture& target);
 
 /// Sec. 8.2: moves the targets of elbows, wrists and hands so that the forearms cover the head.
 void RaiseForearms(const recon::BoneLengths& lengths, recon::Posture& target);

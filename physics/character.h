@@ -52,6 +52,7 @@ struct CharacterOptions {
   bool hinges = false;        // elbows and knees are hinges instead of ball joints (sec. 4)
   bool joint_limits = false;  // joints keep to the ranges that people's have
   bool dodge = false;  // raise the forearms around the head when something flies at it (sec. 8.2)
+  bool lean = false;   // lean out of the way of what flies at head or shoulders
   double stature_m = 0.0;  // 0: from the bones
   double mass_kg = 0.0;    // 0: from the stature
   /// Bit masks, by convention: two meet if each is in a group the other collides with.

@@ -174,8 +174,11 @@ bool World::Impl::MayMeet(dGeomID a, dGeomID b) const {
     groups[k] = is_object ? thing->info.groups : actors.at(side[k].id)->options.groups;
     meets[k] = is_object ? thing->info.collides_with : actors.at(side[k].id)->options.collides_with;
     // Neither the bone that holds a thing nor the one before it hits it.
-    if (is_object && thing->grip && thing->grip->beside == dGeomGetBody(k == 0 ? b : a))
+    const dBodyID other = dGeomGetBody(k == 0 ? b : a);
+    if (is_object && std::any_of(thing->grips.begin(), thing->grips.end(),
+                                 [other](const Grip& grip) { return grip.beside == other; })) {
       return false;
+    }
   }
   if (!moved || (groups[0] & meets[1]) == 0 || (groups[1] & meets[0]) == 0) return false;
   if (dAreConnectedExcluding(dGeomGetBody(a), dGeomGetBody(b), dJointTypeContact) != 0)

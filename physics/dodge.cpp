@@ -27,6 +27,42 @@ std::optional<Threat> ThreatTo(const Vector3d& head_m, const Vector3d& head_velo
   return Threat{time, distance};
 }
 
+std::optional<Vector3d> EscapeFrom(const ObjectState& thing, const Vector3d& place_m, double near_m,
+                                   const Vector3d& gravity_m_s2) {
+  constexpr double kSlow_m_s = 1.5;    // slower things are being carried or rolling
+  constexpr double kHorizon_s = 0.6;   // a person's warning time
+  constexpr double kStep_s = 0.02;     // 16 cm of a fast throw
+  constexpr double kCentral_m = 0.03;  // what comes nearer the middle leaves no side
+  if (thing.velocity_m_s.norm() < kSlow_m_s) return std::nullopt;
+  Vector3d nearest = Vector3d::Constant(near_m), flight = thing.velocity_m_s;
+  bool found = false;
+  for (double t = 0.0; t < kHorizon_s; t += kStep_s) {
+    const Vector3d velocity = thing.velocity_m_s + t * gravity_m_s2;
+    const Vector3d from = place_m - thing.position_m - 0.5 * t * (thing.velocity_m_s + velocity);
+    if (from.norm() >= (found ? nearest.norm() : near_m)) continue;
+    nearest = from;
+    flight = velocity;
+    found = true;
+  }
+  const Vector3d up = -gravity_m_s2.stableNormalized();
+  const Vector3d aside = up.cross(flight);  // of no use where it falls straight down
+  if (!found || up.isZero()) return std::nullopt;
+  Vector3d away = nearest - nearest.dot(up) * up;
+  away -= away.dot(flight) / std::max(flight.squaredNorm(), 1e-12) * flight;
+  away -= away.dot(up) * up;
+  if (away.norm() < kCentral_m) away = aside.norm() > kCentral_m ? aside : up.unitOrthogonal();
+  return away.normalized();
+}
+
+void LeanBy(const Vector3d& turn_rad, recon::Posture& target) {
+  const Eigen::AngleAxisd turn(turn_rad.norm(), turn_rad.stableNormalized());
+  const Vector3d hips = target[Joint::kHipCenter];
+  constexpr size_t kLast = recon::Index(Joint::kHandRight);  // below it are the legs
+  for (size_t i = recon::Index(Joint::kSpine); i <= kLast; ++i) {
+    target.position_m[i] = hips + turn * (target.position_m[i] - hips);
+  }
+}
+
 void RaiseForearms(const recon::BoneLengths& lengths, recon::Posture& target) {
   const auto orientation = recon::ComputeOrientations(target);
   const auto& chest = orientation[Joint::kShoulderCenter];

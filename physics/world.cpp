@@ -102,11 +102,12 @@ void World::SetFloor(const std::optional<Vector4d>& floor) {
 
 void World::Impl::WatchThreats(double dt_s) {
   for (const auto& [id, actor] : actors) {
+    if (actor->options.lean) WatchForThings(*actor);
     if (!actor->options.dodge) continue;
     actor->dodge_left_s = std::max(0.0, actor->dodge_left_s - dt_s);
     const auto head = recon::Index(recon::Joint::kHead);
     for (const auto& [number, thing] : things) {
-      if (thing.grip) continue;
+      if (!thing.grips.empty()) continue;
       const ObjectState state = {ToEigen(dBodyGetPosition(thing.body)),
                                  Eigen::Quaterniond::Identity(),
                                  ToEigen(dBodyGetLinearVel(thing.body))};
@@ -115,6 +116,17 @@ void World::Impl::WatchThreats(double dt_s) {
         actor->dodge_left_s = kDodgeHold_s;
       }
     }
+  }
+}
+
+void World::Impl::WatchForThings(Actor& actor) const {
+  for (const auto& [number, thing] : things) {
+    if (!thing.grips.empty() || thing.info.kind == BodyKind::kStatic) continue;
+    const Vector3d size_m =
+        thing.info.shape == Shape::kBox ? thing.info.size_m : Vector3d(thing.info.size_m.x(), 0, 0);
+    actor.WatchFor({ToEigen(dBodyGetPosition(thing.body)), Eigen::Quaterniond::Identity(),
+                    ToEigen(dBodyGetLinearVel(thing.body))},
+                   0.5 * size_m.norm(), gravity_m_s2);
   }
 }
 
@@ -157,9 +169,11 @@ void World::Impl::RescueLost() {
 
 void World::Impl::BreakHolds() {
   for (auto& [id, thing] : things) {
-    if (!thing.grip || !thing.grip->feedback) continue;
-    if (ToEigen(thing.grip->feedback->f1).norm() <= thing.grip->strength_n) continue;
-    Release(thing);
+    const auto is_torn = [](const Grip& grip) {
+      return grip.feedback && ToEigen(grip.feedback->f1).norm() > grip.strength_n;
+    };
+    if (std::none_of(thing.grips.begin(), thing.grips.end(), is_torn)) continue;
+    Release(thing, is_torn);
     contacts.broken.push_back(id);
   }
 }

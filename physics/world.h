@@ -78,6 +78,13 @@ struct Strike {
   int object;
 };
 
+/// A joint whose bone holds an object.
+struct Holder {
+  int character;
+  recon::Joint joint;
+  bool operator==(const Holder&) const = default;
+};
+
 /// One side of a contact.
 struct Party {
   enum class Kind { kFloor, kCharacter, kObject } kind = Kind::kFloor;
@@ -112,7 +119,7 @@ struct ContactSummary {
   int character_object_contacts = 0;  // summed over the substeps
   std::vector<Strike> struck;
   std::vector<Contact> contacts;  // in a fixed order; a character's own limbs among them
-  std::vector<int> broken;        // objects whose hold broke
+  std::vector<int> broken;        // objects of which a hold broke
 };
 
 /// What a world asks and tells while it steps. Any may be empty; none may call the world's Step,
@@ -166,9 +173,10 @@ class World {
                  const std::optional<recon::JointOrientations>& orientation = std::nullopt);
   /// Lets the character fall: no control until the next SetTarget.
   void LetGo(int character);
-  /// Stands the character still in the posture. What it holds goes along in its hand and stands
-  /// still, too; constraints stay where they are and pull from there; impulses not yet spent are
-  /// forgotten. `orientation` as in SetTarget.
+  /// Stands the character still in the posture. What it holds goes along in its hand (the first, of
+  /// several that hold it, and the others let go) and stands still, too; constraints stay where
+  /// they are and pull from there; impulses not yet spent are forgotten. `orientation` as in
+  /// SetTarget.
   void Place(int character, const recon::Posture& posture,
              const std::optional<recon::JointOrientations>& orientation = std::nullopt);
   /// Of the whole character and of what it holds; nothing turns.
@@ -204,10 +212,14 @@ class World {
 
   /// A virtual joint between the end of a joint's bone and the object: `rigid` or free to turn
   /// about the joint. Neither that bone nor the one before it collides with the object meanwhile.
-  /// Breaks where it would have to pull harder than `strength_n`.
+  /// Breaks where it would have to pull harder than `strength_n`. Several joints, of several
+  /// characters, may hold one object: they carry it together. Who hung it up lets go of it.
   void Hold(int character, recon::Joint joint, int object, bool rigid,
             double strength_n = std::numeric_limits<double>::infinity());
+  /// All that hold it, or that hangs it, let go; or that joint does, if it holds it.
   void Release(int object);
+  void Release(int object, int character, recon::Joint joint);
+  std::vector<Holder> HoldersOf(int object) const;  // in the order in which they took it
   /// Hangs the object on a point of the world.
   void Hang(int object, const Eigen::Vector3d& point_m);
 
@@ -221,6 +233,8 @@ class World {
 
   CharacterState StateOf(int character) const;
   ObjectState ObjectOf(int object) const;
+  /// From a point of the world to the object's surface, metres; below 0 inside.
+  double DistanceTo(int object, const Eigen::Vector3d& point_m) const;
   const ObjectOptions& ObjectInfo(int object) const;
   const ContactSummary& Contacts() const;
   bool IsFinite(int character) const;

@@ -1,4 +1,5 @@
 // What a world does with its characters.
+#include <algorithm>
 #include <stdexcept>
 #include <string>
 
@@ -69,14 +70,20 @@ void World::Place(int character, const recon::Posture& posture,
 void World::Impl::Place(Actor& actor, const recon::Posture& posture) {
   std::vector<std::pair<Thing*, Eigen::Isometry3d>> carried;
   for (auto& [id, thing] : things) {
-    if (!thing.grip || !actor.character.Owns(thing.grip->hand)) continue;
+    const auto own = std::find_if(thing.grips.begin(), thing.grips.end(), [&](const Grip& grip) {
+      return grip.hand != nullptr && actor.character.Owns(grip.hand);
+    });
+    if (own == thing.grips.end()) continue;
     // As it is held now; where nothing is known of now, as it was when it was taken.
-    const Eigen::Isometry3d now = PoseOf(thing.grip->hand).inverse() * PoseOf(thing.body);
-    carried.emplace_back(&thing, now.matrix().allFinite() ? now : thing.grip->in_hand);
+    const Eigen::Isometry3d now = PoseOf(own->hand).inverse() * PoseOf(thing.body);
+    carried.emplace_back(&thing, now.matrix().allFinite() ? now : own->in_hand);
+    // It can go along in one hand only: others are elsewhere now.
+    const dJointID kept = own->joint;
+    Release(thing, [kept](const Grip& grip) { return grip.joint != kept; });
   }
   actor.Place(posture, floor);
   for (const auto& [thing, in_hand] : carried) {
-    SetPoseAtRest(thing->body, PoseOf(thing->grip->hand) * in_hand);
+    SetPoseAtRest(thing->body, PoseOf(thing->grips.front().hand) * in_hand);
   }
 }
 
@@ -84,7 +91,11 @@ void World::SetVelocity(int character, const Vector3d& velocity_m_s) {
   Character& moved = impl_->ActorOf(character).character;
   moved.SetVelocity(velocity_m_s);
   for (const auto& [id, thing] : impl_->things) {
-    if (!thing.grip || !moved.Owns(thing.grip->hand)) continue;
+    if (std::none_of(thing.grips.begin(), thing.grips.end(), [&moved](const Grip& grip) {
+          return grip.hand != nullptr && moved.Owns(grip.hand);
+        })) {
+      continue;
+    }
     dBodySetLinearVel(thing.body, velocity_m_s.x(), velocity_m_s.y(), velocity_m_s.z());
     dBodySetAngularVel(thing.body, 0, 0, 0);
   }
@@ -138,7 +149,7 @@ CharacterState World::StateOf(int character) const {
   state.orientation[0] = recon::ComputeOrientations(state.posture)[0];
   state.left_foot_pinned = actor.foot_pin[0].pin() != nullptr;
   state.right_foot_pinned = actor.foot_pin[1].pin() != nullptr;
-  state.dodging = actor.dodge_left_s > 0.0;
+  state.dodging = actor.dodge_left_s > 0.0 || actor.lean_left_s > 0.0;
   state.max_anchor_gap_m = actor.character.MaxAnchorGap();
   state.max_solver_gap_m = actor.max_gap_m;
   state.rescued = actor.rescued;

@@ -35,7 +35,7 @@ struct Thing {
   dBodyID body = nullptr;
   std::vector<dGeomID> geoms;
   Eigen::Vector3d middle_m = Eigen::Vector3d::Zero();  // centre of mass in the object's frame
-  std::optional<Grip> grip{};
+  std::vector<Grip> grips{};  // of all that hold it, in the order in which they took it
   Eigen::Isometry3d before = Eigen::Isometry3d::Identity();  // pose when the present Step began
   std::vector<Load> loads{};                                 // of the next Step
   std::optional<Eigen::Isometry3d> goal{};  // of a kinematic one, at the end of the next Step
@@ -83,13 +83,16 @@ struct World::Impl {
   void DestroyThing(Thing& thing);
   /// Joins hand and thing as they are, `grip` saying how.
   void Take(Thing& thing, Grip grip);
-  void Release(Thing& thing);
+  /// Opens those of its grips that `opens` names.
+  static void Release(Thing& thing, const std::function<bool(const Grip&)>& opens);
+  static void Release(Thing& thing);
   void ReleaseAllOf(int character);
   void Constrain(Actor& actor, size_t joint, const Anchor& anchor, bool hard);
   void Substep(double left_s, double h_s);
   void RescueLost();
   void BreakHolds();
   void WatchThreats(double dt_s);
+  void WatchForThings(Actor& actor) const;
   void MoveKinematic(double dt_s);
   void FinishStep(const std::vector<Contact>& before);
   // contact.cpp

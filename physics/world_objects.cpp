@@ -224,7 +224,6 @@ void World::PushObject(int object, const Vector3d& impulse_ns, const Vector3d& a
 }
 
 void World::Impl::Take(Thing& thing, Grip grip) {
-  Release(thing);
   const bool hangs = grip.character < 0;
   if (!hangs) {
     const Character& character = ActorOf(grip.character).character;
@@ -247,7 +246,7 @@ void World::Impl::Take(Thing& thing, Grip grip) {
     grip.feedback = std::make_unique<dJointFeedback>();
     dJointSetFeedback(grip.joint, grip.feedback.get());
   }
-  thing.grip = std::move(grip);
+  thing.grips.push_back(std::move(grip));
 }
 
 void World::Hold(int character, recon::Joint joint, int object, bool rigid, double strength_n) {
@@ -260,6 +259,9 @@ void World::Hold(int character, recon::Joint joint, int object, bool rigid, doub
   grip.rigid = rigid;
   grip.strength_n = strength_n;
   grip.point_m = hand.JointPosition(recon::Index(joint));
+  Impl::Release(thing, [&grip](const Grip& other) {
+    return other.character < 0 || (other.character == grip.character && other.bone == grip.bone);
+  });
   impl_->Take(thing, std::move(grip));
 }
 
@@ -267,21 +269,46 @@ void World::Hang(int object, const Vector3d& point_m) {
   Grip grip;
   grip.point_m = point_m;
   grip.strength_n = std::numeric_limits<double>::infinity();
-  impl_->Take(impl_->things.at(object), std::move(grip));
+  Thing& thing = impl_->things.at(object);
+  Impl::Release(thing);
+  impl_->Take(thing, std::move(grip));
+}
+
+void World::Impl::Release(Thing& thing, const std::function<bool(const Grip&)>& opens) {
+  std::erase_if(thing.grips, [&opens](const Grip& grip) {
+    if (!opens(grip)) return false;
+    dJointDestroy(grip.joint);
+    return true;
+  });
 }
 
 void World::Impl::Release(Thing& thing) {
-  if (thing.grip) dJointDestroy(thing.grip->joint);
-  thing.grip.reset();
+  Release(thing, [](const Grip&) { return true; });
 }
 
 void World::Impl::ReleaseAllOf(int character) {
   for (auto& [id, thing] : things) {
-    if (thing.grip && thing.grip->character == character) Release(thing);
+    Release(thing, [character](const Grip& grip) { return grip.character == character; });
   }
 }
 
-void World::Release(int object) { impl_->Release(impl_->things.at(object)); }
+void World::Release(int object) { Impl::Release(impl_->things.at(object)); }
+
+void World::Release(int object, int character, recon::Joint joint) {
+  const size_t bone = impl_->ActorOf(character).character.BodyOfJoint(recon::Index(joint));
+  Impl::Release(impl_->things.at(object),
+                [&](const Grip& grip) { return grip.character == character && grip.bone == bone; });
+}
+
+std::vector<Holder> World::HoldersOf(int object) const {
+  std::vector<Holder> holders;
+  for (const Grip& grip : impl_->things.at(object).grips) {
+    if (grip.character >= 0) {
+      holders.push_back({grip.character, static_cast<recon::Joint>(grip.bone)});
+    }
+  }
+  return holders;
+}
 
 ObjectState World::ObjectOf(int object) const {
   const Thing& thing = impl_->things.at(object);

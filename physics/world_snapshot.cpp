@@ -36,7 +36,7 @@ struct SavedThing {
   BodyMemory body;
   std::vector<Load> loads;
   std::optional<Eigen::Isometry3d> goal;
-  std::optional<Grip> grip;  // without joint
+  std::vector<Grip> grips;  // without joints
 };
 
 Grip Description(const Grip& grip) {
@@ -101,7 +101,7 @@ WorldSnapshot World::Save() const {
   for (const auto& [id, actor] : w.actors) data->actors.push_back(Saved(id, *actor));
   for (const auto& [id, thing] : w.things) {
     SavedThing saved{id, thing.made, thing.info, Remember(thing.body), thing.loads, thing.goal, {}};
-    if (thing.grip) saved.grip = Description(*thing.grip);
+    for (const Grip& grip : thing.grips) saved.grips.push_back(Description(grip));
     data->things.push_back(std::move(saved));
   }
   data->next_actor = w.next_actor;
@@ -171,17 +171,17 @@ class World::Impl::Restorer {
       thing.loads = saved.loads;
       thing.goal = saved.goal;
     });
-    if (!saved.grip) return;
-    makings_.emplace_back(saved.grip->made, [this, &saved] {
-      // A grip keeps how hand and thing lay when it closed.
-      Thing& thing = w_.things.at(saved.id);
-      const Grip& grip = *saved.grip;
-      if (grip.character >= 0) {
-        Recall(w_.ActorOf(grip.character).character.body(grip.bone), grip.hand_then);
-      }
-      Recall(thing.body, grip.thing_then);
-      w_.Take(thing, Description(grip));
-    });
+    for (const Grip& grip : saved.grips) {
+      makings_.emplace_back(grip.made, [this, &saved, &grip] {
+        // A grip keeps how hand and thing lay when it closed.
+        Thing& thing = w_.things.at(saved.id);
+        if (grip.character >= 0) {
+          Recall(w_.ActorOf(grip.character).character.body(grip.bone), grip.hand_then);
+        }
+        Recall(thing.body, grip.thing_then);
+        w_.Take(thing, Description(grip));
+      });
+    }
   }
 
   void MoveAll() {

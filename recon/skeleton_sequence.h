@@ -21,6 +21,13 @@ struct JointRecord {
   std::optional<bool> visible;                    // truth files only
 };
 
+/// A thing that people handle, where it was in one frame: of a mechanical scene.
+struct ObjectRecord {
+  std::string name;
+  Eigen::Vector3d position_m = Eigen::Vector3d::Zero();  // camera space
+  Eigen::Quaterniond orientation = Eigen::Quaterniond::Identity();
+};
+
 /// One person in one frame of a recording.
 struct BodyRecord {
   int id = 0;
@@ -35,6 +42,7 @@ struct SkeletonFrame {
   double time_s = 0.0;
   std::optional<Eigen::Vector4d> floor;  // a b c d of ax + by + cz + d = 0, unit normal up, metres
   std::vector<BodyRecord> bodies;
+  std::vector<ObjectRecord> objects{};  // written to JSONL; no reader gives any
 };
 
 /// What any skeleton file holds, ours or an SDK's, brought to our joints, axes and units.

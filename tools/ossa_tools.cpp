@@ -3,7 +3,7 @@
 #include "tools/commands/command.h"
 #include "tools/commands/commands.h"
 #include "tools/commands/process.h"
-#include "tools/tracker/version.h"
+#include "tools/tracker/tracker.h"
 
 namespace {
 

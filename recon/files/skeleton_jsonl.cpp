@@ -85,6 +85,17 @@ void AppendBody(std::string& text, const BodyRecord& body) {
   text.push_back('}');
 }
 
+// Names are any text: theirs is JSON's own way to write one.
+void AppendObject(std::string& text, const ObjectRecord& object) {
+  text += "{\"name\":" + Json(object.name).dump(-1, ' ', true, Json::error_handler_t::replace) +
+          ",\"p\":";
+  AppendVector(text, object.position_m, kLengthDigits);
+  text += ",\"q\":";
+  const Eigen::Quaterniond& q = object.orientation;
+  AppendVector(text, std::array{q.w(), q.x(), q.y(), q.z()}, kLengthDigits);
+  text.push_back('}');
+}
+
 }  // namespace
 
 std::string SkeletonJsonLine(const SkeletonFrame& frame) {
@@ -99,7 +110,12 @@ std::string SkeletonJsonLine(const SkeletonFrame& frame) {
     if (b > 0) text.push_back(',');
     AppendBody(text, frame.bodies[b]);
   }
-  text += "]}";
+  text.push_back(']');
+  for (size_t k = 0; k < frame.objects.size(); ++k) {
+    text += k == 0 ? ",\"objects\":[" : ",";
+    AppendObject(text, frame.objects[k]);
+  }
+  text += frame.objects.empty() ? "}" : "]}";
   return text;
 }
 

@@ -13,10 +13,11 @@ namespace ossa::recon {
 /// {"frame":0,"time_s":0.0,"floor":[a,b,c,d],"bodies":[{"id":1,"joints":{"HipCenter":{"p":[x,y,z],
 /// "state":"tracked","confidence":0.93,"reliability":0.88,"q":[w,x,y,z],"visible":true},...}}]}
 /// Beside "joints" a body may have "bones": the lengths of the 19 bones as they were judged of this
-/// frame, in the order of the joints that they end in. Camera space, metres. Empty fields and
-/// joints are left out. Lengths carry seven digits after the point (a tenth of a micrometre), other
-/// numbers six. Throws std::invalid_argument for a number that is not finite: JSON cannot say it
-/// and a reader would refuse it.
+/// frame, in the order of the joints that they end in. Things of a scene follow the bodies,
+/// "objects":[{"name":"crate","p":[x,y,z],"q":[w,x,y,z]}]; readers pass them over. Camera space,
+/// metres. Empty fields and joints are left out. Lengths carry seven digits after the point (a
+/// tenth of a micrometre), other numbers six. Throws std::invalid_argument for a number that is not
+/// finite: JSON cannot say it and a reader would refuse it.
 std::string SkeletonJsonLine(const SkeletonFrame& frame);
 
 /// Appends frames to a stream as they come, a line each; every line is complete when Write returns.

@@ -228,6 +228,53 @@ TEST(Hold, BreaksWhereItIsNotStrongEnough) {
   }
 }
 
+TEST(Hold, IsSharedByHandsOfTwoPeople) {
+  World world;
+  world.SetFloor(Ground());
+  const recon::Posture first = StandingPerson(), second = Moved(first, {1.0, 0, 0});
+  const int a = world.AddCharacter(Lengths(), first), b = world.AddCharacter(Lengths(), second);
+  const int box = world.AddObject(Box({0.5, 0.83, 0.1}));  // 6 cm from either hand
+  world.Hold(a, Joint::kHandLeft, box, true);
+  world.Hold(b, Joint::kHandRight, box, true);
+  const auto stand = [&](int frames) {
+    for (int f = 0; f < frames; ++f) {
+      world.SetTarget(a, first);
+      world.SetTarget(b, second);
+      world.Step(kFrame_s);
+    }
+  };
+  stand(30);
+  EXPECT_EQ(world.HoldersOf(box),
+            (std::vector<Holder>{{a, Joint::kHandLeft}, {b, Joint::kHandRight}}));
+  const double shared_m = world.ObjectOf(box).position_m.y();
+  EXPECT_NEAR(shared_m, 0.83, 0.03);
+  world.Release(box, a, Joint::kHandLeft);
+  EXPECT_EQ(world.HoldersOf(box), (std::vector<Holder>{{b, Joint::kHandRight}}));
+  stand(30);
+  EXPECT_LT(world.ObjectOf(box).position_m.y(), shared_m);  // one alone carries it lower,
+  EXPECT_GT(world.ObjectOf(box).position_m.y(), 0.6);       // but carries it
+  world.RemoveCharacter(b);
+  EXPECT_TRUE(world.HoldersOf(box).empty());
+}
+
+TEST(Objects, TellHowFarAPointIsFromTheirSurface) {
+  World world;
+  ObjectOptions options = Box({1, 0, 0});  // edges of 0.2 m
+  options.orientation = Eigen::AngleAxisd(M_PI / 2, Vector3d::UnitZ());
+  const int box = world.AddObject(options);
+  EXPECT_NEAR(world.DistanceTo(box, {1.3, 0, 0}), 0.2, 1e-12);
+  EXPECT_NEAR(world.DistanceTo(box, {1.4, 0.5, 0}), 0.5, 1e-12);  // 0.3, 0.4 from an edge
+  EXPECT_NEAR(world.DistanceTo(box, {1.07, 0, 0}), -0.03, 1e-12);
+  options.shape = Shape::kCapsule;
+  options.size_m = {0.1, 0.4, 0.1};  // lies along x
+  const int capsule = world.AddObject(options);
+  EXPECT_NEAR(world.DistanceTo(capsule, {1.5, 0, 0}), 0.25, 1e-12);
+  EXPECT_NEAR(world.DistanceTo(capsule, {1.1, 0.2, 0}), 0.15, 1e-12);
+  options.parts = {{Shape::kBall, {0.2, 0.2, 0.2}, {0, 0.5, 0}}};  // at x = 0.5
+  const int compound = world.AddObject(options);
+  EXPECT_NEAR(world.DistanceTo(compound, {0.2, 0, 0}), 0.2, 1e-12);
+}
+
 TEST(ContactReport, SaysThatTheFloorCarriesAWeight) {
   World world;
   world.SetFloor(Ground());

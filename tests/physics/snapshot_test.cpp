@@ -35,6 +35,12 @@ struct Scene {
     mace.size_m = {0.06, 0.3, 0.06};
     mace.position_m = test::StandingPerson()[Joint::kHandRight] - Vector3d(0, 0.2, 0);
     world.Hold(dancer, Joint::kHandRight, world.AddObject(mace), true, 500.0);
+    ObjectOptions plank;
+    plank.size_m = {0.1, 0.02, 0.1};
+    plank.position_m = {0.66, 0.75, 0.1};
+    const int shared = world.AddObject(plank);
+    world.Hold(other, Joint::kHandRight, shared, false);
+    world.Hold(other, Joint::kWristRight, shared, false);
     ObjectOptions bar;
     bar.position_m = {1.4, 1.0, 0.3};
     const int swing = world.AddObject(bar);

@@ -1,9 +1,11 @@
 #pragma once
 #include <CLI/CLI.hpp>
+#include <optional>
 #include <string>
 
 #include "tools/commands/command.h"
 #include "tools/tracker/mechanics.h"
+#include "tools/tracker/scene.h"
 
 namespace ossa::commands {
 
@@ -11,27 +13,39 @@ namespace ossa::commands {
 struct MechanicsOptions {
   std::string physics = "off", control = "pd";
   tracker::MechanicsBuild build;
+  std::string scene;  // file; all people in one world
   bool on() const { return physics == "on"; }
+  bool follows() const { return on() || !scene.empty(); }
+  /// What the scene file says, with characters as they are asked for here; none without one.
+  std::optional<tracker::SceneOptions> Scene() const {
+    if (scene.empty()) return std::nullopt;
+    tracker::SceneOptions options = tracker::LoadScene(scene);
+    options.people = build;
+    return options;
+  }
   /// Throws UsageError for a character that is described and not asked for.
   void Check() const {
-    if (on() || !(build.motors || build.hinges || build.joint_limits)) return;
+    if (follows() || !(build.motors || build.hinges || build.joint_limits)) return;
     const char* option = build.motors   ? "--control motor"
                          : build.hinges ? "--hinges"
                                         : "--joint-limits";
-    throw UsageError(std::string(option) + ": expected --physics on with it");
+    throw UsageError(std::string(option) + ": expected --physics on or --scene with it");
   }
 };
 
 inline void AddMechanicsOptions(CLI::App& app, MechanicsOptions& options) {
   app.add_option("--physics", options.physics, "let a mechanical character follow (default off)")
       ->check(CLI::IsMember({"on", "off"}));
+  app.add_option(
+      "--scene", options.scene,
+      "FILE.toml of boxes, balls and rules: all people in one mechanical world with them");
   app.add_option("--control", options.control, "of that character: pd or motor (default pd)")
       ->check(CLI::IsMember({"pd", "motor"}))
       ->each([&options](const std::string& value) { options.build.motors = value == "motor"; });
   app.add_flag("--hinges", options.build.hinges,
-               "its elbows and knees bend about one axis (needs --physics on)");
+               "its elbows and knees bend about one axis (needs --physics on or --scene)");
   app.add_flag("--joint-limits", options.build.joint_limits,
-               "its joints keep to the ranges that people's have (needs --physics on)");
+               "its joints keep to the ranges that people's have (needs --physics on or --scene)");
 }
 
 }  // namespace ossa::commands

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cstdio>
 #include <filesystem>
+#include <functional>
 #include <memory>
 #include <string>
 #include <tuple>
@@ -29,6 +30,7 @@
 #include "tools/tracker/dynamics.h"
 #include "tools/tracker/mechanics.h"
 #include "tools/tracker/model_set.h"
+#include "tools/tracker/scene.h"
 #include "tools/tracker/shipped.h"
 
 namespace ossa::commands {
@@ -155,8 +157,8 @@ void AddDynamicsOptions(CLI::App& app, ReconstructArguments& a) {
 void CheckDynamics(const ReconstructArguments& a) {
   if (a.dynamics.empty() && a.mass_kg > 0.0)
     throw UsageError("--mass: expected --dynamics with it");
-  if (!a.dynamics.empty() && !a.mechanics.on()) {
-    throw UsageError("--dynamics: expected --physics on with it");
+  if (!a.dynamics.empty() && (!a.mechanics.on() || !a.mechanics.scene.empty())) {
+    throw UsageError("--dynamics: expected --physics on with it, and no --scene");
   }
 }
 
@@ -167,6 +169,22 @@ void CheckDynamicsOf(const ReconstructArguments& a, size_t recordings) {
     throw UsageError(fmt::format("--dynamics: expected one recording, found {}", recordings));
   }
   AtomicFile::CheckWritable(a.dynamics);
+}
+
+/// All people of a recording in one world. `update`: as FollowMechanically's progress.
+void PlayScene(const tracker::SceneOptions& options, recon::SkeletonSequence& sequence,
+               const ReconstructArguments& a, const std::function<bool(size_t)>& update) {
+  tracker::Scene scene(options);
+  size_t done = 0;
+  for (recon::SkeletonFrame& frame : sequence.frames) {
+    scene.Play(frame);
+    if (!update(++done)) return;
+  }
+  if (scene.has_floor() || options.objects.empty()) return;
+  Say(
+      fmt::format("ossa reconstruct: {}: the recording has no floor, so that no object appeared: "
+                  "expected floor = [a, b, c, d] in the file, or --floor\n",
+                  a.mechanics.scene));
 }
 
 InputError InterruptedEarly(const ReconstructArguments& a, size_t written, double total) {
@@ -211,7 +229,8 @@ int Reconstruct(int argc, char** argv) {
   a.floor.Check();
   CheckDynamics(a);
   CheckOneOf(a.options.method, a.files.database, a.files.prior);
-  CheckOutputs({a.out, a.dynamics}, {a.skeletons, a.read.mapping_file});
+  CheckOutputs({a.out, a.dynamics}, {a.skeletons, a.read.mapping_file, a.mechanics.scene});
+  const std::optional<tracker::SceneOptions> scene = a.mechanics.Scene();
   for (const double weight : a.weights) {
     if (!(weight >= 0))
       throw UsageError(fmt::format("--weights: expected numbers from 0 up, found {}", weight));
@@ -236,7 +255,7 @@ int Reconstruct(int argc, char** argv) {
   a.options.learned_file = LearnedFor(a, clips);
   const recon::SkeletonWriteOptions write = a.write.For(a.out);
   Progress progress("reconstruct", a.quiet);
-  const int rounds = 1 + (a.bones.of_recording() ? 1 : 0) + (a.mechanics.on() ? 1 : 0);
+  const int rounds = 1 + (a.bones.of_recording() ? 1 : 0) + (a.mechanics.on() || scene ? 1 : 0);
   double done = 0.0, total = 0.0;  // done: in all rounds
   for (const auto& clip : clips) total += static_cast<double>(clip.sequence.frames.size());
   size_t ready = 0, written = 0;  // frames of the clip at hand, and of all
@@ -258,7 +277,11 @@ int Reconstruct(int argc, char** argv) {
                     : recon::ReconstructSequence(clip.sequence, a.options, update, bones);
     done += frames;
     made = recon::SmoothSequence(made, LagFor(a));  // before: the character keeps the floor
-    if (a.mechanics.on()) {
+    if (scene) {
+      ready = 0;
+      PlayScene(*scene, made, a, update);
+      done += frames;
+    } else if (a.mechanics.on()) {
       ready = 0;
       tracker::FollowMechanically(made, a.mechanics.build, update);
       done += frames;

@@ -213,7 +213,10 @@ struct Destinations {
       moment.dropped = run.dropped;
       moment.is_upright = tracker.quarter_turns() == 0;
       moment.latency_ms = bodies.ms.total;
-      if (options.mechanics.on()) moment.solids = viewer::CapsulesOf(bodies);
+      if (options.mechanics.follows()) moment.solids = viewer::CapsulesOf(bodies);
+      for (viewer::Solid& solid : viewer::SolidsOf(bodies.objects)) {
+        moment.solids.push_back(std::move(solid));
+      }
       viewer->Show(std::move(moment));
     }
     waiting.pop_front();
@@ -329,6 +332,15 @@ void Report(const TrackOptions& options, const Run& run) {
   }
 }
 
+/// Things wait for a floor: where none came, say so.
+void SayMissingFloor(tracker::Tracker& tracker, const TrackOptions& options) {
+  if (tracker.scene() == nullptr || tracker.scene()->has_floor()) return;
+  Say(
+      fmt::format("ossa track: {}: no floor was seen, so that no object appeared: expected "
+                  "floor = [a, b, c, d] in the file\n",
+                  options.mechanics.scene));
+}
+
 void CheckFrames(const TrackOptions& options, const Run& run) {
   if (run.stats.frames() > 0) return;
   if (Interrupted()) {
@@ -387,6 +399,7 @@ int Track(int argc, char** argv) {
   output.Finish();
   pictures.Finish();
   Report(options, run);
+  SayMissingFloor(tracker, options);
   trace.Finish();
   if (!options.save_person.empty()) person.Finish(*options.tracker.models->surface, options.quiet);
   if (!run.failure.empty()) {

@@ -194,12 +194,13 @@ TrackOptions ParseTrackOptions(int argc, char** argv) {
   // A person file may be written over what was read of the same person.
   CheckOutputs({options.out, options.json_stats, options.picture, options.pictures, options.trace,
                 options.save_person},
-               {options.source.name});
+               {options.source.name, options.mechanics.scene});
   options.tracker.turn = TurnOf(options.source);
   if (options.fit == "on") CheckFit(options);
   if (options.fit == "off") options.tracker.fit.reset();
   options.tracker.physics = options.mechanics.on();
   options.tracker.mechanics = options.mechanics.build;
+  options.tracker.scene = options.mechanics.Scene();
   if (!options.smoothing.empty()) {
     options.tracker.smoothing = tracker::SmoothingPreset(options.smoothing);
   }

@@ -2,14 +2,13 @@
 
 #include <toml++/toml.h>
 #include <algorithm>
-#include <cctype>
 #include <cmath>
 #include <fstream>
 #include <iterator>
-#include <string_view>
 
 #include "depth/base/error.h"
 #include "depth/base/open_file.h"
+#include "depth/base/toml_shape.h"
 #include "tools/experiments/experiment.h"
 
 namespace ossa::tools {
@@ -35,93 +34,6 @@ std::string InToml(const Values& values, Format format) {
   return text + "]";
 }
 
-// Parameters are names, numbers, texts of one line and lists of those: TOML without tables. That a
-// file has this shape is looked at before toml++ reads it, for toml++ 3 runs into what it declares
-// unreachable at many a character that is not legal where it stands (found by fuzzing).
-class FlatToml {
- public:
-  FlatToml(std::string_view text, std::string source) : text_(text), source_(std::move(source)) {}
-
-  void Check() {
-    if (text_.starts_with("\xEF\xBB\xBF")) at_ = 3;  // a byte-order mark
-    for (SkipLines(); at_ < text_.size(); SkipLines()) {
-      Word("a name", "_-");
-      SkipBlanks();
-      if (!Take('=')) Refuse("name = value, no tables");
-      SkipBlanks();
-      if (Take('[')) {
-        List();
-      } else {
-        Item();
-      }
-      SkipBlanks();
-      SkipComment();
-      if (at_ < text_.size() && Next() != '\n') Refuse("the end of the line after a value");
-    }
-  }
-
- private:
-  char Next() const { return at_ < text_.size() ? text_[at_] : '\0'; }
-  bool Take(char c) {
-    if (at_ >= text_.size() || text_[at_] != c) return false;
-    ++at_;
-    line_ += c == '\n' ? 1 : 0;
-    return true;
-  }
-  void SkipBlanks() {
-    while (Take(' ') || Take('\t') || (text_.substr(at_, 2) == "\r\n" && Take('\r'))) continue;
-  }
-  void SkipComment() {
-    if (Next() == '#') at_ = std::min(text_.find('\n', at_), text_.size());
-  }
-  void SkipLines() {
-    do {
-      SkipBlanks();
-      SkipComment();
-    } while (Take('\n'));
-  }
-
-  void List() {
-    for (SkipLines(); !Take(']'); SkipLines()) {
-      Item();
-      SkipLines();
-      if (!Take(',') && Next() != ']')
-        Refuse("a comma or the end of a list, no lists within lists");
-    }
-  }
-
-  void Item() {
-    for (const char quote : {'"', '\''}) {
-      if (!Take(quote)) continue;
-      while (at_ < text_.size() && Next() != quote && Next() != '\n') {
-        const bool escapes = quote == '"' && Next() == '\\' && text_.substr(at_ + 1, 1) != "\n";
-        at_ += escapes ? 2U : 1U;
-      }
-      if (at_ >= text_.size() || !Take(quote) || Next() == quote)
-        Refuse("texts of one line, in one quote");
-      return;
-    }
-    Word("a number, a text or a list of them, no tables", "_-+.");
-  }
-
-  void Word(const std::string& what, std::string_view signs) {
-    const size_t begin = at_;
-    while (std::isalnum(static_cast<unsigned char>(Next())) != 0 ||
-           (at_ < text_.size() && signs.find(Next()) != std::string_view::npos)) {
-      ++at_;
-    }
-    if (static_cast<unsigned char>(Next()) >= 0x80) Refuse("letters beyond ASCII only in quotes");
-    if (at_ == begin) Refuse(what);
-  }
-
-  [[noreturn]] void Refuse(const std::string& expected) const { Fail(source_, line_, expected); }
-
-  std::string_view text_;
-  std::string source_;
-  size_t at_ = 0;
-  int line_ = 1;
-};
-
 std::string TextOf(const std::filesystem::path& path) {
   std::ifstream file = OpenFile(path);
   if (!file) {
@@ -136,7 +48,7 @@ Parameters Parameters::FromToml(const std::filesystem::path& path) {
   Parameters parameters;
   parameters.source_ = path.string();
   const std::string toml_text = TextOf(path);
-  FlatToml(toml_text, parameters.source_).Check();
+  CheckTomlShape(toml_text, parameters.source_, TomlTables::kNone);
   toml::table table;
   try {
     table = toml::parse(toml_text, path.string());

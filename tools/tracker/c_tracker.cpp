@@ -5,7 +5,6 @@
 
 #include "tools/tracker/c_interface_internal.h"
 #include "tools/tracker/tracker.h"
-#include "tools/tracker/version.h"
 
 struct ossa_tracker {
   ossa::tracker::Tracker tracker;

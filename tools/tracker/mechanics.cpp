@@ -93,19 +93,23 @@ std::optional<Eigen::Vector4d> Mechanics::OwnFloor(const recon::Posture& target,
   return floor_is_another_ ? std::nullopt : floor;
 }
 
-void Mechanics::Make(const recon::BoneLengths& bones_m) {
+void Mechanics::Make() {
   physics::CharacterFilterOptions options;
   if (build_.motors) options.control = physics::Control::kMotor;
   options.hinges = build_.hinges;
   options.joint_limits = build_.joint_limits;
   options.gains.rate_rad_s = rate_rad_s_;
-  character_ = std::make_unique<physics::CharacterFilter>(bones_m, options);
-  bones_m_ = bones_m;
+  character_ = std::make_unique<physics::CharacterFilter>(bones_.lengths_m(), options);
 }
 
-bool Mechanics::MeasuredAnew(const recon::BoneLengths& bones_m) {
+bool CharacterBones::Update(const recon::Posture& seen) {
   constexpr double kSame = 0.001, kOther = 0.01;  // share of the length
   constexpr int kPatience_frames = 10;
+  const recon::BoneLengths bones_m = MeasureSaneBones(seen);
+  if (!(bones_m_[1] > 0.0)) {
+    bones_m_ = bones_m;
+    return true;
+  }
   const auto most = [&](const recon::BoneLengths& other_m) {
     double share = 0.0;
     for (size_t i = 1; i < kJointCount; ++i) {
@@ -115,22 +119,25 @@ bool Mechanics::MeasuredAnew(const recon::BoneLengths& bones_m) {
   };
   same_frames_ = latest_m_[1] > 0.0 && most(latest_m_) < kSame ? same_frames_ + 1 : 0;
   latest_m_ = bones_m;
-  return same_frames_ == kPatience_frames && most(bones_m_) > kOther;
+  const bool is_anew = same_frames_ == kPatience_frames && most(bones_m_) > kOther;
+  if (is_anew) bones_m_ = bones_m;
+  return is_anew;
 }
+
+double HeldTrust(double trust) { return std::max(trust, kCompleted); }
 
 std::optional<physics::FilteredPosture> Mechanics::Follow(
     const recon::Posture& target, std::span<const double> trust,
     const std::optional<Eigen::Vector4d>& floor, double time_s,
     const std::optional<recon::JointOrientations>& orientation) {
-  const recon::BoneLengths bones_m = MeasureSaneBones(target);
   if (!character_) last_s_ = time_s - 1.0 / 30.0;
-  if (!character_ || MeasuredAnew(bones_m)) Make(bones_m);
+  if (bones_.Update(target)) Make();
   const double dt_s = time_s - last_s_;
   last_s_ = time_s;
   if (!(dt_s > 0.0)) return std::nullopt;
   std::vector<double> held(trust.begin(), trust.end());
   for (size_t i = 0; i < held.size(); ++i) {
-    if (target.position_m[i].allFinite()) held[i] = std::max(held[i], kCompleted);
+    if (target.position_m[i].allFinite()) held[i] = HeldTrust(held[i]);
   }
   const auto filtered = character_->Step(target, held, OwnFloor(target, floor), dt_s, orientation);
   if (!AllFinite(filtered.posture)) return std::nullopt;

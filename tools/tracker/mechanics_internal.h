@@ -10,6 +10,25 @@
 
 namespace ossa::tracker {
 
+/// Which bones a person's character has: those of the first posture, and others once the postures
+/// have come to have others for a while.
+class CharacterBones {
+ public:
+  /// True when the character is to be made, the first time or anew. Bones that cannot be had are
+  /// the standard ones, at the size of the others.
+  bool Update(const recon::Posture& seen);
+  const recon::BoneLengths& lengths_m() const { return bones_m_; }
+
+ private:
+  recon::BoneLengths bones_m_{};   // the character's; 0 before there is one
+  recon::BoneLengths latest_m_{};  // of the last posture
+  int same_frames_ = 0;            // for how long they have been so
+};
+
+/// How far a character is led to a joint that is known and trusted so: what nobody saw was placed
+/// by someone who knew better.
+double HeldTrust(double trust);
+
 /// The mechanical character of one person: made at the first posture, with its bones, and led by
 /// the postures that follow. Made anew when they come to have other bones, and keep those.
 class Mechanics {
@@ -30,16 +49,12 @@ class Mechanics {
   /// The floor, if it can be the one that the person stands on.
   std::optional<Eigen::Vector4d> OwnFloor(const recon::Posture& target,
                                           const std::optional<Eigen::Vector4d>& floor);
-  void Make(const recon::BoneLengths& bones_m);
-  /// Whether the postures have had these bones for a while, which are not the character's.
-  bool MeasuredAnew(const recon::BoneLengths& bones_m);
+  void Make();
 
   MechanicsBuild build_;
   double rate_rad_s_;
   std::unique_ptr<physics::CharacterFilter> character_;
-  recon::BoneLengths bones_m_{};   // the character's
-  recon::BoneLengths latest_m_{};  // of the last posture
-  int same_frames_ = 0;            // for how long they have been so
+  CharacterBones bones_;
   double last_s_ = 0.0;
   bool floor_is_another_ = false;  // what was taken for the floor is not under the person
 };

@@ -171,7 +171,9 @@ void Settle(SkeletonWork& work) {
   recon::Posture smoothed =
       Smooth(OutOfFreeSpace(held, work.observed, work.frame, work.person), work.frame.time_s,
              work.options.smoothing, work.person.smoothing);
-  if (work.options.physics || recon::MethodNamed(work.options.reconstructor.method).keeps_bones) {
+  const SkeletonOptions& options = work.options;
+  if (options.physics || options.scene ||
+      recon::MethodNamed(options.reconstructor.method).keeps_bones) {
     smoothed = WithBonesOf(work.posture, smoothed, work.observed, reliability);
   }
   work.posture = smoothed;

@@ -55,6 +55,7 @@ struct SkeletonOptions {
   TrackingMode mode = TrackingMode::kStanding;
   bool from_above = false;  // the camera hangs under the ceiling
   bool physics = false;
+  bool scene = false;  // people go on into one
   MechanicsBuild mechanics;
   SmoothingOptions smoothing;
   recon::ReconstructorOptions reconstructor;

@@ -44,6 +44,7 @@ recon::SkeletonFrame ToRecord(const BodyFrame& frame, PostureKind kind) {
   for (const Body& body : frame.bodies) {
     if (body.state == BodyState::kTracked) record.bodies.push_back(ToRecord(body, kind));
   }
+  if (kind == PostureKind::kFinal) record.objects = ToRecords(frame.objects);
   return record;
 }
 

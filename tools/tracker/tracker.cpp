@@ -121,6 +121,7 @@ struct Tracker::Impl {
   MountFinder mount_finder;
   std::optional<ModelSet> above;  // read when a ceiling was suspected
   LaggedBodies lagged;
+  std::optional<Scene> scene;
 
   explicit Impl(const TrackerOptions& o)
       : options(o),
@@ -135,7 +136,9 @@ struct Tracker::Impl {
     if (models.surface && (models.refinement || IsUnderCeiling())) skeleton.fit = o.fit;
     skeleton.from_above = IsUnderCeiling();
     skeleton.mode = o.mode;
-    skeleton.physics = o.physics;
+    if (o.scene) scene.emplace(*o.scene);
+    skeleton.scene = scene.has_value();
+    skeleton.physics = o.physics && !skeleton.scene;
     skeleton.mechanics = o.mechanics;
     skeleton.smoothing = SmoothingOf(o);
     skeleton.bones_m = o.bones_m;
@@ -161,6 +164,8 @@ struct Tracker::Impl {
     skeleton.smoothing = other.skeleton.smoothing;
   }
   bool ShowsCeilingView(const depth::DepthFrame& frame, const BodyFrame& tracked);
+  BodyFrame TrackTurned(const depth::DepthFrame& frame);
+  BodyFrame Play(BodyFrame frame);
   int QuarterTurns() const {
     return options.turn == Turn::kAuto ? upright.quarters() : static_cast<int>(options.turn);
   }
@@ -324,6 +329,7 @@ void TrackerOptions::Check() const {
                                 ", must be in [0, 2]");
   }
   if (smoothing) smoothing->Check();
+  if (scene) scene->Check();
   if (fit) fit->Check();
 }
 
@@ -335,7 +341,19 @@ Tracker::~Tracker() = default;
 Tracker::Tracker(Tracker&&) noexcept = default;
 Tracker& Tracker::operator=(Tracker&&) noexcept = default;
 
-BodyFrame Tracker::Track(const depth::DepthFrame& frame) {
+/// The last thing that is done to a frame: all people in one world.
+BodyFrame Tracker::Impl::Play(BodyFrame frame) {
+  if (!scene) return frame;
+  const Stopwatch watch;
+  scene->Play(frame);
+  const double ms = watch.milliseconds();
+  frame.ms.physics += ms;
+  frame.ms.total += ms;
+  return frame;
+}
+
+/// In the camera's own space, whichever way up it is.
+BodyFrame Tracker::Impl::TrackTurned(const depth::DepthFrame& frame) {
   const std::string name = "frame " + std::to_string(frame.index);
   depth::CheckCamera(frame.camera, name + ": camera");
   const auto pixels = static_cast<int64_t>(frame.depth_mm.size());
@@ -344,21 +362,21 @@ BodyFrame Tracker::Track(const depth::DepthFrame& frame) {
                      std::to_string(frame.camera.height) + " depth values, found " +
                      std::to_string(pixels));
   }
-  BodyFrame result = TrackTurned(frame);
-  if (!impl_->ShowsCeilingView(frame, result)) return result;
-  HangUnderCeiling();
-  return TrackTurned(frame);
+  const bool is_auto = options.turn == Turn::kAuto;
+  if (is_auto) FindUpright(frame);
+  const int quarters = QuarterTurns();
+  BodyFrame result = quarters == 0 ? Track(frame) : Track(depth::Turned(frame, quarters));
+  TurnBack(result, quarters);
+  if (!result.bodies.empty()) upright.Followed(frame.time_s);
+  return result;
 }
 
-BodyFrame Tracker::TrackTurned(const depth::DepthFrame& frame) {
-  const bool is_auto = impl_->options.turn == Turn::kAuto;
-  if (is_auto) impl_->FindUpright(frame);
-  const int quarters = impl_->QuarterTurns();
-  BodyFrame result =
-      quarters == 0 ? impl_->Track(frame) : impl_->Track(depth::Turned(frame, quarters));
-  TurnBack(result, quarters);
-  if (!result.bodies.empty()) impl_->upright.Followed(frame.time_s);
-  return result;
+// In the camera's own space, whichever way up it is; from then on with the models of where it is.
+BodyFrame Tracker::TrackAsMounted(const depth::DepthFrame& frame) {
+  BodyFrame result = impl_->TrackTurned(frame);
+  if (!impl_->ShowsCeilingView(frame, result)) return result;
+  HangUnderCeiling();
+  return impl_->TrackTurned(frame);
 }
 
 // Everything anew but for what the application asked for meanwhile.
@@ -374,12 +392,25 @@ void Tracker::HangUnderCeiling() {
 
 Mount Tracker::mount() const { return impl_->IsUnderCeiling() ? Mount::kCeiling : Mount::kLevel; }
 
-std::optional<BodyFrame> Tracker::TrackLate(const depth::DepthFrame& frame) {
-  BodyFrame bodies = Track(frame);  // first: it may exchange impl_
-  return impl_->lagged.Add(std::move(bodies));
+// Tracked first: that may exchange impl_.
+BodyFrame Tracker::Track(const depth::DepthFrame& frame) {
+  BodyFrame tracked = TrackAsMounted(frame);
+  return impl_->Play(std::move(tracked));
 }
 
-std::optional<BodyFrame> Tracker::TakeHeld() { return impl_->lagged.TakeHeld(); }
+// Smoothed first: what touches in the world is not moved apart.
+std::optional<BodyFrame> Tracker::TrackLate(const depth::DepthFrame& frame) {
+  BodyFrame tracked = TrackAsMounted(frame);
+  auto late = impl_->lagged.Add(std::move(tracked));
+  if (!late) return std::nullopt;
+  return impl_->Play(std::move(*late));
+}
+
+std::optional<BodyFrame> Tracker::TakeHeld() {
+  auto held = impl_->lagged.TakeHeld();
+  if (!held) return std::nullopt;
+  return impl_->Play(std::move(*held));
+}
 
 void Tracker::FindUpright(depth::FrameSource& source, const std::function<bool()>& idle) {
   constexpr double kLongest_s = 20.0;  // by hand: people come into view before
@@ -433,6 +464,9 @@ void Tracker::Reset() {
   }
   impl_->mount_finder = {};
   impl_->ForgetAll();
+  if (impl_->scene) impl_->scene->Reset();
+}
+Scene* Tracker::scene() { return impl_->scene ? &*impl_->scene : nullptr; }
 }
 
 }  // namespace ossa::tracker

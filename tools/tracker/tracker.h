@@ -17,6 +17,7 @@
 #include "tools/people/decision.h"
 #include "tools/tracker/mechanics.h"
 #include "tools/tracker/model_set.h"
+#include "tools/tracker/scene.h"
 #include "tools/tracker/smoothing.h"
 
 namespace ossa::depth {
@@ -116,13 +117,14 @@ struct StageTimes {
 struct BodyFrame {
   int64_t index = 0;
   double time_s = 0.0;
-  std::optional<Eigen::Vector4d> floor;  // a b c d, unit normal up: the SDK's floor clip plane
-  std::optional<double> tilt_down_rad;   // of the sensor, from the floor; negative: it looks up
-  std::vector<Body> bodies;              // by id
-  depth::Image<uint8_t> users;           // id of the body each pixel belongs to, 0 nobody
-  depth::Image<uint8_t> parts;           // body part per pixel; empty unless asked for
-  PartProbabilities probabilities;       // by the trees alone; empty unless asked for
-  people::FrameDecisions decisions;      // why whoever is here was found, or not
+  std::optional<Eigen::Vector4d> floor;   // a b c d, unit normal up: the SDK's floor clip plane
+  std::optional<double> tilt_down_rad;    // of the sensor, from the floor; negative: it looks up
+  std::vector<Body> bodies;               // by id
+  depth::Image<uint8_t> users;            // id of the body each pixel belongs to, 0 nobody
+  depth::Image<uint8_t> parts;            // body part per pixel; empty unless asked for
+  PartProbabilities probabilities;        // by the trees alone; empty unless asked for
+  std::vector<SceneObjectState> objects;  // of TrackerOptions::scene
+  people::FrameDecisions decisions;       // why whoever is here was found, or not
   StageTimes ms;
 };
 
@@ -156,7 +158,10 @@ struct TrackerOptions {
   /// Fit the body's surface to the depth image, from the refined joints on, and let the method
   /// start from both. Nothing, or models without a refinement or a surface: no fit.
   std::optional<recon::SurfaceFitOptions> fit = recon::SurfaceFitOptions{};
-  MechanicsBuild mechanics;                        // how that is built
+  MechanicsBuild mechanics;  // how that is built
+  /// All people in one mechanical world, with the things of a scene: in place of `physics`, which
+  /// knows each person alone. Joints are where that world lets them be.
+  std::optional<SceneOptions> scene;
   recon::LocalPcaOptions local_pca;                // of shum-2013 and plantard-2016
   recon::GaussianProcessOptions gaussian_process;  // of liu-2016 and full-gp
   recon::BestOptions best;                         // of best; `refined_joints` follows the models
@@ -232,17 +237,23 @@ class Tracker {
   /// For a camera that was mounted anew; forgets everybody where it is another turn.
   void SetTurn(Turn turn);
   void SetSmoothing(const SmoothingOptions& smoothing);
-  /// Forgets everybody, and with Mount::kAuto where the camera is.
+  /// The world of TrackerOptions::scene, for an application that has more to do in it; null
+  /// without.
+  Scene* scene();
+  /// Forgets everybody, and with Mount::kAuto where the camera is; a scene begins anew.
   void Reset();
 
  private:
-  BodyFrame TrackTurned(const depth::DepthFrame& frame);
+  BodyFrame TrackAsMounted(const depth::DepthFrame& frame);
   void HangUnderCeiling();
 
   struct Impl;
   std::unique_ptr<Impl> impl_;
   std::unique_ptr<Impl> level_;  // while impl_ is that of a ceiling: what was before
 };
+
+/// "MAJOR.MINOR.PATCH" of the library that runs, which may be another than the headers'.
+const char* Version();
 
 /// The SDK's seated joints: shoulders and up, arms and hands.
 bool IsSeatedJoint(recon::Joint joint);

@@ -1,4 +1,4 @@
-#include "tools/tracker/version.h"
+#include "tools/tracker/tracker.h"
 
 namespace ossa::tracker {
 

@@ -60,6 +60,20 @@ std::vector<Solid> CapsulesOf(const tracker::BodyFrame& bodies) {
   return all;
 }
 
+std::vector<Solid> SolidsOf(const std::vector<tracker::SceneObjectState>& objects) {
+  std::vector<Solid> all;
+  for (const tracker::SceneObjectState& object : objects) {
+    const physics::ObjectOptions& body = object.body;
+    all.push_back({body.shape, body.size_m, object.position_m, object.orientation});
+    for (const physics::ObjectPart& part : body.parts) {
+      all.push_back({part.shape, part.size_m,
+                     object.position_m + object.orientation * part.position_m,
+                     object.orientation * part.orientation});
+    }
+  }
+  return all;
+}
+
 std::string SolidsJson(const std::vector<Solid>& solids) {
   std::string text = "[";
   for (const Solid& solid : solids) {

@@ -7,7 +7,7 @@
 
 #include "tests/support/places.h"
 #include "tests/tools/tracker/tracked_scenes.h"
-#include "tools/tracker/version.h"
+#include "tools/tracker/tracker.h"
 
 namespace ossa::tracker {
 namespace {

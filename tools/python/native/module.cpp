@@ -13,7 +13,7 @@
 #include "recon/methods/method_table.h"
 #include "tools/python/native/native.h"
 #include "tools/tracker/smoothing.h"
-#include "tools/tracker/version.h"
+#include "tools/tracker/tracker.h"
 
 namespace ossa::python {
 namespace {

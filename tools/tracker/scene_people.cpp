@@ -1,0 +1,183 @@
+// People of a scene: who is in the world, where they are wanted, what their hands do.
+#include <algorithm>
+#include <cmath>
+
+#include "tools/tracker/scene_internal.h"
+
+namespace ossa::tracker {
+namespace {
+
+using Eigen::Vector3d;
+using recon::Joint;
+using recon::kJointCount;
+using recon::Posture;
+
+// Constants: chosen by hand, where nothing else is said.
+
+constexpr double kForget_s = 0.5;     // who is out of the picture for longer is gone
+constexpr double kElsewhere_m = 1.0;  // joints' mean; physics::CharacterFilterOptions::teleport_m
+constexpr int kElsewhereFrames = 3;   // and its teleport_frames
+constexpr double kFollowing_rad_s = 60.0;  // of Simulate in person.cpp: targets are smooth
+
+physics::CharacterOptions BuildOf(const SceneOptions& scene) {
+  physics::CharacterOptions options;
+  if (scene.people.motors) options.control = physics::Control::kMotor;
+  options.hinges = scene.people.hinges;
+  options.joint_limits = scene.people.joint_limits;
+  options.gains.rate_rad_s = kFollowing_rad_s;
+  options.lead = 1.0;  // as physics::CharacterFilterOptions
+  if (scene.dodge) {
+    options.dodge = scene.dodge->cover;
+    options.lean = scene.dodge->lean;
+  }
+  return options;
+}
+
+/// What is not known stands as the rest of the body would have it stand. Nothing where neither the
+/// hips nor what is above them are known.
+std::optional<Posture> Completed(const Posture& seen, const recon::BoneLengths& lengths_m,
+                                 const Vector3d& up) {
+  Posture whole = seen;
+  const auto known = [&](size_t j) { return seen.position_m[j].allFinite(); };
+  if (!known(0)) {
+    const auto first = std::find_if(seen.position_m.begin(), seen.position_m.end(),
+                                    [](const Vector3d& p) { return p.allFinite(); });
+    if (first == seen.position_m.end()) return std::nullopt;
+    double height_m = 0.0;  // of that joint above the hips, standing
+    for (size_t j = static_cast<size_t>(first - seen.position_m.begin()); j != 0;
+         j = recon::ParentOf(j)) {
+      height_m += j < recon::Index(Joint::kHipLeft) ? lengths_m[j] : -lengths_m[j];
+    }
+    whole.position_m[0] = *first - height_m * up;
+  }
+  for (size_t j = 1; j < kJointCount; ++j) {
+    if (known(j)) continue;
+    const double side = j <= recon::Index(Joint::kHead) ? 1.0 : -1.0;  // trunk up, limbs down
+    whole.position_m[j] = whole.position_m[recon::ParentOf(j)] + side * lengths_m[j] * up;
+  }
+  return whole;
+}
+
+double MeanDistance_m(const Posture& made, const Posture& seen) {
+  double sum_m = 0.0;
+  int count = 0;
+  for (size_t j = 0; j < kJointCount; ++j) {
+    if (!seen.position_m[j].allFinite()) continue;
+    sum_m += (made.position_m[j] - seen.position_m[j]).norm();
+    ++count;
+  }
+  return count == 0 ? 0.0 : sum_m / count;
+}
+
+/// With the joints of `made` where nothing was seen.
+Posture FilledFrom(const Posture& made, const Posture& seen) {
+  Posture filled = seen;
+  for (size_t j = 0; j < kJointCount; ++j) {
+    if (seen.position_m[j].allFinite()) continue;
+    const size_t parent = j == 0 ? 0 : recon::ParentOf(j);
+    filled.position_m[j] =
+        j == 0 ? made.position_m[0]
+               : Vector3d(filled.position_m[parent] + made.position_m[j] - made.position_m[parent]);
+  }
+  return filled;
+}
+
+}  // namespace
+
+/// The first time, or with other bones, holding what they held.
+void Scene::Impl::Make(SceneActor& actor, const Posture& start) {
+  struct Held {
+    int object;
+    Joint joint;
+  };
+  std::vector<Held> held;
+  if (actor.character >= 0) {
+    for (const int object : world.Objects()) {
+      for (const physics::Holder& holder : world.HoldersOf(object)) {
+        if (holder.character == actor.character) held.push_back({object, holder.joint});
+      }
+    }
+    world.RemoveCharacter(actor.character);
+  }
+  actor.character = world.AddCharacter(actor.bones.lengths_m(), start, BuildOf(options));
+  for (const Held& one : held) {
+    world.Hold(actor.character, one.joint, one.object, true, StrengthOn(one.object));
+  }
+}
+
+/// Whether somebody is not where their character is, and it is not one odd frame.
+bool Scene::Impl::IsElsewhere(SceneActor& actor, const Posture& seen) const {
+  const bool far = MeanDistance_m(world.StateOf(actor.character).posture, seen) > kElsewhere_m;
+  actor.far_frames = far ? actor.far_frames + 1 : 0;
+  return actor.far_frames >= kElsewhereFrames;
+}
+
+void Scene::Impl::FollowPeople(const std::vector<ScenePerson>& people, bool gap) {
+  const Vector3d up = floor ? Vector3d(floor->head<3>()) : Vector3d::UnitY();
+  for (const ScenePerson& person : people) {
+    const bool is_new = !actors.contains(person.id);
+    SceneActor& actor = actors[person.id];
+    const bool is_to_be_made = actor.bones.Update(person.seen);
+    const auto whole = Completed(person.seen, actor.bones.lengths_m(), up);
+    if (!whole) {
+      if (is_new) actors.erase(person.id);
+      continue;
+    }
+    if (is_new) {
+      actor.place = ++came;
+      actor.came_s = now_s;
+    }
+    actor.seen_s = now_s;
+    if (is_new || is_to_be_made) {
+      Make(actor, is_new ? *whole : world.StateOf(actor.character).posture);
+    } else if (gap || IsElsewhere(actor, person.seen)) {
+      world.Place(actor.character, FilledFrom(world.StateOf(actor.character).posture, person.seen),
+                  person.orientation);
+      actor.far_frames = 0;
+      actor.hands.clear();
+    }
+    recon::JointArray<double> trust = person.trust;
+    for (size_t j = 0; j < kJointCount; ++j) {
+      trust[j] = person.seen.position_m[j].allFinite() ? HeldTrust(trust[j]) : 0.0;
+    }
+    world.SetTarget(actor.character, person.seen, trust, person.orientation);
+    actor.seen = FilledFrom(world.StateOf(actor.character).posture, person.seen);
+  }
+  ForgetGone();
+}
+
+void Scene::Impl::ForgetGone() {
+  std::erase_if(actors, [this](const auto& entry) {
+    if (now_s - entry.second.seen_s <= kForget_s) return false;
+    world.RemoveCharacter(entry.second.character);
+    return true;
+  });
+}
+
+Vector3d HandMemory::SteadyVelocity_m_s() const {
+  Vector3d middle;
+  for (Eigen::Index axis = 0; axis < 3; ++axis) {
+    const double a = seen_velocity_m_s[0][axis], b = seen_velocity_m_s[1][axis];
+    middle[axis] = std::clamp(seen_velocity_m_s[2][axis], std::min(a, b), std::max(a, b));
+  }
+  return middle;
+}
+
+void Scene::Impl::WatchHands(double dt_s) {
+  for (auto& [id, actor] : actors) {
+    const Posture made = world.StateOf(actor.character).posture;
+    for (const Joint joint : grabbing) {
+      HandMemory& hand = actor.hands[joint];
+      if (hand.seen_m) {
+        auto& velocity = hand.seen_velocity_m_s;
+        std::rotate(velocity.begin(), velocity.begin() + 1, velocity.end());
+        velocity.back() = (actor.seen[joint] - *hand.seen_m) / dt_s;
+        hand.made_velocity_m_s = (made[joint] - *hand.made_m) / dt_s;
+      }
+      hand.seen_m = actor.seen[joint];
+      hand.made_m = made[joint];
+    }
+  }
+}
+
+}  // namespace ossa::tracker
