@@ -147,8 +147,8 @@ py::dict ToDict(const recon::SurfaceFit& fit, const MeshPointer& mesh) {
   for (const Eigen::Matrix3d& of_joint : fit.covariance_m2) {
     covariance_m2.insert(covariance_m2.end(), of_joint.data(), of_joint.data() + of_joint.size());
   }
-  made["covariance_m2"] = python::ToArray(
-      std::move(covariance_m2), {static_cast<py::ssize_t>(recon::kJointCount), 3, 3});
+  made["covariance_m2"] = python::ToArray(std::move(covariance_m2),
+                                          {static_cast<py::ssize_t>(recon::kJointCount), 3, 3});
   made["explained"] = fit.explained;
   made["score"] = fit.score;
   made["median_residual_m"] = fit.median_residual_m;
