@@ -5,6 +5,18 @@
 #include "tools/tracker/mount_finder_internal.h"
 
 namespace ossa::tracker {
+namespace {
+
+/// Whether something goes on below the image, as whoever stands before a wall in view of a level
+/// camera that sees no floor.
+bool IsCutBelow(const people::Candidate& candidate, const depth::DepthFrame& frame) {
+  constexpr double kMargin = 0.02;  // of the image's height: sensors' rims are blind; by hand
+  const double lowest = (1.0 - kMargin) * frame.camera.height - 1.0;
+  // Pixels ascend.
+  return !candidate.pixels.empty() && candidate.pixels.back() / frame.camera.width >= lowest;
+}
+
+}  // namespace
 
 bool MountFinder::IsDue(const BodyFrame& tracked) {
   constexpr double kEvery_s = 1.0;  // by hand: a look costs some milliseconds
@@ -21,7 +33,8 @@ bool MountFinder::Confirm(bool looks_down) {
   return ++looks_ == 1 ? looks_down : agreeing_ >= kAgreeing;
 }
 
-bool MayBeFromAbove(const depth::DepthFrame& frame, const people::PeopleOptions& above) {
+bool MayBeFromAbove(const depth::DepthFrame& frame, const people::PeopleOptions& above,
+                    bool somebody_is_level) {
   constexpr double kLeastFloor = 0.25;  // share of what is measured; by hand on real stills
   depth::SceneState nothing;
   const depth::Scene scene = depth::MeasureScene(frame, nothing, above.scene);
@@ -35,7 +48,10 @@ bool MayBeFromAbove(const depth::DepthFrame& frame, const people::PeopleOptions&
   const auto proposed =
       people::ProposeCandidates(frame, scene, {}, above.association.reidentify, above.candidates);
   return std::any_of(proposed.candidates.begin(), proposed.candidates.end(),
-                     [](const people::Candidate& candidate) { return candidate.has_head; });
+                     [&](const people::Candidate& candidate) {
+                       return candidate.has_head &&
+                              !(somebody_is_level && IsCutBelow(candidate, frame));
+                     });
 }
 
 }  // namespace ossa::tracker

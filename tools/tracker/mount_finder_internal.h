@@ -22,8 +22,10 @@ class MountFinder {
 };
 
 /// Whether a frame shows, from above, a floor that fills much of it and something with a head that
-/// stands on it. Before a level camera a wall is as flat and as far, but what is before it has no
-/// top with everything around lower.
-bool MayBeFromAbove(const depth::DepthFrame& frame, const people::PeopleOptions& above);
+/// stands on it. Before a level camera a wall is as flat and as far. But who stands there without a
+/// floor in view goes on below the image: where `somebody_is_level`, a body whose surface explains
+/// what a level camera would see, such heads do not count.
+bool MayBeFromAbove(const depth::DepthFrame& frame, const people::PeopleOptions& above,
+                    bool somebody_is_level);
 
 }  // namespace ossa::tracker

@@ -107,9 +107,27 @@ TEST(Mount, IsForgottenWithEverybody) {
   EXPECT_EQ(tracker.mount(), Mount::kLevel);
 }
 
+// A head near the camera with a wall far behind is as high over the wall as heads are over floors.
+TEST(Mount, OfALevelCameraWithSomebodyNearBeforeAWallStaysLevel) {
+  OSSA_NEEDS_CEILING();
+  for (const double distance_m : {0.8, 1.1}) {
+    tests::CapsuleScene scene;
+    scene.people = {PersonAt(0.0, distance_m)};
+    scene.planes = {{-Eigen::Vector3d::UnitZ(), 2.6}};
+    Tracker tracker;
+    for (int f = 0; f < 4; ++f) {
+      depth::DepthFrame frame = tests::Render(scene, depth::KinectV1Camera(320, 240)).frame;
+      frame.index = f;
+      frame.time_s = 1.1 * f;
+      tracker.Track(frame);
+    }
+    EXPECT_EQ(tracker.mount(), Mount::kLevel) << distance_m;
+  }
+}
+
 TEST(Mount, OfALevelCameraBeforeAWallStaysLevel) {
   OSSA_NEEDS_MODEL();
-  EXPECT_FALSE(MayBeFromAbove(BeforeAWall(), people::PeopleOptionsFromAbove()));
+  EXPECT_FALSE(MayBeFromAbove(BeforeAWall(), people::PeopleOptionsFromAbove(), false));
   Tracker tracker;
   depth::DepthFrame frame = BeforeAWall();
   for (int i = 0; i < 4; ++i) {
