@@ -468,6 +468,5 @@ void Tracker::Reset() {
   if (impl_->scene) impl_->scene->Reset();
 }
 Scene* Tracker::scene() { return impl_->scene ? &*impl_->scene : nullptr; }
-}
 
 }  // namespace ossa::tracker
