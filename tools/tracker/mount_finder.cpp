@@ -1,5 +1,7 @@
 #include <algorithm>
+#include <vector>
 
+#include "depth/scene/regions.h"
 #include "depth/scene/scene.h"
 #include "tools/people/propose_candidates.h"
 #include "tools/tracker/mount_finder_internal.h"
@@ -7,13 +9,21 @@
 namespace ossa::tracker {
 namespace {
 
-/// Whether something goes on below the image, as whoever stands before a wall in view of a level
-/// camera that sees no floor.
-bool IsCutBelow(const people::Candidate& candidate, const depth::DepthFrame& frame) {
-  constexpr double kMargin = 0.02;  // of the image's height: sensors' rims are blind; by hand
-  const double lowest = (1.0 - kMargin) * frame.camera.height - 1.0;
-  // Pixels ascend.
-  return !candidate.pixels.empty() && candidate.pixels.back() / frame.camera.width >= lowest;
+/// Cells of connected pieces, floor apart, that go on below the image: as whoever stands before a
+/// wall in view of a level camera that sees no floor.
+std::vector<uint8_t> FindCutBelow(const depth::Scene& scene) {
+  constexpr float kLeastPiece_m2 = 0.02F;  // a hand; by hand
+  constexpr double kMargin = 0.03;  // of the image's height: sensors' rims are blind; by hand
+  const depth::PointGrid& grid = scene.grid;
+  const int lowest = static_cast<int>((1.0 - kMargin) * grid.height) - 1;
+  std::vector<uint8_t> cut(static_cast<size_t>(grid.cells()), 0);
+  for (const depth::Region& piece :
+       depth::FindConnectedRegions(grid, scene.surfaces.floor, kLeastPiece_m2)) {
+    const bool is_cut = std::any_of(piece.cells.begin(), piece.cells.end(),
+                                    [&](int cell) { return cell / grid.width >= lowest; });
+    for (const int cell : piece.cells) cut[static_cast<size_t>(cell)] = is_cut ? 1 : 0;
+  }
+  return cut;
 }
 
 }  // namespace
@@ -33,8 +43,7 @@ bool MountFinder::Confirm(bool looks_down) {
   return ++looks_ == 1 ? looks_down : agreeing_ >= kAgreeing;
 }
 
-bool MayBeFromAbove(const depth::DepthFrame& frame, const people::PeopleOptions& above,
-                    bool somebody_is_level) {
+bool MayBeFromAbove(const depth::DepthFrame& frame, const people::PeopleOptions& above) {
   constexpr double kLeastFloor = 0.25;  // share of what is measured; by hand on real stills
   depth::SceneState nothing;
   const depth::Scene scene = depth::MeasureScene(frame, nothing, above.scene);
@@ -47,10 +56,11 @@ bool MayBeFromAbove(const depth::DepthFrame& frame, const people::PeopleOptions&
   if (floor < kLeastFloor * valid) return false;
   const auto proposed =
       people::ProposeCandidates(frame, scene, {}, above.association.reidentify, above.candidates);
+  const std::vector<uint8_t> cut_below = FindCutBelow(scene);
   return std::any_of(proposed.candidates.begin(), proposed.candidates.end(),
                      [&](const people::Candidate& candidate) {
                        return candidate.has_head &&
-                              !(somebody_is_level && IsCutBelow(candidate, frame));
+                              depth::MeasureShare(candidate.region, cut_below) <= 0.5;
                      });
 }
 

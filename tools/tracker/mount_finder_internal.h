@@ -22,10 +22,8 @@ class MountFinder {
 };
 
 /// Whether a frame shows, from above, a floor that fills much of it and something with a head that
-/// stands on it. Before a level camera a wall is as flat and as far. But who stands there without a
-/// floor in view goes on below the image: where `somebody_is_level`, a body whose surface explains
-/// what a level camera would see, such heads do not count.
-bool MayBeFromAbove(const depth::DepthFrame& frame, const people::PeopleOptions& above,
-                    bool somebody_is_level);
+/// stands on it and does not go on below the image. Before a level camera a wall is as flat and as
+/// far, but who stands there without a floor in view does go on.
+bool MayBeFromAbove(const depth::DepthFrame& frame, const people::PeopleOptions& above);
 
 }  // namespace ossa::tracker

@@ -188,8 +188,7 @@ bool Tracker::Impl::ShowsCeilingView(const depth::DepthFrame& frame, const BodyF
   if (!mount_finder.IsDue(tracked)) return false;
   people::PeopleOptions from_above = people::PeopleOptionsFromAbove();
   from_above.candidates.overhead->min_head_m = kLeastHead_m;
-  if (!MayBeFromAbove(frame, from_above, !tracked.bodies.empty()))
-    return mount_finder.Confirm(false);
+  if (!MayBeFromAbove(frame, from_above)) return mount_finder.Confirm(false);
   if (!above) above = FromCeiling(models);
   const auto above_targets = people::FindJointTargets(*above->forest, above->forest_file);
   return mount_finder.Confirm(ScorePeople(frame, {*above->forest, above_targets}, from_above) >=

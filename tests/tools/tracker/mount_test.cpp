@@ -127,7 +127,7 @@ TEST(Mount, OfALevelCameraWithSomebodyNearBeforeAWallStaysLevel) {
 
 TEST(Mount, OfALevelCameraBeforeAWallStaysLevel) {
   OSSA_NEEDS_MODEL();
-  EXPECT_FALSE(MayBeFromAbove(BeforeAWall(), people::PeopleOptionsFromAbove(), false));
+  EXPECT_FALSE(MayBeFromAbove(BeforeAWall(), people::PeopleOptionsFromAbove()));
   Tracker tracker;
   depth::DepthFrame frame = BeforeAWall();
   for (int i = 0; i < 4; ++i) {
