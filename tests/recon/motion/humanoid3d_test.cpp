@@ -92,6 +92,9 @@ TEST(Humanoid3d, DamageIsRefusedByFrameAndPlace) {
   EXPECT_NE(refusal(Text({Row(), short_row})).find("Frames[1]: expected 44 numbers, found 43"),
             std::string::npos);
   EXPECT_NE(refusal(Text({no_quaternion})).find("a unit quaternion at [12]"), std::string::npos);
+  auto blended = Row();
+  blended[12] = 0.6;
+  EXPECT_EQ(refusal(Text({blended})), "accepted");
   EXPECT_NE(refusal(Text({no_time, Row()})).find("a frame time"), std::string::npos);
   EXPECT_NE(refusal("{\"Frames\": []}").find("h.txt"), std::string::npos);
   EXPECT_NE(refusal("[[[[[[[").find("expected JSON"), std::string::npos);
