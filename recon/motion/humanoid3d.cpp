@@ -61,7 +61,7 @@ Row ReadRow(const nlohmann::json& row, size_t frame, const std::string& source) 
     if (part.numbers == 4) {
       const Eigen::Vector4d q(numbers[at], numbers[at + 1], numbers[at + 2], numbers[at + 3]);
       // Published clips were blended number by number: lengths of 0.58 and 1.2 are among them.
-      constexpr double kShortest = 0.5, kLongest = 2.0;  // by hand
+      constexpr double kShortest = 0.5, kLongest = 2.0;  // norms, ratios to 1; by hand
       if (!(q.norm() > kShortest && q.norm() < kLongest)) {
         throw InputError(where + "a unit quaternion at [" + std::to_string(at) +
                          "], found length " + std::to_string(q.norm()));

@@ -13,7 +13,7 @@ namespace {
 /// wall in view of a level camera that sees no floor.
 std::vector<uint8_t> FindCutBelow(const depth::Scene& scene) {
   constexpr float kLeastPiece_m2 = 0.02F;  // a hand; by hand
-  constexpr double kMargin = 0.03;  // share of the image's height: rims are blind; by hand
+  constexpr double kMargin = 0.03;         // share of the image's height: rims are blind; by hand
   const depth::PointGrid& grid = scene.grid;
   const int lowest = static_cast<int>((1.0 - kMargin) * grid.height) - 1;
   std::vector<uint8_t> cut(static_cast<size_t>(grid.cells()), 0);
