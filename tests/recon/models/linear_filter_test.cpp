@@ -249,8 +249,8 @@ TEST_F(FilterFile, OfTheVersionBeforeHasNone) {
 TEST_F(FilterFile, OfALaterVersionIsRefusedByItsNumber) {
   models_.Save(path_);
   const auto payload = ReadContainer(path_, {kMagic, 3, "learned reconstruction"});
-  WriteContainer(path_, {kMagic, 5, "learned reconstruction"}, payload);
-  EXPECT_NE(Refusal().find("version: expected 4, found 5"), std::string::npos) << Refusal();
+  WriteContainer(path_, {kMagic, 6, "learned reconstruction"}, payload);
+  EXPECT_NE(Refusal().find("version: expected 5, found 6"), std::string::npos) << Refusal();
 }
 
 TEST_F(FilterFile, WithWeightsOfAnotherJointIsRefused) {

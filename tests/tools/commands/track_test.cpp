@@ -94,6 +94,7 @@ TEST(TrackCommand, RefusesAPersonFileThatIsDamaged) {
 TEST(TrackCommand, SaysWhereNobodyIsThereWhoCouldBeSaved) {
   OSSA_NEEDS_MODEL();
   const TemporaryFolder folder;
+  std::filesystem::create_directory(folder / "wall");
   WriteFlat(folder / "wall", 2000, 2);
   const std::string me = (folder / "me.ossaperson").string();
   const CommandResult result =
