@@ -18,8 +18,8 @@ struct LevelOptions {
   double change_deg = 4.0;  // another tilt by more is taken over: the camera was moved
   double most_deg = 40.0;   // farther from the camera's up lies nobody's floor, and stands nobody
   int floor_frames = 5;  // with a floor of that tilt one after the other: one alone may be a table
-  // Of a body that stands: legs and trunk in line within so much. At 29 a forest's joints of who
-  // walks suffice, but bent knees pass for a tilt, too.
+  // Of a body that stands: legs and trunk in line within so much. Wider, bent knees pass for a
+  // tilt (best_test's motions).
   double straight_deg = 20.0;
   int fewest_frames = 15;  // of a standing body, half a second
   int memory_frames = 90;  // three seconds; people sway and lean

@@ -115,6 +115,7 @@ struct BestOptions {
   bool repair = true;    // gross failures are told from motion
   bool complete = true;  // joints in doubt come from the posture space
   bool correct = true;   // learned systematic errors are taken off
+  bool window = true;    // ... by what the person did before, too, where that was learned
   bool filter = true;    // of each joint, revised a frame later
   bool bones = true;     // constant bone lengths
   BestConstants constants;

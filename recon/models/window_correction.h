@@ -27,9 +27,9 @@ struct WindowCorrectionOptions {
 /// Ours, of `best`, beside PoseCorrection: the systematic part of a sensor's error as a function of
 /// what the person did in the last half second. A multilayer perceptron over CorrectionFeature of
 /// some frames, least distances, with dropout; the offsets of each joint are taken only as far as
-/// they held on people left out. On people of UI-PRMD left out the mean of both corrections is
-/// nearer to the truth than either (`ossa experiment sdk`). Learned of several people only: of one
-/// nobody can be left out.
+/// they held on people left out. The mean of both corrections is taken: on people of UI-PRMD left
+/// out it is nearer to the truth than PoseCorrection (`ossa experiment sdk`, best_window = 0).
+/// Learned of several people only: of one nobody can be left out.
 class WindowCorrection {
  public:
   /// Back in time from the frame that is corrected, seconds: hands move within tenths.

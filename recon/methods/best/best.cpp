@@ -40,9 +40,11 @@ class Best : public Reconstructor {
     if (const auto learned = LoadLearned(options)) {
       proportions_ = learned->correction.proportions;
       learned_filter = learned->filter;
-      if (options_.correct)
+      if (options_.correct) {
         correction_ =
-            Correction(learned->correction, learned->window, options_.constants.of_posture);
+            Correction(learned->correction, options_.window ? learned->window : WindowCorrection(),
+                       options_.constants.of_posture);
+      }
     }
     filter_ = PostureFilter(options_.constants, learned_filter);
     MeasureAnew();

@@ -39,9 +39,7 @@ class PeopleFilm {
   std::vector<FilmedPerson> people_;
 };
 
-/// Stature; joints' error bars; loose clothes; wrong shapes.
+/// Stature and joints with their error bars, as people are and in loose clothes.
 std::vector<Table> FitPeople(ExperimentContext& context);
-/// Starts at random about the true joints.
-std::vector<Table> FitStarts(ExperimentContext& context);
 
 }  // namespace ossa::tools

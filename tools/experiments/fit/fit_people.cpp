@@ -9,6 +9,7 @@
 #include <memory>
 #include <optional>
 
+#include "depth/base/statistics.h"
 #include "tools/experiments/fit/filmed_people_internal.h"
 #include "tools/tracker/tracker.h"
 
@@ -21,7 +22,6 @@ using recon::kJointCount;
 struct Trial {
   std::string name;
   bool loose = false;
-  std::optional<recon::PersonShape> known;  // told before the first frame
 };
 
 /// Of one person, after 3 s.
@@ -65,8 +65,7 @@ void Note(const tracker::Body& body, const recon::Posture& truth, Outcome& outco
 }
 
 Outcome Watch(const FilmedPerson& person, const std::vector<LabelledFrame>& frames,
-              tracker::TrackerOptions options, const Trial& trial) {
-  if (trial.known) options.shapes[1] = *trial.known;
+              const tracker::TrackerOptions& options) {
   tracker::Tracker tracker(options);
   Outcome outcome;
   outcome.target_m = person.target_m;
@@ -81,11 +80,8 @@ Outcome Watch(const FilmedPerson& person, const std::vector<LabelledFrame>& fram
   return outcome;
 }
 
-double Middle(std::vector<double> values) {
-  if (values.empty()) return std::nan("");
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::nth_element(values.begin(), middle, values.end());
-  return *middle;
+double Middle(const std::vector<double>& values) {
+  return values.empty() ? std::nan("") : Median(values);
 }
 
 double Mean(const std::vector<double>& values) {
@@ -202,13 +198,11 @@ std::vector<Table> FitPeople(ExperimentContext& context) {
                    "chi-square: squared error by the joint's covariance; of a right one the "
                    "median is 2.37, 68 and 95 % lie within its ellipsoids of that share. "
                    "Neighbouring frames are wrong alike: shares are of frames."};
-  std::vector<Trial> trials = {{"as they are", false, std::nullopt},
-                               {"loose clothes", true, std::nullopt}};
-  for (const Trial& trial : trials) {
+  for (const Trial& trial : {Trial{"as they are", false}, Trial{"loose clothes", true}}) {
     std::vector<Outcome> outcomes;
     for (const FilmedPerson& person : film.people()) {
       context.StopIfAsked();
-      outcomes.push_back(Watch(person, film.Film(person, trial.loose), options, trial));
+      outcomes.push_back(Watch(person, film.Film(person, trial.loose), options));
       if (context.progress) {
         context.progress(static_cast<double>(outcomes.size()),
                          static_cast<double>(film.people().size()), trial.name);

@@ -26,12 +26,12 @@ std::string KeyOf(const ExperimentContext& context, const MethodRun& run) {
   const auto& best = o.best;
   std::string key = fmt::format(
       "{} {} seed {} pca {} {} {} {} {} {} {} {} {} {} {} {} gp {} {} {} {} {} "
-      "best {} {} {} {} {} {} {}",
+      "best {} {} {} {} {} {} {} {}",
       KeyOfCode(), o.method, o.seed, pca.neighbours, pca.dimensions, pca.steps, pca.samples,
       pca.control, pca.style, pca.kinematics, pca.continuity, pca.solver, pca.use_reliability,
       pca.extend_database, pca.keep_reliable, gp.nearby_models, gp.spatial, gp.temporal,
-      gp.reliability, gp.incremental, best.refined_joints, best.repair, best.correct, best.bones,
-      best.complete, best.filter, DescriptionOfConstants(best.constants));
+      gp.reliability, gp.incremental, best.refined_joints, best.repair, best.correct, best.window,
+      best.bones, best.complete, best.filter, DescriptionOfConstants(best.constants));
   if (o.database) {
     key.append(" ").append(run.database_key.empty() ? KeyOfFile(LoadDatabase(context).path)
                                                     : run.database_key);

@@ -96,6 +96,7 @@ std::vector<Table> RunSdk(ExperimentContext& context) {
   options.best.repair = context.parameters.Integer("best_repair", 1) != 0;
   options.best.complete = context.parameters.Integer("best_complete", 1) != 0;
   options.best.correct = context.parameters.Integer("best_correct", 1) != 0;
+  options.best.window = context.parameters.Integer("best_window", 1) != 0;
   options.best.filter = context.parameters.Integer("best_filter", 1) != 0;
   options.best.bones = context.parameters.Integer("best_bones", 1) != 0;
   std::vector<Table> tables;

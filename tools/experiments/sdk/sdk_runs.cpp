@@ -105,12 +105,12 @@ std::string KeyOf(const Fold& fold, const std::map<const RecordedPair*, std::str
 std::string KeyOfOptions(const ExperimentContext& context, const recon::ReconstructorOptions& o) {
   return fmt::format(
       "seed {} "
-      "{} {} {} {} {} {} {} {} {} {} {} {} {} {} {} {} {} {} {} {}",
+      "{} {} {} {} {} {} {} {} {} {} {} {} {} {} {} {} {} {} {} {} {}",
       o.seed, o.local_pca.neighbours, o.local_pca.dimensions, o.local_pca.steps,
       o.local_pca.samples, o.local_pca.control, o.local_pca.style, o.local_pca.kinematics,
       o.local_pca.continuity, o.local_pca.solver, o.local_pca.use_reliability,
       o.gaussian_process.incremental, o.gaussian_process.nearby_models, o.best.repair,
-      o.best.complete, o.best.correct, o.best.filter, o.best.bones,
+      o.best.complete, o.best.correct, o.best.window, o.best.filter, o.best.bones,
       o.database ? KeyOfFile(LoadDatabase(context).path) : "",
       o.prior ? KeyOfFile(tracker::ShippedFile(recon::kShippedPrior)) : "",
       DescriptionOfConstants(o.best.constants));
