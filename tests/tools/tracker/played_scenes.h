@@ -149,6 +149,16 @@ struct Lifting {
   }
 };
 
+/// Somewhere; of so much diameter.
+inline SceneObject MakeBall(double diameter_m, double mass_kg) {
+  SceneObject ball;
+  ball.name = "ball";
+  ball.body.shape = physics::Shape::kBall;
+  ball.body.size_m.setConstant(diameter_m);
+  ball.body.mass_kg = mass_kg;
+  return ball;
+}
+
 // ---- throwing
 
 /// The first swings the right arm sideways and up, towards the other, who holds the left
@@ -159,11 +169,7 @@ struct Throwing {
 
   SceneOptions Options() const {
     SceneOptions scene;
-    SceneObject ball;
-    ball.name = "ball";
-    ball.body.shape = physics::Shape::kBall;
-    ball.body.size_m.setConstant(0.16);
-    ball.body.mass_kg = 0.4;
+    SceneObject ball = MakeBall(0.16, 0.4);
     const Eigen::Vector3d hand = RightHand((*this)(0.0)[0]);
     ball.body.position_m = hand + Eigen::Vector3d(0.03, 1.0 - 0.14, 0.0);
     SceneObject stand = ball;

@@ -122,11 +122,7 @@ TEST(SceneRules, ThrownByOneCaughtByTheOther) {
 /// Frames in which a ball that flies at somebody's head strikes head or trunk.
 int CountHits(const std::optional<DodgeRule>& dodge, double aside_m) {
   SceneOptions options;
-  SceneObject ball;
-  ball.name = "ball";
-  ball.body.shape = physics::Shape::kBall;
-  ball.body.size_m.setConstant(0.2);
-  ball.body.mass_kg = 0.2;
+  SceneObject ball = test::MakeBall(0.2, 0.2);
   ball.origin = SceneObject::Origin::kPerson;
   ball.body.position_m = {aside_m, 1.6, 3.0};
   ball.body.velocity_m_s = {0.0, 0.5 * 9.81 * 0.5, -3.0 / 0.5};  // at the head in half a second

@@ -62,11 +62,7 @@ TEST(TrackedScene, OneThrowsABall) {
 TEST(TrackedScene, SomebodyDodgesABall) {
   OSSA_NEEDS_MODEL();
   SceneOptions scene;
-  SceneObject ball;
-  ball.name = "ball";
-  ball.body.shape = physics::Shape::kBall;
-  ball.body.size_m.setConstant(0.2);
-  ball.body.mass_kg = 0.2;
+  SceneObject ball = test::MakeBall(0.2, 0.2);
   ball.origin = SceneObject::Origin::kPerson;
   ball.body.position_m = {0.0, 1.6, 2.0};
   ball.body.velocity_m_s = {0.0, 0.4 * 0.5 * 9.81, -2.0 / 0.4};  // at the head in 0.4 s
