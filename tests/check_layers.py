@@ -1,8 +1,18 @@
 #!/usr/bin/env python3
-"""The rooms of docs/architecture.md and the arrows between them, checked by reading every #include.
+"""The rooms of docs/architecture.md: the arrows between them, their sizes, and the way of a frame.
 
-Usage: check_layers.py [TOP]. Prints each broken rule as FILE:LINE: reason; exit status 1 if any.
+Usage: check_layers.py [--sizes] [TOP]
+
+Prints each broken rule as FILE:LINE: reason; exit status 1 if any.
+
+Arrows   who may include whom (ARROWS, TOOLS), read from every #include. No two folders include each other.
+Sizes    every source file lies in a folder that docs/architecture.md lists under "Rooms", and the largest
+         of these has less than LARGEST of the lines. A file counts in the deepest listed folder that it
+         lies in. --sizes prints them all, and the folders at the top.
+Walk     each step of a frame's way through the tracker is called from the list before it and from nowhere
+         else (WALK): no step calls back into an earlier one.
 """
+import collections
 import pathlib
 import re
 import sys
@@ -28,6 +38,33 @@ HIDDEN = re.compile(
 # tools/commands is the command itself, no library: nobody includes it from outside. NiTE's headers
 # show OpenNI2, as NiTE's programs expect.
 SHOWING = ("tools/commands/", "tools/nite2/include/")
+# The largest room, as a share of the lines of all of them.
+LARGEST = 0.20
+CODE = (".h", ".cpp", ".c", ".inc", ".py", ".js", ".css", ".html")
+ROOM = re.compile(r"^\| `([\w/]+)/` \|")
+# The way of a frame, in order: each step, and who calls it. Tracker::Track calls the first two, the list
+# kStages calls the steps of a person, and these call what they are made of.
+WALK = {
+    "DetectPeople": {"tools/tracker/tracker.cpp"},
+    "forest::Classify": {"tools/people/forest_evidence.cpp"},
+    "forest::Propose": {"tools/people/forest_evidence.cpp"},
+    "forest::Relabel": {"tools/people/forest_evidence.cpp"},
+    "TrackSkeleton": {"tools/tracker/tracker.cpp"},
+    "ChooseRaw": {"tools/tracker/skeleton_stages.cpp"},
+    "ChoosePosture": {"tools/tracker/skeleton_stages.cpp"},
+    "Refine": {"tools/tracker/skeleton_stages.cpp"},
+    "RefineJoints": {"tools/tracker/skeleton_stages.cpp"},
+    "Fit": {"tools/tracker/skeleton_stages.cpp"},
+    "FitSurface": {"tools/tracker/skeleton_stages.cpp"},
+    "ApplyMode": {"tools/tracker/skeleton_stages.cpp"},
+    "AverageStationary": {"tools/tracker/skeleton_stages.cpp"},
+    "Reconstruct": {"tools/tracker/skeleton_stages.cpp"},
+    "Settle": {"tools/tracker/skeleton_stages.cpp"},
+    "StandOnFloor": {"tools/tracker/skeleton_stages.cpp"},
+    "Simulate": {"tools/tracker/skeleton_stages.cpp"},
+    "Finish": {"tools/tracker/skeleton_stages.cpp"},
+}
+WALKED = ("tools/people", "tools/tracker")
 INCLUDE = re.compile(r'^\s*#\s*include\s*([<"])([^>"]+)[>"]')
 
 
@@ -66,9 +103,83 @@ def broken_rules(top: pathlib.Path):
             yield f"{place}: {source}/ and {sink}/ include each other (see {folders_of[(sink, source)]})"
 
 
+def listed_rooms(top: pathlib.Path):
+    section = (top / "docs/architecture.md").read_text().split("\n## Rooms", 1)[-1].split("\n## ", 1)[0]
+    return [match.group(1) for match in map(ROOM.match, section.splitlines()) if match and match.group(1) != "tests"]
+
+
+def room_sizes(top: pathlib.Path):
+    """Lines of each listed room, and the folders of code that are in none."""
+    rooms = listed_rooms(top)
+    sizes, homeless = collections.Counter({room: 0 for room in rooms}), set()
+    for room in ARROWS:
+        for path in (top / room).rglob("*"):
+            if path.suffix not in CODE or not path.is_file():
+                continue
+            folder = path.parent.relative_to(top).as_posix()
+            homes = [home for home in rooms if folder == home or folder.startswith(home + "/")]
+            home = max(homes, key=len, default=None)
+            # tools/ and recon/ are rooms of rooms: a folder of them has a line of its own.
+            if home is None or (home in ARROWS and folder != home):
+                homeless.add(folder)
+            else:
+                sizes[home] += len(path.read_text(errors="replace").splitlines())
+    return sizes, homeless
+
+
+def count_lines(folder: pathlib.Path) -> int:
+    files = (path for path in folder.rglob("*") if path.suffix in CODE and path.is_file())
+    return sum(len(path.read_text(errors="replace").splitlines()) for path in files)
+
+
+def print_sizes(top: pathlib.Path):
+    sizes, _ = room_sizes(top)
+    total = sum(sizes.values())
+    for room, lines in sizes.most_common():
+        if lines > 0:
+            print(f"{lines:6} {lines / total:6.1%} {room}/")
+    with_tests = total + count_lines(top / "tests")
+    for room in ARROWS:
+        lines = count_lines(top / room)
+        print(f"{lines:6} {lines / total:6.1%} {room}/ and all below; tests counted, {lines / with_tests:.1%}")
+
+
+def broken_sizes(top: pathlib.Path):
+    sizes, homeless = room_sizes(top)
+    for folder in sorted(homeless):
+        yield f"docs/architecture.md: expected {folder}/ in the list of rooms"
+    total = sum(sizes.values())
+    for room, lines in sizes.most_common():
+        if lines >= LARGEST * total:
+            yield f"{room}/: {lines} of {total} lines, at most {LARGEST:.0%}: make rooms of it"
+
+
+def broken_walk(top: pathlib.Path):
+    """Calls of a step from elsewhere; &Step and {Step, ...} of a list of stages count as calls."""
+    called = collections.Counter()
+    for path in sorted(source for folder in WALKED for source in (top / folder).glob("*.cpp")):
+        name = path.relative_to(top).as_posix()
+        for number, line in enumerate(path.read_text().splitlines(), 1):
+            code = line.split("//")[0]
+            for step, callers in WALK.items():
+                if not re.search(rf"(?<![\w.>:]){step}\b\s*[(,}}]|(?<=people::){step}\(", code):
+                    continue
+                if re.match(rf"[\w:<>]+ {step}\(", code):
+                    continue  # its definition
+                called[step] += 1
+                if name not in callers:
+                    yield f"{name}:{number}: calls {step} out of turn: {' and '.join(sorted(callers))} does"
+    for step in WALK:
+        if called[step] == 0:
+            yield f"tests/check_layers.py: nobody calls {step}: its WALK is not the tracker's"
+
+
 def main() -> int:
-    top = pathlib.Path(sys.argv[1] if len(sys.argv) > 1 else pathlib.Path(__file__).parent.parent)
-    found = list(broken_rules(top.resolve()))
+    arguments = [argument for argument in sys.argv[1:] if argument != "--sizes"]
+    top = pathlib.Path(arguments[0] if arguments else pathlib.Path(__file__).parent.parent).resolve()
+    if "--sizes" in sys.argv:
+        print_sizes(top)
+    found = [*broken_rules(top), *broken_sizes(top), *broken_walk(top)]
     for line in found:
         print(line)
     return 1 if found else 0
