@@ -22,7 +22,7 @@ namespace ossa::recon {
 // docs/benchmarks/refinement.md.
 
 /// The shipped refinement cascade: learned at the shipped forest's joints.
-inline constexpr const char* kShippedRefinement = "body.ossalook";
+inline constexpr const char* kShippedRefinement = "body.ossarefine";
 
 /// A person whose joints were proposed, and the image they are seen in.
 struct RefinementInput {

@@ -4,7 +4,7 @@
 
 namespace ossa::tracker {
 
-/// A file that comes with ossa (body.ossa, body_ceiling.ossa, body.ossagp, body.ossalook,
+/// A file that comes with ossa (body.ossa, body_ceiling.ossa, body.ossagp, body.ossarefine,
 /// kinect_v2.ossagp, authored.ossadb, posture.ossaprior, body.ossasurface, body.ossamesh): in the
 /// folder the environment variable OSSA_SHARE names, else in ../share/ossa beside the running
 /// program, else in the source tree it was built from. Throws InputError that says where it was
