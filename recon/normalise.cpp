@@ -67,7 +67,8 @@ Placement EstimatePlacement(const Posture& in_camera, const JointWeights& weight
   add(Joint::kShoulderLeft, Joint::kShoulderRight);
   Placement placement{in_camera[Joint::kHipCenter], previous_yaw_rad};
   // Ry(yaw) takes +x to (cos yaw, 0, -sin yaw). Below 2 cm the line is noise.
-  if (std::hypot(left.x(), left.z()) > 0.02) placement.yaw_rad = std::atan2(-left.z(), left.x());
+  if (Eigen::Vector2d(left.x(), left.z()).norm() > 0.02)
+    placement.yaw_rad = std::atan2(-left.z(), left.x());
   return placement;
 }
 

@@ -74,6 +74,9 @@ void KeepDistinct(std::vector<Mode>* modes, float bandwidth_m) {
   *modes = std::move(kept);
 }
 
+// In double precision, which every processor's library rounds alike.
+float Log1p(float x) { return static_cast<float>(std::log1p(static_cast<double>(x))); }
+
 void DescribeModes(const Evidence& evidence, const TargetPoints& points,
                    const ProposalTarget& target, std::vector<Mode>* modes) {
   float total = 0.0F;
@@ -83,9 +86,8 @@ void DescribeModes(const Evidence& evidence, const TargetPoints& points,
     const float surface = Density(points.surface, mode.position_m, bandwidth_m);
     const float votes =
         Density(points.points, mode.position_m, bandwidth_m) - target.class_weight * surface;
-    mode.feature = {std::log1p(10.0F * surface), std::sqrt(std::max(votes, 0.0F)),
-                    mode.density / total, std::log1p(points.vote_total * 1e3F),
-                    evidence.context_certainty};
+    mode.feature = {Log1p(10.0F * surface), std::sqrt(std::max(votes, 0.0F)), mode.density / total,
+                    Log1p(points.vote_total * 1e3F), evidence.context_certainty};
   }
 }
 

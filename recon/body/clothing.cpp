@@ -74,8 +74,10 @@ constexpr float kHiddenScale = 0.01f;  // of what is not worn; factor; by hand
 constexpr float kNeutralHeight_m = 1.66f;
 constexpr float kChest_m = 1.28f;  // cloth hangs from there and from the shoulder blades
 
-/// Where round the body, radians.
-float Around(const Eigen::Vector3f& p) { return std::atan2(p.x(), p.z()); }
+/// Where round the body, radians. Computed in double precision, which all processors round alike.
+float Around(const Eigen::Vector3f& p) {
+  return static_cast<float>(std::atan2(static_cast<double>(p.x()), static_cast<double>(p.z())));
+}
 
 /// Folds run down from where cloth hangs and are deepest at its hem (`down` = 1).
 Eigen::Vector3f FoldOf(const Clothing& clothing, const Eigen::Vector3f& p, float down) {

@@ -74,7 +74,7 @@ Cover NearestCover(const Surroundings& around, const FreeSpaceOptions& options) 
       const auto gap_m = around.GapAt(off_m);
       if (!gap_m) continue;
       const double behind_m = WayBehind(*gap_m, options);
-      const double way_m = std::hypot(radius_m, behind_m);
+      const double way_m = std::sqrt(radius_m * radius_m + behind_m * behind_m);
       if (way_m < best.way_m) best = {off_m, behind_m, way_m};
     }
   }

@@ -37,7 +37,7 @@ std::vector<Eigen::Vector3d> SelectHeads(const std::vector<HeadCluster>& heads,
         std::max(options.min_head_m2, options.min_head_share * heads.front().area_m2);
     if (head.area_m2 < least_m2) continue;
     const bool apart = std::all_of(kept.begin(), kept.end(), [&](const Eigen::Vector3d& other) {
-      return std::hypot(head.mean_m.x() - other.x(), head.mean_m.z() - other.z()) >
+      return Eigen::Vector2d(head.mean_m.x() - other.x(), head.mean_m.z() - other.z()).norm() >
              options.min_head_distance_m;
     });
     if (apart) kept.push_back(head.mean_m);
