@@ -69,7 +69,7 @@ Actor::Actor(OdeWorld& ode, const recon::BoneLengths& bone_lengths,
 void Actor::Forget() {
   weight.fill(1.0);
   aim_velocity_m_s.fill(Vector3d::Zero());
-  control.turning_rad_s.fill(Vector3d::Zero());
+  control.angular_velocity_rad_s.fill(Vector3d::Zero());
   mean_velocity_m_s.fill(Vector3d::Zero());
   mean_speed_m_s.fill(0.0);
 }
@@ -183,7 +183,7 @@ void Actor::Prepare(OdeWorld& ode, const std::optional<Vector4d>& floor, double 
     // A bone turns by what its ends' velocities differ across it.
     const auto parent = recon::ParentOf(i);
     const Vector3d bone = aim.position_m[i] - aim.position_m[parent];
-    control.turning_rad_s[i] =
+    control.angular_velocity_rad_s[i] =
         bone.cross(aim_velocity_m_s[i] - aim_velocity_m_s[parent]) / bone.squaredNorm();
   }
 }
@@ -243,7 +243,7 @@ void Actor::Drive(const Vector3d& gravity_m_s2, double left_s, double h_s) {
   for (size_t i = 0; i < kJointCount; ++i) {
     control.position_m[i] = aim.position_m[i] - left_s * aim_velocity_m_s[i];
     control.velocity_m_s[i] = aim_velocity_m_s[i];
-    const Vector3d ahead = left_s * control.turning_rad_s[i];
+    const Vector3d ahead = left_s * control.angular_velocity_rad_s[i];
     control.orientation[i] =
         Eigen::AngleAxisd(-ahead.norm(), ahead.stableNormalized()) * aim_orientation[i];
   }

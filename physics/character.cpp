@@ -289,9 +289,9 @@ void Character::DriveAxes(const ControlTarget& target, const ControlGains& gains
 /// error; gain h = 0.15 stays far below the limit of 2 and makes the lag that of the positional
 /// control (2 / w). Solved with the joints, it needs no derivation to be stable.
 void Character::DriveMotors(const ControlTarget& target, const ControlGains& gains, double h_s) {
-  // The share of a bone's turning that its servo is told. 1: 0.37 frames late on UI-PRMD and 48 %
-  // less shaken than the sensor; 0.7: 0.50 frames and 53 %; 0.4: 0.66 frames and 56 %.
-  constexpr double kTold = 0.7;  // chosen so, between lag and noise
+  // The share of a bone's turning that its servo gets as its target. 1: 0.37 frames late on UI-PRMD
+  // and 48 % less shaken than the sensor; 0.7: 0.50 frames and 53 %; 0.4: 0.66 frames and 56 %.
+  constexpr double kVelocityShare = 0.7;  // chosen so, between lag and noise
   const double gain = std::min(0.5 * gains.rate_rad_s, 0.5 / h_s);
   const auto set = [](dJointID motor, bool linear, const Vector3d& speed, double bound) {
     constexpr std::array<int, 3> kVelocity = {dParamVel1, dParamVel2, dParamVel3};
@@ -315,8 +315,8 @@ void Character::DriveMotors(const ControlTarget& target, const ControlGains& gai
     // Torque bound: what the force bound at the bone's far end and all beyond it would give.
     const double bound = gains.max_acceleration_m_s2 * 0.3 * segments_[bone].length_m *
                          (bone == 1 ? total_mass_kg_ : 4.0 * segments_[bone].mass_kg);
-    Vector3d turning = kTold * target.turning_rad_s[bone];
-    if (parent != 0) turning -= kTold * target.turning_rad_s[parent];
+    Vector3d turning = kVelocityShare * target.angular_velocity_rad_s[bone];
+    if (parent != 0) turning -= kVelocityShare * target.angular_velocity_rad_s[parent];
     set(motor_[bone], false,
         gain * target.stiffness[bone] * RotationVector(wanted * now.conjugate()) + turning,
         held ? bound : 0.0);

@@ -41,7 +41,7 @@ struct ControlGains {
 struct CharacterOptions {
   Control control = Control::kPaper;
   ControlGains gains;
-  /// Share of the target's velocity that the controller is told, [0, 1]. 0: a spring towards the
+  /// Share of the target's velocity that the controller gets, [0, 1]. 0: a spring towards the
   /// newest posture as if that stood still, smoothest. 1: no lag behind steady motion, as with the
   /// target's derivative in eq. 1, but noise comes through.
   double lead = 0.0;

@@ -68,14 +68,14 @@ Posture TPose(const recon::BoneLengths& lengths) {
   return posture;
 }
 
-WorldOptions WorldOptionsOf(const CharacterFilterOptions& options) {
+WorldOptions MakeWorldOptions(const CharacterFilterOptions& options) {
   WorldOptions world;
   world.substeps = options.substeps;
   world.seed = options.seed;
   return world;
 }
 
-CharacterOptions CharacterOptionsOf(const CharacterFilterOptions& options) {
+CharacterOptions MakeCharacterOptions(const CharacterFilterOptions& options) {
   CharacterOptions character;
   character.control = options.control;
   character.gains = options.gains;
@@ -92,8 +92,8 @@ CharacterOptions CharacterOptionsOf(const CharacterFilterOptions& options) {
 }  // namespace
 
 void CharacterFilterOptions::Check() const {
-  WorldOptionsOf(*this).Check();
-  CharacterOptionsOf(*this).Check(1.0 / 30.0 / substeps);
+  MakeWorldOptions(*this).Check();
+  MakeCharacterOptions(*this).Check(1.0 / 30.0 / substeps);
   if (!(teleport_m > 0.0) || teleport_frames < 1) {
     throw std::invalid_argument("teleport_m = " + std::to_string(teleport_m) +
                                 ", teleport_frames = " + std::to_string(teleport_frames) +
@@ -103,9 +103,9 @@ void CharacterFilterOptions::Check() const {
 
 CharacterFilter::Impl::Impl(const recon::BoneLengths& lengths,
                             const CharacterFilterOptions& filter_options)
-    : options(filter_options), world(WorldOptionsOf(filter_options)) {
+    : options(filter_options), world(MakeWorldOptions(filter_options)) {
   options.Check();
-  character = world.AddCharacter(lengths, TPose(lengths), CharacterOptionsOf(options));
+  character = world.AddCharacter(lengths, TPose(lengths), MakeCharacterOptions(options));
 }
 
 bool CharacterFilter::Impl::MustPlace(const Posture& target, double dt_s) {

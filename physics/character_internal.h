@@ -27,7 +27,7 @@ struct ControlTarget {
   recon::JointArray<Eigen::Vector3d> velocity_m_s;
   recon::JointOrientations orientation;
   /// World, of the bone that ends in the joint, without its turn about itself.
-  recon::JointArray<Eigen::Vector3d> turning_rad_s;
+  recon::JointArray<Eigen::Vector3d> angular_velocity_rad_s;
   /// Scales w per joint, [0, 1]; 0 lets go of the joint (and of its weight).
   recon::JointArray<double> stiffness{};
 };

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "depth/base/angles.h"
 #include "recon/orientation.h"
 #include "recon/smallest_turn.h"
 
@@ -23,8 +24,6 @@ struct Row {
   Vector3d middle;  // of the left bone, in the T-pose that faces +z
   double reach_deg, twist_deg;
 };
-
-constexpr double kDegree = std::numbers::pi / 180.0;
 
 }  // namespace
 

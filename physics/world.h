@@ -55,7 +55,7 @@ struct ObjectOptions {
   Eigen::Vector3d position_m = Eigen::Vector3d::Zero();  // of the object's frame: shape's middle
   Eigen::Quaterniond orientation = Eigen::Quaterniond::Identity();
   Eigen::Vector3d velocity_m_s = Eigen::Vector3d::Zero();  // of the centre of mass
-  Eigen::Vector3d turning_rad_s = Eigen::Vector3d::Zero();
+  Eigen::Vector3d angular_velocity_rad_s = Eigen::Vector3d::Zero();
   BodyKind kind = BodyKind::kDynamic;
   std::vector<ObjectPart> parts;
   /// Bit masks, by convention: two meet if each is in a group the other collides with.
@@ -68,7 +68,7 @@ struct ObjectState {
   Eigen::Vector3d position_m;
   Eigen::Quaterniond orientation;
   Eigen::Vector3d velocity_m_s;  // of the centre of mass
-  Eigen::Vector3d turning_rad_s = Eigen::Vector3d::Zero();
+  Eigen::Vector3d angular_velocity_rad_s = Eigen::Vector3d::Zero();
 };
 
 /// A limb and an object that touched.
@@ -172,7 +172,7 @@ class World {
   void SetTarget(int character, const recon::Posture& target, std::span<const double> weight = {},
                  const std::optional<recon::JointOrientations>& orientation = std::nullopt);
   /// Lets the character fall: no control until the next SetTarget.
-  void LetGo(int character);
+  void StopControl(int character);
   /// Stands the character still in the posture. What it holds goes along in its hand (the first, of
   /// several that hold it, and the others let go) and stands still, too; constraints stay where
   /// they are and pull from there; impulses not yet spent are forgotten. `orientation` as in
@@ -189,9 +189,9 @@ class World {
                    bool hard);
   void Unconstrain(int character, recon::Joint joint);
   /// An impulse at a joint, spent in the first substep of the next Step.
-  void Push(int character, recon::Joint joint, const Eigen::Vector3d& impulse_ns);
+  void ApplyImpulse(int character, recon::Joint joint, const Eigen::Vector3d& impulse_ns);
   /// A force at a joint for the whole of the next Step.
-  void Pull(int character, recon::Joint joint, const Eigen::Vector3d& force_n);
+  void ApplyForce(int character, recon::Joint joint, const Eigen::Vector3d& force_n);
 
   int AddObject(const ObjectOptions& options);
   void RemoveObject(int object);
@@ -201,14 +201,15 @@ class World {
   void SetPose(int object, const Eigen::Vector3d& position_m,
                const Eigen::Quaterniond& orientation);
   void SetObjectVelocity(int object, const Eigen::Vector3d& velocity_m_s,
-                         const Eigen::Vector3d& turning_rad_s = Eigen::Vector3d::Zero());
+                         const Eigen::Vector3d& angular_velocity_rad_s = Eigen::Vector3d::Zero());
   /// A kinematic object arrives there at the end of the next Step, and stays.
   void MoveTo(int object, const Eigen::Vector3d& position_m, const Eigen::Quaterniond& orientation);
   /// A force at a point of the world, a torque, for the whole of the next Step.
-  void PullObject(int object, const Eigen::Vector3d& force_n, const Eigen::Vector3d& at_m,
-                  const Eigen::Vector3d& torque_nm = Eigen::Vector3d::Zero());
+  void ApplyForceToObject(int object, const Eigen::Vector3d& force_n, const Eigen::Vector3d& at_m,
+                          const Eigen::Vector3d& torque_nm = Eigen::Vector3d::Zero());
   /// An impulse at a point of the world, at once.
-  void PushObject(int object, const Eigen::Vector3d& impulse_ns, const Eigen::Vector3d& at_m);
+  void ApplyImpulseToObject(int object, const Eigen::Vector3d& impulse_ns,
+                            const Eigen::Vector3d& at_m);
 
   /// A virtual joint between the end of a joint's bone and the object: `rigid` or free to turn
   /// about the joint. Neither that bone nor the one before it collides with the object meanwhile.

@@ -58,7 +58,7 @@ void World::SetTarget(int character, const recon::Posture& target, std::span<con
   impl_->ActorOf(character).SetTarget(target, weight, orientation);
 }
 
-void World::LetGo(int character) { impl_->ActorOf(character).controlled = false; }
+void World::StopControl(int character) { impl_->ActorOf(character).controlled = false; }
 
 void World::Place(int character, const recon::Posture& posture,
                   const std::optional<recon::JointOrientations>& orientation) {
@@ -131,13 +131,13 @@ void World::Unconstrain(int character, recon::Joint joint) {
   actor.hard_constraint.erase(recon::Index(joint));
 }
 
-void World::Push(int character, recon::Joint joint, const Vector3d& impulse_ns) {
-  if (!impulse_ns.allFinite()) throw std::invalid_argument("Push: impulse must be finite");
+void World::ApplyImpulse(int character, recon::Joint joint, const Vector3d& impulse_ns) {
+  if (!impulse_ns.allFinite()) throw std::invalid_argument("ApplyImpulse: impulse must be finite");
   impl_->ActorOf(character).pushes.emplace_back(recon::Index(joint), impulse_ns);
 }
 
-void World::Pull(int character, recon::Joint joint, const Vector3d& force_n) {
-  if (!force_n.allFinite()) throw std::invalid_argument("Pull: force must be finite");
+void World::ApplyForce(int character, recon::Joint joint, const Vector3d& force_n) {
+  if (!force_n.allFinite()) throw std::invalid_argument("ApplyForce: force must be finite");
   impl_->ActorOf(character).pulls.emplace_back(recon::Index(joint), force_n);
 }
 

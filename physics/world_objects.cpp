@@ -163,7 +163,7 @@ void World::RemoveObject(int object) {
 void World::ResetObject(int object) {
   const ObjectOptions info = impl_->things.at(object).info;
   SetPose(object, info.position_m, info.orientation);
-  SetObjectVelocity(object, info.velocity_m_s, info.turning_rad_s);
+  SetObjectVelocity(object, info.velocity_m_s, info.angular_velocity_rad_s);
 }
 
 void World::SetPose(int object, const Vector3d& position_m, const Quaterniond& orientation) {
@@ -195,17 +195,17 @@ void World::MoveTo(int object, const Vector3d& position_m, const Quaterniond& or
   thing.goal = PoseOf(PoseOf(position_m, orientation) * thing.middle_m, orientation);
 }
 
-void World::PullObject(int object, const Vector3d& force_n, const Vector3d& at_m,
-                       const Vector3d& torque_nm) {
-  RequireFinite("PullObject", force_n + torque_nm, at_m);
+void World::ApplyForceToObject(int object, const Vector3d& force_n, const Vector3d& at_m,
+                               const Vector3d& torque_nm) {
+  RequireFinite("ApplyForceToObject", force_n + torque_nm, at_m);
   Thing& thing = impl_->things.at(object);
   if (!thing.IsMoved()) return;
   // The force keeps its direction in the world, the point moves with the body: see Substep.
   thing.loads.push_back({force_n, torque_nm, physics::PoseOf(thing.body).inverse() * at_m});
 }
 
-void World::PushObject(int object, const Vector3d& impulse_ns, const Vector3d& at_m) {
-  RequireFinite("PushObject", impulse_ns, at_m);
+void World::ApplyImpulseToObject(int object, const Vector3d& impulse_ns, const Vector3d& at_m) {
+  RequireFinite("ApplyImpulseToObject", impulse_ns, at_m);
   const Thing& thing = impl_->things.at(object);
   if (!thing.IsMoved()) return;
   dMass mass;

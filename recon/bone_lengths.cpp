@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "depth/base/statistics.h"
+
 namespace ossa::recon {
 namespace {
 
@@ -13,12 +15,6 @@ double MoveMedian(double median_m, double length_m, int n) {
       0.5;  // of the length, divided by n; by hand, with the memory of 20 s
   if (n <= 2) return median_m + (length_m - median_m) / n;
   return median_m * (1.0 + std::copysign(kFirstStep / n, length_m - median_m));
-}
-
-double Median(std::vector<double> values) {
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::nth_element(values.begin(), middle, values.end());
-  return *middle;
 }
 
 }  // namespace

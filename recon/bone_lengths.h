@@ -25,13 +25,17 @@ struct BoneLengthOptions {
   /// Of eq. 5 of Shum 2013 before any reference posture: the first second.
   static BoneLengthOptions BeforeReference() { return {BoneStatistic::kMean, 30}; }
   /// ... and once there was one: the mean of some ten reference postures.
-  static BoneLengthOptions OfReference() { return {BoneStatistic::kExponential, 600, 0.1}; }
+  static BoneLengthOptions ForReferencePostures() {
+    return {BoneStatistic::kExponential, 600, 0.1};
+  }
   /// Of what the network for bones judges frame by frame (recon/refine/bone_estimation.h).
-  static BoneLengthOptions OfJudged() { return {BoneStatistic::kMean, 600}; }
+  static BoneLengthOptions ForNetworkEstimates() { return {BoneStatistic::kMean, 600}; }
   /// Of what lies between joints, which is wrong for half of a body that is seen from the side.
-  static BoneLengthOptions OfTypical() { return {BoneStatistic::kRunningMedian, 600, 0.1, true}; }
+  static BoneLengthOptions ForJointDistances() {
+    return {BoneStatistic::kRunningMedian, 600, 0.1, true};
+  }
   /// Of a whole recording.
-  static BoneLengthOptions OfRecording() { return {BoneStatistic::kMedian}; }
+  static BoneLengthOptions ForWholeRecording() { return {BoneStatistic::kMedian}; }
 };
 
 /// Lengths of a person's bones from measurements, metres. The one estimator for all who need it;

@@ -80,7 +80,7 @@ class ReferenceLengths {
 
   ReferenceLengthOptions options_;
   BoneLengthEstimator before_reference_{BoneLengthOptions::BeforeReference()};
-  BoneLengthEstimator of_reference_{BoneLengthOptions::OfReference()};
+  BoneLengthEstimator of_reference_{BoneLengthOptions::ForReferencePostures()};
   JointArray<bool> had_{};     // joints that were ever tracked
   double scale_ = 1.0;         // of the last reference posture, or of the first frame
   bool known_ = false;         // some frame was good enough to measure at least the size

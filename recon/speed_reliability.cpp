@@ -3,6 +3,8 @@
 
 #include "recon/reliability.h"
 
+#include "depth/base/statistics.h"
+
 namespace ossa::recon {
 
 /// Of the joints, the median for each axis: a few that jump do not move it.
@@ -15,9 +17,7 @@ Eigen::Vector3d SpeedTerm::BodyMoved(const Posture& posture, const JointWeights&
       moved.push_back(posture.position_m[i][axis] - believed_.position_m[i][axis]);
     }
     if (moved.empty()) return Eigen::Vector3d::Zero();
-    const auto middle = moved.begin() + static_cast<ptrdiff_t>(moved.size() / 2);
-    std::nth_element(moved.begin(), middle, moved.end());
-    body[axis] = *middle;
+    body[axis] = Median(std::move(moved));
   }
   return body;
 }
@@ -28,16 +28,16 @@ JointWeights SpeedTerm::Step(const Posture& posture, const JointWeights& seen, d
   speed.fill(1.0);
   const Eigen::Vector3d body = BodyMoved(posture, seen);
   const Posture before = believed_;
-  JointArray<bool> sound{};  // believed now and before
+  JointArray<bool> believed{};  // believed now and before
   for (size_t i = 0; i < kJointCount; ++i) {
     if (seen[i] == 0.0) {
       unbelieved_s_[i] = -1.0;
       continue;
     }
     size_t above = ParentOf(i);
-    while (above != 0 && !sound[above]) above = ParentOf(above);
+    while (above != 0 && !believed[above]) above = ParentOf(above);
     Eigen::Vector3d along = body;
-    if (i != 0 && sound[above]) {
+    if (i != 0 && believed[above]) {
       along = posture.position_m[above] - before.position_m[above];
     }
     const bool first = unbelieved_s_[i] < 0.0;
@@ -49,7 +49,7 @@ JointWeights SpeedTerm::Step(const Posture& posture, const JointWeights& seen, d
     if (speed[i] >= 0.5) {
       believed_.position_m[i] = posture.position_m[i];
       unbelieved_s_[i] = 0.0;
-      sound[i] = !first;
+      believed[i] = !first;
     } else {
       believed_.position_m[i] += along;
       unbelieved_s_[i] += dt_s;

@@ -27,6 +27,6 @@ constexpr std::array kCommands = {
 
 int main(int argc, char** argv) {
   ossa::commands::PrepareProcess();
-  const int status = ossa::commands::RunOneOf(kCommands, ossa::tracker::Version(), argc, argv);
+  const int status = ossa::commands::RunCommandOf(kCommands, ossa::tracker::Version(), argc, argv);
   return ossa::commands::EndOutput(status);
 }

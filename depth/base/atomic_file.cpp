@@ -60,7 +60,7 @@ bool IsLeft(const fs::path& path) {
 }
 
 // Where a chain of symbolic links leads, also to where nothing is yet.
-fs::path EndOfLinks(fs::path path) {
+fs::path FollowLinks(fs::path path) {
   constexpr int kMostLinks = 40;  // the kernel's own limit; by definition of MAXSYMLINKS
   std::error_code error;
   for (int k = 0; fs::is_symlink(path, error); ++k) {
@@ -98,7 +98,7 @@ struct AtomicFile::Stream {
 };
 
 AtomicFile::AtomicFile(fs::path final_path)
-    : name_(final_path.string()), final_path_(EndOfLinks(std::move(final_path))) {
+    : name_(final_path.string()), final_path_(FollowLinks(std::move(final_path))) {
   std::error_code unknown;
   const auto there = fs::status(final_path_, unknown);
   if (fs::exists(there) && !fs::is_regular_file(there)) {
@@ -123,8 +123,8 @@ std::ostream& AtomicFile::stream() { return stream_->stream; }
 
 void AtomicFile::CheckWritable(const fs::path& final_path) { const AtomicFile probe(final_path); }
 
-std::vector<fs::path> AtomicFile::LeftoversOf(const fs::path& final_path) {
-  const fs::path end = EndOfLinks(final_path);
+std::vector<fs::path> AtomicFile::FindLeftovers(const fs::path& final_path) {
+  const fs::path end = FollowLinks(final_path);
   const std::string begin = end.filename().string() + kPartial;
   std::vector<fs::path> left;
   std::error_code error;

@@ -28,7 +28,7 @@ class AtomicFile {
   static void CheckWritable(const std::filesystem::path& final_path);
   /// What was to become this file, of processes that were killed: nobody writes it any more. In
   /// order of their names. On file systems that know no locks nobody can tell, and there are none.
-  static std::vector<std::filesystem::path> LeftoversOf(const std::filesystem::path& final_path);
+  static std::vector<std::filesystem::path> FindLeftovers(const std::filesystem::path& final_path);
   ~AtomicFile();
   AtomicFile(const AtomicFile&) = delete;
   AtomicFile& operator=(const AtomicFile&) = delete;

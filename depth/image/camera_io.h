@@ -21,7 +21,7 @@ Camera ReadManifestCamera(const std::filesystem::path& manifest_path);
 
 /// What `--camera PRESET|fx,fy,cx,cy` says (CameraPresetNames). Four numbers are in pixels of
 /// whatever frames come (of the whole image, where a sensor crops it), so their camera has width
-/// and height 0 until CameraForSize is told the size.
+/// and height 0 until CameraForSize gets the size.
 CameraChoice ParseCamera(const std::string& text);
 
 }  // namespace ossa::depth

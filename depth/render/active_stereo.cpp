@@ -101,7 +101,7 @@ class Sensor {
     return {mean_px, near_wins ? nearest : match.source, true};
   }
 
-  /// Beside an outline against nothing: the near surface grows there too, or it does not.
+  /// Beside a silhouette against nothing: the near surface grows there too, or it does not.
   Match Grown(float nearest_px, int32_t nearest, int u, int v) const {
     if (nearest_px <= 0.0F || Smears(u, v)) return {};
     return {nearest_px, nearest, true};

@@ -44,7 +44,7 @@ std::optional<SensorKind> SensorFromName(std::string_view name) {
   return static_cast<SensorKind>(at - kSensorNames.begin());
 }
 
-SensorModel ModelOf(SensorKind kind) {
+SensorModel MakeSensorModel(SensorKind kind) {
   switch (kind) {
     case SensorKind::kNone:
       break;

@@ -20,7 +20,7 @@ std::optional<SensorKind> SensorFromName(std::string_view name);
 /// How one sensor errs; nothing: a perfect one.
 using SensorModel =
     std::variant<std::monostate, StructuredLightOptions, TimeOfFlightOptions, ActiveStereoOptions>;
-SensorModel ModelOf(SensorKind kind);
+SensorModel MakeSensorModel(SensorKind kind);
 
 /// What the renderer must trace for the model: what its projector or second imager reaches.
 RenderOptions RaysFor(const SensorModel& model);

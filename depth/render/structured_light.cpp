@@ -43,8 +43,8 @@ class Sensor {
             static_cast<float>(options.whole_width_px > 0 ? options.whole_width_px : camera.width) /
             640.0F),
         lateral_px_(static_cast<float>(options.lateral_noise_px) * scale_),
-        shift_u_(width_, height_, CellOf(options, scale_), Hash(seed, kShiftU)),
-        shift_v_(width_, height_, CellOf(options, scale_), Hash(seed, kShiftV)) {
+        shift_u_(width_, height_, ComputeCell_px(options, scale_), Hash(seed, kShiftU)),
+        shift_v_(width_, height_, ComputeCell_px(options, scale_), Hash(seed, kShiftV)) {
     for (uint64_t stream = 0; stream < kStreamCount; ++stream) seeds_[stream] = Hash(seed, stream);
     // The pattern's windows are of the sensor: fewer pixels where the image is scaled down.
     window_ = std::max(1, Rounded(static_cast<float>(options.window_px) * scale_));
@@ -70,7 +70,7 @@ class Sensor {
   int rows_of_windows() const { return (height_ + window_ - 1) / window_; }
 
  private:
-  static float CellOf(const StructuredLightOptions& options, float scale) {
+  static float ComputeCell_px(const StructuredLightOptions& options, float scale) {
     return std::max(1.0F, static_cast<float>(options.lateral_cell_px) * scale);
   }
 

@@ -26,7 +26,7 @@ struct StructuredLightOptions {
   /// Noise of one matching window is shared by this many pixels each way (640 wide).
   int window_px = 3;  // by hand
   /// Standard deviation of where a window's measure comes from, pixels, and how far neighbours go
-  /// together: outlines waver by a pixel or two in waves of ten, as in the real frames.
+  /// together: silhouettes waver by a pixel or two in waves of ten, as in the real frames.
   double lateral_noise_px = 0.9;
   int lateral_cell_px = 6;
   /// Surfaces begin to drop out below this |cos| of incidence and are gone at half of it.

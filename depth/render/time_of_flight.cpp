@@ -6,6 +6,7 @@
 #include <numbers>
 #include <utility>
 
+#include "depth/base/angles.h"
 #include "depth/render/sensor_noise_internal.h"
 
 namespace ossa::depth {
@@ -26,7 +27,8 @@ class Sensor {
       : rendered_(rendered),
         camera_(camera),
         options_(options),
-        patches_(camera.width, camera.height, PatchOf(camera, options), Hash(seed, kPatches)),
+        patches_(camera.width, camera.height, ComputePatch_px(camera, options),
+                 Hash(seed, kPatches)),
         noise_seed_(Hash(seed, kNoise)),
         edge_seed_(Hash(seed, kEdges)) {}
 
@@ -51,7 +53,7 @@ class Sensor {
  private:
   static float Float(double value) { return static_cast<float>(value); }
 
-  static float PatchOf(const Camera& camera, const TimeOfFlightOptions& options) {
+  static float ComputePatch_px(const Camera& camera, const TimeOfFlightOptions& options) {
     const int whole_px = options.whole_width_px > 0 ? options.whole_width_px : camera.width;
     return std::max(1.0F, Float(options.patch_px) * static_cast<float>(whole_px) / 640.0F);
   }
@@ -80,7 +82,6 @@ class Sensor {
   }
 
   bool IsLit(float x, float y) const {
-    constexpr double kDegree = std::numbers::pi / 180.0;
     constexpr double kEverywhere = 89.0;  // degrees, of a tangent that can be had; by hand
     if (options_.reach_x_deg > kEverywhere || options_.reach_y_deg > kEverywhere) return true;
     const float a = x / Float(std::tan(options_.reach_x_deg * kDegree));

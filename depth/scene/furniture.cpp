@@ -15,9 +15,10 @@ using Eigen::Vector3d;
 constexpr double kLeastTolerance_m = 0.025;
 
 // Bounds of upright pieces of one plane.
-class Outline {
+class UprightBounds {
  public:
-  Outline(const FloorPlane& floor, const Vector3d& along) : floor_(floor), along_(along) {}
+  UprightBounds(const FloorPlane& floor, const Vector3d& along, const FurnitureOptions& options)
+      : floor_(floor), along_(along), options_(options) {}
 
   void Add(const PointGrid& grid, const FlatPiece& piece) {
     area_m2_ += piece.area_m2;
@@ -28,21 +29,17 @@ class Outline {
       left_m_ = std::min(left_m_, beside_m), right_m_ = std::max(right_m_, beside_m);
     }
   }
-  bool IsLow() const {
-    constexpr double kTop_m = 0.65;  // anthropometry: below the hips of adults
-    return high_m_ < kTop_m;
-  }
+  bool IsLow() const { return high_m_ < options_.front_top_m; }
   bool IsFurniture() const {
-    constexpr double kFoot_m = 0.2, kWide_m = 0.9;  // metres over the floor, and along it
-    constexpr double kFilled = 0.55;                // share of its box: two legs fill less
     const double wide_m = right_m_ - left_m_;
-    return IsLow() && low_m_ < kFoot_m && wide_m > kWide_m &&
-           area_m2_ > kFilled * wide_m * (high_m_ - low_m_);
+    return IsLow() && low_m_ < options_.front_foot_m && wide_m > options_.front_width_m &&
+           area_m2_ > options_.front_filled * wide_m * (high_m_ - low_m_);
   }
 
  private:
   const FloorPlane& floor_;
   Vector3d along_;
+  const FurnitureOptions& options_;
   double area_m2_ = 0, low_m_ = 1e9, high_m_ = -1e9, left_m_ = 1e9, right_m_ = -1e9;
 };
 
@@ -78,9 +75,7 @@ double HorizontalArea_m2(const PointGrid& grid, const Vector3d& up, int cell) {
 // Heights of the cells that lie level, 0 for the others: of an upright surface the cell above is
 // higher by the cells' distance, of a level one it is as high.
 std::vector<float> LevelHeights(const PointGrid& grid, const FloorPlane& floor,
-                                const std::vector<uint8_t>& room) {
-  constexpr float kLowest_m = 0.3F, kHighest_m = 1.3F;  // who lies on the floor is lower
-  constexpr float kLevel = 0.4F;  // times the pitch of the cells: a slope of 22 degrees
+                                const std::vector<uint8_t>& room, const FurnitureOptions& options) {
   std::vector<float> height_m(static_cast<size_t>(grid.cells()), 0.0F), level_m = height_m;
   for (int i = 0; i < grid.cells(); ++i) {
     const auto n = static_cast<size_t>(i);
@@ -91,11 +86,11 @@ std::vector<float> LevelHeights(const PointGrid& grid, const FloorPlane& floor,
     const float pitch_m = 1.0F / grid.CellsOf(1.0F, grid.z(a));
     return height_m[static_cast<size_t>(b)] != 0 &&
            std::abs(height_m[static_cast<size_t>(a)] - height_m[static_cast<size_t>(b)]) <
-               kLevel * pitch_m;
+               options.level * pitch_m;
   };
   for (int i = 0; i < grid.cells(); ++i) {
     const float h = height_m[static_cast<size_t>(i)];
-    if (h < kLowest_m || h > kHighest_m) continue;
+    if (h < options.min_top_height_m || h > options.max_top_height_m) continue;
     const bool above = i >= grid.width && level(i, i - grid.width);
     const bool below = i + grid.width < grid.cells() && level(i, i + grid.width);
     if (above || below) level_m[static_cast<size_t>(i)] = h;
@@ -144,43 +139,43 @@ double MostHeightTolerance(const Eigen::Vector3f& p) {
   return kLeastTolerance_m + kMostAlong * static_cast<double>(DepthTolerance(p.z()));
 }
 
-bool InPlaneOf(const PointGrid& grid, const FlatPiece& piece, const FlatPiece& wall) {
-  constexpr double kSameNormal = 0.97;         // 14 degrees
-  constexpr double kSameDepth_per_m = 2.9e-3;  // sensor: one step of the Kinect v1 in inverse depth
-  if (piece.normal.dot(wall.normal) < kSameNormal) return false;
+bool LiesInPlaneOf(const PointGrid& grid, const FlatPiece& piece, const FlatPiece& wall,
+                   const FurnitureOptions& options) {
+  if (piece.normal.dot(wall.normal) < options.same_normal) return false;
   double off = 0;
   for (const int cell : piece.cells) {
     off += 1.0 / static_cast<double>(grid.z(cell)) - wall.slope_x * (cell % grid.width) -
            wall.slope_y * (cell / grid.width) - wall.at_zero;
   }
-  return std::abs(off) / static_cast<double>(piece.cells.size()) < kSameDepth_per_m;
+  return std::abs(off) / static_cast<double>(piece.cells.size()) < options.same_depth_per_m;
 }
 
 std::vector<int> LowFront(const PointGrid& grid, const FloorPlane& floor,
-                          const std::vector<FlatPiece>& pieces, const FlatPiece& piece) {
-  constexpr double kUpright = 0.35;  // cosine: at most so much of the normal points up
+                          const std::vector<FlatPiece>& pieces, const FlatPiece& piece,
+                          const FurnitureOptions& options) {
   const Vector3d up = floor.coefficients.head<3>();
-  if (std::abs(piece.normal.dot(up)) > kUpright) return {};
-  Outline outline(floor, up.cross(piece.normal).normalized());
-  outline.Add(grid, piece);
-  if (!outline.IsLow()) return {};
+  if (std::abs(piece.normal.dot(up)) > options.upright_cosine) return {};
+  UprightBounds bounds(floor, up.cross(piece.normal).normalized(), options);
+  bounds.Add(grid, piece);
+  if (!bounds.IsLow()) return {};
   std::vector<int> cells = piece.cells;
   for (const FlatPiece& other : pieces) {
-    if (&other == &piece || !InPlaneOf(grid, other, piece)) continue;
-    outline.Add(grid, other);
+    if (&other == &piece || !LiesInPlaneOf(grid, other, piece, options)) continue;
+    bounds.Add(grid, other);
     cells.insert(cells.end(), other.cells.begin(), other.cells.end());
   }
-  return outline.IsFurniture() ? cells : std::vector<int>{};
+  return bounds.IsFurniture() ? cells : std::vector<int>{};
 }
 
-void MarkTops(const PointGrid& grid, const FloorPlane& floor, std::vector<uint8_t>& room) {
-  constexpr double kLeast_m2 = 0.25, kLeastWidth_m = 0.25;
-  std::vector<float> level_m = LevelHeights(grid, floor, room);
+void MarkTops(const PointGrid& grid, const FloorPlane& floor, const FurnitureOptions& options,
+              std::vector<uint8_t>& room) {
+  std::vector<float> level_m = LevelHeights(grid, floor, room, options);
   for (int start = 0; start < grid.cells(); ++start) {
     if (level_m[static_cast<size_t>(start)] == 0) continue;
     Spread spread;
     const std::vector<int> top = TakeTop(grid, floor, start, level_m, spread);
-    if (spread.area_m2 < kLeast_m2 || spread.Width_m() < kLeastWidth_m) continue;
+    if (spread.area_m2 < options.min_level_m2 || spread.Width_m() < options.min_level_width_m)
+      continue;
     for (const int cell : top) room[static_cast<size_t>(cell)] = 1;
   }
 }

@@ -7,7 +7,7 @@ namespace {
 
 // The cell's reading: the first of a few fixed pixels that has one. Averages would invent points
 // between a person and the wall behind.
-uint16_t ReadingOf(const DepthView& depth, int u0, int v0, int step, uint16_t max_mm) {
+uint16_t ReadFirstDepth(const DepthView& depth, int u0, int v0, int step, uint16_t max_mm) {
   const int middle = step / 2;
   const int places[5][2] = {
       {middle, middle}, {0, 0}, {step - 1, step - 1}, {step - 1, 0}, {0, step - 1}};
@@ -37,7 +37,7 @@ PointGrid MakePointGrid(const DepthView& depth, const Camera& camera, float max_
   for (int y = 0; y < grid.height; ++y) {
     for (int x = 0; x < grid.width; ++x) {
       const int u = x * grid.step, v = y * grid.step;
-      const uint16_t mm = ReadingOf(depth, u, v, grid.step, max_mm);
+      const uint16_t mm = ReadFirstDepth(depth, u, v, grid.step, max_mm);
       if (mm == 0) {
         const int middle = grid.step / 2;
         grid.beyond[static_cast<size_t>(grid.cell(x, y))] =

@@ -14,16 +14,10 @@ using Eigen::Vector3f;
 // How large a flat piece must be to be furniture or a wall: larger than the flattest part of a body
 // looks at this distance. At 1 m the sensor tells 1 cm of curvature, and a flat back has 0.15 m2;
 // from 3 m on a whole person is as flat as a board.
-constexpr double kPerson_m2 = 0.85;  // anthropometry: of a big person seen from the front
-
-double RequireRoomArea_m2(double z_m) {
+double RequireRoomArea_m2(double z_m, const FurnitureOptions& options) {
   const double far_m = std::max(0.0, z_m - 1.0);
-  return std::min(0.2 + 0.12 * far_m + 0.05 * far_m * far_m, kPerson_m2);
+  return std::min(0.2 + 0.12 * far_m + 0.05 * far_m * far_m, options.person_m2);
 }
-
-// Nobody's side looks up: tables, seats and shelves do.
-constexpr double kTop = 0.9;          // cosine of the normal's angle to the vertical, by hand
-constexpr double kTopArea_m2 = 0.12;  // by hand: smaller ones may be a lap or an arm held out
 
 double ComputeMeanDepth_m(const PointGrid& grid, const FlatPiece& piece) {
   double z_m = 0;
@@ -32,7 +26,7 @@ double ComputeMeanDepth_m(const PointGrid& grid, const FlatPiece& piece) {
 }
 
 void MarkFlatPieces(const PointGrid& grid, const std::optional<FloorPlane>& floor,
-                    RoomShape& shape) {
+                    const FurnitureOptions& options, RoomShape& shape) {
   const Eigen::Vector3d up =
       floor ? floor->coefficients.head<3>().eval() : Eigen::Vector3d::UnitY();
   const std::vector<FlatPiece> pieces = FlatPieces(grid, shape.room);  // largest first
@@ -43,17 +37,18 @@ void MarkFlatPieces(const PointGrid& grid, const std::optional<FloorPlane>& floo
       shape.plane_of[static_cast<size_t>(cell)] = static_cast<int>(shape.planes.size());
     }
     shape.planes.push_back(piece);
-    const bool top = piece.normal.dot(up) > kTop;
+    const bool top = piece.normal.dot(up) > options.top_cosine;
     const bool large =
-        piece.area_m2 >= (top ? kTopArea_m2 : RequireRoomArea_m2(ComputeMeanDepth_m(grid, piece)));
+        piece.area_m2 >=
+        (top ? options.top_m2 : RequireRoomArea_m2(ComputeMeanDepth_m(grid, piece), options));
     const bool of_wall = !large && std::any_of(walls.begin(), walls.end(), [&](const FlatPiece* w) {
-      return InPlaneOf(grid, piece, *w);
+      return LiesInPlaneOf(grid, piece, *w, options);
     });
     if (large) walls.push_back(&piece);
     if (large || of_wall) {
       for (const int cell : piece.cells) shape.room[static_cast<size_t>(cell)] = 1;
     } else if (floor) {
-      for (const int cell : LowFront(grid, *floor, pieces, piece))
+      for (const int cell : LowFront(grid, *floor, pieces, piece, options))
         shape.room[static_cast<size_t>(cell)] = 1;
     }
   }
@@ -67,7 +62,8 @@ bool OnOrUnder(const FloorPlane& floor, const Vector3f& p) {
   return height_m < MostHeightTolerance(p) && height_m < HeightTolerance(floor, p);
 }
 
-RoomShape FindRoomSurfaces(const PointGrid& grid, const std::optional<FloorPlane>& floor) {
+RoomShape FindRoomSurfaces(const PointGrid& grid, const std::optional<FloorPlane>& floor,
+                           const FurnitureOptions& options) {
   const auto cells = static_cast<size_t>(grid.cells());
   RoomShape shape{std::vector<uint8_t>(cells, 0),
                   std::vector<uint8_t>(cells, 0),
@@ -81,8 +77,8 @@ RoomShape FindRoomSurfaces(const PointGrid& grid, const std::optional<FloorPlane
     }
     shape.floor = shape.room;
   }
-  if (floor) MarkTops(grid, *floor, shape.room);
-  MarkFlatPieces(grid, floor, shape);
+  if (floor) MarkTops(grid, *floor, options, shape.room);
+  MarkFlatPieces(grid, floor, options, shape);
   return shape;
 }
 

@@ -14,6 +14,29 @@ namespace ossa::depth {
 /// Whether a measurement (camera space, metres) lies within the height tolerance of the floor.
 bool OnOrUnder(const FloorPlane& floor, const Eigen::Vector3f& p);
 
+/// When a plane is furniture or a wall, and nobody. Lengths and areas are > 0, cosines and shares
+/// in [0, 1]. Constants: where a line names no other origin ("anthropometry", "sensor": structured
+/// light), set by hand while developing on rendered rooms with validation subjects (`ossa
+/// experiment indoor-scenes`); no sweep is recorded.
+struct FurnitureOptions {
+  double person_m2 = 0.85;  // anthropometry: of a big person seen from the front
+  double top_cosine = 0.9;  // cosine of the normal to the vertical: nobody's side looks up so,
+  double top_m2 = 0.12;     // ... and smaller ones may be a lap or an arm held out
+  // Pieces that are of one plane.
+  double same_normal = 0.97;         // cosine: 14 degrees
+  double same_depth_per_m = 2.9e-3;  // sensor: one step of the Kinect v1 in inverse depth
+  // The front of a sofa, a chest or a box that stands on the floor.
+  double upright_cosine = 0.35;  // cosine of the normal to the vertical, at most
+  double front_top_m = 0.65;     // anthropometry: below the hips of adults, 0.8 m and more
+  double front_foot_m = 0.2;     // its lower edge is as low; anthropometry: below a knee
+  double front_width_m = 0.9;    // anthropometry: broader than anybody's two legs
+  double front_filled = 0.55;    // share of its box: two legs fill less
+  // Table tops and seats, by their height over the floor.
+  float min_top_height_m = 0.3F, max_top_height_m = 1.3F;  // who lies on the floor is lower
+  float level = 0.4F;  // times the pitch of the cells: a slope of 22 degrees
+  double min_level_m2 = 0.25, min_level_width_m = 0.25;  // anthropometry: laps and arms are smaller
+};
+
 /// What shape alone says of each cell (1 = yes).
 struct RoomShape {
   std::vector<uint8_t> floor;
@@ -23,7 +46,8 @@ struct RoomShape {
   std::vector<FlatPlane> planes;  // of all flat pieces
   std::vector<int> plane_of;      // which of them a cell lies on, -1 for none
 };
-RoomShape FindRoomSurfaces(const PointGrid& grid, const std::optional<FloorPlane>& floor);
+RoomShape FindRoomSurfaces(const PointGrid& grid, const std::optional<FloorPlane>& floor,
+                           const FurnitureOptions& options = {});
 
 /// A connected piece of surface: cells in ascending order.
 struct Region {

@@ -65,7 +65,7 @@ Beside LookBeside(const Line& line, int end, int step) {
 // both, as the wall between a person and a corner, tells nothing.
 enum class Place { kAlone, kInFront, kBehind, kOther };
 
-Place PlaceOf(const Line& line, const Stretch& stretch) {
+Place FindPlace(const Line& line, const Stretch& stretch) {
   const Beside before = LookBeside(line, stretch.begin, -1);
   const Beside after = LookBeside(line, stretch.end, 1);
   if (before == Beside::kSame || after == Beside::kSame) return Place::kOther;
@@ -83,7 +83,7 @@ bool GoesAcross(const Line& line, const Stretch& stretch) {
 }
 
 // Above 0 where z'' is, below where it is below, 0 where nobody can say.
-int SignOfBend(const Line& line, const Stretch& stretch) {
+int ComputeBendSign(const Line& line, const Stretch& stretch) {
   constexpr int kMostEdge = 1;     // pixels at an end that see two surfaces, too
   constexpr double kSigmas = 3.0;  // of the bend's error
   constexpr double kLeast_mm = 2.0;
@@ -108,9 +108,9 @@ Count CountStretches(const Line& line) {
     i = stretch.end;
     const bool cut_off = stretch.begin == 0 || stretch.end == line.size() - 1;
     if (cut_off || stretch.size() < kShortest) continue;
-    const Place place = PlaceOf(line, stretch);
+    const Place place = FindPlace(line, stretch);
     if (place == Place::kOther || !GoesAcross(line, stretch)) continue;
-    const int bend = SignOfBend(line, stretch);
+    const int bend = ComputeBendSign(line, stretch);
     count.round += bend > 0 && place != Place::kBehind ? 1 : 0;
     count.hollow += bend < 0 && place != Place::kInFront ? 1 : 0;
   }

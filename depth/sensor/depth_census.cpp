@@ -119,7 +119,7 @@ std::optional<DepthSuspicion> JudgeFormat(const Counts& count, const Spread& spr
 // Share of the numbers that occur, however often, for which something holds: a wall seen from
 // straight ahead is one number.
 template <typename Holds>
-double ShareOfNumbers(const Counts& count, const Spread& spread, const Holds& holds) {
+double ComputeNumberShare(const Counts& count, const Spread& spread, const Holds& holds) {
   int sum = 0;
   for (int number = 1; number < 65536; ++number) {
     if (count[static_cast<size_t>(number)] > 0 && holds(number)) ++sum;
@@ -129,7 +129,7 @@ double ShareOfNumbers(const Counts& count, const Spread& spread, const Holds& ho
 
 // Share of the readings that have one of the three most common remainders by eight: player bits are
 // 0 and one number a person, a sensor's readings have all eight.
-double ShareOfThreeRemainders(const Counts& count, const Spread& spread) {
+double ComputeThreeRemainderShare(const Counts& count, const Spread& spread) {
   std::array<int64_t, 8> of{};
   for (size_t number = 1; number < count.size(); ++number) of[number % 8] += count[number];
   std::sort(of.rbegin(), of.rend());
@@ -157,13 +157,13 @@ std::optional<DepthSuspicion> JudgeMultiples(const Counts& count, const Spread& 
   if (spread.distinct < kManyNumbers) return std::nullopt;
   const bool of_4 = Share(count, spread, [](int number) { return number % 4 == 0; }) > kNearlyAll;
   const bool has_players =
-      share_of_steps_of_8 > 0.95 || (!of_4 && ShareOfThreeRemainders(count, spread) > kAll);
+      share_of_steps_of_8 > 0.95 || (!of_4 && ComputeThreeRemainderShare(count, spread) > kAll);
   for (const Unit& unit : kUnits) {
     const auto is_multiple = [&](int number) {
       return number % unit.of_mm == 0 || number == kSaturated;
     };
     const bool all = (Share(count, spread, is_multiple) > kNearlyAll &&
-                      ShareOfNumbers(count, spread, is_multiple) > kMost) ||
+                      ComputeNumberShare(count, spread, is_multiple) > kMost) ||
                      (unit.of_mm == 8 && has_players);
     // A sensor that rounds to centimetres is none of tenths, and sees people within 5 m.
     const double least_mm = unit.of_mm == 10 ? 500.0 : kNearest_mm;

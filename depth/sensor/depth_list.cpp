@@ -24,7 +24,7 @@ std::string_view TakeWord(std::string_view& line) {
   return word;
 }
 
-std::optional<DepthList::Entry> EntryOf(std::string_view line) {
+std::optional<DepthList::Entry> ParseEntry(std::string_view line) {
   const std::string_view time = TakeWord(line), file = TakeWord(line);
   double time_s = 0.0;
   const auto [end, error] = std::from_chars(time.data(), time.data() + time.size(), time_s);
@@ -41,7 +41,7 @@ DepthList ParseDepthList(std::string_view text) {
     std::string_view line = text.substr(0, text.find_first_of("\n"));
     text.remove_prefix(std::min(line.size() + 1, text.size()));
     if (line.find_first_not_of(kBlanks) == std::string_view::npos || line.front() == '#') continue;
-    if (auto entry = EntryOf(line)) {
+    if (auto entry = ParseEntry(line)) {
       list.entries.push_back(std::move(*entry));
     } else {
       list.bad_lines.push_back(number);

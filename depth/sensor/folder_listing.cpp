@@ -64,11 +64,11 @@ bool HasWord(std::string_view family, std::span<const std::string_view> words) {
 enum class Rank { kDepth, kUnnamed, kNamedOther };
 
 // What a name says of the image: depth*.png beside ir*.png are the ones meant.
-Rank RankOf(const fs::path& png) {
+Rank RankByName(const fs::path& png) {
   constexpr std::array<std::string_view, 16> kOthers = {
       "ir",  "infrared", "color", "colour", "rgb",   "amp",   "amplitude", "intensity",
       "cnf", "mask",     "label", "labels", "index", "users", "conf",      "confidence"};
-  const std::string family = FamilyOfName(png.stem().string());
+  const std::string family = StripNumbers(png.stem().string());
   if (family.find("depth") != std::string::npos) return Rank::kDepth;
   return HasWord(family, kOthers) ? Rank::kNamedOther : Rank::kUnnamed;
 }
@@ -80,7 +80,7 @@ Sorted SortOut(const fs::path& folder) {
     if (!IsPngName(path) || IsOtherPng(path)) {
       if (!IsExpectedBeside(path)) sorted.other.push_back(std::move(path));
     } else {
-      ranked[RankOf(path)].push_back(std::move(path));
+      ranked[RankByName(path)].push_back(std::move(path));
     }
   }
   for (auto& [rank, paths] : ranked) {
@@ -127,7 +127,7 @@ ImageSize CommonSize(const std::vector<ListedFrame>& frames) {
 std::vector<ListedFrame> FramesByName(const std::vector<fs::path>& paths) {
   std::vector<std::string> stems;
   for (const fs::path& path : paths) stems.push_back(path.stem().string());
-  const NamedTimes times = TimesOfNames(stems);
+  const NamedTimes times = ReadTimesFromNames(stems);
   std::vector<ListedFrame> frames;
   for (size_t i = 0; i < paths.size(); ++i) {
     ListedFrame frame{paths[i], static_cast<int64_t>(i), 0.0};

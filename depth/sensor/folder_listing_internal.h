@@ -21,8 +21,8 @@ struct FolderListing {
 };
 
 /// Frames in natural order, 30 a second; or, in order of time, as depth.txt or their names say (see
-/// TimesOfNames). What is no depth image is passed over with a note. Throws InputError when there
-/// is none.
+/// ReadTimesFromNames). What is no depth image is passed over with a note. Throws InputError when
+/// there is none.
 FolderListing ListDepthFolder(const std::filesystem::path& folder, const SourceOptions& options);
 
 /// Whether a file is a PNG by its name, .PNG as well, and not one that a Mac left beside another.

@@ -117,8 +117,8 @@ std::unique_ptr<FrameSource> OpenFrames(FolderListing frames, const fs::path& fo
                                         ChooseCamera(folder, stated, size, options), options);
 }
 
-std::unique_ptr<FrameSource> OpenFramesOfSet(FolderListing frames, const fs::path& folder,
-                                             const SourceOptions& options) {
+std::unique_ptr<FrameSource> OpenDatasetFrames(FolderListing frames, const fs::path& folder,
+                                               const SourceOptions& options) {
   const ImageSize size = frames.size;
   const fs::path manifest = folder / "manifest.json";
   std::optional<Camera> stated;
@@ -142,7 +142,7 @@ std::unique_ptr<FrameSource> OpenStill(const fs::path& png, const SourceOptions&
   const fs::path folder = fs::absolute(png).parent_path();
   const fs::path above = folder.parent_path();
   return IsDataSet(above) && folder == above / "depth"
-             ? OpenFramesOfSet(OneFrame(png), above, options)
+             ? OpenDatasetFrames(OneFrame(png), above, options)
              : OpenFrames(OneFrame(png), folder, options);
 }
 
@@ -151,7 +151,7 @@ bool IsDataSet(const fs::path& folder) {
 }
 
 std::unique_ptr<FrameSource> OpenDataSet(const fs::path& folder, const SourceOptions& options) {
-  return OpenFramesOfSet(ListDepthFolder(folder / "depth", options), folder, options);
+  return OpenDatasetFrames(ListDepthFolder(folder / "depth", options), folder, options);
 }
 
 }  // namespace ossa::depth

@@ -5,6 +5,8 @@
 #include <cmath>
 #include <optional>
 
+#include "depth/base/statistics.h"
+
 // Constants: by hand, between the clocks that recorders put into names; in each unit depth cameras'
 // steps, of 5 ms to 2 s, are far from the next unit's.
 namespace ossa::depth {
@@ -26,7 +28,7 @@ struct NumberedName {
   std::string_view before, whole, fraction, after;
 };
 
-std::optional<NumberedName> LastNumberOf(std::string_view stem) {
+std::optional<NumberedName> FindLastNumber(std::string_view stem) {
   size_t end = stem.size();
   while (end > 0 && !IsDigit(stem[end - 1])) --end;
   if (end == 0) return std::nullopt;
@@ -44,10 +46,10 @@ std::optional<NumberedName> LastNumberOf(std::string_view stem) {
 }
 
 // All names' last numbers, where they are all that the names differ in; else empty.
-std::vector<NumberedName> LastNumbersOf(const std::vector<std::string>& stems) {
+std::vector<NumberedName> FindLastNumbers(const std::vector<std::string>& stems) {
   std::vector<NumberedName> names;
   for (const std::string& stem : stems) {
-    const auto name = LastNumberOf(stem);
+    const auto name = FindLastNumber(stem);
     if (!name) return {};
     names.push_back(*name);
     const NumberedName& first = names.front();
@@ -89,14 +91,12 @@ std::vector<double> Seconds(const std::vector<NumberedName>& names,
 int64_t MedianStep(const std::vector<int64_t>& values) {
   std::vector<int64_t> steps;
   for (size_t i = 1; i < values.size(); ++i) steps.push_back(values[i] - values[i - 1]);
-  std::nth_element(steps.begin(), steps.begin() + static_cast<ptrdiff_t>(steps.size() / 2),
-                   steps.end());
-  return steps[steps.size() / 2];
+  return Median(std::move(steps));
 }
 
 // Seconds a unit of whole numbers that are times, or nothing. Cameras give 0.5 to 200 frames a
 // second; below kLeastStep numbers rather count frames than milliseconds.
-std::optional<double> UnitOfTimes(int64_t step, size_t digits) {
+std::optional<double> GuessTimeUnit(int64_t step, size_t digits) {
   constexpr int64_t kLeastStep = 15;
   constexpr size_t kSecondsSince1970 = 10, kNanosecondsSince1970 = 18;
   if (step < kLeastStep) {
@@ -108,14 +108,14 @@ std::optional<double> UnitOfTimes(int64_t step, size_t digits) {
   return nanoseconds && digits >= kNanosecondsSince1970 ? std::optional(1e-9) : std::nullopt;
 }
 
-NamedTimes TimesOfWholeNumbers(const std::vector<NumberedName>& names,
-                               const std::vector<int64_t>& values) {
+NamedTimes ReadTimesFromNumbers(const std::vector<NumberedName>& names,
+                                const std::vector<int64_t>& values) {
   constexpr size_t kLongestCount = 8;  // digits: longer numbers are times or say nothing
   const size_t digits = names.back().whole.size();
   const bool alone = names.front().before.empty() && names.front().after.empty();
   NamedTimes times;
   const int64_t step = values.size() > 1 ? MedianStep(values) : 1;
-  if (const auto unit_s = UnitOfTimes(step, digits)) {
+  if (const auto unit_s = GuessTimeUnit(step, digits)) {
     times.kind = NamedTimes::Kind::kTimes;
     for (const int64_t value : values) {
       times.times_s.push_back(static_cast<double>(value - values.front()) * *unit_s);
@@ -150,7 +150,7 @@ bool NaturalLess(std::string_view a, std::string_view b) {
   return left_a != left_b ? left_a < left_b : a < b;  // 1 and 01: any order, but always the same
 }
 
-std::string FamilyOfName(std::string_view stem) {
+std::string StripNumbers(std::string_view stem) {
   std::string family;
   for (size_t i = 0; i < stem.size(); ++i) {
     const bool point_in_number = stem[i] == '.' && i > 0 && IsDigit(stem[i - 1]) &&
@@ -162,8 +162,8 @@ std::string FamilyOfName(std::string_view stem) {
   return family;
 }
 
-NamedTimes TimesOfNames(const std::vector<std::string>& stems) {
-  const std::vector<NumberedName> names = LastNumbersOf(stems);
+NamedTimes ReadTimesFromNames(const std::vector<std::string>& stems) {
+  const std::vector<NumberedName> names = FindLastNumbers(stems);
   if (names.empty()) return {};
   const auto whole = WholeNumbers(names);
   if (!whole) return {};
@@ -173,7 +173,7 @@ NamedTimes TimesOfNames(const std::vector<std::string>& stems) {
     return ordered ? times : NamedTimes{};
   }
   const bool twice = std::adjacent_find(whole->begin(), whole->end()) != whole->end();
-  return twice ? NamedTimes{} : TimesOfWholeNumbers(names, *whole);
+  return twice ? NamedTimes{} : ReadTimesFromNumbers(names, *whole);
 }
 
 }  // namespace ossa::depth

@@ -11,7 +11,7 @@ bool NaturalLess(std::string_view a, std::string_view b);
 
 /// What the names of one kind of file share: small letters, with every number left out ("depth_",
 /// "frame-.depth", "").
-std::string FamilyOfName(std::string_view stem);
+std::string StripNumbers(std::string_view stem);
 
 /// When the frames of a sequence were taken, by their files' names without extension.
 struct NamedTimes {
@@ -24,6 +24,6 @@ struct NamedTimes {
 /// Names in natural order. Numbers with a fraction are seconds; whole ones are frame numbers where
 /// they count in small steps, and else milliseconds, microseconds or nanoseconds where that makes a
 /// frame rate that cameras have; what is neither says no more than the order.
-NamedTimes TimesOfNames(const std::vector<std::string>& stems);
+NamedTimes ReadTimesFromNames(const std::vector<std::string>& stems);
 
 }  // namespace ossa::depth

@@ -3,7 +3,7 @@
 
 namespace ossa::depth {
 
-Camera CameraOfWindow(const Camera& whole, const ImageWindow& window) {
+Camera CropToWindow(const Camera& whole, const ImageWindow& window) {
   return Cropped(CameraForSize(whole, window.whole_width, window.whole_height), window.left,
                  window.top, window.width, window.height);
 }

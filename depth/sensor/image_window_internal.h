@@ -22,6 +22,6 @@ struct ImageWindow {
 
 /// The camera of what is seen through the window: `whole`, which is scaled where the image has
 /// another size by now (see CameraForSize), with its centre shifted.
-Camera CameraOfWindow(const Camera& whole, const ImageWindow& window);
+Camera CropToWindow(const Camera& whole, const ImageWindow& window);
 
 }  // namespace ossa::depth

@@ -22,7 +22,7 @@ std::optional<T> ReadAt(std::ifstream& file, uint64_t at) {
   return value;
 }
 
-uint64_t SizeOf(std::ifstream& file) {
+uint64_t MeasureSize(std::ifstream& file) {
   file.clear();
   file.seekg(0, std::ios::end);
   return static_cast<uint64_t>(file.tellg());
@@ -65,7 +65,7 @@ bool Follows(const std::vector<OniFrameAt>& frames, const FrameFields& fields) {
 }  // namespace
 
 OniFrames FindOniFrames(std::ifstream& file, uint64_t begin) {
-  const uint64_t size = SizeOf(file);
+  const uint64_t size = MeasureSize(file);
   OniFrames found;
   for (uint64_t at = begin;;) {
     const auto header = ReadAt<OniRecordHeader>(file, at);

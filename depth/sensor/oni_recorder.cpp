@@ -201,7 +201,7 @@ struct OniRecorder::State {
   }
 
   // Time since the first frame, always growing, as the player's seek table must.
-  uint64_t TimestampOf(const DepthFrame& frame) {
+  uint64_t ComputeTimestamp_us(const DepthFrame& frame) {
     if (seek_table.size() == 1) first_time_s = frame.time_s;
     const double since_us = std::max(0.0, (frame.time_s - first_time_s) * 1e6);
     const auto stamp = static_cast<uint64_t>(std::llround(since_us));
@@ -259,7 +259,7 @@ void OniRecorder::Write(const DepthFrame& frame) {
                      " bytes that an OpenNI2 player has for a frame, found noise that takes " +
                      std::to_string(data.size()));
   }
-  const OniSeekEntry entry{state_->TimestampOf(frame), 0, state_->position};
+  const OniSeekEntry entry{state_->ComputeTimestamp_us(frame), 0, state_->position};
   Bytes fields;
   Append(entry.timestamp_us, &fields);
   Append(static_cast<uint32_t>(state_->seek_table.size()), &fields);

@@ -4,6 +4,7 @@
 #include <unistd.h>
 
 #include <chrono>
+#include <cstddef>
 #include <thread>
 
 namespace ossa::depth {
@@ -25,6 +26,17 @@ inline constexpr bool kHasShadow =
 #else
 inline constexpr bool kHasShadow = false;
 #endif
+
+/// Writes to standard output, where the program that wants the frames reads; ends when it is gone.
+inline void WriteToParent(const void* data, size_t size) {
+  const char* at = static_cast<const char*>(data);
+  while (size > 0) {
+    const ssize_t written = write(STDOUT_FILENO, at, size);
+    if (written <= 0) _exit(0);  // nobody reads any more
+    at += written;
+    size -= static_cast<size_t>(written);
+  }
+}
 
 /// Address space to a bound by hand, a hundred frames of the largest, and no core dumps.
 inline void LimitMemory() {

@@ -15,7 +15,7 @@ namespace {
 
 // The bend over that of a plane of this slope: 1 of a plane. Nothing where the surface is hardly
 // slanted, falls away as an edge does, or is no smooth one.
-std::optional<double> BendOfPlanes(const Parabola::Fit& fit) {
+std::optional<double> ComputePlaneBend(const Parabola::Fit& fit) {
   constexpr double kLeastSlope = 0.05, kMostSlope = 0.6;     // of the distance, over half a window
   constexpr double kMostRest = 0.7, kMostError = 1.0 / 3.0;  // of a plane's bend
   const double slope = std::abs(fit.slope), plane = slope * slope / fit.middle;
@@ -43,7 +43,7 @@ void SurfaceBend::AddLines(const DepthView& image, bool columns) {
         z[static_cast<size_t>(i)] = columns ? image.at(line, begin + i) : image.at(begin + i, line);
       }
       if (std::find(z.begin(), z.end(), 0.0) != z.end()) continue;
-      const auto bend = BendOfPlanes(parabola.Through(z));
+      const auto bend = ComputePlaneBend(parabola.Through(z));
       if (bend && *bend > 0.4 && *bend < 1.8) ++as_planes_;
       if (bend && *bend > -8.0 && *bend < -0.1) ++opposite_;
     }

@@ -262,7 +262,8 @@ Classification Classify(const ForestModel& model, const depth::DepthView& depth,
   const ObjectImage image = CutOut(depth, camera, result.pixel, model.data().background_mm);
   const std::vector<int32_t> position = BoxPositions(image, depth.width, result.pixel);
   const double pitch_m = Pitch_m(image, camera, model.data().background_mm, result.pixel.size());
-  const double spacing = pitch_m > 0 ? std::clamp(options.fine_m / pitch_m, 1.0, kMostSparse) : 1.0;
+  const double spacing =
+      pitch_m > 0 ? std::clamp(options.sample_spacing_m / pitch_m, 1.0, kMostSparse) : 1.0;
   SparsePixels sparse = ChooseSparse(image, position, spacing);
   Walked walked;
   walked.stride = (static_cast<size_t>(result.class_count) + 14) / 16 * 16;

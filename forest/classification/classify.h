@@ -48,7 +48,7 @@ struct ClassifyOptions {
   /// this far apart do, and the pixels between four samples take the label that has most of the
   /// four's masses. It costs no accuracy worth naming: less than 0.1 points of 72. 0: every pixel
   /// walks.
-  double fine_m = 0.0125;
+  double sample_spacing_m = 0.0125;
   InstructionSet instructions = InstructionSet::kBest;  // kScalar serves tests
 };
 

@@ -65,7 +65,7 @@ int32_t ChoosePixel(const ObjectImage& image, const Cell& column, const Cell& ro
 }
 
 // Chooses each cell's sample, tile by tile.
-void ChooseOfEachCell(const ObjectImage& image, SparsePixels* sparse) {
+void ChoosePerCell(const ObjectImage& image, SparsePixels* sparse) {
   ObjectImage& grid = sparse->grid;
   const std::vector<Cell> columns = FindCells(sparse->column);
   const std::vector<Cell> rows = FindCells(sparse->row);
@@ -146,7 +146,7 @@ SparsePixels ChooseSparse(const ObjectImage& image, std::span<const int32_t> pos
   sparse.sample.assign(static_cast<size_t>(grid.width) * static_cast<size_t>(grid.height),
                        SparsePixels::kNone);
   sparse.position.reserve(sparse.sample.size());
-  ChooseOfEachCell(image, &sparse);
+  ChoosePerCell(image, &sparse);
   SpreadSamples(image, position, &sparse);
   return sparse;
 }

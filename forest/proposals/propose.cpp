@@ -54,9 +54,9 @@ Mode Climb(const WeightedPoints& points, Eigen::Vector3f at_m, float bandwidth_m
     mode.density = sum.density;
     if (!(sum.density > 1e-12F)) break;
     const Eigen::Vector3f next = sum.moment / sum.density;
-    const bool arrived = (next - at_m).norm() < kStopStep_m;
+    const bool converged = (next - at_m).norm() < kStopStep_m;
     at_m = next;
-    if (arrived) break;
+    if (converged) break;
   }
   return mode;
 }

@@ -20,7 +20,7 @@ namespace {
 
 // Constants: chosen by hand; part of every shipped model.
 
-constexpr float kReach_m = 0.4F;  // where the slowest nearness has fallen to a half
+constexpr float kReach_m = 0.4F;  // where the slowest radial basis has fallen to a half
 // Scores change slowly: pixels so close together share them, those of one surface at least.
 constexpr double kSpot_m = 0.04;
 constexpr int kSameSurface_mm = 60;

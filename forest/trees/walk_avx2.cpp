@@ -50,7 +50,7 @@ struct Lines {
 
 OSSA_AVX2 __m256i Pairs(int low, int high) { return _mm256_set1_epi32((high << 16) | low); }
 
-OSSA_AVX2 Box BoxOf(const ObjectImage& image) {
+OSSA_AVX2 Box MakeBox(const ObjectImage& image) {
   return {image.depth_mm.data(), Pairs(image.width + 1, image.height + 1),
           Pairs(1, image.stride())};
 }
@@ -102,12 +102,12 @@ OSSA_AVX2 Halves LoadHalves(const char* begin, __m256i bytes) {
           _mm256_castps_si256(_mm256_shuffle_ps(a, b, 0xdd))};
 }
 
-OSSA_AVX2 __m256i OffsetsOf(__m256i words, __m256i offset_step) {
+OSSA_AVX2 __m256i UnpackOffsets(__m256i words, __m256i offset_step) {
   return _mm256_mullo_epi16(_mm256_srai_epi16(words, 4), offset_step);
 }
 
 // Puts the four pieces of each lane's threshold together.
-OSSA_AVX2 __m256i ThresholdsOf(const Halves& nodes) {
+OSSA_AVX2 __m256i UnpackThresholds(const Halves& nodes) {
   const __m256i pieces = Pairs(15, 15);
   const __m256i u = _mm256_and_si256(nodes.low, pieces);
   const __m256i v = _mm256_and_si256(nodes.high, pieces);
@@ -119,8 +119,9 @@ OSSA_AVX2 __m256i ThresholdsOf(const Halves& nodes) {
 // The first half of a step: eight nodes.
 OSSA_AVX2 Fetched FetchNodes(const Lines& lines, const Box& box, const Lanes& lanes) {
   const Halves nodes = LoadHalves(lines.begin, lanes.node);
-  return {PlaceOf(box, lanes, OffsetsOf(nodes.low, lines.offset_step)),
-          PlaceOf(box, lanes, OffsetsOf(nodes.high, lines.offset_step)), ThresholdsOf(nodes)};
+  return {PlaceOf(box, lanes, UnpackOffsets(nodes.low, lines.offset_step)),
+          PlaceOf(box, lanes, UnpackOffsets(nodes.high, lines.offset_step)),
+          UnpackThresholds(nodes)};
 }
 
 // The second half: -1 in the lanes that go right. Depths are at most ForestData::background_mm <
@@ -242,7 +243,7 @@ OSSA_AVX2 void WalkAll(const WalkInput& input, const Box& box, size_t groups, La
 
 __attribute__((target("avx2"))) void WalkAvx2(const WalkInput& input, int32_t* leaf,
                                               size_t leaf_stride) {
-  const Box box = BoxOf(*input.image);
+  const Box box = MakeBox(*input.image);
   for (size_t first = 0; first < input.position.size(); first += kLanes * kGroups) {
     const size_t count = std::min(kLanes * kGroups, input.position.size() - first);
     const size_t groups = (count + kLanes - 1) / kLanes;

@@ -94,7 +94,7 @@ std::vector<uint8_t> LabelTriangles(const BodyFiles& files, const std::vector<ui
       place.centroid_dm += files.vertex_dm[v] / 3.0f;
       for (const auto& [bone, weight] : files.weights[v]) place.bone_weight[bone] += weight / 3.0f;
     }
-    parts.push_back(PartOf(place, marks));
+    parts.push_back(LabelPart(place, marks));
   }
   return parts;
 }

@@ -30,6 +30,6 @@ struct PartLandmarks {
 };
 
 /// The part (1..31) of a place on the neutral body's skin.
-uint8_t PartOf(const PartLabelInput& place, const PartLandmarks& landmarks);
+uint8_t LabelPart(const PartLabelInput& place, const PartLandmarks& landmarks);
 
 }  // namespace ossa::recon

@@ -80,7 +80,7 @@ float Around(const Eigen::Vector3f& p) {
 }
 
 /// Folds run down from where cloth hangs and are deepest at its hem (`down` = 1).
-Eigen::Vector3f FoldOf(const Clothing& clothing, const Eigen::Vector3f& p, float down) {
+Eigen::Vector3f ComputeFold(const Clothing& clothing, const Eigen::Vector3f& p, float down) {
   constexpr uint64_t kFewest = 5, kKinds = 9;  // folds round the body; by hand
   const auto count = static_cast<float>(kFewest + clothing.pattern % kKinds);
   const float phase = static_cast<float>(clothing.pattern >> 8 & 0xFFU) * 0.0245f;  // 0 to 2 pi
@@ -219,7 +219,7 @@ std::vector<Eigen::Vector3f> Wardrobe::Dress(const ShapedBody& body,
               1.0f + static_cast<float>(clothing.skirt_flare) * down * (1.0f + 0.3f * waves.At(p));
           p.x() *= widen;
           p.z() *= widen;
-          if (clothing.fold_m > 0) p += FoldOf(clothing, p, down);
+          if (clothing.fold_m > 0) p += ComputeFold(clothing, p, down);
         }
         continue;
       case Region::kLongHair:
@@ -253,7 +253,7 @@ void Wardrobe::LetHang(const ShapedBody& body, const Clothing& clothing,
     Eigen::Vector3f& p = (*dressed_m)[i];
     const float down =
         std::clamp((scale * kChest_m - p.y()) / (scale * (kChest_m - kCrotch_m)), 0.0f, 1.0f);
-    p = curtain.Outside(p) + FoldOf(clothing, p, down);
+    p = curtain.Outside(p) + ComputeFold(clothing, p, down);
   }
 }
 

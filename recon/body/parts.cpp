@@ -98,22 +98,22 @@ uint8_t LegPart(const Eigen::Vector3f& p, const PartLandmarks& marks, size_t sid
   return Along(p, knee, hip) > kKneeHalf_dm ? kUpperLeg : kKnee;
 }
 
-float SumOf(const PartLabelInput& place, std::initializer_list<size_t> bones, size_t side) {
+float SumWeights(const PartLabelInput& place, std::initializer_list<size_t> bones, size_t side) {
   float sum = 0;
   for (const size_t bone : bones) sum += place.bone_weight[bone + side];
   return sum;
 }
 
-uint8_t LeftPartOf(const PartLabelInput& place, const PartLandmarks& marks, bool left) {
+uint8_t LabelLeftPart(const PartLabelInput& place, const PartLandmarks& marks, bool left) {
   const Eigen::Vector3f& p = place.centroid_dm;
   const size_t arm_side = left ? 0 : kRightArmOffset;
   const size_t leg_side = left ? 0 : kRightLegOffset;
   const float arm =
-      SumOf(place, {kArm, kForeArm, kHandBone, kFingerBase, kFinger, kThumb}, arm_side);
+      SumWeights(place, {kArm, kForeArm, kHandBone, kFingerBase, kFinger, kThumb}, arm_side);
   const float collar = place.bone_weight[kCollar + arm_side];
   // A skirt hangs between both legs.
-  const float leg = SumOf(place, {kUpLeg, kLeg, kFootBone, kToe}, 0) +
-                    SumOf(place, {kUpLeg, kLeg, kFootBone, kToe}, kRightLegOffset);
+  const float leg = SumWeights(place, {kUpLeg, kLeg, kFootBone, kToe}, 0) +
+                    SumWeights(place, {kUpLeg, kLeg, kFootBone, kToe}, kRightLegOffset);
   const float head = place.bone_weight[kHeadBone];
   const float neck = place.bone_weight[kNeckBone] + place.bone_weight[kNeck1];
   const float torso = 1.0f - arm - collar - leg - head - neck;
@@ -127,9 +127,9 @@ uint8_t LeftPartOf(const PartLabelInput& place, const PartLandmarks& marks, bool
 
 }  // namespace
 
-uint8_t PartOf(const PartLabelInput& place, const PartLandmarks& landmarks) {
+uint8_t LabelPart(const PartLabelInput& place, const PartLandmarks& landmarks) {
   const bool left = place.centroid_dm.x() >= 0;
-  const uint8_t part = LeftPartOf(place, landmarks, left);
+  const uint8_t part = LabelLeftPart(place, landmarks, left);
   return left ? part : kMirroredPart[part];
 }
 

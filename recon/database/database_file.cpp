@@ -73,7 +73,7 @@ void PostureDatabase::Save(const std::filesystem::path& path) const {
   WriteContainer(path, kFormat, out.bytes());
 }
 
-bool PostureDatabase::IsOne(const std::filesystem::path& path) {
+bool PostureDatabase::IsFile(const std::filesystem::path& path) {
   return IsContainer(path, kFormat);
 }
 

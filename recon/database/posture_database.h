@@ -71,7 +71,7 @@ class PostureDatabase {
                                    uint32_t version = kVersion);
   void Save(const std::filesystem::path& path) const;
   /// True when the file says that it is one; it may still be damaged.
-  static bool IsOne(const std::filesystem::path& path);
+  static bool IsFile(const std::filesystem::path& path);
 
   int size() const { return static_cast<int>(clip_of_.size()); }
   /// 60 x size(): column i is posture i. Until the next Add.

@@ -69,7 +69,7 @@ PointBody FindMapped(const Subject& subject, const BoneMapping& mapping, const L
     const std::vector<size_t> points = FindNamed(subject, line.joint);
     if (points.empty() && missing == nullptr) missing = &line;
     // Bones whose near end is no joint of ours, as collars, are for mocap.
-    const auto joint = JointOfBone(line.bone);
+    const auto joint = FindJointOfBone(line.bone);
     if (joint) body.points[Index(*joint)] = points;
   }
   if (HasJoints(body) && missing != nullptr) {

@@ -20,7 +20,7 @@ std::string WithoutExtension(std::string name) {
 }
 
 // What a recording may be called, with and without the extensions.
-std::vector<std::string> NamesOf(const RecordingPlace& place) {
+std::vector<std::string> ListNames(const RecordingPlace& place) {
   const auto& [file, member] = place;
   if (file.empty()) return {member, WithoutExtension(member)};
   if (member.empty()) return {file, WithoutExtension(file)};
@@ -48,7 +48,7 @@ std::vector<RecordingPlace> Matching(const std::vector<RecordingPlace>& places,
                                      const std::string& asked, Match matches) {
   std::vector<RecordingPlace> found;
   for (const RecordingPlace& place : places) {
-    const auto names = NamesOf(place);
+    const auto names = ListNames(place);
     const bool any = std::any_of(names.begin(), names.end(),
                                  [&](const std::string& name) { return matches(name, asked); });
     if (any) found.push_back(place);

@@ -65,7 +65,8 @@ Json Parsed(SkeletonInput& input) {
   }
 }
 
-Eigen::Vector3d PositionOf(const SkeletonInput& input, const Json& json, const std::string& where) {
+Eigen::Vector3d ParsePosition(const SkeletonInput& input, const Json& json,
+                              const std::string& where) {
   constexpr double kMetresPerMillimetre = 1e-3;
   if (!json.is_array() || json.size() != 3) Fail(input, where, "three numbers");
   Eigen::Vector3d position;
@@ -89,7 +90,7 @@ BodyRecord ParseBody(const SkeletonInput& input, const Json& json,
     Fail(input, where, fmt::format("{} joint_positions", joints.size()));
   }
   for (size_t j = 0; j < joints.size(); ++j) {
-    if (joints[j]) PutJoint(body, *joints[j], PositionOf(input, positions[j], where));
+    if (joints[j]) PutJoint(body, *joints[j], ParsePosition(input, positions[j], where));
   }
   return body;
 }

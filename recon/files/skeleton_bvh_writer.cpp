@@ -25,7 +25,7 @@ class BvhWriter final : public SkeletonWriter::Format {
     const std::vector<int>& ids = people_.ids();
     for (size_t i = 0; i < ids.size(); ++i) {
       const double begin_s = people_.BeginFor(ids[i]);
-      WriteBvhOfSightings(people_.Take(ids[i]), begin_s, PathForBody(path_, i, ids[i]), options_);
+      WriteSightingsAsBvh(people_.Take(ids[i]), begin_s, PathForBody(path_, i, ids[i]), options_);
     }
   }
 

@@ -200,7 +200,7 @@ size_t CountFrames(const std::string& name, const C3dBytes& bytes, const C3d& c3
   return c3d.last - c3d.first + 1;
 }
 
-std::string_view TextOf(const C3dBytes& bytes, const Parameter& parameter) {
+std::string_view ReadText(const C3dBytes& bytes, const Parameter& parameter) {
   return bytes.all().substr(parameter.begin, parameter.size);
 }
 
@@ -211,7 +211,7 @@ void ReadLabels(const std::string& name, const C3dBytes& bytes, const Parameters
     const std::string key = "POINT:LABELS" + (more == 1 ? "" : std::to_string(more));
     const auto labels = parameters.find(key);
     if (labels == parameters.end() || labels->second.length == 0) break;
-    const std::string_view text = TextOf(bytes, labels->second);
+    const std::string_view text = ReadText(bytes, labels->second);
     const size_t length = labels->second.length;
     for (size_t at = 0; at + length <= text.size(); at += length) {
       c3d.labels.emplace_back(Trimmed(text.substr(at, length)));
@@ -225,7 +225,7 @@ void ReadUnits(const std::string& name, const C3dBytes& bytes, const Parameters&
                C3d& c3d) {
   const auto units = parameters.find("POINT:UNITS");
   if (units == parameters.end()) return;
-  std::string_view unit = TextOf(bytes, units->second);
+  std::string_view unit = ReadText(bytes, units->second);
   unit = Trimmed(unit.substr(0, unit.find('\0')));
   if (unit.empty()) return;
   const auto metres = MetresPerUnit(unit);

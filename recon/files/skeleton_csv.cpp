@@ -69,7 +69,7 @@ std::optional<JointRecord> JointIn(const TextLines& lines, const std::string* fi
   return joint;
 }
 
-std::string BeginOfRow(const SkeletonFrame& frame) {
+std::string FormatRowStart(const SkeletonFrame& frame) {
   constexpr int kDigits = 7;  // as in JSONL: of seconds since 1970 no step is lost
   std::string row = std::to_string(frame.frame) + ",";
   AppendFixed(row, frame.time_s, kDigits);
@@ -102,7 +102,7 @@ bool BelongsTo(const SkeletonFrame& frame, int64_t number, double time_s,
 std::string SkeletonCsvHead() { return MakeHeader() + '\n'; }
 
 std::string SkeletonCsvRows(const SkeletonFrame& frame) {
-  const std::string begin = BeginOfRow(frame);
+  const std::string begin = FormatRowStart(frame);
   if (frame.bodies.empty()) return begin + std::string(kColumns - kLeading, ',') + '\n';
   std::string rows;
   for (const BodyRecord& body : frame.bodies) {

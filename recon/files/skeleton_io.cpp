@@ -34,7 +34,7 @@ std::string ReadSample(std::istream& stream) {
   return head;
 }
 
-SkeletonSample SampleOf(std::string_view head, std::string_view name) {
+SkeletonSample MakeSample(std::string_view head, std::string_view name) {
   SkeletonSample sample{name, head, {}};
   if (head.starts_with("\xEF\xBB\xBF")) head.remove_prefix(3);
   const bool may_be_cut = head.size() >= kSampleBytes - 3;
@@ -59,7 +59,7 @@ const SkeletonFormat& FormatNamed(const std::string& format) {
   throw InputError("format " + Quoted(format) + ": expected one of" + known);
 }
 
-const SkeletonFormat& FormatOf(std::istream& stream, const std::string& name) {
+const SkeletonFormat& DetectFormat(std::istream& stream, const std::string& name) {
   const std::string head = ReadSample(stream);
   if (head.find_first_not_of(" \t\r\n") == std::string::npos) {
     throw InputError(name + ": line 1: expected a skeleton recording, found an empty file");
@@ -67,7 +67,7 @@ const SkeletonFormat& FormatOf(std::istream& stream, const std::string& name) {
   if (head.starts_with("\xFF\xFE") || head.starts_with("\xFE\xFF")) {
     throw InputError(name + ": line 1: expected text in UTF-8, found UTF-16: save it as UTF-8");
   }
-  const SkeletonSample sample = SampleOf(head, name);
+  const SkeletonSample sample = MakeSample(head, name);
   for (const SkeletonFormat& format : AllSkeletonFormats()) {
     if (format.recognises(sample)) return format;
   }
@@ -142,7 +142,7 @@ void CheckTimes(const SkeletonSequence& sequence, const std::string& name) {
 
 SkeletonSequence Read(SkeletonInput input, const SkeletonReadOptions& options) {
   const SkeletonFormat& format =
-      options.format.empty() ? FormatOf(input.stream, input.name) : FormatNamed(options.format);
+      options.format.empty() ? DetectFormat(input.stream, input.name) : FormatNamed(options.format);
   std::optional<BoneMapping> mapping;
   if (!options.mapping_file.empty()) {
     mapping = ReadBoneMapping(options.mapping_file);
@@ -157,7 +157,7 @@ SkeletonSequence Read(SkeletonInput input, const SkeletonReadOptions& options) {
   return sequence;
 }
 
-std::optional<std::string> TextOfFile(const std::string& name) {
+std::optional<std::string> ReadMappingText(const std::string& name) {
   std::ifstream file(name, std::ios::binary);
   if (!file) return std::nullopt;
   std::ostringstream text;
@@ -188,7 +188,7 @@ SkeletonSequence ReadFile(const fs::path& path, const std::string& columns,
     if (IsGzip(path)) return ReadText(ReadGzip(path), path.string(), columns, options, {});
     std::ifstream file(path, std::ios::binary);
     if (!file) throw InputError(path.string() + ": cannot be opened for reading");
-    return Read({file, path.string(), columns, options.frame_s, TextOfFile}, options);
+    return Read({file, path.string(), columns, options.frame_s, ReadMappingText}, options);
   });
 }
 
@@ -344,7 +344,7 @@ SkeletonSequence ReadSkeletonStream(std::istream& stream, const std::string& nam
   return Read({stream, name, Columns(options, {}), options.frame_s, {}}, options);
 }
 
-fs::path SkeletonFileOf(const fs::path& path) { return TakeApart(path).path; }
+fs::path FindSkeletonFile(const fs::path& path) { return TakeApart(path).path; }
 
 std::vector<SkeletonClip> ReadSkeletonClips(const fs::path& path,
                                             const SkeletonReadOptions& options) {

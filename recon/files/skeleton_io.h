@@ -41,7 +41,7 @@ SkeletonSequence ReadSkeletons(const std::filesystem::path& path,
                                const SkeletonReadOptions& options = {});
 
 /// What is read of such a path: the file or folder, without what is said after '#'.
-std::filesystem::path SkeletonFileOf(const std::filesystem::path& path);
+std::filesystem::path FindSkeletonFile(const std::filesystem::path& path);
 
 /// One recording of several.
 struct SkeletonClip {

@@ -136,7 +136,7 @@ class SkeletonJsonlReader::Lines {
     const Json json = Json::parse(lines_.line(), nullptr, false);
     if (json.is_discarded()) FailWhereJsonStops();
     if (!json.is_object()) lines_.Fail("a JSON object", lines_.line());
-    frame = FrameOf(json);
+    frame = ParseFrame(json);
     return true;
   }
 
@@ -203,7 +203,7 @@ class SkeletonJsonlReader::Lines {
     return value;
   }
 
-  SkeletonFrame FrameOf(const Json& json) {
+  SkeletonFrame ParseFrame(const Json& json) {
     SkeletonFrame frame;
     frame.frame = Integer(Need(json, "frame", "the frame"), "\"frame\"");
     frame.time_s = Number(Need(json, "time_s", "the frame"), "\"time_s\"");
@@ -216,13 +216,13 @@ class SkeletonJsonlReader::Lines {
     if (!bodies.is_array()) Fail("\"bodies\"", "a list", bodies);
     std::set<int> ids;
     for (const Json& body : bodies) {
-      frame.bodies.push_back(BodyOf(body));
+      frame.bodies.push_back(ParseBody(body));
       if (!ids.insert(frame.bodies.back().id).second) Fail("\"id\"", "an id used once", body);
     }
     return frame;
   }
 
-  BodyRecord BodyOf(const Json& json) const {
+  BodyRecord ParseBody(const Json& json) const {
     if (!json.is_object()) Fail("\"bodies\"", "objects", json);
     BodyRecord body;
     const int64_t id = Integer(Need(json, "id", "the body"), "\"id\"");
@@ -233,14 +233,15 @@ class SkeletonJsonlReader::Lines {
     for (const auto& [name, joint] : joints.items()) {
       const auto known = JointFromName(name);
       if (!known) lines_.Fail("one of the 20 SDK joint names in \"joints\"", name);
-      body.joints[*known] = JointOf(joint, name);
+      body.joints[*known] = ParseJoint(joint, name);
     }
-    if (const auto bones = json.find("bones"); bones != json.end()) body.bones_m = BonesOf(*bones);
+    if (const auto bones = json.find("bones"); bones != json.end())
+      body.bones_m = ParseBones(*bones);
     return body;
   }
 
   // Of the bones that end in the joints, in their order; none ends in the first.
-  BoneLengths BonesOf(const Json& json) const {
+  BoneLengths ParseBones(const Json& json) const {
     constexpr double kMost_m = 2.0;
     const auto lengths_m = Numbers<kJointCount - 1>(json, "\"bones\"");
     BoneLengths bones_m{};
@@ -253,12 +254,12 @@ class SkeletonJsonlReader::Lines {
     return bones_m;
   }
 
-  JointRecord JointOf(const Json& json, const std::string& name) const {
+  JointRecord ParseJoint(const Json& json, const std::string& name) const {
     if (!json.is_object()) Fail(name, "an object", json);
     JointRecord joint;
     joint.position_m = Eigen::Vector3d(Numbers<3>(Need(json, "p", name), name + ".p").data());
     if (const auto state = json.find("state"); state != json.end()) {
-      joint.state = StateOf(*state, name + ".state");
+      joint.state = ParseState(*state, name + ".state");
     }
     if (const auto value = json.find("confidence"); value != json.end()) {
       joint.confidence = Share(*value, name + ".confidence");
@@ -267,7 +268,7 @@ class SkeletonJsonlReader::Lines {
       joint.reliability = Share(*value, name + ".reliability");
     }
     if (const auto value = json.find("q"); value != json.end()) {
-      joint.orientation = OrientationOf(*value, name + ".q");
+      joint.orientation = ParseOrientation(*value, name + ".q");
     }
     if (const auto value = json.find("visible"); value != json.end()) {
       if (!value->is_boolean()) Fail(name + ".visible", "true or false", *value);
@@ -276,7 +277,7 @@ class SkeletonJsonlReader::Lines {
     return joint;
   }
 
-  TrackingState StateOf(const Json& json, const std::string& where) const {
+  TrackingState ParseState(const Json& json, const std::string& where) const {
     for (size_t s = 0; s < kStateNames.size(); ++s) {
       if (json.is_string() && json.get_ref<const std::string&>() == kStateNames[s]) {
         return static_cast<TrackingState>(s);
@@ -285,7 +286,7 @@ class SkeletonJsonlReader::Lines {
     Fail(where, "tracked, inferred or not_tracked", json);
   }
 
-  Eigen::Quaterniond OrientationOf(const Json& json, const std::string& where) const {
+  Eigen::Quaterniond ParseOrientation(const Json& json, const std::string& where) const {
     const auto q = Numbers<4>(json, where);
     const Eigen::Quaterniond rotation(q[0], q[1], q[2], q[3]);
     // Files written with a few digits are off unit length by that much and no more.

@@ -25,7 +25,7 @@ std::optional<Joint> JointOfV2(size_t joint) {
   return static_cast<Joint>(joint);
 }
 
-size_t CountOfNumbers(std::string_view line, char separator) {
+size_t CountNumbers(std::string_view line, char separator) {
   const auto fields = separator == ' ' ? Words(line) : Split(line, separator);
   for (const std::string_view field : fields) {
     if (IsNan(field)) continue;
@@ -37,7 +37,7 @@ size_t CountOfNumbers(std::string_view line, char separator) {
 }
 
 bool FirstLineHas(const SkeletonSample& sample, char separator, size_t numbers) {
-  return !sample.lines.empty() && CountOfNumbers(sample.lines[0], separator) == numbers;
+  return !sample.lines.empty() && CountNumbers(sample.lines[0], separator) == numbers;
 }
 
 TrackingState ParseState(const TextLines& lines, double number) {
@@ -147,13 +147,13 @@ SkeletonSequence ReadKeraalVicon(SkeletonInput& input) {
 // quaternion w x y z, state.
 
 bool IsNtu(const SkeletonSample& sample) {
-  if (sample.lines.size() < 2 || CountOfNumbers(sample.lines[0], ' ') != 1 ||
-      CountOfNumbers(sample.lines[1], ' ') != 1) {
+  if (sample.lines.size() < 2 || CountNumbers(sample.lines[0], ' ') != 1 ||
+      CountNumbers(sample.lines[1], ' ') != 1) {
     return false;
   }
   // A first frame without bodies is followed by another count.
   for (size_t i = 2; i < sample.lines.size(); ++i) {
-    const size_t numbers = CountOfNumbers(sample.lines[i], ' ');
+    const size_t numbers = CountNumbers(sample.lines[i], ' ');
     if (numbers != 1) return numbers == 10;
   }
   return true;

@@ -42,7 +42,7 @@ struct JointColumns {
   size_t x;
 };
 
-std::string PrefixOf(const SkeletonInput& input, const PairedFormat& format) {
+std::string ChoosePrefix(const SkeletonInput& input, const PairedFormat& format) {
   if (input.columns == "truth") return "G_";
   if (input.columns == "observed") return std::string(format.observed_prefix);
   throw InputError(
@@ -70,7 +70,7 @@ std::vector<JointColumns> FindColumns(const TextLines& lines,
 }
 
 SkeletonSequence ReadPaired(SkeletonInput& input, const PairedFormat& format) {
-  const std::string prefix = PrefixOf(input, format);
+  const std::string prefix = ChoosePrefix(input, format);
   TextLines lines(input.stream, input.name);
   lines.Expect("a header line");
   const CsvFields csv(lines.line());

@@ -46,7 +46,7 @@ SkeletonSequence ReadBvhSkeleton(SkeletonInput& input) {
       throw InputError(input.name + ": expected at most 512 MiB of BVH");
   }
   SkeletonSequence sequence =
-      SkeletonOfBvh(ParseBvh(std::move(text), input.name), input.name, input.mapping);
+      BvhToSkeleton(ParseBvh(std::move(text), input.name), input.name, input.mapping);
   RequireFrames(sequence);
   return sequence;
 }

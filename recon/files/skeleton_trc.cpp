@@ -79,7 +79,7 @@ void ReadColumnNames(TextLines& lines) {
   if (!numbered) lines.Fail("X1, Y1, Z1, ...", lines.line());
 }
 
-size_t DecimalsOf(std::string_view number) {
+size_t CountDecimalPlaces(std::string_view number) {
   const size_t point = number.find('.');
   return point == std::string_view::npos ? 0 : number.size() - point - 1;
 }
@@ -103,7 +103,7 @@ class TrcRows {
     if (!lines_.ended() && IsCut()) {
       lines_.Fail(fmt::format("a whole row of {} columns", Columns()), lines_.line());
     }
-    decimals_ = DecimalsOfAll().value_or(0);
+    decimals_ = CountCommonDecimals().value_or(0);
     return true;
   }
 
@@ -128,11 +128,11 @@ class TrcRows {
   size_t Columns() const { return 2 + 3 * markers_; }
 
   // The decimals that all numbers of the row have; none where they differ.
-  std::optional<size_t> DecimalsOfAll() const {
+  std::optional<size_t> CountCommonDecimals() const {
     std::optional<size_t> decimals;
     for (size_t f = 2; f < fields_.size(); ++f) {
       if (fields_[f].empty() || IsNan(fields_[f])) continue;
-      const size_t own = DecimalsOf(fields_[f]);
+      const size_t own = CountDecimalPlaces(fields_[f]);
       if (own != decimals.value_or(own)) return std::nullopt;
       decimals = own;
     }
@@ -144,7 +144,7 @@ class TrcRows {
   bool IsCut() const {
     if (fields_.size() < Columns()) return true;
     const std::string_view last = fields_.back();
-    return !last.empty() && !IsNan(last) && DecimalsOf(last) < decimals_;
+    return !last.empty() && !IsNan(last) && CountDecimalPlaces(last) < decimals_;
   }
 
   TextLines& lines_;

@@ -41,7 +41,7 @@ constexpr std::array<std::pair<size_t, Joint>, 18> kMap = {{{0, Joint::kHipCente
                                                             {20, Joint::kAnkleRight},
                                                             {21, Joint::kFootRight}}};
 
-Eigen::Matrix3d RotationOf(const double* degrees) {
+Eigen::Matrix3d ComposeRotation(const double* degrees) {
   const auto turn = [&](int axis) {
     return Eigen::AngleAxisd(degrees[axis] * std::numbers::pi / 180, Eigen::Vector3d::Unit(axis));
   };
@@ -56,7 +56,7 @@ std::array<Eigen::Vector3d, kJoints> Places(const std::vector<double>& offsets,
   std::array<Eigen::Matrix3d, kJoints> turn;
   for (size_t i = 0; i < kJoints; ++i) {
     const Eigen::Vector3d offset(&offsets[3 * i]);
-    const Eigen::Matrix3d own = RotationOf(&angles[3 * i]);
+    const Eigen::Matrix3d own = ComposeRotation(&angles[3 * i]);
     if (kParents[i] < 0) {
       place[i] = offset;
       turn[i] = own;

@@ -8,6 +8,7 @@
 #include <utility>
 #include <vector>
 
+#include "depth/base/statistics.h"
 #include "recon/orientation.h"
 
 namespace ossa::recon {
@@ -39,9 +40,7 @@ double MedianStep_s(const SkeletonSequence& sequence) {
   for (size_t f = 1; f < sequence.frames.size(); ++f)
     steps.push_back(sequence.frames[f].time_s - sequence.frames[f - 1].time_s);
   if (steps.empty()) return 0.0;
-  const auto middle = steps.begin() + static_cast<ptrdiff_t>(steps.size() / 2);
-  std::nth_element(steps.begin(), middle, steps.end());
-  return *middle;
+  return Median(std::move(steps));
 }
 
 /// Every joint of every person, anew after an absence of a few frames (by hand): what comes after

@@ -34,7 +34,7 @@ class HoltFilter {
   explicit HoltFilter(const HoltOptions& options) : options_(options) {}
   Eigen::Vector3d Step(const Eigen::Vector3d& value_m);
   /// What was filtered until now stays.
-  void Change(const HoltOptions& options) { options_ = options; }
+  void SetOptions(const HoltOptions& options) { options_ = options; }
 
  private:
   HoltOptions options_;
@@ -44,7 +44,7 @@ class HoltFilter {
   Eigen::Vector3d trend_m_ = Eigen::Vector3d::Zero();
 };
 
-/// The two parameters of the One-Euro filter, and of which speed it hears.
+/// The two parameters of the One-Euro filter, and which speed it goes by.
 struct OneEuroOptions {
   double min_cutoff_hz =
       1.5;  // at rest, > 0; by hand, as Casiez 2012 says: until a still joint does not jitter
@@ -55,18 +55,18 @@ struct OneEuroOptions {
   /// Of `ossa track --smoothing one-euro`.
   static OneEuroOptions Default() { return {}; }
   /// Of the methods one-euro and best.
-  static OneEuroOptions OfMethods() { return {1.5, 3.0, false}; }
+  static OneEuroOptions ForMethods() { return {1.5, 3.0, false}; }
 };
 
 /// Casiez, Roussel, Vogel, 1 Euro filter, CHI 2012.
 class OneEuroFilter {
  public:
-  OneEuroFilter() : OneEuroFilter(OneEuroOptions::OfMethods()) {}
+  OneEuroFilter() : OneEuroFilter(OneEuroOptions::ForMethods()) {}
   explicit OneEuroFilter(const OneEuroOptions& options) : options_(options) {}
   /// `dt_s` > 0.
   Eigen::Vector3d Step(const Eigen::Vector3d& value_m, double dt_s);
   /// What was filtered until now stays.
-  void Change(const OneEuroOptions& options) { options_ = options; }
+  void SetOptions(const OneEuroOptions& options) { options_ = options; }
 
  private:
   OneEuroOptions options_;

@@ -90,7 +90,7 @@ struct Way {
   std::vector<BodyRecord*> bodies;
 };
 
-std::map<int, Way> WaysOf(SkeletonSequence& sequence) {
+std::map<int, Way> CollectPaths(SkeletonSequence& sequence) {
   std::map<int, Way> ways;
   for (SkeletonFrame& frame : sequence.frames) {
     for (BodyRecord& body : frame.bodies) {
@@ -150,7 +150,7 @@ TimedPosture SmoothedAt(std::span<const TimedPosture> way, size_t at, const LagO
 SkeletonSequence SmoothSequence(const SkeletonSequence& sequence, const LagOptions& options) {
   SkeletonSequence out = sequence;
   if (options.frames == 0) return out;
-  for (auto& [id, way] : WaysOf(out)) {
+  for (auto& [id, way] : CollectPaths(out)) {
     for (size_t f = 0; f < way.postures.size(); ++f) {
       const TimedPosture smoothed = SmoothedAt(way.postures, f, options);
       for (size_t j = 0; j < kJointCount; ++j) {

@@ -124,7 +124,7 @@ BodyMesh BodyMesh::Load(const std::filesystem::path& path, const BodySurface& su
   });
 }
 
-bool BodyMesh::IsOne(const std::filesystem::path& path) { return IsContainer(path, kFormat); }
+bool BodyMesh::IsFile(const std::filesystem::path& path) { return IsContainer(path, kFormat); }
 
 size_t SegmentOfHumanBone(size_t bone) {
   using enum Segment;

@@ -38,7 +38,7 @@ struct BodyMesh {
   static BodyMesh Load(const std::filesystem::path& path, const BodySurface& surface);
   void Save(const std::filesystem::path& path) const;
   /// True when the file says that it is one; it may still be damaged.
-  static bool IsOne(const std::filesystem::path& path);
+  static bool IsFile(const std::filesystem::path& path);
 };
 
 /// The segment that moves as each bone of a humanoid does.

@@ -112,7 +112,7 @@ void BodySurface::Save(const std::filesystem::path& path) const {
   WriteContainer(path, kFormat, out.bytes());
 }
 
-bool BodySurface::IsOne(const std::filesystem::path& path) { return IsContainer(path, kFormat); }
+bool BodySurface::IsFile(const std::filesystem::path& path) { return IsContainer(path, kFormat); }
 
 BodySurface BodySurface::Load(const std::filesystem::path& path) {
   return NamingTheFile(path,

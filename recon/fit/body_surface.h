@@ -94,7 +94,7 @@ struct BodySurface {
   static BodySurface FromBytes(std::span<const std::byte> bytes, const std::string& name);
   void Save(const std::filesystem::path& path) const;
   /// True when the file says that it is one; it may still be damaged.
-  static bool IsOne(const std::filesystem::path& path);
+  static bool IsFile(const std::filesystem::path& path);
 };
 
 }  // namespace ossa::recon

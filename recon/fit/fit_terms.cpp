@@ -188,7 +188,7 @@ void AddPriors(const PosedSurface& posed, const SurfaceFitInput& input,
     // A turn in the camera's axes changes the rotation vector by about the turn in the parent's.
     const Eigen::Matrix3d& camera_from = posed.camera_from(ParentSegment(s));
     const Eigen::Vector3d to_rad =
-        surface.turn_mean[s] - RotationVectorOf(posed.pose().parent_from_segment[s]);
+        surface.turn_mean[s] - ToRotationVector(posed.pose().parent_from_segment[s]);
     equations.AddTurn(
         s,
         options.turn_weight * camera_from * surface.turn_information[s] * camera_from.transpose(),

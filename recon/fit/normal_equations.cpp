@@ -136,14 +136,14 @@ ShapeVector NormalEquations::ShapeGradient() const {
 SurfacePose Moved(const PosedSurface& posed, const FitStep& step, double most_rad) {
   constexpr double kFarthest = 3.0;  // standard deviations of shape; by hand
   SurfacePose pose = posed.pose();
-  const Eigen::Matrix3d turn = RotationOf(step.head<3>());
+  const Eigen::Matrix3d turn = ToRotation(step.head<3>());
   pose.pelvis_m = turn * pose.pelvis_m + step.segment<3>(3);
   pose.parent_from_segment[0] = turn * pose.parent_from_segment[0];
   for (size_t s = 1; s < kSegmentCount; ++s) {
     Eigen::Vector3d own = step.segment<3>(TurnAt(s));
     if (own.norm() > most_rad) own *= most_rad / own.norm();
     own = posed.camera_from(ParentSegment(s)).transpose() * own;
-    pose.parent_from_segment[s] = RotationOf(own) * pose.parent_from_segment[s];
+    pose.parent_from_segment[s] = ToRotation(own) * pose.parent_from_segment[s];
   }
   pose.shape += step.tail<kShapeCount>();
   pose.shape = pose.shape.cwiseMax(-kFarthest).cwiseMin(kFarthest);

@@ -98,7 +98,7 @@ void PersonShape::Save(const std::filesystem::path& path, const BodySurface& sur
   WriteContainer(path, kFormat, out.bytes());
 }
 
-bool PersonShape::IsOne(const std::filesystem::path& path) { return IsContainer(path, kFormat); }
+bool PersonShape::IsFile(const std::filesystem::path& path) { return IsContainer(path, kFormat); }
 
 PersonShape PersonShape::Load(const std::filesystem::path& path, const BodySurface& surface) {
   return NamingTheFile(

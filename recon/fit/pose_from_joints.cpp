@@ -30,7 +30,7 @@ struct Aimer {
   // From the parent's rotation and the mean turn on, so that `rest` points along `seen`.
   void Aim(size_t segment, const Vector3d& rest, const Vector3d& seen) {
     const Matrix3d carried =
-        camera_from[ParentSegment(segment)] * RotationOf(surface.turn_mean[segment]);
+        camera_from[ParentSegment(segment)] * ToRotation(surface.turn_mean[segment]);
     camera_from[segment] =
         Eigen::Quaterniond::FromTwoVectors(carried * rest, seen).toRotationMatrix() * carried;
   }

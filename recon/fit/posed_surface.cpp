@@ -4,14 +4,14 @@
 
 namespace ossa::recon {
 
-Eigen::Matrix3d RotationOf(const Eigen::Vector3d& turn_rad) {
+Eigen::Matrix3d ToRotation(const Eigen::Vector3d& turn_rad) {
   constexpr double kNone_rad = 1e-12;  // by hand: the axis is lost in rounding
   const double angle_rad = turn_rad.norm();
   if (angle_rad < kNone_rad) return Eigen::Matrix3d::Identity();
   return Eigen::AngleAxisd(angle_rad, turn_rad / angle_rad).toRotationMatrix();
 }
 
-Eigen::Vector3d RotationVectorOf(const Eigen::Matrix3d& rotation) {
+Eigen::Vector3d ToRotationVector(const Eigen::Matrix3d& rotation) {
   const Eigen::AngleAxisd turn(rotation);
   return turn.angle() * turn.axis();
 }

@@ -10,8 +10,8 @@ namespace ossa::recon {
 
 /// Rotation of a rotation vector (radians), and back; the angle of the latter is at most half a
 /// turn.
-Eigen::Matrix3d RotationOf(const Eigen::Vector3d& turn_rad);
-Eigen::Vector3d RotationVectorOf(const Eigen::Matrix3d& rotation);
+Eigen::Matrix3d ToRotation(const Eigen::Vector3d& turn_rad);
+Eigen::Vector3d ToRotationVector(const Eigen::Matrix3d& rotation);
 
 /// What tells one pose and shape of a body from others.
 struct SurfacePose {

@@ -20,7 +20,7 @@ namespace ossa::recon {
 // dev stills of `ossa experiment real`, where nothing else is said; `ossa experiment fit` prints
 // what each term brings.
 
-/// How the surface fit weighs what it is told. A weight is one over a variance.
+/// How the surface fit weighs its inputs. A weight is one over a variance.
 struct SurfaceFitOptions {
   int start_iterations = 3;  // on joints alone
   int iterations = 5;        // on joints and image
@@ -84,7 +84,7 @@ struct SurfaceFitInput {
   std::span<const int32_t> samples;
   std::span<const uint8_t> parts;
   int sample_step = 1;
-  /// What earlier frames told of the person's shape (PersonShape), and how many they were.
+  /// What earlier frames say of the person's shape (PersonShape), and how many they were.
   ShapeVector shape = ShapeVector::Zero();
   int shape_frames = 0;
 };
@@ -142,14 +142,14 @@ class SurfaceFitter {
 /// A person's shape as frames vote on it, each by how well it explained the image.
 struct PersonShape {
   ShapeVector shape = ShapeVector::Zero();  // mean of the fits', what the next fit begins with
-  /// What they told by themselves, summed up, see SurfaceFit: a frame in which legs are hidden
+  /// What they say by themselves, summed up, see SurfaceFit: a frame in which legs are hidden
   /// tells nothing of their length.
   ShapeMatrix information = ShapeMatrix::Zero();
   ShapeVector vote = ShapeVector::Zero();
   double weight = 0.0;  // sum of the votes
   int frames = 0;
   void Add(const SurfaceFit& fit);
-  /// The likeliest shape by all that was told, and its covariance. Frames of one person are wrong
+  /// The likeliest shape by all of them, and its covariance. Frames of one person are wrong
   /// alike, so that many say hardly more than one.
   ShapeVector Likeliest() const;
   ShapeMatrix Covariance() const;
@@ -162,7 +162,7 @@ struct PersonShape {
                                const BodySurface& surface);
   void Save(const std::filesystem::path& path, const BodySurface& surface) const;
   /// True when the file says that it is one; it may still be damaged.
-  static bool IsOne(const std::filesystem::path& path);
+  static bool IsFile(const std::filesystem::path& path);
 };
 
 /// Body height, metres, and its standard deviation: barefoot, without hair.

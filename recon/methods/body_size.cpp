@@ -33,10 +33,11 @@ void BodySize::Observe(const Posture& in_camera, const JointWeights& trust, doub
       Review();
       return;
     }
-    judged_ = BoneLengthEstimator(BoneLengthOptions::OfJudged());  // until now of somebody else
+    judged_ = BoneLengthEstimator(
+        BoneLengthOptions::ForNetworkEstimates());  // until now of somebody else
   }
   scale_ = good >= options_.fewest ? scale : 1.0;
-  typical_ = BoneLengthEstimator(BoneLengthOptions::OfTypical());
+  typical_ = BoneLengthEstimator(BoneLengthOptions::ForJointDistances());
   typical_frames_ = 0;
   next_review_ = options_.first_review_frames;
   AddTypical(measured, trust);

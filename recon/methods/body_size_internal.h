@@ -71,9 +71,9 @@ class BodySize {
   BoneLengths lengths_m_ = StandardBoneLengths();
   BoneLengths grow_from_m_{}, grow_to_m_{};
   int grown_frames_ = options_.growing_frames;
-  BoneLengthEstimator typical_{BoneLengthOptions::OfTypical()};
+  BoneLengthEstimator typical_{BoneLengthOptions::ForJointDistances()};
   int typical_frames_ = 0;
-  BoneLengthEstimator judged_{BoneLengthOptions::OfJudged()};
+  BoneLengthEstimator judged_{BoneLengthOptions::ForNetworkEstimates()};
   BoneLengths proportions_{};
   double expected_ = 0.0;
   double expected_scale_ = 0.0;

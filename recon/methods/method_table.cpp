@@ -32,7 +32,7 @@ const MethodInfo* FindMethod(std::string_view name) {
   return found == std::end(kMethods) ? nullptr : found;
 }
 
-const MethodInfo& MethodNamed(std::string_view name) {
+const MethodInfo& RequireMethod(std::string_view name) {
   if (const MethodInfo* method = FindMethod(name)) return *method;
   std::string known;
   for (const MethodInfo& method : kMethods) {

@@ -38,6 +38,6 @@ const std::vector<std::string>& ReconstructionMethods();
 const MethodInfo* FindMethod(std::string_view name);
 
 /// Throws InputError that names all methods when there is none of that name.
-const MethodInfo& MethodNamed(std::string_view name);
+const MethodInfo& RequireMethod(std::string_view name);
 
 }  // namespace ossa::recon

@@ -56,11 +56,11 @@ class Plantard2016 : public NaturalPostureMethod {
       // Lost: the graph's neighbourhood is a whole edge farther off than a node of the graph can
       // be from any posture it covers. Departure: the paper searches fully on the first frame only.
       const double lost_m = 0.5 * database_->edge_threshold_m() + 0.1;
-      PoseSelection connected = search_.BestOf(candidates, query, k);
+      PoseSelection connected = search_.SelectBest(candidates, query, k);
       if (connected.similarity_m < lost_m) return connected.nodes;
       candidates = std::move(connected.nodes);
     }
-    return search_.BestOfAll(query, k, candidates).nodes;
+    return search_.SelectBestOfAll(query, k, candidates).nodes;
   }
 
   PoseGraphSearch search_;

@@ -117,8 +117,8 @@ PoseGraphSearch::PoseGraphSearch(std::shared_ptr<const PostureDatabase> database
   }
 }
 
-PoseSelection PoseGraphSearch::BestOf(std::span<const int> nodes, const PoseQuery& query,
-                                      size_t k) const {
+PoseSelection PoseGraphSearch::SelectBest(std::span<const int> nodes, const PoseQuery& query,
+                                          size_t k) const {
   Scorer scorer(query);
   std::vector<Scored> scored;
   scored.reserve(nodes.size());
@@ -130,12 +130,12 @@ PoseSelection PoseGraphSearch::BestOf(std::span<const int> nodes, const PoseQuer
   return Selected(std::move(scored), k, scorer.similarity_m());
 }
 
-PoseSelection PoseGraphSearch::BestOfAll(const PoseQuery& query, size_t k,
-                                         std::span<const int> start) const {
+PoseSelection PoseGraphSearch::SelectBestOfAll(const PoseQuery& query, size_t k,
+                                               std::span<const int> start) const {
   if (!coarse_.empty()) return Descend(query, k, start);
   std::vector<int> all(static_cast<size_t>(database_->size()));
   std::iota(all.begin(), all.end(), 0);
-  return BestOf(all, query, k);
+  return SelectBest(all, query, k);
 }
 
 PoseSelection PoseGraphSearch::Descend(const PoseQuery& query, size_t k,

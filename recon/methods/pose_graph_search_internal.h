@@ -27,12 +27,12 @@ class PoseGraphSearch {
   explicit PoseGraphSearch(std::shared_ptr<const PostureDatabase> database);
 
   /// The k best of these nodes.
-  PoseSelection BestOf(std::span<const int> nodes, const PoseQuery& query, size_t k) const;
+  PoseSelection SelectBest(std::span<const int> nodes, const PoseQuery& query, size_t k) const;
   /// The k best of all nodes. Departure where there are more than some thousand: the paper searches
   /// all; this begins at a coarse level, one node of many, and at `start`, and goes down the graph
   /// from the best found, node by node, until the k best know no better one. What it costs hardly
   /// grows with the graph; it may end beside the best.
-  PoseSelection BestOfAll(const PoseQuery& query, size_t k, std::span<const int> start) const;
+  PoseSelection SelectBestOfAll(const PoseQuery& query, size_t k, std::span<const int> start) const;
 
  private:
   PoseSelection Descend(const PoseQuery& query, size_t k, std::span<const int> start) const;

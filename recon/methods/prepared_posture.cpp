@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "depth/base/statistics.h"
 #include "recon/methods/prepared_posture_internal.h"
 #include "recon/methods/reach_internal.h"
 
@@ -26,8 +27,7 @@ Eigen::Vector3d OffsetTo(const Posture& model, const Posture& seen, const JointW
       if (present[i] > 0.0) d.push_back(seen.position_m[i][axis] - model.position_m[i][axis]);
     }
     if (d.empty()) return Eigen::Vector3d::Zero();
-    std::nth_element(d.begin(), d.begin() + static_cast<ptrdiff_t>(d.size() / 2), d.end());
-    offset[axis] = d[d.size() / 2];
+    offset[axis] = Median(std::move(d));
   }
   return offset;
 }

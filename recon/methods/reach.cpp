@@ -13,7 +13,7 @@ using Eigen::Vector3d;
 /// trust in `best`); no unit: a ratio.
 constexpr double kStretch = 1.3;
 
-std::vector<size_t> NeighboursOf(size_t joint) {
+std::vector<size_t> FindNeighbours(size_t joint) {
   std::vector<size_t> neighbours;
   for (size_t other = 0; other < kJointCount; ++other) {
     if (kJointParent[other] == static_cast<int>(joint) ||
@@ -34,7 +34,7 @@ JointArray<int> CountBones(const JointWeights& present) {
     if (bones[i] == 0) queue.push_back(i);
   }
   for (size_t next = 0; next < queue.size(); ++next) {
-    for (const size_t other : NeighboursOf(queue[next])) {
+    for (const size_t other : FindNeighbours(queue[next])) {
       if (bones[other] != kFar) continue;
       bones[other] = bones[queue[next]] + 1;
       queue.push_back(other);
@@ -52,7 +52,7 @@ void ForEachAbsent(const JointWeights& present, const Place& place) {
     for (size_t joint = 0; joint < kJointCount; ++joint) {
       if (bones[joint] != distance) continue;
       std::vector<size_t> nearer;
-      for (const size_t other : NeighboursOf(joint)) {
+      for (const size_t other : FindNeighbours(joint)) {
         if (bones[other] == distance - 1) nearer.push_back(other);
       }
       place(joint, nearer);

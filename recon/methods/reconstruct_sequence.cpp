@@ -49,7 +49,7 @@ struct Follower {
 };
 
 std::unique_ptr<Reconstructor> MethodFor(int person, const ReconstructorOptions& options,
-                                         const BonesOfPeople& bones) {
+                                         const BoneLengthsById& bones) {
   const auto known = bones.find(person);
   if (known == bones.end()) return MakeReconstructor(options);
   ReconstructorOptions with = options;
@@ -59,8 +59,8 @@ std::unique_ptr<Reconstructor> MethodFor(int person, const ReconstructorOptions&
 
 /// As ReconstructSequence. `measured`, if given: bones as the methods tell them in the end.
 SkeletonSequence Run(const SkeletonSequence& sequence, ReconstructorOptions options,
-                     const std::function<bool(size_t)>& progress, const BonesOfPeople& bones,
-                     BonesOfPeople* measured) {
+                     const std::function<bool(size_t)>& progress, const BoneLengthsById& bones,
+                     BoneLengthsById* measured) {
   options.learned = LoadLearned(options);  // read once, not for each person
   MakeReconstructor(options);              // complain before any work
   std::map<int, Follower> people;
@@ -110,14 +110,14 @@ SkeletonSequence Run(const SkeletonSequence& sequence, ReconstructorOptions opti
 SkeletonSequence ReconstructSequence(const SkeletonSequence& sequence,
                                      const ReconstructorOptions& options,
                                      const std::function<bool(size_t)>& progress,
-                                     const BonesOfPeople& bones) {
+                                     const BoneLengthsById& bones) {
   return Run(sequence, options, progress, bones, nullptr);
 }
 
-BonesOfPeople MeasureBones(const SkeletonSequence& sequence, const ReconstructorOptions& options,
-                           const std::function<bool(size_t)>& progress) {
-  BonesOfPeople bones;
-  if (MethodNamed(options.method).keeps_bones) Run(sequence, options, progress, {}, &bones);
+BoneLengthsById MeasureBones(const SkeletonSequence& sequence, const ReconstructorOptions& options,
+                             const std::function<bool(size_t)>& progress) {
+  BoneLengthsById bones;
+  if (RequireMethod(options.method).keeps_bones) Run(sequence, options, progress, {}, &bones);
   return bones;
 }
 

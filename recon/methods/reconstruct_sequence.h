@@ -9,7 +9,7 @@
 namespace ossa::recon {
 
 /// Bone lengths by body id.
-using BonesOfPeople = std::map<int, BoneLengths>;
+using BoneLengthsById = std::map<int, BoneLengths>;
 
 /// Runs one Reconstructor a person (by body id) over a recording, frame by frame in its order. A
 /// frame holds what the method thinks of it a frame later, where the method revises.
@@ -23,11 +23,11 @@ using BonesOfPeople = std::map<int, BoneLengths>;
 SkeletonSequence ReconstructSequence(const SkeletonSequence& sequence,
                                      const ReconstructorOptions& options,
                                      const std::function<bool(size_t)>& progress = {},
-                                     const BonesOfPeople& bones = {});
+                                     const BoneLengthsById& bones = {});
 
 /// Offline: how long the bones of each person are, by the whole recording. Reconstructed with
 /// these, a person has the same ones in every frame. Empty for methods that move joints alone.
-BonesOfPeople MeasureBones(const SkeletonSequence& sequence, const ReconstructorOptions& options,
-                           const std::function<bool(size_t)>& progress = {});
+BoneLengthsById MeasureBones(const SkeletonSequence& sequence, const ReconstructorOptions& options,
+                             const std::function<bool(size_t)>& progress = {});
 
 }  // namespace ossa::recon

@@ -68,7 +68,7 @@ std::shared_ptr<const LearnedModels> LearnedThatHolds(const ReconstructorOptions
 
 std::unique_ptr<Reconstructor> MakeReconstructor(const ReconstructorOptions& options) {
   CheckLocalPca(options.local_pca);
-  const MethodInfo& method = MethodNamed(options.method);
+  const MethodInfo& method = RequireMethod(options.method);
   if (method.database == Reads::kRequired && (!options.database || options.database->size() < 1)) {
     throw InputError("reconstruction: method " + options.method + " needs a posture database");
   }

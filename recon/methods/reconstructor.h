@@ -13,7 +13,7 @@
 
 namespace ossa::recon {
 
-/// What a method is told of one person at one time.
+/// What a method gets of one person at one time.
 struct ReconstructionInput {
   TrackedPosture observed;  // camera space
   double time_s = 0.0;      // steps may be irregular; gaps of seconds happen
@@ -95,15 +95,15 @@ struct BestConstants {
   double noise_m = 0.02;       // of one measurement, standard deviation
   double acceleration = 10.0;  // of a joint, m/s^2, standard deviation
   // Chosen on UI-PRMD: share taken of what the learned correction changes with the posture.
-  double of_posture = 0.6;
+  double posture_share = 0.6;
   // Chosen on UI-PRMD, a ratio: how firm a joint of a limb is, over its parent, when bones get
   // their lengths.
-  double outwards = 0.5;
+  double limb_firmness = 0.5;
   // Chosen on UI-PRMD: share of what is expected of a body of this size in a bone's length, beside
   // what is measured.
-  double expected = 0.3;
+  double expected_share = 0.3;
   // Chosen on UI-PRMD: a joint may be so far from where it was expected without having failed.
-  double slack_m = 0.12;
+  double failure_slack_m = 0.12;
 };
 
 /// Settings of `best`; the switches are for ablations.
@@ -112,7 +112,7 @@ struct BestOptions {
   /// trunk's are the surest, and those of hidden joints are no longer where the surface is that
   /// hides them.
   bool refined_joints = false;
-  bool repair = true;    // gross failures are told from motion
+  bool repair = true;    // gross failures are distinguished from motion
   bool complete = true;  // joints in doubt come from the posture space
   bool correct = true;   // learned systematic errors are taken off
   bool window = true;    // ... by what the person did before, too, where that was learned

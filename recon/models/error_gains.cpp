@@ -7,11 +7,11 @@ namespace ossa::recon {
 // Constants: by hand.
 
 std::vector<PosturePair> WithoutGrossErrors(const std::vector<PosturePair>& pairs, double gross_m) {
-  std::vector<PosturePair> sound;
+  std::vector<PosturePair> usable;
   for (const PosturePair& pair : pairs) {
-    if (pair.worst_m < gross_m) sound.push_back(pair);
+    if (pair.worst_m < gross_m) usable.push_back(pair);
   }
-  return sound.size() >= 10 ? sound : pairs;
+  return usable.size() >= 10 ? usable : pairs;
 }
 
 JointWeights ComputeGains(const std::vector<PosturePair>& pairs, const std::vector<int>& fold,

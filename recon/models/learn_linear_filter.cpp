@@ -5,6 +5,7 @@
 #include <cmath>
 #include <optional>
 
+#include "depth/base/statistics.h"
 #include "recon/filters/lag_filter_internal.h"
 #include "recon/models/linear_filter.h"
 
@@ -25,7 +26,7 @@ struct Stretch {
 /// Sums of products of each part: x the regressors, y the errors.
 struct Products {
   std::array<Eigen::MatrixXd, kParts> xx;
-  std::array<Eigen::MatrixXd, kParts> xy;  // a column an axis; of pulls one, for all
+  std::array<Eigen::MatrixXd, kParts> xy;  // a column an axis; of influences one, for all
 
   void AddTimes(double factor, const Products& other);
 };
@@ -43,8 +44,8 @@ void Products::AddTimes(double factor, const Products& other) {
 
 /// Sums over the stretches of a fold.
 struct Sums {
-  // Of steps: for both outputs alike. Of pulls: now and before, then robust ones of which they are
-  // learned, now and before.
+  // Of steps: for both outputs alike. Of influences: now and before, then robust ones of which they
+  // are learned, now and before.
   std::vector<Products> of;
   // Of each part and output: squares of the errors, and of what LagFilter leaves of them.
   std::array<std::array<double, LinearFilter::kOutputs>, kParts> yy{}, lag{};
@@ -79,7 +80,7 @@ Posture InCamera(const PosturePair& pair) {
 }
 
 /// Truth minus observed, metres in the body's frame, x turned round for a mirrored joint.
-Eigen::Vector3d ErrorOf(const PosturePair& pair, size_t joint, bool mirrored) {
+Eigen::Vector3d ComputeError(const PosturePair& pair, size_t joint, bool mirrored) {
   Eigen::Vector3d error = pair.scale * pair.residual.position_m[joint];
   if (mirrored) error.x() = -error.x();
   return error;
@@ -99,7 +100,7 @@ Eigen::MatrixXd LeftByLagFilter(const Stretch& stretch, size_t joint) {
     const PosturePair& last = *stretch.pairs[f == 0 ? 0 : f - 1];
     const auto truth = [&](size_t frame, const PosturePair& of) -> Eigen::Vector3d {
       return stretch.seen[frame].position_m[joint] +
-             Turned(ErrorOf(of, joint, false), of.placement.yaw_rad);
+             Turned(ComputeError(of, joint, false), of.placement.yaw_rad);
     };
     const double dt_s = f == 0 ? 1.0 / 30.0 : pair.time_s - last.time_s;
     const Eigen::Vector3d now = filter.Step(stretch.seen[f].position_m[joint], dt_s, 1.0);
@@ -138,8 +139,8 @@ Eigen::MatrixXd ComputeErrors(const Stretch& stretch, size_t joint, bool mirrore
     const PosturePair& now = *stretch.pairs[frame];
     const PosturePair& before = *stretch.pairs[frame - 1];
     const double turn = before.placement.yaw_rad - now.placement.yaw_rad;
-    y.row(r).head<3>() = ErrorOf(now, joint, mirrored);
-    y.row(r).tail<3>() = Turned(ErrorOf(before, joint, mirrored), mirrored ? -turn : turn);
+    y.row(r).head<3>() = ComputeError(now, joint, mirrored);
+    y.row(r).tail<3>() = Turned(ComputeError(before, joint, mirrored), mirrored ? -turn : turn);
   }
   return y;
 }
@@ -162,7 +163,7 @@ Sums ErrorSums(const Stretch& stretch, size_t joint, const Eigen::MatrixXd& y, d
   return sums;
 }
 
-double WeightOf(const Eigen::MatrixXd& y) {
+double ComputeWeight(const Eigen::MatrixXd& y) {
   const Eigen::MatrixXd centred = Part(y, 0);
   const double spread_m =
       std::sqrt(centred.leftCols<3>().squaredNorm() / static_cast<double>(y.rows()));
@@ -178,7 +179,7 @@ Sums StepSums(const Stretch& stretch, size_t joint, bool mirrored) {
     const double yaw_rad = stretch.pairs[frame]->placement.yaw_rad;
     x.row(r) = FilterFeature(window, steps, yaw_rad, joint, mirrored).transpose().cast<double>();
   }
-  const double weight = WeightOf(y);
+  const double weight = ComputeWeight(y);
   Sums sums = ErrorSums(stretch, joint, y, weight);
   Products& of = sums.of.emplace_back();
   for (size_t part = 0; part < kParts; ++part) {
@@ -194,36 +195,36 @@ Sums StepSums(const Stretch& stretch, size_t joint, bool mirrored) {
 /// Influences have the same weight in all axes: these are summed. x: a frame a row, a column a
 /// regressor and axis, axis by axis; y: a column an axis; `weights`: of the frames.
 void AddInfluences(const Eigen::MatrixXd& x, const Eigen::MatrixXd& y,
-                   const Eigen::VectorXd& weights, size_t part, Products* pulls) {
+                   const Eigen::VectorXd& weights, size_t part, Products* influences) {
   const Eigen::Index n = x.cols() / 3;
-  pulls->xx[part] = Eigen::MatrixXd::Zero(n, n);
-  pulls->xy[part] = Eigen::MatrixXd::Zero(n, 1);
+  influences->xx[part] = Eigen::MatrixXd::Zero(n, n);
+  influences->xy[part] = Eigen::MatrixXd::Zero(n, 1);
   for (Eigen::Index axis = 0; axis < 3; ++axis) {
     const auto of_axis = x.middleCols(axis * n, n);
     const Eigen::MatrixXd weighed = of_axis.array().colwise() * weights.array();
-    pulls->xx[part] += weighed.transpose() * of_axis;
-    pulls->xy[part] += weighed.transpose() * y.col(axis);
+    influences->xx[part] += weighed.transpose() * of_axis;
+    influences->xy[part] += weighed.transpose() * y.col(axis);
   }
 }
 
 /// In camera space.
-Sums PullSums(const Stretch& stretch, size_t joint) {
+Sums InfluenceSums(const Stretch& stretch, size_t joint) {
   Eigen::MatrixXd y = ComputeErrors(stretch, joint, false);
   std::array<Eigen::MatrixXd, LinearFilter::kOutputs> x;
   for (const auto output : {LinearFilter::kNow, LinearFilter::kBefore}) {
-    x[output].resize(y.rows(), 3 * PullFeatureSize(output));
+    x[output].resize(y.rows(), 3 * InfluenceFeatureSize(output));
     for (Eigen::Index r = 0; r < y.rows(); ++r) {
       const auto frame = static_cast<size_t>(r) + LinearFilter::kFewest;
       const auto [window, steps] = SeenIn(stretch, frame);
-      const auto pulls = PullFeature(window, steps[joint], joint, output);
-      x[output].row(r) = pulls.transpose().reshaped().transpose().cast<double>();
+      const auto influences = InfluenceFeature(window, steps[joint], joint, output);
+      x[output].row(r) = influences.transpose().reshaped().transpose().cast<double>();
       const double yaw_rad = stretch.pairs[frame]->placement.yaw_rad;
       const auto error = y.row(r).segment<3>(3 * static_cast<Eigen::Index>(output));
       y.row(r).segment<3>(3 * static_cast<Eigen::Index>(output)) =
           Turned(error.transpose(), yaw_rad).transpose();
     }
   }
-  const double weight = WeightOf(y);
+  const double weight = ComputeWeight(y);
   Sums sums = ErrorSums(stretch, joint, y, weight);
   sums.of.resize(2 * LinearFilter::kOutputs);
   for (size_t part = 0; part < kParts; ++part) {
@@ -250,16 +251,14 @@ double UsualStep_s(const std::vector<PosturePair>& pairs) {
     if (pairs[i].clip == pairs[i - 1].clip && step_s > 0.0) steps.push_back(step_s);
   }
   if (steps.empty()) return 0.0;
-  const auto middle = steps.begin() + static_cast<std::ptrdiff_t>(steps.size() / 2);
-  std::nth_element(steps.begin(), middle, steps.end());
-  return *middle;
+  return Median(std::move(steps));
 }
 
 /// All that is learned from, by folds and learned side of the joints.
 class Learner {
  public:
   Learner(const std::vector<PosturePair>& pairs, const LinearFilterOptions& options)
-      : options_(options), pulls_(OfOnePerson(pairs)) {
+      : options_(options), influences_(OfOnePerson(pairs)) {
     filter_.step_s = UsualStep_s(pairs);
     const std::vector<int> fold = AssignFolds(pairs, kFolds);
     std::vector<Posture> seen;
@@ -300,7 +299,7 @@ class Learner {
   bool Usable(const PosturePair& pair, size_t joint) const {
     constexpr double kGross_m = 0.3;  // another limb, perhaps
     return pair.known[joint] > 0.0 &&
-           (pulls_ || pair.scale * pair.residual.position_m[joint].norm() < kGross_m);
+           (influences_ || pair.scale * pair.residual.position_m[joint].norm() < kGross_m);
   }
 
   bool Follows(const PosturePair& before, const PosturePair& now, const Posture& was,
@@ -310,16 +309,15 @@ class Learner {
     JointArray<double> moved{};
     for (size_t i = 0; i < kJointCount; ++i)
       moved[i] = (is.position_m[i] - was.position_m[i]).norm();
-    std::nth_element(moved.begin(), moved.begin() + kJointCount / 2, moved.end());
-    return moved[kJointCount / 2] < kElsewhere_m;
+    return SelectRank(std::span<double>(moved), kJointCount / 2) < kElsewhere_m;
   }
 
   void Add(const Stretch& stretch, size_t joint, int fold) {
     if (stretch.seen.size() < LinearFilter::kFrames + LinearFilter::kFewest) return;
     const size_t side = LearnedSideOf(joint);
     Sums& sums = fold == kNoFold ? between_[side] : sums_[static_cast<size_t>(fold)][side];
-    if (pulls_) {
-      sums += PullSums(stretch, joint);
+    if (influences_) {
+      sums += InfluenceSums(stretch, joint);
       return;
     }
     sums += StepSums(stretch, joint, side != joint);
@@ -333,17 +331,17 @@ class Learner {
   };
 
   const Products& MeasureOf(const Sums& sums, LinearFilter::Output output) const {
-    return sums.of[pulls_ ? static_cast<size_t>(output) : 0];
+    return sums.of[influences_ ? static_cast<size_t>(output) : 0];
   }
   /// The columns of an output.
   Eigen::MatrixXd XyOf(const Products& of, size_t part, LinearFilter::Output output) const {
-    if (pulls_) return of.xy[part];
+    if (influences_) return of.xy[part];
     return of.xy[part].middleCols<3>(3 * static_cast<Eigen::Index>(output));
   }
 
   Eigen::MatrixXd Solve(const Sums& sums, const Way& way, LinearFilter::Output output) const {
     const Products& of =
-        pulls_ ? sums.of[LinearFilter::kOutputs + static_cast<size_t>(output)] : sums.of[0];
+        influences_ ? sums.of[LinearFilter::kOutputs + static_cast<size_t>(output)] : sums.of[0];
     Eigen::MatrixXd a = of.xx[0] + way.acceleration * of.xx[1];
     a.diagonal().array() += way.ridge * a.diagonal().mean() + 1e-12;
     return a.llt().solve(XyOf(of, 0, output) + way.acceleration * XyOf(of, 1, output));
@@ -403,7 +401,7 @@ class Learner {
   }
 
   LinearFilterOptions options_;
-  bool pulls_;  // of one person: what is to hold for others must have few weights
+  bool influences_;  // of one person: what is to hold for others must have few weights
   LinearFilter filter_;
   static constexpr int kFolds = 7;
   std::array<JointArray<Sums>, kFolds> sums_;

@@ -16,7 +16,7 @@ constexpr ContainerFormat kFormat = {
     {'O', 'S', 'S', 'A', 'G', 'P', '0', '0'}, LearnedModels::kVersion, "learned reconstruction"};
 // Constants: versions of the format; counts by hand.
 
-constexpr uint32_t kOldestVersion = 2, kVersionOfSteps = 3, kVersionOfPulls = 4;
+constexpr uint32_t kOldestVersion = 2, kVersionOfSteps = 3, kVersionOfInfluences = 4;
 
 // More than any honest file holds; a damaged count is refused before it costs memory or time.
 constexpr uint64_t kMostModels = LearnOptions::kMostRegions;
@@ -82,10 +82,11 @@ LinearFilter GetFilter(PayloadReader& in) {
       Eigen::MatrixXf& weights = filter.weights[output][joint];
       weights = GetMatrix(in, "filter's weights");
       const bool steps = weights.rows() == FilterFeatureSize(joint) && weights.cols() == 3;
-      const bool pulls = weights.rows() == PullFeatureSize(output) && weights.cols() == 1;
-      if (weights.size() > 0 && !steps && !pulls) {
-        in.Fail("filter's weights",
-                "expected three numbers for each step that the joint sees, or one for each pull");
+      const bool influences = weights.rows() == InfluenceFeatureSize(output) && weights.cols() == 1;
+      if (weights.size() > 0 && !steps && !influences) {
+        in.Fail(
+            "filter's weights",
+            "expected three numbers for each step that the joint sees, or one for each influence");
       }
     }
   }
@@ -112,7 +113,7 @@ WindowCorrection GetWindow(PayloadReader& in) {
 /// The oldest that holds it: what older programs read stays what they read.
 uint32_t VersionFor(const LearnedModels& models) {
   if (!models.window.empty()) return LearnedModels::kVersion;
-  return models.filter.HasInfluences() ? kVersionOfPulls : kVersionOfSteps;
+  return models.filter.HasInfluences() ? kVersionOfInfluences : kVersionOfSteps;
 }
 
 Eigen::Index FeatureSize(size_t joint) { return JointFeature(Posture(), joint).size(); }
@@ -204,7 +205,7 @@ void LearnedModels::Save(const std::filesystem::path& path) const {
   WriteContainer(path, format, out.bytes());
 }
 
-bool LearnedModels::IsOne(const std::filesystem::path& path) { return IsContainer(path, kFormat); }
+bool LearnedModels::IsFile(const std::filesystem::path& path) { return IsContainer(path, kFormat); }
 
 LearnedModels LearnedModels::Load(const std::filesystem::path& path) {
   const ContainerFormat format = ReadContainerFormat(path, kFormat, kOldestVersion);
@@ -257,7 +258,7 @@ LearnedModels LearnedModels::FromBytes(std::span<const std::byte> bytes, const s
   }
   c.mean = Eigen::Map<const Eigen::VectorXf>(mean.data(), mean.size());
   if (version >= kVersionOfSteps) out.filter = GetFilter(in);
-  if (version > kVersionOfPulls) out.window = GetWindow(in);
+  if (version > kVersionOfInfluences) out.window = GetWindow(in);
   in.ExpectEnd();
   return out;
 }

@@ -39,17 +39,17 @@ struct LearnedModels {
   LinearFilter filter;
   uint64_t pair_count = 0;  // learned from
 
-  /// `progress` (may be empty) is told the number of joints done; returns false to stop.
+  /// `progress` (may be empty) gets the number of joints done; returns false to stop.
   static LearnedModels Learn(const std::vector<PosturePair>& pairs, const LearnOptions& options,
                              const std::function<bool(int)>& progress = {});
   void Save(const std::filesystem::path& path) const;
   /// True when the file says that it is one; it may still be damaged.
-  static bool IsOne(const std::filesystem::path& path);
+  static bool IsFile(const std::filesystem::path& path);
   static LearnedModels Load(const std::filesystem::path& path);
   /// Of a payload; older versions are still read, without what they lack.
   static LearnedModels FromBytes(std::span<const std::byte> bytes, const std::string& name,
                                  uint32_t version = kVersion);
-  /// Version 3 added the filter, 4 its pulls, 5 the correction by a window of time.
+  /// Version 3 added the filter, 4 its influences, 5 the correction by a window of time.
   static constexpr uint32_t kVersion = 5;
 };
 

@@ -58,19 +58,19 @@ Eigen::VectorXf FilterFeature(std::span<const Posture> window, const LinearFilte
   return feature;
 }
 
-Eigen::Index PullFeatureSize(LinearFilter::Output output) {
-  return kWays * (LinearFilter::kPulling + output);
+Eigen::Index InfluenceFeatureSize(LinearFilter::Output output) {
+  return kWays * (LinearFilter::kInfluencing + output);
 }
 
-Eigen::Matrix3Xf PullFeature(std::span<const Posture> window, int steps, size_t joint,
-                             LinearFilter::Output output) {
+Eigen::Matrix3Xf InfluenceFeature(std::span<const Posture> window, int steps, size_t joint,
+                                  LinearFilter::Output output) {
   const auto seen = [&](int ago) -> const Eigen::Vector3d& {
     return window[window.size() - 1 - static_cast<size_t>(ago)].position_m[joint];
   };
   const Eigen::Vector3d& from = seen(output);
-  Eigen::Matrix3Xf feature(3, PullFeatureSize(output));
+  Eigen::Matrix3Xf feature(3, InfluenceFeatureSize(output));
   Eigen::Index at = 0;
-  for (int ago = 0; ago <= output + LinearFilter::kPulling; ++ago) {
+  for (int ago = 0; ago <= output + LinearFilter::kInfluencing; ++ago) {
     if (ago == output) continue;
     const Eigen::Vector3d way = seen(std::min(ago, steps)) - from;
     feature.col(at++) = way.cast<float>();
@@ -111,7 +111,7 @@ std::array<Eigen::Vector3d, LinearFilter::kOutputs> LinearFilter::Estimate(
     if (known.size() == 0) continue;
     if (known.cols() == 1) {
       const auto seen = static_cast<int>(window.size()) - 1;
-      estimate += (PullFeature(window, seen, joint, output) * known).cast<double>();
+      estimate += (InfluenceFeature(window, seen, joint, output) * known).cast<double>();
       continue;
     }
     if (steps[joint] < kFewest) continue;

@@ -30,17 +30,18 @@ struct LinearFilterOptions {
 ///   steps: of the joint and of its neighbours, each a bone away, in the body's frame, weights of
 ///     their own for every axis: it knows the sensor's delay, which way its noise lies and what
 ///     neighbours share of it. Learned of several people;
-///   pulls: of the joint alone, the same few weights for all axes. The farther another position is
-///     from the one that is estimated, the less it may pull, so that gross errors are learned of
+///   influences: of the joint alone, the same few weights for all axes. The farther another
+///   position is
+///     from the one that is estimated, the less it may weigh, so that gross errors are learned of
 ///     too. Of one person: many weights would not hold for anybody else.
 /// Left and right have the same weights, mirrored. A joint has weights only where, on people left
 /// out (of one person: on long blocks of time), they do better than LagFilter does.
 class LinearFilter {
  public:
   static constexpr int kSteps = 9;            // from frame to frame, that it sees
-  static constexpr int kFrames = kSteps + 1;  // at most, of which it must be told
-  static constexpr int kFewest = 3;           // steps of a joint, for it to be heard
-  static constexpr int kPulling = 4;          // frames before the one estimated, that pull at it
+  static constexpr int kFrames = kSteps + 1;  // at most, that it needs
+  static constexpr int kFewest = 3;           // steps of a joint, for it to count
+  static constexpr int kInfluencing = 4;      // frames before the one estimated that influence it
   /// Of the newest frame, and of the one before it once the newest is known.
   enum Output { kNow = 0, kBefore = 1, kOutputs = 2 };
   /// Of each joint: so many steps, up to the newest frame, are believed.
@@ -51,7 +52,8 @@ class LinearFilter {
 
   bool empty() const { return step_s == 0.0; }
   bool Knows(Output output, size_t joint) const { return WeightsOf(output, joint).size() > 0; }
-  /// Whether its weights are of pulls, which need a joint in the window but not believed there.
+  /// Whether its weights are of influences, which need a joint in the window but not believed
+  /// there.
   bool Influences(Output output, size_t joint) const;
   bool HasInfluences() const;  // of any joint
   /// Whether the step from frame to frame is the one that was learned of.
@@ -61,8 +63,8 @@ class LinearFilter {
   std::array<Eigen::Vector3d, kOutputs> Estimate(size_t joint, std::span<const Posture> window,
                                                  const Steps& steps, double yaw_rad) const;
 
-  // Public for the file. Of joints of the left and the middle: of steps regressors x 3, of pulls
-  // regressors x 1, empty: not learned.
+  // Public for the file. Of joints of the left and the middle: of steps regressors x 3, of
+  // influences regressors x 1, empty: not learned.
   double step_s = 0.0;  // 0: nothing is known
   std::array<JointArray<Eigen::MatrixXf>, kOutputs> weights;
 
@@ -81,13 +83,13 @@ Eigen::VectorXf FilterFeature(std::span<const Posture> window, const LinearFilte
 /// Numbers that the filter reads of a joint.
 Eigen::Index FilterFeatureSize(size_t joint);
 
-/// What other positions of a joint pull it by, of which `steps` up to the newest frame are known:
-/// for kPulling frames before the one estimated (as far back as is known), and of kBefore for the
-/// newest too, the way there d in metres: d, d / (1 + |d|^2 / r^2) with r = 5 cm, the same with 15
-/// cm (the influence function of Cauchy's distribution). 3 x regressors, in camera space.
-Eigen::Matrix3Xf PullFeature(std::span<const Posture> window, int steps, size_t joint,
-                             LinearFilter::Output output);
+/// How other positions of a joint influence it, of which `steps` up to the newest frame are known:
+/// for kInfluencing frames before the one estimated (as far back as is known), and of kBefore for
+/// the newest too, the way there d in metres: d, d / (1 + |d|^2 / r^2) with r = 5 cm, the same with
+/// 15 cm (the influence function of Cauchy's distribution). 3 x regressors, in camera space.
+Eigen::Matrix3Xf InfluenceFeature(std::span<const Posture> window, int steps, size_t joint,
+                                  LinearFilter::Output output);
 /// Numbers of a joint's influence features for that output.
-Eigen::Index PullFeatureSize(LinearFilter::Output output);
+Eigen::Index InfluenceFeatureSize(LinearFilter::Output output);
 
 }  // namespace ossa::recon

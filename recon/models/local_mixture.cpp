@@ -7,6 +7,8 @@
 #include <numeric>
 #include <random>
 
+#include "depth/base/statistics.h"
+
 namespace ossa::recon {
 namespace {
 
@@ -91,9 +93,7 @@ LocalMixture::LocalMixture(std::vector<GaussianProcess> models) : models_(std::m
     widths.push_back(model.parameters().w);
   }
   if (widths.empty()) return;
-  const auto middle = widths.begin() + static_cast<ptrdiff_t>(widths.size() / 2);
-  std::nth_element(widths.begin(), middle, widths.end());
-  w_ = *middle;
+  w_ = Median(std::move(widths));
 }
 
 double LocalMixture::LogSimilarity(size_t model, const Eigen::VectorXd& input) const {

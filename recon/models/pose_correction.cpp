@@ -188,8 +188,8 @@ LinearFit RobustFit(const Eigen::MatrixXf& k, const Eigen::MatrixXf& targets,
 
 }  // namespace
 
-PoseCorrection::Samples PoseCorrection::SamplesOf(std::vector<PosturePair> pairs,
-                                                  const PoseCorrectionOptions& options) {
+PoseCorrection::Samples PoseCorrection::MakeSamples(std::vector<PosturePair> pairs,
+                                                    const PoseCorrectionOptions& options) {
   Samples s;
   const size_t single = pairs.size();
   for (size_t i = 0; i < single; ++i) pairs.push_back(Mirrored(pairs[i]));
@@ -277,7 +277,7 @@ PoseCorrection PoseCorrection::Learn(const std::vector<PosturePair>& all_pairs,
       if (fold[i] != held && fold[i] != kNoFold) others.push_back(some[i]);
     }
     const bool nobody = std::find(fold.begin(), fold.end(), held) == fold.end();
-    if (!nobody && !others.empty()) rest.emplace(held, SamplesOf(std::move(others), quick));
+    if (!nobody && !others.empty()) rest.emplace(held, MakeSamples(std::move(others), quick));
   }
   double width = options.widths.front(), noise_ratio = options.noise_ratios.front();
   std::optional<HeldOut> best;
@@ -290,7 +290,7 @@ PoseCorrection PoseCorrection::Learn(const std::vector<PosturePair>& all_pairs,
       noise_ratio = n;
     }
   }
-  PoseCorrection out = Fit(SamplesOf(pairs, options), width, noise_ratio, options);
+  PoseCorrection out = Fit(MakeSamples(pairs, options), width, noise_ratio, options);
   out.proportions = TrueProportions(pairs);
   for (size_t j = 0; j < kJointCount; ++j) {
     const auto gain = static_cast<float>(best->gains[j]);

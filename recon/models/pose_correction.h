@@ -58,7 +58,7 @@ class PoseCorrection {
   };
 
   struct Samples;  // pairs made ready for a fit
-  static Samples SamplesOf(std::vector<PosturePair> pairs, const PoseCorrectionOptions& options);
+  static Samples MakeSamples(std::vector<PosturePair> pairs, const PoseCorrectionOptions& options);
   static PoseCorrection Fit(const Samples& samples, double width, double noise_ratio,
                             const PoseCorrectionOptions& options);
   /// `rest`: by fold, what is learned from when it is left out.

@@ -113,12 +113,12 @@ std::vector<std::vector<BoneVector>> NormalisedRuns(const PriorClip& clip) {
     const Placement placement = EstimatePlacement(posture, all, yaw_rad);
     yaw_rad = placement.yaw_rad;
     const Posture own = Normalised(posture, placement);
-    runs.back().push_back(BonesOf(Retargeted(own, StandardBoneLengths())));
+    runs.back().push_back(ToBoneVector(Retargeted(own, StandardBoneLengths())));
   }
   return runs;
 }
 
-BoneVector BonesOf(const Posture& posture) {
+BoneVector ToBoneVector(const Posture& posture) {
   BoneVector bones_m;
   for (size_t i = 1; i < kJointCount; ++i) {
     bones_m.segment<3>(FirstCoordinate(i - 1)) =
@@ -127,7 +127,7 @@ BoneVector BonesOf(const Posture& posture) {
   return bones_m;
 }
 
-Posture PostureOfBones(const BoneVector& bones_m) {
+Posture PostureFromBones(const BoneVector& bones_m) {
   Posture posture;
   for (size_t i = 1; i < kJointCount; ++i) {
     posture.position_m[i] =
@@ -176,12 +176,12 @@ PosturePrior PosturePrior::Learn(const std::vector<PriorClip>& clips,
       spread.cwiseInverse().asDiagonal() * axes.leftCols(modes).transpose();
   const auto [correlation, turn] = SortedEigen(white * lagged * white.transpose());
   out.modes_m = axes.leftCols(modes) * spread.asDiagonal() * turn;
-  out.rest_m2 = (covariance.diagonal() - out.modes_m.rowwise().squaredNorm()).cwiseMax(0.0);
+  out.residual_m2 = (covariance.diagonal() - out.modes_m.rowwise().squaredNorm()).cwiseMax(0.0);
   // correlation = exp(-lag / time)
-  out.time_s.resize(modes);
+  out.correlation_time_s.resize(modes);
   for (Eigen::Index k = 0; k < modes; ++k) {
     const double kept = std::clamp(correlation[k], 0.02, 0.9999);
-    out.time_s[k] =
+    out.correlation_time_s[k] =
         std::clamp(-options.slowness * options.lag_s / std::log(kept), kShortest_s, kLongest_s);
   }
   return out;
@@ -194,8 +194,8 @@ void PosturePrior::Save(const std::filesystem::path& path) const {
     const Eigen::MatrixXf single = m.cast<float>();
     out.PutArray(std::span<const float>(single.data(), static_cast<size_t>(single.size())));
   };
-  for (const Eigen::MatrixXd& m :
-       {Eigen::MatrixXd(mean_m), Eigen::MatrixXd(rest_m2), Eigen::MatrixXd(time_s), modes_m}) {
+  for (const Eigen::MatrixXd& m : {Eigen::MatrixXd(mean_m), Eigen::MatrixXd(residual_m2),
+                                   Eigen::MatrixXd(correlation_time_s), modes_m}) {
     put(m);
   }
   ContainerFormat format = kFormat;
@@ -208,7 +208,7 @@ void PosturePrior::Save(const std::filesystem::path& path) const {
   WriteContainer(path, format, out.bytes());
 }
 
-bool PosturePrior::IsOne(const std::filesystem::path& path) { return IsContainer(path, kFormat); }
+bool PosturePrior::IsFile(const std::filesystem::path& path) { return IsContainer(path, kFormat); }
 
 PosturePrior PosturePrior::Load(const std::filesystem::path& path) {
   const ContainerFormat format = ReadContainerFormat(path, kFormat, 1);
@@ -238,21 +238,21 @@ PosturePrior PosturePrior::FromBytes(std::span<const std::byte> bytes, const std
   };
   constexpr double kLongestBone_m = 10.0;
   out.mean_m = get("mean", kBoneDims, -kLongestBone_m, kLongestBone_m);
-  out.rest_m2 = get("rest", kBoneDims, 0.0, kLongestBone_m);
+  out.residual_m2 = get("rest", kBoneDims, 0.0, kLongestBone_m);
   const auto times = in.GetVector<float>("correlation times");
   if (times.empty() || times.size() > kBoneDims) {
     in.Fail("correlation times", fmt::format("expected 1 to {} modes", kBoneDims));
   }
-  out.time_s.resize(static_cast<Eigen::Index>(times.size()));
+  out.correlation_time_s.resize(static_cast<Eigen::Index>(times.size()));
   for (size_t k = 0; k < times.size(); ++k) {
     const double time_s = times[k];
     if (!(time_s > 0.5 * kShortest_s && time_s < 2.0 * kLongest_s)) {
       in.Fail("correlation times", "expected 0.01 s to 2000 s");
     }
-    out.time_s[static_cast<Eigen::Index>(k)] = time_s;
+    out.correlation_time_s[static_cast<Eigen::Index>(k)] = time_s;
   }
   out.modes_m = get("modes", kBoneDims * times.size(), -kLongestBone_m, kLongestBone_m);
-  out.modes_m.resize(kBoneDims, out.time_s.size());
+  out.modes_m.resize(kBoneDims, out.correlation_time_s.size());
   if (version >= kVersionOfNetwork) {
     const Eigen::Index units = GetUnits(in);
     out.network = {GetPerceptron(in, {kPriorInputs, units, kBoneDims})};

@@ -46,11 +46,11 @@ struct PosturePriorOptions {
 /// holds: nobody's posture. It knows no left from right: every motion counts mirrored, too.
 struct PosturePrior {
   BoneVector mean_m = BoneVector::Zero();
-  Eigen::MatrixXd modes_m;                  // kBoneDims x modes: bones = mean + modes * u
-  BoneVector rest_m2 = BoneVector::Zero();  // variance of each number that no mode explains
-  Eigen::VectorXd time_s;                   // correlation time of each mode, slowest first
-  uint64_t frames = 0;                      // learned from
-  PriorNetwork network;                     // what no Gaussian says; may be empty
+  Eigen::MatrixXd modes_m;                      // kBoneDims x modes: bones = mean + modes * u
+  BoneVector residual_m2 = BoneVector::Zero();  // variance of each number that no mode explains
+  Eigen::VectorXd correlation_time_s;           // correlation time of each mode, slowest first
+  uint64_t frames = 0;                          // learned from
+  PriorNetwork network;                         // what no Gaussian says; may be empty
 
   /// Throws InputError when the clips hold no moving, finite postures.
   static PosturePrior Learn(const std::vector<PriorClip>& clips,
@@ -65,15 +65,15 @@ struct PosturePrior {
   static constexpr uint32_t kVersion = 2;
   void Save(const std::filesystem::path& path) const;
   /// True when the file says that it is one; it may still be damaged.
-  static bool IsOne(const std::filesystem::path& path);
+  static bool IsFile(const std::filesystem::path& path);
 };
 
 /// The clip normalised, of the standard size; a frame that is not finite ends the run before it.
 std::vector<std::vector<BoneVector>> NormalisedRuns(const PriorClip& clip);
 
 /// Vectors of the bones as they are.
-BoneVector BonesOf(const Posture& posture);
+BoneVector ToBoneVector(const Posture& posture);
 /// The way back, root at the origin.
-Posture PostureOfBones(const BoneVector& bones_m);
+Posture PostureFromBones(const BoneVector& bones_m);
 
 }  // namespace ossa::recon

@@ -14,7 +14,7 @@ namespace {
 struct JointModel {
   Eigen::Vector3d at_m = Eigen::Vector3d::Zero();
   Eigen::Matrix<double, 3, Eigen::Dynamic> of_modes;
-  Eigen::Vector3d rest_m2 = Eigen::Vector3d::Zero();
+  Eigen::Vector3d residual_m2 = Eigen::Vector3d::Zero();
 };
 
 /// Every bone as long as the person's; parents before children.
@@ -27,7 +27,7 @@ JointArray<JointModel> MakeJointModels(const PosturePrior& prior, const BoneLeng
     const auto row = FirstCoordinate(i - 1);
     models[i].at_m = parent.at_m + ratio * prior.mean_m.segment<3>(row);
     models[i].of_modes = parent.of_modes + ratio * prior.modes_m.middleRows<3>(row);
-    models[i].rest_m2 = parent.rest_m2 + ratio * ratio * prior.rest_m2.segment<3>(row);
+    models[i].residual_m2 = parent.residual_m2 + ratio * ratio * prior.residual_m2.segment<3>(row);
   }
   return models;
 }
@@ -55,7 +55,7 @@ PriorFilter::PriorFilter(std::shared_ptr<const PosturePrior> prior) : prior_(std
 }
 
 void PriorFilter::Reset() {
-  const Eigen::Index modes = prior_->time_s.size();
+  const Eigen::Index modes = prior_->correlation_time_s.size();
   last_ = PriorObservation();
   last_.lengths_m = StandardBoneLengths();
   network_share_.reset();
@@ -65,9 +65,9 @@ void PriorFilter::Reset() {
 
 /// Each mode forgets at its own pace; of the root's place nothing is carried over.
 void PriorFilter::Predict(double dt_s, double root_sd_m) {
-  const Eigen::Index modes = prior_->time_s.size();
+  const Eigen::Index modes = prior_->correlation_time_s.size();
   Eigen::VectorXd kept = Eigen::VectorXd::Zero(modes + 3);
-  kept.head(modes) = (-dt_s / prior_->time_s.array()).exp();
+  kept.head(modes) = (-dt_s / prior_->correlation_time_s.array()).exp();
   mean_ = mean_.cwiseProduct(kept);
   covariance_ = kept.asDiagonal() * covariance_ * kept.asDiagonal();
   covariance_.diagonal().head(modes).array() += 1.0 - kept.head(modes).array().square();
@@ -86,7 +86,7 @@ double PriorFilter::NetworkShare(double dt_s) {
 
 Posture PriorFilter::Step(double dt_s, const PriorObservation& observation) {
   Predict(dt_s, observation.root_sd_m);
-  const Eigen::Index modes = prior_->time_s.size();
+  const Eigen::Index modes = prior_->correlation_time_s.size();
   const auto models = MakeJointModels(*prior_, observation.lengths_m);
   Eigen::Matrix<double, 3, Eigen::Dynamic> h(3, modes + 3);
   h.rightCols<3>().setIdentity();
@@ -96,7 +96,7 @@ Posture PriorFilter::Step(double dt_s, const PriorObservation& observation) {
     h.leftCols(modes) = models[i].of_modes;
     const Eigen::Matrix<double, Eigen::Dynamic, 3> spread = covariance_ * h.transpose();
     Eigen::Matrix3d innovation = h * spread;
-    innovation.diagonal() += models[i].rest_m2;
+    innovation.diagonal() += models[i].residual_m2;
     innovation.diagonal().array() += sd_m * sd_m;
     const Eigen::Matrix<double, Eigen::Dynamic, 3> gain = spread * innovation.inverse();
     mean_ += gain * (observation.seen.position_m[i] - models[i].at_m - h * mean_);
@@ -107,18 +107,18 @@ Posture PriorFilter::Step(double dt_s, const PriorObservation& observation) {
   BoneVector bones_m = Bones_m();
   const double share = NetworkShare(dt_s);
   if (!prior_->network.empty()) bones_m += share * prior_->network.Correction_m(Input());
-  Posture out = Retargeted(PostureOfBones(bones_m), observation.lengths_m);
+  Posture out = Retargeted(PostureFromBones(bones_m), observation.lengths_m);
   for (Eigen::Vector3d& p : out.position_m) p += mean_.tail<3>();
   return out;
 }
 
 BoneVector PriorFilter::Bones_m() const {
-  return prior_->mean_m + prior_->modes_m * mean_.head(prior_->time_s.size());
+  return prior_->mean_m + prior_->modes_m * mean_.head(prior_->correlation_time_s.size());
 }
 
 PriorInput PriorFilter::Input() const {
   const auto models = MakeJointModels(*prior_, last_.lengths_m);
-  const Eigen::VectorXd modes = mean_.head(prior_->time_s.size());
+  const Eigen::VectorXd modes = mean_.head(prior_->correlation_time_s.size());
   const double standard_from_person = Sum(StandardBoneLengths()) / Sum(last_.lengths_m);
   PriorInput input;
   input.head<kBoneDims>() = Bones_m().cast<float>();
@@ -129,7 +129,7 @@ PriorInput PriorFilter::Input() const {
   for (size_t i = 1; i < kJointCount; ++i) {
     if (!IsSeen(last_, i)) continue;
     const auto at = static_cast<Eigen::Index>(i - 1);
-    clear[at] = Clearness(last_.sd_m[i]);
+    clear[at] = ObservationQuality(last_.sd_m[i]);
     const Eigen::Vector3d expected_m =
         models[i].at_m + models[i].of_modes * modes + mean_.tail<3>();
     seen_m.segment<3>(3 * at) =
@@ -139,12 +139,12 @@ PriorInput PriorFilter::Input() const {
 }
 
 double PriorFilter::Uncertainty_m(Joint joint) const {
-  const Eigen::Index modes = prior_->time_s.size();
+  const Eigen::Index modes = prior_->correlation_time_s.size();
   const auto models = MakeJointModels(*prior_, StandardBoneLengths());
   const JointModel& model = models[joint];
   const Eigen::Matrix3d spread =
       model.of_modes * covariance_.topLeftCorner(modes, modes) * model.of_modes.transpose();
-  return std::sqrt(std::max(0.0, spread.trace() + model.rest_m2.sum()));
+  return std::sqrt(std::max(0.0, spread.trace() + model.residual_m2.sum()));
 }
 
 }  // namespace ossa::recon

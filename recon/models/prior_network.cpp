@@ -2,7 +2,7 @@
 
 namespace ossa::recon {
 
-float Clearness(double sd_m) {
+float ObservationQuality(double sd_m) {
   constexpr double kHalfClear_m = 0.1;  // by hand
   return sd_m > 0.0 ? static_cast<float>(kHalfClear_m / (kHalfClear_m + sd_m)) : 0.0F;
 }

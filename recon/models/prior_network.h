@@ -21,7 +21,7 @@ inline constexpr int kPriorInputs = 2 * kBoneDims + kJointCount - 1;
 using PriorInput = Eigen::Matrix<float, kPriorInputs, 1>;
 
 /// How clearly a joint is seen whose place is known with that standard deviation; 0: not seen.
-float Clearness(double sd_m);
+float ObservationQuality(double sd_m);
 
 /// What a Gaussian prior cannot say of how people hold themselves: knees bend one way only, and who
 /// bends down holds the hands otherwise than who squats. A network that knows how far the bones lie

@@ -63,8 +63,8 @@ Perceptron Train(const std::vector<PosturePair>& pairs, size_t most,
 }
 
 /// Offsets of every pair, in their order.
-std::vector<Posture> OffsetsOf(const WindowCorrection& correction,
-                               const std::vector<PosturePair>& pairs) {
+std::vector<Posture> UnpackOffsets(const WindowCorrection& correction,
+                                   const std::vector<PosturePair>& pairs) {
   std::vector<Posture> offsets;
   FeatureHistory history;
   for (size_t i = 0; i < pairs.size(); ++i) {
@@ -96,7 +96,7 @@ JointWeights FindGains(const std::vector<PosturePair>& pairs,
     WindowCorrection trial;
     trial.network = Train(rest, options.for_gains, options);
     trial.gains.fill(1.0);
-    const std::vector<Posture> of_held = OffsetsOf(trial, left_out);
+    const std::vector<Posture> of_held = UnpackOffsets(trial, left_out);
     for (size_t k = 0; k < places.size(); ++k) offsets[places[k]] = of_held[k];
   }
   return ComputeGains(pairs, fold, offsets);

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "depth/base/angles.h"
 #include "depth/base/error.h"
 
 namespace ossa::recon {
@@ -13,16 +14,15 @@ namespace {
 
 using Eigen::Vector3d;
 
-constexpr double kDegree = std::numbers::pi / 180.0;  // radians, by definition
 /// Mean angle between a bone and the source's: limbs agree to rounding, trunks of rigs lean up to
 /// 15 degrees otherwise, and a body on its side is 90 degrees away.
 constexpr double kMostApart_rad = 35.0 * kDegree;
 
-Vector3d MiddleOf(const std::vector<Vector3d>& places, const std::array<int, 2>& joints) {
+Vector3d ComputeMiddle(const std::vector<Vector3d>& places, const std::array<int, 2>& joints) {
   return 0.5 * (places[static_cast<size_t>(joints[0])] + places[static_cast<size_t>(joints[1])]);
 }
 
-Vector3d MiddleOf(const Posture& posture, const std::array<Joint, 2>& joints) {
+Vector3d ComputeMiddle(const Posture& posture, const std::array<Joint, 2>& joints) {
   return 0.5 * (posture[joints[0]] + posture[joints[1]]);
 }
 
@@ -60,8 +60,8 @@ void AgreementCheck::AddSide(const SideBones& side, bool left) {
 
 void AgreementCheck::Add(const std::vector<Vector3d>& source, const Posture& ours) {
   for (Pair& pair : pairs_) {
-    const Vector3d theirs = MiddleOf(source, pair.to) - MiddleOf(source, pair.from);
-    const Vector3d made = MiddleOf(ours, pair.our_to) - MiddleOf(ours, pair.our_from);
+    const Vector3d theirs = ComputeMiddle(source, pair.to) - ComputeMiddle(source, pair.from);
+    const Vector3d made = ComputeMiddle(ours, pair.our_to) - ComputeMiddle(ours, pair.our_from);
     const double cosine = theirs.normalized().dot(made.normalized());
     pair.sum_rad += std::acos(std::clamp(cosine, -1.0, 1.0));
   }

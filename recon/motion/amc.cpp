@@ -49,8 +49,8 @@ class AmcParser {
 
  private:
   std::vector<std::string_view> Next() {
-    auto line = scan_.LineOfWords();
-    while (!line.empty() && line.front().starts_with('#')) line = scan_.LineOfWords();
+    auto line = scan_.ReadWordsOfLine();
+    while (!line.empty() && line.front().starts_with('#')) line = scan_.ReadWordsOfLine();
     return line;
   }
 
@@ -113,7 +113,7 @@ class AmcParser {
 
 /// World rotation from rest: W = W_parent C M C^-1, where M turns about the bone's own axes in the
 /// order of its degrees of freedom (the first innermost).
-SourceFrame FrameOf(const AmcData& data, size_t frame) {
+SourceFrame ToSourceFrame(const AmcData& data, size_t frame) {
   const double* values = data.values.data() + frame * data.per_frame;
   const double unit = data.degrees ? std::numbers::pi / 180.0 : 1.0;
   SourceFrame out;
@@ -161,7 +161,7 @@ SourceMotion ParseAmc(std::string text, const std::string& source,
         bone.parent < 0 ? Eigen::Vector3d::Zero() : bones[static_cast<size_t>(bone.parent)].segment;
     motion.joints.push_back({bone.name, bone.parent, offset, {bone.segment}});
   }
-  motion.frame = [data](size_t frame) { return FrameOf(*data, frame); };
+  motion.frame = [data](size_t frame) { return ToSourceFrame(*data, frame); };
   return motion;
 }
 

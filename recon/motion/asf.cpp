@@ -55,7 +55,7 @@ class AsfParser {
 
   void Next() {
     do {
-      line_ = scan_.LineOfWords();
+      line_ = scan_.ReadWordsOfLine();
     } while (!line_.empty() && line_.front().starts_with('#'));
   }
 
@@ -185,7 +185,7 @@ class AsfParser {
     return bone;
   }
 
-  int Known(std::string_view name) {
+  int FindBone(std::string_view name) {
     const int bone = skeleton_.BoneNamed(name);
     if (bone < 0) scan_.Fail("a bone of :bonedata", name);
     return bone;
@@ -196,9 +196,9 @@ class AsfParser {
     for (; !AtSection(); Next()) {
       const std::string key = Lower(line_.front());
       if (key == "begin" || key == "end") continue;
-      const int parent = Known(line_.front());
+      const int parent = FindBone(line_.front());
       for (size_t w = 1; w < line_.size(); ++w) {
-        AcclaimBone& child = skeleton_.bones[static_cast<size_t>(Known(line_[w]))];
+        AcclaimBone& child = skeleton_.bones[static_cast<size_t>(FindBone(line_[w]))];
         if (child.parent != -2) scan_.Fail("one parent for each bone", line_[w]);
         child.parent = parent;
       }

@@ -5,6 +5,7 @@
 #include <numbers>
 #include <string>
 
+#include "depth/base/angles.h"
 #include "recon/body/standard_body.h"
 #include "recon/motion/retarget_internal.h"
 
@@ -15,7 +16,6 @@ using Eigen::AngleAxisd;
 using Eigen::Quaterniond;
 using Eigen::Vector3d;
 
-constexpr double kDegree = std::numbers::pi / 180.0;
 // Constants: chosen by hand.
 
 // Nobody stands with locked knees or punches with a locked elbow.
@@ -118,7 +118,7 @@ Vector3d ElbowPole(const Vector3d& direction, double sign, double swivel) {
 
 /// World place of the ankle: the foot turns about its ball with the heel up, about the heel with
 /// the toes up.
-Vector3d AnkleOf(const LegKey& leg, size_t side, double heading, Quaterniond& foot) {
+Vector3d PlaceAnkle(const LegKey& leg, size_t side, double heading, Quaterniond& foot) {
   const RigRest& rest = StandardRigRest();
   const LimbBones& b = RigBones().side[side];
   const Vector3d ankle = rest.head_m[b.foot];
@@ -190,7 +190,7 @@ void PoseLegs(const BodyKey& key, const Feet& feet, RigPose& pose) {
 }
 
 /// Centre of mass from the joints; parts of the body mass after Winter 2009, table 4.1.
-Vector3d CentreOfMass(const RigPose& pose) {
+Vector3d ComputeCentreOfMass(const RigPose& pose) {
   const Posture p = StandardPosture(pose);
   struct Segment {
     Joint from, to;
@@ -240,7 +240,7 @@ void Balance(const BodyKey& key, const Feet& feet, RigPose& pose) {
     pose.root_m.y() = key.pelvis_m.y();
     LowerToFeet(key, feet, pose);
     PoseLegs(key, feet, pose);
-    const Vector3d off = support - CentreOfMass(pose);
+    const Vector3d off = support - ComputeCentreOfMass(pose);
     pose.root_m += Vector3d(off.x(), 0.0, off.z());
   }
   pose.root_m = key.pelvis_m + key.balance * (pose.root_m - key.pelvis_m);
@@ -292,7 +292,7 @@ BodyKey::BodyKey() {
   }
 }
 
-BodyKeyNumbers NumbersOf(const BodyKey& k) {
+BodyKeyNumbers ToNumbers(const BodyKey& k) {
   BodyKeyNumbers n{k.pelvis_m.x(), k.pelvis_m.y(), k.pelvis_m.z(), k.heading, k.pitch,
                    k.roll,         k.twist,        k.bend,         k.side,    k.turn,
                    k.nod,          k.look,         k.tilt,         k.weight,  k.balance,
@@ -309,7 +309,7 @@ BodyKeyNumbers NumbersOf(const BodyKey& k) {
   return n;
 }
 
-BodyKey KeyOf(const BodyKeyNumbers& n) {
+BodyKey ToKey(const BodyKeyNumbers& n) {
   BodyKey k;
   k.pelvis_m = {n[0], n[1], n[2]};
   k.heading = n[3], k.pitch = n[4], k.roll = n[5], k.twist = n[6];
@@ -342,7 +342,7 @@ BodyKey Mirrored(const BodyKey& key) {
   return m;
 }
 
-RigPose PoseOf(const BodyKey& key) {
+RigPose ComputePose(const BodyKey& key) {
   RigPose pose;
   pose.root_m = key.pelvis_m;
   PoseTrunk(key, pose);
@@ -350,7 +350,7 @@ RigPose PoseOf(const BodyKey& key) {
   FollowArmsWithCollars(pose);
   Feet feet;
   for (size_t s = 0; s < 2; ++s) {
-    feet.ankle[s] = AnkleOf(key.leg[s], s, key.heading, feet.foot[s]);
+    feet.ankle[s] = PlaceAnkle(key.leg[s], s, key.heading, feet.foot[s]);
   }
   Balance(key, feet, pose);
   LowerToFeet(key, feet, pose);
@@ -387,7 +387,7 @@ void ReachForInWorld(BodyKey& key, size_t side, const Vector3d& place_m) {
   const Bones& b = RigBones();
   // The arms' weight moves the pelvis a little: a few rounds settle it.
   for (int round = 0; round < 3; ++round) {
-    const RigPose pose = PoseOf(key);
+    const RigPose pose = ComputePose(key);
     const Vector3d from_neck =
         pose.world_from_rest[b.spine1].conjugate() * (place_m - StandardBoneHeads(pose)[b.neck]);
     ReachFor(key, side, {SideSign(side) * from_neck.x(), from_neck.y(), from_neck.z()});

@@ -51,8 +51,8 @@ struct BodyKey {
 // Derived: what a key posture's fields hold
 inline constexpr size_t kBodyKeyNumbers = 17 + 2 * 5 + 2 * 6;
 using BodyKeyNumbers = std::array<double, kBodyKeyNumbers>;
-BodyKeyNumbers NumbersOf(const BodyKey& key);
-BodyKey KeyOf(const BodyKeyNumbers& numbers);
+BodyKeyNumbers ToNumbers(const BodyKey& key);
+BodyKey ToKey(const BodyKeyNumbers& numbers);
 
 /// Left and right exchanged.
 BodyKey Mirrored(const BodyKey& key);
@@ -60,9 +60,9 @@ BodyKey Mirrored(const BodyKey& key);
 /// The posture on the standard body: two-bone inverse kinematics of arms and legs (law of cosines),
 /// trunk bends shared over the rig's spine bones, collars following the arms, the pelvis lowered
 /// until the feet are reached and moved until the body is balanced.
-RigPose PoseOf(const BodyKey& key);
+RigPose ComputePose(const BodyKey& key);
 
-/// Parts of PoseOf: pelvis, spine, neck and head; an arm, after the trunk. The root stays.
+/// Parts of ComputePose: pelvis, spine, neck and head; an arm, after the trunk. The root stays.
 void PoseTrunk(const BodyKey& key, RigPose& pose);
 void PoseArm(const ArmKey& arm, size_t side, RigPose& pose);
 

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "depth/base/angles.h"
 #include "recon/motion/authored_moves_internal.h"
 
 namespace ossa::recon {
@@ -18,7 +19,6 @@ double SideSign(size_t side) { return side == 0 ? 1.0 : -1.0; }
 /// A straight arm `elevation` degrees from hanging, in the vertical plane turned `plane` degrees
 /// from the side (0) to the front (90); the shoulder blade's own plane lies near 35.
 void Elevate(ArmKey& arm, double elevation, double plane) {
-  constexpr double kDegree = std::numbers::pi / 180.0;
   constexpr double kAtTheSide = 3.0;  // degrees
   if (plane < kAtTheSide) {
     arm.flex = 0.0;

@@ -42,9 +42,9 @@ struct FloorKey {
 constexpr size_t kFloorNumbers = kBodyKeyNumbers + 10;
 using FloorNumbers = std::array<double, kFloorNumbers>;
 
-FloorNumbers NumbersOf(const FloorKey& key) {
+FloorNumbers ToNumbers(const FloorKey& key) {
   FloorNumbers numbers{};
-  const BodyKeyNumbers body = recon::NumbersOf(key.body);
+  const BodyKeyNumbers body = recon::ToNumbers(key.body);
   std::copy(body.begin(), body.end(), numbers.begin());
   size_t i = kBodyKeyNumbers;
   for (const LegAngles& l : key.leg) {
@@ -53,11 +53,11 @@ FloorNumbers NumbersOf(const FloorKey& key) {
   return numbers;
 }
 
-FloorKey KeyOf(const FloorNumbers& numbers) {
+FloorKey ToKey(const FloorNumbers& numbers) {
   FloorKey key;
   BodyKeyNumbers body{};
   std::copy_n(numbers.begin(), kBodyKeyNumbers, body.begin());
-  key.body = recon::KeyOf(body);
+  key.body = recon::ToKey(body);
   size_t i = kBodyKeyNumbers;
   for (LegAngles& l : key.leg) {
     l = {numbers[i], numbers[i + 1], numbers[i + 2], numbers[i + 3], numbers[i + 4]};
@@ -98,7 +98,7 @@ void LayDown(RigPose& pose) {
   pose.root_m.y() -= lowest_m;
 }
 
-RigPose PoseOf(const FloorKey& key) {
+RigPose ComputePose(const FloorKey& key) {
   RigPose pose;
   pose.root_m = key.body.pelvis_m;
   PoseTrunk(key.body, pose);
@@ -148,12 +148,12 @@ class FloorMoves {
       for (size_t n = 0; n < numbers.size(); ++n) {
         numbers[n] += eased * (keys_[i + 1][n] - numbers[n]);
       }
-      FloorKey key = KeyOf(numbers);
+      FloorKey key = ToKey(numbers);
       if (mirrored_) {
         key.body = Mirrored(key.body);
         std::swap(key.leg[0], key.leg[1]);
       }
-      frames.push_back(PoseOf(key));
+      frames.push_back(ComputePose(key));
     }
     return frames;
   }
@@ -161,7 +161,7 @@ class FloorMoves {
  private:
   void Put(double seconds) {
     times_s_.push_back((times_s_.empty() ? 0.0 : times_s_.back()) + seconds);
-    keys_.push_back(NumbersOf(now));
+    keys_.push_back(ToNumbers(now));
   }
 
   Random random_;

@@ -60,13 +60,13 @@ Moves::Moves(uint64_t seed) : random_(seed) {
   ease_.weight = Between(0.4, 0.6);
   now = ease_;
   times_s_.push_back(0.0);
-  keys_.push_back(NumbersOf(now));
+  keys_.push_back(ToNumbers(now));
 }
 
 void Moves::To(double seconds, const std::function<void(BodyKey&)>& edit) {
   edit(now);
   times_s_.push_back(times_s_.back() + seconds * tempo_ * Between(0.93, 1.07));
-  keys_.push_back(NumbersOf(now));
+  keys_.push_back(ToNumbers(now));
 }
 
 void Moves::Hold(double seconds) {
@@ -136,7 +136,7 @@ BodyKey Moves::Swayed(BodyKeyNumbers numbers, double time_s) const {
     }
     numbers[n] += sway_ * kSway[n] * wave;
   }
-  BodyKey key = KeyOf(numbers);
+  BodyKey key = ToKey(numbers);
   for (ArmKey& arm : key.arm) arm.reach = std::clamp(arm.reach, 0.15, 0.99);
   key.weight = std::clamp(key.weight, 0.0, 1.0);
   return mirrored_ ? Mirrored(key) : key;
@@ -147,7 +147,7 @@ std::vector<RigPose> Moves::Play(double frame_s) const {
   const auto count = static_cast<size_t>(times_s_.back() / frame_s) + 1;
   for (size_t f = 0; f < count; ++f) {
     const double time_s = static_cast<double>(f) * frame_s;
-    frames.push_back(PoseOf(Swayed(At(time_s), time_s)));
+    frames.push_back(ComputePose(Swayed(At(time_s), time_s)));
   }
   return frames;
 }

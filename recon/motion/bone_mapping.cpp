@@ -65,7 +65,7 @@ BoneMapping ParseBoneMapping(std::string text, const std::string& file) {
   TextScanner scan(std::move(text), file);
   BoneMapping mapping;
   mapping.file = file;
-  for (auto words = scan.LineOfWords(); !words.empty(); words = scan.LineOfWords()) {
+  for (auto words = scan.ReadWordsOfLine(); !words.empty(); words = scan.ReadWordsOfLine()) {
     const auto [bone, joint] = TakeApart(scan, words);
     if (bone.empty()) continue;
     if (bone == "rest") {
@@ -89,7 +89,7 @@ BoneMapping ReadBoneMapping(const std::filesystem::path& path) {
   return ParseBoneMapping(ReadTextFile(path), path.string());
 }
 
-std::optional<Joint> JointOfBone(std::string_view bone) {
+std::optional<Joint> FindJointOfBone(std::string_view bone) {
   if (const auto joint = JointFromName(bone)) return joint;
   for (const auto& [joint, of_rig] : kJointBones) {
     if (of_rig == bone) return JointFromName(joint);

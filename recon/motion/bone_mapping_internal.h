@@ -34,7 +34,7 @@ BoneMapping ReadBoneMapping(const std::filesystem::path& path);
 
 /// The SDK's joint where a bone of the rig begins ("LeftArm": ShoulderLeft), or of that name; none
 /// for bones that begin at none, as the collars.
-std::optional<Joint> JointOfBone(std::string_view bone);
+std::optional<Joint> FindJointOfBone(std::string_view bone);
 
 /// The rig's bone that begins at a joint of the SDK ("ShoulderLeft": "LeftArm"); `bone` itself when
 /// it is no such joint; "" for a hand, which is inside a bone.

@@ -42,7 +42,7 @@ struct BvhFramePose {
   std::vector<Eigen::Quaterniond> rotation;
 };
 /// The pose of one frame, 0 the first.
-BvhFramePose PoseOf(const BvhFile& bvh, size_t frame);
+BvhFramePose ComputePose(const BvhFile& bvh, size_t frame);
 
 /// Reads any legal file, and what programs write beside the rules: channel order per joint, 0 to 6
 /// channels, several roots, line ends of any kind, more or fewer rows than the header announces
@@ -94,16 +94,16 @@ struct BvhExportOptions {
 /// first frame, whoever is in it, and stands until the body is first seen: those of several people
 /// are in step with each other and the recording. Throws InputError when no frame has the body, or
 /// its text would surely exceed the options' bytes.
-BvhFile BvhOfSkeleton(const SkeletonSequence& sequence, const BvhExportOptions& options = {});
+BvhFile SkeletonToBvh(const SkeletonSequence& sequence, const BvhExportOptions& options = {});
 /// The same into a file, without ever holding more than a frame of it; the file appears only when
 /// complete.
-void WriteBvhOfSkeleton(const SkeletonSequence& sequence, const std::filesystem::path& path,
+void WriteSkeletonAsBvh(const SkeletonSequence& sequence, const std::filesystem::path& path,
                         const BvhExportOptions& options = {});
 
 struct BoneMapping;
 
 /// The 20 joints of a BVH where it has them, metres, of a body of its own size; each root that is a
-/// person is a body, ids 1, 2, ... A BVH with the SDK's joints (as BvhOfSkeleton makes them) has
+/// person is a body, ids 1, 2, ... A BVH with the SDK's joints (as SkeletonToBvh makes them) has
 /// them by name, in centimetres. Of any other, joints are found by name (FindBones):
 ///  - HipCenter, Head, shoulders, elbows, wrists, hips, knees, ankles are where its joints are;
 ///    ShoulderCenter is the first joint of the neck, or between the shoulders without one; feet are
@@ -116,7 +116,7 @@ struct BoneMapping;
 /// metres, millimetres, inches or the CMU's (0.45 inch), with a warning. y is up, or z where the
 /// figure clearly stands along it, with a warning. Throws InputError for unknown names. The BVH is
 /// taken, so that a long one need not be there beside the skeletons.
-SkeletonSequence SkeletonOfBvh(BvhFile bvh, const std::string& source,
+SkeletonSequence BvhToSkeleton(BvhFile bvh, const std::string& source,
                                const BoneMapping* mapping = nullptr);
 
 }  // namespace ossa::recon

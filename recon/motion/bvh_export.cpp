@@ -47,11 +47,11 @@ Vector3d RestDirection(size_t joint) {
 
 namespace {
 
-ptrdiff_t ChildrenOf(size_t joint) {
+ptrdiff_t CountChildren(size_t joint) {
   return std::count(kJointParent.begin(), kJointParent.end(), static_cast<int>(joint));
 }
 
-bool Branches(size_t joint) { return ChildrenOf(joint) > 1; }
+bool Branches(size_t joint) { return CountChildren(joint) > 1; }
 
 BvhLayout SdkLayout(const BoneLengths& lengths) {
   const std::vector<BvhChannel> turns = BvhTurns();
@@ -77,7 +77,7 @@ BvhLayout SdkLayout(const BoneLengths& lengths) {
     joint.parent = static_cast<int>(layout.turner[j]);
     joint.offset = kBvhCentimetres * lengths[j] * RestDirection(j);
     joint.channels = turns;
-    if (ChildrenOf(j) == 0) joint.end_sites.push_back(kBvhEnd_cm * RestDirection(j));
+    if (CountChildren(j) == 0) joint.end_sites.push_back(kBvhEnd_cm * RestDirection(j));
     layout.place[j] = layout.joints.size();
     layout.joints.push_back(joint);
   }
@@ -120,7 +120,7 @@ std::array<Vector3d, 2> HipOffsets(const SightingLog& seen) {
   return sum;
 }
 
-BvhLayout LayoutOf(BvhNames names, const BoneLengths& lengths, const SightingLog& seen) {
+BvhLayout MakeLayout(BvhNames names, const BoneLengths& lengths, const SightingLog& seen) {
   return names == BvhNames::kSdk ? SdkLayout(lengths)
                                  : HumanoidLayout(names, lengths, HipOffsets(seen));
 }
@@ -162,7 +162,7 @@ void AppendFrame(const BvhLayout& layout, const Vector3d& root_m,
 }
 
 /// The first frame's time, whoever is in it.
-double BeginOf(const SkeletonSequence& sequence, const SightingLog& seen) {
+double FindBegin(const SkeletonSequence& sequence, const SightingLog& seen) {
   return std::min(sequence.frames.front().time_s, seen[0].time_s);
 }
 
@@ -175,7 +175,7 @@ class BvhBody {
         options_(options),
         sightings_(std::move(sightings)),
         body_(sightings_.seen()),
-        layout_(LayoutOf(options.names, body_.lengths_m(), sightings_.seen())) {
+        layout_(MakeLayout(options.names, body_.lengths_m(), sightings_.seen())) {
     CheckLength();
   }
 
@@ -218,10 +218,10 @@ class BvhBody {
 
 }  // namespace
 
-BvhFile BvhOfSkeleton(const SkeletonSequence& sequence, const BvhExportOptions& options) {
+BvhFile SkeletonToBvh(const SkeletonSequence& sequence, const BvhExportOptions& options) {
   SightingLog seen =
       CollectSightings(sequence, options.body_id, std::filesystem::temp_directory_path());
-  const double begin_s = BeginOf(sequence, seen);
+  const double begin_s = FindBegin(sequence, seen);
   BvhBody body(EvenSightings(std::move(seen), begin_s, options.frame_s), options, sequence.source);
   BvhFile bvh;
   bvh.joints = body.joints();
@@ -230,7 +230,7 @@ BvhFile BvhOfSkeleton(const SkeletonSequence& sequence, const BvhExportOptions& 
   return bvh;
 }
 
-void WriteBvhOfSightings(SightingLog seen, double begin_s, const std::filesystem::path& path,
+void WriteSightingsAsBvh(SightingLog seen, double begin_s, const std::filesystem::path& path,
                          const BvhExportOptions& options) {
   BvhBody body(EvenSightings(std::move(seen), begin_s, options.frame_s), options, path.string());
   AtomicFile file(path);
@@ -249,11 +249,11 @@ void WriteBvhOfSightings(SightingLog seen, double begin_s, const std::filesystem
   file.Commit();
 }
 
-void WriteBvhOfSkeleton(const SkeletonSequence& sequence, const std::filesystem::path& path,
+void WriteSkeletonAsBvh(const SkeletonSequence& sequence, const std::filesystem::path& path,
                         const BvhExportOptions& options) {
   SightingLog seen = CollectSightings(sequence, options.body_id, FolderOf(path));
-  const double begin_s = BeginOf(sequence, seen);
-  WriteBvhOfSightings(std::move(seen), begin_s, path, options);
+  const double begin_s = FindBegin(sequence, seen);
+  WriteSightingsAsBvh(std::move(seen), begin_s, path, options);
 }
 
 }  // namespace ossa::recon

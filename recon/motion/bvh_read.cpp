@@ -64,7 +64,7 @@ class Parser {
   void OpenJoint(int parent) {
     BvhJoint joint;
     joint.parent = parent;
-    for (const std::string_view word : scan_.RestOfLine()) {
+    for (const std::string_view word : scan_.ReadRestOfLine()) {
       if (!joint.name.empty()) joint.name += ' ';
       joint.name += word;
     }
@@ -109,7 +109,7 @@ class Parser {
   }
 
   void ReadEndSite() {
-    scan_.RestOfLine();  // "Site", or a name some exporters put there
+    scan_.ReadRestOfLine();  // "Site", or a name some exporters put there
     scan_.Expect("{");
     scan_.Expect("OFFSET");
     bvh_.joints[Top()].end_sites.push_back(Vector("End Site OFFSET"));
@@ -173,7 +173,7 @@ class Parser {
 
   /// The next row; false at the end.
   bool ReadFrame(size_t channels) {
-    const auto words = scan_.LineOfWords();
+    const auto words = scan_.ReadWordsOfLine();
     if (words.empty()) return false;
     if (words.size() != channels) {
       scan_.Fail(std::to_string(channels) + " numbers in a frame",
@@ -214,7 +214,7 @@ size_t BvhFile::FrameCount() const {
   return channels == 0 ? 0 : values.size() / channels;
 }
 
-BvhFramePose PoseOf(const BvhFile& bvh, size_t frame) {
+BvhFramePose ComputePose(const BvhFile& bvh, size_t frame) {
   const double* value = bvh.values.data() + frame * bvh.ChannelCount();
   BvhFramePose pose;
   pose.position.reserve(bvh.joints.size());
@@ -285,7 +285,7 @@ BvhFile ReadBvh(const std::filesystem::path& path) {
   return ParseBvh(ReadTextFile(path), path.string());
 }
 
-SourceMotion SourceOf(BvhFile file, const std::string& source) {
+SourceMotion ToSourceMotion(BvhFile file, const std::string& source) {
   const auto bvh = std::make_shared<const BvhFile>(std::move(file));
   SourceMotion motion;
   motion.source = source;
@@ -295,7 +295,7 @@ SourceMotion SourceOf(BvhFile file, const std::string& source) {
     motion.joints.push_back({joint.name, joint.parent, joint.offset, joint.end_sites});
   }
   motion.frame = [bvh](size_t frame) {
-    BvhFramePose pose = PoseOf(*bvh, frame);
+    BvhFramePose pose = ComputePose(*bvh, frame);
     return SourceFrame{std::move(pose.position), std::move(pose.rotation)};
   };
   return motion;

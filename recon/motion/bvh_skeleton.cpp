@@ -43,7 +43,7 @@ constexpr LengthUnit kUnits[] = {{"centimetres", 0.01, 38.5, 150.0},
 class Person {
  public:
   Person(BvhFile bvh, const std::string& source, const BoneMapping* mapping)
-      : motion_(SourceOf(std::move(bvh), source)), bones_(FindBones(motion_, mapping)) {
+      : motion_(ToSourceMotion(std::move(bvh), source)), bones_(FindBones(motion_, mapping)) {
     FindUnit();
     FindUp();
   }
@@ -225,7 +225,7 @@ void AddSdkBody(const BvhFile& bvh, int id, SkeletonSequence& sequence) {
     while (bvh.joints[at[j]].name != kJointNames[j]) ++at[j];
   }
   for (size_t f = 0; f < sequence.frames.size(); ++f) {
-    const BvhFramePose pose = PoseOf(bvh, f);
+    const BvhFramePose pose = ComputePose(bvh, f);
     Places places;
     for (size_t j = 0; j < kJoints; ++j) places[j] = pose.position[at[j]] / kCentimetres;
     AddBody(sequence.frames[f], id, places);
@@ -242,7 +242,7 @@ void AddPerson(const Person& person, int id, SkeletonSequence& sequence) {
 
 }  // namespace
 
-SkeletonSequence SkeletonOfBvh(BvhFile bvh, const std::string& source, const BoneMapping* mapping) {
+SkeletonSequence BvhToSkeleton(BvhFile bvh, const std::string& source, const BoneMapping* mapping) {
   SkeletonSequence sequence;
   sequence.source = source;
   sequence.warnings = bvh.warnings;

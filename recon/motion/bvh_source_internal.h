@@ -7,6 +7,6 @@
 namespace ossa::recon {
 
 /// A BVH as a motion to be retargeted.
-SourceMotion SourceOf(BvhFile file, const std::string& source);
+SourceMotion ToSourceMotion(BvhFile file, const std::string& source);
 
 }  // namespace ossa::recon

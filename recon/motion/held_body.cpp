@@ -12,7 +12,7 @@ using Eigen::Vector3d;
 
 BoneLengths ComputeMedianLengths(const SightingLog& sightings) {
   constexpr double kShortest_m = 1e-3;  // a bone of no length has no direction in the file; by hand
-  BoneLengthEstimator estimator(BoneLengthOptions::OfRecording());
+  BoneLengthEstimator estimator(BoneLengthOptions::ForWholeRecording());
   estimator.Start(MeasureBoneLengths(StandardPosture(RigPose())));
   for (size_t i = 0; i < sightings.size(); ++i) {
     const Sighting s = sightings[i];

@@ -72,7 +72,7 @@ Row ReadRow(const nlohmann::json& row, size_t frame, const std::string& source) 
   return numbers;
 }
 
-SourceFrame FrameOf(const Row& row) {
+SourceFrame ToSourceFrame(const Row& row) {
   SourceFrame frame;
   size_t at = 4;
   for (const Part& part : kParts) {
@@ -123,7 +123,7 @@ SourceMotion ParseHumanoid3d(const std::string& text, const std::string& source)
     motion.joints.push_back(
         {part.name, part.parent, {part.offset_m[0], part.offset_m[1], part.offset_m[2]}, {}});
   }
-  motion.frame = [rows](size_t frame) { return FrameOf((*rows)[frame]); };
+  motion.frame = [rows](size_t frame) { return ToSourceFrame((*rows)[frame]); };
   return motion;
 }
 

@@ -24,7 +24,7 @@ namespace {
 namespace fs = std::filesystem;
 
 /// CMU and HDM05 file names begin with the performer: "05_03" is subject 5, "HDM_bk_01" is bk.
-std::string SubjectOf(const std::string& stem) {
+std::string ParseSubject(const std::string& stem) {
   const size_t first = stem.find('_');
   if (first == std::string::npos) return "";
   if (stem.starts_with("HDM_")) return stem.substr(4, stem.find('_', 4) - 4);
@@ -33,7 +33,7 @@ std::string SubjectOf(const std::string& stem) {
 
 enum class Kind { kOther, kBvh, kAmc, kHumanoid3d };
 
-Kind KindOf(const fs::path& path) {
+Kind DetectKind(const fs::path& path) {
   const std::string extension = Lower(path.extension().string());
   if (extension == ".bvh") return Kind::kBvh;
   if (extension == ".amc") return Kind::kAmc;
@@ -47,7 +47,7 @@ std::vector<fs::path> MotionFilesIn(const fs::path& folder) {
   std::error_code error;
   for (auto it = fs::recursive_directory_iterator(folder, error);
        !error && it != fs::recursive_directory_iterator(); it.increment(error)) {
-    if (it->is_regular_file(error) && KindOf(it->path()) != Kind::kOther) {
+    if (it->is_regular_file(error) && DetectKind(it->path()) != Kind::kOther) {
       files.push_back(it->path());
     }
   }
@@ -70,12 +70,12 @@ class Loader {
   /// The people of a file: of a BVH with several roots each is a clip.
   std::vector<MotionClip> Load(const fs::path& path) {
     const std::string name = path.string();
-    switch (KindOf(path)) {
+    switch (DetectKind(path)) {
       case Kind::kBvh:
         return LoadBvh(path);
       case Kind::kAmc:
         return {MakeClip(
-            ParseAmc(ReadTextFile(path), name, SkeletonOf(path), 1.0 / options_.amc_hz), path)};
+            ParseAmc(ReadTextFile(path), name, LoadSkeleton(path), 1.0 / options_.amc_hz), path)};
       case Kind::kHumanoid3d:
         return {MakeClip(ParseHumanoid3d(ReadTextFile(path), name), path)};
       case Kind::kOther:
@@ -90,7 +90,7 @@ class Loader {
     const std::vector<std::string> warnings = bvh.warnings;
     std::vector<MotionClip> clips;
     for (BvhFile& root : SplitRoots(std::move(bvh))) {
-      MotionClip clip = MakeClip(SourceOf(std::move(root), path.string()), path);
+      MotionClip clip = MakeClip(ToSourceMotion(std::move(root), path.string()), path);
       if (!clips.empty()) clip.name.append("_").append(std::to_string(clips.size() + 1));
       clips.push_back(std::move(clip));
     }
@@ -100,15 +100,15 @@ class Loader {
   }
 
   MotionClip MakeClip(const SourceMotion& motion, const fs::path& path) const {
-    const bool ours = KindOf(path) == Kind::kHumanoid3d;  // its joints are known
+    const bool ours = DetectKind(path) == Kind::kHumanoid3d;  // its joints are known
     const SourceBones bones = FindBones(motion, mapping_ && !ours ? &*mapping_ : nullptr);
     MotionClip clip = Retarget(motion, bones, options_.frame_s);
     clip.name = path.stem().string();
-    clip.subject = SubjectOf(clip.name);
+    clip.subject = ParseSubject(clip.name);
     return clip;
   }
 
-  std::shared_ptr<const AcclaimSkeleton> SkeletonOf(const fs::path& amc) {
+  std::shared_ptr<const AcclaimSkeleton> LoadSkeleton(const fs::path& amc) {
     const std::string asf = AsfBeside(amc).string();
     auto& skeleton = skeletons_[asf];
     if (!skeleton) {

@@ -6,6 +6,7 @@
 #include <numbers>
 #include <optional>
 
+#include "depth/base/angles.h"
 #include "depth/base/error.h"
 #include "recon/body/standard_body.h"
 #include "recon/motion/agreement_check_internal.h"
@@ -18,8 +19,6 @@ namespace {
 
 using Eigen::Quaterniond;
 using Eigen::Vector3d;
-
-constexpr double kDegree = std::numbers::pi / 180.0;  // radians, by definition
 
 // Wrists bend less than about 70° any way; markers of the hand are few and jump. The angle between
 // forearm and hand is softly kept below this.
@@ -117,12 +116,12 @@ class Retargeter {
     }
     SoftenWrists(frame, pose);
     FollowArmsWithCollars(pose);
-    pose.root_m = RootOf(frame, pose);
+    pose.root_m = ComputeRoot(frame, pose);
     return pose;
   }
 
   /// Places of the source's joints in our axes.
-  std::vector<Vector3d> PlacesOf(const SourceFrame& frame) const {
+  std::vector<Vector3d> ComputePlaces(const SourceFrame& frame) const {
     std::vector<Vector3d> places = frame.position;
     for (Vector3d& p : places) p = world_from_file_ * p;
     return places;
@@ -241,7 +240,7 @@ class Retargeter {
   }
 
   /// The middle of the hip joints is where the source has it, scaled.
-  Vector3d RootOf(const SourceFrame& frame, const RigPose& pose) const {
+  Vector3d ComputeRoot(const SourceFrame& frame, const RigPose& pose) const {
     const auto at = [&](int joint) { return frame.position[static_cast<size_t>(joint)]; };
     const Vector3d hips =
         world_from_file_ * (0.5 * (at(bones_.side[0].up_leg) + at(bones_.side[1].up_leg)));
@@ -332,7 +331,7 @@ MotionClip Retarget(const SourceMotion& motion, const SourceBones& bones, double
         same_step ? motion.frame(f) : FrameAt(motion, static_cast<double>(f) * frame_s);
     clip.frames.push_back(retargeter.Pose(frame));
     if (f % (1 + count / kCheckedFrames) == 0) {
-      check.Add(retargeter.PlacesOf(frame), StandardPosture(clip.frames.back()));
+      check.Add(retargeter.ComputePlaces(frame), StandardPosture(clip.frames.back()));
     }
   }
   check.Require(motion.source);

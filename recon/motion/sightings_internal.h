@@ -83,8 +83,8 @@ class EvenSightings {
   size_t after_ = 0;  // the first in seen_ that is not before step_
 };
 
-/// WriteBvhOfSkeleton (bvh.h) of a body's sightings, from `begin_s` on.
-void WriteBvhOfSightings(SightingLog seen, double begin_s, const std::filesystem::path& path,
+/// WriteSkeletonAsBvh (bvh.h) of a body's sightings, from `begin_s` on.
+void WriteSightingsAsBvh(SightingLog seen, double begin_s, const std::filesystem::path& path,
                          const BvhExportOptions& options);
 
 }  // namespace ossa::recon

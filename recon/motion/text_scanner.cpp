@@ -83,7 +83,7 @@ std::string_view TextScanner::PeekWord() {
   return word;
 }
 
-std::vector<std::string_view> TextScanner::RestOfLine() {
+std::vector<std::string_view> TextScanner::ReadRestOfLine() {
   std::vector<std::string_view> words;
   while (true) {
     while (!AtEndOfLine() && IsBlank(text_[at_])) ++at_;
@@ -92,7 +92,7 @@ std::vector<std::string_view> TextScanner::RestOfLine() {
   }
 }
 
-std::vector<std::string_view> TextScanner::LineOfWords() {
+std::vector<std::string_view> TextScanner::ReadWordsOfLine() {
   SkipBlank();
   word_line_ = line_;
   std::vector<std::string_view> words;

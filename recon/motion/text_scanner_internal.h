@@ -17,9 +17,9 @@ class TextScanner {
   std::string_view PeekWord();
   /// The words left on the line last begun, up to '{' or the line's end; does not go on to the
   /// next.
-  std::vector<std::string_view> RestOfLine();
+  std::vector<std::string_view> ReadRestOfLine();
   /// Words of the next line that has any; empty at the end of the file.
-  std::vector<std::string_view> LineOfWords();
+  std::vector<std::string_view> ReadWordsOfLine();
 
   void Expect(std::string_view word);
   double Number(const std::string& what);

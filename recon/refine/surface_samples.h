@@ -17,8 +17,8 @@ inline constexpr std::array<double, 2> kSurfaceGridSteps_m = {0.025, 0.07};
 inline constexpr int kSurfaceSamples =
     static_cast<int>(kSurfaceGridSteps_m.size()) * kSurfaceGrid * kSurfaceGrid;
 /// Each sample is the mean of so many pixels, in the middles of its cell's quarters: which of two
-/// neighbours a single one happens to be, at an outline, and how far off the sensor has it, chance
-/// decides.
+/// neighbours a single one happens to be, at a silhouette, and how far off the sensor has it,
+/// chance decides.
 inline constexpr int kSampleTaps = 4;
 
 /// What is seen in a cell of a grid.

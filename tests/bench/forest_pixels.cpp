@@ -115,7 +115,7 @@ void Judge(const char* dataset, size_t frames, size_t per_frame, const char* mod
       dataset, frames, per_frame, [&](const auto& image, const auto& pixels, const auto& drawn) {
         forest::ClassifyOptions options;
         options.smoothing_m = 0;  // every pixel by itself, once the facing is decided
-        options.fine_m = 0;
+        options.sample_spacing_m = 0;
         const int width = image.camera.width;
         const forest::Classification result =
             forest::Classify(model, {image.depth_mm.data(), width, image.camera.height, width},

@@ -32,12 +32,12 @@ void UseFrames(const SourceMotion& motion) {
 
 void UseBvh(const std::string& text) {
   const BvhFile bvh = ParseBvh(text, "x.bvh");
-  if (bvh.FrameCount() > 0 && PoseOf(bvh, 0).position.size() != bvh.joints.size()) abort();
+  if (bvh.FrameCount() > 0 && ComputePose(bvh, 0).position.size() != bvh.joints.size()) abort();
   // What we write of it reads as the same.
   const BvhFile again = ParseBvh(FormatBvh(bvh), "again.bvh");
   if (again.joints.size() != bvh.joints.size() || again.values.size() != bvh.values.size()) abort();
   for (BvhFile& root : SplitRoots(again)) {
-    const SourceMotion motion = SourceOf(std::move(root), "root.bvh");
+    const SourceMotion motion = ToSourceMotion(std::move(root), "root.bvh");
     if (motion.frame_count > 100) continue;  // of a hostile frame time, resampling makes millions
     const MotionClip clip = Retarget(motion, FindBones(motion, nullptr), motion.frame_s);
     for (const RigPose& pose : clip.frames) {
@@ -48,7 +48,7 @@ void UseBvh(const std::string& text) {
 
 void UseMapping(const std::string& text) {
   const BoneMapping mapping = ParseBoneMapping(text, "names.txt");
-  static const SourceMotion motion = SourceOf(ParseBvh(test::FigureBvh(), "x.bvh"), "x.bvh");
+  static const SourceMotion motion = ToSourceMotion(ParseBvh(test::FigureBvh(), "x.bvh"), "x.bvh");
   if (FindBones(motion, &mapping).hips < 0) abort();
 }
 

@@ -16,7 +16,7 @@ std::vector<std::string> ossa::fuzz::Seeds() {
   PosturePrior prior;
   prior.frames = 100;
   prior.modes_m = Eigen::MatrixXd::Constant(recon::kBoneDims, 2, 0.1);
-  prior.time_s = Eigen::VectorXd::Constant(2, 0.5);
+  prior.correlation_time_s = Eigen::VectorXd::Constant(2, 0.5);
   const std::string path = ScratchPath("prior");
   prior.Save(path);
   const std::string without = TakePayload(path);
@@ -34,7 +34,8 @@ extern "C" int LLVMFuzzerTestOneInput(const uint8_t* data, size_t size) {
     ossa::fuzz::ExpectValueOrOneLine([&] {
       const auto prior =
           PosturePrior::FromBytes(std::as_bytes(std::span(data, size)), "x.ossaprior", version);
-      if (prior.modes_m.cols() != prior.time_s.size() || !prior.modes_m.allFinite()) abort();
+      if (prior.modes_m.cols() != prior.correlation_time_s.size() || !prior.modes_m.allFinite())
+        abort();
       const auto says_m = prior.network.empty()
                               ? recon::BoneVector(recon::BoneVector::Zero())
                               : prior.network.Correction_m(recon::PriorInput::Zero());

@@ -37,7 +37,7 @@ std::vector<std::string> LinesOf(const std::string& text) {
 
 // As many times as names, in order.
 void CheckNames(const std::vector<std::string>& names) {
-  const NamedTimes times = TimesOfNames(names);
+  const NamedTimes times = ReadTimesFromNames(names);
   if (times.kind == NamedTimes::Kind::kTimes && times.times_s.size() != names.size()) abort();
   if (times.kind == NamedTimes::Kind::kNumbers && times.numbers.size() != names.size()) abort();
   for (const std::string& name : names) {
@@ -78,6 +78,6 @@ extern "C" int LLVMFuzzerTestOneInput(const uint8_t* data, size_t size) {
   ossa::fuzz::ExpectValueOrOneLine([&] { ParseRosIntrinsics(bytes); });
   ossa::fuzz::ExpectValueOrOneLine([&] { ParseRosFloat(bytes); });
   std::istringstream file(text);
-  WarningOfCut(file);
+  CheckForCut(file);
   return 0;
 }

@@ -223,7 +223,7 @@ TEST(FootPin, HoldsWhileTheTargetStandsAndLetsGoWhenItLifts) {
   ASSERT_TRUE(scene.world.StateOf(scene.person).left_foot_pinned);
   const Vector3d stood = scene.At(Joint::kFootLeft);
   // A push, and a target whose ankle and knee tremble: the foot stays.
-  scene.world.Push(scene.person, Joint::kHipCenter, {60.0, 0.0, 0.0});
+  scene.world.ApplyImpulse(scene.person, Joint::kHipCenter, {60.0, 0.0, 0.0});
   double slid = 0.0;
   for (int i = 0; i < 30; ++i) {
     Posture target = StandingPerson();

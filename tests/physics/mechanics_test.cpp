@@ -26,7 +26,7 @@ CharacterOptions Free() {
 TEST(Mechanics, ACharacterLetGoFallsFreely) {
   World world;
   const int person = world.AddCharacter(Lengths(), StandingPerson(), Free());
-  world.LetGo(person);
+  world.StopControl(person);
   for (int i = 0; i < 15; ++i) world.Step(kFrame_s);
   const double t = 0.5, h = kFrame_s / 10;
   const double fallen = StandingPerson()[recon::Joint::kHipCenter].y() -
@@ -93,9 +93,9 @@ TEST(Mechanics, APushAddsItsImpulseToTheMomentum) {
   weightless.gravity_m_s2 = 0.0;
   World world(weightless);
   const int person = world.AddCharacter(Lengths(), StandingPerson(), Free());
-  world.LetGo(person);
+  world.StopControl(person);
   const Vector3d impulse(10.0, -3.0, 5.0);
-  world.Push(person, recon::Joint::kShoulderLeft, impulse);
+  world.ApplyImpulse(person, recon::Joint::kShoulderLeft, impulse);
   for (int i = 0; i < 10; ++i) world.Step(kFrame_s);
   // Joint forces come in opposite pairs, so no solver error can change the sum.
   EXPECT_LT((world.StateOf(person).momentum_kg_m_s - impulse).norm(), 1e-6);
@@ -107,7 +107,7 @@ TEST(Mechanics, APushedCharacterReturns) {
   const int person = world.AddCharacter(Lengths(), StandingPerson());
   world.SetTarget(person, StandingPerson());
   for (int i = 0; i < 20; ++i) world.Step(kFrame_s);
-  world.Push(person, recon::Joint::kShoulderCenter, {0.0, 0.0, -80.0});
+  world.ApplyImpulse(person, recon::Joint::kShoulderCenter, {0.0, 0.0, -80.0});
   double away = 0.0;
   for (int i = 0; i < 30; ++i) {
     world.Step(kFrame_s);

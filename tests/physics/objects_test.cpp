@@ -60,7 +60,7 @@ TEST(Objects, AndCharactersAreReset) {
   const int box = world.AddObject(Box({2, 1, 0}));
   const int person = world.AddCharacter(Lengths(), StandingPerson());
   const recon::Posture first = world.StateOf(person).posture;
-  world.LetGo(person);
+  world.StopControl(person);
   Advance(world, 20);
   ASSERT_LT(world.ObjectOf(box).position_m.y(), 0.0);
   world.ResetObject(box);
@@ -78,14 +78,14 @@ TEST(Objects, MoveByTheForceOnThem) {
   World world = Weightless();
   const int box = world.AddObject(Box({0, 0, 0}));
   for (int f = 0; f < 30; ++f) {
-    world.PullObject(box, {2, 0, 0}, world.ObjectOf(box).position_m);
+    world.ApplyForceToObject(box, {2, 0, 0}, world.ObjectOf(box).position_m);
     world.Step(kFrame_s);
   }
   constexpr double kAir_per_s = 0.0005 * 300.0, kStep_s = 1.0 / 300.0;
   const double expected_m =
       (1.0 - (1.0 - std::exp(-kAir_per_s)) / kAir_per_s) / kAir_per_s + 0.5 * kStep_s;
   EXPECT_NEAR(world.ObjectOf(box).position_m.x(), expected_m, 5e-4);
-  EXPECT_LT(world.ObjectOf(box).turning_rad_s.norm(), 1e-6);
+  EXPECT_LT(world.ObjectOf(box).angular_velocity_rad_s.norm(), 1e-6);
   const double speed = world.ObjectOf(box).velocity_m_s.x();
   world.Step(kFrame_s);                                            // the force is over
   EXPECT_NEAR(world.ObjectOf(box).velocity_m_s.x(), speed, 0.01);  // but for the air
@@ -96,9 +96,9 @@ TEST(Objects, MoveByTheForceOnThem) {
 TEST(Objects, TurnByAnImpulseBesideTheirMiddle) {
   World world = Weightless();
   const int box = world.AddObject(Box({0, 0, 0}));
-  world.PushObject(box, {0, 1, 0}, {0.1, 0, 0});
+  world.ApplyImpulseToObject(box, {0, 1, 0}, {0.1, 0, 0});
   EXPECT_NEAR(world.ObjectOf(box).velocity_m_s.y(), 0.5, 1e-12);
-  EXPECT_NEAR(world.ObjectOf(box).turning_rad_s.z(), 0.1 * 6.0 / (2.0 * 0.04), 1e-9);
+  EXPECT_NEAR(world.ObjectOf(box).angular_velocity_rad_s.z(), 0.1 * 6.0 / (2.0 * 0.04), 1e-9);
 }
 
 TEST(Objects, ThatAreStaticCarryAndStay) {
@@ -146,10 +146,10 @@ TEST(Objects, OfSeveralPartsAreOneBody) {
   dumbbell.parts = {{Shape::kBall, {0.2, 0.2, 0.2}, {1.0, 0, 0}, Quaterniond::Identity()}};
   const int thing = world.AddObject(dumbbell);
   EXPECT_LT(world.ObjectOf(thing).position_m.norm(), 1e-12);
-  world.PushObject(thing, {0, 0, 3}, {1.0, 0, 0});
+  world.ApplyImpulseToObject(thing, {0, 0, 3}, {1.0, 0, 0});
   EXPECT_NEAR(world.ObjectOf(thing).velocity_m_s.z(), 0.75, 1e-9);
   const double inertia = 4.0 * 0.25 + 4.0 * 0.4 * 0.01;
-  EXPECT_NEAR(world.ObjectOf(thing).turning_rad_s.y(), -3.0 * 0.5 / inertia, 1e-9);
+  EXPECT_NEAR(world.ObjectOf(thing).angular_velocity_rad_s.y(), -3.0 * 0.5 / inertia, 1e-9);
 }
 
 TEST(Objects, OfSeveralPartsStandOnAll) {

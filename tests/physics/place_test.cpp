@@ -87,7 +87,7 @@ TEST(Place, LeavesConstraintsWhereTheyAre) {
 TEST(Place, ForgetsAnImpulseThatIsNotSpent) {
   World world;
   const int person = world.AddCharacter(Lengths(), StandingPerson());
-  world.Push(person, Joint::kHandRight, {0.0, 0.0, 50.0});
+  world.ApplyImpulse(person, Joint::kHandRight, {0.0, 0.0, 50.0});
   world.Place(person, StandingPerson());
   world.SetTarget(person, StandingPerson());
   world.Step(kFrame_s);
@@ -103,7 +103,7 @@ TEST(SetVelocity, IsOfWhatIsHeldToo) {
 
 TEST(Rescue, BringsWhatIsHeldBack) {
   Armed armed;
-  armed.world.Push(armed.person, Joint::kHandRight, {1e300, 0.0, 0.0});
+  armed.world.ApplyImpulse(armed.person, Joint::kHandRight, {1e300, 0.0, 0.0});
   armed.Run(StandingPerson(), 1);
   ASSERT_GT(armed.world.StateOf(armed.person).rescued, 0);
   EXPECT_TRUE(armed.Mace().allFinite());

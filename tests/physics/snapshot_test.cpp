@@ -45,7 +45,7 @@ struct Scene {
     bar.position_m = {1.4, 1.0, 0.3};
     const int swing = world.AddObject(bar);
     world.Hang(swing, {1.4, 1.6, 0.3});
-    world.PushObject(swing, {0.3, 0, 0}, bar.position_m);
+    world.ApplyImpulseToObject(swing, {0.3, 0, 0}, bar.position_m);
     world.ConstrainTo(other, Joint::kHandLeft, swing, {0, 0, -0.1}, true);
     world.Constrain(other, Joint::kHandRight, {0.7, 1.0, 0.3}, false);
   }

@@ -20,8 +20,8 @@ class Trial {
       const Reading reading = Read(bytes);
       if (reading.content == whole_) {
         ++outcomes_.same;
-      } else if (reading.told) {
-        ++outcomes_.told;
+      } else if (reading.warned) {
+        ++outcomes_.warned;
       } else if (++outcomes_.silent == 1) {
         outcomes_.first_silent = what;
       }

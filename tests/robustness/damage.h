@@ -8,11 +8,11 @@
 
 namespace ossa::test {
 
-/// What reading a file came to: all that was read, as bytes, and whether a person was told that
+/// What reading a file came to: all that was read, as bytes, and whether a person was warned that
 /// something is missing.
 struct Reading {
   std::string content;
-  bool told = false;
+  bool warned = false;
 };
 
 /// Appends all that is read of a frame.
@@ -30,7 +30,7 @@ struct DamageOutcomes {
   size_t tried = 0;
   size_t refused = 0;  // by an InputError
   size_t same = 0;     // read as the whole one: what was damaged says nothing
-  size_t told = 0;     // less was read, with a note
+  size_t warned = 0;   // less was read, with a note
   size_t silent = 0;   // something else was read as if it were right
   std::string first_silent;
 };

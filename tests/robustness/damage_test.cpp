@@ -24,7 +24,7 @@ size_t StepFor(size_t places, size_t copies) { return IsFull() ? 1 : places / co
 
 void Print(const char* damage, const DamageSample& sample, const DamageOutcomes& outcomes) {
   std::printf("| %s | %s | %zu | %zu | %zu | %zu | %zu |\n", sample.name.c_str(), damage,
-              outcomes.tried, outcomes.refused, outcomes.same, outcomes.told, outcomes.silent);
+              outcomes.tried, outcomes.refused, outcomes.same, outcomes.warned, outcomes.silent);
 }
 
 class Damage : public testing::TestWithParam<size_t> {

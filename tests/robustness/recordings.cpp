@@ -47,7 +47,7 @@ Reading ReadRecording(const std::filesystem::path& path) {
   depth::SourceOptions options;
   options.player_patience = std::chrono::seconds(5);
   options.note = [&reading](depth::NoteKind kind, const std::string&) {
-    reading.told = reading.told || kind == depth::NoteKind::kWarning;
+    reading.warned = reading.warned || kind == depth::NoteKind::kWarning;
   };
   const auto source = depth::OpenSource(path.string(), options);
   for (;;) {

@@ -6,7 +6,7 @@
 
 namespace ossa::test {
 
-/// All images of a SOURCE, their times and cameras; told: a warning was given.
+/// All images of a SOURCE, their times and cameras; warned: a warning was given.
 Reading ReadRecording(const std::filesystem::path& path);
 
 /// Recordings whose images nothing vouches for: .mkv and, where rosbag is there, .bag plain and

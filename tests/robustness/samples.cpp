@@ -104,14 +104,14 @@ DamageSample Refinement() {
   recon::RefinementCascade cascade;
   cascade.people = 1;
   cascade.stages.emplace_back().fill(Plain(recon::kStageFeatures, 3));
-  return SampleOf("x.ossalook", cascade);
+  return SampleOf("x.ossarefine", cascade);
 }
 
 DamageSample Prior() {
   recon::PosturePrior prior;
   prior.frames = 100;
   prior.modes_m = Eigen::MatrixXd::Constant(recon::kBoneDims, 2, 0.1);
-  prior.time_s = Eigen::VectorXd::Constant(2, 0.5);
+  prior.correlation_time_s = Eigen::VectorXd::Constant(2, 0.5);
   return SampleOf("x.ossaprior", prior);
 }
 

@@ -5,8 +5,8 @@
 
 namespace ossa::test {
 
-/// One of every format that carries a checksum: .ossa, .ossadb, .ossagp, .ossalook, .ossaprior, our
-/// .oni, PNG, .gz, .tar.gz, .zip, packed shards.
+/// One of every format that carries a checksum: .ossa, .ossadb, .ossagp, .ossarefine, .ossaprior,
+/// our .oni, PNG, .gz, .tar.gz, .zip, packed shards.
 std::vector<DamageSample> ChecksummedSamples();
 
 }  // namespace ossa::test

@@ -19,7 +19,7 @@
 namespace ossa::commands {
 namespace {
 
-std::vector<recon::PostureClip> PosturesOf(const std::vector<recon::MotionClip>& clips,
+std::vector<recon::PostureClip> ToPostures(const std::vector<recon::MotionClip>& clips,
                                            bool quiet) {
   Progress progress("postures", quiet);
   std::vector<recon::PostureClip> out;
@@ -70,7 +70,7 @@ int Database(int argc, char** argv) {
   const auto motions = recon::LoadMocap(mocap, mocap_options);
   if (Interrupted()) throw InputError("database: interrupted; nothing was written");
   SayWarnings("database", motions);
-  const auto clips = PosturesOf(motions, quiet);
+  const auto clips = ToPostures(motions, quiet);
   const auto database = recon::PostureDatabase::Build(clips, options, Interrupted);
   if (Interrupted()) throw InputError("database: interrupted; nothing was written");
   database.Save(out);

@@ -149,7 +149,7 @@ std::vector<DefaultValue> ReadDefaults(const fs::path& file) {
     if (reader.AtEnd()) continue;
     if (reader.Take('[')) {
       command = reader.Name("the name of a command in []");
-      if (ExamplesOf(command).empty()) {
+      if (FindExamples(command).empty()) {
         throw InputError(fmt::format("{}: line {}: expected the name of a command, found '{}'",
                                      file.string(), line, command));
       }

@@ -55,7 +55,7 @@ std::string Describe(const CLI::App& app, std::string_view command) {
       options.push_back(DescribeOption(*option));
     }
   }
-  for (const Example& example : ExamplesOf(command)) {
+  for (const Example& example : FindExamples(command)) {
     examples.push_back({{"line", example.line}, {"purpose", example.purpose}});
   }
   const Json all = {{"command", command},         {"description", app.get_description()},

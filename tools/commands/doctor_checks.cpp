@@ -64,7 +64,7 @@ std::string FirstWord(const fs::path& file) {
   return word;
 }
 
-std::vector<UsbDevice> KnownDevicesOf(const fs::path& root) {
+std::vector<UsbDevice> FindKnownDevices(const fs::path& root) {
   std::vector<UsbDevice> devices;
   std::error_code unreadable;
   for (const auto& entry : fs::directory_iterator(root / "sys/bus/usb/devices", unreadable)) {
@@ -84,7 +84,7 @@ std::vector<UsbDevice> KnownDevicesOf(const fs::path& root) {
 }
 
 // Of an interface of the device's, "1-2:1.0" of "1-2"; empty where none holds it.
-std::string VideoDriverOf(const UsbDevice& device) {
+std::string FindVideoDriver(const UsbDevice& device) {
   std::error_code unreadable;
   const std::string prefix = device.folder.filename().string() + ":";
   for (const auto& entry : fs::directory_iterator(device.folder.parent_path(), unreadable)) {
@@ -100,7 +100,7 @@ std::string ToDoFor(const UsbDevice& device) {
     return "no OpenNI2 driver of Debian's: record with its maker's software, or read it through "
            "its Python wheel (docs/cameras.md)";
   }
-  const std::string driver = VideoDriverOf(device);
+  const std::string driver = FindVideoDriver(device);
   if (!driver.empty()) {
     return fmt::format(
         "the kernel's {0} holds it: sudo modprobe -r {0}; echo blacklist {0} | sudo "
@@ -141,7 +141,7 @@ Finding TryDriver(const fs::path& file) {
 }  // namespace
 
 std::vector<Finding> CheckCameras(const fs::path& root) {
-  const std::vector<UsbDevice> devices = KnownDevicesOf(root);
+  const std::vector<UsbDevice> devices = FindKnownDevices(root);
   std::vector<Finding> findings;
   for (const UsbDevice& device : devices) {
     if (device.known.way == Way::kNoCamera) continue;

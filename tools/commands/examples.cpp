@@ -86,7 +86,7 @@ constexpr CommandExamples kExamples[] = {
 
 }  // namespace
 
-std::span<const Example> ExamplesOf(std::string_view command) {
+std::span<const Example> FindExamples(std::string_view command) {
   const auto is_it = [&](const CommandExamples& of) { return of.command == command; };
   const auto* found = std::find_if(std::begin(kExamples), std::end(kExamples), is_it);
   if (found == std::end(kExamples)) return {};
@@ -95,7 +95,7 @@ std::span<const Example> ExamplesOf(std::string_view command) {
 
 std::string ExamplesText(std::string_view command) {
   std::string text;
-  for (const Example& example : ExamplesOf(command)) {
+  for (const Example& example : FindExamples(command)) {
     text += fmt::format("{}  {}\n      {}", text.empty() ? "Examples:\n" : "\n", example.line,
                         example.purpose);
   }

@@ -12,7 +12,7 @@ struct Example {
 };
 
 /// Of a subcommand; empty for what is none.
-std::span<const Example> ExamplesOf(std::string_view command);
+std::span<const Example> FindExamples(std::string_view command);
 
 /// "Examples:" and a line each, as --help shows them.
 std::string ExamplesText(std::string_view command);

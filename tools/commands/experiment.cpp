@@ -13,7 +13,7 @@
 namespace ossa::commands {
 namespace {
 
-std::string ListOfExperiments() {
+std::string ListExperiments() {
   std::string list = "Experiments:";
   for (const tools::Experiment& e : tools::Experiments()) {
     list += fmt::format("\n  {:<16} {}", e.name, e.summary);
@@ -82,7 +82,7 @@ int Experiment(int argc, char** argv) {
   app.add_flag("--full", context.full,
                "the long form: more clips, frames and settings (the short one takes minutes)");
   app.add_flag("--quiet", quiet, "no progress");
-  app.footer(ListOfExperiments());
+  app.footer(ListExperiments());
   Parse(app, argc, argv);
 
   if (tools::FindExperiment(name) == nullptr) {
@@ -102,7 +102,7 @@ int Study(int argc, char** argv) {
                  "experiment")
       ->required();
   app.add_flag("--quiet", quiet, "no progress");
-  app.footer(ListOfExperiments());
+  app.footer(ListExperiments());
   Parse(app, argc, argv);
 
   tools::ExperimentContext context;

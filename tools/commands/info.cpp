@@ -111,14 +111,14 @@ void ShowLearned(const fs::path& path) {
 
 void ShowPrior(const fs::path& path) {
   const auto prior = recon::PosturePrior::Load(path);
-  const double unexplained = prior.rest_m2.sum();
+  const double unexplained = prior.residual_m2.sum();
   fmt::print(
       "posture prior, {} modes learned from {} postures, {:.2f} % of the variance in none, {:.1f} "
       "kB\ncorrelation times {:.2f} s to {:.2f} s, {} units that correct what the modes say\n",
-      prior.time_s.size(), prior.frames,
+      prior.correlation_time_s.size(), prior.frames,
       100.0 * unexplained / (unexplained + prior.modes_m.squaredNorm()),
-      static_cast<double>(fs::file_size(path)) * 1e-3, prior.time_s.minCoeff(),
-      prior.time_s.maxCoeff(),
+      static_cast<double>(fs::file_size(path)) * 1e-3, prior.correlation_time_s.minCoeff(),
+      prior.correlation_time_s.maxCoeff(),
       prior.network.empty() ? 0 : prior.network.layers.front().bias.size());
 }
 
@@ -234,19 +234,19 @@ void ShowSkeletons(const fs::path& path) {
 // images go before skeletons.
 constexpr std::array kKinds = {
     FileKind{forest::IsForestModel, ShowModel, ".ossa"},
-    FileKind{recon::PostureDatabase::IsOne, ShowDatabase, ".ossadb"},
-    FileKind{recon::LearnedModels::IsOne, ShowLearned, ".ossagp"},
-    FileKind{recon::PosturePrior::IsOne, ShowPrior, ".ossaprior"},
-    FileKind{recon::BodySurface::IsOne, ShowSurface, ".ossasurface"},
-    FileKind{recon::PersonShape::IsOne, ShowPersonFile, ".ossaperson"},
-    FileKind{recon::BodyMesh::IsOne, ShowMesh, ".ossamesh"},
+    FileKind{recon::PostureDatabase::IsFile, ShowDatabase, ".ossadb"},
+    FileKind{recon::LearnedModels::IsFile, ShowLearned, ".ossagp"},
+    FileKind{recon::PosturePrior::IsFile, ShowPrior, ".ossaprior"},
+    FileKind{recon::BodySurface::IsFile, ShowSurface, ".ossasurface"},
+    FileKind{recon::PersonShape::IsFile, ShowPersonFile, ".ossaperson"},
+    FileKind{recon::BodyMesh::IsFile, ShowMesh, ".ossamesh"},
     FileKind{recon::RefinementCascade::IsFile, ShowRefinement, ".ossarefine"},
     FileKind{tools::IsDataset, ShowDataset},
 };
 
 // FILE#truth, FILE.bag#/topic and the like are files, too.
 void ExpectIsThere(const std::string& file) {
-  const bool is_there = fs::exists(file) || fs::exists(recon::SkeletonFileOf(file)) ||
+  const bool is_there = fs::exists(file) || fs::exists(recon::FindSkeletonFile(file)) ||
                         (depth::IsRecording(file) && fs::exists(file.substr(0, file.rfind('#'))));
   if (!is_there) throw InputError(file + ": no such file or folder");
 }

@@ -43,7 +43,7 @@ int64_t FrameOfTile(int tile, int64_t frames) {
   return frames <= kTiles ? tile : tile * (frames - 1) / (kTiles - 1);
 }
 
-tools::ContactSheet SheetOfDataset(const std::string& folder) {
+tools::ContactSheet MakeDatasetSheet(const std::string& folder) {
   const tools::DatasetReader reader{std::filesystem::path(folder)};
   const int64_t frames = reader.frame_count();
   tools::ContactSheet sheet = SheetFor(frames, reader.manifest().camera);
@@ -72,7 +72,7 @@ int64_t ForEachFrame(const SourceArguments& arguments, Take take) {
 }
 
 // Read twice: many a recording does not know how many frames it has.
-tools::ContactSheet SheetOfRecording(const SourceArguments& arguments) {
+tools::ContactSheet MakeRecordingSheet(const SourceArguments& arguments) {
   const int64_t frames = ForEachFrame(arguments, [](const auto&, int64_t) {});
   if (frames == 0) throw InputError(arguments.name + ": no frame came");
   std::optional<tools::ContactSheet> sheet;
@@ -110,7 +110,7 @@ std::string Bars(const nlohmann::ordered_json& accuracy, const char* measure,
   return fmt::format("<h2>{}</h2>\n{}\n", title, tools::BarPlot(series, groups, values, "%"));
 }
 
-std::string CardOf(const std::string& path) {
+std::string FormatCard(const std::string& path) {
   const forest::ForestModel model = forest::ReadForestModel(path);
   const auto card = nlohmann::ordered_json::parse(model.manifest(), nullptr, false);
   size_t leaves = 0;
@@ -138,7 +138,7 @@ void WriteInfoPicture(const SourceArguments& arguments, const std::string& path)
   CheckExtension("--picture", path, is_model ? ".html" : ".png");
   CheckOutputs({path}, {arguments.name});
   AtomicFile::CheckWritable(path);
-  if (is_model) return Write(path, CardOf(arguments.name));
+  if (is_model) return Write(path, FormatCard(arguments.name));
   const bool is_dataset = tools::IsDataset(arguments.name);
   const bool is_depth =
       depth::IsRecording(arguments.name) || std::filesystem::is_directory(arguments.name);
@@ -147,7 +147,7 @@ void WriteInfoPicture(const SourceArguments& arguments, const std::string& path)
                      arguments.name);
   }
   const std::vector<uint8_t> png =
-      (is_dataset ? SheetOfDataset(arguments.name) : SheetOfRecording(arguments)).EncodePng();
+      (is_dataset ? MakeDatasetSheet(arguments.name) : MakeRecordingSheet(arguments)).EncodePng();
   Write(path, {reinterpret_cast<const char*>(png.data()), png.size()});
 }
 

@@ -14,7 +14,7 @@ namespace ossa::commands {
 inline constexpr const char* kButterworth = "butterworth";
 
 /// What a method reads and keeps; butterworth, and what is no method, read nothing.
-inline const recon::MethodInfo& MethodInfoOf(const std::string& method) {
+inline const recon::MethodInfo& RequireMethodInfo(const std::string& method) {
   static constexpr recon::MethodInfo kReadsNothing{.name = kButterworth};
   const recon::MethodInfo* info = recon::FindMethod(method);
   return info != nullptr ? *info : kReadsNothing;
@@ -44,13 +44,13 @@ inline bool HasLocalPca(const std::string& method) {
   return method == "shum-2013" || method == "plantard-2016";
 }
 inline bool ReadsDatabase(const std::string& method) {
-  return MethodInfoOf(method).database != recon::Reads::kNothing;
+  return RequireMethodInfo(method).database != recon::Reads::kNothing;
 }
 inline bool ReadsLearned(const std::string& method) {
-  return MethodInfoOf(method).learned != recon::Reads::kNothing;
+  return RequireMethodInfo(method).learned != recon::Reads::kNothing;
 }
-inline bool ReadsPrior(const std::string& method) { return MethodInfoOf(method).prior; }
-inline bool KeepsBones(const std::string& method) { return MethodInfoOf(method).keeps_bones; }
+inline bool ReadsPrior(const std::string& method) { return RequireMethodInfo(method).prior; }
+inline bool KeepsBones(const std::string& method) { return RequireMethodInfo(method).keeps_bones; }
 
 inline constexpr MethodOption kMethodOptions[] = {{"--database", ReadsDatabase, true},
                                                   {"--prior", ReadsPrior, true},
@@ -89,7 +89,7 @@ inline void CheckRead(const CLI::App& app, const std::string& method, bool quiet
 
 /// Throws UsageError for a method that works by what was learned when --learned names nothing.
 inline void CheckLearned(const std::string& method, const std::string& learned) {
-  const bool is_needed = MethodInfoOf(method).learned == recon::Reads::kRequired;
+  const bool is_needed = RequireMethodInfo(method).learned == recon::Reads::kRequired;
   if (!is_needed || (!learned.empty() && learned != "none")) return;
   throw UsageError(
       fmt::format("--method {}: expected --learned FILE.ossagp of 'ossa learn' with it, found {}",

@@ -18,7 +18,7 @@ namespace {
 namespace fs = std::filesystem;
 
 // Whether both names are of one file, also where there is none yet.
-bool IsOne(const fs::path& a, const fs::path& b) {
+bool IsSameFile(const fs::path& a, const fs::path& b) {
   std::error_code unknown;
   if (fs::equivalent(a, b, unknown)) return true;
   return !fs::exists(a, unknown) && !fs::exists(b, unknown) &&
@@ -47,12 +47,12 @@ void CheckOutputs(const std::vector<std::string>& outputs, const std::vector<std
   for (size_t i = 0; i < outputs.size(); ++i) {
     if (outputs[i].empty()) continue;
     for (size_t k = 0; k < i; ++k) {
-      if (outputs[k].empty() || !IsOne(outputs[i], outputs[k])) continue;
+      if (outputs[k].empty() || !IsSameFile(outputs[i], outputs[k])) continue;
       throw UsageError(outputs[i] + ": expected a file of its own for each output");
     }
     for (const std::string& input : inputs) {
-      const fs::path file = recon::SkeletonFileOf(input);
-      if (!IsOne(outputs[i], file) && !IsReadOf(file, outputs[i])) continue;
+      const fs::path file = recon::FindSkeletonFile(input);
+      if (!IsSameFile(outputs[i], file) && !IsReadOf(file, outputs[i])) continue;
       throw UsageError(outputs[i] + ": expected a new file, found what is to be read");
     }
   }
@@ -81,7 +81,7 @@ void CheckSkeletonName(const std::string& path) {
 }
 
 void SayLeftovers(const std::string& path) {
-  for (const fs::path& left : AtomicFile::LeftoversOf(path)) {
+  for (const fs::path& left : AtomicFile::FindLeftovers(path)) {
     Say(fmt::format("ossa: {}: left by an ossa that was killed: it stays, and can be read\n",
                     left.string()));
   }

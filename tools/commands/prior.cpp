@@ -102,8 +102,8 @@ int Prior(int argc, char** argv) {
     }
   }
   prior.Save(out);
-  fmt::print("{}: {} modes learned from {} postures in {} clips\n", out, prior.time_s.size(),
-             prior.frames, clips.size());
+  fmt::print("{}: {} modes learned from {} postures in {} clips\n", out,
+             prior.correlation_time_s.size(), prior.frames, clips.size());
   return 0;
 }
 

@@ -26,7 +26,8 @@ bool HasColours();
 
 /// Runs the command that the arguments name, or shows the commands or the version. The exit status:
 /// 0; 2 for wrong usage; 1 for any other failure, of which stderr says one line.
-int RunOneOf(std::span<const Command> commands, const std::string& version, int argc, char** argv);
+int RunCommandOf(std::span<const Command> commands, const std::string& version, int argc,
+                 char** argv);
 
 /// To be called last, with the exit status so far: 1 with a line on stderr when what was printed
 /// did not reach stdout (a full disk), and the quiet end by SIGPIPE that a shell expects when its

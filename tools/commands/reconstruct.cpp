@@ -59,7 +59,7 @@ struct ReconstructArguments {
 std::string LearnedFor(const ReconstructArguments& a,
                        const std::vector<recon::SkeletonClip>& clips) {
   if (a.files.learned == "none" || !ReadsLearned(a.options.method)) return {};
-  const bool is_correction = MethodInfoOf(a.options.method).learned == recon::Reads::kOptional;
+  const bool is_correction = RequireMethodInfo(a.options.method).learned == recon::Reads::kOptional;
   if (!a.files.learned.empty() || !is_correction) return a.files.learned;
   const std::string sensor = clips.empty() ? "" : clips.front().sequence.sensor;
   const tracker::KnownSensor* known = tracker::FindKnownSensor(sensor);
@@ -71,7 +71,7 @@ std::string LearnedFor(const ReconstructArguments& a,
     Say(
         fmt::format("reconstruct: {}: their known errors are taken off ({}; --learned none "
                     "leaves them)\n",
-                    known->whose, known->correction));
+                    known->description, known->correction));
   }
   return tracker::ShippedFile(known->correction).string();
 }
@@ -139,7 +139,7 @@ void AddMethodOptions(CLI::App& app, ReconstructArguments& a) {
 
 /// How the result is smoothed: bones that have constant lengths keep them.
 recon::LagOptions LagFor(const ReconstructArguments& a) {
-  const std::string usual = MethodInfoOf(a.options.method).smoothed_in_files ? "whole" : "0";
+  const std::string usual = RequireMethodInfo(a.options.method).smoothed_in_files ? "whole" : "0";
   const std::string& lag = a.lag.empty() ? usual : a.lag;
   return recon::LagOptions::Of(lag == "whole" ? recon::kWholeRecording : std::stoi(lag),
                                KeepsBones(a.options.method));
@@ -267,7 +267,7 @@ int Reconstruct(int argc, char** argv) {
   for (const auto& clip : clips) {
     const auto frames = static_cast<double>(clip.sequence.frames.size());
     a.options.best.refined_joints = clip.sequence.sensor == recon::kRefinedJoints;
-    recon::BonesOfPeople bones;
+    recon::BoneLengthsById bones;
     if (a.bones.of_recording()) {
       bones = recon::MeasureBones(clip.sequence, a.options, update);
       done += frames;

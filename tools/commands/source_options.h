@@ -28,7 +28,7 @@ struct SourceArguments {
 void AddSourceOptions(CLI::App& app, SourceArguments& arguments);
 /// --rotate, for what looks for people.
 void AddRotateOption(CLI::App& app, SourceArguments& arguments);
-tracker::Turn TurnOf(const SourceArguments& arguments);
+tracker::Turn ChooseTurn(const SourceArguments& arguments);
 /// With --rotate auto, before a recording (`source`, which it does not read) is tracked: finds
 /// which way up its camera is, and says so unless it stands.
 void FindUpright(tracker::Tracker& tracker, const depth::FrameSource& source,

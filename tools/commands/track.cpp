@@ -253,7 +253,7 @@ void TrackToEnd(depth::FrameSource& source, tracker::Tracker& tracker, const Tra
     run.lost_gaps += gone ? 1 : 0;
     gone = false;
     run.dropped += read.dropped;
-    const auto bodies = tracker.TrackLate(read.frame);
+    const auto bodies = tracker.TrackWithLag(read.frame);
     if (!std::exchange(hangs, tracker.mount() == tracker::Mount::kCeiling) && hangs) SayMount();
     ++tracked;
     to.waiting.push_back(std::move(read.frame));
@@ -278,7 +278,7 @@ void TrackAll(depth::FrameSource& source, tracker::Tracker& tracker, const Track
   } catch (const InputError& error) {
     run.failure = error.what();
   }
-  while (const auto held = tracker.TakeHeld()) to.Deliver(*held, run);
+  while (const auto held = tracker.DrainLag()) to.Deliver(*held, run);
 }
 
 // How long people's bones are by the whole recording, which is tracked for nothing else.
@@ -379,7 +379,7 @@ int Track(int argc, char** argv) {
     viewer::ViewerOptions page = PageOptions(options.page);
     page.name = options.source.name;
     page.forest = options.tracker.models->forest;
-    page.body = SkinOf(options.files);
+    page.body = LoadSkin(options.files);
     viewer = std::make_unique<viewer::Viewer>(page);
     SayWhere(*viewer);
   }

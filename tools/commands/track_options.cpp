@@ -107,7 +107,7 @@ void CheckFit(const TrackOptions& options) {
   }
   const std::string& refinement = options.files.refinement;
   const bool is_shipped =
-      MethodInfoOf(options.tracker.method).refined && tracker::IsShippedForest(options.files);
+      RequireMethodInfo(options.tracker.method).refined && tracker::IsShippedForest(options.files);
   if (refinement == "none" || (refinement.empty() && !is_shipped)) {
     throw UsageError(
         "--fit on: expected --refinement FILE.ossarefine of 'ossa refine' with it, found none");
@@ -116,12 +116,12 @@ void CheckFit(const TrackOptions& options) {
 
 void CheckRefinementIsRead(const TrackOptions& options) {
   const std::string& look = options.files.refinement;
-  const bool is_read = MethodInfoOf(options.tracker.method).refined;
+  const bool is_read = RequireMethodInfo(options.tracker.method).refined;
   if (look.empty() || look == "none" || is_read || options.quiet) return;
   SayNotRead("--refinement", options.tracker.method);
 }
 
-std::vector<stream::Target> TargetsOf(const std::vector<std::string>& urls) {
+std::vector<stream::Target> ParseTargets(const std::vector<std::string>& urls) {
   std::vector<stream::Target> targets;
   try {
     for (const std::string& url : urls) targets.push_back(stream::ParseTarget(url));
@@ -173,7 +173,7 @@ TrackOptions ParseTrackOptions(int argc, char** argv) {
         "track: nothing to do: name --out, --picture, --pictures, --json-stats, --trace, --send, "
         "--save-person or --view");
   }
-  options.targets = TargetsOf(options.send);
+  options.targets = ParseTargets(options.send);
   CheckRead(app, options.tracker.method, options.quiet);
   CheckLearned(options.tracker.method, options.files.learned);
   options.bones.Check(options.tracker.method);
@@ -195,7 +195,7 @@ TrackOptions ParseTrackOptions(int argc, char** argv) {
   CheckOutputs({options.out, options.json_stats, options.picture, options.pictures, options.trace,
                 options.save_person},
                {options.source.name, options.mechanics.scene});
-  options.tracker.turn = TurnOf(options.source);
+  options.tracker.turn = ChooseTurn(options.source);
   if (options.fit == "on") CheckFit(options);
   if (options.fit == "off") options.tracker.fit.reset();
   options.tracker.physics = options.mechanics.on();

@@ -183,7 +183,7 @@ std::vector<std::string> AllTerms(const TrainArguments& a, const tools::PersonSo
   return all;
 }
 
-nlohmann::ordered_json DataOf(const std::vector<tools::DatasetManifest>& manifests) {
+nlohmann::ordered_json DescribeData(const std::vector<tools::DatasetManifest>& manifests) {
   auto data = nlohmann::ordered_json::array();
   for (const tools::DatasetManifest& m : manifests) {
     data.push_back({{"command", WithoutFolders(m.command)}, {"frames", m.frames}});
@@ -193,14 +193,15 @@ nlohmann::ordered_json DataOf(const std::vector<tools::DatasetManifest>& manifes
 
 void NoteRefinement(const TrainArguments& a, nlohmann::ordered_json* card) {
   if (a.refinement.empty()) return;
-  (*card)["refinement_data"] = DataOf(tools::PersonSource(a.refinement, {0, 100}).manifests());
+  (*card)["refinement_data"] =
+      DescribeData(tools::PersonSource(a.refinement, {0, 100}).manifests());
 }
 
 nlohmann::ordered_json Card(const TrainArguments& a, const tools::PersonSource& source,
                             const forest::TrainSummary& summary) {
   nlohmann::ordered_json card;
   card["command"] = a.command;
-  card["data"] = DataOf(source.manifests());
+  card["data"] = DescribeData(source.manifests());
   NoteRefinement(a, &card);
   card["terms"] = AllTerms(a, source);
   card["data_hash"] = fmt::format("{:016x}", Fnv1a(source.fingerprint()));
@@ -334,7 +335,7 @@ int TrainOnData(TrainArguments* a, const forest::Reducer& reducer) {
   return 0;
 }
 
-std::vector<std::string> InputsOf(const TrainArguments& a) {
+std::vector<std::string> ListInputs(const TrainArguments& a) {
   std::vector<std::string> inputs = {a.trees_of.string()};
   for (const auto* list : {&a.datasets, &a.validation, &a.refinement, &a.import_pcl}) {
     for (const fs::path& path : *list) inputs.push_back(path.string());
@@ -367,7 +368,7 @@ int Train(int argc, char** argv) {
   AddOptions(&app, &arguments);
   Parse(app, argc, argv);
   CheckNotOtherKind("--out", arguments.out.string(), ".ossa");
-  CheckOutputs({arguments.out.string()}, InputsOf(arguments));
+  CheckOutputs({arguments.out.string()}, ListInputs(arguments));
   AtomicFile::CheckWritable(arguments.out);
   if (!arguments.import_pcl.empty()) return ImportPcl(arguments);
   if (arguments.datasets.empty()) throw UsageError("DATASET is required");

@@ -72,12 +72,12 @@ bool IsSource(const std::string& what) {
 std::vector<std::string> MethodsToChoose(const tracker::ModelFiles& files) {
   std::vector<std::string> methods = recon::ReconstructionMethods();
   std::erase_if(methods, [&](const std::string& method) {
-    return MethodInfoOf(method).learned == recon::Reads::kRequired && files.learned.empty();
+    return RequireMethodInfo(method).learned == recon::Reads::kRequired && files.learned.empty();
   });
   return methods;
 }
 
-viewer::ViewerOptions ViewerOptionsOf(const ViewOptions& options) {
+viewer::ViewerOptions MakeViewerOptions(const ViewOptions& options) {
   viewer::ViewerOptions with = PageOptions(options.page);
   with.name = std::filesystem::path(options.source.name).filename().string();
   if (with.name.empty()) with.name = options.source.name;
@@ -111,7 +111,7 @@ void WaitUntilInterrupted() {
 void ShowSkeletons(const ViewOptions& options) {
   const recon::SkeletonSequence sequence = recon::ReadSkeletons(options.source.name);
   SayWarnings("view", sequence.warnings);
-  viewer::ViewerOptions with = ViewerOptionsOf(options);
+  viewer::ViewerOptions with = MakeViewerOptions(options);
   with.keeps = true;
   with.expected_frames = static_cast<int64_t>(sequence.frames.size());
   viewer::Viewer viewer(with);
@@ -136,9 +136,9 @@ class PageTracker {
         settings_(options.settings),
         tracker_(MakeTracker(options, settings_, source_->is_live())) {
     FindUpright(tracker_, *source_, options_.source, false);
-    viewer::ViewerOptions with = ViewerOptionsOf(options);
+    viewer::ViewerOptions with = MakeViewerOptions(options);
     with.keeps = !source_->is_live();
-    with.body = SkinOf(options.files);
+    with.body = LoadSkin(options.files);
     with.expected_frames = source_->frame_count();
     with.settings = settings_;
     with.methods = MethodsToChoose(options.files);
@@ -256,7 +256,7 @@ int View(int argc, char** argv) {
   CheckRead(app, options.settings.method, false);
   CheckLearned(options.settings.method, options.files.learned);
   options.mechanics.Check();
-  options.tracker.turn = TurnOf(options.source);
+  options.tracker.turn = ChooseTurn(options.source);
   if (IsSource(options.source.name)) {
     PageTracker(options).Run();
   } else {

@@ -37,7 +37,7 @@ viewer::ViewerOptions PageOptions(const PageArguments& arguments) {
   return options;
 }
 
-std::shared_ptr<const recon::BodyMesh> SkinOf(const tracker::ModelFiles& files) {
+std::shared_ptr<const recon::BodyMesh> LoadSkin(const tracker::ModelFiles& files) {
   return files.surface.empty() ? tracker::LoadBodyMesh() : nullptr;
 }
 

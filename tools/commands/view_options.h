@@ -26,7 +26,7 @@ viewer::ViewerOptions PageOptions(const PageArguments& arguments);
 
 /// The skin of bodies that are fitted with these models: of the shipped surface; of others, whose
 /// mesh nobody named, and without one null. Throws InputError.
-std::shared_ptr<const recon::BodyMesh> SkinOf(const tracker::ModelFiles& files);
+std::shared_ptr<const recon::BodyMesh> LoadSkin(const tracker::ModelFiles& files);
 
 /// Where browsers find the page, on stderr.
 void SayWhere(const viewer::Viewer& viewer);

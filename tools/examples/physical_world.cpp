@@ -68,7 +68,7 @@ void Play() {
   const int weapon = world.AddObject(mace);
   world.Hold(person, Joint::kHandRight, weapon, true, 150.0);
   const WorldSnapshot before = world.Save();
-  world.PullObject(weapon, {0.0, 0.0, 400.0}, mace.position_m);
+  world.ApplyForceToObject(weapon, {0.0, 0.0, 400.0}, mace.position_m);
   PlayFor(world, person, standing, 0.1);
 
   world.Restore(before);

@@ -29,8 +29,8 @@ void WriteAll(const std::filesystem::path& path, const std::string& text) {
   file.Commit();
 }
 
-// KeyOfFile() of this program and of each ossa library that it has loaded.
-std::string KeyOfLoadedCode() {
+// ComputeFileKey() of this program and of each ossa library that it has loaded.
+std::string ComputeLoadedCodeKey() {
   std::set<std::string> libraries;
   std::ifstream maps("/proc/self/maps");
   for (std::string line; std::getline(maps, line);) {
@@ -38,8 +38,8 @@ std::string KeyOfLoadedCode() {
     if (path == std::string::npos || line.rfind("/libossa_") == std::string::npos) continue;
     libraries.insert(line.substr(path));
   }
-  std::string key = KeyOfFile("/proc/self/exe");
-  for (const std::string& library : libraries) key.append(" ").append(KeyOfFile(library));
+  std::string key = ComputeFileKey("/proc/self/exe");
+  for (const std::string& library : libraries) key.append(" ").append(ComputeFileKey(library));
   return key;
 }
 
@@ -71,12 +71,12 @@ std::string ContentHash(const std::string& text) {
   return fmt::format("{:016x}{:016x}", hash.high64, hash.low64);
 }
 
-std::string KeyOfFile(const std::filesystem::path& path) {
+std::string ComputeFileKey(const std::filesystem::path& path) {
   return path.filename().string() + ":" + ContentHash(ReadAll(path));
 }
 
-std::string KeyOfCode() {
-  static const std::string key = KeyOfLoadedCode();
+std::string ComputeCodeKey() {
+  static const std::string key = ComputeLoadedCodeKey();
   return key;
 }
 

@@ -86,19 +86,19 @@ struct ExperimentContext {
 
   /// The result of a costly step: kept under out/cache by the content of `key`, so that a study
   /// that was stopped takes up where it was. The key must name everything the result depends on:
-  /// parameters, seed, KeyOfCode() of what computes it, and KeyOfFile() of input files. `compute`
-  /// returns any text, usually JSON. Throws Interruption before computing when the user pressed
-  /// Ctrl-C.
+  /// parameters, seed, ComputeCodeKey() of what computes it, and ComputeFileKey() of input files.
+  /// `compute` returns any text, usually JSON. Throws Interruption before computing when the user
+  /// pressed Ctrl-C.
   std::string Cached(const std::string& key, const std::function<std::string()>& compute) const;
 };
 
 /// XXH3 of a text, 32 hexadecimal digits, and "NAME:XXH3 of its content", for cache keys.
 std::string ContentHash(const std::string& text);
-std::string KeyOfFile(const std::filesystem::path& path);
+std::string ComputeFileKey(const std::filesystem::path& path);
 
 /// The code that made a number, for cache keys: this program and all ossa libraries that are linked
 /// into it dynamically. All, for whoever lists those that a step runs forgets one.
-std::string KeyOfCode();
+std::string ComputeCodeKey();
 
 /// The user stopped the study; what is cached stays.
 struct Interruption {};

@@ -34,7 +34,7 @@ std::string InToml(const Values& values, Format format) {
   return text + "]";
 }
 
-std::string TextOf(const std::filesystem::path& path) {
+std::string ReadText(const std::filesystem::path& path) {
   std::ifstream file = OpenFile(path);
   if (!file) {
     throw InputError(path.string() + ": cannot be read: expected a TOML file");
@@ -47,7 +47,7 @@ std::string TextOf(const std::filesystem::path& path) {
 Parameters Parameters::FromToml(const std::filesystem::path& path) {
   Parameters parameters;
   parameters.source_ = path.string();
-  const std::string toml_text = TextOf(path);
+  const std::string toml_text = ReadText(path);
   CheckTomlShape(toml_text, parameters.source_, TomlTables::kNone);
   toml::table table;
   try {

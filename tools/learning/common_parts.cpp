@@ -86,14 +86,14 @@ std::array<std::string_view, kCommonPartCount> CommonPartNames() {
   return names;
 }
 
-uint8_t CommonPartOfTruth(uint8_t label) {
+uint8_t ToCommonPart(uint8_t label) {
   for (uint8_t part = 0; part < kCommonPartCount; ++part) {
     if (label > 0 && Has(kCommonParts[part].ours, recon::kPartNames[label])) return part;
   }
   return kNoCommonPart;
 }
 
-std::optional<std::vector<uint8_t>> CommonPartsOfModel(std::span<const std::string> class_names) {
+std::optional<std::vector<uint8_t>> FindCommonParts(std::span<const std::string> class_names) {
   std::vector<uint8_t> common(class_names.size(), kNoCommonPart);
   int found = 0;
   for (size_t c = 1; c < class_names.size(); ++c) {

@@ -23,11 +23,11 @@ std::array<std::string_view, kCommonPartCount> CommonPartNames();
 /// The common part that a true label (recon::kPartNames) stands for; kNoCommonPart where PCL has no
 /// such class: shoulders, wrists and ankles, whose borders PCL draws elsewhere, and objects. Pixels
 /// of those are not counted.
-uint8_t CommonPartOfTruth(uint8_t label);
+uint8_t ToCommonPart(uint8_t label);
 
 /// The common part of each class of a model, given by the classes' names: ours or PCL's. Nothing
 /// when they are neither's.
-std::optional<std::vector<uint8_t>> CommonPartsOfModel(std::span<const std::string> class_names);
+std::optional<std::vector<uint8_t>> FindCommonParts(std::span<const std::string> class_names);
 
 /// Joints that lie within one class of either: only these can be compared.
 bool IsCommonJoint(recon::Joint joint);

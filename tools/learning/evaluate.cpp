@@ -63,7 +63,7 @@ void CountCommonParts(const forest::TrainingImage& image, const forest::Classifi
                       const std::vector<uint8_t>& labels, const std::vector<uint8_t>& common_part,
                       EvaluationTotals* totals) {
   for (size_t i = 0; i < result.pixel.size(); ++i) {
-    const uint8_t truth = CommonPartOfTruth(image.label[static_cast<size_t>(result.pixel[i])]);
+    const uint8_t truth = ToCommonPart(image.label[static_cast<size_t>(result.pixel[i])]);
     if (truth == kNoCommonPart) continue;
     ++totals->common_pixels[truth];
     totals->common_right[truth] += common_part[labels[i]] == truth ? 1 : 0;
@@ -128,13 +128,13 @@ void AddPerson(const forest::ForestModel& model, const LabelledFrame& frame, con
   RateJoints(image, by_joint, totals);
 }
 
-Meaning MeaningOf(const forest::ForestModel& model, const std::string& name) {
+Meaning MapToOurs(const forest::ForestModel& model, const std::string& name) {
   const std::vector<std::string>& names = model.data().class_names;
   Meaning meaning;
   meaning.target_of_joint = forest::FindTargets(model, recon::kJointNames, name);
   meaning.has_our_parts =
       std::equal(names.begin(), names.end(), recon::kPartNames.begin(), recon::kPartNames.end());
-  const auto common = CommonPartsOfModel(names);
+  const auto common = FindCommonParts(names);
   if (!common) {
     throw InputError(name + ": expected our 31 parts or those of PCL's people trees, found " +
                      std::to_string(names.size()) + " other classes");
@@ -163,7 +163,7 @@ PixelCount PartPixels(const EvaluationTotals& totals) {
 Evaluation Evaluate(const forest::ForestModel& model, const std::string& name,
                     const DatasetReader& dataset, int64_t step,
                     const std::function<bool(int64_t, int64_t)>& progress) {
-  const Meaning meaning = MeaningOf(model, name);
+  const Meaning meaning = MapToOurs(model, name);
   EvaluationTotals totals;
   for (int64_t i = 0; i < dataset.frame_count(); i += step) {
     if (progress && !progress(i, dataset.frame_count())) break;
@@ -183,7 +183,7 @@ Evaluation Evaluate(const forest::ForestModel& model, const std::string& name,
   }
   Evaluation evaluation = Summarise(std::move(totals));
   for (Evaluation::Frame& frame : evaluation.worst_frames) {
-    frame.png = PictureOf(model, Uncropped(dataset.Read(frame.index), dataset.manifest().camera));
+    frame.png = DrawPanels(model, Uncropped(dataset.Read(frame.index), dataset.manifest().camera));
   }
   return evaluation;
 }

@@ -22,7 +22,7 @@ std::vector<double> Shares(std::span<const int64_t> parts, std::span<const int64
 }
 
 // Of what occurs: numbers that are not NaN.
-double MeanOfKnown(std::span<const double> values) {
+double AverageKnown(std::span<const double> values) {
   double sum = 0;
   int count = 0;
   for (const double value : values) {
@@ -46,11 +46,11 @@ int64_t SumOf(std::span<const int64_t> counts) {
 void SummarisePixels(const EvaluationTotals& totals, Evaluation* e) {
   e->pixel_accuracy = Share(SumOf(PartsOf(totals.right)), SumOf(PartsOf(totals.pixels)));
   e->class_accuracy = Shares(totals.right, totals.pixels);
-  e->mean_class_accuracy = MeanOfKnown(PartsOf(e->class_accuracy));
+  e->mean_class_accuracy = AverageKnown(PartsOf(e->class_accuracy));
   const std::vector<double> first = Shares(totals.right_first, totals.pixels);
-  e->mean_class_accuracy_first_stage = MeanOfKnown(PartsOf(first));
+  e->mean_class_accuracy_first_stage = AverageKnown(PartsOf(first));
   e->common_accuracy = Shares(totals.common_right, totals.common_pixels);
-  e->mean_common_accuracy = MeanOfKnown(e->common_accuracy);
+  e->mean_common_accuracy = AverageKnown(e->common_accuracy);
   e->swapped_left_right = Share(totals.swapped, SumOf(totals.pixels) > 0 ? totals.people : 0);
   e->swapped_left_right_turned = Share(totals.turned_swapped, totals.turned);
 }
@@ -63,9 +63,9 @@ void SummariseJoints(EvaluationTotals totals, Evaluation* e) {
         AveragePrecision(std::move(totals.rated_visible[j]), totals.joints_visible[j]));
     if (IsCommonJoint(static_cast<recon::Joint>(j))) common.push_back(e->ap_10cm.back());
   }
-  e->map_10cm = MeanOfKnown(e->ap_10cm);
-  e->map_10cm_visible = MeanOfKnown(e->ap_10cm_visible);
-  e->map_10cm_common = MeanOfKnown(common);
+  e->map_10cm = AverageKnown(e->ap_10cm);
+  e->map_10cm_visible = AverageKnown(e->ap_10cm_visible);
+  e->map_10cm_common = AverageKnown(common);
   e->seen_joints = totals.seen_joints;
   e->inferred_joints = totals.inferred_joints;
 }

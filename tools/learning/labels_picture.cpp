@@ -10,7 +10,7 @@ namespace ossa::tools {
 namespace {
 
 // Of each person's pixels.
-depth::Image<uint8_t> LabelsOf(const forest::ForestModel& model, const LabelledFrame& frame) {
+depth::Image<uint8_t> LabelPixels(const forest::ForestModel& model, const LabelledFrame& frame) {
   depth::Image<uint8_t> labels = frame.parts;
   std::fill(labels.data.begin(), labels.data.end(), uint8_t{0});
   for (const TruthBody& body : frame.bodies) {
@@ -32,11 +32,11 @@ depth::Image<uint8_t> LabelsOf(const forest::ForestModel& model, const LabelledF
 
 }  // namespace
 
-std::vector<uint8_t> PictureOf(const forest::ForestModel& model, const LabelledFrame& frame) {
+std::vector<uint8_t> DrawPanels(const forest::ForestModel& model, const LabelledFrame& frame) {
   ContactSheet sheet(3, 3, frame.depth.camera.width, frame.depth.camera.height);
   sheet.Draw(0, frame.depth, {});
   sheet.Draw(1, {}, frame.parts);
-  sheet.Draw(2, {}, LabelsOf(model, frame));
+  sheet.Draw(2, {}, LabelPixels(model, frame));
   return sheet.EncodePng();
 }
 

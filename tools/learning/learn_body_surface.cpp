@@ -219,7 +219,7 @@ void LearnTurns(const std::vector<MotionClip>& motion, size_t step, BodySurface&
       for (size_t s = 1; s < kSegmentCount; ++s) {
         const Eigen::Quaterniond turn =
             turned[kTurnBone[ParentSegment(s)]].conjugate() * turned[kTurnBone[s]];
-        const Eigen::Vector3d vector = RotationVectorOf(turn.normalized().toRotationMatrix());
+        const Eigen::Vector3d vector = ToRotationVector(turn.normalized().toRotationMatrix());
         sum[s] += vector;
         squares[s] += vector * vector.transpose();
       }

@@ -151,14 +151,14 @@ void Take(const Walk& walk, const std::shared_ptr<const recon::PosturePrior>& pr
       all = random.Chance(0.5);  // seen whole before
       if (random.Chance(0.7)) filter.Reset();
     }
-    Posture truth = recon::PostureOfBones((*walk.run)[t]);
+    Posture truth = recon::PostureFromBones((*walk.run)[t]);
     if (walk.number % 2 == 1) truth = recon::Mirrored(truth);
     truth = Turned(truth, now.yaw_rad);
     filter.Step(walk.frame_s, Observe(truth, now, all, random));
     if (t % kEvery != kEvery - 1) continue;
     out->input.row(row) = filter.Input().transpose();
     out->wanted.row(row) =
-        ((recon::BonesOf(truth) - filter.Bones_m()) / recon::PriorNetwork::kBoneStep_m)
+        ((recon::ToBoneVector(truth) - filter.Bones_m()) / recon::PriorNetwork::kBoneStep_m)
             .cast<float>()
             .transpose();
     ++row;

@@ -21,7 +21,7 @@ struct JointParts {
   std::vector<uint8_t> parts;
 };
 
-const std::vector<JointParts>& PartsOfJoints() {
+const std::vector<JointParts>& ListPartsByJoint() {
   static const std::vector<JointParts> table = {{Joint::kHipCenter, {20, 21, 22, 23}},
                                                 {Joint::kSpine, {18, 19, 20, 21}},
                                                 {Joint::kShoulderCenter, {5}},
@@ -46,12 +46,12 @@ const std::vector<JointParts>& PartsOfJoints() {
 }
 
 // From right to left, shoulders and hips together.
-Eigen::Vector3d LeftOf(const recon::Posture& joints_m) {
+Eigen::Vector3d ComputeLeft(const recon::Posture& joints_m) {
   return joints_m[Joint::kShoulderLeft] - joints_m[Joint::kShoulderRight] +
          (joints_m[Joint::kHipLeft] - joints_m[Joint::kHipRight]);
 }
 
-uint8_t SectorOf(double angle_rad) {
+uint8_t FindSector(double angle_rad) {
   const double turns = angle_rad / (2.0 * std::numbers::pi);
   const auto sector = static_cast<int>(std::lround(turns * kFacingSectors)) + kFacingSectors;
   return static_cast<uint8_t>(sector % kFacingSectors);
@@ -60,7 +60,7 @@ uint8_t SectorOf(double angle_rad) {
 }  // namespace
 
 double YawAgainstSight(const recon::Posture& joints_m) {
-  Eigen::Vector3d left = LeftOf(joints_m);
+  Eigen::Vector3d left = ComputeLeft(joints_m);
   Eigen::Vector3d sight = joints_m[Joint::kHipCenter] + joints_m[Joint::kShoulderCenter];
   left.y() = 0;
   sight.y() = 0;
@@ -70,12 +70,14 @@ double YawAgainstSight(const recon::Posture& joints_m) {
   return std::atan2(towards.cross(facing).y(), towards.dot(facing));
 }
 
-uint8_t FacingSector(const recon::Posture& joints_m) { return SectorOf(YawAgainstSight(joints_m)); }
+uint8_t FacingSector(const recon::Posture& joints_m) {
+  return FindSector(YawAgainstSight(joints_m));
+}
 
 uint8_t HeadingSector(const recon::Posture& joints_m) {
   // Up is towards the camera; x grows to the image's left.
-  const Eigen::Vector3d facing = LeftOf(joints_m).cross(-Eigen::Vector3d::UnitZ());
-  return SectorOf(std::atan2(-facing.x(), facing.y()));
+  const Eigen::Vector3d facing = ComputeLeft(joints_m).cross(-Eigen::Vector3d::UnitZ());
+  return FindSector(std::atan2(-facing.x(), facing.y()));
 }
 
 forest::TrainingVocabulary BodyVocabulary() {
@@ -84,7 +86,7 @@ forest::TrainingVocabulary BodyVocabulary() {
   for (int k = 0; k < kFacingSectors; ++k) {
     vocabulary.context_names.push_back(fmt::format("facing {}", 360 * k / kFacingSectors));
   }
-  for (const JointParts& entry : PartsOfJoints()) {
+  for (const JointParts& entry : ListPartsByJoint()) {
     forest::ProposalTarget target;
     target.name = recon::NameOf(entry.joint);
     target.classes = entry.parts;

@@ -36,7 +36,7 @@ bool AskMirrored(OniStreamHandle stream) {
 }
 
 // The pinhole camera of the window that the frame shows, as it is before mirroring.
-depth::Camera CameraOf(const DepthCamera::Geometry& geometry, const OniFrame& frame) {
+depth::Camera MakeCamera(const DepthCamera::Geometry& geometry, const OniFrame& frame) {
   depth::Camera camera{frame.width,        frame.height,         geometry.focal_x(),
                        geometry.focal_y(), geometry.width / 2.0, geometry.height / 2.0};
   if (frame.croppingEnabled) {
@@ -48,7 +48,7 @@ depth::Camera CameraOf(const DepthCamera::Geometry& geometry, const OniFrame& fr
 }
 
 // Millimetres, row by row, turned back where they are mirrored.
-std::vector<uint16_t> MillimetresOf(const OniFrame& frame, bool mirrored) {
+std::vector<uint16_t> ReadMillimetres(const OniFrame& frame, bool mirrored) {
   const bool tenths = frame.videoMode.pixelFormat == ONI_PIXEL_FORMAT_DEPTH_100_UM;
   if (!tenths && frame.videoMode.pixelFormat != ONI_PIXEL_FORMAT_DEPTH_1_MM) {
     throw InputError("OpenNI2: expected depths in millimetres");
@@ -200,8 +200,8 @@ std::optional<CameraFrame> DepthCamera::Next(std::chrono::milliseconds timeout) 
   if (!known) throw InputError("OpenNI2: a stream that does not know its video mode");
   const Geometry seen = geometry();
   frame.mirrored = seen.mirrored;
-  frame.image.depth_mm = MillimetresOf(*delivered, seen.mirrored);
-  frame.image.camera = CameraOf(seen, *delivered);
+  frame.image.depth_mm = ReadMillimetres(*delivered, seen.mirrored);
+  frame.image.camera = MakeCamera(seen, *delivered);
   frame.image.time_s = TimeOf(*delivered);
   frame.image.index = frames_++;
   return frame;

@@ -13,7 +13,7 @@ NiteStatus HandTracker::Read(Frame** frame) {
 
 std::unique_ptr<HandTracker::Stored> HandTracker::Make(CameraFrame seen) {
   const tracker::BodyFrame bodies = people_.Track(seen.image);
-  std::vector<SeenHand> hands = HandsOf(bodies);
+  std::vector<SeenHand> hands = CollectHands(bodies);
   const std::vector<SeenHand> lone = lone_.Step(seen.image, bodies, hands, WaitedFor());
   hands.insert(hands.end(), lone.begin(), lone.end());
   auto stored = std::make_unique<Stored>();

@@ -19,7 +19,7 @@ bool TouchesBorder(const Eigen::Vector3d& place_m, const depth::Camera& camera, 
 
 }  // namespace
 
-std::vector<SeenHand> HandsOf(const tracker::BodyFrame& frame) {
+std::vector<SeenHand> CollectHands(const tracker::BodyFrame& frame) {
   std::vector<SeenHand> hands;
   for (const tracker::Body& body : frame.bodies) {
     if (body.state != tracker::BodyState::kTracked) continue;

@@ -23,7 +23,7 @@ struct SeenHand {
 };
 
 /// The hands of everybody in the frame that are seen or can be told from what is seen.
-std::vector<SeenHand> HandsOf(const tracker::BodyFrame& frame);
+std::vector<SeenHand> CollectHands(const tracker::BodyFrame& frame);
 
 /// What is done with hands; by hand.
 struct HandOptions {

@@ -15,7 +15,7 @@ using std::chrono::milliseconds;
 constexpr milliseconds kPatience{2000};  // then a camera that says nothing is an error
 constexpr milliseconds kSlice{100};      // between looks whether the tracker is closed
 
-tracker::TrackerOptions OptionsOf(const tracker::ModelSet& models) {
+tracker::TrackerOptions MakeOptions(const tracker::ModelSet& models) {
   tracker::TrackerOptions options;
   options.models = models;
   return options;
@@ -26,7 +26,7 @@ thread_local int callbacks_deep = 0;
 }  // namespace
 
 LiveTracker::LiveTracker(OniDeviceHandle device, const tracker::ModelSet& models)
-    : people_(OptionsOf(models)), camera_(std::make_unique<DepthCamera>(device)) {}
+    : people_(MakeOptions(models)), camera_(std::make_unique<DepthCamera>(device)) {}
 
 LiveTracker::~LiveTracker() {
   Close();

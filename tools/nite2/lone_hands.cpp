@@ -85,7 +85,7 @@ std::optional<size_t> Cells::Nearest(const Eigen::Vector3d& place_m, double most
 struct Piece {
   std::vector<size_t> cells;
   std::vector<size_t> ends;  // cells at the ball's surface or the image's border
-  int outline = 0;           // sides of cells where the piece ends
+  int border = 0;            // sides of cells where the piece ends
   int cut = 0;               // of them: where the surface goes on beyond the ball
 };
 
@@ -99,7 +99,7 @@ Piece Grow(const Cells& cells, size_t seed, double radius_m) {
     bool is_end = cells.IsAtBorder(cell);
     cells.ForNeighbours(cell, [&](size_t other, bool goes_on) {
       const bool is_inside = goes_on && (cells[other] - cells[seed]).norm() <= radius_m;
-      if (!is_inside) ++piece.outline;
+      if (!is_inside) ++piece.border;
       if (goes_on && !is_inside) {
         ++piece.cut;
         is_end = true;
@@ -113,7 +113,7 @@ Piece Grow(const Cells& cells, size_t seed, double radius_m) {
   return piece;
 }
 
-Eigen::Vector3d MeanOf(const Cells& cells, const std::vector<size_t>& some) {
+Eigen::Vector3d ComputeMean(const Cells& cells, const std::vector<size_t>& some) {
   Eigen::Vector3d sum_m = Eigen::Vector3d::Zero();
   for (const size_t cell : some) sum_m += cells[cell];
   return sum_m / static_cast<double>(some.size());
@@ -129,7 +129,7 @@ std::optional<HandAndElbow> FindHandOf(const Cells& cells, size_t seed,
   const Piece arm = Grow(cells, seed, options.arm_m);
   size_t tip = seed;
   // Without an end the arm points at the sensor, or is out of view.
-  const Eigen::Vector3d elbow_m = MeanOf(cells, arm.ends.empty() ? arm.cells : arm.ends);
+  const Eigen::Vector3d elbow_m = ComputeMean(cells, arm.ends.empty() ? arm.cells : arm.ends);
   for (const size_t cell : arm.cells) {
     if ((cells[cell] - elbow_m).norm() > (cells[tip] - elbow_m).norm()) tip = cell;
   }
@@ -137,8 +137,8 @@ std::optional<HandAndElbow> FindHandOf(const Cells& cells, size_t seed,
   double area_m2 = 0.0;
   for (const size_t cell : hand.cells) area_m2 += cells.Area_m2(cell);
   if (area_m2 < options.least_m2 || area_m2 > options.most_m2) return std::nullopt;
-  if (hand.cut > options.most_cut * hand.outline) return std::nullopt;
-  return HandAndElbow{MeanOf(cells, hand.cells), elbow_m};
+  if (hand.cut > options.most_cut * hand.border) return std::nullopt;
+  return HandAndElbow{ComputeMean(cells, hand.cells), elbow_m};
 }
 
 // Where a hand may be: of each connected surface what is nearest to the sensor, and the top.

@@ -19,7 +19,7 @@ struct LoneHandOptions {
   double hand_m = 0.17;      // from the finger tips to the wrist
   double least_m2 = 0.003;   // what is seen of a hand, fist or edge on
   double most_m2 = 0.04;     // ... and flat, fingers spread
-  double most_cut = 0.35;    // share of its outline where the surface goes on: a wrist, not a wall
+  double most_cut = 0.35;    // share of its border where the surface goes on: a wrist, not a wall
   double fastest_m_s = 3.0;  // a hand on its way
   double slack_m = 0.02;     // between frames beyond that
   double proven_s = 0.3;     // how long it is followed before its gestures count

@@ -23,7 +23,7 @@ std::unique_ptr<UserTracker::Stored> UserTracker::Make(CameraFrame seen) {
   const tracker::BodyFrame bodies = people_.Track(seen.image);
   auto stored = std::make_unique<Stored>();
   stored->users = users_.Step(bodies, seen.image.depth_mm, wishes, seen.mirrored);
-  stored->map = MapOf(bodies.users, seen.mirrored);
+  stored->map = MakeUserMap(bodies.users, seen.mirrored);
   Frame& frame = stored->frame;
   frame.userCount = static_cast<int>(stored->users.size());
   frame.pUser = stored->users.data();
@@ -50,8 +50,8 @@ std::unique_ptr<UserTracker::Stored> UserTracker::Make(CameraFrame seen) {
   return stored;
 }
 
-std::vector<NiteUserId> UserTracker::MapOf(const depth::Image<uint8_t>& users,
-                                           bool mirrored) const {
+std::vector<NiteUserId> UserTracker::MakeUserMap(const depth::Image<uint8_t>& users,
+                                                 bool mirrored) const {
   std::vector<NiteUserId> map(users.data.size());
   std::array<NiteUserId, 256> user_of{};
   for (size_t body = 1; body < user_of.size(); ++body) {

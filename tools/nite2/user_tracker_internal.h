@@ -35,7 +35,7 @@ class UserTracker final : public LiveTracker {
 
  private:
   std::unique_ptr<Stored> Make(CameraFrame seen);
-  std::vector<NiteUserId> MapOf(const depth::Image<uint8_t>& users, bool mirrored) const;
+  std::vector<NiteUserId> MakeUserMap(const depth::Image<uint8_t>& users, bool mirrored) const;
   bool Knows(NiteUserId id) const;
 
   mutable std::mutex wishing_;  // guards what follows

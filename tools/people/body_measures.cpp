@@ -22,10 +22,6 @@ constexpr std::array<Spread, kMeasureCount> kSpread = {{
     {0.042, 0.030, 0.014},  // knee to ankle
 }};
 
-// Times the spread over frames, measured in the first three of somebody who comes out from behind
-// another.
-constexpr double kHalfHidden = 2.5;
-
 double Square(double x) { return x * x; }
 
 double LogNormal(double x, double variance) {
@@ -34,31 +30,29 @@ double LogNormal(double x, double variance) {
 
 }  // namespace
 
-void BodyMeasures::Add(const FrameMeasures& frame) {
-  constexpr int kMaxFrames = 60;  // by hand; then as an exponential mean: coats come off
+void BodyMeasures::Add(const FrameMeasures& frame, const BodyMatchOptions& options) {
   for (size_t k = 0; k < kMeasureCount; ++k) {
     if (!frame[k]) continue;
-    frames[k] = std::min(frames[k] + 1, kMaxFrames);
+    frames[k] = std::min(frames[k] + 1, options.max_frames);
     mean_m[k] += (*frame[k] - mean_m[k]) / static_cast<float>(frames[k]);
   }
 }
 
-double CompareMeasures(const BodyMeasures& known, const FrameMeasures& frame, bool half_hidden) {
-  constexpr double kMost = 3.0;  // log odds, so that one wrong measure does not outweigh the others
-  // Share of the sum, by hand: measures of one body go together (who is tall has long legs).
-  constexpr double kIndependent = 1.0 / 3;
+double CompareMeasures(const BodyMeasures& known, const FrameMeasures& frame, bool half_hidden,
+                       const BodyMatchOptions& options) {
   double sum = 0;
   for (size_t k = 0; k < kMeasureCount; ++k) {
     if (known.frames[k] == 0 || !frame[k]) continue;
     const Spread& spread = kSpread[k];
-    const double both_frames = Square(half_hidden ? kHalfHidden : 1.0) + 1.0 / known.frames[k];
+    const double rougher = half_hidden ? options.half_hidden : 1.0;
+    const double both_frames = Square(rougher) + 1.0 / known.frames[k];
     const double noise = 2 * Square(spread.lasting) + both_frames * Square(spread.frames);
     const double off_m = static_cast<double>(known.mean_m[k] - *frame[k]);
     const double ratio =
         LogNormal(off_m, noise) - LogNormal(off_m, noise + 2 * Square(spread.people));
-    sum += std::clamp(ratio, -kMost, kMost);
+    sum += std::clamp(ratio, -options.max_log_odds, options.max_log_odds);
   }
-  return kIndependent * sum;
+  return options.independent * sum;
 }
 
 }  // namespace ossa::people

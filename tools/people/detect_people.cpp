@@ -1,8 +1,8 @@
 #include "tools/people/detect_people.h"
 
 #include <algorithm>
-#include <chrono>
 
+#include "depth/base/stopwatch.h"
 #include "tools/people/classify_candidates.h"
 #include "tools/people/measure_body.h"
 #include "tools/people/propose_candidates.h"
@@ -10,12 +10,6 @@
 
 namespace ossa::people {
 namespace {
-
-using Clock = std::chrono::steady_clock;
-
-double MillisecondsSince(Clock::time_point start) {
-  return std::chrono::duration<double, std::milli>(Clock::now() - start).count();
-}
 
 // Tracks that may still be somebody's in this frame.
 void ForgetTracks(const Scene& scene, double time_s, const ReidentifyOptions& options,
@@ -54,7 +48,7 @@ void ShareOutTime(double frame_ms, double look_ms, PeopleInFrame& result) {
 
 PeopleInFrame DetectPeople(const DepthFrame& frame, const PersonClassifier& classifier,
                            PeopleState& state, const PeopleOptions& options) {
-  const auto start = Clock::now();
+  const Stopwatch watch;
   const double time_s = frame.time_s;
   PeopleInFrame result;
   auto& decided = result.decisions.candidates;
@@ -73,7 +67,7 @@ PeopleInFrame DetectPeople(const DepthFrame& frame, const PersonClassifier& clas
   const std::vector<Region> rivals = FindRivals(proposed.candidates);
 
   // The forest's word on them, and decisions.
-  const auto look_start = Clock::now();
+  const Stopwatch look_watch;
   auto selected = SelectCandidates(std::move(proposed.candidates), scene.fresh, time_s, options,
                                    state.tentative, decided);
   auto detections =
@@ -82,7 +76,7 @@ PeopleInFrame DetectPeople(const DepthFrame& frame, const PersonClassifier& clas
                              state.tentative, decided);
   for (Detection& person : people)
     CropToBody(classifier.targets, frame, scene, options.classification, person);
-  const double look_ms = MillisecondsSince(look_start);
+  const double look_ms = look_watch.milliseconds();
 
   // Identities.
   for (Detection& person : people) {
@@ -104,7 +98,7 @@ PeopleInFrame DetectPeople(const DepthFrame& frame, const PersonClassifier& clas
     result.people.push_back({ids[i], std::move(people[i])});
   }
   result.decisions.tracks = SummarizeTracks(tracks, time_s);
-  ShareOutTime(MillisecondsSince(start), look_ms, result);
+  ShareOutTime(watch.milliseconds(), look_ms, result);
   return result;
 }
 

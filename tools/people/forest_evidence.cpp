@@ -1,24 +1,19 @@
 #include "tools/people/forest_evidence.h"
 
 #include <algorithm>
-#include <chrono>
 #include <cmath>
 
+#include "depth/base/stopwatch.h"
 #include "forest/proposals/relabel.h"
 #include "tools/people/subsample.h"
 
 namespace ossa::people {
 namespace {
 
-using Clock = std::chrono::steady_clock;
-
-double MillisecondsSince(Clock::time_point start) {
-  return std::chrono::duration<double, std::milli>(Clock::now() - start).count();
-}
-
 int ChooseScale(const DepthFrame& frame, const Candidate& candidate,
                 const EvidenceOptions& options) {
-  constexpr double kNearest_m = 0.3;  // by hand: nearer than any depth sensor sees
+  constexpr double kNearest_m =
+      0.3;  // sensor: by hand, nearer than any sees; against division by 0
   const double z_m = std::max(kNearest_m, static_cast<double>(candidate.region.mean_m.z()));
   int scale = std::clamp(static_cast<int>(options.sample_m * frame.camera.fx / z_m), 1, 8);
   while (candidate.pixels.size() / static_cast<size_t>(scale * scale) > options.max_pixels &&
@@ -51,7 +46,7 @@ ForestEvidence ClassifyCandidate(const PersonClassifier& classifier, const Depth
                                  const Candidate& candidate, std::vector<float> facing_prior,
                                  double min_surface_score, const EvidenceOptions& options) {
   ForestEvidence evidence;
-  const auto start = Clock::now();
+  const Stopwatch watch;
   evidence.scale = ChooseScale(frame, candidate, options);
   const bool thin = evidence.scale > 1;
   const Subsampled subsampled =
@@ -66,15 +61,15 @@ ForestEvidence ClassifyCandidate(const PersonClassifier& classifier, const Depth
   evidence.leg_area_m2 = MeasureLegArea_m2(seen, evidence.classification);
   AddSurfaceFeatures(seen, candidate, evidence.classification, heads, evidence.features);
   evidence.score = ComputeSurfaceScore(evidence.features);
-  evidence.classify_ms = MillisecondsSince(start);
+  evidence.classify_ms = watch.milliseconds();
   evidence.proposals.resize(classifier.model.targets().size());
   if (evidence.score < min_surface_score) return evidence;
-  const auto propose_start = Clock::now();
+  const Stopwatch propose_watch;
   evidence.proposals =
       forest::Propose(classifier.model, seen.view(), seen.camera, evidence.classification);
   AddProposalFeatures(evidence.proposals, classifier.targets, evidence.features);
   evidence.score = ComputePersonScore(evidence.features);
-  evidence.propose_ms = MillisecondsSince(propose_start);
+  evidence.propose_ms = propose_watch.milliseconds();
   return evidence;
 }
 

@@ -1,7 +1,7 @@
 #pragma once
 #include "depth/image/depth_frame.h"
+#include "depth/scene/measure_scene.h"
 #include "depth/scene/regions.h"
-#include "depth/scene/scene.h"
 
 /// The geometry that people are found in goes by its own names here.
 namespace ossa::people {

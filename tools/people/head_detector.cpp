@@ -111,7 +111,7 @@ class HeadFinder {
     const float row = static_cast<float>(y) + grid_.CellsOf(options_.shoulders_below_m, z);
     if (row >= static_cast<float>(grid_.height)) return 0.5F;
     int filled = 0, hidden = 0;
-    constexpr int kSamples = 7;  // 5.7 cm apart, by hand
+    constexpr int kSamples = 7;  // 5.7 cm apart: by hand, about as far as cells are at 6 m
     for (int i = 0; i < kSamples; ++i) {
       const float side_m = options_.shoulders_half_m * (static_cast<float>(i) / 3.0F - 1.0F);
       const int cx = Round(static_cast<float>(x) + grid_.CellsOf(side_m, z));

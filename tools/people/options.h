@@ -2,7 +2,9 @@
 #include <cstddef>
 #include <optional>
 
-#include "depth/scene/scene.h"
+#include "depth/scene/measure_scene.h"
+#include "depth/scene/silhouette.h"
+#include "tools/people/body_measures.h"
 
 /// Every threshold of finding people and telling them apart, by stage.
 ///
@@ -22,10 +24,12 @@ struct HeadOptions {
   float inner_radius_m = 0.085F;   // anthropometry: well inside any head
   float outer_radius_m = 0.19F;    // anthropometry: well outside any head, above the shoulders
   float min_score = 0.4F;          // filled share of the disc x free share of the ring x shoulders
-  float min_distance_m = 0.25F;    // between two heads: of one person the better one counts
-  float max_depth_step_m = 0.15F;  // of points on one head
-  float max_body_depth_step_m = 0.35F;  // of the body above a chest that is no head
-  float max_shoulder_depth_step_m = 0.3F;
+  float min_distance_m = 0.25F;    // anthropometry: of two people's heads, each 15 cm wide; of one
+                                   // person the better one counts
+  float max_depth_step_m = 0.15F;  // anthropometry: a head is less than 20 cm deep
+  float max_body_depth_step_m = 0.35F;  // anthropometry: of the body above a chest that is no head
+  float max_shoulder_depth_step_m =
+      0.3F;           // anthropometry: of who turns sideways: half the breadth, 22 cm, and more
   int max_above = 5;  // of 15 points above it; a lifted arm covers one column of three
   int max_ring = 3;   // of 14 points of the ring that may be filled
   float shoulders_below_m = 0.32F;  // anthropometry: centre of the head to the shoulders' row,
@@ -41,11 +45,12 @@ struct OverheadOptions {
   float max_head_m = 2.3F;       // ... and of a tall person on heels
   float inner_radius_m = 0.07F;  // anthropometry: well inside any head
   float outer_radius_m = 0.20F;  // anthropometry: well outside any head, on the shoulders
-  float level_m = 0.08F;         // of points on top of one head
-  float lower_m = 0.10F;         // anthropometry: shoulders and neck are so much lower
-  float min_disc = 0.75F;        // share of the disc that is level
-  float min_score = 0.85F;       // share of the disc x lower share of the ring
-  float min_distance_m = 0.35F;  // between two heads, over the floor
+  float level_m = 0.08F;    // anthropometry: of points on top of one head: a third of its height
+  float lower_m = 0.10F;    // anthropometry: shoulders and neck are so much lower
+  float min_disc = 0.75F;   // share of the disc that is level
+  float min_score = 0.85F;  // share of the disc x lower share of the ring
+  float min_distance_m =
+      0.35F;  // anthropometry: of heads over the floor: shoulders keep them apart
 };
 
 /// How a connected region is cut into one piece a person.
@@ -72,7 +77,7 @@ struct MergeOptions {
   // surface seen lately is in view, and with the piece at most this.
   float hidden_share = 0.75F, whole_share = 1.1F;
   float expected_aside_m = 0.35F, expected_deep_m = 0.25F;  // off the track's predicted place,
-  float stride_m = 0.6F;     // ... or a stride aside with nothing but nearer surface between
+  float stride_m = 0.6F;  // ... or a step (anthropometry) with nothing but nearer surface between
   float sideways_m2 = 0.3F;  // anthropometry: of an adult seen from the side
 };
 
@@ -103,7 +108,7 @@ struct PredictionOptions {
   double max_prediction_s = 0.5;  // ... and a body's middle: nobody walks straight for long
   float same_depth_m = 0.12F;     // of a cell in two frames
   size_t overlap_fraction = 4;    // a track goes on where 1 / so many of its cells or theirs are
-  float return_gate_m = 0.6F;     // off the predicted place a lost person may reappear,
+  float return_gate_m = 0.6F;     // a step off the predicted place a lost person may reappear,
   float return_speed_m_s = 0.7F;  // ... growing with time
   float height_weight = 0.3F;     // of somebody half hidden height says little
 };
@@ -118,6 +123,7 @@ struct CandidateOptions {
   // Close to somebody seen a new piece may be the rest of them: so far off their predicted middle,
   // and from their nearer side, over the floor.
   float rest_m = 0.45F, beside_m = 0.7F;
+  depth::SilhouetteOptions silhouette;
   HeadOptions heads;
   std::optional<OverheadOptions> overhead;  // instead, where the camera is under the ceiling
   SeedOptions seeds;
@@ -181,7 +187,7 @@ struct InitiationOptions {
   double new_person = 0.6;
   double sure_person = 0.93;
   double known_person = 0.25;
-  // At a first look below sure_person the surface fit is heard, too, where there is one: at least
+  // At a first look below sure_person the surface fit decides, too, where there is one: at least
   // so much is explained less what is seen through (recon::SurfaceFit::score). Rendered and real
   // dev stills: 1 of 16 such people has less, 14 of 16 such things have.
   double least_body = 0.5;
@@ -196,7 +202,7 @@ struct InitiationOptions {
   double foreground_known = 0.02;  // score
   // ... and what also went so far over the floor since the first look, with nobody beside whose
   // rest it may be: only people walk.
-  double walked_m = 0.5;
+  double walked_m = 0.5;        // anthropometry: less than a step
   double walked_person = 0.02;  // score
   // Somebody accepted a few observations ago: what was a person by luck is none on average.
   double early_person = 0.4;  // score
@@ -255,6 +261,7 @@ struct ReidentifyOptions {
   float border_m = 0.3F;   // to the image's border, or to somebody nearer: what a walker covers
                            // during the first observations
   float occluder_m = 0.1F;  // sensor: somebody so much nearer occludes
+  BodyMatchOptions measures;
 };
 
 struct AssociationOptions {

@@ -110,7 +110,7 @@ bool Meet(uint8_t a, uint8_t b) {
 
 // Only borders on one surface count: a hand before the chest borders on anything.
 double MeasureNeighbourShare(const depth::DepthFrame& frame, const Classification& seen) {
-  constexpr int kOneSurface_mm = 60;  // by hand
+  constexpr int kOneSurface_mm = 60;  // by hand; part of the classifier, which was learned with it
   double borders = 0, meeting = 0;
   for (size_t i = 1; i < seen.pixel.size(); ++i) {
     const uint8_t a = Folded(seen.label[i]), b = Folded(seen.label[i - 1]);

@@ -77,14 +77,15 @@ Candidate MakeCandidate(const DepthFrame& frame, const Scene& scene, Region piec
   candidate.plane = FitWholePlane(piece, scene.surfaces, options.occluder);
   candidate.foreground_share = MeasureShare(piece, foreground);
   candidate.foreground_m2 = MeasureForegroundArea_m2(scene.grid, piece.cells, foreground);
-  candidate.occluded_share = depth::MeasureOccludedShare(scene.grid, scene.floor, piece);
+  candidate.occluded_share =
+      depth::MeasureOccludedShare(scene.grid, scene.floor, piece, options.silhouette);
   candidate.region_index = region_index;
   candidate.region = std::move(piece);
   return candidate;
 }
 
-std::vector<HeadBlob> HeadsOf(const Scene& scene, const Region& region,
-                              const CandidateOptions& options) {
+std::vector<HeadBlob> ListHeads(const Scene& scene, const Region& region,
+                                const CandidateOptions& options) {
   return options.overhead ? FindHeadsFromAbove(scene.grid, *scene.floor, region, *options.overhead)
                           : FindHeads(scene.grid, region, options.heads);
 }
@@ -101,7 +102,7 @@ void CutIntoCandidates(const DepthFrame& frame, const Scene& scene, const CellFa
     result.excluded.push_back(DescribeRegion(region, Rule::kTooSmall));
     return;
   }
-  const auto seeds = FindSeeds(scene.grid, region, HeadsOf(scene, region, options), facts.owner,
+  const auto seeds = FindSeeds(scene.grid, region, ListHeads(scene, region, options), facts.owner,
                                tracks, facts.background, options);
   for (Region& piece : CutAtSeeds(scene.grid, region, seeds, options)) {
     if (!is_large_enough(piece)) {

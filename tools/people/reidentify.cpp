@@ -72,7 +72,7 @@ double CompareWithLost(const PointGrid& grid, const Track& lost, const Eigen::Ve
   const bool from_behind = entrance == Entrance::kBehind;
   if (lost.lost_behind != from_behind) density *= options.other_way;
   return std::log(density / ExpectNewPeople_per_m2(entrance, options)) +
-         CompareMeasures(lost.measures, measures, from_behind);
+         CompareMeasures(lost.measures, measures, from_behind, options.measures);
 }
 
 std::vector<int> FindBestAssignment(const std::vector<std::vector<double>>& weight,

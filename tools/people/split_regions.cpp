@@ -13,8 +13,8 @@ namespace ossa::people {
 namespace {
 
 // The seed a head is nearest to, if it could be the same person's; -1 for none.
-int FindOwnerOfHead(const PointGrid& grid, const HeadBlob& head, std::span<const Seed> seeds,
-                    float max_step_m) {
+int FindHeadOwner(const PointGrid& grid, const HeadBlob& head, std::span<const Seed> seeds,
+                  float max_step_m) {
   int mine = -1;
   float nearest_m = max_step_m;
   for (size_t i = 0; i < seeds.size(); ++i) {
@@ -126,7 +126,7 @@ std::vector<Seed> FindSeeds(const PointGrid& grid, const Region& region,
   std::vector<uint8_t> has_head(known, 0);
   for (const HeadBlob& head : heads) {
     const int mine =
-        FindOwnerOfHead(grid, head, std::span(seeds).first(known), options.seeds.owner_step_m);
+        FindHeadOwner(grid, head, std::span(seeds).first(known), options.seeds.owner_step_m);
     // A person has one head, and it moves: the best head at a track is that track's. More heads are
     // other people's, unless they lie within the track as it was.
     std::vector<int> seed = CollectHeadCells(grid, region, head.position_m, options.seeds);

@@ -106,7 +106,8 @@ void UpdateTrack(const PointGrid& grid, const Detection& person, const std::vect
   } else {
     track.mean_m = region.mean_m;
   }
-  if (!hidden) track.measures.Add(person.measures);  // of who is half hidden joints are guesses
+  // Of who is half hidden joints are guesses.
+  if (!hidden) track.measures.Add(person.measures, options.reidentify.measures);
   NoteMovement(region, time_s, options.motion, track);
   track.full_m2 = std::max(region.area_m2, options.motion.forget_area * track.full_m2);
   track.cells = region.cells;

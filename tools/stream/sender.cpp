@@ -54,7 +54,7 @@ void Sender::Impl::Seat(const tracker::BodyFrame& frame) {
 }
 
 void Sender::Impl::SendPerson(const tracker::Body& body, size_t seat, double time_s) {
-  const Humanoid world = PoseOf(body, room);
+  const Humanoid world = ComputePose(body, room);
   for (Line& line : lines) {
     if (line.target.protocol == Protocol::kVmc) {
       line.socket.Send(VmcPacket(world, time_s, line.target.seen_only), static_cast<int>(seat));

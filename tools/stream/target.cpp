@@ -28,12 +28,12 @@ std::optional<Number> NumberIn(const std::string& text) {
   throw InputError("--send " + url + ": expected " + expected);
 }
 
-Protocol ProtocolOf(const std::string& name) {
+Protocol ParseProtocol(const std::string& name) {
   if (name == "vmc") return Protocol::kVmc;
   return name == "vrchat" ? Protocol::kVrchat : Protocol::kJsonl;
 }
 
-int PortOf(const Target& target, const std::string& text) {
+int ParsePort(const Target& target, const std::string& text) {
   if (text.empty()) {
     if (target.protocol == Protocol::kVmc) return kVmcPort;
     if (target.protocol == Protocol::kVrchat) return kVrchatPort;
@@ -43,7 +43,7 @@ int PortOf(const Target& target, const std::string& text) {
   return *port;
 }
 
-double ScaleOf(const Target& target, const std::string& text) {
+double ParseScale(const Target& target, const std::string& text) {
   if (text.empty()) return 1.0;
   if (target.protocol != Protocol::kVrchat) Refuse(target.url, "no scale but for vrchat://");
   const auto scale = NumberIn<double>(text);
@@ -69,11 +69,11 @@ Target ParseTarget(const std::string& url) {
   }
   Target target;
   target.url = url;
-  target.protocol = ProtocolOf(part[1]);
+  target.protocol = ParseProtocol(part[1]);
   target.host = part[2];
   if (target.host.front() == '[') target.host = target.host.substr(1, target.host.size() - 2);
-  target.port = PortOf(target, part[3]);
-  target.scale = ScaleOf(target, part[4]);
+  target.port = ParsePort(target, part[3]);
+  target.scale = ParseScale(target, part[4]);
   target.seen_only = IsSeenOnly(target, part[5]);
   return target;
 }

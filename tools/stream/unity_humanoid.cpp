@@ -50,7 +50,7 @@ Quaterniond UnityRoom::Turn(const Quaterniond& rotation) const {
   return Unity((level_from_camera_ * rotation).normalized());
 }
 
-Humanoid PoseOf(const tracker::Body& body, const UnityRoom& room) {
+Humanoid ComputePose(const tracker::Body& body, const UnityRoom& room) {
   // From the rest pose, which faces +z of camera space, to one that faces the sensor.
   const Quaterniond facing(0.0, 0.0, 1.0, 0.0);
   Humanoid pose;

@@ -40,7 +40,7 @@ class UnityRoom {
 };
 
 /// Places of a body's bones and how they are turned from a T-pose that faces +z, in the room.
-Humanoid PoseOf(const tracker::Body& body, const UnityRoom& room);
+Humanoid ComputePose(const tracker::Body& body, const UnityRoom& room);
 /// The same, each bone as its parent sees it: what a hierarchy of transforms holds.
 Humanoid ToLocal(const Humanoid& world);
 

@@ -35,7 +35,7 @@ enum Stream : uint64_t {
   kSensorStream = 5
 };
 
-Random StreamOf(uint64_t seed, Stream purpose, int64_t index, int extra) {
+Random SeedStream(uint64_t seed, Stream purpose, int64_t index, int extra) {
   return Random(seed * 8 + purpose,
                 static_cast<uint64_t>(index) * 64 + static_cast<uint64_t>(extra));
 }
@@ -134,7 +134,7 @@ void FrameMaker::State::Dress(int64_t index, int person) {
   const int64_t key = options.sequence ? 0 : index / kFramesPerBody;
   Dressed& wearer = wearers[static_cast<size_t>(person)];
   if (wearer.key == key) return;
-  Random random = StreamOf(options.seed, kBodyStream, key, person);
+  Random random = SeedStream(options.seed, kBodyStream, key, person);
   if (options.random_bodies) {
     wearer.body = studio.model.Shape(options.ends ? SampleAnyShape(options.split, random)
                                                   : SampleShape(options.split, random));
@@ -228,9 +228,9 @@ std::vector<Prop> FrameMaker::State::DrawThings(Staging staging,
 }
 
 depth::SensorModel FrameMaker::State::DrawSensor(int64_t index) const {
-  if (options.sensors.size() == 1) return depth::ModelOf(options.sensors[0]);
-  Random random = StreamOf(options.seed, kSensorStream, options.sequence ? 0 : index, 0);
-  return depth::ModelOf(options.sensors[random.Index(options.sensors.size())]);
+  if (options.sensors.size() == 1) return depth::MakeSensorModel(options.sensors[0]);
+  Random random = SeedStream(options.seed, kSensorStream, options.sequence ? 0 : index, 0);
+  return depth::MakeSensorModel(options.sensors[random.Index(options.sensors.size())]);
 }
 
 // Renders, senses, labels. The image is the crop `box` of the view.
@@ -279,8 +279,8 @@ LabelledFrame FrameMaker::State::Shoot(const ViewSample& view, const std::vector
 }
 
 std::optional<LabelledFrame> FrameMaker::State::Try(int64_t index, int attempt) {
-  Random random = options.sequence ? StreamOf(options.seed, kSceneStream, 0, attempt)
-                                   : StreamOf(options.seed, kSceneStream, index, attempt);
+  Random random = options.sequence ? SeedStream(options.seed, kSceneStream, 0, attempt)
+                                   : SeedStream(options.seed, kSceneStream, index, attempt);
   for (int person = 0; person < options.people; ++person) Dress(index, person);
   const ViewSample view = SampleView({.view = options.view,
                                       .split = options.split,
@@ -292,7 +292,7 @@ std::optional<LabelledFrame> FrameMaker::State::Try(int64_t index, int attempt) 
                                       .shrink = options.shrink},
                                      random);
   const auto places = SamplePlaces(options.people, random);
-  Random thing = StreamOf(options.seed, kThingStream, options.sequence ? 0 : index, attempt);
+  Random thing = SeedStream(options.seed, kThingStream, options.sequence ? 0 : index, attempt);
   Staging staging = DrawStaging(options.occluders, thing);
   std::vector<Prop> things;
   std::vector<TruthBody> bodies;
@@ -332,7 +332,7 @@ std::optional<LabelledFrame> FrameMaker::State::Try(int64_t index, int attempt) 
   }
   std::vector<Prop> props = DrawProps(bodies[0].joints_m, view, random);
   for (Prop& prop : things) props.push_back(std::move(prop));
-  Random noise = StreamOf(options.seed, kNoiseStream, index, attempt);
+  Random noise = SeedStream(options.seed, kNoiseStream, index, attempt);
   LabelledFrame frame = Shoot(view, props, box, index, noise.Bits());
   frame.bodies = std::move(bodies);
   frame.depth.index = index;
@@ -367,7 +367,7 @@ bool ShowsEnough(const LabelledFrame& frame, double width) {
 
 }  // namespace
 
-depth::Camera CameraOf(const FrameOptions& options) {
+depth::Camera MakeCamera(const FrameOptions& options) {
   const ViewRequest request{.width = options.width,
                             .height = options.height,
                             .fov_deg = options.fov_deg,

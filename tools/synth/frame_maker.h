@@ -41,7 +41,7 @@ struct FrameOptions {
 };
 
 /// The camera of the options' images where none is drawn for each frame, shrunk if they are.
-depth::Camera CameraOf(const FrameOptions& options);
+depth::Camera MakeCamera(const FrameOptions& options);
 
 /// What all threads share while rendering.
 struct FrameStudio {

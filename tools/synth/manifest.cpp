@@ -75,7 +75,7 @@ TruthBody ParseBody(const Json& json, const std::string& place) {
   return body;
 }
 
-Json JsonOf(const std::string& text, const std::string& place) {
+Json ParseJson(const std::string& text, const std::string& place) {
   if (JsonNesting().IsTooDeep(text)) {
     throw InputError(place + ": expected JSON that nests at most 32 deep");
   }
@@ -112,7 +112,7 @@ DatasetManifest ReadManifest(const std::filesystem::path& folder) {
   std::string text(kMostBytes, '\0');
   file.read(text.data(), static_cast<std::streamsize>(text.size()));
   text.resize(static_cast<size_t>(file.gcount()));
-  return ManifestFromJson(JsonOf(text, path.string()), path);
+  return ManifestFromJson(ParseJson(text, path.string()), path);
 }
 
 std::string TruthLine(const LabelledFrame& frame) {
@@ -136,7 +136,7 @@ std::string TruthLine(const LabelledFrame& frame) {
 }
 
 void ParseTruthLine(const std::string& line, const std::string& place, LabelledFrame* frame) {
-  const Json json = JsonOf(line, place);
+  const Json json = ParseJson(line, place);
   frame->depth.index = Field<int64_t>(json, place, "frame");
   frame->depth.time_s = Field<double>(json, place, "time_s");
   if (json.contains("floor")) {

@@ -156,12 +156,12 @@ std::optional<Poses> PosesFromName(std::string_view name) {
   return std::nullopt;
 }
 
-PoseBankOptions BankOf(Poses poses) {
+PoseBankOptions MakeBankOptions(Poses poses) {
   if (poses != Poses::kNatural) return {};
   return {.least_distance_m = 0.0, .most_alike = std::numeric_limits<int>::max()};
 }
 
-PoseVariation VariationOf(Poses poses) {
+PoseVariation MakeVariation(Poses poses) {
   if (poses == Poses::kSpread) return {};
   if (poses == Poses::kAny) return {.random_posture_share = 0.25};
   return {.random_arm_share = 0.0, .perturbation_rad = 0.04};

@@ -37,8 +37,8 @@ enum class Poses {
   kAny,      // as spread; one in four frames any posture that joints can take
 };
 std::optional<Poses> PosesFromName(std::string_view name);
-PoseBankOptions BankOf(Poses poses);
-PoseVariation VariationOf(Poses poses);
+PoseBankOptions MakeBankOptions(Poses poses);
+PoseVariation MakeVariation(Poses poses);
 
 /// The pose seen in a mirror: left and right change places.
 recon::RigPose Mirrored(const recon::RigPose& pose);

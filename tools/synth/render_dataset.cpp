@@ -53,7 +53,7 @@ std::string ReadText(const fs::path& path) {
 DatasetManifest MakeManifest(const FrameStudio& studio, const RenderJob& job) {
   DatasetManifest manifest;
   manifest.frames = job.frames;
-  manifest.camera = CameraOf(studio.options);
+  manifest.camera = MakeCamera(studio.options);
   manifest.seed = studio.options.seed;
   manifest.command = job.command;
   manifest.split = studio.options.split == Split::kTest ? "test" : "train";

@@ -63,7 +63,7 @@ struct Before {
   Vector3f left, up, front;
 };
 
-Before BeforeOf(const recon::Posture& joints) {
+Before ComputeFrontAxes(const recon::Posture& joints) {
   const Vector3f across =
       (joints[Joint::kShoulderLeft] - joints[Joint::kShoulderRight]).cast<float>();
   const Vector3f up = Vector3f::UnitY();
@@ -150,7 +150,7 @@ depth::TriangleMesh ThingToShow(float span_m, Random& random) {
 void AddHeldUp(const recon::Posture& joints, Random& random, std::vector<Prop>* props) {
   const Vector3f left_m = joints[Joint::kHandLeft].cast<float>();
   const Vector3f right_m = joints[Joint::kHandRight].cast<float>();
-  const Before before = BeforeOf(joints);
+  const Before before = ComputeFrontAxes(joints);
   const Vector3f across = left_m - right_m;
   const float span_m = across.norm();
   const Vector3f x = span_m > 0.05F ? Vector3f(across / span_m) : before.left;
@@ -190,7 +190,7 @@ float LevelUnderForearms_m(const recon::Posture& joints) {
 }
 
 void AddDesk(const recon::Posture& joints, Random& random, std::vector<Prop>* props) {
-  const Before before = BeforeOf(joints);
+  const Before before = ComputeFrontAxes(joints);
   const float level_m = LevelUnderForearms_m(joints);
   const float wide_m = Draw(random, 0.9, 2.0), deep_m = Draw(random, 0.5, 0.9);
   const Vector3f hips_m = joints[Joint::kHipCenter].cast<float>();
@@ -218,7 +218,7 @@ void AddDesk(const recon::Posture& joints, Random& random, std::vector<Prop>* pr
 
 /// A chair's arms, its back, and the posts that hold them.
 void AddArmrests(const recon::Posture& joints, Random& random, std::vector<Prop>* props) {
-  const Before before = BeforeOf(joints);
+  const Before before = ComputeFrontAxes(joints);
   const Vector3f hips_m = joints[Joint::kHipCenter].cast<float>();
   const float level_m = std::max(0.2F, LevelUnderForearms_m(joints));
   const float thick_m = Draw(random, 0.03, 0.07), wide_m = Draw(random, 0.06, 0.12);

@@ -5,12 +5,12 @@
 #include <iterator>
 #include <numbers>
 
+#include "depth/base/angles.h"
+
 namespace ossa::tools {
 namespace {
 
 // Constants: chosen by hand, where nothing else is said.
-
-constexpr double kDegree = std::numbers::pi / 180.0;  // radians, by definition
 
 /// Where the camera stands and what it looks at.
 struct Placement {

@@ -32,10 +32,10 @@ constexpr std::array<JointSurface, recon::kJointCount> kSurfaces = {{
 constexpr double kLeastArea_m2 = 4e-4;  // 2 × 2 cm: less is a sliver at an edge
 constexpr double kLeastPixels = 4;      // pixels
 
-using JointsOfPart = std::array<std::vector<size_t>, recon::kLabelCount>;
+using JointsByPart = std::array<std::vector<size_t>, recon::kLabelCount>;
 
-JointsOfPart MakeJointsOfPart() {
-  JointsOfPart joints;
+JointsByPart MakeJointsByPart() {
+  JointsByPart joints;
   for (size_t j = 0; j < recon::kJointCount; ++j) {
     for (const uint8_t part : kSurfaces[j].parts) {
       if (part != 0) joints[part].push_back(j);
@@ -47,7 +47,7 @@ JointsOfPart MakeJointsOfPart() {
 }  // namespace
 
 void MarkVisibleJoints(LabelledFrame* frame) {
-  static const JointsOfPart joints_of_part = MakeJointsOfPart();
+  static const JointsByPart joints_of_part = MakeJointsByPart();
   const depth::Camera& camera = frame->depth.camera;
   struct Seen {
     recon::JointArray<double> area_m2{}, pixels{};

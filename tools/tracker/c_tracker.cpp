@@ -90,7 +90,7 @@ ossa_body BodyFrom(const Body& body) {
   c.clipped_edges = body.clipped_edges;
   if (body.state != ossa::tracker::BodyState::kTracked) return c;
   c.state = OSSA_FULLY_TRACKED;
-  const auto hierarchical = ossa::tracker::HierarchicalOrientationsOf(body);
+  const auto hierarchical = ossa::tracker::ComputeHierarchicalOrientations(body);
   const ossa::recon::Posture& refined = body.refined ? *body.refined : body.raw.posture;
   for (size_t j = 0; j < OSSA_JOINT_COUNT; ++j) {
     c.joints[j] = JointFrom(body.joints[j]);

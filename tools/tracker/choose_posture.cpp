@@ -12,22 +12,10 @@ namespace {
 using forest::Proposal;
 using recon::kJointCount;
 
-// Constants: chosen by hand on rendered clips of validation subjects.
-
-constexpr int kModes = 4;  // modes beyond the fourth were never the right one on rendered frames
-
-// Costs are negative log-likelihoods.
-constexpr double kMissing = 2.3;  // -log 0.1: a mode must be more likely than that; no unit: nats
-// A bone of any length may be a wrong expectation; no unit: nats
-constexpr double kWorstBone = 6.0;
-constexpr double kWorstJump = 1.0;     // fast moves and unrelated frames are legal
-constexpr double kJumpScale_m = 0.15;  // 4.5 m/s at 30 Hz
-
-double BoneCost(double length_m, double expected_m) {
-  // Modes lie a few centimetres off; short bones (hands, neck) feel that most.
-  const double sigma_m = 0.04 + 0.2 * expected_m;
+double BoneCost(double length_m, double expected_m, const ChoiceOptions& options) {
+  const double sigma_m = options.bone_m + options.bone_share * expected_m;
   const double off = (length_m - expected_m) / sigma_m;
-  return std::min(0.5 * off * off, kWorstBone);
+  return std::min(0.5 * off * off, options.worst_bone);
 }
 
 struct Option {
@@ -69,14 +57,15 @@ class Chooser {
  private:
   void AddOptions(size_t joint, const std::vector<Proposal>& modes) {
     auto& options = options_[joint];
-    options.push_back({nullptr, kMissing, {}});
+    options.push_back({nullptr, context_.options.missing_cost, {}});
     for (const Proposal& mode : modes) {
-      if (options.size() > kModes || !mode.position_m.allFinite()) break;
+      if (options.size() > context_.options.modes || !mode.position_m.allFinite()) break;
       double cost = -std::log(std::max(mode.confidence, 1e-3));
       if (context_.before != nullptr &&
           context_.before->state[joint] == recon::TrackingState::kTracked) {
         const double jump = (mode.position_m - context_.before->posture.position_m[joint]).norm();
-        cost += std::min(0.5 * std::pow(jump / kJumpScale_m, 2), kWorstJump);
+        cost += std::min(0.5 * std::pow(jump / context_.options.jump_m, 2),
+                         context_.options.worst_jump);
       }
       options.push_back({&mode, cost, {}});
     }
@@ -90,7 +79,7 @@ class Chooser {
         double cost = child.cost;
         if (child.proposal != nullptr && parent.proposal != nullptr) {
           cost += BoneCost((child.proposal->position_m - parent.proposal->position_m).norm(),
-                           context_.expected_m[j]);
+                           context_.expected_m[j], context_.options);
         }
         if (cost < best) best = cost, parent.child_choice[j] = static_cast<int>(i);
       }
@@ -119,15 +108,14 @@ recon::TrackingState DecideState(const Proposal& proposal, const forest::Proposa
 }
 
 // One surface cannot be both hands, or both knees: of two of a pair at one place the weaker goes.
-void DropDoubles(recon::TrackedPosture& posture) {
+void DropDoubles(double one_place_m, recon::TrackedPosture& posture) {
   for (size_t j = 0; j < kJointCount; ++j) {
     const auto m = recon::kMirroredJoint[j];
     if (m <= j || posture.state[j] == recon::TrackingState::kNotTracked ||
         posture.state[m] == recon::TrackingState::kNotTracked) {
       continue;
     }
-    constexpr double kOnePlace_m = 0.045;  // clasped hands have centres 6 cm apart and more
-    if ((posture.posture.position_m[j] - posture.posture.position_m[m]).norm() > kOnePlace_m)
+    if ((posture.posture.position_m[j] - posture.posture.position_m[m]).norm() > one_place_m)
       continue;
     const size_t weaker = posture.confidence[j] < posture.confidence[m] ? j : m;
     posture.state[weaker] = recon::TrackingState::kInferred;
@@ -136,9 +124,8 @@ void DropDoubles(recon::TrackedPosture& posture) {
 
 // A hip is seen where a thigh begins. Of a body cut off at the waist, by the image or by a table,
 // the forest knows well where the hips must be; but nobody sees them.
-void DoubtHipsWithoutLegs(double leg_area_m2, recon::TrackedPosture& posture) {
-  constexpr double kThigh_m2 = 0.04;  // 12 cm x 35 cm
-  if (leg_area_m2 >= kThigh_m2) return;
+void InferHipsWithoutLegs(const ChoiceContext& context, recon::TrackedPosture& posture) {
+  if (context.leg_area_m2 >= context.options.thigh_m2) return;
   for (size_t j = 0; j < kJointCount; ++j) {
     const bool lower = j == 0 || j >= recon::Index(recon::Joint::kHipLeft);
     if (lower && posture.state[j] == recon::TrackingState::kTracked)
@@ -161,8 +148,8 @@ recon::TrackedPosture ChoosePosture(const forest::ForestModel& model,
     result.confidence[j] = chosen[j]->confidence;
     result.state[j] = DecideState(*chosen[j], target, *context.camera);
   }
-  DropDoubles(result);
-  DoubtHipsWithoutLegs(context.leg_area_m2, result);
+  DropDoubles(context.options.one_place_m, result);
+  InferHipsWithoutLegs(context, result);
   return result;
 }
 
@@ -170,7 +157,8 @@ recon::BoneLengths AverageBoneLengths() {
   return recon::MeasureBoneLengths(recon::StandardPosture(recon::RigPose{}));
 }
 
-void LearnBoneLengths(const recon::TrackedPosture& observed, recon::BoneLengths& lengths_m) {
+void LearnBoneLengths(const recon::TrackedPosture& observed, recon::BoneLengths& lengths_m,
+                      const ChoiceOptions& options) {
   const recon::BoneLengths average = AverageBoneLengths();
   const recon::BoneLengths seen = recon::MeasureBoneLengths(observed.posture);
   for (size_t j = 1; j < kJointCount; ++j) {
@@ -179,9 +167,8 @@ void LearnBoneLengths(const recon::TrackedPosture& observed, recon::BoneLengths&
         observed.state[parent] != recon::TrackingState::kTracked) {
       continue;
     }
-    // A thirtieth a frame: a second of frames decides; no adult or child is outside half to 1.5.
-    const double next = lengths_m[j] + (seen[j] - lengths_m[j]) / 30.0;
-    lengths_m[j] = std::clamp(next, 0.5 * average[j], 1.5 * average[j]);
+    const double next = lengths_m[j] + (seen[j] - lengths_m[j]) / options.learning_frames;
+    lengths_m[j] = std::clamp(next, options.shortest * average[j], options.longest * average[j]);
   }
 }
 

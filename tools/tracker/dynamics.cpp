@@ -10,6 +10,7 @@
 
 #include "depth/base/atomic_file.h"
 #include "depth/base/error.h"
+#include "depth/base/statistics.h"
 #include "physics/character.h"
 
 namespace ossa::tracker {
@@ -54,18 +55,12 @@ std::optional<Vector3d> FindStandingUp(const recon::Posture& p) {
   return up.normalized();
 }
 
-double Median(std::vector<double> values) {
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::nth_element(values.begin(), middle, values.end());
-  return *middle;
-}
-
 /// One person's frames without a gap, all joints there.
 using Run = std::vector<physics::BodyPose>;
 
 constexpr double kLongestGap_s = 0.25;  // by hand, as of physics/character_filter.h
 
-std::map<int, std::vector<Run>> RunsOf(const recon::SkeletonSequence& sequence) {
+std::map<int, std::vector<Run>> SplitIntoRuns(const recon::SkeletonSequence& sequence) {
   std::map<int, std::vector<Run>> runs;
   for (const recon::SkeletonFrame& frame : sequence.frames) {
     for (const recon::BodyRecord& body : frame.bodies) {
@@ -168,7 +163,7 @@ void WriteDynamics(const std::filesystem::path& path, const recon::SkeletonSeque
   AtomicFile file(path);
   file.stream() << ColumnsText();
   size_t lines = 0;
-  for (const auto& [id, runs] : RunsOf(sequence)) {
+  for (const auto& [id, runs] : SplitIntoRuns(sequence)) {
     for (const Run& run : runs) {
       if (run.size() < 3) continue;  // no acceleration can be had
       const auto bones_m = recon::MeasureBoneLengths(run.front().posture);

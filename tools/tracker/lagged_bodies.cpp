@@ -6,7 +6,7 @@
 namespace ossa::tracker {
 namespace {
 
-recon::TimedPosture TimedOf(const Body& body, double time_s) {
+recon::TimedPosture ToTimedPosture(const Body& body, double time_s) {
   recon::TimedPosture one;
   one.time_s = time_s;
   for (size_t j = 0; j < recon::kJointCount; ++j) {
@@ -22,14 +22,14 @@ recon::TimedPosture TimedOf(const Body& body, double time_s) {
 std::optional<BodyFrame> LaggedBodies::Add(BodyFrame frame) {
   std::map<int, recon::TimedPosture>& people = window_.emplace_back();
   for (const Body& body : frame.bodies) {
-    if (body.state == BodyState::kTracked) people[body.id] = TimedOf(body, frame.time_s);
+    if (body.state == BodyState::kTracked) people[body.id] = ToTimedPosture(body, frame.time_s);
   }
   held_.push_back(std::move(frame));
   if (held_.size() <= static_cast<size_t>(options_.frames)) return std::nullopt;
   return TakeOldest();
 }
 
-std::optional<BodyFrame> LaggedBodies::TakeHeld() {
+std::optional<BodyFrame> LaggedBodies::DrainLag() {
   if (held_.empty()) return std::nullopt;
   BodyFrame frame = TakeOldest();
   if (held_.empty()) window_.clear();

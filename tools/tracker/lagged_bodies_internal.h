@@ -17,7 +17,7 @@ class LaggedBodies {
   std::optional<BodyFrame> Add(BodyFrame frame);
   /// At the end of a stream: the oldest frame held, smoothed by what there is; none when all are
   /// out. Frames that are added afterwards belong to another stream.
-  std::optional<BodyFrame> TakeHeld();
+  std::optional<BodyFrame> DrainLag();
 
  private:
   BodyFrame TakeOldest();

@@ -109,7 +109,7 @@ bool IsShippedForest(const ModelFiles& files) {
 
 std::shared_ptr<const recon::PosturePrior> LoadPrior(const ModelFiles& files,
                                                      std::string_view method) {
-  const MethodInfo& info = recon::MethodNamed(method);
+  const MethodInfo& info = recon::RequireMethod(method);
   const bool by_database = files.prior.empty() && IsRead(info.database, files.database);
   if (!info.prior || files.prior == kWithout || by_database) return nullptr;
   return std::make_shared<recon::PosturePrior>(
@@ -118,7 +118,7 @@ std::shared_ptr<const recon::PosturePrior> LoadPrior(const ModelFiles& files,
 
 std::shared_ptr<const recon::PostureDatabase> LoadDatabase(const ModelFiles& files,
                                                            std::string_view method) {
-  if (!IsRead(recon::MethodNamed(method).database, files.database)) return nullptr;
+  if (!IsRead(recon::RequireMethod(method).database, files.database)) return nullptr;
   return std::make_shared<recon::PostureDatabase>(
       recon::PostureDatabase::Load(NamedOrShipped(files.database, kDatabase)));
 }
@@ -126,7 +126,7 @@ std::shared_ptr<const recon::PostureDatabase> LoadDatabase(const ModelFiles& fil
 ModelSet ModelSet::Shipped(std::string_view method) { return Load({}, method); }
 
 ModelSet ModelSet::Load(const ModelFiles& files, std::string_view method) {
-  const MethodInfo& info = recon::MethodNamed(method);
+  const MethodInfo& info = recon::RequireMethod(method);
   ModelSet set;
   const auto forest = NamedOrShipped(files.forest, kForest);
   set.refinement = LoadRefinement(files, info);  // before the forest: see ReturnFreedMemory
@@ -144,7 +144,7 @@ ModelSet ModelSet::Load(const ModelFiles& files, std::string_view method) {
   return set;
 }
 
-ModelSet FromCeiling(const ModelSet& models) {
+ModelSet LoadCeilingModels(const ModelSet& models) {
   ModelSet set = models;
   set.ceiling_file.clear();
   set.from_ceiling = true;

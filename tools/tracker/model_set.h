@@ -22,8 +22,8 @@ namespace ossa::tracker {
 /// files and to the method; or "none", do without. README.md says which command makes which file.
 struct ModelFiles {
   std::string forest;      // .ossa; "": the shipped one
-  std::string refinement;  // .ossalook; "": the shipped one of the shipped forest, for methods that
-                           // start from refined joints
+  std::string refinement;  // .ossarefine; "": the shipped one of the shipped forest, for methods
+                           // that start from refined joints
   std::string surface;     // .ossasurface; "": the shipped one
   std::string learned;     // .ossagp; "": what is known of the errors that the shipped forest and a
                            // refinement leave, for methods that take a correction
@@ -55,7 +55,7 @@ struct ModelSet {
 
 /// The set for a camera under the ceiling: its own forest, read now, and nothing that was learned
 /// on the errors of the other one. Throws InputError where the file is missing or damaged.
-ModelSet FromCeiling(const ModelSet& models);
+ModelSet LoadCeilingModels(const ModelSet& models);
 
 /// The prior of `files` alone, for methods that run on skeletons; null where the method reads none.
 /// Throws InputError.
@@ -68,7 +68,7 @@ std::shared_ptr<const recon::PostureDatabase> LoadDatabase(const ModelFiles& fil
 /// A sensor whose errors are known: its name (recon::SkeletonSequence::sensor), whose skeletons
 /// those are, for messages, and the shipped file that takes them off (ShippedFile).
 struct KnownSensor {
-  std::string_view sensor, whose, correction;
+  std::string_view sensor, description, correction;
 };
 /// Null of a sensor that is not known.
 const KnownSensor* FindKnownSensor(std::string_view sensor);

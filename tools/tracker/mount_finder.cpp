@@ -1,8 +1,8 @@
 #include <algorithm>
 #include <vector>
 
+#include "depth/scene/measure_scene.h"
 #include "depth/scene/regions.h"
-#include "depth/scene/scene.h"
 #include "tools/people/propose_candidates.h"
 #include "tools/tracker/mount_finder_internal.h"
 
@@ -11,14 +11,12 @@ namespace {
 
 /// Cells of connected pieces, floor apart, that go on below the image: as whoever stands before a
 /// wall in view of a level camera that sees no floor.
-std::vector<uint8_t> FindCutBelow(const depth::Scene& scene) {
-  constexpr float kLeastPiece_m2 = 0.02F;  // a hand; by hand
-  constexpr double kMargin = 0.03;         // share of the image's height: rims are blind; by hand
+std::vector<uint8_t> FindCutBelow(const depth::Scene& scene, const MountOptions& options) {
   const depth::PointGrid& grid = scene.grid;
-  const int lowest = static_cast<int>((1.0 - kMargin) * grid.height) - 1;
+  const int lowest = static_cast<int>((1.0 - options.rim_share) * grid.height) - 1;
   std::vector<uint8_t> cut(static_cast<size_t>(grid.cells()), 0);
   for (const depth::Region& piece :
-       depth::FindConnectedRegions(grid, scene.surfaces.floor, kLeastPiece_m2)) {
+       depth::FindConnectedRegions(grid, scene.surfaces.floor, options.piece_m2)) {
     const bool is_cut = std::any_of(piece.cells.begin(), piece.cells.end(),
                                     [&](int cell) { return cell / grid.width >= lowest; });
     for (const int cell : piece.cells) cut[static_cast<size_t>(cell)] = is_cut ? 1 : 0;
@@ -29,22 +27,20 @@ std::vector<uint8_t> FindCutBelow(const depth::Scene& scene) {
 }  // namespace
 
 bool MountFinder::IsDue(const BodyFrame& tracked) {
-  constexpr double kEvery_s = 1.0;  // by hand: a look costs some milliseconds
   if (tracked.floor) is_level_ = true;
   const double since_s = tracked.time_s - looked_s_;
-  if (is_level_ || (since_s >= 0 && since_s < kEvery_s)) return false;
+  if (is_level_ || (since_s >= 0 && since_s < options_.every_s)) return false;
   looked_s_ = tracked.time_s;
   return true;
 }
 
 bool MountFinder::Confirm(bool looks_down) {
-  constexpr int kAgreeing = 3;  // looks; by hand, as of UprightFinder
   agreeing_ = looks_down ? agreeing_ + 1 : 0;
-  return ++looks_ == 1 ? looks_down : agreeing_ >= kAgreeing;
+  return ++looks_ == 1 ? looks_down : agreeing_ >= options_.agreeing;
 }
 
-bool MayBeFromAbove(const depth::DepthFrame& frame, const people::PeopleOptions& above) {
-  constexpr double kLeastFloor = 0.25;  // share of what is measured; by hand on real stills
+bool MayBeFromAbove(const depth::DepthFrame& frame, const people::PeopleOptions& above,
+                    const MountOptions& options) {
   depth::SceneState nothing;
   const depth::Scene scene = depth::MeasureScene(frame, nothing, above.scene);
   if (!scene.floor) return false;
@@ -53,10 +49,10 @@ bool MayBeFromAbove(const depth::DepthFrame& frame, const people::PeopleOptions&
     valid += scene.grid.valid(cell) ? 1 : 0;
     floor += scene.surfaces.floor[static_cast<size_t>(cell)] != 0 ? 1 : 0;
   }
-  if (floor < kLeastFloor * valid) return false;
+  if (floor < options.floor_share * valid) return false;
   const auto proposed =
       people::ProposeCandidates(frame, scene, {}, above.association.reidentify, above.candidates);
-  const std::vector<uint8_t> cut_below = FindCutBelow(scene);
+  const std::vector<uint8_t> cut_below = FindCutBelow(scene, options);
   return std::any_of(proposed.candidates.begin(), proposed.candidates.end(),
                      [&](const people::Candidate& candidate) {
                        return candidate.has_head &&

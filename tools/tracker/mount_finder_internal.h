@@ -5,6 +5,19 @@
 
 namespace ossa::tracker {
 
+/// What tells a camera under the ceiling. Constants: shares, or as said; by hand on the dev stills
+/// of `ossa experiment real` and on rendered people, level and from above
+/// (tests/tools/tracker/mount_test.cpp).
+struct MountOptions {
+  double every_s = 1.0;       // between looks, > 0: one costs some milliseconds
+  int agreeing = 3;           // looks in a row, > 0, as of UprightOptions
+  double sure = 0.8;          // score, [0, 1]: real level stills reach 0.7
+  float min_head_m = 1.0F;    // anthropometry: over the floor, of who sits; a wall has lower bumps
+  double floor_share = 0.25;  // of what is measured, [0, 1], that is floor
+  float piece_m2 = 0.02F;     // anthropometry: a hand; smaller pieces say nothing
+  double rim_share = 0.03;    // of the image's height, [0, 1]: a sensor's rims are blind
+};
+
 /// When it is worth finding out whether the camera hangs under the ceiling, and when that is
 /// certain: never again once a floor was seen as level cameras see it, and not in every frame.
 class MountFinder {
@@ -15,7 +28,10 @@ class MountFinder {
   /// later ones only three in a row, for who works before a wall all day is looked at often.
   bool Confirm(bool looks_down);
 
+  const MountOptions& options() const { return options_; }
+
  private:
+  MountOptions options_;
   bool is_level_ = false;
   double looked_s_ = -1e9;
   int looks_ = 0, agreeing_ = 0;
@@ -24,6 +40,7 @@ class MountFinder {
 /// Whether a frame shows, from above, a floor that fills much of it and something with a head that
 /// stands on it and does not go on below the image. Before a level camera a wall is as flat and as
 /// far, but who stands there without a floor in view does go on.
-bool MayBeFromAbove(const depth::DepthFrame& frame, const people::PeopleOptions& above);
+bool MayBeFromAbove(const depth::DepthFrame& frame, const people::PeopleOptions& above,
+                    const MountOptions& options = {});
 
 }  // namespace ossa::tracker

@@ -16,20 +16,21 @@ namespace {
 using recon::kJointCount;
 using recon::TrackingState;
 
-// Neither reconstruction nor mechanics may drag a joint away from where it is seen: tracked joints
-// keep within 2 cm of the image, 6 cm when their reliability is nil. Inferred ones are off by 3 to
-// 12 cm where the forest trusts them by 0.9 to 0 (rendered rooms), and may move by twice that.
-// Joints below them on the limb that are not seen move along, so that the limb keeps its shape.
+// Neither reconstruction nor mechanics may drag a joint away from where it is seen. Joints below it
+// on the limb that are not seen move along, so that the limb keeps its shape.
 recon::Posture HeldToImage(const recon::Posture& posture, const recon::TrackedPosture& observed,
-                           const recon::JointArray<double>& reliability) {
+                           const recon::JointArray<double>& reliability,
+                           const HoldOptions& options) {
   recon::Posture held = posture;
   for (size_t j = 0; j < kJointCount; ++j) {
     if (observed.state[j] != TrackingState::kNotTracked) {
       const Eigen::Vector3d& seen = observed.posture.position_m[j];
       const bool tracked = observed.state[j] == TrackingState::kTracked;
       const double radius_m =
-          tracked ? 0.02 + 0.04 * (1.0 - std::clamp(reliability[j], 0.0, 1.0))
-                  : 0.06 + 0.18 * (1.0 - std::clamp(observed.confidence[j], 0.0, 1.0));
+          tracked ? options.tracked_m +
+                        options.unreliable_m * (1.0 - std::clamp(reliability[j], 0.0, 1.0))
+                  : options.inferred_m +
+                        options.unsure_m * (1.0 - std::clamp(observed.confidence[j], 0.0, 1.0));
       const Eigen::Vector3d off = posture.position_m[j] - seen;
       const double share = off.norm() > radius_m ? radius_m / off.norm() : 1.0;
       held.position_m[j] = seen + off * share;
@@ -44,9 +45,10 @@ recon::Posture HeldToImage(const recon::Posture& posture, const recon::TrackedPo
 // What is not seen is where the camera does not see it. The way there takes some frames, so that a
 // guess that wanders about does not flicker; what is seen is back at once.
 recon::Posture OutOfFreeSpace(recon::Posture posture, const recon::TrackedPosture& observed,
-                              const depth::DepthFrame& frame, Person& person) {
-  constexpr double kWay_s = 0.05;
-  const double share = 1.0 - std::exp(-std::max(0.0, frame.time_s - person.before_s) / kWay_s);
+                              const depth::DepthFrame& frame, const HoldOptions& options,
+                              Person& person) {
+  const double share =
+      1.0 - std::exp(-std::max(0.0, frame.time_s - person.before_s) / options.free_space_s);
   for (size_t j = 0; j < kJointCount; ++j) {
     if (observed.state[j] == TrackingState::kTracked) {
       person.occlusion_offset_m[j].setZero();
@@ -64,12 +66,12 @@ recon::Posture OutOfFreeSpace(recon::Posture posture, const recon::TrackedPostur
 // the lengths again that they had in `whole`; what is not seen moves most.
 recon::Posture WithBonesOf(const recon::Posture& whole, const recon::Posture& moved,
                            const recon::TrackedPosture& observed,
-                           const recon::JointArray<double>& reliability) {
-  constexpr double kUnseen = 0.1, kLeast = 0.2;  // weight
+                           const recon::JointArray<double>& reliability,
+                           const HoldOptions& options) {
   recon::JointWeights weights;
   for (size_t j = 0; j < kJointCount; ++j) {
     const bool seen = observed.state[j] == TrackingState::kTracked;
-    weights[j] = seen ? kLeast + std::clamp(reliability[j], 0.0, 1.0) : kUnseen;
+    weights[j] = seen ? options.least_seen + std::clamp(reliability[j], 0.0, 1.0) : options.unseen;
   }
   return recon::WithBoneLengths(moved, recon::MeasureBoneLengths(whole), weights);
 }
@@ -96,8 +98,7 @@ constexpr double kFollowing_rad_s = 60.0;
 
 // What the method of reconstruction starts from: the joints that the latest stage says. With a
 // body's fit all of them are told, also joints that are not seen.
-recon::TrackedPosture Observed(const Body& body, bool refined) {
-  constexpr double kOfFit = 0.3;  // confidence; by hand, that of a poor guess
+recon::TrackedPosture Observed(const Body& body, bool refined, double fitted_confidence) {
   recon::TrackedPosture seen = body.raw;
   if (body.refined && refined) seen.posture = *body.refined;
   if (!body.fit) return seen;
@@ -105,7 +106,7 @@ recon::TrackedPosture Observed(const Body& body, bool refined) {
   for (size_t j = 0; j < kJointCount; ++j) {
     if (seen.state[j] != TrackingState::kNotTracked) continue;
     seen.state[j] = TrackingState::kInferred;
-    seen.confidence[j] = kOfFit;
+    seen.confidence[j] = fitted_confidence;
   }
   return seen;
 }
@@ -118,7 +119,7 @@ recon::Posture ToPosture(const Body& body) {
   return posture;
 }
 
-recon::JointOrientations HierarchicalOrientationsOf(const Body& body) {
+recon::JointOrientations ComputeHierarchicalOrientations(const Body& body) {
   recon::JointOrientations absolute;
   for (size_t j = 0; j < kJointCount; ++j) absolute[j] = body.joints[j].orientation;
   return recon::ToHierarchical(absolute);
@@ -146,9 +147,9 @@ std::unique_ptr<recon::Reconstructor> MethodFor(int id, const SkeletonOptions& o
 }
 
 void AverageStationary(SkeletonWork& work) {
-  const recon::MethodInfo& method = recon::MethodNamed(work.options.reconstructor.method);
-  work.observed =
-      work.person.stationary.Step(Observed(work.body, method.refined), work.frame.time_s);
+  const recon::MethodInfo& method = recon::RequireMethod(work.options.reconstructor.method);
+  work.observed = work.person.stationary.Step(
+      Observed(work.body, method.refined, work.options.hold.fitted_confidence), work.frame.time_s);
 }
 
 void Reconstruct(SkeletonWork& work) {
@@ -167,14 +168,15 @@ void Reconstruct(SkeletonWork& work) {
 
 void Settle(SkeletonWork& work) {
   const auto& reliability = work.reconstructed.reliability;
-  const recon::Posture held = HeldToImage(work.posture, work.observed, reliability);
+  const recon::Posture held =
+      HeldToImage(work.posture, work.observed, reliability, work.options.hold);
   recon::Posture smoothed =
-      Smooth(OutOfFreeSpace(held, work.observed, work.frame, work.person), work.frame.time_s,
-             work.options.smoothing, work.person.smoothing);
+      Smooth(OutOfFreeSpace(held, work.observed, work.frame, work.options.hold, work.person),
+             work.frame.time_s, work.options.smoothing, work.person.smoothing);
   const SkeletonOptions& options = work.options;
   if (options.physics || options.scene ||
-      recon::MethodNamed(options.reconstructor.method).keeps_bones) {
-    smoothed = WithBonesOf(work.posture, smoothed, work.observed, reliability);
+      recon::RequireMethod(options.reconstructor.method).keeps_bones) {
+    smoothed = WithBonesOf(work.posture, smoothed, work.observed, reliability, options.hold);
   }
   work.posture = smoothed;
 }

@@ -16,6 +16,22 @@
 
 namespace ossa::tracker {
 
+/// How far the skeleton may be from what is seen. Weights, confidences and reliabilities in [0, 1],
+/// lengths and times > 0. Constants: by hand where nothing else is said.
+struct HoldOptions {
+  // Tracked joints keep within so much of the image, and so much more when their reliability is 0.
+  double tracked_m = 0.02, unreliable_m = 0.04;
+  // Inferred ones are off by 3 to 12 cm where the forest trusts them by 0.9 to 0 (measured in
+  // rendered rooms), and may move by twice that.
+  double inferred_m = 0.06, unsure_m = 0.18;
+  double free_space_s = 0.05;  // time constant of the way out of free space, against flicker
+  // Weights with which bones get their lengths again: of joints that are not seen, and the least of
+  // those that are.
+  double unseen = 0.1, least_seen = 0.2;
+  double fitted_confidence = 0.3;  // of joints that only the fitted body knows: of a poor guess
+  double recent_s = 0.2;           // what was seen longer ago says nothing about now
+};
+
 /// What the tracker remembers of one person.
 struct Person {
   int id = 0;
@@ -58,6 +74,7 @@ struct SkeletonOptions {
   bool scene = false;  // people go on into one
   MechanicsBuild mechanics;
   SmoothingOptions smoothing;
+  HoldOptions hold;
   recon::ReconstructorOptions reconstructor;
   std::map<int, recon::BoneLengths> bones_m;  // known ones, by body id
 };

@@ -65,7 +65,7 @@ cv::Mat PartsPanel(const depth::DepthFrame& frame, const BodyFrame& bodies) {
 
 bool Drawable(const Eigen::Vector3d& p) { return p.allFinite() && p.z() > 0.1 && p.norm() < 20; }
 
-cv::Point PixelOf(const depth::Camera& camera, const Eigen::Vector3d& p) {
+cv::Point ProjectToPixel(const depth::Camera& camera, const Eigen::Vector3d& p) {
   const Eigen::Vector2d pixel = depth::Project(camera, p);
   return {static_cast<int>(std::clamp(pixel.x(), -4000.0, 4000.0)),
           static_cast<int>(std::clamp(pixel.y(), -4000.0, 4000.0))};
@@ -82,8 +82,8 @@ void DrawJoints(cv::Mat& panel, const depth::Camera& camera, const recon::Postur
     const auto parent = recon::ParentOf(j);
     if (!shown(j) || !shown(parent)) continue;
     const bool seen = body.joints[j].state == TrackingState::kTracked;
-    cv::line(panel, PixelOf(camera, posture.position_m[parent]),
-             PixelOf(camera, posture.position_m[j]),
+    cv::line(panel, ProjectToPixel(camera, posture.position_m[parent]),
+             ProjectToPixel(camera, posture.position_m[j]),
              seen ? BodyColour(body.id) : cv::Scalar(110, 110, 110), seen ? thick : 1, cv::LINE_AA);
   }
   for (size_t j = 0; j < kJointCount; ++j) {
@@ -94,7 +94,7 @@ void DrawJoints(cv::Mat& panel, const depth::Camera& camera, const recon::Postur
     const bool left = recon::kMirroredJoint[j] > j;
     const cv::Scalar colour = middle ? cv::Scalar(255, 255, 255)
                                      : (left ? cv::Scalar(60, 60, 255) : cv::Scalar(255, 140, 40));
-    cv::circle(panel, PixelOf(camera, posture.position_m[j]), 2 * thick, colour,
+    cv::circle(panel, ProjectToPixel(camera, posture.position_m[j]), 2 * thick, colour,
                seen ? cv::FILLED : 1, cv::LINE_AA);
   }
 }

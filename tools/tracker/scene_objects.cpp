@@ -108,12 +108,12 @@ void Scene::Impl::Put(const SceneObject& object, ScenePlaced& at, const Isometry
   body.position_m = origin * body.position_m;
   body.orientation = turn * body.orientation;
   body.velocity_m_s = turn * body.velocity_m_s;
-  body.turning_rad_s = turn * body.turning_rad_s;
+  body.angular_velocity_rad_s = turn * body.angular_velocity_rad_s;
   if (at.object < 0) {
     at.object = world.AddObject(body);
   } else {
     world.SetPose(at.object, body.position_m, body.orientation);
-    world.SetObjectVelocity(at.object, body.velocity_m_s, body.turning_rad_s);
+    world.SetObjectVelocity(at.object, body.velocity_m_s, body.angular_velocity_rad_s);
   }
   at.put_s = now_s;
 }

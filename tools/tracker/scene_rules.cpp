@@ -106,7 +106,7 @@ void Scene::Impl::Throw(const ThrowRule& rule) {
     }
     if (!thrown_m_s) continue;
     LetAllGo(name, SceneEvent::Kind::kThrown);
-    world.SetObjectVelocity(object, *thrown_m_s, world.ObjectOf(object).turning_rad_s);
+    world.SetObjectVelocity(object, *thrown_m_s, world.ObjectOf(object).angular_velocity_rad_s);
   }
 }
 
@@ -144,7 +144,7 @@ void Scene::Impl::Grab(const GrabRule& rule) {
                      strike.bone == recon::Index(joint);
             });
         const Vector3d arm = *hand.made_m - state.position_m;
-        const Vector3d there_m_s = state.velocity_m_s + state.turning_rad_s.cross(arm);
+        const Vector3d there_m_s = state.velocity_m_s + state.angular_velocity_rad_s.cross(arm);
         const bool is_near = touches || world.DistanceTo(object, *hand.made_m) < rule.near_m;
         if (!is_near || (hand.made_velocity_m_s - there_m_s).norm() > rule.slower_m_s) continue;
         able.push_back({&actor, joint});

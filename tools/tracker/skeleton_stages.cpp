@@ -11,8 +11,6 @@
 namespace ossa::tracker {
 namespace {
 
-constexpr double kRecent_s = 0.2;  // by hand: what was seen longer ago says nothing about now
-
 struct Stage {
   void (*run)(SkeletonWork&);
   double StageTimes::*ms;  // where its time counts
@@ -61,7 +59,8 @@ void ChooseRaw(SkeletonWork& work) {
   context.camera = &work.frame.camera;
   context.expected_m = person.lengths_m;
   context.leg_area_m2 = evidence.leg_area_m2;
-  const bool recent = person.before && work.frame.time_s - person.before_s <= kRecent_s;
+  const bool recent =
+      person.before && work.frame.time_s - person.before_s <= work.options.hold.recent_s;
   context.before = recent ? &*person.before : nullptr;
   work.body.raw =
       ChoosePosture(*work.options.forest, work.options.targets, evidence.proposals, context);

@@ -60,10 +60,10 @@ recon::Posture Smooth(const recon::Posture& raw, double time_s, const SmoothingO
   for (size_t j = 0; j < recon::kJointCount; ++j) {
     const Eigen::Vector3d& p = raw.position_m[j];
     if (options.kind == SmoothingKind::kHolt) {
-      state.holt[j].Change(options.holt);
+      state.holt[j].SetOptions(options.holt);
       result.position_m[j] = state.holt[j].Step(p);
     } else {
-      state.one_euro[j].Change(options.one_euro);
+      state.one_euro[j].SetOptions(options.one_euro);
       result.position_m[j] = state.one_euro[j].Step(p, dt_s);
     }
   }

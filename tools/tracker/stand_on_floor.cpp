@@ -20,7 +20,7 @@ constexpr std::array kLegs = {
     Leg{Joint::kHipRight, Joint::kKneeRight, Joint::kAnkleRight, Joint::kFootRight}};
 
 // Level, to where the body faces; zero where it does not say.
-Vector3d FacingOf(const recon::Posture& posture, const Vector3d& up) {
+Vector3d EstimateFacing(const recon::Posture& posture, const Vector3d& up) {
   const Vector3d left = posture[Joint::kHipLeft] - posture[Joint::kHipRight] +
                         (posture[Joint::kShoulderLeft] - posture[Joint::kShoulderRight]);
   const Vector3d facing = left.cross(up);
@@ -53,7 +53,7 @@ void Stand(const Leg& leg, const Vector3d& up, double height_m, const Vector3d& 
 void StandOnFloor(SkeletonWork& work) {
   if (!work.options.from_above || !work.floor) return;
   const Vector3d up = work.floor->head<3>();
-  const Vector3d facing = FacingOf(work.posture, up);
+  const Vector3d facing = EstimateFacing(work.posture, up);
   const auto is_seen = [&](Joint joint) {
     return work.body.raw.state[recon::Index(joint)] == recon::TrackingState::kTracked;
   };

@@ -23,9 +23,9 @@
 namespace ossa::tracker {
 namespace {
 
-SmoothingOptions SmoothingOf(const TrackerOptions& options) {
+SmoothingOptions ResolveSmoothing(const TrackerOptions& options) {
   if (options.smoothing) return *options.smoothing;
-  return SmoothingPreset(recon::MethodNamed(options.method).smoothing);
+  return SmoothingPreset(recon::RequireMethod(options.method).smoothing);
 }
 
 recon::ReconstructorOptions MethodOptions(const TrackerOptions& options, const ModelSet& models) {
@@ -43,13 +43,13 @@ recon::ReconstructorOptions MethodOptions(const TrackerOptions& options, const M
   return method;
 }
 
-ModelSet ModelsOf(const TrackerOptions& options) {
+ModelSet LoadModels(const TrackerOptions& options) {
   ModelSet models = options.models ? *options.models : ModelSet::Shipped(options.method);
   const bool exchanged = options.mount == Mount::kCeiling && !models.ceiling_file.empty();
-  return exchanged ? FromCeiling(models) : models;
+  return exchanged ? LoadCeilingModels(models) : models;
 }
 
-const forest::ForestModel& ForestOf(const ModelSet& models) {
+const forest::ForestModel& RequireForest(const ModelSet& models) {
   if (models.forest) return *models.forest;
   throw std::invalid_argument("TrackerOptions.models.forest = null, must be a forest");
 }
@@ -125,10 +125,10 @@ struct Tracker::Impl {
 
   explicit Impl(const TrackerOptions& o)
       : options(o),
-        models(ModelsOf(o)),
-        model(ForestOf(models)),
+        models(LoadModels(o)),
+        model(RequireForest(models)),
         targets(people::FindJointTargets(model, models.forest_file)),
-        lagged(recon::LagOptions::Of(o.lag, recon::MethodNamed(o.method).keeps_bones)) {
+        lagged(recon::LagOptions::Of(o.lag, recon::RequireMethod(o.method).keeps_bones)) {
     skeleton.forest = &model;
     skeleton.targets = targets;
     skeleton.refinement = models.refinement.get();
@@ -140,7 +140,7 @@ struct Tracker::Impl {
     skeleton.scene = scene.has_value();
     skeleton.physics = o.physics && !skeleton.scene;
     skeleton.mechanics = o.mechanics;
-    skeleton.smoothing = SmoothingOf(o);
+    skeleton.smoothing = ResolveSmoothing(o);
     skeleton.bones_m = o.bones_m;
     skeleton.reconstructor = MethodOptions(o, models);
     recon::MakeReconstructor(skeleton.reconstructor);  // says now what is wrong with the options
@@ -182,17 +182,16 @@ struct Tracker::Impl {
 // and a head high over it, and the forest for ceilings is sure of a body. What the level one says
 // of such frames counts for nothing: of half of the real ones it is sure, too, and wrong.
 bool Tracker::Impl::ShowsCeilingView(const depth::DepthFrame& frame, const BodyFrame& tracked) {
-  constexpr double kSure = 0.8;         // score, [0, 1]; by hand: real level stills reach 0.7
-  constexpr float kLeastHead_m = 1.0F;  // anthropometry: of who sits; a wall has lower bumps
   if (options.mount != Mount::kAuto || models.ceiling_file.empty()) return false;
   if (!mount_finder.IsDue(tracked)) return false;
   people::PeopleOptions from_above = people::PeopleOptionsFromAbove();
-  from_above.candidates.overhead->min_head_m = kLeastHead_m;
-  if (!MayBeFromAbove(frame, from_above)) return mount_finder.Confirm(false);
-  if (!above) above = FromCeiling(models);
+  const MountOptions& mount = mount_finder.options();
+  from_above.candidates.overhead->min_head_m = mount.min_head_m;
+  if (!MayBeFromAbove(frame, from_above, mount)) return mount_finder.Confirm(false);
+  if (!above) above = LoadCeilingModels(models);
   const auto above_targets = people::FindJointTargets(*above->forest, above->forest_file);
   return mount_finder.Confirm(ScorePeople(frame, {*above->forest, above_targets}, from_above) >=
-                              kSure);
+                              mount.sure);
 }
 
 void Tracker::Impl::FindUpright(const depth::DepthFrame& frame) {
@@ -375,19 +374,19 @@ BodyFrame Tracker::Impl::TrackTurned(const depth::DepthFrame& frame) {
 BodyFrame Tracker::TrackAsMounted(const depth::DepthFrame& frame) {
   BodyFrame result = impl_->TrackTurned(frame);
   if (!impl_->ShowsCeilingView(frame, result)) return result;
-  HangUnderCeiling();
+  SwitchToCeiling();
   return impl_->TrackTurned(frame);
 }
 
 // Everything anew but for what the application asked for meanwhile.
-void Tracker::HangUnderCeiling() {
+void Tracker::SwitchToCeiling() {
   TrackerOptions options = impl_->options;
   options.models = impl_->above;
   options.mount = Mount::kCeiling;
-  auto hung = std::make_unique<Impl>(options);
-  hung->lagged = impl_->lagged;
-  hung->TakeWishes(*impl_);
-  level_ = std::exchange(impl_, std::move(hung));
+  auto under_ceiling = std::make_unique<Impl>(options);
+  under_ceiling->lagged = impl_->lagged;
+  under_ceiling->TakeWishes(*impl_);
+  level_ = std::exchange(impl_, std::move(under_ceiling));
 }
 
 Mount Tracker::mount() const { return impl_->IsUnderCeiling() ? Mount::kCeiling : Mount::kLevel; }
@@ -399,15 +398,15 @@ BodyFrame Tracker::Track(const depth::DepthFrame& frame) {
 }
 
 // Smoothed first: what touches in the world is not moved apart.
-std::optional<BodyFrame> Tracker::TrackLate(const depth::DepthFrame& frame) {
+std::optional<BodyFrame> Tracker::TrackWithLag(const depth::DepthFrame& frame) {
   BodyFrame tracked = TrackAsMounted(frame);
   auto late = impl_->lagged.Add(std::move(tracked));
   if (!late) return std::nullopt;
   return impl_->Play(std::move(*late));
 }
 
-std::optional<BodyFrame> Tracker::TakeHeld() {
-  auto held = impl_->lagged.TakeHeld();
+std::optional<BodyFrame> Tracker::DrainLag() {
+  auto held = impl_->lagged.DrainLag();
   if (!held) return std::nullopt;
   return impl_->Play(std::move(*held));
 }
@@ -436,10 +435,10 @@ int64_t Tracker::Run(depth::FrameSource& source,
     if (read.status == depth::ReadStatus::kEnd) break;
     if (read.status != depth::ReadStatus::kFrame) continue;
     dropped += read.dropped;
-    const auto bodies = TrackLate(read.frame);
+    const auto bodies = TrackWithLag(read.frame);
     if (bodies && !on_bodies(*bodies)) return dropped;
   }
-  while (const auto held = TakeHeld()) {
+  while (const auto held = DrainLag()) {
     if (!on_bodies(*held)) break;
   }
   return dropped;

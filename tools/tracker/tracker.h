@@ -49,8 +49,8 @@ enum class BodyState {
 struct JointEstimate {
   Eigen::Vector3d position_m = Eigen::Vector3d::Zero();
   /// Camera from bone: the bone that ends in this joint has its y axis along the way from the
-  /// parent, as the Kinect SDK's absolute orientations. HierarchicalOrientationsOf gives the SDK's
-  /// other kind.
+  /// parent, as the Kinect SDK's absolute orientations. ComputeHierarchicalOrientations gives the
+  /// SDK's other kind.
   Eigen::Quaterniond orientation = Eigen::Quaterniond::Identity();
   /// Tracked: seen in the image. Inferred: guessed from what is seen around it. Not tracked: the
   /// position is what is plausible for the rest of the body.
@@ -104,10 +104,10 @@ struct Body {
 recon::Posture ToPosture(const Body& body);
 
 /// Each bone's turn against its parent's, as the Kinect SDK's hierarchical orientations.
-recon::JointOrientations HierarchicalOrientationsOf(const Body& body);
+recon::JointOrientations ComputeHierarchicalOrientations(const Body& body);
 
 /// Milliseconds spent on one frame, several people's added up; on several threads `total` is less
-/// than the sum. Looks at furniture count with the stages.
+/// than the sum. What is spent on things that turn out to be nobody counts with the stages.
 struct StageTimes {
   double segment = 0, classify = 0, propose = 0, reconstruct = 0, physics = 0, total = 0;
   double fit = 0;  // of the surface, within `reconstruct`
@@ -169,7 +169,7 @@ struct TrackerOptions {
   /// itself gets no second one, which would only lag.
   std::optional<SmoothingOptions> smoothing;
   TrackingMode mode = TrackingMode::kStanding;
-  /// Of TrackLate and Run: bodies so many frames later and steadier, 0 (live) to 2.
+  /// Of TrackWithLag and Run: bodies so many frames later and steadier, 0 (live) to 2.
   int lag = 0;
   /// Of a camera that lies on its side or hangs upside down. All results stay in its own space.
   Turn turn = Turn::kNone;
@@ -209,10 +209,10 @@ class Tracker {
 
   /// The same with TrackerOptions::lag: one frame in, the bodies of the frame so many before out,
   /// their joints smoothed by what came after; nothing until so many came.
-  std::optional<BodyFrame> TrackLate(const depth::DepthFrame& frame);
-  /// After TrackLate, at the end of a stream: the bodies that are still held, the oldest first;
+  std::optional<BodyFrame> TrackWithLag(const depth::DepthFrame& frame);
+  /// After TrackWithLag, at the end of a stream: the bodies that are still held, the oldest first;
   /// nothing when all are out.
-  std::optional<BodyFrame> TakeHeld();
+  std::optional<BodyFrame> DrainLag();
 
   /// Reads a source to its end, or until the callback returns false. With TrackerOptions::lag the
   /// callback gets bodies late, and at the end those that are still held. `idle` is asked about ten
@@ -222,7 +222,7 @@ class Tracker {
 
   /// With Turn::kAuto: looks through the beginning of a recording, up to 20 s, for which way up its
   /// camera is, so that its first frames are tracked the right way, too. Follows nobody.
-  /// `idle` is asked after every frame: false ends the look.
+  /// `idle` is asked after every frame: false ends the search.
   void FindUpright(depth::FrameSource& source, const std::function<bool()>& idle = {});
   /// By how many quarters, clockwise, frames are turned now.
   int quarter_turns() const;
@@ -245,7 +245,7 @@ class Tracker {
 
  private:
   BodyFrame TrackAsMounted(const depth::DepthFrame& frame);
-  void HangUnderCeiling();
+  void SwitchToCeiling();
 
   struct Impl;
   std::unique_ptr<Impl> impl_;

@@ -10,13 +10,6 @@
 namespace ossa::tracker {
 namespace {
 
-// Constants: by hand, between people upright and the same clips turned (tests/tools/tracker/
-// upright_test.cpp).
-constexpr double kSure = 0.8;      // score, [0, 1], of somebody who is there
-constexpr double kClearly = 0.15;  // by which another turn must score more than the present one
-constexpr double kEvery_s = 1.0;   // between looks while nobody is followed
-constexpr int kAgreeing = 3;       // looks
-
 // The borders of an image, clockwise from above.
 constexpr std::array<unsigned, 4> kBorders = {kClippedTop, kClippedRight, kClippedBottom,
                                               kClippedLeft};
@@ -83,20 +76,23 @@ void TurnBack(BodyFrame& frame, int quarters) {
 int UprightFinder::BestTurn(const depth::DepthFrame& frame, const ScoreOfTurn& score) const {
   std::array<double, 4> scores{};
   scores[static_cast<size_t>(quarters_)] = score(frame, quarters_);
-  if (scores[static_cast<size_t>(quarters_)] >= kSure) return quarters_;
+  if (scores[static_cast<size_t>(quarters_)] >= options_.sure) return quarters_;
   for (int turn = 0; turn < 4; ++turn) {
     if (turn != quarters_) scores[static_cast<size_t>(turn)] = score(frame, turn);
   }
   const auto best =
       static_cast<int>(std::max_element(scores.begin(), scores.end()) - scores.begin());
   const double most = scores[static_cast<size_t>(best)];
-  return most >= kSure && most > scores[static_cast<size_t>(quarters_)] + kClearly ? best : -1;
+  return most >= options_.sure && most > scores[static_cast<size_t>(quarters_)] + options_.clearly
+             ? best
+             : -1;
 }
 
 bool UprightFinder::Look(const depth::DepthFrame& frame, const ScoreOfTurn& score) {
   const double since_s = frame.time_s - looked_s_, alone_s = frame.time_s - followed_s_;
   const bool in_doubt = agreeing_ > 0 || !std::isfinite(since_s);
-  if ((alone_s >= 0 && alone_s < kEvery_s) || (!in_doubt && since_s >= 0 && since_s < kEvery_s)) {
+  if ((alone_s >= 0 && alone_s < options_.every_s) ||
+      (!in_doubt && since_s >= 0 && since_s < options_.every_s)) {
     return false;
   }
   looked_s_ = frame.time_s;
@@ -107,7 +103,7 @@ bool UprightFinder::Look(const depth::DepthFrame& frame, const ScoreOfTurn& scor
     sure_ = true;
     agreeing_ = 0;
   }
-  if (agreeing_ < kAgreeing) return false;
+  if (agreeing_ < options_.agreeing) return false;
   agreeing_ = 0;
   sure_ = true;
   return std::exchange(quarters_, best) != best;

@@ -15,6 +15,15 @@ void TurnBack(BodyFrame& frame, int quarters);
 /// 0: nobody is found.
 using ScoreOfTurn = std::function<double(const depth::DepthFrame& frame, int quarters)>;
 
+/// Constants: by hand, between people upright and the same clips turned
+/// (tests/tools/tracker/upright_test.cpp).
+struct UprightOptions {
+  double sure = 0.8;      // score, [0, 1], of somebody who is there
+  double clearly = 0.15;  // score by which another turn must beat the present one, [0, 1]
+  double every_s = 1.0;   // between looks while nobody is followed, > 0
+  int agreeing = 3;       // looks, > 0, that must agree
+};
+
 /// Finds out how far a camera's images must be turned for people to stand in them. As long as
 /// somebody is followed nothing is asked and nothing changes. Else, about once a second, one frame
 /// is looked at in all four ways; three looks that agree turn the images. An upright camera wins
@@ -33,6 +42,7 @@ class UprightFinder {
   int BestTurn(const depth::DepthFrame& frame, const ScoreOfTurn& score) const;
 
   static constexpr double kNever = -std::numeric_limits<double>::infinity();
+  UprightOptions options_;
   int quarters_ = 0;
   bool sure_ = false;
   int candidate_ = 0;  // the turn that the last looks were for

@@ -6,7 +6,7 @@
 
 namespace ossa::depth {
 
-OniVideoMode HalfOf(OniVideoMode mode) {
+OniVideoMode HalveMode(OniVideoMode mode) {
   mode.resolutionX /= 2;
   mode.resolutionY /= 2;
   return mode;
@@ -75,7 +75,7 @@ OniStatus DepthStream::SetVideoMode(const OniVideoMode& mode) {
   OniVideoMode whole = mode_;
   whole.resolutionX = camera_.width;
   whole.resolutionY = camera_.height;
-  const bool half = is(HalfOf(whole));
+  const bool half = is(HalveMode(whole));
   if (!offers_half_ || (!half && !is(whole))) return ONI_STATUS_NOT_SUPPORTED;
   if (delivered_) return ONI_STATUS_OUT_OF_FLOW;
   mode_ = mode;

@@ -11,7 +11,7 @@
 namespace ossa::depth {
 
 /// The mode of every second pixel of every second row.
-OniVideoMode HalfOf(OniVideoMode mode);
+OniVideoMode HalveMode(OniVideoMode mode);
 
 class DepthStream : public oni::driver::StreamBase {
  public:

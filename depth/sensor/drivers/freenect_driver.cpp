@@ -174,7 +174,7 @@ class FreenectDriver final : public oni::driver::DriverBase {
     freenect_select_subdevices(context_, static_cast<freenect_device_flags>(
                                              FREENECT_DEVICE_MOTOR | FREENECT_DEVICE_CAMERA));
     for (const std::string& serial : known_ = SerialNumbers(context_)) {
-      const OniDeviceInfo info = InfoOf(serial);
+      const OniDeviceInfo info = MakeDeviceInfo(serial);
       deviceConnected(&info);
     }
     events_ = std::make_unique<EventQueue>();
@@ -186,7 +186,7 @@ class FreenectDriver final : public oni::driver::DriverBase {
     const std::lock_guard lock(library_);
     const std::vector<std::string> serials = SerialNumbers(context_);
     for (size_t i = 0; i < serials.size(); ++i) {
-      if (InfoOf(serials[i]).uri != std::string(uri)) continue;
+      if (MakeDeviceInfo(serials[i]).uri != std::string(uri)) continue;
       auto camera = std::make_unique<FreenectCamera>(context_, library_, static_cast<int>(i),
                                                      ModeFromEnvironment());
       if (!camera->is_open()) break;
@@ -214,7 +214,7 @@ class FreenectDriver final : public oni::driver::DriverBase {
   }
 
  private:
-  static OniDeviceInfo InfoOf(const std::string& serial) {
+  static OniDeviceInfo MakeDeviceInfo(const std::string& serial) {
     OniDeviceInfo info{};
     CopyName("freenect://" + serial, info.uri);
     CopyName("Microsoft", info.vendor);
@@ -258,7 +258,7 @@ class FreenectDriver final : public oni::driver::DriverBase {
   }
 
   void AnnounceLost(const std::string& serial) {
-    events_->Now([this, info = InfoOf(serial)] { deviceDisconnected(&info); });
+    events_->Now([this, info = MakeDeviceInfo(serial)] { deviceDisconnected(&info); });
   }
 
   void FindDevices() {
@@ -276,7 +276,7 @@ class FreenectDriver final : public oni::driver::DriverBase {
     }
     for (const std::string& serial : now) {
       if (has(before, serial)) continue;
-      events_->Now([this, info = InfoOf(serial)] { deviceConnected(&info); });
+      events_->Now([this, info = MakeDeviceInfo(serial)] { deviceConnected(&info); });
     }
   }
 

@@ -198,7 +198,7 @@ class VirtualDevice final : public oni::driver::DeviceBase {
   VirtualDevice(VirtualCamera& camera, UnplugHandler& driver) : camera_(camera), driver_(driver) {
     modes_[0] = {ONI_PIXEL_FORMAT_DEPTH_1_MM, camera.camera().width, camera.camera().height,
                  camera.fps()};
-    modes_[1] = HalfOf(modes_[0]);
+    modes_[1] = HalveMode(modes_[0]);
     sensor_ = {ONI_SENSOR_DEPTH, IsEven(camera.camera()) ? 2 : 1, modes_.data()};
   }
 

@@ -55,7 +55,7 @@ std::string FirstDevice() {
 }
 
 // Our own drivers know the exact camera, others at least the field of view.
-Camera CameraOf(const openni::VideoStream& stream, int width, int height) {
+Camera ReadCamera(const openni::VideoStream& stream, int width, int height) {
   std::array<double, 6> exact{};
   int size = sizeof(exact);
   if (stream.isPropertySupported(kCameraProperty) &&
@@ -158,8 +158,8 @@ class DeviceSource final : public FrameSource {
     const int height = mode.getResolutionY();
     period_s_ = 1.0 / std::max(mode.getFps(), 1);
     whole_ = options_.camera ? CameraForSize(*options_.camera, width, height)
-                             : CameraOf(stream_, width, height);
-    camera_ = CameraOfWindow(whole_, WindowOf(stream_, mirrored_));
+                             : ReadCamera(stream_, width, height);
+    camera_ = CropToWindow(whole_, ReadWindow(stream_, mirrored_));
     return stream_.start() == openni::STATUS_OK;
   }
 
@@ -187,8 +187,8 @@ class DeviceSource final : public FrameSource {
     }
     ReadResult result = Result(ReadStatus::kFrame);
     try {
-      result.frame.depth_mm = MillimetresOf(frame, mirrored_);
-      result.frame.camera = CameraOfWindow(whole_, WindowOf(frame, mirrored_));
+      result.frame.depth_mm = ReadMillimetres(frame, mirrored_);
+      result.frame.camera = CropToWindow(whole_, ReadWindow(frame, mirrored_));
     } catch (const InputError& error) {
       throw InputError("openni:" + wanted_uri_ + ": " + error.what());
     }

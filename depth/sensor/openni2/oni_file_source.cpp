@@ -34,8 +34,8 @@ class OniFileSource final : public FrameSource {
     }
     Take(reinterpret_cast<char*>(&hello) + sizeof(hello.magic),
          sizeof(hello) - sizeof(hello.magic));
-    whole_ = WholeCameraOf(hello, options);
-    camera_ = CameraOfWindow(whole_, hello.window);
+    whole_ = ReadWholeCamera(hello, options);
+    camera_ = CropToWindow(whole_, hello.window);
     if (hello.frame_count >= 0) {
       frame_count_ = hello.frame_count;
     } else if (options.note) {
@@ -66,7 +66,7 @@ class OniFileSource final : public FrameSource {
   std::optional<int64_t> frame_count() const override { return frame_count_; }
 
  private:
-  Camera WholeCameraOf(const OniPipeHello& hello, const SourceOptions& options) const {
+  Camera ReadWholeCamera(const OniPipeHello& hello, const SourceOptions& options) const {
     const int width = hello.window.whole_width, height = hello.window.whole_height;
     if (!hello.window.IsSane()) {
       throw InputError(name_ + ": video mode: expected a size, found " + std::to_string(width) +
@@ -81,7 +81,7 @@ class OniFileSource final : public FrameSource {
     const ImageWindow& window = message.window;
     if (!window.IsSane()) FailHung();
     ReadResult result{.status = ReadStatus::kFrame, .frame = {}};
-    result.frame.camera = CameraOfWindow(whole_, window);
+    result.frame.camera = CropToWindow(whole_, window);
     result.frame.depth_mm.resize(static_cast<size_t>(window.width) *
                                  static_cast<size_t>(window.height));
     Take(result.frame.depth_mm.data(), result.frame.depth_mm.size() * sizeof(uint16_t));

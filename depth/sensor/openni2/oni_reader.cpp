@@ -24,33 +24,23 @@ namespace {
 constexpr int kFrameTimeout_ms = 3000;
 constexpr int kEndTimeout_ms = 1500;
 
-void WriteAll(const void* data, size_t size) {
-  const char* at = static_cast<const char*>(data);
-  while (size > 0) {
-    const ssize_t written = write(STDOUT_FILENO, at, size);
-    if (written <= 0) _exit(0);  // nobody reads any more
-    at += written;
-    size -= static_cast<size_t>(written);
-  }
-}
-
 void SendError(const std::string& text) {
   OniPipeMessage message;
   message.kind = OniPipeKind::kError;
   message.size = static_cast<uint32_t>(text.size());
-  WriteAll(&message, sizeof(message));
-  WriteAll(text.data(), text.size());
+  WriteToParent(&message, sizeof(message));
+  WriteToParent(text.data(), text.size());
 }
 
 void SendFrame(const openni::VideoFrameRef& frame, bool mirrored, int64_t index) {
-  const auto depth_mm = MillimetresOf(frame, mirrored);
+  const auto depth_mm = ReadMillimetres(frame, mirrored);
   OniPipeMessage message;
   message.kind = OniPipeKind::kFrame;
-  message.window = WindowOf(frame, mirrored);
+  message.window = ReadWindow(frame, mirrored);
   message.index = index;
   message.timestamp_us = frame.getTimestamp();
-  WriteAll(&message, sizeof(message));
-  WriteAll(depth_mm.data(), depth_mm.size() * sizeof(uint16_t));
+  WriteToParent(&message, sizeof(message));
+  WriteToParent(depth_mm.data(), depth_mm.size() * sizeof(uint16_t));
 }
 
 // As many frames as the file says, or until none comes when it does not say (a recorder was
@@ -78,7 +68,7 @@ void SendFrames(openni::VideoStream& stream, int frame_count) {
       throw InputError("frame " + std::to_string(i) + ": " + error.what());
     }
   }
-  WriteAll(&static_cast<const OniPipeMessage&>(OniPipeMessage{}), sizeof(OniPipeMessage));
+  WriteToParent(&static_cast<const OniPipeMessage&>(OniPipeMessage{}), sizeof(OniPipeMessage));
 }
 
 // OpenNI2 crashes on names that are not ASCII (it takes bytes for signed numbers and indexes a
@@ -105,12 +95,12 @@ void Play(const char* path) {
   playback->setSpeed(-1);  // lock step: any other speed drops frames
   // Kept in 32 bits, -1 (written as all ones) when the recorder was killed.
   const int frame_count = playback->getNumberOfFrames(stream);
-  const OniPipeHello hello{OniPipeHello::kMagic, WindowOf(stream, stream.getMirroringEnabled()),
+  const OniPipeHello hello{OniPipeHello::kMagic, ReadWindow(stream, stream.getMirroringEnabled()),
                            stream.getHorizontalFieldOfView(), stream.getVerticalFieldOfView(),
                            frame_count};
-  WriteAll(&hello, sizeof(hello));
+  WriteToParent(&hello, sizeof(hello));
   if (frame_count == 0) {
-    WriteAll(&static_cast<const OniPipeMessage&>(OniPipeMessage{}), sizeof(OniPipeMessage));
+    WriteToParent(&static_cast<const OniPipeMessage&>(OniPipeMessage{}), sizeof(OniPipeMessage));
     return;
   }
   if (stream.start() != openni::STATUS_OK) throw InputError("cannot be played: " + OpenNiError());

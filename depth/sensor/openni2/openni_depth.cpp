@@ -55,7 +55,7 @@ std::string OpenNiError() {
   return text.empty() ? "no reason given" : text;
 }
 
-std::vector<uint16_t> MillimetresOf(const openni::VideoFrameRef& frame, bool mirrored) {
+std::vector<uint16_t> ReadMillimetres(const openni::VideoFrameRef& frame, bool mirrored) {
   const auto format = frame.getVideoMode().getPixelFormat();
   const bool tenths = format == openni::PIXEL_FORMAT_DEPTH_100_UM;
   if (format != openni::PIXEL_FORMAT_DEPTH_1_MM && !tenths) {
@@ -84,7 +84,7 @@ std::vector<uint16_t> MillimetresOf(const openni::VideoFrameRef& frame, bool mir
   return depth_mm;
 }
 
-ImageWindow WindowOf(const openni::VideoFrameRef& frame, bool mirrored) {
+ImageWindow ReadWindow(const openni::VideoFrameRef& frame, bool mirrored) {
   const int width = frame.getWidth(), height = frame.getHeight();
   if (!frame.getCroppingEnabled()) return WholeImage(width, height);
   const openni::VideoMode mode = frame.getVideoMode();
@@ -105,7 +105,7 @@ ImageWindow WindowOf(const openni::VideoFrameRef& frame, bool mirrored) {
   return TurnedBack(window, mirrored);
 }
 
-ImageWindow WindowOf(const openni::VideoStream& stream, bool mirrored) {
+ImageWindow ReadWindow(const openni::VideoStream& stream, bool mirrored) {
   const openni::VideoMode mode = stream.getVideoMode();
   ImageWindow window = WholeImage(mode.getResolutionX(), mode.getResolutionY());
   const bool cropped = stream.getCropping(&window.left, &window.top, &window.width, &window.height);

@@ -17,14 +17,14 @@ std::string OpenNiError();
 
 /// Millimetres of a depth frame, whole or cropped: 100-µm depths are rounded, mirrored images
 /// turned back. Throws InputError for pixel formats without depths.
-std::vector<uint16_t> MillimetresOf(const openni::VideoFrameRef& frame, bool mirrored);
+std::vector<uint16_t> ReadMillimetres(const openni::VideoFrameRef& frame, bool mirrored);
 
-/// What MillimetresOf's result shows of the image turned back. Throws InputError for a window that
-/// is not within the image.
-ImageWindow WindowOf(const openni::VideoFrameRef& frame, bool mirrored);
+/// What ReadMillimetres's result shows of the image turned back. Throws InputError for a window
+/// that is not within the image.
+ImageWindow ReadWindow(const openni::VideoFrameRef& frame, bool mirrored);
 
 /// The same as the stream has it for its frames to come; the whole image where it says nonsense.
-ImageWindow WindowOf(const openni::VideoStream& stream, bool mirrored);
+ImageWindow ReadWindow(const openni::VideoStream& stream, bool mirrored);
 
 /// The pinhole camera of a field of view, centre of the image.
 Camera CameraFromFieldOfView(int width, int height, double horizontal_rad, double vertical_rad);

@@ -33,7 +33,7 @@ std::vector<BagTopic> ListTopics(const rosbag::Bag& bag) {
   return found;
 }
 
-Bytes BytesOf(const rosbag::MessageInstance& message) {
+Bytes ReadBytes(const rosbag::MessageInstance& message) {
   Bytes bytes(message.size());
   ros::serialization::OStream stream(bytes.data(), static_cast<uint32_t>(bytes.size()));
   message.write(stream);
@@ -41,18 +41,18 @@ Bytes BytesOf(const rosbag::MessageInstance& message) {
 }
 
 // The first message of a topic; empty where there is none.
-Bytes FirstOf(const rosbag::Bag& bag, const std::string& topic) {
+Bytes ReadFirst(const rosbag::Bag& bag, const std::string& topic) {
   if (topic.empty()) return {};
   rosbag::View view(bag, rosbag::TopicQuery(topic));
-  return view.begin() == view.end() ? Bytes{} : BytesOf(*view.begin());
+  return view.begin() == view.end() ? Bytes{} : ReadBytes(*view.begin());
 }
 
 std::vector<std::string> DepthTopics(const rosbag::Bag& bag, const std::vector<BagTopic>& topics) {
   std::vector<std::string> depth;
   for (const BagTopic& topic : topics) {
     if (topic.type != "sensor_msgs/Image") continue;
-    const Bytes first = FirstOf(bag, topic.name);
-    if (!first.empty() && DepthEncodingOf(ParseRosImage(first)) != RosDepth::kNone) {
+    const Bytes first = ReadFirst(bag, topic.name);
+    if (!first.empty() && ParseDepthEncoding(ParseRosImage(first)) != RosDepth::kNone) {
       depth.push_back(topic.name);
     }
   }
@@ -60,19 +60,19 @@ std::vector<std::string> DepthTopics(const rosbag::Bag& bag, const std::vector<B
 }
 
 // The RealSense viewer's: metres to the unit; 0 where nothing states it.
-double UnitOf(const rosbag::Bag& bag, const std::string& topic) {
-  const Bytes unit = FirstOf(bag, topic);
+double ReadUnit(const rosbag::Bag& bag, const std::string& topic) {
+  const Bytes unit = ReadFirst(bag, topic);
   const float metres = unit.empty() ? 0.0F : ParseRosFloat(unit);
   return metres > 0 && std::isfinite(metres) ? metres : 0.0;
 }
 
-ReaderHello HelloOf(const rosbag::Bag& bag, const BagChoice& choice, const RosImage& first) {
+ReaderHello MakeHello(const rosbag::Bag& bag, const BagChoice& choice, const RosImage& first) {
   constexpr uint32_t kTooLarge = kLargestImageSide + 1;
   ReaderHello hello;
   hello.camera.width = static_cast<int>(std::min(first.width, kTooLarge));
   hello.camera.height = static_cast<int>(std::min(first.height, kTooLarge));
   CheckCamera(hello.camera, choice.image);
-  const Bytes info = FirstOf(bag, choice.camera_info);
+  const Bytes info = ReadFirst(bag, choice.camera_info);
   const auto k = info.empty() ? std::array<double, 9>{} : ParseRosIntrinsics(info);
   hello.is_camera_stated = k[0] != 0;
   if (hello.is_camera_stated) {
@@ -88,16 +88,16 @@ void Read(const std::string& path, const std::string& asked) {
   const std::vector<BagTopic> topics = ListTopics(bag);
   const BagChoice choice = ChooseDepthTopic(DepthTopics(bag, topics), topics, asked);
   if (!choice.note.empty()) SendText(ReaderKind::kNote, choice.note);
-  const Bytes first_bytes = FirstOf(bag, choice.image);
+  const Bytes first_bytes = ReadFirst(bag, choice.image);
   const RosImage first = ParseRosImage(first_bytes);
-  const double unit_m = UnitOf(bag, choice.unit);
-  ReaderHello hello = HelloOf(bag, choice, first);
-  hello.is_unit_stated = unit_m > 0 || DepthEncodingOf(first) == RosDepth::kMetres;
+  const double unit_m = ReadUnit(bag, choice.unit);
+  ReaderHello hello = MakeHello(bag, choice, first);
+  hello.is_unit_stated = unit_m > 0 || ParseDepthEncoding(first) == RosDepth::kMetres;
   rosbag::View view(bag, rosbag::TopicQuery(choice.image));
   hello.frame_count = view.size();
   SendHello(hello);
   for (const rosbag::MessageInstance& message : view) {
-    const Bytes bytes = BytesOf(message);
+    const Bytes bytes = ReadBytes(message);
     const RosImage image = ParseRosImage(bytes);
     if (image.width != first.width || image.height != first.height ||
         image.encoding != first.encoding) {

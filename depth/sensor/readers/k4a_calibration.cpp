@@ -30,7 +30,7 @@ constexpr std::array<Mode, 4> kModes = {{{320, 288, 512, 96, 90},
   throw InputError(std::string(kName) + ": expected " + expected);
 }
 
-json DepthCameraOf(const json& calibration) {
+json FindDepthCamera(const json& calibration) {
   const json::json_pointer place("/CalibrationInformation/Cameras");
   if (!calibration.contains(place) || !calibration.at(place).is_array()) {
     Fail("CalibrationInformation with Cameras");
@@ -65,7 +65,7 @@ LensCamera ReadK4aCalibration(const std::string& text, int width, int height) {
   constexpr double kUsualRadius = 1.7;  // x/z and y/z, a ratio; where none is stated, by the SDK
   const json calibration = json::parse(text, nullptr, false);
   if (calibration.is_discarded()) Fail("JSON");
-  const json camera = DepthCameraOf(calibration);
+  const json camera = FindDepthCamera(calibration);
   const auto mode = std::find_if(kModes.begin(), kModes.end(), [&](const Mode& m) {
     return m.width == width && m.height == height;
   });

@@ -35,7 +35,7 @@ std::optional<Number> ReadNumber(std::istream& in) {
 
 }  // namespace
 
-std::optional<std::string> WarningOfCut(std::istream& in) {
+std::optional<std::string> CheckForCut(std::istream& in) {
   const auto head = ReadNumber(in), head_size = ReadNumber(in);
   if (!head || !head_size || head->raw != kEbmlHead) return std::nullopt;
   if (head_size->value > kLargestHead) return std::nullopt;

@@ -9,6 +9,6 @@ namespace ossa::depth {
 
 /// What to warn of: that the file ends before its one segment does, or that its recorder never
 /// wrote how long the segment is. Nothing where it is whole, or where it is no Matroska.
-std::optional<std::string> WarningOfCut(std::istream& in);
+std::optional<std::string> CheckForCut(std::istream& in);
 
 }  // namespace ossa::depth

@@ -146,7 +146,7 @@ void Read(const std::string& path) {
   av_log_set_level(AV_LOG_QUIET);
   const auto file = Open(path);
   std::ifstream bytes(path, std::ios::binary);
-  if (const auto warning = WarningOfCut(bytes)) SendText(ReaderKind::kWarning, *warning);
+  if (const auto warning = CheckForCut(bytes)) SendText(ReaderKind::kWarning, *warning);
   AVStream& track = FindDepthTrack(*file);
   for (unsigned i = 0; i < file->nb_streams; ++i) {
     if (file->streams[i] != &track) file->streams[i]->discard = AVDISCARD_ALL;

@@ -9,26 +9,12 @@
 #include "depth/sensor/readers/reader_pipe_internal.h"
 
 namespace ossa::depth {
-namespace {
-
-void WriteAll(const void* data, size_t size) {
-  const char* at = static_cast<const char*>(data);
-  while (size > 0) {
-    const ssize_t written = write(STDOUT_FILENO, at, size);
-    if (written <= 0) _exit(0);  // nobody reads any more
-    at += written;
-    size -= static_cast<size_t>(written);
-  }
-}
-
-}  // namespace
-
 void Send(ReaderKind kind, std::span<const std::byte> contents) {
   ReaderMessage message;
   message.kind = kind;
   message.size = contents.size();
-  WriteAll(&message, sizeof(message));
-  WriteAll(contents.data(), contents.size());
+  WriteToParent(&message, sizeof(message));
+  WriteToParent(contents.data(), contents.size());
 }
 
 void SendText(ReaderKind kind, const std::string& text) {
@@ -43,9 +29,9 @@ void SendFrame(const ReaderFrame& frame, std::span<const uint16_t> depth) {
   ReaderMessage message;
   message.kind = ReaderKind::kFrame;
   message.size = sizeof(frame) + depth.size_bytes();
-  WriteAll(&message, sizeof(message));
-  WriteAll(&frame, sizeof(frame));
-  WriteAll(depth.data(), depth.size_bytes());
+  WriteToParent(&message, sizeof(message));
+  WriteToParent(&frame, sizeof(frame));
+  WriteToParent(depth.data(), depth.size_bytes());
 }
 
 void RunReader(const std::function<void()>& read) {

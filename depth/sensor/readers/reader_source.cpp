@@ -23,7 +23,7 @@ struct Reader {
   const char* library;  // Debian's package
 };
 
-fs::path ProgramOf(const Reader& reader, const std::string& name) {
+fs::path FindProgram(const Reader& reader, const std::string& name) {
   const fs::path program = OpenNiRuntimeFolder() / "reader" / reader.program;
   if (fs::exists(program)) return program;
   throw InputError(
@@ -39,7 +39,7 @@ class ReaderSource final : public FrameSource {
       : reader_(reader),
         name_(name),
         options_(options),
-        child_(ProgramOf(reader, name), arguments) {
+        child_(FindProgram(reader, name), arguments) {
     const ReaderMessage message = TakeMessage(ReaderKind::kHello, sizeof(ReaderHello));
     if (message.kind == ReaderKind::kEnd) {
       throw InputError(name_ + ": expected depth images, found none");

@@ -107,14 +107,14 @@ std::array<double, 9> ParseRosIntrinsics(std::span<const uint8_t> bytes) {
 
 float ParseRosFloat(std::span<const uint8_t> bytes) { return Message(bytes).Value<float>(); }
 
-RosDepth DepthEncodingOf(const RosImage& image) {
+RosDepth ParseDepthEncoding(const RosImage& image) {
   if (image.encoding == "16UC1" || image.encoding == "mono16") return RosDepth::k16Bits;
   return image.encoding == "32FC1" ? RosDepth::kMetres : RosDepth::kNone;
 }
 
 std::vector<uint16_t> DecodeDepths(const RosImage& image, double metres_per_unit) {
   std::vector<uint16_t> depths;
-  if (DepthEncodingOf(image) == RosDepth::kMetres) {
+  if (ParseDepthEncoding(image) == RosDepth::kMetres) {
     for (const float metres : DecodeSamples<float>(image)) depths.push_back(Millimetres(metres));
     return depths;
   }

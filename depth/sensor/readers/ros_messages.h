@@ -33,7 +33,7 @@ enum class RosDepth {
   k16Bits,  // 16UC1 or mono16
   kMetres,  // 32FC1
 };
-RosDepth DepthEncodingOf(const RosImage& image);
+RosDepth ParseDepthEncoding(const RosImage& image);
 
 /// Depths, row-major, height × width; of metres millimetres, and of 16 bits if metres_per_unit > 0,
 /// else the numbers themselves. Throws InputError for an image that holds too few bytes.

@@ -34,7 +34,7 @@ class Best : public Reconstructor {
   explicit Best(const ReconstructorOptions& options)
       : options_(options.best),
         known_bones_m_(options.bones_m),
-        failures_(options.best.constants.slack_m),
+        failures_(options.best.constants.failure_slack_m),
         completion_(options) {
     LinearFilter learned_filter;
     if (const auto learned = LoadLearned(options)) {
@@ -43,7 +43,7 @@ class Best : public Reconstructor {
       if (options_.correct) {
         correction_ =
             Correction(learned->correction, options_.window ? learned->window : WindowCorrection(),
-                       options_.constants.of_posture);
+                       options_.constants.posture_share);
       }
     }
     filter_ = PostureFilter(options_.constants, learned_filter);
@@ -82,7 +82,7 @@ class Best : public Reconstructor {
 
   void Reset() override {
     person_.Reset();
-    failures_ = GrossFailures(options_.constants.slack_m);
+    failures_ = GrossFailures(options_.constants.failure_slack_m);
     completion_.Reset();
     filter_.Restart();
     correction_.Reset();
@@ -94,7 +94,7 @@ class Best : public Reconstructor {
  private:
   void MeasureAnew() {
     size_ = BodySize({.as_measured = true});
-    size_.Expect(proportions_, options_.constants.expected);
+    size_.Expect(proportions_, options_.constants.expected_share);
     if (known_bones_m_) size_.Know(*known_bones_m_);
   }
 
@@ -147,8 +147,9 @@ class Best : public Reconstructor {
 
   ReconstructedPosture WithBones(const Posture& posture, const FrameState& frame) const {
     if (!options_.bones) return {posture, frame.reliability};
-    return {ImposeBones(posture, size_.lengths_m(), frame, sensor_, options_.constants.outwards),
-            frame.reliability};
+    return {
+        ImposeBones(posture, size_.lengths_m(), frame, sensor_, options_.constants.limb_firmness),
+        frame.reliability};
   }
 
   /// What is thought of the frame before, now that this one is known.

@@ -5,7 +5,7 @@
 namespace ossa::recon {
 namespace {
 
-Posture ScaledOf(const Posture& in_camera, const FrameState& frame) {
+Posture ToStandardSize(const Posture& in_camera, const FrameState& frame) {
   return Scaled(Normalised(in_camera, frame.placement), 1.0 / frame.scale);
 }
 
@@ -21,7 +21,7 @@ void Correction::Observe(const Posture& in_camera, const FrameState& frame, doub
         dt_s / averaged_s_ * (now.position_m[i] - mean_offset_.position_m[i]);
   }
   if (!of_window_.empty())
-    history_.Add(frame.time_s, CorrectionFeature(ScaledOf(in_camera, frame)));
+    history_.Add(frame.time_s, CorrectionFeature(ToStandardSize(in_camera, frame)));
 }
 
 Posture Correction::Apply(const Posture& in_camera, const FrameState& frame) const {
@@ -39,7 +39,7 @@ Posture Correction::Apply(const Posture& in_camera, const FrameState& frame) con
 }
 
 Posture Correction::Predict(const Posture& in_camera, const FrameState& frame) const {
-  const Posture scaled = ScaledOf(in_camera, frame);
+  const Posture scaled = ToStandardSize(in_camera, frame);
   const Posture by_posture = learned_.Offsets(scaled);
   if (of_window_.empty()) return by_posture;
   Posture mean = of_window_.Offsets(history_.WindowAt(frame.time_s, CorrectionFeature(scaled)));

@@ -4,6 +4,8 @@
 
 #include "recon/methods/best/gross_failures_internal.h"
 
+#include "depth/base/statistics.h"
+
 namespace ossa::recon {
 namespace {
 
@@ -32,8 +34,7 @@ std::optional<double> MedianDistance(const TrackedPosture& observed, const Postu
     }
   }
   if (d.size() < 4) return std::nullopt;
-  std::nth_element(d.begin(), d.begin() + static_cast<ptrdiff_t>(d.size() / 2), d.end());
-  return d[d.size() / 2];
+  return Median(std::move(d));
 }
 
 }  // namespace
@@ -125,8 +126,7 @@ bool GrossFailures::SameBones(const TrackedPosture& observed) const {
     off.push_back(std::abs(now[i] / before[i] - 1.0));
   }
   if (off.size() < 6) return false;
-  std::nth_element(off.begin(), off.begin() + static_cast<ptrdiff_t>(off.size() / 2), off.end());
-  return off[off.size() / 2] < options_.same_bone;
+  return Median(std::move(off)) < options_.same_bone;
 }
 
 /// What else speaks against a joint that jumped: its bone has not the length it had, or it lies on

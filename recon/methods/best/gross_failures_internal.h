@@ -13,14 +13,15 @@ namespace ossa::recon {
 /// recordings whose jumps and snapped hands `ossa experiment sdk` counts (KinectGait, KERAAL,
 /// Microsoft's).
 struct GrossFailureOptions {
-  double slack_m = BestConstants().slack_m;  // sensors are off by as much without failing, > 0
-  double patience_s = 0.1;                   // a jump that stays as long is believed after all
-  double own_patience_s = 0.04;              // ... of a body with the person's own bones
-  double sides_patience_s = 0.6;  // sides exchanged for longer: the person turned, unseen
-  double body_slack_m = 0.1;      // beside slack_m, of a whole body
-  double body_speed = 5.0;        // m/s of a whole body
-  double cut_speed = 4.5;         // m/s of half of all joints: rather a cut than a move
-  double limb_speed = 8.0;        // m/s of a hand: a thrower's
+  double slack_m =
+      BestConstants().failure_slack_m;  // sensors are off by as much without failing, > 0
+  double patience_s = 0.1;              // a jump that stays as long is believed after all
+  double own_patience_s = 0.04;         // ... of a body with the person's own bones
+  double sides_patience_s = 0.6;        // sides exchanged for longer: the person turned, unseen
+  double body_slack_m = 0.1;            // beside slack_m, of a whole body
+  double body_speed = 5.0;              // m/s of a whole body
+  double cut_speed = 4.5;               // m/s of half of all joints: rather a cut than a move
+  double limb_speed = 8.0;              // m/s of a hand: a thrower's
   double mirrored_ratio = 0.4;  // sides are exchanged if the mirrored body is nearer by this factor
   double jump_trust = 0.05;     // weight of a joint that just jumped, [0, 1]
   double wrong_bone = 0.35;     // share of a bone by which no measurement errs
@@ -31,7 +32,9 @@ struct GrossFailureOptions {
 /// Stage 1 of `best`. Gross failures, told from motion: what no body does between two frames.
 class GrossFailures {
  public:
-  explicit GrossFailures(double slack_m = BestConstants().slack_m) { options_.slack_m = slack_m; }
+  explicit GrossFailures(double slack_m = BestConstants().failure_slack_m) {
+    options_.slack_m = slack_m;
+  }
   /// Exchanges left and right back where the sensor exchanged them. Returns the trust in the whole
   /// person: 1 usually, 0.5 sides exchanged, 0 another body or a jump.
   /// Also judges single joints: see joint_trust.

@@ -5,22 +5,16 @@
 namespace ossa::recon {
 namespace {
 
-// By hand. Weights in [0, 1]: what is trusted no more is a guess, and as good as not seen (a
-// metre).
-constexpr double kGuess = 0.5;
-constexpr double kLeastTrust = 0.02;
-// By hand: where no hip is seen, the root's place is a guess from the joints that are.
-constexpr double kGuessedRoot_m = 0.3;
-
-/// Share of the joints the sensor tells of that are guesses.
-double ShareOfGuesses(const PreparedPosture& prepared, const JointWeights& trust) {
-  double told = 0.0, guesses = 0.0;
+/// Share of the joints present that are guesses.
+double ComputeGuessShare(const PreparedPosture& prepared, const JointWeights& trust,
+                         const PriorCompletionOptions& options) {
+  double present = 0.0, guesses = 0.0;
   for (size_t i = 0; i < kJointCount; ++i) {
     if (prepared.present[i] == 0.0) continue;
-    told += 1.0;
-    guesses += trust[i] <= kGuess ? 1.0 : 0.0;
+    present += 1.0;
+    guesses += trust[i] <= options.guess ? 1.0 : 0.0;
   }
-  return told > 0.0 ? guesses / told : 0.0;
+  return present > 0.0 ? guesses / present : 0.0;
 }
 
 }  // namespace
@@ -40,16 +34,16 @@ Posture PriorCompletion::Step(const PreparedPosture& prepared, const JointWeight
     doubting_ = true;
   }
   observation.seen = Normalised(prepared.in_camera, prepared.placement);
-  const double share_of_guesses = ShareOfGuesses(prepared, trust);
+  const double share_of_guesses = ComputeGuessShare(prepared, trust, options_);
   observation.guesses = share_of_guesses > 0.0;
   const double base_sigma_m = BaseSigma_m(share_of_guesses);
   for (size_t i = 0; i < kJointCount; ++i) {
-    const bool seen = prepared.present[i] > 0.0 && trust[i] > kLeastTrust;
+    const bool seen = prepared.present[i] > 0.0 && trust[i] > options_.least_trust;
     observation.sd_m[i] = seen ? base_sigma_m / std::min(1.0, trust[i]) : 0.0;
   }
   observation.root_sd_m = prepared.present[0] + prepared.interpolated[0] > 0.0
-                              ? BaseSigma_m(0.0) / std::clamp(trust[0], kLeastTrust, 1.0)
-                              : kGuessedRoot_m;
+                              ? BaseSigma_m(0.0) / std::clamp(trust[0], options_.least_trust, 1.0)
+                              : options_.guessed_root_m;
   return Placed(filter_.Step(prepared.dt_s, observation), prepared.placement);
 }
 

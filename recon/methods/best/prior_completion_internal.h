@@ -7,6 +7,14 @@
 
 namespace ossa::recon {
 
+/// What counts as seen. Constants: weights in [0, 1], by hand.
+struct PriorCompletionOptions {
+  double guess = 0.5;           // weight: what is trusted no more is a guess of the sensor's
+  double least_trust = 0.02;    // weight: what is trusted no more is as good as not seen (a metre)
+  double guessed_root_m = 0.3;  // standard deviation of the root's place where no hip is seen:
+                                // anthropometry, about half a trunk, from the joints that are
+};
+
 /// Completes the postures of one person by a PosturePrior, for as long as something is in doubt.
 class PriorCompletion {
  public:
@@ -21,6 +29,7 @@ class PriorCompletion {
   void Forget() { doubting_ = false; }
 
  private:
+  PriorCompletionOptions options_;
   PriorFilter filter_;
   bool doubting_ = false;
 };

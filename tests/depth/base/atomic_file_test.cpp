@@ -90,7 +90,7 @@ TEST(AtomicFile, WhatTheKilledLeftIsKnownAndStays) {
   std::filesystem::create_symlink("out.oni", folder / "out.oni.partial-link");
   const AtomicFile alive(folder / "out.oni");
   const std::vector<std::filesystem::path> expected = {left, old};
-  EXPECT_EQ(AtomicFile::LeftoversOf(folder / "out.oni"), expected);
+  EXPECT_EQ(AtomicFile::FindLeftovers(folder / "out.oni"), expected);
   AtomicFile::CheckWritable(folder / "out.oni");
   AtomicFile(folder / "out.oni").Commit();
   EXPECT_EQ(TextOf(left), "half");

@@ -19,7 +19,7 @@ class EverySensor : public testing::TestWithParam<SensorKind> {};
 
 TEST_P(EverySensor, ReadsAWallNearlyEverywhereAndWithoutBias) {
   const Camera camera = KinectV1Camera(320, 240);
-  const auto image = Simulate(ModelOf(GetParam()), WallAt(camera, 2.0F), camera, camera, 5);
+  const auto image = Simulate(MakeSensorModel(GetParam()), WallAt(camera, 2.0F), camera, camera, 5);
   EXPECT_GT(ReadShare(image), 0.9);
   // A millimetre of rounding, or of the 12 mm steps' own bias.
   EXPECT_NEAR(SpreadOf(image, 320, 240).mean_mm, 2000.0, 1.5);
@@ -28,7 +28,7 @@ TEST_P(EverySensor, ReadsAWallNearlyEverywhereAndWithoutBias) {
 TEST_P(EverySensor, NamesTheSurfaceThatIsNearestToWhatItMeasures) {
   const Camera camera = KinectV1Camera(320, 240);
   const RenderedImage step = StepAt(camera, 1.5F, 3.0F);
-  const auto image = Simulate(ModelOf(GetParam()), step, camera, camera, 9);
+  const auto image = Simulate(MakeSensorModel(GetParam()), step, camera, camera, 9);
   int wrong = 0, read = 0;
   for (size_t i = 0; i < image.source.data.size(); ++i) {
     ASSERT_EQ(image.depth_mm.data[i] == 0, image.source.data[i] < 0);
@@ -46,12 +46,12 @@ TEST_P(EverySensor, NamesTheSurfaceThatIsNearestToWhatItMeasures) {
 TEST_P(EverySensor, DependsOnTheSeedAlone) {
   const Camera camera = KinectV1Camera(160, 120);
   const RenderedImage step = StepAt(camera, 1.5F, 3.0F);
-  const auto once = Simulate(ModelOf(GetParam()), step, camera, camera, 1);
+  const auto once = Simulate(MakeSensorModel(GetParam()), step, camera, camera, 1);
   EXPECT_EQ(once.depth_mm.data,
-            Simulate(ModelOf(GetParam()), step, camera, camera, 1).depth_mm.data);
+            Simulate(MakeSensorModel(GetParam()), step, camera, camera, 1).depth_mm.data);
   if (GetParam() == SensorKind::kNone) return;
   EXPECT_NE(once.depth_mm.data,
-            Simulate(ModelOf(GetParam()), step, camera, camera, 2).depth_mm.data);
+            Simulate(MakeSensorModel(GetParam()), step, camera, camera, 2).depth_mm.data);
 }
 
 INSTANTIATE_TEST_SUITE_P(Kinds, EverySensor,

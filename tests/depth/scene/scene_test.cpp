@@ -1,5 +1,5 @@
 // The geometry of a frame: floor, flat pieces, furniture, whether the scene is the same as before.
-#include "depth/scene/scene.h"
+#include "depth/scene/measure_scene.h"
 
 #include <gtest/gtest.h>
 

@@ -20,10 +20,10 @@ TEST(NaturalOrder, OfEqualNumbersOneComesFirst) {
   EXPECT_NE(NaturalLess("01", "1"), NaturalLess("1", "01"));
 }
 
-TEST(FamilyOfName, IsWhatIsLeftWithoutNumbers) {
-  EXPECT_EQ(FamilyOfName("Depth_0012"), "depth_");
-  EXPECT_EQ(FamilyOfName("frame-000001.depth"), "frame-.depth");
-  EXPECT_EQ(FamilyOfName("1305031102.175304"), "");
+TEST(StripNumbers, IsWhatIsLeftWithoutNumbers) {
+  EXPECT_EQ(StripNumbers("Depth_0012"), "depth_");
+  EXPECT_EQ(StripNumbers("frame-000001.depth"), "frame-.depth");
+  EXPECT_EQ(StripNumbers("1305031102.175304"), "");
 }
 
 struct Case {
@@ -36,7 +36,7 @@ struct Case {
 class NamesOfFrames : public testing::TestWithParam<Case> {};
 
 TEST_P(NamesOfFrames, SayWhatTheyCan) {
-  const NamedTimes times = TimesOfNames(GetParam().names);
+  const NamedTimes times = ReadTimesFromNames(GetParam().names);
   EXPECT_EQ(times.kind, GetParam().kind);
   if (times.kind == Kind::kTimes) {
     EXPECT_NEAR(times.times_s.back(), GetParam().last_s, 1e-6);

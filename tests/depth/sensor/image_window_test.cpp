@@ -6,15 +6,15 @@ namespace ossa::depth {
 namespace {
 
 TEST(ImageWindow, OfTheWholeImageHasItsCameraScaled) {
-  EXPECT_EQ(CameraOfWindow(KinectV1Camera(640, 480), {320, 240, 0, 0, 320, 240}),
+  EXPECT_EQ(CropToWindow(KinectV1Camera(640, 480), {320, 240, 0, 0, 320, 240}),
             KinectV1Camera(320, 240));
 }
 
 TEST(ImageWindow, OfAPartKeepsTheFocalLength) {
-  EXPECT_EQ(CameraOfWindow(KinectV1Camera(640, 480), {640, 480, 320, 100, 160, 120}),
+  EXPECT_EQ(CropToWindow(KinectV1Camera(640, 480), {640, 480, 320, 100, 160, 120}),
             (Camera{160, 120, 575, 575, 0, 140}));
   const Camera stated{0, 0, 525, 526, 319.5, 239.5};  // --camera is of the whole image, too
-  EXPECT_EQ(CameraOfWindow(stated, {640, 480, 320, 240, 320, 240}),
+  EXPECT_EQ(CropToWindow(stated, {640, 480, 320, 240, 320, 240}),
             (Camera{320, 240, 525, 526, -0.5, -0.5}));
 }
 

@@ -20,7 +20,7 @@ TEST(RosImage, ItsRowsBecomeDepths) {
       RosImageBytes("16UC1", 2, 2, {1, 2, 0xEE, 3, 4, 0xEE}, 6);  // a pixel of padding
   const RosImage image = ParseRosImage(bytes);
   EXPECT_DOUBLE_EQ(image.time_s, 100.25);
-  EXPECT_EQ(DepthEncodingOf(image), RosDepth::k16Bits);
+  EXPECT_EQ(ParseDepthEncoding(image), RosDepth::k16Bits);
   EXPECT_EQ(DecodeDepths(image, 0), (std::vector<uint16_t>{1, 2, 3, 4}));
   EXPECT_EQ(DecodeDepths(image, 0.01), (std::vector<uint16_t>{10, 20, 30, 40}));
 }

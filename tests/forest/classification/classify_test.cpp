@@ -26,11 +26,11 @@ Classification ClassifyFigure(const TrainingImage& image, const ClassifyOptions&
 
 TEST(Classify, GivesTheSameBitsOnEveryPath) {
   const BallFigures figures(20, 31);
-  for (const double fine_m : {0.0, 0.03}) {
+  for (const double sample_spacing_m : {0.0, 0.03}) {
     for (size_t i = 0; i < figures.size(); ++i) {
       const TrainingImage image = figures.Read(i);
       ClassifyOptions options;
-      options.fine_m = fine_m;
+      options.sample_spacing_m = sample_spacing_m;
       const Classification best = ClassifyFigure(image, options);
       options.instructions = InstructionSet::kScalar;
       options.threads = 3;
@@ -63,9 +63,9 @@ TEST(Classify, LetsFewPixelsSpeakForTheirNeighbours) {
   for (size_t i = 0; i < figures.size(); ++i) {
     const TrainingImage image = figures.Read(i);
     ClassifyOptions options;
-    options.fine_m = 0.0;
+    options.sample_spacing_m = 0.0;
     const Classification each = ClassifyFigure(image, options);
-    options.fine_m = 0.02;
+    options.sample_spacing_m = 0.02;
     const Classification few = ClassifyFigure(image, options);
     for (size_t p = 0; p < each.label.size(); ++p) same += each.label[p] == few.label[p] ? 1 : 0;
     all += static_cast<int64_t>(each.label.size());

@@ -95,7 +95,7 @@ TEST(RecordingNames, MayFollowAPathWithAHash) {
   EXPECT_EQ(FramesAt(odd + "/sel.tar#truth#x#y"), 4u);
   EXPECT_EQ(FramesAt(odd + "/walk#1.jsonl"), 2u) << "a file as it stands";
   EXPECT_EQ(FramesAt(odd + "#walk#1"), 2u);
-  EXPECT_EQ(SkeletonFileOf(odd + "/sel.tar#11#truth"), odd + "/sel.tar");
+  EXPECT_EQ(FindSkeletonFile(odd + "/sel.tar#11#truth"), odd + "/sel.tar");
   test::ExpectRefused([&] { ReadSkeletons(odd + "/gone.tar#11"); },
                       odd + "/gone.tar#11: no such file or folder");
 }

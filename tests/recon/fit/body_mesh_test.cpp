@@ -26,7 +26,7 @@ const BodyMesh& Shipped() {
 
 TEST(BodyMesh, ShippedOneIsASmallFileWithTheShippedSurface) {
   EXPECT_LT(std::filesystem::file_size(ShippedPath()), 300'000U);
-  EXPECT_TRUE(BodyMesh::IsOne(ShippedPath()));
+  EXPECT_TRUE(BodyMesh::IsFile(ShippedPath()));
   EXPECT_GT(Shipped().vertices.size(), 1500U);
   EXPECT_GT(Shipped().triangles.size(), 3000U);
 }
@@ -67,7 +67,7 @@ TEST(BodyMesh, LiesOnTheSurfaceInAnyPoseAndShape) {
   SurfacePose pose;
   pose.shape[0] = 1.5;
   pose.pelvis_m = {0.2, 0.1, 2.0};
-  pose.parent_from_segment[size_t(Segment::kLeftForearm)] = RotationOf(Vector3d(0.0, -1.2, 0.0));
+  pose.parent_from_segment[size_t(Segment::kLeftForearm)] = ToRotation(Vector3d(0.0, -1.2, 0.0));
   PosedSurface posed(Surface());
   posed.PoseSegments(pose);
   posed.PosePoints();

@@ -33,7 +33,7 @@ TEST(BodySurface, IsReadAsWritten) {
   ASSERT_EQ(read.points.size(), Surface().points.size());
   EXPECT_EQ(read.points.back().place.by_shape_m, Surface().points.back().place.by_shape_m);
   EXPECT_EQ(read.turn_mean, Surface().turn_mean);
-  EXPECT_TRUE(BodySurface::IsOne(path));
+  EXPECT_TRUE(BodySurface::IsFile(path));
   std::filesystem::remove(path);
 }
 

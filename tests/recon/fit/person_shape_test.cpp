@@ -76,7 +76,7 @@ TEST(PersonFile, IsReadAsWrittenAndGoesOn) {
   const auto path = TemporaryFile();
   const PersonShape person = ToldBy(SomeShape(), 3);
   person.Save(path, Surface());
-  EXPECT_TRUE(PersonShape::IsOne(path));
+  EXPECT_TRUE(PersonShape::IsFile(path));
   const PersonShape read = PersonShape::Load(path, Surface());
   EXPECT_EQ(read.shape, person.shape);
   EXPECT_EQ(ToldBy(SomeShape(), 2, read).shape, ToldBy(SomeShape(), 2, person).shape);

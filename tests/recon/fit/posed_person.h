@@ -30,7 +30,7 @@ inline SurfacePose RandomPose(unsigned seed) {
   pose.pelvis_m = {0.1 * normal(random), 0.0, 2.5};
   for (size_t s = 1; s < kSegmentCount; ++s) {
     const Eigen::Vector3d noise(normal(random), normal(random), normal(random));
-    pose.parent_from_segment[s] = RotationOf(Surface().turn_mean[s] + 0.15 * noise);
+    pose.parent_from_segment[s] = ToRotation(Surface().turn_mean[s] + 0.15 * noise);
   }
   for (double& value : pose.shape) value = 0.5 * normal(random);
   return pose;

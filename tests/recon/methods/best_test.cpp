@@ -112,7 +112,8 @@ TEST(Best, FollowsAGuessLittleThatNoDepthImageWasHeldAgainst) {
   EXPECT_LT((made.posture.position_m[hand] - At(t).position_m[hand]).norm(), 0.03);
 }
 
-// What is behind a wall nobody sees, but for a close look, which was learned to say where it is.
+// What is behind a wall nobody sees, but for cascaded refinement, which was learned to say where it
+// is.
 TEST(Best, BelievesACloseLookBehindWhatHides) {
   depth::DepthFrame wall;
   wall.camera = depth::KinectV1Camera(320, 240);

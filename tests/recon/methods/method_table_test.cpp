@@ -16,12 +16,12 @@ TEST_P(MethodRow, IsFoundByItsName) {
   const MethodInfo* row = FindMethod(GetParam());
   ASSERT_NE(row, nullptr);
   EXPECT_EQ(row->name, GetParam());
-  EXPECT_EQ(&MethodNamed(GetParam()), row);
+  EXPECT_EQ(&RequireMethod(GetParam()), row);
 }
 
 // With nothing to read a method is made unless its row says that it needs something.
 TEST_P(MethodRow, SaysWhatTheMethodCannotBeMadeWithout) {
-  const MethodInfo& row = MethodNamed(GetParam());
+  const MethodInfo& row = RequireMethod(GetParam());
   ReconstructorOptions options;
   options.method = GetParam();
   if (row.database == Reads::kRequired || row.learned == Reads::kRequired) {
@@ -64,7 +64,7 @@ TEST(MethodTable, HasEachNameOnceAndTheDefault) {
 TEST(MethodTable, NamesAllMethodsWhereOneIsUnknown) {
   EXPECT_EQ(FindMethod("treacle"), nullptr);
   try {
-    MethodNamed("treacle");
+    RequireMethod("treacle");
     FAIL();
   } catch (const InputError& error) {
     const std::string message = error.what();

@@ -54,7 +54,7 @@ PoseQuery QueryFor(const Posture& posture) {
 PoseSelection ByBruteForce(const PoseGraphSearch& search, const PoseQuery& query) {
   std::vector<int> all(static_cast<size_t>(Large()->size()));
   std::iota(all.begin(), all.end(), 0);
-  return search.BestOf(all, query, kBest);
+  return search.SelectBest(all, query, kBest);
 }
 
 // Movements that the graph does not hold. What the way down misses is little beside what the best
@@ -67,7 +67,8 @@ TEST(PoseGraphSearch, FindsFromAboveNearlyWhatBruteForceFinds) {
   for (const PostureClip& clip : SwingingClips(3, 99)) {
     for (size_t f = 0; f < clip.postures.size(); f += 50, ++queries) {
       const PoseQuery query = QueryFor(clip.postures[f]);
-      const auto brute = ByBruteForce(search, query), found = search.BestOfAll(query, kBest, {});
+      const auto brute = ByBruteForce(search, query),
+                 found = search.SelectBestOfAll(query, kBest, {});
       ASSERT_EQ(found.nodes.size(), kBest);
       best_m += brute.similarity_m, found_m += found.similarity_m;
       same += brute.nodes.front() == found.nodes.front();
@@ -83,7 +84,7 @@ TEST(PoseGraphSearch, NeverForgetsWhereItStarts) {
   const int node = 4321;
   PoseQuery query = QueryFor(Large()->posture(node));
   query.observed = Large()->postures().col(node);
-  const auto found = search.BestOfAll(query, kBest, std::array{node});
+  const auto found = search.SelectBestOfAll(query, kBest, std::array{node});
   EXPECT_EQ(found.nodes.front(), node);
   EXPECT_EQ(found.similarity_m, 0.0);
 }
@@ -95,7 +96,8 @@ TEST(PoseGraphSearch, OfASmallGraphLooksAtEveryNode) {
   std::vector<int> all(static_cast<size_t>(small->size()));
   std::iota(all.begin(), all.end(), 0);
   const PoseQuery query = QueryFor(test::Gesture(1.0, 0.2, 0.9));
-  EXPECT_EQ(search.BestOfAll(query, kBest, {}).nodes, search.BestOf(all, query, kBest).nodes);
+  EXPECT_EQ(search.SelectBestOfAll(query, kBest, {}).nodes,
+            search.SelectBest(all, query, kBest).nodes);
 }
 
 }  // namespace

@@ -118,7 +118,7 @@ TEST(MeasureBones, OfARecordingAreKeptFromItsFirstFrameOn) {
     for (const size_t joint : {kForearm, kHand})
       sequence.frames[static_cast<size_t>(f)].bodies[1].joints[joint]->position_m.y() -= 0.15;
   }
-  const BonesOfPeople bones = MeasureBones(sequence, {});
+  const BoneLengthsById bones = MeasureBones(sequence, {});
   ASSERT_EQ(bones.size(), 2U);
   const double truth_m = MeasureBoneLengths(At(0.0))[kForearm];
   EXPECT_NEAR(bones.at(9)[kForearm], truth_m, 0.02);
@@ -139,7 +139,7 @@ TEST(MeasureBones, TellsThoseOfPeopleWhoLeftLongAgo) {
     frame.time_s += 100.0;
     sequence.frames.push_back(frame);
   }
-  const BonesOfPeople bones = MeasureBones(sequence, {});
+  const BoneLengthsById bones = MeasureBones(sequence, {});
   ASSERT_EQ(bones.size(), 2U);
   for (size_t i = 1; i < kJointCount; ++i) EXPECT_NEAR(bones.at(4)[i], bones.at(9)[i], 1e-3) << i;
 }

@@ -151,7 +151,7 @@ TEST_P(EveryMethod, SaysThatUnseenJointsAreUnreliable) {
 class MethodWithBones : public EveryMethod {};
 
 TEST_P(MethodWithBones, KeepsBoneLengthsConstant) {
-  EXPECT_TRUE(MethodNamed(GetParam()).keeps_bones);
+  EXPECT_TRUE(RequireMethod(GetParam()).keeps_bones);
   const auto method = Make();
   std::mt19937_64 rng(5);
   BoneLengths first{};

@@ -93,7 +93,7 @@ ReconstructorOptions OptionsFor(const std::string& method) {
   ReconstructorOptions options;
   options.method = method;
   options.database = database;
-  if (MethodNamed(method).learned == Reads::kRequired) options.learned = learned;
+  if (RequireMethod(method).learned == Reads::kRequired) options.learned = learned;
   options.gaussian_process.incremental = false;
   options.local_pca.steps = 3;  // for speed: the search is not what is tested
   options.local_pca.samples = 20;

@@ -71,7 +71,7 @@ TEST(LinearFilter, KnowsDelayAndJitterOfASensorOnSomebodyElse) {
   }
 }
 
-TEST(LinearFilter, OfSeveralPeopleIsOfStepsOfOneOfPulls) {
+TEST(LinearFilter, OfSeveralPeopleIsOfStepsOfOneOfInfluences) {
   EXPECT_FALSE(LearnedOfThree().HasInfluences());
   EXPECT_TRUE(LearnedOfOne().Influences(LinearFilter::kNow, kHand));
   for (const auto output : {LinearFilter::kNow, LinearFilter::kBefore}) {
@@ -117,17 +117,17 @@ TEST(LinearFilter, OfOnePersonIsNotLearnedOfASensorThatErrsOtherwiseEveryTime) {
   EXPECT_TRUE(LinearFilter::Learn(pairs).empty());
 }
 
-TEST(PullFeature, HasTheWayToEachPositionWholeAndFaded) {
+TEST(InfluenceFeature, HasTheWayToEachPositionWholeAndFaded) {
   std::vector<Posture> window(6);
   for (size_t f = 0; f < window.size(); ++f) {
     window[f].position_m[kHand] = {0.1 * static_cast<double>(f), 1.0, 2.0};
   }
-  const auto now = PullFeature(window, 5, kHand, LinearFilter::kNow);
-  const auto before = PullFeature(window, 5, kHand, LinearFilter::kBefore);
-  ASSERT_EQ(now.cols(), PullFeatureSize(LinearFilter::kNow));
-  ASSERT_EQ(before.cols(), PullFeatureSize(LinearFilter::kBefore));
+  const auto now = InfluenceFeature(window, 5, kHand, LinearFilter::kNow);
+  const auto before = InfluenceFeature(window, 5, kHand, LinearFilter::kBefore);
+  ASSERT_EQ(now.cols(), InfluenceFeatureSize(LinearFilter::kNow));
+  ASSERT_EQ(before.cols(), InfluenceFeatureSize(LinearFilter::kBefore));
   const auto faded = [](double d, double r) { return d / (1.0 + d * d / (r * r)); };
-  for (int back = 1; back <= LinearFilter::kPulling; ++back) {
+  for (int back = 1; back <= LinearFilter::kInfluencing; ++back) {
     const double way_m = -0.1 * back;
     const Eigen::Index at = 3 * (back - 1);
     EXPECT_NEAR(now(0, at), way_m, 1e-6);
@@ -139,12 +139,12 @@ TEST(PullFeature, HasTheWayToEachPositionWholeAndFaded) {
   EXPECT_EQ(now.bottomRows(2).norm(), 0.0F);
 }
 
-TEST(PullFeature, GoesBackNoFartherThanIsKnown) {
+TEST(InfluenceFeature, GoesBackNoFartherThanIsKnown) {
   std::vector<Posture> window(6);
   for (size_t f = 0; f < window.size(); ++f) {
     window[f].position_m[kHand].x() = f < 2 ? 50.0 : 0.1 * static_cast<double>(f);
   }
-  const auto feature = PullFeature(window, 3, kHand, LinearFilter::kNow);
+  const auto feature = InfluenceFeature(window, 3, kHand, LinearFilter::kNow);
   EXPECT_NEAR(feature(0, 3 * 2), -0.3, 1e-6);
   EXPECT_NEAR(feature(0, 3 * 3), -0.3, 1e-6);  // four back is not known: three
 }
@@ -221,7 +221,7 @@ TEST_F(FilterFile, GivesTheSameWeightsBack) {
   }
 }
 
-TEST_F(FilterFile, WithoutPullsIsOneThatOlderProgramsRead) {
+TEST_F(FilterFile, WithoutInfluencesIsOneThatOlderProgramsRead) {
   models_.Save(path_);
   EXPECT_NO_THROW(ReadContainer(path_, {kMagic, 3, "learned reconstruction"}));
   models_.filter = LearnedOfOne();
@@ -229,7 +229,7 @@ TEST_F(FilterFile, WithoutPullsIsOneThatOlderProgramsRead) {
   EXPECT_NO_THROW(ReadContainer(path_, {kMagic, 4, "learned reconstruction"}));
 }
 
-TEST_F(FilterFile, WithPullsOfTheOtherOutputIsRefused) {
+TEST_F(FilterFile, WithInfluencesOfTheOtherOutputIsRefused) {
   models_.filter = LearnedOfOne();
   std::swap(models_.filter.weights[0][kHand], models_.filter.weights[1][kHand]);
   models_.Save(path_);

@@ -47,8 +47,8 @@ TEST(PosturePrior, HasMeanAndCovarianceOfThePosturesAndTheirMirrorImages) {
   const PriorClip clip = GesturesFor(40.0);
   std::vector<BoneVector> bones;
   for (const Posture& posture : clip.postures) {
-    bones.push_back(BonesOf(posture));
-    bones.push_back(BonesOf(Mirrored(posture)));
+    bones.push_back(ToBoneVector(posture));
+    bones.push_back(ToBoneVector(Mirrored(posture)));
   }
   BoneVector mean = BoneVector::Zero();
   for (const BoneVector& b : bones) mean += b / static_cast<double>(bones.size());
@@ -68,12 +68,13 @@ TEST(PosturePrior, KeepsItsModesApartALagLater) {
   const PosturePrior prior = PosturePrior::Learn({clip}, options);
   const auto lag = static_cast<size_t>(std::round(options.lag_s / kFrame_s));
   const Eigen::MatrixXd modes_of = prior.modes_m.completeOrthogonalDecomposition().pseudoInverse();
-  Eigen::MatrixXd kept = Eigen::MatrixXd::Zero(prior.time_s.size(), prior.time_s.size());
+  Eigen::MatrixXd kept =
+      Eigen::MatrixXd::Zero(prior.correlation_time_s.size(), prior.correlation_time_s.size());
   for (size_t f = 0; f + lag < clip.postures.size(); ++f) {
     for (const bool mirrored : {false, true}) {
       const auto modes = [&](size_t frame) -> Eigen::VectorXd {
         const Posture& p = clip.postures[frame];
-        return modes_of * (BonesOf(mirrored ? Mirrored(p) : p) - prior.mean_m);
+        return modes_of * (ToBoneVector(mirrored ? Mirrored(p) : p) - prior.mean_m);
       };
       const Eigen::MatrixXd product = modes(f) * modes(f + lag).transpose();
       kept +=
@@ -81,10 +82,10 @@ TEST(PosturePrior, KeepsItsModesApartALagLater) {
     }
   }
   // Times follow from what is kept; both are clamped where next to nothing or nearly all is.
-  for (Eigen::Index k = 0; k < prior.time_s.size(); ++k) {
+  for (Eigen::Index k = 0; k < prior.correlation_time_s.size(); ++k) {
     const double expected_s =
         -options.slowness * options.lag_s / std::log(std::clamp(kept(k, k), 0.02, 0.9999));
-    EXPECT_NEAR(prior.time_s[k] / expected_s, 1.0, 1e-3) << k;
+    EXPECT_NEAR(prior.correlation_time_s[k] / expected_s, 1.0, 1e-3) << k;
     kept(k, k) = 0.0;
   }
   EXPECT_LT(kept.cwiseAbs().maxCoeff(), 1e-3);
@@ -100,7 +101,7 @@ TEST(PosturePrior, IsTheSameFileEachTimeAndReadsBack) {
     return std::string(std::istreambuf_iterator<char>(in), {});
   };
   EXPECT_EQ(bytes("a.ossaprior"), bytes("b.ossaprior"));
-  EXPECT_TRUE(PosturePrior::IsOne(folder / "a.ossaprior"));
+  EXPECT_TRUE(PosturePrior::IsFile(folder / "a.ossaprior"));
   PosturePrior::Load(folder / "a.ossaprior").Save(folder / "c.ossaprior");
   EXPECT_EQ(bytes("a.ossaprior"), bytes("c.ossaprior"));
 }
@@ -115,7 +116,7 @@ TEST(PosturePrior, HoldsNobodysPosture) {
   EXPECT_EQ(std::filesystem::file_size(folder / "short.ossaprior"),
             std::filesystem::file_size(folder / "long.ossaprior"));
   for (const Posture& posture : clip.postures) {
-    EXPECT_GT((BonesOf(posture) - prior.mean_m).norm(), 0.02);
+    EXPECT_GT((ToBoneVector(posture) - prior.mean_m).norm(), 0.02);
   }
 }
 
@@ -142,9 +143,9 @@ TEST(PosturePrior, RefusesNumbersThatNoPriorHas) {
     ossa::test::ExpectRefused([&] { PosturePrior::Load(folder / "odd.ossaprior"); }, field);
   };
   refused([](PosturePrior& p) { p.mean_m[3] = std::nan(""); }, "mean");
-  refused([](PosturePrior& p) { p.rest_m2[3] = -1.0; }, "rest");
-  refused([](PosturePrior& p) { p.time_s[0] = 0.0; }, "correlation times");
-  refused([](PosturePrior& p) { p.time_s.resize(0); }, "correlation times");
+  refused([](PosturePrior& p) { p.residual_m2[3] = -1.0; }, "rest");
+  refused([](PosturePrior& p) { p.correlation_time_s[0] = 0.0; }, "correlation times");
+  refused([](PosturePrior& p) { p.correlation_time_s.resize(0); }, "correlation times");
   refused([](PosturePrior& p) { p.modes_m(0, 0) = std::numeric_limits<double>::infinity(); },
           "modes");
   refused([](PosturePrior& p) { p.modes_m.conservativeResize(kBoneDims, 2); }, "modes");
@@ -165,7 +166,8 @@ TEST(PosturePrior, NeedsMotion) {
 /// them at once.
 BoneVector BruteForce(const PosturePrior& prior, const std::vector<double>& times_s,
                       const std::vector<PriorObservation>& seen) {
-  const Eigen::Index d = prior.time_s.size(), moments = static_cast<Eigen::Index>(seen.size());
+  const Eigen::Index d = prior.correlation_time_s.size(),
+                     moments = static_cast<Eigen::Index>(seen.size());
   std::vector<Eigen::RowVectorXd> rows;  // of all modes at all moments
   std::vector<double> values, noise;
   std::vector<std::pair<Eigen::Index, int>> axes;  // moment and axis: they share the root's error
@@ -180,7 +182,7 @@ BoneVector BruteForce(const PosturePrior& prior, const std::vector<double>& time
           const auto at = FirstCoordinate(i - 1) + axis;
           row.segment(m * d, d) += prior.modes_m.row(at);
           mean += prior.mean_m[at];
-          rest += prior.rest_m2[at];
+          rest += prior.residual_m2[at];
         }
         rows.push_back(row);
         values.push_back(o.seen.position_m[j][axis] - mean);
@@ -194,7 +196,8 @@ BoneVector BruteForce(const PosturePrior& prior, const std::vector<double>& time
     for (Eigen::Index b = 0; b < moments; ++b) {
       const double apart_s =
           std::abs(times_s[static_cast<size_t>(a)] - times_s[static_cast<size_t>(b)]);
-      joint.block(a * d, b * d, d, d).diagonal() = (-apart_s / prior.time_s.array()).exp();
+      joint.block(a * d, b * d, d, d).diagonal() =
+          (-apart_s / prior.correlation_time_s.array()).exp();
     }
   }
   const auto n = static_cast<Eigen::Index>(rows.size());
@@ -233,7 +236,7 @@ TEST(PriorFilter, IsTheExactPosteriorOfAllThatWasSeen) {
     last = filter.Step(m == 0 ? 0.0 : times_s[m] - times_s[m - 1], seen[m]);
   }
   const Posture expected =
-      Retargeted(PostureOfBones(BruteForce(*prior, times_s, seen)), StandardBoneLengths());
+      Retargeted(PostureFromBones(BruteForce(*prior, times_s, seen)), StandardBoneLengths());
   const Eigen::Vector3d root = last.position_m[0];
   for (size_t j = 0; j < kJointCount; ++j) {
     // Both solve the same equations in double precision.

@@ -80,20 +80,20 @@ TEST(PriorNetwork, IsToldWhatIsSeenHowClearlyAndHowFarFromWhereItIsExpected) {
   const PriorObservation observation = Seeing(seen);
   filter.Step(kFrame_s, observation);
   const PriorInput input = filter.Input();
-  const Posture expected = PostureOfBones(filter.Bones_m());
+  const Posture expected = PostureFromBones(filter.Bones_m());
   EXPECT_TRUE(input.head<kBoneDims>().isApprox(filter.Bones_m().cast<float>(), 1e-5F));
   for (size_t i = 1; i < kJointCount; ++i) {
     const bool hidden = observation.sd_m[i] == 0.0;
     EXPECT_FLOAT_EQ(input[kBoneDims + static_cast<Eigen::Index>(i - 1)],
-                    hidden ? 0.0F : Clearness(0.02))
+                    hidden ? 0.0F : ObservationQuality(0.02))
         << i;
     const Eigen::Vector3d off_m = seen.position_m[i] - expected.position_m[i];
     const Eigen::Vector3f told_m = input.tail<kBoneDims>().segment<3>(FirstCoordinate(i - 1));
     EXPECT_LT((told_m.cast<double>() - (hidden ? Eigen::Vector3d::Zero() : off_m)).norm(), 1e-4)
         << i;
   }
-  EXPECT_GT(Clearness(0.02), Clearness(0.2));
-  EXPECT_EQ(Clearness(0.0), 0.0F);
+  EXPECT_GT(ObservationQuality(0.02), ObservationQuality(0.2));
+  EXPECT_EQ(ObservationQuality(0.0), 0.0F);
 }
 
 TEST(PriorNetwork, CorrectsWhatTheFilterExpects) {
@@ -105,7 +105,7 @@ TEST(PriorNetwork, CorrectsWhatTheFilterExpects) {
   without.Step(kFrame_s, observation);
   BoneVector bones_m = without.Bones_m();
   bones_m[kHead + 2] += 0.05;
-  const Posture expected = Retargeted(PostureOfBones(bones_m), observation.lengths_m);
+  const Posture expected = Retargeted(PostureFromBones(bones_m), observation.lengths_m);
   const Posture got = with.Step(kFrame_s, observation);
   for (size_t i = 0; i < kJointCount; ++i) {
     EXPECT_LT((got.position_m[i] - expected.position_m[i]).norm(), 1e-5) << i;

@@ -94,7 +94,7 @@ TEST(BvhExport, HasJointsThatAreNotTrackedWhereAMethodPlacedThem) {
       if (placed) hand.reliability = 0.1;
       if (!placed) hand.position_m.setZero();
     }
-    const SkeletonSequence made = SkeletonOfBvh(BvhOfSkeleton(sequence), "made.bvh");
+    const SkeletonSequence made = BvhToSkeleton(SkeletonToBvh(sequence), "made.bvh");
     SkeletonSequence held = SeenAt({0.0, 1 / 30.0, 2 / 30.0});
     const auto bone = [](const BodyRecord& body) -> Eigen::Vector3d {
       return (body.joints[7]->position_m - body.joints[6]->position_m).normalized();
@@ -110,7 +110,7 @@ TEST(BvhExport, HasJointsThatAreNotTrackedWhereAMethodPlacedThem) {
 TEST(BvhExport, KeepsTheLastFrameWhereTimesAreRounded) {
   std::vector<double> times_s;
   for (int f = 0; f < 2000; ++f) times_s.push_back(f * 0.033333);
-  EXPECT_EQ(BvhOfSkeleton(SeenAt(times_s)).FrameCount(), 2000u);
+  EXPECT_EQ(SkeletonToBvh(SeenAt(times_s)).FrameCount(), 2000u);
 }
 
 TEST(BvhExport, OfNobodyIsRefusedByName) {
@@ -148,19 +148,19 @@ TEST(BvhExport, IsOfTheBodyAskedForWhateverItsNumber) {
     for (BodyRecord& body : frame.bodies) body.id = body.id == 7 ? -7 : body.id;
   }
   BvhExportOptions options;
-  EXPECT_EQ(BvhOfSkeleton(sequence, options).FrameCount(), 90u);
+  EXPECT_EQ(SkeletonToBvh(sequence, options).FrameCount(), 90u);
   options.body_id = -7;
-  EXPECT_EQ(BvhOfSkeleton(sequence, options).FrameCount(), 60u);
+  EXPECT_EQ(SkeletonToBvh(sequence, options).FrameCount(), 60u);
   options.body_id = -1;
-  ossa::test::ExpectRefused([&] { BvhOfSkeleton(sequence, options); }, "expected body -1");
+  ossa::test::ExpectRefused([&] { SkeletonToBvh(sequence, options); }, "expected body -1");
 }
 
 TEST(BvhExport, WritesTheBytesThatItWouldMakeInMemory) {
   const ossa::test::TemporaryFolder folder;
   const SkeletonSequence sequence = SeenAt({3.0, 3.1, 3.3, 13.0});
-  WriteBvhOfSkeleton(sequence, folder / "x.bvh");
+  WriteSkeletonAsBvh(sequence, folder / "x.bvh");
   const std::string text = TextOf(folder / "x.bvh");
-  EXPECT_EQ(text, FormatBvh(BvhOfSkeleton(sequence)));
+  EXPECT_EQ(text, FormatBvh(SkeletonToBvh(sequence)));
   EXPECT_NE(text.find("\nFrames: 301\nFrame Time: 0.0333333333\n"), std::string::npos)
       << "a step with too few digits is another rate";
 }
@@ -171,7 +171,7 @@ TEST(BvhExport, ThatNobodyWouldReadIsRefusedByItsLongestGap) {
   BvhExportOptions options;
   options.most_bytes = size_t{1} << 20;
   const std::string path = folder / "x.bvh";
-  const auto write = [&] { WriteBvhOfSkeleton(SeenAt({2, 2.5, 100.5, 103.5}), path, options); };
+  const auto write = [&] { WriteSkeletonAsBvh(SeenAt({2, 2.5, 100.5, 103.5}), path, options); };
   ossa::test::ExpectRefused(
       write, path +
                  ": expected a BVH of at most 1 MiB, as ossa reads them, found 3046 "
@@ -187,14 +187,14 @@ TEST(BvhExport, ThatIsSurelyTooLongIsRefusedBeforeItIsMade) {
   const SkeletonSequence days = SeenAt({0, 86400, 2 * 86400, 3 * 86400});
   ossa::test::ExpectRefused([&] { WriteSkeletons(folder / "x.bvh", days); },
                             "at most 512 MiB, as ossa reads them, found 7776001 frames");
-  ossa::test::ExpectRefused([&] { BvhOfSkeleton(days); },
+  ossa::test::ExpectRefused([&] { SkeletonToBvh(days); },
                             "gap.jsonl: expected a BVH of at most 512 MiB");
   EXPECT_NO_THROW(WriteSkeletons(folder / "x.jsonl", days));
 }
 
 // As of every other format of one person.
 TEST(BvhExport, IsReadBackAsBodyOne) {
-  const SkeletonSequence read = SkeletonOfBvh(BvhOfSkeleton(TwoPeople()), "back");
+  const SkeletonSequence read = BvhToSkeleton(SkeletonToBvh(TwoPeople()), "back");
   for (const SkeletonFrame& frame : read.frames) EXPECT_EQ(frame.bodies.at(0).id, 1);
 }
 

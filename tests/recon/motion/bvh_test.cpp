@@ -24,7 +24,7 @@ const Eigen::Vector3d kX = Eigen::Vector3d::UnitX(), kY = Eigen::Vector3d::UnitY
 
 TEST(BvhReader, ComposesRotationsInTheOrderOfEachJointsChannels) {
   const BvhFile bvh = ParseBvh(kTwoJoints, "two.bvh");
-  const BvhFramePose pose = PoseOf(bvh, 0);
+  const BvhFramePose pose = ComputePose(bvh, 0);
   const Eigen::Quaterniond root = Turn(10, kZ) * Turn(20, kX) * Turn(30, kY);
   const Eigen::Quaterniond knee = root * Turn(40, kY) * Turn(50, kZ) * Turn(60, kX);
   // 1e-12: rounding of a handful of double products.
@@ -50,7 +50,7 @@ TEST(BvhReader, PositionChannelsOfAnyJointReplaceItsOffset) {
   std::string text = kTwoJoints;
   text.replace(text.find("CHANNELS 3"), 10, "CHANNELS 6 Xposition Yposition Zposition");
   text.replace(text.find("40 50 60"), 8, "0 -5 0 40 50 60");
-  const BvhFramePose pose = PoseOf(ParseBvh(text, "six.bvh"), 0);
+  const BvhFramePose pose = ComputePose(ParseBvh(text, "six.bvh"), 0);
   EXPECT_NEAR((pose.position[1] - pose.position[0]).norm(), 5.0, 1e-12);
 }
 

@@ -50,16 +50,16 @@ double WorstDistance_m(const SkeletonSequence& a, const SkeletonSequence& b) {
   return worst;
 }
 
-TEST(BvhOfSkeleton, GivesBackEveryJointOfABodyOfConstantBoneLengths) {
+TEST(SkeletonToBvh, GivesBackEveryJointOfABodyOfConstantBoneLengths) {
   const SkeletonSequence truth = RandomMotion(20, 5);
-  const std::string text = FormatBvh(BvhOfSkeleton(truth));
-  const SkeletonSequence back = SkeletonOfBvh(ParseBvh(text, "back.bvh"), "back.bvh");
+  const std::string text = FormatBvh(SkeletonToBvh(truth));
+  const SkeletonSequence back = BvhToSkeleton(ParseBvh(text, "back.bvh"), "back.bvh");
   ASSERT_EQ(back.frames.size(), truth.frames.size());
   // Six decimals of a degree over at most 1 m of chain, and of a centimetre.
   EXPECT_LT(WorstDistance_m(truth, back), 1e-6);
 }
 
-TEST(BvhOfSkeleton, HasConstantBoneLengthsWhateverTheTrackerSaw) {
+TEST(SkeletonToBvh, HasConstantBoneLengthsWhateverTheTrackerSaw) {
   SkeletonSequence noisy = RandomMotion(30, 6);
   std::mt19937_64 random(7);
   std::normal_distribution<double> noise(0.0, 0.02);
@@ -68,7 +68,7 @@ TEST(BvhOfSkeleton, HasConstantBoneLengthsWhateverTheTrackerSaw) {
       joint->position_m += Eigen::Vector3d(noise(random), noise(random), noise(random));
     }
   }
-  const SkeletonSequence back = SkeletonOfBvh(BvhOfSkeleton(noisy), "back");
+  const SkeletonSequence back = BvhToSkeleton(SkeletonToBvh(noisy), "back");
   std::optional<BoneLengths> first;
   for (const SkeletonFrame& frame : back.frames) {
     const BoneLengths lengths = MeasureBoneLengths(ToTrackedPosture(frame.bodies[0]).posture);
@@ -80,10 +80,10 @@ TEST(BvhOfSkeleton, HasConstantBoneLengthsWhateverTheTrackerSaw) {
   EXPECT_LT(WorstDistance_m(noisy, back), 0.25);
 }
 
-TEST(BvhOfSkeleton, MissingJointsHoldTheirLastDirection) {
+TEST(SkeletonToBvh, MissingJointsHoldTheirLastDirection) {
   SkeletonSequence sequence = RandomMotion(3, 8);
   sequence.frames[1].bodies[0].joints[Joint::kHandLeft].reset();
-  const SkeletonSequence back = SkeletonOfBvh(BvhOfSkeleton(sequence), "back");
+  const SkeletonSequence back = BvhToSkeleton(SkeletonToBvh(sequence), "back");
   const auto hand = [&](const SkeletonSequence& s, size_t f) {
     const Posture p = ToTrackedPosture(s.frames[f].bodies[0]).posture;
     return Eigen::Vector3d((p[Joint::kHandLeft] - p[Joint::kWristLeft]).normalized());
@@ -92,23 +92,23 @@ TEST(BvhOfSkeleton, MissingJointsHoldTheirLastDirection) {
   EXPECT_LT((hand(back, 2) - hand(sequence, 2)).norm(), 1e-6);
 }
 
-TEST(BvhOfSkeleton, GapsInTimeBecomeEvenFrames) {
+TEST(SkeletonToBvh, GapsInTimeBecomeEvenFrames) {
   SkeletonSequence sequence = RandomMotion(10, 9);
   sequence.frames.erase(sequence.frames.begin() + 3, sequence.frames.begin() + 6);
-  EXPECT_EQ(BvhOfSkeleton(sequence).FrameCount(), 10u);
+  EXPECT_EQ(SkeletonToBvh(sequence).FrameCount(), 10u);
 }
 
-TEST(BvhOfSkeleton, TakesTheBodyAskedForAndRefusesOneThatIsNotThere) {
+TEST(SkeletonToBvh, TakesTheBodyAskedForAndRefusesOneThatIsNotThere) {
   BvhExportOptions options;
   options.body_id = 4;
-  EXPECT_EQ(BvhOfSkeleton(RandomMotion(2, 1), options).FrameCount(), 2u);
+  EXPECT_EQ(SkeletonToBvh(RandomMotion(2, 1), options).FrameCount(), 2u);
   options.body_id = 5;
-  EXPECT_THROW(BvhOfSkeleton(RandomMotion(2, 1), options), InputError);
-  EXPECT_THROW(BvhOfSkeleton(SkeletonSequence{"empty", {}}), InputError);
+  EXPECT_THROW(SkeletonToBvh(RandomMotion(2, 1), options), InputError);
+  EXPECT_THROW(SkeletonToBvh(SkeletonSequence{"empty", {}}), InputError);
 }
 
 TEST(BvhWriter, WritesWhatTheReaderReads) {
-  const BvhFile bvh = BvhOfSkeleton(RandomMotion(5, 2));
+  const BvhFile bvh = SkeletonToBvh(RandomMotion(5, 2));
   test::TemporaryFolder folder;
   WriteBvh(bvh, folder.path() / "x.bvh");
   const BvhFile back = ReadBvh(folder.path() / "x.bvh");

@@ -58,7 +58,7 @@ TEST(BoneEstimation, IsTheMeanOfThePersonAndTheMirrorImage) {
 
 // The head rises by a step for each step of the first bone, the spine; every stage before, and
 // what is said of the bones, is of joints where the others put them.
-TEST(RefinementCascade, GlancesAfterTheBonesAreToldOfThem) {
+TEST(RefinementCascade, StagesAfterTheBonesKnowThem) {
   Scene scene;
   RefinementCascade cascade = SilentAndBoneConditioned();
   cascade.bone_conditioned[0][NetworkOf(Joint::kHead)].layers[0].weight(kStageFeatures, 1) = 1.0F;

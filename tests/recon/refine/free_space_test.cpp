@@ -34,7 +34,7 @@ TEST(MoveOutOfFreeSpace, OfWhatIsHiddenOrSeenIsItsOwn) {
 }
 
 // 20 cm beside the board, as far as the board: the nearest place is its edge, and 3 cm within.
-TEST(MoveOutOfFreeSpace, OfAJointInTheAirIsTheNearestOutlineAndALimbsBreadthWithin) {
+TEST(MoveOutOfFreeSpace, OfAJointInTheAirIsTheNearestSilhouetteAndALimbsBreadthWithin) {
   const depth::DepthFrame frame = BoardBeforeWall();
   const Eigen::Vector3d floating(-0.2, 0.1, 2.0);
   ASSERT_TRUE(IsInFreeSpace(floating, frame));

@@ -120,7 +120,7 @@ TEST(RefinementCascade, MovesEachJointByItsNetworkAndTheOtherSideInTheMirror) {
   EXPECT_EQ(moved_m(Joint::kSpine).norm(), 0.0);
 }
 
-TEST(RefinementCascade, EachGlanceBeginsWhereTheOneBeforeItEnded) {
+TEST(RefinementCascade, EachStageBeginsWhereTheOneBeforeItEnded) {
   Scene scene;
   RefinementCascade cascade = Silent();
   cascade.stages[0][NetworkOf(Joint::kHead)].layers[1].bias = Eigen::Vector3f(0.0F, 0.5F, 0.0F);
@@ -152,7 +152,7 @@ TEST(RefinementCascade, EachGlanceBeginsWhereTheOneBeforeItEnded) {
 
 // The first stage moves the head by a little or by more, and of the knees the one on the side to
 // which the head is put; the second would move all three by 5 cm.
-TEST(RefinementCascade, JointsThatAGlanceLeavesAreNotLookedAtAgain) {
+TEST(RefinementCascade, JointsThatAStageLeavesAreNotRefinedAgain) {
   Scene scene;
   const auto moved_m = [&](float by_m, Joint joint) {
     RefinementCascade cascade = Silent();

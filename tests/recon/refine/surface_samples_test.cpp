@@ -40,7 +40,7 @@ TEST(SurfaceSample, HoldsEveryNumber) {
 
 // Left of the middle of the image somebody's surface, right of it the wall a metre behind: the
 // cells in the middle of the grids are half of each.
-TEST(SurfaceSampler, AnOutlineSharesACell) {
+TEST(SurfaceSampler, ASilhouetteSharesACell) {
   Scene scene;
   scene.frame.camera.cx = (kWidth - 1) / 2.0;
   scene.frame.camera.cy = (kHeight - 1) / 2.0;

@@ -26,7 +26,7 @@ TEST(PriorCommand, LearnsAPriorOfTheModesAskedForThatInfoShows) {
   const auto run = RunOssa({"prior", "--mocap", "authored", "--modes", "12", "--hidden", "8",
                             "--walks", "1", "--epochs", "1", "--quiet", "--out", out});
   ASSERT_EQ(run.exit_status, 0) << run.err;
-  EXPECT_EQ(recon::PosturePrior::Load(out).time_s.size(), 12);
+  EXPECT_EQ(recon::PosturePrior::Load(out).correlation_time_s.size(), 12);
   EXPECT_EQ(recon::PosturePrior::Load(out).network.layers.at(0).bias.size(), 8);
   const auto info = RunOssa({"info", out});
   EXPECT_EQ(info.exit_status, 0) << info.err;

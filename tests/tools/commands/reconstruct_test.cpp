@@ -146,11 +146,11 @@ TEST_F(ReconstructCommand, TakesOffWhatACloseLookLeavesAndSaysSo) {
 TEST_F(ReconstructCommand, TrustsGuessesOfACloseLookMore) {
   const std::string in = folder_ / "guessed.jsonl", out = folder_ / "out.jsonl";
   const auto hand = recon::Index(recon::Joint::kHandLeft);
-  const auto moved_m = [&](bool is_looked) {
+  const auto moved_m = [&](bool is_refined) {
     auto guessed = Recording();
     for (auto& frame : guessed.frames) {
       recon::BodyRecord& body = frame.bodies[0];
-      if (is_looked) body.bones_m = recon::StandardBoneLengths();
+      if (is_refined) body.bones_m = recon::StandardBoneLengths();
       for (size_t i = hand - 1; i <= hand; ++i) {  // with the wrist
         body.joints[i]->position_m.z() -= 0.1;
         body.joints[i]->state = recon::TrackingState::kInferred;

@@ -127,11 +127,11 @@ TEST(CachedResults, AreComputedOnceAndSurviveOnlyTheirOwnKey) {
 // A result of an older program must not be taken for one of this: its key names the program and the
 // libraries that made it by their content.
 TEST(CachedResults, KnowTheCodeThatMadeThem) {
-  const std::string code = KeyOfCode();
-  EXPECT_TRUE(code.starts_with(KeyOfFile("/proc/self/exe") + " ")) << code;
+  const std::string code = ComputeCodeKey();
+  EXPECT_TRUE(code.starts_with(ComputeFileKey("/proc/self/exe") + " ")) << code;
   for (const char* library : {"depth", "forest", "recon", "synth", "tracker", "experiments"})
     EXPECT_NE(code.find(std::string("libossa_") + library + ".so"), std::string::npos) << code;
-  EXPECT_EQ(code, KeyOfCode());
+  EXPECT_EQ(code, ComputeCodeKey());
 }
 
 TEST(CachedResults, StopBeforeTheNextStepWhenInterrupted) {

@@ -24,7 +24,7 @@ std::vector<std::vector<ClipMetrics>> Clips(size_t scenarios) {
 
 TEST(FigureFive, HasMeansAndDeviations) {
   const auto clips = Clips(3);
-  const Table table = FigureFiveOfPlantard2016(kLabels, clips, clips);
+  const Table table = MakePlantard2016FigureFive(kLabels, clips, clips);
   ASSERT_EQ(table.rows.size(), 4u);
   EXPECT_EQ(table.rows[0][1], "11.00 (1.00)");
   EXPECT_EQ(table.rows[0][3], "25.0 (0.0, 25.0-25.0)");
@@ -36,7 +36,7 @@ TEST(FigureFive, TakesNothingComparableForNoError) {
   auto clips = Clips(3);
   clips[0][2] = {};
   clips[0][2].name = "scenario 3";
-  const Table table = FigureFiveOfPlantard2016(kLabels, clips, clips);
+  const Table table = MakePlantard2016FigureFive(kLabels, clips, clips);
   EXPECT_EQ(table.rows[0][1], "10.50 (0.71)");
   EXPECT_EQ(table.rows[0][5], "25.0");
   EXPECT_EQ(table.rows[1][1], "9.50 (0.71)") << "over the same scenarios as raw";
@@ -45,7 +45,7 @@ TEST(FigureFive, TakesNothingComparableForNoError) {
 
 TEST(FigureFive, HasDashesWhereNothingCanBeCompared) {
   std::vector<std::vector<ClipMetrics>> clips(kLabels.size(), std::vector<ClipMetrics>(1));
-  const Table table = FigureFiveOfPlantard2016(kLabels, clips, clips);
+  const Table table = MakePlantard2016FigureFive(kLabels, clips, clips);
   for (const size_t column : {1u, 3u, 5u}) EXPECT_EQ(table.rows[2][column], "-");
 }
 
@@ -67,7 +67,7 @@ PairedTracks HeadOffBy(const std::vector<double>& off_cm) {
 TEST(FigureEight, HasTheWorstFrameOfEachScenarioByRaw) {
   const std::vector<std::vector<PairedTracks>> pairs = {
       {HeadOffBy({1, 9, 2}), HeadOffBy({30, 3, 3})}, {HeadOffBy({1, 4, 8}), HeadOffBy({5, 9, 9})}};
-  const Table table = FigureEightOfPlantard2016({"raw", "ours"}, pairs);
+  const Table table = MakePlantard2016FigureEight({"raw", "ours"}, pairs);
   ASSERT_EQ(table.rows.size(), 2u);
   EXPECT_EQ(table.rows[0], (std::vector<std::string>{"2", "0.00", "30.00", "5.00"}));
   EXPECT_EQ(table.rows[1], (std::vector<std::string>{"1", "0.10", "9.00", "4.00"}));
@@ -76,11 +76,11 @@ TEST(FigureEight, HasTheWorstFrameOfEachScenarioByRaw) {
 // Raw sees nobody in the last scenario: no zero that would turn the tests round.
 TEST(PaperTests, LeaveOutScenariosOfNothingComparable) {
   auto clips = Clips(9);
-  const Table nine = TestsOfPlantard2016(kLabels, clips);
+  const Table nine = MakePlantard2016Tests(kLabels, clips);
   auto ten = Clips(10);
   ten[0][9].parent_relative_error_cm.reset();
   ten[0][9].fraction_frames_over_20cm.reset();
-  const Table with_nobody = TestsOfPlantard2016(kLabels, ten);
+  const Table with_nobody = MakePlantard2016Tests(kLabels, ten);
   EXPECT_FALSE(nine.rows.empty());
   EXPECT_EQ(with_nobody.rows, nine.rows);
 }

@@ -41,17 +41,17 @@ recon::PostureDatabase Both() {
                                        options);
 }
 
-TEST(BoundOf, IsNothingForWhatTheDatabaseHasWhoeverPerformsIt) {
+TEST(ComputeBound, IsNothingForWhatTheDatabaseHasWhoeverPerformsIt) {
   ASSERT_EQ(Both().size(), 2);
-  const auto bound = BoundOf(Both(), Performance(Raised(), 1.2), {Joint::kHandLeft});
+  const auto bound = ComputeBound(Both(), Performance(Raised(), 1.2), {Joint::kHandLeft});
   ASSERT_TRUE(bound);
   EXPECT_NEAR(bound->nearest_cm, 0.0, 1e-3);
   EXPECT_NEAR(bound->by_parts_cm, 0.0, 1e-3);
 }
 
-TEST(BoundOf, IsLargerWhereThePartsGivenDoNotTell) {
+TEST(ComputeBound, IsLargerWhereThePartsGivenDoNotTell) {
   // The right hand is the same in both postures: the first of the two is taken.
-  const auto bound = BoundOf(Both(), Performance(Raised(), 1.0), {Joint::kHandRight});
+  const auto bound = ComputeBound(Both(), Performance(Raised(), 1.0), {Joint::kHandRight});
   ASSERT_TRUE(bound);
   EXPECT_NEAR(bound->nearest_cm, 0.0, 1e-3);
   const Posture stance = recon::StandardStance(), raised = Raised();
@@ -65,7 +65,7 @@ TEST(BoundOf, IsLargerWhereThePartsGivenDoNotTell) {
   }
   EXPECT_GT(wanted_cm, 1.0);
   EXPECT_NEAR(bound->by_parts_cm, wanted_cm, 1e-3);
-  EXPECT_FALSE(BoundOf(Both(), {"empty", {}}, {}));
+  EXPECT_FALSE(ComputeBound(Both(), {"empty", {}}, {}));
 }
 
 TEST(ErrorByLimbs, TellsTheArmThatIsOff) {

@@ -18,7 +18,7 @@ const std::vector<std::string> kPcl = {
 std::vector<std::string> OurNames() { return {recon::kPartNames.begin(), recon::kPartNames.end()}; }
 
 TEST(CommonParts, EveryClassOfPclIsSomeCommonPart) {
-  const auto common = CommonPartsOfModel(kPcl);
+  const auto common = FindCommonParts(kPcl);
   ASSERT_TRUE(common);
   EXPECT_EQ((*common)[0], kNoCommonPart);
   std::set<uint8_t> parts(common->begin() + 1, common->end());
@@ -27,30 +27,30 @@ TEST(CommonParts, EveryClassOfPclIsSomeCommonPart) {
 }
 
 TEST(CommonParts, TruthThatOurModelNamesIsRight) {
-  const auto common = CommonPartsOfModel(OurNames());
+  const auto common = FindCommonParts(OurNames());
   ASSERT_TRUE(common);
   for (uint8_t label = 0; label < recon::kLabelCount; ++label) {
-    const uint8_t truth = CommonPartOfTruth(label);
+    const uint8_t truth = ToCommonPart(label);
     if (truth == kNoCommonPart) continue;
     EXPECT_EQ((*common)[label], truth) << recon::kPartNames[label];
   }
 }
 
 TEST(CommonParts, ShouldersWristsAndAnklesAreNotCountedButMayBeGuessed) {
-  const auto common = CommonPartsOfModel(OurNames());
+  const auto common = FindCommonParts(OurNames());
   ASSERT_TRUE(common);
   for (uint8_t label = 1; label <= recon::kPartCount; ++label) {
     const std::string name(recon::kPartNames[label]);
     const bool between = name.find("shoulder") != std::string::npos ||
                          name.find("wrist") != std::string::npos ||
                          name.find("ankle") != std::string::npos;
-    EXPECT_EQ(CommonPartOfTruth(label) == kNoCommonPart, between) << name;
+    EXPECT_EQ(ToCommonPart(label) == kNoCommonPart, between) << name;
     EXPECT_NE((*common)[label], kNoCommonPart) << name;
   }
 }
 
 TEST(CommonParts, OtherVocabulariesAreNotGuessedAt) {
-  EXPECT_FALSE(CommonPartsOfModel(std::vector<std::string>{"background", "cat", "dog"}));
+  EXPECT_FALSE(FindCommonParts(std::vector<std::string>{"background", "cat", "dog"}));
 }
 
 TEST(CommonParts, TargetsOfPclLieInItsClasses) {

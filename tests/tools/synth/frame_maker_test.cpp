@@ -97,7 +97,7 @@ INSTANTIATE_TEST_SUITE_P(
                o.people = 2;
              }},
         Case{"lived_in", [](FrameOptions& o) { o.background = Background::kLivedIn; }},
-        Case{"postures", [](FrameOptions& o) { o.variation = VariationOf(Poses::kAny); }},
+        Case{"postures", [](FrameOptions& o) { o.variation = MakeVariation(Poses::kAny); }},
         Case{"ceiling", [](FrameOptions& o) { o.view = View::kCeiling; }},
         Case{"cameras", [](FrameOptions& o) { o.cameras = Cameras::kAny; }},
         Case{"shrunk",

@@ -19,14 +19,14 @@ TEST(PoseBank, HasNaturalPosesAsOftenAsTheyAreTaken) {
   const auto& clips = Clips();
   size_t frames = 0;
   for (const auto& clip : clips) frames += clip.frames.size();
-  EXPECT_EQ(MakePoseBank(clips, BankOf(Poses::kNatural)).size(), frames);
-  EXPECT_LT(MakePoseBank(clips, BankOf(Poses::kSpread)).size(), frames / 2);
+  EXPECT_EQ(MakePoseBank(clips, MakeBankOptions(Poses::kNatural)).size(), frames);
+  EXPECT_LT(MakePoseBank(clips, MakeBankOptions(Poses::kSpread)).size(), frames / 2);
 }
 
 TEST(PoseBank, VariesNaturalPosesLittle) {
-  const auto bank = MakePoseBank(Clips(), BankOf(Poses::kNatural));
+  const auto bank = MakePoseBank(Clips(), MakeBankOptions(Poses::kNatural));
   const auto farthest_m = [&](Poses poses) {
-    PoseVariation variation = VariationOf(poses);
+    PoseVariation variation = MakeVariation(poses);
     variation.mirror_share = 0.0;
     double farthest = 0.0;
     for (uint64_t i = 0; i < 200; ++i) {

@@ -23,7 +23,7 @@ FrameOptions EverythingAtOnce() {
   options.cameras = Cameras::kAny;
   options.occluders = Occluders::kAll;
   options.hanging_clothes = options.ends = true;
-  options.variation = VariationOf(Poses::kAny);
+  options.variation = MakeVariation(Poses::kAny);
   options.view = View::kCeiling;
   options.width = 64;
   options.height = 48;

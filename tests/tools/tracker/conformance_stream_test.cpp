@@ -114,7 +114,8 @@ TEST(SdkConformance, AHierarchicalOrientationIsTheBonesTurnAgainstItsParent) {
     const Eigen::Quaterniond turn =
         body.joints[parent].orientation.conjugate() * body.joints[j].orientation;
     // Unit quaternions through one product; arc cosines near 1 lose half the digits.
-    EXPECT_LT(turn.angularDistance(HierarchicalOrientationsOf(body)[j]), 1e-6) << "joint " << j;
+    EXPECT_LT(turn.angularDistance(ComputeHierarchicalOrientations(body)[j]), 1e-6)
+        << "joint " << j;
   }
 }
 

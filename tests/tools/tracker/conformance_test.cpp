@@ -111,7 +111,7 @@ TEST(SdkConformance, BoneOrientationsAreAbsoluteAndHierarchical) {
   const BodyFrame bodies = TrackOnce(options, Rendered({PersonAt(0, 2.5)}));
   ASSERT_EQ(bodies.bodies.size(), 1U);
   const Body& body = bodies.bodies[0];
-  const auto absolute = recon::ToAbsolute(HierarchicalOrientationsOf(body));
+  const auto absolute = recon::ToAbsolute(ComputeHierarchicalOrientations(body));
   for (size_t j = 1; j < kJointCount; ++j) {
     const auto parent = recon::ParentOf(j);
     const Eigen::Vector3d bone =

@@ -31,7 +31,7 @@ std::vector<BodyFrame> Late(int lag, const std::vector<BodyFrame>& frames) {
     EXPECT_EQ(late.has_value(), f >= static_cast<size_t>(lag)) << f;
     if (late) out.push_back(*late);
   }
-  while (const auto held = bodies.TakeHeld()) out.push_back(*held);
+  while (const auto held = bodies.DrainLag()) out.push_back(*held);
   return out;
 }
 
@@ -86,10 +86,10 @@ TEST_P(LaggedBy, DoesAsFilesDo) {
 TEST_P(LaggedBy, StartsAnewAfterTheEndOfAStream) {
   LaggedBodies bodies(recon::LagOptions::Of(GetParam(), false));
   for (int f = 0; f < 5; ++f) bodies.Add(FrameWith(f, {{1, 0.0}}));
-  while (bodies.TakeHeld()) {
+  while (bodies.DrainLag()) {
   }
   for (int f = 5; f < 8; ++f) bodies.Add(FrameWith(f, {{1, 0.01}}));
-  const auto held = bodies.TakeHeld();
+  const auto held = bodies.DrainLag();
   ASSERT_TRUE(held);
   EXPECT_NEAR(HeadOf(*held), 0.01, 1e-9);
 }
@@ -104,9 +104,9 @@ TEST_P(LaggedBy, IsTheTrackersOwn) {
   for (int f = 0; f < 5; ++f) {
     const auto frame = Rendered({PersonAt(0.02 * f, 2.5)}, f, 0.005).frame;
     seen.push_back(now.Track(frame));
-    if (const auto bodies = late.TrackLate(frame)) made.push_back(*bodies);
+    if (const auto bodies = late.TrackWithLag(frame)) made.push_back(*bodies);
   }
-  while (const auto held = late.TakeHeld()) made.push_back(*held);
+  while (const auto held = late.DrainLag()) made.push_back(*held);
   ASSERT_EQ(made.size(), seen.size());
   for (size_t f = 0; f < seen.size(); ++f) EXPECT_EQ(made[f].time_s, seen[f].time_s);
   EXPECT_NE(ToPosture(made[2].bodies.at(0)).position_m, ToPosture(seen[2].bodies.at(0)).position_m);

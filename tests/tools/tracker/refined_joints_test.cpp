@@ -52,7 +52,7 @@ TEST(RefinedJoints, JointsStandBesideTheRawOnesAndBestStartsFromThem) {
   const test::TemporaryFolder folder;
   const auto higher = [&](double by_m) {
     ModelFiles files;
-    files.refinement = folder / "head.ossalook";
+    files.refinement = folder / "head.ossarefine";
     HeadHigher(static_cast<float>(by_m)).Save(files.refinement);
     return Tracked(OptionsWith(files));
   };
@@ -77,7 +77,7 @@ TEST(RefinedJoints, BestHasTheBonesThatTheCascadeEstimates) {
     look.bones = test::SilentPerceptron({recon::kBoneFeatures, recon::kEstimatedBones.size()});
     look.bones.layers[0].bias.setConstant(std::log(longer) / 0.1F);
     ModelFiles files;
-    files.refinement = folder / "bones.ossalook";
+    files.refinement = folder / "bones.ossarefine";
     look.Save(files.refinement);
     return recon::MeasureBoneLengths(
         ToPosture(Tracked(OptionsWith(files))))[recon::Index(Joint::kAnkleLeft)];
@@ -94,7 +94,7 @@ TEST(RefinedJoints, BoneConditionedStagesReadTheMeanOfAllFramesBefore) {
   MeasureByDistance(&look);
   const auto track = [&] {
     ModelFiles files;
-    files.refinement = folder / "told.ossalook";
+    files.refinement = folder / "bones.ossarefine";
     look.Save(files.refinement);
     std::vector<Body> frames;
     Tracker tracker(OptionsWith(files));
@@ -138,7 +138,7 @@ TEST(RefinedJoints, OtherMethodsGoByTheRawJoints) {
   const Body without = Tracked(OptionsWith({}, "none"));
   EXPECT_FALSE(without.refined);  // nobody asked
   ModelFiles files;
-  files.refinement = folder / "head.ossalook";
+  files.refinement = folder / "head.ossarefine";
   HeadHigher(0.06F).Save(files.refinement);
   const Body with = Tracked(OptionsWith(files, "none"));
   EXPECT_TRUE(with.refined);
@@ -160,7 +160,7 @@ TEST(RefinedJoints, AForestOfOnesOwnIsNotRefinedUnasked) {
   files.forest = folder / "own.ossa";
   std::filesystem::copy_file(ModelOrNothing(), files.forest);
   EXPECT_FALSE(Tracked(OptionsWith(files)).refined);
-  files.refinement = folder / "missing.ossalook";
+  files.refinement = folder / "missing.ossarefine";
   EXPECT_THROW(ModelSet::Load(files), InputError);
 }
 

@@ -5,6 +5,8 @@
 #include <limits>
 #include <optional>
 
+#include "depth/base/statistics.h"
+
 namespace ossa::tools {
 namespace {
 
@@ -18,10 +20,8 @@ double StepAt(const std::vector<double>& time_s, double share) {
   std::vector<double> steps;
   for (size_t i = 1; i < time_s.size(); ++i) steps.push_back(time_s[i] - time_s[i - 1]);
   if (steps.empty()) return 1.0 / 30.0;
-  const auto place =
-      steps.begin() + static_cast<std::ptrdiff_t>(share * static_cast<double>(steps.size() - 1));
-  std::nth_element(steps.begin(), place, steps.end());
-  return std::max(*place, kShortestStep_s);
+  const auto rank = static_cast<size_t>(share * static_cast<double>(steps.size() - 1));
+  return std::max(SelectRank(steps, rank), kShortestStep_s);
 }
 
 // Frames are due at start_s + k step_s, k = 1, 2, ..., while less than end_s.

@@ -9,6 +9,7 @@
 #include <set>
 #include <tuple>
 
+#include "depth/base/statistics.h"
 #include "tools/experiments/compare/absent_frames.h"
 
 namespace ossa::tools {
@@ -27,9 +28,7 @@ double MedianStep_s(const std::vector<double>& time_s) {
   std::vector<double> steps;
   for (size_t i = 1; i < time_s.size(); ++i) steps.push_back(time_s[i] - time_s[i - 1]);
   if (steps.empty()) return 1.0 / 30.0;
-  const auto middle = steps.begin() + static_cast<std::ptrdiff_t>(steps.size() / 2);
-  std::nth_element(steps.begin(), middle, steps.end());
-  return *middle;
+  return Median(std::move(steps));
 }
 
 std::vector<SkeletonFrame> InOrder(std::vector<SkeletonFrame> frames) {
@@ -263,8 +262,8 @@ JointTrack OnlyTrack(const SkeletonSequence& result) {
 // One clock for all. Who of several people is whom is told by places at the same time, so that
 // times are taken as they are unless something else is asked for; those seen most are then taken
 // for the same person.
-PairedTracks ClockOf(const std::map<int, JointTrack>& truths, const SkeletonSequence& result,
-                     const PairOptions& options) {
+PairedTracks AlignClock(const std::map<int, JointTrack>& truths, const SkeletonSequence& result,
+                        const PairOptions& options) {
   PairedTracks clock;
   if (result.frames.empty()) return clock;
   if (truths.size() == 1) {
@@ -390,7 +389,7 @@ std::vector<PairedTracks> PairUp(const SkeletonSequence& truth, const SkeletonSe
                                  const PairOptions& options) {
   const auto truths = CollectTracks(truth);
   if (truths.empty()) return {};
-  const PairedTracks clock = ClockOf(truths, result, options);
+  const PairedTracks clock = AlignClock(truths, result, options);
   std::vector<SkeletonFrame> frames = InOrder(result.frames);
   if (options.found_only) frames = FoundOnly(std::move(frames));
   for (SkeletonFrame& frame : frames) frame.time_s += clock.offset_s;

@@ -4,6 +4,8 @@
 #include <cmath>
 #include <map>
 
+#include "depth/base/statistics.h"
+
 namespace ossa::tools {
 namespace {
 
@@ -52,8 +54,7 @@ std::optional<double> Percentile(std::vector<double> values, double share) {
   // Linear between the neighbouring order statistics, as numpy's default.
   const double place = share * static_cast<double>(values.size() - 1);
   const auto low = static_cast<size_t>(place);
-  std::nth_element(values.begin(), values.begin() + static_cast<std::ptrdiff_t>(low), values.end());
-  const double below = values[low];
+  const double below = SelectRank(values, low);
   if (low + 1 == values.size()) return below;
   const double above =
       *std::min_element(values.begin() + static_cast<std::ptrdiff_t>(low) + 1, values.end());

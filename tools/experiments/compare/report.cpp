@@ -204,7 +204,7 @@ std::string Bones(const SparsePosture& posture, const Eigen::Vector3d& centre, b
   return svg;
 }
 
-Eigen::Vector3d CentreOf(const SparsePosture& posture) {
+Eigen::Vector3d ComputeCentre(const SparsePosture& posture) {
   Eigen::Vector3d sum = Eigen::Vector3d::Zero();
   double count = 0;
   for (size_t j = 0; j < recon::kJointCount; ++j) {
@@ -216,7 +216,7 @@ Eigen::Vector3d CentreOf(const SparsePosture& posture) {
 }
 
 std::string DrawnFrame(const PairedTracks& pair, size_t frame, size_t colour, double error_cm) {
-  const Eigen::Vector3d centre = CentreOf(pair.truth[frame]);
+  const Eigen::Vector3d centre = ComputeCentre(pair.truth[frame]);
   std::string svg = "<svg width=\"340\" height=\"210\" viewBox=\"0 0 340 210\">";
   for (const bool side : {false, true}) {
     svg += Bones(pair.truth[frame], centre, side, kTruthColour);

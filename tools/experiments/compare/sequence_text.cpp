@@ -6,7 +6,7 @@
 
 namespace ossa::tools {
 
-std::string TextOf(const recon::SkeletonSequence& sequence) {
+std::string FormatSequence(const recon::SkeletonSequence& sequence) {
   std::string text;
   for (const recon::SkeletonFrame& frame : sequence.frames) {
     text += recon::SkeletonJsonLine(frame);
@@ -15,7 +15,7 @@ std::string TextOf(const recon::SkeletonSequence& sequence) {
   return text;
 }
 
-recon::SkeletonSequence SequenceOf(const std::string& text, const std::string& name) {
+recon::SkeletonSequence ParseSequence(const std::string& text, const std::string& name) {
   std::istringstream stream(text);
   return recon::ReadSkeletonJsonl(stream, name);
 }

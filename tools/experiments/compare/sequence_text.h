@@ -7,8 +7,8 @@
 namespace ossa::tools {
 
 /// A skeleton sequence as JSONL and back, for the caches of studies.
-std::string TextOf(const recon::SkeletonSequence& sequence);
-recon::SkeletonSequence SequenceOf(const std::string& text, const std::string& name);
+std::string FormatSequence(const recon::SkeletonSequence& sequence);
+recon::SkeletonSequence ParseSequence(const std::string& text, const std::string& name);
 
 /// Between two sequences in one cached text; no JSONL holds it.
 inline constexpr std::string_view kSequenceEnd = "---\n";

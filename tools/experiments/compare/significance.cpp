@@ -75,7 +75,7 @@ double BetaI(double a, double b, double x) {
   return 1 - front * BetaFraction(b, a, 1 - x) / b;
 }
 
-double MeanOf(std::span<const double> values) {
+double ComputeMean(std::span<const double> values) {
   return std::accumulate(values.begin(), values.end(), 0.0) / static_cast<double>(values.size());
 }
 
@@ -232,7 +232,7 @@ std::optional<TestResult> PairedT(std::span<const double> a, std::span<const dou
   if (a.size() < 2) return std::nullopt;
   std::vector<double> differences;
   for (size_t i = 0; i < a.size(); ++i) differences.push_back(a[i] - b[i]);
-  const double mean = MeanOf(differences);
+  const double mean = ComputeMean(differences);
   double squares = 0;
   for (const double d : differences) squares += (d - mean) * (d - mean);
   const auto n = static_cast<double>(a.size());
@@ -271,13 +271,13 @@ std::optional<TestResult> RepeatedAnova(const std::vector<std::vector<double>>& 
   double grand = 0;
   std::vector<double> unit_means(n, 0.0);
   for (const auto& method : values) {
-    grand += MeanOf(method) / static_cast<double>(k);
+    grand += ComputeMean(method) / static_cast<double>(k);
     for (size_t u = 0; u < n; ++u) unit_means[u] += method[u] / static_cast<double>(k);
   }
   double between = 0;
   double residual = 0;
   for (const auto& method : values) {
-    const double mean = MeanOf(method);
+    const double mean = ComputeMean(method);
     between += static_cast<double>(n) * (mean - grand) * (mean - grand);
     for (size_t u = 0; u < n; ++u) {
       const double rest = method[u] - mean - unit_means[u] + grand;
@@ -296,7 +296,7 @@ std::optional<TestResult> Lilliefors(std::span<const double> values) {
   if (values.size() < kFewest) return std::nullopt;
   std::vector<double> sorted(values.begin(), values.end());
   std::sort(sorted.begin(), sorted.end());
-  const double mean = MeanOf(sorted);
+  const double mean = ComputeMean(sorted);
   double squares = 0;
   for (const double v : sorted) squares += (v - mean) * (v - mean);
   const auto n = static_cast<double>(sorted.size());

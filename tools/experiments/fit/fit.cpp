@@ -5,6 +5,8 @@
 #include <algorithm>
 
 #include "depth/base/error.h"
+#include "depth/base/statistics.h"
+#include "tools/experiments/context_models.h"
 #include "tools/experiments/experiments_internal.h"
 #include "tools/experiments/fit/filmed_people_internal.h"
 #include "tools/experiments/real/real_judge_internal.h"
@@ -62,11 +64,9 @@ struct FitFigures {
   }
 };
 
-std::string Median(std::vector<double> values, double scale, const char* form) {
+std::string FormatMedian(std::vector<double> values, double scale, const char* form) {
   if (values.empty()) return "-";
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::nth_element(values.begin(), middle, values.end());
-  return fmt::format(fmt::runtime(form), scale * *middle);
+  return fmt::format(fmt::runtime(form), scale * Median(std::move(values)));
 }
 
 Table FitTable() {
@@ -91,8 +91,9 @@ void AddRow(const Variant& variant, const RealSet& set, const std::vector<StillR
   table.rows.push_back(
       {variant.name, set.name, std::to_string(results.size()), fmt::format("{:.2f}", score.mean_cm),
        fmt::format("{:.1f}", 100 * score.within_5cm),
-       fmt::format("{:.1f}", 100 * score.within_10cm), Median(figures.explained, 100, "{:.1f}"),
-       Median(figures.residual_m, 1000, "{:.1f}"), Median(figures.ms, 1, "{:.2f}")});
+       fmt::format("{:.1f}", 100 * score.within_10cm),
+       FormatMedian(figures.explained, 100, "{:.1f}"),
+       FormatMedian(figures.residual_m, 1000, "{:.1f}"), FormatMedian(figures.ms, 1, "{:.2f}")});
 }
 
 std::vector<Table> FitTerms(ExperimentContext& context) {
@@ -103,10 +104,7 @@ std::vector<Table> FitTerms(ExperimentContext& context) {
                                  context.shared.string()));
   }
   tracker::TrackerOptions options;
-  tracker::ModelFiles files;
-  files.forest = context.model.string();
-  files.database = context.database.string();
-  options.models = tracker::ModelSet::Load(files, options.method);
+  options.models = LoadModels(context, options.method);
   options.threads = context.threads;
   Table table = FitTable();
   const auto variants = Variants();

@@ -10,6 +10,7 @@
 #include <optional>
 
 #include "depth/base/statistics.h"
+#include "tools/experiments/context_models.h"
 #include "tools/experiments/fit/filmed_people_internal.h"
 #include "tools/tracker/tracker.h"
 
@@ -181,10 +182,7 @@ std::vector<Table> FitPeople(ExperimentContext& context) {
   const PeopleFilm film(context, context.parameters.Integer("people_per_height", 3, 1, 20),
                         context.parameters.Flag("train_shapes", false));
   tracker::TrackerOptions options;
-  tracker::ModelFiles files;
-  files.forest = context.model.string();
-  files.database = context.database.string();
-  options.models = tracker::ModelSet::Load(files, options.method);
+  options.models = LoadModels(context, options.method);
   Table stature{.title = "Stature of rendered people after 3 s",
                 .columns = {"what", "stature", "people", "off, median, cm", "mean, cm",
                             "said sigma, cm", "within 1 sigma, %", "within 2 sigma, %"},

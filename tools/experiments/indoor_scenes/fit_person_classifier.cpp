@@ -141,8 +141,8 @@ std::vector<Example> Examples(ExperimentContext& context, Split split, const std
   };
   const auto model = context.model.empty() ? tracker::ShippedFile("body.ossa") : context.model;
   std::istringstream lines(context.Cached(
-      fmt::format("person signs {} {} {} {} {} {}", KeyOfCode(), static_cast<int>(split), mocap,
-                  performances, seed, KeyOfFile(model)),
+      fmt::format("person signs {} {} {} {} {} {}", ComputeCodeKey(), static_cast<int>(split),
+                  mocap, performances, seed, ComputeFileKey(model)),
       compute));
   std::vector<Example> examples;
   for (std::string line; std::getline(lines, line);) {

@@ -8,6 +8,7 @@
 #include "depth/base/error.h"
 #include "recon/motion/mocap.h"
 #include "tools/experiments/compare/metrics.h"
+#include "tools/experiments/context_models.h"
 #include "tools/experiments/experiments_internal.h"
 #include "tools/experiments/indoor_scenes/indoor_scenes_internal.h"
 #include "tools/experiments/stage/jobs.h"
@@ -131,20 +132,17 @@ void AddJitterRows(const IndoorScore& s, Table& jitter) {
   jitter.rows.push_back({"final, default smoothing", Cell(Jitter_mm(s.final), 1, 1), "5"});
 }
 
-Split SplitOf(ExperimentContext& context) {
+Split MakeSplit(ExperimentContext& context) {
   const std::string name = context.parameters.Text("split", "test");
   const auto split = SplitFromName(name);
   if (!split) throw InputError("split = " + name + ": expected train or test");
   return *split;
 }
 
-tracker::TrackerOptions TrackerOf(ExperimentContext& context) {
+tracker::TrackerOptions MakeTrackerOptions(ExperimentContext& context) {
   tracker::TrackerOptions how;
   how.method = context.parameters.Text("method", how.method);
-  tracker::ModelFiles files;
-  files.forest = context.model.string();
-  files.database = context.database.string();
-  how.models = tracker::ModelSet::Load(files, how.method);
+  how.models = LoadModels(context, how.method);
   how.physics = context.parameters.Flag("physics", true);
   return how;
 }
@@ -158,9 +156,9 @@ std::vector<Table> RunIndoorScenes(ExperimentContext& context) {
   const int width = context.parameters.Integer("width", 640, 160);
   const int pictures_every = context.parameters.Integer("pictures_every", 0);
   const std::string only = context.parameters.Text("only", "");
-  tracker::TrackerOptions how = TrackerOf(context);
+  tracker::TrackerOptions how = MakeTrackerOptions(context);
   how.keep_parts = pictures_every > 0;
-  const Split split = SplitOf(context);
+  const Split split = MakeSplit(context);
   const auto clips = recon::LoadMocap(sources);
   const auto model = LoadFetchedBody();
   const recon::Wardrobe wardrobe(model);

@@ -34,7 +34,7 @@ std::string Row(const std::vector<std::string>& cells, const char* tag) {
 }
 
 // What a cell begins with: "2.27 ± 0.1" is 2.27; nothing of "–" and of words.
-std::optional<double> NumberOf(const std::string& cell) {
+std::optional<double> ParseNumber(const std::string& cell) {
   double number = 0.0;
   const auto [end, error] = std::from_chars(cell.data(), cell.data() + cell.size(), number);
   if (error != std::errc()) return std::nullopt;
@@ -51,7 +51,7 @@ std::string Plot(const Table& table) {
   for (size_t c = 1; c < table.columns.size() && series.size() < kMostColumns; ++c) {
     std::vector<std::optional<double>> column;
     for (const auto& row : table.rows) {
-      auto number = c < row.size() ? NumberOf(row[c]) : std::nullopt;
+      auto number = c < row.size() ? ParseNumber(row[c]) : std::nullopt;
       if (number && *number < 0) number.reset();  // bars begin at zero
       column.push_back(number);
     }

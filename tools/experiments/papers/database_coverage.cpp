@@ -16,7 +16,7 @@ namespace {
 
 constexpr size_t kEveryNthFrame = 5;  // postures of neighbouring frames say the same
 
-std::string ExerciseOf(const std::string& clip) {
+std::string ParseExercise(const std::string& clip) {
   const size_t begin = clip.find('/') + 1;
   return clip.substr(begin, clip.find('_', begin) - begin);
 }
@@ -68,7 +68,7 @@ Table CoverageTable(const recon::PostureDatabase& database,
       if (bodies.empty()) continue;
       const auto distance_cm = NearestDistance_cm(database, bodies[0], yaw_rad);
       if (!distance_cm) continue;
-      for (Sum* sum : {&by_exercise[ExerciseOf(clip.clip)], &by_exercise["all"]}) {
+      for (Sum* sum : {&by_exercise[ParseExercise(clip.clip)], &by_exercise["all"]}) {
         sum->total_cm += *distance_cm;
         ++sum->postures;
       }

@@ -97,11 +97,11 @@ Table TableThree(const ExperimentContext& context, const Liu2016Study& study) {
         frames += clip.truth.frames.size();
       }
     }
-    const std::array ours = {ErrorOf(context, study, row.action.name, "none"),
-                             ErrorOf(context, study, row.action.name, "exemplar"),
-                             ErrorOf(context, study, row.action.name, "full-gp"),
-                             ErrorOf(context, study, row.action.name, "liu-2016", offline),
-                             ErrorOf(context, study, row.action.name, "liu-2016")};
+    const std::array ours = {MeasureError(context, study, row.action.name, "none"),
+                             MeasureError(context, study, row.action.name, "exemplar"),
+                             MeasureError(context, study, row.action.name, "full-gp"),
+                             MeasureError(context, study, row.action.name, "liu-2016", offline),
+                             MeasureError(context, study, row.action.name, "liu-2016")};
     std::vector<std::string> cells = {row.action.paper, std::to_string(frames)};
     for (size_t m = 0; m < ours.size(); ++m) {
       cells.push_back(fmt::format("{} / {}", Cell(row.paper_cm[m], 1), Cell(ours[m])));
@@ -120,9 +120,9 @@ Table TableFour(const ExperimentContext& context, const Liu2016Study& study) {
   for (const Row& row : kTable4) {
     const std::string action = row.action.name;
     table.rows.push_back({row.action.paper, Cell(row.paper_cm[0], 1), Cell(row.paper_cm[1], 1),
-                          Cell(ErrorOf(context, study, action, "none")),
-                          Cell(ErrorOf(context, study, action, "liu-2016")),
-                          Cell(ErrorOf(context, study, action, "best"))});
+                          Cell(MeasureError(context, study, action, "none")),
+                          Cell(MeasureError(context, study, action, "liu-2016")),
+                          Cell(MeasureError(context, study, action, "best"))});
   }
   table.note =
       "The paper trains its forest on the same 17 000 synthetic frames as its Gaussian processes; "
@@ -147,7 +147,7 @@ Table TableFive(const ExperimentContext& context, const Liu2016Study& study) {
     double sum_cm = 0;
     int count = 0;
     for (const char* action : {"tai_chi", "bend_over", "cross_arms"}) {
-      const auto error = ErrorOf(context, study, action, "liu-2016", [&](MethodRun& run) {
+      const auto error = MeasureError(context, study, action, "liu-2016", [&](MethodRun& run) {
         if (!setup.temporal) run.options.gaussian_process.temporal = 0.0;
         if (!setup.reliability) run.options.gaussian_process.reliability = 0.0;
         run.options.gaussian_process.incremental = false;
@@ -225,17 +225,17 @@ MethodRun Liu2016Study::Run(const ExperimentContext& context, const std::string&
   run.options.seed = context.seed;
   if (method == "none") return run;
   run.options.learned_file = LearnWithout(context, recordings, mover, learn).string();
-  if (recon::MethodNamed(method).prior) {
+  if (recon::RequireMethod(method).prior) {
     run.options.database = LoadDatabase(context).postures;
     run.options.prior = prior;
   }
   return run;
 }
 
-std::optional<double> ErrorOf(const ExperimentContext& context, const Liu2016Study& study,
-                              const std::string& action, const std::string& method,
-                              const std::function<void(MethodRun&)>& prepare,
-                              const recon::LearnOptions& learn) {
+std::optional<double> MeasureError(const ExperimentContext& context, const Liu2016Study& study,
+                                   const std::string& action, const std::string& method,
+                                   const std::function<void(MethodRun&)>& prepare,
+                                   const recon::LearnOptions& learn) {
   std::vector<ClipMetrics> clips;
   for (const std::string& mover : study.folds) {
     MethodRun run = study.Run(context, method, method, mover, learn);
@@ -252,7 +252,7 @@ std::vector<Table> RunLiu2016(ExperimentContext& context) {
   const Liu2016Study study(context);
   std::vector<Table> tables = {TableTwo(context, study), TableThree(context, study),
                                TableFour(context, study), TableFive(context, study)};
-  for (Table& table : FiguresOfLiu2016(context, study)) tables.push_back(std::move(table));
+  for (Table& table : MakeLiu2016Figures(context, study)) tables.push_back(std::move(table));
   return tables;
 }
 

@@ -23,12 +23,12 @@ struct Liu2016Study {
 };
 
 /// Mean over folds and clips of an action; `prepare` may change the settings.
-std::optional<double> ErrorOf(const ExperimentContext& context, const Liu2016Study& study,
-                              const std::string& action, const std::string& method,
-                              const std::function<void(MethodRun&)>& prepare = {},
-                              const recon::LearnOptions& learn = {});
+std::optional<double> MeasureError(const ExperimentContext& context, const Liu2016Study& study,
+                                   const std::string& action, const std::string& method,
+                                   const std::function<void(MethodRun&)>& prepare = {},
+                                   const recon::LearnOptions& learn = {});
 
 /// Figures 3, 7 and 8.
-std::vector<Table> FiguresOfLiu2016(ExperimentContext& context, const Liu2016Study& study);
+std::vector<Table> MakeLiu2016Figures(ExperimentContext& context, const Liu2016Study& study);
 
 }  // namespace ossa::tools

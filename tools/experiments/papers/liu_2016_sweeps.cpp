@@ -20,7 +20,7 @@ struct Samples {
   Eigen::MatrixXd outputs;
 };
 
-Samples SamplesOf(const std::vector<recon::PosturePair>& pairs) {
+Samples MakeSamples(const std::vector<recon::PosturePair>& pairs) {
   std::vector<const recon::PosturePair*> known;
   for (const auto& pair : pairs) {
     if (pair.known[kHand] > 0) known.push_back(&pair);
@@ -57,8 +57,8 @@ Table FigureThree(const ExperimentContext& context, const Liu2016Study& study) {
   for (const RecordedPair& clip : study.recordings) {
     recon::AddPairs(clip.observed, clip.truth, clip.subject == study.folds[0] ? test : train);
   }
-  const Samples all = SamplesOf(recon::Thinned(train, most));
-  const Samples tests = SamplesOf(recon::Thinned(test, most));
+  const Samples all = MakeSamples(recon::Thinned(train, most));
+  const Samples tests = MakeSamples(recon::Thinned(test, most));
   Table table;
   table.title = "Figure 3: posture budgeting, left hand";
   table.columns = {"samples kept, %", "samples", "error, cm"};
@@ -98,7 +98,7 @@ Table FigureSeven(const ExperimentContext& context, const Liu2016Study& study) {
         run.options.gaussian_process.nearby_models = l;
         run.options.gaussian_process.incremental = false;
       };
-      row.push_back(Cell(ErrorOf(context, study, "cross_arms", "liu-2016", with, options)));
+      row.push_back(Cell(MeasureError(context, study, "cross_arms", "liu-2016", with, options)));
     }
     table.rows.push_back(row);
   }
@@ -150,7 +150,7 @@ Table FigureEight(const ExperimentContext& context, const Liu2016Study& study) {
 
 }  // namespace
 
-std::vector<Table> FiguresOfLiu2016(ExperimentContext& context, const Liu2016Study& study) {
+std::vector<Table> MakeLiu2016Figures(ExperimentContext& context, const Liu2016Study& study) {
   return {FigureThree(context, study), FigureSeven(context, study), FigureEight(context, study)};
 }
 

@@ -27,7 +27,7 @@ struct Scenario {
 };
 
 // Table 1. Scenarios 8 and 10 are those with car seats of fig. 6.
-Scenario ScenarioOf(size_t index) {
+Scenario MakeScenario(size_t index) {
   constexpr double kRight_rad = -std::numbers::pi / 4;  // table 1: 45 degrees
   if (index < 3) return {Clutter::kNone, 0.0, "few, front"};
   if (index < 7) {
@@ -78,7 +78,7 @@ Study Prepare(ExperimentContext& context) {
   Studio studio(context, observer);
   for (size_t i = 0; i < kScenarios; ++i) {
     const recon::MotionClip& clip = motions.clips[i % motions.clips.size()];
-    const Scenario scenario = ScenarioOf(i);
+    const Scenario scenario = MakeScenario(i);
     StageOptions stage;
     stage.name = fmt::format("scenario {} ({})", i + 1, scenario.text);
     stage.clutter = scenario.clutter;
@@ -104,7 +104,7 @@ Study Prepare(ExperimentContext& context) {
     run.options.method = method;
     run.options.database = LoadDatabase(context).postures;
     run.options.seed = context.seed;
-    if (recon::MethodNamed(method).prior) {
+    if (recon::RequireMethod(method).prior) {
       run.options.prior = LoadPrior(context);
       KnowObserver(observer, &run);
     }
@@ -221,14 +221,14 @@ std::vector<Table> RunPlantard2016(ExperimentContext& context) {
   DrawCumulative(context, study);
   return {
       ByScenario(study),
-      FigureFiveOfPlantard2016(labels, study.clips, study.seen),
-      TestsOfPlantard2016(labels, study.clips),
+      MakePlantard2016FigureFive(labels, study.clips, study.seen),
+      MakePlantard2016Tests(labels, study.clips),
       Histogram(study, {7}, false, "Figure 6a: errors in scenario 8"),
       Histogram(study, {9}, false, "Figure 6b: errors in scenario 10"),
       Histogram(study, all, true, "Figure 7: frames at least this wrong (drawn in figure7.html)"),
-      FigureEightOfPlantard2016(labels, study.pairs),
-      FigureNineOfPlantard2016(context, study.methods[2],
-                               {study.scenarios.begin() + 3, study.scenarios.end()})};
+      MakePlantard2016FigureEight(labels, study.pairs),
+      MakePlantard2016FigureNine(context, study.methods[2],
+                                 {study.scenarios.begin() + 3, study.scenarios.end()})};
 }
 
 }  // namespace ossa::tools

@@ -9,22 +9,22 @@ namespace ossa::tools {
 /// Figure 5 of metrics [method][scenario], methods as in the paper and after them ours; `seen` are
 /// those of the frames in which the sensor saw somebody. A scenario in which a method has nothing
 /// to compare counts for none.
-Table FigureFiveOfPlantard2016(const std::vector<std::string>& labels,
-                               const std::vector<std::vector<ClipMetrics>>& clips,
-                               const std::vector<std::vector<ClipMetrics>>& seen);
+Table MakePlantard2016FigureFive(const std::vector<std::string>& labels,
+                                 const std::vector<std::vector<ClipMetrics>>& clips,
+                                 const std::vector<std::vector<ClipMetrics>>& seen);
 
 /// Figure 8: the four frames, each of another performance, in which raw is worst, eq. 13 of
 /// pairs[method][scenario], methods as labelled; where the sensor saw nobody no frame counts.
-Table FigureEightOfPlantard2016(const std::vector<std::string>& labels,
-                                const std::vector<std::vector<PairedTracks>>& pairs);
+Table MakePlantard2016FigureEight(const std::vector<std::string>& labels,
+                                  const std::vector<std::vector<PairedTracks>>& pairs);
 
 /// Section 8.2: tests between the first three methods.
-Table TestsOfPlantard2016(const std::vector<std::string>& labels,
-                          const std::vector<std::vector<ClipMetrics>>& clips);
+Table MakePlantard2016Tests(const std::vector<std::string>& labels,
+                            const std::vector<std::vector<ClipMetrics>>& clips);
 
 /// Figure 9: `method` (plantard-2016) over the hard scenarios, one parameter of the graph changed
 /// at a time. Parameter `database_mocap`: what the database was made of.
-Table FigureNineOfPlantard2016(ExperimentContext& context, const MethodRun& method,
-                               const std::vector<RecordedPair>& hard);
+Table MakePlantard2016FigureNine(ExperimentContext& context, const MethodRun& method,
+                                 const std::vector<RecordedPair>& hard);
 
 }  // namespace ossa::tools

@@ -20,7 +20,7 @@ struct Spread {
   double mean = 0, deviation = 0, low = 0, high = 0;
 };
 
-std::optional<Spread> SpreadOf(const std::vector<double>& values, double scale = 1) {
+std::optional<Spread> ComputeSpread(const std::vector<double>& values, double scale = 1) {
   if (values.empty()) return std::nullopt;
   Spread spread;
   const auto n = static_cast<double>(values.size());
@@ -47,9 +47,9 @@ std::string ShareCell(const std::optional<Spread>& share) {
 
 }  // namespace
 
-Table FigureFiveOfPlantard2016(const std::vector<std::string>& labels,
-                               const std::vector<std::vector<ClipMetrics>>& clips,
-                               const std::vector<std::vector<ClipMetrics>>& seen) {
+Table MakePlantard2016FigureFive(const std::vector<std::string>& labels,
+                                 const std::vector<std::vector<ClipMetrics>>& clips,
+                                 const std::vector<std::vector<ClipMetrics>>& seen) {
   Table table;
   table.title = "Figure 5: mean error and frames of 20 cm or more, over the scenarios";
   table.columns = {"method",   "eq. 13, cm (sigma)",      "paper, cm", ">20 cm, % (sigma, min-max)",
@@ -64,9 +64,9 @@ Table FigureFiveOfPlantard2016(const std::vector<std::string>& labels,
   const auto over = SharedValues(clips, kOver);
   const auto over_where_seen = SharedValues(seen, kOver);
   for (size_t m = 0; m < labels.size(); ++m) {
-    const auto where_seen = SpreadOf(over_where_seen[m], 100);
-    table.rows.push_back({labels[m], ErrorCell(SpreadOf(error[m])), paper.at(m).first,
-                          ShareCell(SpreadOf(over[m], 100)), paper.at(m).second,
+    const auto where_seen = ComputeSpread(over_where_seen[m], 100);
+    table.rows.push_back({labels[m], ErrorCell(ComputeSpread(error[m])), paper.at(m).first,
+                          ShareCell(ComputeSpread(over[m], 100)), paper.at(m).second,
                           where_seen ? Cell(where_seen->mean, 1) : "-"});
   }
   table.note =
@@ -80,8 +80,8 @@ Table FigureFiveOfPlantard2016(const std::vector<std::string>& labels,
   return table;
 }
 
-Table FigureEightOfPlantard2016(const std::vector<std::string>& labels,
-                                const std::vector<std::vector<PairedTracks>>& pairs) {
+Table MakePlantard2016FigureEight(const std::vector<std::string>& labels,
+                                  const std::vector<std::vector<PairedTracks>>& pairs) {
   constexpr size_t kPoses = 4;  // figure 8
   struct Pose {
     double raw_cm;
@@ -115,8 +115,8 @@ Table FigureEightOfPlantard2016(const std::vector<std::string>& labels,
   return table;
 }
 
-Table TestsOfPlantard2016(const std::vector<std::string>& labels,
-                          const std::vector<std::vector<ClipMetrics>>& clips) {
+Table MakePlantard2016Tests(const std::vector<std::string>& labels,
+                            const std::vector<std::vector<ClipMetrics>>& clips) {
   Table table;
   table.title = "Section 8.2: paired tests over the scenarios";
   table.columns = {"quantity", "test", "between", "statistic", "p (Bonferroni)"};

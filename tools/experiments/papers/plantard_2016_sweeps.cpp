@@ -11,7 +11,7 @@ namespace {
 
 /// The clips that the database is of. A graph of its nodes alone would lack what the filter left
 /// out: its connections would be steps over what is missing.
-std::vector<recon::PostureClip> ClipsOfDatabase(ExperimentContext& context) {
+std::vector<recon::PostureClip> LoadDatabaseClips(ExperimentContext& context) {
   const std::string mocap = context.parameters.Text("database_mocap", "authored");
   std::vector<recon::PostureClip> clips;
   for (const recon::MotionClip& clip : recon::LoadMocap({mocap}, {})) {
@@ -26,8 +26,8 @@ std::vector<recon::PostureClip> ClipsOfDatabase(ExperimentContext& context) {
 
 }  // namespace
 
-Table FigureNineOfPlantard2016(ExperimentContext& context, const MethodRun& method,
-                               const std::vector<RecordedPair>& hard) {
+Table MakePlantard2016FigureNine(ExperimentContext& context, const MethodRun& method,
+                                 const std::vector<RecordedPair>& hard) {
   Table table;
   table.title = "Figure 9: error and time by parameter (plantard-2016, scenarios 4-10)";
   table.columns = {"parameter", "value", "eq. 13, cm", "ms a frame"};
@@ -38,8 +38,8 @@ Table FigureNineOfPlantard2016(ExperimentContext& context, const MethodRun& meth
                           Cell(MedianStep_ms(run, hard[0].observed))});
   };
   MethodRun base = method;
-  base.database_key = KeyOfFile(database.path);
-  const auto clips = ClipsOfDatabase(context);
+  base.database_key = ComputeFileKey(database.path);
+  const auto clips = LoadDatabaseClips(context);
   for (const double threshold_m : context.full ? std::vector<double>{0.6, 0.4, 0.3, 0.2, 0.15, 0.1}
                                                : std::vector<double>{0.4, 0.2}) {
     MethodRun run = base;

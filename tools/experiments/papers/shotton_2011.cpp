@@ -46,7 +46,7 @@ class Laboratory {
             context.parameters.Integer("validation_images", context.full ? 400 : 60, 1)) {}
 
   // A data set of this study; finished ones are kept.
-  fs::path DataOf(Split split, int64_t frames);
+  fs::path RenderData(Split split, int64_t frames);
   // Train and measure; cached.
   Evaluation Judge(const Setting& setting, int64_t test_frames);
   Evaluation JudgeShipped(int64_t test_frames);
@@ -65,13 +65,13 @@ class Laboratory {
   int validation_images_;  // of them proposals are learned
 };
 
-fs::path Laboratory::DataOf(Split split, int64_t frames) {
+fs::path Laboratory::RenderData(Split split, int64_t frames) {
   const bool test = split == Split::kTest;
   const std::string& motion = test ? test_motion_ : motion_;
   RenderJob job;
   job.command = fmt::format("ossa experiment shotton-2011 {} {} {} seed {}",
                             test ? "test" : "train", motion, frames, context_.seed);
-  job.out = context_.out / "cache" / ContentHash(job.command + KeyOfCode());
+  job.out = context_.out / "cache" / ContentHash(job.command + ComputeCodeKey());
   if (IsDataset(job.out)) return job.out;
   if (!recon::BodyIsFetched(recon::BodyFolder())) {
     throw InputError(recon::BodyFolder().string() +
@@ -107,7 +107,7 @@ fs::path Laboratory::DataOf(Split split, int64_t frames) {
 Evaluation Laboratory::Measured(const std::string& key,
                                 const std::function<forest::ForestModel()>& model,
                                 int64_t test_frames) {
-  const fs::path test = DataOf(Split::kTest, test_frames);
+  const fs::path test = RenderData(Split::kTest, test_frames);
   const std::string text = context_.Cached(key + " on " + test.filename().string(), [&] {
     const forest::ForestModel grown = model();
     const Evaluation e = Evaluate(grown, key, DatasetReader(test), 1, [&](int64_t, int64_t) {
@@ -134,14 +134,14 @@ Evaluation Laboratory::Measured(const std::string& key,
 }
 
 Evaluation Laboratory::Judge(const Setting& setting, int64_t test_frames) {
-  const std::string key = fmt::format("shotton {} {} {} {} {} {} {} {} seed {}", KeyOfCode(),
+  const std::string key = fmt::format("shotton {} {} {} {} {} {} {} {} seed {}", ComputeCodeKey(),
                                       motion_, setting.images, setting.depth, setting.trees,
                                       pixels_, candidates_, validation_images_, context_.seed);
   return Measured(
       key,
       [&] {
         // Proposals are learned from a tenth of the images that no tree sees.
-        const fs::path data = DataOf(Split::kTrain, setting.images);
+        const fs::path data = RenderData(Split::kTrain, setting.images);
         forest::TrainOptions options;
         options.trees = setting.trees;
         options.depth = setting.depth;
@@ -169,7 +169,7 @@ Evaluation Laboratory::Judge(const Setting& setting, int64_t test_frames) {
 Evaluation Laboratory::JudgeShipped(int64_t test_frames) {
   const fs::path path = context_.model.empty() ? tracker::ShippedFile("body.ossa") : context_.model;
   return Measured(
-      fmt::format("shotton shipped {} {}", KeyOfCode(), KeyOfFile(path)),
+      fmt::format("shotton shipped {} {}", ComputeCodeKey(), ComputeFileKey(path)),
       [&] { return forest::ReadForestModel(path); }, test_frames);
 }
 

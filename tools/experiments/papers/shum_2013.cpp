@@ -110,7 +110,7 @@ std::string Limbs(const Eigen::Vector3d& limbs_cm) {
 
 /// Why table III is what it is: how near a single posture of the database can come, and which limbs
 /// best has wrong.
-Table BoundsOfTableThree(const ExperimentContext& context, const Shum2013Study& study) {
+Table ComputeTableThreeBounds(const ExperimentContext& context, const Shum2013Study& study) {
   Table table;
   table.title = "Table III: what the database can give, true bones, and where best errs, eq. 18";
   table.columns = {"setup",
@@ -126,7 +126,7 @@ Table BoundsOfTableThree(const ExperimentContext& context, const Shum2013Study& 
     double worst_cm = 0.0;
     for (const RecordedPair& clip : study.clean) {
       const auto truth = Facing(clip.truth);
-      const auto bound = BoundOf(*LoadDatabase(context).postures, truth, setup.used);
+      const auto bound = ComputeBound(*LoadDatabase(context).postures, truth, setup.used);
       if (!bound) continue;
       nearest_cm += bound->nearest_cm / static_cast<double>(study.clean.size());
       by_parts_cm += bound->by_parts_cm / static_cast<double>(study.clean.size());
@@ -273,7 +273,7 @@ std::vector<Table> RunShum2013(ExperimentContext& context) {
   }
   if (parts.contains("table-3")) {
     tables.push_back(TableThree(context, study));
-    tables.push_back(BoundsOfTableThree(context, study));
+    tables.push_back(ComputeTableThreeBounds(context, study));
   }
   if (parts.contains("table-4")) {
     tables.push_back(TableFour(context, study));
@@ -282,7 +282,7 @@ std::vector<Table> RunShum2013(ExperimentContext& context) {
   }
   if (parts.contains("tilt")) tables.push_back(TiltTable(context, study));
   if (!parts.contains("ablations")) return tables;
-  for (Table& table : SweepsOfShum2013(context, study)) tables.push_back(std::move(table));
+  for (Table& table : MakeShum2013Sweeps(context, study)) tables.push_back(std::move(table));
   AddCoverage(context, tables);
   return tables;
 }

@@ -49,9 +49,9 @@ bool IsWhole(const recon::SkeletonFrame& frame) {
 
 }  // namespace
 
-std::optional<DatabaseBound> BoundOf(const recon::PostureDatabase& database,
-                                     const recon::SkeletonSequence& truth,
-                                     const std::vector<recon::Joint>& parts) {
+std::optional<DatabaseBound> ComputeBound(const recon::PostureDatabase& database,
+                                          const recon::SkeletonSequence& truth,
+                                          const std::vector<recon::Joint>& parts) {
   std::vector<Directions> nodes;
   for (int n = 0; n < database.size(); ++n) nodes.push_back(ComputeDirections(database.posture(n)));
   JointWeights all, given{};

@@ -19,9 +19,9 @@ struct DatabaseBound {
 };
 
 /// `parts` counts the joints that are given; the root is always. Nothing without a whole posture.
-std::optional<DatabaseBound> BoundOf(const recon::PostureDatabase& database,
-                                     const recon::SkeletonSequence& truth,
-                                     const std::vector<recon::Joint>& parts);
+std::optional<DatabaseBound> ComputeBound(const recon::PostureDatabase& database,
+                                          const recon::SkeletonSequence& truth,
+                                          const std::vector<recon::Joint>& parts);
 
 /// Eq. 18 between two performances, mean over the frames, of the bones of trunk and head, of arms
 /// and of legs, centimetres.

@@ -23,6 +23,6 @@ Table TableTwo(const Shum2013Study& study);
 Table TiltTable(const ExperimentContext& context, const Shum2013Study& study);
 
 /// What each term brings; figures 8 and 9.
-std::vector<Table> SweepsOfShum2013(ExperimentContext& context, const Shum2013Study& study);
+std::vector<Table> MakeShum2013Sweeps(ExperimentContext& context, const Shum2013Study& study);
 
 }  // namespace ossa::tools

@@ -3,9 +3,9 @@
 #include <fmt/format.h>
 
 #include <array>
-#include <chrono>
 
 #include "depth/base/atomic_file.h"
+#include "depth/base/stopwatch.h"
 #include "physics/character_filter.h"
 #include "recon/body/standard_body.h"
 #include "recon/database/posture_database.h"
@@ -82,7 +82,7 @@ Table FigureEight(ExperimentContext& context, const Shum2013Study& study) {
     Series line{"eq. 18, cm", {}, {}};
     for (const double value : sweep.values) {
       MethodRun run = study.shum;
-      run.database_key = KeyOfFile(LoadDatabase(context).path);
+      run.database_key = ComputeFileKey(LoadDatabase(context).path);
       sweep.set(run, value);
       run.label = fmt::format("{} = {}", sweep.name, value);
       const auto mean =
@@ -109,11 +109,10 @@ Table FigureEight(ExperimentContext& context, const Shum2013Study& study) {
 }
 
 template <typename Step>
-double MillisecondsOf(const Step& step, size_t times) {
-  const auto start = std::chrono::steady_clock::now();
+double MeasureMilliseconds(const Step& step, size_t times) {
+  const Stopwatch watch;
   for (size_t i = 0; i < times; ++i) step(i);
-  const std::chrono::duration<double, std::milli> taken = std::chrono::steady_clock::now() - start;
-  return taken.count() / static_cast<double>(std::max<size_t>(1, times));
+  return watch.milliseconds() / static_cast<double>(std::max<size_t>(1, times));
 }
 
 // The search and the space are what is left of a frame when the optimisation has next to nothing
@@ -126,13 +125,13 @@ Table FigureNine(const Shum2013Study& study) {
   const double whole_ms = MedianStep_ms(study.shum, clip);
   const double idle_ms = MedianStep_ms(idle, clip);
   recon::ReliabilityEstimator reliability;
-  const double reliability_ms = MillisecondsOf(
+  const double reliability_ms = MeasureMilliseconds(
       [&](size_t i) {
         reliability.Step(recon::ToTrackedPosture(clip.frames[i].bodies.at(0)), nullptr);
       },
       clip.frames.size());
   physics::CharacterFilter character(recon::StandardBoneLengths());
-  const double physics_ms = MillisecondsOf(
+  const double physics_ms = MeasureMilliseconds(
       [&](size_t i) {
         const auto& body = study.furniture[0].truth.frames[i].bodies.at(0);
         character.Step(recon::ToTrackedPosture(body).posture, {}, std::nullopt, 1.0 / 30);
@@ -192,7 +191,7 @@ Table WithoutEachTerm(const ExperimentContext& context, const Shum2013Study& stu
 
 }  // namespace
 
-std::vector<Table> SweepsOfShum2013(ExperimentContext& context, const Shum2013Study& study) {
+std::vector<Table> MakeShum2013Sweeps(ExperimentContext& context, const Shum2013Study& study) {
   return {WithoutEachTerm(context, study), FigureEight(context, study), FigureNine(study)};
 }
 

@@ -7,6 +7,7 @@
 
 #include "depth/base/atomic_file.h"
 #include "depth/base/error.h"
+#include "tools/experiments/context_models.h"
 #include "tools/experiments/experiments_internal.h"
 #include "tools/experiments/real/real_judge_internal.h"
 #include "tools/json/json_text.h"
@@ -136,7 +137,7 @@ void AddRow(const RealVideo& video, const VideoScore& s, Table& table) {
                         ByStage(s.bone_variation), Percent(s.explained)});
 }
 
-json JsonOfSet(const RealSet& set, const ScoredSet& scored) {
+json SetToJson(const RealSet& set, const ScoredSet& scored) {
   json list = json::array();
   for (const StageScore& s : scored.scores) {
     list.push_back(
@@ -153,7 +154,7 @@ json JsonOfSet(const RealSet& set, const ScoredSet& scored) {
   return list;
 }
 
-json JsonOfVideo(const RealVideo& video, const VideoScore& s) {
+json VideoToJson(const RealVideo& video, const VideoScore& s) {
   json jitter, bones;
   for (const auto& [stage, value] : s.jitter_mm) jitter[std::string(StageName(stage))] = value;
   for (const auto& [stage, value] : s.bone_variation) bones[std::string(StageName(stage))] = value;
@@ -193,10 +194,7 @@ std::vector<Table> RunReal(ExperimentContext& context) {
   if (context.shared.empty()) throw InputError("real: expected --shared FOLDER with real/ in it");
   const int most = context.parameters.Integer("frames", 0);
   tracker::TrackerOptions options;
-  tracker::ModelFiles files;
-  files.forest = context.model.string();
-  files.database = context.database.string();
-  options.models = tracker::ModelSet::Load(files, options.method);
+  options.models = LoadModels(context, options.method);
   options.threads = context.threads;
   options.lag = context.parameters.Integer("lag", 0, 0, 2);
   if (!context.parameters.Flag("fit", true)) options.fit.reset();
@@ -216,22 +214,22 @@ std::vector<Table> RunReal(ExperimentContext& context) {
     const ScoredSet scored = ScoreSet(set, results, true);
     AddRows(set, scored, stills);
     AddJointRows(set, scored, joints);
-    for (const json& row : JsonOfSet(set, scored)) report["sets"].push_back(row);
+    for (const json& row : SetToJson(set, scored)) report["sets"].push_back(row);
     if (std::none_of(set.joints.begin(), set.joints.end(), IsFoot)) continue;
     const ScoredSet without = ScoreSet(set, results, false);
     AddRows(set, without, stills);
-    for (const json& row : JsonOfSet(set, without)) report["sets"].push_back(row);
+    for (const json& row : SetToJson(set, without)) report["sets"].push_back(row);
     if (set.peer.empty()) continue;
     const RealSet ankles = WithAnklesForFeet(set);
     const ScoredSet of_ankles = ScoreSet(ankles, JudgeAll(ankles, tracker, context), true);
     AddRows(ankles, of_ankles, stills);
-    for (const json& row : JsonOfSet(ankles, of_ankles)) report["sets"].push_back(row);
+    for (const json& row : SetToJson(ankles, of_ankles)) report["sets"].push_back(row);
   }
   for (const RealVideo& video : videos) {
     context.StopIfAsked();
     const VideoScore score = JudgeVideo(video, tracker);
     AddRow(video, score, recordings);
-    report["recordings"].push_back(JsonOfVideo(video, score));
+    report["recordings"].push_back(VideoToJson(video, score));
   }
   WriteJson(context, report);
   return {stills, joints, recordings};

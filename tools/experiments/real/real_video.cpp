@@ -191,9 +191,9 @@ VideoScore JudgeVideo(const RealVideo& video, tracker::Tracker& tracker) {
       continue;
     }
     waiting.push_back(&frame);
-    if (auto answer = tracker.TrackLate(frame)) judge_first(std::move(*answer));
+    if (auto answer = tracker.TrackWithLag(frame)) judge_first(std::move(*answer));
   }
-  while (auto held = tracker.TakeHeld()) judge_first(std::move(*held));
+  while (auto held = tracker.DrainLag()) judge_first(std::move(*held));
   Finish(sums, video.stills, score);
   return score;
 }

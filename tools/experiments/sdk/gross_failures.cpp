@@ -5,6 +5,8 @@
 #include <optional>
 #include <vector>
 
+#include "depth/base/statistics.h"
+
 namespace ossa::tools {
 namespace {
 
@@ -48,7 +50,7 @@ struct Verdicts {
   const recon::SkeletonFrame& before;
   const recon::SkeletonFrame& now;
 
-  bool Doubt(int id, std::initializer_list<size_t> joints) const {
+  bool IsInDoubt(int id, std::initializer_list<size_t> joints) const {
     return std::any_of(joints.begin(), joints.end(), [&](size_t j) {
       return Doubted(BodyOf(before, id), j) || Doubted(BodyOf(now, id), j);
     });
@@ -70,9 +72,7 @@ recon::JointArray<double> MedianBones_m(const recon::SkeletonSequence& sequence)
       }
     }
     if (lengths.empty()) continue;
-    const auto middle = lengths.begin() + static_cast<ptrdiff_t>(lengths.size() / 2);
-    std::nth_element(lengths.begin(), middle, lengths.end());
-    medians[j] = *middle;
+    medians[j] = Median(std::move(lengths));
   }
   return medians;
 }
@@ -92,7 +92,7 @@ void CountJumps(const BodyRecord& now, const BodyRecord& before, const Verdicts&
     const auto here = Between(now, parent, j), there = Between(before, parent, j);
     if (!here || !there || (*here - *there).norm() < kJump_m) continue;
     ++out.jumps;
-    out.noticed += judged.Doubt(now.id, {j, parent}) ? 1 : 0;
+    out.noticed += judged.IsInDoubt(now.id, {j, parent}) ? 1 : 0;
   }
 }
 
@@ -103,7 +103,7 @@ void CountSnaps(const BodyRecord& now, const BodyRecord& before, const Verdicts&
     if (!here || !there) continue;
     if (here->norm() < kTogether_m && there->norm() > kApart_m) {
       ++out.snaps;
-      out.noticed += judged.Doubt(now.id, {left, right}) ? 1 : 0;
+      out.noticed += judged.IsInDoubt(now.id, {left, right}) ? 1 : 0;
     }
     return;  // wrists only where there are no hands
   }

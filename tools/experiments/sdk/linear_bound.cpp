@@ -34,7 +34,7 @@ constexpr std::array<Goal, 6> kGoals = {{{"position", 1.0, 0.0},
                                          {"acceleration", 0.0, 1.0}}};
 
 /// A joint's way through a clip; empty where it is missing in any frame.
-Positions WayOf(const std::vector<SparsePosture>& postures, size_t joint) {
+Positions CollectPath(const std::vector<SparsePosture>& postures, size_t joint) {
   Positions way(3, postures.size());
   for (size_t f = 0; f < postures.size(); ++f) {
     if (!postures[f].present[joint]) return Positions(3, 0);
@@ -100,7 +100,7 @@ JointTaps LearnFilters(const std::vector<const RecordedPair*>& recordings, const
   for (const RecordedPair* recorded : recordings) {
     for (const PairedTracks& pair : PairUp(recorded->truth, recorded->observed)) {
       for (size_t j = 0; j < recon::kJointCount; ++j) {
-        const Positions seen = WayOf(pair.result, j), truth = WayOf(pair.truth, j);
+        const Positions seen = CollectPath(pair.result, j), truth = CollectPath(pair.truth, j);
         if (seen.cols() < kFewestFrames || truth.cols() < kFewestFrames) continue;
         regressions[j].Add(seen, truth, goal);
       }
@@ -113,7 +113,7 @@ JointTaps LearnFilters(const std::vector<const RecordedPair*>& recordings, const
 
 PairedTracks Filtered(PairedTracks pair, const JointTaps& taps) {
   for (size_t j = 0; j < recon::kJointCount; ++j) {
-    const Positions seen = WayOf(pair.result, j);
+    const Positions seen = CollectPath(pair.result, j);
     if (seen.cols() < kFewestFrames) continue;
     Positions made = Positions::Zero(3, seen.cols());
     for (int k = 0; k < kTaps; ++k) made += taps[j][k] * Shifted(seen, kAhead - k);

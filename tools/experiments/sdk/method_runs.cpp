@@ -3,10 +3,11 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <chrono>
 #include <map>
 
 #include "depth/base/error.h"
+#include "depth/base/statistics.h"
+#include "depth/base/stopwatch.h"
 #include "recon/database/posture_database.h"
 #include "recon/methods/reconstruct_sequence.h"
 #include "recon/methods/recorded_pairs.h"
@@ -19,7 +20,7 @@
 namespace ossa::tools {
 namespace {
 
-std::string KeyOf(const ExperimentContext& context, const MethodRun& run) {
+std::string ComputeKey(const ExperimentContext& context, const MethodRun& run) {
   const recon::ReconstructorOptions& o = run.options;
   const auto& pca = o.local_pca;
   const auto& gp = o.gaussian_process;
@@ -27,17 +28,17 @@ std::string KeyOf(const ExperimentContext& context, const MethodRun& run) {
   std::string key = fmt::format(
       "{} {} seed {} pca {} {} {} {} {} {} {} {} {} {} {} {} gp {} {} {} {} {} "
       "best {} {} {} {} {} {} {} {}",
-      KeyOfCode(), o.method, o.seed, pca.neighbours, pca.dimensions, pca.steps, pca.samples,
+      ComputeCodeKey(), o.method, o.seed, pca.neighbours, pca.dimensions, pca.steps, pca.samples,
       pca.control, pca.style, pca.kinematics, pca.continuity, pca.solver, pca.use_reliability,
       pca.extend_database, pca.keep_reliable, gp.nearby_models, gp.spatial, gp.temporal,
       gp.reliability, gp.incremental, best.refined_joints, best.repair, best.correct, best.window,
-      best.bones, best.complete, best.filter, DescriptionOfConstants(best.constants));
+      best.bones, best.complete, best.filter, DescribeConstants(best.constants));
   if (o.database) {
-    key.append(" ").append(run.database_key.empty() ? KeyOfFile(LoadDatabase(context).path)
+    key.append(" ").append(run.database_key.empty() ? ComputeFileKey(LoadDatabase(context).path)
                                                     : run.database_key);
   }
-  if (o.prior) key.append(" ").append(KeyOfFile(tracker::ShippedFile(recon::kShippedPrior)));
-  if (!o.learned_file.empty()) key.append(" ").append(KeyOfFile(o.learned_file));
+  if (o.prior) key.append(" ").append(ComputeFileKey(tracker::ShippedFile(recon::kShippedPrior)));
+  if (!o.learned_file.empty()) key.append(" ").append(ComputeFileKey(o.learned_file));
   if (run.physics) key.append(" physics");
   return key;
 }
@@ -79,7 +80,7 @@ MethodRun WithPhysics(MethodRun run) {
 
 recon::SkeletonSequence RunMethod(const ExperimentContext& context, const MethodRun& run,
                                   const recon::SkeletonSequence& observed) {
-  const std::string key = KeyOf(context, run) + " on " + ContentHash(TextOf(observed));
+  const std::string key = ComputeKey(context, run) + " on " + ContentHash(FormatSequence(observed));
   const std::string text = context.Cached(key, [&] {
     const auto go_on = [&](size_t) {
       context.StopIfAsked();
@@ -87,9 +88,9 @@ recon::SkeletonSequence RunMethod(const ExperimentContext& context, const Method
     };
     auto made = recon::ReconstructSequence(observed, run.options, go_on);
     if (run.physics) tracker::FollowMechanically(made, {}, go_on);
-    return TextOf(made);
+    return FormatSequence(made);
   });
-  return SequenceOf(text, observed.source);
+  return ParseSequence(text, observed.source);
 }
 
 PairedTracks PairClip(const std::string& name, const recon::SkeletonSequence& truth,
@@ -135,16 +136,12 @@ double MedianStep_ms(const MethodRun& run, const recon::SkeletonSequence& observ
   for (const recon::SkeletonFrame& frame : observed.frames) {
     if (frame.bodies.empty()) continue;
     const recon::TrackedPosture posture = recon::ToTrackedPosture(frame.bodies[0]);
-    const auto start = std::chrono::steady_clock::now();
+    const Stopwatch watch;
     method->Step({posture, frame.time_s, nullptr});
-    const std::chrono::duration<double, std::milli> taken =
-        std::chrono::steady_clock::now() - start;
-    times_ms.push_back(taken.count());
+    times_ms.push_back(watch.milliseconds());
   }
   if (times_ms.empty()) return 0.0;
-  const auto middle = times_ms.begin() + static_cast<std::ptrdiff_t>(times_ms.size() / 2);
-  std::nth_element(times_ms.begin(), middle, times_ms.end());
-  return *middle;
+  return ossa::Median(std::move(times_ms));
 }
 
 std::filesystem::path LearnWithout(const ExperimentContext& context,
@@ -152,14 +149,14 @@ std::filesystem::path LearnWithout(const ExperimentContext& context,
                                    const std::string& left_out,
                                    const recon::LearnOptions& options) {
   std::string key =
-      fmt::format("learn {} {} {} {} {} {} {} {}", KeyOfCode(), options.mixture.regions,
+      fmt::format("learn {} {} {} {} {} {} {} {}", ComputeCodeKey(), options.mixture.regions,
                   options.mixture.samples, options.mixture.seed, options.most_pairs,
                   options.full_samples, options.correction.centres, options.correction.most_pairs);
   std::vector<recon::PosturePair> pairs;
   std::map<std::string, int> people;
   for (const RecordedPair& clip : clips) {
     if (clip.subject == left_out && !left_out.empty()) continue;
-    key.append(" ").append(ContentHash(TextOf(clip.observed) + TextOf(clip.truth)));
+    key.append(" ").append(ContentHash(FormatSequence(clip.observed) + FormatSequence(clip.truth)));
     const int person =
         people.try_emplace(clip.subject, static_cast<int>(people.size())).first->second;
     recon::AddPairs(clip.observed, clip.truth, pairs, person);

@@ -79,8 +79,8 @@ using OfFold = std::array<std::vector<ClipMetrics>, 3>;
 
 OfFold TestHalf(ExperimentContext& context, const Fold& fold, int half,
                 const recon::ReconstructorOptions& options) {
-  const std::string key = fmt::format("incremental {} {} {} {}", KeyOfCode(), fold.key, half,
-                                      KeyOfOptions(context, options));
+  const std::string key = fmt::format("incremental {} {} {} {}", ComputeCodeKey(), fold.key, half,
+                                      ComputeOptionsKey(context, options));
   const std::string text = context.Cached(key, [&] {
     if (context.progress) context.progress(0, 0, "incremental " + fold.name);
     Fold part{fold.name, {}, {}, fold.key};

@@ -53,10 +53,10 @@ FoldScore TestFold(const Fold& fold, const std::string& method,
 /// For the cache: the numbers of a clip that the studies of recordings show.
 nlohmann::json ClipsToJson(const std::vector<ClipMetrics>& clips);
 std::vector<ClipMetrics> ClipsFromJson(const nlohmann::json& json);
-std::string DescriptionOfConstants(const recon::BestConstants& constants);
+std::string DescribeConstants(const recon::BestConstants& constants);
 /// Everything of the options that a study of recordings varies, and the files they were read from.
-std::string KeyOfOptions(const ExperimentContext& context,
-                         const recon::ReconstructorOptions& options);
+std::string ComputeOptionsKey(const ExperimentContext& context,
+                              const recon::ReconstructorOptions& options);
 
 /// Runs `method` ("raw" and "butterworth" included) with `options` over the folds, learning from
 /// each fold's training clips where the method learns. Kept in the experiment's cache.

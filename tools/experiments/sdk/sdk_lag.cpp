@@ -77,7 +77,7 @@ double MeanFast_cm(const Left& left) {
   return sum.count > 0 ? sum.sum_cm / static_cast<double>(sum.count) : 0.0;
 }
 
-FastError FastErrorOf(const PairedTracks& pair) {
+FastError MeasureFastError(const PairedTracks& pair) {
   FastError fast;
   const size_t n = pair.truth.size();
   for (size_t j = 0; j < recon::kJointCount; ++j) {
@@ -139,7 +139,7 @@ std::vector<Left> TryAll(ExperimentContext& context, const Fold& fold,
                          const std::vector<Smoothing>& smoothings,
                          const recon::ReconstructorOptions& options) {
   std::string key =
-      fmt::format("lag {} {} {}", KeyOfCode(), fold.key, KeyOfOptions(context, options));
+      fmt::format("lag {} {} {}", ComputeCodeKey(), fold.key, ComputeOptionsKey(context, options));
   for (const Smoothing& s : smoothings) {
     key += fmt::format(" {} {} {} {}", s.lag.frames, s.lag.sigma_s, s.lag.alike_m, s.cutoff_hz);
   }
@@ -156,7 +156,7 @@ std::vector<Left> TryAll(ExperimentContext& context, const Fold& fold,
              PairUp(recorded.truth, Smoothed(smoothing, recorded.observed, made))) {
           left.clips.push_back(Measure(pair));
           left.clips.back().name = recorded.clip;
-          left.fast.push_back(FastErrorOf(pair));
+          left.fast.push_back(MeasureFastError(pair));
         }
       }
     });
@@ -200,7 +200,7 @@ std::map<std::string, std::vector<Left>> TryOnOthers(ExperimentContext& context,
 
 /// The smoothing with the least acceleration error among those that leave positions, those of fast
 /// joints, too, as they are; the first one where none does.
-size_t ChosenOf(const std::vector<Left>& lefts, size_t begin, size_t end) {
+size_t ChooseLag(const std::vector<Left>& lefts, size_t begin, size_t end) {
   const auto of = [&](size_t s, std::optional<double> ClipMetrics::*member) {
     return Average(lefts[s].clips, member).value_or(std::numeric_limits<double>::infinity());
   };
@@ -256,7 +256,7 @@ Table RunLag(ExperimentContext& context, const std::string& data, const std::vec
     size_t begin = 0;
     for (size_t k = 0; k < families.size(); ++k) {
       const size_t end = begin + families[k].smoothings.size();
-      const size_t best = ChosenOf(others.at(fold.name), begin, end);
+      const size_t best = ChooseLag(others.at(fold.name), begin, end);
       AddLeft(lefts[best], nested[k]);
       ++chosen[k][TextOf(smoothings[best])];
       begin = end;

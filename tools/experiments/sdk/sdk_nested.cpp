@@ -35,10 +35,10 @@ const std::vector<Choice>& Choices() {
   using Constants = recon::BestConstants;
   static const std::vector<Choice> choices = {
       {"acceleration, m/s^2", &Constants::acceleration, {5.0, 10.0, 20.0}},
-      {"of posture", &Constants::of_posture, {0.3, 0.6, 1.0}},
-      {"outwards", &Constants::outwards, {0.25, 0.5, 1.0}},
-      {"expected", &Constants::expected, {0.1, 0.3, 0.6}},
-      {"slack, m", &Constants::slack_m, {0.06, 0.12, 0.24}}};
+      {"of posture", &Constants::posture_share, {0.3, 0.6, 1.0}},
+      {"outwards", &Constants::limb_firmness, {0.25, 0.5, 1.0}},
+      {"expected", &Constants::expected_share, {0.1, 0.3, 0.6}},
+      {"slack, m", &Constants::failure_slack_m, {0.06, 0.12, 0.24}}};
   return choices;
 }
 
@@ -61,9 +61,9 @@ using ClipsBySetting = std::vector<std::vector<ClipMetrics>>;
 ClipsBySetting TryAll(ExperimentContext& context, const Fold& fold,
                       const std::vector<recon::BestConstants>& settings,
                       const recon::ReconstructorOptions& options) {
-  std::string key =
-      fmt::format("nested {} {} {}", KeyOfCode(), fold.key, KeyOfOptions(context, options));
-  for (const auto& setting : settings) key.append(" ").append(DescriptionOfConstants(setting));
+  std::string key = fmt::format("nested {} {} {}", ComputeCodeKey(), fold.key,
+                                ComputeOptionsKey(context, options));
+  for (const auto& setting : settings) key.append(" ").append(DescribeConstants(setting));
   const std::string text = context.Cached(key, [&] {
     if (context.progress) context.progress(0, 0, "nested, without " + fold.name);
     recon::ReconstructorOptions with = LearnFold(fold, "best", options);

@@ -51,7 +51,7 @@ ClipMetrics FromJson(const nlohmann::json& numbers) {
 }
 
 /// Frames of lag of a method by the name that these tables have.
-int LagOf(const std::string& method) {
+int ParseLag(const std::string& method) {
   if (method == kBestOffline) return recon::kWholeRecording;
   const auto* const later = std::find(kBestLater.begin(), kBestLater.end(), method);
   return later == kBestLater.end() ? 0 : 1 + static_cast<int>(later - kBestLater.begin());
@@ -60,7 +60,7 @@ int LagOf(const std::string& method) {
 // Of these names some are no methods of their own.
 std::string MethodBehind(std::string method) {
   if (method.ends_with(kPlusPhysics)) method.resize(method.size() - kPlusPhysics.size());
-  const bool is_best = LagOf(method) != 0 || method == kBestUnlearned;
+  const bool is_best = ParseLag(method) != 0 || method == kBestUnlearned;
   return is_best ? std::string(recon::kDefaultMethod) : method;
 }
 
@@ -75,9 +75,9 @@ recon::SkeletonSequence Delayed(const recon::SkeletonSequence& observed, size_t 
 
 }  // namespace
 
-std::string DescriptionOfConstants(const recon::BestConstants& c) {
-  return fmt::format("{} {} {} {} {} {}", c.noise_m, c.acceleration, c.of_posture, c.outwards,
-                     c.expected, c.slack_m);
+std::string DescribeConstants(const recon::BestConstants& c) {
+  return fmt::format("{} {} {} {} {} {}", c.noise_m, c.acceleration, c.posture_share,
+                     c.limb_firmness, c.expected_share, c.failure_slack_m);
 }
 
 namespace {
@@ -86,12 +86,12 @@ namespace {
 std::map<const RecordedPair*, std::string> MakeKeys(const std::vector<RecordedPair>& pairs) {
   std::map<const RecordedPair*, std::string> keys;
   for (const RecordedPair& pair : pairs)
-    keys[&pair] = ContentHash(TextOf(pair.observed) + TextOf(pair.truth));
+    keys[&pair] = ContentHash(FormatSequence(pair.observed) + FormatSequence(pair.truth));
   return keys;
 }
 
 /// Of what a fold learns from and is tested on.
-std::string KeyOf(const Fold& fold, const std::map<const RecordedPair*, std::string>& keys) {
+std::string ComputeKey(const Fold& fold, const std::map<const RecordedPair*, std::string>& keys) {
   std::string key;
   for (const auto* side : {&fold.train, &fold.test}) {
     for (const RecordedPair* pair : *side) key.append(keys.at(pair));
@@ -102,7 +102,8 @@ std::string KeyOf(const Fold& fold, const std::map<const RecordedPair*, std::str
 
 }  // namespace
 
-std::string KeyOfOptions(const ExperimentContext& context, const recon::ReconstructorOptions& o) {
+std::string ComputeOptionsKey(const ExperimentContext& context,
+                              const recon::ReconstructorOptions& o) {
   return fmt::format(
       "seed {} "
       "{} {} {} {} {} {} {} {} {} {} {} {} {} {} {} {} {} {} {} {} {}",
@@ -111,9 +112,9 @@ std::string KeyOfOptions(const ExperimentContext& context, const recon::Reconstr
       o.local_pca.continuity, o.local_pca.solver, o.local_pca.use_reliability,
       o.gaussian_process.incremental, o.gaussian_process.nearby_models, o.best.repair,
       o.best.complete, o.best.correct, o.best.window, o.best.filter, o.best.bones,
-      o.database ? KeyOfFile(LoadDatabase(context).path) : "",
-      o.prior ? KeyOfFile(tracker::ShippedFile(recon::kShippedPrior)) : "",
-      DescriptionOfConstants(o.best.constants));
+      o.database ? ComputeFileKey(LoadDatabase(context).path) : "",
+      o.prior ? ComputeFileKey(tracker::ShippedFile(recon::kShippedPrior)) : "",
+      DescribeConstants(o.best.constants));
 }
 
 recon::ReconstructorOptions LearnFold(const Fold& fold, const std::string& method,
@@ -189,7 +190,7 @@ std::vector<Fold> LeaveOneSubjectOut(const std::vector<RecordedPair>& pairs,
   const auto keys = MakeKeys(pairs);
   std::vector<Fold> list;
   for (auto& [subject, fold] : folds) {
-    fold.key = KeyOf(fold, keys);
+    fold.key = ComputeKey(fold, keys);
     list.push_back(std::move(fold));
   }
   return list;
@@ -232,10 +233,10 @@ recon::SkeletonSequence RunMethod(const recon::SkeletonSequence& observed,
   }
   recon::ReconstructorOptions with = options;
   with.method = MethodBehind(method);
-  recon::BonesOfPeople bones;
+  recon::BoneLengthsById bones;
   if (method == kBestOffline) bones = recon::MeasureBones(observed, with);
   return recon::SmoothSequence(recon::ReconstructSequence(observed, with, {}, bones),
-                               recon::LagOptions::Of(LagOf(method), true));
+                               recon::LagOptions::Of(ParseLag(method), true));
 }
 
 MethodScore RunFolds(ExperimentContext& context, const std::string& data,
@@ -247,8 +248,8 @@ MethodScore RunFolds(ExperimentContext& context, const std::string& data,
   for (const Fold& fold : folds) {
     size_t observed = 0;
     for (const RecordedPair* pair : fold.test) observed += pair->observed.frames.size();
-    const std::string key =
-        fmt::format("{} {} {} {}", KeyOfCode(), fold.key, method, KeyOfOptions(context, options));
+    const std::string key = fmt::format("{} {} {} {}", ComputeCodeKey(), fold.key, method,
+                                        ComputeOptionsKey(context, options));
     const auto text = context.Cached(key, [&] {
       if (context.progress) context.progress(0, 0, data + " " + method + " " + fold.name);
       const FoldScore made =

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <optional>
 
+#include "depth/base/statistics.h"
 #include "tools/experiments/sensor/sensor_statistics_internal.h"
 
 namespace ossa::tools {
@@ -15,7 +16,7 @@ namespace {
 constexpr double kEdge_m = 0.15;  // a jump between two surfaces
 constexpr int kLongestShadow_px = 80;
 
-std::optional<size_t> BandOf(double depth_m) {
+std::optional<size_t> FindBand(double depth_m) {
   for (size_t b = 0; b < kSensorBandCount; ++b) {
     if (depth_m >= kSensorBands_m[b] && depth_m < kSensorBands_m[b + 1]) return b;
   }
@@ -80,9 +81,7 @@ void CountEdge(const uint16_t* middle, SensorStatistics& statistics) {
 
 double Median(std::vector<double> values) {
   if (values.empty()) return std::nan("");
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::nth_element(values.begin(), middle, values.end());
-  return *middle;
+  return ossa::Median(std::move(values));
 }
 
 void Gather(const depth::Image<uint16_t>& image, double focal_px, SensorStatistics& statistics) {
@@ -100,7 +99,7 @@ void Gather(const depth::Image<uint16_t>& image, double focal_px, SensorStatisti
       }
       ++statistics.readings;
       CountEdge(&image.at(u, v), statistics);
-      const auto band = BandOf(1e-3 * z);
+      const auto band = FindBand(1e-3 * z);
       if (!band) continue;
       statistics.readings_mm[*band].push_back(z);
       if (u % 3 != 0 || v % 3 != 0) continue;  // neighbouring windows say the same

@@ -35,7 +35,7 @@ Wall Measure(const Walled& walled, double z_m, uint64_t seed) {
   const int w = camera.width, h = camera.height;
   const depth::RenderedImage wall{
       {w, h, static_cast<float>(z_m)}, {w, h, 0}, {w, h, 0}, {w, h, 1.0F}, {w, h, 1}};
-  const auto model = depth::ModelOf(*depth::SensorFromName(walled.sensor));
+  const auto model = depth::MakeSensorModel(*depth::SensorFromName(walled.sensor));
   const auto image = depth::Simulate(model, wall, camera, camera, seed);
   double count = 0, sum = 0, squares = 0, all = 0;
   for (int v = h / 3; v < 2 * h / 3; ++v) {

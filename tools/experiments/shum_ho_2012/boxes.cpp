@@ -21,8 +21,8 @@ double Blend(double t, double from, double to) {
 }
 
 /// Where the elbow is when the wrist is at `wrist`, bent towards `pole`.
-Vector3d ElbowOf(const Vector3d& shoulder, const Vector3d& wrist, double upper_m, double fore_m,
-                 const Vector3d& pole) {
+Vector3d PlaceElbow(const Vector3d& shoulder, const Vector3d& wrist, double upper_m, double fore_m,
+                    const Vector3d& pole) {
   const double reach = std::min((wrist - shoulder).norm(), 0.999 * (upper_m + fore_m));
   const Vector3d along = (wrist - shoulder).normalized();
   const double before = (upper_m * upper_m - fore_m * fore_m + reach * reach) / (2.0 * reach);
@@ -41,8 +41,8 @@ void PutHands(Stage& stage, int person, const Vector3d& middle, double half_m, P
     const Vector3d wrist = at + Vector3d(side * 0.01, 0.03, -0.04);
     stage.world.Constrain(person, static_cast<Joint>(hand), at + Vector3d(0.0, 0.0, 0.04), false);
     stage.world.Constrain(person, static_cast<Joint>(hand - 1), wrist, false);
-    body.position_m[hand - 2] = ElbowOf(body.position_m[hand - 3], wrist, lengths[hand - 2],
-                                        lengths[hand - 1], Vector3d(0.8 * side, -0.5, -0.4));
+    body.position_m[hand - 2] = PlaceElbow(body.position_m[hand - 3], wrist, lengths[hand - 2],
+                                           lengths[hand - 1], Vector3d(0.8 * side, -0.5, -0.4));
   }
 }
 

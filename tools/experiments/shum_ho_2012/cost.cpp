@@ -6,6 +6,7 @@
 #include <limits>
 #include <random>
 
+#include "depth/base/statistics.h"
 #include "physics/character_filter.h"
 #include "tools/experiments/shum_ho_2012/internal.h"
 
@@ -40,8 +41,7 @@ Cost MeasureCost(const std::vector<Posture>& motion, int people, physics::Contro
   }
   Cost cost{0.0, 0.0};
   for (const double m : ms) cost.mean_ms += m / static_cast<double>(ms.size());
-  std::nth_element(ms.begin(), ms.begin() + std::ssize(ms) / 2, ms.end());
-  cost.median_ms = ms[ms.size() / 2];
+  cost.median_ms = ossa::Median(std::move(ms));
   return cost;
 }
 
@@ -96,7 +96,7 @@ class EnduranceRun {
     const double most_ns = joint <= 4 || joint % 4 == 0 ? 60.0 : 6.0;
     Vector3d impulse_ns;
     for (double& v : impulse_ns) v = most_ns * Draw();
-    world_.Push(person_, static_cast<recon::Joint>(joint), impulse_ns);
+    world_.ApplyImpulse(person_, static_cast<recon::Joint>(joint), impulse_ns);
     good_ = 0;
   }
 

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <limits>
 
+#include "depth/base/statistics.h"
 #include "physics/character_filter.h"
 #include "tools/experiments/sdk/method_runs.h"
 #include "tools/experiments/shum_ho_2012/filter_internal.h"
@@ -102,9 +103,7 @@ recon::BoneLengths Targets::MedianLengths() const {
       const double length = recon::MeasureBoneLengths(p)[i];
       if (std::isfinite(length)) all.push_back(length);
     }
-    const auto middle = all.begin() + std::ssize(all) / 2;
-    std::nth_element(all.begin(), middle, all.end());
-    lengths[i] = all.empty() ? kUnseen_m : std::clamp(*middle, 0.02, 1.5);
+    lengths[i] = all.empty() ? kUnseen_m : std::clamp(ossa::Median(std::move(all)), 0.02, 1.5);
   }
   return lengths;
 }
@@ -162,7 +161,7 @@ struct Measured {
 };
 
 /// Only joints that the sensor gave count, or the filter would be judged on what it filled in.
-SparsePosture ResultOf(const Posture& filtered, const SparsePosture& seen) {
+SparsePosture KeepSeenJoints(const Posture& filtered, const SparsePosture& seen) {
   SparsePosture result = seen;
   result.position_m = filtered.position_m;
   return result;
@@ -180,7 +179,7 @@ void Run(const FilterCase& c, const physics::CharacterFilterOptions& options, Me
     const double start_ms = ProcessorTime_ms();
     const auto out = filter.Step(targets.At(f), {}, c.floor, dt_s);
     m.ms += ProcessorTime_ms() - start_ms;
-    result.result[f] = ResultOf(out.posture, observed[f]);
+    result.result[f] = KeepSeenJoints(out.posture, observed[f]);
     m.depth_m = std::max(m.depth_m, out.floor_depth_m);
     m.gap_m = std::max(m.gap_m, out.max_anchor_gap_m);
     m.feet.See(out, c, f);

@@ -62,7 +62,7 @@ struct Studio::State {
 
   const ExperimentContext& context;
   std::string observer;
-  std::filesystem::path model_path, look_path;
+  std::filesystem::path model_path, refinement_path;
   std::unique_ptr<recon::BodyModel> model;
   std::unique_ptr<recon::Wardrobe> wardrobe;
 
@@ -170,8 +170,8 @@ StagedFrame Set::Shoot(size_t index) {
 
 // Of the tracker's bodies the one that is the person: nearest to the true one. Nobody found gives
 // a body without joints, so that methods must bridge the frame.
-recon::SkeletonFrame PersonOf(const recon::SkeletonFrame& tracked,
-                              const recon::SkeletonFrame& truth) {
+recon::SkeletonFrame FindNearestBody(const recon::SkeletonFrame& tracked,
+                                     const recon::SkeletonFrame& truth) {
   constexpr double kReach_m = 0.6;
   recon::SkeletonFrame person = truth;
   person.bodies.assign(1, {});
@@ -214,12 +214,12 @@ void BeginWhenFound(RecordedPair& pair) {
   drop(pair.truth);
 }
 
-std::string KeyOf(const StageOptions& o) {
+std::string ComputeKey(const StageOptions& o) {
   return fmt::format("{} {} {:.4f} {:.3f} {}x{} {} seed {}", o.name, static_cast<int>(o.clutter),
                      o.azimuth_rad, o.distance_m, o.width, o.height, o.frames, o.seed);
 }
 
-std::string KeyOf(const recon::MotionClip& clip) {
+std::string ComputeKey(const recon::MotionClip& clip) {
   double sum = 0;
   for (const auto& pose : clip.frames) sum += pose.root_m.sum() + pose.world_from_rest[19].x();
   return fmt::format("{} {} {:.9g}", clip.name, clip.frames.size(), sum);
@@ -231,7 +231,8 @@ Studio::Studio(const ExperimentContext& context, std::string observer)
     : state_(std::make_unique<State>(context, std::move(observer))) {
   if (state_->observer == "forest") {
     state_->model_path = context.model.empty() ? tracker::ShippedFile("body.ossa") : context.model;
-    if (context.model.empty()) state_->look_path = tracker::ShippedFile(recon::kShippedRefinement);
+    if (context.model.empty())
+      state_->refinement_path = tracker::ShippedFile(recon::kShippedRefinement);
   } else if (state_->observer != "simulated") {
     throw InputError("observer '" + state_->observer + "': expected forest or simulated");
   }
@@ -256,7 +257,7 @@ RecordedPair Studio::Record(const recon::MotionClip& clip, const StageOptions& o
       how.method = "none";
       tracker::ModelFiles files;
       files.forest = state_->model_path.string();
-      files.refinement = state_->look_path.string();
+      files.refinement = state_->refinement_path.string();
       how.models = tracker::ModelSet::Load(files, how.method);
       how.smoothing = tracker::SmoothingPreset("none");
       how.threads = state_->context.threads;
@@ -272,10 +273,10 @@ RecordedPair Studio::Record(const recon::MotionClip& clip, const StageOptions& o
       if (tracker) {
         const tracker::BodyFrame bodies = tracker->Track(frame.depth);
         const auto person = [&](tracker::PostureKind kind) {
-          return PersonOf(tracker::ToRecord(bodies, kind), frame.truth);
+          return FindNearestBody(tracker::ToRecord(bodies, kind), frame.truth);
         };
         observed.frames.push_back(person(tracker::PostureKind::kRaw));
-        if (!state_->look_path.empty()) {
+        if (!state_->refinement_path.empty()) {
           refined.frames.push_back(person(tracker::PostureKind::kRefined));
         }
       } else {
@@ -283,13 +284,14 @@ RecordedPair Studio::Record(const recon::MotionClip& clip, const StageOptions& o
       }
       truth.frames.push_back(frame.truth);
     }
-    std::string text = TextOf(observed).append(kSequenceEnd).append(TextOf(refined));
-    return text.append(kSequenceEnd).append(TextOf(truth));
+    std::string text =
+        FormatSequence(observed).append(kSequenceEnd).append(FormatSequence(refined));
+    return text.append(kSequenceEnd).append(FormatSequence(truth));
   };
-  std::string key =
-      fmt::format("staged {} {} {} {}", KeyOfCode(), state_->observer, KeyOf(options), KeyOf(clip));
-  for (const auto& path : {state_->model_path, state_->look_path}) {
-    if (!path.empty()) key.append(" ").append(KeyOfFile(path));
+  std::string key = fmt::format("staged {} {} {} {}", ComputeCodeKey(), state_->observer,
+                                ComputeKey(options), ComputeKey(clip));
+  for (const auto& path : {state_->model_path, state_->refinement_path}) {
+    if (!path.empty()) key.append(" ").append(ComputeFileKey(path));
   }
   const std::string text = state_->context.Cached(key, compute);
   const size_t end = text.find(kSequenceEnd), refined = end + kSequenceEnd.size();
@@ -297,11 +299,11 @@ RecordedPair Studio::Record(const recon::MotionClip& clip, const StageOptions& o
   RecordedPair pair;
   pair.clip = options.name;
   pair.subject = clip.subject.empty() ? clip.name : clip.subject;
-  pair.observed = SequenceOf(text.substr(0, end), options.name);
+  pair.observed = ParseSequence(text.substr(0, end), options.name);
   if (refined_end > refined) {
-    pair.refined = SequenceOf(text.substr(refined, refined_end - refined), options.name);
+    pair.refined = ParseSequence(text.substr(refined, refined_end - refined), options.name);
   }
-  pair.truth = SequenceOf(text.substr(refined_end + kSequenceEnd.size()), options.name);
+  pair.truth = ParseSequence(text.substr(refined_end + kSequenceEnd.size()), options.name);
   BeginWhenFound(pair);
   return pair;
 }

@@ -17,7 +17,7 @@ bool IsMask(const py::array& mask, const depth::DepthView& depth) {
 
 }  // namespace
 
-depth::DepthView ViewOf(const py::array& depth_mm) {
+depth::DepthView ToView(const py::array& depth_mm) {
   if (!py::isinstance<py::array_t<uint16_t>>(depth_mm) || depth_mm.ndim() != 2) {
     throw InputError("depth_mm: expected uint16 [height, width], found " + ShapeOf(depth_mm));
   }
@@ -44,7 +44,7 @@ depth::DepthView ViewOf(const py::array& depth_mm) {
           static_cast<int>(height), static_cast<int>(stride)};
 }
 
-std::vector<int32_t> PixelsOf(const depth::DepthView& depth, const py::object& mask) {
+std::vector<int32_t> ListPixels(const depth::DepthView& depth, const py::object& mask) {
   std::optional<py::array> given;
   if (!mask.is_none()) {
     given = py::cast<py::array>(mask);
@@ -64,7 +64,7 @@ std::vector<int32_t> PixelsOf(const depth::DepthView& depth, const py::object& m
   return pixels;
 }
 
-depth::Camera CameraOf(const py::tuple& camera, const depth::DepthView& depth) {
+depth::Camera ToCamera(const py::tuple& camera, const depth::DepthView& depth) {
   const auto number = [&](size_t i) { return camera[i].cast<double>(); };
   depth::Camera chosen;
   chosen.fx = number(0);

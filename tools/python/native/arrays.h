@@ -30,15 +30,15 @@ py::array_t<T> ToArray(std::vector<T> values, std::vector<py::ssize_t> shape) {
 /// A depth image where it lies in memory: uint16 [height, width] of this machine's byte order, rows
 /// of neighbouring pixels (a part cut out of a larger image is one). Throws InputError that says
 /// what else it is. The array must outlive the view.
-depth::DepthView ViewOf(const py::array& depth_mm);
+depth::DepthView ToView(const py::array& depth_mm);
 
 /// Pixels to work on, bool or uint8 [height, width] like the image's: where it is not 0 and the
 /// image has a reading. None: all readings. Row-major indices, ascending.
-std::vector<int32_t> PixelsOf(const depth::DepthView& depth, const py::object& mask);
+std::vector<int32_t> ListPixels(const depth::DepthView& depth, const py::object& mask);
 
 /// (fx, fy, cx, cy, width, height) of ossa.Camera for an image of the view's size. Throws
 /// InputError for a camera that cannot be.
-depth::Camera CameraOf(const py::tuple& camera, const depth::DepthView& depth);
+depth::Camera ToCamera(const py::tuple& camera, const depth::DepthView& depth);
 py::tuple ToTuple(const depth::Camera& camera);
 
 /// float64 [20, 3], metres.

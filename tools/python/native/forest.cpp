@@ -53,9 +53,9 @@ ForestOutput RunForest(const forest::ForestModel& model, const depth::DepthView&
 
 ForestOutput RunForestOn(const forest::ForestModel& model, const py::array& depth_mm,
                          const py::tuple& camera, const py::object& mask, bool propose) {
-  const depth::DepthView view = ViewOf(depth_mm);
-  const depth::Camera seen_by = CameraOf(camera, view);
-  const std::vector<int32_t> pixels = PixelsOf(view, mask);
+  const depth::DepthView view = ToView(depth_mm);
+  const depth::Camera seen_by = ToCamera(camera, view);
+  const std::vector<int32_t> pixels = ListPixels(view, mask);
   const py::gil_scoped_release free;
   return RunForest(model, view, seen_by, pixels, propose);
 }

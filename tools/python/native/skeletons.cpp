@@ -251,7 +251,7 @@ recon::ReconstructorOptions OptionsFrom(const py::dict& given,
   options.best.refined_joints = sequence.sensor == recon::kRefinedJoints;
   options.database = tracker::LoadDatabase(files, options.method);
   options.prior = tracker::LoadPrior(files, options.method);
-  options.learned_file = LearnedFile(files.learned, sequence, recon::MethodNamed(options.method));
+  options.learned_file = LearnedFile(files.learned, sequence, recon::RequireMethod(options.method));
   return options;
 }
 
@@ -259,14 +259,14 @@ recon::SkeletonSequence Reconstructed(const recon::SkeletonSequence& sequence,
                                       const recon::ReconstructorOptions& options,
                                       bool bones_of_recording) {
   const auto goes_on = [](size_t) { return GoesOn(); };
-  recon::BonesOfPeople bones;
+  recon::BoneLengthsById bones;
   if (bones_of_recording) bones = recon::MeasureBones(sequence, options, goes_on);
   return recon::ReconstructSequence(sequence, options, goes_on, bones);
 }
 
 recon::LagOptions LagFrom(const py::object& lag, const std::string& method, bool offline) {
   static constexpr recon::MethodInfo kOffline{};
-  const recon::MethodInfo& info = offline ? kOffline : recon::MethodNamed(method);
+  const recon::MethodInfo& info = offline ? kOffline : recon::RequireMethod(method);
   const int usual = info.smoothed_in_files ? recon::kWholeRecording : 0;
   return recon::LagOptions::Of(lag.is_none() ? usual : lag.cast<int>(), info.keeps_bones);
 }

@@ -30,7 +30,7 @@ py::object TextOrNone(const py::dict& given, const char* key) {
 }
 
 tracker::SmoothingOptions SmoothingFrom(const py::object& given, const std::string& method) {
-  if (given.is_none()) return tracker::SmoothingPreset(recon::MethodNamed(method).smoothing);
+  if (given.is_none()) return tracker::SmoothingPreset(recon::RequireMethod(method).smoothing);
   if (py::isinstance<py::str>(given)) return tracker::SmoothingPreset(given.cast<std::string>());
   const auto values = given.cast<py::dict>();
   const auto number = [&](const char* key) { return values[key].cast<double>(); };
@@ -112,7 +112,7 @@ recon::JointArray<double> ConfidenceOf(const Body& body) {
 
 using MeshPointer = std::shared_ptr<const recon::BodyMesh>;
 
-py::array VerticesOf(const recon::BodyMesh& mesh, const recon::SurfacePose& pose) {
+py::array ComputeVertices(const recon::BodyMesh& mesh, const recon::SurfacePose& pose) {
   std::vector<double> vertices_m;
   for (const Eigen::Vector3d& place_m : recon::PoseMesh(mesh, pose)) {
     vertices_m.insert(vertices_m.end(), place_m.begin(), place_m.end());
@@ -182,7 +182,8 @@ void AddSkeleton(const Body& body, bool with_proposals, py::dict& made) {
   made["confidence"] = python::ToArray(ConfidenceOf(body));
   made["reliability"] = python::ToArray(reliability);
   made["orientations"] = python::ToArray(orientations);
-  made["hierarchical_orientations"] = python::ToArray(tracker::HierarchicalOrientationsOf(body));
+  made["hierarchical_orientations"] =
+      python::ToArray(tracker::ComputeHierarchicalOrientations(body));
   made["raw"] = python::ToArray(body.raw.posture);
   made["refined"] = body.refined ? py::object(python::ToArray(*body.refined)) : py::none();
   made["reconstructed"] = python::ToArray(body.reconstructed);
@@ -269,15 +270,15 @@ class Tracker {
   }
 
   /// None until as many images came as the lag has frames.
-  py::object TrackLate(const py::array& depth_mm, const py::tuple& camera, double time_s,
-                       int turn) {
+  py::object TrackWithLag(const py::array& depth_mm, const py::tuple& camera, double time_s,
+                          int turn) {
     std::optional<BodyFrame> bodies;
-    WithFrame(depth_mm, camera, time_s, turn, [&] { bodies = tracker_->TrackLate(frame_); });
+    WithFrame(depth_mm, camera, time_s, turn, [&] { bodies = tracker_->TrackWithLag(frame_); });
     return OrNone(std::move(bodies));
   }
 
-  /// The next image of a source, tracked where it was read: (status, None or as TrackLate, time_s,
-  /// dropped).
+  /// The next image of a source, tracked where it was read: (status, None or as TrackWithLag,
+  /// time_s, dropped).
   py::tuple TrackNext(Source& source, int timeout_ms, int turn) {
     depth::ReadResult read;
     std::optional<BodyFrame> bodies;
@@ -288,7 +289,7 @@ class Tracker {
         const std::lock_guard lock(mutex_);
         tracker_->SetTurn(static_cast<tracker::Turn>(turn));
         read.frame.index = frame_.index;
-        bodies = tracker_->TrackLate(read.frame);
+        bodies = tracker_->TrackWithLag(read.frame);
         ++frame_.index;
       }
     }
@@ -297,9 +298,9 @@ class Tracker {
   }
 
   /// None when nothing is held.
-  py::object TakeHeld() {
+  py::object DrainLag() {
     std::optional<BodyFrame> bodies;
-    Locked([&](tracker::Tracker& t) { bodies = t.TakeHeld(); });
+    Locked([&](tracker::Tracker& t) { bodies = t.DrainLag(); });
     return OrNone(std::move(bodies));
   }
 
@@ -345,8 +346,8 @@ class Tracker {
   template <typename Track>
   void WithFrame(const py::array& depth_mm, const py::tuple& camera, double time_s, int turn,
                  const Track& track) {
-    const depth::DepthView view = ViewOf(depth_mm);
-    const depth::Camera seen_by = CameraOf(camera, view);
+    const depth::DepthView view = ToView(depth_mm);
+    const depth::Camera seen_by = ToCamera(camera, view);
     const py::gil_scoped_release free;
     const std::lock_guard lock(mutex_);
     tracker_->SetTurn(static_cast<tracker::Turn>(turn));
@@ -383,18 +384,18 @@ void AddTracker(py::module_& module) {
       .def(py::init(&LoadModels), py::arg("files"), py::arg("method"))
       .def_readonly("method", &Models::method);
   py::class_<Skin>(module, "Skin").def("vertices", [](const Skin& skin) {
-    return VerticesOf(*skin.mesh, skin.pose);
+    return ComputeVertices(*skin.mesh, skin.pose);
   });
   py::class_<Tracker>(module, "Tracker")
       .def(py::init<const py::dict&, const Models&>(), py::arg("options"), py::arg("models"))
       .def("track", &Tracker::Track, py::arg("depth_mm"), py::arg("camera"), py::arg("time_s"),
            py::arg("turn"))
       .def("faces", &Tracker::Faces)
-      .def("track_late", &Tracker::TrackLate, py::arg("depth_mm"), py::arg("camera"),
+      .def("track_late", &Tracker::TrackWithLag, py::arg("depth_mm"), py::arg("camera"),
            py::arg("time_s"), py::arg("turn"))
       .def("track_next", &Tracker::TrackNext, py::arg("source"), py::arg("timeout_ms"),
            py::arg("turn"))
-      .def("take_held", &Tracker::TakeHeld)
+      .def("take_held", &Tracker::DrainLag)
       .def("find_upright", &Tracker::FindUpright, py::arg("source"), py::arg("options"))
       .def("choose_users", &Tracker::ChooseUsers, py::arg("ids"))
       .def("set_seated", &Tracker::SetSeated, py::arg("seated"))

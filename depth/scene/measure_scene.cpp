@@ -1,4 +1,4 @@
-#include "depth/scene/scene.h"
+#include "depth/scene/measure_scene.h"
 
 #include <cmath>
 
@@ -46,7 +46,7 @@ Scene MeasureScene(const DepthFrame& frame, SceneState& state, const SceneOption
   state.last_s = frame.time_s;
   scene.floor = FindFloor(scene.grid, state.floor, options.floor);
   if (scene.floor) scene.grid.up = scene.floor->coefficients.head<3>().cast<float>();
-  scene.surfaces = FindRoomSurfaces(scene.grid, scene.floor);
+  scene.surfaces = FindRoomSurfaces(scene.grid, scene.floor, options.furniture);
   scene.background = CompareWithBackground(scene.grid, state.background, options.background);
   return scene;
 }

@@ -24,6 +24,7 @@ struct SceneState {
 struct SceneOptions {
   FloorOptions floor;
   BackgroundOptions background;
+  FurnitureOptions furniture;
   /// Measurements farther away are left out, metres, > 0: the Kinect's own range for people ends
   /// before, and beyond a person has too few pixels for the forest.
   float max_depth_m = 6.0F;

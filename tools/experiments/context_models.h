@@ -1,0 +1,13 @@
+#pragma once
+#include <string_view>
+
+#include "tools/experiments/experiment.h"
+#include "tools/tracker/model_set.h"
+
+namespace ossa::tools {
+
+/// What a study's tracker runs with: --model and --database, else what ossa ships. Throws as
+/// ModelSet::Load does.
+tracker::ModelSet LoadModels(const ExperimentContext& context, std::string_view method);
+
+}  // namespace ossa::tools
