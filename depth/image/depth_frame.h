@@ -15,6 +15,10 @@ struct DepthView {
   int stride = 0;  // elements from one row to the next
 
   uint16_t at(int u, int v) const { return data_mm[static_cast<ptrdiff_t>(v) * stride + u]; }
+  /// By row-major index, v width + u.
+  uint16_t at(int32_t pixel) const {
+    return stride == width ? data_mm[pixel] : at(pixel % width, pixel / width);
+  }
   bool Contains(int u, int v) const { return u >= 0 && v >= 0 && u < width && v < height; }
 };
 
@@ -24,8 +28,19 @@ struct DepthFrame {
   Camera camera;
   double time_s = 0.0;  // sensor clock, seconds
   int64_t index = 0;    // frame number of the source, from 0
+  // The image where it lies in memory that outlives this frame and its copies, such as a driver's
+  // buffer, in place of depth_mm; without data depth_mm is the image.
+  DepthView borrowed;
 
-  DepthView view() const { return {depth_mm.data(), camera.width, camera.height, camera.width}; }
+  DepthView view() const {
+    if (borrowed.data_mm != nullptr) return borrowed;
+    return {depth_mm.data(), camera.width, camera.height, camera.width};
+  }
+  /// Of the image that is there, whatever the camera says.
+  size_t pixel_count() const {
+    if (borrowed.data_mm == nullptr) return depth_mm.size();
+    return static_cast<size_t>(borrowed.width) * static_cast<size_t>(borrowed.height);
+  }
 };
 
 }  // namespace ossa::depth

@@ -1,5 +1,6 @@
 #include "depth/image/turn.h"
 
+#include <algorithm>
 #include <cstdlib>
 
 namespace ossa::depth {
@@ -22,8 +23,13 @@ Camera Turned(const Camera& camera, int quarters) {
 DepthFrame Turned(const DepthFrame& frame, int quarters) {
   if (quarters == 0) return frame;
   Image<uint16_t> image(frame.camera.width, frame.camera.height);
-  image.data = frame.depth_mm;
-  return {Turned(image, quarters).data, Turned(frame.camera, quarters), frame.time_s, frame.index};
+  const DepthView view = frame.view();
+  for (int v = 0; v < view.height; ++v) {
+    std::copy_n(&view.data_mm[static_cast<ptrdiff_t>(v) * view.stride], view.width,
+                &image.at(0, v));
+  }
+  return {
+      Turned(image, quarters).data, Turned(frame.camera, quarters), frame.time_s, frame.index, {}};
 }
 
 // A pixel's offsets from the centre are -x and -y: what lies below the centre, at -y, comes to lie

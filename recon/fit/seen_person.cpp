@@ -33,7 +33,7 @@ void SeenPerson::TakePixels(const SurfaceFitInput& input, const SurfaceFitOption
   for (size_t i = 0; i < from.size(); ++i) {
     const int32_t pixel = from[i];
     const int u = pixel % camera.width, v = pixel / camera.width;
-    const uint16_t depth_mm = input.depth->depth_mm[static_cast<size_t>(pixel)];
+    const uint16_t depth_mm = input.depth->view().at(pixel);
     const uint8_t part = labelled ? input.parts[i] : uint8_t{0};
     if (u % step != 0 || v % step != 0 || depth_mm == 0 || part > kPartCount) continue;
     const Eigen::Vector3d at_m = depth::BackProject(camera, u, v, depth_mm);

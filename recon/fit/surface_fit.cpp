@@ -44,7 +44,7 @@ bool IsUsable(const SurfaceFitInput& input) {
 }
 
 void CheckPixels(const char* name, std::span<const int32_t> pixels, const depth::DepthFrame& in) {
-  const auto count = static_cast<int64_t>(in.depth_mm.size());
+  const auto count = static_cast<int64_t>(in.pixel_count());
   for (const int32_t pixel : pixels) {
     if (pixel >= 0 && pixel < count) continue;
     throw std::invalid_argument(

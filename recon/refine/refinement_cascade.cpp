@@ -14,8 +14,8 @@ namespace {
 bool CanBeRefined(const RefinementInput& input) {
   const depth::DepthFrame* frame = input.depth;
   if (frame == nullptr || frame->camera.width <= 0 || frame->camera.height <= 0 ||
-      input.is_person.size() != frame->depth_mm.size() ||
-      frame->depth_mm.size() !=
+      input.is_person.size() != frame->pixel_count() ||
+      frame->pixel_count() !=
           static_cast<size_t>(frame->camera.width) * static_cast<size_t>(frame->camera.height)) {
     return false;
   }

@@ -123,11 +123,12 @@ OSSA_CPU_DISPATCH void Mean(const Sums& sums, OfSamples<SurfaceSample>* samples)
 OfSamples<SurfaceSample> SurfaceSampler::Around(const Eigen::Vector3d& joint_m) const {
   Taps taps;
   Sums sums;
+  const depth::DepthView view = frame_.view();
   for (const Grids& grids : kGrids) {
     Project(frame_.camera, joint_m.cast<float>(), camera_from_frame_, grids, &taps);
     for (size_t i = 0; i < kSurfaceSamples; ++i) {
       const int32_t pixel = taps.pixel[i];
-      taps.depth_mm[i] = pixel == kOutside ? 0 : frame_.depth_mm[static_cast<size_t>(pixel)];
+      taps.depth_mm[i] = pixel == kOutside ? 0 : view.at(pixel);
       taps.is_person[i] = pixel == kOutside ? 0 : is_person_[static_cast<size_t>(pixel)];
     }
     Add(taps, &sums);

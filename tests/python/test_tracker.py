@@ -142,6 +142,32 @@ def test_a_part_of_an_image_is_tracked_as_its_copy(images, models):
     assert np.array_equal(as_view.bodies[0].joints, as_copy.bodies[0].joints)
 
 
+def test_an_image_that_is_written_into_meanwhile_does_no_harm(images, models):
+    given, camera, _ = images[0]
+    depth_mm = given.copy()
+    tracked = threading.Event()
+
+    def write():
+        random = np.random.default_rng(1)
+        while not tracked.is_set():
+            depth_mm[random.random(depth_mm.shape) < 0.2] = random.choice([0, 1, 65535])
+            depth_mm[:] = given
+
+    writer = threading.Thread(target=write)
+    writer.start()
+    tracker = ossa.Tracker(models=models, parts=True)
+    try:
+        bodies = [body for _ in range(30) for body in tracker.track(depth_mm, camera).bodies]
+    finally:
+        tracked.set()
+        writer.join()
+    assert all(np.isfinite(body.joints).all() for body in bodies)
+    assert np.array_equal(
+        ossa.Tracker(models=models).track(depth_mm, camera).users,
+        ossa.Tracker(models=models).track(given, camera).users,
+    )
+
+
 def test_users_not_chosen_have_a_position_only(images, models):
     tracker = ossa.Tracker(models=models)
     tracker.choose_users([77])

@@ -36,7 +36,7 @@ struct Sample {
 Sample BackProjectSample(const depth::DepthFrame& frame, int32_t pixel) {
   const depth::Camera& camera = frame.camera;
   const Vector3d p = depth::BackProject(camera, pixel % camera.width, pixel / camera.width,
-                                        frame.depth_mm[static_cast<size_t>(pixel)]);
+                                        frame.view().at(pixel));
   return {p, p.z() * p.z() / (camera.fx * camera.fy)};
 }
 
@@ -111,12 +111,13 @@ bool Meet(uint8_t a, uint8_t b) {
 // Only borders on one surface count: a hand before the chest borders on anything.
 double MeasureNeighbourShare(const depth::DepthFrame& frame, const Classification& seen) {
   constexpr int kOneSurface_mm = 60;  // by hand; part of the classifier, which was learned with it
+  const depth::DepthView view = frame.view();
   double borders = 0, meeting = 0;
   for (size_t i = 1; i < seen.pixel.size(); ++i) {
     const uint8_t a = Folded(seen.label[i]), b = Folded(seen.label[i - 1]);
     if (seen.pixel[i] != seen.pixel[i - 1] + 1 || a == b) continue;
-    const int jump_mm = static_cast<int>(frame.depth_mm[static_cast<size_t>(seen.pixel[i])]) -
-                        static_cast<int>(frame.depth_mm[static_cast<size_t>(seen.pixel[i - 1])]);
+    const int jump_mm =
+        static_cast<int>(view.at(seen.pixel[i])) - static_cast<int>(view.at(seen.pixel[i - 1]));
     if (std::abs(jump_mm) > kOneSurface_mm) continue;
     borders += 1;
     meeting += Meet(a, b) ? 1 : 0;

@@ -15,6 +15,7 @@ Subsampled Subsample(const depth::DepthFrame& frame, std::span<const int32_t> pi
   result.frame.depth_mm.assign(
       static_cast<size_t>(camera.width) * static_cast<size_t>(camera.height), 0);
   result.pixels.reserve(pixels.size() / static_cast<size_t>(scale * scale) + 64);
+  const depth::DepthView view = frame.view();
   int32_t row_begin = 0, v = -1;
   for (const int32_t pixel : pixels) {
     if (pixel - row_begin >= full.width || v < 0) {
@@ -24,7 +25,7 @@ Subsampled Subsample(const depth::DepthFrame& frame, std::span<const int32_t> pi
     const int32_t u = pixel - row_begin;
     if (v % scale != 0 || u % scale != 0) continue;
     const int32_t small = v / scale * camera.width + u / scale;
-    result.frame.depth_mm[static_cast<size_t>(small)] = frame.depth_mm[static_cast<size_t>(pixel)];
+    result.frame.depth_mm[static_cast<size_t>(small)] = view.at(u, v);
     result.pixels.push_back(small);
   }
   return result;

@@ -124,8 +124,7 @@ ossa::depth::DepthFrame DepthFrom(const ossa_depth_image& given, int64_t index) 
   ossa::depth::CheckCamera(frame.camera, "ossa_depth_image");
   frame.time_s = image.time_s;
   frame.index = index;
-  const auto pixels = static_cast<size_t>(image.width) * static_cast<size_t>(image.height);
-  frame.depth_mm.assign(image.depth_mm, image.depth_mm + pixels);
+  frame.borrowed = {image.depth_mm, image.width, image.height, image.width};
   return frame;
 }
 

@@ -29,7 +29,7 @@ std::optional<recon::RefinedPerson> RefineJoints(
     input.confidence[j] = proposal->confidence;
     input.seen[j] = proposal->seen;
   }
-  std::vector<uint8_t> is_person(frame.depth_mm.size(), 0);
+  std::vector<uint8_t> is_person(frame.pixel_count(), 0);
   for (const int32_t pixel : candidate.pixels) is_person[static_cast<size_t>(pixel)] = 1;
   input.depth = &frame;
   input.is_person = is_person;

@@ -355,8 +355,9 @@ BodyFrame Tracker::Impl::Play(BodyFrame frame) {
 BodyFrame Tracker::Impl::TrackTurned(const depth::DepthFrame& frame) {
   const std::string name = "frame " + std::to_string(frame.index);
   depth::CheckCamera(frame.camera, name + ": camera");
-  const auto pixels = static_cast<int64_t>(frame.depth_mm.size());
-  if (pixels != static_cast<int64_t>(frame.camera.width) * frame.camera.height) {
+  const auto pixels = static_cast<int64_t>(frame.pixel_count());
+  if (pixels != static_cast<int64_t>(frame.camera.width) * frame.camera.height ||
+      frame.view().width != frame.camera.width) {
     throw InputError(name + ": expected " + std::to_string(frame.camera.width) + "x" +
                      std::to_string(frame.camera.height) + " depth values, found " +
                      std::to_string(pixels));

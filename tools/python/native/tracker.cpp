@@ -260,7 +260,8 @@ class Tracker {
 
   py::dict Track(const py::array& depth_mm, const py::tuple& camera, double time_s, int turn) {
     BodyFrame bodies;
-    WithFrame(depth_mm, camera, time_s, turn, [&] { bodies = tracker_->Track(frame_); });
+    WithFrame(depth_mm, camera, time_s, turn,
+              [&](const depth::DepthFrame& frame) { bodies = tracker_->Track(frame); });
     return ToDict(std::move(bodies), with_proposals_, mesh_);
   }
 
@@ -273,7 +274,8 @@ class Tracker {
   py::object TrackWithLag(const py::array& depth_mm, const py::tuple& camera, double time_s,
                           int turn) {
     std::optional<BodyFrame> bodies;
-    WithFrame(depth_mm, camera, time_s, turn, [&] { bodies = tracker_->TrackWithLag(frame_); });
+    WithFrame(depth_mm, camera, time_s, turn,
+              [&](const depth::DepthFrame& frame) { bodies = tracker_->TrackWithLag(frame); });
     return OrNone(std::move(bodies));
   }
 
@@ -288,9 +290,9 @@ class Tracker {
       if (read.status == depth::ReadStatus::kFrame) {
         const std::lock_guard lock(mutex_);
         tracker_->SetTurn(static_cast<tracker::Turn>(turn));
-        read.frame.index = frame_.index;
+        read.frame.index = index_;
         bodies = tracker_->TrackWithLag(read.frame);
-        ++frame_.index;
+        ++index_;
       }
     }
     return py::make_tuple(NameOf(read.status), OrNone(std::move(bodies)), read.frame.time_s,
@@ -342,24 +344,20 @@ class Tracker {
     return ToDict(std::move(*bodies), with_proposals_, mesh_);
   }
 
-  /// Makes the image frame_ and does `track` with it.
+  /// Does `track` with the image where it lies.
   template <typename Track>
   void WithFrame(const py::array& depth_mm, const py::tuple& camera, double time_s, int turn,
                  const Track& track) {
-    const depth::DepthView view = ToView(depth_mm);
-    const depth::Camera seen_by = ToCamera(camera, view);
+    depth::DepthFrame frame;
+    frame.borrowed = ToView(depth_mm);
+    frame.camera = ToCamera(camera, frame.borrowed);
+    frame.time_s = time_s;
     const py::gil_scoped_release free;
     const std::lock_guard lock(mutex_);
     tracker_->SetTurn(static_cast<tracker::Turn>(turn));
-    frame_.camera = seen_by;
-    frame_.time_s = time_s;
-    frame_.depth_mm.clear();
-    for (int v = 0; v < view.height; ++v) {
-      const uint16_t* const row = view.data_mm + static_cast<ptrdiff_t>(v) * view.stride;
-      frame_.depth_mm.insert(frame_.depth_mm.end(), row, row + view.width);
-    }
-    track();
-    ++frame_.index;
+    frame.index = index_;
+    track(frame);
+    ++index_;
   }
 
   template <typename Change>
@@ -373,7 +371,7 @@ class Tracker {
   std::string method_;
   bool with_proposals_ = false;
   std::shared_ptr<const recon::BodyMesh> mesh_;  // where bodies are fitted
-  depth::DepthFrame frame_;                      // its memory serves frame after frame
+  int64_t index_ = 0;                            // of the next image
   std::optional<tracker::Tracker> tracker_;
 };
 

@@ -285,7 +285,8 @@ class Tracker:
         ----------
         depth_mm : uint16 [H, W]
             Millimetres along the optical axis, 0 = no reading. Rows of neighbouring pixels (C
-            order); a part cut out of a larger image is one. The tracker copies its pixels once.
+            order); a part cut out of a larger image is one. It is not copied: whoever writes into it
+            before track returns gets a skeleton of two moments.
         camera : ossa.Camera
             What it was taken by.
         time_s : float, optional
