@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "depth/base/error.h"
+#include "forest/each_tree_internal.h"
 #include "forest/joint_features_internal.h"
 #include "forest/runtime_tables_internal.h"
 
@@ -210,7 +211,7 @@ void CheckRelabelling(const ForestData& data, const std::string& name) {
 ForestModel::ForestModel(ForestData data, const std::string& name, ModelUse use) {
   CheckNames(data, name);
   if (data.trees.empty() || data.trees.size() > 64) Refuse(name, "expected 1 to 64 trees");
-  for (size_t t = 0; t < data.trees.size(); ++t) CheckTree(data, t, name);
+  ForEachTree(data.trees.size(), [&](size_t t) { CheckTree(data, t, name); });
   for (const ProposalTarget& target : data.targets) CheckTarget(data, target, name);
   CheckPosePriors(data, name);
   CheckRefinement(data, name);

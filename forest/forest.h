@@ -81,8 +81,8 @@ struct ForestData {
 struct RuntimeTables;  // forest/runtime_tables_internal.h
 
 /// What a model is there for. One that is only run lets go of its trees' nodes and of what their
-/// leaves held (Tree::entries) as soon as the tables that run are made of them. It cannot be
-/// written.
+/// leaves held (Tree::entries) as soon as the tables that run are made of them: those of leaves
+/// while it runs (forest/deferred_leaves_internal.h). It cannot be written.
 enum class ModelUse { kAny, kRunOnly };
 
 /// A checked forest, ready to run. Immutable; copies share.
@@ -104,6 +104,8 @@ class ForestModel {
   const RuntimeTables& tables() const { return *tables_; }
 
  private:
+  friend void KeepTables(const std::filesystem::path& model_file, const ForestModel& model);
+
   std::shared_ptr<const ForestData> data_;
   std::shared_ptr<const RuntimeTables> tables_;
 };

@@ -6,6 +6,7 @@
 #include "depth/base/compressed.h"
 #include "depth/base/error.h"
 #include "depth/base/naming_the_file.h"
+#include "forest/each_tree_internal.h"
 #include "forest/forest.h"
 #include "forest/forest_file_internal.h"
 #include "forest/prune.h"
@@ -139,6 +140,23 @@ ProposalTarget GetTarget(PayloadReader* reader) {
   return target;
 }
 
+// Those of today's files side by side: they are most of what a file holds.
+std::vector<Tree> GetTrees(PayloadReader* reader, uint32_t count, uint32_t version) {
+  std::vector<Tree> trees;
+  std::vector<PayloadReader> at;
+  for (uint32_t i = 0; i < count; ++i) {
+    if (version < 3) {
+      trees.push_back(GetTreeOfVersion2(reader));
+      continue;
+    }
+    at.push_back(*reader);
+    SkipTree(reader);
+  }
+  trees.resize(count);
+  ForEachTree(at.size(), [&](size_t t) { trees[t] = GetTree(&at[t]); });
+  return trees;
+}
+
 ForestData ParseVersion(std::span<const std::byte> payload, const std::string& name,
                         uint32_t version) {
   PayloadReader reader(payload, name);
@@ -152,9 +170,7 @@ ForestData ParseVersion(std::span<const std::byte> payload, const std::string& n
   const auto targets = reader.Get<uint32_t>("number of targets");
   for (uint32_t i = 0; i < targets; ++i) data.targets.push_back(GetTarget(&reader));
   const auto trees = reader.Get<uint32_t>("number of trees");
-  for (uint32_t i = 0; i < trees; ++i) {
-    data.trees.push_back(version >= 3 ? GetTree(&reader) : GetTreeOfVersion2(&reader));
-  }
+  data.trees = GetTrees(&reader, trees, version);
   if (version >= 2) GetAgreement(&reader, &data);
   if (version >= 4) data.refinement = GetRefinement(&reader);
   if (version >= 5) {

@@ -69,16 +69,22 @@ std::optional<fs::path> PlaceFor(const fs::path& model_file) {
 fs::path HeadOf(const fs::path& place) { return place.string() + ".head"; }
 fs::path TablesOf(const fs::path& place) { return place.string() + ".tables"; }
 
+LeafTables& LeavesOf(RuntimeTables& tables, size_t tree) { return tables.leaves[tree]; }
+const LeafTables& LeavesOf(const RuntimeTables& tables, size_t tree) {
+  return tables.deferred != nullptr ? tables.deferred->whole(tree) : tables.leaves[tree];
+}
+
 // Calls `visit` with each table of a model, always in the same order.
 template <typename Data, typename Tables, typename Visit>
 void ForEachTable(Data& data, Tables& tables, const Visit& visit) {
   for (size_t t = 0; t < data.trees.size(); ++t) {
+    auto& leaves = LeavesOf(tables, t);
     visit(tables.trees[t].lines);
-    visit(tables.leaves[t].evidence);
-    visit(tables.leaves[t].shares);
-    visit(tables.leaves[t].first_shares);
-    visit(tables.leaves[t].shares_of);
-    visit(tables.leaves[t].vote_row);
+    visit(leaves.evidence);
+    visit(leaves.shares);
+    visit(leaves.first_shares);
+    visit(leaves.shares_of);
+    visit(tables.vote_rows[t]);
     visit(data.trees[t].votes);
   }
 }
@@ -103,28 +109,25 @@ struct Kept {
   RuntimeTables tables;
 };
 
-std::vector<std::byte> PackHead(const ForestModel& model) {
-  ForestData rest = model.data();
+std::vector<std::byte> PackHead(const ForestData& data, const RuntimeTables& tables) {
+  ForestData rest = data;
   rest.trees.clear();
   PayloadWriter writer;
   writer.PutVector(PackForest(rest));
-  writer.Put<uint64_t>(model.data().trees.size());
-  for (size_t t = 0; t < model.data().trees.size(); ++t) {
-    const LinedTree& lined = model.tables().trees[t];
-    writer.Put(std::array{lined.first_node, lined.offset_step, model.data().trees[t].vote_depth});
+  writer.Put<uint64_t>(data.trees.size());
+  for (size_t t = 0; t < data.trees.size(); ++t) {
+    const LinedTree& lined = tables.trees[t];
+    writer.Put(std::array{lined.first_node, lined.offset_step, data.trees[t].vote_depth});
   }
-  ForEachTable(model.data(), model.tables(), [&](const auto& table) {
+  ForEachTable(data, tables, [&](const auto& table) {
     writer.Put(TableSize{table.size(), ChecksumOf(table)});
   });
   return {writer.bytes().begin(), writer.bytes().end()};
 }
 
-// Into memory of large pages from the beginning: they are cleared at once.
 template <typename T>
 bool Fill(std::vector<T>& table, uint64_t count, int file, uint64_t at) {
-  table.reserve(count);
-  PreferLargePages(table.data(), count * sizeof(T));
-  table.resize(count);
+  table = MakeLargeVector<T>(count);
   auto* to = reinterpret_cast<char*>(table.data());
   for (uint64_t done = 0, size = BytesOf(table); done < size;) {
     const ssize_t got = pread(file, to + done, size - done, static_cast<off_t>(at + done));
@@ -145,6 +148,7 @@ std::vector<TableSize> ReadHead(const fs::path& file, Kept* kept) {
   kept->data.trees.resize(trees);
   kept->tables.trees.resize(trees);
   kept->tables.leaves.resize(trees);
+  kept->tables.vote_rows.resize(trees);
   for (size_t t = 0; t < trees; ++t) {
     const auto [first_node, offset_step, vote_depth] = head.Get<std::array<int, 3>>("tree");
     kept->tables.trees[t].first_node = first_node;
@@ -199,12 +203,31 @@ void RemoveOldOnes(const fs::path& folder) {
   }
 }
 
+void Write(const fs::path& place, const ForestData& data, const RuntimeTables& of) try {
+  fs::create_directories(place.parent_path());
+  AtomicFile tables(TablesOf(place));
+  ForEachTable(data, of, [&](const auto& table) {
+    tables.stream().write(reinterpret_cast<const char*>(table.data()),
+                          static_cast<std::streamsize>(BytesOf(table)));
+  });
+  tables.CommitOneOfMany();  // checksums tell what a power cut left
+  WriteContainer(HeadOf(place), kFormat, PackHead(data, of));
+  RemoveOldOnes(place.parent_path());
+} catch (const InputError&) {
+} catch (const fs::filesystem_error&) {
+}
+
 }  // namespace
+
+bool MayHaveKeptTables(const fs::path& model_file) {
+  const auto place = PlaceFor(model_file);
+  std::error_code unknown;
+  return place && fs::exists(HeadOf(*place), unknown);
+}
 
 std::optional<ForestModel> ReadKeptTables(const fs::path& model_file) try {
   const auto place = PlaceFor(model_file);
-  std::error_code unknown;
-  if (!place || !fs::exists(HeadOf(*place), unknown)) return std::nullopt;
+  if (!place || !MayHaveKeptTables(model_file)) return std::nullopt;
   Kept kept;
   const std::vector<TableSize> sizes = ReadHead(HeadOf(*place), &kept);
   ReturnFreedMemory();  // before the tables are there
@@ -215,20 +238,13 @@ std::optional<ForestModel> ReadKeptTables(const fs::path& model_file) try {
   return std::nullopt;
 }
 
-void KeepTables(const fs::path& model_file, const ForestModel& model) try {
+void KeepTables(const fs::path& model_file, const ForestModel& model) {
   const auto place = PlaceFor(model_file);
   if (!place) return;
-  fs::create_directories(place->parent_path());
-  AtomicFile tables(TablesOf(*place));
-  ForEachTable(model.data(), model.tables(), [&](const auto& table) {
-    tables.stream().write(reinterpret_cast<const char*>(table.data()),
-                          static_cast<std::streamsize>(BytesOf(table)));
-  });
-  tables.CommitOneOfMany();  // checksums tell what a power cut left
-  WriteContainer(HeadOf(*place), kFormat, PackHead(model));
-  RemoveOldOnes(place->parent_path());
-} catch (const InputError&) {
-} catch (const fs::filesystem_error&) {
+  const RuntimeTables* tables = model.tables_.get();  // which outlive what they defer
+  const auto write = [place = *place, data = model.data_, tables] { Write(place, *data, *tables); };
+  if (tables->deferred == nullptr) return write();
+  tables->deferred->OnceWhole(write);
 }
 
 }  // namespace ossa::forest

@@ -4,6 +4,7 @@
 
 #include "depth/base/atomic_file.h"
 #include "depth/base/error.h"
+#include "depth/base/large_pages.h"
 #include "depth/base/open_file.h"
 
 namespace ossa {
@@ -62,7 +63,7 @@ void CheckPayload(std::span<const std::byte> payload, const Header& header, cons
 
 // The file's next bytes, fewer where it ends.
 std::vector<std::byte> NextBytes(std::ifstream& file, size_t at_most) {
-  std::vector<std::byte> bytes(at_most);
+  auto bytes = MakeLargeVector<std::byte>(at_most);
   file.read(reinterpret_cast<char*>(bytes.data()), static_cast<std::streamsize>(at_most));
   bytes.resize(static_cast<size_t>(file.gcount()));
   return bytes;
@@ -125,6 +126,11 @@ std::vector<std::byte> ReadContainer(const std::filesystem::path& path,
   if (payload.size() != header.payload_size) throw InputError(path.string() + ": reading failed");
   CheckPayload(payload, header, path.string(), format);
   return payload;
+}
+
+std::span<const uint8_t> PayloadReader::GetBytes(std::string_view field) {
+  const auto bytes = Take(TakeCount(1, field), field);
+  return {reinterpret_cast<const uint8_t*>(bytes.data()), bytes.size()};
 }
 
 std::string PayloadReader::GetString(std::string_view field) {

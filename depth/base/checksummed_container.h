@@ -98,6 +98,8 @@ class PayloadReader {
     if (count > 0) std::memcpy(values.data(), bytes.data(), bytes.size());
     return values;
   }
+  /// A vector of bytes as it lies in the payload, which must stay.
+  std::span<const uint8_t> GetBytes(std::string_view field);
   std::string GetString(std::string_view field);
 
   /// Throws unless the payload is used up.

@@ -6,6 +6,7 @@
 
 #include "depth/base/checksummed_container.h"
 #include "depth/base/error.h"
+#include "depth/base/large_pages.h"
 
 namespace ossa {
 
@@ -22,7 +23,7 @@ std::vector<std::byte> Decompress(std::span<const std::byte> compressed, const s
                                   std::string_view what) {
   PayloadReader in(compressed, file);
   const auto size = in.Get<uint64_t>("unpacked length");
-  const auto bytes = in.GetVector<std::byte>("compressed payload");
+  const auto bytes = in.GetBytes("compressed payload");
   in.ExpectEnd();
   // zstd's shortest block, 4 bytes, holds 2^17 that are all the same, and a frame that we wrote
   // says itself what it holds: another claim is a lie, refused before allocating.
@@ -34,7 +35,7 @@ std::vector<std::byte> Decompress(std::span<const std::byte> compressed, const s
     throw InputError(file + ": byte 32: unpacked length: " + std::to_string(size) +
                      " is more than the file can hold");
   }
-  std::vector<std::byte> payload(size);
+  auto payload = MakeLargeVector<std::byte>(size);
   const size_t got = ZSTD_decompress(payload.data(), payload.size(), bytes.data(), bytes.size());
   if (ZSTD_isError(got) != 0 || got != size) {
     throw InputError(file + ": byte 40: compressed payload: the " + std::string(what) +

@@ -77,18 +77,17 @@ OSSA_CPU_DISPATCH void AddTo(const int16_t* __restrict values, size_t count,
 
 // Posterior ∝ prior · exp(evidence_scale · mean evidence): the pixels of one object are far from
 // independent, so that their mean counts as evidence_scale of them (learned on held-out frames).
-std::vector<float> ContextPosterior(const ForestModel& model, const Walked& walked,
+std::vector<float> ContextPosterior(const ForestModel& model, const LeafRows& rows,
                                     std::span<const float> prior) {
   constexpr size_t kPixels = 500;  // tell the facing as well as all do
   const auto contexts = static_cast<size_t>(model.context_count());
-  const size_t trees = model.data().trees.size();
-  const size_t pixels = walked.leaf.size() / trees;
+  const size_t trees = rows.tables.size();
+  const size_t pixels = rows.at.size() / trees;
   const size_t step = std::max<size_t>(1, pixels / kPixels);
   std::vector<int32_t> sum(contexts, 0);  // of at most twice kPixels for each tree: it fits
   size_t walked_leaves = 0;
   const auto evidence_of = [&](size_t i, size_t t) {
-    return model.tables().leaves[t].evidence.data() +
-           static_cast<size_t>(walked.leaf[i * trees + t]) * contexts;
+    return rows.tables[t].evidence + static_cast<size_t>(rows.at[i * trees + t]) * contexts;
   };
   for (size_t i = 0; i < pixels; i += step) {
     const size_t next = std::min(i + kAhead * step, pixels - 1);
@@ -128,22 +127,21 @@ std::vector<ActiveContext> ActiveContexts(std::span<const float> posterior) {
 // The rows of a pixel's leaves: asked for some pixels ahead, since each is a cache miss.
 // Always inline: GCC 12 takes a function that only fetches for one without effect, and leaves its
 // calls out.
-[[gnu::always_inline]] inline void FetchRows(const ForestModel& model, size_t context,
-                                             const int32_t* leaf) {
-  const auto contexts = static_cast<size_t>(model.context_count());
-  for (const LeafTables& tables : model.tables().leaves) {
-    __builtin_prefetch(&tables.SharesOf(static_cast<size_t>(*leaf), context, contexts));
-    ++leaf;
+[[gnu::always_inline]] inline void FetchRows(const LeafRows& rows, size_t contexts, size_t context,
+                                             const int32_t* at) {
+  for (const LeafView& tables : rows.tables) {
+    __builtin_prefetch(&tables.SharesOf(static_cast<size_t>(*at), context, contexts));
+    ++at;
   }
 }
 
 // Where those rows are, which is asked for as far ahead of them.
-[[gnu::always_inline]] inline void FetchPlaces(const ForestModel& model, const int32_t* leaf) {
-  const auto contexts = static_cast<size_t>(model.context_count());
-  for (const LeafTables& tables : model.tables().leaves) {
-    const auto at = static_cast<size_t>(*leaf++);
-    __builtin_prefetch(tables.first_shares.data() + at);
-    __builtin_prefetch(tables.shares_of.data() + at * contexts);
+[[gnu::always_inline]] inline void FetchPlaces(const LeafRows& rows, size_t contexts,
+                                               const int32_t* at) {
+  for (const LeafView& tables : rows.tables) {
+    const auto place = static_cast<size_t>(*at++);
+    __builtin_prefetch(tables.first_shares + place);
+    __builtin_prefetch(tables.shares_of + place * contexts);
   }
 }
 
@@ -165,14 +163,13 @@ OSSA_CPU_DISPATCH void ToMasses(const uint32_t* sum, const uint32_t* total, size
 
 // Adds what a sample's leaves say; returns how much it is. By plain pointers, which no library's
 // assertions check: it is done for every sample.
-uint32_t AddLeaves(const ForestModel& model, std::span<const ActiveContext> active,
-                   const int32_t* leaf, uint32_t* sum) {
+uint32_t AddLeaves(const LeafRows& rows, size_t contexts, std::span<const ActiveContext> active,
+                   const int32_t* at, uint32_t* sum) {
   uint32_t total = 0;
-  const auto contexts = static_cast<size_t>(model.context_count());
-  for (const LeafTables& tables : model.tables().leaves) {
-    const auto at = static_cast<size_t>(*leaf++);
+  for (const LeafView& tables : rows.tables) {
+    const auto place = static_cast<size_t>(*at++);
     for (const ActiveContext& context : active) {
-      const ShareRow& row = tables.SharesOf(at, context.index, contexts);
+      const ShareRow& row = tables.SharesOf(place, context.index, contexts);
       for (size_t s = 0; s < kMostShares; ++s) {
         const uint32_t mass = context.share * row.share[s];
         sum[row.column[s]] += mass;
@@ -184,9 +181,10 @@ uint32_t AddLeaves(const ForestModel& model, std::span<const ActiveContext> acti
 }
 
 // Masses of walked pixels [first, last). Integers and one rounding: the same in every order.
-void MixLeaves(const ForestModel& model, std::span<const ActiveContext> active,
+void MixLeaves(const LeafRows& rows, size_t contexts, std::span<const ActiveContext> active,
                std::array<size_t, 2> range, Walked* walked) {
-  const size_t trees = model.data().trees.size();
+  const size_t trees = rows.tables.size();
+  const int32_t* at = rows.at.data();
   std::vector<uint32_t> sum(kMixedAtOnce * walked->stride);
   std::array<uint32_t, kMixedAtOnce> total{};
   for (size_t first = range[0]; first < range[1]; first += kMixedAtOnce) {
@@ -195,11 +193,11 @@ void MixLeaves(const ForestModel& model, std::span<const ActiveContext> active,
     for (size_t i = 0; i < count; ++i) {
       const size_t next = std::min(first + i + kAhead, range[1] - 1);
       const size_t after_next = std::min(first + i + 2 * kAhead, range[1] - 1);
-      FetchPlaces(model, walked->leaf.data() + after_next * trees);
+      FetchPlaces(rows, contexts, at + after_next * trees);
       for (const ActiveContext& context : active) {
-        FetchRows(model, context.index, walked->leaf.data() + next * trees);
+        FetchRows(rows, contexts, context.index, at + next * trees);
       }
-      total[i] = AddLeaves(model, active, walked->leaf.data() + (first + i) * trees,
+      total[i] = AddLeaves(rows, contexts, active, at + (first + i) * trees,
                            sum.data() + i * walked->stride);
     }
     ToMasses(sum.data(), total.data(), count, walked->stride,
@@ -278,11 +276,13 @@ Classification Classify(const ForestModel& model, const depth::DepthView& depth,
            walked.leaf.data() + first * trees + t, trees);
     }
   });
-  result.context = ContextPosterior(model, walked, GetContextPrior(model, options));
+  const LeafRows rows = FindRows(model.tables(), walked.leaf);
+  const auto contexts = static_cast<size_t>(model.context_count());
+  result.context = ContextPosterior(model, rows, GetContextPrior(model, options));
   const std::vector<ActiveContext> active = ActiveContexts(result.context);
   walked.mass = std::make_unique_for_overwrite<uint8_t[]>(walkers * walked.stride);
   ForRanges(walkers, options.threads, [&](size_t first, size_t last) {
-    MixLeaves(model, active, {first, last}, &walked);
+    MixLeaves(rows, contexts, active, {first, last}, &walked);
   });
   const double spacing_m = spacing * pitch_m;
   SmoothMasses smooth = Smooth({&sparse, walked.mass.get(), walked.stride},

@@ -36,7 +36,7 @@ std::vector<const Vote*> GatherVotes(const ForestModel& model, const Classificat
   for (size_t k = 0; k < pixels.size(); ++k) {
     const auto sample = static_cast<size_t>(classification.sample[pixels[k]]);
     const auto leaf = static_cast<size_t>(classification.leaf[sample * trees + k % trees]);
-    row[k] = &model.tables().leaves[k % trees].vote_row[leaf];
+    row[k] = &model.tables().vote_rows[k % trees][leaf];
     __builtin_prefetch(row[k]);
   }
   std::vector<const Vote*> votes(pixels.size(), nullptr);

@@ -4,7 +4,6 @@
 #include "forest/trees/node_lines_internal.h"
 
 #include <algorithm>
-#include <cmath>
 #include <cstdlib>
 #include <numeric>
 
@@ -47,8 +46,9 @@ int OffsetStep(const std::vector<Node>& nodes) {
 }
 
 uint16_t PackWord(int offset, int offset_step, int piece) {
-  const long steps = std::lround(static_cast<double>(offset) / offset_step);
-  return static_cast<uint16_t>(static_cast<int>(steps) * 16 | (piece & 15));
+  const int half = offset < 0 ? -offset_step : offset_step;  // rounds away from 0, as std::lround
+  const int steps = (2 * offset + half) / (2 * offset_step);
+  return static_cast<uint16_t>(steps * 16 | (piece & 15));
 }
 
 PackedNode Pack(const Node& node, int offset_step) {

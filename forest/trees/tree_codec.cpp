@@ -33,27 +33,46 @@ NodeColumns MakeColumns(const std::vector<Node>& nodes) {
   return columns;
 }
 
+// Numbers of two bytes that stay where they lie in a payload, as PutPlanes put them.
+template <typename T>
+class Planes {
+ public:
+  Planes(PayloadReader* reader, std::string_view field)
+      : first_(reader->GetBytes(field)), second_(reader->GetBytes(field)) {
+    if (first_.size() != second_.size()) reader->Fail(field, "uneven planes of bytes");
+  }
+  size_t size() const { return first_.size(); }
+  T operator[](size_t i) const {
+    return static_cast<T>(first_.data()[i] | unsigned{second_.data()[i]} << 8U);
+  }
+
+ private:
+  std::span<const uint8_t> first_, second_;
+};
+
 // Breadth-first: the n-th inner node has children 1 + 2n and 2 + 2n, the n-th leaf number n.
-std::vector<Node> DecodeNodes(const NodeColumns& columns, const PayloadReader& reader) {
+template <typename Column>
+std::vector<Node> DecodeNodes(std::span<const uint8_t> is_leaf,
+                              const std::vector<Column>& parameters, const PayloadReader& reader) {
   std::vector<Node> nodes;
-  nodes.reserve(columns.is_leaf.size());
+  nodes.reserve(is_leaf.size());
   size_t inner = 0;
   int32_t leaf = 0;
-  for (const auto& column : columns.inner) {
-    if (column.size() != columns.inner[0].size()) reader.Fail("node parameters", "uneven columns");
+  for (const auto& column : parameters) {
+    if (column.size() != parameters[0].size()) reader.Fail("node parameters", "uneven columns");
   }
-  if (columns.is_leaf.size() != 2 * columns.inner[0].size() + 1) {
+  if (is_leaf.size() != 2 * parameters[0].size() + 1) {
     reader.Fail("node parameters", "expected one set for two nodes but the root");
   }
-  for (const uint8_t kind : columns.is_leaf) {
+  for (const uint8_t kind : is_leaf) {
     Node node;
     if (kind != 0) {
       node.left = ~leaf++;
     } else {
-      if (inner >= columns.inner[0].size()) reader.Fail("node parameters", "fewer than nodes");
-      node.u = {columns.inner[0][inner], columns.inner[1][inner]};
-      node.v = {columns.inner[2][inner], columns.inner[3][inner]};
-      node.threshold_mm = columns.inner[4][inner];
+      if (inner >= parameters[0].size()) reader.Fail("node parameters", "fewer than nodes");
+      node.u = {parameters[0][inner], parameters[1][inner]};
+      node.v = {parameters[2][inner], parameters[3][inner]};
+      node.threshold_mm = parameters[4][inner];
       node.left = static_cast<int32_t>(1 + 2 * inner++);
     }
     nodes.push_back(node);
@@ -85,14 +104,15 @@ void PutLeaves(PayloadWriter* writer, const Tree& tree) {
 }
 
 void GetLeaves(PayloadReader* reader, Tree* tree) {
-  const auto counts = GetPlanes<uint16_t>(reader, "leaf entry counts");
-  const auto steps = GetPlanes<uint16_t>(reader, "leaf entry codes");
-  const auto weights = reader->GetVector<uint8_t>("leaf entry weights");
+  const Planes<uint16_t> counts(reader, "leaf entry counts");
+  const Planes<uint16_t> steps(reader, "leaf entry codes");
+  const std::span<const uint8_t> weights = reader->GetBytes("leaf entry weights");
   if (steps.size() != weights.size()) reader->Fail("leaf entry weights", "not one a code");
   tree->entries.reserve(steps.size());
   tree->entry_begin.reserve(counts.size() + 1);
   tree->entry_begin.push_back(0);
-  for (const uint16_t count : counts) {
+  for (size_t leaf = 0; leaf < counts.size(); ++leaf) {
+    const uint16_t count = counts[leaf];
     if (count > steps.size() - tree->entries.size()) reader->Fail("leaf entries", "too few");
     unsigned code = 0;
     for (uint16_t i = 0; i < count; ++i) {
@@ -118,24 +138,37 @@ void PutTree(PayloadWriter* writer, const Tree& tree) {
 }
 
 Tree GetTree(PayloadReader* reader) {
-  NodeColumns columns;
-  columns.is_leaf = reader->GetVector<uint8_t>("nodes");
-  for (auto& column : columns.inner) column = GetPlanes<int16_t>(reader, "node parameters");
+  const std::span<const uint8_t> is_leaf = reader->GetBytes("nodes");
+  std::vector<Planes<int16_t>> parameters;
+  while (parameters.size() < kNodeColumns) parameters.emplace_back(reader, "node parameters");
   Tree tree;
-  tree.nodes = DecodeNodes(columns, *reader);
+  tree.nodes = DecodeNodes(is_leaf, parameters, *reader);
   GetLeaves(reader, &tree);
   tree.vote_depth = reader->Get<int32_t>("vote depth");
   tree.votes = GetPlanes<Vote>(reader, "votes");
   return tree;
 }
 
+void SkipTree(PayloadReader* reader) {
+  const auto skip = [&](size_t planes, std::string_view field) {
+    for (size_t i = 0; i < planes; ++i) reader->GetBytes(field);
+  };
+  skip(1, "nodes");
+  skip(kNodeColumns * sizeof(int16_t), "node parameters");
+  skip(sizeof(uint16_t), "leaf entry counts");
+  skip(sizeof(uint16_t), "leaf entry codes");
+  skip(1, "leaf entry weights");
+  reader->Get<int32_t>("vote depth");
+  skip(sizeof(Vote), "votes");
+}
+
 Tree GetTreeOfVersion2(PayloadReader* reader) {
-  NodeColumns columns;
-  columns.is_leaf = reader->GetVector<uint8_t>("nodes");
+  const std::span<const uint8_t> is_leaf = reader->GetBytes("nodes");
   reader->GetVector<int32_t>("leaf numbers");  // breadth-first, as we number them
-  for (auto& column : columns.inner) column = reader->GetVector<int16_t>("node parameters");
+  std::vector<std::vector<int16_t>> parameters(kNodeColumns);
+  for (auto& column : parameters) column = reader->GetVector<int16_t>("node parameters");
   Tree tree;
-  tree.nodes = DecodeNodes(columns, *reader);
+  tree.nodes = DecodeNodes(is_leaf, parameters, *reader);
   tree.entry_begin.push_back(0);
   for (const uint16_t count : reader->GetVector<uint16_t>("leaf entry counts")) {
     tree.entry_begin.push_back(tree.entry_begin.back() + count);

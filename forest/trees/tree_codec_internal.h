@@ -1,4 +1,6 @@
 #pragma once
+#include <cstdint>
+#include <span>
 #include <string_view>
 #include <vector>
 
@@ -10,6 +12,8 @@ namespace ossa::forest {
 /// One tree as model files since version 3 hold it: columns of bytes, made to compress well.
 void PutTree(PayloadWriter* writer, const Tree& tree);
 Tree GetTree(PayloadReader* reader);
+/// Goes past it. What is wrong inside it only GetTree tells.
+void SkipTree(PayloadReader* reader);
 /// As files of versions 1 and 2 hold it.
 Tree GetTreeOfVersion2(PayloadReader* reader);
 
@@ -28,7 +32,7 @@ template <typename T>
 std::vector<T> GetPlanes(PayloadReader* reader, std::string_view field) {
   std::vector<T> values;
   for (size_t b = 0; b < sizeof(T); ++b) {
-    const auto plane = reader->GetVector<uint8_t>(field);
+    const std::span<const uint8_t> plane = reader->GetBytes(field);
     if (b == 0) values.resize(plane.size());
     if (plane.size() != values.size()) reader->Fail(field, "uneven planes of bytes");
     auto* bytes = reinterpret_cast<uint8_t*>(values.data());

@@ -130,19 +130,19 @@ Eigen::RowVectorXf ComputeStageFeatures(const SampledPerson& person, Joint joint
 }
 
 JointRefiner::JointRefiner(const RefinementCascade& cascade) {
-  std::vector<const Perceptron*> networks;
-  const auto add = [&networks](const std::vector<RefinementStage>& stages) {
+  PerceptronPacker packer(0);
+  const auto add = [&packer](const std::vector<RefinementStage>& stages) {
     for (const RefinementStage& stage : stages) {
-      for (const Perceptron& network : stage) networks.push_back(&network);
+      for (const Perceptron& network : stage) packer.Add(network);
     }
   };
   add(cascade.stages);
-  before_bones_ = networks.size();
+  before_bones_ = cascade.stages.size() * kStageJoints.size();
   if (!cascade.bones.empty()) {
-    networks.push_back(&cascade.bones);
+    packer.Add(cascade.bones);
     add(cascade.bone_conditioned);
   }
-  networks_ = QuantisedPerceptron::Pack(networks);
+  networks_ = packer.Take();
 }
 
 // Each chosen joint, moved by what its network says of it; of a pair both at once, the right one

@@ -134,11 +134,15 @@ struct RefinedPerson {
 class JointRefiner {
  public:
   explicit JointRefiner(const RefinementCascade& cascade);
+  /// As JointRefiner(RefinementCascade::Load(path)), network by network: all of a cascade's, before
+  /// their weights are bytes again, take four times the memory.
+  static JointRefiner Load(const std::filesystem::path& path);
 
   /// Nothing where SampledPerson::Sample has nothing to say at first.
   std::optional<RefinedPerson> Refine(const RefinementInput& input) const;
 
  private:
+  JointRefiner() = default;
   using Networks = std::span<const QuantisedPerceptron>;  // of stages, one after the other
 
   static RefinementInput RunStages(Networks networks, RefinementInput input);

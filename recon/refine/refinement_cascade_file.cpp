@@ -1,5 +1,8 @@
 #include <fmt/format.h>
 
+#include <functional>
+#include <utility>
+
 #include "depth/base/checksummed_container.h"
 #include "depth/base/compressed.h"
 #include "depth/base/naming_the_file.h"
@@ -37,19 +40,58 @@ void PutStageNetwork(PayloadWriter& out, const Perceptron& network) {
   PutPerceptron(out, network, WeightForm::kBytes);
 }
 
-std::vector<RefinementStage> GetStages(PayloadReader& in, const char* name, uint32_t fewest,
-                                       Eigen::Index inputs) {
+// What is done with each network as soon as it is read.
+using TakeNetwork = std::function<void(Perceptron)>;
+
+uint32_t GetStages(PayloadReader& in, const char* name, uint32_t fewest, Eigen::Index inputs,
+                   const TakeNetwork& take) {
   const auto count = in.Get<uint32_t>(name);
   if (count < fewest || count > RefinementCascade::kMaxStages) {
     in.Fail(name, fmt::format("expected {} to {}", fewest, RefinementCascade::kMaxStages));
   }
-  std::vector<RefinementStage> stages;
-  for (uint32_t g = 0; g < count; ++g) {
-    for (Perceptron& network : stages.emplace_back()) {
-      network = GetStageNetwork(in, inputs, 3);
+  for (size_t n = 0; n < count * kStageJoints.size(); ++n) take(GetStageNetwork(in, inputs, 3));
+  return count;
+}
+
+// What a file holds beside its networks.
+struct FileCounts {
+  uint64_t people = 0, measured = 0;          // as RefinementCascade's
+  uint32_t stages = 0, bone_conditioned = 0;  // kStageJoints networks each
+};
+
+// The networks come in the order in which they run.
+FileCounts ReadNetworks(std::span<const std::byte> bytes, const std::string& name, uint32_t version,
+                        const TakeNetwork& take) {
+  PayloadReader in(bytes, name);
+  FileCounts counts;
+  counts.people = in.Get<uint64_t>("people");
+  counts.stages = GetStages(in, "stages", 1, kStageFeatures, take);
+  counts.measured = in.Get<uint64_t>("people whose bones were measured");
+  if (counts.measured > 0) {
+    take(GetStageNetwork(in, kBoneFeatures, kEstimatedBones.size()));
+    if (version >= kFirstBoneConditioned) {
+      counts.bone_conditioned =
+          GetStages(in, "bone-conditioned stages", 0, kBoneConditionedFeatures, take);
     }
   }
-  return stages;
+  in.ExpectEnd();
+  return counts;
+}
+
+// Calls read(payload, its name, its version), and returns what that does.
+template <typename Read>
+auto ReadPayload(const std::filesystem::path& path, const Read& read) {
+  const ContainerFormat format =
+      ReadContainerFormat(path, kFormat, RefinementCascade::kOldestVersion);
+  return NamingTheFile(path, [&] {
+    std::vector<std::byte> payload = ReadContainer(path, format);
+    std::string name = path.string();
+    if (format.version >= kFirstCompressed) {
+      payload = Decompress(payload, name, format.what);
+      name += " (unpacked)";
+    }
+    return read(payload, name, format.version);
+  });
 }
 
 void PutStages(PayloadWriter& out, const std::vector<RefinementStage>& stages) {
@@ -78,32 +120,42 @@ bool RefinementCascade::IsFile(const std::filesystem::path& path) {
 }
 
 RefinementCascade RefinementCascade::Load(const std::filesystem::path& path) {
-  const ContainerFormat format = ReadContainerFormat(path, kFormat, kOldestVersion);
-  return NamingTheFile(path, [&] {
-    std::vector<std::byte> payload = ReadContainer(path, format);
-    std::string name = path.string();
-    if (format.version >= kFirstCompressed) {
-      payload = Decompress(payload, name, format.what);
-      name += " (unpacked)";
-    }
-    return FromBytes(payload, name, format.version);
-  });
+  return ReadPayload(path, FromBytes);
 }
 
 RefinementCascade RefinementCascade::FromBytes(std::span<const std::byte> bytes,
                                                const std::string& name, uint32_t version) {
-  PayloadReader in(bytes, name);
+  std::vector<Perceptron> networks;
+  const FileCounts counts = ReadNetworks(
+      bytes, name, version, [&](Perceptron network) { networks.push_back(std::move(network)); });
+  auto next = networks.begin();
+  const auto take_stages = [&next](uint32_t count) {
+    std::vector<RefinementStage> stages(count);
+    for (RefinementStage& stage : stages) {
+      for (Perceptron& network : stage) network = std::move(*next++);
+    }
+    return stages;
+  };
   RefinementCascade out;
-  out.people = in.Get<uint64_t>("people");
-  out.stages = GetStages(in, "stages", 1, kStageFeatures);
-  out.measured = in.Get<uint64_t>("people whose bones were measured");
-  if (out.measured > 0) {
-    out.bones = GetStageNetwork(in, kBoneFeatures, kEstimatedBones.size());
-    if (version >= kFirstBoneConditioned)
-      out.bone_conditioned = GetStages(in, "bone-conditioned stages", 0, kBoneConditionedFeatures);
-  }
-  in.ExpectEnd();
+  out.people = counts.people;
+  out.measured = counts.measured;
+  out.stages = take_stages(counts.stages);
+  if (counts.measured > 0) out.bones = std::move(*next++);
+  out.bone_conditioned = take_stages(counts.bone_conditioned);
   return out;
+}
+
+JointRefiner JointRefiner::Load(const std::filesystem::path& path) {
+  return ReadPayload(
+      path, [](std::span<const std::byte> bytes, const std::string& name, uint32_t version) {
+        JointRefiner refiner;
+        PerceptronPacker packer(bytes.size());
+        const FileCounts counts = ReadNetworks(
+            bytes, name, version, [&](const Perceptron& network) { packer.Add(network); });
+        refiner.before_bones_ = counts.stages * kStageJoints.size();
+        refiner.networks_ = packer.Take();
+        return refiner;
+      });
 }
 
 }  // namespace ossa::recon

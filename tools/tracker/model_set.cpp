@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <future>
 
 #include "depth/base/large_pages.h"
 #include "forest/forest.h"
@@ -45,7 +46,7 @@ std::shared_ptr<const recon::JointRefiner> LoadRefinement(const ModelFiles& file
   if (files.refinement == kWithout) return nullptr;
   if (files.refinement.empty() && !(method.refined && IsShippedForest(files))) return nullptr;
   auto refinement = std::make_shared<recon::JointRefiner>(
-      recon::RefinementCascade::Load(NamedOrShipped(files.refinement, recon::kShippedRefinement)));
+      recon::JointRefiner::Load(NamedOrShipped(files.refinement, recon::kShippedRefinement)));
   ReturnFreedMemory();
   return refinement;
 }
@@ -129,10 +130,13 @@ ModelSet ModelSet::Load(const ModelFiles& files, std::string_view method) {
   const MethodInfo& info = recon::RequireMethod(method);
   ModelSet set;
   const auto forest = NamedOrShipped(files.forest, kForest);
-  set.refinement = LoadRefinement(files, info);  // before the forest: see ReturnFreedMemory
+  auto refinement = std::async(std::launch::async, [&] { return LoadRefinement(files, info); });
+  // What a refinement is read through and kept tables take more memory than anything afterwards.
+  if (IsShippedForest(files) && forest::MayHaveKeptTables(forest)) refinement.wait();
   set.forest_file = files.forest.empty() ? kForest : files.forest;
   set.forest = KeptForest(files, forest);
   if (set.forest == nullptr) set.forest = LoadForest(files, forest);
+  set.refinement = refinement.get();
   set.surface = LoadSurface(files);
   set.database = LoadDatabase(files, method);
   set.prior = LoadPrior(files, method);

@@ -55,26 +55,26 @@ float Quantise(const Eigen::RowVectorXf& factors, size_t example,
 
 }  // namespace
 
-QuantisedPerceptron::QuantisedPerceptron(const Perceptron& perceptron)
-    : QuantisedPerceptron(std::move(Pack({&perceptron}).front())) {}
+QuantisedPerceptron::QuantisedPerceptron(const Perceptron& perceptron) {
+  PerceptronPacker packer(0);
+  packer.Add(perceptron);
+  *this = std::move(packer.Take().front());
+}
 
-std::vector<QuantisedPerceptron> QuantisedPerceptron::Pack(
-    const std::vector<const Perceptron*>& perceptrons) {
-  size_t count = 0;
-  for (const Perceptron* perceptron : perceptrons) {
-    for (const PerceptronLayer& layer : perceptron->layers) {
-      count += CountBlocks(layer.weight.cols()) * CountPairs(layer.weight.rows());
-    }
-  }
-  auto lines = std::make_shared<std::vector<WeightLine>>();
-  lines->reserve(count);
-  PreferLargePages(lines->data(), lines->capacity() * sizeof(WeightLine));  // before it has pages
-  std::vector<QuantisedPerceptron> packed(perceptrons.size());
-  for (size_t n = 0; n < perceptrons.size(); ++n) {
-    packed[n].Add(*perceptrons[n], lines.get());
-    packed[n].lines_ = lines;
-  }
-  return packed;
+PerceptronPacker::PerceptronPacker(size_t weights)
+    : lines_(std::make_shared<std::vector<WeightLine>>()) {
+  constexpr size_t kPadding = 64;  // one weight of so many more: of units that fill no line
+  lines_->reserve((weights + weights / kPadding) / sizeof(WeightLine));
+  PreferLargePages(lines_->data(), lines_->capacity() * sizeof(WeightLine));  // before it has pages
+}
+
+void PerceptronPacker::Add(const Perceptron& perceptron) {
+  packed_.emplace_back().Add(perceptron, lines_.get());
+}
+
+std::vector<QuantisedPerceptron> PerceptronPacker::Take() {
+  for (QuantisedPerceptron& each : packed_) each.lines_ = lines_;
+  return std::move(packed_);
 }
 
 void QuantisedPerceptron::Add(const Perceptron& perceptron, std::vector<WeightLine>* lines) {

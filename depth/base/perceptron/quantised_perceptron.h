@@ -26,13 +26,11 @@ class QuantisedPerceptron {
   QuantisedPerceptron() = default;
   /// Precondition: the perceptron has layers, and these have inputs.
   explicit QuantisedPerceptron(const Perceptron& perceptron);
-  /// Of perceptrons that run one after the other: their weights lie together, in large pages.
-  static std::vector<QuantisedPerceptron> Pack(const std::vector<const Perceptron*>& perceptrons);
-
   /// As Perceptron::Run of one whose weights are bytes (RoundToBytes), but for rounding.
   RowMatrix Run(const Eigen::Ref<const RowMatrix>& inputs) const;
 
  private:
+  friend class PerceptronPacker;
   struct Layer {
     size_t first_line = 0;    // those of all pairs for the first units, then for the next ones
     size_t blocks = 0;        // of units, a line each
@@ -46,6 +44,22 @@ class QuantisedPerceptron {
   std::shared_ptr<const std::vector<WeightLine>> lines_;  // of all that were packed together
   Perceptron normaliser_;                                 // has no layers
   std::vector<Layer> layers_;
+};
+
+/// Packs perceptrons that run one after the other, as they come: their weights lie together, in
+/// large pages.
+class PerceptronPacker {
+ public:
+  /// About so many weights in all.
+  explicit PerceptronPacker(size_t weights);
+  /// Precondition: as QuantisedPerceptron's.
+  void Add(const Perceptron& perceptron);
+  /// All that were added, in order. Nothing is added afterwards.
+  std::vector<QuantisedPerceptron> Take();
+
+ private:
+  std::shared_ptr<std::vector<WeightLine>> lines_;
+  std::vector<QuantisedPerceptron> packed_;
 };
 
 }  // namespace ossa

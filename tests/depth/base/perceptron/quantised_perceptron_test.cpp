@@ -42,8 +42,9 @@ TEST(QuantisedPerceptron, OnesWhoseWeightsLieTogetherSayWhatEachSaysAlone) {
   const std::vector<Perceptron> perceptrons = {RandomPerceptron({40, 103, 103, 3}),
                                                RandomPerceptron({5, 3}),
                                                RandomPerceptron({40, 130, 3})};
-  const auto packed =
-      QuantisedPerceptron::Pack({&perceptrons[0], &perceptrons[1], &perceptrons[2]});
+  PerceptronPacker packer(1);  // many fewer than there are
+  for (const Perceptron& each : perceptrons) packer.Add(each);
+  const std::vector<QuantisedPerceptron> packed = packer.Take();
   ASSERT_EQ(packed.size(), perceptrons.size());
   for (size_t n = 0; n < perceptrons.size(); ++n) {
     const RowMatrix some = RowMatrix::Random(1, perceptrons[n].input_mean.size());

@@ -1,0 +1,88 @@
+#include "forest/kept_tables.h"
+
+#include <gtest/gtest.h>
+
+#include <cstdlib>
+#include <thread>
+#include <vector>
+
+#include "forest/classification/classify.h"
+#include "forest/forest.h"
+#include "tests/forest/ball_figure.h"
+#include "tests/support/temporary_folder.h"
+
+namespace ossa::forest {
+namespace {
+
+using test::BallFigures;
+using test::BallModel;
+
+constexpr size_t kFew = 7;    // images that get tables of their own without more being made
+constexpr size_t kMany = 60;  // images of a film
+
+Classification ClassifyFigure(const ForestModel& model, size_t figure) {
+  const TrainingImage image = BallFigures(kMany, 9).Read(figure);
+  return Classify(model, test::MakeView(image), image.camera, test::ObjectPixels(image));
+}
+
+// Kept tables go to a folder of the test's own.
+class KeptTables : public ::testing::Test {
+ protected:
+  void SetUp() override {
+    setenv("OSSA_CACHE", cache_.c_str(), 1);
+    WriteForestModel(file_, BallModel());
+  }
+  void TearDown() override { unsetenv("OSSA_CACHE"); }
+
+  ForestModel ReadToKeep() const {
+    ForestModel model = ReadForestModel(file_, ModelUse::kRunOnly);
+    KeepTables(file_, model);
+    return model;
+  }
+  static void ExpectRunsAsEver(const ForestModel& model, size_t figures) {
+    for (size_t i = 0; i < figures; ++i) {
+      const Classification now = ClassifyFigure(model, i), ever = ClassifyFigure(BallModel(), i);
+      EXPECT_EQ(now.label, ever.label) << "figure " << i;
+      EXPECT_EQ(now.mass, ever.mass) << "figure " << i;
+      EXPECT_EQ(now.context, ever.context) << "figure " << i;
+      EXPECT_EQ(now.leaf, ever.leaf) << "figure " << i;
+    }
+  }
+
+  ossa::test::TemporaryFolder folder_;
+  std::filesystem::path cache_ = folder_ / "cache", file_ = folder_ / "body.ossa";
+};
+
+TEST_F(KeptTables, OfFewImagesAreNeverMade) {
+  ExpectRunsAsEver(ReadToKeep(), kFew);
+  EXPECT_FALSE(std::filesystem::exists(cache_));
+  EXPECT_FALSE(ReadKeptTables(file_));
+}
+
+TEST_F(KeptTables, OfAFilmAreThereWhenItsModelHasGone) {
+  ExpectRunsAsEver(ReadToKeep(), kMany);
+  const auto kept = ReadKeptTables(file_);
+  ASSERT_TRUE(kept);
+  ExpectRunsAsEver(*kept, kMany);
+}
+
+TEST_F(KeptTables, AreMadeWhileSeveralThreadsClassify) {
+  const ForestModel model = ReadToKeep();
+  std::vector<std::thread> threads;
+  for (int i = 0; i < 3; ++i) threads.emplace_back([&] { ExpectRunsAsEver(model, kMany); });
+  for (std::thread& each : threads) each.join();
+}
+
+TEST_F(KeptTables, GoWithoutAFolderForThem) {
+  setenv("OSSA_CACHE", (file_ / "below").c_str(), 1);
+  ExpectRunsAsEver(ReadToKeep(), kMany);
+  EXPECT_FALSE(ReadKeptTables(file_));
+}
+
+TEST_F(KeptTables, LetAModelGoThatWasNeverKept) {
+  ExpectRunsAsEver(ReadForestModel(file_, ModelUse::kRunOnly), kMany);
+  EXPECT_FALSE(std::filesystem::exists(cache_));
+}
+
+}  // namespace
+}  // namespace ossa::forest
