@@ -11,6 +11,7 @@
 #include "depth/base/error.h"
 #include "depth/base/naming_the_file.h"
 #include "recon/files/archive_bytes_internal.h"
+#include "recon/files/reading_internal.h"
 #include "recon/files/recording_names_internal.h"
 #include "recon/files/skeleton_formats_internal.h"
 #include "recon/files/skeleton_source_internal.h"
@@ -175,21 +176,28 @@ std::string Columns(const SkeletonReadOptions& options, const SkeletonPath& part
   return columns;
 }
 
-SkeletonSequence ReadText(const std::string& text, const std::string& name,
-                          const std::string& columns, const SkeletonReadOptions& options,
+SkeletonSequence ReadText(const std::string& text, const std::string& name, const Reading& reading,
                           std::function<std::optional<std::string>(const std::string&)> sibling) {
   std::istringstream stream(text);
-  return Read({stream, name, columns, options.frame_s, std::move(sibling)}, options);
+  return Read({stream, name, reading.columns, reading.options.frame_s, std::move(sibling)},
+              reading.options);
 }
 
-SkeletonSequence ReadFile(const fs::path& path, const std::string& columns,
-                          const SkeletonReadOptions& options) {
+SkeletonSequence ReadFile(const fs::path& path, const Reading& reading) {
   return NamingTheFile(path, [&] {
-    if (IsGzip(path)) return ReadText(ReadGzip(path), path.string(), columns, options, {});
-    std::ifstream file(path, std::ios::binary);
-    if (!file) throw InputError(path.string() + ": cannot be opened for reading");
-    return Read({file, path.string(), columns, options.frame_s, ReadMappingText}, options);
+    if (IsGzip(path)) return ReadText(ReadGzip(path), path.string(), reading, {});
+    WatchedFile file(path, reading);
+    if (!file.is_open()) throw InputError(path.string() + ": cannot be opened for reading");
+    std::istream stream(&file);
+    return Read({stream, path.string(), reading.columns, reading.options.frame_s, ReadMappingText},
+                reading.options);
   });
+}
+
+uint64_t SizeOf(const fs::path& file) {
+  std::error_code unknown;
+  const uintmax_t size = fs::file_size(file, unknown);
+  return unknown ? 0 : size;
 }
 
 bool Stopped(const SkeletonReadOptions& options) { return options.stop && options.stop(); }
@@ -207,8 +215,7 @@ std::vector<RecordingPlace> PlacesIn(const Members& members, const std::string& 
 // Of an archive, the members at these places.
 std::vector<SkeletonClip> ReadMembers(const fs::path& archive, const Members& members,
                                       const std::vector<RecordingPlace>& places,
-                                      const std::string& columns,
-                                      const SkeletonReadOptions& options) {
+                                      const Reading& reading) {
   const std::string prefix = archive.string() + "#";
   const auto sibling = [&](const std::string& name) -> std::optional<std::string> {
     const auto found = members.find(name.starts_with(prefix) ? name.substr(prefix.size()) : name);
@@ -218,19 +225,20 @@ std::vector<SkeletonClip> ReadMembers(const fs::path& archive, const Members& me
   std::vector<std::string> files;
   for (const RecordingPlace& place : places) files.push_back(place.member);
   const std::vector<std::string> names = ClipNames(files);
+  const uint64_t size = SizeOf(archive);
   std::vector<SkeletonClip> clips;
-  for (size_t i = 0; i < files.size() && !Stopped(options); ++i) {
+  for (size_t i = 0; i < files.size() && !Stopped(reading.options); ++i) {
     clips.push_back(
-        {names[i], ReadText(members.at(files[i]), prefix + files[i], columns, options, sibling)});
+        {names[i], ReadText(members.at(files[i]), prefix + files[i], reading, sibling)});
+    reading.Tell(size * (i + 1) / files.size());
   }
   return clips;
 }
 
-std::vector<SkeletonClip> ReadArchiveClips(const SkeletonPath& parts, const std::string& columns,
-                                           const SkeletonReadOptions& options) {
+std::vector<SkeletonClip> ReadArchiveClips(const SkeletonPath& parts, const Reading& reading) {
   const Members members = ReadArchive(parts.path);
   const auto places = AskedFor(PlacesIn(members, {}), parts.member);
-  return ReadMembers(parts.path, members, places, columns, options);
+  return ReadMembers(parts.path, members, places, reading);
 }
 
 std::vector<RecordingPlace> FilesIn(const fs::path& folder) {
@@ -263,29 +271,34 @@ std::vector<RecordingPlace> PlacesAskedFor(const SkeletonPath& parts) {
   return AskedFor(places, parts.member);
 }
 
-std::vector<SkeletonClip> ReadFolderClips(const SkeletonPath& parts, const std::string& columns,
-                                          const SkeletonReadOptions& options) {
+std::vector<SkeletonClip> ReadFolderClips(const SkeletonPath& parts, Reading& reading) {
   std::map<fs::path, std::vector<RecordingPlace>> files;
   for (const RecordingPlace& place : PlacesAskedFor(parts)) files[place.file].push_back(place);
   std::vector<std::string> inside;
-  for (const auto& [file, places] : files) inside.push_back(file.string());
+  for (const auto& [file, places] : files) {
+    inside.push_back(file.string());
+    reading.of += SizeOf(parts.path / file);
+  }
   const std::vector<std::string> names = ClipNames(inside);
   std::vector<SkeletonClip> clips;
   auto name = names.begin();
-  for (auto file = files.begin(); file != files.end() && !Stopped(options); ++file, ++name) {
+  for (auto file = files.begin(); file != files.end() && !Stopped(reading.options);
+       ++file, ++name) {
     const fs::path path = parts.path / file->first;
     if (!IsArchive(path)) {
-      clips.push_back({*name, ReadFile(path, columns, options)});
+      clips.push_back({*name, ReadFile(path, reading)});
+      reading.done += SizeOf(path);
       continue;
     }
     const Members members = ReadArchive(path);
     const bool is_whole = file->second.front().member.empty();
     const auto places = is_whole ? PlacesIn(members, {}) : file->second;
-    for (SkeletonClip& clip : ReadMembers(path, members, places, columns, options)) {
+    for (SkeletonClip& clip : ReadMembers(path, members, places, reading)) {
       // Archives usually hold a folder of their own name: "s01/s01/x" says no more than "s01/x".
       if (!clip.name.starts_with(*name + "/")) clip.name = *name + "/" + clip.name;
       clips.push_back(std::move(clip));
     }
+    reading.done += SizeOf(path);
   }
   return clips;
 }
@@ -349,7 +362,7 @@ fs::path FindSkeletonFile(const fs::path& path) { return TakeApart(path).path; }
 std::vector<SkeletonClip> ReadSkeletonClips(const fs::path& path,
                                             const SkeletonReadOptions& options) {
   const SkeletonPath parts = TakeApart(path);
-  const std::string columns = Columns(options, parts);
+  Reading reading{options, Columns(options, parts)};
   std::error_code unknown;
   if (!fs::exists(parts.path, unknown)) {
     throw InputError(parts.path.string() + ": no such file or folder");
@@ -361,11 +374,11 @@ std::vector<SkeletonClip> ReadSkeletonClips(const fs::path& path,
   }
   std::vector<SkeletonClip> clips;
   if (fs::is_directory(parts.path)) {
-    clips = ReadFolderClips(parts, columns, options);
-  } else if (IsArchive(parts.path)) {
-    clips = NamingTheFile(parts.path, [&] { return ReadArchiveClips(parts, columns, options); });
+    clips = ReadFolderClips(parts, reading);
+  } else if (reading.of = SizeOf(parts.path); IsArchive(parts.path)) {
+    clips = NamingTheFile(parts.path, [&] { return ReadArchiveClips(parts, reading); });
   } else if (parts.member.empty()) {
-    clips.push_back({"", ReadFile(parts.path, columns, options)});
+    clips.push_back({"", ReadFile(parts.path, reading)});
   } else {
     throw InputError(parts.path.string() + ": expected a folder or an archive before '#', or " +
                      "#truth or #observed after it, found #" + parts.member);

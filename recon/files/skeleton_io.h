@@ -1,4 +1,5 @@
 #pragma once
+#include <cstdint>
 #include <filesystem>
 #include <functional>
 #include <iosfwd>
@@ -25,6 +26,8 @@ struct SkeletonReadOptions {
   /// Asked before each recording of a folder or an archive; true: no more are read, and those until
   /// then are what is returned.
   std::function<bool()> stop = {};
+  /// Told while reading how many bytes of what is read were, of how many; may be empty.
+  std::function<void(uint64_t done, uint64_t of)> progress = {};
 };
 
 /// The names of all formats that are read, e.g. "jsonl", "kinect-v2-csv".

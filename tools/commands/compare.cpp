@@ -12,6 +12,7 @@
 #include "tools/commands/mapping_option.h"
 #include "tools/commands/outputs.h"
 #include "tools/commands/process.h"
+#include "tools/commands/reading_bar.h"
 #include "tools/commands/warnings.h"
 #include "tools/experiments/compare/comparison.h"
 #include "tools/experiments/experiment.h"
@@ -123,6 +124,7 @@ int Compare(int argc, char** argv) {
   if (!json.empty() && !json_to_stdout) AtomicFile::CheckWritable(json);
   if (!report.empty()) AtomicFile::CheckWritable(report);
   options.stop = Interrupted;
+  options.reading.progress = ReadingBar(quiet);
   const tools::Comparison comparison = Compared(truth, results, options, quiet);
   SayWarnings("compare", comparison.warnings);
   if (json_to_stdout) {

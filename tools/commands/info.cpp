@@ -23,6 +23,7 @@
 #include "tools/commands/commands.h"
 #include "tools/commands/info_picture.h"
 #include "tools/commands/process.h"
+#include "tools/commands/reading_bar.h"
 #include "tools/commands/source_options.h"
 #include "tools/commands/warnings.h"
 #include "tools/synth/dataset.h"
@@ -214,6 +215,7 @@ void ShowSkeletonClip(const recon::SkeletonClip& clip) {
 void ShowSkeletons(const fs::path& path) {
   recon::SkeletonReadOptions reading;
   reading.columns = "observed";
+  reading.progress = ReadingBar(false);
   auto clips = recon::ReadSkeletonClips(path, reading);
   SayWarnings("info", clips);
   const auto may_have_another = [](const recon::SkeletonClip& clip) {

@@ -14,6 +14,7 @@
 #include "forest/forest.h"
 #include "tools/commands/command.h"
 #include "tools/commands/outputs.h"
+#include "tools/commands/process.h"
 #include "tools/experiments/compare/svg_plot.h"
 #include "tools/synth/contact_sheet.h"
 #include "tools/synth/dataset.h"
@@ -63,10 +64,13 @@ int64_t ForEachFrame(const SourceArguments& arguments, Take take) {
     throw UsageError("--picture: expected a recording, a data set or a model, found a device");
   }
   int64_t frames = 0;
+  Progress progress("looking", !CanMoveCursor());  // for who watches alone
+  const auto known = static_cast<double>(source->frame_count().value_or(0));
   for (;;) {
     const depth::ReadResult read = source->Read(std::chrono::seconds(1));
     if (read.status == depth::ReadStatus::kEnd) return frames;
     if (read.status == depth::ReadStatus::kFrame) take(read.frame, frames++);
+    if (known > 0) progress.Update(static_cast<double>(frames), known);
     if (Interrupted()) throw InputError("info: interrupted; nothing was written");
   }
 }

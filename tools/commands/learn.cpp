@@ -12,6 +12,7 @@
 #include "tools/commands/commands.h"
 #include "tools/commands/mapping_option.h"
 #include "tools/commands/outputs.h"
+#include "tools/commands/reading_bar.h"
 #include "tools/commands/warnings.h"
 #include "tools/learning/pair_recordings.h"
 
@@ -68,6 +69,7 @@ int Learn(int argc, char** argv) {
   inputs.push_back(reading.mapping_file);
   CheckOutputs({out}, inputs);
   AtomicFile::CheckWritable(out);
+  reading.progress = ReadingBar(quiet);
   const auto pairs = tools::PairRecordings(observed, truth, reading, SayWarningsOf);
   if (Interrupted()) throw InputError("learn: interrupted; nothing was written");
   Progress progress("learn", quiet);

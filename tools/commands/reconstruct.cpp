@@ -26,6 +26,7 @@
 #include "tools/commands/method_options.h"
 #include "tools/commands/outputs.h"
 #include "tools/commands/process.h"
+#include "tools/commands/reading_bar.h"
 #include "tools/commands/warnings.h"
 #include "tools/tracker/dynamics.h"
 #include "tools/tracker/mechanics.h"
@@ -236,6 +237,7 @@ int Reconstruct(int argc, char** argv) {
       throw UsageError(fmt::format("--weights: expected numbers from 0 up, found {}", weight));
   }
   a.read.stop = Interrupted;
+  a.read.progress = ReadingBar(a.quiet);
   auto clips = recon::ReadSkeletonClips(a.skeletons, a.read);
   if (Interrupted()) throw InputError("reconstruct: interrupted; nothing was written");
   SayWarnings("reconstruct", clips);

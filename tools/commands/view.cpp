@@ -19,6 +19,7 @@
 #include "tools/commands/mechanics_options.h"
 #include "tools/commands/method_options.h"
 #include "tools/commands/process.h"
+#include "tools/commands/reading_bar.h"
 #include "tools/commands/source_options.h"
 #include "tools/commands/view_options.h"
 #include "tools/commands/warnings.h"
@@ -77,13 +78,20 @@ std::vector<std::string> MethodsToChoose(const tracker::ModelFiles& files) {
   return methods;
 }
 
+recon::SkeletonSequence Read(const std::string& path) {
+  recon::SkeletonReadOptions reading;
+  reading.progress = ReadingBar(false);
+  recon::SkeletonSequence sequence = recon::ReadSkeletons(path, reading);
+  SayWarnings("view", sequence.warnings);
+  return sequence;
+}
+
 viewer::ViewerOptions MakeViewerOptions(const ViewOptions& options) {
   viewer::ViewerOptions with = PageOptions(options.page);
   with.name = std::filesystem::path(options.source.name).filename().string();
   if (with.name.empty()) with.name = options.source.name;
   for (const std::string& path : options.over) {
-    recon::SkeletonSequence sequence = recon::ReadSkeletons(path);
-    SayWarnings("view", sequence.warnings);
+    recon::SkeletonSequence sequence = Read(path);
     with.overlays.push_back({std::filesystem::path(path).filename().string(), sequence});
   }
   return with;
@@ -109,8 +117,7 @@ void WaitUntilInterrupted() {
 }
 
 void ShowSkeletons(const ViewOptions& options) {
-  const recon::SkeletonSequence sequence = recon::ReadSkeletons(options.source.name);
-  SayWarnings("view", sequence.warnings);
+  const recon::SkeletonSequence sequence = Read(options.source.name);
   viewer::ViewerOptions with = MakeViewerOptions(options);
   with.keeps = true;
   with.expected_frames = static_cast<int64_t>(sequence.frames.size());
@@ -157,6 +164,7 @@ class PageTracker {
       const depth::ReadResult read = source_->Read(milliseconds(100));
       if (read.status == depth::ReadStatus::kFrame) Show(read);
       if (read.status != depth::ReadStatus::kEnd) continue;
+      progress_.reset();
       viewer_->Complete();
       if (options_.once) return Clockwork::ShowTheLast();
       WaitForSettings();
@@ -177,6 +185,15 @@ class PageTracker {
     moment.is_upright = tracker_.quarter_turns() == 0;
     moment.latency_ms = std::chrono::duration<double, std::milli>(Clock::now() - arrived).count();
     viewer_->Show(std::move(moment));
+    ShowProgress();
+  }
+
+  // Through a recording that is tracked as fast as it goes, for who watches the terminal.
+  void ShowProgress() {
+    const auto frames = source_->frame_count();
+    if (!frames || options_.once || !CanMoveCursor()) return;
+    if (!progress_) progress_.emplace("tracking", false);
+    progress_->Update(static_cast<double>(++shown_), static_cast<double>(*frames));
   }
 
   bool TakesSettings() {
@@ -204,7 +221,8 @@ class PageTracker {
     source_ = OpenSource(options_.source, true);
     FindUpright(tracker_, *source_, options_.source, true);
     viewer_->Clear();
-    dropped_ = 0;
+    progress_.reset();
+    shown_ = dropped_ = 0;
   }
 
   const ViewOptions& options_;
@@ -214,7 +232,8 @@ class PageTracker {
   tracker::Tracker tracker_;
   std::unique_ptr<viewer::Viewer> viewer_;
   Clockwork clockwork_;
-  int64_t dropped_ = 0;
+  std::optional<Progress> progress_;
+  int64_t shown_ = 0, dropped_ = 0;  // frames
 };
 
 void AddTrackingOptions(CLI::App& app, ViewOptions& options) {
