@@ -213,6 +213,7 @@ void Write(const fs::path& place, const ForestData& data, const RuntimeTables& o
   tables.CommitOneOfMany();  // checksums tell what a power cut left
   WriteContainer(HeadOf(place), kFormat, PackHead(data, of));
   RemoveOldOnes(place.parent_path());
+  for (const fs::path& left : AtomicFile::FindLeftovers(TablesOf(place))) fs::remove(left);
 } catch (const InputError&) {
 } catch (const fs::filesystem_error&) {
 }

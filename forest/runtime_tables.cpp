@@ -25,7 +25,7 @@ float LooseJoint(const ForestData& data, size_t a, size_t b) {
 }
 
 std::vector<std::vector<uint32_t>> Neighbours(const ForestData& data) {
-  constexpr size_t kMost = 2;
+  constexpr size_t kMost = 2;  // by hand
   if (data.pose_priors.empty()) return {};
   std::vector<std::vector<uint32_t>> neighbours(data.targets.size());
   for (size_t t = 0; t < data.targets.size(); ++t) {

@@ -1,11 +1,15 @@
 #include "forest/kept_tables.h"
 
 #include <gtest/gtest.h>
+#include <sys/wait.h>
+#include <unistd.h>
 
 #include <cstdlib>
+#include <iterator>
 #include <thread>
 #include <vector>
 
+#include "depth/base/atomic_file.h"
 #include "forest/classification/classify.h"
 #include "forest/forest.h"
 #include "tests/forest/ball_figure.h"
@@ -71,6 +75,28 @@ TEST_F(KeptTables, AreMadeWhileSeveralThreadsClassify) {
   std::vector<std::thread> threads;
   for (int i = 0; i < 3; ++i) threads.emplace_back([&] { ExpectRunsAsEver(model, kMany); });
   for (std::thread& each : threads) each.join();
+}
+
+size_t CountFiles(const std::filesystem::path& folder) {
+  return static_cast<size_t>(std::distance(std::filesystem::directory_iterator(folder), {}));
+}
+
+TEST_F(KeptTables, TakeTheRoomOfWhatAKilledProcessLeft) {
+  ExpectRunsAsEver(ReadToKeep(), kMany);
+  ASSERT_EQ(CountFiles(cache_), 2U);  // tables and their head
+  for (const auto& entry : std::filesystem::directory_iterator(cache_)) {
+    if (entry.path().extension() != ".tables") continue;
+    if (const pid_t child = fork(); child == 0) {
+      AtomicFile unfinished(entry.path());
+      _exit(0);
+    } else {
+      waitpid(child, nullptr, 0);
+    }
+    break;
+  }
+  ASSERT_EQ(CountFiles(cache_), 3U);
+  ExpectRunsAsEver(ReadToKeep(), kMany);
+  EXPECT_EQ(CountFiles(cache_), 2U);
 }
 
 TEST_F(KeptTables, GoWithoutAFolderForThem) {

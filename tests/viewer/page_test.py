@@ -231,6 +231,7 @@ class OfACamera(InBrowser):
         page = self.open(self.serve("view", CAMERA))
         self.assertLessEqual(page.run("return document.documentElement.scrollWidth - innerWidth"), 0, "nothing sticks out")
         self.assertEqual(page.run("return page.moment.step"), 2, "fewer pixels")
+        self.assertEqual(page.run("return document.getElementById('name').innerText"), "one", "its name alone")
         page.wait("return page.moment.layers.final.bodies.length > 0 && page.moment.parts.some(part => part > 0)",
                   "somebody, and the parts")
         page.save("viewer_phone.png", PICTURES)

@@ -89,6 +89,9 @@ recon::SkeletonSequence Read(const std::string& path) {
 viewer::ViewerOptions MakeViewerOptions(const ViewOptions& options) {
   viewer::ViewerOptions with = PageOptions(options.page);
   with.name = std::filesystem::path(options.source.name).filename().string();
+  // What a camera's URI asks of its driver is no part of its name.
+  if (options.source.name.starts_with("openni:"))
+    with.name = with.name.substr(0, with.name.find('?'));
   if (with.name.empty()) with.name = options.source.name;
   for (const std::string& path : options.over) {
     recon::SkeletonSequence sequence = Read(path);

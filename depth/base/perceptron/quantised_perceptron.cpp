@@ -63,7 +63,8 @@ QuantisedPerceptron::QuantisedPerceptron(const Perceptron& perceptron) {
 
 PerceptronPacker::PerceptronPacker(size_t weights)
     : lines_(std::make_shared<std::vector<WeightLine>>()) {
-  constexpr size_t kPadding = 64;  // one weight of so many more: of units that fill no line
+  // By hand: one weight of so many more, of units that fill no line.
+  constexpr size_t kPadding = 64;
   lines_->reserve((weights + weights / kPadding) / sizeof(WeightLine));
   PreferLargePages(lines_->data(), lines_->capacity() * sizeof(WeightLine));  // before it has pages
 }

@@ -13,6 +13,7 @@ import signal
 import subprocess
 import sys
 import tempfile
+import threading
 import time
 import unittest
 
@@ -45,6 +46,35 @@ def said_on_a_terminal(arguments, paused_s=0.0, **environment):
     child.wait()
     os.close(ours)
     return said.decode()
+
+
+def hold_up(child):
+    """Lets a command work for 4 ms of each 40: it takes long on the fastest machine."""
+    while child.poll() is None:
+        child.send_signal(signal.SIGSTOP)
+        time.sleep(0.036)
+        child.send_signal(signal.SIGCONT)
+        time.sleep(0.004)
+
+
+def said_slowly(arguments, until="", **environment):
+    """What appears on stderr where that is a terminal, of a command that takes long; up to what ends it."""
+    ours, theirs = pty.openpty()
+    settings = {**os.environ, "OSSA_CONFIG": "", "TERM": "xterm", **environment}
+    child = subprocess.Popen([OSSA, *map(str, arguments)], stderr=theirs, stdout=subprocess.DEVNULL, env=settings)
+    os.close(theirs)
+    threading.Thread(target=hold_up, args=[child]).start()
+    said = ""
+    try:
+        while more := os.read(ours, 65536):
+            said += more.decode()
+            if until and until in said:
+                child.send_signal(signal.SIGINT)
+    except OSError:  # the other end is closed
+        pass
+    child.wait()
+    os.close(ours)
+    return said
 
 
 def commands():
@@ -116,6 +146,32 @@ class TimeLeft(unittest.TestCase):
         self.assertRegex(said_on_a_terminal(["info", str(CLIP / "depth")]), r"reading \[#{30}\] 100 %")
         self.assertRegex(said_on_a_terminal(["compare", truth, truth]), r"comparing \[\.{30}\]   0 %")
         self.assertNotIn("reading", run("info", CLIP / "depth").stderr)
+
+    def test_is_said_while_skeletons_are_read(self):
+        with tempfile.TemporaryDirectory() as folder:
+            folder = pathlib.Path(folder)
+            frames = [json.loads(line) for line in (CLIP / "truth.jsonl").read_text().splitlines()]
+            for person in "ab":
+                with open(folder / f"{person}.jsonl", "w") as file:
+                    for n in range(6000):
+                        file.write(json.dumps({**frames[n % len(frames)], "frame": n, "time_s": n / 30}) + "\n")
+            out = folder / "out.jsonl"
+            for arguments in (["info", folder], ["info", folder / "a.jsonl"],
+                              ["compare", folder / "a.jsonl", folder / "b.jsonl"],
+                              ["reconstruct", folder / "a.jsonl", "--method", "holt", "--out", out],
+                              ["learn", "--observed", folder / "a.jsonl", "--truth", folder / "b.jsonl",
+                               "--correction-only", "--pairs", 20, "--out", folder / "x.ossagp"]):
+                self.assertRegex(said_slowly(arguments, until="reading"), r"reading \[#*\.*\] +\d+ % (\d:\d\d left)?", arguments)
+
+    def test_is_said_while_view_tracks_a_recording(self):
+        said = said_slowly(["view", CLIP / "depth", "--port", 0], until="100 %")
+        self.assertRegex(said, r"tracking \[#+\.+\] +\d+ % (\d:\d\d left)?")
+        self.assertRegex(said, r"tracking \[#{30}\] 100 %")
+
+    def test_is_said_while_a_picture_is_made(self):
+        with tempfile.TemporaryDirectory() as folder:
+            said = said_slowly(["info", CLIP / "depth", "--picture", folder + "/x.png"])
+        self.assertRegex(said, r"looking \[#{30}\] 100 %")
 
 
 class Defaults(unittest.TestCase):
@@ -242,7 +298,7 @@ class Start(unittest.TestCase):
         self.folder = pathlib.Path(self.temporary.name)
         self.cache = self.folder / "cache"
 
-    def track(self, cache, frames=24):
+    def track(self, cache, frames=12):
         out = self.folder / "out.jsonl"
         result = run("track", CLIP, "--frames", frames, "--quiet", "--out", out, OSSA_CACHE=cache)
         self.assertEqual(result.returncode, 0, result.stderr)
