@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <span>
 
 #include "depth/scene/region_pixels.h"
 #include "depth/scene/silhouette.h"
@@ -90,6 +91,15 @@ std::vector<HeadBlob> ListHeads(const Scene& scene, const Region& region,
                           : FindHeads(scene.grid, region, options.heads);
 }
 
+// From above: each piece as far as the person under its highest-scored head may reach.
+Region WithoutWalls(const Scene& scene, Region piece, std::span<const HeadBlob> heads) {
+  for (const HeadBlob& head : heads) {
+    if (std::binary_search(piece.cells.begin(), piece.cells.end(), head.cell))
+      return KeepWithinReach(scene.grid, piece, head);
+  }
+  return piece;
+}
+
 // A connected region as pieces that may be one person each.
 void CutIntoCandidates(const DepthFrame& frame, const Scene& scene, const CellFacts& facts,
                        size_t tracks, const Region& region, int region_index,
@@ -102,9 +112,11 @@ void CutIntoCandidates(const DepthFrame& frame, const Scene& scene, const CellFa
     result.excluded.push_back(DescribeRegion(region, Rule::kTooSmall));
     return;
   }
-  const auto seeds = FindSeeds(scene.grid, region, ListHeads(scene, region, options), facts.owner,
-                               tracks, facts.background, options);
+  const std::vector<HeadBlob> heads = ListHeads(scene, region, options);
+  const auto seeds =
+      FindSeeds(scene.grid, region, heads, facts.owner, tracks, facts.background, options);
   for (Region& piece : CutAtSeeds(scene.grid, region, seeds, options)) {
+    if (options.overhead) piece = WithoutWalls(scene, std::move(piece), heads);
     if (!is_large_enough(piece)) {
       if (!piece.cells.empty()) result.excluded.push_back(DescribeRegion(piece, Rule::kTooSmall));
       continue;

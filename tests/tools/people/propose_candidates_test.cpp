@@ -40,6 +40,34 @@ TEST(ProposeCandidates, TwoWhoTouchAreCutBetweenTheirHeads) {
   }
 }
 
+// Seen from 3 m above the floor: head, trunk and an arm stretched out to the left, with the hand
+// 10 cm before a wall that is higher than the person.
+CapsuleRender ByAWallFromAbove() {
+  CapsuleScene scene;
+  scene.capsules = {{{0, 0, 1.35}, {0, 0, 1.4}, 0.11},
+                    {{0, 0, 1.72}, {0, 0.02, 2.2}, 0.17},
+                    {{0.15, 0, 1.62}, {0.75, 0, 1.7}, 0.05}};
+  scene.boxes = {{{0.9, -1.4, 0.8}, {1.3, 1.4, 3.0}}};
+  scene.planes = {{-Eigen::Vector3d::UnitZ(), 3.0}};
+  return tests::Render(scene, KinectV1Camera(320, 240));
+}
+
+TEST(ProposeCandidates, FromAboveAWallBesideAHandIsNotPartOfWhoReachesForIt) {
+  PeopleState state;
+  const Proposed proposed = Propose(ByAWallFromAbove(), state, PeopleOptionsFromAbove());
+  size_t people = 0;
+  for (const Candidate& candidate : proposed.candidates) {
+    if (!candidate.has_head) continue;
+    ++people;
+    float farthest_m = 0;
+    for (const int cell : candidate.region.cells)
+      farthest_m = std::max(farthest_m, proposed.scene.grid.at(cell).x());
+    EXPECT_GT(farthest_m, 0.75F) << "the hand is theirs";
+    EXPECT_LT(farthest_m, 0.85F) << "the wall is not";
+  }
+  EXPECT_EQ(people, 1U);
+}
+
 TEST(MergeCandidates, GivesBackWhatWasCut) {
   const CapsuleRender render = Shot({PersonAt(-0.3, 2.5), PersonAt(0.3, 2.5)});
   const Proposed proposed = ProposeAlone(render);
