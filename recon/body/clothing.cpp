@@ -69,6 +69,7 @@ constexpr float kForehead_m = 1.60f;  // and above this also in front
 constexpr float kWaist_m = 1.00f, kCrotch_m = 0.80f;
 constexpr float kKnee_m = 0.475f;
 constexpr uint8_t kNeckPart = 5;
+constexpr float kCuff = 1.8f;          // where gloves begin, 2 the wrist
 constexpr float kHiddenScale = 0.01f;  // of what is not worn; factor; by hand
 
 constexpr float kNeutralHeight_m = 1.66f;
@@ -169,6 +170,8 @@ Wardrobe::Wardrobe(const BodyModel& model) {
       place.along = AlongLimb(p, left ? kLeftUpLeg : kRightUpLeg);
     } else if (IsPart(part, 30)) {
       place.region = Region::kFoot;
+    } else if (IsPart(part, 16)) {
+      place.region = Region::kHand;
     }
     place_.push_back(place);
   }
@@ -198,6 +201,10 @@ std::vector<Eigen::Vector3f> Wardrobe::Dress(const ShapedBody& body,
       case Region::kArm:
         thickness_m = place.along < clothing.sleeve_end ? clothing.sleeve_m : 0.0;
         if (place.along < 0.25f) thickness_m = std::max(thickness_m, clothing.shirt_m);
+        if (place.along > kCuff) thickness_m = std::max(thickness_m, clothing.glove_m);
+        break;
+      case Region::kHand:
+        thickness_m = clothing.glove_m;
         break;
       case Region::kLeg:
         thickness_m = place.along < clothing.trouser_end ? clothing.trouser_m : 0.0;

@@ -24,6 +24,7 @@ struct Clothing {
   double hang = 0.0;           // 0: the shirt fits; 1: it hangs straight down from chest and back
   double fold_m = 0.0;         // depth of the folds that what hangs falls into, at its hem
   double hood_m = 0.0;         // a hood's distance from skull, hair and neck; 0: none
+  double glove_m = 0.0;        // over hands and wrists; 0: none
   uint64_t pattern = 1;        // seed of the wrinkles
 };
 
@@ -47,6 +48,7 @@ class Wardrobe {
     kArm,
     kLeg,
     kFoot,
+    kHand,
     kSkull,
     kNeck,
     kSkirt,

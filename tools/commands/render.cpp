@@ -1,6 +1,8 @@
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
+#include <algorithm>
+#include <array>
 #include <optional>
 #include <string>
 #include <thread>
@@ -50,7 +52,7 @@ void Declare(CLI::App& app, Arguments& a) {
       ->capture_default_str();
   app.add_option("--clothes", a.clothes,
                  "of random bodies: fitting; any: also what hangs and folds (T-shirts, coats, "
-                 "skirts, hoods), long hair, hats and bags")
+                 "skirts, hoods), long hair, hats, bags and gloves")
       ->check(CLI::IsMember({"fitting", "any"}))
       ->capture_default_str();
   app.add_option("--noise", a.noise,
@@ -65,8 +67,10 @@ void Declare(CLI::App& app, Arguments& a) {
   app.add_option("--occluders", a.occluders,
                  "objects, part 32: held in the hands, standing in front (scene), either at times "
                  "(any); held-up: cloth, boards, paper, boxes before the body; desk: forearms on a "
-                 "desk or a chair's arms; all: each of them at times")
-      ->check(CLI::IsMember({"none", "held", "scene", "any", "held-up", "desk", "all"}))
+                 "desk or a chair's arms; wheelchair, crutches: sitting or walking with them; all: "
+                 "each of them at times")
+      ->check(CLI::IsMember(
+          {"none", "held", "scene", "any", "held-up", "desk", "wheelchair", "crutches", "all"}))
       ->capture_default_str();
   app.add_option("--poses", a.poses,
                  "spread: seldom ones nearly as often as common ones, arms anywhere at times; "
@@ -131,7 +135,9 @@ void CheckTogether(const Arguments& a) {
   if (a.sequence && a.poses != "spread") {
     throw UsageError("--poses " + a.poses + ": a --sequence has the poses of its clip");
   }
-  const bool staged = a.occluders == "held-up" || a.occluders == "desk" || a.occluders == "all";
+  constexpr std::array<std::string_view, 5> kStaged = {"held-up", "desk", "wheelchair", "crutches",
+                                                       "all"};
+  const bool staged = std::find(kStaged.begin(), kStaged.end(), a.occluders) != kStaged.end();
   if (a.sequence && staged) {
     throw UsageError("--occluders " + a.occluders +
                      ": arms are put to things, not in a --sequence");

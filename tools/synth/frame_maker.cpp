@@ -140,7 +140,10 @@ void FrameMaker::State::Dress(int64_t index, int person) {
                                                   : SampleShape(options.split, random));
     wearer.clothing =
         options.hanging_clothes ? SampleHangingClothing(random) : SampleClothing(random);
-    if (options.hanging_clothes) wearer.worn = SampleWorn(random);
+    if (options.hanging_clothes) {
+      wearer.worn = SampleWorn(random);
+      wearer.clothing.glove_m = SampleGloves_m(random);
+    }
   } else {
     wearer.body = studio.model.Shape({});
     wearer.clothing = {};

@@ -185,6 +185,8 @@ std::optional<Occluders> OccludersFromName(std::string_view name) {
   if (name == "any") return Occluders::kAny;
   if (name == "held-up") return Occluders::kHeldUp;
   if (name == "desk") return Occluders::kDesk;
+  if (name == "wheelchair") return Occluders::kWheelchair;
+  if (name == "crutches") return Occluders::kCrutches;
   if (name == "all") return Occluders::kAll;
   return std::nullopt;
 }

@@ -13,7 +13,7 @@
 namespace ossa::tools {
 
 /// The values of `ossa render --occluders`.
-enum class Occluders { kNone, kHeld, kScene, kAny, kHeldUp, kDesk, kAll };
+enum class Occluders { kNone, kHeld, kScene, kAny, kHeldUp, kDesk, kWheelchair, kCrutches, kAll };
 std::optional<Occluders> OccludersFromName(std::string_view name);
 
 /// What a thing goes along with.

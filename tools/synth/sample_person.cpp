@@ -118,4 +118,10 @@ recon::Clothing SampleHangingClothing(Random& random) {
   return wear;
 }
 
+double SampleGloves_m(Random& random) {
+  constexpr double kShare = 0.12;                        // of people wear any
+  constexpr double kThin_m = 0.002, kMittens_m = 0.013;  // thickness of what is sold
+  return random.Chance(kShare) ? random.Uniform(kThin_m, kMittens_m) : 0.0;
+}
+
 }  // namespace ossa::tools

@@ -21,4 +21,7 @@ recon::Clothing SampleClothing(Random& random);
 /// hair.
 recon::Clothing SampleHangingClothing(Random& random);
 
+/// How thick somebody's gloves are; 0: none, as of most.
+double SampleGloves_m(Random& random);
+
 }  // namespace ossa::tools

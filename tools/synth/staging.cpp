@@ -6,6 +6,7 @@
 
 #include "depth/render/shapes.h"
 #include "recon/body/standard_body.h"
+#include "tools/synth/mobility_aids.h"
 #include "tools/synth/pose_bank.h"
 
 namespace ossa::tools {
@@ -239,16 +240,26 @@ void AddArmrests(const recon::Posture& joints, Random& random, std::vector<Prop>
   box({Draw(random, 0.4, 0.6), back_m, 0.06F}, behind_m);
 }
 
+bool AreArmsAt(Staging staging, const recon::RigPose& pose) {
+  if (staging == Staging::kHeldUp) return HoldsBefore(pose);
+  if (staging == Staging::kCrutches) return HoldsCrutch(pose);
+  return LiesLevel(pose);
+}
+
 }  // namespace
 
 Staging DrawStaging(Occluders kind, Random& random) {
   if (kind == Occluders::kHeldUp) return Staging::kHeldUp;
+  if (kind == Occluders::kWheelchair) return Staging::kWheelchair;
+  if (kind == Occluders::kCrutches) return Staging::kCrutches;
   const double draw = random.Unit();
   if (kind == Occluders::kDesk) return draw < 0.7 ? Staging::kAtDesk : Staging::kArmrests;
   if (kind != Occluders::kAll) return Staging::kNone;
   return draw < 0.2    ? Staging::kHeldUp
          : draw < 0.3  ? Staging::kAtDesk
          : draw < 0.35 ? Staging::kArmrests
+         : draw < 0.38 ? Staging::kWheelchair
+         : draw < 0.41 ? Staging::kCrutches
                        : Staging::kNone;
 }
 
@@ -258,15 +269,20 @@ Staging Arrange(Staging staging, recon::RigPose* pose, Random& random) {
   if (staging == Staging::kNone) return staging;
   const Vector3d up = pose->world_from_rest[kSpine1] * Vector3d::UnitY();
   if (up.y() < kUpright) return Staging::kNone;
+  if (staging == Staging::kWheelchair) {
+    constexpr double kArmsRest = 0.5;  // of those who sit in one; others' arms stay as they were
+    SitDown(pose, random);
+    if (!random.Chance(kArmsRest)) return staging;
+  }
   recon::RigPose tried = *pose;
   for (int i = 0; i < kMostTries; ++i) {
     RandomArm(0, &tried, random);
-    if (!(staging == Staging::kHeldUp ? HoldsBefore(tried) : LiesLevel(tried))) continue;
+    if (!AreArmsAt(staging, tried)) continue;
     MirrorLeftArm(&tried, random);
     *pose = tried;
     return staging;
   }
-  return Staging::kNone;
+  return staging == Staging::kWheelchair ? staging : Staging::kNone;
 }
 
 std::vector<Prop> StagedProps(Staging staging, const recon::Posture& joints_in_world,
@@ -275,6 +291,8 @@ std::vector<Prop> StagedProps(Staging staging, const recon::Posture& joints_in_w
   if (staging == Staging::kHeldUp) AddHeldUp(joints_in_world, random, &props);
   if (staging == Staging::kAtDesk) AddDesk(joints_in_world, random, &props);
   if (staging == Staging::kArmrests) AddArmrests(joints_in_world, random, &props);
+  if (staging == Staging::kWheelchair) props = SampleWheelchair(joints_in_world, random);
+  if (staging == Staging::kCrutches) props = SampleCrutches(joints_in_world, random);
   const Affine3f move(camera_from_world.cast<float>().matrix());
   for (Prop& prop : props) prop.mesh_in_cam = depth::Moved(std::move(prop.mesh_in_cam), move);
   return props;

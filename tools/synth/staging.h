@@ -12,9 +12,11 @@ namespace ossa::tools {
 /// What the first person of a still does with things: the arms go to them, and they to the hands.
 enum class Staging {
   kNone,
-  kHeldUp,    // holds a sheet of cloth, a garment, a board, paper or a box up before the body
-  kAtDesk,    // forearms lie on a desk, with things on it
-  kArmrests,  // ... or on a chair's arms
+  kHeldUp,      // holds a sheet of cloth, a garment, a board, paper or a box up before the body
+  kAtDesk,      // forearms lie on a desk, with things on it
+  kArmrests,    // ... or on a chair's arms
+  kWheelchair,  // sits in one
+  kCrutches,    // walks on one or two
 };
 
 /// What `ossa render --occluders` asks for in this frame, by chance where it leaves a choice.

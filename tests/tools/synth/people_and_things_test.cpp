@@ -7,8 +7,10 @@
 #include "recon/body/clothing.h"
 #include "recon/body/standard_body.h"
 #include "tools/synth/clothed_actor.h"
+#include "tools/synth/mobility_aids.h"
 #include "tools/synth/nobodies.h"
 #include "tools/synth/random_posture.h"
+#include "tools/synth/staging.h"
 #include "tools/synth/worn.h"
 
 namespace ossa::tools {
@@ -85,6 +87,92 @@ TEST(RandomPosture, StandsBendsAndLies) {
   }
   EXPECT_GT(upright, 120);
   EXPECT_GT(lying, 80);
+}
+
+// Somebody who stands, arms down.
+recon::RigPose Standing() {
+  recon::RigPose pose;
+  pose.root_m = recon::StandardRigRest().head_m[0];
+  return pose;
+}
+
+TEST(Wheelchair, SeatsWhoStoodAndHasASeatWheelsAndFootplatesUnderThem) {
+  for (uint64_t seed = 0; seed < 20; ++seed) {
+    Random random(seed, 1);
+    recon::RigPose pose = Standing();
+    ASSERT_EQ(Arrange(Staging::kWheelchair, &pose, random), Staging::kWheelchair);
+    const recon::Posture joints = recon::StandardPosture(pose);
+    EXPECT_LT(std::abs(joints[Joint::kKneeLeft].y() - joints[Joint::kHipLeft].y()), 0.12);
+    EXPECT_GT(joints[Joint::kKneeLeft].z() - joints[Joint::kHipLeft].z(), 0.3);
+    EXPECT_NEAR(std::min(joints[Joint::kAnkleLeft].y(), joints[Joint::kAnkleRight].y()), 0.08,
+                1e-9);
+    const auto props =
+        StagedProps(Staging::kWheelchair, joints, Eigen::Isometry3d::Identity(), random);
+    ASSERT_EQ(props.size(), 1U);
+    EXPECT_EQ(props[0].part, recon::kOtherPart);
+    EXPECT_TRUE(props[0].counts_as_other);
+    Eigen::AlignedBox3f box;
+    bool seat = false;
+    const Eigen::Vector3f hips_m = joints[Joint::kHipCenter].cast<float>();
+    for (const auto& p : props[0].mesh_in_cam.vertices_m) {
+      box.extend(p);
+      seat = seat || (std::abs(p.y() - (hips_m.y() - 0.1F)) < 0.03F && p.z() > hips_m.z() + 0.1F);
+    }
+    EXPECT_TRUE(seat) << "something to sit on under the thighs";
+    EXPECT_NEAR(box.min().y(), 0.0F, 0.03F) << "it stands on the floor";
+    EXPECT_GT(box.max().y(), 0.85F) << "with handles";
+    EXPECT_LT(box.min().x(), hips_m.x() - 0.24F) << "a wheel on either side";
+    EXPECT_GT(box.max().x(), hips_m.x() + 0.24F);
+    EXPECT_LT((box.max() - box.min()).maxCoeff(), 1.6F);
+  }
+}
+
+TEST(Crutches, ReachFromTheFloorToTheHandsThatHoldThem) {
+  int two = 0;
+  for (uint64_t seed = 0; seed < 20; ++seed) {
+    Random random(seed, 1);
+    recon::RigPose pose = Standing();
+    ASSERT_EQ(Arrange(Staging::kCrutches, &pose, random), Staging::kCrutches);
+    const recon::Posture joints = recon::StandardPosture(pose);
+    const auto props =
+        StagedProps(Staging::kCrutches, joints, Eigen::Isometry3d::Identity(), random);
+    ASSERT_FALSE(props.empty());
+    two += props.size() == 2 ? 1 : 0;
+    for (const Prop& prop : props) {
+      EXPECT_EQ(prop.part, recon::kOtherPart);
+      const Joint hand = prop.grip == Grip::kLeftHand ? Joint::kHandLeft : Joint::kHandRight;
+      float nearest_m = 1e9F, lowest_m = 1e9F;
+      for (const auto& p : prop.mesh_in_cam.vertices_m) {
+        nearest_m = std::min(nearest_m, (p - joints[hand].cast<float>()).norm());
+        lowest_m = std::min(lowest_m, p.y());
+      }
+      EXPECT_LT(nearest_m, 0.08F);
+      EXPECT_NEAR(lowest_m, 0.0F, 0.03F);
+    }
+  }
+  EXPECT_GT(two, 8);
+}
+
+TEST(Gloves, ThickenHandsAndWristsOnly) {
+  if (!recon::BodyIsFetched(recon::BodyFolder())) GTEST_SKIP() << "no body: tools/fetch_body";
+  const recon::BodyModel model = LoadFetchedBody();
+  const recon::Wardrobe wardrobe(model);
+  const recon::ShapedBody body = model.Shape({});
+  recon::Clothing bare, gloved;
+  gloved.glove_m = 0.01;
+  const auto without = wardrobe.Dress(body, bare), with = wardrobe.Dress(body, gloved);
+  double moved_m = 0;
+  int hands = 0;
+  for (size_t i = 0; i < without.size(); ++i) {
+    const uint8_t part = model.vertex_part()[i];
+    const bool arm = part >= 14 && part <= 17;  // wrists and hands
+    ASSERT_TRUE(arm || with[i] == without[i]) << int{part};
+    if (part != 16 && part != 17) continue;
+    moved_m += (with[i] - without[i]).norm();
+    ++hands;
+  }
+  ASSERT_GT(hands, 100);
+  EXPECT_NEAR(moved_m / hands, 0.01, 0.003);
 }
 
 TEST(HangingClothes, StandOffFromTheWaistAndLeaveTheRestAsItWas) {
