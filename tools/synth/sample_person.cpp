@@ -119,8 +119,8 @@ recon::Clothing SampleHangingClothing(Random& random) {
 }
 
 double SampleGloves_m(Random& random) {
-  constexpr double kShare = 0.12;                        // of people wear any
-  constexpr double kThin_m = 0.002, kMittens_m = 0.013;  // thickness of what is sold
+  constexpr double kShare = 0.12;                        // share of people who wear any; by hand
+  constexpr double kThin_m = 0.002, kMittens_m = 0.013;  // thickness of what is sold; by hand
   return random.Chance(kShare) ? random.Uniform(kThin_m, kMittens_m) : 0.0;
 }
 

@@ -270,7 +270,7 @@ Staging Arrange(Staging staging, recon::RigPose* pose, Random& random) {
   const Vector3d up = pose->world_from_rest[kSpine1] * Vector3d::UnitY();
   if (up.y() < kUpright) return Staging::kNone;
   if (staging == Staging::kWheelchair) {
-    constexpr double kArmsRest = 0.5;  // of those who sit in one; others' arms stay as they were
+    constexpr double kArmsRest = 0.5;  // share of who sits in one; of others arms stay; by hand
     SitDown(pose, random);
     if (!random.Chance(kArmsRest)) return staging;
   }
