@@ -2,6 +2,7 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 #include "recon/smallest_turn.h"
 #include "tools/experiments/shum_ho_2012/internal.h"
@@ -31,51 +32,34 @@ int AddMace(Stage& stage, int person) {
   return index;
 }
 
-/// The mace's far end.
-Vector3d HeadOf(const physics::ObjectState& mace) {
-  return mace.position_m - mace.orientation * Vector3d(0.0, 0.5 * kMaceLength_m, 0.0);
-}
-
-struct Swing {
-  std::vector<Vector3d> hand;
-  Vector3d fastest = Vector3d::Zero();  // where the mace's head was fastest
-};
-
-/// The motion without boxes, with or without the mace.
-Swing Rehearse(const std::vector<Posture>& motion, uint64_t seed, bool armed) {
+/// Where the hand goes, without boxes, with or without the mace.
+std::vector<Vector3d> HandPath(const std::vector<Posture>& motion, uint64_t seed, bool armed) {
   Stage stage(seed, {}, false);
   const int person = stage.AddPerson(motion[0]);
-  const int mace = armed ? AddMace(stage, person) : -1;
-  Swing swing;
-  double best = 0.0;
-  Vector3d before = Vector3d::Zero();
-  for (size_t f = 0; f < motion.size(); ++f) {
-    stage.Advance({motion[f]}, "");
-    swing.hand.push_back(stage.world.StateOf(person).posture[Joint::kHandRight]);
-    if (!armed) continue;
-    const Vector3d head = HeadOf(stage.world.ObjectOf(mace));
-    const double speed = (head - before).norm();
-    if (f > 5 && speed > best && head.z() > 0.25 && head.y() < 1.1) {
-      best = speed;
-      swing.fastest = head;
-    }
-    before = head;
+  if (armed) AddMace(stage, person);
+  std::vector<Vector3d> path;
+  for (const Posture& posture : motion) {
+    stage.Advance({posture}, "");
+    path.push_back(stage.world.StateOf(person).posture[Joint::kHandRight]);
   }
-  return swing;
+  return path;
 }
 
-/// A heap of boxes that what comes to `place` runs into.
-std::vector<Vector3d> HeapBoxes(Stage& stage, const Vector3d& place) {
-  constexpr double kEdge_m = 0.22;
+/// Stacks of light boxes half around who stands so, at what an arm and a mace reach.
+std::vector<Vector3d> StackBoxes(Stage& stage, const Posture& standing) {
+  constexpr double kEdge_m = 0.22, kReach_m = 0.85;
+  constexpr int kLayers = 4, kStacks = 5;
+  const Vector3d hips = standing[Joint::kHipCenter];
   std::vector<Vector3d> start;
-  const int layers = std::max(1, static_cast<int>(std::ceil(place.y() / kEdge_m)) + 1);
-  for (int layer = 0; layer < layers; ++layer) {
-    for (const double side : {-0.5, 0.5}) {
+  for (int stack = 0; stack < kStacks; ++stack) {
+    const double angle = std::numbers::pi / 6.0 * (stack - kStacks / 2);
+    for (int layer = 0; layer < kLayers; ++layer) {
       ObjectOptions box;
       box.size_m = Vector3d::Constant(kEdge_m);
       box.mass_kg = 0.4;
-      box.position_m = {place.x() + side * 1.02 * kEdge_m, kEdge_m * (layer + 0.5) + 0.001,
-                        place.z() + 0.5 * kEdge_m};
+      box.position_m = {hips.x() + kReach_m * std::sin(angle), kEdge_m * (layer + 0.5) + 0.001,
+                        hips.z() + kReach_m * std::cos(angle)};
+      box.orientation = Eigen::AngleAxisd(angle, Vector3d::UnitY());
       stage.world.AddObject(box);
       start.push_back(box.position_m);
     }
@@ -83,29 +67,41 @@ std::vector<Vector3d> HeapBoxes(Stage& stage, const Vector3d& place) {
   return start;
 }
 
-struct Throw {
-  Joint hand = Joint::kHandRight;
-  size_t release = 1;
-};
-
-/// The hand that goes fastest towards the other throws, and lets go when it is fastest.
-Throw FindThrow(const std::vector<Posture>& motion) {
-  Throw found;
+/// The hand that goes fastest towards the other throws.
+Joint ThrowingHand(const std::vector<Posture>& motion) {
+  Joint found = Joint::kHandRight;
   double fastest = 0.0;
   for (const Joint hand : {Joint::kHandLeft, Joint::kHandRight}) {
     for (size_t f = 1; f < motion.size(); ++f) {
-      const double speed = 30.0 * (motion[f][hand].z() - motion[f - 1][hand].z());
-      if (speed <= fastest) continue;
-      fastest = speed;
-      found = {hand, f};
+      const double forward = motion[f][hand].z() - motion[f - 1][hand].z();
+      if (forward <= fastest) continue;
+      fastest = forward;
+      found = hand;
     }
   }
   return found;
 }
 
-/// Gives the person a box that sits on the hand, beyond its fingers.
+/// How far it is from a limb's skin, or the trunk's, to a box; below 0 within.
+double Clearance_m(const Stage& stage, int box, const Posture& body, Joint holding) {
+  constexpr double kThickest_m = 0.09, kLimb_m = 0.06;  // radii of trunk and head, of limbs
+  double nearest = 1.0;
+  for (size_t j = 1; j < recon::kJointCount; ++j) {
+    if (j + 1 >= recon::Index(holding) && j <= recon::Index(holding)) continue;  // what holds it
+    const Vector3d& from = body.position_m[recon::ParentOf(j)];
+    const double radius = j <= recon::Index(Joint::kHead) ? kThickest_m : kLimb_m;
+    for (const double share : {0.0, 0.25, 0.5, 0.75, 1.0}) {
+      const Vector3d at = from + share * (body.position_m[j] - from);
+      nearest = std::min(nearest, stage.world.DistanceTo(box, at) - radius);
+    }
+  }
+  return nearest;
+}
+
+/// Gives the person a box that sits on the hand, beyond its fingers and clear of the body: who
+/// takes one holds it so.
 int TakeBox(Stage& stage, int person, Joint hand) {
-  constexpr double kEdge_m = 0.16;
+  constexpr double kEdge_m = 0.16, kStep_m = 0.01, kFarthest_m = 0.3;
   const Posture now = stage.world.StateOf(person).posture;
   const Joint wrist = hand == Joint::kHandLeft ? Joint::kWristLeft : Joint::kWristRight;
   const Vector3d along = (now[hand] - now[wrist]).normalized();
@@ -113,45 +109,58 @@ int TakeBox(Stage& stage, int person, Joint hand) {
   box.size_m = Vector3d::Constant(kEdge_m);
   box.mass_kg = 0.5;
   box.orientation = recon::SmallestTurn(Vector3d::UnitY(), along);
-  const double outwards = hand == Joint::kHandLeft ? 0.03 : -0.03;  // clear of the thigh
   box.position_m = now[hand] + (0.5 * kEdge_m + 0.04) * along;
-  box.position_m += now[Joint::kHipLeft].x() > now[Joint::kHipRight].x()
-                        ? Vector3d(outwards, 0.0, 0.0)
-                        : Vector3d(-outwards, 0.0, 0.0);
   const int index = stage.world.AddObject(box);
+  const Vector3d side = (now[Joint::kHipLeft] - now[Joint::kHipRight]).normalized();
+  const Vector3d outwards = hand == Joint::kHandLeft ? side : Vector3d(-side);
+  for (double by = 0.0; by < kFarthest_m && Clearance_m(stage, index, now, hand) < 0.0;
+       by += kStep_m) {
+    stage.world.SetPose(index, box.position_m + by * outwards, box.orientation);
+  }
   stage.world.Hold(person, hand, index, true);
   return index;
 }
 
-/// Where a thrown box comes down to the height of a chest, thrown by a person alone.
-Vector3d RehearseThrow(const std::vector<Posture>& motion, const Throw& how, uint64_t seed) {
-  Stage stage(seed, {}, false);
-  const int person = stage.AddPerson(motion[0]);
-  const int box = TakeBox(stage, person, how.hand);
-  Vector3d place = Vector3d::Zero();
-  for (size_t f = 0; f < how.release + 60; ++f) {
-    stage.Advance({motion[std::min(f, motion.size() - 1)]}, "");
-    if (f == how.release) stage.world.Release(box);
-    if (f <= how.release) continue;
-    const Vector3d at = stage.world.ObjectOf(box).position_m;
-    if (at.y() < 1.05 && place.z() > 1.0) break;
-    place = at;
+/// How far from a place something that flies on from now passes at its nearest.
+double PassesAt_m(const physics::ObjectState& flying, const Vector3d& place) {
+  constexpr double kLongest_s = 1.5, kStep_s = 0.02;
+  double nearest = 1e9;
+  for (double t = 0.0; t < kLongest_s; t += kStep_s) {
+    const Vector3d fall(0.0, 0.5 * 9.81 * t * t, 0.0);
+    nearest =
+        std::min(nearest, (flying.position_m + t * flying.velocity_m_s - fall - place).norm());
   }
-  return place;
+  return nearest;
 }
+
+/// When to let go: what is thrown would come to the other's chest, and a moment later would not.
+class Aim {
+ public:
+  bool IsNow(const physics::ObjectState& held, const Vector3d& chest) {
+    constexpr double kSwing_m_s = 2.0, kGood_m = 0.35;
+    const bool swings = held.velocity_m_s.norm() > kSwing_m_s;
+    const double passes = swings ? PassesAt_m(held, chest) : 1e9;
+    const bool is_now = before_ < kGood_m && passes >= before_;
+    before_ = passes;
+    return is_now;
+  }
+
+ private:
+  double before_ = 1e9;
+};
 
 }  // namespace
 
 SceneResult SwingAMace(const Actors& actors, uint64_t seed) {
   const std::vector<Posture> motion = actors.Sequence({"throw", "golf"});
-  const Swing bare = Rehearse(motion, seed, false), armed = Rehearse(motion, seed, true);
+  const auto bare = HandPath(motion, seed, false), armed = HandPath(motion, seed, true);
   SceneView view;
   view.eye_m = {-2.4, 1.7, 2.9};
   view.look_at_m = {0.0, 0.8, 0.5};
   Stage stage(seed, view);
   const int person = stage.AddPerson(motion[0]);
   AddMace(stage, person);
-  const std::vector<Vector3d> start = HeapBoxes(stage, armed.fastest);
+  const std::vector<Vector3d> start = StackBoxes(stage, motion[0]);
   for (const Posture& posture : motion) stage.Advance({posture}, "a 2 kg mace on the right hand");
   int hit = 0;
   for (size_t i = 0; i < start.size(); ++i) {
@@ -159,7 +168,7 @@ SceneResult SwingAMace(const Actors& actors, uint64_t seed) {
   }
   double mean = 0.0, largest = 0.0;
   for (size_t f = 0; f < motion.size(); ++f) {
-    const double d = (bare.hand[f] - armed.hand[f]).norm();
+    const double d = (bare[f] - armed[f]).norm();
     mean += d / static_cast<double>(motion.size());
     largest = std::max(largest, d);
   }
@@ -175,42 +184,46 @@ SceneResult SwingAMace(const Actors& actors, uint64_t seed) {
 }
 
 SceneResult ThrowBoxes(const Actors& actors, uint64_t seed) {
+  constexpr double kApart_m = 2.2;
   const std::vector<Posture>& motion = actors.Play("throw");
-  const Throw how = FindThrow(motion);
-  const Vector3d place = RehearseThrow(motion, how, seed);
-  // Half a turn about the vertical line halfway to where the box comes: each stands where the other
-  // throws.
-  const Vector3d chest = motion[0][Joint::kShoulderCenter];
+  const Joint hand = ThrowingHand(motion);
+  // Half a turn about the vertical line between them: each faces the other.
+  const Vector3d first = motion[0][Joint::kHipCenter];
   const auto opposite = [&](Posture posture) {
     for (auto& p : posture.position_m) {
-      p = Vector3d(place.x() + chest.x() - p.x(), p.y(), place.z() + chest.z() - p.z());
+      p = Vector3d(2.0 * first.x() - p.x(), p.y(), 2.0 * first.z() + kApart_m - p.z());
     }
     return posture;
   };
   SceneView view;
-  view.eye_m = {0.5 * place.x() + 1.1 * place.z() + 1.4, 1.8, 0.5 * place.z() + 0.3};
-  view.look_at_m = {0.5 * place.x(), 0.9, 0.5 * place.z()};
+  view.eye_m = {first.x() + 1.1 * kApart_m + 1.4, 1.8, first.z() + 0.5 * kApart_m + 0.3};
+  view.look_at_m = {first.x(), 0.9, first.z() + 0.5 * kApart_m};
   Stage stage(seed, view);
   stage.AddPerson(motion[0]);
   stage.AddPerson(opposite(motion[0]));
-  const int boxes[2] = {TakeBox(stage, 0, how.hand), TakeBox(stage, 1, how.hand)};
+  const int boxes[2] = {TakeBox(stage, 0, hand), TakeBox(stage, 1, hand)};
   const size_t delay = 45;  // the second character throws a second and a half later
   int hits[2] = {0, 0};     // frames in which the one thrown at was struck
+  bool thrown[2] = {false, false};
+  Aim aim[2];
   for (size_t f = 0; f < motion.size() + delay + 20; ++f) {
     const auto at = [&](size_t frame) { return std::min(frame, motion.size() - 1); };
     stage.Advance({motion[at(f)], opposite(motion[at(f < delay ? 0 : f - delay)])},
                   "two characters throw boxes at each other");
     for (size_t thrower = 0; thrower < 2; ++thrower) {
-      const size_t released = how.release + thrower * delay;
-      if (f == released) stage.world.Release(boxes[thrower]);
-      if (f <= released) continue;
       const int target = 1 - static_cast<int>(thrower);
-      hits[thrower] += stage.Struck(target, {}, boxes[thrower]) ? 1 : 0;
+      if (thrown[thrower]) {
+        hits[thrower] += stage.Struck(target, {}, boxes[thrower]) ? 1 : 0;
+        continue;
+      }
+      const Vector3d chest = stage.world.StateOf(target).posture[Joint::kSpine];
+      thrown[thrower] = aim[thrower].IsNow(stage.world.ObjectOf(boxes[thrower]), chest);
+      if (thrown[thrower]) stage.world.Release(boxes[thrower]);
     }
   }
   SceneResult result;
   result.numbers = {
-      {"thrown how far", Text(place.z(), 2, "m"), ">= 1.5 m", place.z() >= 1.5},
+      {"thrown how far", Text(kApart_m, 2, "m"), ">= 1.5 m", thrown[0] && thrown[1]},
       {"frames the first box struck the other", std::to_string(hits[0]), ">= 1", hits[0] >= 1},
       {"frames the second box struck the other", std::to_string(hits[1]), ">= 1", hits[1] >= 1}};
   AddCommonNumbers(stage, result);
