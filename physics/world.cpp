@@ -25,6 +25,9 @@ constexpr double kFrame_s = 1.0 / 30.0;
 constexpr double kDodgeHold_s = 0.3;
 constexpr int kIterations = 30;       // of the constraint solver; fewer with motors, see MakeActor
 constexpr double kDeepest_m = 0.004;  // nobody stands deeper in the floor
+/// How far a thing may fly in a substep: the margin in which its contact with a limb is seen.
+constexpr double kUnseen_m = kContactMargin_m;
+constexpr double kFastest_m_s = 45.0;  // more substeps for faster ones; a fast ball game's throw
 
 }  // namespace
 
@@ -178,6 +181,14 @@ void World::Impl::BreakHolds() {
   }
 }
 
+double World::Impl::FastestThing_m_s() const {
+  double fastest_m_s = 0.0;
+  for (const auto& [id, thing] : things) {
+    fastest_m_s = std::max(fastest_m_s, ToEigen(dBodyGetLinearVel(thing.body)).norm());
+  }
+  return fastest_m_s;
+}
+
 /// Kinematic things set out so as to arrive after dt.
 void World::Impl::MoveKinematic(double dt_s) {
   for (auto& [id, thing] : things) {
@@ -226,8 +237,9 @@ void World::Step(double dt_s) {
     actor->max_gap_m = 0.0;
     actor->Prepare(w.ode, w.floor, dt_s);
   }
-  const int count =
-      std::max(1, static_cast<int>(std::ceil(dt_s / kFrame_s * w.options.substeps - 1e-6)));
+  const double fewest = std::max(dt_s / kFrame_s * w.options.substeps,
+                                 dt_s * std::min(w.FastestThing_m_s(), kFastest_m_s) / kUnseen_m);
+  const int count = std::max(1, static_cast<int>(std::ceil(fewest - 1e-6)));
   const double h = dt_s / count;
   const std::vector<Contact> before = std::move(w.contacts.contacts);
   w.contacts = {};

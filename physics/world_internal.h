@@ -93,6 +93,7 @@ struct World::Impl {
   void BreakHolds();
   void WatchThreats(double dt_s);
   void WatchForThings(Actor& actor) const;
+  double FastestThing_m_s() const;
   void MoveKinematic(double dt_s);
   void FinishStep(const std::vector<Contact>& before);
   // contact.cpp

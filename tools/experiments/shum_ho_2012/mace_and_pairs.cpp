@@ -4,6 +4,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "physics/anthropometry.h"
 #include "recon/smallest_turn.h"
 #include "tools/experiments/shum_ho_2012/internal.h"
 
@@ -67,32 +68,57 @@ std::vector<Vector3d> StackBoxes(Stage& stage, const Posture& standing) {
   return start;
 }
 
-/// The hand that goes fastest towards the other throws.
-Joint ThrowingHand(const std::vector<Posture>& motion) {
-  Joint found = Joint::kHandRight;
+/// The hand that goes fastest forward throws, past its highest: what leaves a hand that still rises
+/// flies over people.
+struct Swing {
+  Joint hand = Joint::kHandRight;
+  Vector3d at_m = Vector3d::Zero(), along_m = Vector3d::UnitZ();  // then: where, and where to
+};
+
+Swing FindSwing(const std::vector<Posture>& motion) {
+  Swing found;
   double fastest = 0.0;
   for (const Joint hand : {Joint::kHandLeft, Joint::kHandRight}) {
     for (size_t f = 1; f < motion.size(); ++f) {
-      const double forward = motion[f][hand].z() - motion[f - 1][hand].z();
-      if (forward <= fastest) continue;
-      fastest = forward;
-      found = hand;
+      const Vector3d by = motion[f][hand] - motion[f - 1][hand];
+      if (by.z() <= fastest || by.y() > 0.0) continue;
+      fastest = by.z();
+      found = {hand, motion[f][hand], by};
     }
   }
   return found;
 }
 
-/// How far it is from a limb's skin, or the trunk's, to a box; below 0 within.
+double Bearing_rad(const Vector3d& v) { return std::atan2(v.x(), v.z()); }
+
+/// Everybody turns so that what they swing goes at the mark.
+std::vector<Posture> Aimed(std::vector<Posture> motion, const Swing& swing, const Vector3d& mark) {
+  constexpr int kTimes = 20;  // the hand moves as one turns
+  const Vector3d hips = motion[0][Joint::kHipCenter];
+  Eigen::AngleAxisd turn(0.0, Vector3d::UnitY());
+  for (int k = 0; k < kTimes; ++k) {
+    const Vector3d hand = hips + turn * (swing.at_m - hips);
+    turn.angle() = Bearing_rad(mark - hand) - Bearing_rad(swing.along_m);
+  }
+  for (Posture& posture : motion) {
+    for (auto& p : posture.position_m) p = hips + turn * (p - hips);
+  }
+  return motion;
+}
+
+/// How far it is from the person's skin to a box, but for what holds it; below 0 within.
 double Clearance_m(const Stage& stage, int box, const Posture& body, Joint holding) {
-  constexpr double kThickest_m = 0.09, kLimb_m = 0.06;  // radii of trunk and head, of limbs
+  constexpr int kPoints = 9;  // along a bone: 6 cm apart on the longest
+  const physics::Segments segments =
+      physics::ComputeSegments(recon::MeasureBoneLengths(body), 0.0, 0.0);
   double nearest = 1.0;
   for (size_t j = 1; j < recon::kJointCount; ++j) {
-    if (j + 1 >= recon::Index(holding) && j <= recon::Index(holding)) continue;  // what holds it
+    if (j + 1 >= recon::Index(holding) && j <= recon::Index(holding)) continue;
     const Vector3d& from = body.position_m[recon::ParentOf(j)];
-    const double radius = j <= recon::Index(Joint::kHead) ? kThickest_m : kLimb_m;
-    for (const double share : {0.0, 0.25, 0.5, 0.75, 1.0}) {
+    for (int k = 0; k < kPoints; ++k) {
+      const double share = static_cast<double>(k) / (kPoints - 1);
       const Vector3d at = from + share * (body.position_m[j] - from);
-      nearest = std::min(nearest, stage.world.DistanceTo(box, at) - radius);
+      nearest = std::min(nearest, stage.world.DistanceTo(box, at) - segments[j].radius_m);
     }
   }
   return nearest;
@@ -121,25 +147,27 @@ int TakeBox(Stage& stage, int person, Joint hand) {
   return index;
 }
 
-/// How far from a place something that flies on from now passes at its nearest.
-double PassesAt_m(const physics::ObjectState& flying, const Vector3d& place) {
-  constexpr double kLongest_s = 1.5, kStep_s = 0.02;
+/// How far from somebody's trunk and head something that flies on from now passes at its nearest.
+double PassesAt_m(const physics::ObjectState& flying, const Posture& body) {
+  constexpr double kLongest_s = 1.0, kStep_s = 0.01;
   double nearest = 1e9;
   for (double t = 0.0; t < kLongest_s; t += kStep_s) {
-    const Vector3d fall(0.0, 0.5 * 9.81 * t * t, 0.0);
-    nearest =
-        std::min(nearest, (flying.position_m + t * flying.velocity_m_s - fall - place).norm());
+    const Vector3d at = flying.position_m + t * flying.velocity_m_s +
+                        0.5 * t * t * Vector3d(0.0, -physics::WorldOptions{}.gravity_m_s2, 0.0);
+    for (const Joint j : {Joint::kHipCenter, Joint::kSpine, Joint::kShoulderCenter, Joint::kHead}) {
+      nearest = std::min(nearest, (at - body[j]).norm());
+    }
   }
   return nearest;
 }
 
-/// When to let go: what is thrown would come to the other's chest, and a moment later would not.
+/// When to let go: what is thrown would strike the other, and a moment later would not so well.
 class Aim {
  public:
-  bool IsNow(const physics::ObjectState& held, const Vector3d& chest) {
-    constexpr double kSwing_m_s = 2.0, kGood_m = 0.35;
+  bool IsNow(const physics::ObjectState& held, const Posture& other) {
+    constexpr double kSwing_m_s = 4.0, kGood_m = 0.2;
     const bool swings = held.velocity_m_s.norm() > kSwing_m_s;
-    const double passes = swings ? PassesAt_m(held, chest) : 1e9;
+    const double passes = swings ? PassesAt_m(held, other) : 1e9;
     const bool is_now = before_ < kGood_m && passes >= before_;
     before_ = passes;
     return is_now;
@@ -147,6 +175,30 @@ class Aim {
 
  private:
   double before_ = 1e9;
+};
+
+/// A box that one person throws at another, and what became of it.
+struct Throw {
+  int box = -1;
+  Aim aim;
+  bool is_thrown = false;
+  Vector3d from_m = Vector3d::Zero();  // where it was let go
+  int hits = 0;                        // frames in which it struck the other
+  double flew_m = 0.0;                 // until it did
+
+  /// Within a frame: a swing of 10 m/s passes its mark in less.
+  void LetGoIfAimed(Stage& stage, int target) {
+    const physics::ObjectState held = stage.world.ObjectOf(box);
+    if (is_thrown || !aim.IsNow(held, stage.world.StateOf(target).posture)) return;
+    stage.world.Release(box);
+    is_thrown = true;
+    from_m = held.position_m;
+  }
+  void Watch(const Stage& stage, int target) {
+    if (!is_thrown || !stage.Struck(target, {}, box)) return;
+    if (hits == 0) flew_m = (stage.world.ObjectOf(box).position_m - from_m).norm();
+    ++hits;
+  }
 };
 
 }  // namespace
@@ -184,11 +236,11 @@ SceneResult SwingAMace(const Actors& actors, uint64_t seed) {
 }
 
 SceneResult ThrowBoxes(const Actors& actors, uint64_t seed) {
-  constexpr double kApart_m = 2.2;
-  const std::vector<Posture>& motion = actors.Play("throw");
-  const Joint hand = ThrowingHand(motion);
+  constexpr double kApart_m = 3.0;
+  const Vector3d first = actors.Play("throw")[0][Joint::kHipCenter];
+  const Swing swing = FindSwing(actors.Play("throw"));
+  const auto motion = Aimed(actors.Play("throw"), swing, first + Vector3d(0.0, 0.0, kApart_m));
   // Half a turn about the vertical line between them: each faces the other.
-  const Vector3d first = motion[0][Joint::kHipCenter];
   const auto opposite = [&](Posture posture) {
     for (auto& p : posture.position_m) {
       p = Vector3d(2.0 * first.x() - p.x(), p.y(), 2.0 * first.z() + kApart_m - p.z());
@@ -201,31 +253,28 @@ SceneResult ThrowBoxes(const Actors& actors, uint64_t seed) {
   Stage stage(seed, view);
   stage.AddPerson(motion[0]);
   stage.AddPerson(opposite(motion[0]));
-  const int boxes[2] = {TakeBox(stage, 0, hand), TakeBox(stage, 1, hand)};
+  Throw throws[2];
+  for (const int person : {0, 1}) throws[person].box = TakeBox(stage, person, swing.hand);
+  physics::WorldCallbacks callbacks;
+  callbacks.before_substep = [&stage, &throws](double) {
+    for (const int person : {0, 1}) throws[person].LetGoIfAimed(stage, 1 - person);
+  };
+  stage.world.SetCallbacks(callbacks);
   const size_t delay = 45;  // the second character throws a second and a half later
-  int hits[2] = {0, 0};     // frames in which the one thrown at was struck
-  bool thrown[2] = {false, false};
-  Aim aim[2];
   for (size_t f = 0; f < motion.size() + delay + 20; ++f) {
     const auto at = [&](size_t frame) { return std::min(frame, motion.size() - 1); };
     stage.Advance({motion[at(f)], opposite(motion[at(f < delay ? 0 : f - delay)])},
                   "two characters throw boxes at each other");
-    for (size_t thrower = 0; thrower < 2; ++thrower) {
-      const int target = 1 - static_cast<int>(thrower);
-      if (thrown[thrower]) {
-        hits[thrower] += stage.Struck(target, {}, boxes[thrower]) ? 1 : 0;
-        continue;
-      }
-      const Vector3d chest = stage.world.StateOf(target).posture[Joint::kSpine];
-      thrown[thrower] = aim[thrower].IsNow(stage.world.ObjectOf(boxes[thrower]), chest);
-      if (thrown[thrower]) stage.world.Release(boxes[thrower]);
-    }
+    for (const int person : {0, 1}) throws[person].Watch(stage, 1 - person);
   }
+  const double flew_m = std::min(throws[0].flew_m, throws[1].flew_m);
   SceneResult result;
   result.numbers = {
-      {"thrown how far", Text(kApart_m, 2, "m"), ">= 1.5 m", thrown[0] && thrown[1]},
-      {"frames the first box struck the other", std::to_string(hits[0]), ">= 1", hits[0] >= 1},
-      {"frames the second box struck the other", std::to_string(hits[1]), ">= 1", hits[1] >= 1}};
+      {"thrown how far, the shorter", Text(flew_m, 2, "m"), ">= 1.5 m", flew_m >= 1.5},
+      {"frames the first box struck the other", std::to_string(throws[0].hits), ">= 1",
+       throws[0].hits >= 1},
+      {"frames the second box struck the other", std::to_string(throws[1].hits), ">= 1",
+       throws[1].hits >= 1}};
   AddCommonNumbers(stage, result);
   return result;
 }
