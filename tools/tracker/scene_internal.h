@@ -1,5 +1,4 @@
 #pragma once
-#include <array>
 #include <map>
 #include <memory>
 #include <set>
@@ -19,18 +18,23 @@ struct ScenePerson {
 
 /// A hand, or another joint that takes hold, from moment to moment.
 struct HandMemory {
-  std::optional<Eigen::Vector3d> seen_m, made_m;  // at the last moment: tracked, of the character
-  std::array<Eigen::Vector3d, 3> seen_velocity_m_s = NoVelocities();  // the latest last
+  struct Place {
+    double time_s;
+    Eigen::Vector3d at_m;
+  };
+  std::optional<Eigen::Vector3d> made_m;  // of the character at the last moment
   Eigen::Vector3d made_velocity_m_s = Eigen::Vector3d::Zero();
-  Eigen::Vector3d fastest_m_s = Eigen::Vector3d::Zero();  // of the present swing, as seen
-  double held_at_m = 0.0;  // from the surface when it took hold, as seen
-  double away_s = 0.0;     // for how long it has been further away
-  /// Of each axis the middle one of the last three: one odd frame says nothing.
+  std::vector<Place> seen;                                      // as tracked, the latest last
+  Eigen::Vector3d seen_velocity_m_s = Eigen::Vector3d::Zero();  // of the last step alone
+  Eigen::Vector3d fastest_m_s = Eigen::Vector3d::Zero();        // of the present swing, as seen
+  double held_at_m = 0.0;                     // from the surface when it took hold, as seen
+  double away_s = 0.0;                        // for how long it has been further away
+  double strength_n = GrabRule{}.strength_n;  // of the rule by which it took hold
+  double rest_until_s = -1e9;                 // takes nothing before
+
+  void See(double time_s, const Eigen::Vector3d& at_m);
+  /// Of the straight line through the last places: an odd one says little.
   Eigen::Vector3d SteadyVelocity_m_s() const;
-  static std::array<Eigen::Vector3d, 3> NoVelocities() {
-    return {Eigen::Vector3d::Zero(), Eigen::Vector3d::Zero(), Eigen::Vector3d::Zero()};
-  }
-  double rest_until_s = -1e9;  // takes nothing before
 };
 
 /// A person in the world.
@@ -42,6 +46,13 @@ struct SceneActor {
   int far_frames = 0;
   recon::Posture seen;  // at this moment; what is not known is where the character has it
   std::map<recon::Joint, HandMemory> hands;
+};
+
+/// A joint of somebody that could take hold, and how strong the hold would be.
+struct SceneHand {
+  SceneActor* actor;
+  recon::Joint joint;
+  double strength_n;
 };
 
 /// An object of the options, and the world's, while it is there.
@@ -75,12 +86,14 @@ struct Scene::Impl {
   void ApplyRules(double dt_s);
   void Throw(const ThrowRule& rule);
   void Release(const ReleaseRule& rule, double dt_s);
-  void Grab(const GrabRule& rule);
+  void Grab(const std::string& name, int object);
+  void Take(const std::string& name, int object, const SceneHand& taking);
+  /// Free hands that are at an object as the rule wants it.
+  std::vector<SceneHand> HandsAt(const GrabRule& rule, int object);
   void LetGo(const std::string& name, const physics::Holder& holder, SceneEvent::Kind kind);
   void LetAllGo(const std::string& name, SceneEvent::Kind kind);
   /// Objects that a rule names and that are there, by name.
   std::vector<std::pair<std::string, int>> Named(const std::vector<std::string>& names) const;
-  double StrengthOn(int object) const;  // of who holds it
   bool HoldsSomething(int character, recon::Joint joint) const;
   /// The person whose character that is, by id.
   std::pair<const int, SceneActor>* Owner(int character);

@@ -19,11 +19,24 @@ bool IsNamed(const std::vector<std::string>& names, const std::string& name) {
   return names.empty() || std::find(names.begin(), names.end(), name) != names.end();
 }
 
-/// A hand that could take hold of an object, or holds it.
-struct Hand {
-  SceneActor* actor;
-  Joint joint;
-};
+bool IsOf(const GrabRule& rule, Joint joint) {
+  return std::find(rule.joints.begin(), rule.joints.end(), joint) != rule.joints.end();
+}
+
+/// Whether those who hold a thing and those who could suffice for the rule.
+bool IsEnough(const GrabRule& rule, const std::vector<physics::Holder>& holders,
+              const std::vector<SceneHand>& able) {
+  std::set<int> people;
+  size_t hands = able.size();
+  for (const SceneHand& hand : able) people.insert(hand.actor->character);
+  for (const physics::Holder& holder : holders) {
+    if (!IsOf(rule, holder.joint)) continue;
+    people.insert(holder.character);
+    ++hands;
+  }
+  return hands >= static_cast<size_t>(rule.hands) &&
+         people.size() >= static_cast<size_t>(rule.people);
+}
 
 }  // namespace
 
@@ -52,16 +65,6 @@ bool Scene::Impl::HoldsSomething(int character, Joint joint) const {
   });
 }
 
-double Scene::Impl::StrengthOn(int object) const {
-  for (const auto& [name, at] : placed) {
-    if (at.object != object) continue;
-    for (const GrabRule& grab : options.grabs) {
-      if (IsNamed(grab.objects, name)) return grab.strength_n;
-    }
-  }
-  return GrabRule{}.strength_n;
-}
-
 void Scene::Impl::LetGo(const std::string& name, const physics::Holder& holder,
                         SceneEvent::Kind kind) {
   world.Release(placed.at(name).object, holder.character, holder.joint);
@@ -85,7 +88,7 @@ void Scene::Impl::ApplyRules(double dt_s) {
   }
   for (const ThrowRule& rule : options.throws) Throw(rule);
   for (const ReleaseRule& rule : options.releases) Release(rule, dt_s);
-  for (const GrabRule& rule : options.grabs) Grab(rule);
+  for (const auto& [name, object] : Named({})) Grab(name, object);
 }
 
 // The character's hand is behind the one that is seen, and swings what it holds further: what is
@@ -100,7 +103,7 @@ void Scene::Impl::Throw(const ThrowRule& rule) {
       const Vector3d steady_m_s = hand.SteadyVelocity_m_s();
       if (steady_m_s.norm() > hand.fastest_m_s.norm()) hand.fastest_m_s = steady_m_s;
       const double fastest_m_s = hand.fastest_m_s.norm();
-      if (hand.seen_velocity_m_s.back().norm() >= kSlowingDown * fastest_m_s) continue;
+      if (hand.seen_velocity_m_s.norm() >= kSlowingDown * fastest_m_s) continue;
       if (fastest_m_s > rule.faster_m_s) thrown_m_s = hand.fastest_m_s;
       hand.fastest_m_s = steady_m_s;  // of another swing
     }
@@ -124,49 +127,60 @@ void Scene::Impl::Release(const ReleaseRule& rule, double dt_s) {
   }
 }
 
-void Scene::Impl::Grab(const GrabRule& rule) {
+std::vector<SceneHand> Scene::Impl::HandsAt(const GrabRule& rule, int object) {
   const auto& struck = world.Contacts().struck;
-  for (const auto& [name, object] : Named(rule.objects)) {
-    const physics::ObjectState state = world.ObjectOf(object);
-    const auto holders = world.HoldersOf(object);
-    std::set<int> people;
-    for (const physics::Holder& holder : holders) people.insert(holder.character);
-    std::vector<Hand> able;
-    for (auto& [id, actor] : actors) {
-      for (const Joint joint : rule.joints) {
-        HandMemory& hand = actor.hands[joint];
-        if (!hand.made_m || now_s < hand.rest_until_s) continue;
-        if (HoldsSomething(actor.character, joint)) continue;
-        const bool touches = std::any_of(
-            struck.begin(), struck.end(),
-            [character = actor.character, taken = object, joint](const physics::Strike& strike) {
-              return strike.character == character && strike.object == taken &&
-                     strike.bone == recon::Index(joint);
-            });
-        const Vector3d arm = *hand.made_m - state.position_m;
-        const Vector3d there_m_s = state.velocity_m_s + state.angular_velocity_rad_s.cross(arm);
-        const bool is_near = touches || world.DistanceTo(object, *hand.made_m) < rule.near_m;
-        if (!is_near || (hand.made_velocity_m_s - there_m_s).norm() > rule.slower_m_s) continue;
-        able.push_back({&actor, joint});
-        people.insert(actor.character);
-      }
-    }
-    const bool enough = holders.size() + able.size() >= static_cast<size_t>(rule.hands) &&
-                        people.size() >= static_cast<size_t>(rule.people);
-    if (!enough) {
-      LetAllGo(name, SceneEvent::Kind::kReleased);  // too few are left to hold it
-      continue;
-    }
-    for (const Hand& one : able) {
-      HandMemory& hand = one.actor->hands[one.joint];
-      hand.held_at_m = world.DistanceTo(object, one.actor->seen[one.joint]);
-      hand.away_s = 0.0;
-      hand.fastest_m_s.setZero();
-      world.Hold(one.actor->character, one.joint, object, true, rule.strength_n);
-      events.push_back(
-          {SceneEvent::Kind::kGrabbed, name, Owner(one.actor->character)->first, one.joint});
+  const physics::ObjectState state = world.ObjectOf(object);
+  std::vector<SceneHand> able;
+  for (auto& [id, actor] : actors) {
+    for (const Joint joint : rule.joints) {
+      HandMemory& hand = actor.hands[joint];
+      if (!hand.made_m || now_s < hand.rest_until_s) continue;
+      if (HoldsSomething(actor.character, joint)) continue;
+      const bool touches =
+          std::any_of(struck.begin(), struck.end(),
+                      [character = actor.character, object, joint](const physics::Strike& strike) {
+                        return strike.character == character && strike.object == object &&
+                               strike.bone == recon::Index(joint);
+                      });
+      const Vector3d arm = *hand.made_m - state.position_m;
+      const Vector3d there_m_s = state.velocity_m_s + state.angular_velocity_rad_s.cross(arm);
+      const bool is_near = touches || world.DistanceTo(object, *hand.made_m) < rule.near_m;
+      if (!is_near || (hand.made_velocity_m_s - there_m_s).norm() > rule.slower_m_s) continue;
+      able.push_back({&actor, joint, rule.strength_n});
     }
   }
+  return able;
+}
+
+// Several rules may name one object: it is held as long as one of them is content.
+void Scene::Impl::Grab(const std::string& name, int object) {
+  const auto holders = world.HoldersOf(object);
+  std::vector<SceneHand> taking;
+  bool is_ruled = false, is_held = false;
+  for (const GrabRule& rule : options.grabs) {
+    if (!IsNamed(rule.objects, name)) continue;
+    is_ruled = true;
+    const std::vector<SceneHand> able = HandsAt(rule, object);
+    if (!IsEnough(rule, holders, able)) continue;
+    is_held = true;
+    taking.insert(taking.end(), able.begin(), able.end());
+  }
+  if (!is_ruled) return;
+  if (!is_held) LetAllGo(name, SceneEvent::Kind::kReleased);  // too few are left to hold it
+  for (const SceneHand& hand : taking) {
+    if (!HoldsSomething(hand.actor->character, hand.joint)) Take(name, object, hand);
+  }
+}
+
+void Scene::Impl::Take(const std::string& name, int object, const SceneHand& taking) {
+  HandMemory& hand = taking.actor->hands[taking.joint];
+  hand.held_at_m = world.DistanceTo(object, taking.actor->seen[taking.joint]);
+  hand.away_s = 0.0;
+  hand.fastest_m_s.setZero();
+  hand.strength_n = taking.strength_n;
+  world.Hold(taking.actor->character, taking.joint, object, true, taking.strength_n);
+  events.push_back(
+      {SceneEvent::Kind::kGrabbed, name, Owner(taking.actor->character)->first, taking.joint});
 }
 
 }  // namespace ossa::tracker
