@@ -29,7 +29,7 @@ class Actors {
 /// A scene while it is played: the world, its pictures and what was seen of it.
 class Stage {
  public:
-  /// `filmed`: false for rehearsals, which nobody looks at.
+  /// `filmed`: false for what nobody looks at.
   Stage(uint64_t seed, const SceneView& view, bool filmed = true);
 
   physics::World world;
