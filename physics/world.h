@@ -17,8 +17,7 @@ namespace ossa::physics {
 /// Gravity, floor and step of a world.
 struct WorldOptions {
   /// Simulation steps per 1/30 s; other time steps use as many as keep the step that short, so that
-  /// stability does not depend on the frame rate; more where a thing would fly further than 2.5 cm
-  /// in one, so that it is not in a limb before anything resists. [5, 100]
+  /// stability does not depend on the frame rate. [5, 100]
   int substeps = 10;
   double gravity_m_s2 = 9.81;   // along the floor's normal; along -y without a floor
   double floor_friction = 0.9;  // Coulomb

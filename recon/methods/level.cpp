@@ -21,23 +21,48 @@ bool IsSeen(const TrackedPosture& observed, Joint joint) {
          observed.posture[joint].allFinite();
 }
 
-/// From the ankles to the shoulders of somebody who stands straight; nothing of others.
-std::optional<Vector3d> FindStandingUp(const TrackedPosture& observed, double straight_deg) {
+Vector3d MiddleOf(const Posture& posture, Joint left, Joint right) {
+  return 0.5 * (posture[left] + posture[right]);
+}
+
+// Constants: shares of the body's mass, no unit; P. de Leva, "Adjustments to Zatsiorsky-Seluyanov's
+// segment inertia parameters", J. Biomechanics 29(9), 1996, table 4, mean of men and women.
+
+/// None unless legs and trunk are seen and both feet carry. An arm's mass is in its elbow.
+std::optional<Stance> FindStance(const TrackedPosture& observed, const LevelOptions& options) {
+  constexpr double kHead = 0.068, kTrunk = 0.430, kArms = 0.094, kThighs = 0.290, kShanks = 0.092,
+                   kFeet = 0.026;
   const Posture& p = observed.posture;
   for (const Joint joint :
        {Joint::kShoulderCenter, Joint::kHipLeft, Joint::kKneeLeft, Joint::kAnkleLeft,
         Joint::kHipRight, Joint::kKneeRight, Joint::kAnkleRight}) {
     if (!IsSeen(observed, joint)) return std::nullopt;
   }
-  const Vector3d feet = 0.5 * (p[Joint::kAnkleLeft] + p[Joint::kAnkleRight]);
-  const Vector3d hips = 0.5 * (p[Joint::kHipLeft] + p[Joint::kHipRight]);
-  const Vector3d knees = 0.5 * (p[Joint::kKneeLeft] + p[Joint::kKneeRight]);
-  const Vector3d up = p[Joint::kShoulderCenter] - feet;
-  for (const Vector3d& part : {Vector3d(p[Joint::kShoulderCenter] - hips), Vector3d(hips - knees),
-                               Vector3d(knees - feet)}) {
-    if (!(AngleBetween_deg(part, up) <= straight_deg)) return std::nullopt;
-  }
-  return up.normalized();
+  const auto both_seen = [&](Joint left, Joint right) {
+    return IsSeen(observed, left) && IsSeen(observed, right);
+  };
+  const Vector3d hips = MiddleOf(p, Joint::kHipLeft, Joint::kHipRight);
+  const Vector3d knees = MiddleOf(p, Joint::kKneeLeft, Joint::kKneeRight);
+  const Vector3d ankles = MiddleOf(p, Joint::kAnkleLeft, Joint::kAnkleRight);
+  const Vector3d chest = 0.5 * (p[Joint::kShoulderCenter] + hips);
+  const Vector3d feet = both_seen(Joint::kFootLeft, Joint::kFootRight)
+                            ? 0.5 * (ankles + MiddleOf(p, Joint::kFootLeft, Joint::kFootRight))
+                            : ankles;
+  const Vector3d arms = both_seen(Joint::kElbowLeft, Joint::kElbowRight)
+                            ? MiddleOf(p, Joint::kElbowLeft, Joint::kElbowRight)
+                            : chest;
+  const Vector3d head =
+      IsSeen(observed, Joint::kHead) ? p[Joint::kHead] : p[Joint::kShoulderCenter];
+  const Vector3d mass = kHead * head + kTrunk * chest + kArms * arms +
+                        0.5 * kThighs * (hips + knees) + 0.5 * kShanks * (knees + ankles) +
+                        kFeet * feet;
+  const Vector3d balance = mass - feet, apart = p[Joint::kAnkleLeft] - p[Joint::kAnkleRight];
+  const double raised_m = apart.dot(balance.normalized());
+  const bool both_carry =
+      std::abs(raised_m) <= options.most_raised_m &&
+      apart.squaredNorm() - raised_m * raised_m <= options.most_apart_m * options.most_apart_m;
+  if (!both_carry) return std::nullopt;
+  return Stance{balance, p[Joint::kShoulderCenter] - hips, hips - knees, knees - ankles};
 }
 
 class Levelled : public Reconstructor {
@@ -115,7 +140,7 @@ const std::optional<Isometry3d>& LevelEstimator::Update(
   floor_frames_ = 0;
   if (floor_confirmed_) return level_from_camera_;  // a body knows it less well
   Observe(observed);
-  if (standing_frames_ >= options_.fewest_frames)
+  if (standing_frames_ > 0)
     Level(standing_up_.normalized(), options_.body_least_deg, observed.posture);
   return level_from_camera_;
 }
@@ -129,8 +154,27 @@ bool LevelEstimator::Confirm(const Vector3d& up) {
   return true;
 }
 
+std::optional<Vector3d> LevelEstimator::StandingUp() const {
+  if (stances_.size() < static_cast<size_t>(options_.fewest_frames)) return std::nullopt;
+  Stance sum = {Vector3d::Zero(), Vector3d::Zero(), Vector3d::Zero(), Vector3d::Zero()};
+  for (const Stance& stance : stances_) {
+    sum.balance_m += stance.balance_m;
+    sum.trunk_m += stance.trunk_m;
+    sum.thighs_m += stance.thighs_m;
+    sum.shanks_m += stance.shanks_m;
+  }
+  for (const Vector3d& part : {sum.trunk_m, sum.thighs_m, sum.shanks_m}) {
+    if (!(AngleBetween_deg(part, sum.balance_m) <= options_.most_bent_deg)) return std::nullopt;
+  }
+  return sum.balance_m.normalized();
+}
+
 void LevelEstimator::Observe(const TrackedPosture& observed) {
-  const auto up = FindStandingUp(observed, options_.straight_deg);
+  const auto stance = FindStance(observed, options_);
+  if (!stance) return;
+  stances_.push_back(*stance);
+  if (stances_.size() > static_cast<size_t>(options_.fewest_frames)) stances_.pop_front();
+  const auto up = StandingUp();
   if (!up || AngleBetween_deg(*up, Vector3d::UnitY()) > options_.most_deg) return;
   standing_frames_ = std::min(standing_frames_ + 1, options_.memory_frames);
   standing_up_ += (*up - standing_up_) / standing_frames_;

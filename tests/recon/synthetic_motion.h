@@ -10,7 +10,8 @@
 namespace ossa::recon::test {
 
 /// The standard person with both arms raised sideways by an angle (0 hangs, pi / 2 level), forearms
-/// bent forward by another, knees by a third; HipCenter at the origin, facing +z.
+/// bent forward by another, thighs forward and shanks back by a third, the feet under the hips;
+/// HipCenter at the origin, facing +z.
 inline Posture Gesture(double left_rad, double right_rad, double elbow_rad, double knee_rad = 0.0) {
   Posture p = StandardStance();
   const auto chain = [&](Joint from, const Eigen::Vector3d& direction) {
@@ -31,7 +32,7 @@ inline Posture Gesture(double left_rad, double right_rad, double elbow_rad, doub
     const Joint ankle = static_cast<Joint>(Index(knee) + 1);
     const Joint foot = static_cast<Joint>(Index(knee) + 2);
     chain(knee, {0.0, -std::cos(knee_rad), std::sin(knee_rad)});
-    chain(ankle, {0.0, -1.0, 0.0});
+    chain(ankle, {0.0, -std::cos(knee_rad), -std::sin(knee_rad)});
     chain(foot, {0.0, -0.2, 1.0});
   }
   const Eigen::Vector3d root = p[Joint::kHipCenter];

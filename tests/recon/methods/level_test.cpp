@@ -1,11 +1,17 @@
 // A tilted camera: every method does as well as with a level one.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
+#include <filesystem>
+#include <optional>
+#include <string>
 
+#include "recon/files/skeleton_io.h"
 #include "recon/methods/level_internal.h"
 #include "recon/orientation.h"
 #include "tests/recon/synthetic_motion.h"
+#include "tests/support/places.h"
 
 namespace ossa::recon {
 namespace {
@@ -77,7 +83,8 @@ TEST_P(TiltedCamera, WithAFloorIsAsGoodAsALevelOne) {
 
 TEST_P(TiltedCamera, WithoutAFloorIsLevelledByWhoStands) {
   const double level_m = MeanError_m(GetParam(), 0.0, false);
-  EXPECT_NEAR(MeanError_m(GetParam(), 27.0, false), level_m, 0.01);
+  // A fifth of what a method guesses the hidden legs to be, where that is more.
+  EXPECT_NEAR(MeanError_m(GetParam(), 27.0, false), level_m, std::max(0.01, 0.2 * level_m));
 }
 
 INSTANTIATE_TEST_SUITE_P(Methods, TiltedCamera,
@@ -95,6 +102,53 @@ TEST(LevelEstimator, LeavesALevelCameraAlone) {
     // Somebody who leans by five degrees is no tilt of the camera.
     const Posture leaning = Moved(At(0), TiltedBy(5.0));
     EXPECT_FALSE(level.Update(test::AllTracked(leaning), std::nullopt)) << f;
+  }
+}
+
+/// How far the level after two seconds of somebody who stays so is from the camera's tilt; nothing
+/// where the camera counts as level.
+std::optional<double> LevelledOffBy_deg(const Posture& staying, double tilt_deg) {
+  LevelEstimator level;
+  std::optional<Isometry3d> made;
+  for (int f = 0; f < 60; ++f) {
+    made = level.Update(test::AllTracked(Moved(staying, TiltedBy(tilt_deg))), std::nullopt);
+  }
+  if (!made) return std::nullopt;
+  const Vector3d up = made->linear() * (TiltedBy(tilt_deg) * Vector3d::UnitY());
+  return std::acos(std::min(1.0, up.y())) / kDegree;
+}
+
+// Whose knees are bent is above the feet all the same.
+TEST(LevelEstimator, IsToldTheTiltByWhoBendsTheKnees) {
+  const Posture bent = test::InFrontOfCamera(test::Gesture(0.3, 0.3, 0.3, 0.5));
+  const auto off_deg = LevelledOffBy_deg(bent, 20.0);
+  ASSERT_TRUE(off_deg.has_value());
+  EXPECT_LT(*off_deg, 5.0);
+  EXPECT_FALSE(LevelledOffBy_deg(bent, 0.0).has_value());
+}
+
+// The middle of whose feet carries nothing.
+TEST(LevelEstimator, IsToldNothingByWhoStandsOnOneLeg) {
+  Posture raised = test::InFrontOfCamera(test::Gesture(0.3, 0.3, 0.3));
+  for (const Joint joint : {Joint::kKneeLeft, Joint::kAnkleLeft, Joint::kFootLeft}) {
+    const Vector3d hip = raised[Joint::kHipLeft];
+    raised[joint] = hip + AngleAxisd(70.0 * kDegree, Vector3d::UnitX()) * (raised[joint] - hip);
+  }
+  EXPECT_FALSE(LevelledOffBy_deg(raised, 0.0).has_value());
+}
+
+// Before a level camera somebody lunges to the side, and raises a straight leg.
+TEST(LevelEstimator, LeavesRealExercisesAlone) {
+  const auto file = ossa::test::SharedFolder() / "real/uiprmd_kinect_vicon/raw_e05.tar.gz";
+  if (!std::filesystem::exists(file)) GTEST_SKIP() << file << " is not there";
+  for (const std::string name : {"m04_s10_e05", "m06_s01_e05", "m06_s10_e05"}) {
+    const auto recording = ReadSkeletons(file.string() + "#Vicon_Positions/" + name);
+    ASSERT_GT(recording.frames.size(), 100U);
+    LevelEstimator level;
+    for (const SkeletonFrame& frame : recording.frames) {
+      if (frame.bodies.empty()) continue;
+      ASSERT_FALSE(level.Update(ToTrackedPosture(frame.bodies[0]), std::nullopt)) << name;
+    }
   }
 }
 
