@@ -34,12 +34,18 @@ int MatchWithoutLeftArm(const PostureDatabase& database, const Posture& seen) {
 TEST(ShumHo2012, TakesMissingJointsFromTheMatchedPostureAtOnce) {
   ReconstructorOptions options;
   options.method = "shum-ho-2012";
-  const auto database =
-      std::make_shared<PostureDatabase>(PostureDatabase::Build(test::GestureClips(), {}));
+  auto clips = test::GestureClips();
+  for (PostureClip& clip : clips) {
+    // The right arm stays lower than the left one: else components come in pairs, and which of a
+    // pair is the seventh is a matter of rounding.
+    std::erase_if(clip.postures, [](const Posture& p) {
+      return p[Joint::kElbowRight].y() > p[Joint::kShoulderRight].y() - 0.1;
+    });
+  }
+  const auto database = std::make_shared<PostureDatabase>(PostureDatabase::Build(clips, {}));
   options.database = database;
   const auto method = MakeReconstructor(options);
-  // Of the database: nothing but the arm that is missing leaves a choice.
-  const Posture posture = test::Gesture(0.5, 1.0, 0.3, 0.4);
+  const Posture posture = test::Gesture(0.6, 1.1, 0.4, 0.3);
   TrackedPosture seen = test::AllTracked(test::InFrontOfCamera(posture));
   for (int f = 0; f < 10; ++f) method->Step({seen, f / 30.0, nullptr});
   for (const size_t joint : kLeftArm) {  // from this frame on
