@@ -34,6 +34,12 @@ void CheckPositive(const char* name, double value) {
       fmt::format("SurfaceFitOptions.{} = {}, must be positive", name, value));
 }
 
+void CheckNotNegative(const char* name, double value) {
+  if (value >= 0.0 && std::isfinite(value)) return;
+  throw std::invalid_argument(
+      fmt::format("SurfaceFitOptions.{} = {}, must not be negative", name, value));
+}
+
 bool IsUsable(const SurfaceFitInput& input) {
   const depth::Camera& camera = input.depth->camera;
   if (!(camera.fx > 0.0 && camera.fy > 0.0 && std::isfinite(camera.cx + camera.cy))) return false;
@@ -71,10 +77,8 @@ void SurfaceFitOptions::Check() const {
   CheckPositive("silhouette_robust_m", silhouette_robust_m);
   CheckPositive("joint_m", joint_m);
   CheckPositive("joint_robust_m", joint_robust_m);
-  if (!(fitted_m >= 0.0)) {
-    throw std::invalid_argument(
-        fmt::format("SurfaceFitOptions.fitted_m = {}, must not be negative", fitted_m));
-  }
+  CheckNotNegative("fitted_m", fitted_m);
+  CheckNotNegative("doubt_residual_m", doubt_residual_m);
   CheckPositive("retry_joint_m", retry_joint_m);
   CheckPositive("retry_robust_m", retry_robust_m);
   CheckPositive("most_pixels", static_cast<double>(most_pixels));
@@ -188,10 +192,12 @@ void SurfaceFitter::Impl::Retry(const SurfaceFitInput& input, SurfaceFit& fit) {
   SurfaceFitOptions bold = options;
   bold.joint_m = options.retry_joint_m;
   bold.robust_m = bold.silhouette_robust_m = options.retry_robust_m;
-  Iterate(input, bold, options.retry_iterations);
+  const int as_many = fit.iterations;
+  const int near = std::clamp(options.retry_near, 0, as_many);
+  Iterate(input, bold, as_many - near);
   bold.robust_m = options.robust_m;
   bold.silhouette_robust_m = options.silhouette_robust_m;
-  Iterate(input, bold, options.iterations);
+  Iterate(input, bold, near);
   SurfaceFit second;
   Judge(second);
   if (second.score > fit.score + options.least_gain) {
@@ -200,6 +206,7 @@ void SurfaceFitter::Impl::Retry(const SurfaceFitInput& input, SurfaceFit& fit) {
   } else {
     Pose(fit.pose);
   }
+  fit.iterations = 2 * as_many;
 }
 
 // At the end of the fit. Pixels that are farther off than was expected make everything less sure;
@@ -254,6 +261,7 @@ std::optional<SurfaceFit> SurfaceFitter::Fit(const SurfaceFitInput& input) {
   m.Iterate(input, m.options, m.options.iterations);
   SurfaceFit fit;
   m.Judge(fit);
+  fit.iterations = m.options.start_iterations + m.options.iterations;
   if (m.options.retry && fit.score < m.options.poor_score) m.Retry(input, fit);
   m.TellErrors(input, fit);
   fit.joints_m = m.posed.Landmarks();

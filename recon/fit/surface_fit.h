@@ -55,17 +55,22 @@ struct SurfaceFitOptions {
   double joint_robust_m = 0.15;  // > 0
   double fitted_m = 0.02;        // of a joint of the fitted body, for SurfaceFit::blended_m, >= 0
 
+  /// How far the pixels of a joint's segment may be from it until the reconstruction believes the
+  /// joint half as much (Shum et al. 2013 ask whether a surface lies where a joint is said to be),
+  /// >= 0. 0, off: it gains nothing on real depth (docs/benchmarks/fit.md).
+  double doubt_residual_m = 0.0;
+
   double turn_weight = 1.0;    // a factor, of how people hold themselves
   double shape_weight = 1.0;   // a factor, of the mean shape or what is known of the person's
   double damping = 1e-3;       // of Levenberg and Marquardt, share of the diagonal
   double most_turn_rad = 0.6;  // of a joint in one iteration
 
   // Where the fit is poor it is tried again from where it ended, with joints that say little and
-  // pixels that pull from far off.
+  // pixels that pull from far off. That takes as many iterations as the first fit, start included.
   bool retry = true;
   double poor_score = 0.7;      // score below which it is poor, see SurfaceFit::score
   double least_gain = 0.06;     // of score, for the second fit to be taken
-  int retry_iterations = 6;     // count
+  int retry_near = 3;           // count, its last iterations, in which pixels pull as at first
   double retry_joint_m = 0.15;  // > 0
   double retry_robust_m = 0.3;  // > 0
 
@@ -115,6 +120,7 @@ struct SurfaceFit {
   /// Root mean square distance of each segment's pixels from it, metres; none without pixels.
   std::array<std::optional<double>, kSegmentCount> residual_m{};
   bool retried = false;  // the second of two fits was the better one
+  int iterations = 0;    // count, of all that was tried, start included: what the fit cost
 };
 
 /// Fits the body's surface to a depth image: articulated iterative closest points by damped
