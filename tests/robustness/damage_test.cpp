@@ -49,7 +49,7 @@ TEST_P(Damage, OfAFlippedBitIsNoticed) {
   EXPECT_EQ(outcomes.silent, 0U) << Sample().name << ": " << outcomes.first_silent;
 }
 
-INSTANTIATE_TEST_SUITE_P(EachFormat, Damage, testing::Range<size_t>(0, 11));
+INSTANTIATE_TEST_SUITE_P(EachFormat, Damage, testing::Range<size_t>(0, 13));
 
 // A program of its own reads each copy: a hundredth of a second.
 class PlainDamage : public testing::TestWithParam<size_t> {
@@ -80,7 +80,7 @@ TEST_P(PlainDamage, OfAFlippedBitEndsNothing) {
 
 INSTANTIATE_TEST_SUITE_P(EachFormat, PlainDamage, testing::Range<size_t>(0, 4));
 
-TEST(DamageSamples, AreAsManyAsAreTried) { EXPECT_EQ(ChecksummedSamples().size(), 11U); }
+TEST(DamageSamples, AreAsManyAsAreTried) { EXPECT_EQ(ChecksummedSamples().size(), 13U); }
 
 }  // namespace
 }  // namespace ossa::test

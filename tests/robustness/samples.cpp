@@ -11,6 +11,7 @@
 #include "recon/database/posture_database.h"
 #include "recon/files/skeleton_io.h"
 #include "recon/files/skeleton_jsonl.h"
+#include "recon/fit/surface_fit.h"
 #include "recon/models/learned_models.h"
 #include "recon/models/posture_prior.h"
 #include "recon/refine/refinement_cascade.h"
@@ -19,6 +20,7 @@
 #include "tests/recon/synthetic_motion.h"
 #include "tests/robustness/recordings.h"
 #include "tests/support/depth_examples.h"
+#include "tests/support/places.h"
 #include "tests/support/temporary_folder.h"
 #include "tools/synth/shard_internal.h"
 
@@ -115,6 +117,27 @@ DamageSample Prior() {
   return SampleOf("x.ossaprior", prior);
 }
 
+// Of few points: those of the shipped one are all alike.
+recon::BodySurface Surface() {
+  auto surface =
+      recon::BodySurface::Load(SourceFolder() / "tools/tracker/shipped" / recon::kShippedSurface);
+  surface.points.resize(3);
+  return surface;
+}
+
+DamageSample Person() {
+  recon::PersonShape person;
+  person.shape[1] = 0.5;
+  person.frames = 3;
+  person.weight = 2.5;
+  const auto save = [](const recon::PersonShape& shape) {
+    return Saved("x.ossaperson", [&](const fs::path& path) { shape.Save(path, Surface()); });
+  };
+  return {"x.ossaperson", save(person), [save](const fs::path& path) {
+            return Reading{save(recon::PersonShape::Load(path, Surface()))};
+          }};
+}
+
 DamageSample Recording() {
   const auto save = [](const fs::path& path) {
     depth::OniRecorder recorder(path, ExampleFrame(0, 4, 3).camera);
@@ -195,8 +218,9 @@ DamageSample PackedShard() {
 }  // namespace
 
 std::vector<DamageSample> ChecksummedSamples() {
-  std::vector<DamageSample> samples = {Forest(), Database(),  Learned(), Refinement(),
-                                       Prior(),  Recording(), Png(),     PackedShard()};
+  std::vector<DamageSample> samples = {
+      Forest(),    Database(), Learned(),     Refinement(), Prior(),
+      Recording(), Png(),      PackedShard(), Person(),     SampleOf("x.ossasurface", Surface())};
   for (DamageSample& archive : Archives()) samples.push_back(std::move(archive));
   return samples;
 }
