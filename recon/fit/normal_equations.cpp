@@ -134,7 +134,9 @@ ShapeVector NormalEquations::ShapeGradient() const {
 }
 
 SurfacePose Moved(const PosedSurface& posed, const FitStep& step, double most_rad) {
-  constexpr double kFarthest = 3.0;  // standard deviations of shape; by hand
+  // Standard deviations of shape; by hand. The first component is size: of people from 1.1 to 2.1 m
+  // more than a normal distribution has so far out.
+  constexpr double kFarthest = 3.0, kFarthestSize = 5.0;
   SurfacePose pose = posed.pose();
   const Eigen::Matrix3d turn = ToRotation(step.head<3>());
   pose.pelvis_m = turn * pose.pelvis_m + step.segment<3>(3);
@@ -146,7 +148,9 @@ SurfacePose Moved(const PosedSurface& posed, const FitStep& step, double most_ra
     pose.parent_from_segment[s] = ToRotation(own) * pose.parent_from_segment[s];
   }
   pose.shape += step.tail<kShapeCount>();
-  pose.shape = pose.shape.cwiseMax(-kFarthest).cwiseMin(kFarthest);
+  ShapeVector farthest = ShapeVector::Constant(kFarthest);
+  farthest[0] = kFarthestSize;
+  pose.shape = pose.shape.cwiseMax(-farthest).cwiseMin(farthest);
   return pose;
 }
 
