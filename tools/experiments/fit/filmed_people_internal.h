@@ -41,5 +41,9 @@ class PeopleFilm {
 
 /// Stature and joints with their error bars, as people are and in loose clothes.
 std::vector<Table> FitPeople(ExperimentContext& context);
+/// How far off joints may be to begin with.
+std::vector<Table> FitStarts(ExperimentContext& context);
+/// People who are taken for others, of other shapes.
+std::vector<Table> FitWrongShapes(ExperimentContext& context);
 
 }  // namespace ossa::tools

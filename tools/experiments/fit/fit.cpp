@@ -6,9 +6,8 @@
 
 #include "depth/base/error.h"
 #include "depth/base/statistics.h"
-#include "tools/experiments/context_models.h"
 #include "tools/experiments/experiments_internal.h"
-#include "tools/experiments/fit/filmed_people_internal.h"
+#include "tools/experiments/fit/watched_people_internal.h"
 #include "tools/experiments/real/real_judge_internal.h"
 
 namespace ossa::tools {
@@ -48,6 +47,8 @@ std::vector<Variant> Variants() {
       With("shapes near the mean", [](auto& o) { o.shape_weight *= 5.0; }),
       With("mean shape only", [](auto& o) { o.shape_weight /= kHardly * kHardly; }),
       With("without a second fit", [](auto& o) { o.retry = false; }),
+      With("residuals as reliability, 3 cm", [](auto& o) { o.doubt_residual_m = 0.03; }),
+      With("residuals as reliability, 6 cm", [](auto& o) { o.doubt_residual_m = 0.06; }),
       With("2 iterations", [](auto& o) { o.iterations = 2; }),
       With("15 iterations", [](auto& o) { o.iterations = 15; }),
   };
@@ -103,9 +104,7 @@ std::vector<Table> FitTerms(ExperimentContext& context) {
     throw InputError(fmt::format("{}: expected real/depth_frames or real/itop_depth in it",
                                  context.shared.string()));
   }
-  tracker::TrackerOptions options;
-  options.models = LoadModels(context, options.method);
-  options.threads = context.threads;
+  tracker::TrackerOptions options = TrackerOptionsOf(context);
   Table table = FitTable();
   const auto variants = Variants();
   for (const Variant& variant : variants) {
@@ -130,7 +129,7 @@ std::vector<Table> FitTerms(ExperimentContext& context) {
 }  // namespace
 
 std::vector<Table> RunFit(ExperimentContext& context) {
-  const auto parts = context.parameters.Some("parts", {"terms", "people"});
+  const auto parts = context.parameters.Some("parts", {"terms", "people", "starts", "shapes"});
   std::vector<Table> tables;
   const auto add = [&](const char* part, std::vector<Table> (*run)(ExperimentContext&)) {
     if (parts.count(part) == 0) return;
@@ -138,6 +137,8 @@ std::vector<Table> RunFit(ExperimentContext& context) {
   };
   add("terms", FitTerms);
   add("people", FitPeople);
+  add("starts", FitStarts);
+  add("shapes", FitWrongShapes);
   return tables;
 }
 

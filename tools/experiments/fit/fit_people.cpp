@@ -1,102 +1,19 @@
 // Rendered people of known stature: what the surface fit says of them, and how sure it is.
 #include <fmt/format.h>
 
-#include <Eigen/LU>
-#include <algorithm>
-#include <array>
 #include <cmath>
 #include <map>
-#include <memory>
-#include <optional>
 
-#include "depth/base/statistics.h"
-#include "tools/experiments/context_models.h"
-#include "tools/experiments/fit/filmed_people_internal.h"
-#include "tools/tracker/tracker.h"
+#include "tools/experiments/fit/watched_people_internal.h"
 
 namespace ossa::tools {
 namespace {
-
-using recon::kJointCount;
 
 /// What is tried on each person.
 struct Trial {
   std::string name;
   bool loose = false;
 };
-
-/// Of one person, after 3 s.
-struct Outcome {
-  double target_m = 0.0, stature_m = 0.0;
-  std::optional<recon::Stature> said;
-  recon::JointArray<std::vector<double>> normalised2;  // squared, of fitted joints, see Chi2
-  recon::JointArray<std::vector<double>> sigma_m, error_m;
-  std::vector<double> refined_m, final_m;  // mean error of a frame's joints
-};
-
-// Squared distance in standard deviations; of three axes 3 in the mean where the covariance is
-// right.
-double Chi2(const Eigen::Vector3d& off_m, const Eigen::Matrix3d& covariance_m2) {
-  return off_m.dot(covariance_m2.inverse() * off_m);
-}
-
-double MeanError_m(const recon::Posture& a, const recon::Posture& truth) {
-  double sum = 0.0;
-  for (size_t j = 0; j < kJointCount; ++j) sum += (a.position_m[j] - truth.position_m[j]).norm();
-  return sum / kJointCount;
-}
-
-const tracker::Body* PersonIn(const tracker::BodyFrame& seen, const recon::Posture& truth) {
-  constexpr double kReach_m = 0.6;  // by hand: farther off is somebody else
-  for (const tracker::Body& body : seen.bodies) {
-    if (body.fit && MeanError_m(tracker::ToPosture(body), truth) < kReach_m) return &body;
-  }
-  return nullptr;
-}
-
-void Note(const tracker::Body& body, const recon::Posture& truth, Outcome& outcome) {
-  for (size_t j = 0; j < kJointCount; ++j) {
-    const Eigen::Vector3d off_m = body.fit->joints_m.position_m[j] - truth.position_m[j];
-    outcome.normalised2[j].push_back(Chi2(off_m, body.fit->covariance_m2[j]));
-    outcome.sigma_m[j].push_back(std::sqrt(body.fit->covariance_m2[j].trace()));
-    outcome.error_m[j].push_back(off_m.norm());
-  }
-  outcome.refined_m.push_back(MeanError_m(*body.refined, truth));
-  outcome.final_m.push_back(MeanError_m(tracker::ToPosture(body), truth));
-}
-
-Outcome Watch(const FilmedPerson& person, const std::vector<LabelledFrame>& frames,
-              const tracker::TrackerOptions& options) {
-  tracker::Tracker tracker(options);
-  Outcome outcome;
-  outcome.target_m = person.target_m;
-  outcome.stature_m = person.stature_m;
-  for (const LabelledFrame& frame : frames) {
-    const tracker::BodyFrame seen = tracker.Track(frame.depth);
-    const tracker::Body* body = PersonIn(seen, frame.bodies[0].joints_m);
-    if (body == nullptr) continue;
-    Note(*body, frame.bodies[0].joints_m, outcome);
-    outcome.said = recon::MeasureStature(*body->shape, *options.models->surface);
-  }
-  return outcome;
-}
-
-double Middle(const std::vector<double>& values) {
-  return values.empty() ? std::nan("") : Median(values);
-}
-
-double Mean(const std::vector<double>& values) {
-  double sum = 0.0;
-  for (const double value : values) sum += value;
-  return sum / static_cast<double>(values.size());
-}
-
-std::string Share(const std::vector<double>& values, double within) {
-  const auto count = std::count_if(values.begin(), values.end(),
-                                   [&](double value) { return std::abs(value) <= within; });
-  return fmt::format("{:.0f}",
-                     100.0 * static_cast<double>(count) / static_cast<double>(values.size()));
-}
 
 void AddStature(const std::string& name, const std::string& height,
                 const std::vector<const Outcome*>& outcomes, Table& table) {
@@ -181,8 +98,7 @@ void AddJointErrors(const Trial& trial, const std::vector<Outcome>& outcomes, Ta
 std::vector<Table> FitPeople(ExperimentContext& context) {
   const PeopleFilm film(context, context.parameters.Integer("people_per_height", 3, 1, 20),
                         context.parameters.Flag("train_shapes", false));
-  tracker::TrackerOptions options;
-  options.models = LoadModels(context, options.method);
+  const tracker::TrackerOptions options = TrackerOptionsOf(context);
   Table stature{.title = "Stature of rendered people after 3 s",
                 .columns = {"what", "stature", "people", "off, median, cm", "mean, cm",
                             "said sigma, cm", "within 1 sigma, %", "within 2 sigma, %"},
