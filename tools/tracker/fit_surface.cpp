@@ -59,4 +59,14 @@ std::optional<recon::SurfaceFit> FitSurface(const depth::DepthFrame& frame,
   return fit;
 }
 
+void DoubtUnexplained(const recon::SurfaceFit& fit, const recon::BodySurface& surface,
+                      double doubt_residual_m, recon::TrackedPosture& observed) {
+  for (size_t j = 0; j < recon::kJointCount; ++j) {
+    const auto& residual_m = fit.residual_m[surface.landmark_segment[j]];
+    if (!residual_m) continue;
+    const double off = *residual_m / doubt_residual_m;
+    observed.confidence[j] /= 1.0 + off * off;
+  }
+}
+
 }  // namespace ossa::tracker

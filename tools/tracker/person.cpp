@@ -6,6 +6,7 @@
 #include "recon/bone_projection.h"
 #include "recon/orientation.h"
 #include "recon/refine/free_space.h"
+#include "tools/tracker/fit_surface_internal.h"
 #include "tools/tracker/skeleton_stages_internal.h"
 
 namespace ossa::tracker {
@@ -148,8 +149,13 @@ std::unique_ptr<recon::Reconstructor> MethodFor(int id, const SkeletonOptions& o
 
 void AverageStationary(SkeletonWork& work) {
   const recon::MethodInfo& method = recon::RequireMethod(work.options.reconstructor.method);
-  work.observed = work.person.stationary.Step(
-      Observed(work.body, method.refined, work.options.hold.fitted_confidence), work.frame.time_s);
+  recon::TrackedPosture observed =
+      Observed(work.body, method.refined, work.options.hold.fitted_confidence);
+  const auto& fit = work.options.fit;
+  if (work.body.fit && fit && fit->doubt_residual_m > 0.0) {
+    DoubtUnexplained(*work.body.fit, *work.options.surface, fit->doubt_residual_m, observed);
+  }
+  work.observed = work.person.stationary.Step(observed, work.frame.time_s);
 }
 
 void Reconstruct(SkeletonWork& work) {

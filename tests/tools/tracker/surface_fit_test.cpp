@@ -44,10 +44,28 @@ TEST(TrackedSurface, IsTheSameOnAnyNumberOfThreads) {
   ASSERT_EQ(one.bodies.size(), two.bodies.size());
   for (size_t i = 0; i < one.bodies.size(); ++i) {
     ASSERT_TRUE(one.bodies[i].fit && two.bodies[i].fit);
+    EXPECT_EQ(one.bodies[i].shape->vote, two.bodies[i].shape->vote);
     for (size_t j = 0; j < recon::kJointCount; ++j) {
       EXPECT_EQ(one.bodies[i].joints[j].position_m, two.bodies[i].joints[j].position_m);
+      EXPECT_EQ(one.bodies[i].fit->covariance_m2[j], two.bodies[i].fit->covariance_m2[j]);
     }
   }
+}
+
+// What explains its pixels badly is believed less; what has none stays as it was.
+TEST(TrackedSurface, DoubtsJointsOfWhichNoPixelsAreWhereTheyShouldBe) {
+  OSSA_NEEDS_MODEL();
+  TrackerOptions trusting = Fitting(), doubting = Fitting();
+  doubting.fit->doubt_residual_m = 0.02;
+  const std::vector<tests::CapsulePose> people = {PersonAt(0, 2.5)};
+  const Body trusted = LastOf(trusting, people).bodies.at(0);
+  const Body doubted = LastOf(doubting, people).bodies.at(0);
+  double trusted_sum = 0.0, doubted_sum = 0.0;
+  for (size_t j = 0; j < recon::kJointCount; ++j) {
+    trusted_sum += trusted.joints[j].reliability;
+    doubted_sum += doubted.joints[j].reliability;
+  }
+  EXPECT_LT(doubted_sum, trusted_sum);
 }
 
 TEST(TrackedSurface, OfSomebodyWhoseShapeIsKnownBeginsWithIt) {
