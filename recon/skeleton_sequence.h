@@ -19,6 +19,8 @@ struct JointRecord {
   std::optional<double> reliability;              // R_i, Shum 2013 eq. 8
   std::optional<Eigen::Quaterniond> orientation;  // camera from bone
   std::optional<bool> visible;                    // truth files only
+  /// Standard deviations along the camera's axes, metres: of joints of a fitted body.
+  std::optional<Eigen::Vector3d> sigma_m = std::nullopt;
 };
 
 /// A thing that people handle, where it was in one frame: of a mechanical scene.

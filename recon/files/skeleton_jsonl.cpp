@@ -64,6 +64,10 @@ void AppendJoint(std::string& text, const JointRecord& joint) {
     AppendVector(text, std::array{q.w(), q.x(), q.y(), q.z()}, kLengthDigits);
   }
   if (joint.visible) text += *joint.visible ? ",\"visible\":true" : ",\"visible\":false";
+  if (joint.sigma_m) {
+    text += ",\"sigma\":";
+    AppendVector(text, *joint.sigma_m, kLengthDigits);
+  }
   text.push_back('}');
 }
 
@@ -274,7 +278,16 @@ class SkeletonJsonlReader::Lines {
       if (!value->is_boolean()) Fail(name + ".visible", "true or false", *value);
       joint.visible = value->get<bool>();
     }
+    if (const auto value = json.find("sigma"); value != json.end()) {
+      joint.sigma_m = ParseSigma(*value, name + ".sigma");
+    }
     return joint;
+  }
+
+  Eigen::Vector3d ParseSigma(const Json& json, const std::string& where) const {
+    const Eigen::Vector3d sigma_m(Numbers<3>(json, where).data());
+    if (!(sigma_m.minCoeff() >= 0.0)) Fail(where, "lengths of 0 m and more", json);
+    return sigma_m;
   }
 
   TrackingState ParseState(const Json& json, const std::string& where) const {

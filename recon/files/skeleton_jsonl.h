@@ -12,6 +12,7 @@ namespace ossa::recon {
 /// end:
 /// {"frame":0,"time_s":0.0,"floor":[a,b,c,d],"bodies":[{"id":1,"joints":{"HipCenter":{"p":[x,y,z],
 /// "state":"tracked","confidence":0.93,"reliability":0.88,"q":[w,x,y,z],"visible":true},...}}]}
+/// A joint of a fitted body also has "sigma":[x,y,z], standard deviations along the camera's axes.
 /// Beside "joints" a body may have "bones": the lengths of the 19 bones as they were judged of this
 /// frame, in the order of the joints that they end in. Things of a scene follow the bodies,
 /// "objects":[{"name":"crate","p":[x,y,z],"q":[w,x,y,z]}]; readers pass them over. Camera space,

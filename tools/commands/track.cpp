@@ -49,6 +49,7 @@ class SkeletonOutput {
     const std::string& posture = options.posture;
     if (posture == "raw") kind_ = tracker::PostureKind::kRaw;
     if (posture == "refined") kind_ = tracker::PostureKind::kRefined;
+    if (posture == "fitted") kind_ = tracker::PostureKind::kFitted;
     if (posture == "reconstructed") kind_ = tracker::PostureKind::kReconstructed;
     if (path_.empty()) return;
     SayLeftovers(path_);

@@ -101,6 +101,7 @@ void CheckPeople(const TrackOptions& options) {
 
 // A fit that was asked for has a body, and joints to start from.
 void CheckFit(const TrackOptions& options) {
+  if (options.fit == "off") throw UsageError("--posture fitted: expected --fit on, found off");
   if (options.files.surface == "none") {
     throw UsageError(
         "--fit on: expected --surface FILE.ossasurface of 'ossa surface' with it, found none");
@@ -142,10 +143,10 @@ TrackOptions ParseTrackOptions(int argc, char** argv) {
                  "skeletons: FILE.jsonl, .bvh, .trc or .csv; .glb: people in motion, skinned");
   app.add_option(
          "--posture", options.posture,
-         "what --out gets: final, reconstructed, refined (raw after the refinement cascade) or "
-         "raw")
+         "what --out gets: final, reconstructed, fitted (the body whose surface explains the "
+         "depth, with standard deviations), refined (raw after the refinement cascade) or raw")
       ->transform(CLI::Transformer(kOldPostures).description(""))
-      ->check(CLI::IsMember({"final", "reconstructed", "refined", "raw"}));
+      ->check(CLI::IsMember({"final", "reconstructed", "fitted", "refined", "raw"}));
   options.write.AddTo(app);
   AddTrackerOptions(app, options);
   app.add_option("--frames", options.frames, "stop after so many frames")->check(Positive());
@@ -196,7 +197,7 @@ TrackOptions ParseTrackOptions(int argc, char** argv) {
                 options.save_person},
                {options.source.name, options.mechanics.scene});
   options.tracker.turn = ChooseTurn(options.source);
-  if (options.fit == "on") CheckFit(options);
+  if (options.fit == "on" || options.posture == "fitted") CheckFit(options);
   if (options.fit == "off") options.tracker.fit.reset();
   options.tracker.physics = options.mechanics.on();
   options.tracker.mechanics = options.mechanics.build;

@@ -9,6 +9,7 @@ bool IsOfTheImage(PostureKind kind) {
 }
 
 recon::Posture ToPosture(const Body& body, PostureKind kind) {
+  if (kind == PostureKind::kFitted && body.fit) return body.fit->joints_m;
   if (kind == PostureKind::kRefined && body.refined) return *body.refined;
   if (IsOfTheImage(kind)) return body.raw.posture;
   return kind == PostureKind::kReconstructed ? body.reconstructed : ToPosture(body);
@@ -17,6 +18,7 @@ recon::Posture ToPosture(const Body& body, PostureKind kind) {
 recon::BodyRecord ToRecord(const Body& body, PostureKind kind) {
   recon::BodyRecord record;
   record.id = body.id;
+  if (kind == PostureKind::kFitted && !body.fit) return record;
   const recon::Posture posture = ToPosture(body, kind);
   for (size_t j = 0; j < recon::kJointCount; ++j) {
     const bool absent =
@@ -28,6 +30,9 @@ recon::BodyRecord ToRecord(const Body& body, PostureKind kind) {
     joint.confidence = body.joints[j].confidence;
     joint.reliability = body.joints[j].reliability;
     if (kind == PostureKind::kFinal) joint.orientation = body.joints[j].orientation;
+    if (kind == PostureKind::kFitted) {
+      joint.sigma_m = body.fit->covariance_m2[j].diagonal().cwiseSqrt();
+    }
     record.joints[j] = joint;
   }
   if (kind == PostureKind::kRefined && body.refined) record.bones_m = body.refined_bones_m;

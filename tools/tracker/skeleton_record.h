@@ -5,11 +5,12 @@
 namespace ossa::tracker {
 
 /// Which of a body's postures a file gets: its joints, or what a stage before made.
-enum class PostureKind { kFinal, kReconstructed, kRefined, kRaw };
+enum class PostureKind { kFinal, kReconstructed, kFitted, kRefined, kRaw };
 
 /// The bodies of a frame as skeleton files hold them. Not-tracked joints keep the reconstruction's
 /// position and say not_tracked; in raw and refined records they are absent. Refined records are
-/// raw ones where there was no refinement. Bodies known by position only are left out.
+/// raw ones where there was no refinement. Fitted records have joints with their standard
+/// deviations, and none of a body that was not fitted. Bodies known by position only are left out.
 recon::SkeletonFrame ToRecord(const BodyFrame& frame, PostureKind kind = PostureKind::kFinal);
 
 }  // namespace ossa::tracker

@@ -25,12 +25,13 @@ TEST(SkeletonJsonl, WritesExactlyTheDocumentedLine) {
   head.reliability = 0.88;
   head.orientation = Eigen::Quaterniond(0.5, -0.5, 0.5, 0.5);
   head.visible = false;
+  head.sigma_m = Eigen::Vector3d(0.01, 0.02, 0.03);
   body.joints[Joint::kHead] = head;
   frame.bodies.push_back(body);
   EXPECT_EQ(SkeletonJsonLine(frame),
             R"({"frame":3,"time_s":0.1,"floor":[0,1,0,0.75],"bodies":[{"id":2,"joints":{"Head":)"
             R"({"p":[-0.25,0.5,2.125],"state":"inferred","confidence":0.93,"reliability":0.88,)"
-            R"("q":[0.5,-0.5,0.5,0.5],"visible":false}}}]})");
+            R"("q":[0.5,-0.5,0.5,0.5],"visible":false,"sigma":[0.01,0.02,0.03]}}}]})");
 }
 
 TEST(SkeletonJsonl, GivesBackEveryFieldItWrote) {
@@ -39,6 +40,7 @@ TEST(SkeletonJsonl, GivesBackEveryFieldItWrote) {
   written.frames[2].bodies.clear();
   BoneLengths& bones_m = written.frames[3].bodies[0].bones_m.emplace();
   for (size_t i = 1; i < kJointCount; ++i) bones_m[i] = 0.1 + 0.01 * static_cast<double>(i);
+  written.frames[3].bodies[0].joints[Joint::kHead]->sigma_m = Eigen::Vector3d(0.01, 0.02, 0.03);
   std::stringstream stream;
   SkeletonJsonlWriter writer(stream);
   for (const SkeletonFrame& frame : written.frames) writer.Write(frame);
@@ -48,6 +50,8 @@ TEST(SkeletonJsonl, GivesBackEveryFieldItWrote) {
     // Equal text means equal to the seventh digit of a metre in every field.
     EXPECT_EQ(SkeletonJsonLine(read.frames[f]), SkeletonJsonLine(written.frames[f]));
   }
+  EXPECT_EQ(read.frames[3].bodies[0].joints[Joint::kHead]->sigma_m,
+            Eigen::Vector3d(0.01, 0.02, 0.03));
   EXPECT_FALSE(read.frames[3].bodies[1].bones_m);
   ASSERT_TRUE(read.frames[3].bodies[0].bones_m);
   EXPECT_NEAR(read.frames[3].bodies[0].bones_m->back(), bones_m.back(), 1e-7);
@@ -87,6 +91,9 @@ TEST_P(BadJsonl, IsRefusedInOneLineByLineAndExpectation) {
 INSTANTIATE_TEST_SUITE_P(
     EveryRule, BadJsonl,
     testing::Values(
+        BadLine{WithJoint(R"("Head":{"p":[1,2,3],"sigma":[0.1,-0.1,0.1]})"),
+                "lengths of 0 m and more in Head.sigma"},
+        BadLine{WithJoint(R"("Head":{"p":[1,2,3],"sigma":[0.1]})"), "3 numbers in Head.sigma"},
         BadLine{WithJoint(R"("Head":{"p":[1,2,NaN]})"),
                 "line 2: expected one whole JSON object, found 'NaN]}}}]}' at byte 70"},
         BadLine{WithJoint(R"("Head":{"p":[1,2,1e999]})"), "line 2: expected numbers of at most"},

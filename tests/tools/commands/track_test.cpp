@@ -104,6 +104,28 @@ TEST(TrackCommand, SaysWhereNobodyIsThereWhoCouldBeSaved) {
   EXPECT_FALSE(std::filesystem::exists(me));
 }
 
+TEST(TrackCommand, WritesFittedJointsWithTheirStandardDeviations) {
+  OSSA_NEEDS_MODEL();
+  const TemporaryFolder folder;
+  WriteWalk(folder / "in", 6);
+  const CommandResult result =
+      TrackTo(folder / "in", folder / "fit.jsonl", {"--posture", "fitted", "--quiet"}, "best");
+  ASSERT_EQ(result.exit_status, 0) << result.err;
+  const auto read = recon::ReadSkeletons(folder / "fit.jsonl");
+  const auto& head = read.frames.back().bodies.at(0).joints[recon::Joint::kHead];
+  ASSERT_TRUE(head && head->sigma_m);
+  EXPECT_GT(head->sigma_m->minCoeff(), 0.0);
+  EXPECT_LT(head->sigma_m->maxCoeff(), 0.2);
+}
+
+TEST(TrackCommand, WritesNoFittedJointsWithoutAFit) {
+  const CommandResult result =
+      RunOssa({"track", "in", "--out", "x.jsonl", "--fit", "off", "--posture", "fitted"});
+  EXPECT_EQ(result.exit_status, 2);
+  EXPECT_NE(result.err.find("--posture fitted: expected --fit on"), std::string::npos)
+      << result.err;
+}
+
 TEST(TrackCommand, TakesNoPersonFileWithoutAFit) {
   const CommandResult result =
       RunOssa({"track", "in", "--out", "x.jsonl", "--fit", "off", "--person", "me.ossaperson"});
