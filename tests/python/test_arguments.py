@@ -93,7 +93,9 @@ def test_what_is_no_time_is_refused(time_s, tracker):
         {"method": "holt", "database": "x.ossadb"}, {"database": "a", "prior": "b"},
         {"bones_m": 5}, {"bones_m": {1: [1, 2]}}, {"bones_m": {"a": np.ones(20)}},
         {"bones_m": {1: np.full(20, np.nan)}}, {"bones_m": {1: np.full(20, -1.0)}},
-        {"models": "shipped"}, {"repair": "yes"},
+        {"person": 5}, {"person": "nowhere.ossaperson"}, {"person": "me.ossaperson", "fit": False},
+        {"person": ["a", "b"], "max_users": 1}, {"mount": "wall"}, {"mount": None},
+        {"scene": 5}, {"scene": "nowhere.toml"}, {"models": "shipped"}, {"repair": "yes"},
     ],  # fmt: skip
     ids=str,
 )

@@ -10,6 +10,17 @@ import pytest
 import ossa
 
 
+SCENE = """
+floor = [0, 1, 0, 1]
+[[object]]
+name = "crate"
+shape = "box"
+size_m = [0.3, 0.3, 0.3]
+mass_kg = 2
+at_m = [1.5, 0, 3]
+"""
+
+
 def skeletons_of(tracker, images):
     return [tracker.track(*image).bodies[0].joints for image in images]
 
@@ -290,3 +301,26 @@ def test_reset_forgets_everybody(images, models):
 def test_models_of_another_method_are_refused(models):
     with pytest.raises(ossa.InputError, match="models: expected those of method 'holt'"):
         ossa.Tracker("holt", models=models)
+
+
+def test_a_person_file_is_read_and_named_when_damaged(clip, images, models, command, tmp_path):
+    me = tmp_path / "me.ossaperson"
+    command("track", clip, "--save-person", me, "--quiet")
+    known = ossa.Tracker(models=models, person=me).track(*images[0]).bodies[0].fit.shape
+    alone = ossa.Tracker(models=models).track(*images[0]).bodies[0].fit.shape
+    told = list(ossa.Tracker(models=models).run(clip))[-1].bodies[0].fit.shape
+    assert np.abs(known - told).sum() < np.abs(alone - told).sum()
+    me.write_bytes(b"no person")
+    with pytest.raises(ossa.InputError, match="me.ossaperson"):
+        ossa.Tracker(models=models, person=[me])
+
+
+def test_a_scene_tells_its_things_and_the_camera_may_be_said_to_be_level(clip, models, tmp_path):
+    scene = tmp_path / "room.toml"
+    scene.write_text(SCENE)
+    frames = list(ossa.Tracker(models=models, scene=scene, mount="level").run(clip))
+    things = frames[-1].objects
+    assert [thing.name for thing in things] == ["crate"]
+    assert things[0].position.shape == (3,) and things[0].orientation.shape == (4,)
+    assert things[0].held_by == ()
+    assert not list(ossa.Tracker(models=models).run(clip))[-1].objects

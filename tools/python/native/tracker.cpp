@@ -13,6 +13,7 @@
 #include <utility>
 #include <vector>
 
+#include "depth/base/error.h"
 #include "depth/sensor/frame_source.h"
 #include "tools/python/native/arrays.h"
 #include "tools/python/native/native.h"
@@ -75,7 +76,26 @@ tracker::TrackerOptions OptionsFrom(const py::dict& given) {
     std::copy_n(lengths.begin(), bones.size(), bones.begin());
     options.bones_m[id] = bones;
   }
+  const auto mount = given["mount"].cast<std::string>();
+  if (mount == "level") options.mount = tracker::Mount::kLevel;
+  if (mount == "ceiling") options.mount = tracker::Mount::kCeiling;
+  if (const auto scene = given["scene"].cast<std::string>(); !scene.empty()) {
+    options.scene = tracker::LoadScene(scene);
+    options.scene->people = options.mechanics;
+  }
   return options;
+}
+
+// By body id, in the order of the files.
+std::map<int, recon::PersonShape> LoadPeople(const std::vector<std::string>& paths,
+                                             const recon::BodySurface* surface) {
+  if (!paths.empty() && surface == nullptr) {
+    throw InputError("person: expected models with a body surface");
+  }
+  std::map<int, recon::PersonShape> people;
+  int id = 0;
+  for (const std::string& path : paths) people[++id] = recon::PersonShape::Load(path, *surface);
+  return people;
 }
 
 /// All that was learned, in memory: of any number of trackers.
@@ -224,9 +244,25 @@ py::dict ToDict(const tracker::StageTimes& ms) {
   return made;
 }
 
+py::dict ToDict(const tracker::SceneObjectState& object) {
+  py::dict made;
+  const auto array = [](const Eigen::Vector3d& v) {
+    return python::ToArray(std::vector<double>(v.begin(), v.end()), {3});
+  };
+  const Eigen::Quaterniond& q = object.orientation;
+  made["name"] = object.name;
+  made["position"] = array(object.position_m);
+  made["orientation"] = python::ToArray(std::vector<double>{q.w(), q.x(), q.y(), q.z()}, {4});
+  made["velocity_m_s"] = array(object.velocity_m_s);
+  made["held_by"] = py::tuple(py::cast(object.held_by));
+  return made;
+}
+
 py::dict ToDict(BodyFrame frame, bool with_proposals, const MeshPointer& mesh) {
   py::dict made;
-  py::list bodies;
+  py::list bodies, objects;
+  for (const auto& object : frame.objects) objects.append(ToDict(object));
+  made["objects"] = objects;
   for (const Body& body : frame.bodies) bodies.append(ToDict(body, with_proposals, mesh));
   made["index"] = frame.index;
   made["time_s"] = frame.time_s;
@@ -252,6 +288,8 @@ class Tracker {
   Tracker(const py::dict& given, const Models& models) : method_(models.method) {
     tracker::TrackerOptions options = OptionsFrom(given);
     options.models = models.set;
+    options.shapes =
+        LoadPeople(given["person"].cast<std::vector<std::string>>(), models.set.surface.get());
     with_proposals_ = options.keep_proposals;
     const py::gil_scoped_release free;
     tracker_.emplace(options);

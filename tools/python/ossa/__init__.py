@@ -25,7 +25,7 @@ help(ossa.Tracker) and so on tell every argument.
 
 from ._camera import Camera
 from ._forest import Forest
-from ._frames import Body, Fit, Frame, Mesh, Proposals
+from ._frames import Body, Fit, Frame, Mesh, Proposals, Thing
 from ._judge import Comparison, compare, evaluate, learn
 from ._names import (
     CAMERA_PRESETS,
@@ -71,6 +71,7 @@ __all__ = [
     "STATES",
     "Sequence",
     "Source",
+    "Thing",
     "Tracker",
     "__version__",
     "compare",

@@ -205,6 +205,29 @@ class Body:
         return f"<ossa.Body {self.id}: {count} joints tracked>"
 
 
+@dataclasses.dataclass(frozen=True)
+class Thing:
+    """Something of Tracker(scene=...) in one frame: camera space, metres.
+
+    Attributes
+    ----------
+    name : str
+        As the scene file calls it.
+    position, velocity_m_s : float64 [3]
+        Of its middle; metres a second.
+    orientation : float64 [4]
+        Quaternion w x y z, camera from thing.
+    held_by : tuple of int
+        Body.id of who holds it.
+    """
+
+    name: str
+    position: Floats
+    orientation: Floats
+    velocity_m_s: Floats
+    held_by: tuple[int, ...]
+
+
 @dataclasses.dataclass(frozen=True, repr=False)
 class Frame:
     """What the tracker says of one depth image.
@@ -230,6 +253,8 @@ class Frame:
         Number of the frame, from 0.
     ms : dict
         Milliseconds spent on "segment", "classify", "propose", "reconstruct", "physics", "total", and on "fit", a part of "reconstruct".
+    objects : tuple of Thing
+        Of Tracker(scene=...), once the scene has a floor.
     """
 
     bodies: list[Body]
@@ -241,6 +266,7 @@ class Frame:
     time_s: float
     index: int
     ms: Mapping[str, float]
+    objects: tuple[Thing, ...] = ()
 
     def __repr__(self) -> str:
         return f"<ossa.Frame {self.index} at {self.time_s:.3f} s: {len(self.bodies)} bodies>"
@@ -312,4 +338,5 @@ def frame_from(
         time_s=made["time_s"],
         index=made["index"],
         ms=made["ms"],
+        objects=tuple(Thing(**thing) for thing in made["objects"]),
     )

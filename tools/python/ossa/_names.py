@@ -27,6 +27,9 @@ SMOOTHINGS: tuple[str, ...] = _native.smoothing_presets
 SKELETON_FORMATS: tuple[str, ...] = _native.skeleton_formats
 """Formats that read_skeletons tells by content."""
 
+MOUNTS: tuple[str, ...] = ("auto", "level", "ceiling")
+"""Where a camera may be, of Tracker(mount=...)."""
+
 STATES: tuple[str, ...] = ("not_tracked", "inferred", "tracked")
 """States of a joint: seen in the image (tracked), guessed from what is seen around it (inferred),
 or merely plausible for the rest of the body (not_tracked)."""

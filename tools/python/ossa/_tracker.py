@@ -11,7 +11,7 @@ import numpy.typing as npt
 from . import _check, _method_options, _native
 from ._camera import ROTATIONS, Camera, native_camera
 from ._frames import Frame, frame_from
-from ._names import METHODS, SMOOTHINGS
+from ._names import METHODS, MOUNTS, SMOOTHINGS
 from ._sources import PathLike, Source
 from ._sources import open as open_source
 
@@ -86,6 +86,18 @@ def _bones_option(bones_m: Any) -> dict[int, list[float]]:
         _check.whole("bones_m: id", k, 1, 255): _check.array("bones_m", v, (20,), float).tolist()
         for k, v in bones_m.items()
     }
+
+
+def _person_option(person: Any, fit: bool, max_users: int) -> list[str]:
+    if person is None:
+        return []
+    if not fit:
+        raise _check.InputError("person: expected fit=True with it")
+    if not isinstance(person, (list, tuple)):
+        return [_check.path("person", person)]
+    if len(person) > max_users:
+        raise _check.InputError(f"person: expected at most {max_users} files, as max_users says, found {len(person)}")
+    return [_check.path("person", one) for one in person]
 
 
 class Models:
@@ -193,10 +205,19 @@ class Tracker:
     bones_m : dict of int to float64 [20], optional
         Metres, Body.bones_m by Body.id of a run before over the same recording: they stay from the
         first frame to the last. Only for methods that keep bones.
+    person : path or list of path, optional
+        Person files, .ossaperson of `ossa track --save-person`: whoever gets id 1 (2, ...) is
+        fitted with that shape from the first frame on. Needs `fit`.
+    mount : "auto", "level" or "ceiling"
+        Where the camera is. "auto": level, until a floor far below and a body on it say that it
+        hangs under the ceiling.
+    scene : path, optional
+        A scene file, .toml: all people in one mechanical world with its things (Frame.objects), in
+        place of `physics`.
     control : "pd" or "motor"
-        With physics: what drives the character.
+        With physics or a scene: what drives the character.
     hinges, joint_limits : bool
-        With physics: elbows and knees bend about one axis; joints keep to people's ranges.
+        With physics or a scene: elbows and knees bend about one axis; joints keep to people's ranges.
     seed : int
         Of the methods that draw samples.
     METHOD_OPTIONS
@@ -237,6 +258,9 @@ class Tracker:
         database: Optional[PathLike] = None,
         models: Optional[Models] = None,
         bones_m: Optional[Mapping[int, npt.ArrayLike]] = None,
+        person: Union[PathLike, Sequence[PathLike], None] = None,
+        mount: str = "auto",
+        scene: Optional[PathLike] = None,
         control: str = "pd",
         hinges: bool = False,
         joint_limits: bool = False,
@@ -249,7 +273,7 @@ class Tracker:
         options = {
             "method": method,
             "physics": _check.flag("physics", physics),
-            "mechanics": mechanics_option(physics, control, hinges, joint_limits),
+            "mechanics": mechanics_option(physics, control, hinges, joint_limits, scene),
             "method_options": _method_options.checked(method, method_options),
             "seated": _check.flag("seated", seated),
             "near": _check.flag("near", near),
@@ -262,6 +286,9 @@ class Tracker:
             "threads": _check.whole("threads", threads, 1, 256),
             "seed": _check.whole("seed", seed, 0, 2**63 - 1),
             "bones_m": _bones_option(bones_m),
+            "person": _person_option(person, fit, max_users),
+            "mount": _check.one_of("mount", mount, MOUNTS),
+            "scene": _check.optional_path("scene", scene),
         }
         chosen = _smoothing_option(smoothing)
         if chosen is not None:
@@ -433,7 +460,9 @@ class Tracker:
         self._time_s = None
 
 
-def mechanics_option(physics: Any, control: Any, hinges: Any, joint_limits: Any) -> dict[str, bool]:
+def mechanics_option(
+    physics: Any, control: Any, hinges: Any, joint_limits: Any, scene: Any = None
+) -> dict[str, bool]:
     """How the mechanical character is built; one that is described and not asked for is refused."""
     _check.flag("physics", physics)
     build = {
@@ -441,8 +470,10 @@ def mechanics_option(physics: Any, control: Any, hinges: Any, joint_limits: Any)
         "hinges": _check.flag("hinges", hinges),
         "joint_limits": _check.flag("joint_limits", joint_limits),
     }
-    if any(build.values()) and not physics:
-        raise _check.InputError("control, hinges, joint_limits: expected physics=True with them")
+    if any(build.values()) and not physics and scene is None:
+        raise _check.InputError(
+            "control, hinges, joint_limits: expected physics=True or a scene with them"
+        )
     return build
 
 
