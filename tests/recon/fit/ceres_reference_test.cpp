@@ -65,10 +65,10 @@ SurfacePose MinimiseFrom(SurfacePose pose, const SeenPerson& seen, const Surface
   return pose;
 }
 
-// Five damped steps are not the minimum, but a quarter of a pixel's size (9 mm) from it, on images
-// of the model itself on which minimum and fit are both 9 to 15 mm beside the truth.
+// Five damped steps are not the minimum, but a third of a pixel's size (9 mm) from it at most, on
+// images of the model itself on which minimum and fit are both 9 to 15 mm beside the truth.
 TEST(CeresReference, EndsWhereTheFitDoes) {
-  constexpr double kNear_m = 0.0025;
+  constexpr double kNear_m = 0.003;
   const SurfaceFitOptions options;
   SurfaceFitter fitter(Surface(), options);
   for (unsigned seed = 1; seed <= 4; ++seed) {
