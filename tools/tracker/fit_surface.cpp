@@ -60,12 +60,12 @@ std::optional<recon::SurfaceFit> FitSurface(const depth::DepthFrame& frame,
 }
 
 void DoubtUnexplained(const recon::SurfaceFit& fit, const recon::BodySurface& surface,
-                      double doubt_residual_m, recon::TrackedPosture& observed) {
+                      double doubt_residual_m, recon::JointArray<double>& trust) {
   for (size_t j = 0; j < recon::kJointCount; ++j) {
     const auto& residual_m = fit.residual_m[surface.landmark_segment[j]];
     if (!residual_m) continue;
     const double off = *residual_m / doubt_residual_m;
-    observed.confidence[j] /= 1.0 + off * off;
+    trust[j] /= 1.0 + off * off;
   }
 }
 

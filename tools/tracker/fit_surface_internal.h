@@ -14,9 +14,10 @@ std::optional<recon::SurfaceFit> FitSurface(const depth::DepthFrame& frame,
                                             const people::Detection& detection, const Body& body,
                                             Person& person);
 
-/// Believes joints less whose segments are far from the pixels that they should explain, see
-/// SurfaceFitOptions::doubt_residual_m. Of segments without pixels nothing is said.
+/// Trusts joints less whose segments are far from the pixels that they should explain (confidence
+/// or reliability, [0, 1]), see SurfaceFitOptions::doubt_residual_m. Of segments without pixels
+/// nothing is said.
 void DoubtUnexplained(const recon::SurfaceFit& fit, const recon::BodySurface& surface,
-                      double doubt_residual_m, recon::TrackedPosture& observed);
+                      double doubt_residual_m, recon::JointArray<double>& trust);
 
 }  // namespace ossa::tracker

@@ -112,6 +112,13 @@ recon::TrackedPosture Observed(const Body& body, bool refined, double fitted_con
   return seen;
 }
 
+// Joints about which no surface is where the fitted body has it.
+void DoubtByResidual(const SkeletonWork& work, recon::JointArray<double>& trust) {
+  const auto& options = work.options.fit;
+  if (!work.body.fit || !options || !(options->doubt_residual_m > 0.0)) return;
+  DoubtUnexplained(*work.body.fit, *work.options.surface, options->doubt_residual_m, trust);
+}
+
 }  // namespace
 
 recon::Posture ToPosture(const Body& body) {
@@ -151,10 +158,7 @@ void AverageStationary(SkeletonWork& work) {
   const recon::MethodInfo& method = recon::RequireMethod(work.options.reconstructor.method);
   recon::TrackedPosture observed =
       Observed(work.body, method.refined, work.options.hold.fitted_confidence);
-  const auto& fit = work.options.fit;
-  if (work.body.fit && fit && fit->doubt_residual_m > 0.0) {
-    DoubtUnexplained(*work.body.fit, *work.options.surface, fit->doubt_residual_m, observed);
-  }
+  DoubtByResidual(work, observed.confidence);
   work.observed = work.person.stationary.Step(observed, work.frame.time_s);
 }
 
@@ -166,6 +170,7 @@ void Reconstruct(SkeletonWork& work) {
   if (body.fit) bones_m = recon::MeasureBoneLengths(body.fit->joints_m);
   work.reconstructed =
       method->Step({work.observed, work.frame.time_s, &work.frame, bones_m, work.floor});
+  DoubtByResidual(work, work.reconstructed.reliability);
   body.reconstructed = work.reconstructed.posture;
   body.bones_m = method->Bones();
   work.posture = body.reconstructed;
