@@ -1,7 +1,6 @@
 #include "forest/deferred_leaves_internal.h"
 
 #include <oneapi/tbb/task_arena.h>
-#include <unistd.h>
 
 #include <algorithm>
 #include <exception>
@@ -45,12 +44,7 @@ DeferredLeaves::DeferredLeaves(std::unique_ptr<const LeafTableMaker> maker,
 
 DeferredLeaves::~DeferredLeaves() {
   stop_ = once_whole_ == nullptr;
-  if (!thread_.joinable()) return;
-  if (getpid() == process_) {
-    thread_.join();
-  } else {
-    thread_.detach();  // it stayed behind in the process that this one was forked from
-  }
+  if (thread_.joinable()) thread_.join();
 }
 
 LeafRows DeferredLeaves::Find(std::span<const int32_t> leaf) {
@@ -81,7 +75,6 @@ LeafRows DeferredLeaves::Find(std::span<const int32_t> leaf) {
 
 void DeferredLeaves::StartMakingAll() {
   try {
-    process_ = getpid();
     thread_ = std::thread([this] { MakeAll(); });
   } catch (const std::system_error&) {
     // Without a thread images go on having tables of their own.

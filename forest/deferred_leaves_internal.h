@@ -1,6 +1,4 @@
 #pragma once
-#include <sys/types.h>
-
 #include <atomic>
 #include <cstdint>
 #include <functional>
@@ -70,7 +68,6 @@ class DeferredLeaves {
   std::atomic<int> found_ = 0;  // images
   std::atomic<bool> stop_ = false;
   std::thread thread_;
-  pid_t process_ = 0;  // that the thread runs in
 };
 
 }  // namespace ossa::forest

@@ -6,7 +6,6 @@
 
 #include <cstdlib>
 #include <iterator>
-#include <memory>
 #include <thread>
 #include <vector>
 
@@ -98,25 +97,6 @@ TEST_F(KeptTables, TakeTheRoomOfWhatAKilledProcessLeft) {
   ASSERT_EQ(CountFiles(cache_), 3U);
   ExpectRunsAsEver(ReadToKeep(), kMany);
   EXPECT_EQ(CountFiles(cache_), 2U);
-}
-
-// Several times, for a child that is forked after the thread has ended proves nothing.
-TEST_F(KeptTables, AreNoConcernOfAForkedProcess) {
-  for (int trial = 0; trial < 20; ++trial) {
-    auto model = std::make_unique<ForestModel>(ReadToKeep());
-    for (size_t i = 0; i <= kFew; ++i) ClassifyFigure(*model, i);
-    const pid_t child = fork();
-    if (child == 0) {
-      alarm(60);  // s: ends a child that waits for what is not there
-      model.reset();
-      _exit(0);
-    }
-    int status = 0;
-    waitpid(child, &status, 0);
-    ASSERT_TRUE(WIFEXITED(status)) << "signal " << WTERMSIG(status);
-    model.reset();  // once its tables are kept
-    std::filesystem::remove_all(cache_);
-  }
 }
 
 TEST_F(KeptTables, GoWithoutAFolderForThem) {
