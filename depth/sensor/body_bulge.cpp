@@ -117,10 +117,13 @@ Count CountStretches(const Line& line) {
   return count;
 }
 
-bool IsMostly(int64_t some, int64_t others) {
-  constexpr int64_t kLeast = 12;
-  constexpr double kMostly = 2.0;  // to one
-  return some >= kLeast && static_cast<double>(some) > kMostly * static_cast<double>(others);
+// One image after the other shows the same few stretches, wrongly bent by the same few pixels: what
+// each adds to is no evidence where it has but one or two.
+bool IsMostly(int64_t some, int64_t others, int64_t images) {
+  constexpr int64_t kLeast = 12, kLeastAnImage = 2;  // stretches
+  constexpr double kMostly = 2.0;                    // to one
+  return some >= std::max(kLeast, kLeastAnImage * images) &&
+         static_cast<double>(some) > kMostly * static_cast<double>(others);
 }
 
 }  // namespace
@@ -128,6 +131,7 @@ bool IsMostly(int64_t some, int64_t others) {
 void BodyBulge::Add(const DepthView& image) {
   constexpr int kLines = 160;  // of an image's width
   const int step = std::max(1, image.width / kLines);
+  ++images_;
   for (const bool columns : {false, true}) {
     const int lines = columns ? image.width : image.height;
     for (int i = 0; i < lines; i += step) {
@@ -143,8 +147,8 @@ bool BodyBulge::IsEnough() const {
   return round_ + hollow_ >= kEnough;
 }
 
-bool BodyBulge::IsHollow() const { return IsMostly(hollow_, round_); }
+bool BodyBulge::IsHollow() const { return IsMostly(hollow_, round_, images_); }
 
-bool BodyBulge::IsRound() const { return IsMostly(round_, hollow_); }
+bool BodyBulge::IsRound() const { return IsMostly(round_, hollow_, images_); }
 
 }  // namespace ossa::depth

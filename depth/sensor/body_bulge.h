@@ -23,6 +23,7 @@ class BodyBulge {
 
  private:
   double units_per_mm_;
+  int64_t images_ = 0;
   int64_t round_ = 0;   // stretches across what stands out, nearest in their middle
   int64_t hollow_ = 0;  // stretches across what seems a hole, farthest in their middle
 };

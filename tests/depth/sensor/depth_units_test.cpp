@@ -258,6 +258,18 @@ TEST(BodyBulge, AFlatBoardIsNeither) {
   EXPECT_FALSE(bulge.IsRound() || bulge.IsHollow() || bulge.IsEnough());
 }
 
+// As of somebody who stands still far away: one stretch, by chance, seen again and again.
+TEST(BodyBulge, OneHollowStretchInEachOfManyImagesTellsNothing) {
+  const DepthFrame mould = Cylinder(true);
+  DepthFrame board = mould;
+  for (uint16_t& depth : board.depth_mm) depth = static_cast<uint16_t>(depth > 0 ? 2000 : 0);
+  constexpr size_t kRow = size_t{60} * 160;
+  std::copy_n(&mould.depth_mm[kRow], 160, &board.depth_mm[kRow]);
+  BodyBulge bulge;
+  for (int image = 0; image < 30; ++image) bulge.Add(board.view());
+  EXPECT_FALSE(bulge.IsHollow());
+}
+
 TEST(DepthUnits, RenderedPeopleCutOutAndTurnedRoundAreRefused) {
   for (const char* clip : {"one", "two"}) {
     const auto clips = test::SourceFolder() / "tests/golden/clips";
