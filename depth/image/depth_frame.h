@@ -30,7 +30,7 @@ struct DepthFrame {
   int64_t index = 0;    // frame number of the source, from 0
   // The image where it lies in memory that outlives this frame and its copies, such as a driver's
   // buffer, in place of depth_mm; without data depth_mm is the image.
-  DepthView borrowed;
+  DepthView borrowed = {};
 
   DepthView view() const {
     if (borrowed.data_mm != nullptr) return borrowed;
