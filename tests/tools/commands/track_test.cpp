@@ -15,7 +15,7 @@
 #include "tests/support/places.h"
 #include "tests/support/run_command.h"
 #include "tests/support/temporary_folder.h"
-#include "tests/tools/tracker/tracked_scenes.h"
+#include "tests/tools/commands/tracked_folders.h"
 
 namespace ossa::commands {
 namespace {
@@ -31,107 +31,6 @@ using test::WriteExampleFolder;
 using tracker::ModelOrNothing;
 using tracker::PersonAt;
 using tracker::Rendered;
-
-// A person who walks sideways, as a PNG folder.
-void WriteWalk(const std::filesystem::path& folder, int frames) {
-  std::filesystem::create_directories(folder);
-  for (int i = 0; i < frames; ++i) {
-    const auto render = Rendered({PersonAt(-0.3 + 0.03 * i, 2.6)}, i);
-    std::string name = std::to_string(1000000 + i).substr(1);
-    name.append(".png");
-    depth::WriteDepthPng(folder / name, render.frame.view());
-  }
-}
-
-void WriteFlat(const std::filesystem::path& folder, uint16_t depth_mm, int frames) {
-  for (int i = 0; i < frames; ++i) {
-    depth::DepthFrame frame;
-    frame.camera = depth::KinectV1Camera(160, 120);
-    frame.depth_mm.assign(160 * 120, depth_mm);
-    std::string name = std::to_string(100 + i);
-    name.append(".png");
-    depth::WriteDepthPng(folder / name, frame.view());
-  }
-}
-
-CommandResult TrackTo(const std::filesystem::path& source, const std::filesystem::path& out,
-                      const std::vector<std::string>& more = {},
-                      const std::string& method = "none") {
-  std::vector<std::string> arguments = {"track",      source.string(), "--out",
-                                        out.string(), "--method",      method};
-  arguments.insert(arguments.end(), more.begin(), more.end());
-  return RunOssa(arguments);
-}
-
-TEST(TrackCommand, SavesThePersonAndTakesThemAgain) {
-  OSSA_NEEDS_MODEL();
-  const TemporaryFolder folder;
-  WriteWalk(folder / "in", 6);
-  const std::string source = (folder / "in").string(), me = (folder / "me.ossaperson").string();
-  const CommandResult first = RunOssa({"track", source, "--save-person", me});
-  ASSERT_EQ(first.exit_status, 0) << first.err;
-  EXPECT_NE(first.out.find("person 1, "), std::string::npos) << first.out;
-  const CommandResult again =
-      RunOssa({"track", source, "--person", me, "--save-person", me, "--json-stats", "-"});
-  ASSERT_EQ(again.exit_status, 0) << again.err;
-  const CommandResult info = RunOssa({"info", me});
-  EXPECT_NE(info.out.find("m tall"), std::string::npos) << info.out;
-}
-
-TEST(TrackCommand, RefusesAPersonFileThatIsDamaged) {
-  OSSA_NEEDS_MODEL();
-  const TemporaryFolder folder;
-  WriteWalk(folder / "in", 1);
-  const std::string me = (folder / "me.ossaperson").string();
-  std::ofstream(me) << "no person";
-  const CommandResult result =
-      RunOssa({"track", (folder / "in").string(), "--json-stats", "-", "--person", me});
-  EXPECT_EQ(result.exit_status, 1);
-  EXPECT_NE(result.err.find(me + ": "), std::string::npos) << result.err;
-  EXPECT_EQ(LineCount(result.err), 1);
-}
-
-TEST(TrackCommand, SaysWhereNobodyIsThereWhoCouldBeSaved) {
-  OSSA_NEEDS_MODEL();
-  const TemporaryFolder folder;
-  std::filesystem::create_directory(folder / "wall");
-  WriteFlat(folder / "wall", 2000, 2);
-  const std::string me = (folder / "me.ossaperson").string();
-  const CommandResult result =
-      RunOssa({"track", (folder / "wall").string(), "--save-person", me, "--quiet"});
-  EXPECT_EQ(result.exit_status, 1);
-  EXPECT_NE(result.err.find(me + ": expected a person"), std::string::npos) << result.err;
-  EXPECT_FALSE(std::filesystem::exists(me));
-}
-
-TEST(TrackCommand, WritesFittedJointsWithTheirStandardDeviations) {
-  OSSA_NEEDS_MODEL();
-  const TemporaryFolder folder;
-  WriteWalk(folder / "in", 6);
-  const CommandResult result =
-      TrackTo(folder / "in", folder / "fit.jsonl", {"--posture", "fitted", "--quiet"}, "best");
-  ASSERT_EQ(result.exit_status, 0) << result.err;
-  const auto read = recon::ReadSkeletons(folder / "fit.jsonl");
-  const auto& head = read.frames.back().bodies.at(0).joints[recon::Joint::kHead];
-  ASSERT_TRUE(head && head->sigma_m);
-  EXPECT_GT(head->sigma_m->minCoeff(), 0.0);
-  EXPECT_LT(head->sigma_m->maxCoeff(), 0.2);
-}
-
-TEST(TrackCommand, WritesNoFittedJointsWithoutAFit) {
-  const CommandResult result =
-      RunOssa({"track", "in", "--out", "x.jsonl", "--fit", "off", "--posture", "fitted"});
-  EXPECT_EQ(result.exit_status, 2);
-  EXPECT_NE(result.err.find("--posture fitted: expected --fit on"), std::string::npos)
-      << result.err;
-}
-
-TEST(TrackCommand, TakesNoPersonFileWithoutAFit) {
-  const CommandResult result =
-      RunOssa({"track", "in", "--out", "x.jsonl", "--fit", "off", "--person", "me.ossaperson"});
-  EXPECT_EQ(result.exit_status, 2);
-  EXPECT_NE(result.err.find("--person: expected a surface fit"), std::string::npos) << result.err;
-}
 
 class OutputFormats : public testing::TestWithParam<const char*> {};
 
