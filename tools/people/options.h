@@ -51,6 +51,9 @@ struct OverheadOptions {
   float min_score = 0.85F;  // share of the disc x lower share of the ring
   float min_distance_m =
       0.35F;  // anthropometry: of heads over the floor: shoulders keep them apart
+  // Over the floor from the middle of the head:
+  float reach_m = 1.3F;   // anthropometry: a foot or hand stretched out by who leans the same way
+  float trunk_m = 0.45F;  // anthropometry: trunk, and the knees and elbows close to it
 };
 
 /// How a connected region is cut into one piece a person.

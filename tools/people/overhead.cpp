@@ -118,23 +118,23 @@ std::vector<HeadBlob> FindHeadsFromAbove(const PointGrid& grid, const FloorPlane
   return heads;
 }
 
-Region KeepWithinReach(const PointGrid& grid, const Region& region, const HeadBlob& head) {
-  // Anthropometry, from the middle of the head over the floor: a foot or hand stretched out by
-  // somebody who leans the same way; trunk, and the knees and elbows close to it.
-  constexpr float kReach_m = 1.3F, kTrunk_m = 0.45F;
+Region KeepWithinReach(const PointGrid& grid, const Region& region, const HeadBlob& head,
+                       const OverheadOptions& options) {
   const auto off_m = [&](int cell) { return grid.OnFloor(grid.at(cell) - head.position_m).norm(); };
   std::vector<uint8_t> open(static_cast<size_t>(grid.cells()), 0);
-  for (const int cell : region.cells) open[static_cast<size_t>(cell)] = off_m(cell) <= kReach_m;
+  for (const int cell : region.cells)
+    open[static_cast<size_t>(cell)] = off_m(cell) <= options.reach_m;
   std::vector<int> kept(1, head.cell);
   open[static_cast<size_t>(head.cell)] = 0;
   for (size_t i = 0; i < kept.size(); ++i) {
     const int cell = kept[i], x = cell % grid.width, y = cell / grid.width;
-    const bool at_trunk = off_m(cell) <= kTrunk_m;
+    const bool at_trunk = off_m(cell) <= options.trunk_m;
     for (const auto& step : depth::kStepsOverGaps) {
       if (!grid.Contains(x + step[0], y + step[1])) continue;
       const int next = grid.cell(x + step[0], y + step[1]);
       if (!open[static_cast<size_t>(next)]) continue;
-      if (!depth::Continuous(grid, cell, next) && !(at_trunk && off_m(next) <= kTrunk_m)) continue;
+      if (!depth::Continuous(grid, cell, next) && !(at_trunk && off_m(next) <= options.trunk_m))
+        continue;
       open[static_cast<size_t>(next)] = 0;
       kept.push_back(next);
     }

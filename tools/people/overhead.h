@@ -22,6 +22,7 @@ std::vector<HeadBlob> FindHeadsFromAbove(const PointGrid& grid, const FloorPlane
 /// What of a region may belong to whose head that is: what is joined to it within a limb's reach
 /// over the floor, by steps in depth under head and trunk only. A hand before a wall or over a
 /// cupboard is beside it in the image; further out a limb is one surface.
-Region KeepWithinReach(const PointGrid& grid, const Region& region, const HeadBlob& head);
+Region KeepWithinReach(const PointGrid& grid, const Region& region, const HeadBlob& head,
+                       const OverheadOptions& options);
 
 }  // namespace ossa::people

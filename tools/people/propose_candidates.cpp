@@ -92,10 +92,11 @@ std::vector<HeadBlob> ListHeads(const Scene& scene, const Region& region,
 }
 
 // From above: each piece as far as the person under its highest-scored head may reach.
-Region WithoutWalls(const Scene& scene, Region piece, std::span<const HeadBlob> heads) {
+Region WithoutWalls(const Scene& scene, Region piece, std::span<const HeadBlob> heads,
+                    const OverheadOptions& options) {
   for (const HeadBlob& head : heads) {
     if (std::binary_search(piece.cells.begin(), piece.cells.end(), head.cell))
-      return KeepWithinReach(scene.grid, piece, head);
+      return KeepWithinReach(scene.grid, piece, head, options);
   }
   return piece;
 }
@@ -116,7 +117,7 @@ void CutIntoCandidates(const DepthFrame& frame, const Scene& scene, const CellFa
   const auto seeds =
       FindSeeds(scene.grid, region, heads, facts.owner, tracks, facts.background, options);
   for (Region& piece : CutAtSeeds(scene.grid, region, seeds, options)) {
-    if (options.overhead) piece = WithoutWalls(scene, std::move(piece), heads);
+    if (options.overhead) piece = WithoutWalls(scene, std::move(piece), heads, *options.overhead);
     if (!is_large_enough(piece)) {
       if (!piece.cells.empty()) result.excluded.push_back(DescribeRegion(piece, Rule::kTooSmall));
       continue;
