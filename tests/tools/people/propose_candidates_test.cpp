@@ -40,32 +40,39 @@ TEST(ProposeCandidates, TwoWhoTouchAreCutBetweenTheirHeads) {
   }
 }
 
-// Seen from 3 m above the floor: head, trunk and an arm stretched out to the left, with the hand
-// 10 cm before a wall that is higher than the person.
-CapsuleRender ByAWallFromAbove() {
+// Seen from 3 m above the floor: head, trunk and an arm down to the left, with the hand at the
+// middle of a roll on the floor, 4 m long.
+CapsuleRender AtARollFromAbove() {
   CapsuleScene scene;
   scene.capsules = {{{0, 0, 1.35}, {0, 0, 1.4}, 0.11},
                     {{0, 0, 1.72}, {0, 0.02, 2.2}, 0.17},
-                    {{0.15, 0, 1.62}, {0.75, 0, 1.7}, 0.05}};
-  scene.boxes = {{{0.9, -1.4, 0.8}, {1.3, 1.4, 3.0}}};
+                    {{0.15, 0, 1.62}, {0.75, 0, 2.6}, 0.05},
+                    {{0.95, -2.0, 2.75}, {0.95, 2.0, 2.75}, 0.15}};
   scene.planes = {{-Eigen::Vector3d::UnitZ(), 3.0}};
   return tests::Render(scene, KinectV1Camera(320, 240));
 }
 
-TEST(ProposeCandidates, FromAboveAWallBesideAHandIsNotPartOfWhoReachesForIt) {
+// Of candidates with a head, how far over the floor what is theirs lies from the head, metres.
+std::vector<float> ReachesFromAbove(const PeopleOptions& options) {
   PeopleState state;
-  const Proposed proposed = Propose(ByAWallFromAbove(), state, PeopleOptionsFromAbove());
-  size_t people = 0;
+  const Proposed proposed = Propose(AtARollFromAbove(), state, options);
+  std::vector<float> reaches_m;
   for (const Candidate& candidate : proposed.candidates) {
     if (!candidate.has_head) continue;
-    ++people;
     float farthest_m = 0;
     for (const int cell : candidate.region.cells)
-      farthest_m = std::max(farthest_m, proposed.scene.grid.at(cell).x());
-    EXPECT_GT(farthest_m, 0.75F) << "the hand is theirs";
-    EXPECT_LT(farthest_m, 0.85F) << "the wall is not";
+      farthest_m = std::max(farthest_m, proposed.scene.grid.at(cell).head<2>().norm());
+    reaches_m.push_back(farthest_m);
   }
-  EXPECT_EQ(people, 1U);
+  return reaches_m;
+}
+
+TEST(ProposeCandidates, FromAboveWhoHasAHandOnSomethingLongEndsWithinReach) {
+  PeopleOptions options = PeopleOptionsFromAbove();
+  const auto reaches_m = ReachesFromAbove(options);
+  ASSERT_EQ(reaches_m.size(), 1U);
+  EXPECT_GT(reaches_m[0], 0.75F) << "the hand is theirs";
+  EXPECT_LE(reaches_m[0], options.candidates.overhead->reach_m + 0.05F) << "all of the roll is not";
 }
 
 TEST(MergeCandidates, GivesBackWhatWasCut) {
