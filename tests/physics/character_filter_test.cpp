@@ -58,10 +58,10 @@ TEST_P(FilterBounds, KeepsLengthsAnchorsAndFloorWhileDancing) {
     solver_gap = std::max(solver_gap, out.max_solver_gap_m);
     depth = std::max(depth, out.floor_depth_m);
   }
-  EXPECT_LT(length_error, 1e-3);  // the bound; by construction it is rounding
-  EXPECT_LT(gap, 0.5e-3);         // the bound
+  EXPECT_LT(length_error, 1e-3);  // wanted; by construction it is rounding
+  EXPECT_LT(gap, 0.5e-3);         // wanted
   EXPECT_LT(solver_gap, 0.5e-3);  // before the bodies are reconnected, too
-  EXPECT_LT(depth, 0.005);        // the bound
+  EXPECT_LT(depth, 0.005);        // wanted
 }
 
 INSTANTIATE_TEST_SUITE_P(BothControls, FilterBounds,

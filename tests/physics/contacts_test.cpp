@@ -82,7 +82,7 @@ TEST_P(FastBall, DoesNotEnterTheChest) {
       given = std::max(given, chest - scene.At(Joint::kShoulderCenter).z());
     }
     EXPECT_TRUE(struck);
-    EXPECT_LT(deepest, 0.005);  // the bound; without looking ahead 2.3 cm a substep
+    EXPECT_LT(deepest, 0.005);  // wanted; without looking ahead 2.3 cm a substep
     EXPECT_GT(given, 0.005);    // the chest gave way
   }
 }
@@ -244,7 +244,7 @@ TEST(FootPin, HoldsWhileTheTargetStandsAndLetsGoWhenItLifts) {
     ASSERT_TRUE(scene.world.StateOf(scene.person).left_foot_pinned) << i;
     slid = std::max(slid, (scene.At(Joint::kFootLeft) - stood).norm());
   }
-  EXPECT_LT(slid, 0.005);  // the bound
+  EXPECT_LT(slid, 0.005);  // wanted
   Posture lifted = StandingPerson();
   for (const size_t joint : {13U, 14U, 15U}) {
     lifted.position_m[joint] += Vector3d(0.0, joint == 13 ? 0.15 : 0.25, 0.2);

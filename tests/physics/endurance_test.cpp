@@ -41,7 +41,7 @@ TEST_P(Latency, OfTheFilterIsAtMostAFrame) {
     quadrature -= out.posture.position_m[0].x() * std::cos(w * t);
   }
   const double delay_frames = std::atan2(quadrature, in_phase) / w / kFrame_s;
-  EXPECT_LT(delay_frames, 1.0);   // the bound
+  EXPECT_LT(delay_frames, 1.0);   // wanted
   EXPECT_GT(delay_frames, -0.2);  // it does not run ahead
 }
 
