@@ -235,7 +235,8 @@ std::optional<DepthSuspicion> DepthCensus::Judge() const {
   const bool centimetres = range && !range->option.empty();
   // The numbers of somebody cut out whose farthest point stands for 0 are as small as centimetres.
   if (centimetres && bulge_of_centimetres_.IsRound()) return range;
-  if (bulge_.IsHollow()) return inverted;
+  // Of somebody who steps into the image an arm's edge is seen first, and that is hollow at times.
+  if (bulge_.IsHollow() && !bend_.IsRightWayRound()) return inverted;
   if (centimetres) return range;
   return bend_.IsWrongWayRound() && !bulge_.IsRound() ? inverted : range;
 }

@@ -24,6 +24,11 @@ std::optional<double> ComputePlaneBend(const Parabola::Fit& fit) {
   return fit.bend / plane;
 }
 
+bool IsMostly(int64_t some, int64_t others) {
+  constexpr int64_t kMostly = 3;  // to one
+  return some > kMostly * others;
+}
+
 }  // namespace
 
 void SurfaceBend::AddLines(const DepthView& image, bool columns) {
@@ -57,9 +62,13 @@ void SurfaceBend::Add(const DepthView& image) {
 
 bool SurfaceBend::IsWrongWayRound() const {
   constexpr double kEnough = 0.012;  // of the windows: a corner of a room has fewer
-  constexpr int64_t kMostly = 3;     // to one
   return static_cast<double>(as_planes_ + opposite_) > kEnough * static_cast<double>(windows_) &&
-         opposite_ > kMostly * as_planes_;
+         IsMostly(opposite_, as_planes_);
+}
+
+bool SurfaceBend::IsRightWayRound() const {
+  constexpr int64_t kFew = 12;  // windows; a narrow view shows no surface much slanted
+  return as_planes_ >= kFew && IsMostly(as_planes_, opposite_);
 }
 
 }  // namespace ossa::depth

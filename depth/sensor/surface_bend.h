@@ -14,6 +14,9 @@ class SurfaceBend {
   void Add(const DepthView& image);
   /// True only where surfaces enough were seen and most of them bend the wrong way.
   bool IsWrongWayRound() const;
+  /// True where a few were seen and most of them bend the right way: enough to doubt who says
+  /// otherwise.
+  bool IsRightWayRound() const;
 
  private:
   void AddLines(const DepthView& image, bool columns);

@@ -270,6 +270,22 @@ TEST(BodyBulge, OneHollowStretchInEachOfManyImagesTellsNothing) {
   EXPECT_FALSE(bulge.IsHollow());
 }
 
+// As of somebody who steps into the image: at first it shows a hollow edge of a sleeve and no more.
+TEST(DepthCensus, AHollowThingInARoomThatBendsTheRightWayIsNotSuspected) {
+  tests::CapsuleScene scene;
+  scene.planes = {{Eigen::Vector3d::UnitY(), 1.2}};
+  DepthFrame room = tests::Render(scene, KinectV1Camera(160, 120)).frame;
+  const DepthFrame groove = Cylinder(true);
+  for (size_t i = 0; i < room.depth_mm.size(); ++i) {
+    const bool is_shadow = i % 160 > 55 && i % 160 < 105;
+    if (groove.depth_mm[i] > 0 || is_shadow) room.depth_mm[i] = groove.depth_mm[i];
+  }
+  BodyBulge bulge;
+  bulge.Add(room.view());
+  ASSERT_TRUE(bulge.IsHollow());
+  EXPECT_FALSE(Judged(room).has_value());
+}
+
 TEST(DepthUnits, RenderedPeopleCutOutAndTurnedRoundAreRefused) {
   for (const char* clip : {"one", "two"}) {
     const auto clips = test::SourceFolder() / "tests/golden/clips";
