@@ -121,7 +121,7 @@ Count CountStretches(const Line& line) {
 // each adds to is no evidence where it has but one or two.
 bool IsMostly(int64_t some, int64_t others, int64_t images) {
   constexpr int64_t kLeast = 12, kLeastAnImage = 2;  // stretches
-  constexpr double kMostly = 2.0;                    // to one
+  constexpr double kMostly = 3.0;                    // to one
   return some >= std::max(kLeast, kLeastAnImage * images) &&
          static_cast<double>(some) > kMostly * static_cast<double>(others);
 }
