@@ -57,9 +57,10 @@ void BodySize::Know(const BoneLengths& lengths_m) {
   known_ = locked_ = true;
 }
 
-// What is judged settles in the first second. After 3.5 seconds, seven, fourteen, ...: bones that
-// are typically others than they were then are taken anew. A body whose bones are seen as they are
-// is left alone.
+// What is judged settles in the first frames. After 3.5 seconds, seven, fourteen, ...: bones that
+// are typically others than they were then are taken anew; with them all others where they are
+// measured between joints, which errs for the whole body alike. A body whose bones are seen as they
+// are is left alone.
 void BodySize::Review() {
   const bool settles = IsJudged() && judged_.measurements(1) <= options_.settling_frames;
   const bool reviews = typical_frames_ >= next_review_;
@@ -70,13 +71,17 @@ void BodySize::Review() {
     lengths_m_ = chosen;
     return;
   }
+  BoneLengths others_m = lengths_m_;
+  bool grows = false;
   for (size_t i = 1; i < kJointCount; ++i) {
     if (std::abs(chosen[i] / lengths_m_[i] - 1.0) <= options_.other_length) continue;
-    grow_from_m_ = lengths_m_;
-    grow_to_m_ = chosen;
-    grown_frames_ = 0;
-    return;
+    others_m[i] = chosen[i];
+    grows = true;
   }
+  if (!grows) return;
+  grow_from_m_ = lengths_m_;
+  grow_to_m_ = IsJudged() ? others_m : chosen;
+  grown_frames_ = 0;
 }
 
 void BodySize::Grow() {

@@ -68,8 +68,8 @@ TEST(BodySize, LeavesBonesAloneThatAreSeenAsTheyAre) {
   EXPECT_EQ(size.lengths_m(), first);
 }
 
-// The first second's mean of what a look judges, whatever lies between the joints; then no more.
-TEST(BodySize, OfBonesThatAreJudgedSettlesInASecond) {
+// The mean of what the first five frames judge, whatever lies between the joints; then no more.
+TEST(BodySize, OfBonesThatAreJudgedSettlesInFiveFrames) {
   BodySize size({.as_measured = true});
   JointWeights all;
   all.fill(1.0);
@@ -83,8 +83,8 @@ TEST(BodySize, OfBonesThatAreJudgedSettlesInASecond) {
   };
   EXPECT_NEAR(judged(1.10), 1.10, 1e-9);
   EXPECT_NEAR(judged(1.20), 1.15, 1e-9);
-  for (int i = 2; i < 30; ++i) judged(i % 2 == 0 ? 1.10 : 1.20);
-  const double settled = judged(1.18);
+  judged(1.10), judged(1.20);
+  const double settled = judged(1.15);
   EXPECT_NEAR(settled, 1.15, 1e-9);
   for (int i = 0; i < 80; ++i) EXPECT_EQ(judged(1.18), settled) << i;
   // What is typically other is taken after 3.5 seconds, nor is a frame without judgement a change.
@@ -97,6 +97,26 @@ TEST(BodySize, OfBonesThatAreJudgedSettlesInASecond) {
   long_m.fill(1.9);  // a hand, too
   absurd.Observe(seen, all, 0.0, long_m);
   EXPECT_LT(absurd.lengths_m()[7], 3.0 * StandardBoneLengths()[7]);
+}
+
+// A bone that is judged to be another grows; those beside it stay, to the bit.
+TEST(BodySize, OfBonesThatAreJudgedOnlyThoseGrowThatAreOthers) {
+  BodySize size({.as_measured = true});
+  JointWeights all;
+  all.fill(1.0);
+  const Posture seen = WithHips(1.0);
+  const size_t hip = 12, knee = 13;
+  const auto judge = [&](double hip_factor, double knee_factor) {
+    BoneLengths lengths_m = StandardBoneLengths();
+    lengths_m[hip] *= hip_factor;
+    lengths_m[knee] *= knee_factor;
+    size.Observe(seen, all, 0.0, lengths_m);
+  };
+  for (int i = 0; i < 10; ++i) judge(1.0, 1.0);
+  const BoneLengths settled_m = size.lengths_m();
+  for (int i = 0; i < 200; ++i) judge(1.3, 1.02);
+  EXPECT_GT(size.lengths_m()[hip], 1.1 * settled_m[hip]);
+  EXPECT_EQ(size.lengths_m()[knee], settled_m[knee]);
 }
 
 TEST(BodySize, IsMeasuredAnewForAnotherSizeAfterASecond) {
