@@ -148,10 +148,14 @@ void AddSilhouette(const PosedSurface& posed, const SeenPerson& seen,
   }
 }
 
+double ComputeDoubt(const SurfaceFitInput& input, const SurfaceFitOptions& options, size_t joint) {
+  const double confidence = std::clamp(input.confidence[joint].value_or(0.0), 0.0, 1.0);
+  return 1.0 + options.doubt * (1.0 - confidence);
+}
+
 double ComputeJointVariance_m2(const SurfaceFitInput& input, const SurfaceFitOptions& options,
                                size_t joint) {
-  const double confidence = std::clamp(input.confidence[joint].value_or(0.0), 0.0, 1.0);
-  const double sigma_m = options.joint_m * (1.0 + options.doubt * (1.0 - confidence));
+  const double sigma_m = options.joint_m * ComputeDoubt(input, options, joint);
   const double away_m = std::max(0.0, input.joints_m.position_m[joint].z());
   const double size_m = options.footprint * away_m / input.depth->camera.fx;
   return sigma_m * sigma_m + size_m * size_m;

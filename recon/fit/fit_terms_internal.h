@@ -38,6 +38,9 @@ double AddPixels(const PosedSurface& posed, const FacingPoints& facing, const Se
                  const SurfaceFitOptions& options, NormalEquations& equations);
 void AddSilhouette(const PosedSurface& posed, const SeenPerson& seen,
                    const SurfaceFitOptions& options, NormalEquations& equations);
+/// How many times as far off as a sure one a joint that the fit starts from is expected to be, by
+/// its confidence (none counts as 0): 1 or more.
+double ComputeDoubt(const SurfaceFitInput& input, const SurfaceFitOptions& options, size_t joint);
 /// How far off a joint that the fit starts from is expected to be, along each axis: by its
 /// confidence (none counts as 0) and by the size of a pixel there.
 double ComputeJointVariance_m2(const SurfaceFitInput& input, const SurfaceFitOptions& options,

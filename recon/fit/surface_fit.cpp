@@ -23,10 +23,29 @@ constexpr double kFarAside_m = 0.06;     // a point farther off than this explai
 constexpr double kSeenThrough_m = 0.08;  // a surface this far behind a point is seen through it
 constexpr double kUnexplained_m = 1.0;   // said of a pixel that nothing explains
 constexpr double kUnknown_m2 = 1.0;      // variance of a joint that nothing is known of
-// Standard deviation along each axis of what no pixel tells: where in a body that is made of rigid
-// pieces the joints are. On rendered people of train shapes (`ossa experiment fit`,
-// docs/benchmarks).
-constexpr double kModel_m = 0.008;
+
+// Standard deviation along each axis of what no pixel tells, metres: where in a body that is made
+// of rigid pieces the joints are. On rendered people of train shapes in tight and in loose clothes
+// (`ossa experiment fit`, train_shapes), so that 68 and 95 % of the errors are within what is said.
+constexpr JointArray<double> kModel_m = [] {
+  constexpr double kArm_m[] = {0.006, 0.005, 0.006, 0.007};  // shoulder, elbow, wrist, hand
+  constexpr double kLeg_m[] = {0.013, 0.020, 0.010, 0.003};  // hip, knee, ankle, foot
+  JointArray<double> sigma_m;
+  for (size_t j = 0; j < Index(Joint::kHead); ++j) sigma_m[j] = 0.009;
+  sigma_m[Joint::kHead] = 0.007;
+  for (size_t k = 0; k < 4; ++k) {
+    sigma_m[Index(Joint::kShoulderLeft) + k] = sigma_m[Index(Joint::kShoulderRight) + k] =
+        kArm_m[k];
+    sigma_m[Index(Joint::kHipLeft) + k] = sigma_m[Index(Joint::kHipRight) + k] = kLeg_m[k];
+  }
+  return sigma_m;
+}();
+
+// Squared distance of a joint from where it should be, over its variance along an axis: the median.
+// By definition, of chi-square of three degrees.
+constexpr double kMedianChi2 = 2.366;
+// Joints to start from are never surer than this along an axis. By hand.
+constexpr double kSurest_m = 0.005;
 
 void CheckPositive(const char* name, double value) {
   if (value > 0.0 && std::isfinite(value)) return;
@@ -106,6 +125,7 @@ struct SurfaceFitter::Impl {
   void Retry(const SurfaceFitInput& input, SurfaceFit& fit);
   void Judge(SurfaceFit& fit);
   void TellErrors(const SurfaceFitInput& input, SurfaceFit& fit);
+  double StartVariance_m2(const SurfaceFitInput& input) const;
   Posture Blend(const SurfaceFitInput& input) const;
   double SeenThroughShare() const;
 };
@@ -219,7 +239,7 @@ void SurfaceFitter::Impl::TellErrors(const SurfaceFitInput& input, SurfaceFit& f
     fit.covariance_m2[j] = kUnknown_m2 * Eigen::Matrix3d::Identity();
     if (!solvable) continue;
     fit.covariance_m2[j] =
-        kModel_m * kModel_m * Eigen::Matrix3d::Identity() +
+        kModel_m[j] * kModel_m[j] * Eigen::Matrix3d::Identity() +
         scale * equations.CovarianceOf(posed, surface.landmark_segment[j], posed.LandmarkAt(j),
                                        surface.landmark[j].by_shape_m);
   }
@@ -231,13 +251,33 @@ void SurfaceFitter::Impl::TellErrors(const SurfaceFitInput& input, SurfaceFit& f
       (information * fit.pose.shape - equations.ShapeGradient() - known * input.shape) / scale;
 }
 
+// How far off, along an axis, the sure ones of the joints that the fit started from are in this
+// image: the less a body can be where they say, the farther. Standard deviation, squared.
+double SurfaceFitter::Impl::StartVariance_m2(const SurfaceFitInput& input) const {
+  std::array<double, kJointCount> off_m2{};
+  size_t count = 0;
+  for (size_t j = 0; j < kJointCount; ++j) {
+    if (!(input.confidence[j] && *input.confidence[j] > 0.0)) continue;
+    const double off_m = (posed.LandmarkAt(j) - input.joints_m.position_m[j]).norm();
+    const double sure_m = off_m / ComputeDoubt(input, options, j);
+    off_m2[count++] = sure_m * sure_m;
+  }
+  if (count == 0) return options.joint_m * options.joint_m;
+  const auto middle = off_m2.begin() + static_cast<std::ptrdiff_t>(count / 2);
+  std::nth_element(off_m2.begin(), middle, off_m2.begin() + static_cast<std::ptrdiff_t>(count));
+  return std::max(kSurest_m * kSurest_m, *middle / kMedianChi2);
+}
+
 Posture SurfaceFitter::Impl::Blend(const SurfaceFitInput& input) const {
   Posture blended = posed.Landmarks();
+  const double start_m2 = StartVariance_m2(input);
   for (size_t j = 0; j < kJointCount; ++j) {
     if (!input.confidence[j]) continue;
-    const double variance_m2 = ComputeJointVariance_m2(input, options, j);
-    const double share = variance_m2 / (variance_m2 + options.fitted_m * options.fitted_m);
     const Eigen::Vector3d& start_m = input.joints_m.position_m[j];
+    const double doubt = ComputeDoubt(input, options, j);
+    const double pixel_m = std::max(0.0, start_m.z()) / input.depth->camera.fx;
+    const double variance_m2 = start_m2 * doubt * doubt + pixel_m * pixel_m;
+    const double share = variance_m2 / (variance_m2 + options.fitted_m * options.fitted_m);
     blended.position_m[j] = start_m + share * (blended.position_m[j] - start_m);
   }
   return blended;

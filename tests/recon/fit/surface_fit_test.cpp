@@ -64,22 +64,41 @@ TEST(SurfaceFit, OfAJointThatNothingIsKnownOfIsWhereTheSurfaceIs) {
   EXPECT_LT((fit->joints_m[Joint::kHandLeft] - seen.joints_m[Joint::kHandLeft]).norm(), 0.08);
 }
 
+// How much of a joint comes from the start, [0, 1].
+double ShareOfStart(const SurfaceFit& fit, const Posture& start_m, size_t joint) {
+  const Eigen::Vector3d& fitted_m = fit.joints_m.position_m[joint];
+  return (fit.blended_m.position_m[joint] - fitted_m).norm() /
+         (start_m.position_m[joint] - fitted_m).norm();
+}
+
 TEST(SurfaceFit, BlendsMoreOfTheStartTheSurerThatIs) {
   const SeenSurface seen(RandomPose(3));
   const Posture start_m = Disturbed(seen.joints_m, 0.05, 3);
-  SurfaceFitInput sure = seen.Input(start_m), unsure = sure;
-  sure.confidence.fill(1.0);
-  unsure.confidence.fill(0.0);
-  unsure.confidence[Joint::kHead].reset();
+  SurfaceFitInput input = seen.Input(start_m);
+  for (size_t j = 0; j < kJointCount; ++j) input.confidence[j] = j % 2 == 0 ? 1.0 : 0.2;
+  input.confidence[Joint::kHead].reset();
   SurfaceFitter fitter(Surface());
-  const auto of_sure = fitter.Fit(sure), of_unsure = fitter.Fit(unsure);
-  ASSERT_TRUE(of_sure && of_unsure);
-  const auto share = [&](const SurfaceFit& fit, size_t j) {
-    return (fit.blended_m.position_m[j] - fit.joints_m.position_m[j]).norm() /
-           (start_m.position_m[j] - fit.joints_m.position_m[j]).norm();
+  const auto fit = fitter.Fit(input);
+  ASSERT_TRUE(fit);
+  const double of_sure = ShareOfStart(*fit, start_m, 0);
+  for (size_t j = 1; j < kJointCount; j += 2) {
+    if (input.confidence[j]) {
+      EXPECT_LT(ShareOfStart(*fit, start_m, j), of_sure) << j;
+    }
+  }
+  EXPECT_EQ(fit->blended_m[Joint::kHead], fit->joints_m[Joint::kHead]);
+}
+
+TEST(SurfaceFit, BlendsLessOfAStartThatNoBodyHas) {
+  const SeenSurface seen(RandomPose(3));
+  SurfaceFitter fitter(Surface());
+  const auto share = [&](double off_m) {
+    const Posture start_m = Disturbed(seen.joints_m, off_m, 3);
+    SurfaceFitInput input = seen.Input(start_m);
+    input.confidence.fill(1.0);
+    return ShareOfStart(*fitter.Fit(input), start_m, 0);
   };
-  for (size_t j = 0; j < kJointCount; ++j) EXPECT_GT(share(*of_sure, j), share(*of_unsure, j)) << j;
-  EXPECT_EQ(of_unsure->blended_m[Joint::kHead], of_unsure->joints_m[Joint::kHead]);
+  EXPECT_GT(share(0.01), share(0.06) + 0.1);
 }
 
 TEST(SurfaceFit, IsNoneWhereTheCameraIsNotFinite) {
