@@ -97,19 +97,39 @@ recon::JointArray<JointEstimate> Estimates(const recon::Posture& posture,
 // off the truth and accelerations 1.48, 1.67, 1.80, 1.91 cm/frame^2, no character 5.87 and 3.33.
 constexpr double kFollowing_rad_s = 60.0;
 
+bool IsInImage(const Eigen::Vector3d& place_m, const depth::Camera& camera) {
+  if (!(place_m.z() > 0.0)) return false;
+  const Eigen::Vector2d px = depth::Project(camera, place_m);
+  return px.x() >= 0.0 && px.y() >= 0.0 && px.x() < camera.width && px.y() < camera.height;
+}
+
 // What the method of reconstruction starts from: the joints that the latest stage says. With a
-// body's fit all of them are told, also joints that are not seen.
-recon::TrackedPosture Observed(const Body& body, bool refined, double fitted_confidence) {
+// body's fit all of them are told, also joints that are not seen; but of somebody whose trunk is
+// out of the image, an arm of them at its border, a fit knows less than the method remembers.
+recon::TrackedPosture Observed(const Body& body, bool refined, const depth::Camera& camera,
+                               double fitted_confidence) {
   recon::TrackedPosture seen = body.raw;
   if (body.refined && refined) seen.posture = *body.refined;
   if (!body.fit) return seen;
   seen.posture = body.fit->blended_m;
+  if (!IsInImage(body.fit->joints_m[recon::Joint::kSpine], camera)) return seen;
   for (size_t j = 0; j < kJointCount; ++j) {
     if (seen.state[j] != TrackingState::kNotTracked) continue;
     seen.state[j] = TrackingState::kInferred;
     seen.confidence[j] = fitted_confidence;
   }
   return seen;
+}
+
+// As the frame says them: by the fitted body and by the network.
+std::optional<recon::BoneLengths> JudgeBones(const Body& body, double fitted_share) {
+  if (!body.fit) return body.refined_bones_m;
+  recon::BoneLengths bones_m = recon::MeasureBoneLengths(body.fit->joints_m);
+  if (!body.refined_bones_m) return bones_m;
+  for (size_t j = 0; j < kJointCount; ++j) {
+    bones_m[j] = fitted_share * bones_m[j] + (1.0 - fitted_share) * (*body.refined_bones_m)[j];
+  }
+  return bones_m;
 }
 
 // Joints about which no surface is where the fitted body has it.
@@ -157,7 +177,7 @@ std::unique_ptr<recon::Reconstructor> MethodFor(int id, const SkeletonOptions& o
 void AverageStationary(SkeletonWork& work) {
   const recon::MethodInfo& method = recon::RequireMethod(work.options.reconstructor.method);
   recon::TrackedPosture observed =
-      Observed(work.body, method.refined, work.options.hold.fitted_confidence);
+      Observed(work.body, method.refined, work.frame.camera, work.options.hold.fitted_confidence);
   DoubtByResidual(work, observed.confidence);
   work.observed = work.person.stationary.Step(observed, work.frame.time_s);
 }
@@ -166,10 +186,8 @@ void Reconstruct(SkeletonWork& work) {
   auto& method = work.person.reconstructor;
   Body& body = work.body;
   if (!method) method = MethodFor(body.id, work.options);
-  std::optional<recon::BoneLengths> bones_m = body.refined_bones_m;
-  if (body.fit) bones_m = recon::MeasureBoneLengths(body.fit->joints_m);
-  work.reconstructed =
-      method->Step({work.observed, work.frame.time_s, &work.frame, bones_m, work.floor});
+  work.reconstructed = method->Step({work.observed, work.frame.time_s, &work.frame,
+                                     JudgeBones(body, work.options.hold.fitted_bones), work.floor});
   DoubtByResidual(work, work.reconstructed.reliability);
   body.reconstructed = work.reconstructed.posture;
   body.bones_m = method->Bones();

@@ -29,7 +29,10 @@ struct HoldOptions {
   // those that are.
   double unseen = 0.1, least_seen = 0.2;
   double fitted_confidence = 0.3;  // of joints that only the fitted body knows: of a poor guess
-  double recent_s = 0.2;           // what was seen longer ago says nothing about now
+  /// Share of the fitted body's bones in what a frame says of a person's; the rest is what the
+  /// network for bones judges. On rendered people the mean of both is nearer than either.
+  double fitted_bones = 0.7;
+  double recent_s = 0.2;  // what was seen longer ago says nothing about now
 };
 
 /// What the tracker remembers of one person.
