@@ -13,6 +13,20 @@ constexpr int kMostCells = 96;        // a side: finer than limbs are broad
 constexpr double kNearest_m = 0.1;    // no sensor sees nearer
 constexpr double kOccluder_m = 0.05;  // what is not farther than this behind a place may hide it
 
+// Column and row of each pixel; a division only where a row begins, for a person near the camera
+// has tens of thousands.
+template <typename Use>
+void ForEachPixel(std::span<const int32_t> pixels, int32_t width, const Use& use) {
+  int32_t v = 0, row_begin = 0;
+  for (const int32_t pixel : pixels) {
+    if (pixel < row_begin || pixel - row_begin >= width) {
+      v = pixel / width;
+      row_begin = v * width;
+    }
+    use(pixel - row_begin, v);
+  }
+}
+
 }  // namespace
 
 void SeenPerson::Look(const SurfaceFitInput& input, const SurfaceFitOptions& options) {
@@ -47,11 +61,10 @@ void SeenPerson::TakePixels(const SurfaceFitInput& input, const SurfaceFitOption
 void SeenPerson::MakeSilhouette(const SurfaceFitInput& input) {
   const depth::Camera& camera = input.depth->camera;
   int left = camera.width, right = 0, top = camera.height, bottom = 0;
-  for (const int32_t pixel : input.pixels) {
-    const int u = pixel % camera.width, v = pixel / camera.width;
+  ForEachPixel(input.pixels, camera.width, [&](int u, int v) {
     left = std::min(left, u), right = std::max(right, u);
     top = std::min(top, v), bottom = std::max(bottom, v);
-  }
+  });
   const int margin = 2 + (right - left + bottom - top) / 8;
   left_ = left - margin, top_ = top - margin;
   right += margin, bottom += margin;
@@ -59,11 +72,17 @@ void SeenPerson::MakeSilhouette(const SurfaceFitInput& input) {
   width_ = (right - left_) / cell_px_ + 1;
   height_ = (bottom - top_) / cell_px_ + 1;
   nearest_.assign(static_cast<size_t>(width_) * static_cast<size_t>(height_), Cell{});
-  for (const int32_t pixel : input.pixels) {
-    const int x = (pixel % camera.width - left_) / cell_px_;
-    const int y = (pixel / camera.width - top_) / cell_px_;
-    CellAt(x, y) = {static_cast<int16_t>(x), static_cast<int16_t>(y)};
+  column_cell_.resize(static_cast<size_t>(camera.width));
+  for (int u = left; u < camera.width; ++u) {
+    column_cell_[static_cast<size_t>(u)] = static_cast<int16_t>((u - left_) / cell_px_);
   }
+  int row = -1;
+  int16_t y = 0;
+  ForEachPixel(input.pixels, camera.width, [&](int u, int v) {
+    if (v != row) row = v, y = static_cast<int16_t>((v - top_) / cell_px_);
+    const int16_t x = column_cell_[static_cast<size_t>(u)];
+    CellAt(x, y) = {x, y};
+  });
   FindNearest();
 }
 

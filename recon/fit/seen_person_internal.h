@@ -60,7 +60,8 @@ class SeenPerson {
   double pixel_share_ = 1.0;
   // The silhouette on a grid of cells around the person.
   int left_ = 0, top_ = 0, cell_px_ = 1, width_ = 0, height_ = 0;
-  std::vector<Cell> nearest_;  // of each cell, the nearest that is the person's
+  std::vector<Cell> nearest_;         // of each cell, the nearest that is the person's
+  std::vector<int16_t> column_cell_;  // of each column of the image
 };
 
 }  // namespace ossa::recon
