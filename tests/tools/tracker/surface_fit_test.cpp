@@ -28,6 +28,24 @@ TEST(TrackedSurface, StandsBesideTheOtherStagesAndExplainsThePerson) {
   EXPECT_GT(seen.ms.fit, 0.0);
 }
 
+// The bones of whoever comes in are what the fit and the network say of the first frame.
+TEST(TrackedSurface, JudgesBonesTogetherWithTheNetwork) {
+  OSSA_NEEDS_MODEL();
+  Tracker tracker(Fitting());
+  BodyFrame seen;
+  for (int i = 0; i < 15 && seen.bodies.empty(); ++i) {
+    seen = tracker.Track(Rendered({PersonAt(0, 2.5)}, i).frame);
+  }
+  ASSERT_EQ(seen.bodies.size(), 1U);
+  const Body& body = seen.bodies[0];
+  ASSERT_TRUE(body.fit && body.refined_bones_m && body.bones_m);
+  const recon::BoneLengths fitted_m = recon::MeasureBoneLengths(body.fit->joints_m);
+  for (size_t j = 1; j < recon::kJointCount; ++j) {
+    const double judged_m = 0.7 * fitted_m[j] + 0.3 * (*body.refined_bones_m)[j];
+    EXPECT_NEAR((*body.bones_m)[j], judged_m, 1e-9) << j;
+  }
+}
+
 TEST(TrackedSurface, IsNoneWhereItIsSwitchedOff) {
   OSSA_NEEDS_MODEL();
   TrackerOptions options;
