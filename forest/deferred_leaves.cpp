@@ -1,8 +1,11 @@
 #include "forest/deferred_leaves_internal.h"
 
 #include <oneapi/tbb/task_arena.h>
+#include <sys/resource.h>
+#include <unistd.h>
 
 #include <algorithm>
+#include <chrono>
 #include <exception>
 #include <system_error>
 #include <utility>
@@ -16,82 +19,113 @@ namespace {
 // a still or two is done before, and a camera's are past in a quarter of a second.
 constexpr int kFewImages = 8;  // by hand
 
-// Tables of the leaves that one tree's walks ended at, each once; `at` receives where in them each
-// sample's leaf stands. Both sample × tree, of which one column is this tree's.
-LeafTables MakeOwn(const LeafTableMaker& maker, const LeafSource& source,
-                   std::span<const int32_t> leaf, size_t trees, std::span<int32_t> at) {
-  std::vector<int32_t> met, place(source.order.size(), -1);
-  for (size_t i = 0; i < leaf.size(); i += trees) {
-    int32_t& here = place[static_cast<size_t>(leaf[i])];
-    if (here < 0) {
-      here = static_cast<int32_t>(met.size());
-      met.push_back(source.order[static_cast<size_t>(leaf[i])]);
-    }
-    at[i] = here;
-  }
-  return maker.Make({source.entry_begin, source.entries}, met);
-}
+// Of setpriority(2), where 19 is the least: a tenth of a processor that somebody else could use
+// whole. By hand: with less, who ends would wait long for what the thread is at.
+constexpr int kLowPriority = 10;
+
+// Counts somebody who reads, without a lock that a forked process could inherit locked.
+class Reader {
+ public:
+  explicit Reader(std::atomic<int>& readers) : readers_(readers) { ++readers_; }
+  ~Reader() { --readers_; }
+  Reader(const Reader&) = delete;
+  Reader& operator=(const Reader&) = delete;
+
+ private:
+  std::atomic<int>& readers_;
+};
 
 }  // namespace
 
 DeferredLeaves::DeferredLeaves(std::unique_ptr<const LeafTableMaker> maker,
                                std::vector<LeafSource> sources)
-    : maker_(std::move(maker)), trees_(sources.size()) {
+    : maker_(std::move(maker)), trees_(sources.size()), process_(getpid()) {
   for (size_t t = 0; t < trees_.size(); ++t) {
-    trees_[t].source = std::make_shared<const LeafSource>(std::move(sources[t]));
+    trees_[t].source = std::make_unique<const LeafSource>(std::move(sources[t]));
   }
 }
 
 DeferredLeaves::~DeferredLeaves() {
-  stop_ = once_whole_ == nullptr;
+  stop_ = true;
+  if (getpid() != process_) {
+    if (thread_.joinable()) thread_.detach();  // it stayed behind in the other process
+    return;
+  }
   if (thread_.joinable()) thread_.join();
+  if (once_whole_ == nullptr || found_ < kFewImages) return;
+  stop_ = false;
+  for (OneTree& tree : trees_) {  // room for what is made
+    tree.gathered.reset();
+    if (!tree.is_whole) tree.tables = {};
+  }
+  ReturnFreedMemory();
+  MakeAll();
+}
+
+// Of `leaf` and `at` the first is one of this tree's. Who finds another thread gathering does not
+// wait for it, which may have stayed behind in another process, but has rows of its own.
+std::shared_ptr<const GatheredLeaves> DeferredLeaves::GatherOf(OneTree* tree,
+                                                               std::span<const int32_t> leaf,
+                                                               std::span<int32_t> at) {
+  const LeafSource& source = *tree->source;
+  const size_t samples = (leaf.size() + trees_.size() - 1) / trees_.size();
+  std::shared_ptr<GatheredLeaves> gathered;
+  const std::unique_lock lock(tree->mutex, std::try_to_lock);
+  // Taken out until all is well: memory may be short.
+  if (lock.owns_lock()) gathered = std::move(tree->gathered);
+  if (gathered == nullptr || !gathered->HasRoomFor(samples)) {
+    gathered = std::make_shared<GatheredLeaves>(source.order.size(), samples);
+  }
+  gathered->Gather(*maker_, source, leaf, trees_.size(), at);
+  if (lock.owns_lock()) tree->gathered = gathered;
+  return gathered;
 }
 
 LeafRows DeferredLeaves::Find(std::span<const int32_t> leaf) {
   LeafRows rows;
   rows.at = leaf;
-  const size_t trees = trees_.size();
-  for (size_t t = 0; t < trees; ++t) {
+  for (size_t t = 0; t < trees_.size(); ++t) {
     OneTree& tree = trees_[t];
-    std::shared_ptr<const LeafSource> source;
-    if (!tree.is_whole) {
-      const std::lock_guard lock(tree.mutex);
-      source = tree.source;
-    }
-    if (source == nullptr) {  // whole, if only by now
+    const Reader reader(tree.readers);
+    if (tree.is_whole) {
       rows.tables.push_back(tree.tables.View());
       continue;
     }
     if (rows.own_at.empty()) rows.own_at.assign(leaf.begin(), leaf.end());
     const size_t first = std::min(t, leaf.size());
-    rows.own.push_back(MakeOwn(*maker_, *source, leaf.subspan(first), trees,
-                               std::span(rows.own_at).subspan(first)));
-    rows.tables.push_back(rows.own.back().View());
+    const std::span<int32_t> at = rows.own_at;
+    rows.held.push_back(GatherOf(&tree, leaf.subspan(first), at.subspan(first)));
+    rows.tables.push_back(rows.held.back()->View());
     rows.at = rows.own_at;
   }
-  if (!rows.own.empty() && ++found_ == kFewImages) StartMakingAll();
+  if (!rows.held.empty() && ++found_ == kFewImages) StartMakingAll();
   return rows;
 }
 
 void DeferredLeaves::StartMakingAll() {
+  if (getpid() != process_) return;
   try {
-    thread_ = std::thread([this] { MakeAll(); });
+    thread_ = std::thread([this] { MakeBesideOthers(); });
   } catch (const std::system_error&) {
-    // Without a thread images go on having tables of their own.
+    // Without a thread images go on having tables made of what they meet.
   }
 }
 
-// On one processor: the others follow people.
-void DeferredLeaves::MakeAll() try {
+// On one processor: the others follow people. On Linux 0 is this thread, not its process.
+void DeferredLeaves::MakeBesideOthers() {
+  setpriority(PRIO_PROCESS, 0, kLowPriority);
   oneapi::tbb::task_arena arena(1);
+  arena.execute([this] { MakeAll(); });
+}
+
+void DeferredLeaves::MakeAll() try {
   for (OneTree& tree : trees_) {
-    bool is_made = false;
-    arena.execute([&] { is_made = MakeTree(&tree); });
-    if (!is_made) return;
+    if (!tree.is_whole && !MakeTree(&tree)) return;
   }
   if (once_whole_) once_whole_();
+  once_whole_ = nullptr;
 } catch (const std::exception&) {
-  // Where memory is short images go on having tables of their own.
+  // Where memory is short images go on having tables made of what they meet.
 }
 
 bool DeferredLeaves::MakeTree(OneTree* tree) {
@@ -99,10 +133,9 @@ bool DeferredLeaves::MakeTree(OneTree* tree) {
   tree->tables = maker_->Make({source.entry_begin, source.entries}, source.order, &stop_);
   if (stop_) return false;
   tree->is_whole = true;
-  {
-    const std::lock_guard lock(tree->mutex);
-    tree->source = nullptr;
-  }
+  while (tree->readers > 0) std::this_thread::sleep_for(std::chrono::milliseconds(1));
+  tree->source.reset();
+  tree->gathered.reset();
   ReturnFreedMemory();  // before the next tree's tables are made
   return true;
 }

@@ -193,12 +193,12 @@ ForestModel Parse(std::vector<std::byte> compressed, const std::string& name, ui
 }
 
 std::vector<std::byte> Packed(const ForestData& data, int level) {
-  return Compress(PackForest(data), level);
+  return Compress(PackForest(data, data.trees), level);
 }
 
 }  // namespace
 
-std::vector<std::byte> PackForest(const ForestData& data) {
+std::vector<std::byte> PackForest(const ForestData& data, std::span<const Tree> trees) {
   PayloadWriter writer;
   writer.PutString(data.manifest);
   PutNames(&writer, data.class_names);
@@ -208,8 +208,8 @@ std::vector<std::byte> PackForest(const ForestData& data) {
   writer.Put(data.background_mm);
   writer.Put<uint32_t>(static_cast<uint32_t>(data.targets.size()));
   for (const ProposalTarget& target : data.targets) PutTarget(&writer, target);
-  writer.Put<uint32_t>(static_cast<uint32_t>(data.trees.size()));
-  for (const Tree& tree : data.trees) PutTree(&writer, tree);
+  writer.Put<uint32_t>(static_cast<uint32_t>(trees.size()));
+  for (const Tree& tree : trees) PutTree(&writer, tree);
   PutAgreement(&writer, data);
   PutRefinement(&writer, data.refinement);
   PutPlanes(&writer, data.relabelling.weight);

@@ -110,10 +110,8 @@ struct Kept {
 };
 
 std::vector<std::byte> PackHead(const ForestData& data, const RuntimeTables& tables) {
-  ForestData rest = data;
-  rest.trees.clear();
   PayloadWriter writer;
-  writer.PutVector(PackForest(rest));
+  writer.PutVector(PackForest(data, {}));
   writer.Put<uint64_t>(data.trees.size());
   for (size_t t = 0; t < data.trees.size(); ++t) {
     const LinedTree& lined = tables.trees[t];

@@ -6,6 +6,7 @@
 
 #include <cstdlib>
 #include <iterator>
+#include <memory>
 #include <thread>
 #include <vector>
 
@@ -97,6 +98,21 @@ TEST_F(KeptTables, TakeTheRoomOfWhatAKilledProcessLeft) {
   ASSERT_EQ(CountFiles(cache_), 3U);
   ExpectRunsAsEver(ReadToKeep(), kMany);
   EXPECT_EQ(CountFiles(cache_), 2U);
+}
+
+TEST_F(KeptTables, AreNotMadeByAForkedProcess) {
+  auto model = std::make_unique<ForestModel>(ReadToKeep());
+  ExpectRunsAsEver(*model, kFew);
+  const pid_t child = fork();
+  if (child == 0) {
+    const bool same = ClassifyFigure(*model, kFew).mass == ClassifyFigure(BallModel(), kFew).mass;
+    model.reset();
+    _exit(same ? 0 : 1);
+  }
+  int status = 0;
+  waitpid(child, &status, 0);
+  EXPECT_TRUE(WIFEXITED(status) && WEXITSTATUS(status) == 0);
+  EXPECT_FALSE(std::filesystem::exists(cache_));
 }
 
 TEST_F(KeptTables, GoWithoutAFolderForThem) {

@@ -1,6 +1,9 @@
 """ossa.Tracker: the command's skeletons as plain arrays, in any thread."""
 
 import gc
+import os
+import subprocess
+import sys
 import threading
 import time
 
@@ -324,3 +327,28 @@ def test_a_scene_tells_its_things_and_the_camera_may_be_said_to_be_level(clip, m
     assert things[0].position.shape == (3,) and things[0].orientation.shape == (4,)
     assert things[0].held_by == ()
     assert not list(ossa.Tracker(models=models).run(clip))[-1].objects
+
+
+# A first start makes tables beside the tracker from the eighth image on: the ninth comes meanwhile.
+FORKS = """
+import os, sys
+import ossa
+tracker, images = ossa.Tracker(), list(ossa.open(sys.argv[1]))
+for image in images[:9]:
+    tracker.track(*image)
+child = os.fork()
+print([tracker.track(*image).bodies[0].joints.tolist() for image in images[9:12]], flush=True)
+if child:
+    sys.exit(os.waitstatus_to_exitcode(os.waitpid(child, 0)[1]))
+"""
+
+
+def test_goes_on_in_a_process_forked_while_tables_are_made(clip, tmp_path):
+    done = subprocess.run(
+        [sys.executable, "-c", FORKS, str(clip)],
+        env={**os.environ, "OSSA_CACHE": str(tmp_path)},
+        capture_output=True, text=True, timeout=120,
+    )  # fmt: skip
+    assert (done.returncode, done.stderr) == (0, "")
+    parent, child = done.stdout.splitlines()
+    assert parent == child
