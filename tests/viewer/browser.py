@@ -8,9 +8,9 @@ import subprocess
 import sys
 import time
 
-BUILD = pathlib.Path(os.environ["OSSA_BUILD"])
-SOURCE = pathlib.Path(os.environ["OSSA_SOURCE"])
-WORK = pathlib.Path(os.environ["OSSA_WORK"])  # of these tests alone
+BUILD = pathlib.Path(os.environ["OSSA_BUILD"]).resolve()
+SOURCE = pathlib.Path(os.environ["OSSA_SOURCE"]).resolve()
+WORK = pathlib.Path(os.environ["OSSA_WORK"]).resolve()  # of these tests alone
 CLIP = SOURCE / "tests" / "golden" / "clips" / "one"
 
 SKIPPED = 77
