@@ -21,7 +21,7 @@ void FrameStore::Add(Moment moment) {
     ++count_.frames;
     return;
   }
-  const PackedMoment packed = Pack(moment, body_.get());
+  const PackedMoment packed = Pack(moment, moment.parts, body_.get());
   const std::string line = recon::SkeletonJsonLine(moment.skeletons());
   const std::lock_guard lock(mutex_);
   spools_->moments.Append(packed.members + packed.pictures + packed.meshes);
@@ -72,10 +72,8 @@ std::shared_ptr<const PackedMoment> FrameStore::ReadKept(int64_t number) const {
 PackedMoment FrameStore::PackWithParts(const Moment& moment) const {
   const bool are_wanted = forest_ && moment.is_upright && moment.parts.data.empty() &&
                           moment.users.data.size() == moment.depth.depth_mm.size();
-  if (!are_wanted) return Pack(moment, body_.get());
-  Moment with = moment;
-  with.parts = FindParts(*forest_, moment.depth, moment.users);
-  return Pack(with, body_.get());
+  if (!are_wanted) return Pack(moment, moment.parts, body_.get());
+  return Pack(moment, FindParts(*forest_, moment.depth, moment.users), body_.get());
 }
 
 std::shared_ptr<const PackedMoment> FrameStore::At(int64_t& number) const {

@@ -55,9 +55,9 @@ std::string LayersJson(const Moment& moment) {
 }
 
 // Users and parts are labels of the depth image's pixels, or not there.
-bool HasLabels(const Moment& moment) {
+bool HasLabels(const Moment& moment, const depth::Image<uint8_t>& parts) {
   const size_t pixels = moment.depth.depth_mm.size();
-  return moment.users.data.size() == pixels && moment.parts.data.size() == pixels;
+  return moment.users.data.size() == pixels && parts.data.size() == pixels;
 }
 
 template <typename T>
@@ -71,27 +71,14 @@ void AppendThinned(std::string& bytes, const char* image, int width, int height,
   const auto row = static_cast<size_t>(width) * size;
   for (int v = 0; v < height; v += step) {
     const char* at = image + static_cast<size_t>(v) * row;
-    if (step == 1) {
-      bytes.append(at, row);
-      continue;
-    }
     for (int u = 0; u < width; u += step) bytes.append(at + static_cast<size_t>(u) * size, size);
-  }
-}
-
-void AppendPictures(std::string& bytes, const PackedMoment& moment, int step) {
-  const auto pixels = static_cast<size_t>(moment.width) * static_cast<size_t>(moment.height);
-  const char* image = moment.pictures.data();
-  for (int plane = 0; plane < moment.planes; ++plane) {
-    const size_t size = plane == 0 ? 2 : 1;
-    AppendThinned(bytes, image, moment.width, moment.height, size, step);
-    image += pixels * size;
   }
 }
 
 }  // namespace
 
-PackedMoment Pack(const Moment& moment, const recon::BodyMesh* body) {
+PackedMoment Pack(const Moment& moment, const depth::Image<uint8_t>& parts,
+                  const recon::BodyMesh* body) {
   const depth::Camera& camera = moment.depth.camera;
   PackedMoment packed;
   packed.members = fmt::format(
@@ -107,17 +94,16 @@ PackedMoment Pack(const Moment& moment, const recon::BodyMesh* body) {
   if (moment.depth.depth_mm.empty()) return packed;
   packed.width = camera.width;
   packed.height = camera.height;
-  packed.planes = HasLabels(moment) ? 3 : 1;
+  packed.planes = HasLabels(moment, parts) ? 3 : 1;
   packed.pictures.reserve(moment.depth.depth_mm.size() * 4);
   Append(packed.pictures, moment.depth.depth_mm);
   if (packed.planes == 1) return packed;
   Append(packed.pictures, moment.users.data);
-  Append(packed.pictures, moment.parts.data);
+  Append(packed.pictures, parts.data);
   return packed;
 }
 
-std::string MessageOf(const PackedMoment& moment, int64_t number, int step,
-                      std::string_view state) {
+std::string HeadOf(const PackedMoment& moment, int64_t number, int step, std::string_view state) {
   std::string header =
       fmt::format(R"({{"number":{},"step":{},"width":{},"height":{},"planes":{},{},"state":{}}})",
                   number, step, (moment.width + step - 1) / step, (moment.height + step - 1) / step,
@@ -125,12 +111,20 @@ std::string MessageOf(const PackedMoment& moment, int64_t number, int step,
   header.resize((header.size() + 3) / 4 * 4, ' ');
   const auto length = static_cast<uint32_t>(header.size());
   std::string bytes;
-  bytes.reserve(4 + header.size() + moment.pictures.size() / static_cast<size_t>(step) +
-                moment.meshes.size());
   for (int shift = 0; shift < 32; shift += 8) bytes.push_back(static_cast<char>(length >> shift));
-  bytes += header;
-  AppendPictures(bytes, moment, step);
-  return bytes += moment.meshes;
+  return bytes += header;
+}
+
+std::string ThinPictures(const PackedMoment& moment, int step) {
+  const auto pixels = static_cast<size_t>(moment.width) * static_cast<size_t>(moment.height);
+  const char* image = moment.pictures.data();
+  std::string bytes;
+  for (int plane = 0; plane < moment.planes; ++plane) {
+    const size_t size = plane == 0 ? 2 : 1;
+    AppendThinned(bytes, image, moment.width, moment.height, size, step);
+    image += pixels * size;
+  }
+  return bytes;
 }
 
 }  // namespace ossa::viewer

@@ -20,13 +20,18 @@ struct PackedMoment {
   std::string meshes;
 };
 
-/// Fitted bodies wear the skin of `body`; null: they are not shown.
-PackedMoment Pack(const Moment& moment, const recon::BodyMesh* body = nullptr);
+/// `parts`: those of the moment, or found since. Fitted bodies wear the skin of `body`; null: they
+/// are not shown.
+PackedMoment Pack(const Moment& moment, const depth::Image<uint8_t>& parts,
+                  const recon::BodyMesh* body = nullptr);
 
-/// The binary message of a moment: the length of the header (4 bytes, little-endian), the header
-/// (JSON, filled up with spaces to a multiple of four bytes), the pictures, of which every `step`th
-/// pixel and row, the meshes. `number` is its place in the recording, or how many were shown before
-/// it; `state` is a JSON object that goes into the header.
-std::string MessageOf(const PackedMoment& moment, int64_t number, int step, std::string_view state);
+/// The binary message of a moment begins so: the length of the header (4 bytes, little-endian), the
+/// header (JSON, filled up with spaces to a multiple of four bytes). The pictures, of which every
+/// `step`th pixel and row is sent, and the meshes follow. `number` is its place in the recording,
+/// or how many were shown before it; `state` is a JSON object that goes into the header.
+std::string HeadOf(const PackedMoment& moment, int64_t number, int step, std::string_view state);
+
+/// Every `step`th pixel and row of the pictures.
+std::string ThinPictures(const PackedMoment& moment, int step);
 
 }  // namespace ossa::viewer

@@ -134,6 +134,29 @@ TEST(Viewer, SendsFewerPixelsWhereThatIsAsked) {
   EXPECT_EQ(pictures.substr(2, 2), DepthBytes(5).substr(4, 2)) << "the third pixel is the second";
 }
 
+// However many frames are shown: a picture takes time that whoever tracks wants.
+TEST(Viewer, SendsAPageNoMorePicturesThanACameraHas) {
+  constexpr int kPictures = 20;
+  Viewer viewer(AnyPort());
+  std::atomic<bool> done = false;
+  std::thread tracker([&] {
+    for (int f = 0; !done; ++f) viewer.Show(ExampleMoment(f));
+  });
+  const auto begin = std::chrono::steady_clock::now();
+  PageClient page(viewer.port());
+  int64_t last = -1;
+  for (int i = 0; i < kPictures; ++i) {
+    const std::string message = page.Ask("{\"after\":" + std::to_string(last) + "}");
+    ASSERT_TRUE(page.heard_binary());
+    EXPECT_GT(HeaderOf(message)["number"], last);
+    last = HeaderOf(message)["number"];
+  }
+  const std::chrono::duration<double> took = std::chrono::steady_clock::now() - begin;
+  done = true;
+  tracker.join();
+  EXPECT_GT(took.count(), (kPictures - 2) / 32.0) << "two may come at once, after that 32 a second";
+}
+
 TEST(Viewer, OfACameraTheNewestIsGivenOnceItIsAnother) {
   Viewer viewer(AnyPort());
   viewer.Show(ExampleMoment(0));
