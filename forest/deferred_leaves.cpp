@@ -64,9 +64,8 @@ DeferredLeaves::~DeferredLeaves() {
 
 // Of `leaf` and `at` the first is one of this tree's. Who finds another thread gathering does not
 // wait for it, which may have stayed behind in another process, but has rows of its own.
-std::shared_ptr<const GatheredLeaves> DeferredLeaves::GatherOf(OneTree* tree,
-                                                               std::span<const int32_t> leaf,
-                                                               std::span<int32_t> at) {
+void DeferredLeaves::Gather(OneTree* tree, std::span<const int32_t> leaf, std::span<int32_t> at,
+                            LeafRows* rows) {
   const LeafSource& source = *tree->source;
   const size_t samples = (leaf.size() + trees_.size() - 1) / trees_.size();
   std::shared_ptr<GatheredLeaves> gathered;
@@ -77,8 +76,9 @@ std::shared_ptr<const GatheredLeaves> DeferredLeaves::GatherOf(OneTree* tree,
     gathered = std::make_shared<GatheredLeaves>(source.order.size(), samples);
   }
   gathered->Gather(*maker_, source, leaf, trees_.size(), at);
-  if (lock.owns_lock()) tree->gathered = gathered;
-  return gathered;
+  rows->tables.push_back(gathered->View());
+  rows->held.push_back(gathered);
+  if (lock.owns_lock()) tree->gathered = std::move(gathered);
 }
 
 LeafRows DeferredLeaves::Find(std::span<const int32_t> leaf) {
@@ -94,8 +94,7 @@ LeafRows DeferredLeaves::Find(std::span<const int32_t> leaf) {
     if (rows.own_at.empty()) rows.own_at.assign(leaf.begin(), leaf.end());
     const size_t first = std::min(t, leaf.size());
     const std::span<int32_t> at = rows.own_at;
-    rows.held.push_back(GatherOf(&tree, leaf.subspan(first), at.subspan(first)));
-    rows.tables.push_back(rows.held.back()->View());
+    Gather(&tree, leaf.subspan(first), at.subspan(first), &rows);
     rows.at = rows.own_at;
   }
   if (!rows.held.empty() && ++found_ == kFewImages) StartMakingAll();

@@ -56,8 +56,7 @@ class DeferredLeaves {
     std::shared_ptr<GatheredLeaves> gathered;
   };
 
-  std::shared_ptr<const GatheredLeaves> GatherOf(OneTree* tree, std::span<const int32_t> leaf,
-                                                 std::span<int32_t> at);
+  void Gather(OneTree* tree, std::span<const int32_t> leaf, std::span<int32_t> at, LeafRows* rows);
   void StartMakingAll();
   void MakeBesideOthers();
   void MakeAll();
