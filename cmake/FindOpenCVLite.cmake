@@ -20,5 +20,8 @@ foreach(module core imgproc)
     endif()
   endif()
 endforeach()
+if(OpenCV_FOUND_ALL)  # a linker that reads archives once, as GNU ld does, wants core behind what uses it
+  set_property(TARGET opencv_imgproc APPEND PROPERTY INTERFACE_LINK_LIBRARIES opencv_core)
+endif()
 include(FindPackageHandleStandardArgs)
 find_package_handle_standard_args(OpenCVLite REQUIRED_VARS OpenCV_INCLUDE OpenCV_FOUND_ALL)

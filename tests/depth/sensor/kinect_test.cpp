@@ -53,7 +53,11 @@ TEST(FakenectDump, IsOfAKinectsSize) {
 }
 
 // Debian puts fakenect's libfreenect beside the real one.
+#ifdef __aarch64__
+const std::string kFakenect = "/usr/lib/aarch64-linux-gnu/fakenect";
+#else
 const std::string kFakenect = "/usr/lib/x86_64-linux-gnu/fakenect";
+#endif
 
 TEST(KinectDriver, TellsAnyOpenNi2ProgramSerialTiltAndAccelerometer) {
   const std::string probe = (test::BinaryFolder() / "bin/kinect_probe").string();
