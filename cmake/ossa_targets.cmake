@@ -36,6 +36,10 @@ endif()
 # On 64-bit ARM the same bytes as on x86-64: no product is fused with the sum that it goes into, Eigen sums in
 # the same order, and a char has a sign.
 add_library(ossa_arithmetic INTERFACE)
+# On any processor the same bytes, too: Eigen splits the sums of large products by the sizes of the caches,
+# which it would ask the processor for. Bytes; its own defaults for x86-64.
+target_compile_definitions(ossa_arithmetic INTERFACE EIGEN_NO_CPUID EIGEN_DEFAULT_L1_CACHE_SIZE=32768
+  EIGEN_DEFAULT_L2_CACHE_SIZE=262144 EIGEN_DEFAULT_L3_CACHE_SIZE=2097152)
 if(CMAKE_SYSTEM_PROCESSOR MATCHES "^(aarch64|arm64)$")
   find_path(SIMDE_INCLUDE simde/x86/sse2.h REQUIRED)  # libsimde-dev
   target_link_libraries(ossa_arithmetic INTERFACE Eigen3::Eigen)
