@@ -23,15 +23,18 @@ double DistanceToShape(Shape shape, const Vector3d& size_m, Vector3d point_m) {
 
 }  // namespace
 
-double World::DistanceTo(int object, const Vector3d& point_m) const {
-  const Thing& thing = impl_->things.at(object);
-  const Vector3d point = PoseOf(thing.body).inverse() * point_m + thing.middle_m;
-  double nearest_m = DistanceToShape(thing.info.shape, thing.info.size_m, point);
-  for (const ObjectPart& part : thing.info.parts) {
-    const Vector3d inside = part.orientation.normalized().conjugate() * (point - part.position_m);
+double DistanceToObject(const ObjectOptions& object, const Vector3d& point_m) {
+  double nearest_m = DistanceToShape(object.shape, object.size_m, point_m);
+  for (const ObjectPart& part : object.parts) {
+    const Vector3d inside = part.orientation.normalized().conjugate() * (point_m - part.position_m);
     nearest_m = std::min(nearest_m, DistanceToShape(part.shape, part.size_m, inside));
   }
   return nearest_m;
+}
+
+double World::DistanceTo(int object, const Vector3d& point_m) const {
+  const Thing& thing = impl_->things.at(object);
+  return DistanceToObject(thing.info, PoseOf(thing.body).inverse() * point_m + thing.middle_m);
 }
 
 }  // namespace ossa::physics

@@ -143,10 +143,12 @@ void World::Impl::Substep(double left_s, double h_s) {
       dBodyAddTorque(thing.body, t.x(), t.y(), t.z());
     }
   }
+  CarryTogether();
   Collide(h_s);
   SeededQuickStep(ode.world, h_s, options.seed + 0x9e3779b9U * ++steps);
   GatherImpulses(h_s);
   BreakHolds();
+  SlipHolds(h_s);
   dJointGroupEmpty(ode.contacts);
   RescueLost();
   for (const auto& [id, actor] : actors) {

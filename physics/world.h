@@ -213,10 +213,15 @@ class World {
 
   /// A virtual joint between the end of a joint's bone and the object: `rigid` or free to turn
   /// about the joint. Neither that bone nor the one before it collides with the object meanwhile.
-  /// Breaks where it would have to pull harder than `strength_n`. Several joints, of several
-  /// characters, may hold one object: they carry it together. Who hung it up lets go of it.
+  /// Breaks where it would have to pull harder than `strength_n`; turns in the hand, as by
+  /// friction, where a rigid one would have to turn harder than `torque_nm` about an axis of the
+  /// bone. Several joints, of several characters, may hold one object: they carry it together.
+  /// Those of a finite torque share its weight, and slip along the line between them, no further
+  /// than to the surface, until they no longer press on each other through it. Who hung it up lets
+  /// go of it.
   void Hold(int character, recon::Joint joint, int object, bool rigid,
-            double strength_n = std::numeric_limits<double>::infinity());
+            double strength_n = std::numeric_limits<double>::infinity(),
+            double torque_nm = std::numeric_limits<double>::infinity());
   /// All that hold it, or that hangs it, let go; or that joint does, if it holds it.
   void Release(int object);
   void Release(int object, int character, recon::Joint joint);

@@ -10,12 +10,18 @@ namespace ossa::physics {
 /// A virtual joint between a thing and a hand, or a point of the world.
 struct Grip {
   dJointID joint = nullptr;
-  uint64_t made = 0;   // OdeWorld::made
-  int character = -1;  // none: it hangs
-  size_t bone = 0;     // that holds it
+  dJointID turning = nullptr;  // what keeps one that may turn from it
+  uint64_t made = 0;           // OdeWorld::made
+  int character = -1;          // none: it hangs
+  size_t bone = 0;             // that holds it
   bool rigid = false;
   double strength_n = 0.0;
-  Eigen::Vector3d point_m;                     // of a loose or hanging one, when it was taken
+  double torque_nm = 0.0;   // of a rigid one: beyond, it turns
+  Eigen::Vector3d point_m;  // about which it turns, when it was taken
+  /// Of one that slips: where it is on the thing now, in the body's frame, and how far off the
+  /// surface it was when it was taken.
+  std::optional<Eigen::Vector3d> on_thing_m{};
+  double taken_off_m = 0.0;
   BodyMemory hand_then, thing_then;            // when it was taken
   dBodyID hand = nullptr, beside = nullptr;    // the bone that holds it, and the one before
   Eigen::Isometry3d in_hand;                   // bone from object, when it was taken
@@ -48,6 +54,9 @@ inline int TagOf(dGeomID geom) {
   return static_cast<int>(reinterpret_cast<intptr_t>(dGeomGetData(geom)));
 }
 Party PartyOf(dGeomID geom);
+
+/// From a point of the object's frame to its surface, metres; below 0 inside.
+double DistanceToObject(const ObjectOptions& object, const Eigen::Vector3d& point_m);
 
 /// Limbs see the floor coming from this much further away than other things: a plane costs nothing,
 /// and a foot that jumps to a new target comes down at 15 m/s.
@@ -83,6 +92,7 @@ struct World::Impl {
   void DestroyThing(Thing& thing);
   /// Joins hand and thing as they are, `grip` saying how.
   void Take(Thing& thing, Grip grip);
+  void Connect(const Thing& thing, Grip& grip);
   /// Opens those of its grips that `opens` names.
   static void Release(Thing& thing, const std::function<bool(const Grip&)>& opens);
   static void Release(Thing& thing);
@@ -91,6 +101,8 @@ struct World::Impl {
   void Substep(double left_s, double h_s);
   void RescueLost();
   void BreakHolds();
+  void CarryTogether();
+  void SlipHolds(double h_s);
   void WatchThreats(double dt_s);
   void WatchForThings(Actor& actor) const;
   double FastestThing_m_s() const;

@@ -46,7 +46,10 @@ Grip Description(const Grip& grip) {
   copy.bone = grip.bone;
   copy.rigid = grip.rigid;
   copy.strength_n = grip.strength_n;
+  copy.torque_nm = grip.torque_nm;
   copy.point_m = grip.point_m;
+  copy.on_thing_m = grip.on_thing_m;
+  copy.taken_off_m = grip.taken_off_m;
   copy.hand_then = grip.hand_then;
   copy.thing_then = grip.thing_then;
   copy.in_hand = grip.in_hand;

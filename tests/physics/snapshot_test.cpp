@@ -39,8 +39,8 @@ struct Scene {
     plank.size_m = {0.1, 0.02, 0.1};
     plank.position_m = {0.66, 0.75, 0.1};
     const int shared = world.AddObject(plank);
-    world.Hold(other, Joint::kHandRight, shared, false);
-    world.Hold(other, Joint::kWristRight, shared, false);
+    world.Hold(other, Joint::kHandRight, shared, true, 1e4, 0.5);  // slip on it and turn
+    world.Hold(other, Joint::kWristRight, shared, true, 1e4, 0.5);
     ObjectOptions bar;
     bar.position_m = {1.4, 1.0, 0.3};
     const int swing = world.AddObject(bar);
