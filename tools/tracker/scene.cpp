@@ -75,6 +75,7 @@ void SceneOptions::Check() const {
     RequirePositive("grabs.near_m", grab.near_m);
     RequirePositive("grabs.slower_m_s", grab.slower_m_s);
     RequirePositive("grabs.strength_n", grab.strength_n);
+    RequirePositive("grabs.shared_torque_nm", grab.shared_torque_nm);
     if (grab.hands < 1) Refuse("grabs.hands", grab.hands, "1 or more");
     if (grab.people < 1) Refuse("grabs.people", grab.people, "1 or more");
   }

@@ -42,6 +42,10 @@ struct GrabRule {
   int hands = 1;               // so many must be at it to hold it, else nobody does
   int people = 1;              // ... of so many people: lifted together
   double strength_n = 1000.0;  // a hold breaks beyond
+  /// Of several hands that hold a thing each lets it turn beyond this torque: two palms carry a box
+  /// between them, they do not wring it. A hand that holds it alone holds it fast.
+  // By hand: 2 kg, 2.5 cm off the line between the hands
+  double shared_torque_nm = 0.5;
 };
 
 /// Who moves a hand away from what it holds lets go of it.

@@ -250,6 +250,7 @@ GrabRule GrabOf(TableReader& table, const SceneOptions& scene) {
   rule.hands = table.Count("hands", rule.hands, 12);
   rule.people = table.Count("people", rule.people, 6);
   rule.strength_n = table.Number("strength_n", rule.strength_n, 1.0, 1e5);
+  rule.shared_torque_nm = table.Number("shared_torque_nm", rule.shared_torque_nm, 1e-3, 1e5);
   return rule;
 }
 

@@ -27,10 +27,11 @@ struct HandMemory {
   std::vector<Place> seen;                                      // as tracked, the latest last
   Eigen::Vector3d seen_velocity_m_s = Eigen::Vector3d::Zero();  // of the last step alone
   Eigen::Vector3d fastest_m_s = Eigen::Vector3d::Zero();        // of the present swing, as seen
-  double held_at_m = 0.0;                     // from the surface when it took hold, as seen
-  double away_s = 0.0;                        // for how long it has been further away
-  double strength_n = GrabRule{}.strength_n;  // of the rule by which it took hold
-  double rest_until_s = -1e9;                 // takes nothing before
+  double held_at_m = 0.0;      // from the surface when it took hold, as seen
+  double away_s = 0.0;         // for how long it has been further away
+  GrabRule taken_by{};         // the rule by which it took hold
+  bool shares = false;         // others hold it, too: it may turn in this hand
+  double rest_until_s = -1e9;  // takes nothing before
 
   void See(double time_s, const Eigen::Vector3d& at_m);
   /// Of the straight line through the last places: an odd one says little.
@@ -48,11 +49,11 @@ struct SceneActor {
   std::map<recon::Joint, HandMemory> hands;
 };
 
-/// A joint of somebody that could take hold, and how strong the hold would be.
+/// A joint of somebody that could take hold, and by which rule it would.
 struct SceneHand {
   SceneActor* actor;
   recon::Joint joint;
-  double strength_n;
+  const GrabRule* rule;
 };
 
 /// An object of the options, and the world's, while it is there.
@@ -88,6 +89,9 @@ struct Scene::Impl {
   void Release(const ReleaseRule& rule, double dt_s);
   void Grab(const std::string& name, int object);
   void Take(const std::string& name, int object, const SceneHand& taking);
+  void Hold(SceneActor& actor, recon::Joint joint, int object);
+  /// Hands that hold it with others let it turn, who holds it alone does not.
+  void ShareHolds(int object);
   /// Free hands that are at an object as the rule wants it.
   std::vector<SceneHand> HandsAt(const GrabRule& rule, int object);
   void LetGo(const std::string& name, const physics::Holder& holder, SceneEvent::Kind kind);

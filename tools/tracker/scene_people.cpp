@@ -101,7 +101,7 @@ void Scene::Impl::Make(SceneActor& actor, const Posture& start) {
   }
   actor.character = world.AddCharacter(actor.bones.lengths_m(), start, BuildOf(options));
   for (const Held& one : held) {
-    world.Hold(actor.character, one.joint, one.object, true, actor.hands[one.joint].strength_n);
+    Hold(actor, one.joint, one.object);
   }
 }
 

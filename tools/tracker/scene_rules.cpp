@@ -1,6 +1,7 @@
 // What people do with the objects of a scene: take, carry, let go, throw.
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "tools/tracker/scene_internal.h"
 
@@ -88,7 +89,10 @@ void Scene::Impl::ApplyRules(double dt_s) {
   }
   for (const ThrowRule& rule : options.throws) Throw(rule);
   for (const ReleaseRule& rule : options.releases) Release(rule, dt_s);
-  for (const auto& [name, object] : Named({})) Grab(name, object);
+  for (const auto& [name, object] : Named({})) {
+    Grab(name, object);
+    ShareHolds(object);
+  }
 }
 
 // The character's hand is behind the one that is seen, and swings what it holds further: what is
@@ -146,7 +150,7 @@ std::vector<SceneHand> Scene::Impl::HandsAt(const GrabRule& rule, int object) {
       const Vector3d there_m_s = state.velocity_m_s + state.angular_velocity_rad_s.cross(arm);
       const bool is_near = touches || world.DistanceTo(object, *hand.made_m) < rule.near_m;
       if (!is_near || (hand.made_velocity_m_s - there_m_s).norm() > rule.slower_m_s) continue;
-      able.push_back({&actor, joint, rule.strength_n});
+      able.push_back({&actor, joint, &rule});
     }
   }
   return able;
@@ -177,10 +181,31 @@ void Scene::Impl::Take(const std::string& name, int object, const SceneHand& tak
   hand.held_at_m = world.DistanceTo(object, taking.actor->seen[taking.joint]);
   hand.away_s = 0.0;
   hand.fastest_m_s.setZero();
-  hand.strength_n = taking.strength_n;
-  world.Hold(taking.actor->character, taking.joint, object, true, taking.strength_n);
+  hand.taken_by = *taking.rule;
+  hand.shares = false;
+  Hold(*taking.actor, taking.joint, object);
   events.push_back(
       {SceneEvent::Kind::kGrabbed, name, Owner(taking.actor->character)->first, taking.joint});
+}
+
+void Scene::Impl::Hold(SceneActor& actor, Joint joint, int object) {
+  const HandMemory& hand = actor.hands[joint];
+  const double torque_nm =
+      hand.shares ? hand.taken_by.shared_torque_nm : std::numeric_limits<double>::infinity();
+  world.Hold(actor.character, joint, object, true, hand.taken_by.strength_n, torque_nm);
+}
+
+void Scene::Impl::ShareHolds(int object) {
+  const auto holders = world.HoldersOf(object);
+  const bool shares = holders.size() > 1;
+  for (const physics::Holder& holder : holders) {
+    auto* const owner = Owner(holder.character);
+    if (owner == nullptr) continue;
+    HandMemory& hand = owner->second.hands[holder.joint];
+    if (hand.shares == shares) continue;
+    hand.shares = shares;
+    Hold(owner->second, holder.joint, object);
+  }
 }
 
 }  // namespace ossa::tracker
