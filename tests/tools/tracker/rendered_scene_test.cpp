@@ -246,11 +246,11 @@ TEST(RenderedScene, PeopleOfTwoSizesLiftABoxWithBothHands) {
 
 /// Standing, with arms turned up sideways from where they hang off the rig's rest.
 RigPose ArmsLifted(double left_rad, double right_rad) {
-  constexpr int kLeftArm = 18, kRightArm = 25;  // of kRigBoneNames
-  constexpr int kArmBones = 6;                  // and what hangs on it
+  constexpr size_t kLeftArm = 18, kRightArm = 25;  // of kRigBoneNames
+  constexpr size_t kArmBones = 6;                  // and what hangs on it
   RigPose pose;
   pose.root_m = recon::StandardRigRest().head_m[0];
-  for (int k = 0; k < kArmBones; ++k) {
+  for (size_t k = 0; k < kArmBones; ++k) {
     pose.world_from_rest[kLeftArm + k] = AngleAxisd(left_rad, Vector3d::UnitZ());
     pose.world_from_rest[kRightArm + k] = AngleAxisd(-right_rad, Vector3d::UnitZ());
   }

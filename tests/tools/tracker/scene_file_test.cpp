@@ -49,6 +49,7 @@ joints = ["HandLeft", "WristRight"]
 hands = 2
 people = 2
 near_m = 0.08
+shared_torque_nm = 2
 [[release]]
 away_m = 0.3
 [[throw]]
@@ -73,6 +74,7 @@ cover = false
   EXPECT_EQ(scene.grabs[0].joints,
             (std::vector{recon::Joint::kHandLeft, recon::Joint::kWristRight}));
   EXPECT_EQ(scene.grabs[0].people, 2);
+  EXPECT_EQ(scene.grabs[0].shared_torque_nm, 2.0);
   EXPECT_EQ(scene.releases.at(0).away_m, 0.3);
   EXPECT_EQ(scene.throws.at(0).faster_m_s, 3.0);
   ASSERT_TRUE(scene.dodge.has_value());
