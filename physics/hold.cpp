@@ -18,8 +18,10 @@ namespace {
 constexpr double kSlip_ns_m = 400.0;
 /// Never faster: a body behind a straight arm may press with kilonewtons.
 constexpr double kFastestSlip_m_s = 1.0;
-/// They slip to its surface: no nearer than a hand is thick.
+/// They slip to its surface: no nearer than a hand is thick; and off it no further than arms give
+/// way. Whose hands go further apart than that pull the hold open.
 constexpr double kHandOffSurface_m = 0.03;
+constexpr double kFurtherOff_m = 0.2;
 
 /// ODE takes the second anchor in the second body's frame.
 void SetAnchorOnThing(const Grip& grip) {
@@ -121,7 +123,10 @@ void World::Impl::SlipHolds(double h_s) {
                                   outwards;
       const double off_m = DistanceToObject(thing.info, to_m + thing.middle_m);
       // Not either where the force is no number.
-      if (!(off_m >= std::min(grip->taken_off_m, kHandOffSurface_m))) continue;
+      if (!(off_m >= std::min(grip->taken_off_m, kHandOffSurface_m) &&
+            off_m <= std::max(grip->taken_off_m, kHandOffSurface_m) + kFurtherOff_m)) {
+        continue;
+      }
       grip->on_thing_m = to_m;
       SetAnchorOnThing(*grip);
     }

@@ -52,7 +52,7 @@ TEST(Hold, TurnsInTheHandWhereItWouldHaveToTurnHarderThanItCan) {
   EXPECT_GT(TurnInHand_rad(0.5), 0.5);
 }
 
-/// Two people side by side, the inner arm of each put 5 cm nearer to the other.
+/// Two people side by side, the inner arms of whom are put nearer to each other, or apart.
 struct Pair {
   World world;
   recon::Posture first = StandingPerson(), second = Moved(first, {1.1, 0, 0});
@@ -63,13 +63,13 @@ struct Pair {
     a = world.AddCharacter(Lengths(), first);
     b = world.AddCharacter(Lengths(), second);
   }
-  void ReachForEachOther() {
+  void ReachForEachOther(double nearer_m = 0.05) {
     recon::Posture left = first, right = second;
     for (const Joint j : {Joint::kElbowLeft, Joint::kWristLeft, Joint::kHandLeft}) {
-      left[j].x() += 0.05;
+      left[j].x() += nearer_m;
     }
     for (const Joint j : {Joint::kElbowRight, Joint::kWristRight, Joint::kHandRight}) {
-      right[j].x() -= 0.05;
+      right[j].x() -= nearer_m;
     }
     for (int f = 0; f < 120; ++f) {
       world.SetTarget(a, left);
@@ -100,6 +100,17 @@ TEST(Hold, HandsOfTwoSlipOnWhatTheyHoldUntilTheyAreWhereTheyAreWanted) {
   EXPECT_LT(kept_m, 0.03);
   EXPECT_LT(std::abs(low_m), 0.02);
   EXPECT_GT(KeptFromWhereItIsWanted_m(std::numeric_limits<double>::infinity()).first, 0.04);
+}
+
+TEST(Hold, HandsThatGoApartDoNotSlipOffWhatTheyHoldWithoutEnd) {
+  Pair pair;
+  const Vector3d middle = 0.5 * (pair.first[Joint::kHandLeft] + pair.second[Joint::kHandRight]);
+  const int box = pair.world.AddObject(Box(middle));
+  const double taken_off_m = pair.world.DistanceTo(box, pair.first[Joint::kHandLeft]);
+  pair.world.Hold(pair.a, Joint::kHandLeft, box, true, 1e4, 0.5);
+  pair.world.Hold(pair.b, Joint::kHandRight, box, true, 1e4, 0.5);
+  pair.ReachForEachOther(-0.5);
+  EXPECT_LT(pair.world.DistanceTo(box, pair.Hand()), taken_off_m + 0.22);
 }
 
 }  // namespace
