@@ -34,7 +34,8 @@ double TurnInHand_rad(double torque_nm) {
   const int box = world.AddObject(Box(StandingPerson()[Joint::kHandRight] + Vector3d(0, 0, 0.2)));
   world.Hold(person, Joint::kHandRight, box, true, 1e4, torque_nm);
   const auto in_hand = [&] {
-    const auto& hand = world.StateOf(person).orientation[recon::Index(Joint::kHandRight)];
+    const Eigen::Quaterniond hand =
+        world.StateOf(person).orientation[recon::Index(Joint::kHandRight)];
     return hand.conjugate() * world.ObjectOf(box).orientation;
   };
   const Eigen::Quaterniond before = in_hand();
