@@ -5,9 +5,11 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
+#include <span>
 #include <stdexcept>
 #include <vector>
 
+#include "depth/base/statistics.h"
 #include "recon/fit/fit_terms_internal.h"
 #include "recon/fit/normal_equations.h"
 #include "recon/fit/pose_from_joints.h"
@@ -196,9 +198,7 @@ void SurfaceFitter::Impl::Judge(SurfaceFit& fit) {
     explained += distance_m < kExplained_m;
     distances_m.push_back(distance_m);
   }
-  const auto middle = distances_m.begin() + static_cast<std::ptrdiff_t>(distances_m.size() / 2);
-  std::nth_element(distances_m.begin(), middle, distances_m.end());
-  fit.median_residual_m = *middle;
+  fit.median_residual_m = SelectRank(distances_m, distances_m.size() / 2);
   fit.explained = static_cast<double>(explained) / static_cast<double>(distances_m.size());
   fit.score = fit.explained - SeenThroughShare();
   for (size_t s = 0; s < kSegmentCount; ++s) {
@@ -263,9 +263,8 @@ double SurfaceFitter::Impl::StartVariance_m2(const SurfaceFitInput& input) const
     off_m2[count++] = sure_m * sure_m;
   }
   if (count == 0) return options.joint_m * options.joint_m;
-  const auto middle = off_m2.begin() + static_cast<std::ptrdiff_t>(count / 2);
-  std::nth_element(off_m2.begin(), middle, off_m2.begin() + static_cast<std::ptrdiff_t>(count));
-  return std::max(kSurest_m * kSurest_m, *middle / kMedianChi2);
+  const double middle_m2 = SelectRank(std::span(off_m2).first(count), count / 2);
+  return std::max(kSurest_m * kSurest_m, middle_m2 / kMedianChi2);
 }
 
 Posture SurfaceFitter::Impl::Blend(const SurfaceFitInput& input) const {

@@ -10,16 +10,15 @@
 
 #include <time.h>
 
-#include <algorithm>
 #include <array>
 #include <atomic>
 #include <chrono>
 #include <cmath>
-#include <cstddef>
 #include <memory>
 #include <thread>
 #include <vector>
 
+#include "depth/base/statistics.h"
 #include "tests/support/capsule_person.h"
 #include "tests/tools/viewer/web_client.h"
 #include "tools/tracker/tracker.h"
@@ -163,12 +162,6 @@ class Watched {
   int64_t number_ = 0;
 };
 
-double MedianOf(std::vector<double> values) {
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::nth_element(values.begin(), middle, values.end());
-  return *middle;
-}
-
 // frames a second of the camera; 0: as many as are tracked
 void TwoBrowsers_640x480(benchmark::State& state) {
   const double period_s = state.range(0) > 0 ? 1.0 / static_cast<double>(state.range(0)) : 0.0;
@@ -186,8 +179,8 @@ void TwoBrowsers_640x480(benchmark::State& state) {
     rate_percent.push_back(100.0 * (1.0 - alone.wall_s / shown.wall_s));
     all.wall_s += std::max(shown.wall_s, block * period_s);
   }
-  state.counters["cpu_cost_percent"] = MedianOf(cpu_percent);
-  state.counters["rate_cost_percent"] = MedianOf(rate_percent);
+  state.counters["cpu_cost_percent"] = Median(cpu_percent);
+  state.counters["rate_cost_percent"] = Median(rate_percent);
   state.counters["frames_a_second_a_browser"] =
       static_cast<double>(watched.frames_seen() - seen) / 2.0 / all.wall_s;
 }

@@ -122,8 +122,9 @@ Region KeepWithinReach(const PointGrid& grid, const Region& region, const HeadBl
                        const OverheadOptions& options) {
   const auto off_m = [&](int cell) { return grid.OnFloor(grid.at(cell) - head.position_m).norm(); };
   std::vector<uint8_t> open(static_cast<size_t>(grid.cells()), 0);
-  for (const int cell : region.cells)
+  for (const int cell : region.cells) {
     open[static_cast<size_t>(cell)] = off_m(cell) <= options.reach_m;
+  }
   std::vector<int> kept(1, head.cell);
   open[static_cast<size_t>(head.cell)] = 0;
   for (size_t i = 0; i < kept.size(); ++i) {
@@ -133,8 +134,8 @@ Region KeepWithinReach(const PointGrid& grid, const Region& region, const HeadBl
       if (!grid.Contains(x + step[0], y + step[1])) continue;
       const int next = grid.cell(x + step[0], y + step[1]);
       if (!open[static_cast<size_t>(next)]) continue;
-      if (!depth::Continuous(grid, cell, next) && !(at_trunk && off_m(next) <= options.trunk_m))
-        continue;
+      const bool stays_at_trunk = at_trunk && off_m(next) <= options.trunk_m;
+      if (!depth::Continuous(grid, cell, next) && !stays_at_trunk) continue;
       open[static_cast<size_t>(next)] = 0;
       kept.push_back(next);
     }

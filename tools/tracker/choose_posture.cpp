@@ -91,18 +91,12 @@ class Chooser {
   recon::JointArray<std::vector<Option>> options_;
 };
 
-bool InImage(const depth::Camera& camera, const Eigen::Vector3d& p) {
-  if (p.z() <= 0.05) return false;
-  const Eigen::Vector2d pixel = depth::Project(camera, p);
-  return pixel.x() >= 0 && pixel.y() >= 0 && pixel.x() < camera.width && pixel.y() < camera.height;
-}
-
 recon::TrackingState DecideState(const Proposal& proposal, const forest::ProposalTarget& target,
                                  const depth::Camera& camera) {
   if (proposal.confidence < static_cast<double>(target.inferred_confidence)) {
     return recon::TrackingState::kNotTracked;
   }
-  const bool tracked = proposal.seen && InImage(camera, proposal.position_m) &&
+  const bool tracked = proposal.seen && IsInImage(camera, proposal.position_m) &&
                        proposal.confidence >= static_cast<double>(target.tracked_confidence);
   return tracked ? recon::TrackingState::kTracked : recon::TrackingState::kInferred;
 }
@@ -134,6 +128,12 @@ void InferHipsWithoutLegs(const ChoiceContext& context, recon::TrackedPosture& p
 }
 
 }  // namespace
+
+bool IsInImage(const depth::Camera& camera, const Eigen::Vector3d& place_m) {
+  if (!(place_m.z() > 0.05)) return false;
+  const Eigen::Vector2d pixel = depth::Project(camera, place_m);
+  return pixel.x() >= 0 && pixel.y() >= 0 && pixel.x() < camera.width && pixel.y() < camera.height;
+}
 
 recon::TrackedPosture ChoosePosture(const forest::ForestModel& model,
                                     const people::JointTargets& targets,

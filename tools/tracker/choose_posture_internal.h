@@ -32,6 +32,9 @@ struct ChoiceOptions {
                                          // child is outside
 };
 
+/// Whether this place of camera space (metres) projects into the image.
+bool IsInImage(const depth::Camera& camera, const Eigen::Vector3d& place_m);
+
 struct ChoiceContext {
   ChoiceOptions options;
   const depth::Camera* camera = nullptr;

@@ -97,12 +97,6 @@ recon::JointArray<JointEstimate> Estimates(const recon::Posture& posture,
 // off the truth and accelerations 1.48, 1.67, 1.80, 1.91 cm/frame^2, no character 5.87 and 3.33.
 constexpr double kFollowing_rad_s = 60.0;
 
-bool IsInImage(const Eigen::Vector3d& place_m, const depth::Camera& camera) {
-  if (!(place_m.z() > 0.0)) return false;
-  const Eigen::Vector2d px = depth::Project(camera, place_m);
-  return px.x() >= 0.0 && px.y() >= 0.0 && px.x() < camera.width && px.y() < camera.height;
-}
-
 // What the method of reconstruction starts from: the joints that the latest stage says. With a
 // body's fit all of them are told, also joints that are not seen; but of somebody whose trunk is
 // out of the image, an arm of them at its border, a fit knows less than the method remembers.
@@ -112,7 +106,7 @@ recon::TrackedPosture Observed(const Body& body, bool refined, const depth::Came
   if (body.refined && refined) seen.posture = *body.refined;
   if (!body.fit) return seen;
   seen.posture = body.fit->blended_m;
-  if (!IsInImage(body.fit->joints_m[recon::Joint::kSpine], camera)) return seen;
+  if (!IsInImage(camera, body.fit->joints_m[recon::Joint::kSpine])) return seen;
   for (size_t j = 0; j < kJointCount; ++j) {
     if (seen.state[j] != TrackingState::kNotTracked) continue;
     seen.state[j] = TrackingState::kInferred;
