@@ -19,7 +19,7 @@ struct BodySizeOptions {
   int other_size_frames = 30;
   // Judged bones are the mean of so many: of 30 they are as near to the truth on rendered people,
   // and move for longer.
-  int settling_frames = 5;
+  int settling_frames = 3;
   int first_review_frames = 105;  // sooner, a pose is taken for a body
   double other_length = 0.05;     // share: the median of that many frames errs by no more than 1 %
   int growing_frames = 15;        // a bone that grew at once would throw its joints
@@ -33,7 +33,7 @@ struct BodySizeOptions {
 
 /// The person's bone lengths, kept constant from the first good frame on: the standing or T-posed
 /// person that tracking starts with (Shum 2013 fig. 2), left and right averaged. Where a network
-/// judges them in each frame (recon/refine/bone_estimation.h), they settle in the first five, and
+/// judges them in each frame (recon/refine/bone_estimation.h), they settle in the first three, and
 /// later only those grow that are others. Measured anew when the body has another size for a
 /// second, which is another person; and, at reviews that become rarer, when the bones seen until
 /// then are typically others: to these they grow in half a second. Bones that are known stay.

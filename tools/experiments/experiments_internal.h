@@ -18,6 +18,8 @@ std::vector<Table> RunSdk(ExperimentContext& context);
 std::vector<Table> RunPersonClassifier(ExperimentContext& context);
 /// One to six people in rendered indoor scenes: who is found, cut in two, invented, mixed up.
 std::vector<Table> RunIndoorScenes(ExperimentContext& context);
+/// Single images: who is found in them, whatever they hold or stand behind.
+std::vector<Table> RunFirstFrames(ExperimentContext& context);
 /// Shum & Ho 2012: scenes with objects, the character as a filter, dimensions of a posture search.
 std::vector<Table> RunShumHo2012(ExperimentContext& context);
 

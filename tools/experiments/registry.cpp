@@ -14,6 +14,8 @@ constexpr Experiment kExperiments[] = {
     {"indoor-scenes",
      "the tracker in rendered indoor scenes: people found, cut, invented, mixed up; joints",
      RunIndoorScenes},
+    {"first-frames", "who is found in a single image, whatever they hold or stand behind",
+     RunFirstFrames},
     {"real", "real depth: each stage of the tracker on every real set, with truth and without",
      RunReal},
     {"fit", "the surface fit on real stills, with each of its terms and without", RunFit},

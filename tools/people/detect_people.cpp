@@ -111,7 +111,7 @@ PeopleOptions PeopleOptionsFromAbove() {
   options.candidates.seeds.jump_cost_m = 0.0F;
   options.candidates.seeds.max_reach_m = 2.2F;
   options.candidates.seeds.one_person_m2 = 0.7F;
-  options.initiation.least_body = 0.0;  // a surface that hides most of itself explains too little
+  options.initiation.least_body = options.initiation.least_other_body = 0.0;  // it hides too much
   return options;
 }
 

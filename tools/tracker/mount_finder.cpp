@@ -56,7 +56,7 @@ bool MayBeFromAbove(const depth::DepthFrame& frame, const people::PeopleOptions&
   return std::any_of(proposed.candidates.begin(), proposed.candidates.end(),
                      [&](const people::Candidate& candidate) {
                        return candidate.has_head &&
-                              depth::MeasureShare(candidate.region, cut_below) <= 0.5;
+                              depth::MeasureShare(candidate.region, cut_below) <= options.cut_share;
                      });
 }
 

@@ -11,10 +11,11 @@ namespace ossa::tracker {
 struct MountOptions {
   double every_s = 1.0;       // between looks, > 0: one costs some milliseconds
   int agreeing = 3;           // looks in a row, > 0, as of UprightOptions
-  double sure = 0.8;          // score, [0, 1]: real level stills reach 0.7
+  double sure = 0.95;         // score, [0, 1]: real level stills reach 0.7
   float min_head_m = 1.0F;    // anthropometry: over the floor, of who sits; a wall has lower bumps
   double floor_share = 0.25;  // of what is measured, [0, 1], that is floor
   float piece_m2 = 0.02F;     // anthropometry: a hand; smaller pieces say nothing
+  double cut_share = 0.65;    // of a body, [0, 1]: more of it goes on below a level camera's image
   double rim_share = 0.03;    // of the image's height, [0, 1]: a sensor's rims are blind
 };
 

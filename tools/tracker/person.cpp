@@ -2,7 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <span>
 
+#include "depth/base/statistics.h"
 #include "recon/bone_projection.h"
 #include "recon/orientation.h"
 #include "recon/refine/free_space.h"
@@ -115,6 +117,35 @@ recon::TrackedPosture Observed(const Body& body, bool refined, const depth::Came
   return seen;
 }
 
+size_t CountTracked(const recon::TrackedPosture& posture) {
+  return static_cast<size_t>(std::ranges::count(posture.state, TrackingState::kTracked));
+}
+
+// Whether somebody of whom the image's border leaves less than it did is said to be elsewhere all
+// of a sudden: what is left was taken for another part of them.
+bool JumpsAtTheBorder(const Body& body, const recon::TrackedPosture& observed, double time_s,
+                      const HoldOptions& options, const Person& person) {
+  if (body.clipped_edges == 0 || !person.shown) return false;
+  const double since_s = time_s - person.shown_s;
+  if (!(since_s > 0.0 && since_s <= options.recent_s)) return false;
+  if (time_s - person.believed_s > options.disbelieved_s) return false;
+  if (CountTracked(observed) >= std::min(options.mostly_seen, person.believed_joints)) return false;
+  recon::JointArray<double> off_m{};
+  size_t told = 0;
+  for (size_t j = 0; j < kJointCount; ++j) {
+    if (observed.state[j] == TrackingState::kNotTracked) continue;
+    off_m[told++] = (observed.posture.position_m[j] - person.shown->position_m[j]).norm();
+  }
+  return told > 0 && SelectRank(std::span(off_m).first(told), told / 2) >
+                         options.jump_m + options.fastest_m_s * since_s;
+}
+
+// Nothing is seen: the method goes on by what it remembers.
+void Disbelieve(recon::TrackedPosture& observed) {
+  observed.state.fill(TrackingState::kNotTracked);
+  observed.confidence.fill(0.0);
+}
+
 // As the frame says them: by the fitted body and by the network.
 std::optional<recon::BoneLengths> JudgeBones(const Body& body, double fitted_share) {
   if (!body.fit) return body.refined_bones_m;
@@ -173,7 +204,16 @@ void AverageStationary(SkeletonWork& work) {
   recon::TrackedPosture observed =
       Observed(work.body, method.refined, work.frame.camera, work.options.hold.fitted_confidence);
   DoubtByResidual(work, observed.confidence);
-  work.observed = work.person.stationary.Step(observed, work.frame.time_s);
+  Person& person = work.person;
+  work.believed =
+      !JumpsAtTheBorder(work.body, observed, work.frame.time_s, work.options.hold, person);
+  const size_t tracked = CountTracked(observed);
+  if (work.believed && tracked > 0) {
+    person.believed_s = work.frame.time_s;
+    person.believed_joints = tracked;
+  }
+  if (!work.believed) Disbelieve(observed);
+  work.observed = person.stationary.Step(observed, work.frame.time_s);
 }
 
 void Reconstruct(SkeletonWork& work) {
@@ -219,8 +259,14 @@ void Simulate(SkeletonWork& work) {
 }
 
 void Finish(SkeletonWork& work) {
+  recon::TrackedPosture told = work.body.raw;
+  if (!work.believed) {
+    std::ranges::replace(told.state, TrackingState::kTracked, TrackingState::kInferred);
+  }
   work.body.joints =
-      Estimates(work.posture, work.orientations, work.body.raw, work.reconstructed.reliability);
+      Estimates(work.posture, work.orientations, told, work.reconstructed.reliability);
+  work.person.shown = work.posture;
+  work.person.shown_s = work.frame.time_s;
 }
 
 }  // namespace ossa::tracker

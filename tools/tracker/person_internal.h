@@ -33,6 +33,11 @@ struct HoldOptions {
   /// network for bones judges. On rendered people the mean of both is nearer than either.
   double fitted_bones = 0.7;
   double recent_s = 0.2;  // what was seen longer ago says nothing about now
+  // Whose body the image's border cuts off so that fewer joints are seen than `mostly_seen` is not
+  // believed to be elsewhere all of a sudden (median of the joints told), for so long.
+  size_t mostly_seen = 12;
+  double jump_m = 0.05, fastest_m_s = 3.0;  // anthropometry: a trunk's speed, running
+  double disbelieved_s = 1.0;
 };
 
 /// What the tracker remembers of one person.
@@ -43,7 +48,11 @@ struct Person {
   recon::BoneLengths lengths_m = AverageBoneLengths();
   recon::MeanBoneLengths bones;                 // as the cascade estimated them until now
   std::optional<recon::TrackedPosture> before;  // of the last frame it was tracked in
-  recon::StationaryPosture stationary;          // averages what stands still
+  std::optional<recon::Posture> shown;          // what left in the last frame, at
+  double shown_s = -1e9;
+  double believed_s = -1e9;             // time of the last frame that was not disbelieved,
+  size_t believed_joints = 0;           // ... and how many were tracked in it
+  recon::StationaryPosture stationary;  // averages what stands still
   std::unique_ptr<recon::SurfaceFitter> fitter;
   recon::PersonShape shape;  // by surface fits until now
   std::unique_ptr<recon::Reconstructor> reconstructor;

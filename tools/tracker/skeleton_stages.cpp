@@ -44,6 +44,7 @@ void RunStages(std::span<const Stage> stages, SkeletonWork& work, StageTimes& ms
 void TrackSkeleton(SkeletonWork& work, StageTimes& ms) {
   RunStages(kStages, work, ms);
   ms.reconstruct += ms.fit;
+  if (!work.believed) return;
   work.person.before = work.body.raw;
   work.person.before_s = work.frame.time_s;
 }

@@ -18,7 +18,8 @@ struct SkeletonWork {
   const people::Detection* detection;  // of the first three stages; CompleteSkeleton needs none
   Person& person;                      // what was known before, and is from now on
   Body& body;                          // raw, refined, fit, reconstructed, joints, as they are made
-  recon::TrackedPosture observed = {};             // what the method starts from
+  recon::TrackedPosture observed = {};             // what the method starts from,
+  bool believed = true;                            // ... nothing, where it is not
   recon::ReconstructedPosture reconstructed = {};  // what it made of that,
   recon::Posture posture = {};                     // ... and the stages after it,
   // ... how its bones are turned about themselves, where the method or the character knows.
