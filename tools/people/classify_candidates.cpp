@@ -189,7 +189,11 @@ bool AreStacked(const Scene& scene, const PeopleOptions& options, const Detectio
                 const Detection& b) {
   const Region &of_a = a.candidate.region, &of_b = b.candidate.region;
   const Eigen::Vector3f apart_m = of_a.mean_m - of_b.mean_m;
-  return std::hypot(apart_m.x(), apart_m.z()) < options.classification.stacked_m ||
+  const bool both_people =
+      std::min(a.evidence.score, b.evidence.score) >= options.initiation.new_person;
+  const float limit_m =
+      both_people ? options.classification.leaning_m : options.classification.stacked_m;
+  return std::hypot(apart_m.x(), apart_m.z()) < limit_m ||
          IsOneAbove(scene.grid, of_a, of_b, options.candidates.occlusion);
 }
 

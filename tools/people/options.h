@@ -166,7 +166,8 @@ struct ClassificationOptions {
   float two_people_m2 = 1.1F;  // anthropometry: together they are more than one person
   double stacked_loss =
       0.2;  // of score: one above the other need not look better together: nobody stands
-  float stacked_m = 0.3F;  // ... on another; so close aside and in depth
+  float stacked_m = 0.3F;   // ... on another; so close aside and in depth
+  float leaning_m = 0.45F;  // ... where both look like people: who bends leans so far
   // Halves of a person meet along a rim: within so many cells over the shadow that an edge casts,
   // with at most such a jump, as from a shirt's hem to the trousers, and so long.
   int rim_cells = 2;

@@ -122,6 +122,23 @@ TEST_F(Halves, AreStackedAlsoBeforeASensorThatLooksDown) {
   EXPECT_FALSE(AreStacked(scene_, options_, upper_, lower_));
 }
 
+TEST_F(Halves, OfWhoLeansForwardAreStackedWhereBothLookLikePeople) {
+  const auto at = [](float z_m, float y_m) {
+    Region region;
+    region.mean_m = {0, y_m, z_m};
+    region.low_m = region.mean_m - Eigen::Vector3f(0.2F, 0.3F, 0.2F);
+    region.high_m = region.mean_m + Eigen::Vector3f(0.2F, 0.3F, 0.2F);
+    return region;
+  };
+  upper_.candidate.region = at(1.7F, 0.2F);
+  lower_.candidate.region = at(2.1F, -0.2F);
+  upper_.evidence.score = 1.0;
+  lower_.evidence.score = 0.86;
+  EXPECT_TRUE(AreStacked(scene_, options_, upper_, lower_));
+  lower_.evidence.score = 0.1;  // a table
+  EXPECT_FALSE(AreStacked(scene_, options_, upper_, lower_));
+}
+
 TEST(MayBeTwo, WhoWasOneForLongIsOneWhileNoMoreShows) {
   ClassificationOptions options;
   Detection whole;

@@ -8,6 +8,7 @@
 #include "recon/motion/mocap.h"
 #include "tests/tools/tracker/tracked_scenes.h"
 #include "tools/synth/clothed_actor.h"
+#include "tools/synth/dataset.h"
 #include "tools/synth/frame_maker.h"
 #include "tools/synth/sequence_poses.h"
 
@@ -69,7 +70,8 @@ class FirstFrame : public testing::Test {
     Tracker tracker;
     std::vector<size_t> bodies;
     for (int i = 0; i < images; ++i) {
-      const std::optional<depth::DepthFrame> frame = change(maker.Make(i));
+      const std::optional<depth::DepthFrame> frame =
+          change(tools::Uncropped(maker.Make(i), tools::MakeCamera(options_)));
       if (!frame) continue;
       tracker.Reset();
       bodies.push_back(tracker.Track(*frame).bodies.size());
@@ -79,13 +81,13 @@ class FirstFrame : public testing::Test {
   tools::FrameOptions options_;
 };
 
-// The board is flat and as deep as they are: many are not found yet, but two in three are (41 of
-// 58; 32 while a half that looked like nobody was not tried with the other).
+// The board is flat and as deep as they are: many are not found yet, but three in four are (59 of
+// 76; 52 while a half that looked like nobody was not tried with the other).
 TEST_F(FirstFrame, WhoHoldsABoardBeforeThemselvesIsOnePerson) {
   const auto bodies = CountBodies(160, WithABoard);
   ASSERT_GE(bodies.size(), 20U);
   const auto one = std::ranges::count(bodies, 1U);
-  EXPECT_GE(one, 0.65 * static_cast<double>(bodies.size())) << one << " of " << bodies.size();
+  EXPECT_GE(one, 0.72 * static_cast<double>(bodies.size())) << one << " of " << bodies.size();
 }
 
 // Coats on stands have a hook for a head, and sleeves: five of 120 images had a body too

@@ -14,6 +14,7 @@
 #include "tools/experiments/experiments_internal.h"
 #include "tools/experiments/stage/jobs.h"
 #include "tools/synth/clothed_actor.h"
+#include "tools/synth/dataset.h"
 #include "tools/synth/frame_maker.h"
 #include "tools/tracker/tracker.h"
 
@@ -101,7 +102,7 @@ void Play(const Cast& cast, ExperimentContext& context, Row& row) {
   tracker::Tracker tracker(cast.how);
   for (int i = 0; i < cast.images; ++i) {
     context.StopIfAsked();
-    const LabelledFrame frame = maker.Make(i);
+    const LabelledFrame frame = Uncropped(maker.Make(i), MakeCamera(options));
     tracker.Reset();  // each image is a first one
     Judge(frame, tracker.Track(frame.depth), row);
   }

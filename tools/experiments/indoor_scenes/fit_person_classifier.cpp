@@ -111,7 +111,8 @@ class Gatherer {
     return options;
   }
 
-  // What people hold up and sit at, cut out or in rooms full of what looks like somebody at first.
+  // What people hold up and sit at, in rooms full of what looks like somebody at first or cut out,
+  // with the image's border close around them.
   FrameOptions MakeLivedIn(Occluders things, bool cut_out, uint64_t seed) const {
     FrameOptions options = MakeSingles(View::kFront, seed);
     options.occluders = things;
