@@ -45,8 +45,7 @@ bool IsOnePerson(const Detection& whole, const Detection& a, const Detection& b,
   const double score = whole.evidence.score;
   if (whole.evidence.heads_m.size() > 1)
     return less < options.initiation.new_person && score >= more;
-  const bool may_lose = stacked && more >= options.initiation.new_person;
-  return score >= more - (may_lose ? options.classification.stacked_loss : 0.0);
+  return score >= more - (stacked ? options.classification.stacked_loss : 0.0);
 }
 
 // Two pieces as one person, if that is what they are. People tracked for long are left as they are.
@@ -201,11 +200,8 @@ bool MayBePartsOfOne(const Scene& scene, const PeopleOptions& options, const Det
                      const Detection& b, bool stacked) {
   const auto [less, more] = std::minmax(a.evidence.score, b.evidence.score);
   const double person = options.initiation.new_person;
-  const bool both_new = std::max(a.age, b.age) <= options.initiation.early_age;
-  // Half of somebody whom a board hides in the middle looks like nobody; there is time to try in a
-  // first frame.
-  if (stacked && (less >= person || (both_new && scene.fresh))) return true;
-  return both_new && more >= person &&
+  if (stacked && less >= person) return true;
+  return std::max(a.age, b.age) <= options.initiation.early_age && more >= person &&
          MeetAlongRim(scene, a.candidate, b.candidate, options.classification);
 }
 

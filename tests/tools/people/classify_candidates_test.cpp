@@ -97,13 +97,6 @@ TEST_F(Halves, AreTriedAtAnyAgeWhereTheyWouldBeTwoPeopleOneAboveTheOther) {
   EXPECT_FALSE(Tried(0.9, 0.1, options_.initiation.early_age + 1, true));
 }
 
-TEST_F(Halves, OfWhomABoardHidesInTheMiddleAreTriedInAFirstFrame) {
-  EXPECT_TRUE(Tried(0.4, 0.1, 1, true));
-  EXPECT_FALSE(Tried(0.4, 0.1, 1, false));
-  scene_.fresh = false;
-  EXPECT_FALSE(Tried(0.4, 0.1, 1, true));
-}
-
 TEST_F(Halves, AreStackedAlsoBeforeASensorThatLooksDown) {
   EXPECT_TRUE(AreStacked(scene_, options_, upper_, lower_));
   const float tilt_rad = 0.5F;

@@ -68,10 +68,7 @@ class Gatherer {
       IndoorScenes(cast, seed + 100 * k, examples[k]);
       BehindSeats(cast, seed + 100 * k + 50, examples[k]);
       for (const View view : {View::kFront, View::kAny, View::kNear})
-        Singles(MakeSingles(view, seed + k), examples[k]);
-      for (const Occluders things :
-           {Occluders::kNone, Occluders::kHeldUp, Occluders::kDesk, Occluders::kAll})
-        Singles(MakeLivedIn(things, k % 2 == 1, seed + k), examples[k]);
+        Singles(view, seed + k, examples[k]);
       const std::lock_guard lock(mutex);
       if (context_.progress) context_.progress(++done, performances, "scenes");
     });
@@ -98,7 +95,8 @@ class Gatherer {
     for (int64_t f = 5; f < stage.size(); f += 20) Look(stage.Shoot(f), examples);
   }
 
-  FrameOptions MakeSingles(View view, uint64_t seed) const {
+  void Singles(View view, uint64_t seed, std::vector<Example>& examples) {
+    constexpr int kFrames = 12;
     FrameOptions options;
     options.width = 320;
     options.height = 240;
@@ -108,23 +106,6 @@ class Gatherer {
     options.background = Background::kRoom;
     options.people = view == View::kNear ? 1 : 2;
     options.seed = seed;
-    return options;
-  }
-
-  // What people hold up and sit at, in rooms full of what looks like somebody at first or cut out,
-  // with the image's border close around them.
-  FrameOptions MakeLivedIn(Occluders things, bool cut_out, uint64_t seed) const {
-    FrameOptions options = MakeSingles(View::kFront, seed);
-    options.occluders = things;
-    const bool in_room = !cut_out || things == Occluders::kNone;
-    options.background = in_room ? Background::kLivedIn : Background::kNone;
-    options.hanging_clothes = true;
-    options.people = 1;
-    return options;
-  }
-
-  void Singles(const FrameOptions& options, std::vector<Example>& examples) {
-    constexpr int kFrames = 12;
     const FrameStudio studio(LoadFetchedBody(), poses_, options);
     FrameMaker maker(studio);
     for (int f = 0; f < kFrames; ++f) Look(maker.Make(8 * f), examples);
