@@ -121,6 +121,13 @@ bool IsDoubtfulAtFirst(const Detection& detection, const InitiationOptions& opti
   return first && detection.age <= 1 && detection.score < options.sure_person;
 }
 
+bool IsUnlikeABody(const ExplainedShares& fit, double person_score, bool beside_somebody,
+                   const InitiationOptions& options) {
+  if (fit.score < options.least_body) return true;
+  const double all = 0.5 * (fit.explained + fit.score) + options.person_share * person_score;
+  return beside_somebody && all < options.least_other_body;
+}
+
 void Withdraw(int id, PeopleState& state, depth::Image<uint8_t>& users, FrameDecisions& decisions) {
   const auto is_theirs = [id](const auto& entry) { return entry.id == id; };
   std::erase_if(state.tracks.tracks, is_theirs);

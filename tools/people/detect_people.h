@@ -41,6 +41,17 @@ PeopleInFrame DetectPeople(const DepthFrame& frame, const PersonClassifier& clas
 /// Whether a person accepted at the first look is to be held against a body's surface.
 bool IsDoubtfulAtFirst(const Detection& detection, const InitiationOptions& options);
 
+/// How much of somebody a fitted body explains, shares in [0, 1] (recon::SurfaceFit).
+struct ExplainedShares {
+  double explained = 0.0;
+  double score = 0.0;  // less what is seen through
+};
+
+/// Whether a body that was accepted at the first look explains too little of what is seen;
+/// `beside_somebody`: about somebody else in the image there is no doubt.
+bool IsUnlikeABody(const ExplainedShares& fit, double person_score, bool beside_somebody,
+                   const InitiationOptions& options);
+
 /// Takes back that somebody accepted in this frame is a person: they have no track, no pixels.
 void Withdraw(int id, PeopleState& state, depth::Image<uint8_t>& users, FrameDecisions& decisions);
 

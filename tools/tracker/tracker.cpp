@@ -257,14 +257,11 @@ void Tracker::Impl::WithdrawUnlikeBodies(const std::vector<people::Person>& seen
     return people::IsDoubtfulAtFirst(person.detection, initiation);
   };
   const bool somebody_is_sure = !std::all_of(seen.begin(), seen.end(), is_doubtful);
-  const auto is_unlike = [&](const recon::SurfaceFit& fit, double person_score) {
-    if (fit.score < initiation.least_body) return true;
-    const double all = 0.5 * (fit.explained + fit.score) + initiation.person_share * person_score;
-    return somebody_is_sure && all < initiation.least_other_body;
-  };
   for (size_t i = seen.size(); i-- > 0;) {
     const Body& body = result.bodies[i];
-    if (!body.fit || !is_doubtful(seen[i]) || !is_unlike(*body.fit, body.person_score)) continue;
+    if (!body.fit || !is_doubtful(seen[i])) continue;
+    const people::ExplainedShares fit{body.fit->explained, body.fit->score};
+    if (!people::IsUnlikeABody(fit, body.person_score, somebody_is_sure, initiation)) continue;
     for (size_t p = 0; p < result.parts.data.size(); ++p) {
       if (result.users.data[p] == body.id) result.parts.data[p] = 0;
     }

@@ -3,6 +3,7 @@
 
 #include "tests/tools/people/evidence.h"
 #include "tests/tools/people/scenes.h"
+#include "tools/people/detect_people.h"
 
 namespace ossa::people {
 namespace {
@@ -130,6 +131,16 @@ TEST_F(Halves, OfWhoLeansForwardAreStackedWhereBothLookLikePeople) {
   EXPECT_TRUE(AreStacked(scene_, options_, upper_, lower_));
   lower_.evidence.score = 0.1;  // a table
   EXPECT_FALSE(AreStacked(scene_, options_, upper_, lower_));
+}
+
+// Shares as of people and of coats on stands in rendered rooms.
+TEST(IsUnlikeABody, MoreIsAskedBesideSomebody) {
+  const InitiationOptions options;
+  const ExplainedShares coat{0.71, 0.58}, person{0.93, 0.89}, cupboard{0.46, 0.2};
+  EXPECT_FALSE(IsUnlikeABody(coat, 0.87, false, options));
+  EXPECT_TRUE(IsUnlikeABody(coat, 0.87, true, options));
+  EXPECT_FALSE(IsUnlikeABody(person, 0.9, true, options));
+  EXPECT_TRUE(IsUnlikeABody(cupboard, 0.9, false, options));
 }
 
 TEST(MayBeTwo, WhoWasOneForLongIsOneWhileNoMoreShows) {
