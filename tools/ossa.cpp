@@ -23,6 +23,8 @@ constexpr std::array kCommands = {
     Command{"train", "train a body-part forest on labelled data", RunTools},
     Command{"evaluate", "measure a model on labelled data", RunTools},
     Command{"refine", "learn a stage that refines a forest's joints at the depth image", RunTools},
+    Command{"crop", "cut people out of data sets for the training of a pose network", RunTools},
+    Command{"pack-network", "make the file of a pose network from its weights", RunTools},
     Command{"learn", "learn a sensor's errors from observed and true skeletons", RunTools},
     Command{"prior", "learn from motion capture how people move", RunTools},
     Command{"surface", "make the body that the surface fit poses", RunTools},

@@ -15,6 +15,8 @@ constexpr std::array kCommands = {
     Command{"train", {}, ossa::commands::Train},
     Command{"evaluate", {}, ossa::commands::Evaluate},
     Command{"refine", {}, ossa::commands::Refine},
+    Command{"crop", {}, ossa::commands::Crop},
+    Command{"pack-network", {}, ossa::commands::PackNetwork},
     Command{"learn", {}, ossa::commands::Learn},
     Command{"prior", {}, ossa::commands::Prior},
     Command{"surface", {}, ossa::commands::Surface},

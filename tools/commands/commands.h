@@ -10,6 +10,8 @@ int Study(int argc, char** argv);
 int Database(int argc, char** argv);
 int Learn(int argc, char** argv);
 int Refine(int argc, char** argv);
+int Crop(int argc, char** argv);
+int PackNetwork(int argc, char** argv);
 int Prior(int argc, char** argv);
 int Surface(int argc, char** argv);
 int Reconstruct(int argc, char** argv);

@@ -18,6 +18,7 @@
 #include "recon/models/learned_models.h"
 #include "recon/models/posture_prior.h"
 #include "recon/refine/bone_estimation.h"
+#include "recon/refine/pose_network.h"
 #include "recon/refine/refinement_cascade.h"
 #include "tools/commands/command.h"
 #include "tools/commands/commands.h"
@@ -167,6 +168,15 @@ void ShowRefinement(const fs::path& path) {
                  : "; " + count(cascade.bone_conditioned, "bone-conditioned "));
 }
 
+void ShowPoseNetwork(const fs::path& path) {
+  const auto network = recon::PoseNetwork::Load(path);
+  Eigen::Index weights = 0;
+  for (const Convolution& layer : network.layers()) weights += layer.weight.size();
+  fmt::print("pose network of {} layers and {} weights, learned from {} people, {:.1f} MB\n",
+             recon::PoseNetwork::kLayers, weights, network.people(),
+             static_cast<double>(fs::file_size(path)) * 1e-6);
+}
+
 // Its frames are read through: many a recording does not know how many it has, or what is broken.
 void ShowDepthRecording(const SourceArguments& arguments) {
   const auto source = OpenSource(arguments, false);
@@ -243,6 +253,7 @@ constexpr std::array kKinds = {
     FileKind{recon::PersonShape::IsFile, ShowPersonFile, ".ossaperson"},
     FileKind{recon::BodyMesh::IsFile, ShowMesh, ".ossamesh"},
     FileKind{recon::RefinementCascade::IsFile, ShowRefinement, ".ossarefine"},
+    FileKind{recon::PoseNetwork::IsFile, ShowPoseNetwork, ".ossanet"},
     FileKind{tools::IsDataset, ShowDataset},
 };
 
@@ -274,8 +285,8 @@ int Info(int argc, char** argv) {
   AddSourceOptions(app, file);
   AddRotateOption(app, file);
   app.get_option("SOURCE")->description(
-      "a .ossa, .ossadb, .ossagp, .ossaprior, .ossarefine, .ossasurface, .ossamesh or skeleton "
-      "file, "
+      "a .ossa, .ossadb, .ossagp, .ossaprior, .ossarefine, .ossanet, .ossasurface, .ossamesh or "
+      "skeleton file, "
       "FILE#truth, a DATASET, a folder of skeleton files, or depth images: .oni, .mkv, .bag, "
       "FILE.bag#/topic, a 16-bit PNG or a folder of them. The options say how depth images are "
       "read");

@@ -66,8 +66,8 @@ void CheckExtension(const char* option, const std::string& path, const char* ext
 
 void CheckNotOtherKind(const char* option, const std::string& path, const char* extension) {
   for (const char* other : {".ossa", ".ossadb", ".ossaprior", ".ossagp", ".ossarefine", ".ossalook",
-                            ".ossasurface", ".ossaperson", ".ossamesh", ".oni", ".jsonl", ".json",
-                            ".bvh", ".trc", ".csv", ".glb", ".png", ".html"}) {
+                            ".ossanet", ".ossasurface", ".ossaperson", ".ossamesh", ".oni",
+                            ".jsonl", ".json", ".bvh", ".trc", ".csv", ".glb", ".png", ".html"}) {
     if (path.ends_with(other)) CheckExtension(option, path, extension);
   }
 }

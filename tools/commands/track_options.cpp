@@ -28,6 +28,10 @@ void AddTrackerOptions(CLI::App& app, TrackOptions& options) {
   app.add_option("--refinement,--look", files.refinement,
                  ".ossarefine of 'ossa refine', for best and --posture refined, or none (default: "
                  "with best and the shipped model the shipped one)");
+  app.add_option(
+      "--pose-network", files.pose_network,
+      ".ossanet of tools/train_pose_network, or shipped: a network that reads the joints "
+      "off the whole person has its say in refined joints (default: none)");
   app.add_option("--surface", files.surface,
                  ".ossasurface of 'ossa surface', for --fit (default: the shipped one)");
   app.add_option("--fit", options.fit,

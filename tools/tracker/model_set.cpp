@@ -11,6 +11,7 @@
 #include "recon/fit/body_surface.h"
 #include "recon/models/learned_models.h"
 #include "recon/models/posture_prior.h"
+#include "recon/refine/pose_network.h"
 #include "recon/refine/refinement_cascade.h"
 #include "recon/skeleton_sequence.h"
 #include "tools/tracker/shipped.h"
@@ -117,6 +118,13 @@ std::shared_ptr<const recon::PosturePrior> LoadPrior(const ModelFiles& files,
       recon::PosturePrior::Load(NamedOrShipped(files.prior, recon::kShippedPrior)));
 }
 
+std::shared_ptr<const recon::PoseNetwork> LoadPoseNetwork(const std::string& file) {
+  if (file.empty() || file == kWithout) return nullptr;
+  return std::make_shared<recon::PoseNetwork>(
+      recon::PoseNetwork::Load(file == kShippedNetwork ? ShippedFile(recon::kShippedPoseNetwork)
+                                                       : std::filesystem::path(file)));
+}
+
 std::shared_ptr<const recon::PostureDatabase> LoadDatabase(const ModelFiles& files,
                                                            std::string_view method) {
   if (!IsRead(recon::RequireMethod(method).database, files.database)) return nullptr;
@@ -137,6 +145,7 @@ ModelSet ModelSet::Load(const ModelFiles& files, std::string_view method) {
   set.forest = KeptForest(files, forest);
   if (set.forest == nullptr) set.forest = LoadForest(files, forest);
   set.refinement = refinement.get();
+  set.pose_network = LoadPoseNetwork(files.pose_network);
   set.surface = LoadSurface(files);
   set.database = LoadDatabase(files, method);
   set.prior = LoadPrior(files, method);

@@ -10,6 +10,7 @@ class ForestModel;  // forest/forest.h
 }
 namespace ossa::recon {
 class JointRefiner;     // recon/refine/refinement_cascade.h
+class PoseNetwork;      // recon/refine/pose_network.h
 class PostureDatabase;  // recon/database/posture_database.h
 struct BodySurface;     // recon/fit/body_surface.h
 struct LearnedModels;   // recon/models/learned_models.h
@@ -18,18 +19,22 @@ struct PosturePrior;    // recon/models/posture_prior.h
 
 namespace ossa::tracker {
 
+/// What ModelFiles::pose_network says for the network that ossa ships.
+inline constexpr std::string_view kShippedNetwork = "shipped";
+
 /// The files of a ModelSet, each one a path; or "", what ossa ships where that belongs to the other
 /// files and to the method; or "none", do without. README.md says which command makes which file.
 struct ModelFiles {
-  std::string forest;      // .ossa; "": the shipped one
-  std::string refinement;  // .ossarefine; "": the shipped one of the shipped forest, for methods
-                           // that start from refined joints
-  std::string surface;     // .ossasurface; "": the shipped one
-  std::string learned;     // .ossagp; "": what is known of the errors that the shipped forest and a
-                           // refinement leave, for methods that take a correction
-  std::string prior;       // .ossaprior; "": the shipped one, for methods that complete by a prior
-                           // where no database is named
-  std::string database;    // .ossadb; "": the shipped one, for methods that need one
+  std::string forest;        // .ossa; "": the shipped one
+  std::string refinement;    // .ossarefine; "": the shipped one of the shipped forest, for methods
+                             // that start from refined joints
+  std::string pose_network;  // .ossanet, or kShippedNetwork; "": none
+  std::string surface;       // .ossasurface; "": the shipped one
+  std::string learned;   // .ossagp; "": what is known of the errors that the shipped forest and a
+                         // refinement leave, for methods that take a correction
+  std::string prior;     // .ossaprior; "": the shipped one, for methods that complete by a prior
+                         // where no database is named
+  std::string database;  // .ossadb; "": the shipped one, for methods that need one
 };
 
 /// All that a tracker has learned, in memory. Read once, it serves any number of trackers, also at
@@ -37,6 +42,7 @@ struct ModelFiles {
 struct ModelSet {
   std::shared_ptr<const forest::ForestModel> forest;       // body parts and joint proposals; needed
   std::shared_ptr<const recon::JointRefiner> refinement;   // moves its joints at the depth image
+  std::shared_ptr<const recon::PoseNetwork> pose_network;  // reads joints off the whole person
   std::shared_ptr<const recon::BodySurface> surface;       // whose fit explains the depth
   std::shared_ptr<const recon::LearnedModels> learned;     // the correction of systematic errors
   std::shared_ptr<const recon::PosturePrior> prior;        // of postures: joints unseen from seen
@@ -61,6 +67,8 @@ ModelSet LoadCeilingModels(const ModelSet& models);
 /// Throws InputError.
 std::shared_ptr<const recon::PosturePrior> LoadPrior(const ModelFiles& files,
                                                      std::string_view method);
+/// A pose network as ModelFiles names it; null of "" and "none". Throws InputError.
+std::shared_ptr<const recon::PoseNetwork> LoadPoseNetwork(const std::string& file);
 /// The database of `files` alone, likewise.
 std::shared_ptr<const recon::PostureDatabase> LoadDatabase(const ModelFiles& files,
                                                            std::string_view method);

@@ -8,6 +8,7 @@
 #include "recon/fit/surface_fit.h"
 #include "recon/methods/reconstructor.h"
 #include "recon/refine/bone_estimation.h"
+#include "recon/refine/pose_network.h"
 #include "recon/refine/refinement_cascade.h"
 #include "tools/people/joint_targets.h"
 #include "tools/tracker/choose_posture_internal.h"
@@ -75,11 +76,12 @@ void ForgetGone(const std::vector<int>& in_view, double time_s, double forget_s,
 
 /// What the stages from a detection to the skeleton read, the same for every person and frame.
 struct SkeletonOptions {
-  const forest::ForestModel* forest = nullptr;      // of choosing among proposals,
-  people::JointTargets targets{};                   // ... and what it calls joints
-  const recon::JointRefiner* refinement = nullptr;  // null: none
-  const recon::BodySurface* surface = nullptr;      // of `fit`
-  std::optional<recon::SurfaceFitOptions> fit;      // nothing: no fit
+  const forest::ForestModel* forest = nullptr;       // of choosing among proposals,
+  people::JointTargets targets{};                    // ... and what it calls joints
+  const recon::JointRefiner* refinement = nullptr;   // null: none
+  const recon::PoseNetwork* pose_network = nullptr;  // null: none
+  const recon::BodySurface* surface = nullptr;       // of `fit`
+  std::optional<recon::SurfaceFitOptions> fit;       // nothing: no fit
   TrackingMode mode = TrackingMode::kStanding;
   bool from_above = false;  // the camera hangs under the ceiling
   bool physics = false;

@@ -14,9 +14,15 @@ const forest::Proposal* ProposalAt(const std::vector<forest::Proposal>& best_fir
 
 }  // namespace
 
+std::vector<uint8_t> MaskOf(const people::Candidate& candidate, const depth::DepthFrame& frame) {
+  std::vector<uint8_t> is_person(frame.pixel_count(), 0);
+  for (const int32_t pixel : candidate.pixels) is_person[static_cast<size_t>(pixel)] = 1;
+  return is_person;
+}
+
 std::optional<recon::RefinedPerson> RefineJoints(
     const recon::JointRefiner& refiner, const depth::DepthFrame& frame,
-    const people::Candidate& candidate, const std::vector<std::vector<forest::Proposal>>& proposals,
+    std::span<const uint8_t> is_person, const std::vector<std::vector<forest::Proposal>>& proposals,
     const people::JointTargets& targets, const recon::TrackedPosture& chosen,
     recon::MeanBoneLengths* bones) {
   recon::RefinementInput input;
@@ -29,8 +35,6 @@ std::optional<recon::RefinedPerson> RefineJoints(
     input.confidence[j] = proposal->confidence;
     input.seen[j] = proposal->seen;
   }
-  std::vector<uint8_t> is_person(frame.pixel_count(), 0);
-  for (const int32_t pixel : candidate.pixels) is_person[static_cast<size_t>(pixel)] = 1;
   input.depth = &frame;
   input.is_person = is_person;
   auto refined = refiner.Refine(input);

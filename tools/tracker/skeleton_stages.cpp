@@ -4,6 +4,7 @@
 #include <span>
 
 #include "depth/base/stopwatch.h"
+#include "recon/refine/fuse_poses.h"
 #include "tools/tracker/choose_posture_internal.h"
 #include "tools/tracker/fit_surface_internal.h"
 #include "tools/tracker/refine_joints_internal.h"
@@ -68,14 +69,26 @@ void ChooseRaw(SkeletonWork& work) {
 }
 
 void Refine(SkeletonWork& work) {
-  if (work.options.refinement == nullptr) return;
+  const SkeletonOptions& options = work.options;
+  if (options.refinement == nullptr && options.pose_network == nullptr) return;
+  Body& body = work.body;
   const people::Detection& detection = *work.detection;
-  const auto refined = RefineJoints(*work.options.refinement, work.frame, detection.candidate,
-                                    detection.evidence.proposals, work.options.targets,
-                                    work.body.raw, &work.person.bones);
-  if (!refined) return;
-  work.body.refined = refined->joints_m;
-  work.body.refined_bones_m = refined->bones_m;
+  const std::vector<uint8_t> is_person = MaskOf(detection.candidate, work.frame);
+  if (options.refinement != nullptr) {
+    const auto refined =
+        RefineJoints(*options.refinement, work.frame, is_person, detection.evidence.proposals,
+                     options.targets, body.raw, &work.person.bones);
+    if (refined) {
+      body.refined = refined->joints_m;
+      body.refined_bones_m = refined->bones_m;
+    }
+  }
+  if (options.pose_network == nullptr) return;
+  const auto crop = recon::PersonCrop::Cut(work.frame, is_person);
+  if (!crop) return;
+  const recon::NetworkPose read = options.pose_network->Run(*crop);
+  body.refined =
+      recon::FusePoses(body.refined ? *body.refined : body.raw.posture, body.raw.confidence, read);
 }
 
 void Fit(SkeletonWork& work) {

@@ -132,6 +132,7 @@ struct Tracker::Impl {
     skeleton.forest = &model;
     skeleton.targets = targets;
     skeleton.refinement = models.refinement.get();
+    if (!IsUnderCeiling()) skeleton.pose_network = models.pose_network.get();
     skeleton.surface = models.surface.get();
     if (models.surface && (models.refinement || IsUnderCeiling())) skeleton.fit = o.fit;
     skeleton.from_above = IsUnderCeiling();

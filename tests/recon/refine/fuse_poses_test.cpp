@@ -1,0 +1,29 @@
+#include "recon/refine/fuse_poses.h"
+
+#include <gtest/gtest.h>
+
+namespace ossa::recon {
+namespace {
+
+TEST(FusePoses, WeighsEachByTheSquareOfTheErrorThatIsExpectedOfIt) {
+  const FusionOptions options{.sure_m = 0.02, .unsure_m = 0.1, .off_on_real_depth = 2.0};
+  Posture joints_m;
+  for (Eigen::Vector3d& joint_m : joints_m.position_m) joint_m = {0.0, 0.0, 2.0};
+  JointArray<double> confidence{};
+  NetworkPose network;
+  for (size_t j = 0; j < kJointCount; ++j) {
+    network.joints_m.position_m[j] = {0.1, 0.0, 2.0};
+    network.error_m[j] = 0.02;
+  }
+  confidence[Index(Joint::kHead)] = 1.0;      // 2 cm against 4
+  confidence[Index(Joint::kKneeLeft)] = 0.5;  // 6 against 4
+  network.error_m[Index(Joint::kHandLeft)] = 1e6;
+  const Posture fused_m = FusePoses(joints_m, confidence, network, options);
+  EXPECT_NEAR(fused_m[Joint::kHead].x(), 0.1 * 4.0 / 20.0, 1e-9);
+  EXPECT_NEAR(fused_m[Joint::kKneeLeft].x(), 0.1 * 36.0 / 52.0, 1e-9);
+  EXPECT_NEAR(fused_m[Joint::kSpine].x(), 0.1 * 100.0 / 116.0, 1e-9);
+  EXPECT_NEAR(fused_m[Joint::kHandLeft].x(), 0.0, 1e-9);
+}
+
+}  // namespace
+}  // namespace ossa::recon
