@@ -67,11 +67,11 @@ ModelSet LoadCeilingModels(const ModelSet& models);
 /// Throws InputError.
 std::shared_ptr<const recon::PosturePrior> LoadPrior(const ModelFiles& files,
                                                      std::string_view method);
-/// A pose network as ModelFiles names it; null of "" and "none". Throws InputError.
-std::shared_ptr<const recon::PoseNetwork> LoadPoseNetwork(const std::string& file);
 /// The database of `files` alone, likewise.
 std::shared_ptr<const recon::PostureDatabase> LoadDatabase(const ModelFiles& files,
                                                            std::string_view method);
+/// A pose network as ModelFiles names it; null of "" and "none". Throws InputError.
+std::shared_ptr<const recon::PoseNetwork> LoadPoseNetwork(const std::string& file);
 
 /// A sensor whose errors are known: its name (recon::SkeletonSequence::sensor), whose skeletons
 /// those are, for messages, and the shipped file that takes them off (ShippedFile).

@@ -1,7 +1,9 @@
 #include "tools/tracker/skeleton_stages_internal.h"
 
 #include <array>
+#include <cstdint>
 #include <span>
+#include <vector>
 
 #include "depth/base/stopwatch.h"
 #include "recon/refine/fuse_poses.h"
@@ -40,6 +42,24 @@ void RunStages(std::span<const Stage> stages, SkeletonWork& work, StageTimes& ms
   }
 }
 
+void RefineByCascade(std::span<const uint8_t> is_person, SkeletonWork& work) {
+  const auto refined = RefineJoints(*work.options.refinement, work.frame, is_person,
+                                    work.detection->evidence.proposals, work.options.targets,
+                                    work.body.raw, &work.person.bones);
+  if (!refined) return;
+  work.body.refined = refined->joints_m;
+  work.body.refined_bones_m = refined->bones_m;
+}
+
+void FuseWithNetwork(std::span<const uint8_t> is_person, SkeletonWork& work) {
+  const auto crop = recon::PersonCrop::Cut(work.frame, is_person);
+  if (!crop) return;
+  Body& body = work.body;
+  const recon::Posture& before_m = body.refined ? *body.refined : body.raw.posture;
+  body.refined =
+      recon::FusePoses(before_m, body.raw.confidence, work.options.pose_network->Run(*crop));
+}
+
 }  // namespace
 
 void TrackSkeleton(SkeletonWork& work, StageTimes& ms) {
@@ -71,24 +91,9 @@ void ChooseRaw(SkeletonWork& work) {
 void Refine(SkeletonWork& work) {
   const SkeletonOptions& options = work.options;
   if (options.refinement == nullptr && options.pose_network == nullptr) return;
-  Body& body = work.body;
-  const people::Detection& detection = *work.detection;
-  const std::vector<uint8_t> is_person = MaskOf(detection.candidate, work.frame);
-  if (options.refinement != nullptr) {
-    const auto refined =
-        RefineJoints(*options.refinement, work.frame, is_person, detection.evidence.proposals,
-                     options.targets, body.raw, &work.person.bones);
-    if (refined) {
-      body.refined = refined->joints_m;
-      body.refined_bones_m = refined->bones_m;
-    }
-  }
-  if (options.pose_network == nullptr) return;
-  const auto crop = recon::PersonCrop::Cut(work.frame, is_person);
-  if (!crop) return;
-  const recon::NetworkPose read = options.pose_network->Run(*crop);
-  body.refined =
-      recon::FusePoses(body.refined ? *body.refined : body.raw.posture, body.raw.confidence, read);
+  const std::vector<uint8_t> is_person = MaskOf(work.detection->candidate, work.frame);
+  if (options.refinement != nullptr) RefineByCascade(is_person, work);
+  if (options.pose_network != nullptr) FuseWithNetwork(is_person, work);
 }
 
 void Fit(SkeletonWork& work) {

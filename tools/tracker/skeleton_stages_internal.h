@@ -35,7 +35,7 @@ void CompleteSkeleton(SkeletonWork& work, StageTimes& ms);
 
 /// Chooses among the detection's proposals: body.raw.
 void ChooseRaw(SkeletonWork& work);
-/// Refines it at the depth image where there is a cascade: body.refined.
+/// Refines it at the depth image where there is a cascade or a pose network: body.refined.
 void Refine(SkeletonWork& work);
 /// Fits the body's surface where that is asked for: body.fit.
 void Fit(SkeletonWork& work);

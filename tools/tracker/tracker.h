@@ -86,7 +86,8 @@ struct Body {
   /// Stage 1, the forest: the joints chosen among its proposals, in this frame alone.
   recon::TrackedPosture raw;
   recon::JointArray<std::vector<JointProposal>> proposals;  // best first; empty unless asked for
-  /// Stage 2, the refinement cascade at the depth image: the raw joints moved; absent without one.
+  /// Stage 2, the refinement cascade at the depth image, and the pose network where one is used:
+  /// the raw joints moved; absent without either.
   std::optional<recon::Posture> refined;
   std::optional<recon::BoneLengths> refined_bones_m;  // as it judges them in this frame alone
   /// Stage 3, the body whose surface explains the depth: with TrackerOptions::fit, where there are
