@@ -167,7 +167,7 @@ def main():
     files, found = tracked(), []
     helps = {}
     if arguments.ossa:
-        helps["commands"] = set(re.findall(r"^  ([a-z][a-z-]*)  ", help_of(arguments.ossa), re.M))
+        helps["commands"] = set(re.findall(r"^  ([a-z][a-z-]*) +", help_of(arguments.ossa), re.M))
         if not helps["commands"]:
             print(f"{arguments.ossa} --help names no commands")
             return 1
