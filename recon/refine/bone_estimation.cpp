@@ -23,8 +23,8 @@ Eigen::RowVectorXf ComputeBoneFeatures(const ProposedPerson& person) {
   }
   for (const double confidence : person.confidence) *next++ = static_cast<float>(confidence);
   for (const bool seen : person.seen) *next++ = seen ? 1.0F : 0.0F;
-  const Eigen::Vector3f middle_m = person.middle_m.cast<float>();
-  std::copy(middle_m.begin(), middle_m.end(), next);
+  const Eigen::Vector3f where_m = person.where_m.cast<float>();
+  std::copy(where_m.begin(), where_m.end(), next);
   return numbers;
 }
 

@@ -20,7 +20,7 @@ inline constexpr std::array<Joint, 11> kEstimatedBones = {
     Joint::kKneeLeft,  Joint::kAnkleLeft,      Joint::kFootLeft};
 
 /// What the network reads: where all joints lie from the middle; of each bone the logarithm of its
-/// length as it lies there; how confident the joints are and which are seen; the middle.
+/// length as it lies there; how confident joints are and which are seen; ProposedPerson::where_m.
 inline constexpr int kBoneFeatures = 3 * kJointCount + (kJointCount - 1) + 2 * kJointCount + 3;
 Eigen::RowVectorXf ComputeBoneFeatures(const ProposedPerson& person);
 

@@ -8,9 +8,9 @@ namespace {
 
 // Constants: chosen by hand; part of every pose network.
 
-constexpr double kNearer_m = 0.03;  // by so much, something that is not the person is before them
-constexpr double kNearest_m = 0.2;  // what is nearer is beside the sensor
-constexpr int kMostMiddle = 4096;   // pixels that the middle is the mean of: more change nothing
+constexpr double kNearer_m = 0.03;   // by so much, something that is not the person is before them
+constexpr double kNearest_m = 0.2;   // what is nearer is beside the sensor
+constexpr int kMiddlePixels = 4096;  // at least, where there are: more of them change nothing
 constexpr int kTapsASide = 2;
 static_assert(kTapsASide * kTapsASide == kCropTaps);
 
@@ -20,7 +20,7 @@ std::optional<Eigen::Vector3d> FindMiddle(const depth::DepthFrame& frame,
   const depth::DepthView view = frame.view();
   const auto count =
       static_cast<int64_t>(std::ranges::count_if(is_person, [](uint8_t of) { return of != 0; }));
-  const int64_t step = std::max<int64_t>(1, count / kMostMiddle);
+  const int64_t step = std::max<int64_t>(1, count / kMiddlePixels);
   Eigen::Vector3d sum_m = Eigen::Vector3d::Zero();
   int64_t seen = 0, read = 0;
   for (size_t p = 0; p < is_person.size(); ++p) {
@@ -39,7 +39,11 @@ std::optional<Eigen::Vector3d> FindMiddle(const depth::DepthFrame& frame,
 
 std::optional<PersonCrop> PersonCrop::Cut(const depth::DepthFrame& frame,
                                           std::span<const uint8_t> is_person) {
-  if (is_person.size() != frame.pixel_count()) return std::nullopt;
+  const depth::Camera& size = frame.camera;
+  if (is_person.size() != frame.pixel_count() || size.width <= 0 || size.height <= 0 ||
+      frame.pixel_count() != static_cast<size_t>(size.width) * static_cast<size_t>(size.height)) {
+    return std::nullopt;
+  }
   const auto middle_m = FindMiddle(frame, is_person);
   if (!middle_m) return std::nullopt;
   const auto axes = MakeViewFrame(*middle_m);

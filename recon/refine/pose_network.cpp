@@ -161,6 +161,10 @@ PoseNetwork::PoseNetwork(Layers layers, uint64_t people, const std::string& name
           name, l + 1, inputs[l], outputs[l], kShapes[l].size, kShapes[l].size, kShapes[l].stride,
           layer.inputs(), layer.weight.cols(), layer.size, layer.size, layer.stride));
     }
+    if (!AreModest(layer.weight) || !AreModest(layer.bias)) {
+      throw InputError(
+          fmt::format("{}: layer {}: expected numbers of at most a million", name, l + 1));
+    }
   }
 }
 
@@ -193,24 +197,8 @@ PoseNetwork PoseNetwork::FromBytes(std::span<const std::byte> bytes, const std::
     layer.stride = kShapes[l].stride;
     const Eigen::Index inputs = GetUnits(in), outputs = GetUnits(in);
     const Eigen::Index rows = inputs * layer.size * layer.size;
-    const auto halves = in.GetVector<uint16_t>("weights");
-    const auto bias = in.GetVector<float>("biases");
-    if (std::ssize(halves) != rows * outputs) {
-      in.Fail("weights", fmt::format("expected {}, found {}", rows * outputs, halves.size()));
-    }
-    if (std::ssize(bias) != outputs) {
-      in.Fail("biases", fmt::format("expected {}, found {}", outputs, bias.size()));
-    }
-    layer.weight.resize(rows, outputs);
-    std::ranges::transform(halves, layer.weight.data(), ExpandHalf);
-    layer.bias = Eigen::Map<const Eigen::RowVectorXf>(bias.data(), outputs);
-    constexpr float kMost = 1e6F;  // a ratio
-    const auto is_sane = [](const auto& numbers) {
-      return numbers.allFinite() && numbers.cwiseAbs().maxCoeff() < kMost;
-    };
-    if (!is_sane(layer.weight) || !is_sane(layer.bias)) {
-      in.Fail("weights", "expected numbers within a million of 0");
-    }
+    layer.weight = GetHalves(in, "weights", rows, outputs);
+    layer.bias = GetFloats(in, "biases", outputs).transpose();
   }
   in.ExpectEnd();
   return {std::move(layers), people, name};
@@ -222,10 +210,7 @@ void PoseNetwork::Save(const std::filesystem::path& path) const {
   for (const Convolution& layer : layers_) {
     out.Put(static_cast<uint32_t>(layer.inputs()));
     out.Put(static_cast<uint32_t>(layer.bias.size()));
-    std::vector<uint16_t> halves(static_cast<size_t>(layer.weight.size()));
-    std::transform(layer.weight.data(), layer.weight.data() + layer.weight.size(), halves.begin(),
-                   RoundToHalf);
-    out.PutVector(halves);
+    PutHalves(out, std::span(layer.weight.data(), static_cast<size_t>(layer.weight.size())));
     out.PutArray(std::span<const float>(layer.bias.data(), static_cast<size_t>(layer.bias.size())));
   }
   WriteContainer(path, kFormat, out.bytes());

@@ -19,6 +19,7 @@ bool CanBeRefined(const RefinementInput& input) {
           static_cast<size_t>(frame->camera.width) * static_cast<size_t>(frame->camera.height)) {
     return false;
   }
+  if (input.floor && !input.floor->allFinite()) return false;
   constexpr double kFarthest_m = 100.0;
   for (size_t j = 0; j < kJointCount; ++j) {
     if (!(input.proposed.position_m[j].norm() < kFarthest_m)) return false;
@@ -26,6 +27,24 @@ bool CanBeRefined(const RefinementInput& input) {
     if (!(input.confidence[j] >= 0.0 && input.confidence[j] <= 1.0)) return false;
   }
   return true;
+}
+
+// From the left side of the body to the right one.
+Eigen::Vector3d ComputeAcross(const Posture& posture) {
+  return posture[Joint::kShoulderRight] - posture[Joint::kShoulderLeft] +
+         (posture[Joint::kHipRight] - posture[Joint::kHipLeft]);
+}
+
+// The same frame, turned about its z until x goes along `across`; as it is where that is the ray.
+ViewFrame TurnedAlong(const ViewFrame& frame, const Eigen::Vector3d& across_m) {
+  constexpr double kLeast_m = 0.05;  // shorter is noise
+  const Eigen::Vector3d z = frame.frame_from_camera.row(2);
+  const Eigen::Vector3d level = across_m - z.dot(across_m) * z;
+  if (level.norm() < kLeast_m) return frame;
+  const Eigen::Vector3d x = level.normalized();
+  ViewFrame turned = frame;
+  turned.frame_from_camera << x.transpose(), z.cross(x).transpose(), z.transpose();
+  return turned;
 }
 
 // Of a body at all, however small or large.
@@ -55,6 +74,13 @@ std::optional<ProposedPerson> ProposedPerson::Locate(const RefinementInput& inpu
   if (!frame) return std::nullopt;
   ProposedPerson out;
   static_cast<ViewFrame&>(out) = *frame;
+  out.where_m = out.middle_m;
+  if (input.floor) {
+    static_cast<ViewFrame&>(out) = TurnedAlong(*frame, ComputeAcross(input.proposed));
+    const Eigen::Vector3d up = input.floor->head<3>();
+    const double height_m = up.dot(out.middle_m) + (*input.floor)[3];
+    out.where_m = out.frame_from_camera * (-height_m * up);
+  }
   for (size_t j = 0; j < kJointCount; ++j) {
     const Eigen::Vector3d& joint_m = input.proposed.position_m[j];
     out.place.position_m[j] = out.frame_from_camera * (joint_m - out.middle_m);
@@ -69,6 +95,7 @@ ProposedPerson ProposedPerson::Mirrored() const {
   const Eigen::Vector3d mirror(-1.0, 1.0, 1.0);
   ProposedPerson out = *this;
   out.middle_m = mirror.cwiseProduct(middle_m);
+  out.where_m = mirror.cwiseProduct(where_m);
   out.frame_from_camera = mirror.asDiagonal() * frame_from_camera * mirror.asDiagonal();
   for (size_t j = 0; j < kJointCount; ++j) {
     const auto other = kMirroredJoint[j];
@@ -124,12 +151,12 @@ Eigen::RowVectorXf ComputeStageFeatures(const SampledPerson& person, Joint joint
   }
   for (const double confidence : person.confidence) *next++ = static_cast<float>(confidence);
   for (const bool seen : person.seen) *next++ = seen ? 1.0F : 0.0F;
-  const Eigen::Vector3f middle_m = person.middle_m.cast<float>();
-  std::copy(middle_m.begin(), middle_m.end(), next);
+  const Eigen::Vector3f where_m = person.where_m.cast<float>();
+  std::copy(where_m.begin(), where_m.end(), next);
   return numbers;
 }
 
-JointRefiner::JointRefiner(const RefinementCascade& cascade) {
+JointRefiner::JointRefiner(const RefinementCascade& cascade) : from_above_(cascade.from_above) {
   PerceptronPacker packer(0);
   const auto add = [&packer](const std::vector<RefinementStage>& stages) {
     for (const RefinementStage& stage : stages) {
@@ -192,9 +219,11 @@ RefinementInput JointRefiner::RunStages(Networks networks, RefinementInput input
 }
 
 std::optional<RefinedPerson> JointRefiner::Refine(const RefinementInput& input) const {
-  if (!ProposedPerson::Locate(input)) return std::nullopt;
+  if (from_above_ && !input.floor) return std::nullopt;
   const Networks all = networks_;
   RefinementInput now = input;
+  if (!from_above_) now.floor.reset();
+  if (!ProposedPerson::Locate(now)) return std::nullopt;
   now.bones_m.reset();
   now = RunStages(all.first(before_bones_), std::move(now));
   RefinedPerson out{now.proposed, std::nullopt};

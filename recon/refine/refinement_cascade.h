@@ -33,14 +33,21 @@ struct RefinementInput {
   std::span<const uint8_t> is_person;  // of each of its pixels, row-major: 1 for this person's
   Posture moved;  // from the forest's proposals to `proposed`, by earlier stages; metres
   std::optional<BoneLengths> bones_m;  // the person's, where earlier frames have shown them
+  /// a b c d of ax + by + cz + d = 0, camera space, (a, b, c) up. Read by cascades from above only.
+  std::optional<Eigen::Vector4d> floor;
 
   /// After a stage that put the joints there.
   RefinementInput MovedTo(const Posture& joints_m) const;
 };
 
-/// Where a person's joints are proposed, in axes that stand in the person.
+/// Where a person's joints are proposed, in axes that stand in the person: z along the ray; x
+/// level, or, where the input has a floor, from the left side of the body to the right one, for
+/// from above people face any way in the image.
 struct ProposedPerson : ViewFrame {
   Posture place;  // proposed, from the middle, these axes
+  /// What networks are told of the place: the middle, camera space; or, where the input has a
+  /// floor, the place on it below the middle, from there, these axes. Metres.
+  Eigen::Vector3d where_m = Eigen::Vector3d::Zero();
   JointArray<double> confidence{};
   JointArray<bool> seen{};
   Posture moved;  // by earlier stages, these axes
@@ -73,7 +80,8 @@ struct SampledPerson : ProposedPerson {
 
 /// What the network of a joint reads: of each sample of the joint how far behind it surface lies,
 /// metres, times the share of it, then the shares beside and hidden; where all joints lie from this
-/// one, how far earlier stages moved them, how confident they are and which are seen; the middle.
+/// one, how far earlier stages moved them, how confident they are and which are seen;
+/// ProposedPerson::where_m.
 inline constexpr int kStageFeatures = 3 * kSurfaceSamples + 8 * kJointCount + 3;
 Eigen::RowVectorXf ComputeStageFeatures(const SampledPerson& person, Joint joint);
 
@@ -95,6 +103,9 @@ using RefinementStage = std::array<Perceptron, kStageJoints.size()>;
 /// joints. Frame by frame; of other frames only the bones are given. Learned from a forest's
 /// proposals on rendered people (`ossa refine`).
 struct RefinementCascade {
+  /// Learned on people seen from above, by a camera under the ceiling: needs the floor, and turns
+  /// the axes to where each body faces.
+  bool from_above = false;
   std::vector<RefinementStage> stages;
   Perceptron bones;  // kBoneFeatures -> kEstimatedBones, see bone_estimation.h; or empty
   /// After the bones: stages whose networks also read them (kBoneConditionedFeatures); none
@@ -112,9 +123,9 @@ struct RefinementCascade {
   static constexpr size_t kMaxStages = 8;  // of either kind
 
   /// .ossarefine, formerly .ossalook: reads refuse damaged, truncated and hostile files by name and
-  /// byte. Version 5, which is still read, is not compressed; version 4 has no bone-conditioned
-  /// stages, either.
-  static constexpr uint32_t kVersion = 6, kOldestVersion = 4;
+  /// byte. Versions 4 to 6 are still read: 6 does not say whether the people are seen from above
+  /// (they are not), 5 is not compressed, either, and 4 has no bone-conditioned stages.
+  static constexpr uint32_t kVersion = 7, kOldestVersion = 4;
   static RefinementCascade Load(const std::filesystem::path& path);
   /// Of a payload that is not compressed, or no longer.
   static RefinementCascade FromBytes(std::span<const std::byte> bytes, const std::string& name,
@@ -138,8 +149,11 @@ class JointRefiner {
   /// their weights are bytes again, take four times the memory.
   static JointRefiner Load(const std::filesystem::path& path);
 
-  /// Nothing where SampledPerson::Sample has nothing to say at first.
+  /// Nothing where SampledPerson::Sample has nothing to say at first, and from above without a
+  /// floor.
   std::optional<RefinedPerson> Refine(const RefinementInput& input) const;
+  /// As RefinementCascade::from_above.
+  bool from_above() const { return from_above_; }
 
  private:
   JointRefiner() = default;
@@ -152,6 +166,7 @@ class JointRefiner {
   // Of the stages; of the bones, if they are estimated; of the bone-conditioned stages.
   std::vector<QuantisedPerceptron> networks_;
   size_t before_bones_ = 0;
+  bool from_above_ = false;
 };
 
 }  // namespace ossa::recon

@@ -19,6 +19,7 @@ constexpr ContainerFormat kFormat = {
 
 constexpr uint32_t kFirstBoneConditioned = 5;  // version that has such stages
 constexpr uint32_t kFirstCompressed = 6;       // version that is
+constexpr uint32_t kFirstFromAbove = 7;        // version that may be
 constexpr int kCompressionLevel = 19;
 
 Perceptron GetStageNetwork(PayloadReader& in, Eigen::Index inputs, Eigen::Index outputs) {
@@ -55,9 +56,16 @@ uint32_t GetStages(PayloadReader& in, const char* name, uint32_t fewest, Eigen::
 
 // What a file holds beside its networks.
 struct FileCounts {
+  bool from_above = false;
   uint64_t people = 0, measured = 0;          // as RefinementCascade's
   uint32_t stages = 0, bone_conditioned = 0;  // kStageJoints networks each
 };
+
+bool GetFromAbove(PayloadReader& in) {
+  const auto from_above = in.Get<uint32_t>("seen from above");
+  if (from_above > 1) in.Fail("seen from above", "expected 0 or 1");
+  return from_above == 1;
+}
 
 // The networks come in the order in which they run.
 FileCounts ReadNetworks(std::span<const std::byte> bytes, const std::string& name, uint32_t version,
@@ -65,6 +73,7 @@ FileCounts ReadNetworks(std::span<const std::byte> bytes, const std::string& nam
   PayloadReader in(bytes, name);
   FileCounts counts;
   counts.people = in.Get<uint64_t>("people");
+  if (version >= kFirstFromAbove) counts.from_above = GetFromAbove(in);
   counts.stages = GetStages(in, "stages", 1, kStageFeatures, take);
   counts.measured = in.Get<uint64_t>("people whose bones were measured");
   if (counts.measured > 0) {
@@ -106,6 +115,7 @@ void PutStages(PayloadWriter& out, const std::vector<RefinementStage>& stages) {
 void RefinementCascade::Save(const std::filesystem::path& path) const {
   PayloadWriter out;
   out.Put(people);
+  out.Put(uint32_t{from_above});
   PutStages(out, stages);
   out.Put(bones.empty() ? uint64_t{0} : measured);
   if (!bones.empty()) {
@@ -137,6 +147,7 @@ RefinementCascade RefinementCascade::FromBytes(std::span<const std::byte> bytes,
     return stages;
   };
   RefinementCascade out;
+  out.from_above = counts.from_above;
   out.people = counts.people;
   out.measured = counts.measured;
   out.stages = take_stages(counts.stages);
@@ -154,6 +165,7 @@ JointRefiner JointRefiner::Load(const std::filesystem::path& path) {
             bytes, name, version, [&](const Perceptron& network) { packer.Add(network); });
         refiner.before_bones_ = counts.stages * kStageJoints.size();
         refiner.networks_ = packer.Take();
+        refiner.from_above_ = counts.from_above;
         return refiner;
       });
 }

@@ -35,8 +35,12 @@ int Crop(int argc, char** argv) {
   options.progress = [&](int64_t done, int64_t total) {
     bar.Update(static_cast<double>(done), static_cast<double>(total), "frames");
   };
-  const int64_t people = tools::WritePersonCrops(dataset, out, options);
-  fmt::print("{}: {} people\n", out, people);
+  try {
+    const int64_t people = tools::WritePersonCrops(dataset, out, options);
+    fmt::print("{}: {} people\n", out, people);
+  } catch (const TrainInterrupted&) {
+    throw InputError("crop: interrupted; nothing was written");
+  }
   return 0;
 }
 

@@ -156,10 +156,11 @@ void ShowRefinement(const fs::path& path) {
     return fmt::format("{} {}stage{}", stages.size(), kind, stages.size() == 1 ? "" : "s");
   };
   fmt::print(
-      "refinement cascade for a forest's joints, {} of {} networks, {}learned from {} people, "
+      "refinement cascade for a forest's joints, {} of {} networks, {}learned from {} people{}, "
       "{:.1f} MB\n",
       count(cascade.stages, ""), recon::kStageJoints.size(), is_one ? "" : "the last made ",
-      cascade.people, static_cast<double>(fs::file_size(path)) * 1e-6);
+      cascade.people, cascade.from_above ? " seen from the ceiling" : "",
+      static_cast<double>(fs::file_size(path)) * 1e-6);
   if (cascade.bones.empty()) return;
   fmt::print("and an estimate of {} bones, learned from {} people{}\n",
              recon::kEstimatedBones.size(), cascade.measured,

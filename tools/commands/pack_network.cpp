@@ -4,6 +4,7 @@
 #include <array>
 #include <charconv>
 #include <cstring>
+#include <filesystem>
 #include <fstream>
 #include <string>
 #include <vector>
@@ -47,10 +48,13 @@ std::vector<float> ReadNumbers(const std::string& path) {
   if (read.ec != std::errc() || !rest.starts_with(",)") || count > kMost) {
     fail("float32 numbers of one dimension");
   }
+  if (std::filesystem::file_size(path) != start.size() + length + count * sizeof(float)) {
+    fail("as many numbers as its head says");
+  }
   std::vector<float> numbers(count);
   file.read(reinterpret_cast<char*>(numbers.data()),
             static_cast<std::streamsize>(count * sizeof(float)));
-  if (!file) fail("as many numbers as its head says");
+  if (!file) throw InputError(path + ": cannot be read");
   return numbers;
 }
 

@@ -14,6 +14,7 @@
 #include "tools/commands/outputs.h"
 #include "tools/learning/learn_bone_estimation.h"
 #include "tools/learning/learn_refinement_stage.h"
+#include "tools/learning/refinement_examples.h"
 #include "tools/tracker/shipped.h"
 
 namespace ossa::commands {
@@ -28,7 +29,10 @@ int Refine(int argc, char** argv) {
   bool bones = false, quiet = false;
   app.add_option("DATASET", datasets, "folders made by ossa render")->required();
   app.add_option("--out", out, "the .ossarefine file to write")->required();
-  app.add_option("--model", model_path, "forest model, .ossa (default: the shipped one)");
+  app.add_option(
+      "--model", model_path,
+      "forest model, .ossa (default: the shipped one, of people seen from the ceiling that for "
+      "them)");
   app.add_option(
       "--after", after,
       "a .ossarefine: its stages come first, one more is learned from where they end; if "
@@ -66,15 +70,12 @@ int Refine(int argc, char** argv) {
   if (bones && app.count("--shifted") + app.count("--shift") > 0) {
     throw UsageError("--shifted, --shift: bones are learned from joints where they are put");
   }
-  if (model_path.empty()) model_path = tracker::ShippedFile("body.ossa").string();
   std::vector<std::string> inputs = datasets;
-  inputs.push_back(model_path);
+  if (!model_path.empty()) inputs.push_back(model_path);
   if (!after.empty()) inputs.push_back(after);
   CheckOutputs({out}, inputs);
   AtomicFile::CheckWritable(out);
 
-  const forest::ForestModel model = forest::ReadForestModel(model_path);
-  options.model_name = model_path;
   if (!after.empty()) options.after = recon::RefinementCascade::Load(after);
   const recon::RefinementCascade& known = options.after;
   if (bones && !known.bone_conditioned.empty()) {
@@ -86,6 +87,18 @@ int Refine(int argc, char** argv) {
     throw InputError(fmt::format("{}: expected less than {} stages", after,
                                  recon::RefinementCascade::kMaxStages));
   }
+  const bool from_above = tools::AreSeenFromAbove({datasets.begin(), datasets.end()});
+  if (!after.empty() && from_above != known.from_above) {
+    throw InputError(fmt::format("{}: learned on people seen {}, expected {} to show them so, too",
+                                 after, known.from_above ? "from the ceiling" : "by a level camera",
+                                 datasets.front()));
+  }
+  options.after.from_above = from_above;
+  if (model_path.empty()) {
+    model_path = tracker::ShippedFile(from_above ? "body_ceiling.ossa" : "body.ossa").string();
+  }
+  const forest::ForestModel model = forest::ReadForestModel(model_path);
+  options.model_name = model_path;
   Progress bar("refine", quiet);
   options.stop = Interrupted;
   options.progress = [&](int64_t done, int64_t total) {

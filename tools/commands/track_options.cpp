@@ -27,7 +27,8 @@ void AddTrackerOptions(CLI::App& app, TrackOptions& options) {
                  "and the shipped model the shipped one)");
   app.add_option("--refinement,--look", files.refinement,
                  ".ossarefine of 'ossa refine', for best and --posture refined, or none (default: "
-                 "with best and the shipped model the shipped one)");
+                 "with best and the shipped model the shipped one); one that was learned on people "
+                 "seen from the ceiling is for cameras there");
   app.add_option(
       "--pose-network", files.pose_network,
       ".ossanet of tools/train_pose_network, or shipped: a network that reads the joints "
@@ -76,14 +77,12 @@ const std::map<std::string, std::string> kOldPostures = {{"looked", "refined"}};
 
 // Refined joints that were asked for are had with every method.
 void NeedRefinement(tracker::ModelFiles& files) {
-  const bool is_shipped = tracker::IsShippedForest(files);
-  if (files.refinement == "none" || (files.refinement.empty() && !is_shipped)) {
+  const char* const shipped = tracker::FindShippedRefinement(files);
+  if (files.refinement == "none" || (files.refinement.empty() && shipped == nullptr)) {
     throw UsageError(
         "--posture refined: expected --refinement FILE.ossarefine of 'ossa refine' with it");
   }
-  if (files.refinement.empty()) {
-    files.refinement = tracker::ShippedFile(recon::kShippedRefinement).string();
-  }
+  if (files.refinement.empty()) files.refinement = tracker::ShippedFile(shipped).string();
 }
 
 // A person's shape is told to a fit, and told by one.
@@ -111,8 +110,8 @@ void CheckFit(const TrackOptions& options) {
         "--fit on: expected --surface FILE.ossasurface of 'ossa surface' with it, found none");
   }
   const std::string& refinement = options.files.refinement;
-  const bool is_shipped =
-      RequireMethodInfo(options.tracker.method).refined && tracker::IsShippedForest(options.files);
+  const bool is_shipped = RequireMethodInfo(options.tracker.method).refined &&
+                          tracker::FindShippedRefinement(options.files) != nullptr;
   if (refinement == "none" || (refinement.empty() && !is_shipped)) {
     throw UsageError(
         "--fit on: expected --refinement FILE.ossarefine of 'ossa refine' with it, found none");

@@ -66,17 +66,12 @@ uint8_t EncodeBehind(const recon::PersonCrop::Cell& cell) {
 }
 
 void ReadRow(const DatasetReader& reader, int64_t number, CropRow* row) {
-  constexpr int kFewest = 200;        // pixels: fewer are a hand or a head
   constexpr double kNearest_m = 0.1;  // a joint before the camera
   *row = {};
   for (auto& joint : row->joints) joint.fill(std::numeric_limits<float>::quiet_NaN());
-  LabelledFrame frame = Uncropped(reader.Read(number), reader.manifest().camera);
-  if (frame.bodies.empty()) return;
-  LayFloor(&frame);
-  const TruthBody& body = frame.bodies[static_cast<size_t>(number) % frame.bodies.size()];
-  const std::vector<uint8_t> is_person = SegmentedPerson(frame, body.id);
-  if (std::ranges::count(is_person, 1) < kFewest) return;
-  const auto crop = recon::PersonCrop::Cut(frame.depth, is_person);
+  const auto person = ReadSegmented(reader, number);
+  if (!person) return;
+  const auto crop = recon::PersonCrop::Cut(person->frame.depth, person->is_person);
   if (!crop) return;
   for (size_t c = 0; c < crop->cells.size(); ++c) {
     const recon::PersonCrop::Cell& cell = crop->cells[c];
@@ -84,7 +79,7 @@ void ReadRow(const DatasetReader& reader, int64_t number, CropRow* row) {
     row->cells[1][c] = static_cast<uint8_t>((recon::kCropTaps + 1) * cell.surface + cell.hidden);
   }
   for (size_t j = 0; j < recon::kJointCount; ++j) {
-    const Eigen::Vector3d& joint_m = body.joints_m.position_m[j];
+    const Eigen::Vector3d& joint_m = person->body.joints_m.position_m[j];
     if (!(joint_m.z() > kNearest_m)) continue;
     const Eigen::Vector3f at_m = crop->Project(joint_m).cast<float>();
     std::ranges::copy(at_m, row->joints[j].begin());
@@ -126,6 +121,7 @@ int64_t WritePersonCrops(const std::filesystem::path& dataset, const std::filesy
     crops.Check();
     if (options.progress) options.progress(first + count, frames);
   }
+  std::filesystem::remove(out / "joints.npy");  // of an earlier run; without it nothing is whole
   crops.Commit();
   range.Commit();
   joints.Commit();

@@ -5,6 +5,8 @@
 
 #include <algorithm>
 #include <optional>
+#include <string>
+#include <string_view>
 
 #include "depth/base/error.h"
 #include "depth/base/random.h"
@@ -21,6 +23,8 @@ namespace ossa::tools {
 namespace {
 
 // Constants: chosen by hand.
+
+constexpr std::string_view kFromAbove = "ceiling";  // DatasetManifest::view
 
 using recon::kJointCount;
 using recon::Posture;
@@ -49,22 +53,19 @@ class Gatherer {
   /// too little is seen or some joint has no proposal.
   std::vector<RefinementExample> Read(size_t index) const {
     const auto [dataset, number] = places_[index];
-    const DatasetReader& reader = readers_[dataset];
-    LabelledFrame frame = Uncropped(reader.Read(number), reader.manifest().camera);
-    if (frame.bodies.empty()) return {};
-    LayFloor(&frame);
-    const TruthBody& body = frame.bodies[static_cast<size_t>(number) % frame.bodies.size()];
-    std::vector<uint8_t> is_person;
-    const auto proposed = Propose(frame, body.id, &is_person);
+    const auto person = ReadSegmented(readers_[dataset], number);
+    if (!person) return {};
+    const auto proposed = Propose(*person);
     if (!proposed) return {};
+    const Posture& true_m = person->body.joints_m;
     Random random(options_.seed, index);
-    auto input = RunStages(*proposed, recon::MeasureBoneLengths(body.joints_m), random);
+    auto input = RunStages(*proposed, recon::MeasureBoneLengths(true_m), random);
     std::vector<RefinementExample> examples;
-    if (!input || !AddExample(*input, body.joints_m, &examples)) return {};
+    if (!input || !AddExample(*input, true_m, &examples)) return {};
     const Posture put_m = input->proposed;
     for (int i = 0; i < options_.shifted; ++i) {
       input->proposed = Shifted(put_m, random);
-      AddExample(*input, body.joints_m, &examples);
+      AddExample(*input, true_m, &examples);
     }
     return examples;
   }
@@ -97,17 +98,13 @@ class Gatherer {
     return put_m;
   }
 
-  // The likeliest place of each joint; the result borrows from frame and `is_person`.
-  std::optional<recon::RefinementInput> Propose(const LabelledFrame& frame, int id,
-                                                std::vector<uint8_t>* is_person) const {
-    constexpr size_t kFewest = 200;  // pixels: fewer are a hand or a head
-    const depth::DepthFrame& depth = frame.depth;
+  // The likeliest place of each joint; the result borrows from `person`.
+  std::optional<recon::RefinementInput> Propose(const SegmentedFrame& person) const {
+    const depth::DepthFrame& depth = person.frame.depth;
     std::vector<int32_t> pixels;
-    *is_person = SegmentedPerson(frame, id);
-    for (size_t i = 0; i < is_person->size(); ++i) {
-      if ((*is_person)[i] != 0) pixels.push_back(static_cast<int32_t>(i));
+    for (size_t i = 0; i < person.is_person.size(); ++i) {
+      if (person.is_person[i] != 0) pixels.push_back(static_cast<int32_t>(i));
     }
-    if (pixels.size() < kFewest) return std::nullopt;
     const auto classes = forest::Classify(model_, depth.view(), depth.camera, pixels);
     const auto proposals = forest::Propose(model_, depth.view(), depth.camera, classes);
     recon::RefinementInput input;
@@ -119,8 +116,10 @@ class Gatherer {
       input.seen[j] = best_first.front().seen;
     }
     input.depth = &depth;
-    input.is_person = *is_person;
-    return input;
+    input.is_person = person.is_person;
+    if (!options_.after.from_above) return input;
+    input.floor = person.frame.floor;
+    return input.floor ? std::optional(input) : std::nullopt;
   }
 
   // After the stages that are known already. Frames before one would have told the bones about as
@@ -152,6 +151,20 @@ class Gatherer {
 };
 
 }  // namespace
+
+bool AreSeenFromAbove(const std::vector<std::filesystem::path>& datasets) {
+  std::optional<bool> from_above;
+  for (const auto& folder : datasets) {
+    const std::string view = DatasetReader(folder).manifest().view;
+    if (from_above.value_or(view == kFromAbove) != (view == kFromAbove)) {
+      throw InputError(fmt::format(
+          "{}: expected people seen as in {}: all from the ceiling or none, found view {}",
+          folder.string(), datasets.front().string(), view));
+    }
+    from_above = view == kFromAbove;
+  }
+  return from_above.value_or(false);
+}
 
 RefinementExamples GatherRefinementExamples(const forest::ForestModel& model,
                                             const std::vector<std::filesystem::path>& datasets,

@@ -26,6 +26,10 @@ struct RefinementExamples {
   size_t people = 0;
 };
 
+/// Whether the people of data sets are seen by a camera under the ceiling. Throws InputError where
+/// those of some are and those of others are not.
+bool AreSeenFromAbove(const std::vector<std::filesystem::path>& datasets);
+
 /// One person of each frame of the data sets of whom enough is seen, in order. Throws InputError
 /// where there are too few to learn from.
 RefinementExamples GatherRefinementExamples(const forest::ForestModel& model,

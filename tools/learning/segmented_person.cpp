@@ -68,6 +68,19 @@ std::vector<uint8_t> SegmentedPerson(const LabelledFrame& frame, int id) {
   return is_person;
 }
 
+std::optional<SegmentedFrame> ReadSegmented(const DatasetReader& reader, int64_t index) {
+  constexpr int kFewest = 200;  // pixels: fewer are a hand or a head
+  SegmentedFrame out;
+  out.frame = Uncropped(reader.Read(index), reader.manifest().camera);
+  const std::vector<TruthBody>& bodies = out.frame.bodies;
+  if (bodies.empty()) return std::nullopt;
+  LayFloor(&out.frame);
+  out.body = bodies[static_cast<size_t>(index) % bodies.size()];
+  out.is_person = SegmentedPerson(out.frame, out.body.id);
+  if (std::ranges::count(out.is_person, 1) < kFewest) return std::nullopt;
+  return out;
+}
+
 void LayFloor(LabelledFrame* frame) {
   if (!frame->floor) return;
   constexpr double kNearest_m = 0.4, kFarthest_m = 8.0;  // of what a sensor measures

@@ -291,6 +291,22 @@ def save(model, path):
     os.replace(partial, path)
 
 
+def keep_state(model, path):
+    """The file appears whole."""
+    torch.save(model.state_dict(), path + ".partial")
+    os.replace(path + ".partial", path)
+
+
+def is_running(process):
+    if process is None:
+        return False
+    try:
+        os.kill(process, 0)
+    except ProcessLookupError:
+        return False
+    return True
+
+
 def main():
     parser = argparse.ArgumentParser(description=__doc__.split("\n")[0])
     parser.add_argument("crops", nargs="+")
@@ -302,7 +318,8 @@ def main():
     parser.add_argument("--batch", type=int, default=1024)
     parser.add_argument("--rate", type=float, default=3e-3, help="of learning, at its highest")
     parser.add_argument("--decay", type=float, default=0.02, help="of weights, times the rate")
-    parser.add_argument("--watch", action="store_true", help="folders may become whole meanwhile")
+    parser.add_argument("--watch", type=int, metavar="PID",
+                        help="folders may become whole while this process runs")
     parser.add_argument("--start", help="a .pt file of --keep to start from")
     parser.add_argument("--keep", help="write the network as PyTorch knows it, too")
     parser.add_argument("--seed", type=int, default=1)
@@ -314,9 +331,13 @@ def main():
     torch.backends.cudnn.benchmark = True
     people = People(options.crops, device, options.watch)
     while people.count < options.fewest:
-        time.sleep(1)
+        may_come = people.waiting and is_running(options.watch)
         people.read()
-    validation = People(options.validation, device, False)
+        if people.count < options.fewest and not may_come:
+            sys.exit(f"expected at least {options.fewest} people of {FEWEST_JOINTS} known joints, "
+                     f"found {people.count}")
+        time.sleep(1)
+    validation = People(options.validation, device, None)
     print(f"{time.time() - begun:.0f} s: {people.count} people on {device}", flush=True)
 
     model = PoseNetwork().to(device)
@@ -356,7 +377,7 @@ def main():
         loss.backward()
         nn.utils.clip_grad_norm_(model.parameters(), 5.0)
         optimiser.step()
-        read, step = read + options.batch, step + 1
+        read, step = read + len(crops), step + 1
         if step % AVERAGED == 0:  # the mean of late weights errs less than the last ones
             keep = min(0.995, step / (step + 40.0))
             with torch.no_grad():
@@ -373,7 +394,7 @@ def main():
             save(average, options.out)
     save(average, options.out)
     if options.keep:
-        torch.save(average.state_dict(), options.keep)
+        keep_state(average, options.keep)
     print(f"{time.time() - begun:.0f} s: {read} read of {people.count} people; "
           f"{evaluate(average, validation)}", flush=True)
 

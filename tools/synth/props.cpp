@@ -254,27 +254,36 @@ std::vector<Prop> SampleRoom(const Eigen::Isometry3d& camera_from_world, Random&
                              std::span<const recon::Posture> path_in_world) {
   const Eigen::Vector3d camera_m = camera_from_world.inverse().translation();
   // The person stands over the origin and the camera looks along -z: the wall behind the person is
-  // at -behind, the camera is inside the room too.
+  // at -behind. Both are inside the room, also where the camera hangs beside or behind the person.
   constexpr float kLowCeiling_m = 2.4F, kAir_m = 0.05F;  // over the camera; by hand
+  constexpr float kPersonClear_m = 0.5F;                 // anthropometry: from walls
+  constexpr float kCameraClear_m = 0.3F;  // by hand: nearer, a sensor measures nothing
   float behind_m = Draw(random, 0.5, 3.0);
   auto before_m = static_cast<float>(camera_m.z()) + Draw(random, 0.3, 1.0);
   float width_m = Draw(random, 2.5, 6.0);
   float shift_m = Draw(random, -0.3, 0.3) * width_m;
   const Eigen::AlignedBox2f path = ProjectOnGround(path_in_world);
-  if (!path.isEmpty()) {
-    const float low_m = std::min(shift_m - width_m / 2, path.min().x());
-    const float high_m = std::max(shift_m + width_m / 2, path.max().x());
+  Eigen::AlignedBox2f inside = path;
+  const auto keep_clear = [&inside](const Eigen::Vector2f& place_m, float clear_m) {
+    inside.extend(place_m - Eigen::Vector2f::Constant(clear_m));
+    inside.extend(place_m + Eigen::Vector2f::Constant(clear_m));
+  };
+  keep_clear(Eigen::Vector2f::Zero(), kPersonClear_m);
+  keep_clear({static_cast<float>(camera_m.x()), static_cast<float>(camera_m.z())}, kCameraClear_m);
+  const float low_m = std::min(shift_m - width_m / 2, inside.min().x());
+  const float high_m = std::max(shift_m + width_m / 2, inside.max().x());
+  if (!path.isEmpty() || low_m < shift_m - width_m / 2 || high_m > shift_m + width_m / 2) {
     width_m = high_m - low_m;
     shift_m = (low_m + high_m) / 2;
-    behind_m = std::max(behind_m, -path.min().y());
-    before_m = std::max(before_m, path.max().y());
   }
+  behind_m = std::max(behind_m, -inside.min().y());
+  before_m = std::max(before_m, inside.max().y());
   std::vector<Prop> props;
-  float high_m = Draw(random, 2.3, 3.0);
+  float ceiling_m = Draw(random, 2.3, 3.0);
   const auto camera_height_m = static_cast<float>(camera_m.y());
-  if (camera_height_m > kLowCeiling_m) high_m = std::max(high_m, camera_height_m + kAir_m);
+  if (camera_height_m > kLowCeiling_m) ceiling_m = std::max(ceiling_m, camera_height_m + kAir_m);
   props.push_back(
-      {depth::Moved(depth::MakeRoom({width_m, high_m, behind_m + before_m}),
+      {depth::Moved(depth::MakeRoom({width_m, ceiling_m, behind_m + before_m}),
                     Affine3f(Eigen::Translation3f(shift_m, 0, (before_m - behind_m) / 2))),
        false});
   const size_t count = random.Index(4);

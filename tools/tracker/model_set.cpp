@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <future>
+#include <utility>
 
 #include "depth/base/large_pages.h"
 #include "forest/forest.h"
@@ -24,6 +25,7 @@ using recon::Reads;
 
 constexpr const char* kForest = "body.ossa";
 constexpr const char* kCeilingForest = "body_ceiling.ossa";
+constexpr const char* kCeilingRefinement = "body_ceiling.ossarefine";
 constexpr const char* kCorrection = "body.ossagp";
 constexpr const char* kDatabase = "authored.ossadb";
 constexpr const char* kWithout = "none";
@@ -35,21 +37,51 @@ std::filesystem::path NamedOrShipped(const std::string& file, std::string_view s
   return file.empty() ? ShippedFile(shipped) : std::filesystem::path(file);
 }
 
+// A file of a camera under the ceiling: the shipped one goes by its name.
+std::filesystem::path PathOrShipped(const std::string& file, const char* shipped) {
+  return file == shipped ? ShippedFile(shipped) : std::filesystem::path(file);
+}
+
 // A file that a method can do without is read where it was named; one that it needs is always.
 bool IsRead(Reads reads, const std::string& file) {
   if (file == kWithout || reads == Reads::kNothing) return false;
   return reads == Reads::kRequired || !file.empty();
 }
 
-// A refinement that was named is had with every method: its joints may be what is wanted.
-std::shared_ptr<const recon::JointRefiner> LoadRefinement(const ModelFiles& files,
-                                                          const MethodInfo& method) {
-  if (files.refinement == kWithout) return nullptr;
-  if (files.refinement.empty() && !(method.refined && IsShippedForest(files))) return nullptr;
-  auto refinement = std::make_shared<recon::JointRefiner>(
-      recon::JointRefiner::Load(NamedOrShipped(files.refinement, recon::kShippedRefinement)));
+bool IsCeilingForest(const ModelFiles& files) {
+  return !files.forest.empty() && IsShippedFile(files.forest, kCeilingForest);
+}
+
+std::shared_ptr<const recon::JointRefiner> ReadRefinement(const std::filesystem::path& path) {
+  auto refinement = std::make_shared<recon::JointRefiner>(recon::JointRefiner::Load(path));
   ReturnFreedMemory();
   return refinement;
+}
+
+// A refinement, and that of a camera under the ceiling, read when one is met.
+struct Refinements {
+  std::shared_ptr<const recon::JointRefiner> now;
+  std::string ceiling_file;
+};
+
+// A refinement that was named is had with every method: its joints may be what is wanted. Beside
+// the shipped forest it leaves the shipped one of the other mount.
+Refinements LoadRefinements(const ModelFiles& files, const MethodInfo& method) {
+  if (files.refinement == kWithout) return {};
+  const bool named = !files.refinement.empty();
+  if (!named && !method.refined) return {};
+  Refinements out;
+  if (named) out.now = ReadRefinement(files.refinement);
+  if (IsShippedForest(files)) {
+    out.ceiling_file = kCeilingRefinement;
+    if (named && out.now->from_above()) {
+      out.ceiling_file = files.refinement;
+      out.now = nullptr;
+    }
+  }
+  const char* const shipped = FindShippedRefinement(files);
+  if (!out.now && shipped != nullptr) out.now = ReadRefinement(ShippedFile(shipped));
+  return out;
 }
 
 // From the tables that an earlier start left; null where there are none.
@@ -138,37 +170,49 @@ ModelSet ModelSet::Load(const ModelFiles& files, std::string_view method) {
   const MethodInfo& info = recon::RequireMethod(method);
   ModelSet set;
   const auto forest = NamedOrShipped(files.forest, kForest);
-  auto refinement = std::async(std::launch::async, [&] { return LoadRefinement(files, info); });
+  auto refinements = std::async(std::launch::async, [&] { return LoadRefinements(files, info); });
   // What a refinement is read through and kept tables take more memory than anything afterwards.
-  if (IsShippedForest(files) && forest::MayHaveKeptTables(forest)) refinement.wait();
+  if (IsShippedForest(files) && forest::MayHaveKeptTables(forest)) refinements.wait();
   set.forest_file = files.forest.empty() ? kForest : files.forest;
   set.forest = KeptForest(files, forest);
   if (set.forest == nullptr) set.forest = LoadForest(files, forest);
-  set.refinement = refinement.get();
+  Refinements read = refinements.get();
+  set.refinement = std::move(read.now);
+  set.ceiling_refinement_file = std::move(read.ceiling_file);
   set.pose_network = LoadPoseNetwork(files.pose_network);
   set.surface = LoadSurface(files);
   set.database = LoadDatabase(files, method);
   set.prior = LoadPrior(files, method);
   set.learned = LoadLearned(files, info, set.refinement != nullptr);
   set.learned_file = files.learned;
-  set.from_ceiling = !files.forest.empty() && IsShippedFile(files.forest, kCeilingForest);
+  set.from_ceiling = IsCeilingForest(files);
   if (IsShippedForest(files)) set.ceiling_file = kCeilingForest;
   ReturnFreedMemory();
   return set;
 }
 
-ModelSet LoadCeilingModels(const ModelSet& models) {
+std::shared_ptr<const forest::ForestModel> LoadCeilingForest(const ModelSet& models) {
+  return std::make_shared<forest::ForestModel>(forest::ReadForestModel(
+      PathOrShipped(models.ceiling_file, kCeilingForest), forest::ModelUse::kRunOnly));
+}
+
+ModelSet LoadCeilingModels(const ModelSet& models,
+                           std::shared_ptr<const forest::ForestModel> ceiling_forest) {
   ModelSet set = models;
   set.ceiling_file.clear();
   set.from_ceiling = true;
   set.forest_file = models.ceiling_file;
-  const bool is_shipped = models.ceiling_file == kCeilingForest;
-  set.forest = std::make_shared<forest::ForestModel>(forest::ReadForestModel(
-      is_shipped ? ShippedFile(kCeilingForest) : std::filesystem::path(models.ceiling_file),
-      forest::ModelUse::kRunOnly));
-  set.refinement = nullptr;
+  set.forest = std::move(ceiling_forest);
+  const std::string& refinement = models.ceiling_refinement_file;
+  set.refinement =
+      refinement.empty() ? nullptr : ReadRefinement(PathOrShipped(refinement, kCeilingRefinement));
   if (set.learned && set.learned_file.empty()) set.learned = ProportionsAlone();
   return set;
+}
+
+const char* FindShippedRefinement(const ModelFiles& files) {
+  if (IsShippedForest(files)) return recon::kShippedRefinement;
+  return IsCeilingForest(files) ? kCeilingRefinement : nullptr;
 }
 
 }  // namespace ossa::tracker

@@ -26,8 +26,9 @@ inline constexpr std::string_view kShippedNetwork = "shipped";
 /// files and to the method; or "none", do without. README.md says which command makes which file.
 struct ModelFiles {
   std::string forest;        // .ossa; "": the shipped one
-  std::string refinement;    // .ossarefine; "": the shipped one of the shipped forest, for methods
-                             // that start from refined joints
+  std::string refinement;    // .ossarefine; "": the shipped ones of the shipped forests, for
+                             // methods that start from refined joints. A named one takes the place
+                             // of that for cameras where it was learned: level, or above people
   std::string pose_network;  // .ossanet, or kShippedNetwork; "": none
   std::string surface;       // .ossasurface; "": the shipped one
   std::string learned;   // .ossagp; "": what is known of the errors that the shipped forest and a
@@ -50,7 +51,8 @@ struct ModelSet {
   std::string forest_file, learned_file;                   // where those came from, for messages
   /// The forest of a camera that looks down from the ceiling, read when one is met; "": none.
   std::string ceiling_file;
-  bool from_ceiling = false;  // `forest` is one for such cameras
+  std::string ceiling_refinement_file;  // of its joints, read with it; "": none
+  bool from_ceiling = false;            // `forest` is one for such cameras
 
   /// What ossa ships for a method of reconstruction (recon::MethodTable). Throws InputError where a
   /// file is missing or damaged, and for a method that does not exist.
@@ -59,9 +61,16 @@ struct ModelSet {
   static ModelSet Load(const ModelFiles& files, std::string_view method = recon::kDefaultMethod);
 };
 
-/// The set for a camera under the ceiling: its own forest, read now, and nothing that was learned
-/// on the errors of the other one. Throws InputError where the file is missing or damaged.
-ModelSet LoadCeilingModels(const ModelSet& models);
+/// The forest of ceiling_file. Throws InputError where it is missing or damaged.
+std::shared_ptr<const forest::ForestModel> LoadCeilingForest(const ModelSet& models);
+
+/// The set for a camera under the ceiling: that forest, its refinement, read now, and nothing that
+/// was learned on the errors of the others. Throws InputError where a file is missing or damaged.
+ModelSet LoadCeilingModels(const ModelSet& models,
+                           std::shared_ptr<const forest::ForestModel> ceiling_forest);
+
+/// The shipped refinement of a shipped forest's joints, level or for ceilings; null of another one.
+const char* FindShippedRefinement(const ModelFiles& files);
 
 /// The prior of `files` alone, for methods that run on skeletons; null where the method reads none.
 /// Throws InputError.

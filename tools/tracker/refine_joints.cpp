@@ -20,25 +20,26 @@ std::vector<uint8_t> MaskOf(const people::Candidate& candidate, const depth::Dep
   return is_person;
 }
 
-std::optional<recon::RefinedPerson> RefineJoints(
-    const recon::JointRefiner& refiner, const depth::DepthFrame& frame,
-    std::span<const uint8_t> is_person, const std::vector<std::vector<forest::Proposal>>& proposals,
-    const people::JointTargets& targets, const recon::TrackedPosture& chosen,
-    recon::MeanBoneLengths* bones) {
+std::optional<recon::RefinedPerson> RefineJoints(std::span<const uint8_t> is_person,
+                                                 SkeletonWork& work) {
+  const auto& proposals = work.detection->evidence.proposals;
+  recon::MeanBoneLengths& bones = work.person.bones;
   recon::RefinementInput input;
-  if (bones->frames > 0) input.bones_m = bones->mean_m;
+  if (bones.frames > 0) input.bones_m = bones.mean_m;
   for (size_t j = 0; j < recon::kJointCount; ++j) {
     const forest::Proposal* proposal =
-        ProposalAt(proposals[static_cast<size_t>(targets[j])], chosen.posture.position_m[j]);
+        ProposalAt(proposals[static_cast<size_t>(work.options.targets[j])],
+                   work.body.raw.posture.position_m[j]);
     if (proposal == nullptr) return std::nullopt;
     input.proposed.position_m[j] = proposal->position_m;
     input.confidence[j] = proposal->confidence;
     input.seen[j] = proposal->seen;
   }
-  input.depth = &frame;
+  input.depth = &work.frame;
   input.is_person = is_person;
-  auto refined = refiner.Refine(input);
-  if (refined && refined->bones_m) bones->Add(*refined->bones_m);
+  input.floor = work.floor;
+  auto refined = work.options.refinement->Refine(input);
+  if (refined && refined->bones_m) bones.Add(*refined->bones_m);
   return refined;
 }
 

@@ -1,15 +1,13 @@
 #pragma once
-#include <array>
 #include <cstdint>
 #include <optional>
+#include <span>
 #include <vector>
 
-#include "forest/proposals/propose.h"
-#include "recon/refine/bone_estimation.h"
-#include "recon/refine/pose_network.h"
+#include "depth/image/depth_frame.h"
 #include "recon/refine/refinement_cascade.h"
 #include "tools/people/candidate.h"
-#include "tools/people/joint_targets.h"
+#include "tools/tracker/skeleton_stages_internal.h"
 
 namespace ossa::tracker {
 
@@ -18,12 +16,9 @@ std::vector<uint8_t> MaskOf(const people::Candidate& candidate, const depth::Dep
 
 /// The joints of a posture chosen among the proposals, refined at the depth image; those for which
 /// nothing was chosen from where they are likeliest. Nothing where some joint has no proposal at
-/// all. `is_person`: MaskOf. `bones`: the person's as estimated until now, which the cascade reads;
-/// this frame's are added.
-std::optional<recon::RefinedPerson> RefineJoints(
-    const recon::JointRefiner& refiner, const depth::DepthFrame& frame,
-    std::span<const uint8_t> is_person, const std::vector<std::vector<forest::Proposal>>& proposals,
-    const people::JointTargets& targets, const recon::TrackedPosture& chosen,
-    recon::MeanBoneLengths* bones);
+/// all. `is_person`: MaskOf. The cascade reads the person's bones as estimated until now; this
+/// frame's are added. Precondition: there is a refinement.
+std::optional<recon::RefinedPerson> RefineJoints(std::span<const uint8_t> is_person,
+                                                 SkeletonWork& work);
 
 }  // namespace ossa::tracker

@@ -43,21 +43,29 @@ void RunStages(std::span<const Stage> stages, SkeletonWork& work, StageTimes& ms
 }
 
 void RefineByCascade(std::span<const uint8_t> is_person, SkeletonWork& work) {
-  const auto refined = RefineJoints(*work.options.refinement, work.frame, is_person,
-                                    work.detection->evidence.proposals, work.options.targets,
-                                    work.body.raw, &work.person.bones);
+  const auto refined = RefineJoints(is_person, work);
   if (!refined) return;
   work.body.refined = refined->joints_m;
   work.body.refined_bones_m = refined->bones_m;
+}
+
+// Joints that were not chosen stand nowhere: they are where `others_m` has them.
+recon::Posture WithWhatIsMissing(const recon::TrackedPosture& raw, const recon::Posture& others_m) {
+  recon::Posture whole_m = raw.posture;
+  for (size_t j = 0; j < recon::kJointCount; ++j) {
+    if (raw.state[j] != recon::TrackingState::kNotTracked) continue;
+    whole_m.position_m[j] = others_m.position_m[j];
+  }
+  return whole_m;
 }
 
 void FuseWithNetwork(std::span<const uint8_t> is_person, SkeletonWork& work) {
   const auto crop = recon::PersonCrop::Cut(work.frame, is_person);
   if (!crop) return;
   Body& body = work.body;
-  const recon::Posture& before_m = body.refined ? *body.refined : body.raw.posture;
-  body.refined =
-      recon::FusePoses(before_m, body.raw.confidence, work.options.pose_network->Run(*crop));
+  const recon::NetworkPose network = work.options.pose_network->Run(*crop);
+  if (!body.refined) body.refined = WithWhatIsMissing(body.raw, network.joints_m);
+  body.refined = recon::FusePoses(*body.refined, body.raw.confidence, network);
 }
 
 }  // namespace

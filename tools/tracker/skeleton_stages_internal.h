@@ -47,7 +47,8 @@ void AverageStationary(SkeletonWork& work);
 void Reconstruct(SkeletonWork& work);
 /// Holds joints to the image, moves them out of free space, smooths, keeps bones: `posture`.
 void Settle(SkeletonWork& work);
-/// From the ceiling: legs that are not seen stand on the floor: `posture`.
+/// From the ceiling: legs that are not seen, of joints that were not refined, stand on the floor:
+/// `posture`.
 void StandOnFloor(SkeletonWork& work);
 /// The physical character, where it is on: `posture`.
 void Simulate(SkeletonWork& work);

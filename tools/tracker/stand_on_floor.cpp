@@ -1,4 +1,5 @@
-// From the ceiling a body hides its own legs. Whose are not seen stands on the floor.
+// From the ceiling a body hides its own legs. Whose are not seen, and were not refined, stands on
+// the floor.
 #include <algorithm>
 #include <cmath>
 
@@ -52,6 +53,8 @@ void Stand(const Leg& leg, const Vector3d& up, double height_m, const Vector3d& 
 
 void StandOnFloor(SkeletonWork& work) {
   if (!work.options.from_above || !work.floor) return;
+  const bool starts_refined = recon::RequireMethod(work.options.reconstructor.method).refined;
+  if (work.body.refined && starts_refined) return;
   const Vector3d up = work.floor->head<3>();
   const Vector3d facing = EstimateFacing(work.posture, up);
   const auto is_seen = [&](Joint joint) {

@@ -43,10 +43,28 @@ recon::ReconstructorOptions MethodOptions(const TrackerOptions& options, const M
   return method;
 }
 
+bool IsFromAbove(Mount mount, const ModelSet& models) {
+  return mount == Mount::kCeiling || (mount == Mount::kAuto && models.from_ceiling);
+}
+
+// A refinement learned from elsewhere would be wrong without a word.
+void CheckRefinement(const ModelSet& models, bool from_above) {
+  if (!models.refinement || models.refinement->from_above() == from_above) return;
+  throw InputError(
+      from_above ? "refinement: expected one learned on people seen from the ceiling, found one "
+                   "for level cameras"
+                 : "refinement: expected one learned on people before a level camera, found one "
+                   "for cameras under the ceiling (--mount ceiling)");
+}
+
 ModelSet LoadModels(const TrackerOptions& options) {
   ModelSet models = options.models ? *options.models : ModelSet::Shipped(options.method);
   const bool exchanged = options.mount == Mount::kCeiling && !models.ceiling_file.empty();
-  return exchanged ? LoadCeilingModels(models) : models;
+  if (exchanged) models = LoadCeilingModels(models, LoadCeilingForest(models));
+  const bool from_above = IsFromAbove(options.mount, models);
+  if (models.from_ceiling && !from_above) models.refinement = nullptr;  // said to be level
+  CheckRefinement(models, from_above);
+  return models;
 }
 
 const forest::ForestModel& RequireForest(const ModelSet& models) {
@@ -119,7 +137,8 @@ struct Tracker::Impl {
   std::optional<std::vector<int>> chosen_ids;
   UprightFinder upright;
   MountFinder mount_finder;
-  std::optional<ModelSet> above;  // read when a ceiling was suspected
+  // Read when a ceiling was suspected.
+  std::shared_ptr<const forest::ForestModel> ceiling_forest;
   LaggedBodies lagged;
   std::optional<Scene> scene;
 
@@ -154,10 +173,7 @@ struct Tracker::Impl {
   }
 
   BodyFrame Track(const depth::DepthFrame& frame);
-  bool IsUnderCeiling() const {
-    return options.mount == Mount::kCeiling ||
-           (options.mount == Mount::kAuto && models.from_ceiling);
-  }
+  bool IsUnderCeiling() const { return IsFromAbove(options.mount, models); }
   // What the application asked another one for.
   void TakeWishes(const Impl& other) {
     chosen_ids = other.chosen_ids;
@@ -189,9 +205,9 @@ bool Tracker::Impl::ShowsCeilingView(const depth::DepthFrame& frame, const BodyF
   const MountOptions& mount = mount_finder.options();
   from_above.candidates.overhead->min_head_m = mount.min_head_m;
   if (!MayBeFromAbove(frame, from_above, mount)) return mount_finder.Confirm(false);
-  if (!above) above = LoadCeilingModels(models);
-  const auto above_targets = people::FindJointTargets(*above->forest, above->forest_file);
-  return mount_finder.Confirm(ScorePeople(frame, {*above->forest, above_targets}, from_above) >=
+  if (!ceiling_forest) ceiling_forest = LoadCeilingForest(models);
+  const auto above_targets = people::FindJointTargets(*ceiling_forest, models.ceiling_file);
+  return mount_finder.Confirm(ScorePeople(frame, {*ceiling_forest, above_targets}, from_above) >=
                               mount.sure);
 }
 
@@ -386,7 +402,7 @@ BodyFrame Tracker::TrackAsMounted(const depth::DepthFrame& frame) {
 // Everything anew but for what the application asked for meanwhile.
 void Tracker::SwitchToCeiling() {
   TrackerOptions options = impl_->options;
-  options.models = impl_->above;
+  options.models = LoadCeilingModels(impl_->models, impl_->ceiling_forest);
   options.mount = Mount::kCeiling;
   auto under_ceiling = std::make_unique<Impl>(options);
   under_ceiling->lagged = impl_->lagged;

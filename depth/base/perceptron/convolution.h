@@ -28,7 +28,7 @@ struct Convolution {
 /// Outputs below nought become nought (Nair and Hinton 2010).
 FeatureMap Rectified(FeatureMap map);
 
-/// Each cell as four.
+/// Nearest-neighbour upsampling: each cell as four.
 FeatureMap Doubled(const FeatureMap& map);
 
 }  // namespace ossa

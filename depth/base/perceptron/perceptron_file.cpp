@@ -22,12 +22,8 @@ void PutFloats(PayloadWriter& out, const Numbers& numbers) {
 
 // Row by row.
 template <typename Numbers>
-void PutHalves(PayloadWriter& out, const Numbers& numbers) {
-  std::vector<uint16_t> halves;
-  for (Eigen::Index i = 0; i < numbers.size(); ++i) {
-    halves.push_back(RoundToHalf(numbers.data()[i]));
-  }
-  out.PutVector(halves);
+std::span<const float> Flat(const Numbers& numbers) {
+  return {numbers.data(), static_cast<size_t>(numbers.size())};
 }
 
 void PutBytes(PayloadWriter& out, const RowMatrix& weight) {
@@ -45,26 +41,6 @@ void CheckCount(const PayloadReader& in, std::string_view field, size_t found, E
 
 void CheckModest(const PayloadReader& in, std::string_view field, float number) {
   if (!(std::abs(number) <= kMost)) in.Fail(field, "expected numbers of at most a million");
-}
-
-Eigen::VectorXf GetFloats(PayloadReader& in, std::string_view field, Eigen::Index count) {
-  const auto numbers = in.GetVector<float>(field);
-  CheckCount(in, field, numbers.size(), count);
-  for (const float number : numbers) CheckModest(in, field, number);
-  return Eigen::Map<const Eigen::VectorXf>(numbers.data(), count);
-}
-
-RowMatrix GetHalves(PayloadReader& in, std::string_view field, Eigen::Index rows,
-                    Eigen::Index columns) {
-  const auto halves = in.GetVector<uint16_t>(field);
-  CheckCount(in, field, halves.size(), rows * columns);
-  RowMatrix numbers(rows, columns);
-  for (size_t i = 0; i < halves.size(); ++i) {
-    const float number = ExpandHalf(halves[i]);
-    CheckModest(in, field, number);
-    numbers.data()[i] = number;
-  }
-  return numbers;
 }
 
 RowMatrix GetBytes(PayloadReader& in, std::string_view field, Eigen::Index rows,
@@ -87,6 +63,37 @@ OSSA_CPU_DISPATCH void DivideIntoSteps(const float* weights, float step, size_t 
 }
 
 }  // namespace
+
+void PutHalves(PayloadWriter& out, std::span<const float> numbers) {
+  std::vector<uint16_t> halves(numbers.size());
+  std::ranges::transform(numbers, halves.begin(), RoundToHalf);
+  out.PutVector(halves);
+}
+
+RowMatrix GetHalves(PayloadReader& in, std::string_view field, Eigen::Index rows,
+                    Eigen::Index columns) {
+  const auto halves = in.GetVector<uint16_t>(field);
+  CheckCount(in, field, halves.size(), rows * columns);
+  RowMatrix numbers(rows, columns);
+  for (size_t i = 0; i < halves.size(); ++i) {
+    const float number = ExpandHalf(halves[i]);
+    CheckModest(in, field, number);
+    numbers.data()[i] = number;
+  }
+  return numbers;
+}
+
+Eigen::VectorXf GetFloats(PayloadReader& in, std::string_view field, Eigen::Index count) {
+  const auto numbers = in.GetVector<float>(field);
+  CheckCount(in, field, numbers.size(), count);
+  for (const float number : numbers) CheckModest(in, field, number);
+  return Eigen::Map<const Eigen::VectorXf>(numbers.data(), count);
+}
+
+bool AreModest(const RowMatrix& numbers) {
+  return std::all_of(numbers.data(), numbers.data() + numbers.size(),
+                     [](float number) { return std::abs(number) <= kMost; });
+}
 
 uint16_t RoundToHalf(float number) {
   const uint32_t half = std::isfinite(number) ? 0x8000U : 0U;  // rounded, but not NaN to a number
@@ -115,8 +122,8 @@ void PutPerceptron(PayloadWriter& out, const Perceptron& perceptron, WeightForm 
   PutFloats(out, perceptron.input_mean);
   PutFloats(out, perceptron.input_scale);
   for (const PerceptronLayer& layer : perceptron.layers) {
-    form == WeightForm::kBytes ? PutBytes(out, layer.weight) : PutHalves(out, layer.weight);
-    PutHalves(out, layer.bias);
+    form == WeightForm::kBytes ? PutBytes(out, layer.weight) : PutHalves(out, Flat(layer.weight));
+    PutHalves(out, Flat(layer.bias));
   }
 }
 

@@ -2,6 +2,8 @@
 #include <Eigen/Core>
 #include <bit>
 #include <cstdint>
+#include <span>
+#include <string_view>
 #include <vector>
 
 #include "depth/base/perceptron/perceptron.h"
@@ -25,6 +27,15 @@ Perceptron GetPerceptron(PayloadReader& in, const std::vector<Eigen::Index>& siz
 
 /// Reads how many units a layer has. Throws InputError for none, or for absurdly many.
 Eigen::Index GetUnits(PayloadReader& in);
+
+/// Numbers as upper halves of floats, and as floats; reads throw InputError that names the field
+/// where there are not so many or one of them is not within a million of 0.
+void PutHalves(PayloadWriter& out, std::span<const float> numbers);
+RowMatrix GetHalves(PayloadReader& in, std::string_view field, Eigen::Index rows,
+                    Eigen::Index columns);
+Eigen::VectorXf GetFloats(PayloadReader& in, std::string_view field, Eigen::Index count);
+/// Whether all numbers are within a million of 0.
+bool AreModest(const RowMatrix& numbers);
 
 /// The upper half of a float, rounded, and the float that it stands for.
 uint16_t RoundToHalf(float number);

@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "depth/base/checksummed_container.h"
 #include "tests/recon/refine/pose_networks.h"
 #include "tests/support/refused.h"
 #include "tests/support/temporary_folder.h"
@@ -68,8 +69,8 @@ TEST(PoseNetwork, NoJointIsBehindTheCameraOrNowhere) {
   layers.back().bias[kHead + 3] = -100.0F;
   NetworkPose pose = PoseNetwork(layers, 1, "test").Run(EmptyCrop(2.0));
   EXPECT_GT(pose.joints_m[Joint::kHead].z(), 0.0);
-  layers.back().bias[kHead] = std::numeric_limits<float>::infinity();
-  layers.back().bias[kHead + 4] = 1e30F;
+  layers.back().bias[kHead] = 1e6F;
+  layers.back().bias[kHead + 4] = 1e6F;
   pose = PoseNetwork(layers, 1, "test").Run(EmptyCrop(2.0));
   EXPECT_TRUE(pose.joints_m[Joint::kHead].allFinite());
   EXPECT_GT(pose.error_m[Index(Joint::kHead)], 100.0);
@@ -109,6 +110,41 @@ TEST(PoseNetwork, LayersThatDoNotFitTogetherAreRefusedByNumber) {
   layers = SilentLayers();
   layers[3].stride = 2;
   ExpectRefused([&] { PoseNetwork(layers, 1, "x.ossanet"); }, "layer 4");
+}
+
+TEST(PoseNetwork, NumbersBeyondAMillionOrNoneAreRefused) {
+  auto layers = SilentLayers();
+  layers[2].weight(1, 1) = std::numeric_limits<float>::quiet_NaN();
+  ExpectRefused([&] { PoseNetwork(layers, 1, "x.ossanet"); }, "layer 3: expected numbers");
+  layers = SilentLayers();
+  layers[7].bias[0] = -2e6F;
+  ExpectRefused([&] { PoseNetwork(layers, 1, "x.ossanet"); }, "layer 8: expected numbers");
+}
+
+// One field of the payload spoilt at a time.
+TEST(PoseNetwork, AFileWithOddNumbersIsRefusedByTheField) {
+  const ossa::test::TemporaryFolder folder;
+  PoseNetwork(SilentLayers(), 1, "test").Save(folder / "a.ossanet");
+  const ContainerFormat format = {
+      {'O', 'S', 'S', 'A', 'P', 'N', '0', '0'}, PoseNetwork::kVersion, "pose network"};
+  const std::vector<std::byte> whole = ReadContainer(folder / "a.ossanet", format);
+  // people, then of the first layer: inputs, outputs, how many weights, weights of two bytes.
+  constexpr size_t kInputs = sizeof(uint64_t), kCount = kInputs + 2 * sizeof(uint32_t);
+  constexpr size_t kWeights = kCount + sizeof(uint64_t);
+  const auto refuse = [&](size_t place, uint8_t byte, const std::string& field) {
+    std::vector<std::byte> odd = whole;
+    odd[place] = std::byte{byte};
+    ExpectRefused([&] { PoseNetwork::FromBytes(odd, "x.ossanet"); }, field);
+  };
+  EXPECT_NO_THROW(PoseNetwork::FromBytes(whole, "x.ossanet"));
+  refuse(kInputs, 0, "units");
+  refuse(kInputs + 2, 1, "units");
+  refuse(kInputs, 4, "weights");  // four inputs have more of them
+  refuse(kCount, static_cast<uint8_t>(std::to_integer<int>(whole[kCount]) - 1), "weights");
+  refuse(kWeights + 1, 0x7f, "weights");  // 1.7e38
+  std::vector<std::byte> longer = whole;
+  longer.push_back(std::byte{0});
+  ExpectRefused([&] { PoseNetwork::FromBytes(longer, "x.ossanet"); }, "x.ossanet");
 }
 
 TEST(PoseNetwork, IsMadeOfTheNumbersOfATrainer) {

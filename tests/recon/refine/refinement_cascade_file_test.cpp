@@ -56,6 +56,23 @@ TEST(RefinementCascade, IsKeptInAFile) {
               1.0F, 1.0F / 500.0F);
 }
 
+TEST(RefinementCascade, IsFromAboveWhereTheFileSaysSo) {
+  const ossa::test::TemporaryFolder folder;
+  RefinementCascade cascade = Silent();
+  for (const bool from_above : {false, true}) {
+    cascade.from_above = from_above;
+    cascade.Save(folder / "a.ossarefine");
+    EXPECT_EQ(RefinementCascade::Load(folder / "a.ossarefine").from_above, from_above);
+    EXPECT_EQ(JointRefiner::Load(folder / "a.ossarefine").from_above(), from_above);
+  }
+  const ContainerFormat format = {
+      {'O', 'S', 'S', 'A', 'L', 'K', '0', '0'}, RefinementCascade::kVersion, "cascade"};
+  auto payload = Decompress(ReadContainer(folder / "a.ossarefine", format), "a", "cascade");
+  payload[sizeof(uint64_t)] = std::byte{2};
+  WriteContainer(folder / "odd.ossarefine", format, Compress(payload, 3));
+  EXPECT_THROW(RefinementCascade::Load(folder / "odd.ossarefine"), InputError);
+}
+
 TEST(RefinementCascade, OfTheVersionsBeforeIsReadAndOlderOnesAreRefused) {
   const ossa::test::TemporaryFolder folder;
   SilentAndBoneConditioned().Save(folder / "now.ossarefine");
@@ -63,6 +80,16 @@ TEST(RefinementCascade, OfTheVersionsBeforeIsReadAndOlderOnesAreRefused) {
       {'O', 'S', 'S', 'A', 'L', 'K', '0', '0'}, RefinementCascade::kVersion, "cascade"};
   std::vector<std::byte> payload =
       Decompress(ReadContainer(folder / "now.ossarefine", format), "now", "cascade");
+  constexpr auto kFromAbove = static_cast<std::ptrdiff_t>(sizeof(uint64_t));  // after the people
+  const auto without_view = [](std::vector<std::byte> bytes) {
+    bytes.erase(bytes.begin() + kFromAbove, bytes.begin() + kFromAbove + sizeof(uint32_t));
+    return bytes;
+  };
+  payload = without_view(std::move(payload));
+  format.version = 6;
+  WriteContainer(folder / "six.ossarefine", format, Compress(payload, 3));
+  EXPECT_EQ(RefinementCascade::Load(folder / "six.ossarefine").bone_conditioned.size(), 1U);
+  EXPECT_FALSE(JointRefiner::Load(folder / "six.ossarefine").from_above());
   format.version = 5;  // not compressed
   WriteContainer(folder / "before.ossarefine", format, payload);
   EXPECT_EQ(RefinementCascade::Load(folder / "before.ossarefine").bone_conditioned.size(), 1U);
@@ -73,6 +100,7 @@ TEST(RefinementCascade, OfTheVersionsBeforeIsReadAndOlderOnesAreRefused) {
   format.version = RefinementCascade::kVersion;
   payload = Decompress(ReadContainer(folder / "unconditioned.ossarefine", format), "unconditioned",
                        "cascade");
+  payload = without_view(std::move(payload));
   payload.resize(payload.size() - sizeof(uint32_t));  // how many stages are conditioned
   format.version = RefinementCascade::kOldestVersion;
   WriteContainer(folder / "old.ossarefine", format, payload);

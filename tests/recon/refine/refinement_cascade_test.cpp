@@ -2,8 +2,11 @@
 
 #include <gtest/gtest.h>
 
+#include <Eigen/Geometry>
 #include <cmath>
+#include <numbers>
 #include <optional>
+#include <utility>
 
 #include "tests/recon/refine/refinement_scene.h"
 
@@ -192,6 +195,126 @@ TEST(RefinementCascade, MovesNoJointFarAway) {
               RefinementCascade::kOffsets.farthest_m, 1e-6);
 }
 
+// A square image of a sloping surface, turned about the camera's axis by quarters.
+struct SquareScene : Scene {
+  explicit SquareScene(int quarters) {
+    constexpr int kSide = 120;
+    frame.camera = depth::KinectV1Camera(kSide, kSide);
+    frame.camera.fy = frame.camera.fx;
+    frame.camera.cx = frame.camera.cy = (kSide - 1) / 2.0;
+    frame.depth_mm.assign(kSide * kSide, 0);
+    is_person.assign(frame.depth_mm.size(), 0);
+    for (int v = 0; v < kSide; ++v) {
+      for (int u = 0; u < kSide; ++u) {
+        int column = u, row = v;
+        for (int q = 0; q < quarters; ++q) column = kSide - 1 - std::exchange(row, column);
+        const auto to = static_cast<size_t>(row * kSide + column);
+        frame.depth_mm[to] = static_cast<uint16_t>(1900 + u + 2 * v);
+        is_person[to] = u < 80 ? 1 : 0;
+      }
+    }
+    input.is_person = is_person;
+  }
+};
+
+// Scene, and everything in it turned about the camera's axis; `floor` below the feet.
+void TurnAboutTheAxis(double angle_rad, Scene* scene) {
+  const Eigen::Matrix3d turn =
+      Eigen::AngleAxisd(angle_rad, Eigen::Vector3d::UnitZ()).toRotationMatrix();
+  for (auto& joint_m : scene->input.proposed.position_m) joint_m = turn * joint_m;
+  const Eigen::Vector3d up = Eigen::Vector3d(0.1, 0.6, -0.8).normalized();
+  scene->input.floor.emplace();
+  *scene->input.floor << turn * up, 2.5;
+}
+
+TEST(RefinementCascade, FromAboveReadsTheSameHoweverABodyIsTurnedInTheImage) {
+  Scene scene;
+  TurnAboutTheAxis(0.0, &scene);
+  const auto first = ProposedPerson::Locate(scene.input);
+  Scene turned;
+  TurnAboutTheAxis(2.0, &turned);
+  const auto second = ProposedPerson::Locate(turned.input);
+  ASSERT_TRUE(first && second);
+  EXPECT_NEAR(first->frame_from_camera.determinant(), 1.0, 1e-9);
+  for (size_t j = 0; j < kJointCount; ++j) {
+    EXPECT_LT((first->place.position_m[j] - second->place.position_m[j]).norm(), 1e-9) << j;
+  }
+  EXPECT_LT((first->where_m - second->where_m).norm(), 1e-9);
+  // From the left side of the body to the right one, as far as the ray lets it.
+  const Eigen::Vector3d across = first->place[Joint::kHipRight] - first->place[Joint::kHipLeft];
+  EXPECT_GT(across.x(), 0.05);
+  EXPECT_NEAR(across.y(), 0.0, 1e-9);
+}
+
+TEST(RefinementCascade, FromAboveSamplesTheSameSurfaceOfATurnedImage) {
+  SquareScene scene(0), turned(1);
+  TurnAboutTheAxis(0.0, &scene);
+  TurnAboutTheAxis(std::numbers::pi / 2, &turned);
+  const auto first = SampledPerson::Sample(scene.input),
+             second = SampledPerson::Sample(turned.input);
+  ASSERT_TRUE(first && second);
+  for (const Joint joint : {Joint::kHead, Joint::kHandLeft, Joint::kKneeRight}) {
+    const Eigen::RowVectorXf off =
+        ComputeStageFeatures(*first, joint) - ComputeStageFeatures(*second, joint);
+    // Only where a sample falls between two pixels may the other one be read.
+    EXPECT_LT((off.array().abs() > 2e-3F).count(), kStageFeatures / 50) << Index(joint);
+  }
+  scene.input.floor.reset();
+  const Eigen::RowVectorXf level =
+      ComputeStageFeatures(*SampledPerson::Sample(scene.input), Joint::kHead);
+  EXPECT_GT((level - ComputeStageFeatures(*second, Joint::kHead)).norm(), 0.5F);
+}
+
+// Shoulders and hips above one another as the camera sees them: the axes stay level.
+TEST(RefinementCascade, FromAboveABodyThatFacesNowhereKeepsLevelAxes) {
+  Scene scene;
+  TurnAboutTheAxis(0.0, &scene);
+  for (const Joint joint :
+       {Joint::kShoulderLeft, Joint::kShoulderRight, Joint::kHipLeft, Joint::kHipRight}) {
+    scene.input.proposed[joint] = {0.0, 0.0, kWall_m + 0.1 * static_cast<double>(Index(joint))};
+  }
+  const auto person = ProposedPerson::Locate(scene.input);
+  scene.input.floor.reset();
+  const auto level = ProposedPerson::Locate(scene.input);
+  ASSERT_TRUE(person && level);
+  EXPECT_TRUE(person->frame_from_camera.isApprox(level->frame_from_camera));
+}
+
+TEST(RefinementCascade, FromAboveIsToldWhereTheFloorIsBelowTheBody) {
+  Scene scene;
+  TurnAboutTheAxis(1.0, &scene);
+  const auto person = ProposedPerson::Locate(scene.input);
+  ASSERT_TRUE(person);
+  const Eigen::Vector3d on_floor_m =
+      person->middle_m + person->frame_from_camera.transpose() * person->where_m;
+  EXPECT_NEAR(scene.input.floor->head<3>().dot(on_floor_m) + (*scene.input.floor)[3], 0.0, 1e-9);
+  const ProposedPerson mirrored = person->Mirrored();
+  EXPECT_TRUE(mirrored.where_m.isApprox(Eigen::Vector3d(-1, 1, 1).cwiseProduct(person->where_m)));
+}
+
+TEST(RefinementCascade, FromAboveNeedsAFloorAndALevelOneDoesNotReadIt) {
+  Scene scene;
+  RefinementCascade cascade = Silent();
+  cascade.stages[0][NetworkOf(Joint::kHead)].layers[1].bias = Eigen::Vector3f(0.5F, 0.0F, 0.0F);
+  const auto level_m = JointsOf(JointRefiner(cascade).Refine(scene.input));
+  TurnAboutTheAxis(0.0, &scene);
+  EXPECT_EQ(JointsOf(JointRefiner(cascade).Refine(scene.input))->position_m, level_m->position_m);
+
+  cascade.from_above = true;
+  TurnAboutTheAxis(1.5, &scene);
+  const JointRefiner refiner(cascade);
+  EXPECT_TRUE(refiner.from_above());
+  const auto turned_m = JointsOf(refiner.Refine(scene.input));
+  ASSERT_TRUE(turned_m);
+  // Along the body's own axis, not the camera's.
+  const Eigen::Vector3d moved_m = (*turned_m)[Joint::kHead] - scene.input.proposed[Joint::kHead];
+  const Eigen::Vector3d across_m =
+      scene.input.proposed[Joint::kHipRight] - scene.input.proposed[Joint::kHipLeft];
+  EXPECT_GT(moved_m.normalized().dot(across_m.normalized()), 0.95);
+  scene.input.floor.reset();
+  EXPECT_FALSE(refiner.Refine(scene.input));
+}
+
 TEST(RefinementCascade, HasNothingToSayOfWhatCannotBeLookedAt) {
   const RefinementCascade cascade = Silent();
   const auto spoiled = [&](void (*spoil)(Scene&)) {
@@ -206,6 +329,11 @@ TEST(RefinementCascade, HasNothingToSayOfWhatCannotBeLookedAt) {
   EXPECT_TRUE(spoiled([](Scene& s) { s.input.proposed[Joint::kHead].x() = std::nan(""); }));
   EXPECT_TRUE(spoiled([](Scene& s) { s.input.proposed[Joint::kHead].y() = 1e300; }));
   EXPECT_TRUE(spoiled([](Scene& s) { s.input.confidence[3] = std::nan(""); }));
+  RefinementCascade from_above = cascade;
+  from_above.from_above = true;
+  Scene without_floor;
+  without_floor.input.floor = Eigen::Vector4d(0.0, 0.0, -1.0, std::nan(""));
+  EXPECT_FALSE(JointRefiner(from_above).Refine(without_floor.input));
   EXPECT_TRUE(spoiled([](Scene& s) {
     for (auto& p_m : s.input.proposed.position_m) p_m.z() = -2.0;
   }));

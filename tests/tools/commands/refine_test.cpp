@@ -31,9 +31,9 @@ std::string TextOf(const std::string& path) {
   return {std::istreambuf_iterator<char>(file), {}};
 }
 
-void RenderPeople(const std::string& folder) {
+void RenderPeople(const std::string& folder, const char* view = "front") {
   const auto run = RunOssa({"render", "--mocap", "authored", "--out", folder, "--frames", "150",
-                            "--size", "160x120", "--format", "packed", "--quiet"});
+                            "--size", "160x120", "--view", view, "--format", "packed", "--quiet"});
   ASSERT_EQ(run.exit_status, 0) << run.err;
 }
 
@@ -118,6 +118,33 @@ TEST_F(RefineCommand, LearnsTheSameStageForAnyThreads) {
                     "from "),
       std::string::npos)
       << info.out << info.err;
+}
+
+TEST_F(RefineCommand, LearnsFromAboveWhereAllPeopleAreSeenFromThere) {
+  const std::string above = folder_ / "above", out = folder_ / "above.ossarefine";
+  RenderPeople(above, "ceiling");
+  const std::string forest = tracker::ShippedFile("body_ceiling.ossa");
+  const auto learn = [&](std::vector<std::string> words) {
+    words.insert(words.begin(), "refine");
+    words.insert(words.end(), {"--model", forest, "--out", out, "--hidden", "4", "--epochs", "1",
+                               "--shifted", "0", "--quiet"});
+    return RunOssa(words);
+  };
+  const auto run = learn({above});
+  ASSERT_EQ(run.exit_status, 0) << run.err;
+  EXPECT_TRUE(Cascade::Load(out).from_above);
+  EXPECT_NE(RunOssa({"info", out}).out.find(" people seen from the ceiling, "), std::string::npos);
+
+  const auto mixed = learn({above, people()});
+  EXPECT_EQ(mixed.exit_status, 1);
+  EXPECT_EQ(test::LineCount(mixed.err), 1) << mixed.err;
+  EXPECT_NE(mixed.err.find(people() + ": expected"), std::string::npos) << mixed.err;
+  const std::string level = Saved("level.ossarefine", HeadHigher(0.0));
+  const auto after = learn({above, "--after", level});
+  EXPECT_EQ(after.exit_status, 1);
+  EXPECT_EQ(test::LineCount(after.err), 1) << after.err;
+  EXPECT_NE(after.err.find(level + ": learned on people seen by a level camera"), std::string::npos)
+      << after.err;
 }
 
 TEST_F(RefineCommand, AddsAStageToThoseOfTheFileAfterWhichItComes) {

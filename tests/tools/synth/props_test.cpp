@@ -4,6 +4,7 @@
 
 #include "depth/render/shapes.h"
 #include "tools/synth/clothed_actor.h"
+#include "tools/synth/view_sampler.h"
 
 namespace ossa::tools {
 namespace {
@@ -155,6 +156,29 @@ TEST(Room, GivesWayToThePersonsPath) {
     Random c(seed);
     EXPECT_TRUE(BoxOf(SampleRoom(camera, b)[0].mesh_in_cam)
                     .isApprox(BoxOf(SampleRoom(camera, c, still)[0].mesh_in_cam), 1e-5F));
+  }
+}
+
+// Also where the camera hangs beside or behind the person, as under the ceiling.
+TEST(Room, HoldsThePersonAndTheCamera) {
+  constexpr View kViews[] = {View::kFront, View::kNear, View::kAny, View::kCeiling};
+  for (const View view : kViews) {
+    for (uint64_t seed = 0; seed < 200; ++seed) {
+      Random random(seed);
+      const Eigen::Isometry3d camera_from_world =
+          SampleView({.view = view}, random).camera_from_world;
+      depth::TriangleMesh room = SampleRoom(camera_from_world, random)[0].mesh_in_cam;
+      room = depth::Moved(std::move(room),
+                          Eigen::Affine3f(camera_from_world.inverse().matrix().cast<float>()));
+      const Eigen::AlignedBox3f walls = BoxOf(room);
+      const Eigen::Vector3f camera_m = camera_from_world.inverse().translation().cast<float>();
+      const auto clear_m = [&walls](const Eigen::Vector3f& place_m) {
+        return std::min((place_m - walls.min()).minCoeff(), (walls.max() - place_m).minCoeff());
+      };
+      EXPECT_GT(clear_m({camera_m.x(), 1.0F, camera_m.z()}), 0.29F) << seed;
+      EXPECT_GT(clear_m({0.0F, 1.0F, 0.0F}), 0.49F) << seed;
+      EXPECT_GT(walls.max().y(), camera_m.y()) << seed;
+    }
   }
 }
 

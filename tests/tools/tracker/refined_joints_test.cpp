@@ -4,7 +4,9 @@
 #include <cmath>
 
 #include "recon/refine/bone_estimation.h"
+#include "recon/refine/pose_network.h"
 #include "recon/refine/refinement_cascade.h"
+#include "tests/recon/refine/pose_networks.h"
 #include "tests/support/perceptrons.h"
 #include "tests/support/temporary_folder.h"
 #include "tests/tools/tracker/tracked_scenes.h"
@@ -143,6 +145,32 @@ TEST(RefinedJoints, OtherMethodsGoByTheRawJoints) {
   const Body with = Tracked(OptionsWith(files, "none"));
   EXPECT_TRUE(with.refined);
   EXPECT_EQ(with.joints[Joint::kHead].position_m, without.joints[Joint::kHead].position_m);
+}
+
+// Joints below the image, which the forest does not place, are where the network has them alone:
+// here in the middle of the person, not on the way there from the camera.
+TEST(RefinedJoints, WhatTheForestDoesNotPlaceIsWhereThePoseNetworkHasIt) {
+  OSSA_NEEDS_MODEL();
+  const test::TemporaryFolder folder;
+  ModelFiles files;
+  files.refinement = "none";
+  files.pose_network = folder / "silent.ossanet";
+  recon::PoseNetwork(recon::test::SilentLayers(), 1, "test").Save(files.pose_network);
+  int unplaced = 0;
+  for (const int rows : {100, 120, 140, 160}) {  // of the image, from its top
+    depth::DepthFrame frame = Rendered({PersonAt(0.0, 2.0)}).frame;
+    frame.camera.height = rows;
+    frame.depth_mm.resize(static_cast<size_t>(rows * frame.camera.width));
+    for (const Body& body : Tracker(OptionsWith(files)).Track(frame).bodies) {
+      ASSERT_TRUE(body.refined);
+      for (size_t j = 0; j < recon::kJointCount; ++j) {
+        if (body.raw.state[j] != recon::TrackingState::kNotTracked) continue;
+        ++unplaced;
+        EXPECT_LT((body.refined->position_m[j] - body.position_m).norm(), 0.2) << rows << ' ' << j;
+      }
+    }
+  }
+  EXPECT_GT(unplaced, 0);
 }
 
 TEST(RefinedJoints, NoCascadeMayBeAskedFor) {
