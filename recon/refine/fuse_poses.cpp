@@ -3,16 +3,30 @@
 #include <algorithm>
 
 namespace ossa::recon {
+namespace {
+
+// The network's share in a joint that both put `apart_m` from each other, by the errors that are
+// expected of both.
+double ShareOfNetwork(double before_m, double network_m, double apart_m,
+                      const FusionOptions& options) {
+  if (apart_m > options.contradiction * (before_m + network_m)) {
+    return network_m < before_m ? 1.0 : 0.0;
+  }
+  return before_m * before_m / (before_m * before_m + network_m * network_m);
+}
+
+}  // namespace
 
 Posture FusePoses(const Posture& joints_m, const JointArray<double>& confidence,
                   const NetworkPose& network, const FusionOptions& options) {
-  const auto square = [](double m) { return m * m; };
   Posture fused_m = joints_m;
   for (size_t j = 0; j < kJointCount; ++j) {
     const double doubt = 1.0 - std::clamp(confidence[j], 0.0, 1.0);
-    const double before = square(options.sure_m + doubt * (options.unsure_m - options.sure_m));
-    const double share = before / (before + square(options.off_on_real_depth * network.error_m[j]));
-    fused_m.position_m[j] += share * (network.joints_m.position_m[j] - joints_m.position_m[j]);
+    const double before_m = options.sure_m + doubt * (options.unsure_m - options.sure_m);
+    const double network_m = options.off_on_real_depth * network.error_m[j];
+    const Eigen::Vector3d apart_m = network.joints_m.position_m[j] - joints_m.position_m[j];
+    const double share = ShareOfNetwork(before_m, network_m, apart_m.norm(), options);
+    fused_m.position_m[j] += share * apart_m;
   }
   return fused_m;
 }

@@ -13,6 +13,9 @@ struct FusionOptions {
   /// Where the network puts it, over what the network expects, which knows rendered people alone: a
   /// ratio.
   double off_on_real_depth = 1.5;
+  /// Farther apart than so many times both errors together, one of the two is wrong altogether, and
+  /// halfway between them is nobody: the surer one counts. A ratio, > 0.
+  double contradiction = 2.0;
 };
 
 /// Joints by two judges that err apart: the mean of both, each weighted by the inverse of the

@@ -32,7 +32,8 @@ void AddTrackerOptions(CLI::App& app, TrackOptions& options) {
   app.add_option(
       "--pose-network", files.pose_network,
       ".ossanet of tools/train_pose_network, or shipped: a network that reads the joints "
-      "off the whole person has its say in refined joints (default: none)");
+      "off the whole person has its say in refined joints, but for cameras under the ceiling; or "
+      "none (default: shipped beside the shipped refinement)");
   app.add_option("--surface", files.surface,
                  ".ossasurface of 'ossa surface', for --fit (default: the shipped one)");
   app.add_option("--fit", options.fit,

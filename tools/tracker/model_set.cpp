@@ -61,6 +61,7 @@ std::shared_ptr<const recon::JointRefiner> ReadRefinement(const std::filesystem:
 // A refinement, and that of a camera under the ceiling, read when one is met.
 struct Refinements {
   std::shared_ptr<const recon::JointRefiner> now;
+  bool is_shipped = false;  // `now`
   std::string ceiling_file;
 };
 
@@ -71,7 +72,10 @@ Refinements LoadRefinements(const ModelFiles& files, const MethodInfo& method) {
   const bool named = !files.refinement.empty();
   if (!named && !method.refined) return {};
   Refinements out;
-  if (named) out.now = ReadRefinement(files.refinement);
+  if (named) {
+    out.now = ReadRefinement(files.refinement);
+    out.is_shipped = IsShippedFile(files.refinement, recon::kShippedRefinement);
+  }
   if (IsShippedForest(files)) {
     out.ceiling_file = kCeilingRefinement;
     if (named && out.now->from_above()) {
@@ -80,7 +84,10 @@ Refinements LoadRefinements(const ModelFiles& files, const MethodInfo& method) {
     }
   }
   const char* const shipped = FindShippedRefinement(files);
-  if (!out.now && shipped != nullptr) out.now = ReadRefinement(ShippedFile(shipped));
+  if (!out.now && shipped != nullptr) {
+    out.now = ReadRefinement(ShippedFile(shipped));
+    out.is_shipped = true;
+  }
   return out;
 }
 
@@ -111,6 +118,12 @@ std::shared_ptr<const recon::LearnedModels> ProportionsAlone() {
   auto models = std::make_shared<recon::LearnedModels>();
   models->correction.proportions.fill(1.0);
   return models;
+}
+
+// The network has its say beside the shipped cascade: one that was named is seen as it is.
+std::string PoseNetworkOf(const ModelFiles& files, const Refinements& read) {
+  if (!files.pose_network.empty()) return files.pose_network;
+  return std::string(read.is_shipped && IsShippedForest(files) ? kShippedNetwork : kWithout);
 }
 
 // What is known of the errors that a refinement leaves in the shipped forest's joints is shipped
@@ -151,7 +164,7 @@ std::shared_ptr<const recon::PosturePrior> LoadPrior(const ModelFiles& files,
 }
 
 std::shared_ptr<const recon::PoseNetwork> LoadPoseNetwork(const std::string& file) {
-  if (file.empty() || file == kWithout) return nullptr;
+  if (file == kWithout) return nullptr;
   return std::make_shared<recon::PoseNetwork>(
       recon::PoseNetwork::Load(file == kShippedNetwork ? ShippedFile(recon::kShippedPoseNetwork)
                                                        : std::filesystem::path(file)));
@@ -179,7 +192,7 @@ ModelSet ModelSet::Load(const ModelFiles& files, std::string_view method) {
   Refinements read = refinements.get();
   set.refinement = std::move(read.now);
   set.ceiling_refinement_file = std::move(read.ceiling_file);
-  set.pose_network = LoadPoseNetwork(files.pose_network);
+  set.pose_network = LoadPoseNetwork(PoseNetworkOf(files, read));
   set.surface = LoadSurface(files);
   set.database = LoadDatabase(files, method);
   set.prior = LoadPrior(files, method);

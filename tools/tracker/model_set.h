@@ -29,7 +29,8 @@ struct ModelFiles {
   std::string refinement;    // .ossarefine; "": the shipped ones of the shipped forests, for
                              // methods that start from refined joints. A named one takes the place
                              // of that for cameras where it was learned: level, or above people
-  std::string pose_network;  // .ossanet, or kShippedNetwork; "": none
+  std::string pose_network;  // .ossanet, or kShippedNetwork; "": that where the shipped
+                             // cascade refines joints. Under the ceiling it has no say
   std::string surface;       // .ossasurface; "": the shipped one
   std::string learned;   // .ossagp; "": what is known of the errors that the shipped forest and a
                          // refinement leave, for methods that take a correction
@@ -79,7 +80,7 @@ std::shared_ptr<const recon::PosturePrior> LoadPrior(const ModelFiles& files,
 /// The database of `files` alone, likewise.
 std::shared_ptr<const recon::PostureDatabase> LoadDatabase(const ModelFiles& files,
                                                            std::string_view method);
-/// A pose network as ModelFiles names it; null of "" and "none". Throws InputError.
+/// A pose network as ModelFiles names it; null of "none". Throws InputError.
 std::shared_ptr<const recon::PoseNetwork> LoadPoseNetwork(const std::string& file);
 
 /// A sensor whose errors are known: its name (recon::SkeletonSequence::sensor), whose skeletons

@@ -25,5 +25,21 @@ TEST(FusePoses, WeighsEachByTheSquareOfTheErrorThatIsExpectedOfIt) {
   EXPECT_NEAR(fused_m[Joint::kHandLeft].x(), 0.0, 1e-9);
 }
 
+// One says that a foot lies on the desk, the other that it stands below the image: not halfway.
+TEST(FusePoses, OfPlacesThatContradictEachOtherTheSurerOneCounts) {
+  const FusionOptions options{
+      .sure_m = 0.02, .unsure_m = 0.1, .off_on_real_depth = 1.0, .contradiction = 2.0};
+  Posture joints_m;
+  for (Eigen::Vector3d& joint_m : joints_m.position_m) joint_m = {0.0, 0.0, 2.0};
+  JointArray<double> confidence{};
+  NetworkPose network;
+  for (size_t j = 0; j < kJointCount; ++j) network.joints_m.position_m[j] = {0.0, -0.9, 2.0};
+  network.error_m.fill(0.05);
+  confidence[Index(Joint::kFootRight)] = 1.0;
+  const Posture fused_m = FusePoses(joints_m, confidence, network, options);
+  EXPECT_EQ(fused_m[Joint::kFootRight].y(), 0.0);
+  EXPECT_EQ(fused_m[Joint::kFootLeft].y(), -0.9);
+}
+
 }  // namespace
 }  // namespace ossa::recon

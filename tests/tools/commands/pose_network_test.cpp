@@ -174,10 +174,11 @@ TEST_F(PoseNetworkCommands, ItsSayIsInTheRefinedJoints) {
         .value()
         .position_m.y();
   };
-  const double without_m = height_m({});
-  EXPECT_EQ(height_m({"--pose-network", "none"}), without_m);
+  const double without_m = height_m({"--pose-network", "none"}), by_default_m = height_m({});
   EXPECT_GT(height_m({"--pose-network", net}), without_m + 1.0);
-  EXPECT_LT(std::abs(height_m({"--pose-network", "shipped"}) - without_m), 0.1);
+  EXPECT_EQ(height_m({"--pose-network", "shipped"}), by_default_m);
+  EXPECT_NE(by_default_m, without_m);
+  EXPECT_LT(std::abs(by_default_m - without_m), 0.1);
   const auto none = RunOssa(
       {"track", clip, "--out", folder_ / "x.jsonl", "--pose-network", folder_ / "no.ossanet"});
   EXPECT_EQ(none.exit_status, 1);

@@ -195,8 +195,8 @@ std::vector<Table> RunReal(ExperimentContext& context) {
   const int most = context.parameters.Integer("frames", 0);
   tracker::TrackerOptions options;
   options.models = LoadModels(context, options.method);
-  options.models->pose_network =
-      tracker::LoadPoseNetwork(context.parameters.Text("pose_network", "none"));
+  const std::string network = context.parameters.Text("pose_network", "");
+  if (!network.empty()) options.models->pose_network = tracker::LoadPoseNetwork(network);
   options.threads = context.threads;
   options.lag = context.parameters.Integer("lag", 0, 0, 2);
   if (!context.parameters.Flag("fit", true)) options.fit.reset();
