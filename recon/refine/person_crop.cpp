@@ -1,7 +1,11 @@
 #include "recon/refine/person_crop.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <cstring>
+
+#include "depth/base/cpu_dispatch.h"
 
 namespace ossa::recon {
 namespace {
@@ -14,17 +18,29 @@ constexpr int kMiddlePixels = 4096;  // at least, where there are: more of them 
 constexpr int kTapsASide = 2;
 static_assert(kTapsASide * kTapsASide == kCropTaps);
 
+// Whether none of the eight pixels from `first` on is the person's.
+bool AreOthers(std::span<const uint8_t> is_person, size_t first) {
+  uint64_t eight = 0;
+  std::memcpy(&eight, is_person.data() + first, sizeof(eight));
+  return eight == 0;
+}
+
 // The mean of the person's surface; nothing without any.
 std::optional<Eigen::Vector3d> FindMiddle(const depth::DepthFrame& frame,
                                           std::span<const uint8_t> is_person) {
+  constexpr size_t kEight = sizeof(uint64_t);
   const depth::DepthView view = frame.view();
-  const auto count =
-      static_cast<int64_t>(std::ranges::count_if(is_person, [](uint8_t of) { return of != 0; }));
+  const auto count = std::ranges::count_if(is_person, [](uint8_t of) { return of != 0; });
   const int64_t step = std::max<int64_t>(1, count / kMiddlePixels);
   Eigen::Vector3d sum_m = Eigen::Vector3d::Zero();
-  int64_t seen = 0, read = 0;
+  int64_t passed_over = step - 1, read = 0;
   for (size_t p = 0; p < is_person.size(); ++p) {
-    if (is_person[p] == 0 || seen++ % step != 0) continue;
+    if (p % kEight == 0 && p + kEight <= is_person.size() && AreOthers(is_person, p)) {
+      p += kEight - 1;
+      continue;
+    }
+    if (is_person[p] == 0 || ++passed_over < step) continue;
+    passed_over = 0;
     const auto pixel = static_cast<int>(p);
     if (view.at(pixel) == 0) continue;
     sum_m +=
@@ -34,6 +50,83 @@ std::optional<Eigen::Vector3d> FindMiddle(const depth::DepthFrame& frame,
   if (read == 0) return std::nullopt;
   return sum_m / static_cast<double>(read);
 }
+
+// The taps lie in a plane across the line of sight, row by row from above.
+constexpr int kTapSide = kCropSide * kTapsASide;
+constexpr double kTap_m = kCropCell_m / kTapsASide;
+constexpr double kFirstTap_m = (kTapSide - 1) / 2.0 * kTap_m;
+
+// What of their places is the same in every row, camera space.
+struct TapColumns {
+  std::array<double, kTapSide> x_m, y_m, z_m;
+
+  TapColumns(const Eigen::Vector3d& middle_m, const Eigen::Vector3d& right) {
+    for (int column = 0; column < kTapSide; ++column) {
+      const Eigen::Vector3d at_m = middle_m + (kFirstTap_m - column * kTap_m) * right;
+      const auto c = static_cast<size_t>(column);
+      x_m[c] = at_m.x(), y_m[c] = at_m.y(), z_m[c] = at_m.z();
+    }
+  }
+};
+
+// A row of taps: how far each lies from the camera, and the pixel that sees it, -1 for none.
+struct TapRow {
+  std::array<double, kTapSide> z_m;
+  std::array<int32_t, kTapSide> pixel;
+};
+
+// Without a branch, for the compiler to take several taps at once.
+OSSA_CPU_DISPATCH void FindPixels(const depth::Camera& camera, const TapColumns& columns,
+                                  const Eigen::Vector3d& down_m, TapRow* row) {
+  const double width = camera.width, height = camera.height;
+  for (size_t c = 0; c < kTapSide; ++c) {
+    const double z_m = columns.z_m[c] + down_m.z();
+    const double u = camera.cx - camera.fx * (columns.x_m[c] + down_m.x()) / z_m + 0.5;
+    const double v = camera.cy - camera.fy * (columns.y_m[c] + down_m.y()) / z_m + 0.5;
+    const bool seen = (z_m >= kNearest_m) & (u >= 0.0) & (u < width) & (v >= 0.0) & (v < height);
+    const auto of_column = static_cast<int32_t>(seen ? u : 0.0);
+    const auto of_row = static_cast<int32_t>(seen ? v : 0.0);
+    row->z_m[c] = z_m;
+    row->pixel[c] = seen ? of_row * camera.width + of_column : -1;
+  }
+}
+
+// What the taps of a cell have seen until now.
+struct CellTally {
+  double behind_m = 0.0;
+  int surface = 0, hidden = 0;
+
+  PersonCrop::Cell ToCell() const {
+    PersonCrop::Cell cell;
+    if (surface > 0) cell.behind_mm = static_cast<int16_t>(std::lround(1e3 * behind_m / surface));
+    cell.surface = static_cast<uint8_t>(surface);
+    cell.hidden = static_cast<uint8_t>(hidden);
+    return cell;
+  }
+};
+
+struct SeenScene {
+  depth::DepthView view;
+  std::span<const uint8_t> is_person;
+  double range_m = 0.0;  // of the plane of the taps
+
+  void Read(const TapRow& row, size_t tap, CellTally* cell) const {
+    const int32_t pixel = row.pixel[tap];
+    if (pixel < 0) {
+      ++cell->hidden;
+      return;
+    }
+    const uint16_t depth_mm = view.at(pixel);
+    if (depth_mm == 0) return;
+    const double beyond_m = range_m * (depth::MetresFromMillimetres(depth_mm) / row.z_m[tap] - 1.0);
+    if (is_person[static_cast<size_t>(pixel)] != 0) {
+      cell->behind_m += std::clamp(beyond_m, -kCropReach_m, kCropReach_m);
+      ++cell->surface;
+    } else if (beyond_m < -kNearer_m) {
+      ++cell->hidden;
+    }
+  }
+};
 
 }  // namespace
 
@@ -49,45 +142,24 @@ std::optional<PersonCrop> PersonCrop::Cut(const depth::DepthFrame& frame,
   const auto axes = MakeViewFrame(*middle_m);
   if (!axes) return std::nullopt;
   PersonCrop out{*axes, std::vector<Cell>(kCropCells)};
-  const depth::DepthView view = frame.view();
-  const depth::Camera& camera = frame.camera;
-  const Eigen::Vector3d right = out.frame_from_camera.row(0), up = out.frame_from_camera.row(1);
-  const double range_m = middle_m->norm();
-  constexpr double kTap_m = kCropCell_m / kTapsASide;
-  constexpr double kFirst_m = (kCropSide * kTapsASide - 1) / 2.0 * kTap_m;
-  for (int cell = 0; cell < kCropCells; ++cell) {
-    double behind_m = 0.0;
-    int surface = 0, hidden = 0;
-    for (int tap = 0; tap < kCropTaps; ++tap) {
-      const int column = cell % kCropSide * kTapsASide + tap % kTapsASide;
-      const int row = cell / kCropSide * kTapsASide + tap / kTapsASide;
-      const Eigen::Vector3d at_m =
-          *middle_m + (kFirst_m - column * kTap_m) * right + (kFirst_m - row * kTap_m) * up;
-      if (at_m.z() < kNearest_m) {
-        ++hidden;
-        continue;
-      }
-      const Eigen::Vector2d pixel = depth::Project(camera, at_m);
-      const double u = std::floor(pixel.x() + 0.5), v = std::floor(pixel.y() + 0.5);
-      if (!(u >= 0.0 && u < view.width && v >= 0.0 && v < view.height)) {
-        ++hidden;
-        continue;
-      }
-      const int index = static_cast<int>(v) * view.width + static_cast<int>(u);
-      const uint16_t depth_mm = view.at(index);
-      if (depth_mm == 0) continue;
-      const double beyond_m = range_m * (depth::MetresFromMillimetres(depth_mm) / at_m.z() - 1.0);
-      if (is_person[static_cast<size_t>(index)] != 0) {
-        behind_m += std::clamp(beyond_m, -kCropReach_m, kCropReach_m);
-        ++surface;
-      } else if (beyond_m < -kNearer_m) {
-        ++hidden;
-      }
+  const TapColumns columns(*middle_m, out.frame_from_camera.row(0));
+  const Eigen::Vector3d up = out.frame_from_camera.row(1);
+  const SeenScene scene{frame.view(), is_person, middle_m->norm()};
+  std::array<TapRow, kTapsASide> rows;
+  for (int cell_row = 0; cell_row < kCropSide; ++cell_row) {
+    for (int down = 0; down < kTapsASide; ++down) {
+      const double below_m = kFirstTap_m - (cell_row * kTapsASide + down) * kTap_m;
+      FindPixels(frame.camera, columns, below_m * up, &rows[static_cast<size_t>(down)]);
     }
-    Cell& of = out.cells[static_cast<size_t>(cell)];
-    if (surface > 0) of.behind_mm = static_cast<int16_t>(std::lround(1e3 * behind_m / surface));
-    of.surface = static_cast<uint8_t>(surface);
-    of.hidden = static_cast<uint8_t>(hidden);
+    for (size_t column = 0; column < kCropSide; ++column) {
+      CellTally cell;
+      for (const TapRow& row : rows) {
+        for (size_t tap = 0; tap < kTapsASide; ++tap) {
+          scene.Read(row, column * kTapsASide + tap, &cell);
+        }
+      }
+      out.cells[static_cast<size_t>(cell_row) * kCropSide + column] = cell.ToCell();
+    }
   }
   return out;
 }

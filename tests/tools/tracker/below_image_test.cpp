@@ -5,7 +5,6 @@
 #include <optional>
 
 #include "depth/image/depth_frame.h"
-#include "recon/motion/mocap.h"
 #include "tests/tools/tracker/tracked_scenes.h"
 #include "tools/synth/clothed_actor.h"
 #include "tools/synth/frame_maker.h"
@@ -49,8 +48,9 @@ struct Hands {
   double share() const { return static_cast<double>(below) / told; }
 };
 
-void CountHands(const depth::DepthFrame& frame, Hands* hands) {
-  const BodyFrame seen = Tracker().Track(frame);
+void CountHands(const depth::DepthFrame& frame, Tracker& tracker, Hands* hands) {
+  tracker.Reset();
+  const BodyFrame seen = tracker.Track(frame);
   if (seen.bodies.size() != 1) return;
   for (const Joint hand : {Joint::kHandLeft, Joint::kHandRight}) {
     const auto& place_m = seen.bodies[0].joints[recon::Index(hand)].position_m;
@@ -72,16 +72,17 @@ TEST(BelowTheImage, AreHandsThatItsBorderCutsOff) {
   options.split = tools::Split::kTest;
   options.variation.random_arm_share = 0.0;
   options.seed = 9;
-  const tools::FrameStudio studio(
-      tools::LoadFetchedBody(),
-      tools::SequencePoses(recon::LoadMocap({"authored"}), kPostures, options.seed), options);
+  const tools::FrameStudio studio(tools::LoadFetchedBody(),
+                                  tools::SequencePoses(AuthoredMotion(), kPostures, options.seed),
+                                  options);
   tools::FrameMaker maker(studio);
+  Tracker tracker;
   Hands front, behind;
   for (int i = 0; i < kImages; ++i) {
     const LabelledFrame shot = maker.Make(i);
     const auto height = FindRowAboveTheHands(shot);
     if (!height) continue;
-    CountHands(CutBelow(shot.depth, *height), IsSeenFromBehind(shot) ? &behind : &front);
+    CountHands(CutBelow(shot.depth, *height), tracker, IsSeenFromBehind(shot) ? &behind : &front);
   }
   ASSERT_GE(front.told, 10);
   ASSERT_GE(behind.told, 6);

@@ -6,7 +6,6 @@
 #include <optional>
 
 #include "depth/image/depth_frame.h"
-#include "recon/motion/mocap.h"
 #include "recon/refine/refinement_cascade.h"
 #include "tests/support/perceptrons.h"
 #include "tests/support/temporary_folder.h"
@@ -48,9 +47,9 @@ const std::vector<LabelledFrame>& CeilingClip() {
     options.sensors = {depth::SensorKind::kXtion};
     options.background = tools::Background::kRoom;
     options.seed = 2;
-    const tools::FrameStudio studio(
-        tools::LoadFetchedBody(),
-        tools::SequencePoses(recon::LoadMocap({"authored"}), kFrames, options.seed), options);
+    const tools::FrameStudio studio(tools::LoadFetchedBody(),
+                                    tools::SequencePoses(AuthoredMotion(), kFrames, options.seed),
+                                    options);
     tools::FrameMaker maker(studio);
     std::vector<LabelledFrame> made;
     for (int i = 0; i < kFrames; ++i) made.push_back(maker.Make(i));
@@ -234,8 +233,7 @@ TEST(Mount, OfALevelCameraWithSomebodyNearStaysLevel) {
   options.background = tools::Background::kLivedIn;
   options.seed = 5;
   const tools::FrameStudio studio(
-      tools::LoadFetchedBody(),
-      tools::SequencePoses(recon::LoadMocap({"authored"}), 300, options.seed), options);
+      tools::LoadFetchedBody(), tools::SequencePoses(AuthoredMotion(), 300, options.seed), options);
   tools::FrameMaker maker(studio);
   Tracker tracker;
   for (int i = 0; i < kImages; ++i) {

@@ -2,8 +2,10 @@
 #include <gtest/gtest.h>
 
 #include <string>
+#include <vector>
 
 #include "depth/base/error.h"
+#include "recon/motion/mocap.h"
 #include "tests/support/capsule_person.h"
 #include "tools/tracker/shipped.h"
 #include "tools/tracker/tracker.h"
@@ -23,6 +25,12 @@ inline std::string ModelOrNothing() {
   if (ModelOrNothing().empty())       \
   GTEST_SKIP() << "no shipped model " \
                   "(tools/tracker/shipped/body.ossa)"
+
+/// ossa's own clips, made once: under sanitizers they take half a minute.
+inline const std::vector<recon::MotionClip>& AuthoredMotion() {
+  static const std::vector<recon::MotionClip> clips = recon::LoadMocap({"authored"});
+  return clips;
+}
 
 /// Options that need the model only; joints come out as the forest and the image have them.
 inline TrackerOptions PlainOptions() {

@@ -32,6 +32,21 @@ float OneByOne(const Convolution& layer, const FeatureMap& map, int row, int col
   return sum;
 }
 
+void ExpectDefinition(const Convolution& layer, const FeatureMap& map) {
+  const FeatureMap out = layer.Run(map);
+  ASSERT_EQ(out.side, map.side / layer.stride);
+  for (int row = 0; row < out.side; ++row) {
+    for (int column = 0; column < out.side; ++column) {
+      for (Eigen::Index o = 0; o < layer.bias.size(); ++o) {
+        EXPECT_NEAR(out.cells(row * out.side + column, o), OneByOne(layer, map, row, column, o),
+                    1e-5)
+            << layer.size << " x " << layer.size << ", stride " << layer.stride << ", cell " << row
+            << ", " << column;
+      }
+    }
+  }
+}
+
 TEST(Convolution, IsItsDefinitionAtBordersAndAtAnyStride) {
   struct Case {
     int size, stride, side;
@@ -39,20 +54,22 @@ TEST(Convolution, IsItsDefinitionAtBordersAndAtAnyStride) {
   };
   for (const Case c : {Case{3, 1, 6, 5, 7}, Case{3, 2, 8, 4, 16}, Case{5, 2, 12, 3, 24},
                        Case{1, 1, 4, 9, 3}, Case{1, 2, 6, 2, 5}}) {
-    const FeatureMap map = RandomMap(c.side, c.inputs);
     const Convolution layer = RandomLayer(c.size, c.stride, c.inputs, c.outputs);
     EXPECT_EQ(layer.inputs(), c.inputs);
-    const FeatureMap out = layer.Run(map);
-    ASSERT_EQ(out.side, c.side / c.stride);
-    for (int row = 0; row < out.side; ++row) {
-      for (int column = 0; column < out.side; ++column) {
-        for (Eigen::Index o = 0; o < c.outputs; ++o) {
-          EXPECT_NEAR(out.cells(row * out.side + column, o), OneByOne(layer, map, row, column, o),
-                      1e-5)
-              << c.size << " x " << c.size << ", stride " << c.stride;
-        }
-      }
-    }
+    ExpectDefinition(layer, RandomMap(c.side, c.inputs));
+  }
+}
+
+// Where windows are alike one result serves them all: nobody, but for one cell, and what lies
+// beyond the border, which is not like nobody.
+TEST(Convolution, IsItsDefinitionWhereMostCellsAreAlike) {
+  for (const int stride : {1, 2}) {
+    const Convolution layer = RandomLayer(3, stride, 4, 8);
+    FeatureMap map = RandomMap(12, 4);
+    map.cells.rowwise() = Eigen::RowVectorXf(map.cells.row(0));
+    ExpectDefinition(layer, map);
+    map.cells.row(6 * map.side + 7) *= 2.0F;
+    ExpectDefinition(layer, map);
   }
 }
 
