@@ -61,6 +61,7 @@ std::shared_ptr<const recon::JointRefiner> ReadRefinement(const std::filesystem:
 // A refinement, and that of a camera under the ceiling, read when one is met.
 struct Refinements {
   std::shared_ptr<const recon::JointRefiner> now;
+  std::string now_file;     // of `now`
   bool is_shipped = false;  // `now`
   std::string ceiling_file;
 };
@@ -74,6 +75,7 @@ Refinements LoadRefinements(const ModelFiles& files, const MethodInfo& method) {
   Refinements out;
   if (named) {
     out.now = ReadRefinement(files.refinement);
+    out.now_file = files.refinement;
     out.is_shipped = IsShippedFile(files.refinement, recon::kShippedRefinement);
   }
   if (IsShippedForest(files)) {
@@ -86,6 +88,7 @@ Refinements LoadRefinements(const ModelFiles& files, const MethodInfo& method) {
   const char* const shipped = FindShippedRefinement(files);
   if (!out.now && shipped != nullptr) {
     out.now = ReadRefinement(ShippedFile(shipped));
+    out.now_file = shipped;
     out.is_shipped = true;
   }
   return out;
@@ -191,6 +194,7 @@ ModelSet ModelSet::Load(const ModelFiles& files, std::string_view method) {
   if (set.forest == nullptr) set.forest = LoadForest(files, forest);
   Refinements read = refinements.get();
   set.refinement = std::move(read.now);
+  set.refinement_file = std::move(read.now_file);
   set.ceiling_refinement_file = std::move(read.ceiling_file);
   set.pose_network = LoadPoseNetwork(PoseNetworkOf(files, read));
   set.surface = LoadSurface(files);
@@ -216,9 +220,10 @@ ModelSet LoadCeilingModels(const ModelSet& models,
   set.from_ceiling = true;
   set.forest_file = models.ceiling_file;
   set.forest = std::move(ceiling_forest);
-  const std::string& refinement = models.ceiling_refinement_file;
-  set.refinement =
-      refinement.empty() ? nullptr : ReadRefinement(PathOrShipped(refinement, kCeilingRefinement));
+  set.refinement_file = models.ceiling_refinement_file;
+  set.refinement = set.refinement_file.empty()
+                       ? nullptr
+                       : ReadRefinement(PathOrShipped(set.refinement_file, kCeilingRefinement));
   if (set.learned && set.learned_file.empty()) set.learned = ProportionsAlone();
   return set;
 }

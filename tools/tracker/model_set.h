@@ -49,7 +49,8 @@ struct ModelSet {
   std::shared_ptr<const recon::LearnedModels> learned;     // the correction of systematic errors
   std::shared_ptr<const recon::PosturePrior> prior;        // of postures: joints unseen from seen
   std::shared_ptr<const recon::PostureDatabase> database;  // postures to look up
-  std::string forest_file, learned_file;                   // where those came from, for messages
+  // Where those came from, for messages.
+  std::string forest_file, refinement_file, learned_file;
   /// The forest of a camera that looks down from the ceiling, read when one is met; "": none.
   std::string ceiling_file;
   std::string ceiling_refinement_file;  // of its joints, read with it; "": none

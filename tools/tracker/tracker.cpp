@@ -50,11 +50,12 @@ bool IsFromAbove(Mount mount, const ModelSet& models) {
 // A refinement learned from elsewhere would be wrong without a word.
 void CheckRefinement(const ModelSet& models, bool from_above) {
   if (!models.refinement || models.refinement->from_above() == from_above) return;
+  const std::string name = models.refinement_file.empty() ? "refinement" : models.refinement_file;
   throw InputError(
-      from_above ? "refinement: expected one learned on people seen from the ceiling, found one "
-                   "for level cameras"
-                 : "refinement: expected one learned on people before a level camera, found one "
-                   "for cameras under the ceiling (--mount ceiling)");
+      name + (from_above ? ": expected a refinement learned on people seen from the ceiling, found "
+                           "one for level cameras"
+                         : ": expected a refinement learned on people before a level camera, found "
+                           "one for cameras under the ceiling (--mount ceiling)"));
 }
 
 ModelSet LoadModels(const TrackerOptions& options) {

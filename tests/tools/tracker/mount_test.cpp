@@ -8,6 +8,7 @@
 #include "depth/image/depth_frame.h"
 #include "recon/refine/refinement_cascade.h"
 #include "tests/support/perceptrons.h"
+#include "tests/support/refused.h"
 #include "tests/support/temporary_folder.h"
 #include "tests/tools/tracker/tracked_scenes.h"
 #include "tools/people/detect_people.h"
@@ -161,14 +162,14 @@ TEST(Mount, ACascadeFromElsewhereIsRefusedWhereNoOtherTakesItsPlace) {
   std::filesystem::copy_file(ModelOrNothing(), files.forest);
   files.refinement = folder / "named.ossarefine";
   SilentCascade(true).Save(files.refinement);
-  EXPECT_THROW(Tracker(OptionsWith(files)), InputError);
+  test::ExpectRefused([&] { Tracker{OptionsWith(files)}; }, files.refinement + ": expected");
   TrackerOptions under_ceiling = OptionsWith(files);
   under_ceiling.mount = Mount::kCeiling;
   EXPECT_NO_THROW(Tracker{under_ceiling});
   SilentCascade(false).Save(files.refinement);
   EXPECT_NO_THROW(Tracker(OptionsWith(files)));
   under_ceiling.models = OptionsWith(files).models;
-  EXPECT_THROW(Tracker{under_ceiling}, InputError);
+  test::ExpectRefused([&] { Tracker{under_ceiling}; }, files.refinement + ": expected");
 }
 
 TEST(Mount, OfTheCeilingsForestTheShippedCascadeIsUsedUnderTheCeilingOnly) {
