@@ -65,6 +65,26 @@ recon::Posture OutOfFreeSpace(recon::Posture posture, const recon::TrackedPostur
   return posture;
 }
 
+// Joints that are not tracked go on from where they were against their parents, no faster than a
+// guess may.
+recon::Posture WithSlowGuesses(const recon::Posture& posture, const SkeletonWork& work) {
+  const Person& person = work.person;
+  const HoldOptions& options = work.options.hold;
+  const double since_s = work.frame.time_s - person.shown_s;
+  if (!person.shown || !(since_s > 0.0 && since_s <= options.recent_s)) return posture;
+  const double farthest_m = options.guess_m_s * since_s;
+  recon::Posture slow = posture;
+  for (size_t j = 1; j < kJointCount; ++j) {
+    if (work.body.raw.state[j] == TrackingState::kTracked) continue;
+    const size_t p = recon::ParentOf(j);
+    const Eigen::Vector3d before_m = person.shown->position_m[j] - person.shown->position_m[p];
+    const Eigen::Vector3d moved_m = posture.position_m[j] - posture.position_m[p] - before_m;
+    const double share = std::min(1.0, farthest_m / std::max(moved_m.norm(), 1e-9));
+    slow.position_m[j] = slow.position_m[p] + before_m + share * moved_m;
+  }
+  return slow;
+}
+
 // Joints that are held, moved aside and smoothed one by one lengthen and shorten bones, which get
 // the lengths again that they had in `whole`; what is not seen moves most.
 recon::Posture WithBonesOf(const recon::Posture& whole, const recon::Posture& moved,
@@ -237,8 +257,9 @@ void Settle(SkeletonWork& work) {
       Smooth(OutOfFreeSpace(held, work.observed, work.frame, work.options.hold, work.person),
              work.frame.time_s, work.options.smoothing, work.person.smoothing);
   const SkeletonOptions& options = work.options;
-  if (options.physics || options.scene ||
-      recon::RequireMethod(options.reconstructor.method).keeps_bones) {
+  const recon::MethodInfo& method = recon::RequireMethod(options.reconstructor.method);
+  if (method.refined) smoothed = WithSlowGuesses(smoothed, work);
+  if (options.physics || options.scene || method.keeps_bones) {
     smoothed = WithBonesOf(work.posture, smoothed, work.observed, reliability, options.hold);
   }
   work.posture = smoothed;

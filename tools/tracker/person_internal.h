@@ -26,6 +26,11 @@ struct HoldOptions {
   // rendered rooms), and may move by twice that.
   double inferred_m = 0.06, unsure_m = 0.18;
   double free_space_s = 0.05;  // time constant of the way out of free space, against flicker
+  // A joint that is not tracked is a guess, which moves no faster against its parent: slower than
+  // an arm that gestures, so that a guess that turns from one way to another does not leap. On real
+  // video a sixth of the leaps is left, and rendered people are as near
+  // (docs/benchmarks/tracking.md).
+  double guess_m_s = 2.0;
   // Weights with which bones get their lengths again: of joints that are not seen, and the least of
   // those that are.
   double unseen = 0.1, least_seen = 0.2;

@@ -7,6 +7,7 @@ namespace ossa::tracker {
 namespace {
 
 constexpr auto kHand = recon::Index(recon::Joint::kHandLeft);
+constexpr auto kWrist = recon::Index(recon::Joint::kWristLeft);
 
 // Somebody whose left hand is said to be 30 cm before the body, where the camera looks through it
 // at the wall.
@@ -27,15 +28,17 @@ struct HandInTheAir {
   }
 
   const Eigen::Vector3d& Hand(int frames) {
+    for (int f = 0; f < frames; ++f) Step(f / 30.0);
+    return body.joints[kHand].position_m;
+  }
+
+  void Step(double time_s) {
     StageTimes ms;
     const std::optional<Eigen::Vector4d> floor;
-    for (int f = 0; f < frames; ++f) {
-      render.frame.time_s = f / 30.0;
-      SkeletonWork work{options, render.frame, floor, nullptr, person, body};
-      CompleteSkeleton(work, ms);
-      person.before_s = render.frame.time_s;
-    }
-    return body.joints[kHand].position_m;
+    render.frame.time_s = time_s;
+    SkeletonWork work{options, render.frame, floor, nullptr, person, body};
+    CompleteSkeleton(work, ms);
+    person.before_s = time_s;
   }
 };
 
@@ -52,6 +55,33 @@ TEST(HiddenJoints, ThatAreSeenAgainStayWhereTheyAreSeen) {
   scene.Hand(10);
   scene.body.raw.state[kHand] = recon::TrackingState::kTracked;
   EXPECT_LT((scene.Hand(1) - scene.body.raw.posture.position_m[kHand]).norm(), 0.061);
+}
+
+// A forearm that is said to be somewhere else all of a sudden: how far its wrist goes in a frame.
+double WristGoes_m(recon::TrackingState state, const HoldOptions& hold = {}) {
+  HandInTheAir scene(recon::TrackingState::kTracked);
+  scene.options.reconstructor.method = "best";
+  scene.options.hold = hold;
+  scene.body.raw.posture = scene.render.joints.front();
+  scene.Step(0.0);
+  const Eigen::Vector3d before = scene.body.joints[kWrist].position_m;
+  for (const size_t j : {kWrist, kHand}) {
+    scene.body.raw.posture.position_m[j] += Eigen::Vector3d(0.0, 0.4, -0.2);
+    scene.body.raw.state[j] = state;
+  }
+  scene.Step(1.0 / 30.0);
+  return (scene.body.joints[kWrist].position_m - before).norm();
+}
+
+TEST(HiddenJoints, DoNotLeap) {
+  constexpr double kElbowMoves_m = 0.03, kLeap_m = 0.25;
+  HoldOptions fast;
+  fast.guess_m_s = 100.0;
+  EXPECT_GT(WristGoes_m(recon::TrackingState::kInferred, fast), kLeap_m);
+  EXPECT_LT(WristGoes_m(recon::TrackingState::kInferred),
+            HoldOptions().guess_m_s / 30.0 + kElbowMoves_m);
+  EXPECT_GT(WristGoes_m(recon::TrackingState::kTracked), kLeap_m)
+      << "what is seen is there at once";
 }
 
 }  // namespace

@@ -81,15 +81,17 @@ Table JointsTable() {
 }
 
 Table VideosTable() {
-  return {.title = "Real recordings without truth",
-          .columns = {"recording", "frames", "bodies a frame", "one body, %", "identity breaks",
-                      "jitter raw / refined / final, mm", "bones raw / refined / final, %",
-                      "explained, %"},
-          .rows = {},
-          .note =
-              "Jitter: root mean square about the mean of six frames in which the raw joint holds "
-              "still. Bones: standard deviation of a bone's length. Explained: share of the "
-              "users' pixels within 5 cm of the posed body's capsules."};
+  return {
+      .title = "Real recordings without truth",
+      .columns = {"recording", "frames", "bodies a frame", "one body, %", "identity breaks",
+                  "jitter raw / refined / final, mm", "leaps raw / refined / final in 100 frames",
+                  "bones raw / refined / final, %", "explained, %"},
+      .rows = {},
+      .note =
+          "Jitter: root mean square about the mean of six frames in which the raw joint holds "
+          "still. Leaps: joints that are more than half a metre from where they were a frame "
+          "before. Bones: standard deviation of a bone's length. Explained: share of the "
+          "users' pixels within 5 cm of the posed body's capsules."};
 }
 
 void AddRows(const RealSet& set, const ScoredSet& scored, Table& table) {
@@ -133,7 +135,7 @@ void AddRow(const RealVideo& video, const VideoScore& s, Table& table) {
   table.rows.push_back({video.name, std::to_string(s.frames),
                         fmt::format("{:.2f}", static_cast<double>(s.bodies) / frames),
                         Percent(static_cast<double>(s.one_body) / frames),
-                        std::to_string(s.identity_breaks), ByStage(s.jitter_mm),
+                        std::to_string(s.identity_breaks), ByStage(s.jitter_mm), ByStage(s.leaps),
                         ByStage(s.bone_variation), Percent(s.explained)});
 }
 
@@ -155,8 +157,9 @@ json SetToJson(const RealSet& set, const ScoredSet& scored) {
 }
 
 json VideoToJson(const RealVideo& video, const VideoScore& s) {
-  json jitter, bones;
+  json jitter, leaps, bones;
   for (const auto& [stage, value] : s.jitter_mm) jitter[std::string(StageName(stage))] = value;
+  for (const auto& [stage, value] : s.leaps) leaps[std::string(StageName(stage))] = value;
   for (const auto& [stage, value] : s.bone_variation) bones[std::string(StageName(stage))] = value;
   return {{"name", video.name},
           {"frames", s.frames},
@@ -164,6 +167,7 @@ json VideoToJson(const RealVideo& video, const VideoScore& s) {
           {"one_body", static_cast<double>(s.one_body) / static_cast<double>(s.frames)},
           {"identity_breaks", s.identity_breaks},
           {"jitter_mm", jitter},
+          {"leaps_per_100_frames", leaps},
           {"bone_variation_percent", bones},
           {"explained", s.explained}};
 }

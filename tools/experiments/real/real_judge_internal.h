@@ -53,7 +53,8 @@ struct VideoScore {
   int64_t identity_breaks = 0;            // frames in which somebody goes on under another number
   std::map<RealStage, double> jitter_mm;  // of joints of somebody who holds still
   std::map<RealStage, double> bone_variation;  // standard deviation over mean of bones, per cent
-  double explained = 0.0;  // share of users' pixels within 5 cm of the posed body
+  std::map<RealStage, double> leaps;  // joints in 100 frames that are elsewhere all of a sudden
+  double explained = 0.0;             // share of users' pixels within 5 cm of the posed body
 };
 
 /// The tracker is reset first, and before each frame of a set of stills.

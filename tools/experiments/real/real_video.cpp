@@ -17,6 +17,9 @@ constexpr double kSamePlace_m = 0.3;
 // Windows in which a raw joint's halves have means so near to each other hold still.
 constexpr size_t kWindow = 6;
 constexpr double kStill_m = 0.01;
+// A joint that is so much farther on a frame later leapt: no limb is moved so far between frames of
+// 10 Hz.
+constexpr double kLeap_m = 0.5;
 // Clothes and hair stand off a capsule of the naked limb's mean radius by so much.
 constexpr double kExplained_m = 0.05;
 constexpr size_t kEveryPixel = 7;  // of a user's pixels that are held against the posed body
@@ -27,7 +30,7 @@ struct Sample {
 
 struct Sums {
   std::map<RealStage, double> jitter_squares;
-  std::map<RealStage, int64_t> jitter_count;
+  std::map<RealStage, int64_t> jitter_count, leaps;
   std::map<RealStage, recon::JointArray<std::vector<double>>> bones_m;
   int64_t pixels = 0, explained = 0;
 };
@@ -54,6 +57,18 @@ void AddJitter(const Window& window, Sums& sums) {
         sums.jitter_squares[stage] += (*sample.joints.at(stage)[j] - mean).squaredNorm();
         ++sums.jitter_count[stage];
       }
+    }
+  }
+}
+
+// Between the last two of somebody's samples. A joint that was not there cannot leap.
+void AddLeaps(const Window& window, Sums& sums) {
+  if (window.size() < 2) return;
+  const Sample &now = window.back(), &before = window[window.size() - 2];
+  for (const auto& [stage, joints] : now.joints) {
+    for (size_t j = 0; j < recon::kJointCount; ++j) {
+      const auto& was = before.joints.at(stage)[j];
+      sums.leaps[stage] += joints[j] && was && (*joints[j] - *was).norm() > kLeap_m;
     }
   }
 }
@@ -137,6 +152,9 @@ double MeasureVariation(const recon::JointArray<std::vector<double>>& bones_m) {
 }
 
 void Finish(const Sums& sums, bool stills, VideoScore& score) {
+  for (const auto& [stage, leaps] : sums.leaps) {
+    score.leaps[stage] = 100.0 * static_cast<double>(leaps) / static_cast<double>(score.frames);
+  }
   for (const RealStage stage : kRealStages) {
     const auto count = sums.jitter_count.find(stage);
     if (count != sums.jitter_count.end()) {
@@ -173,7 +191,9 @@ VideoScore JudgeVideo(const RealVideo& video, tracker::Tracker& tracker) {
       Window& window = next[body.id] = std::move(windows[body.id]);
       window.push_back(std::move(sample));
       if (window.size() > kWindow) window.pop_front();
-      if (window.size() == kWindow && !video.stills) AddJitter(window, sums);
+      if (video.stills) continue;
+      AddLeaps(window, sums);
+      if (window.size() == kWindow) AddJitter(window, sums);
     }
     windows = std::move(next);
     before = std::move(answer);
