@@ -7,9 +7,15 @@
 #include "depth/base/threads.h"
 #include "recon/body/standard_body.h"
 #include "tools/people/occlusion_merge.h"
+#include "tools/people/pose_evidence.h"
 
 namespace ossa::people {
 namespace {
+
+// What a frame counts in the mean over a track's frames.
+double WeighLook(int age, const TrackPriorOptions& options) {
+  return std::max(1.0 / age, 1 - options.memory);
+}
 
 Detection Classify(const Classifying& with, Candidate candidate) {
   const PeopleOptions& options = with.options;
@@ -22,7 +28,7 @@ Detection Classify(const Classifying& with, Candidate candidate) {
   detection.score = detection.evidence.score;
   detection.age = prior.age + 1;
   if (prior.score) {
-    const double weight = std::max(1.0 / detection.age, 1 - options.prior.memory);
+    const double weight = WeighLook(detection.age, options.prior);
     detection.score = *prior.score + weight * (detection.score - *prior.score);
   }
   detection.candidate = std::move(candidate);
@@ -69,11 +75,12 @@ std::optional<Detection> TryAsOne(const Classifying& with, const Detection& a, c
 }
 
 // Until nothing belongs together any more. What is no person alone may be part of one.
-void MergeParts(const Classifying& with, std::vector<Detection>& detections,
+template <typename Try>
+void MergeParts(const Classifying& with, const Try& try_as_one, std::vector<Detection>& detections,
                 std::vector<Decision>& decided) {
   for (size_t i = 0; i < detections.size(); ++i) {
     for (size_t k = i + 1; k < detections.size(); ++k) {
-      auto whole = TryAsOne(with, detections[i], detections[k]);
+      auto whole = try_as_one(with, detections[i], detections[k]);
       if (!whole) continue;
       decided.push_back(DescribeDetection(detections[i], Rule::kMerged, whole->evidence.score));
       decided.push_back(DescribeDetection(detections[k], Rule::kMerged, whole->evidence.score));
@@ -104,6 +111,48 @@ std::vector<Detection> CutAtHeads(const Classifying& with, const Detection& whol
   for (Detection& piece : pieces) piece.is_piece = true;
   decided.push_back(DescribeDetection(whole, Rule::kSplitAtHeads, needed));
   return pieces;
+}
+
+// Of what is new the network has its say, unless it came before a known background or was cut off
+// somebody: little may be seen of that. Of somebody who is tracked, where the forest is in doubt,
+// it may only say that they still look like a person, for it knows little of who goes out of sight.
+void WeighPose(const Classifying& with, Detection& detection) {
+  const PeopleOptions& options = with.options;
+  const bool is_new = detection.candidate.track < 0;
+  const double forest = detection.evidence.score;
+  if (forest < options.evidence.min_surface_score) return;
+  const bool little_seen = IsForeground(detection.candidate) || detection.candidate.may_return ||
+                           (detection.is_piece && !with.scene.fresh);
+  if (is_new ? little_seen : forest >= options.initiation.sure_person) return;
+  detection.pose = ReadPose(*with.classifier.network, with.frame, detection.candidate.pixels);
+  if (!detection.pose) return;
+  const double score = ComputeScoreWithPose(forest, MeasureCertainty(*detection.pose));
+  if (!is_new && score < forest) return;
+  detection.by_pose = true;
+  detection.score += WeighLook(detection.age, options.prior) * (score - forest);
+  detection.evidence.score = score;
+}
+
+bool PassesByPose(const Detection& detection, const InitiationOptions& options) {
+  return detection.by_pose && detection.evidence.score >= options.person_by_pose;
+}
+
+// Two pieces as one person, where the network reads the same joints in either.
+std::optional<Detection> TryAsSamePose(const Classifying& with, const Detection& a,
+                                       const Detection& b) {
+  const ClassificationOptions& options = with.options.classification;
+  const float apart_m = (a.candidate.region.mean_m - b.candidate.region.mean_m).norm();
+  if (apart_m > options.pieces_m) return {};
+  const InitiationOptions& initiation = with.options.initiation;
+  if (!PassesByPose(a, initiation) || !PassesByPose(b, initiation)) return {};
+  if (MeasureDistance_m(*a.pose, *b.pose) > static_cast<double>(options.same_pose_m)) return {};
+  const bool a_first = a.evidence.score >= b.evidence.score;
+  Detection whole =
+      Classify(with, MergeCandidates(with.scene, with.frame, (a_first ? a : b).candidate,
+                                     (a_first ? b : a).candidate));
+  WeighPose(with, whole);
+  if (!PassesByPose(whole, initiation)) return {};
+  return whole;
 }
 
 // Bones between proposals of neighbouring joints, as far as they hang together from the trunk
@@ -219,8 +268,10 @@ void CropToBody(const JointTargets& targets, const DepthFrame& frame, const Scen
   const bool large = region.area_m2 >= options.crop_area_m2;
   const bool whole = bones.size() == kAllBones && ReachesBeyond(bones, region, options.crop_far_m);
   if (!large && !whole) return;
+  const size_t whole_pixels = detection.candidate.pixels.size();
   CropToBones(scene, frame, bones, large ? options.crop_m : options.crop_far_m,
               options.min_cropped_cells, detection.candidate);
+  if (detection.candidate.pixels.size() != whole_pixels) detection.pose.reset();
 }
 
 std::vector<Detection> ClassifyCandidates(const Classifying& with,
@@ -229,7 +280,7 @@ std::vector<Detection> ClassifyCandidates(const Classifying& with,
   std::vector<Detection> detections = ClassifyEach(with, std::move(candidates));
   // From above the shape says all that can be said of who belongs together.
   if (with.options.candidates.overhead) return detections;
-  MergeParts(with, detections, decided);
+  MergeParts(with, TryAsOne, detections, decided);
   std::vector<Detection> result;
   for (Detection& detection : detections) {
     std::vector<Detection> pieces = CutAtHeads(with, detection, decided);
@@ -239,6 +290,9 @@ std::vector<Detection> ClassifyCandidates(const Classifying& with,
       std::move(pieces.begin(), pieces.end(), std::back_inserter(result));
     }
   }
+  if (with.classifier.network == nullptr) return result;
+  ParallelFor(result.size(), with.options.threads, [&](size_t i) { WeighPose(with, result[i]); });
+  if (with.scene.fresh) MergeParts(with, TryAsSamePose, result, decided);
   return result;
 }
 

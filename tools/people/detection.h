@@ -2,6 +2,7 @@
 #include <optional>
 #include <vector>
 
+#include "recon/refine/pose_network.h"
 #include "tools/people/candidate.h"
 #include "tools/people/decision.h"
 #include "tools/people/forest_evidence.h"
@@ -26,10 +27,12 @@ struct Detection {
   Candidate candidate;
   ForestEvidence evidence;
   TrackPrior prior;
-  double score = 0.0;     // that it is a person: mean over the frames, [0, 1]
-  int age = 1;            // detections of the track, this one included
-  bool is_piece = false;  // cut off around one of several heads
-  Decision decision;      // why it is a person, or none
+  double score = 0.0;                        // that it is a person: mean over the frames, [0, 1]
+  int age = 1;                               // detections of the track, this one included
+  bool is_piece = false;                     // cut off around one of several heads
+  bool by_pose = false;                      // the pose network had its say
+  std::optional<recon::NetworkPose> pose{};  // ... what it read in these pixels
+  Decision decision;                         // why it is a person, or none
   // Of people: what tells them from others, and how they move.
   FrameMeasures measures{};
   Keypoints keypoints_m;

@@ -1,6 +1,8 @@
 #include "tools/people/feature_collector.h"
 
+#include "tools/people/classify_candidates.h"
 #include "tools/people/forest_evidence.h"
+#include "tools/people/pose_evidence.h"
 #include "tools/people/propose_candidates.h"
 
 namespace ossa::people {
@@ -9,6 +11,24 @@ struct FeatureCollector::State {
   forest::ForestModel model;
   JointTargets targets;
 };
+
+namespace {
+
+struct SingleFrame {
+  Scene scene;
+  std::vector<Candidate> candidates;
+};
+
+// Nothing is known from frames before.
+SingleFrame MeasureAlone(const DepthFrame& frame, const PeopleOptions& options) {
+  depth::SceneState nothing_before;
+  Scene scene = depth::MeasureScene(frame, nothing_before, options.scene);
+  auto proposed =
+      ProposeCandidates(frame, scene, {}, options.association.reidentify, options.candidates);
+  return {std::move(scene), std::move(proposed.candidates)};
+}
+
+}  // namespace
 
 std::span<const std::string_view> PersonFeatureNames() { return kPersonFeatureNames; }
 size_t CountSurfaceFeatures() { return static_cast<size_t>(PersonFeature::kTrust); }
@@ -23,18 +43,34 @@ FeatureCollector::~FeatureCollector() = default;
 std::vector<CandidateFeatures> FeatureCollector::Collect(const depth::DepthFrame& frame) const {
   constexpr double kAnyScore = -1;  // a score, so that joints are proposed for everything
   const PeopleOptions options;
-  depth::SceneState nothing_before;
-  const Scene scene = depth::MeasureScene(frame, nothing_before, options.scene);
-  auto proposed =
-      ProposeCandidates(frame, scene, {}, options.association.reidentify, options.candidates);
+  SingleFrame alone = MeasureAlone(frame, options);
   const PersonClassifier classifier{state_->model, state_->targets};
   std::vector<CandidateFeatures> all;
-  for (Candidate& candidate : proposed.candidates) {
+  for (Candidate& candidate : alone.candidates) {
     const auto evidence =
         ClassifyCandidate(classifier, frame, candidate, {}, kAnyScore, options.evidence);
     all.push_back({std::move(candidate.pixels),
                    {evidence.features.begin(), evidence.features.end()},
                    evidence.score});
+  }
+  return all;
+}
+
+std::vector<CandidatePose> FeatureCollector::CollectPoses(const depth::DepthFrame& frame,
+                                                          const recon::PoseNetwork& network) const {
+  const PeopleOptions options;
+  SingleFrame alone = MeasureAlone(frame, options);
+  const PersonClassifier classifier{state_->model, state_->targets};
+  std::vector<Decision> merged;
+  auto detections = ClassifyCandidates({classifier, frame, alone.scene, {}, options},
+                                       std::move(alone.candidates), merged);
+  std::vector<CandidatePose> all;
+  for (Detection& detection : detections) {
+    const double forest = detection.evidence.score;
+    if (forest < options.evidence.min_surface_score) continue;
+    const auto pose = ReadPose(network, frame, detection.candidate.pixels);
+    if (!pose) continue;
+    all.push_back({std::move(detection.candidate.pixels), forest, MeasureCertainty(*pose)});
   }
   return all;
 }

@@ -9,12 +9,18 @@
 #include "tools/people/joint_targets.h"
 #include "tools/people/person_features.h"
 
+namespace ossa::recon {
+class PoseNetwork;  // recon/refine/pose_network.h
+}
+
 namespace ossa::people {
 
-/// The forest that people are told by, and which of its targets are their joints.
+/// The forest that people are told by, which of its targets are their joints, and the network that
+/// is asked where the forest is in doubt.
 struct PersonClassifier {
   const forest::ForestModel& model;
   const JointTargets& targets;
+  const recon::PoseNetwork* network = nullptr;  // null: the forest's word is all
 };
 
 /// What the forest says of one candidate.

@@ -117,23 +117,27 @@ struct Requirement {
 };
 
 // What a new person needs at the first look. A corner of furniture may look like a person once, but
-// seldom has the shape of a head, too; what did not come into a known room needs more than one.
-Requirement RequireAtFirst(const Candidate& candidate, bool fresh_scene,
+// seldom has the shape of a head, too; the pose network tells them apart, where it was asked. What
+// did not come into a known room needs more than one look.
+Requirement RequireAtFirst(const Detection& detection, bool fresh_scene,
                            const InitiationOptions& options) {
+  const Candidate& candidate = detection.candidate;
   if (candidate.may_return) return {Rule::kReturning, options.new_person};
+  if (fresh_scene && detection.by_pose) return {Rule::kFreshScene, options.person_by_pose};
   if (fresh_scene)
     return {Rule::kFreshScene, candidate.has_head ? options.new_person : options.sure_person};
   return {Rule::kEntered, IsForeground(candidate) ? options.foreground_first : kNeverAtOnce};
 }
 
 // What a new person needs as the mean of several observations.
-double RequireInTheMean(const TentativeTrack& track, const Candidate& candidate,
+double RequireInTheMean(const TentativeTrack& track, const Detection& detection,
                         const InitiationOptions& options) {
+  const Candidate& candidate = detection.candidate;
   const bool little_seen = track.is_foreground && MayBeOccluded(candidate, options);
   if (little_seen && candidate.isolated && track.walked_m > options.walked_m)
     return options.walked_person;
   if (little_seen && track.moved) return options.foreground_mean;
-  if (!track.moved) return options.sure_person;
+  if (!track.moved) return detection.by_pose ? options.person_by_pose : options.sure_person;
   // What grows without standing before anything may be uncovered by somebody who passes.
   const bool doubtful = track.was_rejected || !track.was_foreground;
   return doubtful ? options.still_person : options.new_person;
@@ -148,6 +152,13 @@ Decision DescribeTentative(const Detection& detection, const TentativeTrack& tra
   return decision;
 }
 
+// Pieces that are cut at heads look like people, each.
+Decision DecidePiece(const Detection& piece, const InitiationOptions& options) {
+  const double needed = piece.by_pose ? options.person_by_pose : options.new_person;
+  const bool passes = piece.score >= needed;
+  return DescribeDetection(piece, passes ? Rule::kPieceWithHead : Rule::kPieceLowScore, needed);
+}
+
 // New people are accepted at once in a fresh scene or when there is no doubt, else after a few
 // looks.
 Decision DecideNew(bool fresh_scene, double time_s, const InitiationOptions& options,
@@ -155,7 +166,7 @@ Decision DecideNew(bool fresh_scene, double time_s, const InitiationOptions& opt
   const Candidate& candidate = detection.candidate;
   TentativeTrack* before = FindTentative(candidate, time_s, options, tentative);
   const bool unprejudiced = before == nullptr || (candidate.may_return && !before->was_rejected);
-  const Requirement first = RequireAtFirst(candidate, fresh_scene, options);
+  const Requirement first = RequireAtFirst(detection, fresh_scene, options);
   if (unprejudiced && detection.score >= first.score)
     return DescribeDetection(detection, first.rule, first.score);
   if (before == nullptr) {
@@ -165,7 +176,7 @@ Decision DecideNew(bool fresh_scene, double time_s, const InitiationOptions& opt
   UpdateTentative(detection, time_s, options, *before);
   const bool often = before->moved ? before->observations >= options.tentative_observations
                                    : before->unbroken_observations >= options.standing_observations;
-  const double needed = RequireInTheMean(*before, candidate, options);
+  const double needed = RequireInTheMean(*before, detection, options);
   if (!often) return DescribeTentative(detection, *before, Rule::kFewObservations, needed);
   if (before->mean_score < needed)
     return DescribeTentative(detection, *before, Rule::kLowMeanScore, needed);
@@ -213,7 +224,7 @@ std::vector<Candidate> SelectCandidates(std::vector<Candidate> candidates, bool 
 bool DecidePerson(bool fresh_scene, double time_s, const InitiationOptions& options,
                   std::vector<TentativeTrack>& tentative, Detection& detection) {
   if (detection.is_piece) {
-    detection.decision = DescribeDetection(detection, Rule::kPieceWithHead, options.new_person);
+    detection.decision = DecidePiece(detection, options);
   } else if (detection.age > 1) {
     detection.decision = DecideTracked(detection, time_s, options, tentative);
   } else {

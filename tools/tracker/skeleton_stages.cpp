@@ -2,11 +2,13 @@
 
 #include <array>
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <vector>
 
 #include "depth/base/stopwatch.h"
 #include "recon/refine/fuse_poses.h"
+#include "tools/people/pose_evidence.h"
 #include "tools/tracker/choose_posture_internal.h"
 #include "tools/tracker/fit_surface_internal.h"
 #include "tools/tracker/refine_joints_internal.h"
@@ -59,13 +61,17 @@ recon::Posture WithWhatIsMissing(const recon::TrackedPosture& raw, const recon::
   return whole_m;
 }
 
-void FuseWithNetwork(std::span<const uint8_t> is_person, SkeletonWork& work) {
-  const auto crop = recon::PersonCrop::Cut(work.frame, is_person);
-  if (!crop) return;
+// With what was read when the person was detected, or anew.
+void FuseWithNetwork(SkeletonWork& work) {
+  std::optional<recon::NetworkPose> network = work.detection->pose;
+  if (!network) {
+    network =
+        people::ReadPose(*work.options.pose_network, work.frame, work.detection->candidate.pixels);
+  }
+  if (!network) return;
   Body& body = work.body;
-  const recon::NetworkPose network = work.options.pose_network->Run(*crop);
-  if (!body.refined) body.refined = WithWhatIsMissing(body.raw, network.joints_m);
-  body.refined = recon::FusePoses(*body.refined, body.raw.confidence, network);
+  if (!body.refined) body.refined = WithWhatIsMissing(body.raw, network->joints_m);
+  body.refined = recon::FusePoses(*body.refined, body.raw.confidence, *network);
 }
 
 }  // namespace
@@ -98,10 +104,10 @@ void ChooseRaw(SkeletonWork& work) {
 
 void Refine(SkeletonWork& work) {
   const SkeletonOptions& options = work.options;
-  if (options.refinement == nullptr && options.pose_network == nullptr) return;
-  const std::vector<uint8_t> is_person = MaskOf(work.detection->candidate, work.frame);
-  if (options.refinement != nullptr) RefineByCascade(is_person, work);
-  if (options.pose_network != nullptr) FuseWithNetwork(is_person, work);
+  if (options.refinement != nullptr) {
+    RefineByCascade(MaskOf(work.detection->candidate, work.frame), work);
+  }
+  if (options.pose_network != nullptr) FuseWithNetwork(work);
 }
 
 void Fit(SkeletonWork& work) {

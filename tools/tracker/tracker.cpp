@@ -294,8 +294,8 @@ BodyFrame Tracker::Impl::Track(const depth::DepthFrame& frame) {
   BodyFrame result;
   result.index = frame.index;
   result.time_s = frame.time_s;
-  people::PeopleInFrame seen =
-      people::DetectPeople(frame, {model, targets}, people_state, people_options);
+  people::PeopleInFrame seen = people::DetectPeople(frame, {model, targets, skeleton.pose_network},
+                                                    people_state, people_options);
   if (seen.floor) {
     result.floor = seen.floor->coefficients;
     result.tilt_down_rad = seen.floor->TiltDown_rad();

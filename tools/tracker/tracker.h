@@ -81,7 +81,7 @@ struct Body {
   Eigen::Vector3d position_m = Eigen::Vector3d::Zero();  // middle of the seen surface
   recon::JointArray<JointEstimate> joints;  // as at first where only the position is known
   unsigned clipped_edges = 0;               // of ClippedEdge
-  double person_score = 0.0;                // how sure the forest is that this is a person, [0, 1]
+  double person_score = 0.0;                // how surely this is a person, [0, 1]
 
   /// Stage 1, the forest: the joints chosen among its proposals, in this frame alone.
   recon::TrackedPosture raw;

@@ -18,6 +18,7 @@ struct Look {
   bool has_head = true;
   bool isolated = true;
   double occluded_share = 0.3;  // of its silhouette, by something nearer
+  bool by_pose = false;         // the score is the pose network's, too
 };
 
 class NewPerson : public testing::Test {
@@ -26,6 +27,7 @@ class NewPerson : public testing::Test {
   Detection Detect(const Look& look) {
     Detection detection;
     detection.score = detection.evidence.score = look.score;
+    detection.by_pose = look.by_pose;
     Candidate& candidate = detection.candidate;
     candidate.foreground_share = look.foreground_share;
     candidate.foreground_m2 = static_cast<float>(look.foreground_share) * look.area_m2;
@@ -61,6 +63,38 @@ TEST_F(NewPerson, IsBelievedAtOnceInAFreshSceneAndElsewhereAfterThreeSureLooks) 
   EXPECT_EQ(AcceptedIn(1, false, [](int) { return Look{0.65}; }), -1);
   EXPECT_EQ(AcceptedIn(3, false, [](int) { return Look{0.95}; }), 2);
   EXPECT_EQ(AcceptedIn(20, false, [](int f) { return Look{f < 2 ? 0.98 : 0.7}; }), -1);
+}
+
+// A head's shape counts for nothing then.
+TEST_F(NewPerson, IsJudgedByThePoseNetworkWhereItWasAsked) {
+  const auto by_pose = [](double score, bool has_head) {
+    return Look{.score = score, .has_head = has_head, .by_pose = true};
+  };
+  EXPECT_EQ(AcceptedIn(1, true, [&](int) { return by_pose(0.45, true); }), -1);
+  EXPECT_EQ(AcceptedIn(1, true, [&](int) { return by_pose(0.55, false); }), 0);
+  EXPECT_EQ(AcceptedIn(60, false, [&](int) { return by_pose(0.45, true); }), -1);
+  EXPECT_EQ(AcceptedIn(3, false, [&](int) { return by_pose(0.55, false); }), 2);
+  // No surface has to say so once more.
+  std::vector<TentativeTrack> tentative;
+  Detection detection = Detect(by_pose(0.55, true));
+  EXPECT_TRUE(DecidePerson(true, 0.0, options_, tentative, detection));
+  EXPECT_FALSE(IsDoubtfulAtFirst(detection, options_));
+}
+
+TEST_F(NewPerson, ThatIsAPieceIsOneUnlessThePoseNetworkSaysOtherwise) {
+  std::vector<TentativeTrack> tentative;
+  const auto is_one = [&](const Look& look) {
+    Detection piece = Detect(look);
+    piece.is_piece = true;
+    const bool is_person = DecidePerson(true, 0.0, options_, tentative, piece);
+    rule_ = piece.decision.rule;
+    return is_person;
+  };
+  EXPECT_TRUE(is_one({.score = 0.65}));
+  EXPECT_TRUE(is_one({.score = 0.55, .by_pose = true}));
+  EXPECT_EQ(rule_, Rule::kPieceWithHead);
+  EXPECT_FALSE(is_one({.score = 0.45, .by_pose = true}));
+  EXPECT_EQ(rule_, Rule::kPieceLowScore);
 }
 
 TEST_F(NewPerson, ThatStandsLikeFurnitureIsNobodyHoweverOftenItIsLookedAt) {

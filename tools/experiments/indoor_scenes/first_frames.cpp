@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
 #include <mutex>
 #include <optional>
 
@@ -12,43 +11,18 @@
 #include "recon/motion/mocap.h"
 #include "tools/experiments/context_models.h"
 #include "tools/experiments/experiments_internal.h"
+#include "tools/experiments/indoor_scenes/first_frames_internal.h"
 #include "tools/experiments/stage/jobs.h"
 #include "tools/synth/clothed_actor.h"
-#include "tools/synth/dataset.h"
 #include "tools/synth/frame_maker.h"
 #include "tools/tracker/tracker.h"
 
 namespace ossa::tools {
 namespace {
 
-struct Kind {
-  std::string_view name;  // of the table
-  Occluders occluders;
-};
-
-constexpr std::array kKinds = {
-    Kind{"nothing", Occluders::kNone},
-    Kind{"a thing in the hands", Occluders::kHeld},
-    Kind{"a thing in front", Occluders::kScene},
-    Kind{"cloth, boards, paper, boxes held up", Occluders::kHeldUp},
-    Kind{"a desk or a chair's arms", Occluders::kDesk},
-    Kind{"a wheelchair", Occluders::kWheelchair},
-    Kind{"crutches", Occluders::kCrutches},
-};
-
-struct Where {
-  std::string_view name;
-  Background background;
-};
-
-constexpr std::array kWhere = {
-    Where{"cut out", Background::kNone},
-    Where{"lived-in room", Background::kLivedIn},
-};
-
 struct Row {
-  Kind kind;
-  Where where;
+  FirstFrameKind kind;
+  FirstFramePlace where;
   int images = 0;                 // that show a person
   int one = 0;                    // exactly one body, at the person
   int nobody = 0;                 // no body at the person
@@ -90,13 +64,7 @@ void Judge(const LabelledFrame& frame, const tracker::BodyFrame& answer, Row& ro
 }
 
 void Play(const Cast& cast, ExperimentContext& context, Row& row) {
-  FrameOptions options;
-  options.split = Split::kTest;
-  options.occluders = row.kind.occluders;
-  options.background = row.where.background;
-  options.hanging_clothes = true;
-  options.variation = MakeVariation(Poses::kNatural);
-  options.seed = context.seed;
+  const FrameOptions options = FirstFrameOptions(row.kind, row.where, Split::kTest, context.seed);
   const FrameStudio studio(cast.model, cast.poses, options);
   FrameMaker maker(studio);
   tracker::Tracker tracker(cast.how);
@@ -114,6 +82,18 @@ std::string PerCent(int part, int whole) {
 
 }  // namespace
 
+FrameOptions FirstFrameOptions(const FirstFrameKind& kind, const FirstFramePlace& place,
+                               Split split, uint64_t seed) {
+  FrameOptions options;
+  options.split = split;
+  options.occluders = kind.occluders;
+  options.background = place.background;
+  options.hanging_clothes = true;
+  options.variation = MakeVariation(Poses::kNatural);
+  options.seed = seed;
+  return options;
+}
+
 std::vector<Table> RunFirstFrames(ExperimentContext& context) {
   const auto sources = context.parameters.Texts("mocap", {"authored"});
   const int images = context.parameters.Integer("images", context.full ? 200 : 25, 1);
@@ -126,8 +106,9 @@ std::vector<Table> RunFirstFrames(ExperimentContext& context) {
   const Cast cast{model, poses, how, images};
 
   std::vector<Row> rows;
-  for (const Where& where : kWhere) {
-    for (const Kind& kind : kKinds) rows.push_back({.kind = kind, .where = where});
+  for (const FirstFramePlace& where : kFirstFramePlaces) {
+    for (const FirstFrameKind& kind : kFirstFrameKinds)
+      rows.push_back({.kind = kind, .where = where});
   }
   std::mutex mutex;
   size_t done = 0;

@@ -2,9 +2,8 @@
 // (tools/people/person_classifier_weights.inc).
 #include <fmt/format.h>
 
-#include <Eigen/Cholesky>
+#include <Eigen/Core>
 #include <algorithm>
-#include <cmath>
 #include <iterator>
 #include <mutex>
 #include <sstream>
@@ -14,6 +13,7 @@
 #include "recon/motion/mocap.h"
 #include "tools/experiments/experiments_internal.h"
 #include "tools/experiments/indoor_scenes/indoor_scenes_internal.h"
+#include "tools/experiments/indoor_scenes/person_weights_internal.h"
 #include "tools/experiments/stage/jobs.h"
 #include "tools/people/feature_collector.h"
 #include "tools/synth/frame_maker.h"
@@ -24,7 +24,6 @@ namespace {
 
 // Constants: sizes of the set of examples, by hand.
 
-using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
 struct Example {
@@ -35,14 +34,9 @@ struct Example {
 // A person: mostly one person's pixels and most of that person's. No person: furniture, or a
 // fraction of somebody. In between nobody can say.
 std::optional<bool> IsPerson(const std::vector<int32_t>& pixels, const LabelledFrame& truth) {
-  std::array<double, 256> common{}, whole{};
-  for (const uint8_t user : truth.users.data) whole[user] += 1;
-  for (const int32_t pixel : pixels) common[truth.users.data[static_cast<size_t>(pixel)]] += 1;
-  const auto best = std::max_element(common.begin() + 1, common.end());
-  const double of_piece = *best / static_cast<double>(pixels.size());
-  const double of_person = *best / std::max(1.0, whole[static_cast<size_t>(best - common.begin())]);
-  if (of_piece > 0.6 && of_person > 0.5) return true;
-  if (of_piece < 0.2 || (of_piece > 0.6 && of_person < 0.25)) return false;
+  const PixelShares shares = MeasureShares(pixels, truth);
+  if (shares.of_piece > 0.6 && shares.of_person > 0.5) return true;
+  if (shares.of_piece < 0.2 || (shares.of_piece > 0.6 && shares.of_person < 0.25)) return false;
   return std::nullopt;
 }
 
@@ -169,65 +163,16 @@ VectorXd Terms(const std::vector<double>& signs, size_t count) {
   return terms;
 }
 
-double Score(const VectorXd& weights, const Example& example, size_t count) {
-  return 1 / (1 + std::exp(-weights.dot(Terms(example.signs, count))));
-}
-
-// Maximum likelihood with a normal prior, by Newton's method (iteratively reweighted least
-// squares). Both kinds weigh the same however many there are.
-VectorXd Fit(const std::vector<Example>& examples, size_t count, double prior) {
-  const VectorXd first = Terms(examples.at(0).signs, count);
-  const Eigen::Index n = first.size();
-  const auto people = static_cast<double>(
-      std::count_if(examples.begin(), examples.end(), [](const Example& e) { return e.person; }));
-  const double half = 0.5 * static_cast<double>(examples.size());
-  const double others = std::max(1.0, 2 * half - people);
-  VectorXd w = VectorXd::Zero(n);
-  for (int step = 0; step < 30; ++step) {
-    VectorXd gradient = prior * w;
-    MatrixXd hessian = MatrixXd::Identity(n, n) * prior;
-    gradient[0] = 0, hessian(0, 0) = 1e-9;  // the constant is free
-    for (const Example& e : examples) {
-      const VectorXd x = Terms(e.signs, count);
-      const double p = 1 / (1 + std::exp(-w.dot(x)));
-      const double weight = half / (e.person ? people : others);
-      gradient += weight * (p - (e.person ? 1.0 : 0.0)) * x;
-      hessian.selfadjointView<Eigen::Lower>().rankUpdate(x, weight * p * (1 - p));
-    }
-    const VectorXd change =
-        MatrixXd(hessian.selfadjointView<Eigen::Lower>()).ldlt().solve(gradient);
-    w -= change;
-    if (change.norm() < 1e-6 * (1 + w.norm())) break;
-  }
-  return w;
-}
-
-std::string ArrayText(const std::string& name, const VectorXd& weights) {
-  std::string text = fmt::format("constexpr std::array<double, {}> {} = {{", weights.size(), name);
-  for (Eigen::Index i = 0; i < weights.size(); ++i)
-    text += fmt::format("{}{:.3f},", i % 10 == 0 ? "\n    " : " ", weights[i]);
-  return text + "\n};\n";
-}
-
-void AddRows(const std::string& what, const VectorXd& weights, size_t count,
-             const std::vector<Example>& examples, Table& table) {
-  for (const double threshold : {0.1, 0.25, 0.5, 0.6, 0.8, 0.9, 0.95}) {
-    int people = 0, passed = 0, others = 0, wrong = 0;
-    for (const Example& e : examples) {
-      const bool passes = Score(weights, e, count) >= threshold;
-      (e.person ? people : others) += 1;
-      (e.person ? passed : wrong) += passes ? 1 : 0;
-    }
-    table.rows.push_back(
-        {what, fmt::format("{}", threshold),
-         fmt::format("{:.1f}", 100.0 * passed / std::max(1, people)),
-         fmt::format("{} of {} ({:.1f} %)", wrong, others, 100.0 * wrong / std::max(1, others))});
-  }
+std::vector<LogisticExample> WithTerms(const std::vector<Example>& examples, size_t count) {
+  std::vector<LogisticExample> all;
+  all.reserve(examples.size());
+  for (const Example& e : examples) all.push_back({e.person, Terms(e.signs, count)});
+  return all;
 }
 
 }  // namespace
 
-std::vector<Table> RunPersonClassifier(ExperimentContext& context) {
+Table FitForestWeights(ExperimentContext& context) {
   const std::string train = context.parameters.Text("mocap", "authored");
   const std::string check = context.parameters.Text("check_mocap", "authored");
   const int performances = context.parameters.Integer("performances", context.full ? 60 : 8, 2);
@@ -237,7 +182,8 @@ std::vector<Table> RunPersonClassifier(ExperimentContext& context) {
   const auto checked =
       Examples(context, Split::kTest, check, std::max(1, performances / 4), seed + 500000);
   const size_t all = people::PersonFeatureNames().size(), surface = people::CountSurfaceFeatures();
-  const VectorXd surface_weights = Fit(fitted, surface, prior), weights = Fit(fitted, all, prior);
+  const VectorXd surface_weights = FitLogistic(WithTerms(fitted, surface), prior);
+  const VectorXd weights = FitLogistic(WithTerms(fitted, all), prior);
   AtomicFile file(context.out / "person_classifier_weights.inc");
   file.stream() << "// Written by `ossa experiment person-classifier`.\n"
                 << ArrayText("kSurfaceWeights", surface_weights)
@@ -245,15 +191,23 @@ std::vector<Table> RunPersonClassifier(ExperimentContext& context) {
   file.Commit();
   Table table;
   table.title = "People and other things, single observations";
-  table.columns = {"what", "threshold", "people passed, %", "others passed"};
-  AddRows("fitted on, surface", surface_weights, surface, fitted, table);
-  AddRows("fitted on", weights, all, fitted, table);
-  AddRows("others, surface", surface_weights, surface, checked, table);
-  AddRows("others", weights, all, checked, table);
+  table.columns = kPassedColumns;
+  AddPassedRows("fitted on, surface", surface_weights, WithTerms(fitted, surface), table);
+  AddPassedRows("fitted on", weights, WithTerms(fitted, all), table);
+  AddPassedRows("others, surface", surface_weights, WithTerms(checked, surface), table);
+  AddPassedRows("others", weights, WithTerms(checked, all), table);
   table.note = "Weights: person_classifier_weights.inc, to be put into tools/people.";
   if (train == check)
     table.note += " Others: other bodies and rooms; their motions are those fitted on.";
-  return {table};
+  return table;
+}
+
+std::vector<Table> RunPersonClassifier(ExperimentContext& context) {
+  const auto parts = context.parameters.Some("parts", {"forest", "pose"});
+  std::vector<Table> tables;
+  if (parts.count("forest") > 0) tables.push_back(FitForestWeights(context));
+  if (parts.count("pose") > 0) tables.push_back(FitPoseWeights(context));
+  return tables;
 }
 
 }  // namespace ossa::tools

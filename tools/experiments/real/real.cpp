@@ -85,13 +85,14 @@ Table VideosTable() {
       .title = "Real recordings without truth",
       .columns = {"recording", "frames", "bodies a frame", "one body, %", "identity breaks",
                   "jitter raw / refined / final, mm", "leaps raw / refined / final in 100 frames",
-                  "bones raw / refined / final, %", "explained, %"},
+                  "bones raw / refined / final, %", "explained, %", "alone: one body, nobody, %"},
       .rows = {},
       .note =
           "Jitter: root mean square about the mean of six frames in which the raw joint holds "
           "still. Leaps: joints that are more than half a metre from where they were a frame "
           "before. Bones: standard deviation of a bone's length. Explained: share of the "
-          "users' pixels within 5 cm of the posed body's capsules."};
+          "users' pixels within 5 cm of the posed body's capsules. Alone: each frame as if it were "
+          "the first."};
 }
 
 void AddRows(const RealSet& set, const ScoredSet& scored, Table& table) {
@@ -136,7 +137,9 @@ void AddRow(const RealVideo& video, const VideoScore& s, Table& table) {
                         fmt::format("{:.2f}", static_cast<double>(s.bodies) / frames),
                         Percent(static_cast<double>(s.one_body) / frames),
                         std::to_string(s.identity_breaks), ByStage(s.jitter_mm), ByStage(s.leaps),
-                        ByStage(s.bone_variation), Percent(s.explained)});
+                        ByStage(s.bone_variation), Percent(s.explained),
+                        Percent(static_cast<double>(s.one_alone) / frames) + " / " +
+                            Percent(static_cast<double>(s.nobody_alone) / frames)});
 }
 
 json SetToJson(const RealSet& set, const ScoredSet& scored) {
@@ -169,7 +172,9 @@ json VideoToJson(const RealVideo& video, const VideoScore& s) {
           {"jitter_mm", jitter},
           {"leaps_per_100_frames", leaps},
           {"bone_variation_percent", bones},
-          {"explained", s.explained}};
+          {"explained", s.explained},
+          {"one_body_alone", static_cast<double>(s.one_alone) / static_cast<double>(s.frames)},
+          {"nobody_alone", static_cast<double>(s.nobody_alone) / static_cast<double>(s.frames)}};
 }
 
 std::vector<StillResult> JudgeAll(const RealSet& set, tracker::Tracker& tracker,

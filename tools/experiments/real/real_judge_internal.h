@@ -50,8 +50,9 @@ StageScore ScoreStage(const RealSet& set, const std::vector<StillResult>& result
 /// Figures that need no truth.
 struct VideoScore {
   int64_t frames = 0, bodies = 0, one_body = 0;
-  int64_t identity_breaks = 0;            // frames in which somebody goes on under another number
-  std::map<RealStage, double> jitter_mm;  // of joints of somebody who holds still
+  int64_t one_alone = 0, nobody_alone = 0;  // frames, each as if it were the first
+  int64_t identity_breaks = 0;              // frames in which somebody goes on under another number
+  std::map<RealStage, double> jitter_mm;    // of joints of somebody who holds still
   std::map<RealStage, double> bone_variation;  // standard deviation over mean of bones, per cent
   std::map<RealStage, double> leaps;  // joints in 100 frames that are elsewhere all of a sudden
   double explained = 0.0;             // share of users' pixels within 5 cm of the posed body

@@ -170,6 +170,15 @@ void Finish(const Sums& sums, bool stills, VideoScore& score) {
   }
 }
 
+void CountAlone(const RealVideo& video, tracker::Tracker& tracker, VideoScore& score) {
+  for (const depth::DepthFrame& frame : video.frames) {
+    tracker.Reset();
+    const size_t bodies = tracker.Track(frame).bodies.size();
+    score.one_alone += bodies == 1;
+    score.nobody_alone += bodies == 0;
+  }
+}
+
 }  // namespace
 
 VideoScore JudgeVideo(const RealVideo& video, tracker::Tracker& tracker) {
@@ -214,6 +223,7 @@ VideoScore JudgeVideo(const RealVideo& video, tracker::Tracker& tracker) {
     if (auto answer = tracker.TrackWithLag(frame)) judge_first(std::move(*answer));
   }
   while (auto held = tracker.DrainLag()) judge_first(std::move(*held));
+  CountAlone(video, tracker, score);
   Finish(sums, video.stills, score);
   return score;
 }

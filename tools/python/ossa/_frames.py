@@ -160,7 +160,7 @@ class Body:
     clipped : frozenset of str
         Which borders of the image cut the person off: "left", "right", "top", "bottom".
     person_score : float
-        How sure the forest is that this is a person, [0, 1].
+        How surely this is a person, by forest and pose network, [0, 1].
     proposals : tuple of 20 Proposals, or None
         With Tracker(proposals=True).
     fit : Fit or None

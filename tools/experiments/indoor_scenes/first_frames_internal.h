@@ -1,0 +1,38 @@
+#pragma once
+#include <array>
+#include <cstdint>
+#include <string_view>
+
+#include "tools/synth/frame_maker.h"
+
+namespace ossa::tools {
+
+// One person in any clothes, in an image of their own: what hides them, before what.
+
+struct FirstFrameKind {
+  std::string_view name;  // of the table
+  Occluders occluders;
+};
+inline constexpr std::array kFirstFrameKinds = {
+    FirstFrameKind{"nothing", Occluders::kNone},
+    FirstFrameKind{"a thing in the hands", Occluders::kHeld},
+    FirstFrameKind{"a thing in front", Occluders::kScene},
+    FirstFrameKind{"cloth, boards, paper, boxes held up", Occluders::kHeldUp},
+    FirstFrameKind{"a desk or a chair's arms", Occluders::kDesk},
+    FirstFrameKind{"a wheelchair", Occluders::kWheelchair},
+    FirstFrameKind{"crutches", Occluders::kCrutches},
+};
+
+struct FirstFramePlace {
+  std::string_view name;
+  Background background;
+};
+inline constexpr std::array kFirstFramePlaces = {
+    FirstFramePlace{"cut out", Background::kNone},
+    FirstFramePlace{"lived-in room", Background::kLivedIn},
+};
+
+FrameOptions FirstFrameOptions(const FirstFrameKind& kind, const FirstFramePlace& place,
+                               Split split, uint64_t seed);
+
+}  // namespace ossa::tools
