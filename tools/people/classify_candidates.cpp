@@ -128,6 +128,10 @@ void WeighPose(const Classifying& with, Detection& detection) {
   if (!detection.pose) return;
   const double score = ComputeScoreWithPose(forest, MeasureCertainty(*detection.pose));
   if (!is_new && score < forest) return;
+  detection.contested = forest >= options.initiation.sure_person &&
+                        score >= options.initiation.contested_person &&
+                        score < options.initiation.person_by_pose;
+  if (detection.contested) return;
   detection.by_pose = true;
   detection.score += WeighLook(detection.age, options.prior) * (score - forest);
   detection.evidence.score = score;

@@ -118,7 +118,8 @@ PeopleOptions PeopleOptionsFromAbove() {
 bool IsDoubtfulAtFirst(const Detection& detection, const InitiationOptions& options) {
   const Rule rule = detection.decision.rule;
   const bool first = rule == Rule::kFreshScene || rule == Rule::kPieceWithHead;
-  return first && !detection.by_pose && detection.age <= 1 && detection.score < options.sure_person;
+  if (!first || detection.age > 1) return false;
+  return detection.contested || (!detection.by_pose && detection.score < options.sure_person);
 }
 
 bool IsUnlikeABody(const ExplainedShares& fit, double person_score, bool beside_somebody,

@@ -31,6 +31,7 @@ struct Detection {
   int age = 1;                               // detections of the track, this one included
   bool is_piece = false;                     // cut off around one of several heads
   bool by_pose = false;                      // the pose network had its say
+  bool contested = false;                    // ... no: the forest is sure, the network is not
   std::optional<recon::NetworkPose> pose{};  // ... what it read in these pixels
   Decision decision;                         // why it is a person, or none
   // Of people: what tells them from others, and how they move.

@@ -196,6 +196,10 @@ struct InitiationOptions {
   // Where the pose network has its say (ComputeScoreWithPose), in place of the former two: 96 % of
   // the people in rendered first frames pass, and 2 of 413 other things.
   double person_by_pose = 0.5;
+  // ... but where the forest is sure by itself, so little leaves the decision to it, at a first
+  // look with the surface fit's consent: of who is near and half outside the image the network
+  // knows less.
+  double contested_person = 0.1;
   // Without a network the surface fit decides about who has less than sure_person at a first look,
   // too: at least so much is explained less what is seen through (recon::SurfaceFit::score).
   // Rendered and real dev stills: 1 of 16 such people has less, 14 of 16 such things have.

@@ -74,11 +74,15 @@ TEST_F(NewPerson, IsJudgedByThePoseNetworkWhereItWasAsked) {
   EXPECT_EQ(AcceptedIn(1, true, [&](int) { return by_pose(0.55, false); }), 0);
   EXPECT_EQ(AcceptedIn(60, false, [&](int) { return by_pose(0.45, true); }), -1);
   EXPECT_EQ(AcceptedIn(3, false, [&](int) { return by_pose(0.55, false); }), 2);
-  // No surface has to say so once more.
+  // No surface has to say so once more, unless the forest is sure and the network is not.
   std::vector<TentativeTrack> tentative;
   Detection detection = Detect(by_pose(0.55, true));
   EXPECT_TRUE(DecidePerson(true, 0.0, options_, tentative, detection));
   EXPECT_FALSE(IsDoubtfulAtFirst(detection, options_));
+  Detection contested = Detect(Look{0.97});
+  contested.contested = true;
+  EXPECT_TRUE(DecidePerson(true, 0.0, options_, tentative, contested));
+  EXPECT_TRUE(IsDoubtfulAtFirst(contested, options_));
 }
 
 TEST_F(NewPerson, ThatIsAPieceIsOneUnlessThePoseNetworkSaysOtherwise) {
