@@ -30,9 +30,9 @@ struct Detection {
   double score = 0.0;                        // that it is a person: mean over the frames, [0, 1]
   int age = 1;                               // detections of the track, this one included
   bool is_piece = false;                     // cut off around one of several heads
-  bool by_pose = false;                      // the pose network had its say
-  bool contested = false;                    // ... no: the forest is sure, the network is not
-  std::optional<recon::NetworkPose> pose{};  // ... what it read in these pixels
+  bool by_pose = false;                      // the score is the forest's and the network's
+  bool contested = false;                    // the forest is sure of it, the network is not
+  std::optional<recon::NetworkPose> pose{};  // what the network read in these pixels
   Decision decision;                         // why it is a person, or none
   // Of people: what tells them from others, and how they move.
   FrameMeasures measures{};

@@ -16,7 +16,7 @@ class PoseNetwork;  // recon/refine/pose_network.h
 namespace ossa::people {
 
 /// The forest that people are told by, which of its targets are their joints, and the network that
-/// is asked where the forest is in doubt.
+/// has its say about who is new.
 struct PersonClassifier {
   const forest::ForestModel& model;
   const JointTargets& targets;

@@ -28,12 +28,12 @@ std::optional<recon::NetworkPose> ReadPose(const recon::PoseNetwork& network,
 }
 
 double MeasureCertainty(const recon::NetworkPose& pose) {
-  constexpr ptrdiff_t kSurest = 5;  // joints, by hand: a head with shoulders, or a limb
+  constexpr ptrdiff_t kSurestJoints = 5;  // joints, by hand: a head with shoulders, or a limb
   recon::JointArray<double> error_m = pose.error_m;
-  std::ranges::nth_element(error_m, error_m.begin() + kSurest);
+  std::ranges::nth_element(error_m, error_m.begin() + kSurestJoints);
   double sum = 0.0;
-  for (ptrdiff_t k = 0; k < kSurest; ++k) sum -= std::log(error_m[static_cast<size_t>(k)]);
-  return sum / static_cast<double>(kSurest);
+  for (ptrdiff_t k = 0; k < kSurestJoints; ++k) sum -= std::log(error_m[static_cast<size_t>(k)]);
+  return sum / static_cast<double>(kSurestJoints);
 }
 
 std::array<double, 3> PoseTerms(double forest_score, double certainty) {

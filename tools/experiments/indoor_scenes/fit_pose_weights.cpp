@@ -1,3 +1,5 @@
+// `ossa experiment person-classifier`: fits how forest and pose network together tell people from
+// furniture (tools/people/pose_weights.inc).
 #include <fmt/format.h>
 
 #include <array>
@@ -9,7 +11,6 @@
 #include "depth/base/error.h"
 #include "recon/motion/mocap.h"
 #include "recon/refine/pose_network.h"
-#include "tools/experiments/context_models.h"
 #include "tools/experiments/experiments_internal.h"
 #include "tools/experiments/indoor_scenes/first_frames_internal.h"
 #include "tools/experiments/indoor_scenes/person_weights_internal.h"
