@@ -48,6 +48,12 @@ if(CMAKE_SYSTEM_PROCESSOR MATCHES "^(aarch64|arm64)$")
     "$<$<COMPILE_LANGUAGE:CXX>:SHELL:-include ${PROJECT_SOURCE_DIR}/cmake/arm64/eigen_as_sse2.h>")
 endif()
 
+# ossa_alone(SOURCE...): names of these files' own are those of a neighbour's own, too, so that the two are
+# never compiled as one source (CMAKE_UNITY_BUILD, for tests/run's second build; the plain build takes each alone).
+function(ossa_alone)
+  set_source_files_properties(${ARGN} PROPERTIES SKIP_UNITY_BUILD_INCLUSION ON)
+endfunction()
+
 # ossa_common(TARGET), of what people run; ossa_plain(TARGET), of what only tries that.
 function(ossa_common target)
   ossa_plain(${target})
