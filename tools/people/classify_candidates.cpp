@@ -128,17 +128,17 @@ void WeighPose(const Classifying& with, Detection& detection) {
   if (!detection.pose) return;
   const double score = ComputeScoreWithPose(forest, MeasureCertainty(*detection.pose));
   if (!is_new && score < forest) return;
-  detection.contested = forest >= options.initiation.sure_person &&
-                        score >= options.initiation.contested_person &&
-                        score < options.initiation.person_by_pose;
-  if (detection.contested) return;
-  detection.by_pose = true;
+  const bool contested = forest >= options.initiation.sure_person &&
+                         score >= options.initiation.contested_person &&
+                         score < options.initiation.person_by_pose;
+  detection.judge = contested ? Judge::kSurfaceFit : Judge::kForestAndNetwork;
+  if (contested) return;
   detection.score += WeighLook(detection.age, options.prior) * (score - forest);
   detection.evidence.score = score;
 }
 
 bool PassesByPose(const Detection& detection, const InitiationOptions& options) {
-  return detection.by_pose && detection.evidence.score >= options.person_by_pose;
+  return IsJudgedByPose(detection) && detection.evidence.score >= options.person_by_pose;
 }
 
 // Two pieces as one person, where the network reads the same joints in either.
@@ -225,6 +225,10 @@ TrackPrior MakeTrackPrior(const Candidate& candidate, const std::vector<Track>& 
   for (float& share : prior.facing)
     share = (1 - fresh) * share + fresh / static_cast<float>(prior.facing.size());
   return prior;
+}
+
+bool IsJudgedByPose(const Detection& detection) {
+  return detection.judge == Judge::kForestAndNetwork;
 }
 
 Decision DescribeDetection(const Detection& detection, Rule rule, double needed_score) {

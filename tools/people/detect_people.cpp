@@ -119,7 +119,8 @@ bool IsDoubtfulAtFirst(const Detection& detection, const InitiationOptions& opti
   const Rule rule = detection.decision.rule;
   const bool first = rule == Rule::kFreshScene || rule == Rule::kPieceWithHead;
   if (!first || detection.age > 1) return false;
-  return detection.contested || (!detection.by_pose && detection.score < options.sure_person);
+  return detection.judge == Judge::kSurfaceFit ||
+         (detection.judge == Judge::kForest && detection.score < options.sure_person);
 }
 
 bool IsUnlikeABody(const ExplainedShares& fit, double person_score, bool beside_somebody,

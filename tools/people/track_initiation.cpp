@@ -123,7 +123,7 @@ Requirement RequireAtFirst(const Detection& detection, bool fresh_scene,
                            const InitiationOptions& options) {
   const Candidate& candidate = detection.candidate;
   if (candidate.may_return) return {Rule::kReturning, options.new_person};
-  if (fresh_scene && detection.by_pose) return {Rule::kFreshScene, options.person_by_pose};
+  if (fresh_scene && IsJudgedByPose(detection)) return {Rule::kFreshScene, options.person_by_pose};
   if (fresh_scene)
     return {Rule::kFreshScene, candidate.has_head ? options.new_person : options.sure_person};
   return {Rule::kEntered, IsForeground(candidate) ? options.foreground_first : kNeverAtOnce};
@@ -137,7 +137,7 @@ double RequireInTheMean(const TentativeTrack& track, const Detection& detection,
   if (little_seen && candidate.isolated && track.walked_m > options.walked_m)
     return options.walked_person;
   if (little_seen && track.moved) return options.foreground_mean;
-  if (!track.moved) return detection.by_pose ? options.person_by_pose : options.sure_person;
+  if (!track.moved) return IsJudgedByPose(detection) ? options.person_by_pose : options.sure_person;
   // What grows without standing before anything may be uncovered by somebody who passes.
   const bool doubtful = track.was_rejected || !track.was_foreground;
   return doubtful ? options.still_person : options.new_person;
@@ -154,7 +154,7 @@ Decision DescribeTentative(const Detection& detection, const TentativeTrack& tra
 
 // Pieces that are cut at heads look like people, each.
 Decision DecidePiece(const Detection& piece, const InitiationOptions& options) {
-  const double needed = piece.by_pose ? options.person_by_pose : options.new_person;
+  const double needed = IsJudgedByPose(piece) ? options.person_by_pose : options.new_person;
   const bool passes = piece.score >= needed;
   return DescribeDetection(piece, passes ? Rule::kPieceWithHead : Rule::kPieceLowScore, needed);
 }

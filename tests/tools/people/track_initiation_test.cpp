@@ -18,7 +18,7 @@ struct Look {
   bool has_head = true;
   bool isolated = true;
   double occluded_share = 0.3;  // of its silhouette, by something nearer
-  bool by_pose = false;         // the score is the pose network's, too
+  Judge judge = Judge::kForest;
 };
 
 class NewPerson : public testing::Test {
@@ -27,7 +27,7 @@ class NewPerson : public testing::Test {
   Detection Detect(const Look& look) {
     Detection detection;
     detection.score = detection.evidence.score = look.score;
-    detection.by_pose = look.by_pose;
+    detection.judge = look.judge;
     Candidate& candidate = detection.candidate;
     candidate.foreground_share = look.foreground_share;
     candidate.foreground_m2 = static_cast<float>(look.foreground_share) * look.area_m2;
@@ -68,7 +68,7 @@ TEST_F(NewPerson, IsBelievedAtOnceInAFreshSceneAndElsewhereAfterThreeSureLooks) 
 // A head's shape counts for nothing then.
 TEST_F(NewPerson, IsJudgedByThePoseNetworkWhereItWasAsked) {
   const auto by_pose = [](double score, bool has_head) {
-    return Look{.score = score, .has_head = has_head, .by_pose = true};
+    return Look{.score = score, .has_head = has_head, .judge = Judge::kForestAndNetwork};
   };
   EXPECT_EQ(AcceptedIn(1, true, [&](int) { return by_pose(0.45, true); }), -1);
   EXPECT_EQ(AcceptedIn(1, true, [&](int) { return by_pose(0.55, false); }), 0);
@@ -80,7 +80,7 @@ TEST_F(NewPerson, IsJudgedByThePoseNetworkWhereItWasAsked) {
   EXPECT_TRUE(DecidePerson(true, 0.0, options_, tentative, detection));
   EXPECT_FALSE(IsDoubtfulAtFirst(detection, options_));
   Detection contested = Detect(Look{0.97});
-  contested.contested = true;
+  contested.judge = Judge::kSurfaceFit;
   EXPECT_TRUE(DecidePerson(true, 0.0, options_, tentative, contested));
   EXPECT_TRUE(IsDoubtfulAtFirst(contested, options_));
 }
@@ -95,9 +95,9 @@ TEST_F(NewPerson, ThatIsAPieceIsOneUnlessThePoseNetworkSaysOtherwise) {
     return is_person;
   };
   EXPECT_TRUE(is_one({.score = 0.65}));
-  EXPECT_TRUE(is_one({.score = 0.55, .by_pose = true}));
+  EXPECT_TRUE(is_one({.score = 0.55, .judge = Judge::kForestAndNetwork}));
   EXPECT_EQ(rule_, Rule::kPieceWithHead);
-  EXPECT_FALSE(is_one({.score = 0.45, .by_pose = true}));
+  EXPECT_FALSE(is_one({.score = 0.45, .judge = Judge::kForestAndNetwork}));
   EXPECT_EQ(rule_, Rule::kPieceLowScore);
 }
 
