@@ -65,7 +65,7 @@ function(ossa_plain target)
   target_include_directories(${target} PRIVATE ${ossa_SOURCE_DIR})
   if(OSSA_SANITIZE)
     target_compile_options(${target} PRIVATE -fsanitize=${OSSA_SANITIZE} -fno-omit-frame-pointer
-                           -fno-sanitize-recover=all)
+                           -fno-sanitize-recover=all -ffile-prefix-map=${ossa_SOURCE_DIR}=.)
     target_link_options(${target} PRIVATE -fsanitize=${OSSA_SANITIZE})
   endif()
 endfunction()
@@ -83,7 +83,6 @@ function(ossa_library name)
   add_library(${target} ${ARG_SOURCES})
   add_library(ossa::${name} ALIAS ${target})
   ossa_common(${target})
-  ossa_precompile(${target} ossa_library_headers)
   set_target_properties(${target} PROPERTIES EXPORT_NAME ${name} VERSION ${PROJECT_VERSION}
                         SOVERSION ${PROJECT_VERSION_MAJOR})
   target_include_directories(${target} PUBLIC
@@ -113,7 +112,6 @@ function(ossa_test name)
   cmake_parse_arguments(ARG "" "" "SOURCES;LIBS;LABELS" ${ARGN})
   add_executable(${name} ${ARG_SOURCES})
   ossa_plain(${name})
-  ossa_precompile(${name} ossa_test_headers)
   # What a test spends its time on is in the libraries: a better optimiser only costs building time.
   # With -O1 GCC 12 takes copies of an empty std::optional for reads of what it does not hold.
   target_compile_options(${name} PRIVATE
