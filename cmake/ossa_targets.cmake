@@ -63,7 +63,7 @@ endfunction()
 function(ossa_plain target)
   target_link_libraries(${target} PRIVATE $<BUILD_INTERFACE:ossa_warnings> $<BUILD_INTERFACE:ossa_arithmetic>)
   target_include_directories(${target} PRIVATE ${ossa_SOURCE_DIR})
-  if(OSSA_SANITIZE)
+  if(OSSA_SANITIZE)  # sources by their place in the tree, so that a compiler cache serves any folder
     target_compile_options(${target} PRIVATE -fsanitize=${OSSA_SANITIZE} -fno-omit-frame-pointer
                            -fno-sanitize-recover=all -ffile-prefix-map=${ossa_SOURCE_DIR}=.)
     target_link_options(${target} PRIVATE -fsanitize=${OSSA_SANITIZE})
