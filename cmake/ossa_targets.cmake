@@ -49,7 +49,7 @@ if(CMAKE_SYSTEM_PROCESSOR MATCHES "^(aarch64|arm64)$")
 endif()
 
 # ossa_alone(SOURCE...): names of these files' own are those of a neighbour's own, too, so that the two are
-# never compiled as one source (CMAKE_UNITY_BUILD, for tests/run's second build; the plain build takes each alone).
+# never compiled as one source (CMAKE_UNITY_BUILD: tests always, libraries in tests/run's second build).
 function(ossa_alone)
   set_source_files_properties(${ARGN} PROPERTIES SKIP_UNITY_BUILD_INCLUSION ON)
 endfunction()
