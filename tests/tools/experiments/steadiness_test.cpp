@@ -34,7 +34,7 @@ Steadiness Watch(const std::vector<BodyStages>& frames) {
 }
 
 double FinalLeaps(const std::vector<BodyStages>& frames) {
-  return Watch(frames).CountLeaps()[RealStage::kFinal];
+  return Watch(frames).CountLeaps().at(RealStage::kFinal);
 }
 
 TEST(Steadiness, MoreThanHalfAMetreInAFrameIsALeap) {
@@ -59,7 +59,7 @@ TEST(Steadiness, EachOfSeveralBodiesHasItsOwnFrameBefore) {
   for (int frame = 0; frame < 2; ++frame) {
     steadiness.Add({{1, WithHeadAt({0, 0, 0})}, {2, WithHeadAt({1, 0, 0})}});
   }
-  EXPECT_EQ(steadiness.CountLeaps()[RealStage::kFinal], 0.0);
+  EXPECT_EQ(steadiness.CountLeaps().at(RealStage::kFinal), 0.0);
 }
 
 // Of 20 joints one is 2 mm off its mean in each of six frames, to and fro.
@@ -68,13 +68,25 @@ TEST(Steadiness, JitterIsTheRootMeanSquareDistanceOfStillJointsFromTheirMean) {
   for (int frame = 0; frame < 6; ++frame) {
     frames.push_back(WithHeadAt({0, 0, frame % 2 == 0 ? 0.002 : -0.002}));
   }
-  EXPECT_NEAR(Watch(frames).MeasureJitter()[RealStage::kFinal], 2.0 / std::sqrt(20.0), 1e-9);
+  EXPECT_NEAR(Watch(frames).MeasureJitter().at(RealStage::kFinal), 2.0 / std::sqrt(20.0), 1e-9);
 }
 
 TEST(Steadiness, JointsThatMoveHaveNoJitter) {
   std::vector<BodyStages> frames;
   for (int frame = 0; frame < 6; ++frame) frames.push_back(WithHeadAt({0.1 * frame, 0, 0}));
-  EXPECT_NEAR(Watch(frames).MeasureJitter()[RealStage::kFinal], 0.0, 1e-9);  // of the 19 others
+  EXPECT_NEAR(Watch(frames).MeasureJitter().at(RealStage::kFinal), 0.0, 1e-9);  // of the 19 others
+}
+
+// Final joints without the head: of the 19 others, which do not move at all.
+TEST(Steadiness, AStageThatLacksAJointHasNoJitterOfIt) {
+  std::vector<BodyStages> frames;
+  for (int frame = 0; frame < 6; ++frame) {
+    frames.push_back(WithHeadAt({0, 0, frame % 2 == 0 ? 0.002 : -0.002}));
+    frames.back()[RealStage::kFinal][kHead].reset();
+  }
+  const auto jitter_mm = Watch(frames).MeasureJitter();
+  EXPECT_NEAR(jitter_mm.at(RealStage::kFinal), 0.0, 1e-9);  // rounding
+  EXPECT_NEAR(jitter_mm.at(RealStage::kRaw), 2.0 / std::sqrt(20.0), 1e-9);
 }
 
 // One bone, the head's, is 1 % longer, then 1 % shorter than its mean.

@@ -1,5 +1,6 @@
 #include "tools/experiments/real/steadiness_internal.h"
 
+#include <algorithm>
 #include <cmath>
 #include <utility>
 
@@ -15,12 +16,16 @@ constexpr double kStill_m = 0.01;
 // 10 Hz.
 constexpr double kLeap_m = 0.5;
 
+bool IsThroughout(const std::deque<BodyStages>& window, RealStage stage, size_t j) {
+  return std::all_of(window.begin(), window.end(),
+                     [&](const BodyStages& body) { return body.at(stage)[j].has_value(); });
+}
+
 bool HoldsStill(const std::deque<BodyStages>& window, size_t j) {
+  if (!IsThroughout(window, RealStage::kRaw, j)) return false;
   Eigen::Vector3d halves[2] = {Eigen::Vector3d::Zero(), Eigen::Vector3d::Zero()};
   for (size_t k = 0; k < kWindow; ++k) {
-    const auto& joint = window[k].at(RealStage::kRaw)[j];
-    if (!joint) return false;
-    halves[2 * k / kWindow] += *joint / (kWindow / 2.0);
+    halves[2 * k / kWindow] += *window[k].at(RealStage::kRaw)[j] / (kWindow / 2.0);
   }
   return (halves[0] - halves[1]).norm() < kStill_m;
 }
@@ -61,6 +66,7 @@ void Steadiness::AddJitter(const Window& window) {
   for (size_t j = 0; j < recon::kJointCount; ++j) {
     if (!HoldsStill(window, j)) continue;
     for (const RealStage stage : kRealStages) {
+      if (!IsThroughout(window, stage, j)) continue;
       Eigen::Vector3d mean = Eigen::Vector3d::Zero();
       for (const BodyStages& body : window) mean += *body.at(stage)[j] / double{kWindow};
       for (const BodyStages& body : window) {
