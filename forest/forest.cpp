@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "depth/base/error.h"
+#include "depth/base/perceptron/rounded_perceptron.h"
 #include "forest/each_tree_internal.h"
 #include "forest/joint_features_internal.h"
 #include "forest/runtime_tables_internal.h"
@@ -208,6 +209,12 @@ void CheckRelabelling(const ForestData& data, const std::string& name) {
 
 }  // namespace
 
+ForestModel::ForestModel(std::shared_ptr<const ForestData> data,
+                         std::shared_ptr<const RuntimeTables> tables)
+    : data_(std::move(data)),
+      tables_(std::move(tables)),
+      refinement_(std::make_shared<const RoundedPerceptron>(data_->refinement)) {}
+
 ForestModel::ForestModel(ForestData data, const std::string& name, ModelUse use) {
   CheckNames(data, name);
   if (data.trees.empty() || data.trees.size() > 64) Refuse(name, "expected 1 to 64 trees");
@@ -216,8 +223,8 @@ ForestModel::ForestModel(ForestData data, const std::string& name, ModelUse use)
   CheckPosePriors(data, name);
   CheckRefinement(data, name);
   CheckRelabelling(data, name);
-  tables_ = std::make_shared<const RuntimeTables>(MakeRuntimeTables(&data, use));
-  data_ = std::make_shared<const ForestData>(std::move(data));
+  auto tables = std::make_shared<const RuntimeTables>(MakeRuntimeTables(&data, use));
+  *this = ForestModel(std::make_shared<const ForestData>(std::move(data)), std::move(tables));
 }
 
 }  // namespace ossa::forest

@@ -10,6 +10,10 @@
 #include "depth/base/perceptron/perceptron.h"
 #include "forest/trees/tree.h"
 
+namespace ossa {
+class RoundedPerceptron;
+}
+
 namespace ossa::forest {
 
 /// A probability as a logistic function of features, fitted on held-out frames:
@@ -93,8 +97,7 @@ class ForestModel {
                        ModelUse use = ModelUse::kAny);
 
   /// Of parts that belonged to a checked model before (forest/kept_tables.h).
-  ForestModel(std::shared_ptr<const ForestData> data, std::shared_ptr<const RuntimeTables> tables)
-      : data_(std::move(data)), tables_(std::move(tables)) {}
+  ForestModel(std::shared_ptr<const ForestData> data, std::shared_ptr<const RuntimeTables> tables);
 
   const ForestData& data() const { return *data_; }
   int class_count() const { return static_cast<int>(data_->class_names.size()); }
@@ -102,12 +105,15 @@ class ForestModel {
   std::span<const ProposalTarget> targets() const { return data_->targets; }
   const std::string& manifest() const { return data_->manifest; }
   const RuntimeTables& tables() const { return *tables_; }
+  /// ForestData::refinement, ready to run.
+  const RoundedPerceptron& refinement() const { return *refinement_; }
 
  private:
   friend void KeepTables(const std::filesystem::path& model_file, const ForestModel& model);
 
   std::shared_ptr<const ForestData> data_;
   std::shared_ptr<const RuntimeTables> tables_;
+  std::shared_ptr<const RoundedPerceptron> refinement_;
 };
 
 /// Throws InputError that names the file, the byte and the field.

@@ -165,9 +165,9 @@ std::vector<std::vector<Proposal>> Propose(const ForestModel& model, const depth
   if (is_blank || model.data().pose_priors.empty()) return ProposeSingly(model, modes);
   const PoseMarginals marginals = InferPose(model, classification.context, modes);
   std::vector<RefinedPlace> refined;
-  if (!model.data().refinement.empty()) {
+  if (!model.refinement().empty()) {
     refined = Refine(
-        model.data().refinement,
+        model.refinement(),
         ComputeJointFeatures(model, camera, evidence, classification.context, modes, marginals));
   }
   return ProposeTogether(model, marginals, modes, refined);

@@ -9,7 +9,8 @@
 
 namespace ossa::forest {
 
-std::vector<RefinedPlace> Refine(const Perceptron& refinement, const JointFeatures& features) {
+std::vector<RefinedPlace> Refine(const RoundedPerceptron& refinement,
+                                 const JointFeatures& features) {
   std::vector<Eigen::Vector3d> places_m = features.place_m;
   std::vector<size_t> targets(places_m.size());
   std::iota(targets.begin(), targets.end(), size_t{0});

@@ -3,8 +3,8 @@
 #include <span>
 #include <vector>
 
-#include "depth/base/perceptron/perceptron.h"
 #include "depth/base/perceptron/pose_regression.h"
+#include "depth/base/perceptron/rounded_perceptron.h"
 #include "depth/image/camera.h"
 #include "forest/forest.h"
 #include "forest/proposals/modes_internal.h"
@@ -28,6 +28,7 @@ JointFeatures ComputeJointFeatures(const ForestModel& model, const depth::Camera
 /// The places as the refinement moves them, one a target. Its outputs: per target an offset
 /// (OffsetScale's default), then for all targets the logit of the confidence. Precondition: it has
 /// layers.
-std::vector<RefinedPlace> Refine(const Perceptron& refinement, const JointFeatures& features);
+std::vector<RefinedPlace> Refine(const RoundedPerceptron& refinement,
+                                 const JointFeatures& features);
 
 }  // namespace ossa::forest

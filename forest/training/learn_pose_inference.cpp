@@ -25,7 +25,7 @@ struct InferredImage : FirstStage {
 std::vector<InferredImage> InferAll(const ForestModel& model,
                                     const std::vector<ValidationImage>& images) {
   std::vector<InferredImage> inferred(images.size());
-  const Perceptron& refinement = model.data().refinement;
+  const RoundedPerceptron& refinement = model.refinement();
   oneapi::tbb::parallel_for(size_t{0}, images.size(), [&](size_t i) {
     const ValidationImage& image = images[i];
     InferredImage& one = inferred[i];

@@ -1,29 +1,10 @@
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
-#include "recon/body/parts.h"
 #include "recon/fit/fit_terms_internal.h"
 
 namespace ossa::recon {
 namespace {
-
-using PartTable = std::array<std::array<bool, kPartCount + 1>, kPartCount + 1>;
-
-// By the part labels of Shotton et al. 2011 (recon/body/parts.h).
-constexpr std::array<std::array<uint8_t, 2>, 40> kTouching = {
-    {{1, 2},   {1, 3},   {2, 4},   {3, 4},   {3, 5},   {4, 5},   {5, 6},   {5, 7},
-     {5, 18},  {5, 19},  {6, 8},   {6, 18},  {8, 12},  {12, 10}, {10, 14}, {14, 16},
-     {7, 9},   {7, 19},  {9, 13},  {13, 11}, {11, 15}, {15, 17}, {18, 19}, {18, 20},
-     {19, 21}, {20, 21}, {20, 22}, {21, 23}, {22, 23}, {22, 26}, {26, 24}, {24, 28},
-     {28, 30}, {23, 27}, {27, 25}, {25, 29}, {29, 31}, {8, 18},  {9, 19},  {16, 14}}};
-
-constexpr PartTable kAdjacent = [] {
-  PartTable table{};
-  for (size_t i = 0; i < table.size(); ++i) table[i][i] = true;
-  for (const auto& [a, b] : kTouching) table[a][b] = table[b][a] = true;
-  return table;
-}();
 
 // Geman and McClure 1987: the weight of a residual of this square.
 double RobustWeight(double squared, double scale) {
@@ -38,57 +19,6 @@ std::array<Eigen::Vector3d, 2> Across(const Eigen::Vector3d& unit) {
 }
 
 }  // namespace
-
-bool AreAdjacentParts(uint8_t a, uint8_t b) { return kAdjacent[a][b]; }
-
-void FacingPoints::Gather(const PosedSurface& posed) {
-  points_.clear();
-  place_m_.clear();
-  runs_.clear();
-  const auto& points = posed.surface().points;
-  for (size_t i = 0; i < points.size(); ++i) {
-    if (!posed.FacesCamera(i)) continue;
-    if (runs_.empty() || runs_.back().part != points[i].part) {
-      runs_.push_back({points_.size(), 0, points[i].part, Eigen::Vector3d::Zero(), 0.0});
-    }
-    points_.push_back(static_cast<uint32_t>(i));
-    place_m_.push_back(posed.at_m()[i]);
-    runs_.back().end = points_.size();
-    runs_.back().middle_m += posed.at_m()[i];
-  }
-  for (Run& run : runs_) {
-    run.middle_m /= static_cast<double>(run.end - run.begin);
-    for (size_t k = run.begin; k < run.end; ++k) {
-      run.radius_m = std::max(run.radius_m, (place_m_[k] - run.middle_m).norm());
-    }
-  }
-}
-
-int FacingPoints::Nearest(const SeenPerson::Pixel& pixel, const SurfaceFitOptions& options) const {
-  double least = std::numeric_limits<double>::infinity();
-  int nearest = -1;
-  const auto search = [&](const Run& run) {
-    double more = 0.0;
-    if (pixel.part != 0 && pixel.part != run.part) {
-      more = kAdjacent[pixel.part][run.part] ? options.adjacent_part_m : options.other_part_m;
-    }
-    more *= more;
-    const double away_m = std::max(0.0, (run.middle_m - pixel.at_m).norm() - run.radius_m);
-    if (away_m * away_m + more >= least) return;
-    for (size_t k = run.begin; k < run.end; ++k) {
-      const double distance2 = (place_m_[k] - pixel.at_m).squaredNorm() + more;
-      if (distance2 < least) least = distance2, nearest = static_cast<int>(points_[k]);
-    }
-  };
-  // The pixel's own part first: what is found there spares most of the others.
-  for (const Run& run : runs_) {
-    if (run.part == pixel.part) search(run);
-  }
-  for (const Run& run : runs_) {
-    if (run.part != pixel.part) search(run);
-  }
-  return nearest;
-}
 
 double AddPixels(const PosedSurface& posed, const FacingPoints& facing, const SeenPerson& seen,
                  const SurfaceFitOptions& options, NormalEquations& equations) {

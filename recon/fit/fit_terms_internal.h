@@ -1,36 +1,11 @@
 #pragma once
-#include <array>
-#include <cstdint>
-#include <vector>
+#include <cstddef>
 
+#include "recon/fit/facing_points_internal.h"
 #include "recon/fit/normal_equations.h"
 #include "recon/fit/seen_person_internal.h"
 
 namespace ossa::recon {
-
-/// The points of a posed surface that face the camera, part by part, for the search of the nearest.
-class FacingPoints {
- public:
-  void Gather(const PosedSurface& posed);
-  /// The point nearest to a pixel, where points of parts other than the pixel's count as farther;
-  /// -1 where no point faces the camera.
-  int Nearest(const SeenPerson::Pixel& pixel, const SurfaceFitOptions& options) const;
-  const std::vector<uint32_t>& points() const { return points_; }
-
- private:
-  struct Run {  // points of one part
-    size_t begin = 0, end = 0;
-    uint8_t part = 0;
-    Eigen::Vector3d middle_m;
-    double radius_m = 0.0;
-  };
-  std::vector<uint32_t> points_;          // numbers of the surface's points
-  std::vector<Eigen::Vector3d> place_m_;  // of each of them
-  std::vector<Run> runs_;
-};
-
-/// Whether two parts, 1..31, are one or touch.
-bool AreAdjacentParts(uint8_t a, uint8_t b);
 
 /// The mean of the pixels' weighted squares along the normal: 1 where they are as far off as was
 /// expected of them; 0 without pixels.

@@ -71,7 +71,7 @@ void SeenPerson::MakeSilhouette(const SurfaceFitInput& input) {
   cell_px_ = std::max(1, std::max(right - left_, bottom - top_) / kMostCells);
   width_ = (right - left_) / cell_px_ + 1;
   height_ = (bottom - top_) / cell_px_ + 1;
-  nearest_.assign(static_cast<size_t>(width_) * static_cast<size_t>(height_), Cell{});
+  nearest_.assign(stride() * (static_cast<size_t>(height_) + 2), Cell{});
   column_cell_.resize(static_cast<size_t>(camera.width));
   for (int u = left; u < camera.width; ++u) {
     column_cell_[static_cast<size_t>(u)] = static_cast<int16_t>((u - left_) / cell_px_);
@@ -86,34 +86,42 @@ void SeenPerson::MakeSilhouette(const SurfaceFitInput& input) {
   FindNearest();
 }
 
-void SeenPerson::Consider(int x, int y, int dx, int dy) {
-  const int from_x = x + dx, from_y = y + dy;
-  if (from_x < 0 || from_y < 0 || from_x >= width_ || from_y >= height_) return;
-  const Cell offered = CellAt(from_x, from_y);
-  if (offered.x < 0) return;
-  const auto distance2 = [&](Cell cell) {
-    return (cell.x - x) * (cell.x - x) + (cell.y - y) * (cell.y - y);
-  };
-  Cell& mine = CellAt(x, y);
-  if (mine.x < 0 || distance2(offered) < distance2(mine)) mine = offered;
+// Hands on to each cell of a row what the neighbour before it has, as the sweep goes, and from
+// another row, where it is next to this one, what the three neighbours there have.
+template <bool kFromAnother>
+void SeenPerson::SweepRow(int y, int from_y, bool rightwards) {
+  const int step = rightwards ? 1 : -1, first = rightwards ? 0 : width_ - 1;
+  const Cell* from = &CellAt(first, from_y);
+  Cell* mine = &CellAt(first, y);
+  for (int x = first; x >= 0 && x < width_; x += step, from += step, mine += step) {
+    Cell nearest = *mine;
+    const auto distance2 = [&](Cell cell) {
+      return (cell.x - x) * (cell.x - x) + (cell.y - y) * (cell.y - y);
+    };
+    int least = distance2(nearest);
+    const auto consider = [&](Cell offered) {
+      const int distance = distance2(offered);
+      nearest = distance < least ? offered : nearest;
+      least = std::min(least, distance);
+    };
+    consider(mine[-step]);
+    if constexpr (kFromAnother) {
+      for (const int dx : {-1, 0, 1}) consider(from[dx]);
+    }
+    *mine = nearest;
+  }
 }
 
 // Danielsson 1980, "Euclidean distance mapping": two sweeps each of which hands the nearest cell on
 // to neighbours.
 void SeenPerson::FindNearest() {
   for (int y = 0; y < height_; ++y) {
-    for (int x = 0; x < width_; ++x) {
-      Consider(x, y, -1, 0);
-      for (const int dx : {-1, 0, 1}) Consider(x, y, dx, -1);
-    }
-    for (int x = width_ - 1; x >= 0; --x) Consider(x, y, 1, 0);
+    SweepRow<true>(y, y - 1, true);
+    SweepRow<false>(y, y, false);
   }
   for (int y = height_ - 1; y >= 0; --y) {
-    for (int x = width_ - 1; x >= 0; --x) {
-      Consider(x, y, 1, 0);
-      for (const int dx : {-1, 0, 1}) Consider(x, y, dx, 1);
-    }
-    for (int x = 0; x < width_; ++x) Consider(x, y, -1, 0);
+    SweepRow<true>(y, y + 1, false);
+    SweepRow<false>(y, y, true);
   }
 }
 
@@ -130,7 +138,7 @@ SeenPerson::SightAt SeenPerson::At(const Eigen::Vector3d& place_m) const {
   const int x = (u - left_) / cell_px_, y = (v - top_) / cell_px_;
   if (x >= width_ || y >= height_) return at;
   const Cell nearest = CellAt(x, y);
-  if (nearest.x < 0) return at;
+  if (nearest.x == kNowhere) return at;
   const uint16_t depth_mm = frame_->view().at(u, v);
   at.behind_m = depth::MetresFromMillimetres(depth_mm) - place_m.z();
   if (nearest.x == x && nearest.y == y) {

@@ -44,23 +44,26 @@ class SeenPerson {
   void TakePixels(const SurfaceFitInput& input, const SurfaceFitOptions& options);
   void MakeSilhouette(const SurfaceFitInput& input);
   void FindNearest();
+  static constexpr int16_t kNowhere = -16384;  // derived: farther than any image is wide
   struct Cell {
-    int16_t x = -1, y = -1;  // -1: nowhere
+    int16_t x = kNowhere, y = kNowhere;
   };
-  void Consider(int x, int y, int dx, int dy);
-  Cell& CellAt(int x, int y) {
-    return nearest_[static_cast<size_t>(y) * static_cast<size_t>(width_) + static_cast<size_t>(x)];
+  template <bool kFromAnother>
+  void SweepRow(int y, int from_y, bool rightwards);
+  size_t stride() const { return static_cast<size_t>(width_) + 2; }
+  size_t IndexOf(int x, int y) const {
+    return static_cast<size_t>(y + 1) * stride() + static_cast<size_t>(x + 1);
   }
-  const Cell& CellAt(int x, int y) const {
-    return nearest_[static_cast<size_t>(y) * static_cast<size_t>(width_) + static_cast<size_t>(x)];
-  }
+  Cell& CellAt(int x, int y) { return nearest_[IndexOf(x, y)]; }
+  const Cell& CellAt(int x, int y) const { return nearest_[IndexOf(x, y)]; }
 
   const depth::DepthFrame* frame_ = nullptr;
   std::vector<Pixel> pixels_;
   double pixel_share_ = 1.0;
   // The silhouette on a grid of cells around the person.
   int left_ = 0, top_ = 0, cell_px_ = 1, width_ = 0, height_ = 0;
-  std::vector<Cell> nearest_;         // of each cell, the nearest that is the person's
+  // Of each cell, and of a border around all, the nearest that is the person's.
+  std::vector<Cell> nearest_;
   std::vector<int16_t> column_cell_;  // of each column of the image
 };
 

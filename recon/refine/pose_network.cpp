@@ -84,7 +84,8 @@ std::array<Eigen::Index, PoseNetwork::kLayers> ExpectedOutputs(const PoseNetwork
           kOutputs * static_cast<Eigen::Index>(kJointCount)};
 }
 
-FeatureMap Residual(FeatureMap map, const Convolution& first, const Convolution& second) {
+FeatureMap Residual(FeatureMap map, const QuantisedConvolution& first,
+                    const QuantisedConvolution& second) {
   map.cells += second.Run(Rectified(first.Run(map))).cells;
   return Rectified(std::move(map));
 }
@@ -165,19 +166,20 @@ PoseNetwork::PoseNetwork(Layers layers, uint64_t people, const std::string& name
       throw InputError(
           fmt::format("{}: layer {}: expected numbers of at most a million", name, l + 1));
     }
+    quantised_[l] = QuantisedConvolution(layer);
   }
 }
 
 NetworkPose PoseNetwork::Run(const PersonCrop& crop) const {
   FeatureMap map = ToInput(crop);
-  for (const Layer layer : {kDown1, kDown2, kDown3}) map = Rectified(layers_[layer].Run(map));
-  FeatureMap near = Residual(std::move(map), layers_[kNear], layers_[kNear + 1]);
-  FeatureMap far = Rectified(layers_[kDown4].Run(near));
+  for (const Layer layer : {kDown1, kDown2, kDown3}) map = Rectified(quantised_[layer].Run(map));
+  FeatureMap near = Residual(std::move(map), quantised_[kNear], quantised_[kNear + 1]);
+  FeatureMap far = Rectified(quantised_[kDown4].Run(near));
   for (const Layer layer : {kFar1, kFar2}) {
-    far = Residual(std::move(far), layers_[layer], layers_[layer + 1]);
+    far = Residual(std::move(far), quantised_[layer], quantised_[layer + 1]);
   }
-  near.cells += Doubled(layers_[kUp].Run(far)).cells;
-  const FeatureMap votes = layers_[kHead].Run(Rectified(layers_[kJoin].Run(near)));
+  near.cells += Doubled(quantised_[kUp].Run(far)).cells;
+  const FeatureMap votes = quantised_[kHead].Run(Rectified(quantised_[kJoin].Run(near)));
   NetworkPose pose;
   for (size_t j = 0; j < kJointCount; ++j) {
     const Voted voted = Bounded(Vote(votes, kOutputs * static_cast<Eigen::Index>(j)), crop);

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "depth/base/perceptron/convolution.h"
+#include "depth/base/perceptron/quantised_convolution.h"
 #include "recon/posture.h"
 #include "recon/refine/person_crop.h"
 
@@ -58,6 +59,7 @@ class PoseNetwork {
 
  private:
   Layers layers_;
+  std::array<QuantisedConvolution, kLayers> quantised_;  // the layers, ready to run
   uint64_t people_ = 0;
 };
 

@@ -37,6 +37,7 @@ std::vector<Candidate> SplitCandidate(const Scene& scene, const DepthFrame& fram
     Candidate part;
     part.pixels = CollectPixels(frame, scene.grid, piece);
     part.track = pieces.empty() ? candidate.track : -1;
+    part.rejected = candidate.rejected;
     part.has_head = true;
     part.region_index = candidate.region_index;
     part.flat_share = candidate.flat_share;

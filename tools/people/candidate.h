@@ -17,6 +17,7 @@ struct Candidate {
   int track = -1;               // index of the track that it continues by its cells, or -1
   std::vector<int> absorbed;    // other tracks that turned out to be parts of the same person
   bool may_return = false;      // a lost track is expected about here
+  bool rejected = false;        // it scored low a moment ago
   bool has_head = false;        // its shape has something like a head on shoulders
   double flat_share = 0;        // of its cells that lie on flat pieces
   double foreground_share = 0;  // of its cells before a known background; 0 for what may be the

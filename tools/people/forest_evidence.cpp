@@ -16,8 +16,8 @@ int ChooseScale(const DepthFrame& frame, const Candidate& candidate,
       0.3;  // sensor: by hand, nearer than any sees; against division by 0
   const double z_m = std::max(kNearest_m, static_cast<double>(candidate.region.mean_m.z()));
   int scale = std::clamp(static_cast<int>(options.sample_m * frame.camera.fx / z_m), 1, 8);
-  while (candidate.pixels.size() / static_cast<size_t>(scale * scale) > options.max_pixels &&
-         scale < 16) {
+  const size_t most = candidate.rejected ? options.max_rejected_pixels : options.max_pixels;
+  while (candidate.pixels.size() / static_cast<size_t>(scale * scale) > most && scale < 16) {
     ++scale;
   }
   return scale;

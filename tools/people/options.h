@@ -139,7 +139,8 @@ struct CandidateOptions {
 /// What the forest is asked about a candidate.
 struct EvidenceOptions {
   double sample_m = 0.012;   // pixels are thinned until one stands for so much of the surface,
-  size_t max_pixels = 6000;  // ... and further, to at most so many: time
+  size_t max_pixels = 6000;  // ... and further, to at most so many: time;
+  size_t max_rejected_pixels = 1500;  // ... of what scored low a moment ago
   double min_surface_score =
       0.1;                      // score by the surface alone; below, no joints are proposed: time
   double min_head_m2 = 0.009;   // anthropometry: half of a face, a disc of 15 cm
@@ -160,7 +161,8 @@ struct TrackPriorOptions {
 struct ClassificationOptions {
   size_t max_candidates = 16;  // the largest first: time
   double rejected = 0.35;      // mean score below which a tentative track is looked at only ...
-  double retry_s = 0.25;       // ... so much later
+  double retry_s = 0.25;       // ... so much later, one in a frame,
+  double max_retry_s = 0.5;    // ... or this much, however many
   int mature_age = 30;         // detections; then a person is not taken for part of another,
   float grown_share = 1.2F;    // times the surface seen lately; else it is not taken for two
   float two_people_m2 = 1.1F;  // anthropometry: together they are more than one person

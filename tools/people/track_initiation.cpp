@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <iterator>
+#include <map>
 
 #include "tools/people/track_prediction.h"
 
@@ -187,6 +188,43 @@ Decision DecideNew(bool fresh_scene, double time_s, const InitiationOptions& opt
   return decision;
 }
 
+// What scored low. All that was rejected in one frame would be due again in one frame, which would
+// take long: one a frame is looked at, who waited longest, until they have waited too long.
+class Rejected {
+ public:
+  Rejected(const std::vector<Candidate>& candidates, double time_s, const PeopleOptions& options,
+           std::vector<TentativeTrack>& tentative) {
+    double longest_s = 0.0;
+    for (const Candidate& candidate : candidates) {
+      if (candidate.track >= 0 || IsForeground(candidate)) continue;
+      const TentativeTrack* before =
+          FindTentative(candidate, time_s, options.initiation, tentative);
+      if (before == nullptr || before->mean_score >= options.classification.rejected) continue;
+      before_.emplace(&candidate, before);
+      const double waited_s = time_s - before->last_seen_s;
+      if (waited_s >= options.classification.retry_s && waited_s > longest_s) {
+        longest_s = waited_s;
+        next_ = &candidate;
+      }
+    }
+    latest_s_ = time_s - options.classification.max_retry_s;
+  }
+
+  bool Has(const Candidate& candidate) const { return before_.contains(&candidate); }
+  /// What is known of a candidate that is not to be looked at now; null of all others.
+  const TentativeTrack* FindWaiting(const Candidate& candidate) const {
+    const auto found = before_.find(&candidate);
+    const bool is_due =
+        found == before_.end() || &candidate == next_ || found->second->last_seen_s <= latest_s_;
+    return is_due ? nullptr : found->second;
+  }
+
+ private:
+  std::map<const Candidate*, const TentativeTrack*> before_;
+  const Candidate* next_ = nullptr;
+  double latest_s_ = 0.0;
+};
+
 }  // namespace
 
 std::vector<Candidate> SelectCandidates(std::vector<Candidate> candidates, bool fresh_scene,
@@ -197,25 +235,21 @@ std::vector<Candidate> SelectCandidates(std::vector<Candidate> candidates, bool 
     return fresh_scene || time_s < track.last_seen_s ||
            time_s - track.last_seen_s >= options.initiation.forget_s;
   });
+  const Rejected rejected(candidates, time_s, options, tentative);
   std::vector<Candidate> selected;
   for (Candidate& candidate : candidates) {
     if (selected.size() == options.classification.max_candidates) {
       decided.push_back(DescribeRegion(candidate.region, Rule::kCandidateLimit));
       continue;
     }
-    const TentativeTrack* before =
-        candidate.track < 0 ? FindTentative(candidate, time_s, options.initiation, tentative)
-                            : nullptr;
-    const bool rejected = before != nullptr &&
-                          before->mean_score < options.classification.rejected &&
-                          !IsForeground(candidate);
-    if (rejected && time_s - before->last_seen_s < options.classification.retry_s) {
+    if (const TentativeTrack* before = rejected.FindWaiting(candidate)) {
       Decision decision = DescribeRegion(candidate.region, Rule::kRejectedBefore);
       decision.mean_score = before->mean_score;
       decision.observations = before->observations;
       decided.push_back(decision);
       continue;
     }
+    candidate.rejected = rejected.Has(candidate);
     selected.push_back(std::move(candidate));
   }
   return selected;

@@ -12,7 +12,7 @@ struct FeatureMap {
 };
 
 /// A layer of a convolutional network (LeCun et al. 1989): what is outside the map counts as
-/// nought, so that of a stride of 1 the map keeps its size.
+/// nought, so that of a stride of 1 the map keeps its size. QuantisedConvolution runs it.
 struct Convolution {
   int size = 3;      // cells a side of what an output reads, odd
   int stride = 1;    // cells from output to output
@@ -20,9 +20,6 @@ struct Convolution {
   Eigen::RowVectorXf bias;  // one an output
 
   Eigen::Index inputs() const { return weight.rows() / (size * size); }
-  /// Not rectified. The same bits on every machine. Precondition: inputs() channels, and a side
-  /// that the stride divides.
-  FeatureMap Run(const FeatureMap& map) const;
 };
 
 /// Outputs below nought become nought (Nair and Hinton 2010).

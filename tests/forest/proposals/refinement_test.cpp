@@ -51,7 +51,7 @@ TEST(JointFeatures, SaysAsManyNumbersAsItPromises) {
 
 TEST(Refine, MovesPlacesInAxesAlongTheSight) {
   const JointFeatures features = ComputeFigureFeatures(BallFigures(4, 1).Read(1));
-  const auto places = Refine(Constant({0.0F, 0.0F, 1.0F}, 0.0F), features);
+  const auto places = Refine(RoundedPerceptron(Constant({0.0F, 0.0F, 1.0F}, 0.0F)), features);
   const Eigen::Vector3d away = OffsetScale().step_m * features.frame.middle_m.normalized();
   for (size_t t = 0; t < places.size(); ++t) {
     // Floats of about 3 m in, so micrometres out.

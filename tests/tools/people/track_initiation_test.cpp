@@ -214,6 +214,46 @@ TEST(SelectCandidates, WhatScoredLowIsClassifiedAgainOnlyLater) {
   EXPECT_TRUE(IsWorthClassifying(0.5, 0.1));
 }
 
+// Three that were rejected at once: one a frame, who waited longest, and none twice before the
+// others; what is known of them is forgotten no earlier.
+TEST(SelectCandidates, OfSeveralThatScoredLowOneIsClassifiedAFrame) {
+  std::vector<Candidate> candidates(3);
+  std::vector<TentativeTrack> tentative(3);
+  for (int i = 0; i < 3; ++i) {
+    candidates[static_cast<size_t>(i)].region.cells = {i};
+    tentative[static_cast<size_t>(i)].cells = {i};
+  }
+  std::vector<int> order;
+  const PeopleOptions options;
+  for (int frame = 1; frame <= 16; ++frame) {
+    std::vector<Decision> decided;
+    const auto selected =
+        SelectCandidates(candidates, false, frame / 30.0, options, tentative, decided);
+    ASSERT_LE(selected.size(), 1U) << frame;
+    EXPECT_EQ(selected.size() + decided.size(), 3U);
+    if (selected.empty()) continue;
+    EXPECT_TRUE(selected[0].rejected);
+    order.push_back(selected[0].region.cells[0]);
+    tentative[static_cast<size_t>(order.back())].last_seen_s = frame / 30.0;
+  }
+  EXPECT_EQ(order, (std::vector<int>{0, 1, 2, 0}));
+}
+
+// A camera of few frames a second: nothing waits for more than twice as long.
+TEST(SelectCandidates, NothingThatScoredLowWaitsForLong) {
+  std::vector<Candidate> candidates(3);
+  std::vector<TentativeTrack> tentative(3);
+  for (int i = 0; i < 3; ++i) {
+    candidates[static_cast<size_t>(i)].region.cells = {i};
+    tentative[static_cast<size_t>(i)].cells = {i};
+  }
+  std::vector<Decision> decided;
+  const PeopleOptions options;
+  const double late_s = options.classification.max_retry_s;
+  const auto selected = SelectCandidates(candidates, false, late_s, options, tentative, decided);
+  EXPECT_EQ(selected.size(), 3U);
+}
+
 TEST(SelectCandidates, TheLargestAreClassifiedWhereThereAreTooMany) {
   PeopleOptions options;
   options.classification.max_candidates = 1;
