@@ -153,6 +153,16 @@ recon::TrackedPosture ChoosePosture(const forest::ForestModel& model,
   return result;
 }
 
+void InferElsewhere(const recon::Posture& said_m, const depth::Camera& camera, double elsewhere_m,
+                    recon::TrackedPosture& seen) {
+  for (size_t j = 0; j < kJointCount; ++j) {
+    if (seen.state[j] != recon::TrackingState::kTracked) continue;
+    const Eigen::Vector3d& place_m = said_m.position_m[j];
+    const bool is_there = (place_m - seen.posture.position_m[j]).norm() <= elsewhere_m;
+    if (!is_there || !IsInImage(camera, place_m)) seen.state[j] = recon::TrackingState::kInferred;
+  }
+}
+
 recon::BoneLengths AverageBoneLengths() {
   return recon::MeasureBoneLengths(recon::StandardPosture(recon::RigPose{}));
 }

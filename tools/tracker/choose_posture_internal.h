@@ -50,6 +50,10 @@ recon::TrackedPosture ChoosePosture(const forest::ForestModel& model,
                                     const std::vector<std::vector<forest::Proposal>>& proposals,
                                     const ChoiceContext& context);
 
+/// What was seen, but is said to be elsewhere, so far away or outside of the image, is inferred.
+void InferElsewhere(const recon::Posture& said_m, const depth::Camera& camera, double elsewhere_m,
+                    recon::TrackedPosture& seen);
+
 /// Bone lengths of an average adult, and how a person's own are learned: slowly, from bones whose
 /// two ends are tracked.
 recon::BoneLengths AverageBoneLengths();

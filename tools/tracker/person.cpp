@@ -75,7 +75,7 @@ recon::Posture WithSlowGuesses(const recon::Posture& posture, const SkeletonWork
   const double farthest_m = options.guess_m_s * since_s;
   recon::Posture slow = posture;
   for (size_t j = 1; j < kJointCount; ++j) {
-    if (work.body.raw.state[j] == TrackingState::kTracked) continue;
+    if (work.seen.state[j] == TrackingState::kTracked) continue;
     const size_t p = recon::ParentOf(j);
     const Eigen::Vector3d before_m = person.shown->position_m[j] - person.shown->position_m[p];
     const Eigen::Vector3d moved_m = posture.position_m[j] - posture.position_m[p] - before_m;
@@ -133,6 +133,19 @@ recon::TrackedPosture Observed(const Body& body, bool refined, const depth::Came
     if (seen.state[j] != TrackingState::kNotTracked) continue;
     seen.state[j] = TrackingState::kInferred;
     seen.confidence[j] = fitted_confidence;
+  }
+  return seen;
+}
+
+// A joint that the forest saw, but that refinement and fit put elsewhere, is not what was seen
+// there: a desk's corner looks like a foot.
+recon::TrackedPosture WithoutContradicted(const Body& body, const depth::Camera& camera,
+                                          double elsewhere_m) {
+  recon::TrackedPosture seen = body.raw;
+  if (body.fit) {
+    InferElsewhere(body.fit->blended_m, camera, elsewhere_m, seen);
+  } else if (body.refined) {
+    InferElsewhere(*body.refined, camera, elsewhere_m, seen);
   }
   return seen;
 }
@@ -221,12 +234,14 @@ std::unique_ptr<recon::Reconstructor> MethodFor(int id, const SkeletonOptions& o
 
 void AverageStationary(SkeletonWork& work) {
   const recon::MethodInfo& method = recon::RequireMethod(work.options.reconstructor.method);
+  const HoldOptions& hold = work.options.hold;
+  const depth::Camera& camera = work.frame.camera;
+  work.seen = WithoutContradicted(work.body, camera, hold.elsewhere_m);
   recon::TrackedPosture observed =
-      Observed(work.body, method.refined, work.frame.camera, work.options.hold.fitted_confidence);
+      Observed(work.body, method.refined, camera, hold.fitted_confidence);
   DoubtByResidual(work, observed.confidence);
   Person& person = work.person;
-  work.believed =
-      !JumpsAtTheBorder(work.body, observed, work.frame.time_s, work.options.hold, person);
+  work.believed = !JumpsAtTheBorder(work.body, observed, work.frame.time_s, hold, person);
   const size_t tracked = CountTracked(observed);
   if (work.believed && tracked > 0) {
     person.believed_s = work.frame.time_s;
@@ -280,10 +295,11 @@ void Simulate(SkeletonWork& work) {
 }
 
 void Finish(SkeletonWork& work) {
-  recon::TrackedPosture told = work.body.raw;
+  recon::TrackedPosture told = work.seen;
   if (!work.believed) {
     std::ranges::replace(told.state, TrackingState::kTracked, TrackingState::kInferred);
   }
+  InferElsewhere(work.posture, work.frame.camera, work.options.hold.elsewhere_m, told);
   work.body.joints =
       Estimates(work.posture, work.orientations, told, work.reconstructed.reliability);
   work.person.shown = work.posture;

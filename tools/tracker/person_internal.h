@@ -31,6 +31,9 @@ struct HoldOptions {
   // video a sixth of the leaps is left, and rendered people are as near
   // (docs/benchmarks/tracking.md).
   double guess_m_s = 2.0;
+  // What was seen, but by a later stage is so far away, was something else: of two to three tenths
+  // of a metre real depth tells no difference.
+  double elsewhere_m = 0.3;
   // Weights with which bones get their lengths again: of joints that are not seen, and the least of
   // those that are.
   double unseen = 0.1, least_seen = 0.2;

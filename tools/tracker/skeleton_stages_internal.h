@@ -18,6 +18,7 @@ struct SkeletonWork {
   const people::Detection* detection;  // of the first three stages; CompleteSkeleton needs none
   Person& person;                      // what was known before, and is from now on
   Body& body;                          // raw, refined, fit, reconstructed, joints, as they are made
+  recon::TrackedPosture seen = {};     // raw, less what later stages contradict
   recon::TrackedPosture observed = {};             // what the method starts from,
   bool believed = true;                            // ... nothing, where it is not
   recon::ReconstructedPosture reconstructed = {};  // what it made of that,
@@ -41,7 +42,8 @@ void Refine(SkeletonWork& work);
 void Fit(SkeletonWork& work);
 /// Leaves out joints that the tracking mode does not follow, and remembers the rest.
 void ApplyMode(SkeletonWork& work);
-/// Averages joints that stand still: `observed`.
+/// Doubts what was seen and is said to be elsewhere, `seen`, and averages joints that stand still:
+/// `observed`.
 void AverageStationary(SkeletonWork& work);
 /// The method of reconstruction: body.reconstructed.
 void Reconstruct(SkeletonWork& work);

@@ -102,6 +102,20 @@ TEST(RealScore, OffsetsOfSmallSetsComeFromAllStills) {
   EXPECT_NEAR(score.mean_cm, 2.0 / 3.0, 1e-9);
 }
 
+TEST(RealScore, JointsAreCountedByTheirState) {
+  OneJoint one({0.02, 0.12, 0.04, 0.3});
+  const std::vector<bool> tracked = {true, true, false, false};
+  for (size_t i = 0; i < tracked.size(); ++i) {
+    one.results[i].errors[RealStage::kFinal] = one.results[i].errors[RealStage::kRaw];
+    one.results[i].tracked = {tracked[i]};
+  }
+  const StateScore score = ScoreStates(one.set, one.results);
+  EXPECT_EQ(score.tracked, 2);
+  EXPECT_EQ(score.tracked_within_10cm, 1);
+  EXPECT_EQ(score.others, 2) << "nobody was found in the last still";
+  EXPECT_EQ(score.others_within_10cm, 1);
+}
+
 TEST(RealStills, AFewOfEachSetAreJudgedAtEveryStage) {
   const auto sets = ReadRealSets(test::SharedFolder(), 2);
   if (sets.empty()) GTEST_SKIP() << "no real depth with truth in " << test::SharedFolder();

@@ -84,5 +84,41 @@ TEST(HiddenJoints, DoNotLeap) {
       << "what is seen is there at once";
 }
 
+// What the forest saw as a hand, where the refinement has the hand so far aside and below.
+recon::TrackingState StateOfHandSaid(const Eigen::Vector3d& off_m) {
+  HandInTheAir scene(recon::TrackingState::kTracked);
+  scene.options.reconstructor.method = "best";
+  scene.body.raw.posture = scene.render.joints.front();
+  scene.body.refined = scene.body.raw.posture;
+  scene.body.refined->position_m[kHand] += off_m;
+  scene.Step(0.0);
+  EXPECT_EQ(scene.body.raw.state[kHand], recon::TrackingState::kTracked) << "raw stays raw";
+  EXPECT_EQ(scene.body.joints[kWrist].state, recon::TrackingState::kTracked);
+  return scene.body.joints[kHand].state;
+}
+
+TEST(HiddenJoints, AreThoseThatWereSomethingElse) {
+  const double far_m = HoldOptions().elsewhere_m + 0.1;
+  EXPECT_EQ(StateOfHandSaid({0.1, 0.0, 0.0}), recon::TrackingState::kTracked);
+  EXPECT_EQ(StateOfHandSaid({far_m, 0.0, 0.0}), recon::TrackingState::kInferred);
+  EXPECT_EQ(StateOfHandSaid({0.0, -far_m, 0.0}), recon::TrackingState::kInferred);
+}
+
+// A desk's corner was taken for feet, which are below the image.
+TEST(HiddenJoints, NothingThatLeavesOutsideOfTheImageIsTracked) {
+  constexpr double kHighestFoot_m = -1.3;  // 2.5 m away the image ends above
+  HandInTheAir scene(recon::TrackingState::kTracked);
+  scene.body.raw.posture = scene.render.joints.front();
+  constexpr auto kFoot = recon::Index(recon::Joint::kFootLeft);
+  ASSERT_GT(scene.body.raw.posture.position_m[kFoot].y(), kHighestFoot_m);
+  scene.Step(0.0);
+  EXPECT_EQ(scene.body.joints[kFoot].state, recon::TrackingState::kTracked);
+  scene.body.refined = scene.body.raw.posture;
+  scene.body.refined->position_m[kFoot].y() = kHighestFoot_m;
+  scene.options.reconstructor.method = "best";
+  scene.Step(1.0 / 30.0);
+  EXPECT_EQ(scene.body.joints[kFoot].state, recon::TrackingState::kInferred);
+}
+
 }  // namespace
 }  // namespace ossa::tracker

@@ -1,6 +1,7 @@
 // Whom the image's border leaves little of: a unit test of the stage that reads what is observed.
 #include <gtest/gtest.h>
 
+#include "depth/image/camera_presets.h"
 #include "recon/body/standard_body.h"
 #include "tools/tracker/skeleton_stages_internal.h"
 
@@ -47,6 +48,8 @@ class AtTheBorder : public testing::Test {
     for (auto& place_m : posture.position_m) place_m += move_m;
     return posture;
   }
+  AtTheBorder() { frame_.camera = depth::KinectV1Camera(640, 480); }
+
   SkeletonOptions options_;
   depth::DepthFrame frame_;
   std::optional<Eigen::Vector4d> floor_;

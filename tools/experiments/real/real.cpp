@@ -107,6 +107,23 @@ void AddRows(const RealSet& set, const ScoredSet& scored, Table& table) {
   }
 }
 
+Table StatesTable() {
+  return {.title = "Final joints by their state: within 10 cm, %, offset removed",
+          .columns = {"set", "tracked, % of joints", "of tracked ones", "of all others"},
+          .rows = {},
+          .note = ""};
+}
+
+void AddStateRow(const RealSet& set, const StateScore& s, Table& table) {
+  const auto share = [](int64_t part, int64_t whole) {
+    return whole == 0 ? std::string("-")
+                      : Percent(static_cast<double>(part) / static_cast<double>(whole));
+  };
+  table.rows.push_back({set.name, share(s.tracked, s.tracked + s.others),
+                        share(s.tracked_within_10cm, s.tracked),
+                        share(s.others_within_10cm, s.others)});
+}
+
 void AddJointRows(const RealSet& set, const ScoredSet& scored, Table& table) {
   for (const std::string& joint : set.joint_names) {
     std::map<RealStage, std::string> cell;
@@ -218,13 +235,15 @@ std::vector<Table> RunReal(ExperimentContext& context) {
                     context.shared.string()));
   }
   tracker::Tracker tracker(options);
-  Table stills = StillsTable(), joints = JointsTable(), recordings = VideosTable();
+  Table stills = StillsTable(), joints = JointsTable(), states = StatesTable();
+  Table recordings = VideosTable();
   json report = {{"sets", json::array()}, {"recordings", json::array()}};
   for (const RealSet& set : sets) {
     const auto results = JudgeAll(set, tracker, context);
     const ScoredSet scored = ScoreSet(set, results, true);
     AddRows(set, scored, stills);
     AddJointRows(set, scored, joints);
+    AddStateRow(set, ScoreStates(set, results), states);
     for (const json& row : SetToJson(set, scored)) report["sets"].push_back(row);
     if (std::none_of(set.joints.begin(), set.joints.end(), IsFoot)) continue;
     const ScoredSet without = ScoreSet(set, results, false);
@@ -243,7 +262,7 @@ std::vector<Table> RunReal(ExperimentContext& context) {
     report["recordings"].push_back(VideoToJson(video, score));
   }
   WriteJson(context, report);
-  return {stills, joints, recordings};
+  return {stills, joints, states, recordings};
 }
 
 }  // namespace ossa::tools

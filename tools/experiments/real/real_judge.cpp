@@ -14,6 +14,8 @@ namespace {
 // mean.
 constexpr size_t kLeastForOffset = 3;
 
+constexpr double kNear_m = 0.1;  // of joints that count as found: by definition
+
 std::optional<Eigen::Vector3d> ErrorAgainst(const RealTruth& truth, const depth::Camera& camera,
                                             const std::optional<Eigen::Vector3d>& estimate_m) {
   if (!estimate_m || estimate_m->z() <= 0) return std::nullopt;
@@ -99,6 +101,11 @@ StillResult JudgeStill(const RealSet& set, const RealStill& still, tracker::Trac
     if (!(MeanLength(raw) < nearest)) continue;
     nearest = MeanLength(raw);
     result.fit = body.fit;
+    result.tracked.clear();
+    for (const recon::Joint joint : set.joints) {
+      result.tracked.push_back(body.joints[recon::Index(joint)].state ==
+                               recon::TrackingState::kTracked);
+    }
     for (const RealStage stage : kRealStages) {
       result.errors[stage] = ErrorsOfBody(set, still, JointsAtStage(body, stage));
     }
@@ -110,6 +117,24 @@ StillResult JudgeStill(const RealSet& set, const RealStill& still, tracker::Trac
     }
   }
   return result;
+}
+
+StateScore ScoreStates(const RealSet& set, const std::vector<StillResult>& results) {
+  StateScore score;
+  for (size_t i = 0; i < results.size(); ++i) {
+    const auto errors = results[i].errors.find(RealStage::kFinal);
+    if (errors == results[i].errors.end()) continue;
+    for (size_t j = 0; j < set.joints.size(); ++j) {
+      if (!results[i].has_truth[j] || !errors->second[j]) continue;
+      const Eigen::Vector3d error_m =
+          *errors->second[j] - OffsetFor(set, results, RealStage::kFinal, i, j);
+      const bool is_near = error_m.norm() <= kNear_m;
+      const bool tracked = results[i].tracked[j];
+      ++(tracked ? score.tracked : score.others);
+      (tracked ? score.tracked_within_10cm : score.others_within_10cm) += is_near ? 1 : 0;
+    }
+  }
+  return score;
 }
 
 StageScore ScoreStage(const RealSet& set, const std::vector<StillResult>& results, RealStage stage,
@@ -131,8 +156,8 @@ StageScore ScoreStage(const RealSet& set, const std::vector<StillResult>& result
       ++score.found;
       sum_m += distance_m;
       within_5cm += distance_m <= 0.05;
-      within_10cm += distance_m <= 0.1;
-      tally.within_10cm += distance_m <= 0.1;
+      within_10cm += distance_m <= kNear_m;
+      tally.within_10cm += distance_m <= kNear_m;
     }
   }
   const auto share = [](int64_t part, int64_t whole) {

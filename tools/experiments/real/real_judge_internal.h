@@ -25,6 +25,7 @@ struct StillResult {
   size_t bodies = 0;
   std::map<RealStage, JointErrors> errors;
   std::vector<bool> has_truth;             // by joint
+  std::vector<bool> tracked{};             // by joint, of the judged body: so it leaves
   std::optional<recon::SurfaceFit> fit{};  // of the judged body, with TrackerOptions::fit
   double fit_ms = 0.0;                     // of all bodies
 };
@@ -42,6 +43,14 @@ struct StageScore {
   int64_t joints = 0, found = 0;
   std::map<std::string, double> per_joint_10cm;  // share within 10 cm by joint of the set
 };
+
+/// How far what is said of joints' states can be believed: final joints within 10 cm, offset
+/// removed.
+struct StateScore {
+  int64_t tracked = 0, tracked_within_10cm = 0;
+  int64_t others = 0, others_within_10cm = 0;  // inferred or not tracked
+};
+StateScore ScoreStates(const RealSet& set, const std::vector<StillResult>& results);
 
 /// `counted` says by joint of the set which go into the score.
 StageScore ScoreStage(const RealSet& set, const std::vector<StillResult>& results, RealStage stage,
