@@ -15,8 +15,7 @@ class FacingPoints {
  public:
   void Gather(const PosedSurface& posed);
   /// The point nearest to a pixel, where points of parts other than the pixel's count as farther;
-  /// -1 where no point faces the camera. Of points equally near to a tenth of a micrometre it may
-  /// be any.
+  /// -1 where no point faces the camera. Of points equally near to a micrometre it may be any.
   int Nearest(const SeenPerson::Pixel& pixel, const SurfaceFitOptions& options) const;
   /// Their numbers among the surface's points.
   const std::vector<uint32_t>& points() const { return points_; }

@@ -15,14 +15,12 @@ namespace ossa {
 namespace {
 
 #if defined(__x86_64__)
-constexpr size_t kLanes = 8;  // of an AVX2 register
-constexpr size_t kGroups = OutputLine::kOutputs / kLanes;
-
 // Some windows at a time: registers hold their sums while all pairs go by, and a line is fetched
 // once for them.
 template <size_t kWindows>
 __attribute__((target("avx2"))) void SumSome(const Windows& windows, size_t first,
                                              const OutputLine* line, int32_t* sums, size_t stride) {
+  constexpr size_t kGroups = sizeof(OutputLine) / sizeof(__m256i);
   __m256i sum[kWindows][kGroups] = {};
   for (size_t row = 0; row < windows.rows; ++row) {
     const int16_t* numbers[kWindows];

@@ -194,6 +194,14 @@ json VideoToJson(const RealVideo& video, const VideoScore& s) {
           {"nobody_alone", static_cast<double>(s.nobody_alone) / static_cast<double>(s.frames)}};
 }
 
+json StatesToJson(const RealSet& set, const StateScore& s) {
+  return {{"name", set.name},
+          {"tracked", s.tracked},
+          {"tracked_within_10cm", s.tracked_within_10cm},
+          {"others", s.others},
+          {"others_within_10cm", s.others_within_10cm}};
+}
+
 std::vector<StillResult> JudgeAll(const RealSet& set, tracker::Tracker& tracker,
                                   ExperimentContext& context) {
   std::vector<StillResult> results;
@@ -237,13 +245,15 @@ std::vector<Table> RunReal(ExperimentContext& context) {
   tracker::Tracker tracker(options);
   Table stills = StillsTable(), joints = JointsTable(), states = StatesTable();
   Table recordings = VideosTable();
-  json report = {{"sets", json::array()}, {"recordings", json::array()}};
+  json report = {{"sets", json::array()}, {"states", json::array()}, {"recordings", json::array()}};
   for (const RealSet& set : sets) {
     const auto results = JudgeAll(set, tracker, context);
     const ScoredSet scored = ScoreSet(set, results, true);
     AddRows(set, scored, stills);
     AddJointRows(set, scored, joints);
-    AddStateRow(set, ScoreStates(set, results), states);
+    const StateScore by_state = ScoreStates(set, results);
+    AddStateRow(set, by_state, states);
+    report["states"].push_back(StatesToJson(set, by_state));
     for (const json& row : SetToJson(set, scored)) report["sets"].push_back(row);
     if (std::none_of(set.joints.begin(), set.joints.end(), IsFoot)) continue;
     const ScoredSet without = ScoreSet(set, results, false);
