@@ -110,7 +110,7 @@ void World::Impl::WatchThreats(double dt_s) {
     actor->dodge_left_s = std::max(0.0, actor->dodge_left_s - dt_s);
     const auto head = recon::Index(recon::Joint::kHead);
     for (const auto& [number, thing] : things) {
-      if (!thing.grips.empty()) continue;
+      if (!thing.grips.empty() || thing.info.kind == BodyKind::kStatic) continue;
       const ObjectState state = {ToEigen(dBodyGetPosition(thing.body)),
                                  Eigen::Quaterniond::Identity(),
                                  ToEigen(dBodyGetLinearVel(thing.body))};

@@ -16,7 +16,6 @@ constexpr int kLongest = 60;           // frames a mean is of: people sway
 constexpr double kNoiseMemory = 0.05;  // share of a new observation in the noise
 constexpr double kGrossNoise = 4.0;    // times the usual: a jump, which says little about noise
 constexpr double kLeastNoise_m = 1e-3;
-constexpr double kGap_s = 0.5;
 
 }  // namespace
 
@@ -84,9 +83,7 @@ Vector3d StationaryAverage::Step(const Vector3d& seen_m) {
 }
 
 TrackedPosture StationaryPosture::Step(const TrackedPosture& seen, double time_s) {
-  const double dt_s = time_s - time_s_;
-  if (dt_s <= 0 || dt_s > kGap_s) *this = {};
-  time_s_ = time_s;
+  if (!steps_.To(time_s)) joints_ = {};
   TrackedPosture averaged = seen;
   for (size_t j = 0; j < kJointCount; ++j) {
     if (seen.state[j] == TrackingState::kNotTracked) {

@@ -2,6 +2,7 @@
 #include <Eigen/Core>
 #include <array>
 
+#include "recon/filters/frame_steps.h"
 #include "recon/posture.h"
 
 namespace ossa::recon {
@@ -43,7 +44,7 @@ class StationaryPosture {
 
  private:
   JointArray<StationaryAverage> joints_;
-  double time_s_ = 0.0;
+  FrameSteps steps_;
 };
 
 }  // namespace ossa::recon

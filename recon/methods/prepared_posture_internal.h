@@ -1,8 +1,8 @@
 #pragma once
 #include <optional>
 
+#include "recon/filters/frame_steps.h"
 #include "recon/methods/body_size_internal.h"
-#include "recon/methods/frame_steps_internal.h"
 #include "recon/methods/reconstructor.h"
 #include "recon/normalise.h"
 #include "recon/reliability.h"

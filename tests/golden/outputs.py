@@ -35,7 +35,7 @@ RUNS = {
     "track_shum_2013.jsonl": "track {one} --out {out} --method shum-2013",
     "track_plantard_2016.trc": "track {one} --out {out} --method plantard-2016",
     "track_bones.bvh": "track {one} --out {out} --bones recording",
-    "track_lag.jsonl": "track {one} --out {out} --lag 2",
+    "track_live.jsonl": "track {one} --out {out} --lag 0",
     "track_seated.csv": "track {one} --out {out} --mode seated",
     "reconstruct_best.jsonl": "reconstruct {track_raw.jsonl} --out {out}",
     "reconstruct_one_euro.jsonl": "reconstruct {track_raw.jsonl} --out {out} --method one-euro",

@@ -315,6 +315,27 @@ TEST(Dodging, CatchesWithTheForearmsWhatWouldHitTheHead) {
   EXPECT_TRUE(dodging.arm);
 }
 
+TEST(Dodging, IgnoresWhatStandsStill) {
+  CharacterOptions options;
+  options.dodge = true;
+  Scene scene(options);
+  ObjectOptions lamp;
+  lamp.kind = BodyKind::kStatic;
+  lamp.shape = Shape::kBall;
+  lamp.size_m = Vector3d::Constant(0.16);
+  lamp.position_m = scene.At(Joint::kHead) + Vector3d(0.3, 0.0, 0.8);
+  scene.world.AddObject(lamp);
+  bool dodged = false;
+  for (int i = 1; i <= 20; ++i) {
+    Posture walking = StandingPerson();
+    for (Vector3d& p : walking.position_m) p.z() += 0.08 * i;  // 2.4 m/s
+    scene.world.SetTarget(scene.person, walking);
+    scene.Run(1);
+    dodged |= scene.world.StateOf(scene.person).dodging;
+  }
+  EXPECT_FALSE(dodged);
+}
+
 TEST(Dodging, IgnoresWhatFliesPast) { EXPECT_FALSE(ThrowAtHead(true, 1.0).dodged); }
 
 }  // namespace

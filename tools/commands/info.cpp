@@ -284,7 +284,6 @@ int Info(int argc, char** argv) {
   CLI::App app("Say what a file holds: a model's card, a database's clips, a data set's origin");
   SourceArguments file;
   AddSourceOptions(app, file);
-  AddRotateOption(app, file);
   app.get_option("SOURCE")->description(
       "a .ossa, .ossadb, .ossagp, .ossaprior, .ossarefine, .ossanet, .ossasurface, .ossamesh or "
       "skeleton file, "

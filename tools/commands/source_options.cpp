@@ -75,14 +75,13 @@ void AddSourceOptions(CLI::App& app, SourceArguments& arguments) {
   app.add_option("--fps", arguments.fps,
                  "frames a second of a recording (default: its own times, else 30)")
       ->check(CLI::Range(1e-3, 1e4));
-}
-
-void AddRotateOption(CLI::App& app, SourceArguments& arguments) {
   app.add_option("--rotate", arguments.rotate,
                  "degrees by which the images must be turned clockwise for people to stand in "
                  "them, or auto (default); what comes out stays in the camera's own space")
       ->check(CLI::IsMember({"auto", "0", "90", "180", "270"}));
 }
+
+bool IsDevice(const SourceArguments& arguments) { return arguments.name.starts_with("openni:"); }
 
 tracker::Turn ChooseTurn(const SourceArguments& arguments) {
   if (arguments.rotate == "auto") return tracker::Turn::kAuto;

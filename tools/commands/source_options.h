@@ -24,10 +24,11 @@ struct SourceArguments {
   double patience_s = 5.0;
 };
 
-/// SOURCE, --camera, --depth-scale, --depth-format and --fps.
+/// Whether it names a device, or what plays as one, and no recording.
+bool IsDevice(const SourceArguments& arguments);
+
+/// SOURCE, --camera, --depth-scale, --depth-format, --fps and --rotate.
 void AddSourceOptions(CLI::App& app, SourceArguments& arguments);
-/// --rotate, for what looks for people.
-void AddRotateOption(CLI::App& app, SourceArguments& arguments);
 tracker::Turn ChooseTurn(const SourceArguments& arguments);
 /// With --rotate auto, before a recording (`source`, which it does not read) is tracked: finds
 /// which way up its camera is, and says so unless it stands.

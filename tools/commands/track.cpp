@@ -214,10 +214,7 @@ struct Destinations {
       moment.dropped = run.dropped;
       moment.is_upright = tracker.quarter_turns() == 0;
       moment.latency_ms = bodies.ms.total;
-      if (options.mechanics.follows()) moment.solids = viewer::CapsulesOf(bodies);
-      for (viewer::Solid& solid : viewer::SolidsOf(bodies.objects)) {
-        moment.solids.push_back(std::move(solid));
-      }
+      moment.solids = viewer::SolidsOf(bodies, options.mechanics.follows());
       viewer->Show(std::move(moment));
     }
     waiting.pop_front();

@@ -55,9 +55,9 @@ void AddTrackerOptions(CLI::App& app, TrackOptions& options) {
          "--smoothing", options.smoothing,
          "preset of the filter (default: what goes with the method, none for those that filter)")
       ->check(CLI::IsMember(tracker::SmoothingPresets()));
-  app.add_option("--lag", t.lag,
-                 "frames that may come before a frame's bodies are told, smoothed by them: 0 "
-                 "(live) to 2 (default 0)")
+  app.add_option("--lag", options.lag,
+                 "frames that may come before a frame's bodies are told, smoothed by them: 0 to 2 "
+                 "(default: 2 of recordings with best, else 0)")
       ->check(CLI::Range(0, 2));
   app.add_option("--mode", options.mode, "standing (20 joints) or seated (the upper ten)")
       ->check(CLI::IsMember({"standing", "seated"}));
@@ -126,6 +126,13 @@ void CheckRefinementIsRead(const TrackOptions& options) {
   SayNotRead("--refinement", options.tracker.method);
 }
 
+// Nobody waits for a recording's bodies, which are nearer to the truth and steadier with lag.
+int UsualLag(const TrackOptions& options) {
+  constexpr int kMost = 2;  // frames; measured: docs/benchmarks/reconstruction.md, frames of lag
+  const bool smoothed = RequireMethodInfo(options.tracker.method).smoothed_in_files;
+  return smoothed && !IsDevice(options.source) ? kMost : 0;
+}
+
 std::vector<stream::Target> ParseTargets(const std::vector<std::string>& urls) {
   std::vector<stream::Target> targets;
   try {
@@ -142,7 +149,6 @@ TrackOptions ParseTrackOptions(int argc, char** argv) {
   CLI::App app("Follow the people in any SOURCE and write their skeletons");
   TrackOptions options;
   AddSourceOptions(app, options.source);
-  AddRotateOption(app, options.source);
   app.add_option("--out", options.out,
                  "skeletons: FILE.jsonl, .bvh, .trc or .csv; .glb: people in motion, skinned");
   app.add_option(
@@ -201,6 +207,7 @@ TrackOptions ParseTrackOptions(int argc, char** argv) {
                 options.save_person},
                {options.source.name, options.mechanics.scene});
   options.tracker.turn = ChooseTurn(options.source);
+  options.tracker.lag = options.lag.value_or(UsualLag(options));
   if (options.fit == "on" || options.posture == "fitted") CheckFit(options);
   if (options.fit == "off") options.tracker.fit.reset();
   options.tracker.physics = options.mechanics.on();

@@ -1,5 +1,6 @@
 #pragma once
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -26,6 +27,7 @@ struct TrackOptions {
   WriteOptions write;
   tracker::ModelFiles files;
   tracker::TrackerOptions tracker;
+  std::optional<int> lag;  // as asked for
   int64_t frames = 0;
   std::vector<std::string> send;
   std::vector<stream::Target> targets;  // of `send`

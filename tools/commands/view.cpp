@@ -90,8 +90,7 @@ viewer::ViewerOptions MakeViewerOptions(const ViewOptions& options) {
   viewer::ViewerOptions with = PageOptions(options.page);
   with.name = std::filesystem::path(options.source.name).filename().string();
   // What a camera's URI asks of its driver is no part of its name.
-  if (options.source.name.starts_with("openni:"))
-    with.name = with.name.substr(0, with.name.find('?'));
+  if (IsDevice(options.source)) with.name = with.name.substr(0, with.name.find('?'));
   if (with.name.empty()) with.name = options.source.name;
   for (const std::string& path : options.over) {
     recon::SkeletonSequence sequence = Read(path);
@@ -111,6 +110,7 @@ tracker::Tracker MakeTracker(const ViewOptions& options, const viewer::Settings&
   with.max_users = settings.users;
   with.physics = options.mechanics.on();
   with.mechanics = options.mechanics.build;
+  with.scene = options.mechanics.Scene();
   with.keep_parts = !is_live;  // of a camera the page finds them, for who looks
   return tracker::Tracker(with);
 }
@@ -180,8 +180,7 @@ class PageTracker {
     dropped_ += read.dropped;
     if (options_.once && !source_->is_live()) clockwork_.WaitFor(read.frame.time_s);
     tracker::BodyFrame bodies = tracker_.Track(read.frame);
-    std::vector<viewer::Solid> solids;
-    if (options_.mechanics.on()) solids = viewer::CapsulesOf(bodies);
+    std::vector<viewer::Solid> solids = viewer::SolidsOf(bodies, options_.mechanics.follows());
     viewer::Moment moment = viewer::MomentOf(read.frame, std::move(bodies));
     moment.solids = std::move(solids);
     moment.dropped = dropped_;
@@ -255,6 +254,16 @@ void AddTrackingOptions(CLI::App& app, ViewOptions& options) {
       ->check(CLI::Range(1, 6));
 }
 
+// Skeletons of a file are shown as they are.
+void SayWhatIsNotTracked(const CLI::App& app, const std::string& file) {
+  for (const char* option : {"--model", "--database", "--method", "--learned", "--smoothing",
+                             "--physics", "--scene", "--seated", "--near", "--users"}) {
+    if (app.count(option) == 0) continue;
+    Say(fmt::format("ossa view: {}: {} is for a source that is tracked: these are skeletons\n",
+                    file, option));
+  }
+}
+
 }  // namespace
 
 int View(int argc, char** argv) {
@@ -264,7 +273,6 @@ int View(int argc, char** argv) {
   ViewOptions options;
   options.settings.method = recon::kDefaultMethod;
   AddSourceOptions(app, options.source);
-  AddRotateOption(app, options.source);
   AddPageOptions(app, options.page);
   AddTrackingOptions(app, options);
   app.add_option("--over", options.over,
@@ -282,6 +290,7 @@ int View(int argc, char** argv) {
   if (IsSource(options.source.name)) {
     PageTracker(options).Run();
   } else {
+    SayWhatIsNotTracked(app, options.source.name);
     ShowSkeletons(options);
   }
   return 0;

@@ -32,11 +32,13 @@ inline void RequireNotNull(const void* pointer, const char* call, const char* wh
   throw std::invalid_argument(std::string(call) + ": expected " + what + ", found NULL");
 }
 
-/// Throws unless struct_size can be: at least that of the struct's first version. Structs end
-/// without padding, so that a member that is added lies behind what older programs know.
+/// Throws unless struct_size can be: at least that of the struct's first version, and not so much
+/// that it was never set. Structs end without padding, so that a member that is added lies behind
+/// what older programs know.
 template <typename T>
 void CheckSize(const T& given, const char* name, size_t first_version = sizeof(T)) {
-  if (given.struct_size >= first_version) return;
+  constexpr size_t kMostAdded = 4096;  // bytes by which later versions may grow, by hand
+  if (given.struct_size >= first_version && given.struct_size <= sizeof(T) + kMostAdded) return;
   throw std::invalid_argument(std::string(name) + ".struct_size: expected sizeof(" + name + "), " +
                               std::to_string(sizeof(T)) + ", found " +
                               std::to_string(given.struct_size));

@@ -130,16 +130,14 @@ std::optional<physics::FilteredPosture> Mechanics::Follow(
     const recon::Posture& target, std::span<const double> trust,
     const std::optional<Eigen::Vector4d>& floor, double time_s,
     const std::optional<recon::JointOrientations>& orientation) {
-  if (!character_) last_s_ = time_s - 1.0 / 30.0;
   if (bones_.Update(target)) Make();
-  const double dt_s = time_s - last_s_;
-  last_s_ = time_s;
-  if (!(dt_s > 0.0)) return std::nullopt;
+  const double step_s = steps_.To(time_s).value_or(0.0);
   std::vector<double> held(trust.begin(), trust.end());
   for (size_t i = 0; i < held.size(); ++i) {
     if (target.position_m[i].allFinite()) held[i] = HeldTrust(held[i]);
   }
-  const auto filtered = character_->Step(target, held, OwnFloor(target, floor), dt_s, orientation);
+  const auto filtered =
+      character_->Step(target, held, OwnFloor(target, floor), step_s, orientation);
   if (!AllFinite(filtered.posture)) return std::nullopt;
   return filtered;
 }

@@ -5,6 +5,7 @@
 #include <span>
 
 #include "physics/character_filter.h"
+#include "recon/filters/frame_steps.h"
 #include "recon/posture.h"
 #include "tools/tracker/mechanics.h"
 
@@ -37,8 +38,9 @@ class Mechanics {
   explicit Mechanics(const MechanicsBuild& build,
                      double rate_rad_s = physics::ControlGains{}.rate_rad_s)
       : build_(build), rate_rad_s_(rate_rad_s) {}
-  /// What the character makes of `target`; nothing where it cannot say: time that stands still or
-  /// runs backwards, a character that came to grief. Joints that are not finite lead it nowhere.
+  /// What the character makes of `target`, on which it is put at first, after a gap and when time
+  /// runs backwards (recon::FrameSteps); nothing of a character that came to grief. Joints that are
+  /// not finite lead it nowhere.
   /// `orientation`: how the bones are turned about themselves, where that is known.
   std::optional<physics::FilteredPosture> Follow(
       const recon::Posture& target, std::span<const double> trust,
@@ -55,7 +57,7 @@ class Mechanics {
   double rate_rad_s_;
   std::unique_ptr<physics::CharacterFilter> character_;
   CharacterBones bones_;
-  double last_s_ = 0.0;
+  recon::FrameSteps steps_;
   bool floor_is_another_ = false;  // what was taken for the floor is not under the person
 };
 

@@ -71,8 +71,8 @@ recon::Posture WithSlowGuesses(const recon::Posture& posture, const SkeletonWork
   const Person& person = work.person;
   const HoldOptions& options = work.options.hold;
   const double since_s = work.frame.time_s - person.shown_s;
-  if (!person.shown || !(since_s > 0.0 && since_s <= options.recent_s)) return posture;
-  const double farthest_m = options.guess_m_s * since_s;
+  if (!person.shown || !IsRecent(since_s, options)) return posture;
+  const double farthest_m = options.guess_m_s * std::max(0.0, since_s);
   recon::Posture slow = posture;
   for (size_t j = 1; j < kJointCount; ++j) {
     if (work.seen.state[j] == TrackingState::kTracked) continue;
@@ -160,7 +160,7 @@ bool JumpsAtTheBorder(const Body& body, const recon::TrackedPosture& observed, d
                       const HoldOptions& options, const Person& person) {
   if (body.clipped_edges == 0 || !person.shown) return false;
   const double since_s = time_s - person.shown_s;
-  if (!(since_s > 0.0 && since_s <= options.recent_s)) return false;
+  if (!IsRecent(since_s, options)) return false;
   if (time_s - person.believed_s > options.disbelieved_s) return false;
   if (CountTracked(observed) >= std::min(options.mostly_seen, person.believed_joints)) return false;
   recon::JointArray<double> off_m{};
@@ -170,7 +170,7 @@ bool JumpsAtTheBorder(const Body& body, const recon::TrackedPosture& observed, d
     off_m[told++] = (observed.posture.position_m[j] - person.shown->position_m[j]).norm();
   }
   return told > 0 && SelectRank(std::span(off_m).first(told), told / 2) >
-                         options.jump_m + options.fastest_m_s * since_s;
+                         options.jump_m + options.fastest_m_s * std::max(0.0, since_s);
 }
 
 // Nothing is seen: the method goes on by what it remembers.
@@ -209,6 +209,10 @@ recon::JointOrientations ComputeHierarchicalOrientations(const Body& body) {
   recon::JointOrientations absolute;
   for (size_t j = 0; j < kJointCount; ++j) absolute[j] = body.joints[j].orientation;
   return recon::ToHierarchical(absolute);
+}
+
+bool IsRecent(double since_s, const HoldOptions& options) {
+  return since_s > -recon::FrameSteps::kJitter_s && since_s <= options.recent_s;
 }
 
 bool IsSeatedJoint(recon::Joint joint) {

@@ -41,13 +41,17 @@ struct HoldOptions {
   /// Share of the fitted body's bones in what a frame says of a person's; the rest is what the
   /// network for bones judges. On rendered people the mean of both is nearer than either.
   double fitted_bones = 0.7;
-  double recent_s = 0.2;  // what was seen longer ago says nothing about now
+  double recent_s = 0.25;  // what was seen longer ago says nothing about now: a frame at 5 a second
   // Whose body the image's border cuts off so that fewer joints are seen than `mostly_seen` is not
   // believed to be elsewhere all of a sudden (median of the joints told), for so long.
   size_t mostly_seen = 12;
   double jump_m = 0.05, fastest_m_s = 3.0;  // anthropometry: a trunk's speed, running
   double disbelieved_s = 1.0;
 };
+
+/// Whether what was seen `since_s` ago still says something about now. Of another recording, whose
+/// times were later, it does not.
+bool IsRecent(double since_s, const HoldOptions& options);
 
 /// What the tracker remembers of one person.
 struct Person {

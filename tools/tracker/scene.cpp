@@ -101,26 +101,28 @@ void Scene::Impl::Restart() {
   objects.clear();
   events.clear();
   began = false;
+  steps = {};
+  now_s = 0.0;
   came = 0;
 }
 
 void Scene::Impl::Play(double time_s, const std::optional<Eigen::Vector4d>& seen_floor,
                        const std::vector<ScenePerson>& people) {
-  if (began && time_s < now_s) Restart();
-  double dt_s = began ? time_s - now_s : kFrame_s;
-  const bool gap = !began || dt_s > kLongestStep_s;
-  now_s = time_s;
+  if (began && time_s < stamp_s - recon::FrameSteps::kJitter_s) Restart();
+  const std::optional<double> step_s = steps.To(time_s);
+  const bool gap = !step_s || *step_s > kLongestStep_s;
+  const double passed_s = step_s ? *step_s : began ? time_s - stamp_s : kFrame_s;
+  now_s += passed_s;
+  stamp_s = began ? std::max(stamp_s, time_s) : time_s;
   began = true;
   events.clear();
-  FollowFloor(seen_floor, dt_s);
+  FollowFloor(seen_floor, passed_s);
   FollowPeople(people, gap);
   PutObjects();
-  if (dt_s > 0.0) {
-    if (gap) dt_s = kFrame_s;
-    world.Step(dt_s);
-    WatchHands(dt_s);
-    ApplyRules(dt_s);
-  }
+  const double dt_s = gap ? kFrame_s : passed_s;
+  world.Step(dt_s);
+  WatchHands(dt_s);
+  ApplyRules(dt_s);
   TellObjects();
 }
 

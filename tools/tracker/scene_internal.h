@@ -34,6 +34,8 @@ struct HandMemory {
   double rest_until_s = -1e9;  // takes nothing before
 
   void See(double time_s, const Eigen::Vector3d& at_m);
+  /// Somebody was put elsewhere: what it holds it still holds, as it took it.
+  void ForgetMotion();
   /// Of the straight line through the last places: an odd one says little.
   Eigen::Vector3d SteadyVelocity_m_s() const;
 };
@@ -109,7 +111,9 @@ struct Scene::Impl {
   std::set<recon::Joint> grabbing;  // joints that take hold by any rule
   std::optional<Eigen::Vector4d> floor;
   double floor_since_s = 0.0;
-  double now_s = 0.0;
+  recon::FrameSteps steps;
+  double now_s = 0.0;    // by the steps: never stands still
+  double stamp_s = 0.0;  // of the latest frame
   bool began = false;
   int came = 0;  // people until now
   std::vector<SceneObjectState> objects;

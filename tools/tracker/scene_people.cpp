@@ -134,7 +134,7 @@ void Scene::Impl::FollowPeople(const std::vector<ScenePerson>& people, bool gap)
       world.Place(actor.character, FilledFrom(world.StateOf(actor.character).posture, person.seen),
                   person.orientation);
       actor.far_frames = 0;
-      actor.hands.clear();
+      for (auto& [joint, hand] : actor.hands) hand.ForgetMotion();
     }
     recon::JointArray<double> trust = person.trust;
     for (size_t j = 0; j < kJointCount; ++j) {
@@ -159,6 +159,15 @@ void HandMemory::See(double time_s, const Vector3d& at_m) {
   if (!seen.empty()) seen_velocity_m_s = (at_m - seen.back().at_m) / (time_s - seen.back().time_s);
   if (seen.size() == kPlaces) seen.erase(seen.begin());
   seen.push_back({time_s, at_m});
+}
+
+void HandMemory::ForgetMotion() {
+  made_m.reset();
+  seen.clear();
+  for (Vector3d* velocity : {&made_velocity_m_s, &seen_velocity_m_s, &fastest_m_s}) {
+    velocity->setZero();
+  }
+  away_s = 0.0;
 }
 
 Vector3d HandMemory::SteadyVelocity_m_s() const {

@@ -96,7 +96,7 @@ void ChooseRaw(SkeletonWork& work) {
   context.expected_m = person.lengths_m;
   context.leg_area_m2 = evidence.leg_area_m2;
   const bool recent =
-      person.before && work.frame.time_s - person.before_s <= work.options.hold.recent_s;
+      person.before && IsRecent(work.frame.time_s - person.before_s, work.options.hold);
   context.before = recent ? &*person.before : nullptr;
   work.body.raw =
       ChoosePosture(*work.options.forest, work.options.targets, evidence.proposals, context);

@@ -1,6 +1,8 @@
 #include "tools/tracker/smoothing.h"
 
+#include <optional>
 #include <stdexcept>
+#include <utility>
 
 #include "depth/base/error.h"
 
@@ -52,10 +54,13 @@ SmoothingOptions SmoothingPreset(std::string_view name) {
 
 recon::Posture Smooth(const recon::Posture& raw, double time_s, const SmoothingOptions& options,
                       SmoothingState& state) {
+  const std::optional<double> step_s = state.steps.To(time_s);
+  const SmoothingKind before = std::exchange(state.kind, options.kind);
   if (options.kind == SmoothingKind::kNone) return raw;
-  constexpr double kGap_s = 0.5;  // by hand: after a longer one the person is elsewhere
-  const double dt_s = time_s - state.time_s;
-  if (state.started && (dt_s <= 0 || dt_s > kGap_s)) state = {};
+  if (!step_s || before != options.kind) {
+    state.holt = {};
+    state.one_euro = {};
+  }
   recon::Posture result;
   for (size_t j = 0; j < recon::kJointCount; ++j) {
     const Eigen::Vector3d& p = raw.position_m[j];
@@ -64,11 +69,9 @@ recon::Posture Smooth(const recon::Posture& raw, double time_s, const SmoothingO
       result.position_m[j] = state.holt[j].Step(p);
     } else {
       state.one_euro[j].SetOptions(options.one_euro);
-      result.position_m[j] = state.one_euro[j].Step(p, dt_s);
+      result.position_m[j] = state.one_euro[j].Step(p, step_s.value_or(0.0));
     }
   }
-  state.started = true;
-  state.time_s = time_s;
   return result;
 }
 

@@ -3,6 +3,7 @@
 #include <string_view>
 #include <vector>
 
+#include "recon/filters/frame_steps.h"
 #include "recon/filters/joint_filters.h"
 #include "recon/posture.h"
 
@@ -31,11 +32,12 @@ const std::vector<std::string>& SmoothingPresets();
 struct SmoothingState {
   recon::JointArray<recon::HoltFilter> holt;
   recon::JointArray<recon::OneEuroFilter> one_euro;
-  bool started = false;
-  double time_s = 0.0;
+  SmoothingKind kind = SmoothingKind::kNone;  // what was smoothed by last
+  recon::FrameSteps steps;
 };
 
-/// One step; a gap of more than half a second starts anew.
+/// One step. Starts anew after a gap, when time runs backwards (recon::FrameSteps) and where
+/// another kind of filter smoothed the frame before.
 recon::Posture Smooth(const recon::Posture& raw, double time_s, const SmoothingOptions& options,
                       SmoothingState& state);
 

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <chrono>
+#include <cmath>
 #include <map>
 #include <stdexcept>
 #include <utility>
@@ -14,6 +15,7 @@
 #include "forest/forest.h"
 #include "recon/refine/refinement_cascade.h"
 #include "tools/people/detect_people.h"
+#include "tools/tracker/frame_parts_internal.h"
 #include "tools/tracker/lagged_bodies_internal.h"
 #include "tools/tracker/mount_finder_internal.h"
 #include "tools/tracker/person_internal.h"
@@ -99,20 +101,6 @@ double ScorePeople(const depth::DepthFrame& frame, const people::PersonClassifie
   return best;
 }
 
-PartProbabilities NobodyIn(const depth::DepthFrame& frame, const forest::ForestModel& model) {
-  const auto pixels = static_cast<size_t>(frame.camera.width * frame.camera.height);
-  return {frame.camera.width, frame.camera.height, model.class_count(),
-          std::vector<float>(pixels * static_cast<size_t>(model.class_count()))};
-}
-
-void AddProbabilities(const forest::Classification& seen, PartProbabilities& probabilities) {
-  const auto classes = static_cast<size_t>(probabilities.classes);
-  for (size_t i = 0; i < seen.pixel.size(); ++i) {
-    float* const of_pixel = &probabilities.data[static_cast<size_t>(seen.pixel[i]) * classes];
-    for (size_t c = 0; c < classes; ++c) of_pixel[c] = seen.Probability(i, c);
-  }
-}
-
 recon::JointArray<std::vector<JointProposal>> CollectProposals(
     const people::ForestEvidence& evidence, const people::JointTargets& targets) {
   recon::JointArray<std::vector<JointProposal>> proposals;
@@ -148,7 +136,7 @@ struct Tracker::Impl {
         models(LoadModels(o)),
         model(RequireForest(models)),
         targets(people::FindJointTargets(model, models.forest_file)),
-        lagged(recon::LagOptions::Of(o.lag, recon::RequireMethod(o.method).keeps_bones)) {
+        lagged(NothingLagged()) {
     skeleton.forest = &model;
     skeleton.targets = targets;
     skeleton.refinement = models.refinement.get();
@@ -173,13 +161,19 @@ struct Tracker::Impl {
     people_options.trace_surfaces = o.trace;
   }
 
+  LaggedBodies NothingLagged() const {
+    return LaggedBodies(
+        recon::LagOptions::Of(options.lag, recon::RequireMethod(options.method).keeps_bones));
+  }
   BodyFrame Track(const depth::DepthFrame& frame);
   bool IsUnderCeiling() const { return IsFromAbove(options.mount, models); }
-  // What the application asked another one for.
-  void TakeWishes(const Impl& other) {
+  // What the application set meanwhile.
+  void CopySettings(const Impl& other) {
     chosen_ids = other.chosen_ids;
     skeleton.mode = other.skeleton.mode;
     skeleton.smoothing = other.skeleton.smoothing;
+    if (options.turn != other.options.turn) upright = {};
+    options.turn = other.options.turn;
   }
   bool ShowsCeilingView(const depth::DepthFrame& frame, const BodyFrame& tracked);
   BodyFrame TrackTurned(const depth::DepthFrame& frame);
@@ -280,9 +274,7 @@ void Tracker::Impl::WithdrawUnlikeBodies(const std::vector<people::Person>& seen
     if (!body.fit || !is_doubtful(seen[i])) continue;
     const people::ExplainedShares fit{body.fit->explained, body.fit->score};
     if (!people::IsUnlikeABody(fit, body.person_score, somebody_is_sure, initiation)) continue;
-    for (size_t p = 0; p < result.parts.data.size(); ++p) {
-      if (result.users.data[p] == body.id) result.parts.data[p] = 0;
-    }
+    ClearParts(body.id, result);
     people::Withdraw(body.id, people_state, result.users, result.decisions);
     persons.erase(body.id);
     result.bodies.erase(result.bodies.begin() + static_cast<std::ptrdiff_t>(i));
@@ -376,6 +368,9 @@ BodyFrame Tracker::Impl::Play(BodyFrame frame) {
 BodyFrame Tracker::Impl::TrackTurned(const depth::DepthFrame& frame) {
   const std::string name = "frame " + std::to_string(frame.index);
   depth::CheckCamera(frame.camera, name + ": camera");
+  if (!std::isfinite(frame.time_s)) {
+    throw InputError(name + ": expected a finite time_s, found " + std::to_string(frame.time_s));
+  }
   const auto pixels = static_cast<int64_t>(frame.pixel_count());
   if (pixels != static_cast<int64_t>(frame.camera.width) * frame.camera.height ||
       frame.view().width != frame.camera.width) {
@@ -400,14 +395,14 @@ BodyFrame Tracker::TrackAsMounted(const depth::DepthFrame& frame) {
   return impl_->TrackTurned(frame);
 }
 
-// Everything anew but for what the application asked for meanwhile.
+// Everything anew but for what the application set meanwhile and the frames held back.
 void Tracker::SwitchToCeiling() {
   TrackerOptions options = impl_->options;
   options.models = LoadCeilingModels(impl_->models, impl_->ceiling_forest);
   options.mount = Mount::kCeiling;
   auto under_ceiling = std::make_unique<Impl>(options);
-  under_ceiling->lagged = impl_->lagged;
-  under_ceiling->TakeWishes(*impl_);
+  under_ceiling->lagged = std::exchange(impl_->lagged, impl_->NothingLagged());
+  under_ceiling->CopySettings(*impl_);
   level_ = std::exchange(impl_, std::move(under_ceiling));
 }
 
@@ -480,10 +475,11 @@ void Tracker::SetSmoothing(const SmoothingOptions& smoothing) {
 }
 void Tracker::Reset() {
   if (level_) {
-    level_->TakeWishes(*impl_);
+    level_->CopySettings(*impl_);
     impl_ = std::move(level_);
   }
   impl_->mount_finder = {};
+  impl_->lagged = impl_->NothingLagged();
   impl_->ForgetAll();
   if (impl_->scene) impl_->scene->Reset();
 }

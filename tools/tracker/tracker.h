@@ -239,9 +239,10 @@ class Tracker {
   void SetTurn(Turn turn);
   void SetSmoothing(const SmoothingOptions& smoothing);
   /// The world of TrackerOptions::scene, for an application that has more to do in it; null
-  /// without.
+  /// without. Until the next frame: with Mount::kAuto it may then be another.
   Scene* scene();
-  /// Forgets everybody, and with Mount::kAuto where the camera is; a scene begins anew.
+  /// Forgets everybody, frames that a lag holds back (DrainLag tells them before) and with
+  /// Mount::kAuto where the camera is; a scene begins anew.
   void Reset();
 
  private:

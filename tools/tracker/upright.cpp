@@ -27,6 +27,21 @@ void TurnBack(recon::Posture& posture, const Eigen::Matrix3d& turn) {
   for (Eigen::Vector3d& position_m : posture.position_m) position_m = turn * position_m;
 }
 
+void TurnBack(recon::SurfaceFit& fit, const Eigen::Matrix3d& turn) {
+  fit.pose.pelvis_m = turn * fit.pose.pelvis_m;
+  Eigen::Matrix3d& camera_from_pelvis = fit.pose.parent_from_segment[0];
+  camera_from_pelvis = turn * camera_from_pelvis;
+  TurnBack(fit.joints_m, turn);
+  TurnBack(fit.blended_m, turn);
+  const Eigen::Quaterniond rotation(turn);
+  for (Eigen::Quaterniond& camera_from : fit.camera_from_segment) {
+    camera_from = rotation * camera_from;
+  }
+  for (Eigen::Matrix3d& covariance_m2 : fit.covariance_m2) {
+    covariance_m2 = turn * covariance_m2 * turn.transpose();
+  }
+}
+
 void TurnBack(Body& body, const Eigen::Matrix3d& turn, int quarters) {
   const Eigen::Quaterniond rotation(turn);
   body.position_m = turn * body.position_m;
@@ -39,6 +54,7 @@ void TurnBack(Body& body, const Eigen::Matrix3d& turn, int quarters) {
     for (JointProposal& proposal : proposals) proposal.position_m = turn * proposal.position_m;
   }
   if (body.refined) TurnBack(*body.refined, turn);
+  if (body.fit) TurnBack(*body.fit, turn);
   TurnBack(body.reconstructed, turn);
   body.clipped_edges = EdgesBefore(body.clipped_edges, quarters);
 }

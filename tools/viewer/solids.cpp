@@ -74,6 +74,13 @@ std::vector<Solid> SolidsOf(const std::vector<tracker::SceneObjectState>& object
   return all;
 }
 
+std::vector<Solid> SolidsOf(const tracker::BodyFrame& frame, bool characters) {
+  std::vector<Solid> all = characters ? CapsulesOf(frame) : std::vector<Solid>{};
+  const std::vector<Solid> things = SolidsOf(frame.objects);
+  all.insert(all.end(), things.begin(), things.end());
+  return all;
+}
+
 std::string SolidsJson(const std::vector<Solid>& solids) {
   std::string text = "[";
   for (const Solid& solid : solids) {

@@ -1,7 +1,7 @@
 #pragma once
 #include <optional>
 
-#include "recon/methods/frame_steps_internal.h"
+#include "recon/filters/frame_steps.h"
 #include "recon/methods/reconstructor.h"
 #include "recon/normalise.h"
 

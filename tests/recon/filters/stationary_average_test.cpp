@@ -113,5 +113,17 @@ TEST(StationaryPosture, StartsAnewAfterAGapAndKeepsStatesAsTheyAre) {
   EXPECT_EQ(average.Step(later, 5.0).posture[Joint::kHead], later.posture[Joint::kHead]);
 }
 
+// Times of a logger, which repeat and run back by a few milliseconds.
+TEST(StationaryPosture, GoesOnWhereATimeRepeats) {
+  NoisyJoint joint(0.008);
+  StationaryPosture average;
+  for (int i = 0; i < 40; ++i) average.Step(HeadSeenAt(joint.At(0)), i / 30.0);
+  for (const double late_s : {0.0, 0.002}) {
+    const auto seen = HeadSeenAt(joint.At(0));
+    const auto held = average.Step(seen, 39 / 30.0 - late_s);
+    EXPECT_NE(held.posture[Joint::kHead], seen.posture[Joint::kHead]);
+  }
+}
+
 }  // namespace
 }  // namespace ossa::recon

@@ -84,6 +84,17 @@ TEST(ViewCommand, WhatIsNoSkeletonFileIsNamed) {
   EXPECT_EQ(RunOssa({"view", folder.path().string(), "--camera", "wide"}).exit_status, 2);
 }
 
+TEST(ViewCommand, OfSkeletonsWhatIsForTrackingIsSaidToBe) {
+  const TemporaryFolder folder;
+  WriteSkeletons(folder / "x.jsonl");
+  const CommandResult result =
+      RunOssa({"view", (folder / "x.jsonl").string(), "--port", "0", "--once", "--physics", "on"});
+  EXPECT_EQ(result.exit_status, 0) << result.err;
+  EXPECT_NE(result.err.find("x.jsonl: --physics is for a source that is tracked"),
+            std::string::npos)
+      << result.err;
+}
+
 TEST(ViewCommand, AMethodThatLearnsNeedsWhatWasLearned) {
   const TemporaryFolder folder;
   const CommandResult result = RunOssa({"view", folder.path().string(), "--method", "full-gp"});

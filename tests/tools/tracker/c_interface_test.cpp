@@ -193,7 +193,8 @@ TEST(CInterface, TheCHeaderReportsFailuresInWords) {
 }
 
 TEST(CInterface, AStructSizeThatNoVersionHadIsRefused) {
-  for (const uint32_t size : {0U, 4U, static_cast<uint32_t>(sizeof(ossa_options) - 1)}) {
+  for (const uint32_t size :
+       {0U, 4U, static_cast<uint32_t>(sizeof(ossa_options) - 1), 0xcdcdcdcdU}) {
     ossa_options options{};
     options.struct_size = size;
     EXPECT_EQ(ossa_tracker_create(&options), nullptr) << size;

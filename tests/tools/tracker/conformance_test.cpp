@@ -286,6 +286,14 @@ TEST(SdkConformance, TheSkeletonSpaceHasXToTheSensorsLeftAndYUp) {
   EXPECT_GT(depth::BackProject(camera, 320, 10, 1000).y(), 0);
 }
 
+TEST(SdkConformance, ATimeThatIsNoneIsRefused) {
+  OSSA_NEEDS_MODEL();
+  Tracker tracker(PlainOptions());
+  depth::DepthFrame frame = Rendered({}).frame;
+  frame.time_s = std::numeric_limits<double>::quiet_NaN();
+  EXPECT_THROW(tracker.Track(frame), InputError);
+}
+
 TEST(SdkConformance, ACameraThatCannotBeIsRefused) {
   OSSA_NEEDS_MODEL();
   Tracker tracker(PlainOptions());

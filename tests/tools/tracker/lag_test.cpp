@@ -122,5 +122,18 @@ TEST(LagOfATracker, IsTwoFramesAtMost) {
   EXPECT_THROW(options.Check(), std::invalid_argument);
 }
 
+TEST(LaggedTracker, ForgetsHeldFramesWithEverybody) {
+  OSSA_NEEDS_MODEL();
+  TrackerOptions options = PlainOptions();
+  options.lag = 2;
+  Tracker tracker(options);
+  for (int f = 0; f < 4; ++f) tracker.TrackWithLag(Rendered({PersonAt(0.0, 2.5)}, f).frame);
+  tracker.Reset();
+  for (int f = 0; f < 2; ++f) {
+    EXPECT_FALSE(tracker.TrackWithLag(Rendered({PersonAt(0.0, 2.5)}, f).frame).has_value()) << f;
+  }
+  EXPECT_EQ(tracker.DrainLag()->index, 0);
+}
+
 }  // namespace
 }  // namespace ossa::tracker

@@ -27,6 +27,21 @@ TEST(Mechanics, AFootNobodySeesStaysWhereTheReconstructionPutIt) {
   }
 }
 
+// The frame goes through the character like any other: nothing leaps to what was seen and back.
+TEST(Mechanics, GoesOnWhereATimeRepeats) {
+  recon::Posture standing = recon::StandardPosture(recon::RigPose{});
+  for (auto& p : standing.position_m) p.z() += 2.0;
+  recon::JointArray<double> trust;
+  trust.fill(1.0);
+  Mechanics mechanics{MechanicsBuild{}};
+  for (int i = 0; i <= 30; ++i) mechanics.Follow(standing, trust, std::nullopt, i / 30.0);
+  recon::Posture leaping = standing;
+  leaping[Joint::kHandLeft].y() += 0.3;
+  const auto made = mechanics.Follow(leaping, trust, std::nullopt, 1.0);
+  ASSERT_TRUE(made.has_value());
+  EXPECT_LT((made->posture[Joint::kHandLeft] - standing[Joint::kHandLeft]).norm(), 0.25);
+}
+
 // Physics on or off: bones are turned about themselves as the method has them.
 TEST(Mechanics, KeepsTheTurnsOfTheBones) {
   constexpr double kTwist_rad = 0.7;

@@ -217,8 +217,30 @@ TEST(Mount, IsForgottenWithEverybody) {
   Tracker tracker;
   tracker.Track(CeilingClip().front().depth);
   ASSERT_EQ(tracker.mount(), Mount::kCeiling);
+  tracker.SetTurn(Turn::kHalf);
   tracker.Reset();
   EXPECT_EQ(tracker.mount(), Mount::kLevel);
+  EXPECT_EQ(tracker.quarter_turns(), 2);
+}
+
+TEST(Mount, OfACeilingFramesThatALagHoldsBackComeOnce) {
+  OSSA_NEEDS_CEILING();
+  TrackerOptions options;
+  options.lag = 2;
+  Tracker tracker(options);
+  std::vector<int64_t> told;
+  depth::DepthFrame frame = CeilingClip().front().depth;
+  for (frame.index = 0; frame.index < 5; ++frame.index) {
+    frame.time_s = 1.1 * static_cast<double>(frame.index);  // each is looked at
+    if (frame.index < 2) frame.depth_mm.assign(frame.pixel_count(), 0);
+    if (frame.index == 2) frame.depth_mm = CeilingClip().front().depth.depth_mm;
+    if (const auto late = tracker.TrackWithLag(frame)) told.push_back(late->index);
+  }
+  ASSERT_EQ(tracker.mount(), Mount::kCeiling);
+  while (const auto held = tracker.DrainLag()) told.push_back(held->index);
+  EXPECT_EQ(told, (std::vector<int64_t>{0, 1, 2, 3, 4}));
+  tracker.Reset();
+  EXPECT_FALSE(tracker.DrainLag().has_value());
 }
 
 // A head near the camera with a wall far behind is as high over the wall as heads are over floors;

@@ -1,5 +1,6 @@
 // BodyFrame::parts: a body part for each pixel of each user, when asked for.
 #include "tests/tools/tracker/tracked_scenes.h"
+#include "tools/tracker/frame_parts_internal.h"
 
 namespace ossa::tracker {
 namespace {
@@ -35,6 +36,18 @@ TEST(BodyParts, AreMostlyThoseOfThePersonInView) {
   }
   EXPECT_GT(both, 1000);
   EXPECT_GT(same, 0.6 * both);
+}
+
+TEST(BodyParts, OfWhomThereIsNotAreTakenOut) {
+  BodyFrame frame;
+  frame.users = depth::Image<uint8_t>(3, 1);
+  frame.users.data = {1, 2, 0};
+  frame.parts = depth::Image<uint8_t>(3, 1);
+  frame.parts.data = {7, 8, 0};
+  frame.probabilities = {3, 1, 2, {0.3F, 0.7F, 0.4F, 0.6F, 0, 0}};
+  ClearParts(1, frame);
+  EXPECT_EQ(frame.parts.data, (std::vector<uint8_t>{0, 8, 0}));
+  EXPECT_EQ(frame.probabilities.data, (std::vector<float>{0, 0, 0.4F, 0.6F, 0, 0}));
 }
 
 // Who asks for a picture gets the same skeleton as who does not; near enough that joints are found

@@ -28,5 +28,14 @@ TEST(Person, IsForgottenOutOfViewWhenTimeGoesBack) {
   EXPECT_TRUE(IdsLeft({}, 0.0).empty());
 }
 
+// Rounding makes steps of i / 5 a little longer or shorter.
+TEST(Person, WasSeenJustBeforeAtFiveFramesASecond) {
+  const HoldOptions options;
+  for (int i = 0; i < 100; ++i) EXPECT_TRUE(IsRecent((i + 1) / 5.0 - i / 5.0, options)) << i;
+  EXPECT_TRUE(IsRecent(0.0, options));
+  EXPECT_FALSE(IsRecent(0.5, options));
+  EXPECT_FALSE(IsRecent(-1.0, options));
+}
+
 }  // namespace
 }  // namespace ossa::tracker

@@ -246,6 +246,34 @@ TEST(Scene, BeginsAnewWhereTimeRunsBack) {
   EXPECT_EQ(PlaceOf(scene, "box"), PlaceOf(fresh, "box"));
 }
 
+TEST(Scene, GoesOnWhereTimesRepeatOrRunBackByMilliseconds) {
+  const Lifting lifting;
+  Scene scene(lifting.Options());
+  for (int f = 0; f < 120; ++f) {
+    recon::SkeletonFrame frame = test::SkeletonsOf(lifting(f / 30.0), f);
+    if (f % 6 == 5) frame.time_s -= 1 / 30.0 + (f % 12 == 5 ? 0.002 : 0.0);
+    scene.Play(frame);
+  }
+  EXPECT_EQ(HoldersOf(scene, "box"), (std::vector<int>{1, 2}));
+  EXPECT_TRUE(PlaceOf(scene, "box").allFinite());
+}
+
+TEST(Scene, WhoHoldsAThingLetsGoOfItAfterAGapAsBefore) {
+  Lifting lifting;
+  lifting.apart_s = 5.0;
+  Scene scene(lifting.Options());
+  test::Seen seen;
+  for (int f = 0; f < 210; ++f) {
+    if (f > 130 && f < 140) continue;  // no frames for a third of a second, the box in their hands
+    recon::SkeletonFrame frame = test::SkeletonsOf(lifting(f / 30.0), f);
+    scene.Play(frame);
+    seen.Look(scene);
+  }
+  EXPECT_EQ(seen.Count(SceneEvent::Kind::kGrabbed, 1), 1);
+  EXPECT_GT(seen.Count(SceneEvent::Kind::kReleased, 1), 0);
+  EXPECT_TRUE(HoldersOf(scene, "box").empty());
+}
+
 TEST(Scene, WaitsForAFloor) {
   Scene scene(Lifting{}.Options());
   recon::SkeletonFrame frame = test::SkeletonsOf(Lifting{}(0.0), 0);

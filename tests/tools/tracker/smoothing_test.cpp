@@ -89,6 +89,26 @@ TEST(Smoothing, StartsAnewAfterAGap) {
   EXPECT_DOUBLE_EQ(Smooth(HeadAt(3), 5.0, o, state)[Joint::kHead].x(), 3.0);
 }
 
+TEST(Smoothing, GoesOnWhereATimeRepeats) {
+  for (const char* preset : {"verysmooth", "one-euro"}) {
+    SmoothingState state;
+    const SmoothingOptions o = SmoothingPreset(preset);
+    for (int i = 0; i < 10; ++i) Smooth(HeadAt(0), i / 30.0, o, state);
+    for (const double later_s : {0.0, 1e-9}) {
+      SmoothingState now = state;
+      EXPECT_LT(Smooth(HeadAt(0.5), 9 / 30.0 + later_s, o, now)[Joint::kHead].x(), 0.45) << preset;
+    }
+  }
+}
+
+TEST(Smoothing, StartsAnewWhereAnotherFilterTakesOver) {
+  SmoothingState state;
+  const SmoothingOptions holt = SmoothingPreset("verysmooth"), other = SmoothingPreset("one-euro");
+  for (int i = 0; i < 10; ++i) Smooth(HeadAt(0), i / 30.0, holt, state);
+  EXPECT_DOUBLE_EQ(Smooth(HeadAt(0.8), 10 / 30.0, other, state)[Joint::kHead].x(), 0.8);
+  EXPECT_DOUBLE_EQ(Smooth(HeadAt(0.8), 11 / 30.0, holt, state)[Joint::kHead].x(), 0.8);
+}
+
 TEST(Smoothing, NamesWhatIsOutOfRange) {
   SmoothingOptions o;
   o.holt.smoothing = 1.0;

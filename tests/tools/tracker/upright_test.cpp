@@ -7,6 +7,7 @@
 
 #include "depth/image/turn.h"
 #include "depth/sensor/frame_source.h"
+#include "recon/fit/posed_surface.h"
 #include "tests/tools/tracker/tracked_scenes.h"
 
 namespace ossa::tracker {
@@ -46,6 +47,13 @@ class Frames final : public depth::FrameSource {
   size_t next_ = 0;
 };
 
+void ExpectTurned(const recon::Posture& back, const recon::Posture& upright,
+                  const Eigen::Matrix3d& turn, const char* what) {
+  for (size_t j = 0; j < recon::kJointCount; ++j) {
+    EXPECT_TRUE(back.position_m[j].isApprox(turn * upright.position_m[j], 1e-6)) << what << j;
+  }
+}
+
 BodyFrame LastOf(Tracker& tracker, int quarters) {
   BodyFrame last;
   for (const depth::DepthFrame& frame : Walk()) {
@@ -75,6 +83,40 @@ TEST_P(TurnedCamera, SeesTheSamePeopleInItsOwnSpace) {
   }
   EXPECT_TRUE(turned.floor->head<3>().isApprox(back * upright.floor->head<3>(), 1e-9));
   EXPECT_EQ(turned.users.data, depth::Turned(upright.users, (4 - GetParam()) % 4).data);
+}
+
+TEST_P(TurnedCamera, HasEveryStageInItsOwnSpace) {
+  OSSA_NEEDS_MODEL();
+  TrackerOptions options;
+  Tracker standing(options);
+  const BodyFrame upright = LastOf(standing, 0);
+  options.turn = static_cast<Turn>(GetParam());
+  Tracker lying(options);
+  const BodyFrame turned = LastOf(lying, GetParam());
+  ASSERT_EQ(upright.bodies.size(), 1u);
+  ASSERT_EQ(turned.bodies.size(), 1u);
+  const Body &a = upright.bodies[0], &b = turned.bodies[0];
+  ASSERT_TRUE(a.refined && a.fit && b.refined && b.fit);
+  const Eigen::Matrix3d back = depth::CameraFromTurned(GetParam());
+  ExpectTurned(b.raw.posture, a.raw.posture, back, "raw ");
+  ExpectTurned(*b.refined, *a.refined, back, "refined ");
+  ExpectTurned(b.fit->joints_m, a.fit->joints_m, back, "fitted ");
+  ExpectTurned(b.fit->blended_m, a.fit->blended_m, back, "blended ");
+  ExpectTurned(b.reconstructed, a.reconstructed, back, "reconstructed ");
+  ExpectTurned(ToPosture(b), ToPosture(a), back, "final ");
+  for (size_t j = 0; j < recon::kJointCount; ++j) {
+    const Eigen::Matrix3d covariance_m2 = back * a.fit->covariance_m2[j] * back.transpose();
+    EXPECT_TRUE(b.fit->covariance_m2[j].isApprox(covariance_m2, 1e-6)) << j;
+  }
+  const auto surface = recon::BodySurface::Load(ShippedFile("body.ossasurface"));
+  recon::PosedSurface posed(surface);
+  posed.PoseSegments(b.fit->pose);
+  ExpectTurned(posed.Landmarks(), a.fit->joints_m, back, "of the pose ");
+  for (size_t s = 0; s < recon::kSegmentCount; ++s) {
+    EXPECT_TRUE(
+        b.fit->camera_from_segment[s].toRotationMatrix().isApprox(posed.camera_from(s), 1e-6))
+        << s;
+  }
 }
 
 TEST_P(TurnedCamera, IsFoundOutBeforeTheFirstFrameIsTracked) {

@@ -239,7 +239,7 @@ class Frame:
     users : uint8 [H, W]
         Id of the body that each pixel belongs to, 0 nobody.
     parts : uint8 [H, W] or None
-        Label of each pixel, ossa.PARTS; with Tracker(parts=True).
+        Label of each pixel, ossa.PARTS; None with Tracker(parts=False).
     probabilities : float32 [H, W, C] or None
         How likely the pixel shows each part, by the trees alone; with Tracker(probabilities=True).
         Of the shipped forest c is the index in ossa.PARTS; 0 where nobody is.

@@ -193,8 +193,8 @@ class Tracker:
     lag : int
         Of track_late and run: bodies so many frames later and steadier, 0 (live) to 2.
     parts, probabilities, proposals : bool
-        Fill Frame.parts; Frame.probabilities; Body.proposals. They cost time and memory
-        (probabilities 128 bytes a pixel).
+        Fill Frame.parts, an eighth of a frame's time; Frame.probabilities, 128 bytes a pixel;
+        Body.proposals.
     fit : bool
         Fit the shipped body's surface to the depth image where there are refined joints (Body.fit,
         Body.mesh), as `ossa track` does; the method starts from what it and they say.
@@ -248,7 +248,7 @@ class Tracker:
         *,
         near: bool = False,
         lag: int = 0,
-        parts: bool = False,
+        parts: bool = True,
         probabilities: bool = False,
         proposals: bool = False,
         fit: bool = True,
@@ -377,7 +377,8 @@ class Tracker:
         return image, numbers, seconds, ROTATIONS.index(camera.rotate)
 
     def run(self, source: Union[PathLike, Source]) -> Iterator[Frame]:
-        """Tracks a whole source, frame by frame, as `ossa track SOURCE` does.
+        """Tracks a whole source, frame by frame, as `ossa track SOURCE` does (of a recording, with
+        lag=2).
 
         Of a recording whose cameras' rotate is "auto" the beginning is looked through first for
         which way up the camera is.

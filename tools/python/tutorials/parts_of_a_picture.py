@@ -13,7 +13,7 @@ import matplotlib.pyplot as plt
 import ossa
 
 depth_mm, camera, time_s = next(ossa.open(sys.argv[1]))
-frame = ossa.Tracker(parts=True).track(depth_mm, camera, time_s)
+frame = ossa.Tracker().track(depth_mm, camera, time_s)
 plt.imshow(depth_mm, cmap="gray")
 plt.imshow(frame.parts, cmap="nipy_spectral", alpha=(frame.parts > 0) * 0.6)
 for body in frame.bodies:
