@@ -13,13 +13,25 @@ namespace {
 constexpr std::array<std::string_view, 9> kNames = {
     "kinect-v1", "kinect-v2", "azure-nfov", "azure-wfov", "xtion", "d415", "d435", "d455", "femto"};
 
+// As wide a view in images of another size, whose pixels are square whatever their shape.
+Camera ScaledByWidth(const Camera& whole, int width, int height) {
+  const double scale = static_cast<double>(width) / whole.width;
+  const double below_middle_px = scale * (whole.cy - whole.height / 2.0);
+  return {width,
+          height,
+          scale * whole.fx,
+          scale * whole.fy,
+          scale * whole.cx,
+          height / 2.0 + below_middle_px};
+}
+
 // Azure Kinect and Orbbec's Femto share a sensor of 1024 × 1024 pixels, f about 504, which the wide
 // field of view shows whole and the narrow one from (192, 180) on (Azure Kinect SDK,
 // mode_specific_calibration.c); either mode may be binned by 2. Pixel centres are whole numbers.
 Camera AzureCamera(bool wide, int width, int height) {
   constexpr double kFocal_px = 504.0;
   const Camera whole{1024, 1024, kFocal_px, kFocal_px, 511.5, 511.5};
-  return Resized(wide ? whole : Cropped(whole, 192, 180, 640, 576), width, height);
+  return ScaledByWidth(wide ? whole : Cropped(whole, 192, 180, 640, 576), width, height);
 }
 
 // A RealSense scales its sensor's image until it covers the size asked for, and cuts the rest off
@@ -34,13 +46,10 @@ bool IsAnyOf(int width, int height, std::initializer_list<std::array<int, 2>> si
   return std::find(sizes.begin(), sizes.end(), std::array{width, height}) != sizes.end();
 }
 
-}  // namespace
-
-std::span<const std::string_view> CameraPresetNames() { return kNames; }
-
-Camera PresetCamera(std::string_view name, int width, int height) {
-  const auto scaled = [&](const Camera& camera) { return Resized(camera, width, height); };
-  if (name == "kinect-v1") return scaled(KinectV1Camera(640, 480));
+// Of an image that is as wide as high, or wider.
+Camera UprightCamera(std::string_view name, int width, int height) {
+  const auto scaled = [&](const Camera& camera) { return ScaledByWidth(camera, width, height); };
+  if (name == "kinect-v1") return KinectV1Camera(width, height);
   // Users' calibrations: f 364 to 367; the centre varies by some pixels.
   if (name == "kinect-v2") return scaled({512, 424, 366.0, 366.0, 256.0, 212.0});
   if (name == "azure-nfov") return AzureCamera(false, width, height);
@@ -56,25 +65,32 @@ Camera PresetCamera(std::string_view name, int width, int height) {
   throw InputError(message + ", found '" + std::string(name) + "'");
 }
 
+// Whose images these are; "": nobody's. width >= height.
+std::string_view PresetOfSize(int width, int height) {
+  if (IsAnyOf(width, height, {{640, 480}, {320, 240}, {160, 120}, {80, 60}})) return "kinect-v1";
+  if (IsAnyOf(width, height, {{512, 424}})) return "kinect-v2";
+  if (IsAnyOf(width, height, {{640, 576}, {320, 288}})) return "azure-nfov";
+  if (IsAnyOf(width, height, {{512, 512}, {1024, 1024}})) return "azure-wfov";
+  const bool is_real_sense = IsAnyOf(
+      width, height, {{1280, 800}, {1280, 720}, {848, 480}, {640, 360}, {480, 270}, {424, 240}});
+  return is_real_sense ? "d435" : "";
+}
+
+}  // namespace
+
+std::span<const std::string_view> CameraPresetNames() { return kNames; }
+
+Camera PresetCamera(std::string_view name, int width, int height) {
+  if (height <= width) return UprightCamera(name, width, height);
+  // On its side, whichever: where its centre is off the middle nobody knows to which.
+  const double f = UprightCamera(name, height, width).fx;
+  return {width, height, f, f, width / 2.0, height / 2.0};
+}
+
 CameraGuess GuessCamera(int width, int height) {
-  if (height > width) {  // maybe one that lies on its side, whichever
-    const CameraGuess lying = GuessCamera(height, width);
-    const double f = lying.camera.fx;
-    if (lying.sizes_match)
-      return {lying.preset, true, {width, height, f, f, width / 2.0, height / 2.0}};
-  }
-  const auto guess = [&](std::string_view name, bool match = true) {
-    return CameraGuess{name, match, PresetCamera(name, width, height)};
-  };
-  if (IsAnyOf(width, height, {{512, 424}})) return guess("kinect-v2");
-  if (IsAnyOf(width, height, {{640, 576}, {320, 288}})) return guess("azure-nfov");
-  if (IsAnyOf(width, height, {{512, 512}, {1024, 1024}})) return guess("azure-wfov");
-  if (IsAnyOf(width, height,
-              {{1280, 800}, {1280, 720}, {848, 480}, {640, 360}, {480, 270}, {424, 240}})) {
-    return guess("d435");
-  }
-  const bool kinect = IsAnyOf(width, height, {{640, 480}, {320, 240}, {160, 120}, {80, 60}});
-  return {"kinect-v1", kinect, KinectV1Camera(width, height)};
+  const std::string_view preset = PresetOfSize(std::max(width, height), std::min(width, height));
+  const std::string_view taken_for = preset.empty() ? kNames.front() : preset;
+  return {taken_for, !preset.empty(), PresetCamera(taken_for, width, height)};
 }
 
 Camera CameraForSize(const CameraChoice& choice, int width, int height) {

@@ -12,10 +12,12 @@ namespace ossa::depth {
 std::span<const std::string_view> CameraPresetNames();
 
 /// The depth camera of that name for images of this size, by its maker's or its users' figures (an
-/// own calibration is better by some pixels). Throws InputError for a name that is none of them.
+/// own calibration is better by some pixels). Pixels are square: images of another shape than the
+/// maker's are as wide a view, those higher than wide of a camera on its side. Throws InputError
+/// for a name that is none of them.
 Camera PresetCamera(std::string_view name, int width, int height);
 
-/// Whose images have this size.
+/// Whose images have this size; the camera is that preset's.
 struct CameraGuess {
   std::string_view preset;
   bool sizes_match = true;  // false: no known camera has such images; taken for a Kinect v1

@@ -196,7 +196,9 @@ FolderListing ListDepthFolder(const fs::path& folder, const SourceOptions& optio
   listing.frames = FramesByList(folder, options);
   if (!listing.frames.empty()) {
     std::set<fs::path> listed;
-    for (const ListedFrame& frame : listing.frames) listed.insert(fs::absolute(frame.path));
+    for (const ListedFrame& frame : listing.frames) {
+      listed.insert(fs::absolute(frame.path).lexically_normal());
+    }
     for (const fs::path& path : sorted.depth) {
       if (!listed.contains(fs::absolute(path).lexically_normal())) sorted.other.push_back(path);
     }

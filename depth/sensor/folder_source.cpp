@@ -139,7 +139,7 @@ std::unique_ptr<FrameSource> OpenFolder(const fs::path& folder, const SourceOpti
 }
 
 std::unique_ptr<FrameSource> OpenStill(const fs::path& png, const SourceOptions& options) {
-  const fs::path folder = fs::absolute(png).parent_path();
+  const fs::path folder = fs::absolute(png).lexically_normal().parent_path();
   const fs::path above = folder.parent_path();
   return IsDataSet(above) && folder == above / "depth"
              ? OpenDatasetFrames(OneFrame(png), above, options)

@@ -94,12 +94,14 @@ int64_t MedianStep(const std::vector<int64_t>& values) {
   return Median(std::move(steps));
 }
 
+// Below this numbers rather count frames than milliseconds.
+constexpr int64_t kLeastTimeStep = 15;
+
 // Seconds a unit of whole numbers that are times, or nothing. Cameras give 0.5 to 200 frames a
-// second; below kLeastStep numbers rather count frames than milliseconds.
+// second.
 std::optional<double> GuessTimeUnit(int64_t step, size_t digits) {
-  constexpr int64_t kLeastStep = 15;
   constexpr size_t kSecondsSince1970 = 10, kNanosecondsSince1970 = 18;
-  if (step < kLeastStep) {
+  if (step < kLeastTimeStep) {
     return digits == kSecondsSince1970 ? std::optional(1.0) : std::nullopt;
   }
   if (step <= 2000) return 1e-3;
@@ -120,7 +122,7 @@ NamedTimes ReadTimesFromNumbers(const std::vector<NumberedName>& names,
     for (const int64_t value : values) {
       times.times_s.push_back(static_cast<double>(value - values.front()) * *unit_s);
     }
-  } else if (digits <= kLongestCount && (alone || step == 1)) {
+  } else if (digits <= kLongestCount && step < kLeastTimeStep && (alone || step == 1)) {
     times.kind = NamedTimes::Kind::kNumbers;
     times.numbers = values;
   }

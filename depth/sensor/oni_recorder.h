@@ -29,8 +29,9 @@ class OniRecorder {
   void Write(const DepthFrame& frame);
   /// Throws DiskFull when what ends the file does not fit.
   void Finish();
-  /// In place of Finish(), after DiskFull: ends the file after the last whole frame, or so many
-  /// before it that the end fits. Returns how many frames were kept; 0: none, and nothing is left.
+  /// In place of Finish(), after an InputError such as DiskFull: ends the file after the last whole
+  /// frame, or so many before it that the end fits. Returns how many frames were kept; 0: none, and
+  /// nothing is left. Throws InputError where the file cannot be ended for another reason.
   int64_t FinishWithWhatFits();
   int64_t frame_count() const;
 

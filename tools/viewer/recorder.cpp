@@ -2,23 +2,31 @@
 
 #include <fmt/chrono.h>
 
-#include <ctime>
+#include <system_error>
 #include <utility>
 
 #include "depth/base/atomic_file.h"
 
 namespace ossa::viewer {
 
+std::string NameOfNewFile(const std::filesystem::path& folder, std::time_t now) {
+  const std::string stem = fmt::format("ossa-{:%Y%m%d-%H%M%S}", fmt::localtime(now));
+  std::string name = stem + ".oni";
+  std::error_code unknown;
+  const auto is_taken = [&] {
+    return std::filesystem::exists(std::filesystem::symlink_status(folder / name, unknown));
+  };
+  for (int i = 2; is_taken(); ++i) {
+    name = fmt::format("{}-{}.oni", stem, i);
+  }
+  return name;
+}
+
 Recorder::Recorder(std::optional<std::filesystem::path> folder) : folder_(std::move(folder)) {}
 
 Recorder::~Recorder() {
   const std::lock_guard lock(mutex_);
-  try {
-    End();
-  } catch (const InputError&) {
-    // The disk is full and the program ends: there is nobody to tell.
-    writing_.reset();
-  }
+  GiveUpWhereItFails([this] { End(); });
 }
 
 void Recorder::Ask(bool on) {
@@ -37,8 +45,7 @@ std::string Recorder::said() const {
 }
 
 void Recorder::Begin(const depth::DepthFrame& frame) {
-  const std::time_t now = std::time(nullptr);
-  const std::string name = fmt::format("ossa-{:%Y%m%d-%H%M%S}.oni", fmt::localtime(now));
+  const std::string name = NameOfNewFile(*folder_, std::time(nullptr));
   writing_ = std::make_unique<depth::OniRecorder>(*folder_ / name, frame.camera);
   said_ = name;
 }
@@ -55,20 +62,30 @@ void Recorder::Try(const depth::DepthFrame& frame) {
   writing_->Write(frame);
 }
 
+void Recorder::GiveUp(const std::string& why) {
+  const std::string name = said_;
+  said_ = why;
+  asked_ = false;
+  try {
+    const int64_t kept = writing_ ? writing_->FinishWithWhatFits() : 0;
+    if (kept > 0) said_ += fmt::format("; the {} frames before are in {}", kept, name);
+  } catch (const InputError& error) {
+    said_ += std::string("; nothing is kept: ") + error.what();
+  }
+  writing_.reset();
+}
+
+void Recorder::GiveUpWhereItFails(const std::function<void()>& step) {
+  try {
+    step();
+  } catch (const InputError& error) {
+    GiveUp(error.what());
+  }
+}
+
 void Recorder::Take(const depth::DepthFrame& frame) {
   const std::lock_guard lock(mutex_);
-  try {
-    Try(frame);
-  } catch (const DiskFull& full) {
-    said_ += writing_ && writing_->FinishWithWhatFits() > 0 ? ": what fits on the disk is kept"
-                                                            : std::string(": ") + full.what();
-    asked_ = false;
-    writing_.reset();
-  } catch (const InputError& error) {
-    said_ = error.what();
-    asked_ = false;
-    writing_.reset();
-  }
+  GiveUpWhereItFails([&] { Try(frame); });
 }
 
 }  // namespace ossa::viewer

@@ -1,5 +1,8 @@
 #pragma once
+#include <cstdint>
+#include <ctime>
 #include <filesystem>
+#include <functional>
 #include <memory>
 #include <mutex>
 #include <optional>
@@ -10,6 +13,10 @@
 
 namespace ossa::viewer {
 
+/// The name, by the local time of day, of a recording that begins now: of no file in the folder
+/// yet, also in the same second and in the hour that is there twice in autumn.
+std::string NameOfNewFile(const std::filesystem::path& folder, std::time_t now);
+
 /// The record button: asked for by pages, fed by whoever has the frames. Used from any thread.
 class Recorder {
  public:
@@ -17,8 +24,8 @@ class Recorder {
   ~Recorder();
 
   void Ask(bool on);
-  /// Takes the frame where recording was asked for. Never throws for a bad disk: recording ends
-  /// and says so.
+  /// Takes the frame where recording was asked for. Never throws for a frame that cannot be
+  /// recorded or a bad disk: recording ends, keeps what came before, and says so.
   void Take(const depth::DepthFrame& frame);
   bool possible() const { return folder_.has_value(); }
   bool asked() const;
@@ -29,6 +36,8 @@ class Recorder {
   void Begin(const depth::DepthFrame& frame);
   void End();
   void Try(const depth::DepthFrame& frame);
+  void GiveUpWhereItFails(const std::function<void()>& step);
+  void GiveUp(const std::string& why);
 
   std::optional<std::filesystem::path> folder_;
   mutable std::mutex mutex_;  // guards all below

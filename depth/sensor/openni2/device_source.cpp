@@ -4,8 +4,10 @@
 #include <cmath>
 #include <cstring>
 #include <mutex>
+#include <set>
 #include <string>
 #include <thread>
+#include <vector>
 
 #include "depth/base/error.h"
 #include "depth/image/camera_io.h"
@@ -48,11 +50,61 @@ class UnplugFlag final : public openni::OpenNI::DeviceDisconnectedListener {
   std::atomic<bool> set_ = false;
 };
 
-std::string FirstDevice() {
-  openni::Array<openni::DeviceInfo> devices;
-  openni::OpenNI::enumerateDevices(&devices);
-  return devices.getSize() > 0 ? devices[0].getUri() : "";
+struct ListedDevice {
+  std::string uri;
+  std::string make;  // whose, what, and its USB numbers
+};
+
+std::vector<ListedDevice> ListDevices() {
+  openni::Array<openni::DeviceInfo> infos;
+  openni::OpenNI::enumerateDevices(&infos);
+  std::vector<ListedDevice> devices;
+  for (int i = 0; i < infos.getSize(); ++i) {
+    const openni::DeviceInfo& info = infos[i];
+    devices.push_back({info.getUri(), std::string(info.getVendor()) + "/" + info.getName() + "/" +
+                                          std::to_string(info.getUsbVendorId()) + "/" +
+                                          std::to_string(info.getUsbProductId())});
+  }
+  return devices;
 }
+
+// The camera among those listed that "openni:" stands for: the first, and ever after that one. A
+// USB camera that is plugged in again may have another URI: it is then one of its make that was not
+// there when it went.
+class FirstCamera {
+ public:
+  /// Its URI; "" while it is not there.
+  std::string Find() const {
+    const std::vector<ListedDevice> devices = ListDevices();
+    if (own_.uri.empty()) return devices.empty() ? "" : devices.front().uri;
+    const auto find = [&](const auto& is_it) {
+      const auto found = std::find_if(devices.begin(), devices.end(), is_it);
+      return found == devices.end() ? "" : found->uri;
+    };
+    const std::string same = find([&](const auto& device) { return device.uri == own_.uri; });
+    if (!same.empty()) return same;
+    return find([&](const auto& device) {
+      return device.make == own_.make && !others_.contains(device.uri);
+    });
+  }
+  /// It was opened.
+  void Opened(const std::string& uri) {
+    own_ = {uri, ""};
+    for (const ListedDevice& device : ListDevices()) {
+      if (device.uri == uri) own_ = device;
+    }
+  }
+  /// It was unplugged: whatever is there now is another.
+  void Gone() {
+    others_.clear();
+    for (const ListedDevice& device : ListDevices()) others_.insert(device.uri);
+  }
+  const std::string& uri() const { return own_.uri; }
+
+ private:
+  ListedDevice own_;
+  std::set<std::string> others_;
+};
 
 // Our own drivers know the exact camera, others at least the field of view.
 Camera ReadCamera(const openni::VideoStream& stream, int width, int height) {
@@ -116,6 +168,7 @@ class DeviceSource final : public FrameSource {
       }
       if (unplugged_.IsSet()) {
         Close();
+        first_.Gone();
         return Result(ReadStatus::kDisconnected);
       }
     } while (Clock::now() < deadline);
@@ -130,14 +183,14 @@ class DeviceSource final : public FrameSource {
 
   [[noreturn]] void FailToOpen() const {
     const std::string name = "openni:" + wanted_uri_;
-    if (wanted_uri_.empty() && FirstDevice().empty()) {
+    if (wanted_uri_.empty() && ListDevices().empty()) {
       throw InputError(name + ": no OpenNI2 device found: plug one in, or name one as openni:URI");
     }
     throw InputError(name + ": cannot be opened: " + error_);
   }
 
   bool TryOpen() {
-    const std::string uri = wanted_uri_.empty() ? FirstDevice() : ascii_uri_;
+    const std::string uri = wanted_uri_.empty() ? first_.Find() : ascii_uri_;
     if (uri.empty()) return false;
     unplugged_.Watch(uri);
     if (device_.open(uri.c_str()) != openni::STATUS_OK ||
@@ -147,7 +200,16 @@ class DeviceSource final : public FrameSource {
       return false;
     }
     open_ = true;
+    if (wanted_uri_.empty() && uri != first_.uri()) BeginWith(uri);
     return true;
+  }
+
+  void BeginWith(const std::string& uri) {
+    if (!first_.uri().empty() && options_.note) {
+      options_.note(NoteKind::kInfo, "openni:: goes on with " + uri +
+                                         ", taken for the camera that " + "was " + first_.uri());
+    }
+    first_.Opened(uri);
   }
 
   bool StartStream() {
@@ -222,6 +284,7 @@ class DeviceSource final : public FrameSource {
   UnplugFlag unplugged_;
   std::string wanted_uri_;
   std::string ascii_uri_;
+  FirstCamera first_;  // where no URI is wanted
   SourceOptions options_;
   openni::Device device_;
   openni::VideoStream stream_;

@@ -46,6 +46,29 @@ TEST(ImageSizes, OfNoKnownCameraAreAKinectV1s) {
   EXPECT_EQ(guess.camera, KinectV1Camera(100, 100));
 }
 
+TEST(CameraPreset, NamedIsTheSameAsGuessed) {
+  for (const int width : {60, 80, 100, 240, 320, 424, 480, 512, 576, 640, 848, 1024, 1280}) {
+    for (const int height : {60, 80, 100, 240, 320, 424, 480, 512, 576, 640, 848, 1024, 1280}) {
+      const CameraGuess guess = GuessCamera(width, height);
+      EXPECT_EQ(PresetCamera(guess.preset, width, height), guess.camera) << width << "x" << height;
+    }
+  }
+}
+
+TEST(CameraPreset, HasSquarePixelsInImagesOfAnyShape) {
+  for (const std::string_view name : CameraPresetNames()) {
+    for (const auto& [width, height] : {std::pair(100, 100), {480, 640}, {640, 200}}) {
+      const Camera camera = PresetCamera(name, width, height);
+      EXPECT_DOUBLE_EQ(camera.fx, camera.fy) << name << " " << width << "x" << height;
+    }
+  }
+}
+
+TEST(CameraPreset, OfAnImageOnEndIsTheCameraOnItsSide) {
+  EXPECT_EQ(PresetCamera("kinect-v1", 480, 640), (Camera{480, 640, 575, 575, 240, 320}));
+  EXPECT_EQ(PresetCamera("xtion", 480, 640).fx, PresetCamera("xtion", 640, 480).fx);
+}
+
 TEST(CameraPreset, EachNameIsACameraOfTheSizeAsked) {
   for (const std::string_view name : CameraPresetNames()) {
     const Camera camera = CameraForSize(ParseCamera(std::string(name)), 640, 480);

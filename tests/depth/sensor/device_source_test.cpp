@@ -223,6 +223,36 @@ TEST(Device, TwoAtOnceDoNotDisturbEachOther) {
   EXPECT_EQ(NextFrame(*second).frame.camera.width, 16);
 }
 
+TEST(Device, TheFirstIsNotTakenForAnotherAfterItWasUnplugged) {
+  const TemporaryFolder a, b;
+  WriteExampleFolder(a.path(), 5);
+  WriteExampleFolder(b.path(), 5, 16, 12);
+  setenv("OSSA_VIRTUAL_DEVICE", ("ossa://" + a.path().string()).c_str(), 1);
+  const auto first = OpenSource("openni:");
+  unsetenv("OSSA_VIRTUAL_DEVICE");
+  ASSERT_EQ(NextFrame(*first).frame.camera.width, 32);
+  const auto other = OpenSource(Uri(b, "?loop=1"));  // from now on one of OpenNI2's devices
+  ReadStatus status = ReadStatus::kFrame;
+  for (int i = 0; i < 100 && status != ReadStatus::kDisconnected; ++i) {
+    status = first->Read(milliseconds(200)).status;
+  }
+  for (int i = 0; i < 5; ++i) {
+    EXPECT_EQ(first->Read(milliseconds(200)).status, ReadStatus::kDisconnected);
+  }
+}
+
+TEST(Device, TheFirstGoesOnAfterItWasUnplugged) {
+  const TemporaryFolder folder;
+  WriteExampleFolder(folder.path(), 8);
+  const std::string options = "?loop=1&fps=60&unplug_after=6&replug_after_ms=150";
+  setenv("OSSA_VIRTUAL_DEVICE", ("ossa://" + folder.path().string() + options).c_str(), 1);
+  const auto source = OpenSource("openni:");
+  unsetenv("OSSA_VIRTUAL_DEVICE");
+  int64_t dropped = 0;  // some 9 frames where it was gone
+  for (int i = 0; i < 20 && dropped < 8; ++i) dropped = NextFrame(*source).dropped;
+  EXPECT_GE(dropped, 8);
+}
+
 TEST(Device, ThatIsNotThereIsOneLineAfterTheWaitAsked) {
   for (const char* name :
        {"openni:", "openni:ossa:///nowhere", "openni:ossa://x?bad=1", "openni:1d27/0601@1/2"}) {

@@ -264,6 +264,17 @@ TEST(DataSetSource, TakesTheManifestsCameraAndTheDepthFolder) {
   EXPECT_EQ(OpenSource((folder / "depth/000000.png").string())->camera(), camera);
 }
 
+TEST(DataSetSource, AStillHasItsCameraHoweverItsPathIsWritten) {
+  const TemporaryFolder folder;
+  std::filesystem::create_directory(folder / "depth");
+  WriteFrame(folder / "depth/000000.png", 42);
+  const Camera camera{8, 6, 9, 9, 4, 3};
+  std::ofstream(folder / "manifest.json") << R"({"camera":)" << CameraToJson(camera) << "}";
+  for (const char* name : {"depth/./000000.png", "depth/../depth/000000.png"}) {
+    EXPECT_EQ(OpenSource((folder / name).string())->camera(), camera) << name;
+  }
+}
+
 TEST(OpenSource, WhatIsNotASourceIsOneLine) {
   const TemporaryFolder folder;
   for (const std::string& name : {std::string("/nowhere"), folder.path().string(), std::string()}) {

@@ -68,6 +68,7 @@ INSTANTIATE_TEST_SUITE_P(
              0.1},
         Case{"frame numbers", {"000003", "000004", "000007"}, Kind::kNumbers, 0},
         Case{"every third frame", {"0003", "0006", "0009"}, Kind::kNumbers, 0},
+        Case{"one in 3 s, in milliseconds", {"003000", "006000", "009000"}, Kind::kPlaces, 0},
         Case{"frame numbers after a word",
              {"img_9", "img_10", "img_12", "img_13"},
              Kind::kNumbers,
