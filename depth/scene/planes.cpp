@@ -112,7 +112,8 @@ class PieceGrower {
     if (sums.n >= kFewest) rms_[block] = sums.Rms(sums.Fit());
   }
 
-  // Blocks join while they lie on the plane of those before; it is refitted whenever they doubled.
+  // Blocks join while they lie on the plane of those before; it is refitted whenever they are half
+  // as many again.
   int Grow(size_t seed, Sums& sums) {
     std::vector<size_t> front = {seed};
     block_taken_[seed] = 1;

@@ -30,7 +30,7 @@ std::optional<DepthList::Entry> ParseEntry(std::string_view line) {
   const auto [end, error] = std::from_chars(time.data(), time.data() + time.size(), time_s);
   const bool whole = error == std::errc() && end == time.data() + time.size();
   if (!whole || !std::isfinite(time_s) || file.empty()) return std::nullopt;
-  return DepthList::Entry{time_s, std::string(file)};
+  return DepthList::Entry{time_s, std::string(file), 0};
 }
 
 }  // namespace
@@ -42,6 +42,7 @@ DepthList ParseDepthList(std::string_view text) {
     text.remove_prefix(std::min(line.size() + 1, text.size()));
     if (line.find_first_not_of(kBlanks) == std::string_view::npos || line.front() == '#') continue;
     if (auto entry = ParseEntry(line)) {
+      entry->line = number;
       list.entries.push_back(std::move(*entry));
     } else {
       list.bad_lines.push_back(number);

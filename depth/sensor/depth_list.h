@@ -12,6 +12,7 @@ struct DepthList {
   struct Entry {
     double time_s = 0.0;  // from the first entry on
     std::string file;     // relative to the list's folder
+    int line = 0;         // from 1
   };
   std::vector<Entry> entries;  // in order of time
   std::vector<int> bad_lines;  // that are none of these, from 1

@@ -6,6 +6,7 @@
 
 #include "depth/base/atomic_file.h"
 #include "depth/base/error.h"
+#include "depth/image/packed_depth.h"
 
 namespace ossa::depth {
 namespace {
@@ -55,6 +56,10 @@ FakenectDump::FakenectDump(const fs::path& folder, const Camera& camera) : folde
 
 void FakenectDump::Write(const DepthFrame& frame) {
   CheckSize(frame.camera, folder_);
+  if (!HasSize(frame, kWidth, kHeight)) {
+    throw InputError(folder_.string() + ": expected 640x480 depths, found " +
+                     std::to_string(frame.pixel_count()));
+  }
   constexpr double kStart_s = 1.0;  // fakenect takes the time 0 for none
   const double time_s = kStart_s + frame.time_s;
   if (frames_ == 0) {
@@ -68,8 +73,10 @@ void FakenectDump::Write(const DepthFrame& frame) {
   const std::string name = FileName('d', time_s, "pgm");
   AtomicFile file(folder_ / name);
   file.stream() << "P5 640 480 65535\n";
-  file.stream().write(reinterpret_cast<const char*>(frame.depth_mm.data()),
-                      static_cast<std::streamsize>(frame.depth_mm.size() * sizeof(uint16_t)));
+  std::vector<uint16_t> room;
+  const std::span<const uint16_t> depth_mm = PackedDepth(frame.view(), room);
+  file.stream().write(reinterpret_cast<const char*>(depth_mm.data()),
+                      static_cast<std::streamsize>(depth_mm.size_bytes()));
   file.CommitOneOfMany();
   index_ += name + "\n";
   ++frames_;

@@ -16,6 +16,7 @@ class FakenectDump {
   /// Makes the folder. Throws InputError when it cannot, when a dump is there already, or when the
   /// camera is not 640 × 480.
   FakenectDump(const std::filesystem::path& folder, const Camera& camera);
+  /// Throws InputError for a frame of another size.
   void Write(const DepthFrame& frame);
   void Finish();
   int64_t frame_count() const { return frames_; }

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <map>
+#include <optional>
 #include <set>
 #include <string_view>
 #include <system_error>
@@ -141,30 +142,63 @@ std::vector<ListedFrame> FramesByName(const std::vector<fs::path>& paths) {
   return frames;
 }
 
-// As depth.txt beside the images or, as TUM's data sets have it, above their folder lists them.
-std::vector<ListedFrame> FramesByList(const fs::path& folder, const SourceOptions& options) {
+// What a depth.txt says of the images of a folder.
+struct FrameList {
+  fs::path file;
+  std::vector<ListedFrame> frames;
+  std::string first;  // line and name of the first of them
+  std::vector<int> bad_lines;
+
+  bool NamesAFile() const {
+    std::error_code none;
+    return std::any_of(frames.begin(), frames.end(),
+                       [&](const auto& frame) { return fs::is_regular_file(frame.path, none); });
+  }
+};
+
+// The list in `place`, of images anywhere or only of those in the folder `only`.
+FrameList ReadFrameList(const fs::path& place, const std::optional<fs::path>& only) {
+  DepthList list = ReadDepthList(place);
+  FrameList found{place / "depth.txt", {}, {}, std::move(list.bad_lines)};
+  for (const DepthList::Entry& entry : list.entries) {
+    const fs::path path = (place / entry.file).lexically_normal();
+    if (only && path.parent_path() != *only) continue;
+    if (found.frames.empty()) {
+      found.first = "line " + std::to_string(entry.line) + ": '" + entry.file + "'";
+    }
+    found.frames.push_back({path, static_cast<int64_t>(found.frames.size()), entry.time_s});
+  }
+  const double first_s = found.frames.empty() ? 0.0 : found.frames.front().time_s;
+  for (ListedFrame& frame : found.frames) frame.time_s -= first_s;
+  return found;
+}
+
+void NoteBadLines(const FrameList& list, const SourceOptions& options) {
+  if (list.bad_lines.empty() || !options.note) return;
+  options.note(NoteKind::kWarning, list.file.string() + ": line " +
+                                       std::to_string(list.bad_lines.front()) +
+                                       ": expected seconds and a file's name; lines passed over: " +
+                                       std::to_string(list.bad_lines.size()));
+}
+
+// As depth.txt beside the images or, as TUM's data sets have it, above their folder lists them. One
+// that names no file that is there is another program's, where the folder has images.
+std::vector<ListedFrame> FramesByList(const fs::path& folder, bool has_images,
+                                      const SourceOptions& options) {
   const fs::path here = fs::absolute(folder).lexically_normal();
   const fs::path plain = here.has_filename() ? here : here.parent_path();
   for (const bool above : {false, true}) {
-    const fs::path place = above ? plain.parent_path() : folder;
-    const DepthList list = ReadDepthList(place);
-    std::vector<ListedFrame> frames;
-    for (const DepthList::Entry& entry : list.entries) {
-      const fs::path path = (place / entry.file).lexically_normal();
-      if (above && path.parent_path() != plain) continue;
-      frames.push_back({path, static_cast<int64_t>(frames.size()), entry.time_s});
+    FrameList list =
+        above ? ReadFrameList(plain.parent_path(), plain) : ReadFrameList(folder, std::nullopt);
+    if (list.frames.empty()) continue;
+    if (list.NamesAFile()) {
+      NoteBadLines(list, options);
+      return std::move(list.frames);
     }
-    if (frames.empty()) continue;
-    if (!list.bad_lines.empty() && options.note) {
-      options.note(NoteKind::kWarning,
-                   (place / "depth.txt").string() + ": line " +
-                       std::to_string(list.bad_lines.front()) +
-                       ": expected seconds and a file's name; lines passed over: " +
-                       std::to_string(list.bad_lines.size()));
-    }
-    const double first_s = frames.front().time_s;
-    for (ListedFrame& frame : frames) frame.time_s -= first_s;
-    return frames;
+    const std::string what =
+        list.file.string() + ": expected seconds and files that are there, found " + list.first;
+    if (!has_images) throw InputError(what);
+    if (options.note) options.note(NoteKind::kInfo, what + " and the like: passed over");
   }
   return {};
 }
@@ -193,7 +227,7 @@ bool IsPngName(const fs::path& path) {
 FolderListing ListDepthFolder(const fs::path& folder, const SourceOptions& options) {
   Sorted sorted = SortOut(folder);
   FolderListing listing;
-  listing.frames = FramesByList(folder, options);
+  listing.frames = FramesByList(folder, !sorted.depth.empty(), options);
   if (!listing.frames.empty()) {
     std::set<fs::path> listed;
     for (const ListedFrame& frame : listing.frames) {

@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <string>
 #include <utility>
 
@@ -26,7 +27,11 @@ class FolderSource final : public FrameSource {
  public:
   FolderSource(std::string name, FolderListing listing, const Camera& camera,
                const SourceOptions& options)
-      : name_(std::move(name)), listing_(std::move(listing)), camera_(camera), options_(options) {}
+      : name_(std::move(name)),
+        listing_(std::move(listing)),
+        camera_(camera),
+        options_(options),
+        next_number_(listing_.frames.front().number) {}
 
   ReadResult Read(std::chrono::milliseconds) override {
     while (next_ < listing_.frames.size()) {
@@ -38,7 +43,9 @@ class FolderSource final : public FrameSource {
       }
     }
     TellOfSkipped();
-    return {.status = ReadStatus::kEnd, .frame = {}};
+    return {.status = ReadStatus::kEnd,
+            .frame = {},
+            .dropped = CountDropped(listing_.frames.back().number + 1)};
   }
   const Camera& camera() const override { return camera_; }
   bool is_live() const override { return false; }
@@ -61,13 +68,20 @@ class FolderSource final : public FrameSource {
     result.frame.camera = camera_;
     result.frame.index = at.number;
     result.frame.time_s = at.time_s;
-    result.dropped = last_number_ ? at.number - *last_number_ - 1 : 0;
-    last_number_ = at.number;
+    result.dropped = CountDropped(at.number);
     return result;
   }
 
+  // The frames between the last one told of and this one.
+  int64_t CountDropped(int64_t number) {
+    const int64_t dropped = number - next_number_;
+    next_number_ = number + 1;
+    return std::max<int64_t>(dropped, 0);
+  }
+
   void TellOfSkipped() {
-    if (!last_number_ && skipped_.frames > 0) throw InputError(skipped_.first);
+    const bool is_any_read = skipped_.frames < static_cast<int64_t>(listing_.frames.size());
+    if (!is_any_read) throw InputError(skipped_.first);
     if (skipped_.frames > 0 && options_.note) {
       options_.note(NoteKind::kWarning,
                     name_ + ": skipped " + std::to_string(skipped_.frames) + " of " +
@@ -83,7 +97,7 @@ class FolderSource final : public FrameSource {
   SourceOptions options_;
   size_t next_ = 0;
   Skipped skipped_;
-  std::optional<int64_t> last_number_;  // of the last frame given
+  int64_t next_number_;  // of the frame that is to be given or counted as dropped next
 };
 
 // A camera that a file states must be of the size of the frames it speaks of.

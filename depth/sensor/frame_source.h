@@ -12,7 +12,7 @@
 
 namespace ossa::depth {
 
-/// What one Read brought. Everything but kFrame leaves ReadResult::frame empty.
+/// What one Read brought. All but kFrame leave ReadResult::frame empty.
 enum class ReadStatus {
   kFrame,
   kTimeout,       // nothing within the time asked; ask again
@@ -24,10 +24,12 @@ enum class ReadStatus {
 struct ReadResult {
   ReadStatus status = ReadStatus::kTimeout;
   DepthFrame frame;
-  int64_t dropped = 0;  // device frames lost between the last frame given and this one
+  // Frames lost between the last one given and this one, or, with kEnd, after the last; told once.
+  int64_t dropped = 0;
 };
 
-/// Where depth images come from: an OpenNI2 device, an .oni file, a folder of PNGs, a data set.
+/// Where depth images come from: an OpenNI2 device, an .oni, .mkv or .bag file, a folder of PNGs or
+/// one of them, a data set.
 class FrameSource {
  public:
   virtual ~FrameSource() = default;
@@ -74,6 +76,9 @@ struct SourceOptions {
   std::optional<double> fps = {};  // frames a second, whatever the recording says of its times
   // One line for the user each; empty: nobody is told.
   std::function<void(NoteKind, const std::string&)> note = {};
+
+  /// Throws InputError naming the first number that cannot be.
+  void Check() const;
 };
 
 /// A file of depth images by its name, in capitals or not (FILE.oni, FILE.mkv, FILE.bag, FILE.png),

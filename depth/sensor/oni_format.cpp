@@ -88,6 +88,16 @@ bool SealHolds(std::ifstream& file, const OniPreamble& preamble, std::span<const
   return ComputeOniSeal(file, unsealed) == *preamble.seal;
 }
 
+// Why a file was not opened.
+std::string WhyNot(const std::filesystem::path& path) {
+  std::error_code unknown;
+  const auto type = std::filesystem::status(path, unknown).type();
+  using std::filesystem::file_type;
+  if (type == file_type::not_found) return "found no such file";
+  if (type == file_type::regular || type == file_type::none) return "found one that cannot be read";
+  return "found what is no file, such as a pipe or a device";
+}
+
 }  // namespace
 
 OniPreamble ParseOniPreamble(std::span<const uint8_t> bytes) {
@@ -128,9 +138,7 @@ uint64_t ComputeOniSeal(std::ifstream& file, std::span<const uint8_t> unsealed) 
 
 OniFile CheckOniFile(const std::filesystem::path& path) {
   std::ifstream file = OpenFile(path);
-  if (!file) {
-    throw InputError(path.string() + ": expected an .oni recording, found no such file");
-  }
+  if (!file) throw InputError(path.string() + ": expected an .oni recording, " + WhyNot(path));
   std::vector<uint8_t> start = ReadStart(file, kLongestPreamble);
   if (start.size() < sizeof(OniFileHeader) || std::memcmp(start.data(), "NI10", 4) != 0) {
     throw InputError(path.string() + ": byte 0: expected an .oni recording (NI10), found " +

@@ -13,6 +13,7 @@
 #include "depth/base/atomic_file.h"
 #include "depth/base/error.h"
 #include "depth/base/open_file.h"
+#include "depth/image/packed_depth.h"
 #include "depth/sensor/oni_codec_internal.h"
 #include "depth/sensor/oni_format_internal.h"
 
@@ -240,17 +241,20 @@ int64_t OniRecorder::frame_count() const {
 
 void OniRecorder::Write(const DepthFrame& frame) {
   const std::string place = state_->name + ": frame " + std::to_string(frame_count()) + ": ";
-  if (frame.camera.width != state_->camera.width || frame.camera.height != state_->camera.height) {
+  if (!HasSize(frame, state_->camera.width, state_->camera.height)) {
     throw InputError(place + "expected " + SizeText(state_->camera.width, state_->camera.height) +
-                     ", found " + SizeText(frame.camera.width, frame.camera.height));
+                     ", found " + SizeText(frame.camera.width, frame.camera.height) + " and " +
+                     std::to_string(frame.pixel_count()) + " depths");
   }
-  const auto largest = std::max_element(frame.depth_mm.begin(), frame.depth_mm.end());
-  if (largest != frame.depth_mm.end() && *largest > kLargestOniDepth_mm) {
+  std::vector<uint16_t> room;
+  const std::span<const uint16_t> depth_mm = PackedDepth(frame.view(), room);
+  const auto largest = std::max_element(depth_mm.begin(), depth_mm.end());
+  if (largest != depth_mm.end() && *largest > kLargestOniDepth_mm) {
     throw InputError(place + "expected depths of at most " + std::to_string(kLargestOniDepth_mm) +
                      " mm, found " + std::to_string(*largest) + ", which .oni would corrupt");
   }
   Bytes data;
-  if (!EncodeOniDepth(frame.depth_mm, &data)) {
+  if (!EncodeOniDepth(depth_mm, &data)) {
     throw InputError(place + "expected at most " + std::to_string(kLargestOniTable) +
                      " different depths, found more, which .oni would corrupt");
   }

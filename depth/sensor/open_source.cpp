@@ -1,6 +1,8 @@
 #include <algorithm>
 #include <array>
 #include <cctype>
+#include <cmath>
+#include <sstream>
 #include <string_view>
 #include <system_error>
 #include <utility>
@@ -13,6 +15,12 @@ namespace ossa::depth {
 namespace {
 
 constexpr std::string_view kDevicePrefix = "openni:";
+
+std::string ShortText(double value) {
+  std::ostringstream text;
+  text << value;
+  return text.str();
+}
 
 std::string LowerCaseExtension(const std::filesystem::path& path) {
   std::string extension = path.extension().string();
@@ -77,7 +85,22 @@ bool IsRecording(const std::filesystem::path& path) {
   });
 }
 
+void SourceOptions::Check() const {
+  const auto require = [](const char* name, double value, bool legal, const char* expected) {
+    if (legal) return;
+    throw InputError("SourceOptions." + std::string(name) + ": expected " + expected + ", found " +
+                     ShortText(value));
+  };
+  const auto is_rate = [](double value) { return std::isfinite(value) && value > 0; };
+  const double scale = depth_scale.value_or(1.0), rate = fps.value_or(1.0);
+  require("depth_scale", scale, is_rate(scale), "units to the metre, > 0");
+  require("fps", rate, is_rate(rate), "frames a second, > 0");
+  require("inverted_from", inverted_from, inverted_from >= 1 && inverted_from <= 65535,
+          "1 to 65535");
+}
+
 std::unique_ptr<FrameSource> OpenSource(const std::string& source, const SourceOptions& options) {
+  options.Check();
   if (source.starts_with(kDevicePrefix)) {
     // OpenNI2 takes a file for a device, and plays it again and again with the times of its end.
     const std::string uri = source.substr(kDevicePrefix.size());

@@ -57,7 +57,7 @@ void CheckList(const std::string& text) {
 
 std::vector<std::string> ossa::fuzz::Seeds() {
   const auto image = test::RosImageBytes("16UC1", 2, 2, {1, 2, 3, 4}, 4);
-  const auto info = test::RosCameraInfo(366, 212);
+  const auto info = test::RosCameraInfoBytes(512, 424, 366);
   return {"# t f\n1305031102.175304 depth/1305031102.175304.png\n1305031102.275304 depth/b.png\n",
           "img_2\nimg_10",
           test::MkvBytes({test::ExampleFrame(0, 4, 3)}),
@@ -75,7 +75,7 @@ extern "C" int LLVMFuzzerTestOneInput(const uint8_t* data, size_t size) {
   CheckNames(LinesOf(text));
   ossa::fuzz::ExpectValueOrOneLine([&] { UndistortionMap(ReadK4aCalibration(text, 320, 288)); });
   ossa::fuzz::ExpectValueOrOneLine([&] { DecodeDepths(ParseRosImage(bytes), 0.001); });
-  ossa::fuzz::ExpectValueOrOneLine([&] { ParseRosIntrinsics(bytes); });
+  ossa::fuzz::ExpectValueOrOneLine([&] { CameraOf(ParseRosCameraInfo(bytes), 640, 480); });
   ossa::fuzz::ExpectValueOrOneLine([&] { ParseRosFloat(bytes); });
   std::istringstream file(text);
   CheckForCut(file);

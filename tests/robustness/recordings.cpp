@@ -32,7 +32,7 @@ DamageSample Bag(const std::string& name, rosbag::compression::CompressionType c
     const auto bytes = RosImageBytes("16UC1", 4, 3, frame.depth_mm, 8, false, second);
     bag.write("/depth/image", ros::Time(second, 0), RawMessage{"sensor_msgs/Image", bytes});
     bag.write("/depth/camera_info", ros::Time(second, 0),
-              RawMessage{"sensor_msgs/CameraInfo", RosCameraInfo(366, 1.5)});
+              RawMessage{"sensor_msgs/CameraInfo", RosCameraInfoBytes(4, 3, 366)});
   }
   bag.close();
   std::ifstream file(folder / name, std::ios::binary);

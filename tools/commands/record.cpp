@@ -86,13 +86,13 @@ void RecordFrames(depth::FrameSource& source, const RecordOptions& options, Reco
   const auto total = static_cast<double>(recorded.of.value_or(0));
   while (!Interrupted()) {
     const depth::ReadResult result = source.Read(milliseconds(100));
+    recorded.dropped += result.dropped;
     if (result.status == depth::ReadStatus::kEnd) return;
     if (result.status == depth::ReadStatus::kFrame) {
       last_frame_at = Clock::now();
       if (!first_time_s) first_time_s = result.frame.time_s;
       recorder.Write(result.frame);
       ++recorded.frames;
-      recorded.dropped += result.dropped;
       recorded.seconds = result.frame.time_s - *first_time_s + kPeriod_s;
       if (total > 0) progress.Update(static_cast<double>(recorded.frames), total, "frames");
       if (options.seconds > 0 && recorded.seconds > options.seconds - kPeriod_s / 2) return;

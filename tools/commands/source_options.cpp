@@ -56,8 +56,9 @@ depth::SourceOptions DepthOptions(const SourceArguments& arguments, bool quiet) 
 void AddSourceOptions(CLI::App& app, SourceArguments& arguments) {
   app.add_option(
          "SOURCE", arguments.name,
-         "openni: (first device), openni:URI, FILE.oni, a 16-bit PNG or a folder of them, or a "
-         "DATASET; openni:ossa://PATH plays what is recorded as a live device")
+         "openni: (first device), openni:URI, FILE.oni, FILE.mkv, FILE.bag, a 16-bit PNG or a "
+         "folder "
+         "of them, or a DATASET; openni:ossa://PATH plays what is recorded as a live device")
       ->required();
   std::string presets;
   for (const std::string_view name : depth::CameraPresetNames()) presets.append(name).append(", ");

@@ -237,6 +237,7 @@ void TrackToEnd(depth::FrameSource& source, tracker::Tracker& tracker, const Tra
   int64_t tracked = 0;
   while (!Interrupted()) {
     depth::ReadResult read = source.Read(milliseconds(100));
+    run.dropped += read.dropped;
     if (read.status == depth::ReadStatus::kEnd) return;
     if (read.status != depth::ReadStatus::kFrame) {
       gone = gone || read.status == depth::ReadStatus::kDisconnected;
@@ -250,7 +251,6 @@ void TrackToEnd(depth::FrameSource& source, tracker::Tracker& tracker, const Tra
     last_frame_at = Clock::now();
     run.lost_gaps += gone ? 1 : 0;
     gone = false;
-    run.dropped += read.dropped;
     const auto bodies = tracker.TrackWithLag(read.frame);
     if (!std::exchange(hangs, tracker.mount() == tracker::Mount::kCeiling) && hangs) SayMount();
     ++tracked;

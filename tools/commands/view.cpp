@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "depth/base/error.h"
+#include "depth/base/one_line.h"
 #include "depth/sensor/frame_source.h"
 #include "recon/files/skeleton_io.h"
 #include "recon/methods/reconstructor.h"
@@ -166,6 +167,7 @@ class PageTracker {
       if (TakesSettings() && !source_->is_live()) Rewind();
       const depth::ReadResult read = source_->Read(milliseconds(100));
       if (read.status == depth::ReadStatus::kFrame) Show(read);
+      SayWhereUnplugged(read.status);
       if (read.status != depth::ReadStatus::kEnd) continue;
       progress_.reset();
       viewer_->Complete();
@@ -175,6 +177,16 @@ class PageTracker {
   }
 
  private:
+  // Once each time that a camera goes: the page just stands still.
+  void SayWhereUnplugged(depth::ReadStatus status) {
+    const bool is_gone = status == depth::ReadStatus::kDisconnected;
+    if (is_gone && !gone_) {
+      Say(fmt::format("ossa view: {}: the device is unplugged: waiting for it (Ctrl-C ends it)\n",
+                      OnOneLine(options_.source.name)));
+    }
+    gone_ = is_gone || (gone_ && status != depth::ReadStatus::kFrame);
+  }
+
   void Show(const depth::ReadResult& read) {
     const Clock::time_point arrived = Clock::now();
     dropped_ += read.dropped;
@@ -236,6 +248,7 @@ class PageTracker {
   Clockwork clockwork_;
   std::optional<Progress> progress_;
   int64_t shown_ = 0, dropped_ = 0;  // frames
+  bool gone_ = false;                // the camera is unplugged
 };
 
 void AddTrackingOptions(CLI::App& app, ViewOptions& options) {

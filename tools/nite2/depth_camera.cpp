@@ -1,10 +1,10 @@
 #include <algorithm>
 #include <cmath>
-#include <cstring>
 #include <utility>
 
 #include "depth/base/error.h"
 #include "depth/image/camera.h"
+#include "depth/sensor/openni2/delivered_depth.h"
 #include "tools/nite2/depth_camera_internal.h"
 #include "tools/nite2/frame_reader_internal.h"
 #include "tools/nite2/oni_thread_internal.h"
@@ -53,21 +53,8 @@ std::vector<uint16_t> ReadMillimetres(const OniFrame& frame, bool mirrored) {
   if (!tenths && frame.videoMode.pixelFormat != ONI_PIXEL_FORMAT_DEPTH_1_MM) {
     throw InputError("OpenNI2: expected depths in millimetres");
   }
-  const bool whole = frame.width > 0 && frame.height > 0 && frame.stride >= 2 * frame.width &&
-                     int64_t{frame.stride} * (frame.height - 1) + 2 * frame.width <= frame.dataSize;
-  if (!whole) throw InputError("OpenNI2: a depth frame that is cut short");
-  const auto width = static_cast<size_t>(frame.width);
-  std::vector<uint16_t> depth_mm(width * static_cast<size_t>(frame.height));
-  for (int v = 0; v < frame.height; ++v) {
-    uint16_t* row = depth_mm.data() + static_cast<ptrdiff_t>(v) * frame.width;
-    std::memcpy(row, static_cast<const char*>(frame.data) + ptrdiff_t{frame.stride} * v, 2 * width);
-    if (tenths) {
-      std::transform(row, row + width, row,
-                     [](uint16_t d) { return static_cast<uint16_t>((d + 5) / 10); });
-    }
-    if (mirrored) std::reverse(row, row + width);
-  }
-  return depth_mm;
+  return depth::MillimetresOf(
+      {frame.data, frame.width, frame.height, frame.stride, frame.dataSize, tenths, mirrored});
 }
 
 }  // namespace

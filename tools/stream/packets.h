@@ -5,7 +5,8 @@
 
 namespace ossa::stream {
 
-/// One moment of one person for a VMC receiver, an OSC bundle: available, time, root, and every
+/// One moment of one person for a VMC receiver, an OSC bundle: available, time (seconds since the
+/// first frame: it has a float for them), root, and every
 /// bone of HumanBodyBones as its parent sees it; with `seen_only` none of MakeRestBones.
 std::string VmcPacket(const Humanoid& world, double time_s, bool seen_only = false);
 

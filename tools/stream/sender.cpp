@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <optional>
 
 #include "recon/files/skeleton_jsonl.h"
 #include "tools/stream/packets.h"
@@ -23,6 +24,7 @@ struct Sender::Impl {
   };
   std::vector<Line> lines;
   UnityRoom room;
+  std::optional<double> first_s;  // when the first frame was taken: a float holds what follows
   std::array<int, kMostPeople> people{};  // body ids by port; 0: free
 
   void Seat(const tracker::BodyFrame& frame);
@@ -67,11 +69,13 @@ void Sender::Impl::SendPerson(const tracker::Body& body, size_t seat, double tim
 
 void Sender::Send(const tracker::BodyFrame& frame) {
   impl_->room.See(frame);
+  if (!impl_->first_s) impl_->first_s = frame.time_s;
   impl_->Seat(frame);
   for (const tracker::Body& body : frame.bodies) {
     const auto seat = std::find(impl_->people.begin(), impl_->people.end(), body.id);
     if (seat == impl_->people.end() || body.state != tracker::BodyState::kTracked) continue;
-    impl_->SendPerson(body, static_cast<size_t>(seat - impl_->people.begin()), frame.time_s);
+    impl_->SendPerson(body, static_cast<size_t>(seat - impl_->people.begin()),
+                      frame.time_s - *impl_->first_s);
   }
   for (Impl::Line& line : impl_->lines) {
     if (line.target.protocol != Protocol::kJsonl) continue;

@@ -6,6 +6,7 @@
 
 #include "depth/base/atomic_file.h"
 #include "depth/image/colour_png.h"
+#include "depth/image/packed_depth.h"
 #include "recon/body/parts.h"
 
 namespace ossa::tracker {
@@ -19,8 +20,8 @@ using recon::TrackingState;
 constexpr int kPanelWidth = 480, kPanelHeight = 960;  // at most
 
 cv::Mat DepthPanel(const depth::DepthFrame& frame) {
-  std::vector<uint16_t> sorted;
-  for (const uint16_t mm : frame.depth_mm) {
+  std::vector<uint16_t> room, sorted;
+  for (const uint16_t mm : depth::PackedDepth(frame.view(), room)) {
     if (mm > 0) sorted.push_back(mm);
   }
   std::sort(sorted.begin(), sorted.end());
@@ -51,7 +52,7 @@ cv::Scalar BodyColour(int id) {
 
 cv::Mat PartsPanel(const depth::DepthFrame& frame, const BodyFrame& bodies) {
   cv::Mat panel = 0.4 * DepthPanel(frame);
-  const bool parts = bodies.parts.data.size() == frame.depth_mm.size();
+  const bool parts = bodies.parts.data.size() == frame.pixel_count();
   for (int v = 0; v < panel.rows; ++v) {
     for (int u = 0; u < panel.cols; ++u) {
       const uint8_t id = bodies.users.at(u, v);

@@ -449,9 +449,9 @@ int64_t Tracker::Run(depth::FrameSource& source,
   int64_t dropped = 0;
   while (!idle || idle()) {
     const depth::ReadResult read = source.Read(std::chrono::milliseconds(100));
+    dropped += read.dropped;
     if (read.status == depth::ReadStatus::kEnd) break;
     if (read.status != depth::ReadStatus::kFrame) continue;
-    dropped += read.dropped;
     const auto bodies = TrackWithLag(read.frame);
     if (bodies && !on_bodies(*bodies)) return dropped;
   }

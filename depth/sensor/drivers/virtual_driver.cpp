@@ -53,9 +53,9 @@ class VirtualCamera {
     for (bool restarted = false;;) {
       try {
         ReadResult result = source_->Read(std::chrono::milliseconds(1000));
+        index_ += static_cast<int>(result.dropped);
         if (result.status == ReadStatus::kFrame) {
           CheckSize(result.frame.camera);
-          index_ += static_cast<int>(result.dropped);
           return Timed(std::move(result.frame));
         }
         if (result.status == ReadStatus::kTimeout) continue;

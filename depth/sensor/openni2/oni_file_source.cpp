@@ -3,11 +3,11 @@
 
 #include "depth/base/error.h"
 #include "depth/image/camera_io.h"
-#include "depth/sensor/child_process_internal.h"
 #include "depth/sensor/oni_format_internal.h"
 #include "depth/sensor/oni_pipe_internal.h"
 #include "depth/sensor/openni2/openni_depth_internal.h"
 #include "depth/sensor/openni2/runtime_folder.h"
+#include "depth/sensor/recording_pipe_internal.h"
 #include "depth/sensor/source_internal.h"
 
 namespace ossa::depth {
@@ -20,20 +20,23 @@ class OniFileSource final : public FrameSource {
  public:
   OniFileSource(const fs::path& path, const OniFile& recording, const SourceOptions& options)
       : name_(path.string()),
-        patience_(options.player_patience),
         own_camera_(recording.camera),
-        child_(OpenNiRuntimeFolder() / "reader/ossa_oni_reader", {fs::absolute(path).string()}) {
+        pipe_(name_,
+              {OpenNiRuntimeFolder() / "reader/ossa_oni_reader",
+               {fs::absolute(path).string()},
+               "the OpenNI2 library"},
+              options.player_patience) {
     OniPipeHello hello;
     OniPipeMessage message;  // an error may come in place of the hello: read what both begin with
-    Take(&hello.magic, sizeof(hello.magic));
+    pipe_.Take(&hello.magic, sizeof(hello.magic));
     if (hello.magic != OniPipeHello::kMagic) {
       message.kind = static_cast<OniPipeKind>(hello.magic);
-      Take(reinterpret_cast<char*>(&message) + sizeof(message.kind),
-           sizeof(message) - sizeof(message.kind));
+      pipe_.Take(reinterpret_cast<char*>(&message) + sizeof(message.kind),
+                 sizeof(message) - sizeof(message.kind));
       Fail(message);
     }
-    Take(reinterpret_cast<char*>(&hello) + sizeof(hello.magic),
-         sizeof(hello) - sizeof(hello.magic));
+    pipe_.Take(reinterpret_cast<char*>(&hello) + sizeof(hello.magic),
+               sizeof(hello) - sizeof(hello.magic));
     whole_ = ReadWholeCamera(hello, options);
     camera_ = CropToWindow(whole_, hello.window);
     if (hello.frame_count >= 0) {
@@ -45,17 +48,12 @@ class OniFileSource final : public FrameSource {
   }
 
   ReadResult Read(milliseconds timeout) override {
-    if (ended_) return {.status = ReadStatus::kEnd, .frame = {}};
-    if (child_.WaitForOutput(timeout) == ChildProcess::Outcome::kTimeout) {
-      waited_ += timeout;
-      if (waited_ > patience_) FailHung();
-      return {.status = ReadStatus::kTimeout, .frame = {}};
-    }
-    waited_ = milliseconds{0};
+    if (pipe_.ended()) return {.status = ReadStatus::kEnd, .frame = {}};
+    if (!pipe_.Wait(timeout)) return {.status = ReadStatus::kTimeout, .frame = {}};
     OniPipeMessage message;
-    Take(&message, sizeof(message));
+    pipe_.Take(&message, sizeof(message));
     if (message.kind == OniPipeKind::kEnd) {
-      ended_ = true;
+      pipe_.End();
       return {.status = ReadStatus::kEnd, .frame = {}};
     }
     if (message.kind != OniPipeKind::kFrame) Fail(message);
@@ -79,59 +77,34 @@ class OniFileSource final : public FrameSource {
 
   ReadResult TakeFrame(const OniPipeMessage& message) {
     const ImageWindow& window = message.window;
-    if (!window.IsSane()) FailHung();
+    if (!window.IsSane()) {
+      pipe_.Fail("expected a part of the image, found " + std::to_string(window.width) + "x" +
+                 std::to_string(window.height) + " of " + std::to_string(window.whole_width) + "x" +
+                 std::to_string(window.whole_height) + ": the recording is damaged");
+    }
     ReadResult result{.status = ReadStatus::kFrame, .frame = {}};
     result.frame.camera = CropToWindow(whole_, window);
     result.frame.depth_mm.resize(static_cast<size_t>(window.width) *
                                  static_cast<size_t>(window.height));
-    Take(result.frame.depth_mm.data(), result.frame.depth_mm.size() * sizeof(uint16_t));
+    pipe_.Take(result.frame.depth_mm.data(), result.frame.depth_mm.size() * sizeof(uint16_t));
     result.frame.index = message.index;
     result.frame.time_s = static_cast<double>(message.timestamp_us) * 1e-6;
-    next_frame_ = message.index + 1;
+    pipe_.TookFrame(message.index);
     return result;
   }
 
-  void Take(void* to, size_t size) {
-    switch (child_.ReadExactly(to, size, patience_)) {
-      case ChildProcess::Outcome::kRead:
-        return;
-      case ChildProcess::Outcome::kTimeout:
-        FailHung();
-      case ChildProcess::Outcome::kClosed:
-        ended_ = true;
-        throw InputError(Place() + "the OpenNI2 library crashed on it (" + child_.Ending() +
-                         "): the recording is damaged");
-    }
-  }
-
-  [[noreturn]] void FailHung() {
-    ended_ = true;
-    throw InputError(Place() + "the OpenNI2 library hangs on it: the recording is damaged");
-  }
-
   [[noreturn]] void Fail(const OniPipeMessage& message) {
-    constexpr uint32_t kLongest = 1000;  // a bound; by hand
-    std::string text(std::min(message.size, kLongest), ' ');
-    Take(text.data(), text.size());
-    ended_ = true;
+    const std::string text = pipe_.TakeText(message.size);
+    pipe_.End();
     throw InputError(name_ + ": " + text);
   }
 
-  std::string Place() const {
-    return name_ + ": " +
-           (next_frame_ > 0 ? "after frame " + std::to_string(next_frame_ - 1) + ": " : "");
-  }
-
   std::string name_;
-  milliseconds patience_;
   std::optional<Camera> own_camera_;  // as ossa wrote it into the file
-  ChildProcess child_;
+  RecordingPipe pipe_;
   Camera whole_;   // of the whole image, of which frames may show a part
   Camera camera_;  // of the part
   std::optional<int64_t> frame_count_;
-  milliseconds waited_{0};
-  int64_t next_frame_ = 0;
-  bool ended_ = false;
 };
 
 }  // namespace

@@ -2,11 +2,11 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstring>
 #include <mutex>
 #include <sstream>
 
 #include "depth/base/error.h"
+#include "depth/sensor/openni2/delivered_depth.h"
 #include "depth/sensor/shutdown_gate_internal.h"
 
 namespace ossa::depth {
@@ -62,26 +62,8 @@ std::vector<uint16_t> ReadMillimetres(const openni::VideoFrameRef& frame, bool m
     throw InputError("expected depths in millimetres, found pixel format " +
                      std::to_string(static_cast<int>(format)));
   }
-  const int width = frame.getWidth();
-  const int height = frame.getHeight();
-  const int stride = frame.getStrideInBytes();
-  if (width <= 0 || height <= 0 || stride < 2 * width ||
-      int64_t{stride} * (height - 1) + 2 * width > frame.getDataSize()) {
-    throw InputError("expected " + std::to_string(width) + "x" + std::to_string(height) +
-                     " depths, found a frame of " + std::to_string(frame.getDataSize()) + " bytes");
-  }
-  std::vector<uint16_t> depth_mm(static_cast<size_t>(width) * static_cast<size_t>(height));
-  for (int v = 0; v < height; ++v) {
-    uint16_t* row = depth_mm.data() + static_cast<ptrdiff_t>(v) * width;
-    std::memcpy(row, static_cast<const char*>(frame.getData()) + ptrdiff_t{stride} * v,
-                2 * static_cast<size_t>(width));
-    if (tenths) {
-      std::transform(row, row + width, row,
-                     [](uint16_t d) { return static_cast<uint16_t>((d + 5) / 10); });
-    }
-    if (mirrored) std::reverse(row, row + width);
-  }
-  return depth_mm;
+  return MillimetresOf({frame.getData(), frame.getWidth(), frame.getHeight(),
+                        frame.getStrideInBytes(), frame.getDataSize(), tenths, mirrored});
 }
 
 ImageWindow ReadWindow(const openni::VideoFrameRef& frame, bool mirrored) {

@@ -16,6 +16,7 @@
 #include "depth/sensor/readers/bag_topics.h"
 #include "depth/sensor/readers/reader_pipe_internal.h"
 #include "depth/sensor/readers/ros_messages.h"
+#include "depth/sensor/readers/stamp_order.h"
 
 namespace ossa::depth {
 namespace {
@@ -72,14 +73,24 @@ ReaderHello MakeHello(const rosbag::Bag& bag, const BagChoice& choice, const Ros
   hello.camera.width = static_cast<int>(std::min(first.width, kTooLarge));
   hello.camera.height = static_cast<int>(std::min(first.height, kTooLarge));
   CheckCamera(hello.camera, choice.image);
-  const Bytes info = ReadFirst(bag, choice.camera_info);
-  const auto k = info.empty() ? std::array<double, 9>{} : ParseRosIntrinsics(info);
-  hello.is_camera_stated = k[0] != 0;
-  if (hello.is_camera_stated) {
-    hello.camera = {hello.camera.width, hello.camera.height, k[0], k[4], k[2], k[5]};
+  const Bytes bytes = ReadFirst(bag, choice.camera_info);
+  const RosCameraInfo info = bytes.empty() ? RosCameraInfo{} : ParseRosCameraInfo(bytes);
+  const auto camera = CameraOf(info, hello.camera.width, hello.camera.height);
+  hello.is_camera_stated = camera.has_value();
+  if (camera) {
+    hello.camera = *camera;
     CheckCamera(hello.camera, choice.camera_info);
+  } else if (info.k[0] != 0) {
+    SendText(ReaderKind::kNote, choice.camera_info + " is of " + std::to_string(info.width) + "x" +
+                                    std::to_string(info.height) + ", another shape than " +
+                                    choice.image + "'s, and is passed over");
   }
   return hello;
+}
+
+// A frame that is to be given, and the number of those left out before it.
+void Give(const ReaderHello& hello, TimedDepth frame, int64_t dropped) {
+  SendFrame({hello.camera.width, hello.camera.height, frame.time_s, dropped}, frame.depth);
 }
 
 void Read(const std::string& path, const std::string& asked) {
@@ -87,7 +98,7 @@ void Read(const std::string& path, const std::string& asked) {
   bag.open(path, rosbag::bagmode::Read);
   const std::vector<BagTopic> topics = ListTopics(bag);
   const BagChoice choice = ChooseDepthTopic(DepthTopics(bag, topics), topics, asked);
-  if (!choice.note.empty()) SendText(ReaderKind::kNote, choice.note);
+  for (const std::string& note : choice.notes) SendText(ReaderKind::kNote, note);
   const Bytes first_bytes = ReadFirst(bag, choice.image);
   const RosImage first = ParseRosImage(first_bytes);
   const double unit_m = ReadUnit(bag, choice.unit);
@@ -96,6 +107,8 @@ void Read(const std::string& path, const std::string& asked) {
   rosbag::View view(bag, rosbag::TopicQuery(choice.image));
   hello.frame_count = view.size();
   SendHello(hello);
+  StampOrder order(
+      [&](TimedDepth frame, int64_t dropped) { Give(hello, std::move(frame), dropped); });
   for (const rosbag::MessageInstance& message : view) {
     const Bytes bytes = ReadBytes(message);
     const RosImage image = ParseRosImage(bytes);
@@ -104,7 +117,13 @@ void Read(const std::string& path, const std::string& asked) {
       throw InputError(choice.image + ": expected images that are all alike");
     }
     const double time_s = image.time_s > 0 ? image.time_s : message.getTime().toSec();
-    SendFrame({hello.camera.width, hello.camera.height, time_s}, DecodeDepths(image, unit_m));
+    order.Add({time_s, DecodeDepths(image, unit_m)});
+  }
+  order.Finish();
+  if (order.late() > 0) {
+    SendText(ReaderKind::kWarning, std::to_string(order.late()) +
+                                       " frames are left out: their stamps lie before those of "
+                                       "frames that came long before");
   }
 }
 

@@ -21,19 +21,42 @@ std::string Listed(const std::vector<std::string>& names) {
   return text.empty() ? "none" : text;
 }
 
-size_t CommonBeginning(std::string_view a, std::string_view b) {
-  return static_cast<size_t>(std::mismatch(a.begin(), a.end(), b.begin(), b.end()).first -
-                             a.begin());
+// A topic's name up to its last /.
+std::string_view NamespaceOf(std::string_view topic) {
+  return topic.substr(0, topic.rfind('/') + 1);
 }
 
-// The topic of this type and ending whose name has most in common with the image's.
+// What two names have in common from the beginning on, characters.
+struct Common {
+  size_t namespaces = 0;  // in whole ones: /camera1/ and /camera2/ have but the first /
+  size_t characters = 0;
+  auto operator<=>(const Common&) const = default;
+};
+
+Common CommonBeginning(std::string_view a, std::string_view b) {
+  const auto characters =
+      static_cast<size_t>(std::mismatch(a.begin(), a.end(), b.begin(), b.end()).first - a.begin());
+  return {NamespaceOf(a.substr(0, characters)).size(), characters};
+}
+
+// Whether a topic is of the image's sensor: in its namespace, or in one of depth that both share.
+bool IsItsOwn(const std::string& topic, const std::string& image) {
+  return NamespaceOf(topic) == NamespaceOf(image) ||
+         SaysDepth(image.substr(0, CommonBeginning(image, topic).characters));
+}
+
+// The topic of this type and ending in the image's namespace, else in the one that shares most of
+// it: more than the / that all begin with, so that it is no other camera's.
 std::string Beside(const std::string& image, const std::vector<BagTopic>& topics,
                    std::string_view type, std::string_view ending) {
   std::string best;
-  size_t most = 1;  // the / that all begin with
+  Common most;
   for (const BagTopic& topic : topics) {
-    const size_t common = CommonBeginning(image, topic.name);
-    if (topic.type != type || !topic.name.ends_with(ending) || common <= most) continue;
+    const Common common = CommonBeginning(image, topic.name);
+    const bool is_beside = common.namespaces > 1 || NamespaceOf(topic.name) == NamespaceOf(image);
+    if (topic.type != type || !topic.name.ends_with(ending) || !is_beside || common <= most) {
+      continue;
+    }
     best = topic.name;
     most = common;
   }
@@ -63,11 +86,15 @@ BagChoice ChooseDepthTopic(const std::vector<std::string>& depth,
       return a.size() != b.size() ? a.size() < b.size() : a < b;
     });
     if (depth.size() > 1) {
-      choice.note = "reads " + choice.image + " of its depth topics " + Listed(depth) +
-                    ": FILE.bag#TOPIC says otherwise";
+      choice.notes.push_back("reads " + choice.image + " of its depth topics " + Listed(depth) +
+                             ": FILE.bag#TOPIC says otherwise");
     }
   }
   choice.camera_info = Beside(choice.image, topics, "sensor_msgs/CameraInfo", "camera_info");
+  if (!choice.camera_info.empty() && !IsItsOwn(choice.camera_info, choice.image)) {
+    choice.notes.push_back("has no camera_info of " + choice.image + "'s own and takes " +
+                           choice.camera_info + ": --camera says otherwise");
+  }
   for (const char* unit : {"Depth_Units/value", "Depth Units/value"}) {  // as librealsense aged
     if (choice.unit.empty()) choice.unit = Beside(choice.image, topics, "std_msgs/Float32", unit);
   }

@@ -11,9 +11,9 @@ struct BagTopic {
 /// Which of a bag's topics are read.
 struct BagChoice {
   std::string image;
-  std::string camera_info;  // "": there is none
-  std::string unit;         // the RealSense viewer's depth units; "": there are none
-  std::string note;         // for the user, where there was a choice
+  std::string camera_info;         // "": there is none
+  std::string unit;                // the RealSense viewer's depth units; "": there are none
+  std::vector<std::string> notes;  // for the user, where there was a choice
 };
 
 /// `depth`: topics of 16-bit or metric images. Without one asked for, those that are named after

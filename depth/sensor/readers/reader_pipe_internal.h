@@ -33,6 +33,7 @@ struct ReaderHello {
 struct ReaderFrame {
   int32_t width = 0, height = 0;
   double time_s = 0.0;
+  int64_t dropped = 0;  // frames left out since the one before
 };
 
 /// The reader's end. Each message is written whole; a reader whose parent is gone ends.

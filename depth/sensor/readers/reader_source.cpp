@@ -1,4 +1,3 @@
-#include <algorithm>
 #include <filesystem>
 #include <optional>
 #include <string>
@@ -6,9 +5,9 @@
 #include <vector>
 
 #include "depth/base/error.h"
-#include "depth/sensor/child_process_internal.h"
 #include "depth/sensor/openni2/runtime_folder.h"
 #include "depth/sensor/readers/reader_pipe_internal.h"
+#include "depth/sensor/recording_pipe_internal.h"
 #include "depth/sensor/source_internal.h"
 
 namespace ossa::depth {
@@ -39,12 +38,13 @@ class ReaderSource final : public FrameSource {
       : reader_(reader),
         name_(name),
         options_(options),
-        child_(FindProgram(reader, name), arguments) {
+        pipe_(name, {FindProgram(reader, name), arguments, reader.library},
+              options.player_patience) {
     const ReaderMessage message = TakeMessage(ReaderKind::kHello, sizeof(ReaderHello));
     if (message.kind == ReaderKind::kEnd) {
       throw InputError(name_ + ": expected depth images, found none");
     }
-    Take(&hello_, sizeof(hello_));
+    pipe_.Take(&hello_, sizeof(hello_));
     const int width = hello_.camera.width, height = hello_.camera.height;
     if (options.camera) {
       hello_.camera = CameraForSize(*options.camera, width, height);
@@ -55,16 +55,11 @@ class ReaderSource final : public FrameSource {
   }
 
   ReadResult Read(milliseconds timeout) override {
-    if (ended_) return {.status = ReadStatus::kEnd, .frame = {}};
-    if (child_.WaitForOutput(timeout) == ChildProcess::Outcome::kTimeout) {
-      waited_ += timeout;
-      if (waited_ > options_.player_patience) FailHung();
-      return {.status = ReadStatus::kTimeout, .frame = {}};
-    }
-    waited_ = milliseconds{0};
+    if (pipe_.ended()) return {.status = ReadStatus::kEnd, .frame = {}};
+    if (!pipe_.Wait(timeout)) return {.status = ReadStatus::kTimeout, .frame = {}};
     const ReaderMessage message = TakeMessage(ReaderKind::kFrame, FrameSize());
     if (message.kind == ReaderKind::kFrame) return TakeFrame();
-    ended_ = true;
+    pipe_.End();
     return {.status = ReadStatus::kEnd, .frame = {}};
   }
   const Camera& camera() const override { return hello_.camera; }
@@ -84,16 +79,16 @@ class ReaderSource final : public FrameSource {
   ReaderMessage TakeMessage(ReaderKind wanted, size_t size) {
     for (;;) {
       ReaderMessage message;
-      Take(&message, sizeof(message));
-      if (message.magic != ReaderMessage::kMagic) FailHung();
+      pipe_.Take(&message, sizeof(message));
+      if (message.magic != ReaderMessage::kMagic) {
+        pipe_.Fail(std::string(reader_.program) + " says of it what makes no sense: " +
+                   reader_.library + " or the recording is damaged");
+      }
       if (message.kind == ReaderKind::kEnd) return message;
       if (message.kind == wanted && message.size == size) return message;
-      const std::string text = TakeText(message.size);
+      const std::string text = pipe_.TakeText(message.size);
       const bool is_warning = message.kind == ReaderKind::kWarning;
-      if (message.kind != ReaderKind::kNote && !is_warning) {
-        ended_ = true;
-        throw InputError(Place() + text);
-      }
+      if (message.kind != ReaderKind::kNote && !is_warning) pipe_.Fail(text);
       if (options_.note) {
         options_.note(is_warning ? NoteKind::kWarning : NoteKind::kInfo, name_ + ": " + text);
       }
@@ -102,67 +97,31 @@ class ReaderSource final : public FrameSource {
 
   ReadResult TakeFrame() {
     ReaderFrame head;
-    Take(&head, sizeof(head));
+    pipe_.Take(&head, sizeof(head));
     ReadResult result{.status = ReadStatus::kFrame, .frame = {}};
     result.frame.camera = hello_.camera;
     result.frame.depth_mm.resize((FrameSize() - sizeof(head)) / sizeof(uint16_t));
-    Take(result.frame.depth_mm.data(), FrameSize() - sizeof(head));
-    result.frame.index = next_frame_++;
+    pipe_.Take(result.frame.depth_mm.data(), FrameSize() - sizeof(head));
+    result.dropped = head.dropped;
+    result.frame.index = pipe_.next_frame() + head.dropped;
     result.frame.time_s = head.time_s;
+    pipe_.TookFrame(result.frame.index);
     return result;
-  }
-
-  std::string TakeText(uint64_t size) {
-    constexpr uint64_t kLongest = 1000;  // characters, by hand
-    std::string text(static_cast<size_t>(std::min(size, kLongest)), ' ');
-    Take(text.data(), text.size());
-    return text;
-  }
-
-  void Take(void* to, size_t size) {
-    switch (child_.ReadExactly(to, size, options_.player_patience)) {
-      case ChildProcess::Outcome::kRead:
-        return;
-      case ChildProcess::Outcome::kTimeout:
-        FailHung();
-      case ChildProcess::Outcome::kClosed:
-        FailEnded(child_.Ending());
-    }
-  }
-
-  [[noreturn]] void FailEnded(const std::string& ending) {
-    ended_ = true;
-    // What the loader of programs says where a library is missing.
-    if (ending == "status 127") {
-      throw InputError(name_ + ": to read such files install " + reader_.library);
-    }
-    throw InputError(Place() + reader_.library + " crashed on it (" + ending +
-                     "): the recording is damaged");
-  }
-
-  [[noreturn]] void FailHung() {
-    ended_ = true;
-    throw InputError(Place() + reader_.library + " hangs on it: the recording is damaged");
-  }
-
-  std::string Place() const {
-    return name_ + ": " +
-           (next_frame_ > 0 ? "after frame " + std::to_string(next_frame_ - 1) + ": " : "");
   }
 
   Reader reader_;
   std::string name_;
   SourceOptions options_;
-  ChildProcess child_;
+  RecordingPipe pipe_;
   ReaderHello hello_;
-  milliseconds waited_{0};
-  int64_t next_frame_ = 0;
-  bool ended_ = false;
 };
 
 std::unique_ptr<FrameSource> OpenWith(const Reader& reader, const std::string& name,
                                       const std::vector<std::string>& arguments,
                                       const SourceOptions& options) {
+  if (!fs::is_regular_file(arguments.front())) {
+    throw InputError(name + ": expected a recording, found what is no file, such as a pipe");
+  }
   auto source = std::make_unique<ReaderSource>(reader, name, arguments, options);
   const UnitStated unit = source->unit();
   return Prepared(name, std::move(source), unit, options);

@@ -6,7 +6,6 @@
 #include <cstring>
 
 #include "depth/base/error.h"
-#include "depth/image/camera.h"
 
 namespace ossa::depth {
 namespace {
@@ -95,14 +94,30 @@ RosImage ParseRosImage(std::span<const uint8_t> bytes) {
   return image;
 }
 
-std::array<double, 9> ParseRosIntrinsics(std::span<const uint8_t> bytes) {
+RosCameraInfo ParseRosCameraInfo(std::span<const uint8_t> bytes) {
   Message message(bytes);
   message.Header();
-  message.Value<uint32_t>();      // height
-  message.Value<uint32_t>();      // width
+  RosCameraInfo info;
+  info.height = message.Value<uint32_t>();
+  info.width = message.Value<uint32_t>();
   message.Text();                 // distortion model
   message.Array(sizeof(double));  // D
-  return message.Value<std::array<double, 9>>();
+  info.k = message.Value<std::array<double, 9>>();
+  return info;
+}
+
+std::optional<Camera> CameraOf(const RosCameraInfo& info, int width, int height) {
+  if (info.k[0] == 0) return std::nullopt;
+  const Camera camera{width, height, info.k[0], info.k[4], info.k[2], info.k[5]};
+  if (info.width == 0 || info.height == 0) return camera;
+  const bool same_shape = int64_t{info.width} * height == int64_t{info.height} * width;
+  if (!same_shape || info.width > kLargestImageSide || info.height > kLargestImageSide) {
+    return std::nullopt;
+  }
+  Camera own = camera;
+  own.width = static_cast<int>(info.width);
+  own.height = static_cast<int>(info.height);
+  return Resized(own, width, height);
 }
 
 float ParseRosFloat(std::span<const uint8_t> bytes) { return Message(bytes).Value<float>(); }

@@ -1,9 +1,12 @@
 #pragma once
 #include <array>
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
+
+#include "depth/image/camera.h"
 
 namespace ossa::depth {
 
@@ -21,9 +24,16 @@ struct RosImage {
 };
 RosImage ParseRosImage(std::span<const uint8_t> message);
 
-/// sensor_msgs/CameraInfo's K: fx 0 cx 0 fy cy 0 0 1, pixels; all 0 of a camera without
-/// calibration.
-std::array<double, 9> ParseRosIntrinsics(std::span<const uint8_t> message);
+/// sensor_msgs/CameraInfo.
+struct RosCameraInfo {
+  uint32_t height = 0, width = 0;  // of the images that k is of, pixels; 0: not said
+  std::array<double, 9> k{};       // fx 0 cx 0 fy cy 0 0 1, pixels; all 0: not calibrated
+};
+RosCameraInfo ParseRosCameraInfo(std::span<const uint8_t> message);
+
+/// The camera of width × height pixels that it states, scaled where its own size is another of the
+/// same shape; nothing where it is not calibrated, or of images of another shape.
+std::optional<Camera> CameraOf(const RosCameraInfo& info, int width, int height);
 
 /// std_msgs/Float32.
 float ParseRosFloat(std::span<const uint8_t> message);

@@ -33,7 +33,7 @@ void WriteBag(const std::string& path, CompressionType compression) {
           ImageOf(100 + i, static_cast<uint16_t>(1000 + i)));
     Write(bag, "/camera/ir/image_raw", 100 + i, ImageOf(100 + i, 7, "mono16"));
     Write(bag, "/camera/depth/camera_info", 100 + i,
-          {"sensor_msgs/CameraInfo", test::RosCameraInfo(366, 1.5)});
+          {"sensor_msgs/CameraInfo", test::RosCameraInfoBytes(4, 2, 366)});
   }
   bag.close();
 }
@@ -53,7 +53,7 @@ TEST_P(Bags, GiveDepthCameraAndTimes) {
   const test::TemporaryFolder folder;
   WriteBag(folder / "x.bag", GetParam());
   const auto source = OpenSource(folder / "x.bag");
-  EXPECT_EQ(source->camera(), (Camera{4, 2, 366, 366, 256, 1.5}));
+  EXPECT_EQ(source->camera(), (Camera{4, 2, 366, 366, 2, 1}));
   EXPECT_EQ(source->frame_count(), 3);
   const auto frames = FramesOf(*source);
   ASSERT_EQ(frames.size(), 3u);
@@ -64,6 +64,94 @@ TEST_P(Bags, GiveDepthCameraAndTimes) {
 INSTANTIATE_TEST_SUITE_P(Compressed, Bags,
                          testing::Values(CompressionType::Uncompressed, CompressionType::BZ2,
                                          CompressionType::LZ4));
+
+// A bag of one depth topic and one camera_info of this size.
+void WriteBagWithInfo(const std::string& path, uint32_t width, uint32_t height) {
+  rosbag::Bag bag;
+  bag.open(path, rosbag::bagmode::Write);
+  Write(bag, "/camera/depth/image_raw", 100, ImageOf(100, 1000));
+  Write(bag, "/camera/depth/camera_info", 100,
+        {"sensor_msgs/CameraInfo", test::RosCameraInfoBytes(width, height, 400)});
+  bag.close();
+}
+
+TEST(Bag, ACameraInfoOfLargerImagesIsScaled) {
+  const test::TemporaryFolder folder;
+  WriteBagWithInfo(folder / "x.bag", 640, 320);
+  EXPECT_EQ(OpenSource(folder / "x.bag")->camera(), (Camera{4, 2, 2.5, 2.5, 2, 1}));
+}
+
+TEST(Bag, ACameraInfoOfImagesOfAnotherShapeIsPassedOverWithANote) {
+  const test::TemporaryFolder folder;
+  WriteBagWithInfo(folder / "x.bag", 512, 424);
+  std::string notes;
+  SourceOptions options;
+  options.note = [&](NoteKind, const std::string& note) { notes += note + "\n"; };
+  EXPECT_EQ(OpenSource(folder / "x.bag", options)->camera(), GuessCamera(4, 2).camera);
+  EXPECT_NE(notes.find("camera_info is of 512x424"), std::string::npos) << notes;
+}
+
+TEST(Bag, ManyDepthTopicsAreNoDamage) {
+  const test::TemporaryFolder folder;
+  rosbag::Bag bag;
+  bag.open(folder / "x.bag", rosbag::bagmode::Write);
+  for (int i = 0; i < 60; ++i) {
+    Write(bag, "/rig/of/many/depth/cameras/" + std::to_string(i), 100, ImageOf(100, 1000));
+  }
+  bag.close();
+  EXPECT_EQ(FramesOf(*OpenSource(folder / "x.bag")).size(), 1u);
+}
+
+// Frames of these stamps, received in this order, a second each.
+void WriteBagOfStamps(const std::string& path, const std::vector<uint32_t>& stamps) {
+  rosbag::Bag bag;
+  bag.open(path, rosbag::bagmode::Write);
+  for (uint32_t i = 0; i < stamps.size(); ++i) {
+    Write(bag, "/depth", 1000 + i, ImageOf(stamps[i], static_cast<uint16_t>(stamps[i])));
+  }
+  bag.close();
+}
+
+TEST(Bag, FramesComeInTheOrderOfTheirStamps) {
+  const test::TemporaryFolder folder;
+  WriteBagOfStamps(folder / "x.bag", {1001, 1003, 1002, 1004});
+  const auto frames = FramesOf(*OpenSource(folder / "x.bag"));
+  ASSERT_EQ(frames.size(), 4u);
+  for (size_t i = 0; i < frames.size(); ++i) EXPECT_EQ(frames[i].depth_mm[0], 1001 + i);
+}
+
+TEST(Bag, AFrameThatComesFarTooLateIsDroppedAndToldOf) {
+  const test::TemporaryFolder folder;
+  std::vector<uint32_t> stamps;
+  for (uint32_t i = 0; i < 20; ++i) stamps.push_back(1001 + i);
+  stamps[12] = 1000;
+  WriteBagOfStamps(folder / "x.bag", stamps);
+  std::string notes;
+  SourceOptions options;
+  options.note = [&](NoteKind, const std::string& note) { notes += note + "\n"; };
+  const auto source = OpenSource(folder / "x.bag", options);
+  int64_t frames = 0, dropped = 0;
+  for (ReadResult read; read.status != ReadStatus::kEnd;) {
+    read = source->Read(std::chrono::milliseconds(1000));
+    frames += read.status == ReadStatus::kFrame ? 1 : 0;
+    dropped += read.dropped;
+  }
+  EXPECT_EQ(frames, 19);
+  EXPECT_EQ(dropped, 1);
+  EXPECT_NE(notes.find("1 frames are left out"), std::string::npos) << notes;
+}
+
+TEST(Bag, WhereTheClockWasSetBackFramesGoOn) {
+  const test::TemporaryFolder folder;
+  std::vector<uint32_t> stamps;
+  for (uint32_t i = 0; i < 20; ++i) stamps.push_back(1001 + i);
+  for (uint32_t i = 0; i < 20; ++i) stamps.push_back(501 + i);
+  WriteBagOfStamps(folder / "x.bag", stamps);
+  const auto frames = FramesOf(*OpenSource(folder / "x.bag"));
+  ASSERT_EQ(frames.size(), 32u);  // of the second clock's the first eight are lost
+  for (size_t i = 1; i < frames.size(); ++i) EXPECT_EQ(frames[i].time_s - frames[i - 1].time_s, 1);
+  EXPECT_EQ(frames.back().depth_mm[0], 520);
+}
 
 TEST(Bag, ItsTopicsAreChosenAfterItsName) {
   const test::TemporaryFolder folder;

@@ -1,5 +1,7 @@
 #include <gtest/gtest.h>
+#include <sys/stat.h>
 
+#include <cmath>
 #include <fstream>
 #include <string>
 #include <vector>
@@ -127,6 +129,28 @@ TEST(FolderSource, DepthTxtSaysWhatIsWhen) {
   }
 }
 
+// As a program dumps a matrix.
+TEST(FolderSource, AnotherProgramsDepthTxtIsPassedOverWithANote) {
+  const TemporaryFolder folder;
+  std::ofstream(folder / "depth.txt") << "# rows\n1203 1204 1207\n1203 1204 1208\n";
+  test::ExpectRefused([&] { OpenSource(folder.path().string()); },
+                      "depth.txt: expected seconds and files that are there, found line 2: '1204'");
+  for (const char* name : {"0.png", "1.png"}) WriteFrame(folder / name, 7);
+  Notes notes;
+  EXPECT_EQ(ValuesOf(*OpenSource(folder.path().string(), notes.Options())).size(), 2u);
+  EXPECT_TRUE(notes.Tell("found line 2: '1204' and the like: passed over")) << notes.text;
+}
+
+TEST(FolderSource, FramesOfAListAreNotPassedOverHoweverTheFolderIsWritten) {
+  const TemporaryFolder folder;
+  std::filesystem::create_directory(folder / "depth");
+  WriteFrame(folder / "depth/a.png", 1);
+  std::ofstream(folder / "depth.txt") << "5.0 depth/a.png\n";
+  Notes notes;
+  OpenSource((folder / "depth/../depth").string(), notes.Options());
+  EXPECT_FALSE(notes.Tell("passed over")) << notes.text;
+}
+
 TEST(FolderSource, FpsIsTheRateWhateverTheNamesSay) {
   const TemporaryFolder folder;
   for (const char* name : {"0.000.png", "0.033.png"}) WriteFrame(folder / name, 1);
@@ -139,14 +163,19 @@ TEST(FolderSource, AnUnreadableFrameIsSkippedCountedAndToldOf) {
   WriteFrame(folder / "1.png", 2);
   std::ofstream(folder / "2.png") << "";
   WriteFrame(folder / "3.png", 4);
+  std::ofstream(folder / "4.png") << "cut";
   Notes notes;
   const auto source = OpenSource(folder.path().string(), notes.Options());
-  EXPECT_EQ(Next(*source).frame.depth_mm[0], 2);
-  const ReadResult after = Next(*source);
-  EXPECT_EQ(after.frame.depth_mm[0], 4);
-  EXPECT_EQ(after.dropped, 1);
-  EXPECT_EQ(Next(*source).status, ReadStatus::kEnd);
-  EXPECT_TRUE(notes.Tell("skipped 2 of 4 frames")) << notes.text;
+  const ReadResult first = Next(*source), second = Next(*source);
+  EXPECT_EQ(first.frame.depth_mm[0], 2);
+  EXPECT_EQ(first.dropped, 1);
+  EXPECT_EQ(second.frame.depth_mm[0], 4);
+  EXPECT_EQ(second.dropped, 1);
+  const ReadResult end = Next(*source);
+  EXPECT_EQ(end.status, ReadStatus::kEnd);
+  EXPECT_EQ(end.dropped, 1);
+  EXPECT_EQ(Next(*source).dropped, 0) << "told once";
+  EXPECT_TRUE(notes.Tell("skipped 3 of 5 frames")) << notes.text;
   EXPECT_TRUE(notes.Tell("0.png: byte 0")) << notes.text;
 }
 
@@ -273,6 +302,26 @@ TEST(DataSetSource, AStillHasItsCameraHoweverItsPathIsWritten) {
   for (const char* name : {"depth/./000000.png", "depth/../depth/000000.png"}) {
     EXPECT_EQ(OpenSource((folder / name).string())->camera(), camera) << name;
   }
+}
+
+TEST(SourceOptions, NumbersThatCannotBeAreRefused) {
+  const TemporaryFolder folder;
+  WriteFrame(folder / "0.png", 1);
+  const std::string name = folder.path().string();
+  for (const double bad : {0.0, -1.0, std::nan(""), HUGE_VAL}) {
+    test::ExpectRefused([&] { OpenSource(name, {.depth_scale = bad}); }, "depth_scale");
+    test::ExpectRefused([&] { OpenSource(name, {.fps = bad}); }, "fps");
+  }
+  test::ExpectRefused([&] { OpenSource(name, {.inverted_from = 0}); }, "inverted_from");
+}
+
+TEST(OpenSource, ARecordingThatIsNoFileSaysWhatItIs) {
+  const TemporaryFolder folder;
+  for (const char* name : {"pipe.oni", "pipe.mkv", "pipe.bag"}) {
+    mkfifo((folder / name).c_str(), 0600);
+    test::ExpectRefused([&] { OpenSource((folder / name).string()); }, "such as a pipe");
+  }
+  test::ExpectRefused([&] { OpenSource((folder / "none.oni").string()); }, "no such file");
 }
 
 TEST(OpenSource, WhatIsNotASourceIsOneLine) {

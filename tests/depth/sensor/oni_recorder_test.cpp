@@ -125,6 +125,22 @@ TEST(OniRecorder, RefusesWhatTheFormatWouldCorrupt) {
   refused("expected at most 32767 different depths");
   frame = ExampleFrame(0);
   refused("expected 640x480, found 32x24");
+  frame.camera = KinectV1Camera(640, 480);
+  refused("expected 640x480, found 640x480 and 768 depths");
+}
+
+TEST(OniRecorder, WritesBorrowedImagesWhateverTheirRowsLieApart) {
+  const TemporaryFolder folder;
+  const DepthFrame wide = ExampleFrame(0);
+  DepthFrame frame;
+  frame.camera = KinectV1Camera(20, 24);
+  frame.borrowed = {wide.depth_mm.data(), 20, 24, 32};
+  Record(folder / "x.oni", {frame});
+  const auto source = OpenSource((folder / "x.oni").string());
+  const DepthFrame read = ReadAll(*source).at(0);
+  for (int v = 0; v < 24; ++v) {
+    for (int u = 0; u < 20; ++u) ASSERT_EQ(read.view().at(u, v), wide.view().at(u, v));
+  }
 }
 
 // Noise takes three bytes a pixel, and the table comes on top: too much at the largest size alone.

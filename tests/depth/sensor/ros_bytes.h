@@ -39,12 +39,12 @@ std::vector<uint8_t> RosImageBytes(const std::string& encoding, uint32_t width, 
   return message.bytes;
 }
 
-/// Only what is read of it, and what stands before.
-inline std::vector<uint8_t> RosCameraInfo(double f, double cy) {
+/// Only what is read of it, and what stands before; its centre is the image's.
+inline std::vector<uint8_t> RosCameraInfoBytes(uint32_t width, uint32_t height, double f) {
   RosBytes message;
-  message.AddHeader(100, 0).Add(uint32_t{424}).Add(uint32_t{512}).AddText("plumb_bob");
+  message.AddHeader(100, 0).Add(height).Add(width).AddText("plumb_bob");
   message.Add(uint32_t{1}).Add(0.0);
-  for (const double k : {f, 0.0, 256.0, 0.0, f, cy, 0.0, 0.0, 1.0}) message.Add(k);
+  for (const double k : {f, 0.0, width / 2.0, 0.0, f, height / 2.0, 0.0, 0.0, 1.0}) message.Add(k);
   return message.bytes;
 }
 

@@ -12,7 +12,7 @@
 namespace ossa::depth {
 namespace {
 
-using test::RosCameraInfo;
+using test::RosCameraInfoBytes;
 using test::RosImageBytes;
 
 TEST(RosImage, ItsRowsBecomeDepths) {
@@ -48,10 +48,19 @@ TEST(RosImage, OneOfMorePixelsThanBytesIsRefused) {
   test::ExpectRefused([&] { DecodeDepths(ParseRosImage(bytes), 0); }, "2x3");
 }
 
-TEST(RosCameraInfo, HasTheMatrix) {
-  const auto k = ParseRosIntrinsics(RosCameraInfo(366, 212));
-  EXPECT_EQ(k[0], 366);
-  EXPECT_EQ(k[5], 212);
+TEST(RosCameraInfo, IsACameraOfImagesOfItsSize) {
+  const RosCameraInfo info = ParseRosCameraInfo(RosCameraInfoBytes(512, 424, 366));
+  EXPECT_EQ(CameraOf(info, 512, 424), (Camera{512, 424, 366, 366, 256, 212}));
+}
+
+TEST(RosCameraInfo, IsScaledToImagesOfItsShape) {
+  const RosCameraInfo info = ParseRosCameraInfo(RosCameraInfoBytes(640, 480, 570));
+  EXPECT_EQ(CameraOf(info, 320, 240), (Camera{320, 240, 285, 285, 160, 120}));
+}
+
+TEST(RosCameraInfo, IsNoneOfImagesOfAnotherShapeOrWithoutCalibration) {
+  EXPECT_FALSE(CameraOf(ParseRosCameraInfo(RosCameraInfoBytes(1920, 1080, 1400)), 640, 480));
+  EXPECT_FALSE(CameraOf(ParseRosCameraInfo(RosCameraInfoBytes(640, 480, 0)), 640, 480));
 }
 
 const std::vector<BagTopic> kRealSense = {
@@ -65,15 +74,47 @@ TEST(BagTopics, OfTheRealSenseViewerAreKnown) {
   EXPECT_EQ(choice.image, kRealSense[0].name);
   EXPECT_EQ(choice.camera_info, kRealSense[1].name);
   EXPECT_EQ(choice.unit, kRealSense[3].name);
-  EXPECT_EQ(choice.note, "");
+  EXPECT_TRUE(choice.notes.empty());
 }
 
 TEST(BagTopics, OneNamedAfterDepthGoesFirstAndTheOthersAreNamed) {
   const BagChoice choice = ChooseDepthTopic({"/ir", "/camera/depth/image", "/b/depth"}, {}, "");
   EXPECT_EQ(choice.image, "/b/depth");
-  EXPECT_NE(choice.note.find("/camera/depth/image"), std::string::npos) << choice.note;
+  ASSERT_EQ(choice.notes.size(), 1u);
+  EXPECT_NE(choice.notes[0].find("/camera/depth/image"), std::string::npos) << choice.notes[0];
   EXPECT_EQ(ChooseDepthTopic({"/ir", "/b/depth"}, {}, "/ir").image, "/ir");
 }
+
+// The camera_info of a bag with these that is taken for the image's; notes only of one not its own.
+struct Infos {
+  const char* image;
+  std::vector<const char*> infos;
+  const char* taken;
+  bool noted = false;
+};
+
+class CameraInfoTopics : public testing::TestWithParam<Infos> {};
+
+TEST_P(CameraInfoTopics, AreOfTheImagesOwnNamespaceFirst) {
+  std::vector<BagTopic> topics;
+  for (const char* info : GetParam().infos) topics.push_back({info, "sensor_msgs/CameraInfo"});
+  const BagChoice choice = ChooseDepthTopic({GetParam().image}, topics, "");
+  EXPECT_EQ(choice.camera_info, GetParam().taken);
+  EXPECT_EQ(choice.notes.size(), GetParam().noted ? 1u : 0u);
+}
+
+INSTANTIATE_TEST_SUITE_P(
+    Bags, CameraInfoTopics,
+    testing::Values(
+        Infos{"/camera/depth/image_raw",
+              {"/camera/depth_registered/camera_info", "/camera/depth/camera_info"},
+              "/camera/depth/camera_info"},
+        Infos{"/camera/depth/image_raw",
+              {"/camera/rgb/camera_info"},
+              "/camera/rgb/camera_info",
+              true},
+        Infos{"/camera1/depth/image", {"/camera2/depth/camera_info", "/camera_info"}, ""},
+        Infos{"/depth_image", {"/camera_info", "/depth_2/camera_info"}, "/camera_info"}));
 
 TEST(BagTopics, OneThatIsNotThereIsRefusedWithThoseThatAre) {
   test::ExpectRefused([] { ChooseDepthTopic({"/depth"}, {}, "/x"); }, "(/depth)");

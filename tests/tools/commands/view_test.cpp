@@ -6,6 +6,7 @@
 #include <fstream>
 #include <string>
 
+#include "tests/support/depth_examples.h"
 #include "tests/support/run_command.h"
 #include "tests/support/temporary_folder.h"
 #include "tools/viewer/viewer.h"
@@ -42,6 +43,16 @@ TEST(ViewCommand, CtrlCEndsIt) {
   WriteSkeletons(folder / "x.jsonl");
   auto command = test::StartOssa({"view", (folder / "x.jsonl").string(), "--port", "0"});
   ASSERT_TRUE(command.WaitForError("watch at", test::kCommandTimeout));
+  command.Signal(SIGINT);
+  EXPECT_FALSE(command.Wait(test::kCommandTimeout).timed_out);
+}
+
+TEST(ViewCommand, SaysThatItsCameraIsUnplugged) {
+  const TemporaryFolder folder;
+  test::WriteExampleFolder(folder.path(), 3);
+  auto command =
+      test::StartOssa({"view", "openni:ossa://" + folder.path().string(), "--port", "0"});
+  EXPECT_TRUE(command.WaitForError("the device is unplugged", test::kCommandTimeout));
   command.Signal(SIGINT);
   EXPECT_FALSE(command.Wait(test::kCommandTimeout).timed_out);
 }

@@ -1,6 +1,11 @@
 // Images that stay where they lie: a driver's buffer, a part of a larger image.
+#include <fstream>
+#include <iterator>
+
 #include "depth/image/turn.h"
+#include "tests/support/temporary_folder.h"
 #include "tests/tools/tracker/tracked_scenes.h"
+#include "tools/tracker/picture.h"
 
 namespace ossa::tracker {
 namespace {
@@ -43,6 +48,21 @@ TEST(BorrowedImage, IsTrackedAsItsCopyByEveryStage) {
   const Buffer buffer(render.frame);
   Tracker copied{TrackerOptions{}}, borrowed{TrackerOptions{}};
   ExpectSame(borrowed.Track(buffer.Borrow(render.frame)), copied.Track(render.frame));
+}
+
+TEST(BorrowedImage, IsDrawn) {
+  const test::TemporaryFolder folder;
+  const auto render = Rendered({PersonAt(0.0, 2.5)});
+  const Buffer buffer(render.frame);
+  BodyFrame nobody;
+  nobody.users = {render.frame.camera.width, render.frame.camera.height, 0};
+  WritePicture(folder / "copied.png", render.frame, nobody);
+  WritePicture(folder / "borrowed.png", buffer.Borrow(render.frame), nobody);
+  const auto bytes_of = [&](const char* name) {
+    std::ifstream file(folder / name, std::ios::binary);
+    return std::string(std::istreambuf_iterator<char>(file), {});
+  };
+  EXPECT_EQ(bytes_of("borrowed.png"), bytes_of("copied.png"));
 }
 
 TEST(BorrowedImage, IsTurned) {

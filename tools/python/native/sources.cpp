@@ -93,7 +93,7 @@ py::tuple Source::Read(int timeout_ms) {
     read = Next(timeout_ms);
   }
   if (read.status != depth::ReadStatus::kFrame) {
-    return py::make_tuple(NameOf(read.status), py::none(), py::none(), 0.0, 0);
+    return py::make_tuple(NameOf(read.status), py::none(), py::none(), 0.0, read.dropped);
   }
   const depth::Camera& camera = read.frame.camera;
   return py::make_tuple(NameOf(read.status),

@@ -57,16 +57,16 @@ class Source(Iterator[DepthImage]):
         seen = self._wait_for(self._native.read)
         if seen is None:
             raise StopIteration
-        _, depth_mm, camera, time_s, dropped = seen
-        self._dropped += dropped
+        _, depth_mm, camera, time_s, _ = seen
         return DepthImage(depth_mm, self._camera_of(camera), time_s)
 
     def _wait_for(self, read: Callable[[int], tuple[Any, ...]]) -> Optional[tuple[Any, ...]]:
-        """What `read` gives of the next image, its status first; None at the end."""
+        """What `read` gives of the next image, its status first, how many were lost last; None at the end."""
         last_frame_s = time.monotonic()
         while True:
             seen = read(_WAIT_MS)
             self._take_notes()
+            self._dropped += seen[-1]
             if seen[0] == "end":
                 return None
             if seen[0] == "frame":
@@ -111,7 +111,7 @@ class Source(Iterator[DepthImage]):
 
     @property
     def dropped(self) -> int:
-        """Images that a device lost until now."""
+        """Images lost until now: by a device, or because they could not be read."""
         return self._dropped
 
     def close(self) -> None:

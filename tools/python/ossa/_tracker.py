@@ -399,8 +399,7 @@ class Tracker:
                 pass  # told of when its turn comes
         turn = ROTATIONS.index(source._rotate)
         while (seen := source._wait_for(lambda ms: self._native.track_next(source._native, ms, turn))) is not None:
-            _, made, self._time_s, dropped = seen
-            source._dropped += dropped
+            _, made, self._time_s, _ = seen
             if made is not None:
                 yield frame_from(made, self._faces)
         while (held := self.take_held()) is not None:

@@ -1,0 +1,22 @@
+#pragma once
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+namespace ossa::depth {
+
+/// A depth frame as OpenNI2 delivers it, by either of its interfaces.
+struct DeliveredDepth {
+  const void* data = nullptr;  // uint16, row by row
+  int width = 0, height = 0;   // pixels
+  int stride = 0;              // bytes from one row to the next
+  int size = 0;                // bytes
+  bool tenths = false;         // of a millimetre
+  bool mirrored = false;
+};
+
+/// Row-major height × width: tenths are rounded, mirrored rows turned back. Throws InputError where
+/// there are fewer bytes than pixels.
+std::vector<uint16_t> MillimetresOf(const DeliveredDepth& frame);
+
+}  // namespace ossa::depth
