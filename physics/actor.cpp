@@ -104,21 +104,15 @@ void Actor::SetTarget(const Posture& target, std::span<const double> joint_weigh
                       const std::optional<recon::JointOrientations>& orientation) {
   controlled = true;
   wanted_orientation = orientation;
-  const Posture now = character.posture();
+  Posture known = target;
   for (size_t i = 0; i < kJointCount; ++i) {
     const double w = joint_weight.empty() ? 1.0 : joint_weight[i];
-    const Vector3d& p = target.position_m[i];
-    const bool known = p.allFinite() && p.cwiseAbs().maxCoeff() < kFarthest_m && w > 0.0;
-    weight[i] = known ? std::clamp(w, 0.0, 1.0) : 0.0;
-    if (known) {
-      wanted.position_m[i] = p;
-    } else if (i == 0) {
-      wanted.position_m[i] = now.position_m[i];
-    } else {
-      const auto parent = recon::ParentOf(i);
-      wanted.position_m[i] = wanted.position_m[parent] + now.position_m[i] - now.position_m[parent];
-    }
+    Vector3d& p = known.position_m[i];
+    const bool is_known = p.allFinite() && p.cwiseAbs().maxCoeff() < kFarthest_m && w > 0.0;
+    weight[i] = is_known ? std::clamp(w, 0.0, 1.0) : 0.0;
+    if (!is_known) p.setConstant(std::nan(""));
   }
+  wanted = recon::FilledFrom(character.posture(), known);
 }
 
 recon::JointOrientations Actor::OrientAim() const {

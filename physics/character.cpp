@@ -18,14 +18,6 @@ Vector3d AxisOf(dBodyID body) {
 
 bool IsHinge(dJointID joint) { return dJointGetType(joint) == dJointTypeHinge; }
 
-/// Rotation vector of `q`, the short way round.
-Vector3d RotationVector(Quaterniond q) {
-  if (q.w() < 0.0) q.coeffs() = -q.coeffs();
-  const double sine = q.vec().norm();
-  if (sine < 1e-12) return 2.0 * q.vec();
-  return q.vec() * (2.0 * std::atan2(sine, q.w()) / sine);
-}
-
 }  // namespace
 
 Character::Character(OdeWorld& ode, const Segments& segments, const CharacterBuild& build)
@@ -318,7 +310,7 @@ void Character::DriveMotors(const ControlTarget& target, const ControlGains& gai
     Vector3d turning = kVelocityShare * target.angular_velocity_rad_s[bone];
     if (parent != 0) turning -= kVelocityShare * target.angular_velocity_rad_s[parent];
     set(motor_[bone], false,
-        gain * target.stiffness[bone] * RotationVector(wanted * now.conjugate()) + turning,
+        gain * target.stiffness[bone] * recon::ToRotationVector(wanted * now.conjugate()) + turning,
         held ? bound : 0.0);
   }
   const Vector3d middle = 0.5 * (target.position_m[0] + target.position_m[1]);

@@ -10,25 +10,12 @@ namespace {
 using recon::kJointCount;
 using recon::Posture;
 
-constexpr double kLongestStep_s = 0.25;  // chosen by hand
+// Constants: chosen by hand.
+constexpr double kLongestStep_s = 0.25;
+constexpr double kFarthestTarget_m = 1000.0;  // what is said to be farther is nowhere
 
-bool Complete(const Posture& posture) {
-  for (const auto& p : posture.position_m) {
-    if (!p.allFinite() || p.cwiseAbs().maxCoeff() > 1000.0) return false;
-  }
-  return true;
-}
-
-/// Mean distance over the joints that are known in the target.
-double MeanDistance(const Posture& a, const Posture& target) {
-  double sum = 0.0;
-  int count = 0;
-  for (size_t i = 0; i < kJointCount; ++i) {
-    if (!target.position_m[i].allFinite()) continue;
-    sum += (a.position_m[i] - target.position_m[i]).norm();
-    ++count;
-  }
-  return count == 0 ? 0.0 : sum / count;
+bool IsUsable(const Eigen::Vector3d& place_m) {
+  return place_m.allFinite() && place_m.cwiseAbs().maxCoeff() <= kFarthestTarget_m;
 }
 
 /// A T-pose at the origin: where a character waits whose first target is not complete.
@@ -111,7 +98,8 @@ CharacterFilter::Impl::Impl(const recon::BoneLengths& lengths,
 bool CharacterFilter::Impl::MustPlace(const Posture& target, double dt_s) {
   const bool gap = !(dt_s > 0.0 && dt_s <= kLongestStep_s);
   if (!alive || gap) return true;
-  const bool far = MeanDistance(world.StateOf(character).posture, target) > options.teleport_m;
+  const bool far =
+      recon::MeanDistance_m(world.StateOf(character).posture, target) > options.teleport_m;
   far_frames = far ? far_frames + 1 : 0;
   return far_frames >= options.teleport_frames;
 }
@@ -119,19 +107,11 @@ bool CharacterFilter::Impl::MustPlace(const Posture& target, double dt_s) {
 /// Puts the character on its target; joints that are unknown keep their bones' directions.
 void CharacterFilter::Impl::PlaceAt(const Posture& target,
                                     const std::optional<recon::JointOrientations>& orientation) {
-  Posture start = target;
-  if (!Complete(target)) {
-    const Posture now = world.StateOf(character).posture;
-    for (size_t i = 0; i < kJointCount; ++i) {
-      if (start.position_m[i].allFinite() && start.position_m[i].cwiseAbs().maxCoeff() <= 1000.0) {
-        continue;
-      }
-      const auto parent = recon::ParentOf(i);
-      start.position_m[i] =
-          i == 0 ? now.position_m[0]
-                 : start.position_m[parent] + now.position_m[i] - now.position_m[parent];
-    }
+  Posture known = target;
+  for (Eigen::Vector3d& p : known.position_m) {
+    if (!IsUsable(p)) p.setConstant(std::nan(""));
   }
+  const Posture start = recon::FilledFrom(world.StateOf(character).posture, known);
   world.Place(character, start, orientation);
   alive = true;
   far_frames = 0;

@@ -8,6 +8,7 @@
 #include "depth/base/error.h"
 #include "physics/anthropometry.h"
 #include "physics/character.h"
+#include "recon/smallest_turn.h"
 
 namespace ossa::physics {
 namespace {
@@ -42,12 +43,6 @@ Parabola FitParabola(const std::vector<double>& t, const std::vector<Vector3d>& 
   return {c.row(0).transpose(), c.row(1).transpose(), 2.0 * c.row(2).transpose()};
 }
 
-Vector3d RotationVector(Eigen::Quaterniond q) {
-  if (q.w() < 0.0) q.coeffs() = -q.coeffs();
-  const Eigen::AngleAxisd turn(q.normalized());
-  return turn.angle() * turn.axis();
-}
-
 /// The frames that derivatives at `frame` are taken from: all within the window, three at least.
 struct Window {
   size_t from, to;  // one past the last
@@ -79,7 +74,7 @@ BodyMotion MotionAt(std::span<const BodyPose> motion, size_t frame, const Segmen
     for (size_t k = window.from; k < window.to; ++k) {
       const auto& p = motion[k].posture.position_m;
       middles.emplace_back(0.5 * (p[i] + p[recon::ParentOf(i)]));
-      turns.push_back(RotationVector(motion[k].orientation[i] * now.conjugate()));
+      turns.push_back(recon::ToRotationVector(motion[k].orientation[i] * now.conjugate()));
     }
     // About no turn the rotation vector's derivatives are the angular velocity and acceleration.
     const Parabola place = FitParabola(t, middles), turn = FitParabola(t, turns);

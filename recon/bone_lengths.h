@@ -38,8 +38,8 @@ struct BoneLengthOptions {
   static BoneLengthOptions ForWholeRecording() { return {BoneStatistic::kMedian}; }
 };
 
-/// Lengths of a person's bones from measurements, metres. The one estimator for all who need it;
-/// which measurements count is their matter.
+/// Lengths of a person's bones from measurements, metres; which measurements count is the caller's
+/// matter.
 class BoneLengthEstimator {
  public:
   explicit BoneLengthEstimator(const BoneLengthOptions& options = {});

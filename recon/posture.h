@@ -32,6 +32,9 @@ struct TrackedPosture {
   JointArray<double> confidence{};    // [0, 1]; the tracker's own trust in each joint
 };
 
+/// With left and right exchanged.
+TrackedPosture SidesExchanged(const TrackedPosture& seen);
+
 /// Orientation of each joint's bone as the Kinect SDK defines it: world (camera) from bone, the
 /// bone's y axis along the bone from parent to joint. Identity where unknown.
 using JointOrientations = JointArray<Eigen::Quaterniond>;
@@ -41,5 +44,11 @@ using BoneLengths = JointArray<double>;
 
 /// Distances from each joint to its parent, metres; 0 for the root.
 BoneLengths MeasureBoneLengths(const Posture& posture);
+
+/// Mean distance to the joints of `target` that are finite, metres; 0 where none is.
+double MeanDistance_m(const Posture& posture, const Posture& target);
+
+/// `seen`, its joints that are not finite where `whole` has them against their parents.
+Posture FilledFrom(const Posture& whole, const Posture& seen);
 
 }  // namespace ossa::recon

@@ -6,17 +6,14 @@
 #include <cmath>
 
 #include "depth/image/camera.h"
+#include "recon/smallest_turn.h"
 
 namespace ossa::recon {
 namespace {
 
-double AngleBetween(const Eigen::Vector3d& a, const Eigen::Vector3d& b) {
-  return std::atan2(a.cross(b).norm(), a.dot(b));
-}
-
 /// Angle in degrees between a bone and the vertical, pointing up.
 double TiltFromUp(const Posture& posture, Joint from, Joint to) {
-  return AngleBetween(posture[to] - posture[from], Eigen::Vector3d::UnitY()) * 180.0 / M_PI;
+  return AngleBetween_rad(posture[to] - posture[from], Eigen::Vector3d::UnitY()) * 180.0 / M_PI;
 }
 
 }  // namespace
@@ -169,7 +166,8 @@ JointWeights ReliabilityEstimator::Behaviour() const {
       if (seen_[k][i] * seen_[k + 1][i] * seen_[k + 2][i] == 0.0) continue;
       const Eigen::Vector3d d0 = postures_[k + 1].position_m[i] - postures_[k].position_m[i];
       const Eigen::Vector3d d1 = postures_[k + 2].position_m[i] - postures_[k + 1].position_m[i];
-      if (d0.norm() > options_.d_min_m && d1.norm() > options_.d_min_m) sum += AngleBetween(d0, d1);
+      if (d0.norm() > options_.d_min_m && d1.norm() > options_.d_min_m)
+        sum += AngleBetween_rad(d0, d1);
     }
     const double mean = sum / options_.behaviour_frames;
     const double over = std::max(std::min(mean, options_.roof_rad) - options_.floor_rad, 0.0);

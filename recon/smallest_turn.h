@@ -10,4 +10,11 @@ namespace ossa::recon {
 Eigen::Quaterniond SmallestTurn(const Eigen::Vector3d& from, const Eigen::Vector3d& to);
 Eigen::Quaternionf SmallestTurn(const Eigen::Vector3f& from, const Eigen::Vector3f& to);
 
+/// Between two directions of any length, radians, [0, pi].
+double AngleBetween_rad(const Eigen::Vector3d& a, const Eigen::Vector3d& b);
+
+/// The axis of a rotation (a unit quaternion of either sign), as long as its angle in radians,
+/// [0, pi].
+Eigen::Vector3d ToRotationVector(Eigen::Quaterniond rotation);
+
 }  // namespace ossa::recon

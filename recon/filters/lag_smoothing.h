@@ -21,7 +21,8 @@ struct LagOptions {
   double alike_m = 0.05;
   bool keeps_bones = false;  // bones keep the lengths that they have in each frame
 
-  /// The widths that were chosen for so many frames, up to 2, or for the whole recording.
+  /// So many frames, up to 2, or the whole recording, with the widths above, which were chosen for
+  /// all of them (docs/benchmarks/reconstruction.md).
   static LagOptions Of(int frames, bool keeps_bones);
 };
 

@@ -1,8 +1,8 @@
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 #include <utility>
 
+#include "depth/base/angles.h"
 #include "recon/methods/level_internal.h"
 #include "recon/smallest_turn.h"
 
@@ -11,10 +11,6 @@ namespace {
 
 using Eigen::Isometry3d;
 using Eigen::Vector3d;
-
-double AngleBetween_deg(const Vector3d& a, const Vector3d& b) {
-  return std::atan2(a.cross(b).norm(), a.dot(b)) * 180.0 / std::numbers::pi;
-}
 
 bool IsSeen(const TrackedPosture& observed, Joint joint) {
   return observed.state[Index(joint)] == TrackingState::kTracked &&
@@ -146,7 +142,7 @@ const std::optional<Isometry3d>& LevelEstimator::Update(
 }
 
 bool LevelEstimator::Confirm(const Vector3d& up) {
-  const bool alike = AngleBetween_deg(up, floor_up_) <= options_.change_deg;
+  const bool alike = ToDegrees(AngleBetween_rad(up, floor_up_)) <= options_.change_deg;
   floor_frames_ = alike ? std::min(floor_frames_ + 1, options_.floor_frames) : 1;
   floor_up_ = up;
   if (floor_frames_ < options_.floor_frames) return false;
@@ -164,7 +160,8 @@ std::optional<Vector3d> LevelEstimator::StandingUp() const {
     sum.shanks_m += stance.shanks_m;
   }
   for (const Vector3d& part : {sum.trunk_m, sum.thighs_m, sum.shanks_m}) {
-    if (!(AngleBetween_deg(part, sum.balance_m) <= options_.most_bent_deg)) return std::nullopt;
+    if (!(ToDegrees(AngleBetween_rad(part, sum.balance_m)) <= options_.most_bent_deg))
+      return std::nullopt;
   }
   return sum.balance_m.normalized();
 }
@@ -175,15 +172,17 @@ void LevelEstimator::Observe(const TrackedPosture& observed) {
   stances_.push_back(*stance);
   if (stances_.size() > static_cast<size_t>(options_.fewest_frames)) stances_.pop_front();
   const auto up = StandingUp();
-  if (!up || AngleBetween_deg(*up, Vector3d::UnitY()) > options_.most_deg) return;
+  if (!up || ToDegrees(AngleBetween_rad(*up, Vector3d::UnitY())) > options_.most_deg) return;
   standing_frames_ = std::min(standing_frames_ + 1, options_.memory_frames);
   standing_up_ += (*up - standing_up_) / standing_frames_;
 }
 
 void LevelEstimator::Level(const Vector3d& up, double least_deg, const Posture& observed) {
-  const double tilt_deg = AngleBetween_deg(up, Vector3d::UnitY());
+  const double tilt_deg = ToDegrees(AngleBetween_rad(up, Vector3d::UnitY()));
   if (!(tilt_deg <= options_.most_deg)) return;
-  if (AngleBetween_deg(up, up_) <= (level_from_camera_ ? options_.change_deg : least_deg)) return;
+  if (ToDegrees(AngleBetween_rad(up, up_)) <=
+      (level_from_camera_ ? options_.change_deg : least_deg))
+    return;
   up_ = up;
   if (tilt_deg <= least_deg) {
     level_from_camera_.reset();

@@ -30,6 +30,13 @@ struct ReconstructionInput {
   std::optional<Eigen::Isometry3d> camera_from_observed = std::nullopt;
 };
 
+/// What a method may find wrong with all that was observed of a person.
+enum class GrossFailure {
+  kNone,
+  kSidesExchanged,  // left is right: the posture has it the right way round
+  kAnotherBody,     // no body moves so: nothing of it is in the posture
+};
+
 /// What a method makes of one person at one time.
 struct ReconstructedPosture {
   Posture posture;                   // camera space, all 20 joints finite
@@ -37,6 +44,7 @@ struct ReconstructedPosture {
   /// Camera from bone (recon/orientation.h), of methods that know how bones are turned about
   /// themselves, from a database; else empty: what joints tell of it, ComputeOrientations says.
   std::optional<JointOrientations> orientation = std::nullopt;
+  GrossFailure failure = GrossFailure::kNone;
 };
 
 /// One person's posture made complete and plausible, frame by frame. One object per person.

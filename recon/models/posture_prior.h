@@ -28,11 +28,11 @@ struct PriorClip {
 /// feet).
 struct PosturePriorOptions {
   int modes = 40;  // in [1, 57]; 25 lose wrists and ankles, 0.9 cm where most is given
-  // Over which the modes' correlation is measured; 0.13 to 0.7 do as well
-  // Correlation times over what the lag tells: limbs move smoothly, and from one frame to the next
-  // they change less than anything does that forgets as fast over the lag. 1 costs 2 %.
-  double lag_s = 1.0 / 3.0;
-  double slowness = 2.0;  // factor
+  double lag_s =
+      1.0 / 3.0;  // over which the modes' correlation is measured; 0.13 to 0.7 do as well
+  // Factor of correlation times over what the lag tells: limbs move smoothly, and from one frame to
+  // the next they change less than anything does that forgets as fast over the lag. 1 costs 2 %.
+  double slowness = 2.0;
 
   /// Throws std::invalid_argument with name, value and range.
   void Check() const;

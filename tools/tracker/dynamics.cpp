@@ -4,14 +4,15 @@
 #include <cmath>
 #include <cstdio>
 #include <map>
-#include <numbers>
 #include <string>
 #include <vector>
 
+#include "depth/base/angles.h"
 #include "depth/base/atomic_file.h"
 #include "depth/base/error.h"
 #include "depth/base/statistics.h"
 #include "physics/character.h"
+#include "recon/smallest_turn.h"
 
 namespace ossa::tracker {
 namespace {
@@ -33,12 +34,8 @@ std::optional<recon::Posture> WholePosture(const recon::BodyRecord& body) {
 
 constexpr double kStraight_deg = 20.0;  // legs and trunk in line within so much
 constexpr double kTilted_deg = 40.0;    // no camera is tilted by more
-constexpr size_t kFewest_frames = 15;   // half a second
+constexpr size_t kFewest_frames = 15;   // half a second of one person at 30 a second
 constexpr double kSole_m = 0.03;        // from a foot joint to the sole, as of the character's feet
-
-double AngleBetween_deg(const Vector3d& a, const Vector3d& b) {
-  return std::atan2(a.cross(b).norm(), a.dot(b)) * 180.0 / std::numbers::pi;
-}
 
 /// From the ankles to the shoulders of somebody who stands straight; nothing of others.
 std::optional<Vector3d> FindStandingUp(const recon::Posture& p) {
@@ -47,10 +44,10 @@ std::optional<Vector3d> FindStandingUp(const recon::Posture& p) {
   const Vector3d hips = 0.5 * (p[Joint::kHipLeft] + p[Joint::kHipRight]);
   const Vector3d shoulders = p[Joint::kShoulderCenter];
   const Vector3d up = shoulders - feet;
-  if (AngleBetween_deg(up, Vector3d::UnitY()) > kTilted_deg) return std::nullopt;
+  if (ToDegrees(recon::AngleBetween_rad(up, Vector3d::UnitY())) > kTilted_deg) return std::nullopt;
   for (const Vector3d& part :
        {Vector3d(shoulders - hips), Vector3d(hips - knees), Vector3d(knees - feet)}) {
-    if (!(AngleBetween_deg(part, up) <= kStraight_deg)) return std::nullopt;
+    if (!(ToDegrees(recon::AngleBetween_rad(part, up)) <= kStraight_deg)) return std::nullopt;
   }
   return up.normalized();
 }

@@ -9,8 +9,8 @@ namespace ossa::tracker {
 
 /// The floor of a recording that has none, from its people: up is from the ankles to the shoulders
 /// of who stands straight, the floor below the lower foot, in the middle (median) of all such
-/// frames. a b c d of ax + by + cz + d = 0, unit normal up; nothing where nobody stands straight
-/// for half a second. Joints of sensors lie some centimetres off, and so does this floor.
+/// frames. a b c d of ax + by + cz + d = 0, unit normal up; nothing where people stand straight
+/// in fewer than 15 postures. Joints of sensors lie some centimetres off, and so does this floor.
 std::optional<Eigen::Vector4d> EstimateFloor(const recon::SkeletonSequence& sequence);
 
 /// Inverse dynamics of what FollowMechanically made (physics::ComputeDynamics): a CSV line a person

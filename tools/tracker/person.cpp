@@ -179,6 +179,19 @@ void Disbelieve(recon::TrackedPosture& observed) {
   observed.confidence.fill(0.0);
 }
 
+// What the method did not believe holds no joint.
+void HeedFailure(SkeletonWork& work) {
+  const recon::GrossFailure failure = work.reconstructed.failure;
+  if (failure == recon::GrossFailure::kSidesExchanged) {
+    work.observed = recon::SidesExchanged(work.observed);
+    work.seen = recon::SidesExchanged(work.seen);
+  }
+  if (failure == recon::GrossFailure::kAnotherBody) {
+    work.believed = false;
+    Disbelieve(work.observed);
+  }
+}
+
 // As the frame says them: by the fitted body and by the network.
 std::optional<recon::BoneLengths> JudgeBones(const Body& body, double fitted_share) {
   if (!body.fit) return body.refined_bones_m;
@@ -261,6 +274,7 @@ void Reconstruct(SkeletonWork& work) {
   if (!method) method = MethodFor(body.id, work.options);
   work.reconstructed = method->Step({work.observed, work.frame.time_s, &work.frame,
                                      JudgeBones(body, work.options.hold.fitted_bones), work.floor});
+  HeedFailure(work);
   DoubtByResidual(work, work.reconstructed.reliability);
   body.reconstructed = work.reconstructed.posture;
   body.bones_m = method->Bones();

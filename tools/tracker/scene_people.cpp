@@ -58,30 +58,6 @@ std::optional<Posture> Completed(const Posture& seen, const recon::BoneLengths& 
   return whole;
 }
 
-double MeanDistance_m(const Posture& made, const Posture& seen) {
-  double sum_m = 0.0;
-  int count = 0;
-  for (size_t j = 0; j < kJointCount; ++j) {
-    if (!seen.position_m[j].allFinite()) continue;
-    sum_m += (made.position_m[j] - seen.position_m[j]).norm();
-    ++count;
-  }
-  return count == 0 ? 0.0 : sum_m / count;
-}
-
-/// With the joints of `made` where nothing was seen.
-Posture FilledFrom(const Posture& made, const Posture& seen) {
-  Posture filled = seen;
-  for (size_t j = 0; j < kJointCount; ++j) {
-    if (seen.position_m[j].allFinite()) continue;
-    const size_t parent = j == 0 ? 0 : recon::ParentOf(j);
-    filled.position_m[j] =
-        j == 0 ? made.position_m[0]
-               : Vector3d(filled.position_m[parent] + made.position_m[j] - made.position_m[parent]);
-  }
-  return filled;
-}
-
 }  // namespace
 
 /// The first time, or with other bones, holding what they held.
@@ -107,7 +83,8 @@ void Scene::Impl::Make(SceneActor& actor, const Posture& start) {
 
 /// Whether somebody is not where their character is, and it is not one odd frame.
 bool Scene::Impl::IsElsewhere(SceneActor& actor, const Posture& seen) const {
-  const bool far = MeanDistance_m(world.StateOf(actor.character).posture, seen) > kElsewhere_m;
+  const bool far =
+      recon::MeanDistance_m(world.StateOf(actor.character).posture, seen) > kElsewhere_m;
   actor.far_frames = far ? actor.far_frames + 1 : 0;
   return actor.far_frames >= kElsewhereFrames;
 }
@@ -131,7 +108,8 @@ void Scene::Impl::FollowPeople(const std::vector<ScenePerson>& people, bool gap)
     if (is_new || is_to_be_made) {
       Make(actor, is_new ? *whole : world.StateOf(actor.character).posture);
     } else if (gap || IsElsewhere(actor, person.seen)) {
-      world.Place(actor.character, FilledFrom(world.StateOf(actor.character).posture, person.seen),
+      world.Place(actor.character,
+                  recon::FilledFrom(world.StateOf(actor.character).posture, person.seen),
                   person.orientation);
       actor.far_frames = 0;
       for (auto& [joint, hand] : actor.hands) hand.ForgetMotion();
@@ -141,7 +119,7 @@ void Scene::Impl::FollowPeople(const std::vector<ScenePerson>& people, bool gap)
       trust[j] = person.seen.position_m[j].allFinite() ? HeldTrust(trust[j]) : 0.0;
     }
     world.SetTarget(actor.character, person.seen, trust, person.orientation);
-    actor.seen = FilledFrom(world.StateOf(actor.character).posture, person.seen);
+    actor.seen = recon::FilledFrom(world.StateOf(actor.character).posture, person.seen);
   }
   ForgetGone();
 }

@@ -28,7 +28,8 @@ std::vector<Solid> CapsulesOf(const tracker::BodyFrame& bodies);
 /// The shapes that the objects of a scene are made of.
 std::vector<Solid> SolidsOf(const std::vector<tracker::SceneObjectState>& objects);
 
-/// What is in the world of a frame: its objects, and with `characters` those of all who are tracked.
+/// What is in the world of a frame: its objects, and with `characters` those of all who are
+/// tracked.
 std::vector<Solid> SolidsOf(const tracker::BodyFrame& frame, bool characters);
 
 /// [{"shape":"box","size":[...],"at":[...],"turn":[x,y,z,w],"person":0},...], metres to the tenth

@@ -66,7 +66,8 @@ class Best : public Reconstructor {
     correction_.Observe(now, frame, prepared.dt_s);  // 5.
     const Posture corrected = correction_.Apply(now, frame);
     size_.Observe(corrected, TrustInBones(prepared, frame.trust), prepared.scale, input.bones_m);
-    const ReconstructedPosture out = WithBones(corrected, frame);  // 6.
+    ReconstructedPosture out = WithBones(corrected, frame);  // 6.
+    out.failure = failures_.failure();
 
     Revise(prepared, before);
     last_ = frame;

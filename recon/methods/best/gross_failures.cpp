@@ -14,17 +14,6 @@ bool Seen(const TrackedPosture& observed, size_t i) {
          observed.posture.position_m[i].allFinite();
 }
 
-TrackedPosture SidesExchanged(const TrackedPosture& observed) {
-  TrackedPosture out = observed;
-  for (size_t i = 0; i < kJointCount; ++i) {
-    const auto m = kMirroredJoint[i];
-    out.posture.position_m[i] = observed.posture.position_m[m];
-    out.state[i] = observed.state[m];
-    out.confidence[i] = observed.confidence[m];
-  }
-  return out;
-}
-
 /// Median distance between what is seen and what is expected; nothing when little is seen.
 std::optional<double> MedianDistance(const TrackedPosture& observed, const Posture& expected) {
   std::vector<double> d;
@@ -42,6 +31,7 @@ std::optional<double> MedianDistance(const TrackedPosture& observed, const Postu
 double GrossFailures::Repair(ReconstructionInput& input) {
   joint_trust_.fill(1.0);
   elsewhere_ = false;
+  failure_ = GrossFailure::kNone;
   const std::optional<double> step = steps_.To(input.time_s);
   if (!last_ || !step) {
     last_.reset();
@@ -69,14 +59,16 @@ double GrossFailures::Repair(ReconstructionInput& input) {
   if (sides) {
     if (exchanged_s_ > options_.sides_patience_s) return AcceptAfterAll();
     input.observed = exchanged;
+    failure_ = GrossFailure::kSidesExchanged;
     doubt = 0.5;
   } else if (straight &&
              *straight > options_.slack_m + options_.body_slack_m + options_.body_speed * step_s) {
     body_jumped_s_ += step_s;
-    if (body_jumped_s_ <
-        (SameBones(input.observed) ? options_.own_patience_s : options_.patience_s))
-      return 0.0;
-    return AcceptAfterAll();
+    const double patience_s =
+        SameBones(input.observed) ? options_.own_patience_s : options_.patience_s;
+    if (body_jumped_s_ >= patience_s) return AcceptAfterAll();
+    failure_ = GrossFailure::kAnotherBody;
+    return 0.0;
   }
   body_jumped_s_ = 0.0;
   const auto moved = MedianDistance(input.observed, *last_);

@@ -44,6 +44,8 @@ class GrossFailures {
   /// The person is, from this frame on, somewhere else than the last posture: a cut, a lost
   /// stretch, a jump that was waited out. What was filtered until now is past.
   bool elsewhere() const { return elsewhere_; }
+  /// Of the whole person in the latest frame.
+  GrossFailure failure() const { return failure_; }
   void Remember(const Posture& made, double dt_s);
 
  private:
@@ -59,6 +61,7 @@ class GrossFailures {
   JointWeights joint_trust_{};
   double body_jumped_s_ = 0.0, exchanged_s_ = 0.0;
   bool elsewhere_ = false;
+  GrossFailure failure_ = GrossFailure::kNone;
   FrameSteps steps_;
   double last_dt_s_ = 1.0 / 30.0;
 };
