@@ -16,6 +16,7 @@ constexpr std::array kCommands = {
     Command{"record", "record a source to an .oni file", ossa::commands::Record},
     Command{"reconstruct", "make recorded skeletons complete and plausible",
             ossa::commands::Reconstruct},
+    Command{"fuse", "make one recording of what several cameras saw", ossa::commands::Fuse},
     Command{"compare", "judge skeletons against the truth", ossa::commands::Compare},
     Command{"info", "say what a file of ossa's holds", ossa::commands::Info},
     Command{"doctor", "say what keeps cameras from working here", ossa::commands::Doctor},

@@ -8,8 +8,8 @@
 #include <utility>
 #include <vector>
 
-#include "depth/base/statistics.h"
 #include "recon/orientation.h"
+#include "recon/time_step.h"
 
 namespace ossa::recon {
 namespace {
@@ -34,14 +34,6 @@ struct Track {
   std::vector<JointRecord*> joints;  // in time order
   std::vector<double> time_s;
 };
-
-double MedianStep_s(const SkeletonSequence& sequence) {
-  std::vector<double> steps;
-  for (size_t f = 1; f < sequence.frames.size(); ++f)
-    steps.push_back(sequence.frames[f].time_s - sequence.frames[f - 1].time_s);
-  if (steps.empty()) return 0.0;
-  return Median(std::move(steps));
-}
 
 /// Every joint of every person, anew after an absence of a few frames (by hand): what comes after
 /// it is not the next sample of what was before.

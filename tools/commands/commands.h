@@ -5,6 +5,7 @@ namespace ossa::commands {
 // One function a subcommand, each in a file of its own name in this folder.
 int Evaluate(int argc, char** argv);
 int Compare(int argc, char** argv);
+int Fuse(int argc, char** argv);
 int Experiment(int argc, char** argv);
 int Study(int argc, char** argv);
 int Database(int argc, char** argv);

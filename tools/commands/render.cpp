@@ -3,6 +3,7 @@
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <array>
+#include <filesystem>
 #include <optional>
 #include <string>
 #include <thread>
@@ -10,6 +11,7 @@
 
 #include "depth/base/error.h"
 #include "depth/base/folder_lock.h"
+#include "recon/fuse/extrinsics.h"
 #include "recon/motion/mocap.h"
 #include "tools/commands/command.h"
 #include "tools/commands/commands.h"
@@ -30,7 +32,7 @@ struct Arguments {
   double fov = 0.0, shrink = 1.0;
   int64_t frames = 0;
   uint64_t seed = 1;
-  int people = 1;
+  int people = 1, cameras = 1;
   int threads = static_cast<int>(std::max(1u, std::thread::hardware_concurrency()));
   bool sequence = false, quiet = false;
 };
@@ -108,6 +110,11 @@ void Declare(CLI::App& app, Arguments& a) {
       ->capture_default_str();
   app.add_flag("--sequence", a.sequence,
                "one continuous clip at 30 Hz: one body before one camera, frames in order");
+  app.add_option("--cameras", a.cameras,
+                 "of a --sequence: so many cameras around the same people, each with a data set of "
+                 "its own of the same moments, OUT/camera_0 and so on, and OUT/extrinsics.json")
+      ->check(CLI::Range(1, 16))
+      ->capture_default_str();
   AddMappingOption(app, a.mapping);
   app.add_option("--threads", a.threads)->check(CLI::Range(1, 1024));
   app.add_flag("--quiet", a.quiet, "no progress");
@@ -142,6 +149,12 @@ void CheckTogether(const Arguments& a) {
     throw UsageError("--occluders " + a.occluders +
                      ": arms are put to things, not in a --sequence");
   }
+  if (a.cameras > 1 && !a.sequence) {
+    throw UsageError("--cameras: expected --sequence with it");
+  }
+  if (a.cameras > 1 && a.background == "lived-in") {
+    throw UsageError("--background lived-in: is made for one camera: expected room or none");
+  }
   if (a.camera != "kinect-v1" && a.format != "packed") {
     throw UsageError("--camera " + a.camera +
                      ": needs --format packed, where each frame has its camera");
@@ -175,6 +188,7 @@ tools::FrameOptions MakeOptions(const Arguments& a) {
   options.shrink = a.shrink;
   options.sequence = a.sequence;
   options.people = a.people;
+  options.views = a.cameras;
   options.seed = a.seed;
   options.variation = tools::MakeVariation(*tools::PosesFromName(a.poses));
   return options;
@@ -195,6 +209,7 @@ std::string FormatCommand(const Arguments& a) {
   if (a.fov > 0.0) command += fmt::format(" --fov {}", a.fov);
   if (a.shrink != 1.0) command += fmt::format(" --shrink {}", a.shrink);
   if (a.sequence) command += " --sequence";
+  if (a.cameras > 1) command += fmt::format(" --cameras {}", a.cameras);
   if (!a.mapping.empty()) command += " --mapping " + a.mapping;
   return command;
 }
@@ -215,6 +230,66 @@ std::vector<std::string> ListTerms(const Arguments& a) {
   return terms;
 }
 
+tools::RenderJob MakeJob(const Arguments& a, const std::filesystem::path& out,
+                         const tools::Ranks& ranks) {
+  tools::RenderJob job;
+  job.out = out;
+  job.frames = a.frames;
+  job.png = a.format != "packed";
+  job.packed = a.format != "png";
+  job.threads = a.threads;
+  job.rank = ranks.rank();
+  job.ranks = ranks.size();
+  job.command = FormatCommand(a);
+  job.sources = a.mocap;
+  job.terms = ListTerms(a);
+  job.interrupted = Interrupted;
+  return job;
+}
+
+void RenderSet(const tools::FrameStudio& studio, const Arguments& a,
+               const std::filesystem::path& out, tools::Ranks& ranks) {
+  tools::RenderJob job = MakeJob(a, out, ranks);
+  Progress progress("render", a.quiet || ranks.rank() != 0);
+  const auto share = static_cast<double>(a.frames) / ranks.size();
+  job.progress = [&](int64_t done) { progress.Update(static_cast<double>(done), share); };
+  const bool finished = tools::RenderShare(studio, job) == tools::RenderEnd::kDone;
+  if (!ranks.All(finished)) {
+    throw InputError(a.out + ": interrupted; the same command goes on from here");
+  }
+  if (ranks.rank() == 0) tools::FinishDataset(studio, job);
+}
+
+std::string CameraName(int camera) { return fmt::format("camera_{}", camera); }
+
+// A folder of several cameras holds theirs and nothing else: no data set of its own.
+void CheckFolderOfCameras(const Arguments& a) {
+  for (const auto& entry : std::filesystem::directory_iterator(a.out)) {
+    const std::string name = entry.path().filename().string();
+    bool known = name == "extrinsics.json";
+    for (int k = 0; k < a.cameras; ++k) known = known || name == CameraName(k);
+    if (known) continue;
+    throw InputError(a.out + ": expected an empty folder, found " + name);
+  }
+}
+
+// One data set after the other; extrinsics.json says that all are there.
+void RenderAround(tools::FrameStudio& studio, const Arguments& a, tools::Ranks& ranks) {
+  const std::filesystem::path out(a.out);
+  if (ranks.rank() == 0) CheckFolderOfCameras(a);
+  for (int k = 0; k < a.cameras; ++k) {
+    studio.options.camera = k;
+    RenderSet(studio, a, out / CameraName(k), ranks);
+  }
+  if (ranks.rank() != 0) return;
+  recon::Extrinsics cameras;
+  for (const Eigen::Isometry3d& from_camera_0 : tools::FrameMaker(studio).FromCamera0()) {
+    cameras.push_back(
+        {.name = CameraName(static_cast<int>(cameras.size())), .from_camera_0 = from_camera_0});
+  }
+  recon::WriteExtrinsics(out / "extrinsics.json", cameras);
+}
+
 }  // namespace
 
 int Render(int argc, char** argv) {
@@ -233,31 +308,15 @@ int Render(int argc, char** argv) {
   auto poses =
       a.sequence ? tools::SequencePoses(clips, a.frames, a.seed) : tools::MakePoseBank(clips, bank);
   if (poses.empty()) throw InputError(a.mocap.front() + ": expected motion, found no frames");
-  const tools::FrameStudio studio(recon::BodyModel::Load(recon::BodyFolder()), std::move(poses),
-                                  options);
-  tools::RenderJob job;
-  job.out = a.out;
-  job.frames = a.frames;
-  job.png = a.format != "packed";
-  job.packed = a.format != "png";
-  job.threads = a.threads;
-  job.rank = ranks.rank();
-  job.ranks = ranks.size();
-  job.command = FormatCommand(a);
-  job.sources = a.mocap;
-  job.terms = ListTerms(a);
-  job.interrupted = Interrupted;
+  tools::FrameStudio studio(recon::BodyModel::Load(recon::BodyFolder()), std::move(poses), options);
   // Ranks work together; who holds the folder for them is the first.
   std::optional<FolderLock> lock;
-  if (job.rank == 0) lock.emplace(job.out);
-  Progress progress("render", a.quiet || ranks.rank() != 0);
-  const auto share = static_cast<double>(a.frames) / ranks.size();
-  job.progress = [&](int64_t done) { progress.Update(static_cast<double>(done), share); };
-  const bool finished = tools::RenderShare(studio, job) == tools::RenderEnd::kDone;
-  if (!ranks.All(finished)) {
-    throw InputError(a.out + ": interrupted; the same command goes on from here");
+  if (ranks.rank() == 0) lock.emplace(a.out);
+  if (a.cameras > 1) {
+    RenderAround(studio, a, ranks);
+  } else {
+    RenderSet(studio, a, a.out, ranks);
   }
-  if (ranks.rank() == 0) tools::FinishDataset(studio, job);
   return 0;
 }
 

@@ -24,15 +24,16 @@
 #include "tools/commands/mechanics_options.h"
 #include "tools/commands/method_options.h"
 #include "tools/commands/outputs.h"
+#include "tools/commands/posture_record.h"
 #include "tools/commands/process.h"
 #include "tools/commands/source_options.h"
 #include "tools/commands/track_options.h"
+#include "tools/commands/track_several.h"
 #include "tools/commands/view_options.h"
 #include "tools/stream/sender.h"
 #include "tools/tracker/picture.h"
 #include "tools/tracker/run_stats.h"
 #include "tools/tracker/shipped.h"
-#include "tools/tracker/skeleton_record.h"
 #include "tools/viewer/viewer.h"
 
 namespace ossa::commands {
@@ -44,13 +45,7 @@ using std::chrono::milliseconds;
 // Skeletons on their way to the file, which appears only when complete.
 class SkeletonOutput {
  public:
-  explicit SkeletonOutput(const TrackOptions& options)
-      : path_(options.out), seated_(options.mode == "seated") {
-    const std::string& posture = options.posture;
-    if (posture == "raw") kind_ = tracker::PostureKind::kRaw;
-    if (posture == "refined") kind_ = tracker::PostureKind::kRefined;
-    if (posture == "fitted") kind_ = tracker::PostureKind::kFitted;
-    if (posture == "reconstructed") kind_ = tracker::PostureKind::kReconstructed;
+  explicit SkeletonOutput(const TrackOptions& options) : path_(options.out), recorder_(options) {
     if (path_.empty()) return;
     SayLeftovers(path_);
     writer_.emplace(
@@ -62,9 +57,7 @@ class SkeletonOutput {
     for (const tracker::Body& body : bodies.bodies) {
       if (body.shape) writer_->SetShape(body.id, body.shape->shape);
     }
-    recon::SkeletonFrame record = tracker::ToRecord(bodies, kind_);
-    if (seated_) KeepSeatedJoints(record);
-    writer_->Write(record);
+    writer_->Write(recorder_.Record(bodies));
   }
   void Finish() {
     try {
@@ -79,18 +72,8 @@ class SkeletonOutput {
   }
 
  private:
-  // Nobody looks for the others.
-  static void KeepSeatedJoints(recon::SkeletonFrame& record) {
-    for (recon::BodyRecord& body : record.bodies) {
-      for (size_t j = 0; j < recon::kJointCount; ++j) {
-        if (!tracker::IsSeatedJoint(static_cast<recon::Joint>(j))) body.joints[j].reset();
-      }
-    }
-  }
-
   std::string path_;
-  bool seated_ = false;
-  tracker::PostureKind kind_ = tracker::PostureKind::kFinal;
+  PostureRecorder recorder_;
   std::optional<recon::SkeletonWriter> writer_;
 };
 
@@ -358,6 +341,7 @@ InputError InterruptedEarly(const TrackOptions& options, const Run& run) {
 int Track(int argc, char** argv) {
   TrackOptions options = ParseTrackOptions(argc, argv);
   options.tracker.models = tracker::ModelSet::Load(options.files, options.tracker.method);
+  if (!options.more_sources.empty()) return TrackSeveral(options);
   for (size_t i = 0; i < options.people.size(); ++i) {
     options.tracker.shapes[static_cast<int>(i) + 1] =
         recon::PersonShape::Load(options.people[i], *options.tracker.models->surface);

@@ -133,6 +133,29 @@ int UsualLag(const TrackOptions& options) {
   return smoothed && !IsDevice(options.source) ? kMost : 0;
 }
 
+// What belongs to one camera goes with one source, what joins cameras with several.
+void CheckSources(const CLI::App& app, const TrackOptions& options) {
+  const bool several = !options.more_sources.empty();
+  const std::vector<const char*> of_several = {"--extrinsics", "--save-extrinsics", "--max-offset"};
+  const std::vector<const char*> of_one = {"--picture",     "--pictures",  "--trace",  "--send",
+                                           "--view",        "--scene",     "--person", "--bones",
+                                           "--save-person", "--json-stats"};
+  for (const char* option : several ? of_one : of_several) {
+    if (app.count(option) == 0) continue;
+    throw UsageError(
+        fmt::format("{}: expected {} with it", option, several ? "one source" : "several sources"));
+  }
+  if (!several) return;
+  for (const std::string& name : options.Sources()) {
+    if (!name.starts_with("openni:")) continue;  // no other source is a device
+    throw UsageError(
+        fmt::format("track: {}: expected recordings where there are several sources, found a "
+                    "device: record each with 'ossa record' first",
+                    name));
+  }
+  options.fuse.Check(options.Sources());
+}
+
 std::vector<stream::Target> ParseTargets(const std::vector<std::string>& urls) {
   std::vector<stream::Target> targets;
   try {
@@ -149,6 +172,10 @@ TrackOptions ParseTrackOptions(int argc, char** argv) {
   CLI::App app("Follow the people in any SOURCE and write their skeletons");
   TrackOptions options;
   AddSourceOptions(app, options.source);
+  app.add_option("MORE", options.more_sources,
+                 "further recordings of the same people at the same time, by other cameras: fused, "
+                 "in the first one's camera space and at its times");
+  options.fuse.AddTo(app);
   app.add_option("--out", options.out,
                  "skeletons: FILE.jsonl, .bvh, .trc or .csv; .glb: people in motion, skinned");
   app.add_option(
@@ -177,9 +204,10 @@ TrackOptions ParseTrackOptions(int argc, char** argv) {
   AddPageOptions(app, options.page);
   app.add_flag("--quiet", options.quiet, "no progress");
   Parse(app, argc, argv);
-  if (options.out.empty() && options.picture.empty() && options.pictures.empty() && !options.view &&
-      options.json_stats.empty() && options.trace.empty() && options.send.empty() &&
-      options.save_person.empty()) {
+  CheckSources(app, options);
+  if (options.out.empty() && options.fuse.save_extrinsics.empty() && options.picture.empty() &&
+      options.pictures.empty() && !options.view && options.json_stats.empty() &&
+      options.trace.empty() && options.send.empty() && options.save_person.empty()) {
     throw UsageError(
         "track: nothing to do: name --out, --picture, --pictures, --json-stats, --trace, --send, "
         "--save-person or --view");
@@ -203,9 +231,12 @@ TrackOptions ParseTrackOptions(int argc, char** argv) {
   CheckNotOtherKind("--save-person", options.save_person, ".ossaperson");
   CheckPeople(options);
   // A person file may be written over what was read of the same person.
+  std::vector<std::string> inputs = options.Sources();
+  inputs.push_back(options.mechanics.scene);
+  inputs.push_back(options.fuse.File());
   CheckOutputs({options.out, options.json_stats, options.picture, options.pictures, options.trace,
-                options.save_person},
-               {options.source.name, options.mechanics.scene});
+                options.save_person, options.fuse.save_extrinsics},
+               inputs);
   options.tracker.turn = ChooseTurn(options.source);
   options.tracker.lag = options.lag.value_or(UsualLag(options));
   if (options.fit == "on" || options.posture == "fitted") CheckFit(options);

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "tools/commands/checks.h"
+#include "tools/commands/fuse_options.h"
 #include "tools/commands/mechanics_options.h"
 #include "tools/commands/method_options.h"
 #include "tools/commands/outputs.h"
@@ -18,6 +19,8 @@ namespace ossa::commands {
 /// What `ossa track` was asked for.
 struct TrackOptions {
   SourceArguments source;
+  std::vector<std::string> more_sources;  // of the same people at the same time
+  FuseArguments fuse;                     // of these
   std::string out, json_stats, picture, pictures, trace;
   std::vector<std::string> people;  // person files, of the ids from 1 on
   std::string save_person;
@@ -34,6 +37,13 @@ struct TrackOptions {
   PageArguments page;                   // of `view`
   bool view = false;
   bool quiet = false;
+
+  /// The names of all sources, the first before.
+  std::vector<std::string> Sources() const {
+    std::vector<std::string> names{source.name};
+    names.insert(names.end(), more_sources.begin(), more_sources.end());
+    return names;
+  }
 };
 
 /// Throws UsageError for what cannot be.

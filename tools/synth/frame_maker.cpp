@@ -2,13 +2,14 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 #include "depth/render/renderer.h"
 #include "recon/body/parts.h"
 #include "tools/synth/clothed_actor.h"
+#include "tools/synth/draw_scene_internal.h"
 #include "tools/synth/materials.h"
 #include "tools/synth/nobodies.h"
+#include "tools/synth/pixel_box_internal.h"
 #include "tools/synth/sample_person.h"
 #include "tools/synth/shrunk_frame.h"
 #include "tools/synth/staging.h"
@@ -22,7 +23,6 @@ namespace {
 
 constexpr int64_t kFramesPerBody = 8;  // shaping and dressing cost as much as the rest of a frame
 constexpr int kMostTries = 24;         // to find a view with enough of the person in it
-constexpr int kBorder_px = 12;         // rendered around the people, for edges and shadows
 constexpr double kRoomShare = 0.8;  // of frames: edges against a wall, else against nothing; share
 constexpr double kTrustedGap_m = 0.25;  // feet farther off the floor than this are a jump
 
@@ -38,51 +38,6 @@ enum Stream : uint64_t {
 Random SeedStream(uint64_t seed, Stream purpose, int64_t index, int extra) {
   return Random(seed * 8 + purpose,
                 static_cast<uint64_t>(index) * 64 + static_cast<uint64_t>(extra));
-}
-
-struct Box {
-  int u0 = std::numeric_limits<int>::max(), v0 = u0, u1 = -1, v1 = -1;  // inclusive
-};
-
-// Pixels that a mesh may cover.
-Box Cover(const std::vector<Eigen::Vector3f>& vertices_m, const depth::Camera& camera) {
-  constexpr float kTooNear_m = 0.1f;  // projects anywhere
-  Box box;
-  float u0 = 1e9f, u1 = -1e9f, v0 = 1e9f, v1 = -1e9f;
-  for (const auto& p : vertices_m) {
-    if (p.z() < kTooNear_m) return {0, 0, camera.width - 1, camera.height - 1};
-    const float u = static_cast<float>(camera.cx) - static_cast<float>(camera.fx) * p.x() / p.z();
-    const float v = static_cast<float>(camera.cy) - static_cast<float>(camera.fy) * p.y() / p.z();
-    u0 = std::min(u0, u), u1 = std::max(u1, u);
-    v0 = std::min(v0, v), v1 = std::max(v1, v);
-  }
-  const auto pixel = [](float at, int limit) {
-    return static_cast<int>(std::clamp(at, -1.0f, static_cast<float>(limit)));
-  };
-  box.u0 = std::max(0, pixel(u0, camera.width) - kBorder_px);
-  box.v0 = std::max(0, pixel(v0, camera.height) - kBorder_px);
-  box.u1 = std::min(camera.width - 1, pixel(u1, camera.width) + kBorder_px);
-  box.v1 = std::min(camera.height - 1, pixel(v1, camera.height) + kBorder_px);
-  return box;
-}
-
-Box Union(const Box& a, const Box& b) {
-  return {std::min(a.u0, b.u0), std::min(a.v0, b.v0), std::max(a.u1, b.u1), std::max(a.v1, b.v1)};
-}
-
-// The first person stands over the origin; the others around, not inside of each other.
-std::vector<Eigen::Vector3d> SamplePlaces(int people, Random& random) {
-  constexpr double kApart_m = 0.55;
-  std::vector<Eigen::Vector3d> places{Eigen::Vector3d::Zero()};
-  while (static_cast<int>(places.size()) < people) {
-    const double z_m = random.Uniform(-1.8, 0.5), x_m = random.Uniform(-1.6, 1.6);
-    const Eigen::Vector3d place(x_m, 0, z_m);
-    const bool free = std::all_of(places.begin(), places.end(), [&](const auto& other) {
-      return (place - other).norm() > kApart_m;
-    });
-    if (free) places.push_back(place);
-  }
-  return places;
 }
 
 struct Dressed {
@@ -120,13 +75,15 @@ struct FrameMaker::State {
   recon::Posture Pose(const recon::RigPose& pose, size_t person,
                       const Eigen::Isometry3d& camera_from_world);
   recon::RigPose DrawPose(int64_t index, Random& random) const;
-  std::vector<Prop> DrawProps(const recon::Posture& joints_in_cam, const ViewSample& view,
+  std::vector<Prop> DrawProps(const recon::Posture& joints_in_cam, const PeopleScene& scene,
                               Random& random);
+  std::vector<Prop> DrawPropsFor(const ViewSample& view, const recon::Posture& joints_in_cam,
+                                 const PeopleScene& scene, Random& random);
   std::vector<Prop> DrawThings(Staging staging, const recon::Posture& joints_in_cam,
                                const ViewSample& view, Random& random) const;
   std::optional<LabelledFrame> Try(int64_t index, int attempt);
   depth::SensorModel DrawSensor(int64_t index) const;
-  LabelledFrame Shoot(const ViewSample& view, const std::vector<Prop>& props, const Box& box,
+  LabelledFrame Shoot(const ViewSample& view, const std::vector<Prop>& props, const PixelBox& box,
                       int64_t index, uint64_t noise_seed);
 };
 
@@ -188,7 +145,8 @@ recon::RigPose FrameMaker::State::DrawPose(int64_t index, Random& random) const 
 // What stands about and what is held. In a sequence the first frame decides: the room and what
 // stands in it stay where they are, and what is held goes along with the hands.
 std::vector<Prop> FrameMaker::State::DrawProps(const recon::Posture& joints_in_cam,
-                                               const ViewSample& view, Random& random) {
+                                               const PeopleScene& scene, Random& random) {
+  const ViewSample& view = scene.view;
   const Eigen::Isometry3d world_from_camera = view.camera_from_world.inverse();
   recon::Posture joints_in_world = joints_in_cam;
   for (auto& joint_m : joints_in_world.position_m) joint_m = world_from_camera * joint_m;
@@ -209,9 +167,27 @@ std::vector<Prop> FrameMaker::State::DrawProps(const recon::Posture& joints_in_c
     props = SampleProps(options.occluders, joints_in_world, view.camera_from_world, random);
   }
   if (options.background != Background::kNone || random.Chance(kRoomShare)) {
-    for (Prop& prop : SampleRoom(view.camera_from_world, random, path_in_world))
+    std::vector<Eigen::Vector3d> others_m;
+    for (size_t k = 1; k < scene.cameras_from_world.size(); ++k) {
+      others_m.emplace_back(scene.cameras_from_world[k].inverse().translation());
+    }
+    for (Prop& prop : SampleRoom(view.camera_from_world, random, path_in_world, others_m))
       props.push_back(std::move(prop));
   }
+  return props;
+}
+
+// DrawProps as the camera of the view sees them: what there is, camera 0 decides.
+std::vector<Prop> FrameMaker::State::DrawPropsFor(const ViewSample& view,
+                                                  const recon::Posture& joints_in_cam,
+                                                  const PeopleScene& scene, Random& random) {
+  if (options.camera == 0) return DrawProps(joints_in_cam, scene, random);
+  const Eigen::Isometry3d from_camera_0 =
+      view.camera_from_world * scene.view.camera_from_world.inverse();
+  recon::Posture joints_in_camera_0 = joints_in_cam;
+  for (auto& joint_m : joints_in_camera_0.position_m) joint_m = from_camera_0.inverse() * joint_m;
+  std::vector<Prop> props = DrawProps(joints_in_camera_0, scene, random);
+  MoveToCamera(from_camera_0, props);
   return props;
 }
 
@@ -238,7 +214,7 @@ depth::SensorModel FrameMaker::State::DrawSensor(int64_t index) const {
 
 // Renders, senses, labels. The image is the crop `box` of the view.
 LabelledFrame FrameMaker::State::Shoot(const ViewSample& view, const std::vector<Prop>& props,
-                                       const Box& box, int64_t index, uint64_t noise_seed) {
+                                       const PixelBox& box, int64_t index, uint64_t noise_seed) {
   std::vector<int> prop_mesh;
   for (const Prop& prop : props) prop_mesh.push_back(renderer.AddMesh(prop.mesh_in_cam, false));
   depth::Camera crop = view.camera;
@@ -285,21 +261,15 @@ std::optional<LabelledFrame> FrameMaker::State::Try(int64_t index, int attempt) 
   Random random = options.sequence ? SeedStream(options.seed, kSceneStream, 0, attempt)
                                    : SeedStream(options.seed, kSceneStream, index, attempt);
   for (int person = 0; person < options.people; ++person) Dress(index, person);
-  const ViewSample view = SampleView({.view = options.view,
-                                      .split = options.split,
-                                      .width = options.width,
-                                      .height = options.height,
-                                      .person_height_m = wearers[0].body.height_m,
-                                      .cameras = options.cameras,
-                                      .fov_deg = options.fov_deg,
-                                      .shrink = options.shrink},
-                                     random);
-  const auto places = SamplePlaces(options.people, random);
+  const PeopleScene scene = DrawScene(options, wearers[0].body.height_m, random);
+  const auto& places = scene.places_m;
+  ViewSample view = scene.view;
+  view.camera_from_world = scene.cameras_from_world[static_cast<size_t>(options.camera)];
   Random thing = SeedStream(options.seed, kThingStream, options.sequence ? 0 : index, attempt);
   Staging staging = DrawStaging(options.occluders, thing);
   std::vector<Prop> things;
   std::vector<TruthBody> bodies;
-  Box box;
+  PixelBox box;
   for (size_t person = 0; person < places.size(); ++person) {
     const double heading_rad =
         person == 0 ? view.facing_rad : view.facing_rad + random.Uniform(-1.5, 1.5);
@@ -333,10 +303,13 @@ std::optional<LabelledFrame> FrameMaker::State::Try(int64_t index, int attempt) 
   if (room || (unseen && options.sequence)) {
     box = {0, 0, view.camera.width - 1, view.camera.height - 1};
   }
-  std::vector<Prop> props = DrawProps(bodies[0].joints_m, view, random);
+  std::vector<Prop> props = DrawPropsFor(view, bodies[0].joints_m, scene, random);
   for (Prop& prop : things) props.push_back(std::move(prop));
-  Random noise = SeedStream(options.seed, kNoiseStream, index, attempt);
-  LabelledFrame frame = Shoot(view, props, box, index, noise.Bits());
+  const uint64_t noise_seed = SeedStream(options.seed, kNoiseStream, index, attempt).Bits();
+  LabelledFrame frame =
+      Shoot(view, props, box, index,
+            options.camera == 0 ? noise_seed
+                                : MixSeed(noise_seed, static_cast<uint64_t>(options.camera)));
   frame.bodies = std::move(bodies);
   frame.depth.index = index;
   frame.depth.time_s = static_cast<double>(index) / 30.0;
@@ -376,6 +349,16 @@ depth::Camera MakeCamera(const FrameOptions& options) {
                             .fov_deg = options.fov_deg,
                             .shrink = options.shrink};
   return ShrunkCamera(PlainCamera(request), options.shrink);
+}
+
+std::vector<Eigen::Isometry3d> FrameMaker::FromCamera0() {
+  Random random = SeedStream(state_->options.seed, kSceneStream, 0, 0);
+  const PeopleScene scene = DrawScene(state_->options, state_->wearers[0].body.height_m, random);
+  std::vector<Eigen::Isometry3d> all{Eigen::Isometry3d::Identity()};
+  for (size_t k = 1; k < scene.cameras_from_world.size(); ++k) {
+    all.push_back(scene.cameras_from_world[k] * scene.view.camera_from_world.inverse());
+  }
+  return all;
 }
 
 FrameMaker::FrameMaker(const FrameStudio& studio) : state_(std::make_unique<State>(studio)) {}

@@ -1,4 +1,5 @@
 #pragma once
+#include <Eigen/Geometry>
 #include <cstdint>
 #include <memory>
 #include <vector>
@@ -36,6 +37,8 @@ struct FrameOptions {
   double shrink = 1.0;    // factor by definition: so much larger, then shrunk by nearest pixel
   bool sequence = false;  // the poses are consecutive frames of one clip before one camera
   int people = 1;
+  int views = 1;   // cameras around the people of a sequence, of which
+  int camera = 0;  // ... this one takes the images; counts from 0
   uint64_t seed = 1;
   PoseVariation variation;
 };
@@ -63,6 +66,9 @@ class FrameMaker {
   ~FrameMaker();
 
   LabelledFrame Make(int64_t index);
+
+  /// Of a sequence: takes a point of camera 0's space to the space of the camera of each index.
+  std::vector<Eigen::Isometry3d> FromCamera0();
 
  private:
   struct State;

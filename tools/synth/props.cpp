@@ -128,11 +128,6 @@ Prop StandingBefore(const recon::Posture& joints, const Eigen::Isometry3d& camer
       depth::Moved(std::move(mesh), Eigen::Translation3f(foot_m) * turn * Affine3f::Identity())};
 }
 
-void MoveToCamera(const Eigen::Isometry3d& camera_from_world, std::vector<Prop>& props) {
-  const Affine3f move(camera_from_world.cast<float>().matrix());
-  for (Prop& prop : props) prop.mesh_in_cam = depth::Moved(std::move(prop.mesh_in_cam), move);
-}
-
 /// Where a grip is, and the line that turns with it.
 struct Grasp {
   Vector3f place_m, along;
@@ -251,7 +246,8 @@ depth::TriangleMesh SampleFurniture(Random& random) {
 }
 
 std::vector<Prop> SampleRoom(const Eigen::Isometry3d& camera_from_world, Random& random,
-                             std::span<const recon::Posture> path_in_world) {
+                             std::span<const recon::Posture> path_in_world,
+                             std::span<const Eigen::Vector3d> cameras_m) {
   const Eigen::Vector3d camera_m = camera_from_world.inverse().translation();
   // The person stands over the origin and the camera looks along -z: the wall behind the person is
   // at -behind. Both are inside the room, also where the camera hangs beside or behind the person.
@@ -262,7 +258,10 @@ std::vector<Prop> SampleRoom(const Eigen::Isometry3d& camera_from_world, Random&
   auto before_m = static_cast<float>(camera_m.z()) + Draw(random, 0.3, 1.0);
   float width_m = Draw(random, 2.5, 6.0);
   float shift_m = Draw(random, -0.3, 0.3) * width_m;
-  const Eigen::AlignedBox2f path = ProjectOnGround(path_in_world);
+  Eigen::AlignedBox2f path = ProjectOnGround(path_in_world);
+  for (const Eigen::Vector3d& other_m : cameras_m) {
+    path.extend(Eigen::Vector2d(other_m.x(), other_m.z()).cast<float>());
+  }
   Eigen::AlignedBox2f inside = path;
   const auto keep_clear = [&inside](const Eigen::Vector2f& place_m, float clear_m) {
     inside.extend(place_m - Eigen::Vector2f::Constant(clear_m));
@@ -270,6 +269,9 @@ std::vector<Prop> SampleRoom(const Eigen::Isometry3d& camera_from_world, Random&
   };
   keep_clear(Eigen::Vector2f::Zero(), kPersonClear_m);
   keep_clear({static_cast<float>(camera_m.x()), static_cast<float>(camera_m.z())}, kCameraClear_m);
+  for (const Eigen::Vector3d& other_m : cameras_m) {
+    keep_clear({static_cast<float>(other_m.x()), static_cast<float>(other_m.z())}, kCameraClear_m);
+  }
   const float low_m = std::min(shift_m - width_m / 2, inside.min().x());
   const float high_m = std::max(shift_m + width_m / 2, inside.max().x());
   if (!path.isEmpty() || low_m < shift_m - width_m / 2 || high_m > shift_m + width_m / 2) {
@@ -302,6 +304,11 @@ std::vector<Prop> SampleRoom(const Eigen::Isometry3d& camera_from_world, Random&
   }
   MoveToCamera(camera_from_world, props);
   return props;
+}
+
+void MoveToCamera(const Eigen::Isometry3d& to_from_from, std::vector<Prop>& props) {
+  const Affine3f move(to_from_from.cast<float>().matrix());
+  for (Prop& prop : props) prop.mesh_in_cam = depth::Moved(std::move(prop.mesh_in_cam), move);
 }
 
 }  // namespace ossa::tools

@@ -51,8 +51,13 @@ depth::TriangleMesh SampleFurniture(Random& random);
 
 /// A furnished room around the person and the camera: floor, walls at random distances, things
 /// along them. All background. The person's whole path has room in it, when one is given: walls
-/// give way, and what would stand on it is left out.
+/// give way, and what would stand on it is left out; so it is with other cameras that look at it
+/// from `cameras_m` (world).
 std::vector<Prop> SampleRoom(const Eigen::Isometry3d& camera_from_world, Random& random,
-                             std::span<const recon::Posture> path_in_world = {});
+                             std::span<const recon::Posture> path_in_world = {},
+                             std::span<const Eigen::Vector3d> cameras_m = {});
+
+/// Things in one camera's space as another sees them.
+void MoveToCamera(const Eigen::Isometry3d& to_from_from, std::vector<Prop>& props);
 
 }  // namespace ossa::tools

@@ -1,12 +1,15 @@
 // `ossa render` from the outside: which options go together, and what the data set says of them.
 #include <gtest/gtest.h>
 
+#include <filesystem>
 #include <fstream>
 #include <nlohmann/json.hpp>
 #include <string>
 #include <vector>
 
 #include "recon/body/body_model.h"
+#include "recon/files/skeleton_io.h"
+#include "recon/fuse/extrinsics.h"
 #include "tests/support/run_command.h"
 #include "tests/support/temporary_folder.h"
 
@@ -29,6 +32,8 @@ TEST(RenderCommand, RefusesWhatDoesNotGoTogetherAsWrongUsage) {
       {{"--occluders", "desk", "--sequence"}, "--occluders desk"},
       {{"--poses", "any", "--sequence"}, "--poses any"},
       {{"--noise", "kinect-v3"}, "kinect-v2"},
+      {{"--cameras", "2"}, "--cameras: expected --sequence"},
+      {{"--cameras", "2", "--sequence", "--background", "lived-in"}, "--background lived-in"},
       {{"--shrink", "0.5"}, "--shrink"}};
   for (const Refused& refused : cases) {
     std::vector<std::string> words = {"render", "--mocap", "authored",    "--frames",
@@ -52,6 +57,44 @@ TEST(RenderCommand, AShrunkImagesCameraIsInTheManifest) {
   // 50 / tan(22.8°); ITOP's, as its makers shrunk it, is 119.05.
   EXPECT_NEAR(manifest["camera"]["fx"].get<double>(), 118.9, 0.1);
   EXPECT_NE(manifest["command"].get<std::string>().find("--shrink 2.4"), std::string::npos);
+}
+
+class RenderCameras : public testing::Test {
+ protected:
+  test::CommandResult Render() {
+    return RunOssa({"render", "--mocap", "authored", "--frames", "3", "--out", out_, "--size",
+                    "64x48", "--sequence", "--cameras", "2", "--quiet"});
+  }
+  test::TemporaryFolder folder_;
+  std::string out_ = folder_ / "clip";
+};
+
+TEST_F(RenderCameras, EachHaveADataSetAndAPlace) {
+  if (!recon::BodyIsFetched(recon::BodyFolder())) GTEST_SKIP() << "no body: tools/fetch_body";
+  for (int again = 0; again < 2; ++again) {  // what is there stays
+    const auto run = Render();
+    ASSERT_EQ(run.exit_status, 0) << run.err;
+  }
+  const auto cameras = recon::ReadExtrinsics(folder_ / "clip/extrinsics.json");
+  ASSERT_EQ(cameras.size(), 2u);
+  EXPECT_GT(cameras[1].from_camera_0.translation().norm(), 1.0);
+  for (const auto& camera : cameras) {
+    const std::filesystem::path set = folder_ / ("clip/" + camera.name);
+    const auto manifest = nlohmann::json::parse(std::ifstream(set / "manifest.json"));
+    EXPECT_NE(manifest["command"].get<std::string>().find("--cameras 2"), std::string::npos);
+    EXPECT_EQ(recon::ReadSkeletons(set / "truth.jsonl").frames.size(), 3u);
+    EXPECT_TRUE(std::filesystem::exists(set / "depth/000002.png"));
+  }
+}
+
+TEST_F(RenderCameras, DoNotMixWithAnythingElseInTheFolder) {
+  if (!recon::BodyIsFetched(recon::BodyFolder())) GTEST_SKIP() << "no body: tools/fetch_body";
+  std::filesystem::create_directories(out_);
+  std::ofstream(out_ + "/manifest.json") << "{}";
+  const auto run = Render();
+  EXPECT_EQ(run.exit_status, 1);
+  EXPECT_NE(run.err.find("expected an empty folder, found manifest.json"), std::string::npos)
+      << run.err;
 }
 
 }  // namespace

@@ -1,0 +1,77 @@
+#include "tools/commands/fuse_options.h"
+
+#include <fmt/format.h>
+
+#include <CLI/CLI.hpp>
+
+#include "depth/base/angles.h"
+#include "depth/base/atomic_file.h"
+#include "recon/fuse/extrinsics.h"
+#include "recon/fuse/fuse_skeletons.h"
+#include "tools/commands/outputs.h"
+
+namespace ossa::commands {
+namespace {
+
+void SayCamera(const std::string& first, const recon::CameraEstimate& estimate) {
+  const Eigen::Isometry3d& moved = estimate.camera.from_camera_0;
+  fmt::print(
+      "{}: {:.2f} m from {}, turned by {:.1f} degrees, clock offset {:.3f} s; joints {:.1f} cm "
+      "apart (median) over {:.1f} s\n",
+      estimate.camera.name, moved.translation().norm(), first,
+      Eigen::AngleAxisd(moved.linear()).angle() / kDegree, estimate.camera.clock_offset_s,
+      100.0 * estimate.disagreement_m, estimate.common_s);
+}
+
+recon::Extrinsics ReadCameras(const std::string& file, std::span<const std::string> names) {
+  return recon::SelectCameras(recon::ReadExtrinsics(file), names, file);
+}
+
+recon::Extrinsics FindExtrinsics(const FuseArguments& arguments,
+                                 const std::vector<std::string>& names,
+                                 std::span<const recon::SkeletonSequence> recordings, bool quiet) {
+  if (!arguments.File().empty()) return ReadCameras(arguments.File(), names);
+  recon::Extrinsics cameras{{.name = names.front()}};
+  for (size_t k = 1; k < recordings.size(); ++k) {
+    auto estimate = recon::EstimateCamera(recordings.front(), recordings[k], arguments.estimate);
+    estimate.camera.name = names[k];
+    if (!quiet) SayCamera(names.front(), estimate);
+    cameras.push_back(estimate.camera);
+  }
+  return cameras;
+}
+
+}  // namespace
+
+void FuseArguments::AddTo(CLI::App& app) {
+  app.add_option("--extrinsics", extrinsics,
+                 "where the cameras are: a file, as of `ossa render --cameras`, whose cameras are "
+                 "found by the recordings' names, else by their order; or auto: found by people "
+                 "whom the first camera and each other one see moving")
+      ->capture_default_str();
+  app.add_option("--save-extrinsics", save_extrinsics, "FILE.json: where the cameras are");
+  app.add_option("--max-offset", estimate.max_clock_offset_s,
+                 "of auto: how far clocks may differ, seconds")
+      ->capture_default_str()
+      ->check(CLI::Range(0.0, 60.0));
+}
+
+void FuseArguments::Check(std::span<const std::string> sources) const {
+  CheckNotOtherKind("--save-extrinsics", save_extrinsics, ".json");
+  if (!save_extrinsics.empty()) AtomicFile::CheckWritable(save_extrinsics);
+  if (!File().empty()) ReadCameras(File(), recon::CameraNames(sources));
+}
+
+recon::SkeletonSequence FuseRecordings(const FuseArguments& arguments,
+                                       std::span<const std::string> sources,
+                                       std::span<const recon::SkeletonSequence> recordings,
+                                       bool quiet) {
+  const std::vector<std::string> names = recon::CameraNames(sources);
+  const recon::Extrinsics cameras = FindExtrinsics(arguments, names, recordings, quiet);
+  if (!arguments.save_extrinsics.empty()) {
+    recon::WriteExtrinsics(arguments.save_extrinsics, cameras);
+  }
+  return recon::FuseSkeletons(recordings, cameras);
+}
+
+}  // namespace ossa::commands

@@ -1,0 +1,142 @@
+#include "tools/commands/track_several.h"
+
+#include <fmt/format.h>
+
+#include <atomic>
+#include <chrono>
+#include <memory>
+#include <optional>
+#include <set>
+#include <string>
+#include <thread>
+#include <vector>
+
+#include "depth/base/error.h"
+#include "depth/sensor/frame_source.h"
+#include "tools/commands/command.h"
+#include "tools/commands/posture_record.h"
+#include "tools/tracker/tracker.h"
+
+namespace ossa::commands {
+namespace {
+
+/// One recording while it is tracked.
+struct Camera {
+  SourceArguments arguments;
+  std::unique_ptr<depth::FrameSource> source;
+  std::unique_ptr<tracker::Tracker> tracker;
+  recon::SkeletonSequence skeletons;
+  std::atomic<int64_t> frames = 0;
+  std::atomic<bool> done = false;
+  std::string failure;  // "" if there was none
+};
+using Cameras = std::vector<std::unique_ptr<Camera>>;
+
+std::unique_ptr<Camera> OpenCamera(const TrackOptions& options, const std::string& name) {
+  auto camera = std::make_unique<Camera>();
+  camera->arguments = options.source;
+  camera->arguments.name = name;
+  camera->arguments.said = std::make_shared<std::set<std::string>>();  // each thread its own
+  camera->skeletons.source = name;
+  camera->source = OpenSource(camera->arguments, options.quiet);
+  camera->tracker = std::make_unique<tracker::Tracker>(options.tracker);
+  FindUpright(*camera->tracker, *camera->source, camera->arguments, options.quiet);
+  return camera;
+}
+
+std::optional<int64_t> FramesOf(const Camera& camera, const TrackOptions& options) {
+  const std::optional<int64_t> known = camera.source->frame_count();
+  return options.frames == 0 ? known : std::min(options.frames, known.value_or(options.frames));
+}
+
+// Runs in a thread of its own. A recording that is damaged somewhere keeps what came before.
+void TrackCamera(Camera& camera, const TrackOptions& options) {
+  const PostureRecorder recorder(options);
+  try {
+    camera.tracker->Run(
+        *camera.source,
+        [&](const tracker::BodyFrame& bodies) {
+          camera.skeletons.frames.push_back(recorder.Record(bodies));
+          return !Interrupted() && ++camera.frames != options.frames;
+        },
+        [] { return !Interrupted(); });
+  } catch (const std::exception& error) {
+    camera.failure = error.what();
+  }
+  camera.done = true;
+}
+
+void ShowProgress(const Cameras& cameras, const TrackOptions& options) {
+  constexpr std::chrono::milliseconds kPause(50);  // by hand
+  Progress progress("tracking", options.quiet);
+  double total = 0.0;
+  for (const auto& camera : cameras) {
+    total += static_cast<double>(FramesOf(*camera, options).value_or(0));
+  }
+  for (bool all_done = false; !all_done; std::this_thread::sleep_for(kPause)) {
+    double frames = 0.0;
+    all_done = true;
+    for (const auto& camera : cameras) {
+      frames += static_cast<double>(camera->frames);
+      all_done = all_done && camera->done;
+    }
+    if (total > 0.0) progress.Update(frames, total);
+  }
+}
+
+void TrackCameras(const Cameras& cameras, const TrackOptions& options) {
+  std::vector<std::jthread> threads;
+  for (const auto& camera : cameras) {
+    threads.emplace_back([&camera = *camera, &options] { TrackCamera(camera, options); });
+  }
+  ShowProgress(cameras, options);
+}
+
+void CheckFramesCame(const Cameras& cameras) {
+  for (const auto& camera : cameras) {
+    if (!camera->skeletons.frames.empty()) continue;
+    if (!camera->failure.empty()) throw InputError(camera->failure);
+    if (Interrupted()) {
+      throw InputError("track: interrupted before the first frame; nothing was written");
+    }
+    throw InputError(camera->arguments.name + ": no frame came");
+  }
+}
+
+// After what there is was written.
+void SayWhatIsMissing(const Cameras& cameras, const TrackOptions& options, int64_t frames) {
+  const Camera& first = *cameras.front();
+  const std::string kept = FramesText(frames, FramesOf(first, options)) +
+                           (options.out.empty() ? " were tracked" : " are in " + options.out);
+  for (const auto& camera : cameras) {
+    if (!camera->failure.empty()) throw InputError(fmt::format("{}; {}", camera->failure, kept));
+  }
+  const bool has_all = frames == FramesOf(first, options);
+  if (!Interrupted() || has_all) return;
+  throw InputError(fmt::format("{}: interrupted: {}", first.arguments.name, kept));
+}
+
+}  // namespace
+
+int TrackSeveral(const TrackOptions& options) {
+  Cameras cameras;
+  for (const std::string& name : options.Sources()) cameras.push_back(OpenCamera(options, name));
+  TrackCameras(cameras, options);
+  CheckFramesCame(cameras);
+  std::vector<recon::SkeletonSequence> recordings;
+  for (const auto& camera : cameras) recordings.push_back(std::move(camera->skeletons));
+  const auto fused = FuseRecordings(options.fuse, options.Sources(), recordings, options.quiet);
+  if (!options.out.empty()) {
+    WriteSkeletonsThatFit(
+        options.out, fused,
+        options.write.For(options.out,
+                          options.files.surface == "none" ? "" : options.files.surface));
+  }
+  SayWhatIsMissing(cameras, options, static_cast<int64_t>(fused.frames.size()));
+  if (!options.quiet) {
+    fmt::print("{} frames of {} cameras\n", fused.frames.size(), cameras.size());
+  }
+  return 0;
+}
+
+}  // namespace ossa::commands

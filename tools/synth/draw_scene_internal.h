@@ -1,0 +1,21 @@
+#pragma once
+#include <Eigen/Geometry>
+#include <vector>
+
+#include "depth/base/random.h"
+#include "tools/synth/frame_maker.h"
+#include "tools/synth/view_sampler.h"
+
+namespace ossa::tools {
+
+/// Who stands where before which cameras. World: y up, floor at y = 0, metres.
+struct PeopleScene {
+  ViewSample view;                                    // of camera 0
+  std::vector<Eigen::Vector3d> places_m;              // of the people, the first at the origin
+  std::vector<Eigen::Isometry3d> cameras_from_world;  // camera 0 first
+};
+
+/// `person_m`: height of the first person.
+PeopleScene DrawScene(const FrameOptions& options, double person_m, Random& random);
+
+}  // namespace ossa::tools
