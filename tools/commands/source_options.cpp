@@ -82,7 +82,7 @@ void AddSourceOptions(CLI::App& app, SourceArguments& arguments) {
       ->check(CLI::IsMember({"auto", "0", "90", "180", "270"}));
 }
 
-bool IsDevice(const SourceArguments& arguments) { return arguments.name.starts_with("openni:"); }
+bool IsDevice(std::string_view source) { return source.starts_with("openni:"); }
 
 tracker::Turn ChooseTurn(const SourceArguments& arguments) {
   if (arguments.rotate == "auto") return tracker::Turn::kAuto;

@@ -3,6 +3,7 @@
 #include <memory>
 #include <set>
 #include <string>
+#include <string_view>
 
 #include "depth/sensor/frame_source.h"
 #include "tools/tracker/tracker.h"
@@ -24,8 +25,8 @@ struct SourceArguments {
   double patience_s = 5.0;
 };
 
-/// Whether it names a device, or what plays as one, and no recording.
-bool IsDevice(const SourceArguments& arguments);
+/// Whether a SOURCE of that name is a device, or plays as one, and no recording.
+bool IsDevice(std::string_view source);
 
 /// SOURCE, --camera, --depth-scale, --depth-format, --fps and --rotate.
 void AddSourceOptions(CLI::App& app, SourceArguments& arguments);

@@ -130,7 +130,7 @@ void CheckRefinementIsRead(const TrackOptions& options) {
 int UsualLag(const TrackOptions& options) {
   constexpr int kMost = 2;  // frames; measured: docs/benchmarks/reconstruction.md, frames of lag
   const bool smoothed = RequireMethodInfo(options.tracker.method).smoothed_in_files;
-  return smoothed && !IsDevice(options.source) ? kMost : 0;
+  return smoothed && !IsDevice(options.source.name) ? kMost : 0;
 }
 
 // What belongs to one camera goes with one source, what joins cameras with several.
@@ -147,7 +147,7 @@ void CheckSources(const CLI::App& app, const TrackOptions& options) {
   }
   if (!several) return;
   for (const std::string& name : options.Sources()) {
-    if (!name.starts_with("openni:")) continue;  // no other source is a device
+    if (!IsDevice(name)) continue;
     throw UsageError(
         fmt::format("track: {}: expected recordings where there are several sources, found a "
                     "device: record each with 'ossa record' first",

@@ -66,8 +66,7 @@ class Clockwork {
 };
 
 bool IsSource(const std::string& what) {
-  return what.starts_with("openni:") || std::filesystem::is_directory(what) ||
-         depth::IsRecording(what);
+  return IsDevice(what) || std::filesystem::is_directory(what) || depth::IsRecording(what);
 }
 
 // Those that work with the files that were given.
@@ -91,7 +90,7 @@ viewer::ViewerOptions MakeViewerOptions(const ViewOptions& options) {
   viewer::ViewerOptions with = PageOptions(options.page);
   with.name = std::filesystem::path(options.source.name).filename().string();
   // What a camera's URI asks of its driver is no part of its name.
-  if (IsDevice(options.source)) with.name = with.name.substr(0, with.name.find('?'));
+  if (IsDevice(options.source.name)) with.name = with.name.substr(0, with.name.find('?'));
   if (with.name.empty()) with.name = options.source.name;
   for (const std::string& path : options.over) {
     recon::SkeletonSequence sequence = Read(path);

@@ -112,6 +112,21 @@ recon::JointArray<std::vector<JointProposal>> CollectProposals(
   return proposals;
 }
 
+// All but the total.
+StageTimes SumTimes(const people::PeopleInFrame& seen, const std::vector<StageTimes>& of_people) {
+  StageTimes sum;
+  sum.segment = seen.segment_ms;
+  sum.classify = seen.classify_ms;
+  sum.propose = seen.propose_ms;
+  for (const StageTimes& t : of_people) {
+    sum.propose += t.propose;
+    sum.reconstruct += t.reconstruct;
+    sum.physics += t.physics;
+    sum.fit += t.fit;
+  }
+  return sum;
+}
+
 }  // namespace
 
 struct Tracker::Impl {
@@ -312,15 +327,7 @@ BodyFrame Tracker::Impl::Track(const depth::DepthFrame& frame) {
     if (options.keep_probabilities) AddProbabilities(classes, result.probabilities);
   });
   WithdrawUnlikeBodies(seen.people, result);
-  result.ms.segment = seen.segment_ms;
-  result.ms.classify = seen.classify_ms;
-  result.ms.propose = seen.propose_ms;
-  for (const StageTimes& t : times) {
-    result.ms.propose += t.propose;
-    result.ms.reconstruct += t.reconstruct;
-    result.ms.physics += t.physics;
-    result.ms.fit += t.fit;
-  }
+  result.ms = SumTimes(seen, times);
   std::sort(result.bodies.begin(), result.bodies.end(),
             [](const Body& a, const Body& b) { return a.id < b.id; });
   result.ms.total = watch.milliseconds();
