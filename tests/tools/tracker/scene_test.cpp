@@ -11,6 +11,7 @@
 #include "recon/files/skeleton_jsonl.h"
 #include "tests/support/places.h"
 #include "tests/tools/tracker/played_scenes.h"
+#include "tools/tracker/scene_internal.h"
 
 namespace ossa::tracker {
 namespace {
@@ -258,20 +259,23 @@ TEST(Scene, GoesOnWhereTimesRepeatOrRunBackByMilliseconds) {
   EXPECT_TRUE(PlaceOf(scene, "box").allFinite());
 }
 
-TEST(Scene, WhoHoldsAThingLetsGoOfItAfterAGapAsBefore) {
-  Lifting lifting;
-  lifting.apart_s = 5.0;
-  Scene scene(lifting.Options());
-  test::Seen seen;
-  for (int f = 0; f < 210; ++f) {
-    if (f > 130 && f < 140) continue;  // no frames for a third of a second, the box in their hands
-    recon::SkeletonFrame frame = test::SkeletonsOf(lifting(f / 30.0), f);
-    scene.Play(frame);
-    seen.Look(scene);
-  }
-  EXPECT_EQ(seen.Count(SceneEvent::Kind::kGrabbed, 1), 1);
-  EXPECT_GT(seen.Count(SceneEvent::Kind::kReleased, 1), 0);
-  EXPECT_TRUE(HoldersOf(scene, "box").empty());
+// After a gap somebody is put elsewhere, and goes on holding what they hold.
+TEST(HandMemory, ForgetsHowItMovedAndNotHowItHolds) {
+  HandMemory hand;
+  hand.held_at_m = 0.07;
+  hand.taken_by.near_m = 0.3;
+  hand.away_s = 0.2;
+  hand.made_m = Vector3d::UnitY();
+  for (int f = 0; f < 4; ++f) hand.See(f / 30.0, Vector3d(0.1 * f, 0, 0));
+  ASSERT_GT(hand.SteadyVelocity_m_s().x(), 2.9);
+  hand.ForgetMotion();
+  EXPECT_EQ(hand.held_at_m, 0.07);
+  EXPECT_EQ(hand.taken_by.near_m, 0.3);
+  EXPECT_EQ(hand.away_s, 0.0);
+  EXPECT_FALSE(hand.made_m.has_value());
+  EXPECT_EQ(hand.seen_velocity_m_s, Vector3d::Zero());
+  hand.See(9.0, Vector3d(5, 0, 0));
+  EXPECT_EQ(hand.seen_velocity_m_s, Vector3d::Zero());
 }
 
 TEST(Scene, WaitsForAFloor) {

@@ -62,16 +62,19 @@ BodyFrame LastOf(Tracker& tracker, int quarters) {
   return last;
 }
 
+// The same walk as an upright camera sees it and one that must be turned by so many quarters.
+std::pair<BodyFrame, BodyFrame> UprightAndTurned(TrackerOptions options, int quarters) {
+  Tracker upright(options);
+  options.turn = static_cast<Turn>(quarters);
+  Tracker turned(options);
+  return {LastOf(upright, 0), LastOf(turned, quarters)};
+}
+
 class TurnedCamera : public testing::TestWithParam<int> {};
 
 TEST_P(TurnedCamera, SeesTheSamePeopleInItsOwnSpace) {
   OSSA_NEEDS_MODEL();
-  TrackerOptions options = PlainOptions();
-  Tracker standing(options);
-  const BodyFrame upright = LastOf(standing, 0);
-  options.turn = static_cast<Turn>(GetParam());
-  Tracker lying(options);
-  const BodyFrame turned = LastOf(lying, GetParam());
+  const auto [upright, turned] = UprightAndTurned(PlainOptions(), GetParam());
   ASSERT_EQ(upright.bodies.size(), 1u);
   ASSERT_EQ(turned.bodies.size(), 1u);
   const Eigen::Matrix3d back = depth::CameraFromTurned(GetParam());
@@ -87,12 +90,7 @@ TEST_P(TurnedCamera, SeesTheSamePeopleInItsOwnSpace) {
 
 TEST_P(TurnedCamera, HasEveryStageInItsOwnSpace) {
   OSSA_NEEDS_MODEL();
-  TrackerOptions options;
-  Tracker standing(options);
-  const BodyFrame upright = LastOf(standing, 0);
-  options.turn = static_cast<Turn>(GetParam());
-  Tracker lying(options);
-  const BodyFrame turned = LastOf(lying, GetParam());
+  const auto [upright, turned] = UprightAndTurned({}, GetParam());
   ASSERT_EQ(upright.bodies.size(), 1u);
   ASSERT_EQ(turned.bodies.size(), 1u);
   const Body &a = upright.bodies[0], &b = turned.bodies[0];
