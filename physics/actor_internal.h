@@ -60,7 +60,7 @@ class FootPin {
   FootPinMemory memory;
 
  private:
-  void HearNoise(const Eigen::Vector3d& target_m, double dt_s);
+  void EstimateNoise(const Eigen::Vector3d& target_m, double dt_s);
 
   size_t joint_;
   std::unique_ptr<Pin> pin_;

@@ -4,6 +4,8 @@
 #include <stdexcept>
 #include <string>
 
+#include "recon/t_pose.h"
+
 namespace ossa::physics {
 namespace {
 
@@ -17,9 +19,6 @@ constexpr double kFarthestTarget_m = 1000.0;  // what is said to be farther is n
 bool IsUsable(const Eigen::Vector3d& place_m) {
   return place_m.allFinite() && place_m.cwiseAbs().maxCoeff() <= kFarthestTarget_m;
 }
-
-/// A T-pose at the origin: where a character waits whose first target is not complete.
-Posture TPose(const recon::BoneLengths& lengths);
 
 }  // namespace
 
@@ -37,23 +36,6 @@ struct CharacterFilter::Impl {
 };
 
 namespace {
-
-Posture TPose(const recon::BoneLengths& lengths) {
-  using Eigen::Vector3d;
-  const auto& direction = [](size_t joint) -> Vector3d {
-    if (joint <= 3) return Vector3d::UnitY();
-    if (joint <= 7 || joint == 12) return Vector3d::UnitX();
-    if (joint <= 11 || joint == 16) return -Vector3d::UnitX();
-    if (joint == 15 || joint == 19) return Vector3d::UnitZ();
-    return -Vector3d::UnitY();
-  };
-  Posture posture;
-  for (size_t i = 1; i < kJointCount; ++i) {
-    const auto parent = recon::ParentOf(i);
-    posture.position_m[i] = posture.position_m[parent] + lengths[i] * direction(i);
-  }
-  return posture;
-}
 
 WorldOptions MakeWorldOptions(const CharacterFilterOptions& options) {
   WorldOptions world;
@@ -92,7 +74,9 @@ CharacterFilter::Impl::Impl(const recon::BoneLengths& lengths,
                             const CharacterFilterOptions& filter_options)
     : options(filter_options), world(MakeWorldOptions(filter_options)) {
   options.Check();
-  character = world.AddCharacter(lengths, TPose(lengths), MakeCharacterOptions(options));
+  // Where it waits if the first target is not complete.
+  character =
+      world.AddCharacter(lengths, recon::BuildTPose(lengths), MakeCharacterOptions(options));
 }
 
 bool CharacterFilter::Impl::MustPlace(const Posture& target, double dt_s) {

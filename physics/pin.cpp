@@ -88,7 +88,7 @@ void FootPin::Restore(OdeWorld& ode, Character& character, const std::optional<V
 
 /// Standard deviation of the target's noise along an axis, from its second differences: for white
 /// noise their mean square is 6 x 3 sigma^2; a standing foot's own motion is not in them.
-void FootPin::HearNoise(const Vector3d& target_m, double dt_s) {
+void FootPin::EstimateNoise(const Vector3d& target_m, double dt_s) {
   constexpr double kMemory_s = 0.5, kMost_m = 0.05;
   if (memory.last_m.size() == 2) {
     const double second_m = (target_m - 2.0 * memory.last_m[1] + memory.last_m[0]).norm();
@@ -105,7 +105,7 @@ void FootPin::Update(OdeWorld& ode, Character& character, const std::optional<Ve
     Clear();
     return;
   }
-  HearNoise(target_m, dt_s);
+  EstimateNoise(target_m, dt_s);
   const Thresholds limit(memory.noise_m);
   const Vector3d before = memory.smooth_m.value_or(target_m);
   const double share = 1.0 - std::exp(-dt_s / limit.smoothing_s);

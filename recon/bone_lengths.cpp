@@ -50,6 +50,11 @@ void BoneLengthEstimator::Start(size_t bone, double length_m) {
   lengths_m_[PlaceOf(bone)] = length_m;
 }
 
+void BoneLengthEstimator::StartKnown(const BoneLengths& lengths_m) {
+  lengths_m_ = lengths_m;
+  counts_.fill(options_.memory);
+}
+
 double BoneLengthEstimator::length_m(size_t bone) const {
   const size_t place = PlaceOf(bone);
   return kept_m_[place].empty() ? lengths_m_[place] : Median(kept_m_[place]);

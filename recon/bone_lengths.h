@@ -50,6 +50,8 @@ class BoneLengthEstimator {
   /// What is said of a bone until something is measured.
   void Start(size_t bone, double length_m);
   void Start(const BoneLengths& lengths_m) { lengths_m_ = lengths_m; }
+  /// Lengths that later measurements hardly move: known as well as if the memory were full.
+  void StartKnown(const BoneLengths& lengths_m);
   /// 0 of bones of which nothing is known.
   double length_m(size_t bone) const;
   BoneLengths lengths_m() const;

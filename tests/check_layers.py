@@ -59,7 +59,7 @@ WALK = {
     "ApplyMode": {"tools/tracker/skeleton_stages.cpp"},
     "AverageStationary": {"tools/tracker/skeleton_stages.cpp"},
     "Reconstruct": {"tools/tracker/skeleton_stages.cpp"},
-    "Settle": {"tools/tracker/skeleton_stages.cpp"},
+    "SmoothPosture": {"tools/tracker/skeleton_stages.cpp"},
     "StandOnFloor": {"tools/tracker/skeleton_stages.cpp"},
     "Simulate": {"tools/tracker/skeleton_stages.cpp"},
     "Finish": {"tools/tracker/skeleton_stages.cpp"},

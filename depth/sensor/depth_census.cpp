@@ -26,7 +26,7 @@ using Counts = std::vector<int64_t>;  // of each number, 65536
 // Of the numbers that are not 0.
 struct Spread {
   int64_t readings = 0;
-  int64_t noughts = 0;
+  int64_t zeros = 0;
   int distinct = 0;
   int percent_1 = 0, percent_5 = 0, median = 0, percent_95 = 0, largest = 0;
 };
@@ -42,7 +42,7 @@ int Percentile(const Counts& count, int64_t readings, double share) {
 
 Spread MeasureSpread(const Counts& count) {
   Spread spread;
-  spread.noughts = count[0];
+  spread.zeros = count[0];
   for (int number = 1; number < 65536; ++number) {
     const int64_t here = count[static_cast<size_t>(number)];
     spread.readings += here;
@@ -94,11 +94,11 @@ bool AreShifts(const Counts& count, const Spread& spread) {
   const auto between = [](int number) { return number >= kInfinite && number < kNoShift; };
   if (Share(count, spread, between) > 0.002) return false;
   if (spread.largest == kNoShift) {
-    return count[kNoShift] * 500 > spread.readings && spread.noughts * 10 < count[kNoShift];
+    return count[kNoShift] * 500 > spread.readings && spread.zeros * 10 < count[kNoShift];
   }
-  const int64_t all = spread.readings + spread.noughts;
+  const int64_t all = spread.readings + spread.zeros;
   return spread.largest < kInfinite && spread.percent_1 > kNearest_mm &&
-         spread.percent_95 > kOfARoom && spread.noughts * 10 < all;
+         spread.percent_95 > kOfARoom && spread.zeros * 10 < all;
 }
 
 std::optional<DepthSuspicion> JudgeFormat(const Counts& count, const Spread& spread) {

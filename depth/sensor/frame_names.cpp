@@ -19,7 +19,7 @@ size_t DigitsEnd(std::string_view text, size_t from) {
   return from;
 }
 
-std::string_view WithoutLeadingNoughts(std::string_view digits) {
+std::string_view WithoutLeadingZeros(std::string_view digits) {
   return digits.substr(std::min(digits.find_first_not_of('0'), digits.size()));
 }
 
@@ -136,8 +136,8 @@ bool NaturalLess(std::string_view a, std::string_view b) {
   while (i < a.size() && k < b.size()) {
     if (IsDigit(a[i]) && IsDigit(b[k])) {
       const size_t end_a = DigitsEnd(a, i), end_b = DigitsEnd(b, k);
-      const auto digits_a = WithoutLeadingNoughts(a.substr(i, end_a - i));
-      const auto digits_b = WithoutLeadingNoughts(b.substr(k, end_b - k));
+      const auto digits_a = WithoutLeadingZeros(a.substr(i, end_a - i));
+      const auto digits_b = WithoutLeadingZeros(b.substr(k, end_b - k));
       if (digits_a.size() != digits_b.size()) return digits_a.size() < digits_b.size();
       if (digits_a != digits_b) return digits_a < digits_b;
       i = end_a;

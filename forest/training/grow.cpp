@@ -221,7 +221,7 @@ void TreeGrower::SplitInMemory(const GrowingTree& tree, std::vector<Task>* tasks
             BestSplit(scratch.histogram.data(), task.rows, first, last, task.set.bins, entropy_);
         if (split.gain_bits > best.gain_bits) best = split;
       }
-      Settle(best, &task);
+      ApplySplit(best, &task);
       evaluations += scratch.refs.size() * candidates;
     });
   });
@@ -274,13 +274,13 @@ void TreeGrower::SplitGroup(const GrowingTree& tree, std::span<Task> group) {
   for (auto& counts : histogram) reducer_.Sum(std::span<uint32_t>(counts));
   oneapi::tbb::parallel_for(size_t{0}, group.size(), [&](size_t i) {
     const size_t candidates = group[i].set.candidates.size();
-    Settle(
+    ApplySplit(
         BestSplit(histogram[i].data(), group[i].rows, 0, candidates, group[i].set.bins, entropy_),
         &group[i]);
   });
 }
 
-void TreeGrower::Settle(const Split& split, Task* task) {
+void TreeGrower::ApplySplit(const Split& split, Task* task) {
   task->split = split;
   if (split.bin >= 0) task->made = MakeNode(task->set, split);
   task->set = {};

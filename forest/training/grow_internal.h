@@ -69,7 +69,7 @@ class TreeGrower {
   void SplitInMemory(const GrowingTree& tree, std::vector<Task>* tasks);
   void SplitInParts(const GrowingTree& tree, std::vector<Task>* tasks);
   void SplitGroup(const GrowingTree& tree, std::span<Task> group);
-  static void Settle(const Split& split, Task* task);
+  static void ApplySplit(const Split& split, Task* task);
   void Route(const GrowingTree& tree);
   bool StopWanted() const { return options_.stop && options_.stop(); }
 

@@ -12,6 +12,7 @@
 #include "recon/motion/held_body_internal.h"
 #include "recon/orientation.h"
 #include "recon/smallest_turn.h"
+#include "recon/t_pose.h"
 
 namespace ossa::recon {
 namespace {
@@ -39,12 +40,9 @@ bool IsTurned(size_t node) {
   return kHumanBones[node].parent < 0 || kHumanBones[node].place != kHumanBones[node].turner;
 }
 
-/// A T-pose of bones alone.
-Posture BuildStraightTPose(const BoneLengths& lengths_m) {
-  Posture rest;
-  for (size_t j = 1; j < kJointCount; ++j) {
-    rest.position_m[j] = rest.position_m[ParentOf(j)] + lengths_m[j] * RestDirection(j);
-  }
+/// A T-pose of bones alone, that stands on y = 0.
+Posture BuildStandingTPose(const BoneLengths& lengths_m) {
+  Posture rest = BuildTPose(lengths_m);
   const Vector3d up_m = -rest[Joint::kFootLeft].y() * Vector3d::UnitY();
   for (Vector3d& joint : rest.position_m) joint += up_m;
   return rest;
@@ -71,7 +69,8 @@ class NodeMotion {
       if (j == 0) continue;
       // A bone of ours points along its axis at rest; the node's points as the person stands.
       const Vector3d along = rest.position_m[j] - rest.position_m[ParentOf(j)];
-      rest_from_joint_[b] = rest_from_joint_[b] * SmallestTurn(RestDirection(j), along).conjugate();
+      rest_from_joint_[b] =
+          rest_from_joint_[b] * SmallestTurn(TPoseDirection(j), along).conjugate();
     }
     tracks_.translation_m.resize(kPersonNodes);
     tracks_.rotation.resize(kPersonNodes);
@@ -166,7 +165,7 @@ class GltfWriter final : public SkeletonWriter::Format {
     HeldBody held(seen);
     std::optional<SkinnedBody> body;
     if (options_.body) body = BuildTPosedBody(*options_.body, shapes_[id], held.lengths_m());
-    const Posture rest = body ? body->joints_m : BuildStraightTPose(held.lengths_m());
+    const Posture rest = body ? body->joints_m : BuildStandingTPose(held.lengths_m());
     NodeMotion motion(rest);
     for (size_t i = 0; i < seen.size(); ++i) {
       const Sighting now = seen[i];

@@ -13,37 +13,12 @@
 #include "recon/motion/held_body_internal.h"
 #include "recon/motion/sightings_internal.h"
 #include "recon/smallest_turn.h"
+#include "recon/t_pose.h"
 
 namespace ossa::recon {
 
 using Eigen::Quaterniond;
 using Eigen::Vector3d;
-
-Vector3d RestDirection(size_t joint) {
-  switch (static_cast<Joint>(joint)) {
-    case Joint::kSpine:
-    case Joint::kShoulderCenter:
-    case Joint::kHead:
-      return Vector3d::UnitY();
-    case Joint::kShoulderLeft:
-    case Joint::kElbowLeft:
-    case Joint::kWristLeft:
-    case Joint::kHandLeft:
-    case Joint::kHipLeft:
-      return Vector3d::UnitX();
-    case Joint::kShoulderRight:
-    case Joint::kElbowRight:
-    case Joint::kWristRight:
-    case Joint::kHandRight:
-    case Joint::kHipRight:
-      return -Vector3d::UnitX();
-    case Joint::kFootLeft:
-    case Joint::kFootRight:
-      return Vector3d::UnitZ();
-    default:
-      return -Vector3d::UnitY();
-  }
-}
 
 namespace {
 
@@ -75,9 +50,9 @@ BvhLayout SdkLayout(const BoneLengths& lengths) {
     BvhJoint joint;
     joint.name = kJointNames[j];
     joint.parent = static_cast<int>(layout.turner[j]);
-    joint.offset = kBvhCentimetres * lengths[j] * RestDirection(j);
+    joint.offset = kBvhCentimetres * lengths[j] * TPoseDirection(j);
     joint.channels = turns;
-    if (CountChildren(j) == 0) joint.end_sites.push_back(kBvhEnd_cm * RestDirection(j));
+    if (CountChildren(j) == 0) joint.end_sites.push_back(kBvhEnd_cm * TPoseDirection(j));
     layout.place[j] = layout.joints.size();
     layout.joints.push_back(joint);
   }
@@ -148,7 +123,7 @@ void AppendFrame(const BvhLayout& layout, const Vector3d& root_m,
     const size_t turner = layout.turner[j];
     if (turner != 0) {
       const Quaterniond& carried = world[static_cast<size_t>(layout.joints[turner].parent)];
-      world[turner] = SmallestTurn(carried * RestDirection(j), direction[j]) * carried;
+      world[turner] = SmallestTurn(carried * TPoseDirection(j), direction[j]) * carried;
     }
     if (layout.place[j] != kNoBvhJoint) world[layout.place[j]] = world[turner];
   }

@@ -1,5 +1,6 @@
 #include "recon/motion/bvh_layout_internal.h"
 #include "recon/motion/humanoid.h"
+#include "recon/t_pose.h"
 
 namespace ossa::recon {
 namespace {
@@ -29,16 +30,16 @@ BvhLayout HumanoidLayout(BvhNames names, const BoneLengths& lengths,
     BvhJoint joint;
     joint.name = HumanBoneName(human, names);
     joint.parent = human.parent;
-    if (from != 0) joint.offset = kBvhCentimetres * lengths[from] * RestDirection(from);
+    if (from != 0) joint.offset = kBvhCentimetres * lengths[from] * TPoseDirection(from);
     if (human.place == Joint::kHipLeft) joint.offset = kBvhCentimetres * hip_offsets_m[0];
     if (human.place == Joint::kHipRight) joint.offset = kBvhCentimetres * hip_offsets_m[1];
     if (i == 0) {
       joint.channels = {BvhChannel::kXposition, BvhChannel::kYposition, BvhChannel::kZposition};
     }
     for (const BvhChannel turn : BvhTurns()) joint.channels.push_back(turn);
-    if (IsEnd(human)) joint.end_sites.push_back(kBvhEnd_cm * RestDirection(from));
+    if (IsEnd(human)) joint.end_sites.push_back(kBvhEnd_cm * TPoseDirection(from));
     if (IsHand(human)) {
-      joint.end_sites.push_back(kBvhCentimetres * lengths[turns] * RestDirection(turns));
+      joint.end_sites.push_back(kBvhCentimetres * lengths[turns] * TPoseDirection(turns));
     }
     layout.joints.push_back(joint);
     // What ends a chain is carried along; whatever else lies there turns the next bone.

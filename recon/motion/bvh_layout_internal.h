@@ -20,9 +20,6 @@ struct BvhLayout {
   JointArray<size_t> turner{};  // file joint that turns the bone ending in j; 0: the root does
 };
 
-/// Bone directions of the file's rest pose: a T-pose facing +z.
-Eigen::Vector3d RestDirection(size_t joint);
-
 /// Channels of a joint that turns.
 inline std::vector<BvhChannel> BvhTurns() {
   return {BvhChannel::kZrotation, BvhChannel::kXrotation, BvhChannel::kYrotation};

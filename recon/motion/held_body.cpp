@@ -4,6 +4,7 @@
 #include "recon/body/standard_body.h"
 #include "recon/motion/bvh_layout_internal.h"
 #include "recon/motion/held_body_internal.h"
+#include "recon/t_pose.h"
 
 namespace ossa::recon {
 namespace {
@@ -55,7 +56,7 @@ std::optional<Vector3d> EstimateRoot(const Sighting& sighting, const BoneLengths
 }  // namespace
 
 HeldBody::HeldBody(const SightingLog& seen) : lengths_m_(ComputeMedianLengths(seen)) {
-  for (size_t j = 0; j < kJointCount; ++j) direction_[j] = RestDirection(j);
+  for (size_t j = 0; j < kJointCount; ++j) direction_[j] = TPoseDirection(j);
   for (size_t i = seen.size(); i-- > 0;) Update(seen[i]);
 }
 

@@ -56,10 +56,4 @@ BoneLengths EstimateBones(const QuantisedPerceptron& network, const ProposedPers
   return lengths_m;
 }
 
-void MeanBoneLengths::Add(const BoneLengths& estimated_m) {
-  constexpr int kMemory_frames = 600;
-  frames = std::min(frames + 1, kMemory_frames);
-  for (size_t i = 1; i < kJointCount; ++i) mean_m[i] += (estimated_m[i] - mean_m[i]) / frames;
-}
-
 }  // namespace ossa::recon

@@ -32,13 +32,6 @@ Eigen::RowVectorXf EncodeBoneLengths(const BoneLengths& lengths_m);
 /// The mean of the network's estimates for the person and for the mirror image.
 BoneLengths EstimateBones(const QuantisedPerceptron& network, const ProposedPerson& person);
 
-/// Mean of the lengths estimated in a person's frames.
-struct MeanBoneLengths {
-  void Add(const BoneLengths& estimated_m);
-  BoneLengths mean_m{};
-  int frames = 0;  // up to twenty seconds: what is older fades
-};
-
 /// What the networks of a bone-conditioned stage read: what others read, then EncodeBoneLengths of
 /// the person's bones.
 inline constexpr int kBoneConditionedFeatures =

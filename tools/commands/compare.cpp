@@ -20,12 +20,6 @@
 namespace ossa::commands {
 namespace {
 
-void WriteText(const std::string& path, const std::string& text) {
-  AtomicFile file(path);
-  file.stream() << text;
-  file.Commit();
-}
-
 void ReadTimeAlignment(const std::string& word, tools::PairOptions& options) {
   if (word == "auto") {
     options.time = tools::TimeAlignment::kAuto;
@@ -62,40 +56,39 @@ std::string Formats() {
   return text;
 }
 
-}  // namespace
-
-int Compare(int argc, char** argv) {
-  CLI::App app("Judge skeletons against the truth, or against each other");
+struct CompareArguments {
   std::string truth;
   std::vector<std::string> results;
-  std::string align = "none";
-  std::string joints = "all";
-  std::string time = "auto";
-  std::string json;
+  std::string align = "none", joints = "all", time = "auto";
+  bool to_json = false;
+  std::string json;  // "" or -: stdout
   std::string report;
   tools::CompareOptions options;
   bool quiet = false;
-  app.add_option("TRUTH", truth, "the skeletons to compare with")->required();
-  app.add_option("RESULT", results, "one or more results")->required();
-  app.add_option("--align", align, "rigid: one rotation and translation a clip (Procrustes)")
+
+  bool json_to_stdout() const { return to_json && (json.empty() || json == "-"); }
+};
+
+void AddPairingOptions(CLI::App& app, CompareArguments& a) {
+  app.add_option("--align", a.align, "rigid: one rotation and translation a clip (Procrustes)")
       ->check(CLI::IsMember({"none", "rigid"}))
       ->capture_default_str();
-  app.add_option("--joints", joints,
+  app.add_option("--joints", a.joints,
                  "of a result: all that have a place, or found, without those that say not_tracked "
                  "and were placed unseen")
       ->check(CLI::IsMember({"all", "found"}))
       ->capture_default_str();
-  app.add_option("--time", time,
+  app.add_option("--time", a.time,
                  "auto: cross-correlation where the frame times disagree; none; correlate: always; "
                  "or seconds to add to the results' times")
       ->capture_default_str();
-  app.add_option("--max-offset", options.pairing.max_offset_s, "how far correlation looks, seconds")
+  app.add_option("--max-offset", a.options.pairing.max_offset_s,
+                 "how far correlation looks, seconds")
       ->check(CLI::Range(0.0, 60.0))
       ->capture_default_str();
-  auto* json_option =
-      app.add_option("--json", json, "write all numbers as JSON to FILE ('-' or none: stdout)")
-          ->expected(0, 1);
-  app.add_option("--report", report, "write one self-contained page with plots, FILE.html");
+}
+
+void AddReadingOptions(CLI::App& app, tools::CompareOptions& options) {
   app.add_option("--columns", options.reading.columns, "truth or observed, for files of both")
       ->check(CLI::IsMember({"truth", "vicon", "G", "ground-truth", "observed", "kinect",
                              "estimate", "a2j", "K", "P"}));
@@ -105,37 +98,65 @@ int Compare(int argc, char** argv) {
       ->allow_extra_args(false);
   app.add_option("--skip", options.skip, "no clips whose name holds TEXT (repeat for several)")
       ->allow_extra_args(false);
-  app.add_option("--seed", options.seed, "of the bootstrap")->capture_default_str();
-  app.add_flag("--quiet", quiet, "no tables on stdout");
-  AddMappingOption(app, options.reading.mapping_file, false);
-  app.footer(Formats() + "\n" + MappingHelp());
-  Parse(app, argc, argv);
-  ReadTimeAlignment(time, options.pairing);
-  options.pairing.rigid = align == "rigid";
-  options.pairing.found_only = joints == "found";
+}
 
-  const bool json_to_stdout = json_option->count() > 0 && (json.empty() || json == "-");
-  std::vector<std::string> inputs = results;
-  inputs.push_back(truth);
-  inputs.push_back(options.reading.mapping_file);
-  CheckNotOtherKind("--json", json, ".json");
-  CheckExtension("--report", report, ".html");
-  CheckOutputs({json_to_stdout ? "" : json, report}, inputs);
-  if (!json.empty() && !json_to_stdout) AtomicFile::CheckWritable(json);
-  if (!report.empty()) AtomicFile::CheckWritable(report);
-  options.stop = Interrupted;
-  options.reading.progress = ReadingBar(quiet);
-  const tools::Comparison comparison = Compared(truth, results, options, quiet);
-  SayWarnings("compare", comparison.warnings);
-  if (json_to_stdout) {
+CLI::Option* DeclareOptions(CLI::App& app, CompareArguments& a) {
+  app.add_option("TRUTH", a.truth, "the skeletons to compare with")->required();
+  app.add_option("RESULT", a.results, "one or more results")->required();
+  AddPairingOptions(app, a);
+  CLI::Option* json =
+      app.add_option("--json", a.json, "write all numbers as JSON to FILE ('-' or none: stdout)")
+          ->expected(0, 1);
+  app.add_option("--report", a.report, "write one self-contained page with plots, FILE.html");
+  AddReadingOptions(app, a.options);
+  app.add_option("--seed", a.options.seed, "of the bootstrap")->capture_default_str();
+  app.add_flag("--quiet", a.quiet, "no tables on stdout");
+  AddMappingOption(app, a.options.reading.mapping_file, false);
+  app.footer(Formats() + "\n" + MappingHelp());
+  return json;
+}
+
+void CheckOutputFiles(const CompareArguments& a) {
+  std::vector<std::string> inputs = a.results;
+  inputs.push_back(a.truth);
+  inputs.push_back(a.options.reading.mapping_file);
+  const std::string json = a.json_to_stdout() ? "" : a.json;
+  CheckNotOtherKind("--json", a.json, ".json");
+  CheckExtension("--report", a.report, ".html");
+  CheckOutputs({json, a.report}, inputs);
+  if (!json.empty()) AtomicFile::CheckWritable(json);
+  if (!a.report.empty()) AtomicFile::CheckWritable(a.report);
+}
+
+void Tell(const tools::Comparison& comparison, const CompareArguments& a) {
+  if (a.json_to_stdout()) {
     fmt::print("{}", tools::ToJson(comparison));
   } else {
-    if (!json.empty()) WriteText(json, tools::ToJson(comparison));
-    if (!quiet) fmt::print("{}", tools::ToText(comparison));
+    if (!a.json.empty()) WriteText(a.json, tools::ToJson(comparison));
+    if (!a.quiet) fmt::print("{}", tools::ToText(comparison));
   }
-  if (report.empty()) return 0;
-  WriteText(report, tools::ToHtml(comparison));
-  if (!quiet && !json_to_stdout) fmt::print("\nReport: {}\n", report);
+  if (a.report.empty()) return;
+  WriteText(a.report, tools::ToHtml(comparison));
+  if (!a.quiet && !a.json_to_stdout()) fmt::print("\nReport: {}\n", a.report);
+}
+
+}  // namespace
+
+int Compare(int argc, char** argv) {
+  CLI::App app("Judge skeletons against the truth, or against each other");
+  CompareArguments a;
+  const CLI::Option* json = DeclareOptions(app, a);
+  Parse(app, argc, argv);
+  a.to_json = json->count() > 0;
+  ReadTimeAlignment(a.time, a.options.pairing);
+  a.options.pairing.rigid = a.align == "rigid";
+  a.options.pairing.found_only = a.joints == "found";
+  CheckOutputFiles(a);
+  a.options.stop = Interrupted;
+  a.options.reading.progress = ReadingBar(a.quiet);
+  const tools::Comparison comparison = Compared(a.truth, a.results, a.options, a.quiet);
+  SayWarnings("compare", comparison.warnings);
+  Tell(comparison, a);
   return 0;
 }
 

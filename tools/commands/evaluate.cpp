@@ -21,13 +21,6 @@ void CheckWritable(const std::string& path) {
   if (!path.empty()) AtomicFile::CheckWritable(path);
 }
 
-void WriteText(const std::string& path, const std::string& text) {
-  if (path.empty()) return;
-  AtomicFile file(path);
-  file.stream() << text;
-  file.Commit();
-}
-
 void NoteInCard(const std::string& path, const forest::ForestModel& model, const std::string& name,
                 const std::string& evaluation) {
   auto card = nlohmann::ordered_json::parse(model.manifest(), nullptr, false);

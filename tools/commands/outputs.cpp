@@ -91,6 +91,13 @@ std::string FramesText(int64_t frames, std::optional<int64_t> of) {
   return of ? fmt::format("{} of {} frames", frames, *of) : fmt::format("{} frames", frames);
 }
 
+void WriteText(const std::string& path, const std::string& text) {
+  if (path.empty()) return;
+  AtomicFile file(path);
+  file.stream() << text;
+  file.Commit();
+}
+
 InputError KeepWhatFits(const DiskFull& full, recon::SkeletonWriter& writer) {
   const int64_t kept = writer.FinishWithWhatFits();
   return InputError(

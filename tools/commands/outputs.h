@@ -37,6 +37,9 @@ void SayLeftovers(const std::string& path);
 /// "27 of 150 frames"; "27 frames" where nobody knows of how many.
 std::string FramesText(int64_t frames, std::optional<int64_t> of);
 
+/// The file appears when it is complete; an empty name is an option that was not given.
+void WriteText(const std::string& path, const std::string& text);
+
 /// Ends a file that does not fit after its last whole frame; the failure says how many are kept.
 InputError KeepWhatFits(const DiskFull& full, recon::SkeletonWriter& writer);
 

@@ -2,6 +2,7 @@
 
 #include <CLI/CLI.hpp>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "depth/base/atomic_file.h"
@@ -36,10 +37,7 @@ std::vector<recon::PriorClip> ToPriorClips(const std::vector<recon::MotionClip>&
   return clips;
 }
 
-}  // namespace
-
-int Prior(int argc, char** argv) {
-  CLI::App app("Learn from motion capture how people hold themselves and how fast that changes");
+struct PriorArguments {
   std::vector<std::string> mocap;
   std::string out;
   recon::PosturePriorOptions options;
@@ -47,14 +45,9 @@ int Prior(int argc, char** argv) {
   double authored_weight = 0.3;
   tools::PriorNetworkOptions network;
   bool quiet = false;
-  app.add_option("--mocap", mocap, "folders of BVH or AMC files, or the word authored")->required();
-  app.add_option("--out", out, "the .ossaprior file to write")->required();
-  app.add_option("--modes", options.modes, "independent ways of moving that are told apart")
-      ->capture_default_str()
-      ->check(CLI::Range(1, recon::kBoneDims));
-  app.add_option("--authored-weight", authored_weight, "of an authored frame beside a captured one")
-      ->capture_default_str()
-      ->check(Positive());
+};
+
+void AddNetworkOptions(CLI::App& app, tools::PriorNetworkOptions& network) {
   app.add_option("--hidden", network.hidden,
                  "units of the network that corrects what the modes say; 0: none")
       ->capture_default_str()
@@ -67,42 +60,71 @@ int Prior(int argc, char** argv) {
                  "each time")
       ->capture_default_str()
       ->check(CLI::Range(1, 1000));
-  app.add_option("--seed", mocap_options.seed,
+}
+
+void DeclareOptions(CLI::App& app, PriorArguments& a) {
+  app.add_option("--mocap", a.mocap, "folders of BVH or AMC files, or the word authored")
+      ->required();
+  app.add_option("--out", a.out, "the .ossaprior file to write")->required();
+  app.add_option("--modes", a.options.modes, "independent ways of moving that are told apart")
+      ->capture_default_str()
+      ->check(CLI::Range(1, recon::kBoneDims));
+  app.add_option("--authored-weight", a.authored_weight,
+                 "of an authored frame beside a captured one")
+      ->capture_default_str()
+      ->check(Positive());
+  AddNetworkOptions(app, a.network);
+  app.add_option("--seed", a.mocap_options.seed,
                  "variation of the authored clips, and what is hidden from the network")
       ->capture_default_str();
-  app.add_option("--threads", network.threads, "0: one a core")
+  app.add_option("--threads", a.network.threads, "0: one a core")
       ->capture_default_str()
       ->check(CLI::Range(0, 1024));
-  app.add_flag("--quiet", quiet, "no progress");
-  AddMappingOption(app, mocap_options.mapping_file);
-  Parse(app, argc, argv);
-  CheckNotOtherKind("--out", out, ".ossaprior");
-  std::vector<std::string> inputs = mocap;
-  inputs.push_back(mocap_options.mapping_file);
-  CheckOutputs({out}, inputs);
-  AtomicFile::CheckWritable(out);
+  app.add_flag("--quiet", a.quiet, "no progress");
+  AddMappingOption(app, a.mocap_options.mapping_file);
+}
 
-  mocap_options.stop = Interrupted;
-  const auto motions = recon::LoadMocap(mocap, mocap_options);
-  SayWarnings("prior", motions);
-  const auto clips = ToPriorClips(motions, authored_weight);
-  if (Interrupted()) throw InputError("prior: interrupted; nothing was written");
-  auto prior = recon::PosturePrior::Learn(clips, options);
-  if (network.hidden > 0) {
-    Progress bar("prior", quiet);
-    network.seed = mocap_options.seed;
-    network.stop = Interrupted;
-    network.progress = [&](int64_t done, int64_t total) {
-      bar.Update(static_cast<double>(done), static_cast<double>(total), "learning the network");
-    };
-    try {
-      prior.network = tools::LearnPriorNetwork(prior, clips, network);
-    } catch (const TrainInterrupted&) {
-      throw InputError("prior: interrupted; nothing was written");
-    }
+void CheckFiles(const PriorArguments& a) {
+  CheckNotOtherKind("--out", a.out, ".ossaprior");
+  std::vector<std::string> inputs = a.mocap;
+  inputs.push_back(a.mocap_options.mapping_file);
+  CheckOutputs({a.out}, inputs);
+  AtomicFile::CheckWritable(a.out);
+}
+
+recon::PosturePrior LearnNetwork(recon::PosturePrior prior,
+                                 const std::vector<recon::PriorClip>& clips, PriorArguments& a) {
+  Progress bar("prior", a.quiet);
+  a.network.seed = a.mocap_options.seed;
+  a.network.stop = Interrupted;
+  a.network.progress = [&](int64_t done, int64_t total) {
+    bar.Update(static_cast<double>(done), static_cast<double>(total), "learning the network");
+  };
+  try {
+    prior.network = tools::LearnPriorNetwork(prior, clips, a.network);
+  } catch (const TrainInterrupted&) {
+    throw InputError("prior: interrupted; nothing was written");
   }
-  prior.Save(out);
-  fmt::print("{}: {} modes learned from {} postures in {} clips\n", out,
+  return prior;
+}
+
+}  // namespace
+
+int Prior(int argc, char** argv) {
+  CLI::App app("Learn from motion capture how people hold themselves and how fast that changes");
+  PriorArguments a;
+  DeclareOptions(app, a);
+  Parse(app, argc, argv);
+  CheckFiles(a);
+  a.mocap_options.stop = Interrupted;
+  const auto motions = recon::LoadMocap(a.mocap, a.mocap_options);
+  SayWarnings("prior", motions);
+  const auto clips = ToPriorClips(motions, a.authored_weight);
+  if (Interrupted()) throw InputError("prior: interrupted; nothing was written");
+  auto prior = recon::PosturePrior::Learn(clips, a.options);
+  if (a.network.hidden > 0) prior = LearnNetwork(std::move(prior), clips, a);
+  prior.Save(a.out);
+  fmt::print("{}: {} modes learned from {} postures in {} clips\n", a.out,
              prior.correlation_time_s.size(), prior.frames, clips.size());
   return 0;
 }

@@ -107,6 +107,9 @@ void AddMethodOptions(CLI::App& app, ReconstructArguments& a) {
   app.add_option("--cutoff", a.cutoff_hz, "of butterworth, Hz")
       ->capture_default_str()
       ->check(Positive());
+}
+
+void AddLocalPcaOptions(CLI::App& app, ReconstructArguments& a) {
   recon::LocalPcaOptions& pca = a.options.local_pca;
   app.add_option("--solver", pca.solver, "of shum-2013, plantard-2016: stochastic or ceres")
       ->capture_default_str()
@@ -131,7 +134,9 @@ void AddMethodOptions(CLI::App& app, ReconstructArguments& a) {
                "reliable (not in the papers)");
   app.add_flag("--extend", pca.extend_database,
                "of shum-2013: reliable postures join the database (sec. IX)");
-  a.bones.AddTo(app);
+}
+
+void AddLagOption(CLI::App& app, ReconstructArguments& a) {
   app.add_option("--lag", a.lag,
                  "frames after each that smooth it: 0 to 2, or whole, as many before and after as "
                  "help (default: whole with best, else 0)")
@@ -188,24 +193,23 @@ void PlayScene(const tracker::SceneOptions& options, recon::SkeletonSequence& se
                   a.mechanics.scene));
 }
 
-InputError InterruptedEarly(const ReconstructArguments& a, size_t written, double total) {
+InputError InterruptedEarly(const ReconstructArguments& a, size_t written, size_t total) {
   if (written == 0) return InputError("reconstruct: interrupted; nothing was written");
   return InputError(
       fmt::format("{}: interrupted: {} are in {}", a.skeletons,
                   FramesText(static_cast<int64_t>(written), static_cast<int64_t>(total)), a.out));
 }
 
-}  // namespace
-
-int Reconstruct(int argc, char** argv) {
-  CLI::App app("Make recorded skeletons complete and plausible");
-  ReconstructArguments a;
+void DeclareOptions(CLI::App& app, ReconstructArguments& a) {
   app.add_option("SKELETONS", a.skeletons, "skeleton JSONL or a recording of an SDK")->required();
   app.add_option("--out", a.out,
                  "result: .jsonl .bvh .glb .trc .csv, or a folder for many recordings")
       ->required();
   a.write.AddTo(app);
   AddMethodOptions(app, a);
+  AddLocalPcaOptions(app, a);
+  a.bones.AddTo(app);
+  AddLagOption(app, a);
   AddMechanicsOptions(app, a.mechanics);
   AddDynamicsOptions(app, a);
   AddMappingOption(app, a.read.mapping_file, false);
@@ -213,16 +217,21 @@ int Reconstruct(int argc, char** argv) {
   app.footer(
       std::string("Options that the method does not read are refused; of files it is said.\n") +
       MappingHelp());
-  Parse(app, argc, argv);
-  recon::LocalPcaOptions& pca = a.options.local_pca;
-  pca.use_reliability = !a.no_reliability;
-  double* const weights[] = {&pca.control, &pca.style, &pca.kinematics, &pca.continuity};
-  for (size_t i = 0; i < a.weights.size(); ++i) *weights[i] = a.weights[i];
+}
 
-  CheckRead(app, a.options.method, a.quiet);
+void CheckLocalPca(const CLI::App& app, const ReconstructArguments& a) {
   if (a.options.local_pca.solver == "ceres" && app.count("--samples") > 0) {
     throw UsageError("--samples is not read by --solver ceres: expected --solver stochastic");
   }
+  for (const double weight : a.weights) {
+    if (weight >= 0) continue;
+    throw UsageError(fmt::format("--weights: expected numbers from 0 up, found {}", weight));
+  }
+}
+
+void CheckArguments(const CLI::App& app, ReconstructArguments& a) {
+  CheckRead(app, a.options.method, a.quiet);
+  CheckLocalPca(app, a);
   CheckLearned(a.options.method, a.files.learned);
   a.bones.Check(a.options.method);
   a.write.Check(a.out);
@@ -231,11 +240,16 @@ int Reconstruct(int argc, char** argv) {
   CheckDynamics(a);
   CheckOneOf(a.options.method, a.files.database, a.files.prior);
   CheckOutputs({a.out, a.dynamics}, {a.skeletons, a.read.mapping_file, a.mechanics.scene});
-  const std::optional<tracker::SceneOptions> scene = a.mechanics.Scene();
-  for (const double weight : a.weights) {
-    if (!(weight >= 0))
-      throw UsageError(fmt::format("--weights: expected numbers from 0 up, found {}", weight));
-  }
+}
+
+void SetLocalPca(ReconstructArguments& a) {
+  recon::LocalPcaOptions& pca = a.options.local_pca;
+  pca.use_reliability = !a.no_reliability;
+  double* const weights[] = {&pca.control, &pca.style, &pca.kinematics, &pca.continuity};
+  for (size_t i = 0; i < a.weights.size(); ++i) *weights[i] = a.weights[i];
+}
+
+std::vector<recon::SkeletonClip> ReadClips(ReconstructArguments& a) {
   a.read.stop = Interrupted;
   a.read.progress = ReadingBar(a.quiet);
   auto clips = recon::ReadSkeletonClips(a.skeletons, a.read);
@@ -243,67 +257,140 @@ int Reconstruct(int argc, char** argv) {
   SayWarnings("reconstruct", clips);
   CheckDynamicsOf(a, clips.size());
   for (auto& clip : clips) a.floor.Apply(clip.sequence, a.quiet);
-  const bool to_folder = GoesToFolder(a, clips);
-  if (to_folder) {
-    std::filesystem::create_directories(a.out);
-  } else {
-    CheckSkeletonName(a.out);
-    AtomicFile::CheckWritable(a.out);
-  }
+  return clips;
+}
+
+void LoadModels(ReconstructArguments& a, const std::vector<recon::SkeletonClip>& clips) {
   if (a.options.method != kButterworth) {
     a.options.database = tracker::LoadDatabase(a.files, a.options.method);
     a.options.prior = tracker::LoadPrior(a.files, a.options.method);
   }
   a.options.learned_file = LearnedFor(a, clips);
-  const recon::SkeletonWriteOptions write = a.write.For(a.out);
-  Progress progress("reconstruct", a.quiet);
-  const int rounds = 1 + (a.bones.of_recording() ? 1 : 0) + (a.mechanics.on() || scene ? 1 : 0);
-  double done = 0.0, total = 0.0;  // done: in all rounds
-  for (const auto& clip : clips) total += static_cast<double>(clip.sequence.frames.size());
-  size_t ready = 0, written = 0;  // frames of the clip at hand, and of all
-  const auto update = [&](size_t frames) {
-    ready = frames;
-    progress.Update((done + static_cast<double>(frames)) / rounds, total);
-    return !Interrupted();
-  };
-  for (const auto& clip : clips) {
-    const auto frames = static_cast<double>(clip.sequence.frames.size());
-    a.options.best.refined_joints = clip.sequence.sensor == recon::kRefinedJoints;
-    recon::BoneLengthsById bones;
-    if (a.bones.of_recording()) {
-      bones = recon::MeasureBones(clip.sequence, a.options, update);
-      done += frames;
+}
+
+/// Where the recordings' results go: one file, or a folder with a file each.
+class ClipFiles {
+ public:
+  ClipFiles(const ReconstructArguments& a, const std::vector<recon::SkeletonClip>& clips)
+      : out_(a.out), is_folder_(GoesToFolder(a, clips)), write_(a.write.For(a.out)) {
+    if (is_folder_) {
+      std::filesystem::create_directories(out_);
+    } else {
+      CheckSkeletonName(out_.string());
+      AtomicFile::CheckWritable(out_);
     }
-    auto made = a.options.method == kButterworth
-                    ? recon::ButterworthSequence(clip.sequence, a.cutoff_hz)
-                    : recon::ReconstructSequence(clip.sequence, a.options, update, bones);
-    done += frames;
-    made = recon::SmoothSequence(made, LagFor(a));  // before: the character keeps the floor
-    if (scene) {
-      ready = 0;
-      PlayScene(*scene, made, a, update);
-      done += frames;
-    } else if (a.mechanics.on()) {
-      ready = 0;
-      tracker::FollowMechanically(made, a.mechanics.build, update);
-      done += frames;
-      if (!a.dynamics.empty() && !Interrupted()) {
-        tracker::WriteDynamics(a.dynamics, made, a.mass_kg);
-      }
-    }
-    if (Interrupted()) made.frames.resize(std::min(made.frames.size(), ready));
-    if (made.frames.empty() && Interrupted()) break;
-    std::filesystem::path to = a.out;
-    if (to_folder) {
-      to = to / (clip.name + ".jsonl");
+  }
+  void Write(const std::string& clip_name, const recon::SkeletonSequence& made) const {
+    std::filesystem::path to = out_;
+    if (is_folder_) {
+      to /= clip_name + ".jsonl";
       std::filesystem::create_directories(to.parent_path());
     }
-    WriteSkeletonsThatFit(to, made, write);
+    WriteSkeletonsThatFit(to, made, write_);
+  }
+
+ private:
+  std::filesystem::path out_;
+  bool is_folder_;
+  recon::SkeletonWriteOptions write_;
+};
+
+/// The rounds through each recording's frames: bones, postures, mechanics; and how far they are.
+class Rounds {
+ public:
+  Rounds(const ReconstructArguments& a, const std::optional<tracker::SceneOptions>& scene,
+         const std::vector<recon::SkeletonClip>& clips)
+      : a_(a),
+        options_(a.options),
+        scene_(scene),
+        count_(1 + (a.bones.of_recording() ? 1 : 0) + (moves() ? 1 : 0)),
+        progress_("reconstruct", a.quiet) {
+    for (const auto& clip : clips) total_ += clip.sequence.frames.size();
+  }
+  /// Interrupted: the frames that were ready by then.
+  recon::SkeletonSequence Make(const recon::SkeletonClip& clip) {
+    options_.best.refined_joints = clip.sequence.sensor == recon::kRefinedJoints;
+    recon::SkeletonSequence made = Complete(clip.sequence, Bones(clip.sequence));
+    made = recon::SmoothSequence(made, LagFor(a_));  // before: the character keeps the floor
+    if (moves()) Move(made);
+    if (Interrupted()) made.frames.resize(std::min(made.frames.size(), ready_));
+    return made;
+  }
+  /// Of all recordings.
+  size_t frames() const { return total_; }
+
+ private:
+  bool moves() const { return scene_ || a_.mechanics.on(); }
+  bool Update(size_t frames) {
+    ready_ = frames;
+    progress_.Update(static_cast<double>(done_ + frames) / count_, static_cast<double>(total_));
+    return !Interrupted();
+  }
+  std::function<bool(size_t)> Updates() {
+    return [this](size_t frames) { return Update(frames); };
+  }
+  recon::BoneLengthsById Bones(const recon::SkeletonSequence& sequence) {
+    if (!a_.bones.of_recording()) return {};
+    auto bones = recon::MeasureBones(sequence, options_, Updates());
+    done_ += sequence.frames.size();
+    return bones;
+  }
+  recon::SkeletonSequence Complete(const recon::SkeletonSequence& sequence,
+                                   const recon::BoneLengthsById& bones) {
+    auto made = a_.options.method == kButterworth
+                    ? recon::ButterworthSequence(sequence, a_.cutoff_hz)
+                    : recon::ReconstructSequence(sequence, options_, Updates(), bones);
+    done_ += sequence.frames.size();
+    return made;
+  }
+  void Move(recon::SkeletonSequence& made) {
+    const size_t frames = made.frames.size();
+    ready_ = 0;
+    if (scene_) {
+      PlayScene(*scene_, made, a_, Updates());
+    } else {
+      tracker::FollowMechanically(made, a_.mechanics.build, Updates());
+      if (!a_.dynamics.empty() && !Interrupted()) {
+        tracker::WriteDynamics(a_.dynamics, made, a_.mass_kg);
+      }
+    }
+    done_ += frames;
+  }
+
+  const ReconstructArguments& a_;
+  recon::ReconstructorOptions options_;
+  std::optional<tracker::SceneOptions> scene_;
+  int count_;
+  Progress progress_;
+  size_t done_ = 0, total_ = 0;  // frames: done in all rounds, and of all recordings
+  size_t ready_ = 0;             // of the recording at hand
+};
+
+}  // namespace
+
+int Reconstruct(int argc, char** argv) {
+  CLI::App app("Make recorded skeletons complete and plausible");
+  ReconstructArguments a;
+  DeclareOptions(app, a);
+  Parse(app, argc, argv);
+  CheckArguments(app, a);
+  SetLocalPca(a);
+  const auto scene = a.mechanics.Scene();  // its faults are found before hours of work
+  const auto clips = ReadClips(a);
+  const ClipFiles files(a, clips);
+  LoadModels(a, clips);
+  Rounds rounds(a, scene, clips);
+  size_t written = 0;  // frames
+  for (const auto& clip : clips) {
+    const recon::SkeletonSequence made = rounds.Make(clip);
+    if (made.frames.empty() && Interrupted()) break;
+    files.Write(clip.name, made);
     written += made.frames.size();
     if (Interrupted()) break;
   }
-  if (Interrupted() && static_cast<double>(written) < total)
-    throw InterruptedEarly(a, written, total);
+  if (Interrupted() && written < rounds.frames()) {
+    throw InterruptedEarly(a, written, rounds.frames());
+  }
   return 0;
 }
 

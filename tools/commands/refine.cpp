@@ -19,28 +19,33 @@
 
 namespace ossa::commands {
 
-int Refine(int argc, char** argv) {
-  CLI::App app(
-      "Train a stage of the cascade that refines a forest's joints at the depth image, on people "
-      "that the forest was not trained on");
+namespace {
+
+struct RefineArguments {
   std::vector<std::string> datasets;
   std::string out, after, model_path;
   tools::RefinementStageOptions options;
   bool bones = false, quiet = false;
-  app.add_option("DATASET", datasets, "folders made by ossa render")->required();
-  app.add_option("--out", out, "the .ossarefine file to write")->required();
+};
+
+void AddFileOptions(CLI::App& app, RefineArguments& a) {
+  app.add_option("DATASET", a.datasets, "folders made by ossa render")->required();
+  app.add_option("--out", a.out, "the .ossarefine file to write")->required();
   app.add_option(
-      "--model", model_path,
+      "--model", a.model_path,
       "forest model, .ossa (default: the shipped one, of people seen from the ceiling that for "
       "them)");
   app.add_option(
-      "--after", after,
+      "--after", a.after,
       "a .ossarefine: its stages come first, one more is learned from where they end; if "
       "it estimates bones, a bone-conditioned one (best on other people; the file "
       "counts those of its last stage)");
-  app.add_flag("--bones", bones,
+  app.add_flag("--bones", a.bones,
                "learn no stage but how long people's bones are, from where the stages of --after "
                "put the joints");
+}
+
+void AddLearningOptions(CLI::App& app, tools::RefinementStageOptions& options) {
   app.add_option("--hidden", options.hidden,
                  "units of each network's first layer, half as many of its second")
       ->capture_default_str()
@@ -63,52 +68,82 @@ int Refine(int argc, char** argv) {
   app.add_option("--threads", options.threads, "0: one a core")
       ->capture_default_str()
       ->check(CLI::Range(0, 1024));
-  app.add_flag("--quiet", quiet, "no progress");
-  Parse(app, argc, argv);
-  if (!out.ends_with(".ossalook")) CheckNotOtherKind("--out", out, ".ossarefine");  // its old name
-  if (bones && after.empty()) throw UsageError("--bones: expected --after FILE.ossarefine, too");
-  if (bones && app.count("--shifted") + app.count("--shift") > 0) {
+}
+
+void CheckArguments(const CLI::App& app, const RefineArguments& a) {
+  // .ossalook: its old name.
+  if (!a.out.ends_with(".ossalook")) CheckNotOtherKind("--out", a.out, ".ossarefine");
+  if (a.bones && a.after.empty())
+    throw UsageError("--bones: expected --after FILE.ossarefine, too");
+  if (a.bones && app.count("--shifted") + app.count("--shift") > 0) {
     throw UsageError("--shifted, --shift: bones are learned from joints where they are put");
   }
-  std::vector<std::string> inputs = datasets;
-  if (!model_path.empty()) inputs.push_back(model_path);
-  if (!after.empty()) inputs.push_back(after);
-  CheckOutputs({out}, inputs);
-  AtomicFile::CheckWritable(out);
+  std::vector<std::string> inputs = a.datasets;
+  if (!a.model_path.empty()) inputs.push_back(a.model_path);
+  if (!a.after.empty()) inputs.push_back(a.after);
+  CheckOutputs({a.out}, inputs);
+  AtomicFile::CheckWritable(a.out);
+}
 
-  if (!after.empty()) options.after = recon::RefinementCascade::Load(after);
-  const recon::RefinementCascade& known = options.after;
-  if (bones && !known.bone_conditioned.empty()) {
-    throw InputError(fmt::format("{}: expected no bone-conditioned stage, found {}", after,
+/// Throws InputError where no more can be learned after `known`.
+void CheckStages(const RefineArguments& a, const recon::RefinementCascade& known) {
+  if (a.bones && !known.bone_conditioned.empty()) {
+    throw InputError(fmt::format("{}: expected no bone-conditioned stage, found {}", a.after,
                                  known.bone_conditioned.size()));
   }
   const size_t stages = known.bones.empty() ? known.stages.size() : known.bone_conditioned.size();
-  if (!bones && stages >= recon::RefinementCascade::kMaxStages) {
-    throw InputError(fmt::format("{}: expected less than {} stages", after,
+  if (!a.bones && stages >= recon::RefinementCascade::kMaxStages) {
+    throw InputError(fmt::format("{}: expected less than {} stages", a.after,
                                  recon::RefinementCascade::kMaxStages));
   }
-  const bool from_above = tools::AreSeenFromAbove({datasets.begin(), datasets.end()});
-  if (!after.empty() && from_above != known.from_above) {
-    throw InputError(fmt::format("{}: learned on people seen {}, expected {} to show them so, too",
-                                 after, known.from_above ? "from the ceiling" : "by a level camera",
-                                 datasets.front()));
+}
+
+/// The stages before, of people seen as in the data sets.
+recon::RefinementCascade LoadKnown(const RefineArguments& a) {
+  recon::RefinementCascade known;
+  if (!a.after.empty()) known = recon::RefinementCascade::Load(a.after);
+  CheckStages(a, known);
+  const bool from_above = tools::AreSeenFromAbove({a.datasets.begin(), a.datasets.end()});
+  if (!a.after.empty() && from_above != known.from_above) {
+    throw InputError(fmt::format(
+        "{}: learned on people seen {}, expected {} to show them so, too", a.after,
+        known.from_above ? "from the ceiling" : "by a level camera", a.datasets.front()));
   }
-  options.after.from_above = from_above;
-  if (model_path.empty()) {
-    model_path = tracker::ShippedFile(from_above ? "body_ceiling.ossa" : "body.ossa").string();
-  }
-  const forest::ForestModel model = forest::ReadForestModel(model_path);
-  options.model_name = model_path;
-  Progress bar("refine", quiet);
-  options.stop = Interrupted;
-  options.progress = [&](int64_t done, int64_t total) {
+  known.from_above = from_above;
+  return known;
+}
+
+std::string ModelPath(const RefineArguments& a) {
+  if (!a.model_path.empty()) return a.model_path;
+  const bool from_above = a.options.after.from_above;
+  return tracker::ShippedFile(from_above ? "body_ceiling.ossa" : "body.ossa").string();
+}
+
+}  // namespace
+
+int Refine(int argc, char** argv) {
+  CLI::App app(
+      "Train a stage of the cascade that refines a forest's joints at the depth image, on people "
+      "that the forest was not trained on");
+  RefineArguments a;
+  AddFileOptions(app, a);
+  AddLearningOptions(app, a.options);
+  app.add_flag("--quiet", a.quiet, "no progress");
+  Parse(app, argc, argv);
+  CheckArguments(app, a);
+  a.options.after = LoadKnown(a);
+  a.options.model_name = ModelPath(a);
+  const forest::ForestModel model = forest::ReadForestModel(a.options.model_name);
+  Progress bar("refine", a.quiet);
+  a.options.stop = Interrupted;
+  a.options.progress = [&](int64_t done, int64_t total) {
     bar.Update(static_cast<double>(done), static_cast<double>(total), "learning");
   };
   try {
-    const auto learn = bones ? tools::LearnBoneEstimation : tools::LearnRefinementStage;
-    const auto cascade = learn(model, {datasets.begin(), datasets.end()}, options);
-    cascade.Save(out);
-    fmt::print("{}: learned from {} people\n", out, bones ? cascade.measured : cascade.people);
+    const auto learn = a.bones ? tools::LearnBoneEstimation : tools::LearnRefinementStage;
+    const auto cascade = learn(model, {a.datasets.begin(), a.datasets.end()}, a.options);
+    cascade.Save(a.out);
+    fmt::print("{}: learned from {} people\n", a.out, a.bones ? cascade.measured : cascade.people);
   } catch (const TrainInterrupted&) {
     throw InputError("refine: interrupted; nothing was written");
   }

@@ -131,7 +131,7 @@ class PersonKeeper {
     }
   }
   /// Throws InputError where nobody was fitted.
-  void Finish(const recon::BodySurface& surface, bool quiet) const {
+  void Finish(const TrackOptions& options) const {
     if (path_.empty()) return;
     const auto most = std::max_element(
         kept_.begin(), kept_.end(),
@@ -140,9 +140,10 @@ class PersonKeeper {
       throw InputError(path_ + ": expected a person in the recording, found none; not written");
     }
     const recon::PersonShape& shape = most->second.shape;
+    const recon::BodySurface& surface = *options.tracker.models->surface;
     shape.Save(path_, surface);
     const recon::Stature stature = recon::MeasureStature(shape, surface);
-    if (quiet) return;
+    if (options.quiet) return;
     fmt::print("{}: person {}, {:.2f} m tall, give or take {:.0f} cm, by {} frames\n", path_,
                most->first, stature.stature_m, 100.0 * stature.sigma_m, shape.frames);
   }
@@ -176,7 +177,7 @@ std::optional<int64_t> FramesWanted(const depth::FrameSource& source, const Trac
 /// Where what is tracked goes. Images wait for their bodies, which are late by the lag.
 struct Destinations {
   const TrackOptions& options;
-  const tracker::Tracker& tracker;
+  tracker::Tracker& tracker;
   SkeletonOutput& output;
   DecisionTrace& trace;
   Pictures& pictures;
@@ -294,13 +295,16 @@ std::map<int, recon::BoneLengths> MeasureBones(const TrackOptions& options) {
   return bones_m;
 }
 
+void CheckStatsWritable(const TrackOptions& options) {
+  if (options.json_stats.empty() || options.json_stats == "-") return;
+  AtomicFile::CheckWritable(options.json_stats);
+}
+
 void Report(const TrackOptions& options, const Run& run) {
   if (options.json_stats == "-") {
     fmt::print("{}", run.stats.Json(run.dropped));
   } else if (!options.json_stats.empty()) {
-    AtomicFile file(options.json_stats);
-    file.stream() << run.stats.Json(run.dropped);
-    file.Commit();
+    WriteText(options.json_stats, run.stats.Json(run.dropped));
   }
   if (run.ending == Ending::kUnplugged || run.ending == Ending::kSilent) {
     const char* what = run.ending == Ending::kUnplugged ? "unplugged" : "delivers no frames";
@@ -336,17 +340,59 @@ InputError InterruptedEarly(const TrackOptions& options, const Run& run) {
                                 FramesText(run.stats.frames(), run.of), where));
 }
 
+/// What is known of the people before the first frame.
+void ReadPeople(TrackOptions& options) {
+  for (size_t i = 0; i < options.people.size(); ++i) {
+    options.tracker.shapes[static_cast<int>(i) + 1] =
+        recon::PersonShape::Load(options.people[i], *options.tracker.models->surface);
+  }
+  if (options.bones.of_recording()) options.tracker.bones_m = MeasureBones(options);
+}
+
+std::unique_ptr<viewer::Viewer> OpenViewer(const TrackOptions& options) {
+  if (!options.view) return nullptr;
+  viewer::ViewerOptions page = PageOptions(options.page);
+  page.name = options.source.name;
+  page.forest = options.tracker.models->forest;
+  page.body = LoadSkin(options.files);
+  auto viewer = std::make_unique<viewer::Viewer>(page);
+  SayWhere(*viewer);
+  return viewer;
+}
+
+/// Throws InputError where nothing was tracked that is worth keeping.
+void CheckWorthKeeping(const TrackOptions& options, const Run& run) {
+  if (!run.failure.empty() && (run.stats.frames() == 0 || options.out.empty())) {
+    throw InputError(run.failure);
+  }
+  CheckFrames(options, run);
+}
+
+void FinishAll(Destinations& to, const Run& run) {
+  to.output.Finish();
+  to.pictures.Finish();
+  Report(to.options, run);
+  SayMissingFloor(to.tracker, to.options);
+  to.trace.Finish();
+  to.person.Finish(to.options);
+}
+
+/// Everything was kept, but the recording was not tracked to its end: throws InputError.
+void CheckComplete(const TrackOptions& options, const Run& run) {
+  if (!run.failure.empty()) {
+    throw InputError(fmt::format("{}; the {} before it are in {}", run.failure,
+                                 FramesText(run.stats.frames(), run.of), options.out));
+  }
+  if (run.ending == Ending::kInterrupted) throw InterruptedEarly(options, run);
+}
+
 }  // namespace
 
 int Track(int argc, char** argv) {
   TrackOptions options = ParseTrackOptions(argc, argv);
   options.tracker.models = tracker::ModelSet::Load(options.files, options.tracker.method);
   if (!options.more_sources.empty()) return TrackSeveral(options);
-  for (size_t i = 0; i < options.people.size(); ++i) {
-    options.tracker.shapes[static_cast<int>(i) + 1] =
-        recon::PersonShape::Load(options.people[i], *options.tracker.models->surface);
-  }
-  if (options.bones.of_recording()) options.tracker.bones_m = MeasureBones(options);
+  ReadPeople(options);
   tracker::Tracker tracker(options.tracker);  // first: a device's frames do not wait meanwhile
   const auto source = OpenSource(options.source, options.quiet);
   FindUpright(tracker, *source, options.source, options.quiet);
@@ -354,17 +400,8 @@ int Track(int argc, char** argv) {
   DecisionTrace trace(options.trace);
   Pictures pictures(options);
   PersonKeeper person(options);
-  if (!options.json_stats.empty() && options.json_stats != "-")
-    AtomicFile::CheckWritable(options.json_stats);
-  std::unique_ptr<viewer::Viewer> viewer;
-  if (options.view) {
-    viewer::ViewerOptions page = PageOptions(options.page);
-    page.name = options.source.name;
-    page.forest = options.tracker.models->forest;
-    page.body = LoadSkin(options.files);
-    viewer = std::make_unique<viewer::Viewer>(page);
-    SayWhere(*viewer);
-  }
+  CheckStatsWritable(options);
+  const auto viewer = OpenViewer(options);
   stream::Sender sender(options.targets);
   Destinations destinations{options,  tracker, output, trace,
                             pictures, person,  sender, viewer.get()};
@@ -374,21 +411,9 @@ int Track(int argc, char** argv) {
   } catch (const DiskFull& full) {
     throw output.WithWhatFits(full);
   }
-  if (!run.failure.empty() && (run.stats.frames() == 0 || options.out.empty())) {
-    throw InputError(run.failure);
-  }
-  CheckFrames(options, run);
-  output.Finish();
-  pictures.Finish();
-  Report(options, run);
-  SayMissingFloor(tracker, options);
-  trace.Finish();
-  if (!options.save_person.empty()) person.Finish(*options.tracker.models->surface, options.quiet);
-  if (!run.failure.empty()) {
-    throw InputError(fmt::format("{}; the {} before it are in {}", run.failure,
-                                 FramesText(run.stats.frames(), run.of), options.out));
-  }
-  if (run.ending == Ending::kInterrupted) throw InterruptedEarly(options, run);
+  CheckWorthKeeping(options, run);
+  FinishAll(destinations, run);
+  CheckComplete(options, run);
   return 0;
 }
 

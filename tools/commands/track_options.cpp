@@ -14,9 +14,7 @@
 namespace ossa::commands {
 namespace {
 
-void AddTrackerOptions(CLI::App& app, TrackOptions& options) {
-  tracker::TrackerOptions& t = options.tracker;
-  tracker::ModelFiles& files = options.files;
+void AddModelOptions(CLI::App& app, tracker::ModelFiles& files) {
   app.add_option("--model", files.forest, "forest model, .ossa (default: the shipped one)");
   app.add_option("--database", files.database,
                  "posture database, .ossadb (default: the shipped one, of best the shipped prior)");
@@ -36,6 +34,9 @@ void AddTrackerOptions(CLI::App& app, TrackOptions& options) {
       "none (default: shipped beside the shipped refinement)");
   app.add_option("--surface", files.surface,
                  ".ossasurface of 'ossa surface', for --fit (default: the shipped one)");
+}
+
+void AddFitOptions(CLI::App& app, TrackOptions& options) {
   app.add_option("--fit", options.fit,
                  "fit the body's surface to the depth image, from the refined joints on: on or off "
                  "(default: on where there are refined joints)")
@@ -47,7 +48,10 @@ void AddTrackerOptions(CLI::App& app, TrackOptions& options) {
   app.add_option("--save-person", options.save_person,
                  "FILE.ossaperson: at the end, the shape of the person who was fitted in most "
                  "frames, with what --person told of them");
-  app.add_option("--method", t.method, "how postures are completed (default best)")
+}
+
+void AddPostureOptions(CLI::App& app, TrackOptions& options) {
+  app.add_option("--method", options.tracker.method, "how postures are completed (default best)")
       ->check(CLI::IsMember(recon::ReconstructionMethods()));
   AddMechanicsOptions(app, options.mechanics);
   options.bones.AddTo(app);
@@ -59,6 +63,10 @@ void AddTrackerOptions(CLI::App& app, TrackOptions& options) {
                  "frames that may come before a frame's bodies are told, smoothed by them: 0 to 2 "
                  "(default: 2 of recordings with best, else 0)")
       ->check(CLI::Range(0, 2));
+}
+
+void AddViewpointOptions(CLI::App& app, TrackOptions& options) {
+  tracker::TrackerOptions& t = options.tracker;
   app.add_option("--mode", options.mode, "standing (20 joints) or seated (the upper ten)")
       ->check(CLI::IsMember({"standing", "seated"}));
   app.add_option("--mount", options.mount,
@@ -166,16 +174,14 @@ std::vector<stream::Target> ParseTargets(const std::vector<std::string>& urls) {
   return targets;
 }
 
-}  // namespace
+void AddTrackerOptions(CLI::App& app, TrackOptions& options) {
+  AddModelOptions(app, options.files);
+  AddFitOptions(app, options);
+  AddPostureOptions(app, options);
+  AddViewpointOptions(app, options);
+}
 
-TrackOptions ParseTrackOptions(int argc, char** argv) {
-  CLI::App app("Follow the people in any SOURCE and write their skeletons");
-  TrackOptions options;
-  AddSourceOptions(app, options.source);
-  app.add_option("MORE", options.more_sources,
-                 "further recordings of the same people at the same time, by other cameras: fused, "
-                 "in the first one's camera space and at its times");
-  options.fuse.AddTo(app);
+void AddSkeletonOptions(CLI::App& app, TrackOptions& options) {
   app.add_option("--out", options.out,
                  "skeletons: FILE.jsonl, .bvh, .trc or .csv; .glb: people in motion, skinned");
   app.add_option(
@@ -185,9 +191,9 @@ TrackOptions ParseTrackOptions(int argc, char** argv) {
       ->transform(CLI::Transformer(kOldPostures).description(""))
       ->check(CLI::IsMember({"final", "reconstructed", "fitted", "refined", "raw"}));
   options.write.AddTo(app);
-  AddTrackerOptions(app, options);
-  app.add_option("--frames", options.frames, "stop after so many frames")->check(Positive());
-  AddDeviceOptions(app, options.source);
+}
+
+void AddOtherOutputs(CLI::App& app, TrackOptions& options) {
   app.add_option("--json-stats", options.json_stats,
                  "milliseconds a stage, frames a second, memory, FILE.json ('-': stdout)");
   app.add_option("--trace", options.trace,
@@ -203,26 +209,42 @@ TrackOptions ParseTrackOptions(int argc, char** argv) {
   app.add_flag("--view", options.view, "show it in browsers while it runs");
   AddPageOptions(app, options.page);
   app.add_flag("--quiet", options.quiet, "no progress");
-  Parse(app, argc, argv);
-  CheckSources(app, options);
-  if (options.out.empty() && options.fuse.save_extrinsics.empty() && options.picture.empty() &&
-      options.pictures.empty() && !options.view && options.json_stats.empty() &&
-      options.trace.empty() && options.send.empty() && options.save_person.empty()) {
-    throw UsageError(
-        "track: nothing to do: name --out, --picture, --pictures, --json-stats, --trace, --send, "
-        "--save-person or --view");
-  }
-  options.targets = ParseTargets(options.send);
-  CheckRead(app, options.tracker.method, options.quiet);
-  CheckLearned(options.tracker.method, options.files.learned);
-  options.bones.Check(options.tracker.method);
+}
+
+void DeclareOptions(CLI::App& app, TrackOptions& options) {
+  AddSourceOptions(app, options.source);
+  app.add_option("MORE", options.more_sources,
+                 "further recordings of the same people at the same time, by other cameras: fused, "
+                 "in the first one's camera space and at its times");
+  options.fuse.AddTo(app);
+  AddSkeletonOptions(app, options);
+  AddTrackerOptions(app, options);
+  app.add_option("--frames", options.frames, "stop after so many frames")->check(Positive());
+  AddDeviceOptions(app, options.source);
+  AddOtherOutputs(app, options);
+}
+
+void CheckHasOutput(const TrackOptions& options) {
+  const bool has_file = !options.out.empty() || !options.fuse.save_extrinsics.empty() ||
+                        !options.picture.empty() || !options.pictures.empty() ||
+                        !options.json_stats.empty() || !options.trace.empty() ||
+                        !options.save_person.empty();
+  if (has_file || options.view || !options.send.empty()) return;
+  throw UsageError(
+      "track: nothing to do: name --out, --picture, --pictures, --json-stats, --trace, --send, "
+      "--save-person or --view");
+}
+
+void CheckMethod(const CLI::App& app, const TrackOptions& options) {
+  const std::string& method = options.tracker.method;
+  CheckRead(app, method, options.quiet);
+  CheckLearned(method, options.files.learned);
+  options.bones.Check(method);
   options.mechanics.Check();
-  CheckOneOf(options.tracker.method, options.files.database, options.files.prior);
-  if (options.posture == "refined") {
-    NeedRefinement(options.files);
-  } else {
-    CheckRefinementIsRead(options);
-  }
+  CheckOneOf(method, options.files.database, options.files.prior);
+}
+
+void CheckFiles(const TrackOptions& options) {
   if (!options.out.empty()) CheckSkeletonName(options.out);
   options.write.Check(options.out);
   CheckExtension("--picture", options.picture, ".png");
@@ -237,21 +259,45 @@ TrackOptions ParseTrackOptions(int argc, char** argv) {
   CheckOutputs({options.out, options.json_stats, options.picture, options.pictures, options.trace,
                 options.save_person, options.fuse.save_extrinsics},
                inputs);
-  options.tracker.turn = ChooseTurn(options.source);
-  options.tracker.lag = options.lag.value_or(UsualLag(options));
-  if (options.fit == "on" || options.posture == "fitted") CheckFit(options);
-  if (options.fit == "off") options.tracker.fit.reset();
-  options.tracker.physics = options.mechanics.on();
-  options.tracker.mechanics = options.mechanics.build;
-  options.tracker.scene = options.mechanics.Scene();
-  if (!options.smoothing.empty()) {
-    options.tracker.smoothing = tracker::SmoothingPreset(options.smoothing);
+}
+
+// What the options say, in the tracker's own terms.
+tracker::TrackerOptions MakeTrackerOptions(const TrackOptions& options) {
+  tracker::TrackerOptions made = options.tracker;
+  made.turn = ChooseTurn(options.source);
+  made.lag = options.lag.value_or(UsualLag(options));
+  if (options.fit == "off") made.fit.reset();
+  made.physics = options.mechanics.on();
+  made.mechanics = options.mechanics.build;
+  made.scene = options.mechanics.Scene();
+  if (!options.smoothing.empty()) made.smoothing = tracker::SmoothingPreset(options.smoothing);
+  if (options.mount == "level") made.mount = tracker::Mount::kLevel;
+  if (options.mount == "ceiling") made.mount = tracker::Mount::kCeiling;
+  if (options.mode == "seated") made.mode = tracker::TrackingMode::kSeated;
+  made.trace = !options.trace.empty();
+  made.keep_parts = !options.picture.empty() || !options.pictures.empty();
+  return made;
+}
+
+}  // namespace
+
+TrackOptions ParseTrackOptions(int argc, char** argv) {
+  CLI::App app("Follow the people in any SOURCE and write their skeletons");
+  TrackOptions options;
+  DeclareOptions(app, options);
+  Parse(app, argc, argv);
+  CheckSources(app, options);
+  CheckHasOutput(options);
+  options.targets = ParseTargets(options.send);
+  CheckMethod(app, options);
+  if (options.posture == "refined") {
+    NeedRefinement(options.files);
+  } else {
+    CheckRefinementIsRead(options);
   }
-  if (options.mount == "level") options.tracker.mount = tracker::Mount::kLevel;
-  if (options.mount == "ceiling") options.tracker.mount = tracker::Mount::kCeiling;
-  if (options.mode == "seated") options.tracker.mode = tracker::TrackingMode::kSeated;
-  options.tracker.trace = !options.trace.empty();
-  options.tracker.keep_parts = !options.picture.empty() || !options.pictures.empty();
+  CheckFiles(options);
+  if (options.fit == "on" || options.posture == "fitted") CheckFit(options);
+  options.tracker = MakeTrackerOptions(options);
   return options;
 }
 

@@ -174,13 +174,13 @@ bool JumpsAtTheBorder(const Body& body, const recon::TrackedPosture& observed, d
 }
 
 // Nothing is seen: the method goes on by what it remembers.
-void Disbelieve(recon::TrackedPosture& observed) {
+void MarkNotTracked(recon::TrackedPosture& observed) {
   observed.state.fill(TrackingState::kNotTracked);
   observed.confidence.fill(0.0);
 }
 
 // What the method did not believe holds no joint.
-void HeedFailure(SkeletonWork& work) {
+void ApplyGrossFailure(SkeletonWork& work) {
   const recon::GrossFailure failure = work.reconstructed.failure;
   if (failure == recon::GrossFailure::kSidesExchanged) {
     work.observed = recon::SidesExchanged(work.observed);
@@ -188,7 +188,7 @@ void HeedFailure(SkeletonWork& work) {
   }
   if (failure == recon::GrossFailure::kAnotherBody) {
     work.believed = false;
-    Disbelieve(work.observed);
+    MarkNotTracked(work.observed);
   }
 }
 
@@ -264,7 +264,7 @@ void AverageStationary(SkeletonWork& work) {
     person.believed_s = work.frame.time_s;
     person.believed_joints = tracked;
   }
-  if (!work.believed) Disbelieve(observed);
+  if (!work.believed) MarkNotTracked(observed);
   work.observed = person.stationary.Step(observed, work.frame.time_s);
 }
 
@@ -274,7 +274,7 @@ void Reconstruct(SkeletonWork& work) {
   if (!method) method = MethodFor(body.id, work.options);
   work.reconstructed = method->Step({work.observed, work.frame.time_s, &work.frame,
                                      JudgeBones(body, work.options.hold.fitted_bones), work.floor});
-  HeedFailure(work);
+  ApplyGrossFailure(work);
   DoubtByResidual(work, work.reconstructed.reliability);
   body.reconstructed = work.reconstructed.posture;
   body.bones_m = method->Bones();
@@ -282,7 +282,7 @@ void Reconstruct(SkeletonWork& work) {
   work.orientations = work.reconstructed.orientation;
 }
 
-void Settle(SkeletonWork& work) {
+void SmoothPosture(SkeletonWork& work) {
   const auto& reliability = work.reconstructed.reliability;
   const recon::Posture held =
       HeldToImage(work.posture, work.observed, reliability, work.options.hold);

@@ -4,6 +4,7 @@
 #include <optional>
 #include <vector>
 
+#include "recon/bone_lengths.h"
 #include "recon/filters/stationary_average.h"
 #include "recon/fit/surface_fit.h"
 #include "recon/methods/reconstructor.h"
@@ -59,7 +60,8 @@ struct Person {
   double seen_s = 0.0;
   double before_s = -1e9;  // time of `before`
   recon::BoneLengths lengths_m = AverageBoneLengths();
-  recon::MeanBoneLengths bones;                 // as the cascade estimated them until now
+  // By the estimates of the cascade until now.
+  recon::BoneLengthEstimator bones{recon::BoneLengthOptions::ForNetworkEstimates()};
   std::optional<recon::TrackedPosture> before;  // of the last frame it was tracked in
   std::optional<recon::Posture> shown;          // what left in the last frame, at
   double shown_s = -1e9;

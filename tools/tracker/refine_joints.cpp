@@ -23,9 +23,9 @@ std::vector<uint8_t> MaskOf(const people::Candidate& candidate, const depth::Dep
 std::optional<recon::RefinedPerson> RefineJoints(std::span<const uint8_t> is_person,
                                                  SkeletonWork& work) {
   const auto& proposals = work.detection->evidence.proposals;
-  recon::MeanBoneLengths& bones = work.person.bones;
+  recon::BoneLengthEstimator& bones = work.person.bones;
   recon::RefinementInput input;
-  if (bones.frames > 0) input.bones_m = bones.mean_m;
+  if (bones.measurements(recon::Index(recon::Joint::kSpine)) > 0) input.bones_m = bones.lengths_m();
   for (size_t j = 0; j < recon::kJointCount; ++j) {
     const forest::Proposal* proposal =
         ProposalAt(proposals[static_cast<size_t>(work.options.targets[j])],

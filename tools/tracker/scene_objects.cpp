@@ -15,7 +15,7 @@ using recon::Joint;
 
 // Constants: chosen by hand.
 
-constexpr double kSettle_s = 0.3;       // a first look at floor or person may be off
+constexpr double kFirstLooks_s = 0.3;   // a first look at floor or person may be off
 constexpr double kFloorMemory_s = 1.0;  // a floor that is seen anew each frame trembles
 
 /// Right-handed: up is y, `ahead` made level is z, at a point of the floor.
@@ -47,7 +47,7 @@ void Scene::Impl::FollowFloor(const std::optional<Vector4d>& seen, double dt_s) 
 
 /// World from what the object's place is told from, where that is known well enough by now.
 std::optional<Isometry3d> Scene::Impl::OriginOf(const SceneObject& object) const {
-  const double wait_s = kSettle_s + object.after_s;
+  const double wait_s = kFirstLooks_s + object.after_s;
   if (!floor) return std::nullopt;
   if (object.origin == SceneObject::Origin::kFloor) {
     if (now_s - floor_since_s < wait_s) return std::nullopt;

@@ -29,7 +29,7 @@ constexpr std::array kStages = {
     Stage{ApplyMode, &StageTimes::propose},
     Stage{AverageStationary, &StageTimes::reconstruct},
     Stage{Reconstruct, &StageTimes::reconstruct},
-    Stage{Settle, &StageTimes::reconstruct},
+    Stage{SmoothPosture, &StageTimes::reconstruct},
     Stage{StandOnFloor, &StageTimes::reconstruct},
     Stage{Simulate, &StageTimes::physics},
     Stage{Finish, &StageTimes::reconstruct},

@@ -48,7 +48,7 @@ void AverageStationary(SkeletonWork& work);
 /// The method of reconstruction: body.reconstructed.
 void Reconstruct(SkeletonWork& work);
 /// Holds joints to the image, moves them out of free space, smooths, keeps bones: `posture`.
-void Settle(SkeletonWork& work);
+void SmoothPosture(SkeletonWork& work);
 /// From the ceiling: legs that are not seen, of joints that were not refined, stand on the floor:
 /// `posture`.
 void StandOnFloor(SkeletonWork& work);

@@ -250,13 +250,12 @@ Body Tracker::Impl::MakeBody(const depth::DepthFrame& frame, const people::Perso
 // Of somebody new: what is known already. The refinement cascade estimates the bones that the
 // method ends with.
 void Tracker::Impl::Introduce(int id, Person& person) const {
-  constexpr int kFrames = 600;  // by hand: what is judged now changes little
   person.id = id;
   const auto shape = options.shapes.find(id);
   if (shape != options.shapes.end()) person.shape = shape->second;
   const auto known = options.bones_m.find(id);
   if (known != options.bones_m.end() && skeleton.reconstructor.best.refined_joints) {
-    person.bones = {known->second, kFrames};
+    person.bones.StartKnown(known->second);
   }
 }
 

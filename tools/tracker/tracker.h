@@ -217,7 +217,8 @@ class Tracker {
 
   /// Reads a source to its end, or until the callback returns false. With TrackerOptions::lag the
   /// callback gets bodies late, and at the end those that are still held. `idle` is asked about ten
-  /// times a second while no frame comes: false ends the run. Returns frames lost by the device.
+  /// times a second while no frame comes: false ends the run. Returns how many frames the source
+  /// lost. Throws InputError when the source is damaged: DrainLag tells then what is still held.
   int64_t Run(depth::FrameSource& source, const std::function<bool(const BodyFrame&)>& on_bodies,
               const std::function<bool()>& idle = {});
 

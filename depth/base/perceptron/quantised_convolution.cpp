@@ -19,7 +19,7 @@ constexpr int kMostFeature = (1 << 12) - 1;
 constexpr int kMostWeights = std::numeric_limits<int32_t>::max() / kMostFeature;
 constexpr int kMostWeight = std::numeric_limits<int16_t>::max();
 
-// Pairs are multiplied: of an odd number of channels the last has a mate of noughts.
+// Pairs are multiplied: of an odd number of channels the last is paired with zeros.
 size_t PaddedChannels(Eigen::Index channels) { return static_cast<size_t>(channels + 1) / 2 * 2; }
 
 size_t CountBlocks(Eigen::Index outputs) {
@@ -59,7 +59,7 @@ OSSA_CPU_DISPATCH void Scale(const int32_t* sums, const float* step, const float
   for (size_t i = 0; i < count; ++i) out[i] = bias[i] + step[i] * static_cast<float>(sums[i]);
 }
 
-// A map of whole numbers with a border of noughts, as wide as a window reaches.
+// A map of whole numbers with a border of zeros, as wide as a window reaches.
 class RoundedMap {
  public:
   RoundedMap(const FeatureMap& map, int border)

@@ -47,8 +47,8 @@ bool IsItsOwn(const std::string& topic, const std::string& image) {
 
 // The topic of this type and ending in the image's namespace, else in the one that shares most of
 // it: more than the / that all begin with, so that it is no other camera's.
-std::string Beside(const std::string& image, const std::vector<BagTopic>& topics,
-                   std::string_view type, std::string_view ending) {
+std::string SiblingTopic(const std::string& image, const std::vector<BagTopic>& topics,
+                         std::string_view type, std::string_view ending) {
   std::string best;
   Common most;
   for (const BagTopic& topic : topics) {
@@ -90,13 +90,14 @@ BagChoice ChooseDepthTopic(const std::vector<std::string>& depth,
                              ": FILE.bag#TOPIC says otherwise");
     }
   }
-  choice.camera_info = Beside(choice.image, topics, "sensor_msgs/CameraInfo", "camera_info");
+  choice.camera_info = SiblingTopic(choice.image, topics, "sensor_msgs/CameraInfo", "camera_info");
   if (!choice.camera_info.empty() && !IsItsOwn(choice.camera_info, choice.image)) {
     choice.notes.push_back("has no camera_info of " + choice.image + "'s own and takes " +
                            choice.camera_info + ": --camera says otherwise");
   }
   for (const char* unit : {"Depth_Units/value", "Depth Units/value"}) {  // as librealsense aged
-    if (choice.unit.empty()) choice.unit = Beside(choice.image, topics, "std_msgs/Float32", unit);
+    if (!choice.unit.empty()) break;
+    choice.unit = SiblingTopic(choice.image, topics, "std_msgs/Float32", unit);
   }
   return choice;
 }

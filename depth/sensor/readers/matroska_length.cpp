@@ -10,7 +10,7 @@ namespace {
 constexpr uint64_t kLargestHead = 4096;  // bytes, a bound by hand: it has some forty
 constexpr uint64_t kEbmlHead = 0x1A45DFA3, kSegment = 0x18538067;
 
-// A number of EBML: the noughts before its first set bit say how many bytes follow the first.
+// A number of EBML: the zeros before its first set bit say how many bytes follow the first.
 struct Number {
   uint64_t raw = 0;         // with the bit that says the length, as identities are written
   uint64_t value = 0;       // without it

@@ -82,17 +82,5 @@ TEST(RefinementCascade, StagesAfterTheBonesKnowThem) {
   }
 }
 
-TEST(BoneEstimation, IsTheMeanOfAllFrames) {
-  MeanBoneLengths bones;
-  BoneLengths lengths_m = StandardBoneLengths();
-  bones.Add(lengths_m);
-  EXPECT_EQ(bones.mean_m[1], lengths_m[1]);
-  for (double& length_m : lengths_m) length_m *= 4.0;
-  bones.Add(lengths_m);
-  bones.Add(lengths_m);
-  EXPECT_EQ(bones.frames, 3);
-  EXPECT_NEAR(bones.mean_m[1], 3.0 * StandardBoneLengths()[1], 1e-12);
-}
-
 }  // namespace
 }  // namespace ossa::recon

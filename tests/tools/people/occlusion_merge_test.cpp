@@ -99,6 +99,37 @@ TEST(MergeBesideOccluder, SomebodyInStrideShowsAtBothSidesOfSomebodyNear) {
             1U);
 }
 
+// Two pieces of other distances, something near between them, and in a gap of it something more.
+bool IsOccludedWithAGapTo(uint16_t gap_mm) {
+  const depth::Camera camera = depth::KinectV1Camera(160, 120);
+  depth::DepthFrame frame;
+  frame.camera = camera;
+  frame.depth_mm.resize(160 * 120);
+  const auto paint = [&](int from, int to, uint16_t mm) {
+    for (int v = 40; v < 80; ++v) {
+      for (int u = from; u < to; ++u) frame.depth_mm[static_cast<size_t>(v * 160 + u)] = mm;
+    }
+  };
+  paint(30, 50, 3200);
+  paint(50, 100, 2000);
+  paint(70, 78, gap_mm);
+  paint(100, 120, 3800);
+  const PointGrid grid = depth::MakePointGrid(frame.view(), camera, 6.0F);
+  std::vector<int> left, right;
+  for (int i = 0; i < grid.cells(); ++i) {
+    if (!grid.valid(i)) continue;
+    if (i % grid.width * grid.step < 50) left.push_back(i);
+    if (i % grid.width * grid.step >= 100) right.push_back(i);
+  }
+  return IsOccludedBetween(grid, depth::MakeRegion(grid, left), depth::MakeRegion(grid, right), {});
+}
+
+TEST(IsOccludedBetween, IsNotWhereTheRoomShowsBehindBoth) {
+  EXPECT_TRUE(IsOccludedWithAGapTo(0)) << "a shadow";
+  EXPECT_TRUE(IsOccludedWithAGapTo(3900)) << "about as far as the farther piece";
+  EXPECT_FALSE(IsOccludedWithAGapTo(5500)) << "the wall";
+}
+
 TEST(IsOneAbove, IsMeantOverTheFloorAlsoOfASensorThatLooksDown) {
   const float tilt_rad = 0.45F;
   PointGrid grid;

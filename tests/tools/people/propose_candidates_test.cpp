@@ -88,6 +88,34 @@ TEST(MergeCandidates, GivesBackWhatWasCut) {
               static_cast<double>(a.pixels.size() + b.pixels.size()), 60.0);
 }
 
+// Shares are of all cells, areas add up, and what is known of either is known of both.
+TEST(MergeCandidates, SharesAreWeighedByTheirCells) {
+  const CapsuleRender render = Shot({PersonAt(-0.3, 2.5), PersonAt(0.3, 2.5)});
+  const Proposed proposed = ProposeAlone(render);
+  ASSERT_EQ(proposed.candidates.size(), 2U);
+  Candidate a = proposed.candidates[0], b = proposed.candidates[1];
+  std::erase_if(a.region.cells, [n = 0](int) mutable { return n++ % 3 != 0; });
+  a.flat_share = a.foreground_share = a.occluded_share = 1.0;
+  b.flat_share = b.foreground_share = b.occluded_share = 0.25;
+  a.foreground_m2 = 0.25F;
+  b.foreground_m2 = 0.5F;
+  a.isolated = false;
+  b.isolated = a.has_head = true;
+  b.has_head = false;
+  b.track = 3;
+  const Candidate whole = MergeCandidates(proposed.scene, render.frame, a, b);
+  const auto cells_a = static_cast<double>(a.region.cells.size());
+  const auto cells_b = static_cast<double>(b.region.cells.size());
+  const double expected = (cells_a + 0.25 * cells_b) / (cells_a + cells_b);
+  EXPECT_NEAR(whole.flat_share, expected, 1e-12);
+  EXPECT_NEAR(whole.foreground_share, expected, 1e-12);
+  EXPECT_NEAR(whole.occluded_share, expected, 1e-12);
+  EXPECT_EQ(whole.foreground_m2, 0.75F);
+  EXPECT_FALSE(whole.isolated);
+  EXPECT_TRUE(whole.has_head);
+  EXPECT_EQ(whole.track, 3);
+}
+
 TEST(MeetAlongRim, HalvesOfAPersonDoAndPeopleApartDoNot) {
   const Proposed proposed = ProposeAlone(Shot({PersonAt(-0.6, 2.5), PersonAt(0.6, 2.5)}));
   ASSERT_EQ(proposed.candidates.size(), 2U);

@@ -3,6 +3,7 @@
 
 #include <cmath>
 
+#include "recon/bone_lengths.h"
 #include "recon/refine/bone_estimation.h"
 #include "recon/refine/pose_network.h"
 #include "recon/refine/refinement_cascade.h"
@@ -116,10 +117,10 @@ TEST(RefinedJoints, BoneConditionedStagesReadTheMeanOfAllFramesBefore) {
   const std::vector<Body> with = track();
   ASSERT_EQ(with.size(), without.size());
   ASSERT_GT(with.size(), 10U);
-  recon::MeanBoneLengths before;
+  recon::BoneLengthEstimator before(recon::BoneLengthOptions::ForNetworkEstimates());
   for (size_t f = 0; f < with.size(); ++f) {
     const recon::BoneLengths judged_m = *with[f].refined_bones_m;
-    const recon::BoneLengths told_m = f == 0 ? judged_m : before.mean_m;
+    const recon::BoneLengths told_m = f == 0 ? judged_m : before.lengths_m();
     const double rise_m =
         ((*with[f].refined)[Joint::kHead] - (*without[f].refined)[Joint::kHead]).norm();
     EXPECT_NEAR(
@@ -130,7 +131,7 @@ TEST(RefinedJoints, BoneConditionedStagesReadTheMeanOfAllFramesBefore) {
     before.Add(judged_m);
   }
   const double last = recon::EncodeBoneLengths(*with.back().refined_bones_m)[0];
-  EXPECT_GT(last - recon::EncodeBoneLengths(before.mean_m)[0],
+  EXPECT_GT(last - recon::EncodeBoneLengths(before.lengths_m())[0],
             0.5);  // the mean is not the last one
 }
 
