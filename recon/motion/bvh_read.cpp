@@ -3,6 +3,7 @@
 #include <cmath>
 #include <memory>
 #include <numbers>
+#include <optional>
 #include <sstream>
 #include <string_view>
 
@@ -291,6 +292,10 @@ SourceMotion ToSourceMotion(BvhFile file, const std::string& source) {
   motion.source = source;
   motion.frame_s = bvh->frame_s;
   motion.frame_count = bvh->FrameCount();
+  if (motion.frame_count == 0) {
+    throw InputError(source + ": expected channels of the root '" + bvh->joints.front().name +
+                     "', found none");
+  }
   for (const BvhJoint& joint : bvh->joints) {
     motion.joints.push_back({joint.name, joint.parent, joint.offset, joint.end_sites});
   }
@@ -299,6 +304,25 @@ SourceMotion ToSourceMotion(BvhFile file, const std::string& source) {
     return SourceFrame{std::move(pose.position), std::move(pose.rotation)};
   };
   return motion;
+}
+
+void ForEachPerson(BvhFile bvh, const std::string& source, std::vector<std::string>& warnings,
+                   const std::function<void(BvhFile)>& take) {
+  std::optional<InputError> nobody;
+  bool anybody = false;
+  for (BvhFile& root : SplitRoots(std::move(bvh))) {
+    const std::string name = root.joints.front().name;
+    try {
+      take(std::move(root));
+      anybody = true;
+    } catch (const InputError& error) {
+      if (!nobody) nobody = error;
+      std::string reason = error.what();
+      if (reason.starts_with(source + ": ")) reason.erase(0, source.size() + 2);
+      warnings.push_back(source + ": the root '" + name + "' is passed over: " + reason);
+    }
+  }
+  if (!anybody && nobody) throw *nobody;
 }
 
 }  // namespace ossa::recon

@@ -4,7 +4,6 @@
 #include <array>
 #include <optional>
 
-#include "depth/base/error.h"
 #include "recon/motion/bone_names_internal.h"
 #include "recon/motion/bvh.h"
 #include "recon/motion/bvh_source_internal.h"
@@ -251,27 +250,15 @@ SkeletonSequence BvhToSkeleton(BvhFile bvh, const std::string& source, const Bon
     sequence.frames[f].frame = static_cast<int64_t>(f);
     sequence.frames[f].time_s = static_cast<double>(f) * bvh.frame_s;
   }
-  std::optional<InputError> nobody;
   int bodies = 0;
-  for (BvhFile& root : SplitRoots(std::move(bvh))) {
-    const std::string name = root.joints.front().name;
-    try {
-      if (HasSdkJoints(root)) {
-        AddSdkBody(root, bodies + 1, sequence);
-      } else {
-        AddPerson(Person(std::move(root), source, mapping), bodies + 1, sequence);
-      }
-      ++bodies;
-    } catch (const InputError& error) {
-      // A prop beside people is none of them; alone it is refused.
-      if (!nobody) nobody = error;
-      sequence.warnings.push_back(
-          fmt::format("{}: the root '{}' is passed over, its joints are no "
-                      "person's",
-                      source, name));
+  ForEachPerson(std::move(bvh), source, sequence.warnings, [&](BvhFile root) {
+    if (HasSdkJoints(root)) {
+      AddSdkBody(root, bodies + 1, sequence);
+    } else {
+      AddPerson(Person(std::move(root), source, mapping), bodies + 1, sequence);
     }
-  }
-  if (bodies == 0 && nobody) throw *nobody;
+    ++bodies;
+  });
   return sequence;
 }
 

@@ -1,12 +1,21 @@
 #pragma once
+#include <functional>
 #include <string>
+#include <vector>
 
 #include "recon/motion/bvh.h"
 #include "recon/motion/source_motion_internal.h"
 
 namespace ossa::recon {
 
-/// A BVH as a motion to be retargeted.
+/// A BVH as a motion to be retargeted. Throws InputError where it has no channels, as of several
+/// roots one may: then there are no frames.
 SourceMotion ToSourceMotion(BvhFile file, const std::string& source);
+
+/// Calls `take` with the skeleton of each root; it throws InputError for one that is no person. A
+/// prop beside people is passed over with a line in `warnings`; where nobody is a person the first
+/// error is thrown.
+void ForEachPerson(BvhFile bvh, const std::string& source, std::vector<std::string>& warnings,
+                   const std::function<void(BvhFile)>& take);
 
 }  // namespace ossa::recon

@@ -74,10 +74,9 @@ class Loader {
       case Kind::kBvh:
         return LoadBvh(path);
       case Kind::kAmc:
-        return {MakeClip(
-            ParseAmc(ReadTextFile(path), name, LoadSkeleton(path), 1.0 / options_.amc_hz), path)};
-      case Kind::kHumanoid3d:
-        return {MakeClip(ParseHumanoid3d(ReadTextFile(path), name), path)};
+        return {MakeClip(FindPerson(LoadAmc(path), mapping()), path)};
+      case Kind::kHumanoid3d:  // its joints are known
+        return {MakeClip(FindPerson(ParseHumanoid3d(ReadTextFile(path), name), nullptr), path)};
       case Kind::kOther:
         break;
     }
@@ -85,12 +84,28 @@ class Loader {
   }
 
  private:
+  struct Person {
+    SourceMotion motion;
+    SourceBones bones;
+  };
+
+  const BoneMapping* mapping() const { return mapping_ ? &*mapping_ : nullptr; }
+
+  static Person FindPerson(SourceMotion motion, const BoneMapping* mapping) {
+    SourceBones bones = FindBones(motion, mapping);
+    return {std::move(motion), std::move(bones)};
+  }
+
   std::vector<MotionClip> LoadBvh(const fs::path& path) {
     BvhFile bvh = ReadBvh(path);
-    const std::vector<std::string> warnings = bvh.warnings;
+    std::vector<std::string> warnings = bvh.warnings;
+    std::vector<Person> people;
+    ForEachPerson(std::move(bvh), path.string(), warnings, [&](BvhFile root) {
+      people.push_back(FindPerson(ToSourceMotion(std::move(root), path.string()), mapping()));
+    });
     std::vector<MotionClip> clips;
-    for (BvhFile& root : SplitRoots(std::move(bvh))) {
-      MotionClip clip = MakeClip(ToSourceMotion(std::move(root), path.string()), path);
+    for (const Person& person : people) {
+      MotionClip clip = MakeClip(person, path);
       if (!clips.empty()) clip.name.append("_").append(std::to_string(clips.size() + 1));
       clips.push_back(std::move(clip));
     }
@@ -99,13 +114,15 @@ class Loader {
     return clips;
   }
 
-  MotionClip MakeClip(const SourceMotion& motion, const fs::path& path) const {
-    const bool ours = DetectKind(path) == Kind::kHumanoid3d;  // its joints are known
-    const SourceBones bones = FindBones(motion, mapping_ && !ours ? &*mapping_ : nullptr);
-    MotionClip clip = Retarget(motion, bones, options_.frame_s);
+  MotionClip MakeClip(const Person& person, const fs::path& path) const {
+    MotionClip clip = Retarget(person.motion, person.bones, options_.frame_s);
     clip.name = path.stem().string();
     clip.subject = ParseSubject(clip.name);
     return clip;
+  }
+
+  SourceMotion LoadAmc(const fs::path& path) {
+    return ParseAmc(ReadTextFile(path), path.string(), LoadSkeleton(path), 1.0 / options_.amc_hz);
   }
 
   std::shared_ptr<const AcclaimSkeleton> LoadSkeleton(const fs::path& amc) {

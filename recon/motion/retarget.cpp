@@ -323,7 +323,7 @@ MotionClip Retarget(const SourceMotion& motion, const SourceBones& bones, double
   clip.frame_s = frame_s;
   if (!retargeter.doubt().empty()) clip.warnings.push_back(retargeter.doubt());
   const size_t count = ResampledFrameCount(motion, frame_s);
-  const bool same_step = count == motion.frame_count;
+  const bool same_step = HasStep(motion, frame_s);
   clip.frames.reserve(count);
   AgreementCheck check(bones);
   for (size_t f = 0; f < count; ++f) {

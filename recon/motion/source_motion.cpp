@@ -1,6 +1,9 @@
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 
+#include "depth/base/error.h"
 #include "recon/motion/source_motion_internal.h"
 
 namespace ossa::recon {
@@ -22,9 +25,19 @@ SourceFrame FrameAt(const SourceMotion& motion, double time_s) {
   return frame;
 }
 
+bool HasStep(const SourceMotion& motion, double step_s) {
+  return std::abs(motion.frame_s - step_s) < 1e-3 * step_s;
+}
+
 size_t ResampledFrameCount(const SourceMotion& motion, double step_s) {
-  if (std::abs(motion.frame_s - step_s) < 1e-3 * step_s) return motion.frame_count;
+  constexpr double kMost_s = 36000.0;  // by hand: ten hours of poses are a gigabyte at 30 Hz
   const double length_s = static_cast<double>(motion.frame_count - 1) * motion.frame_s;
+  if (length_s > kMost_s) {
+    throw InputError(fmt::format(
+        "{}: expected a motion of at most 10 hours, found {:.4g} hours: {} frames of {:.4g} s",
+        motion.source, length_s / 3600.0, motion.frame_count, motion.frame_s));
+  }
+  if (HasStep(motion, step_s)) return motion.frame_count;
   return static_cast<size_t>(std::floor(length_s / step_s + 1e-3)) + 1;
 }
 

@@ -33,6 +33,10 @@ struct SourceMotion {
 
 /// Frames at `step_s`, the first at time 0; positions linearly, rotations by slerp.
 SourceFrame FrameAt(const SourceMotion& motion, double time_s);
+/// Whether the motion has that step already; files print 1/30 s as 0.0333333.
+bool HasStep(const SourceMotion& motion, double step_s);
+/// Throws InputError for a motion of more than ten hours: what lies between the frames of one whose
+/// frame time is a rate would fill the memory.
 size_t ResampledFrameCount(const SourceMotion& motion, double step_s);
 
 /// Zero-pose place of every joint.

@@ -5,6 +5,7 @@
 #include <fstream>
 
 #include "recon/body/standard_body.h"
+#include "recon/motion/bvh.h"
 #include "recon/motion/mocap.h"
 #include "tests/recon/motion/figure.h"
 #include "tests/support/places.h"
@@ -94,6 +95,51 @@ TEST(ForeignMocap, OfTwoRootsIsTwoClips) {
   ASSERT_EQ(clips[0].warnings.size(), 1u);
   EXPECT_NE(clips[0].warnings[0].find("says 3 frames, the file has 2"), std::string::npos);
   EXPECT_LT(FarthestApart_m(clips[0], clips[1]), 1e-12);
+}
+
+TEST(ForeignMocap, OfAPersonAndAPropIsThePersonWithAWarning) {
+  const ossa::test::TemporaryFolder folder;
+  std::ofstream(folder / "x.bvh")
+      << "HIERARCHY\nROOT sword {\nOFFSET 0 0 0\nCHANNELS 1 Xposition\n}\n"
+      << test::FigureHierarchy() << "MOTION\nFrames: 1\nFrame Time: 0.0333333\n7 "
+      << test::FigureRow(0) << "\n";
+  const auto clips = LoadMocap({folder / "x.bvh"});
+  ASSERT_EQ(clips.size(), 1u);
+  EXPECT_EQ(clips[0].name, "x");
+  EXPECT_LT(FarthestApart_m(clips[0], Load({.frames = 1})[0]), 1e-9);
+  ASSERT_EQ(clips[0].warnings.size(), 1u);
+  EXPECT_NE(clips[0].warnings[0].find("x.bvh: the root 'sword' is passed over: joint names of no"),
+            std::string::npos)
+      << clips[0].warnings[0];
+}
+
+TEST(ForeignMocap, WhoseSecondPersonHasNoChannelsIsTheFirst) {
+  const ossa::test::TemporaryFolder folder;
+  std::string still = test::FigureHierarchy();
+  for (size_t at = still.find("CHANNELS"); at != std::string::npos;
+       at = still.find("CHANNELS", at + 1))
+    still.replace(at, still.find('\n', at) - at, "CHANNELS 0");
+  std::ofstream(folder / "x.bvh") << "HIERARCHY\n"
+                                  << test::FigureHierarchy() << still
+                                  << "MOTION\nFrames: 1\nFrame Time: 0.0333333\n"
+                                  << test::FigureRow(0) << "\n";
+  const auto clips = LoadMocap({folder / "x.bvh"});
+  ASSERT_EQ(clips.size(), 1u);
+  EXPECT_NE(clips[0].warnings.at(0).find("expected channels of the root 'Hips'"),
+            std::string::npos);
+  const auto skeletons = BvhToSkeleton(ReadBvh(folder / "x.bvh"), "x.bvh");
+  EXPECT_EQ(skeletons.frames.at(0).bodies.size(), 1u);
+}
+
+// What lies between its frames would be gigabytes.
+TEST(ForeignMocap, WhoseFrameTimeIsARateIsRefusedBeforeItFillsTheMemory) {
+  const ossa::test::TemporaryFolder folder;
+  std::string text = test::FigureBvh({.frames = 700});
+  text.replace(text.find("0.0333333"), 9, "60");
+  std::ofstream(folder / "x.bvh") << text;
+  ossa::test::ExpectRefused([&] { LoadMocap({folder / "x.bvh"}); },
+                            "x.bvh: expected a motion of at most 10 hours, found 11.65 hours: 700 "
+                            "frames of 60 s");
 }
 
 // A trunk that turns as a hand does would lie nowhere as the source's.

@@ -143,6 +143,18 @@ TEST_F(RetargetTest, IsResampledToThirtyFramesASecondBySlerp) {
   EXPECT_NEAR(turned, 20.0 * std::numbers::pi / 180.0, 1e-5);
 }
 
+// Of 25 frames a second three last as long as three of 30, nearly: they are not the same moments.
+TEST_F(RetargetTest, AShortClipOfAnotherRateIsResampledToo) {
+  auto first = Zeros(), second = Zeros();
+  second[FirstRotation("lShldr")] = 60.0;
+  const MotionClip clip = Load(BvhText({first, second, second}, 0.04));
+  ASSERT_EQ(clip.frames.size(), 3u);
+  const auto arm = RigBone("LeftArm");
+  const double turned =
+      clip.frames[1].world_from_rest[arm].angularDistance(clip.frames[0].world_from_rest[arm]);
+  EXPECT_NEAR(turned, 50.0 * std::numbers::pi / 180.0, 1e-5);
+}
+
 TEST_F(RetargetTest, ClipsKnowTheirNameAndPerformer) {
   const MotionClip clip = Load(BvhText({Zeros()}));
   EXPECT_EQ(clip.name, "07_01");
