@@ -9,32 +9,44 @@
 #include <array>
 #include <cerrno>
 #include <cstring>
+#include <string_view>
 #include <system_error>
 
 #include "depth/base/descriptor_buffer_internal.h"
 #include "depth/base/error.h"
+#include "depth/base/leftovers.h"
 
 namespace ossa {
 namespace {
 
 namespace fs = std::filesystem;
 
-constexpr const char* kPartial = ".partial-";
+constexpr std::string_view kPartial = ".partial-";
+constexpr std::string_view kHexDigits = "0123456789abcdef";
+constexpr size_t kRandomBytes = 6;  // twelve digits: chance hits no name twice; by hand
 
 // Nobody can know it before: in a folder that others may write to, nobody has put anything there.
 fs::path RandomNameFor(const fs::path& final_path) {
-  std::array<unsigned char, 6> random{};  // twelve digits: chance hits no name twice
+  std::array<unsigned char, kRandomBytes> random{};
   if (getrandom(random.data(), random.size(), 0) != static_cast<ssize_t>(random.size())) {
     throw std::system_error(errno, std::generic_category(), "random numbers");
   }
   fs::path path = final_path;
   path += kPartial;
   for (const unsigned char byte : random) {
-    constexpr const char* kDigits = "0123456789abcdef";
-    path += kDigits[byte / 16];
-    path += kDigits[byte % 16];
+    path += kHexDigits[byte / 16];
+    path += kHexDigits[byte % 16];
   }
   return path;
+}
+
+// Whether RandomNameFor made such a name of some file's.
+bool IsRandomName(const std::string& name) {
+  constexpr size_t kEnd = kPartial.size() + 2 * kRandomBytes;
+  if (name.size() <= kEnd) return false;
+  const std::string_view end = std::string_view(name).substr(name.size() - kEnd);
+  return end.starts_with(kPartial) &&
+         end.find_first_not_of(kHexDigits, kPartial.size()) == std::string_view::npos;
 }
 
 // A new file of nobody else's, locked; -1 with errno when there can be none.
@@ -125,7 +137,7 @@ void AtomicFile::CheckWritable(const fs::path& final_path) { const AtomicFile pr
 
 std::vector<fs::path> AtomicFile::FindLeftovers(const fs::path& final_path) {
   const fs::path end = FollowLinks(final_path);
-  const std::string begin = end.filename().string() + kPartial;
+  const std::string begin = end.filename().string().append(kPartial);
   std::vector<fs::path> left;
   std::error_code error;
   for (auto it = fs::directory_iterator(FolderOf(end), error);
@@ -135,6 +147,17 @@ std::vector<fs::path> AtomicFile::FindLeftovers(const fs::path& final_path) {
   }
   std::sort(left.begin(), left.end());
   return left;
+}
+
+void RemoveLeftovers(const fs::path& folder) {
+  std::vector<fs::path> left;
+  std::error_code error;
+  for (auto it = fs::recursive_directory_iterator(folder, error);
+       !error && it != fs::recursive_directory_iterator(); it.increment(error)) {
+    const bool is_one = IsRandomName(it->path().filename().string());
+    if (is_one && it->is_regular_file(error) && IsLeft(it->path())) left.push_back(it->path());
+  }
+  for (const fs::path& file : left) fs::remove(file, error);
 }
 
 void AtomicFile::Check() {

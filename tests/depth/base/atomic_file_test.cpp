@@ -10,6 +10,7 @@
 #include <optional>
 
 #include "depth/base/folder_lock.h"
+#include "depth/base/leftovers.h"
 #include "tests/support/full_disk.h"
 #include "tests/support/temporary_folder.h"
 
@@ -95,6 +96,20 @@ TEST(AtomicFile, WhatTheKilledLeftIsKnownAndStays) {
   AtomicFile(folder / "out.oni").Commit();
   EXPECT_EQ(TextOf(left), "half");
   EXPECT_EQ(TextOf(old), "half");
+}
+
+TEST(AtomicFile, WhatTheKilledLeftInAFolderIsRemoved) {
+  const test::TemporaryFolder folder;
+  std::filesystem::create_directory(folder / "depth");
+  const std::string left = folder / "depth/0.png.partial-0123456789ab";
+  const std::string others = folder / "notes.partial-0123", made = folder / "depth/0.png";
+  for (const std::string& path : {left, others, made}) std::ofstream(path) << "x";
+  const AtomicFile alive(folder / "depth/1.png");
+  RemoveLeftovers(folder.path());
+  EXPECT_FALSE(std::filesystem::exists(left));
+  EXPECT_TRUE(std::filesystem::exists(others));
+  EXPECT_TRUE(std::filesystem::exists(made));
+  EXPECT_TRUE(std::filesystem::exists(alive.temporary_path()));
 }
 
 // Two writers of one name, in one process or two: each has a file of its own, whole in the end.

@@ -34,7 +34,12 @@ TEST(RenderCommand, RefusesWhatDoesNotGoTogetherAsWrongUsage) {
       {{"--noise", "kinect-v3"}, "kinect-v2"},
       {{"--cameras", "2"}, "--cameras: expected --sequence"},
       {{"--cameras", "2", "--sequence", "--background", "lived-in"}, "--background lived-in"},
-      {{"--shrink", "0.5"}, "--shrink"}};
+      {{"--shrink", "0.5"}, "--shrink"},
+      {{"--size", "4294967936x480"}, "--size: expected WIDTHxHEIGHT"},
+      {{"--size", "640x480x"}, "--size: expected WIDTHxHEIGHT"},
+      {{"--size", "640"}, "--size: expected WIDTHxHEIGHT"},
+      {{"--size", "4096x4096", "--shrink", "4"}, "--shrink 4: expected a sensor of at most 8192"},
+      {{"--bodies", "average", "--clothes", "any"}, "--clothes any"}};
   for (const Refused& refused : cases) {
     std::vector<std::string> words = {"render", "--mocap", "authored",    "--frames",
                                       "1",      "--out",   folder / "set"};

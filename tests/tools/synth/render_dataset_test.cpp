@@ -63,5 +63,29 @@ TEST(RenderDataset, GoesOnWhereItWasStoppedWithTheSameBytes) {
   }
 }
 
+// Killed while it writes an image, and again between the manifest and the end.
+TEST(RenderDataset, KeepsNothingThatAKilledRunLeft) {
+  if (!recon::BodyIsFetched(recon::BodyFolder())) GTEST_SKIP() << "no body: tools/fetch_body";
+  const test::TemporaryFolder folder;
+  FrameOptions options;
+  options.width = 64;
+  options.height = 48;
+  const FrameStudio studio(LoadFetchedBody(), MakePoseBank(recon::LoadMocap({"authored-floor"})),
+                           options);
+  RenderJob job;
+  job.frames = 2;
+  job.command = "test";
+  job.out = folder / "set";
+  ASSERT_EQ(RenderShare(studio, job), RenderEnd::kDone);
+  std::ofstream(folder / "set/depth/000001.png.partial-0123456789ab") << "half";
+  FinishDataset(studio, job);
+  EXPECT_FALSE(fs::exists(folder / "set/depth/000001.png.partial-0123456789ab"));
+  EXPECT_TRUE(fs::exists(folder / "set/depth/000001.png"));
+  fs::create_directory(folder / "set/.work");
+  ASSERT_EQ(RenderShare(studio, job), RenderEnd::kDone);
+  FinishDataset(studio, job);
+  EXPECT_FALSE(fs::exists(folder / "set/.work"));
+}
+
 }  // namespace
 }  // namespace ossa::tools
