@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <limits>
 #include <map>
 
 #include "depth/base/error.h"
@@ -10,6 +11,8 @@
 #include "recon/files/marker_centres_internal.h"
 #include "recon/files/skeleton_formats_internal.h"
 #include "recon/motion/text_scanner_internal.h"
+#include "recon/motion/up_axis_internal.h"
+#include "recon/smallest_turn.h"
 
 namespace ossa::recon {
 namespace {
@@ -164,6 +167,58 @@ BodyRecord MakeBody(const PointBody& body, const std::vector<SeenPoint>& points)
   return made;
 }
 
+/// The first of the joints that was seen, or the middle of the two.
+SeenPoint FindAnyOf(const BodyRecord& body, std::initializer_list<Joint> joints, Joint left,
+                    Joint right) {
+  for (const Joint joint : joints) {
+    if (body.joints[Index(joint)]) return body.joints[Index(joint)]->position_m;
+  }
+  const auto &one = body.joints[Index(left)], &other = body.joints[Index(right)];
+  if (!one || !other) return std::nullopt;
+  return Eigen::Vector3d((one->position_m + other->position_m) / 2);
+}
+
+/// Up the trunk, of everybody in all frames, of length 1 where all agree; 0 where nobody's is seen.
+Eigen::Vector3d ComputeMeanTrunk(const SkeletonSequence& sequence) {
+  Eigen::Vector3d sum = Eigen::Vector3d::Zero();
+  size_t seen = 0;
+  for (const SkeletonFrame& frame : sequence.frames) {
+    for (const BodyRecord& body : frame.bodies) {
+      const SeenPoint low = FindAnyOf(body, {Joint::kHipCenter}, Joint::kHipLeft, Joint::kHipRight);
+      const SeenPoint high = FindAnyOf(body, {Joint::kShoulderCenter, Joint::kHead},
+                                       Joint::kShoulderLeft, Joint::kShoulderRight);
+      if (!low || !high || (*high - *low).norm() < 1e-6) continue;
+      sum += (*high - *low).normalized();
+      ++seen;
+    }
+  }
+  return sum / static_cast<double>(std::max<size_t>(seen, 1));
+}
+
+template <typename Sequence, typename Use>
+void ForEachPlace(Sequence& sequence, Use use) {
+  for (auto& frame : sequence.frames) {
+    for (auto& body : frame.bodies) {
+      for (auto& joint : body.joints) {
+        if (joint) use(joint->position_m);
+      }
+    }
+  }
+}
+
+/// Whether the lowest joint is where the soles' floor at 0 has it.
+bool HasFloorAt0(const SkeletonSequence& sequence, const Eigen::Vector3d& up) {
+  constexpr double kThrough_m = -0.05, kHigh_m = 0.25;  // by hand: standing ankles are at 0.1 m
+  double lowest_m = std::numeric_limits<double>::infinity();
+  ForEachPlace(sequence,
+               [&](const Eigen::Vector3d& p) { lowest_m = std::min(lowest_m, p.dot(up)); });
+  return lowest_m > kThrough_m && lowest_m < kHigh_m;
+}
+
+void Turn(SkeletonSequence& sequence, const Eigen::Quaterniond& turn) {
+  ForEachPlace(sequence, [&](Eigen::Vector3d& p) { p = turn * p; });
+}
+
 }  // namespace
 
 std::vector<PointBody> FindPointBodies(const std::vector<std::string>& labels,
@@ -195,6 +250,23 @@ SkeletonFrame MakeFrame(const std::vector<PointBody>& bodies, const std::vector<
     record.id = static_cast<int>(frame.bodies.size());
   }
   return frame;
+}
+
+void BringUpright(SkeletonSequence& sequence, const OtherUp& other) {
+  const Eigen::Vector3d y = Eigen::Vector3d::UnitY(), trunk = ComputeMeanTrunk(sequence);
+  if (DoesStand(trunk, y)) return;
+  const bool shows = DoesStand(trunk, other.axis) && HasFloorAt0(sequence, other.axis) &&
+                     !HasFloorAt0(sequence, y);
+  if (!other.is_in_file && !shows) {
+    const std::string doubt = DoubtOfUp(sequence.source, trunk, y);
+    if (!doubt.empty()) sequence.warnings.push_back(doubt);
+    return;
+  }
+  Turn(sequence, SmallestTurn(other.axis, y));
+  if (!other.is_in_file) {
+    sequence.warnings.push_back(fmt::format("{}: the body stands along {}: {} is taken as up",
+                                            sequence.source, other.name, other.name));
+  }
 }
 
 std::optional<double> MetresPerUnit(std::string_view unit) {

@@ -38,6 +38,18 @@ std::vector<PointBody> FindPointBodies(const std::vector<std::string>& labels,
 SkeletonFrame MakeFrame(const std::vector<PointBody>& bodies, const std::vector<SeenPoint>& points,
                         size_t index, double time_s);
 
+/// The axis that is up in files of some programs though it is not in their format.
+struct OtherUp {
+  char name = 'z';          // in the file
+  Eigen::Vector3d axis;     // as it was read
+  bool is_in_file = false;  // the file says that it is up
+};
+
+/// Brings people upright in whose file the other axis is up: where it says so, or where they stand
+/// along that axis on a floor at its 0 and y says of no floor (with a warning), unless they stand
+/// along y. Of a body that never stands a warning says so.
+void BringUpright(SkeletonSequence& sequence, const OtherUp& other);
+
 /// Metres of a length unit as people write it (mm, MM, cm, meters, ...); none for another word.
 std::optional<double> MetresPerUnit(std::string_view unit);
 

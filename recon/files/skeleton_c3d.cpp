@@ -235,6 +235,14 @@ void ReadUnits(const std::string& name, const C3dBytes& bytes, const Parameters&
   c3d.metres_per_unit = *metres;
 }
 
+// Which axis goes up a screen; not everybody means by it what is up.
+bool SaysYUp(const C3dBytes& bytes, const Parameters& parameters) {
+  const auto screen = parameters.find("POINT:Y_SCREEN");
+  if (screen == parameters.end()) return false;
+  const std::string_view axis = Trimmed(ReadText(bytes, screen->second));
+  return axis == "+Y" || axis == "Y";
+}
+
 // A negative fourth word says that the point was not seen; so do NaN and the origin.
 SeenPoint ReadPoint(const std::string& name, const C3dBytes& bytes, const C3d& c3d, size_t at) {
   std::array<double, 4> v{};
@@ -271,6 +279,8 @@ SkeletonSequence ReadC3d(SkeletonInput& input) {
     sequence.frames.push_back(MakeFrame(bodies, points, f, static_cast<double>(f) * step_s));
   }
   TakeOutNobody(sequence);
+  // The file's y, as ReadPoint has it.
+  BringUpright(sequence, {'y', -Eigen::Vector3d::UnitZ(), SaysYUp(bytes, parameters)});
   return sequence;
 }
 

@@ -180,6 +180,7 @@ SkeletonSequence ReadTrc(SkeletonInput& input) {
                     input.name, *header.frames, sequence.frames.size()));
   }
   TakeOutNobody(sequence);
+  BringUpright(sequence, {'z', Eigen::Vector3d::UnitZ()});
   return sequence;
 }
 

@@ -17,6 +17,8 @@ Vector3d UnitOrZero(const Vector3d& v) {
   return length > 1e-9 ? Vector3d(v / length) : Vector3d::Zero();
 }
 
+constexpr double kStands = 0.7;  // cosine of the mean, by hand: bows and crouches between
+
 /// What the sampled frames say of how the figure stands.
 struct Stance {
   Vector3d trunk = Vector3d::Zero();          // mean of the directions
@@ -99,6 +101,21 @@ bool IsRestPose(const std::vector<Vector3d>& position, const SourceBones& bones)
   return true;
 }
 
+bool DoesStand(const Vector3d& mean_trunk, const Vector3d& up) {
+  return mean_trunk.dot(up) > kStands;
+}
+
+std::string DoubtOfUp(const std::string& source, const Vector3d& mean_trunk, const Vector3d& up) {
+  constexpr double kLeans = 0.5;  // cosine, by hand: 60 degrees, as nobody stands
+  const double along = mean_trunk.dot(up);
+  const bool is_clear = along < 0.0 || mean_trunk.norm() > kStands;
+  if (!is_clear || along >= kLeans * mean_trunk.norm()) return "";
+  return source +
+         ": the body never stands along the axis taken as up: is it lying, or is another axis up "
+         "in "
+         "this file?";
+}
+
 Vector3d NearestAxis(const Vector3d& direction) {
   Eigen::Index axis = 0;
   direction.cwiseAbs().maxCoeff(&axis);
@@ -107,24 +124,14 @@ Vector3d NearestAxis(const Vector3d& direction) {
 
 UpAxis FindUpAxis(const SourceMotion& motion, const SourceBones& bones,
                   const std::optional<Vector3d>& rest_up) {
-  constexpr double kStands = 0.7;  // cosine of the mean, by hand: bows and crouches between
   const Stance stance = MeasureStance(motion, bones);
-  if (stance.trunk.y() > kStands) return {Vector3d::UnitY(), true, ""};
+  if (DoesStand(stance.trunk, Vector3d::UnitY())) return {Vector3d::UnitY(), true, ""};
   const Vector3d up = rest_up.value_or(Vector3d::UnitY());
-  const bool along_z = stance.trunk.z() > kStands && stance.least_z > 0.0;
+  const bool along_z = DoesStand(stance.trunk, Vector3d::UnitZ()) && stance.least_z > 0.0;
   if (along_z && (up == Vector3d::UnitZ() || HasFloorAtZ0(stance))) {
     return {Vector3d::UnitZ(), true, ""};
   }
-  if (stance.trunk.dot(up) < 0.0 || stance.trunk.norm() > kStands) {
-    const double cosine = stance.trunk.normalized().dot(up);
-    if (cosine < 0.5) {
-      return {up, false,
-              motion.source +
-                  ": the body never stands along the axis taken as up: is it lying, or "
-                  "is another axis up in this file?"};
-    }
-  }
-  return {up, false, ""};
+  return {up, false, DoubtOfUp(motion.source, stance.trunk, up)};
 }
 
 }  // namespace ossa::recon

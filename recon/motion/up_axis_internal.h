@@ -36,6 +36,15 @@ struct UpAxis {
 UpAxis FindUpAxis(const SourceMotion& motion, const SourceBones& bones,
                   const std::optional<Eigen::Vector3d>& rest_up);
 
+/// Whether a trunk that points so in the mean of its frames (length 1 or less) stands along an
+/// axis.
+bool DoesStand(const Eigen::Vector3d& mean_trunk, const Eigen::Vector3d& up);
+
+/// What is said of a body whose trunk, in the mean of its frames (length 1 or less), clearly does
+/// not point along the axis that is taken as up; "" of any other. `source` is the file.
+std::string DoubtOfUp(const std::string& source, const Eigen::Vector3d& mean_trunk,
+                      const Eigen::Vector3d& up);
+
 /// The axis that the direction is nearest to, with its sign.
 Eigen::Vector3d NearestAxis(const Eigen::Vector3d& direction);
 

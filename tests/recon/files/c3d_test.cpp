@@ -54,6 +54,49 @@ size_t FramesOf(const std::string& text) {
   return ReadSkeletonStream(stream, "file").frames.size();
 }
 
+/// C3dBytes() of a head 0.6 m above the hips by that coordinate of the file, 1 m and more up.
+std::string StandingC3d(size_t up, const std::string& y_screen) {
+  std::string bytes = C3dBytes();
+  for (size_t f = 0; f < 3; ++f) {
+    for (size_t p = 0; p < 2; ++p) {
+      for (size_t axis = 0; axis < 3; ++axis) {
+        const size_t point = 2 * f + p;
+        Put<float>(bytes, 1024 + 16 * point + 4 * axis,
+                   axis == up ? 1000.0f + 600.0f * static_cast<float>(p) : 50.0f);
+      }
+    }
+  }
+  if (y_screen.empty()) return bytes;
+  const std::string nothing(1, '\0');
+  const std::string value = std::string{-1, 1, 2} + y_screen + nothing;
+  const std::string more =
+      std::string{8, 1} + "Y_SCREEN" + Bytes(static_cast<uint16_t>(2 + value.size())) + value;
+  return bytes.replace(bytes.find("UNITS") + 5 + 2 + 6, more.size(), more);
+}
+
+SkeletonSequence ReadText(const std::string& text) {
+  std::istringstream stream(text);
+  return ReadSkeletonStream(stream, "file");
+}
+
+TEST(C3dUp, IsZOrWhatItsScreenSays) {
+  for (const auto& [up, y_screen] :
+       {std::pair{2U, ""}, {2U, "+Z"}, {1U, "+Y"}, {2U, "+Y"}}) {  // the last does not mean it
+    const auto read = ReadText(StandingC3d(up, y_screen));
+    EXPECT_NEAR(At(read, 0, Joint::kHead).y(), 1.6, 1e-6) << up << y_screen;
+    EXPECT_NEAR(At(read, 0, Joint::kHipCenter).y(), 1.0, 1e-6) << up << y_screen;
+    EXPECT_NEAR(std::abs(At(read, 0, Joint::kHead).z()), 0.05, 1e-6) << up << y_screen;
+    EXPECT_TRUE(read.warnings.empty()) << up << y_screen << read.warnings.front();
+  }
+}
+
+TEST(C3dUp, IsDoubtedWhereNobodyStandsOnAFloor) {
+  const auto read = ReadText(StandingC3d(1, ""));
+  EXPECT_NEAR(At(read, 0, Joint::kHead).z(), -1.6, 1e-6);
+  ASSERT_EQ(read.warnings.size(), 1u);
+  EXPECT_NE(read.warnings[0].find("never stands along the axis taken as up"), std::string::npos);
+}
+
 TEST(LongC3d, HasAsManyFramesAsItsTrialSays) {
   EXPECT_EQ(FramesOf(LongC3d(Trial(1, kFrames))), kFrames);
   EXPECT_EQ(FramesOf(LongC3d(Trial(80001, 80000 + 500), 500)), 500u) << "the end of a longer one";

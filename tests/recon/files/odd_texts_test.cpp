@@ -111,6 +111,33 @@ TEST(Trc, CutInsideItsLastRowIsRefused) {
   EXPECT_EQ(ComplaintAbout(kTrc.substr(0, kTrc.size() - 1)), "");
 }
 
+// Some programs write z up; the format has y. The knee is below the hips here.
+TEST(Trc, OfPeopleWhoStandAlongZIsTurnedUprightWithAWarning) {
+  std::string text = Replaced(kTrc, "\t3\t2\tmm", "\t3\t3\tmm");
+  text = Replaced(text, "\tHead\t\t", "\tHead\t\t\tPelvis\t\t");
+  text = Replaced(text, "X2\tY2\tZ2", "X2\tY2\tZ2\tX3\tY3\tZ3");
+  for (const char* knee : {"100.50", "110.50", "120.50"}) {
+    text = Replaced(text, std::string(knee) + "\t500.25\t10.00",
+                    std::string(knee) + "\t-900.00\t100.00");
+  }
+  text = Replaced(text, "0.00\t1600.00\t20.00", "0.00\t-900.00\t1600.00\t0.00\t-900.00\t1000.00");
+  text = Replaced(text, "0.00\t1600.00\t2.75", "0.00\t-900.00\t1600.00\t0.00\t-900.00\t1000.00");
+  const auto read = Read(text);
+  EXPECT_LT((At(read, 0, Joint::kHead) - Eigen::Vector3d(0, 1.6, 0.9)).norm(), 1e-9);
+  EXPECT_LT((At(read, 2, Joint::kKneeLeft) - Eigen::Vector3d(0.1205, 0.1, 0.9)).norm(), 1e-9);
+  ASSERT_EQ(read.warnings.size(), 1u);
+  EXPECT_EQ(read.warnings[0], "file: the body stands along z: z is taken as up");
+}
+
+TEST(Trc, OfWhomNobodyStandsIsDoubted) {
+  const std::string standing = Replaced(kTrc, "LKnee", "Pelvis");
+  EXPECT_TRUE(Read(standing).warnings.empty());
+  const std::string lying = Replaced(standing, "\t0.00\t1600.00\t", "\t1600.00\t500.00\t");
+  const auto read = Read(lying);
+  ASSERT_EQ(read.warnings.size(), 1u);
+  EXPECT_NE(read.warnings[0].find("never stands along the axis taken as up"), std::string::npos);
+}
+
 TEST(Trc, OfTwoSubjectsIsTwoBodies) {
   const auto read = Read(Replaced(Replaced(kTrc, "LKnee", "Ann:LKnee"), "Head", "Bob:Head"));
   ASSERT_EQ(read.frames[0].bodies.size(), 2u);
