@@ -177,7 +177,8 @@ void BodyModelBuilder::AddTargets(const BodyFiles& files, const std::vector<uint
 void BodyModelBuilder::AddInfluences(const BodyFiles& files, const std::vector<uint32_t>& kept,
                                      BodyModel* model) {
   for (const uint32_t v : kept) {
-    if (files.weights[v].empty()) {
+    const auto& weights = files.weights[v];
+    if (std::none_of(weights.begin(), weights.end(), [](const auto& w) { return w.second > 0; })) {
       throw InputError("weights.cmu_mb.json: vertex " + std::to_string(v) + ": has no weight");
     }
     model->influence_.push_back(FourLargest<BodyModel::Influence>(files.weights[v]));
@@ -190,6 +191,11 @@ BodyModel BodyModelBuilder::Build(const BodyFiles& files) {
   AddLayer(files, "body", BodyLayer::kSkin, &kept, &model);
   AddLayer(files, "helper-skirt", BodyLayer::kSkirt, &kept, &model);
   AddLayer(files, "helper-hair", BodyLayer::kHair, &kept, &model);
+  constexpr size_t kMostVertices = 65535;  // whose numbers targets hold in 16 bits; our format
+  if (kept.size() > kMostVertices) {
+    throw InputError(files.mesh_file + ": expected at most 65535 vertices, found " +
+                     std::to_string(kept.size()));
+  }
   for (const uint32_t v : kept) {
     model.base_dm_.push_back(files.vertex_dm[v]);
     model.base_m_.push_back(files.vertex_dm[v] * 0.1f);

@@ -1,9 +1,11 @@
 #include <algorithm>
 #include <charconv>
+#include <cmath>
 #include <fstream>
 #include <nlohmann/json.hpp>
 #include <set>
 #include <sstream>
+#include <stdexcept>
 #include <string_view>
 
 #include "depth/base/error.h"
@@ -13,6 +15,9 @@ namespace ossa::recon {
 namespace {
 
 namespace fs = std::filesystem;
+
+constexpr const char *kMesh = "base.obj", *kRig = "rig.cmu_mb.json",
+                     *kWeights = "weights.cmu_mb.json", *kTargets = "targets";
 
 std::string ReadText(const fs::path& path) {
   std::ifstream file(path, std::ios::binary);
@@ -38,7 +43,11 @@ class LineParser {
     rest_.remove_prefix(end);
     return word;
   }
-  float Float() { return Number<float>(Word(), "a number"); }
+  float Float() {
+    const float value = Number<float>(Word(), "a number");
+    if (!std::isfinite(value)) Fail("expected a finite number");
+    return value;
+  }
   uint32_t Index(std::string_view word, size_t limit) {
     const auto index = Number<uint32_t>(word, "a vertex number");
     if (index >= limit) Fail("expected a vertex number below " + std::to_string(limit));
@@ -86,8 +95,10 @@ void ReadMesh(const fs::path& path, BodyFiles* files) {
     } else if (kind == "f") {
       std::vector<uint32_t> polygon;
       for (auto word = line.Word(); !word.empty(); word = line.Word()) {
-        const auto number = word.substr(0, word.find('/'));  // counted from 1
-        polygon.push_back(line.Index(number, files->vertex_dm.size() + 1) - 1);
+        const auto number = word.substr(0, word.find('/'));
+        const uint32_t from_1 = line.Index(number, files->vertex_dm.size() + 1);
+        if (from_1 == 0) line.Fail("expected a vertex number from 1 up, found 0");
+        polygon.push_back(from_1 - 1);
       }
       if (polygon.size() < 3) line.Fail("expected a face of three vertices or more");
       files->faces[group].push_back(std::move(polygon));
@@ -95,6 +106,9 @@ void ReadMesh(const fs::path& path, BodyFiles* files) {
   });
   if (files->vertex_dm.empty()) throw InputError(path.string() + ": expected vertices, found none");
 }
+
+// A BodyModel holds them as thousandths in 16 bits; a bound of our format.
+constexpr float kLargestDelta_dm = 32.0F;
 
 BodyFiles::Target ReadTarget(const fs::path& path, size_t vertex_count) {
   BodyFiles::Target target;
@@ -104,6 +118,9 @@ BodyFiles::Target ReadTarget(const fs::path& path, size_t vertex_count) {
     if (word.empty() || word.front() == '#') return;
     target.index.push_back(line.Index(word, vertex_count));
     const float x = line.Float(), y = line.Float(), z = line.Float();
+    if (std::max({std::abs(x), std::abs(y), std::abs(z)}) > kLargestDelta_dm) {
+      line.Fail("expected deltas of at most 32 decimetres");
+    }
     target.delta_dm.emplace_back(x, y, z);
   });
   return target;
@@ -159,11 +176,13 @@ void ReadWeights(const fs::path& path, BodyFiles* files) {
     const std::string name(kRigBoneNames[b]);
     try {
       for (const auto& entry : json.at("weights").at(name)) {
-        files->weights.at(entry.at(0).get<size_t>())
-            .emplace_back(static_cast<uint8_t>(b), entry.at(1).get<float>());
+        const float weight = entry.at(1).get<float>();
+        if (!(weight >= 0.0F)) throw std::out_of_range("weight");
+        files->weights.at(entry.at(0).get<size_t>()).emplace_back(static_cast<uint8_t>(b), weight);
       }
     } catch (const std::exception&) {
-      throw InputError(path.string() + ": bone " + name + ": expected [[vertex, weight], ...]");
+      throw InputError(path.string() + ": bone " + name +
+                       ": expected [[vertex, weight], ...], weights from 0 up");
     }
   }
 }
@@ -172,7 +191,7 @@ void ReadWeights(const fs::path& path, BodyFiles* files) {
 
 VertexMean BodyFiles::Vertices(const std::string& group) const {
   const auto found = faces.find(group);
-  if (found == faces.end()) throw InputError("base.obj: expected a group " + group);
+  if (found == faces.end()) throw InputError(mesh_file + ": expected a group " + group);
   std::set<uint32_t> vertices;
   for (const auto& polygon : found->second) vertices.insert(polygon.begin(), polygon.end());
   return {vertices.begin(), vertices.end()};
@@ -180,11 +199,27 @@ VertexMean BodyFiles::Vertices(const std::string& group) const {
 
 BodyFiles ReadBodyFiles(const fs::path& folder) {
   BodyFiles files;
-  ReadMesh(folder / "base.obj", &files);
-  ReadRig(folder / "rig.cmu_mb.json", &files);
-  ReadWeights(folder / "weights.cmu_mb.json", &files);
-  ReadTargets(folder / "targets", &files);
+  files.mesh_file = (folder / kMesh).string();
+  ReadMesh(folder / kMesh, &files);
+  ReadRig(folder / kRig, &files);
+  ReadWeights(folder / kWeights, &files);
+  ReadTargets(folder / kTargets, &files);
   return files;
+}
+
+bool AreFilesNewer(const fs::path& folder, const fs::path& than) {
+  std::error_code unknown;
+  const auto time = fs::last_write_time(than, unknown);
+  const auto is_newer = [&](const fs::path& path) {
+    return fs::last_write_time(path, unknown) > time && !unknown;
+  };
+  for (const char* name : {kMesh, kRig, kWeights, kTargets}) {
+    if (is_newer(folder / name)) return true;
+  }
+  for (const auto& entry : fs::directory_iterator(folder / kTargets, unknown)) {
+    if (is_newer(entry.path())) return true;
+  }
+  return false;
 }
 
 }  // namespace ossa::recon

@@ -21,6 +21,7 @@ struct BodyFiles {
     std::vector<uint32_t> index;
     std::vector<Eigen::Vector3f> delta_dm;
   };
+  std::string mesh_file;  // for messages
   std::vector<Eigen::Vector3f> vertex_dm;
   std::map<std::string, std::vector<std::vector<uint32_t>>> faces;  // by group, polygons
   std::vector<Target> targets;                                      // by name
@@ -34,5 +35,8 @@ struct BodyFiles {
 
 /// Throws InputError naming file, line or field.
 BodyFiles ReadBodyFiles(const std::filesystem::path& folder);
+
+/// Whether any of the files in the folder was changed after the file `than`.
+bool AreFilesNewer(const std::filesystem::path& folder, const std::filesystem::path& than);
 
 }  // namespace ossa::recon

@@ -87,7 +87,7 @@ BodyModel BodyModel::Load(const fs::path& folder) {
   }
   const fs::path cache = folder / "body.cache";
   try {
-    return BodyModelBuilder::ReadCache(cache);
+    if (!AreFilesNewer(folder, cache)) return BodyModelBuilder::ReadCache(cache);
   } catch (const InputError&) {  // not there yet, or of another version: made anew from the files
   }
   BodyModel model = BodyModelBuilder::Build(ReadBodyFiles(folder));
