@@ -165,11 +165,6 @@ int JointNamed(const SourceMotion& motion, const std::string& name) {
   return found == motion.joints.end() ? -1 : static_cast<int>(found - motion.joints.begin());
 }
 
-bool NamesAny(const BoneMapping& mapping, const SourceMotion& motion) {
-  return std::any_of(mapping.lines.begin(), mapping.lines.end(),
-                     [&](const MappingLine& line) { return JointNamed(motion, line.joint) >= 0; });
-}
-
 SourceBones FindMapped(const SourceMotion& motion, const BoneMapping& mapping) {
   std::vector<std::pair<std::string, int>> named;
   std::array<int, 2> palms = {-1, -1};
@@ -199,6 +194,11 @@ SourceBones FindMapped(const SourceMotion& motion, const BoneMapping& mapping) {
 }
 
 }  // namespace
+
+bool NamesAny(const BoneMapping& mapping, const SourceMotion& motion) {
+  return std::any_of(mapping.lines.begin(), mapping.lines.end(),
+                     [&](const MappingLine& line) { return JointNamed(motion, line.joint) >= 0; });
+}
 
 SourceBones FindBones(const SourceMotion& motion, const BoneMapping* mapping) {
   if (mapping != nullptr && NamesAny(*mapping, motion)) return FindMapped(motion, *mapping);

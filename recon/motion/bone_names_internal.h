@@ -25,6 +25,9 @@ struct SourceBones {
   std::optional<size_t> rest_frame;  // the frame that shows the rest pose; none: the zero pose
 };
 
+/// Whether any line of the mapping names a joint of the motion.
+bool NamesAny(const BoneMapping& mapping, const SourceMotion& motion);
+
 /// Finds the joints by the mapping where it names any of them, else by the conversions known: CMU
 /// MotionBuilder (as also Mixamo), CMU "Daz-friendly", Acclaim of CMU and HDM05, BioVision / SMPL
 /// names, else by the words that studios have for the parts (bone_parts_internal.h). Case,

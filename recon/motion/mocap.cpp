@@ -42,12 +42,16 @@ Kind DetectKind(const fs::path& path) {
                                                                    : Kind::kOther;
 }
 
+/// What systems leave beside files ("._walk.bvh") is hidden.
+bool IsHidden(const fs::path& path) { return path.filename().string().starts_with('.'); }
+
 std::vector<fs::path> MotionFilesIn(const fs::path& folder) {
   std::vector<fs::path> files;
   std::error_code error;
   for (auto it = fs::recursive_directory_iterator(folder, error);
        !error && it != fs::recursive_directory_iterator(); it.increment(error)) {
-    if (it->is_regular_file(error) && DetectKind(it->path()) != Kind::kOther) {
+    if (it->is_regular_file(error) && DetectKind(it->path()) != Kind::kOther &&
+        !IsHidden(it->path())) {
       files.push_back(it->path());
     }
   }
@@ -83,6 +87,12 @@ class Loader {
     throw InputError(name + ": expected a .bvh, .amc or humanoid3d_*.txt file");
   }
 
+  /// A mapping that names nothing of any file is hardly meant to; "" of any other.
+  std::string WarnOfMapping() const {
+    if (!mapping_ || is_mapping_used_) return "";
+    return mapping_->file + ": is not used: no file has a joint of a name in it";
+  }
+
  private:
   struct Person {
     SourceMotion motion;
@@ -91,7 +101,8 @@ class Loader {
 
   const BoneMapping* mapping() const { return mapping_ ? &*mapping_ : nullptr; }
 
-  static Person FindPerson(SourceMotion motion, const BoneMapping* mapping) {
+  Person FindPerson(SourceMotion motion, const BoneMapping* mapping) {
+    is_mapping_used_ = is_mapping_used_ || (mapping != nullptr && NamesAny(*mapping, motion));
     SourceBones bones = FindBones(motion, mapping);
     return {std::move(motion), std::move(bones)};
   }
@@ -136,6 +147,7 @@ class Loader {
 
   const MocapOptions& options_;
   std::optional<BoneMapping> mapping_;
+  bool is_mapping_used_ = false;
   std::map<std::string, std::shared_ptr<const AcclaimSkeleton>> skeletons_;
 };
 
@@ -165,6 +177,8 @@ std::vector<MotionClip> LoadMocap(const std::vector<std::string>& sources,
       for (MotionClip& clip : people) clips.push_back(std::move(clip));
     }
   }
+  const std::string unused = loader.WarnOfMapping();
+  if (!unused.empty() && !clips.empty()) clips.front().warnings.push_back(unused);
   std::stable_sort(clips.begin(), clips.end(),
                    [](const MotionClip& a, const MotionClip& b) { return a.name < b.name; });
   return clips;

@@ -131,6 +131,33 @@ TEST(ForeignMocap, WhoseSecondPersonHasNoChannelsIsTheFirst) {
   EXPECT_EQ(skeletons.frames.at(0).bodies.size(), 1u);
 }
 
+// macOS packs such files beside those that are meant.
+TEST(ForeignMocap, BesideHiddenFilesIsReadAlone) {
+  const ossa::test::TemporaryFolder folder;
+  std::ofstream(folder / "x.bvh") << test::FigureBvh();
+  std::ofstream(folder / "._x.bvh") << "Mac OS X";
+  EXPECT_EQ(LoadMocap({folder.path().string()}).size(), 1u);
+}
+
+TEST(ForeignMocap, ThatAMappingNamesNothingOfIsSaidTo) {
+  const ossa::test::TemporaryFolder folder;
+  std::string all = "Hips = Hips\nSpine = Spine\n";
+  for (const std::string side : {"Left", "Right"}) {
+    for (const char* bone : {"Arm", "ForeArm", "UpLeg", "Leg", "Foot"}) {
+      all.append(side).append(bone).append(" = ").append(side).append(bone).append("\n");
+    }
+  }
+  const auto warnings = [&](const std::string& mapping) {
+    std::ofstream(folder / "names.txt") << mapping;
+    MocapOptions options;
+    options.mapping_file = folder / "names.txt";
+    return Load({}, options).at(0).warnings;
+  };
+  EXPECT_TRUE(warnings(all).empty());
+  EXPECT_NE(warnings("LeftArm = Robot_LeftArm\n").at(0).find("names.txt: is not used"),
+            std::string::npos);
+}
+
 // What lies between its frames would be gigabytes.
 TEST(ForeignMocap, WhoseFrameTimeIsARateIsRefusedBeforeItFillsTheMemory) {
   const ossa::test::TemporaryFolder folder;
