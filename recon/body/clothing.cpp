@@ -90,6 +90,25 @@ Eigen::Vector3f ComputeFold(const Clothing& clothing, const Eigen::Vector3f& p, 
   return static_cast<float>(clothing.fold_m) * down * wave * out;
 }
 
+// `scale`: of the body to the neutral one.
+void DrapeSkirt(const Clothing& clothing, const Waves& waves, float scale, Eigen::Vector3f* p) {
+  const float hem_m =
+      scale * (kCrotch_m - (kCrotch_m - kKnee_m) * static_cast<float>(clothing.skirt_end));
+  p->y() = std::max(p->y(), hem_m);
+  const float down = std::max(0.0f, scale * kWaist_m - p->y()) / (scale * 0.5f);
+  const float widen =
+      1.0f + static_cast<float>(clothing.skirt_flare) * down * (1.0f + 0.3f * waves.At(*p));
+  p->x() *= widen;
+  p->z() *= widen;
+  if (clothing.fold_m > 0) *p += ComputeFold(clothing, *p, down);
+}
+
+// Strands before the face are cut to a fringe.
+void CutHair(const Clothing& clothing, bool before_face, float scale, Eigen::Vector3f* p) {
+  const float end_m = scale * (1.50f - 0.45f * static_cast<float>(clothing.long_hair_end));
+  p->y() = std::max(p->y(), before_face ? scale * kFringe_m : end_m);
+}
+
 /// How far from the body's axis cloth hangs, by height and direction: as far out as what it touches
 /// above, less what it falls back towards the body on its way down.
 class Curtain {
@@ -177,71 +196,60 @@ Wardrobe::Wardrobe(const BodyModel& model) {
   }
 }
 
+double Wardrobe::ThicknessAt_m(const Place& place, const Clothing& clothing) {
+  switch (place.region) {
+    case Region::kTorso:
+      // Shirt above the waist, trousers below, the thicker of both in between.
+      return place.along < 0   ? clothing.shirt_m
+             : place.along > 1 ? clothing.trouser_m
+                               : std::max(clothing.shirt_m, clothing.trouser_m);
+    case Region::kArm: {
+      double thickness_m = place.along < clothing.sleeve_end ? clothing.sleeve_m : 0.0;
+      if (place.along < 0.25f) thickness_m = std::max(thickness_m, clothing.shirt_m);
+      if (place.along > kCuff) thickness_m = std::max(thickness_m, clothing.glove_m);
+      return thickness_m;
+    }
+    case Region::kHand:
+      return clothing.glove_m;
+    case Region::kLeg:
+      return place.along < clothing.trouser_end ? clothing.trouser_m : 0.0;
+    case Region::kFoot:
+      return clothing.shoe_m;
+    case Region::kSkull:
+      return std::max(clothing.hair_m * std::max(0.0f, place.along), clothing.hood_m);
+    case Region::kNeck:
+      return clothing.hood_m;
+    case Region::kSkirt:
+    case Region::kLongHair:
+    case Region::kNone:
+      break;
+  }
+  return 0.0;
+}
+
 std::vector<Eigen::Vector3f> Wardrobe::Dress(const ShapedBody& body,
                                              const Clothing& clothing) const {
   const Waves waves(clothing.pattern);
   const auto wrinkle = static_cast<float>(clothing.wrinkle);
   // Lengths of skirt and hair are measured on the neutral body and scale with this one.
-  const auto scale = static_cast<float>(body.height_m / 1.66);
-  const float hem_m =
-      scale * (kCrotch_m - (kCrotch_m - kKnee_m) * static_cast<float>(clothing.skirt_end));
-  const float hair_end_m = scale * (1.50f - 0.45f * static_cast<float>(clothing.long_hair_end));
+  const auto scale = static_cast<float>(body.height_m / 1.66);  // not the float: same bytes
   std::vector<Eigen::Vector3f> dressed = body.rest_m;
   for (size_t i = 0; i < dressed.size(); ++i) {
     const Place& place = place_[i];
-    Eigen::Vector3f& p = dressed[i];
-    double thickness_m = 0;
-    switch (place.region) {
-      case Region::kTorso:
-        // Shirt above the waist, trousers below, the thicker of both in between.
-        thickness_m = place.along < 0   ? clothing.shirt_m
-                      : place.along > 1 ? clothing.trouser_m
-                                        : std::max(clothing.shirt_m, clothing.trouser_m);
-        break;
-      case Region::kArm:
-        thickness_m = place.along < clothing.sleeve_end ? clothing.sleeve_m : 0.0;
-        if (place.along < 0.25f) thickness_m = std::max(thickness_m, clothing.shirt_m);
-        if (place.along > kCuff) thickness_m = std::max(thickness_m, clothing.glove_m);
-        break;
-      case Region::kHand:
-        thickness_m = clothing.glove_m;
-        break;
-      case Region::kLeg:
-        thickness_m = place.along < clothing.trouser_end ? clothing.trouser_m : 0.0;
-        break;
-      case Region::kFoot:
-        thickness_m = clothing.shoe_m;
-        break;
-      case Region::kSkull:
-        thickness_m = std::max(clothing.hair_m * std::max(0.0f, place.along), clothing.hood_m);
-        break;
-      case Region::kNeck:
-        thickness_m = clothing.hood_m;
-        break;
-      case Region::kSkirt:
-        if (clothing.skirt_end > 0) {
-          p.y() = std::max(p.y(), hem_m);
-          const float down = std::max(0.0f, scale * kWaist_m - p.y()) / (scale * 0.5f);
-          const float widen =
-              1.0f + static_cast<float>(clothing.skirt_flare) * down * (1.0f + 0.3f * waves.At(p));
-          p.x() *= widen;
-          p.z() *= widen;
-          if (clothing.fold_m > 0) p += ComputeFold(clothing, p, down);
-        }
-        continue;
-      case Region::kLongHair:
-        if (clothing.long_hair_end > 0) {
-          // Strands before the face are cut to a fringe.
-          p.y() = std::max(p.y(), place.before_face ? scale * kFringe_m : hair_end_m);
-          p += 0.012f * waves.At(p) * body.normals[i];
-        }
-        continue;
-      case Region::kNone:
-        break;
+    if (place.region == Region::kSkirt) {
+      if (clothing.skirt_end > 0) DrapeSkirt(clothing, waves, scale, &dressed[i]);
+      continue;
     }
+    if (place.region == Region::kLongHair) {
+      if (clothing.long_hair_end <= 0) continue;
+      CutHair(clothing, place.before_face, scale, &dressed[i]);
+      dressed[i] += 0.012f * waves.At(dressed[i]) * body.normals[i];
+      continue;
+    }
+    const double thickness_m = ThicknessAt_m(place, clothing);
     if (thickness_m <= 0) continue;
     const float share = std::max(0.2f, 1.0f + wrinkle * waves.At(body.rest_m[i]));
-    p += static_cast<float>(thickness_m) * share * body.normals[i];
+    dressed[i] += static_cast<float>(thickness_m) * share * body.normals[i];
   }
   if (clothing.hang > 0) LetHang(body, clothing, &dressed);
   return dressed;

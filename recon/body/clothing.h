@@ -59,6 +59,8 @@ class Wardrobe {
     float along = 0;  // arms, legs: 0, 1, 2 at the three joints; torso: 1 at the hips' height
     bool before_face = false;  // of long hair
   };
+  /// Of what is worn on the skin there; 0: nothing.
+  static double ThicknessAt_m(const Place& place, const Clothing& clothing);
   void LetHang(const ShapedBody& body, const Clothing& clothing,
                std::vector<Eigen::Vector3f>* dressed_m) const;
 

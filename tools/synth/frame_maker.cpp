@@ -4,16 +4,15 @@
 #include <cmath>
 
 #include "depth/render/renderer.h"
-#include "recon/body/parts.h"
 #include "tools/synth/clothed_actor.h"
 #include "tools/synth/draw_scene_internal.h"
+#include "tools/synth/frame_truth_internal.h"
 #include "tools/synth/materials.h"
 #include "tools/synth/nobodies.h"
 #include "tools/synth/pixel_box_internal.h"
 #include "tools/synth/sample_person.h"
 #include "tools/synth/shrunk_frame.h"
 #include "tools/synth/staging.h"
-#include "tools/synth/visibility_internal.h"
 #include "tools/synth/worn.h"
 
 namespace ossa::tools {
@@ -81,6 +80,15 @@ struct FrameMaker::State {
                                  const PeopleScene& scene, Random& random);
   std::vector<Prop> DrawThings(Staging staging, const recon::Posture& joints_in_cam,
                                const ViewSample& view, Random& random) const;
+  // People in their poses before the camera.
+  struct Cast {
+    Staging staging = Staging::kNone;  // of the first of them
+    std::vector<TruthBody> bodies{};
+    std::vector<Prop> things{};  // that they wear, in camera space
+    PixelBox box{};              // around them
+  };
+  Cast PosePeople(int64_t index, const PeopleScene& scene, const ViewSample& view, Random& random,
+                  Random& thing);
   std::optional<LabelledFrame> Try(int64_t index, int attempt);
   depth::SensorModel DrawSensor(int64_t index) const;
   LabelledFrame Shoot(const ViewSample& view, const std::vector<Prop>& props, const PixelBox& box,
@@ -257,91 +265,70 @@ LabelledFrame FrameMaker::State::Shoot(const ViewSample& view, const std::vector
   return frame;
 }
 
-std::optional<LabelledFrame> FrameMaker::State::Try(int64_t index, int attempt) {
-  Random random = options.sequence ? SeedStream(options.seed, kSceneStream, 0, attempt)
-                                   : SeedStream(options.seed, kSceneStream, index, attempt);
-  for (int person = 0; person < options.people; ++person) Dress(index, person);
-  const PeopleScene scene = DrawScene(options, wearers[0].body.height_m, random);
-  const auto& places = scene.places_m;
-  ViewSample view = scene.view;
-  view.camera_from_world = scene.cameras_from_world[static_cast<size_t>(options.camera)];
-  Random thing = SeedStream(options.seed, kThingStream, options.sequence ? 0 : index, attempt);
-  Staging staging = DrawStaging(options.occluders, thing);
-  std::vector<Prop> things;
-  std::vector<TruthBody> bodies;
-  PixelBox box;
-  for (size_t person = 0; person < places.size(); ++person) {
+// Everybody posed in camera space, and what they wear.
+FrameMaker::State::Cast FrameMaker::State::PosePeople(int64_t index, const PeopleScene& scene,
+                                                      const ViewSample& view, Random& random,
+                                                      Random& thing) {
+  Cast cast{.staging = DrawStaging(options.occluders, thing)};
+  for (size_t person = 0; person < scene.places_m.size(); ++person) {
+    const Dressed& wearer = wearers[person];
     const double heading_rad =
         person == 0 ? view.facing_rad : view.facing_rad + random.Uniform(-1.5, 1.5);
     recon::RigPose pose = DrawPose(index, random);
-    if (person == 0) staging = Arrange(staging, &pose, thing);
+    if (person == 0) cast.staging = Arrange(cast.staging, &pose, thing);
     pose = Turned(pose, heading_rad);
     if (!options.sequence) {
       const double right = random.Uniform(0, 1), left = random.Uniform(0, 1);
-      recon::CloseHands(wearers[person].body, left, right, &pose);
+      recon::CloseHands(wearer.body, left, right, &pose);
     }
-    pose.root_m += places[person] / wearers[person].body.root_scale;
-    bodies.push_back(
-        {static_cast<int>(person) + 1, Pose(pose, person, view.camera_from_world), {}});
-    for (Prop& prop : WornProps(wearers[person].worn, pose, bodies.back().joints_m,
-                                wearers[person].body.height_m, view.camera_from_world,
-                                static_cast<uint8_t>(person + 1))) {
-      things.push_back(std::move(prop));
+    pose.root_m += scene.places_m[person] / wearer.body.root_scale;
+    const auto id = static_cast<uint8_t>(person + 1);
+    cast.bodies.push_back({id, Pose(pose, person, view.camera_from_world), {}});
+    for (Prop& prop : WornProps(wearer.worn, pose, cast.bodies.back().joints_m,
+                                wearer.body.height_m, view.camera_from_world, id)) {
+      cast.things.push_back(std::move(prop));
     }
     renderer.UpdateVertices(mesh_of_person[person], posed_m[person]);
-    box = Union(box, Cover(posed_m[person], view.camera));
+    cast.box = Union(cast.box, Cover(posed_m[person], view.camera));
   }
+  return cast;
+}
+
+std::optional<LabelledFrame> FrameMaker::State::Try(int64_t index, int attempt) {
+  const int64_t drawn_for = options.sequence ? 0 : index;  // a sequence is one draw
+  Random random = SeedStream(options.seed, kSceneStream, drawn_for, attempt);
+  for (int person = 0; person < options.people; ++person) Dress(index, person);
+  const PeopleScene scene = DrawScene(options, wearers[0].body.height_m, random);
+  ViewSample view = scene.view;
+  view.camera_from_world = scene.cameras_from_world[static_cast<size_t>(options.camera)];
+  Random thing = SeedStream(options.seed, kThingStream, drawn_for, attempt);
+  Cast cast = PosePeople(index, scene, view, random, thing);
   // Nobody in view: another view is tried, but a sequence keeps its own.
-  const bool unseen = box.u1 - box.u0 < 2 || box.v1 - box.v0 < 2;
+  const bool unseen = cast.box.u1 - cast.box.u0 < 2 || cast.box.v1 - cast.box.v0 < 2;
   const bool room = options.background != Background::kNone;
   if (unseen && !options.sequence && !room) return std::nullopt;
 
-  for (Prop& prop : DrawThings(staging, bodies[0].joints_m, view, thing)) {
-    things.push_back(std::move(prop));
+  const recon::Posture& joints_in_cam = cast.bodies[0].joints_m;
+  for (Prop& prop : DrawThings(cast.staging, joints_in_cam, view, thing)) {
+    cast.things.push_back(std::move(prop));
   }
-  for (const Prop& prop : things) box = Union(box, Cover(prop.mesh_in_cam.vertices_m, view.camera));
+  PixelBox box = cast.box;
+  for (const Prop& prop : cast.things) {
+    box = Union(box, Cover(prop.mesh_in_cam.vertices_m, view.camera));
+  }
   if (room || (unseen && options.sequence)) {
     box = {0, 0, view.camera.width - 1, view.camera.height - 1};
   }
-  std::vector<Prop> props = DrawPropsFor(view, bodies[0].joints_m, scene, random);
-  for (Prop& prop : things) props.push_back(std::move(prop));
+  std::vector<Prop> props = DrawPropsFor(view, joints_in_cam, scene, random);
+  for (Prop& prop : cast.things) props.push_back(std::move(prop));
   const uint64_t noise_seed = SeedStream(options.seed, kNoiseStream, index, attempt).Bits();
   LabelledFrame frame =
       Shoot(view, props, box, index,
             options.camera == 0 ? noise_seed
                                 : MixSeed(noise_seed, static_cast<uint64_t>(options.camera)));
-  frame.bodies = std::move(bodies);
-  frame.depth.index = index;
-  frame.depth.time_s = static_cast<double>(index) / 30.0;
-  const Eigen::Vector3d up = view.camera_from_world.linear().col(1);
-  frame.floor =
-      Eigen::Vector4d(up.x(), up.y(), up.z(), -up.dot(view.camera_from_world.translation()));
-  MarkVisibleJoints(&frame);
+  AddTruth(std::move(cast.bodies), view, index, &frame);
   return frame;
 }
-
-namespace {
-
-// Of the data set's width, or where each frame has its own camera as wide as that would be at a
-// Kinect's field of view.
-double WidthOf(const LabelledFrame& frame, const FrameOptions& options) {
-  constexpr double kWidthOverFocal = 640.0 / 575.0;  // of a Kinect v1; factor; derived
-  if (options.cameras != Cameras::kAny && options.fov_deg == 0.0) return options.width;
-  return kWidthOverFocal * frame.depth.camera.fx;
-}
-
-bool ShowsEnough(const LabelledFrame& frame, double width) {
-  constexpr double kLeastPixels = 900;  // of a 640-pixel-wide image: half a head at 2 m; pixels
-  constexpr int kLeastJoints = 5;
-  const auto pixels = static_cast<double>(
-      std::count_if(frame.parts.data.begin(), frame.parts.data.end(),
-                    [](uint8_t part) { return part > 0 && part <= recon::kPartCount; }));
-  const auto& visible = frame.bodies[0].visible;
-  return pixels >= kLeastPixels * (width / 640.0) * (width / 640.0) &&
-         std::count(visible.begin(), visible.end(), true) >= kLeastJoints;
-}
-
-}  // namespace
 
 depth::Camera MakeCamera(const FrameOptions& options) {
   const ViewRequest request{.width = options.width,
@@ -370,7 +357,7 @@ LabelledFrame FrameMaker::Make(int64_t index) {
     auto next = state_->Try(index, attempt);
     if (!next) continue;
     frame = std::move(next);
-    if (state_->options.sequence || ShowsEnough(*frame, WidthOf(*frame, state_->options))) break;
+    if (state_->options.sequence || ShowsEnough(*frame, state_->options)) break;
   }
   if (!frame) throw std::runtime_error("no view of frame " + std::to_string(index));
   return std::move(*frame);
