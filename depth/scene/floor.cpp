@@ -140,7 +140,10 @@ Fit Search(const std::vector<Measured>& low, const std::vector<Measured>& sample
   for (int trial = 0; trial < kTrials; ++trial) {
     const size_t from = trial % 2 == 0 ? 0 : low.size() - low.size() / kLowest;
     const auto pick = [&] { return low[from + random() % (low.size() - from)].at_m; };
-    const auto plane = PlaneThrough(pick(), pick(), pick(), up);
+    // Draws have names: in which order arguments are drawn is the compiler's to choose. This is
+    // g++'s, from when they stood there.
+    const Vector3f c = pick(), b = pick(), a = pick();
+    const auto plane = PlaneThrough(a, b, c, up);
     if (!plane || !Allowed(*plane, options)) continue;
     const Fit fit = Score(sample, *plane);
     if (fit.below > static_cast<int>(options.max_share_below * static_cast<double>(sample.size())))
