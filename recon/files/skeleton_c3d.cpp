@@ -204,6 +204,11 @@ std::string_view ReadText(const C3dBytes& bytes, const Parameter& parameter) {
   return bytes.all().substr(parameter.begin, parameter.size);
 }
 
+// Texts of one length: filled with blanks, by some programs with zeros.
+std::string_view WithoutFilling(std::string_view text) {
+  return Trimmed(text.substr(0, text.find('\0')));
+}
+
 // A file of more than 255 points goes on with its labels in LABELS2, LABELS3, ...
 void ReadLabels(const std::string& name, const C3dBytes& bytes, const Parameters& parameters,
                 C3d& c3d) {
@@ -214,7 +219,7 @@ void ReadLabels(const std::string& name, const C3dBytes& bytes, const Parameters
     const std::string_view text = ReadText(bytes, labels->second);
     const size_t length = labels->second.length;
     for (size_t at = 0; at + length <= text.size(); at += length) {
-      c3d.labels.emplace_back(Trimmed(text.substr(at, length)));
+      c3d.labels.emplace_back(WithoutFilling(text.substr(at, length)));
     }
   }
   if (c3d.labels.empty()) FailAtByte(name, kBlock, "the parameter POINT:LABELS");
@@ -225,8 +230,7 @@ void ReadUnits(const std::string& name, const C3dBytes& bytes, const Parameters&
                C3d& c3d) {
   const auto units = parameters.find("POINT:UNITS");
   if (units == parameters.end()) return;
-  std::string_view unit = ReadText(bytes, units->second);
-  unit = Trimmed(unit.substr(0, unit.find('\0')));
+  const std::string_view unit = WithoutFilling(ReadText(bytes, units->second));
   if (unit.empty()) return;
   const auto metres = MetresPerUnit(unit);
   if (!metres) {
@@ -239,7 +243,7 @@ void ReadUnits(const std::string& name, const C3dBytes& bytes, const Parameters&
 bool SaysYUp(const C3dBytes& bytes, const Parameters& parameters) {
   const auto screen = parameters.find("POINT:Y_SCREEN");
   if (screen == parameters.end()) return false;
-  const std::string_view axis = Trimmed(ReadText(bytes, screen->second));
+  const std::string_view axis = WithoutFilling(ReadText(bytes, screen->second));
   return axis == "+Y" || axis == "Y";
 }
 

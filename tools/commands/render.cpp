@@ -10,9 +10,9 @@
 #include <thread>
 #include <vector>
 
+#include "depth/base/atomic_file.h"
 #include "depth/base/error.h"
 #include "depth/base/folder_lock.h"
-#include "depth/base/leftovers.h"
 #include "depth/image/camera.h"
 #include "recon/fuse/extrinsics.h"
 #include "recon/motion/mocap.h"
@@ -270,8 +270,13 @@ void RenderSet(const tools::FrameStudio& studio, const Arguments& a,
 
 std::string CameraName(int camera) { return fmt::format("camera_{}", camera); }
 
-// A folder of several cameras holds theirs and nothing else: no data set of its own.
+// A folder of several cameras holds theirs and nothing else: no data set of its own. What a run
+// that was killed left of the extrinsics goes; their data sets see to their own.
 void CheckFolderOfCameras(const Arguments& a) {
+  for (const auto& left :
+       AtomicFile::FindLeftovers(std::filesystem::path(a.out) / "extrinsics.json")) {
+    std::filesystem::remove(left);
+  }
   for (const auto& entry : std::filesystem::directory_iterator(a.out)) {
     const std::string name = entry.path().filename().string();
     bool known = name == "extrinsics.json";
@@ -284,10 +289,7 @@ void CheckFolderOfCameras(const Arguments& a) {
 // One data set after the other; extrinsics.json says that all are there.
 void RenderAround(tools::FrameStudio& studio, const Arguments& a, tools::Ranks& ranks) {
   const std::filesystem::path out(a.out);
-  if (ranks.rank() == 0) {
-    RemoveLeftovers(out);  // of a run that was killed while it wrote the extrinsics
-    CheckFolderOfCameras(a);
-  }
+  if (ranks.rank() == 0) CheckFolderOfCameras(a);
   for (int k = 0; k < a.cameras; ++k) {
     studio.options.camera = k;
     RenderSet(studio, a, out / CameraName(k), ranks);

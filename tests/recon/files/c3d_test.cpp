@@ -1,8 +1,11 @@
 // C3D recordings that are longer than the 16 bits of their header can say.
 #include <gtest/gtest.h>
 
+#include <fstream>
+
 #include "tests/recon/files/skeleton_examples.h"
 #include "tests/recon/files/skeleton_texts.h"
+#include "tests/support/temporary_folder.h"
 
 namespace ossa::recon {
 namespace {
@@ -95,6 +98,19 @@ TEST(C3dUp, IsDoubtedWhereNobodyStandsOnAFloor) {
   EXPECT_NEAR(At(read, 0, Joint::kHead).z(), -1.6, 1e-6);
   ASSERT_EQ(read.warnings.size(), 1u);
   EXPECT_NE(read.warnings[0].find("never stands along the axis taken as up"), std::string::npos);
+}
+
+// Names are compared whole where a mapping gives them.
+TEST(C3dLabels, MayBeFilledWithZeros) {
+  std::string bytes = C3dBytes();
+  bytes.replace(bytes.find("Head      "), 10, std::string("Hat") + std::string(7, '\0'));
+  const ossa::test::TemporaryFolder folder;
+  SkeletonReadOptions options;
+  options.mapping_file = folder / "names.txt";
+  std::ofstream(options.mapping_file) << "HipCenter = HipCenter\nHead = Hat\n";
+  std::istringstream stream(bytes);
+  const auto read = ReadSkeletonStream(stream, "file", options);
+  EXPECT_TRUE(read.frames[0].bodies[0].joints[Index(Joint::kHead)].has_value());
 }
 
 TEST(LongC3d, HasAsManyFramesAsItsTrialSays) {

@@ -79,6 +79,7 @@ TEST_F(RenderCameras, EachHaveADataSetAndAPlace) {
   for (int again = 0; again < 2; ++again) {  // what is there stays
     const auto run = Render();
     ASSERT_EQ(run.exit_status, 0) << run.err;
+    std::ofstream(out_ + "/extrinsics.json.partial-0123456789ab") << "killed while it wrote";
   }
   const auto cameras = recon::ReadExtrinsics(folder_ / "clip/extrinsics.json");
   ASSERT_EQ(cameras.size(), 2u);
