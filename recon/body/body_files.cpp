@@ -16,8 +16,8 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr const char *kMesh = "base.obj", *kRig = "rig.cmu_mb.json",
-                     *kWeights = "weights.cmu_mb.json", *kTargets = "targets";
+constexpr const char *kMeshFile = "base.obj", *kRigFile = "rig.cmu_mb.json",
+                     *kWeightsFile = "weights.cmu_mb.json", *kTargetsFolder = "targets";
 
 std::string ReadText(const fs::path& path) {
   std::ifstream file(path, std::ios::binary);
@@ -199,11 +199,11 @@ VertexMean BodyFiles::Vertices(const std::string& group) const {
 
 BodyFiles ReadBodyFiles(const fs::path& folder) {
   BodyFiles files;
-  files.mesh_file = (folder / kMesh).string();
-  ReadMesh(folder / kMesh, &files);
-  ReadRig(folder / kRig, &files);
-  ReadWeights(folder / kWeights, &files);
-  ReadTargets(folder / kTargets, &files);
+  files.mesh_file = (folder / kMeshFile).string();
+  ReadMesh(folder / kMeshFile, &files);
+  ReadRig(folder / kRigFile, &files);
+  ReadWeights(folder / kWeightsFile, &files);
+  ReadTargets(folder / kTargetsFolder, &files);
   return files;
 }
 
@@ -213,10 +213,10 @@ bool AreFilesNewer(const fs::path& folder, const fs::path& than) {
   const auto is_newer = [&](const fs::path& path) {
     return fs::last_write_time(path, unknown) > time && !unknown;
   };
-  for (const char* name : {kMesh, kRig, kWeights, kTargets}) {
+  for (const char* name : {kMeshFile, kRigFile, kWeightsFile, kTargetsFolder}) {
     if (is_newer(folder / name)) return true;
   }
-  for (const auto& entry : fs::directory_iterator(folder / kTargets, unknown)) {
+  for (const auto& entry : fs::directory_iterator(folder / kTargetsFolder, unknown)) {
     if (is_newer(entry.path())) return true;
   }
   return false;

@@ -215,7 +215,7 @@ bool HasFloorAt0(const SkeletonSequence& sequence, const Eigen::Vector3d& up) {
   return lowest_m > kThrough_m && lowest_m < kHigh_m;
 }
 
-void Turn(SkeletonSequence& sequence, const Eigen::Quaterniond& turn) {
+void TurnAll(SkeletonSequence& sequence, const Eigen::Quaterniond& turn) {
   ForEachPlace(sequence, [&](Eigen::Vector3d& p) { p = turn * p; });
 }
 
@@ -262,7 +262,7 @@ void BringUpright(SkeletonSequence& sequence, const OtherUp& other) {
     if (!doubt.empty()) sequence.warnings.push_back(doubt);
     return;
   }
-  Turn(sequence, SmallestTurn(other.axis, y));
+  TurnAll(sequence, SmallestTurn(other.axis, y));
   if (!other.is_in_file) {
     sequence.warnings.push_back(fmt::format("{}: the body stands along {}: {} is taken as up",
                                             sequence.source, other.name, other.name));
