@@ -19,6 +19,7 @@
 #include "tools/commands/command.h"
 #include "tools/commands/commands.h"
 #include "tools/commands/mapping_option.h"
+#include "tools/commands/shell_word.h"
 #include "tools/commands/warnings.h"
 #include "tools/synth/motion_terms.h"
 #include "tools/synth/ranks.h"
@@ -221,7 +222,7 @@ tools::FrameOptions MakeOptions(const Arguments& a) {
 // What made the data set, whatever threads and folders it was made with.
 std::string FormatCommand(const Arguments& a) {
   std::string command = "ossa render";
-  for (const auto& source : a.mocap) command += " --mocap " + source;
+  for (const auto& source : a.mocap) command += " --mocap " + ShellWord(source);
   command += fmt::format(
       " --frames {} --seed {} --size {} --bodies {} --noise {} --view {} --occluders {} --people "
       "{} --split {} --camera {} --format {}",
@@ -234,7 +235,7 @@ std::string FormatCommand(const Arguments& a) {
   if (a.shrink != 1.0) command += fmt::format(" --shrink {}", a.shrink);
   if (a.sequence) command += " --sequence";
   if (a.cameras > 1) command += fmt::format(" --cameras {}", a.cameras);
-  if (!a.mapping.empty()) command += " --mapping " + a.mapping;
+  if (!a.mapping.empty()) command += " --mapping " + ShellWord(a.mapping);
   return command;
 }
 

@@ -12,6 +12,7 @@
 #include "recon/fuse/extrinsics.h"
 #include "tests/support/run_command.h"
 #include "tests/support/temporary_folder.h"
+#include "tools/commands/shell_word.h"
 
 namespace ossa::commands {
 namespace {
@@ -62,6 +63,14 @@ TEST(RenderCommand, AShrunkImagesCameraIsInTheManifest) {
   // 50 / tan(22.8°); ITOP's, as its makers shrunk it, is 119.05.
   EXPECT_NEAR(manifest["camera"]["fx"].get<double>(), 118.9, 0.1);
   EXPECT_NE(manifest["command"].get<std::string>().find("--shrink 2.4"), std::string::npos);
+}
+
+// What made the data set can be given to a shell again.
+TEST(ShellWord, IsQuotedWhereAShellWouldTakeItApart) {
+  EXPECT_EQ(ShellWord("mocap/cmu30_train"), "mocap/cmu30_train");
+  EXPECT_EQ(ShellWord("Bewegungen/Größe"), "Bewegungen/Größe");
+  EXPECT_EQ(ShellWord("my mocap"), "'my mocap'");
+  EXPECT_EQ(ShellWord("it's $HOME"), "'it'\\''s $HOME'");
 }
 
 class RenderCameras : public testing::Test {
