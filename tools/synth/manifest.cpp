@@ -5,6 +5,7 @@
 
 #include "depth/base/error.h"
 #include "depth/base/json_nesting.h"
+#include "depth/base/one_line.h"
 #include "depth/base/open_file.h"
 #include "depth/image/camera_io.h"
 #include "tools/json/json_text.h"
@@ -102,6 +103,15 @@ std::string ManifestToJson(const DatasetManifest& manifest) {
   json["packed"] = manifest.packed;
   json["frames_per_shard"] = manifest.frames_per_shard;
   return JsonText(json) + "\n";
+}
+
+std::string CommandIn(const std::string& manifest_text) {
+  try {
+    return OnOneLine(
+        Field<std::string>(ParseJson(manifest_text, "manifest"), "manifest", "command"));
+  } catch (const InputError&) {
+    return "a text without a command";
+  }
 }
 
 DatasetManifest ReadManifest(const std::filesystem::path& folder) {

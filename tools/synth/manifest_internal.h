@@ -9,6 +9,8 @@ namespace ossa::tools {
 /// manifest.json as text: the same manifest gives the same bytes.
 std::string ManifestToJson(const DatasetManifest& manifest);
 DatasetManifest ReadManifest(const std::filesystem::path& folder);
+/// The command in such a text, for messages; of any other text that it has none.
+std::string CommandIn(const std::string& manifest_text);
 
 /// One line of truth.jsonl (docs/architecture.md, "Data set") without the newline, and back;
 /// `place` is for messages.

@@ -79,8 +79,10 @@ void PrepareFolder(const RenderJob& job, const std::string& plan) {
   const fs::path started = WorkFolder(job) / "plan.json";
   for (const fs::path& path : {manifest, started}) {
     if (fs::exists(path) && ReadText(path) != plan) {
+      const std::string found = CommandIn(ReadText(path));
       throw InputError(path.string() + ": another data set is there: expected " + job.command +
-                       " or an empty folder");
+                       " or an empty folder, found " +
+                       (found == job.command ? "what another version of ossa made" : found));
     }
   }
   if (fs::exists(manifest)) return;

@@ -8,6 +8,7 @@
 #include <iterator>
 
 #include "recon/motion/mocap.h"
+#include "tests/support/refused.h"
 #include "tests/support/temporary_folder.h"
 #include "tools/synth/clothed_actor.h"
 
@@ -81,6 +82,10 @@ TEST(RenderDataset, KeepsNothingThatAKilledRunLeft) {
   FinishDataset(studio, job);
   EXPECT_FALSE(fs::exists(folder / "set/depth/000001.png.partial-0123456789ab"));
   EXPECT_TRUE(fs::exists(folder / "set/depth/000001.png"));
+  job.command = "another";
+  test::ExpectRefused([&] { RenderShare(studio, job); },
+                      "another data set is there: expected another or an empty folder, found test");
+  job.command = "test";
   fs::create_directory(folder / "set/.work");
   ASSERT_EQ(RenderShare(studio, job), RenderEnd::kDone);
   FinishDataset(studio, job);
