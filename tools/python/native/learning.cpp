@@ -43,27 +43,17 @@ tools::CompareOptions CompareOptionsFrom(const py::dict& given) {
 py::tuple Compare(const std::string& truth, const std::vector<std::string>& results,
                   const py::dict& given) {
   const tools::CompareOptions options = CompareOptionsFrom(given);
-  tools::Comparison comparison;
-  try {
-    const py::gil_scoped_release free;
-    comparison = tools::Compare(truth, results, options);
-  } catch (const tools::Interruption&) {
-    ThrowIfInterrupted();
-  }
+  const auto comparison = Interruptible([&] { return tools::Compare(truth, results, options); });
   return py::make_tuple(tools::ToJson(comparison), comparison.warnings);
 }
 
 std::string Evaluate(const std::string& path, const std::string& dataset, int64_t every) {
-  std::string json;
-  {
-    const py::gil_scoped_release free;
+  return Interruptible([&] {
     const forest::ForestModel model = forest::ReadForestModel(path);
     const tools::DatasetReader reader{std::filesystem::path(dataset)};
-    json = tools::EvaluationJson(
+    return tools::EvaluationJson(
         tools::Evaluate(model, path, reader, every, [](int64_t, int64_t) { return GoesOn(); }));
-  }
-  ThrowIfInterrupted();
-  return json;
+  });
 }
 
 // The number of pairs.
@@ -77,17 +67,13 @@ size_t Learn(const std::vector<std::string>& observed, const std::vector<std::st
   options.processes = !given["correction_only"].cast<bool>();
   recon::SkeletonReadOptions reading;
   reading.mapping_file = given["mapping"].cast<std::string>();
-  size_t count = 0;
-  {
-    const py::gil_scoped_release free;
+  return Interruptible([&] {
     const auto pairs =
         tools::PairRecordings(observed, truth, reading, [](const auto&) { return GoesOn(); });
     const auto models = recon::LearnedModels::Learn(pairs, options, [](int) { return GoesOn(); });
     if (GoesOn()) models.Save(out);
-    count = pairs.size();
-  }
-  ThrowIfInterrupted();
-  return count;
+    return pairs.size();
+  });
 }
 
 }  // namespace

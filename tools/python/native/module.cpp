@@ -74,7 +74,8 @@ struct Reader {
 
 bool GoesOn() {
   const py::gil_scoped_acquire gil;
-  return PyErr_CheckSignals() == 0;
+  // A signal is told of once: who asks again after it must not hear that all is well.
+  return PyErr_Occurred() == nullptr && PyErr_CheckSignals() == 0;
 }
 
 void ThrowIfInterrupted() {

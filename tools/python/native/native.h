@@ -2,6 +2,7 @@
 #include <pybind11/pybind11.h>
 
 #include <string>
+#include <type_traits>
 
 #include "depth/sensor/frame_source.h"
 #include "recon/methods/reconstructor.h"
@@ -22,10 +23,27 @@ void AddSkeletons(py::module_& module);
 void AddLearning(py::module_& module);
 
 /// Whether a long run goes on: false once Python has a signal to act on (Ctrl-C). Called without
-/// the GIL.
+/// the GIL, within Interruptible.
 bool GoesOn();
 /// Throws what Python raised meanwhile.
 void ThrowIfInterrupted();
+
+/// What `work` returns, done without the GIL. Where GoesOn ended it, what Python raised is thrown,
+/// whatever the work returned or threw then: KeyboardInterrupt must not become "no device found".
+template <typename Work>
+std::invoke_result_t<Work> Interruptible(const Work& work) {
+  try {
+    auto made = [&] {
+      const py::gil_scoped_release free;
+      return work();
+    }();
+    ThrowIfInterrupted();
+    return made;
+  } catch (...) {
+    ThrowIfInterrupted();
+    throw;
+  }
+}
 
 /// The options of single methods by their keywords (ossa/_method_options.py).
 struct MethodOptions {

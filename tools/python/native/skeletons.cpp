@@ -190,12 +190,7 @@ recon::SkeletonReadOptions ReadingFrom(const py::dict& given) {
 // [(name, sequence)]
 py::list ReadClips(const std::string& path, const py::dict& given) {
   const recon::SkeletonReadOptions reading = ReadingFrom(given);
-  std::vector<recon::SkeletonClip> clips;
-  {
-    const py::gil_scoped_release free;
-    clips = recon::ReadSkeletonClips(path, reading);
-  }
-  ThrowIfInterrupted();
+  const auto clips = Interruptible([&] { return recon::ReadSkeletonClips(path, reading); });
   py::list made;
   for (const recon::SkeletonClip& clip : clips) {
     made.append(py::make_tuple(clip.name, ToDict(clip.sequence)));
@@ -205,12 +200,7 @@ py::list ReadClips(const std::string& path, const py::dict& given) {
 
 py::dict ReadOne(const std::string& path, const py::dict& given) {
   const recon::SkeletonReadOptions reading = ReadingFrom(given);
-  recon::SkeletonSequence sequence;
-  {
-    const py::gil_scoped_release free;
-    sequence = recon::ReadSkeletons(path, reading);
-  }
-  return ToDict(sequence);
+  return ToDict(Interruptible([&] { return recon::ReadSkeletons(path, reading); }));
 }
 
 recon::BvhNames NamesFrom(const std::string& names) {
@@ -281,16 +271,13 @@ py::dict Reconstruct(const py::dict& rows, const py::dict& given) {
   recon::ReconstructorOptions options;
   if (!offline) options = OptionsFrom(given, sequence);
   const recon::LagOptions lag = LagFrom(given["lag"], options.method, offline);
-  recon::SkeletonSequence made;
-  {
-    const py::gil_scoped_release free;
-    made = offline ? recon::ButterworthSequence(sequence, cutoff_hz)
-                   : Reconstructed(sequence, options, bones_of_recording);
+  return ToDict(Interruptible([&] {
+    recon::SkeletonSequence made = offline ? recon::ButterworthSequence(sequence, cutoff_hz)
+                                           : Reconstructed(sequence, options, bones_of_recording);
     made = recon::SmoothSequence(made, lag);
     if (physics) tracker::FollowMechanically(made, build, [](size_t) { return GoesOn(); });
-  }
-  ThrowIfInterrupted();
-  return ToDict(made);
+    return made;
+  }));
 }
 
 }  // namespace

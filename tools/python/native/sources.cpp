@@ -72,8 +72,7 @@ Notes NoteBook::Take() {
 Source::Source(const std::string& name, const py::dict& given) {
   depth::SourceOptions options = ReadSourceOptions(given);
   options.note = [this](depth::NoteKind kind, const std::string& text) { notes_.Add(kind, text); };
-  const py::gil_scoped_release free;
-  frames_ = depth::OpenSource(name, options);
+  frames_ = Interruptible([&] { return depth::OpenSource(name, options); });
 }
 
 depth::FrameSource& Source::Opened() {

@@ -347,11 +347,12 @@ class Tracker {
   /// Looks through the beginning of a recording for which way up its camera is.
   int FindUpright(const std::string& source, const py::dict& given) {
     const depth::SourceOptions options = ReadSourceOptions(given);
-    const py::gil_scoped_release free;
-    const std::lock_guard lock(mutex_);
-    tracker_->SetTurn(tracker::Turn::kAuto);
-    tracker_->FindUpright(*depth::OpenSource(source, options), GoesOn);
-    return tracker_->quarter_turns();
+    return Interruptible([&] {
+      const std::lock_guard lock(mutex_);
+      tracker_->SetTurn(tracker::Turn::kAuto);
+      tracker_->FindUpright(*depth::OpenSource(source, options), GoesOn);
+      return tracker_->quarter_turns();
+    });
   }
 
   void ChooseUsers(const std::optional<std::vector<int>>& ids) {
@@ -419,9 +420,12 @@ void AddTracker(py::module_& module) {
   py::class_<Models>(module, "Models")
       .def(py::init(&LoadModels), py::arg("files"), py::arg("method"))
       .def_readonly("method", &Models::method);
-  py::class_<Skin>(module, "Skin").def("vertices", [](const Skin& skin) {
-    return ComputeVertices(*skin.mesh, skin.pose);
-  });
+  py::class_<Skin>(module, "Skin")
+      .def("vertices", [](const Skin& skin) { return ComputeVertices(*skin.mesh, skin.pose); })
+      // Nothing changes it: dataclasses.asdict and copy.deepcopy may share it.
+      .def(
+          "__deepcopy__", [](const py::object& self, const py::dict&) { return self; },
+          py::arg("memo"));
   py::class_<Tracker>(module, "Tracker")
       .def(py::init<const py::dict&, const Models&>(), py::arg("options"), py::arg("models"))
       .def("track", &Tracker::Track, py::arg("depth_mm"), py::arg("camera"), py::arg("time_s"),

@@ -1,0 +1,78 @@
+"""Ctrl-C, and whatever else a signal's handler raises, ends long calls as itself."""
+
+import contextlib
+import signal
+import struct
+import time
+import zlib
+
+import pytest
+
+import ossa
+
+EMPTY_FRAMES = 3000  # far more than are looked through until the signal comes
+
+
+class Rung(Exception):
+    """What the handler raises: no error of ossa's."""
+
+
+@contextlib.contextmanager
+def ringing(after_s):
+    """Raises Rung in what is run within, that many seconds from now."""
+
+    def ring(*_):
+        raise Rung
+
+    before = signal.signal(signal.SIGALRM, ring)
+    signal.setitimer(signal.ITIMER_REAL, after_s)
+    try:
+        yield
+    finally:
+        signal.setitimer(signal.ITIMER_REAL, 0)
+        signal.signal(signal.SIGALRM, before)
+
+
+@pytest.fixture
+def empty_room(tmp_path):
+    """A folder of images of a wall, 640x480, in which nobody is ever found upright."""
+    row = b"\0" + struct.pack(">H", 3001) * 640
+    chunks = {
+        b"IHDR": struct.pack(">IIBBBBB", 640, 480, 16, 0, 0, 0, 0),
+        b"IDAT": zlib.compress(row * 480),
+        b"IEND": b"",
+    }
+    png = b"\x89PNG\r\n\x1a\n"
+    for kind, data in chunks.items():
+        png += struct.pack(">I", len(data)) + kind + data + struct.pack(">I", zlib.crc32(kind + data))
+    (tmp_path / "room").mkdir()
+    (tmp_path / "room/0.png").write_bytes(png)
+    for i in range(1, EMPTY_FRAMES):
+        (tmp_path / f"room/{i}.png").symlink_to("0.png")
+    return tmp_path / "room"
+
+
+def test_a_wait_for_a_device_is_interrupted():
+    with pytest.raises(Rung), ringing(0.3):
+        ossa.open("openni:", wait_s=60)
+
+
+def test_a_look_for_which_way_is_up_is_interrupted(empty_room, models):
+    tracker = ossa.Tracker(models=models)
+    source = ossa.open(empty_room, depth_scale=1000, fps=200)
+    with pytest.raises(Rung), ringing(0.3):
+        next(tracker.run(source))
+
+
+def test_nothing_half_learned_is_kept(clip, tmp_path):
+    truth = ossa.read_skeletons(clip / "truth.jsonl")
+    out = tmp_path / "errors.ossagp"
+    for after_s in (0.02, 0.1, 0.3):
+        began = time.monotonic()
+        try:
+            with ringing(after_s):
+                ossa.learn([truth] * 20, [truth] * 20, out, regions=10, samples=10)
+        except Rung:
+            assert not out.exists()
+        assert time.monotonic() - began < 60
+        out.unlink(missing_ok=True)
