@@ -47,6 +47,11 @@ def test_what_is_no_depth_image_is_refused(depth_mm, tracker, forest):
     assert "depth_mm" in refused(forest.classify, depth_mm, CAMERA)
 
 
+def test_an_array_that_is_mapped_from_a_file_is_one(tracker, tmp_path):
+    mapped = np.memmap(tmp_path / "depth", np.uint16, "w+", shape=DEPTH.shape)
+    assert tracker.track(mapped, CAMERA, 0.0).bodies == []
+
+
 def test_the_message_says_how_to_put_another_order_right(tracker):
     assert "ascontiguousarray" in refused(tracker.track, np.asfortranarray(DEPTH), CAMERA)
 
@@ -108,6 +113,11 @@ def test_users_that_cannot_be_are_refused(ids, tracker):
     assert "ids" in refused(tracker.choose_users, ids)
 
 
+def test_one_user_may_be_an_array_of_no_axes(tracker):
+    tracker.choose_users(np.array(1))
+    tracker.choose_users()
+
+
 def test_settings_that_cannot_be_are_refused(tracker):
     for name, value in {"mode": "lying", "smoothing": 7}.items():
         refused(setattr, tracker, name, value)
@@ -134,7 +144,9 @@ def test_a_source_that_cannot_be_is_refused(named, clip):
         {"times": [0, 1]}, {"times": [np.nan]}, {"times": "now"}, {"joints": np.zeros((1, 19, 3))},
         {"joints": np.full((1, 20, 3), np.inf)}, {"joints": None}, {"states": [["seen"] * 20]},
         {"states": [["tracked"]]}, {"ids": [-2]}, {"ids": [2**40]}, {"ids": ["a"]},
-        {"confidence": np.zeros(20)}, {"floor": [0, 1, 0, 0]}, {"sensor": 5},
+        {"confidence": np.zeros(20)}, {"floor": [0, 1, 0, 0]}, {"sensor": 5}, {"ids": [1.5]},
+        {"frames": [0.5]}, {"ids": [np.nan]}, {"times": np.ma.masked_equal([0.0], 0.0)},
+        {"joints": np.ones((1, 20, 3)) * 1j},
     ],  # fmt: skip
     ids=str,
 )
@@ -147,6 +159,27 @@ def test_a_sequence_that_was_damaged_later_is_refused(tmp_path):
     sequence.joints = np.zeros((1, 20, 3))
     refused(ossa.reconstruct, sequence)
     refused(ossa.write_skeletons, sequence, tmp_path / "a.jsonl")
+
+
+def test_what_no_file_could_say_is_refused_before_it_is_written(tmp_path):
+    """Without this a file was written that ossa itself refuses to read."""
+    rows = {"times": [0.0, 1.0], "joints": np.zeros((2, 20, 3))}
+    part = np.zeros((2, 20, 4))
+    part[..., 1:] = np.nan
+    for name, value in {
+        "times": [1.0, 0.0], "confidence": np.full((2, 20), 7.0), "joints": np.full((2, 20, 3), 1e9),
+        "reliability": np.full((2, 20), -0.1), "floor": [[0, 1, np.nan, 0]] * 2,
+        "bones_m": np.full((2, 20), 5.0),
+    }.items():  # fmt: skip
+        sequence = ossa.Sequence(**{**rows, name: value})
+        assert name in refused(ossa.write_skeletons, sequence, tmp_path / "a.jsonl")
+        assert name in refused(ossa.reconstruct, sequence)
+    for turns in (np.zeros((2, 20, 4)), part):
+        sequence = ossa.Sequence(**rows, orientations=turns)
+        assert "orientations" in refused(ossa.write_skeletons, sequence, tmp_path / "a.jsonl")
+    twice = ossa.Sequence([0.0, 0.0], rows["joints"], ids=[3, 3])
+    assert "3 twice" in refused(ossa.write_skeletons, twice, tmp_path / "a.jsonl")
+    assert not (tmp_path / "a.jsonl").exists()
 
 
 @pytest.mark.parametrize(
@@ -165,6 +198,7 @@ def test_a_sequence_that_was_damaged_later_is_refused(tmp_path):
         (ossa.learn, ["a", "b", "c.ossagp"], {"pairs": 1}), (ossa.Forest, ["nowhere"], {}),
         (ossa.Camera.preset, ["kinect-v9"], {}), (ossa.Camera.preset, ["d435"], {"width": 5}),
         (CAMERA.points, [np.zeros(5)], {}), (CAMERA.project, [[1, 2]], {}),
+        (CAMERA.points, [DEPTH + 1.5], {}), (CAMERA.points, [DEPTH.astype(int) + 70000], {}),
         (CAMERA.project, ["here"], {}),
     ],
 )  # fmt: skip

@@ -51,6 +51,10 @@ def test_files_keep_all_that_the_tracker_says(seen, tmp_path):
         assert np.allclose(getattr(read, name), getattr(seen, name), atol=1e-5), name
 
 
+def test_rows_are_gone_through_one_by_one():
+    assert [list(row.ids) for row in two_people()] == [[1], [2], [1]]
+
+
 def test_a_person_and_a_stretch_are_cut_out():
     made = two_people()
     assert list(made.person(1).times) == [0, 0.1]

@@ -46,6 +46,13 @@ def test_a_camera_goes_before_the_source_s_own(camera, clip):
     assert ossa.open(clip, camera=camera).camera.fx != ossa.open(clip).camera.fx
 
 
+def test_a_camera_on_its_side_stays_so_in_what_it_took(clip):
+    on_its_side = ossa.Camera(290, 290, 160, 120, rotate=90)
+    assert next(ossa.open(clip, camera=on_its_side)).camera.rotate == 90
+    assert next(ossa.open(clip, camera=on_its_side, rotate=180)).camera.rotate == 180
+    assert next(ossa.open(clip, camera="kinect-v1")).camera.rotate == "auto"
+
+
 def test_depth_scale_and_fps_are_those_asked_for(clip):
     plain = next(ossa.open(clip / "depth", camera="kinect-v1")).depth_mm
     scaled = next(ossa.open(clip / "depth", camera="kinect-v1", depth_scale=2000)).depth_mm

@@ -1,5 +1,7 @@
 """ossa.Tracker: the command's skeletons as plain arrays, in any thread."""
 
+import copy
+import dataclasses
 import gc
 import os
 import subprocess
@@ -85,6 +87,35 @@ def test_joints_are_had_by_name_and_by_index(frames):
     assert (body["Head"] == body.joints[ossa.JOINTS.index("Head")]).all()
     assert (body[ossa.Joint.Head] == body["Head"]).all()
     assert [j.name for j in ossa.Joint] == list(ossa.JOINTS)
+
+
+def test_bodies_are_found_in_lists_and_taken_apart(frames):
+    """Arrays of the same numbers have no one truth of being equal: it is asked for the object."""
+    body, other = frames[-1].bodies[0], frames[-2].bodies[0]
+    assert body in frames[-1].bodies and body not in frames[-2].bodies and body != other
+    assert len({body, other, frames[0], frames[1]}) == 4
+    assert np.array_equal(list(body), body.joints)
+    again = copy.deepcopy(body)
+    assert np.array_equal(again.joints, body.joints)
+    assert np.array_equal(again.mesh.vertices, body.mesh.vertices)
+    assert dataclasses.asdict(body)["id"] == body.id
+
+
+def test_what_was_tracked_before_a_source_fails_comes_first(clip, models):
+    tracker, source = ossa.Tracker(models=models, lag=2), ossa.open(clip)
+    numbers = []
+    with pytest.raises(ossa.InputError, match="closed"):
+        for frame in tracker.run(source):
+            numbers.append(frame.index)
+            source.close()
+    assert numbers == [0, 1, 2]
+
+
+def test_a_run_that_is_given_up_leaves_nothing_to_the_next(clip, models):
+    tracker = ossa.Tracker(models=models, lag=2)
+    for _ in tracker.run(clip):
+        break
+    assert next(tracker.run(ossa.open(clip))).index == 3  # of those until then
 
 
 def test_results_outlive_the_tracker_and_the_next_frame(images, models):

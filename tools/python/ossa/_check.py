@@ -103,22 +103,39 @@ def optional_path(name: str, value: Any) -> str:
     return "" if value is None else path(name, value)
 
 
+def plain(name: str, expected: str, value: Any) -> Any:
+    """A NumPy array, where it lies: those mapped from a file included. One with a mask says something
+    that would be lost."""
+    if not isinstance(value, np.ndarray):
+        raise refuse(name, f"a NumPy array, {expected}", value)
+    if isinstance(value, np.ma.MaskedArray):
+        raise InputError(f"{name}: expected a NumPy array without a mask, found a masked one")
+    return np.asarray(value)
+
+
 def image(depth_mm: Any) -> Any:
     """A NumPy array; the extension checks the rest of it."""
-    if type(depth_mm) is not np.ndarray:
-        raise refuse("depth_mm", "a NumPy array, uint16 [height, width]", depth_mm)
-    return depth_mm
+    return plain("depth_mm", "uint16 [height, width]", depth_mm)
 
 
 def array(name: str, value: Any, shape: Sequence[int | None], dtype: Any) -> Any:
-    """An array of this shape (None: any length) and type, made from whatever holds such numbers."""
+    """An array of this shape (None: any length) and type, made from whatever holds such numbers. None
+    is rounded, wrapped round or taken from under a mask."""
     sides = ", ".join("any" if side is None else str(side) for side in shape)
     expected = f"{np.dtype(dtype).name} [{sides}]"
+    if isinstance(value, np.ma.MaskedArray) and np.any(value.mask):
+        raise InputError(f"{name}: expected {expected} without a mask, found a masked array")
     try:
-        made = np.array(value, dtype=dtype)
+        given = np.asarray(value)
+        with np.errstate(invalid="ignore"):  # of NaN as a whole number, which is refused below
+            made = np.array(given.real if given.dtype.kind == "c" else given, dtype=dtype)
     except (TypeError, ValueError, OverflowError):
         raise refuse(name, expected, value) from None
     fits = made.ndim == len(shape) and all(s in (None, n) for s, n in zip(shape, made.shape))
-    if not fits:
-        raise refuse(name, expected, made)
+    if not fits or given.dtype.kind == "c":
+        raise refuse(name, expected, given)
+    if np.issubdtype(made.dtype, np.integer) and given.dtype.kind in "iuf":
+        changed = made != given
+        if changed.any():
+            raise InputError(f"{name}: expected {expected}, found {given[changed].ravel()[0]!r}")
     return made

@@ -15,9 +15,7 @@ from ._frames import Proposals, proposals_from
 
 
 def _mask_option(mask: Any) -> Any:
-    if mask is not None and type(mask) is not np.ndarray:
-        raise _check.refuse("mask", "a NumPy array, bool or uint8 [height, width]", mask)
-    return mask
+    return None if mask is None else _check.plain("mask", "bool or uint8 [height, width]", mask)
 
 
 class Forest:

@@ -1,9 +1,13 @@
-"""What the tracker says of an image: ossa.Frame, its bodies, and what is fitted to them."""
+"""What the tracker says of an image: ossa.Frame, its bodies, and what is fitted to them.
+
+All of them are equal by identity (eq=False): arrays have no one truth of being equal, and `body in
+frame.bodies` must not fail for it.
+"""
 
 from __future__ import annotations
 
 import dataclasses
-from typing import Any, Mapping, Optional, Union
+from typing import Any, Iterator, Mapping, Optional, Union
 
 import numpy as np
 import numpy.typing as npt
@@ -17,7 +21,7 @@ _STATES = np.array(STATES)
 _EDGES = {"right": 1, "left": 2, "top": 4, "bottom": 8}
 
 
-@dataclasses.dataclass(frozen=True)
+@dataclasses.dataclass(frozen=True, eq=False)
 class Proposals:
     """Where one joint may be, as the forest sees it: the modes of its density estimate, best first.
 
@@ -44,7 +48,7 @@ def proposals_from(rows: Floats) -> Proposals:
     return Proposals(rows[:, :3].copy(), rows[:, 3].copy(), rows[:, 4] > 0.5)
 
 
-@dataclasses.dataclass(frozen=True, repr=False)
+@dataclasses.dataclass(frozen=True, repr=False, eq=False)
 class Mesh:
     """The skin of a fitted body as triangles.
 
@@ -63,7 +67,7 @@ class Mesh:
         return f"<ossa.Mesh: {len(self.vertices)} vertices, {len(self.faces)} faces>"
 
 
-@dataclasses.dataclass(frozen=True, repr=False)
+@dataclasses.dataclass(frozen=True, repr=False, eq=False)
 class Fit:
     """A body whose surface explains the depth image, unless Tracker(fit=False).
 
@@ -121,7 +125,7 @@ class Fit:
         return f"<ossa.Fit: {self.stature_m:.2f} m tall, {self.explained:.0%} explained>"
 
 
-@dataclasses.dataclass(frozen=True, repr=False)
+@dataclasses.dataclass(frozen=True, repr=False, eq=False)
 class Body:
     """One person in a Frame. Index j of an array of joints is ossa.JOINTS[j]; body["Head"] is the
     position of that joint. Positions are of camera space, metres.
@@ -200,12 +204,16 @@ class Body:
             return np.asarray(self.joints[JOINTS.index(joint)])
         return np.asarray(self.joints[_check.whole("joint", joint, 0, len(JOINTS) - 1)])
 
+    def __iter__(self) -> Iterator[Floats]:
+        """The joints' positions."""
+        return iter(self.joints)
+
     def __repr__(self) -> str:
         count = int((self.states == "tracked").sum())
         return f"<ossa.Body {self.id}: {count} joints tracked>"
 
 
-@dataclasses.dataclass(frozen=True)
+@dataclasses.dataclass(frozen=True, eq=False)
 class Thing:
     """Something of Tracker(scene=...) in one frame: camera space, metres.
 
@@ -228,7 +236,7 @@ class Thing:
     held_by: tuple[int, ...]
 
 
-@dataclasses.dataclass(frozen=True, repr=False)
+@dataclasses.dataclass(frozen=True, repr=False, eq=False)
 class Frame:
     """What the tracker says of one depth image.
 

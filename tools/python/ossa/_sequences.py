@@ -9,6 +9,7 @@ import numpy.typing as npt
 
 from . import _check, _method_options, _native
 from ._names import METHODS, SKELETON_FORMATS, STATES
+from ._rows import check_rows
 from ._sources import PathLike
 from ._frames import Frame
 from ._tracker import mechanics_option
@@ -160,6 +161,10 @@ class Sequence:
     def __len__(self) -> int:
         return len(self.times)
 
+    def __iter__(self) -> Iterator[Sequence]:
+        """Its rows, one by one."""
+        return (self[row] for row in range(len(self)))
+
     def __getitem__(self, rows: Any) -> Sequence:
         """Some rows: a slice, a bool [R], or indices."""
         try:
@@ -211,6 +216,13 @@ def _to_native(sequence: Sequence) -> dict[str, Any]:
     made.update({name: getattr(checked, name) for name in ("times", "joints", "ids", "frames")})
     made.update({name: getattr(checked, name) for name in _COLUMNS})
     return made
+
+
+def _to_use(sequence: Sequence) -> dict[str, Any]:
+    """For files and methods, which take less than Sequence does."""
+    rows = _to_native(sequence)
+    check_rows(rows)
+    return rows
 
 
 def _from_native(made: dict[str, Any]) -> Sequence:
@@ -364,7 +376,7 @@ def write_skeletons(sequence: Sequence, path: PathLike, names: Optional[str] = N
         if not to.endswith((".bvh", ".glb")) or (names == "sdk" and to.endswith(".glb")):
             expected = "a .bvh, or a .glb and names other than sdk"
             raise _check.refuse(f"names {names!r}", expected, to)
-    _native.write_skeletons(_to_native(sequence), to, names or "")
+    _native.write_skeletons(_to_use(sequence), to, names or "")
 
 
 def _lag_option(lag: Any) -> Optional[int]:
@@ -457,7 +469,7 @@ def reconstruct(
         "seed": _check.whole("seed", seed, 0, 2**63 - 1),
         "method_options": _method_options.checked(method, method_options),
     }
-    return _from_native(_native.reconstruct(_to_native(sequence), options))
+    return _from_native(_native.reconstruct(_to_use(sequence), options))
 
 
 reconstruct.__doc__ = (reconstruct.__doc__ or "").replace("METHOD_OPTIONS", _method_options.HELP)

@@ -175,8 +175,9 @@ def open(  # noqa: A001 - as the command's SOURCE is opened
         Images a second of a recording, whatever it says of its times. Left out: its own times,
         else 30.
     rotate : 0, 90, 180, 270 or "auto"
-        Degrees by which the images must be turned clockwise for people to stand in them. The images
-        come as they are; their cameras say it to the tracker, see Camera.
+        Degrees by which the images must be turned clockwise for people to stand in them; with
+        "auto" that of `camera`, where it says one. The images come as they are; their cameras say
+        it to the tracker, see Camera.
     depth_format : "plain", "swapped", "inverted", "inverted:FROM" or "disparity"
         What the 16-bit numbers of a recording are: lengths; with their bytes exchanged; subtracted
         from 65535 or from FROM; raw shifts of a Kinect v1.
@@ -212,5 +213,7 @@ def open(  # noqa: A001 - as the command's SOURCE is opened
     if fps is not None:
         options["fps"] = _check.number("fps", fps, 1e-3, 1e4)
     _check.one_of("rotate", rotate, ROTATIONS)
+    if rotate == "auto" and isinstance(camera, Camera) and camera.rotate != 0:
+        rotate = camera.rotate
     patience = _check.number("patience_s", patience_s, 1e-3, _LONGEST_S)
     return Source(_check.path("source", source), options, rotate, patience)

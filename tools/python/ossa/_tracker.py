@@ -392,18 +392,36 @@ class Tracker:
         return self._run(opened)
 
     def _run(self, source: Source) -> Iterator[Frame]:
-        if source._rotate == "auto" and not source.is_live:
+        self._find_upright(source)
+        failure: Optional[_native.InputError] = None
+        try:
             try:
-                self._native.find_upright(source.name, source._options)
-            except _native.InputError:
-                pass  # told of when its turn comes
+                yield from self._run_on(source)
+            except _native.InputError as error:
+                failure = error  # what was tracked before it comes first
+            while (held := self.take_held()) is not None:
+                yield held
+        finally:
+            # Of a run that was given up: they are no frames of what is tracked next.
+            while self._native.take_held() is not None:
+                pass
+        if failure is not None:
+            raise failure
+
+    def _find_upright(self, source: Source) -> None:
+        if source._rotate != "auto" or source.is_live:
+            return
+        try:
+            self._native.find_upright(source.name, source._options)
+        except _native.InputError:
+            pass  # told of when its turn comes
+
+    def _run_on(self, source: Source) -> Iterator[Frame]:
         turn = ROTATIONS.index(source._rotate)
         while (seen := source._wait_for(lambda ms: self._native.track_next(source._native, ms, turn))) is not None:
             _, made, self._time_s, _ = seen
             if made is not None:
                 yield frame_from(made, self._faces)
-        while (held := self.take_held()) is not None:
-            yield held
 
     def choose_users(self, ids: Union[int, Sequence[int], None] = None) -> None:
         """Track only these people fully, the others by position (the SDK's AppChoosesSkeletons).
@@ -416,9 +434,9 @@ class Tracker:
         if ids is None:
             self._native.choose_users(None)
             return
-        if isinstance(ids, (int, np.integer)):
-            ids = [int(ids)]
-        if not isinstance(ids, (list, tuple, set, frozenset, range, np.ndarray)):
+        if isinstance(ids, (int, np.integer, np.ndarray)):
+            ids = np.atleast_1d(ids).tolist()
+        if not isinstance(ids, (list, tuple, set, frozenset, range)):
             raise _check.refuse("ids", "body ids, or None for everybody", ids)
         self._native.choose_users([_check.whole("ids", i, 0, 2**31 - 1) for i in ids])
 
