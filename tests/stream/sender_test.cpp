@@ -2,13 +2,18 @@
 
 #include <arpa/inet.h>
 #include <gtest/gtest.h>
+#include <netdb.h>
 #include <sys/socket.h>
 #include <unistd.h>
 
 #include <array>
 #include <bit>
+#include <cmath>
 #include <cstring>
 #include <string>
+#include <vector>
+
+#include "tools/stream/udp_socket_internal.h"
 
 namespace ossa::stream {
 namespace {
@@ -35,6 +40,11 @@ class Receiver {
     const ssize_t size = recv(socket_, datagram.data(), datagram.size(), 0);
     datagram.resize(size > 0 ? static_cast<size_t>(size) : 0);
     return datagram;
+  }
+  // On this machine a datagram is there once it was sent.
+  bool HasOne() const {
+    char byte = 0;
+    return recv(socket_, &byte, 1, MSG_PEEK | MSG_DONTWAIT) >= 0;
   }
 
  private:
@@ -65,6 +75,74 @@ TEST(Sender, APerformersTimeCountsFromTheFirstFrame) {
     sender.Send(frame);
     EXPECT_EQ(TimeIn(receiver.Next()), static_cast<float>(time_s));
   }
+}
+
+tracker::BodyFrame FrameOf(double time_s, const std::vector<int>& ids) {
+  tracker::BodyFrame frame;
+  frame.time_s = time_s;
+  for (const int id : ids) {
+    tracker::Body& body = frame.bodies.emplace_back();
+    body.id = id;
+    body.state = tracker::BodyState::kTracked;
+    body.joints[recon::Joint::kHead].position_m.x() = id;
+  }
+  return frame;
+}
+
+// Whom each of the frames shows VRChat, by the head's x, which says the id; 0: nobody.
+std::vector<int> WhomVrchatGets(const std::vector<tracker::BodyFrame>& frames) {
+  const Receiver receiver;
+  Sender sender({ParseTarget("vrchat://127.0.0.1:" + std::to_string(receiver.port()))});
+  std::vector<int> whom;
+  for (const tracker::BodyFrame& frame : frames) {
+    sender.Send(frame);
+    whom.push_back(0);
+    if (!receiver.HasOne()) continue;
+    constexpr std::string_view kHead("/tracking/trackers/head/position\0\0\0\0,fff\0\0\0\0", 44);
+    const std::string bundle = receiver.Next();
+    uint32_t bits = 0;
+    std::memcpy(&bits, bundle.data() + bundle.find(kHead) + kHead.size(), sizeof(bits));
+    whom.back() = static_cast<int>(std::lround(std::bit_cast<float>(ntohl(bits))));
+    EXPECT_FALSE(receiver.HasOne()) << "one body a frame";
+  }
+  return whom;
+}
+
+TEST(Sender, VrchatGetsTheNextPersonOnceTheFirstIsGone) {
+  EXPECT_EQ(WhomVrchatGets({FrameOf(0.0, {1, 2}), FrameOf(0.1, {2}), FrameOf(1.9, {2}),
+                            FrameOf(2.5, {2}), FrameOf(2.6, {2, 3})}),
+            (std::vector<int>{1, 0, 0, 2, 2}));
+}
+
+TEST(Sender, VrchatGetsTheFirstPersonAgainWhoWasAwayForAMoment) {
+  EXPECT_EQ(WhomVrchatGets({FrameOf(0.0, {1, 2}), FrameOf(0.1, {2}), FrameOf(0.2, {1, 2})}),
+            (std::vector<int>{1, 0, 1}));
+  EXPECT_EQ(WhomVrchatGets({FrameOf(0.0, {1, 2}), FrameOf(0.1, {2}), FrameOf(0.2, {2, 3})}),
+            (std::vector<int>{1, 0, 3}))
+      << "with a new id, in the seat that was theirs";
+}
+
+// What "localhost" has on Debian: ::1 first, where no avatar's program listens.
+TEST(UdpSocket, ANameThatHasBothKindsOfAddressIsReachedByIPv4) {
+  addrinfo v4{}, v6{};
+  v4.ai_family = AF_INET;
+  v6.ai_family = AF_INET6;
+  EXPECT_EQ(&ChooseAddress(v6), &v6);
+  EXPECT_EQ(&ChooseAddress(v4), &v4);
+  v6.ai_next = &v4;
+  EXPECT_EQ(&ChooseAddress(v6), &v4);
+}
+
+// 65536 would be port 0 of 16 bits, 65538 port 2.
+TEST(UdpSocket, BehindTheLastPortThereIsNone) {
+  const Receiver receiver;
+  Target target = ParseTarget("udp://127.0.0.1:1");
+  target.port = receiver.port();
+  const UdpSocket socket(target);
+  socket.Send("x", 65536);
+  EXPECT_FALSE(receiver.HasOne());
+  socket.Send("y", 0);
+  EXPECT_EQ(receiver.Next(), "y");
 }
 
 }  // namespace

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <optional>
 
 #include "recon/files/skeleton_jsonl.h"
@@ -26,8 +27,11 @@ struct Sender::Impl {
   UnityRoom room;
   std::optional<double> first_s;  // when the first frame was taken: a float holds what follows
   std::array<int, kMostPeople> people{};  // body ids by port; 0: free
+  int of_vrchat = 0;                      // the body that VRChat gets; 0: none yet
+  double of_vrchat_seen_s = 0.0;
 
   void Seat(const tracker::BodyFrame& frame);
+  void ChooseForVrchat(double time_s);
   void SendPerson(const tracker::Body& body, size_t seat, double time_s);
 };
 
@@ -55,13 +59,31 @@ void Sender::Impl::Seat(const tracker::BodyFrame& frame) {
   }
 }
 
+// After Seat. VRChat has one body for all trackers: the first person's. Where they are gone,
+// whoever takes their seat is the same one under a new id, or comes instead; else, after a while,
+// the next one is sent, or furniture that was taken for the first person for a moment would leave
+// VRChat without any.
+void Sender::Impl::ChooseForVrchat(double time_s) {
+  constexpr double kPatience_s = 2.0;  // by hand: one who was out of view comes back until then
+  const bool here =
+      of_vrchat != 0 && std::find(people.begin(), people.end(), of_vrchat) != people.end();
+  if (!here) {
+    const auto next = std::find_if(people.begin(), people.end(), [](int id) { return id != 0; });
+    if (next == people.end()) return;
+    const bool waits = std::abs(time_s - of_vrchat_seen_s) <= kPatience_s;
+    if (waits && next != people.begin()) return;
+    of_vrchat = *next;
+  }
+  of_vrchat_seen_s = time_s;
+}
+
 void Sender::Impl::SendPerson(const tracker::Body& body, size_t seat, double time_s) {
   const Humanoid world = ComputePose(body, room);
   for (Line& line : lines) {
     if (line.target.protocol == Protocol::kVmc) {
       line.socket.Send(VmcPacket(world, time_s, line.target.seen_only), static_cast<int>(seat));
     }
-    if (line.target.protocol == Protocol::kVrchat && seat == 0) {
+    if (line.target.protocol == Protocol::kVrchat && body.id == of_vrchat) {
       line.socket.Send(VrchatPacket(world, line.target.scale), 0);
     }
   }
@@ -71,6 +93,7 @@ void Sender::Send(const tracker::BodyFrame& frame) {
   impl_->room.See(frame);
   if (!impl_->first_s) impl_->first_s = frame.time_s;
   impl_->Seat(frame);
+  impl_->ChooseForVrchat(frame.time_s);
   for (const tracker::Body& body : frame.bodies) {
     const auto seat = std::find(impl_->people.begin(), impl_->people.end(), body.id);
     if (seat == impl_->people.end() || body.state != tracker::BodyState::kTracked) continue;

@@ -20,7 +20,8 @@ class Sender {
   Sender& operator=(Sender&&) noexcept;
 
   /// The frame to everybody. Of several people VMC gets the first at its port, the second at the
-  /// next one and so on, each as long as they stay; VRChat gets the first.
+  /// next one and so on, each as long as they stay; VRChat gets the first, and two seconds after
+  /// they left the next.
   void Send(const tracker::BodyFrame& frame);
 
  private:

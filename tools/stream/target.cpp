@@ -14,7 +14,6 @@ namespace {
 
 constexpr int kVmcPort = 39539;
 constexpr int kVrchatPort = 9000;
-constexpr int kMostPort = 65535;
 
 template <typename Number>
 std::optional<Number> NumberIn(const std::string& text) {

@@ -3,6 +3,8 @@
 
 namespace ossa::stream {
 
+inline constexpr int kMostPort = 65535;  // by definition of UDP
+
 /// Who understands what is sent.
 enum class Protocol {
   kVmc,     // Virtual Motion Capture: avatars' programs

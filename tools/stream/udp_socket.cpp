@@ -1,4 +1,3 @@
-#include <netdb.h>
 #include <netinet/in.h>
 #include <unistd.h>
 
@@ -23,6 +22,13 @@ void SetPort(sockaddr_storage& address, int port) {
 
 }  // namespace
 
+const addrinfo& ChooseAddress(const addrinfo& first) {
+  for (const addrinfo* one = &first; one != nullptr; one = one->ai_next) {
+    if (one->ai_family == AF_INET) return *one;
+  }
+  return first;
+}
+
 UdpSocket::UdpSocket(const Target& target) : port_(target.port) {
   addrinfo wanted{};
   wanted.ai_socktype = SOCK_DGRAM;
@@ -32,9 +38,10 @@ UdpSocket::UdpSocket(const Target& target) : port_(target.port) {
     throw InputError("--send " + target.url + ": expected a host: " + gai_strerror(failure));
   }
   const std::unique_ptr<addrinfo, decltype(&freeaddrinfo)> freed(found, &freeaddrinfo);
-  std::memcpy(&address_, found->ai_addr, found->ai_addrlen);
-  address_size_ = found->ai_addrlen;
-  descriptor_ = socket(found->ai_family, SOCK_DGRAM | SOCK_NONBLOCK | SOCK_CLOEXEC, 0);
+  const addrinfo& chosen = ChooseAddress(*found);
+  std::memcpy(&address_, chosen.ai_addr, chosen.ai_addrlen);
+  address_size_ = chosen.ai_addrlen;
+  descriptor_ = socket(chosen.ai_family, SOCK_DGRAM | SOCK_NONBLOCK | SOCK_CLOEXEC, 0);
   if (descriptor_ < 0) {
     throw InputError("--send " + target.url + ": no socket: " + std::strerror(errno));
   }
@@ -51,6 +58,7 @@ UdpSocket::UdpSocket(UdpSocket&& other) noexcept
       address_size_(other.address_size_) {}
 
 void UdpSocket::Send(const std::string& bytes, int offset) const {
+  if (port_ + offset > kMostPort) return;
   sockaddr_storage address = address_;
   SetPort(address, port_ + offset);
   // Nobody waits for an answer, nor cares whether it arrives.
