@@ -26,6 +26,7 @@
 #include "tools/commands/warnings.h"
 #include "tools/tracker/smoothing.h"
 #include "tools/tracker/tracker.h"
+#include "tools/viewer/playback_clock.h"
 #include "tools/viewer/viewer.h"
 
 namespace ossa::commands {
@@ -46,24 +47,7 @@ struct ViewOptions {
   bool once = false;
 };
 
-// A recording at its own speed: waits until the time of the frame has come.
-class Clockwork {
- public:
-  void WaitFor(double time_s) {
-    if (time_s < last_s_ || time_s - last_s_ > 1.0) start_ = Clock::now() - Seconds(time_s);
-    last_s_ = time_s;
-    std::this_thread::sleep_until(start_ + Seconds(time_s));
-  }
-  // For a frame's time, as every other.
-  static void ShowTheLast() { std::this_thread::sleep_for(Seconds(1.0 / 30.0)); }
-
- private:
-  static Clock::duration Seconds(double s) {
-    return std::chrono::duration_cast<Clock::duration>(std::chrono::duration<double>(s));
-  }
-  Clock::time_point start_ = Clock::now();
-  double last_s_ = -1e9;
-};
+void ShowTheLast() { std::this_thread::sleep_for(viewer::PlaybackClock::LastFramesTime()); }
 
 bool IsSource(const std::string& what) {
   return IsDevice(what) || std::filesystem::is_directory(what) || depth::IsRecording(what);
@@ -126,14 +110,14 @@ void ShowSkeletons(const ViewOptions& options) {
   with.expected_frames = static_cast<int64_t>(sequence.frames.size());
   viewer::Viewer viewer(with);
   SayWhere(viewer);
-  Clockwork clockwork;
+  viewer::PlaybackClock clock;
   for (const recon::SkeletonFrame& frame : sequence.frames) {
     if (Interrupted()) return;
-    if (options.once) clockwork.WaitFor(frame.time_s);
+    if (options.once) std::this_thread::sleep_until(clock.DueAt(frame.time_s));
     viewer.Show(viewer::MomentOf(frame));
   }
   viewer.Complete();
-  if (options.once) return Clockwork::ShowTheLast();
+  if (options.once) return ShowTheLast();
   WaitUntilInterrupted();
 }
 
@@ -170,7 +154,7 @@ class PageTracker {
       if (read.status != depth::ReadStatus::kEnd) continue;
       progress_.reset();
       viewer_->Complete();
-      if (options_.once) return Clockwork::ShowTheLast();
+      if (options_.once) return ShowTheLast();
       WaitForSettings();
     }
   }
@@ -189,7 +173,9 @@ class PageTracker {
   void Show(const depth::ReadResult& read) {
     const Clock::time_point arrived = Clock::now();
     dropped_ += read.dropped;
-    if (options_.once && !source_->is_live()) clockwork_.WaitFor(read.frame.time_s);
+    if (options_.once && !source_->is_live()) {
+      std::this_thread::sleep_until(clock_.DueAt(read.frame.time_s));
+    }
     tracker::BodyFrame bodies = tracker_.Track(read.frame);
     std::vector<viewer::Solid> solids = viewer::SolidsOf(bodies, options_.mechanics.follows());
     viewer::Moment moment = viewer::MomentOf(read.frame, std::move(bodies));
@@ -244,7 +230,7 @@ class PageTracker {
   std::optional<viewer::Settings> next_settings_;
   tracker::Tracker tracker_;
   std::unique_ptr<viewer::Viewer> viewer_;
-  Clockwork clockwork_;
+  viewer::PlaybackClock clock_;
   std::optional<Progress> progress_;
   int64_t shown_ = 0, dropped_ = 0;  // frames
   bool gone_ = false;                // the camera is unplugged

@@ -30,10 +30,11 @@ bool AreSame(std::string_view a, std::string_view b) {
   return difference == 0;
 }
 
-std::string_view CookieToken(std::string_view cookies) {
-  const size_t at = cookies.find(kTokenCookie);
+std::string_view CookieToken(std::string_view cookies, const std::string& name) {
+  const std::string begin = name + "=";
+  const size_t at = cookies.find(begin);
   if (at == std::string_view::npos) return {};
-  const std::string_view value = cookies.substr(at + kTokenCookie.size());
+  const std::string_view value = cookies.substr(at + begin.size());
   return value.substr(0, value.find(';'));
 }
 
@@ -46,14 +47,16 @@ bool Access::AllowsHost(std::string_view host) const {
   return !loopback && IsAddress(name);
 }
 
-bool Access::AllowsToken(std::string_view target, std::string_view cookies) const {
+bool Access::AllowsToken(std::string_view target, std::string_view cookies, int port) const {
   return token.empty() || AreSame(QueryValue(target, "token"), token) ||
-         AreSame(CookieToken(cookies), token);
+         AreSame(CookieToken(cookies, TokenCookie(port)), token);
 }
 
 bool Access::AllowsOrigin(std::string_view origin, std::string_view host) {
   return origin.empty() || origin == "http://" + std::string(host);
 }
+
+std::string TokenCookie(int port) { return "ossa_token_" + std::to_string(port); }
 
 bool IsPageOfThisMachine(std::string_view origin) {
   for (const std::string_view host : {"http://localhost", "http://127.0.0.1"}) {

@@ -12,8 +12,8 @@ struct Access {
   /// Pages elsewhere can make a browser ask under a name of theirs (DNS rebinding): on loopback
   /// this machine's names are answered, for other machines any plain IP address, too.
   bool AllowsHost(std::string_view host) const;
-  /// By `?token=` of the target or by the cookie that it was answered with.
-  bool AllowsToken(std::string_view target, std::string_view cookies) const;
+  /// By `?token=` of the target or by the cookie that it was answered with; `port`: of the server.
+  bool AllowsToken(std::string_view target, std::string_view cookies, int port) const;
   /// A page of another place may open no WebSocket here: its Origin must be this Host.
   static bool AllowsOrigin(std::string_view origin, std::string_view host);
 };
@@ -22,6 +22,8 @@ struct Access {
 /// not.
 bool IsPageOfThisMachine(std::string_view origin);
 
-inline constexpr std::string_view kTokenCookie = "ossa_token=";
+/// The name of the token's cookie. Browsers keep one store of cookies for all ports of a host: of
+/// two viewers on a machine neither must overwrite the other's.
+std::string TokenCookie(int port);
 
 }  // namespace ossa::viewer

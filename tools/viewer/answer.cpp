@@ -16,23 +16,36 @@
 namespace ossa::viewer {
 namespace {
 
+// None where the text is none, or more than any recording has frames, so that sums do not overflow.
+std::optional<int64_t> WholeNumber(const std::string& text) {
+  constexpr int64_t kMost = int64_t{1} << 40;  // count, by hand
+  int64_t value = 0;
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+  const bool good = error == std::errc() && end == text.data() + text.size();
+  return good && value >= 0 && value <= kMost ? std::optional(value) : std::nullopt;
+}
+
 int64_t Number(std::string_view target, std::string_view key, int64_t otherwise) {
   const std::string text = QueryValue(target, key);
   if (text.empty()) return otherwise;
-  int64_t value = 0;
-  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
-  if (error != std::errc() || end != text.data() + text.size() || value < 0) {
-    throw InputError(std::string(key) + "=" + text + ": expected a whole number of 0 or more");
-  }
-  return value;
+  if (const auto value = WholeNumber(text)) return *value;
+  throw InputError(std::string(key) + "=" + text + ": expected a whole number of 0 or more");
 }
 
 Answer Lines(std::string_view target, const Desk& desk) {
   constexpr int64_t kMostLines = 500;  // count: 1.5 MB of one person, by hand
+  const int64_t from = Number(target, "from", 0);
   const int64_t count = std::min(Number(target, "count", kMostLines), kMostLines);
-  return {
-      .type = "application/x-ndjson",
-      .body = desk.SkeletonLines(QueryValue(target, "layer"), Number(target, "from", 0), count)};
+  const std::string layer = QueryValue(target, "layer");
+  Answer answer{.type = "application/x-ndjson"};
+  if (layer.empty() || layer == "final") {
+    answer.body = desk.FinalLines(from, count);
+  } else if (const auto overlay = WholeNumber(layer)) {
+    answer.body = desk.OverlayLines(static_cast<size_t>(*overlay), from, count);
+  } else {
+    throw InputError("layer=" + layer + ": expected final, or the number of one of --over");
+  }
+  return answer;
 }
 
 // A folder of its own that goes with the object.
@@ -82,7 +95,7 @@ Answer Export(std::string_view target, const Desk& desk) {
   }
   const int64_t from = Number(target, "from", 0), to = Number(target, "to", kMostFrames);
   const int64_t count = std::min(to - from + 1, kMostFrames);
-  std::istringstream lines(desk.SkeletonLines("final", from, count));
+  std::istringstream lines(desk.FinalLines(from, count));
   const recon::SkeletonSequence sequence = recon::ReadSkeletonJsonl(lines, "the span");
   const ScratchFolder folder;
   const std::string name = "skeletons." + format;

@@ -61,19 +61,19 @@ std::string Desk::StateJson() const {
   return json.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace);
 }
 
-// `layer` is "final" or the number of an overlay.
-std::string Desk::SkeletonLines(const std::string& layer, int64_t from, int64_t count) const {
+std::string Desk::FinalLines(int64_t from, int64_t count) const {
   std::string text;
-  const bool is_final = layer == "final";
-  const auto overlay = static_cast<size_t>(std::atoi(layer.c_str()));
-  if (!is_final && overlay >= overlay_lines_.size()) return text;
-  const int64_t frames = is_final ? (store.keeps() ? store.count().frames : 0)
-                                  : static_cast<int64_t>(overlay_lines_[overlay].size());
-  const int64_t end = std::min(frames, from + count);
-  for (int64_t i = from; i < end; ++i) {
-    text += is_final ? store.Line(i) : overlay_lines_[overlay][static_cast<size_t>(i)];
-    text += '\n';
-  }
+  const int64_t frames = store.keeps() ? store.count().frames : 0;
+  for (int64_t i = from; i < std::min(frames, from + count); ++i) text += store.Line(i) + '\n';
+  return text;
+}
+
+std::string Desk::OverlayLines(size_t overlay, int64_t from, int64_t count) const {
+  std::string text;
+  if (overlay >= overlay_lines_.size()) return text;
+  const std::vector<std::string>& lines = overlay_lines_[overlay];
+  const int64_t end = std::min(static_cast<int64_t>(lines.size()), from + count);
+  for (int64_t i = from; i < end; ++i) text += lines[static_cast<size_t>(i)] + '\n';
   return text;
 }
 

@@ -20,7 +20,9 @@ struct Desk {
 
   /// The state as JSON: what is shown, how many frames there are, settings, recording.
   std::string StateJson() const;
-  std::string SkeletonLines(const std::string& layer, int64_t from, int64_t count) const;
+  /// Skeleton JSONL of so many frames from one on, as far as they are there.
+  std::string FinalLines(int64_t from, int64_t count) const;
+  std::string OverlayLines(size_t overlay, int64_t from, int64_t count) const;
 
   void ChangeSettings(const Settings& settings);
   std::optional<Settings> TakeSettings();

@@ -2,6 +2,7 @@
 #include <boost/asio/write.hpp>
 #include <utility>
 
+#include "tools/viewer/playback_clock.h"
 #include "tools/viewer/session_internal.h"
 
 namespace ossa::viewer {
@@ -9,11 +10,7 @@ namespace {
 
 namespace asio = boost::asio;
 namespace http = boost::beast::http;
-using Clock = std::chrono::steady_clock;
-
-Clock::duration Seconds(double s) {
-  return std::chrono::duration_cast<Clock::duration>(std::chrono::duration<double>(s));
-}
+using Clock = PlaybackClock::Clock;
 
 class EventSession : public std::enable_shared_from_this<EventSession> {
  public:
@@ -41,7 +38,7 @@ class EventSession : public std::enable_shared_from_this<EventSession> {
     }
     if (next_ >= count.frames && count.complete && count.frames > 0) return PlayAgain();
     if (next_ >= count.frames) {
-      is_started_ = false;  // the tracker is slower than the recording
+      clock_.Restart();  // the tracker is slower than the recording
       return Wait();
     }
     Play(store);
@@ -50,20 +47,17 @@ class EventSession : public std::enable_shared_from_this<EventSession> {
   void Rewind(int64_t generation) {
     generation_ = generation;
     next_ = 0;
-    is_started_ = false;
+    clock_.Restart();
   }
 
   void PlayAgain() {
-    constexpr double kPause_s = 1.0 / 30.0;  // a frame's time, as every other; by convention
     Rewind(generation_);
-    After(Clock::now() + Seconds(kPause_s));
+    After(Clock::now() + PlaybackClock::LastFramesTime());
   }
 
   void Play(const FrameStore& store) {
-    const Clock::duration time = Seconds(store.TimeOf(next_));
-    if (!is_started_) start_ = Clock::now() - time;
-    is_started_ = true;
-    if (start_ + time > Clock::now()) return After(start_ + time);
+    const Clock::time_point due = clock_.DueAt(store.TimeOf(next_));
+    if (due > Clock::now()) return After(due);
     Write("data: " + store.Line(next_++) + "\n\n");
   }
 
@@ -97,8 +91,7 @@ class EventSession : public std::enable_shared_from_this<EventSession> {
   asio::steady_timer timer_;
   std::string text_;
   int64_t next_ = 0, generation_ = 0;
-  bool is_started_ = false;
-  Clock::time_point start_;
+  PlaybackClock clock_;
 };
 
 }  // namespace

@@ -67,7 +67,8 @@ class HttpSession : public Connection, public std::enable_shared_from_this<HttpS
     const std::string_view host = View(request[http::field::host]);
     const std::string_view target = View(request.target());
     if (!server_.access().AllowsHost(host)) return Refuse(http::status::forbidden);
-    if (!server_.access().AllowsToken(target, View(request[http::field::cookie]))) {
+    const std::string_view cookies = View(request[http::field::cookie]);
+    if (!server_.access().AllowsToken(target, cookies, server_.port())) {
       return Refuse(http::status::unauthorized);
     }
     if (request.method() != http::verb::get) return Refuse(http::status::method_not_allowed);
@@ -115,7 +116,8 @@ class HttpSession : public Connection, public std::enable_shared_from_this<HttpS
                    "attachment; filename=\"" + answer.file_name + "\"");
     }
     if (!server_.access().token.empty()) {
-      response.set(http::field::set_cookie, std::string(kTokenCookie) + server_.access().token +
+      response.set(http::field::set_cookie, TokenCookie(server_.port()) + "=" +
+                                                server_.access().token +
                                                 "; HttpOnly; SameSite=Strict; Path=/");
     }
     response.body() = std::move(answer.body);

@@ -12,20 +12,34 @@ namespace ossa::viewer {
 namespace asio = boost::asio;
 using asio::ip::tcp;
 
+namespace {
+
+// Why nothing can be served at an address, and what would do instead.
+InputError Refusal(const tcp::endpoint& at, const boost::system::error_code& error) {
+  const std::string address = at.address().to_string(), why = " (" + error.message() + ")";
+  const std::string port = "port " + std::to_string(at.port()) + ": expected a ";
+  if (error == asio::error::address_in_use) {
+    return InputError(port + "free port on " + address + ", it is taken" + why);
+  }
+  if (error == asio::error::access_denied) {
+    return InputError(port + "port that this user may open, 1024 or more" + why);
+  }
+  return InputError(address + ": expected an IP address of this machine" + why);
+}
+
+}  // namespace
+
 Server::Server(Desk& desk, Access access) : desk_(desk), access_(std::move(access)) {
   ToldOrSecond();
 }
 
 void Server::Listen(const tcp::endpoint& at) {
   boost::system::error_code error;
-  acceptor_.open(at.protocol());
-  acceptor_.set_option(tcp::acceptor::reuse_address(true));
-  acceptor_.bind(at, error);
+  acceptor_.open(at.protocol(), error);
+  if (!error) acceptor_.set_option(tcp::acceptor::reuse_address(true), error);
+  if (!error) acceptor_.bind(at, error);
   if (!error) acceptor_.listen(asio::socket_base::max_listen_connections, error);
-  if (error) {
-    throw InputError("port " + std::to_string(at.port()) + ": expected a free port on " +
-                     at.address().to_string() + ", it is taken (" + error.message() + ")");
-  }
+  if (error) throw Refusal(at, error);
   Accept();
 }
 

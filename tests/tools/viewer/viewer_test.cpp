@@ -17,6 +17,7 @@
 #include "tests/support/sanitized.h"
 #include "tests/support/temporary_folder.h"
 #include "tests/tools/viewer/web_client.h"
+#include "tools/viewer/playback_clock.h"
 
 namespace ossa::viewer {
 namespace {
@@ -86,11 +87,38 @@ TEST(Viewer, OtherMachinesNeedTheToken) {
   EXPECT_EQ(AnswerTo(viewer.port(), get + "/state?token=s3creT" + rest),
             "HTTP/1.1 401 Unauthorized");
   EXPECT_EQ(AnswerTo(viewer.port(), get + "/state?token=s3cret" + rest), "HTTP/1.1 200 OK");
-  EXPECT_EQ(AnswerTo(viewer.port(), get + "/state" + rest + "\r\nCookie: a=b; ossa_token=s3cret"),
-            "HTTP/1.1 200 OK");
+  const auto with_cookie = [&](int port) {
+    return get + "/state" + rest + "\r\nCookie: a=b; ossa_token_" + std::to_string(port) +
+           "=s3cret";
+  };
+  EXPECT_EQ(AnswerTo(viewer.port(), with_cookie(viewer.port())), "HTTP/1.1 200 OK");
+  EXPECT_EQ(AnswerTo(viewer.port(), with_cookie(viewer.port() + 1)), "HTTP/1.1 401 Unauthorized")
+      << "that of another viewer of this machine, which a browser sends, too";
   EXPECT_EQ(AnswerTo(viewer.port(), get + "/state?token=s3cret HTTP/1.1\r\nHost: evil.example"),
             "HTTP/1.1 403 Forbidden");
   EXPECT_NE(viewer.urls().front().find("?token=s3cret"), std::string::npos);
+}
+
+std::string RefusalAt(const std::string& address, int port) {
+  ViewerOptions options = AnyPort();
+  options.address = address;
+  options.port = port;
+  options.token = "s3cret";
+  try {
+    const Viewer viewer(options);
+  } catch (const InputError& error) {
+    return error.what();
+  }
+  return "";
+}
+
+TEST(Viewer, SaysWhyItCannotServe) {
+  const Viewer viewer(AnyPort());
+  EXPECT_NE(RefusalAt("127.0.0.1", viewer.port()).find("it is taken"), std::string::npos);
+  // Of a network for documents (RFC 5737): nobody has it.
+  const std::string elsewhere = RefusalAt("192.0.2.7", 0);
+  EXPECT_NE(elsewhere.find("192.0.2.7: expected an IP address of this machine"), std::string::npos)
+      << elsewhere;
 }
 
 TEST(Viewer, OpensNoSocketForAPageOfAnotherPlace) {
@@ -274,6 +302,27 @@ TEST(Viewer, OverlaysAreGivenLineByLine) {
   const std::string lines = Get(viewer.port(), "/lines?layer=0&from=1");
   EXPECT_EQ(std::count(lines.begin(), lines.end(), '\n'), 2);
   EXPECT_EQ(Get(viewer.port(), "/lines?layer=1"), "");
+  EXPECT_EQ(Get(viewer.port(), "/lines?layer=final"), "");
+  EXPECT_EQ(Get(viewer.port(), "/lines"), "") << "the final ones, not the first overlay's";
+  EXPECT_NE(Get(viewer.port(), "/lines?layer=truth").find("expected final"), std::string::npos);
+  EXPECT_NE(Get(viewer.port(), "/lines?layer=0&from=9223372036854775807").find("whole number"),
+            std::string::npos);
+}
+
+// A camera that was set up again an hour later, and a clock that was put back.
+TEST(PlaybackClock, SkipsPausesAndBeginsAnewWhereTimesRunBackwards) {
+  PlaybackClock clock;
+  const auto start = PlaybackClock::Clock::now();
+  const auto is_soon = [&](double time_s) {
+    return clock.DueAt(time_s) < start + std::chrono::seconds(10);
+  };
+  EXPECT_TRUE(is_soon(5000.0));
+  const auto due = clock.DueAt(5000.5);
+  EXPECT_EQ(clock.DueAt(5000.5), due) << "asked again";
+  EXPECT_NEAR(std::chrono::duration<double>(due - start).count(), 0.5, 0.3);
+  EXPECT_TRUE(is_soon(8600.0));
+  EXPECT_TRUE(is_soon(1.0));
+  EXPECT_TRUE(is_soon(1.5));
 }
 
 // Browsers hold connections in store; some send a byte now and then.
