@@ -88,5 +88,20 @@ TEST(Examples, AreConfiguredWithOssasSourcesAsAPartOfTheirProject) {
   EXPECT_FALSE(std::filesystem::exists(build + "/compile_commands.json")) << "not asked for";
 }
 
+// Who links an installed ossa of static libraries links what those link: its package file must find
+// all of it. Configured, not built.
+TEST(Examples, APackageOfStaticLibrariesFindsWhatTheyLink) {
+  const TemporaryFolder folder;
+  const std::string ossa = folder / "ossa", project = folder / "project";
+  const auto configured =
+      RunProgram({"/usr/bin/env", "cmake", "-G", "Ninja", "-S", SourceFolder(), "-B", ossa,
+                  "-DBUILD_SHARED_LIBS=OFF", "-DOSSA_BUILD_TESTS=OFF", "-DOSSA_PYTHON=OFF"});
+  ASSERT_EQ(configured.exit_status, 0) << configured.err;
+  const auto looked = RunProgram(
+      {"/usr/bin/env", "cmake", "-G", "Ninja", "-S", SourceFolder() / "tests/tools/static_package",
+       "-B", project, "-DOSSA_BUILD=" + ossa, "-DOSSA_SOURCE=" + SourceFolder().string()});
+  EXPECT_EQ(looked.exit_status, 0) << looked.err;
+}
+
 }  // namespace
 }  // namespace ossa::test
