@@ -9,8 +9,8 @@
 
 namespace ossa::nite2 {
 
-/// Reads frames of all streams on one thread that never ends, for the reason of OniThread; another
-/// than that, since closing waits for callbacks, and they wait for frames.
+/// Reads frames of all streams on one thread that never ends, for the reason of LastingThread;
+/// another than that, since closing waits for callbacks, and they wait for frames.
 class FrameReader {
  public:
   static FrameReader& Instance();

@@ -1,36 +1,32 @@
 #pragma once
 #include <atomic>
-#include <condition_variable>
-#include <deque>
 #include <functional>
-#include <mutex>
-#include <thread>
+#include <utility>
+
+#include "depth/sensor/openni2/lasting_thread.h"
 
 namespace ossa::nite2 {
 
-/// The one thread, which never ends, that opens and closes what is OpenNI2's. OpenNI2 keeps a list
-/// of all threads that ever called it and looks whether they are alive when a new one does; the C
-/// library of today crashes at that for one that has ended. So no thread of the program may call.
+/// The one thread that opens and closes what is OpenNI2's.
 class OniThread {
  public:
-  static OniThread& Instance();
+  static OniThread& Instance() {
+    static auto* instance = new OniThread;  // lives as long as its thread, to the program's end
+    return *instance;
+  }
 
   /// Does it there and waits; throws what it throws.
-  void Run(const std::function<void()>& task);
+  void Run(const std::function<void()>& task) { thread_.Run(task); }
+  /// Does it there some time, after what was asked for before.
+  void Post(std::function<void()> task) { thread_.Post(std::move(task)); }
   /// How often OpenNI2 was shut down: what is older is gone with it. To be compared on the thread.
   int generation() const { return generation_; }
   void EndGeneration() { ++generation_; }
-  /// Does it there some time, after what was asked for before.
-  void Post(std::function<void()> task);
 
  private:
-  OniThread();
-  [[noreturn]] void Work();
+  OniThread() = default;
 
-  std::mutex mutex_;
-  std::condition_variable changed_;
-  std::deque<std::function<void()>> tasks_;
-  std::thread::id id_;
+  depth::LastingThread& thread_ = *new depth::LastingThread;
   std::atomic<int> generation_ = 0;
 };
 

@@ -3,16 +3,18 @@
 #include <atomic>
 #include <cmath>
 #include <cstring>
+#include <memory>
 #include <mutex>
-#include <set>
 #include <string>
 #include <thread>
-#include <vector>
+#include <utility>
 
 #include "depth/base/error.h"
 #include "depth/image/camera_io.h"
 #include "depth/sensor/drivers/camera_property_internal.h"
 #include "depth/sensor/drivers/virtual_uri.h"
+#include "depth/sensor/openni2/first_camera_internal.h"
+#include "depth/sensor/openni2/lasting_thread.h"
 #include "depth/sensor/openni2/openni_depth_internal.h"
 #include "depth/sensor/source_internal.h"
 
@@ -50,62 +52,6 @@ class UnplugFlag final : public openni::OpenNI::DeviceDisconnectedListener {
   std::atomic<bool> set_ = false;
 };
 
-struct ListedDevice {
-  std::string uri;
-  std::string make;  // whose, what, and its USB numbers
-};
-
-std::vector<ListedDevice> ListDevices() {
-  openni::Array<openni::DeviceInfo> infos;
-  openni::OpenNI::enumerateDevices(&infos);
-  std::vector<ListedDevice> devices;
-  for (int i = 0; i < infos.getSize(); ++i) {
-    const openni::DeviceInfo& info = infos[i];
-    devices.push_back({info.getUri(), std::string(info.getVendor()) + "/" + info.getName() + "/" +
-                                          std::to_string(info.getUsbVendorId()) + "/" +
-                                          std::to_string(info.getUsbProductId())});
-  }
-  return devices;
-}
-
-// The camera among those listed that "openni:" stands for: the first, and ever after that one. A
-// USB camera that is plugged in again may have another URI: it is then one of its make that was not
-// there when it went.
-class FirstCamera {
- public:
-  /// Its URI; "" while it is not there.
-  std::string Find() const {
-    const std::vector<ListedDevice> devices = ListDevices();
-    if (own_.uri.empty()) return devices.empty() ? "" : devices.front().uri;
-    const auto find = [&](const auto& is_it) {
-      const auto found = std::find_if(devices.begin(), devices.end(), is_it);
-      return found == devices.end() ? "" : found->uri;
-    };
-    const std::string same = find([&](const auto& device) { return device.uri == own_.uri; });
-    if (!same.empty()) return same;
-    return find([&](const auto& device) {
-      return device.make == own_.make && !others_.contains(device.uri);
-    });
-  }
-  /// It was opened.
-  void Opened(const std::string& uri) {
-    own_ = {uri, ""};
-    for (const ListedDevice& device : ListDevices()) {
-      if (device.uri == uri) own_ = device;
-    }
-  }
-  /// It was unplugged: whatever is there now is another.
-  void Gone() {
-    others_.clear();
-    for (const ListedDevice& device : ListDevices()) others_.insert(device.uri);
-  }
-  const std::string& uri() const { return own_.uri; }
-
- private:
-  ListedDevice own_;
-  std::set<std::string> others_;
-};
-
 // Our own drivers know the exact camera, others at least the field of view.
 Camera ReadCamera(const openni::VideoStream& stream, int width, int height) {
   std::array<double, 6> exact{};
@@ -138,22 +84,16 @@ std::string AsciiUri(const std::string& uri) {
 }
 
 // OpenNI2 itself keeps but the newest frame of a stream, so that a slow reader loses old frames and
-// never falls behind; the frame numbers tell how many.
-class DeviceSource final : public FrameSource {
+// never falls behind; the frame numbers tell how many. Used on one thread alone, a lasting one.
+class Device {
  public:
-  DeviceSource(std::string uri, const SourceOptions& options)
-      : wanted_uri_(std::move(uri)), ascii_uri_(AsciiUri(wanted_uri_)), options_(options) {
-    const auto deadline = Clock::now() + options.device_wait;
-    while (!TryOpen()) {
-      const bool go_on = !options.keep_waiting || options.keep_waiting();
-      if (Clock::now() >= deadline || !go_on) FailToOpen();
-      std::this_thread::sleep_for(kSlice);
-    }
-  }
+  Device(std::string uri, const SourceOptions& options)
+      : wanted_uri_(std::move(uri)), ascii_uri_(AsciiUri(wanted_uri_)), options_(options) {}
+  ~Device() { Close(); }
+  Device(const Device&) = delete;
+  Device& operator=(const Device&) = delete;
 
-  ~DeviceSource() override { Close(); }
-
-  ReadResult Read(milliseconds timeout) override {
+  ReadResult Read(milliseconds timeout) {
     const auto deadline = Clock::now() + timeout;
     if (!open_) return Reopen(deadline);
     do {
@@ -174,13 +114,9 @@ class DeviceSource final : public FrameSource {
     } while (Clock::now() < deadline);
     return Result(ReadStatus::kTimeout);
   }
-  const Camera& camera() const override { return camera_; }
-  bool is_live() const override { return true; }
-  std::optional<int64_t> frame_count() const override { return std::nullopt; }
+  const Camera& camera() const { return camera_; }
 
- private:
-  static ReadResult Result(ReadStatus status) { return {.status = status, .frame = {}}; }
-
+  // Throws what TryOpen failed of.
   [[noreturn]] void FailToOpen() const {
     const std::string name = "openni:" + wanted_uri_;
     if (wanted_uri_.empty() && ListDevices().empty()) {
@@ -203,6 +139,9 @@ class DeviceSource final : public FrameSource {
     if (wanted_uri_.empty() && uri != first_.uri()) BeginWith(uri);
     return true;
   }
+
+ private:
+  static ReadResult Result(ReadStatus status) { return {.status = status, .frame = {}}; }
 
   void BeginWith(const std::string& uri) {
     if (!first_.uri().empty() && options_.note) {
@@ -300,6 +239,51 @@ class DeviceSource final : public FrameSource {
   int64_t last_index_ = -1;
   int64_t last_device_index_ = 0;
   Clock::time_point last_frame_at_;
+};
+
+// A device, whichever of the program's threads asks for its frames.
+class DeviceSource final : public FrameSource {
+ public:
+  DeviceSource(const std::string& uri, const SourceOptions& options) {
+    try {
+      thread_->Run([&] { device_ = std::make_unique<Device>(uri, options); });
+      Wait(options);
+    } catch (...) {
+      End();
+      throw;
+    }
+  }
+  ~DeviceSource() override { End(); }
+  DeviceSource(const DeviceSource&) = delete;
+  DeviceSource& operator=(const DeviceSource&) = delete;
+
+  ReadResult Read(milliseconds timeout) override {
+    ReadResult read;
+    thread_->Run([&] { read = device_->Read(timeout); });
+    return read;
+  }
+  const Camera& camera() const override { return device_->camera(); }
+  bool is_live() const override { return true; }
+  std::optional<int64_t> frame_count() const override { return std::nullopt; }
+
+ private:
+  // Here, since keep_waiting may look at what its own thread alone is told, as Python's of Ctrl-C.
+  void Wait(const SourceOptions& options) {
+    const auto deadline = Clock::now() + options.device_wait;
+    for (bool is_open = false;;) {
+      thread_->Run([&] { is_open = device_->TryOpen(); });
+      if (is_open) return;
+      const bool go_on = !options.keep_waiting || options.keep_waiting();
+      if (Clock::now() >= deadline || !go_on) thread_->Run([&] { device_->FailToOpen(); });
+      std::this_thread::sleep_for(kSlice);
+    }
+  }
+  void End() {
+    thread_->Run([this] { device_.reset(); });
+  }
+
+  BorrowedThread thread_;
+  std::unique_ptr<Device> device_;
 };
 
 }  // namespace

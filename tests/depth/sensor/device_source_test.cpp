@@ -1,15 +1,22 @@
 // OpenNI2 devices, through the virtual one: what a live camera does and can do to its reader.
 #include <gtest/gtest.h>
+#include <pthread.h>
+#include <sys/wait.h>
+#include <unistd.h>
 
 #include <array>
 #include <chrono>
 #include <fstream>
+#include <functional>
+#include <memory>
 #include <thread>
+#include <vector>
 
 #include "depth/base/error.h"
 #include "depth/image/camera_io.h"
 #include "depth/sensor/frame_source.h"
 #include "depth/sensor/oni_recorder.h"
+#include "depth/sensor/openni2/lasting_thread.h"
 #include "tests/support/depth_examples.h"
 #include "tests/support/temporary_folder.h"
 
@@ -251,6 +258,74 @@ TEST(Device, TheFirstGoesOnAfterItWasUnplugged) {
   int64_t dropped = 0;  // some 9 frames where it was gone
   for (int i = 0; i < 20 && dropped < 8; ++i) dropped = NextFrame(*source).dropped;
   EXPECT_GE(dropped, 8);
+}
+
+// Does it on a thread of which nothing is left afterwards: its stack is larger than all that the C
+// library keeps of ended threads, and than that of the thread before, whose place it cannot take.
+void OnAThreadThatEnds(std::function<void()> task) {
+  static size_t stack = size_t{256} << 20;  // bytes
+  stack += size_t{16} << 20;
+  pthread_attr_t attributes;
+  ASSERT_EQ(pthread_attr_init(&attributes), 0);
+  ASSERT_EQ(pthread_attr_setstacksize(&attributes, stack), 0);
+  const auto run = [](void* what) -> void* {
+    (*static_cast<std::function<void()>*>(what))();
+    return nullptr;
+  };
+  pthread_t thread{};
+  ASSERT_EQ(pthread_create(&thread, &attributes, run, &task), 0);
+  ASSERT_EQ(pthread_join(thread, nullptr), 0);
+  pthread_attr_destroy(&attributes);
+}
+
+// OpenNI2 asks of every thread that ever called it whether it is alive, which glibc has no answer
+// for once it is not: a program that opens its camera on a thread of its own, twice, crashed.
+TEST(Device, ThreadsThatUsedItMayEnd) {
+  const TemporaryFolder folder;
+  WriteExampleFolder(folder.path(), 30);
+  const std::string uri = Uri(folder, "?loop=1");
+  for (int i = 0; i < 3; ++i) {
+    OnAThreadThatEnds([&] {
+      const auto source = OpenSource(uri);
+      EXPECT_EQ(NextFrame(*source).status, ReadStatus::kFrame);
+    });
+  }
+  std::unique_ptr<FrameSource> source;
+  OnAThreadThatEnds([&] { source = OpenSource(uri); });
+  for (int i = 0; i < 3; ++i) {
+    OnAThreadThatEnds([&] { EXPECT_EQ(NextFrame(*source).status, ReadStatus::kFrame); });
+  }
+  OnAThreadThatEnds([&] { source.reset(); });
+}
+
+// Python's look for Ctrl-C says nothing on another thread.
+TEST(Device, WhoWaitsForItIsAskedOnTheirOwnThread) {
+  SourceOptions options;
+  options.device_wait = std::chrono::minutes(1);
+  std::vector<std::thread::id> asked;
+  options.keep_waiting = [&] {
+    asked.push_back(std::this_thread::get_id());
+    return asked.size() < 2;
+  };
+  EXPECT_THROW(OpenSource("openni:ossa:///nowhere", options), InputError);
+  EXPECT_EQ(asked, std::vector<std::thread::id>(2, std::this_thread::get_id()));
+}
+
+// A process forked meanwhile has the sources and none of the threads.
+TEST(LastingThread, InAForkedProcessWorkIsDoneByWhoeverAsks) {
+  const BorrowedThread thread;
+  int done = 0;
+  thread->Run([&] { done = 1; });
+  const pid_t child = fork();
+  if (child == 0) {
+    alarm(20);
+    thread->Run([&] { done = 2; });
+    _exit(done == 2 ? 0 : 1);
+  }
+  int status = -1;
+  ASSERT_EQ(waitpid(child, &status, 0), child);
+  EXPECT_EQ(status, 0);
+  EXPECT_EQ(done, 1);
 }
 
 TEST(Device, ThatIsNotThereIsOneLineAfterTheWaitAsked) {
