@@ -14,16 +14,16 @@ const char* NameOf(physics::Shape shape) {
   return shape == physics::Shape::kCapsule ? "capsule" : "box";
 }
 
-std::string Json(const Eigen::Vector3d& v) {
+std::string JsonOf(const Eigen::Vector3d& v) {
   return fmt::format("[{:.4f},{:.4f},{:.4f}]", v.x(), v.y(), v.z());
 }
 
-std::string Json(const Solid& solid) {
+std::string JsonOf(const Solid& solid) {
   const Eigen::Quaterniond& turn = solid.orientation;
   return fmt::format(
       R"({{"shape":"{}","size":{},"at":{},"turn":[{:.5f},{:.5f},{:.5f},{:.5f}],"person":{}}})",
-      NameOf(solid.shape), Json(solid.size_m), Json(solid.position_m), turn.x(), turn.y(), turn.z(),
-      turn.w(), solid.person);
+      NameOf(solid.shape), JsonOf(solid.size_m), JsonOf(solid.position_m), turn.x(), turn.y(),
+      turn.z(), turn.w(), solid.person);
 }
 
 }  // namespace
@@ -85,7 +85,7 @@ std::string SolidsJson(const std::vector<Solid>& solids) {
   std::string text = "[";
   for (const Solid& solid : solids) {
     if (text.size() > 1) text += ",";
-    text += Json(solid);
+    text += JsonOf(solid);
   }
   return text + "]";
 }
