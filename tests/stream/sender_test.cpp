@@ -21,10 +21,10 @@ namespace {
 // What is sent to a port of this machine.
 class Receiver {
  public:
-  Receiver() {
+  explicit Receiver(in_addr_t at = INADDR_LOOPBACK) {
     sockaddr_in address{};
     address.sin_family = AF_INET;
-    address.sin_addr.s_addr = htonl(INADDR_LOOPBACK);
+    address.sin_addr.s_addr = htonl(at);
     socklen_t size = sizeof(address);
     EXPECT_EQ(bind(socket_, reinterpret_cast<sockaddr*>(&address), size), 0);
     getsockname(socket_, reinterpret_cast<sockaddr*>(&address), &size);
@@ -131,6 +131,14 @@ TEST(UdpSocket, ANameThatHasBothKindsOfAddressIsReachedByIPv4) {
   EXPECT_EQ(&ChooseAddress(v4), &v4);
   v6.ai_next = &v4;
   EXPECT_EQ(&ChooseAddress(v6), &v4);
+}
+
+TEST(UdpSocket, AWholeNetworkMayBeSentTo) {
+  const Receiver receiver(INADDR_ANY);
+  const UdpSocket socket(ParseTarget("udp://127.255.255.255:" + std::to_string(receiver.port())));
+  socket.Send("x", 0);
+  ASSERT_TRUE(receiver.HasOne());
+  EXPECT_EQ(receiver.Next(), "x");
 }
 
 // 65536 would be port 0 of 16 bits, 65538 port 2.

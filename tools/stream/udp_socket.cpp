@@ -45,6 +45,10 @@ UdpSocket::UdpSocket(const Target& target) : port_(target.port) {
   if (descriptor_ < 0) {
     throw InputError("--send " + target.url + ": no socket: " + std::strerror(errno));
   }
+  // So that a whole network's address may be sent to, as programs on a stage are; else that would
+  // fail without a word at each datagram.
+  const int yes = 1;
+  setsockopt(descriptor_, SOL_SOCKET, SO_BROADCAST, &yes, sizeof(yes));
 }
 
 UdpSocket::~UdpSocket() {

@@ -96,6 +96,9 @@ Answer Export(std::string_view target, const Desk& desk) {
   const int64_t from = Number(target, "from", 0), to = Number(target, "to", kMostFrames);
   const int64_t count = std::min(to - from + 1, kMostFrames);
   std::istringstream lines(desk.FinalLines(from, count));
+  if (lines.str().empty()) {
+    throw InputError("from, to: expected frames of a recording that are there, found none");
+  }
   const recon::SkeletonSequence sequence = recon::ReadSkeletonJsonl(lines, "the span");
   const ScratchFolder folder;
   const std::string name = "skeletons." + format;

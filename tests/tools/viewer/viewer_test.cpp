@@ -261,6 +261,8 @@ TEST(Viewer, ASpanIsExportedInEveryFormat) {
             std::string::npos);
   EXPECT_NE(Get(viewer.port(), "/export?format=csv&from=x").find("whole number"),
             std::string::npos);
+  EXPECT_NE(Get(viewer.port(), "/export?format=csv&from=4&to=2").find("found none"),
+            std::string::npos);
 }
 
 TEST(Viewer, SolidsAreGivenWithTheirMoment) {
