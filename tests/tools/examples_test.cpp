@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <filesystem>
+#include <fstream>
 #include <regex>
 #include <sstream>
 
@@ -86,6 +87,10 @@ TEST(Examples, AreConfiguredWithOssasSourcesAsAPartOfTheirProject) {
                                     "CMakeFiles/live_tracker.dir/live_tracker.cpp.o"});
   EXPECT_EQ(compiled.exit_status, 0) << compiled.out << compiled.err;
   EXPECT_FALSE(std::filesystem::exists(build + "/compile_commands.json")) << "not asked for";
+  std::ifstream cache(build + "/CMakeCache.txt");
+  for (std::string line; std::getline(cache, line);) {
+    EXPECT_FALSE(line.starts_with("BUILD_SHARED_LIBS")) << "would be for their libraries: " << line;
+  }
 }
 
 // Who links an installed ossa of static libraries links what those link: its package file must find
