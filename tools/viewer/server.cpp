@@ -1,6 +1,7 @@
 #include "tools/viewer/server_internal.h"
 
 #include <boost/asio/post.hpp>
+#include <chrono>
 #include <string>
 #include <utility>
 
@@ -48,12 +49,21 @@ int Server::port() const { return acceptor_.local_endpoint().port(); }
 void Server::Accept() {
   acceptor_.async_accept([this](const boost::system::error_code& error, tcp::socket socket) {
     if (error == asio::error::operation_aborted) return;
-    if (!error) {
-      boost::system::error_code ignored;
-      socket.set_option(tcp::no_delay(true), ignored);
-      Adopt(Socket(std::move(socket)));
-    }
+    if (error) return AcceptLater();
+    boost::system::error_code ignored;
+    socket.set_option(tcp::no_delay(true), ignored);
+    Adopt(Socket(std::move(socket)));
     Accept();
+  });
+}
+
+// Where a process may open no more files, whoever knocks waits outside, and asking again at once
+// would fail again at once.
+void Server::AcceptLater() {
+  constexpr std::chrono::milliseconds kPause{100};  // by hand
+  retry_.expires_after(kPause);
+  retry_.async_wait([this](const boost::system::error_code& error) {
+    if (!error) Accept();
   });
 }
 

@@ -47,6 +47,7 @@ class Server {
 
  private:
   void Accept();
+  void AcceptLater();
   void ToldOrSecond();
   void CallWaiting();
 
@@ -56,6 +57,7 @@ class Server {
   boost::asio::io_context context_{1};                // ends before what its handlers use
   boost::asio::ip::tcp::acceptor acceptor_{context_};
   boost::asio::steady_timer second_{context_};
+  boost::asio::steady_timer retry_{context_};
   std::vector<std::function<void()>> waiting_;  // of connections, which end before the context
 };
 

@@ -1,12 +1,16 @@
 #include "tools/viewer/viewer.h"
 
 #include <gtest/gtest.h>
+#include <sys/resource.h>
+#include <unistd.h>
 
 #include <algorithm>
 #include <atomic>
 #include <chrono>
+#include <ctime>
 #include <fstream>
 #include <memory>
+#include <optional>
 #include <string>
 #include <thread>
 #include <vector>
@@ -350,6 +354,43 @@ double ResidentMegabytes() {
 }
 
 // More than are held at a time, each with a request that it does not end; the page works on.
+// All files that this process may open, but for one.
+class AllFilesButOne {
+ public:
+  AllFilesButOne() {
+    getrlimit(RLIMIT_NOFILE, &before_);
+    rlimit few = before_;
+    few.rlim_cur = 128;
+    setrlimit(RLIMIT_NOFILE, &few);
+    for (int file = dup(0); file >= 0; file = dup(0)) files_.push_back(file);
+    close(files_.back());
+    files_.pop_back();
+  }
+  ~AllFilesButOne() {
+    for (const int file : files_) close(file);
+    setrlimit(RLIMIT_NOFILE, &before_);
+  }
+  AllFilesButOne(const AllFilesButOne&) = delete;
+  AllFilesButOne& operator=(const AllFilesButOne&) = delete;
+
+ private:
+  rlimit before_{};
+  std::vector<int> files_;
+};
+
+TEST(Viewer, WhereNoMoreFilesCanBeOpenedWhoeverKnocksWaitsAndCostsNothing) {
+  const Viewer viewer(AnyPort());
+  auto files = std::make_optional<AllFilesButOne>();
+  const Client client(viewer.port());  // takes the last one
+  const std::clock_t before = std::clock();
+  std::this_thread::sleep_for(milliseconds(500));
+  const double busy_s = static_cast<double>(std::clock() - before) / CLOCKS_PER_SEC;
+  EXPECT_LT(busy_s, 0.1) << "processor time of all threads in half a second";
+  files.reset();
+  client.Say(std::string(kStateRequest) + "\r\n\r\n");
+  EXPECT_EQ(client.Answer(), "HTTP/1.1 200 OK");
+}
+
 TEST(Viewer, AFloodTakesNoMemoryForLong) {
   if (test::kSanitized) GTEST_SKIP() << "what is freed is kept to watch it";
   Viewer viewer(AnyPort());
