@@ -3,6 +3,7 @@
 #include <unistd.h>
 
 #include <future>
+#include <memory>
 #include <utility>
 #include <vector>
 
@@ -35,9 +36,10 @@ bool LastingThread::IsElsewhere() const {
 
 void LastingThread::Run(const std::function<void()>& task) {
   if (!IsElsewhere()) return task();
-  std::packaged_task<void()> packaged(task);
-  std::future<void> done = packaged.get_future();
-  Post([&packaged] { packaged(); });
+  // Shared: the thread is in it for a moment longer than the wait lasts.
+  const auto packaged = std::make_shared<std::packaged_task<void()>>(task);
+  std::future<void> done = packaged->get_future();
+  Post([packaged] { (*packaged)(); });
   done.get();
 }
 
