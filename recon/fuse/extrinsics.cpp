@@ -123,6 +123,13 @@ Json ParseObject(const std::string& text, const std::string& place) {
   return json;
 }
 
+/// To the microsecond, however far apart the clocks are: nine digits, enough for places, would be
+/// whole seconds of a clock that counts from 1970.
+std::string OffsetJson(double offset_s) {
+  constexpr double kFinest_per_s = 1e6;  // by hand: microseconds, finer than cameras' clocks
+  return fmt::format("{}", std::round(offset_s * kFinest_per_s) / kFinest_per_s + 0.0);
+}
+
 std::string RowJson(const Eigen::RowVector4d& row) {
   return fmt::format("[{:.9g}, {:.9g}, {:.9g}, {:.9g}]", row[0] + 0.0, row[1] + 0.0, row[2] + 0.0,
                      row[3] + 0.0);
@@ -174,7 +181,8 @@ std::string ExtrinsicsJson(const Extrinsics& cameras) {
     for (Eigen::Index row = 0; row < 4; ++row) {
       text += (row == 0 ? "" : ",\n                        ") + RowJson(matrix.row(row));
     }
-    text += fmt::format("],\n      \"clock_offset_s\": {:.9g}\n    }}", camera.clock_offset_s);
+    text +=
+        fmt::format("],\n      \"clock_offset_s\": {}\n    }}", OffsetJson(camera.clock_offset_s));
   }
   return text + "\n  ]\n}\n";
 }

@@ -47,6 +47,14 @@ TEST_F(ExtrinsicsFile, ReadsWhatItWrote) {
   EXPECT_TRUE(read[0].from_camera_0.matrix().isIdentity(0.0));
 }
 
+TEST_F(ExtrinsicsFile, KeepsTheOffsetOfAClockThatCountsFrom1970) {
+  Extrinsics cameras = TwoCameras();
+  cameras[1].clock_offset_s = -1699999999.3;
+  WriteExtrinsics(file_, cameras);
+  // A microsecond is written.
+  EXPECT_NEAR(ReadExtrinsics(file_)[1].clock_offset_s, cameras[1].clock_offset_s, 1e-6);
+}
+
 TEST_F(ExtrinsicsFile, RefusesOneDamagedField) {
   const std::vector<std::pair<std::pair<std::string, std::string>, std::string>> cases = {
       {{"{\n  \"cam", "[{\n  \"cam"}, "a JSON object"},
