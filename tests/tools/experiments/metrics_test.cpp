@@ -213,6 +213,19 @@ TEST(TimeAlignment, FindsTheOffsetOfAnotherClockAndRate) {
   EXPECT_LT(*Measure(pairs[0]).mean_joint_error_cm, 1.0);
 }
 
+// The result's frames fall between the truth's, and it begins when the truth has run for long.
+TEST(TimeAlignment, FindsThatTheClocksAreOneHoweverLateTheResultBegins) {
+  const auto truth = Swinging(300, 1 / 30.0);
+  auto result = Swinging(600, 1 / 60.0);
+  std::erase_if(result.frames, [](const auto& frame) {
+    return frame.frame % 2 == 0 || frame.frame < 360;  // 6 s, three times what is looked through
+  });
+  const auto pairs = PairUp(truth, result);
+  EXPECT_FALSE(pairs.at(0).same_clock);
+  // The correlation is taken on a 10 ms grid and refined between.
+  EXPECT_NEAR(pairs.at(0).offset_s, 0.0, 0.01);
+}
+
 TEST(TimeAlignment, LeavesALagInPlaceWhenTheFrameTimesAgree) {
   const auto truth = Swinging(90, 1 / 30.0);
   auto late = truth;
@@ -308,6 +321,52 @@ TEST(SeveralPeople, AreComparedAtTheTimesAskedFor) {
   EXPECT_LT(error_cm({.time = TimeAlignment::kCorrelate}), 0.5);
   EXPECT_GT(error_cm({.time = TimeAlignment::kFixed, .offset_s = 0.5}), 1);
   EXPECT_NEAR(PairUp(truth, late, {.time = TimeAlignment::kCorrelate})[0].offset_s, -0.5, 0.02);
+}
+
+// Two people beside each other, of whom the second does backwards what the first does.
+SkeletonSequence TwoPeople() {
+  auto two = Swinging(90, 1 / 30.0);
+  const auto one = two;
+  for (size_t f = 0; f < two.frames.size(); ++f) {
+    BodyRecord other = one.frames[one.frames.size() - 1 - f].bodies[0];
+    other.id = 2;
+    for (auto& joint : other.joints) joint->position_m.x() += 3.0;
+    two.frames[f].bodies.push_back(other);
+  }
+  return two;
+}
+
+SkeletonSequence MovedBy(const Eigen::Isometry3d& to_from, SkeletonSequence sequence) {
+  for (auto& frame : sequence.frames) {
+    for (BodyRecord& body : frame.bodies) {
+      for (auto& joint : body.joints) joint->position_m = to_from * joint->position_m;
+    }
+  }
+  return sequence;
+}
+
+// Seen from behind, where each of the two stands on the other's place.
+TEST(SeveralPeople, AreToldApartInACommonSpaceWhereTheResultIsInAnother) {
+  const auto truth = TwoPeople();
+  const Eigen::Isometry3d behind = Eigen::Translation3d(4.9, 0.0, 4.0) *
+                                   Eigen::AngleAxisd(M_PI, Eigen::Vector3d::UnitY()) *
+                                   Eigen::Isometry3d::Identity();
+  const auto pairs = PairUp(truth, MovedBy(behind, truth), {.rigid = true});
+  ASSERT_EQ(pairs.size(), 2u);
+  for (const auto& pair : pairs) EXPECT_NEAR(*Measure(pair).mean_joint_error_cm, 0, 1e-6);
+}
+
+TEST(OnePerson, IsNotTakenForAGhostWhereTheResultIsInAnotherSpace) {
+  const auto truth = Swinging(90, 1 / 30.0);
+  auto haunted = truth;  // by one who holds still
+  for (auto& frame : haunted.frames) {
+    BodyRecord ghost = truth.frames[0].bodies[0];
+    ghost.id = 7;
+    frame.bodies.push_back(ghost);
+    for (auto& joint : frame.bodies[0].joints) joint->position_m.x() += 2.0;
+  }
+  const auto pairs = PairUp(truth, haunted, {.rigid = true});
+  EXPECT_NEAR(*Measure(pairs.at(0)).mean_joint_error_cm, 0, 1e-6);
 }
 
 TEST(MeanOverClips, CountsAShortClipAsMuchAsALongOne) {

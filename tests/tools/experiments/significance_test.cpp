@@ -12,7 +12,7 @@
 #include <random>
 #include <sstream>
 
-#include "tools/experiments/compare/joint_track.h"
+#include "tools/experiments/compare/rigid_transform.h"
 
 namespace ossa::tools {
 namespace {

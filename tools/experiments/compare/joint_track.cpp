@@ -1,16 +1,17 @@
 #include "tools/experiments/compare/joint_track.h"
 
-#include <Eigen/SVD>
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <map>
 #include <optional>
 #include <set>
-#include <tuple>
+#include <utility>
 
 #include "depth/base/statistics.h"
 #include "tools/experiments/compare/absent_frames.h"
+#include "tools/experiments/compare/assign_bodies.h"
+#include "tools/experiments/compare/clock_offset.h"
+#include "tools/experiments/compare/rigid_transform.h"
 
 namespace ossa::tools {
 namespace {
@@ -82,30 +83,6 @@ SparsePosture Between(const SparsePosture& a, const SparsePosture& b, double sha
   return between;
 }
 
-std::optional<SparsePosture> At(const JointTrack& track, double time_s) {
-  const auto& times = track.time_s;
-  const auto next = static_cast<size_t>(
-      std::lower_bound(times.begin(), times.end(), time_s - kSameTime_s) - times.begin());
-  if (next == times.size()) return std::nullopt;
-  if (std::abs(times[next] - time_s) <= kSameTime_s) return track.postures[next];
-  if (next == 0) return std::nullopt;
-  const double step_s = times[next] - times[next - 1];
-  if (step_s > kLongestGap_s) return std::nullopt;
-  return Between(track.postures[next - 1], track.postures[next],
-                 (time_s - times[next - 1]) / step_s);
-}
-
-double MeanDistance(const SparsePosture& a, const SparsePosture& b) {
-  double sum = 0;
-  int count = 0;
-  for (size_t j = 0; j < recon::kJointCount; ++j) {
-    if (!a.present[j] || !b.present[j]) continue;
-    sum += (a.position_m[j] - b.position_m[j]).norm();
-    ++count;
-  }
-  return count > 0 ? sum / count : std::numeric_limits<double>::infinity();
-}
-
 bool FrameTimesAgree(const JointTrack& truth, const JointTrack& result) {
   const double tolerance_s = 0.25 * MedianStep_s(truth.time_s);
   size_t near = 0;
@@ -119,100 +96,12 @@ bool FrameTimesAgree(const JointTrack& truth, const JointTrack& result) {
   return 10 * near >= 9 * result.time_s.size();
 }
 
-// Speed of every joint at evenly spaced times, and where it is known. speed[joint][time]. Joints
-// are kept apart: their sum over a whole body is nearly constant in many motions and would say
-// little about time.
-struct Speeds {
-  recon::JointArray<std::vector<double>> speed;
-  recon::JointArray<std::vector<bool>> known;
-};
-
-Speeds ComputeSpeeds(const JointTrack& track, double start_s, double step_s, size_t count) {
-  constexpr double kHalf_s = 0.05;  // speeds over a tenth of a second: above the sensor's jitter
-  Speeds speeds;
-  for (size_t j = 0; j < recon::kJointCount; ++j) {
-    speeds.speed[j].assign(count, 0.0);
-    speeds.known[j].assign(count, false);
-  }
-  for (size_t i = 0; i < count; ++i) {
-    const double time_s = start_s + static_cast<double>(i) * step_s;
-    const auto before = At(track, time_s - kHalf_s);
-    const auto after = At(track, time_s + kHalf_s);
-    for (size_t j = 0; before && after && j < recon::kJointCount; ++j) {
-      if (!before->present[j] || !after->present[j]) continue;
-      speeds.known[j][i] = true;
-      speeds.speed[j][i] = (after->position_m[j] - before->position_m[j]).norm();
-    }
-  }
-  return speeds;
-}
-
-// Pearson's correlation of a(t) with b(t - shift), covariances and variances summed over the
-// joints. Only times that both know count, else the ends of a clip would pull the peak to zero.
-// Fewer shared times than `fewest` give no correlation: short overlaps fit anything.
-double Correlation(const Speeds& a, const Speeds& b, long shift, long fewest) {
-  const auto count = static_cast<long>(a.speed[0].size());
-  double covariance = 0;
-  double variance_a = 0;
-  double variance_b = 0;
-  long shared = 0;
-  for (size_t j = 0; j < recon::kJointCount; ++j) {
-    double n = 0, x = 0, y = 0, xx = 0, yy = 0, xy = 0;
-    for (long i = std::max(0L, shift); i < count + std::min(0L, shift); ++i) {
-      const auto at_a = static_cast<size_t>(i);
-      const auto at_b = static_cast<size_t>(i - shift);
-      if (!a.known[j][at_a] || !b.known[j][at_b]) continue;
-      const double u = a.speed[j][at_a];
-      const double v = b.speed[j][at_b];
-      ++n;
-      x += u;
-      y += v;
-      xx += u * u;
-      yy += v * v;
-      xy += u * v;
-    }
-    if (n < 2) continue;
-    covariance += xy - x * y / n;
-    variance_a += xx - x * x / n;
-    variance_b += yy - y * y / n;
-    shared = std::max(shared, static_cast<long>(n));
-  }
-  const double variance = std::sqrt(variance_a * variance_b);
-  return shared >= fewest && variance > 0 ? covariance / variance : 0.0;
-}
-
-// Half of the shorter recording must overlap.
-long FewestShared(const Speeds& a, const Speeds& b) {
-  const auto longest = [](const Speeds& speeds) {
-    long most = 0;
-    for (const auto& known : speeds.known) {
-      most = std::max(most, static_cast<long>(std::count(known.begin(), known.end(), true)));
-    }
-    return most;
-  };
-  return std::max(2L, std::min(longest(a), longest(b)) / 2);
-}
-
 void AlignRigidly(PairedTracks& pair) {
-  std::vector<Eigen::Vector3d> from;
-  std::vector<Eigen::Vector3d> to;
-  for (size_t f = 0; f < pair.truth.size(); ++f) {
-    for (size_t j = 0; j < recon::kJointCount; ++j) {
-      if (!pair.truth[f].present[j] || !pair.result[f].present[j]) continue;
-      from.push_back(pair.result[f].position_m[j]);
-      to.push_back(pair.truth[f].position_m[j]);
-    }
-  }
-  if (from.size() < 3) return;
-  const auto points = static_cast<Eigen::Index>(from.size());
-  const Eigen::Matrix4d transform =
-      RigidTransform(Eigen::Map<const Eigen::Matrix3Xd>(from[0].data(), 3, points),
-                     Eigen::Map<const Eigen::Matrix3Xd>(to[0].data(), 3, points));
-  for (SparsePosture& posture : pair.result) {
-    for (Eigen::Vector3d& position : posture.position_m) {
-      position = (transform * position.homogeneous()).head<3>();
-    }
-  }
+  CommonJoints common;
+  for (size_t f = 0; f < pair.truth.size(); ++f) common.Add(pair.result[f], pair.truth[f]);
+  const auto transform = common.Align();
+  if (!transform) return;
+  for (SparsePosture& posture : pair.result) posture = Moved(*transform, std::move(posture));
 }
 
 void FindOffset(const JointTrack& truth, const JointTrack& result, const PairOptions& options,
@@ -222,11 +111,7 @@ void FindOffset(const JointTrack& truth, const JointTrack& result, const PairOpt
   if (options.time == TimeAlignment::kFixed) {
     pair.offset_s = options.offset_s;
   } else if (!pair.same_clock) {
-    // Different clocks may differ by anything: the beginnings are laid together first.
-    const double start_s = truth.time_s.front() - result.time_s.front();
-    JointTrack moved = result;
-    for (double& time_s : moved.time_s) time_s += start_s;
-    pair.offset_s = start_s + TimeOffset_s(truth, moved, options.max_offset_s);
+    pair.offset_s = FindClockOffset_s(truth, result, options.max_offset_s);
   }
 }
 
@@ -277,54 +162,30 @@ PairedTracks AlignClock(const std::map<int, JointTrack>& truths, const SkeletonS
   return clock;
 }
 
-using Postures = std::vector<std::optional<SparsePosture>>;
-
-// Each true person takes the nearest body nobody nearer took, so that identities do not matter here
-// (identity switches are the tracker's own table). Postures without joints where none is left.
-std::vector<SparsePosture> TakenBodies(const Postures& truths,
-                                       const std::vector<SparsePosture>& bodies) {
-  struct Candidate {
-    double distance_m;
-    size_t truth, body;
-  };
-  std::vector<Candidate> candidates;
-  for (size_t t = 0; t < truths.size(); ++t) {
-    for (size_t b = 0; truths[t] && b < bodies.size(); ++b) {
-      candidates.push_back({MeanDistance(*truths[t], bodies[b]), t, b});
+// Frame by frame; of frames with the same time the first counts.
+std::vector<Moment> CollectMoments(const std::map<int, JointTrack>& truths,
+                                   const std::vector<SkeletonFrame>& frames) {
+  std::vector<Moment> moments;
+  for (const SkeletonFrame& frame : frames) {
+    if (!moments.empty() && frame.time_s <= moments.back().time_s) continue;
+    Moment& moment = moments.emplace_back();
+    moment.time_s = frame.time_s;
+    for (const auto& [id, track] : truths) moment.truths.push_back(PostureAt(track, frame.time_s));
+    for (const BodyRecord& body : frame.bodies) {
+      moment.bodies.push_back(ToSparsePosture(body));
+      moment.ids.push_back(body.id);
     }
   }
-  std::sort(candidates.begin(), candidates.end(), [](const Candidate& a, const Candidate& b) {
-    return std::tie(a.distance_m, a.truth, a.body) < std::tie(b.distance_m, b.truth, b.body);
-  });
-  std::vector<SparsePosture> taken(truths.size());
-  std::vector<bool> served(truths.size(), false);
-  std::vector<bool> used(bodies.size(), false);
-  for (const Candidate& c : candidates) {
-    if (served[c.truth] || used[c.body]) continue;
-    served[c.truth] = used[c.body] = true;
-    taken[c.truth] = bodies[c.body];
-  }
-  return taken;
+  return moments;
 }
 
-// Frame by frame; of frames with the same time the first counts.
-void PairFrames(const std::map<int, JointTrack>& truths, const std::vector<SkeletonFrame>& frames,
-                std::vector<PairedTracks>& pairs) {
-  std::optional<double> last_s;
-  for (const SkeletonFrame& frame : frames) {
-    if (last_s && frame.time_s <= *last_s) continue;
-    last_s = frame.time_s;
-    Postures there;
-    for (const auto& [id, track] : truths) there.push_back(At(track, frame.time_s));
-    std::vector<SparsePosture> bodies;
-    for (const BodyRecord& body : frame.bodies) bodies.push_back(ToSparsePosture(body));
-    const auto taken = TakenBodies(there, bodies);
-    for (size_t t = 0; t < there.size(); ++t) {
-      if (!there[t]) continue;
-      pairs[t].time_s.push_back(frame.time_s);
-      pairs[t].truth.push_back(*there[t]);
-      pairs[t].result.push_back(taken[t]);
-    }
+void AddMoment(const Moment& moment, std::vector<PairedTracks>& pairs) {
+  const auto taken = AssignBodies(moment);
+  for (size_t t = 0; t < taken.size(); ++t) {
+    if (!moment.truths[t]) continue;
+    pairs[t].time_s.push_back(moment.time_s);
+    pairs[t].truth.push_back(*moment.truths[t]);
+    pairs[t].result.push_back(taken[t]);
   }
 }
 
@@ -341,48 +202,17 @@ SparsePosture ToSparsePosture(const BodyRecord& body) {
   return sparse;
 }
 
-Eigen::Matrix4d RigidTransform(const Eigen::Matrix3Xd& from, const Eigen::Matrix3Xd& to) {
-  const Eigen::Vector3d from_mean = from.rowwise().mean();
-  const Eigen::Vector3d to_mean = to.rowwise().mean();
-  const Eigen::Matrix3d covariance =
-      (to.colwise() - to_mean) * (from.colwise() - from_mean).transpose();
-  const Eigen::JacobiSVD<Eigen::Matrix3d> svd(covariance,
-                                              Eigen::ComputeFullU | Eigen::ComputeFullV);
-  Eigen::Vector3d signs = Eigen::Vector3d::Ones();
-  // A mirror image fits better than any rotation for some data; a body is never mirrored.
-  if ((svd.matrixU() * svd.matrixV().transpose()).determinant() < 0) signs.z() = -1;
-  const Eigen::Matrix3d rotation = svd.matrixU() * signs.asDiagonal() * svd.matrixV().transpose();
-  Eigen::Matrix4d transform = Eigen::Matrix4d::Identity();
-  transform.topLeftCorner<3, 3>() = rotation;
-  transform.topRightCorner<3, 1>() = to_mean - rotation * from_mean;
-  return transform;
-}
-
-double TimeOffset_s(const JointTrack& truth, const JointTrack& result, double max_offset_s) {
-  if (truth.time_s.size() < 3 || result.time_s.size() < 3) return 0.0;
-  constexpr double kStep_s = 0.01;
-  const double start_s = std::min(truth.time_s.front(), result.time_s.front());
-  const double end_s = std::max(truth.time_s.back(), result.time_s.back());
-  const auto count = static_cast<size_t>(std::min((end_s - start_s) / kStep_s + 1, 2e5));
-  const Speeds a = ComputeSpeeds(truth, start_s, kStep_s, count);
-  const Speeds b = ComputeSpeeds(result, start_s, kStep_s, count);
-  const long reach = std::lround(max_offset_s / kStep_s);
-  std::vector<double> score;
-  const long fewest = FewestShared(a, b);
-  for (long shift = -reach; shift <= reach; ++shift) {
-    score.push_back(Correlation(a, b, shift, fewest));
-  }
-  // Of equal peaks the smallest offset: someone who stands still gives no reason to move the clock.
-  size_t best = static_cast<size_t>(reach);
-  for (size_t i = 0; i < score.size(); ++i) {
-    if (score[i] > score[best] + 1e-9) best = i;
-  }
-  double shift = static_cast<double>(best) - static_cast<double>(reach);
-  if (best > 0 && best + 1 < score.size()) {
-    const double curvature = score[best - 1] - 2 * score[best] + score[best + 1];
-    if (curvature < -1e-12) shift += 0.5 * (score[best - 1] - score[best + 1]) / curvature;
-  }
-  return shift * kStep_s;
+std::optional<SparsePosture> PostureAt(const JointTrack& track, double time_s) {
+  const auto& times = track.time_s;
+  const auto next = static_cast<size_t>(
+      std::lower_bound(times.begin(), times.end(), time_s - kSameTime_s) - times.begin());
+  if (next == times.size()) return std::nullopt;
+  if (std::abs(times[next] - time_s) <= kSameTime_s) return track.postures[next];
+  if (next == 0) return std::nullopt;
+  const double step_s = times[next] - times[next - 1];
+  if (step_s > kLongestGap_s) return std::nullopt;
+  return Between(track.postures[next - 1], track.postures[next],
+                 (time_s - times[next - 1]) / step_s);
 }
 
 std::vector<PairedTracks> PairUp(const SkeletonSequence& truth, const SkeletonSequence& result,
@@ -394,8 +224,10 @@ std::vector<PairedTracks> PairUp(const SkeletonSequence& truth, const SkeletonSe
   if (options.found_only) frames = FoundOnly(std::move(frames));
   for (SkeletonFrame& frame : frames) frame.time_s += clock.offset_s;
   AddAbsentFrames({CollectTimes(truths), kLongestGap_s, clock.same_clock}, &frames);
+  std::vector<Moment> moments = CollectMoments(truths, frames);
+  if (options.rigid) MoveBodies(FindCommonTransform(moments), moments);
   std::vector<PairedTracks> pairs(truths.size(), clock);
-  PairFrames(truths, frames, pairs);
+  for (const Moment& moment : moments) AddMoment(moment, pairs);
   for (size_t t = 0; const auto& [id, track] : truths) {
     // One person needs no name: methods that see more people than there are would give it others.
     if (truths.size() > 1) pairs[t].name = "body " + std::to_string(id);

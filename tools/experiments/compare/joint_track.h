@@ -1,6 +1,7 @@
 #pragma once
 #include <Eigen/Core>
 #include <array>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -26,6 +27,10 @@ struct JointTrack {
 
 SparsePosture ToSparsePosture(const recon::BodyRecord& body);
 
+/// The posture at a time, on the line between two frames, never across a gap of more than 0.2 s;
+/// none where there is none.
+std::optional<SparsePosture> PostureAt(const JointTrack& track, double time_s);
+
 /// Truth and result of the same person at the same times, frame by frame.
 struct PairedTracks {
   std::string name;  // which of several true people; empty for one
@@ -39,7 +44,8 @@ struct PairedTracks {
 enum class TimeAlignment {
   kAuto,       // none where the frame times of both agree, else as kCorrelate
   kNone,       // times are taken as they are
-  kCorrelate,  // the offset with the best cross-correlation of joint speeds
+  kCorrelate,  // the offset with the best cross-correlation of joint speeds: of recordings that
+               // began together, or of one clock
   kFixed,      // a given offset
 };
 
@@ -48,24 +54,17 @@ struct PairOptions {
   double offset_s = 0.0;  // for kFixed: added to the result's times
   // Correlation looks this far either way; by hand: two recorders started by one person
   double max_offset_s = 2.0;
-  bool rigid = false;       // Procrustes without scale over the whole clip, before anything else
+  bool rigid = false;       // Procrustes without scale over the whole clip, person by person
   bool found_only = false;  // of the result no joints that a method has placed unseen
 };
 
 /// Brings a result onto the truth: people matched, clocks aligned, truth interpolated linearly at
 /// the result's times (never across a gap of more than 0.2 s), optionally one rigid transform a
-/// clip. Several people in the truth give several pairs. Where the result has no frame though one
-/// was due (compare/absent_frames.h), it has a posture without joints.
+/// clip; who of several people is whom is then told in a common space (compare/assign_bodies.h).
+/// Several people in the truth give several pairs. Where the result has no frame though one was due
+/// (compare/absent_frames.h), it has a posture without joints.
 std::vector<PairedTracks> PairUp(const recon::SkeletonSequence& truth,
                                  const recon::SkeletonSequence& result,
                                  const PairOptions& options = {});
-
-/// The rigid transform (no scale) that brings points `from` onto `to` with the least squared error
-/// (Kabsch 1976, Umeyama 1991). Columns are points; at least one.
-Eigen::Matrix4d RigidTransform(const Eigen::Matrix3Xd& from, const Eigen::Matrix3Xd& to);
-
-/// The offset to add to the times of `result` so that its joint speeds match those of `truth` best:
-/// the peak of their normalised cross-correlation on a 10 ms grid, refined by a parabola.
-double TimeOffset_s(const JointTrack& truth, const JointTrack& result, double max_offset_s);
 
 }  // namespace ossa::tools
