@@ -23,7 +23,6 @@ void Require(bool good, const std::string& name, double value, const std::string
 
 constexpr double kFrame_s = 1.0 / 30.0;
 constexpr double kDodgeHold_s = 0.3;
-constexpr int kIterations = 30;       // of the constraint solver; fewer with motors, see MakeActor
 constexpr double kDeepest_m = 0.004;  // nobody stands deeper in the floor
 /// How far a thing may fly in a substep: the margin in which its contact with a limb is seen.
 constexpr double kUnseen_m = kContactMargin_m;
@@ -67,7 +66,7 @@ World::Impl::Impl(const WorldOptions& world_options)
     : options(world_options), gravity_m_s2(0.0, -world_options.gravity_m_s2, 0.0) {
   dWorldSetERP(ode.world, 0.4);
   dWorldSetCFM(ode.world, 1e-9);
-  dWorldSetQuickStepNumIterations(ode.world, kIterations);
+  SetIterations();
   dWorldSetContactMaxCorrectingVel(ode.world, 2.0);
   dWorldSetContactSurfaceLayer(ode.world, 0.0005);
   dWorldSetGravity(ode.world, gravity_m_s2.x(), gravity_m_s2.y(), gravity_m_s2.z());

@@ -10,16 +10,22 @@ namespace ossa::physics {
 
 using Eigen::Vector3d;
 
-Actor& World::Impl::MakeActor(int character, const recon::BoneLengths& lengths,
-                              const CharacterOptions& character_options) {
+void World::Impl::SetIterations() {
   // By hand: servo motors have twice the rows; fewer iterations keep them below 0.6 ms a frame and
   // their pinned feet still within 5 mm (3.5 mm at 30, 4.7 at 26, 5.2 at 24).
-  constexpr int kMotorIterations = 26;
-  if (character_options.control == Control::kMotor) {
-    dWorldSetQuickStepNumIterations(ode.world, kMotorIterations);
-  }
-  return *(actors[character] =
-               std::make_unique<Actor>(ode, lengths, character_options, character + 1));
+  constexpr int kIterations = 30, kMotorIterations = 26;
+  const bool motors = std::any_of(actors.begin(), actors.end(), [](const auto& actor) {
+    return actor.second->options.control == Control::kMotor;
+  });
+  dWorldSetQuickStepNumIterations(ode.world, motors ? kMotorIterations : kIterations);
+}
+
+Actor& World::Impl::MakeActor(int character, const recon::BoneLengths& lengths,
+                              const CharacterOptions& character_options) {
+  auto& actor = actors[character] =
+      std::make_unique<Actor>(ode, lengths, character_options, character + 1);
+  SetIterations();
+  return *actor;
 }
 
 int World::AddCharacter(const recon::BoneLengths& lengths, const recon::Posture& start,
@@ -37,6 +43,7 @@ void World::RemoveCharacter(int character) {
   impl_->ActorOf(character);  // or not there
   impl_->ReleaseAllOf(character);
   impl_->actors.erase(character);
+  impl_->SetIterations();
 }
 
 void World::ResetCharacter(int character) {

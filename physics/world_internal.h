@@ -86,6 +86,8 @@ struct World::Impl {
   Actor& ActorOf(int character) { return *actors.at(character); }
   /// Stands a character still in a posture, with what it holds.
   void Place(Actor& actor, const recon::Posture& posture);
+  /// Of the constraint solver, for the characters that are there.
+  void SetIterations();
   Actor& MakeActor(int character, const recon::BoneLengths& lengths,
                    const CharacterOptions& character_options);
   Thing& MakeThing(int object, const ObjectOptions& object_options);

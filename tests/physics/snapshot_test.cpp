@@ -102,6 +102,21 @@ TEST(Snapshot, GoesOnInAnotherWorldToo) {
   EXPECT_EQ(copy.world.AddObject({}), scene.world.AddObject({}));
 }
 
+TEST(Snapshot, RemembersNothingOfAMotorCharacterThatIsGone) {
+  Scene scene;
+  CharacterOptions options;
+  options.control = Control::kMotor;
+  const auto place = test::Moved(test::StandingPerson(), {3.0, 0, 0});
+  scene.world.RemoveCharacter(scene.world.AddCharacter(test::Lengths(), place, options));
+  scene.Run(20);
+  Scene copy;
+  copy.world.Restore(scene.world.Save());
+  copy.frame = scene.frame;
+  scene.Run(30);
+  copy.Run(30);
+  EXPECT_EQ(PlacesIn(copy.world), PlacesIn(scene.world));
+}
+
 TEST(Snapshot, OfNothingIsRefused) {
   World world;
   EXPECT_THROW(world.Restore(WorldSnapshot{}), std::invalid_argument);
