@@ -65,6 +65,19 @@ TEST(Liu2016Study, LearnsOfTheOthersWithWhateverOptions) {
   }
 }
 
+// A staged recording in which nobody was ever found.
+TEST(MethodRun, MakesNothingOfARecordingWithoutFrames) {
+  test::TemporaryFolder folder;
+  ExperimentContext context;
+  context.out = folder.path();
+  MethodRun run{"raw", {}, {}};
+  run.options.method = "none";
+  const auto pairs = RunOverClips(context, run, {RecordedPair{}});
+  ASSERT_EQ(pairs.size(), 1u);
+  EXPECT_TRUE(pairs[0].time_s.empty());
+  EXPECT_EQ(Average(MeasureAll(pairs), &ClipMetrics::parent_relative_error_cm), std::nullopt);
+}
+
 TEST(Hardest, GroupsStandAloneWhereTheLastMethodIsFarOff) {
   const auto clip = [](const char* name, double cm) {
     ClipMetrics metrics;

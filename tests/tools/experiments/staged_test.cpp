@@ -11,6 +11,7 @@
 #include "tests/support/temporary_folder.h"
 #include "tools/experiments/compare/metrics.h"
 #include "tools/experiments/stage/motions.h"
+#include "tools/experiments/stage/staged_internal.h"
 
 namespace ossa::tools {
 namespace {
@@ -94,6 +95,37 @@ TEST_F(Staged, RecordingsAreCachedAndTheSameAgain) {
 }
 
 TEST_F(Staged, AnUnknownObserverIsRefused) { EXPECT_THROW(Studio(context_, "magic"), InputError); }
+
+RecordedPair FoundFrom(size_t first, size_t frames) {
+  RecordedPair pair;
+  for (size_t f = 0; f < frames; ++f) {
+    recon::SkeletonFrame frame;
+    frame.frame = static_cast<int64_t>(f);
+    frame.bodies.resize(1);
+    pair.truth.frames.push_back(frame);
+    for (size_t j = 0; f >= first && j < recon::kJointCount / 2; ++j) {
+      frame.bodies[0].joints[j] = recon::JointRecord{};
+    }
+    pair.observed.frames.push_back(frame);
+  }
+  return pair;
+}
+
+TEST(StagedRecording, BeginsWithTheFirstFrameInWhichThePersonIsFound) {
+  RecordedPair pair = FoundFrom(2, 5);
+  BeginWhenFound(pair);
+  ASSERT_EQ(pair.observed.frames.size(), 3u);
+  ASSERT_EQ(pair.truth.frames.size(), 3u);
+  EXPECT_EQ(pair.observed.frames[0].frame, 2);
+  EXPECT_EQ(pair.truth.frames[0].frame, 2);
+}
+
+TEST(StagedRecording, IsEmptyWhereThePersonIsNeverFound) {
+  RecordedPair pair = FoundFrom(5, 5);
+  BeginWhenFound(pair);
+  EXPECT_TRUE(pair.observed.frames.empty());
+  EXPECT_TRUE(pair.truth.frames.empty());
+}
 
 TEST_F(Staged, StudyRunsFromATomlFileAndResumesToTheSameTables) {
   const std::string out = (folder_ / "study").string();

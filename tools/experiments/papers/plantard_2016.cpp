@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <numbers>
+#include <optional>
 #include <set>
 
 #include "depth/base/atomic_file.h"
@@ -114,6 +115,24 @@ Study Prepare(ExperimentContext& context) {
   return study;
 }
 
+std::optional<double> ShareOfJointsHidden(const recon::SkeletonSequence& truth) {
+  double hidden = 0, joints = 0;
+  for (const auto& frame : truth.frames) {
+    for (const auto& joint : frame.bodies.at(0).joints) {
+      hidden += joint && !joint->visible.value_or(true) ? 1 : 0;
+      ++joints;
+    }
+  }
+  return joints > 0 ? std::optional(hidden / joints) : std::nullopt;
+}
+
+std::optional<double> ShareOfFramesWithNobody(const recon::SkeletonSequence& observed) {
+  const auto& frames = observed.frames;
+  if (frames.empty()) return std::nullopt;
+  const auto nobody = std::count_if(frames.begin(), frames.end(), SeesNobody);
+  return static_cast<double>(nobody) / static_cast<double>(frames.size());
+}
+
 Table ByScenario(const Study& study) {
   Table table;
   table.title = "The ten scenarios (table 1): eq. 13, cm, and frames over 20 cm, %";
@@ -123,27 +142,17 @@ Table ByScenario(const Study& study) {
     table.columns.push_back(run.label + ", >20 cm");
   }
   for (size_t s = 0; s < study.scenarios.size(); ++s) {
-    double hidden = 0;
-    double joints = 0;
-    for (const auto& frame : study.scenarios[s].truth.frames) {
-      for (const auto& joint : frame.bodies.at(0).joints) {
-        hidden += joint && !joint->visible.value_or(true) ? 1 : 0;
-        ++joints;
-      }
-    }
-    const auto& observed = study.scenarios[s].observed.frames;
-    const auto nobody = std::count_if(observed.begin(), observed.end(), SeesNobody);
-    std::vector<std::string> row = {
-        study.scenarios[s].clip, std::to_string(study.scenarios[s].truth.frames.size()),
-        Cell(100 * hidden / std::max(1.0, joints), 1),
-        Cell(100.0 * static_cast<double>(nobody) / static_cast<double>(observed.size()), 1)};
+    const RecordedPair& scenario = study.scenarios[s];
+    std::vector<std::string> row = {scenario.clip, std::to_string(scenario.truth.frames.size()),
+                                    Cell(ShareOfJointsHidden(scenario.truth), 1, 100),
+                                    Cell(ShareOfFramesWithNobody(scenario.observed), 1, 100)};
     for (const auto& clips : study.clips) {
       row.push_back(Cell(clips[s].parent_relative_error_cm));
       row.push_back(Cell(clips[s].fraction_frames_over_20cm, 1, 100));
     }
     table.rows.push_back(row);
   }
-  table.note = study.note;
+  table.note = study.note + "Recordings begin when the person is found: no frames, never found. ";
   return table;
 }
 
@@ -174,9 +183,10 @@ Table Histogram(const Study& study, const std::vector<size_t>& scenarios, bool c
       const auto count = std::count_if(values.begin(), values.end(), [&](double value) {
         return value >= low && (cumulative || last || value < high);
       });
-      row.push_back(Cell(100.0 * static_cast<double>(count) /
-                             static_cast<double>(std::max<size_t>(1, values.size())),
-                         1));
+      row.push_back(
+          values.empty()
+              ? "-"
+              : Cell(100.0 * static_cast<double>(count) / static_cast<double>(values.size()), 1));
     }
     table.rows.push_back(row);
   }

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <array>
 #include <numbers>
+#include <optional>
 
 #include "recon/normalise.h"
 #include "tools/experiments/experiments_internal.h"
@@ -120,7 +121,7 @@ Table ComputeTableThreeBounds(const ExperimentContext& context, const Shum2013St
                    "best: trunk / arms / legs, cm",
                    "of its worst clip, cm"};
   for (const Setup& setup : Setups()) {
-    double nearest_cm = 0.0, by_parts_cm = 0.0;
+    double nearest_cm = 0.0, by_parts_cm = 0.0, clips = 0.0;
     Eigen::Vector3d limbs_cm = Eigen::Vector3d::Zero();
     std::string worst = "-";
     double worst_cm = 0.0;
@@ -128,17 +129,22 @@ Table ComputeTableThreeBounds(const ExperimentContext& context, const Shum2013St
       const auto truth = Facing(clip.truth);
       const auto bound = ComputeBound(*LoadDatabase(context).postures, truth, setup.used);
       if (!bound) continue;
-      nearest_cm += bound->nearest_cm / static_cast<double>(study.clean.size());
-      by_parts_cm += bound->by_parts_cm / static_cast<double>(study.clean.size());
+      ++clips;
+      nearest_cm += bound->nearest_cm;
+      by_parts_cm += bound->by_parts_cm;
       const auto made = RunMethod(context, study.best_of_truth, Only(truth, setup.used));
       const Eigen::Vector3d clip_cm = ErrorByLimbs_cm(truth, made);
-      limbs_cm += clip_cm / static_cast<double>(study.clean.size());
+      limbs_cm += clip_cm;
       if (clip_cm.sum() < worst_cm) continue;
       worst_cm = clip_cm.sum();
       worst = fmt::format("{} ({})", Limbs(clip_cm), clip.clip);
     }
-    table.rows.push_back({setup.name, Cell(setup.paper_cm), Cell(nearest_cm), Cell(by_parts_cm),
-                          Limbs(limbs_cm), worst});
+    const auto mean = [clips](double sum_cm) {
+      return clips > 0.0 ? std::optional(sum_cm / clips) : std::nullopt;
+    };
+    table.rows.push_back({setup.name, Cell(setup.paper_cm), Cell(mean(nearest_cm)),
+                          Cell(mean(by_parts_cm)), clips > 0.0 ? Limbs(limbs_cm / clips) : "-",
+                          worst});
   }
   table.note =
       "Nearest to the truth: nothing hidden, on the true bones; what shows one posture of the "

@@ -151,7 +151,8 @@ Table FigureNine(const Shum2013Study& study) {
   add("all", total_ms, "100 (27.7 ms)");
   table.note =
       "The paper: Intel Core i7-2630, 2 GHz; its chart names only the optimisation's share in the "
-      "text. Times are of this machine, medians over one clip.";
+      "text. Times are of this machine, over one clip: medians of frames; means of reliability and "
+      "character.";
   return table;
 }
 

@@ -6,6 +6,8 @@
 #include <cmath>
 #include <limits>
 #include <numbers>
+#include <optional>
+#include <vector>
 
 #include "recon/methods/method_table.h"
 #include "tools/experiments/papers/shum_2013_internal.h"
@@ -94,20 +96,19 @@ MethodRun Prepared(const ExperimentContext& context, const Shum2013Study& study,
   return run;
 }
 
-double MeanError_cm(const ExperimentContext& context, const Shum2013Study& study,
-                    const MethodRun& run, double tilt_deg, bool with_floor) {
-  double sum_cm = 0.0;
+std::optional<double> MeanError_cm(const ExperimentContext& context, const Shum2013Study& study,
+                                   const MethodRun& run, double tilt_deg, bool with_floor) {
+  std::vector<ClipMetrics> clips;
   for (size_t i = 0; i < study.clean.size(); ++i) {
     const RecordedPair& clip = study.clean[i];
     const auto truth = Tilted(clip.truth, tilt_deg);
     auto observed = Tilted(clip.observed, tilt_deg);
     if (with_floor) AddFloor(tilt_deg, truth, &observed);
     HideLegs(&observed);
-    const auto metrics = MeasureClip(
-        clip.clip, truth, RunMethod(context, Prepared(context, study, run, i), observed));
-    sum_cm += metrics.mean_joint_error_cm.value_or(0.0);
+    clips.push_back(MeasureClip(clip.clip, truth,
+                                RunMethod(context, Prepared(context, study, run, i), observed)));
   }
-  return sum_cm / static_cast<double>(study.clean.size());
+  return Average(clips, &ClipMetrics::mean_joint_error_cm);
 }
 
 }  // namespace

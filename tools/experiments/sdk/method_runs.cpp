@@ -80,6 +80,7 @@ MethodRun WithPhysics(MethodRun run) {
 
 recon::SkeletonSequence RunMethod(const ExperimentContext& context, const MethodRun& run,
                                   const recon::SkeletonSequence& observed) {
+  if (observed.frames.empty()) return observed;  // a text of no frames is refused
   const std::string key = ComputeKey(context, run) + " on " + ContentHash(FormatSequence(observed));
   const std::string text = context.Cached(key, [&] {
     const auto go_on = [&](size_t) {

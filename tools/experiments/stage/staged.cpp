@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <optional>
 
 #include "depth/base/error.h"
@@ -192,27 +193,26 @@ recon::SkeletonFrame FindNearestBody(const recon::SkeletonFrame& tracked,
   return person;
 }
 
-// Until the person is found there is nothing to reconstruct, and methods answer with a posture in
-// no place: a recording begins with the first frame that has half of the joints.
+}  // namespace
+
 void BeginWhenFound(RecordedPair& pair) {
   constexpr auto kEnough = recon::kJointCount / 2;
-  size_t first = 0;
-  while (first + 1 < pair.observed.frames.size()) {
-    const auto& joints = pair.observed.frames[first].bodies.at(0).joints;
+  const auto found = [](const recon::SkeletonFrame& frame) {
+    const auto& joints = frame.bodies.at(0).joints;
     const auto seen = std::count_if(joints.begin(), joints.end(),
                                     [](const auto& joint) { return joint.has_value(); });
-    if (seen >= kEnough) break;
-    ++first;
-  }
-  const auto drop = [first](recon::SkeletonSequence& sequence) {
-    if (sequence.frames.size() <= first) return;
-    sequence.frames.erase(sequence.frames.begin(),
-                          sequence.frames.begin() + static_cast<std::ptrdiff_t>(first));
+    return seen >= kEnough;
   };
-  drop(pair.observed);
-  drop(pair.refined);
-  drop(pair.truth);
+  const auto& observed = pair.observed.frames;
+  const auto before = std::find_if(observed.begin(), observed.end(), found) - observed.begin();
+  for (recon::SkeletonSequence* sequence : {&pair.observed, &pair.refined, &pair.truth}) {
+    auto& frames = sequence->frames;
+    const auto dropped = std::min(before, std::ssize(frames));
+    frames.erase(frames.begin(), frames.begin() + dropped);
+  }
 }
+
+namespace {
 
 std::string ComputeKey(const StageOptions& o) {
   return fmt::format("{} {} {:.4f} {:.3f} {}x{} {} seed {}", o.name, static_cast<int>(o.clutter),

@@ -51,7 +51,8 @@ class Studio {
   Studio(const ExperimentContext& context, std::string observer);
   ~Studio();
 
-  /// Cached by content. Begins with the first frame in which half of the joints are found.
+  /// Cached by content. Begins with the first frame in which half of the joints are found; empty
+  /// where none is.
   RecordedPair Record(const recon::MotionClip& clip, const StageOptions& options);
   /// The frames themselves, uncached: for pictures and tests.
   std::vector<StagedFrame> Film(const recon::MotionClip& clip, const StageOptions& options);

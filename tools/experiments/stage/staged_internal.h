@@ -6,6 +6,11 @@
 
 namespace ossa::tools {
 
+/// Until the person is found there is nothing to reconstruct, and methods answer with a posture in
+/// no place: the recording begins with the first frame that has half of the joints. It is empty
+/// where there is none.
+void BeginWhenFound(RecordedPair& pair);
+
 /// The Kinect SDK as it was seen to fail (Shum 2013 sec. IV; Obdrzalek 2012): joints that are seen
 /// are a centimetre or two off, slowly drifting; hidden ones are half the time guessed (inferred,
 /// wandering from where they were last seen relative to the body), half the time put on what hides
