@@ -7,6 +7,9 @@
 
 #include "depth/base/error.h"
 #include "recon/body/body_model.h"
+#include "recon/fit/body_surface.h"
+#include "recon/refine/pose_network.h"
+#include "recon/refine/refinement_cascade.h"
 #include "tests/support/run_command.h"
 #include "tests/support/temporary_folder.h"
 #include "tools/experiments/compare/metrics.h"
@@ -95,6 +98,21 @@ TEST_F(Staged, RecordingsAreCachedAndTheSameAgain) {
 }
 
 TEST_F(Staged, AnUnknownObserverIsRefused) { EXPECT_THROW(Studio(context_, "magic"), InputError); }
+
+std::vector<std::string> NamesOf(const ObserverFiles& files) {
+  std::vector<std::string> names;
+  for (const auto& path : files.All()) names.push_back(path.filename().string());
+  return names;
+}
+
+// A file that is exchanged must not leave recordings of the one before in the cache.
+TEST(ObserverFiles, AreAllThatTheTrackerReads) {
+  EXPECT_EQ(NamesOf(FindObserverFiles("")),
+            (std::vector<std::string>{"body.ossa", recon::kShippedRefinement,
+                                      recon::kShippedPoseNetwork, recon::kShippedSurface}));
+  EXPECT_EQ(NamesOf(FindObserverFiles("mine.ossa")),
+            (std::vector<std::string>{"mine.ossa", recon::kShippedSurface}));
+}
 
 RecordedPair FoundFrom(size_t first, size_t frames) {
   RecordedPair pair;

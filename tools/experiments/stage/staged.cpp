@@ -11,6 +11,8 @@
 #include "depth/render/shapes.h"
 #include "recon/body/body_model.h"
 #include "recon/body/clothing.h"
+#include "recon/fit/body_surface.h"
+#include "recon/refine/pose_network.h"
 #include "recon/refine/refinement_cascade.h"
 #include "tools/experiments/compare/sequence_text.h"
 #include "tools/experiments/stage/staged_internal.h"
@@ -63,7 +65,7 @@ struct Studio::State {
 
   const ExperimentContext& context;
   std::string observer;
-  std::filesystem::path model_path, refinement_path;
+  ObserverFiles files;
   std::unique_ptr<recon::BodyModel> model;
   std::unique_ptr<recon::Wardrobe> wardrobe;
 
@@ -195,6 +197,25 @@ recon::SkeletonFrame FindNearestBody(const recon::SkeletonFrame& tracked,
 
 }  // namespace
 
+std::vector<std::filesystem::path> ObserverFiles::All() const {
+  std::vector<std::filesystem::path> all;
+  for (const auto& path : {forest, refinement, network, surface}) {
+    if (!path.empty()) all.push_back(path);
+  }
+  return all;
+}
+
+ObserverFiles FindObserverFiles(const std::filesystem::path& model) {
+  ObserverFiles files;
+  files.surface = tracker::ShippedFile(recon::kShippedSurface);
+  files.forest = model;
+  if (!model.empty()) return files;
+  files.forest = tracker::ShippedFile("body.ossa");
+  files.refinement = tracker::ShippedFile(recon::kShippedRefinement);
+  files.network = tracker::ShippedFile(recon::kShippedPoseNetwork);
+  return files;
+}
+
 void BeginWhenFound(RecordedPair& pair) {
   constexpr auto kEnough = recon::kJointCount / 2;
   const auto found = [](const recon::SkeletonFrame& frame) {
@@ -230,9 +251,7 @@ std::string ComputeKey(const recon::MotionClip& clip) {
 Studio::Studio(const ExperimentContext& context, std::string observer)
     : state_(std::make_unique<State>(context, std::move(observer))) {
   if (state_->observer == "forest") {
-    state_->model_path = context.model.empty() ? tracker::ShippedFile("body.ossa") : context.model;
-    if (context.model.empty())
-      state_->refinement_path = tracker::ShippedFile(recon::kShippedRefinement);
+    state_->files = FindObserverFiles(context.model);
   } else if (state_->observer != "simulated") {
     throw InputError("observer '" + state_->observer + "': expected forest or simulated");
   }
@@ -256,8 +275,8 @@ RecordedPair Studio::Record(const recon::MotionClip& clip, const StageOptions& o
       tracker::TrackerOptions how;
       how.method = "none";
       tracker::ModelFiles files;
-      files.forest = state_->model_path.string();
-      files.refinement = state_->refinement_path.string();
+      files.forest = state_->files.forest.string();
+      files.refinement = state_->files.refinement.string();
       how.models = tracker::ModelSet::Load(files, how.method);
       how.smoothing = tracker::SmoothingPreset("none");
       how.threads = state_->context.threads;
@@ -276,7 +295,7 @@ RecordedPair Studio::Record(const recon::MotionClip& clip, const StageOptions& o
           return FindNearestBody(tracker::ToRecord(bodies, kind), frame.truth);
         };
         observed.frames.push_back(person(tracker::PostureKind::kRaw));
-        if (!state_->refinement_path.empty()) {
+        if (!state_->files.refinement.empty()) {
           refined.frames.push_back(person(tracker::PostureKind::kRefined));
         }
       } else {
@@ -290,9 +309,7 @@ RecordedPair Studio::Record(const recon::MotionClip& clip, const StageOptions& o
   };
   std::string key = fmt::format("staged {} {} {} {}", ComputeCodeKey(), state_->observer,
                                 ComputeKey(options), ComputeKey(clip));
-  for (const auto& path : {state_->model_path, state_->refinement_path}) {
-    if (!path.empty()) key.append(" ").append(ComputeFileKey(path));
-  }
+  for (const auto& path : state_->files.All()) key.append(" ").append(ComputeFileKey(path));
   const std::string text = state_->context.Cached(key, compute);
   const size_t end = text.find(kSequenceEnd), refined = end + kSequenceEnd.size();
   const size_t refined_end = text.find(kSequenceEnd, refined);

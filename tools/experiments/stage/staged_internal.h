@@ -1,10 +1,21 @@
 #pragma once
 #include <array>
+#include <filesystem>
+#include <vector>
 
 #include "depth/base/random.h"
 #include "tools/experiments/stage/staged.h"
 
 namespace ossa::tools {
+
+/// What the observer "forest" sees by; empty: does without. The cache's key holds all of it.
+struct ObserverFiles {
+  std::filesystem::path forest, refinement, network, surface;
+  std::vector<std::filesystem::path> All() const;
+};
+
+/// `model`: a forest of one's own, which nothing shipped refines; empty: the shipped one.
+ObserverFiles FindObserverFiles(const std::filesystem::path& model);
 
 /// Until the person is found there is nothing to reconstruct, and methods answer with a posture in
 /// no place: the recording begins with the first frame that has half of the joints. It is empty
