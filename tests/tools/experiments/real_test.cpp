@@ -82,24 +82,29 @@ TEST(RealScore, AMissingJointIsWrongAndInNoMean) {
   const StageScore score = ScoreStage(one.set, one.results, RealStage::kRaw, false, {true});
   EXPECT_EQ(score.joints, 4);
   EXPECT_EQ(score.found, 3);
-  EXPECT_NEAR(score.mean_cm, 6.0, 1e-9);
+  EXPECT_NEAR(score.mean_cm.value(), 6.0, 1e-9);
   EXPECT_NEAR(score.within_5cm, 0.5, 1e-9);
   EXPECT_NEAR(score.within_10cm, 0.5, 1e-9);
   EXPECT_NEAR(score.per_joint_10cm.at("Head"), 0.5, 1e-9);
+}
+
+TEST(RealScore, OfJointsNeverFoundThereIsNoMean) {
+  const OneJoint one({});
+  EXPECT_EQ(ScoreStage(one.set, one.results, RealStage::kRaw, false, {true}).mean_cm, std::nullopt);
 }
 
 // Offsets of even stills come from the odd ones: 10 cm for stills 0, 2, 4 and 0 for the others.
 TEST(RealScore, OffsetsComeFromTheOtherHalf) {
   const OneJoint one({0.11, 0.10, 0.01, 0.10, 0.01, 0.10});
   const StageScore score = ScoreStage(one.set, one.results, RealStage::kRaw, true, {true});
-  EXPECT_NEAR(score.mean_cm, 100 * (0.01 + 0.09 + 0.09 + 3 * 0.09) / 6, 1e-9);
+  EXPECT_NEAR(score.mean_cm.value(), 100 * (0.01 + 0.09 + 0.09 + 3 * 0.09) / 6, 1e-9);
 }
 
 TEST(RealScore, OffsetsOfSmallSetsComeFromAllStills) {
   OneJoint one({0.11, 0.10, 0.09});
   one.set.offsets_from_other_half = false;
   const StageScore score = ScoreStage(one.set, one.results, RealStage::kRaw, true, {true});
-  EXPECT_NEAR(score.mean_cm, 2.0 / 3.0, 1e-9);
+  EXPECT_NEAR(score.mean_cm.value(), 2.0 / 3.0, 1e-9);
 }
 
 TEST(RealScore, JointsAreCountedByTheirState) {

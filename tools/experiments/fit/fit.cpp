@@ -9,6 +9,7 @@
 #include "tools/experiments/experiments_internal.h"
 #include "tools/experiments/fit/watched_people_internal.h"
 #include "tools/experiments/real/real_judge_internal.h"
+#include "tools/experiments/sdk/method_runs.h"
 
 namespace ossa::tools {
 namespace {
@@ -67,7 +68,7 @@ struct FitFigures {
 
 std::string FormatMedian(std::vector<double> values, double scale, const char* form) {
   if (values.empty()) return "-";
-  return fmt::format(fmt::runtime(form), scale * Median(std::move(values)));
+  return fmt::format(fmt::runtime(form), scale * ossa::Median(std::move(values)));
 }
 
 Table FitTable() {
@@ -89,12 +90,12 @@ void AddRow(const Variant& variant, const RealSet& set, const std::vector<StillR
   for (const StillResult& result : results) figures.Add(result);
   const std::vector<bool> all(set.joints.size(), true);
   const StageScore score = ScoreStage(set, results, RealStage::kFinal, true, all);
-  table.rows.push_back(
-      {variant.name, set.name, std::to_string(results.size()), fmt::format("{:.2f}", score.mean_cm),
-       fmt::format("{:.1f}", 100 * score.within_5cm),
-       fmt::format("{:.1f}", 100 * score.within_10cm),
-       FormatMedian(figures.explained, 100, "{:.1f}"),
-       FormatMedian(figures.residual_m, 1000, "{:.1f}"), FormatMedian(figures.ms, 1, "{:.2f}")});
+  table.rows.push_back({variant.name, set.name, std::to_string(results.size()), Cell(score.mean_cm),
+                        fmt::format("{:.1f}", 100 * score.within_5cm),
+                        fmt::format("{:.1f}", 100 * score.within_10cm),
+                        FormatMedian(figures.explained, 100, "{:.1f}"),
+                        FormatMedian(figures.residual_m, 1000, "{:.1f}"),
+                        FormatMedian(figures.ms, 1, "{:.2f}")});
 }
 
 std::vector<Table> FitTerms(ExperimentContext& context) {

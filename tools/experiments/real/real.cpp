@@ -10,6 +10,7 @@
 #include "tools/experiments/context_models.h"
 #include "tools/experiments/experiments_internal.h"
 #include "tools/experiments/real/real_judge_internal.h"
+#include "tools/experiments/sdk/method_runs.h"
 #include "tools/json/json_text.h"
 
 namespace ossa::tools {
@@ -102,7 +103,7 @@ void AddRows(const RealSet& set, const ScoredSet& scored, Table& table) {
     const double one = static_cast<double>(scored.one_body) / static_cast<double>(scored.frames);
     table.rows.push_back({scored.name, NameInTable(set, s.stage), s.offset_removed ? "yes" : "no",
                           std::to_string(scored.frames), Percent(one), std::to_string(s.joints),
-                          Percent(found), fmt::format("{:.2f}", s.mean_cm), Percent(s.within_5cm),
+                          Percent(found), Cell(s.mean_cm), Percent(s.within_5cm),
                           Percent(s.within_10cm)});
   }
 }
@@ -167,7 +168,7 @@ json SetToJson(const RealSet& set, const ScoredSet& scored) {
          {"stage", NameInTable(set, s.stage)},
          {"frames", scored.frames},
          {"one_body", static_cast<double>(scored.one_body) / static_cast<double>(scored.frames)},
-         {"mean_cm", s.mean_cm},
+         {"mean_cm", s.mean_cm ? json(*s.mean_cm) : json()},
          {"within_5cm", s.within_5cm},
          {"within_10cm", s.within_10cm},
          {"per_joint", s.per_joint_10cm},

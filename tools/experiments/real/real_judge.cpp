@@ -2,7 +2,6 @@
 #include "tools/experiments/real/real_judge_internal.h"
 
 #include <algorithm>
-#include <cmath>
 #include <limits>
 
 #include "depth/image/camera.h"
@@ -139,7 +138,9 @@ StateScore ScoreStates(const RealSet& set, const std::vector<StillResult>& resul
 
 StageScore ScoreStage(const RealSet& set, const std::vector<StillResult>& results, RealStage stage,
                       bool remove_offset, const std::vector<bool>& counted) {
-  StageScore score{.stage = stage, .offset_removed = remove_offset, .per_joint_10cm = {}};
+  StageScore score;
+  score.stage = stage;
+  score.offset_removed = remove_offset;
   std::map<std::string, JointTally> tallies;
   double sum_m = 0;
   int64_t within_5cm = 0, within_10cm = 0;
@@ -163,7 +164,7 @@ StageScore ScoreStage(const RealSet& set, const std::vector<StillResult>& result
   const auto share = [](int64_t part, int64_t whole) {
     return whole == 0 ? 0.0 : static_cast<double>(part) / static_cast<double>(whole);
   };
-  score.mean_cm = score.found == 0 ? std::nan("") : 100 * sum_m / static_cast<double>(score.found);
+  if (score.found > 0) score.mean_cm = 100 * sum_m / static_cast<double>(score.found);
   score.within_5cm = share(within_5cm, score.joints);
   score.within_10cm = share(within_10cm, score.joints);
   for (const auto& [name, tally] : tallies) {

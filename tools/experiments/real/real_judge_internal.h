@@ -38,7 +38,7 @@ StillResult JudgeStill(const RealSet& set, const RealStill& still, tracker::Trac
 struct StageScore {
   RealStage stage = RealStage::kRaw;
   bool offset_removed = false;
-  double mean_cm = 0.0;                        // of the joints found
+  std::optional<double> mean_cm;               // of the joints found; none where none is
   double within_5cm = 0.0, within_10cm = 0.0;  // shares of all joints with truth: missing is wrong
   int64_t joints = 0, found = 0;
   std::map<std::string, double> per_joint_10cm;  // share within 10 cm by joint of the set
