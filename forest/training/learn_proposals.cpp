@@ -35,6 +35,20 @@ ForestModel WithScale(const ForestModel& model, float scale) {
   return ForestModel(std::move(data));
 }
 
+// Truth of another vocabulary than the model's would be taken for what it is not.
+void CheckTruth(const ForestModel& model, const TrainingImage& image) {
+  if (image.target_m.size() != model.targets().size()) {
+    throw InputError("validation data: expected places of " +
+                     std::to_string(model.targets().size()) + " targets, found " +
+                     std::to_string(image.target_m.size()));
+  }
+  if (model.context_count() > 1 && image.context >= model.context_count()) {
+    throw InputError("validation data: expected a context below " +
+                     std::to_string(model.context_count()) + ", found " +
+                     std::to_string(image.context));
+  }
+}
+
 // The scale under which the true contexts are likeliest.
 float LearnEvidenceScale(const ForestModel& model, const TrainingSource& source,
                          const std::vector<size_t>& chosen) {
@@ -46,6 +60,7 @@ float LearnEvidenceScale(const ForestModel& model, const TrainingSource& source,
   std::vector<uint8_t> truth(chosen.size());
   oneapi::tbb::parallel_for(size_t{0}, chosen.size(), [&](size_t i) {
     const TrainingImage image = source.Read(chosen[i]);
+    CheckTruth(model, image);
     const Classification result = ClassifyImage(unit, image);
     truth[i] = image.context;
     if (result.pixel.empty()) return;
@@ -83,6 +98,7 @@ std::vector<ValidationImage> GatherAll(const ForestModel& model, const TrainingS
     images[i] = GatherImage(model, source.Read(chosen[i]));
   });
   std::erase_if(images, [](const ValidationImage& image) { return image.evidence.count == 0; });
+  if (images.empty()) throw InputError("validation data: no image shows a labelled object");
   return images;
 }
 
@@ -164,6 +180,7 @@ Classification ClassifyImage(const ForestModel& model, const TrainingImage& imag
 }
 
 ValidationImage GatherImage(const ForestModel& model, const TrainingImage& image) {
+  CheckTruth(model, image);
   const Classification result = ClassifyImage(model, image);
   return {image.camera, GatherEvidence(model, MakeView(image), image.camera, result),
           result.context, image.target_m, image.target_visible};

@@ -53,7 +53,12 @@ LabelledPixels Sample(const ForestModel& model, const TrainingImage& image) {
     const int32_t p = result.pixel[i];
     const uint16_t mm = image.depth_mm[static_cast<size_t>(p)];
     points_m.push_back(depth::BackProject(image.camera, p % width, p / width, mm).cast<float>());
-    out.column.push_back(image.label[static_cast<size_t>(p)] - 1);
+    const int label = image.label[static_cast<size_t>(p)];
+    if (label > classes) {
+      throw InputError("relabelling: expected labels of at most " + std::to_string(classes) +
+                       ", found " + std::to_string(label));
+    }
+    out.column.push_back(label - 1);
     for (Eigen::Index c = 0; c < classes; ++c) {
       const float probability = result.Probability(i, static_cast<size_t>(c) + 1);
       out.offset(static_cast<Eigen::Index>(k), c) = std::log(probability + kLeastLeafProbability);

@@ -107,7 +107,8 @@ ForestModel Train(const TrainingSource& source, const TrainingVocabulary& vocabu
 ForestModel LearnPosePriors(const ForestModel& model, const TrainingSource& source,
                             size_t max_images, int threads);
 
-/// Learns evidence scale, proposal parameters and confidences on images never trained on.
+/// Learns evidence scale, proposal parameters and confidences on images never trained on. Throws
+/// InputError when none shows anything, or they are of other targets or contexts than the model.
 ForestModel LearnProposals(const ForestModel& model, const TrainingSource& validation,
                            size_t max_images, int threads);
 
@@ -127,7 +128,7 @@ ForestModel LearnRefinement(const ForestModel& model, const TrainingSource& sour
                             const RefinementOptions& options);
 
 /// Learns joint-conditioned relabelling (Relabel) on images that neither trees nor refinement have
-/// seen. Throws InputError when they show nothing.
+/// seen. Throws InputError when they show nothing, or classes that the model has not.
 ForestModel LearnRelabelling(const ForestModel& model, const TrainingSource& source, uint64_t seed,
                              int threads);
 

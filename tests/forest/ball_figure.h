@@ -1,4 +1,6 @@
 #pragma once
+#include <functional>
+#include <utility>
 #include <vector>
 
 #include "depth/image/depth_frame.h"
@@ -21,6 +23,24 @@ class BallFigures final : public TrainingSource {
   size_t count_;
   uint64_t seed_;
   int width_;
+};
+
+/// Twenty of them, each changed in the same way.
+class ChangedFigures final : public TrainingSource {
+ public:
+  using Change = std::function<void(TrainingImage&)>;
+  explicit ChangedFigures(Change change) : change_(std::move(change)) {}
+
+  size_t size() const override { return figures_.size(); }
+  TrainingImage Read(size_t index) const override {
+    TrainingImage image = figures_.Read(index);
+    change_(image);
+    return image;
+  }
+
+ private:
+  BallFigures figures_{20, 3};
+  Change change_;
 };
 
 TrainingVocabulary BallVocabulary();

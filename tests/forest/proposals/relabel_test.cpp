@@ -111,6 +111,14 @@ TEST(LearnRelabelling, RefusesImagesThatShowNothing) {
   EXPECT_THROW(LearnRelabelling(Arranged(), BallFigures(0, 1), 1, 1), InputError);
 }
 
+// It wrote beyond the classes.
+TEST(LearnRelabelling, RefusesLabelsThatTheModelHasNot) {
+  const test::ChangedFigures others([](TrainingImage& image) {
+    for (uint8_t& label : image.label) label = label == 1 ? 200 : label;
+  });
+  EXPECT_THROW(LearnRelabelling(Arranged(), others, 1, 1), InputError);
+}
+
 TEST(ForestModelFile, ARelabellingComesBackAsItWas) {
   const std::vector<char> bytes = test::ToBytes(WithPrior());
   const ForestModel read = ReadForestModel(std::as_bytes(std::span(bytes)), "body.ossa");

@@ -95,6 +95,21 @@ TEST(LearnProposals, MakesConfidencesThatSortRightFromWrong) {
   EXPECT_LT(wrong_sum, 0.5 * std::max(wrong, 1));
 }
 
+// It read places and contexts that are not there.
+TEST(LearnProposals, RefusesTruthOfAnotherVocabulary) {
+  const test::ChangedFigures fewer_targets([](TrainingImage& i) { i.target_m.pop_back(); });
+  const test::ChangedFigures other_contexts([](TrainingImage& i) { i.context = 2; });
+  for (const TrainingSource* other : {&fewer_targets, &other_contexts}) {
+    EXPECT_THROW(LearnProposals(BallModel(), *other, 20, 1), InputError);
+  }
+}
+
+// Nothing was learned, and nobody was told.
+TEST(LearnProposals, RefusesImagesThatShowNothing) {
+  const test::ChangedFigures nobody([](TrainingImage& i) { i.label.assign(i.label.size(), 0); });
+  EXPECT_THROW(LearnProposals(BallModel(), nobody, 20, 1), InputError);
+}
+
 TEST(Train, GivesTheSameBytesForAnyNumberOfThreads) {
   TrainOptions options = QuickOptions();
   options.threads = 1;
