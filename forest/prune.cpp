@@ -48,7 +48,7 @@ ForestModel FitInto(const ForestModel& model, uint64_t bytes) {
     if (FileSize(thin) <= bytes) return ForestModel(std::move(thin));
   }
   throw InputError("the model does not fit " + std::to_string(bytes) +
-                   " bytes: its nodes and votes alone are more; train fewer or lower trees");
+                   " bytes, even with one entry a leaf: allow more, or train fewer or lower trees");
 }
 
 }  // namespace ossa::forest

@@ -149,6 +149,100 @@ TEST_F(TrainingRuns, KilledAndResumedWritesTheSameBytes) {
   EXPECT_EQ(BytesOf(folder_ / "killed.ossa"), whole);
 }
 
+// A shell's completion ends folders with a slash: the data set's name was not on the card.
+TEST_F(TrainingRuns, TheSameOptionsWrittenOtherwiseAreTheSameBytes) {
+  const std::string whole = Unbroken();
+  const std::string out = folder_ / "otherwise.ossa";
+  const CommandResult result =
+      RunOssa({"train", data() + "/", "--validation=" + data() + "/", "--trees=2", "--depth", "8",
+               "--pixels=200", "--threads=2", "--memory=1G", "--out=" + out, "--quiet"});
+  ASSERT_EQ(result.exit_status, 0) << result.err;
+  EXPECT_TRUE(BytesOf(out) == whole);
+  EXPECT_NE(RunOssa({"info", out}).out.find("ossa train data --validation data --trees 2"),
+            std::string::npos);
+}
+
+// What joints take came on top.
+TEST_F(TrainingRuns, TheFinishedModelFitsIntoTheMegabytes) {
+  const size_t limit = Unbroken().size() - 100;
+  std::vector<std::string> words = Arguments("small.ossa");
+  words.insert(words.end(), {"--max-megabytes", std::to_string(1e-6 * static_cast<double>(limit))});
+  const CommandResult result = RunOssa(words);
+  ASSERT_EQ(result.exit_status, 0) << result.err;
+  EXPECT_LE(fs::file_size(folder_ / "small.ossa"), limit);
+}
+
+TEST_F(TrainingRuns, ACheckpointThatIsThereOrNotIsSpokenOf) {
+  std::vector<std::string> words = Arguments("new.ossa");
+  std::erase(words, "--quiet");
+  EXPECT_NE(RunOssa(words).err.find("new.ossa.checkpoint: not there"), std::string::npos);
+  std::ofstream(folder_ / "new.ossa.checkpoint") << "of another run";
+  std::erase(words, "--resume");
+  EXPECT_NE(RunOssa(words).err.find("new.ossa.checkpoint: left by a run that was cut off"),
+            std::string::npos);
+}
+
+// It went on to the end, whatever that took.
+TEST_F(TrainingRuns, InterruptedWhileJointsAreLearnedGoesOnFromTheTrees) {
+  std::vector<std::string> words(500, data());  // seconds to read
+  words.insert(words.begin(), "train");
+  words.insert(words.end(), {"--out", (folder_ / "cut.ossa").string(), "--trees", "1", "--depth",
+                             "1", "--pixels", "9", "--threads", "1", "--validation", data()});
+  test::RunningCommand run = test::StartOssa(words);
+  ASSERT_TRUE(run.WaitForError(" a second", test::kCommandTimeout));
+  run.Signal(SIGINT);
+  const CommandResult cut = run.Wait(test::kCommandTimeout);
+  EXPECT_EQ(cut.exit_status, 1);
+  EXPECT_NE(cut.err.find("--resume goes on from"), std::string::npos) << cut.err;
+  EXPECT_FALSE(fs::exists(folder_ / "cut.ossa"));
+}
+
+// The joints of --refinement say of labels what the trees' classes are not: it was an abort.
+TEST_F(BadDataSet, AForestOfOtherClassesOrTargetsLearnsNothingOfOurLabels) {
+  std::ofstream(folder_ / "pcl.txt") << "1\n100 0 0 100 50\n3\n9\n";
+  const auto import = [&](const char* out, std::vector<std::string> more) {
+    more.insert(more.begin(), {"train", "--import-pcl", folder_ / "pcl.txt", "--quiet", "--out",
+                               (folder_ / out).string()});
+    EXPECT_EQ(RunOssa(more).exit_status, 0);
+  };
+  import("trees.ossa", {});
+  import("joints.ossa", {"--validation", data()});
+  const auto again = [&](const char* trees, std::vector<std::string> more) {
+    more.insert(more.begin(), {"train", data(), "--validation", data(), "--out", model(),
+                               "--trees-of", (folder_ / trees).string()});
+    return RunOssa(more);
+  };
+  const CommandResult no_joints = again("trees.ossa", {});
+  EXPECT_EQ(no_joints.exit_status, 1);
+  EXPECT_NE(no_joints.err.find("trees.ossa: targets"), std::string::npos) << no_joints.err;
+  const CommandResult no_parts = again("joints.ossa", {"--refinement", data()});
+  EXPECT_EQ(no_parts.exit_status, 1);
+  EXPECT_NE(no_parts.err.find("joints.ossa: classes"), std::string::npos) << no_parts.err;
+  EXPECT_EQ(again("joints.ossa", {}).exit_status, 0);
+}
+
+// Terms with a path, of a data set rendered with --mocap FOLDER/cmu, were not on the card.
+TEST_F(BadDataSet, TermsOfMotionAreOnTheCardByTheNameOfItsFolder) {
+  std::string manifest = BytesOf(data() + "/manifest.json");
+  const std::string ours = "motion authored: ossa's own, MIT";
+  ASSERT_NE(manifest.find(ours), std::string::npos);
+  manifest.replace(manifest.find(ours), ours.size(), "motion /home/me/cmu/: see https://a.org/b");
+  std::ofstream(data() + "/manifest.json") << manifest;
+  const CommandResult result =
+      RunOssa({"train", data(), "--out", model(), "--trees", "1", "--depth", "3", "--pixels", "50",
+               "--validation", data(), "--quiet"});
+  ASSERT_EQ(result.exit_status, 0) << result.err;
+  EXPECT_NE(RunOssa({"info", model()}).out.find("\"motion cmu: see https://a.org/b\""),
+            std::string::npos);
+}
+
+// They said that no image shows an object, and nothing at all.
+TEST_F(BadDataSet, TooFewImagesToHoldOutAreTold) {
+  const CommandResult all_held = RunOssa({"train", data(), "--out", model(), "--quiet"});
+  EXPECT_EQ(all_held.exit_status, 1);
+  EXPECT_NE(all_held.err.find("--validation; found 4"), std::string::npos) << all_held.err;
+}
+
 TEST_F(TrainingRuns, ProposalsLearnedAgainForTheSameTreesAreTheSame) {
   const std::string whole = Unbroken();
   const auto again = [&](const std::string& trees_of, const std::string& out) {
@@ -211,6 +305,26 @@ TEST(TrainCommand, WrongUsageIsStatusTwo) {
   EXPECT_EQ(RunOssa({"train", "--out", "x.ossa"}).exit_status, 2);
   EXPECT_EQ(RunOssa({"train", "d", "--out", "x.ossa", "--depth", "99"}).exit_status, 2);
   EXPECT_EQ(RunOssa({"train", "d", "--out", "x.ossa", "--memory", "many"}).exit_status, 2);
+}
+
+// They were passed over: the model was another than was asked for.
+TEST(TrainCommand, OptionsOfTreesAreRefusedWhereNoneGrow) {
+  const std::vector<std::pair<std::string, std::string>> of_trees = {
+      {"--trees", "2"},   {"--depth", "3"},           {"--candidates", "9"},
+      {"--memory", "1G"}, {"--min-node-pixels", "5"}, {"--vote-depth", "3"}};
+  for (const auto& [option, value] : of_trees) {
+    for (const std::string kept : {"--trees-of", "--import-pcl"}) {
+      const CommandResult result =
+          RunOssa({"train", "--out", "x.ossa", kept, "m.ossa", option, value});
+      EXPECT_EQ(result.exit_status, 2) << option;
+      EXPECT_NE(result.err.find(option + ": expected not with " + kept), std::string::npos)
+          << result.err;
+    }
+  }
+  EXPECT_EQ(RunOssa({"train", "d", "--import-pcl", "t", "--out", "x.ossa"}).exit_status, 2);
+  EXPECT_EQ(
+      RunOssa({"train", "--import-pcl", "t", "--out", "x.ossa", "--refinement", "d"}).exit_status,
+      2);
 }
 
 // It named the field of the C++ struct.

@@ -1,0 +1,34 @@
+#pragma once
+#include <cstddef>
+#include <cstdint>
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "forest/training/train.h"
+
+namespace ossa::commands {
+
+/// What `ossa train` was asked for.
+struct TrainArguments {
+  std::vector<std::filesystem::path> datasets;
+  std::vector<std::filesystem::path> validation;
+  std::vector<std::filesystem::path> refinement;
+  std::vector<std::filesystem::path> import_pcl;
+  std::filesystem::path trees_of;
+  std::filesystem::path out;
+  std::string command;                // for the model's card
+  std::optional<uint64_t> max_bytes;  // of the model's file
+  std::vector<std::string> terms;
+  size_t validation_images = 800;
+  bool quiet = false;
+  forest::TrainOptions options;
+
+  std::filesystem::path checkpoint() const { return out.string() + ".checkpoint"; }
+};
+
+/// Throws UsageError for what cannot be, InputError where the model cannot be written.
+TrainArguments ParseTrainOptions(int argc, char** argv);
+
+}  // namespace ossa::commands
