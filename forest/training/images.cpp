@@ -103,7 +103,6 @@ ImageParts::ImageParts(const TrainingSource& source, const TrainOptions& options
     mine.push_back(i);
   }
   for (size_t first = 0; first < mine.size(); first += kReadBatch) {
-    if (options.stop && options.stop()) throw TrainInterrupted("interrupted while reading");
     const auto begin = mine.begin() + static_cast<ptrdiff_t>(first);
     const size_t count = std::min(kReadBatch, mine.size() - first);
     for (StoredImage& image : ReadPart({begin, begin + static_cast<ptrdiff_t>(count)})) {
@@ -133,16 +132,23 @@ std::vector<StoredImage> ImageParts::ReadPart(const std::vector<size_t>& indices
   constexpr size_t kBlock = kReadBatch / 2;
   oneapi::tbb::parallel_for(size_t{0}, (indices.size() + kBlock - 1) / kBlock, [&](size_t block) {
     for (size_t i = block * kBlock; i < std::min(indices.size(), (block + 1) * kBlock); ++i) {
+      if (StopWanted()) return;
       const int pixels = std::max(options_.pixels, options_.refill_pixels);
       images[i] = StoreImage(source_.Read(indices[i]), indices[i], pixels, options_.seed,
                              kBackground_mm, class_count_);
     }
   });
+  EndIfStopped();
   return images;
+}
+
+void ImageParts::EndIfStopped() const {
+  if (StopWanted()) throw TrainInterrupted("interrupted while reading");
 }
 
 void ImageParts::Visit(
     const std::function<void(size_t, const std::vector<StoredImage>&)>& visit) const {
+  EndIfStopped();
   if (parts_.size() == 1 && !kept_.empty()) return visit(0, kept_);
   for (size_t i = 0; i < parts_.size(); ++i) visit(i, ReadPart(parts_[i]));
 }

@@ -39,12 +39,15 @@ class ImageParts {
 
   size_t part_count() const { return parts_.size(); }
   size_t image_count() const { return image_count_; }
-  /// Calls visit(part, images) for every part in order.
+  /// Calls visit(part, images) for every part in order. Throws TrainInterrupted before the next one
+  /// once TrainOptions::stop says so: a part takes as long to read as the memory allowed is large.
   void Visit(const std::function<void(size_t, const std::vector<StoredImage>&)>& visit) const;
   uint64_t context_count(size_t context) const { return context_counts_[context]; }
 
  private:
   std::vector<StoredImage> ReadPart(const std::vector<size_t>& indices) const;
+  bool StopWanted() const { return options_.stop && options_.stop(); }
+  void EndIfStopped() const;
 
   const TrainingSource& source_;
   const TrainOptions& options_;

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <atomic>
 #include <memory>
 
 #include "depth/base/error.h"
@@ -149,6 +150,45 @@ TEST(Train, ResumesToTheSameBytes) {
     EXPECT_THROW(Train(figures, BallVocabulary(), broken_off), TrainInterrupted);
   }
   EXPECT_EQ(unbroken, ToBytes(Train(figures, BallVocabulary(), options)));
+}
+
+TEST(Train, StopsWhileLeavesAreFilledAndResumesToTheSameBytes) {
+  const ossa::test::TemporaryFolder folder;
+  const BallFigures figures(60, 3);
+  TrainOptions options = QuickOptions();
+  const auto unbroken = ToBytes(Train(figures, BallVocabulary(), options));
+  options.checkpoint = folder / "checkpoint";
+  options.resume = true;
+  TrainOptions broken_off = options;
+  bool is_filling = false;
+  broken_off.progress = [&](const TrainProgress& p) { is_filling = p.level == p.levels; };
+  broken_off.stop = [&] { return is_filling; };
+  EXPECT_THROW(Train(figures, BallVocabulary(), broken_off), TrainInterrupted);
+  EXPECT_EQ(unbroken, ToBytes(Train(figures, BallVocabulary(), options)));
+}
+
+// It read all images four times more before it asked.
+TEST(Train, StopsWhileImagesThatStreamAreRead) {
+  class CountedFigures final : public TrainingSource {
+   public:
+    size_t size() const override { return figures_.size(); }
+    TrainingImage Read(size_t index) const override {
+      ++reads;
+      return figures_.Read(index);
+    }
+    mutable std::atomic<size_t> reads = 0;
+
+   private:
+    BallFigures figures_{300, 3};
+  };
+  const CountedFigures figures;
+  constexpr size_t kSomeMore = 50;  // than all images once
+  TrainOptions options = QuickOptions();
+  options.memory_bytes = uint64_t{1} << 20U;  // 300 images take 4 MB
+  options.stop = [&] { return figures.reads > figures.size() + kSomeMore; };
+  EXPECT_THROW(Train(figures, BallVocabulary(), options), TrainInterrupted);
+  constexpr size_t kThreads = 64;  // each may be at an image
+  EXPECT_LT(figures.reads, figures.size() + kSomeMore + kThreads);
 }
 
 TEST(Train, RefusesTheCheckpointOfAnotherRun) {
