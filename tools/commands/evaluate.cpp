@@ -21,10 +21,18 @@ void CheckWritable(const std::string& path) {
   if (!path.empty()) AtomicFile::CheckWritable(path);
 }
 
+// Throws InputError where nothing can be noted in it.
+nlohmann::ordered_json ReadCard(const std::string& path, const forest::ForestModel& model) {
+  auto card = nlohmann::ordered_json::parse(model.manifest(), nullptr, false);
+  const bool has_room =
+      card.is_object() && (!card.contains("accuracy") || card["accuracy"].is_object());
+  if (!has_room) throw InputError(path + ": expected a card that is a JSON object");
+  return card;
+}
+
 void NoteInCard(const std::string& path, const forest::ForestModel& model, const std::string& name,
                 const std::string& evaluation) {
-  auto card = nlohmann::ordered_json::parse(model.manifest(), nullptr, false);
-  if (!card.is_object()) throw InputError(path + ": expected a card that is a JSON object");
+  auto card = ReadCard(path, model);
   auto numbers = nlohmann::ordered_json::parse(evaluation);
   for (const char* detail :
        {"ap_10cm_visible", "confidence_of_seen_joints", "confidence_of_inferred_joints"}) {
@@ -69,6 +77,10 @@ int Evaluate(int argc, char** argv) {
   CheckWritable(json_path);
   CheckWritable(report_path);
   const forest::ForestModel model = forest::ReadForestModel(model_path);
+  if (!card_name.empty()) {  // not after all the work
+    CheckWritable(model_path);
+    ReadCard(model_path, model);
+  }
   const tools::DatasetReader dataset{std::filesystem::path(dataset_path)};
   Progress bar("evaluate", quiet);
   const tools::Evaluation evaluation =

@@ -3,13 +3,15 @@
 #include <algorithm>
 
 #include "forest/classification/classify.h"
+#include "forest/proposals/propose.h"
+#include "forest/proposals/relabel.h"
 #include "tools/learning/person_source.h"
 #include "tools/synth/contact_sheet.h"
 
 namespace ossa::tools {
 namespace {
 
-// Of each person's pixels.
+// Of each person's pixels, those that ossa evaluate counts: after joints have spoken back to them.
 depth::Image<uint8_t> LabelPixels(const forest::ForestModel& model, const LabelledFrame& frame) {
   depth::Image<uint8_t> labels = frame.parts;
   std::fill(labels.data.begin(), labels.data.end(), uint8_t{0});
@@ -23,8 +25,11 @@ depth::Image<uint8_t> LabelPixels(const forest::ForestModel& model, const Labell
     const int width = image.camera.width;
     const depth::DepthView view{image.depth_mm.data(), width, image.camera.height, width};
     const forest::Classification result = forest::Classify(model, view, image.camera, pixels);
+    const auto proposals = forest::Propose(model, view, image.camera, result);
+    const std::vector<uint8_t> label =
+        forest::Relabel(model, view, image.camera, result, proposals);
     for (size_t i = 0; i < result.pixel.size(); ++i) {
-      labels.data[static_cast<size_t>(result.pixel[i])] = result.label[i];
+      labels.data[static_cast<size_t>(result.pixel[i])] = label[i];
     }
   }
   return labels;

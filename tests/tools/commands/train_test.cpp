@@ -269,6 +269,18 @@ TEST(EvaluateCommand, ADamagedModelIsOneLine) {
   EXPECT_NE(result.err.find("broken.ossa"), std::string::npos) << result.err;
 }
 
+// After all the work it was told that the model cannot be written.
+TEST_F(TrainingRuns, EvaluatedForACardThatCannotBeWrittenAreToldAtOnce) {
+  Unbroken();
+  // No name is left to write beside it under.
+  const fs::path model = folder_ / (std::string(245, 'm') + ".ossa");
+  fs::rename(folder_ / "whole.ossa", model);
+  const CommandResult result = RunOssa({"evaluate", model.string(), data(), "--card", "mine"});
+  EXPECT_EQ(result.exit_status, 1);
+  EXPECT_EQ(test::LineCount(result.err), 1) << result.err;  // no progress before it
+  EXPECT_EQ(result.out, "");
+}
+
 // As of compare and track, --json - is stdout: it was a file of that name.
 TEST_F(TrainingRuns, EvaluatedToADashWriteNoFileOfThatName) {
   Unbroken();
