@@ -394,6 +394,24 @@ def is_running(process):
     return True
 
 
+def check(options, parser):
+    """Before the hours after which it would be told."""
+    if options.people <= 0 or options.batch < 1:
+        parser.error("--people, --batch: expected numbers above 0")
+    for path in filter(None, [options.out, options.keep]):
+        if not os.access(os.path.dirname(path) or ".", os.W_OK):
+            sys.exit(f"{path}: cannot be written: expected a folder to write it in")
+
+
+def read_judges(folders, device):
+    """People to validate on: some of each folder."""
+    judges = People(folders, device, None)
+    for folder, joints in zip(folders, judges.joints):
+        if len(joints) == 0:
+            sys.exit(f"{folder}: expected people of {FEWEST_JOINTS} known joints, found none")
+    return judges
+
+
 def main():
     parser = argparse.ArgumentParser(description=__doc__.split("\n")[0])
     parser.add_argument("crops", nargs="+")
@@ -414,6 +432,7 @@ def main():
     parser.add_argument("--keep", help="write the network as PyTorch knows it, too")
     parser.add_argument("--seed", type=int, default=1)
     options = parser.parse_args()
+    check(options, parser)
 
     begun = time.time()
     device = "cuda" if torch.cuda.is_available() else "cpu"
@@ -427,7 +446,7 @@ def main():
             sys.exit(f"expected at least {options.fewest} people of {FEWEST_JOINTS} known joints, "
                      f"found {people.count}")
         time.sleep(1)
-    validation = People(options.validation, device, None)
+    validation = read_judges(options.validation, device)
     print(f"{time.time() - begun:.0f} s: {people.count} people on {device}", flush=True)
 
     model = PoseNetwork().to(device)

@@ -148,6 +148,33 @@ TEST_F(PoseNetworkCommands, WhatTheTrainerWritesRunsAsThere) {
   }
 }
 
+// At its first save or evaluation, and as a traceback.
+TEST_F(PoseNetworkCommands, TheTrainerTellsAtOnceWhatItCannotWriteOrJudge) {
+  if (!HasTorch()) GTEST_SKIP() << "no PyTorch: python3-torch";
+  const std::string crops = Crops(3), nobody = folder_ / "nobody";
+  std::filesystem::copy(crops, nobody);
+  ASSERT_EQ(RunProgram({kPython, "-c",
+                        "import sys, numpy; path = sys.argv[1] + '/joints.npy'\n"
+                        "numpy.save(path, numpy.full_like(numpy.load(path), numpy.nan))",
+                        nobody})
+                .exit_status,
+            0);
+  const std::string trainer = test::SourceFolder() / "tools/learning/train_pose_network.py";
+  const auto refuse = [&](const std::string& out, std::vector<std::string> more,
+                          const std::string& named) {
+    more.insert(more.begin(), {kPython, trainer, crops, "--out", out});
+    const auto run = RunProgram(more);
+    EXPECT_NE(run.exit_status, 0);
+    EXPECT_EQ(run.err.find("Traceback"), std::string::npos) << run.err;
+    EXPECT_NE(run.err.find(named), std::string::npos) << run.err;
+  };
+  const std::vector<std::string> few = {"--people", "4", "--batch", "4"};
+  refuse(folder_ / "nowhere/w.npy", few, "nowhere/w.npy: cannot be written");
+  refuse(folder_ / "w.npy", {"--people", "0"}, "--people");
+  refuse(folder_ / "w.npy", {"--people", "4", "--batch", "4", "--validation", nobody},
+         "nobody: expected people");
+}
+
 TEST_F(PoseNetworkCommands, ItsSayIsInTheRefinedJoints) {
   const std::string clip = folder_ / "clip", net = folder_ / "up.ossanet";
   auto run = RunOssa({"render", "--mocap", "authored", "--out", clip, "--frames", "3", "--sequence",
