@@ -17,11 +17,19 @@
 #include "tools/learning/learn_body_surface.h"
 
 namespace ossa::commands {
+namespace {
+
+void EndIfInterrupted() {
+  if (Interrupted()) throw InputError("surface: interrupted; nothing was written");
+}
+
+}  // namespace
 
 int Surface(int argc, char** argv) {
   CLI::App app("Make the body that the surface fit poses: of MPFB shapes, clothes and motion");
   std::vector<std::string> mocap;
   std::string out, mesh;
+  bool quiet = false;
   tools::BodySurfaceOptions options;
   recon::MocapOptions mocap_options;
   app.add_option("--mocap", mocap, "folders of BVH or AMC files, or the word authored")->required();
@@ -37,6 +45,7 @@ int Surface(int argc, char** argv) {
       ->capture_default_str()
       ->check(CLI::Range(50, 5000));
   app.add_option("--seed", options.seed, "of their shapes and clothes")->capture_default_str();
+  app.add_flag("--quiet", quiet, "no progress");
   AddMappingOption(app, mocap_options.mapping_file);
   Parse(app, argc, argv);
   CheckNotOtherKind("--out", out, ".ossasurface");
@@ -50,13 +59,15 @@ int Surface(int argc, char** argv) {
   mocap_options.stop = Interrupted;
   const auto motion = recon::LoadMocap(mocap, mocap_options);
   SayWarnings("surface", motion);
-  if (Interrupted()) throw InputError("surface: interrupted; nothing was written");
+  EndIfInterrupted();
   const auto model = recon::BodyModel::Load(recon::BodyFolder());
-  Progress progress("dressing people", false);
+  Progress progress("dressing people", quiet);
   options.progress = [&](size_t done) {
+    EndIfInterrupted();
     progress.Update(static_cast<double>(done), static_cast<double>(options.people));
   };
   const recon::BodyMesh body = tools::LearnBody(model, motion, !mesh.empty(), options);
+  EndIfInterrupted();
   body.surface.Save(out);
   fmt::print("{}: {} points of {} people, turns of {} clips\n", out, body.surface.points.size(),
              options.people, motion.size());
