@@ -42,6 +42,20 @@ struct FileKind {
   const char* extension = nullptr;  // a damaged one is known by it
 };
 
+// What a forest has learned besides its trees and proposals.
+std::string DescribeStages(const forest::ForestData& data) {
+  std::string text = "no pose priors";
+  if (!data.pose_priors.empty()) {
+    const forest::PosePrior& first = data.pose_priors.front();
+    text = fmt::format("pose priors of {} factors",
+                       first.loading_m.size() / std::max<size_t>(first.mean_m.size(), 1));
+  }
+  text += data.refinement.empty() ? ", no second stage"
+                                  : fmt::format(", a second stage of {} units",
+                                                data.refinement.layers.front().bias.size());
+  return text + (data.relabelling.bias.empty() ? ", no" : ",") + " joint-conditioned relabelling";
+}
+
 void ShowModel(const fs::path& path) {
   const forest::ForestModel model = forest::ReadForestModel(path);
   const forest::ForestData& data = model.data();
@@ -52,6 +66,7 @@ void ShowModel(const fs::path& path) {
     fmt::print("  tree: {} nodes, {} leaves, {} leaf entries, {} votes\n", tree.nodes.size(),
                tree.leaf_count(), tree.entries.size(), tree.votes.size());
   }
+  fmt::print("{}\n", DescribeStages(data));
   fmt::print("contexts count as {} independent pixels\n", data.evidence_scale);
   for (const forest::ProposalTarget& t : data.targets) {
     fmt::print(

@@ -186,6 +186,15 @@ TEST(InfoPicture, OfAModelIsItsCard) {
   EXPECT_NE(Bytes(card).find("<title>Head front: 97.31</title>"), std::string::npos);
 }
 
+TEST(Info, OfAModelSaysWhatItHasLearnedBesidesItsTrees) {
+  const std::string model = (test::SourceFolder() / "tools/tracker/shipped/body.ossa").string();
+  EXPECT_NE(
+      RunOssa({"info", model})
+          .out.find("pose priors of 24 factors, a second stage of 512 units, joint-conditioned "
+                    "relabelling\n"),
+      std::string::npos);
+}
+
 TEST(InfoPicture, OfAnythingElseIsRefused) {
   const TemporaryFolder folder;
   std::ofstream(folder / "me.jsonl") << R"({"frame":0,"time_s":0,"bodies":[]})";

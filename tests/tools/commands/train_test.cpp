@@ -158,8 +158,9 @@ TEST_F(TrainingRuns, TheSameOptionsWrittenOtherwiseAreTheSameBytes) {
                "--pixels=200", "--threads=2", "--memory=1G", "--out=" + out, "--quiet"});
   ASSERT_EQ(result.exit_status, 0) << result.err;
   EXPECT_TRUE(BytesOf(out) == whole);
-  EXPECT_NE(RunOssa({"info", out}).out.find("ossa train data --validation data --trees 2"),
-            std::string::npos);
+  const std::string info = RunOssa({"info", out}).out;
+  EXPECT_NE(info.find("ossa train data --validation data --trees 2"), std::string::npos) << info;
+  EXPECT_NE(info.find("no second stage, no joint-conditioned relabelling"), std::string::npos);
 }
 
 // What joints take came on top.
