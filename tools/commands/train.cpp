@@ -183,8 +183,9 @@ int LearnAgain(const TrainArguments& a) {
   CheckTellsPeople(old, a);
   const Sources sources(a);
   CheckSizes(a, sources);
-  Write(a, LearnJoints(a, WithinLimit(a, old), sources.training, sources.held_out),
-        RenewCard(old.manifest(), a, sources.training));
+  const forest::ForestModel learned =
+      LearnJoints(a, WithinLimit(a, old), sources.training, sources.held_out);
+  Write(a, learned, RenewCard(learned, a, sources.training));
   return 0;
 }
 

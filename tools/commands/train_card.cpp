@@ -108,10 +108,10 @@ std::string MakeCard(const TrainArguments& a, const tools::PersonSource& source,
   return tools::JsonText(card);
 }
 
-std::string RenewCard(const std::string& card_before, const TrainArguments& a,
+std::string RenewCard(const forest::ForestModel& learned, const TrainArguments& a,
                       const tools::PersonSource& source) {
-  auto card = Json::parse(card_before, nullptr, false);
-  if (!card.is_object()) return card_before;
+  auto card = Json::parse(learned.manifest(), nullptr, false);
+  if (!card.is_object()) return learned.manifest();
   const Manifests refinement = RefinementManifests(a);
   std::vector<std::string> terms;
   for (const auto& known : card.value("terms", Json::array())) {
@@ -123,7 +123,9 @@ std::string RenewCard(const std::string& card_before, const TrainArguments& a,
   card["terms"] = terms;
   card["proposals_command"] = a.command;
   card.erase("accuracy");  // of the proposals as they were
-  card.erase("refinement_data");
+  // Without --refinement labels are still looked at again as the data before taught it.
+  const bool is_still_relabelled = refinement.empty() && !learned.data().relabelling.bias.empty();
+  if (!is_still_relabelled) card.erase("refinement_data");
   if (!refinement.empty()) card["refinement_data"] = DescribeData(refinement);
   return tools::JsonText(card);
 }

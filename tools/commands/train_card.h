@@ -16,9 +16,9 @@ std::string DescribeCommand(int argc, char** argv);
 std::string MakeCard(const TrainArguments& a, const tools::PersonSource& source,
                      const forest::TrainSummary& summary);
 
-/// The card of a model of which all but the trees were learned again on `source`; as it was where
-/// it is no JSON object.
-std::string RenewCard(const std::string& card, const TrainArguments& a,
+/// The card of a model whose joints were learned again on `source`, made of the one before, which
+/// it still has; that one where it is no JSON object.
+std::string RenewCard(const forest::ForestModel& learned, const TrainArguments& a,
                       const tools::PersonSource& source);
 
 }  // namespace ossa::commands

@@ -237,6 +237,30 @@ TEST_F(BadDataSet, TermsOfMotionAreOnTheCardByTheNameOfItsFolder) {
             std::string::npos);
 }
 
+// The card said nothing of the data behind a relabelling that stays.
+TEST_F(BadDataSet, ACardKeepsTheDataOfTheRelabellingThatIsKept) {
+  const std::string fresh = folder_ / "fresh", again = folder_ / "again.ossa";
+  ASSERT_EQ(RunOssa({"render", "--mocap", "authored", "--out", fresh, "--frames", "80", "--size",
+                     "96x72", "--quiet"})
+                .exit_status,
+            0);
+  const std::vector<std::string> quick = {"--validation", fresh, "--quiet", "--out"};
+  const auto train = [&](std::vector<std::string> words, const std::string& out) {
+    words.insert(words.end(), quick.begin(), quick.end());
+    words.push_back(out);
+    const CommandResult result = RunOssa(words);
+    EXPECT_EQ(result.exit_status, 0) << result.err;
+    return RunOssa({"info", out}).out;
+  };
+  const std::string refined = train(
+      {"train", fresh, "--trees", "1", "--depth", "3", "--pixels", "50", "--refinement", fresh},
+      model());
+  EXPECT_NE(refined.find("512 units, joint-conditioned"), std::string::npos) << refined;
+  const std::string kept = train({"train", fresh, "--trees-of", model()}, again);
+  EXPECT_NE(kept.find("no second stage, joint-conditioned"), std::string::npos) << kept;
+  EXPECT_NE(kept.find("\"refinement_data\""), std::string::npos) << kept;
+}
+
 // They said that no image shows an object, and nothing at all.
 TEST_F(BadDataSet, TooFewImagesToHoldOutAreTold) {
   const CommandResult all_held = RunOssa({"train", data(), "--out", model(), "--quiet"});
