@@ -1,0 +1,53 @@
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <fstream>
+
+#include "tests/support/places.h"
+#include "tests/support/run_command.h"
+#include "tests/support/temporary_folder.h"
+
+namespace ossa::tests {
+namespace {
+
+namespace fs = std::filesystem;
+using test::CommandResult;
+
+// tools/train_ceiling with a command that says what it is asked for, and fails to refine while
+// there is a file `cut_off`. What it writes into a card is, like times, never the same.
+class TrainCeiling : public ::testing::Test {
+ protected:
+  void SetUp() override {
+    fs::create_directories(folder_ / "mocap");
+    std::ofstream(folder_ / "mocap" / "01_01.bvh") << "BVH";
+    std::ofstream(folder_ / "ossa") << R"(#!/bin/sh
+command=$1 model=$2
+echo "$command"
+[ "$command" = evaluate ] && echo $$ >>"$model"
+[ "$command" = refine ] && [ -e "${0%ossa}cut_off" ] && exit 1
+while [ $# -gt 1 ] && [ "$1" != --out ]; do shift; done
+case $command in train | refine) echo learned >"$2" ;; esac
+)";
+    fs::permissions(folder_ / "ossa", fs::perms::owner_all);
+  }
+  CommandResult Run() const {
+    return test::RunProgram({test::SourceFolder() / "tools/train_ceiling", folder_ / "mocap",
+                             folder_ / "work", folder_ / "ossa"});
+  }
+
+  test::TemporaryFolder folder_;
+};
+
+// It grew the forest once more, and refused the cascade's stages, which were another forest's.
+TEST_F(TrainCeiling, CutOffInTheCascadeGoesOnThere) {
+  std::ofstream(folder_ / "cut_off") << "yes";
+  EXPECT_NE(Run().exit_status, 0);
+  fs::remove(folder_ / "cut_off");
+  const CommandResult again = Run();
+  EXPECT_EQ(again.exit_status, 0) << again.err;
+  EXPECT_EQ(again.out.find("train\n"), std::string::npos) << again.out;
+  EXPECT_TRUE(fs::exists(folder_ / "work" / "body_ceiling.ossarefine"));
+}
+
+}  // namespace
+}  // namespace ossa::tests
