@@ -12,7 +12,6 @@
 #include "recon/body/standard_body.h"
 #include "recon/models/posture_prior.h"
 #include "recon/motion/mocap.h"
-#include "tools/commands/checks.h"
 #include "tools/commands/command.h"
 #include "tools/commands/commands.h"
 #include "tools/commands/mapping_option.h"
@@ -72,7 +71,7 @@ void DeclareOptions(CLI::App& app, PriorArguments& a) {
   app.add_option("--authored-weight", a.authored_weight,
                  "of an authored frame beside a captured one")
       ->capture_default_str()
-      ->check(Positive());
+      ->check(CLI::Range(0.001, 100.0));
   AddNetworkOptions(app, a.network);
   app.add_option("--seed", a.mocap_options.seed,
                  "variation of the authored clips, and what is hidden from the network")

@@ -91,6 +91,11 @@ TEST(PriorCommand, SaysWhatIsWrongInOneLine) {
   EXPECT_EQ(RunOssa({"prior", "--out", out}).exit_status, 2);
   EXPECT_EQ(RunOssa({"prior", "--mocap", "authored", "--modes", "58", "--out", out}).exit_status,
             2);
+  // As many walks through each motion are no number of walks.
+  EXPECT_EQ(RunOssa({"prior", "--mocap", "authored", "--authored-weight", "1e12", "--hidden", "0",
+                     "--out", out})
+                .exit_status,
+            2);
   const auto run = RunOssa({"prior", "--mocap", "/nonexistent", "--out", out});
   EXPECT_EQ(run.exit_status, 1);
   EXPECT_NE(run.err.find("/nonexistent"), std::string::npos) << run.err;
