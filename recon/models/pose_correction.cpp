@@ -7,6 +7,7 @@
 #include <map>
 #include <optional>
 
+#include "depth/base/train_interrupted.h"
 #include "recon/database/posture_database.h"
 #include "recon/models/error_gains_internal.h"
 #include "recon/models/local_mixture.h"
@@ -283,6 +284,7 @@ PoseCorrection PoseCorrection::Learn(const std::vector<PosturePair>& all_pairs,
   std::optional<HeldOut> best;
   for (const double w : options.widths) {
     for (const double n : options.noise_ratios) {
+      if (options.stop && options.stop()) throw TrainInterrupted("interrupted");
       const HeldOut held = LeaveOut(some, fold, rest, w, n, quick);
       if (best && held.error_m >= best->error_m) continue;
       best = held;

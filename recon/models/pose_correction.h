@@ -1,5 +1,6 @@
 #pragma once
 #include <Eigen/Core>
+#include <functional>
 #include <map>
 #include <vector>
 
@@ -20,6 +21,7 @@ struct PoseCorrectionOptions {
   size_t most_pairs = 15000;  // used, evenly spread; each also mirrored
   int folds = 7;              // at most, left out in turn, see AssignFolds
   uint64_t seed = 1;
+  std::function<bool()> stop;  // true: end with TrainInterrupted soon
 };
 
 /// Ours, of `best`: the systematic part of a sensor's error as a function of the whole posture. A

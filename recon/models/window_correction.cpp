@@ -58,6 +58,7 @@ Perceptron Train(const std::vector<PosturePair>& pairs, size_t most,
   training.dropped = options.dropped;
   training.clip_inputs = true;
   training.seed = options.seed;
+  training.stop = options.stop;
   training.batch = std::min(training.batch, examples.input.rows());
   return TrainPerceptron(&examples, PointDistanceGradient(kSoft), training);
 }

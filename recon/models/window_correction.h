@@ -2,6 +2,7 @@
 #include <Eigen/Core>
 #include <array>
 #include <cstdint>
+#include <functional>
 #include <span>
 #include <vector>
 
@@ -22,6 +23,7 @@ struct WindowCorrectionOptions {
   size_t for_gains = 8000;    // pairs for the folds by which gains are found
   int folds = 3;              // of people left out, to find the gains
   uint64_t seed = 1;
+  std::function<bool()> stop;  // true: end with TrainInterrupted soon
 };
 
 /// Ours, of `best`, beside PoseCorrection: the systematic part of a sensor's error as a function of

@@ -1,11 +1,13 @@
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
+#include <functional>
 #include <string>
 #include <vector>
 
 #include "depth/base/atomic_file.h"
 #include "depth/base/error.h"
+#include "depth/base/train_interrupted.h"
 #include "recon/files/skeleton_io.h"
 #include "recon/models/learned_models.h"
 #include "tools/commands/command.h"
@@ -22,6 +24,14 @@ namespace {
 bool SayWarningsOf(const std::vector<recon::SkeletonClip>& clips) {
   SayWarnings("learn", clips);
   return !Interrupted();
+}
+
+recon::LearnedModels LearnUntilInterrupted(const std::vector<recon::PosturePair>& pairs,
+                                           const recon::LearnOptions& options,
+                                           const std::function<bool(int)>& progress) try {
+  return recon::LearnedModels::Learn(pairs, options, progress);
+} catch (const TrainInterrupted&) {
+  throw InputError("learn: interrupted; nothing was written");
 }
 
 }  // namespace
@@ -62,6 +72,7 @@ int Learn(int argc, char** argv) {
   }
   CheckNotOtherKind("--out", out, ".ossagp");
   options.correction.seed = options.mixture.seed;
+  options.correction.stop = options.window.stop = Interrupted;
   options.processes = !correction_only;
 
   std::vector<std::string> inputs = observed;
@@ -73,7 +84,7 @@ int Learn(int argc, char** argv) {
   const auto pairs = tools::PairRecordings(observed, truth, reading, SayWarningsOf);
   if (Interrupted()) throw InputError("learn: interrupted; nothing was written");
   Progress progress("learn", quiet);
-  const auto models = recon::LearnedModels::Learn(pairs, options, [&](int joint) {
+  const auto models = LearnUntilInterrupted(pairs, options, [&](int joint) {
     progress.Update(joint, recon::kJointCount, fmt::format("{} pairs", pairs.size()));
     return !Interrupted();
   });

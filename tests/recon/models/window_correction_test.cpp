@@ -4,6 +4,7 @@
 
 #include <random>
 
+#include "depth/base/train_interrupted.h"
 #include "recon/models/learned_models.h"
 #include "recon/models/pose_correction.h"
 #include "tests/recon/synthetic_motion.h"
@@ -78,6 +79,16 @@ TEST(WindowCorrection, LeavesASensorAloneWhoseErrorsHaveNoSystem) {
 
 TEST(WindowCorrection, IsNotLearnedOfOnePerson) {
   EXPECT_TRUE(WindowCorrection::Learn(MakePairs(0.1, false, 1), Quick()).empty());
+}
+
+// Learned of all that there is, it takes a minute: Ctrl-C was heard after that.
+TEST(LearnedModels, StopWhileCorrectionsAreLearned) {
+  const std::vector<PosturePair> pairs = MakePairs(0.1, false);
+  PoseCorrectionOptions pose;
+  WindowCorrectionOptions window = Quick();
+  pose.stop = window.stop = [] { return true; };
+  EXPECT_THROW(PoseCorrection::Learn(pairs, pose), TrainInterrupted);
+  EXPECT_THROW(WindowCorrection::Learn(pairs, window), TrainInterrupted);
 }
 
 TEST(WindowCorrection, ComesBackFromTheFileTheSame) {
