@@ -5,6 +5,7 @@
 #include <optional>
 #include <vector>
 
+#include "depth/sensor/corner_internal.h"
 #include "depth/sensor/parabola_internal.h"
 
 // Constants: chosen on 1 100 rendered frames of every view, noise and size and on the real ones
@@ -35,11 +36,13 @@ void SurfaceBend::AddLines(const DepthView& image, bool columns) {
   constexpr int kWindows = 10;   // side by side in a row
   constexpr int kLeastSize = 8;  // pixels
   constexpr int kLines = 160;    // of an image's width
+  constexpr double kKink = 0.8;  // of what a parabola leaves, by hand: of noise both leave as much
   const int size = std::max(kLeastSize, image.width / kWindows);
   const int step = std::max(1, image.width / kLines), hop = size / 4;
   const int lines = columns ? image.width : image.height;
   const int length = columns ? image.height : image.width;
   const Parabola parabola(size);
+  const Corner corner(size);
   std::vector<double> z(static_cast<size_t>(size));
   for (int line = 0; line < lines; line += step) {
     for (int begin = 0; begin + size <= length; begin += hop) {
@@ -48,9 +51,12 @@ void SurfaceBend::AddLines(const DepthView& image, bool columns) {
         z[static_cast<size_t>(i)] = columns ? image.at(line, begin + i) : image.at(begin + i, line);
       }
       if (std::find(z.begin(), z.end(), 0.0) != z.end()) continue;
-      const auto bend = ComputePlaneBend(parabola.Through(z));
+      const Parabola::Fit fit = parabola.Through(z);
+      const auto bend = ComputePlaneBend(fit);
       if (bend && *bend > 0.4 && *bend < 1.8) ++as_planes_;
-      if (bend && *bend > -8.0 && *bend < -0.1) ++opposite_;
+      const bool is_opposite = bend && *bend > -8.0 && *bend < -0.1;
+      // The corner between a floor and a wall bends so, too, but as a kink.
+      if (is_opposite && corner.Rest(z) > kKink * fit.rest) ++opposite_;
     }
   }
 }

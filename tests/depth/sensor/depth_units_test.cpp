@@ -114,6 +114,30 @@ TEST(DepthCensus, TooLittleIsNotJudged) {
   EXPECT_FALSE(Judged(frame).has_value());
 }
 
+// A level camera a metre high sees of the floor less than a window before a wall 3 m away: what
+// bends is the corner.
+TEST(DepthCensus, TheCornerOfAnEmptyRoomIsNotSuspected) {
+  for (const double noise_m : {0.0, 0.0005}) {
+    for (const double wall_m : {2.6, 2.8, 3.0, 3.2}) {
+      tests::CapsuleScene scene;
+      scene.planes = {{{0.0, 1.0, 0.0}, 1.0}, {{0.0, 0.0, -1.0}, wall_m}};
+      scene.noise_m = noise_m;
+      const DepthFrame room = tests::Render(scene, KinectV1Camera(640, 480)).frame;
+      const auto suspicion = Judged(room);
+      EXPECT_FALSE(suspicion) << wall_m << " m, noise " << noise_m << ": " << suspicion->looks;
+    }
+  }
+}
+
+// As a simulator has it, exact: along rows the numbers change but where a box ends.
+TEST(DepthCensus, ABoxInAnExactRoomHasNoPlayersBits) {
+  tests::CapsuleScene scene;
+  scene.planes = {{{0.0, 1.0, 0.0}, 1.0}, {{0.0, 0.0, -1.0}, 3.0}};
+  scene.boxes = {{{-0.4, -0.2, 2.0}, {0.4, 0.5, 2.2}}};
+  const auto suspicion = Judged(tests::Render(scene, KinectV1Camera(640, 480)).frame);
+  EXPECT_FALSE(suspicion) << suspicion->looks;
+}
+
 // A room from one place, as exact as it is or as noisy as a Kinect v1 sees it, 1.5 mm at a metre.
 struct Place {
   double height_m, wall_m, tilt_rad, noise_m;
