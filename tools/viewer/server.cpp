@@ -44,7 +44,10 @@ void Server::Listen(const tcp::endpoint& at) {
   Accept();
 }
 
-int Server::port() const { return acceptor_.local_endpoint().port(); }
+int Server::port() const {
+  boost::system::error_code closed;
+  return acceptor_.local_endpoint(closed).port();
+}
 
 void Server::Accept() {
   acceptor_.async_accept([this](const boost::system::error_code& error, tcp::socket socket) {

@@ -30,6 +30,7 @@ class Server {
   Server(Desk& desk, Access access);
   /// Throws InputError where the port is taken.
   void Listen(const boost::asio::ip::tcp::endpoint& at);
+  /// 0 where it does not listen: what was adopted may be answered all the same.
   int port() const;
   boost::asio::io_context& context() { return context_; }
   /// Speaks HTTP over a socket that is connected.
