@@ -281,26 +281,32 @@ TEST(OpenSource, OnePngIsAFrame) {
   EXPECT_THROW(OpenSource((folder / "none.png").string()), InputError);
 }
 
-TEST(DataSetSource, TakesTheManifestsCameraAndTheDepthFolder) {
-  const TemporaryFolder folder;
-  std::filesystem::create_directory(folder / "depth");
-  WriteFrame(folder / "depth/000000.png", 42);
-  const Camera camera{8, 6, 9, 9, 4, 3};
-  std::ofstream(folder / "manifest.json") << R"({"camera":)" << CameraToJson(camera) << "}";
-  const auto source = OpenSource(folder.path().string());
-  EXPECT_EQ(source->camera(), camera);
+// A data set of one image, whose manifest says the camera.
+class DataSetSource : public testing::Test {
+ protected:
+  void SetUp() override {
+    std::filesystem::create_directory(folder_ / "depth");
+    WriteFrame(folder_ / "depth/000000.png", 42);
+    std::ofstream(folder_ / "manifest.json") << R"({"camera":)" << CameraToJson(kCamera) << "}";
+  }
+  Camera CameraOf(const char* name) const {
+    return OpenSource((folder_ / name).string())->camera();
+  }
+
+  static constexpr Camera kCamera{8, 6, 9, 9, 4, 3};
+  const TemporaryFolder folder_;
+};
+
+TEST_F(DataSetSource, TakesTheManifestsCameraAndTheDepthFolder) {
+  const auto source = OpenSource(folder_.path().string());
+  EXPECT_EQ(source->camera(), kCamera);
   EXPECT_EQ(Next(*source).frame.depth_mm[0], 42);
-  EXPECT_EQ(OpenSource((folder / "depth/000000.png").string())->camera(), camera);
+  EXPECT_EQ(CameraOf("depth/000000.png"), kCamera);
 }
 
-TEST(DataSetSource, AStillHasItsCameraHoweverItsPathIsWritten) {
-  const TemporaryFolder folder;
-  std::filesystem::create_directory(folder / "depth");
-  WriteFrame(folder / "depth/000000.png", 42);
-  const Camera camera{8, 6, 9, 9, 4, 3};
-  std::ofstream(folder / "manifest.json") << R"({"camera":)" << CameraToJson(camera) << "}";
+TEST_F(DataSetSource, AStillHasItsCameraHoweverItsPathIsWritten) {
   for (const char* name : {"depth/./000000.png", "depth/../depth/000000.png"}) {
-    EXPECT_EQ(OpenSource((folder / name).string())->camera(), camera) << name;
+    EXPECT_EQ(CameraOf(name), kCamera) << name;
   }
 }
 
