@@ -84,6 +84,7 @@ void ShowDataset(const fs::path& path) {
   fmt::print("data set, {} frames of {} x {}, seed {}, split {}, view {}\nmade by: {}\n", m.frames,
              m.camera.width, m.camera.height, m.seed, OnOneLine(m.split), OnOneLine(m.view),
              OnOneLine(m.command));
+  if (!m.ossa.empty()) fmt::print("by ossa {}\n", OnOneLine(m.ossa));
   for (const std::string& source : m.sources) fmt::print("motion: {}\n", OnOneLine(source));
   for (const std::string& terms : m.terms) fmt::print("terms: {}\n", OnOneLine(terms));
 }

@@ -25,6 +25,7 @@
 #include "tools/synth/ranks.h"
 #include "tools/synth/render_dataset.h"
 #include "tools/synth/sequence_poses.h"
+#include "tools/tracker/tracker.h"
 
 namespace ossa::commands {
 namespace {
@@ -251,6 +252,7 @@ tools::RenderJob MakeJob(const Arguments& a, const std::filesystem::path& out,
   job.ranks = ranks.size();
   job.command = FormatCommand(a);
   job.sources = a.mocap;
+  job.ossa = tracker::Version();
   job.terms = tools::ListTerms(a.mocap);
   job.interrupted = Interrupted;
   return job;

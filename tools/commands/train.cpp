@@ -16,6 +16,7 @@
 #include "tools/commands/process.h"
 #include "tools/commands/train_card.h"
 #include "tools/commands/train_options.h"
+#include "tools/commands/warnings.h"
 #include "tools/learning/common_parts.h"
 #include "tools/learning/person_source.h"
 
@@ -99,28 +100,24 @@ forest::ForestModel LearnJoints(const TrainArguments& a, const forest::ForestMod
   return a.refinement.empty() ? proposing : Refined(a, proposing, validation);
 }
 
-// Training images and those held out for proposals.
-struct Sources {
-  tools::PersonSource training;
-  tools::PersonSource held_out;
+constexpr int kHeldOut = 4;  // of each 100 frames, where there is no --validation; by hand
 
-  explicit Sources(const TrainArguments& a)
-      : training(a.datasets, {a.validation.empty() ? kHeldOut : 0, 100}),
-        held_out(a.validation.empty() ? a.datasets : a.validation,
-                 {0, a.validation.empty() ? kHeldOut : 100}, tools::Extent::kWholeImage) {}
-
-  static constexpr int kHeldOut = 4;  // of each 100 frames
-};
+TrainData OpenData(const TrainArguments& a) {
+  const bool apart = !a.validation.empty();
+  return {
+      {a.datasets, {apart ? 0 : kHeldOut, 100}},
+      {apart ? a.validation : a.datasets, {0, apart ? 100 : kHeldOut}, tools::Extent::kWholeImage}};
+}
 
 // Before the hours of work that need them.
-void CheckSizes(const TrainArguments& a, const Sources& sources) {
-  if (a.validation.empty() && sources.training.size() == 0) {
+void CheckSizes(const TrainArguments& a, const TrainData& data) {
+  if (a.validation.empty() && data.training.size() == 0) {
     throw InputError(fmt::format(
         "{}: expected more than {} images, so many are held out for proposals where there is no "
         "--validation; found {}",
-        a.datasets.front().string(), Sources::kHeldOut, sources.held_out.size()));
+        a.datasets.front().string(), kHeldOut, data.held_out.size()));
   }
-  if (sources.held_out.size() == 0) {
+  if (data.held_out.size() == 0) {
     throw InputError(a.validation.front().string() +
                      ": expected images for --validation, found none");
   }
@@ -132,6 +129,26 @@ void CheckSizes(const TrainArguments& a, const Sources& sources) {
       "{}: expected at least {} images for --refinement besides the first {} of each 100, which "
       "the labels have; found {}",
       a.refinement.front().string(), kFewest, kForLabels, fresh.size()));
+}
+
+// On images that the trees were grown on they are surer than they will ever be again.
+std::vector<std::string> FindDataUsedTwice(const TrainArguments& a) {
+  std::vector<std::string> warnings;
+  const auto look = [&](const char* option, const std::vector<fs::path>& others) {
+    for (const fs::path& other : others) {
+      const bool is_trained_on =
+          std::any_of(a.datasets.begin(), a.datasets.end(),
+                      [&](const fs::path& d) { return fs::equivalent(d, other); });
+      if (!is_trained_on) continue;
+      warnings.push_back(fmt::format(
+          "{} {}: the trees are grown on it, too: what is learned there expects more of them than "
+          "they can do on other images",
+          option, other.string()));
+    }
+  };
+  look("--validation", a.validation);
+  look("--refinement", a.refinement);
+  return warnings;
 }
 
 // The model within --max-megabytes.
@@ -181,11 +198,12 @@ void CheckTellsPeople(const forest::ForestModel& model, const TrainArguments& a)
 int LearnAgain(const TrainArguments& a) {
   const forest::ForestModel old = forest::ReadForestModel(a.trees_of);
   CheckTellsPeople(old, a);
-  const Sources sources(a);
-  CheckSizes(a, sources);
+  const TrainData data = OpenData(a);
+  CheckSizes(a, data);
+  SayWarnings("train", FindDataUsedTwice(a));
   const forest::ForestModel learned =
-      LearnJoints(a, WithinLimit(a, old), sources.training, sources.held_out);
-  Write(a, learned, RenewCard(learned, a, sources.training));
+      LearnJoints(a, WithinLimit(a, old), data.training, data.held_out);
+  Write(a, learned, RenewCard(learned, a, data.training));
   return 0;
 }
 
@@ -199,12 +217,29 @@ void SayOfCheckpoint(const TrainArguments& a) {
   Say(fmt::format("train: {}: {}\n", a.checkpoint().string(), what));
 }
 
+// Whoever runs a script of trainings again has those that ended behind them.
+bool IsThereAlready(const TrainArguments& a, const TrainData& data) {
+  if (!a.options.resume || fs::exists(a.checkpoint()) || !fs::exists(a.out)) return false;
+  try {
+    return WasMadeBy(forest::ReadForestModel(a.out).manifest(), a, data);
+  } catch (const InputError&) {
+    return false;  // no model, or not of this version
+  }
+}
+
 int TrainOnData(TrainArguments* a, const forest::Reducer& reducer) {
   forest::TrainOptions& o = a->options;
-  const Sources sources(*a);
-  CheckSizes(*a, sources);
-  const tools::PersonSource& source = sources.training;
-  o.fingerprint = source.fingerprint();
+  const TrainData data = OpenData(*a);
+  CheckSizes(*a, data);
+  if (reducer.rank() == 0) SayWarnings("train", FindDataUsedTwice(*a));
+  if (IsThereAlready(*a, data)) {
+    if (!a->quiet && reducer.rank() == 0) {
+      Say(fmt::format("train: {}: is there already, made by this command of this data\n",
+                      a->out.string()));
+    }
+    return 0;
+  }
+  o.fingerprint = data.training.fingerprint();
   o.checkpoint = a->checkpoint();
   if (reducer.rank() == 0) {
     AtomicFile::CheckWritable(o.checkpoint);
@@ -215,11 +250,11 @@ int TrainOnData(TrainArguments* a, const forest::Reducer& reducer) {
   o.progress = [&](const forest::TrainProgress& p) { ShowProgress(&bar, p); };
   forest::TrainSummary summary;
   const forest::ForestModel trees =
-      forest::Train(source, tools::BodyVocabulary(), o, reducer, &summary);
+      forest::Train(data.training, tools::BodyVocabulary(), o, reducer, &summary);
   if (reducer.rank() != 0) return 0;
   if (!a->quiet) SayRate(summary);
-  Write(*a, LearnJoints(*a, WithinLimit(*a, trees), source, sources.held_out),
-        MakeCard(*a, source, summary));
+  Write(*a, LearnJoints(*a, WithinLimit(*a, trees), data.training, data.held_out),
+        MakeCard(*a, data, summary));
   fs::remove(o.checkpoint);
   return 0;
 }

@@ -59,6 +59,14 @@ void AddTerms(const Manifests& manifests, std::vector<std::string>* all) {
   }
 }
 
+std::string HashOf(const TrainArguments& a, const TrainData& data) {
+  std::string all = data.training.fingerprint() + "; held out: " + data.held_out.fingerprint();
+  if (!a.refinement.empty()) {
+    all += "; refinement: " + tools::PersonSource(a.refinement, {0, 100}).fingerprint();
+  }
+  return fmt::format("{:016x}", Fnv1a(all));
+}
+
 Json DescribeData(const Manifests& manifests) {
   auto data = Json::array();
   for (const tools::DatasetManifest& m : manifests) {
@@ -91,8 +99,15 @@ std::string DescribeCommand(int argc, char** argv) {
   return LineWithoutFolders(line);
 }
 
-std::string MakeCard(const TrainArguments& a, const tools::PersonSource& source,
+bool WasMadeBy(const std::string& card, const TrainArguments& a, const TrainData& data) {
+  const auto json = Json::parse(card, nullptr, false);
+  return json.is_object() && json.value("command", Json()) == Json(a.command) &&
+         json.value("data_hash", Json()) == Json(HashOf(a, data));
+}
+
+std::string MakeCard(const TrainArguments& a, const TrainData& data,
                      const forest::TrainSummary& summary) {
+  const tools::PersonSource& source = data.training;
   const Manifests refinement = RefinementManifests(a);
   std::vector<std::string> terms = a.terms;
   AddTerms(source.manifests(), &terms);
@@ -102,7 +117,7 @@ std::string MakeCard(const TrainArguments& a, const tools::PersonSource& source,
   card["data"] = DescribeData(source.manifests());
   if (!refinement.empty()) card["refinement_data"] = DescribeData(refinement);
   card["terms"] = terms;
-  card["data_hash"] = fmt::format("{:016x}", Fnv1a(source.fingerprint()));
+  card["data_hash"] = HashOf(a, data);
   card["images"] = summary.images;
   card["class_balance"] = "equal shares of the classes present in each image";
   return tools::JsonText(card);

@@ -12,8 +12,17 @@ namespace ossa::commands {
 /// text however the same options are written.
 std::string DescribeCommand(int argc, char** argv);
 
-/// The card of a forest trained on `source`, JSON text.
-std::string MakeCard(const TrainArguments& a, const tools::PersonSource& source,
+/// Training images and those held out for proposals.
+struct TrainData {
+  tools::PersonSource training;
+  tools::PersonSource held_out;
+};
+
+/// True where the card is of a forest that this very command made of this very data.
+bool WasMadeBy(const std::string& card, const TrainArguments& a, const TrainData& data);
+
+/// The card of a forest trained on the data, JSON text.
+std::string MakeCard(const TrainArguments& a, const TrainData& data,
                      const forest::TrainSummary& summary);
 
 /// The card of a model whose joints were learned again on `source`, made of the one before, which

@@ -106,8 +106,9 @@ void AddOptions(CLI::App* app, TrainArguments* a, TrainWords* words) {
   app->add_option("--threads", o.threads, "0: all cores")
       ->capture_default_str()
       ->check(CLI::Range(0, 1024));
-  auto* resume =
-      app->add_flag("--resume", o.resume, "go on from OUT.checkpoint where a run was cut off");
+  auto* resume = app->add_flag(
+      "--resume", o.resume,
+      "go on from OUT.checkpoint where a run was cut off; of the same data done is done");
   app->add_flag("--quiet", a->quiet, "no progress");
   auto* trees_of =
       app->add_option("--trees-of", a->trees_of,

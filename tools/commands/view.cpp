@@ -10,6 +10,7 @@
 #include <utility>
 #include <vector>
 
+#include "depth/base/atomic_file.h"
 #include "depth/base/error.h"
 #include "depth/base/one_line.h"
 #include "depth/sensor/frame_source.h"
@@ -284,6 +285,9 @@ int View(int argc, char** argv) {
   CheckRead(app, options.settings.method, false);
   CheckLearned(options.settings.method, options.files.learned);
   options.mechanics.Check();
+  if (!options.record_to.empty()) {
+    AtomicFile::CheckWritable(std::filesystem::path(options.record_to) / "recording");
+  }
   options.tracker.turn = ChooseTurn(options.source);
   if (IsSource(options.source.name)) {
     PageTracker(options).Run();

@@ -43,6 +43,8 @@ struct DatasetManifest {
   std::string split;                 // "train" or "test"
   std::string view;                  // "front", "any", "near" or "ceiling"
   std::vector<std::string> sources;  // motion
+  std::string motion;                // digest of the poses in them; "" of sets that do not say
+  std::string ossa;                  // version that made it; "" of sets that do not say
   std::vector<std::string> terms;    // where motion and bodies come from and their licences
   bool png = true;                   // depth/, parts/, users/ and truth.jsonl are there
   bool packed = false;               // shards/ are there

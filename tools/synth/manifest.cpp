@@ -45,6 +45,8 @@ DatasetManifest ManifestFromJson(const Json& json, const std::filesystem::path& 
   manifest.split = Field<std::string>(json, place, "split");
   manifest.view = Field<std::string>(json, place, "view");
   manifest.sources = Field<std::vector<std::string>>(json, place, "sources");
+  manifest.motion = json.contains("motion") ? Field<std::string>(json, place, "motion") : "";
+  manifest.ossa = json.contains("ossa") ? Field<std::string>(json, place, "ossa") : "";
   manifest.terms = Field<std::vector<std::string>>(json, place, "terms");
   manifest.png = Field<bool>(json, place, "png");
   manifest.packed = Field<bool>(json, place, "packed");
@@ -98,6 +100,8 @@ std::string ManifestToJson(const DatasetManifest& manifest) {
   json["split"] = manifest.split;
   json["view"] = manifest.view;
   json["sources"] = manifest.sources;
+  json["motion"] = manifest.motion;
+  json["ossa"] = manifest.ossa;
   json["terms"] = manifest.terms;
   json["png"] = manifest.png;
   json["packed"] = manifest.packed;

@@ -1,5 +1,8 @@
 #include "tools/synth/render_dataset.h"
 
+#include <fmt/format.h>
+#include <xxhash.h>
+
 #include <atomic>
 #include <cstdio>
 #include <exception>
@@ -51,6 +54,20 @@ std::string ReadText(const fs::path& path) {
   return text.str();
 }
 
+// Files of motion may change between two runs of one command: names do not say what is in them.
+std::string DigestOf(const std::vector<recon::RigPose>& poses) {
+  const std::unique_ptr<XXH3_state_t, decltype(&XXH3_freeState)> state(XXH3_createState(),
+                                                                       XXH3_freeState);
+  XXH3_64bits_reset(state.get());
+  for (const recon::RigPose& pose : poses) {
+    XXH3_64bits_update(state.get(), pose.root_m.data(), sizeof(pose.root_m));
+    for (const Eigen::Quaterniond& rotation : pose.world_from_rest) {
+      XXH3_64bits_update(state.get(), rotation.coeffs().data(), sizeof(rotation.coeffs()));
+    }
+  }
+  return fmt::format("{:016x}", XXH3_64bits_digest(state.get()));
+}
+
 DatasetManifest MakeManifest(const FrameStudio& studio, const RenderJob& job) {
   DatasetManifest manifest;
   manifest.frames = job.frames;
@@ -60,6 +77,8 @@ DatasetManifest MakeManifest(const FrameStudio& studio, const RenderJob& job) {
   manifest.split = studio.options.split == Split::kTest ? "test" : "train";
   manifest.view = NameOf(studio.options.view);
   manifest.sources = job.sources;
+  manifest.motion = DigestOf(studio.poses);
+  manifest.ossa = job.ossa;
   manifest.terms = job.terms;
   manifest.png = job.png;
   manifest.packed = job.packed;
@@ -82,7 +101,7 @@ void PrepareFolder(const RenderJob& job, const std::string& plan) {
       const std::string found = CommandIn(ReadText(path));
       throw InputError(path.string() + ": another data set is there: expected " + job.command +
                        " or an empty folder, found " +
-                       (found == job.command ? "what another version of ossa made" : found));
+                       (found == job.command ? "what other motion or another ossa made" : found));
     }
   }
   if (fs::exists(manifest)) return;

@@ -18,6 +18,7 @@ struct RenderJob {
   int ranks = 1;
   std::string command;               // for the manifest; says nothing of threads and ranks
   std::vector<std::string> sources;  // of motion
+  std::string ossa;                  // this version
   std::vector<std::string> terms;
   std::function<bool()> interrupted = [] { return false; };
   std::function<void(int64_t done)> progress = [](int64_t) {};

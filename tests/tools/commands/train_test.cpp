@@ -148,6 +148,29 @@ TEST_F(TrainingRuns, KilledAndResumedWritesTheSameBytes) {
   EXPECT_EQ(BytesOf(folder_ / "killed.ossa"), whole);
 }
 
+// A script that runs several trainings was cut off behind this one: it took the hours again.
+TEST_F(TrainingRuns, WhatIsThereAlreadyOfTheSameDataIsNotMadeAgain) {
+  const std::string whole = Unbroken();
+  const auto written = fs::last_write_time(folder_ / "whole.ossa");
+  std::vector<std::string> words = Arguments("whole.ossa");
+  std::erase(words, "--quiet");
+  const CommandResult again = RunOssa(words);
+  EXPECT_EQ(again.exit_status, 0);
+  EXPECT_NE(again.err.find("whole.ossa: is there already"), std::string::npos) << again.err;
+  EXPECT_EQ(fs::last_write_time(folder_ / "whole.ossa"), written);
+  const std::string manifest = data() + "/manifest.json";
+  std::string text = BytesOf(manifest);
+  const size_t motion = text.find(R"("motion": ")");
+  ASSERT_NE(motion, std::string::npos);
+  text[motion + 11] = text[motion + 11] == '0' ? '1' : '0';
+  std::ofstream(manifest) << text;
+  const CommandResult other = RunOssa(words);
+  EXPECT_EQ(other.err.find("is there already"), std::string::npos);
+  EXPECT_NE(other.err.find("--validation " + data() + ": the trees are grown on it, too"),
+            std::string::npos)
+      << other.err;
+}
+
 // A shell's completion ends folders with a slash: the data set's name was not on the card.
 TEST_F(TrainingRuns, TheSameOptionsWrittenOtherwiseAreTheSameBytes) {
   const std::string whole = Unbroken();
@@ -390,7 +413,7 @@ TEST_F(TrainingRuns, ACheckpointOfOtherOptionsNamesTheFirst) {
   words.back() = "300";
   const CommandResult other = RunOssa(words);
   EXPECT_EQ(other.exit_status, 1);
-  EXPECT_EQ(test::LineCount(other.err), 1) << other.err;
+  EXPECT_EQ(test::LineCount(other.err), 2) << other.err;  // and that it is validated on its data
   EXPECT_NE(other.err.find("cut.ossa.checkpoint: checkpoint of another run: candidates: expected "
                            "300 as in this run, found 20000"),
             std::string::npos)

@@ -82,6 +82,17 @@ TEST(ViewCommand, APortThatIsTakenIsOneLine) {
   EXPECT_NE(result.err.find(std::to_string(taken.port())), std::string::npos);
 }
 
+// Whoever watches learned it when they pressed the button.
+TEST(ViewCommand, WhereNothingCanBeRecordedIsSaidBeforeAnythingIsShown) {
+  const TemporaryFolder folder;
+  WriteSkeletons(folder / "x.jsonl");
+  const CommandResult result = RunOssa({"view", (folder / "x.jsonl").string(), "--once", "--port",
+                                        "0", "--record-to", (folder / "nowhere").string()});
+  EXPECT_EQ(result.exit_status, 1);
+  EXPECT_EQ(LineCount(result.err), 1) << result.err;
+  EXPECT_NE(result.err.find("nowhere"), std::string::npos) << result.err;
+}
+
 TEST(ViewCommand, WhatIsNoSkeletonFileIsNamed) {
   const TemporaryFolder folder;
   std::ofstream(folder / "x.jsonl") << "not json\n";

@@ -64,6 +64,30 @@ TEST(RenderDataset, GoesOnWhereItWasStoppedWithTheSameBytes) {
   }
 }
 
+// A file of motion was edited between a run that was stopped and the next of the same command.
+TEST(RenderDataset, DoesNotMixFramesOfTwoMotions) {
+  if (!recon::BodyIsFetched(recon::BodyFolder())) GTEST_SKIP() << "no body: tools/fetch_body";
+  const test::TemporaryFolder folder;
+  FrameOptions options;
+  options.width = 64;
+  options.height = 48;
+  auto poses = MakePoseBank(recon::LoadMocap({"authored-floor"}));
+  poses.resize(3);
+  const FrameStudio before(LoadFetchedBody(), poses, options);
+  poses[1].root_m.x() += 0.1;
+  const FrameStudio after(LoadFetchedBody(), poses, options);
+  RenderJob job;
+  job.frames = 2;
+  job.command = "test";
+  job.out = folder / "set";
+  job.interrupted = [] { return true; };
+  ASSERT_EQ(RenderShare(before, job), RenderEnd::kInterrupted);
+  test::ExpectRefused([&] { RenderShare(after, job); },
+                      "expected test or an empty folder, found what other motion or another ossa");
+  job.interrupted = [] { return false; };
+  EXPECT_EQ(RenderShare(before, job), RenderEnd::kDone);
+}
+
 // Killed while it writes an image, and again between the manifest and the end.
 TEST(RenderDataset, KeepsNothingThatAKilledRunLeft) {
   if (!recon::BodyIsFetched(recon::BodyFolder())) GTEST_SKIP() << "no body: tools/fetch_body";
