@@ -44,56 +44,69 @@ void NoteInCard(const std::string& path, const forest::ForestModel& model, const
   forest::WriteForestModel(path, forest::ForestModel(std::move(data)));
 }
 
-}  // namespace
-
-int Evaluate(int argc, char** argv) {
-  CLI::App app("Measure a body-part model on a labelled data set it was not trained on");
-  std::string model_path;
-  std::string dataset_path;
-  std::string json_path;
-  std::string report_path;
-  std::string card_name;
+struct EvaluateArguments {
+  std::string model, dataset, json, report, card;
   int64_t step = 1;
   bool quiet = false;
-  app.add_option("MODEL", model_path, "a .ossa file")->required();
-  app.add_option("DATASET", dataset_path, "a folder made by ossa render")->required();
-  app.add_option("--json", json_path,
+};
+
+void Declare(CLI::App& app, EvaluateArguments& a) {
+  app.add_option("MODEL", a.model, "a .ossa file")->required();
+  app.add_option("DATASET", a.dataset, "a folder made by ossa render")->required();
+  app.add_option("--json", a.json,
                  "write the numbers here, FILE.json (they are printed in any case)");
   app.add_option(
-      "--report", report_path,
+      "--report", a.report,
       "write a page here, FILE.html: accuracy by part and joint, confusion matrix, calibration, "
       "worst frames");
-  app.add_option("--card", card_name,
+  app.add_option("--card", a.card,
                  "note the numbers in the model's card under this name (rewrites MODEL)");
-  app.add_option("--every", step, "look at every N-th frame")
+  app.add_option("--every", a.step, "look at every N-th frame")
       ->capture_default_str()
       ->check(Positive());
-  app.add_flag("--quiet", quiet, "no progress");
-  Parse(app, argc, argv);
-  if (json_path == "-") json_path.clear();  // stdout, as of track and compare: they are printed
-  CheckNotOtherKind("--json", json_path, ".json");
-  CheckExtension("--report", report_path, ".html");
-  CheckOutputs({json_path, report_path}, {model_path, dataset_path});
-  CheckWritable(json_path);
-  CheckWritable(report_path);
-  const forest::ForestModel model = forest::ReadForestModel(model_path);
-  if (!card_name.empty()) {  // not after all the work
-    CheckWritable(model_path);
-    ReadCard(model_path, model);
-  }
-  const tools::DatasetReader dataset{std::filesystem::path(dataset_path)};
-  Progress bar("evaluate", quiet);
-  const tools::Evaluation evaluation =
-      tools::Evaluate(model, model_path, dataset, step, [&](int64_t done, int64_t total) {
+  app.add_flag("--quiet", a.quiet, "no progress");
+}
+
+void Check(const EvaluateArguments& a) {
+  CheckNotOtherKind("--json", a.json, ".json");
+  CheckExtension("--report", a.report, ".html");
+  CheckOutputs({a.json, a.report}, {a.model, a.dataset});
+  CheckWritable(a.json);
+  CheckWritable(a.report);
+}
+
+tools::Evaluation Measure(const EvaluateArguments& a, const forest::ForestModel& model) {
+  const tools::DatasetReader dataset{std::filesystem::path(a.dataset)};
+  Progress bar("evaluate", a.quiet);
+  tools::Evaluation evaluation =
+      tools::Evaluate(model, a.model, dataset, a.step, [&](int64_t done, int64_t total) {
         bar.Update(static_cast<double>(done), static_cast<double>(total));
         return !Interrupted();
       });
   if (Interrupted()) throw InputError("evaluate: interrupted");
+  return evaluation;
+}
+
+}  // namespace
+
+int Evaluate(int argc, char** argv) {
+  CLI::App app("Measure a body-part model on a labelled data set it was not trained on");
+  EvaluateArguments a;
+  Declare(app, a);
+  Parse(app, argc, argv);
+  if (a.json == "-") a.json.clear();  // stdout, as of track and compare: they are printed
+  Check(a);
+  const forest::ForestModel model = forest::ReadForestModel(a.model);
+  if (!a.card.empty()) {  // not after all the work
+    CheckWritable(a.model);
+    ReadCard(a.model, model);
+  }
+  const tools::Evaluation evaluation = Measure(a, model);
   const std::string json = tools::EvaluationJson(evaluation);
   fmt::print("{}", json);
-  WriteText(json_path, json);
-  WriteText(report_path, tools::EvaluationHtml(evaluation, model_path + " on " + dataset_path));
-  if (!card_name.empty()) NoteInCard(model_path, model, card_name, json);
+  WriteText(a.json, json);
+  WriteText(a.report, tools::EvaluationHtml(evaluation, a.model + " on " + a.dataset));
+  if (!a.card.empty()) NoteInCard(a.model, model, a.card, json);
   return 0;
 }
 

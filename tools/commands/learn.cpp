@@ -34,21 +34,21 @@ recon::LearnedModels LearnUntilInterrupted(const std::vector<recon::PosturePair>
   throw InputError("learn: interrupted; nothing was written");
 }
 
-}  // namespace
-
-int Learn(int argc, char** argv) {
-  CLI::App app("Learn a sensor's errors from pairs of observed and true skeletons");
+struct LearnArguments {
   std::vector<std::string> observed, truth;
   std::string out;
   recon::LearnOptions options;
   recon::SkeletonReadOptions reading;
-  reading.stop = Interrupted;
   bool quiet = false, correction_only = false;
-  app.add_option("--observed", observed, "what the sensor said: files, folders or archives")
+};
+
+void Declare(CLI::App& app, LearnArguments& a) {
+  recon::LearnOptions& options = a.options;
+  app.add_option("--observed", a.observed, "what the sensor said: files, folders or archives")
       ->required();
-  app.add_option("--truth", truth, "what was true, in the same order; joints may be missing")
+  app.add_option("--truth", a.truth, "what was true, in the same order; joints may be missing")
       ->required();
-  app.add_option("--out", out, "the .ossagp file to write")->required();
+  app.add_option("--out", a.out, "the .ossagp file to write")->required();
   app.add_option("--seed", options.mixture.seed, "of the clustering")->capture_default_str();
   app.add_option("--regions", options.mixture.regions, "Q of liu-2016")
       ->capture_default_str()
@@ -58,39 +58,56 @@ int Learn(int argc, char** argv) {
       ->check(CLI::Range(2, recon::LearnOptions::kMostSamples));
   app.add_option("--pairs", options.most_pairs, "at most, for liu-2016, full-gp and exemplar")
       ->capture_default_str();
-  app.add_flag("--correction-only", correction_only,
+  app.add_flag("--correction-only", a.correction_only,
                "only what best uses: quick to learn, a quarter of a megabyte");
-  app.add_flag("--quiet", quiet, "no progress");
-  AddMappingOption(app, reading.mapping_file);
-  Parse(app, argc, argv);
-  if (observed.size() != truth.size()) {
-    throw UsageError(fmt::format("learn: {} --observed but {} --truth; expected as many",
-                                 observed.size(), truth.size()));
-  }
-  if (options.most_pairs < 10) {
-    throw UsageError(fmt::format("--pairs: expected 10 or more, found {}", options.most_pairs));
-  }
-  CheckNotOtherKind("--out", out, ".ossagp");
-  options.correction.seed = options.mixture.seed;
-  options.correction.stop = options.window.stop = Interrupted;
-  options.processes = !correction_only;
+  app.add_flag("--quiet", a.quiet, "no progress");
+  AddMappingOption(app, a.reading.mapping_file);
+}
 
-  std::vector<std::string> inputs = observed;
-  inputs.insert(inputs.end(), truth.begin(), truth.end());
-  inputs.push_back(reading.mapping_file);
-  CheckOutputs({out}, inputs);
-  AtomicFile::CheckWritable(out);
-  reading.progress = ReadingBar(quiet);
-  const auto pairs = tools::PairRecordings(observed, truth, reading, SayWarningsOf);
+void Check(const LearnArguments& a) {
+  if (a.observed.size() != a.truth.size()) {
+    throw UsageError(fmt::format("learn: {} --observed but {} --truth; expected as many",
+                                 a.observed.size(), a.truth.size()));
+  }
+  if (a.options.most_pairs < 10) {
+    throw UsageError(fmt::format("--pairs: expected 10 or more, found {}", a.options.most_pairs));
+  }
+  CheckNotOtherKind("--out", a.out, ".ossagp");
+  std::vector<std::string> inputs = a.observed;
+  inputs.insert(inputs.end(), a.truth.begin(), a.truth.end());
+  inputs.push_back(a.reading.mapping_file);
+  CheckOutputs({a.out}, inputs);
+  AtomicFile::CheckWritable(a.out);
+}
+
+LearnArguments ParseLearnOptions(int argc, char** argv) {
+  CLI::App app("Learn a sensor's errors from pairs of observed and true skeletons");
+  LearnArguments a;
+  Declare(app, a);
+  Parse(app, argc, argv);
+  Check(a);
+  a.options.correction.seed = a.options.mixture.seed;
+  a.options.correction.stop = a.options.window.stop = Interrupted;
+  a.options.processes = !a.correction_only;
+  a.reading.stop = Interrupted;
+  a.reading.progress = ReadingBar(a.quiet);
+  return a;
+}
+
+}  // namespace
+
+int Learn(int argc, char** argv) {
+  const LearnArguments a = ParseLearnOptions(argc, argv);
+  const auto pairs = tools::PairRecordings(a.observed, a.truth, a.reading, SayWarningsOf);
   if (Interrupted()) throw InputError("learn: interrupted; nothing was written");
-  Progress progress("learn", quiet);
-  const auto models = LearnUntilInterrupted(pairs, options, [&](int joint) {
+  Progress progress("learn", a.quiet);
+  const auto models = LearnUntilInterrupted(pairs, a.options, [&](int joint) {
     progress.Update(joint, recon::kJointCount, fmt::format("{} pairs", pairs.size()));
     return !Interrupted();
   });
   if (Interrupted()) throw InputError("learn: interrupted; nothing was written");
-  models.Save(out);
-  fmt::print("{}: learned from {} pairs\n", out, pairs.size());
+  models.Save(a.out);
+  fmt::print("{}: learned from {} pairs\n", a.out, pairs.size());
   return 0;
 }
 

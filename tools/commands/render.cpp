@@ -43,7 +43,7 @@ struct Arguments {
   bool sequence = false, quiet = false;
 };
 
-void Declare(CLI::App& app, Arguments& a) {
+void DeclareSet(CLI::App& app, Arguments& a) {
   app.add_option("--mocap", a.mocap,
                  "folders of motion, or the words 'authored' (upright) and 'authored-floor' "
                  "(lying, kneeling, "
@@ -54,6 +54,9 @@ void Declare(CLI::App& app, Arguments& a) {
   app.add_option("--frames", a.frames, "how many")->required()->check(CLI::Range(1, 10'000'000));
   app.add_option("--seed", a.seed, "frame i depends on the seed and i only")->capture_default_str();
   app.add_option("--size", a.size, "WIDTHxHEIGHT in pixels")->capture_default_str();
+}
+
+void DeclarePeople(CLI::App& app, Arguments& a) {
   app.add_option("--bodies", a.bodies,
                  "random shapes and clothes; any: also the ends of the range; or the average body")
       ->check(CLI::IsMember({"random", "any", "average"}))
@@ -63,6 +66,9 @@ void Declare(CLI::App& app, Arguments& a) {
                  "skirts, hoods), long hair, hats, bags and gloves")
       ->check(CLI::IsMember({"fitting", "any"}))
       ->capture_default_str();
+}
+
+void DeclareScene(CLI::App& app, Arguments& a) {
   app.add_option("--noise", a.noise,
                  "the sensor: structured light (kinect-v1, xtion), time of flight (kinect-v2, "
                  "azure), active stereo (d4xx); any: another in each frame")
@@ -97,6 +103,9 @@ void Declare(CLI::App& app, Arguments& a) {
                  "lived-in: with shelves, coats on hooks, door frames, plants, too "
                  "[none; room with --sequence]")
       ->check(CLI::IsMember({"none", "room", "lived-in"}));
+}
+
+void DeclareCamera(CLI::App& app, Arguments& a) {
   app.add_option(
          "--camera", a.camera,
          "intrinsics; 'generic' varies them; 'any': images of 100 to 1280 pixels, 45 to 120 "
@@ -110,6 +119,9 @@ void Declare(CLI::App& app, Arguments& a) {
                  "neighbour")
       ->check(CLI::Range(1.0, 8.0))
       ->capture_default_str();
+}
+
+void DeclareFiles(CLI::App& app, Arguments& a) {
   app.add_option("--format", a.format,
                  "png files (depth/, parts/, users/), packed shards (faster, smaller), or both")
       ->check(CLI::IsMember({"png", "packed", "both"}))
@@ -124,6 +136,14 @@ void Declare(CLI::App& app, Arguments& a) {
   AddMappingOption(app, a.mapping);
   app.add_option("--threads", a.threads)->check(CLI::Range(1, 1024));
   app.add_flag("--quiet", a.quiet, "no progress");
+}
+
+void Declare(CLI::App& app, Arguments& a) {
+  DeclareSet(app, a);
+  DeclarePeople(app, a);
+  DeclareScene(app, a);
+  DeclareCamera(app, a);
+  DeclareFiles(app, a);
 }
 
 void ParseSize(const std::string& text, int* width, int* height) {

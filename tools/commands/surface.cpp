@@ -23,59 +23,83 @@ void EndIfInterrupted() {
   if (Interrupted()) throw InputError("surface: interrupted; nothing was written");
 }
 
-}  // namespace
-
-int Surface(int argc, char** argv) {
-  CLI::App app("Make the body that the surface fit poses: of MPFB shapes, clothes and motion");
+struct SurfaceArguments {
   std::vector<std::string> mocap;
   std::string out, mesh;
   bool quiet = false;
   tools::BodySurfaceOptions options;
   recon::MocapOptions mocap_options;
-  app.add_option("--mocap", mocap, "folders of BVH or AMC files, or the word authored")->required();
-  app.add_option("--out", out, "the .ossasurface file to write")->required();
-  app.add_option("--mesh", mesh, "the .ossamesh file to write: its skin as triangles, for .glb");
-  app.add_option("--triangles", options.triangles, "of --mesh, about")
+};
+
+void Declare(CLI::App& app, SurfaceArguments& a) {
+  app.add_option("--mocap", a.mocap, "folders of BVH or AMC files, or the word authored")
+      ->required();
+  app.add_option("--out", a.out, "the .ossasurface file to write")->required();
+  app.add_option("--mesh", a.mesh, "the .ossamesh file to write: its skin as triangles, for .glb");
+  app.add_option("--triangles", a.options.triangles, "of --mesh, about")
       ->capture_default_str()
       ->check(CLI::Range(200, 20000));
-  app.add_option("--points", options.points, "places on the skin")
+  app.add_option("--points", a.options.points, "places on the skin")
       ->capture_default_str()
       ->check(CLI::Range(size_t{50}, recon::BodySurface::kMostPoints));
-  app.add_option("--people", options.people, "dressed bodies that shape is learned from")
+  app.add_option("--people", a.options.people, "dressed bodies that shape is learned from")
       ->capture_default_str()
       ->check(CLI::Range(50, 5000));
-  app.add_option("--seed", options.seed, "of their shapes and clothes")->capture_default_str();
-  app.add_flag("--quiet", quiet, "no progress");
-  AddMappingOption(app, mocap_options.mapping_file);
-  Parse(app, argc, argv);
-  CheckNotOtherKind("--out", out, ".ossasurface");
-  CheckNotOtherKind("--mesh", mesh, ".ossamesh");
-  std::vector<std::string> inputs = mocap;
-  inputs.push_back(mocap_options.mapping_file);
-  CheckOutputs({out, mesh}, inputs);
-  AtomicFile::CheckWritable(out);
-  if (!mesh.empty()) AtomicFile::CheckWritable(mesh);
+  app.add_option("--seed", a.options.seed, "of their shapes and clothes")->capture_default_str();
+  app.add_flag("--quiet", a.quiet, "no progress");
+  AddMappingOption(app, a.mocap_options.mapping_file);
+}
 
-  mocap_options.stop = Interrupted;
-  const auto motion = recon::LoadMocap(mocap, mocap_options);
+void Check(const SurfaceArguments& a) {
+  CheckNotOtherKind("--out", a.out, ".ossasurface");
+  CheckNotOtherKind("--mesh", a.mesh, ".ossamesh");
+  std::vector<std::string> inputs = a.mocap;
+  inputs.push_back(a.mocap_options.mapping_file);
+  CheckOutputs({a.out, a.mesh}, inputs);
+  AtomicFile::CheckWritable(a.out);
+  if (!a.mesh.empty()) AtomicFile::CheckWritable(a.mesh);
+}
+
+std::vector<recon::MotionClip> LoadMotion(const SurfaceArguments& a) {
+  recon::MocapOptions options = a.mocap_options;
+  options.stop = Interrupted;
+  auto motion = recon::LoadMocap(a.mocap, options);
   SayWarnings("surface", motion);
   EndIfInterrupted();
+  return motion;
+}
+
+recon::BodyMesh LearnShape(const SurfaceArguments& a,
+                           const std::vector<recon::MotionClip>& motion) {
   const auto model = recon::BodyModel::Load(recon::BodyFolder());
-  Progress progress("dressing people", quiet);
+  Progress progress("dressing people", a.quiet);
+  tools::BodySurfaceOptions options = a.options;
   options.progress = [&](size_t done) {
     EndIfInterrupted();
     progress.Update(static_cast<double>(done), static_cast<double>(options.people));
   };
-  const recon::BodyMesh body = tools::LearnBody(model, motion, !mesh.empty(), options);
+  recon::BodyMesh body = tools::LearnBody(model, motion, !a.mesh.empty(), options);
   EndIfInterrupted();
-  body.surface.Save(out);
-  fmt::print("{}: {} points of {} people, turns of {} clips\n", out, body.surface.points.size(),
-             options.people, motion.size());
-  if (!mesh.empty()) {
-    body.Save(mesh);
-    fmt::print("{}: {} vertices, {} triangles\n", mesh, body.vertices.size(),
-               body.triangles.size());
-  }
+  return body;
+}
+
+}  // namespace
+
+int Surface(int argc, char** argv) {
+  CLI::App app("Make the body that the surface fit poses: of MPFB shapes, clothes and motion");
+  SurfaceArguments a;
+  Declare(app, a);
+  Parse(app, argc, argv);
+  Check(a);
+  const auto motion = LoadMotion(a);
+  const recon::BodyMesh body = LearnShape(a, motion);
+  body.surface.Save(a.out);
+  fmt::print("{}: {} points of {} people, turns of {} clips\n", a.out, body.surface.points.size(),
+             a.options.people, motion.size());
+  if (a.mesh.empty()) return 0;
+  body.Save(a.mesh);
+  fmt::print("{}: {} vertices, {} triangles\n", a.mesh, body.vertices.size(),
+             body.triangles.size());
   return 0;
 }
 

@@ -40,10 +40,8 @@ uint64_t ParseMemory(const std::string& text) {
   return static_cast<uint64_t>(number * scale);
 }
 
-void AddOptions(CLI::App* app, TrainArguments* a, TrainWords* words) {
-  forest::TrainOptions& o = a->options;
-  app->add_option("DATASET", a->datasets, "labelled data sets (folders made by ossa render)");
-  app->add_option("--out", a->out, "the model file to write")->required();
+void AddForestOptions(CLI::App* app, forest::TrainOptions* options) {
+  forest::TrainOptions& o = *options;
   app->add_option("--trees", o.trees, "trees of the forest")
       ->capture_default_str()
       ->check(CLI::Range(1, 16));
@@ -69,6 +67,10 @@ void AddOptions(CLI::App* app, TrainArguments* a, TrainWords* words) {
   app->add_option("--offsets", o.offsets, "distinct offsets a node, candidates are pairs of them")
       ->capture_default_str()
       ->check(CLI::Range(2, 4096));
+}
+
+void AddNodeOptions(CLI::App* app, forest::TrainOptions* options) {
+  forest::TrainOptions& o = *options;
   app->add_option("--node-pixels", o.node_pixels, "pixels looked at in a node, at most")
       ->capture_default_str()
       ->check(CLI::Range(100, 1000000));
@@ -85,6 +87,9 @@ void AddOptions(CLI::App* app, TrainArguments* a, TrainWords* words) {
   app->add_option("--vote-depth", o.vote_depth, "depth of the nodes that keep position votes")
       ->capture_default_str()
       ->check(CLI::Range(0, 18));
+}
+
+void AddDataOptions(CLI::App* app, TrainArguments* a, TrainWords* words) {
   app->add_option("--validation", a->validation,
                   "data sets for proposal parameters (default: 4 of each 100 frames, held out)");
   app->add_option("--validation-images", a->validation_images, "images of them to use")
@@ -102,6 +107,10 @@ void AddOptions(CLI::App* app, TrainArguments* a, TrainWords* words) {
       ->check(CLI::Range(0.0, kMostMegabytes));
   app->add_option("--terms", a->terms, "terms of the data, for the model's card; repeat for more")
       ->allow_extra_args(false);
+}
+
+void AddRunOptions(CLI::App* app, TrainArguments* a) {
+  forest::TrainOptions& o = a->options;
   app->add_option("--seed", o.seed, "of every random choice")->capture_default_str();
   app->add_option("--threads", o.threads, "0: all cores")
       ->capture_default_str()
@@ -120,6 +129,15 @@ void AddOptions(CLI::App* app, TrainArguments* a, TrainWords* words) {
                       "joints are learned on --validation");
   trees_of->excludes(resume)->excludes(import_pcl);
   import_pcl->excludes(resume);
+}
+
+void AddOptions(CLI::App* app, TrainArguments* a, TrainWords* words) {
+  app->add_option("DATASET", a->datasets, "labelled data sets (folders made by ossa render)");
+  app->add_option("--out", a->out, "the model file to write")->required();
+  AddForestOptions(app, &a->options);
+  AddNodeOptions(app, &a->options);
+  AddDataOptions(app, a, words);
+  AddRunOptions(app, a);
 }
 
 std::vector<std::string> ListInputs(const TrainArguments& a) {

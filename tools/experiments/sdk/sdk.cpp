@@ -66,85 +66,130 @@ Table EmptyTable() {
   return table;
 }
 
-}  // namespace
+// What can be tried, in the order in which `data` names it.
+const std::vector<std::string> kRecordings = {"correct", "incorrect", "itop", "failures"};
+const std::vector<std::string> kStudies = {"nested",       "lag",     "incremental",
+                                           "linear-bound", "hardest", "honest"};
 
-std::vector<Table> RunSdk(ExperimentContext& context) {
-  Table table = EmptyTable();
+std::vector<std::string> ChosenMethods(ExperimentContext& context) {
   const auto all = AllMethods();
-  auto known_methods = all;
-  known_methods.emplace_back(kBestOffline);
-  known_methods.emplace_back(kBestUnlearned);
-  known_methods.insert(known_methods.end(), kBestLater.begin(), kBestLater.end());
-  known_methods.insert(known_methods.end(), kRawLater.begin(), kRawLater.end());
-  const auto methods = context.parameters.Some("methods", known_methods, all);
-  const std::vector<std::string> recordings = {"correct", "incorrect", "itop", "failures"};
-  std::vector<std::string> known = recordings;
-  known.insert(known.end(), {"nested", "lag", "incremental", "linear-bound", "hardest", "honest"});
-  const auto sets = context.parameters.Some("data", known, recordings);
-  const auto wanted = [&](const std::string& name) {
-    return std::find(sets.begin(), sets.end(), name) != sets.end();
-  };
-  if (std::none_of(recordings.begin(), recordings.end(), wanted)) {
-    throw InputError(fmt::format("sdk: data: expected some of {} to be tried on; found {}",
-                                 fmt::join(recordings, ", "), fmt::join(sets, ", ")));
+  auto known = all;
+  known.emplace_back(kBestOffline);
+  known.emplace_back(kBestUnlearned);
+  known.insert(known.end(), kBestLater.begin(), kBestLater.end());
+  known.insert(known.end(), kRawLater.begin(), kRawLater.end());
+  return context.parameters.Some("methods", known, all);
+}
+
+std::vector<std::string> ChosenData(ExperimentContext& context) {
+  std::vector<std::string> known = kRecordings;
+  known.insert(known.end(), kStudies.begin(), kStudies.end());
+  auto chosen = context.parameters.Some("data", known, kRecordings);
+  if (std::find_first_of(chosen.begin(), chosen.end(), kRecordings.begin(), kRecordings.end()) !=
+      chosen.end()) {
+    return chosen;
   }
-  const int every = context.parameters.Integer("every_nth_clip", 1, 1);
+  throw InputError(fmt::format("sdk: data: expected some of {} to be tried on; found {}",
+                               fmt::join(kRecordings, ", "), fmt::join(chosen, ", ")));
+}
+
+recon::ReconstructorOptions MakeMethodOptions(ExperimentContext& context) {
   recon::ReconstructorOptions options;
   options.seed = context.seed;
   options.database = LoadDatabase(context).postures;
   options.prior = LoadPrior(context);
-  options.best.repair = context.parameters.Integer("best_repair", 1) != 0;
-  options.best.complete = context.parameters.Integer("best_complete", 1) != 0;
-  options.best.correct = context.parameters.Integer("best_correct", 1) != 0;
-  options.best.window = context.parameters.Integer("best_window", 1) != 0;
-  options.best.filter = context.parameters.Integer("best_filter", 1) != 0;
-  options.best.bones = context.parameters.Integer("best_bones", 1) != 0;
-  std::vector<Table> tables;
-  Table linear = EmptyLinearBound();
-  const bool bound = wanted("linear-bound");
-  const auto run = [&](const std::string& data, const std::vector<Fold>& folds) {
-    if (bound) AddLinearBound(data, folds, &linear);
-    if (wanted("nested") && folds.size() > 2)
-      tables.push_back(RunNested(context, data, folds, options, &table));
-    if (wanted("lag") && folds.size() > 2) tables.push_back(RunLag(context, data, folds, options));
-    if (wanted("incremental") && folds.size() > 2)
-      tables.push_back(RunIncremental(context, folds, options));
-    std::vector<MethodScore> scores;
-    for (const std::string& method : methods) {
-      scores.push_back(RunFolds(context, data, folds, method, options));
-      table.rows.push_back(MethodRow(data, scores.back()));
+  const auto is_on = [&](const char* stage) { return context.parameters.Integer(stage, 1) != 0; };
+  options.best.repair = is_on("best_repair");
+  options.best.complete = is_on("best_complete");
+  options.best.correct = is_on("best_correct");
+  options.best.window = is_on("best_window");
+  options.best.filter = is_on("best_filter");
+  options.best.bones = is_on("best_bones");
+  return options;
+}
+
+class SdkStudy {
+ public:
+  explicit SdkStudy(ExperimentContext& context)
+      : context_(context),
+        methods_(ChosenMethods(context)),
+        data_(ChosenData(context)),
+        every_(static_cast<size_t>(context.parameters.Integer("every_nth_clip", 1, 1))),
+        options_(MakeMethodOptions(context)) {}
+
+  std::vector<Table> Run() {
+    if (Wants("correct") || Wants("incorrect")) RunUiPrmd();
+    if (Wants("itop")) RunItop();
+    if (Wants("linear-bound")) studies_.push_back(std::move(linear_bound_));
+    if (!methods_table_.rows.empty()) {
+      studies_.insert(studies_.begin(), std::move(methods_table_));
     }
-    if (wanted("hardest") && data.starts_with("UI-PRMD"))
-      tables.push_back(HardestTable(data, scores));
-    if (wanted("honest") && data.starts_with("UI-PRMD"))
-      tables.push_back(HonestTable(data, scores));
-  };
-  if (wanted("correct") || wanted("incorrect")) {
-    auto pairs = LoadUiPrmd(context.shared, false);
-    auto wrong = LoadUiPrmd(context.shared, true);
+    if (Wants("failures")) studies_.push_back(GrossFailureTable(context_, methods_, options_));
+    return std::move(studies_);
+  }
+
+ private:
+  bool Wants(const char* name) const {
+    return std::find(data_.begin(), data_.end(), name) != data_.end();
+  }
+
+  void RunUiPrmd() {
+    auto pairs = LoadUiPrmd(context_.shared, false);
+    auto wrong = LoadUiPrmd(context_.shared, true);
     std::move(wrong.begin(), wrong.end(), std::back_inserter(pairs));
     for (const bool incorrect : {false, true}) {
-      if (!wanted(incorrect ? "incorrect" : "correct")) continue;
+      if (!Wants(incorrect ? "incorrect" : "correct")) continue;
       size_t n = 0;
-      run(incorrect ? "UI-PRMD incorrect" : "UI-PRMD correct",
-          LeaveOneSubjectOut(pairs, [&](const RecordedPair& pair) {
-            return pair.clip.ends_with("_inc") == incorrect &&
-                   n++ % static_cast<size_t>(every) == 0;
-          }));
+      RunOn(incorrect ? "UI-PRMD incorrect" : "UI-PRMD correct",
+            LeaveOneSubjectOut(pairs, [&](const RecordedPair& pair) {
+              return pair.clip.ends_with("_inc") == incorrect && n++ % every_ == 0;
+            }));
     }
   }
-  if (wanted("itop")) {
-    const auto whole = LoadItop(context.shared).at(0);
+
+  void RunItop() {
+    const auto whole = LoadItop(context_.shared).at(0);
     const size_t half = whole.observed.frames.size() / 2;
     const std::vector<RecordedPair> halves = {
         Part(whole, 0, half, "first half"),
         Part(whole, half, whole.observed.frames.size(), "second half")};
-    run("ITOP A2J", LeaveOneSubjectOut(halves, [](const RecordedPair&) { return true; }));
+    RunOn("ITOP A2J", LeaveOneSubjectOut(halves, [](const RecordedPair&) { return true; }));
   }
-  if (bound) tables.push_back(std::move(linear));
-  if (!table.rows.empty()) tables.insert(tables.begin(), std::move(table));
-  if (wanted("failures")) tables.push_back(GrossFailureTable(context, methods, options));
-  return tables;
-}
+
+  void RunOn(const std::string& data, const std::vector<Fold>& folds) {
+    if (Wants("linear-bound")) AddLinearBound(data, folds, &linear_bound_);
+    if (folds.size() > 2) RunStudiesOfFolds(data, folds);
+    std::vector<MethodScore> scores;
+    for (const std::string& method : methods_) {
+      scores.push_back(RunFolds(context_, data, folds, method, options_));
+      methods_table_.rows.push_back(MethodRow(data, scores.back()));
+    }
+    if (!data.starts_with("UI-PRMD")) return;
+    if (Wants("hardest")) studies_.push_back(HardestTable(data, scores));
+    if (Wants("honest")) studies_.push_back(HonestTable(data, scores));
+  }
+
+  // Those that leave subjects out within what is left: two folds are too few.
+  void RunStudiesOfFolds(const std::string& data, const std::vector<Fold>& folds) {
+    if (Wants("nested")) {
+      studies_.push_back(RunNested(context_, data, folds, options_, &methods_table_));
+    }
+    if (Wants("lag")) studies_.push_back(RunLag(context_, data, folds, options_));
+    if (Wants("incremental")) studies_.push_back(RunIncremental(context_, folds, options_));
+  }
+
+  ExperimentContext& context_;
+  std::vector<std::string> methods_;
+  std::vector<std::string> data_;
+  size_t every_;
+  recon::ReconstructorOptions options_;
+  Table methods_table_ = EmptyTable();
+  Table linear_bound_ = EmptyLinearBound();
+  std::vector<Table> studies_;
+};
+
+}  // namespace
+
+std::vector<Table> RunSdk(ExperimentContext& context) { return SdkStudy(context).Run(); }
 
 }  // namespace ossa::tools
