@@ -1,8 +1,8 @@
+#include "recon/methods/best/gross_failures_internal.h"
+
 #include <algorithm>
 #include <cmath>
 #include <vector>
-
-#include "recon/methods/best/gross_failures_internal.h"
 
 #include "depth/base/statistics.h"
 
@@ -33,48 +33,56 @@ double GrossFailures::Repair(ReconstructionInput& input) {
   elsewhere_ = false;
   failure_ = GrossFailure::kNone;
   const std::optional<double> step = steps_.To(input.time_s);
-  if (!last_ || !step) {
-    last_.reset();
-    before_last_.reset();
-    jumped_s_.fill(0.0);
-    body_jumped_s_ = exchanged_s_ = 0.0;
-    return 1.0;
-  }
+  if (!last_ || !step) return BeginAnew();
   const double step_s = *step;
-  Posture predicted = *last_;
-  if (before_last_) {
-    // Half the velocity: a full step would make every change of direction a jump.
-    const double share = 0.5 * step_s / last_dt_s_;
-    for (size_t i = 0; i < kJointCount; ++i) {
-      predicted.position_m[i] += share * (last_->position_m[i] - before_last_->position_m[i]);
-    }
-  }
-  double doubt = 1.0;
-  const auto straight = MedianDistance(input.observed, predicted);
+  const Posture predicted = Predict(step_s);
+  const std::optional<double> distance_m = MedianDistance(input.observed, predicted);
   const TrackedPosture exchanged = SidesExchanged(input.observed);
-  const auto mirrored = MedianDistance(exchanged, predicted);
-  const bool sides = straight && mirrored && *straight > options_.slack_m &&
-                     *mirrored < options_.mirrored_ratio * *straight;
+  const auto exchanged_distance_m = MedianDistance(exchanged, predicted);
+  const bool sides = distance_m && exchanged_distance_m && *distance_m > options_.slack_m &&
+                     *exchanged_distance_m < options_.mirrored_ratio * *distance_m;
   exchanged_s_ = sides ? exchanged_s_ + step_s : 0.0;
-  if (sides) {
-    if (exchanged_s_ > options_.sides_patience_s) return AcceptAfterAll();
-    input.observed = exchanged;
-    failure_ = GrossFailure::kSidesExchanged;
-    doubt = 0.5;
-  } else if (straight &&
-             *straight > options_.slack_m + options_.body_slack_m + options_.body_speed * step_s) {
+  if (exchanged_s_ > options_.sides_patience_s) return AcceptAfterAll();
+  if (!sides && distance_m && IsBeyondReach(*distance_m, step_s)) {
     body_jumped_s_ += step_s;
-    const double patience_s =
-        SameBones(input.observed) ? options_.own_patience_s : options_.patience_s;
+    const bool is_own = SameBones(input.observed);
+    const double patience_s = is_own ? options_.own_patience_s : options_.patience_s;
     if (body_jumped_s_ >= patience_s) return AcceptAfterAll();
     failure_ = GrossFailure::kAnotherBody;
     return 0.0;
   }
+  if (sides) {
+    input.observed = exchanged;
+    failure_ = GrossFailure::kSidesExchanged;
+  }
   body_jumped_s_ = 0.0;
-  const auto moved = MedianDistance(input.observed, *last_);
-  elsewhere_ = moved && *moved > options_.cut_speed * std::max(step_s, 1.0 / 30.0);
+  const auto moved_m = MedianDistance(input.observed, *last_);
+  elsewhere_ = moved_m && *moved_m > options_.cut_speed * std::max(step_s, 1.0 / 30.0);
   JudgeJoints(input.observed, predicted, step_s);
-  return doubt;
+  return sides ? 0.5 : 1.0;
+}
+
+double GrossFailures::BeginAnew() {
+  last_.reset();
+  before_last_.reset();
+  jumped_s_.fill(0.0);
+  body_jumped_s_ = exchanged_s_ = 0.0;
+  return 1.0;
+}
+
+Posture GrossFailures::Predict(double step_s) const {
+  Posture predicted = *last_;
+  if (!before_last_) return predicted;
+  // Half the velocity: a full step would make every change of direction a jump.
+  const double share = 0.5 * step_s / last_dt_s_;
+  for (size_t i = 0; i < kJointCount; ++i) {
+    predicted.position_m[i] += share * (last_->position_m[i] - before_last_->position_m[i]);
+  }
+  return predicted;
+}
+
+bool GrossFailures::IsBeyondReach(double distance_m, double step_s) const {
+  return distance_m > options_.slack_m + options_.body_slack_m + options_.body_speed * step_s;
 }
 
 /// It stays so: the past was wrong, or is over.

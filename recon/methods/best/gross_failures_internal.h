@@ -49,7 +49,12 @@ class GrossFailures {
   void Remember(const Posture& made, double dt_s);
 
  private:
+  double BeginAnew();
   double AcceptAfterAll();
+  /// Where the joints are expected so long after the last posture.
+  Posture Predict(double step_s) const;
+  /// Farther than a body gets.
+  bool IsBeyondReach(double distance_m, double step_s) const;
   void JudgeJoints(const TrackedPosture& observed, const Posture& predicted, double dt_s);
   bool SameBones(const TrackedPosture& observed) const;
   bool LooksWrong(const TrackedPosture& observed, size_t joint) const;

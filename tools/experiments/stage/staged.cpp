@@ -266,61 +266,77 @@ std::vector<StagedFrame> Studio::Film(const recon::MotionClip& clip, const Stage
   return frames;
 }
 
-RecordedPair Studio::Record(const recon::MotionClip& clip, const StageOptions& options) {
-  const auto compute = [&] {
-    state_->NeedBody();
-    Set set(*state_->model, *state_->wardrobe, clip, options);
-    std::optional<tracker::Tracker> tracker;
-    if (state_->observer == "forest") {
-      tracker::TrackerOptions how;
-      how.method = "none";
-      tracker::ModelFiles files;
-      files.forest = state_->files.forest.string();
-      files.refinement = state_->files.refinement.string();
-      how.models = tracker::ModelSet::Load(files, how.method);
-      how.smoothing = tracker::SmoothingPreset("none");
-      how.threads = state_->context.threads;
-      tracker.emplace(how);
-    }
-    SimulatedSdk sdk(options.seed);
-    recon::SkeletonSequence observed;
-    recon::SkeletonSequence refined;
-    recon::SkeletonSequence truth;
-    for (size_t f = 0; f < set.size(); ++f) {
-      state_->context.StopIfAsked();
-      const StagedFrame frame = set.Shoot(f);
-      if (tracker) {
-        const tracker::BodyFrame bodies = tracker->Track(frame.depth);
-        const auto person = [&](tracker::PostureKind kind) {
-          return FindNearestBody(tracker::ToRecord(bodies, kind), frame.truth);
-        };
-        observed.frames.push_back(person(tracker::PostureKind::kRaw));
-        if (!state_->files.refinement.empty()) {
-          refined.frames.push_back(person(tracker::PostureKind::kRefined));
-        }
-      } else {
-        observed.frames.push_back(sdk.Observe(frame));
-      }
-      truth.frames.push_back(frame.truth);
-    }
-    std::string text =
-        FormatSequence(observed).append(kSequenceEnd).append(FormatSequence(refined));
-    return text.append(kSequenceEnd).append(FormatSequence(truth));
-  };
-  std::string key = fmt::format("staged {} {} {} {}", ComputeCodeKey(), state_->observer,
-                                ComputeKey(options), ComputeKey(clip));
-  for (const auto& path : state_->files.All()) key.append(" ").append(ComputeFileKey(path));
-  const std::string text = state_->context.Cached(key, compute);
+namespace {
+
+// What the forest and its refinement say, before any reconstruction.
+tracker::Tracker MakeObserver(const ExperimentContext& context, const ObserverFiles& observer) {
+  tracker::TrackerOptions options;
+  options.method = "none";
+  tracker::ModelFiles files;
+  files.forest = observer.forest.string();
+  files.refinement = observer.refinement.string();
+  options.models = tracker::ModelSet::Load(files, options.method);
+  options.smoothing = tracker::SmoothingPreset("none");
+  options.threads = context.threads;
+  return tracker::Tracker(options);
+}
+
+// The cache keeps a recording as the three sequences' text, one behind the other.
+std::string FormatRecording(const RecordedPair& pair) {
+  std::string text =
+      FormatSequence(pair.observed).append(kSequenceEnd).append(FormatSequence(pair.refined));
+  return text.append(kSequenceEnd).append(FormatSequence(pair.truth));
+}
+
+RecordedPair ParseRecording(const std::string& text, const std::string& name) {
   const size_t end = text.find(kSequenceEnd), refined = end + kSequenceEnd.size();
   const size_t refined_end = text.find(kSequenceEnd, refined);
   RecordedPair pair;
+  pair.observed = ParseSequence(text.substr(0, end), name);
+  if (refined_end > refined) {
+    pair.refined = ParseSequence(text.substr(refined, refined_end - refined), name);
+  }
+  pair.truth = ParseSequence(text.substr(refined_end + kSequenceEnd.size()), name);
+  return pair;
+}
+
+}  // namespace
+
+RecordedPair Studio::Observe(const recon::MotionClip& clip, const StageOptions& options) {
+  state_->NeedBody();
+  Set set(*state_->model, *state_->wardrobe, clip, options);
+  std::optional<tracker::Tracker> tracker;
+  if (state_->observer == "forest") tracker.emplace(MakeObserver(state_->context, state_->files));
+  SimulatedSdk sdk(options.seed);
+  RecordedPair pair;
+  for (size_t f = 0; f < set.size(); ++f) {
+    state_->context.StopIfAsked();
+    const StagedFrame frame = set.Shoot(f);
+    pair.truth.frames.push_back(frame.truth);
+    if (!tracker) {
+      pair.observed.frames.push_back(sdk.Observe(frame));
+      continue;
+    }
+    const tracker::BodyFrame bodies = tracker->Track(frame.depth);
+    const auto person = [&](tracker::PostureKind kind) {
+      return FindNearestBody(tracker::ToRecord(bodies, kind), frame.truth);
+    };
+    pair.observed.frames.push_back(person(tracker::PostureKind::kRaw));
+    if (state_->files.refinement.empty()) continue;
+    pair.refined.frames.push_back(person(tracker::PostureKind::kRefined));
+  }
+  return pair;
+}
+
+RecordedPair Studio::Record(const recon::MotionClip& clip, const StageOptions& options) {
+  std::string key = fmt::format("staged {} {} {} {}", ComputeCodeKey(), state_->observer,
+                                ComputeKey(options), ComputeKey(clip));
+  for (const auto& path : state_->files.All()) key.append(" ").append(ComputeFileKey(path));
+  const std::string text =
+      state_->context.Cached(key, [&] { return FormatRecording(Observe(clip, options)); });
+  RecordedPair pair = ParseRecording(text, options.name);
   pair.clip = options.name;
   pair.subject = clip.subject.empty() ? clip.name : clip.subject;
-  pair.observed = ParseSequence(text.substr(0, end), options.name);
-  if (refined_end > refined) {
-    pair.refined = ParseSequence(text.substr(refined, refined_end - refined), options.name);
-  }
-  pair.truth = ParseSequence(text.substr(refined_end + kSequenceEnd.size()), options.name);
   BeginWhenFound(pair);
   return pair;
 }

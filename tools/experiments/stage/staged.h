@@ -58,6 +58,9 @@ class Studio {
   std::vector<StagedFrame> Film(const recon::MotionClip& clip, const StageOptions& options);
 
  private:
+  // Uncached, and from the first frame on.
+  RecordedPair Observe(const recon::MotionClip& clip, const StageOptions& options);
+
   struct State;
   std::unique_ptr<State> state_;
 };
