@@ -223,11 +223,7 @@ void WriteJson(const ExperimentContext& context, const json& report) {
   file.Commit();
 }
 
-}  // namespace
-
-std::vector<Table> RunReal(ExperimentContext& context) {
-  if (context.shared.empty()) throw InputError("real: expected --shared FOLDER with real/ in it");
-  const int most = context.parameters.Integer("frames", 0);
+tracker::TrackerOptions MakeOptions(ExperimentContext& context) {
   tracker::TrackerOptions options;
   options.models = LoadModels(context, options.method);
   const std::string network = context.parameters.Text("pose_network", "");
@@ -235,6 +231,65 @@ std::vector<Table> RunReal(ExperimentContext& context) {
   options.threads = context.threads;
   options.lag = context.parameters.Integer("lag", 0, 0, 2);
   if (!context.parameters.Flag("fit", true)) options.fit.reset();
+  return options;
+}
+
+// The tables and real.json, set by set.
+class RealReport {
+ public:
+  RealReport(ExperimentContext& context, tracker::Tracker& tracker)
+      : context_(context), tracker_(tracker) {}
+
+  void Add(const RealSet& set) {
+    const auto results = JudgeAll(set, tracker_, context_);
+    const ScoredSet scored = ScoreSet(set, results, true);
+    AddJointRows(set, scored, joints_);
+    AddScores(set, scored);
+    const StateScore by_state = ScoreStates(set, results);
+    AddStateRow(set, by_state, states_);
+    report_["states"].push_back(StatesToJson(set, by_state));
+    if (std::none_of(set.joints.begin(), set.joints.end(), IsFoot)) return;
+    AddScores(set, ScoreSet(set, results, false));
+    if (!set.peer.empty()) AddAnklesForFeet(set);
+  }
+
+  void Add(const RealVideo& video) {
+    context_.StopIfAsked();
+    const VideoScore score = JudgeVideo(video, tracker_);
+    AddRow(video, score, recordings_);
+    report_["recordings"].push_back(VideoToJson(video, score));
+  }
+
+  std::vector<Table> Write() const {
+    WriteJson(context_, report_);
+    return {stills_, joints_, states_, recordings_};
+  }
+
+ private:
+  void AddScores(const RealSet& set, const ScoredSet& scored) {
+    AddRows(set, scored, stills_);
+    for (const json& row : SetToJson(set, scored)) report_["sets"].push_back(row);
+  }
+
+  void AddAnklesForFeet(const RealSet& set) {
+    const RealSet ankles = WithAnklesForFeet(set);
+    AddScores(ankles, ScoreSet(ankles, JudgeAll(ankles, tracker_, context_), true));
+  }
+
+  ExperimentContext& context_;
+  tracker::Tracker& tracker_;
+  Table stills_ = StillsTable(), joints_ = JointsTable(), states_ = StatesTable();
+  Table recordings_ = VideosTable();
+  json report_ = {
+      {"sets", json::array()}, {"states", json::array()}, {"recordings", json::array()}};
+};
+
+}  // namespace
+
+std::vector<Table> RunReal(ExperimentContext& context) {
+  if (context.shared.empty()) throw InputError("real: expected --shared FOLDER with real/ in it");
+  const int most = context.parameters.Integer("frames", 0);
+  tracker::Tracker tracker(MakeOptions(context));
   const auto sets = ReadRealSets(context.shared, most);
   const auto videos = ReadRealVideos(context.shared, most);
   if (sets.empty() && videos.empty()) {
@@ -243,37 +298,10 @@ std::vector<Table> RunReal(ExperimentContext& context) {
                     "real/kinect_v1_seated_video or real/recordings in it",
                     context.shared.string()));
   }
-  tracker::Tracker tracker(options);
-  Table stills = StillsTable(), joints = JointsTable(), states = StatesTable();
-  Table recordings = VideosTable();
-  json report = {{"sets", json::array()}, {"states", json::array()}, {"recordings", json::array()}};
-  for (const RealSet& set : sets) {
-    const auto results = JudgeAll(set, tracker, context);
-    const ScoredSet scored = ScoreSet(set, results, true);
-    AddRows(set, scored, stills);
-    AddJointRows(set, scored, joints);
-    const StateScore by_state = ScoreStates(set, results);
-    AddStateRow(set, by_state, states);
-    report["states"].push_back(StatesToJson(set, by_state));
-    for (const json& row : SetToJson(set, scored)) report["sets"].push_back(row);
-    if (std::none_of(set.joints.begin(), set.joints.end(), IsFoot)) continue;
-    const ScoredSet without = ScoreSet(set, results, false);
-    AddRows(set, without, stills);
-    for (const json& row : SetToJson(set, without)) report["sets"].push_back(row);
-    if (set.peer.empty()) continue;
-    const RealSet ankles = WithAnklesForFeet(set);
-    const ScoredSet of_ankles = ScoreSet(ankles, JudgeAll(ankles, tracker, context), true);
-    AddRows(ankles, of_ankles, stills);
-    for (const json& row : SetToJson(ankles, of_ankles)) report["sets"].push_back(row);
-  }
-  for (const RealVideo& video : videos) {
-    context.StopIfAsked();
-    const VideoScore score = JudgeVideo(video, tracker);
-    AddRow(video, score, recordings);
-    report["recordings"].push_back(VideoToJson(video, score));
-  }
-  WriteJson(context, report);
-  return {stills, joints, states, recordings};
+  RealReport report(context, tracker);
+  for (const RealSet& set : sets) report.Add(set);
+  for (const RealVideo& video : videos) report.Add(video);
+  return report.Write();
 }
 
 }  // namespace ossa::tools

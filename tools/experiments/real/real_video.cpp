@@ -82,51 +82,75 @@ void CountAlone(const RealVideo& video, tracker::Tracker& tracker, VideoScore& s
   }
 }
 
-}  // namespace
+// Stills are judged each for itself: nothing is said of motion.
+class VideoJudge {
+ public:
+  explicit VideoJudge(bool stills) : stills_(stills) {}
 
-VideoScore JudgeVideo(const RealVideo& video, tracker::Tracker& tracker) {
-  VideoScore score;
-  Explained explained;
-  Steadiness steadiness;
-  tracker::BodyFrame before;
-  const auto judge = [&](const depth::DepthFrame& frame, tracker::BodyFrame answer) {
-    ++score.frames;
-    score.bodies += static_cast<int64_t>(answer.bodies.size());
-    score.one_body += answer.bodies.size() == 1;
+  void Judge(const depth::DepthFrame& frame, tracker::BodyFrame answer) {
+    ++score_.frames;
+    score_.bodies += static_cast<int64_t>(answer.bodies.size());
+    score_.one_body += answer.bodies.size() == 1;
     std::map<int, BodyStages> bodies;
     for (const tracker::Body& body : answer.bodies) {
       BodyStages& stages = bodies[body.id];
       for (const RealStage stage : kRealStages) stages[stage] = JointsAtStage(body, stage);
-      AddExplained(frame, answer, body, stages.at(RealStage::kFinal), explained);
+      AddExplained(frame, answer, body, stages.at(RealStage::kFinal), explained_);
     }
-    if (video.stills) return;
-    score.identity_breaks += CountBreaks(before, answer);
-    steadiness.Add(bodies);
-    before = std::move(answer);
-  };
+    if (stills_) return;
+    score_.identity_breaks += CountBreaks(before_, answer);
+    steadiness_.Add(bodies);
+    before_ = std::move(answer);
+  }
+
+  VideoScore Score() const {
+    VideoScore score = score_;
+    score.jitter_mm = steadiness_.MeasureJitter();
+    score.bone_variation = steadiness_.MeasureBoneVariation();
+    score.leaps = steadiness_.CountLeaps();
+    if (explained_.pixels > 0) {
+      score.explained =
+          static_cast<double>(explained_.near) / static_cast<double>(explained_.pixels);
+    }
+    return score;
+  }
+
+ private:
+  bool stills_;
+  VideoScore score_;
+  Explained explained_;
+  Steadiness steadiness_;
+  tracker::BodyFrame before_;
+};
+
+void JudgeStills(const RealVideo& video, tracker::Tracker& tracker, VideoJudge* judge) {
+  for (const depth::DepthFrame& frame : video.frames) {
+    tracker.Reset();
+    judge->Judge(frame, tracker.Track(frame));
+  }
+}
+
+void JudgeMotion(const RealVideo& video, tracker::Tracker& tracker, VideoJudge* judge) {
   std::deque<const depth::DepthFrame*> waiting;  // for their bodies, which are late by the lag
   const auto judge_first = [&](tracker::BodyFrame answer) {
-    judge(*waiting.front(), std::move(answer));
+    judge->Judge(*waiting.front(), std::move(answer));
     waiting.pop_front();
   };
   tracker.Reset();
   for (const depth::DepthFrame& frame : video.frames) {
-    if (video.stills) {
-      tracker.Reset();
-      judge(frame, tracker.Track(frame));
-      continue;
-    }
     waiting.push_back(&frame);
     if (auto answer = tracker.TrackWithLag(frame)) judge_first(std::move(*answer));
   }
   while (auto held = tracker.DrainLag()) judge_first(std::move(*held));
+}
+
+}  // namespace
+
+VideoScore JudgeVideo(const RealVideo& video, tracker::Tracker& tracker) {
+  VideoJudge judge(video.stills);
+  (video.stills ? JudgeStills : JudgeMotion)(video, tracker, &judge);
+  VideoScore score = judge.Score();
   CountAlone(video, tracker, score);
-  score.jitter_mm = steadiness.MeasureJitter();
-  score.bone_variation = steadiness.MeasureBoneVariation();
-  score.leaps = steadiness.CountLeaps();
-  if (explained.pixels > 0) {
-    score.explained = static_cast<double>(explained.near) / static_cast<double>(explained.pixels);
-  }
   return score;
 }
 
