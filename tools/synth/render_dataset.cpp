@@ -165,53 +165,76 @@ void JoinTruth(const RenderJob& job) {
   truth.Commit();
 }
 
-}  // namespace
-
-RenderEnd RenderShare(const FrameStudio& studio, const RenderJob& job) {
-  const DatasetManifest manifest = MakeManifest(studio, job);
-  PrepareFolder(job, ManifestToJson(manifest));
-  if (fs::exists(job.out / "manifest.json")) return RenderEnd::kDone;
+// This rank's chunks that are not made yet; counts the frames of those that are.
+std::vector<int64_t> FindChunksToMake(const RenderJob& job, std::atomic<int64_t>* done) {
   std::vector<int64_t> chunks;
-  std::atomic<int64_t> done = 0;
   for (int64_t chunk = job.rank; chunk < ChunkCount(job); chunk += job.ranks) {
     if (ChunkIsThere(job, chunk)) {
-      done += std::min(kFramesPerChunk, job.frames - chunk * kFramesPerChunk);
+      *done += std::min(kFramesPerChunk, job.frames - chunk * kFramesPerChunk);
     } else {
       chunks.push_back(chunk);
     }
   }
-  std::atomic<size_t> next = 0;
-  std::atomic<int> running = 0;
-  std::atomic<bool> stopped = false;
-  std::exception_ptr failure;
-  std::mutex failure_mutex;
-  const auto work = [&] {
+  return chunks;
+}
+
+// Threads that make one chunk after the other. The first failure stops them all.
+class ChunkWorkers {
+ public:
+  ChunkWorkers(const FrameStudio& studio, const RenderJob& job)
+      : studio_(studio), job_(job), camera_(MakeCamera(studio.options)) {}
+
+  RenderEnd Run() {
+    chunks_ = FindChunksToMake(job_, &done_);
+    const auto count = std::clamp(static_cast<size_t>(std::max(1, job_.threads)), size_t{1},
+                                  std::max<size_t>(1, chunks_.size()));
+    running_ = static_cast<int>(count);
+    std::vector<std::jthread> threads;
+    for (size_t t = 0; t < count; ++t) threads.emplace_back([this] { Work(); });
+    while (running_ > 0) {
+      job_.progress(done_);
+      std::this_thread::sleep_for(std::chrono::milliseconds(50));
+    }
+    threads.clear();
+    if (failure_) std::rethrow_exception(failure_);
+    if (stopped_) return RenderEnd::kInterrupted;
+    job_.progress(done_);
+    return RenderEnd::kDone;
+  }
+
+ private:
+  void Work() {
     try {
-      FrameMaker maker(studio);
-      for (size_t k = next++; k < chunks.size() && !stopped; k = next++) {
-        if (!RenderChunk(job, manifest.camera, chunks[k], &maker, &done)) stopped = true;
+      FrameMaker maker(studio_);
+      for (size_t k = next_++; k < chunks_.size() && !stopped_; k = next_++) {
+        if (!RenderChunk(job_, camera_, chunks_[k], &maker, &done_)) stopped_ = true;
       }
     } catch (...) {
-      const std::lock_guard lock(failure_mutex);
-      if (!failure) failure = std::current_exception();
-      stopped = true;
+      const std::lock_guard lock(failure_mutex_);
+      if (!failure_) failure_ = std::current_exception();
+      stopped_ = true;
     }
-    --running;
-  };
-  const auto thread_count =
-      std::min(static_cast<size_t>(std::max(1, job.threads)), std::max<size_t>(1, chunks.size()));
-  std::vector<std::jthread> threads;
-  running = static_cast<int>(thread_count);
-  for (size_t t = 0; t < thread_count; ++t) threads.emplace_back(work);
-  while (running > 0) {
-    job.progress(done);
-    std::this_thread::sleep_for(std::chrono::milliseconds(50));
+    --running_;
   }
-  threads.clear();
-  if (failure) std::rethrow_exception(failure);
-  if (stopped) return RenderEnd::kInterrupted;
-  job.progress(done);
-  return RenderEnd::kDone;
+
+  const FrameStudio& studio_;
+  const RenderJob& job_;
+  depth::Camera camera_;
+  std::vector<int64_t> chunks_;
+  std::atomic<int64_t> done_ = 0;  // frames
+  std::atomic<size_t> next_ = 0;
+  std::atomic<int> running_ = 0;
+  std::atomic<bool> stopped_ = false;
+  std::exception_ptr failure_;
+  std::mutex failure_mutex_;
+};
+
+}  // namespace
+
+RenderEnd RenderShare(const FrameStudio& studio, const RenderJob& job) {
+  PrepareFolder(job, ManifestToJson(MakeManifest(studio, job)));
+  if (fs::exists(job.out / "manifest.json")) return RenderEnd::kDone;
+  return ChunkWorkers(studio, job).Run();
 }
 
 void FinishDataset(const FrameStudio& studio, const RenderJob& job) {
