@@ -10,8 +10,10 @@ namespace ossa::depth {
 namespace {
 
 // In the order of PresetCamera's figures.
-constexpr std::array<std::string_view, 9> kNames = {
-    "kinect-v1", "kinect-v2", "azure-nfov", "azure-wfov", "xtion", "d415", "d435", "d455", "femto"};
+constexpr std::array<std::string_view, 14> kNames = {
+    "kinect-v1",  "kinect-v2", "azure-nfov", "azure-wfov",      "xtion",           "d415",
+    "d435",       "d455",      "femto",      "kinect-v1-color", "kinect-v2-color", "azure-color",
+    "d415-color", "d435-color"};
 
 // As wide a view in images of another size, whose pixels are square whatever their shape.
 Camera ScaledByWidth(const Camera& whole, int width, int height) {
@@ -42,6 +44,15 @@ Camera RealSenseCamera(double focal_at_1280_px, int rows_at_1280, int width, int
   return {width, height, f, f, width / 2.0, height / 2.0};
 }
 
+// The colour camera of a D415 or D435: 1920 x 1080, scaled until its height fits, its sides cut off
+// (users' D435: f 918.6 at 1280 x 720, 612.4 at 640 x 480, 306.2 at 424 x 240 and 320 x 240; D415:
+// 925.8 at 1280 x 720). A D455's sees as much as its depth.
+Camera RealSenseColorCamera(int width, int height) {
+  constexpr double kFocalPerHeight = 1.28;
+  const double f = kFocalPerHeight * height;
+  return {width, height, f, f, width / 2.0, height / 2.0};
+}
+
 bool IsAnyOf(int width, int height, std::initializer_list<std::array<int, 2>> sizes) {
   return std::find(sizes.begin(), sizes.end(), std::array{width, height}) != sizes.end();
 }
@@ -60,6 +71,13 @@ Camera UprightCamera(std::string_view name, int width, int height) {
   if (name == "d415") return RealSenseCamera(1005.0, 720, width, height);
   if (name == "d435" || name == "d455") return RealSenseCamera(640.0, 800, width, height);
   if (name == "femto") return AzureCamera(width == height, width, height);
+  // What OpenNI registers to its colour camera.
+  if (name == "kinect-v1-color") return scaled({640, 480, 525.0, 525.0, 320.0, 240.0});
+  // What its factory wrote into each (libfreenect2).
+  if (name == "kinect-v2-color") return scaled({1920, 1080, 1081.4, 1081.4, 959.5, 539.5});
+  // Users' calibrations: 0.473 to 0.479 of the width, whatever the shape.
+  if (name == "azure-color") return scaled({1920, 1080, 916.0, 916.0, 959.5, 539.5});
+  if (name == "d415-color" || name == "d435-color") return RealSenseColorCamera(width, height);
   std::string message = "--camera: expected fx,fy,cx,cy in pixels";
   for (const std::string_view known : kNames) message.append(", ").append(known);
   throw InputError(message + ", found '" + std::string(name) + "'");
@@ -71,6 +89,12 @@ std::string_view PresetOfSize(int width, int height) {
   if (IsAnyOf(width, height, {{512, 424}})) return "kinect-v2";
   if (IsAnyOf(width, height, {{640, 576}, {320, 288}})) return "azure-nfov";
   if (IsAnyOf(width, height, {{512, 512}, {1024, 1024}})) return "azure-wfov";
+  // Of depth that was aligned to a colour image. Two more cameras have images of the first size, of
+  // a wider and of a narrower view.
+  if (IsAnyOf(width, height, {{1920, 1080}})) return "kinect-v2-color";
+  if (IsAnyOf(width, height, {{2048, 1536}, {2560, 1440}, {3840, 2160}, {4096, 3072}})) {
+    return "azure-color";
+  }
   const bool is_real_sense = IsAnyOf(
       width, height, {{1280, 800}, {1280, 720}, {848, 480}, {640, 360}, {480, 270}, {424, 240}});
   return is_real_sense ? "d435" : "";

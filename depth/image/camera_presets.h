@@ -8,7 +8,8 @@
 
 namespace ossa::depth {
 
-/// The cameras that people own, by the names that `--camera` takes.
+/// The cameras that people own, by the names that `--camera` takes. Those in -color are of depth
+/// that was aligned to the images of the camera's colour sensor.
 std::span<const std::string_view> CameraPresetNames();
 
 /// The depth camera of that name for images of this size, by its maker's or its users' figures (an

@@ -14,7 +14,7 @@ Camera CameraByImageSize(const std::string& name, int width, int height,
     text << name << ": no camera is stated; images of " << width << "x" << height
          << (guess.sizes_match ? " are taken for a " : " are of no camera known, and taken for a ")
          << guess.preset << "'s (f " << std::lround(guess.camera.fx)
-         << " px): --camera says otherwise";
+         << " px): --camera says otherwise (-color: depth aligned to colour images)";
     options.note(NoteKind::kInfo, text.str());
   }
   return guess.camera;

@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <tuple>
+
 #include "depth/base/error.h"
 #include "depth/image/camera_io.h"
 
@@ -32,7 +34,8 @@ INSTANTIATE_TEST_SUITE_P(
                     Size{512, 424, "kinect-v2", 366}, Size{640, 576, "azure-nfov", 504},
                     Size{320, 288, "azure-nfov", 252}, Size{1024, 1024, "azure-wfov", 504},
                     Size{512, 512, "azure-wfov", 252}, Size{1280, 720, "d435", 640},
-                    Size{848, 480, "d435", 424}));
+                    Size{848, 480, "d435", 424}, Size{1920, 1080, "kinect-v2-color", 1081.4},
+                    Size{2048, 1536, "azure-color", 977}, Size{3840, 2160, "azure-color", 1832}));
 
 TEST(ImageSizes, StandingOnEndAreOfACameraOnItsSide) {
   const CameraGuess guess = GuessCamera(424, 512);
@@ -81,6 +84,19 @@ TEST(CameraPreset, EachNameIsACameraOfTheSizeAsked) {
 TEST(CameraPreset, ARealSenseCutsWhatDoesNotFitItsSensorsShape) {
   EXPECT_NEAR(PresetCamera("d455", 640, 480).fx, 384, 1);
   EXPECT_NEAR(PresetCamera("d455", 480, 270).fx, 240, 1);
+}
+
+// What rs-enumerate-devices prints of a D435's colour camera, to which its users align the depth.
+TEST(CameraPreset, ARealSensesColourCameraCutsItsSidesOff) {
+  for (const auto& [width, height, f_px] :
+       {std::tuple(1280, 720, 918.6), {640, 480, 612.4}, {640, 360, 459.3}, {320, 240, 306.2}}) {
+    EXPECT_NEAR(PresetCamera("d435-color", width, height).fx / f_px, 1.0, 0.005);
+  }
+}
+
+// OpenNI's own figure for depth that it registered.
+TEST(CameraPreset, AlignedToTheColourCameraItSeesAWiderView) {
+  EXPECT_EQ(PresetCamera("kinect-v1-color", 320, 240).fx, 262.5);
 }
 
 // The middle of the sensor is not that of the narrow view.

@@ -17,7 +17,9 @@ ROTATIONS = (0, 90, 180, 270, "auto")
 _USUAL_SIZE = {
     "kinect-v1": (640, 480), "kinect-v2": (512, 424), "azure-nfov": (640, 576),
     "azure-wfov": (512, 512), "xtion": (640, 480), "d415": (1280, 720), "d435": (848, 480),
-    "d455": (848, 480), "femto": (640, 576),
+    "d455": (848, 480), "femto": (640, 576), "kinect-v1-color": (640, 480),
+    "kinect-v2-color": (1920, 1080), "azure-color": (1280, 720), "d415-color": (1280, 720),
+    "d435-color": (1280, 720),
 }  # fmt: skip
 
 
@@ -84,7 +86,8 @@ class Camera:
         ----------
         name : str
             One of ossa.CAMERA_PRESETS: "kinect-v1", "kinect-v2", "azure-nfov", "azure-wfov",
-            "xtion", "d415", "d435", "d455", "femto".
+            "xtion", "d415", "d435", "d455", "femto"; of depth aligned to colour images
+            "kinect-v1-color", "kinect-v2-color", "azure-color", "d415-color", "d435-color".
         width, height : int, optional
             The images' size.
         rotate : 0, 90, 180, 270 or "auto"
