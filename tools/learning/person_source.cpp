@@ -146,8 +146,8 @@ PersonSource::PersonSource(const std::vector<std::filesystem::path>& datasets, R
         places_.push_back({static_cast<uint32_t>(readers_.size() - 1), i});
       }
     }
-    fingerprint_ += fmt::format("{} frames seed {} by '{}'", manifest.frames, manifest.seed,
-                                manifest.command);
+    fingerprint_ +=
+        fmt::format("{} frames seed {} by '{}'", manifest.frames, manifest.seed, manifest.command);
     if (!manifest.motion.empty()) {
       fingerprint_ += fmt::format(" of motion {} by ossa {}", manifest.motion, manifest.ossa);
     }
