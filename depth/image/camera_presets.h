@@ -4,6 +4,8 @@
 #include <string>
 #include <string_view>
 
+#include <vector>
+
 #include "depth/image/camera.h"
 
 namespace ossa::depth {
@@ -25,6 +27,11 @@ struct CameraGuess {
   Camera camera;
 };
 CameraGuess GuessCamera(int width, int height);
+
+/// Cameras that also have images of this size, of so much narrower a view than the guess's that
+/// its people would be far too large: colour cameras that depth was aligned to, and, of a size that
+/// no camera has, a part of a Kinect v1's image as high as it (`preset` is empty). Often none.
+std::vector<CameraGuess> NarrowerCameras(int width, int height);
 
 /// What somebody wants the camera to be: a preset's name, or a camera. One of width and height 0 is
 /// in pixels of whatever images come.

@@ -17,6 +17,7 @@ Camera CameraByImageSize(const std::string& name, int width, int height,
          << " px): --camera says otherwise (-color: depth aligned to colour images)";
     options.note(NoteKind::kInfo, text.str());
   }
+  if (options.guessed) options.guessed(guess);
   return guess.camera;
 }
 

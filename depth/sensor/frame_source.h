@@ -74,6 +74,8 @@ struct SourceOptions {
   DepthFormat depth_format = DepthFormat::kPlain;
   int inverted_from = 65535;       // that stands for 0 mm, 1 to 65535; by definition the largest
   std::optional<double> fps = {};  // frames a second, whatever the recording says of its times
+  // Told the camera where neither this nor the source says it; empty: nobody is.
+  std::function<void(const CameraGuess&)> guessed = {};
   // One line for the user each; empty: nobody is told.
   std::function<void(NoteKind, const std::string&)> note = {};
 

@@ -1,5 +1,6 @@
 #pragma once
 #include <chrono>
+#include <functional>
 #include <memory>
 #include <set>
 #include <string>
@@ -31,6 +32,11 @@ bool IsDevice(std::string_view source);
 /// SOURCE, --camera, --depth-scale, --depth-format, --fps and --rotate.
 void AddSourceOptions(CLI::App& app, SourceArguments& arguments);
 tracker::Turn ChooseTurn(const SourceArguments& arguments);
+/// Before a folder of images is tracked that does not say its camera: takes one of a narrower view
+/// (depth::NarrowerCameras) where people are seen far more surely by it, and says so unless quiet.
+/// `options` of the tracker are asked for where there is a choice.
+void FindCamera(SourceArguments& arguments, const std::function<tracker::TrackerOptions()>& options,
+                bool quiet);
 /// With --rotate auto, before a recording (`source`, which it does not read) is tracked: finds
 /// which way up its camera is, and says so unless it stands.
 void FindUpright(tracker::Tracker& tracker, const depth::FrameSource& source,

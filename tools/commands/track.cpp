@@ -392,6 +392,8 @@ int Track(int argc, char** argv) {
   TrackOptions options = ParseTrackOptions(argc, argv);
   options.tracker.models = tracker::ModelSet::Load(options.files, options.tracker.method);
   if (!options.more_sources.empty()) return TrackSeveral(options);
+  FindCamera(
+      options.source, [&] { return options.tracker; }, options.quiet);
   ReadPeople(options);
   tracker::Tracker tracker(options.tracker);  // first: a device's frames do not wait meanwhile
   const auto source = OpenSource(options.source, options.quiet);

@@ -38,6 +38,8 @@ std::unique_ptr<Camera> OpenCamera(const TrackOptions& options, const std::strin
   camera->arguments.name = name;
   camera->arguments.said = std::make_shared<std::set<std::string>>();  // each thread its own
   camera->skeletons.source = name;
+  FindCamera(
+      camera->arguments, [&] { return options.tracker; }, options.quiet);
   camera->source = OpenSource(camera->arguments, options.quiet);
   camera->tracker = std::make_unique<tracker::Tracker>(options.tracker);
   FindUpright(*camera->tracker, *camera->source, camera->arguments, options.quiet);

@@ -84,8 +84,7 @@ viewer::ViewerOptions MakeViewerOptions(const ViewOptions& options) {
   return with;
 }
 
-tracker::Tracker MakeTracker(const ViewOptions& options, const viewer::Settings& settings,
-                             bool is_live) {
+tracker::TrackerOptions MakeOptions(const ViewOptions& options, const viewer::Settings& settings) {
   tracker::TrackerOptions with = options.tracker;
   with.method = settings.method;
   with.models = tracker::ModelSet::Load(options.files, with.method);
@@ -96,6 +95,12 @@ tracker::Tracker MakeTracker(const ViewOptions& options, const viewer::Settings&
   with.physics = options.mechanics.on();
   with.mechanics = options.mechanics.build;
   with.scene = options.mechanics.Scene();
+  return with;
+}
+
+tracker::Tracker MakeTracker(const ViewOptions& options, const viewer::Settings& settings,
+                             bool is_live) {
+  tracker::TrackerOptions with = MakeOptions(options, settings);
   with.keep_parts = !is_live;  // of a camera the page finds them, for who looks
   return tracker::Tracker(with);
 }
@@ -290,6 +295,8 @@ int View(int argc, char** argv) {
   }
   options.tracker.turn = ChooseTurn(options.source);
   if (IsSource(options.source.name)) {
+    FindCamera(
+        options.source, [&] { return MakeOptions(options, options.settings); }, false);
     PageTracker(options).Run();
   } else {
     SayWhatIsNotTracked(app, options.source.name);

@@ -94,6 +94,19 @@ TEST(CameraPreset, ARealSensesColourCameraCutsItsSidesOff) {
   }
 }
 
+TEST(NarrowerCameras, AreColourCamerasAndPartsOfImages) {
+  ASSERT_EQ(NarrowerCameras(1280, 720).size(), 1u);
+  EXPECT_EQ(NarrowerCameras(1280, 720)[0].camera, PresetCamera("d435-color", 1280, 720));
+  EXPECT_EQ(NarrowerCameras(1920, 1080).size(), 1u);
+  ASSERT_EQ(NarrowerCameras(100, 100).size(), 1u);
+  EXPECT_NEAR(NarrowerCameras(100, 100)[0].camera.fx, 119.8, 0.1);
+  // As wide as the guess's, or of no other camera.
+  for (const auto& [width, height] :
+       {std::pair(640, 480), {512, 424}, {640, 576}, {1024, 1024}, {480, 360}, {1280, 800}}) {
+    EXPECT_TRUE(NarrowerCameras(width, height).empty()) << width << "x" << height;
+  }
+}
+
 // OpenNI's own figure for depth that it registered.
 TEST(CameraPreset, AlignedToTheColourCameraItSeesAWiderView) {
   EXPECT_EQ(PresetCamera("kinect-v1-color", 320, 240).fx, 262.5);

@@ -8,6 +8,7 @@
 #include <optional>
 #include <thread>
 
+#include "depth/image/camera_presets.h"
 #include "depth/image/depth_png.h"
 #include "depth/sensor/oni_recorder.h"
 #include "recon/files/skeleton_io.h"
@@ -44,6 +45,29 @@ TEST_P(OutputFormats, AreReadBackByTheReadersOfCompare) {
   const recon::SkeletonSequence back = recon::ReadSkeletons(out.string());
   ASSERT_EQ(back.frames.size(), 6U);
   for (const auto& frame : back.frames) EXPECT_EQ(frame.bodies.size(), 1U);
+}
+
+// rs.align(rs.stream.color): images of the depth camera's size, as the colour camera sees them.
+TEST(TrackCommand, DepthAlignedToColourIsToldByThePeopleInIt) {
+  OSSA_NEEDS_MODEL();
+  const TemporaryFolder folder;
+  tests::CapsuleScene scene;
+  scene.people = {PersonAt(0.4, 2.8)};
+  scene.people[0].height_m = 2.1;  // the capsule person is slim
+  scene.planes = tests::EmptyRoom();
+  const auto render = tests::Render(scene, depth::PresetCamera("d435-color", 640, 360));
+  depth::WriteDepthPng(folder / "still.png", render.frame.view());
+  const CommandResult result = TrackTo(folder / "still.png", folder / "x.jsonl");
+  ASSERT_EQ(result.exit_status, 0) << result.err;
+  EXPECT_NE(result.err.find("--camera d435-color (f 461 px)"), std::string::npos) << result.err;
+  EXPECT_EQ(result.err.find("are taken for"), std::string::npos) << result.err;
+  const auto back = recon::ReadSkeletons((folder / "x.jsonl").string());
+  ASSERT_EQ(back.frames.at(0).bodies.size(), 1U);
+  const auto& head = back.frames[0].bodies[0].joints[static_cast<size_t>(recon::Joint::kHead)];
+  EXPECT_NEAR(head->position_m.x(), 0.4, 0.1) << "0.58 as the depth camera would see it";
+  const CommandResult said =
+      TrackTo(folder / "still.png", folder / "y.jsonl", {"--camera", "d435"});
+  EXPECT_EQ(said.err.find("d435-color"), std::string::npos) << said.err;
 }
 
 TEST(TrackCommand, AllFormatsSayTheSameToAReaderThatIsNotOurs) {
