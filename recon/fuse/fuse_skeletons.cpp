@@ -1,9 +1,13 @@
 #include "recon/fuse/fuse_skeletons.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <map>
 #include <set>
 #include <stdexcept>
+#include <string>
+#include <vector>
 
 #include "recon/bone_lengths.h"
 #include "recon/bone_projection.h"
@@ -32,20 +36,56 @@ std::vector<CameraTracks> TakeTracks(std::span<const SkeletonSequence> sequences
   return all;
 }
 
-/// Camera 0's own bodies as they are, the others' at that time.
+bool HasAnyPlace(const BodyRecord& body) {
+  return std::any_of(body.joints.begin(), body.joints.end(),
+                     [](const auto& joint) { return joint && HasPlace(*joint); });
+}
+
+/// From when to when a recording is, camera 0's clock.
+struct TimeSpan {
+  double begin_s = 0.0, end_s = 0.0;
+};
+
+TimeSpan SpanOf(const SkeletonSequence& sequence, double clock_offset_s) {
+  return {sequence.frames.front().time_s + clock_offset_s,
+          sequence.frames.back().time_s + clock_offset_s};
+}
+
+/// A line for each camera whose recording has no time in common with camera 0's: a wrong clock
+/// offset would else pass for a camera that sees nobody.
+std::vector<std::string> WarnOfOtherTimes(std::span<const SkeletonSequence> sequences,
+                                          const Extrinsics& cameras) {
+  std::vector<std::string> warnings;
+  if (sequences.front().frames.empty()) return warnings;
+  const TimeSpan first = SpanOf(sequences.front(), 0.0);
+  for (size_t k = 1; k < sequences.size(); ++k) {
+    if (sequences[k].frames.empty()) continue;
+    const TimeSpan other = SpanOf(sequences[k], cameras[k].clock_offset_s);
+    if (other.begin_s <= first.end_s && first.begin_s <= other.end_s) continue;
+    warnings.push_back(fmt::format(
+        "{}: by its clock offset, {:.3f} s, it is from {:.3f} to {:.3f} s, and {} from {:.3f} to "
+        "{:.3f} s: it adds nothing",
+        sequences[k].source, cameras[k].clock_offset_s, other.begin_s, other.end_s,
+        sequences.front().source, first.begin_s, first.end_s));
+  }
+  return warnings;
+}
+
+/// Camera 0's own bodies as they are, the others' at that time. Formats of points keep a body while
+/// nobody is seen: one without a place is far from everybody, and would be a person of its own.
 std::vector<BodySighting> SightingsOf(const SkeletonFrame& frame,
                                       const std::vector<CameraTracks>& cameras) {
   std::vector<BodySighting> sightings;
   for (const BodyRecord& body : frame.bodies) {
+    if (!HasAnyPlace(body)) continue;
     sightings.push_back(MakeSighting(0, body, Eigen::Isometry3d::Identity()));
   }
   for (size_t k = 1; k < cameras.size(); ++k) {
     const double time_s = frame.time_s - cameras[k].clock_offset_s;
     for (const BodyTrack& track : cameras[k].tracks) {
       auto body = BodyAt(track, time_s);
-      if (body) {
-        sightings.push_back(MakeSighting(k, std::move(*body), cameras[k].camera_0_from_camera));
-      }
+      if (!body || !HasAnyPlace(*body)) continue;
+      sightings.push_back(MakeSighting(k, std::move(*body), cameras[k].camera_0_from_camera));
     }
   }
   return sightings;
@@ -144,6 +184,7 @@ SkeletonSequence FuseSkeletons(std::span<const SkeletonSequence> sequences,
   if (sequences.size() == 1) return sequences.front();
   const std::vector<CameraTracks> tracks = TakeTracks(sequences, cameras, options.max_gap_s);
   SkeletonSequence made = sequences.front();
+  made.warnings = WarnOfOtherTimes(sequences, cameras);
   BodyAssociation association;
   std::map<int, JointHistory> history;
   std::set<int> fused;

@@ -20,12 +20,14 @@ struct FuseOptions {
 /// skeletons are in its space. Another camera's bodies are taken at the same time by its clock
 /// offset, on the line between two moments; where these are more than `max_gap_s` apart, or a frame
 /// and a half of a slower recording, it says nothing of that time. Bodies that lie on each other
-/// are one person, who keeps one id; people whom one camera sees are there, too. Joints are fused
+/// are one person, who keeps one id; people whom one camera sees are there, too; of bodies without
+/// a place (HasPlace) nothing is left. Joints are fused
 /// one by one: a tracked one before an inferred one, what is surer (standard deviations, else
 /// confidence, reliability and the direction of the ray) before what is less; where cameras
 /// contradict each other, the likeliest. People of whom all 20 joints are there and whom several
-/// cameras saw keep the median lengths of their bones. Of one sequence, that one. Throws
-/// std::invalid_argument where the counts differ.
+/// cameras saw keep the median lengths of their bones. `warnings` are of the fusion: of cameras
+/// whose times are none of camera 0's. Of one sequence, that one. Throws std::invalid_argument
+/// where the counts differ.
 SkeletonSequence FuseSkeletons(std::span<const SkeletonSequence> sequences,
                                const Extrinsics& cameras, const FuseOptions& options = {});
 

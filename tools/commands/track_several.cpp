@@ -15,6 +15,7 @@
 #include "depth/sensor/frame_source.h"
 #include "tools/commands/command.h"
 #include "tools/commands/posture_record.h"
+#include "tools/commands/warnings.h"
 #include "tools/tracker/tracker.h"
 
 namespace ossa::commands {
@@ -128,6 +129,7 @@ int TrackSeveral(const TrackOptions& options) {
   std::vector<recon::SkeletonSequence> recordings;
   for (const auto& camera : cameras) recordings.push_back(std::move(camera->skeletons));
   const auto fused = FuseRecordings(options.fuse, options.Sources(), recordings, options.quiet);
+  SayWarnings("track", fused.warnings);
   if (!options.out.empty()) {
     WriteSkeletonsThatFit(
         options.out, fused,

@@ -179,6 +179,41 @@ TEST(FuseSkeletons, KeepsAnIdWhileEitherCameraLosesItsOwn) {
   EXPECT_EQ(ids, (std::set<int>{1, 2}));
 }
 
+// As formats of points have somebody who is lost.
+void LosePlaces(SkeletonSequence& sequence, size_t begin, size_t end) {
+  for (size_t f = begin; f < end; ++f) {
+    for (auto& joint : sequence.frames[f].bodies[0].joints) {
+      if (f % 2 == 0) joint.reset();
+      if (!joint) continue;
+      joint = JointRecord();
+      joint->state = TrackingState::kNotTracked;
+    }
+  }
+}
+
+TEST(FuseSkeletons, TakesABodyWithoutAPlaceForNobody) {
+  for (const bool first_loses : {true, false}) {
+    auto front = Record({}, kOnePerson, 60), side = Record({FromTheSide()}, kOnePerson, 60);
+    LosePlaces(first_loses ? front : side, 20, 40);
+    const auto fused = Fused(front, side);
+    for (const SkeletonFrame& frame : fused.frames) {
+      ASSERT_EQ(frame.bodies.size(), 1u) << frame.frame;
+      EXPECT_EQ(frame.bodies[0].id, 1);
+    }
+    EXPECT_LT(RootMeanSquare_m(fused), 1e-6);
+  }
+}
+
+TEST(FuseSkeletons, WarnsOfARecordingOfOtherTimes) {
+  const auto front = Record({}, kOnePerson, 30, "front.jsonl");
+  const auto side = Record({FromTheSide()}, kOnePerson, 30, "side.jsonl");
+  EXPECT_TRUE(Fused(front, side, 0.5).warnings.empty());
+  const auto apart = Fused(front, side, -100.0);
+  ASSERT_EQ(apart.warnings.size(), 1u);
+  EXPECT_TRUE(apart.warnings[0].starts_with("side.jsonl: by its clock offset, -100.000 s"))
+      << apart.warnings[0];
+}
+
 TEST(FuseSkeletons, TakesNothingFromACameraThatSawNobodyAroundTheTime) {
   auto side = Record({FromTheSide()}, kOnePerson, 60);
   for (size_t f = 20; f < 40; ++f) side.frames[f].bodies.clear();
