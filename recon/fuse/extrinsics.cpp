@@ -135,6 +135,21 @@ std::string RowJson(const Eigen::RowVector4d& row) {
                      row[3] + 0.0);
 }
 
+/// Recordings are taken by their order though some have a camera's name: it must be the camera
+/// there.
+void CheckOrder(const Extrinsics& cameras, std::span<const std::string> names,
+                const std::string& place) {
+  for (size_t k = 0; k < names.size(); ++k) {
+    for (size_t c = 0; c < cameras.size(); ++c) {
+      if (c == k || cameras[c].name != names[k]) continue;
+      throw InputError(fmt::format(
+          "{}: cameras[{}]: expected the camera of recording {}, {}, found {}, and that one is "
+          "cameras[{}]: name all recordings as their cameras, or none",
+          place, k, k + 1, names[k], cameras[k].name, c));
+    }
+  }
+}
+
 Extrinsics RelativeToFirst(Extrinsics cameras) {
   const Eigen::Isometry3d camera_0_from_first = cameras.front().from_camera_0.inverse();
   const double first_offset_s = cameras.front().clock_offset_s;
@@ -202,10 +217,13 @@ Extrinsics SelectCameras(const Extrinsics& cameras, std::span<const std::string>
     if (found != cameras.end()) named.push_back(*found);
   }
   if (!names.empty() && named.size() == names.size()) return RelativeToFirst(std::move(named));
-  if (cameras.size() == names.size()) return cameras;
-  throw InputError(
-      fmt::format("{}: cameras: expected as many as there are recordings, {}, found {}", place,
-                  names.size(), cameras.size()));
+  if (cameras.size() != names.size()) {
+    throw InputError(
+        fmt::format("{}: cameras: expected as many as there are recordings, {}, found {}", place,
+                    names.size(), cameras.size()));
+  }
+  CheckOrder(cameras, names, place);
+  return cameras;
 }
 
 std::vector<std::string> CameraNames(std::span<const std::string> sources) {

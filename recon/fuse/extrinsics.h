@@ -36,7 +36,8 @@ std::string ExtrinsicsJson(const Extrinsics& cameras);
 
 /// The cameras that recordings of these names are of, relative to the first of them: where every
 /// name is a camera's, those, in any order; else all cameras in their order. Throws InputError,
-/// `place` (the file) first, where there are then more or fewer cameras than names.
+/// `place` (the file) first, where there are then more or fewer cameras than names, and where one
+/// of the names is that of a camera at another place.
 Extrinsics SelectCameras(const Extrinsics& cameras, std::span<const std::string> names,
                          const std::string& place);
 

@@ -106,6 +106,18 @@ TEST(Extrinsics, OfOtherNamesAreTakenInOrderIfTheyAreAsMany) {
   EXPECT_THROW(SelectCameras(TwoCameras(), three, "room.json"), InputError);
 }
 
+TEST(Extrinsics, ARecordingNamedAsACameraIsNotTakenForAnother) {
+  const std::vector<std::string> swapped = {"side \"2\"", "b"}, in_order = {"front", "b"};
+  EXPECT_EQ(SelectCameras(TwoCameras(), in_order, "room.json")[1].name, "side \"2\"");
+  try {
+    SelectCameras(TwoCameras(), swapped, "room.json");
+    FAIL();
+  } catch (const InputError& error) {
+    EXPECT_EQ(std::string(error.what()).find("room.json: cameras[0]: expected the camera of"), 0u)
+        << error.what();
+  }
+}
+
 TEST(Extrinsics, NamesAreStemsOfFilesAndFolders) {
   const std::vector<std::string> different = {"clip/camera_0/", "b.jsonl"};
   EXPECT_EQ(CameraNames(different), (std::vector<std::string>{"camera_0", "b"}));
