@@ -1,5 +1,6 @@
 // OpenSim's TRC marker table: five header lines, then a row a frame, tab separated. Markers are the
-// 20 joints, camera space, millimetres; blank where they were not seen.
+// 20 joints, camera space, millimetres; blank where they were not seen: the format has no states,
+// and what has none counts as seen.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -49,7 +50,7 @@ std::string Header(const Extent& extent, const fs::path& path, size_t spaces = 0
 std::string Row(int64_t number, double time_s, const BodyRecord* body) {
   std::string row = fmt::format("{}\t{:.6f}", number, time_s);
   for (size_t j = 0; j < kJointCount; ++j) {
-    if (body == nullptr || !body->joints[j]) {
+    if (body == nullptr || !body->joints[j] || !HasPlace(*body->joints[j])) {
       row += "\t\t\t";
       continue;
     }

@@ -27,6 +27,8 @@ inline SkeletonSequence ExampleSequence(int frames, int bodies = 1) {
         joint.position_m = {0.05 * n + b, 0.1 * std::sin(0.2 * f + n), 2.0 + 0.01 * f};
         joint.state = static_cast<TrackingState>(j % 3);
         joint.confidence = 0.5;
+        // Placed unseen: of others that are not tracked a place says nothing (HasPlace).
+        if (joint.state == TrackingState::kNotTracked) joint.reliability = 0.25;
         body.joints[j] = joint;
       }
       frame.bodies.push_back(body);

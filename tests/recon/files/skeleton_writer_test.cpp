@@ -121,6 +121,20 @@ TEST(SkeletonWriter, WhoComesLaterHasATableOfAllFrames) {
   }
 }
 
+// An SDK's joint that is not seen lies anywhere, at the camera as a rule; a table has no states.
+TEST(SkeletonWriter, ATableIsBlankWhereAJointIsNotTracked) {
+  const TemporaryFolder folder;
+  SkeletonSequence sequence = ExampleSequence(2);
+  JointRecord& head = *sequence.frames[1].bodies[0].joints[Index(Joint::kHead)];
+  head = JointRecord();
+  head.state = TrackingState::kNotTracked;
+  WriteSkeletons(folder / "x.trc", sequence);
+  const auto back = ReadSkeletons(folder / "x.trc").frames;
+  EXPECT_TRUE(back[0].bodies[0].joints[Index(Joint::kHead)]);
+  EXPECT_FALSE(back[1].bodies[0].joints[Index(Joint::kHead)]);
+  EXPECT_TRUE(back[1].bodies[0].joints[Index(Joint::kSpine)]);
+}
+
 TEST(SkeletonWriter, ATableOfNobodyHasItsRows) {
   const TemporaryFolder folder;
   SkeletonSequence sequence = ExampleSequence(3);
