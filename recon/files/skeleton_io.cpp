@@ -392,6 +392,7 @@ std::vector<SkeletonClip> ReadSkeletonClips(const fs::path& path,
 
 SkeletonSequence ReadSkeletons(const fs::path& path, const SkeletonReadOptions& options) {
   auto clips = ReadSkeletonClips(path, options);
+  if (clips.empty()) return {path.string(), {}};  // stopped
   if (clips.size() > 1) {
     const SkeletonPath parts = TakeApart(path);
     const std::string columns = parts.columns.empty() ? "" : "#" + parts.columns;

@@ -40,6 +40,7 @@ std::vector<std::string> SkeletonFormats();
 /// what has that word as a whole name in its path, else what has it anywhere there. A path that
 /// exists as it stands is itself, else the longest part before a '#' that exists is what is read.
 /// Throws InputError in one line; an archive or a folder with several recordings is refused here.
+/// Without frames where options.stop ended it.
 SkeletonSequence ReadSkeletons(const std::filesystem::path& path,
                                const SkeletonReadOptions& options = {});
 

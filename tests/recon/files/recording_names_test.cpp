@@ -48,6 +48,18 @@ TEST(RecordingNames, OneOfAnArchiveMayBeAPartOfAnothers) {
   EXPECT_EQ(NamesAt(tar + "#1.j"), (Names{"1", "11", "set/1", "set/21"})) << "a part of all";
 }
 
+TEST(RecordingNames, OfNoneIsReadThatComesAfterTheEnd) {
+  const test::TemporaryFolder folder;
+  WriteWalk(folder / "walks/walk.jsonl", 2);
+  WriteTar(folder / "walks.tar", {{"walk.jsonl", Walk(2)}});
+  SkeletonReadOptions options;
+  options.stop = [] { return true; };
+  for (const char* name : {"walks", "walks.tar"}) {
+    EXPECT_TRUE(ReadSkeletonClips(folder / name, options).empty()) << name;
+    EXPECT_TRUE(ReadSkeletons(folder / name, options).frames.empty()) << name;
+  }
+}
+
 // `walks#walk` was everything in walks/.
 TEST(RecordingNames, OfAFolderAreThoseInsideIt) {
   const test::TemporaryFolder folder;
