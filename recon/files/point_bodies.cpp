@@ -87,13 +87,18 @@ bool IsSkinMarker(const std::string& label) {
                                label.ends_with("KNE") || label.ends_with("ANK"));
 }
 
-PointBody FindJointsByName(const Subject& subject, bool skin) {
+// Of several points of one joint the first; the labels of others go to `others`.
+PointBody FindJointsByName(const Subject& subject, bool skin, std::vector<std::string>& others) {
   PointBody body;
   for (size_t p = 0; p < subject.points.size(); ++p) {
     const auto joint = JointCalled(subject.labels[p]);
     if (!joint || IsSkinMarker(subject.labels[p]) != skin) continue;
     auto& points = body.points[Index(*joint)];
-    if (points.empty()) points.push_back(subject.points[p]);
+    if (points.empty()) {
+      points.push_back(subject.points[p]);
+    } else {
+      others.push_back(subject.labels[p]);
+    }
   }
   return body;
 }
@@ -107,14 +112,15 @@ PointBody FindMarkers(const Subject& subject) {
   return body;
 }
 
-PointBody FindBody(const Subject& subject, const BoneMapping* mapping, const LabelPlace& place) {
+PointBody FindBody(const Subject& subject, const BoneMapping* mapping, const LabelPlace& place,
+                   std::vector<std::string>& others) {
   if (mapping != nullptr) {
     const PointBody mapped = FindMapped(subject, *mapping, place);
     if (HasJoints(mapped)) return mapped;
   }
-  PointBody body = FindJointsByName(subject, false);
+  PointBody body = FindJointsByName(subject, false, others);
   if (!HasJoints(body)) body = FindMarkers(subject);
-  return HasJoints(body) ? body : FindJointsByName(subject, true);
+  return HasJoints(body) ? body : FindJointsByName(subject, true, others);
 }
 
 std::string ListLabels(const std::vector<std::string>& labels) {
@@ -143,6 +149,16 @@ void WarnOfUnknown(const std::vector<PointBody>& bodies, const std::vector<std::
       fmt::format("{}: {}: only {} of the points are known as joints: {}; --mapping FILE names "
                   "others, in lines such as ElbowLeft = {}",
                   place.file, place.place, known, ListLabels(labels), labels.back()));
+}
+
+// Which of two points was read, nothing else tells.
+void WarnOfOthers(const std::vector<std::string>& others, const LabelPlace& place,
+                  std::vector<std::string>& warnings) {
+  if (others.empty()) return;
+  warnings.push_back(
+      fmt::format("{}: {}: not read: {}, for points before are of the same joints; --mapping FILE "
+                  "names others",
+                  place.file, place.place, ListLabels(others)));
 }
 
 BodyRecord MakeBody(const PointBody& body, const std::vector<SeenPoint>& points) {
@@ -225,8 +241,9 @@ std::vector<PointBody> FindPointBodies(const std::vector<std::string>& labels,
                                        const BoneMapping* mapping, const LabelPlace& place,
                                        std::vector<std::string>& warnings) {
   std::vector<PointBody> bodies;
+  std::vector<std::string> others;
   for (const Subject& subject : GroupBySubject(labels)) {
-    PointBody body = FindBody(subject, mapping, place);
+    PointBody body = FindBody(subject, mapping, place, others);
     if (HasJoints(body)) bodies.push_back(std::move(body));
   }
   if (bodies.empty()) {
@@ -237,6 +254,7 @@ std::vector<PointBody> FindPointBodies(const std::vector<std::string>& labels,
         place.file, place.place, ListLabels(labels), labels.empty() ? "name" : labels.front()));
   }
   WarnOfUnknown(bodies, labels, place, warnings);
+  WarnOfOthers(others, place, warnings);
   return bodies;
 }
 

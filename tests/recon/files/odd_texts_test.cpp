@@ -159,6 +159,15 @@ TEST(Trc, WithoutKnownNamesSaysWhichItHasAndHowToMapThem) {
   EXPECT_EQ(complaint.find('\n'), std::string::npos);
 }
 
+TEST(Trc, WithAJointTwiceIsReadWithAWarningThatNamesTheOther) {
+  const auto read = Read(Replaced(kTrc, "Head", "L_Knee"));
+  EXPECT_LT((At(read, 1, Joint::kKneeLeft) - Eigen::Vector3d(0.1105, 0.50025, 0.01)).norm(), 1e-9);
+  ASSERT_FALSE(read.warnings.empty());
+  EXPECT_NE(read.warnings.back().find("line 4: not read: 'L_Knee', for points before"),
+            std::string::npos)
+      << read.warnings.back();
+}
+
 TEST(Trc, WithFewKnownNamesIsReadWithAWarningThatListsAll) {
   const auto read = Read(Replaced(kTrc, "Head", "M02"));
   ASSERT_EQ(read.warnings.size(), 1u);
