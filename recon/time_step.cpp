@@ -11,7 +11,8 @@ namespace ossa::recon {
 double MedianStep_s(const SkeletonSequence& sequence) {
   std::vector<double> steps_s;
   for (size_t f = 1; f < sequence.frames.size(); ++f) {
-    steps_s.push_back(sequence.frames[f].time_s - sequence.frames[f - 1].time_s);
+    const double step_s = sequence.frames[f].time_s - sequence.frames[f - 1].time_s;
+    if (step_s > 0.0) steps_s.push_back(step_s);
   }
   return steps_s.empty() ? 0.0 : Median(std::move(steps_s));
 }

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <optional>
 #include <vector>
 
 #include "recon/bone_projection.h"
@@ -28,15 +29,29 @@ struct Pair {
   double weight;        // against the frame's own 1
 };
 
+/// The nearest frame of another time, back or ahead; none where the way ends before. Loggers that
+/// ask faster than sensors answer say a time twice.
+std::optional<size_t> FindOtherTime(std::span<const TimedPosture> way, size_t from, bool ahead) {
+  for (size_t at = from; ahead ? at + 1 < way.size() : at > 0;) {
+    at = ahead ? at + 1 : at - 1;
+    if (way[at].time_s != way[from].time_s) return at;
+  }
+  return std::nullopt;
+}
+
 std::vector<Pair> PairsAround(std::span<const TimedPosture> way, size_t at, size_t joint,
                               const LagOptions& options) {
   std::vector<Pair> pairs;
   const TimedPosture& own = way[at];
   const auto most = options.frames == kWholeRecording ? way.size() : size_t(options.frames);
   const auto square = [](double x) { return x * x; };
-  for (size_t k = 1; k <= most && k <= at && at + k < way.size(); ++k) {
-    const TimedPosture &before = way[at - k], &after = way[at + k];
-    if (!GoesOn(before, way[at - k + 1], joint) || !GoesOn(way[at + k - 1], after, joint)) break;
+  for (size_t k = 1, first = at, last = at; k <= most; ++k) {
+    const auto earlier = FindOtherTime(way, first, false), later = FindOtherTime(way, last, true);
+    if (!earlier || !later) break;
+    const TimedPosture &before = way[*earlier], &after = way[*later];
+    if (!GoesOn(before, way[first], joint) || !GoesOn(way[last], after, joint)) break;
+    first = *earlier;
+    last = *later;
     const double back_s = own.time_s - before.time_s, ahead_s = after.time_s - own.time_s;
     const double squares = back_s * ahead_s / square(options.sigma_s);
     if (squares > square(kWidest)) break;

@@ -34,8 +34,9 @@ struct TimedPosture {
   JointOrientations orientation;
 };
 
-/// The posture `at` of a person's way, times rising, smoothed by those around it. A joint's frames
-/// end where it is absent, and where the person was away for longer than a quarter of a second.
+/// The posture `at` of a person's way, times rising, smoothed by those around it; of frames at one
+/// time the nearest. A joint's frames end where it is absent, and where the person was away for
+/// longer than a quarter of a second.
 TimedPosture SmoothedAt(std::span<const TimedPosture> way, size_t at, const LagOptions& options);
 
 /// The whole recording so, every person by itself. States, confidences and whatever else a joint

@@ -6,6 +6,7 @@
 
 #include "depth/base/perceptron/train_perceptron.h"
 #include "recon/database/posture_database.h"
+#include "recon/filters/frame_steps.h"
 #include "recon/models/error_gains_internal.h"
 #include "recon/models/pose_correction.h"
 
@@ -133,7 +134,9 @@ Posture WindowCorrection::Offsets(const Eigen::VectorXf& window) const {
 }
 
 void FeatureHistory::Add(double time_s, Eigen::VectorXf feature) {
-  if (!past_.empty() && time_s <= past_.back().time_s) past_.clear();  // another recording
+  const bool is_another_recording =
+      !past_.empty() && time_s < past_.back().time_s - FrameSteps::kJitter_s;
+  if (is_another_recording) past_.clear();
   past_.push_back({time_s, std::move(feature)});
   const auto old = [&](const Moment& moment) { return moment.time_s < time_s - kKept_s; };
   past_.erase(past_.begin(), std::find_if_not(past_.begin(), past_.end(), old));

@@ -67,6 +67,20 @@ TEST_P(Lag, TakesMostOfTheJitterAway) {
   EXPECT_LT(after, (GetParam() == 1 ? 0.45 : 0.25) * before);
 }
 
+// Loggers that ask faster than the sensor answers.
+TEST_P(Lag, OfTimesSaidTwiceSmoothsAsOfEachSaidOnce) {
+  std::mt19937_64 rng(6);
+  std::normal_distribution<double> noise_m(0.0, 0.01);
+  const auto once = HandGoing(60, [&](int) { return noise_m(rng); });
+  SkeletonSequence twice{"made up", {}};
+  for (const SkeletonFrame& frame : once.frames) {
+    for (int i = 0; i < 2; ++i) twice.frames.push_back(frame);
+  }
+  const auto made_once = SmoothSequence(once, options_);
+  const auto made_twice = SmoothSequence(twice, options_);
+  for (size_t f = 0; f < 120; ++f) EXPECT_EQ(HandAt(made_twice, f), HandAt(made_once, f / 2)) << f;
+}
+
 // Two centimetres are what a pair of frames 30 cm apart still says to either side of the jump.
 TEST_P(Lag, DoesNotSmearAJump) {
   const auto seen = HandGoing(20, [](int f) { return f < 10 ? 0.0 : 0.4; });

@@ -118,6 +118,18 @@ TEST(FeatureHistory, TakesWhatIsNearestInTimeToEachLag) {
   EXPECT_EQ(window[4], 2.0F);  // 0.54 s before: 0.14 s
 }
 
+// Loggers that ask faster than the sensor answers; only a time far back is another recording's.
+TEST(FeatureHistory, KeepsWhatWasBeforeATimeThatIsSaidTwice) {
+  FeatureHistory history;
+  const auto feature = [](float value) { return Eigen::VectorXf::Constant(1, value); };
+  for (int f = 0; f < 10; ++f) {
+    for (int i = 0; i < 2; ++i) history.Add(0.07 * f, feature(static_cast<float>(f)));
+  }
+  EXPECT_EQ(history.WindowAt(0.7, feature(10.0F))[4], 2.0F);  // 0.54 s before: 0.14 s
+  history.Add(0.0, feature(20.0F));
+  EXPECT_EQ(history.WindowAt(0.6, feature(10.0F))[4], 20.0F);
+}
+
 TEST(FeatureHistory, OfASingleFrameIsThatFrameAtEveryLag) {
   const Eigen::VectorXf now = Eigen::VectorXf::Constant(2, 3.0F);
   EXPECT_TRUE((FeatureHistory().WindowAt(5.0, now).array() == 3.0F).all());
