@@ -412,7 +412,7 @@ class Learner {
 
 LinearFilter LinearFilter::Learn(const std::vector<PosturePair>& pairs,
                                  const LinearFilterOptions& options) {
-  if (UsualStep_s(pairs) == 0.0) return {};
+  if (!CanLearnOf(UsualStep_s(pairs))) return {};
   return Learner(pairs, options).Learned();
 }
 

@@ -60,6 +60,56 @@ GaussianProcess GetProcess(PayloadReader& in, Eigen::Index features) {
   return model;
 }
 
+LocalMixture GetMixture(PayloadReader& in, Eigen::Index features) {
+  const auto count = in.Get<uint64_t>("local models");
+  if (count > kMostModels) in.Fail("local models", "expected at most 1000");
+  std::vector<GaussianProcess> models;
+  for (uint64_t q = 0; q < count; ++q) models.push_back(GetProcess(in, features));
+  return LocalMixture(std::move(models));
+}
+
+std::vector<PosturePair> GetExemplars(PayloadReader& in) {
+  const Eigen::MatrixXf observed = GetMatrix(in, "exemplars"), residual = GetMatrix(in, "offsets");
+  const Eigen::MatrixXf known = GetMatrix(in, "known joints");
+  if (observed.rows() != kPostureDims || residual.rows() != kPostureDims ||
+      known.rows() != kJointCount || residual.cols() != observed.cols() ||
+      known.cols() != observed.cols()) {
+    in.Fail("exemplars", "expected 60 numbers, 60 offsets and 20 flags a pair");
+  }
+  std::vector<PosturePair> exemplars;
+  for (Eigen::Index i = 0; i < observed.cols(); ++i) {
+    PosturePair& pair = exemplars.emplace_back();
+    pair.observed = ToPosture(observed.col(i));
+    pair.residual = ToPosture(residual.col(i));
+    for (size_t j = 0; j < kJointCount; ++j) pair.known[j] = known(static_cast<Eigen::Index>(j), i);
+  }
+  return exemplars;
+}
+
+PoseCorrection GetCorrection(PayloadReader& in) {
+  PoseCorrection c;
+  c.centres = GetMatrix(in, "centres");
+  c.weights = GetMatrix(in, "weights");
+  const Eigen::MatrixXf mean = GetMatrix(in, "mean offsets");
+  c.width = in.Get<double>("width");
+  c.proportions = in.Get<BoneLengths>("proportions");
+  for (const double p : c.proportions) {
+    if (!(p >= 0.0 && p < PoseCorrection::kMostProportion)) {
+      in.Fail("proportions", "expected 0 to 5");
+    }
+  }
+  const Eigen::Index features = CorrectionFeature(Posture()).size();
+  const bool fits =
+      c.weights.size() == 0 ||
+      (c.centres.rows() == features && c.weights.rows() == c.centres.cols() + features &&
+       c.weights.cols() == kPostureDims && mean.size() == kPostureDims);
+  if (!fits || !(c.width > 1e-3 && c.width < 1e3)) {
+    in.Fail("centres", "expected a correction of whole postures");
+  }
+  c.mean = Eigen::Map<const Eigen::VectorXf>(mean.data(), mean.size());
+  return c;
+}
+
 /// Of joints of the left and the middle; an empty matrix where nothing was learned.
 void PutFilter(PayloadWriter& out, const LinearFilter& filter) {
   out.Put(filter.step_s);
@@ -73,7 +123,7 @@ void PutFilter(PayloadWriter& out, const LinearFilter& filter) {
 LinearFilter GetFilter(PayloadReader& in) {
   LinearFilter filter;
   filter.step_s = in.Get<double>("filter's step");
-  if (!(filter.step_s == 0.0 || (filter.step_s > 1e-3 && filter.step_s < 1.0))) {
+  if (filter.step_s != 0.0 && !LinearFilter::CanLearnOf(filter.step_s)) {
     in.Fail("filter's step", "expected 0, or 0.001 s to 1 s");
   }
   for (const auto output : {LinearFilter::kNow, LinearFilter::kBefore}) {
@@ -158,11 +208,10 @@ LearnedModels LearnedModels::Learn(const std::vector<PosturePair>& pairs,
   }
   if (!options.processes) return out;
   out.exemplars = Thinned(pairs, options.most_pairs);
-  constexpr int kFewest = 10;  // fewer pairs of a joint teach nothing
   for (size_t joint = 0; joint < kJointCount; ++joint) {
     if (progress && !progress(static_cast<int>(joint))) return out;
     const JointSamples s = CollectSamples(out.exemplars, joint);
-    if (s.inputs.rows() < kFewest) continue;
+    if (s.inputs.rows() < LearnOptions::kFewestPairs) continue;
     out.mixtures[joint] = LocalMixture::Learn(s.inputs, s.outputs, options.mixture);
     constexpr Eigen::Index kForParameters = 200;
     const auto parameters = LearnParameters(EveryNthRow(s.inputs, kForParameters),
@@ -219,44 +268,11 @@ LearnedModels LearnedModels::FromBytes(std::span<const std::byte> bytes, const s
   LearnedModels out;
   out.pair_count = in.Get<uint64_t>("pair count");
   for (size_t joint = 0; joint < kJointCount; ++joint) {
-    const auto count = in.Get<uint64_t>("local models");
-    if (count > kMostModels) in.Fail("local models", "expected at most 1000");
-    std::vector<GaussianProcess> models;
-    for (uint64_t q = 0; q < count; ++q) models.push_back(GetProcess(in, FeatureSize(joint)));
-    out.mixtures[joint] = LocalMixture(std::move(models));
+    out.mixtures[joint] = GetMixture(in, FeatureSize(joint));
     if (in.Get<uint8_t>("full process") != 0) out.full[joint] = GetProcess(in, FeatureSize(joint));
   }
-  const Eigen::MatrixXf observed = GetMatrix(in, "exemplars"), residual = GetMatrix(in, "offsets");
-  const Eigen::MatrixXf known = GetMatrix(in, "known joints");
-  if (observed.rows() != kPostureDims || residual.rows() != kPostureDims ||
-      known.rows() != kJointCount || residual.cols() != observed.cols() ||
-      known.cols() != observed.cols()) {
-    in.Fail("exemplars", "expected 60 numbers, 60 offsets and 20 flags a pair");
-  }
-  for (Eigen::Index i = 0; i < observed.cols(); ++i) {
-    PosturePair& pair = out.exemplars.emplace_back();
-    pair.observed = ToPosture(observed.col(i));
-    pair.residual = ToPosture(residual.col(i));
-    for (size_t j = 0; j < kJointCount; ++j) pair.known[j] = known(static_cast<Eigen::Index>(j), i);
-  }
-  PoseCorrection& c = out.correction;
-  c.centres = GetMatrix(in, "centres");
-  c.weights = GetMatrix(in, "weights");
-  const Eigen::MatrixXf mean = GetMatrix(in, "mean offsets");
-  c.width = in.Get<double>("width");
-  c.proportions = in.Get<BoneLengths>("proportions");
-  for (const double p : c.proportions) {
-    if (!(p >= 0.0 && p < 5.0)) in.Fail("proportions", "expected 0 to 5");
-  }
-  const Eigen::Index features = CorrectionFeature(Posture()).size();
-  const bool fits =
-      c.weights.size() == 0 ||
-      (c.centres.rows() == features && c.weights.rows() == c.centres.cols() + features &&
-       c.weights.cols() == kPostureDims && mean.size() == kPostureDims);
-  if (!fits || !(c.width > 1e-3 && c.width < 1e3)) {
-    in.Fail("centres", "expected a correction of whole postures");
-  }
-  c.mean = Eigen::Map<const Eigen::VectorXf>(mean.data(), mean.size());
+  out.exemplars = GetExemplars(in);
+  out.correction = GetCorrection(in);
   if (version >= kVersionOfSteps) out.filter = GetFilter(in);
   if (version > kVersionOfInfluences) out.window = GetWindow(in);
   in.ExpectEnd();

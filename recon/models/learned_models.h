@@ -16,6 +16,7 @@ namespace ossa::recon {
 struct LearnOptions {
   // What a file may hold: see mixture.regions and mixture.samples.
   static constexpr int kMostRegions = 1000, kMostSamples = 5000;
+  static constexpr int kFewestPairs = 10;  // fewer of a joint teach nothing
 
   bool processes = true;  // false: the correction alone, for `best`
   LocalMixtureOptions mixture;

@@ -42,6 +42,11 @@ class LinearFilter {
   static constexpr int kFrames = kSteps + 1;  // at most, that it needs
   static constexpr int kFewest = 3;           // steps of a joint, for it to count
   static constexpr int kInfluencing = 4;      // frames before the one estimated that influence it
+  /// Between frames, of the format: of slower and faster recordings nothing is learned.
+  static constexpr double kShortestStep_s = 1e-3, kLongestStep_s = 1.0;
+  static bool CanLearnOf(double step_s) {
+    return step_s > kShortestStep_s && step_s < kLongestStep_s;
+  }
   /// Of the newest frame, and of the one before it once the newest is known.
   enum Output { kNow = 0, kBefore = 1, kOutputs = 2 };
   /// Of each joint: so many steps, up to the newest frame, are believed.

@@ -151,8 +151,12 @@ BoneLengths TrueProportions(const std::vector<PosturePair>& pairs) {
       }
     }
   }
-  for (size_t i = 1; i < kJointCount; ++i) sum[i] = count[i] > 0.0 ? sum[i] / count[i] : 0.0;
-  return sum;
+  BoneLengths proportions{};
+  for (size_t i = 1; i < kJointCount; ++i) {
+    const double mean = count[i] > 0.0 ? sum[i] / count[i] : 0.0;
+    proportions[i] = mean < PoseCorrection::kMostProportion ? mean : 0.0;
+  }
+  return proportions;
 }
 
 struct LinearFit {

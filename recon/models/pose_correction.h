@@ -48,9 +48,10 @@ class PoseCorrection {
   Eigen::MatrixXf weights;
   Eigen::VectorXf mean;
   double width = 1.0;
-  /// Mean true length of each bone over the standard one, of scaled people; 0 where no truth was
-  /// known of both ends.
+  /// Mean true length of each bone over the standard one, of scaled people, below kMostProportion;
+  /// 0 where no truth was known of both ends, or one that is nobody's bone.
   BoneLengths proportions{};
+  static constexpr double kMostProportion = 5.0;  // a ratio, of the format; by hand
 
  private:
   /// How one choice of width and noise does on people left out.

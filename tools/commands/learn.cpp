@@ -26,6 +26,17 @@ bool SayWarningsOf(const std::vector<recon::SkeletonClip>& clips) {
   return !Interrupted();
 }
 
+constexpr size_t kFewestPairs = recon::LearnOptions::kFewestPairs;
+
+/// Throws InputError where a file would be written that knows nothing.
+void CheckPairs(const std::vector<std::string>& observed,
+                const std::vector<recon::PosturePair>& pairs) {
+  if (pairs.size() >= kFewestPairs) return;
+  throw InputError(fmt::format(
+      "{}: expected {} frames or more that match the truth's, in all recordings, found {}",
+      observed.back(), kFewestPairs, pairs.size()));
+}
+
 recon::LearnedModels LearnUntilInterrupted(const std::vector<recon::PosturePair>& pairs,
                                            const recon::LearnOptions& options,
                                            const std::function<bool(int)>& progress) try {
@@ -69,8 +80,9 @@ void Check(const LearnArguments& a) {
     throw UsageError(fmt::format("learn: {} --observed but {} --truth; expected as many",
                                  a.observed.size(), a.truth.size()));
   }
-  if (a.options.most_pairs < 10) {
-    throw UsageError(fmt::format("--pairs: expected 10 or more, found {}", a.options.most_pairs));
+  if (a.options.most_pairs < kFewestPairs) {
+    throw UsageError(
+        fmt::format("--pairs: expected {} or more, found {}", kFewestPairs, a.options.most_pairs));
   }
   CheckNotOtherKind("--out", a.out, ".ossagp");
   std::vector<std::string> inputs = a.observed;
@@ -100,6 +112,7 @@ int Learn(int argc, char** argv) {
   const LearnArguments a = ParseLearnOptions(argc, argv);
   const auto pairs = tools::PairRecordings(a.observed, a.truth, a.reading, SayWarningsOf);
   if (Interrupted()) throw InputError("learn: interrupted; nothing was written");
+  CheckPairs(a.observed, pairs);
   Progress progress("learn", a.quiet);
   const auto models = LearnUntilInterrupted(pairs, a.options, [&](int joint) {
     progress.Update(joint, recon::kJointCount, fmt::format("{} pairs", pairs.size()));

@@ -186,6 +186,15 @@ TEST(LinearFilter, ANeighbourThatIsNotBelievedDoesNotMoveTheJoint) {
             LearnedOfThree().Estimate(kWrist, person.seen, steps, 3.1));
 }
 
+// Files hold a step of 0.001 s to 1 s.
+TEST(LinearFilter, LearnsNothingOfFramesTooFarApartOrTooNear) {
+  for (const double factor : {60.0, 0.01}) {
+    auto pairs = test::PairsOfPeople(3);
+    for (PosturePair& pair : pairs) pair.time_s *= factor;
+    EXPECT_TRUE(LinearFilter::Learn(pairs).empty()) << factor;
+  }
+}
+
 class FilterFile : public testing::Test {
  protected:
   FilterFile() { models_.filter = LearnedOfThree(); }

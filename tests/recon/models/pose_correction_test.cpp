@@ -100,6 +100,22 @@ TEST(PoseCorrection, LeavesAloneWhatIsOnePersonsOwn) {
   EXPECT_LT(correction.Offsets(test::Motion(1.0)).position_m[7].norm(), 0.005);
 }
 
+// The truth's hand may be the tip of a stick.
+TEST(LearnedModels, WithABoneThatIsNobodysCanBeRead) {
+  auto pairs = Pairs(true);
+  for (PosturePair& pair : pairs) {
+    const Eigen::Vector3d bone_m = pair.observed.position_m[7] - pair.observed.position_m[6];
+    pair.residual.position_m[7] = 0.7 * bone_m.normalized();
+  }
+  LearnOptions options;
+  options.processes = false;
+  const ossa::test::TemporaryFolder folder;
+  LearnedModels::Learn(pairs, options).Save(folder / "models.ossagp");
+  const auto read = LearnedModels::Load(folder / "models.ossagp").correction;
+  EXPECT_EQ(read.proportions[7], 0.0);
+  EXPECT_GT(read.proportions[6], 0.5);
+}
+
 TEST(LearnedModels, AreTheSameAfterTheFileAndRefusedWhenCutShort) {
   LearnOptions options;
   options.processes = false;

@@ -95,6 +95,17 @@ TEST_F(ForeignSkeletons, AreLearnedOf) {
   EXPECT_EQ(run.exit_status, 0) << run.err;
 }
 
+// A file would be written that knows nothing.
+TEST_F(ForeignSkeletons, OfTooFewFramesNothingIsLearned) {
+  std::ofstream(folder_ / "x.trc") << FigureTrc(5);
+  const auto run =
+      test::RunOssa({"learn", "--observed", folder_ / "x.trc", "--truth", folder_ / "x.bvh",
+                     "--mapping", folder_ / "names.txt", "--out", folder_ / "y.ossagp", "--quiet"});
+  EXPECT_EQ(run.exit_status, 1);
+  EXPECT_NE(run.err.find("x.trc: expected 10 frames or more"), std::string::npos) << run.err;
+  EXPECT_FALSE(std::filesystem::exists(folder_ / "y.ossagp"));
+}
+
 TEST_F(ForeignSkeletons, OfWhichSomethingIsOddAreSaidTo) {
   std::string text = recon::test::FigureBvh();
   text.replace(text.find("Frames: 30"), 10, "Frames: 75");
