@@ -1,5 +1,8 @@
 #include "tools/learning/pair_recordings.h"
 
+#include <fmt/format.h>
+
+#include <algorithm>
 #include <map>
 
 #include "depth/base/error.h"
@@ -20,21 +23,43 @@ class People {
   std::map<std::string, int> numbers_;
 };
 
-// Clips of both sides by name; a single file on each side belongs together whatever its name.
-void AddClips(const std::string& observed_path, const std::vector<recon::SkeletonClip>& observed,
-              const std::vector<recon::SkeletonClip>& truth, People& people,
-              std::vector<recon::PosturePair>& pairs) {
-  if (observed.size() == 1 && truth.size() == 1) {
-    recon::AddPairs(observed[0].sequence, truth[0].sequence, pairs, people.Of(observed_path, ""));
-    return;
-  }
+using Clips = std::vector<recon::SkeletonClip>;
+
+// Of each observed clip the true one: by name; a single one on each side belongs together whatever
+// its name. Null: there is none.
+std::vector<const recon::SkeletonClip*> FindTruth(const Clips& observed, const Clips& truth) {
+  if (observed.size() == 1 && truth.size() == 1) return {&truth[0]};
   std::map<std::string, const recon::SkeletonClip*> by_name;
   for (const auto& clip : truth) by_name[clip.name] = &clip;
+  std::vector<const recon::SkeletonClip*> found;
   for (const auto& clip : observed) {
     const auto it = by_name.find(clip.name);
-    if (it == by_name.end()) continue;
-    recon::AddPairs(clip.sequence, it->second->sequence, pairs,
-                    people.Of(observed_path, clip.name));
+    found.push_back(it == by_name.end() ? nullptr : it->second);
+  }
+  return found;
+}
+
+// Of some without truth a warning says so; of all, nothing can be learned, and that is said.
+void WarnOfUnpaired(const std::string& observed_path, const std::string& truth_path,
+                    const std::vector<const recon::SkeletonClip*>& truth, Clips& observed) {
+  const auto without = std::count(truth.begin(), truth.end(), nullptr);
+  if (without == 0 || without == std::ssize(truth)) return;
+  const auto first =
+      static_cast<size_t>(std::find(truth.begin(), truth.end(), nullptr) - truth.begin());
+  observed[0].sequence.warnings.push_back(
+      fmt::format("{}: {} of its {} recordings, the first {}, have none of their name in {}: "
+                  "nothing is learned of them",
+                  observed_path, without, truth.size(), observed[first].name, truth_path));
+}
+
+void AddClips(const std::string& observed_path, const Clips& observed,
+              const std::vector<const recon::SkeletonClip*>& truth, People& people,
+              std::vector<recon::PosturePair>& pairs) {
+  for (size_t i = 0; i < observed.size(); ++i) {
+    if (truth[i] == nullptr) continue;
+    const std::string& name = observed[i].name;
+    recon::AddPairs(observed[i].sequence, truth[i]->sequence, pairs,
+                    people.Of(observed_path, name));
   }
 }
 
@@ -51,11 +76,13 @@ std::vector<recon::PosturePair> PairRecordings(
   std::vector<recon::PosturePair> pairs;
   People people;
   for (size_t i = 0; i < observed.size(); ++i) {
-    const auto seen = recon::ReadSkeletonClips(observed[i], reading);
-    const auto known = recon::ReadSkeletonClips(truth[i], reading);
+    Clips seen = recon::ReadSkeletonClips(observed[i], reading);
+    const Clips known = recon::ReadSkeletonClips(truth[i], reading);
+    const auto truth_of = FindTruth(seen, known);
+    WarnOfUnpaired(observed[i], truth[i], truth_of, seen);
     if (read && !(read(seen) && read(known))) return pairs;
     const size_t before = pairs.size();
-    AddClips(observed[i], seen, known, people, pairs);
+    AddClips(observed[i], seen, truth_of, people, pairs);
     if (pairs.size() == before) {
       throw InputError(observed[i] + ": no frame matches one of " + truth[i] +
                        "; expected recordings of the same names, the same frame numbers or times, "

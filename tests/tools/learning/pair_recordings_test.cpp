@@ -1,0 +1,65 @@
+// What was observed beside what was true, by the names of recordings.
+#include "tools/learning/pair_recordings.h"
+
+#include <gtest/gtest.h>
+
+#include <filesystem>
+
+#include "depth/base/error.h"
+#include "tests/recon/noisy_sensor.h"
+#include "tests/support/temporary_folder.h"
+
+namespace ossa::tools {
+namespace {
+
+class PairedFolders : public testing::Test {
+ protected:
+  PairedFolders() {
+    for (const std::string& side : {seen_, true_}) std::filesystem::create_directory(side);
+  }
+  void WriteWalk(const std::string& folder, const std::string& name) const {
+    recon::WriteSkeletons(folder + "/" + name + ".jsonl",
+                          recon::test::SequenceOf(recon::test::Seen(1, 30).truth));
+  }
+  /// Pairs, and what is said of the files.
+  size_t CountPairs() {
+    said_.clear();
+    const auto read = [this](const std::vector<recon::SkeletonClip>& clips) {
+      for (const auto& clip : clips) {
+        said_.insert(said_.end(), clip.sequence.warnings.begin(), clip.sequence.warnings.end());
+      }
+      return true;
+    };
+    return PairRecordings({seen_}, {true_}, {}, read).size();
+  }
+
+  test::TemporaryFolder folder_;
+  std::string seen_ = folder_ / "seen", true_ = folder_ / "true";
+  std::vector<std::string> said_;
+};
+
+TEST_F(PairedFolders, SayOfHowManyThereIsNoTruth) {
+  for (const char* name : {"a", "b", "c"}) WriteWalk(seen_, name);
+  for (const char* name : {"a", "B", "C"}) WriteWalk(true_, name);
+  EXPECT_EQ(CountPairs(), 30u);
+  ASSERT_EQ(said_.size(), 1u);
+  EXPECT_NE(said_[0].find(": 2 of its 3 recordings, the first b, have none of their name in"),
+            std::string::npos)
+      << said_[0];
+}
+
+TEST_F(PairedFolders, OfOneRecordingEachBelongTogetherWhateverItsName) {
+  WriteWalk(seen_, "kinect");
+  WriteWalk(true_, "vicon");
+  EXPECT_EQ(CountPairs(), 30u);
+  EXPECT_TRUE(said_.empty());
+}
+
+TEST_F(PairedFolders, WithoutACommonNameAreRefused) {
+  for (const char* name : {"a", "b"}) WriteWalk(seen_, name);
+  WriteWalk(true_, "c");
+  EXPECT_THROW(CountPairs(), InputError);
+}
+
+}  // namespace
+}  // namespace ossa::tools
