@@ -24,11 +24,13 @@ void PeopleLog::Append(const SkeletonFrame& frame) {
 
 void PeopleLog::NoteStays(const SkeletonFrame& frame) {
   for (auto& [id, stays] : stays_) {
-    const bool is_here = std::any_of(frame.bodies.begin(), frame.bodies.end(),
-                                     [id = id](const BodyRecord& body) { return body.id == id; });
+    const bool is_here = std::any_of(
+        frame.bodies.begin(), frame.bodies.end(),
+        [id = id](const BodyRecord& body) { return body.id == id && IsSomewhere(body); });
     if (!is_here && !stays.back().gone_s) stays.back().gone_s = frame.time_s;
   }
   for (const BodyRecord& body : frame.bodies) {
+    if (!IsSomewhere(body)) continue;
     std::vector<Stay>& stays = stays_[body.id];
     if (stays.empty() || stays.back().gone_s) stays.push_back({frame.time_s, std::nullopt});
   }

@@ -10,7 +10,8 @@
 
 namespace ossa::recon {
 
-/// A time in which somebody was in view.
+/// A time in which somebody was somewhere: formats of points keep who is not seen as a body without
+/// a joint.
 struct Stay {
   double from_s = 0.0;
   std::optional<double> gone_s;  // of the first frame without them; none: here to the end

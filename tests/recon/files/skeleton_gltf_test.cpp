@@ -42,6 +42,17 @@ TEST(GltfWriter, SaysTheSameEveryTime) {
   EXPECT_EQ(TextOf(folder / "a.glb"), TextOf(folder / "b.glb"));
 }
 
+// Formats of points keep who is not seen as a body without a joint.
+TEST(GltfWriter, ABodyWithoutAJointIsNotThere) {
+  const test::TemporaryFolder folder;
+  SkeletonSequence lost = ExampleSequence(5);
+  WriteSkeletons(folder / "always.glb", lost, {});
+  for (auto& joint : lost.frames[2].bodies[0].joints) joint.reset();
+  WriteSkeletons(folder / "lost.glb", lost, {});
+  EXPECT_EQ(TextOf(folder / "always.glb").find("\"scale\""), std::string::npos);
+  EXPECT_NE(TextOf(folder / "lost.glb").find("\"scale\""), std::string::npos);
+}
+
 TEST(GltfWriter, ARecordingOfNobodyIsRefused) {
   const test::TemporaryFolder folder;
   SkeletonSequence nobody = ExampleSequence(3);
