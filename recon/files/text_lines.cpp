@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "depth/base/error.h"
+#include "depth/base/one_line.h"
 #include "recon/files/text_lines_internal.h"
 
 namespace ossa::recon {
@@ -50,11 +51,19 @@ void TextLines::Fail(std::string_view expected, std::string_view found) const {
 }
 
 std::string Quoted(std::string_view bytes) {
-  constexpr size_t kShown = 40;  // characters, by hand
-  std::string text = "'";
-  for (const char c : bytes.substr(0, kShown)) text.push_back(c >= ' ' && c <= '~' ? c : '?');
-  text += bytes.size() > kShown ? "...'" : "'";
-  return text;
+  constexpr size_t kShown = 40, kLongestTail = 3;  // bytes: by hand; of a UTF-8 character
+  size_t end = std::min(kShown, bytes.size());
+  // Not within a character.
+  for (size_t back = 0; back < kLongestTail && end < bytes.size(); ++back) {
+    if ((static_cast<unsigned char>(bytes[end]) & 0xC0U) == 0x80) --end;
+  }
+  std::string shown(bytes.substr(0, end));
+  const auto is_control = [](unsigned char c) { return c < ' ' || c == 0x7F; };
+  std::replace_if(shown.begin(), shown.end(), is_control, '?');
+  std::string quoted = "'";
+  quoted += OnOneLine(shown);
+  quoted += end < bytes.size() ? "...'" : "'";
+  return quoted;
 }
 
 std::vector<std::string_view> Split(std::string_view line, char separator) {

@@ -48,7 +48,8 @@ class TextLines {
   size_t number_ = 0;
 };
 
-/// A short, printable form of any bytes, in quotes, for messages.
+/// A short, printable form of any bytes, in quotes, for messages; names in any language stay what
+/// they are.
 std::string Quoted(std::string_view bytes);
 
 /// The pieces of a line between separators; a separator at the very end opens no last piece.

@@ -159,6 +159,16 @@ TEST(Trc, WithoutKnownNamesSaysWhichItHasAndHowToMapThem) {
   EXPECT_EQ(complaint.find('\n'), std::string::npos);
 }
 
+// They are to be copied into a mapping.
+TEST(Trc, NamesInAnyLanguageAreListedAsTheyAre) {
+  std::string long_name;
+  for (int i = 0; i < 30; ++i) long_name += "\u00FC";  // two bytes each
+  const std::string text = Replaced(Replaced(kUnknownTrc, "M01", "H\u00FCfte"), "M02", long_name);
+  const std::string complaint = ComplaintAbout(text);
+  const std::string said = "found 'H\u00FCfte', '" + long_name.substr(0, 40) + "...'";
+  EXPECT_NE(complaint.find(said), std::string::npos) << complaint;
+}
+
 TEST(Trc, WithAJointTwiceIsReadWithAWarningThatNamesTheOther) {
   const auto read = Read(Replaced(kTrc, "Head", "L_Knee"));
   EXPECT_LT((At(read, 1, Joint::kKneeLeft) - Eigen::Vector3d(0.1105, 0.50025, 0.01)).norm(), 1e-9);
