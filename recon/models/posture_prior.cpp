@@ -67,6 +67,42 @@ BoneMatrix Mirror() {
   return mirror;
 }
 
+void CheckEnough(const Sums& sums, double lag_s) {
+  constexpr uint64_t kFewest = 100;  // a hundred numbers' mean and spread tell something
+  if (sums.frames < kFewest) {
+    throw InputError(
+        fmt::format("posture prior: expected motions of at least {} finite postures, found {}",
+                    kFewest, sums.frames));
+  }
+  if (!(sums.lagged_weight > 0.0)) {
+    throw InputError(fmt::format(
+        "posture prior: expected a motion that is longer than {:.2f} s, found none", lag_s));
+  }
+}
+
+/// Of all bones, left and right alike, about their mean.
+struct Moments {
+  BoneVector mean = BoneVector::Zero();
+  BoneMatrix covariance = BoneMatrix::Zero(), lagged = BoneMatrix::Zero();
+};
+
+Moments ComputeMoments(const Sums& sums) {
+  const BoneMatrix mirror = Mirror();
+  const auto both_sides = [&](const BoneMatrix& m) -> BoneMatrix {
+    return 0.5 * (m + mirror * m * mirror.transpose());
+  };
+  Moments out;
+  const BoneVector mean = sums.first / sums.weight;
+  out.mean = 0.5 * (mean + mirror * mean);
+  out.covariance = both_sides(sums.second) / sums.weight - out.mean * out.mean.transpose();
+  const BoneVector halfway = sums.lagged_first / sums.lagged_weight;
+  const BoneVector lagged_mean = 0.5 * (halfway + mirror * halfway);
+  out.lagged = both_sides(sums.lagged_second) / sums.lagged_weight -
+               lagged_mean * out.mean.transpose() - out.mean * lagged_mean.transpose() +
+               out.mean * out.mean.transpose();
+  return out;
+}
+
 /// Eigenvectors by falling eigenvalue, each with its largest entry positive: the same every time.
 template <typename Matrix>
 std::pair<Eigen::VectorXd, Eigen::MatrixXd> SortedEigen(const Matrix& symmetric) {
@@ -144,28 +180,12 @@ PosturePrior PosturePrior::Learn(const std::vector<PriorClip>& clips,
     const auto lag = static_cast<size_t>(std::max(1.0, std::round(options.lag_s / clip.frame_s)));
     for (const auto& run : NormalisedRuns(clip)) Add(run, lag, clip.weight, sums);
   }
-  constexpr uint64_t kFewest = 100;  // a hundred numbers' mean and spread tell something
-  if (sums.frames < kFewest || !(sums.lagged_weight > 0.0)) {
-    throw InputError(
-        fmt::format("posture prior: expected motions of at least {} finite postures, found {}",
-                    kFewest, sums.frames));
-  }
-  const BoneMatrix mirror = Mirror();
-  const auto both_sides = [&](const BoneMatrix& m) -> BoneMatrix {
-    return 0.5 * (m + mirror * m * mirror.transpose());
-  };
+  CheckEnough(sums, options.lag_s);
+  const Moments moments = ComputeMoments(sums);
   PosturePrior out;
   out.frames = sums.frames;
-  const BoneVector mean = sums.first / sums.weight;
-  out.mean_m = 0.5 * (mean + mirror * mean);
-  const BoneMatrix covariance =
-      both_sides(sums.second) / sums.weight - out.mean_m * out.mean_m.transpose();
-  const BoneVector halfway = sums.lagged_first / sums.lagged_weight;
-  const BoneVector lagged_mean = 0.5 * (halfway + mirror * halfway);
-  const BoneMatrix lagged =
-      both_sides(sums.lagged_second) / sums.lagged_weight - lagged_mean * out.mean_m.transpose() -
-      out.mean_m * lagged_mean.transpose() + out.mean_m * out.mean_m.transpose();
-  const auto [variance, axes] = SortedEigen(covariance);
+  out.mean_m = moments.mean;
+  const auto [variance, axes] = SortedEigen(moments.covariance);
   // What hardly ever moves (0.1 mm) is no mode, lest its correlation be rounding.
   constexpr double kLeast_m2 = 1e-8;
   Eigen::Index modes = 0;
@@ -174,9 +194,10 @@ PosturePrior PosturePrior::Learn(const std::vector<PriorClip>& clips,
   const Eigen::VectorXd spread = variance.head(modes).cwiseSqrt();
   const Eigen::MatrixXd white =
       spread.cwiseInverse().asDiagonal() * axes.leftCols(modes).transpose();
-  const auto [correlation, turn] = SortedEigen(white * lagged * white.transpose());
+  const auto [correlation, turn] = SortedEigen(white * moments.lagged * white.transpose());
   out.modes_m = axes.leftCols(modes) * spread.asDiagonal() * turn;
-  out.residual_m2 = (covariance.diagonal() - out.modes_m.rowwise().squaredNorm()).cwiseMax(0.0);
+  out.residual_m2 =
+      (moments.covariance.diagonal() - out.modes_m.rowwise().squaredNorm()).cwiseMax(0.0);
   // correlation = exp(-lag / time)
   out.correlation_time_s.resize(modes);
   for (Eigen::Index k = 0; k < modes; ++k) {

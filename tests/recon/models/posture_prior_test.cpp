@@ -91,6 +91,12 @@ TEST(PosturePrior, KeepsItsModesApartALagLater) {
   EXPECT_LT(kept.cwiseAbs().maxCoeff(), 1e-3);
 }
 
+TEST(PosturePrior, OfMotionsShorterThanALagIsRefusedForThat) {
+  const std::vector<PriorClip> clips(30, GesturesFor(0.2));
+  ossa::test::ExpectRefused([&] { PosturePrior::Learn(clips); },
+                            "expected a motion that is longer than 0.33 s");
+}
+
 TEST(PosturePrior, IsTheSameFileEachTimeAndReadsBack) {
   const ossa::test::TemporaryFolder folder;
   for (const char* name : {"a.ossaprior", "b.ossaprior"}) {
