@@ -4,8 +4,10 @@
 
 #include <array>
 #include <cmath>
+#include <cstdint>
 #include <memory>
 #include <nlohmann/json.hpp>
+#include <optional>
 #include <set>
 #include <span>
 #include <stdexcept>
@@ -187,7 +189,9 @@ class SkeletonJsonlReader::Lines {
   }
 
   int64_t Integer(const Json& json, const std::string& where) const {
-    if (!json.is_number_integer()) Fail(where, "a whole number", json);
+    const bool is_too_large =
+        json.is_number_unsigned() && json.get<uint64_t>() > static_cast<uint64_t>(INT64_MAX);
+    if (!json.is_number_integer() || is_too_large) Fail(where, "a whole number", json);
     return json.get<int64_t>();
   }
 
@@ -213,8 +217,7 @@ class SkeletonJsonlReader::Lines {
     frame.time_s = Number(Need(json, "time_s", "the frame"), "\"time_s\"");
     times_.Take(lines_, frame.time_s);
     if (const auto floor = json.find("floor"); floor != json.end() && !floor->is_null()) {
-      const auto plane = Numbers<4>(*floor, "\"floor\"");
-      frame.floor = Eigen::Vector4d(plane.data());
+      frame.floor = ParseFloor(*floor);
     }
     const Json& bodies = Need(json, "bodies", "the frame");
     if (!bodies.is_array()) Fail("\"bodies\"", "a list", bodies);
@@ -224,6 +227,15 @@ class SkeletonJsonlReader::Lines {
       if (!ids.insert(frame.bodies.back().id).second) Fail("\"id\"", "an id used once", body);
     }
     return frame;
+  }
+
+  // Of any plane the one whose normal is a unit. SDKs say 0 0 0 0 of a floor that they do not see.
+  std::optional<Eigen::Vector4d> ParseFloor(const Json& json) const {
+    constexpr double kNone = 1e-6, kFewDigits = 1e-3;  // of a length, no unit; by hand
+    const Eigen::Vector4d plane(Numbers<4>(json, "\"floor\"").data());
+    const double length = plane.head<3>().stableNorm();
+    if (length < kNone) return std::nullopt;
+    return std::abs(length - 1.0) < kFewDigits ? plane : Eigen::Vector4d(plane / length);
   }
 
   BodyRecord ParseBody(const Json& json) const {
@@ -285,8 +297,11 @@ class SkeletonJsonlReader::Lines {
   }
 
   Eigen::Vector3d ParseSigma(const Json& json, const std::string& where) const {
+    constexpr double kMost_m = 1e6;  // by hand: no sensor sees as far, and its square is a number
     const Eigen::Vector3d sigma_m(Numbers<3>(json, where).data());
-    if (!(sigma_m.minCoeff() >= 0.0)) Fail(where, "lengths of 0 m and more", json);
+    if (!(sigma_m.minCoeff() >= 0.0 && sigma_m.maxCoeff() <= kMost_m)) {
+      Fail(where, "lengths of 0 m to 1000 km", json);
+    }
     return sigma_m;
   }
 

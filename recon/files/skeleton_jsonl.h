@@ -34,7 +34,8 @@ class SkeletonJsonlWriter {
 
 /// Reads a stream of skeleton JSONL frame by frame, strictly: unknown joints or states, numbers
 /// that are missing or not finite, a body id twice in a frame and lines over 1 MiB are refused with
-/// InputError "SOURCE: line N: ...". Keys this version does not know are passed over.
+/// InputError "SOURCE: line N: ...". Keys this version does not know are passed over; a floor whose
+/// normal is no unit is brought to one, and without a normal is none.
 class SkeletonJsonlReader {
  public:
   SkeletonJsonlReader(std::istream& stream, std::string source);

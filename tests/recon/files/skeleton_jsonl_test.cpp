@@ -57,6 +57,16 @@ TEST(SkeletonJsonl, GivesBackEveryFieldItWrote) {
   EXPECT_NEAR(read.frames[3].bodies[0].bones_m->back(), bones_m.back(), 1e-7);
 }
 
+TEST(SkeletonJsonl, HasFloorsOfUnitNormalsOrNone) {
+  const auto floor_of = [](const std::string& numbers) {
+    std::istringstream text("{\"frame\":0,\"time_s\":0,\"floor\":" + numbers + ",\"bodies\":[]}\n");
+    return ReadSkeletonJsonl(text, "x").frames[0].floor;
+  };
+  EXPECT_EQ(floor_of("[0,2,0,1.5]"), Eigen::Vector4d(0, 1, 0, 0.75));
+  EXPECT_EQ(floor_of("[0,0.99999,0,0.75]"), Eigen::Vector4d(0, 0.99999, 0, 0.75));  // few digits
+  EXPECT_FALSE(floor_of("[0,0,0,0]"));
+}
+
 TEST(SkeletonJsonl, NeverWritesANumberThatNoReaderTakes) {
   SkeletonFrame frame;
   frame.time_s = std::nan("");
@@ -92,7 +102,11 @@ INSTANTIATE_TEST_SUITE_P(
     EveryRule, BadJsonl,
     testing::Values(
         BadLine{WithJoint(R"("Head":{"p":[1,2,3],"sigma":[0.1,-0.1,0.1]})"),
-                "lengths of 0 m and more in Head.sigma"},
+                "lengths of 0 m to 1000 km in Head.sigma"},
+        BadLine{WithJoint(R"("Head":{"p":[1,2,3],"sigma":[0.1,1e160,0.1]})"),
+                "lengths of 0 m to 1000 km in Head.sigma"},
+        BadLine{R"({"frame":18446744073709551615,"time_s":1,"bodies":[]})",
+                "a whole number in \"frame\""},
         BadLine{WithJoint(R"("Head":{"p":[1,2,3],"sigma":[0.1]})"), "3 numbers in Head.sigma"},
         BadLine{WithJoint(R"("Head":{"p":[1,2,NaN]})"),
                 "line 2: expected one whole JSON object, found 'NaN]}}}]}' at byte 70"},
