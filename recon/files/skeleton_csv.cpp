@@ -15,7 +15,6 @@ namespace {
 
 constexpr std::array<std::string_view, 6> kFields = {"x",     "y",          "z",
                                                      "state", "confidence", "reliability"};
-constexpr std::array<std::string_view, 3> kStates = {"not_tracked", "inferred", "tracked"};
 constexpr size_t kLeading = 3;  // columns of the format
 constexpr size_t kColumns = kLeading + kJointCount * kFields.size();
 
@@ -34,7 +33,7 @@ void AppendJoint(std::string& row, const std::optional<JointRecord>& joint) {
   }
   for (const double value : joint->position_m) row += fmt::format(",{:.7g}", value);
   row.push_back(',');
-  if (joint->state) row += kStates[static_cast<size_t>(*joint->state)];
+  if (joint->state) row += kStateNames[static_cast<size_t>(*joint->state)];
   row.push_back(',');
   if (joint->confidence) row += fmt::format("{:.6g}", *joint->confidence);
   row.push_back(',');
@@ -43,10 +42,9 @@ void AppendJoint(std::string& row, const std::optional<JointRecord>& joint) {
 
 std::optional<TrackingState> StateIn(const TextLines& lines, std::string_view field) {
   if (field.empty()) return std::nullopt;
-  for (size_t s = 0; s < kStates.size(); ++s) {
-    if (field == kStates[s]) return static_cast<TrackingState>(s);
-  }
-  lines.Fail("tracked, inferred or not_tracked", field);
+  const auto state = FindState(field);
+  if (!state) lines.Fail("tracked, inferred or not_tracked", field);
+  return state;
 }
 
 std::optional<double> ShareIn(const TextLines& lines, std::string_view field,

@@ -86,6 +86,12 @@ void TakeOutNobody(SkeletonSequence& sequence);
 /// Throws unless the sequence has frames: an empty file is never a silent success.
 void RequireFrames(const SkeletonSequence& sequence);
 
+/// How our own formats say a TrackingState, by its value.
+inline constexpr std::array<std::string_view, 3> kStateNames = {"not_tracked", "inferred",
+                                                                "tracked"};
+/// The state of that name; none of another.
+std::optional<TrackingState> FindState(std::string_view name);
+
 // Our own formats beside JSONL.
 SkeletonSequence ReadSkeletonCsv(SkeletonInput& input);
 std::string SkeletonCsvHead();

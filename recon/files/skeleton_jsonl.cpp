@@ -14,6 +14,7 @@
 
 #include "depth/base/error.h"
 #include "depth/base/json_nesting.h"
+#include "recon/files/skeleton_formats_internal.h"
 #include "recon/files/text_lines_internal.h"
 #include "recon/motion/fixed_point_internal.h"
 
@@ -21,8 +22,6 @@ namespace ossa::recon {
 namespace {
 
 using Json = nlohmann::json;
-
-constexpr std::array<std::string_view, 3> kStateNames = {"not_tracked", "inferred", "tracked"};
 
 void AppendNumber(std::string& text, double value, int digits) {
   if (!std::isfinite(value)) throw std::invalid_argument("skeleton JSONL: a number is not finite");
@@ -306,11 +305,9 @@ class SkeletonJsonlReader::Lines {
   }
 
   TrackingState ParseState(const Json& json, const std::string& where) const {
-    for (size_t s = 0; s < kStateNames.size(); ++s) {
-      if (json.is_string() && json.get_ref<const std::string&>() == kStateNames[s]) {
-        return static_cast<TrackingState>(s);
-      }
-    }
+    const auto state =
+        json.is_string() ? FindState(json.get_ref<const std::string&>()) : std::nullopt;
+    if (state) return *state;
     Fail(where, "tracked, inferred or not_tracked", json);
   }
 

@@ -14,9 +14,7 @@ namespace {
 constexpr double kUsualStep_s = 1.0 / 30.0;  // 30 Hz, the Kinect SDK's rate
 
 bool AllNumbers(const std::vector<std::string_view>& words) {
-  return std::all_of(words.begin(), words.end(), [](std::string_view word) {
-    return !word.empty() && word.find_first_not_of("+-.0123456789eE") == std::string_view::npos;
-  });
+  return std::all_of(words.begin(), words.end(), LooksLikeNumber);
 }
 
 // Joints that a sensor did not see are written as the origin.

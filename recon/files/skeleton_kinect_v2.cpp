@@ -28,10 +28,7 @@ std::optional<Joint> JointOfV2(size_t joint) {
 size_t CountNumbers(std::string_view line, char separator) {
   const auto fields = separator == ' ' ? Words(line) : Split(line, separator);
   for (const std::string_view field : fields) {
-    if (IsNan(field)) continue;
-    if (field.empty() || field.find_first_not_of("+-.0123456789eE") != std::string_view::npos) {
-      return 0;
-    }
+    if (!IsNan(field) && !LooksLikeNumber(field)) return 0;
   }
   return fields.size();
 }

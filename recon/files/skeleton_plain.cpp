@@ -1,4 +1,5 @@
 // The formats that are not an SDK's: our own JSONL and table, OpenSim's TRC.
+#include <algorithm>
 #include <array>
 
 #include "depth/base/error.h"
@@ -59,6 +60,12 @@ constexpr SkeletonFormat kFormats[] = {
 };
 
 }  // namespace
+
+std::optional<TrackingState> FindState(std::string_view name) {
+  const auto found = std::find(kStateNames.begin(), kStateNames.end(), name);
+  if (found == kStateNames.end()) return std::nullopt;
+  return static_cast<TrackingState>(found - kStateNames.begin());
+}
 
 std::span<const SkeletonFormat> PlainFormats() { return kFormats; }
 

@@ -159,11 +159,7 @@ SkeletonSequence ReadVicon(SkeletonInput& input) {
 bool HasColumns(const SkeletonSample& sample, size_t count) {
   if (sample.lines.empty()) return false;
   const auto fields = Split(sample.lines[0], ',');
-  return fields.size() == count &&
-         std::all_of(fields.begin(), fields.end(), [](std::string_view field) {
-           return !field.empty() &&
-                  field.find_first_not_of("+-.0123456789eE") == std::string_view::npos;
-         });
+  return fields.size() == count && std::all_of(fields.begin(), fields.end(), LooksLikeNumber);
 }
 
 constexpr SkeletonFormat kFormats[] = {

@@ -94,6 +94,10 @@ std::string_view Trimmed(std::string_view text) {
   return text.substr(begin, text.find_last_not_of(kWhiteSpace) - begin + 1);
 }
 
+bool LooksLikeNumber(std::string_view field) {
+  return !field.empty() && field.find_first_not_of("+-.0123456789eE") == std::string_view::npos;
+}
+
 double NumberIn(const TextLines& lines, std::string_view field, std::string_view what) {
   const std::string_view digits = field.starts_with('+') ? field.substr(1) : field;
   double value = 0;

@@ -58,6 +58,9 @@ std::vector<std::string_view> Split(std::string_view line, char separator);
 std::vector<std::string_view> Words(std::string_view line);
 std::string_view Trimmed(std::string_view text);
 
+/// Whether the field is made of what numbers are made of, to tell formats apart: NumberIn reads
+/// them.
+bool LooksLikeNumber(std::string_view field);
 /// A finite number that fills the whole field. Throws with file and line otherwise; `what` names
 /// the field.
 double NumberIn(const TextLines& lines, std::string_view field, std::string_view what);
