@@ -13,6 +13,9 @@
 #include "depth/base/error.h"
 #include "depth/base/one_line.h"
 #include "depth/sensor/openni2/runtime_folder.h"
+#include "recon/models/learned_models.h"
+#include "recon/skeleton_sequence.h"
+#include "tools/tracker/body_mesh_file.h"
 #include "tools/tracker/model_set.h"
 #include "tools/tracker/shipped.h"
 
@@ -138,6 +141,18 @@ Finding TryDriver(const fs::path& file) {
           "install what it needs: apt install libopenni2-0 libfreenect0.5"};
 }
 
+// A camera under the ceiling is met in the middle of a run, which would end there.
+void ReadUsualModels() {
+  const auto models = tracker::ModelSet::Shipped();
+  tracker::LoadCeilingModels(models, tracker::LoadCeilingForest(models));
+}
+void ReadPostures() { tracker::LoadDatabase({}, "plantard-2016"); }
+void ReadSensorCorrection() {
+  recon::LearnedModels::Load(
+      tracker::ShippedFile(tracker::FindKnownSensor(recon::kKinectV2)->correction));
+}
+void ReadSkin() { tracker::LoadBodyMesh(); }
+
 }  // namespace
 
 std::vector<Finding> CheckCameras(const fs::path& root) {
@@ -179,13 +194,17 @@ std::vector<Finding> CheckDrivers() {
 }
 
 std::vector<Finding> CheckModels() {
-  try {
-    const fs::path forest = tracker::ShippedFile("body.ossa");
-    tracker::ModelSet::Load({}, "best");
-    return {{"in " + forest.parent_path().string(), {}}};
-  } catch (const InputError& error) {
-    return {{OnOneLine(error.what()), "install ossa anew, or name the folder in OSSA_SHARE"}};
+  std::vector<Finding> findings;
+  for (const auto read : {ReadUsualModels, ReadPostures, ReadSensorCorrection, ReadSkin}) {
+    try {
+      read();
+    } catch (const InputError& error) {
+      findings.push_back(
+          {OnOneLine(error.what()), "install ossa anew, or name the folder in OSSA_SHARE"});
+    }
   }
+  if (!findings.empty()) return findings;
+  return {{"in " + tracker::ShippedFile("body.ossa").parent_path().string(), {}}};
 }
 
 }  // namespace ossa::commands

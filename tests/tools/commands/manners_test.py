@@ -414,6 +414,16 @@ class Doctor(unittest.TestCase):
         self.assertEqual(result.returncode, 1)
         self.assertIn(f"!! {self.root}/body.ossa", result.stdout)
 
+    def test_reads_also_what_a_run_reads_only_later(self):
+        shipped = pathlib.Path(run("doctor", "--root", self.root).stdout.splitlines()[-1].split(" in ")[1])
+        for name in ["body_ceiling.ossa", "body_ceiling.ossarefine", "authored.ossadb", "kinect_v2.ossagp", "body.ossamesh"]:
+            cut = self.root / name
+            cut.write_bytes((shipped / name).read_bytes()[:1000])
+            result = run("doctor", "--root", self.root, "--quiet", OSSA_SHARE=str(self.root))
+            self.assertEqual(result.returncode, 1, name)
+            self.assertIn(f"!! {cut}", result.stdout)
+            cut.unlink()
+
     def test_runs_without_usb(self):
         self.assertEqual(run("doctor", "--root", self.root).returncode, 0)
 
