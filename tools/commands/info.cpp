@@ -23,6 +23,7 @@
 #include "tools/commands/command.h"
 #include "tools/commands/commands.h"
 #include "tools/commands/info_picture.h"
+#include "tools/commands/outputs.h"
 #include "tools/commands/process.h"
 #include "tools/commands/reading_bar.h"
 #include "tools/commands/source_options.h"
@@ -208,6 +209,10 @@ void ShowDepthRecording(const SourceArguments& arguments) {
     last_s = read.frame.time_s;
     if (frames++ == 0) first_s = last_s;
     if (known > 0) progress.Update(frames, known);
+    if (Interrupted()) {
+      throw InputError(fmt::format("{}: interrupted: {} were read", arguments.name,
+                                   FramesText(frames, source->frame_count())));
+    }
   }
   const depth::Camera& camera = source->camera();
   fmt::print(
@@ -220,6 +225,7 @@ void ShowDepthRecording(const SourceArguments& arguments) {
 void ShowUpright(const SourceArguments& arguments) {
   tracker::Tracker tracker;
   FindUpright(tracker, *OpenSource(arguments, true), arguments, true);
+  if (Interrupted()) throw InputError(arguments.name + ": interrupted");
   fmt::print("people stand in its images once these are turned by {} degrees clockwise\n",
              90 * tracker.quarter_turns());
 }

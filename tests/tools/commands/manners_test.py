@@ -173,6 +173,10 @@ class TimeLeft(unittest.TestCase):
             said = said_slowly(["info", CLIP / "depth", "--picture", folder + "/x.png"])
         self.assertRegex(said, r"looking \[#{30}\] 100 %")
 
+    def test_ctrl_c_ends_the_reading_of_a_recording(self):
+        said = said_slowly(["info", CLIP / "depth"], until="reading")
+        self.assertRegex(said, r"\S+: interrupted: \d+ of 24 frames were read")
+
 
 class Defaults(unittest.TestCase):
     def setUp(self):
