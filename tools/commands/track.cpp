@@ -236,7 +236,8 @@ void TrackToEnd(depth::FrameSource& source, tracker::Tracker& tracker, const Tra
     run.lost_gaps += gone ? 1 : 0;
     gone = false;
     const auto bodies = tracker.TrackWithLag(read.frame);
-    if (!std::exchange(hangs, tracker.mount() == tracker::Mount::kCeiling) && hangs) SayMount();
+    const bool hung = std::exchange(hangs, tracker.mount() == tracker::Mount::kCeiling);
+    if (hangs && !hung && !options.quiet) SayMount();
     ++tracked;
     to.waiting.push_back(std::move(read.frame));
     if (bodies) to.Deliver(*bodies, run);

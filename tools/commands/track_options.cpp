@@ -94,6 +94,17 @@ void NeedRefinement(tracker::ModelFiles& files) {
   if (files.refinement.empty()) files.refinement = tracker::ShippedFile(shipped).string();
 }
 
+// Whether there are joints that a surface fit starts from: refined ones, or those of the forest for
+// ceilings.
+bool HasJointsToFit(const TrackOptions& options) {
+  const tracker::ModelFiles& files = options.files;
+  const bool has_shipped = tracker::FindShippedRefinement(files) != nullptr;
+  const bool is_ceilings_forest = has_shipped && !tracker::IsShippedForest(files);
+  if (options.mount == "ceiling" || (options.mount == "auto" && is_ceilings_forest)) return true;
+  if (!files.refinement.empty()) return files.refinement != "none";
+  return has_shipped && RequireMethodInfo(options.tracker.method).refined;
+}
+
 // A person's shape is told to a fit, and told by one.
 void CheckPeople(const TrackOptions& options) {
   const bool has_any = !options.people.empty() || !options.save_person.empty();
@@ -103,6 +114,12 @@ void CheckPeople(const TrackOptions& options) {
   }
   if (has_any && options.files.surface == "none") {
     throw UsageError(fmt::format("{}: expected a body surface, found --surface none", option));
+  }
+  if (has_any && !HasJointsToFit(options)) {
+    throw UsageError(fmt::format(
+        "{}: expected refined joints, to which a body is fitted (--method best, or --refinement "
+        "FILE.ossarefine of 'ossa refine'), found none",
+        option));
   }
   const auto most = static_cast<size_t>(options.tracker.max_users);
   if (options.people.size() > most) {
@@ -118,10 +135,7 @@ void CheckFit(const TrackOptions& options) {
     throw UsageError(
         "--fit on: expected --surface FILE.ossasurface of 'ossa surface' with it, found none");
   }
-  const std::string& refinement = options.files.refinement;
-  const bool is_shipped = RequireMethodInfo(options.tracker.method).refined &&
-                          tracker::FindShippedRefinement(options.files) != nullptr;
-  if (refinement == "none" || (refinement.empty() && !is_shipped)) {
+  if (!HasJointsToFit(options)) {
     throw UsageError(
         "--fit on: expected --refinement FILE.ossarefine of 'ossa refine' with it, found none");
   }

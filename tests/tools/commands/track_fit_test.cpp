@@ -4,6 +4,7 @@
 #include <filesystem>
 #include <fstream>
 #include <string>
+#include <vector>
 
 #include "recon/files/skeleton_io.h"
 #include "tests/support/temporary_folder.h"
@@ -86,6 +87,21 @@ TEST(TrackCommand, TakesNoPersonFileWithoutAFit) {
       RunOssa({"track", "in", "--out", "x.jsonl", "--fit", "off", "--person", "me.ossaperson"});
   EXPECT_EQ(result.exit_status, 2);
   EXPECT_NE(result.err.find("--person: expected a surface fit"), std::string::npos) << result.err;
+}
+
+TEST(TrackCommand, SavesNobodyWithoutJointsThatABodyIsFittedTo) {
+  for (const auto& without : {std::vector<std::string>{"--method", "none"},
+                              std::vector<std::string>{"--refinement", "none"}}) {
+    std::vector<std::string> words = {"track", "in", "--save-person", "me.ossaperson"};
+    words.insert(words.end(), without.begin(), without.end());
+    const CommandResult result = RunOssa(words);
+    EXPECT_EQ(result.exit_status, 2);
+    EXPECT_NE(result.err.find("--save-person: expected refined joints"), std::string::npos)
+        << result.err;
+    // Under the ceiling a body is fitted to the forest's joints.
+    words.insert(words.end(), {"--mount", "ceiling"});
+    EXPECT_EQ(RunOssa(words).exit_status, 1);  // there is no such recording
+  }
 }
 
 }  // namespace
