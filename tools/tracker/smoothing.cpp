@@ -1,5 +1,6 @@
 #include "tools/tracker/smoothing.h"
 
+#include <cmath>
 #include <optional>
 #include <stdexcept>
 #include <utility>
@@ -23,10 +24,13 @@ void SmoothingOptions::Check() const {
   Require(smoothing >= 0 && smoothing < 1, "smoothing", smoothing, "[0, 1)");
   Require(correction >= 0 && correction <= 1, "correction", correction, "[0, 1]");
   Require(prediction >= 0 && prediction < 100, "prediction", prediction, "[0, 100)");
-  Require(jitter_radius_m > 0, "jitter_radius_m", jitter_radius_m, "(0, inf)");
-  Require(max_deviation_radius_m > 0, "max_deviation_radius_m", max_deviation_radius_m, "(0, inf)");
-  Require(one_euro.min_cutoff_hz > 0, "min_cutoff_hz", one_euro.min_cutoff_hz, "(0, inf)");
-  Require(one_euro.beta_per_m >= 0, "beta_per_m", one_euro.beta_per_m, "[0, inf)");
+  // Within an endless jitter radius nothing moves, and endless times 0 is no cutoff.
+  const auto positive = [](double value) { return value > 0 && std::isfinite(value); };
+  Require(positive(jitter_radius_m), "jitter_radius_m", jitter_radius_m, "(0, inf)");
+  Require(max_deviation_radius_m > 0, "max_deviation_radius_m", max_deviation_radius_m, "(0, inf]");
+  Require(positive(one_euro.min_cutoff_hz), "min_cutoff_hz", one_euro.min_cutoff_hz, "(0, inf)");
+  Require(one_euro.beta_per_m >= 0 && std::isfinite(one_euro.beta_per_m), "beta_per_m",
+          one_euro.beta_per_m, "[0, inf)");
 }
 
 const std::vector<std::string>& SmoothingPresets() {

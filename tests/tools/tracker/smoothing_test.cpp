@@ -3,7 +3,10 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <limits>
 #include <random>
+#include <stdexcept>
+#include <utility>
 
 #include "depth/base/error.h"
 
@@ -55,6 +58,20 @@ TEST(SdkConformance, HoltSmoothingTakesTheSdksFiveParameters) {
   // Third: level 0.5 * 2 + 0.5 (0.5 + 0.125), trend 0.25 (level - 0.5) + 0.75 * 0.125.
   const double level = 0.5 * 2 + 0.5 * 0.625, trend = 0.25 * (level - 0.5) + 0.75 * 0.125;
   EXPECT_DOUBLE_EQ(Smooth(HeadAt(2), 0.2, o, state)[Joint::kHead].x(), level + 2 * trend);
+}
+
+// Within an endless radius of jitter nothing would ever move.
+TEST(SmoothingOptions, MayNotBeEndlessWhereThatIsNoFilter) {
+  constexpr double kEndless = std::numeric_limits<double>::infinity();
+  SmoothingOptions o;
+  o.holt.max_deviation_radius_m = kEndless;  // no limit
+  EXPECT_NO_THROW(o.Check());
+  for (double* value :
+       {&o.holt.jitter_radius_m, &o.one_euro.min_cutoff_hz, &o.one_euro.beta_per_m}) {
+    const double before = std::exchange(*value, kEndless);
+    EXPECT_THROW(o.Check(), std::invalid_argument);
+    *value = before;
+  }
 }
 
 TEST(SdkConformance, FilteredJointsStayWithinTheDeviationRadius) {
