@@ -42,7 +42,7 @@ Scene MeasureScene(const DepthFrame& frame, SceneState& state, const SceneOption
   scene.grid = MakePointGrid(frame.view(), frame.camera, options.max_depth_m);
   scene.changed = ForgetAnotherScene(frame, scene.grid, state, options);
   const double since_s = frame.time_s - state.last_s;
-  scene.fresh = since_s < 0 || since_s > options.fresh_s;
+  scene.fresh = since_s < -options.jitter_s || since_s > options.fresh_s;
   state.last_s = frame.time_s;
   scene.floor = FindFloor(scene.grid, state.floor, options.floor);
   if (scene.floor) scene.grid.up = scene.floor->coefficients.head<3>().cast<float>();

@@ -30,6 +30,9 @@ struct SceneOptions {
   float max_depth_m = 6.0F;
   /// Without frames for so long, seconds, the scene is fresh: anything may have been moved.
   double fresh_s = 0.3;
+  /// A time that runs back by no more, seconds, is the logger's doing and no other recording: that
+  /// of recon::FrameSteps::kJitter_s.
+  double jitter_s = 0.005;
   /// Another scene is seen when more than half of the cells measured in both frames, which must be
   /// more than `changed_cells`, lie elsewhere by so many metres beyond three times the depth
   /// tolerance. Nothing that moves in a room covers so much of it between two frames.

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "recon/filters/frame_steps.h"
 #include "tools/people/reidentify.h"
 #include "tools/people/track_prediction.h"
 #include "tools/people/update_track.h"
@@ -139,11 +140,16 @@ std::vector<int> AssignTracks(const Scene& scene, const std::vector<Region>& riv
   return track_of;
 }
 
-// Of those who were in view a moment ago.
-void NoteWhereLost(const Scene& scene, const std::vector<int>& person_of, double time_s,
-                   const AssociationOptions& options, std::vector<Track>& tracks) {
+bool IsAmong(const std::vector<int>& ids, int id) {
+  return std::find(ids.begin(), ids.end(), id) != ids.end();
+}
+
+// Of those who were in view a moment ago. `ids`: who is.
+void NoteWhereLost(const Scene& scene, const std::vector<int>& person_of,
+                   const std::vector<int>& ids, double time_s, const AssociationOptions& options,
+                   std::vector<Track>& tracks) {
   for (Track& track : tracks) {
-    if (track.last_seen_s == time_s || track.cells.empty()) continue;
+    if (IsAmong(ids, track.id) || track.cells.empty()) continue;
     track.lost_behind =
         track.lost_behind || FindEntrance(scene.grid, track.cells, track.z_m, person_of, -1,
                                           options.reidentify) == Entrance::kBehind;
@@ -173,7 +179,7 @@ void ForgetTooMany(const std::vector<int>& ids, std::vector<Track>& tracks) {
   constexpr size_t kMost = kLargestId / 2;
   size_t too_many = std::max(tracks.size(), kMost) - kMost;
   std::erase_if(tracks, [&](const Track& track) {
-    const bool goes = too_many > 0 && std::find(ids.begin(), ids.end(), track.id) == ids.end();
+    const bool goes = too_many > 0 && !IsAmong(ids, track.id);
     too_many -= goes ? 1 : 0;
     return goes;
   });
@@ -187,22 +193,23 @@ void ForgetAbsorbed(const std::vector<Detection>& people, const std::vector<int>
     for (const int track : person.candidate.absorbed)
       absorbed.push_back(tracks[static_cast<size_t>(track)].id);
   }
-  const auto among = [](const std::vector<int>& all, int id) {
-    return std::find(all.begin(), all.end(), id) != all.end();
-  };
   std::erase_if(tracks, [&](const Track& track) {
-    return among(absorbed, track.id) && !among(ids, track.id);
+    return IsAmong(absorbed, track.id) && !IsAmong(ids, track.id);
   });
 }
 
 // Where the clock goes back another recording begins, in which whoever is followed goes on. Returns
-// the ids of those who were seen later than now.
+// the ids of those who were seen later than now; a few milliseconds are the logger's doing.
 std::vector<int> FollowClockBack(double time_s, std::vector<Track>& tracks) {
   std::vector<int> ids;
   for (Track& track : tracks) {
     if (time_s >= track.last_seen_s) continue;
+    // Else somebody would be moving lately until that time comes again.
+    const double back_s = track.last_seen_s - time_s;
+    track.moved_s -= back_s;
+    track.facing_s -= back_s;
     track.last_seen_s = time_s;
-    ids.push_back(track.id);
+    if (back_s >= recon::FrameSteps::kJitter_s) ids.push_back(track.id);
   }
   return ids;
 }
@@ -242,20 +249,19 @@ std::vector<int> AssociateTracks(const Scene& scene, const std::vector<Region>& 
   std::erase_if(tracks,
                 [&](const Track& track) { return IsForgotten(track, time_s, options.reidentify); });
   ForgetTooMany(ids, tracks);
-  NoteWhereLost(scene, person_of, time_s, options, tracks);
+  NoteWhereLost(scene, person_of, ids, time_s, options, tracks);
   for (Track& track : tracks) {
-    const bool in_view = std::find(ids.begin(), ids.end(), track.id) != ids.end();
-    const bool later = std::find(of_later.begin(), of_later.end(), track.id) != of_later.end();
-    if (later && !in_view) ForgetEvidence(track);
+    if (IsAmong(of_later, track.id) && !IsAmong(ids, track.id)) ForgetEvidence(track);
   }
   return ids;
 }
 
-std::vector<TrackSummary> SummarizeTracks(const std::vector<Track>& tracks, double time_s) {
+std::vector<TrackSummary> SummarizeTracks(const std::vector<Track>& tracks,
+                                          const std::vector<int>& ids) {
   std::vector<TrackSummary> summaries;
   for (const Track& track : tracks) {
     const TrackStatus status =
-        track.last_seen_s == time_s ? TrackStatus::kConfirmed : TrackStatus::kLost;
+        IsAmong(ids, track.id) ? TrackStatus::kConfirmed : TrackStatus::kLost;
     summaries.push_back({track.id, status, track.last_seen_s, track.age});
   }
   return summaries;

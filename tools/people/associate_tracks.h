@@ -23,7 +23,8 @@ std::vector<int> AssociateTracks(const Scene& scene, const std::vector<Region>& 
                                  const std::vector<Detection>& people, double time_s,
                                  TrackList& list, const AssociationOptions& options = {});
 
-/// Confirmed and lost tracks, as of a frame.
-std::vector<TrackSummary> SummarizeTracks(const std::vector<Track>& tracks, double time_s);
+/// Confirmed and lost tracks, as of a frame. `ids`: of the people in it.
+std::vector<TrackSummary> SummarizeTracks(const std::vector<Track>& tracks,
+                                          const std::vector<int>& ids);
 
 }  // namespace ossa::people

@@ -97,7 +97,7 @@ PeopleInFrame DetectPeople(const DepthFrame& frame, const PersonClassifier& clas
     decided.push_back(people[i].decision);
     result.people.push_back({ids[i], std::move(people[i])});
   }
-  result.decisions.tracks = SummarizeTracks(tracks, time_s);
+  result.decisions.tracks = SummarizeTracks(tracks, ids);
   ShareOutTime(watch.milliseconds(), look_ms, result);
   return result;
 }

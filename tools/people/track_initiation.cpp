@@ -6,6 +6,7 @@
 #include <iterator>
 #include <map>
 
+#include "recon/filters/frame_steps.h"
 #include "tools/people/track_prediction.h"
 
 namespace ossa::people {
@@ -232,7 +233,7 @@ std::vector<Candidate> SelectCandidates(std::vector<Candidate> candidates, bool 
                                         std::vector<TentativeTrack>& tentative,
                                         std::vector<Decision>& decided) {
   std::erase_if(tentative, [&](const TentativeTrack& track) {
-    return fresh_scene || time_s < track.last_seen_s ||
+    return fresh_scene || time_s < track.last_seen_s - recon::FrameSteps::kJitter_s ||
            time_s - track.last_seen_s >= options.initiation.forget_s;
   });
   const Rejected rejected(candidates, time_s, options, tentative);

@@ -238,7 +238,8 @@ void ForgetGone(const std::vector<int>& in_view, double time_s, double forget_s,
   std::erase_if(people, [&](const auto& entry) {
     const auto& [id, person] = entry;
     const bool is_in_view = std::find(in_view.begin(), in_view.end(), id) != in_view.end();
-    return time_s - person.seen_s > forget_s || (person.seen_s > time_s && !is_in_view);
+    const double later_s = person.seen_s - time_s;
+    return -later_s > forget_s || (later_s >= recon::FrameSteps::kJitter_s && !is_in_view);
   });
 }
 

@@ -143,6 +143,15 @@ TEST_F(SceneOverTime, IsFreshAtFirstAndAfterAGap) {
   EXPECT_TRUE(Measure(Shot({PersonAt(0, 2.5)}, 40)).fresh);
 }
 
+TEST_F(SceneOverTime, IsFreshInAnotherRecordingAndNotWhereTheClockRunsBackALittle) {
+  CapsuleRender render = Shot({PersonAt(0, 2.5)}, 30);
+  Measure(render);
+  render.frame.time_s -= 0.004;
+  EXPECT_FALSE(Measure(render).fresh);
+  render.frame.time_s -= 0.006;
+  EXPECT_TRUE(Measure(render).fresh);
+}
+
 TEST_F(SceneOverTime, IsAnotherWhereMostOfItIsElsewhereOrTheImageIsOfAnotherSize) {
   EXPECT_TRUE(Measure(Shot({PersonAt(0, 2.5)}, 0)).changed);
   EXPECT_FALSE(Measure(Shot({PersonAt(0.3, 2.5)}, 1)).changed);

@@ -199,6 +199,43 @@ TEST(AssociateTracks, AnyNumberOfVisitorsHaveDifferentIdsThatFitAByte) {
   }
 }
 
+// Somebody who was seen at 10 s and moved at 8 s, who is not seen in a frame at `time_s`.
+Track UnseenAt(double time_s) {
+  const Proposed empty = EmptyScene();
+  PeopleState state;
+  Track track;
+  track.id = 1;
+  track.age = 30;
+  track.score = 0.9;
+  track.last_seen_s = 10.0;
+  track.moved_s = 8.0;
+  state.tracks.tracks.push_back(track);
+  Confirm(empty, {}, time_s, state);
+  return state.tracks.tracks.at(0);
+}
+
+// Else who did not move lately would be moving until the time comes again at which they did.
+TEST(AssociateTracks, WhereTheClockGoesBackNobodyMovedLaterThanTheyWereSeen) {
+  const Track track = UnseenAt(-500.0);
+  EXPECT_EQ(track.last_seen_s, -500.0);
+  EXPECT_EQ(track.moved_s, -502.0);
+}
+
+TEST(AssociateTracks, WhoIsNotSeenIsAnybodyWhereTheClockGoesBackButNotByAFewMilliseconds) {
+  EXPECT_EQ(UnseenAt(10.03).age, 30);
+  EXPECT_EQ(UnseenAt(9.997).age, 30);
+  EXPECT_EQ(UnseenAt(9.99).age, 0);
+}
+
+TEST(AssociateTracks, WhoIsInViewIsConfirmedAlsoWhereTimeStandsStill) {
+  std::vector<Track> tracks(2);
+  tracks[0].id = 4;
+  tracks[1].id = 7;  // seen at the same time, but in the frame before
+  const auto summaries = SummarizeTracks(tracks, {4});
+  EXPECT_EQ(summaries[0].status, TrackStatus::kConfirmed);
+  EXPECT_EQ(summaries[1].status, TrackStatus::kLost);
+}
+
 // Two are out of view, and of two who come back the one between their places is somebody already:
 // the id that goes to that one.
 int IdOfTheFirst(bool other_comes_too) {

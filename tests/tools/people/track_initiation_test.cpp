@@ -4,6 +4,7 @@
 
 #include <cmath>
 
+#include "recon/filters/frame_steps.h"
 #include "tools/people/detect_people.h"
 #include "tools/people/track_initiation.h"
 
@@ -252,6 +253,17 @@ TEST(SelectCandidates, NothingThatScoredLowWaitsForLong) {
   const double late_s = options.classification.max_retry_s;
   const auto selected = SelectCandidates(candidates, false, late_s, options, tentative, decided);
   EXPECT_EQ(selected.size(), 3U);
+}
+
+TEST(SelectCandidates, WhatIsKnownOutlivesAClockThatRunsBackALittle) {
+  EXPECT_EQ(depth::SceneOptions{}.jitter_s, recon::FrameSteps::kJitter_s);
+  for (const auto& [later_s, is_known] : {std::pair(0.004, true), {0.006, false}}) {
+    std::vector<TentativeTrack> tentative(1);
+    tentative[0].last_seen_s = 1.0 + later_s;
+    std::vector<Decision> decided;
+    SelectCandidates({}, false, 1.0, PeopleOptions{}, tentative, decided);
+    EXPECT_EQ(!tentative.empty(), is_known) << later_s;
+  }
 }
 
 TEST(SelectCandidates, TheLargestAreClassifiedWhereThereAreTooMany) {

@@ -28,6 +28,11 @@ TEST(Person, IsForgottenOutOfViewWhenTimeGoesBack) {
   EXPECT_TRUE(IdsLeft({}, 0.0).empty());
 }
 
+TEST(Person, IsRememberedOutOfViewWhereALoggersClockRunsBackALittle) {
+  EXPECT_EQ(IdsLeft({}, 16.998), (std::vector<int>{2, 3}));
+  EXPECT_EQ(IdsLeft({}, 16.994), (std::vector<int>{2}));
+}
+
 // Rounding makes steps of i / 5 a little longer or shorter.
 TEST(Person, WasSeenJustBeforeAtFiveFramesASecond) {
   const HoldOptions options;
