@@ -170,7 +170,8 @@ struct Tracker::Impl {
     recon::MakeReconstructor(skeleton.reconstructor);  // says now what is wrong with the options
     for (const auto& [id, lengths_m] : o.bones_m) MethodFor(id, skeleton);
     if (IsUnderCeiling()) people_options = people::PeopleOptionsFromAbove();
-    people_options.scene.max_depth_m = o.near_range ? 3.0F : 6.0F;
+    // Under the ceiling people are near, but known by the floor, which is farther.
+    people_options.scene.max_depth_m = o.near_range && !IsUnderCeiling() ? 3.0F : 6.0F;
     people_options.initiation.max_users = o.max_users;
     people_options.threads = o.threads;
     people_options.trace_surfaces = o.trace;
@@ -485,6 +486,7 @@ void Tracker::Reset() {
     impl_ = std::move(level_);
   }
   impl_->mount_finder = {};
+  impl_->upright = {};
   impl_->lagged = impl_->NothingLagged();
   impl_->ForgetAll();
   if (impl_->scene) impl_->scene->Reset();

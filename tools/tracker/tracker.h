@@ -175,7 +175,8 @@ struct TrackerOptions {
   /// Of a camera that lies on its side or hangs upside down. All results stay in its own space.
   Turn turn = Turn::kNone;
   Mount mount = Mount::kAuto;  // automatic only with models that have a forest for the ceiling
-  bool near_range = false;     // the SDK's near mode: people from 0.4 to 3 m only
+  /// The SDK's near mode: people from 0.4 to 3 m only, before a level camera.
+  bool near_range = false;
   int max_users = 6;
   /// By body id, of people whose bones are known (Body::bones_m of a run before over the same
   /// recording): they stay from the first frame to the last. Only for methods that keep bones.
@@ -242,8 +243,8 @@ class Tracker {
   /// The world of TrackerOptions::scene, for an application that has more to do in it; null
   /// without. Until the next frame: with Mount::kAuto it may then be another.
   Scene* scene();
-  /// Forgets everybody, frames that a lag holds back (DrainLag tells them before) and with
-  /// Mount::kAuto where the camera is; a scene begins anew.
+  /// Forgets everybody, frames that a lag holds back (DrainLag tells them before), with
+  /// Mount::kAuto where the camera is and with Turn::kAuto which way up; a scene begins anew.
   void Reset();
 
  private:

@@ -203,6 +203,17 @@ TEST(Mount, FromAboveThereIsAFloorAndItsHeightIsTheCameras) {
   EXPECT_GT(seen.floor->head<3>().dot(shot.floor->head<3>()), 0.999);
 }
 
+// The floor, by which people are known there, is farther than they are.
+TEST(Mount, UnderACeilingWhoIsNearIsFoundInNearRangeToo) {
+  OSSA_NEEDS_CEILING();
+  TrackerOptions options;
+  options.near_range = true;
+  Tracker tracker(options);
+  const BodyFrame seen = tracker.Track(CeilingClip().front().depth);
+  EXPECT_EQ(tracker.mount(), Mount::kCeiling);
+  EXPECT_EQ(seen.bodies.size(), 1U);
+}
+
 TEST(Mount, SaidToBeLevelStaysSo) {
   OSSA_NEEDS_CEILING();
   TrackerOptions options;

@@ -131,6 +131,23 @@ TEST_P(TurnedCamera, IsFoundOutBeforeTheFirstFrameIsTracked) {
 
 INSTANTIATE_TEST_SUITE_P(All, TurnedCamera, testing::Values(0, 1, 2, 3));
 
+// Another recording, by a camera that hangs another way.
+TEST(Turn, IsFoundOutAnewAfterAReset) {
+  OSSA_NEEDS_MODEL();
+  TrackerOptions options = PlainOptions();
+  options.turn = Turn::kAuto;
+  Tracker tracker(options);
+  for (const int quarters : {1, 2, 0}) {
+    std::vector<depth::DepthFrame> frames;
+    for (const auto& frame : Walk()) frames.push_back(OfTurnedCamera(frame, quarters));
+    Frames source(frames);
+    tracker.FindUpright(source);
+    EXPECT_EQ(tracker.quarter_turns(), quarters);
+    tracker.Reset();
+    EXPECT_EQ(tracker.quarter_turns(), 0);
+  }
+}
+
 TEST(TurnBack, BordersGoBackToo) {
   BodyFrame frame;
   frame.bodies.resize(1);

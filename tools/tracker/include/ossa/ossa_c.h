@@ -143,7 +143,7 @@ typedef struct {
   float floor[4];       /* a b c d of ax + by + cz + d = 0, unit normal up */
   float tilt_down_rad;  /* of the sensor, from the floor */
   const uint8_t* users; /* width x height, the id of the body each pixel belongs to, 0 nobody; valid
-                           until the tracker's next frame */
+                           until the tracker's next frame or reset */
 } ossa_frame;
 
 /* NUI_TRANSFORM_SMOOTH_PARAMETERS of the Kinect SDK. */
