@@ -3,6 +3,9 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <cmath>
+
 #include "tests/depth/scene/shots.h"
 
 namespace ossa::depth {
@@ -54,6 +57,69 @@ TEST(Foreground, SeesSomebodyBeforeWhatIsTooFarToMatter) {
   const PointGrid now = GridOf(render);
   const auto foreground = CompareWithBackground(now, state).foreground;
   EXPECT_GT(MeasureShare(CellsOfPerson(render, now), foreground), 0.85);
+}
+
+// A wall at `z_m` in every cell of 40 x 30, seen for so many frames; `claimed`: by people.
+void See(float z_m, int frames, BackgroundState& state, bool claimed = false) {
+  DepthFrame frame;
+  frame.camera = KinectV1Camera(40, 30);
+  frame.depth_mm.assign(40 * 30, static_cast<uint16_t>(std::lround(1000 * z_m)));
+  const PointGrid grid = MakePointGrid(frame.view(), frame.camera, 6.0F);
+  const std::vector<uint8_t> claims(static_cast<size_t>(grid.cells()), claimed ? 1 : 0);
+  for (int f = 0; f < frames; ++f) LearnBackground(grid, claims, state);
+}
+
+// Whether such a wall is what was seen there so long that it is the background.
+bool IsBackground(float z_m, const BackgroundState& state) {
+  DepthFrame frame;
+  frame.camera = KinectV1Camera(40, 30);
+  frame.depth_mm.assign(40 * 30, static_cast<uint16_t>(std::lround(1000 * z_m)));
+  const auto masks = CompareWithBackground(MakePointGrid(frame.view(), frame.camera, 6.0F), state);
+  const auto count = std::count(masks.steady.begin(), masks.steady.end(), 1);
+  EXPECT_TRUE(count == 0 || count == 40 * 30) << count;
+  return count > 0;
+}
+
+TEST(Background, IsWhatNobodyClaimsForTwentyFrames) {
+  BackgroundState state;
+  See(3.0F, 19, state);
+  EXPECT_FALSE(IsBackground(3.0F, state));
+  See(3.0F, 1, state);
+  EXPECT_TRUE(IsBackground(3.0F, state));
+  EXPECT_FALSE(IsBackground(2.5F, state));
+}
+
+TEST(Background, IsNobodyWhoStandsStill) {
+  BackgroundState state;
+  See(2.0F, 60, state, true);
+  EXPECT_FALSE(IsBackground(2.0F, state));
+}
+
+// A cupboard that was pushed before the wall is background after as long as the wall was seen, and
+// again so long.
+TEST(Background, IsFurnitureThatWasMovedInTime) {
+  BackgroundState state;
+  See(3.0F, 30, state);
+  See(2.0F, 30, state);
+  EXPECT_FALSE(IsBackground(2.0F, state));
+  See(2.0F, 20, state);
+  EXPECT_TRUE(IsBackground(2.0F, state));
+  EXPECT_FALSE(IsBackground(3.0F, state));
+}
+
+TEST(Background, SomebodyBeforeItDoesNotWearItOut) {
+  BackgroundState state;
+  See(3.0F, 20, state);
+  See(2.0F, 100, state, true);
+  EXPECT_TRUE(IsBackground(3.0F, state));
+}
+
+// What is farther in more than half of the known cells at once is no person who went away.
+TEST(Background, IsForgottenWhereTheSensorMoved) {
+  BackgroundState state;
+  See(3.0F, 60, state);
+  See(4.0F, 1, state, true);
+  EXPECT_EQ(std::count(state.steady.begin(), state.steady.end(), 0), 40 * 30);
 }
 
 TEST(ForegroundArea, RimsDoNotCount) {

@@ -37,6 +37,38 @@ TEST(FindFloor, IsAStripAtTheLowerBorder) {
   EXPECT_GE(found, 18);
 }
 
+// Of a sensor so far over the floor.
+PointGrid OverTheFloor(double height_m) {
+  CapsuleScene scene;
+  scene.planes = {{{0, 1, 0}, height_m}, {{0, 0, -1}, 4.5}};
+  return GridOf(tests::Render(scene, KinectV1Camera(320, 240)));
+}
+
+TEST(FindFloor, IsSteadyUntilTheSensorIsMoved) {
+  const auto height_m = [](double true_m, FloorState& state) {
+    const auto floor = FindFloor(OverTheFloor(true_m), state);
+    return floor ? floor->coefficients[3] : 0.0;
+  };
+  FloorState state, alone;
+  const double first_m = height_m(1.0, state);
+  EXPECT_NEAR(height_m(1.04, state) - first_m, 0.25 * 0.04, 0.004);  // FloorOptions::smoothing
+  const double lifted_m = height_m(1.4, state);
+  EXPECT_GT(lifted_m, 1.3);
+  EXPECT_EQ(lifted_m, height_m(1.4, alone));
+}
+
+TEST(FindFloor, IsRememberedForHalfASecondOutOfView) {
+  FloorState state;
+  FindFloor(OverTheFloor(1.0), state);
+  CapsuleScene wall;
+  wall.planes = {{{0, 0, -1}, 2.0}};
+  const PointGrid without = GridOf(tests::Render(wall, KinectV1Camera(320, 240)));
+  for (int frame = 1; frame <= 16; ++frame) {
+    EXPECT_FALSE(FindFloor(without, state));
+    EXPECT_EQ(state.plane.has_value(), frame <= 15) << frame;
+  }
+}
+
 TEST(FindFloor, IsNotInventedFromAWallAlone) {
   CapsuleScene scene;
   scene.planes = {{{0, 0, -1}, 2.0}};
