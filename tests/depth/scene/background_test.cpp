@@ -114,6 +114,34 @@ TEST(Background, SomebodyBeforeItDoesNotWearItOut) {
   EXPECT_TRUE(IsBackground(3.0F, state));
 }
 
+TEST(Background, CellsWithoutAReadingDoNotWearOut) {
+  BackgroundState state;
+  See(3.0F, 20, state);
+  See(0.0F, 100, state);
+  EXPECT_TRUE(IsBackground(3.0F, state));
+}
+
+TEST(Background, StaysHoweverLongItIsSeen) {
+  BackgroundState state;
+  for (int i = 0; i < 30; ++i) {
+    See(3.0F, 20, state);
+    EXPECT_TRUE(IsBackground(3.0F, state)) << i;
+  }
+}
+
+TEST(Background, SaysNothingOfAnImageOfAnotherHeight) {
+  BackgroundState state;
+  See(3.0F, 20, state);
+  PointGrid lower;
+  lower.width = 40;
+  lower.height = 60;
+  lower.point_m.assign(40 * 60, {0, 0, 1.0F});
+  const BackgroundMasks masks = CompareWithBackground(lower, state);
+  for (const auto* mask : {&masks.steady, &masks.known, &masks.certain, &masks.foreground}) {
+    EXPECT_EQ(*mask, std::vector<uint8_t>(40 * 60, 0));
+  }
+}
+
 // What is farther in more than half of the known cells at once is no person who went away.
 TEST(Background, IsForgottenWhereTheSensorMoved) {
   BackgroundState state;

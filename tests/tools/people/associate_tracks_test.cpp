@@ -199,6 +199,60 @@ TEST(AssociateTracks, AnyNumberOfVisitorsHaveDifferentIdsThatFitAByte) {
   }
 }
 
+// Two tracks, of ids 1 and 2, at one place.
+PeopleState TwoAtOnePlace(const Candidate& there) {
+  PeopleState state;
+  for (const int id : {1, 2}) {
+    Track track;
+    track.id = id;
+    track.mean_m = there.region.mean_m;
+    state.tracks.tracks.push_back(track);
+  }
+  return state;
+}
+
+TEST(AssociateTracks, WhoGoesOnIsNotTakenForSomebodyWhoWasLostThere) {
+  const Proposed empty = EmptyScene();
+  Candidate person = SomebodyFarOff(empty.scene.grid, 0.0F);
+  for (const int track : {0, 1}) {
+    PeopleState state = TwoAtOnePlace(person);
+    person.track = track;
+    EXPECT_EQ(Confirm(empty, {person}, 0.1, state), std::vector<int>{track + 1});
+  }
+}
+
+// Two people who both go on, of whom one holds most of what the other one held.
+TEST(AssociateTracks, WhoGoesOnIsNoHeirOfSomebodyElse) {
+  const Proposed empty = EmptyScene();
+  const PointGrid& grid = empty.scene.grid;
+  std::vector<int> left, right;
+  for (int x = 40; x < 60; ++x) (x < 42 ? left : right).push_back(grid.cell(x, 40));
+  for (const int heirs_track : {0, 1}) {
+    Candidate heir, other;
+    heir.region = depth::MakeRegion(grid, right);
+    other.region = depth::MakeRegion(grid, left);
+    heir.track = heirs_track;
+    other.track = 1 - heirs_track;
+    PeopleState state = TwoAtOnePlace(other);
+    Track& of_other = state.tracks.tracks[static_cast<size_t>(other.track)];
+    for (int x = 40; x < 60; ++x) {
+      of_other.cells.push_back(grid.cell(x, 40));
+      of_other.z_m.push_back(grid.z(of_other.cells.back()));
+    }
+    EXPECT_EQ(Confirm(empty, {other, heir}, 0.1, state),
+              (std::vector<int>{other.track + 1, heirs_track + 1}));
+  }
+}
+
+TEST_F(Identity, IsLostBehindSomebodyBesideWhomTheyWereSeenLast) {
+  See(Shot({PersonAt(0, 1.8), PersonAt(0.5, 3.4), PersonAt(-1.2, 3.0)}, 0));
+  ASSERT_EQ(tracks().size(), 3U);
+  for (const Track& track : tracks()) EXPECT_FALSE(track.lost_behind) << "in view";
+  See(Shot({PersonAt(0, 1.8)}, 1));
+  ASSERT_EQ(tracks().size(), 3U);
+  for (const Track& track : tracks()) EXPECT_EQ(track.lost_behind, track.mean_m.z() > 3.1F);
+}
+
 // Somebody who was seen at 10 s and moved at 8 s, who is not seen in a frame at `time_s`.
 Track UnseenAt(double time_s) {
   const Proposed empty = EmptyScene();

@@ -159,6 +159,58 @@ TEST_F(NewPerson, WhoCameStaysSomebodyWhileBendingDownAfterManyLooksOnly) {
   }
 }
 
+// Of whom was accepted only just more is asked, and of what never moved most.
+TEST_F(NewPerson, GoesOnByAScoreThatFallsWithAgeUnlessTheyNeverMoved) {
+  struct Case {
+    int age;
+    bool moved;
+    double needed;
+  };
+  for (const Case& c : {Case{2, true, 0.4},
+                        {12, true, 0.4},
+                        {13, true, 0.25},
+                        {10, false, 0.4},
+                        {11, false, 0.7},
+                        {40, false, 0.7}}) {
+    std::vector<TentativeTrack> tentative;
+    for (const double less : {0.0, 0.01}) {
+      Detection detection = Detect(Look{c.needed - less});
+      detection.age = c.age;
+      detection.prior.moved = c.moved;
+      EXPECT_EQ(DecidePerson(false, 1.0, options_, tentative, detection), less == 0.0) << c.age;
+      EXPECT_EQ(detection.decision.needed_score, c.needed) << c.age;
+    }
+    // What was furniture by all that is known is looked at with suspicion from then on.
+    const bool is_suspect = c.needed > options_.known_person;
+    ASSERT_EQ(tentative.size(), is_suspect ? 1U : 0U) << c.age;
+    if (is_suspect) {
+      EXPECT_TRUE(tentative[0].was_rejected);
+    }
+  }
+}
+
+// How many things are known after one was seen, and something so much later: one if it is the same.
+size_t CountThings(const TentativeTrack& before, Detection now, double later_s) {
+  std::vector<TentativeTrack> known = {before};
+  DecidePerson(false, later_s, InitiationOptions{}, known, now);
+  return known.size();
+}
+
+TEST_F(NewPerson, IsTheOneAStepAwayOnlyIfThatCameTooAMomentAgo) {
+  TentativeTrack came;
+  came.mean_m = {0.2F, 0, 3};
+  came.is_foreground = true;
+  TentativeTrack stood = came;
+  stood.is_foreground = false;
+  const Detection now = Detect({.score = 0.04, .foreground_share = 1});
+  EXPECT_EQ(CountThings(came, now, 0.1), 1U);
+  EXPECT_EQ(CountThings(stood, now, 0.1), 2U);
+  EXPECT_EQ(CountThings(came, now, 0.3), 2U);
+  EXPECT_EQ(CountThings(came, Detect({.score = 0.04}), 0.1), 2U);
+  came.mean_m.x() = 0.3F;
+  EXPECT_EQ(CountThings(came, now, 0.1), 2U);
+}
+
 TEST_F(NewPerson, OfWhomLittleIsSeenIsTentativeByTheRuleThatSaysWhatIsMissing) {
   EXPECT_EQ(AcceptedIn(1, false, [](int) { return Look{0.95}; }), -1);
   EXPECT_EQ(rule_, Rule::kFirstLook);
@@ -191,12 +243,15 @@ TEST_F(NewPerson, BeyondTheMostUsersIsLeftOutByThatRule) {
   EXPECT_EQ(decided[0].score, 0.95);
 }
 
-// What scored low a moment ago, seen again so much later: whether it is worth classifying.
-bool IsWorthClassifying(double score, double later_s) {
+// What scored low a moment ago, seen again so much later in so many of its 100 cells: whether it is
+// worth classifying.
+bool IsWorthClassifying(double score, double later_s, int cells = 100) {
   Candidate candidate;
-  for (int cell = 0; cell < 100; ++cell) candidate.region.cells.push_back(cell);
   TentativeTrack before;
-  before.cells = candidate.region.cells;
+  for (int cell = 0; cell < 100; ++cell) {
+    before.cells.push_back(cell);
+    if (cell < cells) candidate.region.cells.push_back(cell);
+  }
   before.mean_score = score;
   std::vector<TentativeTrack> tentative = {before};
   std::vector<Decision> decided;
@@ -213,6 +268,9 @@ TEST(SelectCandidates, WhatScoredLowIsClassifiedAgainOnlyLater) {
   EXPECT_FALSE(IsWorthClassifying(0.1, 0.1));
   EXPECT_TRUE(IsWorthClassifying(0.1, 0.3));
   EXPECT_TRUE(IsWorthClassifying(0.5, 0.1));
+  // The same thing is what holds most of the larger's cells.
+  EXPECT_FALSE(IsWorthClassifying(0.1, 0.1, 61));
+  EXPECT_TRUE(IsWorthClassifying(0.1, 0.1, 60));
 }
 
 // Three that were rejected at once: one a frame, who waited longest, and none twice before the
