@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <filesystem>
+#include <optional>
 #include <random>
 #include <sstream>
 
@@ -216,6 +217,24 @@ TEST(Scene, GoesOnWhenPeopleLeaveAndWhatTheyHoldFalls) {
   EXPECT_TRUE(scene.world().Characters().empty());
   EXPECT_LT(PlaceOf(scene, "box").y(), -1.0 + test::kTable_m + 0.2);
   EXPECT_LT(seen.deepest_m, kOverlap_m);
+}
+
+TEST(Scene, WhoseBonesAreKnownBetterHoldsOnToWhatTheyHold) {
+  Lifting lifting, taller;
+  taller.first_height_m = 1.8;  // 3 % more: another character
+  Scene scene(lifting.Options());
+  std::optional<int> character;
+  const auto people = [&](double t) { return t < 4.3 ? lifting(t) : taller(t); };
+  const Seen seen =
+      Play(scene, people, 5.5, [&](double t, const recon::SkeletonFrame&, Scene& played) {
+        if (t < 4.3) character = played.CharacterOf(1);
+      });
+  EXPECT_NE(scene.CharacterOf(1), character);
+  EXPECT_EQ(HoldersOf(scene, "box"), (std::vector<int>{1, 2}));
+  for (const int body : {1, 2}) {
+    EXPECT_EQ(seen.Count(SceneEvent::Kind::kGrabbed, body), 1) << body;
+    EXPECT_EQ(seen.Count(SceneEvent::Kind::kReleased, body), 0) << body;
+  }
 }
 
 TEST(Scene, CompletesPeopleOfWhomJointsAreMissing) {

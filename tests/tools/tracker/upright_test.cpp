@@ -193,6 +193,36 @@ TEST(UprightFinder, AWrongTurnIsTakenBackWhenSomebodyStandsUpright) {
   EXPECT_EQ(TurnsAfter(finder, 3, {0.9, 0, 0, 0}, 20), 0);
 }
 
+// How often somebody is looked for in `frames` at 30 Hz, in which people are seen as these scores
+// say.
+int CountLooks(UprightFinder& finder, int frames, const std::vector<double>& scores) {
+  int asked = 0;
+  for (int i = 0; i < frames; ++i) {
+    depth::DepthFrame frame;
+    frame.time_s = i / 30.0;
+    finder.Look(frame, [&](const depth::DepthFrame&, int turn) {
+      ++asked;
+      return scores[static_cast<size_t>(turn)];
+    });
+  }
+  return asked;
+}
+
+// Each of the four ways costs as much as tracking does.
+TEST(UprightFinder, LooksOnceASecondWhereNobodyIsSeen) {
+  UprightFinder finder;
+  EXPECT_EQ(CountLooks(finder, 60, {0, 0, 0, 0}), 2 * 4);
+}
+
+TEST(UprightFinder, LooksAgainAtOnceWhereSomebodyIsSeenAnotherWayUp) {
+  UprightFinder finder;
+  CountLooks(finder, 2, {0, 0, 0.9, 0});
+  EXPECT_EQ(finder.quarters(), 0);
+  UprightFinder sooner;
+  CountLooks(sooner, 3, {0, 0, 0.9, 0});
+  EXPECT_EQ(sooner.quarters(), 2);
+}
+
 TEST(UprightFinder, AsksNothingWhileSomebodyIsFollowed) {
   UprightFinder finder;
   int asked = 0;
