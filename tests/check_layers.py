@@ -45,11 +45,11 @@ ROOM = re.compile(r"^\| `([\w/]+)/` \|")
 # The way of a frame, in order: each step, and who calls it. Tracker::Track calls the first two, the list
 # kStages calls the steps of a person, and these call what they are made of.
 WALK = {
-    "DetectPeople": {"tools/tracker/tracker.cpp"},
+    "DetectPeople": {"tools/tracker/track_frame.cpp"},
     "forest::Classify": {"tools/people/forest_evidence.cpp"},
     "forest::Propose": {"tools/people/forest_evidence.cpp"},
     "forest::Relabel": {"tools/people/forest_evidence.cpp"},
-    "TrackSkeleton": {"tools/tracker/tracker.cpp"},
+    "TrackSkeleton": {"tools/tracker/track_frame.cpp"},
     "ChooseRaw": {"tools/tracker/skeleton_stages.cpp"},
     "ChoosePosture": {"tools/tracker/skeleton_stages.cpp"},
     "Refine": {"tools/tracker/skeleton_stages.cpp"},

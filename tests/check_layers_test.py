@@ -80,7 +80,7 @@ class Walk(WithTree):
         self.assertIn("tools/tracker/person.cpp:2: calls DetectPeople out of turn", told)
 
     def test_a_step_that_nobody_calls_any_more_is_told(self):
-        self.write("tools/tracker/tracker.cpp", "")
+        self.write("tools/tracker/track_frame.cpp", "")
         self.assertIn("nobody calls TrackSkeleton", "\n".join(check_layers.broken_walk(self.top)))
 
 

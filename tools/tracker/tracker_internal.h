@@ -1,0 +1,58 @@
+#pragma once
+#include <map>
+#include <memory>
+#include <optional>
+#include <vector>
+
+#include "forest/forest.h"
+#include "tools/people/detect_people.h"
+#include "tools/tracker/lagged_bodies_internal.h"
+#include "tools/tracker/mount_finder_internal.h"
+#include "tools/tracker/person_internal.h"
+#include "tools/tracker/tracker.h"
+#include "tools/tracker/upright.h"
+
+namespace ossa::tracker {
+
+/// A tracker of cameras that are mounted in one way, level or under the ceiling: what it was told,
+/// has read and remembers.
+struct Tracker::Impl {
+  TrackerOptions options;
+  ModelSet models;
+  const forest::ForestModel& model;  // of `models`
+  people::JointTargets targets;
+  SkeletonOptions skeleton;
+  people::PeopleOptions people_options;
+  people::PeopleState people_state;
+  std::map<int, Person> persons;  // by id
+  std::optional<std::vector<int>> chosen_ids;
+  UprightFinder upright;
+  MountFinder mount_finder;
+  // Read when a ceiling was suspected.
+  std::shared_ptr<const forest::ForestModel> ceiling_forest;
+  LaggedBodies lagged;
+  std::optional<Scene> scene;
+
+  explicit Impl(const TrackerOptions& o);
+
+  LaggedBodies NothingLagged() const;
+  BodyFrame Track(const depth::DepthFrame& frame);
+  bool IsUnderCeiling() const;
+  // What the application set meanwhile.
+  void CopySettings(const Impl& other);
+  bool ShowsCeilingView(const depth::DepthFrame& frame, const BodyFrame& tracked);
+  BodyFrame TrackTurned(const depth::DepthFrame& frame);
+  BodyFrame Play(BodyFrame frame);
+  int QuarterTurns() const {
+    return options.turn == Turn::kAuto ? upright.quarters() : static_cast<int>(options.turn);
+  }
+  bool KeepsParts() const { return options.keep_parts || options.keep_probabilities; }
+  void FindUpright(const depth::DepthFrame& frame);
+  void ForgetAll();
+  Body MakeBody(const depth::DepthFrame& frame, const people::Person& person) const;
+  void WithdrawUnlikeBodies(const std::vector<people::Person>& seen, BodyFrame& result);
+  std::vector<Person*> RememberPersons(const std::vector<Body>& bodies, double time_s);
+  void Introduce(int id, Person& person) const;
+};
+
+}  // namespace ossa::tracker
