@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <chrono>
 #include <deque>
-#include <filesystem>
 #include <map>
 #include <memory>
 #include <optional>
@@ -13,8 +12,6 @@
 #include "depth/base/atomic_file.h"
 #include "depth/base/error.h"
 #include "depth/sensor/frame_source.h"
-#include "recon/files/skeleton_io.h"
-#include "recon/files/skeleton_writer.h"
 #include "recon/methods/reconstructor.h"
 #include "recon/refine/refinement_cascade.h"
 #include "tools/commands/checks.h"
@@ -24,14 +21,13 @@
 #include "tools/commands/mechanics_options.h"
 #include "tools/commands/method_options.h"
 #include "tools/commands/outputs.h"
-#include "tools/commands/posture_record.h"
 #include "tools/commands/process.h"
 #include "tools/commands/source_options.h"
 #include "tools/commands/track_options.h"
+#include "tools/commands/track_outputs.h"
 #include "tools/commands/track_several.h"
 #include "tools/commands/view_options.h"
 #include "tools/stream/sender.h"
-#include "tools/tracker/picture.h"
 #include "tools/tracker/run_stats.h"
 #include "tools/tracker/shipped.h"
 #include "tools/viewer/viewer.h"
@@ -41,121 +37,6 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 using std::chrono::milliseconds;
-
-// Skeletons on their way to the file, which appears only when complete.
-class SkeletonOutput {
- public:
-  explicit SkeletonOutput(const TrackOptions& options) : path_(options.out), recorder_(options) {
-    if (path_.empty()) return;
-    SayLeftovers(path_);
-    writer_.emplace(
-        path_,
-        options.write.For(path_, options.files.surface == "none" ? "" : options.files.surface));
-  }
-  void Write(const tracker::BodyFrame& bodies) {
-    if (!writer_) return;
-    for (const tracker::Body& body : bodies.bodies) {
-      if (body.shape) writer_->SetShape(body.id, body.shape->shape);
-    }
-    writer_->Write(recorder_.Record(bodies));
-  }
-  void Finish() {
-    try {
-      if (writer_) writer_->Finish();
-    } catch (const DiskFull& full) {
-      throw WithWhatFits(full);
-    }
-  }
-  // Of what Write() threw: how much is kept.
-  InputError WithWhatFits(const DiskFull& full) {
-    return writer_ ? KeepWhatFits(full, *writer_) : InputError(full);
-  }
-
- private:
-  std::string path_;
-  PostureRecorder recorder_;
-  std::optional<recon::SkeletonWriter> writer_;
-};
-
-size_t TrackedJoints(const tracker::BodyFrame& bodies) {
-  size_t count = 0;
-  for (const tracker::Body& body : bodies.bodies) {
-    count += static_cast<size_t>(std::count_if(
-        body.joints.begin(), body.joints.end(),
-        [](const tracker::JointEstimate& j) { return j.state == recon::TrackingState::kTracked; }));
-  }
-  return count;
-}
-
-// The one picture shows the frame in which most is tracked (the latest of equals).
-class Pictures {
- public:
-  explicit Pictures(const TrackOptions& options)
-      : one_(options.picture), folder_(options.pictures) {
-    if (!folder_.empty()) std::filesystem::create_directories(folder_);
-    if (!one_.empty()) AtomicFile::CheckWritable(one_);
-  }
-  void Take(const depth::DepthFrame& frame, const tracker::BodyFrame& bodies) {
-    if (!folder_.empty()) {
-      const auto name = fmt::format("{:06d}.png", bodies.index);
-      tracker::WritePicture(std::filesystem::path(folder_) / name, frame, bodies);
-    }
-    if (one_.empty() || (has_best_ && TrackedJoints(bodies) < TrackedJoints(best_))) return;
-    has_best_ = true;
-    best_frame_ = frame;
-    best_ = bodies;
-  }
-  void Finish() const {
-    if (!one_.empty() && has_best_) tracker::WritePicture(one_, best_frame_, best_);
-  }
-
- private:
-  std::string one_, folder_;
-  bool has_best_ = false;
-  depth::DepthFrame best_frame_;
-  tracker::BodyFrame best_;
-};
-
-// Of whom --save-person keeps what.
-class PersonKeeper {
- public:
-  explicit PersonKeeper(const TrackOptions& options) : path_(options.save_person) {
-    if (!path_.empty()) AtomicFile::CheckWritable(path_);
-  }
-  void Take(const tracker::BodyFrame& bodies) {
-    for (const tracker::Body& body : bodies.bodies) {
-      if (!body.shape) continue;
-      Kept& kept = kept_[body.id];
-      kept.shape = *body.shape;
-      kept.fits += body.fit ? 1 : 0;
-    }
-  }
-  /// Throws InputError where nobody was fitted.
-  void Finish(const TrackOptions& options) const {
-    if (path_.empty()) return;
-    const auto most = std::max_element(
-        kept_.begin(), kept_.end(),
-        [](const auto& a, const auto& b) { return a.second.fits < b.second.fits; });
-    if (most == kept_.end() || most->second.fits == 0) {
-      throw InputError(path_ + ": expected a person in the recording, found none; not written");
-    }
-    const recon::PersonShape& shape = most->second.shape;
-    const recon::BodySurface& surface = *options.tracker.models->surface;
-    shape.Save(path_, surface);
-    const recon::Stature stature = recon::MeasureStature(shape, surface);
-    if (options.quiet) return;
-    fmt::print("{}: person {}, {:.2f} m tall, give or take {:.0f} cm, by {} frames\n", path_,
-               most->first, stature.stature_m, 100.0 * stature.sigma_m, shape.frames);
-  }
-
- private:
-  struct Kept {
-    recon::PersonShape shape;
-    int64_t fits = 0;
-  };
-  std::string path_;
-  std::map<int, Kept> kept_;
-};
 
 enum class Ending { kComplete, kUnplugged, kSilent, kInterrupted };
 

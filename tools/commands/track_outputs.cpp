@@ -1,0 +1,105 @@
+#include "tools/commands/track_outputs.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <filesystem>
+
+#include "depth/base/atomic_file.h"
+#include "tools/commands/outputs.h"
+#include "tools/tracker/picture.h"
+
+namespace ossa::commands {
+namespace {
+
+size_t TrackedJoints(const tracker::BodyFrame& bodies) {
+  size_t count = 0;
+  for (const tracker::Body& body : bodies.bodies) {
+    count += static_cast<size_t>(std::count_if(
+        body.joints.begin(), body.joints.end(),
+        [](const tracker::JointEstimate& j) { return j.state == recon::TrackingState::kTracked; }));
+  }
+  return count;
+}
+
+}  // namespace
+
+SkeletonOutput::SkeletonOutput(const TrackOptions& options)
+    : path_(options.out), recorder_(options) {
+  if (path_.empty()) return;
+  SayLeftovers(path_);
+  writer_.emplace(path_, options.write.For(
+                             path_, options.files.surface == "none" ? "" : options.files.surface));
+}
+
+void SkeletonOutput::Write(const tracker::BodyFrame& bodies) {
+  if (!writer_) return;
+  for (const tracker::Body& body : bodies.bodies) {
+    if (body.shape) writer_->SetShape(body.id, body.shape->shape);
+  }
+  writer_->Write(recorder_.Record(bodies));
+}
+
+void SkeletonOutput::Finish() {
+  try {
+    if (writer_) writer_->Finish();
+  } catch (const DiskFull& full) {
+    throw WithWhatFits(full);
+  }
+}
+
+InputError SkeletonOutput::WithWhatFits(const DiskFull& full) {
+  return writer_ ? KeepWhatFits(full, *writer_) : InputError(full);
+}
+
+Pictures::Pictures(const TrackOptions& options) : one_(options.picture), folder_(options.pictures) {
+  if (!folder_.empty()) std::filesystem::create_directories(folder_);
+  if (!one_.empty()) AtomicFile::CheckWritable(one_);
+}
+
+void Pictures::Take(const depth::DepthFrame& frame, const tracker::BodyFrame& bodies) {
+  if (!folder_.empty()) {
+    const auto name = fmt::format("{:06d}.png", bodies.index);
+    tracker::WritePicture(std::filesystem::path(folder_) / name, frame, bodies);
+  }
+  if (one_.empty() || (has_best_ && TrackedJoints(bodies) < TrackedJoints(best_))) return;
+  has_best_ = true;
+  best_frame_ = frame;
+  best_ = bodies;
+}
+
+void Pictures::Finish() const {
+  if (!one_.empty() && has_best_) tracker::WritePicture(one_, best_frame_, best_);
+}
+
+PersonKeeper::PersonKeeper(const TrackOptions& options) : path_(options.save_person) {
+  if (!path_.empty()) AtomicFile::CheckWritable(path_);
+}
+
+void PersonKeeper::Take(const tracker::BodyFrame& bodies) {
+  for (const tracker::Body& body : bodies.bodies) {
+    if (!body.shape) continue;
+    Kept& kept = kept_[body.id];
+    kept.shape = *body.shape;
+    kept.fits += body.fit ? 1 : 0;
+  }
+}
+
+void PersonKeeper::Finish(const TrackOptions& options) const {
+  if (path_.empty()) return;
+  const auto most = std::max_element(kept_.begin(), kept_.end(), [](const auto& a, const auto& b) {
+    return a.second.fits < b.second.fits;
+  });
+  if (most == kept_.end() || most->second.fits == 0) {
+    throw InputError(path_ + ": expected a person in the recording, found none; not written");
+  }
+  const recon::PersonShape& shape = most->second.shape;
+  const recon::BodySurface& surface = *options.tracker.models->surface;
+  shape.Save(path_, surface);
+  const recon::Stature stature = recon::MeasureStature(shape, surface);
+  if (options.quiet) return;
+  fmt::print("{}: person {}, {:.2f} m tall, give or take {:.0f} cm, by {} frames\n", path_,
+             most->first, stature.stature_m, 100.0 * stature.sigma_m, shape.frames);
+}
+
+}  // namespace ossa::commands

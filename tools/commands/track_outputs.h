@@ -1,0 +1,65 @@
+#pragma once
+#include <cstdint>
+#include <map>
+#include <optional>
+#include <string>
+
+#include "depth/base/error.h"
+#include "depth/image/depth_frame.h"
+#include "recon/files/skeleton_writer.h"
+#include "recon/fit/surface_fit.h"
+#include "tools/commands/posture_record.h"
+#include "tools/commands/track_options.h"
+#include "tools/tracker/tracker.h"
+
+// The files of `ossa track`; each is there only when it is complete.
+namespace ossa::commands {
+
+/// Skeletons on their way to the file of --out; without one nothing is written.
+class SkeletonOutput {
+ public:
+  explicit SkeletonOutput(const TrackOptions& options);
+  void Write(const tracker::BodyFrame& bodies);
+  void Finish();
+  /// Of what Write() threw: how much is kept.
+  InputError WithWhatFits(const DiskFull& full);
+
+ private:
+  std::string path_;
+  PostureRecorder recorder_;
+  std::optional<recon::SkeletonWriter> writer_;
+};
+
+/// The pictures of --picture and --pictures. The one picture shows the frame in which most is
+/// tracked (the latest of equals).
+class Pictures {
+ public:
+  explicit Pictures(const TrackOptions& options);
+  void Take(const depth::DepthFrame& frame, const tracker::BodyFrame& bodies);
+  void Finish() const;
+
+ private:
+  std::string one_, folder_;
+  bool has_best_ = false;
+  depth::DepthFrame best_frame_;
+  tracker::BodyFrame best_;
+};
+
+/// Of whom --save-person keeps what.
+class PersonKeeper {
+ public:
+  explicit PersonKeeper(const TrackOptions& options);
+  void Take(const tracker::BodyFrame& bodies);
+  /// Throws InputError where nobody was fitted.
+  void Finish(const TrackOptions& options) const;
+
+ private:
+  struct Kept {
+    recon::PersonShape shape;
+    int64_t fits = 0;
+  };
+  std::string path_;
+  std::map<int, Kept> kept_;
+};
+
+}  // namespace ossa::commands
