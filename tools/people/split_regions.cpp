@@ -36,53 +36,70 @@ bool IsOnePerson(const Region& region, const Seed& seed, const SeedOptions& opti
          }) < options.one_person_background_cells;
 }
 
+// A way over the surface with one step more; where it is not continuous, and sideways, it is
+// longer.
+float AddStep_m(const PointGrid& grid, float way_m, int from, int to, const SeedOptions& options) {
+  Eigen::Vector3f step_m = grid.at(to) - grid.at(from);
+  step_m.x() *= options.sideways;
+  return way_m + step_m.norm() + (Continuous(grid, from, to) ? 0.0F : options.jump_cost_m);
+}
+
+// Whether what grows from a seed may reach a cell that is so far away over the surface.
+bool MayReach(const Seed& seed, int cell, float way_m, const SeedOptions& options) {
+  if (way_m > seed.reach_m) return false;
+  const bool enters = seed.background != nullptr && (*seed.background)[static_cast<size_t>(cell)];
+  return !enters || way_m <= options.background_rim_m;
+}
+
+// Which seed each of the region's cells is joined to by the shortest way over the surface, as an
+// index; -1 beyond reach, and elsewhere. Dijkstra 1959, from all seeds at once.
+std::vector<int> FindNearestSeeds(const PointGrid& grid, const Region& region,
+                                  const std::vector<Seed>& seeds, const SeedOptions& options) {
+  const auto cells = static_cast<size_t>(grid.cells());
+  std::vector<uint8_t> member(cells, 0);
+  for (const int cell : region.cells) member[static_cast<size_t>(cell)] = 1;
+  std::vector<float> way_m(cells, std::numeric_limits<float>::infinity());
+  std::vector<int> nearest(cells, -1);
+  using Item = std::pair<float, int>;
+  std::priority_queue<Item, std::vector<Item>, std::greater<>> queue;
+  const auto reach = [&](int cell, float reached_m, int seed) {
+    way_m[static_cast<size_t>(cell)] = reached_m;
+    nearest[static_cast<size_t>(cell)] = seed;
+    queue.push({reached_m, cell});
+  };
+  for (size_t i = 0; i < seeds.size(); ++i) {
+    for (const int cell : seeds[i].cells) {
+      if (member[static_cast<size_t>(cell)]) reach(cell, 0.0F, static_cast<int>(i));
+    }
+  }
+  while (!queue.empty()) {
+    const auto [done_m, cell] = queue.top();
+    queue.pop();
+    if (done_m > way_m[static_cast<size_t>(cell)]) continue;
+    const int x = cell % grid.width, y = cell / grid.width;
+    const int seed = nearest[static_cast<size_t>(cell)];
+    for (const auto& step : depth::kStepsOverGaps) {
+      if (!grid.Contains(x + step[0], y + step[1])) continue;
+      const int next = grid.cell(x + step[0], y + step[1]);
+      if (!member[static_cast<size_t>(next)]) continue;
+      const float reached_m = AddStep_m(grid, done_m, cell, next, options);
+      if (reached_m >= way_m[static_cast<size_t>(next)]) continue;
+      if (MayReach(seeds[static_cast<size_t>(seed)], next, reached_m, options))
+        reach(next, reached_m, seed);
+    }
+  }
+  return nearest;
+}
+
 }  // namespace
 
 std::vector<Region> SplitBySeeds(const PointGrid& grid, const Region& region,
                                  const std::vector<Seed>& seeds, const SeedOptions& options) {
-  const auto cells = static_cast<size_t>(grid.cells());
-  std::vector<uint8_t> member(cells, 0);
-  for (const int cell : region.cells) member[static_cast<size_t>(cell)] = 1;
-  std::vector<float> distance(cells, std::numeric_limits<float>::infinity());
-  std::vector<int> owner(cells, -1);
-  using Item = std::pair<float, int>;
-  std::priority_queue<Item, std::vector<Item>, std::greater<>> queue;
-  for (size_t i = 0; i < seeds.size(); ++i) {
-    for (const int cell : seeds[i].cells) {
-      if (!member[static_cast<size_t>(cell)]) continue;
-      distance[static_cast<size_t>(cell)] = 0;
-      owner[static_cast<size_t>(cell)] = static_cast<int>(i);
-      queue.push({0.0F, cell});
-    }
-  }
-  while (!queue.empty()) {
-    const auto [d, cell] = queue.top();
-    queue.pop();
-    if (d > distance[static_cast<size_t>(cell)]) continue;
-    const int x = cell % grid.width, y = cell / grid.width;
-    for (const auto& step : depth::kStepsOverGaps) {
-      if (!grid.Contains(x + step[0], y + step[1])) continue;
-      const int next = grid.cell(x + step[0], y + step[1]);
-      const auto n = static_cast<size_t>(next);
-      if (!member[n]) continue;
-      Eigen::Vector3f way = grid.at(next) - grid.at(cell);
-      way.x() *= options.sideways;
-      const float jump = Continuous(grid, cell, next) ? 0.0F : options.jump_cost_m;
-      const float reached = d + way.norm() + jump;
-      const int mine = owner[static_cast<size_t>(cell)];
-      const Seed& seed = seeds[static_cast<size_t>(mine)];
-      if (reached >= distance[n] || reached > seed.reach_m) continue;
-      if (seed.background != nullptr && (*seed.background)[n] && reached > options.background_rim_m)
-        continue;
-      distance[n] = reached;
-      owner[n] = mine;
-      queue.push({reached, next});
-    }
-  }
+  const std::vector<int> nearest = FindNearestSeeds(grid, region, seeds, options);
   std::vector<std::vector<int>> pieces(seeds.size());
   for (const int cell : region.cells) {
-    const int i = owner[static_cast<size_t>(cell)];
-    if (i >= 0) pieces[static_cast<size_t>(i)].push_back(cell);
+    const int seed = nearest[static_cast<size_t>(cell)];
+    if (seed >= 0) pieces[static_cast<size_t>(seed)].push_back(cell);
   }
   std::vector<Region> result;
   for (auto& piece : pieces) result.push_back(MakeRegion(grid, std::move(piece)));
