@@ -83,6 +83,9 @@ void SceneOptions::Check() const {
     RequirePositive("releases.away_m", release.away_m);
     if (!(release.for_s >= 0.0)) Refuse("releases.for_s", release.for_s, "0 or more");
   }
+  if (floor && !(floor->allFinite() && floor->head<3>().norm() > 1e-6)) {
+    throw std::invalid_argument("floor = a plane without a normal, must be a b c d, all finite");
+  }
   for (const ThrowRule& toss : throws) RequirePositive("throws.faster_m_s", toss.faster_m_s);
 }
 

@@ -297,6 +297,17 @@ TEST(HandMemory, ForgetsHowItMovedAndNotHowItHolds) {
   EXPECT_EQ(hand.seen_velocity_m_s, Vector3d::Zero());
 }
 
+// Things would wait for it for ever.
+TEST(Scene, TakesNoFloorThatIsNone) {
+  SceneOptions options = Lifting().Options();
+  options.floor = test::Ground();
+  EXPECT_NO_THROW(options.Check());
+  options.floor->y() = 0.0;
+  EXPECT_THROW(options.Check(), std::invalid_argument);
+  options.floor = Eigen::Vector4d(0.0, 1.0, 0.0, std::nan(""));
+  EXPECT_THROW(options.Check(), std::invalid_argument);
+}
+
 TEST(Scene, WaitsForAFloor) {
   Scene scene(Lifting{}.Options());
   recon::SkeletonFrame frame = test::SkeletonsOf(Lifting{}(0.0), 0);
