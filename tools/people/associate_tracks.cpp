@@ -159,6 +159,8 @@ void NoteWhereLost(const Scene& scene, const std::vector<int>& person_of,
 
 constexpr int kLargestId = 255;  // so that ids fit the user image's byte
 
+int NextId(int id) { return id % kLargestId + 1; }
+
 bool HasId(const std::vector<Track>& tracks, int id) {
   return std::any_of(tracks.begin(), tracks.end(),
                      [&](const Track& track) { return track.id == id; });
@@ -166,10 +168,9 @@ bool HasId(const std::vector<Track>& tracks, int id) {
 
 // The next one in turn that nobody has, confirmed or lost. See ForgetTooMany: there is one.
 int TakeId(TrackList& list) {
-  const auto next = [](int id) { return id % kLargestId + 1; };
   int id = list.next_id;
-  while (HasId(list.tracks, id)) id = next(id);
-  list.next_id = next(id);
+  while (HasId(list.tracks, id)) id = NextId(id);
+  list.next_id = NextId(id);
   return id;
 }
 
@@ -254,6 +255,10 @@ std::vector<int> AssociateTracks(const Scene& scene, const std::vector<Region>& 
     if (IsAmong(of_later, track.id) && !IsAmong(ids, track.id)) ForgetEvidence(track);
   }
   return ids;
+}
+
+void GiveBackId(int id, TrackList& list) {
+  if (list.next_id == NextId(id)) list.next_id = id;
 }
 
 std::vector<TrackSummary> SummarizeTracks(const std::vector<Track>& tracks,

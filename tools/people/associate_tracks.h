@@ -23,6 +23,10 @@ std::vector<int> AssociateTracks(const Scene& scene, const std::vector<Region>& 
                                  const std::vector<Detection>& people, double time_s,
                                  TrackList& list, const AssociationOptions& options = {});
 
+/// Somebody new turned out to be nobody before anybody was told: the next one new gets the id,
+/// unless others came after them.
+void GiveBackId(int id, TrackList& list);
+
 /// Confirmed and lost tracks, as of a frame. `ids`: of the people in it.
 std::vector<TrackSummary> SummarizeTracks(const std::vector<Track>& tracks,
                                           const std::vector<int>& ids);

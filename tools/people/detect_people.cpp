@@ -133,6 +133,7 @@ bool IsUnlikeABody(const ExplainedShares& fit, double person_score, bool beside_
 void Withdraw(int id, PeopleState& state, depth::Image<uint8_t>& users, FrameDecisions& decisions) {
   const auto is_theirs = [id](const auto& entry) { return entry.id == id; };
   std::erase_if(state.tracks.tracks, is_theirs);
+  GiveBackId(id, state.tracks);
   std::erase_if(decisions.tracks, is_theirs);
   for (Decision& decision : decisions.candidates) {
     if (decision.track != id) continue;

@@ -364,6 +364,7 @@ TEST(Withdrawal, LeavesNoTrackAndNoPixels) {
   decisions.tracks.resize(2);
   decisions.tracks[0].id = 1;
   decisions.tracks[1].id = 2;
+  state.tracks.next_id = 3;
   Withdraw(2, state, users, decisions);
   ASSERT_EQ(state.tracks.tracks.size(), 1U);
   EXPECT_EQ(state.tracks.tracks[0].id, 1);
@@ -371,6 +372,20 @@ TEST(Withdrawal, LeavesNoTrackAndNoPixels) {
   EXPECT_EQ(decisions.candidates[0].rule, Rule::kUnlikeABody);
   EXPECT_EQ(decisions.candidates[0].track, 0);
   EXPECT_EQ(decisions.tracks.size(), 1U);
+  EXPECT_EQ(state.tracks.next_id, 2) << "of who comes next";
+}
+
+// Who came in the same frame and was told of keeps their id, and the next one has another.
+TEST(Withdrawal, LeavesOthersTheirIds) {
+  PeopleState state;
+  state.tracks.tracks.resize(2);
+  state.tracks.tracks[0].id = 1;
+  state.tracks.tracks[1].id = 2;
+  state.tracks.next_id = 3;
+  depth::Image<uint8_t> users(1, 1);
+  FrameDecisions decisions;
+  Withdraw(1, state, users, decisions);
+  EXPECT_EQ(state.tracks.next_id, 3);
 }
 
 }  // namespace
