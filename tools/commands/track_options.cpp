@@ -9,6 +9,7 @@
 #include "recon/methods/reconstructor.h"
 #include "recon/refine/refinement_cascade.h"
 #include "tools/commands/command.h"
+#include "tools/commands/process.h"
 #include "tools/tracker/shipped.h"
 
 namespace ossa::commands {
@@ -73,7 +74,7 @@ void AddViewpointOptions(CLI::App& app, TrackOptions& options) {
                  "where the camera is: level, ceiling (2.2 to 4 m up, looking down) or auto "
                  "(default: auto)")
       ->check(CLI::IsMember({"auto", "level", "ceiling"}));
-  app.add_flag("--near", t.near_range, "near range: people within 3 m only");
+  app.add_flag("--near", t.near_range, "near range: people within 3 m of a level camera only");
   app.add_option("--users", t.max_users, "most people at a time, 1 to 6 (default 6)")
       ->check(CLI::Range(1, 6));
   app.add_option("--threads", t.threads, "threads for several people (default 1)")
@@ -249,6 +250,14 @@ void CheckHasOutput(const TrackOptions& options) {
       "--save-person or --view");
 }
 
+// No refusal: a file of defaults may have them for the runs that show a page.
+void SayUnreadPageOptions(const CLI::App& app, const TrackOptions& options) {
+  if (options.view || options.quiet) return;
+  for (const char* option : {"--port", "--listen", "--token"}) {
+    if (app.count(option) > 0) Say(fmt::format("ossa: {} is not read without --view\n", option));
+  }
+}
+
 void CheckMethod(const CLI::App& app, const TrackOptions& options) {
   const std::string& method = options.tracker.method;
   CheckRead(app, method, options.quiet);
@@ -302,6 +311,7 @@ TrackOptions ParseTrackOptions(int argc, char** argv) {
   Parse(app, argc, argv);
   CheckSources(app, options);
   CheckHasOutput(options);
+  SayUnreadPageOptions(app, options);
   options.targets = ParseTargets(options.send);
   CheckMethod(app, options);
   if (options.posture == "refined") {

@@ -253,7 +253,8 @@ void AddTrackingOptions(CLI::App& app, ViewOptions& options) {
       ->check(CLI::IsMember(tracker::SmoothingPresets()));
   AddMechanicsOptions(app, options.mechanics);
   app.add_flag("--seated", options.settings.seated, "look for the ten upper joints only");
-  app.add_flag("--near", options.settings.near_range, "near range: people within 3 m only");
+  app.add_flag("--near", options.settings.near_range,
+               "near range: people within 3 m of a level camera only");
   app.add_option("--users", options.settings.users, "most people at a time, 1 to 6 (default 6)")
       ->check(CLI::Range(1, 6));
 }

@@ -325,6 +325,18 @@ TEST(TrackCommand, SaysWhichFilesTheMethodDoesNotRead) {
   EXPECT_FALSE(said({"--posture", "refined", "--refinement", "/no.refine"}));
 }
 
+TEST(TrackCommand, SaysThatAPageIsAskedForByView) {
+  const std::vector<std::string> words = {"track", "in", "--out", "x.jsonl", "--port", "9"};
+  const auto says_so = [](std::vector<std::string> all, const std::vector<std::string>& more) {
+    all.insert(all.end(), more.begin(), more.end());
+    const std::string err = RunOssa(all).err;
+    return err.find("ossa: --port is not read without --view\n") != std::string::npos;
+  };
+  EXPECT_TRUE(says_so(words, {}));
+  EXPECT_FALSE(says_so(words, {"--quiet"}));
+  EXPECT_FALSE(says_so(words, {"--view"}));
+}
+
 TEST(TrackCommand, BonesByTheWholeRecordingAreTheSameInEveryFrame) {
   OSSA_NEEDS_MODEL();
   const TemporaryFolder folder;

@@ -189,7 +189,7 @@ class Tracker:
     seated : bool
         Only the ten upper joints are looked for (the SDK's seated mode); see `mode`.
     near : bool
-        Near range: people within 3 m only.
+        Near range: people within 3 m of a level camera only.
     lag : int
         Of track_late and run: bodies so many frames later and steadier, 0 (live) to 2.
     parts, probabilities, proposals : bool
