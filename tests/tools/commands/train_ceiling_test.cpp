@@ -19,7 +19,9 @@ class TrainCeiling : public ::testing::Test {
  protected:
   void SetUp() override {
     fs::create_directories(folder_ / "mocap");
-    std::ofstream(folder_ / "mocap" / "01_01.bvh") << "BVH";
+    for (const char* clip : {"01_01.bvh", "02_01.bvh", "03_01.bvh"}) {
+      std::ofstream(folder_ / "mocap" / clip) << "BVH";
+    }
     std::ofstream(folder_ / "ossa") << R"(#!/bin/sh
 command=$1 model=$2
 echo "$command"
