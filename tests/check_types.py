@@ -4,10 +4,12 @@ it, not inside a function) breaks C++'s one-definition rule, which no compiler o
 the two differ, whichever destructor or member function the linker keeps works on the other's bytes.
 Reads the sources; says file, file and name."""
 import collections
+import pathlib
 import re
 import subprocess
 import sys
 
+TOP = pathlib.Path(__file__).resolve().parent.parent
 NOT_CODE = re.compile(r'R"(\w*)\(.*?\)\1"|//[^\n]*|/\*.*?\*/|"(?:\\.|[^"\\\n])*"'
                       r"|(?<![0-9a-fA-F])'(?:\\.|[^'\\])+'", re.S)
 NAMESPACE = re.compile(r"\bnamespace(?:\s+([\w:]+))?\s*$")
@@ -39,11 +41,11 @@ def types_of(text):
 
 
 def main():
-    listed = subprocess.run(["git", "ls-files", "*.h", "*.cpp"], capture_output=True, text=True,
+    listed = subprocess.run(["git", "-C", TOP, "ls-files", "*.h", "*.cpp"], capture_output=True, text=True,
                             check=True).stdout.split()
     homes = collections.defaultdict(set)
     for path in listed:
-        with open(path, encoding="utf-8") as source:
+        with open(TOP / path, encoding="utf-8") as source:
             for name in types_of(source.read()):
                 homes[name].add(path)
     twice = {name: paths for name, paths in homes.items() if len(paths) > 1}
@@ -51,7 +53,7 @@ def main():
         print(f"{name} is defined in {' and in '.join(sorted(paths))}: put the ones of .cpp files "
               "into a namespace without a name")
     if len(homes) < 100:
-        print(f"expected the project's types, found {len(homes)}: run it in the repository")
+        print(f"expected the project's types, found {len(homes)}")
     return 1 if twice or len(homes) < 100 else 0
 
 

@@ -51,7 +51,7 @@ def run_tutorial(ossa, path):
 
 
 def main():
-    if len(sys.argv) < 2:
+    if len(sys.argv) < 2 or sys.argv[1].startswith("-"):
         print(__doc__)
         return 2
     ossa = pathlib.Path(sys.argv[1]).resolve()

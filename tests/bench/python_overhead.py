@@ -32,6 +32,8 @@ def processor_s(*command):
 
 
 def main():
+    if len(sys.argv) < 3:
+        sys.exit(__doc__)
     ossa, source = sys.argv[1:3]
     rounds = int(sys.argv[3]) if len(sys.argv) > 3 else 5
     starts, wholes = ({"ossa track": [], "Python": []} for _ in range(2))

@@ -1,0 +1,103 @@
+#!/usr/bin/env python3
+"""Manners of the scripts: help and wrong arguments do nothing else, and tools/demo takes a folder as it finds it.
+
+Usage: scripts_test.py
+"""
+import os
+import pathlib
+import shlex
+import shutil
+import subprocess
+import tempfile
+import unittest
+
+TOP = pathlib.Path(__file__).resolve().parents[2]
+# What each is for stands at its top; those that only tests call say how they are called.
+WITH_HELP = ("tools/demo", "tools/install_packages", "tools/fetch_body", "tools/fetch_mocap", "tools/python/make_wheel",
+             "tests/run")
+OF_TESTS = ("tests/packages/try_packages", "tests/packages/in_clean_root", "tests/python/make_environment",
+            "tests/python/run_pytest", "tests/python/wheel_in_clean_root", "tests/arm64/make_root",
+            "tests/arm64/check_rounding", "tests/fuzz/run_one", "tests/sanitize_threads", "tests/nite2/public_programs",
+            "tests/run_tutorials.py")
+
+
+def run(script, *arguments, **options):
+    return subprocess.run([TOP / script, *arguments], capture_output=True, text=True, timeout=30, **options)
+
+
+class Arguments(unittest.TestCase):
+    def setUp(self):
+        self.temporary = tempfile.TemporaryDirectory()
+        self.addCleanup(self.temporary.cleanup)
+
+    def check_that_nothing_is_made(self):
+        self.assertEqual(os.listdir(self.temporary.name), [])
+
+    def test_help_says_what_a_script_is_for(self):
+        for script in WITH_HELP:
+            done = run(script, "--help", cwd=self.temporary.name)
+            self.assertEqual((done.returncode, done.stderr), (0, ""), script)
+            self.assertIn(pathlib.Path(script).name, done.stdout, script)
+            self.assertGreater(len(done.stdout.splitlines()), 2, script)
+        self.check_that_nothing_is_made()
+
+    def test_wrong_ones_are_refused(self):
+        for script in (*WITH_HELP, *OF_TESTS):
+            done = run(script, "--nonsense", cwd=self.temporary.name)
+            self.assertEqual(done.returncode, 2, f"{script}: {done.stdout}{done.stderr}")
+        for script, arguments in {"tests/run": ["--quick", "--full"], "tools/python/make_wheel": [],
+                                  "tools/install_packages": ["--tests", "--nonsense"]}.items():
+            self.assertEqual(run(script, *arguments, cwd=self.temporary.name).returncode, 2, script)
+        self.check_that_nothing_is_made()
+
+
+class Demo(unittest.TestCase):
+    """tools/demo in a checkout whose name has a blank, with stand-ins of what it calls."""
+
+    def setUp(self):
+        self.temporary = tempfile.TemporaryDirectory()
+        self.addCleanup(self.temporary.cleanup)
+        self.top = pathlib.Path(self.temporary.name) / "my ossa"
+        self.build, self.said = self.top / "build", self.top / "said"
+        (self.top / "tools/tracker/shipped").mkdir(parents=True)
+        (self.top / "tools/tracker/shipped/body.ossa").touch()
+        shutil.copy(TOP / "tools/demo", self.top / "tools/demo")
+        for program in ("tools/install_packages", "tools/fetch_body", "path/cmake", "build/bin/ossa"):
+            self.put(program)
+
+    def put(self, program):
+        file = self.top / program
+        file.parent.mkdir(parents=True, exist_ok=True)
+        file.write_text('#!/bin/sh\necho "${0##*/} $*" >>' + shlex.quote(str(self.said)) + "\n")
+        file.chmod(0o755)
+
+    def play(self):
+        done = subprocess.run([self.top / "tools/demo"], capture_output=True, text=True, cwd="/", timeout=30,
+                              env={**os.environ, "PATH": f"{self.top / 'path'}:{os.environ['PATH']}", "OSSA_BUILD_DIR": ""})
+        self.assertEqual(done.returncode, 0, done.stderr)
+        return done.stdout, self.said.read_text()
+
+    def test_says_at_its_end_a_command_that_can_be_pasted(self):
+        out, _ = self.play()
+        words = shlex.split(out.splitlines()[-1].split("browser: ")[1])
+        self.assertEqual(words, [str(self.build / "bin/ossa"), "view", str(self.top / "out/demo/clip.oni"), "--physics", "on"])
+
+    def test_configures_a_fresh_folder_for_ninja(self):
+        self.assertIn("cmake -G Ninja", self.play()[1])
+
+    def test_builds_a_folder_that_was_configured_for_make(self):
+        (self.build / "CMakeCache.txt").touch()
+        (self.build / "Makefile").touch()
+        said = self.play()[1]
+        self.assertNotIn(" -S ", said)
+        self.assertIn("cmake --build", said)
+
+    def test_leaves_the_generator_of_a_folder_whose_configuration_was_cut_off(self):
+        (self.build / "CMakeCache.txt").touch()
+        said = self.play()[1]
+        self.assertIn(" -S ", said)
+        self.assertNotIn("Ninja", said)
+
+
+if __name__ == "__main__":
+    unittest.main()
