@@ -15,7 +15,7 @@ namespace ossa::commands {
 int Crop(int argc, char** argv) {
   CLI::App app(
       "Cut the people of a data set out as the pose network reads them, as NumPy files for "
-      "tools/train_pose_network");
+      "tools/learning/train_pose_network.py");
   std::string dataset, out;
   int threads = 0;
   bool quiet = false;

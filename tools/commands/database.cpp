@@ -13,6 +13,7 @@
 #include "tools/commands/command.h"
 #include "tools/commands/commands.h"
 #include "tools/commands/mapping_option.h"
+#include "tools/commands/mocap_option.h"
 #include "tools/commands/outputs.h"
 #include "tools/commands/warnings.h"
 
@@ -44,7 +45,7 @@ int Database(int argc, char** argv) {
   recon::DatabaseOptions options;
   recon::MocapOptions mocap_options;
   bool quiet = false;
-  app.add_option("--mocap", mocap, "folders of BVH or AMC files, or the word authored")->required();
+  AddMocapOption(app, mocap);
   app.add_option("--out", out, "the .ossadb file to write")->required();
   app.add_option("--threshold", options.threshold_m,
                  "postures nearer than this to a kept one are dropped, metres")

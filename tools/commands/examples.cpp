@@ -69,7 +69,7 @@ constexpr CommandExamples kExamples[] = {
     {"refine",
      {{{"ossa refine more --model body.ossa --out body.ossarefine", "a first stage"},
        {"ossa refine m --model b.ossa --after one.ossarefine --out two.ossarefine", "a second"},
-       {"ossa refine more --model body.ossa --out body.ossarefine --epochs 20", "a quick one"}}}},
+       {"ossa refine more --model body.ossa --out body.ossarefine --epochs 4", "a quick one"}}}},
     {"crop",
      {{{"ossa crop data --out crops", "the people of a data set of ossa render"},
        {"ossa crop data --out crops --threads 1", "on one core"},

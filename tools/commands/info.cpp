@@ -307,9 +307,9 @@ int Info(int argc, char** argv) {
   SourceArguments file;
   AddSourceOptions(app, file);
   app.get_option("SOURCE")->description(
-      "a .ossa, .ossadb, .ossagp, .ossaprior, .ossarefine, .ossanet, .ossasurface, .ossamesh or "
-      "skeleton file, "
-      "FILE#truth, a DATASET, a folder of skeleton files, or depth images: .oni, .mkv, .bag, "
+      "a .ossa, .ossadb, .ossagp, .ossaprior, .ossarefine, .ossanet, .ossasurface, .ossamesh, "
+      ".ossaperson or skeleton file, FILE#truth, a DATASET, a folder of skeleton files, or depth "
+      "images: .oni, .mkv, .bag, "
       "FILE.bag#/topic, a 16-bit PNG or a folder of them. The options say how depth images are "
       "read");
   std::string picture;

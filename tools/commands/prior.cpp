@@ -15,6 +15,7 @@
 #include "tools/commands/command.h"
 #include "tools/commands/commands.h"
 #include "tools/commands/mapping_option.h"
+#include "tools/commands/mocap_option.h"
 #include "tools/commands/outputs.h"
 #include "tools/commands/warnings.h"
 #include "tools/learning/learn_prior_network.h"
@@ -22,13 +23,17 @@
 namespace ossa::commands {
 namespace {
 
+bool IsAuthored(const recon::MotionClip& motion) {
+  return motion.name.starts_with("authored/") || motion.name.starts_with("authored-floor/");
+}
+
 std::vector<recon::PriorClip> ToPriorClips(const std::vector<recon::MotionClip>& motions,
                                            double authored_weight) {
   std::vector<recon::PriorClip> clips;
   for (const recon::MotionClip& motion : motions) {
     recon::PriorClip& clip = clips.emplace_back();
     clip.frame_s = motion.frame_s;
-    clip.weight = motion.name.starts_with("authored/") ? authored_weight : 1.0;
+    clip.weight = IsAuthored(motion) ? authored_weight : 1.0;
     for (const recon::RigPose& pose : motion.frames) {
       clip.postures.push_back(recon::StandardPosture(pose));
     }
@@ -62,8 +67,7 @@ void AddNetworkOptions(CLI::App& app, tools::PriorNetworkOptions& network) {
 }
 
 void DeclareOptions(CLI::App& app, PriorArguments& a) {
-  app.add_option("--mocap", a.mocap, "folders of BVH or AMC files, or the word authored")
-      ->required();
+  AddMocapOption(app, a.mocap);
   app.add_option("--out", a.out, "the .ossaprior file to write")->required();
   app.add_option("--modes", a.options.modes, "independent ways of moving that are told apart")
       ->capture_default_str()

@@ -1,9 +1,11 @@
 #include <fmt/format.h>
 
+#include <array>
 #include <cstdio>
 #include <exception>
 #include <filesystem>
 #include <new>
+#include <span>
 #include <string>
 #include <string_view>
 #include <system_error>
@@ -42,6 +44,26 @@ std::string UnknownCommand(std::span<const Command> commands, std::string_view n
                      meant.empty() ? "" : fmt::format(": is '{}' meant?", meant));
 }
 
+// `arguments` as of main, the command's name first.
+int RunNamed(std::span<const Command> commands, std::span<char*> arguments) {
+  const std::string_view name = arguments.front();
+  for (const Command& command : commands) {
+    if (command.name == NameToday(name)) {
+      return command.run(static_cast<int>(arguments.size()), arguments.data());
+    }
+  }
+  Complain(UnknownCommand(commands, name), 2);
+  Say(HelpText(commands));
+  return 2;
+}
+
+// `ossa help NAME` is `ossa NAME --help`.
+int HelpOf(std::span<const Command> commands, char* name) {
+  std::string help = "--help";
+  std::array<char*, 3> arguments = {name, help.data(), nullptr};
+  return RunNamed(commands, std::span(arguments).first(2));
+}
+
 // For programs: `ossa NAME --describe` says the rest.
 int ListCommands(std::span<const Command> commands) {
   for (const Command& command : commands) {
@@ -55,7 +77,8 @@ int ListCommands(std::span<const Command> commands) {
 int RunCommandOf(std::span<const Command> commands, const std::string& version, int argc,
                  char** argv) try {
   const std::string_view name = argc > 1 ? argv[1] : "";
-  if (name == "--help" || name == "-h") {
+  if (name == "help" && argc > 2) return HelpOf(commands, argv[2]);
+  if (name == "--help" || name == "-h" || name == "help") {
     fmt::print("{}", HelpText(commands));
     return 0;
   }
@@ -63,11 +86,8 @@ int RunCommandOf(std::span<const Command> commands, const std::string& version, 
     fmt::print("ossa {}\n", version);
     return 0;
   }
-  for (const Command& command : commands) {
-    if (command.name == NameToday(name)) return command.run(argc - 1, argv + 1);
-  }
   if (name == "--describe") return ListCommands(commands);
-  if (!name.empty()) Complain(UnknownCommand(commands, name), 2);
+  if (argc > 1) return RunNamed(commands, std::span(argv, static_cast<size_t>(argc)).subspan(1));
   Say(HelpText(commands));
   return 2;
 } catch (const HelpShown&) {

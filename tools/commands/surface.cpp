@@ -12,6 +12,7 @@
 #include "tools/commands/command.h"
 #include "tools/commands/commands.h"
 #include "tools/commands/mapping_option.h"
+#include "tools/commands/mocap_option.h"
 #include "tools/commands/outputs.h"
 #include "tools/commands/warnings.h"
 #include "tools/learning/learn_body_surface.h"
@@ -32,8 +33,7 @@ struct SurfaceArguments {
 };
 
 void Declare(CLI::App& app, SurfaceArguments& a) {
-  app.add_option("--mocap", a.mocap, "folders of BVH or AMC files, or the word authored")
-      ->required();
+  AddMocapOption(app, a.mocap);
   app.add_option("--out", a.out, "the .ossasurface file to write")->required();
   app.add_option("--mesh", a.mesh, "the .ossamesh file to write: its skin as triangles, for .glb");
   app.add_option("--triangles", a.options.triangles, "of --mesh, about")

@@ -105,6 +105,15 @@ class Help(unittest.TestCase):
                 choices = options[word]["choices"]
                 self.assertTrue(not choices or value in choices, line)
 
+    def test_is_the_word_help_as_well(self):
+        self.assertEqual(run("help").stdout, run("--help").stdout)
+        for name in ("track", "render"):  # render is in ossa-tools
+            said = run("help", name)
+            self.assertEqual((said.returncode, said.stdout), (0, run(name, "--help").stdout))
+        said = run("help", "trak")
+        self.assertEqual(said.returncode, 2)
+        self.assertIn("unknown command 'trak': is 'track' meant?\n", said.stderr)
+
     def test_version_is_one_line(self):
         self.assertRegex(run("--version").stdout, r"^ossa \d+\.\d+\.\d+\n$")
 
@@ -236,7 +245,8 @@ class Completion(unittest.TestCase):
                               check=True).stdout.split()
 
     def test_in_bash(self):
-        self.assertEqual(set(self.in_bash("ossa", "")), {*commands(), "--help", "--version"})
+        self.assertEqual(set(self.in_bash("ossa", "")), {*commands(), "help", "--help", "--version"})
+        self.assertEqual(self.in_bash("ossa", "help", "tra"), ["track", "train"])
         self.assertEqual(self.in_bash("ossa", "track", "--meth"), ["--method"])
         self.assertEqual(self.in_bash("ossa", "track", "x", "--mode", "s"), ["standing", "seated"])
         self.assertEqual(self.in_bash("ossa", "track", "clip"), [])  # files, as readline knows them
@@ -248,6 +258,7 @@ class Completion(unittest.TestCase):
                                   capture_output=True, text=True, check=True, env={**os.environ, "HOME": "/nonexistent"})
             return [option.split("\t")[0] for option in said.stdout.splitlines()]
         self.assertEqual(complete("ossa tr"), ["track", "train"])
+        self.assertEqual(complete("ossa help tr"), ["track", "train"])
         self.assertEqual(complete("ossa track --mode s"), ["seated", "standing"])
         self.assertIn("--method", complete("ossa track --me"))
 
@@ -261,6 +272,7 @@ class Completion(unittest.TestCase):
         self.assertEqual(said.stderr, "")
         self.assertRegex(said.stdout, r"--mode\[.*\]:value:\(standing seated\)")
         self.assertIn("\ntrack:follow people", said.stdout)
+        self.assertIn("\nhelp:", said.stdout)
 
 
 class ManualPages(unittest.TestCase):

@@ -34,6 +34,23 @@ TEST(PriorCommand, LearnsAPriorOfTheModesAskedForThatInfoShows) {
   EXPECT_NE(info.out.find(", 8 units "), std::string::npos) << info.out;
 }
 
+// Frames on the floor counted as captured ones. Where all are authored, no weight tells them apart;
+// 0.5, a power of two, rounds nothing.
+TEST(PriorCommand, AnAuthoredWeightIsOfMotionOnTheFloorToo) {
+  const test::TemporaryFolder folder;
+  std::vector<std::string> bytes;
+  for (const char* weight : {"0.5", "1"}) {
+    const std::string out = folder / (std::string(weight) + ".ossaprior");
+    const auto run =
+        RunOssa({"prior", "--mocap", "authored", "--mocap", "authored-floor", "--modes", "12",
+                 "--hidden", "0", "--authored-weight", weight, "--quiet", "--out", out});
+    ASSERT_EQ(run.exit_status, 0) << run.err;
+    std::ifstream file(out, std::ios::binary);
+    bytes.emplace_back(std::istreambuf_iterator<char>(file), std::istreambuf_iterator<char>());
+  }
+  EXPECT_EQ(bytes.at(0), bytes.at(1));
+}
+
 // Thirty frames of somebody at rest, of whose left arm no more is seen after ten.
 std::string LosingAnArm() {
   std::string lines;
