@@ -171,6 +171,7 @@ def main():
         if not helps["commands"]:
             print(f"{arguments.ossa} --help names no commands")
             return 1
+        helps["commands"].add("help")
     for name in sorted(files):
         try:
             text = (TOP / name).read_text(encoding="utf-8")

@@ -8,6 +8,8 @@ import ossa
 
 libraries = pathlib.Path("/usr/lib/x86_64-linux-gnu")
 assert not [name for name in ("OpenNI2", "ode", "glog", "tbb", "png16") if [*libraries.glob(f"lib{name}*")]]
+licences = {file.name for file in pathlib.Path(ossa.__file__).parents[1].glob("ossa-*.dist-info/licenses/*")}
+assert {"LICENSE", "copyright", "libode8", "libopenni2-0"} <= licences, licences
 frames = list(ossa.Tracker(parts=True).run("/clip"))
 assert len(frames) == 24 and len(frames[-1].bodies) == 1
 sequence = ossa.Sequence.from_frames(frames)
