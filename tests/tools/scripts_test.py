@@ -48,6 +48,12 @@ class Arguments(unittest.TestCase):
             self.assertGreater(len(done.stdout.splitlines()), 2, script)
         self.check_that_nothing_is_made()
 
+    def test_a_folder_of_somebody_elses_files_is_no_root(self):
+        mine = pathlib.Path(self.temporary.name) / "mine.txt"
+        mine.touch()
+        self.assertEqual(run("tests/arm64/make_root", self.temporary.name).returncode, 2)
+        self.assertTrue(mine.exists())
+
     def test_wrong_ones_are_refused(self):
         for script in (*WITH_HELP, *OF_TESTS):
             done = run(script, "--nonsense", cwd=self.temporary.name)
@@ -128,6 +134,14 @@ class Demo(unittest.TestCase):
         out, _ = self.play()
         words = shlex.split(out.splitlines()[-1].split("browser: ")[1])
         self.assertEqual(words, [str(self.build / "bin/ossa"), "view", str(self.top / "out/demo/clip.oni"), "--physics", "on"])
+
+    def test_replaces_data_sets_of_an_earlier_run_and_nothing_else(self):
+        for name, file in (("images", "mine.txt"), ("clip", "manifest.json")):
+            (self.top / "out/demo" / name).mkdir(parents=True)
+            (self.top / "out/demo" / name / file).touch()
+        self.play()
+        self.assertTrue((self.top / "out/demo/images/mine.txt").exists())
+        self.assertFalse((self.top / "out/demo/clip").exists())
 
     def test_configures_a_fresh_folder_for_ninja(self):
         self.assertIn("cmake -G Ninja", self.play()[1])
