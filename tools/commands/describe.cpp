@@ -3,6 +3,7 @@
 #include <CLI/CLI.hpp>
 #include <nlohmann/json.hpp>
 #include <sstream>
+#include <string>
 #include <vector>
 
 #include "tools/commands/examples.h"
@@ -12,10 +13,18 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
+// Any number of values, and not so many as belong together.
+bool Repeats(const CLI::Option& option) {
+  return option.get_items_expected_max() > 1 &&
+         option.get_items_expected_max() > option.get_items_expected_min();
+}
+
 // "TEXT:{on,off}=on" is a type, what the value may be, and a default.
 std::string TypeOf(const CLI::Option& option) {
   const std::string name = option.get_type_name();
-  return name.substr(0, name.find(':'));
+  const int together = option.get_items_expected_min();
+  return name.substr(0, name.find(':')) +
+         (together > 1 && !Repeats(option) ? " x " + std::to_string(together) : "");
 }
 
 std::vector<std::string> ChoicesOf(const CLI::Option& option) {
@@ -26,6 +35,15 @@ std::vector<std::string> ChoicesOf(const CLI::Option& option) {
   std::istringstream listed(name.substr(begin + 1, end - begin - 1));
   for (std::string choice; std::getline(listed, choice, ',');) choices.push_back(choice);
   return choices;
+}
+
+// "[1 - 6]" of "INT:INT in [1 - 6]=3".
+std::string RangeOf(const CLI::Option& option) {
+  const std::string name = option.get_type_name();
+  const size_t in = name.find(" in [");
+  if (in == std::string::npos) return {};
+  const size_t begin = name.find('[', in);
+  return name.substr(begin, name.find(']', begin) + 1 - begin);
 }
 
 Json NamesOf(const CLI::Option& option) {
@@ -40,6 +58,10 @@ Json DescribeOption(const CLI::Option& option) {
   return {{"names", NamesOf(option)},
           {"value", is_flag ? "" : TypeOf(option)},
           {"choices", ChoicesOf(option)},
+          {"range", RangeOf(option)},
+          {"default", option.get_default_str()},
+          {"required", option.get_required()},
+          {"repeats", Repeats(option)},
           {"help", option.get_description()}};
 }
 
@@ -49,8 +71,10 @@ std::string Describe(const CLI::App& app, std::string_view command) {
   Json positionals = Json::array(), options = Json::array(), examples = Json::array();
   for (const CLI::Option* option : app.get_options()) {
     if (option->get_positional()) {
-      positionals.push_back(
-          {{"name", option->get_name(true)}, {"help", option->get_description()}});
+      positionals.push_back({{"name", option->get_name(true)},
+                             {"required", option->get_required()},
+                             {"repeats", Repeats(*option)},
+                             {"help", option->get_description()}});
     } else {
       options.push_back(DescribeOption(*option));
     }

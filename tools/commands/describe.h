@@ -9,8 +9,10 @@ class App;
 namespace ossa::commands {
 
 /// What a subcommand takes, as one line of JSON: {"command", "description", "positionals":
-/// [{"name", "help"}], "options": [{"names", "value" ("" of a flag), "choices", "help"}], "notes",
-/// "examples": [{"line", "purpose"}]}. Manual pages and the completion of shells are made of it
+/// [{"name", "required", "repeats", "help"}], "options": [{"names", "value" ("" of a flag),
+/// "choices", "range" ("[1 - 6]", or ""), "default" ("" where the help says it), "required",
+/// "repeats", "help"}], "notes", "examples": [{"line", "purpose"}]}. Manual pages and the
+/// completion of shells are made of it
 /// (`ossa COMMAND --describe`).
 std::string Describe(const CLI::App& app, std::string_view command);
 

@@ -249,6 +249,8 @@ class Completion(unittest.TestCase):
         self.assertEqual(self.in_bash("ossa", "help", "tra"), ["track", "train"])
         self.assertEqual(self.in_bash("ossa", "track", "--meth"), ["--method"])
         self.assertEqual(self.in_bash("ossa", "track", "x", "--mode", "s"), ["standing", "seated"])
+        self.assertEqual(self.in_bash("ossa", "track", "x", "--mode", "=", "s"), ["standing", "seated"])
+        self.assertEqual(self.in_bash("ossa", "track", "x", "--mode", "="), ["standing", "seated"])
         self.assertEqual(self.in_bash("ossa", "track", "clip"), [])  # files, as readline knows them
 
     @unittest.skipUnless(shutil.which("fish"), "fish is not installed")
@@ -285,6 +287,17 @@ class ManualPages(unittest.TestCase):
         page = gzip.decompress((MANUAL / "man" / "man1" / "ossa.1.gz").read_bytes()).decode()
         for word in (*commands(), "NO_COLOR", "config.toml"):
             self.assertIn(word, page)
+
+    def test_say_what_is_required_and_what_is_so_otherwise(self):
+        def text(name):
+            page = gzip.decompress((MANUAL / "man" / "man1" / f"ossa-{name}.1.gz").read_bytes()).decode()
+            return page.replace("\\-", "-").replace("\\fI", "").replace("\\fB", "").replace("\\fR", "")
+        self.assertIn("\nossa track SOURCE [MORE ...] [OPTIONS]\n", text("track"))
+        self.assertIn("WIDTHxHEIGHT in pixels (default 640x480)\n", text("render"))
+        self.assertIn("\n--weights FLOAT x 4\ncontrol, style, kinematics, continuity (Shum 2013 eq. 15)\n", text("reconstruct"))
+        self.assertIn("repeat for more (required; may be repeated)\n", text("prior"))
+        self.assertIn("the .ossadb file to write (required)\n", text("database"))
+        self.assertIn("trees of the forest ([1 - 16]; default 3)\n", text("train"))
 
     @unittest.skipUnless(shutil.which("man") and shutil.which("groff"), "man-db is not installed")
     def test_are_well_formed(self):
