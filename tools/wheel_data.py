@@ -91,7 +91,9 @@ class WheelData:
         return count
 
     def put_in_place(self, made, folder):
-        """The folder appears whole or not at all; another fetch may win the race."""
+        """The folder appears whole or not at all; another fetch may win the race, whose files somebody may read by now."""
+        if self.is_fetched(folder):
+            return
         if os.path.exists(folder):
             shutil.rmtree(folder, ignore_errors=True)
         try:

@@ -95,6 +95,17 @@ class FetchedFolder(unittest.TestCase):
         self.assertEqual(self.fetch(), 1)
         self.assertEqual(self.files(), ["body.obj", MARK])
 
+    def test_that_another_fetch_put_there_meanwhile_stays(self):
+        def place(member):
+            self.data.place = lambda member: None
+            self.folder.mkdir()
+            (self.folder / "theirs.obj").touch()
+            (self.folder / MARK).write_text(self.data.sha256 + "\n")
+            return pathlib.Path(member).name
+        self.data.place = place
+        self.fetch()
+        self.assertEqual(self.files(), [MARK, "theirs.obj"])
+
     def test_that_holds_somebody_elses_files_is_left_alone(self):
         self.folder.mkdir()
         (self.folder / "mine.txt").touch()
