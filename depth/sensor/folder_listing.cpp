@@ -125,20 +125,27 @@ ImageSize CommonSize(const std::vector<ListedFrame>& frames) {
       ->first;
 }
 
+void PutInOrderOfTime(std::vector<ListedFrame>& frames) {
+  std::stable_sort(frames.begin(), frames.end(),
+                   [](const auto& a, const auto& b) { return a.time_s < b.time_s; });
+  for (size_t i = 0; i < frames.size(); ++i) frames[i].number = static_cast<int64_t>(i);
+}
+
 std::vector<ListedFrame> FramesByName(const std::vector<fs::path>& paths) {
   std::vector<std::string> stems;
   for (const fs::path& path : paths) stems.push_back(path.stem().string());
   const NamedTimes times = ReadTimesFromNames(stems);
+  const bool are_times = times.kind == NamedTimes::Kind::kTimes;
   std::vector<ListedFrame> frames;
   for (size_t i = 0; i < paths.size(); ++i) {
     ListedFrame frame{paths[i], static_cast<int64_t>(i), 0.0};
     if (times.kind == NamedTimes::Kind::kNumbers) frame.number = times.numbers[i];
     const int64_t first = frames.empty() ? frame.number : frames.front().number;
-    frame.time_s = times.kind == NamedTimes::Kind::kTimes
-                       ? times.times_s[i]
-                       : static_cast<double>(frame.number - first) * kFramePeriod_s;
+    frame.time_s =
+        are_times ? times.times_s[i] : static_cast<double>(frame.number - first) * kFramePeriod_s;
     frames.push_back(std::move(frame));
   }
+  if (are_times) PutInOrderOfTime(frames);
   return frames;
 }
 

@@ -4,6 +4,7 @@
 #include <charconv>
 #include <cmath>
 #include <optional>
+#include <utility>
 
 #include "depth/base/statistics.h"
 
@@ -72,7 +73,18 @@ std::optional<std::vector<int64_t>> WholeNumbers(const std::vector<NumberedName>
   return values;
 }
 
-// Seconds and fraction, from the first frame on; subtracting first keeps the microseconds of a time
+// A fraction that begins with 0 is no count: of whole numbers of any length none does.
+bool AreDecimals(const std::vector<NumberedName>& names) {
+  const auto is_longer = [&](const NumberedName& name) {
+    return name.fraction.size() != names.front().fraction.size();
+  };
+  return std::none_of(names.begin(), names.end(), is_longer) ||
+         std::any_of(names.begin(), names.end(), [](const NumberedName& name) {
+           return name.fraction.size() > 1 && name.fraction.front() == '0';
+         });
+}
+
+// Seconds and fraction, from the earliest on; subtracting first keeps the microseconds of a time
 // since 1970.
 std::vector<double> Seconds(const std::vector<NumberedName>& names,
                             const std::vector<int64_t>& whole) {
@@ -83,13 +95,14 @@ std::vector<double> Seconds(const std::vector<NumberedName>& names,
     std::from_chars(text.data(), text.data() + text.size(), fraction);
     times_s.push_back(static_cast<double>(whole[i] - whole[0]) + fraction);
   }
-  const double first_s = times_s.empty() ? 0.0 : times_s.front();
+  const double first_s = times_s.empty() ? 0.0 : *std::min_element(times_s.begin(), times_s.end());
   for (double& time_s : times_s) time_s -= first_s;
   return times_s;
 }
 
-int64_t MedianStep(const std::vector<int64_t>& values) {
-  std::vector<int64_t> steps;
+template <typename T>
+T MedianStep(const std::vector<T>& values) {
+  std::vector<T> steps;
   for (size_t i = 1; i < values.size(); ++i) steps.push_back(values[i] - values[i - 1]);
   return Median(std::move(steps));
 }
@@ -113,7 +126,7 @@ std::optional<double> GuessTimeUnit(int64_t step, size_t digits) {
 NamedTimes ReadTimesFromNumbers(const std::vector<NumberedName>& names,
                                 const std::vector<int64_t>& values) {
   constexpr size_t kLongestCount = 8;  // digits: longer numbers are times or say nothing
-  const size_t digits = names.back().whole.size();
+  const size_t digits = WithoutLeadingZeros(names.back().whole).size();
   const bool alone = names.front().before.empty() && names.front().after.empty();
   NamedTimes times;
   const int64_t step = values.size() > 1 ? MedianStep(values) : 1;
@@ -127,6 +140,40 @@ NamedTimes ReadTimesFromNumbers(const std::vector<NumberedName>& names,
     times.numbers = values;
   }
   return times;
+}
+
+NamedTimes ReadTimesFromWholes(const std::vector<NumberedName>& names) {
+  const auto values = WholeNumbers(names);
+  if (!values) return {};
+  const bool twice = std::adjacent_find(values->begin(), values->end()) != values->end();
+  return twice ? NamedTimes{} : ReadTimesFromNumbers(names, *values);
+}
+
+// Of "take2.0033", where every name has the 2: the number after it. Else empty.
+std::vector<NumberedName> TakeFractionsForNumbers(std::vector<NumberedName> names) {
+  const std::string_view whole = names.front().whole;
+  for (NumberedName& name : names) {
+    if (name.whole != whole) return {};
+    name.before = {name.before.data(), name.before.size() + name.whole.size() + 1};
+    name.whole = std::exchange(name.fraction, {});
+  }
+  return names;
+}
+
+NamedTimes ReadTimesFromFractions(const std::vector<NumberedName>& names) {
+  constexpr double kLeastStep_s = 0.004;  // of a camera of 200 frames a second, and some
+  const auto counts = TakeFractionsForNumbers(names);
+  const NamedTimes count = counts.empty() ? NamedTimes{} : ReadTimesFromWholes(counts);
+  const bool has_words = !names.front().before.empty();
+  if (has_words && count.kind == NamedTimes::Kind::kNumbers) return count;
+  const auto whole = WholeNumbers(names);
+  if (!whole) return {};
+  NamedTimes times{NamedTimes::Kind::kTimes, {}, Seconds(names, *whole)};
+  std::vector<double> ordered = times.times_s;
+  std::sort(ordered.begin(), ordered.end());
+  if (!AreDecimals(names) && ordered != times.times_s) return {};
+  const bool is_cameras = ordered.size() < 2 || MedianStep(ordered) >= kLeastStep_s;
+  return is_cameras ? times : count;
 }
 
 }  // namespace
@@ -167,15 +214,8 @@ std::string StripNumbers(std::string_view stem) {
 NamedTimes ReadTimesFromNames(const std::vector<std::string>& stems) {
   const std::vector<NumberedName> names = FindLastNumbers(stems);
   if (names.empty()) return {};
-  const auto whole = WholeNumbers(names);
-  if (!whole) return {};
-  if (!names.front().fraction.empty()) {
-    NamedTimes times{NamedTimes::Kind::kTimes, {}, Seconds(names, *whole)};
-    const bool ordered = std::is_sorted(times.times_s.begin(), times.times_s.end());
-    return ordered ? times : NamedTimes{};
-  }
-  const bool twice = std::adjacent_find(whole->begin(), whole->end()) != whole->end();
-  return twice ? NamedTimes{} : ReadTimesFromNumbers(names, *whole);
+  return names.front().fraction.empty() ? ReadTimesFromWholes(names)
+                                        : ReadTimesFromFractions(names);
 }
 
 }  // namespace ossa::depth

@@ -18,12 +18,14 @@ struct NamedTimes {
   enum class Kind { kPlaces, kNumbers, kTimes };
   Kind kind = Kind::kPlaces;
   std::vector<int64_t> numbers;  // kNumbers: of the frames; one that is missing was dropped
-  std::vector<double> times_s;   // kTimes: not decreasing
+  std::vector<double> times_s;   // kTimes: of each name, from the earliest on
 };
 
-/// Names in natural order. Numbers with a fraction are seconds; whole ones are frame numbers where
-/// they count in small steps, and else milliseconds, microseconds or nanoseconds where that makes a
-/// frame rate that cameras have; what is neither says no more than the order.
+/// Names in natural order, which is not that of seconds whose last zeros are left out (0.1 comes
+/// before 0.033). Numbers with a fraction are seconds, but for a word with a number and a count
+/// after it (take2.0033); whole ones are frame numbers where they count in small steps, and else
+/// milliseconds, microseconds or nanoseconds where that makes a frame rate that cameras have; what
+/// is neither says no more than the order.
 NamedTimes ReadTimesFromNames(const std::vector<std::string>& stems);
 
 }  // namespace ossa::depth

@@ -115,6 +115,21 @@ TEST(FolderSource, TimesInNamesAreTimes) {
   EXPECT_NEAR(times_s[2], 2.1, 1e-6);
 }
 
+// As many a program prints a number.
+TEST(FolderSource, TimesWithoutTheirLastZerosAreInOrder) {
+  const TemporaryFolder folder;
+  for (const char* name : {"7.0.png", "7.033.png", "7.067.png", "7.1.png"}) {
+    WriteFrame(folder / name, 1);
+  }
+  const auto source = OpenSource(folder.path().string());
+  for (int i = 0; i < 4; ++i) {
+    const ReadResult next = Next(*source);
+    EXPECT_NEAR(next.frame.time_s, i / 30.0, 1e-3);
+    EXPECT_EQ(next.frame.index, i);
+    EXPECT_EQ(next.dropped, 0);
+  }
+}
+
 TEST(FolderSource, DepthTxtSaysWhatIsWhen) {
   const TemporaryFolder folder;
   std::filesystem::create_directory(folder / "depth");

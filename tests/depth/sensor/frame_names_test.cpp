@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+
 namespace ossa::depth {
 namespace {
 
@@ -40,6 +42,7 @@ TEST_P(NamesOfFrames, SayWhatTheyCan) {
   EXPECT_EQ(times.kind, GetParam().kind);
   if (times.kind == Kind::kTimes) {
     EXPECT_NEAR(times.times_s.back(), GetParam().last_s, 1e-6);
+    EXPECT_EQ(*std::min_element(times.times_s.begin(), times.times_s.end()), 0.0);
   }
 }
 
@@ -66,6 +69,19 @@ INSTANTIATE_TEST_SUITE_P(
              {"1305031102175304000", "1305031102275304000"},
              Kind::kTimes,
              0.1},
+        Case{"seconds without the last zeros",
+             {"0.0", "0.1", "0.033", "0.067"},
+             Kind::kTimes,
+             0.067},
+        Case{"frame numbers of ten digits", {"0000000001", "0000000002"}, Kind::kNumbers, 0},
+        Case{"frame numbers of a version",
+             {"depth_v01.0001", "depth_v01.0002", "depth_v01.0003", "depth_v01.0005"},
+             Kind::kNumbers,
+             0},
+        Case{"frame numbers of a second camera", {"cam2.01", "cam2.02"}, Kind::kNumbers, 0},
+        Case{"frame numbers of a camera without a word", {"1.0001", "1.0002"}, Kind::kNumbers, 0},
+        Case{"a shot and a frame", {"1.0001", "1.0002", "1.0003", "2.0001"}, Kind::kPlaces, 0},
+        Case{"a version that counts on", {"take1.9", "take1.10", "take2.1"}, Kind::kPlaces, 0},
         Case{"frame numbers", {"000003", "000004", "000007"}, Kind::kNumbers, 0},
         Case{"every third frame", {"0003", "0006", "0009"}, Kind::kNumbers, 0},
         Case{"one in 3 s, in milliseconds", {"003000", "006000", "009000"}, Kind::kPlaces, 0},
