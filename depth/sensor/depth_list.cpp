@@ -6,9 +6,12 @@
 #include <fstream>
 #include <iterator>
 #include <optional>
+#include <utility>
 
 #include "depth/base/error.h"
 #include "depth/base/open_file.h"
+#include "depth/base/statistics.h"
+#include "depth/sensor/frame_names.h"
 
 namespace ossa::depth {
 namespace {
@@ -33,6 +36,17 @@ std::optional<DepthList::Entry> ParseEntry(std::string_view line) {
   return DepthList::Entry{time_s, std::string(file), 0};
 }
 
+// From the first entry on, in seconds whatever they were written in.
+void CountSeconds(DepthList& list) {
+  std::vector<double> steps;
+  for (size_t i = 1; i < list.entries.size(); ++i) {
+    steps.push_back(list.entries[i].time_s - list.entries[i - 1].time_s);
+  }
+  if (!steps.empty()) list.unit_s = GuessTimeUnit(Median(std::move(steps))).value_or(1.0);
+  const double first = list.entries.empty() ? 0.0 : list.entries.front().time_s;
+  for (DepthList::Entry& entry : list.entries) entry.time_s = (entry.time_s - first) * list.unit_s;
+}
+
 }  // namespace
 
 DepthList ParseDepthList(std::string_view text) {
@@ -50,8 +64,7 @@ DepthList ParseDepthList(std::string_view text) {
   }
   std::stable_sort(list.entries.begin(), list.entries.end(),
                    [](const auto& a, const auto& b) { return a.time_s < b.time_s; });
-  const double first_s = list.entries.empty() ? 0.0 : list.entries.front().time_s;
-  for (DepthList::Entry& entry : list.entries) entry.time_s -= first_s;
+  CountSeconds(list);
   return list;
 }
 

@@ -7,7 +7,7 @@
 namespace ossa::depth {
 
 /// depth.txt as the data sets of TU München have it: a line a frame, seconds and file; `#` begins a
-/// comment.
+/// comment. Times in steps that no camera's seconds have are milli-, micro- or nanoseconds.
 struct DepthList {
   struct Entry {
     double time_s = 0.0;  // from the first entry on
@@ -15,6 +15,7 @@ struct DepthList {
     int line = 0;         // from 1
   };
   std::vector<Entry> entries;  // in order of time
+  double unit_s = 1.0;         // of the times as they stand in it
   std::vector<int> bad_lines;  // that are none of these, from 1
 };
 

@@ -155,6 +155,7 @@ struct FrameList {
   std::vector<ListedFrame> frames;
   std::string first;  // line and name of the first of them
   std::vector<int> bad_lines;
+  double unit_s = 1.0;  // of its times
 
   bool NamesAFile() const {
     std::error_code none;
@@ -166,7 +167,7 @@ struct FrameList {
 // The list in `place`, of images anywhere or only of those in the folder `only`.
 FrameList ReadFrameList(const fs::path& place, const std::optional<fs::path>& only) {
   DepthList list = ReadDepthList(place);
-  FrameList found{place / "depth.txt", {}, {}, std::move(list.bad_lines)};
+  FrameList found{place / "depth.txt", {}, {}, std::move(list.bad_lines), list.unit_s};
   for (const DepthList::Entry& entry : list.entries) {
     const fs::path path = (place / entry.file).lexically_normal();
     if (only && path.parent_path() != *only) continue;
@@ -188,6 +189,17 @@ void NoteBadLines(const FrameList& list, const SourceOptions& options) {
                                        std::to_string(list.bad_lines.size()));
 }
 
+void NoteUnit(const FrameList& list, const SourceOptions& options) {
+  if (list.unit_s == 1.0 || !options.note) return;
+  const char* unit = list.unit_s == 1e-3   ? "milliseconds"
+                     : list.unit_s == 1e-6 ? "microseconds"
+                                           : "nanoseconds";
+  options.note(NoteKind::kInfo, list.file.string() +
+                                    ": its times, in steps that no camera's seconds have, are "
+                                    "taken for " +
+                                    unit + ": --fps says otherwise");
+}
+
 // As depth.txt beside the images or, as TUM's data sets have it, above their folder lists them. One
 // that names no file that is there is another program's, where the folder has images.
 std::vector<ListedFrame> FramesByList(const fs::path& folder, bool has_images,
@@ -200,6 +212,7 @@ std::vector<ListedFrame> FramesByList(const fs::path& folder, bool has_images,
     if (list.frames.empty()) continue;
     if (list.NamesAFile()) {
       NoteBadLines(list, options);
+      NoteUnit(list, options);
       return std::move(list.frames);
     }
     const std::string what =

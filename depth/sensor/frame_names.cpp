@@ -107,20 +107,17 @@ T MedianStep(const std::vector<T>& values) {
   return Median(std::move(steps));
 }
 
-// Below this numbers rather count frames than milliseconds.
+// Below this numbers rather count frames than milliseconds, or are seconds.
 constexpr int64_t kLeastTimeStep = 15;
 
-// Seconds a unit of whole numbers that are times, or nothing. Cameras give 0.5 to 200 frames a
-// second.
-std::optional<double> GuessTimeUnit(int64_t step, size_t digits) {
+// Seconds a unit of whole numbers that are times, or nothing.
+std::optional<double> GuessUnitOfNumbers(int64_t step, size_t digits) {
   constexpr size_t kSecondsSince1970 = 10, kNanosecondsSince1970 = 18;
   if (step < kLeastTimeStep) {
     return digits == kSecondsSince1970 ? std::optional(1.0) : std::nullopt;
   }
-  if (step <= 2000) return 1e-3;
-  if (step >= 5000 && step <= 2'000'000) return 1e-6;
-  const bool nanoseconds = step >= 5'000'000 && step <= 2'000'000'000;
-  return nanoseconds && digits >= kNanosecondsSince1970 ? std::optional(1e-9) : std::nullopt;
+  const auto unit_s = GuessTimeUnit(static_cast<double>(step));
+  return unit_s == 1e-9 && digits < kNanosecondsSince1970 ? std::nullopt : unit_s;
 }
 
 NamedTimes ReadTimesFromNumbers(const std::vector<NumberedName>& names,
@@ -130,7 +127,7 @@ NamedTimes ReadTimesFromNumbers(const std::vector<NumberedName>& names,
   const bool alone = names.front().before.empty() && names.front().after.empty();
   NamedTimes times;
   const int64_t step = values.size() > 1 ? MedianStep(values) : 1;
-  if (const auto unit_s = GuessTimeUnit(step, digits)) {
+  if (const auto unit_s = GuessUnitOfNumbers(step, digits)) {
     times.kind = NamedTimes::Kind::kTimes;
     for (const int64_t value : values) {
       times.times_s.push_back(static_cast<double>(value - values.front()) * *unit_s);
@@ -197,6 +194,13 @@ bool NaturalLess(std::string_view a, std::string_view b) {
   }
   const size_t left_a = a.size() - i, left_b = b.size() - k;
   return left_a != left_b ? left_a < left_b : a < b;  // 1 and 01: any order, but always the same
+}
+
+std::optional<double> GuessTimeUnit(double step) {
+  if (step < kLeastTimeStep) return std::nullopt;
+  if (step <= 2000) return 1e-3;
+  if (step >= 5000 && step <= 2e6) return 1e-6;
+  return step >= 5e6 && step <= 2e9 ? std::optional(1e-9) : std::nullopt;
 }
 
 std::string StripNumbers(std::string_view stem) {

@@ -1,5 +1,6 @@
 #pragma once
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -12,6 +13,10 @@ bool NaturalLess(std::string_view a, std::string_view b);
 /// What the names of one kind of file share: small letters, with every number left out ("depth_",
 /// "frame-.depth", "").
 std::string StripNumbers(std::string_view stem);
+
+/// Seconds a unit of times that mostly go up by `step`: a thousandth, a millionth or a billionth,
+/// where that makes one of the 0.5 to 200 frames a second that cameras give; else nothing.
+std::optional<double> GuessTimeUnit(double step);
 
 /// When the frames of a sequence were taken, by their files' names without extension.
 struct NamedTimes {

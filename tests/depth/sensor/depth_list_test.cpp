@@ -16,6 +16,21 @@ TEST(DepthList, IsSecondsAndFilesInOrderOfTime) {
   EXPECT_TRUE(list.bad_lines.empty());
 }
 
+TEST(DepthList, TimesInOtherUnitsAreSeconds) {
+  const std::vector<std::pair<const char*, double>> lists = {
+      {"10.5 a\n10.6 b\n12.5 c", 1.0},
+      {"7 a\n8 b\n9 c", 1.0},  // a frame a second
+      {"1305031102175 a\n1305031102275 b\n1305031104175 c", 1e-3},
+      {"0 a\n33.333 b\n2000 c", 1e-3},
+      {"1305031102175304 a\n1305031102275304 b\n1305031102375304 d\n1305031104175304 c", 1e-6},
+      {"1305031102175304000 a\n1305031102208637000 b\n1305031104175304000 c", 1e-9}};
+  for (const auto& [text, unit_s] : lists) {
+    const DepthList list = ParseDepthList(text);
+    EXPECT_EQ(list.unit_s, unit_s) << text;
+    EXPECT_NEAR(list.entries.back().time_s, 2.0, 1e-6) << text;
+  }
+}
+
 TEST(DepthList, LinesThatAreNoneAreNumbered) {
   const DepthList list = ParseDepthList("1 a.png\nhello\nnan b.png\n2x c.png\n3 d.png");
   EXPECT_EQ(list.entries.size(), 2u);
