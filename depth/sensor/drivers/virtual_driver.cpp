@@ -62,6 +62,7 @@ class VirtualCamera {
         if (!options_.loop || restarted) return std::nullopt;
         restarted = true;
         source_ = OpenSource(options_.path);
+        first_time_s_.reset();
         loop_began_ = next_due_;
       } catch (const InputError&) {
         ++index_;
@@ -93,7 +94,8 @@ class VirtualCamera {
   Frame Timed(DepthFrame image) {
     failed_ = false;
     const double period_s = 1.0 / options_.fps.value_or(30.0);
-    const Seconds at{options_.fps ? index_ * period_s : image.time_s};
+    if (!first_time_s_) first_time_s_ = image.time_s;
+    const Seconds at{options_.fps ? index_ * period_s : image.time_s - *first_time_s_};
     const Seconds due = options_.fps ? at : loop_began_ + at;
     next_due_ = due + Seconds(period_s);
     return {std::move(image), index_++, due / options_.speed};
@@ -106,6 +108,8 @@ class VirtualCamera {
   std::optional<Clock::time_point> began_;
   int index_ = 0;
   bool failed_ = false;
+  // Of what is played: a ROS bag's may be half a century.
+  std::optional<double> first_time_s_;
   Seconds loop_began_{0};
   Seconds next_due_{0};
 };

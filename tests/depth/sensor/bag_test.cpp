@@ -120,6 +120,18 @@ TEST(Bag, FramesComeInTheOrderOfTheirStamps) {
   for (size_t i = 0; i < frames.size(); ++i) EXPECT_EQ(frames[i].depth_mm[0], 1001 + i);
 }
 
+// Its stamps count from 1970 on.
+TEST(Bag, AsALiveCameraBeginsAtOnce) {
+  const test::TemporaryFolder folder;
+  WriteBagOfStamps(folder / "x.bag", {1'305'031'102, 1'305'031'103});
+  const auto source = OpenSource("openni:ossa://" + (folder / "x.bag").string());
+  ReadResult read;
+  for (int i = 0; i < 100 && read.status != ReadStatus::kFrame; ++i) {
+    read = source->Read(std::chrono::milliseconds(100));
+  }
+  EXPECT_EQ(read.status, ReadStatus::kFrame);
+}
+
 TEST(Bag, AFrameThatComesFarTooLateIsDroppedAndToldOf) {
   const test::TemporaryFolder folder;
   std::vector<uint32_t> stamps;
