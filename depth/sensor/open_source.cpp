@@ -22,11 +22,14 @@ std::string ShortText(double value) {
   return text.str();
 }
 
-std::string LowerCaseExtension(const std::filesystem::path& path) {
-  std::string extension = path.extension().string();
-  std::transform(extension.begin(), extension.end(), extension.begin(),
+std::string LowerCase(std::string text) {
+  std::transform(text.begin(), text.end(), text.begin(),
                  [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-  return extension;
+  return text;
+}
+
+std::string LowerCaseExtension(const std::filesystem::path& path) {
+  return LowerCase(path.extension().string());
 }
 
 // NAME.oni, and what a recorder of it that was killed left: NAME.oni.partial-...
@@ -41,7 +44,7 @@ struct BagName {
   std::filesystem::path file;
   std::string topic;
   explicit BagName(const std::string& source) : file(source) {
-    const size_t mark = source.rfind(".bag#");
+    const size_t mark = LowerCase(source).rfind(".bag#");
     if (mark == std::string::npos) return;
     file = source.substr(0, mark + 4);
     topic = source.substr(mark + 5);

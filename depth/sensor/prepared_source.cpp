@@ -1,4 +1,5 @@
 #include <deque>
+#include <exception>
 #include <string>
 #include <utility>
 
@@ -21,16 +22,13 @@ class PreparedSource final : public FrameSource {
     if (!coding.IsMillimetres()) table_ = MillimetreTable(coding);
   }
 
-  // Looks at the first frames that show anything. Constants: by hand, 0.1 s and 1 s at 30 Hz.
   void RefuseOtherUnits() {
-    constexpr size_t kEnoughFrames = 3, kMostFrames = 30;
     DepthCensus census;
-    while (ahead_.size() < kMostFrames && (ahead_.size() < kEnoughFrames || !census.IsEnough())) {
-      ReadResult read = source_->Read(std::chrono::milliseconds(100));
-      if (read.status == ReadStatus::kFrame) census.Add(read.frame.view());
-      const bool ended = read.status == ReadStatus::kEnd;
-      if (read.status == ReadStatus::kFrame || ended) ahead_.push_back(std::move(read));
-      if (ended) break;
+    try {
+      LookAhead(census);
+    } catch (const InputError&) {
+      if (ahead_.empty()) throw;
+      damage_ = std::current_exception();
     }
     const auto suspicion = census.Judge();
     if (!suspicion) return;
@@ -57,7 +55,20 @@ class PreparedSource final : public FrameSource {
   std::optional<int64_t> frame_count() const override { return source_->frame_count(); }
 
  private:
+  // At the first frames that show anything. Constants: by hand, 0.1 s and 1 s at 30 Hz.
+  void LookAhead(DepthCensus& census) {
+    constexpr size_t kEnoughFrames = 3, kMostFrames = 30;
+    while (ahead_.size() < kMostFrames && (ahead_.size() < kEnoughFrames || !census.IsEnough())) {
+      ReadResult read = source_->Read(std::chrono::milliseconds(100));
+      if (read.status == ReadStatus::kFrame) census.Add(read.frame.view());
+      const bool ended = read.status == ReadStatus::kEnd;
+      if (read.status == ReadStatus::kFrame || ended) ahead_.push_back(std::move(read));
+      if (ended) break;
+    }
+  }
+
   ReadResult Next(std::chrono::milliseconds timeout) {
+    if (ahead_.empty() && damage_) std::rethrow_exception(std::exchange(damage_, nullptr));
     if (ahead_.empty()) return source_->Read(timeout);
     ReadResult read = std::move(ahead_.front());
     ahead_.pop_front();
@@ -69,6 +80,7 @@ class PreparedSource final : public FrameSource {
   std::optional<double> fps_;
   std::vector<uint16_t> table_;  // millimetres of each number; empty: they are millimetres
   std::deque<ReadResult> ahead_;
+  std::exception_ptr damage_;  // that comes after them
   std::optional<int64_t> first_index_;
 };
 

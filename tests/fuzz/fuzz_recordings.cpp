@@ -75,7 +75,7 @@ extern "C" int LLVMFuzzerTestOneInput(const uint8_t* data, size_t size) {
   CheckNames(LinesOf(text));
   ossa::fuzz::ExpectValueOrOneLine([&] { UndistortionMap(ReadK4aCalibration(text, 320, 288)); });
   ossa::fuzz::ExpectValueOrOneLine([&] { DecodeDepths(ParseRosImage(bytes), 0.001); });
-  ossa::fuzz::ExpectValueOrOneLine([&] { CameraOf(ParseRosCameraInfo(bytes), 640, 480); });
+  ossa::fuzz::ExpectValueOrOneLine([&] { CameraOf(ParseRosCameraInfo(bytes), true, 640, 480); });
   ossa::fuzz::ExpectValueOrOneLine([&] { ParseRosFloat(bytes); });
   std::istringstream file(text);
   CheckForCut(file);

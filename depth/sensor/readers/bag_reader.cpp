@@ -75,7 +75,8 @@ ReaderHello MakeHello(const rosbag::Bag& bag, const BagChoice& choice, const Ros
   CheckCamera(hello.camera, choice.image);
   const Bytes bytes = ReadFirst(bag, choice.camera_info);
   const RosCameraInfo info = bytes.empty() ? RosCameraInfo{} : ParseRosCameraInfo(bytes);
-  const auto camera = CameraOf(info, hello.camera.width, hello.camera.height);
+  const auto camera =
+      CameraOf(info, IsRectified(choice.image), hello.camera.width, hello.camera.height);
   hello.is_camera_stated = camera.has_value();
   if (camera) {
     hello.camera = *camera;
@@ -91,6 +92,20 @@ ReaderHello MakeHello(const rosbag::Bag& bag, const BagChoice& choice, const Ros
 // A frame that is to be given, and the number of those left out before it.
 void Give(const ReaderHello& hello, TimedDepth frame, int64_t dropped) {
   SendFrame({hello.camera.width, hello.camera.height, frame.time_s, dropped}, frame.depth);
+}
+
+void AddFrames(rosbag::View& view, const BagChoice& choice, const RosImage& first, double unit_m,
+               StampOrder& order) {
+  for (const rosbag::MessageInstance& message : view) {
+    const Bytes bytes = ReadBytes(message);
+    const RosImage image = ParseRosImage(bytes);
+    if (image.width != first.width || image.height != first.height ||
+        image.encoding != first.encoding) {
+      throw InputError(choice.image + ": expected images that are all alike");
+    }
+    const double time_s = image.time_s > 0 ? image.time_s : message.getTime().toSec();
+    order.Add({time_s, DecodeDepths(image, unit_m)});
+  }
 }
 
 void Read(const std::string& path, const std::string& asked) {
@@ -109,15 +124,11 @@ void Read(const std::string& path, const std::string& asked) {
   SendHello(hello);
   StampOrder order(
       [&](TimedDepth frame, int64_t dropped) { Give(hello, std::move(frame), dropped); });
-  for (const rosbag::MessageInstance& message : view) {
-    const Bytes bytes = ReadBytes(message);
-    const RosImage image = ParseRosImage(bytes);
-    if (image.width != first.width || image.height != first.height ||
-        image.encoding != first.encoding) {
-      throw InputError(choice.image + ": expected images that are all alike");
-    }
-    const double time_s = image.time_s > 0 ? image.time_s : message.getTime().toSec();
-    order.Add({time_s, DecodeDepths(image, unit_m)});
+  try {
+    AddFrames(view, choice, first, unit_m, order);
+  } catch (...) {
+    order.Finish();  // what is wrong comes after the frames that are right
+    throw;
   }
   order.Finish();
   if (order.late() > 0) {

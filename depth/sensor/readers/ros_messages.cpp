@@ -73,6 +73,17 @@ std::vector<Sample> DecodeSamples(const RosImage& image) {
   return samples;
 }
 
+// Whether images of this size are of the part of the whole that the sensor gives.
+bool ShowsRegion(const RosCameraInfo& info, int width, int height) {
+  const RosCameraInfo::Region& region = info.region;
+  const bool is_part = region.width > 0 && region.height > 0 && region.width <= info.width &&
+                       region.height <= info.height && region.left <= info.width - region.width &&
+                       region.top <= info.height - region.height;
+  const bool is_whole =
+      info.width == static_cast<uint32_t>(width) && info.height == static_cast<uint32_t>(height);
+  return is_part && !is_whole && int64_t{region.width} * height == int64_t{region.height} * width;
+}
+
 uint16_t Millimetres(double metres) {
   constexpr double kMillimetresPerMetre = 1000.0;
   const double mm = std::round(metres * kMillimetresPerMetre);
@@ -103,20 +114,43 @@ RosCameraInfo ParseRosCameraInfo(std::span<const uint8_t> bytes) {
   message.Text();                 // distortion model
   message.Array(sizeof(double));  // D
   info.k = message.Value<std::array<double, 9>>();
+  message.Value<std::array<double, 9>>();  // R
+  info.p = message.Value<std::array<double, 12>>();
+  message.Value<std::array<uint32_t, 2>>();  // binning: the image's size says it
+  info.region.left = message.Value<uint32_t>();
+  info.region.top = message.Value<uint32_t>();
+  info.region.height = message.Value<uint32_t>();
+  info.region.width = message.Value<uint32_t>();
   return info;
 }
 
-std::optional<Camera> CameraOf(const RosCameraInfo& info, int width, int height) {
-  if (info.k[0] == 0) return std::nullopt;
-  const Camera camera{width, height, info.k[0], info.k[4], info.k[2], info.k[5]};
-  if (info.width == 0 || info.height == 0) return camera;
-  const bool same_shape = int64_t{info.width} * height == int64_t{info.height} * width;
-  if (!same_shape || info.width > kLargestImageSide || info.height > kLargestImageSide) {
-    return std::nullopt;
+bool IsRectified(std::string_view topic) {
+  topic.remove_prefix(topic.rfind('/') + 1);
+  for (size_t begin = 0; begin < topic.size();) {
+    const size_t end = std::min(topic.find('_', begin), topic.size());
+    if (topic.substr(begin, end - begin) == "rect") return true;
+    begin = end + 1;
   }
-  Camera own = camera;
+  return false;
+}
+
+std::optional<Camera> CameraOf(const RosCameraInfo& info, bool is_rectified, int width,
+                               int height) {
+  Camera own{width, height, info.k[0], info.k[4], info.k[2], info.k[5]};
+  if (is_rectified && info.p[0] != 0) {
+    own = {width, height, info.p[0], info.p[5], info.p[2], info.p[6]};
+  }
+  if (own.fx == 0) return std::nullopt;
+  if (info.width == 0 || info.height == 0) return own;
+  if (std::max(info.width, info.height) > kLargestImageSide) return std::nullopt;
   own.width = static_cast<int>(info.width);
   own.height = static_cast<int>(info.height);
+  if (ShowsRegion(info, width, height)) {
+    const RosCameraInfo::Region& region = info.region;
+    own = Cropped(own, static_cast<int>(region.left), static_cast<int>(region.top),
+                  static_cast<int>(region.width), static_cast<int>(region.height));
+  }
+  if (own.width * height != own.height * width) return std::nullopt;
   return Resized(own, width, height);
 }
 

@@ -4,6 +4,7 @@
 #include <optional>
 #include <span>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "depth/image/camera.h"
@@ -26,14 +27,22 @@ RosImage ParseRosImage(std::span<const uint8_t> message);
 
 /// sensor_msgs/CameraInfo.
 struct RosCameraInfo {
-  uint32_t height = 0, width = 0;  // of the images that k is of, pixels; 0: not said
+  uint32_t height = 0, width = 0;  // of the whole images that k and p are of, pixels; 0: not said
   std::array<double, 9> k{};       // fx 0 cx 0 fy cy 0 0 1, pixels; all 0: not calibrated
+  std::array<double, 12> p{};      // fx 0 cx 0 0 fy cy 0 0 0 1 0 of rectified images; 0: none
+  struct Region {
+    uint32_t left = 0, top = 0, height = 0, width = 0;
+  };
+  Region region;  // of the whole that the sensor gives, pixels of the whole; 0 x 0: all of it
 };
 RosCameraInfo ParseRosCameraInfo(std::span<const uint8_t> message);
 
-/// The camera of width × height pixels that it states, scaled where its own size is another of the
-/// same shape; nothing where it is not calibrated, or of images of another shape.
-std::optional<Camera> CameraOf(const RosCameraInfo& info, int width, int height);
+/// Whether a topic has images whose lens is undone, as image_rect: p is of them, and k of others.
+bool IsRectified(std::string_view topic);
+
+/// The camera of width × height pixels that it states, scaled where its own size, or its region's,
+/// is another of the same shape; nothing where it is not calibrated, or of images of another shape.
+std::optional<Camera> CameraOf(const RosCameraInfo& info, bool is_rectified, int width, int height);
 
 /// std_msgs/Float32.
 float ParseRosFloat(std::span<const uint8_t> message);

@@ -120,6 +120,23 @@ TEST(Bag, FramesComeInTheOrderOfTheirStamps) {
   for (size_t i = 0; i < frames.size(); ++i) EXPECT_EQ(frames[i].depth_mm[0], 1001 + i);
 }
 
+TEST(Bag, WhatStandsBeforeADamagedFrameIsGiven) {
+  const test::TemporaryFolder folder;
+  rosbag::Bag bag;
+  bag.open(folder / "x.bag", rosbag::bagmode::Write);
+  for (uint32_t i = 0; i < 12; ++i) Write(bag, "/depth", 1000 + i, ImageOf(1000 + i, 1000));
+  RawMessage cut = ImageOf(1012, 1000);
+  cut.bytes.resize(cut.bytes.size() - 1);
+  Write(bag, "/depth", 1012, cut);
+  bag.close();
+  const auto source = OpenSource(folder / "x.bag");
+  for (int i = 0; i < 12; ++i) {
+    ASSERT_EQ(source->Read(std::chrono::seconds(10)).status, ReadStatus::kFrame) << i;
+  }
+  test::ExpectRefused([&] { source->Read(std::chrono::seconds(10)); }, "after frame 11");
+  EXPECT_EQ(source->Read(std::chrono::seconds(10)).status, ReadStatus::kEnd);
+}
+
 // Its stamps count from 1970 on.
 TEST(Bag, AsALiveCameraBeginsAtOnce) {
   const test::TemporaryFolder folder;
@@ -172,6 +189,10 @@ TEST(Bag, ItsTopicsAreChosenAfterItsName) {
   EXPECT_TRUE(IsRecording(name + "#/camera/ir/image_raw"));
   EXPECT_EQ(FramesOf(*OpenSource(name + "#/camera/ir/image_raw"))[0].depth_mm[0], 7);
   test::ExpectRefused([&] { OpenSource(name + "#/none"); }, "/camera/depth/image_raw");
+  std::filesystem::rename(folder / "x.bag", folder / "X.BAG");
+  const std::string in_capitals = (folder / "X.BAG").string() + "#/camera/ir/image_raw";
+  EXPECT_TRUE(IsRecording(in_capitals));
+  EXPECT_EQ(FramesOf(*OpenSource(in_capitals))[0].depth_mm[0], 7);
 }
 
 TEST(Bag, OfTheRealSenseViewerStatesItsUnit) {

@@ -39,13 +39,28 @@ std::vector<uint8_t> RosImageBytes(const std::string& encoding, uint32_t width, 
   return message.bytes;
 }
 
-/// Only what is read of it, and what stands before; its centre is the image's.
-inline std::vector<uint8_t> RosCameraInfoBytes(uint32_t width, uint32_t height, double f) {
+/// Its centre is the image's.
+struct RosCameraInfoFields {
+  uint32_t width = 0, height = 0;
+  double f = 0.0, rectified_f = 0.0;
+  uint32_t left = 0, top = 0, region_width = 0, region_height = 0;  // 0: the whole image
+};
+inline std::vector<uint8_t> RosCameraInfoBytes(const RosCameraInfoFields& info) {
+  const double cx = info.width / 2.0, cy = info.height / 2.0;
+  const double f = info.f, r = info.rectified_f;
   RosBytes message;
-  message.AddHeader(100, 0).Add(height).Add(width).AddText("plumb_bob");
+  message.AddHeader(100, 0).Add(info.height).Add(info.width).AddText("plumb_bob");
   message.Add(uint32_t{1}).Add(0.0);
-  for (const double k : {f, 0.0, width / 2.0, 0.0, f, height / 2.0, 0.0, 0.0, 1.0}) message.Add(k);
+  for (const double k : {f, 0.0, cx, 0.0, f, cy, 0.0, 0.0, 1.0}) message.Add(k);
+  for (const double one : {1.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 1.0}) message.Add(one);
+  for (const double p : {r, 0.0, cx, 0.0, 0.0, r, cy, 0.0, 0.0, 0.0, 1.0, 0.0}) message.Add(p);
+  message.Add(uint32_t{0}).Add(uint32_t{0});  // binning
+  message.Add(info.left).Add(info.top).Add(info.region_height).Add(info.region_width);
+  message.Add(uint8_t{0});
   return message.bytes;
+}
+inline std::vector<uint8_t> RosCameraInfoBytes(uint32_t width, uint32_t height, double f) {
+  return RosCameraInfoBytes({.width = width, .height = height, .f = f});
 }
 
 }  // namespace ossa::test

@@ -50,17 +50,48 @@ TEST(RosImage, OneOfMorePixelsThanBytesIsRefused) {
 
 TEST(RosCameraInfo, IsACameraOfImagesOfItsSize) {
   const RosCameraInfo info = ParseRosCameraInfo(RosCameraInfoBytes(512, 424, 366));
-  EXPECT_EQ(CameraOf(info, 512, 424), (Camera{512, 424, 366, 366, 256, 212}));
+  EXPECT_EQ(CameraOf(info, false, 512, 424), (Camera{512, 424, 366, 366, 256, 212}));
 }
 
 TEST(RosCameraInfo, IsScaledToImagesOfItsShape) {
   const RosCameraInfo info = ParseRosCameraInfo(RosCameraInfoBytes(640, 480, 570));
-  EXPECT_EQ(CameraOf(info, 320, 240), (Camera{320, 240, 285, 285, 160, 120}));
+  EXPECT_EQ(CameraOf(info, false, 320, 240), (Camera{320, 240, 285, 285, 160, 120}));
 }
 
 TEST(RosCameraInfo, IsNoneOfImagesOfAnotherShapeOrWithoutCalibration) {
-  EXPECT_FALSE(CameraOf(ParseRosCameraInfo(RosCameraInfoBytes(1920, 1080, 1400)), 640, 480));
-  EXPECT_FALSE(CameraOf(ParseRosCameraInfo(RosCameraInfoBytes(640, 480, 0)), 640, 480));
+  EXPECT_FALSE(CameraOf(ParseRosCameraInfo(RosCameraInfoBytes(1920, 1080, 1400)), false, 640, 480));
+  EXPECT_FALSE(CameraOf(ParseRosCameraInfo(RosCameraInfoBytes(640, 480, 0)), false, 640, 480));
+}
+
+TEST(RosCameraInfo, OfAPartOfTheImageIsCutOutOfTheWhole) {
+  const RosCameraInfo info = ParseRosCameraInfo(RosCameraInfoBytes({.width = 640,
+                                                                    .height = 480,
+                                                                    .f = 570,
+                                                                    .left = 200,
+                                                                    .top = 100,
+                                                                    .region_width = 320,
+                                                                    .region_height = 240}));
+  EXPECT_EQ(CameraOf(info, false, 320, 240), (Camera{320, 240, 570, 570, 120, 140}));
+  EXPECT_EQ(CameraOf(info, false, 160, 120), (Camera{160, 120, 285, 285, 60, 70}));  // binned
+  EXPECT_EQ(CameraOf(info, false, 640, 480), (Camera{640, 480, 570, 570, 320, 240}));
+}
+
+TEST(RosCameraInfo, OfRectifiedImagesIsTheirOwn) {
+  const RosCameraInfo info = ParseRosCameraInfo(
+      RosCameraInfoBytes({.width = 640, .height = 480, .f = 585, .rectified_f = 577}));
+  EXPECT_EQ(CameraOf(info, true, 640, 480)->fx, 577);
+  EXPECT_EQ(CameraOf(info, false, 640, 480)->fx, 585);
+  const RosCameraInfo plain = ParseRosCameraInfo(RosCameraInfoBytes(640, 480, 585));
+  EXPECT_EQ(CameraOf(plain, true, 640, 480)->fx, 585);
+}
+
+TEST(RosTopic, OfRectifiedImagesSaysSoInItsLastWord) {
+  for (const char* topic : {"/camera/depth/image_rect", "/a/image_rect_raw", "rect"}) {
+    EXPECT_TRUE(IsRectified(topic)) << topic;
+  }
+  for (const char* topic : {"/camera/depth/image_raw", "/direct/image", "/rect/image", "/a_", ""}) {
+    EXPECT_FALSE(IsRectified(topic)) << topic;
+  }
 }
 
 const std::vector<BagTopic> kRealSense = {
