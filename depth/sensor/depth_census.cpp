@@ -8,6 +8,8 @@
 #include <cstdlib>
 #include <span>
 
+#include "depth/sensor/depth_coding.h"
+
 // Constants: chosen on rendered clips of every view and noise and on the real frames of Kinect v1,
 // Xtion and PrimeSense that depth_units_test.cpp looks at, none of which may be suspected: there at
 // most 48 % of the numbers are multiples of 4 or 10, 15 % of the steps are of 8, and 1 % lies
@@ -143,7 +145,7 @@ struct Unit {
 };
 
 // Whole millimetres times so many: sensors' readings have every remainder. What did not fit into 16
-// bits has any, or is 65535.
+// bits has any.
 // The bits of eight say who is there: it is the steps from pixel to pixel that have none.
 std::optional<DepthSuspicion> JudgeMultiples(const Counts& count, const Spread& spread,
                                              double share_of_steps_of_8) {
@@ -151,7 +153,7 @@ std::optional<DepthSuspicion> JudgeMultiples(const Counts& count, const Spread& 
                                            {8, "Kinect SDK depths with player bits, mm << 3"},
                                            {5, "fifths of a millimetre, as TUM's"},
                                            {4, "quarters of a millimetre"}}};
-  constexpr int kManyNumbers = 16, kSaturated = 65535;
+  constexpr int kManyNumbers = 16;
   constexpr double kNearlyAll = 0.8;  // share of the readings
   constexpr double kAll = 0.99;
   constexpr double kMost = 0.6;  // of the numbers: by chance half of fours are eights
@@ -160,9 +162,7 @@ std::optional<DepthSuspicion> JudgeMultiples(const Counts& count, const Spread& 
   const bool has_players =
       share_of_steps_of_8 > 0.95 || (!of_4 && ComputeThreeRemainderShare(count, spread) > kAll);
   for (const Unit& unit : kUnits) {
-    const auto is_multiple = [&](int number) {
-      return number % unit.of_mm == 0 || number == kSaturated;
-    };
+    const auto is_multiple = [&](int number) { return number % unit.of_mm == 0; };
     const bool all = (Share(count, spread, is_multiple) > kNearlyAll &&
                       ComputeNumberShare(count, spread, is_multiple) > kMost) ||
                      (unit.of_mm == 8 && has_players);
@@ -203,11 +203,15 @@ void DepthCensus::Add(const DepthView& image) {
   // In eighths of a millimetre, by hand: 50 mm. The jumps from a thing to the wall behind it are a
   // few numbers, which may all be multiples of 8 by chance.
   constexpr int kOnOneSurface = 400;
+  const auto reading = [&](int u, int v) {
+    const uint16_t number = image.at(u, v);
+    return number == kSaturatedDepth ? 0 : int{number};
+  };
   for (int v = 0; v < image.height; ++v) {
     for (int u = 0; u < image.width; ++u) {
-      const int here = image.at(u, v);
+      const int here = reading(u, v);
       ++count_[static_cast<size_t>(here)];
-      const int before = u > 0 ? image.at(u - 1, v) : 0;
+      const int before = u > 0 ? reading(u - 1, v) : 0;
       const int step = std::abs(here - before);
       if (here == 0 || before == 0 || step == 0 || step > kOnOneSurface) continue;
       ++steps_;

@@ -60,8 +60,9 @@ std::vector<uint16_t> MillimetreTable(const DepthCoding& coding) {
     return table;
   }
   for (uint32_t number = 1; number < kNumbers; ++number) {
-    const double mm = std::round(Plain(coding, number) * 1000.0 / coding.units_per_metre);
-    if (mm < kNumbers) table[number] = static_cast<uint16_t>(mm);
+    const uint32_t plain = Plain(coding, number);
+    const double mm = std::round(plain * 1000.0 / coding.units_per_metre);
+    if (plain < kSaturatedDepth && mm < kSaturatedDepth) table[number] = static_cast<uint16_t>(mm);
   }
   return table;
 }

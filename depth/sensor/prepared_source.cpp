@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <deque>
 #include <exception>
 #include <string>
@@ -42,10 +43,7 @@ class PreparedSource final : public FrameSource {
   ReadResult Read(std::chrono::milliseconds timeout) override {
     ReadResult read = Next(timeout);
     if (read.status != ReadStatus::kFrame) return read;
-    for (uint16_t& depth : read.frame.depth_mm) {
-      if (table_.empty()) break;
-      depth = table_[depth];
-    }
+    ToMillimetres(read.frame.depth_mm);
     if (!first_index_) first_index_ = read.frame.index;
     if (fps_) read.frame.time_s = static_cast<double>(read.frame.index - *first_index_) / *fps_;
     return read;
@@ -64,6 +62,14 @@ class PreparedSource final : public FrameSource {
       const bool ended = read.status == ReadStatus::kEnd;
       if (read.status == ReadStatus::kFrame || ended) ahead_.push_back(std::move(read));
       if (ended) break;
+    }
+  }
+
+  void ToMillimetres(std::vector<uint16_t>& depths) const {
+    if (table_.empty()) {
+      std::replace(depths.begin(), depths.end(), kSaturatedDepth, uint16_t{0});
+    } else {
+      for (uint16_t& depth : depths) depth = table_[depth];
     }
   }
 

@@ -95,6 +95,22 @@ INSTANTIATE_TEST_SUITE_P(
 
 TEST(DepthCensus, MillimetresAreNotSuspected) { EXPECT_FALSE(Judged(RoomFrame()).has_value()); }
 
+// As a renderer has them who has nothing to say of the background.
+TEST(DepthCensus, SaturatedNumbersAroundAPersonAreNoInvertedDepths) {
+  for (const int farthest_mm : {2600, 4200, 6000}) {
+    const auto suspicion = Judged(Changed([&](int mm) { return mm < farthest_mm ? mm : 65535; }));
+    EXPECT_FALSE(suspicion) << suspicion->looks;
+  }
+}
+
+TEST(DepthCoding, ASaturatedNumberIsNoReading) {
+  for (const double units_per_metre : {1000.0, 4000.0, 10000.0}) {
+    const auto table = MillimetreTable({.units_per_metre = units_per_metre});
+    EXPECT_EQ(table[65535], 0) << units_per_metre;
+    EXPECT_EQ(table[4000], static_cast<uint16_t>(4e6 / units_per_metre));
+  }
+}
+
 TEST(DepthCensus, ShiftsWithoutAHoleAreKnown) {
   const auto suspicion = Judged(Changed([](int mm) { return KinectShift(mm == 0 ? 3000 : mm); }));
   ASSERT_TRUE(suspicion.has_value());

@@ -95,6 +95,15 @@ std::vector<double> TimesOf(FrameSource& source) {
   return times_s;
 }
 
+TEST(FolderSource, TheLargestNumberIsNoReading) {
+  const TemporaryFolder folder;
+  for (const auto& [name, value] : {std::pair("0.png", 65535), {"1.png", 65534}, {"2.png", 9}}) {
+    WriteFrame(folder / name, static_cast<uint16_t>(value));
+  }
+  const auto source = OpenSource(folder.path().string());
+  EXPECT_EQ(ValuesOf(*source), (std::vector<uint16_t>{0, 65534, 9}));
+}
+
 TEST(FolderSource, FramesComeInNaturalOrder) {
   const TemporaryFolder folder;
   for (const int number : {1, 2, 10, 9, 100}) {

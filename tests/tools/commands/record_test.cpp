@@ -167,15 +167,17 @@ TEST(RecordCommand, ADeviceThatFallsSilentIsAFailureWithAWholeFile) {
 TEST(RecordCommand, KeepsWhatADeviceGaveBeforeAFrameThatCannotBeRecorded) {
   const TemporaryFolder folder;
   std::filesystem::create_directories(folder / "in");
-  WriteExampleFolder(folder / "in", 4);
-  depth::DepthFrame saturated = ExampleFrame(0);
-  saturated.depth_mm[7] = 65535;  // .oni has no number for it
-  depth::WriteDepthPng(folder / "in" / "000003.png", saturated.view());
+  WriteExampleFolder(folder / "in", 4, 256, 136);
+  depth::DepthFrame many = ExampleFrame(0, 256, 136);  // different depths: .oni has no more
+  for (size_t i = 0; i < many.depth_mm.size(); ++i) {
+    many.depth_mm[i] = static_cast<uint16_t>(500 + i * 7919 % many.depth_mm.size());
+  }
+  depth::WriteDepthPng(folder / "in" / "000003.png", many.view());
   const auto out = folder / "x.oni";
   const CommandResult result = RunOssa(
       {"record", "openni:ossa://" + (folder / "in").string(), "--out", out.string(), "--quiet"});
   EXPECT_EQ(result.exit_status, 1);
-  EXPECT_NE(result.err.find("65535"), std::string::npos) << result.err;
+  EXPECT_NE(result.err.find("32767 different depths"), std::string::npos) << result.err;
   EXPECT_NE(result.err.find("frames before it are in"), std::string::npos) << result.err;
   EXPECT_EQ(test::LineCount(result.err), 1) << result.err;
   EXPECT_GE(FramesIn(out), 1);
