@@ -3,6 +3,7 @@
 #include <fcntl.h>
 #include <sys/file.h>
 #include <sys/random.h>
+#include <sys/stat.h>
 #include <unistd.h>
 
 #include <algorithm>
@@ -123,6 +124,8 @@ AtomicFile::AtomicFile(fs::path final_path)
   }
   file_ = OpenNew(final_path_, &temporary_path_);
   if (file_ < 0) throw InputError(name_ + ": cannot be written: " + std::strerror(errno));
+  // Not every file system knows permissions.
+  if (fs::exists(there)) fchmod(file_, static_cast<mode_t>(there.permissions()) & 0777U);
   stream_ = std::make_unique<Stream>(file_);
 }
 

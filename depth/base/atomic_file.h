@@ -20,7 +20,8 @@ struct DiskFull : InputError {
 /// What a process that was killed left stays under that name. Throws InputError when the place
 /// cannot be written (no such folder, disk full), or a folder or a device has that name: a rename
 /// would put a file in a device's place. A symbolic link stays one and what it leads to is written;
-/// a file that may not be written to is not replaced, though its folder would allow it.
+/// a file that may not be written to is not replaced, though its folder would allow it; one that
+/// is replaced hands its permissions on.
 class AtomicFile {
  public:
   explicit AtomicFile(std::filesystem::path final_path);

@@ -71,6 +71,21 @@ TEST(AtomicFile, AFileThatMayNotBeWrittenIsNotReplaced) {
   EXPECT_THROW(AtomicFile::CheckWritable(folder / "kept"), InputError);
 }
 
+// What was for one's own eyes stays so, and what a group shares.
+TEST(AtomicFile, AFileHandsItsPermissionsOn) {
+  const test::TemporaryFolder folder;
+  for (const mode_t mode : {0600U, 0664U}) {
+    std::ofstream(folder / "out") << "old";
+    ASSERT_EQ(chmod((folder / "out").c_str(), mode), 0);
+    AtomicFile file(folder / "out");
+    file.stream() << "new";
+    file.Commit();
+    struct stat found {};
+    ASSERT_EQ(stat((folder / "out").c_str(), &found), 0);
+    EXPECT_EQ(found.st_mode & 0777U, mode);
+  }
+}
+
 std::string TextOf(const std::filesystem::path& path) {
   std::ifstream file(path, std::ios::binary);
   return {std::istreambuf_iterator<char>(file), {}};
