@@ -50,6 +50,8 @@ void CountSeconds(DepthList& list) {
 }  // namespace
 
 DepthList ParseDepthList(std::string_view text) {
+  constexpr std::string_view kByteOrderMark = "\xEF\xBB\xBF";  // that editors on Windows add
+  if (text.starts_with(kByteOrderMark)) text.remove_prefix(kByteOrderMark.size());
   DepthList list;
   for (int number = 1; !text.empty(); ++number) {
     std::string_view line = text.substr(0, text.find_first_of("\n"));

@@ -51,6 +51,12 @@ struct BagName {
   }
 };
 
+// NAME.bag, and what a recorder of it that was killed left: NAME.bag.active.
+bool IsBagName(const std::filesystem::path& path) {
+  const std::string extension = LowerCaseExtension(path);
+  return LowerCaseExtension(extension == ".active" ? path.stem() : path) == ".bag";
+}
+
 // Recordings that ossa does not read, and what makes ones of them that it does; null of others.
 const char* HowToConvert(const std::string& extension) {
   constexpr const char* kXef =
@@ -78,8 +84,9 @@ const char* HowToConvert(const std::string& extension) {
 
 bool IsRecording(const std::filesystem::path& path) {
   if (!std::filesystem::is_directory(path)) {
-    const std::string extension = LowerCaseExtension(BagName(path.string()).file);
-    return IsOniName(path) || extension == ".mkv" || extension == ".bag" || IsPngName(path) ||
+    const std::filesystem::path file = BagName(path.string()).file;
+    const std::string extension = LowerCaseExtension(file);
+    return IsOniName(path) || extension == ".mkv" || IsBagName(file) || IsPngName(path) ||
            HowToConvert(extension) != nullptr;
   }
   const std::filesystem::directory_iterator entries(path);
@@ -125,7 +132,7 @@ std::unique_ptr<FrameSource> OpenSource(const std::string& source, const SourceO
   const std::string extension = LowerCaseExtension(bag.file);
   if (std::filesystem::exists(bag.file, error)) {
     if (extension == ".mkv") return OpenMkvFile(path, options);
-    if (extension == ".bag") return OpenBagFile(bag.file, bag.topic, options);
+    if (IsBagName(bag.file)) return OpenBagFile(bag.file, bag.topic, options);
     if (const char* how = HowToConvert(extension)) {
       throw InputError(source + ": expected depth images, found " + how);
     }
@@ -133,9 +140,11 @@ std::unique_ptr<FrameSource> OpenSource(const std::string& source, const SourceO
   if (IsPngName(path) && std::filesystem::exists(path, error)) {
     return Prepared(source, OpenStill(path, options), UnitStated::kNo, options);
   }
-  throw InputError(source +
-                   ": expected openni:, openni:URI, FILE.oni, FILE.mkv, FILE.bag, a 16-bit PNG or "
-                   "a folder of them, or a data set, found no such thing");
+  throw InputError(
+      source +
+      ": expected openni:, openni:URI, FILE.oni, FILE.mkv, FILE.bag, a 16-bit PNG or "
+      "a folder of them, or a data set, found " +
+      (std::filesystem::exists(path, error) ? "what has none of these names" : "no such thing"));
 }
 
 }  // namespace ossa::depth

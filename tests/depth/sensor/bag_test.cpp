@@ -91,6 +91,19 @@ TEST(Bag, ACameraInfoOfImagesOfAnotherShapeIsPassedOverWithANote) {
   EXPECT_NE(notes.find("camera_info is of 512x424"), std::string::npos) << notes;
 }
 
+// As `rosbag record` leaves one when it is killed.
+TEST(Bag, OneThatIsStillActiveSaysHowItIsMended) {
+  const test::TemporaryFolder folder;
+  rosbag::Bag bag;
+  bag.open(folder / "x.bag.active", rosbag::bagmode::Write);
+  Write(bag, "/depth", 100, ImageOf(100, 1000));
+  std::filesystem::copy_file(folder / "x.bag.active", folder / "killed.bag.active");
+  bag.close();
+  EXPECT_TRUE(IsRecording(folder / "killed.bag.active"));
+  test::ExpectRefused([&] { OpenSource(folder / "killed.bag.active"); }, "'rosbag reindex'");
+  EXPECT_EQ(FramesOf(*OpenSource(folder / "x.bag.active")).size(), 1u);
+}
+
 TEST(Bag, ManyDepthTopicsAreNoDamage) {
   const test::TemporaryFolder folder;
   rosbag::Bag bag;

@@ -37,6 +37,14 @@ TEST(DepthList, LinesThatAreNoneAreNumbered) {
   EXPECT_EQ(list.bad_lines, (std::vector<int>{2, 3, 4}));
 }
 
+TEST(DepthList, AByteOrderMarkIsNoPartOfTheFirstLine) {
+  const DepthList list = ParseDepthList(
+      "\xEF\xBB\xBF"
+      "1.5 a.png\n2.5 b.png\n");
+  EXPECT_EQ(list.entries.size(), 2u);
+  EXPECT_TRUE(list.bad_lines.empty());
+}
+
 TEST(DepthList, OtherTextHasNoEntries) {
   EXPECT_TRUE(ParseDepthList("Recorded in the lab.\n").entries.empty());
 }

@@ -354,6 +354,14 @@ TEST(OpenSource, ARecordingThatIsNoFileSaysWhatItIs) {
   test::ExpectRefused([&] { OpenSource((folder / "none.oni").string()); }, "no such file");
 }
 
+TEST(OpenSource, AFileOfAnotherKindIsNotSaidToBeMissing) {
+  const TemporaryFolder folder;
+  std::ofstream(folder / "depth.tiff") << "II*";
+  test::ExpectRefused([&] { OpenSource((folder / "depth.tiff").string()); },
+                      "found what has none of these names");
+  test::ExpectRefused([&] { OpenSource((folder / "none.tiff").string()); }, "no such thing");
+}
+
 TEST(OpenSource, WhatIsNotASourceIsOneLine) {
   const TemporaryFolder folder;
   for (const std::string& name : {std::string("/nowhere"), folder.path().string(), std::string()}) {
