@@ -53,6 +53,13 @@ void CheckList(const std::string& text) {
   }
 }
 
+void CheckCameraInfo(std::span<const uint8_t> bytes) {
+  const RosCameraInfo info = ParseRosCameraInfo(bytes);
+  const auto camera = CameraOf(info, true, 640, 480);
+  const auto lens = camera ? LensOf(info, *camera) : std::nullopt;
+  if (lens) UndistortionMap(*lens);
+}
+
 }  // namespace
 
 std::vector<std::string> ossa::fuzz::Seeds() {
@@ -75,7 +82,7 @@ extern "C" int LLVMFuzzerTestOneInput(const uint8_t* data, size_t size) {
   CheckNames(LinesOf(text));
   ossa::fuzz::ExpectValueOrOneLine([&] { UndistortionMap(ReadK4aCalibration(text, 320, 288)); });
   ossa::fuzz::ExpectValueOrOneLine([&] { DecodeDepths(ParseRosImage(bytes), 0.001); });
-  ossa::fuzz::ExpectValueOrOneLine([&] { CameraOf(ParseRosCameraInfo(bytes), true, 640, 480); });
+  ossa::fuzz::ExpectValueOrOneLine([&] { CheckCameraInfo(bytes); });
   ossa::fuzz::ExpectValueOrOneLine([&] { ParseRosFloat(bytes); });
   std::istringstream file(text);
   CheckForCut(file);

@@ -67,9 +67,32 @@ double ReadUnit(const rosbag::Bag& bag, const std::string& topic) {
   return metres > 0 && std::isfinite(metres) ? metres : 0.0;
 }
 
-ReaderHello MakeHello(const rosbag::Bag& bag, const BagChoice& choice, const RosImage& first) {
-  constexpr uint32_t kTooLarge = kLargestImageSide + 1;
+// What the depth images show, and how.
+struct DepthTopic {
   ReaderHello hello;
+  std::vector<int32_t> undistortion;  // of them to a pinhole's; empty: they are one's
+  double unit_m = 0.0;                // metres to the unit; 0: nobody knows
+};
+
+// Of raw images the lens is undone: the images that it bends most are an Azure Kinect's, whose
+// corners are 30 pixels off.
+std::vector<int32_t> FindUndistortion(const RosCameraInfo& info, const BagChoice& choice,
+                                      const Camera& camera) {
+  if (!choice.is_info_own || IsRectified(choice.image) || !HasLens(info)) return {};
+  const auto lens = LensOf(info, camera);
+  SendText(ReaderKind::kNote,
+           choice.camera_info + (lens ? " states a lens, which is undone"
+                                      : " states a lens that is not undone, of the model '" +
+                                            info.distortion_model + "'"));
+  return lens ? UndistortionMap(*lens) : std::vector<int32_t>{};
+}
+
+DepthTopic MakeTopic(const rosbag::Bag& bag, const BagChoice& choice, const RosImage& first) {
+  constexpr uint32_t kTooLarge = kLargestImageSide + 1;
+  DepthTopic topic;
+  topic.unit_m = ReadUnit(bag, choice.unit);
+  ReaderHello& hello = topic.hello;
+  hello.is_unit_stated = topic.unit_m > 0 || ParseDepthEncoding(first) == RosDepth::kMetres;
   hello.camera.width = static_cast<int>(std::min(first.width, kTooLarge));
   hello.camera.height = static_cast<int>(std::min(first.height, kTooLarge));
   CheckCamera(hello.camera, choice.image);
@@ -81,27 +104,31 @@ ReaderHello MakeHello(const rosbag::Bag& bag, const BagChoice& choice, const Ros
   if (camera) {
     hello.camera = *camera;
     CheckCamera(hello.camera, choice.camera_info);
+    topic.undistortion = FindUndistortion(info, choice, *camera);
   } else if (info.k[0] != 0) {
     SendText(ReaderKind::kNote, choice.camera_info + " is of " + std::to_string(info.width) + "x" +
                                     std::to_string(info.height) + ", another shape than " +
                                     choice.image + "'s, and is passed over");
   }
-  return hello;
+  return topic;
 }
 
 // A frame that is to be given, and the number of those left out before it.
-void Give(const ReaderHello& hello, TimedDepth frame, int64_t dropped) {
-  SendFrame({hello.camera.width, hello.camera.height, frame.time_s, dropped}, frame.depth);
+void Give(const DepthTopic& topic, const TimedDepth& frame, int64_t dropped) {
+  const Camera& camera = topic.hello.camera;
+  const ReaderFrame head{camera.width, camera.height, frame.time_s, dropped};
+  if (topic.undistortion.empty()) return SendFrame(head, frame.depth);
+  SendFrame(head, Undistorted(frame.depth, topic.undistortion));
 }
 
-void AddFrames(rosbag::View& view, const BagChoice& choice, const RosImage& first, double unit_m,
+void AddFrames(rosbag::View& view, const std::string& name, const RosImage& first, double unit_m,
                StampOrder& order) {
   for (const rosbag::MessageInstance& message : view) {
     const Bytes bytes = ReadBytes(message);
     const RosImage image = ParseRosImage(bytes);
     if (image.width != first.width || image.height != first.height ||
         image.encoding != first.encoding) {
-      throw InputError(choice.image + ": expected images that are all alike");
+      throw InputError(name + ": expected images that are all alike");
     }
     const double time_s = image.time_s > 0 ? image.time_s : message.getTime().toSec();
     order.Add({time_s, DecodeDepths(image, unit_m)});
@@ -116,16 +143,13 @@ void Read(const std::string& path, const std::string& asked) {
   for (const std::string& note : choice.notes) SendText(ReaderKind::kNote, note);
   const Bytes first_bytes = ReadFirst(bag, choice.image);
   const RosImage first = ParseRosImage(first_bytes);
-  const double unit_m = ReadUnit(bag, choice.unit);
-  ReaderHello hello = MakeHello(bag, choice, first);
-  hello.is_unit_stated = unit_m > 0 || ParseDepthEncoding(first) == RosDepth::kMetres;
+  DepthTopic topic = MakeTopic(bag, choice, first);
   rosbag::View view(bag, rosbag::TopicQuery(choice.image));
-  hello.frame_count = view.size();
-  SendHello(hello);
-  StampOrder order(
-      [&](TimedDepth frame, int64_t dropped) { Give(hello, std::move(frame), dropped); });
+  topic.hello.frame_count = view.size();
+  SendHello(topic.hello);
+  StampOrder order([&](const TimedDepth& frame, int64_t dropped) { Give(topic, frame, dropped); });
   try {
-    AddFrames(view, choice, first, unit_m, order);
+    AddFrames(view, choice.image, first, topic.unit_m, order);
   } catch (...) {
     order.Finish();  // what is wrong comes after the frames that are right
     throw;

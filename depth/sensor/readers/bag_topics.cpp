@@ -91,7 +91,8 @@ BagChoice ChooseDepthTopic(const std::vector<std::string>& depth,
     }
   }
   choice.camera_info = SiblingTopic(choice.image, topics, "sensor_msgs/CameraInfo", "camera_info");
-  if (!choice.camera_info.empty() && !IsItsOwn(choice.camera_info, choice.image)) {
+  choice.is_info_own = !choice.camera_info.empty() && IsItsOwn(choice.camera_info, choice.image);
+  if (!choice.camera_info.empty() && !choice.is_info_own) {
     choice.notes.push_back("has no camera_info of " + choice.image + "'s own and takes " +
                            choice.camera_info + ": --camera says otherwise");
   }

@@ -12,6 +12,7 @@ struct BagTopic {
 struct BagChoice {
   std::string image;
   std::string camera_info;         // "": there is none
+  bool is_info_own = false;        // of the image's sensor, whose lens it states
   std::string unit;                // the RealSense viewer's depth units; "": there are none
   std::vector<std::string> notes;  // for the user, where there was a choice
 };

@@ -91,34 +91,4 @@ LensCamera ReadK4aCalibration(const std::string& text, int width, int height) {
   return lens;
 }
 
-std::vector<int32_t> UndistortionMap(const LensCamera& lens) {
-  const Camera& c = lens.pinhole;
-  std::vector<int32_t> map;
-  for (int v = 0; v < c.height; ++v) {
-    for (int u = 0; u < c.width; ++u) {
-      const double x = (u - c.cx) / c.fx, y = (v - c.cy) / c.fy;
-      const double r2 = x * x + y * y;
-      const double radial = (1 + r2 * (lens.k1 + r2 * (lens.k2 + r2 * lens.k3))) /
-                            (1 + r2 * (lens.k4 + r2 * (lens.k5 + r2 * lens.k6)));
-      const double xd = x * radial + (r2 + 2 * x * x) * lens.p2 + 2 * x * y * lens.p1;
-      const double yd = y * radial + (r2 + 2 * y * y) * lens.p1 + 2 * x * y * lens.p2;
-      const double from_u = std::round(c.cx + c.fx * xd), from_v = std::round(c.cy + c.fy * yd);
-      const bool inside = from_u >= 0 && from_v >= 0 && from_u < c.width && from_v < c.height &&
-                          r2 <= lens.largest_radius * lens.largest_radius;
-      map.push_back(inside ? static_cast<int32_t>(from_v) * c.width + static_cast<int32_t>(from_u)
-                           : -1);
-    }
-  }
-  return map;
-}
-
-std::vector<uint16_t> Undistorted(std::span<const uint16_t> depth,
-                                  const std::vector<int32_t>& map) {
-  std::vector<uint16_t> image(map.size(), 0);
-  for (size_t i = 0; i < map.size(); ++i) {
-    if (map[i] >= 0) image[i] = depth[static_cast<size_t>(map[i])];
-  }
-  return image;
-}
-
 }  // namespace ossa::depth

@@ -111,8 +111,10 @@ RosCameraInfo ParseRosCameraInfo(std::span<const uint8_t> bytes) {
   RosCameraInfo info;
   info.height = message.Value<uint32_t>();
   info.width = message.Value<uint32_t>();
-  message.Text();                 // distortion model
-  message.Array(sizeof(double));  // D
+  info.distortion_model = message.Text();
+  const auto d = message.Array(sizeof(double));
+  info.d.resize(d.size() / sizeof(double));
+  if (!d.empty()) std::memcpy(info.d.data(), d.data(), d.size());
   info.k = message.Value<std::array<double, 9>>();
   message.Value<std::array<double, 9>>();  // R
   info.p = message.Value<std::array<double, 12>>();
@@ -152,6 +154,28 @@ std::optional<Camera> CameraOf(const RosCameraInfo& info, bool is_rectified, int
   }
   if (own.width * height != own.height * width) return std::nullopt;
   return Resized(own, width, height);
+}
+
+bool HasLens(const RosCameraInfo& info) {
+  return std::any_of(info.d.begin(), info.d.end(), [](double d) { return d != 0; });
+}
+
+std::optional<LensCamera> LensOf(const RosCameraInfo& info, const Camera& camera) {
+  constexpr size_t kPlumbBob = 5, kRational = 8;  // of OpenCV's order, by definition
+  const bool is_rational = info.distortion_model == "rational_polynomial";
+  const bool is_known = is_rational || info.distortion_model == "plumb_bob";
+  const bool is_finite =
+      std::all_of(info.d.begin(), info.d.end(), [](double d) { return std::isfinite(d); });
+  if (!HasLens(info) || !is_known || !is_finite) return std::nullopt;
+  std::array<double, kRational> d{};  // k1 k2 p1 p2 k3 k4 k5 k6
+  std::copy_n(info.d.begin(), std::min(info.d.size(), is_rational ? kRational : kPlumbBob),
+              d.begin());
+  LensCamera lens{.pinhole = camera};
+  lens.k1 = d[0], lens.k2 = d[1], lens.k3 = d[4];
+  lens.k4 = d[5], lens.k5 = d[6], lens.k6 = d[7];
+  lens.p1 = d[2], lens.p2 = d[3];
+  lens.largest_radius = ComputeFoldingRadius(lens);
+  return lens;
 }
 
 float ParseRosFloat(std::span<const uint8_t> bytes) { return Message(bytes).Value<float>(); }

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "depth/image/camera.h"
+#include "depth/sensor/readers/lens_camera.h"
 
 namespace ossa::depth {
 
@@ -28,8 +29,10 @@ RosImage ParseRosImage(std::span<const uint8_t> message);
 /// sensor_msgs/CameraInfo.
 struct RosCameraInfo {
   uint32_t height = 0, width = 0;  // of the whole images that k and p are of, pixels; 0: not said
-  std::array<double, 9> k{};       // fx 0 cx 0 fy cy 0 0 1, pixels; all 0: not calibrated
-  std::array<double, 12> p{};      // fx 0 cx 0 0 fy cy 0 0 0 1 0 of rectified images; 0: none
+  std::string distortion_model;
+  std::vector<double> d;       // of that model, of raw images
+  std::array<double, 9> k{};   // fx 0 cx 0 fy cy 0 0 1, pixels; all 0: not calibrated
+  std::array<double, 12> p{};  // fx 0 cx 0 0 fy cy 0 0 0 1 0 of rectified images; 0: none
   struct Region {
     uint32_t left = 0, top = 0, height = 0, width = 0;
   };
@@ -43,6 +46,12 @@ bool IsRectified(std::string_view topic);
 /// The camera of width × height pixels that it states, scaled where its own size, or its region's,
 /// is another of the same shape; nothing where it is not calibrated, or of images of another shape.
 std::optional<Camera> CameraOf(const RosCameraInfo& info, bool is_rectified, int width, int height);
+
+/// The lens through which raw images of this camera are seen: of the models plumb_bob and
+/// rational_polynomial (OpenCV's). Nothing where it bends nothing, or is of another model.
+std::optional<LensCamera> LensOf(const RosCameraInfo& info, const Camera& camera);
+/// Whether it states a lens that bends anything.
+bool HasLens(const RosCameraInfo& info);
 
 /// std_msgs/Float32.
 float ParseRosFloat(std::span<const uint8_t> message);

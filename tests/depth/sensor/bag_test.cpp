@@ -1,6 +1,8 @@
 // ROS 1 bags, written by the library that reads them.
 #include <gtest/gtest.h>
 
+#include <cmath>
+
 #include "depth/sensor/frame_source.h"
 #include "tests/depth/sensor/bag_writer.h"
 #include "tests/depth/sensor/ros_bytes.h"
@@ -89,6 +91,42 @@ TEST(Bag, ACameraInfoOfImagesOfAnotherShapeIsPassedOverWithANote) {
   options.note = [&](NoteKind, const std::string& note) { notes += note + "\n"; };
   EXPECT_EQ(OpenSource(folder / "x.bag", options)->camera(), GuessCamera(4, 2).camera);
   EXPECT_NE(notes.find("camera_info is of 512x424"), std::string::npos) << notes;
+}
+
+// Its columns are numbered; a lens that draws what lies at r to r (1 - 0.3 r^2).
+std::string WriteBagWithLens(const test::TemporaryFolder& folder, const std::string& topic) {
+  std::vector<uint16_t> columns;
+  for (int i = 0; i < 64 * 48; ++i) columns.push_back(static_cast<uint16_t>(1000 + i % 64));
+  rosbag::Bag bag;
+  const std::string path = folder / "x.bag";
+  bag.open(path, rosbag::bagmode::Write);
+  Write(bag, "/camera/depth/" + topic, 100,
+        {"sensor_msgs/Image", test::RosImageBytes("16UC1", 64, 48, columns, 128)});
+  Write(bag, "/camera/depth/camera_info", 100,
+        {"sensor_msgs/CameraInfo",
+         test::RosCameraInfoBytes(
+             {.width = 64, .height = 48, .f = 50, .lens = {-0.3, 0.0, 0.0, 0.0, 0.0}})});
+  bag.close();
+  return path;
+}
+
+TEST(Bag, TheLensOfRawImagesIsUndone) {
+  const test::TemporaryFolder folder;
+  const auto source = OpenSource(WriteBagWithLens(folder, "image_raw"), {.depth_scale = 1000.0});
+  const auto frames = FramesOf(*source);
+  ASSERT_EQ(frames.size(), 1u);
+  const double x = (60 - 32) / 50.0;
+  const double seen_u = 32 + 50 * x * (1 - 0.3 * x * x);
+  EXPECT_EQ(frames[0].depth_mm[24 * 64 + 60], 1000 + std::lround(seen_u));
+  EXPECT_EQ(frames[0].depth_mm[24 * 64 + 32], 1032);
+}
+
+TEST(Bag, OfRectifiedImagesItIsUndoneAlready) {
+  const test::TemporaryFolder folder;
+  const auto frames =
+      FramesOf(*OpenSource(WriteBagWithLens(folder, "image_rect"), {.depth_scale = 1000.0}));
+  ASSERT_EQ(frames.size(), 1u);
+  EXPECT_EQ(frames[0].depth_mm[24 * 64 + 60], 1060);
 }
 
 // As `rosbag record` leaves one when it is killed.

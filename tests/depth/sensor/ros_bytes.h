@@ -44,13 +44,16 @@ struct RosCameraInfoFields {
   uint32_t width = 0, height = 0;
   double f = 0.0, rectified_f = 0.0;
   uint32_t left = 0, top = 0, region_width = 0, region_height = 0;  // 0: the whole image
+  std::string lens_model = "plumb_bob";
+  std::vector<double> lens = {0.0};
 };
 inline std::vector<uint8_t> RosCameraInfoBytes(const RosCameraInfoFields& info) {
   const double cx = info.width / 2.0, cy = info.height / 2.0;
   const double f = info.f, r = info.rectified_f;
   RosBytes message;
-  message.AddHeader(100, 0).Add(info.height).Add(info.width).AddText("plumb_bob");
-  message.Add(uint32_t{1}).Add(0.0);
+  message.AddHeader(100, 0).Add(info.height).Add(info.width).AddText(info.lens_model);
+  message.Add(static_cast<uint32_t>(info.lens.size()));
+  for (const double d : info.lens) message.Add(d);
   for (const double k : {f, 0.0, cx, 0.0, f, cy, 0.0, 0.0, 1.0}) message.Add(k);
   for (const double one : {1.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 1.0}) message.Add(one);
   for (const double p : {r, 0.0, cx, 0.0, 0.0, r, cy, 0.0, 0.0, 0.0, 1.0, 0.0}) message.Add(p);

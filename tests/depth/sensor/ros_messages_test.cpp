@@ -85,6 +85,36 @@ TEST(RosCameraInfo, OfRectifiedImagesIsTheirOwn) {
   EXPECT_EQ(CameraOf(plain, true, 640, 480)->fx, 585);
 }
 
+RosCameraInfo InfoWithLens(const std::string& model, const std::vector<double>& d) {
+  return ParseRosCameraInfo(
+      RosCameraInfoBytes({.width = 640, .height = 480, .f = 500, .lens_model = model, .lens = d}));
+}
+
+TEST(RosCameraInfo, StatesALensInOpenCvsOrder) {
+  const std::vector<double> d = {0.1, 0.2, 0.3, 0.4, 0.5, 0.6, 0.7, 0.8};
+  const auto lens = LensOf(InfoWithLens("rational_polynomial", d), KinectV1Camera(640, 480));
+  ASSERT_TRUE(lens);
+  EXPECT_EQ((std::vector<double>{lens->k1, lens->k2, lens->p1, lens->p2, lens->k3, lens->k4,
+                                 lens->k5, lens->k6}),
+            d);
+  EXPECT_EQ(LensOf(InfoWithLens("plumb_bob", d), KinectV1Camera(640, 480))->k4, 0.0);
+  EXPECT_EQ(LensOf(InfoWithLens("plumb_bob", {0.1, 0.2, 0.3, 0.4}), {})->k3, 0.0);
+}
+
+TEST(RosCameraInfo, StatesNoLensThatBendsNothingOrIsOfAnotherModel) {
+  EXPECT_FALSE(LensOf(InfoWithLens("plumb_bob", {0.0, 0.0, 0.0, 0.0, 0.0}), {}));
+  EXPECT_FALSE(LensOf(InfoWithLens("", {}), {}));
+  EXPECT_FALSE(LensOf(InfoWithLens("equidistant", {0.1, 0.0, 0.0, 0.0}), {}));
+  EXPECT_TRUE(HasLens(InfoWithLens("equidistant", {0.1, 0.0, 0.0, 0.0})));
+  EXPECT_FALSE(LensOf(InfoWithLens("plumb_bob", {std::nan("")}), {}));
+}
+
+// r (1 - 0.3 r^2) is largest where its slope 1 - 0.9 r^2 is 0.
+TEST(LensCamera, EndsWhereItFoldsBack) {
+  EXPECT_NEAR(ComputeFoldingRadius({.pinhole = {}, .k1 = -0.3}), 1.054, 0.011);
+  EXPECT_GT(ComputeFoldingRadius({.pinhole = {}, .k1 = 0.3}), 3.0);
+}
+
 TEST(RosTopic, OfRectifiedImagesSaysSoInItsLastWord) {
   for (const char* topic : {"/camera/depth/image_rect", "/a/image_rect_raw", "rect"}) {
     EXPECT_TRUE(IsRectified(topic)) << topic;
