@@ -168,6 +168,9 @@ void ReadOrExplain(const std::string& path, const std::string& topic) {
   } catch (const rosbag::BagUnindexedException&) {
     throw InputError(
         "expected a bag with an index, found one that was not closed: 'rosbag reindex' mends it");
+  } catch (const rosbag::BagIOException& error) {
+    throw InputError(std::string("expected a whole ROS 1 bag, found one that is cut short (") +
+                     error.what() + "): 'rosbag reindex' saves what is there");
   } catch (const rosbag::BagException& error) {
     throw InputError(std::string("expected a ROS 1 bag, found: ") + error.what());
   }

@@ -142,6 +142,14 @@ TEST(Bag, OneThatIsStillActiveSaysHowItIsMended) {
   EXPECT_EQ(FramesOf(*OpenSource(folder / "x.bag.active")).size(), 1u);
 }
 
+TEST(Bag, OneThatIsCutShortSaysSo) {
+  const test::TemporaryFolder folder;
+  WriteBag(folder / "x.bag", CompressionType::Uncompressed);
+  const auto size = std::filesystem::file_size(folder / "x.bag");
+  std::filesystem::resize_file(folder / "x.bag", size - size / 4);
+  test::ExpectRefused([&] { OpenSource(folder / "x.bag"); }, "one that is cut short");
+}
+
 TEST(Bag, ManyDepthTopicsAreNoDamage) {
   const test::TemporaryFolder folder;
   rosbag::Bag bag;
