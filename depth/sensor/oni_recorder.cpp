@@ -169,6 +169,34 @@ struct OniRecorder::State {
     file.Check();
   }
 
+  // Throws InputError for what the format cannot hold.
+  Bytes Encode(const DepthFrame& frame) const {
+    const std::string place = name + ": frame " + std::to_string(seek_table.size() - 1) + ": ";
+    if (!HasSize(frame, camera.width, camera.height)) {
+      throw InputError(place + "expected " + SizeText(camera.width, camera.height) + ", found " +
+                       SizeText(frame.camera.width, frame.camera.height) + " and " +
+                       std::to_string(frame.pixel_count()) + " depths");
+    }
+    std::vector<uint16_t> room;
+    const std::span<const uint16_t> depth_mm = PackedDepth(frame.view(), room);
+    const auto largest = std::max_element(depth_mm.begin(), depth_mm.end());
+    if (largest != depth_mm.end() && *largest > kLargestOniDepth_mm) {
+      throw InputError(place + "expected depths of at most " + std::to_string(kLargestOniDepth_mm) +
+                       " mm, found " + std::to_string(*largest) + ", which .oni would corrupt");
+    }
+    Bytes data;
+    if (!EncodeOniDepth(depth_mm, &data)) {
+      throw InputError(place + "expected at most " + std::to_string(kLargestOniTable) +
+                       " different depths, found more, which .oni would corrupt");
+    }
+    if (static_cast<int64_t>(data.size()) > kLargestOniData) {
+      throw InputError(place + "expected depths that fit the " + std::to_string(kLargestOniData) +
+                       " bytes that an OpenNI2 player has for a frame, found noise that takes " +
+                       std::to_string(data.size()));
+    }
+    return data;
+  }
+
   // What follows the frames.
   Totals PutEnd() {
     Put(Record(OniRecord::kNodeRemoved, {}, 0, sizeof(OniFileHeader)));
@@ -240,29 +268,7 @@ int64_t OniRecorder::frame_count() const {
 }
 
 void OniRecorder::Write(const DepthFrame& frame) {
-  const std::string place = state_->name + ": frame " + std::to_string(frame_count()) + ": ";
-  if (!HasSize(frame, state_->camera.width, state_->camera.height)) {
-    throw InputError(place + "expected " + SizeText(state_->camera.width, state_->camera.height) +
-                     ", found " + SizeText(frame.camera.width, frame.camera.height) + " and " +
-                     std::to_string(frame.pixel_count()) + " depths");
-  }
-  std::vector<uint16_t> room;
-  const std::span<const uint16_t> depth_mm = PackedDepth(frame.view(), room);
-  const auto largest = std::max_element(depth_mm.begin(), depth_mm.end());
-  if (largest != depth_mm.end() && *largest > kLargestOniDepth_mm) {
-    throw InputError(place + "expected depths of at most " + std::to_string(kLargestOniDepth_mm) +
-                     " mm, found " + std::to_string(*largest) + ", which .oni would corrupt");
-  }
-  Bytes data;
-  if (!EncodeOniDepth(depth_mm, &data)) {
-    throw InputError(place + "expected at most " + std::to_string(kLargestOniTable) +
-                     " different depths, found more, which .oni would corrupt");
-  }
-  if (static_cast<int64_t>(data.size()) > kLargestOniData) {
-    throw InputError(place + "expected depths that fit the " + std::to_string(kLargestOniData) +
-                     " bytes that an OpenNI2 player has for a frame, found noise that takes " +
-                     std::to_string(data.size()));
-  }
+  const Bytes data = state_->Encode(frame);
   const OniSeekEntry entry{state_->ComputeTimestamp_us(frame), 0, state_->position};
   Bytes fields;
   Append(entry.timestamp_us, &fields);
