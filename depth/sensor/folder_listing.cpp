@@ -125,16 +125,28 @@ ImageSize CommonSize(const std::vector<ListedFrame>& frames) {
       ->first;
 }
 
+// Of the times that `what` has.
+void NoteUnit(const std::string& what, double unit_s, const SourceOptions& options) {
+  if (unit_s == 1.0 || !options.note) return;
+  const char* unit = unit_s == 1e-3   ? "milliseconds"
+                     : unit_s == 1e-6 ? "microseconds"
+                                      : "nanoseconds";
+  options.note(NoteKind::kInfo, what + ", in steps that no camera's seconds have, are taken for " +
+                                    unit + ": --fps says otherwise");
+}
+
 void PutInOrderOfTime(std::vector<ListedFrame>& frames) {
   std::stable_sort(frames.begin(), frames.end(),
                    [](const auto& a, const auto& b) { return a.time_s < b.time_s; });
   for (size_t i = 0; i < frames.size(); ++i) frames[i].number = static_cast<int64_t>(i);
 }
 
-std::vector<ListedFrame> FramesByName(const std::vector<fs::path>& paths) {
+std::vector<ListedFrame> FramesByName(const fs::path& folder, const std::vector<fs::path>& paths,
+                                      const SourceOptions& options) {
   std::vector<std::string> stems;
   for (const fs::path& path : paths) stems.push_back(path.stem().string());
   const NamedTimes times = ReadTimesFromNames(stems);
+  NoteUnit(folder.string() + ": the numbers in its names", times.unit_s, options);
   const bool are_times = times.kind == NamedTimes::Kind::kTimes;
   std::vector<ListedFrame> frames;
   for (size_t i = 0; i < paths.size(); ++i) {
@@ -189,17 +201,6 @@ void NoteBadLines(const FrameList& list, const SourceOptions& options) {
                                        std::to_string(list.bad_lines.size()));
 }
 
-void NoteUnit(const FrameList& list, const SourceOptions& options) {
-  if (list.unit_s == 1.0 || !options.note) return;
-  const char* unit = list.unit_s == 1e-3   ? "milliseconds"
-                     : list.unit_s == 1e-6 ? "microseconds"
-                                           : "nanoseconds";
-  options.note(NoteKind::kInfo, list.file.string() +
-                                    ": its times, in steps that no camera's seconds have, are "
-                                    "taken for " +
-                                    unit + ": --fps says otherwise");
-}
-
 // As depth.txt beside the images or, as TUM's data sets have it, above their folder lists them. One
 // that names no file that is there is another program's, where the folder has images.
 std::vector<ListedFrame> FramesByList(const fs::path& folder, bool has_images,
@@ -212,7 +213,7 @@ std::vector<ListedFrame> FramesByList(const fs::path& folder, bool has_images,
     if (list.frames.empty()) continue;
     if (list.NamesAFile()) {
       NoteBadLines(list, options);
-      NoteUnit(list, options);
+      NoteUnit(list.file.string() + ": its times", list.unit_s, options);
       return std::move(list.frames);
     }
     const std::string what =
@@ -259,7 +260,7 @@ FolderListing ListDepthFolder(const fs::path& folder, const SourceOptions& optio
   } else if (sorted.depth.empty()) {
     FailEmpty(folder, sorted);
   } else {
-    listing.frames = FramesByName(sorted.depth);
+    listing.frames = FramesByName(folder, sorted.depth, options);
   }
   NotePassedOver(folder, sorted.other, options);
   listing.size = CommonSize(listing.frames);

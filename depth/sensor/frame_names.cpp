@@ -129,6 +129,7 @@ NamedTimes ReadTimesFromNumbers(const std::vector<NumberedName>& names,
   const int64_t step = values.size() > 1 ? MedianStep(values) : 1;
   if (const auto unit_s = GuessUnitOfNumbers(step, digits)) {
     times.kind = NamedTimes::Kind::kTimes;
+    times.unit_s = *unit_s;
     for (const int64_t value : values) {
       times.times_s.push_back(static_cast<double>(value - values.front()) * *unit_s);
     }

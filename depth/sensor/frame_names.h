@@ -24,6 +24,7 @@ struct NamedTimes {
   Kind kind = Kind::kPlaces;
   std::vector<int64_t> numbers;  // kNumbers: of the frames; one that is missing was dropped
   std::vector<double> times_s;   // kTimes: of each name, from the earliest on
+  double unit_s = 1.0;           // kTimes: of the numbers in the names
 };
 
 /// Names in natural order, which is not that of seconds whose last zeros are left out (0.1 comes

@@ -124,6 +124,16 @@ TEST(FolderSource, TimesInNamesAreTimes) {
   EXPECT_NEAR(times_s[2], 2.1, 1e-6);
 }
 
+// Or are every thirtieth frame: whoever reads them must know what was made of it.
+TEST(FolderSource, NumbersThatAreTakenForTimesAreToldOf) {
+  const TemporaryFolder folder;
+  for (const char* name : {"000000.png", "000030.png", "000060.png"}) WriteFrame(folder / name, 1);
+  Notes notes;
+  EXPECT_NEAR(TimesOf(*OpenSource(folder.path().string(), notes.Options()))[2], 0.06, 1e-9);
+  EXPECT_TRUE(notes.Tell("numbers in its names")) << notes.text;
+  EXPECT_TRUE(notes.Tell("taken for milliseconds: --fps says otherwise")) << notes.text;
+}
+
 // As many a program prints a number.
 TEST(FolderSource, TimesWithoutTheirLastZerosAreInOrder) {
   const TemporaryFolder folder;
