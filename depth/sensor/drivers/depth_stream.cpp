@@ -22,14 +22,15 @@ DepthStream::DepthStream(const Camera& camera, int fps, int max_value, bool mirr
 }
 
 OniStatus DepthStream::getProperty(int id, void* data, int* size) {
+  const Camera camera = CurrentCamera();
   switch (id) {
     case ONI_STREAM_PROPERTY_VIDEO_MODE:
       return AnswerProperty(mode_, data, size);
     case ONI_STREAM_PROPERTY_HORIZONTAL_FOV:
-      return AnswerProperty(static_cast<float>(2 * std::atan(camera_.width / (2 * camera_.fx))),
-                            data, size);
+      return AnswerProperty(static_cast<float>(2 * std::atan(camera.width / (2 * camera.fx))), data,
+                            size);
     case ONI_STREAM_PROPERTY_VERTICAL_FOV:
-      return AnswerProperty(static_cast<float>(2 * std::atan(camera_.height / (2 * camera_.fy))),
+      return AnswerProperty(static_cast<float>(2 * std::atan(camera.height / (2 * camera.fy))),
                             data, size);
     case ONI_STREAM_PROPERTY_MAX_VALUE:
       return AnswerProperty(max_value_, data, size);
@@ -44,8 +45,8 @@ OniStatus DepthStream::getProperty(int id, void* data, int* size) {
     case kCameraProperty:
       return AnswerProperty(
           std::array<double, 6>{static_cast<double>(mode_.resolutionX),
-                                static_cast<double>(mode_.resolutionY), camera_.fx / step_,
-                                camera_.fy / step_, camera_.cx / step_, camera_.cy / step_},
+                                static_cast<double>(mode_.resolutionY), camera.fx / step_,
+                                camera.fy / step_, camera.cx / step_, camera.cy / step_},
           data, size);
     default:
       return ONI_STATUS_NOT_SUPPORTED;

@@ -30,6 +30,9 @@ class DepthStream : public oni::driver::StreamBase {
   /// they chose; called on the driver's thread.
   void Deliver(const uint16_t* depth_mm, int frame_index, uint64_t timestamp_us);
 
+  /// That the images are of now, of the constructor's size.
+  virtual Camera CurrentCamera() const { return camera_; }
+
  private:
   OniStatus SetVideoMode(const OniVideoMode& mode);
 

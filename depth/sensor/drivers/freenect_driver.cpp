@@ -21,21 +21,27 @@ namespace {
 
 constexpr int kMaxValue = 10001;  // libfreenect gives no depth beyond 10 m
 
-// libfreenect's zero plane (1200 mm) over twice the width of a pixel on it (1.042 mm).
-Camera KinectCamera() { return {640, 480, 575.8, 575.8, 320.0, 240.0}; }
+// As the depth camera sees: libfreenect's zero plane (1200 mm) over twice the width of a pixel on
+// it (1.042 mm). As the colour camera does: the registration that libfreenect has for a Kinect that
+// tells none (src/registration.c) scales that image by 0.926 and moves its middle.
+Camera KinectCamera(KinectDepthMode mode) {
+  if (mode == KinectDepthMode::kRegistered) return {640, 480, 533.0, 533.0, 304.0, 253.0};
+  return {640, 480, 575.8, 575.8, 320.0, 240.0};
+}
 
-// OSSA_FREENECT_DEPTH = registered (default), mm or raw.
+// OSSA_FREENECT_DEPTH = mm (default), registered or raw. Of a registered image nothing here has the
+// colours, and it has holes that the models were not trained on.
 KinectDepthMode ModeFromEnvironment() {
   const char* chosen = std::getenv("OSSA_FREENECT_DEPTH");
-  const std::string name = chosen != nullptr ? chosen : "registered";
-  if (name == "mm") return KinectDepthMode::kMillimetres;
-  return name == "raw" ? KinectDepthMode::kRaw : KinectDepthMode::kRegistered;
+  const std::string name = chosen != nullptr ? chosen : "mm";
+  if (name == "registered") return KinectDepthMode::kRegistered;
+  return name == "raw" ? KinectDepthMode::kRaw : KinectDepthMode::kMillimetres;
 }
 
 class KinectStream final : public DepthStream {
  public:
   explicit KinectStream(FreenectCamera& camera)
-      : DepthStream(KinectCamera(), 30, kMaxValue, false), camera_(camera) {}
+      : DepthStream(KinectCamera(camera.mode()), 30, kMaxValue, false), camera_(camera) {}
   ~KinectStream() override { stop(); }
 
   OniStatus start() override {
@@ -52,6 +58,9 @@ class KinectStream final : public DepthStream {
     camera_.Stop();
     if (thread_.joinable()) thread_.join();
   }
+
+ protected:
+  Camera CurrentCamera() const override { return KinectCamera(camera_.mode()); }
 
  private:
   FreenectCamera& camera_;

@@ -4,6 +4,7 @@
 #include <OpenNI.h>
 
 #include <array>
+#include <cmath>
 #include <cstdio>
 
 #include "depth/sensor/drivers/kinect_properties.h"
@@ -30,9 +31,26 @@ bool PrintProperties(openni::Device& device) {
   std::printf("serial %s\ntilt %.1f\naccelerometer %.2f %.2f %.2f\n", serial.data(), tilt_deg,
               xyz_mps2[0], xyz_mps2[1], xyz_mps2[2]);
   std::printf("tilts to 10: %d, to 60: %d\n", tilts ? 1 : 0, too_far ? 1 : 0);
-  std::printf(
-      "registered %d\n",
-      device.getImageRegistrationMode() == openni::IMAGE_REGISTRATION_DEPTH_TO_COLOR ? 1 : 0);
+  return true;
+}
+
+// Whose view the depth image is, and the focal length in it, as the stream's angle of view has it.
+void PrintView(const openni::Device& device, const openni::VideoStream& stream) {
+  constexpr double kHalfWidth_px = 320.0;
+  std::printf("registered %d, f %.0f\n",
+              device.getImageRegistrationMode() == openni::IMAGE_REGISTRATION_DEPTH_TO_COLOR,
+              kHalfWidth_px / std::tan(stream.getHorizontalFieldOfView() / 2));
+}
+
+// Of both cameras in turn.
+bool PrintViews(openni::Device& device, openni::VideoStream& stream) {
+  stream.stop();
+  PrintView(device, stream);
+  if (device.setImageRegistrationMode(openni::IMAGE_REGISTRATION_DEPTH_TO_COLOR) !=
+      openni::STATUS_OK) {
+    return false;
+  }
+  PrintView(device, stream);
   return true;
 }
 
@@ -63,7 +81,7 @@ int main(int argc, char** argv) {
     openni::Device device;
     openni::VideoStream stream;
     if (device.open(argv[1]) == openni::STATUS_OK && PrintStream(device, stream) &&
-        PrintProperties(device)) {
+        PrintProperties(device) && PrintViews(device, stream)) {
       status = 0;
     } else {
       std::printf("%s\n", openni::OpenNI::getExtendedError());

@@ -80,7 +80,8 @@ TEST(KinectDriver, TellsAnyOpenNi2ProgramSerialTiltAndAccelerometer) {
   says("tilt 0.0");
   says("accelerometer 0.00 9.81 0.00");  // the dump's: it stands level
   says("tilts to 10: 1, to 60: 0");      // the motor's range ends at 27 degrees
-  says("registered 1");
+  says("registered 0, f 576");           // as the depth camera sees
+  says("registered 1, f 533");           // as the colour camera does
   says("stream 640x480, 30 Hz, millimetres 1, below 10001");
 }
 
