@@ -104,6 +104,22 @@ void NotePassedOver(const fs::path& folder, const std::vector<fs::path>& others,
   options.note(NoteKind::kInfo, text + (others.size() > kNamed ? ", ..." : ""));
 }
 
+// Two images of each moment, such as depth_1.png and depth_filled_1.png, make no sequence. Names
+// that are all different say nothing of that.
+void NoteKinds(const fs::path& folder, const std::vector<fs::path>& depth,
+               const SourceOptions& options) {
+  std::map<std::string, int> count;
+  for (const fs::path& path : depth) ++count[StripNumbers(path.stem().string())];
+  const bool is_any_alone =
+      std::any_of(count.begin(), count.end(), [](const auto& kind) { return kind.second == 1; });
+  if (count.size() < 2 || is_any_alone || !options.note) return;
+  std::string kinds;
+  for (const auto& [kind, files] : count) kinds += (kinds.empty() ? "'" : ", '") + kind + "'";
+  options.note(NoteKind::kInfo, folder.string() + ": depth images of " +
+                                    std::to_string(count.size()) + " kinds by their names (" +
+                                    kinds + ") are read as one sequence");
+}
+
 // One frame of another size, or a broken first one, must not decide for all.
 ImageSize CommonSize(const std::vector<ListedFrame>& frames) {
   std::vector<std::pair<ImageSize, int>> counts;
@@ -260,6 +276,7 @@ FolderListing ListDepthFolder(const fs::path& folder, const SourceOptions& optio
   } else if (sorted.depth.empty()) {
     FailEmpty(folder, sorted);
   } else {
+    NoteKinds(folder, sorted.depth, options);
     listing.frames = FramesByName(folder, sorted.depth, options);
   }
   NotePassedOver(folder, sorted.other, options);

@@ -243,6 +243,20 @@ TEST(FolderSource, WhatIsNoDepthImageIsPassedOverWithANote) {
   EXPECT_TRUE(notes.Tell("passed over 4 files")) << notes.text;
 }
 
+TEST(FolderSource, TwoSequencesInOneFolderAreToldOf) {
+  const TemporaryFolder folder;
+  for (const char* name : {"depth_0.png", "depth_1.png", "depth_raw_0.png"}) {
+    WriteFrame(folder / name, 1);
+  }
+  Notes notes;
+  OpenSource(folder.path().string(), notes.Options());
+  EXPECT_FALSE(notes.Tell("kinds")) << notes.text;
+  WriteFrame(folder / "depth_raw_1.png", 1);
+  OpenSource(folder.path().string(), notes.Options());
+  EXPECT_TRUE(notes.Tell("depth images of 2 kinds by their names ('depth_', 'depth_raw_')"))
+      << notes.text;
+}
+
 TEST(FolderSource, ImagesThatAreNoneOfDepthAreRefusedByTheirKind) {
   const TemporaryFolder folder;
   WriteLabelPng(folder / "0.png", Image<uint8_t>(8, 6, 0));
