@@ -1,5 +1,6 @@
 #include "depth/image/camera_io.h"
 
+#include <algorithm>
 #include <charconv>
 #include <cmath>
 #include <fstream>
@@ -64,15 +65,31 @@ int WholeNumber(const json& object, const char* field, const std::string& name) 
   return static_cast<int>(value);
 }
 
+// As Open3D writes it: the nine numbers of the matrix, column by column.
+void TakeMatrix(const json& matrix, const std::string& name, Camera* camera) {
+  const bool is_matrix =
+      matrix.is_array() && matrix.size() == 9 &&
+      std::all_of(matrix.begin(), matrix.end(), [](const json& n) { return n.is_number(); });
+  if (!is_matrix) throw InputError(name + ": intrinsic_matrix: expected nine numbers");
+  camera->fx = matrix[0].get<double>();
+  camera->fy = matrix[4].get<double>();
+  camera->cx = matrix[6].get<double>();
+  camera->cy = matrix[7].get<double>();
+}
+
 Camera FromObject(const json& object, const std::string& name) {
   if (!object.is_object()) throw InputError(name + ": camera: expected a JSON object");
   Camera camera;
   camera.width = WholeNumber(object, "width", name);
   camera.height = WholeNumber(object, "height", name);
-  camera.fx = Number(object, "fx", name);
-  camera.fy = Number(object, "fy", name);
-  camera.cx = Number(object, "cx", name);
-  camera.cy = Number(object, "cy", name);
+  if (object.contains("intrinsic_matrix")) {
+    TakeMatrix(object["intrinsic_matrix"], name, &camera);
+  } else {
+    camera.fx = Number(object, "fx", name);
+    camera.fy = Number(object, "fy", name);
+    camera.cx = Number(object, "cx", name);
+    camera.cy = Number(object, "cy", name);
+  }
   CheckCamera(camera, name + ": camera");
   return camera;
 }

@@ -11,6 +11,7 @@
 #include "depth/base/error.h"
 #include "depth/sensor/depth_list.h"
 #include "depth/sensor/frame_names.h"
+#include "depth/sensor/source_internal.h"
 
 namespace ossa::depth {
 namespace {
@@ -28,8 +29,9 @@ struct Sorted {
 
 // Of those that may lie there no note is due.
 bool IsExpectedBeside(const fs::path& path) {
-  constexpr std::array<std::string_view, 5> kKnown = {"camera.json", "depth.txt", "manifest.json",
-                                                      "truth.jsonl", "extrinsics.json"};
+  constexpr std::array<std::string_view, 7> kKnown = {
+      "camera.json",           "depth.txt",     "manifest.json", "truth.jsonl", "extrinsics.json",
+      "camera_intrinsic.json", "intrinsic.json"};
   return std::find(kKnown.begin(), kKnown.end(), path.filename().string()) != kKnown.end();
 }
 
@@ -248,6 +250,11 @@ std::vector<ListedFrame> FramesByList(const fs::path& folder, bool has_images,
         folder.string() +
         ": expected a folder of 16-bit PNGs, found a packed data set, whose images are "
         "cut out around people: `ossa render --format png` or both keeps them whole");
+  }
+  for (const fs::path& path : sorted.other) {
+    if (const char* how = HowToConvert(path)) {
+      throw InputError(path.string() + ": expected 16-bit PNGs, found " + how);
+    }
   }
   throw InputError(folder.string() + ": expected a folder of 16-bit PNGs, found none in it");
 }

@@ -110,9 +110,35 @@ Camera StatedCamera(const Camera& camera, const fs::path& file, ImageSize size) 
   return camera;
 }
 
-std::optional<Camera> CameraJsonIn(const fs::path& folder, ImageSize size) {
+// What Open3D's recorders write beside their images or above the folder of depth. Other programs'
+// files of these names are passed over.
+std::optional<Camera> Open3dCamera(const fs::path& folder, ImageSize size,
+                                   const SourceOptions& options) {
+  const fs::path here = fs::absolute(folder).lexically_normal();
+  const fs::path plain = here.has_filename() ? here : here.parent_path();
+  for (const fs::path& place : {plain, plain.parent_path()}) {
+    if (place != plain && plain.filename() != "depth") continue;
+    for (const char* name : {"camera_intrinsic.json", "intrinsic.json"}) {
+      const fs::path file = place / name;
+      if (!fs::exists(file)) continue;
+      std::string note = "the camera is as it says";
+      std::optional<Camera> camera;
+      try {
+        camera = StatedCamera(ReadCameraJson(file), file, size);
+      } catch (const InputError& error) {
+        note = std::string("passed over: ") + error.what();
+      }
+      if (options.note) options.note(NoteKind::kInfo, file.string() + ": " + note);
+      if (camera) return camera;
+    }
+  }
+  return std::nullopt;
+}
+
+std::optional<Camera> CameraJsonIn(const fs::path& folder, ImageSize size,
+                                   const SourceOptions& options) {
   const fs::path file = folder / "camera.json";
-  if (!fs::exists(file)) return std::nullopt;
+  if (!fs::exists(file)) return Open3dCamera(folder, size, options);
   return StatedCamera(ReadCameraJson(file), file, size);
 }
 
@@ -126,7 +152,8 @@ Camera ChooseCamera(const fs::path& folder, const std::optional<Camera>& stated,
 std::unique_ptr<FrameSource> OpenFrames(FolderListing frames, const fs::path& folder,
                                         const SourceOptions& options) {
   const ImageSize size = frames.size;
-  const std::optional<Camera> stated = options.camera ? std::nullopt : CameraJsonIn(folder, size);
+  const std::optional<Camera> stated =
+      options.camera ? std::nullopt : CameraJsonIn(folder, size, options);
   return std::make_unique<FolderSource>(folder.string(), std::move(frames),
                                         ChooseCamera(folder, stated, size, options), options);
 }
@@ -136,7 +163,7 @@ std::unique_ptr<FrameSource> OpenDatasetFrames(FolderListing frames, const fs::p
   const ImageSize size = frames.size;
   const fs::path manifest = folder / "manifest.json";
   std::optional<Camera> stated;
-  if (!options.camera) stated = CameraJsonIn(folder, size);
+  if (!options.camera) stated = CameraJsonIn(folder, size, options);
   if (!options.camera && !stated) {
     stated = StatedCamera(ReadManifestCamera(manifest), manifest, size);
   }

@@ -57,8 +57,9 @@ bool IsBagName(const std::filesystem::path& path) {
   return LowerCaseExtension(extension == ".active" ? path.stem() : path) == ".bag";
 }
 
-// Recordings that ossa does not read, and what makes ones of them that it does; null of others.
-const char* HowToConvert(const std::string& extension) {
+}  // namespace
+
+const char* HowToConvert(const std::filesystem::path& file) {
   constexpr const char* kXef =
       "a Kinect Studio recording: extract its depth to 16-bit PNGs, by KinectXEFTools or by "
       "playing it into a recorder on Windows, and read that folder";
@@ -66,28 +67,27 @@ const char* HowToConvert(const std::string& extension) {
       "a video, which holds colours and no distances; one of 16-bit greys becomes a folder to read "
       "by 'ffmpeg -i FILE -pix_fmt gray16be FOLDER/%06d.png'";
   constexpr const char* kRos2 = "a ROS 2 bag: 'rosbags-convert' makes a ROS 1 .bag of it";
-  constexpr std::array<std::pair<std::string_view, const char*>, 9> kHow = {{{".xef", kXef},
-                                                                             {".mp4", kVideo},
-                                                                             {".avi", kVideo},
-                                                                             {".mov", kVideo},
-                                                                             {".webm", kVideo},
-                                                                             {".m4v", kVideo},
-                                                                             {".wmv", kVideo},
-                                                                             {".db3", kRos2},
-                                                                             {".mcap", kRos2}}};
-  const auto found = std::find_if(kHow.begin(), kHow.end(),
-                                  [&](const auto& how) { return how.first == extension; });
+  constexpr const char* kImage =
+      "an image that is no PNG: ImageMagick's 'mogrify -format png FILE' keeps its 16 bits";
+  constexpr const char* kArray = "an array: Python's ossa.Tracker takes it once it is loaded";
+  using How = std::pair<std::string_view, const char*>;
+  constexpr std::array kHow = {How{".xef", kXef},   How{".mp4", kVideo},  How{".avi", kVideo},
+                               How{".mov", kVideo}, How{".webm", kVideo}, How{".m4v", kVideo},
+                               How{".wmv", kVideo}, How{".db3", kRos2},   How{".mcap", kRos2},
+                               How{".tif", kImage}, How{".tiff", kImage}, How{".pgm", kImage},
+                               How{".npy", kArray}, How{".npz", kArray},  How{".mat", kArray}};
+  const auto found = std::find_if(
+      kHow.begin(), kHow.end(),
+      [extension = LowerCaseExtension(file)](const auto& how) { return how.first == extension; });
   return found == kHow.end() ? nullptr : found->second;
 }
-
-}  // namespace
 
 bool IsRecording(const std::filesystem::path& path) {
   if (!std::filesystem::is_directory(path)) {
     const std::filesystem::path file = BagName(path.string()).file;
     const std::string extension = LowerCaseExtension(file);
     return IsOniName(path) || extension == ".mkv" || IsBagName(file) || IsPngName(path) ||
-           HowToConvert(extension) != nullptr;
+           HowToConvert(file) != nullptr;
   }
   const std::filesystem::directory_iterator entries(path);
   return std::any_of(begin(entries), end(entries), [](const auto& entry) {
@@ -133,7 +133,7 @@ std::unique_ptr<FrameSource> OpenSource(const std::string& source, const SourceO
   if (std::filesystem::exists(bag.file, error)) {
     if (extension == ".mkv") return OpenMkvFile(path, options);
     if (IsBagName(bag.file)) return OpenBagFile(bag.file, bag.topic, options);
-    if (const char* how = HowToConvert(extension)) {
+    if (const char* how = HowToConvert(bag.file)) {
       throw InputError(source + ": expected depth images, found " + how);
     }
   }

@@ -42,6 +42,10 @@ std::unique_ptr<FrameSource> OpenBagFile(const std::filesystem::path& path,
 Camera CameraByImageSize(const std::string& name, int width, int height,
                          const SourceOptions& options);
 
+/// Of files that ossa does not read, by their extension: what they are and what makes ones of them
+/// that it does; null of others.
+const char* HowToConvert(const std::filesystem::path& file);
+
 /// Whether a source says what its numbers are.
 enum class UnitStated { kNo, kYes };
 

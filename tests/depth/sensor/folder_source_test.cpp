@@ -287,6 +287,23 @@ TEST(FolderSource, ACameraTakenByTheImageSizeIsToldOf) {
   EXPECT_TRUE(notes.Tell("512x424 are taken for a kinect-v2's (f 366 px)")) << notes.text;
 }
 
+// As Open3D's recorders lay their folders out.
+TEST(FolderSource, TheCameraThatOpen3dWroteAboveItIsTaken) {
+  const TemporaryFolder folder;
+  std::filesystem::create_directory(folder / "depth");
+  WriteFrame(folder / "depth/000000.png", 1, 640, 480);
+  std::ofstream(folder / "camera_intrinsic.json")
+      << R"({"width": 640, "height": 480, "intrinsic_matrix": [612.5, 0, 0, 0, 611, 0, 322, 237, 1]})";
+  Notes notes;
+  const auto source = OpenSource((folder / "depth/").string(), notes.Options());
+  EXPECT_EQ(source->camera(), (Camera{640, 480, 612.5, 611.0, 322.0, 237.0}));
+  EXPECT_TRUE(notes.Tell("camera_intrinsic.json: the camera is as it says")) << notes.text;
+  std::ofstream(folder / "camera_intrinsic.json") << R"({"focal": 612.5})";
+  Notes others;
+  EXPECT_EQ(OpenSource((folder / "depth").string(), others.Options())->camera().fx, 575.0);
+  EXPECT_TRUE(others.Tell("camera_intrinsic.json: passed over: ")) << others.text;
+}
+
 TEST(FolderSource, NamesInCapitalsAreFramesToo) {
   const TemporaryFolder folder;
   EXPECT_FALSE(IsRecording(folder.path()));

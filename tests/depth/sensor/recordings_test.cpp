@@ -78,14 +78,24 @@ TEST(OpenNi1Oni, IsRead) {
 
 TEST(OtherRecordings, SayHowToConvertThem) {
   const test::TemporaryFolder folder;
-  const std::vector<std::pair<const char*, const char*>> cases = {
-      {"a.xef", "KinectXEFTools"}, {"a.MP4", "ffmpeg"}, {"a.mcap", "rosbags-convert"}};
+  const std::vector<std::pair<const char*, const char*>> cases = {{"a.xef", "KinectXEFTools"},
+                                                                  {"a.MP4", "ffmpeg"},
+                                                                  {"a.mcap", "rosbags-convert"},
+                                                                  {"a.TIFF", "mogrify"},
+                                                                  {"a.npy", "ossa.Tracker"}};
   for (const auto& each : cases) {
     const auto path = folder / each.first;
     std::ofstream(path) << "x";
     EXPECT_TRUE(IsRecording(path));
     test::ExpectRefused([&] { OpenSource(path); }, each.second);
   }
+}
+
+TEST(OtherImages, InAFolderWithoutOursSayHowToConvertThem) {
+  const test::TemporaryFolder folder;
+  std::ofstream(folder / "depth_0.pgm") << "P5";
+  test::ExpectRefused([&] { OpenSource(folder.path()); },
+                      "depth_0.pgm: expected 16-bit PNGs, found an image that is no PNG");
 }
 
 }  // namespace
