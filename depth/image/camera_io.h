@@ -8,7 +8,8 @@
 namespace ossa::depth {
 
 /// `camera.json`: {"width": 640, "height": 480, "fx": 575.0, "fy": 575.0, "cx": 320.0, "cy": 240.0}
-/// or, as Open3D writes it, with "intrinsic_matrix": [fx, 0, 0, 0, fy, 0, cx, cy, 1]. Throws InputError naming the file and the field.
+/// or, as Open3D writes it, with "intrinsic_matrix": [fx, 0, 0, 0, fy, 0, cx, cy, 1].
+/// Throws InputError naming the file and the field.
 Camera ReadCameraJson(const std::filesystem::path& path);
 void WriteCameraJson(const std::filesystem::path& path, const Camera& camera);
 
