@@ -397,10 +397,10 @@ TEST(OpenSource, ARecordingThatIsNoFileSaysWhatItIs) {
 
 TEST(OpenSource, AFileOfAnotherKindIsNotSaidToBeMissing) {
   const TemporaryFolder folder;
-  std::ofstream(folder / "depth.tiff") << "II*";
-  test::ExpectRefused([&] { OpenSource((folder / "depth.tiff").string()); },
+  std::ofstream(folder / "depth.exr") << "II*";
+  test::ExpectRefused([&] { OpenSource((folder / "depth.exr").string()); },
                       "found what has none of these names");
-  test::ExpectRefused([&] { OpenSource((folder / "none.tiff").string()); }, "no such thing");
+  test::ExpectRefused([&] { OpenSource((folder / "none.exr").string()); }, "no such thing");
 }
 
 TEST(OpenSource, WhatIsNotASourceIsOneLine) {

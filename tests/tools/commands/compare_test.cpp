@@ -133,6 +133,19 @@ TEST_F(CompareCommand, ComparesFoldersClipByClipWithIntervalsAndTests) {
 }
 
 // A method that sees somebody who is not there keeps its clips in the paired tests.
+// Clips of a result without truth were left out without a word.
+TEST_F(CompareCommand, SaysWhichClipsHaveNoTruthOfTheirName) {
+  for (const char* name : {"truth/a.jsonl", "truth/b.jsonl", "result/a.jsonl", "result/B.jsonl"}) {
+    std::filesystem::create_directories((folder_ / name).parent_path());
+    std::filesystem::copy_file(truth_, folder_ / name);
+  }
+  const auto run = RunOssa({"compare", folder_ / "truth", folder_ / "result"});
+  ASSERT_EQ(run.exit_status, 0) << run.err;
+  EXPECT_NE(run.err.find("1 of its 2 clips have no truth of their name in"), std::string::npos)
+      << run.err;
+  EXPECT_NE(run.err.find("e.g. B"), std::string::npos) << run.err;
+}
+
 TEST_F(CompareCommand, PairsClipsInWhichAResultHasABodyTooMany) {
   for (const char* name : {"t", "a", "b"}) std::filesystem::create_directories(folder_ / name);
   for (int clip = 0; clip < 6; ++clip) {

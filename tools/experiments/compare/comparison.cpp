@@ -59,6 +59,23 @@ void AddClip(ComparedResult& compared, const std::string& name, const SkeletonCl
   }
 }
 
+// Of results that are measured against nothing, a line. Names that differ in their letters' case
+// are others.
+void WarnOfClipsWithoutTruth(const std::vector<SkeletonClip>& truth, const std::string& truth_name,
+                             const std::vector<SkeletonClip>& results, const std::string& name,
+                             std::vector<std::string>& warnings) {
+  std::set<std::string> known;
+  for (const SkeletonClip& clip : truth) known.insert(clip.name);
+  std::vector<std::string> others;
+  for (const SkeletonClip& clip : results) {
+    if (!known.contains(clip.name)) others.push_back(clip.name);
+  }
+  if (others.empty()) return;
+  warnings.push_back(
+      fmt::format("{}: {} of its {} clips have no truth of their name in {}, e.g. {}", name,
+                  others.size(), results.size(), truth_name, others.front()));
+}
+
 ComparedResult CompareOne(const std::string& truth_name, const std::vector<SkeletonClip>& truth,
                           const std::string& name, const CompareOptions& options,
                           const std::function<void()>& on_clip,
@@ -82,6 +99,7 @@ ComparedResult CompareOne(const std::string& truth_name, const std::vector<Skele
   if (compared.missing_clips.size() == truth.size()) {
     RefuseEmpty(truth_name, name, "clips with the names of those");
   }
+  if (!single) WarnOfClipsWithoutTruth(truth, truth_name, results, name, warnings);
   compared.mean = MeanOverClips(name, compared.clips);
   // Who finds nobody is compared: all is missed.
   if (compared.clips.empty()) RefuseEmpty(truth_name, name, "frames at the times");
