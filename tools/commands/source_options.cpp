@@ -7,6 +7,7 @@
 #include <cstdio>
 #include <filesystem>
 #include <set>
+#include <system_error>
 
 #include "depth/base/error.h"
 #include "depth/base/one_line.h"
@@ -128,9 +129,10 @@ std::string CameraText(const depth::CameraGuess& guess) {
 void FindCamera(SourceArguments& arguments, const std::function<tracker::TrackerOptions()>& options,
                 bool quiet) {
   const std::filesystem::path path = arguments.name;
-  const bool has_images = std::filesystem::is_regular_file(path)
+  std::error_code unknown;  // told of when its turn comes
+  const bool has_images = std::filesystem::is_regular_file(path, unknown)
                               ? path.extension() != ".oni" && path.extension() != ".mkv"
-                              : std::filesystem::is_directory(path);
+                              : std::filesystem::is_directory(path, unknown);
   if (!arguments.camera.empty() || !has_images) return;
   try {
     const auto guess = GuessedCamera(arguments);

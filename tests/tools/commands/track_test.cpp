@@ -277,6 +277,16 @@ TEST(TrackCommand, ADamagedRecordingEndsWithOneLineThatNamesIt) {
   EXPECT_NE(result.err.find("x.oni"), std::string::npos) << result.err;
 }
 
+// Whether it is a folder is asked before it is opened.
+TEST(TrackCommand, ANameThatIsTooLongIsNoSource) {
+  OSSA_NEEDS_MODEL();
+  const TemporaryFolder folder;
+  const CommandResult result = TrackTo(std::string(300, 'a'), folder / "x.jsonl");
+  EXPECT_EQ(result.exit_status, 1);
+  EXPECT_EQ(LineCount(result.err), 1) << result.err;
+  EXPECT_NE(result.err.find("expected openni:"), std::string::npos) << result.err;
+}
+
 TEST(TrackCommand, AMissingModelIsNamed) {
   const TemporaryFolder folder;
   WriteExampleFolder(folder.path(), 1);
