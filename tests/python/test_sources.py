@@ -96,3 +96,21 @@ def test_recordings_of_other_programs_are_read(shared):
         pytest.skip(f"{recording} is not there")
     image = next(ossa.open(recording))
     assert image.depth_mm.any() and image.camera.fx > 200
+
+
+def test_a_camera_that_is_found_is_that_of_images_to_come(clip):
+    source = ossa.open(clip)
+    source._take_camera((300.0, 301.0, 160.0, 120.0, 320, 240), "found")
+    assert source.camera.fx == 300.0 and source.notes == [f"{clip}: found"]
+    assert next(source).camera.fy == 301.0
+
+
+def test_people_tell_the_camera_of_images_that_do_not(shared, models):
+    images = shared / "real/itop_depth/side"
+    if not images.is_dir():
+        pytest.skip(f"{images} is not there")
+    source = ossa.open(images)
+    frames = list(ossa.Tracker(models=models).run(source))
+    assert source.camera.fx == pytest.approx(119.05, rel=0.02)  # as its README says
+    assert "taken for that" in source.notes[-1]
+    assert sum(len(frame.bodies) == 1 for frame in frames) > 0.9 * len(frames)

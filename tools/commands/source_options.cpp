@@ -3,11 +3,8 @@
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
-#include <algorithm>
 #include <cstdio>
-#include <filesystem>
 #include <set>
-#include <system_error>
 
 #include "depth/base/error.h"
 #include "depth/base/one_line.h"
@@ -94,65 +91,15 @@ tracker::Turn ChooseTurn(const SourceArguments& arguments) {
   return static_cast<tracker::Turn>(std::stoi(arguments.rotate) / kQuarter_deg);
 }
 
-namespace {
-
-// Whose camera is guessed by its images' size.
-std::optional<depth::CameraGuess> GuessedCamera(const SourceArguments& arguments) {
-  std::optional<depth::CameraGuess> guessed;
-  depth::SourceOptions options = DepthOptions(arguments, true);
-  options.guessed = [&guessed](const depth::CameraGuess& guess) { guessed = guess; };
-  depth::OpenSource(arguments.name, options);
-  return guessed;
-}
-
-// Stills far apart: a quarter of a minute of a recording, all of a few photographs.
-void LookAtSome(depth::FrameSource& source, tracker::CameraSearch& search) {
-  constexpr int64_t kMostFrames = 480, kMostStep = 15;  // by hand
-  const int64_t step = std::clamp(source.frame_count().value_or(0) / 16, int64_t{1}, kMostStep);
-  for (int64_t n = 0; n < kMostFrames && !search.is_sure() && !Interrupted();) {
-    depth::ReadResult read = source.Read(std::chrono::milliseconds(100));
-    if (read.status == depth::ReadStatus::kEnd) return;
-    if (read.status == depth::ReadStatus::kFrame && n++ % step == 0) {
-      search.Look(std::move(read.frame));
-    }
-  }
-}
-
-std::string CameraText(const depth::CameraGuess& guess) {
-  if (!guess.preset.empty()) return std::string(guess.preset);
-  const depth::Camera& c = guess.camera;
-  return fmt::format("{:.1f},{:.1f},{:.1f},{:.1f}", c.fx, c.fy, c.cx, c.cy);
-}
-
-}  // namespace
-
 void FindCamera(SourceArguments& arguments, const std::function<tracker::TrackerOptions()>& options,
                 bool quiet) {
-  const std::filesystem::path path = arguments.name;
-  std::error_code unknown;  // told of when its turn comes
-  const bool has_images = std::filesystem::is_regular_file(path, unknown)
-                              ? path.extension() != ".oni" && path.extension() != ".mkv"
-                              : std::filesystem::is_directory(path, unknown);
-  if (!arguments.camera.empty() || !has_images) return;
+  if (!arguments.camera.empty()) return;
   try {
-    const auto guess = GuessedCamera(arguments);
-    if (!guess) return;
-    const auto others = depth::NarrowerCameras(guess->camera.width, guess->camera.height);
-    if (others.empty()) return;
-    std::vector<depth::Camera> cameras = {guess->camera};
-    for (const depth::CameraGuess& other : others) cameras.push_back(other.camera);
-    tracker::CameraSearch search(cameras, options());
-    LookAtSome(*depth::OpenSource(arguments.name, DepthOptions(arguments, true)), search);
-    const size_t best = search.Best();
-    if (best == 0) return;
-    arguments.camera = CameraText(others[best - 1]);
-    if (quiet) return;
-    Say(
-        fmt::format("{}: no camera is stated; people in its images of {}x{} are far surer as "
-                    "--camera {} (f {:.0f} px) sees them than as a {} does (f {:.0f} px): taken "
-                    "for that\n",
-                    OnOneLine(arguments.name), guess->camera.width, guess->camera.height,
-                    arguments.camera, others[best - 1].camera.fx, guess->preset, guess->camera.fx));
+    const auto finding = tracker::FindNarrowerCamera(arguments.name, DepthOptions(arguments, true),
+                                                     options, [] { return !Interrupted(); });
+    if (!finding) return;
+    arguments.camera = tracker::CameraText(finding->found);
+    if (!quiet) Say(OnOneLine(arguments.name) + ": " + Describe(*finding) + "\n");
   } catch (const InputError&) {  // told of when its turn comes
   }
 }

@@ -1,7 +1,12 @@
 #include "tools/tracker/camera_search.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <array>
+#include <chrono>
+#include <filesystem>
+#include <system_error>
 #include <utility>
 
 namespace ossa::tracker {
@@ -33,6 +38,36 @@ TrackerOptions OptionsOfStills(TrackerOptions options) {
   return options;
 }
 
+bool HoldsImages(const std::filesystem::path& source) {
+  std::error_code unknown;  // told of when the source is opened
+  if (std::filesystem::is_directory(source, unknown)) return true;
+  return std::filesystem::is_regular_file(source, unknown) && depth::IsRecording(source) &&
+         source.extension() != ".oni" && source.extension() != ".mkv";
+}
+
+// Where it is guessed by the images' size.
+std::optional<depth::CameraGuess> FindGuess(const std::string& source,
+                                            depth::SourceOptions options) {
+  std::optional<depth::CameraGuess> guessed;
+  options.guessed = [&guessed](const depth::CameraGuess& guess) { guessed = guess; };
+  depth::OpenSource(source, options);
+  return guessed;
+}
+
+// Stills far apart: a quarter of a minute of a recording, all of a few photographs.
+void LookAtSome(depth::FrameSource& source, const std::function<bool()>& idle,
+                CameraSearch& search) {
+  constexpr int64_t kMostFrames = 480, kMostStep = 15;  // by hand
+  const int64_t step = std::clamp(source.frame_count().value_or(0) / 16, int64_t{1}, kMostStep);
+  for (int64_t n = 0; n < kMostFrames && !search.is_sure() && idle();) {
+    depth::ReadResult read = source.Read(std::chrono::milliseconds(100));
+    if (read.status == depth::ReadStatus::kEnd) return;
+    if (read.status == depth::ReadStatus::kFrame && n++ % step == 0) {
+      search.Look(std::move(read.frame));
+    }
+  }
+}
+
 }  // namespace
 
 CameraSearch::CameraSearch(std::vector<depth::Camera> cameras, TrackerOptions options)
@@ -62,6 +97,38 @@ size_t CameraSearch::Best() const {
   const auto best = std::max_element(surety_.begin(), surety_.end());
   return *best > surety_.front() + kMuchSurer * looks_ ? static_cast<size_t>(best - surety_.begin())
                                                        : 0;
+}
+
+std::string CameraText(const depth::CameraGuess& camera) {
+  if (!camera.preset.empty()) return std::string(camera.preset);
+  const depth::Camera& c = camera.camera;
+  return fmt::format("{:.1f},{:.1f},{:.1f},{:.1f}", c.fx, c.fy, c.cx, c.cy);
+}
+
+std::string Describe(const CameraFinding& finding) {
+  const auto& [guess, found] = finding;
+  return fmt::format(
+      "no camera is stated; people in its images of {}x{} are far surer as --camera {} (f {:.0f} "
+      "px) sees them than as a {} does (f {:.0f} px): taken for that",
+      guess.camera.width, guess.camera.height, CameraText(found), found.camera.fx, guess.preset,
+      guess.camera.fx);
+}
+
+std::optional<CameraFinding> FindNarrowerCamera(
+    const std::string& source, const depth::SourceOptions& options,
+    const std::function<TrackerOptions()>& tracker_options, const std::function<bool()>& idle) {
+  if (!HoldsImages(source)) return std::nullopt;
+  const auto guess = FindGuess(source, options);
+  if (!guess) return std::nullopt;
+  const auto others = depth::NarrowerCameras(guess->camera.width, guess->camera.height);
+  if (others.empty()) return std::nullopt;
+  std::vector<depth::Camera> cameras = {guess->camera};
+  for (const depth::CameraGuess& other : others) cameras.push_back(other.camera);
+  CameraSearch search(cameras, tracker_options());
+  LookAtSome(*depth::OpenSource(source, options), idle, search);
+  const size_t best = search.Best();
+  if (best == 0) return std::nullopt;
+  return CameraFinding{*guess, others[best - 1]};
 }
 
 }  // namespace ossa::tracker

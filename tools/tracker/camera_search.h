@@ -1,7 +1,11 @@
 #pragma once
+#include <functional>
+#include <optional>
+#include <string>
 #include <vector>
 
-#include "depth/image/camera.h"
+#include "depth/image/camera_presets.h"
+#include "depth/sensor/frame_source.h"
 #include "tools/tracker/tracker.h"
 
 namespace ossa::tracker {
@@ -30,5 +34,23 @@ class CameraSearch {
   int looks_ = 0;               // images with anybody in them
   Tracker tracker_;
 };
+
+/// A camera that was taken in place of the one guessed by the images' size.
+struct CameraFinding {
+  depth::CameraGuess guess, found;
+};
+
+/// What a user reads of it, without the source's name.
+std::string Describe(const CameraFinding& finding);
+/// The camera as `--camera` takes it.
+std::string CameraText(const depth::CameraGuess& camera);
+
+/// Of a folder of images, or one, that states no camera: looks at some of its images for whether
+/// one of depth::NarrowerCameras took them. Nothing where the guess stays, where there is no choice
+/// and of other sources. `options` of the tracker are asked for where there is a choice; `idle`
+/// returns false to end it. Throws InputError as depth::OpenSource does.
+std::optional<CameraFinding> FindNarrowerCamera(
+    const std::string& source, const depth::SourceOptions& options,
+    const std::function<TrackerOptions()>& tracker_options, const std::function<bool()>& idle);
 
 }  // namespace ossa::tracker

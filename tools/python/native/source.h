@@ -41,7 +41,7 @@ class Source {
   py::tuple Read(int timeout_ms);
   void Close();
   py::tuple Camera() {
-    return ToTuple(Locked([](auto& frames) { return frames.camera(); }));
+    return ToTuple(Locked([this](auto& frames) { return taken_.value_or(frames.camera()); }));
   }
   bool IsLive() {
     return Locked([](auto& frames) { return frames.is_live(); });
@@ -49,6 +49,8 @@ class Source {
   std::optional<int64_t> FrameCount() {
     return Locked([](auto& frames) { return frames.frame_count(); });
   }
+  /// Frames to come are of this one, whatever the source says.
+  void TakeCamera(const py::tuple& camera);
   Notes TakeNotes() { return notes_.Take(); }
 
  private:
@@ -63,6 +65,7 @@ class Source {
   NoteBook notes_;  // before what writes into it
   std::mutex mutex_;
   std::unique_ptr<depth::FrameSource> frames_;
+  std::optional<depth::Camera> taken_;
 };
 
 }  // namespace ossa::python

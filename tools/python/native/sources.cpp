@@ -21,6 +21,13 @@ namespace {
 
 using std::chrono::milliseconds;
 
+// As ToTuple makes one.
+depth::Camera CameraFrom(const py::handle& tuple) {
+  const auto c = tuple.cast<std::tuple<double, double, double, double, int, int>>();
+  return {std::get<4>(c), std::get<5>(c), std::get<0>(c),
+          std::get<1>(c), std::get<2>(c), std::get<3>(c)};
+}
+
 }  // namespace
 
 const char* NameOf(depth::ReadStatus status) {
@@ -44,9 +51,7 @@ depth::SourceOptions ReadSourceOptions(const py::dict& given) {
     if (py::isinstance<py::str>(camera)) {
       options.camera = depth::ParseCamera(camera.cast<std::string>());
     } else {
-      const auto c = camera.cast<std::tuple<double, double, double, double, int, int>>();
-      options.camera = depth::Camera{std::get<4>(c), std::get<5>(c), std::get<0>(c),
-                                     std::get<1>(c), std::get<2>(c), std::get<3>(c)};
+      options.camera = CameraFrom(camera);
     }
   }
   if (given.contains("depth_scale")) options.depth_scale = given["depth_scale"].cast<double>();
@@ -82,7 +87,17 @@ depth::FrameSource& Source::Opened() {
 
 depth::ReadResult Source::Next(int timeout_ms) {
   const std::lock_guard lock(mutex_);
-  return Opened().Read(milliseconds(timeout_ms));
+  depth::ReadResult read = Opened().Read(milliseconds(timeout_ms));
+  if (taken_ && read.status == depth::ReadStatus::kFrame) read.frame.camera = *taken_;
+  return read;
+}
+
+void Source::TakeCamera(const py::tuple& camera) {
+  const depth::Camera taken = CameraFrom(camera);
+  Locked([&](auto&) {
+    taken_ = taken;
+    return true;
+  });
 }
 
 py::tuple Source::Read(int timeout_ms) {
@@ -126,6 +141,7 @@ void AddSources(py::module_& module) {
       .def("camera", &Source::Camera)
       .def("is_live", &Source::IsLive)
       .def("frame_count", &Source::FrameCount)
+      .def("take_camera", &Source::TakeCamera, py::arg("camera"))
       .def("take_notes", &Source::TakeNotes);
 }
 

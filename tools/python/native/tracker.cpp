@@ -19,6 +19,7 @@
 #include "tools/python/native/native.h"
 #include "tools/python/native/source.h"
 #include "tools/tracker/body_mesh_file.h"
+#include "tools/tracker/camera_search.h"
 
 namespace ossa::python {
 namespace {
@@ -291,6 +292,7 @@ class Tracker {
     options.shapes =
         LoadPeople(given["person"].cast<std::vector<std::string>>(), models.set.surface.get());
     with_proposals_ = options.keep_proposals;
+    options_ = options;
     const py::gil_scoped_release free;
     tracker_.emplace(options);
     if (options.fit) mesh_ = tracker::LoadBodyMesh();
@@ -342,6 +344,18 @@ class Tracker {
     std::optional<BodyFrame> bodies;
     Locked([&](tracker::Tracker& t) { bodies = t.DrainLag(); });
     return OrNone(std::move(bodies));
+  }
+
+  /// Of images that state no camera: (camera, what was found, in words) where it is another than
+  /// was guessed.
+  py::object FindCamera(const std::string& source, const py::dict& given) {
+    const depth::SourceOptions options = ReadSourceOptions(given);
+    const auto finding = Interruptible([&] {
+      return tracker::FindNarrowerCamera(
+          source, options, [this] { return options_; }, GoesOn);
+    });
+    if (!finding) return py::none();
+    return py::make_tuple(ToTuple(finding->found.camera), tracker::Describe(*finding));
   }
 
   /// Looks through the beginning of a recording for which way up its camera is.
@@ -411,6 +425,7 @@ class Tracker {
   bool with_proposals_ = false;
   std::shared_ptr<const recon::BodyMesh> mesh_;  // where bodies are fitted
   int64_t index_ = 0;                            // of the next image
+  tracker::TrackerOptions options_;
   std::optional<tracker::Tracker> tracker_;
 };
 
@@ -436,6 +451,7 @@ void AddTracker(py::module_& module) {
       .def("track_next", &Tracker::TrackNext, py::arg("source"), py::arg("timeout_ms"),
            py::arg("turn"))
       .def("take_held", &Tracker::DrainLag)
+      .def("find_camera", &Tracker::FindCamera, py::arg("source"), py::arg("options"))
       .def("find_upright", &Tracker::FindUpright, py::arg("source"), py::arg("options"))
       .def("choose_users", &Tracker::ChooseUsers, py::arg("ids"))
       .def("set_seated", &Tracker::SetSeated, py::arg("seated"))

@@ -126,6 +126,14 @@ class Source(Iterator[DepthImage]):
         assert made is not None
         return made
 
+    def _take_camera(self, camera: tuple[float, float, float, float, int, int], why: str) -> None:
+        """In place of the one that was guessed."""
+        self._options["camera"] = camera
+        self._native.take_camera(camera)
+        note = f"{self._name}: {why}"
+        self.notes.append(note)
+        _LOG.info("%s", note)
+
     def _take_notes(self) -> None:
         for kind, note in self._native.take_notes():
             self.notes.append(note)

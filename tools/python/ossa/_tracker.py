@@ -381,7 +381,9 @@ class Tracker:
         lag=2).
 
         Of a recording whose cameras' rotate is "auto" the beginning is looked through first for
-        which way up the camera is.
+        which way up the camera is; of images that state no camera, for whether people are far
+        surer as one of a narrower view sees them (depth aligned to colour images), which is then
+        the source's, and told in its notes.
 
         Parameters
         ----------
@@ -392,6 +394,7 @@ class Tracker:
         return self._run(opened)
 
     def _run(self, source: Source) -> Iterator[Frame]:
+        self._find_camera(source)
         self._find_upright(source)
         failure: Optional[_native.InputError] = None
         try:
@@ -407,6 +410,16 @@ class Tracker:
                 pass
         if failure is not None:
             raise failure
+
+    def _find_camera(self, source: Source) -> None:
+        if "camera" in source._options or source.is_live:
+            return
+        try:
+            found = self._native.find_camera(source.name, source._options)
+        except _native.InputError:
+            return  # told of when its turn comes
+        if found is not None:
+            source._take_camera(*found)
 
     def _find_upright(self, source: Source) -> None:
         if source._rotate != "auto" or source.is_live:
