@@ -164,7 +164,7 @@ class GltfWriter final : public SkeletonWriter::Format {
     CheckLength(scene.Bytes(), seen.size());
     HeldBody held(seen);
     std::optional<SkinnedBody> body;
-    if (options_.body) body = BuildTPosedBody(*options_.body, shapes_[id], held.lengths_m());
+    if (options_.body) body = BuildTPosedBody(*options_.body, ShapeOf(id), held.lengths_m());
     const Posture rest = body ? body->joints_m : BuildStandingTPose(held.lengths_m());
     NodeMotion motion(rest);
     for (size_t i = 0; i < seen.size(); ++i) {
@@ -175,6 +175,12 @@ class GltfWriter final : public SkeletonWriter::Format {
     AddPresence(people_.StaysOf(id), begin_s, motion.tracks());
     scene.AddPerson(fmt::format("person {}", id), BuildRestNodes(rest, options_.names),
                     body ? &*body : nullptr, options_.body.get(), motion.tracks());
+  }
+
+  /// The mean body's where none is known: a map's own new value would be whatever memory holds.
+  ShapeVector ShapeOf(int id) const {
+    const auto known = shapes_.find(id);
+    return known == shapes_.end() ? ShapeVector(ShapeVector::Zero()) : known->second;
   }
 
   /// What readers cannot hold is refused before it is made.

@@ -1,12 +1,18 @@
 // What tests/python/test_gltf.py does not ask of readers that are not ours.
 #include <gtest/gtest.h>
+#include <malloc.h>
 
+#include <filesystem>
 #include <fstream>
+#include <memory>
 
 #include "depth/base/atomic_file.h"
 #include "recon/files/skeleton_writer.h"
+#include "recon/fit/body_mesh.h"
+#include "recon/fit/body_surface.h"
 #include "tests/recon/files/skeleton_examples.h"
 #include "tests/support/full_disk.h"
+#include "tests/support/places.h"
 #include "tests/support/refused.h"
 #include "tests/support/temporary_folder.h"
 
@@ -40,6 +46,29 @@ TEST(GltfWriter, SaysTheSameEveryTime) {
   WriteSkeletons(folder / "a.glb", ExampleSequence(5, 2), {});
   WriteSkeletons(folder / "b.glb", ExampleSequence(5, 2), {});
   EXPECT_EQ(TextOf(folder / "a.glb"), TextOf(folder / "b.glb"));
+}
+
+// Of whoever no fit had seen it was whatever memory held: a misshapen body, or places that are no
+// numbers.
+TEST(GltfWriter, WhoseShapeIsNotKnownHasTheMeanBody) {
+  const std::filesystem::path shipped = test::SourceFolder() / "tools/tracker/shipped";
+  if (!std::filesystem::exists(shipped / "body.ossamesh")) GTEST_SKIP() << "no shipped body";
+  const auto surface = BodySurface::Load(shipped / "body.ossasurface");
+  SkeletonWriteOptions options;
+  options.body = std::make_shared<BodyMesh>(BodyMesh::Load(shipped / "body.ossamesh", surface));
+  const test::TemporaryFolder folder;
+  constexpr int kAnyByte = 165;
+  mallopt(M_PERTURB, kAnyByte);  // new memory is not 0, as at the start of a program
+  WriteSkeletons(folder / "unknown.glb", ExampleSequence(5, 2), options);
+  SkeletonWriter mean(folder / "mean.glb", options);
+  const SkeletonSequence sequence = ExampleSequence(5, 2);
+  for (const BodyRecord& body : sequence.frames[0].bodies) {
+    mean.SetShape(body.id, ShapeVector::Zero());
+  }
+  for (const SkeletonFrame& frame : sequence.frames) mean.Write(frame);
+  mean.Finish();
+  mallopt(M_PERTURB, 0);
+  EXPECT_TRUE(TextOf(folder / "unknown.glb") == TextOf(folder / "mean.glb"));
 }
 
 // Formats of points keep who is not seen as a body without a joint.
