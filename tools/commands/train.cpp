@@ -200,7 +200,6 @@ int LearnAgain(const TrainArguments& a) {
   CheckTellsPeople(old, a);
   const TrainData data = OpenData(a);
   CheckSizes(a, data);
-  SayWarnings("train", FindDataUsedTwice(a));
   const forest::ForestModel learned =
       LearnJoints(a, WithinLimit(a, old), data.training, data.held_out);
   Write(a, learned, RenewCard(learned, a, data.training));

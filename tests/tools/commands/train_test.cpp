@@ -237,6 +237,7 @@ TEST_F(BadDataSet, AForestOfOtherClassesOrTargetsLearnsNothingOfOurLabels) {
     return RunOssa(more);
   };
   const CommandResult no_joints = again("trees.ossa", {});
+  EXPECT_EQ(no_joints.err.find("the trees are grown on it"), std::string::npos) << no_joints.err;
   EXPECT_EQ(no_joints.exit_status, 1);
   EXPECT_NE(no_joints.err.find("trees.ossa: targets"), std::string::npos) << no_joints.err;
   const CommandResult no_parts = again("joints.ossa", {"--refinement", data()});
