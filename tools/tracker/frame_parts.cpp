@@ -18,15 +18,30 @@ void AddProbabilities(const forest::Classification& seen, PartProbabilities& pro
   }
 }
 
-void ClearParts(int id, BodyFrame& frame) {
+namespace {
+
+// Its part and its probabilities, where the frame has them.
+void ClearPixel(size_t pixel, BodyFrame& frame) {
   const auto classes = static_cast<size_t>(frame.probabilities.classes);
+  if (!frame.parts.data.empty()) frame.parts.data[pixel] = 0;
+  if (frame.probabilities.data.empty()) return;
+  std::fill_n(frame.probabilities.data.begin() + static_cast<std::ptrdiff_t>(pixel * classes),
+              classes, 0.0F);
+}
+
+}  // namespace
+
+void ClearParts(int id, BodyFrame& frame) {
   for (size_t p = 0; p < frame.users.data.size(); ++p) {
-    if (frame.users.data[p] != id) continue;
-    if (!frame.parts.data.empty()) frame.parts.data[p] = 0;
-    if (!frame.probabilities.data.empty()) {
-      std::fill_n(frame.probabilities.data.begin() + static_cast<std::ptrdiff_t>(p * classes),
-                  classes, 0.0F);
-    }
+    if (frame.users.data[p] == id) ClearPixel(p, frame);
+  }
+}
+
+void ClearHoles(const depth::DepthView& depth_mm, BodyFrame& frame) {
+  for (size_t p = 0; p < frame.users.data.size(); ++p) {
+    if (frame.users.data[p] == 0 || depth_mm.at(static_cast<int32_t>(p)) != 0) continue;
+    frame.users.data[p] = 0;
+    ClearPixel(p, frame);
   }
 }
 

@@ -15,4 +15,7 @@ void AddProbabilities(const forest::Classification& seen, PartProbabilities& pro
 /// the frame has them. Before they are taken out of `users`, which tells whose they are.
 void ClearParts(int id, BodyFrame& frame);
 
+/// Pixels that had no reading before holes were filled are nobody's.
+void ClearHoles(const depth::DepthView& depth_mm, BodyFrame& frame);
+
 }  // namespace ossa::tracker

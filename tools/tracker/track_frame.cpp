@@ -70,6 +70,21 @@ StageTimes SumTimes(const people::PeopleInFrame& seen, const std::vector<StageTi
 
 }  // namespace
 
+void CheckFrame(const depth::DepthFrame& frame) {
+  const std::string name = "frame " + std::to_string(frame.index);
+  depth::CheckCamera(frame.camera, name + ": camera");
+  if (!std::isfinite(frame.time_s)) {
+    throw InputError(name + ": expected a finite time_s, found " + std::to_string(frame.time_s));
+  }
+  const auto pixels = static_cast<int64_t>(frame.pixel_count());
+  if (pixels != static_cast<int64_t>(frame.camera.width) * frame.camera.height ||
+      frame.view().width != frame.camera.width) {
+    throw InputError(name + ": expected " + std::to_string(frame.camera.width) + "x" +
+                     std::to_string(frame.camera.height) + " depth values, found " +
+                     std::to_string(pixels));
+  }
+}
+
 // Whether a frame that was tracked as a level camera's is one from the ceiling: it has the floor
 // and a head high over it, and the forest for ceilings is sure of a body. What the level one says
 // of such frames counts for nothing: of half of the real ones it is sure, too, and wrong.
@@ -211,20 +226,7 @@ BodyFrame Tracker::Impl::Play(BodyFrame frame) {
 
 /// In the camera's own space, whichever way up it is.
 BodyFrame Tracker::Impl::TrackTurned(const depth::DepthFrame& frame) {
-  const std::string name = "frame " + std::to_string(frame.index);
-  depth::CheckCamera(frame.camera, name + ": camera");
-  if (!std::isfinite(frame.time_s)) {
-    throw InputError(name + ": expected a finite time_s, found " + std::to_string(frame.time_s));
-  }
-  const auto pixels = static_cast<int64_t>(frame.pixel_count());
-  if (pixels != static_cast<int64_t>(frame.camera.width) * frame.camera.height ||
-      frame.view().width != frame.camera.width) {
-    throw InputError(name + ": expected " + std::to_string(frame.camera.width) + "x" +
-                     std::to_string(frame.camera.height) + " depth values, found " +
-                     std::to_string(pixels));
-  }
-  const bool is_auto = options.turn == Turn::kAuto;
-  if (is_auto) FindUpright(frame);
+  if (options.turn == Turn::kAuto) FindUpright(frame);
   const int quarters = QuarterTurns();
   BodyFrame result = quarters == 0 ? Track(frame) : Track(depth::Turned(frame, quarters));
   TurnBack(result, quarters);

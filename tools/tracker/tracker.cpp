@@ -5,8 +5,10 @@
 #include <utility>
 
 #include "depth/base/error.h"
+#include "depth/image/hole_filling.h"
 #include "depth/sensor/frame_source.h"
 #include "recon/refine/refinement_cascade.h"
+#include "tools/tracker/frame_parts_internal.h"
 #include "tools/tracker/tracker_internal.h"
 
 namespace ossa::tracker {
@@ -136,6 +138,15 @@ Tracker::~Tracker() = default;
 Tracker::Tracker(Tracker&&) noexcept = default;
 Tracker& Tracker::operator=(Tracker&&) noexcept = default;
 
+BodyFrame Tracker::TrackFilled(const depth::DepthFrame& frame) {
+  CheckFrame(frame);
+  const auto filled = depth::FillScatteredHoles(frame);
+  if (!filled) return TrackAsMounted(frame);
+  BodyFrame result = TrackAsMounted(*filled);
+  ClearHoles(frame.view(), result);
+  return result;
+}
+
 // In the camera's own space, whichever way up it is; from then on with the models of where it is.
 BodyFrame Tracker::TrackAsMounted(const depth::DepthFrame& frame) {
   BodyFrame result = impl_->TrackTurned(frame);
@@ -159,13 +170,13 @@ Mount Tracker::mount() const { return impl_->IsUnderCeiling() ? Mount::kCeiling 
 
 // Tracked first: that may exchange impl_.
 BodyFrame Tracker::Track(const depth::DepthFrame& frame) {
-  BodyFrame tracked = TrackAsMounted(frame);
+  BodyFrame tracked = TrackFilled(frame);
   return impl_->Play(std::move(tracked));
 }
 
 // Smoothed first: what touches in the world is not moved apart.
 std::optional<BodyFrame> Tracker::TrackWithLag(const depth::DepthFrame& frame) {
-  BodyFrame tracked = TrackAsMounted(frame);
+  BodyFrame tracked = TrackFilled(frame);
   auto late = impl_->lagged.Add(std::move(tracked));
   if (!late) return std::nullopt;
   return impl_->Play(std::move(*late));
@@ -186,7 +197,8 @@ void Tracker::FindUpright(depth::FrameSource& source, const std::function<bool()
     if (read.status != depth::ReadStatus::kFrame) continue;
     if (!first_s) first_s = read.frame.time_s;
     if (read.frame.time_s - *first_s > kLongest_s) break;
-    impl_->FindUpright(read.frame);
+    const auto filled = depth::FillScatteredHoles(read.frame);
+    impl_->FindUpright(filled ? *filled : read.frame);
   }
 }
 

@@ -248,6 +248,7 @@ class Tracker {
   void Reset();
 
  private:
+  BodyFrame TrackFilled(const depth::DepthFrame& frame);
   BodyFrame TrackAsMounted(const depth::DepthFrame& frame);
   void SwitchToCeiling();
 

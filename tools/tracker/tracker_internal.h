@@ -14,6 +14,9 @@
 
 namespace ossa::tracker {
 
+/// Throws InputError: of a camera, a time or an image's size that cannot be.
+void CheckFrame(const depth::DepthFrame& frame);
+
 /// A tracker of cameras that are mounted in one way, level or under the ceiling: what it was told,
 /// has read and remembers.
 struct Tracker::Impl {

@@ -1,5 +1,6 @@
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <fstream>
 
 #include "depth/base/error.h"
@@ -7,6 +8,7 @@
 #include "tests/support/places.h"
 #include "tests/support/refused.h"
 #include "tests/support/temporary_folder.h"
+#include "tools/experiments/real/real_holes_internal.h"
 #include "tools/experiments/real/real_judge_internal.h"
 
 namespace ossa::tools {
@@ -162,6 +164,44 @@ TEST(RealVideo, SomebodyWhoSitsKeepsTheirNumber) {
     return;
   }
   GTEST_SKIP() << "kinect_v1_seated_video is not in " << test::SharedFolder();
+}
+
+TEST(RealHoles, TakeOutSoManyReadingsAndTheSameOnesEachTime) {
+  const SharedWithMarks shared;
+  shared.Mark("a.png Head 30 10\nb.png Head 31 11\n");
+  const RealSet whole = ReadRealSets(shared.path(), 0).at(0);
+  const auto share_missing = [](const RealSet& set) {
+    int64_t missing = 0, pixels = 0;
+    for (const RealStill& still : set.stills) {
+      const auto& depth_mm = still.frame.depth_mm;
+      missing += std::count(depth_mm.begin(), depth_mm.end(), 0);
+      pixels += static_cast<int64_t>(depth_mm.size());
+    }
+    return static_cast<double>(missing) / static_cast<double>(pixels);
+  };
+  EXPECT_EQ(share_missing(whole), 0.0);
+  EXPECT_NEAR(share_missing(WithHoles(whole, Holes::kTenth, 1)), 0.1, 0.02);
+  EXPECT_NEAR(share_missing(WithHoles(whole, Holes::kThird, 1)), 0.3, 0.02);
+  EXPECT_NEAR(share_missing(WithHoles(whole, Holes::kGrid, 1)), 5.0 / 9.0, 0.02);
+  EXPECT_EQ(WithHoles(whole, Holes::kThird, 1).stills[1].frame.depth_mm,
+            WithHoles(whole, Holes::kThird, 1).stills[1].frame.depth_mm);
+}
+
+// Of three joints raw has two: final's error of the third counts in neither mean.
+TEST(RawAndFinal, AreMeansOverTheSameJoints) {
+  RealSet set;
+  set.joints = {Joint::kHead, Joint::kHandLeft, Joint::kHandRight};
+  StillResult result;
+  result.has_truth = {true, true, true};
+  result.errors[RealStage::kRaw] = {Eigen::Vector3d(0.04, 0, 0), Eigen::Vector3d(0, 0.08, 0),
+                                    std::nullopt};
+  result.errors[RealStage::kFinal] = {Eigen::Vector3d(0.02, 0, 0), Eigen::Vector3d(0, 0.04, 0),
+                                      Eigen::Vector3d(0.5, 0, 0)};
+  const RawAndFinal score = ScoreRawAndFinal(set, {result});
+  EXPECT_EQ(score.joints, 2);
+  EXPECT_NEAR(score.raw_cm, 6.0, 1e-9);
+  EXPECT_NEAR(score.final_cm, 3.0, 1e-9);
+  EXPECT_EQ(ScoreRawAndFinal(set, {}).joints, 0);
 }
 
 }  // namespace

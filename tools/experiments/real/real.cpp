@@ -9,6 +9,7 @@
 #include "depth/base/error.h"
 #include "tools/experiments/context_models.h"
 #include "tools/experiments/experiments_internal.h"
+#include "tools/experiments/real/real_holes_internal.h"
 #include "tools/experiments/real/real_judge_internal.h"
 #include "tools/experiments/sdk/method_runs.h"
 #include "tools/json/json_text.h"
@@ -113,6 +114,38 @@ Table StatesTable() {
           .columns = {"set", "tracked, % of joints", "of tracked ones", "of all others"},
           .rows = {},
           .note = ""};
+}
+
+Table RawAndFinalTable() {
+  return {
+      .title = "Final against raw: the joints that raw has, offset removed",
+      .columns = {"set", "joints", "raw: mean, cm", "final: mean, cm", "change, %"},
+      .rows = {},
+      .note =
+          "The first table's means are each of the joints found; here both are of the same ones."};
+}
+
+void AddRow(const std::string& set, const RawAndFinal& s, Table& table) {
+  if (s.joints == 0) return;
+  table.rows.push_back({set, std::to_string(s.joints), fmt::format("{:.2f}", s.raw_cm),
+                        fmt::format("{:.2f}", s.final_cm),
+                        fmt::format("{:+.1f}", 100 * (s.final_cm / s.raw_cm - 1))});
+}
+
+Table HolesTable() {
+  return {.title = "Stills with pixels missing: final joints, offset removed",
+          .columns = {"set", "missing", "one body, %", "mean, cm", "within 10 cm, %"},
+          .rows = {},
+          .note = "The same stills with readings taken out, as other sensors leave them out."};
+}
+
+void AddHolesRow(const ScoredSet& scored, std::string_view holes, Table& table) {
+  for (const StageScore& s : scored.scores) {
+    if (s.stage != RealStage::kFinal || !s.offset_removed) continue;
+    const double one = static_cast<double>(scored.one_body) / static_cast<double>(scored.frames);
+    table.rows.push_back(
+        {scored.name, std::string(holes), Percent(one), Cell(s.mean_cm), Percent(s.within_10cm)});
+  }
 }
 
 void AddStateRow(const RealSet& set, const StateScore& s, Table& table) {
@@ -245,6 +278,9 @@ class RealReport {
     const ScoredSet scored = ScoreSet(set, results, true);
     AddJointRows(set, scored, joints_);
     AddScores(set, scored);
+    AddRow(set.name, ScoreRawAndFinal(set, results), raw_and_final_);
+    AddHolesRow(scored, "none", holes_);
+    for (const Holes holes : kAllHoles) AddWithHoles(set, holes);
     const StateScore by_state = ScoreStates(set, results);
     AddStateRow(set, by_state, states_);
     report_["states"].push_back(StatesToJson(set, by_state));
@@ -262,7 +298,7 @@ class RealReport {
 
   std::vector<Table> Write() const {
     WriteJson(context_, report_);
-    return {stills_, joints_, states_, recordings_};
+    return {stills_, raw_and_final_, holes_, joints_, states_, recordings_};
   }
 
  private:
@@ -273,15 +309,30 @@ class RealReport {
 
   void AddAnklesForFeet(const RealSet& set) {
     const RealSet ankles = WithAnklesForFeet(set);
-    AddScores(ankles, ScoreSet(ankles, JudgeAll(ankles, tracker_, context_), true));
+    const auto results = JudgeAll(ankles, tracker_, context_);
+    AddScores(ankles, ScoreSet(ankles, results, true));
+    AddRow(ankles.name, ScoreRawAndFinal(ankles, results), raw_and_final_);
+  }
+
+  void AddWithHoles(const RealSet& set, Holes holes) {
+    const RealSet holed = WithHoles(set, holes, context_.seed);
+    const ScoredSet scored = ScoreSet(holed, JudgeAll(holed, tracker_, context_), true);
+    AddHolesRow(scored, HolesName(holes), holes_);
+    for (json row : SetToJson(holed, scored)) {
+      row["missing"] = HolesName(holes);
+      report_["with_holes"].push_back(row);
+    }
   }
 
   ExperimentContext& context_;
   tracker::Tracker& tracker_;
   Table stills_ = StillsTable(), joints_ = JointsTable(), states_ = StatesTable();
+  Table raw_and_final_ = RawAndFinalTable(), holes_ = HolesTable();
   Table recordings_ = VideosTable();
-  json report_ = {
-      {"sets", json::array()}, {"states", json::array()}, {"recordings", json::array()}};
+  json report_ = {{"sets", json::array()},
+                  {"with_holes", json::array()},
+                  {"states", json::array()},
+                  {"recordings", json::array()}};
 };
 
 }  // namespace

@@ -136,6 +136,28 @@ StateScore ScoreStates(const RealSet& set, const std::vector<StillResult>& resul
   return score;
 }
 
+RawAndFinal ScoreRawAndFinal(const RealSet& set, const std::vector<StillResult>& results) {
+  RawAndFinal score;
+  for (size_t i = 0; i < results.size(); ++i) {
+    const auto raw = results[i].errors.find(RealStage::kRaw);
+    const auto final = results[i].errors.find(RealStage::kFinal);
+    if (raw == results[i].errors.end() || final == results[i].errors.end()) continue;
+    for (size_t j = 0; j < set.joints.size(); ++j) {
+      if (!raw->second[j] || !final->second[j]) continue;
+      const auto off_cm = [&](RealStage stage, const Eigen::Vector3d& error_m) {
+        return 100 * (error_m - OffsetFor(set, results, stage, i, j)).norm();
+      };
+      ++score.joints;
+      score.raw_cm += off_cm(RealStage::kRaw, *raw->second[j]);
+      score.final_cm += off_cm(RealStage::kFinal, *final->second[j]);
+    }
+  }
+  if (score.joints == 0) return score;
+  score.raw_cm /= static_cast<double>(score.joints);
+  score.final_cm /= static_cast<double>(score.joints);
+  return score;
+}
+
 StageScore ScoreStage(const RealSet& set, const std::vector<StillResult>& results, RealStage stage,
                       bool remove_offset, const std::vector<bool>& counted) {
   StageScore score;

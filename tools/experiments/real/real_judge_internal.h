@@ -56,6 +56,13 @@ StateScore ScoreStates(const RealSet& set, const std::vector<StillResult>& resul
 StageScore ScoreStage(const RealSet& set, const std::vector<StillResult>& results, RealStage stage,
                       bool remove_offset, const std::vector<bool>& counted);
 
+/// Raw and final joints side by side: mean errors of those joints that both have, offset removed.
+struct RawAndFinal {
+  int64_t joints = 0;
+  double raw_cm = 0.0, final_cm = 0.0;
+};
+RawAndFinal ScoreRawAndFinal(const RealSet& set, const std::vector<StillResult>& results);
+
 /// Figures that need no truth.
 struct VideoScore {
   int64_t frames = 0, bodies = 0, one_body = 0;
