@@ -129,12 +129,13 @@ void CheckOutputFiles(const CompareArguments& a) {
 }
 
 void Tell(const tools::Comparison& comparison, const CompareArguments& a) {
+  // First what cannot fail: a full disk costs a file, not the numbers.
   if (a.json_to_stdout()) {
     fmt::print("{}", tools::ToJson(comparison));
-  } else {
-    if (!a.json.empty()) WriteText(a.json, tools::ToJson(comparison));
-    if (!a.quiet) fmt::print("{}", tools::ToText(comparison));
+  } else if (!a.quiet) {
+    fmt::print("{}", tools::ToText(comparison));
   }
+  if (!a.json_to_stdout()) WriteText(a.json, tools::ToJson(comparison));
   if (a.report.empty()) return;
   WriteText(a.report, tools::ToHtml(comparison));
   if (!a.quiet && !a.json_to_stdout()) fmt::print("\nReport: {}\n", a.report);

@@ -79,11 +79,12 @@ int Fuse(int argc, char** argv) {
   Declare(app, a);
   Parse(app, argc, argv);
   Check(a);
+  const auto write = a.write.For(a.out);
   const auto recordings = ReadAll(a);
   const auto fused = FuseRecordings(a.fuse, a.recordings, recordings, a.quiet);
   if (Interrupted()) throw InputError("fuse: interrupted; nothing was written");
   SayWarnings("fuse", fused.warnings);
-  if (!a.out.empty()) WriteSkeletonsThatFit(a.out, fused, a.write.For(a.out));
+  if (!a.out.empty()) WriteSkeletonsThatFit(a.out, fused, write);
   return 0;
 }
 

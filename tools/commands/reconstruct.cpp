@@ -350,9 +350,6 @@ class Rounds {
       PlayScene(*scene_, made, a_, Updates());
     } else {
       tracker::FollowMechanically(made, a_.mechanics.build, Updates());
-      if (!a_.dynamics.empty() && !Interrupted()) {
-        tracker::WriteDynamics(a_.dynamics, made, a_.mass_kg);
-      }
     }
     done_ += frames;
   }
@@ -385,6 +382,10 @@ int Reconstruct(int argc, char** argv) {
     const recon::SkeletonSequence made = rounds.Make(clip);
     if (made.frames.empty() && Interrupted()) break;
     files.Write(clip.name, made);
+    // After the postures: what befalls this file does not take them along.
+    if (!a.dynamics.empty() && !Interrupted()) {
+      tracker::WriteDynamics(a.dynamics, made, a.mass_kg);
+    }
     written += made.frames.size();
     if (Interrupted()) break;
   }

@@ -1,8 +1,11 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <chrono>
 #include <deque>
+#include <exception>
+#include <functional>
 #include <map>
 #include <memory>
 #include <optional>
@@ -242,28 +245,39 @@ std::unique_ptr<viewer::Viewer> OpenViewer(const TrackOptions& options) {
   return viewer;
 }
 
-/// Throws InputError where nothing was tracked that is worth keeping.
+/// Throws InputError where nothing was tracked.
 void CheckWorthKeeping(const TrackOptions& options, const Run& run) {
-  if (!run.failure.empty() && (run.stats.frames() == 0 || options.out.empty())) {
-    throw InputError(run.failure);
-  }
+  if (!run.failure.empty() && run.stats.frames() == 0) throw InputError(run.failure);
   CheckFrames(options, run);
 }
 
+/// Each output gets what it can, whatever befell another: then the first failure is thrown, after
+/// the others were said.
 void FinishAll(Destinations& to, const Run& run) {
-  to.output.Finish();
-  to.pictures.Finish();
-  Report(to.options, run);
-  SayMissingFloor(to.tracker, to.options);
-  to.trace.Finish();
-  to.person.Finish(to.options);
+  const std::array<std::function<void()>, 6> finishes = {
+      [&] { to.output.Finish(); },      [&] { to.pictures.Finish(); },
+      [&] { Report(to.options, run); }, [&] { SayMissingFloor(to.tracker, to.options); },
+      [&] { to.trace.Finish(); },       [&] { to.person.Finish(to.options); }};
+  std::exception_ptr first;
+  for (const auto& finish : finishes) {
+    try {
+      finish();
+    } catch (const std::exception& error) {
+      if (first) Say(fmt::format("ossa track: {}\n", error.what()));
+      if (!first) first = std::current_exception();
+    }
+  }
+  if (first) std::rethrow_exception(first);
 }
 
 /// Everything was kept, but the recording was not tracked to its end: throws InputError.
 void CheckComplete(const TrackOptions& options, const Run& run) {
   if (!run.failure.empty()) {
-    throw InputError(fmt::format("{}; the {} before it are in {}", run.failure,
-                                 FramesText(run.stats.frames(), run.of), options.out));
+    const std::string frames = FramesText(run.stats.frames(), run.of);
+    throw InputError(
+        options.out.empty()
+            ? fmt::format("{}; the {} before it were tracked", run.failure, frames)
+            : fmt::format("{}; the {} before it are in {}", run.failure, frames, options.out));
   }
   if (run.ending == Ending::kInterrupted) throw InterruptedEarly(options, run);
 }

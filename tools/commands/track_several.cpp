@@ -4,15 +4,18 @@
 
 #include <atomic>
 #include <chrono>
+#include <filesystem>
 #include <memory>
 #include <optional>
 #include <set>
+#include <span>
 #include <string>
 #include <thread>
 #include <vector>
 
 #include "depth/base/error.h"
 #include "depth/sensor/frame_source.h"
+#include "recon/fuse/extrinsics.h"
 #include "tools/commands/command.h"
 #include "tools/commands/posture_record.h"
 #include "tools/commands/warnings.h"
@@ -95,14 +98,54 @@ void TrackCameras(const Cameras& cameras, const TrackOptions& options) {
   ShowProgress(cameras, options);
 }
 
-void CheckFramesCame(const Cameras& cameras) {
-  for (const auto& camera : cameras) {
-    if (!camera->skeletons.frames.empty()) continue;
-    if (!camera->failure.empty()) throw InputError(camera->failure);
-    if (Interrupted()) {
-      throw InputError("track: interrupted before the first frame; nothing was written");
+std::vector<recon::SkeletonSequence> TakeSkeletons(const Cameras& cameras) {
+  std::vector<recon::SkeletonSequence> recordings;
+  for (const auto& camera : cameras) recordings.push_back(std::move(camera->skeletons));
+  return recordings;
+}
+
+void CheckFramesCame(const Cameras& cameras, std::span<const recon::SkeletonSequence> recordings) {
+  for (size_t k = 0; k < cameras.size(); ++k) {
+    if (!recordings[k].frames.empty()) continue;
+    if (!cameras[k]->failure.empty()) throw InputError(cameras[k]->failure);
+    throw InputError(cameras[k]->arguments.name +
+                     (Interrupted() ? ": interrupted before the first frame" : ": no frame came"));
+  }
+}
+
+// Writes each camera's own skeletons into a folder beside the output, under the camera's name, by
+// which `ossa fuse --extrinsics` knows it: hours of tracking are not lost to what follows it. Says
+// where they are.
+std::string KeepUnfused(const TrackOptions& options,
+                        std::span<const recon::SkeletonSequence> recordings) {
+  std::filesystem::path folder = options.out.empty() ? options.fuse.save_extrinsics : options.out;
+  folder.replace_extension(".cameras");
+  const std::vector<std::string> names = recon::CameraNames(options.Sources());
+  std::string kept;
+  for (size_t k = 0; k < recordings.size(); ++k) {
+    if (recordings[k].frames.empty()) continue;
+    std::filesystem::create_directories(folder);
+    const std::string file = folder / (names[k] + ".jsonl");
+    WriteSkeletonsThatFit(file, recordings[k], {});
+    kept += (kept.empty() ? "" : ", ") + file;
+  }
+  if (kept.empty()) return "nothing was written";
+  return "what each camera tracked is in " + kept + ", which `ossa fuse` reads";
+}
+
+recon::SkeletonSequence FuseOrKeep(const TrackOptions& options, const Cameras& cameras,
+                                   std::span<const recon::SkeletonSequence> recordings) {
+  try {
+    CheckFramesCame(cameras, recordings);
+    return FuseRecordings(options.fuse, options.Sources(), recordings, options.quiet);
+  } catch (const std::exception& failure) {
+    std::string kept;
+    try {
+      kept = KeepUnfused(options, recordings);
+    } catch (const std::exception& second) {
+      kept = second.what();
     }
-    throw InputError(camera->arguments.name + ": no frame came");
+    throw InputError(fmt::format("{}; {}", failure.what(), kept));
   }
 }
 
@@ -122,20 +165,14 @@ void SayWhatIsMissing(const Cameras& cameras, const TrackOptions& options, int64
 }  // namespace
 
 int TrackSeveral(const TrackOptions& options) {
+  const auto write =
+      options.write.For(options.out, options.files.surface == "none" ? "" : options.files.surface);
   Cameras cameras;
   for (const std::string& name : options.Sources()) cameras.push_back(OpenCamera(options, name));
   TrackCameras(cameras, options);
-  CheckFramesCame(cameras);
-  std::vector<recon::SkeletonSequence> recordings;
-  for (const auto& camera : cameras) recordings.push_back(std::move(camera->skeletons));
-  const auto fused = FuseRecordings(options.fuse, options.Sources(), recordings, options.quiet);
+  const auto fused = FuseOrKeep(options, cameras, TakeSkeletons(cameras));
   SayWarnings("track", fused.warnings);
-  if (!options.out.empty()) {
-    WriteSkeletonsThatFit(
-        options.out, fused,
-        options.write.For(options.out,
-                          options.files.surface == "none" ? "" : options.files.surface));
-  }
+  if (!options.out.empty()) WriteSkeletonsThatFit(options.out, fused, write);
   SayWhatIsMissing(cameras, options, static_cast<int64_t>(fused.frames.size()));
   if (!options.quiet) {
     fmt::print("{} frames of {} cameras\n", fused.frames.size(), cameras.size());

@@ -12,6 +12,7 @@
 #include "recon/files/skeleton_io.h"
 #include "recon/fuse/extrinsics.h"
 #include "tests/recon/fuse/moving_people.h"
+#include "tests/support/depth_examples.h"
 #include "tests/support/run_command.h"
 #include "tests/support/temporary_folder.h"
 #include "tests/tools/tracker/tracked_scenes.h"
@@ -167,6 +168,25 @@ TEST_F(TwoRenderedCameras, AreFoundWhileTheyAreTracked) {
   EXPECT_LT(off.translation().norm(), 0.3);
   EXPECT_LT(Eigen::AngleAxisd(off.linear()).angle(), 0.1);
   EXPECT_NEAR(camera.clock_offset_s, 0.0, 1.0 / 30);
+}
+
+// Nobody is in images of a wall: no cameras are found after the tracking, which stays.
+TEST(TrackOfSeveralSources, KeepsWhatEachCameraTrackedWhereItCannotBeFused) {
+  const test::TemporaryFolder folder;
+  for (const char* name : {"left", "right"}) {
+    std::filesystem::create_directory(folder / name);
+    test::WriteExampleFolder(folder / name, 3);
+  }
+  const auto run = RunOssa({"track", folder / "left", folder / "right", "--out",
+                            folder / "both.jsonl", "--method", "none", "--quiet"});
+  EXPECT_EQ(run.exit_status, 1);
+  EXPECT_EQ(test::LineCount(run.err), 1) << run.err;
+  EXPECT_FALSE(std::filesystem::exists(folder / "both.jsonl"));
+  for (const char* name : {"left", "right"}) {
+    const std::string kept = folder / "both.cameras" / (std::string(name) + ".jsonl");
+    EXPECT_NE(run.err.find(kept), std::string::npos) << run.err;
+    EXPECT_EQ(recon::ReadSkeletons(kept).frames.size(), 3u);
+  }
 }
 
 TEST(TrackOfSeveralSources, RefusesWhatBelongsToOneAndDevices) {

@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 #include <signal.h>
 
+#include <filesystem>
 #include <fstream>
 #include <regex>
 
@@ -105,9 +106,9 @@ TEST(KeptOutput, OfAReconstructionThatIsInterrupted) {
 }
 
 // `ulimit -f` counts kilobytes.
-CommandResult OnAFullDisk(const std::vector<std::string>& arguments) {
-  std::vector<std::string> argv = {"/bin/bash", "-c", R"(ulimit -f 4; exec "$@")", "shell",
-                                   test::OssaPath()};
+CommandResult OnAFullDisk(const std::vector<std::string>& arguments, int kilobytes = 4) {
+  const std::string limited = "ulimit -f " + std::to_string(kilobytes) + R"(; exec "$@")";
+  std::vector<std::string> argv = {"/bin/bash", "-c", limited, "shell", test::OssaPath()};
   argv.insert(argv.end(), arguments.begin(), arguments.end());
   return test::RunProgram(argv);
 }
@@ -135,6 +136,42 @@ TEST(KeptOutput, OfAReconstructionThatDoesNotFit) {
   EXPECT_EQ(result.exit_status, 1);
   EXPECT_NE(result.err.find(std::to_string(SkeletonsIn(out)) + " of "), std::string::npos)
       << result.err;
+}
+
+// A picture of this size is larger than the disk has room for; what else was asked for is not.
+TEST(KeptOutput, OfOneFileIsNotLostWithAnother) {
+  const TemporaryFolder folder;
+  std::filesystem::create_directory(folder / "in");
+  test::WriteExampleFolder(folder / "in", 1, 320, 240);
+  const auto out = folder / "x.jsonl", picture = folder / "x.png", stats = folder / "x.json";
+  const CommandResult result =
+      OnAFullDisk({"track", folder / "in", "--out", out, "--method", "none", "--quiet", "--picture",
+                   picture, "--json-stats", stats});
+  EXPECT_EQ(result.exit_status, 1);
+  EXPECT_NE(result.err.find("x.png"), std::string::npos) << result.err;
+  EXPECT_EQ(SkeletonsIn(out), 1);
+  EXPECT_TRUE(std::filesystem::exists(stats));
+}
+
+TEST(KeptOutput, OfAReconstructionIsNotLostWithItsDynamics) {
+  const TemporaryFolder folder;
+  recon::WriteSkeletons(folder / "in.jsonl", recon::ExampleSequence(50));
+  const auto out = folder / "x.jsonl";
+  const CommandResult result =
+      OnAFullDisk({"reconstruct", folder / "in.jsonl", "--out", out, "--method", "one-euro",
+                   "--physics", "on", "--dynamics", folder / "x.csv", "--quiet"});
+  EXPECT_EQ(result.exit_status, 1);
+  EXPECT_GE(SkeletonsIn(out), 1) << result.err;
+}
+
+TEST(KeptOutput, OfAComparisonArePrintedNumbersWhereTheirFileDoesNotFit) {
+  const TemporaryFolder folder;
+  const std::string skeletons = folder / "in.jsonl";
+  recon::WriteSkeletons(skeletons, recon::ExampleSequence(50));
+  const CommandResult result =
+      OnAFullDisk({"compare", skeletons, skeletons, "--json", folder / "x.json"}, 0);
+  EXPECT_EQ(result.exit_status, 1);
+  EXPECT_NE(result.out.find("0.0"), std::string::npos) << result.err;
 }
 
 // A damaged frame of a cut recording ends the run: the frame before it is not lost with it.
