@@ -11,6 +11,7 @@
 #include "depth/base/error.h"
 #include "depth/base/json_nesting.h"
 #include "depth/base/open_file.h"
+#include "depth/image/calibration_text.h"
 #include "depth/image/depth_png.h"
 
 namespace ossa::depth {
@@ -94,6 +95,31 @@ Camera FromObject(const json& object, const std::string& name) {
   return camera;
 }
 
+// What a lens does that ossa's cameras do not have; "" of one that hardly does.
+std::string DescribeLens(const Calibration& calibration, const std::string& name) {
+  constexpr double kStrong = 0.01;  // share of the width; by hand: joints are off by as much anyway
+  const double shift = ComputeCornerShift(calibration);
+  const double width = calibration.width > 0 ? calibration.width : 2 * calibration.matrix[2];
+  if (shift <= kStrong * width) return "";
+  const std::string what = std::isfinite(shift)
+                               ? "moves the image's corners by " +
+                                     std::to_string(std::lround(std::min(shift, 1e6))) + " pixels"
+                               : "is of the model '" + calibration.model + "'";
+  return name + ": the lens " + what + ", which is not undone: undistort the images first";
+}
+
+CameraChoice ChoiceOf(const Calibration& calibration, const std::string& name) {
+  const auto& m = calibration.matrix;
+  Camera camera{calibration.width, calibration.height, m[0], m[4], m[2], m[5]};
+  const bool has_size = camera.width > 0 && camera.height > 0;
+  if (!has_size) camera.width = camera.height = 1;
+  CheckCamera(camera, name + ": camera");
+  if (!has_size) camera.width = camera.height = 0;
+  CameraChoice choice(camera);
+  choice.unheeded = DescribeLens(calibration, name);
+  return choice;
+}
+
 std::vector<double> SplitNumbers(const std::string& text) {
   std::vector<double> values;
   const char* at = text.data();
@@ -127,6 +153,18 @@ Camera ReadCameraJson(const std::filesystem::path& path) {
   return CameraFromJson(ReadText(path), path.string());
 }
 
+bool IsCameraFileName(const std::filesystem::path& path) {
+  const std::string extension = path.extension().string();
+  return extension == ".json" || extension == ".yaml" || extension == ".yml" || extension == ".xml";
+}
+
+CameraChoice ReadCameraFile(const std::filesystem::path& path) {
+  const std::string text = ReadText(path), name = path.string();
+  if (const auto calibration = FindCalibration(text, name)) return ChoiceOf(*calibration, name);
+  if (path.extension() == ".json") return CameraFromJson(text, name);
+  throw InputError(name + ": expected a camera_matrix, as OpenCV and ROS write it");
+}
+
 void WriteCameraJson(const std::filesystem::path& path, const Camera& camera) {
   AtomicFile file(path);
   file.stream() << CameraToJson(camera) << '\n';
@@ -143,6 +181,7 @@ Camera ReadManifestCamera(const std::filesystem::path& manifest_path) {
 }
 
 CameraChoice ParseCamera(const std::string& text) {
+  if (IsCameraFileName(text)) return ReadCameraFile(text);
   const std::vector<double> values = SplitNumbers(text);
   if (values.size() != 4) {
     PresetCamera(text, 1, 1);  // says what was expected, unless it is one

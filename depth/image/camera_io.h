@@ -11,6 +11,15 @@ namespace ossa::depth {
 /// or, as Open3D writes it, with "intrinsic_matrix": [fx, 0, 0, 0, fy, 0, cx, cy, 1].
 /// Throws InputError naming the file and the field.
 Camera ReadCameraJson(const std::filesystem::path& path);
+
+/// Whether a name is one of files that state cameras: .json, .yaml, .yml, .xml.
+bool IsCameraFileName(const std::filesystem::path& path);
+/// The camera that such a file states: as camera.json does, or a calibration as OpenCV's
+/// FileStorage (YAML, XML, JSON) and ROS's camera_calibration (ost.yaml) and camera_info have it;
+/// one that states no size is of whatever images come. What a pinhole camera cannot be, a lens that
+/// bends by more than a hundredth of the image, is in `unheeded`. Throws InputError naming the
+/// file.
+CameraChoice ReadCameraFile(const std::filesystem::path& path);
 void WriteCameraJson(const std::filesystem::path& path, const Camera& camera);
 
 /// The same object as text; `name` stands for the file in messages.
@@ -20,9 +29,9 @@ std::string CameraToJson(const Camera& camera);
 /// The "camera" object of a data set's manifest.json.
 Camera ReadManifestCamera(const std::filesystem::path& manifest_path);
 
-/// What `--camera PRESET|fx,fy,cx,cy` says (CameraPresetNames). Four numbers are in pixels of
-/// whatever frames come (of the whole image, where a sensor crops it), so their camera has width
-/// and height 0 until CameraForSize gets the size.
+/// What `--camera PRESET|fx,fy,cx,cy|FILE` says (CameraPresetNames, ReadCameraFile). Four numbers
+/// are in pixels of whatever frames come (of the whole image, where a sensor crops it), so their
+/// camera has width and height 0 until CameraForSize gets the size.
 CameraChoice ParseCamera(const std::string& text);
 
 }  // namespace ossa::depth

@@ -41,6 +41,7 @@ struct CameraChoice {
 
   std::string preset;  // "": the camera
   Camera camera;
+  std::string unheeded;  // what a file states of it besides, for people; mostly ""
 };
 
 /// The choice for images of this size: a camera without a size is taken as it is, another scaled.

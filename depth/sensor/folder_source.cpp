@@ -101,45 +101,63 @@ class FolderSource final : public FrameSource {
 };
 
 // A camera that a file states must be of the size of the frames it speaks of.
-Camera StatedCamera(const Camera& camera, const fs::path& file, ImageSize size) {
-  if (camera.width != size.width || camera.height != size.height) {
+Camera StatedCamera(const CameraChoice& choice, const fs::path& file, ImageSize size) {
+  const Camera& camera = choice.camera;
+  const bool has_size = camera.width > 0;
+  if (has_size && (camera.width != size.width || camera.height != size.height)) {
     throw InputError(file.string() + ": camera: expected the frames' size " +
                      std::to_string(size.width) + "x" + std::to_string(size.height) + ", found " +
                      std::to_string(camera.width) + "x" + std::to_string(camera.height));
   }
+  return CameraForSize(choice, size.width, size.height);
+}
+
+Camera ReadStatedCamera(const fs::path& file, ImageSize size, const SourceOptions& options) {
+  const CameraChoice choice = ReadCameraFile(file);
+  const Camera camera = StatedCamera(choice, file, size);
+  if (options.note && !choice.unheeded.empty()) {
+    options.note(NoteKind::kWarning, choice.unheeded);
+  }
   return camera;
 }
 
-// What Open3D's recorders write beside their images or above the folder of depth. Other programs'
-// files of these names are passed over.
-std::optional<Camera> Open3dCamera(const fs::path& folder, ImageSize size,
-                                   const SourceOptions& options) {
+// What Open3D's recorders write beside their images or above the folder of depth, and what ROS's
+// calibration is saved as, beside them: above it might be a colour camera's.
+std::vector<fs::path> CameraFilesOfOthers(const fs::path& folder) {
   const fs::path here = fs::absolute(folder).lexically_normal();
   const fs::path plain = here.has_filename() ? here : here.parent_path();
-  for (const fs::path& place : {plain, plain.parent_path()}) {
-    if (place != plain && plain.filename() != "depth") continue;
-    for (const char* name : {"camera_intrinsic.json", "intrinsic.json"}) {
-      const fs::path file = place / name;
-      if (!fs::exists(file)) continue;
-      std::string note = "the camera is as it says";
-      std::optional<Camera> camera;
-      try {
-        camera = StatedCamera(ReadCameraJson(file), file, size);
-      } catch (const InputError& error) {
-        note = std::string("passed over: ") + error.what();
-      }
-      if (options.note) options.note(NoteKind::kInfo, file.string() + ": " + note);
-      if (camera) return camera;
+  std::vector<fs::path> files = {plain / "camera_intrinsic.json", plain / "intrinsic.json",
+                                 plain / "camera_info.yaml", plain / "ost.yaml"};
+  if (plain.filename() == "depth") {
+    files.push_back(plain.parent_path() / "camera_intrinsic.json");
+    files.push_back(plain.parent_path() / "intrinsic.json");
+  }
+  return files;
+}
+
+// Other programs' files of these names are passed over.
+std::optional<Camera> CameraOfOthers(const fs::path& folder, ImageSize size,
+                                     const SourceOptions& options) {
+  for (const fs::path& file : CameraFilesOfOthers(folder)) {
+    if (!fs::exists(file)) continue;
+    std::string note = "the camera is as it says";
+    std::optional<Camera> camera;
+    try {
+      camera = ReadStatedCamera(file, size, options);
+    } catch (const InputError& error) {
+      note = std::string("passed over: ") + error.what();
     }
+    if (options.note) options.note(NoteKind::kInfo, file.string() + ": " + note);
+    if (camera) return camera;
   }
   return std::nullopt;
 }
 
-std::optional<Camera> CameraJsonIn(const fs::path& folder, ImageSize size,
+std::optional<Camera> CameraFileIn(const fs::path& folder, ImageSize size,
                                    const SourceOptions& options) {
   const fs::path file = folder / "camera.json";
-  if (!fs::exists(file)) return Open3dCamera(folder, size, options);
-  return StatedCamera(ReadCameraJson(file), file, size);
+  return fs::exists(file) ? ReadStatedCamera(file, size, options)
+                          : CameraOfOthers(folder, size, options);
 }
 
 // As the option says, else the folder's camera.json or whatever states it; else by the image size.
@@ -153,7 +171,7 @@ std::unique_ptr<FrameSource> OpenFrames(FolderListing frames, const fs::path& fo
                                         const SourceOptions& options) {
   const ImageSize size = frames.size;
   const std::optional<Camera> stated =
-      options.camera ? std::nullopt : CameraJsonIn(folder, size, options);
+      options.camera ? std::nullopt : CameraFileIn(folder, size, options);
   return std::make_unique<FolderSource>(folder.string(), std::move(frames),
                                         ChooseCamera(folder, stated, size, options), options);
 }
@@ -163,7 +181,7 @@ std::unique_ptr<FrameSource> OpenDatasetFrames(FolderListing frames, const fs::p
   const ImageSize size = frames.size;
   const fs::path manifest = folder / "manifest.json";
   std::optional<Camera> stated;
-  if (!options.camera) stated = CameraJsonIn(folder, size, options);
+  if (!options.camera) stated = CameraFileIn(folder, size, options);
   if (!options.camera && !stated) {
     stated = StatedCamera(ReadManifestCamera(manifest), manifest, size);
   }

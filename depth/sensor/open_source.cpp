@@ -39,6 +39,12 @@ bool IsOniName(const std::filesystem::path& path) {
   return LowerCaseExtension(is_left ? path.stem() : path) == ".oni";
 }
 
+// What a file that the camera was read from states beyond it.
+void TellOfCamera(const SourceOptions& options) {
+  if (!options.camera || options.camera->unheeded.empty() || !options.note) return;
+  options.note(NoteKind::kWarning, options.camera->unheeded);
+}
+
 // FILE.bag or FILE.bag#/topic.
 struct BagName {
   std::filesystem::path file;
@@ -116,8 +122,10 @@ std::unique_ptr<FrameSource> OpenSource(const std::string& source, const SourceO
     const std::string uri = source.substr(kDevicePrefix.size());
     std::error_code none;
     if (std::filesystem::is_regular_file(uri, none)) return OpenSource(uri, options);
+    TellOfCamera(options);
     return Prepared(source, OpenOpenNiDevice(uri, options), UnitStated::kYes, options);
   }
+  TellOfCamera(options);
   const std::filesystem::path path(source);
   std::error_code error;
   if (std::filesystem::is_directory(path, error)) {

@@ -1,10 +1,11 @@
-// camera.json and --camera: any text is a camera or an InputError of one line.
+// camera.json, calibrations and --camera: any text is a camera or an InputError of one line.
 #include <cmath>
 #include <cstdint>
 #include <cstdlib>
 #include <string>
 
 #include "depth/base/error.h"
+#include "depth/image/calibration_text.h"
 #include "depth/image/camera_io.h"
 #include "tests/fuzz/seeds.h"
 
@@ -22,12 +23,18 @@ void ExpectCameraOrInputError(const Parse& parse) {
 }  // namespace
 
 std::vector<std::string> ossa::fuzz::Seeds() {
-  return {depth::CameraToJson(depth::KinectV1Camera(640, 480)), "kinect-v1", "575,575,320,240"};
+  return {depth::CameraToJson(depth::KinectV1Camera(640, 480)), "kinect-v1", "575,575,320,240",
+          "image_width: 640\nK:\n  data: [575, 0, 320, 0, 575, 240, 0, 0, 1]\nD:\n- 0.1\n- 0\n"};
 }
 
 extern "C" int LLVMFuzzerTestOneInput(const uint8_t* data, size_t size) {
   const std::string text(reinterpret_cast<const char*>(data), size);
   ExpectCameraOrInputError([&] { return ossa::depth::CameraFromJson(text, "camera.json"); });
+  try {
+    const auto calibration = ossa::depth::FindCalibration(text, "ost.yaml");
+    if (calibration) ossa::depth::ComputeCornerShift(*calibration);
+  } catch (const ossa::InputError&) {
+  }
   ExpectCameraOrInputError(
       [&] { return ossa::depth::CameraForSize(ossa::depth::ParseCamera(text), 640, 480); });
   return 0;

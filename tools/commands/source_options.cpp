@@ -36,8 +36,11 @@ void SayNote(depth::NoteKind kind, const std::string& text, bool quiet,
 
 depth::SourceOptions DepthOptions(const SourceArguments& arguments, bool quiet) {
   depth::SourceOptions options;
+  const bool is_file = depth::IsCameraFileName(arguments.camera);
+  if (is_file) options.camera = depth::ReadCameraFile(arguments.camera);
   try {
-    if (!arguments.camera.empty()) options.camera = depth::ParseCamera(arguments.camera);
+    if (!arguments.camera.empty() && !is_file)
+      options.camera = depth::ParseCamera(arguments.camera);
     const depth::DepthCoding coding = depth::ParseDepthFormat(arguments.depth_format);
     options.depth_format = coding.format;
     options.inverted_from = coding.inverted_from;
@@ -65,8 +68,9 @@ void AddSourceOptions(CLI::App& app, SourceArguments& arguments) {
   for (const std::string_view name : depth::CameraPresetNames()) presets.append(name).append(", ");
   app.add_option("--camera", arguments.camera,
                  presets +
-                     "or fx,fy,cx,cy in pixels (default: the source's own, else by its "
-                     "images' size)");
+                     "or fx,fy,cx,cy in pixels, or a file that states it: camera.json, a "
+                     "calibration of OpenCV's or ROS's (.yaml, .xml, .json) (default: the source's "
+                     "own, else by its images' size)");
   app.add_option("--depth-scale", arguments.depth_scale,
                  "units to the metre of a recording's depths (default: its own, else 1000, "
                  "millimetres)")

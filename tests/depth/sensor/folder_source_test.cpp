@@ -304,6 +304,20 @@ TEST(FolderSource, TheCameraThatOpen3dWroteAboveItIsTaken) {
   EXPECT_TRUE(others.Tell("camera_intrinsic.json: passed over: ")) << others.text;
 }
 
+TEST(FolderSource, TheCalibrationThatRosSavedBesideItIsTakenAndItsLensToldOf) {
+  const TemporaryFolder folder;
+  WriteFrame(folder / "0.png", 1, 640, 480);
+  std::ofstream(folder / "ost.yaml")
+      << "image_width: 640\nimage_height: 480\n"
+         "camera_matrix:\n  rows: 3\n  data: [600, 0, 320, 0, 601, 240, 0, 0, 1]\n"
+         "distortion_coefficients:\n  data: [-0.3, 0.1, 0, 0, 0]\n";
+  Notes notes;
+  const auto source = OpenSource(folder.path().string(), notes.Options());
+  EXPECT_EQ(source->camera(), (Camera{640, 480, 600, 601, 320, 240}));
+  EXPECT_TRUE(notes.Tell("ost.yaml: the camera is as it says")) << notes.text;
+  EXPECT_TRUE(notes.Tell("ost.yaml: the lens moves the image's corners by ")) << notes.text;
+}
+
 TEST(FolderSource, NamesInCapitalsAreFramesToo) {
   const TemporaryFolder folder;
   EXPECT_FALSE(IsRecording(folder.path()));

@@ -8,6 +8,7 @@
 #include "recon/refine/pose_network.h"
 #include "tests/recon/refine/pose_networks.h"
 #include "tests/tools/tracker/tracked_scenes.h"
+#include "tools/people/detect_people.h"
 
 namespace ossa::tracker {
 namespace {

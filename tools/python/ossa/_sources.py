@@ -174,8 +174,9 @@ def open(  # noqa: A001 - as the command's SOURCE is opened
         or "FILE.bag#/topic" (ROS 1, RealSense), a 16-bit PNG or a folder of them, or a data set of
         `ossa render`.
     camera : ossa.Camera or str, optional
-        A preset's name or "fx,fy,cx,cy" in pixels. Left out: the source's own, else a preset by
-        the images' size, which `notes` then tells.
+        A preset's name, "fx,fy,cx,cy" in pixels, or a file that states it, FILE.json, .yaml or
+        .xml, as `ossa track --camera` reads it. Left out: the source's own, else a preset by the
+        images' size, which `notes` then tells.
     depth_scale : float, optional
         Units to the metre of a recording's depths, 1e-3 to 1e6. Left out: its own, else 1000,
         millimetres.

@@ -1,0 +1,169 @@
+#include "depth/image/calibration_text.h"
+
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+#include <initializer_list>
+#include <limits>
+#include <string_view>
+
+#include "depth/base/error.h"
+
+namespace ossa::depth {
+namespace {
+
+constexpr std::string_view kBetween = " \t\r\n,[]";  // of the numbers of a matrix
+
+bool EndsWord(std::string_view text, size_t at) {
+  constexpr std::string_view kWordEnds = " \t\r\n,[]<>:{}\"";
+  return at >= text.size() || kWordEnds.find(text[at]) != std::string_view::npos;
+}
+
+// The numbers up to what is none. A dash before a blank begins an entry of a YAML list.
+std::vector<double> ReadNumbers(std::string_view text) {
+  std::vector<double> numbers;
+  for (size_t at = 0; at < text.size();) {
+    const bool is_entry = text[at] == '-' && EndsWord(text, at + 1);
+    if (is_entry || kBetween.find(text[at]) != std::string_view::npos) {
+      ++at;
+      continue;
+    }
+    double number = 0.0;
+    const char* const begin = text.data() + at;
+    const auto [end, error] = std::from_chars(begin, text.data() + text.size(), number);
+    at += static_cast<size_t>(end - begin);
+    if (error != std::errc() || !EndsWord(text, at)) break;
+    numbers.push_back(number);
+  }
+  return numbers;
+}
+
+// Where the value of a key begins: key: ..., "key": ..., <key> or <key type_id="...">. Of YAML keys
+// only those at a line's begin count, as others are a matrix's own.
+size_t FindValue(std::string_view text, std::string_view key) {
+  for (size_t at = text.find(key); at != text.npos; at = text.find(key, at + 1)) {
+    const size_t end = at + key.size();
+    const char before = at == 0 ? '\n' : text[at - 1];
+    const char after = end < text.size() ? text[end] : '\n';
+    if (before == '\n' && after == ':') return end + 1;
+    if (before == '<' && (after == '>' || after == ' ')) return text.find('>', end) + 1;
+    const bool is_quoted = before == '"' && after == '"';
+    const size_t colon = is_quoted ? text.find_first_not_of(" \t\r\n", end + 1) : text.npos;
+    if (colon != text.npos && text[colon] == ':') return colon + 1;
+  }
+  return text.npos;
+}
+
+// Up to the next key at the same level: a tag's end, a JSON object's, or a YAML line that is not
+// moved in.
+std::string_view ValueFrom(std::string_view text, size_t begin, std::string_view key) {
+  const std::string_view rest = text.substr(begin);
+  const size_t tag = rest.find("</" + std::string(key) + ">");
+  if (tag != rest.npos) return rest.substr(0, tag);
+  const size_t first = rest.find_first_not_of(" \t\r\n");
+  if (first != rest.npos && rest[first] == '{') return rest.substr(0, rest.find('}'));
+  for (size_t line = rest.find('\n'); line != rest.npos; line = rest.find('\n', line + 1)) {
+    const std::string_view next = rest.substr(line + 1);
+    const bool is_key = !next.empty() && std::string_view(" \t\r\n-]").find(next[0]) == next.npos;
+    if (is_key) return rest.substr(0, line);
+  }
+  return rest;
+}
+
+std::optional<std::string_view> Value(std::string_view text,
+                                      std::initializer_list<std::string_view> keys) {
+  for (const std::string_view key : keys) {
+    const size_t begin = FindValue(text, key);
+    if (begin != text.npos) return ValueFrom(text, begin, key);
+  }
+  return std::nullopt;
+}
+
+std::vector<double> NumbersOf(std::string_view value) {
+  const size_t first = value.find_first_not_of(" \t\r\n");
+  const bool is_bare =
+      first != value.npos &&
+      std::string_view("[-.0123456789").find(value[first]) != std::string_view::npos;
+  if (is_bare) return ReadNumbers(value);
+  for (const std::string_view data : {"data:", "\"data\":", "<data>"}) {
+    const size_t at = value.find(data);
+    if (at != value.npos) return ReadNumbers(value.substr(at + data.size()));
+  }
+  return ReadNumbers(value);
+}
+
+int SideOf(std::optional<std::string_view> value, const std::string& name) {
+  if (!value) return 0;
+  constexpr double kAnInt =
+      1e9;  // pixels: an int holds it, a bound; larger images are refused later
+  const std::vector<double> numbers = NumbersOf(*value);
+  if (numbers.empty() || !(numbers[0] >= 1 && numbers[0] < kAnInt) ||
+      numbers[0] != std::floor(numbers[0])) {
+    throw InputError(name + ": expected the image's width and height in whole pixels");
+  }
+  return static_cast<int>(numbers[0]);
+}
+
+std::string WordOf(std::optional<std::string_view> value) {
+  if (!value) return "";
+  constexpr std::string_view kAround = " \t\r\n\"',";
+  const size_t begin = value->find_first_not_of(kAround);
+  if (begin == value->npos) return "";
+  return std::string(value->substr(begin, value->find_first_of(kAround, begin) - begin));
+}
+
+// What OpenCV's distortion (cv::projectPoints) adds to a ray x, y.
+std::array<double, 2> ComputeShift(const std::vector<double>& k, double x, double y) {
+  const double r2 = x * x + y * y;
+  const double factor =
+      (1 + r2 * (k[0] + r2 * (k[1] + r2 * k[4]))) / (1 + r2 * (k[5] + r2 * (k[6] + r2 * k[7])));
+  return {x * (factor - 1) + 2 * k[2] * x * y + k[3] * (r2 + 2 * x * x),
+          y * (factor - 1) + k[2] * (r2 + 2 * y * y) + 2 * k[3] * x * y};
+}
+
+}  // namespace
+
+std::optional<Calibration> FindCalibration(const std::string& text, const std::string& name) {
+  const auto matrix = Value(text, {"camera_matrix", "cameraMatrix", "CameraMatrix", "K", "k"});
+  if (!matrix) return std::nullopt;
+  const std::vector<double> numbers = NumbersOf(*matrix);
+  if (numbers.size() != 9) {
+    throw InputError(name + ": expected nine numbers of a camera matrix, found " +
+                     std::to_string(numbers.size()));
+  }
+  Calibration found;
+  std::copy(numbers.begin(), numbers.end(), found.matrix.begin());
+  found.width = SideOf(Value(text, {"image_width", "imageWidth", "width"}), name);
+  found.height = SideOf(Value(text, {"image_height", "imageHeight", "height"}), name);
+  if (const auto lens = Value(
+          text, {"distortion_coefficients", "distCoeffs", "dist_coeffs", "dist_coeff", "D", "d"})) {
+    found.distortion = NumbersOf(*lens);
+  }
+  found.model = WordOf(Value(text, {"distortion_model"}));
+  return found;
+}
+
+double ComputeCornerShift(const Calibration& calibration) {
+  const bool is_straight = std::all_of(calibration.distortion.begin(), calibration.distortion.end(),
+                                       [](double k) { return k == 0.0; });
+  if (is_straight) return 0.0;
+  const bool is_known = calibration.model.empty() || calibration.model == "plumb_bob" ||
+                        calibration.model == "rational_polynomial";
+  if (!is_known) return std::numeric_limits<double>::quiet_NaN();
+  std::vector<double> k = calibration.distortion;
+  k.resize(std::max<size_t>(k.size(), 8), 0.0);
+  const double fx = calibration.matrix[0], cx = calibration.matrix[2];
+  const double fy = calibration.matrix[4], cy = calibration.matrix[5];
+  const double right = calibration.width > 0 ? calibration.width - 1 : 2 * cx;
+  const double bottom = calibration.height > 0 ? calibration.height - 1 : 2 * cy;
+  double most = 0.0;
+  for (const double u : {0.0, right}) {
+    for (const double v : {0.0, bottom}) {
+      const auto [x, y] = ComputeShift(k, (u - cx) / fx, (v - cy) / fy);
+      most = std::max(most, std::sqrt(fx * x * fx * x + fy * y * fy * y));
+    }
+  }
+  return most;
+}
+
+}  // namespace ossa::depth

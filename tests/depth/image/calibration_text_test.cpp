@@ -1,0 +1,175 @@
+#include "depth/image/calibration_text.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <fstream>
+
+#include "depth/base/error.h"
+#include "depth/image/camera_io.h"
+#include "tests/support/refused.h"
+#include "tests/support/temporary_folder.h"
+
+namespace ossa::depth {
+namespace {
+
+// As ROS's camera_calibration saves it.
+constexpr const char* kOst = R"(image_width: 640
+image_height: 480
+camera_name: narrow_stereo
+camera_matrix:
+  rows: 3
+  cols: 3
+  data: [ 580.5,    0. , 318.25,
+            0. , 579. , 241.5,
+            0. ,    0. ,   1. ]
+distortion_model: plumb_bob
+distortion_coefficients:
+  rows: 1
+  cols: 5
+  data: [-0.25, 0.0625, 0.001, -0.002, 0.000000]
+projection_matrix:
+  rows: 3
+  cols: 4
+  data: [1, 0, 1, 0, 0, 1, 1, 0, 0, 0, 1, 0]
+)";
+
+// As cv::FileStorage does, whose keys are in no order that helps.
+constexpr const char* kOpenCvYaml = R"(%YAML:1.0
+---
+calibration_time: "Sat"
+image_width: 640
+image_height: 480
+cameraMatrix: !!opencv-matrix
+   rows: 3
+   cols: 3
+   dt: d
+   data: [ 5.8050000000000000e+02, 0., 3.1825000000000000e+02, 0.,
+       579., 2.4150000000000000e+02, 0., 0., 1. ]
+distCoeffs: !!opencv-matrix
+   rows: 5
+   cols: 1
+   dt: d
+   data: [ -2.5000000000000000e-01, 6.2500000000000000e-02, 1e-3, -2e-3, 0. ]
+)";
+
+constexpr const char* kXml = R"(<?xml version="1.0"?>
+<opencv_storage>
+<image_width>640</image_width>
+<image_height>480</image_height>
+<camera_matrix type_id="opencv-matrix">
+  <rows>3</rows>
+  <cols>3</cols>
+  <dt>d</dt>
+  <data>
+    5.805e+02 0. 318.25 0. 579. 241.5 0. 0. 1.</data></camera_matrix>
+<distortion_coefficients type_id="opencv-matrix">
+  <rows>5</rows>
+  <cols>1</cols>
+  <dt>d</dt>
+  <data>
+    -0.25 0.0625 1e-3 -2e-3 0.</data></distortion_coefficients>
+</opencv_storage>
+)";
+
+constexpr const char* kJson =
+    R"({"image_width": 640, "image_height": 480, "D": [-0.25, 0.0625, 0.001, -0.002, 0],)"
+    R"( "K": [[580.5, 0, 318.25], [0, 579, 241.5], [0, 0, 1]], "R": {"data": [1, 0]}})";
+
+constexpr const char* kCameraInfo = R"(height: 480
+width: 640
+distortion_model: plumb_bob
+d:
+- -0.25
+- 0.0625
+- 0.001
+- -0.002
+- 0.0
+k:
+- 580.5
+- 0.0
+- 318.25
+- 0.0
+- 579.0
+- 241.5
+- 0.0
+- 0.0
+- 1.0
+r:
+- 1.0
+)";
+
+class StatedCalibration : public testing::TestWithParam<const char*> {};
+
+TEST_P(StatedCalibration, IsReadAsItIsWritten) {
+  const auto found = FindCalibration(GetParam(), "x");
+  ASSERT_TRUE(found);
+  EXPECT_EQ(found->width, 640);
+  EXPECT_EQ(found->height, 480);
+  EXPECT_EQ(found->matrix, (std::array<double, 9>{580.5, 0, 318.25, 0, 579, 241.5, 0, 0, 1}));
+  EXPECT_EQ(found->distortion, (std::vector<double>{-0.25, 0.0625, 0.001, -0.002, 0}));
+}
+
+INSTANTIATE_TEST_SUITE_P(EachProgram, StatedCalibration,
+                         testing::Values(kOst, kOpenCvYaml, kXml, kJson, kCameraInfo));
+
+TEST(Calibration, OfOtherTextsIsNone) {
+  for (const char* text : {"", "{}", "camera: K", "%YAML:1.0", R"({"width": 64, "fx": 1})"}) {
+    EXPECT_FALSE(FindCalibration(text, "x")) << text;
+  }
+}
+
+TEST(Calibration, OfFewNumbersIsRefused) {
+  test::ExpectRefused([] { FindCalibration("K: [1, 2, x, 3]", "a.yaml"); },
+                      "a.yaml: expected nine numbers of a camera matrix, found 2");
+  EXPECT_THROW(FindCalibration("width: many\nK: [1,0,0,0,1,0,0,0,1]", "a.yaml"), InputError);
+}
+
+// Along the diagonal from the centre k1 moves a corner by f k1 r^3: of f 100 and r 0.5 by 12.5 k1.
+TEST(CornerShift, IsByTheLensAtTheCorner) {
+  Calibration calibration{.width = 61, .height = 81, .matrix = {100, 0, 30, 0, 100, 40, 0, 0, 1}};
+  EXPECT_EQ(ComputeCornerShift(calibration), 0.0);
+  calibration.distortion = {0.2, 0, 0, 0, 0};
+  EXPECT_NEAR(ComputeCornerShift(calibration), 2.5, 1e-12);
+  calibration.width = calibration.height = 0;  // twice the centre then
+  EXPECT_NEAR(ComputeCornerShift(calibration), 2.5, 1e-12);
+  calibration.model = "equidistant";
+  EXPECT_TRUE(std::isnan(ComputeCornerShift(calibration)));
+}
+
+class CameraFile : public testing::Test {
+ protected:
+  std::string Write(const std::string& name, const std::string& text) {
+    std::ofstream(folder_ / name) << text;
+    return folder_ / name;
+  }
+  test::TemporaryFolder folder_;
+};
+
+TEST_F(CameraFile, IsAChoiceOfACamera) {
+  const CameraChoice choice = ParseCamera(Write("ost.yaml", kOst));
+  EXPECT_EQ(choice.camera, (Camera{640, 480, 580.5, 579, 318.25, 241.5}));
+  EXPECT_NE(choice.unheeded.find("ost.yaml: the lens moves the image's corners by "),
+            std::string::npos)
+      << choice.unheeded;
+  WriteCameraJson(folder_ / "camera.json", KinectV1Camera(320, 240));
+  const CameraChoice plain = ParseCamera(folder_ / "camera.json");
+  EXPECT_EQ(CameraForSize(plain, 640, 480), Resized(KinectV1Camera(320, 240), 640, 480));
+  EXPECT_EQ(plain.unheeded, "");
+}
+
+TEST_F(CameraFile, WithoutASizeIsOfWhateverImagesCome) {
+  const CameraChoice choice = ParseCamera(Write("k.yml", "K: [100, 0, 30, 0, 110, 40, 0, 0, 1]\n"));
+  EXPECT_EQ(CameraForSize(choice, 64, 48), (Camera{64, 48, 100, 110, 30, 40}));
+}
+
+TEST_F(CameraFile, ThatStatesNoCameraIsRefused) {
+  test::ExpectRefused([&] { ParseCamera(Write("a.yaml", "fps: 30\n")); },
+                      "a.yaml: expected a camera_matrix");
+  test::ExpectRefused([&] { ParseCamera(Write("b.yaml", "K: [0,0,0,0,0,0,0,0,0]")); },
+                      "b.yaml: camera");
+  test::ExpectRefused([&] { ParseCamera((folder_ / "none.xml").string()); }, "none.xml");
+}
+
+}  // namespace
+}  // namespace ossa::depth
