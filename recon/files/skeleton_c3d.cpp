@@ -103,7 +103,6 @@ C3d ReadC3dHeader(const std::string& name, const C3dBytes& bytes) {
   const double scale = bytes.Real(12);
   c3d.rate_Hz = bytes.Real(20);
   if (!std::isfinite(scale) || scale == 0) FailAtByte(name, 12, "a scale factor");
-  if (!std::isfinite(c3d.rate_Hz) || c3d.rate_Hz <= 0) FailAtByte(name, 20, "a frame rate");
   c3d.floats = scale < 0;
   c3d.scale = c3d.floats ? 1.0 : scale;
   if (word(9) < 2) FailAtByte(name, 16, "the block where the data begins");
@@ -200,6 +199,19 @@ size_t CountFrames(const std::string& name, const C3dBytes& bytes, const C3d& c3
   return c3d.last - c3d.first + 1;
 }
 
+// The header's, else the parameters': some programs write it there alone.
+double ReadRate_Hz(const std::string& name, const C3dBytes& bytes, const C3d& c3d,
+                   const Parameters& parameters) {
+  const auto is_rate = [](double rate_Hz) { return std::isfinite(rate_Hz) && rate_Hz > 0; };
+  if (is_rate(c3d.rate_Hz)) return c3d.rate_Hz;
+  const auto said = parameters.find("POINT:RATE");
+  if (said != parameters.end() && said->second.type == 4 && said->second.size >= sizeof(float)) {
+    const double rate_Hz = bytes.Real(said->second.begin);
+    if (is_rate(rate_Hz)) return rate_Hz;
+  }
+  FailAtByte(name, 20, "a frame rate, there or in POINT:RATE");
+}
+
 std::string_view ReadText(const C3dBytes& bytes, const Parameter& parameter) {
   return bytes.all().substr(parameter.begin, parameter.size);
 }
@@ -266,6 +278,7 @@ SkeletonSequence ReadC3d(SkeletonInput& input) {
   C3d c3d = ReadC3dHeader(input.name, bytes);
   const Parameters parameters = ReadParameters(input.name, bytes);
   c3d.frames = CountFrames(input.name, bytes, c3d, parameters);
+  c3d.rate_Hz = ReadRate_Hz(input.name, bytes, c3d, parameters);
   ReadLabels(input.name, bytes, parameters, c3d);
   ReadUnits(input.name, bytes, parameters, c3d);
   const size_t word = c3d.floats ? 4 : 2;

@@ -11,6 +11,8 @@
 #include <set>
 #include <span>
 #include <stdexcept>
+#include <string_view>
+#include <vector>
 
 #include "depth/base/error.h"
 #include "depth/base/json_nesting.h"
@@ -128,6 +130,44 @@ void SkeletonJsonlWriter::Write(const SkeletonFrame& frame) {
   stream_ << SkeletonJsonLine(frame) << '\n';
 }
 
+namespace {
+
+// The first key that an object of the text has twice: of such the parser keeps the last in silence.
+std::optional<std::string> FindRepeatedKey(std::string_view text) {
+  std::vector<std::set<std::string>> keys;  // of the objects that are open
+  std::optional<std::string> repeated;
+  const auto take = [&](int, Json::parse_event_t event, Json& parsed) {
+    if (event == Json::parse_event_t::object_start) keys.emplace_back();
+    if (event == Json::parse_event_t::object_end) keys.pop_back();
+    if (event != Json::parse_event_t::key) return true;
+    const auto& key = parsed.get_ref<const std::string&>();
+    if (!keys.back().insert(key).second && !repeated) repeated = key;
+    return true;
+  };
+  [[maybe_unused]] const Json json = Json::parse(text, take, false);
+  return repeated;
+}
+
+// As often as it is in the text, also where the parser kept one of two: cheaper than to look at
+// every key of a line of thousands.
+size_t CountPlaces(std::string_view text) {
+  constexpr std::string_view kPlace = "\"p\"";
+  size_t count = 0;
+  for (size_t at = text.find(kPlace); at != text.npos; at = text.find(kPlace, at + 1)) ++count;
+  return count;
+}
+
+size_t CountPlaces(const SkeletonFrame& frame, const Json& line) {
+  const auto objects = line.find("objects");
+  size_t count = objects == line.end() ? 0 : objects->size();
+  for (const BodyRecord& body : frame.bodies) {
+    for (const auto& joint : body.joints) count += joint ? 1 : 0;
+  }
+  return count;
+}
+
+}  // namespace
+
 // One line of a file, taken apart; every complaint names the line and the key.
 class SkeletonJsonlReader::Lines {
  public:
@@ -142,6 +182,7 @@ class SkeletonJsonlReader::Lines {
     if (json.is_discarded()) FailWhereJsonStops();
     if (!json.is_object()) lines_.Fail("a JSON object", lines_.line());
     frame = ParseFrame(json);
+    if (CountPlaces(lines_.line()) != CountPlaces(frame, json)) FailWhereAKeyRepeats();
     return true;
   }
 
@@ -165,6 +206,11 @@ class SkeletonJsonlReader::Lines {
       lines_.Fail("numbers of at most 1.8e308", line);
     }
     lines_.Fail(kExpected, line);
+  }
+
+  void FailWhereAKeyRepeats() const {
+    const auto repeated = FindRepeatedKey(lines_.line());
+    if (repeated) lines_.Fail("each key of an object once", *repeated);
   }
 
   [[noreturn]] void Fail(const std::string& where, std::string_view expected,

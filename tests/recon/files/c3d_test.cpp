@@ -113,6 +113,16 @@ TEST(C3dLabels, MayBeFilledWithZeros) {
   EXPECT_TRUE(read.frames[0].bodies[0].joints[Index(Joint::kHead)].has_value());
 }
 
+TEST(C3dRate, IsTheParametersWhereTheHeaderHasNone) {
+  std::string bytes = C3dBytes();
+  Put<float>(bytes, 20, 0.0f);
+  EXPECT_NE(ComplaintAbout(bytes).find("expected a frame rate, there or in POINT:RATE"),
+            std::string::npos);
+  const std::string more = NumberRecord(1, "RATE", 4, Bytes(50.0f));
+  bytes.replace(bytes.find("UNITS") + 5 + 2 + 6, more.size(), more);
+  EXPECT_NEAR(ReadText(bytes).frames.at(1).time_s, 0.02, 1e-9);
+}
+
 TEST(LongC3d, HasAsManyFramesAsItsTrialSays) {
   EXPECT_EQ(FramesOf(LongC3d(Trial(1, kFrames))), kFrames);
   EXPECT_EQ(FramesOf(LongC3d(Trial(80001, 80000 + 500), 500)), 500u) << "the end of a longer one";

@@ -73,6 +73,14 @@ TEST(SkeletonJsonl, NeverWritesANumberThatNoReaderTakes) {
   EXPECT_THROW(SkeletonJsonLine(frame), std::invalid_argument);
 }
 
+TEST(SkeletonJsonl, MayHaveObjectsBesidePeople) {
+  std::istringstream text(
+      R"({"frame":0,"time_s":0,"bodies":[{"id":1,"joints":{"Head":{"p":[0,1,2]}}}],)"
+      R"("objects":[{"name":"p","p":[0,0,1],"q":[1,0,0,0]}]})"
+      "\n");
+  EXPECT_EQ(ReadSkeletonJsonl(text, "x").frames.size(), 1u);
+}
+
 std::string WithJoint(const std::string& joint) {
   return R"({"frame":0,"time_s":0,"bodies":[]})"
          "\n"
@@ -112,6 +120,9 @@ INSTANTIATE_TEST_SUITE_P(
                 "line 2: expected one whole JSON object, found 'NaN]}}}]}' at byte 70"},
         BadLine{WithJoint(R"("Head":{"p":[1,2,1e999]})"), "line 2: expected numbers of at most"},
         BadLine{R"({"frame":0,"time_s":)", "found the end of the line at byte 21"},
+        BadLine{WithJoint(R"("Head":{"p":[1,2,3]},"Head":{"p":[1,2,4]})"),
+                "line 2: expected each key of an object once, found 'Head'"},
+        BadLine{WithJoint(R"("Head":{"p":[1,2,3],"p":[1,2,4]})"), "each key of an object once"},
         BadLine{WithJoint(R"("Head":{"p":[1,2]})"), "3 numbers in Head.p"},
         BadLine{WithJoint(R"("Head":{"p":[1,2,"3"]})"), "finite number in Head.p"},
         BadLine{WithJoint(R"("Head":{"state":"tracked"})"), "\"p\" in Head"},
