@@ -231,18 +231,30 @@ class VirtualDevice final : public oni::driver::DeviceBase {
   OniSensorInfo sensor_{};
 };
 
+// The same of an absolute path; a relative one is of the shell's folder.
+std::string AbsoluteUri(const std::string& uri) {
+  const size_t scheme = std::strlen(kVirtualScheme);
+  const char* folder = std::getenv("PWD");
+  const bool is_relative =
+      uri.starts_with(kVirtualScheme) && uri.size() > scheme && uri[scheme] != '/';
+  if (!is_relative || folder == nullptr) return uri;
+  return kVirtualScheme + (std::string(folder) + "/" + uri.substr(scheme));
+}
+
 class VirtualDriver final : public oni::driver::DriverBase, public UnplugHandler {
  public:
   explicit VirtualDriver(OniDriverServices* services) : DriverBase(services) {}
 
-  // OSSA_VIRTUAL_DEVICE=ossa://PATH is plugged in from the start: "any device" finds it.
+  // OSSA_VIRTUAL_DEVICE=ossa://PATH is plugged in from the start: "any device" finds it. The
+  // working folder is OpenNI2's by now, which changes into its drivers': where the program was
+  // started the shell has noted.
   OniStatus initialize(oni::driver::DeviceConnectedCallback connected,
                        oni::driver::DeviceDisconnectedCallback disconnected,
                        oni::driver::DeviceStateChangedCallback changed, void* cookie) override {
     DriverBase::initialize(connected, disconnected, changed, cookie);
     events_ = std::make_unique<EventQueue>();
     const char* uri = std::getenv("OSSA_VIRTUAL_DEVICE");
-    if (uri != nullptr && *uri != '\0') tryDevice(uri);
+    if (uri != nullptr && *uri != '\0') tryDevice(AbsoluteUri(uri).c_str());
     return ONI_STATUS_OK;
   }
 

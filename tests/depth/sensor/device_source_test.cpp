@@ -248,6 +248,21 @@ TEST(Device, TheFirstIsNotTakenForAnotherAfterItWasUnplugged) {
   }
 }
 
+// OpenNI2 loads its drivers once it is in their folder.
+TEST(Device, OfARelativePathIsWhereTheProgramWasStarted) {
+  const TemporaryFolder folder;
+  std::filesystem::create_directory(folder / "clip");
+  WriteExampleFolder(folder / "clip", 5);
+  const char* before = getenv("PWD");
+  const std::string shell = before == nullptr ? "" : before;
+  setenv("PWD", folder.path().c_str(), 1);
+  setenv("OSSA_VIRTUAL_DEVICE", "ossa://clip?loop=1", 1);
+  const auto source = OpenSource("openni:");
+  unsetenv("OSSA_VIRTUAL_DEVICE");
+  setenv("PWD", shell.c_str(), 1);
+  EXPECT_EQ(NextFrame(*source).frame.camera.width, 32);
+}
+
 TEST(Device, TheFirstGoesOnAfterItWasUnplugged) {
   const TemporaryFolder folder;
   WriteExampleFolder(folder.path(), 8);
