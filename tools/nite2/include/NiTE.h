@@ -136,9 +136,19 @@ class UserMap : private NiteUserMap {
 /// What trackers of users and of hands have in common. `C`: the C interface of one of them.
 namespace shared {
 
+/// `count` of the C interface's structures, which a T is.
+template <class T, class From>
+void show(int count, const From* from, Array<T>& array) {
+  array._setData(count, reinterpret_cast<const T*>(from));
+}
+
 struct UserInterface {
   using Handle = NiteUserTrackerHandle;
   using Frame = NiteUserTrackerFrame;
+  struct Arrays {
+    Array<UserData> users;
+    void of(const Frame& frame) { show(frame.userCount, frame.pUser, users); }
+  };
   using Callbacks = NiteUserTrackerCallbacks;
   static NiteStatus open(Handle* handle) { return niteInitializeUserTracker(handle); }
   static NiteStatus open(void* device, Handle* handle) {
@@ -161,6 +171,14 @@ struct UserInterface {
 struct HandInterface {
   using Handle = NiteHandTrackerHandle;
   using Frame = NiteHandTrackerFrame;
+  struct Arrays {
+    Array<HandData> hands;
+    Array<GestureData> gestures;
+    void of(const Frame& frame) {
+      show(frame.handCount, frame.pHands, hands);
+      show(frame.gestureCount, frame.pGestures, gestures);
+    }
+  };
   using Callbacks = NiteHandTrackerCallbacks;
   static NiteStatus open(Handle* handle) { return niteInitializeHandTracker(handle); }
   static NiteStatus open(void* device, Handle* handle) {
@@ -210,12 +228,16 @@ class FrameRef {
     if (isValid()) C::release(handle_, frame_);
     handle_ = handle;
     frame_ = frame;
+    arrays_.of(frame == nullptr ? typename C::Frame{} : *frame);
   }
 
  protected:
   const typename C::Frame* frame() const { return frame_; }
+  /// The frame's own: whoever keeps a reference to one sees what is read into it next.
+  const typename C::Arrays& arrays() const { return arrays_; }
 
  private:
+  typename C::Arrays arrays_;
   typename C::Frame* frame_ = nullptr;
   typename C::Handle handle_ = nullptr;
 };
@@ -283,32 +305,11 @@ class TrackerOf {
   typename C::Handle handle_ = nullptr;
 };
 
-/// The array that a frame hands out; it is the frame's own, and not copied with it.
-template <class T>
-class Shown {
- public:
-  Shown() = default;
-  Shown(const Shown&) {}
-  Shown& operator=(const Shown&) { return *this; }
-
-  /// `count` of the C interface's structures, which a T is.
-  template <class From>
-  const Array<T>& of(int count, const From* from) const {
-    array_._setData(count, reinterpret_cast<const T*>(from));
-    return array_;
-  }
-
- private:
-  mutable Array<T> array_;
-};
-
 }  // namespace shared
 
 class UserTrackerFrameRef : public shared::FrameRef<shared::UserInterface> {
  public:
-  const Array<UserData>& getUsers() const {
-    return isValid() ? users_.of(frame()->userCount, frame()->pUser) : users_.of(0, frame());
-  }
+  const Array<UserData>& getUsers() const { return arrays().users; }
   const UserData* getUserById(UserId id) const {
     const Array<UserData>& users = getUsers();
     for (int i = 0; i < users.getSize(); ++i) {
@@ -319,9 +320,6 @@ class UserTrackerFrameRef : public shared::FrameRef<shared::UserInterface> {
   UserMap getUserMap() const { return UserMap(frame()->userMap); }
   const Plane& getFloor() const { return frame()->floor; }
   float getFloorConfidence() const { return frame()->floorConfidence; }
-
- private:
-  shared::Shown<UserData> users_;
 };
 
 /// Who is in view, and their skeletons.
@@ -359,17 +357,8 @@ class UserTracker : public shared::TrackerOf<shared::UserInterface, UserTracker>
 
 class HandTrackerFrameRef : public shared::FrameRef<shared::HandInterface> {
  public:
-  const Array<HandData>& getHands() const {
-    return isValid() ? hands_.of(frame()->handCount, frame()->pHands) : hands_.of(0, frame());
-  }
-  const Array<GestureData>& getGestures() const {
-    return isValid() ? gestures_.of(frame()->gestureCount, frame()->pGestures)
-                     : gestures_.of(0, frame());
-  }
-
- private:
-  shared::Shown<HandData> hands_;
-  shared::Shown<GestureData> gestures_;
+  const Array<HandData>& getHands() const { return arrays().hands; }
+  const Array<GestureData>& getGestures() const { return arrays().gestures; }
 };
 
 /// Hands that are followed by id, and gestures that ask for it.
