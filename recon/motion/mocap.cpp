@@ -64,6 +64,8 @@ std::vector<fs::path> MotionFilesIn(const fs::path& folder) {
   return files;
 }
 
+constexpr double kUsualAmc_hz = 120.0;  // by convention: CMU's and HDM05's
+
 /// Loads files one after another; each ASF is read once.
 class Loader {
  public:
@@ -78,7 +80,7 @@ class Loader {
       case Kind::kBvh:
         return LoadBvh(path);
       case Kind::kAmc:
-        return {MakeClip(FindPerson(LoadAmc(path), mapping()), path)};
+        return {WarnOfRate(MakeClip(FindPerson(LoadAmc(path), mapping()), path), name)};
       case Kind::kHumanoid3d:  // its joints are known
         return {MakeClip(FindPerson(ParseHumanoid3d(ReadTextFile(path), name), nullptr), path)};
       case Kind::kOther:
@@ -132,8 +134,17 @@ class Loader {
     return clip;
   }
 
+  MotionClip WarnOfRate(MotionClip clip, const std::string& file) {
+    if (options_.amc_hz > 0.0 || is_rate_told_) return clip;
+    is_rate_told_ = true;
+    clip.warnings.push_back(
+        file + ": AMC files state no rate: read at 120 frames a second (--amc-fps says otherwise)");
+    return clip;
+  }
+
   SourceMotion LoadAmc(const fs::path& path) {
-    return ParseAmc(ReadTextFile(path), path.string(), LoadSkeleton(path), 1.0 / options_.amc_hz);
+    const double hz = options_.amc_hz > 0.0 ? options_.amc_hz : kUsualAmc_hz;
+    return ParseAmc(ReadTextFile(path), path.string(), LoadSkeleton(path), 1.0 / hz);
   }
 
   std::shared_ptr<const AcclaimSkeleton> LoadSkeleton(const fs::path& amc) {
@@ -148,6 +159,7 @@ class Loader {
   const MocapOptions& options_;
   std::optional<BoneMapping> mapping_;
   bool is_mapping_used_ = false;
+  bool is_rate_told_ = false;  // once for all files
   std::map<std::string, std::shared_ptr<const AcclaimSkeleton>> skeletons_;
 };
 

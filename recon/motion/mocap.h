@@ -13,8 +13,10 @@ namespace ossa::recon {
 struct MocapOptions {
   double frame_s = 1.0 / 30.0;  // clips are resampled to this step
   uint64_t seed = 1;            // variation of the authored clips
-  double amc_hz = 120.0;        // AMC files do not say; CMU and HDM05 publish at 120
-  std::string mapping_file;     // bone names of an unknown conversion; "" = the known ones only
+  /// Frames a second of AMC files, which do not say; 0: 120, at which CMU and HDM05 publish, and
+  /// the first such clip has a warning of it.
+  double amc_hz = 0.0;
+  std::string mapping_file;  // bone names of an unknown conversion; "" = the known ones only
   /// Asked before each file; true: no more are read, and those until then are what is returned.
   std::function<bool()> stop = {};
 };

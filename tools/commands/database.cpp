@@ -45,7 +45,7 @@ int Database(int argc, char** argv) {
   recon::DatabaseOptions options;
   recon::MocapOptions mocap_options;
   bool quiet = false;
-  AddMocapOption(app, mocap);
+  AddMocapOption(app, mocap, mocap_options);
   app.add_option("--out", out, "the .ossadb file to write")->required();
   app.add_option("--threshold", options.threshold_m,
                  "postures nearer than this to a kept one are dropped, metres")

@@ -3,14 +3,26 @@
 #include <string>
 #include <vector>
 
+#include "recon/motion/mocap.h"
+
 namespace ossa::commands {
 
-/// --mocap of a command that learns from motion: what recon::LoadMocap takes.
-inline void AddMocapOption(CLI::App& app, std::vector<std::string>& mocap) {
+/// --amc-fps of a command that reads motion.
+inline void AddAmcRateOption(CLI::App& app, recon::MocapOptions& options) {
+  app.add_option("--amc-fps", options.amc_hz,
+                 "frames a second of AMC files, which do not say (default 120, as CMU and HDM05 "
+                 "publish)")
+      ->check(CLI::Range(1.0, 1e4));
+}
+
+/// --mocap and --amc-fps of a command that learns from motion: what recon::LoadMocap takes.
+inline void AddMocapOption(CLI::App& app, std::vector<std::string>& mocap,
+                           recon::MocapOptions& options) {
   app.add_option("--mocap", mocap,
                  "BVH or AMC files or folders of them, or the words 'authored' (upright) and "
                  "'authored-floor'; repeat for more")
       ->required();
+  AddAmcRateOption(app, options);
 }
 
 }  // namespace ossa::commands

@@ -67,7 +67,7 @@ void AddNetworkOptions(CLI::App& app, tools::PriorNetworkOptions& network) {
 }
 
 void DeclareOptions(CLI::App& app, PriorArguments& a) {
-  AddMocapOption(app, a.mocap);
+  AddMocapOption(app, a.mocap, a.mocap_options);
   app.add_option("--out", a.out, "the .ossaprior file to write")->required();
   app.add_option("--modes", a.options.modes, "independent ways of moving that are told apart")
       ->capture_default_str()

@@ -19,6 +19,7 @@
 #include "tools/commands/command.h"
 #include "tools/commands/commands.h"
 #include "tools/commands/mapping_option.h"
+#include "tools/commands/mocap_option.h"
 #include "tools/commands/shell_word.h"
 #include "tools/commands/warnings.h"
 #include "tools/synth/motion_terms.h"
@@ -32,6 +33,7 @@ namespace {
 
 struct Arguments {
   std::vector<std::string> mocap;
+  recon::MocapOptions motion;  // how these are read
   std::string out, size = "640x480", bodies = "random", noise = "kinect-v1", view = "front";
   std::string occluders = "none", split = "train", background, format = "png", camera = "kinect-v1";
   std::string poses = "spread", clothes = "fitting", mapping;
@@ -50,6 +52,7 @@ void DeclareSet(CLI::App& app, Arguments& a) {
                  "crawling, crouching, arms behind the back, turning fast); repeat for more")
       ->required()
       ->allow_extra_args(false);
+  AddAmcRateOption(app, a.motion);
   app.add_option("--out", a.out, "the DATASET's folder; an interrupted run goes on")->required();
   app.add_option("--frames", a.frames, "how many")->required()->check(CLI::Range(1, 10'000'000));
   app.add_option("--seed", a.seed, "frame i depends on the seed and i only")->capture_default_str();
@@ -257,6 +260,7 @@ std::string FormatCommand(const Arguments& a) {
   if (a.sequence) command += " --sequence";
   if (a.cameras > 1) command += fmt::format(" --cameras {}", a.cameras);
   if (!a.mapping.empty()) command += " --mapping " + ShellWord(a.mapping);
+  if (a.motion.amc_hz > 0.0) command += fmt::format(" --amc-fps {}", a.motion.amc_hz);
   return command;
 }
 
@@ -335,7 +339,7 @@ int Render(int argc, char** argv) {
   Parse(app, argc, argv);
   const tools::FrameOptions options = MakeOptions(a);
   tools::Ranks ranks;
-  recon::MocapOptions mocap_options;
+  recon::MocapOptions mocap_options = a.motion;
   mocap_options.seed = a.seed;
   mocap_options.mapping_file = a.mapping;
   mocap_options.stop = Interrupted;

@@ -33,7 +33,7 @@ struct SurfaceArguments {
 };
 
 void Declare(CLI::App& app, SurfaceArguments& a) {
-  AddMocapOption(app, a.mocap);
+  AddMocapOption(app, a.mocap, a.mocap_options);
   app.add_option("--out", a.out, "the .ossasurface file to write")->required();
   app.add_option("--mesh", a.mesh, "the .ossamesh file to write: its skin as triangles, for .glb");
   app.add_option("--triangles", a.options.triangles, "of --mesh, about")

@@ -96,6 +96,24 @@ TEST_F(AcclaimTest, FramesAt120HertzBecomeThirty) {
   EXPECT_EQ(Load(amc).frames.size(), 31u);
 }
 
+TEST_F(AcclaimTest, TheRateThatNoFileStatesIsSaidOnceOrGiven) {
+  std::string amc = kHeader;
+  for (int f = 1; f <= 61; ++f) amc += std::to_string(f) + "\nroot 0 15 0 0 0 0\n";
+  Write("05.asf", TPoseAsf());
+  Write("05_01.amc", amc);
+  Write("05_02.amc", amc);
+  const auto assumed = LoadMocap({folder_.path().string()});
+  ASSERT_EQ(assumed.at(0).warnings.size(), 1u);
+  EXPECT_NE(assumed[0].warnings[0].find("05_01.amc: AMC files state no rate: read at 120"),
+            std::string::npos);
+  EXPECT_TRUE(assumed.at(1).warnings.empty());
+  MocapOptions options;
+  options.amc_hz = 60.0;
+  const auto given = LoadMocap({folder_.path().string()}, options);
+  EXPECT_TRUE(given.at(0).warnings.empty());
+  EXPECT_EQ(given[0].frames.size(), 31u);
+}
+
 TEST_F(AcclaimTest, BonesLeftOutOfAFrameStayAsTheyWere) {
   const MotionClip clip = Load(kHeader + kStanding + "rtibia 90 0 0\n" +
                                "2\nroot 0 15 0 0 0 0\n3\nroot 0 15 0 0 0 0\n" +
