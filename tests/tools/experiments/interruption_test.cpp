@@ -57,6 +57,23 @@ TEST(Interruption, EndsAComparisonAtTheNextClip) {
   }
 }
 
+// Of one clip: what is long is the search for its clock.
+TEST(Interruption, EndsTheSearchForAClock) {
+  const test::TemporaryFolder folder;
+  recon::WriteSkeletons(folder / "a.jsonl", recon::ExampleSequence(90));
+  CompareOptions options;
+  options.pairing.time = TimeAlignment::kCorrelate;
+  CtrlC never(1'000'000);
+  options.stop = never.AsQuestion();
+  const std::string clip = folder / "a.jsonl";
+  Compare(clip, {clip}, options);
+  EXPECT_GT(never.asked(), 400) << "of 2 s each way in steps of 10 ms";
+  CtrlC key(100);
+  options.stop = key.AsQuestion();
+  EXPECT_THROW(Compare(clip, {clip}, options), Interruption);
+  EXPECT_EQ(key.asked(), 101);
+}
+
 TEST(Interruption, EndsTheReadingOfRecordings) {
   const test::TemporaryFolder folder;
   WriteClips(folder / "clips");

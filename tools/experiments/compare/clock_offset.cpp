@@ -4,6 +4,8 @@
 #include <cmath>
 #include <vector>
 
+#include "tools/experiments/experiment.h"
+
 namespace ossa::tools {
 namespace {
 
@@ -87,9 +89,9 @@ long FewestShared(const Speeds& a, const Speeds& b) {
 }
 
 ClockMatch MatchNear(const JointTrack& truth, JointTrack result, double guess_s,
-                     double max_offset_s) {
+                     double max_offset_s, const std::function<bool()>& stop) {
   for (double& time_s : result.time_s) time_s += guess_s;
-  ClockMatch match = MatchClocks(truth, result, max_offset_s);
+  ClockMatch match = MatchClocks(truth, result, max_offset_s, stop);
   match.offset_s += guess_s;
   return match;
 }
@@ -101,7 +103,8 @@ bool MayOverlap(const JointTrack& truth, const JointTrack& result, double max_of
 
 }  // namespace
 
-ClockMatch MatchClocks(const JointTrack& truth, const JointTrack& result, double max_offset_s) {
+ClockMatch MatchClocks(const JointTrack& truth, const JointTrack& result, double max_offset_s,
+                       const std::function<bool()>& stop) {
   if (truth.time_s.size() < 3 || result.time_s.size() < 3) return {};
   const double start_s = std::min(truth.time_s.front(), result.time_s.front());
   const double end_s = std::max(truth.time_s.back(), result.time_s.back());
@@ -112,6 +115,7 @@ ClockMatch MatchClocks(const JointTrack& truth, const JointTrack& result, double
   std::vector<double> score;
   const long fewest = FewestShared(a, b);
   for (long shift = -reach; shift <= reach; ++shift) {
+    if (stop && stop()) throw Interruption{};
     score.push_back(Correlation(a, b, shift, fewest));
   }
   // Of equal peaks the smallest offset: someone who stands still gives no reason to move the clock.
@@ -127,13 +131,14 @@ ClockMatch MatchClocks(const JointTrack& truth, const JointTrack& result, double
   return {shift * kStep_s, score[best]};
 }
 
-double FindClockOffset_s(const JointTrack& truth, const JointTrack& result, double max_offset_s) {
+double FindClockOffset_s(const JointTrack& truth, const JointTrack& result, double max_offset_s,
+                         const std::function<bool()>& stop) {
   const double starts_s = truth.time_s.front() - result.time_s.front();
-  const ClockMatch together = MatchNear(truth, result, starts_s, max_offset_s);
+  const ClockMatch together = MatchNear(truth, result, starts_s, max_offset_s, stop);
   // Else equal clocks were among those that were looked at.
   const bool is_far = std::abs(starts_s) > max_offset_s;
   if (!is_far || !MayOverlap(truth, result, max_offset_s)) return together.offset_s;
-  const ClockMatch equal = MatchClocks(truth, result, max_offset_s);
+  const ClockMatch equal = MatchClocks(truth, result, max_offset_s, stop);
   return equal.correlation > together.correlation ? equal.offset_s : together.offset_s;
 }
 

@@ -94,7 +94,9 @@ ComparedResult CompareOne(const std::string& truth_name, const std::vector<Skele
       continue;
     }
     StopIfAsked(options);
-    AddClip(compared, clip.name, clip, single ? results[0] : *found->second, options.pairing);
+    PairOptions pairing = options.pairing;
+    pairing.stop = options.stop;
+    AddClip(compared, clip.name, clip, single ? results[0] : *found->second, pairing);
   }
   if (compared.missing_clips.size() == truth.size()) {
     RefuseEmpty(truth_name, name, "clips with the names of those");

@@ -111,7 +111,7 @@ void FindOffset(const JointTrack& truth, const JointTrack& result, const PairOpt
   if (options.time == TimeAlignment::kFixed) {
     pair.offset_s = options.offset_s;
   } else if (!pair.same_clock) {
-    pair.offset_s = FindClockOffset_s(truth, result, options.max_offset_s);
+    pair.offset_s = FindClockOffset_s(truth, result, options.max_offset_s, options.stop);
   }
 }
 

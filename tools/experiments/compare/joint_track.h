@@ -1,6 +1,7 @@
 #pragma once
 #include <Eigen/Core>
 #include <array>
+#include <functional>
 #include <optional>
 #include <string>
 #include <vector>
@@ -56,6 +57,9 @@ struct PairOptions {
   double max_offset_s = 2.0;
   bool rigid = false;       // Procrustes without scale over the whole clip, person by person
   bool found_only = false;  // of the result no joints that a method has placed unseen
+  /// Asked while clocks are searched, which takes minutes of long recordings: true ends it by
+  /// throwing Interruption (tools/experiments/experiment.h).
+  std::function<bool()> stop = {};
 };
 
 /// Brings a result onto the truth: people matched, clocks aligned, truth interpolated linearly at
