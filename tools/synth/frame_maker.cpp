@@ -35,8 +35,10 @@ enum Stream : uint64_t {
 };
 
 Random SeedStream(uint64_t seed, Stream purpose, int64_t index, int extra) {
-  return Random(seed * 8 + purpose,
-                static_cast<uint64_t>(index) * 64 + static_cast<uint64_t>(extra));
+  // The bits that make room for the purpose count, too: without them two seeds are one.
+  const uint64_t pushed_out = seed >> 61U;
+  const uint64_t purposeful = pushed_out == 0 ? seed * 8 + purpose : MixSeed(seed, purpose);
+  return Random(purposeful, static_cast<uint64_t>(index) * 64 + static_cast<uint64_t>(extra));
 }
 
 struct Dressed {

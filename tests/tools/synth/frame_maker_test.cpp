@@ -47,6 +47,11 @@ class Frames : public ::testing::TestWithParam<Case> {
   }
 };
 
+TEST_P(Frames, OfSeedsThatDifferInTheirHighestBitsDiffer) {
+  const auto shoot = [](uint64_t seed) { return Shoot(GetParam(), 0, seed).depth.depth_mm; };
+  EXPECT_NE(shoot(3), shoot(3 + (uint64_t{1} << 61U)));
+}
+
 TEST_P(Frames, LabelsLieOnTheirBodies) {
   int64_t hands = 0, far = 0, labelled = 0;
   for (int64_t index = 0; index < 12; ++index) {
