@@ -4,6 +4,8 @@
 #include <cstdlib>
 #include <exception>
 
+#include "depth/base/mpi_launch.h"
+
 #ifdef OSSA_HAVE_MPI
 #define OMPI_SKIP_MPICXX 1
 #include <mpi.h>
@@ -65,7 +67,10 @@ std::unique_ptr<Reducer> MakeMpiReducer(int* argc, char*** argv) {
 
 bool UnderMpi() { return false; }
 
-std::unique_ptr<Reducer> MakeMpiReducer(int*, char***) { return std::make_unique<Reducer>(); }
+std::unique_ptr<Reducer> MakeMpiReducer(int*, char***) {
+  RefuseToShareWithoutMpi();
+  return std::make_unique<Reducer>();
+}
 
 #endif
 

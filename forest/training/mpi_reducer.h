@@ -6,7 +6,8 @@
 namespace ossa::forest {
 
 /// The ranks of an MPI run: joins them on construction, leaves on destruction. Without mpirun, or
-/// when ossa was built without MPI, the lone rank 0 of 1.
+/// when ossa was built without MPI, the lone rank 0 of 1; such a build throws InputError where
+/// mpirun started several.
 std::unique_ptr<Reducer> MakeMpiReducer(int* argc, char*** argv);
 
 /// True when this process was started by mpirun and ossa was built with MPI.

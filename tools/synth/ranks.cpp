@@ -38,9 +38,11 @@ bool Ranks::All(bool mine) const {
 
 #else
 
+#include "depth/base/mpi_launch.h"
+
 namespace ossa::tools {
 
-Ranks::Ranks() = default;
+Ranks::Ranks() { RefuseToShareWithoutMpi(); }
 Ranks::~Ranks() = default;
 bool Ranks::All(bool mine) const { return mine; }
 
