@@ -65,6 +65,7 @@ Candidate MergeCandidates(const Scene& scene, const DepthFrame& frame, const Can
   whole.flat_share = of_a * a.flat_share + (1 - of_a) * b.flat_share;
   whole.foreground_share = of_a * a.foreground_share + (1 - of_a) * b.foreground_share;
   whole.foreground_m2 = a.foreground_m2 + b.foreground_m2;
+  whole.may_return = a.may_return || b.may_return;
   whole.isolated = a.isolated && b.isolated;
   whole.occluded_share = of_a * a.occluded_share + (1 - of_a) * b.occluded_share;
   whole.region_index = a.region_index;

@@ -103,6 +103,7 @@ TEST(MergeCandidates, SharesAreWeighedByTheirCells) {
   b.isolated = a.has_head = true;
   b.has_head = false;
   b.track = 3;
+  b.may_return = true;
   const Candidate whole = MergeCandidates(proposed.scene, render.frame, a, b);
   const auto cells_a = static_cast<double>(a.region.cells.size());
   const auto cells_b = static_cast<double>(b.region.cells.size());
@@ -114,6 +115,7 @@ TEST(MergeCandidates, SharesAreWeighedByTheirCells) {
   EXPECT_FALSE(whole.isolated);
   EXPECT_TRUE(whole.has_head);
   EXPECT_EQ(whole.track, 3);
+  EXPECT_TRUE(whole.may_return);
 }
 
 TEST(MeetAlongRim, HalvesOfAPersonDoAndPeopleApartDoNot) {
