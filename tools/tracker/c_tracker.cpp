@@ -3,6 +3,7 @@
 #include <string>
 #include <vector>
 
+#include "depth/base/error.h"
 #include "tools/tracker/c_interface_internal.h"
 #include "tools/tracker/tracker.h"
 
@@ -41,6 +42,19 @@ std::string TextOr(const char* text, const char* otherwise) {
   return text == nullptr ? otherwise : text;
 }
 
+// Files that a method does not read would be left out in silence; as Python's, the call fails.
+void CheckFilesAreRead(const ossa::tracker::ModelFiles& files, const std::string& method) {
+  const ossa::recon::MethodInfo& info = ossa::recon::RequireMethod(method);
+  const auto check = [&](const std::string& file, bool is_read, const char* member) {
+    if (is_read || file.empty() || file == "none") return;
+    throw ossa::InputError("ossa_options." + std::string(member) +
+                           ": expected a method that reads it, found '" + method + "'");
+  };
+  check(files.learned, info.learned != ossa::recon::Reads::kNothing, "learned");
+  check(files.prior, info.prior, "prior");
+  check(files.database, info.database != ossa::recon::Reads::kNothing, "database");
+}
+
 ossa::tracker::TrackerOptions OptionsFrom(const ossa_options* given) {
   ossa::tracker::TrackerOptions options;
   if (given == nullptr) return options;
@@ -52,6 +66,7 @@ ossa::tracker::TrackerOptions OptionsFrom(const ossa_options* given) {
   files.learned = TextOr(c.learned, "");
   files.prior = TextOr(c.prior, "");
   files.database = TextOr(c.database, "");
+  CheckFilesAreRead(files, options.method);
   options.models = ossa::tracker::ModelSet::Load(files, options.method);
   if (c.smoothing != nullptr) options.smoothing = ossa::tracker::SmoothingPreset(c.smoothing);
   options.physics = c.physics != 0;

@@ -192,6 +192,17 @@ TEST(CInterface, TheCHeaderReportsFailuresInWords) {
   EXPECT_TRUE(Says("/nowhere.oni")) << ossa_last_error();
 }
 
+TEST(CInterface, AFileThatTheMethodDoesNotReadIsRefused) {
+  ossa_options options = PlainOptionsInC();
+  options.struct_size = sizeof options;
+  options.method = "holt";
+  options.prior = "none";
+  options.database = "/nowhere/x.ossadb";
+  EXPECT_EQ(ossa_tracker_create(&options), nullptr);
+  EXPECT_TRUE(Says("ossa_options.database: expected a method that reads it, found 'holt'"))
+      << ossa_last_error();
+}
+
 TEST(CInterface, AStructSizeThatNoVersionHadIsRefused) {
   for (const uint32_t size :
        {0U, 4U, static_cast<uint32_t>(sizeof(ossa_options) - 1), 0xcdcdcdcdU}) {

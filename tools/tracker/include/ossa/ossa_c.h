@@ -77,8 +77,8 @@ typedef struct {
 
 typedef struct {
   uint32_t struct_size;
-  const char* camera; /* a preset's name or "fx,fy,cx,cy", as `ossa track --camera`; NULL: what the
-                         source says, else by the images' size */
+  const char* camera; /* a preset's name, "fx,fy,cx,cy" or a file, as `ossa track --camera`; NULL:
+                         what the source says, else by the images' size */
   double depth_scale; /* units to the metre of its depths; 0: what it says, else millimetres */
   double fps;         /* frames a second of a recording; 0: its own times */
   double wait_s;      /* for a device to be plugged in; 0: it must be there */
@@ -157,7 +157,8 @@ typedef struct {
 
 typedef struct ossa_tracker ossa_tracker;
 
-/* Loads its files. options may be NULL. NULL on failure. */
+/* Loads its files. options may be NULL. NULL on failure, also for a file that the method does not
+   read. */
 ossa_tracker* ossa_tracker_create(const ossa_options* options);
 void ossa_tracker_destroy(ossa_tracker* tracker);
 
