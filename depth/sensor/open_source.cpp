@@ -2,6 +2,8 @@
 #include <array>
 #include <cctype>
 #include <cmath>
+#include <cstdint>
+#include <cstdlib>
 #include <sstream>
 #include <string_view>
 #include <system_error>
@@ -39,10 +41,8 @@ bool IsOniName(const std::filesystem::path& path) {
   return LowerCaseExtension(is_left ? path.stem() : path) == ".oni";
 }
 
-// What a file that the camera was read from states beyond it.
-void TellOfCamera(const SourceOptions& options) {
-  if (!options.camera || options.camera->unheeded.empty() || !options.note) return;
-  options.note(NoteKind::kWarning, options.camera->unheeded);
+std::string SizeText(const Camera& camera) {
+  return std::to_string(camera.width) + "x" + std::to_string(camera.height);
 }
 
 // FILE.bag or FILE.bag#/topic.
@@ -115,17 +115,35 @@ void SourceOptions::Check() const {
           "1 to 65535");
 }
 
-std::unique_ptr<FrameSource> OpenSource(const std::string& source, const SourceOptions& options) {
-  options.Check();
+namespace {
+
+// What a file that the camera was read from states beyond it, and of images of another shape: those
+// are a part of what it is the camera of, or another camera's.
+void TellOfCamera(const std::string& source, const Camera& images, const SourceOptions& options) {
+  if (!options.camera || !options.note) return;
+  const Camera& chosen = options.camera->camera;
+  if (!options.camera->unheeded.empty()) {
+    options.note(NoteKind::kWarning, options.camera->unheeded);
+  }
+  const int64_t across = int64_t{chosen.width} * images.height;
+  const int64_t down = int64_t{chosen.height} * images.width;
+  // Sizes that were halved and rounded are of one shape.
+  const bool is_alike = std::abs(across - down) <= chosen.width + chosen.height;
+  if (!options.camera->preset.empty() || chosen.width == 0 || is_alike) return;
+  options.note(NoteKind::kWarning, source + ": the camera is stated for images of " +
+                                       SizeText(chosen) + ", these are of another shape, " +
+                                       SizeText(images) +
+                                       ": it was stretched to them and is hardly theirs");
+}
+
+std::unique_ptr<FrameSource> OpenByName(const std::string& source, const SourceOptions& options) {
   if (source.starts_with(kDevicePrefix)) {
     // OpenNI2 takes a file for a device, and plays it again and again with the times of its end.
     const std::string uri = source.substr(kDevicePrefix.size());
     std::error_code none;
-    if (std::filesystem::is_regular_file(uri, none)) return OpenSource(uri, options);
-    TellOfCamera(options);
+    if (std::filesystem::is_regular_file(uri, none)) return OpenByName(uri, options);
     return Prepared(source, OpenOpenNiDevice(uri, options), UnitStated::kYes, options);
   }
-  TellOfCamera(options);
   const std::filesystem::path path(source);
   std::error_code error;
   if (std::filesystem::is_directory(path, error)) {
@@ -153,6 +171,15 @@ std::unique_ptr<FrameSource> OpenSource(const std::string& source, const SourceO
       ": expected openni:, openni:URI, FILE.oni, FILE.mkv, FILE.bag, a 16-bit PNG or "
       "a folder of them, or a data set, found " +
       (std::filesystem::exists(path, error) ? "what has none of these names" : "no such thing"));
+}
+
+}  // namespace
+
+std::unique_ptr<FrameSource> OpenSource(const std::string& source, const SourceOptions& options) {
+  options.Check();
+  auto opened = OpenByName(source, options);
+  TellOfCamera(source, opened->camera(), options);
+  return opened;
 }
 
 }  // namespace ossa::depth

@@ -318,6 +318,23 @@ TEST(FolderSource, TheCalibrationThatRosSavedBesideItIsTakenAndItsLensToldOf) {
   EXPECT_TRUE(notes.Tell("ost.yaml: the lens moves the image's corners by ")) << notes.text;
 }
 
+TEST(FolderSource, ACameraOfImagesOfAnotherShapeIsWarnedOf) {
+  const TemporaryFolder folder;
+  std::filesystem::create_directory(folder / "in");
+  WriteFrame(folder / "in/0.png", 1, 320, 240);
+  WriteCameraJson(folder / "wide.json", {1280, 720, 920, 920, 640, 360});
+  WriteCameraJson(folder / "same.json", {641, 481, 580, 580, 320, 240});
+  Notes notes;
+  SourceOptions options = notes.Options();
+  options.camera = ParseCamera(folder / "same.json");
+  OpenSource((folder / "in").string(), options);
+  EXPECT_FALSE(notes.Tell("of another shape")) << notes.text;
+  options.camera = ParseCamera(folder / "wide.json");
+  OpenSource((folder / "in").string(), options);
+  EXPECT_TRUE(notes.Tell("stated for images of 1280x720, these are of another shape, 320x240"))
+      << notes.text;
+}
+
 TEST(FolderSource, NamesInCapitalsAreFramesToo) {
   const TemporaryFolder folder;
   EXPECT_FALSE(IsRecording(folder.path()));
