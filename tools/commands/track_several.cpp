@@ -133,6 +133,25 @@ std::string KeepUnfused(const TrackOptions& options,
   return "what each camera tracked is in " + kept + ", which `ossa fuse` reads";
 }
 
+// Why there are not all frames, to be said before how many there are; "" where there are all.
+std::string WhyCutShort(const Cameras& cameras, const TrackOptions& options, int64_t frames) {
+  for (const auto& camera : cameras) {
+    if (!camera->failure.empty()) return camera->failure + "; ";
+  }
+  const Camera& first = *cameras.front();
+  if (!Interrupted() || frames == FramesOf(first, options)) return "";
+  return first.arguments.name + ": interrupted: ";
+}
+
+// Where so little came that nobody can say where the cameras are, the reason is why so little came.
+std::string WhyNotFused(const TrackOptions& options, const Cameras& cameras, int64_t frames,
+                        const std::string& failure) {
+  const std::string why = frames == 0 ? "" : WhyCutShort(cameras, options, frames);
+  if (why.empty()) return failure;
+  const std::string of_all = FramesText(frames, FramesOf(*cameras.front(), options));
+  return fmt::format("{}{} were tracked: {}", why, of_all, failure);
+}
+
 recon::SkeletonSequence FuseOrKeep(const TrackOptions& options, const Cameras& cameras,
                                    std::span<const recon::SkeletonSequence> recordings) {
   try {
@@ -145,21 +164,18 @@ recon::SkeletonSequence FuseOrKeep(const TrackOptions& options, const Cameras& c
     } catch (const std::exception& second) {
       kept = second.what();
     }
-    throw InputError(fmt::format("{}; {}", failure.what(), kept));
+    const auto frames = static_cast<int64_t>(recordings.front().frames.size());
+    throw InputError(
+        fmt::format("{}; {}", WhyNotFused(options, cameras, frames, failure.what()), kept));
   }
 }
 
 // After what there is was written.
 void SayWhatIsMissing(const Cameras& cameras, const TrackOptions& options, int64_t frames) {
-  const Camera& first = *cameras.front();
-  const std::string kept = FramesText(frames, FramesOf(first, options)) +
-                           (options.out.empty() ? " were tracked" : " are in " + options.out);
-  for (const auto& camera : cameras) {
-    if (!camera->failure.empty()) throw InputError(fmt::format("{}; {}", camera->failure, kept));
-  }
-  const bool has_all = frames == FramesOf(first, options);
-  if (!Interrupted() || has_all) return;
-  throw InputError(fmt::format("{}: interrupted: {}", first.arguments.name, kept));
+  const std::string why = WhyCutShort(cameras, options, frames);
+  if (why.empty()) return;
+  throw InputError(why + FramesText(frames, FramesOf(*cameras.front(), options)) +
+                   (options.out.empty() ? " were tracked" : " are in " + options.out));
 }
 
 }  // namespace

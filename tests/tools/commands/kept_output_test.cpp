@@ -2,9 +2,11 @@
 #include <gtest/gtest.h>
 #include <signal.h>
 
+#include <chrono>
 #include <filesystem>
 #include <fstream>
 #include <regex>
+#include <thread>
 
 #include "depth/image/depth_png.h"
 #include "depth/sensor/frame_source.h"
@@ -92,6 +94,25 @@ TEST_P(InterruptedTrack, KeepsWhatThereIs) {
 
 INSTANTIATE_TEST_SUITE_P(KeptOutput, InterruptedTrack, testing::Values(".jsonl", ".csv", ".trc"),
                          [](const auto& info) { return std::string(info.param).substr(1); });
+
+// They show nobody, by whom it would be found where they are. Whoever interrupts is told so, not to
+// give --extrinsics.
+TEST(KeptOutput, OfTwoCamerasThatAreInterruptedNobodyKnowsWhere) {
+  const TemporaryFolder folder;
+  WriteLongFolder(folder / "a");
+  WriteLongFolder(folder / "b");
+  const auto out = folder / "x.jsonl";
+  RunningCommand command =
+      test::StartOssa({"track", (folder / "a").string(), (folder / "b").string(), "--out",
+                       out.string(), "--method", "none"});
+  EXPECT_TRUE(command.WaitForError("tracking", test::kCommandTimeout));
+  std::this_thread::sleep_for(std::chrono::seconds(1));  // for the first frames of both
+  command.Signal(SIGINT);
+  const CommandResult result = command.Wait(test::kCommandTimeout);
+  EXPECT_EQ(result.exit_status, 1) << result.err;
+  EXPECT_NE(result.err.find("interrupted"), std::string::npos) << result.err;
+  EXPECT_FALSE(std::filesystem::exists(out));
+}
 
 TEST(KeptOutput, OfAReconstructionThatIsInterrupted) {
   const TemporaryFolder folder;
