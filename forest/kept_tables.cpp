@@ -20,6 +20,7 @@
 #include "depth/base/checksummed_container.h"
 #include "depth/base/error.h"
 #include "depth/base/large_pages.h"
+#include "depth/base/leftovers.h"
 #include "forest/forest_file_internal.h"
 #include "forest/runtime_tables_internal.h"
 
@@ -211,7 +212,7 @@ void Write(const fs::path& place, const ForestData& data, const RuntimeTables& o
   tables.CommitOneOfMany();  // checksums tell what a power cut left
   WriteContainer(HeadOf(place), kFormat, PackHead(data, of));
   RemoveOldOnes(place.parent_path());
-  for (const fs::path& left : AtomicFile::FindLeftovers(TablesOf(place))) fs::remove(left);
+  RemoveLeftoversOf(TablesOf(place));
 } catch (const InputError&) {
 } catch (const fs::filesystem_error&) {
 }

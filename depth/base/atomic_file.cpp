@@ -163,6 +163,13 @@ void RemoveLeftovers(const fs::path& folder) {
   for (const fs::path& file : left) fs::remove(file, error);
 }
 
+void RemoveLeftoversOf(const fs::path& final_path) {
+  std::error_code ignored;
+  for (const fs::path& file : AtomicFile::FindLeftovers(final_path)) {
+    if (IsRandomName(file.filename().string())) fs::remove(file, ignored);
+  }
+}
+
 void AtomicFile::Check() {
   if (!stream()) throw DiskFull(name_ + ": writing failed: is the disk full?");
 }

@@ -9,4 +9,7 @@ namespace ossa {
 /// locks nobody can tell, and all stays.
 void RemoveLeftovers(const std::filesystem::path& folder);
 
+/// The same of what was to become this one file: of files that are worth nothing when they are cut.
+void RemoveLeftoversOf(const std::filesystem::path& final_path);
+
 }  // namespace ossa

@@ -10,9 +10,9 @@
 #include <thread>
 #include <vector>
 
-#include "depth/base/atomic_file.h"
 #include "depth/base/error.h"
 #include "depth/base/folder_lock.h"
+#include "depth/base/leftovers.h"
 #include "depth/image/camera.h"
 #include "recon/fuse/extrinsics.h"
 #include "recon/motion/mocap.h"
@@ -300,10 +300,7 @@ std::string CameraName(int camera) { return fmt::format("camera_{}", camera); }
 // A folder of several cameras holds theirs and nothing else: no data set of its own. What a run
 // that was killed left of the extrinsics goes; their data sets see to their own.
 void CheckFolderOfCameras(const Arguments& a) {
-  for (const auto& left :
-       AtomicFile::FindLeftovers(std::filesystem::path(a.out) / "extrinsics.json")) {
-    std::filesystem::remove(left);
-  }
+  RemoveLeftoversOf(std::filesystem::path(a.out) / "extrinsics.json");
   for (const auto& entry : std::filesystem::directory_iterator(a.out)) {
     const std::string name = entry.path().filename().string();
     bool known = name == "extrinsics.json";

@@ -5,6 +5,7 @@
 
 #include "depth/base/atomic_file.h"
 #include "depth/base/error.h"
+#include "depth/base/leftovers.h"
 #include "depth/base/perceptron/train_perceptron.h"
 #include "depth/base/train_interrupted.h"
 #include "forest/import_pcl.h"
@@ -242,6 +243,8 @@ int TrainOnData(TrainArguments* a, const forest::Reducer& reducer) {
   o.checkpoint = a->checkpoint();
   if (reducer.rank() == 0) {
     AtomicFile::CheckWritable(o.checkpoint);
+    RemoveLeftoversOf(o.checkpoint);  // of runs that were killed while they wrote it or the model
+    RemoveLeftoversOf(a->out);
     SayOfCheckpoint(*a);
   }
   o.stop = Interrupted;

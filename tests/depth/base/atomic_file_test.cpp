@@ -127,6 +127,21 @@ TEST(AtomicFile, WhatTheKilledLeftInAFolderIsRemoved) {
   EXPECT_TRUE(std::filesystem::exists(alive.temporary_path()));
 }
 
+TEST(AtomicFile, WhatTheKilledLeftOfOneFileIsRemoved) {
+  const test::TemporaryFolder folder;
+  const std::string left = folder / "m.partial-0123456789ab", notes = folder / "m.partial-notes";
+  const std::string others = folder / "m2.partial-0123456789ab", made = folder / "m";
+  for (const std::string& path : {left, notes, others, made}) std::ofstream(path) << "x";
+  const AtomicFile alive(made);
+  RemoveLeftoversOf(made);
+  EXPECT_FALSE(std::filesystem::exists(left));
+  for (const std::filesystem::path& path :
+       {std::filesystem::path(notes), std::filesystem::path(others), std::filesystem::path(made),
+        alive.temporary_path()}) {
+    EXPECT_TRUE(std::filesystem::exists(path)) << path;
+  }
+}
+
 // Two writers of one name, in one process or two: each has a file of its own, whole in the end.
 TEST(AtomicFile, OfTwoWritersTheLastOnesIsWhole) {
   const test::TemporaryFolder folder;

@@ -206,6 +206,17 @@ TEST_F(TrainingRuns, ACheckpointThatIsThereOrNotIsSpokenOf) {
             std::string::npos);
 }
 
+// Each run that is killed leaves one more, as large as a model.
+TEST_F(TrainingRuns, HalfCheckpointsOfRunsThatWereKilledGo) {
+  for (const char* name : {"new.ossa.checkpoint", "new.ossa"}) {
+    std::ofstream(folder_ / (std::string(name) + ".partial-00c0ffee0000")) << "half";
+  }
+  EXPECT_EQ(RunOssa(Arguments("new.ossa")).exit_status, 0);
+  EXPECT_TRUE(fs::exists(folder_ / "new.ossa"));
+  EXPECT_FALSE(fs::exists(folder_ / "new.ossa.checkpoint.partial-00c0ffee0000"));
+  EXPECT_FALSE(fs::exists(folder_ / "new.ossa.partial-00c0ffee0000"));
+}
+
 // It went on to the end, whatever that took.
 TEST_F(TrainingRuns, InterruptedWhileJointsAreLearnedGoesOnFromTheTrees) {
   std::vector<std::string> words(500, data());  // seconds to read
