@@ -3,6 +3,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <span>
+#include <vector>
 
 namespace ossa {
 
@@ -29,5 +30,10 @@ void SumWindows(const Windows& windows, const OutputLine* lines, int32_t* sums, 
 /// The same, one number after the other.
 void SumWindowsOneByOne(const Windows& windows, const OutputLine* lines, int32_t* sums,
                         size_t stride);
+
+/// What SumWindows may do on this processor, the fastest first; all say the same.
+using WindowSums = void (*)(const Windows& windows, const OutputLine* lines, int32_t* sums,
+                            size_t stride);
+std::vector<WindowSums> ListWindowSums();
 
 }  // namespace ossa
