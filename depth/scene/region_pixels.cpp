@@ -3,6 +3,10 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstring>
+#include <optional>
+
+#include "depth/base/cpu_dispatch.h"
 
 namespace ossa::depth {
 namespace {
@@ -39,6 +43,9 @@ std::vector<Place> ClassifyCells(const PointGrid& grid, const Region& region) {
   return place;
 }
 
+// How far a pixel may be from what it is the surface of.
+float FollowTolerance(float z_m) { return 0.06F + DepthTolerance(z_m); }
+
 // Pixels that are judged side by side.
 constexpr int kLanes = 4;  // as SSE2 registers hold
 using Lanes = float __attribute__((vector_size(kLanes * sizeof(float))));
@@ -49,9 +56,6 @@ class Around {
  public:
   Around() = default;
   Around(const PointGrid& grid, const std::vector<Place>& place, int x, int y) {
-    const int own = grid.cell(x, y);
-    own_z_m_ = grid.z(own);
-    is_inside_ = place[static_cast<size_t>(own)] == Place::kInside;
     for (int dy = -1; dy <= 1; ++dy) {
       for (int dx = -1; dx <= 1; ++dx) {
         if (!grid.Contains(x + dx, y + dy)) continue;
@@ -70,11 +74,8 @@ class Around {
     Lanes z_m = {}, best_m = {};
     for (int l = 0; l < kLanes; ++l) {
       z_m[l] = static_cast<float>(MetresFromMillimetres(l < count ? mm[l] : 0));
-      best_m[l] = 0.06F + DepthTolerance(z_m[l]);
+      best_m[l] = FollowTolerance(z_m[l]);
     }
-    // Whichever is nearest: all around are the region's.
-    const LaneMask sure = is_inside_ ? Distance(own_z_m_, z_m) < best_m : LaneMask{};
-    if ((sure[0] & sure[1] & sure[2] & sure[3]) != 0) return sure;
     LaneMask mine = {};
     for (size_t i = 0; i < count_; ++i) {
       const Lanes off_m = Distance(cells_[i].z_m, z_m) + cells_[i].handicap_m;
@@ -82,7 +83,7 @@ class Around {
       mine = nearer ? LaneMask{} + cells_[i].is_member : mine;
       best_m = nearer ? off_m : best_m;
     }
-    return sure | mine;
+    return mine;
   }
 
  private:
@@ -97,9 +98,149 @@ class Around {
 
   std::array<Cell, 9> cells_;
   size_t count_ = 0;
-  float own_z_m_ = 0;
-  bool is_inside_ = false;
 };
+
+// What is known of a row of pixels.
+enum Pixel : uint8_t { kNot, kMine, kUndecided };
+
+// Where a region and its rim lie, first and last.
+struct CellBox {
+  int left = 0, right = -1, top = 0, bottom = -1;
+};
+
+CellBox BoundCells(const PointGrid& grid, const Region& region) {
+  CellBox box{grid.width, 0, grid.height, 0};
+  for (const int cell : region.cells) {
+    const int x = cell % grid.width, y = cell / grid.width;
+    box = {std::min(box.left, std::max(0, x - 1)),
+           std::max(box.right, std::min(grid.width - 1, x + 1)),
+           std::min(box.top, std::max(0, y - 1)),
+           std::max(box.bottom, std::min(grid.height - 1, y + 1))};
+  }
+  return box;
+}
+
+// A row of cells at a time: which of its pixels, from the box's left to its right, are the
+// region's.
+class PixelRows {
+ public:
+  PixelRows(const DepthView& depth, const PointGrid& grid, const std::vector<Place>& place,
+            const CellBox& box)
+      : depth_(depth),
+        grid_(grid),
+        place_(place),
+        box_(box),
+        begin_(box.left * grid.step),
+        end_(std::max(begin_, EndOf(box.right))),
+        around_(static_cast<size_t>(grid.width)),
+        inside_z_m_(static_cast<size_t>(end_ - begin_)),
+        otherwise_(inside_z_m_.size()),
+        pixels_(inside_z_m_.size()) {}
+
+  int begin() const { return begin_; }
+
+  void Enter(int y) {
+    y_ = y;
+    size_t i = 0;
+    for (int x = box_.left; x <= box_.right; ++x) {
+      const int cell = grid_.cell(x, y);
+      const Place place = place_[static_cast<size_t>(cell)];
+      around_[static_cast<size_t>(x)].reset();
+      for (int u = x * grid_.step; u < EndOf(x); ++u, ++i) {
+        inside_z_m_[i] = place == Place::kInside ? grid_.z(cell) : kNowhere_m;
+        otherwise_[i] = place == Place::kElsewhere ? kNot : kUndecided;
+      }
+    }
+  }
+
+  // Of row `v` of the cells last entered: kNot or kMine of each pixel.
+  const std::vector<uint8_t>& Judge(int v) {
+    const uint16_t* mm = depth_.data_mm + static_cast<ptrdiff_t>(v) * depth_.stride;
+    FindSure(mm + begin_, inside_z_m_.data(), otherwise_.data(), pixels_.size(), pixels_.data());
+    for (int u = NextUndecided(begin_); u < end_; u = NextUndecided(u)) {
+      const int x = u / grid_.step;
+      DecideByNeighbours(mm, x);
+      u = EndOf(x);
+    }
+    return pixels_;
+  }
+
+ private:
+  static constexpr float kNowhere_m = -1e9F;  // by definition near no measurement
+
+  int EndOf(int x) const { return std::min(depth_.width, (x + 1) * grid_.step); }
+
+  int NextUndecided(int from) const {
+    const void* const next =
+        std::memchr(pixels_.data() + (from - begin_), kUndecided, static_cast<size_t>(end_ - from));
+    if (next == nullptr) return end_;
+    return begin_ + static_cast<int>(static_cast<const uint8_t*>(next) - pixels_.data());
+  }
+
+  // Inside, whichever cell is nearest is the region's: enough that the own one is near. Without a
+  // branch, for the compiler to take many pixels at once.
+  OSSA_CPU_DISPATCH static void FindSure(const uint16_t* mm, const float* inside_z_m,
+                                         const uint8_t* otherwise, size_t count, uint8_t* pixels) {
+    for (size_t u = 0; u < count; ++u) {
+      const auto z_m = static_cast<float>(MetresFromMillimetres(mm[u]));
+      const int sure = std::abs(inside_z_m[u] - z_m) < FollowTolerance(z_m) ? ~0 : 0;
+      const int measured = mm[u] > 0 ? ~0 : 0;
+      pixels[u] = static_cast<uint8_t>(((sure & kMine) | (~sure & otherwise[u])) & measured);
+    }
+  }
+
+  // What is undecided of a cell's row of pixels.
+  void DecideByNeighbours(const uint16_t* mm, int x) {
+    auto& around = around_[static_cast<size_t>(x)];
+    if (!around) around.emplace(grid_, place_, x, y_);
+    for (int u = x * grid_.step; u < EndOf(x); u += kLanes) {
+      const int count = std::min(kLanes, EndOf(x) - u);
+      const LaneMask mine = around->AreMine(mm + u, count);
+      for (int l = 0; l < count; ++l) {
+        uint8_t& pixel = pixels_[static_cast<size_t>(u + l - begin_)];
+        if (pixel == kUndecided) pixel = mine[l] != 0 ? kMine : kNot;
+      }
+    }
+  }
+
+  const DepthView depth_;
+  const PointGrid& grid_;
+  const std::vector<Place>& place_;
+  const CellBox box_;
+  const int begin_, end_;                      // columns of the image
+  int y_ = 0;                                  // the row of cells
+  std::vector<std::optional<Around>> around_;  // of its cells that were asked for
+  std::vector<float> inside_z_m_;              // of each pixel's cell, if it lies inside
+  std::vector<uint8_t> otherwise_, pixels_;
+};
+
+// Appends the numbers of those pixels of a row that are the region's; the first one is `begin`.
+// Most are like their neighbours.
+size_t AppendRow(const std::vector<uint8_t>& row, int begin, int32_t* to) {
+  constexpr size_t kEight = sizeof(uint64_t);
+  constexpr uint64_t kAllMine = 0x0101010101010101U * kMine;
+  size_t kept = 0, u = 0;
+  for (; u + kEight <= row.size(); u += kEight) {
+    uint64_t eight = 0;
+    std::memcpy(&eight, row.data() + u, kEight);
+    if (eight == 0) continue;
+    const int32_t first = begin + static_cast<int32_t>(u);
+    if (eight == kAllMine) {
+      for (size_t i = 0; i < kEight; ++i) to[kept + i] = first + static_cast<int32_t>(i);
+      kept += kEight;
+      continue;
+    }
+    for (size_t i = 0; i < kEight; ++i) {
+      to[kept] = first + static_cast<int32_t>(i);  // no branch: rims are ragged
+      kept += row[u + i];
+    }
+  }
+  for (; u < row.size(); ++u) {
+    to[kept] = begin + static_cast<int32_t>(u);
+    kept += row[u];
+  }
+  return kept;
+}
 
 }  // namespace
 
@@ -107,34 +248,17 @@ std::vector<int32_t> CollectPixels(const DepthFrame& frame, const PointGrid& gri
                                    const Region& region) {
   const DepthView depth = frame.view();
   const std::vector<Place> place = ClassifyCells(grid, region);
-  int low = grid.height, high = 0;
-  for (const int cell : region.cells) {
-    low = std::min(low, std::max(0, cell / grid.width - 1));
-    high = std::max(high, std::min(grid.height - 1, cell / grid.width + 1));
-  }
+  const CellBox box = BoundCells(grid, region);
   const auto tried =
       place.size() - static_cast<size_t>(std::count(place.begin(), place.end(), Place::kElsewhere));
-  std::vector<int32_t> pixels(tried * static_cast<size_t>(grid.step * grid.step));
+  // One more: what is written first and then not kept.
+  std::vector<int32_t> pixels(tried * static_cast<size_t>(grid.step * grid.step) + 1);
   size_t kept = 0;
-  std::vector<Around> around(static_cast<size_t>(grid.width));
-  for (int y = low; y <= high; ++y) {
-    for (int x = 0; x < grid.width; ++x) {
-      if (place[static_cast<size_t>(grid.cell(x, y))] != Place::kElsewhere)
-        around[static_cast<size_t>(x)] = Around(grid, place, x, y);
-    }
+  PixelRows rows(depth, grid, place, box);
+  for (int y = box.top; y <= box.bottom; ++y) {
+    rows.Enter(y);
     for (int v = y * grid.step; v < std::min(depth.height, (y + 1) * grid.step); ++v) {
-      for (int x = 0; x < grid.width; ++x) {
-        if (place[static_cast<size_t>(grid.cell(x, y))] == Place::kElsewhere) continue;
-        const int end = std::min(depth.width, (x + 1) * grid.step);
-        for (int u = x * grid.step; u < end; u += kLanes) {
-          const uint16_t* mm = depth.data_mm + static_cast<ptrdiff_t>(v) * depth.stride + u;
-          const LaneMask mine = around[static_cast<size_t>(x)].AreMine(mm, end - u);
-          for (int l = 0; l < std::min(kLanes, end - u); ++l) {
-            pixels[kept] = v * depth.width + u + l;  // no branch: rims are ragged
-            kept += mm[l] > 0 && mine[l] != 0 ? 1 : 0;
-          }
-        }
-      }
+      kept += AppendRow(rows.Judge(v), v * depth.width + rows.begin(), pixels.data() + kept);
     }
   }
   pixels.resize(kept);

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
+#include <utility>
 
 #include "depth/scene/furniture_internal.h"
 #include "depth/scene/planes.h"
@@ -54,6 +56,43 @@ void MarkFlatPieces(const PointGrid& grid, const std::optional<FloorPlane>& floo
   }
 }
 
+// The cells of each connected piece, ascending: one walk over the grid hands them out, where
+// sorting the pieces took longer than finding them.
+std::vector<std::vector<int>> ConnectedCells(const PointGrid& grid,
+                                             std::span<const uint8_t> ignore) {
+  constexpr int kFree = -1, kNobodys = -2;  // by convention: no piece's number
+  std::vector<int> piece_of(ignore.size());
+  std::transform(ignore.begin(), ignore.end(), piece_of.begin(),
+                 [](uint8_t ignored) { return ignored ? kNobodys : kFree; });
+  std::vector<size_t> sizes;
+  std::vector<int> front;
+  for (int start = 0; start < grid.cells(); ++start) {
+    if (piece_of[static_cast<size_t>(start)] != kFree || !grid.valid(start)) continue;
+    const auto piece = static_cast<int>(sizes.size());
+    front.assign(1, start);
+    piece_of[static_cast<size_t>(start)] = piece;
+    for (size_t i = 0; i < front.size(); ++i) {
+      const int cell = front[i], x = cell % grid.width, y = cell / grid.width;
+      for (const auto& step : kStepsOverGaps) {
+        if (!grid.Contains(x + step[0], y + step[1])) continue;
+        const int next = grid.cell(x + step[0], y + step[1]);
+        int& piece_of_next = piece_of[static_cast<size_t>(next)];
+        if (piece_of_next != kFree || !grid.valid(next) || !Continuous(grid, cell, next)) continue;
+        piece_of_next = piece;
+        front.push_back(next);
+      }
+    }
+    sizes.push_back(front.size());
+  }
+  std::vector<std::vector<int>> pieces(sizes.size());
+  for (size_t i = 0; i < sizes.size(); ++i) pieces[i].reserve(sizes[i]);
+  for (int cell = 0; cell < grid.cells(); ++cell) {
+    const int piece = piece_of[static_cast<size_t>(cell)];
+    if (piece >= 0) pieces[static_cast<size_t>(piece)].push_back(cell);
+  }
+  return pieces;
+}
+
 }  // namespace
 
 // Most points are clearly higher or lower than any tolerance.
@@ -100,39 +139,18 @@ Region MakeRegion(const PointGrid& grid, std::vector<int> cells) {
 }
 
 Region UniteRegions(const PointGrid& grid, const Region& a, const Region& b) {
-  std::vector<int> cells = a.cells;
-  cells.insert(cells.end(), b.cells.begin(), b.cells.end());
+  std::vector<int> cells;
+  cells.reserve(a.cells.size() + b.cells.size());
+  std::merge(a.cells.begin(), a.cells.end(), b.cells.begin(), b.cells.end(),
+             std::back_inserter(cells));
   return MakeRegion(grid, std::move(cells));
-}
-
-bool Continuous(const PointGrid& grid, int a, int b) { return Continuous(grid.z(a), grid.z(b)); }
-
-bool Continuous(float a_m, float b_m) {
-  // A thigh or a forearm recedes by at most about 4 cm a cell; sensor steps come on top.
-  return std::abs(a_m - b_m) < 0.04F + 0.5F * DepthTolerance(std::min(a_m, b_m));
 }
 
 std::vector<Region> FindConnectedRegions(const PointGrid& grid, std::span<const uint8_t> ignore,
                                          float min_area_m2) {
   std::vector<Region> regions;
-  std::vector<uint8_t> done(ignore.begin(), ignore.end());
-  std::vector<int> front;
-  for (int start = 0; start < grid.cells(); ++start) {
-    if (done[static_cast<size_t>(start)] || !grid.valid(start)) continue;
-    front.assign(1, start);
-    done[static_cast<size_t>(start)] = 1;
-    for (size_t i = 0; i < front.size(); ++i) {
-      const int cell = front[i], x = cell % grid.width, y = cell / grid.width;
-      for (const auto& step : kStepsOverGaps) {
-        if (!grid.Contains(x + step[0], y + step[1])) continue;
-        const int next = grid.cell(x + step[0], y + step[1]);
-        const auto n = static_cast<size_t>(next);
-        if (done[n] || !grid.valid(next) || !Continuous(grid, cell, next)) continue;
-        done[n] = 1;
-        front.push_back(next);
-      }
-    }
-    Region region = MakeRegion(grid, front);
+  for (std::vector<int>& cells : ConnectedCells(grid, ignore)) {
+    Region region = MakeRegion(grid, std::move(cells));
     if (region.area_m2 >= min_area_m2) regions.push_back(std::move(region));
   }
   std::stable_sort(regions.begin(), regions.end(),

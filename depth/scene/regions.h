@@ -1,5 +1,7 @@
 #pragma once
 #include <Eigen/Core>
+#include <algorithm>
+#include <cmath>
 #include <cstdint>
 #include <optional>
 #include <span>
@@ -68,8 +70,13 @@ std::vector<Region> FindConnectedRegions(const PointGrid& grid, std::span<const 
 
 /// True when neighbouring cells, or measurements as near to each other, of these depths may lie on
 /// one body.
-bool Continuous(const PointGrid& grid, int cell_a, int cell_b);
-bool Continuous(float a_m, float b_m);
+inline bool Continuous(float a_m, float b_m) {
+  // A thigh or a forearm recedes by at most about 4 cm a cell; sensor steps come on top.
+  return std::abs(a_m - b_m) < 0.04F + 0.5F * DepthTolerance(std::min(a_m, b_m));
+}
+inline bool Continuous(const PointGrid& grid, int cell_a, int cell_b) {
+  return Continuous(grid.z(cell_a), grid.z(cell_b));
+}
 
 /// Share of the region's cells that are marked, [0, 1].
 double MeasureShare(const Region& region, const std::vector<uint8_t>& marked);

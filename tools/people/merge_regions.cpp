@@ -11,25 +11,34 @@
 namespace ossa::people {
 namespace {
 
-// The shortest way between the cells of a small piece and a big one, metres; only nearby cells of
-// the image are compared, and a piece behind the other does not reach around it.
-float MeasureGap_m(const PointGrid& grid, const Region& small, const std::vector<int>& label,
-                   int big, const MergeOptions& options) {
-  float best = 1e9F;
+// The shortest ways between the cells of a small piece and of each big one, whose number `label`
+// has, metres; only nearby cells of the image are compared, and a piece behind the other does not
+// reach around it.
+std::vector<float> MeasureGaps_m(const PointGrid& grid, const Region& small,
+                                 const std::vector<int>& label, size_t big,
+                                 const MergeOptions& options) {
+  constexpr int kStep = 2;          // by hand, cells: every other one is near enough
+  constexpr float kFar_m2 = 1e18F;  // by hand: out of reach
+  std::vector<float> nearest_m2(big, kFar_m2);
   for (const int cell : small.cells) {
     const int x = cell % grid.width, y = cell / grid.width;
     const int reach = std::clamp(static_cast<int>(grid.CellsOf(options.search_m, grid.z(cell))),
                                  options.min_search_cells, options.max_search_cells);
-    for (int dy = -reach; dy <= reach; dy += 2) {
-      for (int dx = -reach; dx <= reach; dx += 2) {
-        if (!grid.Contains(x + dx, y + dy)) continue;
-        const int other = grid.cell(x + dx, y + dy);
-        if (label[static_cast<size_t>(other)] != big) continue;
-        best = std::min(best, (grid.at(other) - grid.at(cell)).norm());
+    const auto first = [reach](int from) {
+      return std::max(from - reach, (from - reach) & (kStep - 1));
+    };
+    for (int v = first(y); v <= std::min(y + reach, grid.height - 1); v += kStep) {
+      for (int u = first(x); u <= std::min(x + reach, grid.width - 1); u += kStep) {
+        const int other = grid.cell(u, v);
+        const int mine = label[static_cast<size_t>(other)];
+        if (mine < 0) continue;
+        float& best_m2 = nearest_m2[static_cast<size_t>(mine)];
+        best_m2 = std::min(best_m2, (grid.at(other) - grid.at(cell)).squaredNorm());
       }
     }
   }
-  return best;
+  for (float& gap : nearest_m2) gap = std::sqrt(gap);
+  return nearest_m2;
 }
 
 // Somebody comes out from behind somebody else in pieces: a piece that was nobody's is the track's
@@ -88,11 +97,12 @@ std::vector<Region> MergePieces(const PointGrid& grid, std::vector<Region> regio
     const int mine = FindMainOwner(piece, owner, tracks);
     int best = -1;
     float best_gap = options.merge.reach_m;
+    const std::vector<float> gaps_m =
+        MeasureGaps_m(grid, piece, label, owner_of_big.size(), options.merge);
     for (size_t i = 0; i < owner_of_big.size(); ++i) {
       if (mine >= 0 && owner_of_big[i] >= 0 && mine != owner_of_big[i]) continue;
       if (plane[i] && StandsBehind(grid, piece, *plane[i], options.occluder)) continue;
-      const float gap = MeasureGap_m(grid, piece, label, static_cast<int>(i), options.merge);
-      if (gap < best_gap) best_gap = gap, best = static_cast<int>(i);
+      if (gaps_m[i] < best_gap) best_gap = gaps_m[i], best = static_cast<int>(i);
     }
     if (best >= 0) {
       big[static_cast<size_t>(best)] = UniteRegions(grid, big[static_cast<size_t>(best)], piece);

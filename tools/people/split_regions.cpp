@@ -81,7 +81,9 @@ std::vector<int> FindNearestSeeds(const PointGrid& grid, const Region& region,
     for (const auto& step : depth::kStepsOverGaps) {
       if (!grid.Contains(x + step[0], y + step[1])) continue;
       const int next = grid.cell(x + step[0], y + step[1]);
-      if (!member[static_cast<size_t>(next)]) continue;
+      // No way on is shorter than the way here, which most neighbours are nearer than.
+      if (!member[static_cast<size_t>(next)] || way_m[static_cast<size_t>(next)] <= done_m)
+        continue;
       const float reached_m = AddStep_m(grid, done_m, cell, next, options);
       if (reached_m >= way_m[static_cast<size_t>(next)]) continue;
       if (MayReach(seeds[static_cast<size_t>(seed)], next, reached_m, options))
