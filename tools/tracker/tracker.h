@@ -108,7 +108,8 @@ recon::Posture ToPosture(const Body& body);
 recon::JointOrientations ComputeHierarchicalOrientations(const Body& body);
 
 /// Milliseconds spent on one frame, several people's added up; on several threads `total` is less
-/// than the sum. What is spent on things that turn out to be nobody counts with the stages.
+/// than the sum. What is spent on things that turn out to be nobody counts with the stages, which
+/// way up the camera is, where it is mounted and images that are turned with `segment`.
 struct StageTimes {
   double segment = 0, classify = 0, propose = 0, reconstruct = 0, physics = 0, total = 0;
   double fit = 0;  // of the surface, within `reconstruct`
