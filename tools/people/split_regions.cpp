@@ -6,6 +6,7 @@
 #include <limits>
 #include <queue>
 #include <span>
+#include <utility>
 
 #include "tools/people/track_prediction.h"
 
@@ -51,53 +52,85 @@ bool MayReach(const Seed& seed, int cell, float way_m, const SeedOptions& option
   return !enters || way_m <= options.background_rim_m;
 }
 
-// Which seed each of the region's cells is joined to by the shortest way over the surface, as an
-// index; -1 beyond reach, and elsewhere. Dijkstra 1959, from all seeds at once.
-std::vector<int> FindNearestSeeds(const PointGrid& grid, const Region& region,
-                                  const std::vector<Seed>& seeds, const SeedOptions& options) {
-  const auto cells = static_cast<size_t>(grid.cells());
-  std::vector<uint8_t> member(cells, 0);
-  for (const int cell : region.cells) member[static_cast<size_t>(cell)] = 1;
-  std::vector<float> way_m(cells, std::numeric_limits<float>::infinity());
-  std::vector<int> nearest(cells, -1);
-  using Item = std::pair<float, int>;
-  std::priority_queue<Item, std::vector<Item>, std::greater<>> queue;
-  const auto reach = [&](int cell, float reached_m, int seed) {
-    way_m[static_cast<size_t>(cell)] = reached_m;
-    nearest[static_cast<size_t>(cell)] = seed;
-    queue.push({reached_m, cell});
-  };
-  for (size_t i = 0; i < seeds.size(); ++i) {
-    for (const int cell : seeds[i].cells) {
-      if (member[static_cast<size_t>(cell)]) reach(cell, 0.0F, static_cast<int>(i));
-    }
+// Which seed each of the region's cells is joined to by the shortest way over the surface. Dijkstra
+// 1959, from all seeds at once.
+class SeedGrowth {
+ public:
+  SeedGrowth(const PointGrid& grid, const Region& region, const std::vector<Seed>& seeds,
+             const SeedOptions& options)
+      : grid_(grid),
+        seeds_(seeds),
+        options_(options),
+        member_(static_cast<size_t>(grid.cells()), 0),
+        way_m_(member_.size(), std::numeric_limits<float>::infinity()),
+        nearest_(member_.size(), -1) {
+    for (const int cell : region.cells) member_[static_cast<size_t>(cell)] = 1;
   }
-  while (!queue.empty()) {
-    const auto [done_m, cell] = queue.top();
-    queue.pop();
-    if (done_m > way_m[static_cast<size_t>(cell)]) continue;
-    const int x = cell % grid.width, y = cell / grid.width;
-    const int seed = nearest[static_cast<size_t>(cell)];
+
+  // Of each cell the seed as an index; -1 beyond reach, and elsewhere. Seeds are most of what they
+  // grow to: of their own cells, which the queue would give in ascending order, none needs it.
+  std::vector<int> Run() {
+    const std::vector<int> own = EnterSeeds();
+    for (const int cell : own) GrowFrom(cell);
+    while (!queue_.empty()) {
+      const auto [done_m, cell] = queue_.top();
+      queue_.pop();
+      if (done_m <= way_m_[static_cast<size_t>(cell)]) GrowFrom(cell);
+    }
+    return std::move(nearest_);
+  }
+
+ private:
+  // The seeds' cells, ascending.
+  std::vector<int> EnterSeeds() {
+    std::vector<int> own;
+    for (size_t i = 0; i < seeds_.size(); ++i) {
+      for (const int cell : seeds_[i].cells) {
+        if (!member_[static_cast<size_t>(cell)]) continue;
+        way_m_[static_cast<size_t>(cell)] = 0.0F;
+        nearest_[static_cast<size_t>(cell)] = static_cast<int>(i);
+        own.push_back(cell);
+      }
+    }
+    std::sort(own.begin(), own.end());
+    return own;
+  }
+
+  void GrowFrom(int cell) {
+    const int x = cell % grid_.width, y = cell / grid_.width;
+    const float done_m = way_m_[static_cast<size_t>(cell)];
+    const int seed = nearest_[static_cast<size_t>(cell)];
     for (const auto& step : depth::kStepsOverGaps) {
-      if (!grid.Contains(x + step[0], y + step[1])) continue;
-      const int next = grid.cell(x + step[0], y + step[1]);
+      if (!grid_.Contains(x + step[0], y + step[1])) continue;
+      const int next = grid_.cell(x + step[0], y + step[1]);
+      float& way_m = way_m_[static_cast<size_t>(next)];
       // No way on is shorter than the way here, which most neighbours are nearer than.
-      if (!member[static_cast<size_t>(next)] || way_m[static_cast<size_t>(next)] <= done_m)
-        continue;
-      const float reached_m = AddStep_m(grid, done_m, cell, next, options);
-      if (reached_m >= way_m[static_cast<size_t>(next)]) continue;
-      if (MayReach(seeds[static_cast<size_t>(seed)], next, reached_m, options))
-        reach(next, reached_m, seed);
+      if (!member_[static_cast<size_t>(next)] || way_m <= done_m) continue;
+      const float reached_m = AddStep_m(grid_, done_m, cell, next, options_);
+      if (reached_m >= way_m) continue;
+      if (!MayReach(seeds_[static_cast<size_t>(seed)], next, reached_m, options_)) continue;
+      way_m = reached_m;
+      nearest_[static_cast<size_t>(next)] = seed;
+      queue_.push({reached_m, next});
     }
   }
-  return nearest;
-}
+
+  using Item = std::pair<float, int>;
+
+  const PointGrid& grid_;
+  const std::vector<Seed>& seeds_;
+  const SeedOptions& options_;
+  std::vector<uint8_t> member_;
+  std::vector<float> way_m_;
+  std::vector<int> nearest_;
+  std::priority_queue<Item, std::vector<Item>, std::greater<>> queue_;
+};
 
 }  // namespace
 
 std::vector<Region> SplitBySeeds(const PointGrid& grid, const Region& region,
                                  const std::vector<Seed>& seeds, const SeedOptions& options) {
-  const std::vector<int> nearest = FindNearestSeeds(grid, region, seeds, options);
+  const std::vector<int> nearest = SeedGrowth(grid, region, seeds, options).Run();
   std::vector<std::vector<int>> pieces(seeds.size());
   for (const int cell : region.cells) {
     const int seed = nearest[static_cast<size_t>(cell)];

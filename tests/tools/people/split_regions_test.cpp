@@ -1,6 +1,9 @@
 // Heads by shape, and what grows from seeds.
 #include "tools/people/split_regions.h"
 
+#include <algorithm>
+#include <utility>
+
 #include "tests/tools/people/scenes.h"
 #include "tools/people/head_detector.h"
 
@@ -30,6 +33,57 @@ TEST(SplitBySeeds, EntersWhatStoodThereBeforeByARimOnly) {
   EXPECT_GT(grown(person), 0.8);  // half a metre over the surface is nearly all of it
   person.background = &stood;
   EXPECT_LT(grown(person), 0.4);  // a rim of 6 cm of 35
+}
+
+// The shortest ways over the surface from a seed alone, by going over all steps until nothing
+// becomes shorter.
+std::vector<float> Ways_m(const PointGrid& grid, const std::vector<uint8_t>& member,
+                          const std::vector<int>& seed, const SeedOptions& options) {
+  std::vector<float> way_m(member.size(), 1e9F);
+  for (const int cell : seed) way_m[static_cast<size_t>(cell)] = 0.0F;
+  bool shortened = true;
+  while (std::exchange(shortened, false)) {
+    for (int i = 0; i < 8 * grid.cells(); ++i) {
+      const int from = i / 8, x = from % grid.width + depth::kStepsOverGaps[i % 8][0];
+      const int y = from / grid.width + depth::kStepsOverGaps[i % 8][1];
+      if (!grid.Contains(x, y)) continue;
+      const auto to = static_cast<size_t>(grid.cell(x, y));
+      if (!member[static_cast<size_t>(from)] || !member[to]) continue;
+      Eigen::Vector3f step_m = grid.at(grid.cell(x, y)) - grid.at(from);
+      step_m.x() *= options.sideways;
+      const float jump_m = Continuous(grid, from, grid.cell(x, y)) ? 0.0F : options.jump_cost_m;
+      const float there_m = way_m[static_cast<size_t>(from)] + step_m.norm() + jump_m;
+      shortened |= there_m < way_m[to];
+      way_m[to] = std::min(way_m[to], there_m);
+    }
+  }
+  return way_m;
+}
+
+TEST(SplitBySeeds, GivesEachCellToTheSeedOfTheShortestWay) {
+  const PointGrid grid = GridOf(Shot({PersonAt(-0.25, 2.5), PersonAt(0.2, 2.4)}));
+  std::vector<uint8_t> member(static_cast<size_t>(grid.cells()), 0);
+  std::vector<int> all;
+  std::vector<Seed> seeds(2, {{}, 1e6F, nullptr});
+  for (int i = 0; i < grid.cells(); ++i) {
+    if (!grid.valid(i) || grid.z(i) > 2.8F) continue;
+    member[static_cast<size_t>(i)] = 1;
+    all.push_back(i);
+    const float x_m = grid.at(i).x();
+    if (std::abs(x_m) > 0.15F && grid.at(i).y() > 0.2F) seeds[x_m < 0 ? 0 : 1].cells.push_back(i);
+  }
+  ASSERT_FALSE(seeds[0].cells.empty() || seeds[1].cells.empty());
+  const SeedOptions options;
+  const auto pieces = SplitBySeeds(grid, MakeRegion(grid, all), seeds, options);
+  const auto first_m = Ways_m(grid, member, seeds[0].cells, options);
+  const auto second_m = Ways_m(grid, member, seeds[1].cells, options);
+  constexpr float kAsNear_m = 1e-4F;  // either is right
+  for (const int cell : all) {
+    const float more_m = second_m[static_cast<size_t>(cell)] - first_m[static_cast<size_t>(cell)];
+    if (std::abs(more_m) < kAsNear_m) continue;
+    const std::vector<int>& mine = pieces[more_m > 0 ? 0 : 1].cells;
+    EXPECT_TRUE(std::binary_search(mine.begin(), mine.end(), cell)) << cell << " " << more_m;
+  }
 }
 
 TEST(FindHeads, IsWhereTheHeadIs) {
