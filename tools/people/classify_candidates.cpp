@@ -5,9 +5,11 @@
 #include <iterator>
 
 #include "depth/base/threads.h"
+#include "depth/scene/region_pixels.h"
 #include "recon/body/standard_body.h"
 #include "tools/people/occlusion_merge.h"
 #include "tools/people/pose_evidence.h"
+#include "tools/people/split_regions.h"
 
 namespace ossa::people {
 namespace {
@@ -159,6 +161,82 @@ std::optional<Detection> TryAsSamePose(const Classifying& with, const Detection&
   return whole;
 }
 
+// What lies within `reach_m` of a head over the surface, if that is much less than the whole and
+// surely somebody.
+std::optional<Detection> ClassifyAroundHead(const Classifying& with, const Candidate& whole,
+                                            const Eigen::Vector3f& head_m, float reach_m) {
+  const CandidateOptions& options = with.options.candidates;
+  const ClassificationOptions& classification = with.options.classification;
+  const Seed seed{CollectHeadCells(with.scene.grid, whole.region, head_m, options.seeds), reach_m,
+                  nullptr};
+  Region piece = SplitBySeeds(with.scene.grid, whole.region, {seed}, options.seeds).front();
+  if (!IsPersonSized(piece, options) ||
+      piece.area_m2 > classification.touching_share * whole.region.area_m2)
+    return {};
+  Candidate part = whole;
+  part.pixels = CollectPixels(with.frame, with.scene.grid, piece);
+  part.region = std::move(piece);
+  part.has_head = true;
+  part.plane.reset();
+  Detection detection = Classify(with, std::move(part));
+  WeighPose(with, detection);
+  if (!IsJudgedByPose(detection) || detection.evidence.score < classification.touching_person)
+    return {};
+  return detection;
+}
+
+// Heads by their shape, and by the forest.
+std::vector<Eigen::Vector3f> ListHeads(const Classifying& with, const Detection& detection) {
+  const HeadOptions& options = with.options.candidates.heads;
+  std::vector<Eigen::Vector3f> heads_m;
+  for (const HeadBlob& head : FindHeads(with.scene.grid, detection.candidate.region, options))
+    heads_m.push_back(head.position_m);
+  for (const Eigen::Vector3d& head_m : detection.evidence.heads_m) {
+    const Eigen::Vector3f place_m = head_m.cast<float>();
+    const auto is_same = [&](const Eigen::Vector3f& other_m) {
+      return (other_m - place_m).norm() < options.min_distance_m;
+    };
+    if (std::none_of(heads_m.begin(), heads_m.end(), is_same)) heads_m.push_back(place_m);
+  }
+  return heads_m;
+}
+
+// The surest piece around one of its heads, as far as a body reaches, else as a trunk.
+std::optional<Detection> FindSomebodyWithin(const Classifying& with, const Detection& whole) {
+  const auto heads_m = ListHeads(with, whole);
+  for (const float reach_m : with.options.classification.touching_reach_m) {
+    std::optional<Detection> best;
+    for (const Eigen::Vector3f& head_m : heads_m) {
+      auto piece = ClassifyAroundHead(with, whole.candidate, head_m, reach_m);
+      if (piece && (!best || piece->evidence.score > best->evidence.score)) best = std::move(piece);
+    }
+    if (best) return best;
+  }
+  return {};
+}
+
+bool Passes(const Detection& detection, const InitiationOptions& options) {
+  return detection.score >=
+         (IsJudgedByPose(detection) ? options.person_by_pose : options.new_person);
+}
+
+// Where nobody is found: what is no person as it stands may be one and the furniture that they
+// touch. Beside somebody it would as often be what they hold.
+void LookAgainAroundHeads(const Classifying& with, std::vector<Detection>& detections,
+                          std::vector<Decision>& decided) {
+  const InitiationOptions& initiation = with.options.initiation;
+  const auto is_somebody = [&](const Detection& detection) {
+    return detection.candidate.track >= 0 || Passes(detection, initiation);
+  };
+  if (std::any_of(detections.begin(), detections.end(), is_somebody)) return;
+  for (Detection& detection : detections) {
+    auto piece = FindSomebodyWithin(with, detection);
+    if (!piece) continue;
+    decided.push_back(DescribeDetection(detection, Rule::kSplitAtHeads, initiation.person_by_pose));
+    detection = std::move(*piece);
+  }
+}
+
 // Bones between proposals of neighbouring joints, as far as they hang together from the trunk
 // outwards: of each joint the best proposal at about a bone's length from the one before.
 std::vector<Bone> ConnectBones(const JointTargets& targets, const ForestEvidence& evidence,
@@ -300,7 +378,9 @@ std::vector<Detection> ClassifyCandidates(const Classifying& with,
   }
   if (with.classifier.network == nullptr) return result;
   ParallelFor(result.size(), with.options.threads, [&](size_t i) { WeighPose(with, result[i]); });
-  if (with.scene.fresh) MergeParts(with, TryAsSamePose, result, decided);
+  if (!with.scene.fresh) return result;
+  LookAgainAroundHeads(with, result, decided);
+  MergeParts(with, TryAsSamePose, result, decided);
   return result;
 }
 

@@ -1,4 +1,5 @@
 #pragma once
+#include <array>
 #include <cstddef>
 #include <optional>
 
@@ -180,7 +181,13 @@ struct ClassificationOptions {
   float crop_area_m2 = 0.9F;  // anthropometry: nobody free of furniture shows more
   float same_pose_m = 0.35F;  // anthropometry: joints of two people are farther apart, in the mean
   float pieces_m = 1.0F;      // anthropometry: the middles of two pieces of a person are nearer
-  size_t min_crop_bones = 6;  // fewer: the forest saw too little of the body to say
+  // In a fresh scene what is no person as it stands is cut once more, around its heads: so far over
+  // the surface (anthropometry: to the hands of half-spread arms; to the hips), if at most that
+  // share is left, and it is a person with this score, at which none of 413 other things passed.
+  std::array<float, 2> touching_reach_m = {1.1F, 0.8F};
+  float touching_share = 0.9F;
+  double touching_person = 0.7;
+  size_t min_crop_bones = 6;      // fewer: the forest saw too little of the body to say
   size_t min_cropped_cells = 40;  // taken off for less, silhouettes would flicker
 };
 

@@ -12,6 +12,18 @@
 namespace ossa::depth {
 namespace {
 
+// A cell is about as wide in images of any size, so that people have as many.
+TEST(PointGrid, HasAboutAsManyCellsOfAnyImage) {
+  for (int width = 120; width <= 1920; ++width) {
+    const int cells = width / CellPixels(width);
+    EXPECT_GE(cells, 106) << width;
+    EXPECT_LE(cells, 239) << width;
+  }
+  EXPECT_EQ(CellPixels(320), 2);
+  EXPECT_EQ(CellPixels(474), 3);
+  EXPECT_EQ(CellPixels(640), 4);
+}
+
 TEST(FindFloor, IsTheEmptyRoomsFloor) {
   FloorState state;
   const auto floor = FindFloor(GridOf(Shot({PersonAt(0, 2.5)})), state);

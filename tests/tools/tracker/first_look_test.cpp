@@ -8,7 +8,8 @@
 #include "recon/refine/pose_network.h"
 #include "tests/recon/refine/pose_networks.h"
 #include "tests/tools/tracker/tracked_scenes.h"
-#include "tools/people/detect_people.h"
+#include "tools/people/classify_candidates.h"
+#include "tools/people/propose_candidates.h"
 
 namespace ossa::tracker {
 namespace {
@@ -57,6 +58,63 @@ TEST(FirstLook, WhatAPoleBeforeTheMiddleLeavesOfAPersonIsOneBody) {
     ASSERT_EQ(seen.bodies.size(), 1U) << half_m;
     EXPECT_LT(std::abs(seen.bodies[0].position_m.x()), 0.05) << half_m;
   }
+}
+
+// Somebody, and at the height of their hips things at the same depth that reach a metre to either
+// side: one piece of surface.
+depth::DepthFrame PersonBetweenThings() {
+  depth::DepthFrame frame = Rendered({PersonAt(0, 2.5)}).frame;
+  const depth::Camera& camera = frame.camera;
+  for (int v = 0; v < camera.height; ++v) {
+    for (int u = 0; u < camera.width; ++u) {
+      const double x_m = -2.4 * (u - camera.cx) / camera.fx,
+                   y_m = -2.4 * (v - camera.cy) / camera.fy;
+      if (std::abs(x_m) > 1.0 || y_m > -0.5 || y_m < -0.8) continue;
+      const double z_m = 2.5 + 0.05 * std::sin(11 * x_m) * std::cos(9 * y_m);  // no plane
+      uint16_t& depth_mm = frame.depth_mm[static_cast<size_t>(v * camera.width + u)];
+      depth_mm = std::min(depth_mm, static_cast<uint16_t>(1000 * z_m));
+    }
+  }
+  return frame;
+}
+
+// The largest piece that the forest was asked about last, where what is cut around a head needs
+// such a score.
+people::Detection LargestPiece(const depth::DepthFrame& frame, double touching_person) {
+  const ModelSet models = ModelSet::Shipped(TrackerOptions{}.method);
+  const auto targets = people::FindJointTargets(*models.forest, models.forest_file);
+  const auto sure = NetworkOfError(-2.0F);
+  people::PeopleOptions options;
+  options.classification.touching_person = touching_person;
+  depth::SceneState state;
+  const depth::Scene scene = depth::MeasureScene(frame, state, options.scene);
+  const std::vector<people::Track> nobody;
+  auto proposed = people::ProposeCandidates(frame, scene, nobody, options.association.reidentify,
+                                            options.candidates, false);
+  std::vector<people::Decision> decided;
+  const auto detections = people::ClassifyCandidates(
+      {{*models.forest, targets, sure.get()}, frame, scene, nobody, options},
+      std::move(proposed.candidates), decided);
+  return *std::ranges::max_element(detections, {}, [](const people::Detection& detection) {
+    return detection.candidate.region.area_m2;
+  });
+}
+
+double Width_m(const people::Detection& detection) {
+  const auto& region = detection.candidate.region;
+  return region.high_m.x() - region.low_m.x();
+}
+
+TEST(FirstLook, WhatIsNoPersonAsItStandsIsCutAroundItsHead) {
+  OSSA_NEEDS_MODEL();
+  constexpr double kNever = 1.1;
+  const depth::DepthFrame frame = PersonBetweenThings();
+  const double needed = people::ClassificationOptions{}.touching_person;
+  const people::Detection whole = LargestPiece(frame, kNever), cut = LargestPiece(frame, needed);
+  EXPECT_GT(Width_m(whole), 1.8);
+  EXPECT_LT(whole.score, people::InitiationOptions{}.person_by_pose);
+  EXPECT_LT(Width_m(cut), 1.5);
+  EXPECT_GE(cut.evidence.score, needed);
 }
 
 }  // namespace
