@@ -1,8 +1,9 @@
 #include "depth/sensor/fakenect_dump.h"
 
 #include <array>
+#include <charconv>
 #include <cmath>
-#include <cstdio>
+#include <string>
 
 #include "depth/base/atomic_file.h"
 #include "depth/base/error.h"
@@ -29,11 +30,13 @@ static_assert(sizeof(RawTiltState) == 12);
 
 // fakenect's names: kind, seconds on the host's clock, ticks on the Kinect's.
 std::string FileName(char kind, double time_s, const char* extension) {
-  std::array<char, 80> name{};
+  // To microseconds, with a point in any locale.
+  std::array<char, 80> seconds{};
+  const auto end = std::to_chars(seconds.data(), seconds.data() + seconds.size(), time_s,
+                                 std::chars_format::fixed, 6);
   const auto ticks = static_cast<uint64_t>(std::llround(time_s * kTicksPerSecond));
-  std::snprintf(name.data(), name.size(), "%c-%.6f-%u.%s", kind, time_s,
-                static_cast<uint32_t>(ticks), extension);
-  return name.data();
+  return std::string(1, kind) + "-" + std::string(seconds.data(), end.ptr) + "-" +
+         std::to_string(static_cast<uint32_t>(ticks)) + "." + extension;
 }
 
 void CheckSize(const Camera& camera, const fs::path& folder) {

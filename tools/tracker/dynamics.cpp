@@ -1,8 +1,9 @@
 #include "tools/tracker/dynamics.h"
 
+#include <fmt/ostream.h>
+
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 #include <map>
 #include <string>
 #include <vector>
@@ -95,20 +96,14 @@ std::string ColumnsText() {
   return text + "\n";
 }
 
-void WriteNumber(std::ostream& out, double value) {
-  char text[32];
-  std::snprintf(text, sizeof text, ",%.6g", value);
-  out << text;
-}
+void WriteNumber(std::ostream& out, double value) { fmt::print(out, ",{:.6g}", value); }
 
 void WriteVector(std::ostream& out, const Vector3d& v) {
   for (const double value : v) WriteNumber(out, value);
 }
 
 void WriteLine(std::ostream& out, double time_s, int body, const physics::Dynamics& d) {
-  char time[32];
-  std::snprintf(time, sizeof time, "%.6f", time_s);
-  out << time << ',' << body;
+  fmt::print(out, "{:.6f},{}", time_s, body);
   WriteVector(out, d.ground_force_n);
   WriteVector(out, d.foot_force_n[0]);
   WriteVector(out, d.foot_force_n[1]);

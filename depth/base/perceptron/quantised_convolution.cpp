@@ -8,6 +8,7 @@
 #include <limits>
 
 #include "depth/base/cpu_dispatch.h"
+#include "depth/base/perceptron/round_numbers_internal.h"
 #include "depth/base/perceptron/window_sums_internal.h"
 
 namespace ossa {
@@ -21,10 +22,6 @@ constexpr int kMostWeight = std::numeric_limits<int16_t>::max();
 
 // Pairs are multiplied: of an odd number of channels the last is paired with zeros.
 size_t PaddedChannels(Eigen::Index channels) { return static_cast<size_t>(channels + 1) / 2 * 2; }
-
-size_t CountBlocks(Eigen::Index outputs) {
-  return (static_cast<size_t>(outputs) + OutputLine::kOutputs - 1) / OutputLine::kOutputs;
-}
 
 // What a weight's 1 is worth, of each output.
 Eigen::RowVectorXf ChooseSteps(const RowMatrix& weight) {
@@ -45,13 +42,6 @@ OSSA_CPU_DISPATCH float FindLargest(const float* numbers, size_t count) {
     largest = std::max(largest, magnitude);
   }
   return std::bit_cast<float>(largest);
-}
-
-// To the nearest whole numbers.
-OSSA_CPU_DISPATCH void Round(const float* numbers, float times, size_t count, int16_t* rounded) {
-  for (size_t i = 0; i < count; ++i) {
-    rounded[i] = static_cast<int16_t>(std::rint(numbers[i] * times));
-  }
 }
 
 OSSA_CPU_DISPATCH void Scale(const int32_t* sums, const float* step, const float* bias,
@@ -76,11 +66,11 @@ class RoundedMap {
       const float* from = map.cells.data() + row * side * given;
       int16_t* to = At(row + static_cast<size_t>(border), static_cast<size_t>(border));
       if (given == channels_) {
-        Round(from, times, side * given, to);
+        RoundNumbers(from, times, side * given, to);
         continue;
       }
       for (size_t column = 0; column < side; ++column, from += given, to += channels_) {
-        Round(from, times, given, to);
+        RoundNumbers(from, times, given, to);
       }
     }
   }
@@ -141,7 +131,7 @@ QuantisedConvolution::QuantisedConvolution(const Convolution& layer)
   const auto outputs = static_cast<size_t>(bias_.size());
   const size_t cell_pairs = PaddedChannels(layer.inputs()) / 2;
   const size_t pairs = cells * cell_pairs;
-  std::vector<OutputLine> lines(CountBlocks(bias_.size()) * pairs);
+  std::vector<OutputLine> lines(CountLines(bias_.size(), OutputLine::kOutputs) * pairs);
   for (size_t k = 0; k < cells * inputs; ++k) {
     const size_t cell = k / inputs, input = k % inputs;
     for (size_t o = 0; o < outputs; ++o) {
@@ -163,7 +153,7 @@ FeatureMap QuantisedConvolution::Run(const FeatureMap& map) const {
   const DistinctWindows distinct(rounded, static_cast<size_t>(out.side), size,
                                  static_cast<size_t>(stride_));
   const Windows windows{distinct.first, size, size * rounded.channels() / 2, rounded.row_numbers()};
-  const size_t blocks = CountBlocks(bias_.size());
+  const size_t blocks = CountLines(bias_.size(), OutputLine::kOutputs);
   const size_t padded = blocks * OutputLine::kOutputs;
   std::vector<int32_t> sums(distinct.first.size() * padded);
   for (size_t block = 0; block < blocks; ++block) {

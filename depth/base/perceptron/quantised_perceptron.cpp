@@ -7,9 +7,9 @@
 #include <utility>
 #include <vector>
 
-#include "depth/base/cpu_dispatch.h"
 #include "depth/base/large_pages.h"
 #include "depth/base/perceptron/perceptron_file.h"
+#include "depth/base/perceptron/round_numbers_internal.h"
 #include "depth/base/perceptron/weight_sums_internal.h"
 
 namespace ossa {
@@ -17,24 +17,12 @@ namespace {
 
 size_t CountPairs(Eigen::Index inputs) { return (static_cast<size_t>(inputs) + 1) / 2; }
 
-// How often a line is filled by the weights of a pair of inputs.
-size_t CountBlocks(Eigen::Index units) {
-  return (static_cast<size_t>(units) + WeightLine::kUnits - 1) / WeightLine::kUnits;
-}
-
 // So many quanta at most is a factor: then sums of all of them times a byte each stay below 2^31.
 float MostQuanta(size_t factors) {
   constexpr size_t kMostSum = std::numeric_limits<int32_t>::max();
   constexpr size_t kMostWeight = std::numeric_limits<int8_t>::max();
   constexpr size_t kMost = std::numeric_limits<int16_t>::max();
   return static_cast<float>(std::min(kMost, kMostSum / (kMostWeight * factors)));
-}
-
-// To the nearest whole numbers.
-OSSA_CPU_DISPATCH void Round(const float* numbers, float times, size_t count, int16_t* rounded) {
-  for (size_t i = 0; i < count; ++i) {
-    rounded[i] = static_cast<int16_t>(std::rint(numbers[i] * times));
-  }
 }
 
 // Quantises an example's factors, and returns how much a quantum is.
@@ -46,7 +34,7 @@ float Quantise(const Eigen::RowVectorXf& factors, size_t example,
   const float largest = factors.cwiseAbs().maxCoeff();
   if (!(largest / most > std::numeric_limits<float>::min())) return 0.0F;  // all are nought
   std::vector<int16_t> rounded(2 * pairs->size());  // the last pair may be half of one
-  Round(factors.data(), most / largest, count, rounded.data());
+  RoundNumbers(factors.data(), most / largest, count, rounded.data());
   for (size_t pair = 0; pair < pairs->size(); ++pair) {
     std::memcpy(&(*pairs)[pair][example], &rounded[2 * pair], sizeof((*pairs)[pair][example]));
   }
@@ -84,7 +72,7 @@ void QuantisedPerceptron::Add(const Perceptron& perceptron, std::vector<WeightLi
   for (const PerceptronLayer& layer : perceptron.layers) {
     const auto inputs = static_cast<size_t>(layer.weight.rows());
     const auto units = static_cast<size_t>(layer.weight.cols());
-    const size_t blocks = CountBlocks(layer.weight.cols());
+    const size_t blocks = CountLines(layer.weight.cols(), WeightLine::kUnits);
     const size_t pairs = CountPairs(layer.weight.rows());
     const WeightBytes rounded = RoundToBytes(layer.weight);
     layers_.push_back({lines->size(), blocks, rounded.step, layer.bias});

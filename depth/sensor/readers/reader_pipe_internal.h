@@ -3,6 +3,7 @@
 // ends being of one build on one machine. A reader is a program of its own so that a file that
 // crashes, hangs or bloats somebody's library ends it and not the one that wants the frames; and so
 // that who never reads such files need not have the library.
+#include <array>
 #include <cstdint>
 #include <functional>
 #include <span>
@@ -26,9 +27,12 @@ struct ReaderMessage {
 struct ReaderHello {
   Camera camera;  // of the frames; its size is theirs even where nothing states a camera
   bool is_camera_stated = false;
-  bool is_unit_stated = false;  // the numbers are millimetres; else nobody knows
-  int64_t frame_count = -1;     // -1: the file does not know
+  bool is_unit_stated = false;      // the numbers are millimetres; else nobody knows
+  std::array<uint8_t, 6> unused{};  // no byte is sent that was not written
+  int64_t frame_count = -1;         // -1: the file does not know
 };
+
+static_assert(sizeof(ReaderHello) == sizeof(Camera) + 16);
 
 struct ReaderFrame {
   int32_t width = 0, height = 0;
