@@ -17,8 +17,8 @@ namespace {
 // Of the eight neighbours of a hole that is a single pixel's. A shadow's border has fewer readings.
 constexpr int kAroundSingle = 6;  // pixels
 // Single-pixel holes, as a share of the readings, from which on a sensor is said to scatter them.
-// Real images of Kinect v1, Xtion and D415 have 0.4 % at most, rendered ones of a Kinect v1 1.3 %;
-// at 5 % joints moved by 1 cm.
+// Real images of Kinect v1, Xtion and RealSense have 0.4 % at most, rendered ones of a Kinect
+// v1 1.3; at 5 % joints moved by 1 cm.
 constexpr double kScattered = 0.02;  // share, ours
 // Neighbours with a reading that a hole is filled from: half of them. With three silhouettes grow,
 // with five a third of the pixels may not be missing.
