@@ -27,16 +27,22 @@ std::vector<uint8_t> FindCutBelow(const depth::Scene& scene, const MountOptions&
 }  // namespace
 
 bool MountFinder::IsDue(const BodyFrame& tracked) {
-  if (tracked.floor) is_level_ = true;
   const double since_s = tracked.time_s - looked_s_;
   if (is_level_ || (since_s >= 0 && since_s < options_.every_s)) return false;
   looked_s_ = tracked.time_s;
-  return true;
+  const bool seems_level = tracked.floor && !tracked.bodies.empty();
+  if (seems_level) Confirm(View::kLevel);
+  return !seems_level;
 }
 
-bool MountFinder::Confirm(bool looks_down) {
-  agreeing_ = looks_down ? agreeing_ + 1 : 0;
-  return ++looks_ == 1 ? looks_down : agreeing_ >= options_.agreeing;
+bool MountFinder::Confirm(View seen) {
+  const bool is_first = ++looks_ == 1;
+  if (seen == View::kUnknown) return false;
+  const bool from_above = seen == View::kFromAbove;
+  level_looks_ = from_above ? 0 : level_looks_ + 1;
+  above_looks_ = from_above ? above_looks_ + 1 : 0;
+  is_level_ = level_looks_ >= options_.agreeing;
+  return from_above && (is_first || above_looks_ >= options_.agreeing);
 }
 
 bool MayBeFromAbove(const depth::DepthFrame& frame, const people::PeopleOptions& above,

@@ -9,25 +9,33 @@ namespace ossa::tracker {
 /// of `ossa experiment real` and on rendered people, level and from above
 /// (tests/tools/tracker/mount_test.cpp).
 struct MountOptions {
-  double every_s = 1.0;       // between looks, > 0: one costs some milliseconds
-  int agreeing = 3;           // looks in a row, > 0, as of UprightOptions
-  double sure = 0.95;         // score, [0, 1]: real level stills reach 0.7
+  double every_s = 1.0;              // between looks, > 0: one costs some milliseconds
+  int agreeing = 3;                  // looks in a row, > 0, as of UprightOptions
+  double sure = 0.95;                // score, [0, 1]: real level stills reach 0.7
+  double sure_despite_floor = 0.99;  // the same where a floor is seen as level cameras see it: real
+                                     // level stills, holes all over, reach 0.97
   float min_head_m = 1.0F;    // anthropometry: over the floor, of who sits; a wall has lower bumps
-  double floor_share = 0.25;  // of what is measured, [0, 1], that is floor
+  double floor_share = 0.15;  // of what is measured, [0, 1], that is floor
   float piece_m2 = 0.02F;     // anthropometry: a hand; smaller pieces say nothing
   double cut_share = 0.65;    // of a body, [0, 1]: more of it goes on below a level camera's image
   double rim_share = 0.03;    // of the image's height, [0, 1]: a sensor's rims are blind
 };
 
 /// When it is worth finding out whether the camera hangs under the ceiling, and when that is
-/// certain: never again once a floor was seen as level cameras see it, and not in every frame.
+/// certain: not in every frame, and never again once somebody on a floor was tracked as level
+/// cameras see them in several looks in a row. A floor alone says little: from the ceiling a wall
+/// passes for one.
 class MountFinder {
  public:
+  /// What a look says of the camera; unknown where nobody is in view.
+  enum class View { kUnknown, kLevel, kFromAbove };
+
   /// Of a frame that was tracked as a level camera's: is it time to look?
   bool IsDue(const BodyFrame& tracked);
-  /// What a look says; is it certain now? The first one decides alone, for stills and beginnings;
-  /// later ones only three in a row, for who works before a wall all day is looked at often.
-  bool Confirm(bool looks_down);
+  /// Is it certain now that the camera looks down? The first look decides alone, for stills and
+  /// beginnings; later ones only several in a row, for who works before a wall all day is looked at
+  /// often.
+  bool Confirm(View seen);
 
   const MountOptions& options() const { return options_; }
 
@@ -35,7 +43,7 @@ class MountFinder {
   MountOptions options_;
   bool is_level_ = false;
   double looked_s_ = -1e9;
-  int looks_ = 0, agreeing_ = 0;
+  int looks_ = 0, above_looks_ = 0, level_looks_ = 0;
 };
 
 /// Whether a frame shows, from above, a floor that fills much of it and something with a head that

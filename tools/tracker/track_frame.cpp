@@ -94,11 +94,15 @@ bool Tracker::Impl::ShowsCeilingView(const depth::DepthFrame& frame, const BodyF
   people::PeopleOptions from_above = people::PeopleOptionsFromAbove();
   const MountOptions& mount = mount_finder.options();
   from_above.candidates.overhead->min_head_m = mount.min_head_m;
-  if (!MayBeFromAbove(frame, from_above, mount)) return mount_finder.Confirm(false);
+  using View = MountFinder::View;
+  if (!MayBeFromAbove(frame, from_above, mount)) {
+    return mount_finder.Confirm(tracked.bodies.empty() ? View::kUnknown : View::kLevel);
+  }
   if (!ceiling_forest) ceiling_forest = LoadCeilingForest(models);
   const auto above_targets = people::FindJointTargets(*ceiling_forest, models.ceiling_file);
-  return mount_finder.Confirm(ScorePeople(frame, {*ceiling_forest, above_targets}, from_above) >=
-                              mount.sure);
+  const double score = ScorePeople(frame, {*ceiling_forest, above_targets}, from_above);
+  const bool is_sure = score >= (tracked.floor ? mount.sure_despite_floor : mount.sure);
+  return mount_finder.Confirm(is_sure ? View::kFromAbove : View::kLevel);
 }
 
 void Tracker::Impl::FindUpright(const depth::DepthFrame& frame) {
