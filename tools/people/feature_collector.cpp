@@ -10,6 +10,7 @@ namespace ossa::people {
 struct FeatureCollector::State {
   forest::ForestModel model;
   JointTargets targets;
+  PeopleOptions options;
 };
 
 namespace {
@@ -33,16 +34,17 @@ SingleFrame MeasureAlone(const DepthFrame& frame, const PeopleOptions& options) 
 std::span<const std::string_view> PersonFeatureNames() { return kPersonFeatureNames; }
 size_t CountSurfaceFeatures() { return static_cast<size_t>(PersonFeature::kTrust); }
 
-FeatureCollector::FeatureCollector(const std::filesystem::path& model) {
+FeatureCollector::FeatureCollector(const std::filesystem::path& model, bool from_above) {
   forest::ForestModel read = forest::ReadForestModel(model);
   const auto targets = FindJointTargets(read, model);
-  state_ = std::make_unique<State>(State{std::move(read), targets});
+  state_ = std::make_unique<State>(
+      State{std::move(read), targets, from_above ? PeopleOptionsFromAbove() : PeopleOptions()});
 }
 FeatureCollector::~FeatureCollector() = default;
 
 std::vector<CandidateFeatures> FeatureCollector::Collect(const depth::DepthFrame& frame) const {
   constexpr double kAnyScore = -1;  // a score, so that joints are proposed for everything
-  const PeopleOptions options;
+  const PeopleOptions& options = state_->options;
   SingleFrame alone = MeasureAlone(frame, options);
   const PersonClassifier classifier{state_->model, state_->targets};
   std::vector<CandidateFeatures> all;
@@ -58,7 +60,7 @@ std::vector<CandidateFeatures> FeatureCollector::Collect(const depth::DepthFrame
 
 std::vector<CandidatePose> FeatureCollector::CollectPoses(const depth::DepthFrame& frame,
                                                           const recon::PoseNetwork& network) const {
-  const PeopleOptions options;
+  const PeopleOptions& options = state_->options;
   SingleFrame alone = MeasureAlone(frame, options);
   const PersonClassifier classifier{state_->model, state_->targets};
   std::vector<Decision> merged;

@@ -33,11 +33,11 @@ std::span<const std::string_view> PersonFeatureNames();
 size_t CountSurfaceFeatures();
 
 /// Features of every candidate of single frames, as the tracker sees them: for fitting and judging
-/// the weights.
+/// the weights. `from_above`: by a tracker under the ceiling.
 class FeatureCollector {
  public:
   /// Throws InputError naming the model where it cannot be read.
-  explicit FeatureCollector(const std::filesystem::path& model);
+  explicit FeatureCollector(const std::filesystem::path& model, bool from_above = false);
   ~FeatureCollector();
   std::vector<CandidateFeatures> Collect(const depth::DepthFrame& frame) const;
   /// Of the candidates that `network` would be asked about, pieces of a person merged.

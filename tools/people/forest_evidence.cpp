@@ -60,7 +60,7 @@ ForestEvidence ClassifyCandidate(const PersonClassifier& classifier, const Depth
   evidence.heads_m = SelectHeads(heads, options);
   evidence.leg_area_m2 = MeasureLegArea_m2(seen, evidence.classification);
   AddSurfaceFeatures(seen, candidate, evidence.classification, heads, evidence.features);
-  evidence.score = ComputeSurfaceScore(evidence.features);
+  evidence.score = ComputeSurfaceScore(evidence.features, options.from_above);
   evidence.classify_ms = watch.milliseconds();
   evidence.proposals.resize(classifier.model.targets().size());
   if (evidence.score < min_surface_score) return evidence;
@@ -68,7 +68,7 @@ ForestEvidence ClassifyCandidate(const PersonClassifier& classifier, const Depth
   evidence.proposals =
       forest::Propose(classifier.model, seen.view(), seen.camera, evidence.classification);
   AddProposalFeatures(evidence.proposals, classifier.targets, evidence.features);
-  evidence.score = ComputePersonScore(evidence.features);
+  evidence.score = ComputePersonScore(evidence.features, options.from_above);
   evidence.propose_ms = propose_watch.milliseconds();
   return evidence;
 }

@@ -139,6 +139,7 @@ struct CandidateOptions {
 
 /// What the forest is asked about a candidate.
 struct EvidenceOptions {
+  bool from_above = false;   // by the weights of people and things under a camera at the ceiling
   double sample_m = 0.012;   // pixels are thinned until one stands for so much of the surface,
   size_t max_pixels = 6000;  // ... and further, to at most so many: time;
   size_t max_rejected_pixels = 1500;  // ... of what scored low a moment ago

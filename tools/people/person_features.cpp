@@ -18,8 +18,10 @@ constexpr int kLastHeadLabel = 4;
 constexpr int kFirstTorsoLabel = 18, kLastTorsoLabel = 21;
 
 // Logistic regressions of "is a person" over the features and their products, written by
-// `ossa experiment person-classifier`: kSurfaceWeights, kPersonWeights.
+// `ossa experiment person-classifier`: kSurfaceWeights, kPersonWeights and, of a camera under the
+// ceiling, the same FromAbove.
 #include "tools/people/person_classifier_weights.inc"
+#include "tools/people/person_classifier_weights_from_above.inc"
 
 struct Cluster {
   Vector3d sum = Vector3d::Zero();
@@ -249,17 +251,21 @@ void AddProposalFeatures(const std::vector<std::vector<forest::Proposal>>& propo
   features[static_cast<size_t>(PersonFeature::kBones)] = bones / (kCore.size() - 1);
 }
 
-double ComputeSurfaceScore(const PersonFeatures& features) {
+double ComputeSurfaceScore(const PersonFeatures& features, bool from_above) {
   constexpr auto kCount = static_cast<size_t>(PersonFeature::kTrust);
-  static_assert(std::size(kSurfaceWeights) == CountTerms(kCount),
+  static_assert(kSurfaceWeights.size() == CountTerms(kCount) &&
+                    kSurfaceWeightsFromAbove.size() == CountTerms(kCount),
                 "person_classifier_weights.inc is of other features");
-  return EvaluateLogistic(features, kSurfaceWeights, kCount);
+  return EvaluateLogistic(features, from_above ? kSurfaceWeightsFromAbove : kSurfaceWeights,
+                          kCount);
 }
 
-double ComputePersonScore(const PersonFeatures& features) {
-  static_assert(std::size(kPersonWeights) == CountTerms(kPersonFeatureCount),
+double ComputePersonScore(const PersonFeatures& features, bool from_above) {
+  static_assert(kPersonWeights.size() == CountTerms(kPersonFeatureCount) &&
+                    kPersonWeightsFromAbove.size() == CountTerms(kPersonFeatureCount),
                 "person_classifier_weights.inc is of other features");
-  return EvaluateLogistic(features, kPersonWeights, kPersonFeatureCount);
+  return EvaluateLogistic(features, from_above ? kPersonWeightsFromAbove : kPersonWeights,
+                          kPersonFeatureCount);
 }
 
 }  // namespace ossa::people

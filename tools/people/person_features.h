@@ -66,8 +66,9 @@ void AddSurfaceFeatures(const depth::DepthFrame& frame, const Candidate& candida
 void AddProposalFeatures(const std::vector<std::vector<forest::Proposal>>& proposals,
                          const recon::JointArray<int>& targets, PersonFeatures& features);
 
-/// Probability that it is a person: before, and after proposals were made.
-double ComputeSurfaceScore(const PersonFeatures& features);
-double ComputePersonScore(const PersonFeatures& features);
+/// Probability that it is a person, as a level camera sees it or one under the ceiling: before, and
+/// after proposals were made.
+double ComputeSurfaceScore(const PersonFeatures& features, bool from_above = false);
+double ComputePersonScore(const PersonFeatures& features, bool from_above = false);
 
 }  // namespace ossa::people

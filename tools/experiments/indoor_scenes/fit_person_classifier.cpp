@@ -1,5 +1,5 @@
 // `ossa experiment person-classifier`: fits what tells people from furniture
-// (tools/people/person_classifier_weights.inc).
+// (tools/people/person_classifier_weights.inc, and the same _from_above).
 #include <fmt/format.h>
 
 #include <Eigen/Core>
@@ -40,12 +40,28 @@ std::optional<bool> IsPerson(const std::vector<int32_t>& pixels, const LabelledF
   return std::nullopt;
 }
 
+// Weights that are fitted: of what camera and forest, and into which file and arrays.
+struct WeightSet {
+  bool from_above;
+  const char* forest;
+  const char* file;
+  const char* suffix;
+};
+constexpr WeightSet kLevel{false, "body.ossa", "person_classifier_weights.inc", ""};
+constexpr WeightSet kUnderCeiling{true, "body_ceiling.ossa",
+                                  "person_classifier_weights_from_above.inc", "FromAbove"};
+
+std::filesystem::path ForestOf(const WeightSet& set, const ExperimentContext& context) {
+  return context.model.empty() ? tracker::ShippedFile(set.forest) : context.model;
+}
+
 class Gatherer {
  public:
-  Gatherer(ExperimentContext& context, Split split, const std::string& mocap)
+  Gatherer(ExperimentContext& context, const WeightSet& set, Split split, const std::string& mocap)
       : context_(context),
+        set_(set),
         split_(split),
-        collector_(context.model.empty() ? tracker::ShippedFile("body.ossa") : context.model),
+        collector_(ForestOf(set, context), set.from_above),
         clips_(recon::LoadMocap({mocap})),
         poses_(MakePoseBank(clips_)) {}
 
@@ -57,12 +73,16 @@ class Gatherer {
     std::mutex mutex;
     int done = 0;
     RunJobs(examples.size(), context_.threads, [&](size_t k) {
-      const int width = k % 2 ? 640 : 320;
-      const IndoorCast cast{model, wardrobe, clips_, split_, width, width * 3 / 4, 90};
-      IndoorScenes(cast, seed + 100 * k, examples[k]);
-      BehindSeats(cast, seed + 100 * k + 50, examples[k]);
-      for (const View view : {View::kFront, View::kAny, View::kNear})
-        Singles(view, seed + k, examples[k]);
+      if (set_.from_above) {
+        UnderCeilings(seed + 100 * k, examples[k]);
+      } else {
+        const int width = k % 2 ? 640 : 320;
+        const IndoorCast cast{model, wardrobe, clips_, split_, width, width * 3 / 4, 90};
+        IndoorScenes(cast, seed + 100 * k, examples[k]);
+        BehindSeats(cast, seed + 100 * k + 50, examples[k]);
+        for (const View view : {View::kFront, View::kAny, View::kNear})
+          Singles({view, Background::kRoom, seed + k}, examples[k]);
+      }
       const std::lock_guard lock(mutex);
       if (context_.progress) context_.progress(++done, performances, "scenes");
     });
@@ -89,17 +109,31 @@ class Gatherer {
     for (int64_t f = 5; f < stage.size(); f += 20) Look(stage.Shoot(f), examples);
   }
 
-  void Singles(View view, uint64_t seed, std::vector<Example>& examples) {
+  // Rooms of every sort; one in four without shelves and plants.
+  void UnderCeilings(uint64_t seed, std::vector<Example>& examples) {
+    constexpr int kRooms = 8;
+    for (int i = 0; i < kRooms; ++i) {
+      Singles({View::kCeiling, i % 4 == 0 ? Background::kRoom : Background::kLivedIn, ++seed},
+              examples);
+    }
+  }
+
+  struct Room {
+    View view;
+    Background background;
+    uint64_t seed;
+  };
+  void Singles(const Room& room, std::vector<Example>& examples) {
     constexpr int kFrames = 12;
     FrameOptions options;
     options.width = 320;
     options.height = 240;
-    options.view = view;
+    options.view = room.view;
     options.split = split_;
     options.occluders = Occluders::kAny;
-    options.background = Background::kRoom;
-    options.people = view == View::kNear ? 1 : 2;
-    options.seed = seed;
+    options.background = room.background;
+    options.people = room.view == View::kNear ? 1 : 2;
+    options.seed = room.seed;
     const FrameStudio studio(LoadFetchedBody(), poses_, options);
     FrameMaker maker(studio);
     for (int f = 0; f < kFrames; ++f) Look(maker.Make(8 * f), examples);
@@ -114,6 +148,7 @@ class Gatherer {
   }
 
   ExperimentContext& context_;
+  WeightSet set_;
   Split split_;
   people::FeatureCollector collector_;
   std::vector<recon::MotionClip> clips_;
@@ -121,23 +156,23 @@ class Gatherer {
 };
 
 // Kept in the study's cache, one line an example: fitting again with another prior takes seconds.
-std::vector<Example> Examples(ExperimentContext& context, Split split, const std::string& mocap,
-                              int performances, uint64_t seed) {
+std::vector<Example> Examples(ExperimentContext& context, const WeightSet& set, Split split,
+                              const std::string& mocap, int performances, uint64_t seed) {
   const auto compute = [&] {
     std::ostringstream text;
     text.precision(9);
-    for (const Example& e : Gatherer(context, split, mocap).Gather(performances, seed)) {
+    for (const Example& e : Gatherer(context, set, split, mocap).Gather(performances, seed)) {
       text << e.person;
       for (const double sign : e.signs) text << ' ' << sign;
       text << '\n';
     }
     return text.str();
   };
-  const auto model = context.model.empty() ? tracker::ShippedFile("body.ossa") : context.model;
-  std::istringstream lines(context.Cached(
-      fmt::format("person signs {} {} {} {} {} {}", ComputeCodeKey(), static_cast<int>(split),
-                  mocap, performances, seed, ComputeFileKey(model)),
-      compute));
+  std::istringstream lines(
+      context.Cached(fmt::format("person signs{} {} {} {} {} {} {}", set.suffix, ComputeCodeKey(),
+                                 static_cast<int>(split), mocap, performances, seed,
+                                 ComputeFileKey(ForestOf(set, context))),
+                     compute));
   std::vector<Example> examples;
   for (std::string line; std::getline(lines, line);) {
     std::istringstream words(line);
@@ -170,42 +205,49 @@ std::vector<LogisticExample> WithTerms(const std::vector<Example>& examples, siz
   return all;
 }
 
-}  // namespace
-
-Table FitForestWeights(ExperimentContext& context) {
+Table FitWeights(ExperimentContext& context, const WeightSet& set) {
   const std::string train = context.parameters.Text("mocap", "authored");
   const std::string check = context.parameters.Text("check_mocap", "authored");
   const int performances = context.parameters.Integer("performances", context.full ? 60 : 8, 2);
   const double prior = context.parameters.Number("prior", 1.0);
   const uint64_t seed = context.seed * 1000000;
-  const auto fitted = Examples(context, Split::kTrain, train, performances, seed);
+  const auto fitted = Examples(context, set, Split::kTrain, train, performances, seed);
   const auto checked =
-      Examples(context, Split::kTest, check, std::max(1, performances / 4), seed + 500000);
+      Examples(context, set, Split::kTest, check, std::max(1, performances / 4), seed + 500000);
   const size_t all = people::PersonFeatureNames().size(), surface = people::CountSurfaceFeatures();
   const VectorXd surface_weights = FitLogistic(WithTerms(fitted, surface), prior);
   const VectorXd weights = FitLogistic(WithTerms(fitted, all), prior);
-  AtomicFile file(context.out / "person_classifier_weights.inc");
+  AtomicFile file(context.out / set.file);
   file.stream() << "// Written by `ossa experiment person-classifier`.\n"
-                << ArrayText("kSurfaceWeights", surface_weights)
-                << ArrayText("kPersonWeights", weights);
+                << ArrayText(fmt::format("kSurfaceWeights{}", set.suffix), surface_weights)
+                << ArrayText(fmt::format("kPersonWeights{}", set.suffix), weights);
   file.Commit();
   Table table;
-  table.title = "People and other things, single observations";
+  table.title = set.from_above ? "People and other things under the ceiling, single observations"
+                               : "People and other things, single observations";
   table.columns = kPassedColumns;
   AddPassedRows("fitted on, surface", surface_weights, WithTerms(fitted, surface), table);
   AddPassedRows("fitted on", weights, WithTerms(fitted, all), table);
   AddPassedRows("others, surface", surface_weights, WithTerms(checked, surface), table);
   AddPassedRows("others", weights, WithTerms(checked, all), table);
-  table.note = "Weights: person_classifier_weights.inc, to be put into tools/people.";
+  table.note = fmt::format("Weights: {}, to be put into tools/people.", set.file);
   if (train == check)
     table.note += " Others: other bodies and rooms; their motions are those fitted on.";
   return table;
 }
 
+}  // namespace
+
+Table FitForestWeights(ExperimentContext& context) { return FitWeights(context, kLevel); }
+Table FitForestWeightsFromAbove(ExperimentContext& context) {
+  return FitWeights(context, kUnderCeiling);
+}
+
 std::vector<Table> RunPersonClassifier(ExperimentContext& context) {
-  const auto parts = context.parameters.Some("parts", {"forest", "pose"});
+  const auto parts = context.parameters.Some("parts", {"forest", "ceiling", "pose"});
   std::vector<Table> tables;
   if (parts.count("forest") > 0) tables.push_back(FitForestWeights(context));
+  if (parts.count("ceiling") > 0) tables.push_back(FitForestWeightsFromAbove(context));
   if (parts.count("pose") > 0) tables.push_back(FitPoseWeights(context));
   return tables;
 }

@@ -40,6 +40,8 @@ std::string ArrayText(const std::string& name, const Eigen::VectorXd& weights);
 
 /// tools/people/person_classifier_weights.inc: by what the forest sees.
 Table FitForestWeights(ExperimentContext& context);
+/// tools/people/person_classifier_weights_from_above.inc: the same under the ceiling.
+Table FitForestWeightsFromAbove(ExperimentContext& context);
 /// tools/people/pose_weights.inc: by the forest's score and the pose network.
 Table FitPoseWeights(ExperimentContext& context);
 
