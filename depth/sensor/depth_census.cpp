@@ -183,6 +183,7 @@ std::optional<DepthSuspicion> JudgeRange(const Spread& spread) {
   constexpr int kNearRoom_mm = 1000;    // no room ends here
   constexpr int kNearerThanMost = 400;  // where few cameras see
   constexpr int kBlind_mm = 120;        // where none does
+  constexpr int kFarRoom_mm = 20000;    // beyond what stereo cameras see of a hall
   if (spread.percent_95 < kHeadAlone_mm ||
       (spread.percent_95 < kNearRoom_mm && spread.percent_5 < kNearerThanMost)) {
     return DepthSuspicion{"centimetres: as millimetres nearly all of them would lie within " +
@@ -193,6 +194,15 @@ std::optional<DepthSuspicion> JudgeRange(const Spread& spread) {
     return DepthSuspicion{"no distances: many would lie within " + Metres(spread.percent_5) +
                               ", where no depth camera sees (were they inverted or stretched?)",
                           ""};
+  }
+  // Of the background that a renderer gives one far number, what stands before it is near.
+  if (spread.percent_5 > kFarthest_mm && spread.median > kFarRoom_mm) {
+    return DepthSuspicion{
+        "distances stretched to 16 bits: as millimetres half of them would lie "
+        "beyond " +
+            Metres(spread.median) +
+            "; where FARTHEST metres are 65535, --depth-scale 65535/FARTHEST",
+        ""};
   }
   return std::nullopt;
 }

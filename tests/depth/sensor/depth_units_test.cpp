@@ -123,6 +123,18 @@ TEST(DepthCensus, DepthsThatNoCameraSeesAreRefusedWithoutAnOption) {
   EXPECT_EQ(suspicion->option, "");
 }
 
+// As data sets of Kinect v2 depths have it whose makers used all 16 bits for 4.5 m.
+TEST(DepthCensus, DepthsStretchedTo16BitsAreRefused) {
+  const auto suspicion = Judged(Changed([](int mm) { return std::min(mm * 65535 / 4500, 65535); }));
+  ASSERT_TRUE(suspicion.has_value());
+  EXPECT_NE(suspicion->looks.find("stretched"), std::string::npos) << suspicion->looks;
+}
+
+TEST(DepthCensus, AFarNumberForTheBackgroundIsNotSuspected) {
+  const auto suspicion = Judged(Changed([](int mm) { return mm < 3000 ? mm : 60000; }));
+  EXPECT_FALSE(suspicion) << suspicion->looks;
+}
+
 TEST(DepthCensus, TooLittleIsNotJudged) {
   DepthFrame frame = Changed([](int mm) { return mm / 10; });
   frame.depth_mm.resize(160 * 2);
