@@ -120,6 +120,18 @@ std::optional<double> GuessUnitOfNumbers(int64_t step, size_t digits) {
   return unit_s == 1e-9 && digits < kNanosecondsSince1970 ? std::nullopt : unit_s;
 }
 
+// Of 0, 20, 40, 80: every twentieth frame was kept, and one of those taken away. Milliseconds of
+// cameras that are faster than 30 frames a second come unevenly, 16 and 17 or 11 and 12 in turns.
+bool CountEveryNthFrame(const std::vector<int64_t>& values, int64_t step) {
+  constexpr int64_t kLeastEvenTimeStep = 30;  // ms: of a program that waits so long
+  constexpr size_t kEnough = 3;               // one step is even by itself
+  if (values.size() < kEnough || step < 2 || step >= kLeastEvenTimeStep) return false;
+  for (size_t i = 1; i < values.size(); ++i) {
+    if ((values[i] - values[i - 1]) % step != 0) return false;
+  }
+  return true;
+}
+
 NamedTimes ReadTimesFromNumbers(const std::vector<NumberedName>& names,
                                 const std::vector<int64_t>& values) {
   constexpr size_t kLongestCount = 8;  // digits: longer numbers are times or say nothing
@@ -127,13 +139,15 @@ NamedTimes ReadTimesFromNumbers(const std::vector<NumberedName>& names,
   const bool alone = names.front().before.empty() && names.front().after.empty();
   NamedTimes times;
   const int64_t step = values.size() > 1 ? MedianStep(values) : 1;
-  if (const auto unit_s = GuessUnitOfNumbers(step, digits)) {
+  const bool counts = digits <= kLongestCount && CountEveryNthFrame(values, step);
+  const auto unit_s = counts ? std::nullopt : GuessUnitOfNumbers(step, digits);
+  if (unit_s) {
     times.kind = NamedTimes::Kind::kTimes;
     times.unit_s = *unit_s;
     for (const int64_t value : values) {
       times.times_s.push_back(static_cast<double>(value - values.front()) * *unit_s);
     }
-  } else if (digits <= kLongestCount && step < kLeastTimeStep && (alone || step == 1)) {
+  } else if (digits <= kLongestCount && (counts || step < kLeastTimeStep) && (alone || step == 1)) {
     times.kind = NamedTimes::Kind::kNumbers;
     times.numbers = values;
   }
