@@ -48,6 +48,7 @@ struct Run {
   int64_t dropped = 0;
   std::optional<int64_t> of;  // frames that are to be tracked
   int64_t lost_gaps = 0;      // times the device went away and came back
+  bool somebody = false;      // was followed in a frame
   Ending ending = Ending::kComplete;
   std::string failure;  // of the source; what was tracked before it stays
 };
@@ -72,6 +73,7 @@ struct Destinations {
 
   void Deliver(const tracker::BodyFrame& bodies, Run& run) {
     run.stats.Add(bodies.ms);
+    run.somebody = run.somebody || !bodies.bodies.empty();
     sender.Send(bodies);  // first: it is waited for
     output.Write(bodies);
     person.Take(bodies);
@@ -211,6 +213,15 @@ void SayMissingFloor(tracker::Tracker& tracker, const TrackOptions& options) {
                   options.mechanics.scene));
 }
 
+/// An empty recording, or one that was read wrongly: nothing in the images tells which.
+void SayNobody(const TrackOptions& options, const depth::Camera& camera, const Run& run) {
+  if (options.quiet || run.somebody || run.stats.frames() == 0) return;
+  Say(
+      fmt::format("ossa track: {}: nobody was found, by a camera of f {:.0f} px: if somebody is in "
+                  "view, see whether --camera, --depth-scale and --rotate are right\n",
+                  options.source.name, camera.fx));
+}
+
 void CheckFrames(const TrackOptions& options, const Run& run) {
   if (run.stats.frames() > 0) return;
   if (Interrupted()) {
@@ -253,11 +264,15 @@ void CheckWorthKeeping(const TrackOptions& options, const Run& run) {
 
 /// Each output gets what it can, whatever befell another: then the first failure is thrown, after
 /// the others were said.
-void FinishAll(Destinations& to, const Run& run) {
-  const std::array<std::function<void()>, 6> finishes = {
-      [&] { to.output.Finish(); },      [&] { to.pictures.Finish(); },
-      [&] { Report(to.options, run); }, [&] { SayMissingFloor(to.tracker, to.options); },
-      [&] { to.trace.Finish(); },       [&] { to.person.Finish(to.options); }};
+void FinishAll(Destinations& to, const depth::Camera& camera, const Run& run) {
+  const std::array<std::function<void()>, 7> finishes = {
+      [&] { to.output.Finish(); },
+      [&] { to.pictures.Finish(); },
+      [&] { Report(to.options, run); },
+      [&] { SayNobody(to.options, camera, run); },
+      [&] { SayMissingFloor(to.tracker, to.options); },
+      [&] { to.trace.Finish(); },
+      [&] { to.person.Finish(to.options); }};
   std::exception_ptr first;
   for (const auto& finish : finishes) {
     try {
@@ -310,7 +325,7 @@ int Track(int argc, char** argv) {
     throw output.WithWhatFits(full);
   }
   CheckWorthKeeping(options, run);
-  FinishAll(destinations, run);
+  FinishAll(destinations, source->camera(), run);
   CheckComplete(options, run);
   return 0;
 }

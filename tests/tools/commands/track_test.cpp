@@ -108,6 +108,22 @@ TEST(TrackCommand, SaysHowManyFramesAndWritesEveryStagesMilliseconds) {
   EXPECT_GT(json.at("peak_rss_mb"), 1.0);
 }
 
+TEST(TrackCommand, SaysThatNobodyWasFoundAndWhatMayBeWrong) {
+  OSSA_NEEDS_MODEL();
+  const TemporaryFolder folder;
+  std::filesystem::create_directories(folder / "in");
+  WriteFlat(folder / "in", 2000, 2);
+  const CommandResult result = TrackTo(folder / "in", folder / "x.jsonl");
+  EXPECT_EQ(result.exit_status, 0) << result.err;
+  EXPECT_NE(result.err.find("nobody was found, by a camera of f 144 px"), std::string::npos)
+      << result.err;
+  const CommandResult quiet = TrackTo(folder / "in", folder / "y.jsonl", {"--quiet"});
+  EXPECT_EQ(quiet.err, "");
+  WriteWalk(folder / "walk", 2);
+  const CommandResult walk = TrackTo(folder / "walk", folder / "z.jsonl");
+  EXPECT_EQ(walk.err.find("nobody"), std::string::npos) << walk.err;
+}
+
 // The first candidate of a frame that a rule decided about, or null.
 nlohmann::json FindDecision(const nlohmann::json& frame, const std::string& rule) {
   for (const auto& candidate : frame.at("candidates")) {
