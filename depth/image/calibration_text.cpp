@@ -6,16 +6,17 @@
 #include <initializer_list>
 #include <limits>
 #include <string_view>
+#include <utility>
 
 #include "depth/base/error.h"
 
 namespace ossa::depth {
 namespace {
 
-constexpr std::string_view kBetween = " \t\r\n,[]";  // of the numbers of a matrix
+constexpr std::string_view kBetween = " \t\r\n,;[]";  // of the numbers of a matrix
 
 bool EndsWord(std::string_view text, size_t at) {
-  constexpr std::string_view kWordEnds = " \t\r\n,[]<>:{}\"";
+  constexpr std::string_view kWordEnds = " \t\r\n,;[]<>:{}\"";
   return at >= text.size() || kWordEnds.find(text[at]) != std::string_view::npos;
 }
 
@@ -121,18 +122,46 @@ std::array<double, 2> ComputeShift(const std::vector<double>& k, double x, doubl
           y * (factor - 1) + k[2] * (r2 + 2 * y * y) + 2 * k[3] * x * y};
 }
 
-}  // namespace
+// Of nine numbers row by row, as OpenCV and ROS have them, or column by column, as MATLAB and
+// Record3D do: the centre is in the last column or in the last row.
+std::array<double, 9> RowByRow(const std::vector<double>& n) {
+  const bool is_by_columns = n[2] == 0 && n[5] == 0 && (n[6] != 0 || n[7] != 0);
+  if (is_by_columns) return {n[0], n[3], n[6], n[1], n[4], n[7], n[2], n[5], n[8]};
+  return {n[0], n[1], n[2], n[3], n[4], n[5], n[6], n[7], n[8]};
+}
 
-std::optional<Calibration> FindCalibration(const std::string& text, const std::string& name) {
+// The numbers of the matrix that a text states. Some call theirs intrinsics; so do others what is
+// no matrix.
+std::optional<std::vector<double>> FindMatrix(std::string_view text, const std::string& name) {
   const auto matrix = Value(text, {"camera_matrix", "cameraMatrix", "CameraMatrix", "K", "k"});
-  if (!matrix) return std::nullopt;
-  const std::vector<double> numbers = NumbersOf(*matrix);
+  if (!matrix) {
+    const auto other = Value(text, {"intrinsics", "intrinsic", "Intrinsics"});
+    std::vector<double> numbers = other ? NumbersOf(*other) : std::vector<double>();
+    return numbers.size() == 9 ? std::optional(std::move(numbers)) : std::nullopt;
+  }
+  std::vector<double> numbers = NumbersOf(*matrix);
   if (numbers.size() != 9) {
     throw InputError(name + ": expected nine numbers of a camera matrix, found " +
                      std::to_string(numbers.size()));
   }
+  return numbers;
+}
+
+}  // namespace
+
+std::optional<Calibration> ReadBareMatrix(const std::string& text) {
+  if (text.find_first_not_of("0123456789+-.eE \t\r\n,;[]") != text.npos) return std::nullopt;
+  const std::vector<double> n = ReadNumbers(text);
+  if (n.size() == 9) return Calibration{.matrix = RowByRow(n)};
+  if (n.size() != 12 && n.size() != 16) return std::nullopt;  // rows of four
+  return Calibration{.matrix = RowByRow({n[0], n[1], n[2], n[4], n[5], n[6], n[8], n[9], n[10]})};
+}
+
+std::optional<Calibration> FindCalibration(const std::string& text, const std::string& name) {
+  const auto numbers = FindMatrix(text, name);
+  if (!numbers) return std::nullopt;
   Calibration found;
-  std::copy(numbers.begin(), numbers.end(), found.matrix.begin());
+  found.matrix = RowByRow(*numbers);
   found.width = SideOf(Value(text, {"image_width", "imageWidth", "width"}), name);
   found.height = SideOf(Value(text, {"image_height", "imageHeight", "height"}), name);
   if (const auto lens = Value(

@@ -15,11 +15,16 @@ struct Calibration {
 };
 
 /// The calibration that a text states under the names that are in use: `camera_matrix`,
-/// `cameraMatrix` or `K`, `distortion_coefficients`, `distCoeffs` or `D`, `image_width` or `width`.
-/// YAML with or without OpenCV's first line (what ROS's camera_calibration saves as ost.yaml, and
-/// camera_info), XML, or JSON; a matrix is its numbers, or what has them as `data`. nullopt where
-/// it states no such matrix; throws InputError, `name` first, where that has not nine numbers.
+/// `cameraMatrix`, `K` or `intrinsics`, row by row or column by column, `distortion_coefficients`,
+/// `distCoeffs` or `D`, `image_width` or `width`. YAML with or without OpenCV's first line (what
+/// ROS's camera_calibration saves as ost.yaml, and camera_info), XML, or JSON; a matrix is its
+/// numbers, or what has them as `data`. nullopt where it states no such matrix; throws InputError,
+/// `name` first, where that has not nine numbers.
 std::optional<Calibration> FindCalibration(const std::string& text, const std::string& name);
+
+/// The matrix of a text of nothing but its numbers, nine, twelve or sixteen (three or four rows of
+/// four, as ScanNet's), as numpy.savetxt writes it; nullopt of another text.
+std::optional<Calibration> ReadBareMatrix(const std::string& text);
 
 /// By how many pixels the lens moves the corner of the image that it moves most, the whole image's
 /// size being twice the centre where none is stated. NaN of a model that is not OpenCV's.

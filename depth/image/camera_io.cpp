@@ -88,8 +88,9 @@ Camera FromObject(const json& object, const std::string& name) {
   } else {
     camera.fx = Number(object, "fx", name);
     camera.fy = Number(object, "fy", name);
-    camera.cx = Number(object, "cx", name);
-    camera.cy = Number(object, "cy", name);
+    // RealSense's programs say ppx and ppy.
+    camera.cx = Number(object, object.contains("ppx") ? "ppx" : "cx", name);
+    camera.cy = Number(object, object.contains("ppy") ? "ppy" : "cy", name);
   }
   CheckCamera(camera, name + ": camera");
   return camera;
@@ -155,14 +156,17 @@ Camera ReadCameraJson(const std::filesystem::path& path) {
 
 bool IsCameraFileName(const std::filesystem::path& path) {
   const std::string extension = path.extension().string();
-  return extension == ".json" || extension == ".yaml" || extension == ".yml" || extension == ".xml";
+  return extension == ".json" || extension == ".yaml" || extension == ".yml" ||
+         extension == ".xml" || extension == ".txt";
 }
 
 CameraChoice ReadCameraFile(const std::filesystem::path& path) {
   const std::string text = ReadText(path), name = path.string();
   if (const auto calibration = FindCalibration(text, name)) return ChoiceOf(*calibration, name);
   if (path.extension() == ".json") return CameraFromJson(text, name);
-  throw InputError(name + ": expected a camera_matrix, as OpenCV and ROS write it");
+  if (const auto matrix = ReadBareMatrix(text)) return ChoiceOf(*matrix, name);
+  throw InputError(name +
+                   ": expected a camera_matrix, as OpenCV and ROS write it, or its numbers alone");
 }
 
 void WriteCameraJson(const std::filesystem::path& path, const Camera& camera) {

@@ -12,13 +12,13 @@ namespace ossa::depth {
 /// Throws InputError naming the file and the field.
 Camera ReadCameraJson(const std::filesystem::path& path);
 
-/// Whether a name is one of files that state cameras: .json, .yaml, .yml, .xml.
+/// Whether a name is one of files that state cameras: .json, .yaml, .yml, .xml, .txt.
 bool IsCameraFileName(const std::filesystem::path& path);
 /// The camera that such a file states: as camera.json does, or a calibration as OpenCV's
-/// FileStorage (YAML, XML, JSON) and ROS's camera_calibration (ost.yaml) and camera_info have it;
-/// one that states no size is of whatever images come. What a pinhole camera cannot be, a lens that
-/// bends by more than a hundredth of the image, is in `unheeded`. Throws InputError naming the
-/// file.
+/// FileStorage (YAML, XML, JSON) and ROS's camera_calibration (ost.yaml) and camera_info have it,
+/// or the numbers of its matrix alone; one that states no size is of whatever images come. What a
+/// pinhole camera cannot be, a lens that bends by more than a hundredth of the image, is in
+/// `unheeded`. Throws InputError naming the file.
 CameraChoice ReadCameraFile(const std::filesystem::path& path);
 void WriteCameraJson(const std::filesystem::path& path, const Camera& camera);
 

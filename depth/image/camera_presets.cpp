@@ -78,7 +78,8 @@ Camera UprightCamera(std::string_view name, int width, int height) {
   // Users' calibrations: 0.473 to 0.479 of the width, whatever the shape.
   if (name == "azure-color") return scaled({1920, 1080, 916.0, 916.0, 959.5, 539.5});
   if (name == "d415-color" || name == "d435-color") return RealSenseColorCamera(width, height);
-  std::string message = "--camera: expected fx,fy,cx,cy in pixels, FILE.json, FILE.yaml, FILE.xml";
+  std::string message =
+      "--camera: expected fx,fy,cx,cy in pixels, FILE.json, FILE.yaml, FILE.xml, FILE.txt";
   for (const std::string_view known : kNames) message.append(", ").append(known);
   throw InputError(message + ", found '" + std::string(name) + "'");
 }

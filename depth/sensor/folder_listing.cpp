@@ -29,9 +29,10 @@ struct Sorted {
 
 // Of those that may lie there no note is due.
 bool IsExpectedBeside(const fs::path& path) {
-  constexpr std::array<std::string_view, 7> kKnown = {
-      "camera.json",           "depth.txt",     "manifest.json", "truth.jsonl", "extrinsics.json",
-      "camera_intrinsic.json", "intrinsic.json"};
+  constexpr std::array<std::string_view, 11> kKnown = {
+      "camera.json",           "depth.txt",      "manifest.json",         "truth.jsonl",
+      "extrinsics.json",       "intrinsic.json", "camera_intrinsic.json", "intrinsic_depth.txt",
+      "camera-intrinsics.txt", "intrinsics.txt", "camera_intrinsics.txt"};
   return std::find(kKnown.begin(), kKnown.end(), path.filename().string()) != kKnown.end();
 }
 

@@ -1,4 +1,6 @@
 #include <algorithm>
+#include <array>
+#include <cmath>
 #include <string>
 #include <utility>
 
@@ -121,18 +123,33 @@ Camera ReadStatedCamera(const fs::path& file, ImageSize size, const SourceOption
   return camera;
 }
 
-// What Open3D's recorders write beside their images or above the folder of depth, and what ROS's
-// calibration is saved as, beside them: above it might be a colour camera's.
+// What Open3D's recorders and data sets of scenes (ScanNet, DeepDeform, 3DMatch) have beside their
+// images or above the folder of depth, and what ROS's calibration is saved as, beside them: above
+// it might be a colour camera's.
 std::vector<fs::path> CameraFilesOfOthers(const fs::path& folder) {
+  constexpr std::array kNames = {"camera_intrinsic.json", "intrinsic.json",
+                                 "intrinsic_depth.txt",   "intrinsics.txt",
+                                 "camera-intrinsics.txt", "camera_intrinsics.txt"};
   const fs::path here = fs::absolute(folder).lexically_normal();
   const fs::path plain = here.has_filename() ? here : here.parent_path();
-  std::vector<fs::path> files = {plain / "camera_intrinsic.json", plain / "intrinsic.json",
-                                 plain / "camera_info.yaml", plain / "ost.yaml"};
-  if (plain.filename() == "depth") {
-    files.push_back(plain.parent_path() / "camera_intrinsic.json");
-    files.push_back(plain.parent_path() / "intrinsic.json");
-  }
+  std::vector<fs::path> files;
+  for (const char* name : kNames) files.push_back(plain / name);
+  files.push_back(plain / "camera_info.yaml");
+  files.push_back(plain / "ost.yaml");
+  if (plain.filename() != "depth") return files;
+  for (const char* name : kNames) files.push_back(plain.parent_path() / name);
+  files.push_back(plain.parent_path() / "intrinsic/intrinsic_depth.txt");
   return files;
+}
+
+// A matrix that states no size may be of larger images, such as the colour camera's.
+void CheckCentre(const Camera& camera, const fs::path& file) {
+  constexpr double kFarthest = 0.25;  // share of the size; by hand: cropping moves it by a tenth
+  const bool is_near = std::abs(camera.cx / camera.width - 0.5) < kFarthest &&
+                       std::abs(camera.cy / camera.height - 0.5) < kFarthest;
+  if (is_near) return;
+  throw InputError(file.string() + ": its centre is not that of images of " +
+                   std::to_string(camera.width) + "x" + std::to_string(camera.height));
 }
 
 // Other programs' files of these names are passed over.
@@ -143,7 +160,9 @@ std::optional<Camera> CameraOfOthers(const fs::path& folder, ImageSize size,
     std::string note = "the camera is as it says";
     std::optional<Camera> camera;
     try {
-      camera = ReadStatedCamera(file, size, options);
+      const Camera stated = ReadStatedCamera(file, size, options);
+      CheckCentre(stated, file);
+      camera = stated;
     } catch (const InputError& error) {
       note = std::string("passed over: ") + error.what();
     }

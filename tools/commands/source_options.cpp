@@ -66,11 +66,12 @@ void AddSourceOptions(CLI::App& app, SourceArguments& arguments) {
       ->required();
   std::string presets;
   for (const std::string_view name : depth::CameraPresetNames()) presets.append(name).append(", ");
-  app.add_option("--camera", arguments.camera,
-                 presets +
-                     "or fx,fy,cx,cy in pixels, or a file that states it: camera.json, a "
-                     "calibration of OpenCV's or ROS's (.yaml, .xml, .json) (default: the source's "
-                     "own, else by its images' size)");
+  app.add_option(
+      "--camera", arguments.camera,
+      presets +
+          "or fx,fy,cx,cy in pixels, or a file that states it: camera.json, a "
+          "calibration of OpenCV's or ROS's (.yaml, .xml, .json), or its matrix alone (.txt) "
+          "(default: the source's own, else by its images' size)");
   app.add_option("--depth-scale", arguments.depth_scale,
                  "units to the metre of a recording's depths (default: its own, else 1000, "
                  "millimetres)")

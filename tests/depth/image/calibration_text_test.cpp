@@ -113,6 +113,38 @@ TEST_P(StatedCalibration, IsReadAsItIsWritten) {
 INSTANTIATE_TEST_SUITE_P(EachProgram, StatedCalibration,
                          testing::Values(kOst, kOpenCvYaml, kXml, kJson, kCameraInfo));
 
+// As MATLAB has it, and Record3D's metadata.
+TEST(Calibration, ColumnByColumnIsTheSame) {
+  const auto found =
+      FindCalibration(R"({"w": 192, "K": [212.5, 0, 0, 0, 213, 0, 96, 128, 1]})", "x");
+  ASSERT_TRUE(found);
+  EXPECT_EQ(found->matrix, (std::array<double, 9>{212.5, 0, 96, 0, 213, 128, 0, 0, 1}));
+}
+
+TEST(Calibration, IntrinsicsAreAMatrixWhereTheyAreNineNumbers) {
+  const std::string matrix = "<data>\n 525. 0. 319.5 0. 526. 239.5 0. 0. 1.</data>";
+  const auto found =
+      FindCalibration("<intrinsics type_id=\"opencv-matrix\">\n" + matrix + "</intrinsics>", "x");
+  ASSERT_TRUE(found);
+  EXPECT_EQ(found->matrix[5], 239.5);
+  EXPECT_FALSE(FindCalibration(R"({"intrinsics": {"fx": 525}})", "x"));
+}
+
+TEST(Calibration, OfNumbersAloneIsTheirMatrix) {
+  const std::array<double, 9> expected = {575.5, 0, 323, 0, 577, 236, 0, 0, 1};
+  for (const char* text :
+       {"575.5 0 323\n0 577 236\n0 0 1\n", "[575.5, 0, 323; 0, 577, 236; 0, 0, 1]",
+        "5.755e+02 0 323 0\n0 577 236 0\n0 0 1 0\n0 0 0 1\n",
+        "575.5 0 323 0\r\n0 577 236 0\r\n0 0 1 0\r\n"}) {
+    const auto found = ReadBareMatrix(text);
+    ASSERT_TRUE(found) << text;
+    EXPECT_EQ(found->matrix, expected) << text;
+  }
+  for (const char* text : {"", "575.5 577 323 236", "fx 575.5", "1 2 3 4 5 6 7 8 9 10"}) {
+    EXPECT_FALSE(ReadBareMatrix(text)) << text;
+  }
+}
+
 TEST(Calibration, OfOtherTextsIsNone) {
   for (const char* text : {"", "{}", "camera: K", "%YAML:1.0", R"({"width": 64, "fx": 1})"}) {
     EXPECT_FALSE(FindCalibration(text, "x")) << text;
@@ -161,6 +193,19 @@ TEST_F(CameraFile, IsAChoiceOfACamera) {
 TEST_F(CameraFile, WithoutASizeIsOfWhateverImagesCome) {
   const CameraChoice choice = ParseCamera(Write("k.yml", "K: [100, 0, 30, 0, 110, 40, 0, 0, 1]\n"));
   EXPECT_EQ(CameraForSize(choice, 64, 48), (Camera{64, 48, 100, 110, 30, 40}));
+}
+
+TEST_F(CameraFile, MayBeTheNumbersOfTheMatrixAlone) {
+  const CameraChoice choice = ParseCamera(Write("k.txt", "100 0 30\n0 110 40\n0 0 1\n"));
+  EXPECT_EQ(CameraForSize(choice, 64, 48), (Camera{64, 48, 100, 110, 30, 40}));
+  test::ExpectRefused([&] { ParseCamera(Write("a.txt", "100 110\n")); },
+                      "a.txt: expected a camera_m");
+}
+
+TEST_F(CameraFile, MayNameTheCentreAsRealSenseDoes) {
+  const CameraChoice choice = ParseCamera(Write(
+      "rs.json", R"({"width": 64, "height": 48, "fx": 100, "fy": 110, "ppx": 30, "ppy": 40})"));
+  EXPECT_EQ(choice.camera, (Camera{64, 48, 100, 110, 30, 40}));
 }
 
 TEST_F(CameraFile, ThatStatesNoCameraIsRefused) {

@@ -304,6 +304,22 @@ TEST(FolderSource, TheCameraThatOpen3dWroteAboveItIsTaken) {
   EXPECT_TRUE(others.Tell("camera_intrinsic.json: passed over: ")) << others.text;
 }
 
+// As data sets of scenes lay their folders out.
+TEST(FolderSource, AMatrixOfNumbersAloneIsTakenIfItsCentreIsTheImages) {
+  const TemporaryFolder folder;
+  std::filesystem::create_directories(folder / "depth");
+  std::filesystem::create_directories(folder / "intrinsic");
+  WriteFrame(folder / "depth/0.png", 1, 640, 480);
+  std::ofstream(folder / "intrinsics.txt") << "1165 0 649 0\n0 1166 484 0\n0 0 1 0\n0 0 0 1\n";
+  Notes colour;
+  EXPECT_EQ(OpenSource((folder / "depth").string(), colour.Options())->camera().fx, 575.0);
+  EXPECT_TRUE(colour.Tell("its centre is not that of images of 640x480")) << colour.text;
+  std::ofstream(folder / "intrinsic/intrinsic_depth.txt")
+      << "577.5 0 319 0\n0 578 240 0\n0 0 1 0\n0 0 0 1\n";
+  const auto source = OpenSource((folder / "depth").string());
+  EXPECT_EQ(source->camera(), (Camera{640, 480, 577.5, 578.0, 319.0, 240.0}));
+}
+
 TEST(FolderSource, TheCalibrationThatRosSavedBesideItIsTakenAndItsLensToldOf) {
   const TemporaryFolder folder;
   WriteFrame(folder / "0.png", 1, 640, 480);
