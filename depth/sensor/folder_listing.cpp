@@ -243,6 +243,33 @@ std::vector<ListedFrame> FramesByList(const fs::path& folder, bool has_images,
   return {};
 }
 
+bool HasDepthImage(const fs::path& folder) {
+  try {
+    const std::vector<fs::path> files = FilesIn(folder);
+    const auto png = std::find_if(files.begin(), files.end(), IsPngName);
+    if (png == files.end()) return false;
+    ReadDepthPngSize(*png);
+    return true;
+  } catch (const InputError&) {  // an image of another kind, or a folder that may not be read
+    return false;
+  }
+}
+
+// Recorders put depth beside their colours, in a folder of its own; "" where there is none.
+std::string NameFolderOfDepthIn(const fs::path& folder) {
+  std::vector<fs::path> folders;
+  std::error_code error, unknown;
+  for (fs::directory_iterator it(folder, error), end; !error && it != end; it.increment(error)) {
+    if (it->is_directory(unknown) && HasDepthImage(it->path())) folders.push_back(it->path());
+  }
+  std::sort(folders.begin(), folders.end());
+  const auto by_name = std::find_if(folders.begin(), folders.end(), [](const fs::path& path) {
+    return RankByName(path) == Rank::kDepth;
+  });
+  if (folders.empty()) return "";
+  return (by_name == folders.end() ? folders.front() : *by_name).string();
+}
+
 [[noreturn]] void FailEmpty(const fs::path& folder, const Sorted& sorted) {
   const auto png = std::find_if(sorted.other.begin(), sorted.other.end(), IsPngName);
   if (png != sorted.other.end()) ReadDepthPngSize(*png);  // says why it is none
@@ -257,7 +284,9 @@ std::vector<ListedFrame> FramesByList(const fs::path& folder, bool has_images,
       throw InputError(path.string() + ": expected 16-bit PNGs, found " + how);
     }
   }
-  throw InputError(folder.string() + ": expected a folder of 16-bit PNGs, found none in it");
+  const std::string below = NameFolderOfDepthIn(folder);
+  throw InputError(folder.string() + ": expected a folder of 16-bit PNGs, found none in it" +
+                   (below.empty() ? "" : ", but in " + below));
 }
 
 }  // namespace

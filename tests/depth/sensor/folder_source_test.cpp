@@ -287,6 +287,16 @@ TEST(FolderSource, ACameraTakenByTheImageSizeIsToldOf) {
   EXPECT_TRUE(notes.Tell("512x424 are taken for a kinect-v2's (f 366 px)")) << notes.text;
 }
 
+TEST(FolderSource, TheFolderOfDepthBelowIsNamedWhereTheOneAboveIsGiven) {
+  const TemporaryFolder folder;
+  const std::string name = folder.path().string();
+  test::ExpectRefused([&] { OpenSource(name); }, "found none in it");
+  for (const char* below : {"aligned", "depth"}) std::filesystem::create_directory(folder / below);
+  WriteFrame(folder / "aligned/0.png", 1);
+  WriteFrame(folder / "depth/0.png", 1);
+  test::ExpectRefused([&] { OpenSource(name); }, "found none in it, but in " + name + "/depth");
+}
+
 // As Open3D's recorders lay their folders out.
 TEST(FolderSource, TheCameraThatOpen3dWroteAboveItIsTaken) {
   const TemporaryFolder folder;
