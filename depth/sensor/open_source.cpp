@@ -74,14 +74,26 @@ const char* HowToConvert(const std::filesystem::path& file) {
       "by 'ffmpeg -i FILE -pix_fmt gray16be FOLDER/%06d.png'";
   constexpr const char* kRos2 = "a ROS 2 bag: 'rosbags-convert' makes a ROS 1 .bag of it";
   constexpr const char* kImage =
-      "an image that is no PNG: ImageMagick's 'mogrify -format png FILE' keeps its 16 bits";
-  constexpr const char* kArray = "an array: Python's ossa.Tracker takes it once it is loaded";
+      "an image that is no PNG: ImageMagick's 'mogrify -format png FILE' keeps its 16 bits (of "
+      "floats Python's ossa.Tracker takes whole millimetres, as uint16)";
+  constexpr const char* kArray =
+      "an array: Python's ossa.Tracker takes it once it is loaded, millimetres as uint16";
+  constexpr const char* kRaw =
+      "numbers without a header: Python's ossa.Tracker takes them, millimetres as uint16, once "
+      "they are loaded: numpy.fromfile(FILE, dtype).reshape(height, width)";
+  constexpr const char* kFloats =
+      "an image of floats: Python's ossa.Tracker takes whole millimetres, as uint16";
+  constexpr const char* kCloud = "a cloud of points, which is no image: record the depth images";
+  constexpr const char* kZed = "a ZED recording: its SDK's ZED_SVO_Export makes 16-bit PNGs of it";
   using How = std::pair<std::string_view, const char*>;
-  constexpr std::array kHow = {How{".xef", kXef},   How{".mp4", kVideo},  How{".avi", kVideo},
-                               How{".mov", kVideo}, How{".webm", kVideo}, How{".m4v", kVideo},
-                               How{".wmv", kVideo}, How{".db3", kRos2},   How{".mcap", kRos2},
-                               How{".tif", kImage}, How{".tiff", kImage}, How{".pgm", kImage},
-                               How{".npy", kArray}, How{".npz", kArray},  How{".mat", kArray}};
+  constexpr std::array kHow = {
+      How{".xef", kXef},    How{".mp4", kVideo}, How{".avi", kVideo},  How{".mov", kVideo},
+      How{".webm", kVideo}, How{".m4v", kVideo}, How{".wmv", kVideo},  How{".db3", kRos2},
+      How{".mcap", kRos2},  How{".tif", kImage}, How{".tiff", kImage}, How{".pgm", kImage},
+      How{".npy", kArray},  How{".npz", kArray}, How{".mat", kArray},  How{".h5", kArray},
+      How{".hdf5", kArray}, How{".pkl", kArray}, How{".raw", kRaw},    How{".bin", kRaw},
+      How{".exr", kFloats}, How{".ply", kCloud}, How{".pcd", kCloud},  How{".svo", kZed},
+      How{".svo2", kZed}};
   const auto found = std::find_if(
       kHow.begin(), kHow.end(),
       [extension = LowerCaseExtension(file)](const auto& how) { return how.first == extension; });

@@ -454,10 +454,10 @@ TEST(OpenSource, ARecordingThatIsNoFileSaysWhatItIs) {
 
 TEST(OpenSource, AFileOfAnotherKindIsNotSaidToBeMissing) {
   const TemporaryFolder folder;
-  std::ofstream(folder / "depth.exr") << "II*";
-  test::ExpectRefused([&] { OpenSource((folder / "depth.exr").string()); },
+  std::ofstream(folder / "depth.xyz") << "II*";
+  test::ExpectRefused([&] { OpenSource((folder / "depth.xyz").string()); },
                       "found what has none of these names");
-  test::ExpectRefused([&] { OpenSource((folder / "none.exr").string()); }, "no such thing");
+  test::ExpectRefused([&] { OpenSource((folder / "none.xyz").string()); }, "no such thing");
 }
 
 TEST(OpenSource, WhatIsNotASourceIsOneLine) {

@@ -78,11 +78,11 @@ TEST(OpenNi1Oni, IsRead) {
 
 TEST(OtherRecordings, SayHowToConvertThem) {
   const test::TemporaryFolder folder;
-  const std::vector<std::pair<const char*, const char*>> cases = {{"a.xef", "KinectXEFTools"},
-                                                                  {"a.MP4", "ffmpeg"},
-                                                                  {"a.mcap", "rosbags-convert"},
-                                                                  {"a.TIFF", "mogrify"},
-                                                                  {"a.npy", "ossa.Tracker"}};
+  const std::vector<std::pair<const char*, const char*>> cases = {
+      {"a.xef", "KinectXEFTools"}, {"a.MP4", "ffmpeg"},         {"a.mcap", "rosbags-convert"},
+      {"a.TIFF", "mogrify"},       {"a.npy", "ossa.Tracker"},   {"a.h5", "ossa.Tracker"},
+      {"a.exr", "of floats"},      {"a.bin", "numpy.fromfile"}, {"a.PLY", "a cloud of points"},
+      {"a.svo2", "ZED_SVO_Export"}};
   for (const auto& each : cases) {
     const auto path = folder / each.first;
     std::ofstream(path) << "x";
