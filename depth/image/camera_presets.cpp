@@ -90,9 +90,10 @@ std::string_view PresetOfSize(int width, int height) {
   if (IsAnyOf(width, height, {{512, 424}})) return "kinect-v2";
   if (IsAnyOf(width, height, {{640, 576}, {320, 288}})) return "azure-nfov";
   if (IsAnyOf(width, height, {{512, 512}, {1024, 1024}})) return "azure-wfov";
-  // Of depth that was aligned to a colour image. Two more cameras have images of the first size, of
-  // a wider and of a narrower view.
-  if (IsAnyOf(width, height, {{1920, 1080}})) return "kinect-v2-color";
+  // Of depth that was aligned to a colour image, whole or, as ROS's iai_kinect2 has it (qhd), at
+  // half its size. Two more cameras have images of the first size, of a wider and of a narrower
+  // view.
+  if (IsAnyOf(width, height, {{1920, 1080}, {960, 540}})) return "kinect-v2-color";
   if (IsAnyOf(width, height, {{2048, 1536}, {2560, 1440}, {3840, 2160}, {4096, 3072}})) {
     return "azure-color";
   }
@@ -124,7 +125,8 @@ std::vector<CameraGuess> NarrowerCameras(int width, int height) {
   const CameraGuess guess = GuessCamera(width, height);
   std::vector<CameraGuess> cameras;
   const int longer = std::max(width, height), shorter = std::min(width, height);
-  if (IsAnyOf(longer, shorter, {{1920, 1080}, {1280, 720}, {848, 480}, {640, 360}, {424, 240}})) {
+  if (IsAnyOf(longer, shorter,
+              {{1920, 1080}, {1280, 720}, {960, 540}, {848, 480}, {640, 360}, {424, 240}})) {
     constexpr std::string_view kColor = "d435-color";
     cameras.push_back({kColor, true, PresetCamera(kColor, width, height)});
   } else if (!guess.sizes_match) {

@@ -35,7 +35,8 @@ INSTANTIATE_TEST_SUITE_P(
                     Size{320, 288, "azure-nfov", 252}, Size{1024, 1024, "azure-wfov", 504},
                     Size{512, 512, "azure-wfov", 252}, Size{1280, 720, "d435", 640},
                     Size{848, 480, "d435", 424}, Size{1920, 1080, "kinect-v2-color", 1081.4},
-                    Size{2048, 1536, "azure-color", 977}, Size{3840, 2160, "azure-color", 1832}));
+                    Size{960, 540, "kinect-v2-color", 540.7}, Size{2048, 1536, "azure-color", 977},
+                    Size{3840, 2160, "azure-color", 1832}));
 
 TEST(ImageSizes, StandingOnEndAreOfACameraOnItsSide) {
   const CameraGuess guess = GuessCamera(424, 512);
