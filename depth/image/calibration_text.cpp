@@ -152,7 +152,9 @@ std::optional<std::vector<double>> FindMatrix(std::string_view text, const std::
 std::optional<Calibration> ReadBareMatrix(const std::string& text) {
   if (text.find_first_not_of("0123456789+-.eE \t\r\n,;[]") != text.npos) return std::nullopt;
   const std::vector<double> n = ReadNumbers(text);
-  if (n.size() == 9) return Calibration{.matrix = RowByRow(n)};
+  const bool begins_with_matrix =  // as the depth.cal of BIWI's heads, which tells the lens, too
+      n.size() > 9 && n[3] == 0 && n[6] == 0 && n[7] == 0 && n[8] == 1;
+  if (n.size() == 9 || begins_with_matrix) return Calibration{.matrix = RowByRow(n)};
   if (n.size() != 12 && n.size() != 16) return std::nullopt;  // rows of four
   return Calibration{.matrix = RowByRow({n[0], n[1], n[2], n[4], n[5], n[6], n[8], n[9], n[10]})};
 }

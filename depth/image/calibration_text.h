@@ -23,7 +23,8 @@ struct Calibration {
 std::optional<Calibration> FindCalibration(const std::string& text, const std::string& name);
 
 /// The matrix of a text of nothing but its numbers, nine, twelve or sixteen (three or four rows of
-/// four, as ScanNet's), as numpy.savetxt writes it; nullopt of another text.
+/// four, as ScanNet's), as numpy.savetxt writes it, or of these nine and others behind them;
+/// nullopt of another text.
 std::optional<Calibration> ReadBareMatrix(const std::string& text);
 
 /// By how many pixels the lens moves the corner of the image that it moves most, the whole image's

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <fstream>
 #include <nlohmann/json.hpp>
+#include <system_error>
 #include <vector>
 
 #include "depth/base/atomic_file.h"
@@ -154,10 +155,12 @@ Camera ReadCameraJson(const std::filesystem::path& path) {
   return CameraFromJson(ReadText(path), path.string());
 }
 
-bool IsCameraFileName(const std::filesystem::path& path) {
+bool IsCameraFile(const std::filesystem::path& path) {
+  std::error_code none;
   const std::string extension = path.extension().string();
   return extension == ".json" || extension == ".yaml" || extension == ".yml" ||
-         extension == ".xml" || extension == ".txt";
+         extension == ".xml" || extension == ".txt" ||
+         (!extension.empty() && std::filesystem::is_regular_file(path, none));
 }
 
 CameraChoice ReadCameraFile(const std::filesystem::path& path) {
@@ -185,7 +188,7 @@ Camera ReadManifestCamera(const std::filesystem::path& manifest_path) {
 }
 
 CameraChoice ParseCamera(const std::string& text) {
-  if (IsCameraFileName(text)) return ReadCameraFile(text);
+  if (IsCameraFile(text)) return ReadCameraFile(text);
   const std::vector<double> values = SplitNumbers(text);
   if (values.size() != 4) {
     PresetCamera(text, 1, 1);  // says what was expected, unless it is one

@@ -12,8 +12,9 @@ namespace ossa::depth {
 /// Throws InputError naming the file and the field.
 Camera ReadCameraJson(const std::filesystem::path& path);
 
-/// Whether a name is one of files that state cameras: .json, .yaml, .yml, .xml, .txt.
-bool IsCameraFileName(const std::filesystem::path& path);
+/// Whether a name is one of files that state cameras, .json, .yaml, .yml, .xml, .txt, or of a file
+/// with another extension that is there.
+bool IsCameraFile(const std::filesystem::path& path);
 /// The camera that such a file states: as camera.json does, or a calibration as OpenCV's
 /// FileStorage (YAML, XML, JSON) and ROS's camera_calibration (ost.yaml) and camera_info have it,
 /// or the numbers of its matrix alone; one that states no size is of whatever images come. What a

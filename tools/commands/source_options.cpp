@@ -36,7 +36,7 @@ void SayNote(depth::NoteKind kind, const std::string& text, bool quiet,
 
 depth::SourceOptions DepthOptions(const SourceArguments& arguments, bool quiet) {
   depth::SourceOptions options;
-  const bool is_file = depth::IsCameraFileName(arguments.camera);
+  const bool is_file = depth::IsCameraFile(arguments.camera);
   if (is_file) options.camera = depth::ReadCameraFile(arguments.camera);
   try {
     if (!arguments.camera.empty() && !is_file)

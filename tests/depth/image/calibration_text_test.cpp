@@ -202,6 +202,13 @@ TEST_F(CameraFile, MayBeTheNumbersOfTheMatrixAlone) {
                       "a.txt: expected a camera_m");
 }
 
+TEST_F(CameraFile, MayHaveAnyExtensionAndMoreNumbersBehindTheMatrix) {
+  const CameraChoice choice =
+      ParseCamera(Write("depth.cal", "100 0 30\n0 110 40\n0 0 1\n\n0 0 0 0\n\n64 48\n"));
+  EXPECT_EQ(CameraForSize(choice, 64, 48), (Camera{64, 48, 100, 110, 30, 40}));
+  test::ExpectRefused([&] { ParseCamera((folder_ / "none.cal").string()); }, "--camera: expected");
+}
+
 TEST_F(CameraFile, MayNameTheCentreAsRealSenseDoes) {
   const CameraChoice choice = ParseCamera(Write(
       "rs.json", R"({"width": 64, "height": 48, "fx": 100, "fy": 110, "ppx": 30, "ppy": 40})"));
