@@ -1,6 +1,7 @@
 #include "depth/sensor/frame_names.h"
 
 #include <algorithm>
+#include <cctype>
 #include <charconv>
 #include <cmath>
 #include <optional>
@@ -120,12 +121,20 @@ std::optional<double> GuessUnitOfNumbers(int64_t step, size_t digits) {
   return unit_s == 1e-9 && digits < kNanosecondsSince1970 ? std::nullopt : unit_s;
 }
 
+bool SaysFrame(std::string_view before) {
+  std::string lower(before);
+  std::transform(lower.begin(), lower.end(), lower.begin(),
+                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+  return lower.find("frame") != lower.npos;
+}
+
 // Of 0, 20, 40, 80: every twentieth frame was kept, and one of those taken away. Milliseconds of
 // cameras that are faster than 30 frames a second come unevenly, 16 and 17 or 11 and 12 in turns.
-bool CountEveryNthFrame(const std::vector<int64_t>& values, int64_t step) {
+bool CountEveryNthFrame(const std::vector<int64_t>& values, int64_t step, bool says_frame) {
   constexpr int64_t kLeastEvenTimeStep = 30;  // ms: of a program that waits so long
   constexpr size_t kEnough = 3;               // one step is even by itself
-  if (values.size() < kEnough || step < 2 || step >= kLeastEvenTimeStep) return false;
+  const bool may_be_times = step >= kLeastEvenTimeStep && !says_frame;
+  if (values.size() < kEnough || step < 2 || may_be_times) return false;
   for (size_t i = 1; i < values.size(); ++i) {
     if ((values[i] - values[i - 1]) % step != 0) return false;
   }
@@ -136,10 +145,12 @@ NamedTimes ReadTimesFromNumbers(const std::vector<NumberedName>& names,
                                 const std::vector<int64_t>& values) {
   constexpr size_t kLongestCount = 8;  // digits: longer numbers are times or say nothing
   const size_t digits = WithoutLeadingZeros(names.back().whole).size();
-  const bool alone = names.front().before.empty() && names.front().after.empty();
+  const NumberedName& first = names.front();
+  const bool alone = first.before.empty() && first.after.empty();
+  const bool says_frame = SaysFrame(first.before);
   NamedTimes times;
   const int64_t step = values.size() > 1 ? MedianStep(values) : 1;
-  const bool counts = digits <= kLongestCount && CountEveryNthFrame(values, step);
+  const bool counts = digits <= kLongestCount && CountEveryNthFrame(values, step, says_frame);
   const auto unit_s = counts ? std::nullopt : GuessUnitOfNumbers(step, digits);
   if (unit_s) {
     times.kind = NamedTimes::Kind::kTimes;
@@ -147,7 +158,8 @@ NamedTimes ReadTimesFromNumbers(const std::vector<NumberedName>& names,
     for (const int64_t value : values) {
       times.times_s.push_back(static_cast<double>(value - values.front()) * *unit_s);
     }
-  } else if (digits <= kLongestCount && (counts || step < kLeastTimeStep) && (alone || step == 1)) {
+  } else if (digits <= kLongestCount && (counts || step < kLeastTimeStep) &&
+             (alone || says_frame || step == 1)) {
     times.kind = NamedTimes::Kind::kNumbers;
     times.numbers = values;
   }
