@@ -101,6 +101,26 @@ std::vector<double> Seconds(const std::vector<NumberedName>& names,
   return times_s;
 }
 
+// Times of day behind a date, as PCL's grabber and other programs write them:
+// 20121214T142255.814212.
+bool AreTimesOfDay(const std::vector<NumberedName>& names) {
+  constexpr size_t kDate = 8, kTime = 6;  // digits
+  return std::all_of(names.begin(), names.end(), [](const NumberedName& name) {
+    const std::string_view before = name.before;
+    if (name.whole.size() != kTime || before.size() <= kDate) return false;
+    const size_t date = before.size() - 1 - kDate;
+    const bool has_minutes = name.whole[2] < '6' && name.whole[4] < '6';
+    return has_minutes && !IsDigit(before.back()) && DigitsEnd(before, date) == before.size() - 1;
+  });
+}
+
+// Of hours, minutes and seconds, two digits each.
+void CountSecondsOfDay(std::vector<int64_t>& whole) {
+  for (int64_t& time : whole) {
+    time = time / 10000 * 3600 + time / 100 % 100 * 60 + time % 100;
+  }
+}
+
 template <typename T>
 T MedianStep(const std::vector<T>& values) {
   std::vector<T> steps;
@@ -190,8 +210,9 @@ NamedTimes ReadTimesFromFractions(const std::vector<NumberedName>& names) {
   const NamedTimes count = counts.empty() ? NamedTimes{} : ReadTimesFromWholes(counts);
   const bool has_words = !names.front().before.empty();
   if (has_words && count.kind == NamedTimes::Kind::kNumbers) return count;
-  const auto whole = WholeNumbers(names);
+  auto whole = WholeNumbers(names);
   if (!whole) return {};
+  if (AreTimesOfDay(names)) CountSecondsOfDay(*whole);
   NamedTimes times{NamedTimes::Kind::kTimes, {}, Seconds(names, *whole)};
   std::vector<double> ordered = times.times_s;
   std::sort(ordered.begin(), ordered.end());
