@@ -19,6 +19,7 @@ try:
     from PIL import Image
     from selenium import webdriver
     from selenium.webdriver.chrome.service import Service
+    from selenium.webdriver.common.keys import Keys
 except ImportError as missing:
     print(f"skipped: {missing}: python3-selenium, python3-numpy and python3-pil are needed")
     sys.exit(SKIPPED)
@@ -90,6 +91,10 @@ class Page:
 
     def press(self, key):
         self.driver.find_element("css selector", "body").send_keys(key)
+
+    def send(self, key):
+        """To what has the focus."""
+        self.driver.switch_to.active_element.send_keys(key)
 
     def wait_for_frame(self, number):
         self.wait(f"return page.moment.number === {number} && page.player.shown === {number}", f"frame {number}")

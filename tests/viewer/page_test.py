@@ -9,7 +9,7 @@ import unittest
 import urllib.request
 
 import browser
-from browser import CLIP, WORK, Command, Page, numpy
+from browser import CLIP, WORK, Command, Keys, Page, numpy
 
 PICTURES = WORK / "pictures"
 CAMERA = f"openni:ossa://{CLIP}?loop=1"
@@ -48,7 +48,7 @@ class InBrowser(unittest.TestCase):
     def open(self, command):
         self.addCleanup(self.driver.get, "about:blank")  # before its command ends: a page says that it lost it
         self.page = Page(self.driver, command.url)
-        self.page.run("localStorage.setItem('theme', 'dark'); page.theme('dark')")
+        self.page.run("page.theme('dark')")  # also kept, where the browser keeps anything
         return self.page
 
     def tearDown(self):
@@ -169,6 +169,51 @@ class OfARecording(InBrowser):
         page.press("?")
         self.assertIn("play, pause", page.run("return document.getElementById('keys').innerText"))
 
+    def test_the_button_says_play_again_at_the_end(self):
+        page = self.page
+        page.click("#loop")
+        page.run("page.jump(page.total - 2)")
+        page.click("#play")
+        self.assertEqual(page.run("return document.getElementById('play').ariaLabel"), "pause")
+        page.wait("return !page.player.playing", "the end")
+        self.assertEqual(page.run("return document.getElementById('play').ariaLabel"), "play")
+
+    def focus_by_tab(self, before, selector):
+        """Tab from the element before it."""
+        self.page.run("document.querySelector(arguments[0]).focus()", before)
+        self.page.send(Keys.TAB)
+        self.assertTrue(self.page.run("return document.activeElement.matches(arguments[0])", selector), selector)
+
+    def test_without_a_mouse_space_presses_what_tab_led_to(self):
+        page = self.page
+        self.focus_by_tab("[data-view=orbit]", "[data-view=camera]")
+        page.send(" ")
+        self.assertEqual(page.run("return document.querySelector('#views [aria-pressed=true]').innerText"), "camera")
+        self.assertFalse(page.run("return page.player.playing"))
+        page.click("[data-view=top]")
+        page.send(" ")
+        self.assertTrue(page.run("return page.player.playing"), "after a click it plays")
+
+    def test_keys_work_after_a_click_on_a_box(self):
+        page = self.page
+        page.click("[data-layer=trails]")
+        page.send(".")
+        page.wait_for_frame(1)
+
+    def test_a_screen_reader_hears_names_and_people_and_not_every_frame(self):
+        page = self.page
+        nameless = ("return [...document.querySelectorAll('button, canvas')]"
+                    ".filter(e => !/[a-z]/.test(e.ariaLabel ?? e.textContent)).length")
+        self.assertEqual(page.run(nameless), 0)
+        self.assertEqual(page.run("return document.getElementById('play').ariaLabel"), "play")
+        page.run("window.heard = 0; new MutationObserver(all => { heard += all.length; }).observe("
+                 "document.querySelector('[role=status]'), {childList: true, characterData: true, subtree: true})")
+        for frame in (1, 2, 3):
+            page.press(".")
+            page.wait_for_frame(frame)
+        self.assertEqual(page.run("return [heard, document.querySelector('[role=status]').textContent]"), [0, "1 person"])
+        self.assertRegex(page.run("return document.getElementById('strip').getAttribute('aria-valuetext')"), "frame 3 of")
+
     def test_a_span_is_saved(self):
         page, downloads = self.page, WORK / "downloads"
         page.run("document.getElementById('export_panel').open = true;"
@@ -235,6 +280,33 @@ class OfACamera(InBrowser):
         page.wait("return page.moment.layers.final.bodies.length > 0 && page.moment.parts.some(part => part > 0)",
                   "somebody, and the parts")
         page.save("viewer_phone.png", PICTURES)
+
+
+    def test_it_goes_on_after_a_connection_that_never_opened(self):
+        page = self.open(self.serve("view", CAMERA))
+        page.run("""
+            const Real = WebSocket;
+            let failing = 2;  // as those to a machine that is off: nothing for seconds, then closed
+            window.WebSocket = class {
+              static OPEN = Real.OPEN;
+              constructor(url) {
+                if (failing-- <= 0) return new Real(url);
+                setTimeout(() => { this.readyState = Real.CLOSED; this.onclose(); }, 1500);
+              }
+            };
+            page.player.connection.socket.close();""")
+        page.wait("return document.getElementById('say').textContent === 'no connection'", "the loss is said")
+        lost = page.run("return page.moment.number")
+        page.wait(f"return page.moment.number > {lost}", "it goes on")
+
+
+class OfABrowserThatKeepsNothing(InBrowser):
+    def test_it_is_shown_all_the_same(self):
+        script = "Object.defineProperty(window, 'localStorage', {get() { throw new DOMException('denied', 'SecurityError'); }})"
+        added = self.driver.execute_cdp_cmd("Page.addScriptToEvaluateOnNewDocument", {"source": script})
+        self.addCleanup(self.driver.execute_cdp_cmd, "Page.removeScriptToEvaluateOnNewDocument", added)
+        self.open(self.serve("view", CLIP / "truth.jsonl"))
+        self.assertIn("person", self.page.run("return document.getElementById('say').textContent"))
 
 
 class OfPhysics(InBrowser):

@@ -41,19 +41,21 @@ export class Connection {
   open() {
     this.socket = new WebSocket(`ws://${location.host}/socket`);
     this.socket.binaryType = 'arraybuffer';
-    this.ready = new Promise(resolve => { this.socket.onopen = () => resolve(true); });
+    // Also where it never opens: whoever waits for it would not ask the next one.
+    this.decided = new Promise(resolve => { this.socket.onopen = this.decide = resolve; });
     this.socket.onmessage = event => this.waiting.shift()?.(readAnswer(event.data));
     this.socket.onclose = () => this.lose();
   }
 
   lose() {
+    this.decide();
     this.waiting.splice(0).forEach(answer => answer({lost: true}));
     setTimeout(() => this.open(), 1000);
   }
 
   // {moment, state}, {state}, {error} or {lost: true}.
   async ask(wish) {
-    await this.ready;
+    await this.decided;
     if (this.socket.readyState !== WebSocket.OPEN) return this.later();
     return new Promise(resolve => {
       this.waiting.push(resolve);

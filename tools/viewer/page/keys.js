@@ -17,12 +17,23 @@ function showKeys(table) {
   $('keys').showModal();
 }
 
+// Whether what has the focus wants the key itself. Space is of a button that Tab led to: without a mouse there is
+// no other way to press it. Of one that was clicked it is not, or nobody could play after a click.
+function isOfFocused(event, byTab) {
+  const {tagName, type} = event.target;
+  if (tagName === 'SELECT' || (tagName === 'INPUT' && type !== 'checkbox')) return true;
+  return event.key === ' ' && (tagName === 'INPUT' || (byTab && /BUTTON|SUMMARY/.test(tagName)));
+}
+
 // table: [[keys], what they do, function of the key].
 export function connectKeys(table) {
   const whole = [...table, [['?'], 'these keys', () => showKeys(whole)]];
   $('help').onclick = () => showKeys(whole);
+  let byTab = false;
+  document.addEventListener('pointerdown', () => { byTab = false; });
   document.addEventListener('keydown', event => {
-    if (event.ctrlKey || event.metaKey || event.altKey || /INPUT|SELECT/.test(event.target.tagName)) return;
+    byTab ||= event.key === 'Tab';
+    if (event.ctrlKey || event.metaKey || event.altKey || isOfFocused(event, byTab)) return;
     const entry = whole.find(([keys]) => keys.includes(event.key));
     if (!entry || $('keys').open) return;
     event.preventDefault();

@@ -13,6 +13,14 @@ import {Track} from './track.js';
 
 const VIEWS = ['orbit', 'camera', 'top', 'side', 'follow'];
 
+// A browser that is to keep nothing of a page throws at either.
+function keptTheme() {
+  try { return localStorage.getItem('theme'); } catch { return null; }
+}
+function keepTheme(name) {
+  try { localStorage.setItem('theme', name); } catch { /* it is asked for again */ }
+}
+
 class Page {
   constructor() {
     this.scene = new Scene($('scene'), $('labels'));
@@ -33,7 +41,10 @@ class Page {
     this.look('orbit');
     $('near_far').textContent = RANGE_TEXT;
     window.addEventListener('resize', () => this.drawCharts());
-    this.player.onLost = () => { $('say').textContent = 'no connection'; };
+    this.player.onLost = () => {
+      $('say').textContent = 'no connection';
+      this.announce('no connection');
+    };
     this.player.run();
   }
 
@@ -67,10 +78,24 @@ class Page {
 
   say() {
     const {final} = this.moment.layers;
-    const people = final.bodies.length;
-    $('say').textContent = `frame ${final.frame}, ${final.time_s.toFixed(2)} s, ${people} ${people === 1 ? 'person' : 'people'}`;
-    $('where').textContent = `frame ${this.index} of ${this.total} · ${final.time_s.toFixed(2)} s`;
+    const count = final.bodies.length;
+    const people = `${count} ${count === 1 ? 'person' : 'people'}`;
+    $('say').textContent = `frame ${final.frame}, ${final.time_s.toFixed(2)} s, ${people}`;
+    this.announce(people);
+    const where = `frame ${this.index} of ${this.total} · ${final.time_s.toFixed(2)} s`;
+    $('where').textContent = where;
+    if (!this.player.playing) this.tellStrip(where);
     this.drawLegend();
+  }
+
+  // To screen readers, which would read out every frame's number.
+  announce(text) {
+    if ($('spoken').textContent !== text) $('spoken').textContent = text;
+  }
+
+  tellStrip(where) {
+    const values = {valuemin: 0, valuemax: Math.max(0, this.total - 1), valuenow: this.index, valuetext: where};
+    for (const [name, value] of Object.entries(values)) $('strip').setAttribute(`aria-${name}`, value);
   }
 
   drawLegend() {
@@ -137,7 +162,6 @@ class Page {
   jump(frame) {
     this.player.playing = false;
     this.player.seek(frame);
-    this.showPlaying();
   }
 
   switchLayer(box) {
@@ -159,32 +183,33 @@ class Page {
   look(view) {
     this.scene.person = Number($('person').value);
     this.scene.look(view);
-    for (const button of document.querySelectorAll('[data-view]')) button.classList.toggle('on', button.dataset.view === view);
+    for (const button of document.querySelectorAll('[data-view]')) {
+      button.ariaPressed = button.dataset.view === view;
+      button.classList.toggle('on', button.dataset.view === view);
+    }
   }
 
-  showPlaying() { $('play').textContent = this.player.playing ? '❚❚' : '▶'; }
-
-  step(frames) {
-    this.player.stepBy(frames);
-    this.showPlaying();
+  showPlaying() {
+    $('play').textContent = this.player.playing ? '❚❚' : '▶';
+    $('play').ariaLabel = this.player.playing ? 'pause' : 'play';
   }
 
   togglePlaying() {
     const atEnd = this.player.index >= this.player.times.length - 1;
     if (!this.player.playing && atEnd) this.player.seek(0);
     this.player.play(!this.player.playing);
-    this.showPlaying();
   }
 
   connectPlayer() {
     $('play').onclick = () => this.togglePlaying();
-    $('back').onclick = () => this.step(-1);
-    $('next').onclick = () => this.step(1);
+    $('back').onclick = () => this.player.stepBy(-1);
+    $('next').onclick = () => this.player.stepBy(1);
     $('speed').onchange = () => this.player.setSpeed(Number($('speed').value));
     $('loop').onchange = () => { this.player.loop = $('loop').checked; };
     $('measure').addEventListener('change', () => this.worst.show(this.track, this.overlays, this.state.complete));
     for (const id of ['from', 'to']) $(id).onchange = () => { this.spanIsChosen = true; this.drawCharts(); };
     for (const id of ['strip', 'curves']) this.connectScrubbing($(id));
+    this.player.onPlaying = () => this.showPlaying();
     this.showPlaying();
   }
 
@@ -203,8 +228,8 @@ class Page {
   connectKeys() {
     connectKeys([
       [[' '], 'play, pause', () => this.togglePlaying()],
-      [[',', 'ArrowLeft'], 'one frame back', () => this.step(-1)],
-      [['.', 'ArrowRight'], 'one frame on', () => this.step(1)],
+      [[',', 'ArrowLeft'], 'one frame back', () => this.player.stepBy(-1)],
+      [['.', 'ArrowRight'], 'one frame on', () => this.player.stepBy(1)],
       [['Home'], 'first frame', () => this.jump(0)],
       [['End'], 'last frame', () => this.jump(this.total - 1)],
       [['1', '2', '3', '4', '5'], 'orbit, camera, top, side, follow', key => this.look(VIEWS[Number(key) - 1])],
@@ -232,13 +257,13 @@ class Page {
 
   connectTheme() {
     const dark = window.matchMedia('(prefers-color-scheme: light)').matches ? 'light' : 'dark';
-    this.theme(localStorage.getItem('theme') ?? dark);
+    this.theme(keptTheme() ?? dark);
     $('theme').onclick = () => this.theme(document.documentElement.dataset.theme === 'dark' ? 'light' : 'dark');
   }
 
   theme(name) {
     document.documentElement.dataset.theme = name;
-    localStorage.setItem('theme', name);
+    keepTheme(name);
     this.scene.background(getComputedStyle(document.documentElement).getPropertyValue('--back').trim());
     this.drawCharts();
   }

@@ -18,6 +18,13 @@ export class Player {
     this.start();
   }
 
+  // It may end by itself: at the last frame, or where one frame is wanted.
+  get playing() { return this.isPlaying; }
+  set playing(playing) {
+    this.isPlaying = playing;
+    this.onPlaying?.();
+  }
+
   // The clock begins at the frame that is shown.
   start() {
     this.started = {wall: performance.now(), time_s: this.times[this.index] ?? 0};
