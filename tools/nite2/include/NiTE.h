@@ -3,6 +3,8 @@
 // that were written against NiTE.h compile unchanged. Everything here is inline.
 #include <OpenNI.h>
 
+#include <memory>
+
 #include "NiteCAPI.h"
 #include "NiteEnums.h"
 
@@ -40,8 +42,18 @@ class Quaternion : public NiteQuaternion {
   bool operator!=(const Quaternion& other) const { return !(*this == other); }
 };
 
-using Plane = NitePlane;
-using BoundingBox = NiteBoundingBox;
+class Plane : public NitePlane {
+ public:
+  Plane() : Plane(Point3f(), Point3f()) {}
+  Plane(const Point3f& at, const Point3f& upright) : NitePlane{at, upright} {}
+};
+
+class BoundingBox : public NiteBoundingBox {
+ public:
+  BoundingBox() : BoundingBox(Point3f(), Point3f()) {}
+  BoundingBox(const Point3f& low, const Point3f& high) : NiteBoundingBox{low, high} {}
+};
+
 using Version = NiteVersion;
 
 /// So many T in a row that somebody else owns.
@@ -94,7 +106,7 @@ class Skeleton : private NiteSkeleton {
 class UserData : private NiteUserData {
  public:
   UserId getId() const { return id; }
-  const BoundingBox& getBoundingBox() const { return boundingBox; }
+  const BoundingBox& getBoundingBox() const { return static_cast<const BoundingBox&>(boundingBox); }
   const Point3f& getCenterOfMass() const { return static_cast<const Point3f&>(centerOfMass); }
   bool isNew() const { return state == NITE_USER_STATE_NEW; }
   bool isVisible() const { return (state & NITE_USER_STATE_VISIBLE) != 0; }
@@ -263,46 +275,58 @@ class NewFrameListener {
   Tracker* tracker_ = nullptr;
 };
 
-/// What `Tracker` is over the C interface.
+/// What `Tracker` is over the C interface. Copies, which programs hand out, are the same tracker:
+/// the last one closes it, or destroy() of any.
 template <class C, class Tracker>
 class TrackerOf {
  public:
   using NewFrameListener = shared::NewFrameListener<C, Tracker>;
 
-  TrackerOf() = default;
-  ~TrackerOf() { destroy(); }
-  TrackerOf(const TrackerOf&) = delete;
-  TrackerOf& operator=(const TrackerOf&) = delete;
-
   /// On the first device there is, or on an open one.
   Status create(openni::Device* device = nullptr) {
     destroy();
-    return static_cast<Status>(device == nullptr ? C::open(&handle_) : C::open(device, &handle_));
+    open_ = std::make_shared<Open>();
+    return static_cast<Status>(device == nullptr ? C::open(&open_->handle)
+                                                 : C::open(device, &open_->handle));
   }
   void destroy() {
-    if (isValid()) C::close(handle_);
-    handle_ = nullptr;
+    if (open_ != nullptr) open_->close();
+    open_ = nullptr;
   }
-  bool isValid() const { return handle_ != nullptr; }
+  bool isValid() const { return handle() != nullptr; }
 
   Status readFrame(FrameRef<C>* frame) {
     typename C::Frame* read = nullptr;
-    const NiteStatus status = C::read(handle_, &read);
-    if (status == NITE_STATUS_OK) frame->setReference(handle_, read);
+    const NiteStatus status = C::read(handle(), &read);
+    if (status == NITE_STATUS_OK) frame->setReference(handle(), read);
     return static_cast<Status>(status);
   }
 
   void addNewFrameListener(NewFrameListener* listener) {
     listener->tracker_ = static_cast<Tracker*>(this);
-    C::listen(handle_, &listener->callbacks_, listener);
+    C::listen(handle(), &listener->callbacks_, listener);
   }
   void removeNewFrameListener(NewFrameListener* listener) {
-    C::unlisten(handle_, &listener->callbacks_);
+    C::unlisten(handle(), &listener->callbacks_);
     listener->tracker_ = nullptr;
   }
 
  protected:
-  typename C::Handle handle_ = nullptr;
+  typename C::Handle handle() const { return open_ == nullptr ? nullptr : open_->handle; }
+
+ private:
+  struct Open {
+    typename C::Handle handle = nullptr;
+    Open() = default;
+    Open(const Open&) = delete;
+    Open& operator=(const Open&) = delete;
+    ~Open() { close(); }
+    void close() {
+      if (handle != nullptr) C::close(handle);
+      handle = nullptr;
+    }
+  };
+  std::shared_ptr<Open> open_;
 };
 
 }  // namespace shared
@@ -318,7 +342,7 @@ class UserTrackerFrameRef : public shared::FrameRef<shared::UserInterface> {
     return nullptr;
   }
   UserMap getUserMap() const { return UserMap(frame()->userMap); }
-  const Plane& getFloor() const { return frame()->floor; }
+  const Plane& getFloor() const { return static_cast<const Plane&>(frame()->floor); }
   float getFloorConfidence() const { return frame()->floorConfidence; }
 };
 
@@ -326,32 +350,32 @@ class UserTrackerFrameRef : public shared::FrameRef<shared::UserInterface> {
 class UserTracker : public shared::TrackerOf<shared::UserInterface, UserTracker> {
  public:
   Status startSkeletonTracking(UserId id) {
-    return static_cast<Status>(niteStartSkeletonTracking(handle_, id));
+    return static_cast<Status>(niteStartSkeletonTracking(handle(), id));
   }
-  void stopSkeletonTracking(UserId id) { niteStopSkeletonTracking(handle_, id); }
-  bool isSkeletonTracking(UserId id) const { return niteIsSkeletonTracking(handle_, id); }
+  void stopSkeletonTracking(UserId id) { niteStopSkeletonTracking(handle(), id); }
+  bool isSkeletonTracking(UserId id) const { return niteIsSkeletonTracking(handle(), id); }
   Status setSkeletonSmoothingFactor(float factor) {
-    return static_cast<Status>(niteSetSkeletonSmoothing(handle_, factor));
+    return static_cast<Status>(niteSetSkeletonSmoothing(handle(), factor));
   }
   float getSkeletonSmoothingFactor() const {
     float factor = 0.0F;
-    return niteGetSkeletonSmoothing(handle_, &factor) == NITE_STATUS_OK ? factor : 0.0F;
+    return niteGetSkeletonSmoothing(handle(), &factor) == NITE_STATUS_OK ? factor : 0.0F;
   }
 
   Status startPoseDetection(UserId id, PoseType type) {
     return static_cast<Status>(
-        niteStartPoseDetection(handle_, id, static_cast<NitePoseType>(type)));
+        niteStartPoseDetection(handle(), id, static_cast<NitePoseType>(type)));
   }
   void stopPoseDetection(UserId id, PoseType type) {
-    niteStopPoseDetection(handle_, id, static_cast<NitePoseType>(type));
+    niteStopPoseDetection(handle(), id, static_cast<NitePoseType>(type));
   }
-  void stopAllPoseDetection(UserId id) { niteStopAllPoseDetection(handle_, id); }
+  void stopAllPoseDetection(UserId id) { niteStopAllPoseDetection(handle(), id); }
 
   Status convertJointCoordinatesToDepth(float x, float y, float z, float* px, float* py) const {
-    return static_cast<Status>(niteConvertJointCoordinatesToDepth(handle_, x, y, z, px, py));
+    return static_cast<Status>(niteConvertJointCoordinatesToDepth(handle(), x, y, z, px, py));
   }
   Status convertDepthCoordinatesToJoint(int x, int y, int z, float* px, float* py) const {
-    return static_cast<Status>(niteConvertDepthCoordinatesToJoint(handle_, x, y, z, px, py));
+    return static_cast<Status>(niteConvertDepthCoordinatesToJoint(handle(), x, y, z, px, py));
   }
 };
 
@@ -365,33 +389,33 @@ class HandTrackerFrameRef : public shared::FrameRef<shared::HandInterface> {
 class HandTracker : public shared::TrackerOf<shared::HandInterface, HandTracker> {
  public:
   Status setSmoothingFactor(float factor) {
-    return static_cast<Status>(niteSetHandSmoothingFactor(handle_, factor));
+    return static_cast<Status>(niteSetHandSmoothingFactor(handle(), factor));
   }
   float getSmoothingFactor() const {
     float factor = 0.0F;
-    return niteGetHandSmoothingFactor(handle_, &factor) == NITE_STATUS_OK ? factor : 0.0F;
+    return niteGetHandSmoothingFactor(handle(), &factor) == NITE_STATUS_OK ? factor : 0.0F;
   }
 
   Status startHandTracking(const Point3f& position, HandId* id) {
-    return static_cast<Status>(niteStartHandTracking(handle_, &position, id));
+    return static_cast<Status>(niteStartHandTracking(handle(), &position, id));
   }
-  void stopHandTracking(HandId id) { niteStopHandTracking(handle_, id); }
-  void stopAllHandTracking() { niteStopAllHandTracking(handle_); }
+  void stopHandTracking(HandId id) { niteStopHandTracking(handle(), id); }
+  void stopAllHandTracking() { niteStopAllHandTracking(handle()); }
 
   Status startGestureDetection(GestureType type) {
     return static_cast<Status>(
-        niteStartGestureDetection(handle_, static_cast<NiteGestureType>(type)));
+        niteStartGestureDetection(handle(), static_cast<NiteGestureType>(type)));
   }
   void stopGestureDetection(GestureType type) {
-    niteStopGestureDetection(handle_, static_cast<NiteGestureType>(type));
+    niteStopGestureDetection(handle(), static_cast<NiteGestureType>(type));
   }
-  void stopAllGestureDetection() { niteStopAllGestureDetection(handle_); }
+  void stopAllGestureDetection() { niteStopAllGestureDetection(handle()); }
 
   Status convertHandCoordinatesToDepth(float x, float y, float z, float* px, float* py) const {
-    return static_cast<Status>(niteConvertHandCoordinatesToDepth(handle_, x, y, z, px, py));
+    return static_cast<Status>(niteConvertHandCoordinatesToDepth(handle(), x, y, z, px, py));
   }
   Status convertDepthCoordinatesToHand(int x, int y, int z, float* px, float* py) const {
-    return static_cast<Status>(niteConvertDepthCoordinatesToHand(handle_, x, y, z, px, py));
+    return static_cast<Status>(niteConvertDepthCoordinatesToHand(handle(), x, y, z, px, py));
   }
 };
 
