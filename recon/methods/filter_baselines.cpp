@@ -1,4 +1,4 @@
-#include <array>
+#include <type_traits>
 
 #include "recon/filters/joint_filters.h"
 #include "recon/methods/methods_internal.h"
@@ -9,6 +9,10 @@ namespace ossa::recon {
 
 namespace {
 
+/// Whether a filter moves a joint that is not seen.
+template <typename Filter>
+constexpr bool kGoesOn = std::is_same_v<Filter, VelocityKalman>;
+
 /// The baselines: what was seen, completed, through one filter a joint.
 template <typename Filter, typename StepFilter>
 class FilterReconstructor : public Reconstructor {
@@ -17,17 +21,17 @@ class FilterReconstructor : public Reconstructor {
 
   ReconstructedPosture Step(const ReconstructionInput& input) override {
     const PreparedPosture prepared = person_.Prepare(input);
-    if (prepared.restarted)
-      for (auto& filter : filters_) filter = Filter();
+    if (prepared.restarted) Forget();
     ReconstructedPosture out{prepared.in_camera, prepared.reliability};
+    const JointWeights seen = SeenJoints(prepared);
     for (size_t i = 0; i < kJointCount; ++i) {
-      out.posture.position_m[i] = step_(filters_[i], prepared, i);
+      was_seen_[i] = was_seen_[i] || seen[i] > 0.0;
+      out.posture.position_m[i] = Filtered(prepared, out.posture, i);
     }
-    JointWeights present = prepared.present;
-    for (size_t i = 0; i < kJointCount; ++i) present[i] += prepared.interpolated[i];
-    // A filter that goes on with a velocity leads away from the joints that are seen.
-    if (IsTrunkUnseen(present)) {
-      PullIntoReach(out.posture, present, person_.size().lengths_m());
+    // A filter that goes on with a velocity leads away from the joints that are seen; the others
+    // hold absent joints to seen ones where there is a trunk.
+    if (kGoesOn<Filter> || IsTrunkUnseen(seen)) {
+      PullIntoReach(out.posture, seen, person_.size().lengths_m());
     }
     person_.Remember(out.posture, prepared);
     return out;
@@ -35,13 +39,29 @@ class FilterReconstructor : public Reconstructor {
 
   void Reset() override {
     person_.Reset();
-    for (auto& filter : filters_) filter = Filter();
+    Forget();
   }
 
  private:
+  void Forget() {
+    filters_.fill(Filter());
+    was_seen_.fill(false);
+  }
+
+  /// A filter that goes on has nothing to go on with before the joint was seen: until then it lies
+  /// beside its parent, which is `made` already.
+  Eigen::Vector3d Filtered(const PreparedPosture& prepared, const Posture& made, size_t joint) {
+    if (!kGoesOn<Filter> || was_seen_[joint]) return step_(filters_[joint], prepared, joint);
+    const Posture& placed = prepared.in_camera;
+    if (joint == 0) return placed.position_m[0];
+    const size_t parent = ParentOf(joint);
+    return made.position_m[parent] + placed.position_m[joint] - placed.position_m[parent];
+  }
+
   StepFilter step_;
   Person person_;
   JointArray<Filter> filters_;
+  JointArray<bool> was_seen_{};  // since it began anew
 };
 
 template <typename Filter, typename StepFilter>
@@ -72,7 +92,7 @@ std::unique_ptr<Reconstructor> MakeOneEuro(const ReconstructorOptions&) {
 
 std::unique_ptr<Reconstructor> MakeKalman(const ReconstructorOptions&) {
   return MakeFiltered<VelocityKalman>([](VelocityKalman& f, const PreparedPosture& p, size_t i) {
-    return f.Step(p.in_camera.position_m[i], p.dt_s, p.present[i]);
+    return f.Step(p.in_camera.position_m[i], p.dt_s, p.present[i] + p.interpolated[i]);
   });
 }
 

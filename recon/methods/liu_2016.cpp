@@ -31,19 +31,12 @@ class OffsetReconstructor : public Reconstructor {
   ReconstructedPosture Step(const ReconstructionInput& input) override {
     const PreparedPosture prepared = person_.Prepare(input);
     if (prepared.restarted) last_.reset(), before_last_.reset();
-    Posture made = prepared.scaled;
     expected_ = Expected(prepared);
     BeginFrame(prepared);
-    for (size_t i = 0; i < kJointCount; ++i) {
-      const OffsetPrediction p = IsSeen(prepared, i) ? Predict(prepared, i) : OffsetPrediction{};
-      const Eigen::Vector3d offset = MinimisingOffset(p, prepared, i);
-      made.position_m[i] += offset;
-      Learn(prepared, i, {offset, p.unsureness, p.deviation_m});
-    }
+    const JointWeights seen = SeenJoints(prepared);
+    const Posture made = Corrected(prepared, seen);
     ReconstructedPosture out{Placed(Scaled(made, prepared.scale), prepared.placement),
                              prepared.reliability};
-    JointWeights seen{};
-    for (size_t i = 0; i < kJointCount; ++i) seen[i] = IsSeen(prepared, i) ? 1.0 : 0.0;
     if (IsTrunkUnseen(seen)) PullIntoReach(out.posture, seen, person_.size().lengths_m());
     before_last_ = last_;
     last_ = out.posture;
@@ -68,10 +61,24 @@ class OffsetReconstructor : public Reconstructor {
   std::shared_ptr<const LearnedModels> models_;
 
  private:
-  /// What is absent has no error of a sensor's: it is placed by the posture made before, whose
-  /// offset is off already, and would drift by another one a frame.
-  static bool IsSeen(const PreparedPosture& prepared, size_t joint) {
-    return prepared.present[joint] + prepared.interpolated[joint] > 0.0;
+  /// With the offsets that minimise eq. 22. Departure: an absent joint, which is placed beside its
+  /// parent as it lay there in the posture made before, goes where the parent goes. By its own
+  /// temporal term alone it would drift away by the parent's offset, every frame.
+  Posture Corrected(const PreparedPosture& prepared, const JointWeights& seen) {
+    Posture made = prepared.scaled;
+    Posture offsets;
+    for (size_t i = 0; i < kJointCount; ++i) {
+      offsets.position_m[i] = Eigen::Vector3d::Zero();
+      if (seen[i] > 0.0) {
+        const OffsetPrediction p = Predict(prepared, i);
+        offsets.position_m[i] = MinimisingOffset(p, prepared, i);
+        Learn(prepared, i, {offsets.position_m[i], p.unsureness, p.deviation_m});
+      } else if (i != 0) {
+        offsets.position_m[i] = offsets.position_m[ParentOf(i)];
+      }
+      made.position_m[i] += offsets.position_m[i];
+    }
+    return made;
   }
 
   /// 2 M_{t-1} - M_{t-2} of eq. 20 in this frame's normalised space. Departure: the two postures

@@ -92,6 +92,12 @@ Posture Completed(const Posture& in_camera, const JointWeights& present_in, cons
   return out;
 }
 
+JointWeights SeenJoints(const PreparedPosture& prepared) {
+  JointWeights seen = prepared.present;
+  for (size_t i = 0; i < kJointCount; ++i) seen[i] += prepared.interpolated[i];
+  return seen;
+}
+
 BodySize Person::FreshSize() const {
   BodySize size;
   if (bones_m_) size.Know(*bones_m_);

@@ -24,6 +24,9 @@ struct PreparedPosture {
   bool restarted = true;        // no step from the frame before (FrameSteps): history means nothing
 };
 
+/// 1 for a joint that was measured or lies between two that were, else 0.
+JointWeights SeenJoints(const PreparedPosture& prepared);
+
 /// What every method needs to remember of one person.
 class Person {
  public:

@@ -39,13 +39,14 @@ const Measured kSubsets[] = {
     {"OneHipAndHead", {Joint::kHipLeft, Joint::kHead}},
     {"Shoulder", {Joint::kShoulderLeft}}};
 
-/// Of somebody who gestures and whose left hand a sensor sees 5 cm too low.
+/// Of somebody who gestures and whose left wrist and hand a sensor sees 5 cm too low.
 std::shared_ptr<const LearnedModels> LowHand() {
   std::vector<PosturePair> pairs;
   for (int f = 0; f < 60; ++f) {
     PosturePair& pair = pairs.emplace_back();
     pair.observed = test::Motion(f / 10.0);
     pair.known.fill(1.0);
+    pair.residual.position_m[Index(Joint::kWristLeft)].y() = 0.05;
     pair.residual.position_m[Index(Joint::kHandLeft)].y() = 0.05;
   }
   LearnOptions options;
@@ -150,6 +151,47 @@ INSTANTIATE_TEST_SUITE_P(OfEveryMethod, UnseenTrunk,
                            std::replace(name.begin(), name.end(), '-', '_');
                            return name + "_" + std::get<1>(info.param).name;
                          });
+
+/// All joints but these.
+Joints AllBut(const Joints& absent) {
+  Joints joints;
+  for (size_t j = 0; j < kJointCount; ++j) {
+    const auto joint = static_cast<Joint>(j);
+    if (std::count(absent.begin(), absent.end(), joint) == 0) joints.push_back(joint);
+  }
+  return joints;
+}
+
+class UnseenHandOrWrist : public UnseenTrunk {};
+
+// Of files without hands (UI-PRMD's) hands stayed up to 2 m behind; of those without wrists
+// (ITOP's, NiTE's) wrists up to 0.9 m.
+TEST_P(UnseenHandOrWrist, StaysAtTheArm) {
+  constexpr double kSlack = 1.35;    // of the bones' lengths: another person's, and a guess
+  constexpr double kSlack_m = 0.05;  // of filters that lag
+  for (size_t f = 0; f < made_.frames.size(); f += 7) {
+    const auto& made = made_.frames[f].bodies.at(0).joints;
+    for (const Joint joint :
+         {Joint::kWristLeft, Joint::kHandLeft, Joint::kWristRight, Joint::kHandRight}) {
+      const size_t parent = ParentOf(Index(joint));
+      ASSERT_LT((made[joint]->position_m - made[parent]->position_m).norm(),
+                kSlack * StandardBoneLengths()[joint] + kSlack_m)
+          << kJointNames[joint] << " of frame " << f;
+    }
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(
+    OfEveryMethod, UnseenHandOrWrist,
+    testing::Combine(
+        testing::ValuesIn(ReconstructionMethods()),
+        testing::Values(Measured{"NoHands", AllBut({Joint::kHandLeft, Joint::kHandRight})},
+                        Measured{"NoWrists", AllBut({Joint::kWristLeft, Joint::kWristRight})})),
+    [](const auto& info) {
+      std::string name = std::get<0>(info.param);
+      std::replace(name.begin(), name.end(), '-', '_');
+      return name + "_" + std::get<1>(info.param).name;
+    });
 
 // Ten seconds of walking of which knees and ankles are marked: hips drifted 2.7 m away.
 class MarkedKneesAndAnkles : public testing::TestWithParam<std::string> {};
