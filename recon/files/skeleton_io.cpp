@@ -313,6 +313,16 @@ void MakeNamesDiffer(std::vector<SkeletonClip>& clips) {
   }
 }
 
+// Of files of one skeleton each, all.tar#kinect and all.tar#vicon are the same: compared, 0.00 cm.
+void WarnIfNothingIsChosen(const fs::path& path, const SkeletonPath& parts,
+                           std::vector<SkeletonClip>& clips) {
+  const auto is_chosen = [](const SkeletonClip& clip) { return !clip.sequence.columns.empty(); };
+  if (parts.columns.empty() || clips.empty()) return;
+  if (std::any_of(clips.begin(), clips.end(), is_chosen)) return;
+  clips[0].sequence.warnings.push_back(
+      path.string() + ": chooses nothing: no file there holds two skeletons side by side");
+}
+
 }  // namespace
 
 std::span<const SkeletonFormat> AllSkeletonFormats() {
@@ -384,6 +394,7 @@ std::vector<SkeletonClip> ReadSkeletonClips(const fs::path& path,
                      "#truth or #observed after it, found #" + parts.member);
   }
   MakeNamesDiffer(clips);
+  WarnIfNothingIsChosen(path, parts, clips);
   if (clips.empty() && !Stopped(options)) {
     throw InputError(path.string() + ": holds no skeleton recording");
   }

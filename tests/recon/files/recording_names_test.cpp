@@ -120,6 +120,20 @@ TEST(RecordingNames, AreAdvisedAsTheyCanBeSaid) {
                       "found 2: name one, as " + tar + "#truth#1");
 }
 
+// Kinect and Vicon in a folder each: "all.tar#kinect" against "all.tar#vicon" were 0.00 cm apart.
+TEST(RecordingNames, ThatChooseOneOfTwoSkeletonsAreWarnedOfWhereThereAreNone) {
+  const test::TemporaryFolder folder;
+  const std::string tar = folder / "all.tar";
+  WriteTar(tar, {{"Kinect/1.jsonl", Walk(1)}, {"Vicon/1.jsonl", Walk(2)}});
+  const auto clips = ReadSkeletonClips(tar + "#vicon");
+  ASSERT_EQ(clips.size(), 2u);
+  ASSERT_EQ(clips[0].sequence.warnings.size(), 1u);
+  EXPECT_EQ(clips[0].sequence.warnings[0],
+            tar + "#vicon: chooses nothing: no file there holds two skeletons side by side");
+  EXPECT_TRUE(clips[1].sequence.warnings.empty());
+  EXPECT_TRUE(ReadSkeletonClips(tar)[0].sequence.warnings.empty());
+}
+
 // One's results took the other's place.
 TEST(RecordingNames, OfAFolderDiffer) {
   const test::TemporaryFolder folder;
