@@ -156,6 +156,15 @@ class OfARecording(InBrowser):
             page.run("const q = document.getElementById('quantity'); q.value = arguments[0]; q.onchange()", quantity)
             self.assertRegex(page.run("return document.getElementById('value').innerText"), r"\d", quantity)
 
+    def test_curves_of_hours_are_drawn(self):
+        error = self.driver.execute_async_script("""
+            const done = arguments[0], hours = new Array(400000).fill(1.5);
+            import('/page/charts.js').then(charts => {
+              charts.drawCurves(document.getElementById('curves'), [hours], ['red'], hours.length, 0, 'm');
+              done(null);
+            }).catch(error => done(error.message));""")
+        self.assertIsNone(error)
+
     def test_it_plays_and_pauses_and_steps(self):
         page = self.page
         page.press(".")

@@ -37,10 +37,15 @@ export function drawStrip(canvas, track, total, index, span) {
   context.fillRect(x(index + 0.5) - 1, 0, 2, height);
 }
 
+// An hour's values are more than a function takes as arguments.
 function range(lines) {
-  const values = lines.flat().filter(Number.isFinite);
-  if (!values.length) return null;
-  const low = Math.min(...values), high = Math.max(...values);
+  let low = Infinity, high = -Infinity;
+  for (const value of lines.flat()) {
+    if (!Number.isFinite(value)) continue;
+    low = Math.min(low, value);
+    high = Math.max(high, value);
+  }
+  if (low > high) return null;
   const margin = (high - low || Math.abs(high) || 1) * 0.06;
   return [low - margin, high + margin];
 }
