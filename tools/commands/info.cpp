@@ -278,6 +278,7 @@ constexpr std::array kKinds = {
     FileKind{recon::RefinementCascade::IsFile, ShowRefinement, ".ossarefine"},
     FileKind{recon::PoseNetwork::IsFile, ShowPoseNetwork, ".ossanet"},
     FileKind{tools::IsDataset, ShowDataset},
+    FileKind{tools::IsUnfinishedDataset, ShowDataset},  // which refuses it in words
 };
 
 // FILE#truth, FILE.bag#/topic and the like are files, too.

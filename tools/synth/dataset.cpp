@@ -127,6 +127,11 @@ bool IsDataset(const fs::path& folder) {
   return fs::is_regular_file(folder / "manifest.json", ignored);
 }
 
+bool IsUnfinishedDataset(const fs::path& folder) {
+  std::error_code ignored;
+  return !IsDataset(folder) && fs::is_regular_file(folder / kWorkFolder / kPlanFile, ignored);
+}
+
 DatasetReader::DatasetReader(const fs::path& folder) : state_(std::make_unique<State>()) {
   if (!fs::is_directory(folder)) {
     throw InputError(folder.string() + ": expected the folder of a data set, found none");

@@ -53,6 +53,8 @@ struct DatasetManifest {
 
 /// True when the folder has the manifest of a finished data set.
 bool IsDataset(const std::filesystem::path& folder);
+/// True of one that `ossa render` has begun: DatasetReader says so, whoever else reads it does not.
+bool IsUnfinishedDataset(const std::filesystem::path& folder);
 
 /// Reads a DATASET (docs/architecture.md, "Data set"), from its shards when it has them, else from
 /// its PNG files. Every damage throws an InputError that names the file. Read may be called from

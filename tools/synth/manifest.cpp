@@ -121,6 +121,11 @@ std::string CommandIn(const std::string& manifest_text) {
 DatasetManifest ReadManifest(const std::filesystem::path& folder) {
   const auto path = folder / "manifest.json";
   std::ifstream file = OpenFile(path);
+  if (!file && IsUnfinishedDataset(folder)) {
+    throw InputError(folder.string() +
+                     ": the data set is not finished: expected the command that " +
+                     "makes it to be given again, it goes on from where it was");
+  }
   if (!file) throw InputError(path.string() + ": cannot be read: expected a data set's manifest");
   constexpr size_t kMostBytes = size_t{16} << 20;  // of a few kilobytes; a bound by hand
   std::string text(kMostBytes, '\0');

@@ -36,7 +36,7 @@ std::string Numbered(int64_t number, const char* extension) {
   return name;
 }
 
-fs::path WorkFolder(const RenderJob& job) { return job.out / ".work"; }
+fs::path WorkFolder(const RenderJob& job) { return job.out / kWorkFolder; }
 fs::path TruthChunk(const RenderJob& job, int64_t chunk) {
   return WorkFolder(job) / Numbered(chunk, ".jsonl");
 }
@@ -95,7 +95,7 @@ void MakeFolder(const fs::path& folder) {
 // Claims the folder for this job, or finds that it was claimed for the same.
 void PrepareFolder(const RenderJob& job, const std::string& plan) {
   const fs::path manifest = job.out / "manifest.json";
-  const fs::path started = WorkFolder(job) / "plan.json";
+  const fs::path started = WorkFolder(job) / kPlanFile;
   for (const fs::path& path : {manifest, started}) {
     if (fs::exists(path) && ReadText(path) != plan) {
       const std::string found = CommandIn(ReadText(path));
@@ -108,7 +108,7 @@ void PrepareFolder(const RenderJob& job, const std::string& plan) {
   if (!fs::exists(started) && fs::exists(job.out) && !fs::is_empty(job.out)) {
     // Ranks of one job may arrive while others have begun: only foreign things matter.
     for (const auto& entry : fs::directory_iterator(job.out)) {
-      if (entry.path().filename() == ".work") continue;
+      if (entry.path().filename() == kWorkFolder) continue;
       throw InputError(job.out.string() + ": expected an empty folder, found " +
                        entry.path().filename().string());
     }

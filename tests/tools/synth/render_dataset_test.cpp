@@ -88,6 +88,20 @@ TEST(RenderDataset, DoesNotMixFramesOfTwoMotions) {
   EXPECT_EQ(RenderShare(before, job), RenderEnd::kDone);
 }
 
+// `ossa train` asked for a manifest, `ossa info` for a skeleton.
+TEST(RenderDataset, ThatIsNotFinishedSaysSoToItsReader) {
+  const test::TemporaryFolder folder;
+  const fs::path set = folder / "set";
+  fs::create_directories(set / ".work");
+  EXPECT_FALSE(IsUnfinishedDataset(set));
+  std::ofstream(set / ".work/plan.json") << "{}";
+  EXPECT_TRUE(IsUnfinishedDataset(set));
+  test::ExpectRefused([&] { DatasetReader reader(set); },
+                      set.string() + ": the data set is not finished: expected the command");
+  std::ofstream(set / "manifest.json") << "{}";
+  EXPECT_FALSE(IsUnfinishedDataset(set));
+}
+
 // Killed while it writes an image, and again between the manifest and the end.
 TEST(RenderDataset, KeepsNothingThatAKilledRunLeft) {
   if (!recon::BodyIsFetched(recon::BodyFolder())) GTEST_SKIP() << "no body: tools/fetch_body";
