@@ -35,8 +35,8 @@ WINDOW = (1000, 720)  # small, as the picture is computed without a graphics car
 class Command:
     """An `ossa` that serves the page, and its address."""
 
-    def __init__(self, *arguments):
-        self.process = subprocess.Popen([BUILD / "bin" / "ossa", *map(str, arguments), "--port", "0"],
+    def __init__(self, *arguments, port=0):
+        self.process = subprocess.Popen([BUILD / "bin" / "ossa", *map(str, arguments), "--port", str(port)],
                                         stdout=subprocess.DEVNULL, stderr=subprocess.PIPE, text=True, cwd=WORK)
         atexit.register(self.end)
         for line in self.process.stderr:

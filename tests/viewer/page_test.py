@@ -40,8 +40,8 @@ def wait_for_file(path):
 class InBrowser(unittest.TestCase):
     driver = None  # one for all: starting one takes seconds
 
-    def serve(self, *arguments):
-        command = Command(*arguments)
+    def serve(self, *arguments, port=0):
+        command = Command(*arguments, port=port)
         self.addCleanup(command.end)
         return command
 
@@ -344,6 +344,17 @@ class OfASkeletonFile(InBrowser):
         page = self.open(self.serve("view", CLIP / "truth.jsonl"))
         self.assertTrue(page.run("return document.getElementById('pictures').hidden"))
         self.assertGreater(share_of_other_colours(page.picture_of("#stage")), 0.01)
+
+
+    def test_a_page_that_was_left_open_shows_the_next_run(self):
+        before = self.serve("view", CLIP)
+        page = self.open(before)
+        page.wait("return page.track.length > 0", "tracks")
+        before.end()
+        page.wait("return document.getElementById('say').textContent === 'no connection'", "the loss is said")
+        self.serve("view", CLIP / "truth.jsonl", port=before.url.rstrip("/").split(":")[-1])
+        page.wait("return window.page && document.title === 'truth.jsonl - ossa' && page.track.length > 0", "the file")
+        page.console_errors()  # of the connection
 
 
 class Elsewhere(InBrowser):

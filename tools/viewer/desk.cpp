@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <chrono>
 #include <nlohmann/json.hpp>
 
 #include "recon/files/skeleton_jsonl.h"
@@ -18,6 +19,11 @@ std::vector<std::vector<std::string>> LinesOf(const std::vector<Overlay>& overla
   return all;
 }
 
+int64_t Now_ms() {
+  const auto now = std::chrono::system_clock::now().time_since_epoch();
+  return std::chrono::duration_cast<std::chrono::milliseconds>(now).count();
+}
+
 nlohmann::json JsonOf(const Settings& settings) {
   return {{"method", settings.method},
           {"smoothing", settings.smoothing},
@@ -33,12 +39,14 @@ Desk::Desk(const ViewerOptions& with)
       store(with.keeps, with.forest, with.body),
       recorder(with.recordings),
       overlay_lines_(LinesOf(with.overlays)),
+      begun_ms_(Now_ms()),
       settings_(with.settings) {}
 
 std::string Desk::StateJson() const {
   const FrameStore::Count count = store.count();
   nlohmann::json json = {
       {"name", options.name},
+      {"begun_ms", begun_ms_},
       {"kept", store.keeps()},
       {"frames", count.frames},
       {"generation", count.generation},

@@ -31,7 +31,8 @@ struct Desk {
 
  private:
   const std::vector<std::vector<std::string>> overlay_lines_;  // one per overlay, one per frame
-  mutable std::mutex mutex_;                                   // guards all below
+  const int64_t begun_ms_;  // since 1970: tells a page that was left open that this is another run
+  mutable std::mutex mutex_;  // guards all below
   std::optional<Settings> settings_;
   bool changed_ = false;
   std::string refused_;  // why the last ones could not be had

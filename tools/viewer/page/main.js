@@ -117,6 +117,8 @@ class Page {
   }
 
   learn(state) {
+    // A page that was left open, and another run of ossa at its address: nothing that it has is of that one.
+    if (this.state && state.begun_ms !== this.state.begun_ms) return location.reload();
     const isNew = state.generation !== this.state?.generation;
     this.state = state;
     if (isNew) this.begin();
