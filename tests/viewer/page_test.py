@@ -243,8 +243,11 @@ class OfARecording(InBrowser):
                  "page.settings.inputs.find(i => i.dataset.setting === 'method').onchange()")
         page.wait("return page.state.generation === 1 && page.state.complete", "it was tracked again")
         self.assertEqual(page.run("return page.state.settings.method"), "holt")
-        page.run("page.player.tell({settings: {method: 'best'}})")
-        page.wait("return page.state.generation === 2 && page.state.complete", "and again")
+        page.run("page.player.tell({settings: {method: 'best'}}); page.player.tell({settings: {users: 5}});")
+        page.wait("return page.state.complete && page.state.settings.method === 'best' && page.state.settings.users === 5",
+                  "two that were told at once")
+        page.run("page.player.tell({settings: {users: 6}})")
+        page.wait("return page.state.complete && page.state.settings.users === 6", "and again")
 
     def test_pictures_of_the_documentation(self):
         page = self.page

@@ -14,6 +14,7 @@ export class Player {
     this.loop = true;
     this.step = window.innerWidth < 800 ? 2 : 1;  // a phone need not load every pixel
     this.times = [];
+    this.wishes = [];
     this.frames = 0;
     this.start();
   }
@@ -92,8 +93,7 @@ export class Player {
   async run() {
     this.take(await this.connection.ask({state: true}));
     for (;;) {
-      const wish = this.wish ?? this.next();
-      this.wish = null;
+      const wish = this.wishes.shift() ?? this.next();
       const answer = await this.connection.ask(wish);
       this.take(answer);
       if (answer.lost) { this.generation = null; this.onLost?.(); await wait(IDLE_MS); }
@@ -115,9 +115,9 @@ export class Player {
     return new Promise(resolve => { this.onceShown = [index, resolve]; });
   }
 
-  // Settings or the record button, with the next question.
+  // Settings or the record button, with the next question, which may be a second away: more than one may wait.
   tell(wish) {
-    this.wish = wish;
+    this.wishes.push(wish);
     this.onChange?.();
   }
 }
