@@ -35,6 +35,10 @@ bool MountFinder::IsDue(const BodyFrame& tracked) {
   return !seems_level;
 }
 
+bool MountFinder::MayBeCutBelow(const BodyFrame& tracked) const {
+  return looks_ > 0 && tracked.bodies.empty();
+}
+
 bool MountFinder::Confirm(View seen) {
   const bool is_first = ++looks_ == 1;
   if (seen == View::kUnknown) return false;
@@ -45,8 +49,8 @@ bool MountFinder::Confirm(View seen) {
   return from_above && (is_first || above_looks_ >= options_.agreeing);
 }
 
-bool MayBeFromAbove(const depth::DepthFrame& frame, const people::PeopleOptions& above,
-                    const MountOptions& options) {
+bool MayBeFromAbove(const depth::DepthFrame& frame, bool may_be_cut_below,
+                    const people::PeopleOptions& above, const MountOptions& options) {
   depth::SceneState nothing;
   const depth::Scene scene = depth::MeasureScene(frame, nothing, above.scene);
   if (!scene.floor) return false;
@@ -58,6 +62,9 @@ bool MayBeFromAbove(const depth::DepthFrame& frame, const people::PeopleOptions&
   if (floor < options.floor_share * valid) return false;
   const auto proposed =
       people::ProposeCandidates(frame, scene, {}, above.association.reidentify, above.candidates);
+  if (may_be_cut_below) {
+    return std::ranges::any_of(proposed.candidates, &people::Candidate::has_head);
+  }
   const std::vector<uint8_t> cut_below = FindCutBelow(scene, options);
   return std::any_of(proposed.candidates.begin(), proposed.candidates.end(),
                      [&](const people::Candidate& candidate) {

@@ -12,9 +12,9 @@ struct MountOptions {
   double every_s = 1.0;  // between looks, > 0: one costs some milliseconds
   int agreeing = 3;      // looks in a row, > 0, as of UprightOptions
   // Score, [0, 1], where no floor is seen as level cameras see it, and where one is. Real stills
-  // from the ceiling have 0.80 and more. Of 290 rendered level images three have 0.94 and more
-  // without a floor, and two 0.80 and 0.95 with one; real ones have no piece that is looked at.
-  double sure = 0.7, sure_despite_floor = 0.97;
+  // from the ceiling have 0.80 and more. Of 590 rendered and real level images without a floor
+  // three have 0.94 and more, the others 0.63 and less; with one two have 0.80 and 0.95.
+  double sure = 0.75, sure_despite_floor = 0.97;
   float min_head_m = 1.0F;    // anthropometry: over the floor, of who sits; a wall has lower bumps
   double floor_share = 0.15;  // of what is measured, [0, 1], that is floor
   float piece_m2 = 0.02F;     // anthropometry: a hand; smaller pieces say nothing
@@ -33,6 +33,9 @@ class MountFinder {
 
   /// Of a frame that was tracked as a level camera's: is it time to look?
   bool IsDue(const BodyFrame& tracked);
+  /// May what goes on below the image count? Not at the first look, which decides alone, and not
+  /// where somebody was tracked as a level camera's.
+  bool MayBeCutBelow(const BodyFrame& tracked) const;
   /// Is it certain now that the camera looks down? The first look decides alone, for stills and
   /// beginnings; later ones only several in a row, for who works before a wall all day is looked at
   /// often.
@@ -48,9 +51,9 @@ class MountFinder {
 };
 
 /// Whether a frame shows, from above, a floor that fills much of it and something with a head that
-/// stands on it and does not go on below the image. Before a level camera a wall is as flat and as
-/// far, but who stands there without a floor in view does go on.
-bool MayBeFromAbove(const depth::DepthFrame& frame, const people::PeopleOptions& above,
-                    const MountOptions& options = {});
+/// stands on it. Before a level camera a wall is as flat and as far, but who stands there without a
+/// floor in view goes on below the image: that counts only if it `may_be_cut_below`.
+bool MayBeFromAbove(const depth::DepthFrame& frame, bool may_be_cut_below,
+                    const people::PeopleOptions& above, const MountOptions& options = {});
 
 }  // namespace ossa::tracker

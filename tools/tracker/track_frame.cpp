@@ -95,7 +95,7 @@ bool Tracker::Impl::ShowsCeilingView(const depth::DepthFrame& frame, const BodyF
   const MountOptions& mount = mount_finder.options();
   from_above.candidates.overhead->min_head_m = mount.min_head_m;
   using View = MountFinder::View;
-  if (!MayBeFromAbove(frame, from_above, mount)) {
+  if (!MayBeFromAbove(frame, mount_finder.MayBeCutBelow(tracked), from_above, mount)) {
     return mount_finder.Confirm(tracked.bodies.empty() ? View::kUnknown : View::kLevel);
   }
   if (!ceiling_forest) ceiling_forest = LoadCeilingForest(models);

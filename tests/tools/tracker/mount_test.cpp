@@ -303,7 +303,7 @@ TEST(Mount, OfALevelCameraWithSomebodyNearStaysLevel) {
 
 TEST(Mount, OfALevelCameraBeforeAWallStaysLevel) {
   OSSA_NEEDS_MODEL();
-  EXPECT_FALSE(MayBeFromAbove(BeforeAWall(), people::PeopleOptionsFromAbove()));
+  EXPECT_FALSE(MayBeFromAbove(BeforeAWall(), false, people::PeopleOptionsFromAbove()));
   Tracker tracker;
   depth::DepthFrame frame = BeforeAWall();
   for (int i = 0; i < 4; ++i) {
@@ -371,6 +371,15 @@ TEST(Mount, IsAskedForWhereAFloorIsAllThatIsLevel) {
     tracked.bodies.clear();
     EXPECT_TRUE(finder.IsDue(tracked));
   }
+}
+
+TEST(Mount, WhoGoesOnBelowTheImageCountsAtLaterLooksAtNobody) {
+  MountFinder finder;
+  const BodyFrame nobody;
+  EXPECT_FALSE(finder.MayBeCutBelow(nobody));
+  finder.Confirm(MountFinder::View::kUnknown);
+  EXPECT_TRUE(finder.MayBeCutBelow(nobody));
+  EXPECT_FALSE(finder.MayBeCutBelow(LevelLook(1.0)));
 }
 
 TEST(Mount, IsDecidedByTheFirstLookOrByThreeInARow) {
