@@ -65,13 +65,13 @@ void FakenectDump::Write(const DepthFrame& frame) {
   }
   constexpr double kStart_s = 1.0;  // fakenect takes the time 0 for none
   const double time_s = kStart_s + frame.time_s;
-  if (frames_ == 0) {
+  if (level_.empty()) {
     const std::string name = FileName('a', time_s, "dump");
     const RawTiltState level;
     AtomicFile file(folder_ / name);
     file.stream().write(reinterpret_cast<const char*>(&level), sizeof(level));
     file.CommitOneOfMany();
-    index_ += name + "\n";
+    level_ = name;
   }
   const std::string name = FileName('d', time_s, "pgm");
   AtomicFile file(folder_ / name);
@@ -81,15 +81,28 @@ void FakenectDump::Write(const DepthFrame& frame) {
   file.stream().write(reinterpret_cast<const char*>(depth_mm.data()),
                       static_cast<std::streamsize>(depth_mm.size_bytes()));
   file.CommitOneOfMany();
-  index_ += name + "\n";
-  ++frames_;
+  frames_.push_back(name);
 }
 
 void FakenectDump::Finish() {
   SyncFiles(folder_);
   AtomicFile file(folder_ / "INDEX.txt");
-  file.stream() << index_;
+  file.stream() << level_ << '\n';
+  for (const std::string& name : frames_) file.stream() << name << '\n';
   file.Commit();
+}
+
+int64_t FakenectDump::FinishWithWhatFits() {
+  while (!frames_.empty()) {
+    try {
+      Finish();
+      return frame_count();
+    } catch (const DiskFull&) {
+      fs::remove(folder_ / frames_.back());
+      frames_.pop_back();
+    }
+  }
+  return 0;
 }
 
 }  // namespace ossa::depth

@@ -2,6 +2,7 @@
 #include <cstdint>
 #include <filesystem>
 #include <string>
+#include <vector>
 
 #include "depth/image/depth_frame.h"
 
@@ -16,15 +17,19 @@ class FakenectDump {
   /// Makes the folder. Throws InputError when it cannot, when a dump is there already, or when the
   /// camera is not 640 × 480.
   FakenectDump(const std::filesystem::path& folder, const Camera& camera);
-  /// Throws InputError for a frame of another size.
+  /// Throws InputError for a frame of another size, and DiskFull.
   void Write(const DepthFrame& frame);
+  /// Throws DiskFull.
   void Finish();
-  int64_t frame_count() const { return frames_; }
+  /// In place of Finish(), after DiskFull: makes the dump one of the first frames, as many as leave
+  /// room for INDEX.txt. Returns how many; 0: none.
+  int64_t FinishWithWhatFits();
+  int64_t frame_count() const { return static_cast<int64_t>(frames_.size()); }
 
  private:
   std::filesystem::path folder_;
-  std::string index_;
-  int64_t frames_ = 0;
+  std::string level_;                // the accelerometer's file
+  std::vector<std::string> frames_;  // their files
 };
 
 }  // namespace ossa::depth

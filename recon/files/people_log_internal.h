@@ -1,6 +1,7 @@
 #pragma once
 #include <cstdint>
 #include <filesystem>
+#include <functional>
 #include <map>
 #include <optional>
 #include <vector>
@@ -32,18 +33,26 @@ class PeopleLog {
   /// The first frame's time, whoever is in it; of a recording that goes back, a person's first.
   double BeginFor(int id) const;
   const std::vector<Stay>& StaysOf(int id) const { return stays_.at(id); }
-  /// Hands them out, once.
-  SightingLog Take(int id) { return std::move(seen_.at(id)); }
+  int64_t frame_count() const { return static_cast<int64_t>(times_s_.size()); }
+  /// The log of the first so many frames, one at least, in memory.
+  PeopleLog First(int64_t frames) const;
+  /// Takes all into memory: what it took on the disk is free.
+  void LeaveDisk();
   const SightingLog& SightingsOf(int id) const { return seen_.at(id); }
 
  private:
   void NoteStays(const SkeletonFrame& frame);
+  std::vector<Stay> StaysUntil(int id, double end_s) const;
 
   std::filesystem::path folder_;
-  std::optional<double> begin_s_;
+  std::vector<double> times_s_;  // of the frames
   std::vector<int> ids_;
   std::map<int, SightingLog> seen_;
   std::map<int, std::vector<Stay>> stays_;
 };
+
+/// After a full disk: what `write` makes of the first frames, of as many as fit, within a quarter.
+/// Returns how many; 0: it made nothing.
+int64_t WriteWhatFits(PeopleLog& people, const std::function<void(const PeopleLog&)>& write);
 
 }  // namespace ossa::recon

@@ -22,16 +22,28 @@ class BvhWriter final : public SkeletonWriter::Format {
 
   void Finish() override {
     ExpectSomebody(people_, path_);
-    const std::vector<int>& ids = people_.ids();
+    WriteFiles(people_);
+  }
+
+  int64_t FinishWithWhatFits() override {
+    return WriteWhatFits(people_, [this](const PeopleLog& people) { WriteFiles(people); });
+  }
+
+ private:
+  /// All or none: of those before the one that does not fit none stays.
+  void WriteFiles(const PeopleLog& people) {
+    const std::vector<int>& ids = people.ids();
     for (size_t i = 0; i < ids.size(); ++i) {
-      const double begin_s = people_.BeginFor(ids[i]);
-      WriteSightingsAsBvh(people_.Take(ids[i]), begin_s, PathForBody(path_, i, ids[i]), options_);
+      try {
+        WriteSightingsAsBvh(people.SightingsOf(ids[i]), people.BeginFor(ids[i]),
+                            PathForBody(path_, i, ids[i]), options_);
+      } catch (const DiskFull&) {
+        for (size_t k = 0; k < i; ++k) fs::remove(PathForBody(path_, k, ids[k]));
+        throw;
+      }
     }
   }
 
-  int64_t FinishWithWhatFits() override { return 0; }
-
- private:
   fs::path path_;
   BvhExportOptions options_;
   PeopleLog people_;

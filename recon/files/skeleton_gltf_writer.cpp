@@ -148,19 +148,25 @@ class GltfWriter final : public SkeletonWriter::Format {
 
   void Finish() override {
     ExpectSomebody(people_, path_);
+    WriteScene(people_);
+  }
+
+  int64_t FinishWithWhatFits() override {
+    return WriteWhatFits(people_, [this](const PeopleLog& people) { WriteScene(people); });
+  }
+
+ private:
+  void WriteScene(const PeopleLog& people) {
     GltfScene scene;
-    for (const int id : people_.ids()) AddPerson(id, scene);
+    for (const int id : people.ids()) AddPerson(people, id, scene);
     AtomicFile file(path_);
     scene.Write(file.stream());
     file.Commit();
   }
 
-  int64_t FinishWithWhatFits() override { return 0; }
-
- private:
-  void AddPerson(int id, GltfScene& scene) {
-    const double begin_s = people_.BeginFor(id);
-    const SightingLog seen = people_.Take(id);
+  void AddPerson(const PeopleLog& people, int id, GltfScene& scene) {
+    const double begin_s = people.BeginFor(id);
+    const SightingLog& seen = people.SightingsOf(id);
     CheckLength(scene.Bytes(), seen.size());
     HeldBody held(seen);
     std::optional<SkinnedBody> body;
@@ -172,7 +178,7 @@ class GltfWriter final : public SkeletonWriter::Format {
       held.Update(now);
       motion.Add(now.time_s - begin_s, held.WholePosture(now));
     }
-    AddPresence(people_.StaysOf(id), begin_s, motion.tracks());
+    AddPresence(people.StaysOf(id), begin_s, motion.tracks());
     scene.AddPerson(fmt::format("person {}", id), BuildRestNodes(rest, options_.names),
                     body ? &*body : nullptr, options_.body.get(), motion.tracks());
   }

@@ -1,8 +1,8 @@
 #include <algorithm>
 #include <array>
 
-#include "depth/base/atomic_file.h"
 #include "depth/base/error.h"
+#include "depth/base/line_file.h"
 #include "recon/files/skeleton_formats_internal.h"
 #include "recon/files/skeleton_io.h"
 #include "recon/files/skeleton_jsonl.h"
@@ -19,33 +19,21 @@ class LineWriter final : public SkeletonWriter::Format {
   using LinesOf = std::string (*)(const SkeletonFrame&);
 
   LineWriter(const fs::path& path, const std::string& head, LinesOf lines)
-      : file_(path), lines_(lines) {
-    Put(head);
-  }
+      : file_(path, head), lines_(lines) {}
 
   void Write(const SkeletonFrame& frame) override {
-    Put(lines_(frame));
+    file_.Append(lines_(frame));
     ++frames_;
   }
-  void Finish() override { file_.Commit(); }
+  void Finish() override { file_.Finish(); }
   int64_t FinishWithWhatFits() override {
-    if (frames_ == 0) return 0;
-    file_.CutTo(end_);
-    file_.Commit();
+    if (frames_ > 0) file_.FinishWithWhatFits();
     return frames_;
   }
 
  private:
-  // Flushed: what is in the file then are whole lines, whatever follows.
-  void Put(const std::string& text) {
-    file_.stream() << text;
-    file_.Flush();
-    end_ += text.size();
-  }
-
-  AtomicFile file_;
+  LineFile file_;
   LinesOf lines_;
-  uint64_t end_ = 0;  // of the last whole frame
   int64_t frames_ = 0;
 };
 

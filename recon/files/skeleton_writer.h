@@ -18,15 +18,16 @@ struct SkeletonWriteOptions {
 };
 
 /// Writes skeletons as they come, in the format that the extension names: .jsonl, .csv, .trc, .bvh,
-/// .glb. Memory does not grow with the recording but for eight bytes a frame of a .trc; of a .bvh
-/// or .glb, whose head needs all of it, the postures wait in a file without a name (half a kilobyte
-/// a frame and person), and a .glb is put together in memory at the end. A .glb (glTF 2.0) is a
-/// skinned humanoid for each person, "person ID", at rest in a T-pose, in motion at the frames' own
-/// times from the first frame on, in the skeletons' own axes (camera space); who is out of view has
-/// no size. TRC and BVH hold one person a file: of several, the first goes to `path` and each other
-/// to `path` with `_ID` before the extension; all begin with the first frame. The files appear
-/// under their names at Finish(), whole; without it nothing is left. If the process is killed, what
-/// was written until then stays under the temporary name (AtomicFile): whole lines.
+/// .glb. Memory does not grow with the recording but for eight bytes a frame of a .trc, .bvh or
+/// .glb; of a .bvh or .glb, whose head needs all of it, the postures wait in a file without a name
+/// (half a kilobyte a frame and person), and a .glb is put together in memory at the end. A .glb
+/// (glTF 2.0) is a skinned humanoid for each person, "person ID", at rest in a T-pose, in motion at
+/// the frames' own times from the first frame on, in the skeletons' own axes (camera space); who is
+/// out of view has no size. TRC and BVH hold one person a file: of several, the first goes to
+/// `path` and each other to `path` with `_ID` before the extension; all begin with the first frame.
+/// The files appear under their names at Finish(), whole; without it nothing is left. If the
+/// process is killed, what was written until then stays under the temporary name (AtomicFile):
+/// whole lines.
 class SkeletonWriter {
  public:
   /// Throws InputError for another extension and for a place that cannot be written.
@@ -42,8 +43,10 @@ class SkeletonWriter {
   /// Throws InputError for a .bvh or .glb of nobody, or that would be too long to be read: a gap in
   /// a recording is filled in a .bvh. Throws DiskFull.
   void Finish();
-  /// In place of Finish(), after DiskFull: ends the file after the last frame that is whole in it.
-  /// Returns how many frames were kept; 0: none, and nothing is left. (None of a .bvh or .glb.)
+  /// In place of Finish(), after DiskFull: ends the file after the last frame that is whole in it;
+  /// of a .bvh or .glb, after one for which there is room, maybe a quarter of all before that. What
+  /// waited for it on the disk is taken into memory. Returns how many frames were kept; 0: none,
+  /// and nothing is left.
   int64_t FinishWithWhatFits();
   /// Frames written.
   int64_t frame_count() const { return frame_count_; }

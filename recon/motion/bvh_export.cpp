@@ -194,10 +194,10 @@ class BvhBody {
 }  // namespace
 
 BvhFile SkeletonToBvh(const SkeletonSequence& sequence, const BvhExportOptions& options) {
-  SightingLog seen =
+  const SightingLog seen =
       CollectSightings(sequence, options.body_id, std::filesystem::temp_directory_path());
   const double begin_s = FindBegin(sequence, seen);
-  BvhBody body(EvenSightings(std::move(seen), begin_s, options.frame_s), options, sequence.source);
+  BvhBody body(EvenSightings(seen, begin_s, options.frame_s), options, sequence.source);
   BvhFile bvh;
   bvh.joints = body.joints();
   bvh.frame_s = options.frame_s;
@@ -205,9 +205,9 @@ BvhFile SkeletonToBvh(const SkeletonSequence& sequence, const BvhExportOptions& 
   return bvh;
 }
 
-void WriteSightingsAsBvh(SightingLog seen, double begin_s, const std::filesystem::path& path,
+void WriteSightingsAsBvh(const SightingLog& seen, double begin_s, const std::filesystem::path& path,
                          const BvhExportOptions& options) {
-  BvhBody body(EvenSightings(std::move(seen), begin_s, options.frame_s), options, path.string());
+  BvhBody body(EvenSightings(seen, begin_s, options.frame_s), options, path.string());
   AtomicFile file(path);
   std::string text = BvhHead(body.joints(), options.frame_s, body.FrameCount());
   size_t bytes = 0;
@@ -226,9 +226,8 @@ void WriteSightingsAsBvh(SightingLog seen, double begin_s, const std::filesystem
 
 void WriteSkeletonAsBvh(const SkeletonSequence& sequence, const std::filesystem::path& path,
                         const BvhExportOptions& options) {
-  SightingLog seen = CollectSightings(sequence, options.body_id, FolderOf(path));
-  const double begin_s = FindBegin(sequence, seen);
-  WriteSightingsAsBvh(std::move(seen), begin_s, path, options);
+  const SightingLog seen = CollectSightings(sequence, options.body_id, FolderOf(path));
+  WriteSightingsAsBvh(seen, FindBegin(sequence, seen), path, options);
 }
 
 }  // namespace ossa::recon

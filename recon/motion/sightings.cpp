@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <map>
 #include <string>
 
@@ -46,15 +47,27 @@ void SightingLog::Append(const BodyRecord& body, double time_s) {
   in_file_ += kBlock;
 }
 
-Sighting SightingLog::operator[](size_t index) const {
-  if (index >= in_file_) return Unpacked(latest_[index - in_file_]);
+SightingLog SightingLog::Until(double time_s) const {
+  SightingLog until(folder_);
+  for (size_t i = 0; i < size() && PackedAt(i).time_s <= time_s; ++i) {
+    until.latest_.push_back(PackedAt(i));
+  }
+  return until;
+}
+
+void SightingLog::LeaveDisk() { *this = Until(std::numeric_limits<double>::infinity()); }
+
+Sighting SightingLog::operator[](size_t index) const { return Unpacked(PackedAt(index)); }
+
+const SightingLog::Packed& SightingLog::PackedAt(size_t index) const {
+  if (index >= in_file_) return latest_[index - in_file_];
   const size_t begin = index - index % kBlock;
   if (block_.empty() || block_begin_ != begin) {
     block_.resize(kBlock);
     file_.ReadAt(begin * sizeof(Packed), block_.data(), kBlock * sizeof(Packed));
     block_begin_ = begin;
   }
-  return Unpacked(block_[index - begin]);
+  return block_[index - begin];
 }
 
 Sighting SightingLog::Unpacked(const Packed& packed) {
@@ -82,8 +95,8 @@ SightingLog CollectSightings(const SkeletonSequence& sequence, std::optional<int
   return sightings;
 }
 
-EvenSightings::EvenSightings(SightingLog seen, double begin_s, double step_s)
-    : seen_(std::move(seen)), begin_s_(begin_s), step_s_(step_s) {}
+EvenSightings::EvenSightings(const SightingLog& seen, double begin_s, double step_s)
+    : seen_(seen), begin_s_(begin_s), step_s_(step_s) {}
 
 double EvenSightings::Count() const {
   // Times of six decimals are a few milliseconds short of the step's after an hour.

@@ -29,6 +29,10 @@ class SightingLog {
   /// Throws DiskFull.
   void Append(const BodyRecord& body, double time_s);
   size_t size() const { return in_file_ + latest_.size(); }
+  /// Those until a time, in memory.
+  SightingLog Until(double time_s) const;
+  /// Takes all into memory: what they took on the disk is free.
+  void LeaveDisk();
   /// One of them, by its number; quick where the one before or after was asked for last.
   Sighting operator[](size_t index) const;
 
@@ -42,6 +46,7 @@ class SightingLog {
   static constexpr size_t kBlock = 128;  // sightings, 64 kB: written and read at a time; by hand
 
   static Sighting Unpacked(const Packed& packed);
+  const Packed& PackedAt(size_t index) const;
 
   std::filesystem::path folder_;
   UnnamedFile file_;
@@ -66,7 +71,8 @@ struct SightingGap {
 /// is as in it.
 class EvenSightings {
  public:
-  EvenSightings(SightingLog seen, double begin_s, double step_s);
+  /// `seen` outlives it.
+  EvenSightings(const SightingLog& seen, double begin_s, double step_s);
 
   /// How many steps there are; not a size_t, since damaged times make more than it holds.
   double Count() const;
@@ -76,7 +82,7 @@ class EvenSightings {
   Sighting Next();
 
  private:
-  SightingLog seen_;
+  const SightingLog& seen_;
   double begin_s_;
   double step_s_;
   size_t step_ = 0;
@@ -84,7 +90,7 @@ class EvenSightings {
 };
 
 /// WriteSkeletonAsBvh (bvh.h) of a body's sightings, from `begin_s` on.
-void WriteSightingsAsBvh(SightingLog seen, double begin_s, const std::filesystem::path& path,
+void WriteSightingsAsBvh(const SightingLog& seen, double begin_s, const std::filesystem::path& path,
                          const BvhExportOptions& options);
 
 }  // namespace ossa::recon

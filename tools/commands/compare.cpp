@@ -128,6 +128,12 @@ void CheckOutputFiles(const CompareArguments& a) {
   if (!a.report.empty()) AtomicFile::CheckWritable(a.report);
 }
 
+void WriteReport(const tools::Comparison& comparison, const CompareArguments& a) {
+  if (a.report.empty()) return;
+  WriteText(a.report, tools::ToHtml(comparison));
+  if (!a.quiet && !a.json_to_stdout()) fmt::print("\nReport: {}\n", a.report);
+}
+
 void Tell(const tools::Comparison& comparison, const CompareArguments& a) {
   // First what cannot fail: a full disk costs a file, not the numbers.
   if (a.json_to_stdout()) {
@@ -135,10 +141,10 @@ void Tell(const tools::Comparison& comparison, const CompareArguments& a) {
   } else if (!a.quiet) {
     fmt::print("{}", tools::ToText(comparison));
   }
-  if (!a.json_to_stdout()) WriteText(a.json, tools::ToJson(comparison));
-  if (a.report.empty()) return;
-  WriteText(a.report, tools::ToHtml(comparison));
-  if (!a.quiet && !a.json_to_stdout()) fmt::print("\nReport: {}\n", a.report);
+  DoEach("compare", {[&] {
+                       if (!a.json_to_stdout()) WriteText(a.json, tools::ToJson(comparison));
+                     },
+                     [&] { WriteReport(comparison, a); }});
 }
 
 }  // namespace

@@ -3,6 +3,8 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
+#include "tools/commands/outputs.h"
+
 namespace ossa::commands {
 namespace {
 
@@ -62,12 +64,20 @@ void DecisionTrace::Write(const tracker::BodyFrame& bodies) {
     line["candidates"].push_back(MakeCandidate(decision));
   for (const people::TrackSummary& track : bodies.decisions.tracks)
     line["tracks"].push_back(MakeTrack(track));
-  file_->stream() << line.dump() << '\n';
-  file_->Check();
+  try {
+    file_->Append(line.dump() + '\n');
+  } catch (const DiskFull& full) {
+    full_ = full;
+    throw;
+  }
+  ++frames_;
 }
 
 void DecisionTrace::Finish() {
-  if (file_) file_->Commit();
+  if (!file_) return;
+  if (!full_) return file_->Finish();
+  file_->FinishWithWhatFits();
+  throw NamingWhatIsKept(*full_, frames_, frames_ + 1);
 }
 
 }  // namespace ossa::commands

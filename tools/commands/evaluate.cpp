@@ -104,9 +104,14 @@ int Evaluate(int argc, char** argv) {
   const tools::Evaluation evaluation = Measure(a, model);
   const std::string json = tools::EvaluationJson(evaluation);
   fmt::print("{}", json);
-  WriteText(a.json, json);
-  WriteText(a.report, tools::EvaluationHtml(evaluation, a.model + " on " + a.dataset));
-  if (!a.card.empty()) NoteInCard(a.model, model, a.card, json);
+  DoEach("evaluate", {[&] { WriteText(a.json, json); },
+                      [&] {
+                        WriteText(a.report,
+                                  tools::EvaluationHtml(evaluation, a.model + " on " + a.dataset));
+                      },
+                      [&] {
+                        if (!a.card.empty()) NoteInCard(a.model, model, a.card, json);
+                      }});
   return 0;
 }
 

@@ -83,8 +83,8 @@ int Fuse(int argc, char** argv) {
   const auto recordings = ReadAll(a);
   const auto fused = FuseRecordings(a.fuse, a.recordings, recordings, a.quiet);
   if (Interrupted()) throw InputError("fuse: interrupted; nothing was written");
-  SayWarnings("fuse", fused.warnings);
-  if (!a.out.empty()) WriteSkeletonsThatFit(a.out, fused, write);
+  SayWarnings("fuse", fused.skeletons.warnings);
+  WriteFused("fuse", a.fuse, a.out, fused, write);
   return 0;
 }
 

@@ -6,7 +6,6 @@
 
 #include "depth/base/angles.h"
 #include "depth/base/atomic_file.h"
-#include "recon/fuse/extrinsics.h"
 #include "recon/fuse/fuse_skeletons.h"
 #include "tools/commands/outputs.h"
 
@@ -62,16 +61,23 @@ void FuseArguments::Check(std::span<const std::string> sources) const {
   if (!File().empty()) ReadCameras(File(), recon::CameraNames(sources));
 }
 
-recon::SkeletonSequence FuseRecordings(const FuseArguments& arguments,
-                                       std::span<const std::string> sources,
-                                       std::span<const recon::SkeletonSequence> recordings,
-                                       bool quiet) {
+FusedRecordings FuseRecordings(const FuseArguments& arguments, std::span<const std::string> sources,
+                               std::span<const recon::SkeletonSequence> recordings, bool quiet) {
   const std::vector<std::string> names = recon::CameraNames(sources);
-  const recon::Extrinsics cameras = FindExtrinsics(arguments, names, recordings, quiet);
-  if (!arguments.save_extrinsics.empty()) {
-    recon::WriteExtrinsics(arguments.save_extrinsics, cameras);
-  }
-  return recon::FuseSkeletons(recordings, cameras);
+  recon::Extrinsics cameras = FindExtrinsics(arguments, names, recordings, quiet);
+  recon::SkeletonSequence skeletons = recon::FuseSkeletons(recordings, cameras);
+  return {std::move(skeletons), std::move(cameras)};
+}
+
+void WriteFused(const char* command, const FuseArguments& arguments, const std::string& out,
+                const FusedRecordings& fused, const recon::SkeletonWriteOptions& options) {
+  DoEach(command, {[&] {
+                     if (!out.empty()) WriteSkeletonsThatFit(out, fused.skeletons, options);
+                   },
+                   [&] {
+                     if (arguments.save_extrinsics.empty()) return;
+                     recon::WriteExtrinsics(arguments.save_extrinsics, fused.cameras);
+                   }});
 }
 
 }  // namespace ossa::commands

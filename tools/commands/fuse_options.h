@@ -3,7 +3,9 @@
 #include <string>
 #include <vector>
 
+#include "recon/files/skeleton_writer.h"
 #include "recon/fuse/estimate_extrinsics.h"
+#include "recon/fuse/extrinsics.h"
 #include "recon/skeleton_sequence.h"
 
 namespace CLI {
@@ -27,12 +29,19 @@ struct FuseArguments {
   std::string File() const { return extrinsics == "auto" ? "" : extrinsics; }
 };
 
-/// Fuses recordings, the first one's camera before: reads or finds where the cameras are, says what
-/// it found unless quiet, and saves it where asked. `sources` are the recordings' names. Throws
-/// InputError.
-recon::SkeletonSequence FuseRecordings(const FuseArguments& arguments,
-                                       std::span<const std::string> sources,
-                                       std::span<const recon::SkeletonSequence> recordings,
-                                       bool quiet);
+struct FusedRecordings {
+  recon::SkeletonSequence skeletons;
+  recon::Extrinsics cameras;
+};
+
+/// Fuses recordings, the first one's camera before: reads or finds where the cameras are, and says
+/// what it found unless quiet. `sources` are the recordings' names. Throws InputError.
+FusedRecordings FuseRecordings(const FuseArguments& arguments, std::span<const std::string> sources,
+                               std::span<const recon::SkeletonSequence> recordings, bool quiet);
+
+/// Writes what --out (empty: nothing) and --save-extrinsics ask for, either whatever befalls the
+/// other. `command` is whose failures are said. Throws InputError.
+void WriteFused(const char* command, const FuseArguments& arguments, const std::string& out,
+                const FusedRecordings& fused, const recon::SkeletonWriteOptions& options);
 
 }  // namespace ossa::commands

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <exception>
 #include <filesystem>
 #include <map>
 #include <system_error>
@@ -98,10 +99,25 @@ void WriteText(const std::string& path, const std::string& text) {
   file.Commit();
 }
 
+void DoEach(const char* command, std::initializer_list<std::function<void()>> steps) {
+  std::exception_ptr first;
+  for (const auto& step : steps) {
+    try {
+      step();
+    } catch (const std::exception& error) {
+      if (first) Say(fmt::format("ossa {}: {}\n", command, error.what()));
+      if (!first) first = std::current_exception();
+    }
+  }
+  if (first) std::rethrow_exception(first);
+}
+
+InputError NamingWhatIsKept(const DiskFull& full, int64_t kept, int64_t of) {
+  return InputError(fmt::format("{} {} were kept", full.what(), FramesText(kept, of)));
+}
+
 InputError KeepWhatFits(const DiskFull& full, recon::SkeletonWriter& writer) {
-  const int64_t kept = writer.FinishWithWhatFits();
-  return InputError(
-      fmt::format("{} {} were kept", full.what(), FramesText(kept, writer.frame_count())));
+  return NamingWhatIsKept(full, writer.FinishWithWhatFits(), writer.frame_count());
 }
 
 void WriteOptions::AddTo(CLI::App& app) {

@@ -1,6 +1,8 @@
 #pragma once
 #include <CLI/CLI.hpp>
 #include <cstdint>
+#include <functional>
+#include <initializer_list>
 #include <optional>
 #include <string>
 #include <vector>
@@ -39,6 +41,12 @@ std::string FramesText(int64_t frames, std::optional<int64_t> of);
 
 /// The file appears when it is complete; an empty name is an option that was not given.
 void WriteText(const std::string& path, const std::string& text);
+
+/// Does each, whatever befell another: throws the first failure, after `command` said the others.
+void DoEach(const char* command, std::initializer_list<std::function<void()>> steps);
+
+/// What did not fit, and how many frames of it are kept.
+InputError NamingWhatIsKept(const DiskFull& full, int64_t kept, int64_t of);
 
 /// Ends a file that does not fit after its last whole frame; the failure says how many are kept.
 InputError KeepWhatFits(const DiskFull& full, recon::SkeletonWriter& writer);

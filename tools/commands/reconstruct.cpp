@@ -381,11 +381,11 @@ int Reconstruct(int argc, char** argv) {
   for (const auto& clip : clips) {
     const recon::SkeletonSequence made = rounds.Make(clip);
     if (made.frames.empty() && Interrupted()) break;
-    files.Write(clip.name, made);
-    // After the postures: what befalls this file does not take them along.
-    if (!a.dynamics.empty() && !Interrupted()) {
-      tracker::WriteDynamics(a.dynamics, made, a.mass_kg);
-    }
+    DoEach("reconstruct", {[&] { files.Write(clip.name, made); },
+                           [&] {
+                             if (a.dynamics.empty() || Interrupted()) return;
+                             tracker::WriteDynamics(a.dynamics, made, a.mass_kg);
+                           }});
     written += made.frames.size();
     if (Interrupted()) break;
   }

@@ -147,18 +147,14 @@ int RecordTo(Recorder& recorder, depth::FrameSource& source, const RecordOptions
   return Report(options, recorded);
 }
 
-// On a full disk what was recorded until then is kept, as far as it and the file's end fit.
-int RecordOni(const depth::Camera& camera, depth::FrameSource& source,
-              const RecordOptions& options) {
-  AtomicFile::CheckWritable(options.out);
-  SayLeftovers(options.out);
-  depth::OniRecorder recorder(options.out, camera);
+// On a full disk what was recorded until then is kept, as far as it and the recording's end fit.
+template <typename Recorder>
+int RecordWhatFits(Recorder recorder, depth::FrameSource& source, const RecordOptions& options) {
   try {
     return RecordTo(recorder, source, options);
   } catch (const DiskFull& full) {
     const int64_t frames = recorder.frame_count();
-    throw InputError(fmt::format("{} {} were kept", full.what(),
-                                 FramesText(recorder.FinishWithWhatFits(), frames)));
+    throw NamingWhatIsKept(full, recorder.FinishWithWhatFits(), frames);
   }
 }
 
@@ -168,9 +164,12 @@ int Record(int argc, char** argv) {
   const RecordOptions options = ParseOptions(argc, argv);
   const auto source = OpenSource(options.source, options.quiet);
   const depth::Camera& camera = source->camera();
-  if (!options.fakenect) return RecordOni(camera, *source, options);
-  depth::FakenectDump dump(options.out, camera);
-  return RecordTo(dump, *source, options);
+  if (options.fakenect) {
+    return RecordWhatFits(depth::FakenectDump(options.out, camera), *source, options);
+  }
+  AtomicFile::CheckWritable(options.out);
+  SayLeftovers(options.out);
+  return RecordWhatFits(depth::OniRecorder(options.out, camera), *source, options);
 }
 
 }  // namespace ossa::commands

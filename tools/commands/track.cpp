@@ -1,11 +1,8 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
 #include <chrono>
 #include <deque>
-#include <exception>
-#include <functional>
 #include <map>
 #include <memory>
 #include <optional>
@@ -41,7 +38,7 @@ namespace {
 using Clock = std::chrono::steady_clock;
 using std::chrono::milliseconds;
 
-enum class Ending { kComplete, kUnplugged, kSilent, kInterrupted };
+enum class Ending { kComplete, kUnplugged, kSilent, kInterrupted, kDiskFull };
 
 struct Run {
   tracker::RunStats stats;
@@ -138,16 +135,26 @@ void TrackToEnd(depth::FrameSource& source, tracker::Tracker& tracker, const Tra
 }
 
 /// Frames that are held when the source ends, or fails, are delivered all the same.
-void TrackAll(depth::FrameSource& source, tracker::Tracker& tracker, const TrackOptions& options,
-              Destinations& to, Run& run) {
+void TrackWhatComes(depth::FrameSource& source, tracker::Tracker& tracker,
+                    const TrackOptions& options, Destinations& to, Run& run) {
   try {
     TrackToEnd(source, tracker, options, to, run);
   } catch (const DiskFull&) {
-    throw;
+    throw;  // of an output, not of the source
   } catch (const InputError& error) {
     run.failure = error.what();
   }
   while (const auto held = tracker.DrainLag()) to.Deliver(*held, run);
+}
+
+/// The output that did not fit says so when it is finished, as the others are.
+void TrackAll(depth::FrameSource& source, tracker::Tracker& tracker, const TrackOptions& options,
+              Destinations& to, Run& run) {
+  try {
+    TrackWhatComes(source, tracker, options, to, run);
+  } catch (const DiskFull&) {
+    run.ending = Ending::kDiskFull;
+  }
 }
 
 // How long people's bones are by the whole recording, which is tracked for nothing else.
@@ -262,29 +269,6 @@ void CheckWorthKeeping(const TrackOptions& options, const Run& run) {
   CheckFrames(options, run);
 }
 
-/// Each output gets what it can, whatever befell another: then the first failure is thrown, after
-/// the others were said.
-void FinishAll(Destinations& to, const depth::Camera& camera, const Run& run) {
-  const std::array<std::function<void()>, 7> finishes = {
-      [&] { to.output.Finish(); },
-      [&] { to.pictures.Finish(); },
-      [&] { Report(to.options, run); },
-      [&] { SayNobody(to.options, camera, run); },
-      [&] { SayMissingFloor(to.tracker, to.options); },
-      [&] { to.trace.Finish(); },
-      [&] { to.person.Finish(to.options); }};
-  std::exception_ptr first;
-  for (const auto& finish : finishes) {
-    try {
-      finish();
-    } catch (const std::exception& error) {
-      if (first) Say(fmt::format("ossa track: {}\n", error.what()));
-      if (!first) first = std::current_exception();
-    }
-  }
-  if (first) std::rethrow_exception(first);
-}
-
 /// Everything was kept, but the recording was not tracked to its end: throws InputError.
 void CheckComplete(const TrackOptions& options, const Run& run) {
   if (!run.failure.empty()) {
@@ -295,6 +279,14 @@ void CheckComplete(const TrackOptions& options, const Run& run) {
             : fmt::format("{}; the {} before it are in {}", run.failure, frames, options.out));
   }
   if (run.ending == Ending::kInterrupted) throw InterruptedEarly(options, run);
+}
+
+/// Each output gets what it can, whatever befell another.
+void FinishAll(Destinations& to, const depth::Camera& camera, const Run& run) {
+  DoEach("track", {[&] { to.output.Finish(); }, [&] { to.pictures.Finish(); },
+                   [&] { Report(to.options, run); }, [&] { SayNobody(to.options, camera, run); },
+                   [&] { SayMissingFloor(to.tracker, to.options); }, [&] { to.trace.Finish(); },
+                   [&] { to.person.Finish(to.options); }, [&] { CheckComplete(to.options, run); }});
 }
 
 }  // namespace
@@ -319,14 +311,9 @@ int Track(int argc, char** argv) {
   Destinations destinations{options,  tracker, output, trace,
                             pictures, person,  sender, viewer.get()};
   Run run;
-  try {
-    TrackAll(*source, tracker, options, destinations, run);
-  } catch (const DiskFull& full) {
-    throw output.WithWhatFits(full);
-  }
+  TrackAll(*source, tracker, options, destinations, run);
   CheckWorthKeeping(options, run);
   FinishAll(destinations, source->camera(), run);
-  CheckComplete(options, run);
   return 0;
 }
 

@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <filesystem>
 
-#include "depth/base/atomic_file.h"
 #include "tools/commands/outputs.h"
 #include "tools/tracker/picture.h"
 
@@ -37,19 +36,22 @@ void SkeletonOutput::Write(const tracker::BodyFrame& bodies) {
   for (const tracker::Body& body : bodies.bodies) {
     if (body.shape) writer_->SetShape(body.id, body.shape->shape);
   }
-  writer_->Write(recorder_.Record(bodies));
-}
-
-void SkeletonOutput::Finish() {
   try {
-    if (writer_) writer_->Finish();
+    writer_->Write(recorder_.Record(bodies));
   } catch (const DiskFull& full) {
-    throw WithWhatFits(full);
+    full_ = full;
+    throw;
   }
 }
 
-InputError SkeletonOutput::WithWhatFits(const DiskFull& full) {
-  return writer_ ? KeepWhatFits(full, *writer_) : InputError(full);
+void SkeletonOutput::Finish() {
+  if (!writer_) return;
+  try {
+    if (full_) throw DiskFull(*full_);
+    writer_->Finish();
+  } catch (const DiskFull& full) {
+    throw KeepWhatFits(full, *writer_);
+  }
 }
 
 Pictures::Pictures(const TrackOptions& options) : one_(options.picture), folder_(options.pictures) {
@@ -58,18 +60,28 @@ Pictures::Pictures(const TrackOptions& options) : one_(options.picture), folder_
 }
 
 void Pictures::Take(const depth::DepthFrame& frame, const tracker::BodyFrame& bodies) {
-  if (!folder_.empty()) {
-    const auto name = fmt::format("{:06d}.png", bodies.index);
-    tracker::WritePicture(std::filesystem::path(folder_) / name, frame, bodies);
-  }
+  TakeForFolder(frame, bodies);
   if (one_.empty() || (has_best_ && TrackedJoints(bodies) < TrackedJoints(best_))) return;
   has_best_ = true;
   best_frame_ = frame;
   best_ = bodies;
 }
 
+void Pictures::TakeForFolder(const depth::DepthFrame& frame, const tracker::BodyFrame& bodies) {
+  if (folder_.empty()) return;
+  const auto name = fmt::format("{:06d}.png", bodies.index);
+  try {
+    tracker::WritePicture(std::filesystem::path(folder_) / name, frame, bodies);
+  } catch (const DiskFull& full) {
+    full_ = full;
+    throw;
+  }
+  ++in_folder_;
+}
+
 void Pictures::Finish() const {
   if (!one_.empty() && has_best_) tracker::WritePicture(one_, best_frame_, best_);
+  if (full_) throw NamingWhatIsKept(*full_, in_folder_, in_folder_ + 1);
 }
 
 PersonKeeper::PersonKeeper(const TrackOptions& options) : path_(options.save_person) {

@@ -4,7 +4,7 @@
 #include <optional>
 #include <string>
 
-#include "depth/base/error.h"
+#include "depth/base/atomic_file.h"
 #include "depth/image/depth_frame.h"
 #include "recon/files/skeleton_writer.h"
 #include "recon/fit/surface_fit.h"
@@ -19,15 +19,16 @@ namespace ossa::commands {
 class SkeletonOutput {
  public:
   explicit SkeletonOutput(const TrackOptions& options);
+  /// Throws DiskFull.
   void Write(const tracker::BodyFrame& bodies);
+  /// Of what did not fit, what was whole before it: throws InputError that says how much.
   void Finish();
-  /// Of what Write() threw: how much is kept.
-  InputError WithWhatFits(const DiskFull& full);
 
  private:
   std::string path_;
   PostureRecorder recorder_;
   std::optional<recon::SkeletonWriter> writer_;
+  std::optional<DiskFull> full_;
 };
 
 /// The pictures of --picture and --pictures. The one picture shows the frame in which most is
@@ -35,11 +36,17 @@ class SkeletonOutput {
 class Pictures {
  public:
   explicit Pictures(const TrackOptions& options);
+  /// Throws DiskFull.
   void Take(const depth::DepthFrame& frame, const tracker::BodyFrame& bodies);
+  /// Throws InputError, also of the picture that did not fit before.
   void Finish() const;
 
  private:
+  void TakeForFolder(const depth::DepthFrame& frame, const tracker::BodyFrame& bodies);
+
   std::string one_, folder_;
+  int64_t in_folder_ = 0;  // pictures
+  std::optional<DiskFull> full_;
   bool has_best_ = false;
   depth::DepthFrame best_frame_;
   tracker::BodyFrame best_;

@@ -13,6 +13,7 @@
 #include <thread>
 #include <vector>
 
+#include "depth/base/atomic_file.h"
 #include "depth/base/error.h"
 #include "depth/sensor/frame_source.h"
 #include "recon/fuse/extrinsics.h"
@@ -113,6 +114,18 @@ void CheckFramesCame(const Cameras& cameras, std::span<const recon::SkeletonSequ
   }
 }
 
+// "" when it was written.
+std::string WriteOrSayWhyNot(const std::filesystem::path& file,
+                             const recon::SkeletonSequence& recording) {
+  try {
+    std::filesystem::create_directories(FolderOf(file));
+    WriteSkeletonsThatFit(file, recording, {});
+    return "";
+  } catch (const std::exception& failure) {
+    return failure.what();
+  }
+}
+
 // Writes each camera's own skeletons into a folder beside the output, under the camera's name, by
 // which `ossa fuse --extrinsics` knows it: hours of tracking are not lost to what follows it. Says
 // where they are.
@@ -121,16 +134,16 @@ std::string KeepUnfused(const TrackOptions& options,
   std::filesystem::path folder = options.out.empty() ? options.fuse.save_extrinsics : options.out;
   folder.replace_extension(".cameras");
   const std::vector<std::string> names = recon::CameraNames(options.Sources());
-  std::string kept;
+  std::string kept, failures;
   for (size_t k = 0; k < recordings.size(); ++k) {
     if (recordings[k].frames.empty()) continue;
-    std::filesystem::create_directories(folder);
     const std::string file = folder / (names[k] + ".jsonl");
-    WriteSkeletonsThatFit(file, recordings[k], {});
-    kept += (kept.empty() ? "" : ", ") + file;
+    const std::string why_not = WriteOrSayWhyNot(file, recordings[k]);
+    if (why_not.empty()) kept += (kept.empty() ? "" : ", ") + file;
+    if (!why_not.empty()) failures += "; " + why_not;
   }
-  if (kept.empty()) return "nothing was written";
-  return "what each camera tracked is in " + kept + ", which `ossa fuse` reads";
+  if (kept.empty()) return "nothing was written" + failures;
+  return "what each camera tracked is in " + kept + ", which `ossa fuse` reads" + failures;
 }
 
 // Why there are not all frames, to be said before how many there are; "" where there are all.
@@ -152,21 +165,15 @@ std::string WhyNotFused(const TrackOptions& options, const Cameras& cameras, int
   return fmt::format("{}{} were tracked: {}", why, of_all, failure);
 }
 
-recon::SkeletonSequence FuseOrKeep(const TrackOptions& options, const Cameras& cameras,
-                                   std::span<const recon::SkeletonSequence> recordings) {
+FusedRecordings FuseOrKeep(const TrackOptions& options, const Cameras& cameras,
+                           std::span<const recon::SkeletonSequence> recordings) {
   try {
     CheckFramesCame(cameras, recordings);
     return FuseRecordings(options.fuse, options.Sources(), recordings, options.quiet);
   } catch (const std::exception& failure) {
-    std::string kept;
-    try {
-      kept = KeepUnfused(options, recordings);
-    } catch (const std::exception& second) {
-      kept = second.what();
-    }
     const auto frames = static_cast<int64_t>(recordings.front().frames.size());
-    throw InputError(
-        fmt::format("{}; {}", WhyNotFused(options, cameras, frames, failure.what()), kept));
+    const std::string why = WhyNotFused(options, cameras, frames, failure.what());
+    throw InputError(fmt::format("{}; {}", why, KeepUnfused(options, recordings)));
   }
 }
 
@@ -187,12 +194,11 @@ int TrackSeveral(const TrackOptions& options) {
   for (const std::string& name : options.Sources()) cameras.push_back(OpenCamera(options, name));
   TrackCameras(cameras, options);
   const auto fused = FuseOrKeep(options, cameras, TakeSkeletons(cameras));
-  SayWarnings("track", fused.warnings);
-  if (!options.out.empty()) WriteSkeletonsThatFit(options.out, fused, write);
-  SayWhatIsMissing(cameras, options, static_cast<int64_t>(fused.frames.size()));
-  if (!options.quiet) {
-    fmt::print("{} frames of {} cameras\n", fused.frames.size(), cameras.size());
-  }
+  SayWarnings("track", fused.skeletons.warnings);
+  WriteFused("track", options.fuse, options.out, fused, write);
+  const size_t frames = fused.skeletons.frames.size();
+  SayWhatIsMissing(cameras, options, static_cast<int64_t>(frames));
+  if (!options.quiet) fmt::print("{} frames of {} cameras\n", frames, cameras.size());
   return 0;
 }
 

@@ -95,6 +95,40 @@ TEST_P(LineFormats, OnAFullDiskKeepWholeFrames) {
   }
 }
 
+class WholeFormats : public EveryFormat {};
+
+// Their heads need the whole recording, which waits on the disk that is full then: 300 frames of a
+// person are 150 kB there.
+TEST_P(WholeFormats, OnAFullDiskKeepMostOfTheFramesThatFit) {
+  SkeletonWriter writer(path());
+  int64_t kept = 0;
+  {
+    const FullDisk disk(120000);
+    try {
+      for (const SkeletonFrame& frame : ExampleSequence(300, 2).frames) writer.Write(frame);
+      writer.Finish();
+    } catch (const DiskFull&) {
+      kept = writer.FinishWithWhatFits();
+    }
+  }
+  EXPECT_GT(kept, 60);
+  EXPECT_LT(kept, 300);
+  WriteSkeletons(folder_ / (std::string("expected") + GetParam()),
+                 ExampleSequence(static_cast<int>(kept), 2));
+  EXPECT_EQ(TextOf(path()), TextOf(folder_ / (std::string("expected") + GetParam())));
+}
+
+TEST_P(WholeFormats, OnADiskWithoutRoomLeaveNothing) {
+  SkeletonWriter writer(path());
+  for (const SkeletonFrame& frame : ExampleSequence(5, 2).frames) writer.Write(frame);
+  const FullDisk disk(100);
+  EXPECT_THROW(writer.Finish(), DiskFull);
+  EXPECT_EQ(writer.FinishWithWhatFits(), 0);
+  EXPECT_EQ(OnlyFileIn(folder_.path()), "");
+}
+
+INSTANTIATE_TEST_SUITE_P(SkeletonWriter, WholeFormats, testing::Values(".bvh", ".glb"));
+
 // Under its temporary name, where it stays when the process is killed.
 TEST_P(LineFormats, CanBeReadBeforeTheyAreFinished) {
   SkeletonWriter writer(path());

@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 #include <signal.h>
 
+#include <algorithm>
 #include <chrono>
 #include <filesystem>
 #include <fstream>
@@ -146,6 +147,46 @@ TEST(KeptOutput, OfATrackedFolderThatDoesNotFit) {
       "ossa: " + out.string() + ": writing failed: is the disk full? " + kept + " of ";
   EXPECT_TRUE(result.err.starts_with(begin)) << result.err << begin;
   EXPECT_EQ(test::LineCount(result.err), 1) << result.err;
+}
+
+std::string TextOf(const std::filesystem::path& path) {
+  std::ifstream file(path);
+  return {std::istreambuf_iterator<char>(file), {}};
+}
+
+// Of each frame of nothing the trace is longer than the skeletons.
+TEST(KeptOutput, OfATraceThatDoesNotFitAreTheOtherFilesToo) {
+  const TemporaryFolder folder;
+  std::filesystem::create_directory(folder / "in");
+  depth::DepthFrame nothing = test::ExampleFrame(0, 64, 48);
+  std::fill(nothing.depth_mm.begin(), nothing.depth_mm.end(), uint16_t{0});
+  for (int i = 0; i < 100; ++i) {
+    depth::WriteDepthPng(folder / ("in/" + std::to_string(i) + ".png"), nothing.view());
+  }
+  const auto out = folder / "x.jsonl", trace = folder / "trace.jsonl", stats = folder / "x.json";
+  const CommandResult result =
+      OnAFullDisk({"track", folder / "in", "--out", out, "--method", "none", "--quiet", "--trace",
+                   trace, "--json-stats", stats});
+  EXPECT_EQ(result.exit_status, 1);
+  const std::string lines = TextOf(trace);
+  EXPECT_GT(test::LineCount(lines), 3);
+  EXPECT_TRUE(lines.ends_with("}\n"));
+  const std::string says = "ossa: " + trace.string() + ": writing failed: is the disk full? " +
+                           std::to_string(test::LineCount(lines)) + " of " +
+                           std::to_string(SkeletonsIn(out)) + " frames";
+  EXPECT_TRUE(result.err.starts_with(says)) << result.err << says;
+  EXPECT_TRUE(std::filesystem::exists(stats));
+}
+
+TEST(KeptOutput, OfAFakenectDumpThatDoesNotFit) {
+  const TemporaryFolder folder;
+  std::filesystem::create_directory(folder / "in");
+  depth::WriteDepthPng(folder / "in/0.png", test::ExampleFrame(0, 640, 480).view());
+  const auto dump = folder / "dump";
+  const std::vector<std::string> record = {"record", folder / "in", "--fakenect", "--out", dump};
+  EXPECT_EQ(OnAFullDisk(record, 100).exit_status, 1);
+  EXPECT_FALSE(std::filesystem::exists(dump / "INDEX.txt")) << "a dump of no frame";
+  EXPECT_EQ(test::RunOssa(record).exit_status, 0);
 }
 
 TEST(KeptOutput, OfAReconstructionThatDoesNotFit) {
