@@ -5,11 +5,13 @@
 #include <sys/random.h>
 #include <sys/stat.h>
 #include <unistd.h>
+#include <xxhash.h>
 
 #include <algorithm>
 #include <array>
 #include <cerrno>
 #include <cstring>
+#include <span>
 #include <string_view>
 #include <system_error>
 
@@ -26,19 +28,49 @@ constexpr std::string_view kPartial = ".partial-";
 constexpr std::string_view kHexDigits = "0123456789abcdef";
 constexpr size_t kRandomBytes = 6;  // twelve digits: chance hits no name twice; by hand
 
+// Two digits a byte.
+std::string HexOf(std::span<const unsigned char> bytes) {
+  std::string text;
+  for (const unsigned char byte : bytes) {
+    text += kHexDigits[byte / 16];
+    text += kHexDigits[byte % 16];
+  }
+  return text;
+}
+
+// A name cut to so many bytes, between two characters of UTF-8, and the digest of all of it: other
+// names that begin alike are told apart.
+std::string Shortened(const std::string& name, size_t bytes) {
+  XXH64_canonical_t digest;
+  XXH64_canonicalFromHash(&digest, XXH3_64bits(name.data(), name.size()));
+  const std::string end = std::string("-").append(HexOf(digest.digest));
+  size_t cut = bytes > end.size() ? bytes - end.size() : 0;
+  const auto continues = [&](size_t at) {
+    return (static_cast<unsigned>(name[at]) & 0xC0U) == 0x80U;
+  };
+  while (cut > 0 && continues(cut)) --cut;
+  return name.substr(0, cut) + end;
+}
+
+// The temporary name without its random end: the file's own and `.partial-`, as long as the file
+// system takes all of it.
+fs::path TemporaryNameBegin(const fs::path& final_path) {
+  std::string name = final_path.filename().string();
+  const size_t added = kPartial.size() + 2 * kRandomBytes;
+  const long most = pathconf(FolderOf(final_path).c_str(), _PC_NAME_MAX);  // bytes; -1: unknown
+  const auto room = static_cast<size_t>(std::max(0L, most));
+  // A name that is too long itself is refused as it stands.
+  if (name.size() <= room && name.size() + added > room) name = Shortened(name, room - added);
+  return final_path.parent_path() / name.append(kPartial);
+}
+
 // Nobody can know it before: in a folder that others may write to, nobody has put anything there.
 fs::path RandomNameFor(const fs::path& final_path) {
   std::array<unsigned char, kRandomBytes> random{};
   if (getrandom(random.data(), random.size(), 0) != static_cast<ssize_t>(random.size())) {
     throw std::system_error(errno, std::generic_category(), "random numbers");
   }
-  fs::path path = final_path;
-  path += kPartial;
-  for (const unsigned char byte : random) {
-    path += kHexDigits[byte / 16];
-    path += kHexDigits[byte % 16];
-  }
-  return path;
+  return TemporaryNameBegin(final_path) += HexOf(random);
 }
 
 // Whether RandomNameFor made such a name of some file's.
@@ -140,7 +172,7 @@ void AtomicFile::CheckWritable(const fs::path& final_path) { const AtomicFile pr
 
 std::vector<fs::path> AtomicFile::FindLeftovers(const fs::path& final_path) {
   const fs::path end = FollowLinks(final_path);
-  const std::string begin = end.filename().string().append(kPartial);
+  const std::string begin = TemporaryNameBegin(end).filename().string();
   std::vector<fs::path> left;
   std::error_code error;
   for (auto it = fs::directory_iterator(FolderOf(end), error);

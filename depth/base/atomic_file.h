@@ -16,7 +16,8 @@ struct DiskFull : InputError {
 };
 
 /// A file that appears under its final name only when complete: written beside it under a temporary
-/// name, NAME.partial- and random digits, renamed by Commit(), removed when destroyed without it.
+/// name, NAME.partial- and random digits (of a NAME that would be too long with them its begin and
+/// a digest), renamed by Commit(), removed when destroyed without it.
 /// What a process that was killed left stays under that name. Throws InputError when the place
 /// cannot be written (no such folder, disk full), or a folder or a device has that name: a rename
 /// would put a file in a device's place. A symbolic link stays one and what it leads to is written;

@@ -113,6 +113,36 @@ TEST(AtomicFile, WhatTheKilledLeftIsKnownAndStays) {
   EXPECT_EQ(TextOf(old), "half");
 }
 
+// A name may have 255 bytes, as a rule: all of them are the user's.
+TEST(AtomicFile, ANameMayBeAsLongAsTheFileSystemTakes) {
+  const test::TemporaryFolder folder;
+  for (size_t length = 230; length <= 255; ++length) {
+    std::string name = "n";
+    while (name.size() + 2 <= length) name += "\u00e9";
+    name.resize(length, 'n');
+    AtomicFile file(folder / name);
+    EXPECT_NE(file.temporary_path().filename().string().find(".partial-"), std::string::npos);
+    file.stream() << "whole";
+    file.Commit();
+    EXPECT_EQ(TextOf(folder / name), "whole") << length;
+  }
+  EXPECT_THROW(AtomicFile(folder / std::string(256, 'n')), InputError);
+}
+
+TEST(AtomicFile, WhatTheKilledLeftOfALongNameIsNoOtherNames) {
+  const test::TemporaryFolder folder;
+  const auto first = folder / (std::string(254, 'n') + "1"),
+             second = folder / (std::string(254, 'n') + "2");
+  std::filesystem::path left;
+  {
+    const AtomicFile killed(first);
+    left = killed.temporary_path();
+  }
+  std::ofstream(left) << "half";
+  EXPECT_EQ(AtomicFile::FindLeftovers(first), std::vector{left});
+  EXPECT_TRUE(AtomicFile::FindLeftovers(second).empty());
+}
+
 TEST(AtomicFile, WhatTheKilledLeftInAFolderIsRemoved) {
   const test::TemporaryFolder folder;
   std::filesystem::create_directory(folder / "depth");

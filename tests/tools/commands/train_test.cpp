@@ -332,8 +332,11 @@ TEST(EvaluateCommand, ADamagedModelIsOneLine) {
 // After all the work it was told that the model cannot be written.
 TEST_F(TrainingRuns, EvaluatedForACardThatCannotBeWrittenAreToldAtOnce) {
   Unbroken();
-  // No name is left to write beside it under.
-  const fs::path model = folder_ / (std::string(245, 'm') + ".ossa");
+  // No path is left to write beside it under: the system takes 4095 bytes.
+  fs::path deep = folder_.path();
+  while (deep.string().size() < 3900) deep /= std::string(100, 'd');
+  fs::create_directories(deep);
+  const fs::path model = deep / std::string(4085 - deep.string().size(), 'm').append(".ossa");
   fs::rename(folder_ / "whole.ossa", model);
   const CommandResult result = RunOssa({"evaluate", model.string(), data(), "--card", "mine"});
   EXPECT_EQ(result.exit_status, 1);
