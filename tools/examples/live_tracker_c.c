@@ -2,6 +2,12 @@
 #include <ossa/ossa_c.h>
 #include <stdio.h>
 
+/* What was assumed, passed over or lost: of a folder that states no camera, which was taken. */
+static void say_notes(ossa_source* source) {
+  const char* note = NULL;
+  while ((note = ossa_source_take_note(source, NULL)) != NULL) fprintf(stderr, "%s\n", note);
+}
+
 int main(int argc, char** argv) {
   ossa_depth_image image = {.struct_size = sizeof image};
   ossa_frame frame = {.struct_size = sizeof frame};
@@ -11,6 +17,7 @@ int main(int argc, char** argv) {
   ossa_status status = tracker != NULL ? OSSA_OK : OSSA_FAILED;
   while (status == OSSA_OK || status == OSSA_TIMEOUT) {
     status = ossa_source_read(source, 100, &image);
+    say_notes(source);
     if (status != OSSA_OK) continue;
     status = ossa_tracker_track(tracker, &image, &frame);
     for (int i = 0; status == OSSA_OK && i < frame.body_count; ++i) {

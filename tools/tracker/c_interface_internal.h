@@ -3,6 +3,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <cstring>
+#include <initializer_list>
 #include <stdexcept>
 #include <string>
 
@@ -32,13 +33,15 @@ inline void RequireNotNull(const void* pointer, const char* call, const char* wh
   throw std::invalid_argument(std::string(call) + ": expected " + what + ", found NULL");
 }
 
-/// Throws unless struct_size can be: at least that of the struct's first version, and not so much
-/// that it was never set. Structs end without padding, so that a member that is added lies behind
-/// what older programs know.
+/// Throws unless struct_size can be: that of an `earlier` version of the struct (the offset of what
+/// was added after it), of this one, or of a later one, which is not so much that it was never set.
+/// Structs end without padding, so that a member that is added lies behind what older programs
+/// know.
 template <typename T>
-void CheckSize(const T& given, const char* name, size_t first_version = sizeof(T)) {
+void CheckSize(const T& given, const char* name, std::initializer_list<size_t> earlier = {}) {
   constexpr size_t kMostAdded = 4096;  // bytes by which later versions may grow, by hand
-  if (given.struct_size >= first_version && given.struct_size <= sizeof(T) + kMostAdded) return;
+  if (given.struct_size >= sizeof(T) && given.struct_size <= sizeof(T) + kMostAdded) return;
+  if (std::find(earlier.begin(), earlier.end(), given.struct_size) != earlier.end()) return;
   throw std::invalid_argument(std::string(name) + ".struct_size: expected sizeof(" + name + "), " +
                               std::to_string(sizeof(T)) + ", found " +
                               std::to_string(given.struct_size));
@@ -47,11 +50,12 @@ void CheckSize(const T& given, const char* name, size_t first_version = sizeof(T
 /// What a caller handed over: members that it was compiled without are 0. Throws where it sets
 /// members that this library does not know.
 template <typename T>
-T ReadStruct(const T& given, const char* name) {
-  CheckSize(given, name);
+T ReadStruct(const T& given, const char* name, std::initializer_list<size_t> earlier = {}) {
+  CheckSize(given, name, earlier);
   const auto* bytes = reinterpret_cast<const unsigned char*>(&given);
-  const bool known = std::all_of(bytes + std::min<size_t>(sizeof(T), given.struct_size),
-                                 bytes + given.struct_size, [](unsigned char b) { return b == 0; });
+  const bool known =
+      given.struct_size <= sizeof(T) || std::all_of(bytes + sizeof(T), bytes + given.struct_size,
+                                                    [](unsigned char b) { return b == 0; });
   if (!known) {
     throw std::invalid_argument(std::string(name) + ": a member behind byte " +
                                 std::to_string(sizeof(T)) +

@@ -1,14 +1,25 @@
 // The sources of depth images behind ossa_c.h.
 #include <chrono>
+#include <deque>
 #include <memory>
+#include <string>
 
+#include "depth/base/one_line.h"
 #include "depth/image/camera_io.h"
 #include "depth/sensor/frame_source.h"
 #include "tools/tracker/c_interface_internal.h"
 
 struct ossa_source {
+  struct Note {
+    ossa::depth::NoteKind kind;
+    std::string text;
+  };
+
   std::unique_ptr<ossa::depth::FrameSource> frames;
   ossa::depth::DepthFrame last;  // owns what the caller reads
+  std::deque<Note> notes;        // not taken yet
+  std::string taken_note;        // owns what the caller reads
+  int64_t dropped = 0;
 };
 
 namespace {
@@ -53,6 +64,16 @@ ossa_depth_image ImageFrom(const ossa::depth::DepthFrame& frame) {
   return image;
 }
 
+std::unique_ptr<ossa_source> Opened(const std::string& name, const ossa_source_options* given) {
+  auto source = std::make_unique<ossa_source>();
+  ossa::depth::SourceOptions options = OptionsFrom(given);
+  options.note = [&notes = source->notes](ossa::depth::NoteKind kind, const std::string& text) {
+    notes.push_back({kind, ossa::OnOneLine(text)});
+  };
+  source->frames = ossa::depth::OpenSource(name, options);
+  return source;
+}
+
 ossa_status StatusOf(ossa::depth::ReadStatus status) {
   using ossa::depth::ReadStatus;
   if (status == ReadStatus::kFrame) return OSSA_OK;
@@ -65,7 +86,7 @@ ossa_source* ossa_source_open(const char* source, const ossa_source_options* opt
   ossa_source* opened = nullptr;
   ossa::tracker::Guarded([&] {
     ossa::tracker::RequireNotNull(source, "ossa_source_open", "a source");
-    opened = new ossa_source{ossa::depth::OpenSource(source, OptionsFrom(options)), {}};
+    opened = Opened(source, options).release();
     return OSSA_OK;
   });
   return opened;
@@ -79,10 +100,28 @@ ossa_status ossa_source_read(ossa_source* source, int32_t timeout_ms, ossa_depth
     ossa::tracker::RequireNotNull(image, "ossa_source_read", "an image");
     ossa::tracker::CheckSize(*image, "ossa_depth_image");  // before a frame is taken
     auto read = source->frames->Read(milliseconds(std::max(0, timeout_ms)));
+    source->dropped += read.dropped;
     if (read.status == ossa::depth::ReadStatus::kFrame) {
       source->last = std::move(read.frame);
       ossa::tracker::FillStruct(ImageFrom(source->last), "ossa_depth_image", image);
     }
     return StatusOf(read.status);
   });
+}
+
+const char* ossa_source_take_note(ossa_source* source, int32_t* kind) {
+  if (source == nullptr || source->notes.empty()) return nullptr;
+  const bool is_warning = source->notes.front().kind == ossa::depth::NoteKind::kWarning;
+  source->taken_note = std::move(source->notes.front().text);
+  source->notes.pop_front();
+  if (kind != nullptr) *kind = is_warning ? OSSA_NOTE_WARNING : OSSA_NOTE_INFO;
+  return source->taken_note.c_str();
+}
+
+int64_t ossa_source_frame_count(const ossa_source* source) {
+  return source == nullptr ? -1 : source->frames->frame_count().value_or(-1);
+}
+
+int64_t ossa_source_dropped(const ossa_source* source) {
+  return source == nullptr ? 0 : source->dropped;
 }

@@ -1,6 +1,8 @@
 // The tracker behind ossa_c.h.
 #include <algorithm>
+#include <array>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "depth/base/error.h"
@@ -26,7 +28,7 @@ template <typename T, typename Last>
 constexpr bool EndsWith(size_t offset) {
   return offset + sizeof(Last) == sizeof(T);
 }
-static_assert(EndsWith<ossa_options, const char*>(offsetof(ossa_options, database)));
+static_assert(EndsWith<ossa_options, const char*>(offsetof(ossa_options, mount)));
 static_assert(EndsWith<ossa_source_options, double>(offsetof(ossa_source_options, wait_s)));
 static_assert(EndsWith<ossa_depth_image, double>(offsetof(ossa_depth_image, time_s)));
 static_assert(EndsWith<ossa_body, float[OSSA_JOINT_COUNT][3]>(offsetof(ossa_body,
@@ -55,10 +57,33 @@ void CheckFilesAreRead(const ossa::tracker::ModelFiles& files, const std::string
   check(files.database, info.database != ossa::recon::Reads::kNothing, "database");
 }
 
+/// One of `names`, by its number. Throws InputError for another.
+template <typename Choice, size_t N>
+Choice ChoiceFrom(const std::array<std::string_view, N>& names, const std::string& given,
+                  const char* member) {
+  const auto known = std::find(names.begin(), names.end(), given);
+  if (known != names.end()) return static_cast<Choice>(known - names.begin());
+  std::string expected;
+  for (const std::string_view name : names)
+    expected.append(expected.empty() ? "" : ", ").append(name);
+  throw ossa::InputError("ossa_options." + std::string(member) + ": expected " + expected +
+                         ", found '" + given + "'");
+}
+
+ossa::tracker::Turn TurnFrom(const std::string& rotate) {
+  constexpr std::array<std::string_view, 5> kNames = {"0", "90", "180", "270", "auto"};
+  return ChoiceFrom<ossa::tracker::Turn>(kNames, rotate, "rotate");
+}
+
+ossa::tracker::Mount MountFrom(const std::string& mount) {
+  constexpr std::array<std::string_view, 3> kNames = {"auto", "level", "ceiling"};
+  return ChoiceFrom<ossa::tracker::Mount>(kNames, mount, "mount");
+}
+
 ossa::tracker::TrackerOptions OptionsFrom(const ossa_options* given) {
   ossa::tracker::TrackerOptions options;
   if (given == nullptr) return options;
-  const ossa_options c = ReadStruct(*given, "ossa_options");
+  const ossa_options c = ReadStruct(*given, "ossa_options", {offsetof(ossa_options, rotate)});
   if (c.method != nullptr) options.method = c.method;
   ossa::tracker::ModelFiles files;
   files.forest = TextOr(c.model, "");
@@ -74,6 +99,8 @@ ossa::tracker::TrackerOptions OptionsFrom(const ossa_options* given) {
   if (c.seated != 0) options.mode = ossa::tracker::TrackingMode::kSeated;
   if (c.max_users != 0) options.max_users = c.max_users;
   if (c.threads != 0) options.threads = c.threads;
+  options.turn = TurnFrom(TextOr(c.rotate, "0"));
+  options.mount = MountFrom(TextOr(c.mount, "auto"));
   return options;
 }
 
@@ -211,6 +238,11 @@ ossa_status ossa_tracker_body(const ossa_tracker* tracker, int32_t place, ossa_b
     FillStruct(BodyFrom(tracker->last.bodies[static_cast<size_t>(place)]), "ossa_body", body);
     return OSSA_OK;
   });
+}
+
+int32_t ossa_tracker_rotation(const ossa_tracker* tracker) {
+  constexpr int32_t kQuarter_deg = 90;  // by definition
+  return tracker == nullptr ? 0 : kQuarter_deg * tracker->tracker.quarter_turns();
 }
 
 ossa_status ossa_tracker_reset(ossa_tracker* tracker) {

@@ -5,7 +5,10 @@
 #include <cstring>
 #include <limits>
 
+#include "depth/image/depth_png.h"
+#include "tests/support/depth_examples.h"
 #include "tests/support/places.h"
+#include "tests/support/temporary_folder.h"
 #include "tests/tools/tracker/tracked_scenes.h"
 #include "tools/tracker/tracker.h"
 
@@ -213,6 +216,38 @@ TEST(CInterface, AStructSizeThatNoVersionHadIsRefused) {
   }
 }
 
+// Its struct ends before the members that came since, which are what they are without it.
+TEST(CInterface, AProgramOfAnEarlierVersionRuns) {
+  OSSA_NEEDS_MODEL();
+  ossa_options options = PlainOptionsInC();
+  options.struct_size = offsetof(ossa_options, rotate);
+  options.rotate = options.mount = "behind what it knows";
+  ossa_tracker* tracker = ossa_tracker_create(&options);
+  EXPECT_NE(tracker, nullptr) << ossa_last_error();
+  EXPECT_EQ(ossa_tracker_rotation(tracker), 0);
+  ossa_tracker_destroy(tracker);
+}
+
+// A camera that lies on its side: joints stay in its own space.
+TEST(CInterface, ImagesMayBeTurned) {
+  OSSA_NEEDS_MODEL();
+  ossa_options options = PlainOptionsInC();
+  options.rotate = "90";
+  WalkInC walk(options);
+  ASSERT_NE(walk.tracker, nullptr) << ossa_last_error();
+  EXPECT_EQ(ossa_tracker_rotation(walk.tracker), 90);
+  for (const char* wrong : {"45", ""}) {
+    options.rotate = wrong;
+    EXPECT_EQ(ossa_tracker_create(&options), nullptr);
+    EXPECT_TRUE(Says("ossa_options.rotate: expected 0, 90, 180, 270, auto, found '"))
+        << ossa_last_error();
+  }
+  options.rotate = nullptr;
+  options.mount = "wall";
+  EXPECT_EQ(ossa_tracker_create(&options), nullptr);
+  EXPECT_TRUE(Says("ossa_options.mount: expected auto, level, ceiling, found 'wall'"));
+}
+
 // What a program hands over that was compiled with a later version's header.
 template <typename T>
 struct Later {
@@ -262,6 +297,31 @@ TEST(CInterface, ASourceIsReadToItsEnd) {
   EXPECT_EQ(status, OSSA_END) << ossa_last_error();
   EXPECT_GT(frames, 10);
   EXPECT_GT(image.fx, 100.0);
+  ossa_source_close(source);
+}
+
+// What the command says on its error output.
+TEST(CInterface, ASourceHasItsNotes) {
+  const test::TemporaryFolder folder;
+  test::WriteExampleFolder(folder.path(), 2, 64, 48);
+  depth::WriteDepthPng(folder / "x.png", test::ExampleFrame(1, 32, 24).view());
+  ossa_source* source = ossa_source_open(folder.path().c_str(), nullptr);
+  ASSERT_NE(source, nullptr) << ossa_last_error();
+  EXPECT_EQ(ossa_source_frame_count(source), 3);
+  int32_t kind = -1;
+  const char* note = ossa_source_take_note(source, &kind);
+  ASSERT_NE(note, nullptr);
+  EXPECT_NE(std::string(note).find("camera"), std::string::npos) << note;
+  EXPECT_EQ(kind, OSSA_NOTE_INFO);
+  ossa_depth_image image{};
+  image.struct_size = sizeof image;
+  while (ossa_source_read(source, 1000, &image) == OSSA_OK) {
+  }
+  std::string last;
+  while ((note = ossa_source_take_note(source, &kind)) != nullptr) last = note;
+  EXPECT_NE(last.find("skipped 1 of 3 frames"), std::string::npos) << last;
+  EXPECT_EQ(kind, OSSA_NOTE_WARNING);
+  EXPECT_EQ(ossa_source_dropped(source), 1);
   ossa_source_close(source);
 }
 

@@ -94,6 +94,21 @@ void ossa_source_close(ossa_source* source);
    of this source. A device that was unplugged times out until it is back. */
 ossa_status ossa_source_read(ossa_source* source, int32_t timeout_ms, ossa_depth_image* image);
 
+typedef enum {
+  OSSA_NOTE_INFO = 0,   /* what was assumed or passed over */
+  OSSA_NOTE_WARNING = 1 /* what was lost */
+} ossa_note_kind;
+
+/* What `ossa track` says of a source on its error output: the next line that nobody has taken yet,
+   from opening it and from all reads until now; NULL when there is none. So a camera that is not
+   stated is told of, and frames that cannot be read. Valid until the next call with this source.
+   kind, an ossa_note_kind, may be NULL. */
+const char* ossa_source_take_note(ossa_source* source, int32_t* kind);
+/* Frames of a recording; -1 of a device, and of a file that does not know. */
+int64_t ossa_source_frame_count(const ossa_source* source);
+/* Frames that were lost until now, between those that were read. */
+int64_t ossa_source_dropped(const ossa_source* source);
+
 /* ---- the tracker ---- */
 
 typedef struct {
@@ -107,6 +122,12 @@ typedef struct {
   const char* smoothing; /* as `ossa track --smoothing`; NULL: what goes with the method */
   /* Files as of `ossa track`; NULL: those that ossa ships; "none": do without. */
   const char *model, *refinement, *learned, *prior, *database;
+  /* How far images must be turned clockwise for people to stand in them: "0", "90", "180", "270",
+     or "auto": found while nobody is followed. Results stay in the unturned camera's space; NULL:
+     0. */
+  const char* rotate;
+  const char*
+      mount; /* of the camera, as `ossa track --mount`: auto, level or ceiling; NULL: auto */
 } ossa_options;
 
 /* One joint of a skeleton. This struct does not grow. */
@@ -168,6 +189,8 @@ ossa_status ossa_tracker_track(ossa_tracker* tracker, const ossa_depth_image* im
                                ossa_frame* frame);
 /* A body of the last frame, by its place from 0 to body_count - 1. */
 ossa_status ossa_tracker_body(const ossa_tracker* tracker, int32_t place, ossa_body* body);
+/* Degrees by which images are turned now, clockwise. */
+int32_t ossa_tracker_rotation(const ossa_tracker* tracker);
 /* Forgets everybody and everything seen: another recording begins. */
 ossa_status ossa_tracker_reset(ossa_tracker* tracker);
 
