@@ -3,6 +3,7 @@
 #include <Eigen/Cholesky>
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <optional>
 
 #include "depth/base/statistics.h"
@@ -413,7 +414,16 @@ class Learner {
 LinearFilter LinearFilter::Learn(const std::vector<PosturePair>& pairs,
                                  const LinearFilterOptions& options) {
   if (!CanLearnOf(UsualStep_s(pairs))) return {};
-  return Learner(pairs, options).Learned();
+  // A frame that was handed out twice brings nothing new, and would cut the way it is on in two.
+  const auto repeats = [](const PosturePair& before, const PosturePair& now) {
+    return before.clip == now.clip && before.time_s == now.time_s;
+  };
+  if (std::adjacent_find(pairs.begin(), pairs.end(), repeats) == pairs.end()) {
+    return Learner(pairs, options).Learned();
+  }
+  std::vector<PosturePair> once;
+  std::unique_copy(pairs.begin(), pairs.end(), std::back_inserter(once), repeats);
+  return Learner(once, options).Learned();
 }
 
 }  // namespace ossa::recon

@@ -163,6 +163,19 @@ TEST(LinearFilter, KnowsNothingOfFramesThatDoNotFollowEachOther) {
   EXPECT_TRUE(LinearFilter::Learn(pairs).empty());
 }
 
+// As of a program that asks more often than its sensor has frames.
+TEST(LinearFilter, LearnsOfFramesThatWereHandedOutTwiceAsOfOthers) {
+  std::vector<PosturePair> twice;
+  for (const PosturePair& pair : test::PairsOfPeople(3)) twice.insert(twice.end(), 2, pair);
+  const LinearFilter filter = LinearFilter::Learn(twice);
+  EXPECT_EQ(filter.step_s, LearnedOfThree().step_s);
+  for (size_t joint = 0; joint < kJointCount; ++joint) {
+    EXPECT_EQ(filter.weights[LinearFilter::kNow][joint],
+              LearnedOfThree().weights[LinearFilter::kNow][joint])
+        << joint;
+  }
+}
+
 TEST(LinearFilter, LeavesWhatStandsStillWhereItIs) {
   const std::vector<Posture> still(LinearFilter::kFrames, test::InFrontOfCamera(test::Motion(1.0)));
   LinearFilter::Steps steps;
