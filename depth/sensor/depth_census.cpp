@@ -3,10 +3,11 @@
 #include <algorithm>
 #include <array>
 #include <bitset>
+#include <charconv>
 #include <cmath>
-#include <cstdio>
 #include <cstdlib>
 #include <span>
+#include <string>
 
 #include "depth/sensor/depth_coding.h"
 
@@ -70,9 +71,10 @@ double Share(const Counts& count, const Spread& spread, const Holds& holds) {
 }
 
 std::string Metres(double mm) {
-  std::array<char, 32> text{};
-  std::snprintf(text.data(), text.size(), "%.2g m", mm * 1e-3);
-  return text.data();
+  std::array<char, 32> digits{};
+  const auto end = std::to_chars(digits.data(), digits.data() + digits.size(), mm * 1e-3,
+                                 std::chars_format::general, 2);
+  return std::string(digits.data(), end.ptr) + " m";
 }
 
 // The high byte of a distance is small; as the low one of every number it gives the exchange away.

@@ -24,6 +24,7 @@ constexpr double kTicksPerSecond = 60e6;  // the Kinect's clock, 32 bits of it
 struct RawTiltState {
   std::array<int16_t, 3> accelerometer = {0, 819, 0};
   int8_t tilt_angle = 0;
+  int8_t padding = 0;  // named, so that the file has no byte that nobody wrote
   int32_t tilt_status = 0;
 };
 static_assert(sizeof(RawTiltState) == 12);
