@@ -221,6 +221,14 @@ void ShowDepthRecording(const SourceArguments& arguments) {
       camera.cy);
 }
 
+// What a camera says of itself; who wants its images records them first.
+void ShowDevice(const SourceArguments& arguments) {
+  const auto source = OpenSource(arguments, false);
+  const depth::Camera& camera = source->camera();
+  fmt::print("depth camera, {} x {}, fx {:.2f} fy {:.2f} cx {:.2f} cy {:.2f}\n", camera.width,
+             camera.height, camera.fx, camera.fy, camera.cx, camera.cy);
+}
+
 // Which way up, where that is asked.
 void ShowUpright(const SourceArguments& arguments) {
   tracker::Tracker tracker;
@@ -281,14 +289,16 @@ constexpr std::array kKinds = {
     FileKind{tools::IsUnfinishedDataset, ShowDataset},  // which refuses it in words
 };
 
-// FILE#truth, FILE.bag#/topic and the like are files, too.
+// FILE#truth, FILE.bag#/topic and the like are files, too; of a device its driver knows.
 void ExpectIsThere(const std::string& file) {
+  if (IsDevice(file)) return;
   const bool is_there = fs::exists(file) || fs::exists(recon::FindSkeletonFile(file)) ||
                         (depth::IsRecording(file) && fs::exists(file.substr(0, file.rfind('#'))));
   if (!is_there) throw InputError(file + ": no such file or folder");
 }
 
 void Show(const SourceArguments& arguments, bool is_depth) {
+  if (IsDevice(arguments.name)) return ShowDevice(arguments);
   const fs::path path = arguments.name;
   for (const FileKind& kind : kKinds) {
     const bool is_named_so = kind.extension != nullptr && arguments.name.ends_with(kind.extension);
@@ -311,13 +321,16 @@ int Info(int argc, char** argv) {
       "a .ossa, .ossadb, .ossagp, .ossaprior, .ossarefine, .ossanet, .ossasurface, .ossamesh, "
       ".ossaperson or skeleton file, FILE#truth, a DATASET, a folder of skeleton files, or depth "
       "images: .oni, .mkv, .bag, "
-      "FILE.bag#/topic, a 16-bit PNG or a folder of them. The options say how depth images are "
-      "read");
+      "FILE.bag#/topic, a 16-bit PNG or a folder of them; or a device, openni: or openni:URI. The "
+      "options say how depth images are read");
   std::string picture;
   app.add_option("--picture", picture,
                  "look instead of read: a contact sheet of depth images or of a DATASET, FILE.png, "
                  "or the card of a forest model, FILE.html");
   Parse(app, argc, argv);
+  if (!picture.empty() && IsDevice(file.name)) {
+    throw UsageError("--picture: " + file.name + ": expected a recording, found a device");
+  }
   ExpectIsThere(file.name);
   if (!picture.empty()) WriteInfoPicture(file, picture);
   // Who says how depths are read wants to see them so, a DATASET's, too.

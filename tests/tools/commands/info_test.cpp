@@ -33,6 +33,17 @@ void ExpectRefused(const std::filesystem::path& path, const std::string& why) {
   EXPECT_NE(result.err.find(why), std::string::npos) << result.err;
 }
 
+TEST(Info, OfADeviceIsItsCamera) {
+  const TemporaryFolder folder;
+  test::WriteExampleFolder(folder.path(), 3, 320, 240);
+  const std::string device = "openni:ossa://" + folder.path().string();
+  ExpectShown(device, "depth camera, 320 x 240, fx 28");
+  ExpectRefused("openni:ossa:///nowhere", "openni:ossa:///nowhere");
+  const CommandResult result = RunOssa({"info", device, "--picture", folder / "x.png"});
+  EXPECT_EQ(result.exit_status, 2);
+  EXPECT_NE(result.err.find("expected a recording, found a device"), std::string::npos);
+}
+
 // Two postures that differ by far more than the filter's threshold.
 recon::PostureDatabase TwoPostures() {
   recon::PostureClip clip{"two.bvh", {}, {}};
