@@ -19,7 +19,10 @@ struct Calibration {
 /// `distCoeffs` or `D`, `image_width` or `width`. YAML with or without OpenCV's first line (what
 /// ROS's camera_calibration saves as ost.yaml, and camera_info), XML, or JSON; a matrix is its
 /// numbers, or what has them as `data`. nullopt where it states no such matrix; throws InputError,
-/// `name` first, where that has not nine numbers.
+/// `name` first, where that has not nine numbers. Read by hand: OpenCV's own FileStorage refuses
+/// ROS's files (they lack its first line), yaml-cpp reads no XML, and either would be loaded by
+/// everybody who uses this room, drivers in other people's programs among them, for a dozen
+/// numbers.
 std::optional<Calibration> FindCalibration(const std::string& text, const std::string& name);
 
 /// The matrix of a text of nothing but its numbers, nine, twelve or sixteen (three or four rows of

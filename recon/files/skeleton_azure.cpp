@@ -127,10 +127,10 @@ SkeletonSequence ReadAzure(SkeletonInput& input) {
   return sequence;
 }
 
-constexpr SkeletonFormat kFormats[] = {{"azure-kinect", IsAzure, ReadAzure}};
+constexpr SkeletonFormat kAzureFormats[] = {{"azure-kinect", IsAzure, ReadAzure}};
 
 }  // namespace
 
-std::span<const SkeletonFormat> AzureFormats() { return kFormats; }
+std::span<const SkeletonFormat> AzureFormats() { return kAzureFormats; }
 
 }  // namespace ossa::recon

@@ -301,10 +301,10 @@ SkeletonSequence ReadC3d(SkeletonInput& input) {
   return sequence;
 }
 
-constexpr SkeletonFormat kFormats[] = {{"c3d", IsC3d, ReadC3d}};
+constexpr SkeletonFormat kC3dFormats[] = {{"c3d", IsC3d, ReadC3d}};
 
 }  // namespace
 
-std::span<const SkeletonFormat> C3dFormats() { return kFormats; }
+std::span<const SkeletonFormat> C3dFormats() { return kC3dFormats; }
 
 }  // namespace ossa::recon

@@ -144,7 +144,7 @@ SkeletonSequence ReadUtKinect(SkeletonInput& input) {
   return sequence;
 }
 
-constexpr SkeletonFormat kFormats[] = {
+constexpr SkeletonFormat kKinectV1Formats[] = {
     {"kinect-gait", IsKinectGait, ReadKinectGait},
     {"ut-kinect", IsUtKinect, ReadUtKinect},
     {"msr-action3d", IsMsrAction3D, ReadMsrAction3D},
@@ -152,6 +152,6 @@ constexpr SkeletonFormat kFormats[] = {
 
 }  // namespace
 
-std::span<const SkeletonFormat> KinectV1Formats() { return kFormats; }
+std::span<const SkeletonFormat> KinectV1Formats() { return kKinectV1Formats; }
 
 }  // namespace ossa::recon

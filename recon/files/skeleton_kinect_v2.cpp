@@ -259,7 +259,7 @@ class NtuReader {
 
 SkeletonSequence ReadNtu(SkeletonInput& input) { return NtuReader(input).Run(); }
 
-constexpr SkeletonFormat kFormats[] = {
+constexpr SkeletonFormat kKinectV2Formats[] = {
     {"labanotation-csv",
      [](const SkeletonSample& s) { return FirstLineHas(s, ',', kLabanColumns); }, ReadLabanotation},
     {"keraal-kinect", [](const SkeletonSample& s) { return FirstLineHas(s, ' ', kKeraalColumns); },
@@ -271,6 +271,6 @@ constexpr SkeletonFormat kFormats[] = {
 
 }  // namespace
 
-std::span<const SkeletonFormat> KinectV2Formats() { return kFormats; }
+std::span<const SkeletonFormat> KinectV2Formats() { return kKinectV2Formats; }
 
 }  // namespace ossa::recon

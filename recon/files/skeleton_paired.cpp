@@ -109,7 +109,7 @@ bool HasColumns(const SkeletonSample& sample, std::string_view first, std::strin
                      [&](const std::string& name) { return name.starts_with(other); });
 }
 
-constexpr SkeletonFormat kFormats[] = {
+constexpr SkeletonFormat kPairedFormats[] = {
     {"ui-prmd-csv", [](const SkeletonSample& s) { return HasColumns(s, "t_s", "G_head_x"); },
      [](SkeletonInput& input) { return ReadPaired(input, kUiPrmd); }},
     {"itop-csv", [](const SkeletonSample& s) { return HasColumns(s, "frame", "P_"); },
@@ -118,6 +118,6 @@ constexpr SkeletonFormat kFormats[] = {
 
 }  // namespace
 
-std::span<const SkeletonFormat> PairedFormats() { return kFormats; }
+std::span<const SkeletonFormat> PairedFormats() { return kPairedFormats; }
 
 }  // namespace ossa::recon

@@ -52,7 +52,7 @@ SkeletonSequence ReadBvhSkeleton(SkeletonInput& input) {
   return sequence;
 }
 
-constexpr SkeletonFormat kFormats[] = {
+constexpr SkeletonFormat kPlainFormats[] = {
     {"trc", IsTrc, ReadTrc},
     {"csv", IsCsv, ReadSkeletonCsv},
     {"bvh", IsBvh, ReadBvhSkeleton},
@@ -67,6 +67,6 @@ std::optional<TrackingState> FindState(std::string_view name) {
   return static_cast<TrackingState>(found - kStateNames.begin());
 }
 
-std::span<const SkeletonFormat> PlainFormats() { return kFormats; }
+std::span<const SkeletonFormat> PlainFormats() { return kPlainFormats; }
 
 }  // namespace ossa::recon

@@ -90,10 +90,11 @@ SkeletonSequence ReadStreamSaver(SkeletonInput& input) {
   return sequence;
 }
 
-constexpr SkeletonFormat kFormats[] = {{"kinect-stream-saver", IsStreamSaver, ReadStreamSaver}};
+constexpr SkeletonFormat kStreamSaverFormats[] = {
+    {"kinect-stream-saver", IsStreamSaver, ReadStreamSaver}};
 
 }  // namespace
 
-std::span<const SkeletonFormat> StreamSaverFormats() { return kFormats; }
+std::span<const SkeletonFormat> StreamSaverFormats() { return kStreamSaverFormats; }
 
 }  // namespace ossa::recon

@@ -162,7 +162,7 @@ bool HasColumns(const SkeletonSample& sample, size_t count) {
   return fields.size() == count && std::all_of(fields.begin(), fields.end(), LooksLikeNumber);
 }
 
-constexpr SkeletonFormat kFormats[] = {
+constexpr SkeletonFormat kUiPrmdFormats[] = {
     {"ui-prmd-kinect", [](const SkeletonSample& s) { return HasColumns(s, kColumns); }, ReadKinect},
     {"ui-prmd-vicon", [](const SkeletonSample& s) { return HasColumns(s, 3 * kMarkers.size()); },
      ReadVicon},
@@ -175,6 +175,6 @@ bool HoldsAngles(std::string_view name) {
   return name.ends_with("_angles.txt");
 }
 
-std::span<const SkeletonFormat> UiPrmdFormats() { return kFormats; }
+std::span<const SkeletonFormat> UiPrmdFormats() { return kUiPrmdFormats; }
 
 }  // namespace ossa::recon

@@ -126,8 +126,8 @@ typedef struct {
      or "auto": found while nobody is followed. Results stay in the unturned camera's space; NULL:
      0. */
   const char* rotate;
-  const char*
-      mount; /* of the camera, as `ossa track --mount`: auto, level or ceiling; NULL: auto */
+  /* Where the camera is, as `ossa track --mount`: auto, level or ceiling; NULL: auto. */
+  const char* mount;
 } ossa_options;
 
 /* One joint of a skeleton. This struct does not grow. */
