@@ -6,6 +6,10 @@ target_compile_options(ossa_warnings INTERFACE -Wall -Wextra -Wconversion)
 if(PROJECT_IS_TOP_LEVEL AND (NOT OSSA_SANITIZE OR CMAKE_CXX_COMPILER_ID MATCHES "Clang"))
   target_compile_options(ossa_warnings INTERFACE -Werror)
 endif()
+# Of several files compiled as one GCC takes a class of a file's own for one that others see.
+if(CMAKE_UNITY_BUILD AND CMAKE_CXX_COMPILER_ID STREQUAL "GNU")
+  target_compile_options(ossa_warnings INTERFACE $<$<COMPILE_LANGUAGE:CXX>:-Wno-subobject-linkage>)
+endif()
 
 # What hardens our code and only ours against what a hostile file makes of a mistake: stacks whose
 # overrun is seen, checked library calls and containers, tables of addresses that are closed after

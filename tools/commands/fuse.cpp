@@ -35,6 +35,7 @@ void Declare(CLI::App& app, Arguments& a) {
   app.add_option("--out", a.out, "result: .jsonl .bvh .glb .trc .csv");
   a.fuse.AddTo(app);
   a.write.AddTo(app);
+  a.write.AddSurfaceTo(app);
   AddMappingOption(app, a.read.mapping_file, false);
   app.add_flag("--quiet", a.quiet, "no progress, nothing about cameras that were found");
   app.footer(MappingHelp());

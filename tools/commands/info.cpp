@@ -41,6 +41,8 @@ struct FileKind {
   bool (*is)(const fs::path&);
   void (*show)(const fs::path&);
   const char* extension = nullptr;  // a damaged one is known by it
+  // In place of `show`, of what says something of a body surface alone.
+  void (*show_with)(const fs::path&, const recon::BodySurface&) = nullptr;
 };
 
 // What a forest has learned besides its trees and proposals.
@@ -148,19 +150,16 @@ void ShowSurface(const fs::path& path) {
              static_cast<double>(fs::file_size(path)) * 1e-3);
 }
 
-void ShowPersonFile(const fs::path& path) {
-  const auto surface = recon::BodySurface::Load(tracker::ShippedFile(recon::kShippedSurface));
+void ShowPersonFile(const fs::path& path, const recon::BodySurface& surface) {
   const auto person = recon::PersonShape::Load(path, surface);
   const recon::Stature stature = recon::MeasureStature(person, surface);
-  fmt::print(
-      "a person of the shipped surface, {:.2f} m tall, give or take {:.0f} cm, by {} frames\n",
-      stature.stature_m, 100.0 * stature.sigma_m, person.frames);
+  fmt::print("a person of this body surface, {:.2f} m tall, give or take {:.0f} cm, by {} frames\n",
+             stature.stature_m, 100.0 * stature.sigma_m, person.frames);
 }
 
-void ShowMesh(const fs::path& path) {
-  const auto surface = recon::BodySurface::Load(tracker::ShippedFile(recon::kShippedSurface));
+void ShowMesh(const fs::path& path, const recon::BodySurface& surface) {
   const auto mesh = recon::BodyMesh::Load(path, surface);
-  fmt::print("body mesh of the shipped surface, {} vertices, {} triangles, {:.1f} kB\n",
+  fmt::print("body mesh of this body surface, {} vertices, {} triangles, {:.1f} kB\n",
              mesh.vertices.size(), mesh.triangles.size(),
              static_cast<double>(fs::file_size(path)) * 1e-3);
 }
@@ -281,8 +280,8 @@ constexpr std::array kKinds = {
     FileKind{recon::LearnedModels::IsFile, ShowLearned, ".ossagp"},
     FileKind{recon::PosturePrior::IsFile, ShowPrior, ".ossaprior"},
     FileKind{recon::BodySurface::IsFile, ShowSurface, ".ossasurface"},
-    FileKind{recon::PersonShape::IsFile, ShowPersonFile, ".ossaperson"},
-    FileKind{recon::BodyMesh::IsFile, ShowMesh, ".ossamesh"},
+    FileKind{recon::PersonShape::IsFile, nullptr, ".ossaperson", ShowPersonFile},
+    FileKind{recon::BodyMesh::IsFile, nullptr, ".ossamesh", ShowMesh},
     FileKind{recon::RefinementCascade::IsFile, ShowRefinement, ".ossarefine"},
     FileKind{recon::PoseNetwork::IsFile, ShowPoseNetwork, ".ossanet"},
     FileKind{tools::IsDataset, ShowDataset},
@@ -297,12 +296,18 @@ void ExpectIsThere(const std::string& file) {
   if (!is_there) throw InputError(file + ": no such file or folder");
 }
 
-void Show(const SourceArguments& arguments, bool is_depth) {
+recon::BodySurface LoadSurface(const std::string& named) {
+  return recon::BodySurface::Load(named.empty() ? tracker::ShippedFile(recon::kShippedSurface)
+                                                : fs::path(named));
+}
+
+void Show(const SourceArguments& arguments, const std::string& surface, bool is_depth) {
   if (IsDevice(arguments.name)) return ShowDevice(arguments);
   const fs::path path = arguments.name;
   for (const FileKind& kind : kKinds) {
     const bool is_named_so = kind.extension != nullptr && arguments.name.ends_with(kind.extension);
     if (is_depth || (!is_named_so && !kind.is(path))) continue;
+    if (kind.show == nullptr) return kind.show_with(path, LoadSurface(surface));
     return kind.show(path);
   }
   if (is_depth || depth::IsRecording(path)) return ShowDepthRecording(arguments);
@@ -327,6 +332,9 @@ int Info(int argc, char** argv) {
   app.add_option("--picture", picture,
                  "look instead of read: a contact sheet of depth images or of a DATASET, FILE.png, "
                  "or the card of a forest model, FILE.html");
+  std::string surface;
+  app.add_option("--surface", surface,
+                 ".ossasurface that an .ossaperson or .ossamesh is of (default: the shipped one)");
   Parse(app, argc, argv);
   if (!picture.empty() && IsDevice(file.name)) {
     throw UsageError("--picture: " + file.name + ": expected a recording, found a device");
@@ -334,8 +342,9 @@ int Info(int argc, char** argv) {
   ExpectIsThere(file.name);
   if (!picture.empty()) WriteInfoPicture(file, picture);
   // Who says how depths are read wants to see them so, a DATASET's, too.
-  const bool is_depth = app.count_all() > (picture.empty() ? 2U : 3U);
-  Show(file, is_depth);
+  const size_t others = 2 + app.count("--picture") + app.count("--surface");
+  const bool is_depth = app.count_all() > others;
+  Show(file, surface, is_depth);
   if (app.count("--rotate") > 0 && file.rotate == "auto") ShowUpright(file);
   return 0;
 }

@@ -131,6 +131,13 @@ void WriteOptions::AddTo(CLI::App& app) {
                  "one)");
 }
 
+void WriteOptions::AddSurfaceTo(CLI::App& app) {
+  app.add_option("--surface", surface,
+                 ".ossasurface of 'ossa surface' that --mesh is the skin of (default: the shipped "
+                 "one)")
+      ->needs("--mesh");
+}
+
 void WriteOptions::Check(const std::string& out) const {
   const bool is_glb = fs::path(out).extension() == ".glb";
   if (!names.empty() && !is_glb && fs::path(out).extension() != ".bvh") {
@@ -142,10 +149,13 @@ void WriteOptions::Check(const std::string& out) const {
   if (!mesh.empty() && !is_glb) {
     throw UsageError("--mesh " + mesh + ": expected --out FILE.glb with it");
   }
+  if (!surface.empty() && is_glb && mesh.empty()) {
+    throw UsageError("--surface " + surface +
+                     ": expected its skin with it, --mesh FILE.ossamesh, or --mesh none");
+  }
 }
 
-recon::SkeletonWriteOptions WriteOptions::For(const std::string& out,
-                                              const std::string& surface_file) const {
+recon::SkeletonWriteOptions WriteOptions::For(const std::string& out) const {
   static const std::map<std::string, recon::BvhNames> kNames = {
       {"cmu", recon::BvhNames::kCmu},
       {"mixamo", recon::BvhNames::kMixamo},
@@ -153,7 +163,7 @@ recon::SkeletonWriteOptions WriteOptions::For(const std::string& out,
   recon::SkeletonWriteOptions options;
   if (const auto known = kNames.find(names); known != kNames.end()) options.names = known->second;
   if (fs::path(out).extension() == ".glb" && mesh != "none") {
-    options.body = tracker::LoadBodyMesh(surface_file, mesh);
+    options.body = tracker::LoadBodyMesh(surface, mesh);
   }
   return options;
 }

@@ -54,13 +54,14 @@ InputError KeepWhatFits(const DiskFull& full, recon::SkeletonWriter& writer);
 /// The options --bvh-names and --mesh: how skeletons are written.
 struct WriteOptions {
   std::string names, mesh;
+  std::string surface;  // whose skin --mesh is; "": the shipped one
   void AddTo(CLI::App& app);
+  /// --surface, of commands that have no fit to pose one.
+  void AddSurfaceTo(CLI::App& app);
   /// Throws UsageError where one was given that `out` does not read.
   void Check(const std::string& out) const;
-  /// Loads what a .glb's people wear: the skin of the surface in `surface_file` ("": the shipped
-  /// one). Throws InputError.
-  recon::SkeletonWriteOptions For(const std::string& out,
-                                  const std::string& surface_file = "") const;
+  /// Loads what a .glb's people wear. Throws InputError.
+  recon::SkeletonWriteOptions For(const std::string& out) const;
 };
 
 /// recon::WriteSkeletons that keeps what fits.

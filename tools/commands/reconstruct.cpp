@@ -206,6 +206,7 @@ void DeclareOptions(CLI::App& app, ReconstructArguments& a) {
                  "result: .jsonl .bvh .glb .trc .csv, or a folder for many recordings")
       ->required();
   a.write.AddTo(app);
+  a.write.AddSurfaceTo(app);
   AddMethodOptions(app, a);
   AddLocalPcaOptions(app, a);
   a.bones.AddTo(app);

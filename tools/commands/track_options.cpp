@@ -319,6 +319,7 @@ TrackOptions ParseTrackOptions(int argc, char** argv) {
   } else {
     CheckRefinementIsRead(options);
   }
+  if (options.files.surface != "none") options.write.surface = options.files.surface;
   CheckFiles(options);
   if (options.fit == "on" || options.posture == "fitted") CheckFit(options);
   options.tracker = MakeTrackerOptions(options);

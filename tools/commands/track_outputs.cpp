@@ -27,8 +27,7 @@ SkeletonOutput::SkeletonOutput(const TrackOptions& options)
     : path_(options.out), recorder_(options) {
   if (path_.empty()) return;
   SayLeftovers(path_);
-  writer_.emplace(path_, options.write.For(
-                             path_, options.files.surface == "none" ? "" : options.files.surface));
+  writer_.emplace(path_, options.write.For(path_));
 }
 
 void SkeletonOutput::Write(const tracker::BodyFrame& bodies) {

@@ -188,8 +188,7 @@ void SayWhatIsMissing(const Cameras& cameras, const TrackOptions& options, int64
 }  // namespace
 
 int TrackSeveral(const TrackOptions& options) {
-  const auto write =
-      options.write.For(options.out, options.files.surface == "none" ? "" : options.files.surface);
+  const auto write = options.write.For(options.out);
   Cameras cameras;
   for (const std::string& name : options.Sources()) cameras.push_back(OpenCamera(options, name));
   TrackCameras(cameras, options);

@@ -6,6 +6,7 @@
 #include <string>
 
 #include "recon/database/posture_database.h"
+#include "recon/fit/body_mesh.h"
 #include "tests/support/depth_examples.h"
 #include "tests/support/places.h"
 #include "tests/support/run_command.h"
@@ -42,6 +43,37 @@ TEST(Info, OfADeviceIsItsCamera) {
   const CommandResult result = RunOssa({"info", device, "--picture", folder / "x.png"});
   EXPECT_EQ(result.exit_status, 2);
   EXPECT_NE(result.err.find("expected a recording, found a device"), std::string::npos);
+}
+
+// A body of one's own: its skin is told of with it, and worn by whoever is written.
+TEST(Surface, OfOnesOwnHasItsSkin) {
+  const TemporaryFolder folder;
+  const auto shipped = test::SourceFolder() / "tools/tracker/shipped";
+  recon::BodySurface surface = recon::BodySurface::Load(shipped / recon::kShippedSurface);
+  recon::BodyMesh mesh = recon::BodyMesh::Load(shipped / recon::kShippedMesh, surface);
+  surface.joint[3].mean_m.x() += 0.01;
+  mesh.surface = surface;
+  const std::string own = folder / "own.ossasurface", skin = folder / "own.ossamesh";
+  surface.Save(own);
+  mesh.Save(skin);
+  EXPECT_EQ(RunOssa({"info", skin}).exit_status, 1);
+  EXPECT_EQ(RunOssa({"info", skin, "--surface", own}).exit_status, 0);
+  const std::string skeletons = folder / "x.jsonl", out = folder / "x.glb";
+  std::ofstream(skeletons) << R"({"frame":0,"time_s":0,"bodies":[{"id":1,"joints":)"
+                           << R"({"Head":{"p":[0,0.5,2]},"HipCenter":{"p":[0,0,2]}}}]})"
+                           << "\n";
+  const std::vector<std::string> reconstruct = {"reconstruct", skeletons,  "--out",     out,
+                                                "--method",    "one-euro", "--surface", own};
+  EXPECT_EQ(RunOssa(reconstruct).exit_status, 2) << "without a skin";
+  std::vector<std::string> with_skin = reconstruct;
+  with_skin.insert(with_skin.end(), {"--mesh", skin});
+  const CommandResult result = RunOssa(with_skin);
+  EXPECT_EQ(result.exit_status, 0) << result.err;
+  const CommandResult track =
+      RunOssa({"track", folder.path(), "--out", out, "--surface", own, "--quiet"});
+  EXPECT_EQ(track.exit_status, 2);
+  EXPECT_NE(track.err.find("expected its skin with it, --mesh FILE.ossamesh"), std::string::npos)
+      << track.err;
 }
 
 // Two postures that differ by far more than the filter's threshold.
