@@ -38,12 +38,15 @@ std::string HexOf(std::span<const unsigned char> bytes) {
   return text;
 }
 
-// A name cut to so many bytes, between two characters of UTF-8, and the digest of all of it: other
-// names that begin alike are told apart.
+// A name cut to so many bytes, between two characters of UTF-8, with a digest of all of it, so that
+// others that begin alike are told apart, and its extension, by which it is known what it holds.
 std::string Shortened(const std::string& name, size_t bytes) {
+  constexpr size_t kExtension = 16;  // bytes at most, by hand: longer than any of ossa's
+  const std::string extension = fs::path(name).extension().string();
   XXH64_canonical_t digest;
   XXH64_canonicalFromHash(&digest, XXH3_64bits(name.data(), name.size()));
-  const std::string end = std::string("-").append(HexOf(digest.digest));
+  std::string end = std::string("-").append(HexOf(digest.digest));
+  if (extension.size() <= kExtension) end += extension;
   size_t cut = bytes > end.size() ? bytes - end.size() : 0;
   const auto continues = [&](size_t at) {
     return (static_cast<unsigned>(name[at]) & 0xC0U) == 0x80U;

@@ -38,7 +38,7 @@ namespace {
 using Clock = std::chrono::steady_clock;
 using std::chrono::milliseconds;
 
-enum class Ending { kComplete, kUnplugged, kSilent, kInterrupted, kDiskFull };
+enum class Ending { kComplete, kUnplugged, kSilent, kInterrupted };
 
 struct Run {
   tracker::RunStats stats;
@@ -48,6 +48,7 @@ struct Run {
   bool somebody = false;      // was followed in a frame
   Ending ending = Ending::kComplete;
   std::string failure;  // of the source; what was tracked before it stays
+  std::optional<DiskFull> full;
 };
 
 std::optional<int64_t> FramesWanted(const depth::FrameSource& source, const TrackOptions& options) {
@@ -147,13 +148,13 @@ void TrackWhatComes(depth::FrameSource& source, tracker::Tracker& tracker,
   while (const auto held = tracker.DrainLag()) to.Deliver(*held, run);
 }
 
-/// The output that did not fit says so when it is finished, as the others are.
+/// An output that did not fit says so when it is finished, as the others are.
 void TrackAll(depth::FrameSource& source, tracker::Tracker& tracker, const TrackOptions& options,
               Destinations& to, Run& run) {
   try {
     TrackWhatComes(source, tracker, options, to, run);
-  } catch (const DiskFull&) {
-    run.ending = Ending::kDiskFull;
+  } catch (const DiskFull& full) {
+    run.full = full;
   }
 }
 
@@ -287,6 +288,7 @@ void FinishAll(Destinations& to, const depth::Camera& camera, const Run& run) {
                    [&] { Report(to.options, run); }, [&] { SayNobody(to.options, camera, run); },
                    [&] { SayMissingFloor(to.tracker, to.options); }, [&] { to.trace.Finish(); },
                    [&] { to.person.Finish(to.options); }, [&] { CheckComplete(to.options, run); }});
+  if (run.full) throw InputError(*run.full);  // of no output, then: of what the viewer keeps
 }
 
 }  // namespace

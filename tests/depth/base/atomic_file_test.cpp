@@ -129,6 +129,13 @@ TEST(AtomicFile, ANameMayBeAsLongAsTheFileSystemTakes) {
   EXPECT_THROW(AtomicFile(folder / std::string(256, 'n')), InputError);
 }
 
+// By which a recording that was cut is known.
+TEST(AtomicFile, ALongNameKeepsItsExtension) {
+  const test::TemporaryFolder folder;
+  const AtomicFile file(folder / (std::string(251, 'n') + ".oni"));
+  EXPECT_EQ(file.temporary_path().stem().extension(), ".oni");
+}
+
 TEST(AtomicFile, WhatTheKilledLeftOfALongNameIsNoOtherNames) {
   const test::TemporaryFolder folder;
   const auto first = folder / (std::string(254, 'n') + "1"),
